@@ -55,7 +55,7 @@ object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c),$(wildcard tools/*/*.c))) \
             platform/host/host.c platform/host/pool.c \
-            platform/host/process.c platform/host/count.c
+            platform/host/process.c platform/host/programs.c platform/host/count.c
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))
@@ -78,6 +78,7 @@ HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/l
 SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
 PATH_OBJ   := $(call object,tests/truth/main_path.c tests/truth/path.c $(SCENES_SRC))
 measure_fixed := platform/demo/room.c
+measure_rooms := tests/truth/path.c $(SCENES_SRC)
 # tests/measure/main_NAME.c and what is named NAME_*.c beside it: the program measure-NAME.
 MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
 measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c) $(measure_$(1))) \
@@ -103,11 +104,12 @@ PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golde
 
 LIB  := $(B)/liblambent.a
 TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
+PACKAGE_FILES := $(addprefix $(B)/,lambent.pc lambent-config.cmake lambent-config-version.cmake)
 
 # --- what people want ------------------------------------------------------------------------------------------------
 
 ##@ Build
-.PHONY: all lib demo man docs docs-check help clean
+.PHONY: all lib demo man install uninstall docs docs-check help clean
 all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
 lib: $(LIB)
 
@@ -116,6 +118,23 @@ demo: $(TOOL) ## render the built-in scene to build/demo.png
 
 man: $(TOOL) ## the man page, build/lambent.1, from the verbs' tables
 	@$(TOOL) help --man > $(BUILD)/lambent.1
+
+install: lib $(if $(filter host,$(PORT)),$(TOOL) man) $(PACKAGE_FILES) ## library, headers, tool, man page, for pkg-config and CMake (PREFIX=/usr/local DESTDIR=)
+	@echo "INSTALL $(DESTDIR)$(PREFIX)"
+	@mkdir -p '$(DESTDIR)$(PREFIX)/include/lambent' '$(AT_LIB)/pkgconfig' '$(AT_LIB)/cmake/lambent'
+	@install -m 644 $(HEADERS) '$(DESTDIR)$(PREFIX)/include/lambent'
+	@install -m 644 $(LIB) '$(AT_LIB)'
+	@install -m 644 $(B)/lambent.pc '$(AT_LIB)/pkgconfig'
+	@install -m 644 $(filter %.cmake,$(PACKAGE_FILES)) '$(AT_LIB)/cmake/lambent'
+ifeq ($(PORT),host)
+	@mkdir -p '$(DESTDIR)$(PREFIX)/bin' '$(AT_MAN)'
+	@install -m 755 $(TOOL) '$(DESTDIR)$(PREFIX)/bin'
+	@install -m 644 $(BUILD)/lambent.1 '$(AT_MAN)'
+endif
+
+uninstall: ## removes what install put there
+	@rm -f '$(DESTDIR)$(PREFIX)/bin/lambent' '$(AT_MAN)/lambent.1' '$(AT_LIB)/liblambent.a' '$(AT_LIB)/pkgconfig/lambent.pc'
+	@rm -rf '$(DESTDIR)$(PREFIX)/include/lambent' '$(AT_LIB)/cmake/lambent'
 
 docs: ## the reference, build/docs/html/index.html: headers, documents, the systems (needs doxygen)
 	@mkdir -p $(BUILD)/docs
@@ -201,6 +220,23 @@ $(B)/calls.inc: $(HEADERS) tests/scripts/prototypes.awk tests/scripts/zeros.awk
 $(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: $(B)/calls.inc
 $(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: COMPILE += -I$(B)
 
+# What tells pkg-config and CMake where `make install` puts the library, and with which switches it was built.
+PREFIX ?= /usr/local
+LIBDIR ?= lib
+AT_LIB  = $(DESTDIR)$(PREFIX)/$(LIBDIR)
+AT_MAN  = $(DESTDIR)$(PREFIX)/share/man/man1
+VERSION_OF = $(shell awk '$$2 == "LMB_VERSION_$(1)" { print $$3 }' include/lambent/types.h)
+VERSION    = $(call VERSION_OF,MAJOR).$(call VERSION_OF,MINOR).$(call VERSION_OF,PATCH)
+USE_FLAGS  = $(strip $(config_$(CONFIG)) $(filter -DLMB_%,$(CFLAGS)))
+none  :=
+space := $(none) $(none)
+$(PACKAGE_FILES): $(B)/%: platform/cmake/%.in include/lambent/types.h $(B)/flags FORCE
+	@sed -e 's,@PREFIX@,$(PREFIX),' -e 's,@LIBDIR@,$(LIBDIR),' -e 's,@VERSION@,$(VERSION),' \
+	    -e 's,@UP@,$(subst $(space),/,$(patsubst %,..,$(subst /, ,$(LIBDIR)) cmake lambent)),' \
+	    -e 's,@MAJOR@,$(call VERSION_OF,MAJOR),g' -e 's,@MINOR@,$(call VERSION_OF,MINOR),g' \
+	    -e 's,@USE_FLAGS@,$(if $(filter %.cmake,$@),$(subst $(space),;,$(USE_FLAGS)),$(USE_FLAGS)),' \
+	    -e 's,@USE_LIBS@,$(filter -lm,$(PORT_LDLIBS)),' -e 's/ *$$//' $< > $@
+
 # A relief's words, which tests/scripts/statue.sh puts there.
 $(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
 $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
@@ -234,7 +270,8 @@ FORCE:
 # The longest first: what runs beside them fills the second core.
 
 CHECKS ?= one-command unit tiny statue live analytic truth lanes golden golden-orders audit slivers hard replay hostile \
-          hostile-cli layers no-float symbols stack headers layout guard tables readme words examples examples-tiny cli tool-setup
+          hostile-cli layers no-float symbols stack headers layout guard tables readme words examples examples-tiny cli package \
+          tool-setup
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -353,6 +390,9 @@ faults: $(TOOL) $(B)/faults $(B)/fault.so ## each verb with its nth allocation, 
 readme: $(LIB) ## the README's examples compile and run
 	@$(IN_SH) tests/scripts/readme.sh
 
+package: $(TOOL) $(LIB) man $(PACKAGE_FILES) ## a program outside the tree, by pkg-config, CMake's find_package and add_subdirectory
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' $(IN_SH) tests/scripts/package.sh
+
 examples: $(LIB) ## the programs of tests/examples compile, run and print what they should
 	@$(IN_SH) tests/scripts/examples.sh
 
@@ -373,7 +413,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
 .PHONY: faults paths size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
-    measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
+    measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
     measure-voxels measure-fixed large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
@@ -509,6 +549,9 @@ measure-planes: $(B)/measure-planes ## planes found in noisy depth against known
 measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is known, against truth
 	@$(RUN) $(B)/measure-mixed
 
+measure-rooms: $(B)/measure-rooms ## objects put into rooms of our own, against path-traced pictures (ROOMS="window ...")
+	@mkdir -p $(B)/rooms && $(RUN) $(B)/measure-rooms $(B)/rooms $(ROOMS)
+
 measure-voxels: $(B)/measure-voxels ## one bounce by cones through voxels: errors, time, memory (SCENES)
 	@$(RUN) $(B)/measure-voxels $(SCENES)
 
@@ -545,9 +588,12 @@ statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pi
 live: $(TOOL) ## light that moves in 160 KiB on a Cortex-M4F (qemu): pictures as here, instructions a frame
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/live.sh
 
-.PHONY: ports console-abis
+.PHONY: ports screens console-abis
 ports: ## the room on every port, in its emulator, against this machine's: one table (PORTS="gba nds", ROOM=pixel)
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' PORTS='$(PORTS)' ROOM='$(ROOM)' sh tests/scripts/ports.sh
+
+screens: ## consoles' screens after the path and as buttons steer, against this machine's pictures (PORTS="gba nds")
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' PORTS='$(PORTS)' sh tests/scripts/screens.sh
 
 console-abis: ## the library for Microsoft's and System V's x86-64 with AVX2 and for AArch64, from C and from C++
 	@$(IN_SH) tests/scripts/console_abis.sh

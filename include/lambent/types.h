@@ -107,7 +107,14 @@ typedef struct lmb_stats {
     double flux_grouped;      /* W: the same over the groups; less only where strict zones drop some [V20] */
 } lmb_stats;
 
-#define LMB_VERSION 100 /* 0.1.0: major * 10000 + minor * 100 + patch */
+/* Before 1.0 a new minor number may change calls and pixels, a new patch neither. From 1.0 on a new major number may
+ * change calls that are there, a new minor one adds some and may change pixels, a new patch does neither. NEWS.md lists
+ * each change. */
+#define LMB_VERSION_MAJOR 0
+#define LMB_VERSION_MINOR 1
+#define LMB_VERSION_PATCH 0
+/* As one number, for #if: 100 is 0.1.0. */
+#define LMB_VERSION (LMB_VERSION_MAJOR * 10000 + LMB_VERSION_MINOR * 100 + LMB_VERSION_PATCH)
 
 #ifdef __cplusplus
 extern "C" {

@@ -15,7 +15,10 @@ ENDIAN       := big
 
 ROOM_SRC     := $(addprefix platform/gamecube/,port_gamecube.c row_gamecube.c) platform/consoles/ram_program.c $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.dol
-ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/gamecube/run.sh $(B)
+ROOM_RUN      = PRESS='$(PRESS)' NM=$(CROSS_PREFIX)nm sh platform/gamecube/run.sh $(B)
+
+# Buttons as run.sh takes them.
+PRESS        ?=
 
 $(B)/room.dol: $(B)/room
 	@$(CROSS_PREFIX)objcopy -O binary -j .header -j .text $< $@

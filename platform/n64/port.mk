@@ -18,7 +18,10 @@ ENDIAN       := big
 
 ROOM_SRC     := platform/n64/port_n64.c $(addprefix platform/consoles/,ram_program.c screen_16.c) $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.z64
-ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/n64/run.sh $(B)
+ROOM_RUN      = ROOM_PADS='$(PRESS)' ROOM_PICTURE=$(B)/room.ppm sh platform/n64/run.sh $(B)
+
+# Buttons as pad_n64.c takes them.
+PRESS        ?=
 
 # The cartridge takes whole MiB, as mupen64plus wants at least one.
 $(B)/room.z64: $(B)/room $(B)/screen_n64.so $(B)/pad_n64.so

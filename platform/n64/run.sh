@@ -1,6 +1,7 @@
 # run.sh: the room's cartridge in mupen64plus without window and sound: run.sh BUILD_FOLDER IMAGE
 #
-# Prints what the program says; ROOM_PICTURE gets the screen, ROOM_PADS are its controller's buttons (pad_n64.c).
+# Prints what the program says, which is in room.txt too; ROOM_PICTURE gets the screen, ROOM_PADS are its controller's
+# buttons (pad_n64.c).
 set -u
 here=$(cd "$1" && pwd)
 image=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")
@@ -20,5 +21,6 @@ HOME=$here/home SDL_VIDEODRIVER=dummy SDL_AUDIODRIVER=dummy timeout "${ROOM_SECO
     --gfx "$here/screen_n64.so" --input "$here/pad_n64.so" --audio dummy --rsp dummy --nosaveoptions --nospeedlimit \
     --emumode "${ROOM_MODE:-2}" "$image" >"$log" 2>&1
 status=$?
-grep -a '^\(held\|frame\|cost\|ram\|end\|room\|fault\) ' "$log" || status=1
+grep -a '^\(held\|frame\|cost\|ram\|end\|room\|fault\) ' "$log" >"$here/room.txt" || status=1
+cat "$here/room.txt"
 [ "$status" = 0 ] || { echo "run.sh: failed, see $log" >&2; exit 1; }

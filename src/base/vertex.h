@@ -85,19 +85,22 @@ static inline void mesh_triangle(const lmb_mesh *m, uint32_t triangle, uint32_t 
     }
 }
 
-/* Prefetch hints: the vertices of several triangles lie far apart in memory, and each would cause a cache miss. */
+/* Prefetch hints: the vertices of several triangles lie far apart in memory, and each would cause a cache miss. They are
+ * always inlined: gcc takes a function that only prefetches for one without effects, and leaves calls to it out. */
 #if defined(__GNUC__)
 #define MESH_SOON(p) __builtin_prefetch(p)
+#define MESH_HINT    static inline __attribute__((always_inline))
 #else
 #define MESH_SOON(p) ((void)(p))
+#define MESH_HINT    static inline
 #endif
 
-static inline void mesh_index_soon(const lmb_mesh *m, uint32_t corner)
+MESH_HINT void mesh_index_soon(const lmb_mesh *m, uint32_t corner)
 {
     MESH_SOON((const uint8_t *)m->indices + (size_t)corner * (m->index_format == LMB_INDEX_U16 ? 2 : 4));
 }
 
-static inline void mesh_vertex_soon(const lmb_mesh *m, uint32_t vertex)
+MESH_HINT void mesh_vertex_soon(const lmb_mesh *m, uint32_t vertex)
 {
     MESH_SOON((const uint8_t *)m->positions + (size_t)vertex * (m->position_format == LMB_POSITION_F32 ? 12 : 8));
     if (m->colours != NULL) {

@@ -205,6 +205,17 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     (void)step;
     EACH(if (m.v[i]) p[i] = id);
 }
+/* Depths that are larger than what is there take its place, and `id` the place of their ids. Of this backend alone: a
+ * mask that two stores share keeps gcc from joining lanes into vectors, so each store compares by itself. */
+static inline void lane_put_larger_u32(float *p, uint32_t *ids, uint32_t id, lane d)
+{
+    const lane was = lane_load(p);
+    lanei r;
+    EACH(r.v[i] = (int32_t)(was.v[i] < d.v[i] ? id : ids[i]));
+    EACH(d.v[i] = was.v[i] < d.v[i] ? d.v[i] : was.v[i]);
+    EACH(ids[i] = (uint32_t)r.v[i]);
+    EACH(p[i] = d.v[i]);
+}
 
 #undef EACH
 #endif

@@ -127,6 +127,38 @@ typedef struct maker {
     const lmb_axes *axes;
 } maker;
 
+/* Inverse distances of a label's pixels. */
+typedef struct span {
+    float low, high;
+} span;
+
+static void add_span(span *s, const maker *m, cell_box b, uint8_t label)
+{
+    for (int32_t y = b.y0; y < b.y1; ++y) {
+        for (int32_t x = b.x0; x < b.x1; ++x) {
+            const int32_t at = y * m->cloud->camera.width + x;
+            const float q = m->cloud->inverse[at];
+            if (m->planes->label[at] == label && q > 0.0f) {
+                s->low = minf(s->low, q);
+                s->high = maxf(s->high, q);
+            }
+        }
+    }
+}
+
+/* Seen at a grazing angle, a plane runs away between its last pixel and the corner of its cell. The corner stays by the
+ * pixels of all cells that meet there, which are the same for each of those cells, so that no gap opens. */
+static float near_pixels(float inverse, const maker *m, int32_t step, int32_t x, int32_t y, uint8_t label)
+{
+    const lmb_pinhole *c = &m->cloud->camera;
+    const int32_t i = parts_of(x, step), j = parts_of(y, step);
+    const cell_box around = {maxi(i - 1, 0) * step, maxi(j - 1, 0) * step, mini((i + 1) * step, c->width),
+                             mini((j + 1) * step, c->height)};
+    span s = {1e30f, 0.0f};
+    add_span(&s, m, around, label);
+    return s.high > 0.0f ? clampf(inverse, (1.0f - UNEVEN) * s.low, (1.0f + UNEVEN) * s.high) : inverse;
+}
+
 /* Its corners lie at the corners of its pixels: counter-clockwise as the camera sees them. */
 static void put_cell(lmb_real_mesh *out, const maker *m, const float slope[3], cell_box b, uint8_t label)
 {
@@ -135,7 +167,8 @@ static void put_cell(lmb_real_mesh *out, const maker *m, const float slope[3], c
     static const uint32_t corner[CELL_INDICES] = {0, 1, 2, 0, 2, 3};
     for (int32_t k = 0; k < 4; ++k) {
         const lmb_vec3 ray = lmb_cloud_ray(&m->cloud->camera, (float)xs[k] - 0.5f, (float)ys[k] - 0.5f);
-        const float inverse = maxf(plane_inverse(slope, ray.x, ray.y), 1e-3f);
+        const float inverse =
+            maxf(near_pixels(plane_inverse(slope, ray.x, ray.y), m, out->step, xs[k], ys[k], label), 1e-3f);
         const lmb_vec3 p = lmb_axes_turn(m->axes, mul3(ray, 1.0f / inverse));
         at[3 * k] = p.x;
         at[3 * k + 1] = p.y;

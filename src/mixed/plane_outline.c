@@ -148,6 +148,20 @@ void lmb_planes_outline(lmb_planes *planes, const lmb_cloud *cloud)
 
 /* --- measures ----------------------------------------------------------------------------------------------------- */
 
+void lmb_planes_farthest(float min[LMB_MAX_PLANES], const lmb_planes *planes, const lmb_cloud *cloud)
+{
+    const size_t pixels = (size_t)cloud->camera.width * (size_t)cloud->camera.height;
+    for (int32_t i = 0; i < LMB_MAX_PLANES; ++i) {
+        min[i] = 1e30f;
+    }
+    for (size_t at = 0; at < pixels; ++at) {
+        if (planes->label[at] != 0 && cloud->inverse[at] > 0.0f) {
+            float *of = &min[planes->label[at] - 1];
+            *of = minf(*of, cloud->inverse[at]);
+        }
+    }
+}
+
 /* `across` is the direction in the plane that is nearest to the camera's x. */
 static void set_axes(lmb_flat *p)
 {
@@ -171,14 +185,15 @@ static void add_middle(middle *m, lmb_vec3 p, float weight)
     m->weight += weight;
 }
 
-static void find_centre(lmb_flat *p, const lmb_planes *planes, const lmb_pinhole *c, int32_t label)
+/* Holes towards a plane's horizon count as no farther than what was measured: `min`, an inverse distance. */
+static void find_centre(lmb_flat *p, const lmb_planes *planes, const lmb_pinhole *c, int32_t label, float min)
 {
     middle all = {0, 0, 0, 0};
     for (int32_t y = p->y0; y < p->y1; ++y) {
         middle row = {0, 0, 0, 0};
         for (int32_t x = p->x0; x < p->x1; ++x) {
             const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
-            const float q = plane_inverse(p->slope, ray.x, ray.y);
+            const float q = maxf(plane_inverse(p->slope, ray.x, ray.y), min);
             if (planes->label[y * c->width + x] == label && q > 1e-3f) {
                 add_middle(&row, mul3(ray, 1.0f / q), 1.0f / (q * q * q));
             }
@@ -189,13 +204,13 @@ static void find_centre(lmb_flat *p, const lmb_planes *planes, const lmb_pinhole
     p->centre = all.weight > 0.0f ? mul3(vec3(all.x, all.y, all.z), 1.0f / all.weight) : vec3(0, 0, -1);
 }
 
-static void find_extent(lmb_flat *p, const lmb_planes *planes, const lmb_pinhole *c, int32_t label)
+static void find_extent(lmb_flat *p, const lmb_planes *planes, const lmb_pinhole *c, int32_t label, float min)
 {
     p->low[0] = p->low[1] = p->high[0] = p->high[1] = 0.0f;
     for (int32_t y = p->y0; y < p->y1; ++y) {
         for (int32_t x = p->x0; x < p->x1; ++x) {
             const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
-            const float q = plane_inverse(p->slope, ray.x, ray.y);
+            const float q = maxf(plane_inverse(p->slope, ray.x, ray.y), min);
             if (planes->label[y * c->width + x] == label && q > 1e-3f) {
                 const lmb_vec3 d = sub3(mul3(ray, 1.0f / q), p->centre);
                 const float u = dot3(d, p->across), v = dot3(d, p->along);
@@ -233,13 +248,16 @@ static void find_boxes(lmb_planes *planes, const lmb_pinhole *c)
 
 void lmb_planes_measure(lmb_planes *planes, const lmb_cloud *cloud)
 {
+    float min[LMB_MAX_PLANES];
     find_boxes(planes, &cloud->camera);
+    lmb_planes_farthest(min, planes, cloud);
     for (int32_t i = 0; i < planes->count; ++i) {
         lmb_flat *p = &planes->plane[i];
         p->normal = lmb_plane_normal(&p->distance, p->slope);
         set_axes(p);
-        find_centre(p, planes, &cloud->camera, i + 1);
-        find_extent(p, planes, &cloud->camera, i + 1);
+        min[i] = min[i] < 1e30f ? (1.0f - PLANE_MOVES) * min[i] : 0.0f;
+        find_centre(p, planes, &cloud->camera, i + 1, min[i]);
+        find_extent(p, planes, &cloud->camera, i + 1, min[i]);
     }
 }
 

@@ -319,19 +319,30 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
     return LMB_OK;
 }
 
+/* Where a plane has a pixel that was measured at `inverse` (0: was not): near that, and in holes no farther than the
+ * plane was measured, for towards its horizon it is as far away as one likes. */
+static float moved_to(float plane, float inverse, float min)
+{
+    return inverse > 0.0f ? clampf(plane, inverse * (1.0f - PLANE_MOVES), inverse * (1.0f + PLANE_MOVES))
+                          : maxf(plane, min);
+}
+
 void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes)
 {
     if (!are_labels(planes, cloud)) {
         return;
     }
     const lmb_pinhole *c = &cloud->camera;
+    float min[LMB_MAX_PLANES];
+    lmb_planes_farthest(min, planes, cloud);
     for (int32_t y = 0; y < c->height; ++y) {
         for (int32_t x = 0; x < c->width; ++x) {
             const size_t at = (size_t)y * (size_t)c->width + (size_t)x;
             if (planes->label[at] != 0) {
                 const lmb_flat *p = &planes->plane[planes->label[at] - 1];
                 const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
-                cloud->inverse[at] = maxf(plane_inverse(p->slope, ray.x, ray.y), 0.0f);
+                cloud->inverse[at] = moved_to(plane_inverse(p->slope, ray.x, ray.y), cloud->inverse[at],
+                                              min[planes->label[at] - 1]);
                 cloud->normal[at] = p->normal;
             }
         }

@@ -25,6 +25,12 @@ int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cl
 /* lmb_planes_outline: give each pixel to the plane it lies on, and holes to the plane around them.             [M4] */
 void lmb_planes_outline(lmb_planes *planes, const lmb_cloud *cloud);
 
+/* Of its inverse distance that a point moves at most when it moves onto its plane. */
+#define PLANE_MOVES 0.15f
+
+/* lmb_planes_farthest: by plane, the smallest inverse distance that was measured on it. */
+void lmb_planes_farthest(float min[LMB_MAX_PLANES], const lmb_planes *planes, const lmb_cloud *cloud);
+
 /* lmb_planes_measure: everything of lmb_flat beside `slope`, from the labels.                                  [M5] */
 void lmb_planes_measure(lmb_planes *planes, const lmb_cloud *cloud);
 

@@ -35,6 +35,34 @@ static inline lane_mask fill_depth(const lmb_fill_tile *tile, const lmb_fill_job
     return pass;
 }
 
+/* Plain C has code of its own for float depth with 32-bit ids: gcc joins its lanes into vectors. */
+LANE_INLINE int fill_joins(const lmb_fill_tile *tile)
+{
+#if defined(LANE_PLAIN) && LANES > 1
+    return tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_ID32;
+#else
+    (void)tile;
+    return 0;
+#endif
+}
+
+/* A vector of pixels from (column, y) of the tile on: those that are nearer, and their ids. in: NULL for all. */
+LANE_INLINE void fill_pixels(const lmb_fill_tile *tile, const lmb_fill_job *job, int column, int y, uint32_t id, lane d,
+                             const lane_mask *in)
+{
+    const int at = y * tile->depth_step + column, id_at = y * tile->id_step + column;
+#if defined(LANE_PLAIN) && LANES > 1
+    if (fill_joins(tile)) {
+        float *p = (float *)tile->depth + at;
+        d = in != NULL ? lane_pick(*in, d, lane_load(p)) : d;
+        lane_put_larger_u32(p, (uint32_t *)tile->id + id_at, id, d);
+        return;
+    }
+#endif
+    const lane_mask pass = fill_depth(tile, job, at, d, in != NULL ? *in : mask_of_bits(0xffffu));
+    fill_id(tile, id_at, id, pass);
+}
+
 /* Vectors beside each other in a row of tiles' pixels, and rows that one covers. */
 enum { FILL_ACROSS = LANES < LMB_TILE ? LMB_TILE / LANES : 1, FILL_ROWS = LANES < LMB_TILE ? 1 : LANES / LMB_TILE };
 
@@ -125,9 +153,8 @@ LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *codi
             float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
             lane old = lane_load_rows(p, tile->depth_step);
             lane_store_rows(p, tile->depth_step, lane_pick(in, lane_max(depth, old), old));
-        } else if (!fill_skips(in)) {
-            lane_mask pass = fill_depth(tile, coding, y * tile->depth_step + i * LANES, depth, in);
-            fill_id(tile, y * tile->id_step + i * LANES, t->id, pass);
+        } else if (fill_joins(tile) || !fill_skips(in)) {
+            fill_pixels(tile, coding, i * LANES, y, t->id, depth, &in);
         }
         e0 = lanei_add(e0, down0);
         e1 = lanei_add(e1, down1);
@@ -138,7 +165,6 @@ LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *codi
 /* A tile that no edge crosses. `clamped`: the plane may leave the triangle's range. */
 LANE_INLINE void fill_inside(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, int clamped)
 {
-    const lane_mask all = mask_of_bits(0xffffu);
     float row = 0.0f;
     for (int32_t y = 0; y < LMB_TILE; y += FILL_ROWS, row += (float)FILL_ROWS) {
         const lane at = fill_row_depth(job->d, t->per_row, y, row);
@@ -151,8 +177,7 @@ LANE_INLINE void fill_inside(const lmb_fill_tile *tile, const lmb_fill_job *job,
                 float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
                 lane_store_rows(p, tile->depth_step, lane_max(depth, lane_load_rows(p, tile->depth_step)));
             } else {
-                lane_mask pass = fill_depth(tile, job, y * tile->depth_step + i * LANES, depth, all);
-                fill_id(tile, y * tile->id_step + i * LANES, t->id, pass);
+                fill_pixels(tile, job, i * LANES, y, t->id, depth, NULL);
             }
         }
     }

@@ -862,6 +862,13 @@ status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2 -o "$dir/mixed.pfm"
 check "an object changes the photo" sh -c '! cmp -s "$1" "$2"' sh "$dir/photo.pfm" "$dir/mixed.pfm"
 status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2 --backend scalar -o "$dir/scalar.pfm"
 check "a backend changes the mixed picture" cmp "$dir/mixed.pfm" "$dir/scalar.pfm"
+status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2:12 -o "$dir/soft.pfm"
+check "a light with a size changes the mixed picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/mixed.pfm" "$dir/soft.pfm"
+status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2:12 --backend scalar --threads 1 -o "$dir/scalar.pfm"
+check "a backend changes a soft shadow" cmp "$dir/soft.pfm" "$dir/scalar.pfm"
+status 2 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2:91 -o "$dir/bad.png"
+status 0 render "$dir/tent.obj" --size 16x16 --light point:0,3,0:0,-1,0:6,6,6:0.5 --show direct -o "$dir/soft.png"
+status 2 relief render "$dir/nowhere.lmr" --light sun:0,0,0:0.6,-0.2,-1:2,2,2:12 -o "$dir/bad.png"
 status 0 mix $seen $tent --stats "$dir/mix.json" -o "$dir/mixed.hdr"
 check "--stats of mix names the planes" grep -q '"planes": 1,' "$dir/mix.json"
 status 0 mix $seen $tent --show delta -o "$dir/delta.pfm"
@@ -892,8 +899,19 @@ status 0 mix $dot --object "$dir/tent.obj" --at 0,0 --scale 0.01 --shadow-map 64
 # A wall alone: the object stands on it, and that is said.
 status 0 mix $seen --object "$dir/tent.obj" --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "that no plane faces up is said" grep -q "no plane faces up" "$dir/err.txt"
-status 0 mix $seen --object "$dir/tent.obj" --scale 1.5 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
+status 0 mix $seen --object "$dir/tent.obj" --scale 0.5 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "that the object is off the picture is said" grep -q "part of the object is off the picture" "$dir/err.txt"
+# A size is the file's own metres, and is said where that is absurd.
+status 0 mix $seen --object "$dir/tent.obj" --scale 300 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "an object that fills the picture is said" grep -q "m long and fills the picture; --fit chooses its size" "$dir/err.txt"
+status 0 mix $seen --object "$dir/tent.obj" --scale 0.0001 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "an object that vanishes is said" grep -q "m long and vanishes in the picture" "$dir/err.txt"
+status 0 mix $seen --object "$dir/tent.obj" --fit --on wall --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "what fits is neither" sh -c '! grep -q "m long and" "$1"' sh "$dir/err.txt"
+status 1 mix $seen --object "$dir/tent.obj" --on floor -o "$dir/bad.png"
+said "--on floor: no plane faces up"
+status 2 mix $seen --object "$dir/tent.obj" --fit --scale 2 -o "$dir/bad.png"
+status 2 mix $seen --object "$dir/tent.obj" --on wall --at 3,4 -o "$dir/bad.png"
 # Surroundings that shine in one colour light the object in that colour alone.
 { printf 'PF\n1 6\n-1.0\n'; i=0; while [ $i -lt 6 ]; do printf "$one\000\000\000\000\000\000\000\000"; i=$((i + 1)); done; } > "$dir/red.pfm"
 status 0 mix $seen $tent --world "$dir/red.pfm" --show object -o "$dir/mixed.pfm"
@@ -929,6 +947,34 @@ mkdir -p "$dir/flat" # one vertex at 0 and no triangle
 printf '\001\000\000\000' >"$dir/flat/bunny.mesh"
 head -c 36 /dev/zero >>"$dir/flat/bunny.mesh"
 status 1 bench raster bunny-depth-1024 --data "$dir/flat" --seconds 0.01
+# Other rasterizers' programs, which are scripts here.
+peer() {
+    mkdir -p "$dir/peers_$1"
+    printf '#!/bin/sh\n%s\n' "$2" >"$dir/peers_$1/$1"
+    chmod +x "$dir/peers_$1/$1"
+}
+quad="bench raster fill-depth-pass --seconds 0.01"
+peer good 'echo "#cov 1"; echo "x,$1-cull,cpu_min_ms=9"; echo "x,$1,tris=64,cpu_min_ms=1e3,n=8"; echo "$BENCH_SEC" >"$0.txt"'
+status 0 $quad --peers "$dir/peers_good"
+check "bench raster --peers prints theirs beside ours" sh -c 'sed 1d "$1" | grep -qx "good,fill-depth-pass-1024,cpu_min_ms=1000.0000,times=[1-9][0-9.]*"' sh "$dir/out.txt"
+check "it tells them how long to measure" grep -qx 0.01 "$dir/peers_good/good.txt"
+status 0 $quad --json --peers "$dir/peers_good"
+check "bench raster --peers prints JSON" grep -q '^{"peer":"good","case":"fill-depth-pass-1024","cpu_min_ms":1000.0000,"times":[1-9][0-9.]*}$' "$dir/out.txt"
+peer crash 'kill -SEGV $$'
+peer fails 'echo "x,$1,cpu_min_ms=1"; exit 3'
+peer rubbish 'head -c 100000 /dev/urandom; echo; echo "x,$1,cpu_min_ms=fast"'
+peer missing "" && printf '#!%s/nowhere\n' "$dir" >"$dir/peers_missing/missing"
+for case in "crash: ended by signal 11 at" "fails: exit status 3 at" "rubbish: printed no line" "missing: it cannot be run"; do
+    "$TOOL" $quad --peers "$dir/peers_${case%%:*}" >"$dir/out.txt" 2>"$dir/err.txt"
+    check "bench raster --peers refuses one: $case" test $? -eq 1
+    check "and says so in a line" sh -c 'test "$(grep -c . "$1")" -eq 1 && grep -q "$2" "$1"' sh "$dir/err.txt" "$case"
+done
+status 1 $quad --peers "$dir/nowhere"
+mkdir -p "$dir/peers_none"
+echo "no program" >"$dir/peers_none/readme.txt"
+status 1 $quad --peers "$dir/peers_none"
+status 1 $quad --peers "$dir/peers_good/good"
+status 2 $quad --peers
 # Threads beside processes: wants more than one, and sponza.
 status 2 bench threads --threads 1
 status 2 bench threads gather

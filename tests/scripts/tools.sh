@@ -5,7 +5,7 @@
 # what it does and what stays missing. It never removes a package: what needs that is left out.
 all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips
     arm-none-eabi-gcc arm-newlib qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips
-    cppcheck clang-tidy doxygen chromium"
+    cppcheck clang-tidy doxygen chromium cmake pkg-config tcc"
 
 packages_of() {
     case $1 in

@@ -180,7 +180,7 @@ void path_close(path_tracer *p)
     memset(p, 0, sizeof *p);
 }
 
-static int point_on(const path_tracer *p, path_point *out, svec from, svec along)
+int path_hit(const path_tracer *p, path_point *out, svec from, svec along)
 {
     double far = 1e30;
     const path_triangle *t = shoot(p, from, along, &far, 0);
@@ -200,15 +200,14 @@ int path_eye(const path_tracer *p, path_point *out, int x, int y, int side)
     const double half = tan(0.5 * s->fov_deg * PI / 180.0);
     const svec across = times(right, half * (2.0 * (x + 0.5) / side - 1.0)),
                down = times(up, half * (1.0 - 2.0 * (y + 0.5) / side));
-    return point_on(p, out, s->eye, unit(plus(forward, plus(across, down))));
+    return path_hit(p, out, s->eye, unit(plus(forward, plus(across, down))));
 }
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
 static double any(test_rng *r) { return test_random(r) * (1.0 / 4294967296.0); }
 
-/* Nothing between a place and what lies that far off, less a hair. */
-static int sees(const path_tracer *p, svec from, svec along, double far)
+int path_sees(const path_tracer *p, svec from, svec along, double far)
 {
     far -= 2.0 * LIFT;
     return shoot(p, from, along, &far, 1) == NULL;
@@ -224,8 +223,7 @@ static double cone(const scene_light *l, svec towards)
     return t <= 0.0 ? 0.0 : t >= 1.0 ? 1.0 : t * t * (3.0 - 2.0 * t);
 }
 
-/* Irradiance over the light's intensity, as far as nothing blocks it. */
-static double arrives(const path_tracer *p, const scene_light *l, const path_point *from)
+double path_arrives(const path_tracer *p, const scene_light *l, const path_point *from)
 {
     const int is_sun = l->kind == SCENE_SUN;
     const svec d = is_sun ? times(l->direction, -1.0) : less(l->position, from->at), along = unit(d);
@@ -234,7 +232,7 @@ static double arrives(const path_tracer *p, const scene_light *l, const path_poi
         return 0.0;
     }
     const double open = cone(l, along) * cosine_there / (is_sun ? 1.0 : off * off);
-    return open > 0.0 && sees(p, from->at, along, off) ? open : 0.0;
+    return open > 0.0 && path_sees(p, from->at, along, off) ? open : 0.0;
 }
 
 void path_direct(const path_tracer *p, const path_point *from, double rgb[3])
@@ -242,15 +240,14 @@ void path_direct(const path_tracer *p, const path_point *from, double rgb[3])
     rgb[0] = rgb[1] = rgb[2] = 0.0;
     for (int i = 0; i < p->scene->light_count; ++i) {
         const scene_light *l = &p->scene->lights[i];
-        const double share = arrives(p, l, from) / PI;
+        const double share = path_arrives(p, l, from) / PI;
         for (int c = 0; c < 3; ++c) {
             rgb[c] += p->scene->albedo[from->material][c] * share * l->rgb[c];
         }
     }
 }
 
-/* Added: what comes straight from one random place of all emitters, as if all emitters were there. */
-static void add_emitted(const path_tracer *p, const path_point *from, double u, double v, test_rng *r, double rgb[3])
+void path_add_emitted(const path_tracer *p, const path_point *from, double u, double v, test_rng *r, double rgb[3])
 {
     if (p->emitter_count == 0) {
         return;
@@ -264,7 +261,7 @@ static void add_emitted(const path_tracer *p, const path_point *from, double u, 
     const svec there = plus(t->a, plus(times(t->u, root * (1.0 - v)), times(t->v, root * v)));
     const svec d = less(there, from->at), along = unit(d);
     const double r2 = dot_of(d, d), here = dot_of(along, from->normal), away = fabs(dot_of(along, t->normal));
-    if (here > 0.0 && sees(p, from->at, along, sqrt(r2))) {
+    if (here > 0.0 && path_sees(p, from->at, along, sqrt(r2))) {
         for (int c = 0; c < 3; ++c) {
             rgb[c] += p->scene->albedo[from->material][c] / PI * p->scene->emission[t->material][c] * here * away *
                       all / r2;
@@ -272,8 +269,7 @@ static void add_emitted(const path_tracer *p, const path_point *from, double u, 
     }
 }
 
-/* Directions by the cosine to the normal, from u, v in 0 .. 1. */
-static svec scattered(svec n, double u, double v)
+svec path_scattered(svec n, double u, double v)
 {
     const svec other = fabs(n.x) < 0.5 ? at(1, 0, 0) : at(0, 1, 0), x = unit(cross_of(other, n)), y = cross_of(n, x);
     const double radius = sqrt(u), turn = 2.0 * PI * v;
@@ -307,7 +303,7 @@ static void add_found(const path_tracer *p, const path_point *here, const path_p
     for (int i = 0; i < p->scene->light_count; ++i) {
         const scene_light *l = &p->scene->lights[i];
         const double by_surface = rays_from_surface(here, next);
-        const double share = by_surface / (by_surface + rays_from_light(l, next)) * arrives(p, l, next) / PI;
+        const double share = by_surface / (by_surface + rays_from_light(l, next)) * path_arrives(p, l, next) / PI;
         for (int c = 0; c < 3; ++c) {
             rgb[c] += p->scene->albedo[next->material][c] * share * l->rgb[c];
         }
@@ -329,14 +325,14 @@ static void add_lit(const path_tracer *p, const path_point *here, double u, doub
     for (int i = 0; i < p->scene->light_count; ++i) {
         const scene_light *l = &p->scene->lights[i];
         path_point lit;
-        if (l->kind == SCENE_SUN || !point_on(p, &lit, l->position, within(unit(l->direction), narrowest(l), u, v))) {
+        if (l->kind == SCENE_SUN || !path_hit(p, &lit, l->position, within(unit(l->direction), narrowest(l), u, v))) {
             continue;
         }
         const svec d = less(lit.at, here->at), along = unit(d);
         if (dot_of(along, here->normal) > 0.0 && dot_of(along, lit.normal) < 0.0 &&
-            sees(p, here->at, along, sqrt(dot_of(d, d)))) {
+            path_sees(p, here->at, along, sqrt(dot_of(d, d)))) {
             const double by_surface = rays_from_surface(here, &lit);
-            const double share = by_surface / (by_surface + rays_from_light(l, &lit)) * arrives(p, l, &lit) / PI;
+            const double share = by_surface / (by_surface + rays_from_light(l, &lit)) * path_arrives(p, l, &lit) / PI;
             for (int c = 0; c < 3; ++c) {
                 rgb[c] += weight[c] * p->scene->albedo[here->material][c] * p->scene->albedo[lit.material][c] * share *
                           l->rgb[c];
@@ -354,11 +350,11 @@ static void add_path(const path_tracer *p, path_point here, int bounces, const d
         path_point next;
         double light[3] = {0, 0, 0};
         add_lit(p, &here, x, y, share, rgb);
-        if (!point_on(p, &next, here.at, scattered(here.normal, u, v))) {
+        if (!path_hit(p, &next, here.at, path_scattered(here.normal, u, v))) {
             return;
         }
         add_found(p, &here, &next, light);
-        add_emitted(p, &next, any(r), any(r), r, light);
+        path_add_emitted(p, &next, any(r), any(r), r, light);
         for (int c = 0; c < 3; ++c) {
             share[c] *= p->scene->albedo[here.material][c];
             rgb[c] += share[c] * light[c];
@@ -380,7 +376,7 @@ void path_bounced(const path_tracer *p, const path_point *from, int bounces, int
         for (int k = 0; k < 4; ++k) {
             first[k] = ((k % 2 == 0 ? x : y) + any(random)) / strata;
         }
-        add_emitted(p, from, first[2], first[3], random, rgb);
+        path_add_emitted(p, from, first[2], first[3], random, rgb);
         add_path(p, *from, bounces, first, random, rgb);
     }
     for (int c = 0; c < 3; ++c) {

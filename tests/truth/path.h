@@ -43,6 +43,17 @@ void path_close(path_tracer *p);
 /* path_eye: what is seen at the middle of pixel x, y of side x side, y from the top; 0 where nothing is. */
 int path_eye(const path_tracer *p, path_point *out, int x, int y, int side);
 
+/* path_hit: the first surface along a ray; 0 where there is none. path_sees: nothing between a place and what lies that
+ * far off, less a hair. path_scattered: directions by the cosine to the normal, from u, v in 0 .. 1. */
+int path_hit(const path_tracer *p, path_point *out, svec from, svec along);
+int path_sees(const path_tracer *p, svec from, svec along, double far);
+svec path_scattered(svec normal, double u, double v);
+
+/* path_arrives: irradiance over a light's intensity, as far as nothing blocks it. path_add_emitted: added to rgb is what
+ * a place reflects of what comes straight from one random place of all emitters, as if all emitters were there. */
+double path_arrives(const path_tracer *p, const scene_light *l, const path_point *from);
+void path_add_emitted(const path_tracer *p, const path_point *from, double u, double v, test_rng *r, double rgb[3]);
+
 /* path_direct: what a place reflects of light that comes straight from points, spots and suns. Exact. */
 void path_direct(const path_tracer *p, const path_point *at, double rgb[3]);
 

@@ -58,8 +58,8 @@ static int place(mix_job *j)
 
 static void stands_on_floor(void)
 {
-    char *object[] = {"--object", square};
-    mix_job *j = begin(object, 2);
+    char *object[] = {"--object", square, "--fit"};
+    mix_job *j = begin(object, 3);
     set_depth(j, 2.5f, 1);
     CHECK(place(j) && j->faces_up && j->inside && j->floor >= 0);
     CHECK_MSG(fabsf(j->anchor.y + 0.5f) < 1e-3f && fabsf(j->gap_m) < 1e-3f, "%g %g", (double)j->anchor.y,
@@ -93,6 +93,107 @@ static void size_is_kept(void)
     set_depth(j, 2.5f, 1);
     CHECK(place(j) && j->scale == 1.5f && !j->inside);
     mix_job_free(j);
+}
+
+/* A room: a floor, a table on it, a wall behind; its camera looks down a little. */
+typedef struct room {
+    float height, pitch, table, wall; /* m, m, m: of the camera, of the table's top; along the floor */
+    float low[2], high[2];            /* of the table: to the right, and away */
+} room;
+
+static room random_room(test_rng *rng)
+{
+    const float wall = test_uniform(rng, 2.5f, 4.0f), left = test_uniform(rng, -1.0f, 0.0f);
+    const room r = {test_uniform(rng, 1.2f, 1.7f), test_uniform(rng, 0.35f, 0.6f), test_uniform(rng, 0.5f, 0.8f), wall,
+                    {left, 1.2f}, {left + test_uniform(rng, 0.9f, 1.2f), 1.2f + test_uniform(rng, 0.6f, 0.8f)}};
+    return r;
+}
+
+/* A ray of the room: down by the pitch. Its floor is y = -height. */
+static lmb_vec3 room_ray(const room *r, lmb_vec3 ray)
+{
+    const float c = cosf(r->pitch), s = sinf(r->pitch);
+    const lmb_vec3 out = {ray.x, c * ray.y + s * ray.z, c * ray.z - s * ray.y};
+    return out;
+}
+
+static void set_room(mix_job *j, const room *r)
+{
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_vec3 ray = room_ray(r, lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH)));
+        float far = r->wall / -ray.z;
+        const float floor = ray.y < 0.0f ? -r->height / ray.y : 1e9f,
+                    table = ray.y < 0.0f ? (r->table - r->height) / ray.y : 1e9f;
+        const float x = ray.x * table, z = -ray.z * table;
+        far = floor < far ? floor : far;
+        far = table < far && x > r->low[0] && x < r->high[0] && z > r->low[1] && z < r->high[1] ? table : far;
+        j->frame.depth[i] = far;
+    }
+}
+
+/* How high over the floor the object stands, and how far before the wall. */
+static void stands_at(float *high, float *before, const mix_job *j, const room *r)
+{
+    const lmb_vec3 at = room_ray(r, j->anchor);
+    *high = at.y + r->height;
+    *before = r->wall + at.z;
+}
+
+/* In rooms of their own: seeds under 100 are what the code was written with, the others are not. */
+static void stands_on_what_is_asked(void)
+{
+    static const char *const ons[] = {"floor", "table", "wall"};
+    for (int seed = 0; seed < 124; seed += seed == 11 ? 89 : 1) {
+        test_rng rng = {(uint32_t)seed + 1};
+        const room rm = random_room(&rng);
+        for (int k = 0; k < 3; ++k) {
+            char on[8];
+            char *more[] = {"--object", square, "--on", on, "--fit", "--quiet"};
+            float high, before;
+            strcpy(on, ons[k]);
+            mix_job *j = begin(more, 6);
+            set_room(j, &rm);
+            CHECK_MSG(place(j), "%d %s", seed, on);
+            stands_at(&high, &before, j, &rm);
+            CHECK_MSG(k == 2 ? fabsf(before) < 0.02f : fabsf(high - (k == 0 ? 0.0f : rm.table)) < 0.02f,
+                      "seed %d, %s: %g over the floor, %g before the wall", seed, on, (double)high, (double)before);
+            CHECK_MSG(j->inside && j->hangs == (k == 2), "seed %d, %s", seed, on);
+            mix_job_free(j);
+        }
+    }
+}
+
+/* There is nothing of that kind: it is said which. */
+static void asked_for_nothing(void)
+{
+    char *table[] = {"--object", square, "--on", "table"};
+    report r = {""};
+    mix_job *j = begin(table, 4);
+    set_depth(j, 2.5f, 1);
+    CHECK(mix_find_planes(j, &r) && !mix_place(j, &r) && strstr(r.text, "--on table: no plane") != NULL);
+    mix_job_free(j);
+}
+
+/* Without --fit and --scale a unit is a metre, also where that is absurd; where the object may be seen as a whole, it
+ * is. */
+static void metres_are_its_own(void)
+{
+    static const struct size {
+        const char *scale;
+        float want;
+        int inside;
+    } sizes[] = {{NULL, 1.0f, 1}, {"0.25", 0.25f, 1}, {"0.5", 0.5f, 1}, {"100", 100.0f, 0}, {"1e-4", 1e-4f, 1}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
+        char scale[8];
+        char *more[] = {"--object", square, "--scale", scale};
+        strcpy(scale, sizes[i].scale != NULL ? sizes[i].scale : "");
+        mix_job *j = begin(more, sizes[i].scale != NULL ? 4 : 2);
+        set_depth(j, 2.5f, 1);
+        CHECK(place(j) && j->scale == sizes[i].want);
+        CHECK_MSG(j->inside == sizes[i].inside, "%zu", i);
+        CHECK(i < 3 || (i == 3 ? j->seen_px > 200.0f : j->seen_px < 0.1f));
+        mix_job_free(j);
+    }
 }
 
 /* One wall, no floor: on the wall, and it is known to be none that faces up. */
@@ -152,12 +253,149 @@ static void nothing_changes(void)
     mix_job_free(j);
 }
 
+/* --- what lamps send ---------------------------------------------------------------------------------------------- */
+
+/* W that voxels without the object hold of a spot over the floor, by maps of that many texels a side; *around: of what
+ * is around, the share that is left with the object. */
+static double lamp_flux(float *around, int32_t texels, const char *light, char *scale)
+{
+    char spot[100];
+    char *more[] = {"--object", square, "--at", "48,60", "--scale", scale, "--light", spot};
+    report r = {""};
+    float rgb[2][3];
+    snprintf(spot, sizeof spot, "%s", light);
+    mix_job *j = begin(more, 8);
+    j->o.shadow_map = texels;
+    set_depth(j, 2.5f, 1);
+    CHECK_MSG(place(j) && mix_light(j, &r) && mix_voxels(j, &r), "%s", r.text);
+    for (int i = 0; i < 2; ++i) {
+        lmb_env_irradiance(rgb[i], &j->env[i], (lmb_vec3){0, 1, 0});
+    }
+    *around = rgb[1][1] / rgb[0][1];
+    const double flux = j->voxels.flux[0] + j->voxels.lost[0];
+    mix_job_free(j);
+    return flux;
+}
+
+/* All of a light's map counts, also where several of its texels are one first point. */
+static void maps_count_whole(void)
+{
+    static const char spot[] = "spot:0,1,-1.6:0,-1,0:9,9,9:30,40";
+    float around;
+    const double fine = lamp_flux(&around, 1024, spot, "0.2"), coarse = lamp_flux(&around, 512, spot, "0.2");
+    CHECK_MSG(fabs(fine - coarse) < 0.02 * coarse, "%g W, %g W", fine, coarse);
+}
+
+/* What is around darkens by what the object takes of a lamp's light: nothing where it stands beside that, the more the
+ * larger it is, and of a sun nothing. */
+static void around_darkens(void)
+{
+    float small, large, beside, sunny;
+    lamp_flux(&small, 128, "spot:0,1,-1.1:0,-1,0:9,9,9:30,40", "0.05");
+    lamp_flux(&large, 128, "spot:0,1,-1.1:0,-1,0:9,9,9:30,40", "0.3");
+    lamp_flux(&beside, 128, "spot:0,1,-2.2:0,-1,0:9,9,9:10,15", "0.05");
+    lamp_flux(&sunny, 128, "sun:0,0,0:0.1,-1,-0.1:2,2,2", "0.3");
+    CHECK_MSG(beside == 1.0f && sunny == 1.0f && fabsf(small - 1.0f) < 0.01f && fabsf(large - 1.0f) > fabsf(small - 1.0f),
+              "beside %g, small %g, large %g, under a sun %g", (double)beside, (double)small, (double)large,
+              (double)sunny);
+}
+
+/* A sun behind the viewer, or overhead, is moved so that the shadow falls beside the object. */
+static void sun_is_from_a_side(void)
+{
+    static const float bright[4][2] = {{0.0f, 1.0f}, {0.3f, 1.0f}, {0.0f, 0.05f}, {-1.0f, 0.2f}}; /* x, z; y is 0.7 */
+    for (int i = 0; i < 4; ++i) {
+        char *object[] = {"--object", square, "--quiet"};
+        mix_job *j = begin(object, 3);
+        report r = {""};
+        lmb_light sun;
+        set_depth(j, 2.5f, 1);
+        CHECK(place(j) && mix_light(j, &r));
+        for (int32_t t = 0; t < 6 * 64 * 64; ++t) {
+            const int32_t face = t / 4096, x = t % 64, y = t / 64 % 64;
+            const float s = ((float)x + 0.5f) / 32.0f - 1.0f, u = ((float)y + 0.5f) / 32.0f - 1.0f;
+            const float d[6][3] = {{1, -u, -s}, {-1, -u, s}, {s, 1, u}, {s, -1, -u}, {s, -u, 1}, {-s, -u, -1}};
+            const float *e = d[face], near = e[0] * bright[i][0] + e[1] * 0.7f + e[2] * bright[i][1];
+            const float v = near / sqrtf(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) >
+                                    0.97f * hypotf(hypotf(bright[i][0], bright[i][1]), 0.7f) ? 20.0f : 0.1f;
+            const float rgb[3] = {v, v, v};
+            lmb_env_set(&j->env[0], face, x, y, rgb);
+        }
+        lmb_env_mips(&j->env[0]);
+        mix_guess_sun(&sun, j);
+        const lmb_vec3 from = {-sun.direction.x, -sun.direction.y, -sun.direction.z};
+        const float flat = hypotf(from.x, from.z);
+        CHECK_MSG(fabsf(from.x) >= 0.85f * flat && from.y >= 0.49f && from.y <= 0.77f, "%d: %g %g %g", i,
+                  (double)from.x, (double)from.y, (double)from.z);
+        mix_job_free(j);
+    }
+}
+
+/* Half of the floor has `dark` of the light of the other half, in a pattern of so many pixels. */
+static float share_of(float dark, int pattern)
+{
+    char *object[] = {"--object", square};
+    mix_job *j = begin(object, 2);
+    test_rng rng = {3};
+    set_depth(j, 2.5f, 1);
+    CHECK(place(j));
+    for (int i = 0; i < 3 * PIXELS; ++i) {
+        const int is_dark = (i / 3 % WIDTH / pattern + i / 3 / WIDTH / pattern) % 2;
+        j->frame.light.pixels[i] = GREY * (is_dark ? dark : 1.0f) * test_uniform(&rng, 0.98f, 1.02f);
+    }
+    const float share = mix_sun_share(j->frame.light.pixels, &j->planes, &camera, j->floor);
+    mix_job_free(j);
+    return share;
+}
+
+/* The guessed sun is as strong as the photo's shadows are dark, but no fine pattern and no poster is a shadow. */
+static void sun_is_as_strong_as_shadows(void)
+{
+    CHECK_MSG(fabsf(share_of(0.5f, 48) - 1.0f) < 0.1f, "%g", (double)share_of(0.5f, 48));
+    CHECK_MSG(fabsf(share_of(0.6f, 48) - 0.667f) < 0.08f, "%g", (double)share_of(0.6f, 48));
+    CHECK(share_of(1.0f, 48) == 0.3f && share_of(0.5f, 1) == 0.3f && share_of(0.05f, 48) == 0.3f);
+}
+
+/* A sun of 16 degrees lights the floor beside the shadow's middle in part, and one without a size does not. */
+static void size_softens(void)
+{
+    static const char *const lights[2] = {"sun:0,0,0:1,-1,0:2,2,2", "sun:0,0,0:1,-1,0:2,2,2:16"};
+    int part[2] = {0}, full[2] = {0};
+    for (int i = 0; i < 2; ++i) {
+        char light[40];
+        char *more[] = {"--object", square, "--at", "40,66", "--scale", "0.2", "--turn", "90", "--show", "delta",
+                        "--light", light};
+        report r = {""};
+        strcpy(light, lights[i]);
+        mix_job *j = begin(more, 12);
+        set_depth(j, 2.5f, 1);
+        CHECK_MSG(place(j) && mix_light(j, &r) && mix_voxels(j, &r) && mix_draw(j, &r), "%s", r.text);
+        CHECK(j->light_count == (i == 0 ? 1 : MIX_LIGHT_SAMPLES));
+        for (int k = 0; k < PIXELS; ++k) {
+            const float share = -j->picture.pixels[3 * k] / GREY;
+            part[i] += share > 0.2f && share < 0.45f;
+            full[i] += share >= 0.45f;
+        }
+        mix_job_free(j);
+    }
+    CHECK_MSG(part[1] > part[0] + 20 && full[1] > 20 && full[1] < full[0], "%d %d, %d %d", part[0], part[1], full[0],
+              full[1]);
+}
+
 void test_mix(void)
 {
+    maps_count_whole();
+    around_darkens();
+    sun_is_from_a_side();
+    sun_is_as_strong_as_shadows();
+    size_softens();
     stands_on_floor();
     gap_is_seen();
     size_is_kept();
     no_floor();
+    stands_on_what_is_asked();
+    asked_for_nothing();
+    metres_are_its_own();
     albedo_is_told();
     nothing_changes();
 }

@@ -333,6 +333,93 @@ static void test_mesh(stage *s)
     }
 }
 
+/* --- grazing photos ------------------------------------------------------------------------------------------------ */
+
+/* A floor out to the horizon, measured as far as `far`, noise in 1 / distance, one pixel of ten missing. What is beyond
+ * was not measured but for specks, which sensors report at any distance that they know. */
+static void draw_grazing(stage *s, test_rng *rng)
+{
+    const float height = test_uniform(rng, 0.04f, 1.5f), far = test_uniform(rng, 0.8f, 4.5f),
+                tilt = test_uniform(rng, -0.2f, 0.2f), roll = test_uniform(rng, -0.15f, 0.15f),
+                noise = test_uniform(rng, 0.0f, 0.004f);
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH));
+        const float down = tilt + roll * ray.x - ray.y, z = down > 0.0f ? height / down : 1e9f;
+        s->depth[i] = z < far ? 1.0f / (1.0f / z + test_uniform(rng, -noise, noise)) : 0.0f;
+        s->depth[i] = test_random(rng) % 10 == 0 ? 0.0f : s->depth[i];
+        if (z >= far && test_random(rng) % 40 == 0) {
+            s->depth[i] = test_uniform(rng, 0.8f, 1.0f) * far;
+        }
+    }
+}
+
+/* Nearest [0] and farthest [1] of what was measured in the cells around the corner of cells (i, j), m. */
+static void measured_near(float range[2], const stage *s, int32_t i, int32_t j)
+{
+    range[0] = 1e9f;
+    range[1] = 0.0f;
+    for (int32_t y = 4 * j - 4; y < 4 * j + 4; ++y) {
+        for (int32_t x = 4 * i - 4; x < 4 * i + 4; ++x) {
+            const float z = x < 0 || y < 0 || x >= WIDTH || y >= HEIGHT ? 0.0f : s->depth[y * WIDTH + x];
+            range[0] = z > 0.0f && z < range[0] ? z : range[0];
+            range[1] = z > range[1] ? z : range[1];
+        }
+    }
+}
+
+/* A plane is no larger than what was measured of it reaches, `far` at most. */
+static int is_wide(const lmb_planes *planes, float far)
+{
+    for (int32_t i = 0; i < planes->count; ++i) {
+        const lmb_flat *p = &planes->plane[i];
+        if (p->high[0] - p->low[0] > 3.0f * far || p->high[1] - p->low[1] > 1.5f * far || -p->centre.z > far) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static float farthest(const stage *s)
+{
+    float far = 0.0f;
+    for (int i = 0; i < PIXELS; ++i) {
+        far = s->depth[i] > far ? s->depth[i] : far;
+    }
+    return far;
+}
+
+/* No corner of a cell lies farther from what was measured around it than a cell's corner may from its middle, noise
+ * and steps of a millimetre beside; so no bounds are wider than the photo is deep. */
+static void test_grazing(stage *s)
+{
+    static const int32_t corner[4][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
+    const lmb_axes axes = lmb_axes_upright((lmb_vec3){0, 1, 0});
+    test_rng rng = {2025};
+    int off = 0, corners = 0, wide = 0;
+    float worst = 0.0f;
+    for (int n = 0; n < 60; ++n) {
+        draw_grazing(s, &rng);
+        CHECK(find_planes(s));
+        wide += is_wide(&s->planes, farthest(s));
+        lmb_planes_move(&s->cloud, &s->planes);
+        CHECK(lmb_real_mesh_build(&s->mesh, &s->cloud, &s->planes, 4, &axes, s->mesh_memory, sizeof s->mesh_memory) ==
+              LMB_OK);
+        for (int32_t at = 0; at < s->mesh.columns * s->mesh.rows; ++at) {
+            for (int32_t k = 0; s->mesh.cell[at] >= 0 && k < 4; ++k) {
+                float range[2];
+                measured_near(range, s, at % s->mesh.columns + corner[k][0], at / s->mesh.columns + corner[k][1]);
+                const float z = -s->mesh.positions[12 * s->mesh.cell[at] + 3 * k + 2];
+                off += !(z > 0.7f * range[0] && z < 1.4f * range[1]);
+                worst = z / range[1] > worst ? z / range[1] : worst;
+                ++corners;
+            }
+        }
+    }
+    CHECK_MSG(wide == 0, "%d planes reach farther than what was measured", wide);
+    CHECK_MSG(off == 0 && corners > 15000, "%d of %d corners, %g times as far as measured", off, corners,
+              (double)worst);
+}
+
 /* A photo's pixel and the frame's show the same ray, wherever the axis is. */
 static void test_view(void)
 {
@@ -716,6 +803,7 @@ void test_mixed(void)
     test_no_planes(s);
     test_many_planes(s);
     test_mesh(s);
+    test_grazing(s);
     test_view();
     test_no_view();
     test_half();

@@ -94,12 +94,7 @@ static void mark_changed(float *surface, const image *picture, const image *phot
 
 static double bytes_of(const mix_job *j)
 {
-    double bytes = (double)lmb_voxels_bytes(j->voxels.cap, LMB_VOXELS_THREE);
-    for (int32_t i = 0; i < j->light_count; ++i) {
-        const int32_t faces = lmb_shadow_map_faces(&j->lights[i], &j->scene);
-        bytes += 2.0 * (double)lmb_shadow_map_bytes(faces, j->o.shadow_map, LMB_ID32);
-    }
-    return bytes;
+    return (double)lmb_voxels_bytes(j->voxels.cap, LMB_VOXELS_THREE) + (double)mix_maps_bytes(j);
 }
 
 static int check(const bench_line *line, report *r)

@@ -13,6 +13,7 @@
 #include "bench_gather.h"
 #include "bench_hard.h"
 #include "bench_operations.h"
+#include "bench_peers.h"
 #include "bench_rates.h"
 #include "bench_scene.h"
 #include "bench_threads.h"
@@ -23,7 +24,7 @@ enum { FRAMES_MAX = 100000, FRAMES_MIN = 8 };
 enum { CASES = 32 };
 
 typedef struct options {
-    const char *folder;
+    const char *folder, *peers; /* NULL: not given */
     const lmb_kernels *kernels; /* NULL: not given */
     const char *cases[CASES];
     int32_t case_count, threads;
@@ -192,7 +193,25 @@ static void print_case(const bench_case *k, const bench_scene *s, const timing *
     fflush(stdout);
 }
 
-static int run_case(const bench_case *k, const options *o, report *r)
+/* The peers' lines, and how often our time theirs is. */
+static int run_peers(const bench_peers *p, const bench_case *k, const timing *t, const options *o, report *r)
+{
+    for (int i = 0; i < p->found.count; ++i) {
+        double ms = 0.0;
+        if (!bench_peers_run(&ms, p, i, k->name, r)) {
+            return 0;
+        }
+        if (!o->is_quiet) {
+            printf(o->json ? "{\"peer\":\"%s\",\"case\":\"%s\",\"cpu_min_ms\":%.4f,\"times\":%.3f}\n"
+                           : "%s,%s,cpu_min_ms=%.4f,times=%.3f\n",
+                   p->found.name[i], k->name, ms, ms / (t->cpu[0] * 1e3));
+            fflush(stdout);
+        }
+    }
+    return 1;
+}
+
+static int run_case(const bench_case *k, const bench_peers *peers, const options *o, report *r)
 {
     static bench_scene s;
     static timing t;
@@ -204,13 +223,14 @@ static int run_case(const bench_case *k, const options *o, report *r)
     if (!bench_scene_load(&s, k, o->folder, r)) {
         return 0;
     }
-    const int ok = canvas_make(&c, k, o, r);
+    int ok = canvas_make(&c, k, o, r);
     if (ok) {
         measure(&t, &c, &s, o, k->cull);
         if (!o->is_quiet) {
             print_case(k, &s, &t, o);
         }
         canvas_free(&c);
+        ok = run_peers(peers, k, &t, o, r);
     }
     bench_scene_free(&s);
     return ok;
@@ -256,6 +276,9 @@ static const option_row raster_rows[] = {
     ROW_SECONDS("of each case (default 1.5)"),
     {.name = "--linear", .kind = OPTION_FLAG, AT(linear),
      .help = "with depth copied into plain rows, which other programs read"},
+    {.name = "--peers", .value = "DIR", .kind = OPTION_TEXT, AT(peers),
+     .help = "after each case let every program of this folder draw it, and print how long it takes, and how many times "
+             "our time that is; tools/README.md says what such a program prints"},
     ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
 };
 static const option_row gather_rows[] = {
@@ -291,8 +314,12 @@ static int check_raster(const options *o, report *r)
 
 static int run_raster(const options *o, report *r)
 {
+    static bench_peers peers;
+    if (o->peers != NULL && !bench_peers_find(&peers, o->peers, o->folder, (double)o->seconds, r)) {
+        return 0;
+    }
     for (int i = 0; i < bench_case_count; ++i) {
-        if (is_wanted(&bench_cases[i], o) && !run_case(&bench_cases[i], o, r)) {
+        if (is_wanted(&bench_cases[i], o) && !run_case(&bench_cases[i], &peers, o, r)) {
             return 0;
         }
     }

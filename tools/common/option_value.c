@@ -94,12 +94,28 @@ int option_stops(const char *text, void *at)
     return strcmp(text, "auto") == 0 || option_number(text, -60.0f, 60.0f, ev);
 }
 
-/* KIND:P:D:RGB[:INNER,OUTER] */
-int option_light(const char *text, lmb_light *out)
+/* [:INNER,OUTER][:SIZE]: one number alone is the size. */
+static int light_rest(const char *text, float cone[2], float *size)
+{
+    if (*text == ':') {
+        const char *p = text + 1;
+        if (option_floats(&p, cone, 2)) {
+            text = p;
+        }
+    }
+    if (*text == ':') {
+        ++text;
+        return size != NULL && option_float(&text, size) && *size > 0.0f && *text == '\0';
+    }
+    return *text == '\0';
+}
+
+/* KIND:P:D:RGB[:INNER,OUTER][:SIZE] */
+int option_light(const char *text, lmb_light *out, float *size)
 {
     static const char *const kinds[] = {"spot:", "point:", "sun:"};
     static const int32_t values[] = {LMB_LIGHT_SPOT, LMB_LIGHT_POINT, LMB_LIGHT_DIRECTIONAL};
-    float p[3], d[3], c[3], cone[2] = {0.0f, 45.0f};
+    float p[3], d[3], c[3], cone[2] = {0.0f, 45.0f}, wide = 0.0f;
     memset(out, 0, sizeof *out);
     out->kind = -1;
     for (int i = 0; i < 3 && out->kind < 0; ++i) {
@@ -112,13 +128,17 @@ int option_light(const char *text, lmb_light *out)
         *text++ != ':' || !option_floats(&text, c, 3)) {
         return 0;
     }
-    if (*text == ':' && (++text, !option_floats(&text, cone, 2))) {
+    if (!light_rest(text, cone, size != NULL ? &wide : NULL) ||
+        wide > (out->kind == LMB_LIGHT_DIRECTIONAL ? 90.0f : 1e6f)) {
         return 0;
     }
     double length = sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
-    if (*text != '\0' || c[0] < 0.0f || c[1] < 0.0f || c[2] < 0.0f || cone[0] < 0.0f || cone[1] < cone[0] ||
+    if (c[0] < 0.0f || c[1] < 0.0f || c[2] < 0.0f || cone[0] < 0.0f || cone[1] < cone[0] ||
         cone[1] <= 0.0f || cone[1] > 89.0f || (length < 1e-20 && out->kind != LMB_LIGHT_POINT)) {
         return 0;
+    }
+    if (size != NULL) {
+        *size = wide;
     }
     length = length < 1e-20 ? 1.0 : length;
     out->position = (lmb_vec3){p[0], p[1], p[2]};

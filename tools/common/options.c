@@ -170,7 +170,7 @@ static int store_floats(const option_row *row, const char *text, float *at)
 }
 
 /* 1, or 0 where the text is no such value. */
-static int store(const option_row *row, const char *text, void *at)
+static int store(const option_row *row, const char *text, void *at, float *size)
 {
     switch (row->kind) {
     case OPTION_TEXT: return (*(const char **)at = text)[0] != '\0';
@@ -182,7 +182,7 @@ static int store(const option_row *row, const char *text, void *at)
     case OPTION_NUMBERS: return store_floats(row, text, at);
     case OPTION_WORD: return option_word(text, row->words, row->values, at);
     case OPTION_POINT: return option_vec3(text, at);
-    case OPTION_LIGHT: return option_light(text, at);
+    case OPTION_LIGHT: return option_light(text, at, size);
     case OPTION_BACKEND: return (*(const lmb_kernels **)at = lmb_kernels_named(text)) != NULL;
     default: return row->parse(text, at);
     }
@@ -223,7 +223,8 @@ static int take(line *l, int i, const char *value, report *r)
     l->first[i] = before == 0 ? value : l->first[i];
     char *at = (char *)l->out + row->at + (times > 1 ? (size_t)before * row->size : 0);
     if (options_has_value(row)) {
-        if (!store(row, value, at)) {
+        float *size = row->sizes > 0 ? (float *)(void *)((char *)l->out + row->sizes) + before : NULL;
+        if (!store(row, value, at, size)) {
             return refuse(row, value, r);
         }
     } else {

@@ -28,7 +28,7 @@ enum {
     OPTION_NUMBERS, /* `size` floats within low .. high, with commas between */
     OPTION_WORD,    /* int32_t: the value of one of `words` */
     OPTION_POINT,   /* lmb_vec3: X,Y,Z */
-    OPTION_LIGHT,   /* lmb_light */
+    OPTION_LIGHT,   /* lmb_light; its size to `sizes` */
     OPTION_BACKEND, /* const lmb_kernels * */
     OPTION_OWN      /* `parse` stores it */
 };
@@ -42,6 +42,7 @@ typedef struct option_row {
     size_t counts;       /* of an int32_t: how often it was given; 0: nobody asks */
     int32_t times;       /* how often it may be given, values one behind the other; 0: once */
     size_t size;         /* of each of those values; OPTION_NUMBERS: how many */
+    size_t sizes;        /* of a float for each light: how wide it is; 0: it may have no size */
     double low, high;
     const char *const *words; /* ends with NULL */
     const int32_t *values;    /* of the words; NULL: their places */

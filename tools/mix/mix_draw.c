@@ -1,5 +1,6 @@
 /* mix_draw.c: the photo's answer and the object over it, tile by tile. */
 #include "mix_cones.h"
+#include "mix_front.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +18,7 @@ typedef struct drawing {
     lmb_target eye[MIX_SAMPLES]; /* the object's, by sample */
     int32_t samples;             /* a pixel, of the object */
     mix_batch batch;
-    lmb_tile object;
+    lmb_tile object, before; /* before: what real things hide of it */
     lmb_irradiance lit;
     lmb_radiance light, photo;
     lmb_radiance bare; /* the photo before the object */
@@ -170,7 +171,9 @@ static uint64_t put_sample(drawing *d, mix_job *j, const lmb_tile *real, int32_t
         return 0;
     }
     light_object(d, j, view);
-    return lmb_object_tile(&d->photo, &d->light, &d->object, real, &j->cloud);
+    mix_front_tile(&d->before, real, &d->object, j->front, &j->cloud, (float)view->sample_x * (1.0f / 256.0f),
+                   (float)view->sample_y * (1.0f / 256.0f));
+    return lmb_object_tile(&d->photo, &d->light, &d->object, &d->before, &j->cloud);
 }
 
 static void add_part(lmb_radiance *inout, const lmb_radiance *one, float weight)
@@ -252,6 +255,20 @@ static void draw_row(void *user, int row, int thread)
     }
 }
 
+static int find_front(mix_job *j, report *r)
+{
+    const size_t pixels = (size_t)j->frame.camera.width * (size_t)j->frame.camera.height;
+    uint8_t *doubt = mix_take(j, pixels, r);
+    j->front = mix_take(j, pixels * sizeof *j->front, r);
+    if (doubt == NULL || j->front == NULL) {
+        return 0;
+    }
+    if (j->object_triangles > 0) {
+        mix_front_refine(j->front, doubt, &j->cloud, &j->planes, j->frame.light.pixels);
+    }
+    return 1;
+}
+
 static int take_rows(rows *out, mix_job *j, report *r)
 {
     out->threads = pool_threads(j->o.threads);
@@ -275,7 +292,7 @@ static int take_rows(rows *out, mix_job *j, report *r)
 int mix_draw(mix_job *j, report *r)
 {
     rows all;
-    if (!take_rows(&all, j, r)) {
+    if (!find_front(j, r) || !take_rows(&all, j, r)) {
         return 0;
     }
     pool_run(all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);

@@ -7,7 +7,7 @@
 #include "../model/model.h"
 #include "mix_options.h"
 
-enum { MIX_BLOCKS = 64 };
+enum { MIX_BLOCKS = 64, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */ };
 
 /* mix_job_free releases what it points to. */
 typedef struct mix_job {
@@ -16,6 +16,7 @@ typedef struct mix_job {
     lmb_cloud cloud;
     lmb_planes planes;
     lmb_real_mesh real;
+    float *front;        /* 1/m, by pixel: what may hide the object; mix_front.h */
     lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
     lmb_mat4 from_world; /* to the scene's space */
     model object;
@@ -25,12 +26,14 @@ typedef struct mix_job {
     lmb_vec3 anchor, up; /* in the camera's space */
     int32_t floor;       /* the plane that the object stands on, or -1 */
     int faces_up;        /* it does, or was named */
+    int hangs;           /* on a wall, upright */
     float scale;         /* m of a unit of the mesh */
     int inside;          /* the picture has room for all of it */
+    float seen_px;       /* the longer side of its box in the picture; infinite where it is at the camera */
     float gap_m;         /* how much farther than it stands what was measured at its foot is, along the camera's axis */
     lmb_env env[2];      /* around the scene without and with the object */
-    lmb_light lights[MIX_LIGHTS];
-    lmb_shadow_map maps[MIX_LIGHTS][2]; /* without, with */
+    lmb_light *lights;         /* those with a size are MIX_LIGHT_SAMPLES */
+    lmb_shadow_map (*maps)[2]; /* of each: without, with */
     int32_t light_count;
     lmb_voxels voxels;   /* about the object; count 0: there is none */
     lmb_cones cones;
@@ -48,9 +51,27 @@ void *mix_take(mix_job *j, size_t bytes, report *r);
 /* The steps, in order. Each 1, or 0 with `r` set. */
 int mix_find_planes(mix_job *j, report *r); /* cloud and planes */
 int mix_place(mix_job *j, report *r);       /* the object, the real scene's mesh, and the scene of both */
+int mix_stand(mix_job *j, report *r);       /* of that: which plane, how large, and where on it */
 int mix_light(mix_job *j, report *r);       /* environment, lights and their maps */
 int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */
+
+/* mix_guess_sun: a sun for a photo that is given no light: from the side, about where the surroundings are brightest, so
+ * strong that its shadows are as dark as those in the photo. mix_sun_share: what such a sun gives the floor for each
+ * unit that comes from everywhere else: of the photo's planes, by two brightnesses that each of them has, above
+ * all of plane `floor` (-1: none). */
+void mix_guess_sun(lmb_light *out, const mix_job *j);
+float mix_sun_share(const float *rgb, const lmb_planes *planes, const lmb_pinhole *camera, int32_t floor);
+
+/* mix_extent: the object's box in its own units. radius: of the cylinder that holds it, upright or out of its wall, and a
+ * fifth more. */
+typedef struct mix_extent {
+    float radius, height, longest;
+} mix_extent;
+mix_extent mix_extent_of(const mix_job *j);
+
+/* mix_maps_bytes: of the shadow maps. */
+size_t mix_maps_bytes(const mix_job *j);
 
 /* The picture instead of mix_draw's. */
 int mix_show_planes(mix_job *j, report *r);

@@ -4,12 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../common/area_light.h"
 #include "../picture/world_read.h"
 
 enum { ENV_SIZE = 64, SUB = 4 };
-
-/* A guessed sun gives the floor so much light beside each unit that comes from everywhere else. */
-#define SUN_SHARE 0.7f
 
 static lmb_vec3 turned(const lmb_mat4 *t, lmb_vec3 d)
 {
@@ -94,43 +92,46 @@ static int make_env(mix_job *j, report *r)
 
 /* --- lights ------------------------------------------------------------------------------------------------------- */
 
-static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-/* From where the surroundings are brightest; as strong as SUN_SHARE says, for a photo does not: lights are clipped. */
-static void guess_sun(mix_job *j)
+static lmb_light placed(const mix_job *j, const lmb_light *from)
 {
-    float around[3];
-    lmb_light *sun = &j->lights[0];
-    const lmb_vec3 up = {0, 1, 0}, from = lmb_env_brightest(&j->env[0], up);
-    const lmb_axes *a = &j->axes;
-    memset(sun, 0, sizeof *sun);
-    sun->kind = LMB_LIGHT_DIRECTIONAL;
-    sun->direction = (lmb_vec3){-from.x, -from.y, -from.z};
-    sun->cos_inner = sun->cos_outer = 1.0f;
-    lmb_env_irradiance(around, &j->env[0], up);
-    for (int c = 0; c < 3; ++c) {
-        sun->intensity[c] = SUN_SHARE * around[c] / from.y;
-    }
-    j->light_count = 1;
-    report_note(j->o.is_quiet,
-                "no light given: guessed a sun from where the surroundings are brightest, "
-                "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f in the camera's space",
-                -(double)along(a->right, from), -(double)along(a->up, from), -(double)along(a->back, from),
-                (double)sun->intensity[0], (double)sun->intensity[1], (double)sun->intensity[2]);
+    lmb_light out = *from;
+    out.direction = turned(&j->from_world, from->direction);
+    out.position = turned(&j->from_world, from->position);
+    out.position.x += j->from_world.m[12];
+    out.position.y += j->from_world.m[13];
+    out.position.z += j->from_world.m[14];
+    return out;
 }
 
 static void place_lights(mix_job *j)
 {
     for (int32_t i = 0; i < j->o.light_count; ++i) {
-        const lmb_light *from = &j->o.lights[i];
-        j->lights[i] = *from;
-        j->lights[i].direction = turned(&j->from_world, from->direction);
-        j->lights[i].position = turned(&j->from_world, from->position);
-        j->lights[i].position.x += j->from_world.m[12];
-        j->lights[i].position.y += j->from_world.m[13];
-        j->lights[i].position.z += j->from_world.m[14];
+        const lmb_light light = placed(j, &j->o.lights[i]);
+        const int32_t samples = j->o.light_size[i] > 0.0f ? MIX_LIGHT_SAMPLES : 1;
+        if (samples == 1) {
+            j->lights[j->light_count] = light;
+        } else {
+            area_light(j->lights + j->light_count, samples, &light, j->o.light_size[i]);
+        }
+        j->light_count += samples;
     }
-    j->light_count = j->o.light_count;
+}
+
+static int take_lights(mix_job *j, report *r)
+{
+    size_t count = 1;
+    for (int32_t i = 0; i < j->o.light_count; ++i) {
+        count += j->o.light_size[i] > 0.0f ? MIX_LIGHT_SAMPLES : 1;
+    }
+    j->lights = mix_take(j, count * sizeof *j->lights, r);
+    j->maps = mix_take(j, count * sizeof *j->maps, r);
+    return j->lights != NULL && j->maps != NULL;
+}
+
+/* Of many lights that make one shadow together, half a side is enough. */
+static int32_t map_side(const mix_job *j)
+{
+    return j->light_count < MIX_LIGHT_SAMPLES || j->o.shadow_map < 16 ? j->o.shadow_map : j->o.shadow_map / 2;
 }
 
 static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t count)
@@ -139,33 +140,45 @@ static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t count)
            (count == 0 || lmb_shadow_map_draw(map, j->o.kernels, &j->scene, 1, count, NULL) == LMB_OK);
 }
 
+static size_t map_bytes(const mix_job *j, int32_t light)
+{
+    return 2 * lmb_shadow_map_bytes(lmb_shadow_map_faces(&j->lights[light], &j->scene), map_side(j), LMB_ID32);
+}
+
+size_t mix_maps_bytes(const mix_job *j)
+{
+    size_t bytes = 0;
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        bytes += map_bytes(j, i);
+    }
+    return bytes;
+}
+
 static int draw_maps(mix_job *j, report *r)
 {
-    for (int32_t i = 0; i < j->light_count; ++i) {
-        const int32_t faces = lmb_shadow_map_faces(&j->lights[i], &j->scene);
-        const size_t bytes = 2 * lmb_shadow_map_bytes(faces, j->o.shadow_map, LMB_ID32);
-        void *memory = mix_take(j, bytes, r);
-        if (memory == NULL) {
-            return 0;
-        }
-        if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, j->o.shadow_map, memory, bytes) != LMB_OK ||
+    char *memory = mix_take(j, mix_maps_bytes(j), r);
+    for (int32_t i = 0; memory != NULL && i < j->light_count; ++i) {
+        const size_t bytes = map_bytes(j, i);
+        if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j), memory, bytes) != LMB_OK ||
             !draw_map(j, &j->maps[i][0], j->real_triangles) ||
             !draw_map(j, &j->maps[i][1], j->real_triangles + j->object_triangles)) {
-            return report_fail(r, "--light %d cannot be drawn", (int)i + 1);
+            return report_fail(r, "--light: a shadow map cannot be drawn");
         }
+        memory += bytes;
     }
-    return 1;
+    return memory != NULL;
 }
 
 int mix_light(mix_job *j, report *r)
 {
-    if (!make_env(j, r)) {
+    if (!make_env(j, r) || !take_lights(j, r)) {
         return 0;
     }
     if (j->o.light_count > 0) {
         place_lights(j);
     } else if (j->object_triangles > 0) {
-        guess_sun(j);
+        mix_guess_sun(&j->lights[0], j);
+        j->light_count = 1;
     }
     j->scene.lights = j->lights;
     j->scene.light_count = (uint32_t)j->light_count;

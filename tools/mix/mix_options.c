@@ -38,6 +38,8 @@ static int parse_roughness(const char *text, void *at)
 
 static const char *const cones[] = {"7", "19", "37", NULL};
 static const int32_t cone_values[] = {7, 19, 37};
+static const char *const ons[] = {"floor", "table", "wall", NULL};
+static const int32_t on_values[] = {MIX_ON_FLOOR, MIX_ON_TABLE, MIX_ON_WALL};
 static const char *const shows[] = {"final", "delta", "planes", "voxels", "env", "object", NULL};
 
 #define AT(member) .at = offsetof(mix_options, member)
@@ -64,22 +66,27 @@ static const option_row object_rows[] = {
     {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
      .help = ".gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in"},
     {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale), .low = 1e-6, .high = 1e6,
-     .help = "m of a unit of the mesh (default: a sixth of the plane's side in all, or what fits)"},
+     .help = "m of a unit of the mesh (default 1: the mesh is in metres)"},
+    {.name = "--fit", .kind = OPTION_FLAG, AT(fit),
+     .help = "chooses --scale: a sixth of the plane's side in all, less where the picture has no room for that"},
     {.name = "--at", .value = "X,Y|world", .kind = OPTION_OWN, .parse = parse_at, .expects = "X,Y or world",
      .help = "stands on what is at this pixel (default: near the middle of the largest plane that faces up, where "
              "nothing else stands); world: is where the mesh has it, in the world of the frame's camera_to_world"},
+    {.name = "--on", .kind = OPTION_WORD, AT(on), .words = ons, .values = on_values,
+     .help = "floor: the lowest plane that faces up; table: the largest that lies 0.3 m over another; wall: the mesh "
+             "hangs there, +Z away from it (default: the largest that faces up)"},
     {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
-     .help = "about its upright axis (default 0: +Z towards the viewer)"},
+     .help = "about its upright axis (default 0: +Z towards the viewer); on a wall about what sticks out of it"},
     {.kind = OPTION_END},
 };
 
 static const option_row light_rows[] = {
     {.kind = OPTION_TITLE, .help = "light"},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(mix_options, light_count),
-     .times = MIX_LIGHTS, .size = sizeof(lmb_light),
-     .help = "KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; in the "
-             "frame's world, or without a pose the camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 "
-             "sr). Default: a sun is guessed"},
+     .times = MIX_LIGHTS, .size = sizeof(lmb_light), .sizes = offsetof(mix_options, light_size),
+     .help = "KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; SIZE: how "
+             "wide it is, m, of a sun degrees: its shadow is soft then; in the frame's world, or without a pose the "
+             "camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). Default: a sun is guessed"},
     {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
      .help = "what is around, a panorama or cube (default: folded from the photo)"},
     {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness,
@@ -134,7 +141,7 @@ const option_table mix_table = {
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
                 "    lambent mix --photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 \\\n"
-                "        --object tent.obj --voxels 5 -o mixed.png\n",
+                "        --object tent.obj --fit --voxels 5 -o mixed.png\n",
     .status = "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage, also one file "
               "for two purposes",
 };
@@ -155,6 +162,13 @@ static int complete(const mix_options *o, report *r)
     }
     if (o->object == NULL && (o->show == MIX_OBJECT || o->show == MIX_VOXELS)) {
         return report_fail(r, "--show: no object given; add --object MESH");
+    }
+    if (o->fit && (o->scale > 0.0f || o->at == MIX_AT_WORLD)) {
+        return report_fail(r, "--fit chooses the size that %s; leave one out",
+                           o->scale > 0.0f ? "--scale sets" : "--at world has");
+    }
+    if (o->on != MIX_ON_ANY && o->at != MIX_AT_CENTRE) {
+        return report_fail(r, "--on and --at both say where the object stands; leave one out");
     }
     return 1;
 }

@@ -13,14 +13,20 @@ enum { MIX_FINAL = 0, MIX_DELTA, MIX_PLANES, MIX_VOXELS, MIX_ENV, MIX_OBJECT };
 enum { MIX_AT_CENTRE = 0, /* of the plane that it would stand on */
        MIX_AT_PIXEL, MIX_AT_WORLD /* as its file has it, in the world of the frame's pose */ };
 
+/* Which plane it stands on, or hangs on, where no place is given. */
+enum { MIX_ON_ANY = 0, MIX_ON_FLOOR, MIX_ON_TABLE, MIX_ON_WALL };
+
 typedef struct mix_options {
     mix_source source;
     const char *object, *world, *out, *stats;
-    float scale;      /* m of a unit of the mesh; 0: chosen */
+    float scale;      /* m of a unit of the mesh; 0: 1, or with `fit` chosen */
+    int fit;
+    int32_t on;       /* MIX_ON_* */
     float turn_deg;
     int32_t at;
     float at_px[2];
     lmb_light lights[MIX_LIGHTS];
+    float light_size[MIX_LIGHTS]; /* m, of a sun degrees; 0: none */
     int32_t light_count;
     int32_t show, shadow_map, depth; /* depth: of the voxels */
     int32_t cones;    /* 7, 19 or 37 */

@@ -70,120 +70,32 @@ static const lmb_mat4 identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 
 
 /* --- where -------------------------------------------------------------------------------------------------------- */
 
-/* Of the object's box, in its own units. */
-typedef struct extent {
-    float radius, height, longest; /* radius: of the upright cylinder that holds it, and a fifth more */
-} extent;
-
-static extent extent_of(const mix_job *j)
-{
-    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
-    const extent e = {0.6f * hypotf(hi.x - lo.x, hi.z - lo.z), hi.y - lo.y,
-                      fmaxf(fmaxf(hi.x - lo.x, hi.y - lo.y), hi.z - lo.z)};
-    return e;
-}
-
-/* A sixth of the plane's mean side for the object's longest; half a metre where there is no plane. */
-static float chosen_scale(const mix_job *j)
-{
-    float room = 3.0f;
-    if (j->floor >= 0) {
-        const lmb_flat *p = &j->planes.plane[j->floor];
-        room = sqrtf((p->high[0] - p->low[0]) * (p->high[1] - p->low[1]));
-    }
-    return j->o.scale > 0.0f ? j->o.scale : room / 6.0f / fmaxf(extent_of(j).longest, 1e-9f);
-}
-
-/* The plane of the pixel, or what was measured there, upright. */
-static int stand_at_pixel(mix_job *j, report *r)
-{
-    const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
-    if (!(j->o.at_px[0] >= 0.0f && j->o.at_px[1] >= 0.0f && j->o.at_px[0] < (float)w && j->o.at_px[1] < (float)h)) {
-        return report_fail(r, "--at %g,%g: the photo has %d x %d pixels", (double)j->o.at_px[0], (double)j->o.at_px[1],
-                           (int)w, (int)h);
-    }
-    const int32_t x = (int32_t)j->o.at_px[0], y = (int32_t)j->o.at_px[1];
-    const int32_t label = j->planes.label[y * w + x];
-    j->floor = label - 1;
-    j->faces_up = 1; /* or was asked for */
-    j->scale = chosen_scale(j);
-    if (label > 0) {
-        j->up = j->planes.plane[j->floor].normal;
-        lmb_planes_anchor(&j->anchor, &j->planes, &j->frame.camera, j->floor, j->o.at_px[0], j->o.at_px[1]);
-    } else {
-        j->anchor = lmb_cloud_point(&j->cloud, x, y);
-    }
-    return j->anchor.z < 0.0f ||
-           report_fail(r, "--at %d,%d: neither a plane nor any depth there; lambent mix --show planes shows them",
-                       (int)x, (int)y);
-}
-
-/* The middle of the plane, or beside what already stands there: where all of the object is in the picture and nothing
- * in front of it. Where there is no such place the object becomes smaller, unless its size was asked for; then where
- * its foot alone is seen, or most of it is. */
-static void stand_free(mix_job *j)
-{
-    enum { SIZES = 6 };
-    const extent e = extent_of(j);
-    const float max = j->scale, min = j->o.scale > 0.0f ? max : 0.0f; /* of its size */
-    float scale = max;
-    for (int i = 0; i < SIZES; ++i) {
-        if (lmb_planes_clear(&j->anchor, &j->planes, &j->cloud, j->floor, e.radius * scale,
-                             e.height * fmaxf(scale, min))) {
-            j->scale = fmaxf(scale, min);
-            return;
-        }
-        scale *= 0.75f;
-    }
-    scale = max;
-    for (int i = 0; i < SIZES; ++i) {
-        if (lmb_planes_clear(&j->anchor, &j->planes, &j->cloud, j->floor, e.radius * scale, 0.0f)) {
-            return;
-        }
-        scale *= 0.75f;
-    }
-}
-
-static int stand_at_centre(mix_job *j, report *r)
-{
-    j->floor = lmb_planes_floor(&j->planes);
-    j->faces_up = j->floor >= 0;
-    j->floor = j->floor < 0 && j->planes.count > 0 ? 0 : j->floor;
-    if (j->floor < 0) {
-        return report_fail(r, "no plane in the depth to stand on; say where by --at X,Y");
-    }
-    j->up = j->planes.plane[j->floor].normal;
-    j->anchor = j->planes.plane[j->floor].centre;
-    j->scale = chosen_scale(j);
-    stand_free(j);
-    return 1;
-}
-
 /* How much farther than the surface that the object stands on what was measured is, at the pixels of its foot: the
  * median, so that noise counts as little as there are many of them. Along the camera's axis. */
 static float gap(mix_job *j, report *r)
 {
     const lmb_pinhole *c = &j->frame.camera;
-    const float radius = extent_of(j).radius * j->scale, slope = dot(j->anchor, j->up);
+    const lmb_vec3 n = j->hangs ? j->planes.plane[j->floor].normal : j->up;
+    const float radius = mix_extent_of(j).radius * j->scale, slope = dot(j->anchor, n);
     const int reach = (int)fminf(fmaxf(radius * c->fx / -j->anchor.z, 4.0f), 200.0f);
     const int x0 = (int)floorf(c->cx - c->fx * j->anchor.x / j->anchor.z + 0.5f),
               y0 = (int)floorf(c->cy + c->fy * j->anchor.y / j->anchor.z + 0.5f);
     float *off = mix_take(j, (size_t)(2 * reach + 1) * (size_t)(2 * reach + 1) * sizeof *off, r);
-    size_t n = 0;
+    size_t count = 0;
     for (int y = y0 - reach; off != NULL && y <= y0 + reach; ++y) {
         for (int x = x0 - reach; x <= x0 + reach; ++x) {
             if (x < 0 || y < 0 || x >= c->width || y >= c->height || !(j->frame.depth[y * c->width + x] > 0.0f)) {
                 continue;
             }
             const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
-            const float at = slope / dot(ray, j->up);
+            const float at = slope / dot(ray, n);
             const lmb_vec3 p = scaled(ray, at), d = {p.x - j->anchor.x, p.y - j->anchor.y, p.z - j->anchor.z};
             if (dot(d, d) <= radius * radius || (x == x0 && y == y0)) {
-                off[n++] = j->frame.depth[y * c->width + x] - at;
+                off[count++] = j->frame.depth[y * c->width + x] - at;
             }
         }
     }
-    return n > 0 ? median(off, n) : NAN;
+    return count > 0 ? median(off, count) : NAN;
 }
 
 /* Upright in the scene's space, +Z towards the viewer, then turned. */
@@ -197,18 +109,29 @@ static lmb_mat4 upright(const mix_job *j, float scale)
     return of_axes(x, y, z, at);
 }
 
-/* The middle of the mesh's foot goes to the anchor. */
+/* Upright before a wall, +Z out of it, then turned about that. */
+static lmb_mat4 hanging(const mix_job *j, float scale)
+{
+    const lmb_vec3 n = lmb_axes_turn(&j->axes, j->planes.plane[j->floor].normal);
+    const float level = fmaxf(hypotf(n.x, n.z), 1e-6f), turn = j->o.turn_deg * 0.017453293f;
+    const lmb_vec3 z = {n.x / level, 0, n.z / level}, across = {z.z, 0, -z.x};
+    const float c = cosf(turn) * scale, s = sinf(turn) * scale;
+    const lmb_vec3 x = {c * across.x, s, c * across.z}, y = {-s * across.x, c, -s * across.z};
+    return of_axes(x, y, scaled(z, scale), lmb_axes_turn(&j->axes, j->anchor));
+}
+
+/* The middle of the mesh's foot goes to the anchor; of one that hangs the middle of its back. */
 static lmb_mat4 object_to_scene(mix_job *j)
 {
     if (j->o.at == MIX_AT_WORLD) {
         return j->from_world;
     }
     const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
-    const lmb_mat4 stand = upright(j, j->scale);
+    const lmb_mat4 stand = j->hangs ? hanging(j, j->scale) : upright(j, j->scale);
     lmb_mat4 foot = identity;
     foot.m[12] = -0.5f * (lo.x + hi.x);
-    foot.m[13] = -lo.y;
-    foot.m[14] = -0.5f * (lo.z + hi.z);
+    foot.m[13] = j->hangs ? -0.5f * (lo.y + hi.y) : -lo.y;
+    foot.m[14] = j->hangs ? -lo.z : -0.5f * (lo.z + hi.z);
     return multiply(&stand, &foot);
 }
 
@@ -282,12 +205,13 @@ static void turn_scene(mix_job *j)
     j->from_world = multiply(&turn, &camera);
 }
 
-/* Is the box of what the object covers in the picture? */
-static int is_inside(const mix_job *j)
+/* Is the box of what the object covers in the picture, and how large is it there? */
+static void look(mix_job *j)
 {
     const lmb_pinhole *c = &j->frame.camera;
     lmb_scene object = j->scene;
     lmb_vec3 low, high;
+    float x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     ++object.instances;
     --object.instance_count;
     lmb_scene_bounds(&low, &high, &object);
@@ -295,11 +219,18 @@ static int is_inside(const mix_job *j)
         const lmb_vec3 p = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
         const float ahead = -dot(j->axes.back, p), x = c->cx + c->fx * dot(j->axes.right, p) / ahead,
                     y = c->cy - c->fy * dot(j->axes.up, p) / ahead;
-        if (!(ahead > 0.0f) || x < -0.5f || y < -0.5f || x > (float)c->width - 0.5f || y > (float)c->height - 0.5f) {
-            return 0;
+        if (!(ahead > 0.0f)) {
+            j->seen_px = INFINITY;
+            j->inside = 0;
+            return;
         }
+        x0 = fminf(x0, x);
+        y0 = fminf(y0, y);
+        x1 = fmaxf(x1, x);
+        y1 = fmaxf(y1, y);
     }
-    return 1;
+    j->seen_px = fmaxf(x1 - x0, y1 - y0);
+    j->inside = x0 >= -0.5f && y0 >= -0.5f && x1 <= (float)c->width - 0.5f && y1 <= (float)c->height - 0.5f;
 }
 
 /* Of the floor, or, where none is seen, what else tells. */
@@ -318,7 +249,7 @@ int mix_place(mix_job *j, report *r)
         return join_scene(j, &identity, r);
     }
     if (!model_load(&j->object, j->o.object, NULL, &j->notes, r) ||
-        (j->o.at == MIX_AT_PIXEL && !stand_at_pixel(j, r)) || (j->o.at == MIX_AT_CENTRE && !stand_at_centre(j, r))) {
+        !mix_stand(j, r)) {
         return 0;
     }
     turn_scene(j);
@@ -327,6 +258,6 @@ int mix_place(mix_job *j, report *r)
     if (!join_scene(j, &place, r)) {
         return 0;
     }
-    j->inside = is_inside(j);
+    look(j);
     return 1;
 }

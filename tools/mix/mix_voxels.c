@@ -13,6 +13,9 @@ enum { TREE_SIZE = 512, TURNS = 4 };
 /* The cube around the object is so many times as wide as it is. */
 #define ROOM 4.0f
 
+/* Of what is not seen: no photo tells it. */
+#define UNSEEN_ALBEDO 0.5
+
 /* Leaves within which points have one answer. */
 #define NEAR_LEAVES 4.0f
 
@@ -109,7 +112,7 @@ static int build(mix_job *j, report *r)
     const float size = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z), half = 0.5f * ROOM * size;
     const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
     lmb_vec3 middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
-    if (j->floor >= 0) {
+    if (j->floor >= 0 && !j->hangs) {
         middle.y = foot.y + half - leaf_under(half - (middle.y - foot.y), 2.0f * half / (float)(1 << j->o.depth));
     }
     const lmb_vec3 from = {middle.x - half, middle.y - half, middle.z - half},
@@ -145,8 +148,22 @@ typedef struct points {
     lmb_texel *real, *object, *again; /* again: those of one of them, with other light */
     size_t real_count, object_count;
     lmb_vec3 about; /* the object's middle */
-    double real_flux[3], far_flux[3]; /* W: of all real surfaces that are seen; of those outside the cube */
 } points;
+
+/* All of a face's first points, in p->tree. */
+static int map_texels(mix_job *j, points *p, int32_t light, const lmb_shadow_map *map, int32_t face)
+{
+    return lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, &j->scene, &j->lights[light], map, face, 0, 0,
+                           map->size / LMB_TILE) == LMB_OK;
+}
+
+/* As many texels for the many lights that make one shadow together as for one. */
+static int32_t tree_side(const mix_job *j, int32_t map)
+{
+    const int32_t cap = j->light_count < MIX_LIGHT_SAMPLES ? TREE_SIZE : TREE_SIZE / 4;
+    const int32_t low = map / 8 > cap ? map / 8 : cap;
+    return map < cap ? map : low;
+}
 
 static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
 {
@@ -154,8 +171,7 @@ static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
     for (int32_t f = 0; f < map->faces; ++f) {
         if ((map->drawn >> f & 1u) != 0) {
             const size_t size = (size_t)p->tree.size;
-            if (lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, &j->scene, &j->lights[light], map, f, 0, 0,
-                                p->tree.size / LMB_TILE) != LMB_OK ||
+            if (!map_texels(j, p, light, map, f) ||
                 lmb_voxels_inject(&j->voxels, with, p->tree.texel, size * size) != LMB_OK) {
                 return 0;
             }
@@ -174,18 +190,66 @@ static int inject_maps(mix_job *j, points *p, int32_t with)
     return 1;
 }
 
-/* What is not seen darkens as what is seen does in the mean: the picture's surroundings are folded from the picture. */
-static void dim_around(mix_job *j, const points *p)
+/* Spots' and points' light where it first meets a surface, W by channel, without and with the object: what surfaces that
+ * are seen reflect, and what goes elsewhere. */
+typedef struct first_light {
+    double flux[2][3], unseen[2][3];
+} first_light;
+
+static void add_texels(first_light *sum, const points *p, const lmb_light *light, const lmb_shadow_map *map,
+                       int32_t face, int32_t with)
 {
-    float share[3];
-    for (int c = 0; c < 3; ++c) {
-        double sum = p->far_flux[c];
-        for (size_t i = 0; i < p->real_count; ++i) {
-            sum += (double)p->again[i].flux[c];
+    const int32_t size = p->tree.size;
+    lmb_shadow_map coarse = *map;
+    coarse.size = size;
+    for (int32_t i = 0; i < size * size; ++i) {
+        const float *flux = p->tree.texel[i].flux;
+        float power[3] = {0, 0, 0};
+        if (!(flux[0] + flux[1] + flux[2] > 0.0f)) {
+            lmb_light_texel_power(power, light, &coarse, face, i % size, i / size);
         }
-        share[c] = p->real_flux[c] > 0.0 ? (float)(sum / p->real_flux[c]) : 1.0f;
+        for (int c = 0; c < 3; ++c) {
+            sum->flux[with][c] += (double)flux[c];
+            sum->unseen[with][c] += (double)power[c];
+        }
+    }
+}
+
+static int add_first_light(first_light *sum, mix_job *j, points *p, int32_t light)
+{
+    for (int32_t i = 0; i < 2 * j->maps[light][0].faces; ++i) {
+        const lmb_shadow_map *map = &j->maps[light][i % 2];
+        if ((map->drawn >> i / 2 & 1u) == 0) {
+            continue;
+        }
+        if (!map_texels(j, p, light, map, i / 2)) {
+            return 0;
+        }
+        add_texels(sum, p, &j->lights[light], map, i / 2, i % 2);
+    }
+    return 1;
+}
+
+/* What is not seen is lit by what lamps' light first meets: it darkens as much as the object takes of that, which
+ * depends on how large it is and where it stands. Of a sun no object takes a share. */
+static int dim_around(mix_job *j, points *p)
+{
+    first_light sum;
+    float share[3] = {1.0f, 1.0f, 1.0f};
+    int has_sun = 0;
+    memset(&sum, 0, sizeof sum);
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        has_sun |= j->lights[i].kind == LMB_LIGHT_DIRECTIONAL;
+        if (!has_sun && !add_first_light(&sum, j, p, i)) {
+            return 0;
+        }
+    }
+    for (int c = 0; c < 3 && !has_sun; ++c) {
+        const double before = sum.flux[0][c] + UNSEEN_ALBEDO * sum.unseen[0][c];
+        share[c] = before > 0.0 ? (float)((sum.flux[1][c] + UNSEEN_ALBEDO * sum.unseen[1][c]) / before) : 1.0f;
     }
     lmb_env_dim(&j->env[1], &j->env[0], share);
+    return 1;
 }
 
 /* The field with the object: lights' light, and what its points throw back now. */
@@ -217,11 +281,7 @@ static int relight(mix_job *j, points *p, lmb_texel *inout, size_t count, int is
 static int relight_real(mix_job *j, points *p)
 {
     memcpy(p->again, p->real, p->real_count * sizeof *p->again);
-    const int ok = relight(j, p, p->again, p->real_count, 1);
-    if (ok) {
-        dim_around(j, p);
-    }
-    return ok;
+    return relight(j, p, p->again, p->real_count, 1);
 }
 
 static int relight_object(mix_job *j, points *p)
@@ -236,11 +296,9 @@ static int relight_object(mix_job *j, points *p)
  * between both would stay bright for as many turns as light bounces there. */
 static int inject_all(mix_job *j, points *p, report *r)
 {
-    const float same[3] = {1.0f, 1.0f, 1.0f};
-    int ok = inject_maps(j, p, LMB_VOXEL_WITHOUT) &&
+    int ok = dim_around(j, p) && inject_maps(j, p, LMB_VOXEL_WITHOUT) &&
              lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITHOUT, p->real, p->real_count) == LMB_OK &&
              lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITHOUT) == LMB_OK;
-    lmb_env_dim(&j->env[1], &j->env[0], same);
     memcpy(p->again, p->real, p->real_count * sizeof *p->again);
     memset(p->again + p->real_count, 0, p->object_count * sizeof *p->again);
     ok = ok && inject_with(j, p);
@@ -263,13 +321,6 @@ static size_t inside(lmb_texel *all, size_t count, const lmb_voxels *v)
         }
     }
     return n;
-}
-
-static void add_flux(double sum[3], const lmb_texel *all, size_t count)
-{
-    for (size_t i = 0; i < 3 * count; ++i) {
-        sum[i % 3] += (double)all[i / 3].flux[i % 3];
-    }
 }
 
 /* Which points have one answer: those of one cube of NEAR_LEAVES that face about the same way. */
@@ -318,15 +369,13 @@ static int sort_points(mix_job *j, lmb_texel *all, size_t count, report *r)
     return 1;
 }
 
-static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uint32_t first_id, uint32_t triangles,
-                              report *r)
+static lmb_texel *take_points(size_t *count, mix_job *j, uint32_t first_id, uint32_t triangles, report *r)
 {
     const float leaf = 0.5f * j->voxels.leaf; /* so that leaves get about even shares */
     const size_t cap = lmb_around_points(NULL, 0, &j->scene, first_id, triangles, leaf, &j->env[0]);
     lmb_texel *out = mix_take(j, cap * sizeof *out, r);
     if (out != NULL) {
         lmb_around_points(out, cap, &j->scene, first_id, triangles, leaf, &j->env[0]);
-        add_flux(all_flux, out, cap);
         *count = inside(out, cap, &j->voxels);
     }
     return out;
@@ -334,9 +383,8 @@ static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uin
 
 static int light_voxels(mix_job *j, report *r)
 {
-    const int32_t map = j->o.shadow_map, size = map < TREE_SIZE ? map : map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
+    const int32_t map = j->light_count > 0 ? j->maps[0][0].size : j->o.shadow_map, size = tree_side(j, map);
     const size_t bytes = lmb_tree_bytes(1, size);
-    double object_flux[3] = {0, 0, 0}, near_flux[3] = {0, 0, 0};
     lmb_vec3 low, high;
     points p;
     memset(&p, 0, sizeof p);
@@ -344,8 +392,8 @@ static int light_voxels(mix_job *j, report *r)
     p.scratch = mix_take(j, sizeof *p.scratch, r);
     p.around = mix_take(j, sizeof *p.around, r);
     j->scratch = mix_take(j, sizeof *j->scratch, r);
-    p.real = take_points(&p.real_count, p.real_flux, j, 1, j->real_triangles, r);
-    p.object = take_points(&p.object_count, object_flux, j, j->real_triangles + 1, j->object_triangles, r);
+    p.real = take_points(&p.real_count, j, 1, j->real_triangles, r);
+    p.object = take_points(&p.object_count, j, j->real_triangles + 1, j->object_triangles, r);
     p.again = mix_take(j, (p.real_count + p.object_count) * sizeof *p.again, r);
     if (p.object != NULL && !sort_points(j, p.object, p.object_count, r)) {
         return 0;
@@ -360,10 +408,6 @@ static int light_voxels(mix_job *j, report *r)
     p.tree.faces = 1;
     object_box(&low, &high, j);
     p.about = (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
-    add_flux(near_flux, p.real, p.real_count);
-    for (int c = 0; c < 3; ++c) {
-        p.far_flux[c] = p.real_flux[c] - near_flux[c];
-    }
     return inject_all(j, &p, r);
 }
 

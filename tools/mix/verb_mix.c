@@ -33,6 +33,21 @@ static void tell_place(const mix_job *j)
                 (double)p->normal.x, (double)p->normal.y, (double)p->normal.z);
 }
 
+/* Files in millimetres or inches, or of a house, fill the picture or vanish. */
+static void tell_size(const mix_job *j)
+{
+    const double metres = (double)(mix_extent_of(j).longest * j->scale);
+    const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
+    const int fills = !(j->seen_px < 1.5f * (float)(w > h ? w : h)), vanishes = j->seen_px < 4.0f;
+    if (fills || vanishes) {
+        report_note(j->o.is_quiet, "the object is %.3g m long and %s; --fit chooses its size, --scale M sets it", metres,
+                    fills ? "fills the picture" : "vanishes in the picture");
+        return;
+    }
+    report_note(j->o.is_quiet || j->inside,
+                "part of the object is off the picture; --at X,Y sets its place and --scale its size");
+}
+
 static void tell(const mix_job *j)
 {
     for (uint32_t i = 0; i < j->notes.count; ++i) {
@@ -42,8 +57,7 @@ static void tell(const mix_job *j)
         return;
     }
     tell_place(j);
-    report_note(j->o.is_quiet || j->inside,
-                "part of the object is off the picture; --at X,Y sets its place and --scale its size");
+    tell_size(j);
 }
 
 static void tell_times(const mix_job *j)

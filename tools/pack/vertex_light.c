@@ -52,24 +52,65 @@ static double area_of(const vl_mesh *m, const vl_triangle *t)
     return 0.5 * dvec_length(dvec_turn(m->place[t->p[0]], m->place[t->p[1]], m->place[t->p[2]]));
 }
 
+enum { INSIDES = 7 };
+static const double inside[INSIDES][3] = {{0.34, 0.33, 0.33}, {0.9, 0.05, 0.05}, {0.05, 0.9, 0.05}, {0.05, 0.05, 0.9},
+                                          {0.48, 0.48, 0.04}, {0.04, 0.48, 0.48}, {0.48, 0.04, 0.48}};
+
 /* Triangles of which nothing can be seen, as something stands on them. */
 static void drop_buried(baking *b)
 {
-    static const double at[7][3] = {{0.34, 0.33, 0.33}, {0.9, 0.05, 0.05}, {0.05, 0.9, 0.05}, {0.05, 0.05, 0.9},
-                                    {0.48, 0.48, 0.04}, {0.04, 0.48, 0.48}, {0.48, 0.04, 0.48}};
     uint32_t kept = 0;
     for (uint32_t i = 0; i < b->m.triangles; ++i) {
         const vl_triangle t = b->m.triangle[i];
         int seen = 0;
-        for (int k = 0; k < 7 && !seen; ++k) {
-            const dvec p = dvec_add(inner(&b->m, &t, at[k][0], at[k][1], at[k][2]), dvec_mul(t.face, OVER));
+        for (int k = 0; k < INSIDES && !seen; ++k) {
+            const dvec p = dvec_add(inner(&b->m, &t, inside[k][0], inside[k][1], inside[k][2]), dvec_mul(t.face, OVER));
             seen = vl_buried(&b->sight, p, t.face) < TRUST;
         }
         if (seen) {
             b->m.triangle[kept++] = t;
         }
     }
-    b->hidden = b->m.triangles - kept;
+    b->hidden += b->m.triangles - kept;
+    b->m.triangles = kept;
+}
+
+static int places_see(baking *b, const vl_triangle *t)
+{
+    for (int k = 0; k < INSIDES; ++k) {
+        const dvec p = dvec_add(inner(&b->m, t, inside[k][0], inside[k][1], inside[k][2]), dvec_mul(t->face, OVER));
+        for (uint32_t i = 0; i < b->lattice.all; ++i) {
+            const dvec lamp = vl_lattice_place(&b->lattice, i);
+            if (b->lattice.valid[i] && dvec_dot(t->face, dvec_sub(lamp, p)) > 0.0 && vl_sees(&b->sight, p, lamp)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* Of what has two sides, each side that no place of the lamp sees where the other is seen: walls' outer sides, and what
+ * walls made of slabs have between them. Else they take most vertices and most elements of such a room. The sides of a
+ * triangle are one behind the other. */
+static void drop_far_sides(baking *b)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < b->m.triangles;) {
+        const vl_triangle front = b->m.triangle[i++];
+        if (!front.is_two_sided) {
+            b->m.triangle[kept++] = front;
+            continue;
+        }
+        const vl_triangle back = b->m.triangle[i++];
+        const int sees_front = places_see(b, &front), sees_back = places_see(b, &back);
+        if (sees_front || !sees_back) {
+            b->m.triangle[kept++] = front;
+        }
+        if (sees_back) {
+            b->m.triangle[kept++] = back;
+        }
+    }
+    b->hidden += b->m.triangles - kept;
     b->m.triangles = kept;
 }
 
@@ -613,13 +654,16 @@ int vertex_light_make(uint32_t **words, uint32_t *count, vertex_light_facts *fac
     memset(facts, 0, sizeof *facts);
     *words = NULL;
     *count = 0;
-    o.vertices = o.vertices > 0 ? o.vertices : 560;
+    o.vertices = o.vertices > 0 ? o.vertices : 600;
     o.elements = o.elements > 0 && o.elements <= LMB_FIXED_MAX_ELEMENTS ? o.elements : 192;
-    o.links = o.links > 0 && o.links < MOST_LINKS ? o.links : 20;
+    o.links = o.links > 0 && o.links < MOST_LINKS ? o.links : 32;
     o.places = o.places > 0 ? o.places : 512;
     int ok = vl_mesh_build(&b.m, scene, o.vertices, r) && vl_sight_begin(&b.sight, &b.m, r) &&
-             vl_lattice_make(&b.lattice, &b.m, &b.sight, o.places, r) &&
-             vl_mesh_divide(&b.m, &b.sight, &b.lattice, o.vertices, r);
+             vl_lattice_make(&b.lattice, &b.m, &b.sight, o.places, r);
+    if (ok) {
+        drop_far_sides(&b);
+        ok = vl_mesh_divide(&b.m, &b.sight, &b.lattice, o.vertices, r);
+    }
     if (ok) {
         drop_buried(&b);
         set_units(&b);

@@ -9,9 +9,9 @@
 #include "../common/report.h"
 
 typedef struct vertex_light_options {
-    uint32_t vertices; /* about so many; 0: 560 */
+    uint32_t vertices; /* about so many; 0: 600 */
     uint32_t elements; /* pieces that throw light back; 0: 192 */
-    uint32_t links;    /* of a vertex, at most, and half as many of an element; 0: 20 */
+    uint32_t links;    /* of a vertex, at most, and half as many of an element; 0: 32 */
     uint32_t places;   /* of the lamp, about; 0: 512 */
 } vertex_light_options;
 

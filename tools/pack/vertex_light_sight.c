@@ -77,11 +77,13 @@ int vl_sees(vl_sight *s, dvec from, dvec to)
     return lmb_occluded_tile(&s->bvh, s->kernels, s->tile, 1, b, noise, &s->traversal) == 0;
 }
 
-/* 1 where the nearest triangle along a ray shows its back. */
-static int meets_back(const vl_sight *s, dvec at, dvec way)
+enum met { MET_FRONT, MET_BACK, MET_TWO_SIDED };
+
+/* The distance of the nearest triangle along a ray, 1e30 where none is, and what it shows. */
+static double meets(enum met *out, const vl_sight *s, dvec at, dvec way)
 {
     double nearest = 1e30;
-    int back = 0;
+    *out = MET_FRONT;
     for (uint32_t i = 0; i < s->mesh.triangle_count; ++i) {
         const uint32_t *p = s->indices + 3 * i;
         const dvec a = dvec_read(s->positions + 3 * p[0]), e = dvec_sub(dvec_read(s->positions + 3 * p[1]), a),
@@ -94,26 +96,49 @@ static int meets_back(const vl_sight *s, dvec at, dvec way)
         const double u = dvec_dot(o, h) / det, v = dvec_dot(way, q) / det, t = dvec_dot(f, q) / det;
         if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 1e-6 && t < nearest) {
             nearest = t;
-            back = det < 0.0 && !s->two_sided[i];
+            *out = s->two_sided[i] ? MET_TWO_SIDED : det < 0.0 ? MET_BACK : MET_FRONT;
         }
     }
-    return back;
+    return nearest;
+}
+
+#define NARROW 1.5 /* of the places' distance: a slab of half of that is one in which no place may be */
+
+/* Directions that are even over the sphere, the first half of them upwards. */
+enum { WAYS = 32 };
+static dvec way_of(int i)
+{
+    const double z = 1.0 - (2.0 * i + 1.0) / WAYS, turn = 2.399963229728653 * i, ring = sqrt(1.0 - z * z);
+    return dvec_of(ring * cos(turn), z, ring * sin(turn));
 }
 
 double vl_buried(const vl_sight *s, dvec at, dvec up)
 {
-    enum { WAYS = 32 };
-    int backs = 0, asked = 0;
+    int backs = 0;
     for (int i = 0; i < WAYS; ++i) {
-        const double z = 1.0 - (2.0 * i + 1.0) / WAYS, turn = 2.399963229728653 * i, ring = sqrt(1.0 - z * z);
-        dvec way = dvec_of(ring * cos(turn), z, ring * sin(turn));
+        dvec way = way_of(i);
+        enum met met;
         if (dvec_dot(way, up) < 0.0) {
             way = dvec_mul(way, -1.0);
         }
-        asked += 1;
-        backs += meets_back(s, at, way);
+        meets(&met, s, at, way);
+        backs += met == MET_BACK;
     }
-    return (double)backs / asked;
+    return (double)backs / WAYS;
+}
+
+/* A line through it from surface to surface is shorter than `limit` in most directions: a point between a slab's sides,
+ * wherever it is there, but not one in a corner of a room. Of surfaces with two sides: the others tell by their backs. */
+static int is_enclosed(const vl_sight *s, dvec at, double limit)
+{
+    int narrow = 0;
+    for (int i = 0; i < WAYS / 2; ++i) {
+        const dvec way = way_of(i);
+        enum met ahead, behind;
+        const double width = meets(&ahead, s, at, way) + meets(&behind, s, at, dvec_mul(way, -1.0));
+        narrow += ahead == MET_TWO_SIDED && behind == MET_TWO_SIDED && width < limit;
+    }
+    return 4 * narrow > WAYS;
 }
 
 dvec vl_lattice_place(const vl_lattice *l, uint32_t i)
@@ -160,7 +185,8 @@ int vl_lattice_make(vl_lattice *l, const vl_mesh *m, const vl_sight *s, uint32_t
         return report_fail(r, "not enough memory for a lattice of %u places", (unsigned)l->all);
     }
     for (uint32_t i = 0; i < l->all; ++i) {
-        l->valid[i] = vl_buried(s, vl_lattice_place(l, i), dvec_of(0, 0, 0)) < 0.25;
+        const dvec at = vl_lattice_place(l, i);
+        l->valid[i] = vl_buried(s, at, dvec_of(0, 0, 0)) < 0.25 && !is_enclosed(s, at, NARROW * l->spacing);
     }
     return 1;
 }

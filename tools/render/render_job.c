@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/area_light.h"
 #include "../demo/demo_scene.h"
 #include "../model/io_lmt.h"
 #include "../model/scene_hash.h"
@@ -17,6 +18,7 @@
 #define HALF_STEP   0.00015f /* of black in 8 bits: radiance at exposure 0 */
 #define SKY_ERROR   0.01f   /* of a sky's light, that one of its nodes may be wrong by */
 #define SKY_SPARSE  65536   /* pixels from which on few samples stand for all under a sky */
+#define SIZE_SAMPLES 64     /* lights that stand for one with a size */
 #define MAX_MAPPED  32 /* lights with maps that bounce, by default: 100 take 160 times as long as in a tree */
 
 void render_job_free(render_job *j)
@@ -28,6 +30,7 @@ void render_job_free(render_job *j)
     light_stream_free(&j->many_lights);
     world_free(&j->around);
     free(j->with_sun);
+    free(j->wide);
     model_free(&j->loaded);
     file_free(&j->transfer_file);
 }
@@ -237,14 +240,38 @@ static int set_world(render_job *j, int lit, report *r)
     return 1;
 }
 
+/* Those of the command line, with a size or without. */
+static int take_lights(render_job *j, report *r)
+{
+    uint32_t count = 0, wide = 0;
+    for (uint32_t i = 0; i < j->o.light_count; ++i) {
+        wide += j->o.light_size[i] > 0.0f;
+    }
+    j->scene.lights = j->o.lights;
+    j->scene.light_count = j->o.light_count;
+    if (wide == 0) {
+        return 1;
+    }
+    j->wide = take(j, ((size_t)j->o.light_count + wide * (SIZE_SAMPLES - 1)) * sizeof *j->wide, r);
+    for (uint32_t i = 0; j->wide != NULL && i < j->o.light_count; ++i) {
+        j->wide[count] = j->o.lights[i];
+        if (j->o.light_size[i] > 0.0f) {
+            area_light(j->wide + count, SIZE_SAMPLES, &j->o.lights[i], j->o.light_size[i]);
+        }
+        count += j->o.light_size[i] > 0.0f ? SIZE_SAMPLES : 1;
+    }
+    j->scene.lights = j->wide;
+    j->scene.light_count = count;
+    return j->wide != NULL;
+}
+
 /* Those of the command line or the scene, and of what lies around it. */
 static int set_lights(render_job *j, report *r)
 {
     static const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
                                   LMB_LIGHT_DIRECTIONAL, 0};
-    if (j->o.light_count > 0) {
-        j->scene.lights = j->o.lights;
-        j->scene.light_count = j->o.light_count;
+    if (j->o.light_count > 0 && !take_lights(j, r)) {
+        return 0;
     }
     const int lit = is_lit(j, r);
     const int wants_none = j->o.world != NULL && strcmp(j->o.world, "none") == 0;
@@ -274,11 +301,18 @@ static uint32_t most_mapped(const render_job *j)
     return bounces && !mirrors && by_cuts ? MAX_MAPPED : LMB_MAX_LIGHTS;
 }
 
+/* Lights with a size make one shadow of many edges, which the tree's shadow tests place exactly, and maps do not. */
+static int is_soft(const render_job *j)
+{
+    const int mirrors = j->o.glossy && lmb_scene_is_glossy(&j->scene);
+    return j->wide != NULL && can_bounce_many(j) && !mirrors && !shows_map(j->o.show);
+}
+
 /* Lights that are too many for maps, or that were asked to, go into a tree; those of a sky always do. */
 static int set_light_stream(render_job *j, report *r)
 {
     const uint32_t cells = j->o.many_lights_cells > 0 ? (uint32_t)j->o.many_lights_cells : LIGHT_STREAM_CELLS;
-    const int too_many = j->o.many_lights_cells > 0 || j->scene.light_count > most_mapped(j);
+    const int too_many = j->o.many_lights_cells > 0 || is_soft(j) || j->scene.light_count > most_mapped(j);
     const light_list lists[2] = {{j->scene.lights, too_many ? j->scene.light_count : 0},
                                  {j->around.lights, j->around.count}};
     if (lists[0].count + lists[1].count == 0) {

@@ -23,6 +23,7 @@ typedef struct render_job {
     world around; /* a sky, or none */
     int32_t gathers_sky; /* many_lights are the sky's alone */
     lmb_light sun, *with_sun; /* of a scene without light; the scene's lights and the sky's sun */
+    lmb_light *wide;          /* --light, those with a size as many */
     lmb_view middle; /* between the eyes */
     int32_t eyes;    /* 1, or 2: side by side in the picture */
     light_stream many_lights;

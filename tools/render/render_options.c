@@ -206,9 +206,10 @@ static const option_row stereo_rows[] = {
 const option_row render_light_rows[] = {
     {.kind = OPTION_TITLE, .help = "light"},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(render_options, light_count),
-     .times = RENDER_LIGHTS, .size = sizeof(lmb_light),
+     .times = RENDER_LIGHTS, .size = sizeof(lmb_light), .sizes = offsetof(render_options, light_size),
      .help = "instead of the scene's lights; lights add up. KIND is spot, point or sun; position in metres, "
-             "direction of travel; W/sr, sun W/m2; a spot's half angles in degrees (default 0,45)"},
+             "direction of travel; W/sr, sun W/m2; a spot's half angles in degrees (default 0,45); SIZE: how wide it "
+             "is, m, of a sun degrees: its shadows are soft, by 64 lights"},
     {.name = "--shadow-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(shadow_map), .low = 8, .high = 4096,
      .help = "texels a side of a shadow map (default 1024, less for many lights)"},
     {.kind = OPTION_TITLE, .help = "many lights"},

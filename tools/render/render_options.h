@@ -37,6 +37,7 @@ typedef struct render_options {
     const char *scene_name; /* of a file with several; NULL: its own choice */
     const char *camera;     /* name or number; NULL: the first */
     lmb_light lights[RENDER_LIGHTS];
+    float light_size[RENDER_LIGHTS]; /* m, of a sun degrees; 0: none */
     uint32_t light_count;
     const char *world; /* NULL: a sky where the scene has no light; sky, none, or a file */
     int32_t has_sky; /* where the scene has no light: of `render`, and of no other verb */

@@ -5,7 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../../tools/common/area_light.h"
 #include "../../../tools/common/io_file.h"
+#include "../../../tools/mix/mix_front.h"
+#include "../../../tools/mix/mix_job.h"
 #include "../../../tools/picture/image.h"
 #include "../../../tools/render/render_slice.h"
 
@@ -127,6 +130,27 @@ int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_
 {
     return png_encode(out, rgba, width, height, r);
 }
+
+/* --- area_light.h, mix_*.h: the page's lights have no size, and its depth is exact --------------------------------------- */
+
+void area_light(lmb_light *out, int32_t count, const lmb_light *from, float size)
+{
+    (void)size;
+    for (int32_t i = 0; i < count; ++i) {
+        out[i] = *from;
+    }
+}
+void mix_front_refine(float *out, uint8_t *doubt, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb)
+{
+    (void)out, (void)doubt, (void)cloud, (void)planes, (void)rgb;
+}
+void mix_front_tile(lmb_tile *out, const lmb_tile *real, const lmb_tile *object, const float *front,
+                    const lmb_cloud *cloud, float x, float y)
+{
+    (void)object, (void)front, (void)cloud, (void)x, (void)y;
+    *out = *real;
+}
+void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 
 /* --- slice.h, render_slice.h: the page draws whole pictures --------------------------------------------------------------- */
 

@@ -1,0 +1,133 @@
+/* rooms_build.c: the rooms. No constant was chosen on them. */
+#include <stddef.h>
+#include <string.h>
+
+#include "rooms.h"
+
+static int metal(room *r, double red, double green, double blue, double roughness)
+{
+    const int m = paint(&r->scene, red, green, blue);
+    r->rough_metal[m] = roughness;
+    return m;
+}
+
+/* Its triangles' fronts outside. */
+static void ball_outside(made_scene *s, int material, svec centre, double radius, int rings)
+{
+    uint32_t i = s->triangles;
+    ball(s, material, centre, radius, rings);
+    for (; i < s->triangles; ++i) {
+        const svec a = s->corners[3 * i], b = s->corners[3 * i + 1], c = s->corners[3 * i + 2];
+        if (dot_of(cross_of(less(b, a), less(c, a)), less(a, centre)) < 0.0) {
+            s->corners[3 * i + 1] = c;
+            s->corners[3 * i + 2] = b;
+        }
+    }
+}
+
+/* What comes from now on is the object. */
+static void object_begins(room *r) { r->bare = r->scene.triangles; }
+
+static void tell_lights(room *r)
+{
+    for (int i = 0; i < r->scene.light_count; ++i) {
+        r->told[r->told_count++] = r->scene.lights[i];
+    }
+}
+
+static void build_small_object(room *r)
+{
+    made_scene *s = &r->scene;
+    const int floor = paint(s, 0.45, 0.4, 0.35), white = paint(s, 0.7, 0.7, 0.68), red = paint(s, 0.5, 0.12, 0.1);
+    shell(s, floor, white, white, at(0, 0, 0), at(6, 3, 7));
+    point(s, at(2.2, 2.6, 3.4), 14);
+    look(s, at(4.6, 1.6, 6.6), at(2.4, 0.5, 2.2), 60);
+    object_begins(r);
+    crate(s, red, at(3.2, 0, 2.6), at(0.35, 0.4, 0.35), 25);
+    ball_outside(s, white, at(2.0, 0.18, 3.6), 0.18, 8);
+    tell_lights(r);
+}
+
+static void build_metal_box(room *r)
+{
+    made_scene *s = &r->scene;
+    const int floor = paint(s, 0.5, 0.42, 0.34), white = paint(s, 0.72, 0.7, 0.66), blue = paint(s, 0.2, 0.3, 0.55);
+    shell(s, floor, white, white, at(0, 0, 0), at(4, 2.6, 4.4));
+    panel(s, blue, at(0.01, 0.2, 0.6), at(0, 0, 1.8), at(0, 1.5, 0), NULL, 0);
+    spot(s, at(2.4, 2.4, 1.8), at(1.0, 0.2, 1.4), 22, 30, 48);
+    look(s, at(3.7, 1.5, 4.1), at(0.8, 0.5, 1.0), 60);
+    object_begins(r);
+    crate(s, metal(r, 0.9, 0.88, 0.85, 0.4), at(0.75, 0, 1.3), at(0.55, 0.6, 0.55), 15);
+    tell_lights(r);
+}
+
+/* The window is a bright square in the wall ahead, of which `mix` is told as eight small lights. */
+static void build_window(room *r)
+{
+    made_scene *s = &r->scene;
+    const int floor = paint(s, 0.4, 0.36, 0.32), white = paint(s, 0.68, 0.68, 0.66), pane = paint(s, 0, 0, 0),
+              green = paint(s, 0.25, 0.45, 0.2);
+    const double low[2] = {1.2, 0.9}, wide = 1.4, high = 1.1, radiance = 6;
+    const opening hole = {low[0], low[1], low[0] + wide, low[1] + high};
+    quad(s, floor, at(0, 0, 0), at(0, 0, 4.5), at(4, 0, 4.5), at(4, 0, 0));
+    quad(s, white, at(0, 2.6, 0), at(4, 2.6, 0), at(4, 2.6, 4.5), at(0, 2.6, 4.5));
+    quad(s, white, at(0, 0, 0), at(0, 2.6, 0), at(0, 2.6, 4.5), at(0, 0, 4.5));
+    quad(s, white, at(4, 0, 0), at(4, 0, 4.5), at(4, 2.6, 4.5), at(4, 2.6, 0));
+    quad(s, white, at(0, 0, 4.5), at(0, 2.6, 4.5), at(4, 2.6, 4.5), at(4, 0, 4.5));
+    panel(s, white, at(0, 0, 0), at(4, 0, 0), at(0, 2.6, 0), &hole, 1);
+    panel(s, pane, at(low[0], low[1], 0), at(wide, 0, 0), at(0, high, 0), NULL, 0);
+    for (int c = 0; c < 3; ++c) {
+        s->emission[pane][c] = radiance;
+    }
+    look(s, at(2.6, 1.5, 4.3), at(1.9, 0.7, 0.8), 62);
+    object_begins(r);
+    crate(s, green, at(2.0, 0, 1.3), at(0.5, 0.7, 0.4), 20);
+    for (int i = 0; i < ROOM_LIGHTS; ++i) {
+        scene_light *l = &r->told[r->told_count++];
+        const double power = radiance * wide * high / ROOM_LIGHTS;
+        l->kind = SCENE_SPOT;
+        l->position = at(low[0] + wide * (0.125 + 0.25 * (i % 4)), low[1] + high * (0.25 + 0.5 * (i / 4)), 0.03);
+        l->direction = at(0, 0, 1);
+        l->rgb[0] = l->rgb[1] = l->rgb[2] = power;
+        l->inner_deg = 1;
+        l->outer_deg = 89;
+    }
+}
+
+static void build_metal_ball(room *r)
+{
+    made_scene *s = &r->scene;
+    const int floor = paint(s, 0.5, 0.45, 0.4), white = paint(s, 0.7, 0.7, 0.7), red = paint(s, 0.6, 0.2, 0.15);
+    shell(s, floor, white, red, at(0, 0, 0), at(3.6, 2.5, 4));
+    point(s, at(1.0, 2.1, 2.6), 9);
+    look(s, at(2.9, 1.3, 3.7), at(1.5, 0.4, 1.2), 55);
+    object_begins(r);
+    ball_outside(s, metal(r, 0.95, 0.8, 0.5, 0.4), at(1.6, 0.35, 1.6), 0.35, 16);
+    tell_lights(r);
+}
+
+static void build_lamp(room *r)
+{
+    made_scene *s = &r->scene;
+    const int floor = paint(s, 0.5, 0.45, 0.4), white = paint(s, 0.7, 0.7, 0.7);
+    shell(s, floor, white, white, at(0, 0, 0), at(3.6, 2.5, 4));
+    point(s, at(2.6, 2.2, 2.8), 4);
+    look(s, at(2.9, 1.3, 3.7), at(1.4, 0.4, 1.0), 55);
+    object_begins(r);
+    const int glow = paint(s, 0, 0, 0), foot = paint(s, 0.3, 0.3, 0.32);
+    s->emission[glow][0] = 9;
+    s->emission[glow][1] = 7.5;
+    s->emission[glow][2] = 5;
+    box(s, foot, at(1.38, 0, 1.18), at(1.62, 0.25, 1.42));
+    box(s, glow, at(1.4, 0.25, 1.2), at(1.6, 0.45, 1.4));
+    tell_lights(r);
+}
+
+const room_kind room_kinds[] = {
+    {"small_object", build_small_object, "a crate and a ball in a large room"},
+    {"metal_box", build_metal_box, "a bright metal box near a wall"},
+    {"window", build_window, "a crate before a window"},
+    {"metal_ball", build_metal_ball, "a metal ball"},
+    {"lamp", build_lamp, "a small lamp"},
+};
+const int room_kind_count = COUNT_OF(room_kinds);

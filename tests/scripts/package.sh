@@ -1,0 +1,91 @@
+# package.sh: `make install` gives a program outside the tree what it needs, by pkg-config and by CMake's find_package;
+# `make uninstall` leaves nothing; CMake's add_subdirectory builds the library from a clone. MAKE BUILD B CC CFLAGS in the
+# environment. Each way builds and runs the same two programs of tests/examples.
+. tests/scripts/checks.sh
+
+top=$PWD
+dir=$(mktemp -d "${TMPDIR:-/tmp}/lambent-package.XXXXXX") || exit 1
+trap 'rm -rf "$dir"' EXIT
+root=$dir/root
+prefix=/opt/lambent
+version=$(awk '$2 ~ /^LMB_VERSION_(MAJOR|MINOR|PATCH)$/ { v = v dot $3; dot = "." } END { print v }' include/lambent/types.h)
+cp tests/examples/depth_map.c tests/examples/golden_test.c tests/examples/room.h "$dir"
+
+# runs DIRECTORY: both programs there say what they should.
+runs() { "$1/depth_map" && "$1/golden_test"; }
+
+check "make install" "$MAKE" install BUILD="$BUILD" DESTDIR="$root" PREFIX=$prefix
+(cd "$root" && find . -type f | sort) >"$dir/installed"
+{
+    for header in include/lambent/*.h; do echo ".$prefix/$header"; done
+    printf ".$prefix/%s\n" bin/lambent share/man/man1/lambent.1 lib/liblambent.a lib/pkgconfig/lambent.pc \
+        lib/cmake/lambent/lambent-config.cmake lib/cmake/lambent/lambent-config-version.cmake
+} | sort >"$dir/expected"
+check "what is installed" diff "$dir/expected" "$dir/installed"
+check "the tool's version" test "$("$root$prefix/bin/lambent" --version)" = "lambent $version"
+
+# The library's switches reach who uses it.
+check "lambent.pc of the tiny configuration" "$MAKE" "$dir/build/tiny/lambent.pc" BUILD="$dir/build" CONFIG=tiny \
+    CFLAGS='-O2 -DLMB_VOXELS=0'
+check "the tiny configuration's switches" grep -q '^Cflags: .* -DLMB_CONFIG_TINY -DLMB_VOXELS=0$' "$dir/build/tiny/lambent.pc"
+
+if missing=$(sh tests/scripts/tools.sh need pkg-config 2>&1); then
+    PKG_CONFIG_PATH=$root$prefix/lib/pkgconfig PKG_CONFIG_SYSROOT_DIR=$root
+    export PKG_CONFIG_PATH PKG_CONFIG_SYSROOT_DIR
+    check "pkg-config's version" test "$(pkg-config --modversion lambent)" = "$version"
+    mkdir "$dir/by-pkg-config"
+    for program in depth_map golden_test; do
+        check "$program by pkg-config" sh -c 'cd "$1" && '"$CC"' $(pkg-config --cflags lambent) -o "by-pkg-config/$2" "$2.c" \
+            $(pkg-config --libs lambent)' sh "$dir" $program
+    done
+    check "programs by pkg-config run" runs "$dir/by-pkg-config"
+else
+    skip "pkg-config: $missing"
+fi
+
+if missing=$(sh tests/scripts/tools.sh need cmake 2>&1); then
+    for way in find_package add_subdirectory; do
+        mkdir "$dir/$way"
+        cat >"$dir/$way/CMakeLists.txt" <<CMAKE
+cmake_minimum_required(VERSION 3.10)
+project(user C)
+$(case $way in
+    find_package) echo "find_package(lambent \${WANTED} REQUIRED)" ;;
+    *) echo "add_subdirectory(\"$top/platform/cmake\" lambent)" ;;
+esac)
+foreach(program depth_map golden_test)
+    add_executable(\${program} ../\${program}.c)
+    target_link_libraries(\${program} lambent::lambent)
+endforeach()
+CMAKE
+    done
+    configure() { # configure DIRECTORY SETTING...
+        way=$1
+        shift
+        cmake -S "$dir/$way" -B "$dir/$way/build" -DCMAKE_C_COMPILER="$CC" -DCMAKE_PREFIX_PATH="$root$prefix" "$@"
+    }
+    check "find_package" configure find_package -DWANTED="${version%.*}"
+    check "programs by find_package" cmake --build "$dir/find_package/build"
+    check "programs by find_package run" runs "$dir/find_package/build"
+    for other in 0.0 "${version%.*}.99" 7; do
+        check "find_package finds version $other" sh -c '! "$@"' sh \
+            cmake -S "$dir/find_package" -B "$dir/other-$other" -DCMAKE_PREFIX_PATH="$root$prefix" -DWANTED=$other
+    done
+
+    # At -O0, which takes seconds: pixels do not depend on it. Without a build type it would be -O2.
+    check "add_subdirectory" configure add_subdirectory -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+    check "a library without a build type is not optimised" grep -q -- '-O2 -ffp-contract=off.*/src/raster/fill\.c' \
+        "$dir/add_subdirectory/build/compile_commands.json"
+    check "add_subdirectory, Debug" configure add_subdirectory -DCMAKE_BUILD_TYPE=Debug
+    check "programs by add_subdirectory" cmake --build "$dir/add_subdirectory/build"
+    check "programs by add_subdirectory run" runs "$dir/add_subdirectory/build"
+    check "tiny by add_subdirectory" configure add_subdirectory -DLAMBENT_CONFIG=tiny -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+    check "the tiny configuration does not reach programs" grep -q 'DLMB_CONFIG_TINY.*depth_map\.c' \
+        "$dir/add_subdirectory/build/compile_commands.json"
+else
+    skip "CMake: $missing"
+fi
+
+check "make uninstall" "$MAKE" uninstall BUILD="$BUILD" DESTDIR="$root" PREFIX=$prefix
+check "what make uninstall leaves: $(cd "$root" && find . -type f)" test -z "$(find "$root" -type f)"
+finish

@@ -1,0 +1,203 @@
+/* mix_sun.c: a sun for a photo that is given no light: one whose shadow shows, as dark as the photo's own shadows. */
+#include "mix_job.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- strength ----------------------------------------------------------------------------------------------------- */
+
+enum { BINS = 96, BINS_A_STOP = 8 };
+
+/* Without contrast there is still some sun, for objects without a shadow seem to float. A contrast of more stops is a
+ * picture's on a wall, not a shadow's; the plane that the object stands on says more, and has few pictures. */
+#define SHARE_MIN 0.3f
+#define SHARE_MAX 4.0f
+#define WALL_STOPS  2.0
+#define FLOOR_STOPS 3.5
+#define FLOOR_COUNTS 4.0
+
+/* Where two classes of a histogram are farthest apart for how many are in each: Otsu's threshold. Returns by how many
+ * bins their means differ; *clear: the part of the variance that lies between them. */
+static double parting(const double bin[BINS], double *clear)
+{
+    double all = 0.0, sum = 0.0, square = 0.0, n = 0.0, part = 0.0, best = 0.0, apart = 0.0;
+    for (int i = 0; i < BINS; ++i) {
+        all += bin[i];
+        sum += bin[i] * i;
+        square += bin[i] * i * i;
+    }
+    for (int i = 0; i < BINS - 1; ++i) {
+        n += bin[i];
+        part += bin[i] * i;
+        if (n > 0.0 && n < all) {
+            const double d = (sum - part) / (all - n) - part / n, between = n * (all - n) * d * d;
+            apart = between > best ? d : apart;
+            best = fmax(best, between);
+        }
+    }
+    const double variance = all > 0.0 ? square / all - sum / all * (sum / all) : 0.0;
+    *clear = variance > 0.0 ? best / (all * all) / variance : 0.0;
+    return apart;
+}
+
+/* What one plane says: by how many stops its two classes differ, and how many blocks are sure of it. Two thirds of a
+ * bell curve's variance lie between its halves, and all of what has two values: what lies between counts in part, from
+ * 0.7 on. */
+typedef struct contrast {
+    double stops, weight;
+} contrast;
+
+static contrast contrast_of(const float *brightness, size_t count, int is_floor)
+{
+    double bin[BINS] = {0}, clear;
+    for (size_t i = 0; i < count; ++i) {
+        const double stops = 10.0 + log2(fmax((double)brightness[i], 1e-9));
+        bin[(int)fmin(fmax(stops * BINS_A_STOP, 0.0), BINS - 1.0)] += 1.0;
+    }
+    const double apart = parting(bin, &clear) / BINS_A_STOP;
+    const double sure = (double)count * fmin(fmax((clear - 0.7) / 0.15, 0.0), 1.0);
+    const contrast c = {apart, apart > (is_floor ? FLOOR_STOPS : WALL_STOPS) ? 0.0
+                               : is_floor                                    ? FLOOR_COUNTS * sure
+                                                                             : sure};
+    return c;
+}
+
+/* The mean brightness of a block of pixels where most of it is plane p, or -1: fine patterns are no shadows. */
+static float block(const float *rgb, const uint8_t *label, const lmb_pinhole *c, int32_t p, int32_t x0, int32_t y0)
+{
+    float sum = 0.0f;
+    int32_t n = 0;
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t at = (y0 + k / LMB_TILE) * c->width + x0 + k % LMB_TILE;
+        if (label[at] == p + 1) {
+            sum += 0.2126f * rgb[3 * at] + 0.7152f * rgb[3 * at + 1] + 0.0722f * rgb[3 * at + 2];
+            ++n;
+        }
+    }
+    return n > LMB_TILE_PIXELS / 2 ? sum / (float)n : -1.0f;
+}
+
+static size_t blocks_of(float *out, const float *rgb, const uint8_t *label, const lmb_pinhole *c, int32_t p)
+{
+    size_t n = 0;
+    for (int32_t y = 0; y + LMB_TILE <= c->height; y += LMB_TILE) {
+        for (int32_t x = 0; x + LMB_TILE <= c->width; x += LMB_TILE) {
+            const float b = block(rgb, label, c, p, x, y);
+            out[n] = b;
+            n += b >= 0.0f;
+        }
+    }
+    return n;
+}
+
+static double median(const contrast *of, int count, double all)
+{
+    for (int i = 0; i < count; ++i) {
+        double below = 0.0;
+        for (int k = 0; k < count; ++k) {
+            below += of[k].stops <= of[i].stops ? of[k].weight : 0.0;
+        }
+        double under = below;
+        for (int k = 0; k < count; ++k) {
+            under -= of[k].stops == of[i].stops ? of[k].weight : 0.0;
+        }
+        if (below >= 0.5 * all && under <= 0.5 * all && of[i].weight > 0.0) {
+            return of[i].stops;
+        }
+    }
+    return 0.0;
+}
+
+/* The median plane's, counted in full where a quarter of the blocks are sure of theirs. */
+float mix_sun_share(const float *rgb, const lmb_planes *planes, const lmb_pinhole *c, int32_t floor)
+{
+    contrast of[LMB_MAX_PLANES];
+    double all = 0.0, blocks = 0.0;
+    const size_t cap = (size_t)(c->width / LMB_TILE + 1) * (size_t)(c->height / LMB_TILE + 1);
+    float *brightness = malloc(cap * sizeof *brightness);
+    for (int32_t p = 0; brightness != NULL && p < planes->count; ++p) {
+        const size_t n = blocks_of(brightness, rgb, planes->label, c, p);
+        of[p] = contrast_of(brightness, n, p == floor);
+        all += of[p].weight;
+        blocks += p == floor ? FLOOR_COUNTS * (double)n : (double)n;
+    }
+    free(brightness);
+    const double stops = brightness != NULL && all > 0.0 ? median(of, planes->count, all) : 0.0;
+    const double counted = blocks > 0.0 ? fmin(4.0 * all / blocks, 1.0) : 0.0;
+    return fminf(fmaxf((float)(counted * (exp2(stops) - 1.0)), SHARE_MIN), SHARE_MAX);
+}
+
+/* --- direction ---------------------------------------------------------------------------------------------------- */
+
+static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+static lmb_vec3 sum(float a, lmb_vec3 x, float b, lmb_vec3 y)
+{
+    const lmb_vec3 out = {a * x.x + b * y.x, a * x.y + b * y.y, a * x.z + b * y.z};
+    return out;
+}
+
+/* How much of a shadow along `from` would be seen on what the object stands on: of steps on the floor. */
+static int seen_steps(const mix_job *j, lmb_vec3 from, float height)
+{
+    enum { STEPS = 12 };
+    const lmb_pinhole *c = &j->frame.camera;
+    const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
+    int seen = 0;
+    for (int i = 1; i <= STEPS && j->floor >= 0 && !j->hangs; ++i) {
+        const float far = height / from.y * (float)i / STEPS;
+        const lmb_vec3 p = {foot.x - from.x * far, foot.y, foot.z - from.z * far};
+        const float ahead = -along(j->axes.back, p);
+        const float x = c->cx + c->fx * along(j->axes.right, p) / ahead,
+                    y = c->cy - c->fy * along(j->axes.up, p) / ahead;
+        if (ahead > 0.0f && x >= 0.0f && y >= 0.0f && x < (float)c->width && y < (float)c->height) {
+            seen += j->planes.label[(int32_t)y * c->width + (int32_t)x] == j->floor + 1;
+        }
+    }
+    return seen;
+}
+
+/* About the brightest direction: within 30 degrees of straight from one side, and 30 to 50 degrees high, for the shadow
+ * of a sun behind the viewer or overhead hides behind the object. From the other side where more of the floor is. */
+static lmb_vec3 direction(const mix_job *j)
+{
+    const lmb_vec3 up = {0, 1, 0}, bright = lmb_env_brightest(&j->env[0], up),
+                   foot = lmb_axes_turn(&j->axes, j->anchor);
+    const float level = hypotf(foot.x, foot.z);
+    const lmb_vec3 viewer = level > 0.0f ? (lmb_vec3){-foot.x / level, 0, -foot.z / level} : (lmb_vec3){0, 0, 1},
+                   side = {viewer.z, 0, -viewer.x};
+    const float height = fminf(bright.y, 0.76604444f), flat = hypotf(bright.x, bright.z);
+    const float to_viewer = flat > 0.0f ? fminf(fmaxf(along(bright, viewer) / flat, -0.5f), 0.5f) : 0.0f;
+    const float beside = sqrtf(1.0f - to_viewer * to_viewer), wide = sqrtf(1.0f - height * height);
+    lmb_vec3 from[2];
+    for (int i = 0; i < 2; ++i) {
+        const float sign = (along(bright, side) < 0.0f) == (i == 0) ? -1.0f : 1.0f;
+        from[i] = sum(wide, sum(to_viewer, viewer, sign * beside, side), height, up);
+    }
+    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
+    const float tall = (hi.y - lo.y) * j->scale;
+    return from[2 * seen_steps(j, from[0], tall) < seen_steps(j, from[1], tall)];
+}
+
+void mix_guess_sun(lmb_light *out, const mix_job *j)
+{
+    float around[3];
+    const lmb_vec3 up = {0, 1, 0}, from = direction(j);
+    const float share = mix_sun_share(j->frame.light.pixels, &j->planes, &j->frame.camera, j->floor);
+    const lmb_axes *a = &j->axes;
+    memset(out, 0, sizeof *out);
+    out->kind = LMB_LIGHT_DIRECTIONAL;
+    out->direction = (lmb_vec3){-from.x, -from.y, -from.z};
+    out->cos_inner = out->cos_outer = 1.0f;
+    lmb_env_irradiance(around, &j->env[0], up);
+    for (int c = 0; c < 3; ++c) {
+        out->intensity[c] = share * around[c] / from.y;
+    }
+    report_note(j->o.is_quiet,
+                "no light given: guessed a sun from a side, near where the surroundings are brightest, %.2f as strong "
+                "as they; --light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f in the camera's space",
+                (double)share, -(double)along(a->right, from), -(double)along(a->up, from),
+                -(double)along(a->back, from), (double)out->intensity[0], (double)out->intensity[1],
+                (double)out->intensity[2]);
+}
