@@ -53,6 +53,8 @@ LINK      = $(CC) $(FLAGS) $(PORT_LDFLAGS) $(LDFLAGS)
 
 object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
+LIB_PARTS := $(wildcard src/*/*.h src/*/*.inl src/*/*.inc)
+HEADERS  := $(sort $(wildcard include/lambent/*.h))
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c),$(wildcard tools/*/*.c))) \
             platform/host/host.c platform/host/pool.c \
             platform/host/process.c platform/host/programs.c platform/host/count.c
@@ -109,7 +111,8 @@ PACKAGE_FILES := $(addprefix $(B)/,lambent.pc lambent-config.cmake lambent-confi
 # --- what people want ------------------------------------------------------------------------------------------------
 
 ##@ Build
-.PHONY: all lib demo man install uninstall docs docs-check help clean
+AMALGAM := $(BUILD)/amalgam/lambent.h $(BUILD)/amalgam/lambent.c
+.PHONY: all lib demo man amalgam dist install uninstall docs docs-check help clean
 all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
 lib: $(LIB)
 
@@ -118,6 +121,15 @@ demo: $(TOOL) ## render the built-in scene to build/demo.png
 
 man: $(TOOL) ## the man page, build/lambent.1, from the verbs' tables
 	@$(TOOL) help --man > $(BUILD)/lambent.1
+
+amalgam: $(AMALGAM) ## the library as two files: build/amalgam/lambent.h and lambent.c
+$(AMALGAM): $(BUILD)/amalgam/lambent.%: platform/amalgam/amalgam.awk LICENSE $(LIB_SRC) $(LIB_PARTS) $(HEADERS)
+	@mkdir -p $(@D)
+	@awk -v PART=$* -v VERSION=$(VERSION) -f platform/amalgam/amalgam.awk $(LIB_SRC) > $@
+
+dist: ## the last commit as build/lambent-VERSION.tar.gz, the same bytes each time
+	@mkdir -p $(BUILD)
+	@git archive --format=tar --prefix=lambent-$(VERSION)/ HEAD | gzip -n -9 > $(BUILD)/lambent-$(VERSION).tar.gz
 
 install: lib $(if $(filter host,$(PORT)),$(TOOL) man) $(PACKAGE_FILES) ## library, headers, tool, man page, for pkg-config and CMake (PREFIX=/usr/local DESTDIR=)
 	@echo "INSTALL $(DESTDIR)$(PREFIX)"
@@ -169,6 +181,9 @@ $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
 $(B)/room: $(ROOM_OBJ)
+# A packed scene as C: PACKED=scene.c.
+PACKED ?= $(B)/scene.c
+$(B)/packed: $(call object,platform/cortex-m/main_packed.c $(PORT_SRC)) $(LIB_OBJ) $(PACKED)
 $(B)/page-hash: $(PAGE_OBJ) $(LIB)
 $(foreach f,$(LIVE),$(eval $(B)/$(f): $(call live_of,$(f))))
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
@@ -181,7 +196,7 @@ $(B)/path: $(PATH_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(B)/room $(LIVE:%=$(B)/%) $(B)/page-hash $(B)/decodes \
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(B)/packed $(B)/room $(LIVE:%=$(B)/%) $(B)/page-hash $(B)/decodes \
     $(B)/scenes $(B)/path $(B)/fuzzer $(B)/faults:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
@@ -213,7 +228,6 @@ $(B)/obj/tests/unit/main.o: $(B)/tests.inc
 $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 
 # The table of public calls, from the headers.
-HEADERS := $(sort $(wildcard include/lambent/*.h))
 $(B)/calls.inc: $(HEADERS) tests/scripts/prototypes.awk tests/scripts/zeros.awk
 	@mkdir -p $(@D)
 	@awk -f tests/scripts/prototypes.awk $(HEADERS) | awk -f tests/scripts/zeros.awk > $@
@@ -393,6 +407,10 @@ readme: $(LIB) ## the README's examples compile and run
 package: $(TOOL) $(LIB) man $(PACKAGE_FILES) ## a program outside the tree, by pkg-config, CMake's find_package and add_subdirectory
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' $(IN_SH) tests/scripts/package.sh
 
+amalgam-check: amalgam $(LIB) $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) ## the two files by gcc, clang, g++, clang for Windows and tcc: golden pictures
+	+@AMALGAM=$(BUILD)/amalgam OBJ='$(filter-out $(LIB_OBJ),$(GOLDEN_OBJ))' GOLDEN_SRC='$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)' \
+	    $(IN_SH) tests/scripts/amalgam.sh
+
 examples: $(LIB) ## the programs of tests/examples compile, run and print what they should
 	@$(IN_SH) tests/scripts/examples.sh
 
@@ -410,11 +428,11 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: faults paths size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+.PHONY: faults paths amalgam-check size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
-    measure-voxels measure-fixed large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
+    measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
 size: module-sizes ## code and data by module, here and on a Cortex-M4F, and of its 48 KiB; PORT=...: of the port's room
@@ -613,7 +631,7 @@ web-check: $(TOOL) $(B)/page-hash ## the page of platform/web in headless Chromi
 compiles: $(LIB_OBJ)
 	@echo "$(words $(LIB_OBJ)) passed, 0 failed, 0 skipped"
 
-run-demo run-statue $(LIVE:%=run-%): run-%: $(B)/%
+run-demo run-statue run-packed $(LIVE:%=run-%): run-%: $(B)/%
 	@$(RUN) $<
 
 .PHONY: room run

@@ -25,6 +25,7 @@ enum { LMB_WORLD_SPHERE = 0, LMB_WORLD_BOX };
 /* The world's pictures, and where they are. [S1 S2 S3] */
 typedef struct lmb_world_pictures {
     const float *face[6]; /* face_size x face_size x RGB, W/(m2 sr), >= 0, rows from the top; NULL: missing */
+    const float *alpha[6]; /* of their texels, 0 blank .. 1; NULL: nothing of that face is blank */
     int32_t face_size;
     const float *ground;  /* ground_width x ground_height x RGB + alpha 0 .. 1; rows grow with z; NULL: none */
     int32_t ground_width, ground_height;
@@ -46,12 +47,27 @@ typedef struct lmb_world_level {
     int32_t width, height; /* a face's, without its border of one texel; the ground's */
 } lmb_world_level;
 
+#define LMB_WORLD_PEAKS 64
+
+/* A lamp, or a part of one: what a small part of the far world shines over its surroundings. */
+typedef struct lmb_world_peak {
+    lmb_vec3 to;   /* unit, from the centre */
+    float flux[3]; /* radiance x solid angle, W/m2 */
+    float area;    /* the solid angle, sr */
+    float limit;   /* what its texels shine beyond this is its own */
+    int32_t face, x, y; /* which 32nd by 32nd of which face */
+} lmb_world_peak;
+
 /* The world in the caller's memory: RGBA texels, each level half the one before, radiance averaged. Faces have a border
- * of one texel that shows the next face's, so no lookup knows an edge. */
+ * of one texel that shows the next face's, so no lookup knows an edge. Few rays miss small lamps or count them twice:
+ * light is gathered from `calm` levels, which lack the peaks, and the peaks are added as they are. */
 typedef struct lmb_world {
     void *texels;
     int32_t format, cube_levels, ground_levels; /* ground_levels 0: no ground */
     lmb_world_level cube[LMB_WORLD_LEVELS], ground[LMB_WORLD_LEVELS];
+    lmb_world_level calm[LMB_WORLD_LEVELS]; /* of the same size as the cube's; the first is the cube's own */
+    lmb_world_peak peak[LMB_WORLD_PEAKS];
+    int32_t peaks; /* 0: calm levels are the cube's */
     lmb_world_pictures pictures; /* its numbers; the pictures themselves are not read again */
     float log8[256];             /* radiance of an 8-bit code */
     float log16[2][256];         /* of a 16-bit code: [0][code >> 8] * [1][code & 255] - 0.101 */
@@ -81,10 +97,14 @@ enum { LMB_SH_9 = 9, LMB_SH_16 = 16, LMB_SH_25 = 25 };
 #define LMB_PROBE_SIDE 8 /* texels of a reduced cube's side */
 #define LMB_PROBE_TEXELS (6 * LMB_PROBE_SIDE * LMB_PROBE_SIDE)
 #define LMB_PROBE_BORDERED (6 * (LMB_PROBE_SIDE + 2) * (LMB_PROBE_SIDE + 2))
+#define LMB_PROBE_PEAKS 64
 
-/* All that a place sees as 6 x 8 x 8 directions with their light. */
+/* All that a place sees as 6 x 8 x 8 directions with their light, and what shines so much more than the rest that its
+ * own direction counts. */
 typedef struct lmb_probe_lights {
     float rgbw[4][LMB_PROBE_TEXELS];     /* radiance x solid angle, W/m2; the solid angle itself, sr */
+    float peak[6][LMB_PROBE_PEAKS];      /* unit direction; RGB, W/m2 */
+    int32_t peaks;                       /* in use */
     float shared[LMB_PROBE_BORDERED + 1][4]; /* scratch; vectors reach one past the last */
 } lmb_probe_lights;
 
@@ -155,15 +175,18 @@ extern "C" {
 #endif
 
 /* lmb_world_bytes: memory of such a world; 0 for sizes out of range: faces 1 .. 4096 texels a side, ground 0 or
- * 1 .. 8192. */
+ * 1 .. 8192. 5/3 of the faces' texels (4/3 of faces under 32), 4/3 of the
+ * ground's. */
 size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format);
 
 /* lmb_world_init: the pictures and their levels into `memory`, coded.
  *
- * The centre lies inside the sphere or box. Missing faces and blank ground are alpha 0: a ray that meets them goes on
+ * The centre lies inside the sphere or box. Missing faces and blank parts are alpha 0: a ray that meets them goes on
  * to the other candidate, then sees nothing. Radiance that is not finite, or under 1e-12, counts as 0; over 100 as 100
- * where it is coded. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_FORMAT, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. Cost: 4/3 of the
- * texels. */
+ * where it is coded. Peaks are texels at least four times as bright as a quarter by a quarter of a face around them, on
+ * faces of 32 texels and more: the strongest LMB_WORLD_PEAKS 32nds by 32nds of a face, each at its light's mean
+ * direction. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_FORMAT, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. Cost: about seven looks at
+ * each texel. */
 lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, int32_t format, void *memory,
                           size_t bytes);
 
@@ -185,13 +208,15 @@ lmb_status lmb_probe_table_init(lmb_probe_table *out, int32_t width, int32_t hei
  *
  *   map    3 planes (R, G, B) of the table's width x height
  *   blend  0: the nearer of ground and far world, blank parts letting through; 1: their mean where a ray meets both
- * Each texel reads bilinearly from levels whose texels are as wide as its own, so small lights keep their light. A
+ * Each texel reads bilinearly from calm levels whose texels are as wide as its own, and peaks are shared by the four
+ * texels around them with all their light. A
  * place outside the far world counts as the nearest one at 0.999 of its size; one at or under the ground sees no
  * ground. Returns LMB_OK or LMB_ERR_ARG (a NULL, `at` not finite). Cost: about 20 cycles a texel by AVX2. */
 lmb_status lmb_probe_remap(float *map, const lmb_kernels *kernels, const lmb_world *world, const lmb_probe_table *table,
                            lmb_vec3 at, int32_t blend);
 
-/* lmb_probe_reduce: a map's light, two by two texels shared among the nine nearest of 6 x 8 x 8 directions. */
+/* lmb_probe_reduce: a map's light, two by two texels shared among the nine nearest of 6 x 8 x 8 directions. Two by two
+ * that hold over four times the mean become peaks, the strongest LMB_PROBE_PEAKS of them. */
 lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, const float *map,
                             const lmb_probe_table *table);
 
@@ -219,9 +244,10 @@ size_t lmb_probe_blur_bytes(const lmb_probe_table *table, int32_t terms);
 lmb_status lmb_probe_blur_init(lmb_probe_blur *out, const lmb_probe_table *table, int32_t terms, void *memory,
                                size_t bytes);
 
-/* lmb_probe_blur_map: irradiance by direction, into another map of the same size. [S11 S12 S13]
+/* lmb_probe_blur_map: irradiance by direction, into another map of the same size or in place. [S11 S12 S13]
  *
- *   line  scratch, 4 x width floats
+ *   out   may be `map` itself; the same bytes
+ *   line  scratch, 4 x width floats; in place width x height more
  * A world of one radiance gives pi times that. */
 lmb_status lmb_probe_blur_map(float *out, float *line, const lmb_kernels *kernels, const float *map,
                               const lmb_probe_blur *blur);

@@ -7,15 +7,15 @@
 #include <lambent/types.h>
 
 #include "exact.h"
+#include "whole.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
 float sqrtf(float);  /* the two that src/ takes from libm: both correctly rounded everywhere */
 float floorf(float);
-
-/* For what is rarely or slowly done, so that its frame is not part of its caller's. */
-#if defined(__GNUC__)
-#define NOINLINE static __attribute__((noinline))
-#else
-#define NOINLINE static
+#ifdef __cplusplus
+}
 #endif
 
 static inline lmb_vec3 vec3(float x, float y, float z)
@@ -58,9 +58,7 @@ static inline float absf(float a) { return a <= 0.0f ? 0.0f - a : a; }
 static inline lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
 static inline lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
 static inline float largest3(lmb_vec3 v) { return maxf(maxf(absf(v.x), absf(v.y)), absf(v.z)); }
-static inline int32_t mini(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int32_t clampi(int32_t v, int32_t lo, int32_t hi) { return v < lo ? lo : v > hi ? hi : v; }
-static inline int32_t maxi(int32_t a, int32_t b) { return a > b ? a : b; }
 
 /* Finite and within the door's range of 2^20 m; false for NaN. */
 static inline int is_sane(float v) { return v > -1048576.0f && v < 1048576.0f; }

@@ -184,14 +184,14 @@ float lmb_lattice_mean(const lmb_lattice *l)
 
 /* --- between four corners ----------------------------------------------------------------------------------------- */
 
-typedef struct corner {
+typedef struct patch_corner {
     pixel at;
     float light[3], slope[2][3]; /* W/m2; and a pixel, by columns and by rows */
-} corner;
+} patch_corner;
 
 typedef struct cell {
     int32_t x[2], y[2];
-    corner corner[4];
+    patch_corner corner[4];
     float width, height; /* as divisors: at least 1 */
 } cell;
 
@@ -203,7 +203,7 @@ static int32_t after(int32_t x, int32_t step, int32_t size)
 }
 
 /* Find the neighbour on the way by columns or rows. Returns its distance in px, 0: none. */
-static float neighbour(pixel *out, const lmb_lattice *l, const corner *c, int32_t x, int32_t y, int way, int ahead,
+static float neighbour(pixel *out, const lmb_lattice *l, const patch_corner *c, int32_t x, int32_t y, int way, int ahead,
                        int32_t step)
 {
     for (int32_t s = step; s <= 2 * step; s *= 2) {
@@ -219,7 +219,7 @@ static float neighbour(pixel *out, const lmb_lattice *l, const corner *c, int32_
     return 0.0f;
 }
 
-static void set_slope(corner *c, const lmb_lattice *l, int32_t x, int32_t y, int way, int32_t step)
+static void set_slope(patch_corner *c, const lmb_lattice *l, int32_t x, int32_t y, int way, int32_t step)
 {
     pixel less, more;
     const float down = neighbour(&less, l, c, x, y, way, 0, step), up = neighbour(&more, l, c, x, y, way, 1, step);
@@ -249,7 +249,7 @@ static void set_cell(cell *out, const lmb_lattice *l, int32_t x, int32_t y, int3
 {
     place_cell(out, l, x, y, step);
     for (int i = 0; i < 4; ++i) {
-        corner *c = &out->corner[i];
+        patch_corner *c = &out->corner[i];
         memset(c->light, 0, sizeof c->light);
         memset(c->slope, 0, sizeof c->slope);
         if (is_known(c->at)) {
@@ -279,7 +279,7 @@ static void mix(float out[3], const cell *c, const float agree[4], int32_t x, in
     const float part = all ? 0.5f : 1.0f;
     float sum = 0.0f, add[3] = {0, 0, 0}, low[3] = {3e38f, 3e38f, 3e38f}, high[3] = {0, 0, 0};
     for (int i = 0; i < 4; ++i) {
-        const corner *at = &c->corner[i];
+        const patch_corner *at = &c->corner[i];
         if (agree[i] > 0.0f) {
             const float w = ((i & 1 ? u : 1.0f - u) * (i >> 1 ? v : 1.0f - v) + 0.001f) * agree[i];
             const float dx = part * (float)(x - c->x[i & 1]), dy = part * (float)(y - c->y[i >> 1]);
@@ -435,7 +435,7 @@ static void put_row(float *to, const float light[LMB_TILE], uint64_t own)
  * the right. Equal corners give exactly their light. */
 static void mix_whole(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t y, uint64_t pixels)
 {
-    const corner *at = c->corner;
+    const patch_corner *at = c->corner;
     const float half_width = 0.5f * (float)(c->x[1] - c->x[0]);
     for (int32_t row = 0; row < LMB_TILE; ++row) {
         const uint64_t own = pixels >> (LMB_TILE * row) & 0xff;

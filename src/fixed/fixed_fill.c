@@ -132,7 +132,7 @@ static const uint32_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(
 #define LOOPS(name, type, pack)                                                                                   \
     static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                  \
     {                                                                                                             \
-        type *to = pixels;                                                                                        \
+        type *to = (type *)pixels;                                                                                \
         const uint32_t *const dither = s->dither;                                                                 \
         uint32_t depth = s->depth, red_blue = s->red_blue, green = s->green, at = 0;                              \
         const uint32_t depth_step = s->depth_step, red_blue_step = s->red_blue_step, green_step = s->green_step;  \
@@ -149,7 +149,7 @@ static const uint32_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(
     }                                                                                                             \
     static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                  \
     {                                                                                                             \
-        type *to = pixels;                                                                                        \
+        type *to = (type *)pixels;                                                                                \
         uint32_t red_blue = s->red_blue, green = s->green;                                                        \
         const uint32_t red_blue_step = s->red_blue_step, green_step = s->green_step, d0 = s->dither[0],           \
                        d1 = s->dither[1], d2 = s->dither[2], d3 = s->dither[3];                                   \

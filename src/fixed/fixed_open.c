@@ -92,8 +92,8 @@ static int check_rows(const lmb_fixed *s, uint32_t link_words)
 
 lmb_status lmb_fixed_open(lmb_fixed *out, const void *data, size_t bytes)
 {
-    static const lmb_fixed nothing;
-    const uint32_t *word = data;
+    static const lmb_fixed nothing = {0};
+    const uint32_t *word = (const uint32_t *)data;
     lmb_fixed s = nothing;
     if (out == NULL) {
         return LMB_ERR_ARG;
@@ -147,7 +147,7 @@ size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap)
 lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes)
 {
     const size_t needed = lmb_fixed_memory(scene, seen_cap);
-    unsigned char *at = memory;
+    unsigned char *at = (unsigned char *)memory;
     if (frame == NULL || memory == NULL || needed == 0) {
         return LMB_ERR_ARG;
     }

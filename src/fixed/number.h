@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "../base/exact.h"
+#include "../base/whole.h"
 
 /* For loops that want all registers, where there are few. */
 #if defined(__GNUC__) && (defined(__arm__) || defined(__i386__))
@@ -25,8 +26,6 @@
 static inline uint32_t high_of(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
 static inline int32_t signed_high_of(int32_t a, int32_t b) { return (int32_t)(((int64_t)a * b) >> 32); }
 
-static inline int32_t mini(int32_t a, int32_t b) { return a < b ? a : b; }
-static inline int32_t maxi(int32_t a, int32_t b) { return a > b ? a : b; }
 static inline int32_t within(int32_t v, int32_t low, int32_t high) { return v < low ? low : v > high ? high : v; }
 
 /* Zeros above the highest 1 of a number that is not 0. By an instruction where the processor has one. */

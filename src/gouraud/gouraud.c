@@ -18,14 +18,14 @@
 enum { TINY = 2 * 16, SMALL = 4 * 16 };
 
 /* A corner of a mesh, kept by the low bits of its number: its next triangles come soon. */
-typedef struct kept {
+typedef struct kept_corner {
     uint32_t vertex, outside;
     float x, y, z, w;
     int32_t px, py; /* gouraud_corner's, where it is outside of nothing */
     float d;
     uint32_t lit; /* which side the colour is of, 1 or 2; 0: none yet */
     float colour[3], spare[3];
-} kept;
+} kept_corner;
 
 /* A part of a triangle: where its corners are, their colours, and where it is among divisions. */
 typedef struct part {
@@ -34,7 +34,7 @@ typedef struct part {
     uint32_t node, spare;
 } part;
 
-typedef char scratch_fits[sizeof(kept) == sizeof(((lmb_gouraud_scratch *)0)->corner[0]) &&
+typedef char scratch_fits[sizeof(kept_corner) == sizeof(((lmb_gouraud_scratch *)0)->corner[0]) &&
                                   sizeof(part) == sizeof(((lmb_gouraud_scratch *)0)->part[0])
                               ? 1
                               : -1];
@@ -46,7 +46,7 @@ typedef struct drawing {
     gouraud_target target;
     gouraud_view of_world, of_mesh; /* of_mesh and place: of positions as they are stored */
     float place[3][4];              /* in the world */
-    kept *kept;
+    kept_corner *kept;
     part *parts;
     const lmb_instance *instance;
     const lmb_mesh *mesh;
@@ -59,7 +59,7 @@ typedef struct drawing {
 /* A triangle of it. */
 typedef struct triangle {
     uint32_t id;
-    kept *corner[3];
+    kept_corner *corner[3];
     uint32_t any;
     int back, is_tiny;
 } triangle;
@@ -102,7 +102,7 @@ static lmb_vec3 stored_position(const lmb_mesh *m, uint32_t vertex)
     return vec3((float)at[0], (float)at[1], (float)at[2]);
 }
 
-static void keep(kept *out, const drawing *d, uint32_t vertex)
+static void keep(kept_corner *out, const drawing *d, uint32_t vertex)
 {
     gouraud_point p;
     out->vertex = vertex;
@@ -116,7 +116,7 @@ static void keep(kept *out, const drawing *d, uint32_t vertex)
 
 /* Which side is seen of a triangle that is outside of something, by the volume that its corners span with the eye; 0 is
  * the front. */
-static int shows_back(const drawing *d, const kept *a, const kept *b, const kept *c)
+static int shows_back(const drawing *d, const kept_corner *a, const kept_corner *b, const kept_corner *c)
 {
     float volume;
     if (d->of_mesh.is_far) {
@@ -130,9 +130,9 @@ static int shows_back(const drawing *d, const kept *a, const kept *b, const kept
 
 /* A corner that is not kept yet: in its place, or in `spare` where another corner of the same triangle has that. NULL:
  * there is no such vertex. */
-static kept *new_corner(const drawing *d, uint32_t vertex, const kept *other, const kept *another, kept *spare)
+static kept_corner *new_corner(const drawing *d, uint32_t vertex, const kept_corner *other, const kept_corner *another, kept_corner *spare)
 {
-    kept *own = &d->kept[vertex % LMB_GOURAUD_KEPT];
+    kept_corner *own = &d->kept[vertex % LMB_GOURAUD_KEPT];
     if (vertex >= d->mesh->vertex_count) {
         return NULL;
     }
@@ -141,9 +141,9 @@ static kept *new_corner(const drawing *d, uint32_t vertex, const kept *other, co
     return own;
 }
 
-static inline kept *find_corner(const drawing *d, uint32_t vertex, const kept *other, const kept *another, kept *spare)
+static inline kept_corner *find_corner(const drawing *d, uint32_t vertex, const kept_corner *other, const kept_corner *another, kept_corner *spare)
 {
-    kept *own = &d->kept[vertex % LMB_GOURAUD_KEPT];
+    kept_corner *own = &d->kept[vertex % LMB_GOURAUD_KEPT];
     return own->vertex == vertex ? own : new_corner(d, vertex, other, another, spare);
 }
 
@@ -155,7 +155,7 @@ typedef struct side {
 
 enum { SLACK = 8 }; /* edges are rounded along rows: by less */
 
-static side side_of(const kept *from, const kept *to, int32_t x, int32_t y, int32_t turn)
+static side side_of(const kept_corner *from, const kept_corner *to, int32_t x, int32_t y, int32_t turn)
 {
     const int32_t dx = turn * (to->px - from->px), dy = turn * (to->py - from->py);
     const side s = {dx * (y - from->py) - dy * (x - from->px) + SLACK, -16 * dy, 16 * dx};
@@ -165,7 +165,7 @@ static side side_of(const kept *from, const kept *to, int32_t x, int32_t y, int3
 /* Does a small triangle cover the middle of one of the pixels from x, y to before past_x, past_y? */
 static int covers(const triangle *t, int32_t turn, int32_t x, int32_t y, int32_t past_x, int32_t past_y)
 {
-    const kept *a = t->corner[0], *b = t->corner[1], *c = t->corner[2];
+    const kept_corner *a = t->corner[0], *b = t->corner[1], *c = t->corner[2];
     side s = side_of(a, b, 16 * x + 8, 16 * y + 8, turn), u = side_of(b, c, 16 * x + 8, 16 * y + 8, turn),
          v = side_of(c, a, 16 * x + 8, 16 * y + 8, turn);
     for (; y < past_y; ++y) {
@@ -183,7 +183,7 @@ static int covers(const triangle *t, int32_t turn, int32_t x, int32_t y, int32_t
 
 /* Is a triangle that is outside of nothing seen, and may it cover the middle of a pixel? Sides are those of the corners
  * as they were placed, so that neighbours agree, and a closed mesh's are half as many by few products. */
-static int may_cover(triangle *t, const drawing *d, const kept *a, const kept *b, const kept *c)
+static int may_cover(triangle *t, const drawing *d, const kept_corner *a, const kept_corner *b, const kept_corner *c)
 {
     const int32_t area = (b->px - a->px) * (c->py - a->py) - (c->px - a->px) * (b->py - a->py);
     t->back = (area > 0) != d->is_mirrored;
@@ -202,7 +202,7 @@ static int may_cover(triangle *t, const drawing *d, const kept *a, const kept *b
 }
 
 /* 1 where triangle n of the mesh may be seen. */
-static int find_triangle(triangle *out, kept spare[2], const drawing *d, uint32_t n)
+static int find_triangle(triangle *out, kept_corner spare[2], const drawing *d, uint32_t n)
 {
     uint32_t vertex[3];
     if (d->mesh->index_format == LMB_INDEX_U16) {
@@ -211,7 +211,7 @@ static int find_triangle(triangle *out, kept spare[2], const drawing *d, uint32_
     } else {
         mesh_triangle(d->mesh, n, vertex);
     }
-    kept *a = find_corner(d, vertex[0], NULL, NULL, NULL), *b = find_corner(d, vertex[1], a, NULL, &spare[0]),
+    kept_corner *a = find_corner(d, vertex[0], NULL, NULL, NULL), *b = find_corner(d, vertex[1], a, NULL, &spare[0]),
          *c = find_corner(d, vertex[2], a, b, &spare[1]);
     if (a == NULL || b == NULL || c == NULL) {
         return 0;
@@ -234,7 +234,7 @@ static void fill_whole(const drawing *d, const triangle *t)
     gouraud_corner c[3];
     gouraud_point p[3];
     for (int i = 0; i < 3 && t->any == 0; ++i) {
-        const kept *k = t->corner[i];
+        const kept_corner *k = t->corner[i];
         c[i].x = k->px, c[i].y = k->py, c[i].d = k->d;
         c[i].colour[0] = k->colour[0], c[i].colour[1] = k->colour[1], c[i].colour[2] = k->colour[2];
     }
@@ -243,7 +243,7 @@ static void fill_whole(const drawing *d, const triangle *t)
         return;
     }
     for (int i = 0; i < 3; ++i) {
-        const kept *k = t->corner[i];
+        const kept_corner *k = t->corner[i];
         p[i].x = k->x, p[i].y = k->y, p[i].z = k->z, p[i].w = k->w;
         p[i].colour[0] = k->colour[0], p[i].colour[1] = k->colour[1], p[i].colour[2] = k->colour[2];
     }
@@ -295,7 +295,7 @@ static void albedo_at(float out[3], const drawing *d, const triangle *t, float b
 static void light_corner(const drawing *d, const triangle *t, int i, const uint32_t *blend)
 {
     const int is_smooth = d->mesh->normals != NULL;
-    kept *k = t->corner[i];
+    kept_corner *k = t->corner[i];
     float e[3] = {0.0f, 0.0f, 0.0f}, albedo[4];
     if (is_smooth && k->lit == 1u + (uint32_t)t->back) {
         return;
@@ -448,7 +448,7 @@ static void draw_range(drawing *d, const lmb_view *v, uint32_t first_id, uint32_
         }
         for (uint32_t id = from; id < to; ++id) {
             triangle t;
-            kept spare[2];
+            kept_corner spare[2];
             t.id = id;
             if (find_triangle(&t, spare, d, id - own)) {
                 draw_triangle(d, &t);
@@ -476,7 +476,7 @@ lmb_status lmb_gouraud_map(lmb_shadow_map *map, const lmb_scene *scene, lmb_gour
     }
     memset(&d, 0, sizeof d);
     d.scene = scene;
-    d.kept = (kept *)(void *)scratch->corner;
+    d.kept = (kept_corner *)(void *)scratch->corner;
     for (int32_t f = 0; f < map->faces; ++f) {
         lmb_target *face = &map->face[f];
         lmb_surface_clear(&face->depth);
@@ -544,7 +544,7 @@ lmb_status lmb_gouraud_draw(const lmb_gouraud *g, uint32_t first_id, uint32_t co
     memset(&d, 0, sizeof d);
     d.g = g;
     d.scene = g->scene;
-    d.kept = (kept *)(void *)g->scratch->corner;
+    d.kept = (kept_corner *)(void *)g->scratch->corner;
     d.parts = (part *)(void *)g->scratch->part;
     d.gain = lmb_exp2(g->exposure_ev) * 0.31830989f;
     d.target.pixel = (uint16_t *)g->out.data;

@@ -45,7 +45,7 @@ lmb_status lmb_env_init(lmb_env *out, int32_t size, void *memory, size_t bytes)
     }
     memset(out, 0, sizeof *out);
     memset(memory, 0, need);
-    out->texels = memory;
+    out->texels = (uint16_t *)memory;
     out->size = size;
     out->levels = level_count(size);
     for (int32_t l = 0; l < out->levels; ++l) {

@@ -119,7 +119,7 @@ lmb_status lmb_cloud_init(lmb_cloud *out, const lmb_pinhole *camera, const float
     }
     const size_t pixels = (size_t)camera->width * (size_t)camera->height;
     out->camera = *camera;
-    out->inverse = memory;
+    out->inverse = (float *)memory;
     out->normal = (lmb_vec3 *)(void *)(out->inverse + pixels);
     for (size_t i = 0; i < pixels; ++i) {
         const int known = depth_m[i] >= NEAREST_M && depth_m[i] <= FARTHEST_M;

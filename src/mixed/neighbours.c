@@ -134,7 +134,7 @@ lmb_status lmb_point_grid_init(lmb_point_grid *out, const lmb_vec3 *points, uint
         return status;
     }
     out->point = points;
-    out->first = memory;
+    out->first = (uint32_t *)memory;
     out->order = out->first + CELLS + 1;
     fit_cells(out, count);
     sort_points(out, count);

@@ -223,7 +223,7 @@ lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const
     out->rows = parts_of(c->height, step);
     out->count = 0;
     const size_t cells = (size_t)out->columns * (size_t)out->rows;
-    out->positions = memory;
+    out->positions = (float *)memory;
     out->indices = (uint32_t *)(void *)(out->positions + CELL_FLOATS * cells);
     out->cell = (int32_t *)(out->indices + CELL_INDICES * cells);
     out->colours = (uint8_t *)(out->cell + cells);

@@ -301,7 +301,7 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
         return status;
     }
     memset(out, 0, sizeof *out);
-    out->queue = memory;
+    out->queue = (int32_t *)memory;
     out->label = (uint8_t *)(out->queue + (size_t)w * (size_t)h);
     memset(out->label, 0, (size_t)w * (size_t)h);
     grow_all(out, cloud, min);

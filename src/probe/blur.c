@@ -167,27 +167,37 @@ lmb_status lmb_probe_blur_init(lmb_probe_blur *out, const lmb_probe_table *table
 
 /* --- maps --------------------------------------------------------------------------------------------------------- */
 
+/* One plane, from a copy of itself where it is blurred in place: each row of the result needs all rows. [S13] */
+static void blur_plane(float *out, float *line, const lmb_kernels *kernels, const float *map,
+                       const lmb_probe_blur *blur)
+{
+    const size_t width = (size_t)blur->width, bytes = width * (size_t)blur->height * sizeof *out;
+    if (out == map) {
+        map = memcpy(line + 4 * width, map, bytes);
+    }
+    memset(out, 0, bytes);
+    for (int32_t i = 0; i < blur->height * maxi(blur->terms, 1); ++i) {
+        const int32_t row = i / maxi(blur->terms, 1), term = i % maxi(blur->terms, 1);
+        lmb_blur_job job;
+        job.map = map;
+        job.width = blur->width;
+        job.height = blur->height;
+        job.over = blur->terms == 0;
+        job.column = column_of(blur, term, row);
+        job.row = row_of(blur, term, row);
+        kernels->blur(out + (size_t)row * width, line, &job);
+    }
+}
+
 lmb_status lmb_probe_blur_map(float *out, float *line, const lmb_kernels *kernels, const float *map,
                               const lmb_probe_blur *blur)
 {
-    if (out == NULL || line == NULL || kernels == NULL || map == NULL || blur == NULL || blur->row == NULL ||
-        out == map) {
+    if (out == NULL || line == NULL || kernels == NULL || map == NULL || blur == NULL || blur->row == NULL) {
         return LMB_ERR_ARG;
     }
     const size_t plane = (size_t)blur->width * (size_t)blur->height;
-    memset(out, 0, 3 * plane * sizeof *out);
-    for (int32_t i = 0; i < 3 * blur->height; ++i) {
-        const int32_t row = i % blur->height;
-        for (int32_t term = 0; term < maxi(blur->terms, 1); ++term) {
-            lmb_blur_job job;
-            job.map = map + (size_t)(i / blur->height) * plane;
-            job.width = blur->width;
-            job.height = blur->height;
-            job.over = blur->terms == 0;
-            job.column = column_of(blur, term, row);
-            job.row = row_of(blur, term, row);
-            kernels->blur(out + (size_t)i * (size_t)blur->width, line, &job);
-        }
+    for (size_t c = 0; c < 3; ++c) {
+        blur_plane(out + c * plane, line, kernels, map + c * plane, blur);
     }
     return LMB_OK;
 }

@@ -1,6 +1,6 @@
-/* cosine.inl: irradiance of normals from lights all around: pi times their mean by max(0, n . d). Layer 6.        [S14]
+/* cosine.inl: irradiance of normals from lights all around. Layer 6.                                              [S14]
  *
- * Lanes are normals. */
+ * Pi times their mean by max(0, n . d), and peaks by their own directions. Lanes are normals. */
 
 static void KERNEL(cosine)(float out[3][LMB_TILE_PIXELS], float normal[3][LMB_TILE_PIXELS],
                            const lmb_probe_lights *lights, const float *direction)
@@ -19,8 +19,14 @@ static void KERNEL(cosine)(float out[3][LMB_TILE_PIXELS], float normal[3][LMB_TI
             weight = lane_add(weight, lane_mul(cosine, lane_splat(lights->rgbw[3][j])));
         }
         const lane scale = lane_div(lane_splat(3.14159274f), weight);
-        lane_store(out[0] + k, lane_mul(sum.x, scale));
-        lane_store(out[1] + k, lane_mul(sum.y, scale));
-        lane_store(out[2] + k, lane_mul(sum.z, scale));
+        sum = lane3_scale(sum, scale);
+        for (int32_t j = 0; j < lights->peaks; ++j) {
+            const lane3 to = lane3_splat(lights->peak[0][j], lights->peak[1][j], lights->peak[2][j]);
+            const lane3 light = lane3_splat(lights->peak[3][j], lights->peak[4][j], lights->peak[5][j]);
+            sum = lane3_add(sum, lane3_scale(light, lane_max(lane3_dot(n, to), zero)));
+        }
+        lane_store(out[0] + k, sum.x);
+        lane_store(out[1] + k, sum.y);
+        lane_store(out[2] + k, sum.z);
     }
 }

@@ -15,6 +15,9 @@
 enum { RINGS = 8, AROUND = 8, RAYS = RINGS * AROUND };
 enum { FINE = 6 }; /* rays of a mirror's texel each way: its value is the mean over the texel, as in pictures */
 
+/* Lobes narrower than this would see a peak, which is light of a 32nd of a face, as a speck. */
+static const float least_calm = 0.03f;
+
 /* A ray about +z: one of AROUND in its ring. */
 typedef struct lobe_ray {
     lmb_vec3 to;
@@ -98,6 +101,29 @@ static void add_seen(lmb_probe_rays *t, float weight, const lmb_kernels *kernels
     }
 }
 
+/* What the lobe about r makes of light from d, per W/m2: D(h) G / 4 of the whole lobe. */
+static float lobe_at(lmb_vec3 r, lmb_vec3 d, float a2)
+{
+    const float z = dot3(r, d), t = 0.5f * (1.0f + z) * (a2 - 1.0f) + 1.0f;
+    return z > 0.0f ? a2 / (4.0f * LMB_PI * (t * t)) * (2.0f * z / (z + sqrtf(a2 + (1.0f - a2) * (z * z)))) : 0.0f;
+}
+
+/* Lamps as they are, which few rays would miss or count several times. `lobe`: what the rays' weights stand for. */
+static void add_peaks(lmb_probe_rays *t, const lmb_world_job *job, const lmb_world *world, lmb_vec3 at, float alpha,
+                      float lobe)
+{
+    for (int32_t i = 0; i < world->peaks; ++i) {
+        lmb_vec3 to;
+        const float times = lmb_world_see_peak(&to, job, world, &world->peak[i], at) * lobe;
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const float part = times * lobe_at(t->n[k], to, alpha * alpha);
+            for (int c = 0; c < 3; ++c) {
+                t->sum[c][k] += part * world->peak[i].flux[c];
+            }
+        }
+    }
+}
+
 static void store(float *cube, const lmb_probe_rays *t, int32_t first, int32_t texels, float scale)
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS && first + k < texels; ++k) {
@@ -116,7 +142,7 @@ static void mirror(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels 
                    lmb_vec3 at)
 {
     lmb_world_job job;
-    lmb_world_ask(&job, query->world, 0.5f * LMB_PI / (float)(FINE * n), query->blend);
+    lmb_world_ask(&job, query->world, LMB_WORLD_ALL, 0.5f * LMB_PI / (float)(FINE * n), query->blend);
     job.means = 1;
     for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
         set_tile(t, first, n, at);
@@ -132,14 +158,18 @@ static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *k
                  lmb_vec3 at, float alpha)
 {
     lobe_ray rays[RAYS];
-    const float weights = set_rays(rays, alpha);
+    const float weights = set_rays(rays, alpha), share = 1.0f / ((1.0f + alpha * alpha) * (float)RAYS);
+    const int32_t of = alpha < least_calm ? LMB_WORLD_ALL : LMB_WORLD_CALM;
+    lmb_world_job job;
     for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
         set_tile(t, first, n, at);
         for (int i = 0; i < RAYS; ++i) {
-            lmb_world_job job;
-            lmb_world_ask(&job, query->world, rays[i].width, query->blend);
+            lmb_world_ask(&job, query->world, of, rays[i].width, query->blend);
             point_ray(t, &rays[i]);
             add_seen(t, rays[i].weight, kernels, &job);
+        }
+        if (of == LMB_WORLD_CALM) {
+            add_peaks(t, &job, query->world, at, alpha, 1.0f / share);
         }
         store(cube, t, first, 6 * n * n, 1.0f / weights);
     }
@@ -150,7 +180,8 @@ lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, co
 {
     if (cube == NULL || scratch == NULL || kernels == NULL || query == NULL || query->world == NULL ||
         query->world->texels == NULL ||
-        lmb_probe_cube_bytes(n) == 0 || !is_place(at) || !(roughness >= 0.0f && roughness <= 1.0f)) {
+        lmb_probe_cube_bytes(n) == 0 || !is_place(at) || query->world->peaks < 0 ||
+        query->world->peaks > LMB_WORLD_PEAKS || !(roughness >= 0.0f && roughness <= 1.0f)) {
         return LMB_ERR_ARG;
     }
     const float alpha = roughness * roughness;

@@ -8,17 +8,18 @@
 
 #define INSIDE 0.999f /* of the far world's size: places outside are pulled in to there, or to the centre's distance */
 
-static void set_cube(lmb_world_job *job, const lmb_world *w)
+static void set_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
 {
     const lmb_world_pictures *p = &w->pictures;
+    const lmb_world_level *levels = is_calm ? w->calm : w->cube;
     const lmb_vec3 middle = mul3(add3(p->low, p->high), 0.5f), half = mul3(sub3(p->high, p->low), 0.5f * INSIDE);
     const float max = 0.5001f * LMB_PI; /* a face, rad: levels with texels narrower than the ray are passed over */
-    int32_t level = 0;
-    while (level + 1 < w->cube_levels && (float)w->cube[level].width * job->ray_width > max) {
+    int32_t level = is_calm && w->cube_levels > 1; /* the first holds all light */
+    while (level + 1 < w->cube_levels && (float)levels[level].width * job->ray_width > max) {
         ++level;
     }
-    job->side = w->cube[level].width;
-    job->cube_at = (int32_t)w->cube[level].at;
+    job->side = levels[level].width;
+    job->cube_at = (int32_t)levels[level].at;
     job->shape = p->shape;
     job->centre = p->centre;
     job->middle = p->middle;
@@ -54,7 +55,7 @@ static void set_ground(lmb_world_job *job, const lmb_world *w)
     }
 }
 
-void lmb_world_ask(lmb_world_job *out, const lmb_world *world, float ray_width, int32_t blend)
+void lmb_world_ask(lmb_world_job *out, const lmb_world *world, int32_t of, float ray_width, int32_t blend)
 {
     out->texels = world->texels;
     out->format = world->format;
@@ -63,7 +64,7 @@ void lmb_world_ask(lmb_world_job *out, const lmb_world *world, float ray_width, 
     out->ray_width = ray_width;
     out->blend = blend;
     out->means = 0;
-    set_cube(out, world);
+    set_cube(out, world, of == LMB_WORLD_CALM && world->peaks > 0);
     set_ground(out, world);
 }
 
@@ -75,12 +76,13 @@ lmb_status lmb_probe_remap(float *map, const lmb_kernels *kernels, const lmb_wor
 {
     lmb_world_job job;
     if (map == NULL || kernels == NULL || world == NULL || world->texels == NULL || table == NULL ||
-        table->direction == NULL || !is_place(at)) {
+        table->direction == NULL || !is_place(at) || world->peaks < 0 || world->peaks > LMB_WORLD_PEAKS) {
         return LMB_ERR_ARG;
     }
-    lmb_world_ask(&job, world, LMB_PI / (float)table->height, blend);
+    lmb_world_ask(&job, world, LMB_WORLD_CALM, LMB_PI / (float)table->height, blend);
     at = vec3(no_speck(at.x), no_speck(at.y), no_speck(at.z));
     kernels->remap(map, table->direction, table->width * table->height, at, &job);
+    lmb_world_add_peaks(map, table, &job, world, at);
     return LMB_OK;
 }
 

@@ -124,7 +124,7 @@ lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, lmb_probe_rays *scratch, con
         sample_cube(&job, cube);
         kernels->world_radiance(scratch->seen, scratch->direction, &job);
     } else {
-        lmb_world_ask(&job, query->world, query->ray_width, query->blend);
+        lmb_world_ask(&job, query->world, LMB_WORLD_ALL, query->ray_width, query->blend);
         kernels->see(scratch->seen, (float (*)[LMB_TILE_PIXELS])tile->position, scratch->direction, &job);
     }
     for (uint64_t bits = pixels & inout->pixels; bits != 0; bits &= bits - 1) {
@@ -164,7 +164,7 @@ lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays 
         return LMB_ERR_ARG;
     }
     view_rays(scratch, view, tile->x, tile->y);
-    lmb_world_ask(&job, query->world, query->ray_width, query->blend);
+    lmb_world_ask(&job, query->world, LMB_WORLD_ALL, query->ray_width, query->blend);
     kernels->see(scratch->seen, scratch->origin, scratch->direction, &job);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         for (int c = 0; c < 3 && tile->id[k] == 0; ++c) {

@@ -6,23 +6,6 @@
 #include "../map/cube.h"
 #include "world.h"
 
-/* Radiance that is coded as 0 or 1, and log2 of 10. */
-#define LOG_SHIFT 0.101f
-#define LOG_MAX 99.899f
-#define LOG2_10 3.32192809f
-
-float lmb_world_encode(float c)
-{
-    c = c > 0.0f ? minf(c, LOG_MAX) : 0.0f;
-    return clampf((lmb_log2(c + LOG_SHIFT) * (1.0f / LOG2_10) + 1.0f) * (1.0f / 3.0f), 0.0f, 1.0f);
-}
-
-float lmb_world_decode(float e)
-{
-    e = e > 0.0f ? minf(e, 1.0f) : 0.0f;
-    return maxf(lmb_exp2((3.0f * e - 1.0f) * LOG2_10) - LOG_SHIFT, 0.0f);
-}
-
 /* --- sizes -------------------------------------------------------------------------------------------------------- */
 
 static size_t texel_bytes(int32_t format) { return format == LMB_WORLD_LOG8 ? 4 : format == LMB_WORLD_LOG16 ? 8 : 16; }
@@ -64,6 +47,19 @@ static int32_t set_ground(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, co
     return count;
 }
 
+/* The calm levels: the first is the cube's own. */
+static void set_calm(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
+{
+    const size_t whole = 6 * (size_t)(p->face_size + 2) * (size_t)(p->face_size + 2);
+    size_t next = *end;
+    const int32_t count = set_cube(out, &next, p);
+    for (int32_t i = 1; i < count; ++i) {
+        out[i].at -= (uint32_t)whole;
+    }
+    out[0].at = 0;
+    *end = p->face_size < LMB_WORLD_NARROW ? *end : next - whole;
+}
+
 size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format)
 {
     lmb_world_level level[LMB_WORLD_LEVELS];
@@ -73,66 +69,40 @@ size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format)
     }
     set_cube(level, &texels, pictures);
     set_ground(level, &texels, pictures);
+    set_calm(level, &texels, pictures);
     return texels * texel_bytes(format);
 }
 
 /* --- texels ------------------------------------------------------------------------------------------------------- */
 
-static int32_t code_of(float e, float steps) { return (int32_t)(e * steps + 0.5f); }
-
-static void put(const lmb_world *w, size_t at, const float rgba[4])
-{
-    for (int c = 0; c < 4; ++c) {
-        const float v = c < 3 && w->format != LMB_WORLD_F32 ? lmb_world_encode(rgba[c]) : rgba[c];
-        switch (w->format) {
-        case LMB_WORLD_LOG8: ((uint8_t *)w->texels)[4 * at + (size_t)c] = (uint8_t)code_of(v, 255.0f); break;
-        case LMB_WORLD_LOG16: ((uint16_t *)w->texels)[4 * at + (size_t)c] = (uint16_t)code_of(v, 65535.0f); break;
-        default: ((float *)w->texels)[4 * at + (size_t)c] = v; break;
-        }
-    }
-}
-
-void lmb_world_texel(float out[4], const lmb_world *w, size_t at)
-{
-    for (int c = 0; c < 4; ++c) {
-        const size_t i = 4 * at + (size_t)c;
-        if (w->format == LMB_WORLD_F32) {
-            out[c] = ((const float *)w->texels)[i];
-        } else if (w->format == LMB_WORLD_LOG8) {
-            const uint8_t code = ((const uint8_t *)w->texels)[i];
-            out[c] = c < 3 ? w->log8[code] : (float)code * (1.0f / 255.0f);
-        } else {
-            const uint16_t code = ((const uint16_t *)w->texels)[i];
-            out[c] = c < 3 ? maxf(w->log16[0][code >> 8] * w->log16[1][code & 255] - LOG_SHIFT, 0.0f)
-                           : (float)code * (1.0f / 65535.0f);
-        }
-    }
-}
-
 /* What is darker than any light's reflection is dark: its products stay far from denormals. */
 static float sane_radiance(float c) { return c > 1e-12f && c < 1e30f ? c : 0.0f; }
 
-static size_t face_texel(const lmb_world_level *l, int32_t face, int32_t x, int32_t y)
-{
-    const size_t side = (size_t)l->width + 2;
-    return l->at + ((size_t)face * side + (size_t)(y + 1)) * side + (size_t)(x + 1);
-}
+static float sane_alpha(float a) { return a > 1e-5f ? minf(a, 1.0f) : 0.0f; }
 
-/* The mean of four texels, by alpha. */
-static void mean4(float out[4], const lmb_world *w, const size_t at[4])
+/* The mean of four colours, by alpha. */
+static void mean_of(float out[4], float rgba[4][4])
 {
-    float sum[4] = {0}, rgba[4];
+    float sum[4] = {0};
     for (int i = 0; i < 4; ++i) {
-        lmb_world_texel(rgba, w, at[i]);
         for (int c = 0; c < 3; ++c) {
-            sum[c] += rgba[c] * rgba[3];
+            sum[c] += rgba[i][c] * rgba[i][3];
         }
-        sum[3] += rgba[3];
+        sum[3] += rgba[i][3];
     }
     for (int c = 0; c < 3; ++c) {
         out[c] = sum[3] > 0.0f ? sum[c] / sum[3] : 0.0f;
     }
     out[3] = 0.25f * sum[3];
+}
+
+static void mean4(float out[4], const lmb_world *w, const size_t at[4])
+{
+    float rgba[4][4];
+    for (int i = 0; i < 4; ++i) {
+        lmb_world_texel(rgba[i], w, at[i]);
+    }
+    mean_of(out, rgba);
 }
 
 /* --- faces -------------------------------------------------------------------------------------------------------- */
@@ -145,9 +115,9 @@ static void take_faces(lmb_world *w, const lmb_world_pictures *p)
         float rgba[4] = {0};
         for (int c = 0; c < 3 && p->face[face] != NULL; ++c) {
             rgba[c] = sane_radiance(p->face[face][3 * (size_t)(y * n + x) + (size_t)c]);
-            rgba[3] = 1.0f;
+            rgba[3] = p->alpha[face] != NULL ? sane_alpha(p->alpha[face][y * n + x]) : 1.0f;
         }
-        put(w, face_texel(&w->cube[0], face, x, y), rgba);
+        lmb_world_put(w, lmb_world_face_texel(&w->cube[0], face, x, y), rgba);
     }
 }
 
@@ -156,11 +126,11 @@ static void halve_faces(lmb_world *w, const lmb_world_level *to, const lmb_world
     const int32_t n = to->width;
     for (int32_t i = 0; i < 6 * n * n; ++i) {
         const int32_t face = i / (n * n), x = 2 * (i % n), y = 2 * (i / n % n);
-        const size_t at[4] = {face_texel(from, face, x, y), face_texel(from, face, x + 1, y),
-                              face_texel(from, face, x, y + 1), face_texel(from, face, x + 1, y + 1)};
+        const size_t at[4] = {lmb_world_face_texel(from, face, x, y), lmb_world_face_texel(from, face, x + 1, y),
+                              lmb_world_face_texel(from, face, x, y + 1), lmb_world_face_texel(from, face, x + 1, y + 1)};
         float rgba[4];
         mean4(rgba, w, at);
-        put(w, face_texel(to, face, x / 2, y / 2), rgba);
+        lmb_world_put(w, lmb_world_face_texel(to, face, x / 2, y / 2), rgba);
     }
 }
 
@@ -173,9 +143,37 @@ static void set_border(lmb_world *w, const lmb_world_level *l)
         if (x < 0 || y < 0 || x >= n || y >= n) {
             const cube_place p = cube_border(face, x, y, n);
             float rgba[4];
-            lmb_world_texel(rgba, w, face_texel(l, p.face, p.x, p.y));
-            put(w, face_texel(l, face, x, y), rgba);
+            lmb_world_texel(rgba, w, lmb_world_face_texel(l, p.face, p.x, p.y));
+            lmb_world_put(w, lmb_world_face_texel(l, face, x, y), rgba);
         }
+    }
+}
+
+/* The texels of the first calm level where a peak is: the mean of what stays of theirs. */
+static void calm_part(lmb_world *w, const lmb_world_peak *peak)
+{
+    int32_t from[2], to[2];
+    lmb_world_peak_texels(from, to, w, peak);
+    for (int32_t y = from[1] / 2; y <= mini((to[1] - 1) / 2, w->calm[1].width - 1); ++y) {
+        for (int32_t x = from[0] / 2; x <= mini((to[0] - 1) / 2, w->calm[1].width - 1); ++x) {
+            float rgba[4][4], mean[4];
+            for (int i = 0; i < 4; ++i) {
+                lmb_world_calm_texel(rgba[i], w, peak->face, 2 * x + i % 2, 2 * y + i / 2);
+            }
+            mean_of(mean, rgba);
+            lmb_world_put(w, lmb_world_face_texel(&w->calm[1], peak->face, x, y), mean);
+        }
+    }
+}
+
+static void make_calm(lmb_world *w)
+{
+    for (int32_t i = 1; i < w->cube_levels; ++i) {
+        halve_faces(w, &w->calm[i], &w->calm[i - 1]);
+        for (int32_t k = 0; k < w->peaks && i == 1; ++k) {
+            calm_part(w, &w->peak[k]);
+        }
+        set_border(w, &w->calm[i]);
     }
 }
 
@@ -187,8 +185,8 @@ static void take_ground(lmb_world *w, const lmb_world_pictures *p)
     for (size_t i = 0; i < texels; ++i) {
         const float *from = p->ground + 4 * i;
         const float rgba[4] = {sane_radiance(from[0]), sane_radiance(from[1]), sane_radiance(from[2]),
-                               from[3] > 1e-5f ? minf(from[3], 1.0f) : 0.0f};
-        put(w, w->ground[0].at + i, rgba);
+                               sane_alpha(from[3])};
+        lmb_world_put(w, w->ground[0].at + i, rgba);
     }
 }
 
@@ -202,7 +200,7 @@ static void halve_ground(lmb_world *w, const lmb_world_level *to, const lmb_worl
             const size_t at[4] = {row0 + (size_t)x0, row0 + (size_t)x1, row1 + (size_t)x0, row1 + (size_t)x1};
             float rgba[4];
             mean4(rgba, w, at);
-            put(w, to->at + (size_t)y * (size_t)to->width + (size_t)x, rgba);
+            lmb_world_put(w, to->at + (size_t)y * (size_t)to->width + (size_t)x, rgba);
         }
     }
 }
@@ -233,8 +231,8 @@ static void set_codes(lmb_world *w)
 {
     for (int i = 0; i < 256; ++i) {
         w->log8[i] = lmb_world_decode((float)i * (1.0f / 255.0f));
-        w->log16[0][i] = lmb_exp2((3.0f * ((float)(256 * i) * (1.0f / 65535.0f)) - 1.0f) * LOG2_10);
-        w->log16[1][i] = lmb_exp2(3.0f * ((float)i * (1.0f / 65535.0f)) * LOG2_10);
+        w->log16[0][i] = lmb_exp2((3.0f * ((float)(256 * i) * (1.0f / 65535.0f)) - 1.0f) * LMB_WORLD_LOG2_10);
+        w->log16[1][i] = lmb_exp2(3.0f * ((float)i * (1.0f / 65535.0f)) * LMB_WORLD_LOG2_10);
     }
 }
 
@@ -261,11 +259,15 @@ lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, in
     set_codes(out);
     out->cube_levels = set_cube(out->cube, &end, pictures);
     out->ground_levels = set_ground(out->ground, &end, pictures);
+    set_calm(out->calm, &end, pictures);
     take_faces(out, pictures);
     set_border(out, &out->cube[0]);
     for (int32_t i = 1; i < out->cube_levels; ++i) {
         halve_faces(out, &out->cube[i], &out->cube[i - 1]);
         set_border(out, &out->cube[i]);
+    }
+    if (lmb_world_find_peaks(out) > 0) {
+        make_calm(out);
     }
     for (int32_t i = 0; i < out->ground_levels; ++i) {
         if (i == 0) {

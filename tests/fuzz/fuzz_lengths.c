@@ -14,7 +14,11 @@ static size_t map_of(const lmb_probe_table *t)
 {
     return t == NULL ? 0 : 3 * sizeof(float) * (size_t)t->width * (size_t)t->height;
 }
-static size_t line_of(const lmb_probe_blur *b) { return b == NULL ? 0 : 4 * sizeof(float) * (size_t)b->width; }
+/* As if in place. */
+static size_t line_of(const lmb_probe_blur *b)
+{
+    return b == NULL ? 0 : (4 + (size_t)b->height) * sizeof(float) * (size_t)b->width;
+}
 static size_t cube_of(int32_t n, int32_t max)
 {
     return n < 1 || n > max ? 0 : 18 * sizeof(float) * (size_t)n * (size_t)n;
@@ -72,7 +76,7 @@ LENGTH(lmb_probe_reduce, map, map_of(a[3].memory))
 LENGTH(lmb_probe_cosine, cube, cube_of(W(1), 64))
 LENGTH(lmb_probe_sh, map, map_of(a[2].memory))
 LENGTH(lmb_probe_sh_cube, cube, cube_of(W(1), 256))
-LENGTH(lmb_probe_blur_map, out, a[4].memory ? line_of(a[4].memory) / 4 * 3 * (size_t)S(4, lmb_probe_blur)->height : 0)
+LENGTH(lmb_probe_blur_map, out, a[4].memory ? 12 * (size_t)S(4, lmb_probe_blur)->width * (size_t)S(4, lmb_probe_blur)->height : 0)
 LENGTH(lmb_probe_blur_map, map, lmb_probe_blur_map_out(a))
 LENGTH(lmb_probe_blur_map, line, line_of(a[4].memory))
 LENGTH(lmb_probe_halve, out, map_of(a[2].memory) / 4)

@@ -104,6 +104,7 @@ static void fill_pictures(void *out, int how)
             memcpy(rgb, pool_raw + f, face);
         }
         p->face[f] = rgb;
+        p->alpha[f] = how & 2 << f ? NULL : memcpy(pool_block(face / 3), pool_raw + f, face / 3);
     }
     p->face_size = POOL_SMALL;
     p->radius = 5.0f;

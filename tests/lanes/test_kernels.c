@@ -1095,7 +1095,7 @@ static int trial_see(const trial *t, test_rng r)
         GUARD(got[i]);
     }
     CHECK(make_surroundings(&world, texels, t, &r));
-    lmb_world_ask(&job, &world, test_uniform(&r, 0.0f, 1.0f), t->seed % 4u == 3u);
+    lmb_world_ask(&job, &world, LMB_WORLD_ALL, test_uniform(&r, 0.0f, 1.0f), t->seed % 4u == 3u);
     job.means = t->seed % 5u == 2u;
     numbers(origin.xyz[0], 3 * LMB_TILE_PIXELS, &r, -12.0f, 12.0f, t->seed % 4u ? 0 : 20u);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -1148,6 +1148,8 @@ static int trial_cosine(const trial *t, test_rng r)
     numbers(normal.xyz[0], 3 * LMB_TILE_PIXELS, &r, -1.0f, 1.0f, t->seed % 2u ? 20u : 0);
     numbers(lights.rgbw[0], 4 * LMB_PROBE_TEXELS, &r, 0.0f, 9.0f, t->seed % 4u ? 0 : 20u);
     numbers(at, 3 * LMB_PROBE_TEXELS, &r, -1.0f, 1.0f, 0);
+    numbers(lights.peak[0], 6 * LMB_PROBE_PEAKS, &r, -1.0f, 1.0f, 0);
+    lights.peaks = (int32_t)(t->seed % (LMB_PROBE_PEAKS + 1));
     lmb_kernels_scalar.cosine(want.it.xyz, normal.xyz, &lights, at);
     t->kernels->cosine(got.it.xyz, normal.xyz, &lights, at);
     CHECK(canaries_stay(got.before, got.after));

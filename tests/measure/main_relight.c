@@ -49,6 +49,7 @@ int main(int argc, char **argv)
     }
     relight_tell_maps(&s);
     relight_tell_glossy(&s);
+    relight_tell_frames(&s);
     relight_stage_free(&s);
     printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed, test_skipped);
     return test_failed > 0;

@@ -152,8 +152,8 @@ static void check(const char *name, const summary *alone, const summary *remap, 
 
 static void table_of_filters(relight_stage *s, const errors *e, const char *counts)
 {
-    static const double bar[FILTERS + 1][2] = {{0.5, 1.0}, {0, 1.5}, {0, 0}, {0.8, 0}, {0, 0}, {0, 5.0}, {0, 2.0},
-                                               {0.5, 1.0}};
+    static const double bar[FILTERS + 1][2] = {{0.5, 0.6}, {0, 1.5}, {0, 0}, {0.8, 0.8}, {0, 0}, {0, 5.0}, {0, 2.0},
+                                               {0.5, 0.6}};
     const lmb_kernels *avx2 = lmb_kernels_named("avx2");
     printf("Errors in percent: rmse of the mean (mean and worst of five places), largest error of the largest.\n"
            "Times of one update in us, remap and filter and cube; objects: as many in 1/60 s of one core.\n\n"

@@ -13,7 +13,8 @@
 
 const char *const filter_names[FILTERS] = {"cosine", "sh9", "sh16", "sh25", "blur", "blur1", "blur2"};
 const lmb_vec3 relight_places[PLACES] = {{10, 1, -15}, {-20, 0.5f, 5}, {30, 3, 10}, {5, 0.3f, -35}, {-45, 6, -30}};
-const char *const sky_names[SKIES] = {"venice_sunset_1024x512", "forest_slope_512x256", "potsdamer_platz_512x256"};
+const char *const sky_names[SKIES] = {"venice_sunset_1024x512", "forest_slope_512x256", "potsdamer_platz_512x256",
+                                      "studio_small_03_512x256", "dikhololo_night_512x256"};
 
 static void *take(size_t bytes)
 {

@@ -65,6 +65,7 @@ void relight_tell_filters(relight_stage *s, const char *counts);
 void relight_tell_raster(relight_stage *s);
 void relight_tell_maps(relight_stage *s);
 void relight_tell_glossy(relight_stage *s);
+void relight_tell_frames(relight_stage *s);
 
 /* A map of ../shared/data/env as it is, and as a world's faces. */
 typedef struct relight_sky {
@@ -73,7 +74,7 @@ typedef struct relight_sky {
     float *face[6];
 } relight_sky;
 
-enum { SKIES = 3 };
+enum { SKIES = 5, TUNED = 3 }; /* the last ones are held out */
 extern const char *const sky_names[SKIES];
 
 int relight_sky_load(relight_sky *out, int sky); /* 0 where it is missing */

@@ -472,12 +472,26 @@ status 0 $field --path "$dir/path.txt" --reuse 0 -o "$dir/walk.ppm"
 check "a walk without reuse is computed until it rests" grep -q '^light computed 3 times, kept 1 times$' "$dir/out.txt"
 status 0 $field --path "$dir/path.txt" --reuse 5 --keep 0,0.9,0 -o "$dir/walk.ppm"
 check "a named place serves the whole walk" grep -q '^light computed 1 times, kept 3 times$' "$dir/out.txt"
+printf '2,0,1\n2.2,0,1\n2,0,1\n' >"$dir/path.txt"
+for parts in "" --per-part; do
+    status 0 $field --path "$dir/path.txt" --keep 2,0,1 $parts -o "$dir/walk.ppm"
+    check "a named place is where an object stands $parts" sh -c 'test "$(grep -c "  kept$" "$1")" = 1' sh "$dir/out.txt"
+done
+status 0 $field --path "$dir/path.txt" -o "$dir/walk.ppm"
+status 0 $field --path "$dir/path.txt" -o "$dir/step_%03d.ppm"
+check "a walk's pictures are numbered by the pattern" cmp "$dir/step_002.ppm" "$dir/walk-0002.ppm"
+status 2 $field -o "$dir/bad_%04d.ppm"
+check "a pattern wants a path" grep -q 'numbers pictures of a --path' "$dir/err.txt"
 printf '0,0,0\n1,2\n' >"$dir/path.txt"
 status 1 $field --path "$dir/path.txt" -o "$dir/bad.ppm"
 check "a path's error names its line" grep -q 'path.txt:2: `1,2` is not X,Y,Z' "$dir/err.txt"
 status 1 $field --path "$dir/nowhere" -o "$dir/bad.ppm"
 status 1 relight --world demo --object "$dir/nowhere.glb" -o "$dir/bad.ppm"
 status 2 $field --path "$dir/path.txt" --at 0,0,0 -o "$dir/bad.ppm"
+for option in "--world-sphere 0,0,0,5" "--world-centre 0,1,0" "--ground-size 5,5" "--ground-height 1"; do
+    status 2 $field $option -o "$dir/bad.ppm"
+    check "the built-in world says that it lies where it lies: $option" grep -q 'lies where it lies' "$dir/err.txt"
+done
 status 2 relight --world demo --object demo
 status 2 $field --eye 0,1,2 -o "$dir/bad.ppm"
 status 2 $field --roughness 2 -o "$dir/bad.ppm"

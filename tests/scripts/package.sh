@@ -3,6 +3,8 @@
 # environment. Each way builds and runs the same two programs of tests/examples.
 . tests/scripts/checks.sh
 
+# A make that found these in its environment would build all anew, with libraries twice.
+unset LDLIBS FLAGS LIB TOOL
 top=$PWD
 dir=$(mktemp -d "${TMPDIR:-/tmp}/lambent-package.XXXXXX") || exit 1
 trap 'rm -rf "$dir"' EXIT
@@ -84,6 +86,20 @@ CMAKE
         "$dir/add_subdirectory/build/compile_commands.json"
 else
     skip "CMake: $missing"
+fi
+
+# A release: the same bytes from the same commit, with all that it takes to build.
+if git rev-parse -q --verify HEAD >/dev/null 2>&1; then
+    for turn in 1 2; do
+        check "make dist" "$MAKE" dist BUILD="$dir/dist$turn"
+        sleep 1
+    done
+    check "make dist writes the same bytes twice" cmp "$dir/dist1/lambent-$version.tar.gz" "$dir/dist2/lambent-$version.tar.gz"
+    (cd "$dir" && gzip -dc "dist1/lambent-$version.tar.gz" | tar xf -)
+    check "a release lists its targets" "$MAKE" -C "$dir/lambent-$version" help
+    check "a release has all sources" test "$(ls "$dir/lambent-$version"/src/*/*.c | wc -l)" -eq "$(git ls-files 'src/*.c' | wc -l)"
+else
+    skip "make dist: not a clone"
 fi
 
 check "make uninstall" "$MAKE" uninstall BUILD="$BUILD" DESTDIR="$root" PREFIX=$prefix

@@ -32,5 +32,5 @@ for block in "$dir"/*.sh; do
         skip "$what: $missing"
     fi
 done
-check "four users' blocks" test "$(ls "$dir"/*.sh | wc -l)" -eq 4
+check "nine users' blocks" test "$(ls "$dir"/*.sh | wc -l)" -eq 9
 finish

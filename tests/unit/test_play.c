@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../tools/common/frame_name.h"
 #include "../../tools/play/play_options.h"
 #include "../../tools/play/play_path.h"
 #include "../../tools/play/play_times.h"
@@ -72,9 +73,9 @@ static void names_frames(void)
 {
     char name[32];
     report r = {""};
-    CHECK(play_name(name, sizeof name, "a/f_%04d.png", 7, &r) && strcmp(name, "a/f_0007.png") == 0);
-    CHECK(play_name(name, sizeof name, "%02d.pfm", 123, &r) && strcmp(name, "123.pfm") == 0);
-    CHECK(!play_name(name, 8, "frames%04d.png", 0, &r) && r.text[0] != '\0');
+    CHECK(frame_name(name, sizeof name, "a/f_%04d.png", 7, &r) && strcmp(name, "a/f_0007.png") == 0);
+    CHECK(frame_name(name, sizeof name, "%02d.pfm", 123, &r) && strcmp(name, "123.pfm") == 0);
+    CHECK(!frame_name(name, 8, "frames%04d.png", 0, &r) && r.text[0] != '\0');
 }
 
 static void sums_times_up(void)

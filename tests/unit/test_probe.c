@@ -287,6 +287,113 @@ static void ground_and_sky(stage *s)
     s->pictures.face[3] = s->face[3];
 }
 
+/* --- blank parts -------------------------------------------------------------------------------------------------- */
+
+/* S1, the source's second figure: faces that are blank below the horizon, whatever lies under the alpha, are filled from
+ * the ground: as if they showed the ground there; and without one they shine nothing. */
+static void blank_in_part(stage *s)
+{
+    static float alpha[6][FACE * FACE], whole[3 * COUNT];
+    float worst = 0.0f, mean = 0.0f;
+    paint_ground(s, 1.0f);
+    s->pictures.ground_y = -60.0f; /* under the far world, so that it is the farther one of both */
+    s->pictures.ground_width_m = s->pictures.ground_depth_m = 4000.0f;
+    s->pictures.ground_x = s->pictures.ground_z = -2000.0f;
+    for (int i = 0; i < GROUND * GROUND * 4; ++i) {
+        s->ground[i] = i % 4 < 3 ? 0.5f : 1.0f;
+    }
+    for (int k = 0; k < 2; ++k) { /* what they would be filled with, then blank */
+        for (int i = 0; i < 6 * FACE * FACE; ++i) {
+            const int face = i / (FACE * FACE), at = i % (FACE * FACE);
+            const int below = cube_direction(face, at % FACE, at / FACE, FACE).y < 0.0f;
+            alpha[face][at] = k == 1 && below ? 0.0f : 1.0f;
+            for (int c = 0; c < 3 && below; ++c) {
+                s->face[face][3 * at + c] = k == 1 ? 7.0f : 0.5f;
+            }
+            s->pictures.alpha[face] = alpha[face];
+        }
+        CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+        see_from(s, vec3(3.0f, 4.0f, -2.0f), 0);
+        if (k == 0) {
+            memcpy(whole, s->map, sizeof whole);
+        }
+    }
+    for (int i = 0; i < 3 * COUNT; ++i) {
+        worst = maxf(worst, fabsf(s->map[i] - whole[i]));
+        mean += fabsf(s->map[i] - whole[i]) / (float)(3 * COUNT);
+    }
+    CHECK_MSG(mean < 0.002f && worst < 0.3f, "mean %g, worst %g", (double)mean, (double)worst);
+    s->pictures.ground = NULL;
+    CHECK(make_world(s, LMB_WORLD_LOG16) == LMB_OK);
+    see_from(s, s->pictures.centre, 0);
+    CHECK(s->map[(HEIGHT - 1) * WIDTH] < 1e-6f && s->map[(HEIGHT * 3 / 4) * WIDTH] < 1e-6f && s->map[0] > 0.1f);
+    memset(s->pictures.alpha, 0, sizeof s->pictures.alpha);
+    paint_sky(s);
+}
+
+/* --- lamps -------------------------------------------------------------------------------------------------------- */
+
+/* Light and its direction of one texel `radiance` bright among dark ones. */
+static void lamp(stage *s, int face, int at, float radiance, lmb_vec3 place, float tolerance)
+{
+    const int32_t x = at % FACE, y = at / FACE;
+    const float u = cube_coordinate(x, FACE), v = cube_coordinate(y, FACE), l2 = 1.0f + u * u + v * v;
+    const lmb_vec3 d = cube_direction(face, x, y, FACE), q = far_point(&s->pictures, s->pictures.centre, d),
+                   way = sub3(q, place), from = sub3(q, s->pictures.centre);
+    const lmb_vec3 normal = normalize3(sub3(q, s->pictures.middle)), to = normalize3(way);
+    const float area = 4.0f / ((float)(FACE * FACE) * l2 * sqrtf(l2));
+    const float flux = radiance * area * (dot3(from, from) / dot3(way, way)) * (dot3(normal, to) / dot3(normal, d));
+    memset(s->face, 0, sizeof s->face);
+    s->face[face][3 * at] = s->face[face][3 * at + 1] = s->face[face][3 * at + 2] = radiance;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK && s->world.peaks == 1);
+    see_from(s, place, 0);
+    CHECK(lmb_probe_reduce(&s->lights, lmb_kernels_pick(), s->map, &s->table) == LMB_OK && s->lights.peaks > 0);
+    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_OK);
+    float worst = 0.0f;
+    for (int i = 0; i < CUBE_TEXELS; ++i) {
+        const lmb_vec3 n = cube_direction(i / (CUBE * CUBE), i % CUBE, i / CUBE % CUBE, CUBE);
+        worst = maxf(worst, fabsf(s->cube[i] - flux * maxf(dot3(n, to), 0.0f)));
+    }
+    CHECK_MSG(worst < tolerance * flux, "face %d, texel %d: %g of %g", face, at, (double)worst, (double)flux);
+}
+
+/* A lamp of one texel lights each normal by its cosine, wherever it is and from wherever it is seen. */
+static void lamps(stage *s)
+{
+    s->pictures.ground = NULL;
+    for (int i = 0; i < 24; ++i) {
+        lamp(s, i % 6, (i * 1237 + 411) % (FACE * FACE), 1000.0f, i < 12 ? s->pictures.centre : vec3(11.0f, 9.0f, -20.0f),
+             0.01f);
+    }
+    paint_sky(s);
+}
+
+/* More lamps than peaks: the strongest are, and no light is lost with the others. */
+static void many_lamps(stage *s)
+{
+    double whole = 0.0, got = 0.0;
+    memset(s->face, 0, sizeof s->face);
+    for (int i = 0; i < 6 * FACE * FACE; ++i) {
+        const int face = i / (FACE * FACE), at = i % (FACE * FACE), x = at % FACE, y = at / FACE;
+        if (x % 8 == 3 && y % 16 == 5) {
+            const double u = (double)cube_coordinate(x, FACE), v = (double)cube_coordinate(y, FACE);
+            s->face[face][3 * at] = 50.0f + (float)(i % 7);
+            whole += (double)s->face[face][3 * at] * 4.0 / (FACE * FACE * pow(1.0 + u * u + v * v, 1.5));
+        }
+    }
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK && s->world.peaks == LMB_WORLD_PEAKS);
+    see_from(s, s->pictures.centre, 0);
+    for (int i = 0; i < COUNT; ++i) {
+        got += (double)s->map[i] * (double)s->table.area[i / WIDTH];
+    }
+    CHECK_MSG(fabs(got / whole - 1.0) < 0.03, "%g of %g", got, whole);
+    s->lights.peaks = LMB_PROBE_PEAKS + 1;
+    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_ERR_ARG);
+    s->lights.peaks = -1;
+    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_ERR_ARG);
+    paint_sky(s);
+}
+
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
 static void paint_all(stage *s, float radiance)
@@ -372,7 +479,7 @@ static void blurred(stage *s)
 {
     static const float max[3] = {0.03f, 0.055f, 0.006f}; /* of the mean */
     const size_t table_bytes = lmb_probe_table_bytes(WIDTH / 2, HEIGHT / 2);
-    float half[3 * COUNT / 4], out[3 * COUNT / 4], line[2 * WIDTH];
+    static float half[3 * COUNT / 4], out[3 * COUNT / 4], line[2 * WIDTH + COUNT / 4];
     lmb_probe_table table;
     void *table_memory = malloc(table_bytes);
     CHECK(lmb_probe_table_init(&table, WIDTH / 2, HEIGHT / 2, -90.0f, table_memory, table_bytes) == LMB_OK);
@@ -390,6 +497,8 @@ static void blurred(stage *s)
         CHECK(lmb_probe_remap(half, lmb_kernels_pick(), &s->world, &table, s->pictures.centre, 0) == LMB_OK);
         CHECK(lmb_probe_blur_map(out, line, lmb_kernels_pick(), half, &blur) == LMB_OK);
         CHECK(lmb_probe_map_cube(s->cube, CUBE, out, &table) == LMB_OK);
+        CHECK(lmb_probe_blur_map(half, line, lmb_kernels_pick(), half, &blur) == LMB_OK);
+        CHECK(memcmp(half, out, sizeof half) == 0); /* S13 */
         float worst = 0.0f;
         for (int i = 0; i < CUBE_TEXELS; ++i) {
             const lmb_vec3 n = cube_direction(i / (CUBE * CUBE), i % CUBE, i / CUBE % CUBE, CUBE);
@@ -538,6 +647,9 @@ void test_probe(void)
     blurred(s);
     no_seams(s);
     ground_and_sky(s);
+    blank_in_part(s);
+    lamps(s);
+    many_lamps(s);
     refusals(s);
     each_harmonic(s);
     stage_free(s);

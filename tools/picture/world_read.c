@@ -39,22 +39,31 @@ static void pixel_at(float out[4], const stored_picture *p, size_t at)
     }
 }
 
-/* Room for a face, or 0 and `r` set. */
-static int take_face(float **out, int32_t side, const char *path, report *r)
+/* Room for face i, with its alpha where the picture has one, or 0 and `r` set. */
+static int take_face(lmb_world_pictures *out, world_pictures *own, int i, int32_t side, const stored_picture *p,
+                     const char *path, report *r)
 {
-    *out = malloc(3 * (size_t)side * (size_t)side * sizeof **out);
-    return *out != NULL || report_fail(r, "%s: out of memory", path);
+    const size_t texels = (size_t)side * (size_t)side;
+    const int has_alpha = p->light.pixels == NULL;
+    out->face[i] = own->face[i] = malloc(3 * texels * sizeof(float));
+    out->alpha[i] = own->alpha[i] = has_alpha ? malloc(texels * sizeof(float)) : NULL;
+    out->face_size = side;
+    return (own->face[i] != NULL && (!has_alpha || own->alpha[i] != NULL)) ||
+           report_fail(r, "%s: out of memory", path);
 }
 
 /* --- one file ----------------------------------------------------------------------------------------------------- */
 
 /* The square whose corner is pixel (x0, y0). */
-static void copy_face(float *face, int32_t side, const stored_picture *p, int32_t x0, int32_t y0)
+static void copy_face(world_pictures *own, int face, int32_t side, const stored_picture *p, int32_t x0, int32_t y0)
 {
     for (int32_t i = 0; i < side * side; ++i) {
         float rgba[4];
         pixel_at(rgba, p, (size_t)(y0 + i / side) * (size_t)p->width + (size_t)(x0 + i % side));
-        memcpy(face + 3 * (size_t)i, rgba, 3 * sizeof *face);
+        memcpy(own->face[face] + 3 * (size_t)i, rgba, 3 * sizeof *rgba);
+        if (own->alpha[face] != NULL) {
+            own->alpha[face][i] = rgba[3];
+        }
     }
 }
 
@@ -63,19 +72,17 @@ static int read_strip(lmb_world_pictures *out, world_pictures *own, const stored
 {
     const int down = p->height > p->width;
     const int32_t side = down ? p->width : p->height;
-    out->face_size = side;
     for (int i = 0; i < 6; ++i) {
-        if (!take_face(&own->face[i], side, path, r)) {
+        if (!take_face(out, own, i, side, p, path, r)) {
             return 0;
         }
-        copy_face(own->face[i], side, p, down ? 0 : i * side, down ? i * side : 0);
-        out->face[i] = own->face[i];
+        copy_face(own, i, side, p, down ? 0 : i * side, down ? i * side : 0);
     }
     return 1;
 }
 
-/* Bilinear, round the seam, times `weight`. */
-static void sphere_at(double sum[3], const stored_picture *p, const double d[3], double weight)
+/* Bilinear, round the seam, light by alpha. */
+static void sphere_at(double sum[4], const stored_picture *p, const double d[3])
 {
     const double pi = 3.14159265358979, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double u = (0.5 + atan2(d[0], -d[2]) / (2 * pi)) * p->width - 0.5,
@@ -87,8 +94,8 @@ static void sphere_at(double sum[3], const stored_picture *p, const double d[3],
         float rgba[4];
         y = y < 0 ? 0 : y >= p->height ? p->height - 1 : y;
         pixel_at(rgba, p, (size_t)y * (size_t)p->width + (size_t)x);
-        for (int c = 0; c < 3; ++c) {
-            sum[c] += weight * (k & 1 ? fx : 1 - fx) * (k >> 1 ? fy : 1 - fy) * (double)rgba[c];
+        for (int c = 0; c < 4; ++c) {
+            sum[c] += (k & 1 ? fx : 1 - fx) * (k >> 1 ? fy : 1 - fy) * (double)(c < 3 ? rgba[c] * rgba[3] : rgba[3]);
         }
     }
 }
@@ -109,30 +116,54 @@ static int places_of(const double d[3])
     return MAX_PLACES * across < 2.0 * length ? MAX_PLACES : 2 * (int)(length / across + 0.4);
 }
 
-/* Each texel is the mean of four places, or more towards the poles. */
+/* The mean of places x places over texel `at` of a face; the least and the most of their light. */
+static void mean_at(double sum[4], double range[2], const stored_picture *p, int face, int32_t at, int32_t side,
+                    int places)
+{
+    memset(sum, 0, 4 * sizeof *sum);
+    range[0] = 1e30;
+    range[1] = 0.0;
+    for (int k = 0; k < places * places; ++k) {
+        double one[4] = {0, 0, 0, 0}, d[3];
+        face_point(d, face, (2 * (at % side) + (2 * (k % places) + 1.0) / places) / side - 1,
+                   (2 * (at / side) + (2 * (k / places) + 1.0) / places) / side - 1);
+        sphere_at(one, p, d);
+        const double light = one[0] + one[1] + one[2];
+        range[0] = light < range[0] ? light : range[0];
+        range[1] = light > range[1] ? light : range[1];
+        for (int c = 0; c < 4; ++c) {
+            sum[c] += one[c] / (places * places);
+        }
+    }
+}
+
+/* Each texel is the mean of four places, of more towards the poles, and of many where they differ: a light of a few
+ * pixels must keep its light. */
 static int read_sphere(lmb_world_pictures *out, world_pictures *own, const stored_picture *p, const char *path,
                        report *r)
 {
     const int32_t side = p->width / 4 > 0 ? p->width / 4 : 1;
-    out->face_size = side;
     for (int i = 0; i < 6; ++i) {
-        if (!take_face(&own->face[i], side, path, r)) {
+        if (!take_face(out, own, i, side, p, path, r)) {
             return 0;
         }
         for (int32_t at = 0; at < side * side; ++at) {
-            double sum[3] = {0, 0, 0}, d[3];
+            double sum[4], range[2], d[3];
             face_point(d, i, (2 * (at % side) + 1.0) / side - 1, (2 * (at / side) + 1.0) / side - 1);
             const int places = places_of(d);
-            for (int k = 0; k < places * places; ++k) {
-                face_point(d, i, (2 * (at % side) + (2 * (k % places) + 1.0) / places) / side - 1,
-                           (2 * (at / side) + (2 * (k / places) + 1.0) / places) / side - 1);
-                sphere_at(sum, p, d, 1.0 / (places * places));
+            mean_at(sum, range, p, i, at, side, places);
+            if (places < MAX_PLACES && range[1] > 4.0 * range[0]) {
+                mean_at(sum, range, p, i, at, side, MAX_PLACES);
+            } else if (places < MAX_PLACES / 2 && range[1] > 1.5 * range[0]) {
+                mean_at(sum, range, p, i, at, side, MAX_PLACES / 2);
             }
             for (int c = 0; c < 3; ++c) {
-                own->face[i][3 * (size_t)at + (size_t)c] = (float)sum[c];
+                own->face[i][3 * (size_t)at + (size_t)c] = sum[3] > 0.0 ? (float)(sum[c] / sum[3]) : 0.0f;
+            }
+            if (own->alpha[i] != NULL) {
+                own->alpha[i][at] = (float)sum[3];
             }
         }
-        out->face[i] = own->face[i];
     }
     return 1;
 }
@@ -197,10 +228,8 @@ static int read_face(lmb_world_pictures *out, world_pictures *own, int i, const 
     if (!ok) {
         report_fail(r, "%s: %d x %d pixels; faces are square, of one size, at most %d", path, (int)p.width,
                     (int)p.height, MAX_SIDE);
-    } else if ((ok = take_face(&own->face[i], p.width, path, r)) != 0) {
-        out->face_size = p.width;
-        copy_face(own->face[i], p.width, &p, 0, 0);
-        out->face[i] = own->face[i];
+    } else if ((ok = take_face(out, own, i, p.width, &p, path, r)) != 0) {
+        copy_face(own, i, p.width, &p, 0, 0);
     }
     stored_picture_free(&p);
     return ok;
@@ -256,6 +285,7 @@ void world_pictures_free(world_pictures *own)
 {
     for (int i = 0; i < 6; ++i) {
         free(own->face[i]);
+        free(own->alpha[i]);
     }
     free(own->ground);
     memset(own, 0, sizeof *own);

@@ -8,13 +8,13 @@
 
 /* The pictures in memory. Zero it before use; world_pictures_free releases them. */
 typedef struct world_pictures {
-    float *face[6], *ground;
+    float *face[6], *alpha[6], *ground;
 } world_pictures;
 
 /* world_read_cube: from one file, known by its shape: six faces stacked top to bottom or side by side, or the whole
  * sphere (twice as wide as high: longitude from -180 degrees, north on top), which becomes a cube with faces of a
  * quarter of its width. Or from six: `path` with px nx py ny pz nz and .pfm, .hdr, .png or .jpg behind it, of which
- * some may be missing.
+ * some may be missing. Transparent pixels are blank.
  *
  *   own  takes the memory that `out` points into
  * 1, or 0 with `r` set. */

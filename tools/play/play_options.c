@@ -1,40 +1,16 @@
 /* play_options.c: the command line of `lambent play`: most of `render`'s, and what moves. */
 #include "play_options.h"
 
-#include <stdio.h>
 #include <string.h>
 
+#include "../common/frame_name.h"
 #include "../common/options.h"
 #include "../picture/picture.h"
 #include "play_path.h"
 
-enum { MOST = 1000000, DIGITS = 9 };
+enum { MOST = 1000000 };
 
-/* The one %0Nd of a pattern: what stands before it has `*before` characters; returns N, 0 where there is no such thing,
- * or more than one, or any other `%`. */
-static int digits_of(const char *pattern, size_t *before)
-{
-    const char *p = strchr(pattern, '%');
-    *before = p != NULL ? (size_t)(p - pattern) : 0;
-    if (p == NULL || p[1] != '0' || p[2] < '1' || p[2] > '0' + DIGITS || p[3] != 'd' || strchr(p + 4, '%') != NULL) {
-        return 0;
-    }
-    return p[2] - '0';
-}
-
-static int parse_out(const char *text, void *at)
-{
-    size_t before;
-    return picture_option(text, at) && digits_of(text, &before) > 0;
-}
-
-int play_name(char *out, size_t size, const char *pattern, int32_t k, report *r)
-{
-    size_t before;
-    const int digits = digits_of(pattern, &before);
-    const int n = snprintf(out, size, "%.*s%0*d%s", (int)before, pattern, digits, (int)k, pattern + before + 4);
-    return (n > 0 && (size_t)n < size) || report_fail(r, "%s: the name is too long", pattern);
-}
+static int parse_out(const char *text, void *at) { return picture_option(text, at) && frame_digits(text) > 0; }
 
 static const char *const moves[] = {"light", "camera", "object", "all", NULL};
 static const int32_t move_values[] = {PLAY_LIGHT, PLAY_CAMERA, PLAY_OBJECT, PLAY_LIGHT | PLAY_CAMERA | PLAY_OBJECT};

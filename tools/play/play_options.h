@@ -17,7 +17,5 @@ extern const option_table play_table;
 /* As options_parse. */
 int play_options_parse(play_options *out, int argc, char **argv, report *r);
 
-/* play_name: the file of frame k by a pattern that was checked. 1, or 0 with `r` set: too long. */
-int play_name(char *out, size_t size, const char *pattern, int32_t k, report *r);
 
 #endif

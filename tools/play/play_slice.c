@@ -1,6 +1,7 @@
 /* play_slice.c: frames -> a slice's file -> pictures. */
 #include "play_slice.h"
 
+#include "../common/frame_name.h"
 #include "../picture/picture.h"
 #include "play_options.h"
 
@@ -40,7 +41,7 @@ static int put_frames(const char *path, const char *pattern, int is_look, report
         } else if (format != picture_format(pattern)) {
             ok = report_fail(r, "-o %s: the slices were made for another format of picture", pattern);
         } else {
-            ok = play_name(name, sizeof name, pattern, k, r) &&
+            ok = frame_name(name, sizeof name, pattern, k, r) &&
                  (is_look ? file_may_replace(name, r) : file_write(name, data, (size_t)size, r));
         }
     }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
+#include "../common/frame_name.h"
 #include "../common/progress.h"
 #include "../common/text_buffer.h"
 #include "../picture/picture.h"
@@ -77,7 +78,7 @@ static int write_frame(play *p, int32_t k, report *r)
         return play_slice_put(&p->made, k, picture_format(p->o.render.out), &p->job.linear, p->exposure_ev,
                               p->job.o.tone, r);
     }
-    return p->o.render.out == NULL || (play_name(name, sizeof name, p->o.render.out, k, r) &&
+    return p->o.render.out == NULL || (frame_name(name, sizeof name, p->o.render.out, k, r) &&
                                        picture_write(name, &p->job.linear, p->exposure_ev, p->job.o.tone, r));
 }
 
@@ -161,7 +162,7 @@ static int can_write(const play *p, report *r)
         return slice_name(name, p->o.render.out, p->o.render.slice, r) && file_can_write(name, r);
     }
     for (int32_t i = 0; ok && p->o.render.out != NULL && i < p->o.frames; ++i) {
-        ok = play_name(name, sizeof name, p->o.render.out, p->o.from + i, r) &&
+        ok = frame_name(name, sizeof name, p->o.render.out, p->o.from + i, r) &&
              (i == 0 ? file_can_write(name, r) : file_may_replace(name, r));
     }
     return ok;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../platform/host/pool.h"
+#include "../common/frame_name.h"
 #include "../common/progress.h"
 #include "../common/view_frame.h"
 #include "../picture/picture.h"
@@ -205,9 +206,12 @@ static int write(stage *s, const char *path, report *r)
     return picture_write(path, &s->picture, s->o->exposure_ev, s->o->tone, r);
 }
 
-/* OUT.png -> OUT-0007.png */
+/* By a pattern's %0Nd; else OUT.png -> OUT-0007.png */
 static int numbered(char *out, size_t size, const char *path, int32_t i, report *r)
 {
+    if (frame_digits(path) > 0) {
+        return frame_name(out, size, path, i, r);
+    }
     const char *dot = strrchr(path, '.');
     const int n = snprintf(out, size, "%.*s-%04d%s", (int)(dot - path), path, (int)i, dot);
     return (n > 0 && (size_t)n < size) || report_fail(r, "%s: the name is too long", path);
@@ -236,14 +240,17 @@ static int draw_along(stage *s, report *r)
 static int take_cache(stage *s, report *r)
 {
     const relight_options *o = s->o;
-    const figures *f = &s->figures;
-    if (f->owners + (uint32_t)o->keep_count > LMB_MAX_PROBES ||
+    const figures *f = &s->figures; /* before any stands */
+    const uint32_t kept = (uint32_t)o->keep_count * figures_owners_each(f);
+    if (f->owners + kept > LMB_MAX_PROBES ||
         lmb_probe_cache_init(&s->cache, LMB_MAX_PROBES, &o->policy) != LMB_OK) {
-        return report_fail(r, "%u objects or parts and %d --keep are over the %d places this build keeps",
-                           (unsigned)f->owners, (int)o->keep_count, LMB_MAX_PROBES);
+        return report_fail(r, "%u objects or parts and %u of --keep are over the %d places this build keeps",
+                           (unsigned)f->owners, (unsigned)kept, LMB_MAX_PROBES);
     }
-    for (int32_t i = 0; i < o->keep_count; ++i) {
-        if (lmb_probe_cache_name(&s->cache, o->keep[i]) < 0) {
+    /* A place is where the object stands; its light, and its parts', is that of their middles. */
+    for (uint32_t i = 0; i < kept; ++i) {
+        const uint32_t each = figures_owners_each(f);
+        if (lmb_probe_cache_name(&s->cache, figures_middle_at(&s->figures, i % each, o->keep[i / each])) < 0) {
             return report_fail(r, "--keep: numbers over 1,000,000 m, or too many");
         }
     }

@@ -101,6 +101,14 @@ lmb_vec3 figures_middle(const figures *f, uint32_t owner)
     return (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
 }
 
+uint32_t figures_owners_each(const figures *f) { return f->owners / f->count; }
+
+lmb_vec3 figures_middle_at(figures *f, uint32_t i, lmb_vec3 at)
+{
+    figures_stand(f, 0, at);
+    return figures_middle(f, i);
+}
+
 /* --- all ---------------------------------------------------------------------------------------------------------- */
 
 static int take_instances(figures *f, const relight_options *o, report *r)

@@ -34,6 +34,9 @@ void figures_bounds(figures *f);
 /* Whose light an instance takes, and where that is. */
 uint32_t figures_owner(const figures *f, uint32_t instance);
 lmb_vec3 figures_middle(const figures *f, uint32_t owner);
+/* How many owners a figure has; where the light of its i-th would be if it stood `at`. */
+uint32_t figures_owners_each(const figures *f);
+lmb_vec3 figures_middle_at(figures *f, uint32_t i, lmb_vec3 at);
 
 void figures_free(figures *f);
 

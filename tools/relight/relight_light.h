@@ -16,7 +16,7 @@ typedef struct relight_light {
     lmb_probe_lights lights;
     lmb_probe_blur blur;
     float map[3 * RELIGHT_WIDTH * RELIGHT_HEIGHT], half[3 * RELIGHT_WIDTH * RELIGHT_HEIGHT / 4];
-    float blurred[3 * RELIGHT_WIDTH * RELIGHT_HEIGHT / 16], line[RELIGHT_WIDTH];
+    float line[RELIGHT_WIDTH + RELIGHT_WIDTH * RELIGHT_HEIGHT / 16];
     float cube[3 * 6 * RELIGHT_MAX_FACES * RELIGHT_MAX_FACES]; /* planes */
 } relight_light;
 

@@ -4,10 +4,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "../common/frame_name.h"
 #include "../common/option_value.h"
 #include "../common/options.h"
 #include "../demo/demo_field.h"
 #include "../picture/picture.h"
+
+#define PLAIN_GROUND 100.0f /* m, its sides where nothing is said */
 
 const char *const relight_filters[FILTERS + 1] = {"cosine", "sh9", "sh16", "sh25", "blur", "blur1", "blur2", NULL};
 
@@ -131,7 +134,8 @@ static const option_row object_rows[] = {
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
      .help = "all light, that by normals alone, or what is mirrored alone (default both)"},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
-     .help = "places of the object, X,Y,Z a line: a picture each, OUT with -0000, -0001, ..."},
+     .help = "places of the object, X,Y,Z a line: a picture each, its number in place of OUT's %0Nd, as frame_%04d.png, or "
+             "else as -0000, -0001, ..."},
     {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
      .help = "an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until it "
              "rests)"},
@@ -139,7 +143,7 @@ static const option_row object_rows[] = {
      .help = "but no longer than N pictures if it moves at all"},
     {.name = "--keep", .value = "X,Y,Z", .kind = OPTION_OWN, AT(keep), COUNTS(keep_count), .times = RELIGHT_PLACES,
      .size = sizeof(lmb_vec3), .parse = parse_place, .expects = "X,Y,Z within 1,000,000 m",
-     .help = "a named place: objects within --reuse of it use its light"},
+     .help = "a named place: objects that stand within --reuse of it use its light"},
     {.kind = OPTION_END},
 };
 
@@ -192,6 +196,9 @@ static int check_together(const relight_options *o, report *r)
     if (o->path != NULL && o->out != NULL && file_is_stdout(o->out)) {
         return report_fail(r, "--path draws a picture a place: give -o a file name");
     }
+    if (o->path == NULL && o->out != NULL && frame_digits(o->out) > 0) {
+        return report_fail(r, "%s: numbers pictures of a --path, and none is given", o->out);
+    }
     if (o->path != NULL && (o->object == NULL || o->at_count > 0)) {
         return report_fail(r, "--path moves one --object; leave --at out");
     }
@@ -225,10 +232,16 @@ static void complete(relight_options *o)
 }
 
 /* Where the world's pictures belong, and what was left open: figures here and there, a camera. */
-static void demo_options(relight_options *o)
+static int demo_options(relight_options *o, report *r)
 {
     static const lmb_vec3 places[] = {{-9.8f, 0, -2.5f}, {-8.4f, 0, -0.2f}, {-3.7f, 0, 2.4f}, {-0.9f, 0, -4.5f},
                                       {0.5f, 0, 4.1f}, {3.4f, 0, 0.4f}, {8.2f, 0, -0.8f}, {9.9f, 0, -3.0f}};
+    const lmb_vec3 centre = o->place.centre;
+    if (o->has_far || o->has_ground_centre || centre.x != 0.0f || centre.y != 0.0f || centre.z != 0.0f ||
+        o->place.ground_y != 0.0f || o->ground_size[0] != PLAIN_GROUND || o->ground_size[1] != PLAIN_GROUND) {
+        return report_fail(r, "--world demo lies where it lies: leave out --world-centre, --world-sphere, --world-box, "
+                              "--ground-size, --ground-centre and --ground-height");
+    }
     demo_field_place(&o->place, o->ground_size);
     o->has_far = o->has_ground_centre = 1;
     o->ground_centre[0] = o->ground_centre[1] = 0.0f;
@@ -242,13 +255,14 @@ static void demo_options(relight_options *o)
             o->view.fov_deg = 58.0f;
         }
     }
+    return 1;
 }
 
 int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
     o->faces = 8;
-    o->ground_size[0] = o->ground_size[1] = 100.0f;
+    o->ground_size[0] = o->ground_size[1] = PLAIN_GROUND;
     o->roughness = o->f0 = -1.0f;
     o->policy.radius_m = LMB_PROBE_RADIUS;
     o->exposure_ev = NAN;
@@ -258,8 +272,8 @@ int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
     if (asked != OPTIONS_RUN) {
         return asked;
     }
-    if (o->world != NULL && strcmp(o->world, "demo") == 0) {
-        demo_options(o);
+    if (o->world != NULL && strcmp(o->world, "demo") == 0 && !demo_options(o, r)) {
+        return OPTIONS_BAD;
     }
     complete(o);
     return check_together(o, r) ? OPTIONS_RUN : OPTIONS_BAD;

@@ -1,0 +1,158 @@
+/* peaks.c: small lights in a world's cube, which sampling would miss or count twice, as lights of their own. Layer 6.
+ *                                                                                                             [S8 S14]
+ * Within a quarter by a quarter of a face, light over four times the mean stands out; the mean is then that of what
+ * does not, until it settles: the sun is found whatever it shines, and the half of a wide window is not. What stands
+ * out is summed in 32nds by 32nds of a face, by its own texels. */
+#include "world.h"
+
+#include "../base/poly.h"
+#include "../map/cube.h"
+
+enum { WIDE = 4, NARROW = LMB_WORLD_NARROW, TURNS = 3 };
+
+static const float stands_out = 4.0f;  /* times the mean around */
+static const float least_part = 1e-4f; /* of all light: what shines less is no peak */
+
+static float solid_angle(int32_t x, int32_t y, int32_t n)
+{
+    const float s = cube_coordinate(x, n), t = cube_coordinate(y, n), l2 = 1.0f + s * s + t * t;
+    return 4.0f / ((float)n * (float)n * (l2 * sqrtf(l2)));
+}
+
+static float brightest(const float rgba[4]) { return rgba[3] * maxf(rgba[0], maxf(rgba[1], rgba[2])); }
+
+static void texel_at(float out[4], const lmb_world *w, int32_t face, int32_t x, int32_t y)
+{
+    lmb_world_texel(out, w, lmb_world_face_texel(&w->cube[0], face, x, y));
+}
+
+/* The first texel of part i of `parts` of a row of n. */
+static int32_t part_from(int32_t i, int32_t parts, int32_t n) { return i * n / parts; }
+
+static int32_t part_of(int32_t x, int32_t parts, int32_t n) { return (parts * x + parts - 1) / n; }
+
+/* The mean of a part's texels, of none more than `limit`. */
+static float mean_under(const lmb_world *w, const cube_place *part, float limit)
+{
+    const int32_t n = w->cube[0].width, x0 = part_from(part->x, WIDE, n), x1 = part_from(part->x + 1, WIDE, n),
+                  y0 = part_from(part->y, WIDE, n), y1 = part_from(part->y + 1, WIDE, n);
+    float sum = 0.0f;
+    for (int32_t y = y0; y < y1; ++y) {
+        for (int32_t x = x0; x < x1; ++x) {
+            float rgba[4];
+            texel_at(rgba, w, part->face, x, y);
+            sum += minf(brightest(rgba), limit);
+        }
+    }
+    return sum / (float)((x1 - x0) * (y1 - y0));
+}
+
+/* What stands out in a part is over this. */
+static float limit_of(const lmb_world *w, const cube_place *part)
+{
+    float limit = 1e30f;
+    for (int i = 0; i < TURNS; ++i) {
+        limit = stands_out * mean_under(w, part, limit);
+    }
+    return limit;
+}
+
+/* The part of a texel's light that is over the limit. */
+static float part_over(const float rgba[4], float limit)
+{
+    const float light = brightest(rgba);
+    return light > limit ? 1.0f - limit / light : 0.0f;
+}
+
+/* Of the texels of one 32nd by 32nd. */
+static void sum_peak(lmb_world_peak *inout, const lmb_world *w)
+{
+    const int32_t n = w->cube[0].width;
+    for (int32_t y = part_from(inout->y, NARROW, n); y < part_from(inout->y + 1, NARROW, n); ++y) {
+        for (int32_t x = part_from(inout->x, NARROW, n); x < part_from(inout->x + 1, NARROW, n); ++x) {
+            float rgba[4];
+            texel_at(rgba, w, inout->face, x, y);
+            const float over = part_over(rgba, inout->limit), area = solid_angle(x, y, n), light = over * area * rgba[3];
+            if (over > 0.0f) {
+                inout->to = add3(inout->to, mul3(cube_direction(inout->face, x, y, n), light * brightest(rgba)));
+                inout->area += area;
+                for (int c = 0; c < 3; ++c) {
+                    inout->flux[c] += light * rgba[c];
+                }
+            }
+        }
+    }
+    inout->to = inout->area > 0.0f ? normalize3(inout->to) : inout->to;
+}
+
+static float flux_of(const lmb_world_peak *p) { return p->flux[0] + p->flux[1] + p->flux[2]; }
+
+/* The strongest first; the weakest of too many falls out. */
+static void keep(lmb_world *inout, const lmb_world_peak *peak)
+{
+    int32_t i = inout->peaks;
+    if (i < LMB_WORLD_PEAKS) {
+        ++inout->peaks;
+    } else if (flux_of(peak) <= flux_of(&inout->peak[--i])) {
+        return;
+    }
+    for (; i > 0 && flux_of(&inout->peak[i - 1]) < flux_of(peak); --i) {
+        inout->peak[i] = inout->peak[i - 1];
+    }
+    inout->peak[i] = *peak;
+}
+
+/* Those of one quarter by quarter. Returns the mean of its light. */
+static float find_in_part(lmb_world *inout, const cube_place *part)
+{
+    const float limit = limit_of(inout, part);
+    for (int32_t i = 0; i < NARROW / WIDE * (NARROW / WIDE); ++i) {
+        lmb_world_peak peak = {{0, 0, 0}, {0, 0, 0}, 0, limit, part->face, part->x * (NARROW / WIDE), part->y};
+        peak.x += i % (NARROW / WIDE);
+        peak.y = peak.y * (NARROW / WIDE) + i / (NARROW / WIDE);
+        sum_peak(&peak, inout);
+        if (flux_of(&peak) > 1e-10f && flux_of(&peak) < 1e30f) {
+            keep(inout, &peak);
+        }
+    }
+    return mean_under(inout, part, 1e30f);
+}
+
+int32_t lmb_world_find_peaks(lmb_world *inout)
+{
+    float sum = 0.0f;
+    inout->peaks = 0;
+    for (int32_t i = 0; i < 6 * WIDE * WIDE && inout->cube[0].width >= NARROW; ++i) {
+        const cube_place part = {i / (WIDE * WIDE), i % WIDE, i / WIDE % WIDE};
+        sum += find_in_part(inout, &part);
+    }
+    const float all = sum * (4.0f * LMB_PI / (float)(6 * WIDE * WIDE));
+    while (inout->peaks > 0 && flux_of(&inout->peak[inout->peaks - 1]) < least_part * all) {
+        --inout->peaks;
+    }
+    return inout->peaks;
+}
+
+void lmb_world_calm_texel(float out[4], const lmb_world *world, int32_t face, int32_t x, int32_t y)
+{
+    const int32_t n = world->cube[0].width, across = part_of(x, NARROW, n), down = part_of(y, NARROW, n);
+    texel_at(out, world, face, x, y);
+    for (int32_t i = 0; i < world->peaks; ++i) {
+        const lmb_world_peak *p = &world->peak[i];
+        if (p->face == face && p->x == across && p->y == down) {
+            const float stays = 1.0f - part_over(out, p->limit);
+            for (int c = 0; c < 3; ++c) {
+                out[c] *= stays;
+            }
+        }
+    }
+}
+
+void lmb_world_peak_texels(int32_t from[2], int32_t to[2], const lmb_world *world, const lmb_world_peak *peak)
+{
+    const int32_t n = world->cube[0].width;
+    from[0] = part_from(peak->x, NARROW, n);
+    from[1] = part_from(peak->y, NARROW, n);
+    to[0] = part_from(peak->x + 1, NARROW, n);
+    to[1] = part_from(peak->y + 1, NARROW, n);
+}

@@ -1,0 +1,80 @@
+# amalgam.sh: the library as two files draws the golden pictures by gcc, clang, g++ as C++, clang with Microsoft's ABI
+# (under wine) and tcc; it exports what the library does, and compiles without warnings in each configuration. AMALGAM
+# (the folder of the two), OBJ (the golden program's objects), GOLDEN_SRC, B, LIB, NM, LDLIBS in the environment.
+. tests/scripts/checks.sh
+
+dir=$B/amalgam-check
+rm -rf "$dir"
+mkdir -p "$dir"
+exact="-ffp-contract=off -fno-math-errno -I$AMALGAM"
+
+# compiled NAME COMMAND...: lambent.c by one call.
+compiled() {
+    name=$1
+    shift
+    check "$name: one call compiles it" "$@" -c "$AMALGAM/lambent.c" -o "$dir/$name.o"
+}
+
+# golden NAME LINKER...: the golden program with that object.
+golden() {
+    name=$1
+    shift
+    check "$name: it links" "$@" -o "$dir/$name" $OBJ "$dir/$name.o" $LDLIBS
+    check "$name: golden pictures" "$dir/$name"
+}
+
+# At -O1, which takes a third of -O2's time: pixels do not depend on it.
+warnings="-Wall -Wextra -pedantic -Werror"
+compiled gcc gcc -std=c99 -O1 $warnings $exact
+golden gcc gcc
+exports() { ${NM:-nm} "$1" 2>/dev/null | awk '$2 ~ /^[A-TV-Z]$/ && $3 ~ /^[a-z]/ { print $3 }' | sort -u; }
+exports "$LIB" >"$dir/library"
+exports "$dir/gcc.o" >"$dir/one-file"
+check "it exports what the library does" diff "$dir/library" "$dir/one-file"
+
+if command -v clang >/dev/null; then
+    compiled clang clang -std=c99 -O1 $warnings $exact
+    golden clang clang
+else
+    skip "no clang"
+fi
+if command -v g++ >/dev/null; then
+    compiled g++ g++ -std=c++17 -O1 -Wall $exact
+    golden g++ g++
+else
+    skip "no g++"
+fi
+
+# What clang-cl makes: Microsoft's object files and calls; start-up, printing and mathematics are MinGW's. No call takes
+# 4 KiB of stack, so that none has to ask for more.
+if missing=$(sh tests/scripts/tools.sh need clang x86_64-w64-mingw32-gcc wine64 2>&1); then
+    compiled msvc clang --target=x86_64-pc-windows-msvc -ffreestanding -isystem platform/freestanding -mno-stack-arg-probe \
+        -std=c99 -O1 $warnings $exact
+    echo 'int _fltused;' >"$dir/fltused.c"
+    check "msvc: it links" x86_64-w64-mingw32-gcc -static -std=c99 -O1 $exact -Iinclude -o "$dir/msvc.exe" $GOLDEN_SRC \
+        "$dir/fltused.c" "$dir/msvc.o"
+    check "msvc: golden pictures" sh tests/scripts/wine.sh "$dir/msvc.exe"
+else
+    skip "Microsoft's ABI: $missing"
+fi
+
+# tcc 0.9.27 computes wrongly, which lmb_build_check finds.
+if command -v tcc >/dev/null; then
+    compiled tcc tcc $exact
+    check "tcc: it links" tcc -o "$dir/tcc" $OBJ "$dir/tcc.o" $LDLIBS
+    "$dir/tcc" >"$dir/tcc.txt" 2>&1
+    if grep -q '^lmb_build_check: LMB_ERR_BUILD$' "$dir/tcc.txt"; then
+        skip "tcc: lmb_build_check refuses it"
+    else
+        check "tcc: golden pictures" grep -q ' 0 failed' "$dir/tcc.txt"
+    fi
+else
+    skip "no tcc"
+fi
+
+# Each switch of config.h alone, and the tiny configuration.
+for switch in CONFIG_TINY $(sed -n '/^\/\* 0: /,/^#ifndef/s/^#ifndef LMB_\(.*\)/\1=0/p' include/lambent/config.h) \
+    HAVE_AVX512=0 HAVE_AVX2=0; do
+    check "-DLMB_$switch" gcc -std=c99 -DLMB_$switch $warnings $exact -fsyntax-only "$AMALGAM/lambent.c"
+done
+finish

@@ -1,0 +1,16 @@
+/* frame_name.h: numbered files by a pattern with one %0Nd, as frame_%04d.png. */
+#ifndef FRAME_NAME_H
+#define FRAME_NAME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "report.h"
+
+/* frame_digits: N of the pattern; 0 where there is no such thing, or more than one, or any other `%`. */
+int frame_digits(const char *pattern);
+
+/* frame_name: the file of frame k by a pattern that has digits. 1, or 0 with `r` set: too long. */
+int frame_name(char *out, size_t size, const char *pattern, int32_t k, report *r);
+
+#endif
