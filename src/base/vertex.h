@@ -86,8 +86,9 @@ static inline void mesh_triangle(const lmb_mesh *m, uint32_t triangle, uint32_t 
 }
 
 /* Prefetch hints: the vertices of several triangles lie far apart in memory, and each would cause a cache miss. They are
- * always inlined: gcc takes a function that only prefetches for one without effects, and leaves calls to it out. */
-#if defined(__GNUC__)
+ * always inlined: gcc takes a function that only prefetches for one without effects, and leaves calls to it out. Code
+ * that is to be small goes without. */
+#if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define MESH_SOON(p) __builtin_prefetch(p)
 #define MESH_HINT    static inline __attribute__((always_inline))
 #else
