@@ -130,7 +130,8 @@ static int shows_back(const drawing *d, const kept_corner *a, const kept_corner 
 
 /* A corner that is not kept yet: in its place, or in `spare` where another corner of the same triangle has that. NULL:
  * there is no such vertex. */
-static kept_corner *new_corner(const drawing *d, uint32_t vertex, const kept_corner *other, const kept_corner *another, kept_corner *spare)
+static kept_corner *new_corner(const drawing *d, uint32_t vertex, const kept_corner *other, const kept_corner *another,
+                               kept_corner *spare)
 {
     kept_corner *own = &d->kept[vertex % LMB_GOURAUD_KEPT];
     if (vertex >= d->mesh->vertex_count) {
@@ -141,7 +142,8 @@ static kept_corner *new_corner(const drawing *d, uint32_t vertex, const kept_cor
     return own;
 }
 
-static inline kept_corner *find_corner(const drawing *d, uint32_t vertex, const kept_corner *other, const kept_corner *another, kept_corner *spare)
+static inline kept_corner *find_corner(const drawing *d, uint32_t vertex, const kept_corner *other,
+                                       const kept_corner *another, kept_corner *spare)
 {
     kept_corner *own = &d->kept[vertex % LMB_GOURAUD_KEPT];
     return own->vertex == vertex ? own : new_corner(d, vertex, other, another, spare);
