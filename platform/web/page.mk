@@ -17,7 +17,7 @@ PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_rel
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
 PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
-              -fno-builtin-bcmp -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL \
+              -fno-builtin-bcmp -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL -DOPTIONS_WITHOUT_HELP \
               -MMD -MP
 # Below the module's data and its 1 MiB of stack: 128 KiB each for the data of the kernels and
 # of the demo, and stacks that nobody uses.
@@ -27,7 +27,8 @@ PAGE_MAIN := -z stack-size=1048576 --global-base=262144 --initial-memory=3355443
 PAGE_SIDE := -z stack-size=16 --global-base
 # What frames of the page run most is for speed; the rest, and what runs once a scene or for few pixels, for size.
 PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
-PAGE_ONCE := src/occlusion/build.c src/raster/clip.c src/raster/fill.c src/transfer/transfer.c \
+PAGE_ONCE := src/occlusion/build.c src/raster/clip.c src/raster/fill.c src/raster/paint.c src/raster/target.c \
+             src/transfer/transfer.c src/lightcut/tree.c src/lightcut/crease.c src/lightcut/cut.c \
              $(patsubst %,src/transfer/transfer_%.c,air many_lights materials)
 page_opt   = $(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz)
 

@@ -33,6 +33,13 @@ enum {
     OPTION_OWN      /* `parse` stores it */
 };
 
+/* A row's help, which a build may leave out where nobody can ask for it: it is a third of a page's text. */
+#if defined(OPTIONS_WITHOUT_HELP)
+#define HELP(text) ""
+#else
+#define HELP(text) (text)
+#endif
+
 typedef struct option_row {
     const char *name;    /* "--size"; without dashes: a word that is no option, in the order of the rows */
     const char *brief;   /* "-h", or NULL */
@@ -109,20 +116,20 @@ int options_distance(const char *a, const char *b);
 
 /* Rows that several tables have. */
 #define OPTION_ASK                                                                                          \
-    {.name = "--help", .brief = "-h", .kind = OPTION_HELP, .help = "this text"},                            \
-    {.name = "--version", .brief = "-V", .kind = OPTION_VERSION, .help = "the version of lambent"}
+    {.name = "--help", .brief = "-h", .kind = OPTION_HELP, .help = HELP("this text")},                            \
+    {.name = "--version", .brief = "-V", .kind = OPTION_VERSION, .help = HELP("the version of lambent")}
 #define OPTION_LOUDNESS(type, quiet, verbose, more)                                                         \
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, .at = offsetof(type, quiet),                   \
-     .help = "say nothing but errors"},                                                                     \
-    {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, .at = offsetof(type, verbose), .help = more}
+     .help = HELP("say nothing but errors")},                                                                     \
+    {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, .at = offsetof(type, verbose), .help = HELP(more)}
 #define OPTION_THREADS_ROW(type, threads, what)                                                             \
     {.name = "--threads", .value = "N", .kind = OPTION_INT, .at = offsetof(type, threads), .low = 1, .high = POOL_MAX, \
-     .help = what " at once; it has the same bytes by any number (default: the processors)"}
+     .help = HELP(what " at once; it has the same bytes by any number (default: the processors)")}
 #define OPTION_TONE_ROW(type, tone)                                                                         \
     {.name = "--tone", .kind = OPTION_WORD, .at = offsetof(type, tone), .words = option_tones,              \
-     .help = "how display formats show light over white: by a curve that keeps it apart (default), or clipped"}
+     .help = HELP("how display formats show light over white: by a curve that keeps it apart (default), or clipped")}
 #define OPTION_BACKEND_ROW(type, kernels)                                                                   \
     {.name = "--backend", .value = "NAME", .kind = OPTION_BACKEND, .at = offsetof(type, kernels),           \
-     .help = "whose instructions draw: the same bytes by any (default: the fastest that this processor has)"}
+     .help = HELP("whose instructions draw: the same bytes by any (default: the fastest that this processor has)")}
 
 #endif

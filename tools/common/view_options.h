@@ -22,15 +22,15 @@ void view_options_init(view_options *out);
 int view_option_size(const char *text, void *at);
 #define VIEW_OPTION_SIZE(type, view, text)                                                                   \
     {.name = "--size", .value = "WxH", .kind = OPTION_OWN, .at = offsetof(type, view), .parse = view_option_size, \
-     .expects = "WxH, each 1 .. 8192", .help = text}
+     .expects = "WxH, each 1 .. 8192", .help = HELP(text)}
 #define VIEW_OPTIONS_CAMERA(type, view, text)                                                                \
     {.name = "--eye", .kind = OPTION_POINT, .at = offsetof(type, view.eye), .counts = offsetof(type, view.has_eye), \
-     .help = text},                                                                                          \
+     .help = HELP(text)},                                                                                          \
     {.name = "--target", .kind = OPTION_POINT, .at = offsetof(type, view.target),                            \
-     .counts = offsetof(type, view.has_target), .help = "what it looks at"},                                 \
-    {.name = "--up", .kind = OPTION_POINT, .at = offsetof(type, view.up), .help = "what is up (default 0,1,0)"}, \
+     .counts = offsetof(type, view.has_target), .help = HELP("what it looks at")},                                 \
+    {.name = "--up", .kind = OPTION_POINT, .at = offsetof(type, view.up), .help = HELP("what is up (default 0,1,0)")}, \
     {.name = "--fov", .value = "DEG", .kind = OPTION_ABOVE, .at = offsetof(type, view.fov_deg), .low = 0.0,  \
-     .high = 178.999, .help = "its vertical angle, degrees (default 45)"}
+     .high = 178.999, .help = HELP("its vertical angle, degrees (default 45)")}
 
 /* Does what was given go together? 1, or 0 with `r` set. */
 int view_options_check(const view_options *o, report *r);

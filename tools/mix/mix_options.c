@@ -46,85 +46,85 @@ static const char *const shows[] = {"final", "delta", "planes", "voxels", "env",
 #define AT(member) .at = offsetof(mix_options, member)
 
 static const option_row photo_rows[] = {
-    {.kind = OPTION_TITLE, .help = "photo"},
+    {.kind = OPTION_TITLE, .help = HELP("photo")},
     {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(source.frame),
-     .help = "PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
-             "camera_to_world (4 x 4, rows) where it is known"},
+     .help = HELP("PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
+             "camera_to_world (4 x 4, rows) where it is known")},
     {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),
-     .help = "many, in order: LIST, or DIR/frames.txt, has a PREFIX a line, beside it; a DIR of TUM's has rgb.txt, "
+     .help = HELP("many, in order: LIST, or DIR/frames.txt, has a PREFIX a line, beside it; a DIR of TUM's has rgb.txt, "
              "depth.txt and groundtruth.txt (with --intrinsics; --depth-scale is 0.0002 then). The object stays where "
              "it stands in the first; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
-             "out"},
+             "out")},
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
-     .help = ".png .jpg .pfm"},
+     .help = HELP(".png .jpg .pfm")},
     {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth), .file = OPTION_READS,
-     .help = "along the camera's axis, registered to the photo: 16-bit grey .png or .pfm; 0 is not measured"},
+     .help = HELP("along the camera's axis, registered to the photo: 16-bit grey .png or .pfm; 0 is not measured")},
     {.name = "--depth-scale", .value = "S", .kind = OPTION_NUMBER, AT(source.depth_scale), .low = 1e-9, .high = 1e6,
-     .help = "m of a unit of it (default 0.001 for .png, 1 for .pfm)"},
+     .help = HELP("m of a unit of it (default 0.001 for .png, 1 for .pfm)")},
     {.name = "--intrinsics", .value = "FX,FY,CX,CY", .kind = OPTION_NUMBERS, AT(source.intrinsics), .size = 4,
      .low = -1e30, .high = 1e30, .counts = offsetof(mix_options, source.has_intrinsics),
-     .help = "px; the middle of the first pixel is 0,0"},
+     .help = HELP("px; the middle of the first pixel is 0,0")},
     {.kind = OPTION_END},
 };
 
 static const option_row object_rows[] = {
-    {.kind = OPTION_TITLE, .help = "object"},
+    {.kind = OPTION_TITLE, .help = HELP("object")},
     {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
-     .help = ".gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in"},
+     .help = HELP(".gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in")},
     {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale), .low = 1e-6, .high = 1e6,
-     .help = "m of a unit of the mesh (default 1: the mesh is in metres)"},
+     .help = HELP("m of a unit of the mesh (default 1: the mesh is in metres)")},
     {.name = "--fit", .kind = OPTION_FLAG, AT(fit),
-     .help = "chooses --scale: a sixth of the plane's side in all, less where the picture has no room for that"},
+     .help = HELP("chooses --scale: a sixth of the plane's side in all, less where the picture has no room for that")},
     {.name = "--at", .value = "X,Y|world", .kind = OPTION_OWN, .parse = parse_at, .expects = "X,Y or world",
-     .help = "stands on what is at this pixel (default: near the middle of the largest plane that faces up, where "
-             "nothing else stands); world: is where the mesh has it, in the world of the frame's camera_to_world"},
+     .help = HELP("stands on what is at this pixel (default: near the middle of the largest plane that faces up, where "
+             "nothing else stands); world: is where the mesh has it, in the world of the frame's camera_to_world")},
     {.name = "--on", .kind = OPTION_WORD, AT(on), .words = ons, .values = on_values,
-     .help = "floor: the lowest plane that faces up; table: the largest that lies 0.3 m over another; wall: the mesh "
-             "hangs there, +Z away from it (default: the largest that faces up)"},
+     .help = HELP("floor: the lowest plane that faces up; table: the largest that lies 0.3 m over another; wall: the mesh "
+             "hangs there, +Z away from it (default: the largest that faces up)")},
     {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
-     .help = "about its upright axis (default 0: +Z towards the viewer); on a wall about what sticks out of it"},
+     .help = HELP("about its upright axis (default 0: +Z towards the viewer); on a wall about what sticks out of it")},
     {.kind = OPTION_END},
 };
 
 static const option_row light_rows[] = {
-    {.kind = OPTION_TITLE, .help = "light"},
+    {.kind = OPTION_TITLE, .help = HELP("light")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(mix_options, light_count),
      .times = MIX_LIGHTS, .size = sizeof(lmb_light), .sizes = offsetof(mix_options, light_size),
-     .help = "KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; SIZE: how "
+     .help = HELP("KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; SIZE: how "
              "wide it is, m, of a sun degrees: its shadow is soft then; in the frame's world, or without a pose the "
-             "camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). Default: a sun is guessed"},
+             "camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). Default: a sun is guessed")},
     {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
-     .help = "what is around, a panorama or cube (default: folded from the photo)"},
+     .help = HELP("what is around, a panorama or cube (default: folded from the photo)")},
     {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness,
      .expects = "R or R,F, 0 .. 1",
-     .help = "0 .. 1: the plane under the object mirrors it, as if varnished (default: it does not); F: how much of "
-             "what it sees straight down, 0 .. 1 (default 0.04)"},
+     .help = HELP("0 .. 1: the plane under the object mirrors it, as if varnished (default: it does not); F: how much of "
+             "what it sees straight down, 0 .. 1 (default 0.04)")},
     {.name = "--shadow-map", .value = "N", .kind = OPTION_POWER_OF_2, AT(shadow_map), .low = 8, .high = 4096,
-     .help = "texels a side (default 1024)"},
+     .help = HELP("texels a side (default 1024)")},
     {.name = "--voxels", .value = "D", .kind = OPTION_INT, AT(depth), .low = 4, .high = 10,
-     .help = "2^D voxels a side (default 7)"},
+     .help = HELP("2^D voxels a side (default 7)")},
     {.name = "--cones", .kind = OPTION_WORD, AT(cones), .words = cones, .values = cone_values,
-     .help = "a hemisphere (default 19)"},
+     .help = HELP("a hemisphere (default 19)")},
     {.kind = OPTION_END},
 };
 
 static const option_row output_rows[] = {
-    {.kind = OPTION_TITLE, .help = "output"},
+    {.kind = OPTION_TITLE, .help = HELP("output")},
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = PICTURE_OPTION_HELP},
+     .help = HELP(PICTURE_OPTION_HELP)},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
-     .help = "final: the photo with the object (default);\ndelta: what changed on real surfaces; in .png and .ppm "
+     .help = HELP("final: the photo with the object (default);\ndelta: what changed on real surfaces; in .png and .ppm "
              "round middle grey;\nplanes: each in its colour;\nvoxels: the light in them as the camera sees "
              "it;\nenv: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\nobject: alone, before "
-             "black"},
+             "black")},
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
-     .help = "a pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)"},
+     .help = HELP("a pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
-     .help = "stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits)"},
+     .help = HELP("stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits)")},
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
-     .help = "planes, voxels, seconds by stage"},
+     .help = HELP("planes, voxels, seconds by stage")},
     OPTION_BACKEND_ROW(mix_options, kernels),
     OPTION_THREADS_ROW(mix_options, threads, "draw the picture"),
     OPTION_LOUDNESS(mix_options, is_quiet, is_verbose, "say how long each stage took"),

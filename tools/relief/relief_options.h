@@ -9,22 +9,22 @@
 /* int32_t size, triangles, is_packed of a struct of the type: how a relief is baked. */
 #define RELIEF_OPTIONS_BAKE(type)                                                                            \
     {.name = "--size", .value = "PX", .kind = OPTION_INT, .at = offsetof(type, size), .low = 8, .high = 4096, \
-     .help = "texels of a view's side (default 256)"},                                                       \
+     .help = HELP("texels of a view's side (default 256)")},                                                       \
     {.name = "--packed", .kind = OPTION_FLAG, .at = offsetof(type, is_packed),                               \
-     .help = "6 bytes a texel instead of 12: 16 bits of depth, 5 6 5 of colour, 2 x 8 of normal"},           \
+     .help = HELP("6 bytes a texel instead of 12: 16 bits of depth, 5 6 5 of colour, 2 x 8 of normal")},           \
     {.name = "--triangles", .value = "N", .kind = OPTION_INT, .at = offsetof(type, triangles), .low = 4,     \
      .high = 10000000,                                                                                       \
-     .help = "of the simple model (default 3000), made by edge collapse so that it encloses the complex one; what " \
-             "sticks out of it is cut off"}
+     .help = HELP("of the simple model (default 3000), made by edge collapse so that it encloses the complex one; what " \
+             "sticks out of it is cut off")}
 
 /* lmb_relief_how `how`: how its pixels look for the surface. */
 #define RELIEF_OPTIONS_LOOK(type)                                                                            \
     {.name = "--steps", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.steps), .low = 1, .high = 32, \
-     .help = "looks a pixel takes (default 6); 1: once, from the simple surface"},                           \
+     .help = HELP("looks a pixel takes (default 6); 1: once, from the simple surface")},                           \
     {.name = "--pixel-views", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.views), .low = 1,         \
-     .high = LMB_RELIEF_TILE_VIEWS, .help = "views a pixel looks at (default 6)"},                                \
+     .high = LMB_RELIEF_TILE_VIEWS, .help = HELP("views a pixel looks at (default 6)")},                                \
     {.name = "--keep", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.keep), .low = 1, .high = 3, \
-     .help = "of which the best are blended (default 3)"}
+     .help = HELP("of which the best are blended (default 3)")}
 
 /* `N` or `greedy:N`: 1, or 0 where the text is neither. */
 int relief_option_views(const char *text, int32_t *views, int32_t *is_greedy);

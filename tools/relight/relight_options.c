@@ -64,102 +64,102 @@ static const char *const shows[] = {"both", "normal", "glossy", NULL}; /* in the
 #define COUNTS(member) .counts = offsetof(relight_options, member)
 
 static const option_row world_rows[] = {
-    {.kind = OPTION_TITLE, .help = "world"},
+    {.kind = OPTION_TITLE, .help = HELP("world")},
     {.name = "--world", .value = "FILE|PREFIX", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
-     .help = "one file: six faces (+x -x +y -y +z -z from the top or the left), or the whole sphere, twice as wide "
+     .help = HELP("one file: six faces (+x -x +y -y +z -z from the top or the left), or the whole sphere, twice as wide "
              "as high; or six files, PREFIXpx PREFIXnx ... PREFIXnz (.pfm .hdr .png .jpg), of which some may be "
-             "missing; or `demo`, a built-in field with places of its own"},
-    {.name = "--world-centre", .kind = OPTION_POINT, AT(place.centre), .help = "where it was taken (default 0,0,0)"},
+             "missing; or `demo`, a built-in field with places of its own")},
+    {.name = "--world-centre", .kind = OPTION_POINT, AT(place.centre), .help = HELP("where it was taken (default 0,0,0)")},
     {.name = "--world-sphere", .value = "X,Y,Z,R", .kind = OPTION_OWN, .parse = parse_sphere,
      .expects = "X,Y,Z,R with R over 0",
-     .help = "what is far lies on this sphere (default: 100 m around the centre)"},
+     .help = HELP("what is far lies on this sphere (default: 100 m around the centre)")},
     {.name = "--world-box", .value = "X0,Y0,Z0,X1,Y1,Z1", .kind = OPTION_OWN, .parse = parse_box,
      .expects = "X0,Y0,Z0,X1,Y1,Z1, the smaller ones first",
-     .help = "or on the walls of this box; the centre lies inside"},
+     .help = HELP("or on the walls of this box; the centre lies inside")},
     {.name = "--ground", .value = "FILE", .kind = OPTION_TEXT, AT(ground), .file = OPTION_READS,
-     .help = "the ground from above, right +x, down +z; transparent where it is not known"},
+     .help = HELP("the ground from above, right +x, down +z; transparent where it is not known")},
     {.name = "--ground-size", .value = "W,D", .kind = OPTION_NUMBERS, AT(ground_size), .size = 2, .low = 1e-6,
      .high = 1e30, .expects = "W,D over 0",
-     .help = "its sides, m (default 100,100)"},
+     .help = HELP("its sides, m (default 100,100)")},
     {.name = "--ground-centre", .value = "X,Z", .kind = OPTION_NUMBERS, AT(ground_centre), .size = 2, .low = -1e30,
      .high = 1e30, COUNTS(has_ground_centre),
-     .help = "the picture's middle (default: the world's centre)"},
+     .help = HELP("the picture's middle (default: the world's centre)")},
     {.name = "--ground-height", .value = "H", .kind = OPTION_NUMBER, AT(place.ground_y), .low = -1e30, .high = 1e30,
-     .help = "of the ground, m (default 0)"},
+     .help = HELP("of the ground, m (default 0)")},
     {.name = "--storage", .kind = OPTION_WORD, AT(format), .words = storages,
-     .help = "how the world is kept: floats, or log codes of 0 to 100 (default f32)"},
+     .help = HELP("how the world is kept: floats, or log codes of 0 to 100 (default f32)")},
     {.name = "--overlap", .kind = OPTION_WORD, AT(blend), .words = overlaps,
-     .help = "where far world and ground both show (default nearer)"},
+     .help = HELP("where far world and ground both show (default nearer)")},
     {.kind = OPTION_END},
 };
 
 static const option_row light_rows[] = {
-    {.kind = OPTION_TITLE, .help = "light"},
+    {.kind = OPTION_TITLE, .help = HELP("light")},
     {.name = "--at", .value = "X,Y,Z", .kind = OPTION_OWN, AT(at), COUNTS(at_count), .times = RELIGHT_PLACES,
      .size = sizeof(lmb_vec3), .parse = parse_place, .expects = "X,Y,Z within 1,000,000 m",
-     .help = "the place (default: the world's centre); outside the far world: the nearest in it. With --object: one "
-             "more of it each time"},
+     .help = HELP("the place (default: the world's centre); outside the far world: the nearest in it. With --object: one "
+             "more of it each time")},
     {.name = "--filter", .kind = OPTION_WORD, AT(filter), .words = relight_filters,
-     .help = "cosine: exact, from 6 x 8 x 8 directions (default); off by about 0.5 %;\nsh9, sh16, sh25: spherical "
+     .help = HELP("cosine: exact, from 6 x 8 x 8 directions (default); off by about 0.5 %;\nsh9, sh16, sh25: spherical "
              "harmonics: 1 %, the same, 0.6 %; may be negative beside sharp lights;\nblur, blur1, blur2: by rows and "
-             "columns: the source's 6 %, one product fitted a row 4 %, two 1.5 %"},
+             "columns: the source's 6 %, one product fitted a row 4 %, two 1.5 %")},
     {.name = "--cube", .value = "OUT", .kind = OPTION_OWN, AT(cube), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = "W/m2, N wide and 6 N high, faces +x -x +y -y +z -z from the top (.pfm .hdr; .png .ppm to look at; "
-             "-, ppm:-, pfm:-, hdr:- are standard output)"},
+     .help = HELP("W/m2, N wide and 6 N high, faces +x -x +y -y +z -z from the top (.pfm .hdr; .png .ppm to look at; "
+             "-, ppm:-, pfm:-, hdr:- are standard output)")},
     {.name = "--faces", .value = "N", .kind = OPTION_INT, AT(faces), .low = 1, .high = 64,
-     .help = "texels of a face's side (default 8)"},
+     .help = HELP("texels of a face's side (default 8)")},
     {.name = "--map", .value = "OUT", .kind = OPTION_OWN, AT(map), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = "what the place sees, 128 x 64: longitude from -180 degrees, north on top; W/(sr m2); files as --cube"},
+     .help = HELP("what the place sees, 128 x 64: longitude from -180 degrees, north on top; W/(sr m2); files as --cube")},
     {.kind = OPTION_END},
 };
 
 static const option_row object_rows[] = {
-    {.kind = OPTION_TITLE, .help = "objects"},
+    {.kind = OPTION_TITLE, .help = HELP("objects")},
     {.name = "--object", .value = "FILE", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
-     .help = ".gltf .glb .obj .ply, or `demo`, a figure: stands with the middle of its box's bottom at --at, and is "
-             "lit as its box's middle is"},
+     .help = HELP(".gltf .glb .obj .ply, or `demo`, a figure: stands with the middle of its box's bottom at --at, and is "
+             "lit as its box's middle is")},
     {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale_m), .low = 1e-3, .high = 1e5,
-     .help = "its longest side, m (default: as the file says)"},
+     .help = HELP("its longest side, m (default: as the file says)")},
     {.name = "--roughness", .value = "R", .kind = OPTION_NUMBER, AT(roughness), .low = 0, .high = 1,
-     .help = "0: a mirror (default: glTF's materials' own, else 0.4)"},
+     .help = HELP("0: a mirror (default: glTF's materials' own, else 0.4)")},
     {.name = "--f0", .value = "F", .kind = OPTION_NUMBER, AT(f0), .low = 0, .high = 1,
-     .help = "what it mirrors where it faces the viewer (default: its own, else 0.04)"},
+     .help = HELP("what it mirrors where it faces the viewer (default: its own, else 0.04)")},
     {.name = "--per-part", .kind = OPTION_FLAG, AT(per_part),
-     .help = "each part of the object is lit as its own box's middle is"},
+     .help = HELP("each part of the object is lit as its own box's middle is")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), COUNTS(light_count), .times = RELIGHT_LIGHTS,
      .size = sizeof(lmb_light),
-     .help = "a light or sun beside the world's light, as in `lambent render`"},
+     .help = HELP("a light or sun beside the world's light, as in `lambent render`")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
-     .help = "all light, that by normals alone, or what is mirrored alone (default both)"},
+     .help = HELP("all light, that by normals alone, or what is mirrored alone (default both)")},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
-     .help = "places of the object, X,Y,Z a line: a picture each, its number in place of OUT's %0Nd, as frame_%04d.png, or "
-             "else as -0000, -0001, ..."},
+     .help = HELP("places of the object, X,Y,Z a line: a picture each, its number in place of OUT's %0Nd, as frame_%04d.png, or "
+             "else as -0000, -0001, ...")},
     {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
-     .help = "an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until it "
-             "rests)"},
+     .help = HELP("an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until it "
+             "rests)")},
     {.name = "--every", .value = "N", .kind = OPTION_INT, AT(policy.every), .low = 1, .high = 1 << 20,
-     .help = "but no longer than N pictures if it moves at all"},
+     .help = HELP("but no longer than N pictures if it moves at all")},
     {.name = "--keep", .value = "X,Y,Z", .kind = OPTION_OWN, AT(keep), COUNTS(keep_count), .times = RELIGHT_PLACES,
      .size = sizeof(lmb_vec3), .parse = parse_place, .expects = "X,Y,Z within 1,000,000 m",
-     .help = "a named place: objects that stand within --reuse of it use its light"},
+     .help = HELP("a named place: objects that stand within --reuse of it use its light")},
     {.kind = OPTION_END},
 };
 
 static const option_row picture_rows[] = {
-    {.kind = OPTION_TITLE, .help = "picture"},
+    {.kind = OPTION_TITLE, .help = HELP("picture")},
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = PICTURE_OPTION_HELP},
+     .help = HELP(PICTURE_OPTION_HELP)},
     VIEW_OPTION_SIZE(relight_options, view, "px (default 640x480)"),
     VIEW_OPTIONS_CAMERA(relight_options, view, "where the camera stands (default: so that all objects fit)"),
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
-     .help = "a pixel; their mean is shown (default 4 for .png and .ppm, 1 for .pfm and .hdr)"},
+     .help = HELP("a pixel; their mean is shown (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
     OPTION_TONE_ROW(relight_options, tone),
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
-     .help = "stops, display formats only (default auto: said on stderr)"},
+     .help = HELP("stops, display formats only (default auto: said on stderr)")},
     OPTION_BACKEND_ROW(relight_options, kernels),
     OPTION_THREADS_ROW(relight_options, threads, "draw the objects' picture"),
     OPTION_LOUDNESS(relight_options, view.is_quiet, view.is_verbose, "say how long what took"),

@@ -153,27 +153,27 @@ static const int32_t show_values[] = {LMB_SHOW_FULL, LMB_SHOW_DIRECT,     LMB_SH
 
 const option_row render_scene_rows[] = {
     {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene), .file = OPTION_READS,
-     .help = ".gltf, .glb, .obj, .ply, .lmp, or `demo`, a built-in room"},
+     .help = HELP(".gltf, .glb, .obj, .ply, .lmp, or `demo`, a built-in room")},
     {.kind = OPTION_END},
 };
 
 static const option_row output_rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = "the picture: " PICTURE_OPTION_HELP},
+     .help = HELP("the picture: " PICTURE_OPTION_HELP)},
     OPTION_SLICE_ROW(render_options, slice, "picture's rows, eight by eight"),
     {.kind = OPTION_END},
 };
 
 const option_row render_view_rows[] = {
-    {.kind = OPTION_TITLE, .help = "view"},
+    {.kind = OPTION_TITLE, .help = HELP("view")},
     VIEW_OPTION_SIZE(render_options, view,
                      "the picture, px (default: height 480, width by the camera's aspect; without a camera by the "
                      "scene's shape)"),
     {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene_name),
-     .help = "of a file with several scenes (default: its own choice)"},
+     .help = HELP("of a file with several scenes (default: its own choice)")},
     {.name = "--camera", .value = "NAME|N", .kind = OPTION_TEXT, AT(camera),
-     .help = "one of the scene's cameras, by name or number from 0 (default 0)"},
+     .help = HELP("one of the scene's cameras, by name or number from 0 (default 0)")},
     VIEW_OPTIONS_CAMERA(render_options, view, "where a camera of your own stands; with --target"),
     {.kind = OPTION_END},
 };
@@ -182,179 +182,179 @@ static const char *const grounds[] = {"auto", "none", NULL};
 static const int32_t ground_values[] = {0, 1};
 
 static const option_row world_rows[] = {
-    {.kind = OPTION_TITLE, .help = "world"},
+    {.kind = OPTION_TITLE, .help = HELP("world")},
     {.name = "--world", .value = "FILE|sky|none", .kind = OPTION_TEXT, AT(world),
-     .help = "what lies around the scene, lights it and is seen behind it: a clear sky with a sun, or a picture of all "
+     .help = HELP("what lies around the scene, lights it and is seen behind it: a clear sky with a sun, or a picture of all "
              "directions (.hdr, .pfm, .png, .jpg; twice as wide as high, or a cube's faces) (default: sky where the "
-             "scene has no light of its own, else none)"},
+             "scene has no light of its own, else none)")},
     {.name = "--ground", .kind = OPTION_WORD, AT(no_ground), .words = grounds, .values = ground_values,
-     .help = "auto: under a scene without lights and without a floor lies a grey ground (default), but not before a "
-             "--background of its own"},
+     .help = HELP("auto: under a scene without lights and without a floor lies a grey ground (default), but not before a "
+             "--background of its own")},
     {.name = "--background", .value = "RRGGBB|world|transparent", .kind = OPTION_OWN, AT(background),
      .parse = parse_background, .expects = "world, transparent, or a colour such as ffffff",
-     .help = "what is seen where no surface is: a colour, the world (default; black where there is none), or "
-             "nothing, a PNG with alpha"},
+     .help = HELP("what is seen where no surface is: a colour, the world (default; black where there is none), or "
+             "nothing, a PNG with alpha")},
     {.kind = OPTION_END},
 };
 
 static const option_row stereo_rows[] = {
     {.name = "--stereo", .value = "METRES", .kind = OPTION_ABOVE, AT(stereo_m), .low = 0.0, .high = 1e6,
-     .help = "two eyes that far apart, left | right side by side, each --size; one light serves both"},
+     .help = HELP("two eyes that far apart, left | right side by side, each --size; one light serves both")},
     {.kind = OPTION_END},
 };
 
 const option_row render_light_rows[] = {
-    {.kind = OPTION_TITLE, .help = "light"},
+    {.kind = OPTION_TITLE, .help = HELP("light")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(render_options, light_count),
      .times = RENDER_LIGHTS, .size = sizeof(lmb_light), .sizes = offsetof(render_options, light_size),
-     .help = "instead of the scene's lights; lights add up. KIND is spot, point or sun; position in metres, "
+     .help = HELP("instead of the scene's lights; lights add up. KIND is spot, point or sun; position in metres, "
              "direction of travel; W/sr, sun W/m2; a spot's half angles in degrees (default 0,45); SIZE: how wide it "
-             "is, m, of a sun degrees: its shadows are soft, by 64 lights"},
+             "is, m, of a sun degrees: its shadows are soft, by 64 lights")},
     {.name = "--shadow-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(shadow_map), .low = 8, .high = 4096,
-     .help = "texels a side of a shadow map (default 1024, less for many lights)"},
-    {.kind = OPTION_TITLE, .help = "many lights"},
+     .help = HELP("texels a side of a shadow map (default 1024, less for many lights)")},
+    {.kind = OPTION_TITLE, .help = HELP("many lights")},
     {.name = "--many-lights", .value = "CELLS", .kind = OPTION_INT, AT(many_lights_cells), .low = 1, .high = 1 << 22,
-     .help = "lights stream into at most CELLS cells of the world, and every 8x8 pixels take what they need of a "
+     .help = HELP("lights stream into at most CELLS cells of the world, and every 8x8 pixels take what they need of a "
              "tree over those, shadows by every triangle; so do --elements, which bounce their light. Millions take "
              "the memory of thousands. By itself, with 16384 cells, where there are more than 128 lights, or more "
-             "than 32 that bounce by cuts"},
+             "than 32 that bounce by cuts")},
     {.name = "--light-error", .value = "E", .kind = OPTION_NUMBER, AT(light_error), .low = 1e-6, .high = 1,
-     .help = "share of a pixel's light that one node of that tree may be wrong by (default 0.02; of a sky alone 0.01)"},
+     .help = HELP("share of a pixel's light that one node of that tree may be wrong by (default 0.02; of a sky alone 0.01)")},
     {.kind = OPTION_END},
 };
 
 const option_row render_bounce_rows[] = {
-    {.kind = OPTION_TITLE, .help = "bounce"},
+    {.kind = OPTION_TITLE, .help = HELP("bounce")},
     {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities, .values = quality_values,
-     .help = "sets --tree, --error and --visibility where they are not given; see README for each one's error and "
-             "time"},
+     .help = HELP("sets --tree, --error and --visibility where they are not given; see README for each one's error and "
+             "time")},
     {.name = "--transfer", .value = "FILE.lmt", .kind = OPTION_TEXT, AT(transfer), .file = OPTION_READS,
-     .help = "bounced light by what `lambent bake` made of this scene; also a .lmp that has it within"},
+     .help = HELP("bounced light by what `lambent bake` made of this scene; also a .lmp that has it within")},
     {.name = "--tree", .value = "N", .kind = OPTION_POWER_OF_2, AT(tree), .low = 8, .high = 4096,
-     .help = "first points a side of a shadow map, to an eighth of --shadow-map"},
+     .help = HELP("first points a side of a shadow map, to an eighth of --shadow-map")},
     {.name = "--error", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
-     .help = "share that a pixel's bounced light may be wrong by where nothing blocks it"},
+     .help = HELP("share that a pixel's bounced light may be wrong by where nothing blocks it")},
     {.name = "--error-bound", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
      .counts = offsetof(render_options, conservative),
-     .help = "the same as a proof, for each pixel: takes many times as long (one bounce; with --occlusion none also "
-             "where it takes every texel)"},
+     .help = HELP("the same as a proof, for each pixel: takes many times as long (one bounce; with --occlusion none also "
+             "where it takes every texel)")},
     {.name = "--visibility", .value = "V", .kind = OPTION_NUMBER, AT(visibility), .low = 1e-4, .high = 10,
-     .help = "what may be seen or blocked as one: at most this share of a pixel's bounced light"},
+     .help = HELP("what may be seen or blocked as one: at most this share of a pixel's bounced light")},
     {.name = "--bounces", .value = "N", .kind = OPTION_INT, AT(bounces), .low = 1, .high = 64,
-     .help = "reflections of light (default 1); above 1 with --grouping cut. What an emitter sends straight is none: "
-             "it always counts"},
+     .help = HELP("reflections of light (default 1); above 1 with --grouping cut. What an emitter sends straight is none: "
+             "it always counts")},
     {.name = "--rest", .kind = OPTION_WORD, AT(truncated), .words = rests,
-     .help = "with --bounces over 1, light that is reflected more often: estimated from how the last of them grew "
-             "weaker (default), or left out"},
+     .help = HELP("with --bounces over 1, light that is reflected more often: estimated from how the last of them grew "
+             "weaker (default), or left out")},
     {.name = "--elements", .value = "N", .kind = OPTION_OWN, AT(elements), .parse = parse_elements,
      .expects = "a number, 64 .. 16777216",
-     .help = "pieces of the scene that reflect again, or emit (a power of 4; default 16384, with --bounces over 1 "
-             "65536)"},
+     .help = HELP("pieces of the scene that reflect again, or emit (a power of 4; default 16384, with --bounces over 1 "
+             "65536)")},
     {.name = "--grouping", .kind = OPTION_WORD, AT(grouping.method), .words = groupings, .values = grouping_values,
-     .help = "cut (default): every 8x8 pixels take what they need of a tree of all lit points. The others make one "
-             "fixed set of groups; what follows to --steps is theirs"},
+     .help = HELP("cut (default): every 8x8 pixels take what they need of a tree of all lit points. The others make one "
+             "fixed set of groups; what follows to --steps is theirs")},
     {.name = "--groups", .value = "N", .kind = OPTION_INT, AT(grouping.groups), .low = 1, .high = LMB_MAX_GROUPS,
-     .help = "groups at most (default 512)"},
+     .help = HELP("groups at most (default 512)")},
     {.name = "--block", .kind = OPTION_WORD, AT(grouping.block), .words = blocks, .values = block_values,
-     .help = "texels a side of a first point (default 8)"},
+     .help = HELP("texels a side of a first point (default 8)")},
     {.name = "--neighbour", .value = "METRES", .kind = OPTION_NUMBER, AT(grouping.neighbour_m), .low = 0, .high = 1e6,
-     .help = "neighbours are points within so many metres, say 0.25, 0.5 or 1 (default: those of the blocks around, "
-             "as --neighbour-blocks 1)"},
+     .help = HELP("neighbours are points within so many metres, say 0.25, 0.5 or 1 (default: those of the blocks around, "
+             "as --neighbour-blocks 1)")},
     {.name = "--neighbour-blocks", .value = "N", .kind = OPTION_INT, AT(grouping.neighbour_cells), .low = 1,
      .high = LMB_MAX_SIDE,
-     .help = "neighbours are points within so many blocks of the shadow map; and within --neighbour, where both are "
-             "given"},
+     .help = HELP("neighbours are points within so many blocks of the shadow map; and within --neighbour, where both are "
+             "given")},
     {.name = "--neighbourhood", .value = "facing|hemisphere", .kind = OPTION_OWN, AT(grouping.flags),
      .parse = parse_neighbourhood, .expects = "facing or hemisphere",
-     .help = "neighbours are points that face the same way (default), or any over the surface"},
+     .help = HELP("neighbours are points that face the same way (default), or any over the surface")},
     {.name = "--thin", .value = "N", .kind = OPTION_INT, AT(grouping.thin), .low = 1, .high = LMB_MAX_THIN,
-     .help = "of N points one becomes a disc, evenly spread, and the others join it (default 1)"},
+     .help = HELP("of N points one becomes a disc, evenly spread, and the others join it (default 1)")},
     {.name = "--disc-radius", .value = "R", .kind = OPTION_ABOVE, AT(grouping.radius), .low = 0, .high = 1e6,
-     .help = "a disc's radius is R x its mean distance to its neighbours (default: by the area of its points, so "
-             "that none is lost or made)"},
+     .help = HELP("a disc's radius is R x its mean distance to its neighbours (default: by the area of its points, so "
+             "that none is lost or made)")},
     {.name = "--zones", .value = "N", .kind = OPTION_INT, AT(grouping.zones), .low = 1, .high = 1 << 26,
-     .help = "zones that the discs' map is cut into at first (default: as --groups)"},
+     .help = HELP("zones that the discs' map is cut into at first (default: as --groups)")},
     {.name = "--join", .value = "K", .kind = OPTION_OWN, AT(grouping.join), .parse = parse_join,
      .expects = "a number, 0 .. 1",
-     .help = "points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)"},
+     .help = HELP("points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)")},
     {.name = "--reach", .value = "X", .kind = OPTION_NUMBER, AT(grouping.reach), .low = 0.01, .high = 1e6,
-     .help = "a disc joins a group within X x the first disc's radius (default 3)"},
+     .help = HELP("a disc joins a group within X x the first disc's radius (default 3)")},
     {.name = "--cosine", .value = "C", .kind = OPTION_OWN, AT(grouping.cosine), .parse = parse_cosine,
      .expects = "a number, -1 .. 1",
-     .help = "... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)"},
+     .help = HELP("... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)")},
     {.name = "--misfits", .value = "keep|drop", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_misfits,
      .expects = "keep or drop",
-     .help = "what does not fit its zone opens another group, or is lost; how much is said"},
+     .help = HELP("what does not fit its zone opens another group, or is lost; how much is said")},
     {.name = "--centre", .value = "barycentre|disc", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_centre,
      .expects = "barycentre or disc",
-     .help = "where a group stands (default barycentre)"},
+     .help = HELP("where a group stands (default barycentre)")},
     {.name = "--occlusion", .kind = OPTION_WORD, AT(occlusion), .words = occlusions, .values = occlusion_values,
-     .help = "what stands between lit points and pixels: every triangle (cut's default); nothing; or, for fixed "
+     .help = HELP("what stands between lit points and pixels: every triangle (cut's default); nothing; or, for fixed "
              "groups, what the viewer's depth map shows, marched in map space or in world space (their default: "
-             "view): it cannot know what is off screen or hidden"},
+             "view): it cannot know what is off screen or hidden")},
     {.name = "--steps", .value = "N", .kind = OPTION_INT, AT(steps), .low = 1, .high = 64,
-     .help = "samples of a view march (default 12)"},
+     .help = HELP("samples of a view march (default 12)")},
     {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
-     .help = "at every pixel (default; half with many lights; adaptive under a sky), or at every second or fourth each "
+     .help = HELP("at every pixel (default; half with many lights; adaptive under a sky), or at every second or fourth each "
              "way and between them where surface and light go on; pixels that have no such neighbours are gathered "
-             "too. adaptive: at every eighth, and closer where light asks for it: the fastest, by a smaller --error closer"},
+             "too. adaptive: at every eighth, and closer where light asks for it: the fastest, by a smaller --error closer")},
     {.kind = OPTION_END},
 };
 
 const option_row render_picture_rows[] = {
-    {.kind = OPTION_TITLE, .help = "picture"},
+    {.kind = OPTION_TITLE, .help = HELP("picture")},
     {.name = "--glossy", .kind = OPTION_FLAG, AT(glossy),
-     .help = "glTF's materials with highlights and reflections, by metallic, roughness and base colour "
+     .help = HELP("glTF's materials with highlights and reflections, by metallic, roughness and base colour "
              "(metallic-roughness maps by texel): of the lights with maps, and of what bounces, by --grouping cut or "
              "--transfer. "
-             "Else, and in OBJ, PLY and `demo`, materials are Lambertian"},
+             "Else, and in OBJ, PLY and `demo`, materials are Lambertian")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .values = show_values,
-     .help = "light (default full; irradiance: bounced, before albedo);\ndepth, eye-distance, normal, albedo: of "
+     .help = HELP("light (default full; irradiance: bounced, before albedo);\ndepth, eye-distance, normal, albedo: of "
              "what the eye sees; metres along the view, and from the eye;\nlight-distance, points, groups: of the "
              "shadow maps, at their size, a row of faces a light: metres from the light; first points by what they "
              "send, W/m2 (discs, where --join or --thin is given); the number of the group that owns a texel, 0 "
              "dark, -1 dropped;\nocclusion: the share of the bounced light that --occlusion blocks.\nDisplay formats "
-             "scale distances, near is bright, and give each group a colour"},
+             "scale distances, near is bright, and give each group a colour")},
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
-     .help = "a pixel, of edges and direct light; bounced light is gathered once for each surface that it shows "
-             "(default 4 for .png and .ppm, 1 for .pfm and .hdr; --show depth and what else is no light takes no more)"},
+     .help = HELP("a pixel, of edges and direct light; bounced light is gathered once for each surface that it shows "
+             "(default 4 for .png and .ppm, 1 for .pfm and .hdr; --show depth and what else is no light takes no more)")},
     OPTION_TONE_ROW(render_options, tone),
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
-     .help = "stops, display formats only (default auto, by the light that surfaces reflect: said on stderr). .pfm "
-             "and .hdr stay linear"},
+     .help = HELP("stops, display formats only (default auto, by the light that surfaces reflect: said on stderr). .pfm "
+             "and .hdr stay linear")},
     {.kind = OPTION_END},
 };
 
 static const option_row budget_rows[] = {
     {.kind = OPTION_TITLE,
-     .help = "budget: with any of these --shadow-map, --tree, --error, --visibility, --gather and --occlusion are "
+     .help = HELP("budget: with any of these --shadow-map, --tree, --error, --visibility, --gather and --occlusion are "
              "chosen: the least error within them, or the least work that keeps --budget-error. What is chosen, and "
-             "by how much it falls short, is said; `lambent plan` shows the reckoning"},
+             "by how much it falls short, is said; `lambent plan` shows the reckoning")},
     {.name = "--budget-error", .value = "E", .kind = OPTION_NUMBER, AT(budget.error), .low = 1e-5, .high = 10,
-     .help = "bounced light may be that far off: RMSE over its mean, without the worst 1 % of pixels"},
+     .help = HELP("bounced light may be that far off: RMSE over its mean, without the worst 1 % of pixels")},
     {.name = "--budget-ms", .value = "T", .kind = OPTION_NUMBER, AT(budget_ms), .low = 1e-3, .high = 1e9,
-     .help = "a frame may take that long here: T x the rate of `lambent bench --calibrate`"},
+     .help = HELP("a frame may take that long here: T x the rate of `lambent bench --calibrate`")},
     {.name = "--budget-work", .value = "N", .kind = OPTION_OWN, AT(budget.work), .parse = parse_budget_work,
      .expects = "a number of units, 1 or more",
-     .help = "the same in units, one a pixel lit by one node: the same choice on every machine"},
+     .help = HELP("the same in units, one a pixel lit by one node: the same choice on every machine")},
     {.name = "--budget-bytes", .value = "N[KiB|MiB]", .kind = OPTION_OWN, AT(budget.bytes), .parse = parse_budget_bytes,
      .expects = "a number of bytes, or of KiB or MiB: 100KiB",
-     .help = "of maps, trees, view, picture and one thread's scratch"},
+     .help = HELP("of maps, trees, view, picture and one thread's scratch")},
     {.name = "--rate", .value = "UNITS", .kind = OPTION_NUMBER, AT(rate), .low = 1, .high = 1e15,
-     .help = "units of work a second, in place of measuring them"},
+     .help = HELP("units of work a second, in place of measuring them")},
     {.kind = OPTION_END},
 };
 
 const option_row render_other_rows[] = {
-    {.kind = OPTION_TITLE, .help = "other"},
+    {.kind = OPTION_TITLE, .help = HELP("other")},
     {.name = "--profile", .value = "exact", .kind = OPTION_OWN, .parse = parse_profile,
      .expects = "exact (there is no other)",
-     .help = "the only one: the same bytes on every machine"},
+     .help = HELP("the only one: the same bytes on every machine")},
     OPTION_BACKEND_ROW(render_options, kernels),
     OPTION_THREADS_ROW(render_options, threads, "draw the picture"),
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
-     .help = "time by stage, counts, bytes"},
+     .help = HELP("time by stage, counts, bytes")},
     OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose,
                     "say what it draws with, and how long each stage took"),
     OPTION_ASK,
@@ -362,8 +362,8 @@ const option_row render_other_rows[] = {
 };
 
 static const option_row json_rows[] = {
-    {.kind = OPTION_TITLE, .help = "plan"},
-    {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "all of it for programs"},
+    {.kind = OPTION_TITLE, .help = HELP("plan")},
+    {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = HELP("all of it for programs")},
     {.kind = OPTION_END},
 };
 
