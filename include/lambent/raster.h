@@ -95,7 +95,7 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
 #if LMB_CULLING
 /* lmb_draw_culled: lmb_draw without what bounds show to be hidden: the same pixels, and ids, to the byte.
  *
- *   culling  `farthest` is read and raised.
+ *   culling  `farthest` is read and raised; backends of under eight lanes leave it, and cull by clusters alone.
  * Returns what lmb_draw does; LMB_ERR_ARG also where culling is NULL, LMB_ERR_CAPACITY where one of its arrays is too
  * short. Triangles of a cluster that is left out count as drawn nowhere; one with a triangle that would be dropped is
  * never left out.

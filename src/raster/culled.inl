@@ -6,6 +6,7 @@
  * Equal depths are left out, too, as the earlier draw stays. Else pixels are fill_small.inl's and fill_large.inl's,
  * value by value. */
 
+#if LANES >= LMB_TILE
 /* A depth as the target holds it. */
 LANE_INLINE float culled_code(float d, const lmb_fill_tile *tile, const lmb_fill_job *job)
 {
@@ -52,9 +53,6 @@ LANE_INLINE float culled_look(const lmb_fill_tile *tile)
     return lane_least(least);
 }
 
-/* Narrow lanes look at few of the tiles that they drew into, as looking costs as much as drawing. */
-LANE_INLINE int culled_looks(uint32_t id) { return LANES >= LMB_TILE || id % 8 == 0; }
-
 LANE_INLINE void culled_set_tile(lmb_fill_tile *tile, const lmb_fill_window *w, ptrdiff_t across, ptrdiff_t down)
 {
     tile->depth = (uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile;
@@ -68,27 +66,21 @@ LANE_INLINE float *culled_bound(const lmb_fill_window *w, ptrdiff_t across, ptrd
     return w->farthest + down * w->tiles_x + across;
 }
 
-#if LANES >= LMB_TILE
 #include "culled_tile.inl"
-#endif
 
 /* e: the edges at the tile's pixel (0, box->first_row) - but for tiled ones, which all is drawn of, (0, 0). */
 LANE_INLINE void culled_cross(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t,
                               const int32_t e[3], const fill_box *box, float *bound, int kind)
 {
-#if LANES >= LMB_TILE
     if (kind != FILL_ANY) {
         culled_cross_tiled(tile, t, lanei_add(lanei_splat(e[0]), t->step[0][0]),
                            lanei_add(lanei_splat(e[1]), t->step[1][0]), lanei_add(lanei_splat(e[2]), t->step[2][0]),
                            job->d, bound, kind);
         return;
     }
-#endif
     (void)kind;
     small_tile(tile, job, t, e[0], e[1], e[2], box);
-    if (culled_looks(t->id)) {
-        *bound = culled_look(tile);
-    }
+    *bound = culled_look(tile);
 }
 
 LANE_INLINE void culled_inside(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, float *bound,
@@ -128,7 +120,6 @@ LANE_INLINE uint32_t culled_row_seen(float *d, const culled_plane *plane, const 
 
 /* --- small triangles ---------------------------------------------------------------------------------------------- */
 
-#if LANES >= LMB_TILE
 /* One tile of triangle k; (x, y): its first pixel in the frame, e: the edges there. */
 LANE_INLINE void culled_small_tile(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fill_job *job, const lmb_batch *b,
                                    int k, const fill_triangle *t, const int32_t e[3], int32_t x, int32_t y, int kind)
@@ -180,9 +171,7 @@ LANE_INLINE void culled_small_one(const lmb_fill_window *w, const lmb_batch *b, 
 }
 
 #include "culled_parts.inl"
-#endif
 
-#if LANES >= LMB_TILE
 NOINLINE void culled_small_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
     culled_small_parts(w, b, bits, first_id, FILL_PLAIN);
@@ -192,12 +181,9 @@ NOINLINE void culled_small_id32(const lmb_fill_window *w, const lmb_batch *b, ui
 {
     culled_small_parts(w, b, bits, first_id, FILL_ID32);
 }
-#endif
 
-/* Where lanes are fewer, a small triangle costs less than the question whether it is hidden. */
 static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
-#if LANES >= LMB_TILE
     const int kind = fill_kind(&w->first);
     if (kind == FILL_PLAIN) {
         culled_small_plain(w, b, bits, first_id);
@@ -207,7 +193,6 @@ static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, u
         culled_small_id32(w, b, bits, first_id);
         return;
     }
-#endif
     KERNEL(fill_small)(w, b, bits, first_id);
 }
 
@@ -228,62 +213,9 @@ LANE_INLINE void culled_large_tile(const lmb_fill_tile *tile, const lmb_fill_job
     }
 }
 
-#if LANES < LMB_TILE
-/* In their callers compilers would keep narrow lanes in memory; copies, as a depth that is written might be a number
- * that is read. */
-NOINLINE void culled_large_any(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t,
-                               const large_edges *edges, large3 at, float *bound)
-{
-    culled_large_tile(tile, job, t, edges, at, bound, FILL_ANY);
-}
-
-NOINLINE void culled_large_plain(const lmb_fill_window *w, const lmb_fill_tile *tile, const lmb_fill_job *job,
-                                 const fill_triangle *t, const large_edges *edges, large3 at, float *bound)
-{
-    const fill_triangle own_triangle = *t;
-    const lmb_fill_job own_job = *job;
-    lmb_fill_tile own = fill_first(w, FILL_PLAIN);
-    own.depth = tile->depth;
-    culled_large_tile(&own, &own_job, &own_triangle, edges, at, bound, FILL_PLAIN);
-}
-
-NOINLINE void culled_large_id32(const lmb_fill_window *w, const lmb_fill_tile *tile, const lmb_fill_job *job,
-                                const fill_triangle *t, const large_edges *edges, large3 at, float *bound)
-{
-    const fill_triangle own_triangle = *t;
-    const lmb_fill_job own_job = *job;
-    lmb_fill_tile own = fill_first(w, FILL_ID32);
-    own.depth = tile->depth;
-    own.id = tile->id;
-    culled_large_tile(&own, &own_job, &own_triangle, edges, at, bound, FILL_ID32);
-}
-#endif
-
-LANE_INLINE void culled_large_draw(const lmb_fill_window *w, const lmb_fill_tile *tile, const lmb_fill_job *job,
-                                   const fill_triangle *t, const large_edges *edges, large3 at, float *bound, int kind)
-{
-#if LANES >= LMB_TILE
-    (void)w;
-    culled_large_tile(tile, job, t, edges, at, bound, kind);
-#else
-    switch (kind) {
-    case FILL_PLAIN: culled_large_plain(w, tile, job, t, edges, at, bound); break;
-    case FILL_ID32: culled_large_id32(w, tile, job, t, edges, at, bound); break;
-    default: culled_large_any(tile, job, t, edges, at, bound); break;
-    }
-#endif
-}
-
 LANE_INLINE large3 large_times(large3 p, int64_t n) { return large_make(p.a * n, p.b * n, p.c * n); }
 
-
-/* Where lanes are registers, the depths of a row of more tiles than this are asked for side by side. */
-enum { CULLED_ROW = 8 };
-#if defined(LANE_PLAIN) || LANES == 1
-enum { CULLED_SIDE_BY_SIDE = 0 };
-#else
-enum { CULLED_SIDE_BY_SIDE = 1 };
-#endif
+enum { CULLED_ROW = 8 }; /* the depths of a row of more tiles than this are asked for side by side */
 
 /* LANES tiles of a row, or `count`, from tile (tx, ty) of the window on, and `at` on to the tile after them; 0 where the
  * triangle's part of the row ended. */
@@ -296,7 +228,7 @@ LANE_INLINE int culled_large_tiles(const lmb_fill_window *w, const culled_plane 
                 near_y = job->dy > 0.0f ? (float)(LMB_TILE - 1) : 0.0f;
     float d[LANES];
     uint32_t seen = 0xffffu;
-    const int in_row = CULLED_SIDE_BY_SIDE && count > CULLED_ROW;
+    const int in_row = count > CULLED_ROW;
     if (in_row) {
         seen = culled_row_seen(d, plane, tile, job, d_row, x_24_8, near_x, near_y, culled_bound(w, tx, ty));
         if (seen == 0) {
@@ -322,7 +254,7 @@ LANE_INLINE int culled_large_tiles(const lmb_fill_window *w, const culled_plane 
                                   d_row);
         if (in_row || *bound < culled_near(tile, job, near_x, near_y)) {
             culled_set_tile(tile, w, tx + i, ty);
-            culled_large_draw(w, tile, job, t, edges, *at, bound, kind);
+            culled_large_tile(tile, job, t, edges, *at, bound, kind);
         }
     }
     return 1;
@@ -370,10 +302,20 @@ LANE_INLINE void culled_large_fill(const lmb_fill_window *w, const lmb_setup *s,
 static void KERNEL(culled_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
     switch (fill_kind(&w->first)) {
-#if LANES > 1
     case FILL_PLAIN: culled_large_fill(w, s, id, FILL_PLAIN); break;
     case FILL_ID32: culled_large_fill(w, s, id, FILL_ID32); break;
-#endif
     default: culled_large_fill(w, s, id, FILL_ANY); break;
     }
 }
+#else
+/* Where lanes are fewer, asking costs as much as it saves, and bounds stay as they are. */
+static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+{
+    KERNEL(fill_small)(w, b, bits, first_id);
+}
+
+static void KERNEL(culled_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
+{
+    KERNEL(fill_large)(w, s, id);
+}
+#endif
