@@ -128,6 +128,11 @@
 #define LMB_MULTISAMPLE LMB_TREES
 #endif
 
+/* 0: this build has no lmb_draw_culled. */
+#ifndef LMB_CULLING
+#define LMB_CULLING LMB_TREES
+#endif
+
 /* Reference views of one relief. 224 bytes each, in lmb_relief. More: the file is refused. */
 #ifndef LMB_RELIEF_VIEWS
 #ifdef LMB_CONFIG_TINY

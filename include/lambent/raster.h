@@ -40,6 +40,26 @@ typedef struct lmb_tile {
 enum { LMB_CULL_BACK = 1, /* drop back faces of single-sided materials (cameras); lights see both sides */
        LMB_BLEND = 2      /* LMB_ALPHA_BLEND shows by sample (cameras); lights see it by alpha_cutoff */ };
 
+#if LMB_CULLING
+enum { LMB_CLUSTER = 64 /* triangles of a cluster; the last one of a mesh may have fewer */ };
+
+/* A box around triangles that follow each other in a mesh, m in model space. */
+typedef struct lmb_cluster {
+    lmb_vec3 low, high;
+} lmb_cluster;
+
+/* What tells lmb_draw_culled that something is hidden. Each array is optional (NULL).
+ *
+ * A tile's bound is at most every depth in it, in the depth surface's own values: set all to 0 where the surface is
+ * cleared. Draws by others, which leave nearer depths, may come between; where depths are set back, so must be bounds.
+ * Bounds belong to one window. */
+typedef struct lmb_culling {
+    float *farthest; /* by tile, row by row: lmb_culling_tiles of them */
+    const lmb_cluster *clusters; /* of the scene's meshes: lmb_clusters_build */
+    uint32_t tiles, cluster_count; /* how many there are, at least as many as are needed */
+} lmb_culling;
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -71,6 +91,32 @@ const char *lmb_kernels_name(const lmb_kernels *kernels);
  * different targets may run at once. */
 lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                     uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats);
+
+#if LMB_CULLING
+/* lmb_draw_culled: lmb_draw without what bounds show to be hidden: the same pixels, and ids, to the byte.
+ *
+ *   culling  `farthest` is read and raised; backends of under eight lanes leave it, and cull by clusters alone.
+ * Returns what lmb_draw does; LMB_ERR_ARG also where culling is NULL, LMB_ERR_CAPACITY where one of its arrays is too
+ * short. Triangles of a cluster that is left out count as drawn nowhere; one with a triangle that would be dropped is
+ * never left out.
+ * Stack: as lmb_draw. Cost: a test for each cluster, and one for each tile that a triangle covers in the others. */
+lmb_status lmb_draw_culled(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view,
+                           const lmb_scene *scene, uint32_t first_id, uint32_t count, uint32_t flags,
+                           const lmb_culling *culling, lmb_stats *stats);
+
+/* lmb_culling_tiles: floats of a window's bounds; 0 for a target that nothing can be drawn into.
+ * lmb_culling_clusters: clusters of all of a scene's meshes. */
+uint32_t lmb_culling_tiles(const lmb_target *target);
+uint32_t lmb_culling_clusters(const lmb_scene *scene);
+
+/* lmb_clusters_build: the clusters of a scene's meshes, in the meshes' order: of each one a box around every
+ * LMB_CLUSTER triangles. They hold while positions and indices do; instances may move.
+ *
+ *   scene  checked by lmb_scene_check.
+ * Returns LMB_OK; LMB_ERR_ARG (null) or LMB_ERR_CAPACITY (count under lmb_culling_clusters), and then `out` is
+ * untouched. Cost: each triangle's corners are read once. */
+lmb_status lmb_clusters_build(lmb_cluster *out, uint32_t count, const lmb_scene *scene);
+#endif
 
 /* lmb_resolve_tile: attributes of the tile whose first pixel is (x, y) of the frame.
  *

@@ -8,6 +8,9 @@
 #include "../raster/fill.inl"
 #include "../raster/fill_small.inl"
 #include "../raster/fill_large.inl"
+#if LMB_CULLING
+#include "../raster/culled.inl"
+#endif
 #include "../raster/resolve.inl"
 #include "../raster/texture.inl"
 #include "../light/direct.inl"
@@ -72,6 +75,10 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(blend),
     KERNEL(encode),
     KERNEL(probe),
+#if LMB_CULLING
+    KERNEL(culled_small),
+    KERNEL(culled_large),
+#endif
 #if LMB_TREES
     KERNEL(gather_cut),
     KERNEL(node_bounds),

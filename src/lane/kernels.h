@@ -162,6 +162,9 @@ typedef struct lmb_fill_window {
     int32_t tiles_x, tiles_y;
     int32_t origin_x, origin_y; /* as in lmb_setup_job */
     float d_scale, d_bias;
+#if LMB_CULLING
+    float *farthest; /* of each tile, row by row: at most every depth in it; where no bounds are asked for, not read */
+#endif
 } lmb_fill_window;
 
 /* One light over a tile. */
@@ -346,6 +349,11 @@ struct lmb_kernels {
     void (*encode)(int32_t code[3][LMB_TILE_PIXELS], const lmb_radiance *in, float gain);
     /* (1 + 2^-12)^2 - (1 + 2^-11) by this backend's verbs: 0, or 2^-24 where the compiler fused it. */
     float (*probe)(float one_and_bit);
+#if LMB_CULLING
+    /* fill_small and fill_large where the window has bounds, which they use and raise. */
+    void (*culled_small)(const lmb_fill_window *window, const lmb_batch *batch, uint32_t bits, uint32_t first_id);
+    void (*culled_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
+#endif
 #if LMB_TREES
     /* Emitters that some pixels see: added. `pairs` is scratch. */
     void (*gather_cut)(lmb_irradiance *inout, float (*pairs)[LMB_GATHER_PAIRS], const lmb_tile *tile,

@@ -64,6 +64,20 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 }
 #endif
 
+/* The least of a vector's values. A backend's header may have its own. */
+#ifndef LANE_HAS_LEAST
+static inline float lane_least(lane a)
+{
+    float v[LANES], least;
+    lane_store(v, a);
+    least = v[0];
+    for (int k = 1; k < LANES; ++k) {
+        least = v[k] < least ? v[k] : least;
+    }
+    return least;
+}
+#endif
+
 /* A word each. A backend's header may have its own. */
 #ifndef LANE_GATHERS_I32
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at)

@@ -94,6 +94,15 @@ static inline void laned_store(double *p, laned a)
     _mm512_storeu_pd(p + 8, a.hi);
 }
 
+#define LANE_HAS_LEAST 1
+static inline float lane_least(lane a)
+{
+    const __m256 b = _mm256_min_ps(_mm512_castps512_ps256(a), _mm512_extractf32x8_ps(a, 1));
+    const __m128 c = _mm_min_ps(_mm256_castps256_ps128(b), _mm256_extractf128_ps(b, 1));
+    const __m128 d = _mm_min_ps(c, _mm_movehl_ps(c, c));
+    return _mm_cvtss_f32(_mm_min_ss(d, _mm_movehdup_ps(d)));
+}
+
 #define LANE_GATHERS_I32 1
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
 static inline lane lane_gather_f32(const float *p, lanei at) { return _mm512_i32gather_ps(at, p, 4); }

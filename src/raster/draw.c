@@ -75,12 +75,12 @@ static void draw_batch(const lmb_fill_context *c, const lmb_draw_instance *d, lm
     uint32_t drawn = count_bits_16(d->masked ? batch->drawn & ~batch->small : batch->drawn);
     for (uint32_t k = 0; other >> k != 0; ++k) {
         if ((other >> k) & 1u) {
-            c->kernels->fill_small(&c->window, batch, batch->small & ~other & ((1u << k) - 1) & ~done, id);
+            fill_batch(c, batch, batch->small & ~other & ((1u << k) - 1) & ~done, id);
             done = (1u << k) - 1;
             drawn += (uint32_t)lmb_draw_one(c, d, id + k);
         }
     }
-    c->kernels->fill_small(&c->window, batch, batch->small & ~other & ~done, id);
+    fill_batch(c, batch, batch->small & ~other & ~done, id);
     if (stats != NULL) {
         stats->triangles += count;
         stats->triangles_dropped += count_bits_16((all & ~batch->in) | batch->dropped);
@@ -88,18 +88,82 @@ static void draw_batch(const lmb_fill_context *c, const lmb_draw_instance *d, lm
     }
 }
 
-static void draw_instance_range(const lmb_fill_context *c, lmb_batch *batch, const lmb_instance *instance,
-                                uint32_t first, uint32_t past, uint32_t flags, lmb_stats *stats)
+/* Triangles first .. past - 1 of an instance. */
+static void draw_triangles(const lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch, uint32_t first,
+                           uint32_t past, lmb_stats *stats)
+{
+    while (first < past) {
+        uint32_t count = past - first < LMB_BATCH ? past - first : LMB_BATCH;
+        draw_batch(c, d, batch, count, first, stats);
+        first += count;
+    }
+}
+
+#if LMB_CULLING
+/* The same, but for clusters that the window shows nothing of. */
+static void draw_clusters(const lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch,
+                          const lmb_cluster *clusters, uint32_t first, uint32_t past, lmb_stats *stats)
+{
+    while (first < past) {
+        const uint32_t cluster = (first - d->first_id) / LMB_CLUSTER, left = past - first;
+        const uint32_t rest = LMB_CLUSTER - (first - d->first_id) % LMB_CLUSTER, count = left < rest ? left : rest;
+        if (!lmb_cluster_is_hidden(&clusters[cluster], &d->job, &c->window)) {
+            draw_triangles(c, d, batch, first, first + count, stats);
+        } else if (stats != NULL) {
+            stats->triangles += count;
+        }
+        first += count;
+    }
+}
+#endif
+
+static void draw_instance_range(lmb_fill_context *c, lmb_batch *batch, const lmb_instance *instance, uint32_t first,
+                                uint32_t past, uint32_t flags, lmb_stats *stats)
 {
     lmb_draw_instance d;
     set_instance(&d, c, instance, flags);
 #if LMB_PLAIN_LANES == 1
     memset(batch->kept, 0, sizeof batch->kept);
 #endif
-    while (first < past) {
-        uint32_t count = past - first < LMB_BATCH ? past - first : LMB_BATCH;
-        draw_batch(c, &d, batch, count, first, stats);
-        first += count;
+#if LMB_CULLING
+    if (c->culling != NULL && c->culling->clusters != NULL) {
+        draw_clusters(c, &d, batch, lmb_cluster_find(&c->place, c->culling, c->scene, instance->mesh), first, past,
+                      stats);
+        return;
+    }
+#endif
+    draw_triangles(c, &d, batch, first, past, stats);
+}
+
+/* All of a context but how it culls. */
+static lmb_status set_context(lmb_fill_context *out, const lmb_target *target, const lmb_kernels *kernels,
+                              const lmb_view *view, const lmb_scene *scene, uint32_t first_id)
+{
+    if (target == NULL || kernels == NULL || view == NULL || scene == NULL || first_id == 0) {
+        return LMB_ERR_ARG;
+    }
+    const lmb_status status = lmb_target_check(target, view, lmb_scene_triangles(scene));
+    if (status == LMB_OK) {
+        out->target = target;
+        out->kernels = kernels;
+        out->view = view;
+        out->scene = scene;
+        out->window = lmb_target_window(target, view);
+    }
+    return status;
+}
+
+static void draw_range(lmb_fill_context *context, uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats)
+{
+    const lmb_scene *scene = context->scene;
+    const lmb_instance *end = scene->instances + scene->instance_count;
+    const lmb_instance *instance = lmb_instance_of(scene, first_id);
+    uint32_t past = count > UINT32_MAX - first_id ? UINT32_MAX : first_id + count;
+    lmb_batch batch;
+    for (; instance != NULL && instance < end && instance->first_id < past; ++instance) {
+        uint32_t own_past = instance->first_id + scene->meshes[instance->mesh].triangle_count;
+        uint32_t from = first_id > instance->first_id ? first_id : instance->first_id;
+        draw_instance_range(context, &batch, instance, from, past < own_past ? past : own_past, flags, stats);
     }
 }
 
@@ -107,27 +171,34 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
                     uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats)
 {
     lmb_fill_context context;
-    lmb_batch batch;
-    if (target == NULL || kernels == NULL || view == NULL || scene == NULL || first_id == 0) {
-        return LMB_ERR_ARG;
+    const lmb_status status = set_context(&context, target, kernels, view, scene, first_id);
+    if (status == LMB_OK) {
+#if LMB_CULLING
+        context.culling = NULL;
+#endif
+        draw_range(&context, first_id, count, flags, stats);
     }
-    lmb_status status = lmb_target_check(target, view, lmb_scene_triangles(scene));
-    if (status != LMB_OK || scene->instance_count == 0) {
-        return status;
+    return status;
+}
+
+#if LMB_CULLING
+lmb_status lmb_draw_culled(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view,
+                           const lmb_scene *scene, uint32_t first_id, uint32_t count, uint32_t flags,
+                           const lmb_culling *culling, lmb_stats *stats)
+{
+    lmb_fill_context context;
+    const lmb_status status = set_context(&context, target, kernels, view, scene, first_id);
+    if (status != LMB_OK || culling == NULL) {
+        return status != LMB_OK ? status : LMB_ERR_ARG;
     }
-    context.target = target;
-    context.kernels = kernels;
-    context.view = view;
-    context.scene = scene;
-    context.window = lmb_target_window(target, view);
-    const lmb_instance *end = scene->instances + scene->instance_count;
-    const lmb_instance *instance = lmb_instance_of(scene, first_id);
-    uint32_t past = count > UINT32_MAX - first_id ? UINT32_MAX : first_id + count;
-    for (; instance != NULL && instance < end && instance->first_id < past; ++instance) {
-        uint32_t own_past = instance->first_id + scene->meshes[instance->mesh].triangle_count;
-        uint32_t from = first_id > instance->first_id ? first_id : instance->first_id;
-        draw_instance_range(&context, &batch, instance, from, past < own_past ? past : own_past, flags,
-                            stats);
+    if ((culling->farthest != NULL && culling->tiles < lmb_culling_tiles(target)) ||
+        (culling->clusters != NULL && culling->cluster_count < lmb_culling_clusters(scene))) {
+        return LMB_ERR_CAPACITY;
     }
+    context.culling = culling;
+    context.place.clusters = NULL;
+    context.window.farthest = culling->farthest;
+    draw_range(&context, first_id, count, flags, stats);
     return LMB_OK;
 }
+#endif

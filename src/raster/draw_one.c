@@ -47,7 +47,7 @@ static int fill_polygon(const lmb_fill_context *c, const lmb_draw_instance *d, c
             if (d->masked) {
                 lmb_fill_masked(c, &setup, id, LMB_MULTISAMPLE && d->blends);
             } else {
-                c->kernels->fill_large(&c->window, &setup, id);
+                fill_one(c, &setup, id);
             }
             drawn = 1;
         }

@@ -3,6 +3,7 @@
 #define LMB_RASTER_FILL_H
 
 #include "../lane/kernels.h"
+#include "cluster.h"
 #include "setup.h"
 
 /* What stays the same over the triangles of a draw. */
@@ -12,7 +13,33 @@ typedef struct lmb_fill_context {
     const lmb_view *view;
     const lmb_scene *scene;
     lmb_fill_window window;
+#if LMB_CULLING
+    const lmb_culling *culling; /* or NULL */
+    lmb_cluster_place place;
+#endif
 } lmb_fill_context;
+
+static inline void fill_batch(const lmb_fill_context *c, const lmb_batch *batch, uint32_t bits, uint32_t first_id)
+{
+#if LMB_CULLING
+    if (c->window.farthest != NULL) {
+        c->kernels->culled_small(&c->window, batch, bits, first_id);
+        return;
+    }
+#endif
+    c->kernels->fill_small(&c->window, batch, bits, first_id);
+}
+
+static inline void fill_one(const lmb_fill_context *c, const lmb_setup *setup, uint32_t id)
+{
+#if LMB_CULLING
+    if (c->window.farthest != NULL) {
+        c->kernels->culled_large(&c->window, setup, id);
+        return;
+    }
+#endif
+    c->kernels->fill_large(&c->window, setup, id);
+}
 
 /* A triangle whose material has holes: every pixel that passes the depth test also tests its alpha. blends: by the
  * sample's threshold instead of the material's. */

@@ -71,6 +71,9 @@ lmb_fill_window lmb_target_window(const lmb_target *t, const lmb_view *view)
     w.origin_x = view_origin_x(view);
     w.origin_y = view_origin_y(view);
     w.d_scale = w.d_bias = 0.0f;
+#if LMB_CULLING
+    w.farthest = NULL;
+#endif
     if (t->depth.format == LMB_DEPTH16) {
         lmb_depth16_coding(&w.d_scale, &w.d_bias, view);
     }

@@ -97,6 +97,7 @@ static int64_t good_number(const argument *a)
         {"lmb_env_init", "size", POOL_SMALL},
         {"lmb_tree_init", "size", POOL_MAP / 2},
         {"lmb_draw", "count", 100},
+        {"lmb_clusters_build", "count", POOL_CLUSTERS},
         {"lmb_shadow_map_draw", "count", 100},
         {"lmb_gouraud_draw", "count", 100},
         {"lmb_around_points", "count", 100},
@@ -176,6 +177,7 @@ static int64_t vouched(const argument *a, int64_t n)
         int64_t max;
     } all[] = {
         {"lmb_point_grid_init", "count", POOL_PLACES}, {"lmb_many_lights_add", "count", POOL_LIGHTS},
+        {"lmb_clusters_build", "count", POOL_CLUSTERS},
         {"lmb_env_lights", "cap", POOL_LIGHTS}, {"lmb_around_points", "cap", POOL_TEXELS},
         {"lmb_around_gather", "count", POOL_TEXELS}, {"lmb_voxels_inject", "count", POOL_TEXELS},
         {"lmb_voxels_build", "count", POOL_PARTS}, {"lmb_transfer_fingerprint", "count", POOL_PLACES},

@@ -33,6 +33,32 @@ static void fill_target(void *out, int how)
     set_surface(&t->id, how & 2 ? LMB_ID16 : LMB_ID32, POOL_WIDE, height);
 }
 
+/* Bounds of any window of lmb_target's, as odd as the floats that are at hand, and clusters of any scene. */
+static void fill_culling(void *out, int how)
+{
+    lmb_culling *c = out;
+    memset(c, 0, sizeof *c);
+    if (!(how & 1)) {
+        c->tiles = POOL_WIDE * POOL_HIGH;
+        c->farthest = pool_block(c->tiles * sizeof *c->farthest);
+        for (uint32_t i = 0; how != 0 && i < c->tiles; ++i) {
+            c->farthest[i] = pool_float((uint8_t)(how + (int)i));
+        }
+    }
+    if (!(how & 2)) {
+        c->clusters = SLOT(lmb_cluster);
+        c->cluster_count = POOL_CLUSTERS;
+    }
+}
+
+static void fill_cluster(void *out, int how)
+{
+    lmb_cluster *c = out;
+    for (int i = 0; i < POOL_CLUSTERS; ++i) {
+        c[i] = (lmb_cluster){pool_vector((uint8_t)(how + i)), pool_vector((uint8_t)(how * 3 + i))};
+    }
+}
+
 static void fill_view(void *out, int how)
 {
     const lmb_vec3 eye = how == 0 ? (lmb_vec3){0.5f, 0.6f, 2.5f} : pool_vector((uint8_t)how), up = {0, 1, 0};
@@ -289,7 +315,7 @@ static const struct {
     {"lmb_facts", fill_facts}, {"lmb_budget", fill_budget}, {"lmb_tile", fill_tile},
     {"lmb_irradiance", fill_irradiance}, {"lmb_cone_seen", fill_seen}, {"lmb_vec3", fill_places},
     {"lmb_texel", fill_texels}, {"lmb_band_scratch", fill_scratch}, {"lmb_transfer_light", fill_transfer_light},
-    {"lmb_frame", fill_frame},
+    {"lmb_frame", fill_frame}, {"lmb_culling", fill_culling}, {"lmb_cluster", fill_cluster},
 };
 
 void pool_fill(const uint8_t b[12])

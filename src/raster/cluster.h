@@ -1,0 +1,22 @@
+/* cluster.h: does a window show any of a cluster? Layer 3. */
+#ifndef LMB_RASTER_CLUSTER_H
+#define LMB_RASTER_CLUSTER_H
+
+#include "../lane/kernels.h"
+
+#if LMB_CULLING
+/* Where the clusters of a mesh begin. */
+typedef struct lmb_cluster_place {
+    const lmb_cluster *clusters; /* NULL: none was looked for yet */
+    uint32_t mesh;
+} lmb_cluster_place;
+
+/* The clusters of a mesh, looked for from the place that was found before. */
+const lmb_cluster *lmb_cluster_find(lmb_cluster_place *place, const lmb_culling *culling, const lmb_scene *scene,
+                                    uint32_t mesh);
+
+/* 1 where no triangle of the cluster can change a pixel of the window. The job is the instance's. */
+int lmb_cluster_is_hidden(const lmb_cluster *cluster, const lmb_setup_job *job, const lmb_fill_window *window);
+#endif
+
+#endif

@@ -1,0 +1,274 @@
+/* test_culled.c: layer 3: lmb_draw_culled leaves the bytes that lmb_draw does, whatever is hidden, and its bounds are
+ * none too near.
+ *
+ * Scenes are random: clusters of small triangles at all depths, behind and before walls of large ones, through the near
+ * plane and outside the frame; by every backend, in every format, by windows that end within a tile. */
+#include <string.h>
+
+#include <lambent/raster.h>
+
+#include "../test.h"
+
+void test_culled(void);
+
+#if LMB_CULLING
+enum { SIDE = 136, CROWD = 700, WALLS = 70, CLUSTERS = 32, TILES = 18 * 18 + 15, SCENES = 6 };
+
+typedef struct stage {
+    float crowd[9 * CROWD], walls[9 * WALLS];
+    lmb_mesh mesh[2];
+    lmb_material material[2];
+    lmb_instance instance[3];
+    lmb_scene scene;
+    lmb_view view;
+    lmb_cluster cluster[CLUSTERS];
+} stage;
+
+static stage st;
+static uint32_t depth_memory[2][SIDE * SIDE], id_memory[2][SIDE * SIDE];
+static float bound[TILES];
+
+/* A triangle within `size` of a place. */
+static void put_triangle(test_rng *r, float *out, const float *at, float size)
+{
+    for (int i = 0; i < 9; ++i) {
+        out[i] = at[i % 3] + test_uniform(r, -size, size);
+    }
+}
+
+static void make_crowd(test_rng *r)
+{
+    float at[3] = {0, 0, 0};
+    for (int i = 0; i < CROWD; ++i) {
+        if (i % LMB_CLUSTER == 0) { /* somewhere else: seen, beside the frame, or behind the viewer */
+            at[0] = test_uniform(r, -9, 9);
+            at[1] = test_uniform(r, -9, 9);
+            at[2] = test_uniform(r, -30, 2);
+        }
+        put_triangle(r, st.crowd + 9 * i, at, i % 7 == 0 ? 2.0f : 0.4f);
+    }
+}
+
+/* Most face the viewer and cover much of the frame. */
+static void make_walls(test_rng *r)
+{
+    for (int i = 0; i < WALLS; ++i) {
+        float *p = st.walls + 9 * i;
+        const float z = test_uniform(r, -25, -3);
+        const float at[3] = {test_uniform(r, -3, 3), test_uniform(r, -3, 3), z};
+        put_triangle(r, p, at, i % 3 == 0 ? 20.0f : 4.0f);
+        if (i % 5 != 0) {
+            p[2] = z;
+            p[5] = z + test_uniform(r, -0.5f, 0.5f);
+            p[8] = z + test_uniform(r, -0.5f, 0.5f);
+        }
+    }
+}
+
+static void make_stage(test_rng *r, int32_t kind)
+{
+    static const lmb_mat4 unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    memset(&st, 0, sizeof st);
+    make_crowd(r);
+    make_walls(r);
+    st.mesh[0].positions = st.crowd;
+    st.mesh[0].triangle_count = CROWD;
+    st.mesh[1].positions = st.walls;
+    st.mesh[1].triangle_count = WALLS;
+    for (int i = 0; i < 2; ++i) {
+        st.mesh[i].vertex_count = 3 * st.mesh[i].triangle_count;
+        st.material[i].texture = -1;
+    }
+    st.material[1].flags = LMB_DOUBLE_SIDED;
+    for (int i = 0; i < 3; ++i) {
+        st.instance[i].to_world = unit;
+    }
+    st.instance[0].mesh = st.instance[0].material = 1; /* not in the meshes' order */
+    st.instance[2].to_world.m[0] = -1.0f;
+    st.instance[2].to_world.m[14] = -2.0f;
+    st.instance[0].first_id = 1;
+    st.instance[1].first_id = 1 + WALLS;
+    st.instance[2].first_id = 1 + WALLS + CROWD;
+    st.scene.meshes = st.mesh;
+    st.scene.materials = st.material;
+    st.scene.instances = st.instance;
+    st.scene.mesh_count = st.scene.material_count = 2;
+    st.scene.instance_count = 3;
+    st.view.kind = kind;
+    st.view.right.x = st.view.up.y = st.view.back.z = 1.0f;
+    st.view.half_width = st.view.half_height = kind == LMB_ORTHOGRAPHIC ? 6.0f : 0.8f;
+    st.view.near_m = 0.5f;
+    st.view.far_m = 40.0f;
+    st.view.frame_width = st.view.frame_height = SIDE;
+}
+
+static lmb_surface surface_of(int32_t format, int32_t layout, int32_t width, int32_t height, void *data)
+{
+    lmb_surface s;
+    lmb_surface_init(&s, format, width, height, data, lmb_surface_bytes(format, width, height));
+    if (layout == LMB_LINEAR) {
+        s.layout = LMB_LINEAR;
+        s.stride_bytes /= LMB_TILE;
+    }
+    return s;
+}
+
+/* A window that is cleared, in memory 0 or 1. */
+static lmb_target window_of(int which, int32_t depth_format, int32_t id_format, int32_t layout, int32_t side, int32_t x0)
+{
+    lmb_target t;
+    memset(&t, 0, sizeof t);
+    memset(depth_memory[which], 0, sizeof depth_memory[which]);
+    memset(id_memory[which], 0, sizeof id_memory[which]);
+    t.depth = surface_of(depth_format, layout, side, side, depth_memory[which]);
+    if (id_format != LMB_FORMAT_NONE) {
+        t.id = surface_of(id_format, layout, side, side, id_memory[which]);
+    }
+    t.x0 = t.y0 = x0;
+    return t;
+}
+
+static float depth_at(const lmb_surface *s, int32_t x, int32_t y)
+{
+    const size_t step = (size_t)(s->stride_bytes / lmb_pixel_bytes(s->format));
+    const size_t at = s->layout == LMB_LINEAR ? (size_t)y * step + (size_t)x
+                                              : (size_t)(y / 8) * step + (size_t)(x / 8 * 64 + y % 8 * 8 + x % 8);
+    return s->format == LMB_DEPTH16 ? (float)((const uint16_t *)s->data)[at] : ((const float *)s->data)[at];
+}
+
+/* Of the pixels, those that are farther than their tile's bound. */
+static int32_t too_far(const lmb_surface *s)
+{
+    const int32_t across = (s->width + 7) / 8;
+    int32_t n = 0;
+    for (int32_t y = 0; y < s->height; ++y) {
+        for (int32_t x = 0; x < s->width; ++x) {
+            n += !(bound[y / 8 * across + x / 8] <= depth_at(s, x, y));
+        }
+    }
+    return n;
+}
+
+static int32_t raised(const lmb_target *t)
+{
+    int32_t n = 0;
+    for (uint32_t i = 0; i < lmb_culling_tiles(t); ++i) {
+        n += bound[i] > 0.0f;
+    }
+    return n;
+}
+
+typedef struct totals {
+    uint32_t drawn[2], all[2];
+    int32_t raised;
+} totals;
+
+/* Both ways into one window, in two calls; with bounds, clusters or both. */
+static void draw_both(const lmb_kernels *kernels, const lmb_target t[2], uint32_t flags, int how, totals *sum)
+{
+    const uint32_t all = lmb_scene_triangles(&st.scene), half = all / 2;
+    lmb_culling culling;
+    lmb_stats stats[2];
+    int32_t x, y;
+    memset(stats, 0, sizeof stats);
+    memset(bound, 0, sizeof bound);
+    memset(&culling, 0, sizeof culling);
+    if (how != 1) {
+        culling.farthest = bound;
+        culling.tiles = lmb_culling_tiles(&t[1]);
+    }
+    if (how != 2) {
+        culling.clusters = st.cluster;
+        culling.cluster_count = CLUSTERS;
+    }
+    CHECK(lmb_draw(&t[0], kernels, &st.view, &st.scene, 1, all, flags, &stats[0]) == LMB_OK);
+    CHECK(lmb_draw_culled(&t[1], kernels, &st.view, &st.scene, 1, half, flags, &culling, &stats[1]) == LMB_OK);
+    CHECK(lmb_draw_culled(&t[1], kernels, &st.view, &st.scene, 1 + half, all, flags, &culling, &stats[1]) == LMB_OK);
+    CHECK(lmb_surface_diff(&x, &y, &t[0].depth, &t[1].depth) == 0);
+    CHECK(t[0].id.data == NULL || lmb_surface_diff(&x, &y, &t[0].id, &t[1].id) == 0);
+    CHECK(too_far(&t[1].depth) == 0);
+    CHECK(stats[0].triangles == stats[1].triangles && stats[0].triangles_dropped == stats[1].triangles_dropped);
+    for (int i = 0; i < 2; ++i) {
+        sum->drawn[i] += (uint32_t)stats[i].triangles_drawn;
+        sum->all[i] += (uint32_t)stats[i].triangles;
+    }
+    sum->raised += raised(&t[1]);
+}
+
+static void same_bytes(test_rng *r, const lmb_kernels *kernels, totals *sum)
+{
+    static const int32_t depths[] = {LMB_DEPTH32F, LMB_DEPTH16}, ids[] = {LMB_FORMAT_NONE, LMB_ID32, LMB_ID16};
+    for (int i = 0; i < 12; ++i) {
+        const int32_t side = i % 3 == 0 ? SIDE : 100 - 3 * i, x0 = i % 3 == 0 ? 0 : 8 * (i % 5);
+        const int32_t layout = i & 1 ? LMB_LINEAR : LMB_TILED;
+        lmb_target t[2];
+        for (int k = 0; k < 2; ++k) {
+            t[k] = window_of(k, depths[i / 6], ids[i / 2 % 3], layout, side, x0);
+        }
+        draw_both(kernels, t, test_random(r) % 2 ? LMB_CULL_BACK : 0, i % 4, sum);
+    }
+}
+
+static void test_same_bytes(void)
+{
+    test_rng r = {24};
+    for (int32_t m = 0; lmb_kernels_at(m) != NULL; ++m) {
+        totals sum;
+        memset(&sum, 0, sizeof sum);
+        for (int i = 0; i < SCENES; ++i) {
+            make_stage(&r, i % 3 == 2 ? LMB_ORTHOGRAPHIC : LMB_PERSPECTIVE);
+            CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK);
+            same_bytes(&r, lmb_kernels_at(m), &sum);
+        }
+        CHECK(sum.drawn[1] * 10 < sum.drawn[0] * 9); /* clusters were left out */
+        CHECK(sum.raised > 1000 || strncmp(lmb_kernels_name(lmb_kernels_at(m)), "avx", 3) != 0);
+    }
+}
+
+/* What would be dropped is counted whatever hides it. */
+static void test_dropped(void)
+{
+    test_rng r = {24};
+    lmb_stats stats;
+    make_stage(&r, LMB_PERSPECTIVE);
+    st.crowd[9 * 70] = 3e38f;
+    CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK);
+    CHECK(st.cluster[1].low.x < -1e38f && st.cluster[1].high.z > 1e38f && st.cluster[0].high.x < 100.0f);
+    memset(&stats, 0, sizeof stats);
+    const lmb_target t = window_of(1, LMB_DEPTH32F, LMB_ID32, LMB_TILED, SIDE, 0);
+    const lmb_culling culling = {bound, st.cluster, TILES, CLUSTERS};
+    memset(bound, 0, sizeof bound);
+    CHECK(lmb_draw_culled(&t, lmb_kernels_pick(), &st.view, &st.scene, 1, 5000, 0, &culling, &stats) == LMB_OK);
+    CHECK(stats.triangles_dropped == 2); /* by both instances */
+}
+
+static void test_refused(void)
+{
+    test_rng r = {24};
+    make_stage(&r, LMB_PERSPECTIVE);
+    const lmb_target t = window_of(1, LMB_DEPTH32F, LMB_ID32, LMB_TILED, SIDE, 0);
+    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_culling few = {bound, NULL, 17 * 17 - 1, 0}, short_of_clusters = {NULL, st.cluster, 0, 12},
+                      none = {NULL, NULL, 0, 0};
+    CHECK(lmb_culling_tiles(&t) >= 17 * 17 && lmb_culling_tiles(&t) <= TILES);
+    CHECK(lmb_culling_tiles(NULL) == 0 && lmb_culling_clusters(NULL) == 0);
+    CHECK(lmb_culling_clusters(&st.scene) == 11 + 2);
+    CHECK(lmb_clusters_build(NULL, CLUSTERS, &st.scene) == LMB_ERR_ARG);
+    CHECK(lmb_clusters_build(st.cluster, CLUSTERS, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_clusters_build(st.cluster, 12, &st.scene) == LMB_ERR_CAPACITY);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, NULL, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 0, 9, 0, &none, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, &few, NULL) == LMB_ERR_CAPACITY);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, &short_of_clusters, NULL) == LMB_ERR_CAPACITY);
+    CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, &none, NULL) == LMB_OK);
+}
+
+void test_culled(void)
+{
+    test_same_bytes();
+    test_dropped();
+    test_refused();
+}
+#else
+void test_culled(void) {}
+#endif
