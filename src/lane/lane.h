@@ -64,17 +64,17 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 }
 #endif
 
-/* The least of a vector's values. A backend's header may have its own. */
-#ifndef LANE_HAS_LEAST
-static inline float lane_least(lane a)
+/* The lowest of a vector's values. A backend's header may have its own. */
+#ifndef LANE_HAS_LOWEST
+static inline float lane_lowest(lane a)
 {
-    float v[LANES], least;
+    float v[LANES], lowest;
     lane_store(v, a);
-    least = v[0];
+    lowest = v[0];
     for (int k = 1; k < LANES; ++k) {
-        least = v[k] < least ? v[k] : least;
+        lowest = v[k] < lowest ? v[k] : lowest;
     }
-    return least;
+    return lowest;
 }
 #endif
 

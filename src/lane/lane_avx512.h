@@ -94,8 +94,8 @@ static inline void laned_store(double *p, laned a)
     _mm512_storeu_pd(p + 8, a.hi);
 }
 
-#define LANE_HAS_LEAST 1
-static inline float lane_least(lane a)
+#define LANE_HAS_LOWEST 1
+static inline float lane_lowest(lane a)
 {
     const __m256 b = _mm256_min_ps(_mm512_castps512_ps256(a), _mm512_extractf32x8_ps(a, 1));
     const __m128 c = _mm_min_ps(_mm256_castps256_ps128(b), _mm256_extractf128_ps(b, 1));

@@ -54,16 +54,16 @@ const lmb_cluster *lmb_cluster_find(lmb_cluster_place *place, const lmb_culling 
  * left out: such triangles are counted. */
 static lmb_cluster cluster_of(const lmb_mesh *mesh, uint32_t first, uint32_t past)
 {
-    const lmb_cluster everything = {{-3e38f, -3e38f, -3e38f}, {3e38f, 3e38f, 3e38f}};
+    const lmb_cluster unbounded = {{-3e38f, -3e38f, -3e38f}, {3e38f, 3e38f, 3e38f}};
     lmb_cluster c = {{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}};
     for (uint32_t i = 3 * first; i < 3 * past; ++i) {
         const uint32_t vertex = mesh_index(mesh, i);
         if (vertex >= mesh->vertex_count) {
-            return everything;
+            return unbounded;
         }
         const lmb_vec3 p = mesh_position(mesh, vertex);
         if (!is_sane(p.x) || !is_sane(p.y) || !is_sane(p.z)) {
-            return everything;
+            return unbounded;
         }
         c.low = min3(c.low, p);
         c.high = max3(c.high, p);

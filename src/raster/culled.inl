@@ -41,16 +41,16 @@ LANE_INLINE float culled_far(const lmb_fill_tile *tile, const lmb_fill_job *job)
 /* The farthest depth of a tile. */
 LANE_INLINE float culled_look(const lmb_fill_tile *tile)
 {
-    lane least = lane_splat(3e38f);
+    lane lowest = lane_splat(3e38f);
     for (int32_t y = 0; y < LMB_TILE; y += FILL_ROWS) {
         for (int32_t i = 0; i < FILL_ACROSS; ++i) {
             const int32_t at = y * tile->depth_step + i * LANES;
-            least = lane_min(least, tile->depth_format == LMB_DEPTH32F
+            lowest = lane_min(lowest, tile->depth_format == LMB_DEPTH32F
                                         ? lane_load_rows((const float *)tile->depth + at, tile->depth_step)
                                         : lane_load_u16((const uint16_t *)tile->depth + at, tile->depth_step));
         }
     }
-    return lane_least(least);
+    return lane_lowest(lowest);
 }
 
 LANE_INLINE void culled_set_tile(lmb_fill_tile *tile, const lmb_fill_window *w, ptrdiff_t across, ptrdiff_t down)

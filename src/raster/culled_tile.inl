@@ -7,7 +7,7 @@ typedef struct culled_rows {
     lanei e0, e1, e2; /* edges at the next rows */
     lanei down0, down1, down2;
     lane step_d, d_min, d_max;
-    lane least; /* of the depths so far */
+    lane lowest; /* of the depths so far */
     float *depth;
     uint32_t *ids, id;
 } culled_rows;
@@ -24,7 +24,7 @@ LANE_INLINE void culled_put_rows(culled_rows *r, lane depth, lane_mask in, int y
         lane_put_u32(r->ids + y * LMB_TILE, LMB_TILE, r->id, pass);
     }
     lane_store(p, depth);
-    r->least = lane_min(r->least, depth);
+    r->lowest = lane_min(r->lowest, depth);
 }
 
 /* FILL_ROWS rows from row y on. */
@@ -58,17 +58,17 @@ LANE_INLINE void culled_start(culled_rows *r, const lmb_fill_tile *tile, const f
     r->step_d = t->step_d[0];
     r->d_min = t->d_min;
     r->d_max = t->d_max;
-    r->least = lane_splat(3e38f);
+    r->lowest = lane_splat(3e38f);
     r->depth = (float *)tile->depth;
     r->ids = (uint32_t *)tile->id;
     r->id = t->id;
 }
 
 /* Most triangles leave a pixel that is as far as any was. */
-LANE_INLINE void culled_raise(float *bound, lane least)
+LANE_INLINE void culled_raise(float *bound, lane lowest)
 {
-    if (mask_bits(lane_le(least, lane_splat(*bound))) == 0) {
-        *bound = lane_least(least);
+    if (mask_bits(lane_le(lowest, lane_splat(*bound))) == 0) {
+        *bound = lane_lowest(lowest);
     }
 }
 
@@ -99,5 +99,5 @@ LANE_INLINE void culled_cross_tiled(const lmb_fill_tile *tile, const fill_triang
     culled_cross_rows(&r, at[6], 6, kind);
     culled_cross_rows(&r, at[7], 7, kind);
 #endif
-    culled_raise(bound, r.least);
+    culled_raise(bound, r.lowest);
 }

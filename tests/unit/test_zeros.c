@@ -479,6 +479,7 @@ static void set_number(argument *a)
         {"lmb_voxels_init", "cap", 5000},
         {"lmb_cones_init", "count", 7},
         {"lmb_view_sample", "samples", 4},
+        {"lmb_clusters_build", "count", 1 << 17},
     };
     a->whole = 1;
     a->value = 0.5;
@@ -561,7 +562,7 @@ static int may_be_empty(const char *name)
     static const char *const all[] = {
         "lmb_gather_tile", "lmb_compose_tile",    "lmb_compose_emission",  "lmb_compose_glossy",  "lmb_direct_tile",
         "lmb_glossy_direct", "lmb_shadow_map_clear", "lmb_shadow_map_draw", "lmb_shadow_map_rows", "lmb_around_scale",
-        "lmb_delta_tile",  "lmb_scene_check",
+        "lmb_delta_tile",  "lmb_scene_check",     "lmb_clusters_build",
     };
     int is_one = 0;
     for (int i = 0; i < COUNT(all); ++i) {
