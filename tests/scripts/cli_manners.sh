@@ -102,9 +102,15 @@ status 0 doctor -v
 check "the doctor says what draws" sh -c 'grep -c "exact (.*), draws where none is named$" "$1" | grep -qx 1' sh "$dir/out.txt"
 check "the doctor tries all lanes" grep -q '^scalar  *exact' "$dir/out.txt"
 check "the doctor says the flags" grep -q '^flags .*-ffp-contract=off' "$dir/out.txt"
-# One that expects other bytes: it says so, and its status is 1.
+# One that expects other bytes: it says so, and its status is 1. Objects whose source is gone may lie about.
+objects_of_tool() {
+    for object in "$B"/obj/tools/*/*.o "$B"/obj/platform/host/*.o; do
+        source=${object#"$B"/obj/}
+        [ -e "${source%.o}.c" ] && echo "$object"
+    done
+}
 if $CC $FLAGS '-DROOM_HASH=UINT64_C(1)' -I"$B" -c tools/cli/verb_doctor.c -o "$m/ill.o" &&
-    $CC $FLAGS -o "$m/ill" $(ls "$B"/obj/tools/*/*.o "$B"/obj/platform/host/*.o | grep -v -e verb_doctor -e port_host) "$m/ill.o" "$LIB" $LDLIBS; then
+    $CC $FLAGS -o "$m/ill" $(objects_of_tool | grep -v -e verb_doctor -e port_host) "$m/ill.o" "$LIB" $LDLIBS; then
     "$m/ill" doctor >"$m/out.txt" 2>"$m/err.txt"
     check "a doctor that finds other bytes has status 1" test $? -eq 1
     check "and says so in one line" sh -c 'test "$(wc -l <"$1")" -eq 1 && grep -q "draws .* instead of 0000000000000001" "$1"' sh "$m/err.txt"
