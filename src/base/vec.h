@@ -84,20 +84,6 @@ static inline int lowest_bit_64(uint64_t bits)
     return low != 0 ? lowest_bit(low) : 32 + lowest_bit((uint32_t)(bits >> 32));
 }
 
-/* Of what is not 0. */
-static inline int highest_bit_64(uint64_t bits)
-{
-#if defined(__GNUC__)
-    return 63 - __builtin_clzll(bits);
-#else
-    int n = 0;
-    for (int step = 32; step > 0; step /= 2) {
-        n += bits >> (n + step) != 0 ? step : 0;
-    }
-    return n;
-#endif
-}
-
 /* Bits that are set, of 16. */
 static inline uint32_t count_bits_16(uint32_t bits)
 {

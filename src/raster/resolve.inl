@@ -40,27 +40,6 @@ LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id,
     return left & own;
 }
 
-/* The id of pixel `at` gets a slot; returns its pixels, which lie from pixel `from` to `to`. */
-LANE_INLINE uint64_t resolve_id(lmb_resolve_batch *out, const uint32_t *id, int at, int from, int to)
-{
-    const lanei wanted = lanei_splat((int32_t)id[at]), number = lanei_splat(out->count);
-    uint64_t mine = 0;
-    const int begin = LANES > LMB_TILE ? 0 : from & ~(LANES - 1), past = LANES > LMB_TILE ? LMB_TILE_PIXELS : to + 1;
-    for (int k = begin; k < past; k += LANES) {
-        mine |= (uint64_t)resolve_take(out->slot, id, k, wanted, number) << k;
-    }
-    out->id[out->count++] = id[at];
-    return mine;
-}
-
-/* Whether ids are taken from both ends of what is left: a search waits for what the one before it leaves, and two
- * wait side by side. Plain C is busy meanwhile. */
-#if defined(LANE_PLAIN)
-enum { RESOLVE_BOTH = 0 };
-#else
-enum { RESOLVE_BOTH = 1 };
-#endif
-
 /* `left` has all pixels of an id or none, so the search could start at the first of them. Comparing all four wide
  * vectors is faster than finding where to start. */
 static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left)
@@ -72,11 +51,14 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
     }
     out->count = 0;
     while (left != 0 && out->count < LMB_SLOTS) {
-        const int first = lowest_bit_64(left), last = RESOLVE_BOTH ? highest_bit_64(left) : LMB_TILE_PIXELS - 1;
-        uint64_t mine = resolve_id(out, id, first, first, last);
-        if (RESOLVE_BOTH && id[last] != id[first] && out->count < LMB_SLOTS) {
-            mine |= resolve_id(out, id, last, first, last);
+        const int first = lowest_bit_64(left);
+        const uint32_t next = id[first];
+        const lanei wanted = lanei_splat((int32_t)next), number = lanei_splat(out->count);
+        uint64_t mine = 0;
+        for (int k = LANES > LMB_TILE ? 0 : first & ~(LANES - 1); k < LMB_TILE_PIXELS; k += LANES) {
+            mine |= (uint64_t)resolve_take(out->slot, id, k, wanted, number) << k;
         }
+        out->id[out->count++] = next;
         taken |= mine;
         left &= ~mine;
     }

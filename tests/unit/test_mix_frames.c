@@ -101,7 +101,7 @@ static void poses(void)
     p[10] = 2.0;
     CHECK(!mix_is_pose(p));
     p[10] = 1.0;
-    p[3] = NAN;
+    p[3] = (double)NAN;
     CHECK(!mix_is_pose(p));
     memset(p, 0, sizeof p);
     CHECK(!mix_is_pose(p));

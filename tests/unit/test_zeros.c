@@ -56,7 +56,7 @@ static void *pointer(argument *a, size_t bytes)
     if (strcmp(a->type, "lmb_kernels") == 0) {
         return (void *)(uintptr_t)lmb_kernels_pick();
     }
-    bytes = bytes > 0 ? bytes : ARRAY;
+    bytes = bytes > 0 && strcmp(a->type, "lmb_cluster") != 0 ? bytes : ARRAY; /* of clusters there are `count` */
     a->memory = calloc(1, bytes);
     if (a->memory == NULL) {
         abort();
