@@ -173,7 +173,8 @@ static void blur_plane(float *out, float *line, const lmb_kernels *kernels, cons
 {
     const size_t width = (size_t)blur->width, bytes = width * (size_t)blur->height * sizeof *out;
     if (out == map) {
-        map = memcpy(line + 4 * width, map, bytes);
+        memcpy(line + 4 * width, map, bytes);
+        map = line + 4 * width;
     }
     memset(out, 0, bytes);
     for (int32_t i = 0; i < blur->height * maxi(blur->terms, 1); ++i) {
