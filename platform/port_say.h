@@ -40,6 +40,14 @@ static inline void say_count(const char *name, uint32_t v)
     say_number(v);
 }
 
+/* A line that names an error; the program's status. */
+static inline int say_error(const char *name)
+{
+    port_put(name);
+    port_put("\n");
+    return 1;
+}
+
 /* A line where the port can tell. 1: more than there is. */
 static inline int say_ram(void)
 {

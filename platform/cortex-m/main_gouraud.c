@@ -99,9 +99,7 @@ int main(void)
         s = draw();
     taken[DRAWN] = count_taken();
     if (s != LMB_OK) {
-        port_put(lmb_status_name(s));
-        port_put("\n");
-        return 1;
+        return say_error(lmb_status_name(s));
     }
     port_put("demo-gouraud-160x120-rgb565 ");
     say_hex(lmb_surface_hash(&frame.out));

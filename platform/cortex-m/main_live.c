@@ -87,9 +87,7 @@ int main(void)
         s = lmb_render_frame(&render, &frame);
     const uint32_t taken = count_taken();
     if (s != LMB_OK) {
-        port_put(lmb_status_name(s));
-        port_put("\n");
-        return 1;
+        return say_error(lmb_status_name(s));
     }
     port_put(name);
     port_put("-160x120-rgb565 ");

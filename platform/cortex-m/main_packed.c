@@ -41,9 +41,7 @@ int main(void)
 {
     const lmb_status s = draw();
     if (s != LMB_OK) {
-        port_put(lmb_status_name(s));
-        port_put("\n");
-        return 1;
+        return say_error(lmb_status_name(s));
     }
     port_put("packed-96x64-rgb565 ");
     say_hex(lmb_surface_hash(&frame.out));

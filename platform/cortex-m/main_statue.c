@@ -102,9 +102,7 @@ int main(void)
 {
     const lmb_status s = draw();
     if (s != LMB_OK) {
-        port_put(lmb_status_name(s));
-        port_put("\n");
-        return 1;
+        return say_error(lmb_status_name(s));
     }
     say_count("views ", (uint32_t)relief.views);
     say_count(", triangles ", lmb_scene_triangles(&simple));

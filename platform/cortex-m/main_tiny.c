@@ -61,9 +61,7 @@ int main(void)
     lmb_surface out;
     lmb_status s = draw(&out);
     if (s != LMB_OK) {
-        port_put(lmb_status_name(s));
-        port_put("\n");
-        return 1;
+        return say_error(lmb_status_name(s));
     }
     say_count("triangles ", stats.triangles_drawn);
     say_count(", first points ", stats.first_points);

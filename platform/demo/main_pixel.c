@@ -40,9 +40,7 @@ int main(void)
     }
     if (s != LMB_OK) {
         port_put("room, light by pixel: ");
-        port_put(lmb_status_name(s));
-        port_put("\n");
-        return 1;
+        return say_error(lmb_status_name(s));
     }
     if (say_ram() != 0)
         return 1;

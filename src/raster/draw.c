@@ -156,7 +156,10 @@ static lmb_status set_context(lmb_fill_context *out, const lmb_target *target, c
 static void draw_range(lmb_fill_context *context, uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats)
 {
     const lmb_scene *scene = context->scene;
-    const lmb_instance *end = scene->instance_count > 0 ? scene->instances + scene->instance_count : scene->instances;
+    if (scene->instance_count == 0) {
+        return;
+    }
+    const lmb_instance *end = scene->instances + scene->instance_count;
     const lmb_instance *instance = lmb_instance_of(scene, first_id);
     uint32_t past = count > UINT32_MAX - first_id ? UINT32_MAX : first_id + count;
     lmb_batch batch;

@@ -7,6 +7,7 @@
 
 #include <lambent/raster.h>
 
+#include "../laid_surface.h"
 #include "../test.h"
 
 void test_culled(void);
@@ -100,17 +101,6 @@ static void make_stage(test_rng *r, int32_t kind)
     st.view.near_m = 0.5f;
     st.view.far_m = 40.0f;
     st.view.frame_width = st.view.frame_height = SIDE;
-}
-
-static lmb_surface surface_of(int32_t format, int32_t layout, int32_t width, int32_t height, void *data)
-{
-    lmb_surface s;
-    lmb_surface_init(&s, format, width, height, data, lmb_surface_bytes(format, width, height));
-    if (layout == LMB_LINEAR) {
-        s.layout = LMB_LINEAR;
-        s.stride_bytes /= LMB_TILE;
-    }
-    return s;
 }
 
 /* A window that is cleared, in memory 0 or 1. */

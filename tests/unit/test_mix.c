@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/mix/mix_job.h"
+#include "../photo_job.h"
 #include "../test.h"
 
 void test_mix(void);
@@ -19,19 +19,8 @@ static char square[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, a unit wid
 static mix_job *begin(char *const *more, int count)
 {
     char *argv[24] = {"mix", "--frame", "known", "--voxels", "4", "--shadow-map", "64", "-o", "known.pfm"};
-    report r = {""};
-    mix_job *j = calloc(1, sizeof *j);
-    if (j == NULL) {
-        abort();
-    }
     memcpy(argv + 9, more, (size_t)count * sizeof *more);
-    CHECK_MSG(mix_options_parse(&j->o, 9 + count, argv, &r), "%s", r.text);
-    j->frame.camera = camera;
-    j->frame.light.width = WIDTH;
-    j->frame.light.height = HEIGHT;
-    j->frame.light.channels = 3;
-    j->frame.light.pixels = malloc(3 * PIXELS * sizeof(float));
-    j->frame.depth = malloc(PIXELS * sizeof(float));
+    mix_job *j = photo_job(9 + count, argv, &camera);
     for (int i = 0; i < 3 * PIXELS; ++i) {
         j->frame.light.pixels[i] = GREY;
     }

@@ -148,10 +148,30 @@ static void object_stays(void)
     mix_kept_free(&k);
 }
 
+/* A guessed sun is kept where the object's lamps shine beside it, too; lights that were given are not. */
+static void sun_stays(void)
+{
+    mix_kept k;
+    report r = {""};
+    memset(&k, 0, sizeof k);
+    mix_job *a = job_at(0.0, &k);
+    CHECK(mix_find_planes(a, &r) && mix_place(a, &r) && mix_light(a, &r) && a->light_count == 1);
+    a->lamp_count = 2;
+    a->light_count = 3;
+    CHECK(mix_keep_light(&k, a, &r) && k.has_sun);
+    mix_kept_free(&k);
+    memset(&k, 0, sizeof k);
+    a->o.light_count = 1;
+    CHECK(mix_keep_light(&k, a, &r) && !k.has_sun);
+    mix_job_free(a);
+    mix_kept_free(&k);
+}
+
 void test_mix_frames(void)
 {
     depth_stays();
     depth_moves();
     poses();
     object_stays();
+    sun_stays();
 }

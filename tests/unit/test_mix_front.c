@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../../tools/mix/mix_front.h"
-#include "../../tools/mix/mix_job.h"
+#include "../photo_job.h"
 #include "../test.h"
 
 void test_mix_front(void);
@@ -150,17 +150,7 @@ static mix_job *begin(const room *rm, uint32_t seed)
     char *argv[] = {"mix", "--frame", "known", "-o", "known.pfm", NULL};
     report r = {""};
     test_rng rng = {seed + 1000};
-    mix_job *j = calloc(1, sizeof *j);
-    if (j == NULL) {
-        abort();
-    }
-    CHECK(mix_options_parse(&j->o, 5, argv, &r));
-    j->frame.camera = camera;
-    j->frame.light.width = WIDTH;
-    j->frame.light.height = HEIGHT;
-    j->frame.light.channels = 3;
-    j->frame.light.pixels = malloc(3 * PIXELS * sizeof(float));
-    j->frame.depth = malloc(PIXELS * sizeof(float));
+    mix_job *j = photo_job(5, argv, &camera);
     take_photo(j->frame.light.pixels, rm, &rng);
     measure_depth(j->frame.depth, rm, &rng);
     CHECK_MSG(mix_find_planes(j, &r) && mix_place(j, &r), "%s", r.text);

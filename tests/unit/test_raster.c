@@ -8,6 +8,7 @@
 
 #include <lambent/raster.h>
 
+#include "../laid_surface.h"
 #include "../test.h"
 
 void test_raster(void);
@@ -74,17 +75,6 @@ static lmb_view axis_view(int32_t kind, int32_t side)
     v.far_m = 128.5f;
     v.frame_width = v.frame_height = side;
     return v;
-}
-
-static lmb_surface surface_of(int32_t format, int32_t layout, int32_t width, int32_t height, void *data)
-{
-    lmb_surface s;
-    lmb_surface_init(&s, format, width, height, data, lmb_surface_bytes(format, width, height));
-    if (layout == LMB_LINEAR) {
-        s.layout = LMB_LINEAR;
-        s.stride_bytes /= LMB_TILE;
-    }
-    return s;
 }
 
 /* A cleared window in memory 0 or 1; id_format LMB_FORMAT_NONE: depth only. */

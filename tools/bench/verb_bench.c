@@ -29,7 +29,7 @@ typedef struct options {
     const char *cases[CASES];
     int32_t case_count, threads;
     int32_t group; /* of hard_groups; -1: all */
-    int linear, json, is_quiet, is_verbose;
+    int linear, culled, json, is_quiet, is_verbose;
     float seconds; /* of each case */
 } options;
 
@@ -39,6 +39,8 @@ typedef struct canvas {
     lmb_surface out; /* data NULL: depth only */
     void *depth, *id, *rgba, *linear;
     size_t linear_bytes;
+    lmb_culling culling; /* clusters NULL: lmb_draw */
+    void *farthest, *clusters;
 } canvas;
 
 /* Times of frames, s. */
@@ -75,7 +77,13 @@ static void draw_frame(const canvas *c, const bench_scene *s, const lmb_kernels 
         lmb_surface_clear(&c->target.id);
         lmb_surface_clear(&c->out);
     }
-    lmb_draw(&c->target, kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, cull ? LMB_CULL_BACK : 0, NULL);
+    const uint32_t flags = cull ? LMB_CULL_BACK : 0;
+    if (c->clusters != NULL) {
+        memset(c->farthest, 0, c->culling.tiles * sizeof(float));
+        lmb_draw_culled(&c->target, kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, flags, &c->culling, NULL);
+    } else {
+        lmb_draw(&c->target, kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, flags, NULL);
+    }
     if (c->rgba != NULL) {
         store_colours(c, s, kernels);
     } else if (c->linear != NULL) {
@@ -91,9 +99,24 @@ static void canvas_free(canvas *c)
     free(c->id);
     free(c->rgba);
     free(c->linear);
+    free(c->farthest);
+    free(c->clusters);
 }
 
-static int canvas_make(canvas *c, const bench_case *k, const options *o, report *r)
+/* Clusters are made on load, and in no frame's time. */
+static int canvas_cull(canvas *c, const bench_scene *s)
+{
+    lmb_culling *culling = &c->culling;
+    culling->tiles = lmb_culling_tiles(&c->target);
+    culling->cluster_count = lmb_culling_clusters(&s->scene);
+    culling->farthest = c->farthest = malloc(culling->tiles * sizeof(float));
+    lmb_cluster *clusters = c->clusters = malloc(culling->cluster_count * sizeof *clusters);
+    culling->clusters = clusters;
+    return c->farthest != NULL && clusters != NULL &&
+           lmb_clusters_build(clusters, culling->cluster_count, &s->scene) == LMB_OK;
+}
+
+static int canvas_make(canvas *c, const bench_case *k, const bench_scene *s, const options *o, report *r)
 {
     const int colours = k->look != BENCH_DEPTH;
     const size_t pixels = (size_t)k->width * (size_t)k->height;
@@ -113,6 +136,10 @@ static int canvas_make(canvas *c, const bench_case *k, const options *o, report 
     if (colours) {
         lmb_surface_init(&c->target.id, LMB_ID32, k->width, k->height, c->id, id);
         lmb_surface_init(&c->out, LMB_RGBA8, k->width, k->height, c->rgba, 4 * pixels);
+    }
+    if (o->culled && !canvas_cull(c, s)) {
+        canvas_free(c);
+        return report_fail(r, "%s: out of memory", k->name);
     }
     return 1;
 }
@@ -223,7 +250,7 @@ static int run_case(const bench_case *k, const bench_peers *peers, const options
     if (!bench_scene_load(&s, k, o->folder, r)) {
         return 0;
     }
-    int ok = canvas_make(&c, k, o, r);
+    int ok = canvas_make(&c, k, &s, o, r);
     if (ok) {
         measure(&t, &c, &s, o, k->cull);
         if (!o->is_quiet) {
@@ -276,6 +303,8 @@ static const option_row raster_rows[] = {
     ROW_SECONDS("of each case (default 1.5)"),
     {.name = "--linear", .kind = OPTION_FLAG, AT(linear),
      .help = "with depth copied into plain rows, which other programs read"},
+    {.name = "--culled", .kind = OPTION_FLAG, AT(culled),
+     .help = "by lmb_draw_culled: without what is hidden, by clusters and by bounds that each frame sets back"},
     {.name = "--peers", .value = "DIR", .kind = OPTION_TEXT, AT(peers),
      .help = "after each case let every program of this folder draw it, and print how long it takes, and how many times "
              "our time that is; tools/README.md says what such a program prints"},
