@@ -215,6 +215,33 @@ static void test_same_bytes(void)
     }
 }
 
+/* Behind depths that are nearer than all of them, clusters that the window shows are left out. */
+static void test_hidden(void)
+{
+    test_rng r = {24};
+    make_stage(&r, LMB_ORTHOGRAPHIC);
+    CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK);
+    for (int32_t m = 0; lmb_kernels_at(m) != NULL; ++m) {
+        const lmb_target t = window_of(1, LMB_DEPTH32F, LMB_FORMAT_NONE, LMB_TILED, SIDE, 0);
+        const lmb_culling culling = {bound, st.cluster, TILES, CLUSTERS};
+        const uint32_t all = lmb_scene_triangles(&st.scene);
+        lmb_stats stats[2];
+        memset(stats, 0, sizeof stats);
+        for (int i = 0; i < 2; ++i) {
+            for (int k = 0; k < TILES; ++k) {
+                bound[k] = (float)(2 * i);
+            }
+            for (int k = 0; k < SIDE * SIDE; ++k) {
+                ((float *)t.depth.data)[k] = (float)(2 * i);
+            }
+            CHECK(lmb_draw_culled(&t, lmb_kernels_at(m), &st.view, &st.scene, 1, all, 0, &culling, &stats[i]) ==
+                  LMB_OK);
+        }
+        CHECK_MSG(stats[1].triangles_drawn * 2 < stats[0].triangles_drawn, "%s: %d, then %d",
+                  lmb_kernels_name(lmb_kernels_at(m)), (int)stats[0].triangles_drawn, (int)stats[1].triangles_drawn);
+    }
+}
+
 /* What would be dropped is counted whatever hides it. */
 static void test_dropped(void)
 {
@@ -256,6 +283,7 @@ static void test_refused(void)
 void test_culled(void)
 {
     test_same_bytes();
+    test_hidden();
     test_dropped();
     test_refused();
 }
