@@ -150,6 +150,9 @@ uninstall: ## removes what install put there
 
 docs: ## the reference, build/docs/html/index.html: headers, documents, the systems (needs doxygen)
 	@mkdir -p $(BUILD)/docs
+	@for header in $(HEADERS); do \
+	    awk -f tests/scripts/prototypes.awk $$header | sed "s,^,$${header##*/}|,"; done > $(BUILD)/docs/calls.txt
+	@awk -f tests/scripts/contracts.awk $(BUILD)/docs/calls.txt $(HEADERS) | awk -f tools/docs/calls.awk > $(BUILD)/docs/calls.md
 	@DOCS_TOP='$(CURDIR)' DOCS_OUT='$(BUILD)/docs' doxygen tools/docs/Doxyfile
 
 help: ## this list
@@ -284,7 +287,7 @@ FORCE:
 # The longest first: what runs beside them fills the second core.
 
 CHECKS ?= one-command unit tiny statue live analytic truth lanes golden golden-orders audit slivers hard replay hostile \
-          hostile-cli layers no-float symbols stack headers layout guard tables readme words examples examples-tiny cli package \
+          hostile-cli layers no-float symbols stack headers contracts layout guard tables readme words examples examples-tiny cli package \
           tool-setup
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
@@ -374,6 +377,9 @@ stack: $(LIB) ## stack of the hungriest functions and calls; the budget is 4096 
 
 headers: ## each public header alone, as C99 and as C++
 	@$(IN_SH) tests/scripts/headers.sh
+
+contracts: ## each public call: described, with its statuses, as stable as its header says, and used
+	@$(IN_SH) tests/scripts/contracts.sh
 
 layout: $(LIB) ## a program with other capacities than the library must not link
 	@$(IN_SH) tests/scripts/layout.sh
