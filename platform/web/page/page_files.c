@@ -12,6 +12,8 @@
 #include "../../../tools/mix/mix_around.h"
 #include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/picture/image.h"
+#include "../../../tools/relight/relight_light.h"
+#include "../../../tools/relight/relight_path.h"
 #include "../../../tools/render/render_slice.h"
 
 enum { FILES = 256, NAME_BYTES = 256 };
@@ -131,6 +133,33 @@ int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t heigh
 int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_t height, report *r)
 {
     return png_encode(out, rgba, width, height, r);
+}
+
+/* --- relight_light.h, relight_path.h: a world is seen from one place, and objects stay where they are ------------------- */
+
+int place_list_read(place_list *out, const char *path, report *r)
+{
+    return (void)out, report_fail(r, "%s: the page draws one picture", path);
+}
+void place_list_free(place_list *list) { (void)list; }
+
+int relight_worlds_check(const relight_options *o, report *r)
+{
+    return o->worlds == 1 || report_fail(r, "--world: the page has one");
+}
+int relight_light_see(relight_light *w, const relight_options *o, lmb_vec3 at)
+{
+    return lmb_probe_remap(w->map, o->kernels, w->world, w->table, at, o->blend) == LMB_OK;
+}
+int relight_light_reflect(relight_light *w, const relight_options *o, float *planes, int32_t n, lmb_probe_rays *rays,
+                          lmb_vec3 at, float roughness)
+{
+    const lmb_world_query query = {w->world, 0.0f, o->blend};
+    return lmb_probe_reflect(planes, n, rays, o->kernels, &query, at, roughness) == LMB_OK;
+}
+const lmb_world *relight_light_nearest(const relight_light *w, const relight_options *o, lmb_vec3 at)
+{
+    return (void)o, (void)at, w->world;
 }
 
 /* --- area_light.h, mix_*.h: the page's lights have no size, and its depth is exact --------------------------------------- */
