@@ -440,7 +440,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
 .PHONY: faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
-    measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
+    measure-simplify measure-capture measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
     measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
@@ -566,6 +566,9 @@ measure-cuts: $(B)/measure-cuts ## what cuts save against all texels of a 1024 m
 
 measure-relight: $(B)/measure-relight ## objects lit by their world: errors and time of filters and glossy lobes
 	@$(IN_SH) tests/measure/relight.sh
+
+measure-capture: $(TOOL) ## an object carried through Sponza by captured cubes against drawing it there (SIZE, FACES)
+	@$(IN_SH) tests/measure/capture.sh
 
 measure-simplify: $(B)/measure-simplify ## what simpler meshes lose and add: distances, silhouettes, time
 	@$(RUN) $(B)/measure-simplify
