@@ -97,13 +97,13 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
 #if LMB_CULLING
 /* lmb_draw_culled: lmb_draw without what bounds show to be hidden: the same pixels, and ids, to the byte.
  *
- *   culling  `farthest` is read and raised; backends of under eight lanes leave it, and cull by clusters alone.
+ *   culling  `farthest` is read and raised. Backends of under eight lanes ask it for whole clusters and for nothing else;
+ *            the others also ask for each tile of small triangles, while clusters are found hidden.
  * Returns what lmb_draw does; LMB_ERR_ARG also where culling is NULL, LMB_ERR_CAPACITY where one of its arrays is too
  * short. Triangles of a cluster that is left out count as drawn nowhere; one with a triangle that would be dropped is
  * never left out.
- * Stack: as lmb_draw. Cost: a test for each cluster, and one for each tile that a triangle covers in the others. It pays
- * where much is hidden, or the picture is large; a single layer of small triangles takes up to a fifth longer than by
- * lmb_draw. */
+ * Stack: as lmb_draw. Cost: a test for each cluster, and one for each tile that is asked for. It pays where much is
+ * hidden; where nothing is, the clusters' tests take 1 to 5 % longer. */
 lmb_status lmb_draw_culled(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view,
                            const lmb_scene *scene, uint32_t first_id, uint32_t count, uint32_t flags,
                            const lmb_culling *culling, lmb_stats *stats);

@@ -78,6 +78,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
 #if LMB_CULLING
     KERNEL(culled_small),
     KERNEL(culled_large),
+    KERNEL(culled_box),
 #endif
 #if LMB_TREES
     KERNEL(gather_cut),

@@ -155,6 +155,16 @@ typedef struct lmb_setup {
     int32_t back;        /* back face: clockwise in the picture */
 } lmb_setup;
 
+#if LMB_CULLING
+/* Small triangles leave bounds alone; are left out where they are hidden; and raise them, too. */
+enum { LMB_BOUNDS_IDLE, LMB_BOUNDS_READ, LMB_BOUNDS_RAISED };
+
+/* First and last tiles of a window. */
+typedef struct lmb_tile_box {
+    int32_t x0, x1, y0, y1;
+} lmb_tile_box;
+#endif
+
 /* A window in memory: bytes from tile to tile and from one row of tiles to the next. */
 typedef struct lmb_fill_window {
     lmb_fill_tile first;
@@ -165,6 +175,7 @@ typedef struct lmb_fill_window {
     float d_scale, d_bias;
 #if LMB_CULLING
     float *farthest; /* of each tile, row by row: at most every depth in it; where no bounds are asked for, not read */
+    int32_t bounds;  /* LMB_BOUNDS_*: what small triangles do with them */
 #endif
 } lmb_fill_window;
 
@@ -356,6 +367,8 @@ struct lmb_kernels {
     /* fill_small and fill_large where the window has bounds, which they use and raise. */
     void (*culled_small)(const lmb_fill_window *window, const lmb_batch *batch, uint32_t bits, uint32_t first_id);
     void (*culled_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
+    /* 1 where each tile of the box is at least as near as `nearest` throughout. A bound that is under it is made anew. */
+    int (*culled_box)(const lmb_fill_window *window, const lmb_tile_box *box, float nearest);
 #endif
 #if LMB_TREES
     /* Emitters that some pixels see: added. `pairs` is scratch. */

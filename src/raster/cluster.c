@@ -179,42 +179,32 @@ static float depth_as_held(const lmb_fill_window *w, float d)
     return floorf(maxf(minf(d * w->d_scale + w->d_bias, 65535.0f), 0.0f));
 }
 
-/* Is every tile as near as d throughout? */
-static int tiles_hide(const lmb_fill_window *w, int32_t tx0, int32_t tx1, int32_t ty0, int32_t ty1, float d)
+int lmb_cluster_is_hidden(const lmb_cluster *c, const lmb_setup_job *job, const lmb_fill_window *w,
+                          const lmb_kernels *kernels)
 {
-    for (int32_t ty = ty0; ty <= ty1; ++ty) {
-        const float *bound = w->farthest + (ptrdiff_t)ty * w->tiles_x;
-        for (int32_t tx = tx0; tx <= tx1; ++tx) {
-            if (!(bound[tx] >= d)) {
-                return 0;
-            }
-        }
-    }
-    return 1;
-}
-
-int lmb_cluster_is_hidden(const lmb_cluster *c, const lmb_setup_job *job, const lmb_fill_window *w)
-{
-    int32_t tx0, tx1, ty0, ty1;
+    lmb_tile_box box;
     cluster_points p;
     if (!cluster_project(&p, c, job)) {
-        return 0;
+        return LMB_CLUSTER_SHOWN;
     }
     if (cluster_is_outside(&p, job)) {
-        return 1;
+        return LMB_CLUSTER_OUTSIDE;
     }
     if (!cluster_is_inside(&p, job)) {
-        return 0;
+        return LMB_CLUSTER_SHOWN;
     }
     const interval inverse = {1.0f / p.w.high, 1.0f / p.w.low};
     const interval x = interval_product(p.x, inverse), y = interval_product(p.y, inverse);
-    if (!cluster_tiles(&tx0, &tx1, x.low * job->snap_x + 0.5f, x.high * job->snap_x + 0.5f, w->origin_x, w->x0,
+    if (!cluster_tiles(&box.x0, &box.x1, x.low * job->snap_x + 0.5f, x.high * job->snap_x + 0.5f, w->origin_x, w->x0,
                        w->tiles_x) ||
-        !cluster_tiles(&ty0, &ty1, 0.5f - y.high * job->snap_y, 0.5f - y.low * job->snap_y, w->origin_y, w->y0,
+        !cluster_tiles(&box.y0, &box.y1, 0.5f - y.high * job->snap_y, 0.5f - y.low * job->snap_y, w->origin_y, w->y0,
                        w->tiles_y)) {
-        return 1;
+        return LMB_CLUSTER_OUTSIDE;
     }
-    return w->farthest != NULL &&
-           tiles_hide(w, tx0, tx1, ty0, ty1, depth_as_held(w, interval_product(p.z, inverse).high));
+    if (w->farthest == NULL) {
+        return LMB_CLUSTER_SHOWN;
+    }
+    return kernels->culled_box(w, &box, depth_as_held(w, interval_product(p.z, inverse).high)) ? LMB_CLUSTER_HIDDEN
+                                                                                              : LMB_CLUSTER_SHOWN;
 }
 #endif

@@ -9,14 +9,19 @@
 typedef struct lmb_cluster_place {
     const lmb_cluster *clusters; /* NULL: none was looked for yet */
     uint32_t mesh;
+    uint32_t asked, asks; /* clusters whose small triangles read bounds: so far; to come */
 } lmb_cluster_place;
 
 /* The clusters of a mesh, looked for from the place that was found before. */
 const lmb_cluster *lmb_cluster_find(lmb_cluster_place *place, const lmb_culling *culling, const lmb_scene *scene,
                                     uint32_t mesh);
 
-/* 1 where no triangle of the cluster can change a pixel of the window. The job is the instance's. */
-int lmb_cluster_is_hidden(const lmb_cluster *cluster, const lmb_setup_job *job, const lmb_fill_window *window);
+/* Shown or not known; outside the window; hidden by what is drawn. */
+enum { LMB_CLUSTER_SHOWN, LMB_CLUSTER_OUTSIDE, LMB_CLUSTER_HIDDEN };
+
+/* Not LMB_CLUSTER_SHOWN where no triangle of the cluster can change a pixel of the window. The job is the instance's. */
+int lmb_cluster_is_hidden(const lmb_cluster *cluster, const lmb_setup_job *job, const lmb_fill_window *window,
+                          const lmb_kernels *kernels);
 #endif
 
 #endif

@@ -6,38 +6,6 @@
  * Equal depths are left out, too, as the earlier draw stays. Else pixels are fill_small.inl's and fill_large.inl's,
  * value by value. */
 
-#if LANES >= LMB_TILE
-/* A depth as the target holds it. */
-LANE_INLINE float culled_code(float d, const lmb_fill_tile *tile, const lmb_fill_job *job)
-{
-    if (tile->depth_format == LMB_DEPTH32F) {
-        return d;
-    }
-    return (float)(int32_t)maxf(minf(d * job->d_scale + job->d_bias, 65535.0f), 0.0f);
-}
-
-/* The nearest depth of planes whose nearest place in a tile is (x, y), px, as each pixel's is made. Where the plane has no
- * value there, pixels may take any. */
-LANE_INLINE lane culled_nearest(lane d, lane dx, lane dy, lane x, lane y, lane d_min, lane d_max)
-{
-    const lane at = lane_add(lane_add(d, lane_mul(dy, y)), lane_mul(dx, x));
-    return lane_pick(lane_lt(at, d_max), lane_max(at, d_min), d_max);
-}
-
-/* The same of one plane, px of a tile. */
-LANE_INLINE float culled_near(const lmb_fill_tile *tile, const lmb_fill_job *job, float x, float y)
-{
-    const float d = (job->d + job->dy * y) + job->dx * x;
-    return culled_code(d < job->d_max ? maxf(d, job->d_min) : job->d_max, tile, job);
-}
-
-LANE_INLINE float culled_far(const lmb_fill_tile *tile, const lmb_fill_job *job)
-{
-    const float x = job->dx > 0.0f ? 0.0f : (float)(LMB_TILE - 1), y = job->dy > 0.0f ? 0.0f : (float)(LMB_TILE - 1);
-    const float d = (job->d + job->dy * y) + job->dx * x;
-    return culled_code(d > job->d_min ? minf(d, job->d_max) : job->d_min, tile, job);
-}
-
 /* The farthest depth of a tile. */
 LANE_INLINE float culled_look(const lmb_fill_tile *tile)
 {
@@ -53,6 +21,49 @@ LANE_INLINE float culled_look(const lmb_fill_tile *tile)
     return lane_lowest(lowest);
 }
 
+static int KERNEL(culled_box)(const lmb_fill_window *w, const lmb_tile_box *box, float nearest)
+{
+    lmb_fill_tile tile = w->first;
+    for (int32_t y = box->y0; y <= box->y1; ++y) {
+        float *bound = w->farthest + (ptrdiff_t)y * w->tiles_x;
+        for (int32_t x = box->x0; x <= box->x1; ++x) {
+            if (bound[x] >= nearest) {
+                continue;
+            }
+            tile.depth = (uint8_t *)w->first.depth + (ptrdiff_t)y * w->depth_row + (ptrdiff_t)x * w->depth_tile;
+            bound[x] = culled_look(&tile);
+            if (!(bound[x] >= nearest)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+#if LANES >= LMB_TILE
+/* A depth as the target holds it. */
+LANE_INLINE float culled_code(float d, const lmb_fill_tile *tile, const lmb_fill_job *job)
+{
+    if (tile->depth_format == LMB_DEPTH32F) {
+        return d;
+    }
+    return (float)(int32_t)maxf(minf(d * job->d_scale + job->d_bias, 65535.0f), 0.0f);
+}
+
+/* The nearest depth of a plane whose nearest place in a tile is (x, y), px, as parts_nearest. */
+LANE_INLINE float culled_near(const lmb_fill_tile *tile, const lmb_fill_job *job, float x, float y)
+{
+    const float d = (job->d + job->dy * y) + job->dx * x;
+    return culled_code(d < job->d_max ? maxf(d, job->d_min) : job->d_max, tile, job);
+}
+
+LANE_INLINE float culled_far(const lmb_fill_tile *tile, const lmb_fill_job *job)
+{
+    const float x = job->dx > 0.0f ? 0.0f : (float)(LMB_TILE - 1), y = job->dy > 0.0f ? 0.0f : (float)(LMB_TILE - 1);
+    const float d = (job->d + job->dy * y) + job->dx * x;
+    return culled_code(d > job->d_min ? minf(d, job->d_max) : job->d_min, tile, job);
+}
+
 LANE_INLINE void culled_set_tile(lmb_fill_tile *tile, const lmb_fill_window *w, ptrdiff_t across, ptrdiff_t down)
 {
     tile->depth = (uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile;
@@ -66,16 +77,26 @@ LANE_INLINE float *culled_bound(const lmb_fill_window *w, ptrdiff_t across, ptrd
     return w->farthest + down * w->tiles_x + across;
 }
 
-#include "culled_tile.inl"
-
 /* e: the edges at the tile's pixel (0, box->first_row) - but for tiled ones, which all is drawn of, (0, 0). */
 LANE_INLINE void culled_cross(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t,
                               const int32_t e[3], const fill_box *box, float *bound, int kind)
 {
     if (kind != FILL_ANY) {
-        culled_cross_tiled(tile, t, lanei_add(lanei_splat(e[0]), t->step[0][0]),
-                           lanei_add(lanei_splat(e[1]), t->step[1][0]), lanei_add(lanei_splat(e[2]), t->step[2][0]),
-                           job->d, bound, kind);
+        fill_rows r;
+        r.e0 = lanei_add(lanei_splat(e[0]), t->step[0][0]);
+        r.e1 = lanei_add(lanei_splat(e[1]), t->step[1][0]);
+        r.e2 = lanei_add(lanei_splat(e[2]), t->step[2][0]);
+        r.down0 = lanei_splat(t->ey[0] * FILL_ROWS);
+        r.down1 = lanei_splat(t->ey[1] * FILL_ROWS);
+        r.down2 = lanei_splat(t->ey[2] * FILL_ROWS);
+        r.step_d = t->step_d[0];
+        r.d_min = t->d_min;
+        r.d_max = t->d_max;
+        r.depth = (float *)tile->depth;
+        r.ids = (uint32_t *)tile->id;
+        r.id = t->id;
+        rows_draw(&r, job->d, t->per_row, ROWS_ALL, kind);
+        rows_raise(bound, r.lowest);
         return;
     }
     (void)kind;
@@ -108,7 +129,7 @@ LANE_INLINE uint32_t culled_row_seen(float *d, const culled_plane *plane, const 
     const lanei x = lanei_add(lanei_splat(x_24_8), lanei_mul(lanei_load(steps), lanei_splat(LMB_TILE * 256)));
     const laned at = laned_mul(laned_splat(plane->d_x), laned_mul(laned_from_int(x), laned_splat(1.0 / 256.0)));
     const lane first = lane_from_double(laned_add(laned_add(laned_splat(plane->d_origin), at), laned_splat(d_row)));
-    lane near = culled_nearest(first, lane_splat(plane->dx), lane_splat(plane->dy),
+    lane near = parts_nearest(first, lane_splat(plane->dx), lane_splat(plane->dy),
                                lane_splat(near_x), lane_splat(near_y),
                                lane_splat(plane->d_min), lane_splat(plane->d_max));
     if (tile->depth_format != LMB_DEPTH32F) {
@@ -120,73 +141,21 @@ LANE_INLINE uint32_t culled_row_seen(float *d, const culled_plane *plane, const 
 
 /* --- small triangles ---------------------------------------------------------------------------------------------- */
 
-/* One tile of triangle k; (x, y): its first pixel in the frame, e: the edges there. */
-LANE_INLINE void culled_small_tile(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fill_job *job, const lmb_batch *b,
-                                   int k, const fill_triangle *t, const int32_t e[3], int32_t x, int32_t y, int kind)
+NOINLINE void culled_small_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
-    const ptrdiff_t down = (y - w->y0) / LMB_TILE, across = (x - w->x0) / LMB_TILE;
-    float *bound = culled_bound(w, across, down);
-    const int32_t near_x = job->dx > 0.0f ? (b->x1[k] < x + LMB_TILE ? b->x1[k] - x : LMB_TILE - 1)
-                                          : (b->x0[k] > x ? b->x0[k] - x : 0),
-                  near_y = job->dy > 0.0f ? (b->y1[k] < y + LMB_TILE ? b->y1[k] - y : LMB_TILE - 1)
-                                          : (b->y0[k] > y ? b->y0[k] - y : 0);
-    if (*bound < culled_near(tile, job, (float)near_x, (float)near_y)) {
-        const fill_box box = small_cut(b, k, x, y);
-        culled_set_tile(tile, w, across, down);
-        culled_cross(tile, job, t, e, &box, bound, kind);
-    }
-}
-
-LANE_INLINE void culled_small_one(const lmb_fill_window *w, const lmb_batch *b, int k, uint32_t id, int kind)
-{
-    const int32_t ex[3] = {b->ex[0][k], b->ex[1][k], b->ex[2][k]}, ey[3] = {b->ey[0][k], b->ey[1][k], b->ey[2][k]};
-    const double d_origin = b->d[k], dx = b->dx[k], dy = b->dy[k];
-    const int32_t left = b->x0[k] & ~(LMB_TILE - 1), right = b->x1[k], bottom = b->y1[k];
-    int32_t e[3] = {b->e[0][k], b->e[1][k], b->e[2][k]};
-    lmb_fill_tile tile = fill_first(w, kind);
-    lmb_fill_job job;
-    fill_triangle t;
-    job.dx = (float)b->dx[k];
-    job.dy = (float)b->dy[k];
-    job.d_min = b->d_min[k];
-    job.d_max = b->d_max[k];
-    job.d_scale = w->d_scale;
-    job.d_bias = w->d_bias;
-    job.id = id;
-    fill_set(&t, ex, ey, &job);
-    const int32_t reach0 = small_reach(ex[0], ey[0]), reach1 = small_reach(ex[1], ey[1]),
-                  reach2 = small_reach(ex[2], ey[2]);
-    for (int32_t y = b->y0[k] & ~(LMB_TILE - 1); y <= bottom; y += LMB_TILE) {
-        const double d_row = dy * ((y * 256 + w->origin_y) * (1.0 / 256.0));
-        int32_t at[3] = {e[0], e[1], e[2]};
-        for (int32_t x = left; x <= right; x += LMB_TILE) {
-            if (((at[0] + reach0) | (at[1] + reach1) | (at[2] + reach2)) >= 0) {
-                job.d = (float)(d_origin + dx * ((x * 256 + w->origin_x) * (1.0 / 256.0)) + d_row);
-                culled_small_tile(w, &tile, &job, b, k, &t, at, x, y, kind);
-            }
-            at[0] += ex[0] * LMB_TILE, at[1] += ex[1] * LMB_TILE, at[2] += ex[2] * LMB_TILE;
-        }
-        e[0] += ey[0] * LMB_TILE, e[1] += ey[1] * LMB_TILE, e[2] += ey[2] * LMB_TILE;
-    }
-}
-
-#include "culled_parts.inl"
-
-NOINLINE void culled_small_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
-{
-    culled_small_parts(w, b, bits, first_id, FILL_PLAIN);
+    parts_fill_plain(w, b, bits, 1);
 }
 
 NOINLINE void culled_small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
-    culled_small_parts(w, b, bits, first_id, FILL_ID32);
+    parts_fill_id32(w, b, bits, first_id, 1);
 }
 
 static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
     const int kind = fill_kind(&w->first);
     if (kind == FILL_PLAIN) {
-        culled_small_plain(w, b, bits, first_id);
+        culled_small_plain(w, b, bits);
         return;
     }
     if (kind == FILL_ID32) {

@@ -100,18 +100,34 @@ static void draw_triangles(const lmb_fill_context *c, const lmb_draw_instance *d
 }
 
 #if LMB_CULLING
+enum { CLUSTERS_ASK = 16 };
+
+/* Reading bounds takes small triangles longer than drawing does where nothing is hidden, so they do so only for some
+ * clusters after one that was hidden as a whole. Raising them takes longer still: each fourth cluster's do. */
+static int32_t cluster_bounds(lmb_cluster_place *place)
+{
+    if (place->asks == 0) {
+        return LMB_BOUNDS_IDLE;
+    }
+    --place->asks;
+    return place->asked++ % 4 == 0 ? LMB_BOUNDS_RAISED : LMB_BOUNDS_READ;
+}
+
 /* The same, but for clusters that the window shows nothing of. */
-static void draw_clusters(const lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch,
+static void draw_clusters(lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch,
                           const lmb_cluster *clusters, uint32_t first, uint32_t past, lmb_stats *stats)
 {
     while (first < past) {
         const uint32_t cluster = (first - d->first_id) / LMB_CLUSTER, left = past - first;
         const uint32_t rest = LMB_CLUSTER - (first - d->first_id) % LMB_CLUSTER, count = left < rest ? left : rest;
-        if (!lmb_cluster_is_hidden(&clusters[cluster], &d->job, &c->window)) {
+        const int hidden = lmb_cluster_is_hidden(&clusters[cluster], &d->job, &c->window, c->kernels);
+        if (hidden == LMB_CLUSTER_SHOWN) {
+            c->window.bounds = cluster_bounds(&c->place);
             draw_triangles(c, d, batch, first, first + count, stats);
         } else if (stats != NULL) {
             stats->triangles += count;
         }
+        c->place.asks = hidden == LMB_CLUSTER_HIDDEN ? CLUSTERS_ASK : c->place.asks;
         first += count;
     }
 }
@@ -200,7 +216,9 @@ lmb_status lmb_draw_culled(const lmb_target *target, const lmb_kernels *kernels,
     }
     context.culling = culling;
     context.place.clusters = NULL;
+    context.place.asked = context.place.asks = 0;
     context.window.farthest = culling->farthest;
+    context.window.bounds = culling->farthest != NULL ? LMB_BOUNDS_RAISED : LMB_BOUNDS_IDLE;
     draw_range(&context, first_id, count, flags, stats);
     return LMB_OK;
 }

@@ -22,7 +22,7 @@ typedef struct lmb_fill_context {
 static inline void fill_batch(const lmb_fill_context *c, const lmb_batch *batch, uint32_t bits, uint32_t first_id)
 {
 #if LMB_CULLING
-    if (c->window.farthest != NULL) {
+    if (c->window.bounds != LMB_BOUNDS_IDLE) {
         c->kernels->culled_small(&c->window, batch, bits, first_id);
         return;
     }

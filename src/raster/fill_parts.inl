@@ -1,50 +1,42 @@
-/* fill_parts.inl: a batch's triangles that touch at most two tiles each way, tile by tile. Layer 3.
+/* fill_parts.inl: a batch's small triangles into tiled tiles, for backends of a row's lanes or more. Layer 3.
  *
- * Of such a triangle at most one tile has a given parity of column and row. So what a tile needs (edges, depth, rows)
- * is made for LANES triangles at a time, once a parity, and what remains is one loop over rows. Tiles of two parities
- * are never the same one, and within a parity triangles keep their order: pixels are fill_small.inl's, value by value.
- * For backends of a row's lanes or more: narrower ones spend more on four parities than they save. */
+ * Most triangles touch at most two or three tiles each way. In which of them they have pixels, and the edges and depth at
+ * a tile's first pixel, are found for LANES triangles at a time; what remains is one loop that draws a tile of each. A
+ * loop over the tiles of each triangle would be guessed wrong once a triangle, which costs about as much as a tile.
+ *
+ * Where tiles have bounds of their farthest depth (culled.inl), those that hide their part of a triangle are left out. */
 
-/* Of each triangle of a batch the part in a tile of one parity. */
+/* Tile p of a triangle lies p % PARTS_SIDE to the right of its first one, and p / PARTS_SIDE below. */
+enum { PARTS_SIDE = 3, PARTS_TILES = PARTS_SIDE * PARTS_SIDE };
+
+/* Where ids tell who came first, so many triangles of three tiles each way are worth looking at nine instead of four;
+ * fewer of two go one by one. */
+enum { PARTS_MORE = 3, PARTS_LESS = 3 };
+
+typedef struct fill_slopes {
+    float dx[LMB_BATCH], dy[LMB_BATCH];
+} fill_slopes;
+
+/* One tile of each triangle. */
+typedef struct fill_part {
+    int32_t e[3][LMB_BATCH];
+    float d[LMB_BATCH]; /* both at the tile's first pixel */
+} fill_part;
+
+/* All tiles of triangles, and those that are left of them. */
 typedef struct fill_parts {
-    int32_t e[3][LMB_BATCH];                              /* at the first pixel of first_row */
-    int32_t first_row[LMB_BATCH], last_row[LMB_BATCH];    /* in the tile */
-    int32_t across[LMB_BATCH], down[LMB_BATCH];           /* of the tile in the window, tiles */
-    float d[LMB_BATCH];                                   /* at the tile's first pixel */
-    float dx[LMB_BATCH], dy[LMB_BATCH];                   /* of every tile */
+    fill_slopes slopes;
+    float d[PARTS_TILES][LMB_BATCH];
+    int32_t tiles[LMB_BATCH];                /* of each triangle, those with pixels that may show: bit p */
+    uint8_t list[PARTS_TILES * LMB_BATCH + 1]; /* k + 16 p of each tile that is left, and one more that is written */
 } fill_parts;
 
-/* Triangles whose box touches more than two tiles in a row, a bit each. */
-LANE_INLINE uint32_t parts_wide(const lmb_batch *b, uint32_t bits)
+/* The nearest depth of planes whose nearest place in a tile is (x, y), px, as each pixel's is made. Where the plane has no
+ * value there, pixels may take any. */
+LANE_INLINE lane parts_nearest(lane d, lane dx, lane dy, lane x, lane y, lane d_min, lane d_max)
 {
-    const lanei two = lanei_splat(2);
-    uint32_t wide = 0;
-    for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
-        const lanei x = lanei_sub(lanei_shift(lanei_load(b->x1 + k), 3), lanei_shift(lanei_load(b->x0 + k), 3)),
-                    y = lanei_sub(lanei_shift(lanei_load(b->y1 + k), 3), lanei_shift(lanei_load(b->y0 + k), 3));
-        wide |= mask_bits(mask_not(mask_and(lanei_lt(x, two), lanei_lt(y, two)))) << k;
-    }
-    return wide & bits;
-}
-
-LANE_INLINE void parts_slopes(fill_parts *out, const lmb_batch *b, uint32_t bits)
-{
-    for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
-        lane_store(out->dx + k, lane_from_double(laned_load(b->dx + k)));
-        lane_store(out->dy + k, lane_from_double(laned_load(b->dy + k)));
-    }
-}
-
-/* (x, y): px of the frame, of the tiles' first pixels. */
-LANE_INLINE void parts_depth(fill_parts *out, const lmb_fill_window *w, const lmb_batch *b, int k, lanei x, lanei y)
-{
-    const lanei to_24_8 = lanei_splat(256);
-    const laned to_px = laned_splat(1.0 / 256.0);
-    const laned right = laned_from_int(lanei_add(lanei_mul(x, to_24_8), lanei_splat(w->origin_x))),
-                down = laned_from_int(lanei_add(lanei_mul(y, to_24_8), lanei_splat(w->origin_y)));
-    const laned d = laned_add(laned_load(b->d + k), laned_mul(laned_load(b->dx + k), laned_mul(right, to_px)));
-    lane_store(out->d + k,
-               lane_from_double(laned_add(d, laned_mul(laned_load(b->dy + k), laned_mul(down, to_px)))));
+    const lane at = lane_add(lane_add(d, lane_mul(dy, y)), lane_mul(dx, x));
+    return lane_pick(lane_lt(at, d_max), lane_max(at, d_min), d_max);
 }
 
 /* What an edge gains at most from a box's first pixel to another. */
@@ -54,79 +46,343 @@ LANE_INLINE lanei parts_gain(lanei ex, lanei ey, lanei width, lanei height)
     return lanei_add(lanei_max(lanei_mul(ex, width), zero), lanei_max(lanei_mul(ey, height), zero));
 }
 
-/* Triangles k .. k + LANES - 1 in tiles of this parity; returns those that may have pixels there, a bit each. */
-LANE_INLINE uint32_t parts_set(fill_parts *out, const lmb_fill_window *w, const lmb_batch *b, int k, int parity)
+/* (x, y): px of the frame, of the tiles' first pixels. */
+LANE_INLINE lane parts_depth(const lmb_fill_window *w, const lmb_batch *b, int k, lanei x, lanei y)
 {
-    const lanei zero = lanei_splat(0), one = lanei_splat(1), side = lanei_splat(LMB_TILE),
-                last = lanei_splat(LMB_TILE - 1);
+    const lanei to_24_8 = lanei_splat(256);
+    const laned to_px = laned_splat(1.0 / 256.0);
+    const laned right = laned_from_int(lanei_add(lanei_mul(x, to_24_8), lanei_splat(w->origin_x))),
+                down = laned_from_int(lanei_add(lanei_mul(y, to_24_8), lanei_splat(w->origin_y)));
+    const laned d = laned_add(laned_load(b->d + k), laned_mul(laned_load(b->dx + k), laned_mul(right, to_px)));
+    return lane_from_double(laned_add(d, laned_mul(laned_load(b->dy + k), laned_mul(down, to_px))));
+}
+
+/* Tile (px, py) of triangles k .. k + LANES - 1: where it has pixels that may show; sets the depth at its first pixel,
+ * and the edges there, if they are asked for. */
+LANE_INLINE lane_mask parts_set(float *depth, int32_t (*edges)[LMB_BATCH], lane_mask halves[2],
+                                const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, int k, lanei px, lanei py, int bounded)
+{
+    const lanei zero = lanei_splat(0), last = lanei_splat(LMB_TILE - 1);
     const lanei x0 = lanei_load(b->x0 + k), y0 = lanei_load(b->y0 + k);
-    const lanei tile_x = lanei_shift(x0, 3), tile_y = lanei_shift(y0, 3);
-    const lanei next_x = lanei_and(lanei_add(tile_x, lanei_splat(parity & 1)), one),
-                next_y = lanei_and(lanei_add(tile_y, lanei_splat(parity >> 1)), one);
-    const lanei across = lanei_add(tile_x, next_x), down = lanei_add(tile_y, next_y);
-    const lanei x = lanei_mul(across, side), y = lanei_mul(down, side);
-    /* The box in the tile; its sides are negative where it is not there. */
+    const lanei across = lanei_add(lanei_shift(x0, 3), px), down = lanei_add(lanei_shift(y0, 3), py);
+    const lanei side = lanei_splat(LMB_TILE), x = lanei_mul(across, side), y = lanei_mul(down, side);
+    const lanei to_x = lanei_mul(px, side), to_y = lanei_mul(py, side);
     const lanei left = lanei_max(lanei_sub(x0, x), zero), top = lanei_max(lanei_sub(y0, y), zero);
-    const lanei bottom = lanei_min(lanei_sub(lanei_load(b->y1 + k), y), last);
-    const lanei width = lanei_sub(lanei_min(lanei_sub(lanei_load(b->x1 + k), x), last), left),
-                height = lanei_sub(bottom, top);
-    const lanei row = lanei_and(top, lanei_splat(~(FILL_ROWS - 1)));
-    const lanei right = lanei_mul(next_x, side), below = lanei_add(lanei_mul(next_y, side), row),
-                within = lanei_sub(top, row);
+    const lanei right = lanei_min(lanei_sub(lanei_load(b->x1 + k), x), last),
+                bottom = lanei_min(lanei_sub(lanei_load(b->y1 + k), y), last);
+    const lanei width = lanei_sub(right, left), height = lanei_sub(bottom, top);
     lanei inside = lanei_or(width, height);
+    halves[0] = lanei_lt(bottom, lanei_splat(LMB_TILE / 2));
+    halves[1] = lanei_lt(lanei_splat(LMB_TILE / 2 - 1), top);
     for (int i = 0; i < 3; ++i) {
         const lanei ex = lanei_load(b->ex[i] + k), ey = lanei_load(b->ey[i] + k);
         const lanei e =
-            lanei_add(lanei_load(b->e[i] + k), lanei_add(lanei_mul(ex, right), lanei_mul(ey, below)));
-        const lanei corner = lanei_add(e, lanei_add(lanei_mul(ex, left), lanei_mul(ey, within)));
-        lanei_store(out->e[i] + k, e);
+            lanei_add(lanei_load(b->e[i] + k), lanei_add(lanei_mul(ex, to_x), lanei_mul(ey, to_y)));
+        const lanei corner = lanei_add(e, lanei_add(lanei_mul(ex, left), lanei_mul(ey, top)));
+        if (edges != NULL) {
+            lanei_store(edges[i] + k, e);
+        }
         inside = lanei_or(inside, lanei_add(corner, parts_gain(ex, ey, width, height)));
     }
-    lanei_store(out->first_row + k, row);
-    lanei_store(out->last_row + k, bottom);
-    lanei_store(out->across + k, lanei_sub(across, lanei_splat(w->x0 / LMB_TILE)));
-    lanei_store(out->down + k, lanei_sub(down, lanei_splat(w->y0 / LMB_TILE)));
-    parts_depth(out, w, b, k, x, y);
-    return mask_bits(lanei_not_negative(inside));
-}
-
-/* Triangle k in its tile. */
-LANE_INLINE void parts_draw(const lmb_fill_window *w, const lmb_batch *b, const fill_parts *p, int k, uint32_t id,
-                            int kind)
-{
-    const ptrdiff_t down = p->down[k], across = p->across[k];
-    const int32_t e[3] = {p->e[0][k], p->e[1][k], p->e[2][k]};
-    const int32_t ex[3] = {b->ex[0][k], b->ex[1][k], b->ex[2][k]}, ey[3] = {b->ey[0][k], b->ey[1][k], b->ey[2][k]};
-    const fill_box box = {p->first_row[k], p->last_row[k], 0, 0};
-    lmb_fill_tile tile = fill_first(w, kind);
-    lmb_fill_job job;
-    fill_triangle t;
-    job.dx = p->dx[k];
-    job.dy = p->dy[k];
-    job.d_min = b->d_min[k];
-    job.d_max = b->d_max[k];
-    job.id = id;
-    fill_set(&t, ex, ey, &job);
-    tile.depth = (uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile;
-    if (tile.id_format != LMB_FORMAT_NONE) {
-        tile.id = (uint8_t *)w->first.id + down * w->id_row + across * w->id_tile;
+    const lane d = parts_depth(w, b, k, x, y);
+    lane_store(depth + k, d);
+    lane_mask seen = lanei_not_negative(inside);
+#if LMB_CULLING
+    if (bounded && mask_bits(seen) != 0) {
+        const lane dx = lane_load(slopes->dx + k), dy = lane_load(slopes->dy + k), zerof = lane_splat(0.0f);
+        const lane near = parts_nearest(d, dx, dy, lane_from_int(lanei_pick(lane_lt(zerof, dx), right, left)),
+                                        lane_from_int(lanei_pick(lane_lt(zerof, dy), bottom, top)),
+                                        lane_load(b->d_min + k), lane_load(b->d_max + k));
+        const lanei at = lanei_add(lanei_mul(lanei_sub(down, lanei_splat(w->y0 / LMB_TILE)), lanei_splat(w->tiles_x)),
+                                   lanei_sub(across, lanei_splat(w->x0 / LMB_TILE)));
+        seen = mask_and(seen, lane_lt(lane_gather_f32(w->farthest, lanei_pick(seen, at, zero)), near));
     }
-    fill_column(&tile, &job, &t, e, p->d[k], &box, 0);
+#else
+    (void)slopes, (void)bounded;
+#endif
+    return seen;
 }
 
-/* `kind` is a tiled one. */
-LANE_INLINE void parts_fill(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id, int kind)
+/* Triangle k in its tile (px, py); e0 .. e2, d: edges and depth at the tile's first pixel. */
+LANE_INLINE void parts_draw(const lmb_fill_window *w, const lmb_batch *b, int k, int32_t px, int32_t py, int32_t e0,
+                            int32_t e1, int32_t e2, float d, float dx, float dy, uint32_t id, int rows, int kind,
+                            int bounded)
 {
+    const ptrdiff_t across = ((b->x0[k] - w->x0) >> 3) + px, down = ((b->y0[k] - w->y0) >> 3) + py;
+    const int32_t ex[3] = {b->ex[0][k], b->ex[1][k], b->ex[2][k]}, ey[3] = {b->ey[0][k], b->ey[1][k], b->ey[2][k]};
+    fill_rows r;
+    r.e0 = lanei_affine(e0 + (rows == ROWS_LOWER ? ey[0] * (LMB_TILE / 2) : 0), ex[0], ey[0], 0);
+    r.e1 = lanei_affine(e1 + (rows == ROWS_LOWER ? ey[1] * (LMB_TILE / 2) : 0), ex[1], ey[1], 0);
+    r.e2 = lanei_affine(e2 + (rows == ROWS_LOWER ? ey[2] * (LMB_TILE / 2) : 0), ex[2], ey[2], 0);
+    r.down0 = lanei_splat(ey[0] * FILL_ROWS);
+    r.down1 = lanei_splat(ey[1] * FILL_ROWS);
+    r.down2 = lanei_splat(ey[2] * FILL_ROWS);
+    r.step_d = lane_mul(lane_splat(dx), lane_column(0));
+    r.d_min = lane_splat(b->d_min[k]);
+    r.d_max = lane_splat(b->d_max[k]);
+    r.depth = (float *)(void *)((uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile);
+    r.ids = kind == FILL_ID32 ? (uint32_t *)(void *)((uint8_t *)w->first.id + down * w->id_row + across * w->id_tile)
+                              : NULL;
+    r.id = id;
+    rows_draw(&r, d, dy, rows, kind);
+#if LMB_CULLING
+    if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
+        rows_raise(w->farthest + down * w->tiles_x + across, r.lowest);
+    }
+#else
+    (void)bounded;
+#endif
+}
+
+/* Of `bits`, triangles of at most so many tiles each way. */
+LANE_INLINE uint32_t parts_narrow(const lmb_batch *b, uint32_t bits, int32_t tiles)
+{
+    uint32_t narrow = 0;
+    for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
+        const lanei x = lanei_sub(lanei_shift(lanei_load(b->x1 + k), 3), lanei_shift(lanei_load(b->x0 + k), 3)),
+                    y = lanei_sub(lanei_shift(lanei_load(b->y1 + k), 3), lanei_shift(lanei_load(b->y0 + k), 3));
+        narrow |= mask_bits(lanei_lt(lanei_max(x, y), lanei_splat(tiles))) << k;
+    }
+    return narrow & bits;
+}
+
+LANE_INLINE void parts_slopes(fill_slopes *out, const lmb_batch *b, uint32_t bits)
+{
+    for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
+        lane_store(out->dx + k, lane_from_double(laned_load(b->dx + k)));
+        lane_store(out->dy + k, lane_from_double(laned_load(b->dy + k)));
+    }
+}
+
+/* Tile p of triangles `seen`. */
+LANE_INLINE void parts_draw_each(const fill_part *part, const fill_slopes *slopes, const lmb_fill_window *w,
+                                 const lmb_batch *b, uint32_t seen, int p, int rows, int bounded)
+{
+    for (; seen != 0; seen &= seen - 1) {
+        const int k = lowest_bit(seen);
+        parts_draw(w, b, k, p % PARTS_SIDE, p / PARTS_SIDE, part->e[0][k], part->e[1][k], part->e[2][k], part->d[k],
+                   slopes->dx[k], slopes->dy[k], 0, rows, FILL_PLAIN, bounded);
+    }
+}
+
+/* Tile p of triangles `bits`. Those in one half of its rows are drawn apart, without the other half. */
+LANE_INLINE void parts_each(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
+                            int p, int bounded)
+{
+    const lanei px = lanei_splat(p % PARTS_SIDE), py = lanei_splat(p / PARTS_SIDE);
+    fill_part part;
+    uint32_t seen = 0, upper = 0, lower = 0;
+    for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
+        lane_mask halves[2];
+        seen |= mask_bits(parts_set(part.d, part.e, halves, slopes, w, b, k, px, py, bounded)) << k;
+        upper |= mask_bits(halves[0]) << k;
+        lower |= mask_bits(halves[1]) << k;
+    }
+    seen &= bits;
+    if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
+        parts_draw_each(&part, slopes, w, b, seen, p, ROWS_ALL, bounded);
+        return;
+    }
+    parts_draw_each(&part, slopes, w, b, seen & upper, p, ROWS_UPPER, 0);
+    parts_draw_each(&part, slopes, w, b, seen & lower, p, ROWS_LOWER, 0);
+    parts_draw_each(&part, slopes, w, b, seen & ~(upper | lower), p, ROWS_ALL, 0);
+}
+
+/* What a number of tiles is to be added to, so that it has this parity. */
+LANE_INLINE lanei parts_to_parity(lanei x, int32_t parity)
+{
+    return lanei_and(lanei_add(lanei_shift(x, 3), lanei_splat(parity)), lanei_splat(1));
+}
+
+/* Of triangles of at most two tiles each way, those whose columns and rows have this parity: one of each triangle. Tiles of
+ * two parities are never the same one, so within each tile triangles keep their order. */
+LANE_INLINE void parts_parity(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
+                              int32_t right, int32_t below, uint32_t first_id)
+{
+    fill_part part;
+    uint32_t seen = 0;
+    for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
+        const lanei px = parts_to_parity(lanei_load(b->x0 + k), right),
+                    py = parts_to_parity(lanei_load(b->y0 + k), below);
+        lane_mask halves[2];
+        seen |= mask_bits(parts_set(part.d, part.e, halves, slopes, w, b, k, px, py, 0)) << k;
+    }
+    for (seen &= bits; seen != 0; seen &= seen - 1) {
+        const int k = lowest_bit(seen);
+        parts_draw(w, b, k, ((b->x0[k] >> 3) + right) & 1, ((b->y0[k] >> 3) + below) & 1, part.e[0][k],
+                   part.e[1][k], part.e[2][k], part.d[k], slopes->dx[k], slopes->dy[k], first_id + (uint32_t)k,
+                   ROWS_ALL, FILL_ID32, 0);
+    }
+}
+
+LANE_INLINE lanei parts_bit(fill_parts *out, const lmb_fill_window *w, const lmb_batch *b, int k, int p, int bounded)
+{
+    lane_mask halves[2];
+    const lane_mask seen = parts_set(out->d[p], NULL, halves, &out->slopes, w, b, k, lanei_splat(p % PARTS_SIDE),
+                                     lanei_splat(p / PARTS_SIDE), bounded);
+    return lanei_pick(seen, lanei_splat(1 << p), lanei_splat(0));
+}
+
+LANE_INLINE void parts_find(fill_parts *out, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int more,
+                            int bounded)
+{
+    for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
+        lanei tiles = lanei_splat(0);
+        for (int p = 0; p < PARTS_TILES; ++p) {
+            if (more || (p % PARTS_SIDE < 2 && p / PARTS_SIDE < 2)) {
+                tiles = lanei_or(tiles, parts_bit(out, w, b, k, p, bounded));
+            }
+        }
+        lanei_store(out->tiles + k, tiles);
+    }
+}
+
+/* The list of what is left of triangles `bits`; returns its length. */
+LANE_INLINE int parts_list(fill_parts *inout, uint32_t bits, int more)
+{
+    uint8_t *list = inout->list;
+    int n = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
+        const int32_t tiles = inout->tiles[k];
+#define PARTS_ADD(p) list[n] = (uint8_t)(k + 16 * (p)), n += tiles >> (p) & 1
+        PARTS_ADD(0), PARTS_ADD(1), PARTS_ADD(3), PARTS_ADD(4);
+        if (more) {
+            PARTS_ADD(2), PARTS_ADD(5), PARTS_ADD(6), PARTS_ADD(7), PARTS_ADD(8);
+        }
+#undef PARTS_ADD
+    }
+    return n;
+}
+
+/* The same, where the edges are not made yet. */
+LANE_INLINE void parts_draw_from(const lmb_fill_window *w, const lmb_batch *b, int k, int32_t px, int32_t py, float d,
+                                 float dx, float dy, uint32_t id, int kind, int bounded)
+{
+    const int32_t x = px * LMB_TILE, y = py * LMB_TILE;
+    parts_draw(w, b, k, px, py, b->e[0][k] + b->ex[0][k] * x + b->ey[0][k] * y,
+               b->e[1][k] + b->ex[1][k] * x + b->ey[1][k] * y, b->e[2][k] + b->ex[2][k] * x + b->ey[2][k] * y, d, dx,
+               dy, id, ROWS_ALL, kind, bounded);
+}
+
+LANE_INLINE void parts_run(fill_parts *parts, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int more,
+                           uint32_t first_id, int kind, int bounded)
+{
+    const int n = parts_list(parts, bits, more);
+    for (int i = 0; i < n; ++i) {
+        const int k = parts->list[i] & 15, p = parts->list[i] >> 4, py = (p * 11) >> 5;
+        parts_draw_from(w, b, k, p - PARTS_SIDE * py, py, parts->d[p][k], parts->slopes.dx[k], parts->slopes.dy[k],
+                   first_id + (uint32_t)k, kind, bounded);
+    }
+}
+
+/* --- more tiles --------------------------------------------------------------------------------------------------- */
+
+/* LANES tiles of triangle k from tile (px, py) of it on: those that it has pixels in that may show, a bit each; d: the
+ * depth at their first pixels. */
+LANE_INLINE uint32_t parts_row(float *d, const lmb_fill_window *w, const lmb_batch *b, int k, int32_t px, int32_t py,
+                               int bounded)
+{
+    static const int32_t steps[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const int32_t y = (b->y0[k] & ~(LMB_TILE - 1)) + py * LMB_TILE;
+    const lanei at = lanei_add(lanei_load(steps), lanei_splat(px));
+    const lanei x = lanei_add(lanei_splat(b->x0[k] & ~(LMB_TILE - 1)), lanei_mul(at, lanei_splat(LMB_TILE)));
+    const laned right = laned_mul(laned_from_int(lanei_add(lanei_mul(x, lanei_splat(256)), lanei_splat(w->origin_x))),
+                                  laned_splat(1.0 / 256.0));
+    const double down = b->dy[k] * ((y * 256 + w->origin_y) * (1.0 / 256.0));
+    const lane first = lane_from_double(
+        laned_add(laned_add(laned_splat(b->d[k]), laned_mul(laned_splat(b->dx[k]), right)), laned_splat(down)));
+    lanei inside = lanei_sub(lanei_splat(b->x1[k]), x);
+    for (int i = 0; i < 3; ++i) {
+        const int32_t ex = b->ex[i][k], ey = b->ey[i][k];
+        const int32_t e = b->e[i][k] + ey * py * LMB_TILE + small_reach(ex, ey);
+        inside = lanei_or(inside, lanei_add(lanei_splat(e), lanei_mul(at, lanei_splat(ex * LMB_TILE))));
+    }
+    lane_store(d, first);
+    uint32_t seen = mask_bits(lanei_not_negative(inside));
+#if LMB_CULLING
+    if (bounded && seen != 0) {
+        const float dx = (float)b->dx[k], dy = (float)b->dy[k], end = (float)(LMB_TILE - 1);
+        const lane near = parts_nearest(first, lane_splat(dx), lane_splat(dy), lane_splat(dx > 0.0f ? end : 0.0f),
+                                        lane_splat(dy > 0.0f ? end : 0.0f), lane_splat(b->d_min[k]),
+                                        lane_splat(b->d_max[k]));
+        const ptrdiff_t across = ((b->x0[k] - w->x0) >> 3) + px, below = ((b->y0[k] - w->y0) >> 3) + py;
+        seen &= mask_bits(lane_lt(lane_load(w->farthest + below * w->tiles_x + across), near));
+    }
+#else
+    (void)bounded;
+#endif
+    return seen;
+}
+
+LANE_INLINE void parts_wide(const lmb_fill_window *w, const lmb_batch *b, int k, uint32_t id, int kind, int bounded)
+{
+    const int32_t across = (b->x1[k] >> 3) - (b->x0[k] >> 3), down = (b->y1[k] >> 3) - (b->y0[k] >> 3);
+    const float dx = (float)b->dx[k], dy = (float)b->dy[k];
+    for (int32_t py = 0; py <= down; ++py) {
+        for (int32_t px = 0; px <= across; px += LANES) {
+            float d[LANES];
+            for (uint32_t seen = parts_row(d, w, b, k, px, py, bounded); seen != 0; seen &= seen - 1) {
+                const int i = lowest_bit(seen);
+                parts_draw_from(w, b, k, px + i, py, d[i], dx, dy, id, kind, bounded);
+            }
+        }
+    }
+}
+
+/* Without ids, triangles may come in any order: what is left is each pixel's nearest depth. So do their tiles: the first
+ * one of each, then the one beside it, and so on; that is faster than a list. */
+LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int bounded)
+{
+    const uint32_t narrow = parts_narrow(b, bits, 2);
+    /* Sixteen lanes take wider triangles one by one where none is asked for: most of their rows are left out then. */
+    const uint32_t wider = LANES > LMB_TILE && !bounded ? narrow : parts_narrow(b, bits, PARTS_SIDE);
+    fill_slopes slopes;
+    parts_slopes(&slopes, b, wider);
+    for (int p = 0; p < PARTS_TILES; ++p) {
+        const int beside = p % PARTS_SIDE == 2 || p / PARTS_SIDE == 2;
+        const uint32_t some = beside ? wider & ~narrow : wider;
+        if (some != 0) {
+            parts_each(&slopes, w, b, some, p, bounded);
+        }
+    }
+    for (bits &= ~wider; bits != 0; bits &= bits - 1) {
+        if (LANES > LMB_TILE && !bounded) {
+            small_alone(w, b, lowest_bit(bits), 0, FILL_PLAIN);
+        } else {
+            parts_wide(w, b, lowest_bit(bits), 0, FILL_PLAIN, bounded);
+        }
+    }
+}
+
+/* In order, as ids tell who came first. */
+LANE_INLINE void parts_fill_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id,
+                                 int bounded)
+{
+    uint32_t narrow = parts_narrow(b, bits, 2);
+    const uint32_t wider = parts_narrow(b, bits, PARTS_SIDE);
+    const int more = count_bits_16(wider & ~narrow) >= PARTS_MORE;
     fill_parts parts;
-    parts_slopes(&parts, b, bits);
-    for (int parity = 0; parity < 4; ++parity) {
-        uint32_t some = 0;
-        for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
-            some |= parts_set(&parts, w, b, k, parity) << k;
+    narrow = more ? wider : count_bits_16(narrow) < PARTS_LESS ? 0 : narrow;
+    parts_slopes(&parts.slopes, b, narrow);
+    parts_find(&parts, w, b, narrow, more, bounded);
+    while (bits != 0) { /* a run of narrow ones, then a wide one */
+        const uint32_t wide = bits & ~narrow, run = wide != 0 ? bits & ((wide & (0u - wide)) - 1) : bits;
+        parts_run(&parts, w, b, run, more, first_id, FILL_ID32, bounded);
+        bits &= ~run;
+        if (wide != 0) {
+            const int k = lowest_bit(wide);
+            parts_wide(w, b, k, first_id + (uint32_t)k, FILL_ID32, bounded);
+            bits &= bits - 1;
         }
-        for (some &= bits; some != 0; some &= some - 1) {
-            const int k = lowest_bit(some);
-            parts_draw(w, b, &parts, k, first_id + (uint32_t)k, kind);
-        }
+    }
+}
+
+LANE_INLINE void parts_fill_parities(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+{
+    fill_slopes slopes;
+    parts_slopes(&slopes, b, bits);
+    for (int32_t parity = 0; parity < 4; ++parity) {
+        parts_parity(&slopes, w, b, bits, parity & 1, parity >> 1, first_id);
     }
 }

@@ -94,26 +94,52 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
     }
 }
 
+/* Triangle k of a batch by itself. */
+LANE_INLINE void small_alone(const lmb_fill_window *w, const lmb_batch *b, int k, uint32_t id, int kind)
+{
+    const int32_t ex[3] = {b->ex[0][k], b->ex[1][k], b->ex[2][k]}, ey[3] = {b->ey[0][k], b->ey[1][k], b->ey[2][k]};
+    fill_triangle t;
+    lmb_fill_job job;
+    job.d_scale = w->d_scale;
+    job.d_bias = w->d_bias;
+    job.dx = (float)b->dx[k];
+    job.dy = (float)b->dy[k];
+    job.d_min = b->d_min[k];
+    job.d_max = b->d_max[k];
+    job.id = id;
+    fill_set(&t, ex, ey, &job);
+    small_fill(w, &job, b, k, &t, kind);
+}
+
 #if LANES >= LMB_TILE
+#include "fill_rows.inl"
 #include "fill_parts.inl"
-enum { PARTS_PAY = 4 }; /* fewer triangles are not worth four parities */
+
+NOINLINE void small_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
+{
+    parts_fill_plain(w, b, bits, 0);
+}
+
+NOINLINE void small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+{
+    parts_fill_id32(w, b, bits, first_id, 0);
+}
+
+NOINLINE void small_parities(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+{
+    parts_fill_parities(w, b, bits, first_id);
+}
 #endif
 
-static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
-{
-    const int kind = fill_kind(&w->first);
-    lmb_fill_job job;
+/* One by one. */
 #if LANES >= LMB_TILE
-    /* Wide triangles go one by one: where ids tell who came first, so does all of their batch. */
-    const uint32_t wide = kind != FILL_ANY ? parts_wide(b, bits) : bits;
-    if (kind == FILL_PLAIN && count_bits_16(bits & ~wide) >= PARTS_PAY) {
-        parts_fill(w, b, bits & ~wide, first_id, FILL_PLAIN);
-        bits = wide;
-    } else if (kind == FILL_ID32 && wide == 0) {
-        parts_fill(w, b, bits, first_id, FILL_ID32);
-        return;
-    }
+NOINLINE
+#else
+LANE_INLINE
 #endif
+void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id, int kind)
+{
+    lmb_fill_job job;
     job.d_scale = w->d_scale;
     job.d_bias = w->d_bias;
     for (; bits != 0; bits &= bits - 1) {
@@ -132,4 +158,24 @@ static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uin
         default: small_fill(w, &job, b, k, &t, FILL_ANY); break;
         }
     }
+}
+
+static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+{
+    const int kind = fill_kind(&w->first);
+#if LANES >= LMB_TILE
+    if (kind == FILL_PLAIN) {
+        small_plain(w, b, bits);
+        return;
+    }
+    if (kind == FILL_ID32 && parts_narrow(b, bits, 2) == bits) {
+        small_parities(w, b, bits, first_id);
+        return;
+    }
+    if (kind == FILL_ID32 && LANES > LMB_TILE) { /* eight lanes take no longer one by one */
+        small_id32(w, b, bits, first_id);
+        return;
+    }
+#endif
+    small_each(w, b, bits, first_id, kind);
 }

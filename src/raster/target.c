@@ -73,6 +73,7 @@ lmb_fill_window lmb_target_window(const lmb_target *t, const lmb_view *view)
     w.d_scale = w.d_bias = 0.0f;
 #if LMB_CULLING
     w.farthest = NULL;
+    w.bounds = LMB_BOUNDS_IDLE;
 #endif
     if (t->depth.format == LMB_DEPTH16) {
         lmb_depth16_coding(&w.d_scale, &w.d_bias, view);

@@ -44,8 +44,20 @@ static void column_asked(const int32_t e[3], const fill_box *box, int32_t i)
 
 #define fill_column(tile, job, t, e, d, box, i) column_asked(e, box, i)
 #include "../../src/raster/fill_small.inl"
-#include "../../src/raster/fill_parts.inl"
 #undef fill_column
+#include "../../src/raster/fill_rows.inl"
+
+/* Of a tile's rows only the edges that they begin with. */
+static void rows_asked(const fill_rows *r)
+{
+    /*@ assert -1073741824 <= r->e0.v[0] <= 1073741824; */
+    /*@ assert -1073741824 <= r->e1.v[0] <= 1073741824; */
+    /*@ assert -1073741824 <= r->e2.v[0] <= 1073741824; */
+}
+
+#define rows_draw(r, d, dy, rows, kind) rows_asked(r)
+#include "../../src/raster/fill_parts.inl"
+#undef rows_draw
 
 static float depths[LMB_TILE_PIXELS];
 static uint32_t ids[LMB_TILE_PIXELS];
@@ -120,16 +132,21 @@ int set_up(void)
 /* A triangle whose box begins at pixel (x, y). */
 static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_window *w)
 {
-    fill_parts parts;
+    fill_slopes slopes;
+    fill_part part;
+    lane_mask halves[2];
     b->x0[0] = x;
     b->y0[0] = y;
     fill_small_any(w, b, 1u, 1u);
-    parts_slopes(&parts, b, 1u);
-    for (int parity = 0; parity < 4; ++parity) {
-        if (parts_set(&parts, w, b, 0, parity)) {
-            parts_draw(w, b, &parts, 0, 1u, FILL_ANY);
+    parts_slopes(&slopes, b, 1u);
+    for (int p = 0; p < PARTS_TILES; ++p) {
+        const int px = p % PARTS_SIDE, py = p / PARTS_SIDE;
+        if (mask_bits(parts_set(part.d, part.e, halves, &slopes, w, b, 0, lanei_splat(px), lanei_splat(py), 0))) {
+            parts_draw(w, b, 0, px, py, part.e[0][0], part.e[1][0], part.e[2][0], part.d[0], slopes.dx[0],
+                       slopes.dy[0], 1u, ROWS_LOWER, FILL_PLAIN, 0);
         }
     }
+    parts_wide(w, b, 0, 1u, FILL_PLAIN, 0);
 }
 
 /* Place by place, as Eva does not know that a row and its tile lie close: in the first tile any pixel, in the others

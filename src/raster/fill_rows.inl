@@ -1,0 +1,98 @@
+/* fill_rows.inl: one triangle into one tiled tile, for backends of a row's lanes or more. Layer 3.
+ *
+ * All rows are written, without a branch: which of them a triangle meets is as good as random, and a branch that is
+ * guessed wrong costs as much as the rows of a tile. The steps are fill.inl's value by value; written out, as compilers
+ * keep a loop. */
+
+typedef struct fill_rows {
+    lanei e0, e1, e2; /* edges at the next rows */
+    lanei down0, down1, down2;
+    lane step_d, d_min, d_max;
+    lane lowest; /* of the depths so far */
+    float *depth;
+    uint32_t *ids, id;
+} fill_rows;
+
+LANE_INLINE void rows_put(fill_rows *r, lane depth, lane_mask in, int y, int kind)
+{
+    float *p = r->depth + y * LMB_TILE;
+    const lane old = lane_load(p);
+    if (kind == FILL_PLAIN) {
+        depth = lane_pick(in, lane_max(depth, old), old);
+    } else {
+        const lane_mask pass = mask_and(in, lane_lt(old, depth));
+        depth = lane_pick(pass, depth, old);
+        lane_put_u32(r->ids + y * LMB_TILE, LMB_TILE, r->id, pass);
+    }
+    lane_store(p, depth);
+    r->lowest = lane_min(r->lowest, depth);
+}
+
+/* FILL_ROWS rows from row y on. */
+LANE_INLINE void rows_cross(fill_rows *r, lane at, int y, int kind)
+{
+    const lane_mask in = lanei_not_negative(lanei_or(lanei_or(r->e0, r->e1), r->e2));
+    rows_put(r, lane_min(lane_max(lane_add(at, r->step_d), r->d_min), r->d_max), in, y, kind);
+    r->e0 = lanei_add(r->e0, r->down0);
+    r->e1 = lanei_add(r->e1, r->down1);
+    r->e2 = lanei_add(r->e2, r->down2);
+}
+
+/* Rows of a tile: all, the upper four, the lower four. */
+enum { ROWS_ALL, ROWS_UPPER, ROWS_LOWER };
+
+/* FILL_ROWS rows from row y on; at: d + dy y of eight rows, which is used where a vector is one row. */
+LANE_INLINE void rows_at(fill_rows *r, float d, float dy, const float *at, int y, int kind)
+{
+#if LANES > LMB_TILE
+    (void)at;
+    rows_cross(r, lane_add(lane_splat(d), lane_mul(lane_splat(dy), lane_row(y * LMB_TILE))), y, kind);
+#else
+    (void)d, (void)dy;
+    rows_cross(r, lane_splat(at[y]), y, kind);
+#endif
+}
+
+/* All but `lowest` is set, the edges at the first of `rows`; d: the depth at the tile's first pixel. Leaves the farthest
+ * depth of these rows in `lowest`. */
+LANE_INLINE void rows_draw(fill_rows *r, float d, float dy, int rows, int kind)
+{
+    float at[LMB_TILE];
+#if LANES == LMB_TILE
+    lane_store(at, lane_add(lane_splat(d), lane_mul(lane_splat(dy), lane_column(0)))); /* rows side by side */
+#endif
+    r->lowest = lane_splat(3e38f);
+#if LANES > LMB_TILE
+    if (rows != ROWS_LOWER) {
+        rows_at(r, d, dy, at, 0, kind);
+        rows_at(r, d, dy, at, 2, kind);
+    }
+    if (rows != ROWS_UPPER) {
+        rows_at(r, d, dy, at, 4, kind);
+        rows_at(r, d, dy, at, 6, kind);
+    }
+#else
+    if (rows != ROWS_LOWER) {
+        rows_at(r, d, dy, at, 0, kind);
+        rows_at(r, d, dy, at, 1, kind);
+        rows_at(r, d, dy, at, 2, kind);
+        rows_at(r, d, dy, at, 3, kind);
+    }
+    if (rows != ROWS_UPPER) {
+        rows_at(r, d, dy, at, 4, kind);
+        rows_at(r, d, dy, at, 5, kind);
+        rows_at(r, d, dy, at, 6, kind);
+        rows_at(r, d, dy, at, 7, kind);
+    }
+#endif
+}
+
+#if LMB_CULLING
+/* Most triangles leave a pixel that is as far as any was. */
+LANE_INLINE void rows_raise(float *bound, lane lowest)
+{
+    if (mask_bits(lane_le(lowest, lane_splat(*bound))) == 0) {
+        *bound = lane_lowest(lowest);
+    }
+}
+#endif
