@@ -338,7 +338,7 @@ check "-v says how long what took" grep -q '^lambent: bands .* ms$' "$dir/err.tx
 check "what is said changes no byte" sh -c 'cmp "$1" "$2" && cmp "$1" "$3"' sh "$dir/loud.png" "$dir/hushed.png" "$dir/told.png"
 status 0 compare "$dir/demo.pfm" "$dir/again.pfm" -q
 check "compare -q is its exit status" sh -c '! test -s "$1"' sh "$dir/out.txt"
-for verb in render play relight relief "relief bake" "relief render" mix pack merge plan compare info bench "bench raster" "bench gather" \
+for verb in render play capture relight relief "relief bake" "relief render" mix pack merge plan compare info bench "bench raster" "bench gather" \
     "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix" doctor; do
     status 0 $verb -V
     check "lambent $verb -V is the version" grep -q '^lambent [0-9.]*$' "$dir/out.txt"
@@ -493,6 +493,41 @@ for option in "--world-sphere 0,0,0,5" "--world-centre 0,1,0" "--ground-size 5,5
     check "the built-in world says that it lies where it lies: $option" grep -q 'lies where it lies' "$dir/err.txt"
 done
 status 2 relight --world demo --object demo
+# What a place of a scene sees, for relight: in a box that shines from within alike, any place receives pi.
+printf 'newmtl lamp\nKd 0 0 0\nKe 1 1 1\n' >"$dir/lamp.mtl"
+printf 'mtllib lamp.mtl\nusemtl lamp\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >"$dir/lamp.obj"
+status 0 capture "$dir/lamp.obj" --at 0.2,0.1,0 --faces 8 --samples 1 --world none -o "$dir/lamp.pfm" --ground "$dir/under.pfm"
+taken=$(cat "$dir/out.txt")
+status 0 relight $taken --at 0.5,0,-0.5 --cube "$dir/cube.pfm"
+check "a shining box is pi everywhere" sh -c '"$1" info "$2" | grep -c "min 3.14159 .*max 3.14159 " | grep -qx 3' sh "$TOOL" "$dir/cube.pfm"
+# The eye where the cube was taken sees the scene's own picture: each face the right way round.
+look="--size 32x32 --fov 90 --eye 0.6,1.1,0.2"
+status 0 capture demo --at 0.6,1.1,0.2 --faces 64 --samples 1 --shadow-map 128 --quality draft -o "$dir/room.pfm"
+taken=$(cat "$dir/out.txt")
+for way in 1,0,0:0,1,0 -1,0,0:0,1,0 0,1,0:0,0,1 0,-1,0:0,0,-1 0,0,1:0,1,0 0,0,-1:0,1,0; do
+    to=$(echo "${way%:*}" | awk -F, '{ print 0.6 + $1 "," 1.1 + $2 "," 0.2 + $3 }')
+    status 0 render demo $look --target "$to" --up "${way#*:}" --shadow-map 128 --quality draft -o "$dir/seen.pfm"
+    status 0 relight $taken --object "$dir/lamp.obj" --scale 0.001 --at 90,0,0 $look --target "$to" --up "${way#*:}" -o "$dir/shown.pfm"
+    check "the cube shows what is seen towards $way" sh -c '"$1" compare "$2" "$3" --max e50=0.15' sh "$TOOL" "$dir/shown.pfm" "$dir/seen.pfm"
+done
+status 0 capture demo --at 0.6,1.1,0.2 --at 0.3,0.8,0.4 --faces 8 --samples 1 --shadow-map 128 --quality draft -o "$dir/two_%02d.pfm"
+two=$(cat "$dir/out.txt")
+status 0 relight $two --at 0.45,1,0.3 --cube "$dir/both.pfm" --map "$dir/map.pfm"
+status 0 relight $two --at 0.3,0.8,0.4 --cube "$dir/second.pfm"
+status 0 relight --world "$dir/two_01.pfm" --world-centre 0.3,0.8,0.4 ${two#*0.4 } --at 0.3,0.8,0.4 --cube "$dir/alone.pfm"
+check "where a cube was taken it counts alone" sh -c '"$1" compare "$2" "$3" --max trim=0.001' sh "$TOOL" "$dir/second.pfm" "$dir/alone.pfm"
+check "between two it is of both" sh -c '! "$1" compare "$2" "$3" --max trim=0.01 >"$4"' sh "$TOOL" "$dir/both.pfm" "$dir/alone.pfm" "$dir/out.txt"
+status 0 relight $two --object demo --scale 0.3 --at 0.45,0.5,0.3 --eye 0.6,1,1 --target 0.45,0.6,0.3 --size 16x16 -o "$dir/both.ppm"
+status 2 relight --world "$dir/two_00.pfm" --world "$dir/two_01.pfm" --cube "$dir/bad.pfm"
+status 2 relight --world demo --world "$dir/two_01.pfm" --world-centre 0,0,0 --world-centre 0,0,0 --cube "$dir/bad.pfm"
+status 2 capture demo --at 0.6,1.1,0.2
+status 2 capture demo -o "$dir/bad.pfm"
+status 2 capture demo --at 0.6,1.1,0.2 -o "$dir/bad.png"
+status 2 capture demo --at 0.6,1.1,0.2 -o "$dir/bad_%02d.pfm"
+status 2 capture demo --at 0.6,1.1,0.2 --at 0,1,0 -o "$dir/bad.pfm"
+status 2 capture demo --at 0.6,1.1,0.2 -o "$dir/bad.pfm" --ground-height 1
+status 1 capture demo --at 0.6,1.1,0.2 -o "$dir/bad.pfm" --ground "$dir/bad.hdr" --ground-height 2
+status 1 capture "$dir/nowhere.obj" --at 0,0,0 -o "$dir/bad.pfm"
 status 2 $field --eye 0,1,2 -o "$dir/bad.ppm"
 status 2 $field --roughness 2 -o "$dir/bad.ppm"
 status 2 $field --at 3e6,0,0 -o "$dir/bad.ppm"

@@ -76,7 +76,7 @@ status 2 render demo -o /dev/stdout
 
 # --- help, the man page, the doctor ---
 
-for verb in render bake play relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench gather" \
+for verb in render bake play capture relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench gather" \
     "bench threads" "bench hard" "bench --calibrate" "bench SCENE" "bench relight" "bench relief" "bench mix" doctor; do
     "$TOOL" $verb --help >"$m/help.txt"
     status 0 help $verb
@@ -298,7 +298,7 @@ fi
 
 # --- threads ---
 
-for verb in render bake play relight "relief bake" "relief render" mix plan "bench threads" "bench --calibrate"; do
+for verb in render bake play capture relight "relief bake" "relief render" mix plan "bench threads" "bench --calibrate"; do
     status 0 $verb --help
     check "$verb has --threads" grep -q '^  --threads N' "$dir/out.txt"
 done
@@ -310,6 +310,7 @@ any() {
     status 0 "$@" --threads 3 -o "$m/three-$file"
     check "threads change lambent $*" cmp "$m/one-$file" "$m/three-$file"
 }
+any e.pfm capture demo --at 0.6,1.1,0.2 --faces 8 --shadow-map 128 --quality draft
 any a.pfm relight --world demo --object demo --size 64x48
 any b.pfm relief render "$m/pit.lmr" --with "$dir/floor.obj" --bounce --size 64x48
 any c.lmr relief bake "$dir/pit.obj" --size 32 --triangles 20

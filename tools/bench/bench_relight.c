@@ -34,7 +34,8 @@ static int parse(place *p, const bench_line *line, report *r)
     char *argv[BENCH_ARGS];
     memcpy(argv, line->argv, sizeof argv);
     return relight_options_parse(&p->o, line->argc, argv, r) == OPTIONS_RUN &&
-           (p->o.object == NULL || report_fail(r, "--object: a sweep is of one place's light, without objects"));
+           (p->o.object == NULL || report_fail(r, "--object: a sweep is of one place's light, without objects")) &&
+           (p->o.worlds == 1 || report_fail(r, "--world: a sweep is of one world"));
 }
 
 static int see_once(void *user, double stage_s[BENCH_STAGES], report *r)
@@ -42,7 +43,7 @@ static int see_once(void *user, double stage_s[BENCH_STAGES], report *r)
     place *p = user;
     relight_light *l = &p->light;
     const double start = host_cpu_seconds();
-    if (lmb_probe_remap(l->map, p->o.kernels, &l->world, &l->table[0], p->o.at[0], p->o.blend) != LMB_OK) {
+    if (lmb_probe_remap(l->map, p->o.kernels, l->world, &l->table[0], p->o.at[0], p->o.blend) != LMB_OK) {
         return report_fail(r, "--at: numbers over 1,000,000 m");
     }
     const double seen = host_cpu_seconds();

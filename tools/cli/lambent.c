@@ -10,6 +10,7 @@
 #include "../common/progress.h"
 #include "../bake/verb_bake.h"
 #include "../bench/verb_bench.h"
+#include "../capture/verb_capture.h"
 #include "verb_compare.h"
 #include "verb_doctor.h"
 #include "verb_info.h"
@@ -33,6 +34,7 @@ static const struct verb {
     {"pack", verb_pack, "pack SCENE -o OUT.lmp|.c", "a scene as one file, or C array, that programs use in place"},
     {"play", verb_play, "play SCENE --frames N", "frames with moving light, camera or objects, and what they take"},
     {"merge", verb_merge, "merge SLICE... -o OUT", "slices of a picture or a sequence, made on many machines"},
+    {"capture", verb_capture, "capture SCENE --at X,Y,Z", "a place of a scene as the world of `relight`"},
     {"relight", verb_relight, "relight --world WORLD", "light at a place of a world seen from another, as a cube map"},
     {"relief", verb_relief, "relief bake|render", "a complex model as a simple one that carries its surface"},
     {"mix", verb_mix, "mix --frame PHOTO", "a virtual object in one photo with depth"},
@@ -91,7 +93,7 @@ static int run(int argc, char **argv)
 /* All that has a help of its own. */
 static const char *const pages[][2] = {
     {"render", NULL},     {"bake", NULL},        {"pack", NULL},        {"play", NULL},
-    {"merge", NULL},
+    {"merge", NULL},       {"capture", NULL},
     {"relight", NULL},
     {"relief", NULL},     {"relief", "bake"},    {"relief", "render"},  {"mix", NULL},
     {"plan", NULL},       {"compare", NULL},     {"info", NULL},        {"bench", NULL},

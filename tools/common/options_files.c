@@ -4,24 +4,28 @@
 #include "io_file.h"
 #include "options_table.h"
 
-/* The name that a row took; NULL where it has none to do with such files. */
-static const char *name_of(const void *out, const option_row *row, int file)
+/* The i-th name that a row took; NULL where it has none to do with such files. */
+static const char *name_at(const void *out, const option_row *row, int file, int32_t i)
 {
     const char *name = NULL;
-    if (row->file == file) {
-        memcpy(&name, (const char *)out + row->at, sizeof name);
+    if (row->file == file && (i == 0 || i < row->times)) {
+        memcpy(&name, (const char *)out + row->at + (size_t)i * row->size, sizeof name);
     }
     return name;
 }
+
+static const char *name_of(const void *out, const option_row *row, int file) { return name_at(out, row, file, 0); }
 
 /* Neither standard input nor what is built in is a file. */
 static int keep_inputs(const void *out, const option_table *t, report *r)
 {
     const option_row *row;
     for (int i = 0; (row = options_row(t, i)) != NULL; ++i) {
-        const char *name = name_of(out, row, OPTION_READS);
-        if (name != NULL && strcmp(name, "-") != 0 && strcmp(name, "demo") != 0 && !file_keep(name, r)) {
-            return 0;
+        const char *name;
+        for (int32_t k = 0; (name = name_at(out, row, OPTION_READS, k)) != NULL; ++k) {
+            if (strcmp(name, "-") != 0 && strcmp(name, "demo") != 0 && !file_keep(name, r)) {
+                return 0;
+            }
         }
     }
     return 1;

@@ -80,7 +80,6 @@ static int mirror_slot(stage *s, int32_t slot, int32_t glossy, report *r)
     slot_cubes *c = &s->cubes[slot];
     const float roughness = s->figures.roughness[glossy];
     const int32_t n = lmb_probe_glossy_side(roughness);
-    const lmb_world_query query = {&s->light->world, 0.0f, s->o->blend};
     if (n == 0 || c->is_known[glossy]) {
         return 1;
     }
@@ -89,8 +88,7 @@ static int mirror_slot(stage *s, int32_t slot, int32_t glossy, report *r)
         return 0;
     }
     c->is_known[glossy] = 1;
-    return lmb_probe_reflect(s->planes, n, &s->rays, s->o->kernels, &query, s->cache.slot[slot].place, roughness) ==
-               LMB_OK &&
+    return relight_light_reflect(s->light, s->o, s->planes, n, &s->rays, s->cache.slot[slot].place, roughness) &&
            lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSY_CUBES + glossy].glossy, s->planes, n, c->glossy[glossy],
                                bytes) == LMB_OK;
 }
@@ -322,7 +320,7 @@ static int take_frame(stage *s, report *r)
     l->kernels = s->o->kernels;
     l->scene = &s->figures.scene;
     l->maps = s->maps;
-    l->world = &s->light->world;
+    l->world = relight_light_nearest(s->light, s->o, l->view.eye);
     l->blend = s->o->blend;
     l->probes = s->probes;
     l->probe_of = s->probe_of;

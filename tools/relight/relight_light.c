@@ -8,19 +8,22 @@
 
 /* --- once --------------------------------------------------------------------------------------------------------- */
 
-static int make_world(relight_light *w, relight_options *o, report *r)
+/* Its pictures are not read again: all worlds share the room for one's. */
+static int make_world(relight_light *w, relight_options *o, int32_t i, report *r)
 {
-    const int built_in = strcmp(o->world, "demo") == 0;
-    if (!(built_in ? demo_field_pictures(&o->place, &w->pictures, r)
-                   : world_read_cube(&o->place, &w->pictures, o->world, r)) ||
+    const char *name = o->world[i];
+    o->place.centre = o->centre[i];
+    world_pictures_free(&w->pictures);
+    if (!(strcmp(name, "demo") == 0 ? demo_field_pictures(&o->place, &w->pictures, r)
+                                    : world_read_cube(&o->place, &w->pictures, name, r)) ||
         (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r))) {
         return 0;
     }
     const size_t bytes = lmb_world_bytes(&o->place, o->format);
-    if ((w->world_memory = malloc(bytes)) == NULL) {
-        return report_fail(r, "%s: out of memory", o->world);
+    if ((w->world_memory[i] = malloc(bytes)) == NULL) {
+        return report_fail(r, "%s: out of memory", name);
     }
-    return lmb_world_init(&w->world, &o->place, o->format, w->world_memory, bytes) == LMB_OK ||
+    return lmb_world_init(&w->world[i], &o->place, o->format, w->world_memory[i], bytes) == LMB_OK ||
            report_fail(r, "--world-centre: lies outside the far world, or numbers are over 1,000,000 m");
 }
 
@@ -45,9 +48,12 @@ static int make_blur(relight_light *w, int32_t terms, report *r)
 
 int relight_light_make(relight_light *w, relight_options *o, report *r)
 {
-    if (!make_world(w, o, r)) {
-        return 0;
+    for (int32_t i = 0; i < o->worlds; ++i) {
+        if (!make_world(w, o, i, r)) {
+            return 0;
+        }
     }
+    o->place.centre = o->centre[0];
     for (int i = 0; i < 3; ++i) {
         if (!make_table(w, i, r)) {
             return 0;
@@ -78,15 +84,15 @@ int relight_light_filter(relight_light *w, const relight_options *o, int32_t n)
 
 int relight_light_at(relight_light *w, const relight_options *o, lmb_vec3 at, int32_t n, report *r)
 {
-    return (lmb_probe_remap(w->map, o->kernels, &w->world, &w->table[0], at, o->blend) == LMB_OK &&
-            relight_light_filter(w, o, n)) ||
-           report_fail(r, "--at: numbers over 1,000,000 m");
+    return (relight_light_see(w, o, at) && relight_light_filter(w, o, n)) || report_fail(r, "--at: numbers over 1,000,000 m");
 }
 
 void relight_light_free(relight_light *w)
 {
     world_pictures_free(&w->pictures);
-    free(w->world_memory);
+    for (int i = 0; i < RELIGHT_WORLDS; ++i) {
+        free(w->world_memory[i]);
+    }
     for (int i = 0; i < 3; ++i) {
         free(w->table_memory[i]);
     }

@@ -65,11 +65,14 @@ static const char *const shows[] = {"both", "normal", "glossy", NULL}; /* in the
 
 static const option_row world_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("world")},
-    {.name = "--world", .value = "FILE|PREFIX", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
+    {.name = "--world", .value = "FILE|PREFIX", .kind = OPTION_TEXT, AT(world), COUNTS(worlds), .times = RELIGHT_WORLDS,
+     .size = sizeof(char *), .file = OPTION_READS,
      .help = HELP("one file: six faces (+x -x +y -y +z -z from the top or the left), or the whole sphere, twice as wide "
              "as high; or six files, PREFIXpx PREFIXnx ... PREFIXnz (.pfm .hdr .png .jpg), of which some may be "
-             "missing; or `demo`, a built-in field with places of its own")},
-    {.name = "--world-centre", .kind = OPTION_POINT, AT(place.centre), .help = HELP("where it was taken (default 0,0,0)")},
+             "missing; or `demo`, a built-in field with places of its own. Of several the nearer ones to an object light "
+             "it more, by the square of their distance; that nearest to the eye is seen")},
+    {.name = "--world-centre", .kind = OPTION_POINT, AT(centre), COUNTS(centres), .times = RELIGHT_WORLDS,
+     .size = sizeof(lmb_vec3), .help = HELP("where it was taken (default 0,0,0); of several worlds one each, in their order")},
     {.name = "--world-sphere", .value = "X,Y,Z,R", .kind = OPTION_OWN, .parse = parse_sphere,
      .expects = "X,Y,Z,R with R over 0",
      .help = HELP("what is far lies on this sphere (default: 100 m around the centre)")},
@@ -184,8 +187,11 @@ const option_table relight_table = {
 
 static int check_together(const relight_options *o, report *r)
 {
-    if (o->world == NULL) {
+    if (o->worlds == 0) {
         return report_fail(r, "no world given; add --world FILE");
+    }
+    if (!relight_worlds_check(o, r)) {
+        return 0;
     }
     if (o->cube == NULL && o->map == NULL && o->out == NULL) {
         return report_fail(r, "no output given; add --cube FILE.pfm, or --object FILE -o FILE.png");
@@ -212,6 +218,7 @@ static int check_together(const relight_options *o, report *r)
 static void complete(relight_options *o)
 {
     lmb_world_pictures *p = &o->place;
+    o->centre[0] = p->centre; /* the built-in world has its own */
     if (!o->has_far) {
         p->middle = p->centre;
         p->radius = 100.0f;
@@ -236,9 +243,8 @@ static int demo_options(relight_options *o, report *r)
 {
     static const lmb_vec3 places[] = {{-9.8f, 0, -2.5f}, {-8.4f, 0, -0.2f}, {-3.7f, 0, 2.4f}, {-0.9f, 0, -4.5f},
                                       {0.5f, 0, 4.1f}, {3.4f, 0, 0.4f}, {8.2f, 0, -0.8f}, {9.9f, 0, -3.0f}};
-    const lmb_vec3 centre = o->place.centre;
-    if (o->has_far || o->has_ground_centre || centre.x != 0.0f || centre.y != 0.0f || centre.z != 0.0f ||
-        o->place.ground_y != 0.0f || o->ground_size[0] != PLAIN_GROUND || o->ground_size[1] != PLAIN_GROUND) {
+    if (o->has_far || o->has_ground_centre || o->centres > 0 || o->place.ground_y != 0.0f ||
+        o->ground_size[0] != PLAIN_GROUND || o->ground_size[1] != PLAIN_GROUND) {
         return report_fail(r, "--world demo lies where it lies: leave out --world-centre, --world-sphere, --world-box, "
                               "--ground-size, --ground-centre and --ground-height");
     }
@@ -272,7 +278,8 @@ int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
     if (asked != OPTIONS_RUN) {
         return asked;
     }
-    if (o->world != NULL && strcmp(o->world, "demo") == 0 && !demo_options(o, r)) {
+    o->place.centre = o->centre[0];
+    if (o->worlds == 1 && strcmp(o->world[0], "demo") == 0 && !demo_options(o, r)) {
         return OPTIONS_BAD;
     }
     complete(o);

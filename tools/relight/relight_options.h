@@ -7,15 +7,17 @@
 #include "../common/report.h"
 #include "../common/view_options.h"
 
-enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16 }; /* --at and --keep; --light: given at most so often */
+enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8 }; /* --at, --keep; --light; --world: so often */
 
 enum { FILTER_COSINE, FILTER_SH9, FILTER_SH16, FILTER_SH25, FILTER_BLUR, FILTER_BLUR1, FILTER_BLUR2, FILTERS };
 extern const char *const relight_filters[FILTERS + 1];
 
 typedef struct relight_options {
     /* the world */
-    const char *world, *ground;
-    lmb_world_pictures place; /* all but the pictures */
+    const char *world[RELIGHT_WORLDS], *ground;
+    lmb_vec3 centre[RELIGHT_WORLDS];
+    int32_t worlds, centres;
+    lmb_world_pictures place; /* all but the pictures; of the first world */
     float ground_size[2], ground_centre[2];
     int32_t format, blend;
     int32_t has_far, has_ground_centre;
@@ -44,6 +46,9 @@ extern const option_table relight_table;
 
 /* X,Y,Z within 1,000,000 m. 1, or 0 where the text is none. */
 int relight_place(const char *text, lmb_vec3 *out);
+
+/* Do several worlds go together with their centres? 1, or 0 with `r` set. */
+int relight_worlds_check(const relight_options *o, report *r);
 
 /* As options_parse. */
 int relight_options_parse(relight_options *out, int argc, char **argv, report *r);

@@ -9,8 +9,11 @@
 #include "../../../tools/common/io_file.h"
 #include "../../../tools/mix/mix_frames.h"
 #include "../../../tools/mix/mix_front.h"
+#include "../../../tools/mix/mix_around.h"
 #include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/picture/image.h"
+#include "../../../tools/relight/relight_light.h"
+#include "../../../tools/relight/relight_path.h"
 #include "../../../tools/render/render_slice.h"
 
 enum { FILES = 256, NAME_BYTES = 256 };
@@ -132,6 +135,33 @@ int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_
     return png_encode(out, rgba, width, height, r);
 }
 
+/* --- relight_light.h, relight_path.h: a world is seen from one place, and objects stay where they are ------------------- */
+
+int place_list_read(place_list *out, const char *path, report *r)
+{
+    return (void)out, report_fail(r, "%s: the page draws one picture", path);
+}
+void place_list_free(place_list *list) { (void)list; }
+
+int relight_worlds_check(const relight_options *o, report *r)
+{
+    return o->worlds == 1 || report_fail(r, "--world: the page has one");
+}
+int relight_light_see(relight_light *w, const relight_options *o, lmb_vec3 at)
+{
+    return lmb_probe_remap(w->map, o->kernels, w->world, w->table, at, o->blend) == LMB_OK;
+}
+int relight_light_reflect(relight_light *w, const relight_options *o, float *planes, int32_t n, lmb_probe_rays *rays,
+                          lmb_vec3 at, float roughness)
+{
+    const lmb_world_query query = {w->world, 0.0f, o->blend};
+    return lmb_probe_reflect(planes, n, rays, o->kernels, &query, at, roughness) == LMB_OK;
+}
+const lmb_world *relight_light_nearest(const relight_light *w, const relight_options *o, lmb_vec3 at)
+{
+    return (void)o, (void)at, w->world;
+}
+
 /* --- area_light.h, mix_*.h: the page's lights have no size, and its depth is exact --------------------------------------- */
 
 void area_light(lmb_light *out, int32_t count, const lmb_light *from, float size)
@@ -164,6 +194,7 @@ void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 /* --- mix_lobes.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
 
 void mix_lobes_read(mix_job *j) { (void)j; }
+int mix_around(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 int32_t mix_lobes_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
 int mix_lobes_bounces(mix_job *j, report *r) { return (void)r, j->bounces = &j->scene, 1; }
 void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,

@@ -1,0 +1,76 @@
+/* relight_worlds.c: a world as several of its places see it: the nearer ones count more. */
+#include "relight_light.h"
+
+#include <string.h>
+
+int relight_worlds_check(const relight_options *o, report *r)
+{
+    for (int32_t i = 0; o->worlds > 1 && i < o->worlds; ++i) {
+        if (strcmp(o->world[i], "demo") == 0) {
+            return report_fail(r, "--world demo is the only one where it is given");
+        }
+    }
+    return (o->worlds > 1 ? o->centres == o->worlds : o->centres <= 1) ||
+           report_fail(r, "--world and --world-centre: %d and %d of them; give each world its centre", (int)o->worlds,
+                       (int)o->centres);
+}
+
+static float distance2(lmb_vec3 a, lmb_vec3 b)
+{
+    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+    return x * x + y * y + z * z;
+}
+
+/* World i's share of the light at a place: by the square of its distance, all of it where it was taken right there. */
+static float share_of(const relight_options *o, int32_t i, lmb_vec3 at)
+{
+    float sum = 0.0f;
+    for (int32_t k = 0; k < o->worlds; ++k) {
+        sum += 1.0f / (distance2(o->centre[k], at) + 1e-12f);
+    }
+    return 1.0f / ((distance2(o->centre[i], at) + 1e-12f) * sum);
+}
+
+static void add_share(float *sum, const float *one, size_t count, int32_t i, float share)
+{
+    for (size_t k = 0; k < count; ++k) {
+        sum[k] = (i > 0 ? sum[k] : 0.0f) + share * one[k];
+    }
+}
+
+int relight_light_see(relight_light *w, const relight_options *o, lmb_vec3 at)
+{
+    int ok = 1;
+    for (int32_t i = 0; ok && i < o->worlds; ++i) {
+        float *into = o->worlds > 1 ? w->one : w->map;
+        ok = lmb_probe_remap(into, o->kernels, &w->world[i], &w->table[0], at, o->blend) == LMB_OK;
+        if (ok && o->worlds > 1) {
+            add_share(w->map, w->one, sizeof w->map / sizeof *w->map, i, share_of(o, i, at));
+        }
+    }
+    return ok;
+}
+
+int relight_light_reflect(relight_light *w, const relight_options *o, float *planes, int32_t n, lmb_probe_rays *rays,
+                          lmb_vec3 at, float roughness)
+{
+    int ok = 1;
+    for (int32_t i = 0; ok && i < o->worlds; ++i) {
+        const lmb_world_query query = {&w->world[i], 0.0f, o->blend};
+        float *into = o->worlds > 1 ? w->cube : planes;
+        ok = lmb_probe_reflect(into, n, rays, o->kernels, &query, at, roughness) == LMB_OK;
+        if (ok && o->worlds > 1) {
+            add_share(planes, w->cube, 18 * (size_t)n * (size_t)n, i, share_of(o, i, at));
+        }
+    }
+    return ok;
+}
+
+const lmb_world *relight_light_nearest(const relight_light *w, const relight_options *o, lmb_vec3 at)
+{
+    int32_t nearest = 0;
+    for (int32_t i = 1; i < o->worlds; ++i) {
+        nearest = distance2(o->centre[i], at) < distance2(o->centre[nearest], at) ? i : nearest;
+    }
+    return &w->world[nearest];
+}
