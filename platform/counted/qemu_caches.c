@@ -43,7 +43,7 @@ typedef struct counts {
 
 static struct {
     const char *name;
-    uint64_t entry, cycles;
+    uint64_t entry, cycles, instructions, misses;
 } functions[FUNCTIONS];
 static int function_count;
 
@@ -100,10 +100,12 @@ static void end_frame(void)
             order[i] = i;
         qsort(order, (size_t)function_count, sizeof order[0], by_cycles);
         for (int i = 0; shows_functions && i < function_count && i < 16; ++i)
-            fprintf(stderr, "%12llu %s\n", (unsigned long long)functions[order[i]].cycles, functions[order[i]].name);
+            fprintf(stderr, "%12llu %12llu %12llu %s\n", (unsigned long long)functions[order[i]].cycles,
+                    (unsigned long long)functions[order[i]].instructions, (unsigned long long)functions[order[i]].misses,
+                    functions[order[i]].name);
     }
     for (int i = 0; i < function_count; ++i)
-        functions[i].cycles = 0;
+        functions[i].cycles = functions[i].instructions = functions[i].misses = 0;
     ++frame;
     memset(taken, 0, sizeof taken);
 }
@@ -258,7 +260,8 @@ static uint8_t guesses[512];
 static void pay(const meaning *m, uint64_t before)
 {
     taken[stage].cycles += now - before;
-    functions[m->function].cycles += now - before;
+    if (stage != BESIDE)
+        functions[m->function].cycles += now - before;
 }
 
 static void next_cycle(uint64_t at_least)
@@ -317,10 +320,13 @@ static void issue_one(const meaning *m, uint64_t when)
         ready[m->made] = now - 1 + m->cycles;
 }
 
+static bool has_moved; /* qemu makes single bytes of MIPS' stores that are not aligned */
+
 static void execute(unsigned cpu, void *user)
 {
     const meaning *m = user;
     const uint64_t before = now;
+    has_moved = false;
     uint64_t when = now;
     bool lost = false;
     (void)cpu;
@@ -336,6 +342,7 @@ static void execute(unsigned cpu, void *user)
         if (m->used[i] != NONE && ready[m->used[i]] > when)
             when = ready[m->used[i]];
     taken[stage].instructions += 1;
+    functions[m->function].instructions += stage != BESIDE;
     if (model == PPC750)
         issue_two(m, when);
     else
@@ -366,6 +373,9 @@ static void access_memory(unsigned cpu, uint32_t info, uint64_t at, void *user)
         pay(m, before);
         return;
     }
+    if (has_moved && model != PPC750)
+        return;
+    has_moved = true;
     if (is_store)
         taken[stage].stores += 1;
     else
@@ -379,6 +389,7 @@ static void access_memory(unsigned cpu, uint32_t info, uint64_t at, void *user)
             now += 4;
     } else if (!touch(&data, at, is_store, &lost)) {
         taken[stage].data_misses += 1;
+        functions[m->function].misses += stage != BESIDE;
         if (model == VR4300)
             now += is_screen && is_store ? 20 + (lost ? 20 : 0) : 42 + (lost ? 20 : 0);
         else

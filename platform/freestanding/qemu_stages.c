@@ -254,7 +254,8 @@ static void execute(unsigned cpu, void *user)
             cycles += touch(&code, at, true) ? 0u : MISS;
     taken[stage].instructions += s->instructions;
     taken[stage].cycles += cycles;
-    functions[s->function].cycles += cycles;
+    if (stage != BESIDE)
+        functions[s->function].cycles += cycles;
 }
 
 /* Wait states of the Game Boy Advance's memories. */
@@ -283,7 +284,8 @@ static void access_memory(unsigned cpu, uint32_t info, uint64_t at, void *user)
     else if (is_cached(at) && !touch(&data, (uint32_t)at, !is_store))
         cycles = is_store ? WRITE_MISS : MISS;
     taken[stage].cycles += cycles;
-    functions[s->function].cycles += cycles;
+    if (stage != BESIDE)
+        functions[s->function].cycles += cycles;
 }
 
 static void translate(plugin_id id, block *b)

@@ -3,6 +3,8 @@
  * An edge's place in a row depends on its two ends alone, taken from top to bottom: neighbours share it, and a pixel whose
  * middle lies on it belongs to one of them. A number that is linear on the triangle is taken modulo 2^32: only where it
  * ends up must fit. So a row of any band has the same pixels. */
+#include <string.h>
+
 #include "fixed_part.h"
 #include "number.h"
 
@@ -96,84 +98,175 @@ static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_
     return is_gentle(out, 1u << (COLOUR_GENTLE + COLOUR_BITS - s->size));
 }
 
-/* A row's first pixel, and what each next one adds. Red lies over blue in one word, both in 1/256 of a code: no sum of
- * blue leaves its 16 bits. `dither`: what is added to a code of each of four pixels, from the first one on, in the place
- * of red, blue and green alike. */
+/* A row's first pixel, and what each next one adds: depth; colours in 1/256 of a code, 16 bits each. `dither`: what is
+ * added to a colour of each pixel from the first one on. */
 typedef struct span {
-    uint32_t depth, depth_step, red_blue, red_blue_step, green, green_step;
-    const uint32_t *dither;
+    uint32_t depth, depth_step, red, green, blue, red_step, green_step, blue_step;
+    const uint16_t *dither;
 } span;
 
-/* Bayer's 4 x 4 matrix of 0 .. 15, halved, over a row and on, so that four may begin at any of the first four. */
-#define D(t) ((t) / 2u * 0x01000100u)
+/* Bayer's 4 x 4 matrix of 0 .. 15, halved, over a row and on, so that a row may begin at any of the first four. */
+#define D(t) ((t) / 2u * 256u)
 #define ROW(a, b, c, d) {D(a), D(b), D(c), D(d), D(a), D(b), D(c), D(d)}
-static const uint32_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(3, 11, 1, 9), ROW(15, 7, 13, 5)};
+static const uint16_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(3, 11, 1, 9), ROW(15, 7, 13, 5)};
 
-/* rb: red over blue, g: green, both with their dither. Nothing is dithered of 8 bits. */
-#define PACK_888(rb, g, d)  (((rb) >> 8 & 0xff00ffu) | ((g) & 0xff00u))
-#define PACK_555(rb, g, d)  (((rb) + (d)) >> 27 | (((g) + (d)) >> 6 & 0x3e0u) | (((rb) + (d)) >> 1 & 0x7c00u))
-#define PACK_5551(rb, g, d) \
-    ((((rb) + (d)) >> 16 & 0xf800u) | (((g) + (d)) >> 5 & 0x7c0u) | (((rb) + (d)) >> 10 & 0x3eu) | 1u)
+/* Colours with their dither -> a pixel of 16 bits; or several at once, each in 16 bits of a word of `type`. */
+#define EACH(type, v) ((type)-1 / 0xffffu * (v))
+#define PACK_555(high, one, r, g, b) (((((r) & (high)) >> 5 | ((g) & (high))) >> 5 | ((b) & (high))) >> 1)
+#define PACK_5551(high, one, r, g, b) (((r) & (high)) | (((g) & (high)) | ((b) & (high)) >> 5) >> 5 | (one))
 
-#define DEEP_PIXEL(type, pack, which)                                            \
-    if (depth >> DEPTH_BITS > *to_depth) {                                       \
-        *to_depth = (uint16_t)(depth >> DEPTH_BITS);                             \
-        *to = (type)(pack(red_blue, green, dither[which]));                      \
-    }                                                                            \
-    ++to_depth, ++to;                                                            \
+#define HULL_PIXEL(pack)                                                   \
+    {                                                                      \
+        const uint32_t d = *dither++;                                      \
+        *to++ = (uint16_t)pack(0xf800u, 1u, red + d, green + d, blue + d); \
+        red += s->red_step, green += s->green_step, blue += s->blue_step;  \
+    }
+
+/* Two pixels go beside each other into a word, so that a colour's sums and masks are made for both at once. */
+#if defined(__GNUC__)
+typedef uint32_t __attribute__((may_alias)) two_pixels;
+
+/* Two at once lie on 4 bytes, the first one low; two words of them, as a row's dither has four numbers. */
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+#define IN_MEMORY(two) ((two) << 16 | (two) >> 16)
+#else
+#define IN_MEMORY(two) (two)
+#endif
+#define STORE_TWO(place, pack, which)                                                                     \
+    {                                                                                                     \
+        const uint32_t two = pack(high, EACH(uint32_t, 1u), reds_##which, greens_##which, blues_##which); \
+        *(two_pixels *)(void *)(to + (place)) = IN_MEMORY(two);                                           \
+    }
+#define HULL_LOOP(pack)                                                                                      \
+    if (((uintptr_t)to & 2u) != 0) {                                                                         \
+        HULL_PIXEL(pack)                                                                                     \
+    }                                                                                                        \
+    uint32_t high = EACH(uint32_t, 0xf800u);                                                                 \
+    KEEP(high);                                                                                              \
+    const uint32_t dither_0 = dither[0] | (uint32_t)dither[1] << 16,                                         \
+                   dither_1 = (dither[2] | (uint32_t)dither[3] << 16) - dither_0;                            \
+    uint32_t reds_0 = EACH(uint32_t, red) + (s->red_step << 16) + dither_0,                                  \
+             greens_0 = EACH(uint32_t, green) + (s->green_step << 16) + dither_0,                            \
+             blues_0 = EACH(uint32_t, blue) + (s->blue_step << 16) + dither_0,                               \
+             reds_1 = reds_0 + EACH(uint32_t, 2u * s->red_step) + dither_1,                                  \
+             greens_1 = greens_0 + EACH(uint32_t, 2u * s->green_step) + dither_1,                            \
+             blues_1 = blues_0 + EACH(uint32_t, 2u * s->blue_step) + dither_1;                               \
+    const uint32_t red_by = EACH(uint32_t, 4u * s->red_step), green_by = EACH(uint32_t, 4u * s->green_step), \
+                   blue_by = EACH(uint32_t, 4u * s->blue_step);                                              \
+    for (const uint16_t *const fours = to + ((past - to) & ~3); to != fours; to += 4) {                      \
+        KEEP(reds_0);                                                                                        \
+        KEEP(greens_0);                                                                                      \
+        KEEP(blues_0);                                                                                       \
+        KEEP(reds_1);                                                                                        \
+        KEEP(greens_1);                                                                                      \
+        KEEP(blues_1);                                                                                       \
+        STORE_TWO(0, pack, 0)                                                                                \
+        STORE_TWO(2, pack, 1)                                                                                \
+        reds_0 += red_by, greens_0 += green_by, blues_0 += blue_by;                                          \
+        reds_1 += red_by, greens_1 += green_by, blues_1 += blue_by;                                          \
+    }                                                                                                        \
+    if (past - to >= 2) {                                                                                    \
+        STORE_TWO(0, pack, 0)                                                                                \
+        to += 2;                                                                                             \
+        reds_0 = reds_1, greens_0 = greens_1, blues_0 = blues_1;                                             \
+    }                                                                                                        \
+    if (to != past) {                                                                                        \
+        *to = (uint16_t)pack(high, 1u, reds_0, greens_0, blues_0);                                           \
+    }
+
+#else
+
+#define HULL_LOOP(pack)  \
+    while (to != past) { \
+        HULL_PIXEL(pack) \
+    }
+#endif
+
+#define DEEP_PIXEL(which, colour)                  \
+    if (depth_##which > to_depth[which]) {         \
+        to_depth[which] = (uint16_t)depth_##which; \
+        to[which] = (uint16_t)(colour);            \
+    }
+
+/* A format's two loops: before what was drawn, two by two; and of the hull, which nothing lies behind. */
+#define LOOPS(name, pack)                                                                                          \
+    static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                   \
+    {                                                                                                              \
+        uint16_t *to = (uint16_t *)pixels, *const past = to + count;                                               \
+        const uint16_t *dither = s->dither;                                                                        \
+        uint32_t depth = s->depth, red = s->red, green = s->green, blue = s->blue;                                 \
+        if (count & 1) {                                                                                           \
+            const uint32_t depth_0 = depth >> DEPTH_BITS, d = *dither++;                                           \
+            DEEP_PIXEL(0, pack(0xf800u, 1u, red + d, green + d, blue + d))                                         \
+            depth += s->depth_step, red += s->red_step, green += s->green_step, blue += s->blue_step;              \
+            ++to, ++to_depth;                                                                                      \
+        }                                                                                                          \
+        const uint32_t depth_step = s->depth_step, red_by = EACH(uint32_t, 2u * s->red_step),                      \
+                       green_by = EACH(uint32_t, 2u * s->green_step), blue_by = EACH(uint32_t, 2u * s->blue_step); \
+        uint32_t high = EACH(uint32_t, 0xf800u);                                                                   \
+        KEEP(high);                                                                                                \
+        uint32_t d = dither[0] | (uint32_t)dither[1] << 16;                                                        \
+        const uint32_t other = d ^ (dither[2] | (uint32_t)dither[3] << 16);                                        \
+        red = EACH(uint32_t, red) + (s->red_step << 16), green = EACH(uint32_t, green) + (s->green_step << 16);    \
+        blue = EACH(uint32_t, blue) + (s->blue_step << 16);                                                        \
+        for (; to != past; to += 2, to_depth += 2, d ^= other) {                                                   \
+            const uint32_t depth_0 = depth >> DEPTH_BITS, depth_1 = (depth + depth_step) >> DEPTH_BITS;            \
+            depth += 2 * depth_step;                                                                               \
+            if (depth_0 > to_depth[0] || depth_1 > to_depth[1]) {                                                  \
+                const uint32_t two = pack(high, EACH(uint32_t, 1u), red + d, green + d, blue + d);                 \
+                DEEP_PIXEL(0, two)                                                                                 \
+                DEEP_PIXEL(1, two >> 16)                                                                           \
+            }                                                                                                      \
+            red += red_by, green += green_by, blue += blue_by;                                                     \
+        }                                                                                                          \
+    }                                                                                                              \
+    static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                   \
+    {                                                                                                              \
+        uint16_t *to = (uint16_t *)pixels, *const past = to + count;                                               \
+        const uint16_t *dither = s->dither;                                                                        \
+        uint32_t red = s->red, green = s->green, blue = s->blue;                                                   \
+        (void)to_depth;                                                                                            \
+        HULL_LOOP(pack)                                                                                            \
+    }
+LOOPS(555, PACK_555)
+LOOPS(5551, PACK_5551)
+
+/* Of 8 bits red lies over blue in one word: no sum of blue leaves its 16 bits. */
+static void fill_hull_888(void *pixels, uint16_t *to_depth, int32_t count, const span *s)
+{
+    uint32_t *to = (uint32_t *)pixels, red_blue = (s->red << 16) + s->blue, green = s->green;
+    const uint32_t red_blue_step = (s->red_step << 16) + s->blue_step, green_step = s->green_step;
+    const uint32_t *const past = to + count;
+    (void)to_depth;
+    for (; to != past; ++to) {
+        *to = (red_blue >> 8 & 0xff00ffu) | (green & 0xff00u);
+        red_blue += red_blue_step, green += green_step;
+        ONE_BY_ONE(red_blue, green);
+    }
+}
+
+#define DEEP_888(which)                                              \
+    if (depth >> DEPTH_BITS > to_depth[which]) {                     \
+        to_depth[which] = (uint16_t)(depth >> DEPTH_BITS);           \
+        to[which] = (red_blue >> 8 & 0xff00ffu) | (green & 0xff00u); \
+    }                                                                \
     depth += depth_step, red_blue += red_blue_step, green += green_step;
 
-#define HULL_PIXEL(type, pack, dither)              \
-    *to++ = (type)(pack(red_blue, green, dither));  \
-    red_blue += red_blue_step, green += green_step; \
-    ONE_BY_ONE(red_blue, green);
-
-/* A format's two loops: before what was drawn, and of the hull, which nothing lies behind. */
-#define LOOPS(name, type, pack)                                                                                   \
-    static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                  \
-    {                                                                                                             \
-        type *to = (type *)pixels;                                                                                \
-        const uint32_t *const dither = s->dither;                                                                 \
-        uint32_t depth = s->depth, red_blue = s->red_blue, green = s->green, at = 0;                              \
-        const uint32_t depth_step = s->depth_step, red_blue_step = s->red_blue_step, green_step = s->green_step;  \
-        const uint16_t *const past = to_depth + count;                                                            \
-        (void)dither;                                                                                             \
-        if (count & 1) {                                                                                          \
-            DEEP_PIXEL(type, pack, at)                                                                            \
-            ++at;                                                                                                 \
-        }                                                                                                         \
-        for (; to_depth != past; at = (at + 2) & 3u) {                                                            \
-            DEEP_PIXEL(type, pack, at)                                                                            \
-            DEEP_PIXEL(type, pack, at + 1)                                                                        \
-        }                                                                                                         \
-    }                                                                                                             \
-    static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                  \
-    {                                                                                                             \
-        type *to = (type *)pixels;                                                                                \
-        uint32_t red_blue = s->red_blue, green = s->green;                                                        \
-        const uint32_t red_blue_step = s->red_blue_step, green_step = s->green_step, d0 = s->dither[0],           \
-                       d1 = s->dither[1], d2 = s->dither[2], d3 = s->dither[3];                                   \
-        const type *const past = to + count, *const fours = to + (count & ~3);                                    \
-        (void)to_depth, (void)d0, (void)d1, (void)d2, (void)d3;                                                   \
-        while (to != fours) {                                                                                     \
-            HULL_PIXEL(type, pack, d0)                                                                            \
-            HULL_PIXEL(type, pack, d1)                                                                            \
-            HULL_PIXEL(type, pack, d2)                                                                            \
-            HULL_PIXEL(type, pack, d3)                                                                            \
-        }                                                                                                         \
-        if (to != past) {                                                                                         \
-            HULL_PIXEL(type, pack, d0)                                                                            \
-        }                                                                                                         \
-        if (to != past) {                                                                                         \
-            HULL_PIXEL(type, pack, d1)                                                                            \
-        }                                                                                                         \
-        if (to != past) {                                                                                         \
-            HULL_PIXEL(type, pack, d2)                                                                            \
-        }                                                                                                         \
+static void fill_deep_888(void *pixels, uint16_t *to_depth, int32_t count, const span *s)
+{
+    uint32_t *to = (uint32_t *)pixels, depth = s->depth, red_blue = (s->red << 16) + s->blue, green = s->green;
+    const uint32_t depth_step = s->depth_step, red_blue_step = (s->red_step << 16) + s->blue_step,
+                   green_step = s->green_step;
+    const uint32_t *const past = to + count;
+    if (count & 1) {
+        DEEP_888(0)
+        ++to, ++to_depth;
     }
-LOOPS(888, uint32_t, PACK_888)
-LOOPS(555, uint16_t, PACK_555)
-LOOPS(5551, uint16_t, PACK_5551)
+    for (; to != past; to += 2, to_depth += 2) {
+        DEEP_888(0)
+        DEEP_888(1)
+    }
+}
 
 typedef void fill_loop(void *pixels, uint16_t *to_depth, int32_t count, const span *s);
 
@@ -189,21 +282,14 @@ static int32_t bytes_log2(const fixed_band *b) { return b->format == LMB_FIXED_R
 
 void lmb_fixed_clear(const fixed_band *b, uint32_t colour)
 {
-    span s = {0, 0, (colour & 0xff00ffu) << 8, 0, colour & 0xff00u, 0, NULL};
+    static const span nothing = {0};
+    span s = nothing;
+    s.red = colour >> 8 & 0xff00u, s.green = colour & 0xff00u, s.blue = (colour & 255u) << 8;
     for (int32_t y = b->first; y < b->past; ++y) {
         s.dither = dithers[y & 3];
         loop_of(b)((unsigned char *)b->pixel + (b->width * (y - b->first) << bytes_log2(b)), NULL, b->width, &s);
     }
 }
-
-/* Numbers of the row at hand, in the middle of the picture's first column; to the next pixel and row. */
-typedef struct filler {
-    const fixed_band *b;
-    uint32_t depth, red, green, blue, depth_x, red_x, green_x, blue_x, depth_y, red_y, green_y, blue_y;
-    int32_t left, right; /* pixels across that it may cover */
-    int is_gentle;
-    fill_loop *loop;
-} filler;
 
 /* A number along a row. */
 typedef struct ramp {
@@ -234,75 +320,103 @@ static ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
 /* In 1/256 of a code. */
 static int32_t colour_step(uint32_t to_x) { return (int32_t)(to_x + 128u) >> 8; }
 
-static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t x, int32_t count)
+static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t count)
 {
-    return ramp_within((uint32_t)((int32_t)(from + to_x * (uint32_t)x) >> 8), colour_step(to_x), count, FIXED_TOP);
+    return ramp_within((uint32_t)((int32_t)from >> 8), colour_step(to_x), count, FIXED_TOP);
 }
 
-static void set_steep(span *s, const filler *f, int32_t x, int32_t count)
+/* Of a triangle that is not gentle, which few are. */
+NOINLINE void set_steep(span *s, const uint32_t at[4], const uint32_t per_x[4], int32_t count)
 {
-    const ramp r = colour_ramp(f->red, f->red_x, x, count), g = colour_ramp(f->green, f->green_x, x, count),
-               b = colour_ramp(f->blue, f->blue_x, x, count),
-               d = ramp_within(f->depth + f->depth_x * (uint32_t)x, (int32_t)f->depth_x, count, 0x3fffffff);
+    const ramp d = ramp_within(at[0], (int32_t)per_x[0], count, 0x3fffffff), r = colour_ramp(at[1], per_x[1], count),
+               g = colour_ramp(at[2], per_x[2], count), b = colour_ramp(at[3], per_x[3], count);
     s->depth = d.at, s->depth_step = (uint32_t)d.step;
-    s->red_blue = (r.at << 16) + b.at, s->red_blue_step = ((uint32_t)r.step << 16) + (uint32_t)b.step;
-    s->green = g.at, s->green_step = (uint32_t)g.step;
+    s->red = r.at, s->green = g.at, s->blue = b.at;
+    s->red_step = (uint32_t)r.step, s->green_step = (uint32_t)g.step, s->blue_step = (uint32_t)b.step;
 }
 
-/* Rows first .. end - 1 between two edges, the left one first, which go on to the row `end`. */
-static void fill_between(filler *f, lmb_fixed_edge *a, lmb_fixed_edge *b, int32_t first, int32_t end)
+/* To another pixel of the row; mostly it is beside. */
+#define MOVE(way, by) \
+    (depth way (by)*depth_x, red way (by)*red_x, green way (by)*green_x, blue way (by)*blue_x)
+
+/* Rows first .. past - 1. What it reads in each row is copied first, as the stack mostly is the fastest memory. */
+ALWAYS_INLINE void fill_rows(const fixed_band *b, const lmb_fixed_ready *r, int32_t first, int32_t past, int is_deep)
 {
-    span s = {0, f->depth_x, 0, ((uint32_t)colour_step(f->red_x) << 16) + (uint32_t)colour_step(f->blue_x),
-              0, (uint32_t)colour_step(f->green_x), NULL};
-    const int32_t width = f->b->width, log2 = bytes_log2(f->b), above = width * (first - f->b->first);
-    int32_t u = a->at, v = b->at;
-    unsigned char *to = (unsigned char *)f->b->pixel + (above << log2);
-    uint16_t *to_depth = f->b->depth == NULL ? NULL : f->b->depth + above;
-    for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width << log2) {
-        const int32_t x = maxi(first_pixel(u), f->left);
-        const int32_t count = mini(first_pixel(v), f->right) - x;
-        if (count > 0) {
-            const uint32_t at = (uint32_t)x;
-            if (f->is_gentle) {
-                s.depth = f->depth + f->depth_x * at;
-                s.red_blue = ((f->red + f->red_x * at) << 8 & 0xffff0000u) + ((f->blue + f->blue_x * at) >> 8);
-                s.green = (f->green + f->green_x * at) >> 8;
-            } else {
-                set_steep(&s, f, x, count);
+    const int32_t middle = within(r->middle, first, past), log2 = bytes_log2(b), above = b->width * (first - b->first),
+                  pitch = b->width << log2, width = b->width, most_left = r->left,
+                  most_right = r->right, is_gentle = r->is_gentle, is_whole_left = r->is_whole_left;
+    const uint32_t depth_x = is_deep ? r->per_x[0] : 0, red_x = r->per_x[1], green_x = r->per_x[2], blue_x = r->per_x[3],
+                   depth_y = is_deep ? r->per_y[0] : 0, red_y = r->per_y[1], green_y = r->per_y[2], blue_y = r->per_y[3],
+                   down = (uint32_t)(first - r->first);
+    uint32_t depth = is_deep ? r->at[0] + depth_y * down : 0, red = r->at[1] + red_y * down,
+             green = r->at[2] + green_y * down, blue = r->at[3] + blue_y * down;
+    unsigned char *to = (unsigned char *)b->pixel + (above << log2);
+    uint16_t *to_depth = is_deep ? b->depth + above : NULL;
+    fill_loop *const loop = loop_of(b);
+    int32_t at = 0; /* the pixel that the numbers are of */
+    span s;
+    s.depth_step = depth_x, s.red_step = (uint32_t)colour_step(red_x), s.green_step = (uint32_t)colour_step(green_x);
+    s.blue_step = (uint32_t)colour_step(blue_x);
+    const lmb_fixed_edge *other = first < middle ? &r->upper : &r->lower;
+    lmb_fixed_edge whole = r->whole;
+    whole.at += whole.slope * (int32_t)down;
+    int32_t y = first, other_at = other->at + other->slope * (first - (first < middle ? r->first : r->middle));
+    for (int32_t end = first < middle ? middle : past; y < past; end = past, other = &r->lower, other_at = other->at) {
+        lmb_fixed_edge left = {is_whole_left ? whole.at : other_at, is_whole_left ? whole.slope : other->slope},
+                       right = {is_whole_left ? other_at : whole.at, is_whole_left ? other->slope : whole.slope};
+        for (; y < end; ++y) {
+            const int32_t x = maxi(first_pixel(left.at), most_left), count = mini(first_pixel(right.at), most_right) - x;
+            if (count > 0) {
+                const int32_t by = x - at;
+                if (by == 1) {
+                    MOVE(+=, 1);
+                } else if (by == -1) {
+                    MOVE(-=, 1);
+                } else if (by != 0) {
+                    MOVE(+=, (uint32_t)by);
+                }
+                at = x;
+                if (is_gentle) {
+                    s.depth = depth, s.red = red >> 8, s.green = green >> 8, s.blue = blue >> 8;
+                } else {
+                    const uint32_t n[4] = {depth, red, green, blue};
+                    set_steep(&s, n, r->per_x, count);
+                }
+                s.dither = dithers[y & 3] + (x & 3);
+                loop(to + (x << log2), is_deep ? to_depth + x : NULL, count, &s);
             }
-            s.dither = dithers[y & 3] + (x & 3);
-            f->loop(to + (x << log2), to_depth == NULL ? NULL : to_depth + x, count, &s);
+            to += pitch;
+            if (is_deep) {
+                to_depth += width;
+            }
+            left.at += left.slope, right.at += right.slope;
+            KEEP(left.at);
+            KEEP(right.at);
+            depth += depth_y, red += red_y, green += green_y, blue += blue_y;
         }
-        to_depth = to_depth == NULL ? NULL : to_depth + width;
-        f->depth += f->depth_y, f->red += f->red_y, f->green += f->green_y, f->blue += f->blue_y;
+        whole.at = is_whole_left ? left.at : right.at;
     }
-    a->at = u, b->at = v;
+}
+
+NOINLINE void fill_hull(const fixed_band *b, const lmb_fixed_ready *r, int32_t first, int32_t past)
+{
+    fill_rows(b, r, first, past, 0);
+}
+
+NOINLINE void fill_deep(const fixed_band *b, const lmb_fixed_ready *r, int32_t first, int32_t past)
+{
+    fill_rows(b, r, first, past, 1);
 }
 
 void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r)
 {
-    const int32_t first = maxi(r->first, b->first), past = mini(r->past, b->past), middle = within(r->middle, first, past);
-    if (first >= past) {
-        return;
-    }
-    const uint32_t down = (uint32_t)(first - r->first);
-    const uint32_t *y = r->per_y, *x = r->per_x;
-    filler f = {b, r->at[0], r->at[1], r->at[2], r->at[3], x[0], x[1], x[2], x[3], y[0], y[1], y[2], y[3],
-                r->left, r->right, r->is_gentle, loop_of(b)};
-    lmb_fixed_edge whole = r->whole;
-    if (down > 0) {
-        f.depth += y[0] * down, f.red += y[1] * down, f.green += y[2] * down, f.blue += y[3] * down;
-        whole.at += whole.slope * (int32_t)down;
-    }
-    if (first < middle) {
-        lmb_fixed_edge upper = r->upper;
-        upper.at += upper.slope * (int32_t)down;
-        fill_between(&f, r->is_whole_left ? &whole : &upper, r->is_whole_left ? &upper : &whole, first, middle);
-    }
-    if (middle < past) {
-        lmb_fixed_edge lower = r->lower;
-        lower.at += lower.slope * (middle - r->middle);
-        fill_between(&f, r->is_whole_left ? &whole : &lower, r->is_whole_left ? &lower : &whole, middle, past);
+    const int32_t first = maxi(r->first, b->first), past = mini(r->past, b->past);
+    if (first < past) {
+        if (b->depth == NULL) {
+            fill_hull(b, r, first, past);
+        } else {
+            fill_deep(b, r, first, past);
+        }
     }
 }
 

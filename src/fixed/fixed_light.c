@@ -43,7 +43,7 @@ static int32_t cell_of(uint32_t *part, int32_t at, int32_t places, int32_t spaci
 
 static int is_valid(const lmb_fixed *s, uint32_t place) { return (int)(s->valid[place >> 5] >> (place & 31u) & 1u); }
 
-static void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
+NOINLINE void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
 {
     uint32_t part[3], place[AROUND] = {0}, weight[AROUND] = {0}, sum = 0;
     int32_t cell[3];

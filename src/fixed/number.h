@@ -22,6 +22,13 @@
 #define ONE_BY_ONE(a, b) ((void)0)
 #endif
 
+/* A number that compilers do not make again from others, but keep. */
+#if defined(__GNUC__)
+#define KEEP(a) __asm__("" : "+r"(a))
+#else
+#define KEEP(a) ((void)0)
+#endif
+
 /* The high half of a product. */
 static inline uint32_t high_of(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
 static inline int32_t signed_high_of(int32_t a, int32_t b) { return (int32_t)(((int64_t)a * b) >> 32); }
