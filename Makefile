@@ -151,6 +151,9 @@ uninstall: ## removes what install put there
 
 docs: ## the reference, build/docs/html/index.html: headers, documents, the systems (needs doxygen)
 	@mkdir -p $(BUILD)/docs
+	@for header in $(HEADERS); do \
+	    awk -f tests/scripts/prototypes.awk $$header | sed "s,^,$${header##*/}|,"; done > $(BUILD)/docs/calls.txt
+	@awk -f tests/scripts/contracts.awk $(BUILD)/docs/calls.txt $(HEADERS) | awk -f tools/docs/calls.awk > $(BUILD)/docs/calls.md
 	@DOCS_TOP='$(CURDIR)' DOCS_OUT='$(BUILD)/docs' doxygen tools/docs/Doxyfile
 
 help: ## this list
@@ -285,7 +288,7 @@ FORCE:
 # The longest first: what runs beside them fills the second core.
 
 CHECKS ?= one-command unit tiny statue live analytic truth lanes golden golden-orders audit slivers hard replay hostile \
-          hostile-cli layers no-float symbols stack headers layout guard tables readme words examples examples-tiny cli package \
+          hostile-cli layers no-float symbols stack headers contracts layout guard tables readme words examples examples-tiny cli package \
           tool-setup
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
@@ -376,6 +379,9 @@ stack: $(LIB) ## stack of the hungriest functions and calls; the budget is 4096 
 headers: ## each public header alone, as C99 and as C++
 	@$(IN_SH) tests/scripts/headers.sh
 
+contracts: ## each public call: described, with its statuses, as stable as its header says, and used
+	@$(IN_SH) tests/scripts/contracts.sh
+
 layout: $(LIB) ## a program with other capacities than the library must not link
 	@$(IN_SH) tests/scripts/layout.sh
 
@@ -402,7 +408,7 @@ $(B)/fault.so: tests/faults/fault.c
 faults: $(TOOL) $(B)/faults $(B)/fault.so ## each verb with its nth allocation, open, write, rename or thread failing
 	@SHIM='$(B)/fault.so' $(IN_SH) tests/scripts/faults.sh
 
-readme: $(LIB) ## the README's examples compile and run
+readme: $(LIB) $(TOOL) ## the README's examples compile and run
 	@$(IN_SH) tests/scripts/readme.sh
 
 package: $(TOOL) $(LIB) man $(PACKAGE_FILES) ## a program outside the tree, by pkg-config, CMake's find_package and add_subdirectory
@@ -411,6 +417,9 @@ package: $(TOOL) $(LIB) man $(PACKAGE_FILES) ## a program outside the tree, by p
 amalgam-check: amalgam $(LIB) $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) ## the two files by gcc, clang, g++, clang for Windows and tcc: golden pictures
 	+@AMALGAM=$(BUILD)/amalgam OBJ='$(filter-out $(LIB_OBJ),$(GOLDEN_OBJ))' GOLDEN_SRC='$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)' \
 	    $(IN_SH) tests/scripts/amalgam.sh
+
+amalgam-cost: amalgam $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) ## what the two files take beside the tree: ROM, instructions, seconds
+	@AMALGAM=$(BUILD)/amalgam OBJ='$(filter-out $(LIB_OBJ),$(GOLDEN_OBJ))' $(IN_SH) tests/scripts/amalgam_cost.sh
 
 examples: $(LIB) ## the programs of tests/examples compile, run and print what they should
 	@$(IN_SH) tests/scripts/examples.sh
@@ -429,7 +438,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: faults paths amalgam-check size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+.PHONY: faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
@@ -564,7 +573,7 @@ measure-capture: $(TOOL) ## an object carried through Sponza by captured cubes a
 
 MAPS ?= $(addprefix ../shared/data/env/,forest_slope_512x256.hdr potsdamer_platz_512x256.hdr)
 measure-contact: $(B)/measure-contact ## objects on a ground under maps, against path-traced pictures (MAPS)
-	@mkdir -p $(B)/contact && $(RUN) $(B)/measure-contact $(B)/contact $(MAPS)
+	@mkdir -p $(B)/contact && for map in $(MAPS); do $(RUN) $(B)/measure-contact $(B)/contact $$map || exit 1; done
 
 measure-simplify: $(B)/measure-simplify ## what simpler meshes lose and add: distances, silhouettes, time
 	@$(RUN) $(B)/measure-simplify

@@ -1,7 +1,9 @@
 /* bounce.h: light received at a point from lit points, grouped in fixed-size arrays. [V: patent JP5873672B2]
  *
  * The shadow map gives first points (lmb_points_collect), neighbours join into discs (lmb_discs_join), discs into
- * groups (lmb_group_greedy, lmb_group_zones), and groups light the pixels of a tile (lmb_gather_tile). */
+ * groups (lmb_group_points), and groups light the pixels of a tile (lmb_gather_tile).
+ *
+ * Stability: experimental. */
 #ifndef LMB_BOUNCE_H
 #define LMB_BOUNCE_H
 
@@ -25,7 +27,7 @@ typedef struct lmb_point {
     float distance;            /* mean distance to its neighbours, m; set by lmb_discs_join            [V8] */
     uint16_t cell_x, cell_y;   /* its column and row in the map of its face, in blocks of texels       [V15] */
     uint32_t face;             /* which face of which light: equal numbers share one map */
-    uint32_t link;             /* lmb_group_*: scratch while grouping */
+    uint32_t link;             /* scratch of lmb_group_points */
 } lmb_point;
 
 /* The caller's points. `cells` finds the neighbours: cell c of the face at hand begins at data[cells[c]]. */

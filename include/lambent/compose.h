@@ -1,4 +1,4 @@
-/* compose.h: direct + indirect -> radiance -> a display's pixels. [V28 V29 V30] */
+/* compose.h: direct + indirect -> radiance -> a display's pixels. [V28 V29 V30] Stability: stable. */
 #ifndef LMB_COMPOSE_H
 #define LMB_COMPOSE_H
 

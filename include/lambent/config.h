@@ -2,7 +2,9 @@
  *
  * What stands in #ifndef is yours: define it on the compiler's command line (for the library and the application
  * alike). The others follow from it, or from LMB_CONFIG_TINY, or are part of the arithmetic.
- * LMB_CONFIG_TINY picks the small set in one word. Capacities are not sizes: a run may use any size up to them. */
+ * LMB_CONFIG_TINY picks the small set in one word. Capacities are not sizes: a run may use any size up to them.
+ *
+ * Stability: stable. */
 #ifndef LMB_CONFIG_H
 #define LMB_CONFIG_H
 

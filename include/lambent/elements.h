@@ -12,7 +12,8 @@
  *         lmb_elements_send(&e, b + 1 == bounces);                       at last: all bounces together
  *     }                                  where materials emit light, one round more, before that of the maps: b = 0
  *     lmb_gather_cut(.., &lights, ..); lmb_gather_cut(.., &e.tree, ..);  a pixel
- */
+ *
+ * Stability: experimental. */
 #ifndef LMB_ELEMENTS_H
 #define LMB_ELEMENTS_H
 

@@ -9,7 +9,9 @@
  *     lmb_fixed_band(..)       rows of the picture, in bands of any height: the same pixels
  *
  * Nothing of a scene moves but its lamp and its camera. Where the lamp is hidden from a vertex was baked for a lattice of
- * places, and is mixed between them: shadows are as sharp as places are close. */
+ * places, and is mixed between them: shadows are as sharp as places are close.
+ *
+ * Stability: experimental. */
 #ifndef LMB_FIXED_H
 #define LMB_FIXED_H
 
@@ -154,7 +156,8 @@ lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_
  * below it, eye out of LMB_FIXED_EYE or target out of LMB_FIXED_REACH. */
 lmb_status lmb_fixed_look_at(lmb_fixed_view *inout, const int32_t eye[3], const int32_t target[3]);
 
-/* lmb_fixed_transform, then lmb_fixed_light: LMB_OK or LMB_ERR_ARG (null, a number out of its range). Stack: 2.5 KiB. */
+/* lmb_fixed_transform: vertices to the screen, and which triangles are seen. lmb_fixed_light: then, light at these
+ * triangles' vertices. LMB_OK or LMB_ERR_ARG (null, a number out of its range). Stack: 2.5 KiB. */
 lmb_status lmb_fixed_transform(lmb_fixed_frame *frame);
 lmb_status lmb_fixed_light(lmb_fixed_frame *frame);
 
@@ -165,9 +168,6 @@ lmb_status lmb_fixed_prepare(lmb_fixed_frame *frame);
 /* lmb_fixed_band: rows `first` .. `past` - 1 of the picture into the band's memory, its first row first. LMB_OK or
  * LMB_ERR_ARG. */
 lmb_status lmb_fixed_band(const lmb_fixed_frame *frame, int32_t first, int32_t past);
-
-/* lmb_fixed_place: may the lamp be at a position? 1 where a place around it is valid. */
-int lmb_fixed_place(const lmb_fixed *scene, const int32_t position[3]);
 
 #ifdef __cplusplus
 }

@@ -7,7 +7,9 @@
  *     lmb_gouraud_draw(..)     triangles, in pieces of any size
  *
  * Against a frame of lmb_render_frame: shadows are as sharp as corners are close; textures are their mean colour; normal
- * maps, holes and lobes are ignored. Pixels are the same on every machine. */
+ * maps, holes and lobes are ignored. Pixels are the same on every machine.
+ *
+ * Stability: experimental. */
 #ifndef LMB_GOURAUD_H
 #define LMB_GOURAUD_H
 

@@ -4,7 +4,9 @@
  * So lmb_draw is lmb_draw wherever you build, and lmb_render_begin becomes lmb_render_begin_g2048_l128_c16384_...: what
  * the linker cannot find is what the two builds do not agree on. Compilers and linkers of today tell names of thousands
  * of characters apart (C99 asks for 31). Capacities are plain numbers for this, not expressions.
- * `make layout` takes the capacities from config.h and the calls from the headers: none can be forgotten. */
+ * `make layout` takes the capacities from config.h and the calls from the headers: none can be forgotten.
+ *
+ * Stability: stable. */
 #ifndef LMB_LAYOUT_H
 #define LMB_LAYOUT_H
 
@@ -35,7 +37,6 @@
 #define lmb_delta_tile              LMB_LAYOUT(lmb_delta_tile)
 #define lmb_direct_tile             LMB_LAYOUT(lmb_direct_tile)
 #define lmb_elements_receive        LMB_LAYOUT(lmb_elements_receive)
-#define lmb_facts_count             LMB_LAYOUT(lmb_facts_count)
 #define lmb_frame_bytes             LMB_LAYOUT(lmb_frame_bytes)
 #define lmb_frame_init              LMB_LAYOUT(lmb_frame_init)
 #define lmb_gather_cut              LMB_LAYOUT(lmb_gather_cut)

@@ -1,4 +1,6 @@
-/* light.h: direct light of Lambertian surfaces, with its shadow test; and the lobe of glossy ones. [V7 V29] */
+/* light.h: direct light of Lambertian surfaces, with its shadow test; and the lobe of glossy ones. [V7 V29]
+ *
+ * Stability: stable. */
 #ifndef LMB_LIGHT_H
 #define LMB_LIGHT_H
 

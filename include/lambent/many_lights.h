@@ -13,7 +13,9 @@
  * suns by direction; lights of two kinds are never in one cell. When there are more cells than room, the cells' side
  * doubles and cells merge: detail is lost, light is not. Sums are integers, so neither order nor slicing changes them.
  * In a tree over the cells each tile of pixels then takes its own cut: a node that is small for its distance stands for
- * all of its lights. */
+ * all of its lights.
+ *
+ * Stability: experimental. */
 #ifndef LMB_MANY_LIGHTS_H
 #define LMB_MANY_LIGHTS_H
 

@@ -1,4 +1,6 @@
-/* map.h: what a camera or a light sees: a view's G-buffer, and the shadow map of a light. [V6 V7 V33] */
+/* map.h: what a camera or a light sees: a view's G-buffer, and the shadow map of a light. [V6 V7 V33]
+ *
+ * Stability: stable. */
 #ifndef LMB_MAP_H
 #define LMB_MAP_H
 
@@ -51,8 +53,9 @@ size_t lmb_shadow_map_bytes(int32_t faces, int32_t size, int32_t id_format);
 lmb_status lmb_shadow_map_init(lmb_shadow_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
                                int32_t id_format, void *memory, size_t bytes);
 
-/* lmb_shadow_map_draw: lmb_draw into every face that is part of the map. Clear the faces first:
- * lmb_shadow_map_clear. The same returns as lmb_draw. */
+/* lmb_shadow_map_clear: nothing in any face that is part of the map. LMB_OK or LMB_ERR_ARG.
+ * lmb_shadow_map_draw: then, lmb_draw into each of them. Returns LMB_OK or LMB_ERR_ARG, or what lmb_draw does. Cost: as
+ * lmb_draw, for each face. */
 lmb_status lmb_shadow_map_clear(const lmb_shadow_map *map);
 lmb_status lmb_shadow_map_draw(const lmb_shadow_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
                                uint32_t first_id, uint32_t count, lmb_stats *stats);

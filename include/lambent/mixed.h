@@ -10,7 +10,9 @@
  *
  * Clouds and planes are in the camera's own space: metres, it stands at 0, x to the right, y up, and looks down -z.
  * What is drawn and lit is in the scene's, which is the same turned about the camera, so that the object's floor is
- * level (lmb_axes_upright): voxels then keep the floor's light apart from what stands on it. */
+ * level (lmb_axes_upright): voxels then keep the floor's light apart from what stands on it.
+ *
+ * Stability: experimental. */
 #ifndef LMB_MIXED_H
 #define LMB_MIXED_H
 
@@ -38,19 +40,6 @@ typedef struct lmb_cloud {
     lmb_vec3 *normal; /* unit, towards the camera; 0, 0, 0: unknown */
     float noise;      /* 1/m: standard deviation of `inverse`, beside a millimetre of distance */
 } lmb_cloud;
-
-#define LMB_NEAREST_CAP 8 /* neighbours that one point is asked for at most */
-
-/* Points in no order, sorted into a fixed number of cells. In the caller's memory. */
-#define LMB_POINT_CELLS 32 /* a side */
-typedef struct lmb_point_grid {
-    const lmb_vec3 *point; /* the caller's */
-    uint32_t *first;       /* LMB_POINT_CELLS^3 + 1: a cell's first in `order` */
-    uint32_t *order;
-    uint32_t count;        /* of finite ones */
-    lmb_vec3 low;
-    float cell;            /* m */
-} lmb_point_grid;
 
 /* A flat part of the real scene: points p with normal . p = -distance. */
 typedef struct lmb_flat {
@@ -123,18 +112,6 @@ float lmb_cloud_sigma(const lmb_cloud *cloud, float inverse);
  * Cost: 2 x 49 points a pixel. */
 lmb_status lmb_cloud_normals(const lmb_cloud *cloud);
 
-/* lmb_cloud_nearest: pixels (y x width + x) of the k points nearest in space, the nearest first, of the 5 x 5 around; k
- * up to LMB_NEAREST_CAP. Returns how many there are.                                                          [M3] */
-int32_t lmb_cloud_nearest(int32_t *out, int32_t k, const lmb_cloud *cloud, int32_t x, int32_t y);
-
-/* lmb_point_grid_bytes, lmb_point_grid_init: points in no order; those that are not finite are left out. LMB_OK,
- * LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY. */
-size_t lmb_point_grid_bytes(uint32_t count);
-lmb_status lmb_point_grid_init(lmb_point_grid *out, const lmb_vec3 *points, uint32_t count, void *memory, size_t bytes);
-
-/* lmb_point_grid_nearest: the k of them nearest to `at`, the nearest first, of equals the earlier. Returns how many. */
-int32_t lmb_point_grid_nearest(uint32_t *out, int32_t k, const lmb_point_grid *grid, lmb_vec3 at);
-
 /* lmb_planes_bytes: memory of the search, 5 bytes a pixel; 0 for a bad size. */
 size_t lmb_planes_bytes(int32_t width, int32_t height);
 
@@ -190,7 +167,8 @@ void lmb_real_mesh_colour(const lmb_real_mesh *mesh, int32_t c, const float albe
 
 /* lmb_photo_view: the view whose frame holds the photo's pixel (0, 0) as its pixel (*x0, *y0), multiples of LMB_TILE.
  * Frames' axes go through their middles, so this one reaches farther than the photo on one side. cx and cy count to
- * half a pixel: round them first (lmb_pinhole_round), that rays are the same. LMB_OK or LMB_ERR_ARG. */
+ * half a pixel: round them first, that rays are the same. LMB_OK or LMB_ERR_ARG.
+ * lmb_pinhole_round: cx and cy to the nearest half pixel. */
 lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera, const lmb_axes *axes);
 void lmb_pinhole_round(lmb_pinhole *camera);
 
@@ -205,7 +183,8 @@ lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes
  *   rgb  width x height x 3, linear, rows from the top
  * The picture is cut into thirds. Its middle is what lies ahead (-z) and, turned over, behind (+z); what is left of the
  * middle, right of it, over and under it are the sides. Not from the source: each side takes its whole edge of the
- * picture, widening from the middle outwards, so that nothing is left over and the five faces meet without a seam. */
+ * picture, widening from the middle outwards, so that nothing is left over and the five faces meet without a seam. LMB_OK or
+ * LMB_ERR_ARG. */
 lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height, const lmb_axes *axes);
 
 /* lmb_env_brightest: unit, where the most light comes from, over the plane that faces `up`, at least 30 degrees
@@ -222,7 +201,7 @@ void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal);
  *   scene  of both: the real mesh is its first instance, the object's come after it
  *   bytes  of memory: twice lmb_shadow_map_bytes
  * Clear both (lmb_shadow_map_clear), then draw the real mesh's ids into the first and all into the second
- * (lmb_shadow_map_draw). Returns what lmb_shadow_map_init returns. */
+ * (lmb_shadow_map_draw). Returns LMB_OK or LMB_ERR_ARG, or what lmb_shadow_map_init does. */
 lmb_status lmb_two_maps(lmb_shadow_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
                         void *memory, size_t bytes);
 

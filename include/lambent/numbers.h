@@ -1,7 +1,9 @@
 /* numbers.h: sines, cosines and roots with the same bits on every machine, so that a mesh that a program makes has the same
  * bytes, and so the same pixels, wherever it runs. libm's own sinf and cosf differ in the last bit.
  *
- * Arithmetic around them is the caller's: compile it with -ffp-contract=off, or products fuse on some machines. */
+ * Arithmetic around them is the caller's: compile it with -ffp-contract=off, or products fuse on some machines.
+ *
+ * Stability: stable. */
 #ifndef LMB_NUMBERS_H
 #define LMB_NUMBERS_H
 

@@ -1,7 +1,9 @@
 /* occlusion.h: does anything stand between two points? By the viewer's depth map, or exactly by a BVH. [V25]
  *
  * The viewer's depth map (lmb_occluder) knows only what the viewer sees; lmb_bvh knows every triangle. A tile's pixels
- * are tested together: their 64 segments to one point make a thin pyramid, so one traversal serves them all. */
+ * are tested together: their 64 segments to one point make a thin pyramid, so one traversal serves them all.
+ *
+ * Stability: experimental. */
 #ifndef LMB_OCCLUSION_H
 #define LMB_OCCLUSION_H
 
@@ -12,7 +14,7 @@
 typedef struct lmb_occluder {
     const lmb_view *view;     /* the viewer's */
     const lmb_surface *depth; /* its depth over the whole frame                                        [V24] */
-    int32_t kind;             /* lmb_occlusion */
+    int32_t kind;             /* LMB_OCCLUSION_* */
     int32_t steps;            /* samples along a segment, 1 .. 64 */
 } lmb_occluder;
 /* NONE: everything is seen. VIEW: the segment marches through the depth map in map space. VIEW_WORLD: in equal steps

@@ -29,7 +29,9 @@
  *              scale, 0, 0; or with 1 in the fourth word a matrix, as of instances
  *   TRACKS     what (0 translation, 1 rotation, 2 scale) | between (0 step, 1 linear, 2 cubic) << 8; keys; offsets of
  *              times, s, which rise, and of values: 3 or 4 a key; cubic: three of them, in-tangent, value, out-tangent
- *   NAMES      of cameras, one behind the other, each with its 0 */
+ *   NAMES      of cameras, one behind the other, each with its 0
+ *
+ * Stability: stable. */
 #ifndef LMB_PACK_H
 #define LMB_PACK_H
 

@@ -9,12 +9,14 @@
  *
  *     lmb_survey_even(&places, &r, ...);           which tiles of a frame that is solved are sampled
  *     lmb_render_sample(&sample, &r, ...);         their light by one rung, then by the next: what that takes, and
- *     lmb_tile_sample_error(&sample, &next);       how far the two are apart, go into `facts`
+ *     lmb_tile_sample_error(&sample, &next, 1.0f); how far the two are apart, go into `facts`
  *     lmb_plan_choose(&choice, &facts, &budget, fixed);
  *
  * All of it is a function of scene, view and numbers: no clock, the same on every target. Work is counted in units: one
  * is the time of a pixel gathering a node's light. How many of them a computer does in a second is for the caller to
- * measure (`lambent bench --calibrate`). */
+ * measure (`lambent bench --calibrate`).
+ *
+ * Stability: experimental. */
 #ifndef LMB_PLAN_H
 #define LMB_PLAN_H
 
@@ -94,7 +96,7 @@ typedef struct lmb_settings {
 typedef struct lmb_rung {
     int32_t places;         /* sampled; 0: none, and the numbers are guessed from the rung before */
     float pairs, segments;  /* per tile of the picture */
-    float error;            /* estimated upper bound, by lmb_look_bound against the next rung; below 0: not checked */
+    float error;            /* estimated upper bound, by lmb_tile_sample_error against the next rung; below 0: not checked */
 } lmb_rung;
 
 /* What sampling some tiles of a solved frame found. The last rung checks the one before: it is never chosen itself. */
@@ -186,14 +188,10 @@ lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band
                              const lmb_survey *places, double max);
 
 /* lmb_tile_sample_error: how far `a` is from `b`, by the places that both have: root of the mean square over the
- * pixels' channels, without the worst 1 % of the pixels, over the mean of b. 0 where b is dark.
- * lmb_look_bound: the same with a margin for few places: the mean square plus `deviations` of its own standard
- * deviations, from how places differ. Below 0 where that says nothing: fewer than 4 places, or b is dark. */
-float lmb_tile_sample_error(const lmb_tile_sample *a, const lmb_tile_sample *b);
-float lmb_look_bound(const lmb_tile_sample *a, const lmb_tile_sample *b, float deviations);
-
-/* lmb_facts_count: pairs and segments of all the frame's pixels by `facts`, for a frame's settings. */
-void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *frame);
+ * pixels' channels, without the worst 1 % of the pixels, over the mean of b; to the mean square are added so many
+ * `deviations` of its own standard deviation, from how places differ: a bound, as places are few. Below 0 where that
+ * says nothing: fewer than 4 places, or b is dark. */
+float lmb_tile_sample_error(const lmb_tile_sample *a, const lmb_tile_sample *b, float deviations);
 
 /* lmb_plan_rung: the settings of a rung, 0: coarsest. The last four are `draft`, `default`, `best` and one finer. Trees
  * and maps have up to facts->max texels a side. */

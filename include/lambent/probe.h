@@ -9,7 +9,9 @@
  *     per tile:   lmb_probe_light_tile, lmb_probe_glossy_tile, lmb_probe_background: or relight.h does it all
  *
  * Cubes have six faces of n x n texels in GL order (+x -x +y -y +z -z), rows from the top: with s, t in -1 .. 1 the
- * direction is (1,-t,-s) (-1,-t,s) (s,1,t) (s,-1,-t) (s,-t,1) (-s,-t,-1). */
+ * direction is (1,-t,-s) (-1,-t,s) (s,1,t) (s,-1,-t) (s,-t,1) (-s,-t,-1).
+ *
+ * Stability: experimental. */
 #ifndef LMB_PROBE_H
 #define LMB_PROBE_H
 
@@ -190,11 +192,6 @@ size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format);
 lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, int32_t format, void *memory,
                           size_t bytes);
 
-/* lmb_world_encode, lmb_world_decode: the log code e of radiance c, and back. c is clamped to 0 .. 99.899, e to
- * 0 .. 1. */
-float lmb_world_encode(float c);
-float lmb_world_decode(float e);
-
 /* lmb_probe_table_bytes: memory of a table; 0 for sizes out of range. Height 8 .. 512, a multiple of 8, and width
  * twice that. */
 size_t lmb_probe_table_bytes(int32_t width, int32_t height);
@@ -216,7 +213,7 @@ lmb_status lmb_probe_remap(float *map, const lmb_kernels *kernels, const lmb_wor
                            lmb_vec3 at, int32_t blend);
 
 /* lmb_probe_reduce: a map's light, two by two texels shared among the nine nearest of 6 x 8 x 8 directions. Two by two
- * that hold over four times the mean become peaks, the strongest LMB_PROBE_PEAKS of them. */
+ * that hold over four times the mean become peaks, the strongest LMB_PROBE_PEAKS of them. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, const float *map,
                             const lmb_probe_table *table);
 
@@ -226,13 +223,14 @@ lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, c
  *
  *   cube  3 planes of 6 n x n texels, face by face; n: 1 .. 64
  * Against path-traced truth 0.4 % rmse for this alone, 0.6 with remap to 128 x 64. Cost: 0.7 cycles a texel and light
- * by AVX2. */
+ * by AVX2. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_probe_cosine(float *cube, int32_t n, const lmb_kernels *kernels, const lmb_probe_lights *lights,
                             const lmb_probe_table *table);
 
 /* lmb_probe_sh: the first 25 real harmonics of a map, coefficient[3][25], in the order l l + l + m. [S25]
  * lmb_probe_sh_cube: irradiance of n x n x 6 normals from the first `terms` (9, 16 or 25). The clamped cosine has no
- * third band, so 16 gives what 9 gives. Sharp lights overshoot: results may be negative, and are not clamped. */
+ * third band, so 16 gives what 9 gives. Sharp lights overshoot: results may be negative, and are not clamped.
+ * LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_probe_sh(float coefficient[3][LMB_SH_25], const float *map, const lmb_probe_table *table);
 lmb_status lmb_probe_sh_cube(float *cube, int32_t n, const float coefficient[3][LMB_SH_25], int32_t terms);
 
@@ -248,25 +246,28 @@ lmb_status lmb_probe_blur_init(lmb_probe_blur *out, const lmb_probe_table *table
  *
  *   out   may be `map` itself; the same bytes
  *   line  scratch, 4 x width floats; in place width x height more
- * A world of one radiance gives pi times that. */
+ * A world of one radiance gives pi times that. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_probe_blur_map(float *out, float *line, const lmb_kernels *kernels, const float *map,
                               const lmb_probe_blur *blur);
 
-/* lmb_probe_halve: a map of half the width and height; may be in place. The table is the larger map's. */
+/* lmb_probe_halve: a map of half the width and height; may be in place. The table is the larger map's. LMB_OK or
+ * LMB_ERR_ARG. */
 lmb_status lmb_probe_halve(float *out, const float *map, const lmb_probe_table *table);
 
-/* lmb_probe_map_cube: a map read bilinearly at n x n x 6 directions, round the seam and over the poles. [S14] */
+/* lmb_probe_map_cube: a map read bilinearly at n x n x 6 directions, round the seam and over the poles. LMB_OK or
+ * LMB_ERR_ARG. [S14] */
 lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lmb_probe_table *table);
 
 /* lmb_probe_reflect: the radiance that a surface mirrors, by the direction in which a mirror would look.     [S16 S22]
  *
- *   cube       3 planes of 6 n x n texels; n: 1 .. 256. lmb_probe_glossy_side gives the n that shows a roughness: 64
- *              from 0.1 on, 16 from 0.3, 8 from 0.6; 0 under 0.1, where pixels look at the world itself. Off by 2 to
- *              4 % rmse from 0.2 on, by 12 % at 0.1, in a world of small lights.
+ *   cube       3 planes of 6 n x n texels; n: 1 .. 256, by lmb_probe_glossy_side off by 2 to 4 % rmse from roughness 0.2 on, by 12 % at 0.1, in a
+ *              world of small lights
  *   roughness  0 .. 1; alpha = roughness^2, under LMB_MIN_ALPHA: a mirror's.
  * The lobe is that of lmb_glossy seen from straight above, by 64 rays down to its horizon, or from roughness 0.2 on by
  * the world's peaks and 40 rays; a mirror's texels are means of 36 rays: against path-traced truth of a world with small
- * lights 1 % rmse away from silhouettes. LMB_OK or LMB_ERR_ARG. Cost: about 25 cycles a ray by AVX2. */
+ * lights 1 % rmse away from silhouettes. LMB_OK or LMB_ERR_ARG. Cost: about 25 cycles a ray by AVX2.
+ * lmb_probe_glossy_side: the n that shows a roughness: 64 from 0.1 on, 16 from 0.3, 8 from 0.6; 0 under 0.1, where
+ * pixels look at the world itself. */
 int32_t lmb_probe_glossy_side(float roughness);
 lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, const lmb_kernels *kernels,
                              const lmb_world_query *query, lmb_vec3 at, float roughness);
@@ -300,7 +301,8 @@ int32_t lmb_probe_cache_name(lmb_probe_cache *inout, lmb_vec3 place);
 lmb_status lmb_probe_cache_ask(lmb_probe_answer *out, lmb_probe_cache *inout, uint32_t owner, lmb_vec3 at,
                                uint32_t world_revision, uint32_t frame);
 
-/* lmb_probe_background: set the pixels of a tile without a surface to the radiance that the view sees there. */
+/* lmb_probe_background: set the pixels of a tile without a surface to the radiance that the view sees there.
+ * LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays *scratch, const lmb_kernels *kernels,
                                 const lmb_tile *tile, const lmb_view *view, const lmb_world_query *query);
 

@@ -1,7 +1,9 @@
 /* raster.h: triangles -> depth + id (a visibility buffer), then attributes of one tile at a time.
  *
  * A draw fills a *window* of a frame: a target's origin (x0, y0) says where in the frame its first pixel lies. A frame
- * drawn in any set of windows has the bytes of the frame drawn whole. */
+ * drawn in any set of windows has the bytes of the frame drawn whole.
+ *
+ * Stability: stable. */
 #ifndef LMB_RASTER_H
 #define LMB_RASTER_H
 
@@ -131,7 +133,7 @@ lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb
                             const lmb_target *target, int32_t x, int32_t y);
 
 /* lmb_resolve_albedo: the same for pictures without light: only id, x, y, hits, uv and albedo are set, the other planes
- * mean nothing. */
+ * mean nothing. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_resolve_albedo(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                               const lmb_target *target, int32_t x, int32_t y);
 

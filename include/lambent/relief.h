@@ -23,7 +23,9 @@
  *   PACKED  two planes: 16 bits of depth, then B5 G6 R5 above them; normal, two int8, in a plane of 16-bit words that
  *           ends on a multiple of 4 bytes                                                                       [P10]
  * Normals are octahedral (of int8: code / 127), world axes. Depth d of lmb_view is min + code (1 - min) / max, where
- * min is 0 (orthographic) or near_m / far_m (perspective), and max is the largest code. */
+ * min is 0 (orthographic) or near_m / far_m (perspective), and max is the largest code.
+ *
+ * Stability: experimental. */
 #ifndef LMB_RELIEF_H
 #define LMB_RELIEF_H
 

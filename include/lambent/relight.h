@@ -5,7 +5,9 @@
  *
  * Each instance of the scene has a probe: cubes of irradiance and of mirrored radiance, computed where it stands.
  * Objects of several instances have one each (face, shirt, helmet), or share one. The scene's lights come on top, with
- * shadows of the objects on each other. */
+ * shadows of the objects on each other.
+ *
+ * Stability: experimental. */
 #ifndef LMB_RELIGHT_H
 #define LMB_RELIGHT_H
 

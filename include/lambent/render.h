@@ -20,7 +20,9 @@
  *
  * Glossy materials (lmb_material.specular; builds with trees) reflect the scene's lights, and bounced light by
  * LMB_GROUP_CUT or a transfer; fixed groups and direct light of `many_lights` reach their diffuse part alone. Tiles that show a lobe
- * are gathered at each pixel, whatever gather_step is. LMB_SHOW_IRRADIANCE has no lobes. */
+ * are gathered at each pixel, whatever gather_step is. LMB_SHOW_IRRADIANCE has no lobes.
+ *
+ * Stability: stable. */
 #ifndef LMB_RENDER_H
 #define LMB_RENDER_H
 
@@ -311,8 +313,8 @@ lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
  * Reused are: a shadow map, while no object moved and the light's own and lights_revision are unchanged; its first
  * points, if appearance_revision is unchanged too; groups, if that holds for all lights; the BVH, while no object
  * moved, whatever lights do; bounces, if everything is unchanged; the viewer's depth and ids (of a whole frame), while
- * neither objects nor the viewer moved. Direct and bounced light of the pixels are always gathered anew. Returns what
- * lmb_render_begin does. Missing in builds without plan. */
+ * neither objects nor the viewer moved. Direct and bounced light of the pixels are always gathered anew. Returns LMB_OK
+ * or what else lmb_render_begin does. Missing in builds without plan. */
 lmb_status lmb_render_reuse(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_has_parts: 1 where the current stage can be done in parts, on several threads; 0 where lmb_render_step
@@ -331,11 +333,12 @@ int32_t lmb_render_has_parts(const lmb_render *r);
 lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
                            lmb_stats *stats);
 
-/* lmb_render_parts_done: all `parts` shares were done: go on to the next face or stage. The returns of
- * lmb_render_step, and LMB_ERR_ARG for a stage without parts. */
+/* lmb_render_parts_done: all `parts` shares were done: go on to the next face or stage. Returns LMB_MORE or
+ * LMB_OK as lmb_render_step does, an error of the stage, or LMB_ERR_ARG for a stage without parts. */
 lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts);
 
-/* lmb_render_frame: begin and all the steps. `r` is caller's memory. */
+/* lmb_render_frame: begin and all the steps. `r` is caller's memory. Returns LMB_OK when the frame is done, or an error of
+ * lmb_render_begin or of a stage. */
 lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_progress: how far the current stage is, 0 .. 1. *name is its name in words; never NULL. */

@@ -1,7 +1,9 @@
 /* scene.h: a scene as plain const data: usable in place from flash, 4-byte aligned, nothing owned.
  *
  * Every array belongs to the caller and may be const. Positions may live in RAM beside indices in flash (moving,
- * skinned meshes). `revision` numbers say what changed, so nothing needs hashing: raise them when you write. */
+ * skinned meshes). `revision` numbers say what changed, so nothing needs hashing: raise them when you write.
+ *
+ * Stability: stable. */
 #ifndef LMB_SCENE_H
 #define LMB_SCENE_H
 
@@ -177,10 +179,11 @@ int32_t lmb_texture_level_count(int32_t width, int32_t height);
  * `texels` holds lmb_texture_bytes. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_texture_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels);
 
-/* lmb_normal_map_mips: the same by plain means of the codes. */
+/* lmb_normal_map_mips: the same by plain means of the codes. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_normal_map_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels);
 
-/* lmb_octahedral_encode / _decode: unit vector <-> two int16 (Meyer et al. 2010); error under 4.4e-5 rad. */
+/* lmb_octahedral_encode, lmb_octahedral_decode: a unit vector as two int16, and back (Meyer et al. 2010); error under
+ * 4.4e-5 rad. */
 void lmb_octahedral_encode(int16_t out[2], lmb_vec3 unit);
 lmb_vec3 lmb_octahedral_decode(const int16_t code[2]);
 

@@ -1,4 +1,6 @@
-/* surface.h: a caller's pixels: sizes, clearing, linearising, hashing, and comparing two pictures. */
+/* surface.h: a caller's pixels: sizes, clearing, linearising, hashing, and comparing two pictures.
+ *
+ * Stability: stable. */
 #ifndef LMB_SURFACE_H
 #define LMB_SURFACE_H
 

@@ -2,7 +2,9 @@
  *
  * Every lit texel of a map is a first point; four make a node, four nodes the next, up to one node a face. Sums go
  * upward from the finest texels, so no flux is lost, and a fine map costs only the pixels near its texels. A tile
- * starts at the roots and splits nodes until their estimated error is under `error` times the light that they give. */
+ * starts at the roots and splits nodes until their estimated error is under `error` times the light that they give.
+ *
+ * Stability: experimental. */
 #ifndef LMB_TREE_H
 #define LMB_TREE_H
 
@@ -127,7 +129,7 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
                            const lmb_light *light, const lmb_shadow_map *map, int32_t face, uint32_t into,
                            int32_t first, int32_t past);
 
-/* lmb_tree_sum: the nodes of one face, from its first points, once all its rows are there. */
+/* lmb_tree_sum: the nodes of one face, from its first points, once all its rows are there. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
 
 /* lmb_gather_cut: add the light of the tree's first points to a tile's pixels.                        [V25 V27 V28]

@@ -10,7 +10,9 @@
  *   flux         outgoing Lambertian power of an emitter, W: reflectance x incident power
  *   tile, band   8x8 pixels; 8 rows of the frame. The band is the unit of work
  *   window       the part of a frame that a surface holds
- *   near         a pixel so close to an emitter that the emitter's parts and shape count */
+ *   near         a pixel so close to an emitter that the emitter's parts and shape count
+ *
+ * Stability: stable. */
 #ifndef LMB_TYPES_H
 #define LMB_TYPES_H
 
@@ -107,9 +109,19 @@ typedef struct lmb_stats {
     double flux_grouped;      /* W: the same over the groups; less only where strict zones drop some [V20] */
 } lmb_stats;
 
-/* Before 1.0 a new minor number may change calls and pixels, a new patch neither. From 1.0 on a new major number may
- * change calls that are there, a new minor one adds some and may change pixels, a new patch does neither. NEWS.md lists
- * each change. */
+/* What a new version may change. The first comment of each header says how stable it is:
+ *
+ *                     patch   minor                                       major
+ *   stable, before 1.0  no    may change or go; NEWS.md says what          -
+ *   stable, from 1.0    no    more may come; what is there stays           may change or go
+ *   experimental        no    may change or go; NEWS.md says what          may change or go
+ *   pixels              no    may change; NEWS.md says which, and why      may change
+ *   .lmp files          no    those of older versions stay readable       may be refused
+ *   .lmt, .lmr files    no    may be refused, with LMB_ERR_FORMAT         may be refused
+ *
+ * Members of structs that their header does not describe, and structs of experimental headers inside of stable ones, are
+ * experimental. Of two builds of one version, pixels are the same: on every compiler, processor, back end and number of
+ * threads, by one configuration. */
 #define LMB_VERSION_MAJOR 0
 #define LMB_VERSION_MINOR 1
 #define LMB_VERSION_PATCH 0

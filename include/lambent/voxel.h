@@ -9,7 +9,9 @@
  *
  * A voxel does not hold a colour and an alpha, but sums over the surfaces in it, by the six directions that they face:
  * so a parent is exactly the mean of its children, no light is lost on the way up, a thin wall lets no light through
- * from its back, and it covers as much of a wide cone as of a narrow one. */
+ * from its back, and it covers as much of a wide cone as of a narrow one.
+ *
+ * Stability: experimental. */
 #ifndef LMB_VOXEL_H
 #define LMB_VOXEL_H
 
@@ -124,7 +126,7 @@ lmb_status lmb_voxels_init(lmb_voxels *out, uint32_t cap, int32_t fields, void *
 lmb_status lmb_voxels_build(lmb_voxels *inout, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth,
                             const lmb_voxel_part *parts, int32_t count);
 
-/* lmb_voxels_dark: set a field's light to 0, to inject other lights. */
+/* lmb_voxels_dark: set a field's light to 0, to inject other lights. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_voxels_dark(lmb_voxels *inout, int32_t field);
 
 /* lmb_voxels_inject: adds first points' flux to the leaves that they lie in.                              [M7 M10]
@@ -133,21 +135,17 @@ lmb_status lmb_voxels_dark(lmb_voxels *inout, int32_t field);
  *   texels  of a tree (lmb_tree_texels), all of its faces one after the other, or by hand; flux 0 is no first point
  *
  * Each adds its flux, as outgoing radiance x area, to the three directions that its normal faces. One without a leaf
- * there goes to a leaf beside it; where there is none its flux counts as lost. */
+ * there goes to a leaf beside it; where there is none its flux counts as lost. LMB_OK or
+ * LMB_ERR_ARG. */
 lmb_status lmb_voxels_inject(lmb_voxels *inout, int32_t field, const lmb_texel *texels, size_t count);
 
-/* lmb_voxels_filter: a field's light from the leaves upward: each voxel the mean of its eight.                [M13] */
+/* lmb_voxels_filter: a field's light from the leaves upward: each voxel the mean of its eight. LMB_OK or
+ * LMB_ERR_ARG. [M13] */
 lmb_status lmb_voxels_filter(lmb_voxels *inout, int32_t field);
 
-/* lmb_voxels_delta: with - without, of both filtered fields, exactly 0 where they are equal.             [M11 M12] */
+/* lmb_voxels_delta: with - without, of both filtered fields, exactly 0 where they are equal. LMB_OK or LMB_ERR_ARG.
+ *                                                                                                         [M11 M12] */
 lmb_status lmb_voxels_delta(lmb_voxels *inout);
-
-/* lmb_voxels_sum: a field's light over all leaves by direction, W: pi x radiance x area seen from there. Of a first
- * point it is flux x the part of the normal along each direction; so a filter may be checked, and an injection. */
-void lmb_voxels_sum(double out[6][3], const lmb_voxels *voxels, int32_t field);
-
-/* lmb_voxels_at: the voxel of `level` (0: leaves) at a place; 0: empty space. */
-uint32_t lmb_voxels_at(const lmb_voxels *voxels, lmb_vec3 at, int32_t level);
 
 /* lmb_cones_init: cones for one build's leaves; count: 7, 19 or 37. LMB_OK or LMB_ERR_ARG.                   [M21]
  * lmb_cone_width_init: the steps of cones whose half opening has this tangent, 0.01 .. 2. */
@@ -166,14 +164,15 @@ lmb_status lmb_cones_trace(lmb_cone_seen *out, const lmb_cone_trace *trace, cons
 /* lmb_cones_diffuse: add what all cones bring to a tile: irradiance, W/m2, by shading normals.           [M21 M22]
  *
  *   open  NULL, or the share of the cosine-weighted hemisphere that nothing covers, for each pixel: set
- * Pixels without a surface stay. Doubling all light doubles what is added. */
+ * Pixels without a surface stay. Doubling all light doubles what is added. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS], const lmb_cone_trace *trace,
                              const lmb_cones *cones, const lmb_tile *tile);
 
 /* lmb_cones_glossy: the radiance that one narrow cone sees along the mirrored view.                      [M20 M22]
  *
  *   eye    where the tile is seen from, m
- *   width  by lmb_cone_tangent of the roughness */
+ *   width  by lmb_cone_tangent of the roughness
+ * LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_cones_glossy(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width,
                             const lmb_tile *tile, lmb_vec3 eye);
 

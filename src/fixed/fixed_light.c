@@ -84,21 +84,6 @@ static uint32_t seen_of(const around *a, const uint32_t *seen)
     return sum;
 }
 
-int lmb_fixed_place(const lmb_fixed *scene, const int32_t position[3])
-{
-    around a;
-    if (scene == NULL || scene->valid == NULL || position == NULL) {
-        return 0;
-    }
-    for (int i = 0; i < 3; ++i) {
-        if (position[i] < -LMB_FIXED_REACH || position[i] > LMB_FIXED_REACH) {
-            return 0;
-        }
-    }
-    find_places(&a, scene, position);
-    return a.count > 0;
-}
-
 /* --- direct light ------------------------------------------------------------------------------------------------- */
 
 static void set_lamp(lamp_now *out, const lmb_fixed *s, const lmb_fixed_lamp *lamp)

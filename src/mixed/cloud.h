@@ -1,4 +1,4 @@
-/* cloud.h: reads one pixel of a cloud. Layer 6. */
+/* cloud.h: one pixel of a cloud, and those around it. Layer 6. */
 #ifndef LMB_MIXED_CLOUD_H
 #define LMB_MIXED_CLOUD_H
 
@@ -10,5 +10,11 @@ static inline int is_measured(const lmb_cloud *cloud, int32_t x, int32_t y)
     return cloud != NULL && cloud->inverse != NULL && x >= 0 && y >= 0 && x < cloud->camera.width &&
            y < cloud->camera.height && cloud->inverse[(size_t)y * (size_t)cloud->camera.width + (size_t)x] > 0.0f;
 }
+
+enum { NEAREST_CAP = 8 };
+
+/* Pixels (y x width + x) of the k points nearest in space to that of (x, y), the nearest first, of the 5 x 5 around; k up
+ * to NEAREST_CAP. Returns how many there are.                                                                 [M3] */
+int32_t lmb_cloud_nearest(int32_t *out, int32_t k, const lmb_cloud *cloud, int32_t x, int32_t y);
 
 #endif

@@ -1,4 +1,5 @@
 /* planes.c: planes in a cloud: grown from where neighbours face one way, fitted, joined. Layer 6.         [M3 M4] */
+#include "cloud.h"
 #include "planes.h"
 
 #include <string.h>

@@ -9,6 +9,7 @@
 #include "../frame/stages.h"
 #include "../frame/requires.h"
 #include "plan_model.h"
+#include "plan_sample.h"
 
 #if LMB_PLAN && LMB_TREES
 

@@ -172,12 +172,6 @@ static float share_of(const difference *d, double square)
     return (float)((double)sqrtf((float)(square / (0.99 * 3.0 * d->count))) / (d->mean / (3.0 * d->count)));
 }
 
-float lmb_tile_sample_error(const lmb_tile_sample *a, const lmb_tile_sample *b)
-{
-    difference d;
-    return compare(&d, a, b) ? share_of(&d, d.square) : 0.0f;
-}
-
 /* Of a place: the sum of its pixels' squares. */
 static double place_square(const difference *d, int32_t place)
 {
@@ -190,7 +184,7 @@ static double place_square(const difference *d, int32_t place)
     return sum;
 }
 
-float lmb_look_bound(const lmb_tile_sample *a, const lmb_tile_sample *b, float deviations)
+float lmb_tile_sample_error(const lmb_tile_sample *a, const lmb_tile_sample *b, float deviations)
 {
     difference d;
     if (!compare(&d, a, b) || d.places < MIN_PLACES) {

@@ -8,6 +8,9 @@
 
 #include "../frame/stages.h"
 
+/* Pairs and segments of all the frame's pixels by `facts`, for a frame's settings. */
+void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *frame);
+
 /* May a frame be looked at? NULL: no. */
 int lmb_can_sample(const lmb_render *r);
 

@@ -6,6 +6,10 @@
 
 #define LMB_WORLD_LOG2_10 3.32192809f
 
+/* The log code e of radiance c, and back. c is clamped to 0 .. 99.899, e to 0 .. 1. */
+float lmb_world_encode(float c);
+float lmb_world_decode(float e);
+
 /* RGB radiance and alpha of texel `at`. */
 void lmb_world_texel(float out[4], const lmb_world *world, size_t at);
 void lmb_world_put(const lmb_world *world, size_t at, const float rgba[4]);

@@ -32,22 +32,4 @@ lmb_status lmb_voxels_delta(lmb_voxels *v)
     return LMB_OK;
 }
 
-/* Leaves, and empty voxels that hold nothing. */
-void lmb_voxels_sum(double out[6][3], const lmb_voxels *v, int32_t field)
-{
-    for (int i = 0; i < 18 && out != NULL; ++i) {
-        out[i / 3][i % 3] = 0.0;
-    }
-    if (out == NULL || v == NULL || field < 0 || field > LMB_VOXEL_DELTA || v->light[field] == NULL) {
-        return;
-    }
-    const double scale = (double)LMB_PI * (double)v->leaf * (double)v->leaf;
-    for (uint32_t at = octree_base(OCTREE_FULL); at < v->count; ++at) {
-        const float *light = v->light[field] + (size_t)at * LMB_VOXEL_LIGHT;
-        for (int i = 0; i < 18 && v->child[at] == 0.0f; ++i) {
-            out[i / 3][i % 3] += scale * (double)light[4 * (i / 3) + i % 3];
-        }
-    }
-}
-
 #endif

@@ -40,6 +40,9 @@ static inline lmb_vec3 octree_place(const lmb_voxels *v, lmb_vec3 at)
 /* The voxel of a cell of 2^levels a side; a number under 8 where there is none. */
 uint32_t lmb_octree_find(const lmb_voxels *v, octree_cell c, int32_t levels);
 
+/* The voxel of `level` (0: leaves) at a place; 0: empty space. */
+uint32_t lmb_voxels_at(const lmb_voxels *v, lmb_vec3 at, int32_t level);
+
 /* The leaf of a cell, made where there is none; 0: the pool is full. */
 uint32_t lmb_octree_leaf(lmb_voxels *v, octree_cell c);
 

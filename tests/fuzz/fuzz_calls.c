@@ -106,7 +106,6 @@ static int64_t good_number(const argument *a)
         {"lmb_around_gather", "count", POOL_TEXELS},
         {"lmb_around_points", "cap", POOL_TEXELS},
         {"lmb_env_lights", "cap", POOL_LIGHTS},
-        {"lmb_point_grid_init", "count", POOL_PLACES},
         {"lmb_probe_cosine", "n", POOL_SMALL},
         {"lmb_probe_reflect", "n", POOL_SMALL},
         {"lmb_probe_cube_init", "n", POOL_SMALL},
@@ -176,12 +175,12 @@ static int64_t vouched(const argument *a, int64_t n)
         const char *call, *name;
         int64_t max;
     } all[] = {
-        {"lmb_point_grid_init", "count", POOL_PLACES}, {"lmb_many_lights_add", "count", POOL_LIGHTS},
+        {"lmb_many_lights_add", "count", POOL_LIGHTS},
         {"lmb_clusters_build", "count", POOL_CLUSTERS},
         {"lmb_env_lights", "cap", POOL_LIGHTS}, {"lmb_around_points", "cap", POOL_TEXELS},
         {"lmb_around_gather", "count", POOL_TEXELS}, {"lmb_voxels_inject", "count", POOL_TEXELS},
         {"lmb_voxels_build", "count", POOL_PARTS}, {"lmb_transfer_fingerprint", "count", POOL_PLACES},
-        {"lmb_point_grid_nearest", "k", POOL_PLACES}, {"lmb_polygon_factor", "corners", POOL_PLACES},
+        {"lmb_polygon_factor", "corners", POOL_PLACES},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
         if (calls_for(all[i].call) && is_named(a, all[i].name)) {

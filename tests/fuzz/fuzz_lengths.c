@@ -45,7 +45,6 @@ LENGTH(lmb_env_init, memory, lmb_env_bytes(W(1)))
 LENGTH(lmb_many_lights_init, memory, lmb_many_lights_bytes(U(1)))
 LENGTH(lmb_cloud_init, memory, a[1].memory ? lmb_cloud_bytes(S(1, lmb_pinhole)->width, S(1, lmb_pinhole)->height) : 0)
 LENGTH(lmb_cloud_init, depth_m, lmb_cloud_init_memory(a) / 4)
-LENGTH(lmb_point_grid_init, memory, lmb_point_grid_bytes(U(2)))
 LENGTH(lmb_planes_find, memory,
        a[1].memory ? lmb_planes_bytes(S(1, lmb_cloud)->camera.width, S(1, lmb_cloud)->camera.height) : 0)
 LENGTH(lmb_real_mesh_build, memory,
@@ -68,8 +67,6 @@ LENGTH(lmb_pack_part, bytes, sizeof(size_t))
 LENGTH(lmb_fixed_lay, memory, lmb_fixed_memory(a[1].memory, U(2)))
 LENGTH(lmb_tree_init, memory, lmb_tree_bytes(U(1), W(2)))
 LENGTH(lmb_voxels_init, memory, lmb_voxels_bytes(U(1), W(2)))
-LENGTH(lmb_cloud_nearest, out, within(W(1), LMB_NEAREST_CAP, 4))
-LENGTH(lmb_point_grid_nearest, out, within(W(1), POOL_PLACES, 4))
 LENGTH(lmb_env_fold, rgb, W(2) < 1 || W(3) < 1 || W(2) > 8192 || W(3) > 8192 ? 0 : 12 * (size_t)W(2) * (size_t)W(3))
 LENGTH(lmb_probe_remap, map, map_of(a[3].memory))
 LENGTH(lmb_probe_reduce, map, map_of(a[3].memory))
@@ -104,7 +101,6 @@ static const struct {
     IS(lmb_many_lights_init, memory),
     IS(lmb_cloud_init, memory),
     IS(lmb_cloud_init, depth_m),
-    IS(lmb_point_grid_init, memory),
     IS(lmb_planes_find, memory),
     IS(lmb_real_mesh_build, memory),
     IS(lmb_bvh_init, memory),
@@ -121,8 +117,6 @@ static const struct {
     IS(lmb_fixed_lay, memory),
     IS(lmb_tree_init, memory),
     IS(lmb_voxels_init, memory),
-    IS(lmb_cloud_nearest, out),
-    IS(lmb_point_grid_nearest, out),
     IS(lmb_env_fold, rgb),
     IS(lmb_probe_remap, map),
     IS(lmb_probe_reduce, map),
@@ -145,13 +139,10 @@ static const struct {
     {"lmb_shadow_map_init", "memory", shadow_map},
     {"lmb_fixed_look_at", "eye", any_place},
     {"lmb_fixed_look_at", "target", any_place},
-    {"lmb_fixed_place", "position", any_place},
     {"lmb_photo_view", "x0", any_int32_t},
     {"lmb_photo_view", "y0", any_int32_t},
     {"lmb_surface_diff", "x", any_int32_t},
     {"lmb_surface_diff", "y", any_int32_t},
-    {"lmb_facts_count", "pairs", any_double},
-    {"lmb_facts_count", "segments", any_double},
     {"lmb_render_progress", "name", any_double},
 };
 

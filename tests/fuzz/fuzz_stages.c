@@ -149,13 +149,11 @@ static void octahedral(source *b)
 static void small_helpers(source *b)
 {
     const float x = number(b), y = number(b), albedo = lmb_real_albedo(x, y), tangent = lmb_cone_tangent(x);
-    const float code = lmb_world_encode(x), back = lmb_world_decode(x);
     const int32_t side = lmb_probe_glossy_side(x), n = whole(b);
     const lmb_vec3 at = vector(b);
     const float noise = lmb_place_noise(at, y);
     fuzz_require(albedo >= LMB_ALBEDO_MIN && albedo <= LMB_ALBEDO_MAX);
     fuzz_require(tangent >= 0.0f && tangent <= 1.0f);
-    fuzz_require(code >= 0.0f && code <= 1.0f && back >= 0.0f && back <= 100.01f);
     fuzz_require(side == 0 || side == 8 || side == 16 || side == 64);
     fuzz_require(!b->plain || is_light(noise) || y < 0.0f);
     fuzz_require(lmb_why_name(n) && lmb_op_name(n) && lmb_plan_stage_name(n) && lmb_status_name((lmb_status)n));

@@ -1,7 +1,7 @@
 /* main_contact.c: what objects take from the ground and from each other by `lambent relight --contact`, against
  * path-traced pictures.
  *
- *     measure-contact FOLDER MAP...      pictures are left in FOLDER; each MAP is a sphere's picture, twice as wide as high
+ *     measure-contact FOLDER MAP      pictures are left in FOLDER; MAP is a sphere's picture, twice as wide as high
  *
  * A ball, a box and a ring, matte, stand on an endless matte ground under the upper half of a map. Truth: all light of up
  * to five reflections. Figures: the ground's change by the objects, RMSE over the root mean square of the true one, and
@@ -374,12 +374,10 @@ static void measure(stage *s, const char *folder, const char *file)
 int main(int argc, char **argv)
 {
     static stage s;
-    if (argc < 3 || !build(&s.scene) || !path_open(&s.tracer, &s.scene)) {
+    if (argc != 3 || !build(&s.scene) || !path_open(&s.tracer, &s.scene)) {
         return 2;
     }
-    for (int i = 2; i < argc; ++i) {
-        measure(&s, argv[1], argv[i]);
-    }
+    measure(&s, argv[1], argv[2]);
     path_close(&s.tracer);
     scene_drop(&s.scene);
     printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed, test_skipped);

@@ -15,6 +15,7 @@
 #include "../../tools/bench/bench_rates.h"
 #include "../../tools/picture/metrics.h"
 #include "../truth_scene.h"
+#include "../voxel_sum.h"
 
 int test_passed, test_failed, test_skipped;
 
@@ -171,7 +172,7 @@ static void check_energy(const work *w)
             want[2 * k + (n[k] < 0.0f)] += (double)t->flux[0] * fabs((double)n[k]);
         }
     }
-    lmb_voxels_sum(got, v, 0);
+    voxel_sum(got, v, 0);
     for (int k = 0; k < 6; ++k) {
         off = fmax(off, fabs(got[k][0] - want[k]));
         max = fmax(max, want[k]);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../src/base/half.h"
+#include "../../src/mixed/cloud.h"
 #include "../test.h"
 
 void test_mixed(void);
@@ -65,53 +66,9 @@ static float far2(lmb_vec3 a, lmb_vec3 b)
     return x * x + y * y + z * z;
 }
 
-/* Against all pairs: how many points are nearer than the answer's last, and how many answers are not. */
-static int is_right(const lmb_vec3 *points, uint32_t count, const uint32_t *found, int32_t k, lmb_vec3 at)
-{
-    uint32_t nearer = 0;
-    for (int32_t i = 1; i < k; ++i) {
-        if (far2(points[found[i]], at) < far2(points[found[i - 1]], at)) {
-            return 0;
-        }
-    }
-    for (uint32_t i = 0; i < count; ++i) {
-        nearer += far2(points[i], at) < far2(points[found[k - 1]], at);
-    }
-    return nearer <= (uint32_t)k - 1;
-}
-
-static void test_grid(void)
-{
-    enum { COUNT = 700 };
-    static lmb_vec3 points[COUNT];
-    static uint32_t memory[LMB_POINT_CELLS * LMB_POINT_CELLS * LMB_POINT_CELLS + 1 + COUNT];
-    uint32_t found[LMB_NEAREST_CAP];
-    lmb_point_grid grid;
-    test_rng rng = {5};
-    for (int i = 0; i < COUNT; ++i) { /* half of them in a lump */
-        const float wide = i % 2 == 0 ? 3.0f : 0.1f;
-        points[i] = (lmb_vec3){test_uniform(&rng, -wide, wide), test_uniform(&rng, -wide, wide),
-                               test_uniform(&rng, -wide, wide)};
-    }
-    CHECK(lmb_point_grid_init(&grid, points, COUNT, memory, sizeof memory) == LMB_OK && grid.count == COUNT);
-    for (int i = 0; i < 60; ++i) {
-        const float wide = i % 3 == 0 ? 9.0f : 2.0f; /* outside all cells too */
-        const lmb_vec3 at = {test_uniform(&rng, -wide, wide), test_uniform(&rng, -wide, wide), 0.1f};
-        const int32_t k = lmb_point_grid_nearest(found, 1 + i % LMB_NEAREST_CAP, &grid, at);
-        CHECK(k == 1 + i % LMB_NEAREST_CAP && is_right(points, COUNT, found, k, at));
-    }
-    CHECK(lmb_point_grid_init(&grid, points, COUNT, memory, sizeof memory - 1) == LMB_ERR_CAPACITY);
-    CHECK(lmb_point_grid_init(&grid, points, COUNT, (char *)memory + 1, sizeof memory) == LMB_ERR_ALIGN);
-    points[7].x = NAN;
-    CHECK(lmb_point_grid_init(&grid, points, 8, memory, sizeof memory) == LMB_OK && grid.count == 7);
-    CHECK(lmb_point_grid_nearest(found, 8, &grid, points[0]) == 7 && found[0] == 0);
-    CHECK(lmb_point_grid_init(&grid, points, 0, memory, sizeof memory) == LMB_OK);
-    CHECK(lmb_point_grid_nearest(found, 8, &grid, points[0]) == 0);
-}
-
 static void test_picture_neighbours(stage *s)
 {
-    int32_t found[LMB_NEAREST_CAP];
+    int32_t found[NEAREST_CAP];
     for (int i = 0; i < PIXELS; ++i) {
         s->depth[i] = i % WIDTH > 50 ? 1.0f : 2.0f;
     }
@@ -795,7 +752,6 @@ void test_mixed(void)
     }
     test_points(s);
     test_refusals(s);
-    test_grid();
     test_picture_neighbours(s);
     test_corner(s);
     test_place(s);

@@ -91,22 +91,22 @@ static void test_counts(void)
     CHECK(lmb_plan_frame(&plan, &render, NULL) == LMB_ERR_ARG); /* it has gone on */
     /* Errors of looks: none against itself; a tenth of each pixel is a tenth, or more where light is uneven. */
     twice = at;
-    CHECK(lmb_tile_sample_error(&twice, &at) == 0.0f);
+    CHECK(lmb_tile_sample_error(&twice, &at, 0.0f) == 0.0f);
     for (int i = 0; i < at.places * LMB_TILE_PIXELS; ++i) {
         for (int c = 0; c < 3; ++c) {
             twice.light[i][c] *= at.light[i][c] > 0.0f ? 1.1f : 1.0f;
         }
     }
-    const float error = lmb_tile_sample_error(&twice, &at);
+    const float error = lmb_tile_sample_error(&twice, &at, 0.0f);
     CHECK(error > 0.08f && error < 0.2f);
     /* A bound is over it, by how places differ; of few places, or of dark ones, there is none. */
-    CHECK(lmb_look_bound(&twice, &at, 0.0f) == error && lmb_look_bound(&twice, &at, 2.0f) > 1.02f * error);
+    CHECK(lmb_tile_sample_error(&twice, &at, 0.0f) == error && lmb_tile_sample_error(&twice, &at, 2.0f) > 1.02f * error);
     twice.places = 3;
-    CHECK(lmb_look_bound(&twice, &at, 1.0f) < 0.0f);
+    CHECK(lmb_tile_sample_error(&twice, &at, 1.0f) < 0.0f);
     memset(&twice, 0, sizeof twice);
     twice.tiles = 1;
     twice.places = at.places;
-    CHECK(lmb_look_bound(&at, &twice, 1.0f) < 0.0f && lmb_tile_sample_error(&at, &twice) == 0.0f);
+    CHECK(lmb_tile_sample_error(&at, &twice, 1.0f) < 0.0f);
     CHECK(lmb_render_sample(&twice, &render, &scratch, &places, 1.0) == LMB_OK && twice.places < at.places);
 }
 
@@ -127,8 +127,8 @@ static void test_sparse_sample(void)
     }
     CHECK(each.places == other_one.places && other_one.pairs < 0.9 * each.pairs && sum[0] > 0.0);
     CHECK_MSG(fabs(sum[1] / sum[0] - 1.0) < 0.02, "%g of it", sum[1] / sum[0]);
-    CHECK_MSG(lmb_tile_sample_error(&other_one, &each) > 0.0f && lmb_tile_sample_error(&other_one, &each) < 0.3f, "%g",
-              (double)lmb_tile_sample_error(&other_one, &each));
+    CHECK_MSG(lmb_tile_sample_error(&other_one, &each, 0.0f) > 0.0f && lmb_tile_sample_error(&other_one, &each, 0.0f) < 0.3f, "%g",
+              (double)lmb_tile_sample_error(&other_one, &each, 0.0f));
 }
 
 /* Later bounces, of what emits light the first too, lobes and what emits light: their operations and bytes; after the

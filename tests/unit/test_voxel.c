@@ -1,5 +1,6 @@
 /* test_voxel.c: what voxels keep of surfaces and light, and what cones may not do. [M6-M8 M11-M13 M20-M22] */
 #include "../lit_tree.h"
+#include "../voxel_sum.h"
 
 #include <stdlib.h>
 
@@ -160,7 +161,7 @@ static void light_is_whole(void)
     CHECK_MSG(flux > 0.0 && within(v.flux[0] + v.lost[0], flux, 1e-9) && v.lost[0] == 0.0, "%g of %g, %g lost",
               v.flux[0], flux, v.lost[0]);
     CHECK(lmb_voxels_filter(&v, 0) == LMB_OK);
-    lmb_voxels_sum(got, &v, 0);
+    voxel_sum(got, &v, 0);
     const double scale = PI * (double)v.leaf * (double)v.leaf * pow(8.0, (double)v.depth);
     for (int k = 0; k < 6; ++k) {
         const double root = (double)v.light[0][8 * LMB_VOXEL_LIGHT + 4 * k] * scale;

@@ -103,7 +103,6 @@ static struct {
     lmb_probe_lights lights;
     lmb_probe_cache cache;
     lmb_probe probe;
-    lmb_point_grid grid;
     lmb_survey survey;
     lmb_tile_sample query;
     lmb_groups groups;
@@ -214,8 +213,7 @@ static void make_photo(void)
 {
     float *depth = room(WIDE * HIGH * sizeof *depth);
     const size_t cloud = lmb_cloud_bytes(WIDE, HIGH), planes = lmb_planes_bytes(WIDE, HIGH),
-                 mesh = lmb_real_mesh_bytes(WIDE, HIGH, 4), env = lmb_env_bytes(SMALL),
-                 grid = lmb_point_grid_bytes(WIDE * HIGH);
+                 mesh = lmb_real_mesh_bytes(WIDE, HIGH, 4), env = lmb_env_bytes(SMALL);
     for (int i = 0; i < WIDE * HIGH; ++i) {
         depth[i] = i / WIDE < HIGH / 2 ? 3.0f : 3.0f * 60.0f / (60.0f + 2.0f * (float)(i / WIDE - HIGH / 2));
     }
@@ -224,7 +222,6 @@ static void make_photo(void)
     CHECK(lmb_planes_find(&g.planes, &g.cloud, room(planes), planes) == LMB_OK && g.planes.count > 1);
     CHECK(lmb_real_mesh_build(&g.mesh, &g.cloud, &g.planes, 4, &straight, room(mesh), mesh) == LMB_OK);
     CHECK(lmb_env_init(&g.env, SMALL, room(env), env) == LMB_OK);
-    CHECK(lmb_point_grid_init(&g.grid, g.cloud.normal, WIDE * HIGH, room(grid), grid) == LMB_OK);
 }
 
 static void make_voxels(void)
@@ -358,7 +355,7 @@ static int good_for_call(known *out, const argument *a)
         *out = (known){"void", g.transfer_file, g.transfer_bytes};
     } else if (calls_for("lmb_fixed_open")) {
         *out = (known){"void", fixed_file, sizeof fixed_file};
-    } else if (calls_for("lmb_fixed_look_at") || calls_for("lmb_fixed_place")) {
+    } else if (calls_for("lmb_fixed_look_at")) {
         *out = (known){"int32_t", fixed_places[strcmp(a->name, "target") == 0], sizeof fixed_places[0]};
     } else if (calls_for("lmb_pack_open")) {
         *out = (known){"void", g.pack_file, g.pack_bytes};
@@ -416,7 +413,6 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_pack", &g.pack, sizeof g.pack},
         {"lmb_pinhole", &camera, sizeof camera},
         {"lmb_planes", &g.planes, sizeof g.planes},
-        {"lmb_point_grid", &g.grid, sizeof g.grid},
         {"lmb_points", &g.points, sizeof g.points},
         {"lmb_probe_blur", &g.blur, sizeof g.blur},
         {"lmb_probe_cache", &g.cache, sizeof g.cache},
@@ -605,9 +601,6 @@ static void test_named(void)
     CHECK(lmb_env_fold(&g.env, rgb, WIDE, 1, &bent) == LMB_OK);
     bent.up.y = NAN;
     CHECK(lmb_env_fold(&g.env, rgb, WIDE, 1, &bent) == LMB_ERR_ARG);
-    int32_t near[LMB_NEAREST_CAP];
-    CHECK(lmb_cloud_nearest(near, 4, &g.cloud, WIDE / 2, HIGH / 2) == 4);
-    CHECK(lmb_cloud_nearest(near, 4, &g.cloud, -1, 0) == 0 && lmb_cloud_nearest(near, 4, &g.cloud, 0, HIGH) == 0);
     lmb_render none;
     memset(&none, 0, sizeof none);
     CHECK(lmb_render_step(&none, 1) == LMB_ERR_ARG && lmb_render_has_parts(&none) == 0);

@@ -1,4 +1,5 @@
 /* mix_light.c: the light around a photo: folded or a panorama's, lights given or guessed, and their maps. */
+#include "mix_around.h"
 #include "mix_frames.h"
 #include "mix_lobes.h"
 
@@ -220,6 +221,18 @@ static int draw_maps(mix_job *j, report *r)
     return memory != NULL;
 }
 
+/* The photo alone tells what is around; of a sequence its first one. */
+static int is_folded(const mix_job *j) { return j->o.world == NULL && (j->kept == NULL || j->kept->frames == 0); }
+
+static int has_lamps(const mix_job *j)
+{
+    int has_sun = 0;
+    for (int32_t i = 0; i < j->o.light_count; ++i) {
+        has_sun |= j->o.lights[i].kind == LMB_LIGHT_DIRECTIONAL;
+    }
+    return j->o.light_count > 0 && !has_sun;
+}
+
 int mix_light(mix_job *j, report *r)
 {
     if (!make_env(j, r) || !take_lights(j, r)) {
@@ -241,6 +254,8 @@ int mix_light(mix_job *j, report *r)
     j->light_count += j->lamp_count;
     j->scene.lights = j->lights;
     j->scene.light_count = (uint32_t)j->light_count;
-    return lmb_scene_check(&j->scene) == LMB_OK ? draw_maps(j, r)
-                                               : report_fail(r, "--light: numbers are out of range");
+    if (lmb_scene_check(&j->scene) != LMB_OK) {
+        return report_fail(r, "--light: numbers are out of range");
+    }
+    return draw_maps(j, r) && (!is_folded(j) || !has_lamps(j) || mix_around(j, r));
 }

@@ -15,7 +15,8 @@
 
 enum { LIGHTS = LMB_PROBE_TEXELS + LMB_PROBE_PEAKS };
 
-/* The world's light at a place from one direction: W/m2 across it, and less what its blockers reflect in its place. */
+/* The world's light at a place from one direction: W/m2 across it; and what blocks it reflects in its place,
+ * to a vertex and to the ground. */
 typedef struct far_light {
     lmb_vec3 to;
     float rgb[3], blocked[3], under[3];

@@ -176,7 +176,7 @@ static lmb_status traversal(looker *l)
         status = solve_rung(l, i);
         status = status != LMB_OK ? status : look_at(l, l->sample[1], i, can_check ? checks : goes_on * FOR_ITSELF);
         if (status == LMB_OK && can_check) {
-            const float bound = lmb_look_bound(l->sample[0], l->sample[1], deviations(l->sample[1]->places));
+            const float bound = lmb_tile_sample_error(l->sample[0], l->sample[1], deviations(l->sample[1]->places));
             l->facts->rung[i - 1].error = bound * off_over_next[i - 1];
         }
         lmb_tile_sample *other = l->sample[0];

@@ -9,6 +9,7 @@
 #include "../../../tools/common/io_file.h"
 #include "../../../tools/mix/mix_frames.h"
 #include "../../../tools/mix/mix_front.h"
+#include "../../../tools/mix/mix_around.h"
 #include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/picture/image.h"
 #include "../../../tools/relight/relight_contact.h"
@@ -203,6 +204,7 @@ void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 /* --- mix_lobes.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
 
 void mix_lobes_read(mix_job *j) { (void)j; }
+int mix_around(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 int32_t mix_lobes_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
 int mix_lobes_bounces(mix_job *j, report *r) { return (void)r, j->bounces = &j->scene, 1; }
 void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
