@@ -81,6 +81,7 @@ SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
 PATH_OBJ   := $(call object,tests/truth/main_path.c tests/truth/path.c $(SCENES_SRC))
 measure_fixed := platform/demo/room.c
 measure_rooms := tests/truth/path.c $(SCENES_SRC)
+measure_contact := tests/truth/path.c $(SCENES_SRC)
 # tests/measure/main_NAME.c and what is named NAME_*.c beside it: the program measure-NAME.
 MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
 measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c) $(measure_$(1))) \
@@ -440,7 +441,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
 .PHONY: faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
-    measure-simplify measure-capture measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
+    measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
     measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
@@ -569,6 +570,10 @@ measure-relight: $(B)/measure-relight ## objects lit by their world: errors and 
 
 measure-capture: $(TOOL) ## an object carried through Sponza by captured cubes against drawing it there (SIZE, FACES)
 	@$(IN_SH) tests/measure/capture.sh
+
+MAPS ?= $(addprefix ../shared/data/env/,forest_slope_512x256.hdr potsdamer_platz_512x256.hdr)
+measure-contact: $(B)/measure-contact ## objects on a ground under maps, against path-traced pictures (MAPS)
+	@mkdir -p $(B)/contact && for map in $(MAPS); do $(RUN) $(B)/measure-contact $(B)/contact $$map || exit 1; done
 
 measure-simplify: $(B)/measure-simplify ## what simpler meshes lose and add: distances, silhouettes, time
 	@$(RUN) $(B)/measure-simplify

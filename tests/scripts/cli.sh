@@ -493,6 +493,18 @@ for option in "--world-sphere 0,0,0,5" "--world-centre 0,1,0" "--ground-size 5,5
     check "the built-in world says that it lies where it lies: $option" grep -q 'lies where it lies' "$dir/err.txt"
 done
 status 2 relight --world demo --object demo
+# What objects take of the ground's light and their own: nothing gets brighter, the ground right below gets darker.
+printf 'v -1 0.5 -1\nv 1 0.5 -1\nv 1 0.5 1\nv -1 0.5 1\nf 1 2 3 4\n' >"$dir/table.obj"
+low="relight --world $dir/white.pfm --ground $dir/facepx.pfm --ground-size 40,40 --object $dir/table.obj --f0 0 --at 0,0.5,0 --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24"
+status 0 $low -o "$dir/bright.pfm"
+status 0 $low --contact -o "$dir/dark.pfm"
+check "the ground is darker below a table" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[89]"' sh "$TOOL" "$dir/dark.pfm" "$dir/bright.pfm"
+status 0 $low --contact --threads 1 --backend scalar -o "$dir/alike.pfm"
+check "a backend changes no contact" cmp "$dir/dark.pfm" "$dir/alike.pfm"
+printf '0,0.5,0\n3,0.5,0\n0,0.5,0\n' >"$dir/path.txt"
+status 0 relight --world "$dir/white.pfm" --ground "$dir/facepx.pfm" --ground-size 40,40 --object "$dir/table.obj" --f0 0 --contact --path "$dir/path.txt" --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24 -o "$dir/walk.pfm"
+check "contact goes with what moves" sh -c 'cmp "$1/walk-0000.pfm" "$1/walk-0002.pfm" && ! cmp -s "$1/walk-0000.pfm" "$1/walk-0001.pfm"' sh "$dir"
+status 0 relight --world "$dir/white.pfm" --object demo --contact --size 16x8 -o "$dir/field.png"
 # What a place of a scene sees, for relight: in a box that shines from within alike, any place receives pi.
 printf 'newmtl lamp\nKd 0 0 0\nKe 1 1 1\n' >"$dir/lamp.mtl"
 printf 'mtllib lamp.mtl\nusemtl lamp\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >"$dir/lamp.obj"

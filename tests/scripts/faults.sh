@@ -60,7 +60,7 @@ info tent.lmp -q
 play tent.obj --size 16x16 --shadow-map 64 --quality draft --frames 2 --threads 2 -q -o out/a%02d.png --stats out/a.json
 capture tent.obj --at 0,0.3,0 --faces 8 --samples 1 --shadow-map 64 --quality draft --threads 2 -q -o out/c.hdr --ground out/g.pfm
 relight --world cube.pfm --object tent.obj --size 24x16 --threads 2 -q --cube out/c.pfm -o out/a.png
-relight --world demo --object demo --path path.txt --size 16x16 --threads 1 -q -o out/a.ppm
+relight --world demo --object demo --contact --path path.txt --size 16x16 --threads 1 -q -o out/a.ppm
 relief bake tent.obj --size 16 --triangles 8 --views greedy:2 --threads 2 -q -o out/a.lmr
 relief bake tent.obj --size 16 --triangles 8 --views 2 --simple tent.obj --threads 1 -q -o out/a.lmr
 relief render tent.lmr --size 24x16 --shadow-map 64 --with floor.gltf --bounce --threads 2 -q -o out/a.png

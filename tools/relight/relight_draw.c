@@ -11,7 +11,7 @@
 #include "../common/progress.h"
 #include "../common/view_frame.h"
 #include "../picture/picture.h"
-#include "relight_figures.h"
+#include "relight_contact.h"
 #include "relight_path.h"
 
 enum { SHADOW_MAP = 512 };
@@ -36,6 +36,7 @@ typedef struct stage {
     lmb_shadow_map maps[RELIGHT_LIGHTS];
     void *map_memory[RELIGHT_LIGHTS], *depth_memory, *id_memory;
     lmb_relight relight;
+    contact contact;
     lmb_relight_scratch *scratch; /* by thread */
     int threads;
     lmb_surface out;
@@ -173,11 +174,25 @@ static lmb_status draw_sample(stage *s, float *pixels)
     for (int i = 0; i < s->threads; ++i) {
         status = status != LMB_OK ? status : s->failed[i];
     }
+    if (s->o->contact && status == LMB_OK && s->o->show != LMB_RELIGHT_GLOSSY) {
+        image drawn = s->picture;
+        drawn.pixels = pixels;
+        contact_darken(&drawn, &s->contact, &l->view, &l->eye.id);
+    }
     return status;
+}
+
+/* Pictures of one path may move the figure: what it takes goes with it. */
+static int touch(stage *s, report *r)
+{
+    return !s->o->contact || contact_make(&s->contact, &s->figures, s->light, s->o, r);
 }
 
 static int draw(stage *s, report *r)
 {
+    if (!touch(s, r)) {
+        return 0;
+    }
     const size_t numbers = 3 * (size_t)s->picture.width * (size_t)s->picture.height;
     const float weight = 1.0f / (float)s->samples;
     lmb_status status = LMB_OK;
@@ -372,6 +387,7 @@ static void stage_free(stage *s)
     free(s->depth_memory);
     free(s->id_memory);
     image_free(&s->picture);
+    contact_free(&s->contact);
     place_list_free(&s->path);
     figures_free(&s->figures);
     free(s);

@@ -27,7 +27,7 @@ typedef struct relight_options {
     int32_t at_count, keep_count;
     float scale_m;       /* of the object's longest side; 0: as its file says */
     float roughness, f0; /* < 0: its materials' own */
-    int per_part;
+    int per_part, contact;
     lmb_light lights[RELIGHT_LIGHTS];
     int32_t light_count;
     lmb_probe_policy policy;

@@ -12,7 +12,7 @@
 #include "../../../tools/mix/mix_around.h"
 #include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/picture/image.h"
-#include "../../../tools/relight/relight_light.h"
+#include "../../../tools/relight/relight_contact.h"
 #include "../../../tools/relight/relight_path.h"
 #include "../../../tools/render/render_slice.h"
 
@@ -135,7 +135,17 @@ int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_
     return png_encode(out, rgba, width, height, r);
 }
 
-/* --- relight_light.h, relight_path.h: a world is seen from one place, and objects stay where they are ------------------- */
+/* --- relight_*.h: a world is seen from one place, and objects stay where they are, and hide nothing -------------------- */
+
+int contact_make(contact *c, figures *f, relight_light *w, const relight_options *o, report *r)
+{
+    return (void)c, (void)f, (void)w, (void)o, report_fail(r, "--contact: not on the page");
+}
+void contact_darken(image *p, const contact *c, const lmb_view *v, const lmb_surface *id)
+{
+    (void)p, (void)c, (void)v, (void)id;
+}
+void contact_free(contact *c) { (void)c; }
 
 int place_list_read(place_list *out, const char *path, report *r)
 {
