@@ -69,7 +69,7 @@ typedef struct lmb_relief_how {
 
 /* Pixels so far, added up. */
 typedef struct lmb_relief_stats {
-    uint64_t pixels;  /* of the simple model */
+    uint64_t pixels;  /* of the simple model, with gaps of it that are mended */
     uint64_t hits;    /* show the complex surface */
     uint64_t missed;  /* whose ray misses the complex surface: cleared */
     uint64_t holes;   /* that no view shows: they keep the simple model's surface [P12] */
@@ -102,7 +102,8 @@ void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief);
  * A tile reads the views that see its simple surface best. At a point of the eye's ray each view gives the surface that
  * it shows there; the nearest of them says how far to go along the ray for the next lookup [P5]; texels beyond a jump
  * of depth do not count [P12]. When the point no longer moves, the best three views are blended. A point that some view
- * sees through is no surface.
+ * sees through is no surface. Between texels, a pixel that nothing around it in the tile explains (none there, a surface
+ * alone, another depth) takes the surface that most of those around it show: rays slip between two views' texels.
  * Returns LMB_OK or LMB_ERR_ARG. Cost: 64 pixels x views x steps, whatever the complex model had. */
 lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_kernels *kernels,
                            const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how);
@@ -115,6 +116,7 @@ void lmb_relief_nearer(lmb_tile *inout, const lmb_tile *other);
  * in lmb_shadow_map_rows, of a map that lmb_shadow_map_draw filled with the simple model: float depth becomes the
  * complex surface's.                                                                                               [P7]
  *   tile   scratch
+ * Its time is by warped texels, and texels finer than about 3/4 of the views' show no more.
  * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT (16-bit depth). */
 lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, lmb_tile *tile, const lmb_kernels *kernels,
                                   const lmb_relief *relief, const lmb_relief_how *how, int32_t first, int32_t past);
@@ -122,7 +124,8 @@ lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, lmb_tile *tile, con
 /* lmb_relief_lit: the pixels of a tile, a bit each, that nothing in such a map shadows: those of the relief itself
  * and of other surfaces alike.                                                                               [P8 P9]
  * A pixel is tested against the four texels around its position in the map: each against the pixel's own plane there,
- * with a margin of a texel for what that plane does not know. The majority of the four decides. */
+ * with a margin of a texel for what that plane does not know. The majority of the four decides; a pixel alone in what it is
+ * among three or more in the tile is as they are. */
 uint64_t lmb_relief_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile);
 
 #ifdef __cplusplus

@@ -10,6 +10,7 @@
 #include "../base/vec.h"
 #include "../map/part.h"
 #include "../raster/target.h"
+#include "mend.h"
 
 #if LMB_RELIEF
 
@@ -161,17 +162,33 @@ static int is_lit(const receiver *r)
     return lit >= 0.5f;
 }
 
+/* A pixel alone among three or more others, all lit or all not, is as they are: such a speck is a texel's edge, not an
+ * object's. */
+static uint64_t without_specks(uint64_t lit, uint64_t shown)
+{
+    uint64_t out = lit;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const uint64_t own = (uint64_t)1 << k, others = relief_beside(k) & shown;
+        const uint64_t same = (lit & own) != 0 ? lit & others : others & ~lit;
+        if ((shown & own) != 0 && count_bits_64(others) >= 3 && same == 0) {
+            out ^= own;
+        }
+    }
+    return out;
+}
+
 uint64_t lmb_relief_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile)
 {
-    uint64_t out = 0;
+    uint64_t out = 0, shown = 0;
     receiver r;
     const int is_given = map != NULL && light != NULL && tile != NULL;
     for (int k = 0; is_given && k < LMB_TILE_PIXELS; ++k) {
+        shown |= (uint64_t)(tile->id[k] != 0) << k;
         if (tile->id[k] != 0 && (!find_receiver(&r, map, light, tile, k) || is_lit(&r))) {
             out |= (uint64_t)1 << k;
         }
     }
-    return out;
+    return without_specks(out, shown);
 }
 
 #endif

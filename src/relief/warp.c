@@ -7,6 +7,7 @@
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "../raster/target.h"
+#include "mend.h"
 
 #if LMB_RELIEF
 
@@ -122,8 +123,8 @@ lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_k
         !is_how(how)) {
         return LMB_ERR_ARG;
     }
-    const int32_t pixels = inout->hits;
-    if (pixels == 0) {
+    uint64_t covered = 0;
+    if (inout->hits == 0) {
         return LMB_OK;
     }
     set_job(&job, relief, view, how);
@@ -134,11 +135,18 @@ lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_k
     if (job.count > 0) {
         kernels->relief_warp(&found, inout, &job);
     }
+    if (!job.as_is) {
+        relief_mend(inout, &found, &job, view);
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        covered |= (uint64_t)(inout->id[k] != 0) << k;
+    }
+    inout->hits = count_bits_64(covered);
     for (uint64_t bits = found.missed; bits != 0; bits &= bits - 1) {
         clear_pixel(inout, lowest_bit_64(bits));
     }
     if (stats != NULL) {
-        add_stats(stats, &found, pixels);
+        add_stats(stats, &found, count_bits_64(covered));
     }
     return LMB_OK;
 }

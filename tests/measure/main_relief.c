@@ -1,6 +1,6 @@
 /* main_relief.c: reliefs against the complex models that they stand for: errors, speed, memory. [P1-P12]
  *
- *     measure-relief [quality|own|rooms|causes|speed]...     all by default; a folder for pictures in LMB_PICTURES
+ *     measure-relief [quality|baroque|own|rooms|causes|speed]...     all by default; a folder for pictures in LMB_PICTURES
  *
  * Exit status 1 where a bar is passed. */
 #include <math.h>
@@ -191,7 +191,7 @@ static int wanted(const char *what, int argc, char **argv)
 int main(int argc, char **argv)
 {
     static const struct { const char *name; void (*run)(report *r); } parts[] = {
-        {"quality", relief_quality}, {"own", relief_own_views}, {"rooms", relief_rooms}, {"causes", relief_causes},
+        {"quality", relief_quality}, {"baroque", relief_baroque}, {"own", relief_own_views}, {"rooms", relief_rooms}, {"causes", relief_causes},
         {"speed", relief_speed}};
     report r = {""};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {

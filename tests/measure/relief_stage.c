@@ -54,19 +54,27 @@ static void paint(triangle_mesh *m, float diagonal)
     }
 }
 
-static void load(subject *s, const char *path, report *r)
+static void take(subject *s, const lmb_scene *scene, report *r)
 {
-    static model_notes notes;
-    if (!model_load(&s->loaded, path, NULL, &notes, r) || !relief_flatten(&s->mesh, &s->loaded.scene, r)) {
+    const lmb_vec3 low = scene->bounds_min, high = scene->bounds_max;
+    if (!relief_flatten(&s->mesh, scene, r)) {
         give_up(r);
     }
-    const lmb_vec3 low = s->loaded.scene.bounds_min, high = s->loaded.scene.bounds_max;
     s->middle = mul3(add3(low, high), 0.5f);
     s->diagonal = length3(sub3(high, low));
     paint(&s->mesh, s->diagonal);
     if (!relief_scene_of(&s->complex, &s->mesh, r)) {
         give_up(r);
     }
+}
+
+static void load(subject *s, const char *path, report *r)
+{
+    static model_notes notes;
+    if (!model_load(&s->loaded, path, NULL, &notes, r)) {
+        give_up(r);
+    }
+    take(s, &s->loaded.scene, r);
 }
 
 static void bake(subject *s, uint32_t triangles, report *r)
@@ -98,6 +106,30 @@ subject *subject_make(const statue *of, report *r)
         load(s, path, r);
         bake(s, of->triangles, r);
     }
+    return s;
+}
+
+subject *subject_of(const triangle_mesh *mesh, uint32_t triangles, report *r)
+{
+    static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    lmb_mesh m = {.positions = mesh->positions, .indices = mesh->indices, .index_format = LMB_INDEX_U32,
+                  .vertex_count = mesh->vertex_count, .triangle_count = mesh->triangle_count};
+    lmb_material paint_of = {.alpha = 1.0f, .roughness = 1.0f, .texture = -1};
+    lmb_instance at = {.first_id = 1};
+    lmb_scene scene = {.meshes = &m, .materials = &paint_of, .instances = &at, .mesh_count = 1, .material_count = 1,
+                       .instance_count = 1};
+    subject *s = calloc(1, sizeof *s);
+    if (s == NULL) {
+        report_fail(r, "not enough memory");
+        give_up(r);
+    }
+    memcpy(paint_of.albedo, white, sizeof paint_of.albedo);
+    for (int i = 0; i < 4; ++i) {
+        at.to_world.m[5 * i] = 1.0f;
+    }
+    lmb_scene_bounds(&scene.bounds_min, &scene.bounds_max, &scene);
+    take(s, &scene, r);
+    bake(s, triangles, r);
     return s;
 }
 

@@ -45,6 +45,9 @@ void relief_show(const char *name, float *rgb, int32_t width, int32_t height, re
 subject *subject_make(const statue *of, report *r);
 void subject_free(subject *s);
 
+/* subject_of: the same of a mesh's positions and indices, with smooth normals and a simple model of `triangles`. */
+subject *subject_of(const triangle_mesh *mesh, uint32_t triangles, report *r);
+
 /* subject_camera: number i of CAMERAS around a statue, and a sun over its shoulder. */
 lmb_view subject_camera(const subject *s, int i, int32_t side, lmb_light *sun);
 
@@ -54,5 +57,6 @@ void relief_speed(report *r);
 void relief_own_views(report *r); /* relief_own.c */
 void relief_rooms(report *r);     /* relief_rooms.c */
 void relief_causes(report *r);    /* relief_causes.c */
+void relief_baroque(report *r);   /* relief_baroque.c */
 
 #endif

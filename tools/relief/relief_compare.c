@@ -100,6 +100,45 @@ static double decibel(double sum, size_t n)
     return n == 0 ? -1.0 : sum > 0.0 ? 10.0 * log10(255.0 * 255.0 * 3.0 * (double)n / sum) : 99.0;
 }
 
+/* A colour of the pixel less one of those beside it, sRGB codes. */
+static int off(const relief_frame *f, const float *own, int32_t x, int32_t y, size_t c)
+{
+    return (int)lmb_srgb_encode(own[c]) -
+           (int)lmb_srgb_encode(f->rgb[3 * ((size_t)y * (size_t)f->width + (size_t)x) + c]);
+}
+
+int relief_isolated(const relief_frame *f, int32_t x, int32_t y)
+{
+    const float *own = f->rgb + 3 * ((size_t)y * (size_t)f->width + (size_t)x);
+    int above = 7, below = 7; /* colours, a bit each, that are so of all around */
+    for (int32_t k = 0; k < 9; ++k) {
+        const int32_t nx = x + k % 3 - 1, ny = y + k / 3 - 1;
+        if (k == 4 || nx < 0 || ny < 0 || nx >= f->width || ny >= f->height) {
+            continue;
+        }
+        for (size_t c = 0; c < 3; ++c) {
+            const int d = off(f, own, nx, ny, c);
+            above &= d < RELIEF_UNLIKE ? ~(1 << c) : 7;
+            below &= d > -RELIEF_UNLIKE ? ~(1 << c) : 7;
+        }
+    }
+    return (above | below) != 0;
+}
+
+/* Of the pixels that either covers. */
+static double share_isolated(const relief_frame *test, const relief_frame *truth)
+{
+    long long isolated = 0, all = 0;
+    for (int32_t i = 0; i < test->width * test->height; ++i) {
+        if (test->depth[i] > 0.0f || truth->depth[i] > 0.0f) {
+            const int32_t x = i % test->width, y = i / test->width;
+            ++all;
+            isolated += relief_isolated(test, x, y) && !relief_isolated(truth, x, y);
+        }
+    }
+    return all > 0 ? (double)isolated / (double)all : 0.0;
+}
+
 static void measure_pixels(relief_figures *out, float *depth, float *normal, const relief_frame *a,
                            const relief_frame *b, double diagonal)
 {
@@ -131,6 +170,7 @@ static void measure_pixels(relief_figures *out, float *depth, float *normal, con
     out->shadowed_db = decibel(rgb, n);
     out->albedo_db = decibel(albedo, n);
     out->lit = n > 0 ? (double)same / (double)n : -1.0;
+    out->isolated = share_isolated(a, b);
 }
 
 int relief_measure(relief_figures *out, const relief_frame *test, const relief_frame *truth, double diagonal,

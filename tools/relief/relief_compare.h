@@ -15,10 +15,16 @@ typedef struct relief_figures {
     double shadowed_db;     /* with them */
     double albedo_db;       /* of reflectance alone */
     double lit;             /* share of them whose light or shadow is the same */
+    double isolated;        /* share of pixels that stand out from all around them, and not in the truth */
 } relief_figures;
 
 /* relief_squared: the squared difference of two colours, sRGB codes, summed over R G B. */
 double relief_squared(const float *a, const float *b);
+
+/* relief_isolated: is a pixel of `rgb` brighter or darker than all eight around it, by RELIEF_UNLIKE sRGB codes in some
+ * colour? A picture that has such a pixel where the truth has none shows a speck. */
+enum { RELIEF_UNLIKE = 24 };
+int relief_isolated(const relief_frame *f, int32_t x, int32_t y);
 
 /* relief_measure: both of one size, one view, one light. 1, or 0 with `r` set (memory). */
 int relief_measure(relief_figures *out, const relief_frame *test, const relief_frame *truth, double diagonal,

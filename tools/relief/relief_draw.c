@@ -1,12 +1,14 @@
 /* relief_draw.c: pictures of a relief, of ordinary geometry, and of both together. [P1 P7 P11] */
 #include "relief_draw.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
 #include "../common/progress.h"
+#include "../../src/base/vec.h"
 #include "relief_bounce.h"
 
 /* One kind of geometry: what its pixels are resolved from, and its shadow map. */
@@ -70,16 +72,33 @@ static int take_layer(work *w, layer *l, report *r)
 
 /* --- the shadow map ---------------------------------------------------------------------------------------------- */
 
-/* Both maps are fitted to all that is there, so that a texel is the same size in both. */
+#define FINEST 0.75f /* of a view's texel */
+
+/* Texels a side of a layer's map. A relief's own needs none much finer than the coarsest of its views' texels, which
+ * show no more: what the light costs is warped texels. */
+static int32_t map_side(const work *w, const layer *l, const lmb_scene *bounds)
+{
+    const float across = length3(sub3(bounds->bounds_max, bounds->bounds_min));
+    float texel = 0.0f;
+    for (int32_t i = 0; l == &w->relief && i < w->shot->relief->views; ++i) {
+        const lmb_relief_view *v = &w->shot->relief->view[i];
+        texel = maxf(texel, v->perspective ? v->texel * v->near_m : v->texel);
+    }
+    const float wanted = texel > 0.0f ? ceilf(across / (8.0f * FINEST * texel)) * 8.0f : 1e9f;
+    return wanted < (float)w->shot->shadow_map ? maxi((int32_t)wanted, 8) : w->shot->shadow_map;
+}
+
+/* Both maps are fitted to all that is there. */
 static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
 {
     const relief_shot *s = w->shot;
-    const size_t bytes = lmb_shadow_map_bytes(lmb_shadow_map_faces(s->light, bounds), s->shadow_map, LMB_ID32);
+    const int32_t side = map_side(w, l, bounds);
+    const size_t bytes = lmb_shadow_map_bytes(lmb_shadow_map_faces(s->light, bounds), side, LMB_ID32);
     l->map_memory = take(w, bytes, r);
     if (l->map_memory == NULL) {
         return 0;
     }
-    lmb_status status = lmb_shadow_map_init(&l->map, s->light, bounds, s->shadow_map, LMB_ID32, l->map_memory, bytes);
+    lmb_status status = lmb_shadow_map_init(&l->map, s->light, bounds, side, LMB_ID32, l->map_memory, bytes);
     if (status == LMB_OK) {
         lmb_shadow_map_clear(&l->map);
         status = lmb_shadow_map_draw(&l->map, s->kernels, l->scene, 1, lmb_scene_triangles(l->scene), NULL);
@@ -91,19 +110,12 @@ static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
     return status == LMB_OK || report_fail(r, "--light: its map cannot be drawn: %s", lmb_status_name(status));
 }
 
-static float min(float a, float b) { return a < b ? a : b; }
-static float max(float a, float b) { return a > b ? a : b; }
-
 static int draw_maps(work *w, report *r)
 {
     lmb_scene bounds = w->plain.scene != NULL ? *w->plain.scene : w->simple;
     if (w->plain.scene != NULL && w->relief.scene != NULL) {
-        bounds.bounds_min.x = min(bounds.bounds_min.x, w->simple.bounds_min.x);
-        bounds.bounds_min.y = min(bounds.bounds_min.y, w->simple.bounds_min.y);
-        bounds.bounds_min.z = min(bounds.bounds_min.z, w->simple.bounds_min.z);
-        bounds.bounds_max.x = max(bounds.bounds_max.x, w->simple.bounds_max.x);
-        bounds.bounds_max.y = max(bounds.bounds_max.y, w->simple.bounds_max.y);
-        bounds.bounds_max.z = max(bounds.bounds_max.z, w->simple.bounds_max.z);
+        bounds.bounds_min = min3(bounds.bounds_min, w->simple.bounds_min);
+        bounds.bounds_max = max3(bounds.bounds_max, w->simple.bounds_max);
     }
     return (w->plain.scene == NULL || draw_map(w, &w->plain, &bounds, r)) &&
            (w->relief.scene == NULL || draw_map(w, &w->relief, &bounds, r));

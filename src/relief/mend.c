@@ -1,0 +1,188 @@
+/* mend.c: pixels of a warped tile that nothing around them explains. Layer 6.                                     [P12]
+ *
+ * Where a surface has a jump of depth that no view shows well, single rays slip between the texels of two views, or end
+ * on what another view shows elsewhere; a simple model has gaps of a pixel, too. A speck of one pixel is seen at once,
+ * though it is less wrong than an edge that lies a pixel off. So what all pixels around it show is believed more than
+ * the ray itself: its surface is that on which most of them would lie at this ray. */
+#include "mend.h"
+
+#include "../base/vec.h"
+#include "../raster/plane.h"
+
+#if LMB_RELIEF
+
+#define NEAR_BY 4.0f  /* pixels' sides of depth within which two pixels show one surface */
+#define EDGE_ON 0.05f /* cosine to the ray under which a plane tells no depth */
+
+enum { PASSES = 3 }; /* a pixel that was mended explains the next one */
+
+/* What the pixels around one show, as many as lie in the tile. */
+typedef struct around {
+    lmb_vec3 origin, along; /* the ray of the one in the middle, from the eye; `along` goes 1 m along the axis */
+    float same;             /* m of depth */
+    float depth[8];         /* m, of each one's plane at that ray */
+    int at[8];
+    int hits;               /* those that show something; they come first */
+} around;
+
+typedef struct mender {
+    lmb_tile *tile;
+    const lmb_relief_job *job;
+    lmb_rays rays;
+} mender;
+
+static lmb_vec3 get(float (*planes)[LMB_TILE_PIXELS], int k)
+{
+    return vec3(planes[0][k], planes[1][k], planes[2][k]);
+}
+
+static void put(float (*planes)[LMB_TILE_PIXELS], int k, lmb_vec3 v)
+{
+    planes[0][k] = v.x;
+    planes[1][k] = v.y;
+    planes[2][k] = v.z;
+}
+
+uint64_t relief_beside(int k)
+{
+    const int x = k % LMB_TILE, y = k / LMB_TILE;
+    const uint64_t row = x == 0 ? 3u : x == LMB_TILE - 1 ? 3u : 7u;
+    const uint64_t rows = (row | row << 8 | row << 16) << (x > 0 ? x - 1 : 0);
+    return (y == 0 ? rows >> 8 : rows << 8 * (y - 1)) & ~((uint64_t)1 << k);
+}
+
+/* How deep the plane of pixel k is at the ray; of one that is nearly along it, how deep the pixel is. */
+static float depth_at(const mender *m, const around *a, int k)
+{
+    const lmb_vec3 to = sub3(sub3(get(m->tile->position, k), m->job->eye), a->origin), n = get(m->tile->normal, k);
+    const float along = dot3(n, a->along), own = m->tile->depth[k];
+    return along < -EDGE_ON ? clampf(dot3(n, to) / along, own - a->same, own + a->same) : own;
+}
+
+static void look_around(around *out, const mender *m, uint64_t shown, int k)
+{
+    const lmb_rays *r = &m->rays;
+    const float x = (float)(k % LMB_TILE), y = (float)(k / LMB_TILE);
+    out->origin = add3(r->origin, add3(mul3(r->ox, x), mul3(r->oy, y)));
+    out->along = add3(r->direction, add3(mul3(r->rx, x), mul3(r->ry, y)));
+    out->hits = 0;
+    for (uint64_t bits = relief_beside(k) & shown; bits != 0; bits &= bits - 1) {
+        const int at = lowest_bit_64(bits);
+        out->same = NEAR_BY * m->job->pixel * (m->job->perspective ? m->tile->depth[at] : 1.0f);
+        out->at[out->hits] = at;
+        out->depth[out->hits++] = depth_at(m, out, at);
+    }
+}
+
+/* How many of them have a surface at a depth. */
+static int agree(const around *a, float depth)
+{
+    int n = 0;
+    for (int i = 0; i < a->hits; ++i) {
+        n += absf(a->depth[i] - depth) <= a->same;
+    }
+    return n;
+}
+
+/* Of the surfaces around the one that most show. */
+static int most_agree(const around *a)
+{
+    int max = 0;
+    for (int i = 0; i < a->hits; ++i) {
+        max = maxi(max, agree(a, a->depth[i]));
+    }
+    return max;
+}
+
+/* The mean of those that most of the others agree with. */
+static void take_surface(const mender *m, const around *a, int k)
+{
+    lmb_tile *t = m->tile;
+    lmb_vec3 normal = vec3(0.0f, 0.0f, 0.0f), albedo = normal;
+    float depth = 0.0f, n = 0.0f;
+    int best = 0;
+    for (int i = 1; i < a->hits; ++i) {
+        best = agree(a, a->depth[i]) > agree(a, a->depth[best]) ? i : best;
+    }
+    for (int i = 0; i < a->hits; ++i) {
+        if (absf(a->depth[i] - a->depth[best]) <= a->same) {
+            normal = add3(normal, get(t->normal, a->at[i]));
+            albedo = add3(albedo, get(t->albedo, a->at[i]));
+            depth += a->depth[i];
+            n += 1.0f;
+        }
+    }
+    depth = depth / n;
+    normal = normalize3(normal);
+    put(t->position, k, add3(m->job->eye, add3(a->origin, mul3(a->along, depth))));
+    put(t->face, k, normal);
+    put(t->normal, k, normal);
+    put(t->albedo, k, mul3(albedo, 1.0f / n));
+    t->depth[k] = depth;
+    t->id[k] = t->id[a->at[best]];
+}
+
+/* Are there two pixels of about the same depth beside it? One may be a speck as well. */
+static int has_equals(const mender *m, uint64_t beside, int k)
+{
+    const float own = m->tile->depth[k], same = NEAR_BY * m->job->pixel * (m->job->perspective ? own : 1.0f);
+    int found = 0;
+    for (; beside != 0 && found < 2; beside &= beside - 1) {
+        found += absf(m->tile->depth[lowest_bit_64(beside)] - own) <= same;
+    }
+    return found > 1;
+}
+
+/* Pixels of the tile that lie in the picture. */
+static uint64_t in_picture(const lmb_tile *t, const lmb_view *view)
+{
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        out |= (uint64_t)(t->x + k % LMB_TILE < view->frame_width && t->y + k / LMB_TILE < view->frame_height) << k;
+    }
+    return out;
+}
+
+/* One look at all pixels, by what the last one left. Returns whether one more shows something now. */
+static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
+{
+    const uint64_t hit = found->hit;
+    around a;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const uint64_t own = (uint64_t)1 << k, beside = relief_beside(k) & inside, shown = beside & hit;
+        const int pixels = count_bits_64(beside), hits = count_bits_64(shown), is_hit = (hit & own) != 0;
+        if ((inside & own) == 0) {
+            continue;
+        }
+        if (!is_hit && hits > 0 && hits + (pixels >= 5) >= pixels) {
+            look_around(&a, m, hit, k);
+            take_surface(m, &a, k);
+            found->hit |= own;
+            found->missed &= ~own;
+        } else if (m->tile->id[k] != 0 && hits == 0 && pixels >= 5) {
+            found->hit &= ~own;
+            found->missed |= own;
+        } else if (is_hit && hits > 2 && !has_equals(m, shown, k)) {
+            look_around(&a, m, hit, k);
+            if (most_agree(&a) > 2 + 2 * agree(&a, m->tile->depth[k])) {
+                take_surface(m, &a, k);
+            }
+        }
+    }
+    return (found->hit & ~hit) != 0;
+}
+
+void relief_mend(lmb_tile *inout, lmb_relief_found *found, const lmb_relief_job *job, const lmb_view *view)
+{
+    const uint64_t inside = in_picture(inout, view);
+    mender m;
+    int pass = found->hit != 0 ? 0 : PASSES;
+    m.tile = inout;
+    m.job = job;
+    lmb_resolve_rays(&m.rays, view, inout->x, inout->y);
+    while (pass < PASSES && mend_all(&m, found, inside)) {
+        ++pass;
+    }
+}
+
+#endif
