@@ -10,7 +10,10 @@
 #define NOISE    0.012f
 #define RELATIVE 0.01f
 
-enum { TWICE = 2 /* frames that must differ before a static camera believes them */ };
+enum {
+    TWICE = 2, /* frames that must differ before a static camera believes them */
+    FEW = 500  /* of so many pixels one may measure something else before all is found anew */
+};
 
 /* --- depth -------------------------------------------------------------------------------------------------------- */
 
@@ -44,7 +47,8 @@ static void keep_pixel(mix_kept *k, size_t i, float now)
     const float was = k->inverse[i];
     const int differs = was > 0.0f && now > 0.0f && !agree(was, now);
     k->differs[i] = (uint8_t)(differs ? k->differs[i] + 1 : 0);
-    if (!(was > 0.0f) || k->differs[i] >= TWICE) {
+    if ((!(was > 0.0f) && now > 0.0f) || k->differs[i] >= TWICE) {
+        ++k->changed;
         k->inverse[i] = now;
         k->differs[i] = 0;
     }
@@ -111,6 +115,7 @@ int mix_keep_depth(mix_kept *k, mix_frame *f, report *r)
 {
     const size_t pixels = (size_t)f->camera.width * (size_t)f->camera.height;
     if (!has_size(k, f)) {
+        k->changed = pixels;
         if (!take_depth(k, f, r)) {
             return 0;
         }
@@ -121,8 +126,11 @@ int mix_keep_depth(mix_kept *k, mix_frame *f, report *r)
         for (size_t i = 0; i < pixels; ++i) {
             keep_pixel(k, i, inverse_of(f->depth[i]));
         }
-    } else if (!merge_moved(k, f, r)) {
-        return 0;
+    } else {
+        k->changed = pixels;
+        if (!merge_moved(k, f, r)) {
+            return 0;
+        }
     }
     k->camera = f->camera;
     k->has_pose = f->has_pose;
@@ -131,6 +139,12 @@ int mix_keep_depth(mix_kept *k, mix_frame *f, report *r)
         f->depth[i] = k->inverse[i] > 0.0f ? 1.0f / k->inverse[i] : 0.0f;
     }
     return 1;
+}
+
+int mix_is_still(const mix_kept *k)
+{
+    const size_t pixels = (size_t)k->camera.width * (size_t)k->camera.height;
+    return k->last != NULL && k->last->answer != NULL && FEW * k->changed < pixels;
 }
 
 /* --- the object and its light ------------------------------------------------------------------------------------- */
@@ -147,6 +161,9 @@ int mix_keep(mix_kept *k, mix_job *j, report *r)
 
 void mix_kept_free(mix_kept *k)
 {
+    if (k->last != NULL) {
+        mix_job_free(k->last);
+    }
     model_free(&k->object);
     free(k->env_memory);
     free(k->inverse);
