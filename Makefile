@@ -407,7 +407,7 @@ $(B)/fault.so: tests/faults/fault.c
 faults: $(TOOL) $(B)/faults $(B)/fault.so ## each verb with its nth allocation, open, write, rename or thread failing
 	@SHIM='$(B)/fault.so' $(IN_SH) tests/scripts/faults.sh
 
-readme: $(LIB) ## the README's examples compile and run
+readme: $(LIB) $(TOOL) ## the README's examples compile and run
 	@$(IN_SH) tests/scripts/readme.sh
 
 package: $(TOOL) $(LIB) man $(PACKAGE_FILES) ## a program outside the tree, by pkg-config, CMake's find_package and add_subdirectory
@@ -416,6 +416,9 @@ package: $(TOOL) $(LIB) man $(PACKAGE_FILES) ## a program outside the tree, by p
 amalgam-check: amalgam $(LIB) $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) ## the two files by gcc, clang, g++, clang for Windows and tcc: golden pictures
 	+@AMALGAM=$(BUILD)/amalgam OBJ='$(filter-out $(LIB_OBJ),$(GOLDEN_OBJ))' GOLDEN_SRC='$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)' \
 	    $(IN_SH) tests/scripts/amalgam.sh
+
+amalgam-cost: amalgam $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) ## what the two files take beside the tree: ROM, instructions, seconds
+	@AMALGAM=$(BUILD)/amalgam OBJ='$(filter-out $(LIB_OBJ),$(GOLDEN_OBJ))' $(IN_SH) tests/scripts/amalgam_cost.sh
 
 examples: $(LIB) ## the programs of tests/examples compile, run and print what they should
 	@$(IN_SH) tests/scripts/examples.sh
@@ -434,7 +437,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: faults paths amalgam-check size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+.PHONY: faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-capture measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \

@@ -36,7 +36,8 @@ typedef struct lmb_resolve_batch {
     const lmb_instance *instance;
     const lmb_mesh *mesh;
     const lmb_material *material;
-    int32_t albedo_only;               /* of the pixels: uv and albedo, nothing else */
+    int16_t albedo_only;               /* of the pixels: uv and albedo, nothing else */
+    int16_t is_first;                  /* of the tile: old values of its planes count as 0 */
     int32_t count;                     /* slots in use; the others hold numbers */
     uint32_t id[LMB_SLOTS];
     int32_t slot[LMB_TILE_PIXELS];     /* of each pixel; -1: another's */
@@ -332,6 +333,8 @@ struct lmb_kernels {
      * which has all pixels of an id or none; returns the pixels that got one. */
     uint64_t (*resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left);
     void (*resolve_setup)(lmb_resolve_batch *inout);
+    /* The batch's pixels. Of a tile's first batch the others become 0, in every plane that is wanted, by kernels of
+     * LMB_TILE lanes or more. */
     void (*resolve)(lmb_tile *out, const lmb_resolve_batch *batch);
     /* The albedo of pixels that have a slot times the texture's finest level, nearest or bilinear. */
     void (*texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *texture);

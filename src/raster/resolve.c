@@ -48,9 +48,14 @@ int lmb_triangle_opaque(const lmb_triangle *t, const lmb_scene *scene, float b1,
     return lmb_resolve_opaque(&alpha, scene, b1, b2);
 }
 
+/* Kernels that are as wide as a tile write every pixel of its first batch: nothing is cleared before them. */
+enum { HAVE_WIDE = LMB_HAVE_AVX2 || LMB_HAVE_AVX512 };
+
+static int writes_all(const lmb_kernels *kernels) { return HAVE_WIDE && kernels->lanes >= LMB_TILE; }
+
 /* --- a tile ------------------------------------------------------------------------------------------------------- */
 
-/* Ids of the tile's pixels inside window and frame, the others' untouched. */
+/* Ids of the tile's pixels inside window and frame; the others' are 0, where they were not cleared before. */
 static void read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, const lmb_view *v, int32_t x, int32_t y)
 {
     const lmb_fill_tile t = lmb_target_tile(target, (x - target->x0) / LMB_TILE, (y - target->y0) / LMB_TILE);
@@ -59,6 +64,9 @@ static void read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, con
     if (t.id_format == LMB_ID32 && t.id_step == LMB_TILE && width == LMB_TILE && height == LMB_TILE) {
         memcpy(id, t.id, LMB_TILE_PIXELS * sizeof *id);
         return;
+    }
+    if (HAVE_WIDE) {
+        memset(id, 0, LMB_TILE_PIXELS * sizeof *id);
     }
     for (int32_t row = 0; row < height; ++row) {
         for (int32_t column = 0; column < width; ++column) {
@@ -206,15 +214,18 @@ static uint64_t resolve_some(lmb_tile *out, const lmb_kernels *kernels, const lm
     }
     kernels->resolve_setup(b);
     kernels->resolve(out, b);
+    if (HAVE_WIDE) {
+        b->is_first = 0;
+    }
     lmb_paint_tile(out, b, kernels, scene);
     return done;
 }
 
-/* From the first plane, or from albedo on. */
-static void clear_tile(lmb_tile *out, int albedo_only)
+/* From the first plane, or from albedo on, to `past`. */
+static void clear_to(lmb_tile *out, int albedo_only, size_t past)
 {
     const size_t from = albedo_only ? offsetof(lmb_tile, albedo) : 0;
-    memset((uint8_t *)out + from, 0, offsetof(lmb_tile, work) - from);
+    memset((uint8_t *)out + from, 0, past - from);
 }
 
 static lmb_status resolve(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
@@ -226,19 +237,29 @@ static lmb_status resolve(lmb_tile *out, const lmb_kernels *kernels, const lmb_v
         y % LMB_TILE != 0) {
         return LMB_ERR_ARG;
     }
-    clear_tile(out, albedo_only);
+    lmb_resolve_batch *batch = batch_of(out);
+    const int by_kernel = writes_all(kernels);
+    if (!by_kernel) {
+        clear_to(out, albedo_only, offsetof(lmb_tile, work));
+    }
     out->x = x;
     out->y = y;
+    if (by_kernel) {
+        out->hits = 0;
+        batch->is_first = 1;
+    }
     read_ids(out->id, target, view, x, y);
     uint64_t left = kernels->resolve_shown(out->id);
     if (left != 0) {
-        lmb_resolve_batch *batch = batch_of(out);
         lmb_resolve_rays(&batch->rays, view, x, y);
-        batch->albedo_only = albedo_only;
+        batch->albedo_only = (int16_t)albedo_only;
         while (left != 0) {
             left &= ~resolve_some(out, kernels, scene, left);
         }
         out->hits = count_bits_64(kernels->resolve_shown(out->id));
+    }
+    if (by_kernel && batch->is_first) {
+        clear_to(out, albedo_only, offsetof(lmb_tile, id));
     }
     return LMB_OK;
 }

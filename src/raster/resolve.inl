@@ -9,14 +9,6 @@
 
 /* --- slots -------------------------------------------------------------------------------------------------------- */
 
-/* Pixels k .. k + LANES - 1 with `id` take the slot; returns them. */
-LANE_INLINE uint32_t resolve_take(int32_t *slot, const uint32_t *id, int k, lanei wanted, lanei number)
-{
-    const lane_mask mine = lanei_equal(lanei_load((const int32_t *)id + k), wanted);
-    lanei_store(slot + k, lanei_pick(mine, number, lanei_load(slot + k)));
-    return mask_bits(mine);
-}
-
 /* Pixels whose id is not 0, a bit each. */
 static uint64_t KERNEL(resolve_shown)(const uint32_t id[LMB_TILE_PIXELS])
 {
@@ -40,8 +32,16 @@ LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id,
     return left & own;
 }
 
-/* `left` has all pixels of an id or none, so the search could start at the first of them. Comparing all four wide
- * vectors is faster than finding where to start. */
+#if LANES < LMB_TILE
+/* Pixels k .. k + LANES - 1 with `id` take the slot; returns them. */
+LANE_INLINE uint32_t resolve_take(int32_t *slot, const uint32_t *id, int k, lanei wanted, lanei number)
+{
+    const lane_mask mine = lanei_equal(lanei_load((const int32_t *)id + k), wanted);
+    lanei_store(slot + k, lanei_pick(mine, number, lanei_load(slot + k)));
+    return mask_bits(mine);
+}
+
+/* `left` has all pixels of an id or none, so the search starts at the first of them. */
 static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left)
 {
     uint64_t taken = 0;
@@ -55,7 +55,7 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
         const uint32_t next = id[first];
         const lanei wanted = lanei_splat((int32_t)next), number = lanei_splat(out->count);
         uint64_t mine = 0;
-        for (int k = LANES > LMB_TILE ? 0 : first & ~(LANES - 1); k < LMB_TILE_PIXELS; k += LANES) {
+        for (int k = first & ~(LANES - 1); k < LMB_TILE_PIXELS; k += LANES) {
             mine |= (uint64_t)resolve_take(out->slot, id, k, wanted, number) << k;
         }
         out->id[out->count++] = next;
@@ -64,6 +64,83 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
     }
     return taken;
 }
+#else
+/* Pixels k whose id pixel k - `back` has as well, a bit each. */
+LANE_INLINE uint64_t resolve_repeated(const uint32_t *id, int back)
+{
+    const int last = LMB_TILE_PIXELS - LANES - back; /* vectors may overlap: none leaves the tile */
+    uint64_t same = 0;
+    for (int from = 0; from < LMB_TILE_PIXELS - back; from += LANES) {
+        const int k = from < last ? from : last;
+        same |= (uint64_t)mask_bits(lanei_equal(lanei_load((const int32_t *)id + k),
+                                                lanei_load((const int32_t *)id + k + back)))
+                << (k + back);
+    }
+    return same;
+}
+
+/* Slots of a tile's quarter, in registers. */
+typedef struct resolve_quarter {
+    lanei slot[LMB_TILE_PIXELS / 4 / LANES];
+} resolve_quarter;
+
+/* Pixels k .. k + 15 with the id `wanted` take the slot; returns them. */
+LANE_INLINE uint64_t resolve_take(resolve_quarter *q, const uint32_t *id, int k, lanei wanted, lanei number)
+{
+    uint64_t mine = 0;
+    for (int i = 0; i < LMB_TILE_PIXELS / 4 / LANES; ++i) {
+        const lane_mask m = lanei_equal(lanei_load((const int32_t *)id + k + i * LANES), wanted);
+        q->slot[i] = lanei_pick(m, number, q->slot[i]);
+        mine |= (uint64_t)mask_bits(m) << (k + i * LANES);
+    }
+    return mine;
+}
+
+LANE_INLINE void resolve_quarter_store(int32_t *to, const resolve_quarter *q)
+{
+    for (int i = 0; i < LMB_TILE_PIXELS / 4 / LANES; ++i) {
+        lanei_store(to + i * LANES, q->slot[i]);
+    }
+}
+
+LANE_INLINE resolve_quarter resolve_no_slots(void)
+{
+    resolve_quarter q;
+    for (int i = 0; i < LMB_TILE_PIXELS / 4 / LANES; ++i) {
+        q.slot[i] = lanei_splat(-1);
+    }
+    return q;
+}
+
+/* The same slots in the same order. The first pixel of an id is among those whose id no neighbour before them has, and
+ * these are known at once: a processor looks for the next while the last one's pixels are still compared. */
+static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left)
+{
+    uint64_t taken = 0;
+    left = resolve_own(out, id, left);
+    resolve_quarter a = resolve_no_slots(), b = a, c = a, d = a;
+    int32_t count = 0;
+    uint64_t leads = left & ~(resolve_repeated(id, 1) | resolve_repeated(id, LMB_TILE - 1) |
+                              resolve_repeated(id, LMB_TILE) | resolve_repeated(id, LMB_TILE + 1));
+    for (; leads != 0 && count < LMB_SLOTS; leads &= leads - 1) {
+        const int first = lowest_bit_64(leads);
+        if ((taken >> first & 1u) != 0) {
+            continue;
+        }
+        const lanei wanted = lanei_splat((int32_t)id[first]), number = lanei_splat(count);
+        const uint64_t upper = resolve_take(&a, id, 0, wanted, number) | resolve_take(&b, id, 16, wanted, number);
+        const uint64_t lower = resolve_take(&c, id, 32, wanted, number) | resolve_take(&d, id, 48, wanted, number);
+        taken |= upper | lower;
+        out->id[count++] = id[first];
+    }
+    resolve_quarter_store(out->slot, &a);
+    resolve_quarter_store(out->slot + 16, &b);
+    resolve_quarter_store(out->slot + 32, &c);
+    resolve_quarter_store(out->slot + 48, &d);
+    out->count = count;
+    return taken;
+}
+#endif
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
@@ -244,16 +321,47 @@ LANE_INLINE lane3 resolve_affine(lmb_vec3 at, lmb_vec3 per_x, lmb_vec3 per_y, la
     return r;
 }
 
-LANE_INLINE void resolve_put(float *p, lane_mask mine, lane value)
+#if LANES < LMB_TILE
+/* Pixels of a vector that a batch sets. */
+typedef struct resolve_pixels {
+    lane_mask mine;
+} resolve_pixels;
+
+LANE_INLINE resolve_pixels resolve_pixels_of(lanei slot, int is_first)
 {
-    lane_store(p, lane_pick(mine, value, lane_load(p)));
+    const resolve_pixels r = {lanei_not_negative(slot)};
+    (void)is_first;
+    return r;
 }
 
-LANE_INLINE void resolve_put3(float (*p)[LMB_TILE_PIXELS], int k, lane_mask mine, lane3 v)
+LANE_INLINE void resolve_put(float *p, const resolve_pixels *which, lane value)
 {
-    resolve_put(p[0] + k, mine, v.x);
-    resolve_put(p[1] + k, mine, v.y);
-    resolve_put(p[2] + k, mine, v.z);
+    lane_store(p, lane_pick(which->mine, value, lane_load(p)));
+}
+#else
+/* Pixels of a vector: those that a batch sets, and those whose old values stay; the others become 0, which spares a tile
+ * being cleared. */
+typedef struct resolve_pixels {
+    lane_mask mine, stay;
+} resolve_pixels;
+
+LANE_INLINE resolve_pixels resolve_pixels_of(lanei slot, int is_first)
+{
+    const resolve_pixels r = {lanei_not_negative(slot), mask_of_bits(is_first ? 0u : ~0u)};
+    return r;
+}
+
+LANE_INLINE void resolve_put(float *p, const resolve_pixels *which, lane value)
+{
+    lane_store(p, lane_pick(which->mine, value, lane_keep(which->stay, lane_load(p))));
+}
+#endif
+
+LANE_INLINE void resolve_put3(float (*p)[LMB_TILE_PIXELS], int k, const resolve_pixels *which, lane3 v)
+{
+    resolve_put(p[0] + k, which, v.x);
+    resolve_put(p[1] + k, which, v.y);
+    resolve_put(p[2] + k, which, v.z);
 }
 
 LANE_INLINE lane3 resolve_lookup(const float (*p)[LMB_SLOTS], lanei slot)
@@ -294,7 +402,7 @@ LANE_PART lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place *
 
 /* What the triangle's colour is made of. */
 LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k, const resolve_place *at,
-                                lane_mask mine)
+                                const resolve_pixels *which)
 {
     for (int c = 0; c < 3; ++c) {
         lane albedo = lane_splat(b->material->albedo[c]);
@@ -302,15 +410,20 @@ LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k
             /* A mix of nothing and something may be rounded under nothing. */
             albedo = lane_max(lane_splat(0.0f), resolve_mix(b->albedo[0][c], b->albedo[1][c], b->albedo[2][c], at));
         }
-        resolve_put(out->albedo[c] + k, mine, albedo);
+        resolve_put(out->albedo[c] + k, which, albedo);
     }
     if (b->mesh->uvs != NULL) {
-        resolve_put(out->uv[0] + k, mine, resolve_mix(b->uv[0][0], b->uv[1][0], b->uv[2][0], at));
-        resolve_put(out->uv[1] + k, mine, resolve_mix(b->uv[0][1], b->uv[1][1], b->uv[2][1], at));
+        resolve_put(out->uv[0] + k, which, resolve_mix(b->uv[0][0], b->uv[1][0], b->uv[2][0], at));
+        resolve_put(out->uv[1] + k, which, resolve_mix(b->uv[0][1], b->uv[1][1], b->uv[2][1], at));
+#if LANES >= LMB_TILE
+    } else if (b->is_first) {
+        lane_store(out->uv[0] + k, lane_splat(0.0f));
+        lane_store(out->uv[1] + k, lane_splat(0.0f));
+#endif
     }
 }
 
-LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k, lanei slot, lane_mask mine)
+LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k, lanei slot, const resolve_pixels *which)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
     const lane x = lane_column(k), y = lane_row(k);
@@ -328,23 +441,24 @@ LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k
     at.slot = slot;
     at.b1 = lane_min(lane_max(lane3_dot(q, resolve_lookup(b->corner[1], slot)), zero), one);
     at.b2 = lane_min(lane_max(lane3_dot(q, resolve_lookup(b->corner[2], slot)), zero), lane_sub(one, at.b1));
-    resolve_colour(out, b, k, &at, mine);
+    resolve_colour(out, b, k, &at, which);
     if (!b->albedo_only) {
         const lane3 face = resolve_lookup(b->face, slot);
-        resolve_put(out->depth + k, mine, w);
-        resolve_put3(out->position, k, mine, lane3_add(p, lane3_of(b->rays.eye)));
-        resolve_put3(out->face, k, mine, face);
-        resolve_put3(out->normal, k, mine, b->mesh->normals != NULL ? resolve_normal(b, &at, face) : face);
+        resolve_put(out->depth + k, which, w);
+        resolve_put3(out->position, k, which, lane3_add(p, lane3_of(b->rays.eye)));
+        resolve_put3(out->face, k, which, face);
+        resolve_put3(out->normal, k, which, b->mesh->normals != NULL ? resolve_normal(b, &at, face) : face);
     }
 }
 
 static void KERNEL(resolve)(lmb_tile *out, const lmb_resolve_batch *batch)
 {
+    const int all = LANES >= LMB_TILE && batch->is_first;
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const lanei slot = lanei_load(batch->slot + k);
-        const lane_mask mine = lanei_not_negative(slot);
-        if (mask_bits(mine) != 0) {
-            resolve_vector(out, batch, k, lanei_max(slot, lanei_splat(0)), mine);
+        const resolve_pixels which = resolve_pixels_of(slot, all);
+        if (all || mask_bits(which.mine) != 0) {
+            resolve_vector(out, batch, k, lanei_max(slot, lanei_splat(0)), &which);
         }
     }
 }

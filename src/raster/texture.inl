@@ -116,6 +116,14 @@ LANE_INLINE lane3 texture_bilinear(const texture_found *f, int k)
     return texture_add(sum, f->texel[3] + k, lane_mul(fx, fy));
 }
 
+LANE_INLINE void texture_multiply(float (*albedo)[LMB_TILE_PIXELS], int k, lane_mask mine, lane3 texel)
+{
+    const lane x = lane_load(albedo[0] + k), y = lane_load(albedo[1] + k), z = lane_load(albedo[2] + k);
+    lane_store(albedo[0] + k, lane_pick(mine, lane_mul(x, texel.x), x));
+    lane_store(albedo[1] + k, lane_pick(mine, lane_mul(y, texel.y), y));
+    lane_store(albedo[2] + k, lane_pick(mine, lane_mul(z, texel.z), z));
+}
+
 /* Pixels first .. first + TEXTURE_RUN - 1. All their texels are asked for before one is decoded: one wait for what is
  * not in cache instead of one a vector. */
 NOINLINE void texture_run(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t, int first)
@@ -143,9 +151,7 @@ NOINLINE void texture_run(lmb_tile *inout, const lmb_resolve_batch *batch, const
         const lane_mask mine = lanei_not_negative(lanei_load(batch->slot + k));
         if (mask_bits(mine) != 0) {
             const lane3 texel = nearest ? texture_add(none, found.texel[0] + i, one) : texture_bilinear(&found, i);
-            resolve_put(inout->albedo[0] + k, mine, lane_mul(lane_load(inout->albedo[0] + k), texel.x));
-            resolve_put(inout->albedo[1] + k, mine, lane_mul(lane_load(inout->albedo[1] + k), texel.y));
-            resolve_put(inout->albedo[2] + k, mine, lane_mul(lane_load(inout->albedo[2] + k), texel.z));
+            texture_multiply(inout->albedo, k, mine, texel);
         }
     }
 }

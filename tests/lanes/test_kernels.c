@@ -337,6 +337,11 @@ static int trial_resolve(const trial *t, test_rng r)
             -(float)(test_random(&r) % 8u) * (batch.rays.rx.z = (float)(test_random(&r) % 2u) * 0.125f);
         batch.rays.ry.z = 0.0f;
     }
+    /* A tile's first batch: as if it had been cleared. */
+    batch.is_first = (int16_t)(t->kernels->lanes >= LMB_TILE && test_random(&r) % 2u);
+    if (batch.is_first) {
+        memset(&want.it, 0, offsetof(lmb_tile, id));
+    }
     lmb_kernels_scalar.resolve(&want.it, &batch);
     t->kernels->resolve(&got.it, &batch);
     CHECK(canaries_stay(got.before, got.after));

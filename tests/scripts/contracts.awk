@@ -71,7 +71,8 @@ function end_comment(    rest, list, n, i, title, before) {
 
 function sentence(s) {
     gsub(/ \.\. /, " to ", s)
-    sub(/(\. |\? |\.$|  ).*/, "", s)
+    sub(/\? .*/, "?", s)
+    sub(/(\. |\.$|  ).*/, "", s)
     sub(/[.:,]$/, "", s)
     return s
 }

@@ -1,6 +1,7 @@
-# readme.sh: the C examples of README.md compile without a warning against the library, and run.
+# readme.sh: the C examples of README.md and include/README.md compile without a warning against the library, and run.
 #
-# An example is the ```c block after a line `<!-- example: .../NAME.c -->`. CC FLAGS LIB LDLIBS B in the environment.
+# An example is the ```c block after a line `<!-- example: .../NAME.c -->`. That of baked light gets its scene by the
+# commands shown above it, and the rest of a program from readme_baked_main.c. CC FLAGS LIB TOOL LDLIBS B in the environment.
 . tests/scripts/checks.sh
 
 dir=$B/readme
@@ -10,7 +11,19 @@ awk -v dir="$dir" '
     /^<!-- example: [^ ]+ -->$/ { n = split($3, part, "/"); file = dir "/" part[n]; next }
     file && /^```c$/ { inside = 1; next }
     /^```$/ { inside = 0; file = "" }
-    inside { print > file }' README.md
+    inside { print > file }' README.md include/README.md
+
+baked=$dir/readme_baked
+check "include/README.md has its example" test -f "$baked.c"
+check "its scene" "$TOOL" pack demo -o "$dir/scene.lmp"
+check "its light" "$TOOL" bake "$dir/scene.lmp" -o "$dir/scene.lmt" --elements 256 --receivers 300 --cluster 0.6 --once -q
+check "both as C" "$TOOL" pack "$dir/scene.lmp" --transfer "$dir/scene.lmt" -o "$dir/room.c"
+echo 'uint64_t picture_hash(void); uint64_t picture_hash(void) { return lmb_surface_hash(&frame.out); }' >>"$baked.c"
+mkdir -p "$dir/baked"
+mv "$baked.c" "$dir/room.c" "$dir/baked"
+check "$baked compiles" $CC $FLAGS -Werror -o "$baked" "$dir"/baked/*.c \
+    tests/scripts/readme_baked_main.c "$LIB" $LDLIBS
+check "$baked runs" "$baked"
 
 for source in "$dir"/*.c; do
     if [ ! -f "$source" ]; then

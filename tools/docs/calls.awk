@@ -10,14 +10,18 @@ BEGIN {
 /^unknown / { next }
 $1 != header {
     header = $1
-    printf "\n## %s: %s\n\n| call | what it does | returns |\n|---|---|---|\n", $1, $2
+    printf "\n## %s: %s\n\n| call | what it does |\n|---|---|\n", $1, $2
 }
-{ printf "| %s() | %s | %s |\n", $3, escape($6), $4 == "lmb_status" ? $5 : escape($4) }
+{
+    gsub(/ /, ", ", $5)
+    printf "| %s() | %s%s *%s* |\n", $3, escape($6), $6 ~ /\?$/ ? "" : ".", $4 == "lmb_status" ? $5 : escape($4)
+}
 
 function escape(s) {
     gsub(/\\/, "\\\\", s)
     gsub(/&/, "\\&amp;", s)
     gsub(/</, "\\&lt;", s)
-    gsub(/[][*_#@%`~]/, "\\\\&", s)
+    gsub(/`/, "", s)
+    gsub(/[][*_#@%~]/, "\\\\&", s)
     return s
 }

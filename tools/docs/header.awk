@@ -37,7 +37,9 @@ BEGIN { first = 1 }
 inside {
     if ($0 ~ /\*\//) {
         inside = 0
-        print text($0) "</pre>" (trailing ? " */" : " */")
+        after = $0
+        sub(/^.*\*\//, "", after)    # an enum may end behind its last comment
+        print text($0) "</pre> */" after
         if (!trailing && !header) pending = 1
         header = 0
     } else print text($0)

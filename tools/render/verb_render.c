@@ -127,8 +127,12 @@ static void tell_how(const render_job *j)
 
 static void tell_demo(const render_job *j)
 {
-    report_say("%s: %d x %d, %u triangles, %u groups\n", j->o.out, (int)j->linear.width, (int)j->linear.height,
-           (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->stats.groups);
+    report_say("%s: %d x %d, %u triangles", j->o.out, (int)j->linear.width, (int)j->linear.height,
+           (unsigned)lmb_scene_triangles(&j->scene));
+    if (j->stats.groups > 0) {
+        report_say(", %u groups", (unsigned)j->stats.groups);
+    }
+    report_say("\n");
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
         report_say("  %-13s %8.1f ms\n", stage_name(j, i), j->workers.stage_s[i] * 1e3);
     }
