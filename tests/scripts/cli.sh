@@ -995,6 +995,9 @@ check "one frame is not believed" cmp "$dir/frames/o_00.pfm" "$dir/frames/n_01.p
 check "two are" sh -c '! cmp -s "$1" "$2"' sh "$dir/frames/o_00.pfm" "$dir/frames/n_02.pfm"
 status 0 mix --frames "$dir/frames/other.txt" $tent -o "$dir/frames/p_%02d.pfm"
 check "each frame has its own photo" sh -c '! cmp -s "$1" "$2"' sh "$dir/frames/o_00.pfm" "$dir/frames/p_01.pfm"
+# The twelve bytes of a pixel in the middle of the object: a photo half as bright lights it anew.
+on_object() { dd if="$1" bs=1 skip=3278 count=12 2>/dev/null | od -An -tx1; }
+check "a photo of another brightness has its own light" test "$(on_object "$dir/frames/o_00.pfm")" != "$(on_object "$dir/frames/p_01.pfm")"
 printf 'f0\nf4\n' >"$dir/frames/two.txt"
 status 0 mix --frames "$dir/frames/two.txt" $tent --threads 3 --backend scalar -o "$dir/frames/t_%02d.pfm"
 check "threads, backends and frames left out change no byte" cmp "$dir/frames/o_04.pfm" "$dir/frames/t_01.pfm"

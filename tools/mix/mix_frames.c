@@ -9,6 +9,7 @@
 /* Measures of one thing differ by less, 1/m and relatively: a Kinect's noise is 0.003 1/m. */
 #define NOISE    0.012f
 #define RELATIVE 0.01f
+#define ALIKE    0.05 /* how far a photo's mean may be off the one that the answer was found for */
 
 enum {
     TWICE = 2, /* frames that must differ before a static camera believes them */
@@ -141,10 +142,21 @@ int mix_keep_depth(mix_kept *k, mix_frame *f, report *r)
     return 1;
 }
 
-int mix_is_still(const mix_kept *k)
+double mix_brightness(const mix_frame *f)
+{
+    const size_t count = 3 * (size_t)f->light.width * (size_t)f->light.height;
+    double sum = 0;
+    for (size_t i = 0; i < count; ++i) {
+        sum += (double)f->light.pixels[i];
+    }
+    return sum / (double)count;
+}
+
+int mix_is_still(const mix_kept *k, double bright)
 {
     const size_t pixels = (size_t)k->camera.width * (size_t)k->camera.height;
-    return k->last != NULL && k->last->answer != NULL && FEW * k->changed < pixels;
+    return k->last != NULL && k->last->answer != NULL && FEW * k->changed < pixels &&
+           fabs(bright - k->bright) <= ALIKE * k->bright;
 }
 
 /* --- the object and its light ------------------------------------------------------------------------------------- */

@@ -210,7 +210,8 @@ static int mix_one(mix_job **job, mix_kept *k, const mix_entry *e, int32_t numbe
     if (!mix_keep_depth(k, &j->frame, r)) {
         return 0;
     }
-    if (mix_is_still(k)) {
+    const double bright = mix_brightness(&j->frame);
+    if (mix_is_still(k, bright)) {
         return mix_still(j, k->last, &from, number, r);
     }
     if (!mix_find_planes(j, r)) {
@@ -230,6 +231,7 @@ static int mix_one(mix_job **job, mix_kept *k, const mix_entry *e, int32_t numbe
     }
     *job = k->last; /* which nobody needs any more */
     k->last = j;
+    k->bright = bright;
     k->changed = 0;
     return 1;
 }
