@@ -24,6 +24,8 @@ typedef struct drawing {
     mix_lobes lobes;
     lmb_radiance light, photo;
     lmb_radiance bare; /* the photo before the object */
+    lmb_radiance over; /* the object's part of the pixels, and how much it covers of them */
+    float covered[LMB_TILE_PIXELS];
     lmb_cone_seen seen[2];
 } drawing;
 
@@ -179,36 +181,102 @@ static uint64_t put_sample(drawing *d, mix_job *j, const lmb_tile *real, int32_t
     return lmb_object_tile(&d->photo, &d->light, &d->object, &d->before, &j->cloud);
 }
 
-static void add_part(lmb_radiance *inout, const lmb_radiance *one, float weight)
+static void add_part(drawing *d, uint64_t shown, float weight)
 {
-    for (int c = 0; c < 3; ++c) {
-        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            inout->rgb[c][k] += weight * one->rgb[c][k];
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        for (int c = 0; c < 3 && (shown >> k & 1u) != 0; ++c) {
+            d->over.rgb[c][k] += weight * d->light.rgb[c][k];
+        }
+        d->covered[k] += (shown >> k & 1u) != 0 ? weight : 0.0f;
+    }
+}
+
+/* What nothing covers stays the photo's, bit for bit. */
+static float over_photo(float photo, float object, float covered)
+{
+    return covered > 0.0f ? object + (1.0f - covered) * photo : photo;
+}
+
+/* The mean of its samples over the photo. */
+static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real)
+{
+    uint64_t all = 0;
+    d->bare = d->photo;
+    memset(&d->over, 0, sizeof d->over);
+    memset(d->covered, 0, sizeof d->covered);
+    for (int32_t i = 0; i < d->samples; ++i) {
+        const uint64_t shown = put_sample(d, j, real, i);
+        add_part(d, shown, 1.0f / (float)d->samples);
+        all |= shown;
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        for (int c = 0; c < 3; ++c) {
+            d->photo.rgb[c][k] = over_photo(d->bare.rgb[c][k], d->over.rgb[c][k], d->covered[k]);
+        }
+    }
+    return all;
+}
+
+/* --- the same places again ---------------------------------------------------------------------------------------- */
+
+static void keep_answer(const drawing *d, mix_job *j, const lmb_tile *real, int32_t i)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS && j->answer != NULL; ++k) {
+        const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE;
+        mix_answer *a = &j->answer[(size_t)y * (size_t)j->picture.width + (size_t)x];
+        for (int c = 0; c < 3 && x < j->picture.width && y < j->picture.height; ++c) {
+            a->light[0][c] = real->id[k] != 0 ? d->batch.light[0][i].rgb[c][k] : 0.0f;
+            a->light[1][c] = real->id[k] != 0 ? d->batch.light[1][i].rgb[c][k] : 0.0f;
+            a->object[c] = d->over.rgb[c][k];
+            a->covered = d->covered[k];
         }
     }
 }
 
-/* The mean of its samples over the photo; what none of them covers stays the photo's, bit for bit. */
-static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real)
+/* As many pixels as a tile has, or the last ones. */
+static void draw_run(mix_job *j, size_t at, int32_t count)
 {
-    lmb_radiance mean;
-    uint64_t shown = 0;
-    if (d->samples == 1) {
-        return put_sample(d, j, real, 0);
-    }
-    d->bare = d->photo;
-    memset(&mean, 0, sizeof mean);
-    for (int32_t i = 0; i < d->samples; ++i) {
-        d->photo = d->bare;
-        shown |= put_sample(d, j, real, i);
-        add_part(&mean, &d->photo, 1.0f / (float)d->samples);
-    }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+    lmb_tile tile;
+    lmb_irradiance light[2];
+    lmb_radiance photo;
+    memset(tile.id, 0, sizeof tile.id);
+    memset(&light, 0, sizeof light);
+    memset(&photo, 0, sizeof photo);
+    for (int32_t k = 0; k < count; ++k) {
+        tile.id[k] = 1;
         for (int c = 0; c < 3; ++c) {
-            d->photo.rgb[c][k] = shown >> k & 1u ? mean.rgb[c][k] : d->bare.rgb[c][k];
+            light[0].rgb[c][k] = j->answer[at + (size_t)k].light[0][c];
+            light[1].rgb[c][k] = j->answer[at + (size_t)k].light[1][c];
+            photo.rgb[c][k] = j->frame.light.pixels[3 * (at + (size_t)k) + (size_t)c];
         }
     }
-    return shown;
+    lmb_delta_tile(&photo, &tile, &light[0], &light[1]);
+    for (int32_t k = 0; k < count; ++k) {
+        const mix_answer *a = &j->answer[at + (size_t)k];
+        for (int c = 0; c < 3; ++c) {
+            j->picture.pixels[3 * (at + (size_t)k) + (size_t)c] =
+                over_photo(photo.rgb[c][k], a->object[c], a->covered);
+        }
+    }
+}
+
+void mix_draw_again(mix_job *j)
+{
+    const size_t pixels = (size_t)j->picture.width * (size_t)j->picture.height;
+    for (size_t i = 0; i < pixels; i += LMB_TILE_PIXELS) {
+        draw_run(j, i, (int32_t)(pixels - i < LMB_TILE_PIXELS ? pixels - i : LMB_TILE_PIXELS));
+    }
+}
+
+/* A varnish mirrors light that each frame has of its own; differences are for measuring. */
+static int take_answer(mix_job *j, report *r)
+{
+    const size_t pixels = (size_t)j->frame.light.width * (size_t)j->frame.light.height;
+    if (j->kept == NULL || j->o.specular > 0.0f || j->o.show != MIX_FINAL) {
+        return 1;
+    }
+    j->answer = mix_take(j, pixels * sizeof *j->answer, r);
+    return j->answer != NULL;
 }
 
 static void draw_tile(drawing *d, mix_job *j, int32_t i)
@@ -222,7 +290,9 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
     if (is_varnished(j, real)) {
         mirror(d, j, real);
     }
-    choose(d, j, real, put_object(d, j, real));
+    const uint64_t shown = put_object(d, j, real);
+    keep_answer(d, j, real, i);
+    choose(d, j, real, shown);
     put_tile(&j->picture, &d->photo, real->x, real->y);
 }
 
@@ -295,7 +365,7 @@ static int take_rows(rows *out, mix_job *j, report *r)
 int mix_draw(mix_job *j, report *r)
 {
     rows all;
-    if (!find_front(j, r) || !take_rows(&all, j, r)) {
+    if (!take_answer(j, r) || !find_front(j, r) || !take_rows(&all, j, r)) {
         return 0;
     }
     pool_run(all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);

@@ -9,8 +9,12 @@
 /* Measures of one thing differ by less, 1/m and relatively: a Kinect's noise is 0.003 1/m. */
 #define NOISE    0.012f
 #define RELATIVE 0.01f
+#define ALIKE    0.05 /* how far a photo's mean may be off the one that the answer was found for */
 
-enum { TWICE = 2 /* frames that must differ before a static camera believes them */ };
+enum {
+    TWICE = 2, /* frames that must differ before a static camera believes them */
+    FEW = 500  /* of so many pixels one may measure something else before all is found anew */
+};
 
 /* --- depth -------------------------------------------------------------------------------------------------------- */
 
@@ -44,7 +48,8 @@ static void keep_pixel(mix_kept *k, size_t i, float now)
     const float was = k->inverse[i];
     const int differs = was > 0.0f && now > 0.0f && !agree(was, now);
     k->differs[i] = (uint8_t)(differs ? k->differs[i] + 1 : 0);
-    if (!(was > 0.0f) || k->differs[i] >= TWICE) {
+    if ((!(was > 0.0f) && now > 0.0f) || k->differs[i] >= TWICE) {
+        ++k->changed;
         k->inverse[i] = now;
         k->differs[i] = 0;
     }
@@ -111,6 +116,7 @@ int mix_keep_depth(mix_kept *k, mix_frame *f, report *r)
 {
     const size_t pixels = (size_t)f->camera.width * (size_t)f->camera.height;
     if (!has_size(k, f)) {
+        k->changed = pixels;
         if (!take_depth(k, f, r)) {
             return 0;
         }
@@ -121,8 +127,11 @@ int mix_keep_depth(mix_kept *k, mix_frame *f, report *r)
         for (size_t i = 0; i < pixels; ++i) {
             keep_pixel(k, i, inverse_of(f->depth[i]));
         }
-    } else if (!merge_moved(k, f, r)) {
-        return 0;
+    } else {
+        k->changed = pixels;
+        if (!merge_moved(k, f, r)) {
+            return 0;
+        }
     }
     k->camera = f->camera;
     k->has_pose = f->has_pose;
@@ -131,6 +140,23 @@ int mix_keep_depth(mix_kept *k, mix_frame *f, report *r)
         f->depth[i] = k->inverse[i] > 0.0f ? 1.0f / k->inverse[i] : 0.0f;
     }
     return 1;
+}
+
+double mix_brightness(const mix_frame *f)
+{
+    const size_t count = 3 * (size_t)f->light.width * (size_t)f->light.height;
+    double sum = 0;
+    for (size_t i = 0; i < count; ++i) {
+        sum += (double)f->light.pixels[i];
+    }
+    return sum / (double)count;
+}
+
+int mix_is_still(const mix_kept *k, double bright)
+{
+    const size_t pixels = (size_t)k->camera.width * (size_t)k->camera.height;
+    return k->last != NULL && k->last->answer != NULL && FEW * k->changed < pixels &&
+           fabs(bright - k->bright) <= ALIKE * k->bright;
 }
 
 /* --- the object and its light ------------------------------------------------------------------------------------- */
@@ -147,6 +173,9 @@ int mix_keep(mix_kept *k, mix_job *j, report *r)
 
 void mix_kept_free(mix_kept *k)
 {
+    if (k->last != NULL) {
+        mix_job_free(k->last);
+    }
     model_free(&k->object);
     free(k->env_memory);
     free(k->inverse);

@@ -22,6 +22,9 @@ typedef struct mix_kept {
     double pose[16];
     float *inverse;         /* 1/m, by pixel: 0 where nothing was ever measured */
     uint8_t *differs;       /* how many frames running measured something else */
+    size_t changed;         /* pixels whose depth has changed since `last` was drawn */
+    double bright;          /* the mean of the photo that `last` was drawn for */
+    mix_job *last;          /* the frame that was drawn last, with its answer; or NULL */
 } mix_kept;
 
 /* One frame of a list. */
@@ -49,6 +52,12 @@ int mix_keep_depth(mix_kept *k, mix_frame *frame, report *r);
 /* Parts of mix_keep. */
 void mix_keep_place(mix_kept *k, const mix_job *j);
 int mix_keep_light(mix_kept *k, const mix_job *j, report *r);
+
+/* mix_is_still: the camera has not moved since k->last was drawn, under one pixel in 500 measures something else, and the
+ * photo is as bright on the whole to a twentieth, so that no lamp was switched: what was found then stays.
+ * mix_brightness: the mean of a photo, linear. */
+int mix_is_still(const mix_kept *k, double bright);
+double mix_brightness(const mix_frame *f);
 
 /* mix_keep: after the first frame: where its object stands, and its light. */
 int mix_keep(mix_kept *k, mix_job *j, report *r);

@@ -11,6 +11,12 @@ enum { MIX_BLOCKS = 64, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */ };
 
 struct mix_kept;
 
+/* What a pixel of a picture holds besides the photo: light without and with the object; the object's radiance, as much of
+ * it as covers the pixel. */
+typedef struct mix_answer {
+    float light[2][3], object[3], covered;
+} mix_answer;
+
 /* mix_job_free releases what it points to. */
 typedef struct mix_job {
     mix_options o;
@@ -44,6 +50,7 @@ typedef struct mix_job {
     lmb_cones cones;
     lmb_cone_width glossy;
     lmb_cone_scratch *scratch;
+    mix_answer *answer;  /* of a sequence, by pixel; NULL: it is not kept */
     image picture;       /* linear */
     double read_s, planes_s, place_s, light_s, build_s, voxels_s, draw_s; /* build_s: of voxels_s */
     void *blocks[MIX_BLOCKS];
@@ -60,6 +67,9 @@ int mix_stand(mix_job *j, report *r);       /* of that: which plane, how large, 
 int mix_light(mix_job *j, report *r);       /* environment, lights and their maps */
 int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */
+
+/* mix_draw_again: the picture of another photo of the same places, by the answer that mix_draw has kept. */
+void mix_draw_again(mix_job *j);
 
 /* mix_guess_sun: a sun for a photo that is given no light: from the side, about where the surroundings are brightest, so
  * strong that its shadows are as dark as those in the photo. mix_sun_share: what such a sun gives the floor for each

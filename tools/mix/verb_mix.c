@@ -178,10 +178,25 @@ static int read_entry(mix_job *j, const mix_entry *e, report *r)
     return 1;
 }
 
-/* One frame: its picture is written, and what later frames need is kept. */
-static int mix_one(mix_job *j, mix_kept *k, const mix_entry *e, int32_t number, report *r)
+/* The last frame's answer to this one's photo. */
+static int mix_still(mix_job *j, mix_job *last, double *from, int32_t number, report *r)
 {
     char name[4200];
+    const mix_frame was = last->frame;
+    last->frame = j->frame;
+    j->frame = was;
+    mix_draw_again(last);
+    j->draw_s = lap(from);
+    tell_times(j);
+    return frame_name(name, sizeof name, j->o.out, number, r) &&
+           picture_write(name, &last->picture, exposure(last), PICTURE_CLIPPED, r);
+}
+
+/* One frame: its picture is written, and what later frames need is kept; of a frame that is drawn anew that is *job. */
+static int mix_one(mix_job **job, mix_kept *k, const mix_entry *e, int32_t number, report *r)
+{
+    char name[4200];
+    mix_job *j = *job;
     double from = host_seconds();
     j->kept = k;
     if (!read_entry(j, e, r)) {
@@ -192,7 +207,14 @@ static int mix_one(mix_job *j, mix_kept *k, const mix_entry *e, int32_t number, 
     }
     j->read_s = lap(&from);
     lmb_pinhole_round(&j->frame.camera);
-    if (!mix_keep_depth(k, &j->frame, r) || !mix_find_planes(j, r)) {
+    if (!mix_keep_depth(k, &j->frame, r)) {
+        return 0;
+    }
+    const double bright = mix_brightness(&j->frame);
+    if (mix_is_still(k, bright)) {
+        return mix_still(j, k->last, &from, number, r);
+    }
+    if (!mix_find_planes(j, r)) {
         return 0;
     }
     j->planes_s = lap(&from);
@@ -204,7 +226,14 @@ static int mix_one(mix_job *j, mix_kept *k, const mix_entry *e, int32_t number, 
         tell(j);
     }
     tell_times(j);
-    return j->o.object == NULL || mix_keep(k, j, r);
+    if (j->o.object != NULL && !mix_keep(k, j, r)) {
+        return 0;
+    }
+    *job = k->last; /* which nobody needs any more */
+    k->last = j;
+    k->bright = bright;
+    k->changed = 0;
+    return 1;
 }
 
 /* A frame that cannot be used is said and left out; the others go on as if it had not been listed. */
@@ -224,12 +253,14 @@ static int mix_frames(const mix_options *o, report *r)
             break;
         }
         j->o = *o;
-        const int ok = mix_one(j, &kept, &list.entry[i], i, &one);
+        const int ok = mix_one(&j, &kept, &list.entry[i], i, &one);
         done += ok;
         if (!ok) {
             report_note(o->is_quiet, "frame %d is left out: %s", (int)i, one.text);
         }
-        mix_job_free(j);
+        if (j != NULL) {
+            mix_job_free(j);
+        }
         progress_tell("frames", (double)(i + 1) / (double)list.count);
     }
     mix_kept_free(&kept);
