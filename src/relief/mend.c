@@ -43,7 +43,7 @@ static void put(float (*planes)[LMB_TILE_PIXELS], int k, lmb_vec3 v)
     planes[2][k] = v.z;
 }
 
-uint64_t relief_beside(int k)
+uint64_t lmb_relief_beside(int k)
 {
     const int x = k % LMB_TILE, y = k / LMB_TILE;
     const uint64_t row = x == 0 ? 3u : x == LMB_TILE - 1 ? 3u : 7u;
@@ -66,7 +66,7 @@ static void look_around(around *out, const mender *m, uint64_t shown, int k)
     out->origin = add3(r->origin, add3(mul3(r->ox, x), mul3(r->oy, y)));
     out->along = add3(r->direction, add3(mul3(r->rx, x), mul3(r->ry, y)));
     out->hits = 0;
-    for (uint64_t bits = relief_beside(k) & shown; bits != 0; bits &= bits - 1) {
+    for (uint64_t bits = lmb_relief_beside(k) & shown; bits != 0; bits &= bits - 1) {
         const int at = lowest_bit_64(bits);
         out->same = NEAR_BY * m->job->pixel * (m->job->perspective ? m->tile->depth[at] : 1.0f);
         out->at[out->hits] = at;
@@ -149,7 +149,7 @@ static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
     const uint64_t hit = found->hit;
     around a;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const uint64_t own = (uint64_t)1 << k, beside = relief_beside(k) & inside, shown = beside & hit;
+        const uint64_t own = (uint64_t)1 << k, beside = lmb_relief_beside(k) & inside, shown = beside & hit;
         const int pixels = count_bits_64(beside), hits = count_bits_64(shown), is_hit = (hit & own) != 0;
         if ((inside & own) == 0) {
             continue;
@@ -172,7 +172,7 @@ static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
     return (found->hit & ~hit) != 0;
 }
 
-void relief_mend(lmb_tile *inout, lmb_relief_found *found, const lmb_relief_job *job, const lmb_view *view)
+void lmb_relief_mend(lmb_tile *inout, lmb_relief_found *found, const lmb_relief_job *job, const lmb_view *view)
 {
     const uint64_t inside = in_picture(inout, view);
     mender m;

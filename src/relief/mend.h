@@ -6,11 +6,11 @@
 
 #include "../lane/kernels.h"
 
-/* relief_mend: after the kernel, before pixels that missed are cleared. `found` says afterwards what became of each; a
- * pixel that the simple model left out may be among those that hit. */
-void relief_mend(lmb_tile *inout, lmb_relief_found *found, const lmb_relief_job *job, const lmb_view *view);
+/* lmb_relief_mend: after the kernel, before pixels that missed are cleared. `found` says afterwards what became of
+ * each; a pixel that the simple model left out may be among those that hit. */
+void lmb_relief_mend(lmb_tile *inout, lmb_relief_found *found, const lmb_relief_job *job, const lmb_view *view);
 
-/* relief_beside: bits of the up to eight pixels of a tile around pixel k. */
-uint64_t relief_beside(int k);
+/* lmb_relief_beside: bits of the up to eight pixels of a tile around pixel k. */
+uint64_t lmb_relief_beside(int k);
 
 #endif

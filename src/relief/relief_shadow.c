@@ -168,7 +168,7 @@ static uint64_t without_specks(uint64_t lit, uint64_t shown)
 {
     uint64_t out = lit;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const uint64_t own = (uint64_t)1 << k, others = relief_beside(k) & shown;
+        const uint64_t own = (uint64_t)1 << k, others = lmb_relief_beside(k) & shown;
         const uint64_t same = (lit & own) != 0 ? lit & others : others & ~lit;
         if ((shown & own) != 0 && count_bits_64(others) >= 3 && same == 0) {
             out ^= own;

@@ -136,7 +136,7 @@ lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_k
         kernels->relief_warp(&found, inout, &job);
     }
     if (!job.as_is) {
-        relief_mend(inout, &found, &job, view);
+        lmb_relief_mend(inout, &found, &job, view);
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         covered |= (uint64_t)(inout->id[k] != 0) << k;
