@@ -83,6 +83,7 @@ if missing=$(sh tests/scripts/tools.sh need doxygen 2>&1); then
     grep 'lmb_[a-z0-9_]*()' "$BUILD"/docs/html/md_*_docs_calls.html | grep -v href= >"$dir/lost.txt"
     check "calls that have no place in the reference: $(grep -o 'lmb_[a-z0-9_]*()' "$dir/lost.txt" | head -5 | tr '\n' ' ')" \
         test ! -s "$dir/lost.txt"
+    check "few calls have links" test "$(grep -c '_8h.html#[^"]*">lmb_' "$BUILD"/docs/html/md_*_docs_calls.html)" -ge 200
     modules=$BUILD/web/modules
     if ! command -v node >/dev/null || ! command -v npm >/dev/null || [ ! -x "${CHROMIUM:-/usr/bin/chromium}" ]; then
         skip "the reference in a browser: needs node, npm and chromium"
