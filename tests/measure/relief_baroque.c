@@ -1,5 +1,5 @@
-/* relief_baroque.c: ornate shapes as reliefs: errors, specks, whole frames' times. Constants of the relief were chosen
- * on the first seed's shapes; the second's, turned and of other numbers, were held back. [P7 P12] */
+/* relief_baroque.c: ornate shapes as reliefs: errors, specks, whole frames' times. Each with two seeds; the second's
+ * shapes are turned and of other numbers. [P7 P12] */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
