@@ -1,4 +1,5 @@
 /* mix_draw.c: the photo's answer and the object over it, tile by tile. */
+#include "mix_again.h"
 #include "mix_cones.h"
 #include "mix_front.h"
 #include "mix_lobes.h"
@@ -191,12 +192,6 @@ static void add_part(drawing *d, uint64_t shown, float weight)
     }
 }
 
-/* What nothing covers stays the photo's, bit for bit. */
-static float over_photo(float photo, float object, float covered)
-{
-    return covered > 0.0f ? object + (1.0f - covered) * photo : photo;
-}
-
 /* The mean of its samples over the photo. */
 static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real)
 {
@@ -211,72 +206,10 @@ static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real)
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         for (int c = 0; c < 3; ++c) {
-            d->photo.rgb[c][k] = over_photo(d->bare.rgb[c][k], d->over.rgb[c][k], d->covered[k]);
+            d->photo.rgb[c][k] = mix_over(d->bare.rgb[c][k], d->over.rgb[c][k], d->covered[k]);
         }
     }
     return all;
-}
-
-/* --- the same places again ---------------------------------------------------------------------------------------- */
-
-static void keep_answer(const drawing *d, mix_job *j, const lmb_tile *real, int32_t i)
-{
-    for (int k = 0; k < LMB_TILE_PIXELS && j->answer != NULL; ++k) {
-        const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE;
-        mix_answer *a = &j->answer[(size_t)y * (size_t)j->picture.width + (size_t)x];
-        for (int c = 0; c < 3 && x < j->picture.width && y < j->picture.height; ++c) {
-            a->light[0][c] = real->id[k] != 0 ? d->batch.light[0][i].rgb[c][k] : 0.0f;
-            a->light[1][c] = real->id[k] != 0 ? d->batch.light[1][i].rgb[c][k] : 0.0f;
-            a->object[c] = d->over.rgb[c][k];
-            a->covered = d->covered[k];
-        }
-    }
-}
-
-/* As many pixels as a tile has, or the last ones. */
-static void draw_run(mix_job *j, size_t at, int32_t count)
-{
-    lmb_tile tile;
-    lmb_irradiance light[2];
-    lmb_radiance photo;
-    memset(tile.id, 0, sizeof tile.id);
-    memset(&light, 0, sizeof light);
-    memset(&photo, 0, sizeof photo);
-    for (int32_t k = 0; k < count; ++k) {
-        tile.id[k] = 1;
-        for (int c = 0; c < 3; ++c) {
-            light[0].rgb[c][k] = j->answer[at + (size_t)k].light[0][c];
-            light[1].rgb[c][k] = j->answer[at + (size_t)k].light[1][c];
-            photo.rgb[c][k] = j->frame.light.pixels[3 * (at + (size_t)k) + (size_t)c];
-        }
-    }
-    lmb_delta_tile(&photo, &tile, &light[0], &light[1]);
-    for (int32_t k = 0; k < count; ++k) {
-        const mix_answer *a = &j->answer[at + (size_t)k];
-        for (int c = 0; c < 3; ++c) {
-            j->picture.pixels[3 * (at + (size_t)k) + (size_t)c] =
-                over_photo(photo.rgb[c][k], a->object[c], a->covered);
-        }
-    }
-}
-
-void mix_draw_again(mix_job *j)
-{
-    const size_t pixels = (size_t)j->picture.width * (size_t)j->picture.height;
-    for (size_t i = 0; i < pixels; i += LMB_TILE_PIXELS) {
-        draw_run(j, i, (int32_t)(pixels - i < LMB_TILE_PIXELS ? pixels - i : LMB_TILE_PIXELS));
-    }
-}
-
-/* A varnish mirrors light that each frame has of its own; differences are for measuring. */
-static int take_answer(mix_job *j, report *r)
-{
-    const size_t pixels = (size_t)j->frame.light.width * (size_t)j->frame.light.height;
-    if (j->kept == NULL || j->o.specular > 0.0f || j->o.show != MIX_FINAL) {
-        return 1;
-    }
-    j->answer = mix_take(j, pixels * sizeof *j->answer, r);
-    return j->answer != NULL;
 }
 
 static void draw_tile(drawing *d, mix_job *j, int32_t i)
@@ -291,7 +224,7 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
         mirror(d, j, real);
     }
     const uint64_t shown = put_object(d, j, real);
-    keep_answer(d, j, real, i);
+    mix_again_keep(j, real, &d->batch.light[0][i], &d->batch.light[1][i], &d->over, d->covered);
     choose(d, j, real, shown);
     put_tile(&j->picture, &d->photo, real->x, real->y);
 }
@@ -365,7 +298,7 @@ static int take_rows(rows *out, mix_job *j, report *r)
 int mix_draw(mix_job *j, report *r)
 {
     rows all;
-    if (!take_answer(j, r) || !find_front(j, r) || !take_rows(&all, j, r)) {
+    if (!mix_again_take(j, r) || !find_front(j, r) || !take_rows(&all, j, r)) {
         return 0;
     }
     pool_run(all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);

@@ -68,9 +68,6 @@ int mix_light(mix_job *j, report *r);       /* environment, lights and their map
 int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */
 
-/* mix_draw_again: the picture of another photo of the same places, by the answer that mix_draw has kept. */
-void mix_draw_again(mix_job *j);
-
 /* mix_guess_sun: a sun for a photo that is given no light: from the side, about where the surroundings are brightest, so
  * strong that its shadows are as dark as those in the photo. mix_sun_share: what such a sun gives the floor for each
  * unit that comes from everywhere else: of the photo's planes, by two brightnesses that each of them has, above

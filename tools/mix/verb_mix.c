@@ -10,6 +10,7 @@
 #include "../common/progress.h"
 #include "../picture/picture.h"
 #include "../common/frame_name.h"
+#include "mix_again.h"
 #include "mix_frames.h"
 
 static void tell_place(const mix_job *j)
@@ -185,7 +186,7 @@ static int mix_still(mix_job *j, mix_job *last, double *from, int32_t number, re
     const mix_frame was = last->frame;
     last->frame = j->frame;
     j->frame = was;
-    mix_draw_again(last);
+    mix_again_draw(last);
     j->draw_s = lap(from);
     tell_times(j);
     return frame_name(name, sizeof name, j->o.out, number, r) &&

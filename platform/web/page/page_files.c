@@ -9,9 +9,11 @@
 #include "../../../tools/common/io_file.h"
 #include "../../../tools/mix/mix_frames.h"
 #include "../../../tools/mix/mix_front.h"
+#include "../../../tools/mix/mix_again.h"
 #include "../../../tools/mix/mix_around.h"
 #include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/picture/image.h"
+#include "../../../tools/relief/relief_compare.h"
 #include "../../../tools/relight/relight_contact.h"
 #include "../../../tools/relight/relight_path.h"
 #include "../../../tools/render/render_slice.h"
@@ -172,6 +174,14 @@ const lmb_world *relight_light_nearest(const relight_light *w, const relight_opt
     return (void)o, (void)at, w->world;
 }
 
+/* --- relief_compare.h: its reliefs have no model beside them -------------------------------------------------------------- */
+
+int relief_measure(relief_figures *out, const relief_frame *test, const relief_frame *truth, double diagonal,
+                   report *r)
+{
+    return (void)out, (void)test, (void)truth, (void)diagonal, report_fail(r, "--compare: not on the page");
+}
+
 /* --- area_light.h, mix_*.h: the page's lights have no size, and its depth is exact --------------------------------------- */
 
 void area_light(lmb_light *out, int32_t count, const lmb_light *from, float size)
@@ -199,6 +209,15 @@ void mix_list_free(mix_list *l) { (void)l; }
 int mix_keep_depth(mix_kept *k, mix_frame *f, report *r) { return (void)k, (void)f, (void)r, 0; }
 int mix_keep(mix_kept *k, mix_job *j, report *r) { return (void)k, (void)j, (void)r, 0; }
 void mix_kept_free(mix_kept *k) { (void)k; }
+int mix_is_still(const mix_kept *k, double bright) { return (void)k, (void)bright, 0; }
+double mix_brightness(const mix_frame *f) { return (void)f, 0; }
+int mix_again_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
+void mix_again_keep(mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with,
+                    const lmb_radiance *object, const float *covered)
+{
+    (void)j, (void)real, (void)without, (void)with, (void)object, (void)covered;
+}
+void mix_again_draw(mix_job *j) { (void)j; }
 void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 
 /* --- mix_lobes.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
