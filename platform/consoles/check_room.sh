@@ -61,7 +61,7 @@ rm -f "$out/room.txt" "$screen"
 check "it runs with buttons" $MAKE run BUILD="$folder" PORT="$port" PRESS="$press"
 held=$(sed -n 's/^held //p' "$out/room.txt" | tr '\n' ' ')
 host "$host/steered" "$held"
-last=$(ls "$host/steered" | grep frame_ | tail -n 1)
+last=$(ls "$host/steered" | grep frame_ | sort -t _ -k 2n | tail -n 1)
 check "buttons were held in some frames: $held" test -n "$held"
 check "they change the picture" sh -c "! cmp -s '$host/path/frame_59.ppm' '$host/steered/$last'"
 check "the screen then is the host's" is_shown "$host/steered/$last"
