@@ -92,7 +92,13 @@ static void cross_masked(const lmb_setup *s, int32_t x, int32_t y)
     static const lmb_scene scene = {0};
     lmb_fill_context context;
     lmb_fill_job job = any_job();
+    lmb_view view;
     masked_surface surface;
+    view.sample_x = any_between(-128, 127), view.sample_y = any_between(-128, 127);
+    surface.blends = any_between(0, 1);
+    surface.id = (uint32_t)any_between(1, 1 << 30);
+    surface.x = any_between(0, LMB_MAX_FRAME), surface.y = any_between(0, LMB_MAX_FRAME);
+    context.view = &view;
     const lmb_fill_tile tile = any_tile();
     context.scene = &scene;
     if (enter_tile(&job, s, x, y)) {

@@ -16,7 +16,7 @@ enum {
     STEP_MAX = 22528 /* 16383 in truth; Eva's ranges know nothing of each other */
 };
 
-/* What setup_transform's conversions are given is snap.c's question; here is what they give. Corner a's are those of a
+/* What setup_snap's conversions are given is snap.c's question; here is what they give. Corner a's are those of a
  * tile at a time, since b's is later made as a + (b - a). */
 static int asked, first_low[2];
 
@@ -108,20 +108,27 @@ static void ask_batch(const lmb_batch *b)
     }
 }
 
+static setup_corner any_snapped(const lmb_setup_job *job)
+{
+    const setup_point at = {{{any_float()}}, {{any_float()}}, {{any_float()}}, {{any_float()}}};
+    return setup_snap(job, &at, mask_of_bits(1));
+}
+
 int set_up(void)
 {
     const lmb_setup_job job = any_job();
-    setup_corners corners;
-    for (int i = 0; i < 9; ++i) {
-        corners.position[i / 3][i % 3][0] = any_float();
-    }
+    const lane_mask in = mask_of_bits(1), none = mask_of_bits(0);
+    const setup_sides sides = {in, none, {none, none, none, none, none}};
     /*@ loop unroll 100; */
     for (int cell = 0; cell < TILES * TILES; ++cell) {
         lmb_batch b = {0};
-        b.in = 1;
         asked = 0;
         first_low[0] = cell % TILES * 2048, first_low[1] = cell / TILES * 2048;
-        setup_lanes(&b, &job, &corners, 0);
+        setup_corner c[3];
+        c[0] = any_snapped(&job);
+        c[1] = any_snapped(&job);
+        c[2] = any_snapped(&job);
+        setup_triangles(&b, &job, &sides, in, &c[0], &c[1], &c[2], 0);
         if (b.small) {
             ask_batch(&b);
         }
