@@ -179,10 +179,12 @@ LANE_INLINE void parts_each(const fill_slopes *slopes, const lmb_fill_window *w,
         lower |= mask_bits(halves[1]) << k;
     }
     seen &= bits;
+#if LMB_CULLING
     if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
         parts_draw_each(&part, slopes, w, b, seen, p, ROWS_ALL, bounded);
         return;
     }
+#endif
     parts_draw_each(&part, slopes, w, b, seen & upper, p, ROWS_UPPER, 0);
     parts_draw_each(&part, slopes, w, b, seen & lower, p, ROWS_LOWER, 0);
     parts_draw_each(&part, slopes, w, b, seen & ~(upper | lower), p, ROWS_ALL, 0);
