@@ -1,7 +1,7 @@
 #!/bin/sh
-# parallel.sh: one picture or sequence on many machines, by GNU parallel over ssh.
+# parallel.sh: one picture, sequence or sweep on many machines, by GNU parallel over ssh.
 #
-#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play
+#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play, bench
 #
 # N: slices; two or more a machine let fast ones do more. HOSTS: as parallel's --sshlogin: host1,host2, where `:` is this
 # machine and 2/host1 runs two at once. LAMBENT: the command on all of them (default lambent). SEND: files to send there
@@ -26,4 +26,7 @@ done
 rm -f "$out".*of"$count"
 # shellcheck disable=SC2086 # words of `there` are words
 seq "$count" | parallel --quote --sshlogin "$hosts" --retries 3 $there "$lambent" "$@" --quiet --slice "{}/$count" || true
-exec "$lambent" merge "$out".*of"$count" -o "$out"
+[ "$1" = bench ] || exec "$lambent" merge "$out".*of"$count" -o "$out"
+for end in csv json html; do
+    "$lambent" merge "$out".*of"$count" -o "$out.$end"
+done
