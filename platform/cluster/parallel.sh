@@ -11,9 +11,10 @@ set -eu
 [ $# -ge 5 ] || { sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 2; }
 count=$1 hosts=$2
 shift 2
-out= previous=
+out= previous= quiet=--quiet
 for word in "$@"; do
     [ "$previous" != -o ] || out=$word
+    case $word in -q | --quiet | -v | --verbose) quiet= ;; esac
     previous=$word
 done
 [ -n "$out" ] || { echo "parallel.sh: no -o OUT" >&2; exit 2; }
@@ -24,8 +25,8 @@ for file in ${SEND:-}; do
     there="$there --basefile $file"
 done
 rm -f "$out".*of"$count"
-# shellcheck disable=SC2086 # words of `there` are words
-seq "$count" | parallel --quote --sshlogin "$hosts" --retries 3 $there "$lambent" "$@" --quiet --slice "{}/$count" || true
+# shellcheck disable=SC2086 # words of `there` are words, and quiet is one or none
+seq "$count" | parallel --quote --sshlogin "$hosts" --retries 3 $there "$lambent" "$@" $quiet --slice "{}/$count" || true
 [ "$1" = bench ] || exec "$lambent" merge "$out".*of"$count" -o "$out"
 for end in csv json html; do
     "$lambent" merge "$out".*of"$count" -o "$out.$end"
