@@ -161,6 +161,16 @@ LANE_INLINE void culled_large_crossed(const culled_row *r, large3 at, float *bou
     culled_cross(r->tile, r->job, r->t, e, &all, bound, kind);
 }
 
+/* The tile below is likely to be drawn soon, and lies far off in memory; there may be none. */
+LANE_INLINE void culled_soon(const culled_row *r)
+{
+    const uintptr_t below = (uintptr_t)r->tile->depth + (uintptr_t)(intptr_t)r->w->depth_row;
+    MESH_SOON((const void *)below);
+    MESH_SOON((const void *)(below + 64));
+    MESH_SOON((const void *)(below + 128));
+    MESH_SOON((const void *)(below + 192));
+}
+
 /* Tiles `some` of those from tx on, all inside all edges: no pixel of them stays farther than the plane's farthest. */
 LANE_INLINE void culled_large_run(const culled_row *r, const culled_tiles *tiles, const float *d, int32_t tx,
                                   uint32_t some, int kind)
@@ -176,6 +186,7 @@ LANE_INLINE void culled_large_run(const culled_row *r, const culled_tiles *tiles
     for (; some != 0; some &= some - 1) {
         const int i = lowest_bit(some);
         culled_set_tile(r->tile, r->w, tx + i, r->ty);
+        culled_soon(r);
         r->job->d = d[i];
         if (tiles->leaves >> i & 1u) {
             fill_inside(r->tile, r->job, r->t, 1);
@@ -211,6 +222,7 @@ LANE_INLINE void culled_large_tiles(const culled_row *r, const culled_tiles *til
         n = 1;
         if (tiles->seen >> i & 1u && !large_negative(large_add(at, r->edges->high))) {
             culled_set_tile(r->tile, r->w, tx + i, r->ty);
+            culled_soon(r);
             r->job->d = d[i];
             culled_large_crossed(r, at, culled_bound(r->w, tx + i, r->ty), kind);
         }
@@ -278,12 +290,28 @@ LANE_INLINE void culled_large_fill(const lmb_fill_window *w, const lmb_setup *s,
     }
 }
 
+/* Apart, as each has its own stack. */
+NOINLINE void culled_large_plain(const lmb_fill_window *w, const lmb_setup *s)
+{
+    culled_large_fill(w, s, 0, FILL_PLAIN);
+}
+
+NOINLINE void culled_large_id32(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
+{
+    culled_large_fill(w, s, id, FILL_ID32);
+}
+
+NOINLINE void culled_large_any(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
+{
+    culled_large_fill(w, s, id, FILL_ANY);
+}
+
 static void KERNEL(culled_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
     switch (fill_kind(&w->first)) {
-    case FILL_PLAIN: culled_large_fill(w, s, id, FILL_PLAIN); break;
-    case FILL_ID32: culled_large_fill(w, s, id, FILL_ID32); break;
-    default: culled_large_fill(w, s, id, FILL_ANY); break;
+    case FILL_PLAIN: culled_large_plain(w, s); break;
+    case FILL_ID32: culled_large_id32(w, s, id); break;
+    default: culled_large_any(w, s, id); break;
     }
 }
 #else
