@@ -120,6 +120,9 @@ lib: $(LIB)
 demo: $(TOOL) ## render the built-in scene to build/demo.png
 	@$(TOOL) render demo -o $(BUILD)/demo.png
 
+pictures: $(TOOL) ## the README's pictures of relight, relief and mix, drawn anew into build/default/pictures
+	@$(IN_SH) tests/scripts/pictures.sh
+
 man: $(TOOL) ## the man page, build/lambent.1, from the verbs' tables
 	@$(TOOL) help --man > $(BUILD)/lambent.1
 
@@ -439,7 +442,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+.PHONY: pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
