@@ -60,7 +60,7 @@ static inline float test_uniform(test_rng *r, float lo, float hi)
 }
 
 /* The fastest kernels here, asked for once: in a virtual machine each question takes as long as a small picture. */
-static inline const lmb_kernels *test_kernels(void)
+static inline const lmb_kernels *picked_kernels(void)
 {
     static const lmb_kernels *kernels;
     if (kernels == NULL) {
