@@ -26,6 +26,9 @@ typedef struct mix_job {
     lmb_cloud cloud;
     lmb_planes planes;
     lmb_real_mesh real;
+    float plane_albedo[LMB_MAX_PLANES][3]; /* means; set where the object has metal */
+    lmb_vec3 ball_at;                      /* likewise: a ball as large as its box */
+    float ball_radius;
     float *front;        /* 1/m, by pixel: what may hide the object; mix_front.h */
     lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
     lmb_mat4 from_world; /* to the scene's space */
