@@ -167,8 +167,74 @@ static void sun_stays(void)
     mix_kept_free(&k);
 }
 
+static int find_world(mix_job *j)
+{
+    report r = {""};
+    const int ok = mix_find_planes(j, &r) && mix_place(j, &r) && mix_light(j, &r) && mix_voxels(j, &r);
+    CHECK_MSG(ok, "%s", r.text);
+    return ok;
+}
+
+static int draw(mix_job *j)
+{
+    report r = {""};
+    const int ok = find_world(j) && mix_draw(j, &r);
+    CHECK_MSG(ok, "%s", r.text);
+    return ok;
+}
+
+/* The largest difference of light around over the largest light, and how many pixels both have. */
+static float apart(const mix_job *a, const mix_job *b, int *both)
+{
+    float far = 0.0f, max = 0.0f;
+    *both = 0;
+    for (int i = 0; i < PIXELS; ++i) {
+        if (a->carried[i].is_known && b->carried[i].is_known) {
+            ++*both;
+            far = fmaxf(far, fabsf(a->carried[i].rgb[1][0] - b->carried[i].rgb[1][0]));
+            max = fmaxf(max, a->carried[i].rgb[1][0]);
+        }
+    }
+    return far / max;
+}
+
+/* The camera moves: the first frame's voxels are traced on, with the cells that are out of the picture now, and light is
+ * carried to where it would be traced. A wall that comes near the object, and a lamp that is switched, end that. */
+static void one_world(void)
+{
+    mix_kept k;
+    report r = {""};
+    int both;
+    memset(&k, 0, sizeof k);
+    mix_job *a = job_at(0.0, &k), *b = job_at(0.05, &k), *c = job_at(0.05, &k), *d = job_at(0.05, &k);
+    if (draw(a) && mix_keep(&k, a, &r)) {
+        CHECK(a->world == a && a->old_cells == 0);
+        k.world = a;
+        CHECK(draw(b) && b->world == a && b->voxels.count == 0 && b->old_cells > 0 && b->old_cells < b->real.count / 4);
+        k.last = a;
+        CHECK(draw(c) && c->world == a);
+        const float off = apart(b, c, &both);
+        CHECK_MSG(off > 0.0f && off < 0.03f && both > PIXELS * 9 / 10, "%g at %d pixels", (double)off, both);
+        for (int i = 0; i < PIXELS; ++i) {
+            const int near = i % WIDTH > WIDTH * 5 / 8;
+            d->frame.depth[i] = near && d->frame.depth[i] > 1.4f ? 1.4f : d->frame.depth[i];
+        }
+        CHECK(find_world(d) && d->world == d && d->voxels.count > 0);
+        mix_job *e = job_at(0.05, &k);
+        k.is_other_light = 1;
+        CHECK(find_world(e) && e->world == e);
+        mix_job_free(e);
+    }
+    mix_job_free(d);
+    mix_job_free(c);
+    mix_job_free(b);
+    k.world = NULL; /* it is k.last, too */
+    mix_kept_free(&k);
+}
+
 void test_mix_frames(void)
 {
+    one_world();
     depth_stays();
     depth_moves();
     poses();

@@ -2,6 +2,8 @@
  * and objects that emit light, by lights at their surface. [M20 M25] */
 #include "mix_lobes.h"
 
+#include "mix_world.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -83,14 +85,16 @@ static float reflected(const lmb_glossy *lobes, int c, int k)
 /* The lobes of one roughness after the other, of those in `left`: most tiles have one. */
 static uint64_t see_one(mix_lobes *s, const mix_job *j, const lmb_view *view, const lmb_tile *object, uint64_t left)
 {
-    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch, 1};
+    const lmb_cone_trace trace = mix_trace(j, LMB_VOXEL_WITH);
+    lmb_tile room;
     int first = 0;
     while ((left >> first & 1u) == 0) {
         ++first;
     }
     const float alpha2 = s->lobes.alpha2[first];
-    if (lmb_cone_width_init(&s->width, &j->voxels, lmb_cone_tangent(sqrtf(sqrtf(alpha2)))) != LMB_OK ||
-        lmb_cones_glossy(&s->seen, &trace, &s->width, object, view->eye) != LMB_OK) {
+    if (lmb_cone_width_init(&s->width, trace.voxels, lmb_cone_tangent(sqrtf(sqrtf(alpha2)))) != LMB_OK ||
+        lmb_cones_glossy(&s->seen, &trace, &s->width, mix_tile_there(&room, j, object),
+                         mix_point_there(j, view->eye)) != LMB_OK) {
         return 0;
     }
     for (int k = first; k < LMB_TILE_PIXELS; ++k) {

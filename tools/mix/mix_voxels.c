@@ -1,5 +1,6 @@
 /* mix_voxels.c: the light that real surfaces and the object throw about, as voxels around the object. */
 #include "mix_lobes.h"
+#include "mix_world.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -406,7 +407,7 @@ static int light_voxels(mix_job *j, report *r)
 
 int mix_voxels(mix_job *j, report *r)
 {
-    if (j->object_triangles == 0) {
+    if (j->object_triangles == 0 || mix_world_stays(j)) {
         return 1;
     }
     if (!colour_real(j, r) || !mix_lobes_bounces(j, r)) {
@@ -417,5 +418,5 @@ int mix_voxels(mix_job *j, report *r)
         return 0;
     }
     j->build_s = host_seconds() - from;
-    return light_voxels(j, r);
+    return light_voxels(j, r) && mix_world_begins(j, r);
 }

@@ -9,9 +9,7 @@
 #include "../../platform/host/host.h"
 #include "../common/progress.h"
 #include "../picture/picture.h"
-#include "../common/frame_name.h"
-#include "mix_again.h"
-#include "mix_frames.h"
+#include "mix_run.h"
 
 static void tell_place(const mix_job *j)
 {
@@ -54,7 +52,7 @@ static void tell_size(const mix_job *j)
                 "part of the object is off the picture; --at X,Y sets its place and --scale its size");
 }
 
-static void tell(const mix_job *j)
+void mix_tell(const mix_job *j)
 {
     for (uint32_t i = 0; i < j->notes.count; ++i) { /* those of options that only `render` has are none of ours */
         report_note(j->o.is_quiet || strstr(j->notes.line[i], "--glossy") != NULL ||
@@ -68,7 +66,7 @@ static void tell(const mix_job *j)
     tell_size(j);
 }
 
-static void tell_times(const mix_job *j)
+void mix_tell_times(const mix_job *j)
 {
     const struct stage {
         const char *name;
@@ -80,7 +78,7 @@ static void tell_times(const mix_job *j)
     }
 }
 
-static float exposure(const mix_job *j)
+float mix_exposure(const mix_job *j)
 {
     if (!isnan(j->o.exposure_ev)) {
         return j->o.exposure_ev;
@@ -88,30 +86,29 @@ static float exposure(const mix_job *j)
     return j->frame.photo.codes.texels != NULL ? 0.0f : picture_auto_exposure(&j->frame.light, PICTURE_CLIPPED);
 }
 
-/* Seconds since *from, which becomes now. */
-static double lap(double *from)
+double mix_lap(double *from)
 {
     const double now = host_seconds(), was = *from;
     *from = now;
     return now - was;
 }
 
-static int make_picture(mix_job *j, double *from, report *r)
+int mix_make_picture(mix_job *j, double *from, report *r)
 {
     if (j->o.show == MIX_PLANES) {
         return mix_show_planes(j, r);
     }
     int ok = mix_place(j, r) && options_files(&j->o, &mix_table, r); /* with what the object's file has beside it */
-    j->place_s = lap(from);
+    j->place_s = mix_lap(from);
     ok = ok && mix_light(j, r);
-    j->light_s = lap(from);
+    j->light_s = mix_lap(from);
     if (j->o.show == MIX_ENV) {
         return ok && mix_show_env(j, r);
     }
     ok = ok && mix_voxels(j, r);
-    j->voxels_s = lap(from);
+    j->voxels_s = mix_lap(from);
     ok = ok && (j->o.show == MIX_VOXELS ? mix_show_voxels(j, r) : mix_draw(j, r));
-    j->draw_s = lap(from);
+    j->draw_s = mix_lap(from);
     return ok;
 }
 
@@ -142,131 +139,15 @@ static int mix(mix_job *j, report *r)
     double from = host_seconds();
     int ok = options_files(&j->o, &mix_table, r) && mix_frame_read(&j->frame, &j->o.source, r) &&
              options_files(&j->o, &mix_table, r);
-    j->read_s = lap(&from);
+    j->read_s = mix_lap(&from);
     ok = ok && mix_find_planes(j, r);
-    j->planes_s = lap(&from);
-    if (!ok || !make_picture(j, &from, r)) {
+    j->planes_s = mix_lap(&from);
+    if (!ok || !mix_make_picture(j, &from, r)) {
         return 0;
     }
-    tell(j);
-    tell_times(j);
-    return picture_write(j->o.out, &j->picture, exposure(j), PICTURE_CLIPPED, r) && (j->o.stats == NULL || write_stats(j, r));
-}
-
-/* --- sequences ---------------------------------------------------------------------------------------------------- */
-
-static int read_entry(mix_job *j, const mix_entry *e, report *r)
-{
-    mix_source *s = &j->o.source;
-    if (e->prefix[0] != '\0') {
-        s->frame = e->prefix;
-        return mix_frame_read(&j->frame, s, r);
-    }
-    s->photo = e->photo;
-    s->depth = e->depth;
-    s->depth_scale = s->depth_scale > 0.0f ? s->depth_scale : 0.0002f;
-    if (!s->has_intrinsics) {
-        return report_fail(r, "no camera given; add --intrinsics FX,FY,CX,CY");
-    }
-    if (!e->has_pose || !mix_is_pose(e->pose)) {
-        return report_fail(r, "has no pose");
-    }
-    if (!mix_frame_read(&j->frame, s, r)) {
-        return 0;
-    }
-    j->frame.has_pose = 1;
-    memcpy(j->frame.pose, e->pose, sizeof j->frame.pose);
-    return 1;
-}
-
-/* The last frame's answer to this one's photo. */
-static int mix_still(mix_job *j, mix_job *last, double *from, int32_t number, report *r)
-{
-    char name[4200];
-    const mix_frame was = last->frame;
-    last->frame = j->frame;
-    j->frame = was;
-    mix_again_draw(last);
-    j->draw_s = lap(from);
-    tell_times(j);
-    return frame_name(name, sizeof name, j->o.out, number, r) &&
-           picture_write(name, &last->picture, exposure(last), PICTURE_CLIPPED, r);
-}
-
-/* One frame: its picture is written, and what later frames need is kept; of a frame that is drawn anew that is *job. */
-static int mix_one(mix_job **job, mix_kept *k, const mix_entry *e, int32_t number, report *r)
-{
-    char name[4200];
-    mix_job *j = *job;
-    double from = host_seconds();
-    j->kept = k;
-    if (!read_entry(j, e, r)) {
-        return 0;
-    }
-    if (k->frames > 0 && k->has_pose != j->frame.has_pose) {
-        return report_fail(r, j->frame.has_pose ? "has a pose, and those before it have none" : "has no pose");
-    }
-    j->read_s = lap(&from);
-    lmb_pinhole_round(&j->frame.camera);
-    if (!mix_keep_depth(k, &j->frame, r)) {
-        return 0;
-    }
-    const double bright = mix_brightness(&j->frame);
-    if (mix_is_still(k, bright)) {
-        return mix_still(j, k->last, &from, number, r);
-    }
-    if (!mix_find_planes(j, r)) {
-        return 0;
-    }
-    j->planes_s = lap(&from);
-    if (!make_picture(j, &from, r) || !frame_name(name, sizeof name, j->o.out, number, r) ||
-        !picture_write(name, &j->picture, exposure(j), PICTURE_CLIPPED, r)) {
-        return 0;
-    }
-    if (k->frames == 0) {
-        tell(j);
-    }
-    tell_times(j);
-    if (j->o.object != NULL && !mix_keep(k, j, r)) {
-        return 0;
-    }
-    *job = k->last; /* which nobody needs any more */
-    k->last = j;
-    k->bright = bright;
-    k->changed = 0;
-    return 1;
-}
-
-/* A frame that cannot be used is said and left out; the others go on as if it had not been listed. */
-static int mix_frames(const mix_options *o, report *r)
-{
-    mix_list list;
-    mix_kept kept;
-    int32_t done = 0;
-    memset(&kept, 0, sizeof kept);
-    if (!mix_list_read(&list, o->frames, r)) {
-        return 0;
-    }
-    for (int32_t i = 0; i < list.count; ++i) {
-        report one = {""};
-        mix_job *j = calloc(1, sizeof *j);
-        if (j == NULL) {
-            break;
-        }
-        j->o = *o;
-        const int ok = mix_one(&j, &kept, &list.entry[i], i, &one);
-        done += ok;
-        if (!ok) {
-            report_note(o->is_quiet, "frame %d is left out: %s", (int)i, one.text);
-        }
-        if (j != NULL) {
-            mix_job_free(j);
-        }
-        progress_tell("frames", (double)(i + 1) / (double)list.count);
-    }
-    mix_kept_free(&kept);
-    mix_list_free(&list);
-    return done > 0 || report_fail(r, "%s: no frame could be used", o->frames);
+    mix_tell(j);
+    mix_tell_times(j);
+    return picture_write(j->o.out, &j->picture, mix_exposure(j), PICTURE_CLIPPED, r) && (j->o.stats == NULL || write_stats(j, r));
 }
 
 int verb_mix(int argc, char **argv)

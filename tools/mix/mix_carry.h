@@ -1,0 +1,26 @@
+/* mix_carry.h: light from around at a frame's pixels, kept for the next frame, which sees most of these places again. */
+#ifndef MIX_CARRY_H
+#define MIX_CARRY_H
+
+#include "mix_cones.h"
+
+/* mix_carry_take: memory for a frame of a sequence. 1, or 0 with `r` set. */
+int mix_carry_take(mix_job *j, report *r);
+
+/* mix_carry_get: light[0] and [1] of the pixels of a real tile that the frame before has seen, between its pixels.
+ * Returns which those are. Every sixteenth frame a tile knows nothing, so that what is carried does not blur, and
+ * follows the voxels. mix_carry_put: a tile's, for the next frame. */
+uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real);
+void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with);
+
+/* What samples of a tile's pixels have found so far. */
+typedef struct mix_near {
+    lmb_tile tile;  /* position, normal; id 0: nothing yet */
+    lmb_tile asked; /* scratch */
+    lmb_irradiance light;
+} mix_near;
+
+/* mix_cones_near: as mix_cones_tile, but what lies beside what another sample of its pixel has found takes that. */
+void mix_cones_near(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, mix_near *near);
+
+#endif
