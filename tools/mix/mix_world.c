@@ -176,6 +176,35 @@ static int is_known(const mix_job *w, lmb_vec3 p)
     return 0;
 }
 
+static lmb_vec3 between(lmb_vec3 a, lmb_vec3 b, float t)
+{
+    const lmb_vec3 out = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
+    return out;
+}
+
+static float distance(lmb_vec3 a, lmb_vec3 b)
+{
+    const lmb_vec3 d = {a.x - b.x, a.y - b.y, a.z - b.z};
+    return sqrtf(along(d, d));
+}
+
+/* By points no farther apart than the cube's cells. */
+static void mark_cell(mix_job *j, const float *at)
+{
+    const float side = j->voxels.leaf * (float)(1 << j->voxels.depth) / (float)MIX_SEEN;
+    const float wide = fmaxf(distance(corner(at, 0), corner(at, 1)), distance(corner(at, 0), corner(at, 3)));
+    const int n = (int)fminf(wide / side, (float)MIX_SEEN) + 1;
+    for (int i = 0; i <= n; ++i) {
+        for (int k = 0; k <= n; ++k) {
+            const float s = (float)i / (float)n, t = (float)k / (float)n;
+            const lmb_vec3 p = between(between(corner(at, 0), corner(at, 1), s), between(corner(at, 3), corner(at, 2), s), t);
+            if (is_in_cube(&j->voxels, p, 0.0f)) {
+                j->seen[place_of(&j->voxels, p, 0, 0, 0)] = 1;
+            }
+        }
+    }
+}
+
 int mix_world_begins(mix_job *j, report *r)
 {
     const int32_t count = j->real.count + j->old_cells;
@@ -185,13 +214,7 @@ int mix_world_begins(mix_job *j, report *r)
     }
     j->seen = mix_take(j, MIX_SEEN * MIX_SEEN * MIX_SEEN, r);
     for (int32_t i = 0; j->seen != NULL && i < count; ++i) {
-        const float *at = j->real.positions + CELL_FLOATS * (size_t)i;
-        for (int k = 0; k < 5; ++k) {
-            const lmb_vec3 p = k < 4 ? corner(at, k) : middle(at);
-            if (is_in_cube(&j->voxels, p, 0.0f)) {
-                j->seen[place_of(&j->voxels, p, 0, 0, 0)] = 1;
-            }
-        }
+        mark_cell(j, j->real.positions + CELL_FLOATS * (size_t)i);
     }
     return j->seen != NULL;
 }
