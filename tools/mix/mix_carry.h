@@ -13,14 +13,4 @@ int mix_carry_take(mix_job *j, report *r);
 uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real);
 void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with);
 
-/* What samples of a tile's pixels have found so far. */
-typedef struct mix_near {
-    lmb_tile tile;  /* position, normal; id 0: nothing yet */
-    lmb_tile asked; /* scratch */
-    lmb_irradiance light;
-} mix_near;
-
-/* mix_cones_near: as mix_cones_tile, but what lies beside what another sample of its pixel has found takes that. */
-void mix_cones_near(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, mix_near *near);
-
 #endif

@@ -4,6 +4,7 @@
 #include "mix_front.h"
 #include "mix_carry.h"
 #include "mix_lobes.h"
+#include "mix_near.h"
 #include "mix_world.h"
 
 #include <stdlib.h>

@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Measures of one thing differ by less, 1/m and relatively: a Kinect's noise is 0.003 1/m. */
-#define NOISE    0.012f
-#define RELATIVE 0.01f
 #define ALIKE    0.05 /* how far a photo's mean may be off the one that the answer was found for */
 
 enum {
@@ -20,8 +17,6 @@ enum {
 /* --- depth -------------------------------------------------------------------------------------------------------- */
 
 static float inverse_of(float depth) { return depth >= 0.01f && depth <= 1000.0f ? 1.0f / depth : 0.0f; }
-
-int mix_agree(float a, float b) { return fabsf(a - b) <= NOISE + RELATIVE * fmaxf(a, b); }
 
 static int is_same_view(const mix_kept *k, const mix_frame *f)
 {

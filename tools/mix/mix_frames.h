@@ -2,6 +2,8 @@
 #ifndef MIX_FRAMES_H
 #define MIX_FRAMES_H
 
+#include <math.h>
+
 #include "mix_job.h"
 
 /* What frames before have left, in the world of their poses. */
@@ -52,8 +54,12 @@ void mix_list_free(mix_list *l);
  * replaces it. frame->depth becomes what is known now, as the frame's camera sees it. 1, or 0 with `r` set. */
 int mix_keep_depth(mix_kept *k, mix_frame *frame, report *r);
 
+/* Measures of one thing differ by less, 1/m and relatively: a Kinect's noise is 0.003 1/m. */
+#define MIX_NOISE    0.012f
+#define MIX_RELATIVE 0.01f
+
 /* mix_agree: may two inverse distances, 1/m, be of one thing? */
-int mix_agree(float a, float b);
+static inline int mix_agree(float a, float b) { return fabsf(a - b) <= MIX_NOISE + MIX_RELATIVE * fmaxf(a, b); }
 
 /* Parts of mix_keep. */
 void mix_keep_place(mix_kept *k, const mix_job *j);

@@ -4,15 +4,9 @@
 #define MIX_WORLD_H
 
 #include "mix_frames.h"
+#include "mix_turn.h"
 
 enum { MIX_SEEN = 64 /* cells a side of a world's cube, that say where it has surfaces */ };
-
-/* mix_turn, mix_move: a direction, a point, by a turn and a shift. mix_back: the inverse of these. mix_product: first b,
- * then a. */
-lmb_vec3 mix_turn(const lmb_mat4 *t, lmb_vec3 d);
-lmb_vec3 mix_move(const lmb_mat4 *t, lmb_vec3 p);
-lmb_mat4 mix_back(const lmb_mat4 *t);
-lmb_mat4 mix_product(const lmb_mat4 *a, const lmb_mat4 *b);
 
 /* mix_trace: through the world without or with the object, by j's own scratch. mix_tile_there: `in`, or `*room` with it as
  * it lies in the voxels' space; mix_point_there a point of the scene. */

@@ -11,6 +11,7 @@
 #include "../../../tools/mix/mix_front.h"
 #include "../../../tools/mix/mix_again.h"
 #include "../../../tools/mix/mix_carry.h"
+#include "../../../tools/mix/mix_near.h"
 #include "../../../tools/mix/mix_run.h"
 #include "../../../tools/mix/mix_world.h"
 #include "../../../tools/mix/mix_around.h"
