@@ -160,9 +160,16 @@ void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uin
     }
 }
 
-static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+/* Tiles of a depth alone are found by 32-bit distances from the first one, bytes: larger surfaces go one by one. */
+LANE_INLINE int small_kind(const lmb_fill_window *w)
 {
     const int kind = fill_kind(&w->first);
+    return kind == FILL_PLAIN && (int64_t)w->depth_row * w->tiles_y > INT32_MAX ? FILL_ANY : kind;
+}
+
+static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+{
+    const int kind = small_kind(w);
 #if LANES >= LMB_TILE
     if (kind == FILL_PLAIN) {
         small_plain(w, b, bits);
