@@ -166,6 +166,7 @@ static void floor_stays(void)
 {
     static float front[PIXELS];
     static uint8_t doubt[PIXELS];
+    static const int32_t all[4] = {0, 0, WIDTH, HEIGHT};
     char *object[] = {"--object", square};
     mix_job *j = begin(object, 2);
     report r = {""};
@@ -175,7 +176,7 @@ static void floor_stays(void)
         j->frame.depth[i] = x > 20 && x < 70 && y > 15 && y < 49 ? 2.2f : j->frame.depth[i];
     }
     CHECK(mix_find_planes(j, &r));
-    mix_front_refine(front, doubt, &j->cloud, &j->planes, j->frame.light.pixels);
+    mix_front_refine(front, doubt, &j->cloud, &j->planes, j->frame.light.pixels, all);
     int doubtful = 0, off = 0;
     for (int i = 55 * WIDTH; i < 62 * WIDTH; ++i) {
         doubtful += doubt[i];

@@ -2,6 +2,7 @@
 #include "mix_front.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Sensors are wrong up to so many pixels from an edge; and surfaces so far apart, relatively, have an edge between. */
 enum { EDGE = 4, REACH = 8, HOLES = 14 /* px of a window: less is a spot, more may be what a near thing hides */ };
@@ -119,15 +120,26 @@ static float chosen(const refiner *f, const uint8_t *doubt, int32_t x, int32_t y
     return own > 0.0f && (own > between) == side ? own : sum[side] / weight[side];
 }
 
-void mix_front_refine(float *out, uint8_t *doubt, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb)
+void mix_front_refine(float *out, uint8_t *doubt, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb,
+                      const int32_t box[4])
 {
     const refiner f = {cloud, planes, rgb};
-    const int32_t w = cloud->camera.width, pixels = w * cloud->camera.height;
-    for (int32_t i = 0; i < pixels; ++i) {
-        doubt[i] = (uint8_t)is_doubtful(&f, i % w, i / w);
+    const int32_t w = cloud->camera.width, h = cloud->camera.height;
+    memcpy(out, cloud->inverse, (size_t)w * (size_t)h * sizeof *out);
+    memset(doubt, 0, (size_t)w * (size_t)h);
+    for (int32_t y = box[1] - REACH; y < box[3] + REACH; ++y) {
+        for (int32_t x = box[0] - REACH; x < box[2] + REACH; ++x) {
+            if (x >= 0 && y >= 0 && x < w && y < h) {
+                doubt[y * w + x] = (uint8_t)is_doubtful(&f, x, y);
+            }
+        }
     }
-    for (int32_t i = 0; i < pixels; ++i) {
-        out[i] = doubt[i] ? chosen(&f, doubt, i % w, i / w) : cloud->inverse[i];
+    for (int32_t y = box[1]; y < box[3]; ++y) {
+        for (int32_t x = box[0]; x < box[2]; ++x) {
+            if (doubt[y * w + x]) {
+                out[y * w + x] = chosen(&f, doubt, x, y);
+            }
+        }
     }
 }
 

@@ -2,6 +2,8 @@
 #include "mix_lobes.h"
 #include "mix_sources.h"
 
+#include "mix_world.h"
+
 #include <math.h>
 #include <string.h>
 
