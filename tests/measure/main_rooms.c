@@ -6,7 +6,8 @@
  * window that it is eight lights. Bars: on real surfaces the RMSE under 0.7 of that of the photo as it is, and the sign
  * right for 95 % of the pixels that change by over 2 % of the mean, both ways; of a metal ball and a lamp, and of the
  * surfaces around these, a relative RMSE of 0.1. The room with a window chose that objects which are no metals go without
- * weak lobes, the metal box how much metal throws to all sides; the last three chose nothing. */
+ * weak lobes, the metal box how much metal throws to all sides; the last three were looked at
+ * while it was made. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
