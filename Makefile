@@ -442,7 +442,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
 .PHONY: faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
-    measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
+    measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sequence \
     measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
@@ -587,6 +587,9 @@ measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is
 
 measure-rooms: $(B)/measure-rooms ## objects put into rooms of our own, against path-traced pictures (ROOMS="window ...")
 	@mkdir -p $(B)/rooms && $(RUN) $(B)/measure-rooms $(B)/rooms $(ROOMS)
+
+measure-sequence: $(TOOL) $(B)/measure-sequence $(B)/scenes ## sequences of noisy photos: flicker, frames a second (SIZE, COUNT, OBJECT)
+	@$(IN_SH) tests/measure/sequence.sh
 
 measure-voxels: $(B)/measure-voxels ## one bounce by cones through voxels: errors, time, memory (SCENES)
 	@$(RUN) $(B)/measure-voxels $(SCENES)
