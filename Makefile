@@ -445,7 +445,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
 .PHONY: pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
-    measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
+    measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sequence \
     measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
@@ -470,21 +470,21 @@ ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
 	+@SHORT=1 $(MAKE) check CHECKS="cli hard unit-1 unit-2 golden replay hostile hostile-cli readme" \
 	    BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
-	    CFLAGS="-O2 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
+	    CFLAGS="-O2 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 # In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
 MSAN_CHECKS ?= golden hard replay hostile
 msan: ## pictures, hard cases and the corpus under the memory sanitizer
 	+@$(MAKE) check CHECKS="$(MSAN_CHECKS)" BUILD=$(BUILD)/msan CC=clang \
-	    CFLAGS="-O1 -g -fsanitize=memory -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
+	    CFLAGS="-O1 -g1 -fsanitize=memory -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
 
 FUZZER     := $(BUILD)/fuzz/default/fuzzer
-FUZZ_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
-              -Wno-missing-prototypes
+FUZZ_FLAGS := -g1 -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined \
+              -fno-sanitize-recover=all -Wno-missing-prototypes $(FUZZ_DEFINES)
 FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages
 MINUTES   ?= 1
-fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
+fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...", FUZZ_DEFINES)
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers \
 	    && $(MAKE) $(FUZZER) BUILD=$(BUILD)/fuzz CC=clang CFLAGS="$(FUZZ_FLAGS)" LDFLAGS=-fsanitize=fuzzer
 	@sh tests/scripts/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
@@ -590,6 +590,9 @@ measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is
 
 measure-rooms: $(B)/measure-rooms ## objects put into rooms of our own, against path-traced pictures (ROOMS="window ...")
 	@mkdir -p $(B)/rooms && $(RUN) $(B)/measure-rooms $(B)/rooms $(ROOMS)
+
+measure-sequence: $(TOOL) $(B)/measure-sequence $(B)/scenes ## sequences of noisy photos: flicker, frames a second (SIZE, COUNT, OBJECT)
+	@$(IN_SH) tests/measure/sequence.sh
 
 measure-voxels: $(B)/measure-voxels ## one bounce by cones through voxels: errors, time, memory (SCENES)
 	@$(RUN) $(B)/measure-voxels $(SCENES)

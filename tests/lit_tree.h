@@ -24,12 +24,12 @@ static inline void lit_draw(const lmb_light *light)
     CHECK(lmb_shadow_map_init(&lit_map, light, &world.scene, lit.size, LMB_ID32, lit_map_memory,
                               sizeof lit_map_memory) == LMB_OK);
     lmb_shadow_map_clear(&lit_map);
-    CHECK(lmb_shadow_map_draw(&lit_map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(&lit_map, picked_kernels(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
 }
 
 static inline lmb_status lit_rows(const lmb_light *light, int32_t face, int32_t first, int32_t past)
 {
-    return lmb_tree_texels(&lit, lmb_kernels_pick(), &light_tile, &world.scene, light, &lit_map, face, lit.faces, first,
+    return lmb_tree_texels(&lit, picked_kernels(), &light_tile, &world.scene, light, &lit_map, face, lit.faces, first,
                            past);
 }
 

@@ -194,7 +194,7 @@ static inline void world_draw(lmb_target *t, const lmb_view *v, uint32_t flags)
 {
     lmb_surface_clear(&t->depth);
     lmb_surface_clear(&t->id);
-    CHECK(lmb_draw(t, lmb_kernels_pick(), v, &world.scene, 1, WORLD_TRIANGLES, flags, NULL) == LMB_OK);
+    CHECK(lmb_draw(t, picked_kernels(), v, &world.scene, 1, WORLD_TRIANGLES, flags, NULL) == LMB_OK);
 }
 
 /* --- tiles, discs and groups -------------------------------------------------------------------------------------- */

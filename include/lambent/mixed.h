@@ -2,7 +2,7 @@
  * [M1-M24]
  *
  *     lmb_cloud_init(&cloud, &camera, depth, memory, bytes);      points, noise                             [M1]
- *     lmb_cloud_normals(&cloud);                                  normals                                   [M2]
+ *     lmb_cloud_normals(&cloud, 0, camera.height);                normals                                   [M2]
  *     lmb_planes_find(&planes, &cloud, memory, bytes);            planes and whose each pixel is            [M3 M4]
  *     lmb_real_mesh_build(&mesh, &cloud, &planes, 4, ...);        the real scene as triangles               [M4]
  *     lmb_env_fold(&env, photo, width, height);                   light from where no picture is            [M14-M19]
@@ -108,9 +108,11 @@ lmb_vec3 lmb_cloud_point(const lmb_cloud *cloud, int32_t x, int32_t y);
 float lmb_cloud_sigma(const lmb_cloud *cloud, float inverse);
 
 /* lmb_cloud_normals: the plane through each point and what surrounds it, in two rounds: what a surface of 75 degrees or
- * less can reach, then what lies on the first round's plane. Fewer than 6 points: unknown. LMB_OK or LMB_ERR_ARG. [M2]
- * Cost: 2 x 49 points a pixel. */
-lmb_status lmb_cloud_normals(const lmb_cloud *cloud);
+ * less can reach, then what lies on the first round's plane. Fewer than 6 points: unknown.                       [M2]
+ *
+ *   y0, y1  rows y0 .. y1 - 1, of those that there are: any rows on any threads at once
+ * Returns LMB_OK or LMB_ERR_ARG. Cost: 2 x 49 points a pixel. */
+lmb_status lmb_cloud_normals(const lmb_cloud *cloud, int32_t y0, int32_t y1);
 
 /* lmb_planes_bytes: memory of the search, 5 bytes a pixel; 0 for a bad size. */
 size_t lmb_planes_bytes(int32_t width, int32_t height);

@@ -261,8 +261,8 @@ lmb_status lmb_transfer_many_lights(const lmb_transfer_light *light, const lmb_e
                                     const lmb_many_lights_query *query, int32_t first, int32_t past);
 
 /* lmb_transfer_bounce: after all maps: elements send what the enum above says, and coarse ones receive it.
- * lmb_transfer_rest: after these, an estimate of `bounces` further ones, from how much weaker the last one, of `what`,
- * grew.
+ * lmb_transfer_rest: after these, an estimate of `bounces` further ones, 0 to LMB_MAX_BOUNCES, from how much weaker the
+ * last one, of `what`, grew.
  * Cost: about 200,000 products. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_transfer_bounce(lmb_transfer_light *light, const lmb_transfer *transfer, int what);
 lmb_status lmb_transfer_rest(lmb_transfer_light *light, const lmb_transfer *transfer, int what, int32_t bounces);

@@ -69,12 +69,12 @@ static lmb_vec3 normal_at(const lmb_cloud *cloud, int32_t x, int32_t y)
     return lmb_plane_normal(&distance, again ? slope : first);
 }
 
-lmb_status lmb_cloud_normals(const lmb_cloud *cloud)
+lmb_status lmb_cloud_normals(const lmb_cloud *cloud, int32_t y0, int32_t y1)
 {
-    if (cloud == NULL || cloud->inverse == NULL) {
+    if (cloud == NULL || cloud->inverse == NULL || y0 < 0 || y1 < y0) {
         return LMB_ERR_ARG;
     }
-    for (int32_t y = 0; y < cloud->camera.height; ++y) {
+    for (int32_t y = y0; y < y1 && y < cloud->camera.height; ++y) {
         for (int32_t x = 0; x < cloud->camera.width; ++x) {
             cloud->normal[(size_t)y * (size_t)cloud->camera.width + (size_t)x] = normal_at(cloud, x, y);
         }

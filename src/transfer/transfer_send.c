@@ -205,7 +205,7 @@ static float kept_of(const lmb_transfer_light *light, uint32_t count, int what, 
 
 lmb_status lmb_transfer_rest(lmb_transfer_light *light, const lmb_transfer *t, int what, int32_t bounces)
 {
-    if (!transfer_is_laid_out(light, t) || bounces < 0) {
+    if (!transfer_is_laid_out(light, t) || bounces < 0 || bounces > LMB_MAX_BOUNCES) {
         return LMB_ERR_ARG;
     }
     for (int c = 0; c < 3; ++c) {

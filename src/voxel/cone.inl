@@ -247,9 +247,10 @@ NOINLINE int cone_is_inside(const lmb_cone_job *job, const cone_rays *rays, cons
     return mask_bits(mask_and(lane_lt(lane_splat(-margin), low), lane_lt(high, lane_splat(side)))) != 0;
 }
 
-LANE_PART lane cone_follow(lmb_cone_seen *out, int k, const lmb_cone_job *job, cone_rays *rays)
+/* Pixels without a surface are closed from the start: lanes that have no other end at once. */
+LANE_PART lane cone_follow(lmb_cone_seen *out, int k, const lmb_cone_job *job, cone_rays *rays, lane depth)
 {
-    lane open = lane_splat(1.0f);
+    lane open = lane_keep(lane_lt(lane_splat(0.0f), depth), lane_splat(1.0f));
     for (int c = 0; c < 3; ++c) {
         lane_store(out->rgb[c] + k, lane_splat(0.0f));
     }
@@ -291,6 +292,6 @@ static void KERNEL(cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_
         rays.d.y = lane_load(direction[1] + k);
         rays.d.z = lane_load(direction[2] + k);
         rays.axis = cone_parts(rays.d);
-        lane_store(out->open + k, cone_follow(out, k, job, &rays));
+        lane_store(out->open + k, cone_follow(out, k, job, &rays, lane_load(tile->depth + k)));
     }
 }

@@ -77,7 +77,7 @@ uint64_t case_mixed(int variant)
     uint64_t h = GOLDEN_START;
     draw_corner(s);
     h = golden_hash_u32(h, (uint32_t)lmb_cloud_init(&cloud, &camera, s->depth, s->cloud, sizeof s->cloud));
-    lmb_cloud_normals(&cloud);
+    lmb_cloud_normals(&cloud, 0, LMB_MAX_SIDE);
     h = golden_hash_floats(h, &cloud.normal[0].x, 3 * PIXELS);
     h = golden_hash_u32(h, (uint32_t)lmb_planes_find(&a->planes, &cloud, s->planes, sizeof s->planes));
     h = hash_planes(h, &a->planes);

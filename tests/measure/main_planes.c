@@ -40,7 +40,7 @@ static void find(work *w, const lmb_pinhole *camera, const float *depth)
     w->memory[1] = malloc(b);
     if (w->memory[0] == NULL || w->memory[1] == NULL ||
         lmb_cloud_init(&w->cloud, camera, depth, w->memory[0], a) != LMB_OK ||
-        lmb_cloud_normals(&w->cloud) != LMB_OK ||
+        lmb_cloud_normals(&w->cloud, 0, LMB_MAX_SIDE) != LMB_OK ||
         lmb_planes_find(&w->planes, &w->cloud, w->memory[1], b) != LMB_OK) {
         printf("FAIL: the search was refused\n");
         exit(1);

@@ -5,8 +5,9 @@
  * The photo is the room without the object, its white at 1; the depth is the room's. `mix` is told the lights, and of a
  * window that it is eight lights. Bars: on real surfaces the RMSE under 0.7 of that of the photo as it is, and the sign
  * right for 95 % of the pixels that change by over 2 % of the mean, both ways; of a metal ball and a lamp, and of the
- * surfaces around these, a relative RMSE of 0.1. They chose no constant, but the room with a window chose that objects
- * which are no metals go without weak lobes. */
+ * surfaces around these, a relative RMSE of 0.1. The room with a window chose that objects which are no metals go without
+ * weak lobes, the metal box how much metal throws to all sides; the last three were looked at
+ * while it was made. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1031,6 +1031,30 @@ check "a photo of another brightness has its own light" test "$(on_object "$dir/
 printf 'f0\nf4\n' >"$dir/frames/two.txt"
 status 0 mix --frames "$dir/frames/two.txt" $tent --threads 3 --backend scalar -o "$dir/frames/t_%02d.pfm"
 check "threads, backends and frames left out change no byte" cmp "$dir/frames/o_04.pfm" "$dir/frames/t_01.pfm"
+# A camera that moves: the bytes are the list's up to there, by any threads, and a frame of another size starts anew.
+for i in 5 6 7; do
+    cp "$dir/photo.pfm" "$dir/frames/f$i.color.pfm" && cp "$dir/wall.pfm" "$dir/frames/f$i.depth.pfm"
+    sed "s/\[\[1,0,0,0\]/[[1,0,0,0.0$i]/" "$dir/frames/f0.json" >"$dir/frames/f$i.json"
+done
+{ printf 'PF\n2 1\n-1.0\n'; i=0; while [ $i -lt 6 ]; do printf '\000\000\200\076'; i=$((i + 1)); done; } >"$dir/frames/f8.color.pfm"
+{ printf 'Pf\n2 1\n-1.0\n\000\000\200\077\000\000\300\177'; } >"$dir/frames/f8.depth.pfm" # 1 m, and no number
+cp "$dir/frames/f0.json" "$dir/frames/f8.json"
+printf 'f0\nf5\nf6\nf8\nf7\n' >"$dir/frames/moves.txt" && printf 'f0\nf5\nf6\n' >"$dir/frames/begins.txt"
+status 0 mix --frames "$dir/frames/moves.txt" $tent --threads 1 -o "$dir/frames/m_%02d.pfm"
+status 0 mix --frames "$dir/frames/begins.txt" $tent --threads 3 --backend scalar -o "$dir/frames/g_%02d.pfm"
+for i in 0 1 2; do
+    check "moving frame $i is the same by threads, backends and what follows" cmp "$dir/frames/m_0$i.pfm" "$dir/frames/g_0$i.pfm"
+done
+check "the object moves in the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/frames/m_00.pfm" "$dir/frames/m_02.pfm"
+check "a frame of another size is drawn in its own" sh -c '"$1" info "$2" | grep -q "size  *2x1"' sh "$TOOL" "$dir/frames/m_03.pfm"
+check "and the next one after it" test -s "$dir/frames/m_04.pfm"
+: >"$dir/frames/empty.txt"
+status 1 mix --frames "$dir/frames/empty.txt" $tent -o "$dir/frames/bad_%02d.pfm"
+said "lists no frame"
+awk 'BEGIN { print "f0"; for (i = 1; i < 10000; ++i) print "gone" }' >"$dir/frames/long.txt"
+status 0 mix --frames "$dir/frames/long.txt" $tent -o "$dir/frames/long_%04d.pfm"
+check "each of many missing frames is said" test "$(grep -c 'is left out' "$dir/err.txt")" = 9999
+check "and the first one is there" cmp "$dir/frames/m_00.pfm" "$dir/frames/long_0000.pfm"
 printf '# time name\n1.00 f0.color.pfm\n1.03 f4.color.pfm\n' >"$dir/frames/rgb.txt"
 printf '1.01 f0.depth.pfm\n1.04 f4.depth.pfm\n' >"$dir/frames/depth.txt"
 printf '1.00 0 0 0 0 0 0 1\n1.03 0 0 0 0 0 0 1\n' >"$dir/frames/groundtruth.txt"

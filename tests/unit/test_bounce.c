@@ -68,7 +68,7 @@ static void clear_points(void)
 
 static void add_points(const lmb_light *light, int32_t size, const lmb_grouping *g, int join)
 {
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     lmb_status status = lmb_shadow_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory);
     lmb_shadow_map_clear(&map);
     if (status == LMB_OK) {
@@ -286,7 +286,7 @@ static void check_collect_limits(void)
 {
     lmb_light l = point_light(vec3(0.1f, 0.2f, 0.3f));
     lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     make_box();
     only_points(&l, SIDE / 2, 8);
     uint32_t all = points.count;
@@ -513,12 +513,12 @@ static distances distances_of(const lmb_light *l, const lmb_grouping *g)
     clear_points();
     CHECK(lmb_shadow_map_init(&map, l, &world.scene, SIDE / 2, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
     CHECK(lmb_shadow_map_clear(&map) == LMB_OK);
-    CHECK(lmb_shadow_map_draw(&map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(&map, picked_kernels(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
     for (int32_t f = 0; f < map.faces; ++f) {
         if ((map.drawn >> f & 1u) == 0) {
             continue;
         }
-        CHECK(lmb_points_collect(&points, lmb_kernels_pick(), &tile, &world.scene, l, &map, f, 0, SIDE / 16, g) ==
+        CHECK(lmb_points_collect(&points, picked_kernels(), &tile, &world.scene, l, &map, f, 0, SIDE / 16, g) ==
               LMB_OK);
         const uint32_t first = points.cells[0];
         CHECK(lmb_discs_join(&points, &map, g) == LMB_OK);
@@ -1304,7 +1304,7 @@ static void emit(int32_t k, lmb_vec3 at, lmb_vec3 axis, float area, float radius
 static void gather(lmb_irradiance *out, const lmb_points *p, const lmb_occluder *o)
 {
     memset(out, 0, sizeof *out);
-    CHECK(lmb_gather_tile(out, lmb_kernels_pick(), &gather_scratch, &tile, &groups, p, o) == LMB_OK);
+    CHECK(lmb_gather_tile(out, picked_kernels(), &gather_scratch, &tile, &groups, p, o) == LMB_OK);
 }
 
 /* V27, V28: far groups, one after another. */
@@ -1517,7 +1517,7 @@ static void check_gather_arguments(void)
 {
     lmb_irradiance out;
     lmb_occluder o;
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     memset(&out, 0, sizeof out);
     memset(&o, 0, sizeof o);
     CHECK(lmb_gather_tile(NULL, k, &gather_scratch, &tile, &groups, NULL, NULL) == LMB_ERR_ARG);
@@ -1578,7 +1578,7 @@ static void gather_view(float *out, const lmb_view *v, int32_t kind, int32_t ste
     for (int32_t y = 0; y < FRAME; y += LMB_TILE) {
         for (int32_t x = 0; x < FRAME; x += LMB_TILE) {
             lmb_irradiance e;
-            CHECK(lmb_resolve_tile(&tile, lmb_kernels_pick(), v, &world.scene, &eye, x, y) == LMB_OK);
+            CHECK(lmb_resolve_tile(&tile, picked_kernels(), v, &world.scene, &eye, x, y) == LMB_OK);
             gather(&e, &points, &o);
             for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
                 int32_t at = (y + k / LMB_TILE) * FRAME + x + k % LMB_TILE;
@@ -1757,7 +1757,7 @@ static void check_linear_occluded(void)
     o.depth = &eye.depth;
     o.kind = LMB_OCCLUSION_VIEW;
     o.steps = 12;
-    CHECK(lmb_resolve_tile(&tile, lmb_kernels_pick(), &v, &world.scene, &eye, 64, 64) == LMB_OK);
+    CHECK(lmb_resolve_tile(&tile, picked_kernels(), &v, &world.scene, &eye, 64, 64) == LMB_OK);
     check_linear(&o);
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../tools/mix/mix_front.h"
 #include "../photo_job.h"
 #include "../test.h"
 
@@ -157,6 +158,37 @@ static void stands_on_what_is_asked(void)
             mix_job_free(j);
         }
     }
+}
+
+/* A steep floor below a panel that stands out of the wall stays where it was measured: the mean of the pixels below would
+ * lie before what stands there. */
+static void floor_stays(void)
+{
+    static float front[PIXELS];
+    static uint8_t doubt[PIXELS];
+    static const int32_t all[4] = {0, 0, WIDTH, HEIGHT};
+    char *object[] = {"--object", square};
+    mix_job *j = begin(object, 2);
+    report r = {""};
+    set_depth(j, 2.5f, 1);
+    for (int i = 0; i < PIXELS; ++i) {
+        const int x = i % WIDTH, y = i / WIDTH;
+        j->frame.depth[i] = x > 20 && x < 70 && y > 15 && y < 49 ? 2.2f : j->frame.depth[i];
+    }
+    CHECK(mix_find_planes(j, &r));
+    mix_front_refine(front, doubt, &j->cloud, &j->planes, j->frame.light.pixels, all);
+    int doubtful = 0, off = 0;
+    for (int i = 55 * WIDTH; i < 62 * WIDTH; ++i) {
+        doubtful += doubt[i];
+        off += fabsf(front[i] / j->cloud.inverse[i] - 1.0f) > 0.02f;
+    }
+    for (int i = 52 * WIDTH; i < 55 * WIDTH; ++i) {
+        doubtful += doubt[i];
+        off += front[i] > 1.02f * j->cloud.inverse[i] && j->planes.label[i] != 0 &&
+               j->planes.plane[j->planes.label[i] - 1].normal.y > 0.9f;
+    }
+    CHECK_MSG(doubtful > 40 && off == 0, "%d of %d", off, doubtful);
+    mix_job_free(j);
 }
 
 /* A table on a floor, and no wall: its edge is upright, and too thin for one; a chest's front is none too thin. */
@@ -504,6 +536,7 @@ static void place_has_room(void)
 
 void test_mix(void)
 {
+    floor_stays();
     edge_is_no_wall(0.14f, 0);
     edge_is_no_wall(0.5f, 1);
     place_has_room();

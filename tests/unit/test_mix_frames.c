@@ -110,7 +110,7 @@ static void poses(void)
 static mix_job *job_at(double x, const mix_kept *k)
 {
     static char square[] = "tests/fuzz/corpus/obj/quads.obj";
-    char *argv[] = {"mix", "--frame", "known", "--object", square, "--fit", "--voxels", "4", "--shadow-map", "64", "-q",
+    char *argv[] = {"mix", "--frame", "known", "--object", square, "--fit", "--voxels", "5", "--shadow-map", "64", "-q",
                     "-o", "known.pfm", NULL};
     report r = {""};
     mix_job *j = calloc(1, sizeof *j);
@@ -167,8 +167,77 @@ static void sun_stays(void)
     mix_kept_free(&k);
 }
 
+static int find_world(mix_job *j)
+{
+    report r = {""};
+    const int ok = mix_find_planes(j, &r) && mix_place(j, &r) && mix_light(j, &r) && mix_voxels(j, &r);
+    CHECK_MSG(ok, "%s", r.text);
+    return ok;
+}
+
+static int draw(mix_job *j)
+{
+    report r = {""};
+    const int ok = find_world(j) && mix_draw(j, &r);
+    CHECK_MSG(ok, "%s", r.text);
+    return ok;
+}
+
+/* How far light around differs, r.m.s. over the mean, and how many pixels both have. */
+static double apart(const mix_job *a, const mix_job *b, int *both)
+{
+    double sum = 0.0, mean = 0.0;
+    *both = 0;
+    for (int i = 0; i < PIXELS; ++i) {
+        if (a->carried[i].is_known && b->carried[i].is_known) {
+            const double d = (double)a->carried[i].rgb[1][0] - (double)b->carried[i].rgb[1][0];
+            ++*both;
+            sum += d * d;
+            mean += (double)a->carried[i].rgb[1][0];
+        }
+    }
+    return sqrt(sum * *both) / mean;
+}
+
+/* The camera moves: the first frame's voxels are traced on, with the cells that are out of the picture now, and light is
+ * carried to where it would be traced. A wall that comes near the object, and a lamp that is switched, end that. */
+static void one_world(void)
+{
+    mix_kept k;
+    report r = {""};
+    int both;
+    memset(&k, 0, sizeof k);
+    mix_job *a = job_at(0.0, &k), *b = job_at(0.1, &k), *c = job_at(0.1, &k), *d = job_at(0.05, &k);
+    if (draw(a) && mix_keep(&k, a, &r)) {
+        CHECK(a->world == a && a->old_cells == 0);
+        k.world = a;
+        CHECK(draw(b) && b->world == a && b->voxels.count == 0 && b->old_cells > 0 && b->old_cells < b->real.count / 4);
+        k.last = a;
+        CHECK(draw(c) && c->world == a);
+        const double off = apart(b, c, &both);
+        int all;
+        CHECK_MSG(off > 0.0 && 2.0 * off < apart(b, a, &all) && both > PIXELS * 9 / 10, "%g of %g at %d pixels", off,
+                  apart(b, a, &all), both);
+        for (int i = 0; i < PIXELS; ++i) {
+            const int near = i % WIDTH > WIDTH * 5 / 8;
+            d->frame.depth[i] = near && d->frame.depth[i] > 1.4f ? 1.4f : d->frame.depth[i];
+        }
+        CHECK(find_world(d) && d->world == d && d->voxels.count > 0);
+        mix_job *e = job_at(0.05, &k);
+        k.is_other_light = 1;
+        CHECK(find_world(e) && e->world == e);
+        mix_job_free(e);
+    }
+    mix_job_free(d);
+    mix_job_free(c);
+    mix_job_free(b);
+    k.world = NULL; /* it is k.last, too */
+    mix_kept_free(&k);
+}
+
 void test_mix_frames(void)
 {
+    one_world();
     depth_stays();
     depth_moves();
     poses();

@@ -195,11 +195,12 @@ static void judge(int wrong[2], uint32_t seed)
     static const float at[4][2] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
     static float front[PIXELS];
     static uint8_t doubt[PIXELS];
+    static const int32_t all[4] = {0, 0, WIDTH, HEIGHT};
     static lmb_tile real;
     room r;
     make_room(&r, seed);
     mix_job *j = begin(&r, seed);
-    mix_front_refine(front, doubt, &j->cloud, &j->planes, j->frame.light.pixels);
+    mix_front_refine(front, doubt, &j->cloud, &j->planes, j->frame.light.pixels, all);
     for (int i = 0; i < PIXELS / LMB_TILE_PIXELS; ++i) {
         lmb_real_tile(&real, &j->cloud, &j->planes, &j->real, &j->axes, i % (WIDTH / LMB_TILE) * LMB_TILE,
                       i / (WIDTH / LMB_TILE) * LMB_TILE);

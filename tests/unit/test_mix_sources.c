@@ -145,8 +145,21 @@ static void beam_lights_floor(void)
     mix_job_free(j);
 }
 
+/* Smooth metal shows the floor before it down to its foot; by cones through voxels that was black there. Its mean is that of
+ * the floor, which the lamp's beam brightens. */
+static void foot_mirrors_floor(void)
+{
+    lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.2f, .flags = LMB_DOUBLE_SIDED};
+    look.specular[0] = look.specular[1] = look.specular[2] = 0.95f;
+    mix_job *j = draw_square(&look, "48,62", "0", "point:0,0.5,-0.6:0,-1,0:3,3,3");
+    const float foot = mean_of(j, 44, 57, 52, 61), floor = mean_of(j, 44, 64, 52, 68);
+    CHECK_MSG(foot > 0.6f * floor && foot < 1.2f * floor, "the foot shows %g, the floor %g", (double)foot, (double)floor);
+    mix_job_free(j);
+}
+
 void test_mix_sources(void)
 {
+    foot_mirrors_floor();
     emits_by_form_factors();
     reflects_what_arrives();
     beam_lights_floor();

@@ -40,7 +40,7 @@ static void test_points(stage *s)
               "%g %g %g", (double)p.x, (double)p.y, (double)p.z);
     CHECK(none.x == 0.0f && none.y == 0.0f && none.z == 0.0f);
     CHECK(s->cloud.inverse[0] == 0.0f && s->cloud.inverse[1] == 0.0f && s->cloud.inverse[2] == 0.0f);
-    lmb_cloud_normals(&s->cloud);
+    lmb_cloud_normals(&s->cloud, 0, LMB_MAX_SIDE);
     CHECK(s->cloud.normal[PIXELS / 2].z > 0.99999f && s->cloud.normal[0].z == 0.0f);
 }
 
@@ -105,7 +105,7 @@ static void draw_corner(stage *s, float noise)
 static int find_planes(stage *s)
 {
     return lmb_cloud_init(&s->cloud, &camera, s->depth, s->cloud_memory, sizeof s->cloud_memory) == LMB_OK &&
-           lmb_cloud_normals(&s->cloud) == LMB_OK &&
+           lmb_cloud_normals(&s->cloud, 0, LMB_MAX_SIDE) == LMB_OK &&
            lmb_planes_find(&s->planes, &s->cloud, s->plane_memory, sizeof s->plane_memory) == LMB_OK;
 }
 
@@ -202,7 +202,7 @@ static void test_no_planes(stage *s)
     CHECK(find_planes(s) && s->planes.count == 0 && lmb_planes_floor(&s->planes) == -1);
     s->depth[0] = 1.0f;
     CHECK(lmb_cloud_init(&s->cloud, &one, s->depth, s->cloud_memory, sizeof s->cloud_memory) == LMB_OK);
-    CHECK(lmb_cloud_normals(&s->cloud) == LMB_OK && s->cloud.normal[0].z == 0.0f);
+    CHECK(lmb_cloud_normals(&s->cloud, 0, LMB_MAX_SIDE) == LMB_OK && s->cloud.normal[0].z == 0.0f);
     CHECK(lmb_planes_find(&s->planes, &s->cloud, s->plane_memory, sizeof s->plane_memory) == LMB_OK &&
           s->planes.count == 0);
     for (int i = 0; i < PIXELS; ++i) {

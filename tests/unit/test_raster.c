@@ -115,7 +115,7 @@ static uint32_t code_at(const lmb_surface *s, int32_t x, int32_t y)
 
 static lmb_status draw(const lmb_target *t, uint32_t first, uint32_t count, uint32_t flags)
 {
-    return lmb_draw(t, lmb_kernels_pick(), &st.view, &st.scene, first, count, flags, &st.stats);
+    return lmb_draw(t, picked_kernels(), &st.view, &st.scene, first, count, flags, &st.stats);
 }
 
 static int32_t random_between(test_rng *r, int32_t lo, int32_t hi)
@@ -1056,7 +1056,7 @@ static void test_bad_arguments(void)
 {
     const int32_t box[4] = {0, 0, FRAME, FRAME};
     put_neighbours();
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     lmb_target t = window_of(0, LMB_DEPTH32F, LMB_ID32, LMB_TILED, box);
     CHECK(lmb_draw(NULL, k, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_ERR_ARG);
     CHECK(lmb_draw(&t, NULL, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_ERR_ARG);
@@ -1263,7 +1263,7 @@ static void judge_mask(mask_count *n, const lmb_target *unmasked, const lmb_targ
     static lmb_tile tile;
     for (int32_t at = 0; at < FRAME / 8 * (FRAME / 8); ++at) {
         int32_t x0 = at % 8 * 8, y0 = at / 8 * 8;
-        lmb_resolve_tile(&tile, lmb_kernels_pick(), &st.view, &st.scene, unmasked, x0, y0);
+        lmb_resolve_tile(&tile, picked_kernels(), &st.view, &st.scene, unmasked, x0, y0);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             uint32_t id = id_at(&masked->id, x0 + k % 8, y0 + k / 8);
             float d = depth_at(&masked->depth, x0 + k % 8, y0 + k / 8);

@@ -473,6 +473,7 @@ static void bad_arguments(void)
     CHECK(lmb_transfer_rest(NULL, &good, 1, 1) == LMB_ERR_ARG && lmb_transfer_rest(&dark, &good, 1, 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_rest(&l.light, &none, 1, 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_rest(&l.light, &good, 1, -1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_rest(&l.light, &good, 1, LMB_MAX_BOUNCES + 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_receivers(NULL, all, &good, 0, 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_receivers(&dark, all, &good, 0, 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_receivers(&l.light, NULL, &good, 0, 1) == LMB_ERR_ARG);

@@ -218,7 +218,7 @@ static void make_photo(void)
         depth[i] = i / WIDE < HIGH / 2 ? 3.0f : 3.0f * 60.0f / (60.0f + 2.0f * (float)(i / WIDE - HIGH / 2));
     }
     CHECK(lmb_cloud_init(&g.cloud, &camera, depth, room(cloud), cloud) == LMB_OK);
-    CHECK(lmb_cloud_normals(&g.cloud) == LMB_OK);
+    CHECK(lmb_cloud_normals(&g.cloud, 0, LMB_MAX_SIDE) == LMB_OK);
     CHECK(lmb_planes_find(&g.planes, &g.cloud, room(planes), planes) == LMB_OK && g.planes.count > 1);
     CHECK(lmb_real_mesh_build(&g.mesh, &g.cloud, &g.planes, 4, &straight, room(mesh), mesh) == LMB_OK);
     CHECK(lmb_env_init(&g.env, SMALL, room(env), env) == LMB_OK);

@@ -21,7 +21,7 @@ typedef struct mixed_stage {
 static int find(mixed_stage *m, const lmb_pinhole *c)
 {
     return lmb_cloud_init(&m->cloud, c, m->depth, m->cloud_memory, sizeof m->cloud_memory) == LMB_OK &&
-           lmb_cloud_normals(&m->cloud) == LMB_OK &&
+           lmb_cloud_normals(&m->cloud, 0, LMB_MAX_SIDE) == LMB_OK &&
            lmb_planes_find(&m->planes, &m->cloud, m->plane_memory, sizeof m->plane_memory) == LMB_OK;
 }
 

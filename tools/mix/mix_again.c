@@ -1,6 +1,8 @@
 /* mix_again.c: what a frame has found of its pixels, kept for another photo of the same places. */
 #include "mix_again.h"
 
+#include "mix_frames.h"
+
 #include <string.h>
 
 int mix_again_take(mix_job *j, report *r)
@@ -10,6 +12,7 @@ int mix_again_take(mix_job *j, report *r)
         return 1;
     }
     j->answer = mix_take(j, pixels * sizeof *j->answer, r);
+    j->is_settled = mix_is_settled(j->kept);
     return j->answer != NULL;
 }
 
@@ -34,6 +37,42 @@ void mix_again_keep(mix_job *j, const lmb_tile *real, const lmb_irradiance *with
             keep_pixel(&j->answer[(size_t)y * (size_t)width + (size_t)x], k, without, with, object, covered,
                        real->id[k] != 0);
         }
+    }
+}
+
+/* What a pixel keeps; NULL: it is new, or there is none. */
+static const mix_answer *kept_of(const mix_job *j, const lmb_tile *real, int k)
+{
+    const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE, width = j->frame.light.width;
+    const size_t at = (size_t)y * (size_t)width + (size_t)x;
+    return x < width && y < j->frame.light.height && !j->kept->fresh[at] ? &j->kept->last->answer[at] : NULL;
+}
+
+int mix_again_light(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real)
+{
+    int fresh = 0;
+    if (!j->is_settled) {
+        return 0;
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const mix_answer *a = kept_of(j, real, k);
+        for (int c = 0; c < 3 && a != NULL; ++c) {
+            without->rgb[c][k] = a->light[0][c];
+            with->rgb[c][k] = a->light[1][c];
+        }
+        fresh += a == NULL;
+    }
+    return fresh == 0;
+}
+
+void mix_again_object(lmb_radiance *object, float *covered, const mix_job *j, const lmb_tile *real)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS && j->is_settled; ++k) {
+        const mix_answer *a = kept_of(j, real, k);
+        for (int c = 0; c < 3 && a != NULL; ++c) {
+            object->rgb[c][k] = a->object[c];
+        }
+        covered[k] = a != NULL ? a->covered : covered[k];
     }
 }
 

@@ -18,6 +18,11 @@ int mix_again_take(mix_job *j, report *r);
 void mix_again_keep(mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with,
                     const lmb_radiance *object, const float *covered);
 
+/* mix_again_light, mix_again_object: of a camera that stands still, the pixels of a tile that measure
+ * what they did keep the last frame's light, and its object. Returns whether those are all of the tile's. */
+int mix_again_light(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real);
+void mix_again_object(lmb_radiance *object, float *covered, const mix_job *j, const lmb_tile *real);
+
 /* mix_again_draw: the picture of another photo by these. */
 void mix_again_draw(mix_job *j);
 

@@ -1,5 +1,6 @@
 /* mix_cones.c: light from around, by cones from some pixels of tiles side by side. */
-#include "mix_cones.h"
+#include "mix_carry.h"
+#include "mix_world.h"
 
 #include <string.h>
 
@@ -22,13 +23,25 @@ static void add_around(lmb_irradiance *inout, const lmb_env *env, const lmb_tile
 
 static void add_cones(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, int32_t world)
 {
-    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world], j->scratch, 1};
-    lmb_cones_diffuse(inout, NULL, &trace, &j->cones, tile);
+    const lmb_cone_trace trace = mix_trace(j, world);
+    lmb_tile room;
+    lmb_cones_diffuse(inout, NULL, &trace, &j->world->cones, mix_tile_there(&room, j, tile));
 }
 
 void mix_cones_tile(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile)
 {
     add_cones(inout, j, tile, LMB_VOXEL_WITH);
+}
+
+void mix_put_place(lmb_tile *to, int n, const lmb_tile *from, int k)
+{
+    for (int c = 0; c < 3; ++c) {
+        to->position[c][n] = from->position[c][k];
+        to->face[c][n] = from->face[c][k];
+        to->normal[c][n] = from->normal[c][k];
+    }
+    to->depth[n] = from->depth[k];
+    to->id[n] = from->id[k];
 }
 
 /* Trace the pixels that were put together, and put their light where they are from. */
@@ -53,13 +66,7 @@ static void put_pixel(mix_batch *b, const mix_job *j, int32_t tile, int32_t pixe
     const lmb_tile *from = &b->real[tile];
     lmb_tile *to = &b->together;
     const int32_t k = b->gathered;
-    for (int c = 0; c < 3; ++c) {
-        to->position[c][k] = from->position[c][pixel];
-        to->face[c][k] = from->face[c][pixel];
-        to->normal[c][k] = from->normal[c][pixel];
-    }
-    to->depth[k] = from->depth[pixel];
-    to->id[k] = from->id[pixel];
+    mix_put_place(to, k, from, pixel);
     b->from[k] = tile * LMB_TILE_PIXELS + pixel;
     if (++b->gathered == LMB_TILE_PIXELS) {
         flush(b, j);
@@ -75,11 +82,28 @@ static void put_pixels(mix_batch *b, const mix_job *j, int32_t tile, uint64_t pi
     }
 }
 
+/* Tiles whose pixels are carried in part: those that are not are traced as in other tiles, by those that are. */
+static void upsample(uint64_t more[1], mix_batch *b, int32_t i, uint64_t known, uint64_t carried)
+{
+    const lmb_irradiance kept[2] = {b->light[0][i], b->light[1][i]};
+    *more = 0;
+    for (int32_t world = 0; world < 2; ++world) {
+        *more |= lmb_upsample_tile(&b->light[world][i], &b->real[i], known, STEP);
+        for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+            if ((carried >> k % LMB_TILE_PIXELS & 1) != 0) {
+                b->light[world][i].rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] =
+                    kept[world].rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
+            }
+        }
+    }
+    *more &= ~carried;
+}
+
 void mix_cones_batch(mix_batch *b, const mix_job *j)
 {
-    uint64_t known[MIX_BATCH], more;
+    uint64_t known[MIX_BATCH], carried[MIX_BATCH], more;
     memset(b->light, 0, sizeof b->light);
-    if (j->voxels.count == 0) {
+    if (j->world == NULL) {
         for (int32_t i = 0; i < 2 * b->count; ++i) {
             add_around(&b->light[i / b->count][i % b->count], &j->env[0], &b->real[i % b->count]);
         }
@@ -88,14 +112,17 @@ void mix_cones_batch(mix_batch *b, const mix_job *j)
     memset(&b->together, 0, sizeof b->together);
     b->gathered = 0;
     for (int32_t i = 0; i < b->count; ++i) {
+        carried[i] = mix_carry_get(&b->light[0][i], &b->light[1][i], j, &b->real[i]);
         known[i] = lmb_sparse_pixels(&b->real[i], STEP);
-        put_pixels(b, j, i, known[i]);
+        put_pixels(b, j, i, known[i] & ~carried[i]);
     }
     flush(b, j);
     for (int32_t i = 0; i < b->count; ++i) {
-        more = lmb_upsample_tile(&b->light[0][i], &b->real[i], known[i], STEP);
-        more |= lmb_upsample_tile(&b->light[1][i], &b->real[i], known[i], STEP);
+        upsample(&more, b, i, known[i], carried[i]);
         put_pixels(b, j, i, more);
     }
     flush(b, j);
+    for (int32_t i = 0; i < b->count; ++i) {
+        mix_carry_put(j, &b->real[i], &b->light[0][i], &b->light[1][i]);
+    }
 }

@@ -20,6 +20,9 @@ typedef struct mix_batch {
  * where nothing differs without and with the object, both are the same numbers. */
 void mix_cones_batch(mix_batch *b, const mix_job *j);
 
+/* mix_put_place: pixel k of a tile as pixel n of another, for cones ask for no more. */
+void mix_put_place(lmb_tile *to, int n, const lmb_tile *from, int k);
+
 /* mix_cones_tile: add the light with the object to all pixels of one tile. */
 void mix_cones_tile(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile);
 

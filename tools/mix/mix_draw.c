@@ -2,8 +2,11 @@
 #include "mix_again.h"
 #include "mix_cones.h"
 #include "mix_front.h"
+#include "mix_carry.h"
 #include "mix_lobes.h"
+#include "mix_near.h"
 #include "mix_sources.h"
+#include "mix_world.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +24,9 @@ typedef struct drawing {
     lmb_target eye[MIX_SAMPLES]; /* the object's, by sample */
     int32_t samples;             /* a pixel, of the object */
     mix_batch batch;
+    lmb_tile there;          /* a tile in the voxels' space */
     lmb_tile object, before; /* before: what real things hide of it */
+    mix_near near;
     lmb_irradiance lit;
     mix_lobes lobes;
     lmb_radiance light, photo;
@@ -124,7 +129,11 @@ static void put_tile(image *p, const lmb_radiance *in, int32_t x, int32_t y)
 static void light_object(drawing *d, const mix_job *j, const lmb_view *view)
 {
     memset(&d->lit, 0, sizeof d->lit);
-    mix_cones_tile(&d->lit, j, &d->object);
+    if (j->kept != NULL) {
+        mix_cones_near(&d->lit, j, &d->object, &d->near);
+    } else {
+        mix_cones_tile(&d->lit, j, &d->object);
+    }
     mix_lobes_lights(&d->lobes, &d->lit, j, view, &d->object);
     lmb_compose_tile(&d->light, j->o.kernels, &d->object, &d->lit, NULL);
     mix_lobes_finish(&d->light, &d->lobes, j, view, &d->object);
@@ -154,7 +163,7 @@ static void choose(drawing *d, const mix_job *j, const lmb_tile *real, uint64_t 
 /* Does a tile show the plane that is varnished? */
 static int is_varnished(const mix_job *j, const lmb_tile *real)
 {
-    for (int k = 0; k < LMB_TILE_PIXELS && j->o.specular > 0.0f && j->voxels.count > 0; ++k) {
+    for (int k = 0; k < LMB_TILE_PIXELS && j->o.specular > 0.0f && j->world != NULL; ++k) {
         const int32_t at = (real->y + k / LMB_TILE) * j->frame.camera.width + real->x + k % LMB_TILE;
         if (real->id[k] != 0 && j->planes.label[at] != 0 && (j->floor < 0 || j->planes.label[at] == j->floor + 1)) {
             return 1;
@@ -167,8 +176,9 @@ static void mirror(drawing *d, const mix_job *j, const lmb_tile *real)
 {
     const lmb_vec3 eye = {0, 0, 0};
     for (int32_t world = 0; world < 2; ++world) {
-        const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world], j->scratch, 1};
-        lmb_cones_glossy(&d->seen[world], &trace, &j->glossy, real, eye);
+        const lmb_cone_trace trace = mix_trace(j, world);
+        lmb_cones_glossy(&d->seen[world], &trace, &j->world->glossy, mix_tile_there(&d->there, j, real),
+                         mix_point_there(j, eye));
     }
     lmb_mirror_tile(&d->photo, real, &j->planes, &j->frame.camera, j->floor, &d->seen[0], &d->seen[1], j->o.specular);
 }
@@ -198,17 +208,19 @@ static void add_part(drawing *d, uint64_t shown, float weight)
 }
 
 /* The mean of its samples over the photo. */
-static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real)
+static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real, int is_kept)
 {
     uint64_t all = 0;
     d->bare = d->photo;
+    memset(d->near.tile.id, 0, sizeof d->near.tile.id);
     memset(&d->over, 0, sizeof d->over);
     memset(d->covered, 0, sizeof d->covered);
-    for (int32_t i = 0; i < d->samples; ++i) {
+    for (int32_t i = 0; i < d->samples && !is_kept; ++i) {
         const uint64_t shown = put_sample(d, j, real, i);
         add_part(d, shown, 1.0f / (float)d->samples);
         all |= shown;
     }
+    mix_again_object(&d->over, d->covered, j, real);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         for (int c = 0; c < 3; ++c) {
             d->photo.rgb[c][k] = mix_over(d->bare.rgb[c][k], d->over.rgb[c][k], d->covered[k]);
@@ -221,14 +233,16 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
 {
     const lmb_tile *real = &d->batch.real[i];
     get_photo(&d->photo, &j->frame.light, real->x, real->y);
-    for (int32_t with = 0; with < 2; ++with) {
+    const int is_kept = mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real);
+    for (int32_t with = 0; with < 2 && !is_kept; ++with) {
         add_lights(&d->batch.light[with][i], j, &d->view[0], real, with);
     }
+    mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real); /* which has the lights */
     lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
     if (is_varnished(j, real)) {
         mirror(d, j, real);
     }
-    const uint64_t shown = put_object(d, j, real);
+    const uint64_t shown = put_object(d, j, real, is_kept);
     mix_again_keep(j, real, &d->batch.light[0][i], &d->batch.light[1][i], &d->over, d->covered);
     choose(d, j, real, shown);
     put_tile(&j->picture, &d->photo, real->x, real->y);
@@ -275,7 +289,7 @@ static int find_front(mix_job *j, report *r)
         return 0;
     }
     if (j->object_triangles > 0) {
-        mix_front_refine(j->front, doubt, &j->cloud, &j->planes, j->frame.light.pixels);
+        mix_front_refine(j->front, doubt, &j->cloud, &j->planes, j->frame.light.pixels, j->box_px);
     }
     return 1;
 }
@@ -303,7 +317,7 @@ static int take_rows(rows *out, mix_job *j, report *r)
 int mix_draw(mix_job *j, report *r)
 {
     rows all;
-    if (!mix_again_take(j, r) || !find_front(j, r) || !take_rows(&all, j, r)) {
+    if (!mix_again_take(j, r) || !mix_carry_take(j, r) || !find_front(j, r) || !take_rows(&all, j, r)) {
         return 0;
     }
     pool_run(all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);

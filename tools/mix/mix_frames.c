@@ -6,21 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Measures of one thing differ by less, 1/m and relatively: a Kinect's noise is 0.003 1/m. */
-#define NOISE    0.012f
-#define RELATIVE 0.01f
 #define ALIKE    0.05 /* how far a photo's mean may be off the one that the answer was found for */
 
 enum {
     TWICE = 2, /* frames that must differ before a static camera believes them */
-    FEW = 500  /* of so many pixels one may measure something else before all is found anew */
+    FEW = 500, /* of so many pixels one may measure something else before these are found anew */
+    SOME = 20  /* and before all are */
 };
 
 /* --- depth -------------------------------------------------------------------------------------------------------- */
 
 static float inverse_of(float depth) { return depth >= 0.01f && depth <= 1000.0f ? 1.0f / depth : 0.0f; }
-
-static int agree(float a, float b) { return fabsf(a - b) <= NOISE + RELATIVE * fmaxf(a, b); }
 
 static int is_same_view(const mix_kept *k, const mix_frame *f)
 {
@@ -37,19 +33,22 @@ static int take_depth(mix_kept *k, const mix_frame *f, report *r)
     const size_t pixels = (size_t)f->camera.width * (size_t)f->camera.height;
     free(k->inverse);
     free(k->differs);
+    free(k->fresh);
     k->inverse = calloc(pixels, sizeof *k->inverse);
     k->differs = calloc(pixels, 1);
-    return (k->inverse != NULL && k->differs != NULL) || report_fail(r, "out of memory");
+    k->fresh = calloc(pixels, 1);
+    return (k->inverse != NULL && k->differs != NULL && k->fresh != NULL) || report_fail(r, "out of memory");
 }
 
 /* What is known of one pixel that does not move: the first measure stays while others agree, or nothing is measured. */
 static void keep_pixel(mix_kept *k, size_t i, float now)
 {
     const float was = k->inverse[i];
-    const int differs = was > 0.0f && now > 0.0f && !agree(was, now);
+    const int differs = was > 0.0f && now > 0.0f && !mix_agree(was, now);
     k->differs[i] = (uint8_t)(differs ? k->differs[i] + 1 : 0);
     if ((!(was > 0.0f) && now > 0.0f) || k->differs[i] >= TWICE) {
-        ++k->changed;
+        k->changed += !k->fresh[i];
+        k->fresh[i] = 1;
         k->inverse[i] = now;
         k->differs[i] = 0;
     }
@@ -107,7 +106,7 @@ static int merge_moved(mix_kept *k, const mix_frame *f, report *r)
     memset(k->differs, 0, pixels);
     for (size_t i = 0; i < pixels; ++i) {
         const float was = moved[i], now = inverse_of(f->depth[i]);
-        moved[i] = !(now > 0.0f) ? was : was > 0.0f && agree(was, now) ? 0.5f * (was + now) : now;
+        moved[i] = !(now > 0.0f) ? was : was > 0.0f && mix_agree(was, now) ? 0.5f * (was + now) : now;
     }
     return 1;
 }
@@ -152,11 +151,19 @@ double mix_brightness(const mix_frame *f)
     return sum / (double)count;
 }
 
-int mix_is_still(const mix_kept *k, double bright)
+static int is_as_bright(const mix_kept *k, double bright) { return fabs(bright - k->bright) <= ALIKE * k->bright; }
+
+int mix_is_still(mix_kept *k, double bright)
+{
+    k->is_other_light = k->frames > 0 && !is_as_bright(k, bright);
+    const size_t pixels = (size_t)k->camera.width * (size_t)k->camera.height;
+    return k->last != NULL && k->last->answer != NULL && FEW * k->changed < pixels && !k->is_other_light;
+}
+
+int mix_is_settled(const mix_kept *k)
 {
     const size_t pixels = (size_t)k->camera.width * (size_t)k->camera.height;
-    return k->last != NULL && k->last->answer != NULL && FEW * k->changed < pixels &&
-           fabs(bright - k->bright) <= ALIKE * k->bright;
+    return k->last != NULL && k->last->answer != NULL && SOME * k->changed < pixels && !k->is_other_light;
 }
 
 /* --- the object and its light ------------------------------------------------------------------------------------- */
@@ -173,6 +180,9 @@ int mix_keep(mix_kept *k, mix_job *j, report *r)
 
 void mix_kept_free(mix_kept *k)
 {
+    if (k->world != NULL && k->world != k->last) {
+        mix_job_free(k->world);
+    }
     if (k->last != NULL) {
         mix_job_free(k->last);
     }
@@ -180,5 +190,6 @@ void mix_kept_free(mix_kept *k)
     free(k->env_memory);
     free(k->inverse);
     free(k->differs);
+    free(k->fresh);
     memset(k, 0, sizeof *k);
 }

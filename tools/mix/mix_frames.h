@@ -2,6 +2,8 @@
 #ifndef MIX_FRAMES_H
 #define MIX_FRAMES_H
 
+#include <math.h>
+
 #include "mix_job.h"
 
 /* What frames before have left, in the world of their poses. */
@@ -22,9 +24,12 @@ typedef struct mix_kept {
     double pose[16];
     float *inverse;         /* 1/m, by pixel: 0 where nothing was ever measured */
     uint8_t *differs;       /* how many frames running measured something else */
-    size_t changed;         /* pixels whose depth has changed since `last` was drawn */
+    uint8_t *fresh;         /* 1: pixels whose depth has changed since `last` was drawn */
+    size_t changed;         /* how many these are */
     double bright;          /* the mean of the photo that `last` was drawn for */
+    int is_other_light;     /* the frame is brighter or darker by over a twentieth */
     mix_job *last;          /* the frame that was drawn last, with its answer; or NULL */
+    mix_job *world;         /* the frame whose voxels are traced; or NULL */
 } mix_kept;
 
 /* One frame of a list. */
@@ -49,6 +54,13 @@ void mix_list_free(mix_list *l);
  * replaces it. frame->depth becomes what is known now, as the frame's camera sees it. 1, or 0 with `r` set. */
 int mix_keep_depth(mix_kept *k, mix_frame *frame, report *r);
 
+/* Measures of one thing differ by less, 1/m and relatively: a Kinect's noise is 0.003 1/m. */
+#define MIX_NOISE    0.012f
+#define MIX_RELATIVE 0.01f
+
+/* mix_agree: may two inverse distances, 1/m, be of one thing? */
+static inline int mix_agree(float a, float b) { return fabsf(a - b) <= MIX_NOISE + MIX_RELATIVE * fmaxf(a, b); }
+
 /* Parts of mix_keep. */
 void mix_keep_place(mix_kept *k, const mix_job *j);
 int mix_keep_light(mix_kept *k, const mix_job *j, report *r);
@@ -56,7 +68,11 @@ int mix_keep_light(mix_kept *k, const mix_job *j, report *r);
 /* mix_is_still: the camera has not moved since k->last was drawn, under one pixel in 500 measures something else, and the
  * photo is as bright on the whole to a twentieth, so that no lamp was switched: what was found then stays.
  * mix_brightness: the mean of a photo, linear. */
-int mix_is_still(const mix_kept *k, double bright);
+int mix_is_still(mix_kept *k, double bright);
+
+/* mix_is_settled: is the camera where `last` was drawn from, and so little new that pixels which are not keep its answer?
+ */
+int mix_is_settled(const mix_kept *k);
 double mix_brightness(const mix_frame *f);
 
 /* mix_keep: after the first frame: where its object stands, and its light. */

@@ -2,12 +2,14 @@
 #include "mix_front.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Sensors are wrong up to so many pixels from an edge; and surfaces so far apart, relatively, have an edge between. */
 enum { EDGE = 4, REACH = 8, HOLES = 14 /* px of a window: less is a spot, more may be what a near thing hides */ };
 #define STEP      0.04f
 #define COLOUR    0.08f /* of white, display's values: how like two pixels are */
 #define ALIKE     0.3f  /* what at least one pixel of a surface is, for a pixel to become part of it */
+#define GRAZES    0.7f  /* planes that change so much within the window tell nothing beside it */
 #define DOUBTFUL  0.1f  /* what a pixel near an edge counts beside one that is not */
 
 typedef struct refiner {
@@ -67,6 +69,20 @@ static float likeness(const float *a, const float *b)
     return 1.0f / (1.0f + sum * sum);
 }
 
+/* What another pixel says of this one's distance: its plane goes on to here. A steep floor's mean of pixels around would
+ * lie before what stands on it. */
+static float said_of(const refiner *f, int32_t x, int32_t y, int32_t other)
+{
+    const float q = f->cloud->inverse[other];
+    const uint8_t label = f->planes->label[other];
+    if (label == 0 || !(q > 0.0f)) {
+        return q;
+    }
+    const lmb_vec3 ray = lmb_cloud_ray(&f->cloud->camera, (float)x, (float)y);
+    const float *slope = f->planes->plane[label - 1].slope, on = slope[0] * ray.x + slope[1] * ray.y + slope[2];
+    return on > GRAZES * q && on * GRAZES < q ? on : q;
+}
+
 /* The surface, near or far, that the pixels like this one have. */
 static float chosen(const refiner *f, const uint8_t *doubt, int32_t x, int32_t y)
 {
@@ -77,7 +93,7 @@ static float chosen(const refiner *f, const uint8_t *doubt, int32_t x, int32_t y
     float min = INFINITY, max = 0.0f, weight[2] = {0, 0}, sum[2] = {0, 0}, alike[2] = {-1, -1};
     for (int32_t v = w.y0; v <= w.y1; ++v) {
         for (int32_t u = w.x0; u <= w.x1; ++u) {
-            const float q = f->cloud->inverse[v * c->width + u];
+            const float q = said_of(f, x, y, v * c->width + u);
             min = q > 0.0f ? fminf(min, q) : min;
             max = fmaxf(max, q);
         }
@@ -86,7 +102,7 @@ static float chosen(const refiner *f, const uint8_t *doubt, int32_t x, int32_t y
     for (int32_t v = w.y0; v <= w.y1; ++v) {
         for (int32_t u = w.x0; u <= w.x1; ++u) {
             const int32_t k = v * c->width + u;
-            const float q = f->cloud->inverse[k];
+            const float q = said_of(f, x, y, k);
             if (q > 0.0f) {
                 const float far = (float)((u - x) * (u - x) + (v - y) * (v - y));
                 const float like = likeness(f->rgb + 3 * (size_t)at, f->rgb + 3 * (size_t)k);
@@ -104,15 +120,26 @@ static float chosen(const refiner *f, const uint8_t *doubt, int32_t x, int32_t y
     return own > 0.0f && (own > between) == side ? own : sum[side] / weight[side];
 }
 
-void mix_front_refine(float *out, uint8_t *doubt, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb)
+void mix_front_refine(float *out, uint8_t *doubt, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb,
+                      const int32_t box[4])
 {
     const refiner f = {cloud, planes, rgb};
-    const int32_t w = cloud->camera.width, pixels = w * cloud->camera.height;
-    for (int32_t i = 0; i < pixels; ++i) {
-        doubt[i] = (uint8_t)is_doubtful(&f, i % w, i / w);
+    const int32_t w = cloud->camera.width, h = cloud->camera.height;
+    memcpy(out, cloud->inverse, (size_t)w * (size_t)h * sizeof *out);
+    memset(doubt, 0, (size_t)w * (size_t)h);
+    for (int32_t y = box[1] - REACH; y < box[3] + REACH; ++y) {
+        for (int32_t x = box[0] - REACH; x < box[2] + REACH; ++x) {
+            if (x >= 0 && y >= 0 && x < w && y < h) {
+                doubt[y * w + x] = (uint8_t)is_doubtful(&f, x, y);
+            }
+        }
     }
-    for (int32_t i = 0; i < pixels; ++i) {
-        out[i] = doubt[i] ? chosen(&f, doubt, i % w, i / w) : cloud->inverse[i];
+    for (int32_t y = box[1]; y < box[3]; ++y) {
+        for (int32_t x = box[0]; x < box[2]; ++x) {
+            if (doubt[y * w + x]) {
+                out[y * w + x] = chosen(&f, doubt, x, y);
+            }
+        }
     }
 }
 

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../platform/host/pool.h"
+
 void *mix_take(mix_job *j, size_t bytes, report *r)
 {
     void *p = j->block_count < MIX_BLOCKS ? calloc(1, bytes > 0 ? bytes : 1) : NULL;
@@ -48,6 +50,20 @@ lmb_scene *mix_copy_scene(lmb_material **materials, mix_job *j, report *r)
     return out;
 }
 
+enum { ROWS = 16 };
+
+static void normals_of_rows(void *user, int index, int thread)
+{
+    (void)thread;
+    lmb_cloud_normals(user, index * ROWS, (index + 1) * ROWS);
+}
+
+static int find_normals(mix_job *j)
+{
+    pool_run(pool_threads(j->o.threads), (j->frame.camera.height + ROWS - 1) / ROWS, normals_of_rows, &j->cloud);
+    return 1;
+}
+
 static int find_cloud(mix_job *j, report *r)
 {
     const lmb_pinhole *c = &j->frame.camera;
@@ -56,7 +72,7 @@ static int find_cloud(mix_job *j, report *r)
     if (cloud == NULL || planes == NULL) {
         return 0;
     }
-    if (lmb_cloud_init(&j->cloud, c, j->frame.depth, cloud, a) != LMB_OK || lmb_cloud_normals(&j->cloud) != LMB_OK ||
+    if (lmb_cloud_init(&j->cloud, c, j->frame.depth, cloud, a) != LMB_OK || !find_normals(j) ||
         lmb_planes_find(&j->planes, &j->cloud, planes, b) != LMB_OK) {
         return report_fail(r, "the photo's camera or size is none that can be used");
     }

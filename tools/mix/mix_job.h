@@ -18,6 +18,12 @@ typedef struct mix_answer {
     float light[2][3], object[3], covered;
 } mix_answer;
 
+/* Light from around at a pixel, without and with the object, for the frame after this one. */
+typedef struct mix_carried {
+    float rgb[2][3];
+    int32_t is_known;
+} mix_carried;
+
 /* mix_job_free releases what it points to. */
 typedef struct mix_job {
     mix_options o;
@@ -26,6 +32,9 @@ typedef struct mix_job {
     lmb_cloud cloud;
     lmb_planes planes;
     lmb_real_mesh real;
+    float plane_albedo[LMB_MAX_PLANES][3]; /* means; set where the object has metal */
+    lmb_vec3 ball_at;                      /* likewise: a ball as large as its box */
+    float ball_radius;
     float *front;        /* 1/m, by pixel: what may hide the object; mix_front.h */
     lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
     lmb_mat4 from_world; /* to the scene's space */
@@ -39,6 +48,7 @@ typedef struct mix_job {
     int faces_up;        /* it does, or was named */
     int hangs;           /* on a wall, upright */
     float scale;         /* m of a unit of the mesh */
+    int32_t box_px[4];   /* its box in the picture, and a little more: x0, y0, x1, y1, the last ones behind it */
     int inside;          /* the picture has room for all of it */
     float seen_px;       /* the longer side of its box in the picture; infinite where it is at the camera */
     float gap_m;         /* how much farther than it stands what was measured at its foot is, along the camera's axis */
@@ -52,6 +62,13 @@ typedef struct mix_job {
     lmb_cones cones;
     lmb_cone_width glossy;
     lmb_cone_scratch *scratch;
+    struct mix_job *world; /* whose voxels, cones and surroundings are traced: its own, or of a sequence an earlier frame's */
+    lmb_mat4 to_voxels;  /* from the scene's space to that one's */
+    uint8_t *seen;       /* where the world has surfaces: mix_world.h */
+    int32_t old_cells, gone; /* cells of the world that the frame does not see, behind real.count; those that it misses */
+    mix_carried *carried;    /* of a sequence, by pixel */
+    lmb_mat4 to_last;        /* from the scene's space to that of the frame before */
+    int is_settled;      /* a camera that stands still: pixels that measure what they did keep the last frame's answer */
     mix_answer *answer;  /* of a sequence, by pixel; NULL: it is not kept */
     image picture;       /* linear */
     double read_s, planes_s, place_s, light_s, build_s, voxels_s, draw_s; /* build_s: of voxels_s */

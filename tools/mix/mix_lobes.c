@@ -1,10 +1,13 @@
-/* mix_lobes.c: objects that reflect as metals do, by a narrow cone along the mirror direction in the field with them. [M20] */
+/* mix_lobes.c: objects that reflect as metals do, by rays about the mirror direction. [M20] */
 #include "mix_lobes.h"
 #include "mix_sources.h"
+
+#include "mix_world.h"
 
 #include <math.h>
 #include <string.h>
 
+#define THROWN 0.65f /* of what bounces to a metal, what it throws to all sides: the rest goes one way */
 #define MATT 0.08f /* reflectance of what is no metal, at most */
 
 /* --- metals ------------------------------------------------------------------------------------------------------- */
@@ -29,10 +32,11 @@ int mix_lobes_bounces(mix_job *j, report *r)
     if (!lmb_scene_is_glossy(&j->scene)) {
         return 1;
     }
+    mix_mirror_planes(j);
     scene = mix_copy_scene(&m, j, r);
     for (uint32_t i = 0; scene != NULL && i < scene->material_count; ++i) {
         for (int c = 0; c < 3; ++c) {
-            m[i].albedo[c] = fminf(m[i].albedo[c] + m[i].specular[c], 1.0f);
+            m[i].albedo[c] = fminf(m[i].albedo[c] + THROWN * m[i].specular[c], 1.0f);
         }
     }
     j->bounces = scene != NULL ? scene : j->bounces;
@@ -74,36 +78,14 @@ static float reflected(const lmb_glossy *lobes, int c, int k)
     return fminf(f0 + (1.0f - f0) * low * low * low * low * low * smooth * smooth * smooth, 1.0f);
 }
 
-/* The lobes of one roughness after the other, of those in `left`: most tiles have one. */
-static uint64_t see_one(mix_lobes *s, const mix_job *j, const lmb_view *view, const lmb_tile *object, uint64_t left)
-{
-    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch, 1};
-    int first = 0;
-    while ((left >> first & 1u) == 0) {
-        ++first;
-    }
-    const float alpha2 = s->lobes.alpha2[first];
-    if (lmb_cone_width_init(&s->width, &j->voxels, lmb_cone_tangent(sqrtf(sqrtf(alpha2)))) != LMB_OK ||
-        lmb_cones_glossy(&s->seen, &trace, &s->width, object, view->eye) != LMB_OK) {
-        return 0;
-    }
-    for (int k = first; k < LMB_TILE_PIXELS; ++k) {
-        if ((left >> k & 1u) != 0 && fabsf(s->lobes.alpha2[k] - alpha2) <= 0.25f * alpha2) {
-            for (int c = 0; c < 3; ++c) {
-                s->lobes.rgb[c][k] += reflected(&s->lobes, c, k) * s->seen.rgb[c][k];
-            }
-            left &= ~((uint64_t)1 << k);
-        }
-    }
-    return left;
-}
-
 void mix_lobes_finish(lmb_radiance *inout, mix_lobes *s, const mix_job *j, const lmb_view *view, const lmb_tile *object)
 {
-    for (uint64_t left = s->lobes.pixels; left != 0;) {
-        left = see_one(s, j, view, object, left);
-    }
     if (s->lobes.pixels != 0) {
+        mix_mirror_tile(s->seen, &s->mirror, j, view, object, &s->lobes);
+        for (int32_t k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+            const int32_t c = k / LMB_TILE_PIXELS, i = k % LMB_TILE_PIXELS;
+            s->lobes.rgb[c][i] += (s->lobes.pixels >> i & 1u) != 0 ? reflected(&s->lobes, c, i) * s->seen[c][i] : 0.0f;
+        }
         lmb_compose_glossy(inout, &s->lobes);
     }
     if (lmb_scene_emits(&j->scene)) {

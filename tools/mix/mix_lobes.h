@@ -2,13 +2,13 @@
 #ifndef MIX_LOBES_H
 #define MIX_LOBES_H
 
-#include "mix_job.h"
+#include "mix_mirror.h"
 
 /* What one tile's lobes are made in. */
 typedef struct mix_lobes {
     lmb_glossy lobes;
-    lmb_cone_seen seen;
-    lmb_cone_width width;
+    mix_mirror mirror;
+    float seen[3][LMB_TILE_PIXELS];
     lmb_irradiance one; /* of one light */
 } mix_lobes;
 
@@ -20,7 +20,7 @@ void mix_lobes_read(mix_job *j);
 int mix_lobes_bounces(mix_job *j, report *r);
 
 /* mix_lobes_lights: add what lights bring to a tile of the object, and to its lobes.
- * mix_lobes_finish: of its radiance, what lobes leave of it, what they see by narrow cones in the field with the object,
+ * mix_lobes_finish: of its radiance, what lobes leave of it, what they see of the photo with the object (mix_mirror.h),
  * and what its surfaces emit. */
 void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
                       const lmb_tile *object);

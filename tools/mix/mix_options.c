@@ -53,7 +53,7 @@ static const option_row photo_rows[] = {
     {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),
      .help = HELP("many, in order: LIST, or DIR/frames.txt, has a PREFIX a line, beside it; a DIR of TUM's has rgb.txt, "
              "depth.txt and groundtruth.txt (with --intrinsics; --depth-scale is 0.0002 then). The object stays where "
-             "it stands in the first; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
+             "it stands in the first, and voxels are built again only where a twentieth of what is about it is new; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
              "out")},
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = HELP(".png .jpg .pfm")},

@@ -1,27 +1,13 @@
 /* mix_place.c: where the virtual object stands, and the scene of it and the real surfaces. */
 #include "mix_frames.h"
 #include "mix_lobes.h"
+#include "mix_world.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* --- matrices: columns, as the library has them ------------------------------------------------------------------- */
-
-static lmb_mat4 multiply(const lmb_mat4 *a, const lmb_mat4 *b)
-{
-    lmb_mat4 out;
-    for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) {
-            double sum = 0.0;
-            for (int k = 0; k < 4; ++k) {
-                sum += (double)a->m[4 * k + r] * (double)b->m[4 * c + k];
-            }
-            out.m[4 * c + r] = (float)sum;
-        }
-    }
-    return out;
-}
 
 static lmb_mat4 of_axes(lmb_vec3 x, lmb_vec3 y, lmb_vec3 z, lmb_vec3 at)
 {
@@ -133,7 +119,7 @@ static lmb_mat4 object_to_scene(mix_job *j)
     foot.m[12] = -0.5f * (lo.x + hi.x);
     foot.m[13] = j->hangs ? -0.5f * (lo.y + hi.y) : -lo.y;
     foot.m[14] = j->hangs ? -lo.z : -0.5f * (lo.z + hi.z);
-    return multiply(&stand, &foot);
+    return mix_product(&stand, &foot);
 }
 
 /* --- the scene ---------------------------------------------------------------------------------------------------- */
@@ -145,7 +131,8 @@ static int build_real(mix_job *j, report *r)
     void *mesh = mix_take(j, bytes, r);
     return mesh != NULL &&
            (lmb_real_mesh_build(&j->real, &j->cloud, &j->planes, step, &j->axes, mesh, bytes) == LMB_OK ||
-            report_fail(r, "the photo is too large"));
+            report_fail(r, "the photo is too large")) &&
+           mix_cells(j, r);
 }
 
 /* The real mesh before the object's own: everything of the object moves up by one. */
@@ -162,6 +149,8 @@ static int join_scene(mix_job *j, const lmb_mat4 *place, report *r)
         return 0;
     }
     meshes[0] = lmb_real_mesh_draw(&j->real);
+    meshes[0].vertex_count += 4 * (uint32_t)j->old_cells;
+    meshes[0].triangle_count += 2 * (uint32_t)j->old_cells;
     materials[0].albedo[0] = materials[0].albedo[1] = materials[0].albedo[2] = materials[0].alpha = 1.0f;
     materials[0].texture = -1;
     materials[0].flags = LMB_DOUBLE_SIDED;
@@ -177,7 +166,7 @@ static int join_scene(mix_job *j, const lmb_mat4 *place, report *r)
     for (uint32_t i = 0; i < s->instance_count; ++i) {
         lmb_instance *to = &instances[i + 1];
         *to = s->instances[i];
-        to->to_world = multiply(place, &to->to_world);
+        to->to_world = mix_product(place, &to->to_world);
         ++to->mesh;
         ++to->material;
         to->first_id += j->real_triangles;
@@ -203,7 +192,17 @@ static void turn_scene(mix_job *j)
     const lmb_mat4 camera = j->frame.has_pose ? world_to_camera(j->frame.pose) : identity;
     j->axes = lmb_axes_upright(j->up);
     const lmb_mat4 turn = of_axes(j->axes.right, j->axes.up, j->axes.back, (lmb_vec3){0, 0, 0});
-    j->from_world = multiply(&turn, &camera);
+    j->from_world = mix_product(&turn, &camera);
+}
+
+/* Samples lie up to half a pixel off, and ask four pixels. */
+static void set_box(mix_job *j, float x0, float y0, float x1, float y1)
+{
+    const float w = (float)j->frame.camera.width, h = (float)j->frame.camera.height;
+    j->box_px[0] = (int32_t)fminf(fmaxf(x0 - 2.0f, 0.0f), w);
+    j->box_px[1] = (int32_t)fminf(fmaxf(y0 - 2.0f, 0.0f), h);
+    j->box_px[2] = (int32_t)fminf(fmaxf(x1 + 4.0f, 0.0f), w);
+    j->box_px[3] = (int32_t)fminf(fmaxf(y1 + 4.0f, 0.0f), h);
 }
 
 /* Is the box of what the object covers in the picture, and how large is it there? */
@@ -223,6 +222,7 @@ static void look(mix_job *j)
         if (!(ahead > 0.0f)) {
             j->seen_px = INFINITY;
             j->inside = 0;
+            set_box(j, 0.0f, 0.0f, (float)c->width, (float)c->height);
             return;
         }
         x0 = fminf(x0, x);
@@ -230,6 +230,7 @@ static void look(mix_job *j)
         x1 = fmaxf(x1, x);
         y1 = fmaxf(y1, y);
     }
+    set_box(j, x0, y0, x1, y1);
     j->seen_px = fmaxf(x1 - x0, y1 - y0);
     j->inside = x0 >= -0.5f && y0 >= -0.5f && x1 <= (float)c->width - 0.5f && y1 <= (float)c->height - 0.5f;
 }
@@ -243,34 +244,6 @@ static void set_up(mix_job *j)
 
 /* --- in a sequence ------------------------------------------------------------------------------------------------ */
 
-static lmb_vec3 turned(const lmb_mat4 *t, lmb_vec3 d)
-{
-    const float *m = t->m;
-    const lmb_vec3 out = {m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
-                          m[2] * d.x + m[6] * d.y + m[10] * d.z};
-    return out;
-}
-
-static lmb_vec3 moved(const lmb_mat4 *t, lmb_vec3 p)
-{
-    const lmb_vec3 d = turned(t, p), out = {d.x + t->m[12], d.y + t->m[13], d.z + t->m[14]};
-    return out;
-}
-
-/* Of a turn and a shift. */
-static lmb_mat4 inverse(const lmb_mat4 *t)
-{
-    lmb_mat4 out = identity;
-    for (int i = 0; i < 9; ++i) {
-        out.m[i / 3 * 4 + i % 3] = t->m[i % 3 * 4 + i / 3];
-    }
-    const lmb_vec3 at = {-t->m[12], -t->m[13], -t->m[14]}, back = turned(&out, at);
-    out.m[12] = back.x;
-    out.m[13] = back.y;
-    out.m[14] = back.z;
-    return out;
-}
-
 static lmb_mat4 camera_of(const mix_job *j)
 {
     return j->frame.has_pose ? world_to_camera(j->frame.pose) : identity;
@@ -278,10 +251,10 @@ static lmb_mat4 camera_of(const mix_job *j)
 
 void mix_keep_place(mix_kept *k, const mix_job *j)
 {
-    const lmb_mat4 camera = camera_of(j), world = inverse(&camera), from = inverse(&j->from_world);
-    k->to_world = multiply(&from, &j->placed);
-    k->anchor = moved(&world, j->anchor);
-    k->up = turned(&world, j->up);
+    const lmb_mat4 camera = camera_of(j), world = mix_back(&camera), from = mix_back(&j->from_world);
+    k->to_world = mix_product(&from, &j->placed);
+    k->anchor = mix_move(&world, j->anchor);
+    k->up = mix_turn(&world, j->up);
     k->scale = j->scale;
     k->hangs = j->hangs;
 }
@@ -307,14 +280,14 @@ static int place_again(mix_job *j, report *r)
     const mix_kept *k = j->kept;
     const lmb_mat4 camera = camera_of(j);
     j->object = k->object;
-    j->anchor = moved(&camera, k->anchor);
-    j->up = turned(&camera, k->up);
+    j->anchor = mix_move(&camera, k->anchor);
+    j->up = mix_turn(&camera, k->up);
     j->scale = k->scale;
     j->floor = k->hangs ? -1 : plane_below(j, j->up);
     j->faces_up = 1;
     turn_scene(j);
     j->gap_m = NAN;
-    j->placed = multiply(&j->from_world, &k->to_world);
+    j->placed = mix_product(&j->from_world, &k->to_world);
     if (!join_scene(j, &j->placed, r)) {
         return 0;
     }

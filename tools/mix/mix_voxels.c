@@ -1,6 +1,7 @@
 /* mix_voxels.c: the light that real surfaces and the object throw about, as voxels around the object. */
 #include "mix_lobes.h"
 #include "mix_sources.h"
+#include "mix_world.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -450,10 +451,25 @@ static int light_voxels(mix_job *j, report *r)
     return find_sent(j, &p, r) && inject_all(j, &p, r);
 }
 
+/* Metal asks what is around and what planes reflect in each frame, also where the voxels stay. */
+static int find_mirrored(mix_job *j, report *r)
+{
+    static const float all[3] = {1.0f, 1.0f, 1.0f};
+    if (j->object_triangles == 0 || !lmb_scene_is_glossy(&j->scene)) {
+        return 1;
+    }
+    lmb_env_dim(&j->env[1], &j->env[0], all);
+    if (!colour_real(j, r)) {
+        return 0;
+    }
+    mix_mirror_planes(j);
+    return 1;
+}
+
 int mix_voxels(mix_job *j, report *r)
 {
-    if (j->object_triangles == 0) {
-        return 1;
+    if (j->object_triangles == 0 || mix_world_stays(j)) {
+        return find_mirrored(j, r);
     }
     if (!colour_real(j, r) || !mix_lobes_bounces(j, r)) {
         return 0;
@@ -463,5 +479,5 @@ int mix_voxels(mix_job *j, report *r)
         return 0;
     }
     j->build_s = host_seconds() - from;
-    return light_voxels(j, r);
+    return light_voxels(j, r) && mix_world_begins(j, r);
 }

@@ -10,6 +10,10 @@
 #include "../../../tools/mix/mix_frames.h"
 #include "../../../tools/mix/mix_front.h"
 #include "../../../tools/mix/mix_again.h"
+#include "../../../tools/mix/mix_carry.h"
+#include "../../../tools/mix/mix_near.h"
+#include "../../../tools/mix/mix_run.h"
+#include "../../../tools/mix/mix_world.h"
 #include "../../../tools/mix/mix_around.h"
 #include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/mix/mix_sources.h"
@@ -205,9 +209,10 @@ void area_light(lmb_light *out, int32_t count, const lmb_light *from, float size
         out[i] = *from;
     }
 }
-void mix_front_refine(float *out, uint8_t *doubt, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb)
+void mix_front_refine(float *out, uint8_t *doubt, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb,
+                      const int32_t box[4])
 {
-    (void)out, (void)doubt, (void)cloud, (void)planes, (void)rgb;
+    (void)box, (void)out, (void)doubt, (void)cloud, (void)planes, (void)rgb;
 }
 void mix_front_tile(lmb_tile *out, const lmb_tile *real, const lmb_tile *object, const float *front,
                     const lmb_cloud *cloud, float x, float y)
@@ -215,23 +220,43 @@ void mix_front_tile(lmb_tile *out, const lmb_tile *real, const lmb_tile *object,
     (void)object, (void)front, (void)cloud, (void)x, (void)y;
     *out = *real;
 }
-int mix_list_read(mix_list *out, const char *path, report *r)
+int mix_frames(const mix_options *o, report *r) { return report_fail(r, "%s: the page mixes one photo", o->frames); }
+lmb_cone_trace mix_trace(const mix_job *j, int32_t world)
 {
-    return (void)out, report_fail(r, "%s: the page mixes one photo", path);
+    return (lmb_cone_trace){j->o.kernels, &j->voxels, world, world, &j->env[world], j->scratch, 1};
 }
-void mix_list_free(mix_list *l) { (void)l; }
-int mix_keep_depth(mix_kept *k, mix_frame *f, report *r) { return (void)k, (void)f, (void)r, 0; }
-int mix_keep(mix_kept *k, mix_job *j, report *r) { return (void)k, (void)j, (void)r, 0; }
-void mix_kept_free(mix_kept *k) { (void)k; }
-int mix_is_still(const mix_kept *k, double bright) { return (void)k, (void)bright, 0; }
-double mix_brightness(const mix_frame *f) { return (void)f, 0; }
+const lmb_tile *mix_tile_there(lmb_tile *room, const mix_job *j, const lmb_tile *in) { return (void)room, (void)j, in; }
+lmb_vec3 mix_point_there(const mix_job *j, lmb_vec3 p) { return (void)j, p; }
+int mix_cells(mix_job *j, report *r) { return (void)j, (void)r, 1; }
+int mix_world_stays(mix_job *j) { return (void)j, 0; }
+int mix_world_begins(mix_job *j, report *r) { return (void)r, j->world = j, 1; }
+int mix_carry_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
+uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real)
+{
+    return (void)without, (void)with, (void)j, (void)real, 0;
+}
+void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with)
+{
+    (void)j, (void)real, (void)without, (void)with;
+}
+void mix_cones_near(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, mix_near *near)
+{
+    (void)inout, (void)j, (void)tile, (void)near;
+}
+int mix_again_light(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real)
+{
+    return (void)without, (void)with, (void)j, (void)real, 0;
+}
+void mix_again_object(lmb_radiance *object, float *covered, const mix_job *j, const lmb_tile *real)
+{
+    (void)object, (void)covered, (void)j, (void)real;
+}
 int mix_again_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 void mix_again_keep(mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with,
                     const lmb_radiance *object, const float *covered)
 {
     (void)j, (void)real, (void)without, (void)with, (void)object, (void)covered;
 }
-void mix_again_draw(mix_job *j) { (void)j; }
 void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 
 /* --- mix_lobes.h, mix_sources.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */

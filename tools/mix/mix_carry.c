@@ -1,0 +1,128 @@
+/* mix_carry.c: light from around at a frame's pixels, kept for the next frame. */
+#include "mix_carry.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "mix_world.h"
+
+enum { AGAIN = 16 /* frames after which a tile is traced again */ };
+
+/* Places of two frames are one where their distances agree and their normals are this near, as a cosine. */
+#define ALIKE 0.7f
+#define ENOUGH 0.5f /* of the weights of four pixels around a place */
+
+int mix_carry_take(mix_job *j, report *r)
+{
+    const size_t pixels = (size_t)j->frame.light.width * (size_t)j->frame.light.height;
+    if (j->kept == NULL) {
+        return 1;
+    }
+    j->carried = mix_take(j, pixels * sizeof *j->carried, r);
+    if (j->kept->last != NULL && j->kept->last->carried != NULL) {
+        const lmb_mat4 back = mix_back(&j->from_world);
+        j->to_last = mix_product(&j->kept->last->from_world, &back);
+    }
+    return j->carried != NULL;
+}
+
+static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/* Where and how the frame before saw a pixel's place. */
+typedef struct there {
+    float x, y, inverse;
+    lmb_vec3 normal; /* in its camera's space */
+} there;
+
+static lmb_vec3 to_camera(const mix_job *j, lmb_vec3 v)
+{
+    const lmb_vec3 out = {along(j->axes.right, v), along(j->axes.up, v), along(j->axes.back, v)};
+    return out;
+}
+
+static there look(const mix_job *j, const mix_job *last, const lmb_tile *real, int k)
+{
+    const lmb_vec3 p = {real->position[0][k], real->position[1][k], real->position[2][k]},
+                   n = {real->normal[0][k], real->normal[1][k], real->normal[2][k]},
+                   at = to_camera(last, mix_move(&j->to_last, p));
+    const lmb_pinhole *c = &last->frame.camera;
+    const there out = {c->cx - c->fx * at.x / at.z, c->cy + c->fy * at.y / at.z, -1.0f / at.z,
+                       to_camera(last, mix_turn(&j->to_last, n))};
+    return out;
+}
+
+/* Is a pixel of the frame before of the same place? */
+static int is_same(const mix_job *last, const there *t, int32_t x, int32_t y)
+{
+    const lmb_pinhole *c = &last->frame.camera;
+    if (x < 0 || y < 0 || x >= c->width || y >= c->height) {
+        return 0;
+    }
+    const size_t i = (size_t)y * (size_t)c->width + (size_t)x;
+    return last->carried[i].is_known && mix_agree(last->cloud.inverse[i], t->inverse) &&
+           along(last->cloud.normal[i], t->normal) > ALIKE;
+}
+
+static int get_pixel(mix_carried *out, const mix_job *last, const there *t)
+{
+    const int32_t w = last->frame.camera.width, u = (int32_t)floorf(t->x), v = (int32_t)floorf(t->y);
+    const float s = t->x - (float)u, f = t->y - (float)v;
+    float sum = 0.0f;
+    memset(out, 0, sizeof *out);
+    for (int32_t i = 0; i < 4; ++i) {
+        const int32_t x = u + (i & 1), y = v + (i >> 1);
+        const float weight = (i & 1 ? s : 1.0f - s) * (i >> 1 ? f : 1.0f - f);
+        if (weight > 0.0f && is_same(last, t, x, y)) {
+            const mix_carried *from = &last->carried[(size_t)y * (size_t)w + (size_t)x];
+            sum += weight;
+            for (int c = 0; c < 6; ++c) {
+                out->rgb[c / 3][c % 3] += weight * from->rgb[c / 3][c % 3];
+            }
+        }
+    }
+    for (int c = 0; c < 6 && sum > 0.0f; ++c) {
+        out->rgb[c / 3][c % 3] /= sum;
+    }
+    return sum >= ENOUGH;
+}
+
+uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real)
+{
+    const mix_job *last = j->kept != NULL ? j->kept->last : NULL;
+    uint64_t known = 0;
+    if (last == NULL || last->carried == NULL || j->carried == NULL || j->kept->is_other_light ||
+        (real->x / LMB_TILE * 5 + real->y / LMB_TILE * 3 + j->kept->frames) % AGAIN == 0) {
+        return 0;
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        mix_carried one;
+        if (real->id[k] == 0) {
+            continue;
+        }
+        const there t = look(j, last, real, k);
+        if (t.inverse > 0.0f && fabsf(t.x) < 1e6f && fabsf(t.y) < 1e6f && get_pixel(&one, last, &t)) {
+            known |= (uint64_t)1 << k;
+            for (int c = 0; c < 3; ++c) {
+                without->rgb[c][k] = one.rgb[0][c];
+                with->rgb[c][k] = one.rgb[1][c];
+            }
+        }
+    }
+    return known;
+}
+
+void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with)
+{
+    const int32_t width = j->picture.width, height = j->picture.height;
+    for (int k = 0; k < LMB_TILE_PIXELS && j->carried != NULL; ++k) {
+        const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE;
+        if (x < width && y < height && real->id[k] != 0) {
+            mix_carried *to = &j->carried[(size_t)y * (size_t)width + (size_t)x];
+            to->is_known = 1;
+            for (int c = 0; c < 3; ++c) {
+                to->rgb[0][c] = without->rgb[c][k];
+                to->rgb[1][c] = with->rgb[c][k];
+            }
+        }
+    }
+}

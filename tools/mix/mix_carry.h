@@ -1,0 +1,16 @@
+/* mix_carry.h: light from around at a frame's pixels, kept for the next frame, which sees most of these places again. */
+#ifndef MIX_CARRY_H
+#define MIX_CARRY_H
+
+#include "mix_cones.h"
+
+/* mix_carry_take: memory for a frame of a sequence. 1, or 0 with `r` set. */
+int mix_carry_take(mix_job *j, report *r);
+
+/* mix_carry_get: light[0] and [1] of the pixels of a real tile that the frame before has seen, between its pixels.
+ * Returns which those are. Every sixteenth frame a tile knows nothing, so that what is carried does not blur, and
+ * follows the voxels. mix_carry_put: a tile's, for the next frame. */
+uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real);
+void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with);
+
+#endif

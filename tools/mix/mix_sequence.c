@@ -1,0 +1,185 @@
+/* mix_sequence.c: `lambent mix --frames`: a sequence of photos, one after the other. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../../platform/host/pool.h"
+#include "../common/frame_name.h"
+#include "../common/progress.h"
+#include "../picture/picture.h"
+#include "mix_again.h"
+#include "mix_frames.h"
+#include "mix_run.h"
+
+static int read_entry(mix_job *j, const mix_entry *e, report *r)
+{
+    mix_source *s = &j->o.source;
+    if (e->prefix[0] != '\0') {
+        s->frame = e->prefix;
+        return mix_frame_read(&j->frame, s, r);
+    }
+    s->photo = e->photo;
+    s->depth = e->depth;
+    s->depth_scale = s->depth_scale > 0.0f ? s->depth_scale : 0.0002f;
+    if (!s->has_intrinsics) {
+        return report_fail(r, "no camera given; add --intrinsics FX,FY,CX,CY");
+    }
+    if (!e->has_pose || !mix_is_pose(e->pose)) {
+        return report_fail(r, "has no pose");
+    }
+    if (!mix_frame_read(&j->frame, s, r)) {
+        return 0;
+    }
+    j->frame.has_pose = 1;
+    memcpy(j->frame.pose, e->pose, sizeof j->frame.pose);
+    return 1;
+}
+
+/* The last frame's answer to this one's photo. */
+static void draw_still(mix_job *j, mix_job *last, double *from)
+{
+    const mix_frame was = last->frame;
+    last->frame = j->frame;
+    j->frame = was;
+    mix_again_draw(last);
+    j->draw_s = mix_lap(from);
+    mix_tell_times(j);
+}
+
+/* A frame that was drawn is the last one, and its world the next frames'. Returns a job that nobody needs any more. */
+static mix_job *take_over(mix_kept *k, mix_job *j)
+{
+    mix_job *last = k->last, *world = k->world;
+    k->last = j;
+    k->world = j->world;
+    if (world != NULL && world != k->world && world != last) {
+        mix_job_free(world);
+    }
+    return last != k->world ? last : NULL;
+}
+
+/* One frame that was read: its picture is k->last's, and what later frames need is kept; *job becomes what nobody needs. */
+static int draw_one(mix_job **job, mix_kept *k, report *r)
+{
+    mix_job *j = *job;
+    double from = host_seconds();
+    if (k->frames > 0 && k->has_pose != j->frame.has_pose) {
+        return report_fail(r, j->frame.has_pose ? "has a pose, and those before it have none" : "has no pose");
+    }
+    lmb_pinhole_round(&j->frame.camera);
+    if (!mix_keep_depth(k, &j->frame, r)) {
+        return 0;
+    }
+    const double bright = mix_brightness(&j->frame);
+    if (mix_is_still(k, bright)) {
+        draw_still(j, k->last, &from);
+        return 1;
+    }
+    if (!mix_find_planes(j, r)) {
+        return 0;
+    }
+    j->planes_s = mix_lap(&from);
+    if (!mix_make_picture(j, &from, r)) {
+        return 0;
+    }
+    if (k->frames == 0) {
+        mix_tell(j);
+    }
+    mix_tell_times(j);
+    if (j->o.object != NULL && !mix_keep(k, j, r)) {
+        return 0;
+    }
+    *job = take_over(k, j);
+    k->bright = bright;
+    k->changed = 0;
+    memset(k->fresh, 0, (size_t)k->camera.width * (size_t)k->camera.height);
+    return 1;
+}
+
+/* Between two frames one is written and the next one is read, by a thread each. */
+typedef struct sequence {
+    const mix_options *o;
+    mix_list list;
+    mix_kept kept;
+    mix_job *next;                     /* that was read; or NULL: it cannot be used, and `why` */
+    int32_t at;                        /* of the list: what `next` is */
+    int is_drawn, is_written;          /* the frame before it */
+    report why, failed;
+} sequence;
+
+static void read_next(sequence *s)
+{
+    const double from = host_seconds();
+    s->next = s->at < s->list.count ? calloc(1, sizeof *s->next) : NULL;
+    if (s->next == NULL) {
+        report_fail(&s->why, "out of memory");
+        return;
+    }
+    s->next->o = *s->o;
+    s->next->kept = &s->kept;
+    if (!read_entry(s->next, &s->list.entry[s->at], &s->why)) {
+        free(s->next);
+        s->next = NULL;
+        return;
+    }
+    s->next->read_s = host_seconds() - from;
+}
+
+static void write_drawn(sequence *s)
+{
+    char name[4200];
+    s->is_written = !s->is_drawn || (frame_name(name, sizeof name, s->o->out, s->at - 1, &s->failed) &&
+                                     picture_write(name, &s->kept.last->picture, mix_exposure(s->kept.last),
+                                                   PICTURE_CLIPPED, &s->failed));
+}
+
+static void write_or_read(void *user, int index, int thread)
+{
+    (void)thread;
+    if (index == 0) {
+        write_drawn(user);
+    } else {
+        read_next(user);
+    }
+}
+
+/* A frame that cannot be used is said and left out; the others go on as if it had not been listed. */
+static void draw_next(sequence *s)
+{
+    mix_job *j = s->next;
+    s->is_drawn = j != NULL && draw_one(&j, &s->kept, &s->why);
+    if (!s->is_drawn) {
+        report_note(s->o->is_quiet, "frame %d is left out: %s", (int)s->at, s->why.text);
+    }
+    if (j != NULL) {
+        mix_job_free(j);
+    }
+    s->next = NULL;
+}
+
+int mix_frames(const mix_options *o, report *r)
+{
+    sequence s;
+    int32_t done = 0;
+    memset(&s, 0, sizeof s);
+    s.o = o;
+    if (!mix_list_read(&s.list, o->frames, r)) {
+        return 0;
+    }
+    s.is_written = 1;
+    read_next(&s);
+    while (s.at < s.list.count && s.is_written) {
+        draw_next(&s);
+        progress_tell("frames", (double)++s.at / (double)s.list.count);
+        s.why.text[0] = '\0';
+        pool_run(pool_threads(o->threads), 2, write_or_read, &s);
+        done += s.is_drawn && s.is_written;
+    }
+    if (s.next != NULL) {
+        mix_job_free(s.next);
+    }
+    mix_kept_free(&s.kept);
+    mix_list_free(&s.list);
+    return s.is_written ? done > 0 || report_fail(r, "%s: no frame could be used", o->frames)
+                        : report_fail(r, "%s", s.failed.text);
+}
