@@ -16,6 +16,7 @@
 #include "../../../tools/mix/mix_world.h"
 #include "../../../tools/mix/mix_around.h"
 #include "../../../tools/mix/mix_lobes.h"
+#include "../../../tools/mix/mix_mirror.h"
 #include "../../../tools/mix/mix_sources.h"
 #include "../../../tools/picture/image.h"
 #include "../../../tools/relief/relief_compare.h"
@@ -259,9 +260,10 @@ void mix_again_keep(mix_job *j, const lmb_tile *real, const lmb_irradiance *with
 }
 void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 
-/* --- mix_lobes.h, mix_sources.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
+/* --- mix_lobes.h, mix_mirror.h, mix_sources.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
 
 void mix_lobes_read(mix_job *j) { (void)j; }
+void mix_mirror_planes(mix_job *j) { (void)j; }
 int mix_around(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 int32_t mix_sources_find(lmb_light out[MIX_WAYS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
 void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int32_t i,
