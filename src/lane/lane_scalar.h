@@ -205,6 +205,18 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     (void)step;
     EACH(if (m.v[i]) p[i] = id);
 }
+/* 2 LANES codes from p on: those of a, then of b, take the place of smaller ones. They are numbers under 65536, which are
+ * truncated; negative ones count as 0. Loops: gcc makes vectors of 16-bit values of these, not of EACH. */
+static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
+{
+    float code[2 * LANES];
+    lane_store(code, a);
+    lane_store(code + LANES, b);
+    for (int i = 0; i < 2 * LANES; ++i) {
+        const uint16_t c = (uint16_t)(int32_t)(code[i] > 0.0f ? code[i] : 0.0f);
+        p[i] = p[i] > c ? p[i] : c;
+    }
+}
 /* Depths that are larger than what is there take its place, and `id` the place of their ids. Of this backend alone: a
  * mask that two stores share keeps gcc from joining lanes into vectors, so each store compares by itself. */
 static inline void lane_put_larger_u32(float *p, uint32_t *ids, uint32_t id, lane d)

@@ -81,7 +81,7 @@ LANE_INLINE float *culled_bound(const lmb_fill_window *w, ptrdiff_t across, ptrd
 LANE_INLINE void culled_cross(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t,
                               const int32_t e[3], const fill_box *box, float *bound, int kind)
 {
-    if (kind != FILL_ANY) {
+    if (kind == FILL_PLAIN || kind == FILL_ID32) {
         fill_rows r;
         r.e0 = lanei_add(lanei_splat(e[0]), t->step[0][0]);
         r.e1 = lanei_add(lanei_splat(e[1]), t->step[1][0]);
@@ -99,7 +99,6 @@ LANE_INLINE void culled_cross(const lmb_fill_tile *tile, const lmb_fill_job *job
         rows_raise(bound, r.lowest);
         return;
     }
-    (void)kind;
     small_tile(tile, job, t, e[0], e[1], e[2], box);
     *bound = culled_look(tile);
 }
@@ -143,7 +142,7 @@ LANE_INLINE uint32_t culled_row_seen(float *d, const culled_plane *plane, const 
 
 NOINLINE void culled_small_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
-    parts_fill_plain(w, b, bits, 1);
+    parts_fill_plain(w, b, bits, FILL_PLAIN, 1);
 }
 
 NOINLINE void culled_small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
@@ -153,7 +152,7 @@ NOINLINE void culled_small_id32(const lmb_fill_window *w, const lmb_batch *b, ui
 
 static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
-    const int kind = fill_kind(&w->first);
+    const int kind = fill_kind(w);
     if (kind == FILL_PLAIN) {
         culled_small_plain(w, b, bits);
         return;
@@ -261,6 +260,7 @@ LANE_INLINE void culled_large_fill(const lmb_fill_window *w, const lmb_setup *s,
     job.d_bias = w->d_bias;
     job.id = id;
     fill_set(&t, s->ex, s->ey, &job);
+    t.codes = kind == FILL_CODES;
     large_set(&edges, s, (w->x0 + tx * LMB_TILE) * 256 + w->origin_x, (w->y0 + ty * LMB_TILE) * 256 + w->origin_y);
     for (; across > 0 && down > 0; --down, ++ty) {
         culled_large_row(w, s, &t, &edges, &tile, &job, tx, ty, across, kind);
@@ -270,7 +270,8 @@ LANE_INLINE void culled_large_fill(const lmb_fill_window *w, const lmb_setup *s,
 
 static void KERNEL(culled_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
-    switch (fill_kind(&w->first)) {
+    switch (fill_kind(w)) {
+    case FILL_CODES: culled_large_fill(w, s, id, FILL_CODES); break;
     case FILL_PLAIN: culled_large_fill(w, s, id, FILL_PLAIN); break;
     case FILL_ID32: culled_large_fill(w, s, id, FILL_ID32); break;
     default: culled_large_fill(w, s, id, FILL_ANY); break;

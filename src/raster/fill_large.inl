@@ -60,6 +60,12 @@ LANE_INLINE void large_crossed(const lmb_fill_tile *tile, const lmb_fill_job *jo
 {
     static const fill_box whole = {0, LMB_TILE - 1, 0, FILL_ACROSS - 1};
     const int32_t e[3] = {large_near(at.a), large_near(at.b), large_near(at.c)};
+#if LANES > 1
+    if (t->codes) {
+        fill_codes_rows((uint16_t *)tile->depth, job, t, e, job->d, 0, LMB_TILE - 1);
+        return;
+    }
+#endif
     for (int i = 0; i < FILL_ACROSS; ++i) {
         fill_column(tile, job, t, e, job->d, &whole, i);
     }
@@ -121,6 +127,7 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
     job.d_bias = w->d_bias;
     job.id = id;
     fill_set(&t, s->ex, s->ey, &job);
+    t.codes = kind == FILL_CODES;
     large_set(&edges, s, x_24_8, y_24_8);
     for (; across > 0 && down > 0; --down, ++ty, y_24_8 += LMB_TILE * 256) {
         lmb_fill_tile tile = fill_first(w, kind);
@@ -135,7 +142,8 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
 
 static void KERNEL(fill_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
-    switch (fill_kind(&w->first)) {
+    switch (fill_kind(w)) {
+    case FILL_CODES: large_fill(w, s, id, FILL_CODES); break;
     case FILL_PLAIN: large_fill(w, s, id, FILL_PLAIN); break;
     case FILL_ID32: large_fill(w, s, id, FILL_ID32); break;
     default: large_fill(w, s, id, FILL_ANY); break;

@@ -121,6 +121,9 @@ LANE_INLINE void parts_draw(const lmb_fill_window *w, const lmb_batch *b, int k,
     r.d_min = lane_splat(b->d_min[k]);
     r.d_max = lane_splat(b->d_max[k]);
     r.depth = (float *)(void *)((uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile);
+    r.codes = (uint16_t *)(void *)r.depth;
+    r.scale = lane_splat(w->d_scale);
+    r.bias = lane_splat(w->d_bias);
     r.ids = kind == FILL_ID32 ? (uint32_t *)(void *)((uint8_t *)w->first.id + down * w->id_row + across * w->id_tile)
                               : NULL;
     r.id = id;
@@ -156,18 +159,18 @@ LANE_INLINE void parts_slopes(fill_slopes *out, const lmb_batch *b, uint32_t bit
 
 /* Tile p of triangles `seen`. */
 LANE_INLINE void parts_draw_each(const fill_part *part, const fill_slopes *slopes, const lmb_fill_window *w,
-                                 const lmb_batch *b, uint32_t seen, int p, int rows, int bounded)
+                                 const lmb_batch *b, uint32_t seen, int p, int rows, int kind, int bounded)
 {
     for (; seen != 0; seen &= seen - 1) {
         const int k = lowest_bit(seen);
         parts_draw(w, b, k, p % PARTS_SIDE, p / PARTS_SIDE, part->e[0][k], part->e[1][k], part->e[2][k], part->d[k],
-                   slopes->dx[k], slopes->dy[k], 0, rows, FILL_PLAIN, bounded);
+                   slopes->dx[k], slopes->dy[k], 0, rows, kind, bounded);
     }
 }
 
 /* Tile p of triangles `bits`. Those in one half of its rows are drawn apart, without the other half. */
 LANE_INLINE void parts_each(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
-                            int p, int bounded)
+                            int p, int kind, int bounded)
 {
     const lanei px = lanei_splat(p % PARTS_SIDE), py = lanei_splat(p / PARTS_SIDE);
     fill_part part;
@@ -181,13 +184,13 @@ LANE_INLINE void parts_each(const fill_slopes *slopes, const lmb_fill_window *w,
     seen &= bits;
 #if LMB_CULLING
     if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
-        parts_draw_each(&part, slopes, w, b, seen, p, ROWS_ALL, bounded);
+        parts_draw_each(&part, slopes, w, b, seen, p, ROWS_ALL, kind, bounded);
         return;
     }
 #endif
-    parts_draw_each(&part, slopes, w, b, seen & upper, p, ROWS_UPPER, 0);
-    parts_draw_each(&part, slopes, w, b, seen & lower, p, ROWS_LOWER, 0);
-    parts_draw_each(&part, slopes, w, b, seen & ~(upper | lower), p, ROWS_ALL, 0);
+    parts_draw_each(&part, slopes, w, b, seen & upper, p, ROWS_UPPER, kind, 0);
+    parts_draw_each(&part, slopes, w, b, seen & lower, p, ROWS_LOWER, kind, 0);
+    parts_draw_each(&part, slopes, w, b, seen & ~(upper | lower), p, ROWS_ALL, kind, 0);
 }
 
 /* What a number of tiles is to be added to, so that it has this parity. */
@@ -334,7 +337,7 @@ LANE_INLINE void parts_wide(const lmb_fill_window *w, const lmb_batch *b, int k,
 
 /* Without ids, triangles may come in any order: what is left is each pixel's nearest depth. So do their tiles: the first
  * one of each, then the one beside it, and so on; that is faster than a list. */
-LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int bounded)
+LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int kind, int bounded)
 {
     const uint32_t narrow = parts_narrow(b, bits, 2);
     /* Sixteen lanes take wider triangles one by one where none is asked for: most of their rows are left out then. */
@@ -345,14 +348,14 @@ LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, 
         const int beside = p % PARTS_SIDE == 2 || p / PARTS_SIDE == 2;
         const uint32_t some = beside ? wider & ~narrow : wider;
         if (some != 0) {
-            parts_each(&slopes, w, b, some, p, bounded);
+            parts_each(&slopes, w, b, some, p, kind, bounded);
         }
     }
     for (bits &= ~wider; bits != 0; bits &= bits - 1) {
         if (LANES > LMB_TILE && !bounded) {
-            small_alone(w, b, lowest_bit(bits), 0, FILL_PLAIN);
+            small_alone(w, b, lowest_bit(bits), 0, kind);
         } else {
-            parts_wide(w, b, lowest_bit(bits), 0, FILL_PLAIN, bounded);
+            parts_wide(w, b, lowest_bit(bits), 0, kind, bounded);
         }
     }
 }
