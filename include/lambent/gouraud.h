@@ -49,7 +49,7 @@ extern "C" {
  *   map  from lmb_shadow_map_init, of up to LMB_GOURAUD_MAX_SIDE texels, with 16- or 32-bit ids. Its surfaces become
  *        LMB_LINEAR.
  * Returns LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_gouraud_map(lmb_shadow_map *map, const lmb_scene *scene, lmb_gouraud_scratch *scratch);
+lmb_status lmb_gouraud_map(lmb_shadow_map *map, lmb_gouraud_scratch *scratch, const lmb_scene *scene);
 
 /* lmb_gouraud_begin: clear picture and depth, and forget the receivers' direct light. Returns LMB_OK; LMB_ERR_ARG;
  * LMB_ERR_FORMAT (not RGB565); or LMB_ERR_CAPACITY (over LMB_GOURAUD_MAX_SIDE). */

@@ -31,7 +31,7 @@ extern "C" {
  *   target  holds the rows 8 * band .. 8 * band + 7 with ids.
  * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
 lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal, const lmb_surface *albedo,
-                            lmb_tile *tile, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                            const lmb_kernels *kernels, lmb_tile *tile, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t band);
 
 /* lmb_shadow_map_faces: how many faces the map of this light has in this scene: 1 .. 6. */

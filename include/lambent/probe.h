@@ -247,7 +247,7 @@ lmb_status lmb_probe_blur_init(lmb_probe_blur *out, const lmb_probe_table *table
  *   out   may be `map` itself; the same bytes
  *   line  scratch, 4 x width floats; in place width x height more
  * A world of one radiance gives pi times that. LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_probe_blur_map(float *out, float *line, const lmb_kernels *kernels, const float *map,
+lmb_status lmb_probe_blur_map(float *out, const lmb_kernels *kernels, float *line, const float *map,
                               const lmb_probe_blur *blur);
 
 /* lmb_probe_halve: a map of half the width and height; may be in place. The table is the larger map's. LMB_OK or
@@ -269,7 +269,7 @@ lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lm
  * lmb_probe_glossy_side: the n that shows a roughness: 64 from 0.1 on, 16 from 0.3, 8 from 0.6; 0 under 0.1, where
  * pixels look at the world itself. */
 int32_t lmb_probe_glossy_side(float roughness);
-lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+lmb_status lmb_probe_reflect(float *cube, int32_t n, const lmb_kernels *kernels, lmb_probe_rays *scratch,
                              const lmb_world_query *query, lmb_vec3 at, float roughness);
 
 /* lmb_probe_cube_bytes, lmb_probe_cube_init: a cube in planes made ready to be looked up. n: 1 .. 256. 9.4 KiB for 8.
@@ -285,9 +285,9 @@ lmb_status lmb_probe_cube_init(lmb_probe_cube *out, const float *planes, int32_t
  *   inout  of lmb_glossy_tile.
  *   query   read where cube is NULL.
  * Bilinear. What an object hides from itself is not known. LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_probe_light_tile(lmb_irradiance *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+lmb_status lmb_probe_light_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_probe_rays *scratch,
                                 const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube);
-lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, const lmb_kernels *kernels, lmb_probe_rays *scratch,
                                  const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
                                  const lmb_world_query *query);
 
@@ -303,7 +303,7 @@ lmb_status lmb_probe_cache_ask(lmb_probe_answer *out, lmb_probe_cache *inout, ui
 
 /* lmb_probe_background: set the pixels of a tile without a surface to the radiance that the view sees there.
  * LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays *scratch, const lmb_kernels *kernels,
+lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], const lmb_kernels *kernels, lmb_probe_rays *scratch,
                                 const lmb_tile *tile, const lmb_view *view, const lmb_world_query *query);
 
 #ifdef __cplusplus

@@ -105,8 +105,8 @@ void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief);
  * sees through is no surface. Between texels, a pixel that nothing around it in the tile explains (none there, a surface
  * alone, another depth) takes the surface that most of those around it show: rays slip between two views' texels.
  * Returns LMB_OK or LMB_ERR_ARG. Cost: 64 pixels x views x steps, whatever the complex model had. */
-lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_kernels *kernels,
-                           const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how);
+lmb_status lmb_relief_tile(lmb_tile *inout, const lmb_kernels *kernels, const lmb_relief *relief,
+                           const lmb_view *view, const lmb_relief_how *how, lmb_relief_stats *stats);
 
 /* lmb_relief_nearer: of two tiles at one place the nearer surface of each pixel, into `inout`.                  [P11]
  * Ids of `other` become LMB_MAX_TRIANGLES, so that no scene takes them for its own. */
@@ -118,7 +118,7 @@ void lmb_relief_nearer(lmb_tile *inout, const lmb_tile *other);
  *   tile   scratch
  * Its time is by warped texels, and texels finer than about 3/4 of the views' show no more.
  * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT (16-bit depth). */
-lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, lmb_tile *tile, const lmb_kernels *kernels,
+lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, const lmb_kernels *kernels, lmb_tile *tile,
                                   const lmb_relief *relief, const lmb_relief_how *how, int32_t first, int32_t past);
 
 /* lmb_relief_lit: the pixels of a tile, a bit each, that nothing in such a map shadows: those of the relief itself

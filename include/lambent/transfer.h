@@ -256,8 +256,8 @@ lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kerne
  * element is lit as light->place says. Cost: a tile's cut and its shadows, as of 64 pixels. LMB_OK or LMB_ERR_ARG.
  *                                                                                                         [V3] */
 int32_t lmb_transfer_tiles(const lmb_transfer *transfer);
-lmb_status lmb_transfer_many_lights(const lmb_transfer_light *light, const lmb_transfer *transfer,
-                                    const lmb_element_scratch *own_scratch, lmb_many_lights_scratch *scratch,
+lmb_status lmb_transfer_many_lights(const lmb_transfer_light *light, const lmb_element_scratch *own_scratch,
+                                    lmb_many_lights_scratch *scratch, const lmb_transfer *transfer,
                                     const lmb_many_lights_query *query, int32_t first, int32_t past);
 
 /* lmb_transfer_bounce: after all maps: elements send what the enum above says, and coarse ones receive it.

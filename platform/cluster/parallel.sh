@@ -1,7 +1,7 @@
 #!/bin/sh
-# parallel.sh: one picture or sequence on many machines, by GNU parallel over ssh.
+# parallel.sh: one picture, sequence or sweep on many machines, by GNU parallel over ssh.
 #
-#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play
+#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play, bench
 #
 # N: slices; two or more a machine let fast ones do more. HOSTS: as parallel's --sshlogin: host1,host2, where `:` is this
 # machine and 2/host1 runs two at once. LAMBENT: the command on all of them (default lambent). SEND: files to send there
@@ -11,9 +11,10 @@ set -eu
 [ $# -ge 5 ] || { sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 2; }
 count=$1 hosts=$2
 shift 2
-out= previous=
+out= previous= quiet=--quiet
 for word in "$@"; do
     [ "$previous" != -o ] || out=$word
+    case $word in -q | --quiet | -v | --verbose) quiet= ;; esac
     previous=$word
 done
 [ -n "$out" ] || { echo "parallel.sh: no -o OUT" >&2; exit 2; }
@@ -24,6 +25,9 @@ for file in ${SEND:-}; do
     there="$there --basefile $file"
 done
 rm -f "$out".*of"$count"
-# shellcheck disable=SC2086 # words of `there` are words
-seq "$count" | parallel --quote --sshlogin "$hosts" --retries 3 $there "$lambent" "$@" --quiet --slice "{}/$count" || true
-exec "$lambent" merge "$out".*of"$count" -o "$out"
+# shellcheck disable=SC2086 # words of `there` are words, and quiet is one or none
+seq "$count" | parallel --quote --sshlogin "$hosts" --retries 3 $there "$lambent" "$@" $quiet --slice "{}/$count" || true
+[ "$1" = bench ] || exec "$lambent" merge "$out".*of"$count" -o "$out"
+for end in csv json html; do
+    "$lambent" merge "$out".*of"$count" -o "$out.$end"
+done

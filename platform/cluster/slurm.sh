@@ -1,7 +1,7 @@
 #!/bin/sh
-# slurm.sh: one picture or sequence as a Slurm job array, and the job that joins it.
+# slurm.sh: one picture, sequence or sweep as a Slurm job array, and the job that joins it.
 #
-#   sh slurm.sh N render SCENE -o OUT [options]     or play
+#   sh slurm.sh N render SCENE -o OUT [options]     or play, bench
 #
 # N: slices, which Slurm runs as machines are free. The machines share this folder. LAMBENT: the command on all of them
 # (default lambent). SBATCH: options for each job, as "--partition=long --cpus-per-task=8". A slice that fails is
@@ -12,23 +12,30 @@ if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then # a slice
     count=$1
     shift
     for try in 1 2 3; do
-        "$lambent" "$@" --quiet --slice "$SLURM_ARRAY_TASK_ID/$count" && exit 0
+        # shellcheck disable=SC2086 # one word or none
+        "$lambent" "$@" ${QUIET-} --slice "$SLURM_ARRAY_TASK_ID/$count" && exit 0
         echo "slurm.sh: slice $SLURM_ARRAY_TASK_ID/$count failed at try $try" >&2
     done
     exit 1
 fi
 if [ -n "${MERGE:-}" ]; then # the last job
-    exec "$lambent" merge "$2".*of"$1" -o "$2"
+    [ "$3" = bench ] || exec "$lambent" merge "$2".*of"$1" -o "$2"
+    for end in csv json html; do
+        "$lambent" merge "$2".*of"$1" -o "$2.$end"
+    done
+    exit
 fi
 [ $# -ge 4 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 2; }
-count=$1 out= previous=
+count=$1 out= previous= QUIET=--quiet
 for word in "$@"; do
     [ "$previous" != -o ] || out=$word
+    case $word in -q | --quiet | -v | --verbose) QUIET= ;; esac
     previous=$word
 done
 [ -n "$out" ] || { echo "slurm.sh: no -o OUT" >&2; exit 2; }
+export QUIET
 rm -f "$out".*of"$count"
 # shellcheck disable=SC2086 # words of SBATCH are words
 array=$(sbatch --parsable --requeue --array="1-$count" ${SBATCH:-} "$0" "$@")
 # shellcheck disable=SC2086
-MERGE=1 sbatch --wait --dependency="afterany:${array%%;*}" ${SBATCH:-} "$0" "$count" "$out"
+MERGE=1 sbatch --wait --dependency="afterany:${array%%;*}" ${SBATCH:-} "$0" "$count" "$out" "$2"

@@ -66,7 +66,7 @@ static lmb_status light_up(void)
     lmb_status s =
         lmb_shadow_map_init(&map, &scene->lights[0], scene, MAP_SIZE, LMB_ID16, map_memory, sizeof map_memory);
     if (s == LMB_OK)
-        s = lmb_gouraud_map(&map, scene, &scratch);
+        s = lmb_gouraud_map(&map, &scratch, scene);
     taken[MAP] = count_taken();
     if (s == LMB_OK)
         s = lmb_transfer_clear(&light, &transfer);

@@ -61,14 +61,14 @@ static lmb_status draw_map(const lmb_kernels *kernels)
         lmb_shadow_map_clear(&map);
         s = lmb_shadow_map_draw(&map, kernels, &simple, 1, lmb_scene_triangles(&simple), NULL);
     }
-    return s != LMB_OK ? s : lmb_relief_shadow_rows(&map, &tile, kernels, &relief, NULL, 0, MAP_SIZE / LMB_TILE);
+    return s != LMB_OK ? s : lmb_relief_shadow_rows(&map, kernels, &tile, &relief, NULL, 0, MAP_SIZE / LMB_TILE);
 }
 
 static lmb_status draw_tile(const lmb_kernels *kernels, const lmb_view *view, int32_t x, int32_t y)
 {
     lmb_status s = lmb_resolve_tile(&tile, kernels, view, &simple, &eye, x, y);
     if (s == LMB_OK)
-        s = lmb_relief_tile(&tile, &stats, kernels, &relief, view, NULL);
+        s = lmb_relief_tile(&tile, kernels, &relief, view, NULL, &stats);
     memset(&direct, 0, sizeof direct);
     if (s == LMB_OK)
         s = lmb_direct_tile(&direct, kernels, &tile, view, &simple, &sun, NULL);

@@ -46,10 +46,10 @@ static lmb_status add_probe(const lmb_relight *r, lmb_relight_scratch *s, uint64
     const int looks = probe->glossy.texel == NULL;
     lmb_status status = LMB_OK;
     if (r->show != LMB_RELIGHT_GLOSSY) {
-        status = lmb_probe_light_tile(&s->light, &s->rays, r->kernels, &s->tile, pixels, &probe->irradiance);
+        status = lmb_probe_light_tile(&s->light, r->kernels, &s->rays, &s->tile, pixels, &probe->irradiance);
     }
     if (status == LMB_OK && is_glossy && r->show != LMB_RELIGHT_NORMAL && !(looks && r->world == NULL)) {
-        status = lmb_probe_glossy_tile(&s->glossy, &s->rays, r->kernels, &s->tile, pixels,
+        status = lmb_probe_glossy_tile(&s->glossy, r->kernels, &s->rays, &s->tile, pixels,
                                        looks ? NULL : &probe->glossy, &query);
     }
     return status;
@@ -113,7 +113,7 @@ static lmb_status relight_tile(const lmb_relight *r, lmb_relight_scratch *s)
         status = lmb_compose_emission(&s->radiance, r->scene, &r->view, &s->tile);
     }
     return status == LMB_OK && r->world != NULL
-               ? lmb_probe_background(s->radiance.rgb, &s->rays, r->kernels, &s->tile, &r->view, &query)
+               ? lmb_probe_background(s->radiance.rgb, r->kernels, &s->rays, &s->tile, &r->view, &query)
                : status;
 }
 

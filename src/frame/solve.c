@@ -101,8 +101,8 @@ static lmb_status step_many_lights(lmb_render *r, int32_t units)
     const lmb_element_scratch own = {f->kernels, NULL, &f->scratch->tile, NULL, &f->scratch->indirect};
     const int32_t tiles = lmb_transfer_tiles(f->transfer), first = (int32_t)r->progress,
                   past = tiles - first < units ? tiles : first + units;
-    const lmb_status status = lmb_transfer_many_lights(&f->transfer_light, f->transfer, &own,
-                                                       &f->scratch->many_lights, &query, first, past);
+    const lmb_status status = lmb_transfer_many_lights(&f->transfer_light, &own, &f->scratch->many_lights,
+                                                       f->transfer, &query, first, past);
     r->progress = (uint32_t)past;
     return status != LMB_OK ? status : past < tiles ? LMB_MORE : LMB_OK;
 }

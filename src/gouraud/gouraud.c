@@ -469,7 +469,7 @@ static void lay_rows(lmb_surface *s)
     }
 }
 
-lmb_status lmb_gouraud_map(lmb_shadow_map *map, const lmb_scene *scene, lmb_gouraud_scratch *scratch)
+lmb_status lmb_gouraud_map(lmb_shadow_map *map, lmb_gouraud_scratch *scratch, const lmb_scene *scene)
 {
     drawing d;
     if (map == NULL || scene == NULL || scratch == NULL || map->size < 1 || map->size > LMB_GOURAUD_MAX_SIDE ||

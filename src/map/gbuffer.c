@@ -41,7 +41,7 @@ static void store_tile(const lmb_surface *depth, const lmb_surface *normal, cons
 }
 
 lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal, const lmb_surface *albedo,
-                            lmb_tile *tile, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                            const lmb_kernels *kernels, lmb_tile *tile, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t band)
 {
     if (tile == NULL || kernels == NULL || view == NULL || scene == NULL || target == NULL || band < 0 ||

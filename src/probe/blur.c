@@ -190,7 +190,7 @@ static void blur_plane(float *out, float *line, const lmb_kernels *kernels, cons
     }
 }
 
-lmb_status lmb_probe_blur_map(float *out, float *line, const lmb_kernels *kernels, const float *map,
+lmb_status lmb_probe_blur_map(float *out, const lmb_kernels *kernels, float *line, const float *map,
                               const lmb_probe_blur *blur)
 {
     if (out == NULL || line == NULL || kernels == NULL || map == NULL || blur == NULL || blur->row == NULL) {

@@ -177,7 +177,7 @@ static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *k
     }
 }
 
-lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+lmb_status lmb_probe_reflect(float *cube, int32_t n, const lmb_kernels *kernels, lmb_probe_rays *scratch,
                              const lmb_world_query *query, lmb_vec3 at, float roughness)
 {
     if (cube == NULL || scratch == NULL || kernels == NULL || query == NULL || query->world == NULL ||

@@ -79,7 +79,7 @@ static void sample_cube(lmb_world_job *out, const lmb_probe_cube *cube)
 
 /* --- a tile's pixels ---------------------------------------------------------------------------------------------- */
 
-lmb_status lmb_probe_light_tile(lmb_irradiance *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+lmb_status lmb_probe_light_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_probe_rays *scratch,
                                 const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube)
 {
     lmb_world_job job;
@@ -110,7 +110,7 @@ static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_glossy *glossy, con
     }
 }
 
-lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, const lmb_kernels *kernels, lmb_probe_rays *scratch,
                                  const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
                                  const lmb_world_query *query)
 {
@@ -155,7 +155,7 @@ static void view_rays(lmb_probe_rays *out, const lmb_view *view, int32_t x, int3
     }
 }
 
-lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays *scratch, const lmb_kernels *kernels,
+lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], const lmb_kernels *kernels, lmb_probe_rays *scratch,
                                 const lmb_tile *tile, const lmb_view *view, const lmb_world_query *query)
 {
     lmb_world_job job;

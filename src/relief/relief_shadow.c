@@ -44,7 +44,7 @@ static lmb_status shadow_row(const lmb_target *face, const lmb_view *view, lmb_t
     for (int32_t x = 0; x < face->depth.width; x += LMB_TILE) {
         lmb_status status = lmb_resolve_tile(tile, kernels, view, &scene, face, x, y);
         if (status == LMB_OK) {
-            status = lmb_relief_tile(tile, NULL, kernels, relief, view, how);
+            status = lmb_relief_tile(tile, kernels, relief, view, how, NULL);
         }
         if (status != LMB_OK) {
             return status;
@@ -54,7 +54,7 @@ static lmb_status shadow_row(const lmb_target *face, const lmb_view *view, lmb_t
     return LMB_OK;
 }
 
-lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, lmb_tile *tile, const lmb_kernels *kernels,
+lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, const lmb_kernels *kernels, lmb_tile *tile,
                                   const lmb_relief *relief, const lmb_relief_how *how, int32_t first, int32_t past)
 {
     if (map == NULL || tile == NULL || kernels == NULL || relief == NULL || first < 0 || first > past ||

@@ -112,8 +112,8 @@ static void add_stats(lmb_relief_stats *stats, const lmb_relief_found *found, in
     stats->holes += all - hits - missed;
 }
 
-lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_kernels *kernels,
-                           const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how)
+lmb_status lmb_relief_tile(lmb_tile *inout, const lmb_kernels *kernels, const lmb_relief *relief,
+                           const lmb_view *view, const lmb_relief_how *how, lmb_relief_stats *stats)
 {
     const lmb_relief_how usual = {0, 0, 0, 0, 0};
     lmb_relief_job job;

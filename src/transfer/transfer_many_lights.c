@@ -53,8 +53,8 @@ static lmb_status light_tile(const lmb_transfer_light *light, const lmb_transfer
     return status;
 }
 
-lmb_status lmb_transfer_many_lights(const lmb_transfer_light *light, const lmb_transfer *t,
-                                    const lmb_element_scratch *own_scratch, lmb_many_lights_scratch *scratch,
+lmb_status lmb_transfer_many_lights(const lmb_transfer_light *light, const lmb_element_scratch *own_scratch,
+                                    lmb_many_lights_scratch *scratch, const lmb_transfer *t,
                                     const lmb_many_lights_query *query, int32_t first, int32_t past)
 {
     lmb_status status = LMB_OK;

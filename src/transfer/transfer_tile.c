@@ -76,11 +76,13 @@ static uint32_t enter_leaf(lmb_transfer_met *s, const uint32_t *node, uint32_t r
         memcpy(s->step[0].weight, whole, sizeof whole);
     }
     uint32_t i = shared_steps(s, b1, b2);
-    for (; i < LMB_TRANSFER_MAX_HALVINGS && (node[s->step[i].at] & LMB_TRANSFER_LEAF) == 0; ++i) {
-        enter_half(&s->step[i], node[s->step[i].at], b1, b2);
+    uint32_t word = node[s->step[i].at];
+    for (; i < LMB_TRANSFER_MAX_HALVINGS && (word & LMB_TRANSFER_LEAF) == 0; ++i) {
+        const uint32_t *half = node + halving_first(word), first = half[0], second = half[1];
+        enter_half(&s->step[i], word, b1, b2);
+        word = s->step[i].second ? second : first;
     }
     s->depth = i;
-    const uint32_t word = node[s->step[i].at];
     return (word & LMB_TRANSFER_LEAF) != 0 ? word & ~LMB_TRANSFER_LEAF : LMB_TRANSFER_NONE;
 }
 

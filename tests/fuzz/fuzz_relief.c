@@ -34,7 +34,7 @@ static void draw(const lmb_relief *relief, const lmb_relief_how *how)
     for (int32_t at = 0; at < TILES * TILES; ++at) {
         fuzz_require(lmb_resolve_tile(&tile, lmb_kernels_pick(), &view, &scene, &target, at % TILES * LMB_TILE,
                                       at / TILES * LMB_TILE) == LMB_OK);
-        fuzz_require(lmb_relief_tile(&tile, &stats, lmb_kernels_pick(), relief, &view, how) == LMB_OK);
+        fuzz_require(lmb_relief_tile(&tile, lmb_kernels_pick(), relief, &view, how, &stats) == LMB_OK);
     }
     fuzz_require(stats.hits + stats.missed + stats.holes == stats.pixels);
 }

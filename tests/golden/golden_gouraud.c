@@ -36,7 +36,7 @@ static lmb_status light_up(gouraud_space *s)
     status = status != LMB_OK ? status
                               : lmb_transfer_light_init(&s->light, &s->transfer, s->light_memory, sizeof s->light_memory);
     status = status != LMB_OK ? status : lmb_transfer_materials(&s->light, &s->transfer, scene);
-    status = status != LMB_OK ? status : lmb_gouraud_map(&s->map, scene, &s->scratch);
+    status = status != LMB_OK ? status : lmb_gouraud_map(&s->map, &s->scratch, scene);
     memset(&s->collecting, 0, sizeof s->collecting);
     for (int32_t f = 0; f < s->map.faces && status == LMB_OK; ++f) {
         status = lmb_transfer_collect(&s->light, k, &s->collecting, &s->transfer, scene, &s->room.light, &s->map, f, 1,

@@ -71,7 +71,7 @@ static uint64_t blurred(uint64_t h, probe_space *s, int32_t terms)
 {
     h = golden_hash_u32(h, (uint32_t)lmb_probe_blur_init(&s->blur, &s->table, terms, s->blur_memory,
                                                          sizeof s->blur_memory));
-    lmb_probe_blur_map(s->blurred, s->line, golden_kernels, s->map, &s->blur);
+    lmb_probe_blur_map(s->blurred, golden_kernels, s->line, s->map, &s->blur);
     lmb_probe_map_cube(s->cube, SIDE, s->blurred, &s->table);
     return hash_cube(golden_hash_floats(h, s->blurred, sizeof s->blurred / sizeof *s->blurred), s);
 }
@@ -93,7 +93,7 @@ uint64_t case_probe(int variant)
     lmb_probe_sh_cube(s->cube, SIDE, (const float (*)[LMB_SH_25])harmonics, LMB_SH_25);
     h = hash_cube(h, s);
     for (int32_t i = 0; i < 3; ++i) {
-        lmb_probe_reflect(s->cube, SIDE, &s->rays, golden_kernels, &query, at, 0.4f * (float)i);
+        lmb_probe_reflect(s->cube, SIDE, golden_kernels, &s->rays, &query, at, 0.4f * (float)i);
         h = hash_cube(h, s);
     }
     return blurred(h, s, variant % 3);
@@ -109,7 +109,7 @@ static void set_probes(lmb_probe probe[2], relit_space *relit, probe_space *s)
         lmb_probe_reduce(&s->lights, golden_kernels, s->map, &s->table);
         lmb_probe_cosine(s->cube, SIDE, golden_kernels, &s->lights, &s->table);
         lmb_probe_cube_init(&probe[i].irradiance, s->cube, SIDE, relit->cube[i][0], sizeof relit->cube[i][0]);
-        lmb_probe_reflect(s->cube, SIDE, &s->rays, golden_kernels, &query, at[i], 0.5f);
+        lmb_probe_reflect(s->cube, SIDE, golden_kernels, &s->rays, &query, at[i], 0.5f);
         lmb_probe_cube_init(&probe[i].glossy, s->cube, SIDE, relit->cube[i][1], sizeof relit->cube[i][1]);
     }
     probe[1].glossy.texel = NULL; /* looks at the world itself */

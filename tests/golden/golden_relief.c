@@ -29,7 +29,7 @@ static void draw_map(relief_space *s, const lmb_light *light, const lmb_scene *s
     lmb_shadow_map_init(&s->shadow_map, light, scene, MAP, LMB_ID16, s->map, sizeof s->map);
     lmb_shadow_map_clear(&s->shadow_map);
     lmb_shadow_map_draw(&s->shadow_map, golden_kernels, scene, 1, 12, NULL);
-    lmb_relief_shadow_rows(&s->shadow_map, &s->tile, golden_kernels, &s->relief, how, 0, MAP / LMB_TILE);
+    lmb_relief_shadow_rows(&s->shadow_map, golden_kernels, &s->tile, &s->relief, how, 0, MAP / LMB_TILE);
 }
 
 /* Bit 0: packed; 1: its texels as they are, nearest to the eye's ray; 2: one look. */
@@ -51,7 +51,7 @@ uint64_t case_relief(int variant)
     for (int32_t y = 0; y < GOLDEN_HEIGHT; y += LMB_TILE) {
         for (int32_t x = 0; x < GOLDEN_WIDTH; x += LMB_TILE) {
             lmb_resolve_tile(&s->tile, golden_kernels, &view, &scene, &eye, x, y);
-            lmb_relief_tile(&s->tile, NULL, golden_kernels, &s->relief, &view, &how);
+            lmb_relief_tile(&s->tile, golden_kernels, &s->relief, &view, &how, NULL);
             h = hash_tile(h, &s->tile, lmb_relief_lit(&s->shadow_map, &sun, &s->tile));
         }
     }

@@ -1315,8 +1315,8 @@ static int trial_relief(const trial *t, test_rng r)
     GUARD(got);
     make_relief_tile(&want.it, &r, t->seed % 4u ? 0 : 25u);
     got.it = want.it;
-    CHECK(lmb_relief_tile(&want.it, &stats[0], &lmb_kernels_scalar, &relief, &view, &how) == LMB_OK);
-    CHECK(lmb_relief_tile(&got.it, &stats[1], t->kernels, &relief, &view, &how) == LMB_OK);
+    CHECK(lmb_relief_tile(&want.it, &lmb_kernels_scalar, &relief, &view, &how, &stats[0]) == LMB_OK);
+    CHECK(lmb_relief_tile(&got.it, t->kernels, &relief, &view, &how, &stats[1]) == LMB_OK);
     CHECK(canaries_stay(got.before, got.after));
     return same_floats(t, "position", want.it.position[0], got.it.position[0], 3 * LMB_TILE_PIXELS) &&
            same_floats(t, "normal", want.it.normal[0], got.it.normal[0], 3 * LMB_TILE_PIXELS) &&

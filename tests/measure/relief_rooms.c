@@ -128,7 +128,7 @@ static shown draw(const lmb_relief *relief, const lmb_view *view, const lmb_reli
         for (int32_t x = 0; x < out.width; x += LMB_TILE) {
             lmb_resolve_tile(&tile, kernels, view, &blocks, &target, x, y);
             memcpy(before, tile.depth, sizeof before);
-            lmb_relief_tile(&tile, NULL, kernels, relief, view, how);
+            lmb_relief_tile(&tile, kernels, relief, view, how, NULL);
             store(&out, &tile, before);
         }
     }

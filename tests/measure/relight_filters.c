@@ -96,7 +96,7 @@ static void step(void *context)
         break;
     case MAP_CUBE: lmb_probe_map_cube(s->cube, SIDE, s->blurred, &s->table[2]); break;
     default:
-        lmb_probe_blur_map(s->blurred, s->line, s->kernels, s->half, &s->blur[j->stage - BLUR_SOURCE]);
+        lmb_probe_blur_map(s->blurred, s->kernels, s->line, s->half, &s->blur[j->stage - BLUR_SOURCE]);
         break;
     }
 }

@@ -97,7 +97,7 @@ static void light_figure(frames *f, int i)
     relight_update(f->stage, COSINE, f->place[i], SIDE);
     CHECK(lmb_probe_cube_init(&f->probe[i].irradiance, f->stage->cube, SIDE, f->irradiance[i],
                               sizeof f->irradiance[i]) == LMB_OK);
-    CHECK(lmb_probe_reflect(f->planes, SHARP, &f->rays, f->stage->kernels, &query, f->place[i], figure_roughness) ==
+    CHECK(lmb_probe_reflect(f->planes, SHARP, f->stage->kernels, &f->rays, &query, f->place[i], figure_roughness) ==
           LMB_OK);
     CHECK(lmb_probe_cube_init(&f->probe[i].glossy, f->planes, SHARP, f->glossy[i], sizeof f->glossy[i]) == LMB_OK);
 }

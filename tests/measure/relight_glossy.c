@@ -166,7 +166,7 @@ static void reflect(void *context)
 {
     glossy *g = context;
     const lmb_world_query query = {&g->stage->world, 0.0f, 0};
-    lmb_probe_reflect(g->planes, g->side, &g->rays, g->stage->kernels, &query, g->at, g->roughness);
+    lmb_probe_reflect(g->planes, g->side, g->stage->kernels, &g->rays, &query, g->at, g->roughness);
 }
 
 static void look_up(float out[3], const lmb_probe_cube *cube, const double d[3])

@@ -198,7 +198,7 @@ static void blur(relight_stage *s, int32_t terms, int32_t n)
 {
     lmb_probe_halve(s->half, s->map, &s->table[0]);
     lmb_probe_halve(s->half, s->half, &s->table[1]);
-    lmb_probe_blur_map(s->blurred, s->line, s->kernels, s->half, &s->blur[terms]);
+    lmb_probe_blur_map(s->blurred, s->kernels, s->line, s->half, &s->blur[terms]);
     lmb_probe_map_cube(s->cube, n, s->blurred, &s->table[2]);
 }
 

@@ -55,6 +55,51 @@ status 2 play demo $tiny --slice 1/4
 status 2 merge
 check "nothing bad was joined" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$s"
 
+# Settings of a sweep: the table of all slices has the settings, errors, memory, work and commands of one machine's. Times,
+# counted instructions and what follows from times (the front) are each machine's own.
+without_times() { # of a CSV, its columns by name
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) out[i] = $i == "mark" || $i == "seconds" || $i == "instructions" || $i ~ /^s / }
+        { line = ""; for (i = 1; i <= NF; ++i) if (!out[i]) line = line "," $i; print line }' "$1"
+}
+sweep="bench demo --size 24x16 --runs 1 --cache $s/kept --shadow-map 64 --sweep tree=8,16,32 --sweep error=0.05,0.1"
+status 0 $sweep --breakdown 0 -o "$s/sweep"
+for i in 2 4 3 1; do
+    status 0 $sweep --slice $i/4 -o "$s/part"
+done
+check "a slice of a sweep says how much of it it is" grep -q "part.1of4: 2 of 6 settings" "$dir/err.txt"
+status 0 merge "$s"/part.*of4 -o "$s/joined.csv"
+without_times "$s/sweep.csv" >"$s/sweep.txt"
+without_times "$s/joined.csv" >"$s/joined.txt"
+check "errors and commands are compared" grep -q "^,--tree 32 --error 0.1,tree,0[.0-9]*,.*,lambent render " "$s/sweep.txt"
+check "four slices are one sweep" cmp "$s/sweep.txt" "$s/joined.txt"
+for end in json html svg; do
+    status 0 merge "$s"/part.*of4 -o "$s/joined.$end"
+done
+check "their JSON has all settings" test "$(grep -c '"setting": "--tree ' "$s/joined.json")" -eq 6
+check "their page has all pictures" test "$(grep -o 'data:image/png' "$s/joined.html" | wc -l)" -eq "$(grep -o 'data:image/png' "$s/sweep.html" | wc -l)"
+status 1 merge -q "$s/part.1of4" "$s/part.2of4" "$s/part.4of4" -o "$s/bad.csv"
+said "of 4 slices 1 is missing: 3"
+head -c 2000 "$s/part.3of4" >"$s/part_cut"
+status 1 merge -q "$s/part.1of4" "$s/part.2of4" "$s/part_cut" "$s/part.4of4" -o "$s/bad.csv"
+said "of 4 slices 1 is missing: 3"
+status 0 $sweep --sweep bounces=1 --slice 3/4 -o "$s/foreign"
+status 1 merge -q "$s/part.1of4" "$s/part.2of4" "$s/foreign.3of4" "$s/part.4of4" -o "$s/bad.csv"
+said "of another job"
+printf 'v -1 0 -1\nv 1 0 -1\nv 0 0 1\nf 1 2 3\n' >"$s/scene.obj"
+file="bench $s/scene.obj --size 24x16 --runs 1 --cache $s/kept --shadow-map 64 --sweep tree=8,16"
+status 0 $file --slice 1/2 -o "$s/file"
+printf 'v -1 0 -1\nv 1 0 -1\nv 0 1 1\nf 1 2 3\n' >"$s/scene.obj"
+status 0 $file --slice 2/2 -o "$s/file"
+status 1 merge -q "$s"/file.?of2 -o "$s/bad.csv"
+said "of another job"
+status 1 merge -q "$s"/part.*of4 -o "$s/bad.png"
+said "a sweep's slices make a .csv, .json, .html or .svg"
+status 2 $sweep --slice 1/4
+said "--slice: give -o NAME"
+status 2 $sweep --slice 1/4 -o "$s/bad" --svg "$s/bad.svg"
+status 2 bench raster --slice 1/4
+check "nothing bad was joined of a sweep" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$s"
+
 # Light for other engines, read back and drawn, is the light it was baked from.
 light="--elements 256 --receivers 700"
 trim() { sed -n 's/.* trim \([0-9.]*\),.*/\1/p' "$dir/out.txt"; }

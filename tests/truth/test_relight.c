@@ -99,7 +99,7 @@ static void blur(stage *s, const lmb_kernels *kernels)
     CHECK(lmb_probe_table_init(&middle, WIDTH / 2, HEIGHT / 2, -180.0f, memory, bytes) == LMB_OK);
     CHECK(lmb_probe_halve(half, s->map, &s->table) == LMB_OK && lmb_probe_halve(half, half, &middle) == LMB_OK);
     for (int i = 0; i < 3; ++i) {
-        CHECK(lmb_probe_blur_map(out, line, kernels, half, &s->blur[i]) == LMB_OK);
+        CHECK(lmb_probe_blur_map(out, kernels, line, half, &s->blur[i]) == LMB_OK);
         CHECK(lmb_probe_map_cube(s->cube[BLUR + i], SIDE, out, &s->small_table) == LMB_OK);
     }
     free(memory);
@@ -209,7 +209,7 @@ static void mirror_at(stage *s, int place)
     double sum = 0.0, mean = 0.0;
     int count = 0;
     snprintf(file, sizeof file, "pos%d_radiance.pfm", place + 1);
-    CHECK(lmb_probe_reflect(cube, MIRROR, &rays, lmb_kernels_pick(), &query, places[place], 0.0f) == LMB_OK);
+    CHECK(lmb_probe_reflect(cube, MIRROR, lmb_kernels_pick(), &rays, &query, places[place], 0.0f) == LMB_OK);
     if (load(&truth, file)) {
         for (int32_t i = 0; i < MIRRORED; ++i) {
             const int inside = is_inside(places[place], i);

@@ -189,7 +189,7 @@ static void draw_attribute(stage *s, int what)
                    NULL) == LMB_OK);
     for (int32_t band = 0; band < (f->view.frame_height + 7) / 8; ++band) {
         CHECK(lmb_gbuffer_band(what == DEPTH ? &z : NULL, what == NORMAL ? &f->out : NULL,
-                               what == ALBEDO ? &f->out : NULL, &f->scratch->tile, f->kernels, &f->view, f->scene,
+                               what == ALBEDO ? &f->out : NULL, f->kernels, &f->scratch->tile, &f->view, f->scene,
                                &f->eye, band) == LMB_OK);
     }
 }

@@ -613,7 +613,7 @@ static void test_reflected(void)
     render_show(&other, LMB_SHOW_INDIRECT, LMB_OCCLUSION_VIEW, LMB_GROUP_ZONES);
     set_gbuffer(s, gbuffer[0], &m.render.frame.view);
     for (int32_t b = 0; b < HEIGHT / 8; ++b) {
-        CHECK(lmb_gbuffer_band(NULL, NULL, &s[2], &m.scratch.tile, lmb_kernels_pick(), &m.render.frame.view, &room,
+        CHECK(lmb_gbuffer_band(NULL, NULL, &s[2], lmb_kernels_pick(), &m.scratch.tile, &m.render.frame.view, &room,
                                &m.render.frame.eye, b) == LMB_OK);
     }
     for (int i = 0; i < FLOATS; ++i) {
@@ -1024,7 +1024,7 @@ static int light_distances(const lmb_shadow_map *map, int32_t face)
     lmb_surface s;
     lmb_surface_init(&s, LMB_R32F, MAP, MAP, kept, sizeof kept);
     for (int32_t b = 0; b < MAP / 8; ++b) {
-        CHECK(lmb_gbuffer_band(&s, NULL, NULL, &m.scratch.tile, lmb_kernels_pick(), v, &room, &map->face[face], b) ==
+        CHECK(lmb_gbuffer_band(&s, NULL, NULL, lmb_kernels_pick(), &m.scratch.tile, v, &room, &map->face[face], b) ==
               LMB_OK);
     }
     for (int i = 0; i < MAP * MAP; ++i) {
@@ -1073,7 +1073,7 @@ static void check_kept_depth(const lmb_frame *f)
     double worst = 0.0;
     lmb_surface_init(&s, LMB_R32F, WIDTH, HEIGHT, z, TARGET * 4);
     for (int32_t b = 0; b < HEIGHT / 8; ++b) {
-        CHECK(lmb_gbuffer_band(&s, NULL, NULL, &m.scratch.tile, f->kernels, &f->view, &room, &f->eye, b) == LMB_OK);
+        CHECK(lmb_gbuffer_band(&s, NULL, NULL, f->kernels, &m.scratch.tile, &f->view, &room, &f->eye, b) == LMB_OK);
     }
     CHECK(lmb_depth_linearize(rows, sizeof rows, &f->eye.depth) == LMB_OK);
     for (int i = 0; i < TARGET; ++i) {
@@ -1114,7 +1114,7 @@ static void check_gbuffer(const lmb_scene *scene, lmb_view view)
     lmb_draw(&f.eye, k, &view, scene, 1, UINT32_MAX, LMB_CULL_BACK, NULL);
     set_gbuffer(s, gbuffer[0], &view);
     for (int32_t b = 0; b < bands; ++b) {
-        failed += lmb_gbuffer_band(&s[0], &s[1], &s[2], &m.scratch.tile, k, &view, scene, &f.eye, b) != LMB_OK;
+        failed += lmb_gbuffer_band(&s[0], &s[1], &s[2], k, &m.scratch.tile, &view, scene, &f.eye, b) != LMB_OK;
     }
     set_gbuffer(s, gbuffer[1], &view);
     set_eye(&f, LMB_TILE, LMB_LINEAR, LMB_DEPTH32F, LMB_ID16);
@@ -1123,8 +1123,8 @@ static void check_gbuffer(const lmb_scene *scene, lmb_view view)
         lmb_surface_clear(&f.eye.depth);
         lmb_surface_clear(&f.eye.id);
         lmb_draw(&f.eye, k, &view, scene, 1, UINT32_MAX, LMB_CULL_BACK, NULL);
-        failed += lmb_gbuffer_band(&s[0], NULL, &s[2], &m.scratch.tile, k, &view, scene, &f.eye, b) != LMB_OK;
-        failed += lmb_gbuffer_band(NULL, &s[1], NULL, &m.scratch.tile, k, &view, scene, &f.eye, b) != LMB_OK;
+        failed += lmb_gbuffer_band(&s[0], NULL, &s[2], k, &m.scratch.tile, &view, scene, &f.eye, b) != LMB_OK;
+        failed += lmb_gbuffer_band(NULL, &s[1], NULL, k, &m.scratch.tile, &view, scene, &f.eye, b) != LMB_OK;
     }
     CHECK(failed == 0 && memcmp(gbuffer[0], gbuffer[1], sizeof gbuffer[0]) == 0);
     for (int32_t i = 0; i < view.frame_width * view.frame_height; ++i) {
@@ -1145,11 +1145,11 @@ static void test_gbuffer(void)
     lmb_frame f = plain_frame(&room, view, &other);
     const lmb_kernels *k = lmb_kernels_pick();
     set_gbuffer(s, gbuffer[0], &view);
-    CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, &m.scratch.tile, k, &view, &room, &f.eye, HEIGHT / 8) == LMB_ERR_ARG);
-    CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, &m.scratch.tile, k, &view, &room, &f.eye, -1) == LMB_ERR_ARG);
-    CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, NULL, k, &view, &room, &f.eye, 0) == LMB_ERR_ARG);
-    CHECK(lmb_gbuffer_band(&s[1], NULL, NULL, &m.scratch.tile, k, &view, &room, &f.eye, 0) == LMB_ERR_FORMAT);
-    CHECK(lmb_gbuffer_band(NULL, &s[0], NULL, &m.scratch.tile, k, &view, &room, &f.eye, 0) == LMB_ERR_FORMAT);
+    CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, k, &m.scratch.tile, &view, &room, &f.eye, HEIGHT / 8) == LMB_ERR_ARG);
+    CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, k, &m.scratch.tile, &view, &room, &f.eye, -1) == LMB_ERR_ARG);
+    CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, k, NULL, &view, &room, &f.eye, 0) == LMB_ERR_ARG);
+    CHECK(lmb_gbuffer_band(&s[1], NULL, NULL, k, &m.scratch.tile, &view, &room, &f.eye, 0) == LMB_ERR_FORMAT);
+    CHECK(lmb_gbuffer_band(NULL, &s[0], NULL, k, &m.scratch.tile, &view, &room, &f.eye, 0) == LMB_ERR_FORMAT);
 }
 
 /* ---- the shadow map ---- */

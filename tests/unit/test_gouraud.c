@@ -162,7 +162,7 @@ static void draws_maps(void)
     CHECK(lmb_shadow_map_clear(&other) == LMB_OK);
     CHECK(lmb_shadow_map_draw(&other, lmb_kernels_pick(), &room.scene, 1, ROOM_TRIANGLES, NULL) == LMB_OK);
     for (int twice = 0; twice < 2; ++twice) {
-        CHECK(lmb_gouraud_map(&map, &room.scene, &scratch) == LMB_OK);
+        CHECK(lmb_gouraud_map(&map, &scratch, &room.scene) == LMB_OK);
     }
     const uint32_t *own = map.face[0].id.data, *tiled = other.face[0].id.data;
     for (int y = 0; y < MAP; ++y) {
@@ -173,9 +173,9 @@ static void draws_maps(void)
         }
     }
     CHECK_MSG(shown > MAP * MAP / 2 && differ <= MAP, "%d differ of %d", differ, shown);
-    CHECK(lmb_gouraud_map(NULL, &room.scene, &scratch) == LMB_ERR_ARG);
-    CHECK(lmb_gouraud_map(&map, NULL, &scratch) == LMB_ERR_ARG);
-    CHECK(lmb_gouraud_map(&map, &room.scene, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_gouraud_map(NULL, &scratch, &room.scene) == LMB_ERR_ARG);
+    CHECK(lmb_gouraud_map(&map, &scratch, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_gouraud_map(&map, NULL, &room.scene) == LMB_ERR_ARG);
 }
 
 /* Direct light reaches corners inside the cone; something over them takes it away. */
@@ -185,7 +185,7 @@ static void casts_shadows(void)
     room.light.cos_outer = 0.3f;
     room.light.cos_inner = 0.35f;
     CHECK(lmb_shadow_map_init(&map, &room.light, &room.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
-    CHECK(lmb_gouraud_map(&map, &room.scene, &scratch) == LMB_OK);
+    CHECK(lmb_gouraud_map(&map, &scratch, &room.scene) == LMB_OK);
     memset(light_memory, 0, sizeof light_memory);
     g.maps = &map;
     draw(&g);
@@ -204,7 +204,7 @@ static void casts_shadows(void)
         room.corners[2][k][1] = room.corners[3][k][1] = 0.5f;
         room.corners[2][k][0] *= -1.0f, room.corners[3][k][0] *= -1.0f; /* it faces up */
     }
-    CHECK(lmb_gouraud_map(&map, &room.scene, &scratch) == LMB_OK);
+    CHECK(lmb_gouraud_map(&map, &scratch, &room.scene) == LMB_OK);
     CHECK(lmb_gouraud_begin(&g) == LMB_OK && lmb_gouraud_draw(&g, 1, 2) == LMB_OK);
     for (int i = 0; i < SMALL_RECEIVERS; ++i) {
         CHECK_MSG(direct[i][0] == 0.0f, "%d: %g", i, (double)direct[i][0]);
@@ -245,11 +245,11 @@ static void reads_positions(void)
     CHECK(lmb_shadow_map_init(&map, &room.light, &room.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
     mesh.position_format = LMB_POSITION_I16;
     mesh.positions = stored;
-    CHECK(lmb_gouraud_map(&map, &scene, &scratch) == LMB_OK);
+    CHECK(lmb_gouraud_map(&map, &scratch, &scene) == LMB_OK);
     memcpy(other, map.face[0].id.data, MAP * MAP * 4);
     mesh.position_format = LMB_POSITION_F32;
     mesh.positions = given;
-    CHECK(lmb_gouraud_map(&map, &scene, &scratch) == LMB_OK);
+    CHECK(lmb_gouraud_map(&map, &scratch, &scene) == LMB_OK);
     int shown = 0, differ = 0;
     for (int k = 0; k < MAP * MAP; ++k) {
         const uint32_t id = ((const uint32_t *)map.face[0].id.data)[k];

@@ -492,12 +492,12 @@ static void blurred(stage *s)
         for (int i = 0; i < 3 * COUNT / 4; ++i) {
             half[i] = 1.0f;
         }
-        CHECK(lmb_probe_blur_map(out, line, lmb_kernels_pick(), half, &blur) == LMB_OK);
+        CHECK(lmb_probe_blur_map(out, lmb_kernels_pick(), line, half, &blur) == LMB_OK);
         CHECK(farthest(out, 3 * COUNT / 4, 3.14159265f) < 4e-6f);
         CHECK(lmb_probe_remap(half, lmb_kernels_pick(), &s->world, &table, s->pictures.centre, 0) == LMB_OK);
-        CHECK(lmb_probe_blur_map(out, line, lmb_kernels_pick(), half, &blur) == LMB_OK);
+        CHECK(lmb_probe_blur_map(out, lmb_kernels_pick(), line, half, &blur) == LMB_OK);
         CHECK(lmb_probe_map_cube(s->cube, CUBE, out, &table) == LMB_OK);
-        CHECK(lmb_probe_blur_map(half, line, lmb_kernels_pick(), half, &blur) == LMB_OK);
+        CHECK(lmb_probe_blur_map(half, lmb_kernels_pick(), line, half, &blur) == LMB_OK);
         CHECK(memcmp(half, out, sizeof half) == 0); /* S13 */
         float worst = 0.0f;
         for (int i = 0; i < CUBE_TEXELS; ++i) {
@@ -508,7 +508,7 @@ static void blurred(stage *s)
         free(memory);
     }
     CHECK(lmb_probe_blur_bytes(&table, 3) == 0 && lmb_probe_blur_bytes(NULL, 1) == 0);
-    CHECK(lmb_probe_blur_map(out, line, lmb_kernels_pick(), out, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_probe_blur_map(out, lmb_kernels_pick(), line, out, NULL) == LMB_ERR_ARG);
     free(table_memory);
 }
 

@@ -57,7 +57,7 @@ static void receives_bounce(const stage *s)
         CHECK(lmb_draw(&t, lmb_kernels_pick(), &v, scene, 1, WORLD_TRIANGLES, 0, NULL) == LMB_OK);
         CHECK(lmb_resolve_tile(&tile, lmb_kernels_pick(), &v, scene, &t, 64, 80) == LMB_OK);
         if (i == 0) {
-            CHECK(lmb_relief_tile(&tile, NULL, lmb_kernels_pick(), &s->relief, &v, NULL) == LMB_OK);
+            CHECK(lmb_relief_tile(&tile, lmb_kernels_pick(), &s->relief, &v, NULL, NULL) == LMB_OK);
         }
         int32_t hits = 0;
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {

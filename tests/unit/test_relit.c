@@ -57,7 +57,7 @@ static void make_probe(stage *s, int i, lmb_vec3 at, float roughness)
     CHECK(lmb_probe_cosine(s->planes, SIDE, k, &s->lights, &s->table) == LMB_OK);
     CHECK(lmb_probe_cube_init(&s->probe[i].irradiance, s->planes, SIDE, s->cube[i][0], sizeof s->cube[i][0]) == LMB_OK);
     if (lmb_probe_glossy_side(roughness) > 0) {
-        CHECK(lmb_probe_reflect(s->planes, SIDE, &s->rays, k, &query, at, roughness) == LMB_OK);
+        CHECK(lmb_probe_reflect(s->planes, SIDE, k, &s->rays, &query, at, roughness) == LMB_OK);
         CHECK(lmb_probe_cube_init(&s->probe[i].glossy, s->planes, SIDE, s->cube[i][1], sizeof s->cube[i][1]) == LMB_OK);
     }
 }
@@ -255,7 +255,7 @@ static float found(const lmb_probe_cube *cube, lmb_vec3 d)
     tile.normal[0][9] = d.x;
     tile.normal[1][9] = d.y;
     tile.normal[2][9] = d.z;
-    CHECK(lmb_probe_light_tile(&e, &rays, lmb_kernels_pick(), &tile, 1u << 9, cube) == LMB_OK);
+    CHECK(lmb_probe_light_tile(&e, lmb_kernels_pick(), &rays, &tile, 1u << 9, cube) == LMB_OK);
     CHECK(e.rgb[0][8] == 0.0f);
     return e.rgb[0][9];
 }
@@ -306,8 +306,8 @@ static void refusals(stage *s)
     s->probe[1].irradiance.texel = NULL;
     CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_ERR_ARG);
     const lmb_world_query query = {&s->world, 0.0f, 0};
-    CHECK(lmb_probe_reflect(planes, 8, &s->rays, lmb_kernels_pick(), &query, vec3(0, 0, 0), 1.5f) == LMB_ERR_ARG);
-    CHECK(lmb_probe_reflect(planes, 8, &s->rays, lmb_kernels_pick(), &query, vec3(NAN, 0, 0), 0.5f) == LMB_ERR_ARG);
+    CHECK(lmb_probe_reflect(planes, 8, lmb_kernels_pick(), &s->rays, &query, vec3(0, 0, 0), 1.5f) == LMB_ERR_ARG);
+    CHECK(lmb_probe_reflect(planes, 8, lmb_kernels_pick(), &s->rays, &query, vec3(NAN, 0, 0), 0.5f) == LMB_ERR_ARG);
 }
 
 void test_relit(void)

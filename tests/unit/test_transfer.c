@@ -800,21 +800,21 @@ static void takes_many_lights(const lmb_transfer *t)
     const int32_t tiles = lmb_transfer_tiles(t);
     lit l = lit_by(t, &world.scene), again = lit_by(t, &world.scene);
     CHECK(l.light.place == NULL && tiles == 4);
-    CHECK(lmb_transfer_many_lights(&l.light, t, &own, &cut, &query, 0, tiles) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_many_lights(&l.light, &own, &cut, t, &query, 0, tiles) == LMB_ERR_ARG);
     l.light.place = malloc(elements * sizeof *l.light.place);
     again.light.place = l.light.place;
     CHECK(lmb_transfer_materials(&l.light, t, &world.scene) == LMB_OK);
-    CHECK(lmb_transfer_many_lights(&l.light, t, &own, &cut, &query, 0, tiles) == LMB_OK);
+    CHECK(lmb_transfer_many_lights(&l.light, &own, &cut, t, &query, 0, tiles) == LMB_OK);
     for (int c = 0; c < 3; ++c) {
         const double want = 4.0 * PI * (double)sum[c], got = sum_of(&l, c);
         CHECK_MSG(fabs(got / want - 1.0) < 0.03, "%g W of %g", got, want);
     }
     for (int32_t i = tiles; i-- > 0;) {
-        CHECK(lmb_transfer_many_lights(&again.light, t, &own, &cut, &query, i, i + 1) == LMB_OK);
+        CHECK(lmb_transfer_many_lights(&again.light, &own, &cut, t, &query, i, i + 1) == LMB_OK);
     }
     CHECK(memcmp(l.light.power, again.light.power, elements * sizeof *l.light.power) == 0);
-    CHECK(lmb_transfer_many_lights(&l.light, t, &own, &cut, &query, 0, tiles + 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_many_lights(&l.light, t, &own, &cut, NULL, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_many_lights(&l.light, &own, &cut, t, &query, 0, tiles + 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_many_lights(&l.light, &own, &cut, t, NULL, 0, 1) == LMB_ERR_ARG);
     free(l.light.place);
     free(l.memory);
     free(again.memory);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../common/options.h"
+#include "../common/slice.h"
 
 static int parse_out(const char *text, void *at)
 {
@@ -12,6 +13,7 @@ static int parse_out(const char *text, void *at)
     static const char *const endings[3] = {"html", "csv", "json"};
     const char **const files[3] = {&o->html, &o->csv, &o->json};
     int n = 0;
+    o->out = text;
     for (int i = 0; i < 3; ++i) {
         n = snprintf(o->names[i], sizeof o->names[i], "%s.%s", text, endings[i]);
         *files[i] = o->names[i];
@@ -59,6 +61,7 @@ static const option_row sweep_rows[] = {
              "no further one once 3 s have passed)"},
     {.name = "--truth", .value = "FILE.pfm", .kind = OPTION_TEXT, AT(truth), .file = OPTION_READS,
      .help = "errors against this picture (default: against its own most exact settings)"},
+    OPTION_SLICE_ROW(bench_options, slice, "settings"),
     {.kind = OPTION_END},
 };
 
@@ -178,6 +181,20 @@ static int once(const bench_options *o, report *r)
     return 1;
 }
 
+/* A slice is one file, by -o, without breakdowns: these want the front of all settings. */
+static int check_slice(bench_options *o, report *r)
+{
+    if (o->slice.count == 0) {
+        return 1;
+    }
+    if (o->out == NULL || o->html != o->names[0] || o->csv != o->names[1] || o->json != o->names[2] || o->svg != NULL) {
+        return report_fail(r, "--slice: give -o NAME and no other output; `lambent merge` writes .csv, .json, .html, .svg");
+    }
+    o->html = o->csv = o->json = NULL;
+    o->breakdown = 0;
+    return 1;
+}
+
 int bench_options_parse(bench_options *o, const bench_subject *subject, int argc, char **argv, report *r)
 {
     static char verb[] = "bench";
@@ -194,7 +211,7 @@ int bench_options_parse(bench_options *o, const bench_subject *subject, int argc
         }
     }
     const int asked = options_parse(o, &own, h.own_count, h.own, r);
-    return asked == OPTIONS_RUN && !once(o, r) ? OPTIONS_BAD : asked;
+    return asked == OPTIONS_RUN && !(once(o, r) && check_slice(o, r)) ? OPTIONS_BAD : asked;
 }
 
 int bench_options_line(bench_line *l, const bench_options *o, const image *like, report *r)

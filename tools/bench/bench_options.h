@@ -2,6 +2,7 @@
 #ifndef BENCH_OPTIONS_H
 #define BENCH_OPTIONS_H
 
+#include "../common/slice_items.h"
 #include "bench_subject.h"
 
 enum { BENCH_SWEEPS = 4, BENCH_VALUES = 64 };
@@ -24,7 +25,9 @@ typedef struct bench_options {
     int ranges;
     int32_t runs, breakdown; /* breakdown: one band in so many, 0: none */
     int is_quiet, is_verbose;
-    char names[3][1024];  /* of -o */
+    const char *out;      /* of -o; NULL: not given */
+    char names[3][1024];  /* of its files */
+    slice slice;          /* count 0: all settings */
 } bench_options;
 
 /* bench_options_table: of the sweep's own options. */

@@ -30,6 +30,7 @@ typedef struct bench_point {
     int threads;             /* over 1: time is what passed, not the processor's */
     int same;                /* as the first point's picture: 1 byte for byte, 0 not, -1 not asked */
     int on_front, is_knee;
+    int number;              /* of the setting among all of the sweep; -1: not measured here */
     bench_picture picture, heat;
 } bench_point;
 
@@ -58,6 +59,8 @@ typedef struct bench_results {
     int percent;        /* figure[0] is a share */
     bench_point *point;
     int count, cap;
+    int settings;       /* of the whole sweep */
+    uint64_t job;       /* of which these are a slice; 0: they are all */
     bench_breakdown breakdown[BENCH_BREAKDOWNS];
     int breakdowns;
     double breakdown_share; /* of the picture that the breakdowns looked at */

@@ -15,6 +15,7 @@
 #include "../picture/picture.h"
 #include "bench_front.h"
 #include "bench_breakdowns.h"
+#include "bench_slice.h"
 #include "bench_picture.h"
 
 enum { TRUTH_WEIGHT = 60 };
@@ -81,10 +82,10 @@ static void take_times(bench_point *p, const bench_shot *shot)
 }
 
 /* The first setting has to be drawn: what stops it, or what the machine lacks, stops all. A later one that does not go
- * with what was given is told of in its place. */
-static int measure(sweep *s, const bench_task *t, report *r)
+ * with what was given is told of in its place. Others than a slice's own are drawn, and not timed. */
+static int measure(sweep *s, const bench_task *t, int is_own, report *r)
 {
-    const bench_way way = {s->o->runs, 1};
+    const bench_way way = {is_own ? s->o->runs : 0, 1};
     bench_point *p = bench_results_add(s->b);
     const int number = s->b->count - 1;
     bench_line line;
@@ -93,6 +94,7 @@ static int measure(sweep *s, const bench_task *t, report *r)
     if (p == NULL) {
         return report_fail(r, "out of memory");
     }
+    p->number = is_own ? (int)(t - s->task) : -1;
     snprintf(p->option, sizeof p->option, "%s", t->option);
     snprintf(p->name, sizeof p->name, "%s", t->words[0] != '\0' ? t->words : "default");
     if (!sweep_line(&line, s, t->words, r)) {
@@ -140,14 +142,6 @@ static int get_truth(sweep *s, report *r)
 
 static void describe(sweep *s)
 {
-    static const char *const figures[] = {"trim", "rmse", "e50", "e95", "e99", "mean", "leak"};
-    static const char *const meanings[] = {"relative RMSE without the worst 1 % of pixels",
-                                           "relative RMSE",
-                                           "median relative error of a pixel",
-                                           "that of 95 in 100 pixels",
-                                           "that of 99 in 100 pixels",
-                                           "mean light, as a share of the truth's",
-                                           "light where the truth is dark, as a share of the truth's"};
     bench_results *b = s->b;
     char processor[128];
     bench_line line;
@@ -164,21 +158,18 @@ static void describe(sweep *s)
         say(s, b->title, sizeof b->title, &line);
     }
     snprintf(b->truth, sizeof b->truth, "%s", s->truth.said);
-    memcpy(b->figure, figures, sizeof figures);
-    memcpy(b->figure_is, meanings, sizeof meanings);
-    for (int i = 0; i < BENCH_STAGES; ++i) {
-        b->stage[i] = i > 0 && b->stage[i - 1] == NULL ? NULL : s->o->subject->stages[i];
-    }
-    b->work = s->o->subject->work;
-    b->percent = 1;
+    bench_results_about(b, s->o->subject);
+    b->settings = s->tasks;
 }
 
 static int run(sweep *s, report *r)
 {
+    uint8_t is_own[BENCH_POINTS];
     s->tasks = bench_tasks(s->task, s->o, r);
+    bench_slice_deal(is_own, s->o->slice, s->task, s->tasks);
     s->all = bench_breakdowns_weight(s->o) + (s->o->truth == NULL ? TRUTH_WEIGHT : 0);
     for (int i = 0; i < s->tasks; ++i) {
-        s->all += s->task[i].weight;
+        s->all += is_own[i] ? s->task[i].weight : 0.0;
     }
     if (s->tasks == 0 || !get_truth(s, r)) {
         return 0;
@@ -186,10 +177,14 @@ static int run(sweep *s, report *r)
     describe(s);
     for (int i = 0; i < s->tasks; ++i) {
         progress_whole(s->task[i].words[0] != '\0' ? s->task[i].words : "default", s->done / s->all);
-        if (!measure(s, &s->task[i], r)) {
+        if ((i == 0 || is_own[i]) && !measure(s, &s->task[i], is_own[i], r)) {
             return 0;
         }
-        s->done += s->task[i].weight;
+        s->done += is_own[i] ? s->task[i].weight : 0.0;
+    }
+    if (s->o->slice.count > 0) {
+        s->b->job = bench_slice_job(s);
+        return 1;
     }
     bench_front(s->b);
     return bench_breakdowns(s, r);

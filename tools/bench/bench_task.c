@@ -19,7 +19,7 @@ static int usual(bench_task *out, const bench_subject *s)
     for (int32_t i = 0; s->backends && count < BENCH_POINTS && (k = lmb_kernels_at(i)) != NULL; ++i) {
         snprintf(out[count].option, sizeof out[count].option, "machine");
         snprintf(out[count].words, sizeof out[count].words, "--backend %s", lmb_kernels_name(k));
-        out[count].weight = s->tries[0].weight * (1 + i);
+        out[count].weight = s->tries[0].weight * (lmb_kernels_at(i + 1) == NULL ? 2.5 : 1.0); /* plain C comes last */
         out[count++].flags = BENCH_SAME;
     }
     return count;

@@ -5,24 +5,12 @@
 #include <string.h>
 
 #include "../common/progress.h"
-#include "bench_chart.h"
 #include "bench_html.h"
+#include "bench_outputs.h"
+#include "bench_slice.h"
 #include "bench_sweep.h"
 #include "bench_task.h"
 #include "bench_table.h"
-
-static int write_one(const char *path, void (*fill)(text_buffer *out, const bench_results *b), const bench_results *b,
-                     report *r)
-{
-    text_buffer p;
-    memset(&p, 0, sizeof p);
-    fill(&p, b);
-    const int ok = path == NULL || text_buffer_write(&p, path, r);
-    text_buffer_free(&p);
-    return ok;
-}
-
-static void fill_svg(text_buffer *out, const bench_results *b) { bench_chart(out, b, 900, 420, 1); }
 
 static int tell(const bench_results *b, report *r)
 {
@@ -34,15 +22,24 @@ static int tell(const bench_results *b, report *r)
     return (ok || report_fail(r, "out of memory")) && report_flush(r);
 }
 
+static int write_all(const bench_options *o, const bench_results *b, report *r)
+{
+    return bench_output_as(o->html, bench_html, b, r) && bench_output_as(o->csv, bench_csv, b, r) &&
+           bench_output_as(o->json, bench_json, b, r) && bench_output_as(o->svg, bench_svg, b, r) &&
+           (o->is_quiet || tell(b, r));
+}
+
 static int sweep_and_write(const bench_options *o, report *r)
 {
+    char name[SLICE_NAME];
     bench_results b;
     memset(&b, 0, sizeof b);
     option_table own;
     bench_options_table(&own, o->subject);
-    const int ok = options_files(o, &own, r) && bench_sweep(&b, o, r) && write_one(o->html, bench_html, &b, r) &&
-                   write_one(o->csv, bench_csv, &b, r) && write_one(o->json, bench_json, &b, r) &&
-                   write_one(o->svg, fill_svg, &b, r) && (o->is_quiet || tell(&b, r));
+    const int is_slice = o->slice.count > 0;
+    const int ok = options_files(o, &own, r) &&
+                   (!is_slice || (slice_name(name, o->out, o->slice, r) && file_can_write(name, r))) &&
+                   bench_sweep(&b, o, r) && (is_slice ? bench_slice_write(o, &b, r) : write_all(o, &b, r));
     bench_results_free(&b);
     return ok;
 }

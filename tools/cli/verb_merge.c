@@ -7,6 +7,7 @@
 #include "../common/options.h"
 #include "../common/progress.h"
 #include "../common/slice.h"
+#include "../bench/bench_slice.h"
 #include "../play/play_slice.h"
 #include "../render/render_slice.h"
 
@@ -25,7 +26,8 @@ static const option_row rows[] = {
      .size = sizeof(const char *),
      .help = "what `--slice I/N` wrote, OUT.IofN: all N of one job, in any order; the same one may be there twice"},
     {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, AT(out),
-     .help = "what the slices are of, with the ending that they were made for; of frames the pattern, frame_%04d.png"},
+     .help = "what the slices are of, with the ending that they were made for; of frames the pattern, frame_%04d.png;"
+             " of a sweep a .csv, .json, .html or .svg"},
     OPTION_LOUDNESS(options, is_quiet, is_verbose, "say of what job the slices are"),
     OPTION_ASK,
     {.kind = OPTION_END},
@@ -34,8 +36,8 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "merge",
     .usage = "merge SLICE... -o OUT",
-    .about = "Joins what `lambent render` and `play` made with --slice I/N, on as many machines: the "
-             "output has the bytes that one machine would have written.\n"
+    .about = "Joins what `lambent render`, `play` and `bench SCENE` made with --slice I/N, on as many machines: the "
+             "output has the bytes that one machine would have written, but for the times of a sweep.\n"
              "A slice carries a hash of its inputs, options and version, and one of itself. Slices that are cut off or "
              "damaged are told of and left out; what is missing is named, and nothing is written; a slice of another "
              "job is refused, and so are two of one number that differ. Making a slice again gives the same file.",
@@ -74,6 +76,7 @@ static int join(const options *o, report *r)
     switch (set.kind) {
     case SLICE_RENDER: return file_can_write(o->out, r) && render_slice_merge(o->out, &set, o->is_quiet, r);
     case SLICE_PLAY: return play_slice_merge(o->out, &set, r);
+    case SLICE_BENCH: return file_can_write(o->out, r) && bench_slice_merge(o->out, &set, r);
     default: return report_fail(r, "%s: slices of what this version does not know", set.first);
     }
 }

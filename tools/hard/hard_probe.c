@@ -191,7 +191,7 @@ static void hostile(hard_list *l, probe_stage *p)
     wrong = see(p, at, -180, LMB_WORLD_F32) ? absurd(p, 1e5) : HUGE_VAL;
     hard_put(l, HARD_EXACT, "one texel of 1e5: absurd", wrong, 0, "values");
     const lmb_world_query query = {&p->world, 0.02f, 0};
-    const lmb_status status = lmb_probe_reflect(p->cube, CUBE, &p->rays, p->kernels, &query, at, 0.0f);
+    const lmb_status status = lmb_probe_reflect(p->cube, CUBE, p->kernels, &p->rays, &query, at, 0.0f);
     wrong = status == LMB_OK ? wrong + outside(p, 0.0, 1.3e5) : HUGE_VAL;
     hard_put(l, HARD_EXACT, "and in a mirror: absurd", wrong, 0, "values");
 }

@@ -173,7 +173,7 @@ static int draw(relief_picture *out, int32_t format, const lmb_scene *scene, con
     }
     lmb_status status = lmb_draw(&c->target, kernels, view, scene, 1, lmb_scene_triangles(scene), 0, NULL);
     for (int32_t band = 0; status == LMB_OK && band < (view->frame_height + 7) / 8; ++band) {
-        status = lmb_gbuffer_band(&c->depth, &c->normal, &c->albedo, &c->tile, kernels, view, scene, &c->target, band);
+        status = lmb_gbuffer_band(&c->depth, &c->normal, &c->albedo, kernels, &c->tile, view, scene, &c->target, band);
     }
     const int ok = status == LMB_OK
                        ? pack(out, format, view, c->depth.data, c->normal.data, c->albedo.data, 0, r)

@@ -104,7 +104,7 @@ static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
         status = lmb_shadow_map_draw(&l->map, s->kernels, l->scene, 1, lmb_scene_triangles(l->scene), NULL);
     }
     if (status == LMB_OK && l == &w->relief) {
-        status = lmb_relief_shadow_rows(&l->map, &w->tile, s->kernels, s->relief, &s->how, 0,
+        status = lmb_relief_shadow_rows(&l->map, s->kernels, &w->tile, s->relief, &s->how, 0,
                                         l->map.faces * (l->map.size / LMB_TILE));
     }
     return status == LMB_OK || report_fail(r, "--light: its map cannot be drawn: %s", lmb_status_name(status));
@@ -135,7 +135,7 @@ static lmb_status resolve(pen *w, int32_t x, int32_t y)
         lmb_tile *t = w->of->plain.scene != NULL ? &w->other : &w->tile;
         status = lmb_resolve_tile(t, s->kernels, &w->of->view, w->of->relief.scene, &w->of->relief.target, x, y);
         if (status == LMB_OK) {
-            status = lmb_relief_tile(t, &w->stats, s->kernels, s->relief, &w->of->view, &s->how);
+            status = lmb_relief_tile(t, s->kernels, s->relief, &w->of->view, &s->how, &w->stats);
         }
         if (status == LMB_OK && w->of->plain.scene != NULL) {
             lmb_relief_nearer(&w->tile, t);

@@ -71,7 +71,7 @@ int relight_light_filter(relight_light *w, const relight_options *o, int32_t n)
     if (o->filter >= FILTER_BLUR) {
         lmb_probe_halve(w->half, w->map, &w->table[0]);
         lmb_probe_halve(w->half, w->half, &w->table[1]);
-        lmb_probe_blur_map(w->half, w->line, o->kernels, w->half, &w->blur);
+        lmb_probe_blur_map(w->half, o->kernels, w->line, w->half, &w->blur);
         return lmb_probe_map_cube(w->cube, n, w->half, &w->table[2]) == LMB_OK;
     }
     if (o->filter == FILTER_COSINE) {

@@ -58,7 +58,7 @@ int relight_light_reflect(relight_light *w, const relight_options *o, float *pla
     for (int32_t i = 0; ok && i < o->worlds; ++i) {
         const lmb_world_query query = {&w->world[i], 0.0f, o->blend};
         float *into = o->worlds > 1 ? w->cube : planes;
-        ok = lmb_probe_reflect(into, n, rays, o->kernels, &query, at, roughness) == LMB_OK;
+        ok = lmb_probe_reflect(into, n, o->kernels, rays, &query, at, roughness) == LMB_OK;
         if (ok && o->worlds > 1) {
             add_share(planes, w->cube, 18 * (size_t)n * (size_t)n, i, share_of(o, i, at));
         }

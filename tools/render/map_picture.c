@@ -73,7 +73,7 @@ static lmb_status face_distances(const image *out, const lmb_render *render, uin
     depth.format = LMB_R32F;
     for (int32_t band = 0; band < map->size / LMB_TILE && status == LMB_OK; ++band) {
         status =
-            lmb_gbuffer_band(&depth, NULL, NULL, &f->scratch->tile, f->kernels, view, f->scene, &map->face[face], band);
+            lmb_gbuffer_band(&depth, NULL, NULL, f->kernels, &f->scratch->tile, view, f->scene, &map->face[face], band);
     }
     distance_of_depth(depth.data, map->size, map->size, (size_t)out->width, view);
     for (int32_t i = 0; i < map->size * map->size; ++i) {

@@ -114,7 +114,7 @@ static lmb_status draw_attribute(render_job *j)
     lmb_status status = lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK | LMB_BLEND, &j->stats);
     for (int32_t band = 0; status == LMB_OK && band < (f->view.frame_height + 7) / 8; ++band) {
         status =
-            lmb_gbuffer_band(depth, normal, albedo, &f->scratch->tile, f->kernels, &f->view, &j->scene, &f->eye, band);
+            lmb_gbuffer_band(depth, normal, albedo, f->kernels, &f->scratch->tile, &f->view, &j->scene, &f->eye, band);
     }
     if (j->o.show == SHOW_EYE_DISTANCE) {
         distance_of_depth(f->out.data, f->out.width, f->out.height, (size_t)j->linear.width, &f->view);

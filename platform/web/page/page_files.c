@@ -168,7 +168,7 @@ int relight_light_reflect(relight_light *w, const relight_options *o, float *pla
                           lmb_vec3 at, float roughness)
 {
     const lmb_world_query query = {w->world, 0.0f, o->blend};
-    return lmb_probe_reflect(planes, n, rays, o->kernels, &query, at, roughness) == LMB_OK;
+    return lmb_probe_reflect(planes, n, o->kernels, rays, &query, at, roughness) == LMB_OK;
 }
 const lmb_world *relight_light_nearest(const relight_light *w, const relight_options *o, lmb_vec3 at)
 {

@@ -1,0 +1,17 @@
+/* bench_outputs.h: a report as the file that its name's ending says. */
+#ifndef BENCH_OUTPUTS_H
+#define BENCH_OUTPUTS_H
+
+#include "../common/report.h"
+#include "../common/text_buffer.h"
+#include "bench_results.h"
+
+typedef void (*bench_fill)(text_buffer *out, const bench_results *b);
+
+/* bench_output_as: in one form; NULL: nothing. bench_output: by the ending: .csv, .json, .html or .svg. 1, or 0 with
+ * `r` set. bench_svg: the front alone. */
+int bench_output_as(const char *path, bench_fill fill, const bench_results *b, report *r);
+int bench_output(const char *path, const bench_results *b, report *r);
+void bench_svg(text_buffer *out, const bench_results *b);
+
+#endif
