@@ -146,6 +146,21 @@ static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
     out[2] = _mm256_shuffle_ps(ab_high, cd_high, 0x44);
     out[3] = _mm256_shuffle_ps(ab_high, cd_high, 0xee);
 }
+/* Rows of three, each read with the number after it. */
+#define LANE_GATHERS_CORNERS 1
+static inline __m256 lane_two_corners(const float *p, const uint32_t *vertex)
+{
+    return lane_two_rows(p + (size_t)vertex[0] * 3, p + (size_t)vertex[12] * 3);
+}
+static inline void lane_gather_corners(lane out[3], const float *p, const uint32_t *vertex)
+{
+    const __m256 a = lane_two_corners(p, vertex), b = lane_two_corners(p, vertex + 3),
+                 c = lane_two_corners(p, vertex + 6), d = lane_two_corners(p, vertex + 9);
+    const __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
+    out[0] = _mm256_shuffle_ps(ab, cd, 0x44);
+    out[1] = _mm256_shuffle_ps(ab, cd, 0xee);
+    out[2] = _mm256_shuffle_ps(_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d), 0x44);
+}
 /* The halves of the table, and bit 3 of `at` says which. */
 static inline lane lane_table(const float *p, lanei at)
 {

@@ -139,6 +139,28 @@ static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
     out[2] = _mm512_shuffle_ps(ab_high, cd_high, 0x44);
     out[3] = _mm512_shuffle_ps(ab_high, cd_high, 0xee);
 }
+/* Rows of three, each read with the number after it. */
+#define LANE_GATHERS_CORNERS 1
+static inline __m128 lane_row_of_three(const float *p, const uint32_t *vertex, int k)
+{
+    return _mm_loadu_ps(p + (size_t)vertex[3 * k] * 3);
+}
+static inline __m512 lane_four_corners(const float *p, const uint32_t *vertex)
+{
+    const __m512 a = _mm512_castps128_ps512(lane_row_of_three(p, vertex, 0));
+    const __m512 b = _mm512_insertf32x4(a, lane_row_of_three(p, vertex, 4), 1);
+    return _mm512_insertf32x4(_mm512_insertf32x4(b, lane_row_of_three(p, vertex, 8), 2),
+                              lane_row_of_three(p, vertex, 12), 3);
+}
+static inline void lane_gather_corners(lane out[3], const float *p, const uint32_t *vertex)
+{
+    const __m512 a = lane_four_corners(p, vertex), b = lane_four_corners(p, vertex + 3),
+                 c = lane_four_corners(p, vertex + 6), d = lane_four_corners(p, vertex + 9);
+    const __m512 ab = _mm512_unpacklo_ps(a, b), cd = _mm512_unpacklo_ps(c, d);
+    out[0] = _mm512_shuffle_ps(ab, cd, 0x44);
+    out[1] = _mm512_shuffle_ps(ab, cd, 0xee);
+    out[2] = _mm512_shuffle_ps(_mm512_unpackhi_ps(a, b), _mm512_unpackhi_ps(c, d), 0x44);
+}
 static inline lane lane_table(const float *p, lanei at) { return _mm512_permutexvar_ps(at, _mm512_loadu_ps(p)); }
 
 /* Rows of a tiled surface follow each other: one piece. Where `step` is a constant, so is the choice. */

@@ -157,40 +157,120 @@ LANE_INLINE void parts_slopes(fill_slopes *out, const lmb_batch *b, uint32_t bit
     }
 }
 
-/* Tile p of triangles `seen`. */
-LANE_INLINE void parts_draw_each(const fill_part *part, const fill_slopes *slopes, const lmb_fill_window *w,
-                                 const lmb_batch *b, uint32_t seen, int p, int rows, int kind, int bounded)
+/* Four tiles of each triangle: the depth at their first pixels, and where they lie in the depth surface, bytes. Of tile i
+ * of triangle k bit i LMB_BATCH + k tells whether it has pixels that may show: in all rows, the upper half, the lower. */
+enum { PARTS_TOGETHER = 4 };
+typedef struct fill_places {
+    float d[PARTS_TOGETHER][LMB_BATCH];
+    int32_t at[PARTS_TOGETHER][LMB_BATCH];
+    uint64_t rows[3];
+} fill_places;
+
+/* Which tiles go together: the nearest four first, as most triangles have no others. */
+static const uint8_t parts_order[PARTS_TILES] = {0, 1, 3, 4, 2, 5, 6, 7, 8};
+
+LANE_INLINE lanei parts_address(const lmb_fill_window *w, const lmb_batch *b, int k, int p)
 {
-    for (; seen != 0; seen &= seen - 1) {
-        const int k = lowest_bit(seen);
-        parts_draw(w, b, k, p % PARTS_SIDE, p / PARTS_SIDE, part->e[0][k], part->e[1][k], part->e[2][k], part->d[k],
-                   slopes->dx[k], slopes->dy[k], 0, rows, kind, bounded);
-    }
+    const lanei across = lanei_add(lanei_shift(lanei_load(b->x0 + k), 3), lanei_splat(p % PARTS_SIDE - w->x0 / LMB_TILE)),
+                down = lanei_add(lanei_shift(lanei_load(b->y0 + k), 3), lanei_splat(p / PARTS_SIDE - w->y0 / LMB_TILE));
+    return lanei_add(lanei_mul(across, lanei_splat(w->depth_tile)), lanei_mul(down, lanei_splat(w->depth_row)));
 }
 
-/* Tile p of triangles `bits`. Those in one half of its rows are drawn apart, without the other half. */
-LANE_INLINE void parts_each(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
-                            int p, int kind, int bounded)
+/* Tile i of those that go together, which is the triangles' tile p. */
+LANE_INLINE void parts_place(fill_places *out, const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b,
+                             uint32_t bits, int i, int p, int bounded)
 {
     const lanei px = lanei_splat(p % PARTS_SIDE), py = lanei_splat(p / PARTS_SIDE);
-    fill_part part;
     uint32_t seen = 0, upper = 0, lower = 0;
     for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
         lane_mask halves[2];
-        seen |= mask_bits(parts_set(part.d, part.e, halves, slopes, w, b, k, px, py, bounded)) << k;
+        seen |= mask_bits(parts_set(out->d[i], NULL, halves, slopes, w, b, k, px, py, bounded)) << k;
         upper |= mask_bits(halves[0]) << k;
         lower |= mask_bits(halves[1]) << k;
+        lanei_store(out->at[i] + k, parts_address(w, b, k, p));
     }
     seen &= bits;
+    out->rows[ROWS_ALL] |= (uint64_t)(seen & ~(upper | lower)) << (i * LMB_BATCH);
+    out->rows[ROWS_UPPER] |= (uint64_t)(seen & upper) << (i * LMB_BATCH);
+    out->rows[ROWS_LOWER] |= (uint64_t)(seen & lower) << (i * LMB_BATCH);
+}
+
+/* An edge at the pixels of tile p's first vector, or of the lower half's. */
+LANE_INLINE lanei parts_edge(const lmb_batch *b, int i, int k, int p, int rows)
+{
+#define PARTS_8(n) n, n, n, n, n, n, n, n
+    static const int32_t column[PARTS_SIDE][16] = {{0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7},
+                                                   {8, 9, 10, 11, 12, 13, 14, 15, 8, 9, 10, 11, 12, 13, 14, 15},
+                                                   {16, 17, 18, 19, 20, 21, 22, 23, 16, 17, 18, 19, 20, 21, 22, 23}};
+    static const int32_t row[2 * PARTS_SIDE][16] = {{PARTS_8(0), PARTS_8(1)},   {PARTS_8(4), PARTS_8(5)},
+                                                    {PARTS_8(8), PARTS_8(9)},   {PARTS_8(12), PARTS_8(13)},
+                                                    {PARTS_8(16), PARTS_8(17)}, {PARTS_8(20), PARTS_8(21)}};
+#undef PARTS_8
+    const lanei x = lanei_load(column[p % PARTS_SIDE]), y = lanei_load(row[p / PARTS_SIDE * 2 + (rows == ROWS_LOWER)]);
+    return lanei_add(lanei_splat(b->e[i][k]),
+                     lanei_add(lanei_mul(lanei_splat(b->ex[i][k]), x), lanei_mul(lanei_splat(b->ey[i][k]), y)));
+}
+
+/* Tile i of those that go together, which is tile p of triangle k. */
+LANE_INLINE void parts_put(const fill_places *places, const fill_slopes *slopes, const lmb_fill_window *w,
+                           const lmb_batch *b, int k, int i, int p, int rows, int kind,
+                            int bounded)
+{
+    fill_rows r;
+    r.e0 = parts_edge(b, 0, k, p, rows);
+    r.e1 = parts_edge(b, 1, k, p, rows);
+    r.e2 = parts_edge(b, 2, k, p, rows);
+    r.down0 = lanei_splat(b->ey[0][k] * FILL_ROWS);
+    r.down1 = lanei_splat(b->ey[1][k] * FILL_ROWS);
+    r.down2 = lanei_splat(b->ey[2][k] * FILL_ROWS);
+    r.step_d = lane_mul(lane_splat(slopes->dx[k]), lane_column(0));
+    r.d_min = lane_splat(b->d_min[k]);
+    r.d_max = lane_splat(b->d_max[k]);
+    r.depth = (float *)(void *)((uint8_t *)w->first.depth + places->at[i][k]);
+    r.codes = (uint16_t *)(void *)r.depth;
+    r.scale = lane_splat(w->d_scale);
+    r.bias = lane_splat(w->d_bias);
+    r.ids = NULL;
+    r.id = 0;
+    rows_draw(&r, places->d[i][k], slopes->dy[k], rows, kind);
 #if LMB_CULLING
     if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
-        parts_draw_each(&part, slopes, w, b, seen, p, ROWS_ALL, kind, bounded);
-        return;
+        const ptrdiff_t across = ((b->x0[k] - w->x0) >> 3) + p % PARTS_SIDE,
+                        down = ((b->y0[k] - w->y0) >> 3) + p / PARTS_SIDE;
+        rows_raise(w->farthest + down * w->tiles_x + across, r.lowest);
+    }
+#else
+    (void)bounded;
+#endif
+}
+
+LANE_INLINE void parts_put_all(const fill_places *places, const fill_slopes *slopes, const lmb_fill_window *w,
+                               const lmb_batch *b, int first, int rows, int kind, int bounded)
+{
+    for (uint64_t left = places->rows[rows]; left != 0; left &= left - 1) {
+        const int bit = lowest_bit_64(left), k = bit % LMB_BATCH, i = bit / LMB_BATCH;
+        parts_put(places, slopes, w, b, k, i, parts_order[first + i], rows, kind, bounded);
+    }
+}
+
+/* Tiles `first` and on of triangles `bits`, in parts_order. */
+LANE_INLINE void parts_together(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
+                                int first, int count, int kind, int bounded)
+{
+    fill_places places;
+    places.rows[0] = places.rows[1] = places.rows[2] = 0;
+    for (int i = 0; i < count; ++i) {
+        parts_place(&places, slopes, w, b, bits, i, parts_order[first + i], bounded);
+    }
+#if LMB_CULLING
+    if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
+        places.rows[ROWS_ALL] |= places.rows[ROWS_UPPER] | places.rows[ROWS_LOWER];
+        places.rows[ROWS_UPPER] = places.rows[ROWS_LOWER] = 0;
     }
 #endif
-    parts_draw_each(&part, slopes, w, b, seen & upper, p, ROWS_UPPER, kind, 0);
-    parts_draw_each(&part, slopes, w, b, seen & lower, p, ROWS_LOWER, kind, 0);
-    parts_draw_each(&part, slopes, w, b, seen & ~(upper | lower), p, ROWS_ALL, kind, 0);
+    parts_put_all(&places, slopes, w, b, first, ROWS_ALL, kind, bounded);
+    parts_put_all(&places, slopes, w, b, first, ROWS_UPPER, kind, 0);
+    parts_put_all(&places, slopes, w, b, first, ROWS_LOWER, kind, 0);
 }
 
 /* What a number of tiles is to be added to, so that it has this parity. */
@@ -344,12 +424,10 @@ LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, 
     const uint32_t wider = LANES > LMB_TILE && !bounded ? narrow : parts_narrow(b, bits, PARTS_SIDE);
     fill_slopes slopes;
     parts_slopes(&slopes, b, wider);
-    for (int p = 0; p < PARTS_TILES; ++p) {
-        const int beside = p % PARTS_SIDE == 2 || p / PARTS_SIDE == 2;
-        const uint32_t some = beside ? wider & ~narrow : wider;
-        if (some != 0) {
-            parts_each(&slopes, w, b, some, p, kind, bounded);
-        }
+    parts_together(&slopes, w, b, wider, 0, 4, kind, bounded);
+    if ((wider & ~narrow) != 0) {
+        parts_together(&slopes, w, b, wider & ~narrow, 4, 4, kind, bounded);
+        parts_together(&slopes, w, b, wider & ~narrow, 8, 1, kind, bounded);
     }
     for (bits &= ~wider; bits != 0; bits &= bits - 1) {
         if (LANES > LMB_TILE && !bounded) {

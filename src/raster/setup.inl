@@ -50,17 +50,45 @@ LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, u
     return in;
 }
 
-/* The same, with code of its own for the usual formats. */
+#if defined(LANE_GATHERS_CORNERS)
+/* A whole batch of a usual mesh that reads neither past the mesh nor its last vertex, as a corner is read with the number
+ * after it; 0 where it is none. */
+LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
+{
+    if (count != LMB_BATCH || mesh->vertex_count == 0 || mesh->index_format != LMB_INDEX_U32 || mesh->position_format != LMB_POSITION_F32) {
+        return 0;
+    }
+    const uint32_t *vertex = (const uint32_t *)mesh->indices + (size_t)first * 3;
+    const lanei low = lanei_splat(INT32_MIN), past = lanei_splat((int32_t)(mesh->vertex_count - 1) ^ INT32_MIN);
+    lane_mask in = mask_of_bits(0xffffu);
+    for (int i = 0; i < 3 * LMB_BATCH; i += LANES) {
+        in = mask_and(in, lanei_lt(lanei_add(lanei_load((const int32_t *)vertex + i), low), past));
+    }
+    if (mask_bits(mask_not(in)) != 0) {
+        return 0;
+    }
+    for (int k = 0; k < LMB_BATCH; k += LANES) {
+        for (int i = 0; i < 3; ++i) {
+            lane p[3];
+            lane_gather_corners(p, (const float *)mesh->positions, vertex + 3 * k + i);
+            lane_store(out->position[i][0] + k, p[0]);
+            lane_store(out->position[i][1] + k, p[1]);
+            lane_store(out->position[i][2] + k, p[2]);
+        }
+    }
+    return 1;
+}
+#endif
+
 static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
+#if defined(LANE_GATHERS_CORNERS)
+    if (setup_fetch_usual(out, mesh, first, count)) {
+        return (1u << LMB_BATCH) - 1;
+    }
+#endif
     if (count < LMB_BATCH) {
         memset(out, 0, sizeof *out); /* empty places hold numbers */
-    }
-    if (mesh->index_format == LMB_INDEX_U32 && mesh->position_format == LMB_POSITION_F32) {
-        lmb_mesh usual = *mesh;
-        usual.index_format = LMB_INDEX_U32;
-        usual.position_format = LMB_POSITION_F32;
-        return setup_fetch_all(out, &usual, first, count);
     }
     return setup_fetch_all(out, mesh, first, count);
 }
