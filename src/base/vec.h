@@ -80,9 +80,6 @@ static inline int lowest_bit(uint32_t bits)
 
 static inline int lowest_bit_64(uint64_t bits)
 {
-#if defined(__GNUC__)
-    return __builtin_ctzll(bits);
-#endif
     const uint32_t low = (uint32_t)bits;
     return low != 0 ? lowest_bit(low) : 32 + lowest_bit((uint32_t)(bits >> 32));
 }

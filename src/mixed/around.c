@@ -28,7 +28,19 @@ static void corner_uv(float out[2], const lmb_mesh *m, uint32_t vertex)
     }
 }
 
-static void albedo_at(float out[3], const lmb_triangle *t, const lmb_scene *scene, float b1, float b2)
+/* The level of which one texel is about a part: of a side's texels, so many lie in one of n parts. */
+static float level_of(const lmb_texture *texture, float uv[3][2], int32_t n)
+{
+    float texels = 0.0f;
+    for (int k = 0; k < 3; ++k) {
+        const float u = (uv[k][0] - uv[(k + 1) % 3][0]) * (float)texture->width,
+                    v = (uv[k][1] - uv[(k + 1) % 3][1]) * (float)texture->height;
+        texels = maxf(texels, u * u + v * v);
+    }
+    return clampf(0.5f * lmb_log2(maxf(texels, 1e-6f)) - lmb_log2((float)n), 0.0f, (float)(texture->levels - 1));
+}
+
+static void albedo_at(float out[3], const lmb_triangle *t, const lmb_scene *scene, int32_t n, float b1, float b2)
 {
     const lmb_mesh *m = t->mesh;
     float texel[4] = {1, 1, 1, 1};
@@ -39,7 +51,7 @@ static void albedo_at(float out[3], const lmb_triangle *t, const lmb_scene *scen
             corner_uv(uv[k], m, t->vertex[k]);
         }
         lmb_texture_sample(texel, texture, mix(uv[0][0], uv[1][0], uv[2][0], b1, b2),
-                           mix(uv[0][1], uv[1][1], uv[2][1], b1, b2), (float)(texture->levels - 1));
+                           mix(uv[0][1], uv[1][1], uv[2][1], b1, b2), level_of(texture, uv, n));
     }
     for (int c = 0; c < 3; ++c) {
         float colour = 1.0f;
@@ -68,7 +80,7 @@ static void part_at(lmb_texel *out, const parts *p, int32_t i, int32_t j)
     const float x = (float)(up ? i : p->n - 1 - i) + third, y = (float)(up ? j : p->n - 1 - j) + third;
     const lmb_vec3 *c = p->triangle->corner;
     float albedo[3];
-    albedo_at(albedo, p->triangle, p->scene, x * step, y * step);
+    albedo_at(albedo, p->triangle, p->scene, p->n, x * step, y * step);
     memset(out, 0, sizeof *out);
     out->position = add3(c[0], add3(mul3(sub3(c[1], c[0]), x * step), mul3(sub3(c[2], c[0]), y * step)));
     out->normal = p->normal;

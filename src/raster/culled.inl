@@ -152,7 +152,7 @@ NOINLINE void culled_small_id32(const lmb_fill_window *w, const lmb_batch *b, ui
 
 static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
-    const int kind = fill_kind(w);
+    const int kind = small_kind(w);
     if (kind == FILL_PLAIN) {
         culled_small_plain(w, b, bits);
         return;

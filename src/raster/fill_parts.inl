@@ -1,8 +1,8 @@
 /* fill_parts.inl: a batch's small triangles into tiled tiles, for backends of a row's lanes or more. Layer 3.
  *
  * Most triangles touch at most two or three tiles each way. In which of them they have pixels, and the edges and depth at
- * a tile's first pixel, are found for LANES triangles at a time; what remains is one loop that draws a tile of each. A
- * loop over the tiles of each triangle would be guessed wrong once a triangle, which costs about as much as a tile.
+ * a tile's first pixel, are found for LANES triangles at a time; what remains is a loop that draws them. A loop over the
+ * tiles of each triangle would be guessed wrong once a triangle, which costs about as much as a tile.
  *
  * Where tiles have bounds of their farthest depth (culled.inl), those that hide their part of a triangle are left out. */
 
@@ -60,7 +60,8 @@ LANE_INLINE lane parts_depth(const lmb_fill_window *w, const lmb_batch *b, int k
 /* Tile (px, py) of triangles k .. k + LANES - 1: where it has pixels that may show; sets the depth at its first pixel,
  * and the edges there, if they are asked for. */
 LANE_INLINE lane_mask parts_set(float *depth, int32_t (*edges)[LMB_BATCH], lane_mask halves[2],
-                                const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, int k, lanei px, lanei py, int bounded)
+                                const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, int k, lanei px,
+                                lanei py, int bounded)
 {
     const lanei zero = lanei_splat(0), last = lanei_splat(LMB_TILE - 1);
     const lanei x0 = lanei_load(b->x0 + k), y0 = lanei_load(b->y0 + k);
@@ -105,15 +106,14 @@ LANE_INLINE lane_mask parts_set(float *depth, int32_t (*edges)[LMB_BATCH], lane_
 
 /* Triangle k in its tile (px, py); e0 .. e2, d: edges and depth at the tile's first pixel. */
 LANE_INLINE void parts_draw(const lmb_fill_window *w, const lmb_batch *b, int k, int32_t px, int32_t py, int32_t e0,
-                            int32_t e1, int32_t e2, float d, float dx, float dy, uint32_t id, int rows, int kind,
-                            int bounded)
+                            int32_t e1, int32_t e2, float d, float dx, float dy, uint32_t id, int kind, int bounded)
 {
     const ptrdiff_t across = ((b->x0[k] - w->x0) >> 3) + px, down = ((b->y0[k] - w->y0) >> 3) + py;
     const int32_t ex[3] = {b->ex[0][k], b->ex[1][k], b->ex[2][k]}, ey[3] = {b->ey[0][k], b->ey[1][k], b->ey[2][k]};
     fill_rows r;
-    r.e0 = lanei_affine(e0 + (rows == ROWS_LOWER ? ey[0] * (LMB_TILE / 2) : 0), ex[0], ey[0], 0);
-    r.e1 = lanei_affine(e1 + (rows == ROWS_LOWER ? ey[1] * (LMB_TILE / 2) : 0), ex[1], ey[1], 0);
-    r.e2 = lanei_affine(e2 + (rows == ROWS_LOWER ? ey[2] * (LMB_TILE / 2) : 0), ex[2], ey[2], 0);
+    r.e0 = lanei_affine(e0, ex[0], ey[0], 0);
+    r.e1 = lanei_affine(e1, ex[1], ey[1], 0);
+    r.e2 = lanei_affine(e2, ex[2], ey[2], 0);
     r.down0 = lanei_splat(ey[0] * FILL_ROWS);
     r.down1 = lanei_splat(ey[1] * FILL_ROWS);
     r.down2 = lanei_splat(ey[2] * FILL_ROWS);
@@ -127,7 +127,7 @@ LANE_INLINE void parts_draw(const lmb_fill_window *w, const lmb_batch *b, int k,
     r.ids = kind == FILL_ID32 ? (uint32_t *)(void *)((uint8_t *)w->first.id + down * w->id_row + across * w->id_tile)
                               : NULL;
     r.id = id;
-    rows_draw(&r, d, dy, rows, kind);
+    rows_draw(&r, d, dy, ROWS_ALL, kind);
 #if LMB_CULLING
     if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
         rows_raise(w->farthest + down * w->tiles_x + across, r.lowest);
@@ -157,22 +157,26 @@ LANE_INLINE void parts_slopes(fill_slopes *out, const lmb_batch *b, uint32_t bit
     }
 }
 
+/* So many tiles of each triangle are found before any is drawn: what is drawn is then one long loop, whose end is guessed
+ * wrong once. In surfaces of more bytes than caches hold, each tile is read so many before its turn. */
+enum { PARTS_TOGETHER = 4, PARTS_AHEAD = 6, PARTS_CACHED = 6 << 20 };
+
 /* Four tiles of each triangle: the depth at their first pixels, and where they lie in the depth surface, bytes. Of tile i
  * of triangle k bit i LMB_BATCH + k tells whether it has pixels that may show: in all rows, the upper half, the lower. */
-enum { PARTS_TOGETHER = 4 };
 typedef struct fill_places {
     float d[PARTS_TOGETHER][LMB_BATCH];
     int32_t at[PARTS_TOGETHER][LMB_BATCH];
     uint64_t rows[3];
 } fill_places;
 
-/* Which tiles go together: the nearest four first, as most triangles have no others. */
+/* Which tiles go together: the first four, as most triangles have no others; then what lies beside these. */
 static const uint8_t parts_order[PARTS_TILES] = {0, 1, 3, 4, 2, 5, 6, 7, 8};
 
 LANE_INLINE lanei parts_address(const lmb_fill_window *w, const lmb_batch *b, int k, int p)
 {
-    const lanei across = lanei_add(lanei_shift(lanei_load(b->x0 + k), 3), lanei_splat(p % PARTS_SIDE - w->x0 / LMB_TILE)),
-                down = lanei_add(lanei_shift(lanei_load(b->y0 + k), 3), lanei_splat(p / PARTS_SIDE - w->y0 / LMB_TILE));
+    const int32_t px = p % PARTS_SIDE - w->x0 / LMB_TILE, py = p / PARTS_SIDE - w->y0 / LMB_TILE;
+    const lanei across = lanei_add(lanei_shift(lanei_load(b->x0 + k), 3), lanei_splat(px)),
+                down = lanei_add(lanei_shift(lanei_load(b->y0 + k), 3), lanei_splat(py));
     return lanei_add(lanei_mul(across, lanei_splat(w->depth_tile)), lanei_mul(down, lanei_splat(w->depth_row)));
 }
 
@@ -244,22 +248,63 @@ LANE_INLINE void parts_put(const fill_places *places, const fill_slopes *slopes,
 #endif
 }
 
+/* As lowest_bit_64, in one instruction where there is one. */
+LANE_INLINE int parts_lowest(uint64_t bits)
+{
+#if defined(__GNUC__)
+    return __builtin_ctzll(bits);
+#else
+    return lowest_bit_64(bits);
+#endif
+}
+
+/* Reads a tile, or half of one, that will be drawn to soon. */
+LANE_INLINE void parts_soon(const fill_places *places, const lmb_fill_window *w, int bit, int rows, int kind)
+{
+    const uint8_t *depth = (const uint8_t *)w->first.depth + places->at[bit / LMB_BATCH][bit % LMB_BATCH];
+    if (kind == FILL_CODES) {
+        MESH_SOON(depth), MESH_SOON(depth + 64);
+        return;
+    }
+    if (rows != ROWS_LOWER) {
+        MESH_SOON(depth), MESH_SOON(depth + 64);
+    }
+    if (rows != ROWS_UPPER) {
+        MESH_SOON(depth + 128), MESH_SOON(depth + 192);
+    }
+}
+
+/* Of tiles `rows`, those after the first PARTS_AHEAD, which are read; none where all stay in the cache. */
+LANE_INLINE uint64_t parts_begin(const fill_places *places, const lmb_fill_window *w, int rows, int kind)
+{
+    uint64_t left = (int64_t)w->depth_row * w->tiles_y > PARTS_CACHED ? places->rows[rows] : 0;
+    for (int n = 0; n < PARTS_AHEAD && left != 0; ++n, left &= left - 1) {
+        parts_soon(places, w, parts_lowest(left), rows, kind);
+    }
+    return left;
+}
+
+/* ahead: what parts_begin left. */
 LANE_INLINE void parts_put_all(const fill_places *places, const fill_slopes *slopes, const lmb_fill_window *w,
-                               const lmb_batch *b, int first, int rows, int kind, int bounded)
+                               const lmb_batch *b, uint64_t ahead, int first, int rows, int kind, int bounded)
 {
     for (uint64_t left = places->rows[rows]; left != 0; left &= left - 1) {
-        const int bit = lowest_bit_64(left), k = bit % LMB_BATCH, i = bit / LMB_BATCH;
+        const int bit = parts_lowest(left), k = bit % LMB_BATCH, i = bit / LMB_BATCH;
+        if (ahead != 0) {
+            parts_soon(places, w, parts_lowest(ahead), rows, kind);
+            ahead &= ahead - 1;
+        }
         parts_put(places, slopes, w, b, k, i, parts_order[first + i], rows, kind, bounded);
     }
 }
 
-/* Tiles `first` and on of triangles `bits`, in parts_order. */
+/* Tiles `first` and on, in parts_order, of triangles `bits`. */
 LANE_INLINE void parts_together(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
-                                int first, int count, int kind, int bounded)
+                                int first, int kind, int bounded)
 {
     fill_places places;
     places.rows[0] = places.rows[1] = places.rows[2] = 0;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < PARTS_TOGETHER && first + i < PARTS_TILES; ++i) {
         parts_place(&places, slopes, w, b, bits, i, parts_order[first + i], bounded);
     }
 #if LMB_CULLING
@@ -268,9 +313,12 @@ LANE_INLINE void parts_together(const fill_slopes *slopes, const lmb_fill_window
         places.rows[ROWS_UPPER] = places.rows[ROWS_LOWER] = 0;
     }
 #endif
-    parts_put_all(&places, slopes, w, b, first, ROWS_ALL, kind, bounded);
-    parts_put_all(&places, slopes, w, b, first, ROWS_UPPER, kind, 0);
-    parts_put_all(&places, slopes, w, b, first, ROWS_LOWER, kind, 0);
+    const uint64_t ahead = parts_begin(&places, w, ROWS_ALL, kind),
+                   ahead_upper = parts_begin(&places, w, ROWS_UPPER, kind),
+                   ahead_lower = parts_begin(&places, w, ROWS_LOWER, kind);
+    parts_put_all(&places, slopes, w, b, ahead, first, ROWS_ALL, kind, bounded);
+    parts_put_all(&places, slopes, w, b, ahead_upper, first, ROWS_UPPER, kind, 0);
+    parts_put_all(&places, slopes, w, b, ahead_lower, first, ROWS_LOWER, kind, 0);
 }
 
 /* What a number of tiles is to be added to, so that it has this parity. */
@@ -296,7 +344,7 @@ LANE_INLINE void parts_parity(const fill_slopes *slopes, const lmb_fill_window *
         const int k = lowest_bit(seen);
         parts_draw(w, b, k, ((b->x0[k] >> 3) + right) & 1, ((b->y0[k] >> 3) + below) & 1, part.e[0][k],
                    part.e[1][k], part.e[2][k], part.d[k], slopes->dx[k], slopes->dy[k], first_id + (uint32_t)k,
-                   ROWS_ALL, FILL_ID32, 0);
+                   FILL_ID32, 0);
     }
 }
 
@@ -347,7 +395,7 @@ LANE_INLINE void parts_draw_from(const lmb_fill_window *w, const lmb_batch *b, i
     const int32_t x = px * LMB_TILE, y = py * LMB_TILE;
     parts_draw(w, b, k, px, py, b->e[0][k] + b->ex[0][k] * x + b->ey[0][k] * y,
                b->e[1][k] + b->ex[1][k] * x + b->ey[1][k] * y, b->e[2][k] + b->ex[2][k] * x + b->ey[2][k] * y, d, dx,
-               dy, id, ROWS_ALL, kind, bounded);
+               dy, id, kind, bounded);
 }
 
 LANE_INLINE void parts_run(fill_parts *parts, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int more,
@@ -415,21 +463,18 @@ LANE_INLINE void parts_wide(const lmb_fill_window *w, const lmb_batch *b, int k,
     }
 }
 
-/* Without ids, triangles may come in any order: what is left is each pixel's nearest depth. So do their tiles: the first
- * one of each, then the one beside it, and so on; that is faster than a list. */
+/* Without ids, triangles may come in any order: what is left is each pixel's nearest depth. So may their tiles. */
 LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int kind, int bounded)
 {
-    const uint32_t narrow = parts_narrow(b, bits, 2);
-    /* Sixteen lanes take wider triangles one by one where none is asked for: most of their rows are left out then. */
-    const uint32_t wider = LANES > LMB_TILE && !bounded ? narrow : parts_narrow(b, bits, PARTS_SIDE);
+    const uint32_t wider = parts_narrow(b, bits, PARTS_SIDE), beside = wider & ~parts_narrow(b, bits, 2);
     fill_slopes slopes;
     parts_slopes(&slopes, b, wider);
-    parts_together(&slopes, w, b, wider, 0, 4, kind, bounded);
-    if ((wider & ~narrow) != 0) {
-        parts_together(&slopes, w, b, wider & ~narrow, 4, 4, kind, bounded);
-        parts_together(&slopes, w, b, wider & ~narrow, 8, 1, kind, bounded);
+    parts_together(&slopes, w, b, wider, 0, kind, bounded);
+    for (int first = PARTS_TOGETHER; first < PARTS_TILES && beside != 0; first += PARTS_TOGETHER) {
+        parts_together(&slopes, w, b, beside, first, kind, bounded);
     }
     for (bits &= ~wider; bits != 0; bits &= bits - 1) {
+        /* Sixteen lanes take wider triangles one by one where none is asked for: most of their rows are left out then. */
         if (LANES > LMB_TILE && !bounded) {
             small_alone(w, b, lowest_bit(bits), 0, kind);
         } else {

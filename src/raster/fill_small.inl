@@ -172,6 +172,13 @@ void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uin
     }
 }
 
+/* Tiles of a depth alone are found by 32-bit distances from the first one, bytes: larger surfaces go one by one. */
+LANE_INLINE int small_kind(const lmb_fill_window *w)
+{
+    const int kind = fill_kind(w);
+    return (kind == FILL_PLAIN || kind == FILL_CODES) && (int64_t)w->depth_row * w->tiles_y > INT32_MAX ? FILL_ANY : kind;
+}
+
 #if LANES > 1 && LANES < LMB_TILE
 NOINLINE void small_codes(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
@@ -183,7 +190,7 @@ NOINLINE void small_codes(const lmb_fill_window *w, const lmb_batch *b, uint32_t
 
 static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
-    const int kind = fill_kind(w);
+    const int kind = small_kind(w);
 #if LANES > 1
     if (kind == FILL_CODES) {
         small_codes(w, b, bits);

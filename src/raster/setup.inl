@@ -55,7 +55,8 @@ LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, u
  * after it; 0 where it is none. */
 LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
-    if (count != LMB_BATCH || mesh->vertex_count == 0 || mesh->index_format != LMB_INDEX_U32 || mesh->position_format != LMB_POSITION_F32) {
+    if (count != LMB_BATCH || mesh->vertex_count == 0 || mesh->index_format != LMB_INDEX_U32 ||
+        mesh->position_format != LMB_POSITION_F32) {
         return 0;
     }
     const uint32_t *vertex = (const uint32_t *)mesh->indices + (size_t)first * 3;
@@ -80,6 +81,7 @@ LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint
 }
 #endif
 
+/* The same, with code of its own for usual meshes. */
 static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
 #if defined(LANE_GATHERS_CORNERS)

@@ -14,6 +14,7 @@ enum { ROUNDS = 400, FRAME = 160, TRIANGLES = 75, PIXELS = FRAME * FRAME };
 /* A scene of loose triangles under one view, and a window of the frame. */
 typedef struct draws {
     float positions[9 * TRIANGLES];
+    uint32_t indices[3 * TRIANGLES];
     lmb_mesh mesh;
     lmb_material material;
     lmb_instance instance;
@@ -43,6 +44,21 @@ static void make_triangle(float *p, uint32_t kinds, test_rng *r)
     }
 }
 
+/* Every corner a vertex of its own, or corners of triangles nearby shared; in some meshes a few are past the end. */
+static void make_indices(draws *d, test_rng *r)
+{
+    const uint32_t stray = test_random(r) % 3u;
+    for (uint32_t i = 0; i < 3 * TRIANGLES; ++i) {
+        const uint32_t other = i + test_random(r) % 9u;
+        d->indices[i] = test_random(r) % 2u && other < 3 * TRIANGLES ? other : i;
+        if (stray == 0 && test_random(r) % 40u == 0) {
+            d->indices[i] = test_random(r) % 2u ? 3 * TRIANGLES : 0xffffffffu - test_random(r) % 2u;
+        }
+    }
+    d->mesh.indices = d->indices;
+    d->mesh.index_format = LMB_INDEX_U32;
+}
+
 static void make_draws(draws *d, test_rng *r)
 {
     const lmb_vec3 eye = {0, 0, 3}, target = {0.1f, 0.05f, 0}, up = {0, 1, 0};
@@ -55,6 +71,9 @@ static void make_draws(draws *d, test_rng *r)
     d->mesh.positions = d->positions;
     d->mesh.vertex_count = 3 * TRIANGLES;
     d->mesh.triangle_count = TRIANGLES;
+    if (test_random(r) % 2u) {
+        make_indices(d, r);
+    }
     d->material.alpha = 1.0f;
     d->material.texture = -1;
     d->instance.to_world = unit;
@@ -113,10 +132,44 @@ static int same_stats(const lmb_stats *a, const lmb_stats *b)
            a->triangles_dropped == b->triangles_dropped;
 }
 
+/* Rows of tiles that lie over 2^31 bytes apart from the first to the last: only those that triangles touch are there. */
+static void check_far_rows(const lmb_kernels *backend)
+{
+    static float near_by[64 * 4 * 10], far_apart[64 * 4];
+    const lmb_vec3 eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 1, 0};
+    test_rng r = seed_rng(7);
+    draws d;
+    lmb_target t = {{0}, {0}, 0, 0};
+    int drawn = 0;
+    make_draws(&d, &r);
+    d.mesh.index_format = LMB_INDEX_NONE;
+    lmb_view_look_at(&d.view, eye, target, up, 0.9f, 32, 80);
+    for (int i = 0; i < 9 * TRIANGLES; i += 3) {
+        d.positions[i] = test_uniform(&r, -0.4f, 0.4f);
+        d.positions[i + 1] = test_uniform(&r, 0.4f, 0.46f); /* of 0.48 m up: the first eight rows */
+        d.positions[i + 2] = test_uniform(&r, -0.01f, 0.01f);
+    }
+    memset(near_by, 0, sizeof near_by);
+    memset(far_apart, 0, sizeof far_apart);
+    CHECK(lmb_surface_init(&t.depth, LMB_DEPTH32F, 32, 80, near_by, sizeof near_by) == LMB_OK);
+    CHECK(lmb_draw(&t, backend, &d.view, &d.scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
+    t.depth.data = far_apart;
+    t.depth.stride_bytes = INT32_MAX / LMB_TILE & ~3;
+    CHECK(lmb_draw(&t, backend, &d.view, &d.scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
+    for (int i = 0; i < 64 * 4; ++i) {
+        drawn += near_by[i] > 0.0f;
+    }
+    CHECK(drawn > 100);
+    CHECK(memcmp(near_by, far_apart, sizeof far_apart) == 0);
+}
+
 void test_draws(void)
 {
     const seed_range range = seeds(ROUNDS);
     const lmb_kernels *backend;
+    for (int32_t i = 0; (backend = lmb_kernels_at(i)) != NULL; ++i) {
+        check_far_rows(backend);
+    }
     for (uint32_t k = 0; k < range.count; ++k) {
         test_rng r = seed_rng(range.first + k);
         draws d;

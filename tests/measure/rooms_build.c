@@ -1,4 +1,4 @@
-/* rooms_build.c: the rooms. No constant was chosen on them. */
+/* rooms_build.c: the rooms. Constants may be chosen on the first ones; those that are held out chose none. */
 #include <stddef.h>
 #include <string.h>
 
@@ -123,11 +123,83 @@ static void build_lamp(room *r)
     tell_lights(r);
 }
 
+/* --- held out: sizes, places, colours and lights by chance, and the whole turned ---------------------------------- */
+
+static int any_paint(made_scene *s, double low, double high)
+{
+    const double red = any_between(s, low, high), green = any_between(s, low, high), blue = any_between(s, low, high);
+    return paint(s, red, green, blue);
+}
+
+/* A closed room whose corner 0, 0, 0 is seen. */
+static svec any_room(room *r, uint64_t seed)
+{
+    made_scene *s = &r->scene;
+    s->random = seed;
+    const double wide = any_between(s, 3.2, 4.5), high = any_between(s, 2.3, 2.8), deep = any_between(s, 3.4, 4.6);
+    const int floor = any_paint(s, 0.3, 0.6), walls = any_paint(s, 0.55, 0.75), ceiling = any_paint(s, 0.6, 0.8);
+    shell(s, floor, walls, ceiling, at(0, 0, 0), at(wide, high, deep));
+    return at(wide, high, deep);
+}
+
+static void turn_any(room *r)
+{
+    scene_place p = scene_as_it_is();
+    scene_turn(&p, at(0, 1, 0), any_between(&r->scene, 10, 80));
+    scene_put(&r->scene, &p);
+    tell_lights(r);
+}
+
+static void build_metal_tall(room *r)
+{
+    made_scene *s = &r->scene;
+    const svec size = any_room(r, 501);
+    spot(s, at(any_between(s, 0.5, 0.7) * size.x, 0.94 * size.y, any_between(s, 0.3, 0.4) * size.z), at(0.9, 0.3, 1.3),
+         any_between(s, 18, 26), 28, 50);
+    look(s, at(0.9 * size.x, 1.45, 0.92 * size.z), at(0.9, 0.5, 1.0), 58);
+    object_begins(r);
+    crate(s, metal(r, 0.93, 0.8, 0.55, any_between(s, 0.35, 0.5)),
+          at(any_between(s, 0.7, 1.0), 0, any_between(s, 1.0, 1.4)), at(0.5, any_between(s, 0.7, 0.9), 0.45),
+          any_between(s, 5, 85));
+    turn_any(r);
+}
+
+static void build_glow_panel(room *r)
+{
+    made_scene *s = &r->scene;
+    const svec size = any_room(r, 502);
+    point(s, at(0.75 * size.x, 0.85 * size.y, any_between(s, 0.6, 0.8) * size.z), any_between(s, 3, 5));
+    look(s, at(0.85 * size.x, 1.4, 0.93 * size.z), at(1.2, 0.4, 1.0), 56);
+    object_begins(r);
+    const int glow = paint(s, 0, 0, 0), foot = any_paint(s, 0.2, 0.5);
+    s->emission[glow][0] = any_between(s, 6, 9);
+    s->emission[glow][1] = any_between(s, 5, 7);
+    s->emission[glow][2] = any_between(s, 3, 6);
+    crate(s, foot, at(1.3, 0, 1.2), at(0.3, 0.2, 0.16), 30);
+    slab(s, glow, at(1.15, 0.2, 1.2), at(0.26, 0, -0.15), at(0, 0.35, 0.1), at(0.03, 0, 0.05));
+    turn_any(r);
+}
+
+static void build_copper_ball(room *r)
+{
+    made_scene *s = &r->scene;
+    const svec size = any_room(r, 503);
+    point(s, at(0.7 * size.x, 0.85 * size.y, any_between(s, 0.3, 0.5) * size.z), any_between(s, 7, 10));
+    look(s, at(0.88 * size.x, 1.5, 0.93 * size.z), at(1.2, 0.6, 0.9), 62);
+    object_begins(r);
+    ball_outside(s, metal(r, 0.9, 0.6, 0.45, any_between(s, 0.3, 0.45)),
+                 at(any_between(s, 1.2, 1.5), 0.3, any_between(s, 1.2, 1.5)), 0.3, 16);
+    turn_any(r);
+}
+
 const room_kind room_kinds[] = {
     {"small_object", build_small_object, "a crate and a ball in a large room"},
     {"metal_box", build_metal_box, "a bright metal box near a wall"},
     {"window", build_window, "a crate before a window"},
     {"metal_ball", build_metal_ball, "a metal ball"},
     {"lamp", build_lamp, "a small lamp"},
+    {"metal_tall", build_metal_tall, "held out: a turned metal box in a turned room"},
+    {"glow_panel", build_glow_panel, "held out: a leaning panel that glows, on a foot"},
+    {"copper_ball", build_copper_ball, "held out: a metal ball in a turned room"},
 };
 const int room_kind_count = COUNT_OF(room_kinds);

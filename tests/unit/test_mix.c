@@ -159,6 +159,25 @@ static void stands_on_what_is_asked(void)
     }
 }
 
+/* A table on a floor, and no wall: its edge is upright, and too thin for one; a chest's front is none too thin. */
+static void edge_is_no_wall(float thick, int is_wall)
+{
+    static const room looks_down = {.pitch = 0.5f};
+    char *wall[] = {"--object", square, "--on", "wall", "--scale", "0.05"};
+    mix_job *j = begin(wall, 6);
+    report r = {""};
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_vec3 ray = room_ray(&looks_down, lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH)));
+        const float top = ray.y < -0.01f ? -0.5f / ray.y : 1e9f, front = 1.0f / -ray.z, low = -0.5f - thick;
+        const int is_top = top > front && -ray.z * top < 2.2f, is_front = ray.y * front < -0.5f && ray.y * front > low;
+        j->frame.depth[i] = is_top ? top : is_front ? front : fminf(2.6f * top, 8.0f); /* the floor, 1.3 m down */
+    }
+    CHECK(mix_find_planes(j, &r) && j->planes.count >= 2);
+    CHECK_MSG(mix_place(j, &r) == is_wall && (is_wall ? j->hangs : strstr(r.text, "--on wall: no plane") != NULL), "%s",
+              r.text);
+    mix_job_free(j);
+}
+
 /* There is nothing of that kind: it is said which. */
 static void asked_for_nothing(void)
 {
@@ -192,14 +211,19 @@ static void metres_are_its_own(void)
     }
 }
 
-/* One wall, no floor: on the wall, and it is known to be none that faces up. */
+/* One wall, no floor: it hangs there upright, and it is known to be none that faces up. So it does where the wall is
+ * asked for by a pixel. What lay on the wall, as on a floor, would stand out of it sideways. */
 static void no_floor(void)
 {
-    char *object[] = {"--object", square};
-    mix_job *j = begin(object, 2);
-    set_depth(j, 2.5f, 0);
-    CHECK(place(j) && !j->faces_up && j->floor == 0 && j->up.z > 0.999f && j->inside);
-    mix_job_free(j);
+    char *object[] = {"--object", square, "--at", "48,10"};
+    for (int at = 0; at < 2; ++at) {
+        mix_job *j = begin(object, at ? 4 : 2);
+        set_depth(j, 2.5f, at);
+        CHECK(place(j) && j->faces_up == at && j->hangs && j->up.y > 0.999f && j->placed.m[5] > 0.0f);
+        CHECK(fabsf(j->placed.m[4]) < 1e-3f && fabsf(j->placed.m[6]) < 1e-3f && fabsf(j->anchor.z + 2.5f) < 1e-3f);
+        mix_job_free(j);
+    }
+    mix_job *j;
     j = begin(object, 2);
     memset(j->frame.depth, 0, PIXELS * sizeof(float));
     CHECK(!place(j));
@@ -450,8 +474,39 @@ static void place_is_named(void)
     mix_job_free(j);
 }
 
+/* Of a pixel that shows nothing at the picture's edge, the line names one where the object has room: half a metre wide it
+ * has none at the nearest pixel of the floor. */
+static void place_has_room(void)
+{
+    char *object[] = {"--object", square, "--at", "0,70", "--scale", "0.5"};
+    int32_t at[2] = {0, 0};
+    char named[40];
+    mix_job *j = begin(object, 6);
+    report r = {""};
+    set_depth(j, 2.5f, 1);
+    for (int i = 0; i < 3; ++i) { /* so many pixels at the left show nothing */
+        for (int y = 0; y < HEIGHT; ++y) {
+            j->frame.depth[y * WIDTH + i] = 0.0f;
+        }
+    }
+    CHECK(mix_find_planes(j, &r) && !mix_place(j, &r));
+    CHECK(mix_plane_near(at, j) && at[0] > 10 && at[0] < 60);
+    snprintf(named, sizeof named, "would do is %d,%d", (int)at[0], (int)at[1]);
+    CHECK_MSG(strstr(r.text, named) != NULL, "%s, not %s", r.text, named);
+    mix_job_free(j);
+    j = begin(object, 6);
+    set_depth(j, 2.5f, 1);
+    j->o.at_px[0] = (float)at[0];
+    j->o.at_px[1] = (float)at[1];
+    CHECK_MSG(place(j) && j->inside, "%d,%d", (int)at[0], (int)at[1]);
+    mix_job_free(j);
+}
+
 void test_mix(void)
 {
+    edge_is_no_wall(0.14f, 0);
+    edge_is_no_wall(0.5f, 1);
+    place_has_room();
     objects_show_light();
     place_is_named();
     maps_count_whole();

@@ -662,6 +662,37 @@ static void check_coloured(lmb_scene *scene, lmb_mesh *mesh, lmb_material *mater
     }
 }
 
+/* Of a texture with levels parts get the texels that lie in them: as a mean of all, each would be grey. */
+static void check_levels(lmb_scene *scene, lmb_mesh *mesh, lmb_material *material, const lmb_env *env)
+{
+    static uint8_t texels[4 * (64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1)];
+    static const float uvs[6] = {0.0f, 0.5f, 1.0f, 0.5f, 0.5f, 1.0f};
+    const lmb_texture texture = {texels, 64, 64, 7, LMB_WRAP_CLAMP, LMB_WRAP_CLAMP, LMB_BILINEAR, 0};
+    size_t at = 0;
+    float dark = 0.0f, light = 0.0f;
+    for (int side = 64; side > 0; side /= 2) {
+        for (int i = 0; i < side * side; ++i, at += 4) {
+            memset(texels + at, side == 1 ? 188 : i % side < side / 2 ? 0 : 255, 3);
+            texels[at + 3] = 255;
+        }
+    }
+    scene->textures = &texture;
+    scene->texture_count = 1;
+    mesh->colours = NULL;
+    mesh->uvs = uvs;
+    mesh->uv_format = LMB_UV_F32;
+    material->texture = 0;
+    const size_t n = lmb_around_points(around_points, 4096, scene, 1, 1, 0.125f, env);
+    for (size_t i = 0; i < n; ++i) {
+        const double b2 = (double)around_points[i].position.y, b1 = ((double)around_points[i].position.x + 1.0 - b2) / 2.0,
+                     u = b1 + 0.5 * b2;
+        dark = u < 0.4 ? fmaxf(dark, around_points[i].flux[0]) : dark;
+        light += u > 0.6 ? around_points[i].flux[0] : 0.0f;
+    }
+    CHECK_MSG(n >= 64 && dark < 1e-4f && light > 0.3f, "%d parts: %g where it is black, %g where white", (int)n,
+              (double)dark, (double)light);
+}
+
 /* A triangle throws back albedo x light x area, in however many parts. */
 static void test_around(void)
 {
@@ -709,6 +740,7 @@ static void test_around(void)
                   middle, (int)n);
     }
     check_coloured(&scene, &mesh, &material, &env);
+    check_levels(&scene, &mesh, &material, &env);
 }
 
 /* Points close together have one answer, that scales all of them; as much light as before leaves the bits alone. */

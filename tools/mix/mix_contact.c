@@ -6,6 +6,8 @@
 /* What sensors bend a plane by at most; more is a step that the foot stands beside. */
 #define MAX_BEND 0.05f
 
+#define FACES_UP 0.90630779f /* cosine of 25 degrees */
+
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 static lmb_vec3 times(lmb_vec3 v, float s)
@@ -46,21 +48,48 @@ void mix_touch(mix_job *j, float gap_m)
     }
 }
 
+/* How far a pixel is from --at, squared; infinite where its plane does not face up, or, with `whole`, where the object
+ * would not be wholly seen on it. */
+static float unfit(const mix_job *j, int32_t x, int32_t y, lmb_vec3 up, const mix_extent *e, int whole)
+{
+    const int32_t label = j->planes.label[y * j->frame.camera.width + x];
+    const float i = (float)x - j->o.at_px[0], k = (float)y - j->o.at_px[1];
+    lmb_vec3 at;
+    if (label == 0 || dot(j->planes.plane[label - 1].normal, up) <= FACES_UP ||
+        (whole && (!lmb_planes_anchor(&at, &j->planes, &j->frame.camera, label - 1, (float)x, (float)y) ||
+                   !mix_is_in_view(j, &j->planes.plane[label - 1], at, e)))) {
+        return INFINITY;
+    }
+    return i * i + k * k;
+}
+
 int mix_plane_near(int32_t at[2], const mix_job *j)
 {
-    const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
+    const int32_t w = j->frame.camera.width, pixels = w * j->frame.camera.height;
     const lmb_vec3 up = lmb_planes_up(&j->planes);
+    mix_extent e = mix_extent_of(j);
     float min = INFINITY;
-    for (int32_t y = 0; y < h; ++y) {
-        for (int32_t x = 0; x < w; ++x) {
-            const int32_t label = j->planes.label[y * w + x];
-            const float i = (float)x - j->o.at_px[0], k = (float)y - j->o.at_px[1], far = i * i + k * k;
-            if (label > 0 && far < min && dot(j->planes.plane[label - 1].normal, up) > 0.9f) {
+    e.radius *= 1.4142136f; /* the corners of its box, whichever way it is turned */
+    for (int whole = 1; whole >= 0 && min == INFINITY; --whole) {
+        for (int32_t i = 0; i < pixels; ++i) {
+            const float far = unfit(j, i % w, i / w, up, &e, whole);
+            if (far < min) {
                 min = far;
-                at[0] = x;
-                at[1] = y;
+                at[0] = i % w;
+                at[1] = i / w;
             }
         }
     }
     return min < INFINITY;
+}
+
+int mix_fail_at(const mix_job *j, report *r)
+{
+    int32_t at[2] = {0, 0};
+    const int x = (int)j->o.at_px[0], y = (int)j->o.at_px[1];
+    return mix_plane_near(at, j)
+               ? report_fail(r, "--at %d,%d: neither a plane nor any depth there; the nearest pixel that would do is %d,%d",
+                             x, y, (int)at[0], (int)at[1])
+               : report_fail(r, "--at %d,%d: neither a plane nor any depth there, and no plane faces up; lambent mix "
+                                "--show planes shows them", x, y);
 }

@@ -3,6 +3,7 @@
 #include "mix_cones.h"
 #include "mix_front.h"
 #include "mix_lobes.h"
+#include "mix_sources.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -88,8 +89,12 @@ static int draw_object(drawing *d, mix_job *j, report *r)
 
 static void add_lights(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int with)
 {
-    for (int32_t i = 0; i < j->light_count - (with ? 0 : j->lamp_count); ++i) {
+    const int32_t told = j->light_count - j->lamp_count;
+    for (int32_t i = 0; i < told; ++i) {
         lmb_direct_tile(inout, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][with]);
+    }
+    for (int32_t i = told; with && i < j->light_count; ++i) {
+        mix_sources_tile(inout, j, view, tile, i, 1);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "mix_frames.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 void *mix_take(mix_job *j, size_t bytes, report *r)
 {
@@ -32,6 +33,19 @@ void mix_object_box(lmb_vec3 *low, lmb_vec3 *high, const mix_job *j)
     object.instances = j->scene.instances + 1;
     object.instance_count = j->scene.instance_count - 1;
     lmb_scene_bounds(low, high, &object);
+}
+
+lmb_scene *mix_copy_scene(lmb_material **materials, mix_job *j, report *r)
+{
+    lmb_scene *out = mix_take(j, sizeof *out, r);
+    lmb_material *m = mix_take(j, j->scene.material_count * sizeof *m, r);
+    if (out == NULL || m == NULL) {
+        return NULL;
+    }
+    *out = j->scene;
+    memcpy(m, j->scene.materials, j->scene.material_count * sizeof *m);
+    out->materials = *materials = m;
+    return out;
 }
 
 static int find_cloud(mix_job *j, report *r)

@@ -10,6 +10,7 @@
 enum { MIX_BLOCKS = 64, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */ };
 
 struct mix_kept;
+struct mix_sources;
 
 /* What a pixel of a picture holds besides the photo: light without and with the object; the object's radiance, as much of
  * it as covers the pixel. */
@@ -45,6 +46,7 @@ typedef struct mix_job {
     lmb_light *lights;         /* those with a size are MIX_LIGHT_SAMPLES */
     lmb_shadow_map (*maps)[2]; /* of each: without, with */
     int32_t light_count, lamp_count; /* the last ones are the object's own: they are there only with it */
+    struct mix_sources *sources; /* what those send; NULL: none */
     const lmb_scene *bounces;  /* the scene, and its lobes as if they were matt */
     lmb_voxels voxels;   /* about the object; count 0: there is none */
     lmb_cones cones;
@@ -82,12 +84,23 @@ typedef struct mix_extent {
 } mix_extent;
 mix_extent mix_extent_of(const mix_job *j);
 
+/* mix_is_in_view: is all of the object in the picture where it stands on plane p, and its foot within the plane's box, so
+ * nearer than the far edge? */
+int mix_is_in_view(const mix_job *j, const lmb_flat *p, lmb_vec3 at, const mix_extent *e);
+
 /* mix_touch: move the plane that the object stands on, and the object, onto what was measured at its foot, gap_m farther
  * along the camera's axis. What is more than a sensor bends a plane by stays. */
 void mix_touch(mix_job *j, float gap_m);
 
-/* mix_plane_near: the pixel nearest to --at whose plane faces up; 0 where there is none. */
+/* mix_plane_near: the pixel nearest to --at whose plane faces up, and where the object, as large as it is, would be wholly
+ * in view; where it is nowhere, one whose plane faces up; 0 where there is none. */
 int mix_plane_near(int32_t at[2], const mix_job *j);
+
+/* mix_fail_at: 0, with `r` set: --at shows nothing to stand on, and which pixel would. */
+int mix_fail_at(const mix_job *j, report *r);
+
+/* mix_copy_scene: a copy of the scene, whose materials may be changed; NULL without memory. */
+lmb_scene *mix_copy_scene(lmb_material **materials, mix_job *j, report *r);
 
 /* mix_object_box: the object's, where it stands. */
 void mix_object_box(lmb_vec3 *low, lmb_vec3 *high, const mix_job *j);

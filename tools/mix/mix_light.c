@@ -1,7 +1,7 @@
 /* mix_light.c: the light around a photo: folded or a panorama's, lights given or guessed, and their maps. */
 #include "mix_around.h"
 #include "mix_frames.h"
-#include "mix_lobes.h"
+#include "mix_sources.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -171,7 +171,7 @@ static int take_lights(mix_job *j, report *r)
     for (int32_t i = 0; i < j->o.light_count; ++i) {
         count += j->o.light_size[i] > 0.0f ? MIX_LIGHT_SAMPLES : 1;
     }
-    count += MIX_LAMPS;
+    count += MIX_WAYS;
     j->lights = mix_take(j, count * sizeof *j->lights, r);
     j->maps = mix_take(j, count * sizeof *j->maps, r);
     return j->lights != NULL && j->maps != NULL;
@@ -206,19 +206,44 @@ size_t mix_maps_bytes(const mix_job *j)
     return bytes;
 }
 
-static int draw_maps(mix_job *j, report *r)
+/* Of lights from `first` on. The object's own are there only with it: their maps without it stay empty. */
+static int draw_maps(mix_job *j, int32_t first, report *r)
 {
-    char *memory = mix_take(j, mix_maps_bytes(j), r);
-    for (int32_t i = 0; memory != NULL && i < j->light_count; ++i) {
+    size_t all = 0;
+    for (int32_t i = first; i < j->light_count; ++i) {
+        all += map_bytes(j, i);
+    }
+    char *memory = mix_take(j, all, r);
+    for (int32_t i = first; memory != NULL && i < j->light_count; ++i) {
         const size_t bytes = map_bytes(j, i);
+        const int is_own = i >= j->light_count - j->lamp_count;
         if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j, i), memory, bytes) != LMB_OK ||
-            !draw_map(j, &j->maps[i][0], j->real_triangles) ||
+            !draw_map(j, &j->maps[i][0], is_own ? 0 : j->real_triangles) ||
             !draw_map(j, &j->maps[i][1], j->real_triangles + j->object_triangles)) {
             return report_fail(r, "--light: a shadow map cannot be drawn");
         }
         memory += bytes;
     }
     return memory != NULL;
+}
+
+static int check_lights(mix_job *j, report *r)
+{
+    j->scene.lights = j->lights;
+    j->scene.light_count = (uint32_t)j->light_count;
+    return lmb_scene_check(&j->scene) == LMB_OK || report_fail(r, "--light: numbers are out of range");
+}
+
+/* The object's own lights, from what it emits and what it reflects of the others. */
+static int add_own(mix_job *j, report *r)
+{
+    const int32_t told = j->light_count, own = mix_sources_find(j->lights + told, j, r);
+    if (own < 0) {
+        return 0;
+    }
+    j->lamp_count = own;
+    j->light_count += own;
+    return check_lights(j, r) && draw_maps(j, told, r);
 }
 
 /* The photo alone tells what is around; of a sequence its first one. */
@@ -247,15 +272,6 @@ int mix_light(mix_job *j, report *r)
         mix_guess_sun(&j->lights[0], j);
         j->light_count = 1;
     }
-    j->lamp_count = mix_lobes_lamps(j->lights + j->light_count, j, r);
-    if (j->lamp_count < 0) {
-        return 0;
-    }
-    j->light_count += j->lamp_count;
-    j->scene.lights = j->lights;
-    j->scene.light_count = (uint32_t)j->light_count;
-    if (lmb_scene_check(&j->scene) != LMB_OK) {
-        return report_fail(r, "--light: numbers are out of range");
-    }
-    return draw_maps(j, r) && (!is_folded(j) || !has_lamps(j) || mix_around(j, r));
+    return check_lights(j, r) && draw_maps(j, 0, r) && add_own(j, r) &&
+           (!is_folded(j) || !has_lamps(j) || mix_around(j, r));
 }

@@ -1,10 +1,8 @@
-/* mix_lobes.h: objects that reflect as metals do, and objects that emit light. [M20 M25] */
+/* mix_lobes.h: objects that reflect as metals do. [M20] */
 #ifndef MIX_LOBES_H
 #define MIX_LOBES_H
 
 #include "mix_job.h"
-
-enum { MIX_LAMPS = 6 /* lights that stand for all that an object emits, one for each way that it faces */ };
 
 /* What one tile's lobes are made in. */
 typedef struct mix_lobes {
@@ -17,12 +15,8 @@ typedef struct mix_lobes {
 /* mix_lobes_read: the object's materials as its file has them, metals with their lobes. */
 void mix_lobes_read(mix_job *j);
 
-/* mix_lobes_lamps: lights that send what the object emits. Returns how many of MIX_LAMPS there are, or -1 with `r`
- * set. */
-int32_t mix_lobes_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r);
-
-/* mix_lobes_bounces: set j->bounces, the scene whose surfaces throw light about. Lobes throw as much as their metal
- * reflects, but to all sides. */
+/* mix_lobes_bounces: set j->bounces, the scene whose surfaces throw about what bounces. Lobes throw as much as their metal
+ * reflects, but to all sides; what lights send them is not in it (mix_sources.h). */
 int mix_lobes_bounces(mix_job *j, report *r);
 
 /* mix_lobes_lights: add what lights bring to a tile of the object, and to its lobes.

@@ -76,11 +76,11 @@ static const option_row object_rows[] = {
     {.name = "--fit", .kind = OPTION_FLAG, AT(fit),
      .help = HELP("chooses --scale: a sixth of the plane's side in all, less where the picture has no room for that")},
     {.name = "--at", .value = "X,Y|world", .kind = OPTION_OWN, .parse = parse_at, .expects = "X,Y or world",
-     .help = HELP("stands on what is at this pixel (default: near the middle of the largest plane that faces up, where "
-             "nothing else stands); world: is where the mesh has it, in the world of the frame's camera_to_world")},
+     .help = HELP("stands on what is at this pixel, or hangs there where that is a wall (default: near the middle of the "
+             "largest plane that faces up, where nothing else stands); world: is where the mesh has it, in the world of the frame's camera_to_world")},
     {.name = "--on", .kind = OPTION_WORD, AT(on), .words = ons, .values = on_values,
      .help = HELP("floor: the lowest plane that faces up; table: the largest that lies 0.3 m over another; wall: the mesh "
-             "hangs there, +Z away from it (default: the largest that faces up)")},
+             "hangs there, +Z away from it, upright (default: the largest that faces up, or else the largest wall)")},
     {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
      .help = HELP("about its upright axis (default 0: +Z towards the viewer); on a wall about what sticks out of it")},
     {.kind = OPTION_END},

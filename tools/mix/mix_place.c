@@ -337,6 +337,9 @@ int mix_place(mix_job *j, report *r)
         !mix_stand(j, r)) {
         return 0;
     }
+    if (j->o.at == MIX_AT_PIXEL && !(j->anchor.z < 0.0f)) {
+        return mix_fail_at(j, r);
+    }
     mix_lobes_read(j);
     for (int i = 0; i < 3 && j->floor >= 0; ++i) { /* most of the foot's pixels are nearer than its middle */
         mix_touch(j, gap(j, r));

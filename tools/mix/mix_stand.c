@@ -6,6 +6,7 @@
 #define UNDER_TABLE 0.3f        /* m between a table and what it stands on */
 #define LEVEL       0.90630779f /* cosine of 25 degrees: of floors to what is up */
 #define UPRIGHT     0.25881905f /* of 75: of walls */
+#define WALL        0.25f       /* m: the shorter side of what is a wall, and no table's edge */
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
@@ -54,6 +55,13 @@ static int32_t lowest(const lmb_planes *planes, lmb_vec3 up)
     return low;
 }
 
+static int is_upright(const lmb_flat *p, lmb_vec3 up) { return fabsf(dot(p->normal, up)) < UPRIGHT; }
+
+static int is_wall(const lmb_flat *p, lmb_vec3 up)
+{
+    return is_upright(p, up) && fminf(p->high[0] - p->low[0], p->high[1] - p->low[1]) > WALL;
+}
+
 /* Planes are in the order of their pictures' sizes. */
 static int32_t plane_asked(const mix_job *j, lmb_vec3 up)
 {
@@ -61,7 +69,7 @@ static int32_t plane_asked(const mix_job *j, lmb_vec3 up)
     for (int32_t i = 0; i < j->planes.count && j->o.on != MIX_ON_FLOOR; ++i) {
         const lmb_flat *p = &j->planes.plane[i];
         const float level = dot(p->normal, up);
-        if (j->o.on == MIX_ON_WALL ? fabsf(level) < UPRIGHT
+        if (j->o.on == MIX_ON_WALL ? is_wall(p, up)
                                    : level > LEVEL && dot(p->centre, up) - dot(j->planes.plane[low].centre, up) >
                                                           UNDER_TABLE) {
             return i;
@@ -70,18 +78,41 @@ static int32_t plane_asked(const mix_job *j, lmb_vec3 up)
     return j->o.on == MIX_ON_FLOOR ? low : -1;
 }
 
+/* Where none faces up, the first that is large enough. */
+static int32_t wall_of(const mix_job *j, lmb_vec3 up)
+{
+    for (int32_t i = 0; i < j->planes.count; ++i) {
+        if (is_wall(&j->planes.plane[i], up)) {
+            return i;
+        }
+    }
+    return j->planes.count > 0 ? 0 : -1;
+}
+
+/* What stands on an upright plane would lie in the air: it hangs there. */
+static void choose_hanging(mix_job *j)
+{
+    const lmb_vec3 up = lmb_planes_up(&j->planes);
+    j->hangs = is_upright(&j->planes.plane[j->floor], up);
+    j->up = j->hangs ? up : j->planes.plane[j->floor].normal;
+}
+
 static int find_plane(mix_job *j, report *r)
 {
+    const lmb_vec3 up = lmb_planes_up(&j->planes);
     static const char *const none[] = {"", "--on floor: no plane faces up", "--on table: no plane lies 0.3 m over another",
-                                       "--on wall: no plane is upright"};
-    j->floor = j->o.on == MIX_ON_ANY ? lmb_planes_floor(&j->planes) : plane_asked(j, lmb_planes_up(&j->planes));
+                                       "--on wall: no plane is upright and over 0.25 m wide and high"};
+    j->floor = j->o.on == MIX_ON_ANY ? lmb_planes_floor(&j->planes) : plane_asked(j, up);
     j->faces_up = j->floor >= 0;
     if (j->floor < 0 && j->o.on != MIX_ON_ANY) {
         return report_fail(r, "%s; --show planes shows them, --at X,Y names one", none[j->o.on]);
     }
-    j->floor = j->floor < 0 && j->planes.count > 0 ? 0 : j->floor;
-    j->hangs = j->o.on == MIX_ON_WALL;
-    return j->floor >= 0 || report_fail(r, "no plane in the depth to stand on; say where by --at X,Y");
+    j->floor = j->floor < 0 ? wall_of(j, up) : j->floor;
+    if (j->floor < 0) {
+        return report_fail(r, "no plane in the depth to stand on; say where by --at X,Y");
+    }
+    choose_hanging(j);
+    return 1;
 }
 
 /* --- where on it -------------------------------------------------------------------------------------------------- */
@@ -92,10 +123,8 @@ static int is_in_picture(const lmb_pinhole *c, lmb_vec3 p)
     return p.z < 0.0f && x >= 0.0f && y >= 0.0f && x < (float)c->width && y < (float)c->height;
 }
 
-/* Is all of the object in the picture, and its foot within the plane's box, so nearer than the far edge? */
-static int is_in_view(const mix_job *j, lmb_vec3 at, const mix_extent *e)
+int mix_is_in_view(const mix_job *j, const lmb_flat *p, lmb_vec3 at, const mix_extent *e)
 {
-    const lmb_flat *p = &j->planes.plane[j->floor];
     const float radius = e->radius / 1.2f * j->scale; /* without the fifth more */
     for (int k = 0; k < 8; ++k) {
         const lmb_vec3 rim = moved(moved(at, p->across, (k & 1 ? radius : -radius) * (k & 2 ? 0.0f : 1.0f)), p->along,
@@ -123,7 +152,7 @@ static int stand_in_view(mix_job *j)
             if (j->planes.label[y * j->frame.camera.width + x] == j->floor + 1 &&
                 lmb_planes_anchor(&at, &j->planes, &j->frame.camera, j->floor, (float)x, (float)y)) {
                 const lmb_vec3 off = moved(at, p->centre, -1.0f);
-                if (dot(off, off) < near && is_in_view(j, at, &e)) {
+                if (dot(off, off) < near && mix_is_in_view(j, p, at, &e)) {
                     near = dot(off, off);
                     j->anchor = at;
                 }
@@ -161,14 +190,13 @@ static int stand_at_centre(mix_job *j, report *r)
     if (!find_plane(j, r)) {
         return 0;
     }
-    j->up = j->hangs ? lmb_planes_up(&j->planes) : j->planes.plane[j->floor].normal;
     j->anchor = j->planes.plane[j->floor].centre;
     j->scale = chosen_scale(j);
     stand_free(j);
     return 1;
 }
 
-/* The plane of the pixel, or what was measured there, upright. */
+/* The plane of the pixel, or what was measured there, upright: nothing, where the anchor is not ahead. */
 static int stand_at_pixel(mix_job *j, report *r)
 {
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
@@ -180,16 +208,16 @@ static int stand_at_pixel(mix_job *j, report *r)
     const int32_t label = j->planes.label[y * w + x];
     j->floor = label - 1;
     j->faces_up = 1; /* or was asked for */
+    if (label > 0) {
+        choose_hanging(j);
+    }
     j->scale = chosen_scale(j);
     if (label > 0) {
-        j->up = j->planes.plane[j->floor].normal;
         lmb_planes_anchor(&j->anchor, &j->planes, &j->frame.camera, j->floor, j->o.at_px[0], j->o.at_px[1]);
     } else {
         j->anchor = lmb_cloud_point(&j->cloud, x, y);
     }
-    return j->anchor.z < 0.0f ||
-           report_fail(r, "--at %d,%d: neither a plane nor any depth there; lambent mix --show planes shows them",
-                       (int)x, (int)y);
+    return 1;
 }
 
 int mix_stand(mix_job *j, report *r)

@@ -1,5 +1,6 @@
 /* mix_voxels.c: the light that real surfaces and the object throw about, as voxels around the object. */
 #include "mix_lobes.h"
+#include "mix_sources.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -139,13 +140,17 @@ typedef struct points {
     lmb_around_scratch *around;
     lmb_texel *real, *object, *again; /* again: those of one of them, with other light */
     size_t real_count, object_count;
+    lmb_texel *sent;                 /* where what the object sends first meets a surface */
+    size_t sent_count, sent_cap;
+    double sent_flux[3], sent_out[3]; /* W, by what they give what is around; and of what goes where no surface is */
     lmb_vec3 about; /* the object's middle */
 } points;
 
-/* All of a face's first points, in p->tree. */
+/* All of a face's first points, in p->tree. What metal throws on of the lights' light is light of its own. */
 static int map_texels(mix_job *j, points *p, int32_t light, const lmb_shadow_map *map, int32_t face)
 {
-    return lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, j->bounces, &j->lights[light], map, face, 0, 0,
+    const lmb_scene *scene = light < j->light_count - j->lamp_count ? &j->scene : j->bounces;
+    return lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, scene, &j->lights[light], map, face, 0, 0,
                            map->size / LMB_TILE) == LMB_OK;
 }
 
@@ -174,12 +179,12 @@ static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
 
 static int inject_maps(mix_job *j, points *p, int32_t with)
 {
-    for (int32_t i = 0; i < j->light_count - (with ? 0 : j->lamp_count); ++i) {
+    for (int32_t i = 0; i < j->light_count - j->lamp_count; ++i) {
         if (!inject_map(j, p, i, with)) {
             return 0;
         }
     }
-    return 1;
+    return !with || lmb_voxels_inject(&j->voxels, with, p->sent, p->sent_count) == LMB_OK;
 }
 
 /* Spots' and points' light where it first meets a surface, W by channel, without and with the object: what surfaces that
@@ -209,10 +214,9 @@ static void add_texels(first_light *sum, const points *p, const lmb_light *light
 
 static int add_first_light(first_light *sum, mix_job *j, points *p, int32_t light)
 {
-    const int is_lamp = light >= j->light_count - j->lamp_count; /* of the object: not there without it */
     for (int32_t i = 0; i < 2 * j->maps[light][0].faces; ++i) {
         const lmb_shadow_map *map = &j->maps[light][i % 2];
-        if ((map->drawn >> i / 2 & 1u) == 0 || (is_lamp && i % 2 == 0)) {
+        if ((map->drawn >> i / 2 & 1u) == 0) {
             continue;
         }
         if (!map_texels(j, p, light, map, i / 2)) {
@@ -223,6 +227,62 @@ static int add_first_light(first_light *sum, mix_job *j, points *p, int32_t ligh
     return 1;
 }
 
+static int is_inside(const lmb_texel *t, const lmb_voxels *v)
+{
+    const float side = v->leaf * (float)(1 << v->depth);
+    const lmb_vec3 at = {t->position.x - v->low.x, t->position.y - v->low.y, t->position.z - v->low.z};
+    return at.x > 0.0f && at.y > 0.0f && at.z > 0.0f && at.x < side && at.y < side && at.z < side;
+}
+
+/* Only what lies in the cube: the rest would find no leaf. */
+static size_t inside(lmb_texel *all, size_t count, const lmb_voxels *v)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (is_inside(&all[i], v)) {
+            all[n++] = all[i];
+        }
+    }
+    return n;
+}
+
+/* One face's. What meets a surface in the cube is in its voxels, and lights what is around by what bounces there. */
+static void keep_sent(mix_job *j, points *p, int32_t light, int32_t face)
+{
+    const int32_t texels = p->tree.size * p->tree.size;
+    mix_sources_texels(p->tree.texel, p->tree.size, p->sent_out, j, light, face);
+    for (int32_t k = 0; k < texels; ++k) {
+        const lmb_texel *t = &p->tree.texel[k];
+        const int is_near = is_inside(t, &j->voxels);
+        if (is_near && t->flux[0] + t->flux[1] + t->flux[2] > 0.0f && p->sent_count < p->sent_cap) {
+            p->sent[p->sent_count++] = *t;
+        }
+        for (int c = 0; c < 3; ++c) {
+            p->sent_flux[c] += (is_near ? UNSEEN_ALBEDO : 1.0) * (double)t->flux[c];
+        }
+    }
+}
+
+/* Once, as each of them asks all patches of its way. */
+static int find_sent(mix_job *j, points *p, report *r)
+{
+    const size_t cap = 6 * (size_t)j->lamp_count * (size_t)p->tree.size * (size_t)p->tree.size;
+    p->sent = mix_take(j, cap * sizeof *p->sent, r);
+    p->sent_cap = cap;
+    for (int32_t i = j->light_count - j->lamp_count; p->sent != NULL && i < j->light_count; ++i) {
+        const lmb_shadow_map *map = &j->maps[i][1];
+        for (int32_t f = 0; f < map->faces; ++f) {
+            if ((map->drawn >> f & 1u) != 0 && !map_texels(j, p, i, map, f)) {
+                return report_fail(r, "voxels cannot take their light");
+            }
+            if ((map->drawn >> f & 1u) != 0) {
+                keep_sent(j, p, i, f);
+            }
+        }
+    }
+    return p->sent != NULL;
+}
+
 /* What is not seen is lit by what lamps' light first meets: it darkens as much as the object takes of that, which
  * depends on how large it is and where it stands. Of a sun no object takes a share. */
 static int dim_around(mix_job *j, points *p)
@@ -231,15 +291,16 @@ static int dim_around(mix_job *j, points *p)
     float share[3] = {1.0f, 1.0f, 1.0f};
     int has_sun = 0;
     memset(&sum, 0, sizeof sum);
-    for (int32_t i = 0; i < j->light_count; ++i) {
+    for (int32_t i = 0; i < j->light_count - j->lamp_count; ++i) {
         has_sun |= j->lights[i].kind == LMB_LIGHT_DIRECTIONAL;
         if (!has_sun && !add_first_light(&sum, j, p, i)) {
             return 0;
         }
     }
     for (int c = 0; c < 3 && !has_sun; ++c) {
-        const double before = sum.flux[0][c] + UNSEEN_ALBEDO * sum.unseen[0][c];
-        share[c] = before > 0.0 ? (float)((sum.flux[1][c] + UNSEEN_ALBEDO * sum.unseen[1][c]) / before) : 1.0f;
+        const double before = sum.flux[0][c] + UNSEEN_ALBEDO * sum.unseen[0][c],
+                     now = sum.flux[1][c] + p->sent_flux[c] + UNSEEN_ALBEDO * (sum.unseen[1][c] + p->sent_out[c]);
+        share[c] = before > 0.0 ? (float)(now / before) : 1.0f;
     }
     lmb_env_dim(&j->env[1], &j->env[0], share);
     return 1;
@@ -299,21 +360,6 @@ static int inject_all(mix_job *j, points *p, report *r)
         ok = (i % 2 == 0 ? relight_real(j, p) : relight_object(j, p)) && inject_with(j, p);
     }
     return (ok && lmb_voxels_delta(&j->voxels) == LMB_OK) || report_fail(r, "voxels cannot take their light");
-}
-
-/* Only what lies in the cube: the rest would find no leaf. */
-static size_t inside(lmb_texel *all, size_t count, const lmb_voxels *v)
-{
-    const float side = v->leaf * (float)(1 << v->depth);
-    size_t n = 0;
-    for (size_t i = 0; i < count; ++i) {
-        const lmb_vec3 at = {all[i].position.x - v->low.x, all[i].position.y - v->low.y,
-                             all[i].position.z - v->low.z};
-        if (at.x > 0.0f && at.y > 0.0f && at.z > 0.0f && at.x < side && at.y < side && at.z < side) {
-            all[n++] = all[i];
-        }
-    }
-    return n;
 }
 
 /* Which points have one answer: those of one cube of NEAR_LEAVES that face about the same way. */
@@ -401,7 +447,7 @@ static int light_voxels(mix_job *j, report *r)
     p.tree.faces = 1;
     mix_object_box(&low, &high, j);
     p.about = (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
-    return inject_all(j, &p, r);
+    return find_sent(j, &p, r) && inject_all(j, &p, r);
 }
 
 int mix_voxels(mix_job *j, report *r)

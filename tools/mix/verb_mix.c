@@ -24,18 +24,19 @@ static void tell_place(const mix_job *j)
         int32_t at[2] = {0, 0};
         const int is_near = mix_plane_near(at, j);
         report_note(j->o.is_quiet, "the object stands on no plane, %.2f m away, %s", near, gap);
-        report_note(j->o.is_quiet || !is_near, "the nearest pixel of a plane that faces up is --at %d,%d", (int)at[0],
+        report_note(j->o.is_quiet || !is_near, "the nearest pixel where it would have one is --at %d,%d", (int)at[0],
                     (int)at[1]);
         return;
     }
     const lmb_flat *p = &j->planes.plane[j->floor];
     report_note(j->o.is_quiet,
-                "%d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, %s; --scale %.4g",
-                (int)j->planes.count, (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
+                "%d planes; the object %s number %d, %.2f x %.2f m, %.2f m away, %s; --scale %.4g",
+                (int)j->planes.count, j->hangs ? "hangs on" : "stands on", (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
                 (double)(p->high[1] - p->low[1]), near, gap, (double)j->scale);
     report_note(j->o.is_quiet || j->faces_up,
-                "no plane faces up; that is the largest, a wall or a ceiling that faces %.2f,%.2f,%.2f; --at X,Y names "
-                "another, --show planes shows them",
+                "no plane faces up; that is the largest %s, it faces %.2f,%.2f,%.2f; --at X,Y names another, --show "
+                "planes shows them",
+                j->hangs ? "wall" : "plane",
                 (double)p->normal.x, (double)p->normal.y, (double)p->normal.z);
 }
 

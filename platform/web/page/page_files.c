@@ -12,6 +12,7 @@
 #include "../../../tools/mix/mix_again.h"
 #include "../../../tools/mix/mix_around.h"
 #include "../../../tools/mix/mix_lobes.h"
+#include "../../../tools/mix/mix_sources.h"
 #include "../../../tools/picture/image.h"
 #include "../../../tools/relief/relief_compare.h"
 #include "../../../tools/relief/relief_model.h"
@@ -232,11 +233,20 @@ void mix_again_keep(mix_job *j, const lmb_tile *real, const lmb_irradiance *with
 void mix_again_draw(mix_job *j) { (void)j; }
 void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 
-/* --- mix_lobes.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
+/* --- mix_lobes.h, mix_sources.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
 
 void mix_lobes_read(mix_job *j) { (void)j; }
 int mix_around(mix_job *j, report *r) { return (void)j, (void)r, 1; }
-int32_t mix_lobes_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
+int32_t mix_sources_find(lmb_light out[MIX_WAYS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
+void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int32_t i,
+                      int photo)
+{
+    (void)inout, (void)j, (void)view, (void)tile, (void)i, (void)photo;
+}
+void mix_sources_texels(lmb_texel *inout, int32_t size, double elsewhere[3], const mix_job *j, int32_t i, int32_t face)
+{
+    (void)inout, (void)size, (void)elsewhere, (void)j, (void)i, (void)face;
+}
 int mix_lobes_bounces(mix_job *j, report *r) { return (void)r, j->bounces = &j->scene, 1; }
 void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
                       const lmb_tile *object)
@@ -252,6 +262,7 @@ void mix_lobes_finish(lmb_radiance *inout, mix_lobes *s, const mix_job *j, const
 }
 void mix_touch(mix_job *j, float gap_m) { (void)j, (void)gap_m; }
 int mix_plane_near(int32_t at[2], const mix_job *j) { return (void)at, (void)j, 0; }
+int mix_fail_at(const mix_job *j, report *r) { return (void)j, report_fail(r, "--at: nothing there"); }
 
 /* --- slice.h, render_slice.h: the page draws whole pictures --------------------------------------------------------------- */
 

@@ -1,0 +1,153 @@
+/* test_mix_sources.c: what an object sends on, against closed forms: a square that emits, a square of metal under a lamp; and
+ * what a texel's emission and a metal's beam do to a photo. [M20 M25] */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../tools/mix/mix_sources.h"
+#include "../photo_job.h"
+#include "../test.h"
+
+void test_mix_sources(void);
+
+#define PI 3.14159265358979
+
+/* --- patches against closed forms --------------------------------------------------------------------------------- */
+
+enum { SIDE = 16 };
+
+static mix_patch pieces[SIDE * SIDE];
+static mix_sources square = {pieces, {0, SIDE * SIDE}};
+
+/* A unit square at height 1 that faces down, and sends `flux` W in all, or reflects it. */
+static void set_square(float flux, float alpha2, lmb_vec3 from)
+{
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        mix_patch *p = &pieces[i];
+        memset(p, 0, sizeof *p);
+        p->at = (lmb_vec3){((float)(i % SIDE) + 0.5f) / SIDE - 0.5f, 1.0f, ((float)(i / SIDE) + 0.5f) / SIDE - 0.5f};
+        p->normal = (lmb_vec3){0, -1, 0};
+        p->from = from;
+        p->alpha2 = alpha2;
+        p->area = 1.0f / (SIDE * SIDE);
+        p->flux[0] = p->flux[1] = p->flux[2] = flux / (SIDE * SIDE);
+        p->arrives[0] = p->arrives[1] = p->arrives[2] = alpha2 > 0.0f ? flux / (SIDE * SIDE) : 0.0f;
+    }
+}
+
+/* Of a place right under a corner of a rectangle a x b at height c, parallel to it: Howell's B-3. */
+static double corner_factor(double a, double b, double c)
+{
+    const double x = a / c, y = b / c, p = sqrt(1.0 + x * x), q = sqrt(1.0 + y * y);
+    return (x / p * atan(y / p) + y / q * atan(x / q)) / (2.0 * PI);
+}
+
+static void emits_by_form_factors(void)
+{
+    const float flux = 3.0f;
+    set_square(flux, 0.0f, (lmb_vec3){0, 0, 0});
+    for (int i = 0; i < 5; ++i) {
+        const double far = 0.25 + 0.3 * i; /* under the square's middle, at this distance */
+        const lmb_vec3 at = {0.0f, (float)(1.0 - far), 0.0f}, up = {0, 1, 0};
+        float rgb[3];
+        mix_sources_at(rgb, &square, 0, at, up);
+        const double want = (double)flux * 4.0 * corner_factor(0.5, 0.5, far); /* its exitance is the flux, of 1 m2 */
+        CHECK_MSG(fabs((double)rgb[1] - want) < 0.02 * want, "%g m: %g, not %g", far, (double)rgb[1], want);
+    }
+    float behind[3];
+    mix_sources_at(behind, &square, 0, (lmb_vec3){0, 1.5f, 0}, (lmb_vec3){0, -1, 0});
+    CHECK(behind[0] == 0.0f);
+}
+
+/* What metal that reflects all sends arrives on the half sphere around it, but what its lobe loses between facets; and most
+ * of it about the mirror direction. */
+static void reflects_what_arrives(void)
+{
+    enum { RINGS = 64, TURNS = 128 };
+    const lmb_vec3 from = {0.6f, -0.8f, 0.0f};
+    for (int k = 0; k < 3; ++k) {
+        const float alpha2 = k == 0 ? 0.0016f : k == 1 ? 0.0256f : 0.25f, far = 40.0f;
+        double sum = 0.0, along = 0.0;
+        set_square(2.0f, alpha2, from);
+        for (int i = 0; i < RINGS * TURNS; ++i) { /* of equal area */
+            const double high = (i / TURNS + 0.5) / RINGS, turn = 2.0 * PI * (i % TURNS + 0.5) / TURNS, out = sqrt(1.0 - high * high);
+            const lmb_vec3 d = {(float)(out * cos(turn)), (float)-high, (float)(out * sin(turn))},
+                           at = {far * d.x, 1.0f + far * d.y, far * d.z}, back = {-d.x, -d.y, -d.z};
+            float rgb[3];
+            mix_sources_at(rgb, &square, 0, at, back);
+            const double watts = (double)(rgb[0] * far * far) * 2.0 * PI / (RINGS * TURNS);
+            sum += watts;
+            along += watts * (double)(-0.6f * d.x - 0.8f * d.y > 0.94f);
+        }
+        CHECK_MSG(sum > (k < 2 ? 1.9 : 1.3) && sum < 2.05, "alpha^2 %g: %g W of 2", (double)alpha2, sum);
+        CHECK_MSG(k == 2 || along > (k == 0 ? 0.95 : 0.6) * sum, "alpha^2 %g: %g of %g W", (double)alpha2, along, sum);
+    }
+}
+
+/* --- in a photo --------------------------------------------------------------------------------------------------- */
+
+enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT };
+
+static const lmb_pinhole camera = {WIDTH, HEIGHT, 80.0f, 80.0f, 47.5f, 35.5f};
+static char quads[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, a unit wide and high */
+
+/* A floor half a metre under the camera and a wall before it, grey, lit by a lamp; the object is a square a third of a metre
+ * wide before the wall. */
+static mix_job *draw_square(const lmb_material *look, const char *at, const char *turn, const char *lamp)
+{
+    char place[20], turned[20], light[60];
+    char *argv[] = {"mix", "--frame", "known", "--voxels", "5", "--shadow-map", "256", "-o", "known.pfm", "--object", quads,
+                    "--at", place, "--scale", "0.3", "--turn", turned, "--light", light, "--quiet"};
+    report r = {""};
+    snprintf(place, sizeof place, "%s", at);
+    snprintf(turned, sizeof turned, "%s", turn);
+    snprintf(light, sizeof light, "%s", lamp);
+    mix_job *j = photo_job(20, argv, &camera);
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH));
+        const float floor = ray.y < -0.01f ? -0.5f / ray.y : 1e9f;
+        j->frame.depth[i] = floor < 1.6f ? floor : 1.6f;
+        j->frame.light.pixels[3 * i] = j->frame.light.pixels[3 * i + 1] = j->frame.light.pixels[3 * i + 2] = 0.3f;
+    }
+    CHECK_MSG(mix_find_planes(j, &r) && mix_place(j, &r), "%s", r.text);
+    for (uint32_t i = 1; i < j->scene.material_count; ++i) {
+        ((lmb_material *)(uintptr_t)j->scene.materials)[i] = *look;
+    }
+    CHECK_MSG(mix_light(j, &r) && mix_voxels(j, &r) && mix_draw(j, &r), "%s", r.text);
+    return j;
+}
+
+static float mean_of(const mix_job *j, int x0, int y0, int x1, int y1)
+{
+    float sum = 0.0f;
+    for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+            sum += j->picture.pixels[3 * (y * WIDTH + x) + 1] / (float)((x1 - x0) * (y1 - y0));
+        }
+    }
+    return sum;
+}
+
+/* A lamp before a metal square throws its light back over the lamp's side of the floor, and matt black none: the square was
+ * as if matt, and its own foot black. */
+static void beam_lights_floor(void)
+{
+    static const char lamp[] = "point:0,0.5,-0.6:0,-1,0:3,3,3";
+    lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.3f, .flags = LMB_DOUBLE_SIDED};
+    mix_job *j = draw_square(&look, "48,62", "0", lamp);
+    const float dark = mean_of(j, 42, 66, 54, 71);
+    mix_job_free(j);
+    look.specular[0] = look.specular[1] = look.specular[2] = 0.95f;
+    j = draw_square(&look, "48,62", "0", lamp);
+    const float lit = mean_of(j, 42, 66, 54, 71);
+    CHECK(j->lamp_count == 1 && j->sources != NULL);
+    CHECK_MSG(lit > 1.15f * dark && lit > 0.3f, "%g by black, %g by metal", (double)dark, (double)lit);
+    mix_job_free(j);
+}
+
+void test_mix_sources(void)
+{
+    emits_by_form_factors();
+    reflects_what_arrives();
+    beam_lights_floor();
+}
