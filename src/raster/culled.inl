@@ -41,29 +41,6 @@ static int KERNEL(culled_box)(const lmb_fill_window *w, const lmb_tile_box *box,
 }
 
 #if LANES >= LMB_TILE
-/* A depth as the target holds it. */
-LANE_INLINE float culled_code(float d, const lmb_fill_tile *tile, const lmb_fill_job *job)
-{
-    if (tile->depth_format == LMB_DEPTH32F) {
-        return d;
-    }
-    return (float)(int32_t)maxf(minf(d * job->d_scale + job->d_bias, 65535.0f), 0.0f);
-}
-
-/* The nearest depth of a plane whose nearest place in a tile is (x, y), px, as parts_nearest. */
-LANE_INLINE float culled_near(const lmb_fill_tile *tile, const lmb_fill_job *job, float x, float y)
-{
-    const float d = (job->d + job->dy * y) + job->dx * x;
-    return culled_code(d < job->d_max ? maxf(d, job->d_min) : job->d_max, tile, job);
-}
-
-LANE_INLINE float culled_far(const lmb_fill_tile *tile, const lmb_fill_job *job)
-{
-    const float x = job->dx > 0.0f ? 0.0f : (float)(LMB_TILE - 1), y = job->dy > 0.0f ? 0.0f : (float)(LMB_TILE - 1);
-    const float d = (job->d + job->dy * y) + job->dx * x;
-    return culled_code(d > job->d_min ? minf(d, job->d_max) : job->d_min, tile, job);
-}
-
 LANE_INLINE void culled_set_tile(lmb_fill_tile *tile, const lmb_fill_window *w, ptrdiff_t across, ptrdiff_t down)
 {
     tile->depth = (uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile;
@@ -83,18 +60,7 @@ LANE_INLINE void culled_cross(const lmb_fill_tile *tile, const lmb_fill_job *job
 {
     if (kind == FILL_PLAIN || kind == FILL_ID32) {
         fill_rows r;
-        r.e0 = lanei_add(lanei_splat(e[0]), t->step[0][0]);
-        r.e1 = lanei_add(lanei_splat(e[1]), t->step[1][0]);
-        r.e2 = lanei_add(lanei_splat(e[2]), t->step[2][0]);
-        r.down0 = lanei_splat(t->ey[0] * FILL_ROWS);
-        r.down1 = lanei_splat(t->ey[1] * FILL_ROWS);
-        r.down2 = lanei_splat(t->ey[2] * FILL_ROWS);
-        r.step_d = t->step_d[0];
-        r.d_min = t->d_min;
-        r.d_max = t->d_max;
-        r.depth = (float *)tile->depth;
-        r.ids = (uint32_t *)tile->id;
-        r.id = t->id;
+        large_rows(&r, tile, t, e);
         rows_draw(&r, job->d, t->per_row, ROWS_ALL, kind);
         rows_raise(bound, r.lowest);
         return;
@@ -103,39 +69,45 @@ LANE_INLINE void culled_cross(const lmb_fill_tile *tile, const lmb_fill_job *job
     *bound = culled_look(tile);
 }
 
-LANE_INLINE void culled_inside(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, float *bound,
-                               int clamped)
-{
-    fill_inside(tile, job, t, clamped);
-    *bound = maxf(*bound, culled_far(tile, job));
-}
-
 /* --- rows of tiles ------------------------------------------------------------------------------------------------ */
 
-/* A plane over tiles beside each other. */
+/* A plane over tiles: (near_x, near_y) and (far_x, far_y) are its nearest and farthest places in each. */
 typedef struct culled_plane {
     double d_origin, d_x;
-    float dx, dy, d_min, d_max;
+    float dx, dy, d_min, d_max, near_x, near_y, far_x, far_y;
 } culled_plane;
 
-/* LANES tiles from `bound` on, whose first pixels lie at x_24_8, and 8 px on each: which may the plane show in? A bit
- * each; d: the depth at their first pixels. (near_x, near_y): where it is nearest in a tile. */
-LANE_INLINE uint32_t culled_row_seen(float *d, const culled_plane *plane, const lmb_fill_tile *tile,
-                                     const lmb_fill_job *job, double d_row, int32_t x_24_8, float near_x,
-                                     float near_y, const float *bound)
+/* Depths as the target holds them. */
+LANE_INLINE lane culled_codes(lane d, const lmb_fill_tile *tile, const lmb_fill_job *job)
 {
-    static const int32_t steps[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    const lanei x = lanei_add(lanei_splat(x_24_8), lanei_mul(lanei_load(steps), lanei_splat(LMB_TILE * 256)));
-    const laned at = laned_mul(laned_splat(plane->d_x), laned_mul(laned_from_int(x), laned_splat(1.0 / 256.0)));
-    const lane first = lane_from_double(laned_add(laned_add(laned_splat(plane->d_origin), at), laned_splat(d_row)));
-    lane near = parts_nearest(first, lane_splat(plane->dx), lane_splat(plane->dy),
-                               lane_splat(near_x), lane_splat(near_y),
-                               lane_splat(plane->d_min), lane_splat(plane->d_max));
-    if (tile->depth_format != LMB_DEPTH32F) {
-        near = fill_depth_16(near, job);
-    }
-    lane_store(d, first);
-    return mask_bits(lane_lt(lane_load(bound), near));
+    return tile->depth_format == LMB_DEPTH32F ? d : fill_depth_16(d, job);
+}
+
+/* The depth at (x, y) of tiles whose first pixels have depths `first`, before it is held in the triangle's range. */
+LANE_INLINE lane culled_at(lane first, const culled_plane *plane, float x, float y)
+{
+    return lane_add(lane_add(first, lane_splat(plane->dy * y)), lane_splat(plane->dx * x));
+}
+
+/* A plane over LANES tiles beside each other. */
+typedef struct culled_tiles {
+    lane first, far; /* depths: at first pixels; the farthest, as pixels take it */
+    uint32_t seen;   /* those that it may show in */
+    uint32_t leaves; /* those where it may leave the triangle's range */
+} culled_tiles;
+
+/* Of tiles from `bound` on. */
+LANE_INLINE void culled_ask(culled_tiles *out, lane first, const culled_plane *plane, const lmb_fill_tile *tile,
+                            const lmb_fill_job *job, const float *bound)
+{
+    const lane low = lane_splat(plane->d_min), high = lane_splat(plane->d_max);
+    const lane near = culled_at(first, plane, plane->near_x, plane->near_y),
+               far = culled_at(first, plane, plane->far_x, plane->far_y);
+    const lane seen = lane_pick(lane_lt(near, high), lane_max(near, low), high);
+    out->first = first;
+    out->far = culled_codes(lane_pick(lane_lt(low, far), lane_min(far, high), low), tile, job);
+    out->seen = mask_bits(lane_lt(lane_load(bound), culled_codes(seen, tile, job)));
+    out->leaves = ~mask_bits(mask_and(lane_le(low, far), lane_le(near, high)));
 }
 
 /* --- small triangles ---------------------------------------------------------------------------------------------- */
@@ -166,79 +138,114 @@ static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, u
 
 /* --- large triangles ---------------------------------------------------------------------------------------------- */
 
-/* One tile that the triangle may show in. */
-LANE_INLINE void culled_large_tile(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t,
-                                  const large_edges *edges, large3 at, float *bound, int kind)
+#define ALL_TILES ((1u << LANES) - 1)
+
+/* What a row of tiles is drawn by. */
+typedef struct culled_row {
+    const lmb_fill_window *w;
+    const lmb_setup *s;
+    const fill_triangle *t;
+    const large_edges *edges;
+    const large_plane *whole;
+    lmb_fill_tile *tile;
+    lmb_fill_job *job;
+    double d_row;
+    int32_t ty;
+} culled_row;
+
+LANE_INLINE void culled_large_crossed(const culled_row *r, large3 at, float *bound, int kind)
 {
-    static const fill_box whole = {0, LMB_TILE - 1, 0, FILL_ACROSS - 1};
-    if (large_negative(large_add(at, edges->low))) {
-        const int32_t e[3] = {large_near(at.a), large_near(at.b), large_near(at.c)};
-        culled_cross(tile, job, t, e, &whole, bound, kind);
-    } else if (fill_in_range(job)) {
-        culled_inside(tile, job, t, bound, 0);
-    } else {
-        culled_inside(tile, job, t, bound, 1);
+    static const fill_box all = {0, LMB_TILE - 1, 0, FILL_ACROSS - 1};
+    const int32_t e[3] = {large_near(at.a), large_near(at.b), large_near(at.c)};
+    culled_cross(r->tile, r->job, r->t, e, &all, bound, kind);
+}
+
+/* The tile below is likely to be drawn soon, and lies far off in memory; there may be none. */
+LANE_INLINE void culled_soon(const culled_row *r)
+{
+    const uintptr_t below = (uintptr_t)r->tile->depth + (uintptr_t)(intptr_t)r->w->depth_row;
+    MESH_SOON((const void *)below);
+    MESH_SOON((const void *)(below + 64));
+    MESH_SOON((const void *)(below + 128));
+    MESH_SOON((const void *)(below + 192));
+}
+
+/* Tiles `some` of those from tx on, all inside all edges: no pixel of them stays farther than the plane's farthest. */
+LANE_INLINE void culled_large_run(const culled_row *r, const culled_tiles *tiles, const float *d, int32_t tx,
+                                  uint32_t some, int kind)
+{
+    float *bound = culled_bound(r->w, tx, r->ty);
+    const lane old = lane_load(bound);
+    lane_store(bound, lane_pick(mask_of_bits(some), lane_max(old, tiles->far), old));
+    if (some == ALL_TILES && (tiles->leaves & ALL_TILES) == 0) { /* places that wait for no mask: more runs ahead */
+        culled_set_tile(r->tile, r->w, tx, r->ty);
+        large_run(r->w, r->tile, r->job, r->t, r->whole, d, LANES, 0, kind);
+        return;
+    }
+    for (; some != 0; some &= some - 1) {
+        const int i = lowest_bit(some);
+        culled_set_tile(r->tile, r->w, tx + i, r->ty);
+        culled_soon(r);
+        r->job->d = d[i];
+        if (tiles->leaves >> i & 1u) {
+            fill_inside(r->tile, r->job, r->t, 1);
+        } else if (kind != FILL_PLAIN && kind != FILL_ID32) {
+            fill_inside(r->tile, r->job, r->t, 0);
+        } else {
+            large_whole(r->tile, r->whole, d[i], kind);
+        }
     }
 }
 
-LANE_INLINE large3 large_times(large3 p, int64_t n) { return large_make(p.a * n, p.b * n, p.c * n); }
-
-enum { CULLED_ROW = 8 }; /* the depths of a row of more tiles than this are asked for side by side */
-
-/* LANES tiles of a row, or `count`, from tile (tx, ty) of the window on, and `at` on to the tile after them; 0 where the
- * triangle's part of the row ended. */
-LANE_INLINE int culled_large_tiles(const lmb_fill_window *w, const culled_plane *plane, const fill_triangle *t,
-                                   const large_edges *edges, large3 *at, lmb_fill_tile *tile, lmb_fill_job *job,
-                                   int32_t tx, int32_t ty, int32_t count, double d_row, int *entered, int kind)
+/* Do LANES tiles lie inside all edges? */
+LANE_INLINE int culled_all_inside(const large_edges *edges, large3 at)
 {
-    const int32_t x_24_8 = (w->x0 + tx * LMB_TILE) * 256 + w->origin_x;
-    const float near_x = job->dx > 0.0f ? (float)(LMB_TILE - 1) : 0.0f,
-                near_y = job->dy > 0.0f ? (float)(LMB_TILE - 1) : 0.0f;
+    const large3 low = large_add(at, edges->low);
+    return !large_negative(low) && !large_negative(large_add(low, large_times(edges->step_x, LANES - 1)));
+}
+
+/* The first `count` tiles, at most LANES, from tx on, where edges are `at`. */
+LANE_INLINE void culled_large_tiles(const culled_row *r, const culled_tiles *tiles, large3 at, int32_t tx,
+                                    int32_t count, int kind)
+{
     float d[LANES];
-    uint32_t seen = 0xffffu;
-    const int in_row = count > CULLED_ROW;
-    if (in_row) {
-        seen = culled_row_seen(d, plane, tile, job, d_row, x_24_8, near_x, near_y, culled_bound(w, tx, ty));
-        if (seen == 0) {
-            *at = large_add(*at, large_times(edges->step_x, LANES));
-            return 1;
-        }
-    }
-    count = count < LANES ? count : LANES;
-    for (int32_t i = 0; i < count; ++i, *at = large_add(*at, edges->step_x)) {
-        float *bound = culled_bound(w, tx + i, ty);
-        if (large_negative(large_add(*at, edges->high))) {
-            if (*entered) {
-                return 0;
-            }
+    lane_store(d, tiles->first);
+    for (int32_t i = 0, n; i < count; i += n, at = large_add(at, large_times(r->edges->step_x, n))) {
+        n = count == LANES && i == 0 && culled_all_inside(r->edges, at)
+                ? LANES
+                : large_inside(r->edges, at, count - i, LANES / 2);
+        if (n > 0) {
+            culled_large_run(r, tiles, d, tx, tiles->seen & ((1u << n) - 1) << i, kind);
             continue;
         }
-        *entered = 1;
-        if (!(seen >> i & 1u)) {
-            continue;
-        }
-        job->d = in_row ? d[i]
-                        : (float)(plane->d_origin + plane->d_x * ((x_24_8 + i * (LMB_TILE * 256)) * (1.0 / 256.0)) +
-                                  d_row);
-        if (in_row || *bound < culled_near(tile, job, near_x, near_y)) {
-            culled_set_tile(tile, w, tx + i, ty);
-            culled_large_tile(tile, job, t, edges, *at, bound, kind);
+        n = 1;
+        if (tiles->seen >> i & 1u && !large_negative(large_add(at, r->edges->high))) {
+            culled_set_tile(r->tile, r->w, tx + i, r->ty);
+            culled_soon(r);
+            r->job->d = d[i];
+            culled_large_crossed(r, at, culled_bound(r->w, tx + i, r->ty), kind);
         }
     }
-    return 1;
 }
 
 /* `count` tiles of a row from tile (tx, ty) of the window on; edges->at is at the first. */
-LANE_INLINE void culled_large_row(const lmb_fill_window *w, const lmb_setup *s, const fill_triangle *t,
-                                  const large_edges *edges, lmb_fill_tile *tile, lmb_fill_job *job, int32_t tx,
-                                  int32_t ty, int32_t count, int kind)
+LANE_INLINE void culled_large_row(const culled_row *r, const culled_plane *plane, int32_t tx, int32_t count, int kind)
 {
-    const double d_row = s->d_y * (((w->y0 + ty * LMB_TILE) * 256 + w->origin_y) * (1.0 / 256.0));
-    const culled_plane plane = {s->d_origin, s->d_x, job->dx, job->dy, job->d_min, job->d_max};
-    large3 at = edges->at;
-    int entered = 0;
+    large3 at = r->edges->at;
+    for (int32_t n = 1; count > 0 && n > 0; count -= n, tx += n) {
+        n = large_outside(r->edges, at, count);
+        at = large_add(at, large_times(r->edges->step_x, n));
+    }
     for (; count > 0; count -= LANES, tx += LANES) {
-        if (!culled_large_tiles(w, &plane, t, edges, &at, tile, job, tx, ty, count, d_row, &entered, kind)) {
+        culled_tiles tiles;
+        culled_ask(&tiles, large_depths(plane->d_origin, plane->d_x,
+                                        (r->w->x0 + tx * LMB_TILE) * 256 + r->w->origin_x, r->d_row),
+                   plane, r->tile, r->job, culled_bound(r->w, tx, r->ty));
+        if (tiles.seen != 0) {
+            culled_large_tiles(r, &tiles, at, tx, count < LANES ? count : LANES, kind);
+        }
+        at = large_add(at, large_times(r->edges->step_x, LANES));
+        if (large_negative(large_add(at, r->edges->high))) {
             return; /* a triangle's part of a row has no gap */
         }
     }
@@ -251,7 +258,10 @@ LANE_INLINE void culled_large_fill(const lmb_fill_window *w, const lmb_setup *s,
     fill_triangle t;
     lmb_fill_job job;
     large_edges edges;
+    large_plane whole;
     lmb_fill_tile tile = fill_first(w, kind);
+    culled_plane plane;
+    culled_row r = {w, s, &t, &edges, &whole, &tile, &job, 0.0, 0};
     job.dx = (float)s->d_x;
     job.dy = (float)s->d_y;
     job.d_min = s->d_min;
@@ -262,19 +272,52 @@ LANE_INLINE void culled_large_fill(const lmb_fill_window *w, const lmb_setup *s,
     fill_set(&t, s->ex, s->ey, &job);
     t.codes = kind == FILL_CODES;
     large_set(&edges, s, (w->x0 + tx * LMB_TILE) * 256 + w->origin_x, (w->y0 + ty * LMB_TILE) * 256 + w->origin_y);
-    for (; across > 0 && down > 0; --down, ++ty) {
-        culled_large_row(w, s, &t, &edges, &tile, &job, tx, ty, across, kind);
+    large_plane_set(&whole, &t);
+    plane.d_origin = s->d_origin;
+    plane.d_x = s->d_x;
+    plane.dx = job.dx;
+    plane.dy = job.dy;
+    plane.d_min = s->d_min;
+    plane.d_max = s->d_max;
+    plane.near_x = job.dx > 0.0f ? (float)(LMB_TILE - 1) : 0.0f;
+    plane.near_y = job.dy > 0.0f ? (float)(LMB_TILE - 1) : 0.0f;
+    plane.far_x = (float)(LMB_TILE - 1) - plane.near_x;
+    plane.far_y = (float)(LMB_TILE - 1) - plane.near_y;
+    for (r.ty = ty; across > 0 && down > 0; --down, ++r.ty) {
+        r.d_row = s->d_y * (((w->y0 + r.ty * LMB_TILE) * 256 + w->origin_y) * (1.0 / 256.0));
+        culled_large_row(&r, &plane, tx, across, kind);
         edges.at = large_add(edges.at, edges.step_y);
     }
+}
+
+/* Apart, as each has its own stack. */
+NOINLINE void culled_large_plain(const lmb_fill_window *w, const lmb_setup *s)
+{
+    culled_large_fill(w, s, 0, FILL_PLAIN);
+}
+
+NOINLINE void culled_large_id32(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
+{
+    culled_large_fill(w, s, id, FILL_ID32);
+}
+
+NOINLINE void culled_large_codes(const lmb_fill_window *w, const lmb_setup *s)
+{
+    culled_large_fill(w, s, 0, FILL_CODES);
+}
+
+NOINLINE void culled_large_any(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
+{
+    culled_large_fill(w, s, id, FILL_ANY);
 }
 
 static void KERNEL(culled_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
     switch (fill_kind(w)) {
-    case FILL_CODES: culled_large_fill(w, s, id, FILL_CODES); break;
-    case FILL_PLAIN: culled_large_fill(w, s, id, FILL_PLAIN); break;
-    case FILL_ID32: culled_large_fill(w, s, id, FILL_ID32); break;
-    default: culled_large_fill(w, s, id, FILL_ANY); break;
+    case FILL_CODES: culled_large_codes(w, s); break;
+    case FILL_PLAIN: culled_large_plain(w, s); break;
+    case FILL_ID32: culled_large_id32(w, s, id); break;
+    default: culled_large_any(w, s, id); break;
     }
 }
 #else

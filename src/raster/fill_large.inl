@@ -5,6 +5,8 @@
 
 enum { FAR_INSIDE = 1 << 29 };
 
+enum { LARGE_LEAP = 64 }; /* tiles of a row: the first step when those of a kind are counted */
+
 /* One value an edge. Written out: gcc -O2 keeps a loop of three, and arrays in memory. */
 typedef struct large3 {
     int64_t a, b, c;
@@ -56,7 +58,27 @@ LANE_INLINE void large_set(large_edges *edges, const lmb_setup *s, int32_t x_24_
 
 LANE_INLINE int32_t large_near(int64_t e) { return e < FAR_INSIDE ? (int32_t)e : FAR_INSIDE; }
 
-LANE_INLINE void large_crossed(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, large3 at)
+#if LANES >= LMB_TILE
+/* e: the edges at the tile's first pixel. */
+LANE_INLINE void large_rows(fill_rows *r, const lmb_fill_tile *tile, const fill_triangle *t, const int32_t e[3])
+{
+    r->e0 = lanei_add(lanei_splat(e[0]), t->step[0][0]);
+    r->e1 = lanei_add(lanei_splat(e[1]), t->step[1][0]);
+    r->e2 = lanei_add(lanei_splat(e[2]), t->step[2][0]);
+    r->down0 = lanei_splat(t->ey[0] * FILL_ROWS);
+    r->down1 = lanei_splat(t->ey[1] * FILL_ROWS);
+    r->down2 = lanei_splat(t->ey[2] * FILL_ROWS);
+    r->step_d = t->step_d[0];
+    r->d_min = t->d_min;
+    r->d_max = t->d_max;
+    r->depth = (float *)tile->depth;
+    r->ids = (uint32_t *)tile->id;
+    r->id = t->id;
+}
+#endif
+
+LANE_INLINE void large_crossed(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, large3 at,
+                               int kind)
 {
     static const fill_box whole = {0, LMB_TILE - 1, 0, FILL_ACROSS - 1};
     const int32_t e[3] = {large_near(at.a), large_near(at.b), large_near(at.c)};
@@ -66,37 +88,207 @@ LANE_INLINE void large_crossed(const lmb_fill_tile *tile, const lmb_fill_job *jo
         return;
     }
 #endif
+#if LANES >= LMB_TILE
+    if (kind == FILL_PLAIN || kind == FILL_ID32) {
+        fill_rows r;
+        large_rows(&r, tile, t, e);
+        rows_draw(&r, job->d, t->per_row, ROWS_ALL, kind);
+        return;
+    }
+#endif
+    (void)kind;
     for (int i = 0; i < FILL_ACROSS; ++i) {
         fill_column(tile, job, t, e, job->d, &whole, i);
     }
 }
 
+LANE_INLINE large3 large_times(large3 p, int64_t n) { return large_make(p.a * n, p.b * n, p.c * n); }
+
+/* How many of `count` tiles, from `at` on, lie inside all edges: less than twice `leap`, a power of two. Edges are linear:
+ * where two tiles lie inside, so do all between. Steps are halved, without a branch: the number is as good as random. */
+LANE_INLINE int32_t large_inside(const large_edges *edges, large3 at, int32_t count, int32_t leap)
+{
+    large3 low = large_add(at, edges->low);
+    int32_t n = 0;
+    if (large_negative(low)) {
+        return 0;
+    }
+    for (; leap > 0; leap >>= 1) {
+        const large3 next = large_add(low, large_times(edges->step_x, leap));
+        const int too_far = large_negative(next) | (n + leap >= count);
+        low = too_far ? low : next;
+        n += too_far ? 0 : leap;
+    }
+    return n + 1;
+}
+
+/* How many, less than twice LARGE_LEAP, lie outside of an edge that the first one lies outside of; 0 if of none. */
+LANE_INLINE int32_t large_outside(const large_edges *edges, large3 at, int32_t count)
+{
+    const large3 first = large_add(at, edges->high);
+    large3 high = first;
+    int32_t n = 0;
+    if (!large_negative(first)) {
+        return 0;
+    }
+    for (int32_t leap = LARGE_LEAP; leap > 0; leap >>= 1) {
+        const large3 next = large_add(high, large_times(edges->step_x, leap));
+        const int too_far =
+            (((next.a & first.a) | (next.b & first.b) | (next.c & first.c)) >= 0) | (n + leap >= count);
+        high = too_far ? high : next;
+        n += too_far ? 0 : leap;
+    }
+    return n + 1;
+}
+
+/* The depth of a plane at the first pixel of a tile. */
+LANE_INLINE float large_depth(const lmb_setup *s, int32_t x_24_8, double d_row)
+{
+    return (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + d_row);
+}
+
+/* The same for LANES tiles beside each other, the first one's at x_24_8. */
+LANE_INLINE lane large_depths(double d_origin, double d_x, int32_t x_24_8, double d_row)
+{
+    static const int32_t steps[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const lanei x = lanei_add(lanei_splat(x_24_8), lanei_mul(lanei_load(steps), lanei_splat(LMB_TILE * 256)));
+    const laned at = laned_mul(laned_splat(d_x), laned_mul(laned_from_int(x), laned_splat(1.0 / 256.0)));
+    return lane_from_double(laned_add(laned_add(laned_splat(d_origin), at), laned_splat(d_row)));
+}
+
+/* Are the plane's values in all of `count` tiles of a row, from x_24_8 on, within the range? Depths are monotone from
+ * tile to tile, too: the first and the last tell. */
+LANE_INLINE int large_in_range(const lmb_setup *s, lmb_fill_job *job, int32_t x_24_8, int32_t count, double d_row)
+{
+    job->d = large_depth(s, x_24_8, d_row);
+    if (!fill_in_range(job)) {
+        return 0;
+    }
+    job->d = large_depth(s, x_24_8 + (count - 1) * (LMB_TILE * 256), d_row);
+    return fill_in_range(job);
+}
+
+LANE_INLINE void large_next(const lmb_fill_window *w, lmb_fill_tile *tile, int32_t n)
+{
+    tile->depth = (uint8_t *)tile->depth + (ptrdiff_t)n * w->depth_tile;
+    tile->id = tile->id_format != LMB_FORMAT_NONE ? (uint8_t *)tile->id + (ptrdiff_t)n * w->id_tile : NULL;
+}
+
+/* What a plane gains from a tile's first pixel to each of its vectors: dy y of the rows in these, and dx x. Named one by
+ * one: gcc -O2 keeps a loop over them, and arrays in memory. */
+typedef struct large_plane {
+    uint32_t id;
+#if LANES >= LMB_TILE
+    lane y0, y1, y2, y3, x;
+#endif
+#if LANES == LMB_TILE
+    lane y4, y5, y6, y7;
+#endif
+} large_plane;
+
+#if LANES >= LMB_TILE
+LANE_INLINE void large_plane_set(large_plane *p, const fill_triangle *t)
+{
+    const lane dy = lane_splat(t->per_row);
+    p->x = t->step_d[0];
+    p->id = t->id;
+    p->y0 = lane_mul(dy, lane_row(0)), p->y1 = lane_mul(dy, lane_row(LANES));
+    p->y2 = lane_mul(dy, lane_row(2 * LANES)), p->y3 = lane_mul(dy, lane_row(3 * LANES));
+#if LANES == LMB_TILE
+    p->y4 = lane_mul(dy, lane_row(4 * LANES)), p->y5 = lane_mul(dy, lane_row(5 * LANES));
+    p->y6 = lane_mul(dy, lane_row(6 * LANES)), p->y7 = lane_mul(dy, lane_row(7 * LANES));
+#endif
+}
+
+/* A vector of pixels inside all edges, from pixel `at` of a tile on. */
+LANE_INLINE void large_put(const lmb_fill_tile *tile, const large_plane *p, int at, lane row, int kind)
+{
+    float *was = (float *)tile->depth + at;
+    const lane depth = lane_add(row, p->x), old = lane_load(was);
+    if (kind == FILL_PLAIN) {
+        lane_store(was, lane_max(depth, old));
+        return;
+    }
+    const lane_mask pass = lane_lt(old, depth);
+    lane_store(was, lane_pick(pass, depth, old));
+    lane_put_u32((uint32_t *)tile->id + at, LMB_TILE, p->id, pass);
+}
+
+/* A tile inside all edges whose depths are all in the triangle's range: fill_inside's sums, value by value. */
+LANE_INLINE void large_whole(const lmb_fill_tile *tile, const large_plane *p, float first, int kind)
+{
+    const lane d = lane_splat(first);
+    large_put(tile, p, 0, lane_add(d, p->y0), kind);
+    large_put(tile, p, LANES, lane_add(d, p->y1), kind);
+    large_put(tile, p, 2 * LANES, lane_add(d, p->y2), kind);
+    large_put(tile, p, 3 * LANES, lane_add(d, p->y3), kind);
+#if LANES == LMB_TILE
+    large_put(tile, p, 4 * LANES, lane_add(d, p->y4), kind);
+    large_put(tile, p, 5 * LANES, lane_add(d, p->y5), kind);
+    large_put(tile, p, 6 * LANES, lane_add(d, p->y6), kind);
+    large_put(tile, p, 7 * LANES, lane_add(d, p->y7), kind);
+#endif
+}
+#endif
+
+/* `count` tiles inside all edges, which `tile` moves past; d: the depths at their first pixels. */
+LANE_INLINE void large_run(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fill_job *job, const fill_triangle *t,
+                           const large_plane *plane, const float *d, int32_t count, int clamped, int kind)
+{
+#if LANES >= LMB_TILE
+    if ((kind == FILL_PLAIN || kind == FILL_ID32) && !clamped) {
+        for (int32_t i = 0; i < count; ++i) {
+            large_whole(tile, plane, d[i], kind);
+            large_next(w, tile, 1);
+        }
+        return;
+    }
+#endif
+    (void)plane, (void)kind;
+    for (int32_t i = 0; i < count; ++i) {
+        job->d = d[i];
+        if (clamped) {
+            fill_inside(tile, job, t, 1);
+        } else {
+            fill_inside(tile, job, t, 0);
+        }
+        large_next(w, tile, 1);
+    }
+}
+
 /* `count` tiles of a row; edges->at is at the first. */
 LANE_INLINE void large_row(const lmb_fill_window *w, const lmb_setup *s, const fill_triangle *t,
-                           const large_edges *edges, lmb_fill_tile *tile, lmb_fill_job *job, int32_t x_24_8,
-                           int32_t count, double d_row)
+                           const large_plane *plane, const large_edges *edges, lmb_fill_tile *tile,
+                           lmb_fill_job *job, int32_t x_24_8, int32_t count, double d_row, int kind)
 {
     large3 at = edges->at;
-    int entered = 0;
-    for (; count > 0; --count, x_24_8 += LMB_TILE * 256) {
-        const int outside = large_negative(large_add(at, edges->high));
-        if (outside && entered) {
-            return; /* a triangle's part of a row has no gap */
-        }
-        if (!outside) {
-            entered = 1;
-            job->d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + d_row);
-            if (large_negative(large_add(at, edges->low))) {
-                large_crossed(tile, job, t, at);
-            } else if (fill_in_range(job)) {
-                fill_inside(tile, job, t, 0);
-            } else {
-                fill_inside(tile, job, t, 1);
+    int32_t n = large_outside(edges, at, count);
+    for (int entered = 0; count > 0; n = entered ? 0 : large_outside(edges, at, count)) {
+        if (n == 0) {
+            if (entered && large_negative(large_add(at, edges->high))) {
+                return; /* a triangle's part of a row has no gap */
             }
+            entered = 1;
+            n = large_inside(edges, at, count, LARGE_LEAP);
+            if (n > 0) {
+                const int clamped = !large_in_range(s, job, x_24_8, n, d_row);
+                for (int32_t i = 0; i < n; i += LANES) {
+                    float d[LANES];
+                    lane_store(d, large_depths(s->d_origin, s->d_x, x_24_8 + i * (LMB_TILE * 256), d_row));
+                    large_run(w, tile, job, t, plane, d, n - i < LANES ? n - i : LANES, clamped, kind);
+                }
+            } else {
+                n = 1;
+                job->d = large_depth(s, x_24_8, d_row);
+                large_crossed(tile, job, t, at, kind);
+                large_next(w, tile, 1);
+            }
+        } else {
+            large_next(w, tile, n);
         }
-        tile->depth = (uint8_t *)tile->depth + w->depth_tile;
-        tile->id = tile->id_format != LMB_FORMAT_NONE ? (uint8_t *)tile->id + w->id_tile : NULL;
-        at = large_add(at, edges->step_x);
+        count -= n;
+        x_24_8 += n * (LMB_TILE * 256);
+        at = large_add(at, large_times(edges->step_x, n));
     }
 }
 
@@ -119,6 +311,7 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
     fill_triangle t;
     lmb_fill_job job;
     large_edges edges;
+    large_plane plane;
     job.dx = (float)s->d_x;
     job.dy = (float)s->d_y;
     job.d_min = s->d_min;
@@ -128,6 +321,9 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
     job.id = id;
     fill_set(&t, s->ex, s->ey, &job);
     t.codes = kind == FILL_CODES;
+#if LANES >= LMB_TILE
+    large_plane_set(&plane, &t);
+#endif
     large_set(&edges, s, x_24_8, y_24_8);
     for (; across > 0 && down > 0; --down, ++ty, y_24_8 += LMB_TILE * 256) {
         lmb_fill_tile tile = fill_first(w, kind);
@@ -135,7 +331,8 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
         if (tile.id_format != LMB_FORMAT_NONE) {
             tile.id = (uint8_t *)w->first.id + (ptrdiff_t)ty * w->id_row + (ptrdiff_t)tx * w->id_tile;
         }
-        large_row(w, s, &t, &edges, &tile, &job, x_24_8, across, s->d_y * (y_24_8 * (1.0 / 256.0)));
+        large_row(w, s, &t, &plane, &edges, &tile, &job, x_24_8, across, s->d_y * (y_24_8 * (1.0 / 256.0)),
+                  kind);
         edges.at = large_add(edges.at, edges.step_y);
     }
 }

@@ -119,6 +119,17 @@ static void ask_edges(const lmb_setup *s, const large_edges *edges)
     /*@ assert -CHANGE_MAX <= edges->low.c <= 0 && 0 <= edges->high.c <= CHANGE_MAX; */
 }
 
+/* How many tiles of a row are alike, from any tile of it on. */
+static void count_large(const large_edges *edges)
+{
+    const int32_t count = any_between(1, LMB_MAX_FRAME / LMB_TILE);
+    const int32_t inside = large_inside(edges, edges->at, count, LARGE_LEAP),
+                  outside = large_outside(edges, edges->at, count);
+    /*@ assert 0 <= inside <= 2 * LARGE_LEAP && 0 <= outside <= 2 * LARGE_LEAP; */
+    large_add(edges->at, large_times(edges->step_x, inside));
+    large_add(edges->at, large_times(edges->step_x, outside));
+}
+
 /* A box's side against any window of any frame. */
 static void ask_spans(void)
 {
@@ -143,6 +154,7 @@ int main(void)
         large_set(&edges, &s, x, y);
         ask_edges(&s, &edges);
         cross_large(&s, &edges);
+        count_large(&edges);
         cross_masked(&s, x, y);
     }
     return 0;

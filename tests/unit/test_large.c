@@ -1,0 +1,157 @@
+/* test_large.c: layer 3: large triangles in long rows of tiles have the bytes that they have where each window is one
+ * tile wide, whose rows know no next tile; with bounds of farthest depths, too.
+ *
+ * Triangles are random ones of every size up to far beyond the guard band, slivers lower than a tile, rectangles on
+ * borders of tiles, copies of the one before (equal depths keep the earlier id), and NaN. */
+#include <string.h>
+
+#include <lambent/raster.h>
+
+#include "../laid_surface.h"
+#include "../test.h"
+
+void test_large(void);
+
+/* Not a number of vectors, nor of a count's first step. */
+enum { ACROSS = 261, DOWN = 3, TILES = ACROSS * DOWN, WIDTH = ACROSS * LMB_TILE, HEIGHT = DOWN * LMB_TILE };
+enum { TRIANGLES = 36, SCENES = 4 };
+
+static float corners[9 * TRIANGLES];
+static uint32_t wide_depth[WIDTH * HEIGHT], wide_id[WIDTH * HEIGHT], one_depth[LMB_TILE * HEIGHT],
+    one_id[LMB_TILE * HEIGHT];
+static lmb_view view;
+static lmb_scene scene;
+
+/* At px of the frame, from its middle, and at a distance. */
+static void put_corner(float *out, float x, float y, float z)
+{
+    const float m = view.kind == LMB_PERSPECTIVE ? z : 1.0f;
+    out[0] = x * m, out[1] = y * m, out[2] = -z;
+}
+
+static void put_triangle(test_rng *r, float *out, int i)
+{
+    static const float sizes[] = {60.0f, 400.0f, 1100.0f, 5000.0f, 1e6f};
+    const float size = sizes[test_random(r) % 5u], z = test_uniform(r, 2, 30);
+    static const float tilts[] = {0.0f, 2e-5f, 1.5e-4f, 1.0f}; /* two of a few roundings, that leave the corners' range */
+    const float tilt = tilts[test_random(r) % 4u];
+    const float high = i % 4 == 0 ? 5.0f : size, x = test_uniform(r, -900, 900), y = test_uniform(r, -9, 9);
+    for (int k = 0; k < 3; ++k) {
+        put_corner(out + 3 * k, x + test_uniform(r, -size, size), y + test_uniform(r, -high, high),
+                   z + tilt * test_uniform(r, -1, 1));
+    }
+    if (i % 6 == 1 || i % 6 == 2) { /* half a rectangle, on borders of tiles, nearest at its right angle */
+        const float left = 8.0f * (float)(test_random(r) % 160u) - 1044.0f, top = test_random(r) % 2u ? 12.0f : 4.0f;
+        const float x0 = test_random(r) % 2u ? left : left + 704.0f, y0 = test_random(r) % 2u ? top : top - 16.0f;
+        put_corner(out, x0, y0, z);
+        put_corner(out + 3, 2.0f * left + 704.0f - x0, y0, z + tilt);
+        put_corner(out + 6, x0, 2.0f * top - 16.0f - y0, z + 0.02f * tilt * test_uniform(r, 0, 1));
+    }
+    if (i % 6 == 5 && i > 6) {
+        memcpy(out, out - 9, 9 * sizeof *out);
+    }
+    if (i == 9) {
+        memset(out + test_random(r) % 9u, 0xff, sizeof *out); /* NaN */
+    }
+}
+
+static void make_scene(test_rng *r, int32_t kind)
+{
+    static const lmb_mat4 unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    static lmb_mesh mesh;
+    static lmb_material material;
+    static lmb_instance instance;
+    memset(&view, 0, sizeof view);
+    view.kind = kind;
+    view.right.x = view.up.y = view.back.z = 1.0f;
+    view.half_width = 0.5f * (float)WIDTH;
+    view.half_height = 0.5f * (float)HEIGHT;
+    view.near_m = 0.5f;
+    view.far_m = 40.0f;
+    view.frame_width = WIDTH;
+    view.frame_height = HEIGHT;
+    for (int i = 0; i < TRIANGLES; ++i) {
+        put_triangle(r, corners + 9 * i, i);
+    }
+    mesh.positions = corners;
+    mesh.vertex_count = 3 * TRIANGLES;
+    mesh.triangle_count = TRIANGLES;
+    material.texture = -1;
+    material.flags = LMB_DOUBLE_SIDED;
+    instance.to_world = unit;
+    instance.first_id = 1;
+    scene.meshes = &mesh;
+    scene.materials = &material;
+    scene.instances = &instance;
+    scene.mesh_count = scene.material_count = scene.instance_count = 1;
+}
+
+static lmb_target target_of(int32_t depth_format, int32_t id_format, int32_t width, void *depth, void *id)
+{
+    lmb_target t;
+    memset(&t, 0, sizeof t);
+    t.depth = surface_of(depth_format, LMB_TILED, width, HEIGHT, depth);
+    lmb_surface_clear(&t.depth);
+    if (id_format != LMB_FORMAT_NONE) {
+        t.id = surface_of(id_format, LMB_TILED, width, HEIGHT, id);
+        lmb_surface_clear(&t.id);
+    }
+    return t;
+}
+
+/* Tiles of column x that differ. */
+static int32_t differ(const lmb_surface *wide, const lmb_surface *one, int32_t x)
+{
+    const size_t tile = (size_t)(LMB_TILE_PIXELS * lmb_pixel_bytes(wide->format));
+    int32_t n = 0;
+    for (size_t y = 0; y < DOWN; ++y) {
+        const char *a = (const char *)wide->data + (y * ACROSS + (size_t)x) * tile;
+        n += memcmp(a, (const char *)one->data + y * tile, tile) != 0;
+    }
+    return n;
+}
+
+static int32_t columns_differ(const lmb_kernels *kernels, const lmb_target *wide)
+{
+    int32_t n = 0;
+    for (int32_t x = 0; x < ACROSS; ++x) {
+        lmb_target t = target_of(wide->depth.format, wide->id.format, LMB_TILE, one_depth, one_id);
+        t.x0 = x * LMB_TILE;
+        CHECK(lmb_draw(&t, kernels, &view, &scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
+        n += differ(&wide->depth, &t.depth, x);
+        n += t.id.data != NULL ? differ(&wide->id, &t.id, x) : 0;
+    }
+    return n;
+}
+
+static void judge(const lmb_kernels *kernels, int32_t depth_format, int32_t id_format)
+{
+    lmb_target t = target_of(depth_format, id_format, WIDTH, wide_depth, wide_id);
+    CHECK(lmb_draw(&t, kernels, &view, &scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
+    CHECK_MSG(columns_differ(kernels, &t) == 0, "%s, formats %d and %d", lmb_kernels_name(kernels), (int)depth_format,
+              (int)id_format);
+#if LMB_CULLING
+    static float farthest[TILES + 15];
+    const lmb_culling culling = {farthest, NULL, TILES + 15, 0};
+    const uint64_t depth = lmb_surface_hash(&t.depth), id = t.id.data != NULL ? lmb_surface_hash(&t.id) : 0;
+    t = target_of(depth_format, id_format, WIDTH, wide_depth, wide_id);
+    memset(farthest, 0, sizeof farthest);
+    CHECK(lmb_draw_culled(&t, kernels, &view, &scene, 1, TRIANGLES, 0, &culling, NULL) == LMB_OK);
+    CHECK(lmb_surface_hash(&t.depth) == depth && (t.id.data == NULL || lmb_surface_hash(&t.id) == id));
+#endif
+}
+
+void test_large(void)
+{
+    static const int32_t formats[][2] = {{LMB_DEPTH32F, LMB_FORMAT_NONE}, {LMB_DEPTH32F, LMB_ID32},
+                                         {LMB_DEPTH16, LMB_ID16}};
+    test_rng r = {24};
+    for (int i = 0; i < SCENES; ++i) {
+        make_scene(&r, i % 2 ? LMB_PERSPECTIVE : LMB_ORTHOGRAPHIC);
+        for (int32_t m = 0; lmb_kernels_at(m) != NULL; ++m) {
+            for (int k = 0; k < 3; ++k) {
+                judge(lmb_kernels_at(m), formats[k][0], formats[k][1]);
+            }
+        }
+    }
+}
