@@ -10,6 +10,7 @@ WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
 PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_relief_bake.c tools/relief/relief_compare.c tools/relief/relief_model.c \
+             tools/relight/relight_hidden.c tools/relight/relight_lobes.c \
              %/gen_demo.c %/gen_srgb.c %/demo_scene.c tools/picture/io_png_write.c tools/picture/io_deflate.c \
              tools/common/slice.c tools/common/slice_items.c tools/common/byte_buffer.c tools/render/render_slice.c tools/common/area_light.c \
              tools/mix/mix_sun.c tools/mix/mix_front.c tools/mix/mix_list.c tools/mix/mix_frames.c tools/mix/mix_again.c tools/mix/mix_lobes.c tools/mix/mix_sources.c tools/mix/mix_contact.c tools/mix/mix_around.c tools/model/glb_write.c tools/relight/relight_worlds.c tools/relight/relight_path.c tools/relight/relight_contact.c, \

@@ -1,15 +1,18 @@
 /* main_contact.c: what objects take from the ground and from each other by `lambent relight --contact`, against
  * path-traced pictures.
  *
- *     measure-contact FOLDER MAP      pictures are left in FOLDER; MAP is a sphere's picture, twice as wide as high
+ *     measure-contact FOLDER MAP [TURN [MODEL]]
  *
- * A ball, a box and a ring, matte, stand on an endless matte ground under the upper half of a map. Truth: all light of up
+ * Pictures are left in FOLDER; MAP is a sphere's picture, twice as wide as high, turned by so many degrees. A ball, a box
+ * and a ring, or a model, 1 m in size, matte, stand on an endless matte ground under its upper half. Truth: all light of up
  * to five reflections. Figures: the ground's change by the objects, RMSE over the root mean square of the true one, and
  * over its mean; the objects, RMSE over their mean; each without --contact and with it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../src/base/vertex.h"
+#include "../../tools/model/model.h"
 #include "../../tools/picture/picture.h"
 #include "../../tools/picture/picture_read.h"
 #include "../../tools/relight/verb_relight.h"
@@ -89,7 +92,36 @@ static void add_box(made_scene *s, int n, int material)
     }
 }
 
-static int build(made_scene *s)
+/* Its longest side is 1 m; it stands at 0, 0, 0. */
+static int add_model(made_scene *s, const char *path)
+{
+    model m;
+    model_notes notes = {0};
+    report r = {""};
+    lmb_vec3 low, high;
+    if (!model_load(&m, path, NULL, &notes, &r)) {
+        printf("FAIL %s: %s\n", path, r.text);
+        return 0;
+    }
+    lmb_scene_bounds(&low, &high, &m.scene);
+    const double size = 1.0 / fmax(fmax((double)high.x - (double)low.x, (double)high.y - (double)low.y), (double)high.z - (double)low.z);
+    for (uint32_t i = 0; i < m.scene.instance_count; ++i) {
+        const lmb_mesh *mesh = &m.scene.meshes[m.scene.instances[i].mesh];
+        for (uint32_t t = 0; t < mesh->triangle_count; ++t) {
+            svec p[3];
+            for (uint32_t k = 0; k < 3; ++k) {
+                const lmb_vec3 c = transform_point(&m.scene.instances[i].to_world, mesh_position(mesh, mesh_index(mesh, 3 * t + k)));
+                p[k] = at(size * ((double)c.x - 0.5 * ((double)low.x + (double)high.x)), size * ((double)c.y - (double)low.y),
+                          size * ((double)c.z - 0.5 * ((double)low.z + (double)high.z)));
+            }
+            add(s, p[0], p[1], p[2], 1);
+        }
+    }
+    model_free(&m);
+    return s->triangles < MOST;
+}
+
+static int build(made_scene *s, const char *model_path)
 {
     memset(s, 0, sizeof *s);
     s->corners = malloc(3 * MOST * sizeof *s->corners);
@@ -97,9 +129,13 @@ static int build(made_scene *s)
     if (s->corners == NULL || s->materials == NULL) {
         return 0;
     }
-    add_round(s, round_ball, 32, 20, 0);
-    add_box(s, 10, 1);
-    add_round(s, ring, 40, 16, 2);
+    if (model_path == NULL) {
+        add_round(s, round_ball, 32, 20, 0);
+        add_box(s, 10, 1);
+        add_round(s, ring, 40, 16, 2);
+    } else if (!add_model(s, model_path)) {
+        return 0;
+    }
     memcpy(s->albedo, albedos, sizeof albedos);
     s->material_count = 3;
     s->eye = at(0.2, 1.5, 3.4);
@@ -110,6 +146,21 @@ static int build(made_scene *s)
 }
 
 /* --- truth -------------------------------------------------------------------------------------------------------- */
+
+/* About the vertical: its columns move. */
+static int turn_map(image *map, double degrees)
+{
+    const size_t w = (size_t)map->width, by = (size_t)(degrees / 360.0 * (double)w + 0.5) % w;
+    float *row = malloc(3 * w * sizeof *row);
+    for (int32_t y = 0; row != NULL && y < map->height; ++y) {
+        float *to = map->pixels + 3 * w * (size_t)y;
+        memcpy(row, to, 3 * w * sizeof *row);
+        memcpy(to, row + 3 * by, 3 * (w - by) * sizeof *row);
+        memcpy(to + 3 * (w - by), row, 3 * by * sizeof *row);
+    }
+    free(row);
+    return row != NULL;
+}
 
 static double random_of(test_rng *r) { return test_random(r) * (1.0 / 4294967296.0); }
 
@@ -337,13 +388,14 @@ static figure judge(const stage *s, const float *ours)
     return (figure){sqrt(wrong / change), sqrt(wrong / ground) / (size / ground), sqrt(object / objects) / (mean / objects)};
 }
 
-static void measure(stage *s, const char *folder, const char *file)
+static void measure(stage *s, const char *folder, const char *file, double degrees)
 {
     char path[600];
     report r = {""};
     file_bytes bytes;
     if (!file_read(&bytes, file, &r) || !picture_read(&s->map, bytes.data, bytes.size, file, &r) ||
-        s->map.light.pixels == NULL || s->map.light.channels != 3 || !sum_map(s)) {
+        s->map.light.pixels == NULL || s->map.light.channels != 3 || !turn_map(&s->map.light, degrees) ||
+        !sum_map(s)) {
         printf("FAIL %s: %s\n", file, r.text);
         ++test_failed;
         return;
@@ -374,10 +426,10 @@ static void measure(stage *s, const char *folder, const char *file)
 int main(int argc, char **argv)
 {
     static stage s;
-    if (argc != 3 || !build(&s.scene) || !path_open(&s.tracer, &s.scene)) {
+    if (argc < 3 || argc > 5 || !build(&s.scene, argc > 4 ? argv[4] : NULL) || !path_open(&s.tracer, &s.scene)) {
         return 2;
     }
-    measure(&s, argv[1], argv[2]);
+    measure(&s, argv[1], argv[2], argc > 3 ? fmod(strtod(argv[3], NULL) + 3600.0, 360.0) : 0.0);
     path_close(&s.tracer);
     scene_drop(&s.scene);
     printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed, test_skipped);

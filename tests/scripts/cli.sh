@@ -505,6 +505,24 @@ printf '0,0.5,0\n3,0.5,0\n0,0.5,0\n' >"$dir/path.txt"
 status 0 relight --world "$dir/white.pfm" --ground "$dir/facepx.pfm" --ground-size 40,40 --object "$dir/table.obj" --f0 0 --contact --path "$dir/path.txt" --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24 -o "$dir/walk.pfm"
 check "contact goes with what moves" sh -c 'cmp "$1/walk-0000.pfm" "$1/walk-0002.pfm" && ! cmp -s "$1/walk-0000.pfm" "$1/walk-0001.pfm"' sh "$dir"
 status 0 relight --world "$dir/white.pfm" --object demo --contact --size 16x8 -o "$dir/field.png"
+# Lobes mirror the ground as dark as it is.
+shiny="$(echo "$low" | sed 's/--f0 0 /--f0 0.9 --roughness 0.2 /;s/0,0.3,2.5 --target 0,0.1,0/0.1,0.05,0.3 --target 0,0.5,0/') --show glossy"
+status 0 $shiny -o "$dir/shiny.pfm"
+status 0 $shiny --contact -o "$dir/dull.pfm"
+check "a lobe is darker below a table" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[5-9]"' sh "$TOOL" "$dir/dull.pfm" "$dir/shiny.pfm"
+# A small lamp in a white world, on the border of two of its map's texels; two bowls with smooth normals over a ground that
+# ends its shadow within the picture. Each constant of contact moves some of these pixels.
+row=$one$one$one$one; row=$row$row$row; row=$row$row$row$row$row$row$row$row
+lamp='\000\000\172\104\000\000\172\104\000\000\172\104'
+{ printf 'PF\n32 192\n-1.0\n'; i=0; while [ $i -lt 192 ]; do
+    if [ $i -eq 180 ]; then printf "$lamp"; printf "$row" | tail -c 372; else printf "$row"; fi
+    i=$((i + 1))
+done; } >"$dir/lamp_world.pfm"
+printf 'v 0 0 0\nv 1 0.3 -1\nv -1 0.3 -1\nv -1 0.3 1\nv 1 0.3 1\nvn 0 1 0\nvn -0.5 0.7 0.5\nvn 0.5 0.7 0.5\nvn 0.5 0.7 -0.5\nvn -0.5 0.7 -0.5\nf 1//1 2//2 3//3\nf 1//1 3//3 4//4\nf 1//1 4//4 5//5\nf 1//1 5//5 2//2\n' >"$dir/bowl.obj"
+printf '0,0.2,0\n' >"$dir/path.txt"
+status 0 relight --world "$dir/lamp_world.pfm" --ground "$dir/facepx.pfm" --ground-size 60,60 --object "$dir/bowl.obj" --f0 0.2 --roughness 0.3 --contact --at 0,0.2,0 --at 2.1,1.0,0 --eye 1,4,5 --target 1,0,0 --size 64x48 -o "$dir/bowls.pfm"
+contact_sum=$(cksum <"$dir/bowls.pfm")
+check "contact's pixels are these: $contact_sum" test "$contact_sum" = "1378404492 36878"
 # What a place of a scene sees, for relight: in a box that shines from within alike, any place receives pi.
 printf 'newmtl lamp\nKd 0 0 0\nKe 1 1 1\n' >"$dir/lamp.mtl"
 printf 'mtllib lamp.mtl\nusemtl lamp\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >"$dir/lamp.obj"

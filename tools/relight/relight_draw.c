@@ -43,6 +43,7 @@ typedef struct stage {
     lmb_status failed[POOL_MAX]; /* by thread */
     image picture;
     float *one;       /* a sample of each pixel, where there are several */
+    float *rows;      /* by thread: eight rows of the picture */
     int32_t samples;
     double done, all; /* places of the path */
 } stage;
@@ -145,7 +146,10 @@ static int draw_shadows(stage *s, report *r)
 static void draw_band(void *user, int band, int thread)
 {
     stage *s = user;
-    const lmb_status status = lmb_relight_band(&s->relight, &s->scratch[thread], &s->out, band);
+    const lmb_status status =
+        s->o->contact ? contact_band(&s->contact, &s->figures, &s->relight, &s->scratch[thread],
+                                     s->rows + 3 * LMB_TILE * (size_t)thread * (size_t)s->out.width, &s->out, band)
+                      : lmb_relight_band(&s->relight, &s->scratch[thread], &s->out, band);
     s->failed[thread] = status != LMB_OK ? status : s->failed[thread];
     if (thread == 0) {
         progress_tell("pictures", (s->done + (double)(band * LMB_TILE) / ((double)s->out.height * s->samples)) / s->all);
@@ -173,11 +177,6 @@ static lmb_status draw_sample(stage *s, float *pixels)
     }
     for (int i = 0; i < s->threads; ++i) {
         status = status != LMB_OK ? status : s->failed[i];
-    }
-    if (s->o->contact && status == LMB_OK && s->o->show != LMB_RELIGHT_GLOSSY) {
-        image drawn = s->picture;
-        drawn.pixels = pixels;
-        contact_darken(&drawn, &s->contact, &l->view, &l->eye.id);
     }
     return status;
 }
@@ -322,9 +321,10 @@ static int take_frame(stage *s, report *r)
     s->id_memory = take(id, r);
     s->picture.pixels = take((size_t)w * (size_t)h * 3 * sizeof(float), r);
     s->samples = s->o->samples != 0 ? s->o->samples : picture_is_linear(picture_format(s->o->out)) ? 1 : 4;
+    s->rows = s->o->contact ? take((size_t)s->threads * (size_t)w * 3 * LMB_TILE * sizeof(float), r) : NULL;
     s->one = s->samples > 1 ? take((size_t)w * (size_t)h * 3 * sizeof(float), r) : NULL;
     if (s->depth_memory == NULL || s->id_memory == NULL || s->picture.pixels == NULL ||
-        (s->samples > 1 && s->one == NULL)) {
+        (s->samples > 1 && s->one == NULL) || (s->o->contact && s->rows == NULL)) {
         return 0;
     }
     s->picture.width = w;
@@ -384,6 +384,7 @@ static void stage_free(stage *s)
     free(s->planes);
     free(s->scratch);
     free(s->one);
+    free(s->rows);
     free(s->depth_memory);
     free(s->id_memory);
     image_free(&s->picture);

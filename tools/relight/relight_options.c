@@ -132,8 +132,9 @@ static const option_row object_rows[] = {
     {.name = "--per-part", .kind = OPTION_FLAG, AT(per_part),
      .help = HELP("each part of the object is lit as its own box's middle is")},
     {.name = "--contact", .kind = OPTION_FLAG, AT(contact),
-     .help = HELP("objects darken the ground below them, themselves and each other: by projections along up to 448 lights "
-             "of the world, and by rays from each vertex, once a picture")},
+     .help = HELP("objects darken the ground below them, themselves and each other, and light them by what they reflect; "
+             "lobes mirror that. What an object hides from itself is found once, by rays from each vertex; then by up "
+             "to 448 lights of the world a picture")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), COUNTS(light_count), .times = RELIGHT_LIGHTS,
      .size = sizeof(lmb_light),
      .help = HELP("a light or sun beside the world's light, as in `lambent render`")},

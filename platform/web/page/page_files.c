@@ -145,9 +145,10 @@ int contact_make(contact *c, figures *f, relight_light *w, const relight_options
 {
     return (void)c, (void)f, (void)w, (void)o, report_fail(r, "--contact: not on the page");
 }
-void contact_darken(image *p, const contact *c, const lmb_view *v, const lmb_surface *id)
+lmb_status contact_band(const contact *c, const figures *f, const lmb_relight *l, lmb_relight_scratch *s, float *rows,
+                        const lmb_surface *out, int32_t band)
 {
-    (void)p, (void)c, (void)v, (void)id;
+    return (void)c, (void)f, (void)l, (void)s, (void)rows, (void)out, (void)band, LMB_ERR_ARG;
 }
 void contact_free(contact *c) { (void)c; }
 

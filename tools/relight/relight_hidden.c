@@ -1,0 +1,391 @@
+/* relight_hidden.c: what an object hides from its own vertices, by rays, and from the ground, by its projections. */
+#include "relight_hidden.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define REACH 2.5f /* of a figure's height: how far around it the ground is looked at */
+#define LIFT 0.005f /* of a figure's height: off its surface, as a smooth one's facets lie below it */
+#define NEAR_M 0.5f
+
+float hidden_dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+static void bounds_of(lmb_vec3 *low, lmb_vec3 *high, const figures *f, uint32_t figure)
+{
+    lmb_scene own = f->scene;
+    own.instances = f->instances + figure * f->parts;
+    own.instance_count = f->parts;
+    lmb_scene_bounds(low, high, &own);
+}
+
+lmb_vec3 hidden_foot(const figures *f, uint32_t figure)
+{
+    lmb_vec3 low, high;
+    bounds_of(&low, &high, f, figure);
+    return (lmb_vec3){0.5f * (low.x + high.x), low.y, 0.5f * (low.z + high.z)};
+}
+
+/* --- vertices ----------------------------------------------------------------------------------------------------- */
+
+uint32_t hidden_vertex(const lmb_mesh *m, uint32_t corner)
+{
+    return m->index_format == LMB_INDEX_NONE  ? corner
+           : m->index_format == LMB_INDEX_U16 ? ((const uint16_t *)m->indices)[corner]
+                                              : ((const uint32_t *)m->indices)[corner];
+}
+
+static lmb_vec3 turned(const lmb_mat4 *m, lmb_vec3 p, float one)
+{
+    const float *a = m->m;
+    return (lmb_vec3){a[0] * p.x + a[4] * p.y + a[8] * p.z + a[12] * one,
+                      a[1] * p.x + a[5] * p.y + a[9] * p.z + a[13] * one,
+                      a[2] * p.x + a[6] * p.y + a[10] * p.z + a[14] * one};
+}
+
+static lmb_vec3 unit_of(lmb_vec3 a)
+{
+    const float length = sqrtf(hidden_dot(a, a)), k = length > 0.0f ? 1.0f / length : 0.0f;
+    return (lmb_vec3){a.x * k, a.y * k, a.z * k};
+}
+
+static lmb_vec3 position_of(const lmb_mesh *m, uint32_t vertex)
+{
+    if (m->position_format == LMB_POSITION_F32) {
+        const float *p = (const float *)m->positions + 3 * (size_t)vertex;
+        return (lmb_vec3){p[0], p[1], p[2]};
+    }
+    const int16_t *p = (const int16_t *)m->positions + 4 * (size_t)vertex;
+    return (lmb_vec3){m->position_scale.x * p[0] + m->position_offset.x,
+                      m->position_scale.y * p[1] + m->position_offset.y,
+                      m->position_scale.z * p[2] + m->position_offset.z};
+}
+
+/* Corners of a flat mesh become its vertices. */
+static int take_mesh(hidden_part *out, const lmb_mesh *from)
+{
+    static const size_t position_bytes[] = {12, 8}, uv_bytes[] = {8, 4};
+    out->mesh = *from;
+    if (from->normals != NULL) {
+        return 1;
+    }
+    const size_t n = 3 * (size_t)from->triangle_count, size[4] = {position_bytes[from->position_format],
+        from->uvs != NULL ? uv_bytes[from->uv_format] : 0, from->tangents != NULL ? 4 : 0, from->colours != NULL ? 4 : 0};
+    const void *source[4] = {from->positions, from->uvs, from->tangents, from->colours};
+    uint8_t *to[4], *p = malloc(n * (size[0] + size[1] + size[2] + size[3]) + 1);
+    if ((out->memory = p) == NULL) {
+        return 0;
+    }
+    for (int k = 0; k < 4; p += n * size[k++]) {
+        to[k] = p;
+        for (size_t i = 0; i < n && size[k] > 0; ++i) {
+            memcpy(p + size[k] * i, (const uint8_t *)source[k] + size[k] * hidden_vertex(from, (uint32_t)i), size[k]);
+        }
+    }
+    out->mesh.positions = to[0];
+    out->mesh.uvs = from->uvs != NULL ? to[1] : NULL;
+    out->mesh.tangents = from->tangents != NULL ? (const int16_t *)(const void *)to[2] : NULL;
+    out->mesh.colours = from->colours != NULL ? to[3] : NULL;
+    out->mesh.indices = NULL;
+    out->mesh.index_format = LMB_INDEX_NONE;
+    out->mesh.vertex_count = (uint32_t)n;
+    return 1;
+}
+
+static lmb_vec3 normal_of(const lmb_mesh *m, const lmb_mat4 *to_world, uint32_t vertex)
+{
+    if (m->normals != NULL) {
+        return unit_of(turned(to_world, lmb_octahedral_decode(m->normals + 2 * (size_t)vertex), 0.0f));
+    }
+    const uint32_t first = vertex / 3 * 3;
+    const lmb_vec3 o = turned(to_world, position_of(m, first), 1.0f),
+                   s = turned(to_world, position_of(m, first + 1), 1.0f),
+                   t = turned(to_world, position_of(m, first + 2), 1.0f);
+    const lmb_vec3 u = {s.x - o.x, s.y - o.y, s.z - o.z}, v = {t.x - o.x, t.y - o.y, t.z - o.z};
+    return unit_of((lmb_vec3){u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
+}
+
+static void set_vertices(hidden_part *p, const lmb_mat4 *to_world, float lift)
+{
+    for (uint32_t i = 0; i < p->mesh.vertex_count; ++i) {
+        const lmb_vec3 at = turned(to_world, position_of(&p->mesh, i), 1.0f), n = normal_of(&p->mesh, to_world, i);
+        p->normal[i] = n;
+        p->at[i] = (lmb_vec3){at.x + lift * n.x, at.y + lift * n.y, at.z + lift * n.z};
+    }
+}
+
+/* 64 of them by all directions. */
+static void look_around(hidden *h, hidden_part *p, const relight_options *o, const float *directions, uint32_t first)
+{
+    lmb_tile t;
+    float all[LMB_TILE_PIXELS] = {0}, open[LMB_TILE_PIXELS] = {0};
+    const uint32_t left = p->mesh.vertex_count - first, count = left < LMB_TILE_PIXELS ? left : LMB_TILE_PIXELS;
+    memset(&t, 0, sizeof t);
+    for (uint32_t k = 0; k < count; ++k) {
+        const lmb_vec3 at = p->at[first + k];
+        t.position[0][k] = at.x;
+        t.position[1][k] = at.y;
+        t.position[2][k] = at.z;
+        t.id[k] = 1;
+    }
+    for (int32_t i = 0; i < LMB_PROBE_TEXELS; ++i) {
+        const lmb_vec3 to = {directions[i], directions[LMB_PROBE_TEXELS + i], directions[2 * LMB_PROBE_TEXELS + i]};
+        float cosine[LMB_TILE_PIXELS];
+        uint64_t faces = 0;
+        for (uint32_t k = 0; k < count; ++k) {
+            cosine[k] = hidden_dot(p->normal[first + k], to);
+            faces |= (uint64_t)(cosine[k] > 0.0f) << k;
+        }
+        const uint64_t blocked =
+            faces != 0 ? lmb_occluded_sun(&h->bvh, o->kernels, &t, faces, to, &h->traversal) & faces : 0;
+        p->blocked[first / LMB_TILE_PIXELS][i] = blocked;
+        for (uint32_t k = 0; k < count; ++k) {
+            all[k] += faces >> k & 1 ? cosine[k] : 0.0f;
+            open[k] += (faces & ~blocked) >> k & 1 ? cosine[k] : 0.0f;
+        }
+    }
+    for (uint32_t k = 0; k < count; ++k) {
+        p->open[first + k] = all[k] > 0.0f ? open[k] / all[k] : 1.0f;
+    }
+}
+
+static int take_part(hidden *h, hidden_part *p, const figures *f, const relight_options *o, const float *directions,
+                     const lmb_instance *in)
+{
+    if (!take_mesh(p, &f->loaded.scene.meshes[in->mesh])) {
+        return 0;
+    }
+    const size_t n = p->mesh.vertex_count + 1;
+    p->at = malloc(n * sizeof *p->at);
+    p->normal = malloc(n * sizeof *p->normal);
+    p->open = malloc(n * sizeof *p->open);
+    p->blocked = malloc((n / LMB_TILE_PIXELS + 1) * sizeof *p->blocked);
+    if (p->at == NULL || p->normal == NULL || p->open == NULL || p->blocked == NULL) {
+        return 0;
+    }
+    set_vertices(p, &in->to_world, LIFT * f->scale * (f->high.y - f->low.y));
+    for (uint32_t first = 0; first < p->mesh.vertex_count; first += LMB_TILE_PIXELS) {
+        look_around(h, p, o, directions, first);
+    }
+    return 1;
+}
+
+/* The first figure, its foot at 0, 0, 0. */
+static int take_object(hidden *h, const figures *f)
+{
+    const lmb_vec3 foot = hidden_foot(f, 0);
+    lmb_vec3 low, high;
+    lmb_scene *own = &h->scene;
+    *own = f->scene;
+    h->instances = malloc(f->parts * sizeof *h->instances);
+    h->sheared = malloc(f->parts * sizeof *h->sheared);
+    h->part = calloc(f->parts, sizeof *h->part);
+    if (h->instances == NULL || h->sheared == NULL || h->part == NULL) {
+        return 0;
+    }
+    h->parts = f->parts;
+    for (uint32_t i = 0; i < f->parts; ++i) {
+        float *m = h->instances[i].to_world.m;
+        h->instances[i] = f->instances[i];
+        h->instances[i].mesh = f->loaded.scene.instances[i].mesh;
+        m[12] -= foot.x;
+        m[13] -= foot.y;
+        m[14] -= foot.z;
+    }
+    own->meshes = f->loaded.scene.meshes;
+    own->mesh_count = f->loaded.scene.mesh_count;
+    own->instances = h->instances;
+    own->instance_count = f->parts;
+    lmb_scene_bounds(&low, &high, own);
+    const lmb_vec3 half = {0.5f * (high.x - low.x), 0.5f * (high.y - low.y), 0.5f * (high.z - low.z)};
+    h->middle = (lmb_vec3){low.x + half.x, low.y + half.y, low.z + half.z};
+    h->radius = sqrtf(hidden_dot(half, half));
+    const uint32_t triangles = lmb_scene_triangles(own);
+    const size_t bytes = lmb_bvh_bytes(triangles), depth = lmb_surface_bytes(LMB_DEPTH32F, HIDDEN_SIDE, HIDDEN_SIDE),
+                 id = lmb_surface_bytes(LMB_ID32, HIDDEN_SIDE, HIDDEN_SIDE);
+    h->memory[0] = malloc(bytes);
+    h->memory[1] = malloc(depth);
+    h->memory[2] = malloc(id);
+    return h->memory[0] != NULL && h->memory[1] != NULL && h->memory[2] != NULL &&
+           lmb_surface_init(&h->depth, LMB_DEPTH32F, HIDDEN_SIDE, HIDDEN_SIDE, h->memory[1], depth) == LMB_OK &&
+           lmb_surface_init(&h->id, LMB_ID32, HIDDEN_SIDE, HIDDEN_SIDE, h->memory[2], id) == LMB_OK &&
+           lmb_bvh_init(&h->bvh, triangles, h->memory[0], bytes) == LMB_OK && lmb_bvh_build(&h->bvh, own) == LMB_OK;
+}
+
+int hidden_make(hidden *h, const figures *f, const relight_options *o, const float *directions)
+{
+    if (h->part != NULL) {
+        return 1;
+    }
+    int ok = take_object(h, f);
+    for (uint32_t i = 0; ok && i < h->parts; ++i) {
+        ok = take_part(h, &h->part[i], f, o, directions, &h->instances[i]);
+    }
+    return ok;
+}
+
+/* --- the ground --------------------------------------------------------------------------------------------------- */
+
+static int add_run(hidden_runs *r, hidden_run run)
+{
+    if (r->count == r->cap) {
+        const uint32_t cap = r->cap > 0 ? 2 * r->cap : 4096;
+        hidden_run *more = realloc(r->run, cap * sizeof *more);
+        if (more == NULL) {
+            return 0;
+        }
+        r->run = more;
+        r->cap = cap;
+    }
+    r->run[r->count++] = run;
+    return 1;
+}
+
+/* From below, so that what is lowest hides the rest; a ray's texels are moved by a quarter each way. */
+static void look_up(lmb_view *v, const hidden *h, int ray)
+{
+    memset(v, 0, sizeof *v);
+    v->eye = (lmb_vec3){h->corner_x + 0.5f * h->wide + (ray & 1 ? 0.25f : -0.25f) * h->wide / HIDDEN_SIDE,
+                        -h->height - NEAR_M,
+                        h->corner_z + 0.5f * h->deep + (ray & 2 ? 0.25f : -0.25f) * h->deep / HIDDEN_SIDE};
+    v->right.x = v->up.z = 1.0f;
+    v->back.y = -1.0f;
+    v->half_width = 0.5f * h->wide;
+    v->half_height = 0.5f * h->deep;
+    v->kind = LMB_ORTHOGRAPHIC;
+    v->near_m = NEAR_M;
+    v->far_m = h->wide + h->deep + 2.0f;
+    v->frame_width = v->frame_height = HIDDEN_SIDE;
+}
+
+/* The object projected onto the ground along a light: moved sideways by height. */
+static void shear(hidden *h, lmb_vec3 to)
+{
+    uint32_t id = 1;
+    for (uint32_t i = 0; i < h->parts; ++i) {
+        float *m = h->sheared[i].to_world.m;
+        h->sheared[i] = h->instances[i];
+        h->sheared[i].first_id = id;
+        id += h->scene.meshes[h->sheared[i].mesh].triangle_count;
+        for (int column = 0; column < 4; ++column) {
+            const float height = m[4 * column + 1] + (column == 3 ? h->height : 0.0f);
+            m[4 * column] -= height * (to.x / to.y);
+            m[4 * column + 2] -= height * (to.z / to.y);
+        }
+    }
+}
+
+static int part_of(const hidden *h, uint32_t id)
+{
+    uint32_t i = h->parts - 1;
+    while (i > 0 && h->sheared[i].first_id > id) {
+        --i;
+    }
+    return (int)(i < 255 ? i : 255);
+}
+
+/* A row of the ids' surface, by part; -1: open. */
+static int take_row(int16_t part[HIDDEN_SIDE], const hidden *h, int32_t y)
+{
+    const uint32_t *ids = (const uint32_t *)h->id.data + y / LMB_TILE * (HIDDEN_SIDE / LMB_TILE) * LMB_TILE_PIXELS + y % LMB_TILE * LMB_TILE;
+    uint32_t last = 0, any = 0;
+    int16_t of_last = -1;
+    for (int32_t x = 0; x < HIDDEN_SIDE; ++x) {
+        const uint32_t id = ids[x / LMB_TILE * LMB_TILE_PIXELS + x % LMB_TILE];
+        any |= id;
+        if (id != last) {
+            last = id;
+            of_last = id != 0 ? (int16_t)part_of(h, id) : -1;
+        }
+        part[x] = of_last;
+    }
+    return any != 0;
+}
+
+/* Rows of the surface run from the far side, as it is seen from below. */
+static int add_rows(hidden *h, hidden_runs *runs)
+{
+    int16_t part[HIDDEN_SIDE];
+    for (int32_t y = 0; y < HIDDEN_SIDE; ++y) {
+        const int has_any = take_row(part, h, y);
+        for (int32_t x = 0, from = 0; has_any && x < HIDDEN_SIDE; ++x) {
+            const int ends = x + 1 == HIDDEN_SIDE || part[x + 1] != part[x];
+            if (ends && part[x] >= 0 &&
+                !add_run(runs, (hidden_run){(uint8_t)(HIDDEN_SIDE - 1 - y), (uint8_t)from, (uint8_t)x, (uint8_t)part[x]})) {
+                return 0;
+            }
+            from = ends ? x + 1 : from;
+        }
+    }
+    return 1;
+}
+
+int hidden_shadow(hidden *h, hidden_runs *runs, const relight_options *o, lmb_vec3 to, int ray)
+{
+    lmb_scene own = h->scene;
+    lmb_view v;
+    lmb_target target;
+    memset(&target, 0, sizeof target);
+    target.depth = h->depth;
+    target.id = h->id;
+    look_up(&v, h, ray);
+    shear(h, to);
+    own.instances = h->sheared;
+    lmb_surface_clear(&h->depth);
+    lmb_surface_clear(&h->id);
+    return lmb_draw(&target, o->kernels, &v, &own, 1, lmb_scene_triangles(&own), 0, NULL) == LMB_OK && add_rows(h, runs);
+}
+
+/* A ray in one quarter of a direction's texel of the reduced cube: probe.h. */
+static lmb_vec3 ray_of(int32_t i, int ray)
+{
+    enum { N = LMB_PROBE_SIDE };
+    const float s = (2.0f * (float)(i % N) + (ray & 1 ? 1.5f : 0.5f)) / N - 1.0f,
+                t = (2.0f * (float)(i / N % N) + (ray & 2 ? 1.5f : 0.5f)) / N - 1.0f;
+    const lmb_vec3 to[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+    return unit_of(to[i / (N * N)]);
+}
+
+int hidden_ground(hidden *h, const figures *f, const relight_options *o, float height)
+{
+    lmb_vec3 low, high;
+    if (h->has_ground && h->height == height) {
+        return 1;
+    }
+    bounds_of(&low, &high, f, 0);
+    const float around = REACH * fmaxf(high.y - low.y + height, 0.01f);
+    h->wide = high.x - low.x + 2.0f * around;
+    h->deep = high.z - low.z + 2.0f * around;
+    h->corner_x = -0.5f * h->wide;
+    h->corner_z = -0.5f * h->deep;
+    h->height = height;
+    h->runs.count = 0;
+    for (int32_t i = 0; i < LMB_PROBE_TEXELS * HIDDEN_RAYS; ++i) {
+        const lmb_vec3 to = ray_of(i / HIDDEN_RAYS, i % HIDDEN_RAYS);
+        h->first[i] = h->runs.count;
+        if (to.y >= HIDDEN_LOWEST && !hidden_shadow(h, &h->runs, o, to, i % HIDDEN_RAYS)) {
+            return 0;
+        }
+    }
+    h->first[LMB_PROBE_TEXELS * HIDDEN_RAYS] = h->runs.count;
+    h->has_ground = 1;
+    return 1;
+}
+
+void hidden_free(hidden *h)
+{
+    for (uint32_t i = 0; h->part != NULL && i < h->parts; ++i) {
+        free(h->part[i].memory);
+        free(h->part[i].at);
+        free(h->part[i].normal);
+        free(h->part[i].open);
+        free(h->part[i].blocked);
+    }
+    free(h->part);
+    free(h->runs.run);
+    free(h->instances);
+    free(h->sheared);
+    for (int i = 0; i < 3; ++i) {
+        free(h->memory[i]);
+    }
+}

@@ -1,0 +1,67 @@
+/* relight_hidden.h: what an object hides from its own vertices and from the ground below it, by direction: found once. */
+#ifndef RELIGHT_HIDDEN_H
+#define RELIGHT_HIDDEN_H
+
+#include "relight_figures.h"
+
+enum {
+    HIDDEN_SIDE = 128, /* texels of the ground around an object */
+    HIDDEN_RAYS = 4    /* of a direction, each with a shadow of its own on the ground */
+};
+
+#define HIDDEN_LOWEST 0.05f /* sine of the height from which on light throws shadows on the ground */
+
+/* Texels from .. to of a row of the ground lie in the shadow of a part. */
+typedef struct hidden_run {
+    uint8_t row, from, to, part; /* parts past the 256th count as the last */
+} hidden_run;
+
+typedef struct hidden_runs {
+    hidden_run *run;
+    uint32_t count, cap;
+} hidden_runs;
+
+/* A part of the object: places are from the middle of its box's bottom, m. Flat surfaces meet at vertices with other
+ * light, so their corners are vertices of their own in `mesh`. */
+typedef struct hidden_part {
+    lmb_mesh mesh;
+    void *memory;
+    lmb_vec3 *at, *normal;                 /* by vertex: a little off the surface; unit */
+    float *open;                           /* by vertex: the part of light from everywhere that reaches it */
+    uint64_t (*blocked)[LMB_PROBE_TEXELS]; /* by 64 vertices and direction: a bit each */
+} hidden_part;
+
+typedef struct hidden {
+    hidden_part *part;
+    uint32_t parts;
+    lmb_vec3 middle; /* of its box */
+    float radius;    /* of a sphere around that, m */
+    float height, wide, deep, corner_x, corner_z; /* m: of the object over the ground; the ground's sides and corner */
+    int has_ground;
+    uint32_t first[LMB_PROBE_TEXELS * HIDDEN_RAYS + 1]; /* runs by direction and ray */
+    hidden_runs runs;
+    lmb_scene scene; /* the object, its foot at 0, 0, 0: all figures alike */
+    lmb_bvh bvh;     /* of it */
+    lmb_instance *instances, *sheared;
+    lmb_surface depth, id;
+    void *memory[3];
+    lmb_traversal traversal;
+} hidden;
+
+/* hidden_make: of the first figure's own vertices, where they are not known yet. hidden_ground: of the ground so far
+ * below it, where it is not known. hidden_shadow: add the runs of one more direction; `ray` moves the texels by a
+ * quarter. 1, or 0: out of memory. */
+int hidden_make(hidden *inout, const figures *f, const relight_options *o, const float *directions);
+int hidden_ground(hidden *inout, const figures *f, const relight_options *o, float height);
+int hidden_shadow(hidden *inout, hidden_runs *runs, const relight_options *o, lmb_vec3 to, int ray);
+
+/* Where a figure stands: the middle of its box's bottom. */
+lmb_vec3 hidden_foot(const figures *f, uint32_t figure);
+
+/* The vertex of a mesh's corner; the product of two directions. */
+uint32_t hidden_vertex(const lmb_mesh *m, uint32_t corner);
+float hidden_dot(lmb_vec3 a, lmb_vec3 b);
+
+void hidden_free(hidden *h);
+
+#endif

@@ -1,0 +1,196 @@
+/* relight_lobes.c: bands of a picture with the ground that objects darken, which lobes mirror, as they do the object. */
+#include "relight_contact.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The part of the world that vertex i of a part sees of a direction, between its four nearest of the reduced cube. */
+static float vertex_open(const hidden_part *p, uint32_t i, const uint16_t at[4], const float weight[4])
+{
+    const uint64_t *blocked = p->blocked[i / LMB_TILE_PIXELS];
+    float open = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+        open += blocked[at[k]] >> (i % LMB_TILE_PIXELS) & 1 ? 0.0f : weight[k];
+    }
+    return open;
+}
+
+/* The four nearest of the reduced cube's directions: probe.h. */
+static void nearest_four(uint16_t at[4], float weight[4], const uint16_t *fold, lmb_vec3 d)
+{
+    enum { N = LMB_PROBE_SIDE, WIDE = LMB_PROBE_SIDE + 2 };
+    const float x = fabsf(d.x), y = fabsf(d.y), z = fabsf(d.z);
+    const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    const float along = axis == 0 ? d.x : axis == 1 ? d.y : d.z, size = 1.0f / fmaxf(fabsf(along), 1e-6f);
+    const int face = 2 * axis + (along < 0.0f), sign = along < 0.0f ? -1 : 1;
+    const float s = (axis == 0 ? -(float)sign * d.z : axis == 1 ? d.x : (float)sign * d.x) * size,
+                t = (axis == 1 ? (float)sign * d.z : -d.y) * size;
+    const float u = fminf(fmaxf((s + 1.0f) * (0.5f * N) + 0.5f, 0.0f), (float)N + 0.999f),
+                v = fminf(fmaxf((t + 1.0f) * (0.5f * N) + 0.5f, 0.0f), (float)N + 0.999f);
+    const int ix = (int)u, iy = (int)v;
+    for (int k = 0; k < 4; ++k) {
+        const float wx = k & 1 ? u - (float)ix : 1.0f - (u - (float)ix), wy = k & 2 ? v - (float)iy : 1.0f - (v - (float)iy);
+        at[k] = fold[(face * WIDE + iy + (k >> 1)) * WIDE + ix + (k & 1)];
+        weight[k] = wx * wy;
+    }
+}
+
+/* Shares of a triangle's corners in a place on it. */
+static void corner_shares(float out[3], const lmb_vec3 p[3], lmb_vec3 at)
+{
+    const lmb_vec3 a = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z}, b = {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z},
+                   c = {at.x - p[0].x, at.y - p[0].y, at.z - p[0].z};
+    const float aa = hidden_dot(a, a), ab = hidden_dot(a, b), bb = hidden_dot(b, b), ac = hidden_dot(a, c),
+                bc = hidden_dot(b, c), whole = aa * bb - ab * ab, per = whole > 0.0f ? 1.0f / whole : 0.0f;
+    const float s = fminf(fmaxf((bb * ac - ab * bc) * per, 0.0f), 1.0f), t = fminf(fmaxf((aa * bc - ab * ac) * per, 0.0f), 1.0f - s);
+    out[0] = 1.0f - s - t;
+    out[1] = s;
+    out[2] = t;
+}
+
+/* Of pixel k's mirror direction; by all directions the more, the rougher it is. */
+static float pixel_open(const contact *c, const figures *f, const lmb_tile *tile, int k, const lmb_instance *in,
+                        const uint16_t near[4], const float weight[4], float alpha)
+{
+    const uint32_t instance = (uint32_t)(in - f->instances), triangle = tile->id[k] - in->first_id;
+    const hidden_part *p = &c->hidden.part[instance % c->hidden.parts];
+    const lmb_vec3 foot = c->foot[instance / c->hidden.parts],
+                   at = {tile->position[0][k] - foot.x, tile->position[1][k] - foot.y, tile->position[2][k] - foot.z};
+    uint32_t vertex[3];
+    lmb_vec3 corner[3];
+    float share[3], mirrored = 0.0f, all = 0.0f;
+    for (uint32_t i = 0; i < 3; ++i) {
+        vertex[i] = hidden_vertex(&p->mesh, 3 * triangle + i);
+        corner[i] = p->at[vertex[i]];
+    }
+    corner_shares(share, corner, at);
+    for (int i = 0; i < 3; ++i) {
+        mirrored += share[i] * vertex_open(p, vertex[i], near, weight);
+        all += share[i] * p->open[vertex[i]];
+    }
+    return mirrored + alpha * (all - mirrored);
+}
+
+/* The direction in which a mirror would look. */
+static lmb_vec3 mirrored_at(const lmb_tile *tile, const lmb_glossy *glossy, int k)
+{
+    const lmb_vec3 n = {tile->normal[0][k], tile->normal[1][k], tile->normal[2][k]},
+                   v = {glossy->towards[0][k], glossy->towards[1][k], glossy->towards[2][k]};
+    const float twice = 2.0f * hidden_dot(n, v);
+    return (lmb_vec3){twice * n.x - v.x, twice * n.y - v.y, twice * n.z - v.z};
+}
+
+static void darken_lobe(float rgb[3], const contact *c, const figures *f, const lmb_tile *tile, const lmb_glossy *glossy,
+                        int k, const lmb_instance *in)
+{
+    const uint32_t instance = (uint32_t)(in - f->instances);
+    const lmb_vec3 r = mirrored_at(tile, glossy, k);
+    const float *albedo = c->albedo[instance % c->hidden.parts];
+    uint16_t near[4];
+    float weight[4], ground[3] = {1.0f, 1.0f, 1.0f};
+    nearest_four(near, weight, c->fold, r);
+    const float open = pixel_open(c, f, tile, k, in, near, weight, sqrtf(glossy->alpha2[k]));
+    if (r.y < -HIDDEN_LOWEST) {
+        const float far = (c->ground_y - tile->position[1][k]) / r.y;
+        contact_ground_left(ground, c, tile->position[0][k] + far * r.x, tile->position[2][k] + far * r.z);
+    }
+    for (int h = 0; h < 3; ++h) {
+        float back = 0.0f;
+        for (int i = 0; i < 4; ++i) {
+            back += weight[i] * c->lights[instance / c->hidden.parts].light[near[i]].back[h];
+        }
+        rgb[h] = open * ground[h] * rgb[h] + (1.0f - open) * glossy->specular[h][k] * albedo[h] * back;
+    }
+}
+
+/* The band's lobes onto its pixels: `rows` has them in the world as it is. */
+static void add_lobes(const contact *c, const figures *f, const lmb_relight *r, lmb_relight_scratch *s,
+                      const float *rows, const lmb_surface *out, int32_t x0, int32_t y0)
+{
+    const lmb_instance *in = f->instances;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t x = x0 + k % LMB_TILE, y = k / LMB_TILE;
+        float rgb[3], *to = (float *)(void *)((uint8_t *)out->data + (y0 + y) * out->stride_bytes) + 3 * x;
+        if (!(s->glossy.pixels >> k & 1) || x >= out->width || y0 + y >= out->height) {
+            continue;
+        }
+        while (s->tile.id[k] < in->first_id || s->tile.id[k] - in->first_id >= f->scene.meshes[in->mesh].triangle_count) {
+            in = s->tile.id[k] < in->first_id ? f->instances : in + 1;
+        }
+        memcpy(rgb, rows + 3 * (y * out->width + x), sizeof rgb);
+        darken_lobe(rgb, c, f, &s->tile, &s->glossy, k, in);
+        for (int h = 0; h < 3; ++h) {
+            to[h] = (r->show == LMB_RELIGHT_GLOSSY ? 0.0f : to[h]) + rgb[h];
+        }
+    }
+}
+
+static lmb_status lobes_of_band(const contact *c, const figures *f, const lmb_relight *r, lmb_relight_scratch *s,
+                                float *rows, const lmb_surface *out, int32_t band)
+{
+    lmb_relight glossy = *r;
+    lmb_surface eight = *out;
+    eight.data = rows;
+    eight.height = LMB_TILE;
+    eight.stride_bytes = out->width * 3 * (int32_t)sizeof(float);
+    glossy.show = LMB_RELIGHT_GLOSSY;
+    lmb_status status = lmb_relight_band(&glossy, s, &eight, band);
+    if (r->show == LMB_RELIGHT_GLOSSY && status == LMB_OK) {
+        status = lmb_relight_band(&glossy, s, out, band); /* with what is behind */
+    }
+    for (int32_t x = 0; x < out->width && status == LMB_OK; x += LMB_TILE) {
+        status = lmb_resolve_tile(&s->tile, r->kernels, &r->view, r->scene, &r->eye, x, band * LMB_TILE);
+        if (status == LMB_OK && lmb_glossy_tile(&s->glossy, &s->tile, &r->view, r->scene)) {
+            add_lobes(c, f, r, s, rows, out, x, band * LMB_TILE);
+        }
+    }
+    return status;
+}
+
+/* The ray through a pixel's sample meets the ground in front of the eye? */
+static int ground_at(float out[2], const lmb_view *v, int32_t x, int32_t y, float ground_y)
+{
+    const float across = 2.0f * ((float)x + 0.5f + (float)v->sample_x * (1.0f / 256.0f)) / (float)v->frame_width - 1.0f,
+                up = 1.0f - 2.0f * ((float)y + 0.5f + (float)v->sample_y * (1.0f / 256.0f)) / (float)v->frame_height;
+    const float a = across * v->half_width, b = up * v->half_height;
+    const int is_far = v->kind == LMB_ORTHOGRAPHIC;
+    const lmb_vec3 side = {a * v->right.x + b * v->up.x, a * v->right.y + b * v->up.y, a * v->right.z + b * v->up.z};
+    const lmb_vec3 from = is_far ? (lmb_vec3){v->eye.x + side.x, v->eye.y + side.y, v->eye.z + side.z} : v->eye;
+    const lmb_vec3 along = is_far ? (lmb_vec3){-v->back.x, -v->back.y, -v->back.z}
+                                  : (lmb_vec3){side.x - v->back.x, side.y - v->back.y, side.z - v->back.z};
+    const float far = (ground_y - from.y) / along.y;
+    out[0] = from.x + far * along.x;
+    out[1] = from.z + far * along.z;
+    return along.y < 0.0f && far > 0.0f;
+}
+
+static void darken_rows(const contact *c, const lmb_relight *r, const lmb_surface *out, int32_t from, int32_t to)
+{
+    const lmb_surface *id = &r->eye.id;
+    const int32_t tiles = (id->width + LMB_TILE - 1) / LMB_TILE;
+    for (int32_t i = from * out->width; c->grounds != NULL && i < to * out->width; ++i) {
+        const int32_t x = i % out->width, y = i / out->width;
+        const uint32_t *tile = (const uint32_t *)id->data + (size_t)(y / LMB_TILE * tiles + x / LMB_TILE) * LMB_TILE_PIXELS;
+        float place[2], left[3], *rgb = (float *)(void *)((uint8_t *)out->data + y * out->stride_bytes) + 3 * x;
+        if (tile[y % LMB_TILE * LMB_TILE + x % LMB_TILE] == 0 && ground_at(place, &r->view, x, y, c->ground_y)) {
+            contact_ground_left(left, c, place[0], place[1]);
+            for (int k = 0; k < 3; ++k) {
+                rgb[k] *= left[k];
+            }
+        }
+    }
+}
+
+lmb_status contact_band(const contact *c, const figures *f, const lmb_relight *r, lmb_relight_scratch *scratch,
+                        float *rows, const lmb_surface *out, int32_t band)
+{
+    const int32_t from = band * LMB_TILE, to = from + LMB_TILE < out->height ? from + LMB_TILE : out->height;
+    lmb_status status = LMB_OK;
+    if (r->show != LMB_RELIGHT_GLOSSY) {
+        lmb_relight matte = *r;
+        matte.show = LMB_RELIGHT_NORMAL;
+        status = lmb_relight_band(&matte, scratch, out, band);
+        darken_rows(c, r, out, from, to);
+    }
+    return status != LMB_OK || r->show == LMB_RELIGHT_NORMAL ? status : lobes_of_band(c, f, r, scratch, rows, out, band);
+}
