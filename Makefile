@@ -154,6 +154,7 @@ docs: ## the reference, build/docs/html/index.html: headers, documents, the syst
 	@for header in $(HEADERS); do \
 	    awk -f tests/scripts/prototypes.awk $$header | sed "s,^,$${header##*/}|,"; done > $(BUILD)/docs/calls.txt
 	@awk -f tests/scripts/contracts.awk $(BUILD)/docs/calls.txt $(HEADERS) | awk -f tools/docs/calls.awk > $(BUILD)/docs/calls.md
+	@doxygen -l $(BUILD)/docs/layout.xml && sed -i -f tools/docs/layout.sed $(BUILD)/docs/layout.xml
 	@DOCS_TOP='$(CURDIR)' DOCS_OUT='$(BUILD)/docs' doxygen tools/docs/Doxyfile
 
 help: ## this list

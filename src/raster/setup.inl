@@ -52,7 +52,7 @@ LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, u
 
 #if defined(LANE_GATHERS_CORNERS)
 /* A whole batch of a usual mesh that reads neither past the mesh nor its last vertex, as a corner is read with the number
- * after it; 0 where it is none. */
+ * after it; 0 where it is none. First corners of the next batch, and indices of the one three further on, are asked for. */
 LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
     if (count != LMB_BATCH || mesh->vertex_count == 0 || mesh->index_format != LMB_INDEX_U32 ||
@@ -67,6 +67,12 @@ LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint
     }
     if (mask_bits(mask_not(in)) != 0) {
         return 0;
+    }
+    if (mesh->triangle_count - first >= 5 * LMB_BATCH) { /* else indices end before those that are asked for */
+        for (int k = 0; k < LMB_BATCH; ++k) {
+            MESH_SOON((const float *)mesh->positions + (size_t)vertex[3 * (LMB_BATCH + k)] * 3);
+        }
+        MESH_SOON(vertex + 12 * LMB_BATCH), MESH_SOON(vertex + 13 * LMB_BATCH), MESH_SOON(vertex + 14 * LMB_BATCH);
     }
     for (int k = 0; k < LMB_BATCH; k += LANES) {
         for (int i = 0; i < 3; ++i) {

@@ -80,10 +80,10 @@ done <"$dir/commands.txt"
 # The reference.
 if missing=$(sh tests/scripts/tools.sh need doxygen 2>&1); then
     check "make docs" ${MAKE:-make} docs
-    grep 'lmb_[a-z0-9_]*()' "$BUILD"/docs/html/md_*_docs_calls.html | grep -v href= >"$dir/lost.txt"
+    grep 'lmb_[a-z0-9_]*()' "$BUILD"/docs/html/calls.html | grep -v href= >"$dir/lost.txt"
     check "calls that have no place in the reference: $(grep -o 'lmb_[a-z0-9_]*()' "$dir/lost.txt" | head -5 | tr '\n' ' ')" \
         test ! -s "$dir/lost.txt"
-    check "few calls have links" test "$(grep -c '_8h.html#[^"]*">lmb_' "$BUILD"/docs/html/md_*_docs_calls.html)" -ge 200
+    check "few calls have links" test "$(grep -c '_8h.html#[^"]*">lmb_' "$BUILD"/docs/html/calls.html)" -ge 200
     modules=$BUILD/web/modules
     if ! command -v node >/dev/null || ! command -v npm >/dev/null || [ ! -x "${CHROMIUM:-/usr/bin/chromium}" ]; then
         skip "the reference in a browser: needs node, npm and chromium"

@@ -141,6 +141,7 @@ static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_win
 {
     fill_slopes slopes;
     fill_part part;
+    fill_places places;
     lane_mask halves[2];
     b->x0[0] = x;
     b->y0[0] = y;
@@ -150,7 +151,10 @@ static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_win
         const int px = p % PARTS_SIDE, py = p / PARTS_SIDE;
         if (mask_bits(parts_set(part.d, part.e, halves, &slopes, w, b, 0, lanei_splat(px), lanei_splat(py), 0))) {
             parts_draw(w, b, 0, px, py, part.e[0][0], part.e[1][0], part.e[2][0], part.d[0], slopes.dx[0],
-                       slopes.dy[0], 1u, ROWS_LOWER, FILL_PLAIN, 0);
+                       slopes.dy[0], 1u, FILL_PLAIN, 0);
+            places.d[0][0] = part.d[0];
+            places.at[0][0] = 0;
+            parts_put(&places, &slopes, w, b, 0, 0, p, ROWS_LOWER, 0);
         }
     }
     parts_wide(w, b, 0, 1u, FILL_PLAIN, 0);

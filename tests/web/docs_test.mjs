@@ -16,10 +16,13 @@ const looked = pages.filter((name, i) => !/^(struct|union)/.test(name) || i % 10
 for (const name of looked) {
     await page.setViewportSize({ width: 1280, height: 800 });
     await page.goto(server.url + name);
-    for (const width of [1280, 390]) {
+    for (const width of [1280, 360]) {
         await page.setViewportSize({ width, height: 800 });
         const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
         check(`${name} at ${width} px is not too wide`, wide <= 0, `by ${wide} px`);
+        const squeezed = await page.evaluate(() => [...document.querySelectorAll('div.memproto')].filter(
+            (e) => e.clientWidth < 0.9 * e.parentElement.clientWidth).length);
+        check(`${name} at ${width} px has whole prototypes`, !squeezed, `${squeezed} are squeezed`);
         if (['index.html', 'bounce_page.html', 'render_8h.html'].includes(name))
             await page.screenshot({ path: `${shots}/${name.replace('.html', '')}_${width}.png` });
     }
@@ -32,6 +35,15 @@ for (const name of pages) {
     const text = fs.readFileSync(path.join(folder, name), 'utf8');
     anchors[name] = new Set([...text.matchAll(/ (?:id|name)="([^"]*)"/g)].map((m) => m[1]));
     links[name] = [...text.matchAll(/ (?:href|src|data)="([^"]*)"/g)].map((m) => m[1].replaceAll('&amp;', '&'));
+}
+
+// The menu names what is there, and long pages begin with their contents.
+await page.goto(server.url);
+const menu = await page.innerText('#main-menu');
+check('the menu', ['Guides', 'All calls', 'Structs', 'Headers'].every((word) => menu.includes(word)), menu);
+for (const name of ['index.html', 'calls.html', 'md_tests_results_README.html']) {
+    await page.goto(server.url + name);
+    check(`${name} has its contents`, await page.evaluate(() => document.querySelectorAll('div.toc a').length) > 5, '');
 }
 
 // Every link of every page leads to a file and, behind #, to a place in it. Links to other sites are not followed.

@@ -1,7 +1,7 @@
 # calls.awk: what contracts.awk prints as a page: each call, how stable it is, what it does and returns.
 BEGIN {
     FS = "|"
-    print "# All calls"
+    print "# All calls {#calls}"
     print ""
     print "Each header says how stable it is; `types.h` says what a new version may change of it. Every call may be given"
     print "NULL, structs of zeros and numbers out of range (`types.h`); none takes more than 4 KiB of stack. Ranges, units"
