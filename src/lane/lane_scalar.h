@@ -36,13 +36,6 @@
     } while (0)
 #endif
 
-/* gcc calls these where a function has grown large: fills with ids took up to 1.8 times as long. */
-#if defined(__GNUC__) && !defined(__clang__) && LANES > 1
-#define LANE_EACH static inline __attribute__((always_inline))
-#else
-#define LANE_EACH static inline
-#endif
-
 typedef struct lane {
     float v[LANES];
 } lane;
@@ -64,8 +57,19 @@ static inline lane lane_sub(lane a, lane b) { EACH(a.v[i] = a.v[i] - b.v[i]); re
 static inline lane lane_mul(lane a, lane b) { EACH(a.v[i] = a.v[i] * b.v[i]); return a; }
 static inline lane lane_div(lane a, lane b) { EACH(a.v[i] = a.v[i] / b.v[i]); return a; }
 static inline lane lane_sqrt(lane a) { EACH(a.v[i] = sqrtf(a.v[i])); return a; }
-LANE_EACH lane lane_min(lane a, lane b) { EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
-LANE_EACH lane lane_max(lane a, lane b) { EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline lane lane_min(lane a, lane b) { EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline lane lane_max(lane a, lane b) { EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
+/* lane_min(lane_max(a, low), high), but written out: gcc calls those where a function has grown large, and fills with ids
+ * took up to 1.8 times as long. */
+#if defined(__GNUC__) && !defined(__clang__) && LANES > 1
+#define LANE_HAS_HOLD
+static inline __attribute__((always_inline)) lane lane_hold(lane a, lane low, lane high)
+{
+    EACH(a.v[i] = a.v[i] > low.v[i] ? a.v[i] : low.v[i]);
+    EACH(a.v[i] = a.v[i] < high.v[i] ? a.v[i] : high.v[i]);
+    return a;
+}
+#endif
 static inline lane_mask lane_lt(lane a, lane b) { lane_mask r; EACH(r.v[i] = a.v[i] < b.v[i] ? ~0u : 0u); return r; }
 static inline lane_mask lane_le(lane a, lane b) { lane_mask r; EACH(r.v[i] = a.v[i] <= b.v[i] ? ~0u : 0u); return r; }
 static inline lane lane_pick(lane_mask m, lane a, lane b) { EACH(a.v[i] = m.v[i] ? a.v[i] : b.v[i]); return a; }

@@ -154,7 +154,7 @@ LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *codi
     for (int32_t y = box->first_row; y <= box->last_row; y += FILL_ROWS) {
         lane_mask in = lanei_not_negative(lanei_or(lanei_or(e0, e1), e2));
         lane depth = lane_add(fill_row_depth(d, t->per_row, y, (float)y), t->step_d[i]);
-        depth = lane_min(lane_max(depth, t->d_min), t->d_max);
+        depth = lane_hold(depth, t->d_min, t->d_max);
         if (tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_FORMAT_NONE) {
             float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
             lane old = lane_load_rows(p, tile->depth_step);
@@ -176,7 +176,7 @@ enum { FILL_PAIR = LANES > 1 ? 2 * LANES / LMB_TILE : 1 };
 LANE_INLINE lane fill_code(lane d, const fill_triangle *t, const lmb_fill_job *job, int clamped)
 {
     if (clamped) {
-        d = lane_min(lane_max(d, t->d_min), t->d_max);
+        d = lane_hold(d, t->d_min, t->d_max);
     }
     return lane_add(lane_mul(d, lane_splat(job->d_scale)), lane_splat(job->d_bias));
 }
@@ -239,7 +239,7 @@ LANE_INLINE void fill_inside(const lmb_fill_tile *tile, const lmb_fill_job *job,
         for (int32_t i = 0; i < FILL_ACROSS; ++i) {
             lane depth = lane_add(at, t->step_d[i]);
             if (clamped) {
-                depth = lane_min(lane_max(depth, t->d_min), t->d_max);
+                depth = lane_hold(depth, t->d_min, t->d_max);
             }
             if (tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_FORMAT_NONE) {
                 float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
