@@ -64,6 +64,11 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 }
 #endif
 
+/* At least `low`, then at most `high`. A backend's header may have its own. */
+#ifndef LANE_HAS_HOLD
+static inline lane lane_hold(lane a, lane low, lane high) { return lane_min(lane_max(a, low), high); }
+#endif
+
 /* The lowest of a vector's values. A backend's header may have its own. */
 #ifndef LANE_HAS_LOWEST
 static inline float lane_lowest(lane a)

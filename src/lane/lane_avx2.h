@@ -185,6 +185,13 @@ static inline void lane_store_u16(uint16_t *p, int32_t step, lane a)
     (void)step;
     _mm_storeu_si128((__m128i *)(void *)p, avx2_narrow(_mm256_cvttps_epi32(a)));
 }
+static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
+{
+    const __m256i mixed = _mm256_packus_epi32(_mm256_cvttps_epi32(a), _mm256_cvttps_epi32(b));
+    const __m256i code = _mm256_permute4x64_epi64(mixed, _MM_SHUFFLE(3, 1, 2, 0));
+    __m256i *at = (__m256i *)(void *)p;
+    _mm256_storeu_si256(at, _mm256_max_epu16(_mm256_loadu_si256(at), code));
+}
 static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
 {
     __m128i *at = (__m128i *)(void *)p;

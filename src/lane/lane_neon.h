@@ -127,6 +127,11 @@ static inline void lane_store_u16(uint16_t *p, int32_t step, lane a)
     (void)step;
     vst1_u16(p, vmovn_u32(vcvtq_u32_f32(a)));
 }
+static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
+{
+    const uint16x8_t code = vcombine_u16(vqmovn_u32(vcvtq_u32_f32(a)), vqmovn_u32(vcvtq_u32_f32(b)));
+    vst1q_u16(p, vmaxq_u16(vld1q_u16(p), code));
+}
 static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
 {
     (void)step;

@@ -125,6 +125,11 @@ static inline void lane_store_u16(uint16_t *p, int32_t step, lane a)
     (void)step;
     wasm_v128_store64_lane(p, wasm_u16x8_narrow_i32x4(code, code), 0);
 }
+static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
+{
+    v128_t code = wasm_u16x8_narrow_i32x4(wasm_i32x4_trunc_sat_f32x4(a), wasm_i32x4_trunc_sat_f32x4(b));
+    wasm_v128_store(p, wasm_u16x8_max(wasm_v128_load(p), code));
+}
 static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
 {
     v128_t narrow = wasm_i16x8_narrow_i32x4(m, m);

@@ -133,6 +133,18 @@ static inline void lane_store_u16(uint16_t *p, int32_t step, lane a)
     (void)step;
     _mm_storel_epi64((__m128i *)(void *)p, _mm_xor_si128(_mm_packs_epi32(code, code), _mm_set1_epi16(-32768)));
 }
+/* Subtracted with saturation and added again: the larger of both. */
+static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
+{
+    const __m128 zero = _mm_setzero_ps();
+    const __m128i middle = _mm_set1_epi32(32768);
+    const __m128i low = _mm_sub_epi32(_mm_cvttps_epi32(_mm_max_ps(a, zero)), middle),
+                  high = _mm_sub_epi32(_mm_cvttps_epi32(_mm_max_ps(b, zero)), middle);
+    const __m128i code = _mm_xor_si128(_mm_packs_epi32(low, high), _mm_set1_epi16(-32768));
+    __m128i *at = (__m128i *)(void *)p;
+    const __m128i old = _mm_loadu_si128(at);
+    _mm_storeu_si128(at, _mm_add_epi16(_mm_subs_epu16(code, old), old));
+}
 static inline __m128i sse2_blend(__m128i m, __m128i a, __m128i b)
 {
     return _mm_or_si128(_mm_and_si128(m, a), _mm_andnot_si128(m, b));

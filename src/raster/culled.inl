@@ -58,14 +58,13 @@ LANE_INLINE float *culled_bound(const lmb_fill_window *w, ptrdiff_t across, ptrd
 LANE_INLINE void culled_cross(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t,
                               const int32_t e[3], const fill_box *box, float *bound, int kind)
 {
-    if (kind != FILL_ANY) {
+    if (kind == FILL_PLAIN || kind == FILL_ID32) {
         fill_rows r;
         large_rows(&r, tile, t, e);
         rows_draw(&r, job->d, t->per_row, ROWS_ALL, kind);
         rows_raise(bound, r.lowest);
         return;
     }
-    (void)kind;
     small_tile(tile, job, t, e[0], e[1], e[2], box);
     *bound = culled_look(tile);
 }
@@ -115,7 +114,7 @@ LANE_INLINE void culled_ask(culled_tiles *out, lane first, const culled_plane *p
 
 NOINLINE void culled_small_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
-    parts_fill_plain(w, b, bits, 1);
+    parts_fill_plain(w, b, bits, FILL_PLAIN, 1);
 }
 
 NOINLINE void culled_small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
@@ -190,7 +189,7 @@ LANE_INLINE void culled_large_run(const culled_row *r, const culled_tiles *tiles
         r->job->d = d[i];
         if (tiles->leaves >> i & 1u) {
             fill_inside(r->tile, r->job, r->t, 1);
-        } else if (kind == FILL_ANY) {
+        } else if (kind != FILL_PLAIN && kind != FILL_ID32) {
             fill_inside(r->tile, r->job, r->t, 0);
         } else {
             large_whole(r->tile, r->whole, d[i], kind);
@@ -271,6 +270,7 @@ LANE_INLINE void culled_large_fill(const lmb_fill_window *w, const lmb_setup *s,
     job.d_bias = w->d_bias;
     job.id = id;
     fill_set(&t, s->ex, s->ey, &job);
+    t.codes = kind == FILL_CODES;
     large_set(&edges, s, (w->x0 + tx * LMB_TILE) * 256 + w->origin_x, (w->y0 + ty * LMB_TILE) * 256 + w->origin_y);
     large_plane_set(&whole, &t);
     plane.d_origin = s->d_origin;
@@ -301,6 +301,11 @@ NOINLINE void culled_large_id32(const lmb_fill_window *w, const lmb_setup *s, ui
     culled_large_fill(w, s, id, FILL_ID32);
 }
 
+NOINLINE void culled_large_codes(const lmb_fill_window *w, const lmb_setup *s)
+{
+    culled_large_fill(w, s, 0, FILL_CODES);
+}
+
 NOINLINE void culled_large_any(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
     culled_large_fill(w, s, id, FILL_ANY);
@@ -308,7 +313,8 @@ NOINLINE void culled_large_any(const lmb_fill_window *w, const lmb_setup *s, uin
 
 static void KERNEL(culled_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
-    switch (fill_kind(&w->first)) {
+    switch (fill_kind(w)) {
+    case FILL_CODES: culled_large_codes(w, s); break;
     case FILL_PLAIN: culled_large_plain(w, s); break;
     case FILL_ID32: culled_large_id32(w, s, id); break;
     default: culled_large_any(w, s, id); break;

@@ -66,14 +66,19 @@ LANE_INLINE void fill_pixels(const lmb_fill_tile *tile, const lmb_fill_job *job,
 /* Vectors beside each other in a row of tiles' pixels, and rows that one covers. */
 enum { FILL_ACROSS = LANES < LMB_TILE ? LMB_TILE / LANES : 1, FILL_ROWS = LANES < LMB_TILE ? 1 : LANES / LMB_TILE };
 
-/* Tiled float depth has code of its own, without ids and with 32-bit ones; but not in a backend of one lane, where size
- * counts. */
-enum { FILL_ANY, FILL_PLAIN, FILL_ID32 };
+/* Tiled depth has code of its own: floats without ids and with 32-bit ones, and 16-bit codes without; but not in a
+ * backend of one lane, where size counts. */
+enum { FILL_ANY, FILL_PLAIN, FILL_ID32, FILL_CODES };
 
-LANE_INLINE int fill_kind(const lmb_fill_tile *tile)
+LANE_INLINE int fill_kind(const lmb_fill_window *w)
 {
-    if (LANES == 1 || tile->depth_format != LMB_DEPTH32F || tile->depth_step != LMB_TILE) {
+    const lmb_fill_tile *tile = &w->first;
+    if (LANES == 1 || tile->depth_step != LMB_TILE) {
         return FILL_ANY;
+    }
+    if (tile->depth_format != LMB_DEPTH32F) {
+        /* No depth is above 1, and products and sums round monotonically: so no code is above the one of 1. */
+        return tile->id_format == LMB_FORMAT_NONE && w->d_scale + w->d_bias < 65536.0f ? FILL_CODES : FILL_ANY;
     }
     if (tile->id_format == LMB_FORMAT_NONE) {
         return FILL_PLAIN;
@@ -86,7 +91,7 @@ LANE_INLINE lmb_fill_tile fill_first(const lmb_fill_window *w, int kind)
 {
     lmb_fill_tile tile = w->first;
     if (kind != FILL_ANY) {
-        tile.depth_format = LMB_DEPTH32F;
+        tile.depth_format = kind == FILL_CODES ? LMB_DEPTH16 : LMB_DEPTH32F;
         tile.id_format = kind == FILL_ID32 ? LMB_ID32 : LMB_FORMAT_NONE;
 /* gcc -O2 would join four plain stores, and wait for them at the next load: 1.8 times slower. */
 #if !defined(LANE_PLAIN)
@@ -105,6 +110,7 @@ typedef struct fill_triangle {
     float per_row;
     int32_t ex[3], ey[3];
     uint32_t id;
+    int codes; /* is the target's kind FILL_CODES? */
 } fill_triangle;
 
 /* Rows and vectors of a tile that the triangle's box covers. */
@@ -148,7 +154,7 @@ LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *codi
     for (int32_t y = box->first_row; y <= box->last_row; y += FILL_ROWS) {
         lane_mask in = lanei_not_negative(lanei_or(lanei_or(e0, e1), e2));
         lane depth = lane_add(fill_row_depth(d, t->per_row, y, (float)y), t->step_d[i]);
-        depth = lane_min(lane_max(depth, t->d_min), t->d_max);
+        depth = lane_hold(depth, t->d_min, t->d_max);
         if (tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_FORMAT_NONE) {
             float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
             lane old = lane_load_rows(p, tile->depth_step);
@@ -162,16 +168,78 @@ LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *codi
     }
 }
 
+/* Rows of two vectors. */
+enum { FILL_PAIR = LANES > 1 ? 2 * LANES / LMB_TILE : 1 };
+
+#if LANES > 1
+/* Codes of depths of the triangle, before they are held to 16 bits. */
+LANE_INLINE lane fill_code(lane d, const fill_triangle *t, const lmb_fill_job *job, int clamped)
+{
+    if (clamped) {
+        d = lane_hold(d, t->d_min, t->d_max);
+    }
+    return lane_add(lane_mul(d, lane_splat(job->d_scale)), lane_splat(job->d_bias));
+}
+
+/* Column and row of the second vector of a pair. */
+enum { FILL_NEXT_COLUMN = FILL_ACROSS - 1, FILL_NEXT_ROW = FILL_ACROSS > 1 ? 0 : FILL_ROWS };
+
+/* Rows first .. last of a tile of codes. e: the edges at the tile's pixel (0, first), which is a multiple of FILL_PAIR. */
+LANE_INLINE void fill_codes_rows(uint16_t *p, const lmb_fill_job *job, const fill_triangle *t, const int32_t e[3],
+                                 float d, int32_t first, int32_t last)
+{
+    const lanei down0 = lanei_splat(t->ey[0] * FILL_PAIR), down1 = lanei_splat(t->ey[1] * FILL_PAIR),
+                down2 = lanei_splat(t->ey[2] * FILL_PAIR);
+    lanei a0 = lanei_add(lanei_splat(e[0]), t->step[0][0]), a1 = lanei_add(lanei_splat(e[1]), t->step[1][0]),
+          a2 = lanei_add(lanei_splat(e[2]), t->step[2][0]);
+    const int32_t to[3] = {t->ey[0] * FILL_NEXT_ROW, t->ey[1] * FILL_NEXT_ROW, t->ey[2] * FILL_NEXT_ROW};
+    lanei b0 = lanei_add(lanei_splat(e[0] + to[0]), t->step[0][FILL_NEXT_COLUMN]),
+          b1 = lanei_add(lanei_splat(e[1] + to[1]), t->step[1][FILL_NEXT_COLUMN]),
+          b2 = lanei_add(lanei_splat(e[2] + to[2]), t->step[2][FILL_NEXT_COLUMN]);
+    for (int32_t y = first; y <= last; y += FILL_PAIR) {
+        const lane_mask in_a = lanei_not_negative(lanei_or(lanei_or(a0, a1), a2)),
+                        in_b = lanei_not_negative(lanei_or(lanei_or(b0, b1), b2));
+        const lane row = fill_row_depth(d, t->per_row, y, (float)y),
+                   next = FILL_NEXT_ROW > 0 ? fill_row_depth(d, t->per_row, y + FILL_NEXT_ROW, 0.0f) : row;
+        lane_raise_u16(p + y * LMB_TILE, lane_keep(in_a, fill_code(lane_add(row, t->step_d[0]), t, job, 1)),
+                       lane_keep(in_b, fill_code(lane_add(next, t->step_d[FILL_NEXT_COLUMN]), t, job, 1)));
+        a0 = lanei_add(a0, down0);
+        a1 = lanei_add(a1, down1);
+        a2 = lanei_add(a2, down2);
+        b0 = lanei_add(b0, down0);
+        b1 = lanei_add(b1, down1);
+        b2 = lanei_add(b2, down2);
+    }
+}
+
+/* All of a tile of codes. */
+LANE_INLINE void fill_codes_inside(uint16_t *p, const lmb_fill_job *job, const fill_triangle *t, int clamped)
+{
+    for (int32_t y = 0; y < LMB_TILE; y += FILL_PAIR) {
+        const lane row = fill_row_depth(job->d, t->per_row, y, (float)y),
+                   next = FILL_NEXT_ROW > 0 ? fill_row_depth(job->d, t->per_row, y + FILL_NEXT_ROW, 0.0f) : row;
+        lane_raise_u16(p + y * LMB_TILE, fill_code(lane_add(row, t->step_d[0]), t, job, clamped),
+                       fill_code(lane_add(next, t->step_d[FILL_NEXT_COLUMN]), t, job, clamped));
+    }
+}
+#endif
+
 /* A tile that no edge crosses. `clamped`: the plane may leave the triangle's range. */
 LANE_INLINE void fill_inside(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, int clamped)
 {
     float row = 0.0f;
+#if LANES > 1
+    if (t->codes) {
+        fill_codes_inside((uint16_t *)tile->depth, job, t, clamped);
+        return;
+    }
+#endif
     for (int32_t y = 0; y < LMB_TILE; y += FILL_ROWS, row += (float)FILL_ROWS) {
         const lane at = fill_row_depth(job->d, t->per_row, y, row);
         for (int32_t i = 0; i < FILL_ACROSS; ++i) {
             lane depth = lane_add(at, t->step_d[i]);
             if (clamped) {
-                depth = lane_min(lane_max(depth, t->d_min), t->d_max);
+                depth = lane_hold(depth, t->d_min, t->d_max);
             }
             if (tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_FORMAT_NONE) {
                 float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
@@ -199,6 +267,7 @@ LANE_INLINE void fill_set(fill_triangle *t, const int32_t ex[3], const int32_t e
     t->d_min = lane_splat(job->d_min);
     t->d_max = lane_splat(job->d_max);
     t->id = job->id;
+    t->codes = 0;
     t->ex[0] = ex[0], t->ex[1] = ex[1], t->ex[2] = ex[2];
     t->ey[0] = ey[0], t->ey[1] = ey[1], t->ey[2] = ey[2];
     for (int i = 0; i < FILL_ACROSS; ++i) {

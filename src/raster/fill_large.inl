@@ -82,8 +82,14 @@ LANE_INLINE void large_crossed(const lmb_fill_tile *tile, const lmb_fill_job *jo
 {
     static const fill_box whole = {0, LMB_TILE - 1, 0, FILL_ACROSS - 1};
     const int32_t e[3] = {large_near(at.a), large_near(at.b), large_near(at.c)};
+#if LANES > 1
+    if (t->codes) {
+        fill_codes_rows((uint16_t *)tile->depth, job, t, e, job->d, 0, LMB_TILE - 1);
+        return;
+    }
+#endif
 #if LANES >= LMB_TILE
-    if (kind != FILL_ANY) {
+    if (kind == FILL_PLAIN || kind == FILL_ID32) {
         fill_rows r;
         large_rows(&r, tile, t, e);
         rows_draw(&r, job->d, t->per_row, ROWS_ALL, kind);
@@ -230,7 +236,7 @@ LANE_INLINE void large_run(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fi
                            const large_plane *plane, const float *d, int32_t count, int clamped, int kind)
 {
 #if LANES >= LMB_TILE
-    if (kind != FILL_ANY && !clamped) {
+    if ((kind == FILL_PLAIN || kind == FILL_ID32) && !clamped) {
         for (int32_t i = 0; i < count; ++i) {
             large_whole(tile, plane, d[i], kind);
             large_next(w, tile, 1);
@@ -314,6 +320,7 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
     job.d_bias = w->d_bias;
     job.id = id;
     fill_set(&t, s->ex, s->ey, &job);
+    t.codes = kind == FILL_CODES;
 #if LANES >= LMB_TILE
     large_plane_set(&plane, &t);
 #endif
@@ -332,7 +339,8 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
 
 static void KERNEL(fill_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
-    switch (fill_kind(&w->first)) {
+    switch (fill_kind(w)) {
+    case FILL_CODES: large_fill(w, s, id, FILL_CODES); break;
     case FILL_PLAIN: large_fill(w, s, id, FILL_PLAIN); break;
     case FILL_ID32: large_fill(w, s, id, FILL_ID32); break;
     default: large_fill(w, s, id, FILL_ANY); break;

@@ -121,6 +121,9 @@ LANE_INLINE void parts_draw(const lmb_fill_window *w, const lmb_batch *b, int k,
     r.d_min = lane_splat(b->d_min[k]);
     r.d_max = lane_splat(b->d_max[k]);
     r.depth = (float *)(void *)((uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile);
+    r.codes = (uint16_t *)(void *)r.depth;
+    r.scale = lane_splat(w->d_scale);
+    r.bias = lane_splat(w->d_bias);
     r.ids = kind == FILL_ID32 ? (uint32_t *)(void *)((uint8_t *)w->first.id + down * w->id_row + across * w->id_tile)
                               : NULL;
     r.id = id;
@@ -214,7 +217,8 @@ LANE_INLINE lanei parts_edge(const lmb_batch *b, int i, int k, int p, int rows)
 
 /* Tile i of those that go together, which is tile p of triangle k. */
 LANE_INLINE void parts_put(const fill_places *places, const fill_slopes *slopes, const lmb_fill_window *w,
-                           const lmb_batch *b, int k, int i, int p, int rows, int bounded)
+                           const lmb_batch *b, int k, int i, int p, int rows, int kind,
+                            int bounded)
 {
     fill_rows r;
     r.e0 = parts_edge(b, 0, k, p, rows);
@@ -227,9 +231,12 @@ LANE_INLINE void parts_put(const fill_places *places, const fill_slopes *slopes,
     r.d_min = lane_splat(b->d_min[k]);
     r.d_max = lane_splat(b->d_max[k]);
     r.depth = (float *)(void *)((uint8_t *)w->first.depth + places->at[i][k]);
+    r.codes = (uint16_t *)(void *)r.depth;
+    r.scale = lane_splat(w->d_scale);
+    r.bias = lane_splat(w->d_bias);
     r.ids = NULL;
     r.id = 0;
-    rows_draw(&r, places->d[i][k], slopes->dy[k], rows, FILL_PLAIN);
+    rows_draw(&r, places->d[i][k], slopes->dy[k], rows, kind);
 #if LMB_CULLING
     if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
         const ptrdiff_t across = ((b->x0[k] - w->x0) >> 3) + p % PARTS_SIDE,
@@ -252,9 +259,13 @@ LANE_INLINE int parts_lowest(uint64_t bits)
 }
 
 /* Reads a tile, or half of one, that will be drawn to soon. */
-LANE_INLINE void parts_soon(const fill_places *places, const lmb_fill_window *w, int bit, int rows)
+LANE_INLINE void parts_soon(const fill_places *places, const lmb_fill_window *w, int bit, int rows, int kind)
 {
     const uint8_t *depth = (const uint8_t *)w->first.depth + places->at[bit / LMB_BATCH][bit % LMB_BATCH];
+    if (kind == FILL_CODES) {
+        MESH_SOON(depth), MESH_SOON(depth + 64);
+        return;
+    }
     if (rows != ROWS_LOWER) {
         MESH_SOON(depth), MESH_SOON(depth + 64);
     }
@@ -264,32 +275,32 @@ LANE_INLINE void parts_soon(const fill_places *places, const lmb_fill_window *w,
 }
 
 /* Of tiles `rows`, those after the first PARTS_AHEAD, which are read; none where all stay in the cache. */
-LANE_INLINE uint64_t parts_begin(const fill_places *places, const lmb_fill_window *w, int rows)
+LANE_INLINE uint64_t parts_begin(const fill_places *places, const lmb_fill_window *w, int rows, int kind)
 {
     uint64_t left = (int64_t)w->depth_row * w->tiles_y > PARTS_CACHED ? places->rows[rows] : 0;
     for (int n = 0; n < PARTS_AHEAD && left != 0; ++n, left &= left - 1) {
-        parts_soon(places, w, parts_lowest(left), rows);
+        parts_soon(places, w, parts_lowest(left), rows, kind);
     }
     return left;
 }
 
 /* ahead: what parts_begin left. */
 LANE_INLINE void parts_put_all(const fill_places *places, const fill_slopes *slopes, const lmb_fill_window *w,
-                               const lmb_batch *b, uint64_t ahead, int first, int rows, int bounded)
+                               const lmb_batch *b, uint64_t ahead, int first, int rows, int kind, int bounded)
 {
     for (uint64_t left = places->rows[rows]; left != 0; left &= left - 1) {
         const int bit = parts_lowest(left), k = bit % LMB_BATCH, i = bit / LMB_BATCH;
         if (ahead != 0) {
-            parts_soon(places, w, parts_lowest(ahead), rows);
+            parts_soon(places, w, parts_lowest(ahead), rows, kind);
             ahead &= ahead - 1;
         }
-        parts_put(places, slopes, w, b, k, i, parts_order[first + i], rows, bounded);
+        parts_put(places, slopes, w, b, k, i, parts_order[first + i], rows, kind, bounded);
     }
 }
 
 /* Tiles `first` and on, in parts_order, of triangles `bits`. */
 LANE_INLINE void parts_together(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
-                                int first, int bounded)
+                                int first, int kind, int bounded)
 {
     fill_places places;
     places.rows[0] = places.rows[1] = places.rows[2] = 0;
@@ -302,12 +313,12 @@ LANE_INLINE void parts_together(const fill_slopes *slopes, const lmb_fill_window
         places.rows[ROWS_UPPER] = places.rows[ROWS_LOWER] = 0;
     }
 #endif
-    const uint64_t ahead = parts_begin(&places, w, ROWS_ALL),
-                   ahead_upper = parts_begin(&places, w, ROWS_UPPER),
-                   ahead_lower = parts_begin(&places, w, ROWS_LOWER);
-    parts_put_all(&places, slopes, w, b, ahead, first, ROWS_ALL, bounded);
-    parts_put_all(&places, slopes, w, b, ahead_upper, first, ROWS_UPPER, 0);
-    parts_put_all(&places, slopes, w, b, ahead_lower, first, ROWS_LOWER, 0);
+    const uint64_t ahead = parts_begin(&places, w, ROWS_ALL, kind),
+                   ahead_upper = parts_begin(&places, w, ROWS_UPPER, kind),
+                   ahead_lower = parts_begin(&places, w, ROWS_LOWER, kind);
+    parts_put_all(&places, slopes, w, b, ahead, first, ROWS_ALL, kind, bounded);
+    parts_put_all(&places, slopes, w, b, ahead_upper, first, ROWS_UPPER, kind, 0);
+    parts_put_all(&places, slopes, w, b, ahead_lower, first, ROWS_LOWER, kind, 0);
 }
 
 /* What a number of tiles is to be added to, so that it has this parity. */
@@ -453,21 +464,21 @@ LANE_INLINE void parts_wide(const lmb_fill_window *w, const lmb_batch *b, int k,
 }
 
 /* Without ids, triangles may come in any order: what is left is each pixel's nearest depth. So may their tiles. */
-LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int bounded)
+LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int kind, int bounded)
 {
     const uint32_t wider = parts_narrow(b, bits, PARTS_SIDE), beside = wider & ~parts_narrow(b, bits, 2);
     fill_slopes slopes;
     parts_slopes(&slopes, b, wider);
-    parts_together(&slopes, w, b, wider, 0, bounded);
+    parts_together(&slopes, w, b, wider, 0, kind, bounded);
     for (int first = PARTS_TOGETHER; first < PARTS_TILES && beside != 0; first += PARTS_TOGETHER) {
-        parts_together(&slopes, w, b, beside, first, bounded);
+        parts_together(&slopes, w, b, beside, first, kind, bounded);
     }
     for (bits &= ~wider; bits != 0; bits &= bits - 1) {
         /* Sixteen lanes take wider triangles one by one where none is asked for: most of their rows are left out then. */
         if (LANES > LMB_TILE && !bounded) {
-            small_alone(w, b, lowest_bit(bits), 0, FILL_PLAIN);
+            small_alone(w, b, lowest_bit(bits), 0, kind);
         } else {
-            parts_wide(w, b, lowest_bit(bits), 0, FILL_PLAIN, bounded);
+            parts_wide(w, b, lowest_bit(bits), 0, kind, bounded);
         }
     }
 }

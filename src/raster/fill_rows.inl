@@ -11,6 +11,8 @@ typedef struct fill_rows {
     lane lowest; /* of the depths so far */
     float *depth;
     uint32_t *ids, id;
+    uint16_t *codes; /* FILL_CODES: for depth */
+    lane scale, bias;
 } fill_rows;
 
 LANE_INLINE void rows_put(fill_rows *r, lane depth, lane_mask in, int y, int kind)
@@ -28,14 +30,29 @@ LANE_INLINE void rows_put(fill_rows *r, lane depth, lane_mask in, int y, int kin
     r->lowest = lane_min(r->lowest, depth);
 }
 
-/* FILL_ROWS rows from row y on. */
-LANE_INLINE void rows_cross(fill_rows *r, lane at, int y, int kind)
+/* The edges at the next rows; returns where these ones lie inside. */
+LANE_INLINE lane_mask rows_inside(fill_rows *r)
 {
     const lane_mask in = lanei_not_negative(lanei_or(lanei_or(r->e0, r->e1), r->e2));
-    rows_put(r, lane_min(lane_max(lane_add(at, r->step_d), r->d_min), r->d_max), in, y, kind);
     r->e0 = lanei_add(r->e0, r->down0);
     r->e1 = lanei_add(r->e1, r->down1);
     r->e2 = lanei_add(r->e2, r->down2);
+    return in;
+}
+
+/* FILL_ROWS rows from row y on. */
+LANE_INLINE void rows_cross(fill_rows *r, lane at, int y, int kind)
+{
+    const lane_mask in = rows_inside(r);
+    rows_put(r, lane_min(lane_max(lane_add(at, r->step_d), r->d_min), r->d_max), in, y, kind);
+}
+
+/* Codes of FILL_ROWS rows, before they are held to 16 bits; 0 outside. at: d + dy y of the first. */
+LANE_INLINE lane rows_code(fill_rows *r, lane at)
+{
+    const lane_mask in = rows_inside(r);
+    const lane d = lane_min(lane_max(lane_add(at, r->step_d), r->d_min), r->d_max);
+    return lane_keep(in, lane_add(lane_mul(d, r->scale), r->bias));
 }
 
 /* Rows of a tile: all, the upper four, the lower four. */
@@ -53,6 +70,38 @@ LANE_INLINE void rows_at(fill_rows *r, float d, float dy, const float *at, int y
 #endif
 }
 
+/* FILL_PAIR rows of codes from row y on; as rows_at. */
+LANE_INLINE void rows_codes_at(fill_rows *r, float d, float dy, const float *at, int y)
+{
+#if LANES > LMB_TILE
+    (void)at;
+    const lane first = rows_code(r, lane_add(lane_splat(d), lane_mul(lane_splat(dy), lane_row(y * LMB_TILE))));
+    const lane next =
+        rows_code(r, lane_add(lane_splat(d), lane_mul(lane_splat(dy), lane_row((y + FILL_ROWS) * LMB_TILE))));
+#else
+    (void)d, (void)dy;
+    const lane first = rows_code(r, lane_splat(at[y]));
+    const lane next = rows_code(r, lane_splat(at[y + 1]));
+#endif
+    lane_raise_u16(r->codes + y * LMB_TILE, first, next);
+}
+
+LANE_INLINE void rows_draw_codes(fill_rows *r, float d, float dy, const float *at, int rows)
+{
+    if (rows != ROWS_LOWER) {
+        rows_codes_at(r, d, dy, at, 0);
+        if (FILL_PAIR == 2) {
+            rows_codes_at(r, d, dy, at, 2);
+        }
+    }
+    if (rows != ROWS_UPPER) {
+        rows_codes_at(r, d, dy, at, 4);
+        if (FILL_PAIR == 2) {
+            rows_codes_at(r, d, dy, at, 6);
+        }
+    }
+}
+
 /* All but `lowest` is set, the edges at the first of `rows`; d: the depth at the tile's first pixel. Leaves the farthest
  * depth of these rows in `lowest`. */
 LANE_INLINE void rows_draw(fill_rows *r, float d, float dy, int rows, int kind)
@@ -61,6 +110,10 @@ LANE_INLINE void rows_draw(fill_rows *r, float d, float dy, int rows, int kind)
 #if LANES == LMB_TILE
     lane_store(at, lane_add(lane_splat(d), lane_mul(lane_splat(dy), lane_column(0)))); /* rows side by side */
 #endif
+    if (kind == FILL_CODES) {
+        rows_draw_codes(r, d, dy, at, rows);
+        return;
+    }
     r->lowest = lane_splat(3e38f);
 #if LANES > LMB_TILE
     if (rows != ROWS_LOWER) {

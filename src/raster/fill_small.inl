@@ -4,11 +4,11 @@
  * leaves outside; for a float target without ids, which shadow maps are, every row is one load and one store without a
  * branch. */
 
-/* The part of the box inside a tile that starts at (x, y). */
-LANE_INLINE fill_box small_cut(const lmb_batch *b, int k, int32_t x, int32_t y)
+/* The part of the box inside a tile that starts at (x, y); it begins at a multiple of `rows`. */
+LANE_INLINE fill_box small_cut(const lmb_batch *b, int k, int32_t x, int32_t y, int32_t rows)
 {
     fill_box box;
-    box.first_row = (b->y0[k] > y ? b->y0[k] - y : 0) & ~(FILL_ROWS - 1);
+    box.first_row = (b->y0[k] > y ? b->y0[k] - y : 0) & ~(rows - 1);
     box.last_row = b->y1[k] < y + LMB_TILE ? b->y1[k] - y : LMB_TILE - 1;
     box.first = FILL_ACROSS > 1 && b->x0[k] > x ? (b->x0[k] - x) / LANES : 0;
     box.last = FILL_ACROSS > 1 && b->x1[k] < x + LMB_TILE ? (b->x1[k] - x) / LANES : FILL_ACROSS - 1;
@@ -27,6 +27,12 @@ LANE_INLINE void small_tile(const lmb_fill_tile *tile, const lmb_fill_job *job, 
 {
     const int32_t e[3] = {e0 + t->ey[0] * box->first_row, e1 + t->ey[1] * box->first_row,
                           e2 + t->ey[2] * box->first_row};
+#if LANES > 1
+    if (t->codes) {
+        fill_codes_rows((uint16_t *)tile->depth, job, t, e, job->d, box->first_row, box->last_row);
+        return;
+    }
+#endif
     for (int32_t i = box->first; i <= box->last; ++i) {
         fill_column(tile, job, t, e, job->d, box, i);
     }
@@ -39,7 +45,7 @@ LANE_INLINE void small_one(const lmb_fill_window *w, lmb_fill_job *job, const lm
     const int32_t x = b->x0[k] & ~(LMB_TILE - 1), y = b->y0[k] & ~(LMB_TILE - 1);
     const ptrdiff_t down = (y - w->y0) / LMB_TILE, across = (x - w->x0) / LMB_TILE;
     const double d_row = b->dy[k] * ((y * 256 + w->origin_y) * (1.0 / 256.0));
-    const fill_box box = small_cut(b, k, x, y);
+    const fill_box box = small_cut(b, k, x, y, t->codes ? FILL_PAIR : FILL_ROWS);
     lmb_fill_tile tile = fill_first(w, kind);
     tile.depth = (uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile;
     if (tile.id_format != LMB_FORMAT_NONE) {
@@ -76,7 +82,7 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
         tile.id = id_row;
         for (int32_t x = left; x <= right; x += LMB_TILE) {
             if (((e0 + reach0) | (e1 + reach1) | (e2 + reach2)) >= 0) {
-                const fill_box box = small_cut(b, k, x, y);
+                const fill_box box = small_cut(b, k, x, y, t->codes ? FILL_PAIR : FILL_ROWS);
                 job->d = (float)(d_origin + dx * ((x * 256 + w->origin_x) * (1.0 / 256.0)) + d_row);
                 small_tile(&tile, job, t, e0, e1, e2, &box);
             }
@@ -108,6 +114,7 @@ LANE_INLINE void small_alone(const lmb_fill_window *w, const lmb_batch *b, int k
     job.d_max = b->d_max[k];
     job.id = id;
     fill_set(&t, ex, ey, &job);
+    t.codes = kind == FILL_CODES;
     small_fill(w, &job, b, k, &t, kind);
 }
 
@@ -117,7 +124,12 @@ LANE_INLINE void small_alone(const lmb_fill_window *w, const lmb_batch *b, int k
 
 NOINLINE void small_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
-    parts_fill_plain(w, b, bits, 0);
+    parts_fill_plain(w, b, bits, FILL_PLAIN, 0);
+}
+
+NOINLINE void small_codes(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
+{
+    parts_fill_plain(w, b, bits, FILL_CODES, 0);
 }
 
 NOINLINE void small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
@@ -163,13 +175,28 @@ void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uin
 /* Tiles of a depth alone are found by 32-bit distances from the first one, bytes: larger surfaces go one by one. */
 LANE_INLINE int small_kind(const lmb_fill_window *w)
 {
-    const int kind = fill_kind(&w->first);
-    return kind == FILL_PLAIN && (int64_t)w->depth_row * w->tiles_y > INT32_MAX ? FILL_ANY : kind;
+    const int kind = fill_kind(w);
+    return (kind == FILL_PLAIN || kind == FILL_CODES) && (int64_t)w->depth_row * w->tiles_y > INT32_MAX ? FILL_ANY : kind;
 }
+
+#if LANES > 1 && LANES < LMB_TILE
+NOINLINE void small_codes(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
+{
+    for (; bits != 0; bits &= bits - 1) {
+        small_alone(w, b, lowest_bit(bits), 0, FILL_CODES);
+    }
+}
+#endif
 
 static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
     const int kind = small_kind(w);
+#if LANES > 1
+    if (kind == FILL_CODES) {
+        small_codes(w, b, bits);
+        return;
+    }
+#endif
 #if LANES >= LMB_TILE
     if (kind == FILL_PLAIN) {
         small_plain(w, b, bits);

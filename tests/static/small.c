@@ -154,7 +154,7 @@ static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_win
                        slopes.dy[0], 1u, FILL_PLAIN, 0);
             places.d[0][0] = part.d[0];
             places.at[0][0] = 0;
-            parts_put(&places, &slopes, w, b, 0, 0, p, ROWS_LOWER, 0);
+            parts_put(&places, &slopes, w, b, 0, 0, p, ROWS_LOWER, FILL_PLAIN, 0);
         }
     }
     parts_wide(w, b, 0, 1u, FILL_PLAIN, 0);

@@ -916,6 +916,55 @@ static void test_windows(void)
 }
 
 /* Ids in order, in pieces of any size, past the end too. */
+/* Half of the triangles reach a few pixels, so that they are filled in batches. */
+static void mixed_soup(test_rng *r, uint32_t triangles, float far_w)
+{
+    random_soup(r, triangles, 9.0f, far_w);
+    for (uint32_t k = 0; k < triangles; k += 2) {
+        float *p = st.positions + 9 * k;
+        for (int i = 3; i < 9; ++i) {
+            p[i] = p[i % 3] + test_uniform(r, -0.06f, 0.06f) * far_w;
+        }
+    }
+}
+
+/* Tiled codes without ids, which have code of their own, against linear ones with ids; seen: pixels that show. */
+static int codes_differ(const lmb_kernels *kernels, const lmb_kernels *plain, int32_t x, int32_t *seen)
+{
+    const int32_t box[4] = {x, 8, WIDE - x - 3, TALL - 8};
+    lmb_target a = window_of(0, LMB_DEPTH16, LMB_ID32, LMB_LINEAR, box),
+               b = window_of(1, LMB_DEPTH16, LMB_FORMAT_NONE, LMB_TILED, box);
+    int wrong = lmb_draw(&a, plain, &st.view, &st.scene, 1, 96, 0, NULL) != LMB_OK;
+    wrong += lmb_draw(&b, kernels, &st.view, &st.scene, 1, 96, 0, NULL) != LMB_OK;
+    for (int32_t i = 0; i < box[2] * box[3]; ++i) {
+        const uint32_t code = code_at(&a.depth, i % box[2], i / box[2]);
+        wrong += code != code_at(&b.depth, i % box[2], i / box[2]);
+        *seen += code != 0;
+    }
+    return wrong;
+}
+
+/* Where far is less than twice near, codes of 1 round up to 65536; where it is hardly more than near, they are no
+ * numbers. In an orthographic view what lies beyond far has codes under 0. */
+static void test_codes(void)
+{
+    static const float far_m[] = {1.8000002f, 1.800002f, 1.80003f, 1.801f, 1.9f, 3.5999f, 3.6f, 3.7f, 11.0f, 80.0f, 1e6f, 3e38f};
+    const lmb_kernels *plain = lmb_kernels_named("scalar");
+    test_rng r = {15};
+    for (int32_t i = 0; lmb_kernels_at(i) != NULL; ++i) {
+        int32_t seen = 0;
+        for (size_t k = 0; k < 4 * sizeof far_m / sizeof *far_m; ++k) {
+            mixed_soup(&r, 96, fminf(far_m[k / 4] - 0.79f, 12.0f));
+            set_wide_view(k & 1);
+            st.view.far_m = far_m[k / 4];
+            const int wrong = codes_differ(lmb_kernels_at(i), plain, k & 2 ? 16 : 0, &seen);
+            CHECK_MSG(wrong == 0, "%s, far %g, perspective %d: %d differ", lmb_kernels_name(lmb_kernels_at(i)),
+                      (double)st.view.far_m, (int)(k & 1), wrong);
+        }
+        CHECK_MSG(seen > 30000, "%d", (int)seen);
+    }
+}
+
 static void test_ranges(void)
 {
     const int32_t all[4] = {0, 0, WIDE, TALL};
@@ -1339,6 +1388,7 @@ void test_raster(void)
     test_view_z();
     test_wall_z();
     test_windows();
+    test_codes();
     test_ranges();
     test_culling();
     test_bad_vertices();
