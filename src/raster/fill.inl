@@ -78,7 +78,8 @@ LANE_INLINE int fill_kind(const lmb_fill_window *w)
     }
     if (tile->depth_format != LMB_DEPTH32F) {
         /* No depth is above 1, and products and sums round monotonically: so no code is above the one of 1. */
-        return tile->id_format == LMB_FORMAT_NONE && w->d_scale + w->d_bias < 65536.0f ? FILL_CODES : FILL_ANY;
+        const int is_held = LMB_CULLING && w->d_scale + w->d_bias < 65536.0f;
+        return is_held && tile->id_format == LMB_FORMAT_NONE ? FILL_CODES : FILL_ANY;
     }
     if (tile->id_format == LMB_FORMAT_NONE) {
         return FILL_PLAIN;

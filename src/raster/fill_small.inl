@@ -45,7 +45,7 @@ LANE_INLINE void small_one(const lmb_fill_window *w, lmb_fill_job *job, const lm
     const int32_t x = b->x0[k] & ~(LMB_TILE - 1), y = b->y0[k] & ~(LMB_TILE - 1);
     const ptrdiff_t down = (y - w->y0) / LMB_TILE, across = (x - w->x0) / LMB_TILE;
     const double d_row = b->dy[k] * ((y * 256 + w->origin_y) * (1.0 / 256.0));
-    const fill_box box = small_cut(b, k, x, y, t->codes ? FILL_PAIR : FILL_ROWS);
+    const fill_box box = small_cut(b, k, x, y, t->codes ? (int)FILL_PAIR : (int)FILL_ROWS);
     lmb_fill_tile tile = fill_first(w, kind);
     tile.depth = (uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile;
     if (tile.id_format != LMB_FORMAT_NONE) {
@@ -82,7 +82,7 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
         tile.id = id_row;
         for (int32_t x = left; x <= right; x += LMB_TILE) {
             if (((e0 + reach0) | (e1 + reach1) | (e2 + reach2)) >= 0) {
-                const fill_box box = small_cut(b, k, x, y, t->codes ? FILL_PAIR : FILL_ROWS);
+                const fill_box box = small_cut(b, k, x, y, t->codes ? (int)FILL_PAIR : (int)FILL_ROWS);
                 job->d = (float)(d_origin + dx * ((x * 256 + w->origin_x) * (1.0 / 256.0)) + d_row);
                 small_tile(&tile, job, t, e0, e1, e2, &box);
             }
