@@ -108,8 +108,8 @@ lmb_status lmb_draw_culled(const lmb_target *target, const lmb_kernels *kernels,
                            const lmb_scene *scene, uint32_t first_id, uint32_t count, uint32_t flags,
                            const lmb_culling *culling, lmb_stats *stats);
 
-/* lmb_culling_tiles: floats of a window's bounds, some more than it has tiles, as they are read by vectors; 0 for a
- * target that nothing can be drawn into.
+/* lmb_culling_tiles: floats of a window's bounds, some more than it has tiles, as they are read and written by
+ * vectors, so that windows share none of them; 0 for a target that nothing can be drawn into.
  * lmb_culling_clusters: clusters of all of a scene's meshes. */
 uint32_t lmb_culling_tiles(const lmb_target *target);
 uint32_t lmb_culling_clusters(const lmb_scene *scene);

@@ -56,7 +56,7 @@ static float depth_at(const lmb_fill_job *job, int32_t x, int32_t y)
 
 static float code_of(const lmb_fill_job *job, float d)
 {
-    return floorf(maxf(minf(d * job->d_scale + job->d_bias, 65535.0f), 0.0f));
+    return floorf(maxf(minf(65535.0f, d * job->d_scale + job->d_bias), 0.0f));
 }
 
 static void put_id(const lmb_fill_tile *tile, int32_t at, uint32_t id)

@@ -3,10 +3,11 @@
  * Per pixel: three edge sums, the depth plane clamped to the triangle's own range, a strict "nearer than" test. The
  * order (d + dy y) + dx x is the contract; a vector only changes how many x run at once. */
 
+/* What is no number, as where far is no farther than near, is 0. */
 static inline lane fill_depth_16(lane d, const lmb_fill_job *job)
 {
     lane code = lane_add(lane_mul(d, lane_splat(job->d_scale)), lane_splat(job->d_bias));
-    return lane_trunc(lane_max(lane_min(code, lane_splat(65535.0f)), lane_splat(0.0f)));
+    return lane_trunc(lane_max(lane_min(lane_splat(65535.0f), code), lane_splat(0.0f)));
 }
 
 static inline void fill_id(const lmb_fill_tile *tile, int at, uint32_t id, lane_mask pass)

@@ -180,6 +180,10 @@ LANE_INLINE lanei parts_address(const lmb_fill_window *w, const lmb_batch *b, in
     return lanei_add(lanei_mul(across, lanei_splat(w->depth_tile)), lanei_mul(down, lanei_splat(w->depth_row)));
 }
 
+/* Is one of the triangles from k on, a vector of them, to be drawn? Else set-up stored nothing of them, and what is left
+ * there may name tiles anywhere. */
+static inline int parts_any(uint32_t bits, int k) { return (bits >> k & ((1u << LANES) - 1u)) != 0; }
+
 /* Tile i of those that go together, which is the triangles' tile p. */
 LANE_INLINE void parts_place(fill_places *out, const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b,
                              uint32_t bits, int i, int p, int bounded)
@@ -187,6 +191,9 @@ LANE_INLINE void parts_place(fill_places *out, const fill_slopes *slopes, const 
     const lanei px = lanei_splat(p % PARTS_SIDE), py = lanei_splat(p / PARTS_SIDE);
     uint32_t seen = 0, upper = 0, lower = 0;
     for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
+        if (!parts_any(bits, k)) {
+            continue;
+        }
         lane_mask halves[2];
         seen |= mask_bits(parts_set(out->d[i], NULL, halves, slopes, w, b, k, px, py, bounded)) << k;
         upper |= mask_bits(halves[0]) << k;
@@ -360,6 +367,9 @@ LANE_INLINE void parts_find(fill_parts *out, const lmb_fill_window *w, const lmb
                             int bounded)
 {
     for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
+        if (!parts_any(bits, k)) {
+            continue;
+        }
         lanei tiles = lanei_splat(0);
         for (int p = 0; p < PARTS_TILES; ++p) {
             if (more || (p % PARTS_SIDE < 2 && p / PARTS_SIDE < 2)) {

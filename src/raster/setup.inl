@@ -70,7 +70,7 @@ LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint
     }
     if (mesh->triangle_count - first >= 5 * LMB_BATCH) { /* else indices end before those that are asked for */
         for (int k = 0; k < LMB_BATCH; ++k) {
-            MESH_SOON((const float *)mesh->positions + (size_t)vertex[3 * (LMB_BATCH + k)] * 3);
+            MESH_SOON((const void *)((uintptr_t)mesh->positions + (size_t)vertex[3 * (LMB_BATCH + k)] * 12)); /* not checked yet */
         }
         MESH_SOON(vertex + 12 * LMB_BATCH), MESH_SOON(vertex + 13 * LMB_BATCH), MESH_SOON(vertex + 14 * LMB_BATCH);
     }

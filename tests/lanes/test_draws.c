@@ -9,7 +9,7 @@
 
 void test_draws(void);
 
-enum { ROUNDS = 400, FRAME = 160, TRIANGLES = 75, PIXELS = FRAME * FRAME };
+enum { ROUNDS = 400, FRAME = 160, TRIANGLES = 107, PIXELS = FRAME * FRAME };
 
 /* A scene of loose triangles under one view, and a window of the frame. */
 typedef struct draws {

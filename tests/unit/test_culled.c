@@ -189,7 +189,8 @@ static void same_bytes(test_rng *r, const lmb_kernels *kernels, totals *sum)
 {
     static const int32_t depths[] = {LMB_DEPTH32F, LMB_DEPTH16}, ids[] = {LMB_FORMAT_NONE, LMB_ID32, LMB_ID16};
     for (int i = 0; i < 12; ++i) {
-        const int32_t side = i % 3 == 0 ? SIDE : 100 - 3 * i, x0 = i % 3 == 0 ? 0 : 8 * (i % 5);
+        const int is_whole = test_random(r) % 3 == 0;
+        const int32_t side = is_whole ? SIDE : 100 - 3 * i, x0 = is_whole ? 0 : 8 * (int32_t)(test_random(r) % 5);
         const int32_t layout = i & 1 ? LMB_LINEAR : LMB_TILED;
         lmb_target t[2];
         for (int k = 0; k < 2; ++k) {

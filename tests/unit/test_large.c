@@ -144,12 +144,12 @@ static void judge(const lmb_kernels *kernels, int32_t depth_format, int32_t id_f
 void test_large(void)
 {
     static const int32_t formats[][2] = {{LMB_DEPTH32F, LMB_FORMAT_NONE}, {LMB_DEPTH32F, LMB_ID32},
-                                         {LMB_DEPTH16, LMB_ID16}};
+                                         {LMB_DEPTH16, LMB_ID16}, {LMB_DEPTH16, LMB_FORMAT_NONE}};
     test_rng r = {24};
     for (int i = 0; i < SCENES; ++i) {
         make_scene(&r, i % 2 ? LMB_PERSPECTIVE : LMB_ORTHOGRAPHIC);
         for (int32_t m = 0; lmb_kernels_at(m) != NULL; ++m) {
-            for (int k = 0; k < 3; ++k) {
+            for (size_t k = 0; k < sizeof formats / sizeof *formats; ++k) {
                 judge(lmb_kernels_at(m), formats[k][0], formats[k][1]);
             }
         }

@@ -915,7 +915,6 @@ static void test_windows(void)
     }
 }
 
-/* Ids in order, in pieces of any size, past the end too. */
 /* Half of the triangles reach a few pixels, so that they are filled in batches. */
 static void mixed_soup(test_rng *r, uint32_t triangles, float far_w)
 {
@@ -944,8 +943,37 @@ static int codes_differ(const lmb_kernels *kernels, const lmb_kernels *plain, in
     return wrong;
 }
 
-/* Where far is less than twice near, codes of 1 round up to 65536; where it is hardly more than near, they are no
- * numbers. In an orthographic view what lies beyond far has codes under 0. */
+/* A wall on the near plane, whose depth is 1: its code is 65535 also where scale and bias round up to 65536. */
+static void test_code_of_one(const lmb_kernels *kernels, const lmb_kernels *plain, float far_m)
+{
+    static const float wall[] = {-90, -90, -1.8f, 90, -90, -1.8f, 0, 180, -1.8f};
+    const lmb_vec3 eye = {0, 0, 0}, target = {0, 0, -1}, up = {0, 1, 0};
+    int32_t seen = 0;
+    for (int i = 0; i < 9; ++i) {
+        st.positions[i] = wall[i];
+    }
+    lmb_view_look_at(&st.view, eye, target, up, 1.1f, WIDE, TALL);
+    st.view.near_m = 1.8f;
+    st.view.far_m = far_m;
+    CHECK(codes_differ(kernels, plain, 0, &seen) == 0);
+    CHECK_MSG(seen == (WIDE - 3) * (TALL - 8), "%s, far %g: %d", lmb_kernels_name(kernels), (double)far_m, (int)seen);
+}
+
+/* Where no depth lies between near and far, scale and bias are no numbers, and all codes are 0. */
+static void test_codes_of_nothing(const lmb_kernels *kernels, const lmb_kernels *plain)
+{
+    const float far_m[] = {INFINITY, nextafterf(1.1e-30f, 1.0f)};
+    for (int i = 0; i < 2; ++i) {
+        int32_t seen = 0;
+        set_wide_view(0);
+        st.view.near_m = i ? 1.1e-30f : 1.8f;
+        st.view.far_m = far_m[i];
+        CHECK(codes_differ(kernels, plain, 0, &seen) == 0);
+    }
+}
+
+/* Where far is hardly more than near, codes of 1 round up to 65536. In an orthographic view what lies beyond far has codes
+ * under 0. */
 static void test_codes(void)
 {
     static const float far_m[] = {1.8000002f, 1.800002f, 1.80003f, 1.801f, 1.9f, 3.5999f, 3.6f, 3.7f, 11.0f, 80.0f, 1e6f, 3e38f};
@@ -962,9 +990,13 @@ static void test_codes(void)
                       (double)st.view.far_m, (int)(k & 1), wrong);
         }
         CHECK_MSG(seen > 30000, "%d", (int)seen);
+        test_codes_of_nothing(lmb_kernels_at(i), plain);
+        test_code_of_one(lmb_kernels_at(i), plain, 1.801f);
+        test_code_of_one(lmb_kernels_at(i), plain, 11.0f);
     }
 }
 
+/* Ids in order, in pieces of any size, past the end too. */
 static void test_ranges(void)
 {
     const int32_t all[4] = {0, 0, WIDE, TALL};
