@@ -1048,6 +1048,14 @@ done
 check "the object moves in the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/frames/m_00.pfm" "$dir/frames/m_02.pfm"
 check "a frame of another size is drawn in its own" sh -c '"$1" info "$2" | grep -q "size  *2x1"' sh "$TOOL" "$dir/frames/m_03.pfm"
 check "and the next one after it" test -s "$dir/frames/m_04.pfm"
+# No frame is written over a photo of the list, whenever it is read.
+for i in 0 1; do
+    for part in color.pfm depth.pfm json; do cp "$dir/frames/f0.$part" "$dir/frames/r$i.$part"; done
+done
+printf 'r1\nr0\n' >"$dir/frames/own.txt"
+status 2 mix --frames "$dir/frames/own.txt" $tent -o "$dir/frames/r%01d.color.pfm"
+for i in 0 1; do check "photo $i of the list stays" cmp "$dir/frames/f0.color.pfm" "$dir/frames/r$i.color.pfm"; done
+status 2 mix --frames "$dir/frames/own.txt" $tent --stats "$dir/bad.json" -o "$dir/frames/bad_%02d.pfm"
 : >"$dir/frames/empty.txt"
 status 1 mix --frames "$dir/frames/empty.txt" $tent -o "$dir/frames/bad_%02d.pfm"
 said "lists no frame"

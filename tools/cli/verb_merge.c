@@ -40,7 +40,7 @@ static const option_table table = {
              "output has the bytes that one machine would have written, but for the times of a sweep.\n"
              "A slice carries a hash of its inputs, options and version, and one of itself. Slices that are cut off or "
              "damaged are told of and left out; what is missing is named, and nothing is written; a slice of another "
-             "job is refused, and so are two of one number that differ. Making a slice again gives the same file.",
+             "job is refused, and so are two of one number that differ, unless they are of a sweep: then the first one counts.",
     .part = {rows},
     .examples = "  lambent render demo --size 64x48 --slice 1/2 -o joined.png\n"
                 "  lambent render demo --size 64x48 --slice 2/2 -o joined.png\n"

@@ -37,7 +37,15 @@ static int take_depth(mix_kept *k, const mix_frame *f, report *r)
     k->inverse = calloc(pixels, sizeof *k->inverse);
     k->differs = calloc(pixels, 1);
     k->fresh = calloc(pixels, 1);
-    return (k->inverse != NULL && k->differs != NULL && k->fresh != NULL) || report_fail(r, "out of memory");
+    if (k->inverse != NULL && k->differs != NULL && k->fresh != NULL) {
+        return 1;
+    }
+    free(k->inverse);
+    free(k->differs);
+    free(k->fresh);
+    k->inverse = NULL;
+    k->differs = k->fresh = NULL;
+    return report_fail(r, "out of memory");
 }
 
 /* What is known of one pixel that does not move: the first measure stays while others agree, or nothing is measured. */
@@ -170,12 +178,19 @@ int mix_is_settled(const mix_kept *k)
 
 int mix_keep(mix_kept *k, mix_job *j, report *r)
 {
-    if (k->frames++ > 0) {
+    if (k->frames > 0) {
+        ++k->frames;
         return 1;
+    }
+    if (!mix_keep_light(k, j, r)) {
+        free(k->env_memory);
+        k->env_memory = NULL;
+        return 0;
     }
     k->object = j->object;
     mix_keep_place(k, j);
-    return mix_keep_light(k, j, r);
+    ++k->frames;
+    return 1;
 }
 
 void mix_kept_free(mix_kept *k)

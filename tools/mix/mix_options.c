@@ -53,7 +53,7 @@ static const option_row photo_rows[] = {
     {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),
      .help = HELP("many, in order: LIST, or DIR/frames.txt, has a PREFIX a line, beside it; a DIR of TUM's has rgb.txt, "
              "depth.txt and groundtruth.txt (with --intrinsics; --depth-scale is 0.0002 then). The object stays where "
-             "it stands in the first, and voxels are built again only where a twentieth of what is about it is new; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
+             "it stands in the first, and voxels are built again only when a twentieth of what is about it is new or gone, or the photo is that much brighter or darker; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
              "out")},
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = HELP(".png .jpg .pfm")},
@@ -160,6 +160,9 @@ static int complete_frames(const mix_options *o, report *r)
     }
     if (o->out == NULL || frame_digits(o->out) == 0) {
         return report_fail(r, "--frames: -o is a name with one %%0Nd, as frame_%%04d.png");
+    }
+    if (o->stats != NULL) {
+        return report_fail(r, "--frames: --stats is of one photo; -v says what each frame took");
     }
     return o->show != MIX_PLANES && o->show != MIX_ENV && o->show != MIX_VOXELS
                ? 1

@@ -1,10 +1,12 @@
 /* mix_sequence.c: `lambent mix --frames`: a sequence of photos, one after the other. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
 #include "../common/frame_name.h"
+#include "../common/io_file.h"
 #include "../common/progress.h"
 #include "../picture/picture.h"
 #include "mix_again.h"
@@ -157,13 +159,41 @@ static void draw_next(sequence *s)
     s->next = NULL;
 }
 
+/* Every file that a frame may be read from, before any is written: and while one is written, the next one is read. */
+static int keep_inputs(const mix_list *list, report *r)
+{
+    static const char *const endings[] = {".json", ".color.png", ".color.jpg", ".color.pfm", ".depth.png", ".depth.pfm"};
+    int ok = 1;
+    for (int32_t i = 0; ok && i < list->count; ++i) {
+        const mix_entry *e = &list->entry[i];
+        for (size_t k = 0; ok && e->prefix[0] != '\0' && k < sizeof endings / sizeof *endings; ++k) {
+            char name[sizeof e->prefix + 16];
+            snprintf(name, sizeof name, "%s%s", e->prefix, endings[k]);
+            ok = file_keep(name, r);
+        }
+        ok = ok && (e->prefix[0] != '\0' || (file_keep(e->photo, r) && file_keep(e->depth, r)));
+    }
+    return ok;
+}
+
+static int can_write(const mix_options *o, const mix_list *list, report *r)
+{
+    char name[4200];
+    int ok = options_files(o, &mix_table, r) && keep_inputs(list, r);
+    for (int32_t i = 0; ok && i < list->count; ++i) {
+        ok = frame_name(name, sizeof name, o->out, i, r) && (i == 0 ? file_can_write(name, r) : file_may_replace(name, r));
+    }
+    return ok;
+}
+
 int mix_frames(const mix_options *o, report *r)
 {
     sequence s;
     int32_t done = 0;
     memset(&s, 0, sizeof s);
     s.o = o;
-    if (!mix_list_read(&s.list, o->frames, r)) {
+    if (!mix_list_read(&s.list, o->frames, r) || !can_write(o, &s.list, r)) {
+        mix_list_free(&s.list);
         return 0;
     }
     s.is_written = 1;

@@ -188,6 +188,7 @@ typedef struct point {
     float weight;  /* sum of its flux */
     uint32_t told; /* the light that it reflects */
     uint32_t way, key;
+    size_t order; /* of those found */
 } point;
 
 typedef struct points {
@@ -206,7 +207,7 @@ static uint32_t way_of(lmb_vec3 n)
 static int add_point(points *to, const mix_patch *p, uint32_t told)
 {
     const float weight = p->flux[0] + p->flux[1] + p->flux[2];
-    const point q = {*p, weight, told, way_of(p->normal), 0};
+    const point q = {*p, weight, told, way_of(p->normal), 0, to->count};
     if (!(weight > 0.0f)) {
         return 1;
     }
@@ -228,6 +229,14 @@ static int by_key(const void *a, const void *b)
     return x->way != y->way ? (x->way > y->way) - (x->way < y->way) : (x->key > y->key) - (x->key < y->key);
 }
 
+/* No two alike: each C library's qsort then sorts as any other, and sums are in one order. */
+static int by_order(const void *a, const void *b)
+{
+    const point *x = a, *y = b;
+    const int key = by_key(a, b);
+    return key != 0 ? key : (x->order > y->order) - (x->order < y->order);
+}
+
 static uint32_t cell_of(float at, float low, float per) { return (uint32_t)fminf(fmaxf((at - low) * per, 0.0f), 31.0f); }
 
 /* Points of one way, one cell of the object's box and one light are a patch. */
@@ -239,7 +248,7 @@ static size_t sort_points(points *s, float cell)
         p->key = ((p->told << 5 | cell_of(p->p.at.x, s->low.x, 1.0f / cell)) << 5 |
                   cell_of(p->p.at.y, s->low.y, 1.0f / cell)) << 5 | cell_of(p->p.at.z, s->low.z, 1.0f / cell);
     }
-    qsort(s->all, s->count, sizeof *s->all, by_key);
+    qsort(s->all, s->count, sizeof *s->all, by_order);
     for (size_t i = 0; i < s->count; ++i) {
         patches += i == 0 || by_key(&s->all[i - 1], &s->all[i]) != 0;
     }

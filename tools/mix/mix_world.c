@@ -118,6 +118,22 @@ static int is_in_cube(const lmb_voxels *v, lmb_vec3 p, float beyond)
     return d.x > low && d.y > low && d.z > low && d.x < high && d.y < high && d.z < high;
 }
 
+/* A cell is there where a corner of it is, as the frame then has a cell there itself, and gone where all of it is: the
+ * middle of one across an edge of depth lies in the air. */
+static int cell_seen(const mix_job *j, const lmb_mat4 *here, const float *from)
+{
+    const int now = seen(j, mix_move(here, middle(from)));
+    int gone = 0;
+    for (int k = 0; k < 4; ++k) {
+        const int of = seen(j, mix_move(here, corner(from, k)));
+        if (of == THERE) {
+            return THERE;
+        }
+        gone += of == GONE;
+    }
+    return now == GONE && gone < 4 ? UNSEEN : now;
+}
+
 int mix_cells(mix_job *j, report *r)
 {
     const mix_job *w = j->kept != NULL ? j->kept->world : NULL;
@@ -137,7 +153,7 @@ int mix_cells(mix_job *j, report *r)
         if (!is_in_cube(&w->voxels, p, FAR)) {
             continue;
         }
-        const int now = seen(j, mix_move(&here, p));
+        const int now = cell_seen(j, &here, from);
         if (now == UNSEEN) {
             lmb_vec3 at[4];
             for (int k = 0; k < 4; ++k) {
