@@ -5,7 +5,8 @@
 
 enum { FAR_INSIDE = 1 << 29 };
 
-enum { LARGE_LEAP = 64 }; /* tiles of a row: the first step when those of a kind are counted */
+/* Tiles of a row: the first step when those of a kind are counted. By one lane, where size counts, they go one by one. */
+enum { LARGE_LEAP = LANES > 1 ? 64 : 0 };
 
 /* One value an edge. Written out: gcc -O2 keeps a loop of three, and arrays in memory. */
 typedef struct large3 {
@@ -247,7 +248,7 @@ LANE_INLINE void large_run(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fi
     (void)plane, (void)kind;
     for (int32_t i = 0; i < count; ++i) {
         job->d = d[i];
-        if (clamped) {
+        if (LANES == 1 || clamped) { /* the same bytes where depths are in range anyway */
             fill_inside(tile, job, t, 1);
         } else {
             fill_inside(tile, job, t, 0);
@@ -262,8 +263,8 @@ LANE_INLINE void large_row(const lmb_fill_window *w, const lmb_setup *s, const f
                            lmb_fill_job *job, int32_t x_24_8, int32_t count, double d_row, int kind)
 {
     large3 at = edges->at;
-    int32_t n = large_outside(edges, at, count);
-    for (int entered = 0; count > 0; n = entered ? 0 : large_outside(edges, at, count)) {
+    for (int entered = 0; count > 0;) {
+        int32_t n = entered ? 0 : large_outside(edges, at, count);
         if (n == 0) {
             if (entered && large_negative(large_add(at, edges->high))) {
                 return; /* a triangle's part of a row has no gap */
@@ -271,7 +272,7 @@ LANE_INLINE void large_row(const lmb_fill_window *w, const lmb_setup *s, const f
             entered = 1;
             n = large_inside(edges, at, count, LARGE_LEAP);
             if (n > 0) {
-                const int clamped = !large_in_range(s, job, x_24_8, n, d_row);
+                const int clamped = LANES == 1 || !large_in_range(s, job, x_24_8, n, d_row);
                 for (int32_t i = 0; i < n; i += LANES) {
                     float d[LANES];
                     lane_store(d, large_depths(s->d_origin, s->d_x, x_24_8 + i * (LMB_TILE * 256), d_row));
