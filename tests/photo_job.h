@@ -29,4 +29,26 @@ static inline mix_job *photo_job(int argc, char **argv, const lmb_pinhole *camer
     return j;
 }
 
+/* The picture of a job whose object has its place, all of the object of that material. */
+static inline void photo_draw(mix_job *j, const lmb_material *look)
+{
+    report r = {""};
+    for (uint32_t i = 1; i < j->scene.material_count; ++i) {
+        ((lmb_material *)(uintptr_t)j->scene.materials)[i] = *look;
+    }
+    CHECK_MSG(mix_light(j, &r) && mix_voxels(j, &r) && mix_draw(j, &r), "%s", r.text);
+}
+
+/* The picture's mean green over pixels x0 .. x1 - 1 of rows y0 .. y1 - 1. */
+static inline float photo_mean(const mix_job *j, int x0, int y0, int x1, int y1)
+{
+    float sum = 0.0f;
+    for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+            sum += j->picture.pixels[3 * (y * j->frame.camera.width + x) + 1] / (float)((x1 - x0) * (y1 - y0));
+        }
+    }
+    return sum;
+}
+
 #endif

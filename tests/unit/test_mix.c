@@ -450,22 +450,8 @@ static mix_job *draw_with(const lmb_material *look)
     mix_job *j = begin(more, 8);
     set_depth(j, 2.5f, 1);
     CHECK_MSG(place(j), "%s", r.text);
-    for (uint32_t i = 1; i < j->scene.material_count; ++i) {
-        ((lmb_material *)(uintptr_t)j->scene.materials)[i] = *look;
-    }
-    CHECK_MSG(mix_light(j, &r) && mix_voxels(j, &r) && mix_draw(j, &r), "%s", r.text);
+    photo_draw(j, look);
     return j;
-}
-
-static float mean_of(const mix_job *j, int x0, int y0, int x1, int y1)
-{
-    float sum = 0.0f;
-    for (int y = y0; y < y1; ++y) {
-        for (int x = x0; x < x1; ++x) {
-            sum += j->picture.pixels[3 * (y * WIDTH + x) + 1] / (float)((x1 - x0) * (y1 - y0));
-        }
-    }
-    return sum;
 }
 
 /* A metal shows the grey that is around it, a lamp what it emits; and it lights the floor before it. Neither was so: a
@@ -474,16 +460,16 @@ static void objects_show_light(void)
 {
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.4f, .flags = LMB_DOUBLE_SIDED};
     mix_job *j = draw_with(&look);
-    const float black = mean_of(j, 46, 50, 50, 56), floor = mean_of(j, 40, 64, 56, 70);
+    const float black = photo_mean(j, 46, 50, 50, 56), floor = photo_mean(j, 40, 64, 56, 70);
     mix_job_free(j);
     look.specular[0] = look.specular[1] = look.specular[2] = 0.9f;
     j = draw_with(&look);
-    const float metal = mean_of(j, 46, 50, 50, 56);
+    const float metal = photo_mean(j, 46, 50, 50, 56);
     mix_job_free(j);
     memset(look.specular, 0, sizeof look.specular);
     look.emission[0] = look.emission[1] = look.emission[2] = 2.0f;
     j = draw_with(&look);
-    const float lamp = mean_of(j, 46, 50, 50, 56), lit = mean_of(j, 40, 64, 56, 70);
+    const float lamp = photo_mean(j, 46, 50, 50, 56), lit = photo_mean(j, 40, 64, 56, 70);
     CHECK_MSG(black < 0.01f && metal > 0.1f && metal < 0.6f && fabsf(lamp - 2.0f) < 0.02f && lit > 1.1f * floor,
               "black %g, metal %g, lamp %g; the floor %g, by the lamp %g", (double)black, (double)metal, (double)lamp,
               (double)floor, (double)lit);

@@ -110,22 +110,8 @@ static mix_job *draw_square(const lmb_material *look, const char *at, const char
         j->frame.light.pixels[3 * i] = j->frame.light.pixels[3 * i + 1] = j->frame.light.pixels[3 * i + 2] = 0.3f;
     }
     CHECK_MSG(mix_find_planes(j, &r) && mix_place(j, &r), "%s", r.text);
-    for (uint32_t i = 1; i < j->scene.material_count; ++i) {
-        ((lmb_material *)(uintptr_t)j->scene.materials)[i] = *look;
-    }
-    CHECK_MSG(mix_light(j, &r) && mix_voxels(j, &r) && mix_draw(j, &r), "%s", r.text);
+    photo_draw(j, look);
     return j;
-}
-
-static float mean_of(const mix_job *j, int x0, int y0, int x1, int y1)
-{
-    float sum = 0.0f;
-    for (int y = y0; y < y1; ++y) {
-        for (int x = x0; x < x1; ++x) {
-            sum += j->picture.pixels[3 * (y * WIDTH + x) + 1] / (float)((x1 - x0) * (y1 - y0));
-        }
-    }
-    return sum;
 }
 
 /* A lamp before a metal square throws its light back over the lamp's side of the floor, and matt black none: the square was
@@ -135,11 +121,11 @@ static void beam_lights_floor(void)
     static const char lamp[] = "point:0,0.5,-0.6:0,-1,0:3,3,3";
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.3f, .flags = LMB_DOUBLE_SIDED};
     mix_job *j = draw_square(&look, "48,62", "0", lamp);
-    const float dark = mean_of(j, 42, 66, 54, 71);
+    const float dark = photo_mean(j, 42, 66, 54, 71);
     mix_job_free(j);
     look.specular[0] = look.specular[1] = look.specular[2] = 0.95f;
     j = draw_square(&look, "48,62", "0", lamp);
-    const float lit = mean_of(j, 42, 66, 54, 71);
+    const float lit = photo_mean(j, 42, 66, 54, 71);
     CHECK(j->lamp_count == 1 && j->sources != NULL);
     CHECK_MSG(lit > 1.15f * dark && lit > 0.3f, "%g by black, %g by metal", (double)dark, (double)lit);
     mix_job_free(j);
@@ -152,7 +138,7 @@ static void foot_mirrors_floor(void)
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.2f, .flags = LMB_DOUBLE_SIDED};
     look.specular[0] = look.specular[1] = look.specular[2] = 0.95f;
     mix_job *j = draw_square(&look, "48,62", "0", "point:0,0.5,-0.6:0,-1,0:3,3,3");
-    const float foot = mean_of(j, 44, 57, 52, 61), floor = mean_of(j, 44, 64, 52, 68);
+    const float foot = photo_mean(j, 44, 57, 52, 61), floor = photo_mean(j, 44, 64, 52, 68);
     CHECK_MSG(foot > 0.6f * floor && foot < 1.2f * floor, "the foot shows %g, the floor %g", (double)foot, (double)floor);
     mix_job_free(j);
 }
