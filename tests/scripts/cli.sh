@@ -1048,6 +1048,17 @@ done
 check "the object moves in the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/frames/m_00.pfm" "$dir/frames/m_02.pfm"
 check "a frame of another size is drawn in its own" sh -c '"$1" info "$2" | grep -q "size  *2x1"' sh "$TOOL" "$dir/frames/m_03.pfm"
 check "and the next one after it" test -s "$dir/frames/m_04.pfm"
+# A camera that trembles by a micrometre sees the same in all frames: the world gathers no cells that it has.
+status 0 render demo --eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60 -o "$dir/frames/h.color.pfm"
+status 0 render demo --eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60 --show depth -o "$dir/frames/h.depth.pfm"
+for i in 00 01 02 03 04 05 06 07 08 09 10 11; do
+    ln -f "$dir/frames/h.color.pfm" "$dir/frames/h$i.color.pfm" && ln -f "$dir/frames/h.depth.pfm" "$dir/frames/h$i.depth.pfm"
+    printf '{"fx": 72.43, "fy": 72.43, "cx": 39.5, "cy": 29.5, "depth_unit_mm": 1000, "camera_to_world": [[1,0,0,%s],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}' \
+        "$([ $((1$i % 2)) = 0 ] && echo 0 || echo 0.000001)" >"$dir/frames/h$i.json"
+    echo "h$i"
+done >"$dir/frames/tremble.txt"
+status 0 mix --frames "$dir/frames/tremble.txt" --object "$dir/tent.obj" --fit --voxels 5 -o "$dir/frames/h_%02d.pfm"
+check "a camera that trembles changes nothing" sh -c '"$1" compare "$2" "$3" | grep -q "rmse 0\.000[0-4]"' sh "$TOOL" "$dir/frames/h_01.pfm" "$dir/frames/h_11.pfm"
 # No frame is written over a photo of the list, whenever it is read.
 for i in 0 1; do
     for part in color.pfm depth.pfm json; do cp "$dir/frames/f0.$part" "$dir/frames/r$i.$part"; done
