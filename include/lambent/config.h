@@ -130,7 +130,7 @@
 #define LMB_MULTISAMPLE LMB_TREES
 #endif
 
-/* 0: this build has no lmb_draw_culled, and fills 16-bit depth by its slower code: the same bytes. */
+/* 0: this build has no lmb_draw_culled and no bins, and fills 16-bit depth by its slower code: the same bytes. */
 #ifndef LMB_CULLING
 #define LMB_CULLING LMB_TREES
 #endif

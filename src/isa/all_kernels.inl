@@ -10,6 +10,7 @@
 #include "../raster/fill_large.inl"
 #if LMB_CULLING
 #include "../raster/culled.inl"
+#include "../raster/bins.inl"
 #endif
 #include "../raster/resolve.inl"
 #include "../raster/texture.inl"
@@ -79,6 +80,9 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(culled_small),
     KERNEL(culled_large),
     KERNEL(culled_box),
+    KERNEL(bin_snap),
+    KERNEL(bin_setup),
+    KERNEL(bin_box),
 #endif
 #if LMB_TREES
     KERNEL(gather_cut),

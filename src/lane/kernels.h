@@ -121,8 +121,6 @@ typedef struct lmb_setup_job {
 
 enum { LMB_SMALL_24_8 = 64 * 256 /* sides of a box under which edges fit 32 bits */ };
 
-/* LMB_BATCH triangles of one instance. Bit k of a set is triangle k. Those in `small` have what follows; the others of
- * `in` are `dropped`, `other` (clipped or large: one by one, by setup.c) or invisible. */
 #if LMB_PLAIN_LANES == 1
 /* A corner that was transformed. */
 typedef struct lmb_batch_corner {
@@ -133,17 +131,45 @@ typedef struct lmb_batch_corner {
 enum { LMB_BATCH_CORNERS = 32 };
 #endif
 
+/* What becomes of up to LMB_BATCH triangles of one instance. Bit k of a set is triangle k. */
+typedef struct lmb_batch_sets {
+    uint32_t in;      /* there, and every index inside the mesh */
+    uint32_t small, other, dropped; /* the others of `in` are invisible; other: clipped or large, one by one, by setup.c */
+    uint32_t drawn;   /* of neither of the latter, with area and not culled */
+#if LMB_PLAIN_LANES == 1
+    lmb_batch_corner kept[LMB_BATCH_CORNERS]; /* of the instance, for batches to come: by a vertex's lowest bits */
+#endif
+} lmb_batch_sets;
+
+/* LMB_BATCH triangles side by side; those in `small` have all of this. */
 typedef struct lmb_batch {
     int32_t e[3][LMB_BATCH], ex[3][LMB_BATCH], ey[3][LMB_BATCH]; /* at the first pixel of the box's first tile */
     int32_t x0[LMB_BATCH], y0[LMB_BATCH], x1[LMB_BATCH], y1[LMB_BATCH]; /* pixels of the frame, in the window */
     double d[LMB_BATCH], dx[LMB_BATCH], dy[LMB_BATCH]; /* depth at the frame's middle; per px */
     float d_min[LMB_BATCH], d_max[LMB_BATCH];
-    uint32_t in; /* there, and every index inside the mesh */
-    uint32_t small, other, drawn, dropped; /* drawn: of neither of the latter, with area and not culled */
-#if LMB_PLAIN_LANES == 1
-    lmb_batch_corner kept[LMB_BATCH_CORNERS]; /* of the instance, for batches to come: by a vertex's lowest bits */
-#endif
+    uint32_t id[LMB_BATCH]; /* set by who calls, where the window has ids */
+    lmb_batch_sets sets;
 } lmb_batch;
+
+#if LMB_CULLING
+/* Small triangles side by side as bins hold them, 32 bytes each: corner a, 24.8 from the frame's middle; where b and c lie
+ * from there, x + 65536 y; depths; ids. */
+typedef struct lmb_bin_block {
+    int32_t x[LMB_BATCH], y[LMB_BATCH], to_b[LMB_BATCH], to_c[LMB_BATCH];
+    float d[3][LMB_BATCH];
+    uint32_t id[LMB_BATCH];
+} lmb_bin_block;
+
+/* A batch on its way into bins: `small` ones lie in `block`, without ids. Of others in `whole`, which no plane cuts, x, y
+ * and d of the block and b and c hold the corners. */
+typedef struct lmb_bin_batch {
+    lmb_bin_block block;
+    int32_t b[2][LMB_BATCH], c[2][LMB_BATCH]; /* x, y, 24.8 */
+    int32_t y0[LMB_BATCH], y1[LMB_BATCH];     /* of `small` ones: first and last rows of the frame */
+    uint32_t whole;
+    lmb_batch_sets sets;
+} lmb_bin_batch;
+#endif
 
 /* Edge i is e >= 0 inside, in units of 1/256 px x px: e(x + 1) = e(x) + ex. */
 typedef struct lmb_setup {
@@ -334,8 +360,8 @@ struct lmb_kernels {
     int32_t lanes;
     /* `count` triangles, up to LMB_BATCH, from the mesh's triangle `first` on. */
     void (*setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first, uint32_t count);
-    /* The batch's small triangles among `bits`, in order; triangle k has the id first_id + k. */
-    void (*fill_small)(const lmb_fill_window *window, const lmb_batch *batch, uint32_t bits, uint32_t first_id);
+    /* The batch's small triangles among `bits`, in order. */
+    void (*fill_small)(const lmb_fill_window *window, const lmb_batch *batch, uint32_t bits);
     /* One triangle of any size into the whole window. */
     void (*fill_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
     /* Pixels whose id is not 0, a bit each. */
@@ -365,10 +391,16 @@ struct lmb_kernels {
     float (*probe)(float one_and_bit);
 #if LMB_CULLING
     /* fill_small and fill_large where the window has bounds, which they use and raise. */
-    void (*culled_small)(const lmb_fill_window *window, const lmb_batch *batch, uint32_t bits, uint32_t first_id);
+    void (*culled_small)(const lmb_fill_window *window, const lmb_batch *batch, uint32_t bits);
     void (*culled_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
     /* 1 where each tile of the box is at least as near as `nearest` throughout. A bound that is under it is made anew. */
     int (*culled_box)(const lmb_fill_window *window, const lmb_tile_box *box, float nearest);
+    /* The first half of setup. */
+    void (*bin_snap)(lmb_bin_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first, uint32_t count);
+    /* The other half: the first `count` triangles of a block, and their ids. The job tells of the window alone. */
+    void (*bin_setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_bin_block *block, uint32_t count);
+    /* The tiles of a window that triangles of a full block may show in, and the nearest depth of their corners. */
+    float (*bin_box)(lmb_tile_box *out, const lmb_setup_job *job, const lmb_bin_block *block);
 #endif
 #if LMB_TREES
     /* Emitters that some pixels see: added. `pairs` is scratch. */

@@ -171,7 +171,7 @@ static int cluster_tiles(int32_t *first, int32_t *last, float low, float high, i
     return first_px <= last_px && last_px >= 0 && first_px < tiles * LMB_TILE;
 }
 
-static float depth_as_held(const lmb_fill_window *w, float d)
+float lmb_depth_as_held(const lmb_fill_window *w, float d)
 {
     if (w->first.depth_format == LMB_DEPTH32F) {
         return d;
@@ -204,7 +204,7 @@ int lmb_cluster_is_hidden(const lmb_cluster *c, const lmb_setup_job *job, const 
     if (w->farthest == NULL) {
         return LMB_CLUSTER_SHOWN;
     }
-    return kernels->culled_box(w, &box, depth_as_held(w, interval_product(p.z, inverse).high)) ? LMB_CLUSTER_HIDDEN
+    return kernels->culled_box(w, &box, lmb_depth_as_held(w, interval_product(p.z, inverse).high)) ? LMB_CLUSTER_HIDDEN
                                                                                               : LMB_CLUSTER_SHOWN;
 }
 #endif

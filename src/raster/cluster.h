@@ -16,6 +16,9 @@ typedef struct lmb_cluster_place {
 const lmb_cluster *lmb_cluster_find(lmb_cluster_place *place, const lmb_culling *culling, const lmb_scene *scene,
                                     uint32_t mesh);
 
+/* A depth as the window holds it. */
+float lmb_depth_as_held(const lmb_fill_window *window, float d);
+
 /* Shown or not known; outside the window; hidden by what is drawn. */
 enum { LMB_CLUSTER_SHOWN, LMB_CLUSTER_OUTSIDE, LMB_CLUSTER_HIDDEN };
 

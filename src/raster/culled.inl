@@ -117,12 +117,12 @@ NOINLINE void culled_small_plain(const lmb_fill_window *w, const lmb_batch *b, u
     parts_fill_plain(w, b, bits, FILL_PLAIN, 1);
 }
 
-NOINLINE void culled_small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+NOINLINE void culled_small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
-    parts_fill_id32(w, b, bits, first_id, 1);
+    parts_fill_id32(w, b, bits, 1);
 }
 
-static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
     const int kind = small_kind(w);
     if (kind == FILL_PLAIN) {
@@ -130,10 +130,10 @@ static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, u
         return;
     }
     if (kind == FILL_ID32) {
-        culled_small_id32(w, b, bits, first_id);
+        culled_small_id32(w, b, bits);
         return;
     }
-    KERNEL(fill_small)(w, b, bits, first_id);
+    KERNEL(fill_small)(w, b, bits);
 }
 
 /* --- large triangles ---------------------------------------------------------------------------------------------- */
@@ -322,9 +322,9 @@ static void KERNEL(culled_large)(const lmb_fill_window *w, const lmb_setup *s, u
 }
 #else
 /* Where lanes are fewer, asking costs as much as it saves, and bounds stay as they are. */
-static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
-    KERNEL(fill_small)(w, b, bits, first_id);
+    KERNEL(fill_small)(w, b, bits);
 }
 
 static void KERNEL(culled_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)

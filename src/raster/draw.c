@@ -49,8 +49,8 @@ static void set_job(lmb_setup_job *job, const lmb_target *target, const lmb_view
     job->y1 = target->y0 + target->depth.height - 1;
 }
 
-static void set_instance(lmb_draw_instance *d, const lmb_fill_context *c, const lmb_instance *instance,
-                         uint32_t flags)
+void lmb_draw_instance_set(lmb_draw_instance *d, const lmb_fill_context *c, const lmb_instance *instance,
+                           uint32_t flags)
 {
     const lmb_material *material = &c->scene->materials[instance->material];
     set_job(&d->job, c->target, c->view, &instance->to_world);
@@ -69,21 +69,25 @@ static void set_instance(lmb_draw_instance *d, const lmb_fill_context *c, const 
 static void draw_batch(const lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch, uint32_t count,
                        uint32_t id, lmb_stats *stats)
 {
+    const lmb_batch_sets *sets = &batch->sets;
     uint32_t all = (1u << count) - 1, other, done = 0;
     c->kernels->setup(batch, &d->job, d->mesh, id - d->first_id, count);
-    other = batch->other | (d->masked ? batch->small : 0);
-    uint32_t drawn = count_bits_16(d->masked ? batch->drawn & ~batch->small : batch->drawn);
+    other = sets->other | (d->masked ? sets->small : 0);
+    for (uint32_t k = 0; k < LMB_BATCH; ++k) {
+        batch->id[k] = id + k;
+    }
+    uint32_t drawn = count_bits_16(d->masked ? sets->drawn & ~sets->small : sets->drawn);
     for (uint32_t k = 0; other >> k != 0; ++k) {
         if ((other >> k) & 1u) {
-            fill_batch(c, batch, batch->small & ~other & ((1u << k) - 1) & ~done, id);
+            fill_batch(c, batch, sets->small & ~other & ((1u << k) - 1) & ~done);
             done = (1u << k) - 1;
             drawn += (uint32_t)lmb_draw_one(c, d, id + k);
         }
     }
-    fill_batch(c, batch, batch->small & ~other & ~done, id);
+    fill_batch(c, batch, sets->small & ~other & ~done);
     if (stats != NULL) {
         stats->triangles += count;
-        stats->triangles_dropped += count_bits_16((all & ~batch->in) | batch->dropped);
+        stats->triangles_dropped += count_bits_16((all & ~sets->in) | sets->dropped);
         stats->triangles_drawn += drawn;
     }
 }
@@ -137,9 +141,9 @@ static void draw_instance_range(lmb_fill_context *c, lmb_batch *batch, const lmb
                                 uint32_t past, uint32_t flags, lmb_stats *stats)
 {
     lmb_draw_instance d;
-    set_instance(&d, c, instance, flags);
+    lmb_draw_instance_set(&d, c, instance, flags);
 #if LMB_PLAIN_LANES == 1
-    memset(batch->kept, 0, sizeof batch->kept);
+    memset(batch->sets.kept, 0, sizeof batch->sets.kept);
 #endif
 #if LMB_CULLING
     if (c->culling != NULL && c->culling->clusters != NULL) {

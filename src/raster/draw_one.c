@@ -35,15 +35,14 @@ static lmb_screen_vertex snap(const lmb_draw_instance *d, const lmb_clip_vertex 
     return s;
 }
 
-static int fill_polygon(const lmb_fill_context *c, const lmb_draw_instance *d, const lmb_clip_vertex *polygon,
-                        int n, uint32_t id)
+static int fill_polygon(const lmb_fill_context *c, const lmb_draw_instance *d, const lmb_screen_vertex *corner, int n,
+                        uint32_t id)
 {
-    lmb_screen_vertex first = snap(d, &polygon[0]), before = snap(d, &polygon[1]);
     int drawn = 0;
     for (int i = 2; i < n; ++i) {
-        lmb_screen_vertex next = snap(d, &polygon[i]);
         lmb_setup setup;
-        if (lmb_setup_triangle(&setup, &first, &before, &next) && !(d->cull && setup.back != d->mirrored)) {
+        if (lmb_setup_triangle(&setup, &corner[0], &corner[i - 1], &corner[i]) &&
+            !(d->cull && setup.back != d->mirrored)) {
             if (d->masked) {
                 lmb_fill_masked(c, &setup, id, LMB_MULTISAMPLE && d->blends);
             } else {
@@ -51,12 +50,11 @@ static int fill_polygon(const lmb_fill_context *c, const lmb_draw_instance *d, c
             }
             drawn = 1;
         }
-        before = next;
     }
     return drawn;
 }
 
-int lmb_draw_one(const lmb_fill_context *c, const lmb_draw_instance *d, uint32_t id)
+int lmb_one_corners(lmb_screen_vertex corner[LMB_CLIP_MAX], const lmb_draw_instance *d, uint32_t id)
 {
     lmb_clip_vertex polygon[LMB_CLIP_MAX];
     uint32_t any = 0;
@@ -68,5 +66,15 @@ int lmb_draw_one(const lmb_fill_context *c, const lmb_draw_instance *d, uint32_t
     if (any) {
         n = lmb_clip_polygon(polygon, any, &d->guard);
     }
-    return n >= 3 && fill_polygon(c, d, polygon, n, id);
+    for (int i = 0; i < n; ++i) {
+        corner[i] = snap(d, &polygon[i]);
+    }
+    return n;
+}
+
+int lmb_draw_one(const lmb_fill_context *c, const lmb_draw_instance *d, uint32_t id)
+{
+    lmb_screen_vertex corner[LMB_CLIP_MAX];
+    const int n = lmb_one_corners(corner, d, id);
+    return fill_polygon(c, d, corner, n, id);
 }

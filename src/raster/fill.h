@@ -19,15 +19,15 @@ typedef struct lmb_fill_context {
 #endif
 } lmb_fill_context;
 
-static inline void fill_batch(const lmb_fill_context *c, const lmb_batch *batch, uint32_t bits, uint32_t first_id)
+static inline void fill_batch(const lmb_fill_context *c, const lmb_batch *batch, uint32_t bits)
 {
 #if LMB_CULLING
     if (c->window.bounds != LMB_BOUNDS_IDLE) {
-        c->kernels->culled_small(&c->window, batch, bits, first_id);
+        c->kernels->culled_small(&c->window, batch, bits);
         return;
     }
 #endif
-    c->kernels->fill_small(&c->window, batch, bits, first_id);
+    c->kernels->fill_small(&c->window, batch, bits);
 }
 
 static inline void fill_one(const lmb_fill_context *c, const lmb_setup *setup, uint32_t id)

@@ -337,7 +337,7 @@ LANE_INLINE lanei parts_to_parity(lanei x, int32_t parity)
 /* Of triangles of at most two tiles each way, those whose columns and rows have this parity: one of each triangle. Tiles of
  * two parities are never the same one, so within each tile triangles keep their order. */
 LANE_INLINE void parts_parity(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
-                              int32_t right, int32_t below, uint32_t first_id)
+                              int32_t right, int32_t below)
 {
     fill_part part;
     uint32_t seen = 0;
@@ -350,7 +350,7 @@ LANE_INLINE void parts_parity(const fill_slopes *slopes, const lmb_fill_window *
     for (seen &= bits; seen != 0; seen &= seen - 1) {
         const int k = lowest_bit(seen);
         parts_draw(w, b, k, ((b->x0[k] >> 3) + right) & 1, ((b->y0[k] >> 3) + below) & 1, part.e[0][k],
-                   part.e[1][k], part.e[2][k], part.d[k], slopes->dx[k], slopes->dy[k], first_id + (uint32_t)k,
+                   part.e[1][k], part.e[2][k], part.d[k], slopes->dx[k], slopes->dy[k], b->id[k],
                    FILL_ID32, 0);
     }
 }
@@ -409,13 +409,13 @@ LANE_INLINE void parts_draw_from(const lmb_fill_window *w, const lmb_batch *b, i
 }
 
 LANE_INLINE void parts_run(fill_parts *parts, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int more,
-                           uint32_t first_id, int kind, int bounded)
+                           int kind, int bounded)
 {
     const int n = parts_list(parts, bits, more);
     for (int i = 0; i < n; ++i) {
         const int k = parts->list[i] & 15, p = parts->list[i] >> 4, py = (p * 11) >> 5;
         parts_draw_from(w, b, k, p - PARTS_SIDE * py, py, parts->d[p][k], parts->slopes.dx[k], parts->slopes.dy[k],
-                   first_id + (uint32_t)k, kind, bounded);
+                   b->id[k], kind, bounded);
     }
 }
 
@@ -494,8 +494,7 @@ LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, 
 }
 
 /* In order, as ids tell who came first. */
-LANE_INLINE void parts_fill_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id,
-                                 int bounded)
+LANE_INLINE void parts_fill_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int bounded)
 {
     uint32_t narrow = parts_narrow(b, bits, 2);
     const uint32_t wider = parts_narrow(b, bits, PARTS_SIDE);
@@ -506,21 +505,21 @@ LANE_INLINE void parts_fill_id32(const lmb_fill_window *w, const lmb_batch *b, u
     parts_find(&parts, w, b, narrow, more, bounded);
     while (bits != 0) { /* a run of narrow ones, then a wide one */
         const uint32_t wide = bits & ~narrow, run = wide != 0 ? bits & ((wide & (0u - wide)) - 1) : bits;
-        parts_run(&parts, w, b, run, more, first_id, FILL_ID32, bounded);
+        parts_run(&parts, w, b, run, more, FILL_ID32, bounded);
         bits &= ~run;
         if (wide != 0) {
             const int k = lowest_bit(wide);
-            parts_wide(w, b, k, first_id + (uint32_t)k, FILL_ID32, bounded);
+            parts_wide(w, b, k, b->id[k], FILL_ID32, bounded);
             bits &= bits - 1;
         }
     }
 }
 
-LANE_INLINE void parts_fill_parities(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+LANE_INLINE void parts_fill_parities(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
     fill_slopes slopes;
     parts_slopes(&slopes, b, bits);
     for (int32_t parity = 0; parity < 4; ++parity) {
-        parts_parity(&slopes, w, b, bits, parity & 1, parity >> 1, first_id);
+        parts_parity(&slopes, w, b, bits, parity & 1, parity >> 1);
     }
 }

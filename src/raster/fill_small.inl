@@ -132,14 +132,14 @@ NOINLINE void small_codes(const lmb_fill_window *w, const lmb_batch *b, uint32_t
     parts_fill_plain(w, b, bits, FILL_CODES, 0);
 }
 
-NOINLINE void small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+NOINLINE void small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
-    parts_fill_id32(w, b, bits, first_id, 0);
+    parts_fill_id32(w, b, bits, 0);
 }
 
-NOINLINE void small_parities(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+NOINLINE void small_parities(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
-    parts_fill_parities(w, b, bits, first_id);
+    parts_fill_parities(w, b, bits);
 }
 #endif
 
@@ -149,7 +149,7 @@ NOINLINE
 #else
 LANE_INLINE
 #endif
-void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id, int kind)
+void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int kind)
 {
     lmb_fill_job job;
     job.d_scale = w->d_scale;
@@ -162,7 +162,7 @@ void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uin
         job.dy = (float)b->dy[k];
         job.d_min = b->d_min[k];
         job.d_max = b->d_max[k];
-        job.id = first_id + (uint32_t)k;
+        job.id = b->id[k];
         fill_set(&t, ex, ey, &job);
         switch (kind) {
         case FILL_PLAIN: small_fill(w, &job, b, k, &t, FILL_PLAIN); break;
@@ -188,7 +188,7 @@ NOINLINE void small_codes(const lmb_fill_window *w, const lmb_batch *b, uint32_t
 }
 #endif
 
-static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
     const int kind = small_kind(w);
 #if LANES > 1
@@ -203,13 +203,13 @@ static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uin
         return;
     }
     if (kind == FILL_ID32 && parts_narrow(b, bits, 2) == bits) {
-        small_parities(w, b, bits, first_id);
+        small_parities(w, b, bits);
         return;
     }
     if (kind == FILL_ID32 && LANES > LMB_TILE) { /* eight lanes take no longer one by one */
-        small_id32(w, b, bits, first_id);
+        small_id32(w, b, bits);
         return;
     }
 #endif
-    small_each(w, b, bits, first_id, kind);
+    small_each(w, b, bits, kind);
 }

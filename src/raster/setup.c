@@ -39,12 +39,11 @@ static void set_depth(lmb_setup *s, const lmb_screen_vertex *a, const lmb_screen
 int lmb_setup_triangle(lmb_setup *s, const lmb_screen_vertex *a, const lmb_screen_vertex *b,
                        const lmb_screen_vertex *c)
 {
-    int64_t area = (int64_t)(b->x_24_8 - a->x_24_8) * (c->y_24_8 - a->y_24_8) -
-                   (int64_t)(c->x_24_8 - a->x_24_8) * (b->y_24_8 - a->y_24_8);
+    int64_t area = setup_area(a, b, c);
     if (area == 0) {
         return 0;
     }
-    s->back = area > 0; /* y points down, so a counter-clockwise triangle has negative area */
+    s->back = area > 0;
     if (area < 0) {
         const lmb_screen_vertex *t = b;
         b = c;

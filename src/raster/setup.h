@@ -10,6 +10,13 @@ typedef struct lmb_screen_vertex {
     float d;
 } lmb_screen_vertex;
 
+/* Twice its area, 24.8 squared: over 0 where it is clockwise in the picture, as y points down. */
+static inline int64_t setup_area(const lmb_screen_vertex *a, const lmb_screen_vertex *b, const lmb_screen_vertex *c)
+{
+    return (int64_t)(b->x_24_8 - a->x_24_8) * (c->y_24_8 - a->y_24_8) -
+           (int64_t)(c->x_24_8 - a->x_24_8) * (b->y_24_8 - a->y_24_8);
+}
+
 /* 1, or 0 for a triangle without area. */
 int lmb_setup_triangle(lmb_setup *out, const lmb_screen_vertex *a, const lmb_screen_vertex *b,
                        const lmb_screen_vertex *c);

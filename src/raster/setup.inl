@@ -214,7 +214,7 @@ static inline lanei setup_last(lanei high, int32_t origin, int32_t max)
 }
 
 /* Edge i from one corner to the next: floor(E / 256) at (x, y), where E counts the fill rule. */
-static inline void setup_edge_lanes(lmb_batch *b, int i, int k, const setup_corner *from, const setup_corner *to,
+LANE_PART void setup_edge_lanes(lmb_batch *b, int i, int k, const setup_corner *from, const setup_corner *to,
                                     lanei x, lanei y)
 {
     const lanei zero = lanei_splat(0);
@@ -226,7 +226,7 @@ static inline void setup_edge_lanes(lmb_batch *b, int i, int k, const setup_corn
     lanei_store(b->e[i] + k, lanei_shift(lanei_add(e, lanei_pick(on, zero, lanei_splat(-1))), 8));
 }
 
-static inline void setup_depth(lmb_batch *out, int k, const setup_corner *a, const setup_corner *b,
+LANE_PART void setup_depth(lmb_batch *out, int k, const setup_corner *a, const setup_corner *b,
                                const setup_corner *c, lanei area)
 {
     const laned to_px = laned_splat(1.0 / 256.0);
@@ -253,23 +253,38 @@ LANE_INLINE setup_corner setup_either(lane_mask m, const setup_corner *a, const 
     return c;
 }
 
-/* Triangles k .. k + LANES - 1, from their corners, which change; `in`: those that are there. */
-LANE_INLINE void setup_triangles(lmb_batch *out, const lmb_setup_job *job, const setup_sides *sides, lane_mask in,
-                                 setup_corner *a, setup_corner *b, setup_corner *c, int k)
+/* Triangles side by side: corners b and c from a, twice the area, the pixels of their boxes; which of them turn the other
+ * way, and which are to be seen in the window. */
+typedef struct setup_box {
+    lanei bx, by, cx, cy, area, x0, y0, x1, y1;
+    lane_mask turned, shown;
+} setup_box;
+
+LANE_INLINE void setup_begin(lmb_batch_sets *out, uint32_t in)
+{
+    out->in = in;
+    out->small = out->other = out->drawn = out->dropped = 0;
+}
+
+/* Triangles k .. k + LANES - 1, from their corners; `in`: those that are there. Adds to the sets but `small`; returns
+ * those that are to be seen, a bit each. */
+LANE_INLINE uint32_t setup_find_box(setup_box *box, lmb_batch_sets *out, const lmb_setup_job *job, const setup_sides *sides,
+                                    lane_mask in, const setup_corner *a, const setup_corner *b, const setup_corner *c,
+                                    int k)
 {
     const lanei zero = lanei_splat(0);
     const lane_mask hidden = mask_or(sides->all[0], mask_or(mask_or(sides->all[1], sides->all[2]),
                                                             mask_or(sides->all[3], sides->all[4])));
     const lane_mask sane = sides->sane, whole = mask_and(sane, mask_not(sides->any));
-    lanei x0 = setup_min3(a->x, b->x, c->x), x1 = setup_max3(a->x, b->x, c->x);
-    lanei y0 = setup_min3(a->y, b->y, c->y), y1 = setup_max3(a->y, b->y, c->y);
+    const lanei x0 = setup_min3(a->x, b->x, c->x), x1 = setup_max3(a->x, b->x, c->x);
+    const lanei y0 = setup_min3(a->y, b->y, c->y), y1 = setup_max3(a->y, b->y, c->y);
     const lanei limit = lanei_splat(LMB_SMALL_24_8);
     lane_mask small = mask_and(whole, mask_and(lanei_lt(lanei_sub(x1, x0), limit), lanei_lt(lanei_sub(y1, y0), limit)));
     lanei bx = lanei_sub(b->x, a->x), by = lanei_sub(b->y, a->y), cx = lanei_sub(c->x, a->x), cy = lanei_sub(c->y, a->y);
     /* Of the others the products may not fit: they are given none. */
     bx = lanei_pick(small, bx, zero), by = lanei_pick(small, by, zero);
     cx = lanei_pick(small, cx, zero), cy = lanei_pick(small, cy, zero);
-    lanei area = lanei_sub(lanei_mul(bx, cy), lanei_mul(cx, by));
+    const lanei area = lanei_sub(lanei_mul(bx, cy), lanei_mul(cx, by));
     lane_mask turned = lanei_lt(area, zero), shown = mask_and(small, mask_not(lanei_equal(area, zero)));
     if (job->cull < 0) {
         shown = mask_and(shown, mask_not(turned));
@@ -279,23 +294,30 @@ LANE_INLINE void setup_triangles(lmb_batch *out, const lmb_setup_job *job, const
     out->dropped |= mask_bits(mask_and(in, mask_not(sane))) << k;
     out->other |= mask_bits(mask_and(mask_and(sane, mask_not(hidden)), mask_not(small))) << k;
     out->drawn |= mask_bits(shown) << k;
-    lanei px0 = setup_first(x0, job->origin_x, job->x0), px1 = setup_last(x1, job->origin_x, job->x1);
-    lanei py0 = setup_first(y0, job->origin_y, job->y0), py1 = setup_last(y1, job->origin_y, job->y1);
-    shown = mask_and(shown, mask_not(mask_or(lanei_lt(px1, px0), lanei_lt(py1, py0))));
-    uint32_t bits = mask_bits(shown);
-    if (bits == 0) {
-        return;
-    }
-    out->small |= bits << k;
-    lanei_store(out->x1 + k, px1);
-    lanei_store(out->y1 + k, py1);
+    box->bx = bx, box->by = by, box->cx = cx, box->cy = cy;
+    box->area = area;
+    box->turned = turned;
+    box->x0 = setup_first(x0, job->origin_x, job->x0), box->x1 = setup_last(x1, job->origin_x, job->x1);
+    box->y0 = setup_first(y0, job->origin_y, job->y0), box->y1 = setup_last(y1, job->origin_y, job->y1);
+    box->shown = mask_and(shown, mask_not(mask_or(lanei_lt(box->x1, box->x0), lanei_lt(box->y1, box->y0))));
+    return mask_bits(box->shown);
+}
+
+/* Edges and planes of triangles k .. k + LANES - 1, of which some are to be seen; their corners change. */
+LANE_INLINE void setup_edges(lmb_batch *out, const lmb_setup_job *job, const setup_box *box, setup_corner *a,
+                             setup_corner *b, setup_corner *c, int k)
+{
+    const lane_mask shown = box->shown;
+    lanei_store(out->x1 + k, box->x1);
+    lanei_store(out->y1 + k, box->y1);
     /* What is not shown takes the place of corner a, so that no sum below leaves 32 bits. */
-    b->x = lanei_add(a->x, bx), b->y = lanei_add(a->y, by), c->x = lanei_add(a->x, cx), c->y = lanei_add(a->y, cy);
-    px0 = lanei_pick(shown, px0, lanei_splat(job->x0)), py0 = lanei_pick(shown, py0, lanei_splat(job->y0));
+    b->x = lanei_add(a->x, box->bx), b->y = lanei_add(a->y, box->by);
+    c->x = lanei_add(a->x, box->cx), c->y = lanei_add(a->y, box->cy);
+    const lanei px0 = lanei_pick(shown, box->x0, lanei_splat(job->x0)), py0 = lanei_pick(shown, box->y0, lanei_splat(job->y0));
     lanei_store(out->x0 + k, px0);
     lanei_store(out->y0 + k, py0);
-    const setup_corner second = setup_either(turned, c, b), third = setup_either(turned, b, c);
-    area = lanei_pick(turned, lanei_sub(zero, area), lanei_pick(shown, area, lanei_splat(1)));
+    const setup_corner second = setup_either(box->turned, c, b), third = setup_either(box->turned, b, c);
+    const lanei area = lanei_pick(box->turned, lanei_sub(lanei_splat(0), box->area), lanei_pick(shown, box->area, lanei_splat(1)));
     lanei x = lanei_add(lanei_mul(lanei_shift(px0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_x));
     lanei y = lanei_add(lanei_mul(lanei_shift(py0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_y));
     x = lanei_pick(shown, x, a->x), y = lanei_pick(shown, y, a->y);
@@ -305,11 +327,23 @@ LANE_INLINE void setup_triangles(lmb_batch *out, const lmb_setup_job *job, const
     setup_depth(out, k, a, &second, &third, area);
 }
 
+/* Triangles k .. k + LANES - 1, from their corners, which change; `in`: those that are there. */
+LANE_INLINE void setup_triangles(lmb_batch *out, const lmb_setup_job *job, const setup_sides *sides, lane_mask in,
+                                 setup_corner *a, setup_corner *b, setup_corner *c, int k)
+{
+    setup_box box;
+    const uint32_t bits = setup_find_box(&box, &out->sets, job, sides, in, a, b, c, k);
+    if (bits != 0) {
+        out->sets.small |= bits << k;
+        setup_edges(out, job, &box, a, b, c, k);
+    }
+}
+
 #if LANES > 1
 /* In KERNEL(setup)'s loop compilers would keep what does not change, two dozen vectors, on the stack. */
 NOINLINE void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
 {
-    const lane_mask in = mask_of_bits(out->in >> k);
+    const lane_mask in = mask_of_bits(out->sets.in >> k);
     setup_sides sides = {in, mask_not(in), {in, in, in, in, in}};
     setup_corner a = setup_transform(&sides, job, corners->position[0], k),
                  b = setup_transform(&sides, job, corners->position[1], k),
@@ -321,9 +355,8 @@ static void KERNEL(setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_me
                           uint32_t count)
 {
     setup_corners corners;
-    out->small = out->other = out->drawn = out->dropped = 0;
-    out->in = setup_fetch(&corners, mesh, first, count);
-    for (int k = 0; k < LMB_BATCH && out->in >> k != 0; k += LANES) {
+    setup_begin(&out->sets, setup_fetch(&corners, mesh, first, count));
+    for (int k = 0; k < LMB_BATCH && out->sets.in >> k != 0; k += LANES) {
         setup_lanes(out, job, &corners, k);
     }
 }
@@ -350,7 +383,7 @@ static void setup_keep(lmb_batch_corner *out, const lmb_setup_job *job, const lm
 }
 
 /* A corner, transformed or kept; 0 where the mesh has no such vertex. */
-static int setup_find(lmb_batch_corner *out, lmb_batch *b, const lmb_setup_job *job, const lmb_mesh *mesh,
+static int setup_find(lmb_batch_corner *out, lmb_batch_sets *b, const lmb_setup_job *job, const lmb_mesh *mesh,
                       uint32_t vertex)
 {
     lmb_batch_corner *own = &b->kept[vertex % LMB_BATCH_CORNERS];
@@ -373,32 +406,47 @@ LANE_INLINE setup_corner setup_of(const lmb_batch_corner *c)
     return r;
 }
 
-static void setup_one(lmb_batch *out, const lmb_setup_job *job, const lmb_batch_corner c[3], int k)
+/* Triangle k of the batch: 1, and its corners, where they are sane and no plane cuts it; else it is put into the sets. */
+static int setup_whole(setup_corner corner[3], lmb_batch_sets *out, const lmb_setup_job *job, const lmb_mesh *mesh,
+                       uint32_t triangle, uint32_t k)
 {
+    lmb_batch_corner c[3];
+    uint32_t vertex[3];
+    mesh_triangle(mesh, triangle, vertex);
+    if (!setup_find(&c[0], out, job, mesh, vertex[0]) || !setup_find(&c[1], out, job, mesh, vertex[1]) ||
+        !setup_find(&c[2], out, job, mesh, vertex[2])) {
+        return 0;
+    }
     const uint32_t any = c[0].is_out | c[1].is_out | c[2].is_out, all = c[0].is_out & c[1].is_out & c[2].is_out;
-    const lane_mask in = mask_of_bits(1), none = mask_of_bits(0);
-    const setup_sides inside = {in, none, {none, none, none, none, none}};
     out->in |= 1u << k;
     if (any != 0) {
         out->dropped |= (any & SETUP_INSANE) << k;
         out->other |= (uint32_t)((any & SETUP_INSANE) == 0 && (all & SETUP_OUTSIDE) == 0) << k;
-        return;
+        return 0;
     }
-    setup_corner first = setup_of(&c[0]), second = setup_of(&c[1]), third = setup_of(&c[2]);
-    setup_triangles(out, job, &inside, in, &first, &second, &third, k);
+    for (int i = 0; i < 3; ++i) {
+        corner[i] = setup_of(&c[i]);
+    }
+    return 1;
+}
+
+/* Of a triangle that is whole. */
+LANE_INLINE setup_sides setup_inside(void)
+{
+    const lane_mask in = mask_of_bits(1), none = mask_of_bits(0);
+    const setup_sides inside = {in, none, {none, none, none, none, none}};
+    return inside;
 }
 
 static void KERNEL(setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first,
                           uint32_t count)
 {
-    lmb_batch_corner c[3];
-    out->in = out->small = out->other = out->drawn = out->dropped = 0;
+    const setup_sides inside = setup_inside();
+    setup_corner c[3];
+    setup_begin(&out->sets, 0);
     for (uint32_t k = 0; k < count; ++k) {
-        uint32_t vertex[3];
-        mesh_triangle(mesh, first + k, vertex);
-        if (setup_find(&c[0], out, job, mesh, vertex[0]) && setup_find(&c[1], out, job, mesh, vertex[1]) &&
-            setup_find(&c[2], out, job, mesh, vertex[2])) {
-            setup_one(out, job, c, (int)k);
+        if (setup_whole(c, &out->sets, job, mesh, first + k, k)) {
+            setup_triangles(out, job, &inside, inside.sane, &c[0], &c[1], &c[2], (int)k);
         }
     }
 }

@@ -98,6 +98,8 @@ static int64_t good_number(const argument *a)
         {"lmb_tree_init", "size", POOL_MAP / 2},
         {"lmb_draw", "count", 100},
         {"lmb_clusters_build", "count", POOL_CLUSTERS},
+        {"lmb_bins_build", "count", 100},
+        {"lmb_bins_draw", "count", POOL_BINS},
         {"lmb_shadow_map_draw", "count", 100},
         {"lmb_gouraud_draw", "count", 100},
         {"lmb_around_points", "count", 100},
@@ -177,6 +179,7 @@ static int64_t vouched(const argument *a, int64_t n)
     } all[] = {
         {"lmb_many_lights_add", "count", POOL_LIGHTS},
         {"lmb_clusters_build", "count", POOL_CLUSTERS},
+        {"lmb_bins_draw", "count", POOL_BINS},
         {"lmb_env_lights", "cap", POOL_LIGHTS}, {"lmb_around_points", "cap", POOL_TEXELS},
         {"lmb_around_gather", "count", POOL_TEXELS}, {"lmb_voxels_inject", "count", POOL_TEXELS},
         {"lmb_voxels_build", "count", POOL_PARTS}, {"lmb_transfer_fingerprint", "count", POOL_PLACES},

@@ -14,7 +14,7 @@
 /* Good numbers are small, so that a call takes well under a millisecond. */
 enum { POOL_WIDE = 24, POOL_HIGH = 16, POOL_MAP = 32, POOL_SMALL = 8, POOL_SLOTS = 2, POOL_SCENES = 5 };
 enum { POOL_LIGHTS = 16, POOL_TEXELS = 128, POOL_PLACES = 64, POOL_PARTS = 2, POOL_MAPS = 4,
-       POOL_CLUSTERS = 8 }; /* of a slot that is an array */
+       POOL_CLUSTERS = 8, POOL_BINS = 3 }; /* of a slot that is an array */
 enum { POOL_ARRAY = 1 << 17 }; /* bytes: no plain array of a call is longer */
 
 /* pool_begin: everything is zeros, but the scenes. pool_end: frees blocks, and checks what stands around them and the

@@ -59,6 +59,20 @@ static void fill_cluster(void *out, int how)
     }
 }
 
+/* Ranges of a scene in memory that takes all, some or none of them. */
+static void fill_bins(void *out, int how)
+{
+    static const size_t bytes[] = {1 << 16, 2000, 700, 0};
+    lmb_bins *b = out;
+    memset(b, 0, POOL_BINS * sizeof *b);
+    for (int i = 0; i < POOL_BINS; ++i) {
+        b[i].bytes = bytes[(how + i) % 4];
+        b[i].memory = pool_block(b[i].bytes + 1);
+        lmb_bins_build(&b[i], lmb_kernels_pick(), SLOT(lmb_view), pool_scene(how / 4 % 4), (uint32_t)(1 + 30 * i), 30,
+                       (uint32_t)how / 16 % 4, NULL, NULL);
+    }
+}
+
 static void fill_view(void *out, int how)
 {
     const lmb_vec3 eye = how == 0 ? (lmb_vec3){0.5f, 0.6f, 2.5f} : pool_vector((uint8_t)how), up = {0, 1, 0};
@@ -316,6 +330,7 @@ static const struct {
     {"lmb_irradiance", fill_irradiance}, {"lmb_cone_seen", fill_seen}, {"lmb_vec3", fill_places},
     {"lmb_texel", fill_texels}, {"lmb_band_scratch", fill_scratch}, {"lmb_transfer_light", fill_transfer_light},
     {"lmb_frame", fill_frame}, {"lmb_culling", fill_culling}, {"lmb_cluster", fill_cluster},
+    {"lmb_bins", fill_bins},
 };
 
 void pool_fill(const uint8_t b[12])

@@ -43,7 +43,7 @@ tests() {
     base) echo tests:base tests:contracts tests:light hard:raster hard:whole tests:tree tests:frames tests:many_lights \
         tests:glossy ;;
     raster) echo hard:raster tests:resolve tests:textures tests:normal_map reference:hard hard:invariants \
-        tests:raster ;;
+        tests:raster tests:bins ;;
     map) echo tests:light tests:mixed tests:threads tests:elements hard:shadow hard:whole tests:frames tests:relit \
         tests:glossy ;;
     occlusion) echo tests:occlusion hard:bounce hard:whole tests:cut ;;

@@ -94,6 +94,7 @@ static struct {
     lmb_env env;
     lmb_voxels voxels;
     lmb_cones cones;
+    lmb_bins bins;
     lmb_cone_scratch cone_scratch;
     lmb_world world;
     lmb_world_pictures pictures;
@@ -193,6 +194,7 @@ static void make_frame(void)
     CHECK(lmb_survey_even(&g.survey, &g.render, 1, 4) == LMB_OK);
     CHECK(lmb_render_sample(&g.query, &g.render, &g.scratch, &g.survey, 0.0) == LMB_OK);
     CHECK(lmb_surface_init(&g.metres, LMB_R32F, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
+    CHECK(lmb_bins_build(&g.bins, lmb_kernels_pick(), &g.render.frame.view, demo_scene(), 1, 100, 0, NULL, NULL) == LMB_OK);
     const lmb_cut_params cut_params = {.error = 0.1f, .visibility = 0.1f, .bvh = &g.render.frame.bvh};
     const lmb_element_scratch receiver = {f.kernels, &g.cut, &g.scratch.tile, &g.irradiance[0], &g.irradiance[1]};
     const lmb_occluder occluder = {&g.render.frame.view, &g.render.frame.eye.depth, LMB_OCCLUSION_VIEW, 8};
@@ -389,6 +391,7 @@ static const void *good_one(const argument *a, size_t *bytes)
     trace.scratch = &g.cone_scratch;
     const known all[] = {
         {"lmb_axes", &straight, sizeof straight},
+        {"lmb_bins", &g.bins, sizeof g.bins},
         {"lmb_bvh", &f->bvh, sizeof f->bvh},
         {"lmb_budget", &budget, sizeof budget},
         {"lmb_cloud", &g.cloud, sizeof g.cloud},

@@ -12,6 +12,7 @@
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
 #include "../../platform/host/process.h"
+#include "../common/binned.h"
 #include "../demo/demo_scene.h"
 #include "bench_scene.h"
 
@@ -31,13 +32,18 @@ typedef struct bench_work {
     pool_job job;
     void *user;
     int bands; /* pieces; 0: as many as threads */
+    void (*shared)(void *user, int threads); /* shares itself out; or NULL */
     int parts; /* of the run at hand */
 } bench_work;
 
 static void run_work(bench_work *w, int threads)
 {
     w->parts = w->bands > 0 ? w->bands : threads;
-    pool_run(threads, w->parts, w->job, w);
+    if (w->shared != NULL) {
+        w->shared(w->user, threads);
+    } else {
+        pool_run(threads, w->parts, w->job, w);
+    }
 }
 
 static void run_alone(void *user) { run_work(user, 1); }
@@ -95,6 +101,7 @@ static lmb_status gather_begin(gather_job *g, const lmb_kernels *kernels)
 
 typedef struct map_job {
     uint32_t depth[MAP * MAP], id[MAP * MAP];
+    binned bins;
     bench_scene scene;
     lmb_shadow_map map;
     const lmb_kernels *kernels;
@@ -122,6 +129,16 @@ static void map_begin(map_job *m, int ids, const lmb_kernels *kernels)
     if (ids) {
         lmb_surface_init(&m->map.face[0].id, LMB_ID32, MAP, MAP, m->id, sizeof m->id);
     }
+}
+
+/* The same map by bins: the pieces are draws, one a run, that share themselves out. */
+static void map_binned(void *user, int threads)
+{
+    map_job *m = user;
+    const lmb_scene *scene = &m->scene.scene;
+    const binned_draw draw = {
+        &m->map.face[0], m->kernels, &m->map.view[0], scene, 1, lmb_scene_triangles(scene), 0, threads};
+    binned_run(&m->bins, &draw);
 }
 
 /* --- in turn ------------------------------------------------------------------------------------------------------ */
@@ -228,7 +245,7 @@ static int measure(bench_work *w, const threads_options *o, report *r)
 static int measure_gather(const threads_options *o, report *r)
 {
     gather_job *g = malloc(sizeof *g);
-    bench_work w = {"gather-demo-320x240", gather_band, g, HEIGHT / LMB_TILE, 0};
+    bench_work w = {"gather-demo-320x240", gather_band, g, HEIGHT / LMB_TILE, NULL, 0};
     if (g == NULL) {
         return report_fail(r, "not enough memory for the gather");
     }
@@ -241,7 +258,8 @@ static int measure_gather(const threads_options *o, report *r)
 static int measure_maps(const threads_options *o, report *r)
 {
     static const bench_case of = {"sponzaL", BENCH_SPONZA_LIGHT, BENCH_DEPTH, MAP, MAP, 0};
-    static const char *const names[2] = {"sponzaL-depth-2048", "sponzaL-depth-id-2048"};
+    static const char *const names[2][2] = {{"sponzaL-depth-2048", "sponzaL-depth-id-2048"},
+                                            {"the same by bins", "the same by bins"}};
     map_job *m = malloc(sizeof *m);
     int ok = 1;
     if (m == NULL) {
@@ -251,11 +269,14 @@ static int measure_maps(const threads_options *o, report *r)
         free(m);
         return 0;
     }
-    for (int ids = 0; ids < 2 && ok; ++ids) {
-        bench_work w = {names[ids], map_rows, m, 0, 0};
+    memset(&m->bins, 0, sizeof m->bins);
+    for (int i = 0; i < 4 && ok; ++i) {
+        const int ids = i / 2, bins = i % 2;
+        bench_work w = {names[bins][ids], map_rows, m, 0, bins ? map_binned : NULL, 0};
         map_begin(m, ids, o->kernels);
         ok = measure(&w, o, r);
     }
+    binned_free(&m->bins);
     bench_scene_free(&m->scene);
     free(m);
     return ok;

@@ -29,7 +29,7 @@ typedef struct options {
     const char *cases[CASES];
     int32_t case_count, threads;
     int32_t group; /* of hard_groups; -1: all */
-    int linear, culled, json, is_quiet, is_verbose;
+    int linear, culled, binned, json, is_quiet, is_verbose;
     float seconds; /* of each case */
 } options;
 
@@ -40,6 +40,7 @@ typedef struct canvas {
     void *depth, *id, *rgba, *linear;
     size_t linear_bytes;
     lmb_culling culling; /* clusters NULL: lmb_draw */
+    lmb_bins bins;       /* memory NULL: straight from the mesh */
     void *farthest, *clusters;
 } canvas;
 
@@ -70,19 +71,33 @@ static void store_colours(const canvas *c, const bench_scene *s, const lmb_kerne
     }
 }
 
-static void draw_frame(const canvas *c, const bench_scene *s, const lmb_kernels *kernels, int cull)
+/* Bins clear what they draw into. */
+static void draw_ids(canvas *c, const bench_scene *s, const lmb_kernels *kernels, uint32_t flags)
 {
+    const uint32_t count = s->mesh.triangle_count;
+    const lmb_culling *culling = c->clusters != NULL ? &c->culling : NULL;
+    if (c->bins.memory != NULL) {
+        lmb_bins_build(&c->bins, kernels, &s->view, &s->scene, 1, count, flags, culling, NULL);
+        lmb_bins_draw(&c->target, kernels, &c->bins, 1, 1, culling);
+        return;
+    }
     lmb_surface_clear(&c->target.depth);
     if (c->id != NULL) {
         lmb_surface_clear(&c->target.id);
-        lmb_surface_clear(&c->out);
     }
-    const uint32_t flags = cull ? LMB_CULL_BACK : 0;
-    if (c->clusters != NULL) {
-        memset(c->farthest, 0, c->culling.tiles * sizeof(float));
-        lmb_draw_culled(&c->target, kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, flags, &c->culling, NULL);
+    if (culling != NULL) {
+        memset(c->farthest, 0, culling->tiles * sizeof(float));
+        lmb_draw_culled(&c->target, kernels, &s->view, &s->scene, 1, count, flags, culling, NULL);
     } else {
-        lmb_draw(&c->target, kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, flags, NULL);
+        lmb_draw(&c->target, kernels, &s->view, &s->scene, 1, count, flags, NULL);
+    }
+}
+
+static void draw_frame(canvas *c, const bench_scene *s, const lmb_kernels *kernels, int cull)
+{
+    draw_ids(c, s, kernels, cull ? LMB_CULL_BACK : 0);
+    if (c->id != NULL) {
+        lmb_surface_clear(&c->out);
     }
     if (c->rgba != NULL) {
         store_colours(c, s, kernels);
@@ -101,6 +116,7 @@ static void canvas_free(canvas *c)
     free(c->linear);
     free(c->farthest);
     free(c->clusters);
+    free(c->bins.memory);
 }
 
 /* Clusters are made on load, and in no frame's time. */
@@ -137,7 +153,11 @@ static int canvas_make(canvas *c, const bench_case *k, const bench_scene *s, con
         lmb_surface_init(&c->target.id, LMB_ID32, k->width, k->height, c->id, id);
         lmb_surface_init(&c->out, LMB_RGBA8, k->width, k->height, c->rgba, 4 * pixels);
     }
-    if (o->culled && !canvas_cull(c, s)) {
+    if (o->binned) {
+        c->bins.bytes = lmb_bins_bytes(&s->view, s->mesh.triangle_count);
+        c->bins.memory = malloc(c->bins.bytes);
+    }
+    if ((o->culled && !canvas_cull(c, s)) || (o->binned && c->bins.memory == NULL)) {
         canvas_free(c);
         return report_fail(r, "%s: out of memory", k->name);
     }
@@ -154,7 +174,7 @@ static int by_value(const void *a, const void *b)
 static int is_depth_fill(const bench_case *k) { return k->scene >= BENCH_FILL_PASS && k->look == BENCH_DEPTH; }
 
 /* The longest of what one frame keeps a unit, or loads and stores, busy with. */
-static void set_bound(timing *t, const canvas *c, const bench_scene *s, const bench_rates *r, int cull)
+static void set_bound(timing *t, canvas *c, const bench_scene *s, const bench_rates *r, int cull)
 {
     double counts[BENCH_OPS];
     int unit = 0;
@@ -172,7 +192,7 @@ static void set_bound(timing *t, const canvas *c, const bench_scene *s, const be
 
 /* Two frames to warm up, then frames for the time asked for, each by itself, and the processor's loops between them:
  * both meet the same clock rate and the same neighbours. */
-static void measure(timing *t, const canvas *c, const bench_scene *s, const options *o, int cull)
+static void measure(timing *t, canvas *c, const bench_scene *s, const options *o, int cull)
 {
     bench_rates rates;
     const int rated = bench_rates_begin(&rates, lmb_kernels_name(o->kernels));
@@ -305,6 +325,8 @@ static const option_row raster_rows[] = {
      .help = "with depth copied into plain rows, which other programs read"},
     {.name = "--culled", .kind = OPTION_FLAG, AT(culled),
      .help = "by lmb_draw_culled: without what is hidden, by clusters and by bounds that each frame sets back"},
+    {.name = "--binned", .kind = OPTION_FLAG, AT(binned),
+     .help = "by lmb_bins_draw: set up into bins, and drawn from there; with --culled by clusters and bounds, too"},
     {.name = "--peers", .value = "DIR", .kind = OPTION_TEXT, AT(peers),
      .help = "after each case let every program of this folder draw it, and print how long it takes, and how many times "
              "our time that is; tools/README.md says what such a program prints"},

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "../../platform/host/pool.h"
+#include "../common/binned.h"
 #include "../common/progress.h"
 #include "../picture/picture.h"
 
@@ -47,7 +48,7 @@ int mix_image(image *out, int32_t width, int32_t height, report *r)
 
 /* --- the object's depth and ids ----------------------------------------------------------------------------------- */
 
-static int draw_sample(drawing *d, mix_job *j, int32_t i, report *r)
+static int draw_sample(drawing *d, mix_job *j, binned *bins, int32_t i, report *r)
 {
     const int32_t w = (j->frame.camera.width + LMB_TILE - 1) / LMB_TILE * LMB_TILE,
                   h = (j->frame.camera.height + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
@@ -64,8 +65,9 @@ static int draw_sample(drawing *d, mix_job *j, int32_t i, report *r)
     d->view[i] = d->view[0];
     lmb_status status = d->samples > 1 ? lmb_view_sample(&d->view[i], d->samples, i) : LMB_OK;
     if (status == LMB_OK && j->object_triangles > 0) {
-        status = lmb_draw(eye, j->o.kernels, &d->view[i], &j->scene, j->real_triangles + 1, j->object_triangles,
-                          LMB_CULL_BACK | LMB_BLEND, NULL);
+        const binned_draw object = {eye, j->o.kernels, &d->view[i], &j->scene, j->real_triangles + 1,
+                                    j->object_triangles, LMB_CULL_BACK | LMB_BLEND, pool_threads(j->o.threads)};
+        status = binned_run(bins, &object);
     }
     return status == LMB_OK || report_fail(r, "the object cannot be drawn: %s", lmb_status_name(status));
 }
@@ -83,10 +85,13 @@ static int draw_object(drawing *d, mix_job *j, report *r)
     if (lmb_photo_view(&d->view[0], &d->x0, &d->y0, &j->frame.camera, &j->axes) != LMB_OK) {
         return report_fail(r, "intrinsics: the camera's axis is too far outside the photo");
     }
+    binned bins;
+    memset(&bins, 0, sizeof bins);
     int32_t i = d->samples;
-    while (i > 0 && draw_sample(d, j, i - 1, r)) { /* the first last: the others' views begin as its own */
+    while (i > 0 && draw_sample(d, j, &bins, i - 1, r)) { /* the first last: the others' views begin as its own */
         --i;
     }
+    binned_free(&bins);
     return i == 0;
 }
 

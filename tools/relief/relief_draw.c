@@ -7,6 +7,7 @@
 
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
+#include "../common/binned.h"
 #include "../common/progress.h"
 #include "../../src/base/vec.h"
 #include "relief_bounce.h"
@@ -42,6 +43,7 @@ typedef struct work {
     lmb_tile tile;       /* of shadow maps */
     relief_bounce bounce;
     pen *pens;
+    binned bins;
     int threads;
 } work;
 
@@ -232,9 +234,12 @@ static lmb_status draw_layer(work *w, layer *l)
     if (l->scene == NULL) {
         return LMB_OK;
     }
-    lmb_surface_clear(&l->target.depth);
-    lmb_surface_clear(&l->target.id);
-    return lmb_draw(&l->target, w->shot->kernels, &w->view, l->scene, 1, lmb_scene_triangles(l->scene), 0, NULL);
+    const binned_draw all = {&l->target, w->shot->kernels, &w->view, l->scene, 1, lmb_scene_triangles(l->scene), 0,
+                             w->threads};
+    const size_t before = w->bins.bytes;
+    const lmb_status status = binned_run(&w->bins, &all);
+    w->out->bytes += w->bins.bytes - before;
+    return status;
 }
 
 static void draw_row(void *user, int row, int thread)
@@ -376,6 +381,7 @@ int relief_shoot(relief_frame *out, const relief_shot *shot, report *r)
     const int ok = begin(w, r) && draw(w, r);
     layer_free(&w->plain);
     layer_free(&w->relief);
+    binned_free(&w->bins);
     for (int i = 1; w->pens != NULL && i < w->threads; ++i) {
         free(w->pens[i].bounce.cut);
     }

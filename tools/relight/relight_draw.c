@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../platform/host/pool.h"
+#include "../common/binned.h"
 #include "../common/frame_name.h"
 #include "../common/progress.h"
 #include "../common/view_frame.h"
@@ -39,6 +40,7 @@ typedef struct stage {
     contact contact;
     lmb_relight_scratch *scratch; /* by thread */
     int threads;
+    binned bins;
     lmb_surface out;
     lmb_status failed[POOL_MAX]; /* by thread */
     image picture;
@@ -168,10 +170,9 @@ static lmb_status draw_sample(stage *s, float *pixels)
     s->out.height = s->picture.height;
     s->out.stride_bytes = s->out.width * 3 * (int32_t)sizeof(float);
     s->out.format = LMB_RGB32F;
-    lmb_surface_clear(&l->eye.depth);
-    lmb_surface_clear(&l->eye.id);
-    lmb_status status =
-        lmb_draw(&l->eye, l->kernels, &l->view, scene, 1, lmb_scene_triangles(scene), LMB_CULL_BACK | LMB_BLEND, NULL);
+    const binned_draw eye = {
+        &l->eye, l->kernels, &l->view, scene, 1, lmb_scene_triangles(scene), LMB_CULL_BACK | LMB_BLEND, s->threads};
+    lmb_status status = binned_run(&s->bins, &eye);
     if (status == LMB_OK) {
         pool_run(s->threads, (s->out.height + LMB_TILE - 1) / LMB_TILE, draw_band, s);
     }
@@ -379,6 +380,7 @@ static void stage_free(stage *s)
     for (int i = 0; i < RELIGHT_LIGHTS; ++i) {
         free(s->map_memory[i]);
     }
+    binned_free(&s->bins);
     free(s->probes);
     free(s->probe_of);
     free(s->planes);

@@ -1,0 +1,616 @@
+/* bins.c: triangles set up once, into bins by rows of the frame, and drawn from there into windows. Layer 3.
+ *
+ * A bin has two lists of blocks, both in the triangles' order: of small triangles, LMB_BATCH side by side, and of large
+ * ones, which know how many small ones come before them. A triangle lies in each bin that its box meets, and a bin is
+ * drawn into its own rows alone: so each pixel meets its triangles once and in order, whatever the windows. */
+#include <lambent/bins.h>
+
+#if LMB_CULLING
+#include <string.h>
+
+#include "draw_one.h"
+#include "target.h"
+#include "triangle.h"
+
+enum { SMALL, LARGE, KINDS };
+enum { LINE = 64, ROWS_SHIFT = 7, BIN_BYTES = 1 << 20 };
+
+typedef struct bin {
+    uint32_t first[KINDS], last[KINDS]; /* blocks, where there are any */
+    uint32_t count[KINDS];              /* triangles */
+} bin;
+
+enum { MASKED = 1, BLENDS = 2 };
+
+/* A triangle that is large, was clipped, or has holes. */
+typedef struct bin_large {
+    lmb_screen_vertex corner[3];
+    uint32_t id, flags;
+    uint32_t before; /* small ones of its bin */
+} bin_large;
+
+enum { LARGES = sizeof(lmb_bin_block) / sizeof(bin_large) }; /* of a block */
+
+/* What lies in the caller's memory. */
+typedef struct bin_pool {
+    bin *bins;
+    uint32_t *next; /* of each block: the one behind it */
+    lmb_bin_block *block;
+    uint32_t blocks, used;
+    int shift;             /* rows of a bin, a power of two */
+    int32_t width, height; /* of the frame */
+    int is_full;           /* nothing goes in any more */
+} bin_pool;
+
+/* --- memory ------------------------------------------------------------------------------------------------------- */
+
+/* 128 rows, or fewer where these are over a MiB of float depth. */
+static int rows_shift(const lmb_view *view)
+{
+    int shift = ROWS_SHIFT;
+    while (shift > 3 && (int64_t)view->frame_width * (4 << shift) > BIN_BYTES) {
+        --shift;
+    }
+    return shift;
+}
+
+static uint32_t bin_count(const lmb_view *view) { return (uint32_t)((view->frame_height - 1) >> rows_shift(view)) + 1; }
+
+static size_t table_bytes(const lmb_view *view)
+{
+    return (bin_count(view) * sizeof(bin) + LINE - 1) / LINE * LINE;
+}
+
+int32_t lmb_bins_rows(const lmb_view *view)
+{
+    return view != NULL && lmb_view_is_valid(view) ? 1 << rows_shift(view) : 0;
+}
+
+size_t lmb_bins_bytes(const lmb_view *view, uint32_t triangles)
+{
+    if (lmb_bins_rows(view) == 0) {
+        return 0;
+    }
+    const size_t blocks = (size_t)triangles / LMB_BATCH * 2 + 2 * (size_t)bin_count(view) + 2;
+    return table_bytes(view) + blocks * (sizeof(lmb_bin_block) + sizeof(uint32_t)) + LINE;
+}
+
+/* 0 where not even the bins fit. */
+static int pool_find(bin_pool *p, const lmb_bins *bins)
+{
+    const size_t table = table_bytes(&bins->view), skip = (LINE - (uintptr_t)bins->memory % LINE) % LINE;
+    if (bins->memory == NULL || bins->bytes < table + skip) {
+        return 0;
+    }
+    uint8_t *at = (uint8_t *)bins->memory + skip;
+    const size_t blocks = (bins->bytes - table - skip) / (sizeof(lmb_bin_block) + sizeof(uint32_t));
+    p->blocks = blocks < UINT32_MAX ? (uint32_t)blocks : UINT32_MAX;
+    p->bins = (bin *)(void *)at;
+    p->block = (lmb_bin_block *)(void *)(at + table);
+    p->next = (uint32_t *)(void *)(p->block + p->blocks);
+    p->used = 0;
+    p->is_full = 0;
+    p->shift = rows_shift(&bins->view);
+    p->width = bins->view.frame_width;
+    p->height = bins->view.frame_height;
+    return 1;
+}
+
+static void block_soon(const bin_pool *p, uint32_t i)
+{
+    for (size_t at = 0; at < sizeof(lmb_bin_block); at += LINE) {
+        MESH_SOON((const uint8_t *)&p->block[i] + at);
+    }
+}
+
+/* --- into bins ---------------------------------------------------------------------------------------------------- */
+
+/* The block where the next triangle of a kind goes, and its place there; NULL where memory ends. */
+static inline lmb_bin_block *pool_place(bin_pool *p, bin *b, int kind, uint32_t per_block, uint32_t *place)
+{
+    *place = b->count[kind] % per_block;
+    if (*place == 0) {
+        const uint32_t i = p->used;
+        if (i == p->blocks) {
+            return NULL;
+        }
+        if (b->count[kind] == 0) {
+            b->first[kind] = i;
+        } else {
+            p->next[b->last[kind]] = i;
+        }
+        p->next[i] = i; /* the last one */
+        b->last[kind] = i;
+        if (++p->used < p->blocks) {
+            block_soon(p, p->used);
+        }
+    }
+    ++b->count[kind];
+    return &p->block[b->last[kind]];
+}
+
+static inline int put_small(bin_pool *p, bin *b, const lmb_bin_block *from, int k, uint32_t id)
+{
+    uint32_t i;
+    lmb_bin_block *to = pool_place(p, b, SMALL, LMB_BATCH, &i);
+    if (to == NULL) {
+        return 0;
+    }
+    to->x[i] = from->x[k];
+    to->y[i] = from->y[k];
+    to->to_b[i] = from->to_b[k];
+    to->to_c[i] = from->to_c[k];
+    to->d[0][i] = from->d[0][k];
+    to->d[1][i] = from->d[1][k];
+    to->d[2][i] = from->d[2][k];
+    to->id[i] = id;
+    return 1;
+}
+
+static int put_large(bin_pool *p, bin *b, const bin_large *large)
+{
+    uint32_t i;
+    lmb_bin_block *to = pool_place(p, b, LARGE, LARGES, &i);
+    if (to == NULL) {
+        return 0;
+    }
+    bin_large *own = (bin_large *)(void *)to + i;
+    *own = *large;
+    own->before = b->count[SMALL];
+    return 1;
+}
+
+/* First and last pixels of 0 .. size - 1 whose centres lie between two places in 24.8, or nearly: lmb_fill_masked asks at
+ * the middles of pixels, wherever the view's sample lies. */
+static void span(int32_t *first, int32_t *last, int32_t low, int32_t high, int32_t origin, int32_t size)
+{
+    *first = maxi((low + 127 - origin) >> 8, 0);
+    *last = mini((high + 128 - origin) >> 8, size - 1);
+}
+
+/* 1, and *seen, where it has area and is not culled; 0 where memory ends. */
+static int put_triangle(bin_pool *p, const lmb_draw_instance *d, const bin_large *large, int *seen)
+{
+    const lmb_screen_vertex *a = &large->corner[0], *b = &large->corner[1], *c = &large->corner[2];
+    const int64_t area = setup_area(a, b, c);
+    int32_t x0, x1, y0, y1;
+    if (area == 0 || (d->cull && (area > 0) != d->mirrored)) {
+        return 1;
+    }
+    *seen = 1;
+    span(&x0, &x1, mini(a->x_24_8, mini(b->x_24_8, c->x_24_8)), maxi(a->x_24_8, maxi(b->x_24_8, c->x_24_8)),
+         d->job.origin_x, p->width);
+    span(&y0, &y1, mini(a->y_24_8, mini(b->y_24_8, c->y_24_8)), maxi(a->y_24_8, maxi(b->y_24_8, c->y_24_8)),
+         d->job.origin_y, p->height);
+    if (x0 > x1 || y0 > y1 || p->is_full) {
+        return 1;
+    }
+    for (int32_t i = y0 >> p->shift; i <= y1 >> p->shift; ++i) {
+        if (!put_large(p, &p->bins[i], large)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Triangle k of a batch, whose id it is, in as many as a plane cuts it into. */
+static int put_other(bin_pool *p, const lmb_draw_instance *d, const lmb_bin_batch *from, int k, uint32_t id, int *seen)
+{
+    const uint32_t whole = from->whole & ~from->sets.small;
+    lmb_screen_vertex corner[LMB_CLIP_MAX];
+    bin_large large;
+    int n = 3;
+    if (whole >> k & 1u) {
+        corner[0].x_24_8 = from->block.x[k], corner[0].y_24_8 = from->block.y[k], corner[0].d = from->block.d[0][k];
+        corner[1].x_24_8 = from->b[0][k], corner[1].y_24_8 = from->b[1][k], corner[1].d = from->block.d[1][k];
+        corner[2].x_24_8 = from->c[0][k], corner[2].y_24_8 = from->c[1][k], corner[2].d = from->block.d[2][k];
+    } else {
+        n = lmb_one_corners(corner, d, id);
+    }
+    large.id = id;
+    large.flags = (d->masked ? MASKED : 0u) | (d->blends ? BLENDS : 0u);
+    large.before = 0;
+    for (int i = 2; i < n; ++i) {
+        large.corner[0] = corner[0], large.corner[1] = corner[i - 1], large.corner[2] = corner[i];
+        if (!put_triangle(p, d, &large, seen)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* One that is small goes to each bin of its rows. */
+static inline int put_rows(bin_pool *p, const lmb_bin_batch *from, int k, uint32_t id)
+{
+    for (int32_t i = from->y0[k] >> p->shift; i <= from->y1[k] >> p->shift; ++i) {
+        if (!put_small(p, &p->bins[i], &from->block, k, id)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* What is being built. */
+typedef struct bin_builder {
+    bin_pool pool;
+    lmb_bins *bins;
+    const lmb_kernels *kernels;
+    const lmb_cluster *clusters; /* of the instance, or NULL */
+    lmb_stats *stats;
+    lmb_fill_window frame;
+    lmb_bin_batch batch;
+} bin_builder;
+
+/* The triangle's place in bins, if there is memory. */
+static void put(bin_builder *b, const lmb_draw_instance *d, int k, uint32_t id, int is_other, uint32_t *drawn)
+{
+    bin_pool *p = &b->pool;
+    int seen = 0, fits;
+    if (is_other) {
+        fits = put_other(p, d, &b->batch, k, id, &seen);
+        *drawn += (uint32_t)seen;
+    } else {
+        fits = p->is_full || put_rows(p, &b->batch, k, id);
+    }
+    if (!fits) {
+        p->is_full = 1;
+        b->bins->past_id = id;
+    }
+}
+
+/* Bits of a set. */
+static uint32_t set_size(uint32_t bits) { return (uint32_t)count_bits_16(bits); }
+
+static void build_batch(bin_builder *b, const lmb_draw_instance *d, uint32_t id, uint32_t count)
+{
+    const lmb_batch_sets *sets = &b->batch.sets;
+    b->kernels->bin_snap(&b->batch, &d->job, d->mesh, id - d->first_id, count);
+    const uint32_t other = sets->other | (d->masked ? sets->small : 0);
+    uint32_t drawn = set_size(d->masked ? sets->drawn & ~sets->small : sets->drawn);
+    for (uint32_t left = sets->small | other; left != 0; left &= left - 1) {
+        const int k = lowest_bit(left);
+        put(b, d, k, id + (uint32_t)k, (int)(other >> k & 1u), &drawn);
+    }
+    if (b->stats != NULL) {
+        b->stats->triangles += count;
+        b->stats->triangles_dropped += set_size((((1u << count) - 1) & ~sets->in) | sets->dropped);
+        b->stats->triangles_drawn += drawn;
+    }
+}
+
+/* Triangles first .. past - 1 of an instance: batches, but for clusters outside the frame. */
+static void build_instance(bin_builder *b, const lmb_draw_instance *d, uint32_t first, uint32_t past)
+{
+    while (first < past && !(b->pool.is_full && b->stats == NULL)) {
+        const uint32_t at = first - d->first_id, left = past - first;
+        const uint32_t rest = LMB_CLUSTER - at % LMB_CLUSTER, of_cluster = rest < left ? rest : left;
+        uint32_t count = left < LMB_BATCH ? left : LMB_BATCH;
+        if (b->clusters != NULL) {
+            const int hidden = at % LMB_CLUSTER == 0 && lmb_cluster_is_hidden(&b->clusters[at / LMB_CLUSTER], &d->job,
+                                                                              &b->frame, b->kernels);
+            count = hidden || of_cluster < count ? of_cluster : count;
+            if (hidden) {
+                if (b->stats != NULL) {
+                    b->stats->triangles += count;
+                }
+                first += count;
+                continue;
+            }
+        }
+        build_batch(b, d, first, count);
+        first += count;
+    }
+}
+
+/* An instance in a window without memory, which is the whole frame. */
+NOINLINE void set_instance(lmb_draw_instance *out, const lmb_bins *bins, const lmb_instance *instance)
+{
+    lmb_target frame;
+    lmb_fill_context c;
+    memset(&frame, 0, sizeof frame);
+    frame.depth.width = bins->view.frame_width;
+    frame.depth.height = bins->view.frame_height;
+    c.target = &frame;
+    c.view = &bins->view;
+    c.scene = bins->scene;
+    lmb_draw_instance_set(out, &c, instance, bins->flags);
+}
+
+/* What clusters are asked for in. */
+static void set_frame(bin_builder *b, const lmb_view *view)
+{
+    memset(&b->frame, 0, sizeof b->frame);
+    b->frame.tiles_x = (view->frame_width + LMB_TILE - 1) / LMB_TILE;
+    b->frame.tiles_y = (view->frame_height + LMB_TILE - 1) / LMB_TILE;
+    b->frame.origin_x = view_origin_x(view);
+    b->frame.origin_y = view_origin_y(view);
+}
+
+static void build_all(bin_builder *b, const lmb_culling *culling)
+{
+    const lmb_bins *bins = b->bins;
+    const lmb_scene *scene = bins->scene;
+    const lmb_instance *end = scene->instances + scene->instance_count;
+    const lmb_instance *instance = lmb_instance_of(scene, bins->first_id);
+    lmb_cluster_place place = {NULL, 0, 0, 0};
+    set_frame(b, &bins->view);
+    for (; instance != NULL && instance < end && instance->first_id < bins->end_id; ++instance) {
+        const uint32_t past = instance->first_id + scene->meshes[instance->mesh].triangle_count;
+        lmb_draw_instance d;
+        set_instance(&d, bins, instance);
+#if LMB_PLAIN_LANES == 1
+        memset(b->batch.sets.kept, 0, sizeof b->batch.sets.kept);
+#endif
+        b->clusters = culling != NULL && culling->clusters != NULL
+                          ? lmb_cluster_find(&place, culling, scene, instance->mesh)
+                          : NULL;
+        build_instance(b, &d, bins->first_id > instance->first_id ? bins->first_id : instance->first_id,
+                       past < bins->end_id ? past : bins->end_id);
+    }
+}
+
+/* Empty places of each bin's last block hold numbers. */
+static void fill_up(const bin_pool *p, uint32_t bins)
+{
+    for (uint32_t n = 0; n < bins; ++n) {
+        const uint32_t used = p->bins[n].count[SMALL] % LMB_BATCH;
+        lmb_bin_block *b = &p->block[p->bins[n].last[SMALL]];
+        for (uint32_t i = used; used != 0 && i < LMB_BATCH; ++i) {
+            b->x[i] = b->y[i] = b->to_b[i] = b->to_c[i] = 0;
+            b->d[0][i] = b->d[1][i] = b->d[2][i] = 0.0f;
+            b->id[i] = 0;
+        }
+    }
+}
+
+lmb_status lmb_bins_build(lmb_bins *bins, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                          uint32_t first_id, uint32_t count, uint32_t flags, const lmb_culling *culling,
+                          lmb_stats *stats)
+{
+    bin_builder b;
+    if (bins == NULL || kernels == NULL || view == NULL || scene == NULL || first_id == 0 ||
+        !lmb_view_is_valid(view)) {
+        return LMB_ERR_ARG;
+    }
+    if (culling != NULL && culling->clusters != NULL && culling->cluster_count < lmb_culling_clusters(scene)) {
+        return LMB_ERR_CAPACITY;
+    }
+    bins->scene = scene;
+    bins->view = *view;
+    bins->flags = flags;
+    bins->first_id = first_id;
+    bins->end_id = bins->past_id = count > UINT32_MAX - first_id ? UINT32_MAX : first_id + count;
+    b.bins = bins;
+    b.kernels = kernels;
+    b.stats = stats;
+    memset(&b.pool, 0, sizeof b.pool);
+    if (pool_find(&b.pool, bins)) {
+        memset(b.pool.bins, 0, bin_count(view) * sizeof(bin));
+    } else {
+        b.pool.is_full = 1; /* triangles are counted and nothing else */
+        bins->past_id = first_id;
+    }
+    build_all(&b, culling);
+    if (bins->past_id > first_id) {
+        fill_up(&b.pool, bin_count(view));
+    }
+    return LMB_OK;
+}
+
+/* --- out of bins -------------------------------------------------------------------------------------------------- */
+
+/* What one bin is drawn with. */
+typedef struct bin_drawing {
+    lmb_fill_context context;
+    lmb_setup_job job;
+    const bin_pool *pool;
+    const bin *bin;
+    uint32_t large, large_block; /* the next large one: how many came before, and its block */
+    uint32_t asked, asks;        /* blocks that were asked for; that are to be */
+} bin_drawing;
+
+static void draw_large(const lmb_fill_context *c, const bin_large *l)
+{
+    lmb_setup setup;
+    if (!lmb_setup_triangle(&setup, &l->corner[0], &l->corner[1], &l->corner[2])) {
+        return;
+    }
+    if (l->flags & MASKED) {
+        lmb_fill_masked(c, &setup, l->id, LMB_MULTISAMPLE && (l->flags & BLENDS) != 0);
+    } else {
+        fill_one(c, &setup, l->id);
+    }
+}
+
+/* The next large one, if it comes before the bin's small one number `past`; else NULL. */
+static const bin_large *next_large(bin_drawing *d, uint32_t past)
+{
+    const uint32_t i = d->large % LARGES;
+    if (d->large == d->bin->count[LARGE]) {
+        return NULL;
+    }
+    const bin_large *large = (const bin_large *)(const void *)&d->pool->block[d->large_block] + i;
+    if (large->before >= past) {
+        return NULL;
+    }
+    ++d->large;
+    d->large_block = i == LARGES - 1 ? d->pool->next[d->large_block] : d->large_block;
+    return large;
+}
+
+/* A block of `count` small triangles, of which `first` came before, and the large ones between them: without ids these
+ * come first, as the nearest depth is the same in any order. */
+static void draw_block(bin_drawing *d, lmb_batch *batch, const lmb_bin_block *block, uint32_t first, uint32_t count,
+                       int hidden)
+{
+    const lmb_fill_context *c = &d->context;
+    const int ordered = c->target->id.data != NULL;
+    uint32_t done = 0;
+    if (!hidden) {
+        c->kernels->bin_setup(batch, &d->job, block, count);
+    }
+    for (const bin_large *l; (l = next_large(d, first + count)) != NULL;) {
+        const uint32_t before = ((1u << (l->before - first)) - 1) & ~done;
+        if (ordered && before != 0 && !hidden) {
+            fill_batch(c, batch, batch->sets.small & before);
+            done |= before;
+        }
+        draw_large(c, l);
+    }
+    if (!hidden) {
+        fill_batch(c, batch, batch->sets.small & ~done);
+    }
+}
+
+/* Does what is drawn hide all of a full block? Each fourth is asked for, and those after one that was hidden. */
+static int is_hidden(bin_drawing *d, const lmb_bin_block *block)
+{
+    enum { EACH = 4, AFTER = 16 };
+    const lmb_fill_context *c = &d->context;
+    lmb_tile_box box;
+    if (c->window.farthest == NULL || (d->asks == 0 && ++d->asked % EACH != 0)) {
+        return 0;
+    }
+    const float nearest = c->kernels->bin_box(&box, &d->job, block);
+    const int hidden = c->kernels->culled_box(&c->window, &box, lmb_depth_as_held(&c->window, nearest));
+    d->asks = hidden ? (uint32_t)AFTER : d->asks - (d->asks > 0);
+    return hidden;
+}
+
+static void draw_bin(bin_drawing *d)
+{
+    const bin_pool *p = d->pool;
+    const uint32_t count = d->bin->count[SMALL];
+    lmb_batch batch;
+    d->asked = d->asks = 0;
+    d->large = 0;
+    d->large_block = d->bin->first[LARGE];
+    for (uint32_t n = 0, i = d->bin->first[SMALL]; n < count; n += LMB_BATCH, i = p->next[i]) {
+        const uint32_t own = count - n < LMB_BATCH ? count - n : LMB_BATCH;
+        block_soon(p, p->next[i]);
+        draw_block(d, &batch, &p->block[i], n, own, own == LMB_BATCH && is_hidden(d, &p->block[i]));
+    }
+    for (const bin_large *l; (l = next_large(d, UINT32_MAX)) != NULL;) {
+        draw_large(&d->context, l);
+    }
+}
+
+/* A window's tile rows first .. first + count - 1, which lie in one bin. */
+static void set_rows(bin_drawing *out, lmb_target *rows, const lmb_target *target, const lmb_bins *bins, int32_t first,
+                     int32_t count, const lmb_culling *culling)
+{
+    const lmb_view *view = &bins->view;
+    lmb_setup_job *job = &out->job;
+    lmb_target_rows(rows, target, first, count);
+    out->context.target = rows;
+    out->context.view = view;
+    out->context.scene = bins->scene;
+    out->context.culling = culling;
+    out->context.window = lmb_target_window(rows, view);
+    out->context.window.farthest = NULL;
+    if (culling != NULL && culling->farthest != NULL) {
+        out->context.window.farthest = culling->farthest + (ptrdiff_t)first * out->context.window.tiles_x;
+    }
+    memset(job, 0, sizeof *job);
+    job->origin_x = view_origin_x(view);
+    job->origin_y = view_origin_y(view);
+    job->x0 = rows->x0;
+    job->y0 = rows->y0;
+    job->x1 = rows->x0 + rows->depth.width - 1;
+    job->y1 = rows->y0 + rows->depth.height - 1;
+}
+
+static void clear_rows(const bin_drawing *d)
+{
+    const lmb_fill_context *c = &d->context;
+    const lmb_fill_window *w = &c->window;
+    lmb_surface_clear(&c->target->depth);
+    if (c->target->id.data != NULL) {
+        lmb_surface_clear(&c->target->id);
+    }
+    if (w->farthest != NULL) {
+        memset(w->farthest, 0, (size_t)w->tiles_x * (size_t)w->tiles_y * sizeof *w->farthest);
+    }
+}
+
+/* What is set up of `count` bins, one's rows after the other's. */
+static void draw_rows(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
+                      int32_t clear, const lmb_culling *culling)
+{
+    const int shift = rows_shift(&bins->view);
+    const int32_t end = target->y0 + target->depth.height;
+    for (int32_t y = target->y0, past; y < end; y = past) {
+        bin_drawing d;
+        lmb_target rows;
+        past = mini(((y >> shift) + 1) << shift, end);
+        for (int32_t i = 0; i < count; ++i) {
+            bin_pool pool;
+            set_rows(&d, &rows, target, &bins[i], (y - target->y0) / LMB_TILE, (past - y + LMB_TILE - 1) / LMB_TILE,
+                     culling);
+            d.context.kernels = kernels;
+            if (clear && i == 0) {
+                clear_rows(&d);
+            }
+            if (bins[i].past_id > bins[i].first_id && pool_find(&pool, &bins[i])) {
+                d.pool = &pool;
+                d.bin = &pool.bins[y >> shift];
+                draw_bin(&d);
+            }
+        }
+    }
+}
+
+/* What did not fit. */
+static lmb_status draw_rest(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *b,
+                            const lmb_culling *culling)
+{
+    const uint32_t left = b->end_id - b->past_id;
+    return culling == NULL
+               ? lmb_draw(target, kernels, &b->view, b->scene, b->past_id, left, b->flags, NULL)
+               : lmb_draw_culled(target, kernels, &b->view, b->scene, b->past_id, left, b->flags, culling, NULL);
+}
+
+static lmb_status check_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
+                             const lmb_culling *culling)
+{
+    if (target == NULL || kernels == NULL || bins == NULL || count < 1) {
+        return LMB_ERR_ARG;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        const lmb_view *v = &bins[i].view;
+        if (bins[i].scene == NULL || bins[i].first_id == 0 || v->frame_width != bins->view.frame_width ||
+            v->frame_height != bins->view.frame_height) {
+            return LMB_ERR_ARG;
+        }
+        const lmb_status status = lmb_target_check(target, v, lmb_scene_triangles(bins[i].scene));
+        if (status != LMB_OK) {
+            return status;
+        }
+        if (culling != NULL && culling->clusters != NULL && bins[i].past_id < bins[i].end_id &&
+            culling->cluster_count < lmb_culling_clusters(bins[i].scene)) {
+            return LMB_ERR_CAPACITY;
+        }
+    }
+    return culling != NULL && culling->farthest != NULL && culling->tiles < lmb_culling_tiles(target)
+               ? LMB_ERR_CAPACITY
+               : LMB_OK;
+}
+
+lmb_status lmb_bins_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
+                         int32_t clear, const lmb_culling *culling)
+{
+    lmb_status status = check_draw(target, kernels, bins, count, culling);
+    for (int32_t from = 0, to; status == LMB_OK && from < count; from = to) {
+        int fits;
+        to = from;
+        do {
+            fits = bins[to].past_id >= bins[to].end_id;
+        } while (++to < count && fits);
+        draw_rows(target, kernels, bins + from, to - from, clear && from == 0, culling);
+        if (!fits) {
+            status = draw_rest(target, kernels, &bins[to - 1], culling);
+        }
+    }
+    return status;
+}
+#endif

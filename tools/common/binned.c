@@ -1,0 +1,113 @@
+/* binned.c: threads set up ranges of a scene's triangles, and then draw a window's rows from their bins. */
+#include "binned.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { WORTH = 1 << 14 }; /* triangles and tiles, about a millisecond of one thread, under which others are not called */
+
+typedef struct work {
+    binned *b;
+    const binned_draw *draw;
+    int ranges;
+    int32_t rows; /* px of a piece */
+    lmb_status failed[POOL_MAX];
+} work;
+
+static void note(work *w, int worker, lmb_status status)
+{
+    w->failed[worker] = w->failed[worker] != LMB_OK ? w->failed[worker] : status;
+}
+
+static void build_range(void *user, int i, int worker)
+{
+    work *w = user;
+    const binned_draw *d = w->draw;
+    const uint32_t each = d->count / (uint32_t)w->ranges, first = each * (uint32_t)i;
+    note(w, worker,
+         lmb_bins_build(&w->b->bins[i], d->kernels, d->view, d->scene, d->first_id + first,
+                        i == w->ranges - 1 ? d->count - first : each, d->flags, NULL, NULL));
+}
+
+/* Rows from .. past - 1 of a surface of tiles. */
+static void cut(lmb_surface *s, int32_t from, int32_t past)
+{
+    if (s->data != NULL) {
+        s->data = (uint8_t *)s->data + (ptrdiff_t)s->stride_bytes * (s->layout == LMB_TILED ? from / LMB_TILE : from);
+        s->height = past - from;
+    }
+}
+
+static void draw_rows(void *user, int i, int worker)
+{
+    work *w = user;
+    const binned_draw *d = w->draw;
+    const int32_t height = d->target->depth.height, first = d->target->y0 / w->rows * w->rows + i * w->rows,
+                  from = first > d->target->y0 ? first - d->target->y0 : 0,
+                  past = first + w->rows - d->target->y0 < height ? first + w->rows - d->target->y0 : height;
+    lmb_target t = *d->target;
+    t.y0 += from;
+    cut(&t.depth, from, past);
+    cut(&t.id, from, past);
+    note(w, worker, lmb_bins_draw(&t, d->kernels, w->b->bins, w->ranges, 1, NULL));
+}
+
+/* Memory for `ranges` bins of as many bytes each; what there is, where there is no more. */
+static void give_memory(binned *b, const binned_draw *d, int ranges)
+{
+    const size_t each = lmb_bins_bytes(d->view, d->count / (uint32_t)ranges + 1);
+    if (b->bytes < each * (size_t)ranges) {
+        free(b->memory);
+        b->bytes = each * (size_t)ranges;
+        b->memory = malloc(b->bytes);
+        b->bytes = b->memory != NULL ? b->bytes : 0;
+    }
+    for (int i = 0; i < ranges; ++i) {
+        b->bins[i].bytes = b->bytes / (size_t)ranges;
+        b->bins[i].memory = b->memory != NULL ? (uint8_t *)b->memory + b->bins[i].bytes * (size_t)i : NULL;
+    }
+}
+
+static lmb_status draw_alone(const binned_draw *d)
+{
+    lmb_surface_clear(&d->target->depth);
+    if (d->target->id.data != NULL) {
+        lmb_surface_clear(&d->target->id);
+    }
+    return lmb_draw(d->target, d->kernels, d->view, d->scene, d->first_id, d->count, d->flags, NULL);
+}
+
+lmb_status binned_run(binned *b, const binned_draw *d)
+{
+    work w;
+    const int32_t high = d->target->depth.height;
+    lmb_status status = LMB_OK;
+    memset(&w, 0, sizeof w);
+    w.b = b;
+    w.draw = d;
+    w.ranges = d->threads;
+    w.rows = lmb_bins_rows(d->view);
+    if (w.rows == 0 || d->count < (uint32_t)w.ranges ||
+        (int64_t)d->count + (int64_t)d->target->depth.width * high / LMB_TILE_PIXELS < WORTH) {
+        return draw_alone(d);
+    }
+    give_memory(b, d, w.ranges);
+    pool_run(d->threads, w.ranges, build_range, &w);
+    for (int i = 0; i < d->threads; ++i) {
+        status = status != LMB_OK ? status : w.failed[i];
+    }
+    if (status == LMB_OK) {
+        pool_run(d->threads, (d->target->y0 + high - 1) / w.rows - d->target->y0 / w.rows + 1, draw_rows, &w);
+    }
+    for (int i = 0; i < d->threads; ++i) {
+        status = status != LMB_OK ? status : w.failed[i];
+    }
+    return status;
+}
+
+void binned_free(binned *b)
+{
+    free(b->memory);
+    b->memory = NULL;
+    b->bytes = 0;
+}
