@@ -17,20 +17,6 @@ typedef struct fill_slopes {
     float dx[LMB_BATCH], dy[LMB_BATCH];
 } fill_slopes;
 
-/* One tile of each triangle. */
-typedef struct fill_part {
-    int32_t e[3][LMB_BATCH];
-    float d[LMB_BATCH]; /* both at the tile's first pixel */
-} fill_part;
-
-/* All tiles of triangles, and those that are left of them. */
-typedef struct fill_parts {
-    fill_slopes slopes;
-    float d[PARTS_TILES][LMB_BATCH];
-    int32_t tiles[LMB_BATCH];                /* of each triangle, those with pixels that may show: bit p */
-    uint8_t list[PARTS_TILES * LMB_BATCH + 1]; /* k + 16 p of each tile that is left, and one more that is written */
-} fill_parts;
-
 /* The nearest depth of planes whose nearest place in a tile is (x, y), px, as each pixel's is made. Where the plane has no
  * value there, pixels may take any. */
 LANE_INLINE lane parts_nearest(lane d, lane dx, lane dy, lane x, lane y, lane d_min, lane d_max)
@@ -57,11 +43,10 @@ LANE_INLINE lane parts_depth(const lmb_fill_window *w, const lmb_batch *b, int k
     return lane_from_double(laned_add(d, laned_mul(laned_load(b->dy + k), laned_mul(down, to_px))));
 }
 
-/* Tile (px, py) of triangles k .. k + LANES - 1: where it has pixels that may show; sets the depth at its first pixel,
- * and the edges there, if they are asked for. */
-LANE_INLINE lane_mask parts_set(float *depth, int32_t (*edges)[LMB_BATCH], lane_mask halves[2],
-                                const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, int k, lanei px,
-                                lanei py, int bounded)
+/* Tile (px, py) of triangles k .. k + LANES - 1: where it has pixels that may show, and in which half; sets the
+ * depth at its first pixel. */
+LANE_INLINE lane_mask parts_set(float *depth, lane_mask halves[2], const fill_slopes *slopes, const lmb_fill_window *w,
+                                const lmb_batch *b, int k, lanei px, lanei py, int bounded)
 {
     const lanei zero = lanei_splat(0), last = lanei_splat(LMB_TILE - 1);
     const lanei x0 = lanei_load(b->x0 + k), y0 = lanei_load(b->y0 + k);
@@ -80,9 +65,6 @@ LANE_INLINE lane_mask parts_set(float *depth, int32_t (*edges)[LMB_BATCH], lane_
         const lanei e =
             lanei_add(lanei_load(b->e[i] + k), lanei_add(lanei_mul(ex, to_x), lanei_mul(ey, to_y)));
         const lanei corner = lanei_add(e, lanei_add(lanei_mul(ex, left), lanei_mul(ey, top)));
-        if (edges != NULL) {
-            lanei_store(edges[i] + k, e);
-        }
         inside = lanei_or(inside, lanei_add(corner, parts_gain(ex, ey, width, height)));
     }
     const lane d = parts_depth(w, b, k, x, y);
@@ -195,7 +177,7 @@ LANE_INLINE void parts_place(fill_places *out, const fill_slopes *slopes, const 
             continue;
         }
         lane_mask halves[2];
-        seen |= mask_bits(parts_set(out->d[i], NULL, halves, slopes, w, b, k, px, py, bounded)) << k;
+        seen |= mask_bits(parts_set(out->d[i], halves, slopes, w, b, k, px, py, bounded)) << k;
         upper |= mask_bits(halves[0]) << k;
         lower |= mask_bits(halves[1]) << k;
         lanei_store(out->at[i] + k, parts_address(w, b, k, p));
@@ -328,74 +310,64 @@ LANE_INLINE void parts_together(const fill_slopes *slopes, const lmb_fill_window
     parts_put_all(&places, slopes, w, b, ahead_lower, first, ROWS_LOWER, kind, 0);
 }
 
-/* What a number of tiles is to be added to, so that it has this parity. */
-LANE_INLINE lanei parts_to_parity(lanei x, int32_t parity)
+/* Tiles of triangles that are drawn with ids, in the triangles' order, as ids tell who came first. Tile i of parts_order of
+ * triangle k is bit 4 k + i, where none has more than four tiles: of left[0] if it has pixels that may show in the upper
+ * half, of left[1] in the lower. Halves never meet, so each is one loop. With more tiles it is bit 16 (k % 4) + i of
+ * left[k / 4]. */
+typedef struct fill_found {
+    fill_slopes slopes;
+    float d[PARTS_TILES][LMB_BATCH];
+    int32_t at[LMB_BATCH];     /* of a triangle's first tile, bytes */
+    int32_t step[PARTS_TILES]; /* from there to tile i */
+    uint64_t left[LMB_BATCH / 4];
+} fill_found;
+
+/* Bit k becomes bit 4 k. */
+LANE_INLINE uint64_t parts_by_four(uint32_t bits)
 {
-    return lanei_and(lanei_add(lanei_shift(x, 3), lanei_splat(parity)), lanei_splat(1));
+    uint64_t v = bits;
+    v = (v | v << 24) & 0x000000ff000000ffu;
+    v = (v | v << 12) & 0x000f000f000f000fu;
+    v = (v | v << 6) & 0x0303030303030303u;
+    return (v | v << 3) & 0x1111111111111111u;
 }
 
-/* Of triangles of at most two tiles each way, those whose columns and rows have this parity: one of each triangle. Tiles of
- * two parities are never the same one, so within each tile triangles keep their order. */
-LANE_INLINE void parts_parity(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
-                              int32_t right, int32_t below)
+/* Bit k of four becomes bit 16 k. */
+LANE_INLINE uint64_t parts_by_sixteen(uint32_t bits)
 {
-    fill_part part;
-    uint32_t seen = 0;
-    for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
-        const lanei px = parts_to_parity(lanei_load(b->x0 + k), right),
-                    py = parts_to_parity(lanei_load(b->y0 + k), below);
-        lane_mask halves[2];
-        seen |= mask_bits(parts_set(part.d, part.e, halves, slopes, w, b, k, px, py, 0)) << k;
-    }
-    for (seen &= bits; seen != 0; seen &= seen - 1) {
-        const int k = lowest_bit(seen);
-        parts_draw(w, b, k, ((b->x0[k] >> 3) + right) & 1, ((b->y0[k] >> 3) + below) & 1, part.e[0][k],
-                   part.e[1][k], part.e[2][k], part.d[k], slopes->dx[k], slopes->dy[k], b->id[k],
-                   FILL_ID32, 0);
-    }
+    return (bits & 15u) * (uint64_t)0x0000200040008001u & 0x0001000100010001u;
 }
 
-LANE_INLINE lanei parts_bit(fill_parts *out, const lmb_fill_window *w, const lmb_batch *b, int k, int p, int bounded)
-{
-    lane_mask halves[2];
-    const lane_mask seen = parts_set(out->d[p], NULL, halves, &out->slopes, w, b, k, lanei_splat(p % PARTS_SIDE),
-                                     lanei_splat(p / PARTS_SIDE), bounded);
-    return lanei_pick(seen, lanei_splat(1 << p), lanei_splat(0));
-}
-
-LANE_INLINE void parts_find(fill_parts *out, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int more,
+LANE_INLINE void parts_find(fill_found *out, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int more,
                             int bounded)
 {
+    out->left[0] = out->left[1] = out->left[2] = out->left[3] = 0;
     for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
-        if (!parts_any(bits, k)) {
-            continue;
-        }
-        lanei tiles = lanei_splat(0);
-        for (int p = 0; p < PARTS_TILES; ++p) {
-            if (more || (p % PARTS_SIDE < 2 && p / PARTS_SIDE < 2)) {
-                tiles = lanei_or(tiles, parts_bit(out, w, b, k, p, bounded));
+        lanei_store(out->at + k, parts_address(w, b, k, 0));
+    }
+    for (int i = 0; i < (more ? (int)PARTS_TILES : (int)PARTS_TOGETHER); ++i) {
+        const int p = parts_order[i];
+        uint32_t seen = 0, upper = 0, lower = 0;
+        out->step[i] = p % PARTS_SIDE * w->depth_tile + p / PARTS_SIDE * w->depth_row;
+        for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
+            if (parts_any(bits, k)) {
+                lane_mask halves[2];
+                seen |= mask_bits(parts_set(out->d[i], halves, &out->slopes, w, b, k, lanei_splat(p % PARTS_SIDE),
+                                            lanei_splat(p / PARTS_SIDE), bounded))
+                        << k;
+                upper |= mask_bits(halves[0]) << k;
+                lower |= mask_bits(halves[1]) << k;
             }
         }
-        lanei_store(out->tiles + k, tiles);
-    }
-}
-
-/* The list of what is left of triangles `bits`; returns its length. */
-LANE_INLINE int parts_list(fill_parts *inout, uint32_t bits, int more)
-{
-    uint8_t *list = inout->list;
-    int n = 0;
-    for (; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit(bits);
-        const int32_t tiles = inout->tiles[k];
-#define PARTS_ADD(p) list[n] = (uint8_t)(k + 16 * (p)), n += tiles >> (p) & 1
-        PARTS_ADD(0), PARTS_ADD(1), PARTS_ADD(3), PARTS_ADD(4);
-        if (more) {
-            PARTS_ADD(2), PARTS_ADD(5), PARTS_ADD(6), PARTS_ADD(7), PARTS_ADD(8);
+        seen &= bits;
+        if (!more) {
+            out->left[0] |= parts_by_four(seen & ~lower) << i;
+            out->left[1] |= parts_by_four(seen & ~upper) << i;
         }
-#undef PARTS_ADD
+        for (int c = 0; more && c < LMB_BATCH / 4; ++c) {
+            out->left[c] |= parts_by_sixteen(seen >> 4 * c) << i;
+        }
     }
-    return n;
 }
 
 /* The same, where the edges are not made yet. */
@@ -408,15 +380,85 @@ LANE_INLINE void parts_draw_from(const lmb_fill_window *w, const lmb_batch *b, i
                dy, id, kind, bounded);
 }
 
-LANE_INLINE void parts_run(fill_parts *parts, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int more,
-                           int kind, int bounded)
+/* Tile i of triangle k. */
+LANE_INLINE void parts_put_id(const fill_found *f, const lmb_fill_window *w, const lmb_batch *b, int k, int i, int rows,
+                              int bounded)
 {
-    const int n = parts_list(parts, bits, more);
-    for (int i = 0; i < n; ++i) {
-        const int k = parts->list[i] & 15, p = parts->list[i] >> 4, py = (p * 11) >> 5;
-        parts_draw_from(w, b, k, p - PARTS_SIDE * py, py, parts->d[p][k], parts->slopes.dx[k], parts->slopes.dy[k],
-                   b->id[k], kind, bounded);
+    const int p = parts_order[i];
+    const ptrdiff_t at = (ptrdiff_t)f->at[k] + f->step[i];
+    fill_rows r;
+    r.e0 = parts_edge(b, 0, k, p, rows);
+    r.e1 = parts_edge(b, 1, k, p, rows);
+    r.e2 = parts_edge(b, 2, k, p, rows);
+    r.down0 = lanei_splat(b->ey[0][k] * FILL_ROWS);
+    r.down1 = lanei_splat(b->ey[1][k] * FILL_ROWS);
+    r.down2 = lanei_splat(b->ey[2][k] * FILL_ROWS);
+    r.step_d = lane_mul(lane_splat(f->slopes.dx[k]), lane_column(0));
+    r.d_min = lane_splat(b->d_min[k]);
+    r.d_max = lane_splat(b->d_max[k]);
+    r.depth = (float *)(void *)((uint8_t *)w->first.depth + at);
+    r.ids = (uint32_t *)(void *)((uint8_t *)w->first.id + at);
+    r.id = b->id[k];
+    rows_draw(&r, f->d[i][k], f->slopes.dy[k], rows, FILL_ID32);
+#if LMB_CULLING
+    if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
+        const ptrdiff_t across = ((b->x0[k] - w->x0) >> 3) + p % PARTS_SIDE,
+                        down = ((b->y0[k] - w->y0) >> 3) + p / PARTS_SIDE;
+        rows_raise(w->farthest + down * w->tiles_x + across, r.lowest);
     }
+#else
+    (void)bounded;
+#endif
+}
+
+/* Reads half of a tile that will be drawn to soon. */
+LANE_INLINE void parts_soon_id(const fill_found *f, const lmb_fill_window *w, int bit, int rows)
+{
+    const ptrdiff_t at = (ptrdiff_t)f->at[bit >> 2] + f->step[bit & 3] + (rows == ROWS_LOWER ? 128 : 0);
+    const uint8_t *depth = (const uint8_t *)w->first.depth + at, *id = (const uint8_t *)w->first.id + at;
+    MESH_SOON(depth), MESH_SOON(depth + 64), MESH_SOON(id), MESH_SOON(id + 64);
+}
+
+/* Tiles `left`, four a triangle: `rows` of them. Depth and ids are twice the bytes of depth. */
+LANE_INLINE void parts_put_fours(const fill_found *f, const lmb_fill_window *w, const lmb_batch *b, uint64_t left,
+                                 int rows, int bounded)
+{
+    uint64_t ahead = 2 * (int64_t)w->depth_row * w->tiles_y > PARTS_CACHED ? left : 0;
+    for (int n = 0; n < PARTS_AHEAD && ahead != 0; ++n, ahead &= ahead - 1) {
+        parts_soon_id(f, w, parts_lowest(ahead), rows);
+    }
+    for (; left != 0; left &= left - 1) {
+        const int bit = parts_lowest(left), k = bit >> 2;
+        if (ahead != 0) {
+            parts_soon_id(f, w, parts_lowest(ahead), rows);
+            ahead &= ahead - 1;
+        }
+        parts_put_id(f, w, b, k, bit & 3, rows, bounded);
+    }
+}
+
+/* All tiles of triangles `bits`. A tile's bound is raised by all of its rows. */
+LANE_INLINE void parts_run(const fill_found *f, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int more,
+                           int bounded)
+{
+    const uint64_t own = parts_by_four(bits) * 15u;
+    for (int c = 0; more && c < LMB_BATCH / 4; ++c) {
+        for (uint64_t left = f->left[c] & parts_by_sixteen(bits >> 4 * c) * 0xffffu; left != 0; left &= left - 1) {
+            const int bit = parts_lowest(left), k = 4 * c + (bit >> 4);
+            parts_put_id(f, w, b, k, bit & 15, ROWS_ALL, bounded);
+        }
+    }
+    if (more) {
+        return;
+    }
+#if LMB_CULLING
+    if (bounded && w->bounds == LMB_BOUNDS_RAISED) {
+        parts_put_fours(f, w, b, (f->left[0] | f->left[1]) & own, ROWS_ALL, 1);
+        return;
+    }
+#endif
+    parts_put_fours(f, w, b, f->left[0] & own, ROWS_UPPER, 0);
+    parts_put_fours(f, w, b, f->left[1] & own, ROWS_LOWER, 0);
 }
 
 /* --- more tiles --------------------------------------------------------------------------------------------------- */
@@ -499,27 +541,18 @@ LANE_INLINE void parts_fill_id32(const lmb_fill_window *w, const lmb_batch *b, u
     uint32_t narrow = parts_narrow(b, bits, 2);
     const uint32_t wider = parts_narrow(b, bits, PARTS_SIDE);
     const int more = count_bits_16(wider & ~narrow) >= PARTS_MORE;
-    fill_parts parts;
+    fill_found found;
     narrow = more ? wider : count_bits_16(narrow) < PARTS_LESS ? 0 : narrow;
-    parts_slopes(&parts.slopes, b, narrow);
-    parts_find(&parts, w, b, narrow, more, bounded);
+    parts_slopes(&found.slopes, b, narrow);
+    parts_find(&found, w, b, narrow, more, bounded);
     while (bits != 0) { /* a run of narrow ones, then a wide one */
         const uint32_t wide = bits & ~narrow, run = wide != 0 ? bits & ((wide & (0u - wide)) - 1) : bits;
-        parts_run(&parts, w, b, run, more, FILL_ID32, bounded);
+        parts_run(&found, w, b, run, more, bounded);
         bits &= ~run;
         if (wide != 0) {
             const int k = lowest_bit(wide);
             parts_wide(w, b, k, b->id[k], FILL_ID32, bounded);
             bits &= bits - 1;
         }
-    }
-}
-
-LANE_INLINE void parts_fill_parities(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
-{
-    fill_slopes slopes;
-    parts_slopes(&slopes, b, bits);
-    for (int32_t parity = 0; parity < 4; ++parity) {
-        parts_parity(&slopes, w, b, bits, parity & 1, parity >> 1);
     }
 }

@@ -136,11 +136,6 @@ NOINLINE void small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t 
 {
     parts_fill_id32(w, b, bits, 0);
 }
-
-NOINLINE void small_parities(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
-{
-    parts_fill_parities(w, b, bits);
-}
 #endif
 
 /* One by one. */
@@ -172,11 +167,12 @@ void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int
     }
 }
 
-/* Tiles of a depth alone are found by 32-bit distances from the first one, bytes: larger surfaces go one by one. */
+/* Tiles are found by 32-bit distances from the first one, bytes, and ids where depths are: other surfaces go one by one. */
 LANE_INLINE int small_kind(const lmb_fill_window *w)
 {
     const int kind = fill_kind(w);
-    return (kind == FILL_PLAIN || kind == FILL_CODES) && (int64_t)w->depth_row * w->tiles_y > INT32_MAX ? FILL_ANY : kind;
+    const int is_apart = kind == FILL_ID32 && w->id_row != w->depth_row;
+    return is_apart || (int64_t)w->depth_row * w->tiles_y > INT32_MAX ? FILL_ANY : kind;
 }
 
 #if LANES > 1 && LANES < LMB_TILE
@@ -202,11 +198,7 @@ static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uin
         small_plain(w, b, bits);
         return;
     }
-    if (kind == FILL_ID32 && parts_narrow(b, bits, 2) == bits) {
-        small_parities(w, b, bits);
-        return;
-    }
-    if (kind == FILL_ID32 && LANES > LMB_TILE) { /* eight lanes take no longer one by one */
+    if (kind == FILL_ID32) {
         small_id32(w, b, bits);
         return;
     }

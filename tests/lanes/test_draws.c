@@ -21,6 +21,7 @@ typedef struct draws {
     lmb_scene scene;
     lmb_view view;
     int32_t x0, y0, width, height, depth_format, id_format, layout;
+    int32_t id_stride_more; /* bytes */
     uint32_t flags;
 } draws;
 
@@ -68,6 +69,11 @@ static void make_draws(draws *d, test_rng *r)
     for (int i = 0; i < TRIANGLES; ++i) {
         make_triangle(d->positions + 9 * i, kinds, r);
     }
+    for (int i = 1; i < TRIANGLES; ++i) { /* equal depths: the earlier one shows */
+        if (test_random(r) % 8u == 0) {
+            memcpy(d->positions + 9 * i, d->positions + 9 * (i - 1), 9 * sizeof(float));
+        }
+    }
     d->mesh.positions = d->positions;
     d->mesh.vertex_count = 3 * TRIANGLES;
     d->mesh.triangle_count = TRIANGLES;
@@ -95,6 +101,7 @@ static void make_draws(draws *d, test_rng *r)
     d->id_format = test_random(r) % 3u == 0 ? LMB_FORMAT_NONE : test_random(r) % 2u ? LMB_ID16 : LMB_ID32;
     d->layout = test_random(r) % 3u ? LMB_TILED : LMB_LINEAR;
     d->flags = test_random(r) % 2u ? LMB_CULL_BACK : 0;
+    d->id_stride_more = test_random(r) % 4u == 0 ? 8 * 8 * 4 : 0;
 }
 
 /* Linear windows are rows of whole tiles' width. */
@@ -109,7 +116,7 @@ static void make_surface(lmb_surface *s, const draws *d, int32_t format, void *m
 
 static uint64_t draw_with(const lmb_kernels *backend, const draws *d, lmb_stats *stats)
 {
-    static uint32_t depth[PIXELS], id[PIXELS];
+    static uint32_t depth[PIXELS], id[PIXELS + 8 * FRAME];
     lmb_target t = {{0}, {0}, 0, 0};
     uint64_t hash;
     memset(depth, 0, sizeof depth);
@@ -120,6 +127,7 @@ static uint64_t draw_with(const lmb_kernels *backend, const draws *d, lmb_stats 
     make_surface(&t.depth, d, d->depth_format, depth, sizeof depth);
     if (d->id_format != LMB_FORMAT_NONE) {
         make_surface(&t.id, d, d->id_format, id, sizeof id);
+        t.id.stride_bytes += d->id_stride_more;
     }
     CHECK(lmb_draw(&t, backend, &d->view, &d->scene, 1, TRIANGLES, d->flags, stats) == LMB_OK);
     hash = lmb_surface_hash(&t.depth);
@@ -133,9 +141,10 @@ static int same_stats(const lmb_stats *a, const lmb_stats *b)
 }
 
 /* Rows of tiles that lie over 2^31 bytes apart from the first to the last: only those that triangles touch are there. */
-static void check_far_rows(const lmb_kernels *backend)
+static void check_far_rows(const lmb_kernels *backend, int with_ids)
 {
     static float near_by[64 * 4 * 10], far_apart[64 * 4];
+    static uint32_t near_id[64 * 4 * 10], far_id[64 * 4];
     const lmb_vec3 eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 1, 0};
     test_rng r = seed_rng(7);
     draws d;
@@ -151,16 +160,26 @@ static void check_far_rows(const lmb_kernels *backend)
     }
     memset(near_by, 0, sizeof near_by);
     memset(far_apart, 0, sizeof far_apart);
+    memset(near_id, 0, sizeof near_id);
+    memset(far_id, 0, sizeof far_id);
     CHECK(lmb_surface_init(&t.depth, LMB_DEPTH32F, 32, 80, near_by, sizeof near_by) == LMB_OK);
+    if (with_ids) {
+        CHECK(lmb_surface_init(&t.id, LMB_ID32, 32, 80, near_id, sizeof near_id) == LMB_OK);
+    }
     CHECK(lmb_draw(&t, backend, &d.view, &d.scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
     t.depth.data = far_apart;
     t.depth.stride_bytes = INT32_MAX / LMB_TILE & ~3;
+    if (with_ids) {
+        t.id.data = far_id;
+        t.id.stride_bytes = t.depth.stride_bytes;
+    }
     CHECK(lmb_draw(&t, backend, &d.view, &d.scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
     for (int i = 0; i < 64 * 4; ++i) {
         drawn += near_by[i] > 0.0f;
     }
     CHECK(drawn > 100);
     CHECK(memcmp(near_by, far_apart, sizeof far_apart) == 0);
+    CHECK(memcmp(near_id, far_id, sizeof far_id) == 0);
 }
 
 void test_draws(void)
@@ -168,7 +187,8 @@ void test_draws(void)
     const seed_range range = seeds(ROUNDS);
     const lmb_kernels *backend;
     for (int32_t i = 0; (backend = lmb_kernels_at(i)) != NULL; ++i) {
-        check_far_rows(backend);
+        check_far_rows(backend, 0);
+        check_far_rows(backend, 1);
     }
     for (uint32_t k = 0; k < range.count; ++k) {
         test_rng r = seed_rng(range.first + k);
