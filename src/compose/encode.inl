@@ -24,11 +24,15 @@ LANE_INLINE lanei encode_lanes(lane value)
     return lanei_pick(lane_le(lane_gather_f32(lmb_srgb_threshold, high), x), high, low);
 }
 
-static void KERNEL(encode)(int32_t code[3][LMB_TILE_PIXELS], const lmb_radiance *in, float gain)
+static void KERNEL(encode)(uint32_t out[LMB_TILE_PIXELS], const lmb_radiance *in, float gain)
 {
-    for (int c = 0; c < 3; ++c) {
-        for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-            lanei_store(code[c] + k, encode_lanes(lane_mul(lane_load(in->rgb[c] + k), lane_splat(gain))));
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        lanei channel[3];
+        for (int c = 0; c < 3; ++c) {
+            channel[c] = encode_lanes(lane_mul(lane_load(in->rgb[c] + k), lane_splat(gain)));
         }
+        const lanei first = lanei_or(channel[0], lanei_mul(channel[1], lanei_splat(1 << 8)));
+        const lanei last = lanei_or(lanei_mul(channel[2], lanei_splat(1 << 16)), lanei_splat(-(1 << 24)));
+        lanei_store((int32_t *)out + k, lanei_or(first, last));
     }
 }

@@ -1,6 +1,8 @@
 /* tone.c: radiance -> the pixels of a display. Layer 9. */
 #include <lambent/compose.h>
 
+#include <string.h>
+
 #include "../base/poly.h"
 #include "../base/surface_check.h"
 #include "../base/vec.h"
@@ -42,28 +44,55 @@ static void store_linear(const lmb_surface *out, const tile_part *p, const lmb_r
     }
 }
 
-static void store_bytes(const lmb_surface *out, const tile_part *p, int32_t code[3][LMB_TILE_PIXELS])
+/* Of colours as the kernel makes them: red in the low bits, then green, blue, 255. */
+enum { GREEN = 8, BLUE = 16 };
+
+static uint32_t swap_red(uint32_t colour)
 {
-    const int32_t *first = code[out->format == LMB_BGRA8 ? 2 : 0], *last = code[out->format == LMB_BGRA8 ? 0 : 2];
-    for (int32_t y = p->first_y; y <= p->last_y; ++y) {
-        uint8_t *to = row_of(out, p, y) + 4 * (p->x + p->first_x);
-        for (int32_t k = y * LMB_TILE + p->first_x; k <= y * LMB_TILE + p->last_x; ++k, to += 4) {
-            to[0] = (uint8_t)first[k];
-            to[1] = (uint8_t)code[1][k];
-            to[2] = (uint8_t)last[k];
-            to[3] = 255;
-        }
+    return (colour & 0xff00ff00u) | (colour & 255u) << BLUE | (colour >> BLUE & 255u);
+}
+
+/* Where red comes first in memory as it is; compilers know which machine that is. */
+static int is_little_endian(void)
+{
+    const uint32_t one = 1;
+    return *(const uint8_t *)&one == 1;
+}
+
+/* Bytes of `count` pixels. */
+static void put_row(uint8_t *to, const uint32_t *colour, int32_t count)
+{
+    if (is_little_endian() && count == LMB_TILE) {
+        memcpy(to, colour, LMB_TILE * sizeof *colour);
+        return;
+    }
+    for (int32_t k = 0; k < count; ++k, to += 4) {
+        to[0] = (uint8_t)colour[k];
+        to[1] = (uint8_t)(colour[k] >> GREEN);
+        to[2] = (uint8_t)(colour[k] >> BLUE);
+        to[3] = 255;
     }
 }
 
-static void store_dithered(const lmb_surface *out, const tile_part *p, int32_t code[3][LMB_TILE_PIXELS])
+static void store_bytes(const lmb_surface *out, const tile_part *p, uint32_t colour[LMB_TILE_PIXELS])
+{
+    for (int k = 0; out->format == LMB_BGRA8 && k < LMB_TILE_PIXELS; ++k) {
+        colour[k] = swap_red(colour[k]);
+    }
+    for (int32_t y = p->first_y; y <= p->last_y; ++y) {
+        put_row(row_of(out, p, y) + 4 * (p->x + p->first_x), colour + y * LMB_TILE + p->first_x,
+                p->last_x - p->first_x + 1);
+    }
+}
+
+static void store_dithered(const lmb_surface *out, const tile_part *p, const uint32_t colour[LMB_TILE_PIXELS])
 {
     const uint32_t green_bits = out->format == LMB_RGB555 ? 5 : 6;
     for (int32_t y = p->first_y; y <= p->last_y; ++y) {
         uint16_t *to = (uint16_t *)(void *)row_of(out, p, y) + p->x + p->first_x;
         for (int32_t k = y * LMB_TILE + p->first_x; k <= y * LMB_TILE + p->last_x; ++k) {
-            uint32_t red = dither((uint8_t)code[0][k], 31, k), blue = dither((uint8_t)code[2][k], 31, k);
-            uint32_t green = dither((uint8_t)code[1][k], (1u << green_bits) - 1u, k);
+            uint32_t red = dither((uint8_t)colour[k], 31, k), blue = dither((uint8_t)(colour[k] >> BLUE), 31, k);
+            uint32_t green = dither((uint8_t)(colour[k] >> GREEN), (1u << green_bits) - 1u, k);
             const uint32_t pixel = (red << (5 + green_bits)) | (green << 5) | blue;
             if (out->format == LMB_RGB565_BE) {
                 ((uint8_t *)to)[0] = (uint8_t)(pixel >> 8);
@@ -82,7 +111,7 @@ static int is_near(int32_t v) { return v >= -LMB_MAX_FRAME && v <= 2 * LMB_MAX_F
 lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, int32_t x0, int32_t y0,
                           const lmb_radiance *in, int32_t x, int32_t y, float exposure_ev)
 {
-    int32_t code[3][LMB_TILE_PIXELS];
+    uint32_t colour[LMB_TILE_PIXELS];
     if (out == NULL || kernels == NULL || out->data == NULL || in == NULL || out->layout != LMB_LINEAR ||
         !lmb_surface_is_valid(out) || !is_near(x0) || !is_near(y0) || !is_near(x) || !is_near(y)) {
         return LMB_ERR_ARG;
@@ -96,11 +125,11 @@ lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, in
         store_linear(out, &part, in);
         return LMB_OK;
     }
-    kernels->encode(code, in, lmb_exp2(exposure_ev));
+    kernels->encode(colour, in, lmb_exp2(exposure_ev));
     if (out->format == LMB_RGBA8 || out->format == LMB_BGRA8) {
-        store_bytes(out, &part, code);
+        store_bytes(out, &part, colour);
     } else {
-        store_dithered(out, &part, code);
+        store_dithered(out, &part, colour);
     }
     return LMB_OK;
 }

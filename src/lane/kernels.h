@@ -47,7 +47,8 @@ typedef struct lmb_resolve_batch {
     uint32_t colour[3][LMB_SLOTS];     /* in: of each corner, four codes 0 .. 255, red in the low bits */
     float uv[3][2][LMB_SLOTS];         /* [corner][u, v] */
     float plane[3][LMB_SLOTS];         /* out: unit normal */
-    float face[3][LMB_SLOTS];          /* out: the same, turned to the viewer */
+    float face[3][LMB_SLOTS];          /* out: the same, turned to the viewer; of albedo alone, of rays from the eye by wide
+                                          kernels: face[0] the plane's height over the eye */
     float w_min[LMB_SLOTS], w_max[LMB_SLOTS]; /* out: of the corners, along the view axis */
     float albedo[3][3][LMB_SLOTS];     /* out: reflectance, [corner][channel] */
 } lmb_resolve_batch;
@@ -385,8 +386,8 @@ struct lmb_kernels {
                         uint32_t count, const lmb_march_job *march);
     void (*blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
                   const lmb_irradiance *indirect);
-    /* sRGB codes 0 .. 255 of radiance x gain. */
-    void (*encode)(int32_t code[3][LMB_TILE_PIXELS], const lmb_radiance *in, float gain);
+    /* sRGB codes 0 .. 255 of radiance x gain: red in the low bits, then green, blue, and 255. */
+    void (*encode)(uint32_t out[LMB_TILE_PIXELS], const lmb_radiance *in, float gain);
     /* (1 + 2^-12)^2 - (1 + 2^-11) by this backend's verbs: 0, or 2^-24 where the compiler fused it. */
     float (*probe)(float one_and_bit);
 #if LMB_CULLING

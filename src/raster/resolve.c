@@ -80,6 +80,24 @@ static void read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, con
 /* Vertex numbers of a batch, [slot][corner]. */
 typedef uint32_t corner_vertices[LMB_SLOTS][3];
 
+/* Written out: gcc -O2 keeps loops of three. */
+static void fetch_float(float to[3][LMB_SLOTS], int k, const float *p)
+{
+    to[0][k] = p[0];
+    to[1][k] = p[1];
+    to[2][k] = p[2];
+}
+
+static void fetch_floats(lmb_resolve_batch *b, corner_vertices vertex)
+{
+    const float *positions = (const float *)b->mesh->positions;
+    for (int k = 0; k < b->count; ++k) {
+        fetch_float(b->corner[0], k, positions + 3 * (size_t)vertex[k][0]);
+        fetch_float(b->corner[1], k, positions + 3 * (size_t)vertex[k][1]);
+        fetch_float(b->corner[2], k, positions + 3 * (size_t)vertex[k][2]);
+    }
+}
+
 static void fetch_positions(lmb_resolve_batch *b, corner_vertices vertex)
 {
     for (int k = 0; k < b->count; ++k) {
@@ -112,9 +130,9 @@ static uint32_t colour_at(const lmb_mesh *m, uint32_t vertex)
 static void fetch_colours(lmb_resolve_batch *b, corner_vertices vertex)
 {
     for (int k = 0; k < b->count; ++k) {
-        for (int i = 0; i < 3; ++i) {
-            b->colour[i][k] = colour_at(b->mesh, vertex[k][i]);
-        }
+        b->colour[0][k] = colour_at(b->mesh, vertex[k][0]);
+        b->colour[1][k] = colour_at(b->mesh, vertex[k][1]);
+        b->colour[2][k] = colour_at(b->mesh, vertex[k][2]);
     }
 }
 
@@ -133,25 +151,33 @@ static void fetch_uvs(lmb_resolve_batch *b, corner_vertices vertex)
 /* Vertex 0 stands for those that are not there; returns their slots, a bit each. */
 static uint32_t fetch_indices(corner_vertices vertex, const lmb_resolve_batch *b)
 {
+    const lmb_mesh *m = b->mesh;
+    const uint32_t past = m->vertex_count, first = b->instance->first_id;
     uint32_t bad = 0;
-    for (int k = 0; k < b->count && b->mesh->indices != NULL; ++k) {
-        mesh_index_soon(b->mesh, 3 * (b->id[k] - b->instance->first_id));
+    for (int k = 0; k < b->count && m->indices != NULL; ++k) {
+        mesh_index_soon(m, 3 * (b->id[k] - first));
     }
     for (int k = 0; k < b->count; ++k) {
-        mesh_triangle(b->mesh, b->id[k] - b->instance->first_id, vertex[k]);
-        for (int i = 0; i < 3; ++i) {
-            if (vertex[k][i] >= b->mesh->vertex_count) {
-                bad |= 1u << k;
-                vertex[k][i] = 0;
-            } else {
-                mesh_vertex_soon(b->mesh, vertex[k][i]);
-            }
+        mesh_triangle(m, b->id[k] - first, vertex[k]);
+        if (vertex[k][0] >= past || vertex[k][1] >= past || vertex[k][2] >= past) {
+            bad |= 1u << k;
+            vertex[k][0] = vertex[k][1] = vertex[k][2] = 0;
         }
     }
     return bad;
 }
 
-/* Slots that are not used hold numbers: from corners to uvs. */
+/* The three vertices of each slot. */
+MESH_HINT void fetch_soon(const void *stream, size_t bytes, corner_vertices vertex, int count)
+{
+    for (int k = 0; k < count; ++k) {
+        MESH_SOON((const uint8_t *)stream + bytes * vertex[k][0]);
+        MESH_SOON((const uint8_t *)stream + bytes * vertex[k][1]);
+        MESH_SOON((const uint8_t *)stream + bytes * vertex[k][2]);
+    }
+}
+
+/* Slots that are not used hold numbers: from corners to uvs. Wide kernels do not ask them. */
 static void fetch_nothing(lmb_resolve_batch *b)
 {
     const size_t from = offsetof(lmb_resolve_batch, corner), past = offsetof(lmb_resolve_batch, plane);
@@ -159,24 +185,37 @@ static void fetch_nothing(lmb_resolve_batch *b)
 }
 
 /* All slots' triangles from the mesh; returns the slots of those that are none, a bit each. */
-static uint32_t fetch(lmb_resolve_batch *b)
+static uint32_t fetch(lmb_resolve_batch *b, int is_wide)
 {
+    const lmb_mesh *m = b->mesh;
     corner_vertices vertex;
     const uint32_t bad = fetch_indices(vertex, b);
-    if (b->count < LMB_SLOTS) {
+    if (b->count < LMB_SLOTS && !is_wide) {
         fetch_nothing(b);
     }
-    if (b->mesh->vertex_count == 0) {
+    if (m->vertex_count == 0) {
         return bad;
     }
-    fetch_positions(b, vertex);
-    if (b->mesh->normals != NULL && !b->albedo_only) {
+    const int is_float = HAVE_WIDE && m->position_format == LMB_POSITION_F32;
+    fetch_soon(m->positions, m->position_format == LMB_POSITION_F32 ? 12 : 8, vertex, b->count);
+    if (m->colours != NULL) {
+        fetch_soon(m->colours, 4, vertex, b->count);
+    }
+    if (m->uvs != NULL) {
+        fetch_soon(m->uvs, m->uv_format == LMB_UV_F32 ? 8 : 4, vertex, b->count);
+    }
+    if (is_float) {
+        fetch_floats(b, vertex);
+    } else {
+        fetch_positions(b, vertex);
+    }
+    if (m->normals != NULL && !b->albedo_only) {
         fetch_normals(b, vertex);
     }
-    if (b->mesh->colours != NULL) {
+    if (m->colours != NULL) {
         fetch_colours(b, vertex);
     }
-    if (b->mesh->uvs != NULL) {
+    if (m->uvs != NULL) {
         fetch_uvs(b, vertex);
     }
     return bad;
@@ -209,7 +248,7 @@ static uint64_t resolve_some(lmb_tile *out, const lmb_kernels *kernels, const lm
     b->mesh = &scene->meshes[b->instance->mesh];
     b->material = &scene->materials[b->instance->material];
     const uint64_t done = kernels->resolve_slots(b, out->id, left);
-    for (uint32_t bad = fetch(b); bad != 0; bad &= bad - 1) {
+    for (uint32_t bad = fetch(b, writes_all(kernels)); bad != 0; bad &= bad - 1) {
         drop_slot(out, lowest_bit(bad));
     }
     kernels->resolve_setup(b);

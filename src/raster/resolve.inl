@@ -144,12 +144,23 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
-LANE_INLINE lane3 resolve_load(float (*p)[LMB_SLOTS], int k)
+/* Slots from k on. Of those that are not used wide backends take 0; for others there is 0. */
+LANE_INLINE lane resolve_load1(const lmb_resolve_batch *b, const float *p, int k)
+{
+#if LANES < LMB_TILE
+    (void)b;
+    return lane_load(p + k);
+#else
+    return lane_keep(mask_of_bits((1u << (b->count - k < LANES ? b->count - k : LANES)) - 1), lane_load(p + k));
+#endif
+}
+
+LANE_INLINE lane3 resolve_load(const lmb_resolve_batch *b, float (*p)[LMB_SLOTS], int k)
 {
     lane3 r;
-    r.x = lane_load(p[0] + k);
-    r.y = lane_load(p[1] + k);
-    r.z = lane_load(p[2] + k);
+    r.x = resolve_load1(b, p[0], k);
+    r.y = resolve_load1(b, p[1], k);
+    r.z = resolve_load1(b, p[2], k);
     return r;
 }
 
@@ -165,6 +176,13 @@ LANE_INLINE lane3 resolve_columns(const lmb_vec3 column[3], lane3 p)
 {
     return lane3_add(lane3_add(lane3_scale(lane3_of(column[0]), p.x), lane3_scale(lane3_of(column[1]), p.y)),
                      lane3_scale(lane3_of(column[2]), p.z));
+}
+
+/* Is only colour asked for, of rays from one point? Then what all pixels of a triangle share is in its slot. The origin of
+ * rays from the eye is 0, and adding it changes nothing but a zero's sign, which no colour shows. */
+LANE_INLINE int resolve_from_eye(const lmb_resolve_batch *b)
+{
+    return LANES >= LMB_TILE && b->albedo_only && b->rays.perspective;
 }
 
 #if defined(LANE_PLAIN)
@@ -201,14 +219,18 @@ LANE_INLINE void resolve_planes(lmb_resolve_batch *b, const lmb_vec3 column[4], 
 {
     lane3 corner[3];
     for (int i = 0; i < 3; ++i) {
-        corner[i] = lane3_add(resolve_columns(column, resolve_load(b->corner[i], k)), lane3_of(column[3]));
+        corner[i] = lane3_add(resolve_columns(column, resolve_load(b, b->corner[i], k)), lane3_of(column[3]));
     }
     const plane_lanes p = plane_setup(corner, &b->rays);
     resolve_store(b->corner[0], k, p.corner);
     resolve_store(b->corner[1], k, p.g1);
     resolve_store(b->corner[2], k, p.g2);
     resolve_store(b->plane, k, p.plane);
-    resolve_store(b->face, k, p.face);
+    if (resolve_from_eye(b)) {
+        lane_store(b->face[0] + k, lane3_dot(p.plane, p.corner));
+    } else {
+        resolve_store(b->face, k, p.face);
+    }
     lane_store(b->w_min + k, p.w_min);
     lane_store(b->w_max + k, p.w_max);
 }
@@ -245,7 +267,7 @@ LANE_INLINE void resolve_normals(lmb_resolve_batch *b, const lmb_vec3 column[3],
                                   cross3(column[0], column[1])};
     lane3 n[3];
     for (int i = 0; i < 3; ++i) {
-        const lane3 own = resolve_octahedral(lane_load(b->normal[i][0] + k), lane_load(b->normal[i][1] + k));
+        const lane3 own = resolve_octahedral(resolve_load1(b, b->normal[i][0], k), resolve_load1(b, b->normal[i][1], k));
         n[i] = resolve_unit(resolve_columns(cofactor, own));
         resolve_store(b->normal[i], k, i == 0 ? n[0] : lane3_sub(n[i], n[0]));
     }
@@ -273,9 +295,9 @@ LANE_INLINE void resolve_albedo(lmb_resolve_batch *b, int k)
 
 /* Values that are not finite, out of range or under 2^-60 count as 0, so that targets that flush denormals give the
  * same result. */
-LANE_INLINE lane resolve_coordinate(const float *p)
+LANE_INLINE lane resolve_coordinate(const lmb_resolve_batch *b, const float *p, int k)
 {
-    const lane v = lane_load(p), tiny = lane_splat(8.6736174e-19f), limit = lane_splat(1048576.0f);
+    const lane v = resolve_load1(b, p, k), tiny = lane_splat(8.6736174e-19f), limit = lane_splat(1048576.0f);
     const lane_mask large = mask_or(lane_le(tiny, v), lane_le(v, lane_splat(-8.6736174e-19f)));
     const lane_mask sane = mask_and(lane_lt(lane_splat(-1048576.0f), v), lane_lt(v, limit));
     return lane_keep(mask_and(large, sane), v);
@@ -284,10 +306,10 @@ LANE_INLINE lane resolve_coordinate(const float *p)
 LANE_INLINE void resolve_uv(lmb_resolve_batch *b, int k)
 {
     for (int c = 0; c < 2; ++c) {
-        const lane first = resolve_coordinate(b->uv[0][c] + k);
+        const lane first = resolve_coordinate(b, b->uv[0][c], k);
         lane_store(b->uv[0][c] + k, first);
-        lane_store(b->uv[1][c] + k, lane_sub(resolve_coordinate(b->uv[1][c] + k), first));
-        lane_store(b->uv[2][c] + k, lane_sub(resolve_coordinate(b->uv[2][c] + k), first));
+        lane_store(b->uv[1][c] + k, lane_sub(resolve_coordinate(b, b->uv[1][c], k), first));
+        lane_store(b->uv[2][c] + k, lane_sub(resolve_coordinate(b, b->uv[2][c], k), first));
     }
 }
 
@@ -423,26 +445,35 @@ LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k
     }
 }
 
-LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k, lanei slot, const resolve_pixels *which)
+/* `from_eye`: all rays start at the eye, so each plane has one height over it. */
+LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k, lanei slot,
+                                const resolve_pixels *which, int from_eye)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
     const lane x = lane_column(k), y = lane_row(k);
-    const lane3 origin = resolve_affine(b->rays.origin, b->rays.ox, b->rays.oy, x, y);
     const lane3 ray = resolve_affine(b->rays.direction, b->rays.rx, b->rays.ry, x, y);
     const lane3 plane = resolve_lookup(b->plane, slot), corner = resolve_lookup(b->corner[0], slot);
 
     lane slope = lane3_dot(plane, ray);
     slope = lane_pick(lane_lt(lane_mul(slope, slope), lane_splat(1e-36f)), lane_splat(1e-18f), slope);
-    lane w = lane_div(lane3_dot(plane, lane3_sub(corner, origin)), slope);
+    lane3 origin = lane3_splat(0.0f, 0.0f, 0.0f);
+    lane height;
+    if (from_eye) {
+        height = lane_table(b->face[0], slot);
+    } else {
+        origin = resolve_affine(b->rays.origin, b->rays.ox, b->rays.oy, x, y);
+        height = lane3_dot(plane, lane3_sub(corner, origin));
+    }
+    lane w = lane_div(height, slope);
     w = lane_min(lane_max(w, lane_table(b->w_min, slot)), lane_table(b->w_max, slot));
-    const lane3 p = lane3_add(origin, lane3_scale(ray, w)), q = lane3_sub(p, corner);
+    const lane3 along = lane3_scale(ray, w), p = from_eye ? along : lane3_add(origin, along), q = lane3_sub(p, corner);
 
     resolve_place at;
     at.slot = slot;
     at.b1 = lane_min(lane_max(lane3_dot(q, resolve_lookup(b->corner[1], slot)), zero), one);
     at.b2 = lane_min(lane_max(lane3_dot(q, resolve_lookup(b->corner[2], slot)), zero), lane_sub(one, at.b1));
     resolve_colour(out, b, k, &at, which);
-    if (!b->albedo_only) {
+    if (!from_eye && !b->albedo_only) {
         const lane3 face = resolve_lookup(b->face, slot);
         resolve_put(out->depth + k, which, w);
         resolve_put3(out->position, k, which, lane3_add(p, lane3_of(b->rays.eye)));
@@ -451,14 +482,23 @@ LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k
     }
 }
 
-static void KERNEL(resolve)(lmb_tile *out, const lmb_resolve_batch *batch)
+LANE_INLINE void resolve_all(lmb_tile *out, const lmb_resolve_batch *batch, int from_eye)
 {
     const int all = LANES >= LMB_TILE && batch->is_first;
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const lanei slot = lanei_load(batch->slot + k);
         const resolve_pixels which = resolve_pixels_of(slot, all);
         if (all || mask_bits(which.mine) != 0) {
-            resolve_vector(out, batch, k, lanei_max(slot, lanei_splat(0)), &which);
+            resolve_vector(out, batch, k, lanei_max(slot, lanei_splat(0)), &which, from_eye);
         }
+    }
+}
+
+static void KERNEL(resolve)(lmb_tile *out, const lmb_resolve_batch *batch)
+{
+    if (resolve_from_eye(batch)) {
+        resolve_all(out, batch, 1);
+    } else {
+        resolve_all(out, batch, 0);
     }
 }

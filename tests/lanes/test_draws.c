@@ -25,12 +25,13 @@ typedef struct draws {
     uint32_t flags;
 } draws;
 
-/* One kind of size a triangle, of the smallest `kinds`: 0.01 to 6 m about a place that may be behind the eye. */
-static void make_triangle(float *p, uint32_t kinds, test_rng *r)
+/* One kind of size a triangle, of the smallest `kinds`: 0.01 to 6 m about a place that may be behind the eye, unless they
+ * are crowded: then most are in the picture, and all of a batch are small ones. */
+static void make_triangle(float *p, uint32_t kinds, int are_crowded, test_rng *r)
 {
     static const float sizes[] = {0.01f, 0.05f, 0.2f, 1.0f, 6.0f};
-    const float size = sizes[test_random(r) % kinds], x = test_uniform(r, -2, 2), y = test_uniform(r, -2, 2),
-                z = test_uniform(r, -3, 4);
+    const float size = sizes[test_random(r) % kinds], share = are_crowded ? 0.2f : 1.0f;
+    const float x = share * test_uniform(r, -2, 2), y = share * test_uniform(r, -2, 2), z = share * test_uniform(r, -3, 4);
     for (int k = 0; k < 9; k += 3) {
         p[k] = x + test_uniform(r, -size, size);
         p[k + 1] = y + test_uniform(r, -size, size);
@@ -66,8 +67,9 @@ static void make_draws(draws *d, test_rng *r)
     static const lmb_mat4 unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     memset(d, 0, sizeof *d);
     const uint32_t kinds = 1u + test_random(r) % 5u; /* batches of small ones have code of their own */
+    const int are_crowded = test_random(r) % 2u == 0;
     for (int i = 0; i < TRIANGLES; ++i) {
-        make_triangle(d->positions + 9 * i, kinds, r);
+        make_triangle(d->positions + 9 * i, kinds, are_crowded, r);
     }
     for (int i = 1; i < TRIANGLES; ++i) { /* equal depths: the earlier one shows */
         if (test_random(r) % 8u == 0) {
