@@ -142,7 +142,7 @@ static int same_stats(const lmb_stats *a, const lmb_stats *b)
            a->triangles_dropped == b->triangles_dropped;
 }
 
-/* Rows of tiles that lie over 2^31 bytes apart from the first to the last: only those that triangles touch are there. */
+/* Rows of tiles that lie over 2^31 bytes apart from the first to the last: only the last, where triangles are, is there. */
 static void check_far_rows(const lmb_kernels *backend, int with_ids)
 {
     static float near_by[64 * 4 * 10], far_apart[64 * 4];
@@ -157,7 +157,7 @@ static void check_far_rows(const lmb_kernels *backend, int with_ids)
     lmb_view_look_at(&d.view, eye, target, up, 0.9f, 32, 80);
     for (int i = 0; i < 9 * TRIANGLES; i += 3) {
         d.positions[i] = test_uniform(&r, -0.4f, 0.4f);
-        d.positions[i + 1] = test_uniform(&r, 0.4f, 0.46f); /* of 0.48 m up: the first eight rows */
+        d.positions[i + 1] = test_uniform(&r, -0.46f, -0.4f); /* of 0.48 m down: the last eight rows */
         d.positions[i + 2] = test_uniform(&r, -0.01f, 0.01f);
     }
     memset(near_by, 0, sizeof near_by);
@@ -169,19 +169,19 @@ static void check_far_rows(const lmb_kernels *backend, int with_ids)
         CHECK(lmb_surface_init(&t.id, LMB_ID32, 32, 80, near_id, sizeof near_id) == LMB_OK);
     }
     CHECK(lmb_draw(&t, backend, &d.view, &d.scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
-    t.depth.data = far_apart;
     t.depth.stride_bytes = INT32_MAX / LMB_TILE & ~3;
+    t.depth.data = (void *)((uintptr_t)far_apart - 9 * (uintptr_t)t.depth.stride_bytes);
     if (with_ids) {
-        t.id.data = far_id;
         t.id.stride_bytes = t.depth.stride_bytes;
+        t.id.data = (void *)((uintptr_t)far_id - 9 * (uintptr_t)t.id.stride_bytes);
     }
     CHECK(lmb_draw(&t, backend, &d.view, &d.scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
     for (int i = 0; i < 64 * 4; ++i) {
-        drawn += near_by[i] > 0.0f;
+        drawn += far_apart[i] > 0.0f;
     }
     CHECK(drawn > 100);
-    CHECK(memcmp(near_by, far_apart, sizeof far_apart) == 0);
-    CHECK(memcmp(near_id, far_id, sizeof far_id) == 0);
+    CHECK(memcmp(near_by + 9 * 64 * 4, far_apart, sizeof far_apart) == 0);
+    CHECK(memcmp(near_id + 9 * 64 * 4, far_id, sizeof far_id) == 0);
 }
 
 void test_draws(void)
