@@ -71,9 +71,9 @@ static void make_draws(draws *d, test_rng *r)
     for (int i = 0; i < TRIANGLES; ++i) {
         make_triangle(d->positions + 9 * i, kinds, are_crowded, r);
     }
-    for (int i = 1; i < TRIANGLES; ++i) { /* equal depths: the earlier one shows */
-        if (test_random(r) % 8u == 0) {
-            memcpy(d->positions + 9 * i, d->positions + 9 * (i - 1), 9 * sizeof(float));
+    for (uint32_t i = 1; i < TRIANGLES; ++i) { /* equal depths: the earlier one shows */
+        if (test_random(r) % 4u == 0) {
+            memcpy(d->positions + 9 * i, d->positions + 9 * (test_random(r) % i), 9 * sizeof(float));
         }
     }
     d->mesh.positions = d->positions;
