@@ -15,6 +15,7 @@ void test_large(void);
 /* Not a number of vectors, nor of a count's first step. */
 enum { ACROSS = 261, DOWN = 3, TILES = ACROSS * DOWN, WIDTH = ACROSS * LMB_TILE, HEIGHT = DOWN * LMB_TILE };
 enum { TRIANGLES = 36, SCENES = 4 };
+enum { SMALL = 128, SMALL_TILES = SMALL / LMB_TILE * (SMALL / LMB_TILE) };
 
 static float corners[9 * TRIANGLES];
 static uint32_t wide_depth[WIDTH * HEIGHT], wide_id[WIDTH * HEIGHT], one_depth[LMB_TILE * HEIGHT],
@@ -141,6 +142,88 @@ static void judge(const lmb_kernels *kernels, int32_t depth_format, int32_t id_f
 #endif
 }
 
+/* Found by search: depths of a few steps of binary32 from corner to corner, which planes leave by a rounding in tiles that
+ * lie wholly inside. In a frame of 128 px, half a width of 1 at 1 m. */
+static const float nearly_flat[][9] = {
+    {-0x1.c29406p-1f, 0x1.5da61p-1f, -0x1.cd646p-1f, -0x1.c293f2p-1f, -0x1.a5bdaep-1f, -0x1.cd644cp-1f,
+     0x1.a5bdaep-1f, 0x1.5da602p-1f, -0x1.cd644cp-1f},
+    {-0x1.dee704p-2f, -0x1.0309e8p-2f, -0x1.ad9b28p-2f, -0x1.3186ap-1f, -0x1.e5461ep-10f, -0x1.ad9b44p-2f,
+     0x1.149702p-3f, -0x1.474352p-4f, -0x1.ad9b28p-2f},
+    {-0x1.3c5d8p-2f, 0x1.fb530ep-3f, -0x1.6cd14cp-2f, -0x1.3c5d6ep-2f, -0x1.035cbep-2f, -0x1.6cd138p-2f,
+     0x1.2b439ep-2f, 0x1.fb52fp-3f, -0x1.6cd136p-2f},
+    {0x1.690014p-1f, 0x1.f43fd2p-2f, -0x1.f504a2p-2f, -0x1.6659bp-1f, -0x1.503912p-1f, -0x1.f5049ep-2f,
+     -0x1.317f5ep-1f, 0x1.105746p-1f, -0x1.f5048p-2f},
+    {-0x1.260b9cp-1f, 0x1.2ba56ep-1f, -0x1.66748ep-1f, -0x1.260baep-1f, -0x1.ba77fap-2f, -0x1.6674a4p-1f,
+     0x1.4d406ep-1f, 0x1.2ba58p-1f, -0x1.6674a2p-1f},
+    {-0x1.03269ap-1f, 0x1.f07a76p-2f, -0x1.5d2beep-1f, -0x1.03268ep-1f, -0x1.af0224p-2f, -0x1.5d2bdcp-1f,
+     0x1.e590fcp-2f, 0x1.f07a5ap-2f, -0x1.5d2bdap-1f},
+    {-0x1.0439b6p-1f, 0x1.3eb3fcp-1f, -0x1.7641bep-1f, -0x1.0439a6p-1f, -0x1.3eb3eap-1f, -0x1.7641a8p-1f,
+     0x1.2176c8p-1f, 0x1.3eb3eap-1f, -0x1.7641a8p-1f},
+    {-0x1.1ab75ep-1f, 0x1.320878p-1f, -0x1.7511a4p-1f, -0x1.1ab772p-1f, -0x1.4f2dfp-1f, -0x1.7511bep-1f,
+     0x1.3db11cp-1f, 0x1.32088ep-1f, -0x1.7511bep-1f},
+    {-0x1.1c2048p+0f, 0x1.132d6p+0f, -0x1.1e5d02p+0f, -0x1.1c203ap+0f, -0x1.f99c1ep-1f, -0x1.1e5cf4p+0f,
+     0x1.f0a938p-1f, 0x1.132d52p+0f, -0x1.1e5cf4p+0f},
+};
+
+static void make_nearly_flat(const float *triangle)
+{
+    test_rng r = {24};
+    make_scene(&r, LMB_PERSPECTIVE);
+    memcpy(corners, triangle, 9 * sizeof *corners);
+    view.half_width = view.half_height = 1.0f;
+    view.near_m = 0.1f;
+    view.far_m = 3.0f;
+    view.frame_width = view.frame_height = SMALL;
+}
+
+/* Of the tiles, those that are not the same in a window of their own. */
+static int32_t tiles_differ(const lmb_kernels *kernels, const float *whole)
+{
+    static float one[LMB_TILE_PIXELS];
+    int32_t n = 0;
+    for (int32_t tile = 0; tile < SMALL_TILES; ++tile) {
+        lmb_target t;
+        memset(&t, 0, sizeof t);
+        memset(one, 0, sizeof one);
+        t.depth = surface_of(LMB_DEPTH32F, LMB_TILED, LMB_TILE, LMB_TILE, one);
+        t.x0 = tile % (SMALL / LMB_TILE) * LMB_TILE;
+        t.y0 = tile / (SMALL / LMB_TILE) * LMB_TILE;
+        CHECK(lmb_draw(&t, kernels, &view, &scene, 1, 1, 0, NULL) == LMB_OK);
+        n += memcmp(one, whole + (size_t)tile * LMB_TILE_PIXELS, sizeof one) != 0;
+    }
+    return n;
+}
+
+static void judge_nearly_flat(const lmb_kernels *kernels, int i)
+{
+    static float whole[SMALL * SMALL], culled[SMALL * SMALL];
+    lmb_target t;
+    memset(&t, 0, sizeof t);
+    memset(whole, 0, sizeof whole);
+    memset(culled, 0, sizeof culled);
+    t.depth = surface_of(LMB_DEPTH32F, LMB_TILED, SMALL, SMALL, whole);
+    CHECK(lmb_draw(&t, kernels, &view, &scene, 1, 1, 0, NULL) == LMB_OK);
+    CHECK_MSG(tiles_differ(kernels, whole) == 0, "%s, triangle %d", lmb_kernels_name(kernels), i);
+#if LMB_CULLING
+    static float farthest[SMALL_TILES + 15];
+    const lmb_culling culling = {farthest, NULL, SMALL_TILES + 15, 0};
+    memset(farthest, 0, sizeof farthest);
+    t.depth.data = culled;
+    CHECK(lmb_draw_culled(&t, kernels, &view, &scene, 1, 1, 0, &culling, NULL) == LMB_OK);
+    CHECK_MSG(memcmp(whole, culled, sizeof whole) == 0, "%s, triangle %d", lmb_kernels_name(kernels), i);
+#endif
+}
+
+static void test_nearly_flat(void)
+{
+    for (size_t i = 0; i < sizeof nearly_flat / sizeof *nearly_flat; ++i) {
+        make_nearly_flat(nearly_flat[i]);
+        for (int32_t m = 0; lmb_kernels_at(m) != NULL; ++m) {
+            judge_nearly_flat(lmb_kernels_at(m), (int)i);
+        }
+    }
+}
+
 void test_large(void)
 {
     static const int32_t formats[][2] = {{LMB_DEPTH32F, LMB_FORMAT_NONE}, {LMB_DEPTH32F, LMB_ID32},
@@ -154,4 +237,5 @@ void test_large(void)
             }
         }
     }
+    test_nearly_flat();
 }
