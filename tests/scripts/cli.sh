@@ -1111,8 +1111,11 @@ if [ -z "$SHORT" ]; then
     check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
     check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
     check "bench raster holds filling against a peak" sh -c '"$1" bench raster fill-depth-pass --seconds 0.01 --json | grep -q ",.pixels_per_s.:[1-9][^,]*,.peak.:[1-9][^,]*,.*.share.:[0-9.]*}$"' sh "$TOOL"
+    status 0 bench raster fill-depth --seconds 0.01 -q --html "$dir/shares.html"
+    check "bench raster --html has a bar a case" sh -c 'grep -o "<rect class=.on.[^>]*>" "$1" | grep -c "width=.[1-9]" | grep -qx 2' sh "$dir/shares.html"
 fi
 status 2 bench raster nonsense
+status 1 bench raster fill-depth --seconds 0.01 --html "$dir/none/shares.html"
 status 2 bench raster fill-depth --seconds 1x
 status 2 bench raster fill-depth --seconds 0.01 --threads 2
 mkdir -p "$dir/flat" # one vertex at 0 and no triangle

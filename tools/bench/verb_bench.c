@@ -7,6 +7,7 @@
 
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
+#include "../common/io_file.h"
 #include "../common/options.h"
 #include "../hard/hard.h"
 #include "../render/bench_calibrate.h"
@@ -16,6 +17,7 @@
 #include "bench_peers.h"
 #include "bench_rates.h"
 #include "bench_scene.h"
+#include "bench_shares.h"
 #include "bench_threads.h"
 #include "verb_bench_sweep.h"
 
@@ -24,7 +26,7 @@ enum { FRAMES_MAX = 100000, FRAMES_MIN = 8 };
 enum { CASES = 32 };
 
 typedef struct options {
-    const char *folder, *peers; /* NULL: not given */
+    const char *folder, *peers, *html; /* NULL: not given */
     const lmb_kernels *kernels; /* NULL: not given */
     const char *cases[CASES];
     int32_t case_count, threads;
@@ -258,7 +260,18 @@ static int run_peers(const bench_peers *p, const bench_case *k, const timing *t,
     return 1;
 }
 
-static int run_case(const bench_case *k, const bench_peers *peers, const options *o, report *r)
+static void keep_share(bench_shares *b, const bench_case *k, const timing *t)
+{
+    if (t->bound > 0.0 && b->count < BENCH_SHARES) {
+        bench_share *s = &b->row[b->count++];
+        s->name = k->name;
+        s->by = t->by;
+        s->ms = t->cpu[0] * 1e3;
+        s->bound_ms = t->bound * 1e3;
+    }
+}
+
+static int run_case(bench_shares *shares, const bench_case *k, const bench_peers *peers, const options *o, report *r)
 {
     static bench_scene s;
     static timing t;
@@ -273,6 +286,7 @@ static int run_case(const bench_case *k, const bench_peers *peers, const options
     int ok = canvas_make(&c, k, &s, o, r);
     if (ok) {
         measure(&t, &c, &s, o, k->cull);
+        keep_share(shares, k, &t);
         if (!o->is_quiet) {
             print_case(k, &s, &t, o);
         }
@@ -330,6 +344,8 @@ static const option_row raster_rows[] = {
     {.name = "--peers", .value = "DIR", .kind = OPTION_TEXT, AT(peers),
      .help = "after each case let every program of this folder draw it, and print how long it takes, and how many times "
              "our time that is; tools/README.md says what such a program prints"},
+    {.name = "--html", .value = "FILE", .kind = OPTION_TEXT, AT(html), .file = OPTION_WRITES,
+     .help = "a page with each case's share of its bound as a bar"},
     ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
 };
 static const option_row gather_rows[] = {
@@ -363,18 +379,34 @@ static int check_raster(const options *o, report *r)
     return wanted_count(o) > 0 || report_fail(r, "no case has `%s` in its name", o->cases[0]);
 }
 
+static int write_shares(const char *path, const bench_shares *b, report *r)
+{
+    text_buffer text;
+    memset(&text, 0, sizeof text);
+    bench_shares_html(&text, b);
+    const int ok = text_buffer_write(&text, path, r);
+    text_buffer_free(&text);
+    return ok;
+}
+
 static int run_raster(const options *o, report *r)
 {
     static bench_peers peers;
+    bench_shares shares;
+    memset(&shares, 0, sizeof shares);
+    shares.backend = lmb_kernels_name(o->kernels);
+    if (o->html != NULL && !file_can_write(o->html, r)) {
+        return 0;
+    }
     if (o->peers != NULL && !bench_peers_find(&peers, o->peers, o->folder, (double)o->seconds, r)) {
         return 0;
     }
     for (int i = 0; i < bench_case_count; ++i) {
-        if (is_wanted(&bench_cases[i], o) && !run_case(&bench_cases[i], &peers, o, r)) {
+        if (is_wanted(&bench_cases[i], o) && !run_case(&shares, &bench_cases[i], &peers, o, r)) {
             return 0;
         }
     }
-    return 1;
+    return o->html == NULL || write_shares(o->html, &shares, r);
 }
 
 static int run_gather(const options *o, report *r)

@@ -1,0 +1,23 @@
+/* bench_shares.h: which share of the machine's bound each case reaches, as a page with bars. */
+#ifndef BENCH_SHARES_H
+#define BENCH_SHARES_H
+
+#include "../common/text_buffer.h"
+
+enum { BENCH_SHARES = 32 };
+
+typedef struct bench_share {
+    const char *name; /* of the case; stays the caller's */
+    const char *by;   /* what bounds it: a unit, or "depth" */
+    double ms, bound_ms;
+} bench_share;
+
+typedef struct bench_shares {
+    bench_share row[BENCH_SHARES];
+    int count;
+    const char *backend;
+} bench_shares;
+
+void bench_shares_html(text_buffer *out, const bench_shares *b);
+
+#endif
