@@ -125,7 +125,8 @@ static void count_large(const large_edges *edges)
     const int32_t count = any_between(1, LMB_MAX_FRAME / LMB_TILE);
     const int32_t inside = large_inside(edges, edges->at, count, LARGE_LEAP),
                   outside = large_outside(edges, edges->at, count);
-    /*@ assert 0 <= inside <= 2 * LARGE_LEAP && 0 <= outside <= 2 * LARGE_LEAP; */
+    const int32_t most = LARGE_LEAP > 0 ? 2 * LARGE_LEAP : 1;
+    /*@ assert 0 <= inside <= most && 0 <= outside <= most; */
     large_add(edges->at, large_times(edges->step_x, inside));
     large_add(edges->at, large_times(edges->step_x, outside));
 }

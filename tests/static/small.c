@@ -140,7 +140,6 @@ int set_up(void)
 static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_window *w)
 {
     fill_slopes slopes;
-    fill_part part;
     fill_places places;
     lane_mask halves[2];
     b->x0[0] = x;
@@ -149,10 +148,8 @@ static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_win
     parts_slopes(&slopes, b, 1u);
     for (int p = 0; p < PARTS_TILES; ++p) {
         const int px = p % PARTS_SIDE, py = p / PARTS_SIDE;
-        if (mask_bits(parts_set(part.d, part.e, halves, &slopes, w, b, 0, lanei_splat(px), lanei_splat(py), 0))) {
-            parts_draw(w, b, 0, px, py, part.e[0][0], part.e[1][0], part.e[2][0], part.d[0], slopes.dx[0],
-                       slopes.dy[0], 1u, FILL_PLAIN, 0);
-            places.d[0][0] = part.d[0];
+        if (mask_bits(parts_set(places.d[0], halves, &slopes, w, b, 0, lanei_splat(px), lanei_splat(py), 0))) {
+            parts_draw_from(w, b, 0, px, py, places.d[0][0], slopes.dx[0], slopes.dy[0], 1u, FILL_PLAIN, 0);
             places.at[0][0] = 0;
             parts_put(&places, &slopes, w, b, 0, 0, p, ROWS_LOWER, FILL_PLAIN, 0);
         }
