@@ -129,7 +129,7 @@ int set_up(void)
         c[1] = any_snapped(&job);
         c[2] = any_snapped(&job);
         setup_triangles(&b, &job, &sides, in, &c[0], &c[1], &c[2], 0);
-        if (b.small) {
+        if (b.sets.small) {
             ask_batch(&b);
         }
     }
@@ -144,7 +144,7 @@ static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_win
     lane_mask halves[2];
     b->x0[0] = x;
     b->y0[0] = y;
-    fill_small_any(w, b, 1u, 1u);
+    fill_small_any(w, b, 1u);
     parts_slopes(&slopes, b, 1u);
     for (int p = 0; p < PARTS_TILES; ++p) {
         const int px = p % PARTS_SIDE, py = p / PARTS_SIDE;
@@ -168,6 +168,7 @@ int main(void)
         b.ex[i][0] = any_between(-STEP_MAX, STEP_MAX);
         b.ey[i][0] = any_between(-STEP_MAX, STEP_MAX);
     }
+    b.id[0] = 1;
     b.d[0] = any_float(), b.dx[0] = any_float(), b.dy[0] = any_float();
     b.d_min[0] = any_float(), b.d_max[0] = any_float();
     b.x1[0] = any_between(0, PX_MAX), b.y1[0] = any_between(0, PX_MAX);
