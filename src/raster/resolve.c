@@ -130,9 +130,9 @@ static uint32_t colour_at(const lmb_mesh *m, uint32_t vertex)
 static void fetch_colours(lmb_resolve_batch *b, corner_vertices vertex)
 {
     for (int k = 0; k < b->count; ++k) {
-        b->colour[0][k] = colour_at(b->mesh, vertex[k][0]);
-        b->colour[1][k] = colour_at(b->mesh, vertex[k][1]);
-        b->colour[2][k] = colour_at(b->mesh, vertex[k][2]);
+        for (int i = 0; i < 3; ++i) {
+            b->colour[i][k] = colour_at(b->mesh, vertex[k][i]);
+        }
     }
 }
 
