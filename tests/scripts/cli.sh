@@ -995,6 +995,15 @@ said "--on floor: no plane faces up"
 status 2 mix $seen --object "$dir/tent.obj" --fit --scale 2 -o "$dir/bad.png"
 status 2 mix $seen --object "$dir/tent.obj" --on wall --at 3,4 -o "$dir/bad.png"
 # A sequence: frames that cannot be used are said and left out, and the others do not know of them.
+leaves_out() { # WANTED ARGUMENT...: so many frames, a line each and one of the sum
+    wanted=$1
+    shift
+    "$TOOL" "$@" >"$dir/out.txt" 2>"$dir/err.txt"
+    got=$?
+    check "lambent $*: exit status $got, not 1" test $got -eq 1
+    check "lambent $*: each frame that is left out is said" test "$(grep -c 'frame [0-9]* is left out: ' "$dir/err.txt")" = "$wanted"
+    check "lambent $*: and all together" grep -q ": $wanted of [0-9]* frames are left out, the first because " "$dir/err.txt"
+}
 mkdir -p "$dir/frames"
 pose='"camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]'
 for i in 0 1 2 3 4; do
@@ -1006,7 +1015,7 @@ printf '{"fx": 30, "fy": 30, "cx": 11.5, "cy": 11.5, "depth_unit_mm": 1000, %s}'
 cp "$dir/far.pfm" "$dir/frames/f2.depth.pfm"
 rm "$dir/frames/f3.color.pfm"
 printf 'f0\nf1\nf2\nf3\nf4\n' >"$dir/frames/frames.txt"
-status 0 mix --frames "$dir/frames" $tent -o "$dir/frames/o_%02d.pfm"
+leaves_out 3 mix --frames "$dir/frames" $tent -o "$dir/frames/o_%02d.pfm"
 said "frame 1 is left out: "
 said "is no rotation and place"
 said "frame 2 is left out: "
@@ -1071,16 +1080,53 @@ status 2 mix --frames "$dir/frames/own.txt" $tent --stats "$dir/bad.json" -o "$d
 status 1 mix --frames "$dir/frames/empty.txt" $tent -o "$dir/frames/bad_%02d.pfm"
 said "lists no frame"
 awk 'BEGIN { print "f0"; for (i = 1; i < 10000; ++i) print "gone" }' >"$dir/frames/long.txt"
-status 0 mix --frames "$dir/frames/long.txt" $tent -o "$dir/frames/long_%04d.pfm"
-check "each of many missing frames is said" test "$(grep -c 'is left out' "$dir/err.txt")" = 9999
+leaves_out 9999 mix --frames "$dir/frames/long.txt" $tent -o "$dir/frames/long_%04d.pfm"
 check "and the first one is there" cmp "$dir/frames/m_00.pfm" "$dir/frames/long_0000.pfm"
 printf '# time name\n1.00 f0.color.pfm\n1.03 f4.color.pfm\n' >"$dir/frames/rgb.txt"
 printf '1.01 f0.depth.pfm\n1.04 f4.depth.pfm\n' >"$dir/frames/depth.txt"
 printf '1.00 0 0 0 0 0 0 1\n1.03 0 0 0 0 0 0 1\n' >"$dir/frames/groundtruth.txt"
 status 0 mix --frames "$dir/frames" $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 -o "$dir/frames/tum_%02d.pfm"
 check "TUM's lists give the same frame" cmp "$dir/frames/o_00.pfm" "$dir/frames/tum_01.pfm"
+# Photos of no depth's time, or no pose's, are no frames; lines that are neither are passed over; both are said and counted.
+printf '1.00 f0.color.pfm\n1.02\nlate f4.color.pfm\n1.03 f4.color.pfm\n2.00 f4.color.pfm\n3.00 f0.color.pfm\n' >"$dir/frames/rgb.txt"
+printf '1.01 f0.depth.pfm\n1.04 f4.depth.pfm\n3.00 f0.depth.pfm\n' >"$dir/frames/depth.txt"
+printf '1.00 0 0 0 0 0 0 1\n1.03 0 0 0 0 0 0\n1.03 0 0 0 0 0 0 1\n' >"$dir/frames/groundtruth.txt"
+status 0 mix --frames "$dir/frames" $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 -o "$dir/frames/tom_%02d.pfm"
+said "photos without a depth within 0.02 s: 1; without a pose: 1;"
+said "lines of its lists that are no time and name, or pose: 3;"
+check "they change no other frame" cmp "$dir/frames/tum_01.pfm" "$dir/frames/tom_01.pfm"
+# A turn of no length.
+printf '1.00 0 0 0 0 0 0 1\n1.03 0 0 0 0 0 0 0\n' >"$dir/frames/groundtruth.txt"
+leaves_out 1 mix --frames "$dir/frames" $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 -o "$dir/frames/ter_%02d.pfm"
+said "frame 1 is left out: $dir/frames/f4.color.pfm: its pose is no rotation and place"
+check "nor does a pose that is none" cmp "$dir/frames/tum_00.pfm" "$dir/frames/ter_00.pfm"
+printf '9.00 f0.depth.pfm\n' >"$dir/frames/depth.txt"
+status 1 mix --frames "$dir/frames" $tent --intrinsics 30,30,11.5,11.5 -o "$dir/frames/bad_%02d.pfm"
+said "lists no frame: photos without a depth within 0.02 s: 4; without a pose: 0"
+printf '1.01 f0.depth.pfm\n1.04 f4.depth.pfm\n' >"$dir/frames/depth.txt"
 status 1 mix --frames "$dir/frames" $tent -q -o "$dir/frames/bad_%02d.pfm"
-said "no frame could be used"
+said "2 of 2 frames are left out, the first because no camera given"
+# Frames without one measured depth, of no numbers, of a photo that ends early and of another size than their depth: each
+# is said once, and the frames after it are those of a list without it.
+{ printf 'Pf\n24 24\n-1.0\n'; i=0; while [ $i -lt 576 ]; do printf '\000\000\300\177'; i=$((i + 1)); done; } >"$dir/frames/x0.depth.pfm"
+for i in 0 1 2 3; do cp "$dir/frames/f0.json" "$dir/frames/x$i.json" && cp "$dir/photo.pfm" "$dir/frames/x$i.color.pfm"; done
+head -c 500 "$dir/photo.pfm" >"$dir/frames/x1.color.pfm" && cp "$dir/wall.pfm" "$dir/frames/x1.depth.pfm"
+cp "$dir/frames/f8.depth.pfm" "$dir/frames/x2.depth.pfm"
+printf '{"fx": 30, "fy": 30, "cx": 11.5, "cy": 11.5, "depth_unit_mm": 1000}' >"$dir/frames/x3.json" && cp "$dir/wall.pfm" "$dir/frames/x3.depth.pfm"
+printf 'f0\nx1\nf5\nx2\nx3\ngone\nf6\n' >"$dir/frames/odd.txt"
+leaves_out 4 mix --frames "$dir/frames/odd.txt" $tent -o "$dir/frames/odd_%02d.pfm"
+for i in 0 1 2; do check "odd frames change frame $i of the others by no byte" cmp "$dir/frames/odd_0$((i * (i + 3) / 2 + (i == 2))).pfm" "$dir/frames/g_0$i.pfm"; done
+printf 'f0\nx0\nx0\n' >"$dir/frames/nan.txt"
+status 0 mix --frames "$dir/frames/nan.txt" $tent -o "$dir/frames/nan_%02d.pfm"
+for i in 1 2; do check "what is not measured anew stays: $i" cmp "$dir/frames/o_00.pfm" "$dir/frames/nan_0$i.pfm"; done
+printf 'x0\nf0\n' >"$dir/frames/blind.txt"
+leaves_out 1 mix --frames "$dir/frames/blind.txt" $tent -o "$dir/frames/blind_%02d.pfm"
+said "frame 0 is left out: "
+check "a list whose first frame is blind begins with the next" cmp "$dir/frames/o_00.pfm" "$dir/frames/blind_01.pfm"
+status 2 mix --frames "$dir/frames/two.txt" --object "$dir/tent.obj" --fit --scale 2 -o "$dir/frames/bad_%02d.pfm"
+status 2 mix --frames "$dir/frames/two.txt" --object "$dir/tent.obj" --on wall --at 3,4 -o "$dir/frames/bad_%02d.pfm"
+status 2 mix --frames "$dir/frames/two.txt" --show object -o "$dir/frames/bad_%02d.pfm"
+check "what is refused draws nothing" sh -c '! ls "$1"/bad_* 2>/dev/null | grep -q .' sh "$dir/frames"
 status 2 mix --frames "$dir/frames" $tent -o "$dir/bad.png"
 status 2 mix --frames "$dir/frames" --photo "$dir/photo.pfm" $tent -o "$dir/bad%02d.png"
 status 1 mix --frames "$dir/nowhere" $tent -o "$dir/bad%02d.png"

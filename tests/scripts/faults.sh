@@ -1,7 +1,7 @@
 # faults.sh: every verb with its nth allocation, open, write, rename or thread failing: B TOOL SHIM in the environment.
 #
 # The inputs are made by the tool itself, small: a tent as OBJ with a texture, as PLY and as glTF, its relief, baked light,
-# a photo with depth. tests/faults/main_faults.c says what has to hold. CASES=WORD: only commands with this word.
+# a photo with depth, and a sequence of two. tests/faults/main_faults.c says what has to hold. CASES=WORD: only commands with this word.
 . tests/scripts/checks.sh
 
 case $(uname -sm)$(ldd --version 2>&1) in
@@ -31,11 +31,17 @@ make_inputs() {
         '"byteLength":36,"uri":"data:application/octet-stream;base64,' \
         'AAAAwAAAAAAAAADAAAAAwAAAAAAAAIBAAACAQAAAAAAAAADA"}]}' >floor.gltf
     printf '0,0,0\n1,0,0\n' >path.txt
+    printf 'f0\nf1\n' >frames.txt
     eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 24x16'
     "$tool" render demo --size 16x16 -q -o cloth.png &&
         "$tool" render demo $eye -q -o photo.png &&
         "$tool" render demo $eye -q -o photo.pfm &&
         "$tool" render demo $eye -q --show depth -o depth.pfm &&
+        for i in 0 1; do # of one place, so that either is what it is alone
+            cp photo.png f$i.color.png && cp depth.pfm f$i.depth.pfm
+            printf '%s' '{"fx": 19, "fy": 19, "cx": 11.5, "cy": 7.5, "depth_unit_mm": 1000, "camera_to_world": ' \
+                '[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}' >f$i.json
+        done &&
         "$tool" relight --world demo -q --cube cube.pfm &&
         "$tool" bake tent.obj -q --elements 64 --receivers 64 -o tent.lmt &&
         "$tool" pack tent.obj -q --position-error 0 --order file -o tent.lmp &&
@@ -67,6 +73,7 @@ relief render tent.lmr --size 24x16 --shadow-map 64 --with floor.gltf --bounce -
 relief render tent.lmr --size 24x16 --shadow-map 64 --compare tent.obj --threads 1 -q -o out/a.pfm
 mix --photo photo.png --depth depth.pfm --intrinsics 19,19,11.5,7.5 --object tent.obj --at 12,12 --scale 0.1 --shadow-map 64 --voxels 4 --threads 2 -q -o out/a.png --stats out/a.json
 mix --photo photo.png --depth depth.pfm --intrinsics 19,19,11.5,7.5 --show planes -q -o out/a.png
+mix --frames frames.txt --object tent.obj --at 12,12 --scale 0.1 --shadow-map 64 --voxels 4 --threads 2 -q -o out/f%02d.png
 compare photo.png photo.pfm -q --max trim=9 --heat out/a.png
 info tent.obj -q
 info floor.gltf --json -q

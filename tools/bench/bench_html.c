@@ -17,11 +17,13 @@ static void put_label(text_buffer *out, const bench_point *p)
     text_buffer_html(out, label);
 }
 
+/* All that is shown was drawn: what is missing here found no memory, and the report is not written without it. */
 static void put_picture(text_buffer *out, const bench_picture *p, const char *what)
 {
     file_bytes png = {NULL, 0};
     report unheard = {""};
     if (p->rgb == NULL || !png_encode(&png, p->rgb, p->width, p->height, &unheard)) {
+        out->is_short = 1;
         return;
     }
     text_buffer_add(out, "<img alt=\"%s\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", what, (int)p->width,

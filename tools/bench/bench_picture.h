@@ -6,7 +6,7 @@
 #include "bench_results.h"
 
 /* Both make pictures of at most 320 pixels a side: of larger ones each is the mean of a square. `out` is empty where
- * memory is short: a report does without.
+ * memory is short, and a report that shows it is not written then.
  *
  * bench_picture_of    as it looks at these stops
  * bench_picture_heat  relative error by pixel, |a - b| / (b + 0.01 mean of b) of the grey, by metrics_ramp: white from

@@ -36,17 +36,17 @@ typedef struct mix_kept {
 typedef struct mix_entry {
     char prefix[512];               /* as --frame; or, empty, by these: */
     char photo[512], depth[512];
-    int has_pose;
     double pose[16];
 } mix_entry;
 
 typedef struct mix_list {
     mix_entry *entry;
     int32_t count, cap;
+    int32_t no_depth, no_pose, unread; /* of TUM's lists: photos without a depth, or a pose, of their time; odd lines */
 } mix_list;
 
 /* mix_list_read: of a folder with TUM's rgb.txt, depth.txt and groundtruth.txt or with frames.txt, or of a file with a
- * PREFIX a line. 1, or 0 with `r` set. */
+ * PREFIX a line. Of TUM's, photos that have no depth or no pose within 0.02 s are no frames: they are counted. 1, or 0 with `r` set. */
 int mix_list_read(mix_list *out, const char *path, report *r);
 void mix_list_free(mix_list *l);
 

@@ -53,6 +53,7 @@ typedef struct mix_job {
     float seen_px;       /* the longer side of its box in the picture; infinite where it is at the camera */
     float gap_m;         /* how much farther than it stands what was measured at its foot is, along the camera's axis */
     lmb_env env[2];      /* around the scene without and with the object */
+    float dim[3];        /* what the object leaves of it, by channel */
     lmb_light *lights;         /* those with a size are MIX_LIGHT_SAMPLES */
     lmb_shadow_map (*maps)[2]; /* of each: without, with */
     int32_t light_count, lamp_count; /* the last ones are the object's own: they are there only with it */

@@ -20,7 +20,7 @@ typedef struct stamped {
 
 typedef struct stamped_list {
     stamped *line;
-    int32_t count;
+    int32_t count, unread;
 } stamped_list;
 
 void mix_list_free(mix_list *l)
@@ -55,13 +55,17 @@ static int beside(char *out, size_t size, const char *folder, const char *name, 
 
 /* --- TUM's lists -------------------------------------------------------------------------------------------------- */
 
-/* "time name", or "time" and seven numbers. Lines that are neither are passed over: headers begin with #. */
+/* "time name", or "time" and seven numbers. Empty lines and headers, which begin with #, are passed over, and others that
+ * are neither are counted. */
 static void read_line(stamped_list *out, cursor *c, int has_names)
 {
     slice s;
     stamped line;
     memset(&line, 0, sizeof line);
-    int ok = text_token(&s, c) && slice_number(&line.time, s);
+    if (!text_token(&s, c) || s.at[0] == '#') {
+        return;
+    }
+    int ok = slice_number(&line.time, s);
     if (ok && has_names) {
         ok = text_token(&s, c) && s.size < sizeof line.name;
         memcpy(line.name, s.at, ok ? s.size : 0);
@@ -71,6 +75,8 @@ static void read_line(stamped_list *out, cursor *c, int has_names)
     }
     if (ok && out->count < STAMPED_CAP) {
         out->line[out->count++] = line;
+    } else {
+        ++out->unread;
     }
 }
 
@@ -78,8 +84,7 @@ static int read_stamped(stamped_list *out, const char *folder, const char *name,
 {
     char path[600];
     file_bytes file;
-    out->count = 0;
-    out->line = NULL;
+    memset(out, 0, sizeof *out);
     snprintf(path, sizeof path, "%s%s", folder, name);
     if (!file_read(&file, path, r)) {
         return 0;
@@ -120,25 +125,26 @@ static int join(mix_list *out, const stamped_list l[3], const char *folder, repo
 {
     for (int32_t i = 0; i < l[0].count; ++i) {
         const stamped *photo = &l[0].line[i], *depth = nearest(&l[1], photo->time), *pose = nearest(&l[2], photo->time);
-        mix_entry *e = depth != NULL ? add(out, r) : NULL;
-        if (depth == NULL) {
+        if (depth == NULL || pose == NULL) {
+            out->no_depth += depth == NULL;
+            out->no_pose += depth != NULL;
             continue;
         }
+        mix_entry *e = add(out, r);
         if (e == NULL || !beside(e->photo, sizeof e->photo, folder, photo->name, strlen(photo->name), r) ||
             !beside(e->depth, sizeof e->depth, folder, depth->name, strlen(depth->name), r)) {
             return 0;
         }
-        e->has_pose = pose != NULL;
-        if (pose != NULL) {
-            pose_of(e->pose, pose->value);
-        }
+        pose_of(e->pose, pose->value);
     }
+    out->unread = l[0].unread + l[1].unread + l[2].unread;
     return 1;
 }
 
 static int read_tum(mix_list *out, const char *folder, report *r)
 {
-    stamped_list l[3] = {{NULL, 0}, {NULL, 0}, {NULL, 0}};
+    stamped_list l[3];
+    memset(l, 0, sizeof l);
     const int ok = read_stamped(&l[0], folder, "rgb.txt", 1, r) && read_stamped(&l[1], folder, "depth.txt", 1, r) &&
                    read_stamped(&l[2], folder, "groundtruth.txt", 0, r) && join(out, l, folder, r);
     for (int i = 0; i < 3; ++i) {
@@ -171,6 +177,14 @@ static int read_prefixes(mix_list *out, const char *path, report *r)
     return ok;
 }
 
+static int fail_empty(const mix_list *l, const char *path, report *r)
+{
+    return l->no_depth + l->no_pose > 0
+               ? report_fail(r, "%s: lists no frame: photos without a depth within 0.02 s: %d; without a pose: %d", path,
+                             (int)l->no_depth, (int)l->no_pose)
+               : report_fail(r, "%s: lists no frame", path);
+}
+
 int mix_list_read(mix_list *out, const char *path, report *r)
 {
     char folder[512], name[600];
@@ -182,7 +196,7 @@ int mix_list_read(mix_list *out, const char *path, report *r)
     snprintf(name, sizeof name, "%sframes.txt", folder);
     const int is_folder = file_is_plain(name, &none);
     const int ok = (is_tum ? read_tum(out, folder, r) : read_prefixes(out, is_folder ? name : path, r)) &&
-                   (out->count > 0 || report_fail(r, "%s: lists no frame", path));
+                   (out->count > 0 || fail_empty(out, path, r));
     if (!ok) {
         mix_list_free(out);
     }

@@ -54,7 +54,7 @@ static const option_row photo_rows[] = {
      .help = HELP("many, in order: LIST, or DIR/frames.txt, has a PREFIX a line, beside it; a DIR of TUM's has rgb.txt, "
              "depth.txt and groundtruth.txt (with --intrinsics; --depth-scale is 0.0002 then). The object stays where "
              "it stands in the first, and voxels are built again only when a twentieth of what is about it is new or gone, or the photo is that much brighter or darker; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
-             "out")},
+             "out, and the exit status is 1 then")},
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = HELP(".png .jpg .pfm")},
     {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth), .file = OPTION_READS,
@@ -169,11 +169,8 @@ static int complete_frames(const mix_options *o, report *r)
                : report_fail(r, "--frames: --show planes, voxels and env are of one photo");
 }
 
-static int complete(const mix_options *o, report *r)
+static int complete_photo(const mix_options *o, report *r)
 {
-    if (o->frames != NULL) {
-        return complete_frames(o, r);
-    }
     if (o->source.frame == NULL && o->source.photo == NULL) {
         return report_fail(r, "no photo given; add --frame PREFIX, or --photo, --depth and --intrinsics");
     }
@@ -183,8 +180,13 @@ static int complete(const mix_options *o, report *r)
     if (o->source.frame == NULL && !o->source.has_intrinsics) {
         return report_fail(r, "no camera given; add --intrinsics FX,FY,CX,CY");
     }
-    if (o->out == NULL) {
-        return report_fail(r, "no output given; add -o FILE.png");
+    return o->out != NULL || report_fail(r, "no output given; add -o FILE.png");
+}
+
+static int complete(const mix_options *o, report *r)
+{
+    if (!(o->frames != NULL ? complete_frames(o, r) : complete_photo(o, r))) {
+        return 0;
     }
     if (o->object == NULL && (o->show == MIX_OBJECT || o->show == MIX_VOXELS)) {
         return report_fail(r, "--show: no object given; add --object MESH");

@@ -26,8 +26,8 @@ static int read_entry(mix_job *j, const mix_entry *e, report *r)
     if (!s->has_intrinsics) {
         return report_fail(r, "no camera given; add --intrinsics FX,FY,CX,CY");
     }
-    if (!e->has_pose || !mix_is_pose(e->pose)) {
-        return report_fail(r, "has no pose");
+    if (!mix_is_pose(e->pose)) {
+        return report_fail(r, "%s: its pose is no rotation and place", e->photo);
     }
     if (!mix_frame_read(&j->frame, s, r)) {
         return 0;
@@ -106,7 +106,9 @@ typedef struct sequence {
     mix_job *next;                     /* that was read; or NULL: it cannot be used, and `why` */
     int32_t at;                        /* of the list: what `next` is */
     int is_drawn, is_written;          /* the frame before it */
-    report why, failed;
+    int is_over;                       /* the machine has no more memory or open files: `failed` */
+    int32_t left_out;
+    report why, failed, first;         /* first: why the first one is left out that is */
 } sequence;
 
 static void read_next(sequence *s)
@@ -145,13 +147,20 @@ static void write_or_read(void *user, int index, int thread)
     }
 }
 
-/* A frame that cannot be used is said and left out; the others go on as if it had not been listed. */
+/* A frame that cannot be used is said and left out; the others go on as if it had not been listed, and the end says it
+ * again. Where the machine is at fault no other frame would fare better. */
 static void draw_next(sequence *s)
 {
     mix_job *j = s->next;
     s->is_drawn = j != NULL && draw_one(&j, &s->kept, &s->why);
-    if (!s->is_drawn) {
+    if (!s->is_drawn && report_is_system(&s->why)) {
+        s->failed = s->why;
+        s->is_over = 1;
+    } else if (!s->is_drawn) {
         report_note(s->o->is_quiet, "frame %d is left out: %s", (int)s->at, s->why.text);
+        if (s->left_out++ == 0) {
+            s->first = s->why;
+        }
     }
     if (j != NULL) {
         mix_job_free(j);
@@ -186,30 +195,49 @@ static int can_write(const mix_options *o, const mix_list *list, report *r)
     return ok;
 }
 
+static void tell_list(const mix_options *o, const mix_list *l)
+{
+    report_note(o->is_quiet || l->no_depth + l->no_pose == 0,
+                "%s: photos without a depth within 0.02 s: %d; without a pose: %d; they are no frames", o->frames,
+                (int)l->no_depth, (int)l->no_pose);
+    report_note(o->is_quiet || l->unread == 0, "%s: lines of its lists that are no time and name, or pose: %d; they are passed over",
+                o->frames, (int)l->unread);
+}
+
+/* 1 where all frames were drawn and written. */
+static int end(const sequence *s, report *r)
+{
+    if (!s->is_written || s->is_over) {
+        *r = s->failed;
+        return 0;
+    }
+    return s->left_out == 0 || report_fail(r, "%s: %d of %d frames are left out, the first because %s", s->o->frames,
+                                           (int)s->left_out, (int)s->list.count, s->first.text);
+}
+
 int mix_frames(const mix_options *o, report *r)
 {
     sequence s;
-    int32_t done = 0;
     memset(&s, 0, sizeof s);
     s.o = o;
     if (!mix_list_read(&s.list, o->frames, r) || !can_write(o, &s.list, r)) {
         mix_list_free(&s.list);
         return 0;
     }
+    tell_list(o, &s.list);
     s.is_written = 1;
     read_next(&s);
-    while (s.at < s.list.count && s.is_written) {
+    while (s.at < s.list.count && s.is_written && !s.is_over) {
         draw_next(&s);
         progress_tell("frames", (double)++s.at / (double)s.list.count);
         s.why.text[0] = '\0';
         pool_run(pool_threads(o->threads), 2, write_or_read, &s);
-        done += s.is_drawn && s.is_written;
     }
     if (s.next != NULL) {
         mix_job_free(s.next);
     }
+    const int ok = end(&s, r);
     mix_kept_free(&s.kept);
     mix_list_free(&s.list);
-    return s.is_written ? done > 0 || report_fail(r, "%s: no frame could be used", o->frames)
-                        : report_fail(r, "%s", s.failed.text);
+    return ok;
 }

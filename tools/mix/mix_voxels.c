@@ -289,9 +289,9 @@ static int find_sent(mix_job *j, points *p, report *r)
 static int dim_around(mix_job *j, points *p)
 {
     first_light sum;
-    float share[3] = {1.0f, 1.0f, 1.0f};
     int has_sun = 0;
     memset(&sum, 0, sizeof sum);
+    j->dim[0] = j->dim[1] = j->dim[2] = 1.0f;
     for (int32_t i = 0; i < j->light_count - j->lamp_count; ++i) {
         has_sun |= j->lights[i].kind == LMB_LIGHT_DIRECTIONAL;
         if (!has_sun && !add_first_light(&sum, j, p, i)) {
@@ -301,9 +301,9 @@ static int dim_around(mix_job *j, points *p)
     for (int c = 0; c < 3 && !has_sun; ++c) {
         const double before = sum.flux[0][c] + UNSEEN_ALBEDO * sum.unseen[0][c],
                      now = sum.flux[1][c] + p->sent_flux[c] + UNSEEN_ALBEDO * (sum.unseen[1][c] + p->sent_out[c]);
-        share[c] = before > 0.0 ? (float)(now / before) : 1.0f;
+        j->dim[c] = before > 0.0 ? (float)(now / before) : 1.0f;
     }
-    lmb_env_dim(&j->env[1], &j->env[0], share);
+    lmb_env_dim(&j->env[1], &j->env[0], j->dim);
     return 1;
 }
 
@@ -451,14 +451,15 @@ static int light_voxels(mix_job *j, report *r)
     return find_sent(j, &p, r) && inject_all(j, &p, r);
 }
 
-/* Metal asks what is around and what planes reflect in each frame, also where the voxels stay. */
+/* Metal asks what is around and what planes reflect in each frame, also where the voxels stay: what the object takes of
+ * the surroundings is then what it took when those were lit. */
 static int find_mirrored(mix_job *j, report *r)
 {
-    static const float all[3] = {1.0f, 1.0f, 1.0f};
     if (j->object_triangles == 0 || !lmb_scene_is_glossy(&j->scene)) {
         return 1;
     }
-    lmb_env_dim(&j->env[1], &j->env[0], all);
+    memcpy(j->dim, j->world->dim, sizeof j->dim);
+    lmb_env_dim(&j->env[1], &j->env[0], j->dim);
     if (!colour_real(j, r)) {
         return 0;
     }
