@@ -125,8 +125,9 @@ size_t lmb_planes_bytes(int32_t width, int32_t height);
  * LMB_ERR_CAPACITY. Cost: some 60 operations a pixel. */
 lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory, size_t bytes);
 
-/* lmb_planes_up: which way is up, unit, in the camera's space. A photo does not know; the camera's own up is a guess,
- * and the largest plane that is near to level by it, a floor or a ceiling, a better one. */
+/* lmb_planes_up: which way is up, unit, in the camera's space. A photo does not know; the camera's own up is a guess, and
+ * within 70 degrees of it a better one is what most of the planes agree with as floors, ceilings or walls. Cost: each pair of
+ * planes asks all. */
 lmb_vec3 lmb_planes_up(const lmb_planes *planes);
 
 /* lmb_planes_floor: the plane that an object would stand on: the one with the largest picture of those that face up:

@@ -5,21 +5,46 @@
 
 #define MIN_UP 0.34202014f /* cosine of 70 degrees: what a floor may be turned from the camera's up */
 #define LEVEL 0.90630779f    /* of 25: from what is up in the picture */
+#define UPRIGHT 0.17364818f  /* of 80: what is a wall by it */
+#define APART 0.25f          /* squared sine of 30: between two walls that tell what is up */
+#define WALLS 0.9f           /* walls alone tell it less well than a floor */
 
 enum { CLEAR_STEP = 4 /* px */, RIM = 8 /* points of a circle */ };
 
-/* Floors and ceilings: of a camera that looks level they are the planes with the largest |y|, and one that is turned by
- * less than 45 degrees leaves them that. Squares, because there is more wall than floor in most pictures. */
+/* How much the planes speak for a direction as up: level ones all they have, upright ones half, for there is more wall
+ * than floor in most pictures; and the more, the nearer it is to the camera's up: of a camera that is turned by less than
+ * 45 degrees floors are then before walls. */
+static float says_up(const lmb_planes *planes, lmb_vec3 up)
+{
+    const float tall = maxf(up.y - MIN_UP, 0.0f);
+    float sum = 0.0f;
+    for (int32_t i = 0; i < planes->count && tall > 0.0f; ++i) {
+        const float d = absf(dot3(planes->plane[i].normal, up)),
+                    says = d > LEVEL ? (d - LEVEL) / (1.0f - LEVEL) : 0.5f * maxf(1.0f - d / UPRIGHT, 0.0f);
+        sum += (float)planes->plane[i].pixels * says;
+    }
+    return sum * tall * tall;
+}
+
+static lmb_vec3 towards_up(lmb_vec3 v) { return v.y < 0.0f ? mul3(v, -1.0f) : v; }
+
+/* What all planes speak for most: across a floor or ceiling, or along two walls, where neither is seen. */
 lmb_vec3 lmb_planes_up(const lmb_planes *planes)
 {
     lmb_vec3 up = vec3(0, 1, 0);
     float max = 0.0f;
     for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
-        const lmb_flat *p = &planes->plane[i];
-        const float level = maxf(absf(p->normal.y) - MIN_UP, 0.0f), size = (float)p->pixels * level * level;
-        if (size > max) {
-            max = size;
-            up = p->normal.y < 0.0f ? mul3(p->normal, -1.0f) : p->normal;
+        for (int32_t k = i; k < planes->count; ++k) {
+            const lmb_vec3 a = planes->plane[i].normal, b = planes->plane[k].normal, c = cross3(a, b);
+            if (i != k && dot3(c, c) < APART) {
+                continue;
+            }
+            const lmb_vec3 one = towards_up(i == k ? a : normalize3(c));
+            const float says = says_up(planes, one) * (i == k ? 1.0f : WALLS);
+            if (says > max) {
+                max = says;
+                up = one;
+            }
         }
     }
     return up;

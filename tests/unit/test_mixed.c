@@ -193,6 +193,28 @@ static void test_up(void)
     CHECK(lmb_planes_floor(&planes) == -1);
 }
 
+/* Two walls of a room that a camera sees which is rolled by 20 degrees: along both is up, also against a little plane that
+ * leans; one wall alone says nothing. */
+static void test_up_by_walls(void)
+{
+    const float s = 0.34202014f, c = 0.93969262f;
+    lmb_planes planes;
+    memset(&planes, 0, sizeof planes);
+    planes.count = 1;
+    planes.plane[0].pixels = 5000;
+    planes.plane[0].normal = (lmb_vec3){0.8f * c, 0.8f * s, 0.6f}; /* 0.27 up: the wall leans by the camera's roll alone */
+    CHECK(lmb_planes_up(&planes).y == 1.0f);
+    planes.count = 3;
+    planes.plane[1].pixels = 3000;
+    planes.plane[1].normal = (lmb_vec3){-0.6f * c, -0.6f * s, 0.8f};
+    planes.plane[2].pixels = 200;
+    planes.plane[2].normal = (lmb_vec3){0.0f, 0.8f, 0.6f};
+    const lmb_vec3 up = lmb_planes_up(&planes);
+    CHECK_MSG(fabsf(up.x + s) < 1e-5f && fabsf(up.y - c) < 1e-5f && fabsf(up.z) < 1e-5f, "%g %g %g", (double)up.x,
+              (double)up.y, (double)up.z);
+    CHECK(lmb_planes_floor(&planes) == -1);
+}
+
 /* Nothing measured, one pixel, all at one distance, and nothing flat. */
 static void test_no_planes(stage *s)
 {
@@ -788,6 +810,7 @@ void test_mixed(void)
     test_corner(s);
     test_place(s);
     test_up();
+    test_up_by_walls();
     test_no_planes(s);
     test_many_planes(s);
     test_mesh(s);

@@ -12,7 +12,7 @@ typedef struct mix_kept {
     model object;
     model_notes notes;
     lmb_mat4 to_world;      /* of the object */
-    lmb_vec3 anchor, up;
+    lmb_vec3 anchor, up, facing;
     float scale;
     int hangs;
     int has_sun;

@@ -44,6 +44,7 @@ typedef struct mix_job {
     lmb_scene scene;     /* the real mesh is instance 0, the object's instances come after it */
     uint32_t real_triangles, object_triangles;
     lmb_vec3 anchor, up; /* in the camera's space */
+    lmb_vec3 facing;     /* likewise: the normal of what it stands or hangs on */
     int32_t floor;       /* the plane that the object stands on, or -1 */
     int faces_up;        /* it does, or was named */
     int hangs;           /* on a wall, upright */

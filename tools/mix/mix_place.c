@@ -186,11 +186,26 @@ static int join_scene(mix_job *j, const lmb_mat4 *place, report *r)
            report_fail(r, "%s: too large where it stands; --scale sets metres of a unit", j->o.object);
 }
 
+/* Its back axis out of a wall: voxels are aligned to what the object hangs on, too. */
+static void turn_to_wall(lmb_axes *out, lmb_vec3 up, lmb_vec3 facing)
+{
+    const float tall = dot(facing, up);
+    const lmb_vec3 level = {facing.x - tall * up.x, facing.y - tall * up.y, facing.z - tall * up.z},
+                   z = scaled(level, 1.0f / sqrtf(fmaxf(dot(level, level), 1e-12f))),
+                   x = {up.y * z.z - up.z * z.y, up.z * z.x - up.x * z.z, up.x * z.y - up.y * z.x};
+    out->right = (lmb_vec3){x.x, up.x, z.x};
+    out->up = (lmb_vec3){x.y, up.y, z.y};
+    out->back = (lmb_vec3){x.z, up.z, z.z};
+}
+
 /* The scene's space stands upright on what the object stands on, or on the floor. */
 static void turn_scene(mix_job *j)
 {
     const lmb_mat4 camera = j->frame.has_pose ? world_to_camera(j->frame.pose) : identity;
     j->axes = lmb_axes_upright(j->up);
+    if (j->hangs) {
+        turn_to_wall(&j->axes, j->up, j->facing);
+    }
     const lmb_mat4 turn = of_axes(j->axes.right, j->axes.up, j->axes.back, (lmb_vec3){0, 0, 0});
     j->from_world = mix_product(&turn, &camera);
 }
@@ -255,6 +270,7 @@ void mix_keep_place(mix_kept *k, const mix_job *j)
     k->to_world = mix_product(&from, &j->placed);
     k->anchor = mix_move(&world, j->anchor);
     k->up = mix_turn(&world, j->up);
+    k->facing = mix_turn(&world, j->facing);
     k->scale = j->scale;
     k->hangs = j->hangs;
 }
@@ -283,7 +299,9 @@ static int place_again(mix_job *j, report *r)
     j->anchor = mix_move(&camera, k->anchor);
     j->up = mix_turn(&camera, k->up);
     j->scale = k->scale;
-    j->floor = k->hangs ? -1 : plane_below(j, j->up);
+    j->facing = mix_turn(&camera, k->facing);
+    j->hangs = k->hangs;
+    j->floor = plane_below(j, j->facing);
     j->faces_up = 1;
     turn_scene(j);
     j->gap_m = NAN;
@@ -317,6 +335,7 @@ int mix_place(mix_job *j, report *r)
     for (int i = 0; i < 3 && j->floor >= 0; ++i) { /* most of the foot's pixels are nearer than its middle */
         mix_touch(j, gap(j, r));
     }
+    j->facing = j->floor >= 0 ? j->planes.plane[j->floor].normal : j->up;
     turn_scene(j);
     j->gap_m = j->o.at == MIX_AT_WORLD ? NAN : gap(j, r);
     j->placed = object_to_scene(j);

@@ -158,17 +158,25 @@ static int seen_steps(const mix_job *j, lmb_vec3 from, float height)
     return seen;
 }
 
+/* Level, towards the viewer; of a wall, out of it. */
+static lmb_vec3 in_front(const mix_job *j)
+{
+    const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
+    const lmb_vec3 v = j->hangs ? lmb_axes_turn(&j->axes, j->facing) : (lmb_vec3){-foot.x, 0, -foot.z};
+    const float level = hypotf(v.x, v.z);
+    return level > 0.0f ? (lmb_vec3){v.x / level, 0, v.z / level} : (lmb_vec3){0, 0, 1};
+}
+
 /* About the brightest direction: within 30 degrees of straight from one side, and 30 to 50 degrees high, for the shadow
- * of a sun behind the viewer or overhead hides behind the object. From the other side where more of the floor is. */
+ * of a sun behind the viewer or overhead hides behind the object. From the other side where more of the floor is. On a wall
+ * 45 to 65 degrees from straight out of it: behind a wall shines no sun. */
 static lmb_vec3 direction(const mix_job *j)
 {
-    const lmb_vec3 up = {0, 1, 0}, bright = lmb_env_brightest(&j->env[0], up),
-                   foot = lmb_axes_turn(&j->axes, j->anchor);
-    const float level = hypotf(foot.x, foot.z);
-    const lmb_vec3 viewer = level > 0.0f ? (lmb_vec3){-foot.x / level, 0, -foot.z / level} : (lmb_vec3){0, 0, 1},
+    const lmb_vec3 up = {0, 1, 0}, bright = lmb_env_brightest(&j->env[0], up), viewer = in_front(j),
                    side = {viewer.z, 0, -viewer.x};
     const float height = fminf(bright.y, 0.76604444f), flat = hypotf(bright.x, bright.z);
-    const float to_viewer = flat > 0.0f ? fminf(fmaxf(along(bright, viewer) / flat, -0.5f), 0.5f) : 0.0f;
+    const float low = j->hangs ? 0.42261826f : -0.5f, high = j->hangs ? 0.70710678f : 0.5f;
+    const float to_viewer = fminf(fmaxf(flat > 0.0f ? along(bright, viewer) / flat : 0.0f, low), high);
     const float beside = sqrtf(1.0f - to_viewer * to_viewer), wide = sqrtf(1.0f - height * height);
     lmb_vec3 from[2];
     for (int i = 0; i < 2; ++i) {
@@ -183,16 +191,16 @@ static lmb_vec3 direction(const mix_job *j)
 void mix_guess_sun(lmb_light *out, const mix_job *j)
 {
     float around[3];
-    const lmb_vec3 up = {0, 1, 0}, from = direction(j);
+    const lmb_vec3 faces = j->hangs ? in_front(j) : (lmb_vec3){0, 1, 0}, from = direction(j);
     const float share = mix_sun_share(j->frame.light.pixels, &j->planes, &j->frame.camera, j->floor);
     const lmb_axes *a = &j->axes;
     memset(out, 0, sizeof *out);
     out->kind = LMB_LIGHT_DIRECTIONAL;
     out->direction = (lmb_vec3){-from.x, -from.y, -from.z};
     out->cos_inner = out->cos_outer = 1.0f;
-    lmb_env_irradiance(around, &j->env[0], up);
+    lmb_env_irradiance(around, &j->env[0], faces);
     for (int c = 0; c < 3; ++c) {
-        out->intensity[c] = share * around[c] / from.y;
+        out->intensity[c] = share * around[c] / along(from, faces);
     }
     report_note(j->o.is_quiet,
                 "no light given: guessed a sun from a side, near where the surroundings are brightest, %.2f as strong "

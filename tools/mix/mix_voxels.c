@@ -108,6 +108,8 @@ static int build(mix_job *j, report *r)
     lmb_vec3 middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
     if (j->floor >= 0 && !j->hangs) {
         middle.y = foot.y + half - leaf_under(half - (middle.y - foot.y), 2.0f * half / (float)(1 << j->o.depth));
+    } else if (j->hangs) {
+        middle.z = foot.z + half - leaf_under(half - (middle.z - foot.z), 2.0f * half / (float)(1 << j->o.depth));
     }
     const lmb_vec3 from = {middle.x - half, middle.y - half, middle.z - half},
                    to = {middle.x + half, middle.y + half, middle.z + half};
