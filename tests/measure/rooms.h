@@ -32,8 +32,8 @@ typedef struct room_picture {
 } room_picture;
 
 /* room_trace: the picture without or with the object, `strata`^2 paths a pixel, of which those that do not meet the
- * object are the same in both. 1, or 0 without memory. */
-int room_trace(room_picture *out, room *r, int with, int strata);
+ * object are the same in both; other numbers of `half` take other paths. 1, or 0 without memory. */
+int room_trace(room_picture *out, room *r, int with, int strata, int half);
 
 /* room_write_object: the object alone as DIR/NAME.gltf. 1, or 0 where it cannot be written. */
 int room_write_object(const room *r, const char *path);

@@ -111,7 +111,7 @@ static void add_path(const path_tracer *p, const room *r, path_point here, svec 
     }
 }
 
-static void trace_pixel(room_picture *out, const path_tracer *p, const room *r, int i, int strata)
+static void trace_pixel(room_picture *out, const path_tracer *p, const room *r, int i, int strata, int half)
 {
     path_point seen;
     double rgb[3] = {0, 0, 0};
@@ -120,7 +120,7 @@ static void trace_pixel(room_picture *out, const path_tracer *p, const room *r, 
     if (path_eye(p, &seen, i % ROOM_SIDE, i / ROOM_SIDE, ROOM_SIDE)) {
         const svec v = unit(less(eye, seen.at));
         for (int k = 0; k < strata * strata; ++k) {
-            test_rng random = {(uint64_t)i * 977u + (uint64_t)k * 7919u + 1u};
+            test_rng random = {(uint64_t)i * 977u + (uint64_t)k * 7919u + 1u + 1000000007u * (uint64_t)half};
             (void)test_random(&random);
             const double first[2] = {(k % strata + any(&random)) / strata, (k / strata + any(&random)) / strata};
             add_path(p, r, seen, v, first, &random, rgb);
@@ -132,7 +132,7 @@ static void trace_pixel(room_picture *out, const path_tracer *p, const room *r, 
     }
 }
 
-int room_trace(room_picture *out, room *r, int with, int strata)
+int room_trace(room_picture *out, room *r, int with, int strata, int half)
 {
     path_tracer p;
     made_scene shown = r->scene;
@@ -141,7 +141,7 @@ int room_trace(room_picture *out, room *r, int with, int strata)
         return 0;
     }
     for (int i = 0; i < ROOM_PIXELS; ++i) {
-        trace_pixel(out, &p, r, i, strata);
+        trace_pixel(out, &p, r, i, strata, half);
     }
     path_close(&p);
     return 1;

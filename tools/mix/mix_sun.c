@@ -138,22 +138,30 @@ static lmb_vec3 sum(float a, lmb_vec3 x, float b, lmb_vec3 y)
     return out;
 }
 
+static lmb_vec3 to_camera(const mix_job *j, lmb_vec3 v)
+{
+    return (lmb_vec3){along(j->axes.right, v), along(j->axes.up, v), along(j->axes.back, v)};
+}
+
+/* Is a place of the camera's space seen as plane p's? */
+static int shows(const mix_job *j, int32_t p, lmb_vec3 at)
+{
+    const lmb_pinhole *c = &j->frame.camera;
+    const float x = c->cx - c->fx * at.x / at.z + 0.5f, y = c->cy + c->fy * at.y / at.z + 0.5f;
+    return at.z < 0.0f && x >= 0.0f && y >= 0.0f && x < (float)c->width && y < (float)c->height &&
+           j->planes.label[(int32_t)y * c->width + (int32_t)x] == p + 1;
+}
+
 /* How much of a shadow along `from` would be seen on what the object stands on: of steps on the floor. */
 static int seen_steps(const mix_job *j, lmb_vec3 from, float height)
 {
     enum { STEPS = 12 };
-    const lmb_pinhole *c = &j->frame.camera;
     const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
     int seen = 0;
     for (int i = 1; i <= STEPS && j->floor >= 0 && !j->hangs; ++i) {
         const float far = height / from.y * (float)i / STEPS;
         const lmb_vec3 p = {foot.x - from.x * far, foot.y, foot.z - from.z * far};
-        const float ahead = -along(j->axes.back, p);
-        const float x = c->cx + c->fx * along(j->axes.right, p) / ahead,
-                    y = c->cy - c->fy * along(j->axes.up, p) / ahead;
-        if (ahead > 0.0f && x >= 0.0f && y >= 0.0f && x < (float)c->width && y < (float)c->height) {
-            seen += j->planes.label[(int32_t)y * c->width + (int32_t)x] == j->floor + 1;
-        }
+        seen += shows(j, j->floor, to_camera(j, p));
     }
     return seen;
 }
@@ -167,25 +175,56 @@ static lmb_vec3 in_front(const mix_job *j)
     return level > 0.0f ? (lmb_vec3){v.x / level, 0, v.z / level} : (lmb_vec3){0, 0, 1};
 }
 
+/* Does no plane lie between the object and a sun from there, where the photo shows it? Walls and ceilings do. */
+static int is_free(const mix_job *j, lmb_vec3 from)
+{
+    const mix_extent e = mix_extent_of(j);
+    const lmb_vec3 way = to_camera(j, from), at = sum(1.0f, j->anchor, 0.5f * e.height * j->scale, j->facing);
+    for (int32_t i = 0; i < j->planes.count; ++i) {
+        const lmb_flat *p = &j->planes.plane[i];
+        const float far = -(along(p->normal, at) + p->distance) / along(p->normal, way);
+        if (i != j->floor && far > 0.0f && far < 1e6f && shows(j, i, sum(1.0f, at, far, way))) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* From beside what is in front, `facing` of it towards that, and so high. side: 1 or -1. */
+static lmb_vec3 from_side(lmb_vec3 front, float facing, float side, float height)
+{
+    const lmb_vec3 up = {0, 1, 0}, across = {front.z, 0, -front.x};
+    const float wide = sqrtf(1.0f - height * height), beside = sqrtf(1.0f - facing * facing);
+    return sum(wide, sum(facing, front, side * beside, across), height, up);
+}
+
 /* About the brightest direction: within 30 degrees of straight from one side, and 30 to 50 degrees high, for the shadow
  * of a sun behind the viewer or overhead hides behind the object. From the other side where more of the floor is. On a wall
- * 45 to 65 degrees from straight out of it: behind a wall shines no sun. */
+ * 45 to 65 degrees from straight out of it: behind a wall shines no sun. Where a wall that is seen is in its way, the
+ * first that none is: lower, higher, nearer to the viewer or farther, from the other side. */
 static lmb_vec3 direction(const mix_job *j)
 {
-    const lmb_vec3 up = {0, 1, 0}, bright = lmb_env_brightest(&j->env[0], up), viewer = in_front(j),
-                   side = {viewer.z, 0, -viewer.x};
-    const float height = fminf(bright.y, 0.76604444f), flat = hypotf(bright.x, bright.z);
-    const float low = j->hangs ? 0.42261826f : -0.5f, high = j->hangs ? 0.70710678f : 0.5f;
-    const float to_viewer = fminf(fmaxf(flat > 0.0f ? along(bright, viewer) / flat : 0.0f, low), high);
-    const float beside = sqrtf(1.0f - to_viewer * to_viewer), wide = sqrtf(1.0f - height * height);
-    lmb_vec3 from[2];
-    for (int i = 0; i < 2; ++i) {
-        const float sign = (along(bright, side) < 0.0f) == (i == 0) ? -1.0f : 1.0f;
-        from[i] = sum(wide, sum(to_viewer, viewer, sign * beside, side), height, up);
-    }
+    static const float heights[] = {0.5f, 0.64278761f, 0.76604444f};
+    const lmb_vec3 bright = lmb_env_brightest(&j->env[0], (lmb_vec3){0, 1, 0}), front = in_front(j),
+                   side = {front.z, 0, -front.x};
+    const float flat = hypotf(bright.x, bright.z), low = j->hangs ? 0.42261826f : -0.5f,
+                high = j->hangs ? 0.70710678f : 0.5f,
+                facing = fminf(fmaxf(flat > 0.0f ? along(bright, front) / flat : 0.0f, low), high);
     const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
-    const float tall = (hi.y - lo.y) * j->scale;
-    return from[2 * seen_steps(j, from[0], tall) < seen_steps(j, from[1], tall)];
+    const float tall = (hi.y - lo.y) * j->scale, first = along(bright, side) < 0.0f ? -1.0f : 1.0f,
+                height = fminf(bright.y, heights[2]);
+    const lmb_vec3 one = from_side(front, facing, first, height), other = from_side(front, facing, -first, height);
+    const int turned = 2 * seen_steps(j, one, tall) < seen_steps(j, other, tall);
+    const lmb_vec3 best = turned ? other : one;
+    for (int i = -1; i < 18; ++i) {
+        const float ways[] = {facing, high, low};
+        const lmb_vec3 from = i < 0 ? best
+                                    : from_side(front, ways[i / 3 % 3], (turned != 0) == (i < 9) ? -first : first, heights[i % 3]);
+        if (is_free(j, from)) {
+            return from;
+        }
+    }
+    return best;
 }
 
 void mix_guess_sun(lmb_light *out, const mix_job *j)
