@@ -11,6 +11,9 @@
 /* Of a photo's brightness, what no code of 8 bits shows. */
 #define SHOWS 0.004f
 
+/* Of the object's longest side: how far before its surface the lights are that stand for its patches. */
+#define CLEAR 0.01f
+
 enum { TREE_SIZE = 512, CELLS = 16 /* a side of the object, at most */, PATCHES = 768 /* at most */ };
 
 static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b)
@@ -457,25 +460,25 @@ static int add_reflected(points *to, mix_job *j, report *r)
 
 /* --- their lights ------------------------------------------------------------------------------------------------- */
 
-/* Before the middle of a way's patches, beyond the one that stands out most. */
-static void set_light(lmb_light *out, const mix_patch *p, int32_t count)
+/* Before the middle of a way's points, beyond the one that stands out most: a patch lies at the mean of its points, which of
+ * a curved surface is within it, and a light there would see nothing. `clear`: how far beyond, m. */
+static void set_light(lmb_light *out, const point *p, size_t count, float clear)
 {
     lmb_vec3 at = {0, 0, 0}, normal = {0, 0, 0};
     float weight = 0.0f, reach = 0.0f;
-    for (int32_t i = 0; i < count; ++i) {
-        const float w = p[i].flux[0] + p[i].flux[1] + p[i].flux[2];
-        at = plus(at, times(p[i].at, w));
-        normal = plus(normal, times(p[i].normal, w));
-        weight += w;
+    for (size_t i = 0; i < count; ++i) {
+        at = plus(at, times(p[i].p.at, p[i].weight));
+        normal = plus(normal, times(p[i].p.normal, p[i].weight));
+        weight += p[i].weight;
     }
     at = times(at, 1.0f / weight);
     normal = times(normal, 1.0f / sqrtf(fmaxf(dot(normal, normal), 1e-30f)));
-    for (int32_t i = 0; i < count; ++i) {
-        reach = fmaxf(reach, dot(less(p[i].at, at), normal));
+    for (size_t i = 0; i < count; ++i) {
+        reach = fmaxf(reach, dot(less(p[i].p.at, at), normal));
     }
     memset(out, 0, sizeof *out);
     out->kind = LMB_LIGHT_POINT;
-    out->position = plus(at, times(normal, reach + 1e-4f));
+    out->position = plus(at, times(normal, reach + clear));
     out->direction = (lmb_vec3){0, -1, 0};
     out->cos_inner = out->cos_outer = 1.0f;
     out->intensity[0] = out->intensity[1] = out->intensity[2] = 1.0f;
@@ -504,6 +507,7 @@ static int32_t make_patches(lmb_light out[MIX_WAYS], points *s, float side, mix_
     j->sources->piece = p;
     while (at < s->count) {
         const uint32_t way = s->all[at].way;
+        const size_t begins = at;
         for (j->sources->first[ways] = n; at < s->count && s->all[at].way == way; ++n) {
             const size_t from = at;
             while (at < s->count && by_key(&s->all[from], &s->all[at]) == 0) {
@@ -511,7 +515,7 @@ static int32_t make_patches(lmb_light out[MIX_WAYS], points *s, float side, mix_
             }
             gather(&p[n], &s->all[from], at - from, cell);
         }
-        set_light(&out[ways], &p[j->sources->first[ways]], n - j->sources->first[ways]);
+        set_light(&out[ways], &s->all[begins], at - begins, CLEAR * side);
         j->sources->first[++ways] = n;
     }
     return ways;
