@@ -6,7 +6,7 @@
 #define MIN_UP 0.34202014f /* cosine of 70 degrees: what a floor may be turned from the camera's up */
 #define LEVEL 0.90630779f    /* of 25: from what is up in the picture */
 #define UPRIGHT 0.17364818f  /* of 80: what is a wall by it */
-#define APART 0.25f          /* squared sine of 30: between two walls that tell what is up */
+#define CROSSING 0.25f       /* squared sine of 30: between two walls that tell what is up */
 #define WALLS 0.9f           /* walls alone tell it less well than a floor */
 
 enum { CLEAR_STEP = 4 /* px */, RIM = 8 /* points of a circle */ };
@@ -36,7 +36,7 @@ lmb_vec3 lmb_planes_up(const lmb_planes *planes)
     for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
         for (int32_t k = i; k < planes->count; ++k) {
             const lmb_vec3 a = planes->plane[i].normal, b = planes->plane[k].normal, c = cross3(a, b);
-            if (i != k && dot3(c, c) < APART) {
+            if (i != k && dot3(c, c) < CROSSING) {
                 continue;
             }
             const lmb_vec3 one = towards_up(i == k ? a : normalize3(c));

@@ -352,6 +352,20 @@ static void around_darkens(void)
               (double)sunny);
 }
 
+/* What is around, white towards v's side and dark elsewhere. */
+static void shine_from(lmb_env *env, lmb_vec3 v)
+{
+    for (int32_t t = 0; t < 6 * 64 * 64; ++t) {
+        const int32_t face = t / 4096, x = t % 64, y = t / 64 % 64;
+        const float s = ((float)x + 0.5f) / 32.0f - 1.0f, u = ((float)y + 0.5f) / 32.0f - 1.0f;
+        const float d[6][3] = {{1, -u, -s}, {-1, -u, s}, {s, 1, u}, {s, -1, -u}, {s, -u, 1}, {-s, -u, -1}};
+        const float *e = d[face], far = sqrtf(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]),
+                    one = (e[0] * v.x + e[1] * v.y + e[2] * v.z) / far > 0.97f ? 20.0f : 0.1f, rgb[3] = {one, one, one};
+        lmb_env_set(env, face, x, y, rgb);
+    }
+    lmb_env_mips(env);
+}
+
 /* A sun behind the viewer, or overhead, is moved so that the shadow falls beside the object. */
 static void sun_is_from_a_side(void)
 {
@@ -363,17 +377,8 @@ static void sun_is_from_a_side(void)
         lmb_light sun;
         set_depth(j, 2.5f, 1);
         CHECK(place(j) && mix_light(j, &r));
-        for (int32_t t = 0; t < 6 * 64 * 64; ++t) {
-            const int32_t face = t / 4096, x = t % 64, y = t / 64 % 64;
-            const float s = ((float)x + 0.5f) / 32.0f - 1.0f, u = ((float)y + 0.5f) / 32.0f - 1.0f;
-            const float d[6][3] = {{1, -u, -s}, {-1, -u, s}, {s, 1, u}, {s, -1, -u}, {s, -u, 1}, {-s, -u, -1}};
-            const float *e = d[face], near = e[0] * bright[i][0] + e[1] * 0.7f + e[2] * bright[i][1];
-            const float v = near / sqrtf(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) >
-                                    0.97f * hypotf(hypotf(bright[i][0], bright[i][1]), 0.7f) ? 20.0f : 0.1f;
-            const float rgb[3] = {v, v, v};
-            lmb_env_set(&j->env[0], face, x, y, rgb);
-        }
-        lmb_env_mips(&j->env[0]);
+        const float far = sqrtf(bright[i][0] * bright[i][0] + 0.49f + bright[i][1] * bright[i][1]);
+        shine_from(&j->env[0], (lmb_vec3){bright[i][0] / far, 0.7f / far, bright[i][1] / far});
         mix_guess_sun(&sun, j);
         const lmb_vec3 from = {-sun.direction.x, -sun.direction.y, -sun.direction.z};
         const float flat = hypotf(from.x, from.z);
@@ -385,6 +390,29 @@ static void sun_is_from_a_side(void)
         }
         mix_guess_sun(&sun, j);
         CHECK_MSG((sun.direction.x < 0.0f) != falls_left, "%d: the shadow falls to %g", i, (double)sun.direction.x);
+        mix_job_free(j);
+    }
+}
+
+/* On a wall the sun is in front of it, also where what is behind it is the brightest; and not behind a wall beside it. */
+static void sun_is_before_walls(void)
+{
+    for (int has_side = 0; has_side < 2; ++has_side) {
+        char *object[] = {"--object", square, "--quiet", "--at", "50,36"};
+        mix_job *j = begin(object, 5);
+        report r = {""};
+        lmb_light sun;
+        set_depth(j, 2.5f, 0);
+        for (int i = 0; i < PIXELS && has_side; ++i) {
+            const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH));
+            j->frame.depth[i] = fminf(j->frame.depth[i], ray.x < -0.01f ? -0.7f / ray.x : 1e9f);
+        }
+        CHECK(place(j) && j->hangs && mix_light(j, &r));
+        shine_from(&j->env[0], has_side ? (lmb_vec3){-0.8f, 0.6f, 0.0f} : (lmb_vec3){0.0f, 0.6f, -0.8f});
+        mix_guess_sun(&sun, j);
+        CHECK_MSG(sun.direction.z < -0.25f && fabsf(sun.direction.x) > 0.4f, "%d: %g %g", has_side,
+                  (double)sun.direction.x, (double)sun.direction.z);
+        CHECK_MSG(!has_side || sun.direction.x < 0.0f, "behind the wall beside: %g", (double)sun.direction.x);
         mix_job_free(j);
     }
 }
@@ -531,6 +559,7 @@ void test_mix(void)
     maps_count_whole();
     around_darkens();
     sun_is_from_a_side();
+    sun_is_before_walls();
     sun_is_as_strong_as_shadows();
     size_softens();
     stands_on_floor();
