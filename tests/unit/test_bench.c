@@ -1,5 +1,6 @@
 /* test_bench.c: the arithmetic of a sweep's report: front, knee, breakdown; its files' texts; its command line. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../../tools/bench/bench_chart.h"

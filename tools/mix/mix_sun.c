@@ -201,7 +201,7 @@ static lmb_vec3 from_side(lmb_vec3 front, float facing, float side, float height
 /* About the brightest direction: within 30 degrees of straight from one side, and 30 to 50 degrees high, for the shadow
  * of a sun behind the viewer or overhead hides behind the object. From the other side where more of the floor is. On a wall
  * 45 to 65 degrees from straight out of it: behind a wall shines no sun. Where a wall that is seen is in its way, the
- * first that none is: lower, higher, nearer to the viewer or farther, from the other side. */
+ * first of others that none is: from the other side, nearer to the viewer or farther, higher. */
 static lmb_vec3 direction(const mix_job *j)
 {
     static const float heights[] = {0.5f, 0.64278761f, 0.76604444f};
@@ -219,7 +219,7 @@ static lmb_vec3 direction(const mix_job *j)
     for (int i = -1; i < 18; ++i) {
         const float ways[] = {facing, high, low};
         const lmb_vec3 from = i < 0 ? best
-                                    : from_side(front, ways[i / 3 % 3], (turned != 0) == (i < 9) ? -first : first, heights[i % 3]);
+                                    : from_side(front, ways[i / 2 % 3], (turned != 0) == (i % 2 == 0) ? first : -first, heights[i / 6]);
         if (is_free(j, from)) {
             return from;
         }
