@@ -167,7 +167,7 @@ typedef struct lmb_probe_answer {
 
 /* Scratch for rays. 5.3 KiB. */
 typedef struct lmb_probe_rays {
-    lmb_vec3 n[LMB_TILE_PIXELS], across[LMB_TILE_PIXELS], along[LMB_TILE_PIXELS];
+    float n[3][LMB_TILE_PIXELS], across[3][LMB_TILE_PIXELS], along[3][LMB_TILE_PIXELS];
     float origin[3][LMB_TILE_PIXELS], direction[3][LMB_TILE_PIXELS], seen[3][LMB_TILE_PIXELS];
     float sum[3][LMB_TILE_PIXELS];
 } lmb_probe_rays;

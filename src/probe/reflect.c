@@ -58,12 +58,23 @@ static void frame_of(lmb_vec3 *across, lmb_vec3 *along, lmb_vec3 n)
     *along = cross3(n, *across);
 }
 
+static void put(float (*planes)[LMB_TILE_PIXELS], int32_t k, lmb_vec3 v)
+{
+    planes[0][k] = v.x;
+    planes[1][k] = v.y;
+    planes[2][k] = v.z;
+}
+
 static void set_tile(lmb_probe_rays *t, int32_t first, int32_t n, lmb_vec3 at)
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t i = mini(first + k, 6 * n * n - 1);
-        t->n[k] = cube_direction(i / (n * n), i % n, i / n % n, n);
-        frame_of(&t->across[k], &t->along[k], t->n[k]);
+        lmb_vec3 across, along;
+        const lmb_vec3 d = cube_direction(i / (n * n), i % n, i / n % n, n);
+        frame_of(&across, &along, d);
+        put(t->n, k, d);
+        put(t->across, k, across);
+        put(t->along, k, along);
         t->origin[0][k] = at.x;
         t->origin[1][k] = at.y;
         t->origin[2][k] = at.z;
@@ -71,13 +82,14 @@ static void set_tile(lmb_probe_rays *t, int32_t first, int32_t n, lmb_vec3 at)
     memset(t->sum, 0, sizeof t->sum);
 }
 
+/* Planes, so that compilers take several pixels at once. */
 static void point_ray(lmb_probe_rays *t, const lobe_ray *ray)
 {
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const lmb_vec3 n = t->n[k], a = t->across[k], b = t->along[k];
-        t->direction[0][k] = a.x * ray->to.x + b.x * ray->to.y + n.x * ray->to.z;
-        t->direction[1][k] = a.y * ray->to.x + b.y * ray->to.y + n.y * ray->to.z;
-        t->direction[2][k] = a.z * ray->to.x + b.z * ray->to.y + n.z * ray->to.z;
+    const lmb_vec3 to = ray->to;
+    for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            t->direction[c][k] = t->across[c][k] * to.x + t->along[c][k] * to.y + t->n[c][k] * to.z;
+        }
     }
 }
 
@@ -96,9 +108,10 @@ static void point_fine(lmb_probe_rays *t, int32_t first, int32_t n, int32_t part
 static void add_seen(lmb_probe_rays *t, float weight, const lmb_kernels *kernels, const lmb_world_job *job)
 {
     kernels->see(t->seen, t->origin, t->direction, job);
-    for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
-        t->sum[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] +=
-            weight * t->seen[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
+    for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            t->sum[c][k] += weight * t->seen[c][k];
+        }
     }
 }
 
@@ -117,7 +130,7 @@ static void add_peaks(lmb_probe_rays *t, const lmb_world_job *job, const lmb_wor
         lmb_vec3 to;
         const float times = lmb_world_see_peak(&to, job, world, &world->peak[i], at) * lobe;
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            const float part = times * lobe_at(t->n[k], to, alpha * alpha);
+            const float part = times * lobe_at(vec3(t->n[0][k], t->n[1][k], t->n[2][k]), to, alpha * alpha);
             for (int c = 0; c < 3; ++c) {
                 t->sum[c][k] += part * world->peak[i].flux[c];
             }
