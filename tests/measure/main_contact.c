@@ -6,7 +6,7 @@
  * Pictures are left in FOLDER; MAP is a sphere's picture, twice as wide as high, turned by so many degrees. A ball, a box
  * and a ring, or a model, 1 m in size, matte, stand on an endless matte ground under its upper half. Truth: all light of up
  * to five reflections. Figures: the ground's change by the objects, RMSE over the root mean square of the true one, and
- * over its mean; the objects, RMSE over their mean; each without --contact and with it. */
+ * over its mean; the objects, RMSE over their mean; each without --contact and with it, and without the truth's own noise. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +23,7 @@
 
 int test_passed, test_failed, test_skipped;
 
-enum { SIDE = 64, PIXELS = SIDE * SIDE, STRATA = 20, SAMPLES = STRATA * STRATA, BOUNCES = 4, MOST = 8192 };
+enum { SIDE = 64, PIXELS = SIDE * SIDE, STRATA = 24, SAMPLES = STRATA * STRATA, BOUNCES = 4, HALVES = 2, MOST = 8192 };
 
 static const double albedos[4][3] = {{0.7, 0.7, 0.7}, {0.7, 0.4, 0.3}, {0.3, 0.5, 0.7}, {0.5, 0.45, 0.4}};
 enum { GROUND = 3 };
@@ -35,7 +35,7 @@ typedef struct stage {
     double *sums;      /* of the light of its pixels up to each one */
     int drawn; /* so many pictures: what was read is not written again */
     double plain[3];   /* the ground's radiance where nothing stands */
-    float truth[3 * PIXELS];
+    float truth[HALVES][3 * PIXELS]; /* of other paths each */
     int8_t seen[PIXELS]; /* material; -1: the map */
 } stage;
 
@@ -262,12 +262,12 @@ static void trace(double rgb[3], const stage *s, path_point p, int k, test_rng *
     }
 }
 
-static void trace_picture(stage *s)
+static void trace_picture(stage *s, int half_of)
 {
     const svec forward = unit(less(s->scene.target, s->scene.eye)), right = unit(cross_of(forward, s->scene.up)),
                up = cross_of(right, forward);
     const double half = tan(0.5 * s->scene.fov_deg * PI / 180.0);
-    test_rng random = {7};
+    test_rng random = {7 + (uint32_t)half_of};
     for (int i = 0; i < PIXELS; ++i) {
         const svec across = times(right, half * (2 * (i % SIDE + 0.5) / SIDE - 1)), down = times(up, half * (1 - 2 * (i / SIDE + 0.5) / SIDE));
         double sum[3] = {0, 0, 0};
@@ -280,7 +280,7 @@ static void trace_picture(stage *s)
             }
         }
         for (int c = 0; c < 3; ++c) {
-            s->truth[3 * i + c] = (float)(sum[c] / SAMPLES);
+            s->truth[half_of][3 * i + c] = (float)(sum[c] / SAMPLES);
         }
     }
 }
@@ -368,24 +368,26 @@ typedef struct figure {
     double rms, mean, object;
 } figure;
 
+/* Squares are products of what two halves of the paths say, whose noise has a mean product of 0. */
 static figure judge(const stage *s, const float *ours)
 {
     double wrong = 0.0, change = 0.0, size = 0.0, object = 0.0, mean = 0.0;
     int ground = 0, objects = 0;
     for (int i = 0; i < 3 * PIXELS; ++i) {
-        const double d = (double)ours[i] - (double)s->truth[i], c = (double)s->truth[i] - s->plain[i % 3];
+        const double a = (double)s->truth[0][i], b = (double)s->truth[1][i], o = (double)ours[i], plain = s->plain[i % 3];
         if (s->seen[i / 3] == GROUND) {
-            wrong += d * d;
-            change += c * c;
-            size += fabs(c);
+            wrong += (o - a) * (o - b);
+            change += (a - plain) * (b - plain);
+            size += fabs(0.5 * (a + b) - plain);
             ++ground;
         } else if (s->seen[i / 3] >= 0) {
-            object += d * d;
-            mean += (double)s->truth[i];
+            object += (o - a) * (o - b);
+            mean += 0.5 * (a + b);
             ++objects;
         }
     }
-    return (figure){sqrt(wrong / change), sqrt(wrong / ground) / (size / ground), sqrt(object / objects) / (mean / objects)};
+    wrong = fmax(wrong, 0.0);
+    return (figure){sqrt(wrong / change), sqrt(wrong / ground) / (size / ground), sqrt(fmax(object, 0.0) / objects) / (mean / objects)};
 }
 
 static void measure(stage *s, const char *folder, const char *file, double degrees)
@@ -400,11 +402,13 @@ static void measure(stage *s, const char *folder, const char *file, double degre
         ++test_failed;
         return;
     }
-    trace_picture(s);
+    for (int i = 0; i < HALVES; ++i) {
+        trace_picture(s, i);
+    }
     const char *name = strrchr(file, '/') != NULL ? strrchr(file, '/') + 1 : file;
     snprintf(path, sizeof path, "%s/%.60s.truth.pfm", folder, name);
     image without = {0, 0, 0, NULL}, with = {0, 0, 0, NULL};
-    if (write_floats(path, SIDE, SIDE, s->truth) && write_objects(s, folder) && write_world(s, folder) &&
+    if (write_floats(path, SIDE, SIDE, s->truth[0]) && write_objects(s, folder) && write_world(s, folder) &&
         relight(s, folder, NULL, &without) && relight(s, folder, "--contact", &with)) {
         const figure a = judge(s, without.pixels), b = judge(s, with.pixels);
         printf("%-30s ground's change %.3f -> %.3f (over its mean %.3f -> %.3f), objects %.4f -> %.4f\n", name, a.rms, b.rms,

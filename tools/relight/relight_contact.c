@@ -5,12 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROUND 0.8f /* what blocks is itself in the shade: of the sky's light that it would reflect in the open */
-#define BELOW 0.6f /* the same of the ground's light */
 #define FAR 0.05f  /* a figure's radius over its distance, from which on others count */
-#define FADE 0.2f  /* of a ground map's half side: so far from its edges they end */
 #define SAME 0.9976f /* cosine of 4 degrees, between parts of one small light: the map's texels take 2.8 */
-#define PI 3.14159265f
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
@@ -20,26 +16,6 @@ static void add_light(far_lights *f, lmb_vec3 to, const float rgb[3])
     l->to = to;
     for (int c = 0; c < 3; ++c) {
         l->rgb[c] = fmaxf(rgb[c], 0.0f);
-    }
-}
-
-/* Surfaces that are seen along a direction face it more or less. */
-static void set_back(far_lights *f)
-{
-    for (int32_t i = 0; i < f->count; ++i) {
-        far_light *l = &f->light[i];
-        float sky[3] = {0, 0, 0}, ground[3] = {0, 0, 0};
-        for (int32_t k = 0; k < f->count; ++k) {
-            const far_light *m = &f->light[k];
-            const float cosine = fmaxf(-hidden_dot(l->to, m->to), 0.0f);
-            float *sum = m->to.y > 0.0f ? sky : ground;
-            for (int c = 0; c < 3; ++c) {
-                sum[c] += cosine * m->rgb[c];
-            }
-        }
-        for (int c = 0; c < 3; ++c) {
-            l->back[c] = (ROUND * sky[c] + BELOW * ground[c]) / PI;
-        }
     }
 }
 
@@ -86,101 +62,16 @@ static int take_light(far_lights *out, const figures *f, uint32_t figure, religh
         out->angle[i] = l->rgbw[3][i];
     }
     add_peaks(out, l);
-    set_back(out);
     return 1;
 }
 
 /* --- the ground --------------------------------------------------------------------------------------------------- */
 
-/* What the ground lacks by one light along some runs; `angle`: of the light, sr; `part` of it. */
-static void darken_runs(contact_ground *g, const contact *c, const far_light *l, float angle, const hidden_run *run,
-                        uint32_t count, float part)
-{
-    for (uint32_t i = 0; i < count; ++i) {
-        const float *albedo = c->albedo[run[i].part];
-        float lost[3];
-        for (int k = 0; k < 3; ++k) {
-            lost[k] = part * l->to.y * (l->rgb[k] - albedo[k] * l->back[k] * angle);
-        }
-        float (*left)[3] = &g->left[run[i].row * HIDDEN_SIDE];
-        for (int32_t x = run[i].from; x <= run[i].to; ++x) {
-            left[x][0] += lost[0];
-            left[x][1] += lost[1];
-            left[x][2] += lost[2];
-        }
-    }
-}
-
-static int darken_peak(contact_ground *g, contact *c, const far_light *l, const relight_options *o)
-{
-    for (int ray = 0; ray < HIDDEN_RAYS; ++ray) {
-        c->runs.count = 0;
-        if (!hidden_shadow(&c->hidden, &c->runs, o, l->to, ray)) {
-            return 0;
-        }
-        darken_runs(g, c, l, 0.0f, c->runs.run, c->runs.count, 1.0f / HIDDEN_RAYS);
-    }
-    return 1;
-}
-
-/* 1 but near the edge of a map, where what is far off would end at once. */
-static float fade_of(int32_t x, int32_t z)
-{
-    const float u = fabsf(2.0f * ((float)x + 0.5f) / HIDDEN_SIDE - 1.0f), v = fabsf(2.0f * ((float)z + 0.5f) / HIDDEN_SIDE - 1.0f);
-    return fminf((1.0f - fmaxf(u, v)) / FADE, 1.0f);
-}
-
-static int shade_ground(contact_ground *g, contact *c, uint32_t figure, const relight_options *o)
-{
-    const far_lights *f = &c->lights[figure];
-    const hidden *h = &c->hidden;
-    float all[3] = {1e-30f, 1e-30f, 1e-30f};
-    g->x = c->foot[figure].x + h->corner_x;
-    g->z = c->foot[figure].z + h->corner_z;
-    g->per_x = (float)HIDDEN_SIDE / h->wide;
-    g->per_z = (float)HIDDEN_SIDE / h->deep;
-    memset(g->left, 0, sizeof g->left);
-    for (int32_t i = 0; i < f->count; ++i) {
-        const far_light *l = &f->light[i];
-        if (l->to.y < HIDDEN_LOWEST) {
-            continue;
-        }
-        for (int k = 0; k < 3; ++k) {
-            all[k] += l->rgb[k] * l->to.y;
-        }
-        if (i < LMB_PROBE_TEXELS) {
-            const uint32_t from = h->first[i * HIDDEN_RAYS], to = h->first[(i + 1) * HIDDEN_RAYS];
-            darken_runs(g, c, l, f->angle[i], h->runs.run + from, to - from, 1.0f / HIDDEN_RAYS);
-        } else if (!darken_peak(g, c, l, o)) {
-            return 0;
-        }
-    }
-    for (int32_t i = 0; i < HIDDEN_SIDE * HIDDEN_SIDE; ++i) {
-        const float fade = fade_of(i % HIDDEN_SIDE, i / HIDDEN_SIDE);
-        for (int k = 0; k < 3; ++k) {
-            g->left[i][k] = fmaxf(1.0f - fade * g->left[i][k] / all[k], 0.0f);
-        }
-    }
-    return 1;
-}
-
 void contact_ground_left(float out[3], const contact *c, float x, float z)
 {
     out[0] = out[1] = out[2] = 1.0f;
     for (uint32_t i = 0; c->grounds != NULL && i < c->figures; ++i) {
-        const contact_ground *g = &c->grounds[i];
-        const float u = (x - g->x) * g->per_x - 0.5f, v = (z - g->z) * g->per_z - 0.5f;
-        if (!(u >= 0.0f && v >= 0.0f && u < (float)(HIDDEN_SIDE - 1) && v < (float)(HIDDEN_SIDE - 1))) {
-            continue;
-        }
-        const int32_t ix = (int32_t)u, iz = (int32_t)v;
-        const float fx = u - (float)ix, fz = v - (float)iz;
-        const float (*p)[3] = &g->left[iz * HIDDEN_SIDE + ix];
-        for (int k = 0; k < 3; ++k) {
-            const float near = p[0][k] + fx * (p[1][k] - p[0][k]),
-                        far = p[HIDDEN_SIDE][k] + fx * (p[HIDDEN_SIDE + 1][k] - p[HIDDEN_SIDE][k]);
-            out[k] *= near + fz * (far - near);
-        }
+        ground_left(out, &c->grounds[i], HIDDEN_MAPS, x, z);
     }
 }
 
@@ -264,8 +155,7 @@ static void ground_of(float left[3], const contact *c, const vertices *v, int k,
 }
 
 static void add_light_of(float all[LMB_TILE_PIXELS][3], float left[LMB_TILE_PIXELS][3], contact *c,
-                         const relight_options *o, const vertices *v, int32_t i, const hidden_part *p, uint32_t first,
-                         const float albedo[3])
+                         const relight_options *o, const vertices *v, int32_t i, const hidden_part *p, uint32_t first)
 {
     const far_lights *f = &c->lights[v->figure];
     const far_light *l = &f->light[i];
@@ -290,21 +180,21 @@ static void add_light_of(float all[LMB_TILE_PIXELS][3], float left[LMB_TILE_PIXE
         }
         for (int h = 0; h < 3; ++h) {
             all[k][h] += cosine[k] * l->rgb[h];
-            left[k][h] += cosine[k] * (blocked >> k & 1 ? albedo[h] * l->back[h] * angle : l->rgb[h] * open[h]);
+            left[k][h] += cosine[k] * (blocked >> k & 1 ? l->back[h] * angle : l->rgb[h] * open[h]);
         }
     }
 }
 
 /* 64 vertices from `first` on. */
 static void shade_vertices(uint8_t *colours, contact *c, const relight_options *o, const hidden_part *p,
-                           uint32_t figure, uint32_t first, const float albedo[3])
+                           uint32_t figure, uint32_t first)
 {
     float all[LMB_TILE_PIXELS][3] = {{0}}, left[LMB_TILE_PIXELS][3] = {{0}};
     vertices v;
     take_vertices(&v, p, first);
     v.figure = figure;
     for (int32_t i = 0; i < c->lights[figure].count; ++i) {
-        add_light_of(all, left, c, o, &v, i, p, first, albedo);
+        add_light_of(all, left, c, o, &v, i, p, first);
     }
     for (uint32_t k = 0; k < LMB_TILE_PIXELS && v.all >> k & 1; ++k) {
         for (uint32_t h = 0; h < 3; ++h) {
@@ -316,7 +206,7 @@ static void shade_vertices(uint8_t *colours, contact *c, const relight_options *
     }
 }
 
-static void shade_part(contact *c, const relight_options *o, uint32_t instance, const float albedo[3])
+static void shade_part(contact *c, const relight_options *o, uint32_t instance)
 {
     const uint32_t part = instance % c->hidden.parts;
     const hidden_part *p = &c->hidden.part[part];
@@ -325,7 +215,7 @@ static void shade_part(contact *c, const relight_options *o, uint32_t instance, 
         colours[4 * (size_t)i + 3] = p->mesh.colours != NULL ? p->mesh.colours[4 * (size_t)i + 3] : 255;
     }
     for (uint32_t first = 0; first < p->mesh.vertex_count; first += LMB_TILE_PIXELS) {
-        shade_vertices(colours, c, o, p, instance / c->hidden.parts, first, albedo);
+        shade_vertices(colours, c, o, p, instance / c->hidden.parts, first);
     }
 }
 
@@ -357,38 +247,82 @@ static int take_contact(contact *c, const figures *f, const relight_options *o, 
     c->colours = calloc(c->instances, sizeof *c->colours);
     c->lights = malloc(c->figures * sizeof *c->lights);
     c->foot = malloc(c->figures * sizeof *c->foot);
-    c->albedo = malloc((f->parts < 256 ? 256 : f->parts) * sizeof *c->albedo);
+    c->albedo = malloc(f->parts * sizeof *c->albedo);
     c->grounds = o->place.ground != NULL ? malloc(c->figures * sizeof *c->grounds) : NULL;
-    return c->meshes != NULL && c->colours != NULL && c->lights != NULL && c->foot != NULL && c->albedo != NULL &&
+    const int ok = c->meshes != NULL && c->colours != NULL && c->lights != NULL && c->foot != NULL && c->albedo != NULL &&
            (c->grounds != NULL || o->place.ground == NULL) && hidden_make(&c->hidden, f, o, w->table[0].light) &&
-           take_meshes(c);
+           regions_make(&c->regions, &c->hidden, w->table[0].light) && take_meshes(c);
+    c->hidden.region_of = c->regions.of;
+    return ok;
 }
 
-static void set_albedo(float mean[3], contact *c, const figures *f)
+static void set_albedo(contact *c, const figures *f)
 {
-    for (int k = 0; k < 3; ++k) {
-        mean[k] = 0.0f;
-        for (uint32_t i = 0; i < f->parts; ++i) {
-            c->albedo[i][k] = f->materials[f->scene.instances[i].material].albedo[k];
-            mean[k] += c->albedo[i][k] / (float)f->parts;
+    for (uint32_t i = 0; i < f->parts; ++i) {
+        memcpy(c->albedo[i], f->materials[f->scene.instances[i].material].albedo, sizeof c->albedo[i]);
+    }
+}
+
+/* The ground under one figure. */
+typedef struct ground_below {
+    const contact_ground *ground;
+    lmb_vec3 foot;
+    float height; /* of the foot over it, m */
+} ground_below;
+
+static void left_below(float left[3], const void *user, lmb_vec3 at, lmb_vec3 to)
+{
+    const ground_below *b = user;
+    const float far = -(b->height + at.y) / to.y;
+    ground_left(left, b->ground, 1, b->foot.x + at.x + far * to.x, b->foot.z + at.z + far * to.z);
+}
+
+static void shade_map(contact *c, uint32_t figure, int map)
+{
+    ground_shade(&c->grounds[figure].map[map], &c->hidden.map[map], &c->peaks[map], c->foot[figure], &c->lights[figure],
+                 c->reflected);
+}
+
+/* What the object reflects onto the ground is of the ground's light, too, as that is without it: the wide map is enough
+ * for that. */
+static int light_figure(contact *c, figures *f, uint32_t i, relight_light *w, const relight_options *o)
+{
+    const float height = c->foot[i].y - c->ground_y;
+    const ground_below below = {c->grounds != NULL ? &c->grounds[i] : NULL, c->foot[i], height};
+    far_lights *l = &c->lights[i];
+    if (!take_light(l, f, i, w, o)) {
+        return 0;
+    }
+    regions_light(c->reflected, l, &c->regions, c->fold, c->albedo, NULL, NULL);
+    if (c->grounds == NULL) {
+        return 1;
+    }
+    if (!hidden_ground(&c->hidden, f, o, height)) {
+        return 0;
+    }
+    for (int map = 0; map < HIDDEN_MAPS; ++map) {
+        if (!ground_throw(&c->peaks[map], map, &c->hidden, l, o)) {
+            return 0;
         }
     }
+    shade_map(c, i, 0);
+    regions_light(c->reflected, l, &c->regions, c->fold, c->albedo, left_below, &below);
+    for (int map = 0; map < HIDDEN_MAPS; ++map) {
+        shade_map(c, i, map);
+    }
+    return 1;
 }
 
-static int work(contact *c, const figures *f, relight_light *w, const relight_options *o)
+static int work(contact *c, figures *f, relight_light *w, const relight_options *o)
 {
-    float albedo[3];
     int ok = 1;
-    set_albedo(albedo, c, f);
+    set_albedo(c, f);
     for (uint32_t i = 0; ok && i < c->figures; ++i) {
         c->foot[i] = hidden_foot(f, i);
-        ok = take_light(&c->lights[i], f, i, w, o);
-    }
-    for (uint32_t i = 0; ok && c->grounds != NULL && i < c->figures; ++i) {
-        ok = hidden_ground(&c->hidden, f, o, c->foot[i].y - c->ground_y) && shade_ground(&c->grounds[i], c, i, o);
+        ok = light_figure(c, f, i, w, o);
     }
     for (uint32_t i = 0; ok && i < c->instances; ++i) {
-        shade_part(c, o, i, albedo);
+        shade_part(c, o, i);
     }
     return ok;
 }
@@ -429,7 +363,10 @@ void contact_free(contact *c)
         free(c->colours[i]);
     }
     hidden_free(&c->hidden);
-    free(c->runs.run);
+    regions_free(&c->regions);
+    for (int i = 0; i < HIDDEN_MAPS; ++i) {
+        free(c->peaks[i].runs.run);
+    }
     free(c->colours);
     free(c->meshes);
     free(c->lights);

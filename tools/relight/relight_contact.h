@@ -4,39 +4,21 @@
 
 #include <lambent/relight.h>
 
-#include "relight_hidden.h"
+#include "relight_ground.h"
 #include "relight_light.h"
-
-/* The world's light at a place from one direction: W/m2 across it; and the radiance of a white surface that faces it
- * there: what blocks the light shows that, times its albedo. */
-typedef struct far_light {
-    lmb_vec3 to;
-    float rgb[3], back[3];
-} far_light;
-
-/* The reduced cube's, then its peaks. */
-typedef struct far_lights {
-    far_light light[LMB_PROBE_TEXELS + LMB_PROBE_PEAKS];
-    float angle[LMB_PROBE_TEXELS]; /* sr */
-    int32_t count;
-} far_lights;
-
-/* What is left of the ground's light around one figure. */
-typedef struct contact_ground {
-    float x, z, per_x, per_z; /* its corner, m, and texels a metre */
-    float left[HIDDEN_SIDE * HIDDEN_SIDE][3];
-} contact_ground;
 
 /* Zeroed: none. contact_free releases it. */
 typedef struct contact {
     hidden hidden;
+    regions regions;
+    float reflected[REGIONS][3]; /* by region of one figure: radiance */
     far_lights *lights;      /* by figure */
     lmb_vec3 *foot;          /* by figure: where it stands */
     contact_ground *grounds; /* by figure; NULL: the world has no ground */
     lmb_mesh *meshes;        /* by instance: with what is left of its light as vertex colours */
     uint8_t **colours;       /* theirs */
     float (*albedo)[3];      /* by part */
-    hidden_runs runs;        /* of one of the peaks */
+    peak_runs peaks[HIDDEN_MAPS]; /* of one figure */
     const uint16_t *fold;    /* of the light's table */
     uint32_t figures, instances;
     float ground_y; /* m */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define REACH 2.5f /* of a figure's height: how far around it the ground is looked at */
+static const float reach[HIDDEN_MAPS] = {2.5f, 0.25f}; /* of a figure's height: how far around it the ground is looked at */
 #define LIFT 0.005f /* of a figure's height: off its surface, as a smooth one's facets lie below it */
 #define NEAR_M 0.5f
 
@@ -242,19 +242,19 @@ static int add_run(hidden_runs *r, hidden_run run)
 }
 
 /* From below, so that what is lowest hides the rest; a ray's texels are moved by a quarter each way. */
-static void look_up(lmb_view *v, const hidden *h, int ray)
+static void look_up(lmb_view *v, const hidden_map *m, float height, int ray)
 {
     memset(v, 0, sizeof *v);
-    v->eye = (lmb_vec3){h->corner_x + 0.5f * h->wide + (ray & 1 ? 0.25f : -0.25f) * h->wide / HIDDEN_SIDE,
-                        -h->height - NEAR_M,
-                        h->corner_z + 0.5f * h->deep + (ray & 2 ? 0.25f : -0.25f) * h->deep / HIDDEN_SIDE};
+    v->eye = (lmb_vec3){m->corner_x + 0.5f * m->wide + (ray & 1 ? 0.25f : -0.25f) * m->wide / HIDDEN_SIDE,
+                        -height - NEAR_M,
+                        m->corner_z + 0.5f * m->deep + (ray & 2 ? 0.25f : -0.25f) * m->deep / HIDDEN_SIDE};
     v->right.x = v->up.z = 1.0f;
     v->back.y = -1.0f;
-    v->half_width = 0.5f * h->wide;
-    v->half_height = 0.5f * h->deep;
+    v->half_width = 0.5f * m->wide;
+    v->half_height = 0.5f * m->deep;
     v->kind = LMB_ORTHOGRAPHIC;
     v->near_m = NEAR_M;
-    v->far_m = h->wide + h->deep + 2.0f;
+    v->far_m = m->wide + m->deep + 2.0f;
     v->frame_width = v->frame_height = HIDDEN_SIDE;
 }
 
@@ -275,29 +275,15 @@ static void shear(hidden *h, lmb_vec3 to)
     }
 }
 
-static int part_of(const hidden *h, uint32_t id)
-{
-    uint32_t i = h->parts - 1;
-    while (i > 0 && h->sheared[i].first_id > id) {
-        --i;
-    }
-    return (int)(i < 255 ? i : 255);
-}
-
-/* A row of the ids' surface, by part; -1: open. */
-static int take_row(int16_t part[HIDDEN_SIDE], const hidden *h, int32_t y)
+/* A row of the ids' surface, by region; -1: open. */
+static int take_row(int16_t region[HIDDEN_SIDE], const hidden *h, int32_t y)
 {
     const uint32_t *ids = (const uint32_t *)h->id.data + y / LMB_TILE * (HIDDEN_SIDE / LMB_TILE) * LMB_TILE_PIXELS + y % LMB_TILE * LMB_TILE;
-    uint32_t last = 0, any = 0;
-    int16_t of_last = -1;
+    uint32_t any = 0;
     for (int32_t x = 0; x < HIDDEN_SIDE; ++x) {
         const uint32_t id = ids[x / LMB_TILE * LMB_TILE_PIXELS + x % LMB_TILE];
         any |= id;
-        if (id != last) {
-            last = id;
-            of_last = id != 0 ? (int16_t)part_of(h, id) : -1;
-        }
-        part[x] = of_last;
+        region[x] = id != 0 ? (int16_t)h->region_of[id - 1] : -1;
     }
     return any != 0;
 }
@@ -305,13 +291,13 @@ static int take_row(int16_t part[HIDDEN_SIDE], const hidden *h, int32_t y)
 /* Rows of the surface run from the far side, as it is seen from below. */
 static int add_rows(hidden *h, hidden_runs *runs)
 {
-    int16_t part[HIDDEN_SIDE];
+    int16_t region[HIDDEN_SIDE];
     for (int32_t y = 0; y < HIDDEN_SIDE; ++y) {
-        const int has_any = take_row(part, h, y);
+        const int has_any = take_row(region, h, y);
         for (int32_t x = 0, from = 0; has_any && x < HIDDEN_SIDE; ++x) {
-            const int ends = x + 1 == HIDDEN_SIDE || part[x + 1] != part[x];
-            if (ends && part[x] >= 0 &&
-                !add_run(runs, (hidden_run){(uint8_t)(HIDDEN_SIDE - 1 - y), (uint8_t)from, (uint8_t)x, (uint8_t)part[x]})) {
+            const int ends = x + 1 == HIDDEN_SIDE || region[x + 1] != region[x];
+            if (ends && region[x] >= 0 &&
+                !add_run(runs, (hidden_run){(uint8_t)(HIDDEN_SIDE - 1 - y), (uint8_t)from, (uint8_t)x, (uint8_t)region[x]})) {
                 return 0;
             }
             from = ends ? x + 1 : from;
@@ -320,7 +306,7 @@ static int add_rows(hidden *h, hidden_runs *runs)
     return 1;
 }
 
-int hidden_shadow(hidden *h, hidden_runs *runs, const relight_options *o, lmb_vec3 to, int ray)
+int hidden_shadow(hidden *h, int map, hidden_runs *runs, const relight_options *o, lmb_vec3 to, int ray)
 {
     lmb_scene own = h->scene;
     lmb_view v;
@@ -328,7 +314,7 @@ int hidden_shadow(hidden *h, hidden_runs *runs, const relight_options *o, lmb_ve
     memset(&target, 0, sizeof target);
     target.depth = h->depth;
     target.id = h->id;
-    look_up(&v, h, ray);
+    look_up(&v, &h->map[map], h->height, ray);
     shear(h, to);
     own.instances = h->sheared;
     lmb_surface_clear(&h->depth);
@@ -346,6 +332,21 @@ static lmb_vec3 ray_of(int32_t i, int ray)
     return unit_of(to[i / (N * N)]);
 }
 
+static int fill_map(hidden *h, int map, const relight_options *o)
+{
+    hidden_map *m = &h->map[map];
+    m->runs.count = 0;
+    for (int32_t i = 0; i < LMB_PROBE_TEXELS * HIDDEN_RAYS; ++i) {
+        const lmb_vec3 to = ray_of(i / HIDDEN_RAYS, i % HIDDEN_RAYS);
+        m->first[i] = m->runs.count;
+        if (to.y >= HIDDEN_LOWEST && !hidden_shadow(h, map, &m->runs, o, to, i % HIDDEN_RAYS)) {
+            return 0;
+        }
+    }
+    m->first[LMB_PROBE_TEXELS * HIDDEN_RAYS] = m->runs.count;
+    return 1;
+}
+
 int hidden_ground(hidden *h, const figures *f, const relight_options *o, float height)
 {
     lmb_vec3 low, high;
@@ -353,21 +354,19 @@ int hidden_ground(hidden *h, const figures *f, const relight_options *o, float h
         return 1;
     }
     bounds_of(&low, &high, f, 0);
-    const float around = REACH * fmaxf(high.y - low.y + height, 0.01f);
-    h->wide = high.x - low.x + 2.0f * around;
-    h->deep = high.z - low.z + 2.0f * around;
-    h->corner_x = -0.5f * h->wide;
-    h->corner_z = -0.5f * h->deep;
     h->height = height;
-    h->runs.count = 0;
-    for (int32_t i = 0; i < LMB_PROBE_TEXELS * HIDDEN_RAYS; ++i) {
-        const lmb_vec3 to = ray_of(i / HIDDEN_RAYS, i % HIDDEN_RAYS);
-        h->first[i] = h->runs.count;
-        if (to.y >= HIDDEN_LOWEST && !hidden_shadow(h, &h->runs, o, to, i % HIDDEN_RAYS)) {
+    for (int i = 0; i < HIDDEN_MAPS; ++i) {
+        hidden_map *m = &h->map[i];
+        const float around = reach[i] * fmaxf(high.y - low.y + height, 0.01f);
+        m->wide = high.x - low.x + 2.0f * around;
+        m->deep = high.z - low.z + 2.0f * around;
+        m->corner_x = -0.5f * m->wide;
+        m->corner_z = -0.5f * m->deep;
+        m->fades = i == 0;
+        if (!fill_map(h, i, o)) {
             return 0;
         }
     }
-    h->first[LMB_PROBE_TEXELS * HIDDEN_RAYS] = h->runs.count;
     h->has_ground = 1;
     return 1;
 }
@@ -382,7 +381,9 @@ void hidden_free(hidden *h)
         free(h->part[i].blocked);
     }
     free(h->part);
-    free(h->runs.run);
+    for (int i = 0; i < HIDDEN_MAPS; ++i) {
+        free(h->map[i].runs.run);
+    }
     free(h->instances);
     free(h->sheared);
     for (int i = 0; i < 3; ++i) {

@@ -5,15 +5,16 @@
 #include "relight_figures.h"
 
 enum {
-    HIDDEN_SIDE = 128, /* texels of the ground around an object */
+    HIDDEN_MAPS = 2,   /* of the ground around an object: a wide one, and one of what is near */
+    HIDDEN_SIDE = 128, /* their texels */
     HIDDEN_RAYS = 4    /* of a direction, each with a shadow of its own on the ground */
 };
 
 #define HIDDEN_LOWEST 0.05f /* sine of the height from which on light throws shadows on the ground */
 
-/* Texels from .. to of a row of the ground lie in the shadow of a part. */
+/* Texels from .. to of a row of the ground lie in the shadow of a region. */
 typedef struct hidden_run {
-    uint8_t row, from, to, part; /* parts past the 256th count as the last */
+    uint8_t row, from, to, region;
 } hidden_run;
 
 typedef struct hidden_runs {
@@ -31,15 +32,23 @@ typedef struct hidden_part {
     uint64_t (*blocked)[LMB_PROBE_TEXELS]; /* by 64 vertices and direction: a bit each */
 } hidden_part;
 
+/* A part of the ground, from the figure's foot, and the runs in it by direction and ray. */
+typedef struct hidden_map {
+    float wide, deep, corner_x, corner_z; /* m */
+    int fades;                            /* towards its edges, where no wider one is */
+    uint32_t first[LMB_PROBE_TEXELS * HIDDEN_RAYS + 1];
+    hidden_runs runs;
+} hidden_map;
+
 typedef struct hidden {
     hidden_part *part;
     uint32_t parts;
     lmb_vec3 middle; /* of its box */
     float radius;    /* of a sphere around that, m */
-    float height, wide, deep, corner_x, corner_z; /* m: of the object over the ground; the ground's sides and corner */
+    float height;    /* m: of the object over the ground */
     int has_ground;
-    uint32_t first[LMB_PROBE_TEXELS * HIDDEN_RAYS + 1]; /* runs by direction and ray */
-    hidden_runs runs;
+    hidden_map map[HIDDEN_MAPS];
+    const uint8_t *region_of; /* by triangle */
     lmb_scene scene; /* the object, its foot at 0, 0, 0: all figures alike */
     lmb_bvh bvh;     /* of it */
     lmb_instance *instances, *sheared;
@@ -49,11 +58,11 @@ typedef struct hidden {
 } hidden;
 
 /* hidden_make: of the first figure's own vertices, where they are not known yet. hidden_ground: of the ground so far
- * below it, where it is not known. hidden_shadow: add the runs of one more direction; `ray` moves the texels by a
- * quarter. 1, or 0: out of memory. */
+ * below it, where it is not known. hidden_shadow: add the runs of one more direction in a map; `ray` moves the texels
+ * by a quarter. 1, or 0: out of memory. */
 int hidden_make(hidden *inout, const figures *f, const relight_options *o, const float *directions);
 int hidden_ground(hidden *inout, const figures *f, const relight_options *o, float height);
-int hidden_shadow(hidden *inout, hidden_runs *runs, const relight_options *o, lmb_vec3 to, int ray);
+int hidden_shadow(hidden *inout, int map, hidden_runs *runs, const relight_options *o, lmb_vec3 to, int ray);
 
 /* Where a figure stands: the middle of its box's bottom. */
 lmb_vec3 hidden_foot(const figures *f, uint32_t figure);

@@ -15,26 +15,6 @@ static float vertex_open(const hidden_part *p, uint32_t i, const uint16_t at[4],
     return open;
 }
 
-/* The four nearest of the reduced cube's directions: probe.h. */
-static void nearest_four(uint16_t at[4], float weight[4], const uint16_t *fold, lmb_vec3 d)
-{
-    enum { N = LMB_PROBE_SIDE, WIDE = LMB_PROBE_SIDE + 2 };
-    const float x = fabsf(d.x), y = fabsf(d.y), z = fabsf(d.z);
-    const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-    const float along = axis == 0 ? d.x : axis == 1 ? d.y : d.z, size = 1.0f / fmaxf(fabsf(along), 1e-6f);
-    const int face = 2 * axis + (along < 0.0f), sign = along < 0.0f ? -1 : 1;
-    const float s = (axis == 0 ? -(float)sign * d.z : axis == 1 ? d.x : (float)sign * d.x) * size,
-                t = (axis == 1 ? (float)sign * d.z : -d.y) * size;
-    const float u = fminf(fmaxf((s + 1.0f) * (0.5f * N) + 0.5f, 0.0f), (float)N + 0.999f),
-                v = fminf(fmaxf((t + 1.0f) * (0.5f * N) + 0.5f, 0.0f), (float)N + 0.999f);
-    const int ix = (int)u, iy = (int)v;
-    for (int k = 0; k < 4; ++k) {
-        const float wx = k & 1 ? u - (float)ix : 1.0f - (u - (float)ix), wy = k & 2 ? v - (float)iy : 1.0f - (v - (float)iy);
-        at[k] = fold[(face * WIDE + iy + (k >> 1)) * WIDE + ix + (k & 1)];
-        weight[k] = wx * wy;
-    }
-}
-
 /* Shares of a triangle's corners in a place on it. */
 static void corner_shares(float out[3], const lmb_vec3 p[3], lmb_vec3 at)
 {
@@ -85,10 +65,9 @@ static void darken_lobe(float rgb[3], const contact *c, const figures *f, const 
 {
     const uint32_t instance = (uint32_t)(in - f->instances);
     const lmb_vec3 r = mirrored_at(tile, glossy, k);
-    const float *albedo = c->albedo[instance % c->hidden.parts];
     uint16_t near[4];
     float weight[4], ground[3] = {1.0f, 1.0f, 1.0f};
-    nearest_four(near, weight, c->fold, r);
+    region_directions(near, weight, c->fold, r);
     const float open = pixel_open(c, f, tile, k, in, near, weight, sqrtf(glossy->alpha2[k]));
     if (r.y < -HIDDEN_LOWEST) {
         const float far = (c->ground_y - tile->position[1][k]) / r.y;
@@ -99,7 +78,7 @@ static void darken_lobe(float rgb[3], const contact *c, const figures *f, const 
         for (int i = 0; i < 4; ++i) {
             back += weight[i] * c->lights[instance / c->hidden.parts].light[near[i]].back[h];
         }
-        rgb[h] = open * ground[h] * rgb[h] + (1.0f - open) * glossy->specular[h][k] * albedo[h] * back;
+        rgb[h] = open * ground[h] * rgb[h] + (1.0f - open) * glossy->specular[h][k] * back;
     }
 }
 

@@ -1,0 +1,110 @@
+/* test_region.c: two triangles that face each other, half open to a world of radiance 1. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../tools/relight/relight_region.h"
+#include "../test.h"
+
+void test_region(void);
+
+enum { N = LMB_PROBE_SIDE, T = LMB_PROBE_TEXELS };
+
+typedef struct pair {
+    float direction[3 * T], position[18];
+    lmb_mesh mesh;
+    lmb_instance instance;
+    hidden_part part;
+    uint64_t blocked[T];
+    lmb_vec3 at[6], normal[6];
+    hidden h;
+    far_lights lights;
+} pair;
+
+/* The reduced cube's directions and their angles: probe.h. */
+static void set_directions(pair *p)
+{
+    for (int i = 0; i < T; ++i) {
+        const float s = (float)(2 * (i % N) + 1) / N - 1.0f, t = (float)(2 * (i / N % N) + 1) / N - 1.0f;
+        const float to[6][3] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+        const float per = 1.0f / sqrtf(1.0f + s * s + t * t);
+        for (int c = 0; c < 3; ++c) {
+            p->direction[T * c + i] = to[i / (N * N)][c] * per;
+        }
+        p->lights.light[i].to = (lmb_vec3){p->direction[i], p->direction[T + i], p->direction[2 * T + i]};
+        p->lights.angle[i] = 4.0f / (N * N) * per * per * per;
+        for (int c = 0; c < 3; ++c) {
+            p->lights.light[i].rgb[c] = p->lights.angle[i];
+        }
+    }
+    p->lights.count = T;
+}
+
+/* The lower one faces up and sees the other along x > 0; that faces down and sees it along x < 0. */
+static void build(pair *p)
+{
+    static const float x[6] = {0, 0, 1, 0, 1, 0}, z[6] = {0, 1, 0, 0, 0, 1};
+    memset(p, 0, sizeof *p);
+    set_directions(p);
+    for (int i = 0; i < 6; ++i) {
+        p->at[i] = (lmb_vec3){x[i], i < 3 ? 0.0f : 1.0f, z[i]};
+        p->normal[i] = (lmb_vec3){0, i < 3 ? 1.0f : -1.0f, 0};
+    }
+    for (int i = 0; i < T; ++i) {
+        const int is_up = p->direction[T + i] > 0.0f, is_right = p->direction[i] > 0.0f;
+        p->blocked[i] = is_up == is_right ? (is_up ? 7u : 56u) : 0u;
+    }
+    p->mesh.positions = p->position;
+    p->mesh.vertex_count = 6;
+    p->mesh.triangle_count = 2;
+    p->mesh.index_format = LMB_INDEX_NONE;
+    p->part.mesh = p->mesh;
+    p->part.at = p->at;
+    p->part.normal = p->normal;
+    p->part.blocked = &p->blocked;
+    p->h.part = &p->part;
+    p->h.parts = 1;
+    p->h.middle.y = 0.5f;
+    p->h.radius = 1.0f;
+    p->h.scene.meshes = &p->mesh;
+    p->h.scene.mesh_count = 1;
+    p->h.scene.instances = &p->instance;
+    p->h.scene.instance_count = 1;
+}
+
+static void no_ground(float left[3], const void *user, lmb_vec3 at, lmb_vec3 to)
+{
+    CHECK(to.y < 0.0f && at.y == 1.0f && user != NULL);
+    left[0] = left[1] = left[2] = 0.0f;
+}
+
+/* Half of what each would reflect comes from the other: by three rounds 1/2 + 1/4 + 1/8. */
+void test_region(void)
+{
+    pair *p = malloc(sizeof *p);
+    float albedo[1][3] = {{1.0f, 1.0f, 0.0f}}, light[REGIONS][3];
+    regions r;
+    memset(&r, 0, sizeof r);
+    if (p == NULL) {
+        ++test_failed;
+        return;
+    }
+    build(p);
+    CHECK(regions_make(&r, &p->h, p->direction));
+    for (int i = 0; i < T; ++i) {
+        const lmb_vec3 a = p->lights.light[i].to, b = p->lights.light[r.opposite[i]].to;
+        CHECK(fabsf(a.x + b.x) + fabsf(a.y + b.y) + fabsf(a.z + b.z) < 1e-6f);
+    }
+    const int low = r.of[0], high = r.of[1];
+    CHECK(low != high);
+    CHECK(fabsf(r.region[low].area - 0.5f) < 1e-6f && r.region[high].middle.y == 1.0f);
+    regions_light(light, &p->lights, &r, NULL, albedo, NULL, NULL);
+    CHECK_MSG(fabsf(light[low][0] - 0.875f) < 0.015f && fabsf(light[high][1] - 0.875f) < 0.015f, "%g %g", (double)light[low][0],
+              (double)light[high][1]);
+    CHECK(light[low][2] == 0.0f);
+    regions_light(light, &p->lights, &r, NULL, albedo, no_ground, p);
+    CHECK_MSG(fabsf(light[low][0] - 0.625f) < 0.015f && fabsf(light[high][0] - 0.25f) < 0.015f, "%g %g", (double)light[low][0],
+              (double)light[high][0]);
+    regions_free(&r);
+    free(p);
+}

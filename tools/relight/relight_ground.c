@@ -1,0 +1,113 @@
+/* relight_ground.c: the light that an object takes from the ground around it, and what it reflects there instead. */
+#include "relight_ground.h"
+
+#include <math.h>
+#include <string.h>
+
+#define FADE 0.2f /* of a map's half side: so far from its edges it ends */
+
+/* What the ground lacks by one light along some runs; `angle`: of the light, sr; `part` of it. */
+static void darken_runs(ground_map *g, const far_light *l, float (*reflected)[3], float angle, const hidden_run *run,
+                        uint32_t count, float part)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        const float *there = reflected[run[i].region];
+        float lost[3];
+        for (int k = 0; k < 3; ++k) {
+            lost[k] = part * l->to.y * (l->rgb[k] - there[k] * angle);
+        }
+        float (*left)[3] = &g->left[run[i].row * HIDDEN_SIDE];
+        for (int32_t x = run[i].from; x <= run[i].to; ++x) {
+            left[x][0] += lost[0];
+            left[x][1] += lost[1];
+            left[x][2] += lost[2];
+        }
+    }
+}
+
+/* 1 but near the edge of a map; u and v from its middle, in its half sides. */
+static float fade_of(float u, float v) { return fminf(fmaxf((1.0f - fmaxf(fabsf(u), fabsf(v))) / FADE, 0.0f), 1.0f); }
+
+/* A map of which all ends where what is far off would end at once. */
+static void turn_to_left(ground_map *g, const float all[3], int fades)
+{
+    for (int32_t i = 0; i < HIDDEN_SIDE * HIDDEN_SIDE; ++i) {
+        const float u = (float)(2 * (i % HIDDEN_SIDE) + 1) / HIDDEN_SIDE - 1.0f, v = (float)(2 * (i / HIDDEN_SIDE) + 1) / HIDDEN_SIDE - 1.0f;
+        const float fade = fades ? fade_of(u, v) : 1.0f;
+        for (int k = 0; k < 3; ++k) {
+            g->left[i][k] = fmaxf(1.0f - fade * g->left[i][k] / all[k], 0.0f);
+        }
+    }
+}
+
+int ground_throw(peak_runs *p, int map, hidden *h, const far_lights *f, const relight_options *o)
+{
+    p->runs.count = 0;
+    for (int32_t i = LMB_PROBE_TEXELS; i < f->count; ++i) {
+        p->first[i - LMB_PROBE_TEXELS] = p->runs.count;
+        for (int ray = 0; ray < HIDDEN_RAYS && f->light[i].to.y >= HIDDEN_LOWEST; ray += HIDDEN_RAYS - 1) { /* two of them, across */
+            if (!hidden_shadow(h, map, &p->runs, o, f->light[i].to, ray)) {
+                return 0;
+            }
+        }
+    }
+    p->first[f->count - LMB_PROBE_TEXELS] = p->runs.count;
+    return 1;
+}
+
+void ground_shade(ground_map *g, const hidden_map *m, const peak_runs *peaks, lmb_vec3 foot, const far_lights *f,
+                  float (*reflected)[3])
+{
+    float all[3] = {1e-30f, 1e-30f, 1e-30f};
+    g->x = foot.x + m->corner_x;
+    g->z = foot.z + m->corner_z;
+    g->per_x = (float)HIDDEN_SIDE / m->wide;
+    g->per_z = (float)HIDDEN_SIDE / m->deep;
+    memset(g->left, 0, sizeof g->left);
+    for (int32_t i = 0; i < f->count; ++i) {
+        const far_light *l = &f->light[i];
+        const int is_peak = i >= LMB_PROBE_TEXELS;
+        const uint32_t *first = is_peak ? &peaks->first[i - LMB_PROBE_TEXELS] : &m->first[i * HIDDEN_RAYS];
+        const hidden_run *run = is_peak ? peaks->runs.run : m->runs.run;
+        if (l->to.y < HIDDEN_LOWEST) {
+            continue;
+        }
+        for (int k = 0; k < 3; ++k) {
+            all[k] += l->rgb[k] * l->to.y;
+        }
+        darken_runs(g, l, reflected, is_peak ? 0.0f : f->angle[i], run + first[0], first[is_peak ? 1 : HIDDEN_RAYS] - first[0],
+                    is_peak ? 0.5f : 1.0f / HIDDEN_RAYS);
+    }
+    turn_to_left(g, all, m->fades);
+}
+
+/* 0: beside the map. */
+static int look_at(float out[3], float *fade, const ground_map *g, float x, float z)
+{
+    const float u = (x - g->x) * g->per_x - 0.5f, v = (z - g->z) * g->per_z - 0.5f;
+    if (!(u >= 0.0f && v >= 0.0f && u < (float)(HIDDEN_SIDE - 1) && v < (float)(HIDDEN_SIDE - 1))) {
+        return 0;
+    }
+    const int32_t ix = (int32_t)u, iz = (int32_t)v;
+    const float fx = u - (float)ix, fz = v - (float)iz;
+    const float (*p)[3] = &g->left[iz * HIDDEN_SIDE + ix];
+    for (int k = 0; k < 3; ++k) {
+        const float near = p[0][k] + fx * (p[1][k] - p[0][k]),
+                    far = p[HIDDEN_SIDE][k] + fx * (p[HIDDEN_SIDE + 1][k] - p[HIDDEN_SIDE][k]);
+        out[k] = near + fz * (far - near);
+    }
+    *fade = fade_of((2.0f * u + 1.0f) / HIDDEN_SIDE - 1.0f, (2.0f * v + 1.0f) / HIDDEN_SIDE - 1.0f);
+    return 1;
+}
+
+void ground_left(float inout[3], const contact_ground *g, int maps, float x, float z)
+{
+    float wide[3], near[3], fade;
+    if (!look_at(wide, &fade, &g->map[0], x, z)) {
+        return;
+    }
+    const int is_near = maps > 1 && look_at(near, &fade, &g->map[1], x, z);
+    for (int k = 0; k < 3; ++k) {
+        inout[k] *= is_near ? wide[k] + fade * (near[k] - wide[k]) : wide[k];
+    }
+}
