@@ -9,7 +9,7 @@ PAGE_WORK := $(B)/page-work
 WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
-PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_relief_bake.c tools/relief/relief_compare.c tools/relief/relief_model.c \
+PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_relief_bake.c tools/relief/relief_compare.c tools/relief/relief_path.c tools/common/key_path.c tools/relief/relief_model.c \
              tools/relight/relight_hidden.c tools/relight/relight_lobes.c \
              %/gen_demo.c %/gen_srgb.c %/demo_scene.c tools/picture/io_png_write.c tools/picture/io_deflate.c \
              tools/common/slice.c tools/common/slice_items.c tools/common/byte_buffer.c tools/render/render_slice.c tools/common/area_light.c \

@@ -219,7 +219,7 @@ static int measure_halving(steady_frame *frame, report *r)
     int ok = kept != NULL || report_fail(r, "out of memory");
     memset(level, 0, sizeof level);
     stage.motion.swing = 0.0f;
-    stage.motion.moves = PLAY_LIGHT;
+    stage.motion.moves = KEY_LIGHT;
     stage.o.fps *= FINEST;
     for (int t = 0; t < TIMES && ok; ++t) {
         ok = halve(level, kept, frame, FINEST * (5 + 71 * t), r);

@@ -612,6 +612,36 @@ for views in 14 greedy:5 "$dir/cameras.txt"; do
     status 0 relief bake "$dir/pit.obj" -o "$dir/pit.lmr" --triangles 20 --size 16 --packed --views $views
     status 0 relief render "$dir/pit.lmr" -o "$dir/pit.ppm" --size 40x30 --shadow-map 0 --steps 1 --pixel-views 2 --keep 1
 done
+# Along a path: each picture is the one that its camera and light give alone.
+sun=sun:0,0,0:0.6,-0.64,-0.48:3,2.9,2.7
+printf '# keys\n0 camera 1.5,2,5 0,0,0\n1 camera 4,1,3 0,0,0\n0 light 0,0,0 1,-1,0\n1 light 0,0,0 0.6,-0.64,-0.48\n' >"$dir/keys.txt"
+status 0 relief render "$dir/pit.lmr" --path "$dir/keys.txt" --fps 2 --size 40x30 -o "$dir/lap_%02d.pfm"
+check "a relief's path is drawn to its last key" sh -c 'test -s "$1/lap_02.pfm" && ! test -e "$1/lap_03.pfm"' sh "$dir"
+check "a relief's pictures are told by name" grep -q 'lap_01.pfm$' "$dir/out.txt"
+status 0 relief render "$dir/pit.lmr" --eye 4,1,3 --target 0,0,0 --light $sun --size 40x30 -o "$dir/one.pfm"
+check "a relief's last picture is that of its last keys" cmp "$dir/one.pfm" "$dir/lap_02.pfm"
+check "a relief moves between keys" sh -c '! cmp -s "$1/lap_00.pfm" "$1/lap_01.pfm" && ! cmp -s "$1/lap_01.pfm" "$1/lap_02.pfm"' sh "$dir"
+status 0 relief render "$dir/pit.lmr" --path "$dir/keys.txt" --fps 2 --frames 2 --size 40x30 -q -o "$dir/lap.pfm"
+check "a relief's pictures are numbered without a pattern" sh -c 'cmp "$1/lap-0001.pfm" "$1/lap_01.pfm" && ! test -e "$1/lap-0002.pfm"' sh "$dir"
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad_%04d.png"
+said "numbers pictures of a --path, and none is given"
+status 2 relief render "$dir/pit.lmr" --fps 3 -o "$dir/bad.png"
+said "--frames and --fps are of a --path"
+status 2 relief render "$dir/pit.lmr" --path "$dir/keys.txt" -o -
+status 2 relief render "$dir/pit.lmr" --path "$dir/keys.txt" --compare "$dir/pit.obj" -o "$dir/bad.png"
+status 1 relief render "$dir/pit.lmr" --path "$dir/nowhere.txt" -o "$dir/bad.png"
+printf '0 object:1 0,0,0\n' >"$dir/keys.txt"
+status 1 relief render "$dir/pit.lmr" --path "$dir/keys.txt" -o "$dir/bad.png"
+said "keys.txt:1: a relief has a camera and a light"
+printf '0 light 0,0,0\n' >"$dir/keys.txt"
+status 1 relief render "$dir/pit.lmr" --path "$dir/keys.txt" -o "$dir/bad.png"
+said "keys.txt:1: the light is a sun"
+printf '0 camera 0,9,0 0,0,0\n' >"$dir/keys.txt"
+status 1 relief render "$dir/pit.lmr" --path "$dir/keys.txt" -o "$dir/bad.png"
+said "at frame 0 the camera looks along what is up"
+printf '0 camera 0,0,9 0,0,0\n1 camera 0,0,-9 0,0,0\n2 camera 0,0,9 0,0,0\n' >"$dir/lap_00.pfm"
+status 2 relief render "$dir/pit.lmr" --path "$dir/lap_00.pfm" -o "$dir/lap_%02d.pfm"
+said "lap_00.pfm: cannot be written: it is read"
 status 1 relief bake "$dir/nowhere.obj" -o "$dir/bad.lmr"
 sed 's/\([0-9.]\{1,\}\)/\1e-10/g; /^[^v]/s/e-10//g' "$dir/pit.obj" >"$dir/speck.obj"
 status 1 relief bake "$dir/speck.obj" -o "$dir/bad.lmr" --simple "$dir/speck.obj" --as-is --size 16

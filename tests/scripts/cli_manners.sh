@@ -249,6 +249,8 @@ if [ -e /dev/full ]; then
     full relief bake "$dir/pit.obj" --size 16 --triangles 20 --views 6 -o "$m/x.lmr"
     full relief render "$m/pit.lmr" --size 32x24 -o "$m/x.png"
     full relight --world demo --object demo --size 16x8 --path "$dir/path.txt" -o "$m/x.ppm"
+    printf "0 camera 0,0,9 0,0,0\n" >"$m/keys.txt"
+    full relief render "$m/pit.lmr" --size 16x8 --path "$m/keys.txt" -o "$m/x.ppm"
     full mix $seen $tent -q -o -
     full info "$m/demo.png"
     full compare "$m/demo.png" "$m/demo.png"

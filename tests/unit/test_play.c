@@ -5,7 +5,7 @@
 
 #include "../../tools/common/frame_name.h"
 #include "../../tools/play/play_options.h"
-#include "../../tools/play/play_path.h"
+#include "../../tools/common/key_path.h"
 #include "../../tools/play/play_times.h"
 #include "../test.h"
 
@@ -28,45 +28,45 @@ static int is_at(lmb_vec3 v, double x, double y, double z)
 /* Keys of two things between one another; evenly along a line the speed is even, so the curve is the line. */
 static void goes_through_keys(void)
 {
-    play_path p;
+    key_path p;
     report r = {""};
     CHECK(write_text(file, "0 light:1 0,0,0\n0.5 camera 1,2,3 4,5,6 # a comment\n1 light:1 2,0,-4\n\n2 light:1 4,0,-8\n"));
-    CHECK_MSG(play_path_read(&p, file, &r), "%s", r.text);
-    CHECK(p.track_count == 2 && p.key_count == 4 && play_path_end(&p) == 2.0);
-    CHECK(p.track[0].what == PLAY_LIGHT && p.track[0].index == 1 && p.track[0].count == 3 && p.track[0].line == 1);
-    CHECK(p.track[1].what == PLAY_CAMERA && p.track[1].count == 1 && p.track[1].line == 2);
+    CHECK_MSG(key_path_read(&p, file, &r), "%s", r.text);
+    CHECK(p.track_count == 2 && p.key_count == 4 && key_path_end(&p) == 2.0);
+    CHECK(p.track[0].what == KEY_LIGHT && p.track[0].index == 1 && p.track[0].count == 3 && p.track[0].line == 1);
+    CHECK(p.track[1].what == KEY_CAMERA && p.track[1].count == 1 && p.track[1].line == 2);
     for (int i = 0; i <= 16; ++i) {
         const double t = i / 8.0;
-        CHECK(is_at(play_path_at(&p, &p.track[0], t).at, 2 * t, 0, -4 * t));
+        CHECK(is_at(key_path_at(&p, &p.track[0], t).at, 2 * t, 0, -4 * t));
     }
-    CHECK(is_at(play_path_at(&p, &p.track[0], 99.0).at, 4, 0, -8));
-    CHECK(is_at(play_path_at(&p, &p.track[1], 0.0).at, 1, 2, 3));
-    CHECK(is_at(play_path_at(&p, &p.track[1], 7.0).target, 4, 5, 6));
-    play_path_free(&p);
+    CHECK(is_at(key_path_at(&p, &p.track[0], 99.0).at, 4, 0, -8));
+    CHECK(is_at(key_path_at(&p, &p.track[1], 0.0).at, 1, 2, 3));
+    CHECK(is_at(key_path_at(&p, &p.track[1], 7.0).target, 4, 5, 6));
+    key_path_free(&p);
 }
 
 /* Through each key, and as fast before it as behind it, whatever the times between them. */
 static void is_smooth(void)
 {
     static const double at[] = {0, 0.5, 2, 2.25, 5};
-    play_path p;
+    key_path p;
     report r = {""};
     CHECK(write_text(file, "0 camera 0,0,0 0,0,9\n0.5 camera 1,0,3 1,0,9\n2 camera -1,2,0 0,1,9\n2.25 camera -1,3,1 0,0,8\n"
                            "5 camera 4,4,4 0,0,9\n"));
-    CHECK_MSG(play_path_read(&p, file, &r), "%s", r.text);
+    CHECK_MSG(key_path_read(&p, file, &r), "%s", r.text);
     for (int i = 0; i < 5; ++i) {
-        const play_key *key = &p.key[p.track[0].first + (uint32_t)i];
-        CHECK(is_at(play_path_at(&p, &p.track[0], at[i]).at, (double)key->at.x, (double)key->at.y, (double)key->at.z));
+        const path_key *key = &p.key[p.track[0].first + (uint32_t)i];
+        CHECK(is_at(key_path_at(&p, &p.track[0], at[i]).at, (double)key->at.x, (double)key->at.y, (double)key->at.z));
     }
     for (int i = 1; i < 4; ++i) {
         const double step = 1e-3;
-        const play_key a = play_path_at(&p, &p.track[0], at[i] - step), b = play_path_at(&p, &p.track[0], at[i]),
-                       c = play_path_at(&p, &p.track[0], at[i] + step);
+        const path_key a = key_path_at(&p, &p.track[0], at[i] - step), b = key_path_at(&p, &p.track[0], at[i]),
+                       c = key_path_at(&p, &p.track[0], at[i] + step);
         const double before = ((double)b.at.x - (double)a.at.x) / step, after = ((double)c.at.x - (double)b.at.x) / step;
         CHECK_MSG(fabs(after - before) < 0.05 * (1.0 + fabs(after)), "%g m/s, then %g", before, after);
         CHECK(fabs((double)c.target.z - (double)a.target.z) < 0.02);
     }
-    play_path_free(&p);
+    key_path_free(&p);
 }
 
 static void names_frames(void)

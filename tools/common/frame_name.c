@@ -21,3 +21,13 @@ int frame_name(char *out, size_t size, const char *pattern, int32_t k, report *r
     const int n = snprintf(out, size, "%.*s%0*d%s", (int)(at - pattern), pattern, frame_digits(pattern), (int)k, at + 4);
     return (n > 0 && (size_t)n < size) || report_fail(r, "%s: the name is too long", pattern);
 }
+
+int frame_numbered(char *out, size_t size, const char *path, int32_t k, report *r)
+{
+    if (frame_digits(path) > 0) {
+        return frame_name(out, size, path, k, r);
+    }
+    const char *dot = strrchr(path, '.');
+    const int n = snprintf(out, size, "%.*s-%04d%s", (int)(dot - path), path, (int)k, dot);
+    return (n > 0 && (size_t)n < size) || report_fail(r, "%s: the name is too long", path);
+}

@@ -13,4 +13,7 @@ int frame_digits(const char *pattern);
 /* frame_name: the file of frame k by a pattern that has digits. 1, or 0 with `r` set: too long. */
 int frame_name(char *out, size_t size, const char *pattern, int32_t k, report *r);
 
+/* frame_numbered: the same; without digits OUT.png gives OUT-0007.png. */
+int frame_numbered(char *out, size_t size, const char *path, int32_t k, report *r);
+
 #endif

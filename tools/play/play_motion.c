@@ -90,14 +90,14 @@ static int find_room(play_motion *m, report *r)
     const int is_quiet = m->options->render.view.is_quiet;
     play_space space;
     int ok = play_space_make(&space, s, m->options->render.kernels, r);
-    for (uint32_t i = 0; ok && (m->moves & PLAY_LIGHT) != 0 && i < s->light_count; ++i) {
+    for (uint32_t i = 0; ok && (m->moves & KEY_LIGHT) != 0 && i < s->light_count; ++i) {
         m->radius[i] = room_for_light(&space, s, &m->light_at_rest[i]);
         report_note(is_quiet || m->radius[i] > 0.0f, "light %u stands still: no room for a circle around it",
                     (unsigned)i);
         report_note(!m->options->render.view.is_verbose || m->radius[i] <= 0.0f, "light %u moves by %.3g%s",
                     (unsigned)i, (double)m->radius[i], is_sun(&m->light_at_rest[i]) ? " of its length" : " m");
     }
-    if (ok && (m->moves & PLAY_CAMERA) != 0) {
+    if (ok && (m->moves & KEY_CAMERA) != 0) {
         const float far_m = 2.0f * length3(sub3(s->bounds_max, s->bounds_min));
         const lmb_vec3 ahead = mul3(m->view_at_rest.back, -1.0f), eye = m->view_at_rest.eye;
         m->middle = add3(eye, mul3(ahead, play_space_reach(&space, eye, ahead, far_m)));
@@ -167,7 +167,7 @@ static int set_moved(play_motion *m, int32_t k, report *r)
                                                        m->job->o.scene, (int)k);
 }
 
-static void put_keyed_light(play_motion *m, uint32_t i, const play_key *key)
+static void put_keyed_light(play_motion *m, uint32_t i, const path_key *key)
 {
     lmb_light l = m->light_at_rest[i];
     l.position = is_sun(&l) ? l.position : key->at;
@@ -175,7 +175,7 @@ static void put_keyed_light(play_motion *m, uint32_t i, const play_key *key)
     put_light(m, i, l);
 }
 
-static int put_keyed_camera(play_motion *m, const play_key *key, int32_t k, report *r)
+static int put_keyed_camera(play_motion *m, const path_key *key, int32_t k, report *r)
 {
     const play_options *o = m->options;
     lmb_view *v = &m->job->middle, look;
@@ -206,7 +206,7 @@ static void turn_object(lmb_mat4 *to, const lmb_mat4 *rest, lmb_vec3 right, lmb_
 }
 
 /* Returns 1 where it is elsewhere than before. */
-static int put_keyed_object(play_motion *m, uint32_t i, const play_key *key)
+static int put_keyed_object(play_motion *m, uint32_t i, const path_key *key)
 {
     lmb_mat4 to = m->instance_at_rest[i].to_world;
     if (key->has_target) {
@@ -225,17 +225,17 @@ static int set_by_path(play_motion *m, int32_t k, double time_s, report *r)
 {
     int moved = 0, ok = 1;
     for (uint32_t t = 0; ok && t < m->path.track_count; ++t) {
-        const play_track *track = &m->path.track[t];
-        const play_key key = play_path_at(&m->path, track, time_s);
+        const key_track *track = &m->path.track[t];
+        const path_key key = key_path_at(&m->path, track, time_s);
         if ((track->what & m->moves) != 0 && key.has_target && !(length3(sub3(key.target, key.at)) > LEAST_M)) {
             return report_fail(r, "%s: at frame %d what line %u moves stands at its own target; move one of its keys",
                                m->options->path, (int)k, (unsigned)track->line);
         }
-        if ((track->what & m->moves) == PLAY_LIGHT) {
+        if ((track->what & m->moves) == KEY_LIGHT) {
             put_keyed_light(m, track->index, &key);
-        } else if ((track->what & m->moves) == PLAY_CAMERA) {
+        } else if ((track->what & m->moves) == KEY_CAMERA) {
             ok = put_keyed_camera(m, &key, k, r);
-        } else if ((track->what & m->moves) == PLAY_OBJECT) {
+        } else if ((track->what & m->moves) == KEY_OBJECT) {
             moved |= put_keyed_object(m, track->index, &key);
         }
     }
@@ -250,13 +250,13 @@ static int set_by_animations(play_motion *m, int32_t k, double time_s, report *r
         return report_fail(r, "%s: at frame %d its animations lead nowhere: a scale of 0, or numbers that are too large",
                            m->job->o.scene, (int)k);
     }
-    for (uint32_t i = 0; (m->moves & PLAY_LIGHT) != 0 && i < m->job->scene.light_count; ++i) {
+    for (uint32_t i = 0; (m->moves & KEY_LIGHT) != 0 && i < m->job->scene.light_count; ++i) {
         put_light(m, i, m->light_posed[i]);
     }
-    for (uint32_t i = 0; (m->moves & PLAY_OBJECT) != 0 && i < m->job->scene.instance_count; ++i) {
+    for (uint32_t i = 0; (m->moves & KEY_OBJECT) != 0 && i < m->job->scene.instance_count; ++i) {
         moved |= put_object(m, i, &m->instance_posed[i].to_world);
     }
-    if ((m->moves & PLAY_CAMERA) != 0 && m->camera_used >= 0) {
+    if ((m->moves & KEY_CAMERA) != 0 && m->camera_used >= 0) {
         const model_camera *c = &m->camera[m->camera_used];
         m->job->middle.eye = c->eye;
         m->job->middle.right = c->right;
@@ -308,20 +308,20 @@ static int may_move(const play_motion *m, uint32_t instance)
 }
 
 /* Does the scene have what the path moves? */
-static int check_track(const play_motion *m, const play_track *t, report *r)
+static int check_track(const play_motion *m, const key_track *t, report *r)
 {
     static const char *const names[] = {"", "light", "camera", "", "object"};
     const lmb_scene *s = &m->job->scene;
-    const uint32_t count = t->what == PLAY_LIGHT ? s->light_count : t->what == PLAY_OBJECT ? s->instance_count : 1;
+    const uint32_t count = t->what == KEY_LIGHT ? s->light_count : t->what == KEY_OBJECT ? s->instance_count : 1;
     if (t->index >= count) {
         return report_fail(r, "%s: line %u: no %s:%u; the scene has %u, numbered from 0", m->options->path,
                            (unsigned)t->line, names[t->what], (unsigned)t->index, (unsigned)count);
     }
-    if (t->what == PLAY_LIGHT && is_sun(&m->light[t->index]) && !m->path.key[t->first].has_target) {
+    if (t->what == KEY_LIGHT && is_sun(&m->light[t->index]) && !m->path.key[t->first].has_target) {
         return report_fail(r, "%s: line %u: light:%u is a sun, which has a direction alone; give its keys a target",
                            m->options->path, (unsigned)t->line, (unsigned)t->index);
     }
-    return t->what != PLAY_OBJECT || may_move(m, t->index) ||
+    return t->what != KEY_OBJECT || may_move(m, t->index) ||
            report_fail(r, "%s: line %u: object:%u stands still in what was baked; bake it with --moving %u, or leave out "
                           "--transfer", m->options->path, (unsigned)t->line, (unsigned)t->index, (unsigned)t->index);
 }
@@ -340,14 +340,14 @@ static int check_path(const play_motion *m, report *r)
 /* Lights in a tree are another's; the tree is not made again for each frame. */
 static int check_lights(play_motion *m, report *r)
 {
-    if (m->job->many_lights.tree.node == NULL || (m->moves & PLAY_LIGHT) == 0) {
+    if (m->job->many_lights.tree.node == NULL || (m->moves & KEY_LIGHT) == 0) {
         return 1;
     }
-    if (m->moves == PLAY_LIGHT) {
+    if (m->moves == KEY_LIGHT) {
         return report_fail(r, "--move light: the scene's %u lights are in a tree, where they stand still",
                            (unsigned)m->job->many_lights.tree.lights);
     }
-    m->moves &= ~PLAY_LIGHT;
+    m->moves &= ~KEY_LIGHT;
     return 1;
 }
 
@@ -373,10 +373,10 @@ static int animated(play_motion *m, report *r)
         return 0;
     }
     all |= m->options->render.light_count == 0 && any_moves(motion, motion->of_light, loaded->scene.light_count)
-               ? PLAY_LIGHT
+               ? KEY_LIGHT
                : 0;
-    all |= camera != NULL && any_moves(motion, motion->of_camera + m->camera_used, 1) ? PLAY_CAMERA : 0;
-    all |= any_moves(motion, motion->of_instance, loaded->scene.instance_count) ? PLAY_OBJECT : 0;
+    all |= camera != NULL && any_moves(motion, motion->of_camera + m->camera_used, 1) ? KEY_CAMERA : 0;
+    all |= any_moves(motion, motion->of_instance, loaded->scene.instance_count) ? KEY_OBJECT : 0;
     return all & m->moves;
 }
 
@@ -402,15 +402,15 @@ int play_motion_find(play_motion *m, render_job *j, report *r)
     if (loaded->motion_problem.text[0] != '\0') {
         return report_fail(r, "%s; or give --path", loaded->motion_problem.text);
     }
-    if ((all & PLAY_OBJECT) != 0 && moves_baked(m)) {
-        if (m->moves == PLAY_OBJECT) {
+    if ((all & KEY_OBJECT) != 0 && moves_baked(m)) {
+        if (m->moves == KEY_OBJECT) {
             return report_fail(r, "--move object: what was baked holds for objects that stand still; name those that "
                                   "move by `lambent bake --moving`, or leave out --transfer");
         }
         report_note(m->options->render.view.is_quiet, "objects stand still: what was baked holds for those that do");
-        all &= ~PLAY_OBJECT;
+        all &= ~KEY_OBJECT;
     }
-    if (all == 0 && m->moves == PLAY_OBJECT) {
+    if (all == 0 && m->moves == KEY_OBJECT) {
         return report_fail(r, "--move object: nothing in %s moves objects; give --path FILE", m->job->o.scene);
     }
     m->is_animated = all != 0;
@@ -466,7 +466,7 @@ int play_motion_read(play_motion *m, const play_options *o, report *r)
     memset(m, 0, sizeof *m);
     m->options = o;
     m->moves = o->move;
-    return o->path == NULL || play_path_read(&m->path, o->path, r);
+    return o->path == NULL || key_path_read(&m->path, o->path, r);
 }
 
 int play_motion_make(play_motion *m, report *r)
@@ -483,7 +483,7 @@ int play_motion_make(play_motion *m, report *r)
 
 double play_motion_end(const play_motion *m)
 {
-    return m->is_animated ? m->job->loaded.motion->end_s : play_path_end(&m->path);
+    return m->is_animated ? m->job->loaded.motion->end_s : key_path_end(&m->path);
 }
 
 void play_motion_free(play_motion *m)
@@ -496,6 +496,6 @@ void play_motion_free(play_motion *m)
     free(m->instance_posed);
     free(m->camera);
     free(m->radius);
-    play_path_free(&m->path);
+    key_path_free(&m->path);
     memset(m, 0, sizeof *m);
 }

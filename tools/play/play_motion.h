@@ -5,14 +5,14 @@
 #include "../model/model_motion.h"
 #include "../render/render_job.h"
 #include "play_options.h"
-#include "play_path.h"
+#include "../common/key_path.h"
 
 /* By a path; else by the file's animations; else by itself: a light within `radius` of its place, m, or a sun's direction
  * by its tangent; 0: it stands still. */
 typedef struct play_motion {
     render_job *job;
     const play_options *options;
-    play_path path; /* no keys: none */
+    key_path path; /* no keys: none */
     int moves;      /* PLAY_*: of those that can */
     int is_animated;
     model_camera *camera; /* the animations': all of the file's */

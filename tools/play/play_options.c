@@ -4,16 +4,16 @@
 #include <string.h>
 
 #include "../common/frame_name.h"
+#include "../common/key_path.h"
 #include "../common/options.h"
 #include "../picture/picture.h"
-#include "play_path.h"
 
 enum { MOST = 1000000 };
 
 static int parse_out(const char *text, void *at) { return picture_option(text, at) && frame_digits(text) > 0; }
 
 static const char *const moves[] = {"light", "camera", "object", "all", NULL};
-static const int32_t move_values[] = {PLAY_LIGHT, PLAY_CAMERA, PLAY_OBJECT, PLAY_LIGHT | PLAY_CAMERA | PLAY_OBJECT};
+static const int32_t move_values[] = {KEY_LIGHT, KEY_CAMERA, KEY_OBJECT, KEY_LIGHT | KEY_CAMERA | KEY_OBJECT};
 
 #define AT(member) .at = offsetof(play_options, member)
 
@@ -79,7 +79,7 @@ int play_options_parse(play_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
     render_options_begin(&o->render);
-    o->move = PLAY_LIGHT | PLAY_CAMERA | PLAY_OBJECT;
+    o->move = KEY_LIGHT | KEY_CAMERA | KEY_OBJECT;
     o->frames = 60;
     o->fps = 30.0f;
     const int asked = options_parse(o, &play_table, argc, argv, r);

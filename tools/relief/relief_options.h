@@ -5,6 +5,7 @@
 #include <lambent/relief.h>
 
 #include "../common/options.h"
+#include "../common/view_options.h"
 
 /* int32_t size, triangles, is_packed of a struct of the type: how a relief is baked. */
 #define RELIEF_OPTIONS_BAKE(type)                                                                            \
@@ -25,6 +26,21 @@
      .high = LMB_RELIEF_TILE_VIEWS, .help = HELP("views a pixel looks at (default 6)")},                                \
     {.name = "--keep", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.keep), .low = 1, .high = 3, \
      .help = HELP("of which the best are blended (default 3)")}
+
+/* What `lambent relief render` was asked for. */
+typedef struct relief_options {
+    const char *file, *out, *compare, *with, *path;
+    view_options view;
+    lmb_relief_how how;
+    lmb_light light;
+    int32_t has_light, bounce;
+    int32_t shadow_map, show, samples;
+    int32_t frames; /* of the path; 0: to its end */
+    float fps;      /* 0: 30 */
+    float ambient, exposure_ev; /* NaN: chosen by the picture */
+    const lmb_kernels *kernels;
+    int32_t threads;
+} relief_options;
 
 /* `N` or `greedy:N`: 1, or 0 where the text is neither. */
 int relief_option_views(const char *text, int32_t *views, int32_t *is_greedy);

@@ -15,21 +15,10 @@
 #include "relief_compare.h"
 #include "relief_model.h"
 #include "relief_options.h"
+#include "relief_path.h"
 
 enum { BOUNCE_MAP = 256 }; /* texels a side */
 enum { SHOW_FULL, SHOW_DEPTH, SHOW_NORMAL, SHOW_ALBEDO, SHOW_LIT };
-
-typedef struct options {
-    const char *file, *out, *compare, *with;
-    view_options view;
-    lmb_relief_how how;
-    lmb_light light;
-    int32_t has_light, bounce;
-    int32_t shadow_map, show, samples;
-    float ambient, exposure_ev; /* NaN: chosen by the picture */
-    const lmb_kernels *kernels;
-    int32_t threads;
-} options;
 
 /* --- command line ------------------------------------------------------------------------------------------------- */
 
@@ -37,22 +26,22 @@ static const char *const picks[] = {"p", "eye-ray", NULL}; /* in the order of LM
 static const char *const samplings[] = {"bilinear", "nearest", NULL};
 static const char *const shows[] = {"full", "depth", "normal", "albedo", "lit", NULL}; /* in the order of SHOW_ */
 
-#define AT(member) .at = offsetof(options, member)
+#define AT(member) .at = offsetof(relief_options, member)
 
 static const option_row rows[] = {
     {.name = "FILE.lmr", .kind = OPTION_TEXT, .value = "", AT(file), .file = OPTION_READS,
      .help = HELP("what `lambent relief bake` made")},
     {.kind = OPTION_TITLE, .help = HELP("view")},
-    VIEW_OPTION_SIZE(options, view, "px (default 640x480)"),
-    VIEW_OPTIONS_CAMERA(options, view, "where the camera stands (default: the whole model from a little above)"),
+    VIEW_OPTION_SIZE(relief_options, view, "px (default 640x480)"),
+    VIEW_OPTIONS_CAMERA(relief_options, view, "where the camera stands (default: the whole model from a little above)"),
     {.kind = OPTION_TITLE, .help = HELP("surface")},
     {.name = "--pick", .kind = OPTION_WORD, AT(how.pick), .words = picks,
      .help = HELP("which candidate wins: nearest to the simple surface (default), or to the eye's ray")},
     {.name = "--sampling", .kind = OPTION_WORD, AT(how.sampling), .words = samplings,
      .help = HELP("of the views' texels (default bilinear)")},
-    RELIEF_OPTIONS_LOOK(options),
+    RELIEF_OPTIONS_LOOK(relief_options),
     {.kind = OPTION_TITLE, .help = HELP("light")},
-    {.name = "--light", .kind = OPTION_LIGHT, AT(light), .counts = offsetof(options, has_light),
+    {.name = "--light", .kind = OPTION_LIGHT, AT(light), .counts = offsetof(relief_options, has_light),
      .help = HELP("KIND is spot, point or sun (default: a sun from the upper right)")},
     {.name = "--shadow-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(shadow_map), .low = 0, .high = LMB_MAX_SIDE,
      .help = HELP("texels a side of its shadow map (default 1024); 0: no shadows")},
@@ -74,9 +63,9 @@ static const option_row rows[] = {
      .help = HELP("stops, display formats only (default 0)")},
     {.name = "--compare", .value = "MODEL", .kind = OPTION_TEXT, AT(compare), .file = OPTION_READS,
      .help = HELP("draws the complex model too, and prints speed and errors side by side")},
-    OPTION_BACKEND_ROW(options, kernels),
-    OPTION_THREADS_ROW(options, threads, "draw the picture"),
-    OPTION_LOUDNESS(options, view.is_quiet, view.is_verbose, "say how long what took"),
+    OPTION_BACKEND_ROW(relief_options, kernels),
+    OPTION_THREADS_ROW(relief_options, threads, "draw the picture"),
+    OPTION_LOUDNESS(relief_options, view.is_quiet, view.is_verbose, "say how long what took"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -88,11 +77,11 @@ static const option_row rows[] = {
 
 static const option_table table = {
     .verb = "relief render",
-    .usage = "relief render FILE.lmr -o OUT [options]",
+    .usage = "relief render FILE.lmr [--path FILE] -o OUT [options]",
     .about =
         "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
         "it.",
-    .part = {rows},
+    .part = {rows, relief_path_rows},
     .examples = "  a tent, its relief and a picture of that:\n" TENT
                 "    lambent relief render tent.lmr --size 160x120 -o tent.png\n",
 };
@@ -110,7 +99,7 @@ static const option_table both_table = {
                 "    lambent relief render tent.lmr --size 160x120 -o tent.png\n",
 };
 
-static int parse(options *o, int argc, char **argv, report *r)
+static int parse(relief_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
     view_options_init(&o->view);
@@ -130,7 +119,7 @@ static int parse(options *o, int argc, char **argv, report *r)
     if (o->out == NULL) {
         return report_fail(r, "no output given; add -o FILE.png");
     }
-    return view_options_check(&o->view, r) ? OPTIONS_RUN : OPTIONS_BAD;
+    return relief_path_check(o, r) && view_options_check(&o->view, r) ? OPTIONS_RUN : OPTIONS_BAD;
 }
 
 /* --- work --------------------------------------------------------------------------------------------------------- */
@@ -144,7 +133,8 @@ typedef struct work {
     relief_scene flat;
     lmb_scene complex;
     lmb_mesh *meshes;
-    lmb_light sun;
+    lmb_light light; /* the sun that shines where none is asked for, or what is */
+    key_path path;
 } work;
 
 static void work_free(work *w)
@@ -155,6 +145,7 @@ static void work_free(work *w)
     triangle_mesh_free(&w->mesh);
     relief_scene_free(&w->flat);
     free(w->meshes);
+    key_path_free(&w->path);
     free(w);
 }
 
@@ -199,12 +190,15 @@ static int load_truth(work *w, const char *path, report *r)
     return 1;
 }
 
-static int choose_view(lmb_view *out, const work *w, options *o, report *r)
+static int choose_view(lmb_view *out, const work *w, relief_options *o, report *r)
 {
     lmb_view middle;
+    const int is_quiet = o->view.is_quiet;
+    o->view.is_quiet |= relief_path_leads(&w->path); /* what it frames is not shown */
     if (o->view.has_eye ? !view_look(&middle, &o->view, r) : !view_frame(&middle, &o->view, &w->simple, o->file, r)) {
         return 0;
     }
+    o->view.is_quiet = is_quiet;
     middle.near_m = 0.0f;
     *out = view_from(&middle, 0.0f, &w->simple);
     return 1;
@@ -228,18 +222,21 @@ static void show(relief_frame *f, int32_t what)
 }
 
 /* What is no light has no mean over a pixel, and the complex model is drawn by one sample. */
-static int32_t samples_of(const options *o)
+static int32_t samples_of(const relief_options *o)
 {
     const int is_linear = picture_is_linear(picture_format(o->out));
     return o->show != SHOW_FULL || o->compare != NULL ? 1 : o->samples != 0 ? o->samples : is_linear ? 1 : 4;
 }
 
-static int write_frame(const options *o, relief_frame *f, report *r)
+/* The first picture's exposure is that of all. */
+static int write_frame(relief_options *o, relief_frame *f, const char *path, report *r)
 {
     show(f, o->show);
     const image out = {f->width, f->height, 3, f->rgb};
-    const float ev = o->show == SHOW_DEPTH || isnan(o->exposure_ev) ? picture_auto_exposure(&out, PICTURE_CLIPPED) : o->exposure_ev;
-    return picture_write(o->out, &out, ev, PICTURE_CLIPPED, r);
+    if (isnan(o->exposure_ev)) {
+        o->exposure_ev = picture_auto_exposure(&out, PICTURE_CLIPPED);
+    }
+    return picture_write(path, &out, o->exposure_ev, PICTURE_CLIPPED, r);
 }
 
 static void tell(const relief_frame *f)
@@ -287,30 +284,36 @@ static int compare(work *w, relief_shot shot, const relief_frame *f, report *r)
     return ok;
 }
 
-static int render(work *w, options *o, report *r)
+static int render(work *w, relief_options *o, report *r)
 {
     relief_shot shot;
     relief_frame f;
     const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
                            LMB_LIGHT_DIRECTIONAL, 0};
     memset(&shot, 0, sizeof shot);
-    w->sun = sun;
+    w->light = o->has_light ? o->light : sun;
     if (!options_files(o, &table, r) || !open_relief(w, o->file, r) ||
         (o->with != NULL && !load(&w->with, o->with, r)) ||
         (o->compare != NULL && !load_truth(w, o->compare, r)) ||
-        !options_files(o, &table, r) || !choose_view(&shot.view, w, o, r)) {
+        !options_files(o, &table, r) || !relief_path_open(&w->path, o, &w->light, r) || !choose_view(&shot.view, w, o, r)) {
         return 0;
     }
     shot.kernels = o->kernels;
     shot.relief = &w->relief;
     shot.scene = o->with != NULL ? &w->with.scene : NULL;
     shot.how = o->how;
-    shot.light = o->has_light ? &o->light : &w->sun;
+    shot.light = &w->light;
     shot.shadow_map = o->shadow_map;
     shot.ambient = o->ambient;
     shot.threads = pool_threads(o->threads);
     shot.bounce = o->bounce ? BOUNCE_MAP : 0;
     shot.samples = samples_of(o);
+    if (o->show == SHOW_DEPTH) {
+        o->exposure_ev = NAN;
+    }
+    if (o->path != NULL) {
+        return relief_along(o, &w->path, &shot, &w->light, &w->simple, write_frame, r);
+    }
     if (!relief_shoot(&f, &shot, r)) {
         return 0;
     }
@@ -319,7 +322,7 @@ static int render(work *w, options *o, report *r)
     }
     report_note(!o->view.is_verbose, "shadow map %.2f ms, triangles %.2f ms, pixels %.2f ms", 1e3 * f.light_s,
                 1e3 * f.draw_s, 1e3 * f.band_s);
-    const int ok = (o->compare == NULL || compare(w, shot, &f, r)) && write_frame(o, &f, r);
+    const int ok = (o->compare == NULL || compare(w, shot, &f, r)) && write_frame(o, &f, o->out, r);
     relief_frame_free(&f);
     return ok;
 }
@@ -327,7 +330,7 @@ static int render(work *w, options *o, report *r)
 static int verb_render_relief(int argc, char **argv)
 {
     report r = {""};
-    options o;
+    relief_options o;
     const int asked = parse(&o, argc, argv, &r);
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &table, &r);

@@ -219,17 +219,6 @@ static int write(stage *s, const char *path, report *r)
     return picture_write(path, &s->picture, s->o->exposure_ev, s->o->tone, r);
 }
 
-/* By a pattern's %0Nd; else OUT.png -> OUT-0007.png */
-static int numbered(char *out, size_t size, const char *path, int32_t i, report *r)
-{
-    if (frame_digits(path) > 0) {
-        return frame_name(out, size, path, i, r);
-    }
-    const char *dot = strrchr(path, '.');
-    const int n = snprintf(out, size, "%.*s-%04d%s", (int)(dot - path), path, (int)i, dot);
-    return (n > 0 && (size_t)n < size) || report_fail(r, "%s: the name is too long", path);
-}
-
 static int draw_along(stage *s, report *r)
 {
     for (int32_t i = 0; i < s->path.count; ++i) {
@@ -237,7 +226,7 @@ static int draw_along(stage *s, report *r)
         const uint32_t kept = s->cache.kept;
         char name[4096];
         figures_stand(&s->figures, 0, at);
-        if (!numbered(name, sizeof name, s->o->out, i, r) || !light_figures(s, (uint32_t)i, r) ||
+        if (!frame_numbered(name, sizeof name, s->o->out, i, r) || !light_figures(s, (uint32_t)i, r) ||
             !draw_shadows(s, r) || !draw(s, r) || !write(s, name, r)) {
             return 0;
         }

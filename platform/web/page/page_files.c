@@ -21,6 +21,7 @@
 #include "../../../tools/picture/image.h"
 #include "../../../tools/relief/relief_compare.h"
 #include "../../../tools/relief/relief_model.h"
+#include "../../../tools/relief/relief_path.h"
 #include "../../../tools/relight/relight_contact.h"
 #include "../../../tools/relight/relight_path.h"
 #include "../../../tools/render/render_slice.h"
@@ -200,6 +201,20 @@ int relief_measure(relief_figures *out, const relief_frame *test, const relief_f
 {
     return (void)out, (void)test, (void)truth, (void)diagonal, (void)r, 0;
 }
+
+const option_row relief_path_rows[] = {{.kind = OPTION_END}};
+int relief_path_check(const relief_options *o, report *r) { return (void)o, (void)r, 1; }
+int relief_path_open(key_path *out, const relief_options *o, const lmb_light *light, report *r)
+{
+    return (void)out, (void)o, (void)light, (void)r, 1;
+}
+int relief_path_leads(const key_path *path) { return (void)path, 0; }
+int relief_along(relief_options *o, const key_path *path, relief_shot *shot, lmb_light *light, const lmb_scene *simple,
+                 relief_write *write, report *r)
+{
+    return (void)o, (void)path, (void)shot, (void)light, (void)simple, (void)write, (void)r, 0;
+}
+void key_path_free(key_path *path) { (void)path; }
 
 /* --- area_light.h, mix_*.h: the page's lights have no size, and its depth is exact --------------------------------------- */
 

@@ -1,13 +1,13 @@
-/* play_path.c: reads a file of keys, and finds what lies between them. */
-#include "play_path.h"
+/* key_path.c: reads a file of keys, and finds what lies between them. */
+#include "key_path.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common/io_file.h"
-#include "../common/io_text.h"
-#include "../common/option_value.h"
+#include "io_file.h"
+#include "io_text.h"
+#include "option_value.h"
 
 enum { WORD = 100 };
 #define FAR_M 1e6f
@@ -43,7 +43,7 @@ static int read_what(int *what, uint32_t *index, const char *word, cursor *c, re
     static const struct {
         const char *name;
         int what;
-    } things[] = {{"camera", PLAY_CAMERA}, {"light", PLAY_LIGHT}, {"object", PLAY_OBJECT}};
+    } things[] = {{"camera", KEY_CAMERA}, {"light", KEY_LIGHT}, {"object", KEY_OBJECT}};
     *index = 0;
     for (int i = 0; i < 3; ++i) {
         const size_t n = strlen(things[i].name);
@@ -51,8 +51,8 @@ static int read_what(int *what, uint32_t *index, const char *word, cursor *c, re
         if (strncmp(word, things[i].name, n) != 0 || (word[n] != '\0' && word[n] != ':')) {
             continue;
         }
-        const int is_one = word[n] == '\0' ? things[i].what != PLAY_OBJECT
-                                           : things[i].what != PLAY_CAMERA &&
+        const int is_one = word[n] == '\0' ? things[i].what != KEY_OBJECT
+                                           : things[i].what != KEY_CAMERA &&
                                                  option_int(word + n + 1, 0, 1 << 24, &number);
         *what = things[i].what;
         *index = (uint32_t)number;
@@ -63,29 +63,29 @@ static int read_what(int *what, uint32_t *index, const char *word, cursor *c, re
 
 /* A key as its line has it. */
 typedef struct key_line {
-    play_key key;
+    path_key key;
     uint32_t track;
 } key_line;
 
 typedef struct reading {
-    play_path *path;
+    key_path *path;
     key_line *line;
     cursor c;
-    double last_s[PLAY_TRACKS];
-    int has_target[PLAY_TRACKS];
+    double last_s[KEY_TRACKS];
+    int has_target[KEY_TRACKS];
 } reading;
 
 /* The track of a thing, a new one at its first key. */
 static int find_track(uint32_t *out, reading *g, int what, uint32_t index, int has_target, report *r)
 {
-    play_path *p = g->path;
+    key_path *p = g->path;
     for (*out = 0; *out < p->track_count; ++*out) {
         if (p->track[*out].what == what && p->track[*out].index == index) {
             return 1;
         }
     }
-    if (p->track_count == PLAY_TRACKS) {
-        return text_fail(&g->c, r, "over %d things that move", PLAY_TRACKS);
+    if (p->track_count == KEY_TRACKS) {
+        return text_fail(&g->c, r, "over %d things that move", KEY_TRACKS);
     }
     p->track[*out].what = what;
     p->track[*out].index = index;
@@ -151,8 +151,8 @@ static int read_lines(reading *g, report *r)
         if (!text_token(&first, &g->c)) {
             continue;
         }
-        if (g->path->key_count == PLAY_KEYS) {
-            return text_fail(&g->c, r, "over %d keys", PLAY_KEYS);
+        if (g->path->key_count == KEY_MOST) {
+            return text_fail(&g->c, r, "over %d keys", KEY_MOST);
         }
         if (!read_key(g, first, r)) {
             return 0;
@@ -165,7 +165,7 @@ static int read_lines(reading *g, report *r)
 /* Each track's keys together, in their order. */
 static void sort_keys(reading *g)
 {
-    play_path *p = g->path;
+    key_path *p = g->path;
     uint32_t n = 0;
     for (uint32_t t = 0; t < p->track_count; ++t) {
         p->track[t].first = n;
@@ -178,7 +178,7 @@ static void sort_keys(reading *g)
     }
 }
 
-int play_path_read(play_path *out, const char *name, report *r)
+int key_path_read(key_path *out, const char *name, report *r)
 {
     reading g;
     file_bytes file;
@@ -189,8 +189,8 @@ int play_path_read(play_path *out, const char *name, report *r)
     }
     g.path = out;
     g.c = text_open(file.data, file.size, name);
-    g.line = calloc(PLAY_KEYS, sizeof *g.line);
-    out->key = calloc(PLAY_KEYS, sizeof *out->key);
+    g.line = calloc(KEY_MOST, sizeof *g.line);
+    out->key = calloc(KEY_MOST, sizeof *out->key);
     int ok = (g.line != NULL && out->key != NULL) || report_fail(r, "%s: not enough memory to read it", name);
     ok = ok && read_lines(&g, r) && (out->key_count > 0 || report_fail(r, "%s: no keys in it", name));
     if (ok) {
@@ -201,7 +201,7 @@ int play_path_read(play_path *out, const char *name, report *r)
     return ok;
 }
 
-void play_path_free(play_path *path)
+void key_path_free(key_path *path)
 {
     free(path->key);
     memset(path, 0, sizeof *path);
@@ -211,18 +211,18 @@ void play_path_free(play_path *path)
 
 static double component(const lmb_vec3 *v, int axis) { return (double)(axis == 0 ? v->x : axis == 1 ? v->y : v->z); }
 
-static const lmb_vec3 *place_of(const play_key *k, int is_target) { return is_target ? &k->target : &k->at; }
+static const lmb_vec3 *place_of(const path_key *k, int is_target) { return is_target ? &k->target : &k->at; }
 
 /* Metres a second at key i: from the one before it to the one after it, as far as there are any. */
-static double speed(const play_key *key, uint32_t count, uint32_t i, int is_target, int axis)
+static double speed(const path_key *key, uint32_t count, uint32_t i, int is_target, int axis)
 {
-    const play_key *a = &key[i > 0 ? i - 1 : i], *b = &key[i + 1 < count ? i + 1 : i];
+    const path_key *a = &key[i > 0 ? i - 1 : i], *b = &key[i + 1 < count ? i + 1 : i];
     const double time = b->time_s - a->time_s;
     return time > 0.0 ? (component(place_of(b, is_target), axis) - component(place_of(a, is_target), axis)) / time : 0.0;
 }
 
 /* Between the keys i and i + 1 by Hermite's cubic. */
-static float between(const play_key *key, uint32_t count, uint32_t i, double time_s, int is_target, int axis)
+static float between(const path_key *key, uint32_t count, uint32_t i, double time_s, int is_target, int axis)
 {
     const double span = key[i + 1].time_s - key[i].time_s, u = (time_s - key[i].time_s) / span, v = 1.0 - u;
     const double a = component(place_of(&key[i], is_target), axis), b = component(place_of(&key[i + 1], is_target), axis);
@@ -231,9 +231,9 @@ static float between(const play_key *key, uint32_t count, uint32_t i, double tim
     return (float)(v * v * (1.0 + 2.0 * u) * a + u * u * (1.0 + 2.0 * v) * b + u * v * (v * from - u * to));
 }
 
-play_key play_path_at(const play_path *path, const play_track *track, double time_s)
+path_key key_path_at(const key_path *path, const key_track *track, double time_s)
 {
-    const play_key *key = path->key + track->first;
+    const path_key *key = path->key + track->first;
     const uint32_t last = track->count - 1;
     uint32_t i = 0;
     if (!(time_s > key[0].time_s) || !(time_s < key[last].time_s)) {
@@ -242,7 +242,7 @@ play_key play_path_at(const play_path *path, const play_track *track, double tim
     while (time_s >= key[i + 1].time_s) {
         ++i;
     }
-    play_key out = key[i];
+    path_key out = key[i];
     out.time_s = time_s;
     out.at.x = between(key, track->count, i, time_s, 0, 0);
     out.at.y = between(key, track->count, i, time_s, 0, 1);
@@ -255,7 +255,7 @@ play_key play_path_at(const play_path *path, const play_track *track, double tim
     return out;
 }
 
-double play_path_end(const play_path *path)
+double key_path_end(const key_path *path)
 {
     double end = 0.0;
     for (uint32_t i = 0; i < path->key_count; ++i) {
