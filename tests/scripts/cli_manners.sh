@@ -190,7 +190,8 @@ for in in hard.png soft.png; do
     misused "scene.lmr: cannot be written: it is read by the same command" relief bake "$m/$in" -o "$m/scene.lmr"
 done
 misused "cannot be written: it is read" render "$m/cloth.obj" $few -o "$m/cloth.png"
-misused "cannot be written: it is read" render "$m/cloth.obj" $few -o "$m/x.png" --stats "$m/cloth.mtl"
+ln "$m/cloth.mtl" "$m/cloth.json"
+misused "cannot be written: it is read" render "$m/cloth.obj" $few -o "$m/x.png" --stats "$m/cloth.json"
 misused "cannot be written: it is read" bake "$m/cloth.obj" --elements 64 --receivers 64 -o "$m/cloth.lmt"
 misused "cannot be written: it is read" mix $seen --object "$m/cloth.obj" -o "$m/cloth.png"
 misused "cannot be written: it is read" compare "$m/cloth.png" "$m/demo.pfm" --heat "$m/cloth.png"
@@ -207,6 +208,9 @@ for out in x.png X.PPM x.pfm x.hdr x.jpg x.jpeg x.gltf x.GLB x.obj x.mtl x.ply x
     absent "$m/$out"
 done
 misused "x.lmt: a .lmp file would be written, under the name of a .lmt file; name it *.lmp" pack demo -o "$m/x.lmt"
+misused "--heat $m/x.obj: a .png file would be written, under the name of a .obj file" compare "$m/demo.png" "$m/demo.png" --heat "$m/x.obj"
+misused "--stats $m/x.ply: a .json file would be written, under the name of a .ply file" render demo $few -o "$m/y.png" --stats "$m/x.ply"
+absent "$m/y.png"
 misused "x.png: a .lmr file would be written, under the name of a .png file; name it *.lmr" relief bake "$m/cloth.obj" -o "$m/x.png"
 absent "$m/x.png"
 for out in room room.baked room.lmt ROOM.LMT png .lmt x.png.lmt; do

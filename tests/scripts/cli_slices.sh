@@ -108,6 +108,8 @@ status 0 bake demo $light --to vertex-colours -o "$s/colours.glb"
 check "vertex colours are that light: $(trim)" under 0.02
 status 0 bake demo $light --to lightmap --texels 1024 -o "$s/map.glb"
 check "a lightmap is that light: $(trim)" under 0.02
+status 2 bake demo $light --to probes --step 0.000001 -o "$s/never.json"
+said "give a larger one"
 status 0 bake demo $light --to probes --step 0.8 -o "$s/air.json"
 check "probes say how far they are from it: $(trim)" under 0.2
 check "they have their numbers beside them" test -s "$s/air.bin"

@@ -68,6 +68,14 @@ said "each triangle has a corner that is not finite or 2^20 m away"
 } >"$w/red.hdr"
 status 0 render "$w/box.obj" $look --world "$w/red.hdr" -o "$w/red.pfm"
 check "red light alone" sh -c 'tail -c "$2" "$1" | od -An -v -tf4 | tr -s " " "\n" | grep . | awk "NR % 3 == 1 { r += \$1 } NR % 3 != 1 { o += \$1 } END { exit !(r > 100 && o < 1e-3) }"' sh "$w/red.pfm" $floats
+# The same size of PFM, 1 but for one number that is infinite, which counts as black.
+one_bright() { { printf 'PF\n32 16\n-1.0\n'; i=0; while [ $i -lt 1536 ]; do [ $i -eq 700 ] && printf "$1" || printf '\000\000\200\077'; i=$((i + 1)); done; } >"$2"; }
+one_bright '\000\000\200\177' "$w/infinite.pfm"
+one_bright '\000\000\000\000' "$w/black.pfm"
+status 0 render "$w/box.obj" $look --world "$w/infinite.pfm" -o "$w/infinite-lit.pfm"
+said "infinite.pfm: 1 numbers are infinite or none; they count as black"
+status 0 render "$w/box.obj" $look --world "$w/black.pfm" -o "$w/black-lit.pfm"
+check "an infinite texel is black" cmp "$w/infinite-lit.pfm" "$w/black-lit.pfm"
 status 1 render "$w/box.obj" $look --world "$w/box.obj" -o "$w/bad.pfm"
 status 1 render "$w/box.obj" $look --world "$w/missing.hdr" -o "$w/bad.pfm"
 absent "$w/bad.pfm"

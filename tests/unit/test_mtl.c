@@ -55,11 +55,11 @@ static void emission(void)
 {
     CHECK_LOADS(load_library("newmtl a\nKe 17 12.5 4\nnewmtl b\nKe 3\n"));
     CHECK(emits(0, 0, 0, 0) && emits(1, 17, 12.5f, 4) && emits(2, 3, 3, 3) &&
-          noted("light the scene with --grouping cut only: 2"));
+          noted("light the scene (but with fixed --grouping): 2"));
     CHECK_LOADS(load_library("newmtl a\nKe 2 1\nnewmtl b\nKe -1 1e39 0.5\n"));
-    CHECK(emits(1, 2, 1, 2) && emits(2, 0, 0, 0.5f) && noted("light the scene with --grouping cut only: 2"));
+    CHECK(emits(1, 2, 1, 2) && emits(2, 0, 0, 0.5f) && noted("light the scene (but with fixed --grouping): 2"));
     CHECK_LOADS(load_library("newmtl a\nKe 0 0 0\nnewmtl b\nKe 0 7 0\n"));
-    CHECK(emits(1, 0, 0, 0) && emits(2, 0, 7, 0) && noted("light the scene with --grouping cut only: 1"));
+    CHECK(emits(1, 0, 0, 0) && emits(2, 0, 7, 0) && noted("light the scene (but with fixed --grouping): 1"));
     CHECK_LOADS(load_library("newmtl a\nKe spectral x.rfl 1\nnewmtl b\nKe xyz 1 2 3\n"));
     CHECK(emits(1, 0, 0, 0) && emits(2, 0, 0, 0) && notes.count == 0);
 }
@@ -99,6 +99,8 @@ static void maps_left_out(void)
         CHECK_LOADS(load_library(library));
         CHECK_MSG(noted("bump or normal map is left out: 1"), "no note on %s", bumps[i]);
     }
+    CHECK_LOADS(load_library("newmtl a\nillum 5\nnewmtl b\nillum 7\nillum 2\nnewmtl c\nillum 1\n"));
+    CHECK(noted("mirrors and glasses (illum 3 to 9), drawn by their diffuse colour alone: 1") && notes.count == 1);
     CHECK_LOADS(load_library("newmtl a\nmap_d\nmap_Ke # none\nbump\nnewmtl b\nmap_Ks x.png\n"));
     CHECK(notes.count == 0);
 }

@@ -36,6 +36,9 @@ int light_colours(const char *path, light_solve *s, const model *loaded, report 
 int light_picture(const char *path, light_solve *s, const model *loaded, int32_t side, report *r);
 int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is_quiet, report *r);
 
+/* light_probes_fit: are the places of a lattice few enough? Asked before a bake, which takes minutes. 1, or 0 with `r` set. */
+int light_probes_fit(const lmb_scene *scene, float step_m, report *r);
+
 /* What a form says of a place of its scene, W/m2. */
 typedef struct light_source {
     const lmb_scene *scene;

@@ -58,23 +58,46 @@ static lmb_vec3 normal_of(int k, float *weight)
 
 static size_t count_of(const lattice *l) { return (size_t)l->count[0] * (size_t)l->count[1] * (size_t)l->count[2]; }
 
+static float step_of(const lmb_scene *scene, float step_m)
+{
+    const lmb_vec3 size = sub3(scene->bounds_max, scene->bounds_min);
+    return step_m > 0.0f ? step_m : maxf(maxf(size.x, maxf(size.y, size.z)) / (float)ACROSS, 1e-6f);
+}
+
+/* Places along each axis, at most MOST; how many there are in all. */
+static double count_places(int32_t count[3], const lmb_scene *scene, float step)
+{
+    const lmb_vec3 size = sub3(scene->bounds_max, scene->bounds_min);
+    const float side[3] = {size.x, size.y, size.z};
+    double all = 1.0;
+    for (int k = 0; k < 3; ++k) {
+        const double steps = ceil((double)side[k] / (double)step - 1e-6);
+        count[k] = steps > 1.0 ? (int32_t)(steps < MOST ? steps : MOST) : 1;
+        all *= steps > 1.0 ? steps : 1.0;
+    }
+    return all;
+}
+
+int light_probes_fit(const lmb_scene *scene, float step_m, report *r)
+{
+    const float step = step_of(scene, step_m);
+    int32_t count[3];
+    const double all = count_places(count, scene, step);
+    return all <= (double)MOST ||
+           report_fail_usage(r, "--step %g: %.3g places are over %d; give a larger one", (double)step, all, MOST);
+}
+
 static int lay_out(lattice *l, const lmb_scene *scene, float step_m, report *r)
 {
     const lmb_vec3 size = sub3(scene->bounds_max, scene->bounds_min);
     const float side[3] = {size.x, size.y, size.z},
                 low[3] = {scene->bounds_min.x, scene->bounds_min.y, scene->bounds_min.z};
-    const float step = step_m > 0.0f ? step_m : maxf(maxf(size.x, maxf(size.y, size.z)) / (float)ACROSS, 1e-6f);
+    const float step = step_of(scene, step_m);
     float first[3], each[3];
-    double all = 1.0;
+    const double all = count_places(l->count, scene, step);
     for (int k = 0; k < 3; ++k) {
-        const double steps = ceil((double)side[k] / (double)step - 1e-6);
-        l->count[k] = steps > 1.0 ? (int32_t)(steps < MOST ? steps : MOST) : 1;
-        all *= (double)l->count[k];
         each[k] = side[k] > 0.0f ? side[k] / (float)l->count[k] : step;
         first[k] = low[k] + 0.5f * (side[k] > 0.0f ? each[k] : 0.0f);
-    }
-    if (all > (double)MOST) {
-        return report_fail(r, "--step %g: %.0f places are over %d; give a larger one", (double)step, all, MOST);
     }
     l->first = vec3(first[0], first[1], first[2]);
     l->step = vec3(each[0], each[1], each[2]);
@@ -301,7 +324,7 @@ int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is
     memset(&l, 0, sizeof l);
     memset(&back, 0, sizeof back);
     const light_source of = {&s->job.scene, light_in, &back};
-    const int ok = lay_out(&l, &s->job.scene, step_m, r) && fill(&l, s, b, r) && mend(&l, r) &&
+    const int ok = light_probes_fit(&s->job.scene, step_m, r) && lay_out(&l, &s->job.scene, step_m, r) && fill(&l, s, b, r) && mend(&l, r) &&
                    write_both(path, &l, r) && read_both(&back, path, r) &&
                    light_compare(path, s, &of, "probes", is_quiet, r);
     free(l.probe);

@@ -225,7 +225,8 @@ static int bake_scene(const options *o, const lmb_scene *whole, const model *loa
     set.is_swapped = o->is_big != is_own_big();
     uint32_t moving[MOVING], count;
     bake_still_scene still = {*whole, NULL};
-    int ok = parse_moving(moving, &count, o->moving, whole, r) &&
+    int ok = (o->to != LIGHT_PROBES || light_probes_fit(whole, o->step_m, r)) &&
+             parse_moving(moving, &count, o->moving, whole, r) &&
              (count == 0 || bake_still(&still, whole, moving, count, &b.section[LMB_TRANSFER_MOVING], r)) &&
              bake_begin(&b, &still.scene, &set, r) && bake_reach(&b, eyes, eye_count, r) && bake_receivers(&b, r) &&
              bake_clusters(&b, r) && bake_directed(&b, r) && bake_air(&b, r) && (o->is_once || bake_bounces(&b, r)) &&
@@ -274,7 +275,7 @@ static int is_complete(const options *o, report *r)
         return report_fail(r, "--light and --bounces are for --to: a .lmt is for any lights and bounces");
     }
     return o->to == LIGHT_TRANSFER || has_ending(o->out, endings[o->to])
-               ? file_suits(o->out, endings[o->to], r)
+               ? file_suits("-o", o->out, endings[o->to], r)
                : report_fail(r, "-o %s: --to %s writes a %s; name it *%s", o->out, forms[o->to], endings[o->to],
                              endings[o->to]);
 }

@@ -52,14 +52,15 @@ int file_is_stdout(const char *path)
            strcmp(path + 3, ":-") == 0;
 }
 
-int file_suits(const char *path, const char *own, report *r)
+int file_suits(const char *option, const char *path, const char *own, report *r)
 {
     static const char *const known[] = {".png", ".ppm", ".pfm", ".hdr", ".jpg", ".jpeg", ".gltf",
-                                        ".glb", ".obj", ".mtl", ".ply", ".lmp", ".lmr", ".lmt"};
+                                        ".glb", ".obj", ".mtl", ".ply", ".lmp", ".lmr", ".lmt", ".json",
+                                        ".csv", ".html", ".svg"};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
         if (has_ending(path, known[i]) && strcmp(own, known[i]) != 0) {
-            return report_fail(r, "-o %s: a %s file would be written, under the name of a %s file; name it *%s", path,
-                               own, known[i], own);
+            return report_fail_usage(r, "%s %s: a %s file would be written, under the name of a %s file; name it *%s",
+                                     option, path, own, known[i], own);
         }
     }
     return 1;

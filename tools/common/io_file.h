@@ -25,9 +25,10 @@ int file_is_plain(const char *path, report *r);
 /* file_is_stdout: `-`, /dev/stdout, or `png:-` with any three letters: a name that says the format, too. */
 int file_is_stdout(const char *path);
 
-/* file_suits: is a name's ending not that of another kind of file: a picture's, a model's, or another one of lambent's?
- * `own` is what would be written, as ".lmt". A name with no ending, or with an unknown one, suits anything. */
-int file_suits(const char *path, const char *own, report *r);
+/* file_suits: is a name's ending not that of another kind of file: a picture's, a model's, a table's, or another one of
+ * lambent's? `option` took the name; `own` is what would be written, as ".lmt". A name with no ending, or with an unknown
+ * one, suits anything. */
+int file_suits(const char *option, const char *path, const char *own, report *r);
 
 /* file_keep: this file is read by the same command: from now on no other may be written over it, whatever its name.
  * file_keep_all: so is each that file_read reads from now on. file_keep_end: the command is over, all are forgotten. */

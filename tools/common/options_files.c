@@ -44,6 +44,23 @@ static const option_row *find_same(const void *out, const option_table *t, int e
     return NULL;
 }
 
+/* The ending that help shows of a row's file, as in OUT.png; NULL where several may be. */
+static const char *shown_ending(const option_row *row)
+{
+    const char *at = row->value != NULL ? strchr(row->value, '.') : NULL;
+    return at != NULL && strspn(at + 1, "abcdefghijklmnopqrstuvwxyz") == strlen(at + 1) ? at : NULL;
+}
+
+/* May what the row writes have this name? */
+static int check_output(const option_row *row, const char *name, report *r)
+{
+    const char *ending = shown_ending(row);
+    if (file_is_stdout(name)) {
+        report_take_stdout();
+    }
+    return (ending == NULL || file_suits(row->name, name, ending, r)) && file_can_write(name, r);
+}
+
 int options_files(const void *out, const option_table *t, report *r)
 {
     const option_row *row;
@@ -57,10 +74,7 @@ int options_files(const void *out, const option_table *t, report *r)
         if (same != NULL) {
             return report_fail_usage(r, "%s: both %s and %s; give them names of their own", name, same->name, row->name);
         }
-        if (name != NULL && file_is_stdout(name)) {
-            report_take_stdout();
-        }
-        if (name != NULL && !file_can_write(name, r)) {
+        if (name != NULL && !check_output(row, name, r)) {
             return 0;
         }
     }

@@ -23,7 +23,11 @@ int view_option_size(const char *text, void *at)
 
 int view_options_check(const view_options *o, report *r)
 {
-    return o->has_eye == o->has_target || report_fail(r, "--eye and --target go together");
+    if (o->has_eye != o->has_target) {
+        return report_fail(r, "--eye and --target go together");
+    }
+    return !o->has_eye || memcmp(&o->eye, &o->target, sizeof o->eye) != 0 ||
+           report_fail(r, "--eye and --target are one place; the view has no direction");
 }
 
 /* --- views -------------------------------------------------------------------------------------------------------- */
@@ -37,11 +41,17 @@ void view_size(view_options *o, float aspect)
     }
 }
 
+/* The largest coordinate, m. */
+static float reach_of(lmb_vec3 p) { return fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z))); }
+
 int view_look(lmb_view *v, view_options *o, report *r)
 {
     view_size(o, 0.0f);
+    if (fmaxf(reach_of(o->eye), reach_of(o->target)) > 1048576.0f) {
+        return report_fail_usage(r, "the eye, or what it looks at, lies over 1048576 m from the origin");
+    }
     return lmb_view_look_at(v, o->eye, o->target, o->up, o->fov_deg * 0.017453293f, o->width, o->height) == LMB_OK ||
-           report_fail(r, "--eye, --target and --up do not make a view: they must not lie on one line");
+           report_fail_usage(r, "--eye, --target and --up do not make a view: they must not lie on one line");
 }
 
 static lmb_vec3 bounds_corner(const lmb_scene *s, int i)

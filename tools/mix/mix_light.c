@@ -74,6 +74,7 @@ static int read_world(mix_job *j, report *r)
     const int ok = world_read_cube(&place, &own, j->o.world, r);
     if (ok) {
         fill_env(j, &place);
+        world_tell_not_finite(&own, j->o.world, j->o.is_quiet);
     }
     world_pictures_free(&own);
     return ok;

@@ -198,6 +198,14 @@ static void read_opacity(lmb_material *out, obj_material *m, double visible)
     out->flags |= visible < 1 ? LMB_ALPHA_MASK | LMB_ALPHA_BLEND : 0;
 }
 
+/* Models 3 to 9 trace rays: mirrors and glass. The last of them holds. */
+static void read_illum(obj_material *m, double illum)
+{
+    m->left_out &= (uint8_t)~OBJ_LEFT_MIRROR;
+    if (illum >= 3 && illum <= 9)
+        m->left_out |= OBJ_LEFT_MIRROR;
+}
+
 /* What a statement asks for that is not done; 0: nothing, or it is without a value. */
 static uint8_t left_out_by(slice word, cursor c)
 {
@@ -227,6 +235,8 @@ static int read_statement(lmb_material *out, obj_material *m, model_build *b, sl
     m->left_out |= left_out_by(word, *c);
     if ((slice_is(word, "d") || slice_is(word, "Tr")) && text_token(&token, c) && slice_number(&v, token))
         read_opacity(out, m, slice_is(word, "d") ? v : 1 - v);
+    if (slice_is(word, "illum") && text_token(&token, c) && slice_number(&v, token))
+        read_illum(m, v);
     return 1;
 }
 
@@ -334,6 +344,7 @@ void mtl_tell_left_out(model_build *b, const obj_names *names)
     } all[] = {{OBJ_LEFT_OPACITY, "materials partly transparent (d, Tr), which light passes or does not by alpha 0.5"},
                {OBJ_LEFT_OPACITY_MAP, "materials whose map of opacity (map_d) is left out"},
                {OBJ_LEFT_EMISSION_MAP, "materials whose map of emission (map_Ke) is left out"},
+               {OBJ_LEFT_MIRROR, "mirrors and glasses (illum 3 to 9), drawn by their diffuse colour alone"},
                {OBJ_LEFT_BUMP, "materials whose bump or normal map is left out"},
                {OBJ_LEFT_OPTION, "materials whose map_Kd is drawn without its options -t or -mm"}};
     size_t k;

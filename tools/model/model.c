@@ -130,7 +130,7 @@ static void note_emission(model_build *b)
         count += e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
     }
     if (count)
-        build_note(b, "emissive materials, which light the scene with --grouping cut only: %u", (unsigned)count);
+        build_note(b, "emissive materials, which light the scene (but with fixed --grouping): %u", (unsigned)count);
 }
 
 /* What a reader left to count: the file has what the scene has, each mesh of one piece. */

@@ -304,7 +304,7 @@ static int is_complete(const options *o, report *r)
     if (o->name != NULL && !is_code(o->out)) {
         return report_fail(r, "--name is of a C array; name the output FILE.c");
     }
-    return file_suits(o->out, ".lmp", r);
+    return file_suits("-o", o->out, ".lmp", r);
 }
 
 int verb_pack(int argc, char **argv)

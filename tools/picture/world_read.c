@@ -12,7 +12,19 @@ enum { MAX_SIDE = 4096 };
 
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
 
-static int read_picture(stored_picture *out, const char *path, report *r)
+/* An infinite texel would outshine the world, and one that is no number would spread. */
+static void clear_not_finite(world_pictures *own, stored_picture *p)
+{
+    const size_t count = (size_t)p->width * (size_t)p->height * (size_t)p->light.channels;
+    for (size_t i = 0; p->light.pixels != NULL && i < count; ++i) {
+        if (!isfinite(p->light.pixels[i])) {
+            p->light.pixels[i] = 0.0f;
+            ++own->not_finite;
+        }
+    }
+}
+
+static int read_picture(stored_picture *out, world_pictures *own, const char *path, report *r)
 {
     file_bytes bytes;
     if (!file_read(&bytes, path, r)) {
@@ -20,6 +32,9 @@ static int read_picture(stored_picture *out, const char *path, report *r)
     }
     const int ok = picture_read(out, bytes.data, bytes.size, path, r);
     file_free(&bytes);
+    if (ok) {
+        clear_not_finite(own, out);
+    }
     return ok;
 }
 
@@ -179,7 +194,7 @@ static int read_one(lmb_world_pictures *out, world_pictures *own, const char *pa
 {
     stored_picture p;
     int ok;
-    if (!read_picture(&p, path, r)) {
+    if (!read_picture(&p, own, path, r)) {
         return 0;
     }
     if (side_of(&p) > MAX_SIDE) {
@@ -221,7 +236,7 @@ static int find_face(char *path, size_t size, const char *prefix, int i)
 static int read_face(lmb_world_pictures *out, world_pictures *own, int i, const char *path, report *r)
 {
     stored_picture p;
-    if (!read_picture(&p, path, r)) {
+    if (!read_picture(&p, own, path, r)) {
         return 0;
     }
     int ok = p.width == p.height && p.width <= MAX_SIDE && (out->face_size == 0 || out->face_size == p.width);
@@ -258,7 +273,7 @@ int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *pa
 int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)
 {
     stored_picture p;
-    if (!read_picture(&p, path, r)) {
+    if (!read_picture(&p, own, path, r)) {
         return 0;
     }
     free(own->ground); /* the built-in world has one */
@@ -279,6 +294,14 @@ int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *
     out->ground_height = p.height;
     stored_picture_free(&p);
     return ok;
+}
+
+void world_tell_not_finite(const world_pictures *own, const char *path, int is_quiet)
+{
+    if (own->not_finite > 0) {
+        report_note(is_quiet, "note: %s: %.0f numbers are infinite or none; they count as black", path,
+                    (double)own->not_finite);
+    }
 }
 
 void world_pictures_free(world_pictures *own)

@@ -9,6 +9,7 @@
 /* The pictures in memory. Zero it before use; world_pictures_free releases them. */
 typedef struct world_pictures {
     float *face[6], *alpha[6], *ground;
+    size_t not_finite; /* numbers that were read as 0 */
 } world_pictures;
 
 /* world_read_cube: from one file, known by its shape: six faces stacked top to bottom or side by side, or the whole
@@ -22,6 +23,9 @@ int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *pa
 
 /* world_read_ground: a picture from above, rows towards +z; transparent pixels are blank. Sets the picture's own. */
 int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *path, report *r);
+
+/* world_tell_not_finite: a note where a picture of `path` had numbers that are none. */
+void world_tell_not_finite(const world_pictures *own, const char *path, int is_quiet);
 
 void world_pictures_free(world_pictures *own);
 

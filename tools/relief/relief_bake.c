@@ -177,7 +177,8 @@ static int draw(relief_picture *out, int32_t format, const lmb_scene *scene, con
     }
     const int ok = status == LMB_OK
                        ? pack(out, format, view, c->depth.data, c->normal.data, c->albedo.data, 0, r)
-                       : report_fail(r, "a view could not be drawn: %s", lmb_status_name(status));
+                       : report_fail(r, "a view could not be drawn: %s; is the model a point?",
+                                     lmb_status_name(status));
     canvas_free(c);
     return ok;
 }

@@ -97,7 +97,7 @@ static int parse(options *o, int argc, char **argv, report *r)
     if (o->out == NULL) {
         return report_fail(r, "no output given; add -o FILE.lmr");
     }
-    return file_suits(o->out, ".lmr", r) ? OPTIONS_RUN : OPTIONS_BAD;
+    return OPTIONS_RUN;
 }
 
 /* --- work --------------------------------------------------------------------------------------------------------- */

@@ -19,6 +19,7 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
         (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r))) {
         return 0;
     }
+    world_tell_not_finite(&w->pictures, name, o->view.is_quiet);
     const size_t bytes = lmb_world_bytes(&o->place, o->format);
     if ((w->world_memory[i] = malloc(bytes)) == NULL) {
         return report_fail(r, "%s: out of memory", name);

@@ -228,7 +228,7 @@ static int set_world(render_job *j, int lit, report *r)
     if (has_budget(&j->o.budget, j->o.budget_ms)) {
         return report_fail(r, "--world: settings for a budget are reckoned without a sky's light; use --quality");
     }
-    if (!(is_sky ? world_sky(w, r) : world_read(w, j->o.world, r)) ||
+    if (!(is_sky ? world_sky(w, r) : world_read(w, j->o.world, j->o.view.is_quiet, r)) ||
         (!lit && wants_ground(j) && !world_put_ground(w, &j->scene, j->middle.eye, r)) || !world_light(w, r) ||
         !add_sun(j, r)) {
         return 0;

@@ -229,7 +229,8 @@ const option_row render_bounce_rows[] = {
      .help = HELP("sets --tree, --error and --visibility where they are not given; see README for each one's error and "
              "time")},
     {.name = "--transfer", .value = "FILE.lmt", .kind = OPTION_TEXT, AT(transfer), .file = OPTION_READS,
-     .help = HELP("bounced light by what `lambent bake` made of this scene; also a .lmp that has it within")},
+     .help = HELP("bounced light by what `lambent bake` made of this scene, or a .lmp that has it within; of one "
+             "reflection, or more by --bounces")},
     {.name = "--tree", .value = "N", .kind = OPTION_POWER_OF_2, AT(tree), .low = 8, .high = 4096,
      .help = HELP("first points a side of a shadow map, to an eighth of --shadow-map")},
     {.name = "--error", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
@@ -309,7 +310,7 @@ const option_row render_picture_rows[] = {
              "--transfer. "
              "Else, and in OBJ, PLY and `demo`, materials are Lambertian")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .values = show_values,
-     .help = HELP("light (default full; irradiance: bounced, before albedo);\ndepth, eye-distance, normal, albedo: of "
+     .help = HELP("light, which alone `play` and `plan` show (default full; irradiance: bounced, before albedo);\ndepth, eye-distance, normal, albedo: of "
              "what the eye sees; metres along the view, and from the eye;\nlight-distance, points, groups: of the "
              "shadow maps, at their size, a row of faces a light: metres from the light; first points by what they "
              "send, W/m2 (discs, where --join or --thin is given); the number of the group that owns a texel, 0 "

@@ -144,7 +144,7 @@ static void put_faces(world *w, lmb_light *clipped, const lmb_world_pictures *p)
     }
 }
 
-int world_read(world *w, const char *path, report *r)
+int world_read(world *w, const char *path, int is_quiet, report *r)
 {
     lmb_world_pictures pictures;
     world_pictures own;
@@ -163,6 +163,7 @@ int world_read(world *w, const char *path, report *r)
         w->has_sun = lmb_env_take_sun(&w->sun, &w->env);
         join_suns(w, &clipped);
     }
+    world_tell_not_finite(&own, path, is_quiet);
     world_pictures_free(&own);
     return ok;
 }

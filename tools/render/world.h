@@ -26,7 +26,7 @@ typedef struct world {
 /* world_sky: a clear sky with a sun of 3 W/m2 from the upper right. world_read: a picture of all directions, as
  * world_read_cube takes them; what is small and bright in it becomes the sun. 1, or 0 with `r` set. */
 int world_sky(world *out, report *r);
-int world_read(world *out, const char *path, report *r);
+int world_read(world *out, const char *path, int is_quiet, report *r);
 
 /* world_put_ground: a grey disc under the scene, unless it has a floor of its own or is one, the eye is inside or
  * below, or it is too large or too far from the origin.
