@@ -29,9 +29,9 @@ PAGE_SIDE := -z stack-size=16 --global-base
 # What frames of the page run most is for speed; the rest, and what runs once a scene or for few pixels, for size.
 PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
 PAGE_ONCE := src/occlusion/build.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c \
-             $(patsubst %,src/raster/%.c,clip draw draw_one fill paint resolve target triangle) \
+             $(patsubst %,src/raster/%.c,clip draw draw_one fill paint plane resolve setup target triangle) \
              $(patsubst %,src/lightcut/%.c,crease cut pixel_cluster tree) src/transfer/transfer.c \
-             $(patsubst %,src/transfer/transfer_%.c,air many_lights materials)
+             $(patsubst %,src/transfer/transfer_%.c,air light many_lights materials)
 page_opt   = $(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz)
 
 # $(1): a folder of objects, $(2): flags, $(3): how they are optimised.

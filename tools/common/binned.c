@@ -4,6 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+static lmb_status draw_alone(const binned_draw *d)
+{
+    lmb_surface_clear(&d->target->depth);
+    if (d->target->id.data != NULL) {
+        lmb_surface_clear(&d->target->id);
+    }
+    return lmb_draw(d->target, d->kernels, d->view, d->scene, d->first_id, d->count, d->flags, NULL);
+}
+
+#if LMB_CULLING
+
 enum { WORTH = 1 << 14 }; /* triangles and tiles, about a millisecond of one thread, under which others are not called */
 
 typedef struct work {
@@ -68,15 +79,6 @@ static void give_memory(binned *b, const binned_draw *d, int ranges)
     }
 }
 
-static lmb_status draw_alone(const binned_draw *d)
-{
-    lmb_surface_clear(&d->target->depth);
-    if (d->target->id.data != NULL) {
-        lmb_surface_clear(&d->target->id);
-    }
-    return lmb_draw(d->target, d->kernels, d->view, d->scene, d->first_id, d->count, d->flags, NULL);
-}
-
 lmb_status binned_run(binned *b, const binned_draw *d)
 {
     work w;
@@ -104,6 +106,16 @@ lmb_status binned_run(binned *b, const binned_draw *d)
     }
     return status;
 }
+
+#else /* a library without bins */
+
+lmb_status binned_run(binned *b, const binned_draw *d)
+{
+    (void)b;
+    return draw_alone(d);
+}
+
+#endif
 
 void binned_free(binned *b)
 {

@@ -19,7 +19,9 @@ typedef struct binned_draw {
 
 /* What stays from draw to draw. All 0 at first. */
 typedef struct binned {
+#if LMB_CULLING
     lmb_bins bins[POOL_MAX];
+#endif
     void *memory; /* of all of them */
     size_t bytes;
 } binned;

@@ -134,23 +134,23 @@ static const option_row output_rows[] = {
 
 const option_table mix_table = {
     .verb = "mix",
-    .usage = "mix --frame PREFIX --object MESH -o OUT [options]\n"
+    .usage = HELP("mix --frame PREFIX --object MESH -o OUT [options]\n"
              "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]\n"
-             "mix --frames DIR|LIST --object MESH -o frame_%04d.png [options]",
+             "mix --frames DIR|LIST --object MESH -o frame_%04d.png [options]"),
     .about =
         "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is "
         "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres.",
     .part = {photo_rows, object_rows, light_rows, output_rows},
-    .examples = "  a photo with depth of the built-in room, and a tent put into it:\n"
+    .examples = HELP("  a photo with depth of the built-in room, and a tent put into it:\n"
                 "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
                 "    lambent render demo $eye -o photo.png\n"
                 "    lambent render demo $eye --show depth -o depth.pfm\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
                 "    lambent mix --photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 \\\n"
-                "        --object tent.obj --fit --voxels 5 -o mixed.png\n",
-    .status = "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage, also one file "
-              "for two purposes",
+                "        --object tent.obj --fit --voxels 5 -o mixed.png\n"),
+    .status = HELP("exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage, also one file "
+              "for two purposes"),
 };
 
 static int complete_frames(const mix_options *o, report *r)

@@ -176,15 +176,15 @@ static const option_row picture_rows[] = {
 
 const option_table relight_table = {
     .verb = "relight",
-    .usage = "relight --world WORLD [--at X,Y,Z] --cube OUT [options]\n"
-             "relight --world WORLD --object FILE [--at X,Y,Z ...] -o OUT [options]",
+    .usage = HELP("relight --world WORLD [--at X,Y,Z] --cube OUT [options]\n"
+             "relight --world WORLD --object FILE [--at X,Y,Z ...] -o OUT [options]"),
     .about =
         "What a place in a world receives, from pictures of the world that were taken elsewhere: irradiance by "
         "normal, as a small cube map; and objects drawn in that light, over the world as background. Metres, +Y up, "
         "linear light.",
     .part = {world_rows, light_rows, object_rows, picture_rows},
-    .examples = "  lambent relight --world demo --at 4,1,-2 --cube light.pfm\n"
-                "  lambent relight --world demo --object demo -o field.png\n",
+    .examples = HELP("  lambent relight --world demo --at 4,1,-2 --cube light.pfm\n"
+                "  lambent relight --world demo --object demo -o field.png\n"),
 };
 
 /* --- all of it ---------------------------------------------------------------------------------------------------- */

@@ -370,19 +370,19 @@ static const option_row json_rows[] = {
 
 const option_table render_table = {
     .verb = "render",
-    .usage = "render SCENE -o OUT [options]",
-    .about = "A scene in, a picture with bounced light out.",
+    .usage = HELP("render SCENE -o OUT [options]"),
+    .about = HELP("A scene in, a picture with bounced light out."),
     .part = {render_scene_rows, output_rows, render_view_rows, stereo_rows, world_rows, render_light_rows,
              render_bounce_rows, render_picture_rows, budget_rows, render_other_rows},
-    .examples = "  lambent render demo --size 320x240 -o demo.png\n"
+    .examples = HELP("  lambent render demo --size 320x240 -o demo.png\n"
                 "  lambent render demo --size 160x120 --show indirect -o light.pfm\n"
                 "  lambent render demo --size 160x120 --eye 0.5,1.25,2.5 --target 0.5,1,-1 \\\n"
-                "      --light point:0,1.5,0:0,-1,0:6,6,6 -o lamp.png\n",
+                "      --light point:0,1.5,0:0,-1,0:6,6,6 -o lamp.png\n"),
 };
 
 const option_table plan_table = {
     .verb = "plan",
-    .usage = "plan SCENE [options]",
+    .usage = HELP("plan SCENE [options]"),
     .about =
         "What `lambent render` with the same options would do (by --world none), and draws nothing: the stages it runs, with counted "
         "operations, units of work and memory; those it leaves out, and why. `exact`: the picture has the same "
@@ -395,13 +395,13 @@ const option_table plan_table = {
         "Work is counted in units: one is a pixel lit by one node.",
     .part = {render_scene_rows, json_rows, budget_rows, render_view_rows, stereo_rows, render_light_rows,
              render_bounce_rows, render_picture_rows, render_other_rows},
-    .examples = "  lambent plan demo --size 32x24\n"
+    .examples = HELP("  lambent plan demo --size 32x24\n"
                 "  what fits a frame of 16 ms on this machine:\n"
                 "    lambent plan demo --size 32x24 --budget-ms 16\n"
                 "  the least work for 5 % of error:\n"
                 "    lambent plan demo --size 32x24 --budget-error 0.05\n"
                 "  what fits a small memory, or by how much nothing does:\n"
-                "    lambent plan demo --size 32x24 --budget-bytes 400KiB\n",
+                "    lambent plan demo --size 32x24 --budget-bytes 400KiB\n"),
 };
 
 static const char *show_name(int32_t show)
