@@ -42,7 +42,7 @@ endif
 WARNINGS := -Wall -Wextra -pedantic -Wshadow -Wvla -Wmissing-prototypes -Wdouble-promotion
 STD      ?= c99
 EXACT     = -std=$(STD) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp
-FLAGS     = $(CFLAGS) $(PORT_CFLAGS) $(WARNINGS) $(EXACT) $(config_$(CONFIG)) -Iinclude
+FLAGS     = $(CFLAGS) $(PORT_CFLAGS) $(WARNINGS) $(EXACT) $(config_$(CONFIG)) $(GOLDENS) -Iinclude
 # Who calls whom, and with how much stack: gcc tells since its version 10.
 CALLS    := $(shell $(CC) -fcallgraph-info=su -E -x c /dev/null >/dev/null 2>&1 && echo -fcallgraph-info=su)
 DEPS     ?= -fstack-usage $(CALLS) -MMD -MP
@@ -218,6 +218,9 @@ $(B)/flags: FORCE
 # It counts operations, which no optimiser changes, of all kernels: a fifth of the build otherwise.
 $(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0
 
+# What kernels are built without, where a sanitizer takes minutes over them.
+$(call object,$(wildcard src/isa/isa_*.c)): COMPILE += $(KERNEL_CFLAGS)
+
 # What `lambent doctor -v` says it was built with.
 export BUILD_FLAGS := $(CC) $(FLAGS)
 $(B)/build_flags.inc: $(B)/flags
@@ -335,10 +338,10 @@ lanes: ## each kernel by each backend against plain C; LANES_SEED=7 repeats a ru
 unit analytic truth lanes: $(B)/tests
 	@$(RUN) $(B)/tests $@
 
-# The unit tests in two halves, for two cores; without the cuts that are compared with every texel, which takes minutes
-# under a sanitizer.
+# The unit tests in two halves, for two cores; without what takes minutes under a sanitizer and is drawn by golden pictures,
+# too: cuts that are compared with every texel, adaptive samples, several samples a pixel.
 unit-1 unit-2: $(B)/tests
-	@$(RUN) $(B)/tests unit -cut $(@:unit-%=%)/2
+	@$(RUN) $(B)/tests unit -cut -adaptive -multisample $(@:unit-%=%)/2
 
 golden: $(B)/golden ## small scenes' hashes against the committed ones
 	@$(RUN) $(B)/golden$(EXE)
@@ -467,10 +470,11 @@ COV_PROGRAMS_src   := $(addprefix default/,tests replay golden golden-orders ref
 COV_PROGRAMS_tools := default/tests default/replay lambent
 
 ASAN_CC ?= clang
+# Sums of pointers in kernels are the fuzzer's: with what else is asked for, clang takes three times as long over each.
 asan: ## the checks under address and undefined-behaviour sanitizers
 	+@SHORT=1 $(MAKE) check CHECKS="cli hard unit-1 unit-2 golden replay hostile hostile-cli readme" \
-	    BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
-	    CFLAGS="-O2 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
+	    BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked KERNEL_CFLAGS="-fno-sanitize=pointer-overflow,object-size" \
+	    CFLAGS="-O2 -g1 -Werror -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 # In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
 MSAN_CHECKS ?= golden hard replay hostile
@@ -673,7 +677,7 @@ define cross_sum
 endef
 
 .PHONY: cross-all more-tools $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%)
-cross: $(CROSS_TARGETS:%=cross-%) ## golden pictures by other compilers and processors; gets what it needs
+cross: $(CROSS_TARGETS:%=cross-%) ## golden pictures by other compilers and processors; gets what it needs (EACH=3: by emulators a third)
 	$(call cross_sum,$(CROSS_TARGETS))
 
 cross-all: $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%) ## the same on all of tests/scripts/targets.mk

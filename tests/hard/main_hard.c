@@ -3,6 +3,7 @@
  *
  *     hard              all
  *     hard CASES...     these groups of cases (`lambent bench hard --help` lists them), or `invariants`, `again`
+ *     hard -CASES       all but that one
  * Ends with `N passed, N failed, N skipped`; exit status 1 where one failed. */
 #include <stdio.h>
 #include <string.h>
@@ -37,7 +38,13 @@ static void tell(const char *name, int passed, int failed)
     printf("%s: %d passed, %d failed\n", name, test_passed - passed, test_failed - failed);
 }
 
-/* All where the name is NULL; 0 where there is none of that name. */
+/* NULL: all; -NAME: all others. */
+static int is_meant(const char *name, const char *one)
+{
+    return name == NULL || (name[0] == '-' ? strcmp(name + 1, one) != 0 : strcmp(name, one) == 0);
+}
+
+/* 0 where there is none of that name. */
 static int run(const char *name)
 {
     static const struct {
@@ -47,7 +54,7 @@ static int run(const char *name)
     int found = 0;
     for (int i = 0; hard_groups[i] != NULL; ++i) {
         const int passed = test_passed, failed = test_failed;
-        if (name == NULL || strcmp(name, hard_groups[i]) == 0) {
+        if (is_meant(name, hard_groups[i])) {
             run_group(i);
             tell(hard_groups[i], passed, failed);
             found = 1;
@@ -55,7 +62,7 @@ static int run(const char *name)
     }
     for (int i = 0; i < 2; ++i) {
         const int passed = test_passed, failed = test_failed;
-        if (name == NULL || strcmp(name, checks[i].name) == 0) {
+        if (is_meant(name, checks[i].name)) {
             run_checks(checks[i].run);
             tell(checks[i].name, passed, failed);
             found = 1;

@@ -725,9 +725,11 @@ awk 'function block(x0, y0, z0, x1, y1, z1,  i) {
                  x = 0.2 + 0.006 * i
                  printf "v %.5f 0.5 0.2\nv %.5f 0.5 0.2\nv %.5f 0.5 3.8\nf -3 -1 -2\n", x, x + 0.003, x + 0.003
              } }' >"$dir/through.obj"
-status 0 bake "$dir/through.obj" -o "$dir/through.lmt" --elements 256 --division 1 --error 1 --once
-elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' "$dir/out.txt")
-check "slivers through a block leave the room its elements: $elements" test "$elements" -gt 128
+if [ -z "$SHORT" ]; then
+    status 0 bake "$dir/through.obj" -o "$dir/through.lmt" --elements 256 --division 1 --error 1 --once
+    elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' "$dir/out.txt")
+    check "slivers through a block leave the room its elements: $elements" test "$elements" -gt 128
+fi
 # A panel whose corners, and the middle of its longest edge, lie in blocks: light comes to the rest of it.
 awk 'function block(x, z,  i) {
          for (i = 0; i < 8; ++i) print "v", x + (i % 2 ? 0.12 : -0.12), int(i / 2) % 2 ? -0.3 : -0.7, z + (i > 3 ? 0.12 : -0.12)

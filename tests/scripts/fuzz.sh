@@ -1,6 +1,6 @@
 # fuzz.sh: runs each fuzz target for some CPU minutes: fuzz.sh FUZZER FOLDER MINUTES TARGET...
 #
-# MINUTES 0 are five seconds, and twenty of the library's calls and stages, whose inputs take the longest to grow.
+# MINUTES 0 are three seconds, and ten of the library's calls and stages, whose inputs take the longest to grow.
 # Starts from tests/fuzz/corpus and the sample data where that is; what is found to be of use is kept in FOLDER/TARGET
 # for the next run, findings in FOLDER/TARGET-crash-* and the like. Goes in slices, because the engine's own limit
 # counts time on the wall; so does its limit for one input, and a busy machine takes 25 s for what needs one. Says how
@@ -44,8 +44,8 @@ run() {
     count "$1"
     begun=$seconds executions=0
     case $minutes/$1 in
-    0/calls | 0/stages) slice=20 ;;
-    0/*) slice=5 ;;
+    0/calls | 0/stages) slice=10 ;;
+    0/*) slice=3 ;;
     *) slice=120 ;;
     esac
     while
