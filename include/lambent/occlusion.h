@@ -100,19 +100,19 @@ lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene);
 
 /* lmb_occluded_tile: which of a tile's pixels do not see a point.
  *
+ *   traversal  its `last` triangles are tested first, and kept up to date; use it with this BVH only. The answer does
+ *              not depend on them.
  *   pixels     those to test, a bit each; others' bits come back 0. They need a position.
  *   at         the point: on a surface, or a light's position.
  *   noise      m: lmb_tile_noise of the pixels plus lmb_place_noise of `at`: how far rounding may have put the two ends
  *              off their surfaces.
- *   traversal  its `last` triangles are tested first, and kept up to date; use it with this BVH only. The answer does
- *              not depend on them.
  *
  * A triangle blocks where the segment crosses it with both ends farther from its plane than `noise` and than a
  * millionth of its corners' distance from `at`. So no triangle blocks its own points, there is nothing to tune, and
  * what is far away changes nothing here. Triangles that share an edge leave no gap. The segments' own tests decide; the
  * traversal only leaves out what no segment can meet. NULL: nothing blocks. Cost: 0.1 to 1 us.                [V25] */
-uint64_t lmb_occluded_tile(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
-                           lmb_vec3 at, float noise, lmb_traversal *traversal);
+uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *traversal, const lmb_bvh *bvh,
+                           const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise);
 
 /* lmb_place_noise: how far, m, rounding may have put a point off its surface, if a ray from `distance` m away found it:
  * a millionth of the distance and a quarter of that of its coordinates. distance 0: the mean of a triangle's corners.
@@ -123,8 +123,8 @@ float lmb_tile_noise(const lmb_tile *tile, uint64_t pixels);
 /* lmb_occluded_sun: which of a tile's pixels do not see a point at infinity; `to`: unit, towards it. Otherwise as
  * lmb_occluded_tile: a triangle blocks where the ray crosses it from farther off its plane than rounding may have put
  * the pixel, by the pixel's position, its depth, and the distance of the triangle's corners. */
-uint64_t lmb_occluded_sun(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
-                          lmb_vec3 to, lmb_traversal *traversal);
+uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *traversal, const lmb_bvh *bvh,
+                          const lmb_tile *tile, uint64_t pixels, lmb_vec3 to);
 
 /* lmb_hull_find: the hull of a checked scene whose triangles all lie on its planes and face its inside; else out->count
  * is 0. lmb_bvh_build does it too. Cost: four passes over the triangles, or as far as 17 normals differ.

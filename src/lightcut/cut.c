@@ -336,9 +336,8 @@ static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
     }
     c->cut->use.traversal.first = blocker;
     c->cut->use.traversal.blocker = 0;
-    c->cut->visible[i] &=
-        ~lmb_occluded_tile(c->cut_params->bvh, c->kernels, c->tile, asked, seen->position, noise,
-                          &c->cut->use.traversal);
+    c->cut->visible[i] &= ~lmb_occluded_tile(c->kernels, &c->cut->use.traversal, c->cut_params->bvh, c->tile, asked,
+                                             seen->position, noise);
     if (c->cut->visible[i] == 0) {
         c->cut->of.blocker[i] = c->cut->use.traversal.blocker;
     }

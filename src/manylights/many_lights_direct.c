@@ -65,8 +65,8 @@ static uint64_t corners_of(uint64_t pixels)
 static uint64_t occluded_from(const lit_surface *s, uint64_t pixels, uint32_t kind, lmb_vec3 at)
 {
     return light_kind_is((int32_t)kind, LIGHT_FAR)
-               ? lmb_occluded_sun(s->query->bvh, s->kernels, s->tile, pixels, at, s->traversal)
-               : lmb_occluded_tile(s->query->bvh, s->kernels, s->tile, pixels, at, s->noise, s->traversal);
+               ? lmb_occluded_sun(s->kernels, s->traversal, s->query->bvh, s->tile, pixels, at)
+               : lmb_occluded_tile(s->kernels, s->traversal, s->query->bvh, s->tile, pixels, at, s->noise);
 }
 
 /* The pixels from which a point is visible: where the four corners of the tile agree, all pixels share their answer.

@@ -331,8 +331,8 @@ static int one_blocked(traversal *w, int k)
     }
 }
 
-uint64_t lmb_occluded_tile(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
-                           lmb_vec3 at, float noise, lmb_traversal *kept)
+uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, const lmb_bvh *bvh, const lmb_tile *tile,
+                           uint64_t pixels, lmb_vec3 at, float noise)
 {
     traversal w = {bvh, kernels, tile, at, noise, kept, pixels};
     uint64_t occluded = 0;

@@ -216,8 +216,8 @@ static void sun_trace(sun_traversal *w)
     w->left = open;
 }
 
-uint64_t lmb_occluded_sun(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
-                          lmb_vec3 to, lmb_traversal *kept)
+uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *kept, const lmb_bvh *bvh, const lmb_tile *tile,
+                          uint64_t pixels, lmb_vec3 to)
 {
     if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
         return 0;

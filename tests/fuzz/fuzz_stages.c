@@ -369,9 +369,9 @@ static void pixels(source *b)
                          !is_near(d.scene.bounds_max)); /* else views may begin outside of the world */
             fuzz_require(lmb_direct_tile(&lit[n], kernels, &tile[n], &v, &d.scene, &d.light, &map) == LMB_OK);
         }
-        hidden[n] = lmb_occluded_tile(&bvh, kernels, &tile[n], asked, at, noise, &kept);
+        hidden[n] = lmb_occluded_tile(kernels, &kept, &bvh, &tile[n], asked, at, noise);
         memset(&kept, 0, sizeof kept);
-        dark[n] = lmb_occluded_sun(&bvh, kernels, &tile[n], asked, to, &kept);
+        dark[n] = lmb_occluded_sun(kernels, &kept, &bvh, &tile[n], asked, to);
         fuzz_require((hidden[n] & ~asked) == 0 && (dark[n] & ~asked) == 0);
         fuzz_require((lmb_hull_pixels(&hull, &tile[n], asked) & ~asked) == 0);
         if (n > 0) {

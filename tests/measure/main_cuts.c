@@ -212,10 +212,9 @@ static void gather_brute(lmb_irradiance *light, work *w, const lmb_tile *tile, c
         const texel_quad *q = &w->texel[i];
         const int near = is_near(&g, q);
         const uint64_t asked = near ? g.pixels : facing(&g, q);
-        const uint64_t seen = asked & ~lmb_occluded_tile(&w->render.frame.bvh, w->frame.kernels, tile, asked,
-                                                        q->middle,
-                                                        lmb_tile_noise(tile, asked) + lmb_place_noise(q->middle, 0.0f),
-                                                        &g.traversal);
+        const uint64_t seen =
+            asked & ~lmb_occluded_tile(w->frame.kernels, &g.traversal, &w->render.frame.bvh, tile, asked, q->middle,
+                                       lmb_tile_noise(tile, asked) + lmb_place_noise(q->middle, 0.0f));
         sum->segments += count_bits_64(asked);
         sum->seen += count_bits_64(seen);
         if (near) {

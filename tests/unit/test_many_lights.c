@@ -357,9 +357,9 @@ static void sum_lights(double out[LMB_TILE_PIXELS], const lmb_tile *tile, uint32
         const uint64_t occluded =
             bvh == NULL ? 0
             : lights[i].kind == LMB_LIGHT_DIRECTIONAL
-                ? lmb_occluded_sun(bvh, lmb_kernels_pick(), tile, UINT64_MAX, mul3(lights[i].direction, -1), &traversal)
-                : lmb_occluded_tile(bvh, lmb_kernels_pick(), tile, UINT64_MAX, lights[i].position,
-                                    lmb_tile_noise(tile, UINT64_MAX), &traversal);
+                ? lmb_occluded_sun(lmb_kernels_pick(), &traversal, bvh, tile, UINT64_MAX, mul3(lights[i].direction, -1))
+                : lmb_occluded_tile(lmb_kernels_pick(), &traversal, bvh, tile, UINT64_MAX, lights[i].position,
+                                    lmb_tile_noise(tile, UINT64_MAX));
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             out[k] += (occluded >> k & 1u) != 0 || tile->id[k] == 0 ? 0.0 : (double)e.rgb[1][k];
         }

@@ -79,7 +79,7 @@ static uint64_t occluded_anew(const lmb_bvh *b, const lmb_tile *tile, uint64_t p
 {
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
-    return lmb_occluded_tile(b, lmb_kernels_pick(), tile, pixels, at, noise_of(tile, pixels, at), &traversal);
+    return lmb_occluded_tile(lmb_kernels_pick(), &traversal, b, tile, pixels, at, noise_of(tile, pixels, at));
 }
 
 /* A few large triangles, or many smaller ones, or many small ones. */
@@ -132,7 +132,7 @@ static uint64_t occluded_sun_anew(const lmb_bvh *b, const lmb_tile *tile, uint64
 {
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
-    return lmb_occluded_sun(b, lmb_kernels_pick(), tile, pixels, to, &traversal);
+    return lmb_occluded_sun(lmb_kernels_pick(), &traversal, b, tile, pixels, to);
 }
 
 /* The same for light from infinity; some of it along an axis. */
@@ -219,10 +219,10 @@ static void capacities(void)
     CHECK(lmb_bvh_init(&b, 9, memory, lmb_bvh_bytes(9)) == LMB_OK);
     CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK && b.triangle_count == 9 && b.node_count >= 1);
     CHECK(occluded_anew(&b, &tile, 5, vec3(0, 1, 0)) == 5);
-    CHECK(lmb_occluded_tile(NULL, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), 0.0f, &traversal) == 0);
-    CHECK(lmb_occluded_tile(&b, NULL, &tile, 5, vec3(0, 1, 0), 0.0f, &traversal) == 0);
-    CHECK(lmb_occluded_tile(&b, lmb_kernels_pick(), NULL, 5, vec3(0, 1, 0), 0.0f, &traversal) == 0);
-    CHECK(lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), 0.0f, NULL) == 0);
+    CHECK(lmb_occluded_tile(lmb_kernels_pick(), &traversal, NULL, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
+    CHECK(lmb_occluded_tile(NULL, &traversal, &b, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
+    CHECK(lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, NULL, 5, vec3(0, 1, 0), 0.0f) == 0);
+    CHECK(lmb_occluded_tile(lmb_kernels_pick(), NULL, &b, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
     CHECK(lmb_bvh_init(&b, 9, memory, lmb_bvh_bytes(9) - 1) == LMB_ERR_CAPACITY);
     CHECK(lmb_bvh_init(&b, 9, (char *)memory + 1, sizeof memory - 1) == LMB_ERR_ALIGN);
     CHECK(lmb_bvh_init(&b, 0, memory, sizeof memory) == LMB_ERR_ARG);
@@ -264,8 +264,8 @@ static void few_nodes(void)
         const uint64_t got = occluded_anew(&b, &tile, ~UINT64_C(0), at);
         wrong += got != occluded_anew(&all, &tile, ~UINT64_C(0), at);
         traversal.first = (uint32_t)round * 13 % (b.triangle_count + 1);
-        other += got != lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at,
-                                          noise_of(&tile, ~UINT64_C(0), at), &traversal);
+        other += got != lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, &tile, ~UINT64_C(0), at,
+                                          noise_of(&tile, ~UINT64_C(0), at));
         occluded += got != 0 && ~got != 0;
     }
     CHECK_MSG(wrong == 0 && other == 0 && occluded > 10, "%d and %d of 60 wrong, %d mixed", wrong, other, occluded);
@@ -353,11 +353,11 @@ static void far_apart_among_leaves(void)
         fill_tile(&tile, vec3(0, 0, 0), 1.0f, &r);
         const float noise = noise_of(&tile, asked, at);
         memset(&traversal, 0, sizeof traversal);
-        const uint64_t all = lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, asked, at, noise, &traversal);
+        const uint64_t all = lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, &tile, asked, at, noise);
         together += traversal.asked;
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             memset(&traversal, 0, sizeof traversal);
-            each |= lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, asked & (uint64_t)1 << k, at, noise, &traversal);
+            each |= lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, &tile, asked & (uint64_t)1 << k, at, noise);
             alone += traversal.asked;
         }
         other += all != each;
@@ -390,10 +390,10 @@ static void wide_among_leaves(void)
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             lmb_traversal traversal;
             memset(&traversal, 0, sizeof traversal);
-            each |= lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, (uint64_t)1 << k, at, noise, &traversal);
+            each |= lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, &tile, (uint64_t)1 << k, at, noise);
         }
         alone += kept.alone > 0;
-        other += each != lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, noise, &kept);
+        other += each != lmb_occluded_tile(lmb_kernels_pick(), &kept, &b, &tile, ~UINT64_C(0), at, noise);
         blocked += each != 0;
     }
     CHECK_MSG(other == 0 && blocked > 20, "%d others, %d blocked", other, blocked);
@@ -404,8 +404,8 @@ static void wide_among_leaves(void)
 static uint64_t trace(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, int is_sun,
                       lmb_traversal *kept)
 {
-    return is_sun ? lmb_occluded_sun(b, lmb_kernels_pick(), tile, pixels, normalize3(at), kept)
-                  : lmb_occluded_tile(b, lmb_kernels_pick(), tile, pixels, at, noise_of(tile, pixels, at), kept);
+    return is_sun ? lmb_occluded_sun(lmb_kernels_pick(), kept, b, tile, pixels, normalize3(at))
+                  : lmb_occluded_tile(lmb_kernels_pick(), kept, b, tile, pixels, at, noise_of(tile, pixels, at));
 }
 
 /* Far from the origin boxes lie over one another, and a pixel alone would meet nearly all of them: so the pixels

@@ -183,8 +183,8 @@ static void open_element(const reach *w, bake_element *e, lmb_tile *tile, lmb_tr
     set_parts(w->b, e, at, tile);
     const float noise = lmb_tile_noise(tile, hidden);
     for (int k = 0; k < witness.count && hidden != 0; ++k) {
-        hidden &= lmb_occluded_tile(&w->b->bvh, w->b->kernels, tile, hidden, witness.at[k],
-                                    noise + lmb_place_noise(witness.at[k], 0.0f), traversal);
+        hidden &= lmb_occluded_tile(w->b->kernels, traversal, &w->b->bvh, tile, hidden, witness.at[k],
+                                    noise + lmb_place_noise(witness.at[k], 0.0f));
     }
     const int open = PARTS - count_bits_64(hidden);
     for (uint64_t bits = ~hidden; bits != 0; bits &= bits - 1) {

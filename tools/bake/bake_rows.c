@@ -104,7 +104,7 @@ static void add_part(const rows *w, const bake_element *e, uint32_t j, const par
         return;
     }
     const float noise = lmb_tile_noise(w->tile, lit) + lmb_place_noise(q, 0.0f);
-    lit &= ~lmb_occluded_tile(&w->b->bvh, w->b->kernels, w->tile, lit, q, noise, &w->traversal[worker]);
+    lit &= ~lmb_occluded_tile(w->b->kernels, &w->traversal[worker], &w->b->bvh, w->tile, lit, q, noise);
     for (uint64_t bits = lit; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int a = 0; a < w->axes; ++a) {

@@ -38,7 +38,7 @@ int bake_sees(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 to, lmb_vec3
     s->tile->position[1][0] = over.y;
     s->tile->position[2][0] = over.z;
     const float noise = lmb_place_noise(over, 0.0f) + lmb_place_noise(end, 0.0f);
-    return lmb_occluded_tile(&b->bvh, b->kernels, s->tile, 1, end, noise, &s->traversal) == 0;
+    return lmb_occluded_tile(b->kernels, &s->traversal, &b->bvh, s->tile, 1, end, noise) == 0;
 }
 
 int bake_stands_free(bake_sight *s, const bake *b, const lmb_vec3 corner[3], lmb_vec3 normal)

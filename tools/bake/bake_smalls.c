@@ -133,8 +133,8 @@ static void look(void *user, int index, int worker)
     for (int k = 0; k < witness.count && open != all; ++k) {
         const uint64_t ask = all & ~open & before(tile, witness.at[k]);
         if (ask != 0) {
-            open |= ask & ~lmb_occluded_tile(&w->b->bvh, w->b->kernels, tile, ask, witness.at[k],
-                                             noise + lmb_place_noise(witness.at[k], 0.0f), w->traversal[worker]);
+            open |= ask & ~lmb_occluded_tile(w->b->kernels, w->traversal[worker], &w->b->bvh, tile, ask, witness.at[k],
+                                             noise + lmb_place_noise(witness.at[k], 0.0f));
         }
     }
     for (uint32_t i = 0; i < count; ++i) {

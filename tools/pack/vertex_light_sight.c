@@ -74,7 +74,7 @@ int vl_sees(vl_sight *s, dvec from, dvec to)
     s->tile->position[1][0] = a.y;
     s->tile->position[2][0] = a.z;
     const float noise = lmb_place_noise(a, 0.0f) + lmb_place_noise(b, 0.0f);
-    return lmb_occluded_tile(&s->bvh, s->kernels, s->tile, 1, b, noise, &s->traversal) == 0;
+    return lmb_occluded_tile(s->kernels, &s->traversal, &s->bvh, s->tile, 1, b, noise) == 0;
 }
 
 enum met { MET_FRONT, MET_BACK, MET_TWO_SIDED };

@@ -40,7 +40,7 @@ int play_space_sees(play_space *s, lmb_vec3 from, const lmb_vec3 *place, int cou
     s->tile->hits = count;
     const uint64_t pixels = count < 64 ? (UINT64_C(1) << count) - 1 : UINT64_MAX;
     noise += lmb_place_noise(from, 0.0f);
-    return lmb_occluded_tile(&s->bvh, s->kernels, s->tile, pixels, from, noise, &s->traversal) == 0;
+    return lmb_occluded_tile(s->kernels, &s->traversal, &s->bvh, s->tile, pixels, from, noise) == 0;
 }
 
 float play_space_reach(play_space *s, lmb_vec3 from, lmb_vec3 along, float far_m)

@@ -130,7 +130,7 @@ static uint64_t seen_from(contact *c, const relight_options *o, const vertices *
             moved.position[i][k] += by[i];
         }
     }
-    return lmb_occluded_sun(&c->hidden.bvh, o->kernels, &moved, pixels, to, &c->hidden.traversal);
+    return lmb_occluded_sun(o->kernels, &c->hidden.traversal, &c->hidden.bvh, &moved, pixels, to);
 }
 
 static uint64_t blocked_of(contact *c, const relight_options *o, const vertices *v, uint64_t faces, uint64_t known,

@@ -137,7 +137,7 @@ static void look_around(hidden *h, hidden_part *p, const relight_options *o, con
             faces |= (uint64_t)(cosine[k] > 0.0f) << k;
         }
         const uint64_t blocked =
-            faces != 0 ? lmb_occluded_sun(&h->bvh, o->kernels, &t, faces, to, &h->traversal) & faces : 0;
+            faces != 0 ? lmb_occluded_sun(o->kernels, &h->traversal, &h->bvh, &t, faces, to) & faces : 0;
         p->blocked[first / LMB_TILE_PIXELS][i] = blocked;
         for (uint32_t k = 0; k < count; ++k) {
             all[k] += faces >> k & 1 ? cosine[k] : 0.0f;
