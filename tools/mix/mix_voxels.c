@@ -328,7 +328,7 @@ static int relight(mix_job *j, points *p, lmb_texel *inout, size_t count, int is
         if (lmb_cones_diffuse(&p->around->now, NULL, &with, &j->cones, &p->around->tile) != LMB_OK ||
             (is_real &&
              lmb_cones_diffuse(&p->around->before, NULL, &without, &j->cones, &p->around->tile) != LMB_OK) ||
-            lmb_around_scale(inout, p->around, is_real ? NULL : &j->env[1]) != LMB_OK) {
+            lmb_around_scale(inout, p->around, is_real ? NULL : &j->env[0]) != LMB_OK) {
             return 0;
         }
     }
