@@ -18,11 +18,13 @@ static const bench_try tries[] = {
     {"cones", "--cones 37", 6, 0},
     {"shadow map", "--shadow-map 256", 4, 0},
     {"shadow map", "--shadow-map 2048", 5, 0},
+    {"samples", "--samples 4", 5, 0},
+    {"samples", "--samples 16", 9, 0},
     {"draft and", "--voxels 6 --cones 7", 2, 0},
     {"draft and", "--voxels 5 --cones 7 --shadow-map 256", 2, 0},
 };
 
-#define EXACT "--voxels 8 --cones 37 --shadow-map 2048"
+#define EXACT "--voxels 8 --cones 37 --shadow-map 2048 --samples 16"
 
 typedef struct mixture {
     const bench_line *line;
@@ -146,10 +148,10 @@ const bench_subject bench_mixed = {
     .truth_is = "its own finest settings, " EXACT,
     .usage = "bench mix --frame PREFIX --object MESH [options of lambent mix] [options]",
     .about =
-        "Speed and memory against error of an object in a photo: by voxels a side, cones a hemisphere and texels of "
-        "the shadow maps. Errors are counted where the object changes the photo by more than a hundredth of its mean, "
+        "Speed and memory against error of an object in a photo: by voxels a side, cones a hemisphere, texels of the shadow "
+        "maps and samples a pixel; lights with a size and varnish come with the options of lambent mix. Errors are counted where the object changes the photo by more than a hundredth of its mean, "
         "against a picture of yours (linear, of the photo's size) or the finest settings: 256 voxels a side, 37 "
-        "cones. Time is without reading the files; memory is that of the voxels and maps.",
+        "cones, 16 samples. Time is without reading the files; memory is that of the voxels and maps.",
     .examples = "  a photo with depth of the built-in room, a tent, and a picture of both as the truth:\n"
                 "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
                 "    lambent render demo $eye -o photo.png\n"

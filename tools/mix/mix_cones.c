@@ -2,9 +2,14 @@
 #include "mix_carry.h"
 #include "mix_world.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { STEP = 4 };
+
+/* Where what the object leaves of a tile's light differs by more between the pixels that are traced, all are: the dark under
+ * a ball is narrower than what lies between them. */
+#define STEEP 1.25f
 
 /* What comes from far away, nothing being in its way: of scenes without an object nothing else is asked. */
 static void add_around(lmb_irradiance *inout, const lmb_env *env, const lmb_tile *tile)
@@ -82,10 +87,27 @@ static void put_pixels(mix_batch *b, const mix_job *j, int32_t tile, uint64_t pi
     }
 }
 
+static int is_steep(const mix_batch *b, int32_t i, uint64_t known)
+{
+    float low = INFINITY, high = 0.0f;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        float sum[2] = {0.0f, 0.0f};
+        for (int c = 0; c < 6; ++c) {
+            sum[c / 3] += b->light[c / 3][i].rgb[c % 3][k];
+        }
+        if ((known >> k & 1) != 0 && b->real[i].id[k] != 0 && sum[0] > 0.0f) {
+            low = fminf(low, sum[1] / sum[0]);
+            high = fmaxf(high, sum[1] / sum[0]);
+        }
+    }
+    return high > STEEP * low;
+}
+
 /* Tiles whose pixels are carried in part: those that are not are traced as in other tiles, by those that are. */
 static void upsample(uint64_t more[1], mix_batch *b, int32_t i, uint64_t known, uint64_t carried)
 {
     const lmb_irradiance kept[2] = {b->light[0][i], b->light[1][i]};
+    const int steep = is_steep(b, i, known);
     *more = 0;
     for (int32_t world = 0; world < 2; ++world) {
         *more |= lmb_upsample_tile(&b->light[world][i], &b->real[i], known, STEP);
@@ -96,7 +118,7 @@ static void upsample(uint64_t more[1], mix_batch *b, int32_t i, uint64_t known, 
             }
         }
     }
-    *more &= ~carried;
+    *more = (steep ? ~known : *more) & ~carried;
 }
 
 void mix_cones_batch(mix_batch *b, const mix_job *j)
