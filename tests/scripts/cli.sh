@@ -978,6 +978,7 @@ check "a light with a size changes the mixed picture" sh -c '! cmp -s "$1" "$2"'
 status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2:12 --backend scalar --threads 1 -o "$dir/scalar.pfm"
 check "a backend changes a soft shadow" cmp "$dir/soft.pfm" "$dir/scalar.pfm"
 status 2 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2:91 -o "$dir/bad.png"
+status 0 mix $seen $tent --samples 16 -o "$dir/soft.png"
 status 0 render "$dir/tent.obj" --size 16x16 --light point:0,3,0:0,-1,0:6,6,6:0.5 --show direct -o "$dir/soft.png"
 status 2 relief render "$dir/nowhere.lmr" --light sun:0,0,0:0.6,-0.2,-1:2,2,2:12 -o "$dir/bad.png"
 status 0 mix $seen $tent --stats "$dir/mix.json" -o "$dir/mixed.hdr"

@@ -7,7 +7,7 @@
 #include "../model/model.h"
 #include "mix_options.h"
 
-enum { MIX_BLOCKS = 64, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */ };
+enum { MIX_BLOCKS = 128, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */ };
 
 struct mix_kept;
 struct mix_sources;
