@@ -124,11 +124,12 @@ static int enter_tile(lmb_fill_job *job, const lmb_setup *s, int32_t x_24_8, int
     return 1;
 }
 
-/* First and last tile, inside the window, of a box in 24.8 from the frame's middle. */
-static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t high_24_8, int32_t frame, int32_t origin,
+/* First and last tile, inside the window, of a box in 24.8 from the frame's middle. origin: where the frame's pixel 0 is
+ * seen, 24.8. */
+static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t high_24_8, int32_t origin, int32_t window,
                       int32_t size)
 {
-    int32_t low_px = ((low_24_8 + frame * 128) >> 8) - origin, high_px = ((high_24_8 + frame * 128) >> 8) - origin;
+    int32_t low_px = ((low_24_8 - origin) >> 8) - window, high_px = ((high_24_8 - origin) >> 8) - window;
     *first = maxi(low_px, 0) >> 3;
     *last = mini(high_px, size - 1) >> 3; /* -1 >> 3 is -1: nothing */
 }
@@ -159,8 +160,9 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
         surface.blends = blends;
         surface.id = id;
     }
-    tile_span(&tx0, &tx1, s->x_min, s->x_max, c->view->frame_width, target->x0, target->depth.width);
-    tile_span(&ty0, &ty1, s->y_min, s->y_max, c->view->frame_height, target->y0, target->depth.height);
+    const int32_t origin_x = view_origin_x(c->view), origin_y = view_origin_y(c->view);
+    tile_span(&tx0, &tx1, s->x_min, s->x_max, origin_x, target->x0, target->depth.width);
+    tile_span(&ty0, &ty1, s->y_min, s->y_max, origin_y, target->y0, target->depth.height);
     job.dx = (float)s->d_x;
     job.dy = (float)s->d_y;
     job.d_min = s->d_min;
@@ -169,8 +171,8 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
     job.d_bias = c->window.d_bias;
     job.id = id;
     for (int32_t ty = ty0; ty <= ty1; ++ty) {
-        int32_t y = target->y0 + ty * LMB_TILE, y_24_8 = y * 256 + 128 - c->view->frame_height * 128;
-        int32_t x = target->x0 + tx0 * LMB_TILE, x_24_8 = x * 256 + 128 - c->view->frame_width * 128;
+        int32_t y = target->y0 + ty * LMB_TILE, y_24_8 = y * 256 + origin_y;
+        int32_t x = target->x0 + tx0 * LMB_TILE, x_24_8 = x * 256 + origin_x;
         for (int32_t tx = tx0; tx <= tx1; ++tx, x_24_8 += LMB_TILE * 256) {
             if (enter_tile(&job, s, x_24_8, y_24_8)) {
                 lmb_fill_tile tile = lmb_target_tile(target, tx, ty);

@@ -36,7 +36,7 @@ static void make_tall_stage(test_rng *r, int32_t kind)
     st.view.frame_height = HIGH;
     st.view.half_height *= (float)HIGH / (float)WIDE;
     /* Clusters are asked for where the sample lies, holes at the middles of pixels. */
-    st.view.sample_x = LMB_MULTISAMPLE && st.material[0].flags == 0 ? (int32_t)(test_random(r) % 200) - 100 : 0;
+    st.view.sample_x = LMB_MULTISAMPLE ? (int32_t)(test_random(r) % 200) - 100 : 0;
     CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK);
 }
 

@@ -1381,7 +1381,7 @@ static void test_masks(void)
 }
 
 /* Masked and in layers: windows, formats and splits are all the same picture; an all-opaque mask changes nothing. Every
- * triangle comes twice: where depths are equal the first one stays. */
+ * triangle comes twice: where depths are equal the first one stays. Samples lie aside in most. */
 static void test_mask_layers(void)
 {
     const int32_t box[4] = {0, 0, WIDE, TALL};
@@ -1390,6 +1390,8 @@ static void test_mask_layers(void)
         random_soup(&r, 60, 9.0f, 12.0f);
         memcpy(st.positions + 9 * 30, st.positions, 9 * 30 * sizeof *st.positions);
         set_wide_view(i & 1);
+        st.view.sample_x = LMB_MULTISAMPLE ? 48 * (i % 3) : 0;
+        st.view.sample_y = LMB_MULTISAMPLE ? -112 * (i % 2) : 0;
         set_mask(&r, 60);
         st.material.flags = LMB_ALPHA_MASK;
         lmb_target whole = window_of(0, i & 2 ? LMB_DEPTH16 : LMB_DEPTH32F, LMB_ID32, LMB_TILED, box);
