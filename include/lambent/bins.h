@@ -29,14 +29,15 @@ extern "C" {
 /* lmb_bins_rows: rows of pixels of a view's frame that go into a bin, a multiple of LMB_TILE; 0 for a bad view. Windows that
  * share no bin set up no edge twice.
  * lmb_bins_bytes: memory for `triangles` of which each lies in two bins, as most lie in one: 64 bytes each, and some for
- * the bins. 0 for a bad view. */
+ * the bins. 0 for a bad view, and for more than size_t holds. */
 int32_t lmb_bins_rows(const lmb_view *view);
 size_t lmb_bins_bytes(const lmb_view *view, uint32_t triangles);
 
 /* lmb_bins_build: set up triangles with ids first_id .. first_id + count - 1, and keep those that the frame may show.
  *
  *   bins      `memory` and `bytes` are set; the rest becomes what was set up. A triangle takes 32 bytes in each bin that
- *             it lies in, 48 if it is large, clipped or has holes.
+ *             it lies in; up to 64 if it is large or has holes, and for each part that the near plane or the guard band
+ *             leaves of it.
  *   view, scene, first_id, count, flags  as lmb_draw's.
  *   culling   its `clusters` outside the frame are left out; may be NULL.
  *   stats     counts the triangles as lmb_draw does, those that did not fit too; may be NULL.
@@ -56,7 +57,7 @@ lmb_status lmb_bins_build(lmb_bins *bins, const lmb_kernels *kernels, const lmb_
  *   culling  its bounds are read and raised as lmb_draw_culled does; may be NULL.
  *
  * Returns what lmb_draw does; LMB_ERR_ARG also where bins are of different frames or count < 1; LMB_ERR_CAPACITY where the
- * culling's arrays are too short. Stack: as lmb_draw. Cost: edges of what lies in the window's bins, and covered tiles.
+ * culling's arrays are too short, though everything was set up. Stack: as lmb_draw. Cost: edges of what lies in the window's bins, and covered tiles.
  * Draws into different windows may run at once. */
 lmb_status lmb_bins_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
                          int32_t clear, const lmb_culling *culling);

@@ -38,7 +38,7 @@ typedef struct bin_pool {
     lmb_bin_block *block;
     uint32_t blocks, used;
     int shift;             /* rows of a bin, a power of two */
-    int32_t width, height; /* of the frame */
+    int32_t width, height; /* that windows may reach */
     int is_full;           /* nothing goes in any more */
 } bin_pool;
 
@@ -54,7 +54,13 @@ static int rows_shift(const lmb_view *view)
     return shift;
 }
 
-static uint32_t bin_count(const lmb_view *view) { return (uint32_t)((view->frame_height - 1) >> rows_shift(view)) + 1; }
+/* Pixels of the frame and of its last tile, which windows may have, too. */
+static int32_t with_last_tile(int32_t frame_px) { return frame_px + LMB_TILE - 1; }
+
+static uint32_t bin_count(const lmb_view *view)
+{
+    return (uint32_t)((with_last_tile(view->frame_height) - 1) >> rows_shift(view)) + 1;
+}
 
 static size_t table_bytes(const lmb_view *view)
 {
@@ -71,8 +77,9 @@ size_t lmb_bins_bytes(const lmb_view *view, uint32_t triangles)
     if (lmb_bins_rows(view) == 0) {
         return 0;
     }
-    const size_t blocks = (size_t)triangles / LMB_BATCH * 2 + 2 * (size_t)bin_count(view) + 2;
-    return table_bytes(view) + blocks * (sizeof(lmb_bin_block) + sizeof(uint32_t)) + LINE;
+    const uint64_t blocks = (uint64_t)(triangles / LMB_BATCH) * 2 + 2 * (uint64_t)bin_count(view) + 2,
+                   bytes = table_bytes(view) + blocks * (sizeof(lmb_bin_block) + sizeof(uint32_t)) + LINE;
+    return bytes <= SIZE_MAX ? (size_t)bytes : 0;
 }
 
 /* 0 where not even the bins fit. */
@@ -91,8 +98,8 @@ static int pool_find(bin_pool *p, const lmb_bins *bins)
     p->used = 0;
     p->is_full = 0;
     p->shift = rows_shift(&bins->view);
-    p->width = bins->view.frame_width;
-    p->height = bins->view.frame_height;
+    p->width = with_last_tile(bins->view.frame_width);
+    p->height = with_last_tile(bins->view.frame_height);
     return 1;
 }
 
@@ -160,12 +167,11 @@ static int put_large(bin_pool *p, bin *b, const bin_large *large)
     return 1;
 }
 
-/* First and last pixels of 0 .. size - 1 whose centres lie between two places in 24.8, or nearly: lmb_fill_masked asks at
- * the middles of pixels, wherever the view's sample lies. */
+/* First and last pixels of 0 .. size - 1 whose samples lie between two places in 24.8. */
 static void span(int32_t *first, int32_t *last, int32_t low, int32_t high, int32_t origin, int32_t size)
 {
-    *first = maxi((low + 127 - origin) >> 8, 0);
-    *last = mini((high + 128 - origin) >> 8, size - 1);
+    *first = maxi((low + 255 - origin) >> 8, 0);
+    *last = mini((high - origin) >> 8, size - 1);
 }
 
 /* 1, and *seen, where it has area and is not culled; 0 where memory ends. */
@@ -302,14 +308,14 @@ static void build_instance(bin_builder *b, const lmb_draw_instance *d, uint32_t 
     }
 }
 
-/* An instance in a window without memory, which is the whole frame. */
+/* An instance in a window without memory, as far as windows may reach. */
 NOINLINE void set_instance(lmb_draw_instance *out, const lmb_bins *bins, const lmb_instance *instance)
 {
     lmb_target frame;
     lmb_fill_context c;
     memset(&frame, 0, sizeof frame);
-    frame.depth.width = bins->view.frame_width;
-    frame.depth.height = bins->view.frame_height;
+    frame.depth.width = with_last_tile(bins->view.frame_width);
+    frame.depth.height = with_last_tile(bins->view.frame_height);
     c.target = &frame;
     c.view = &bins->view;
     c.scene = bins->scene;
@@ -320,8 +326,8 @@ NOINLINE void set_instance(lmb_draw_instance *out, const lmb_bins *bins, const l
 static void set_frame(bin_builder *b, const lmb_view *view)
 {
     memset(&b->frame, 0, sizeof b->frame);
-    b->frame.tiles_x = (view->frame_width + LMB_TILE - 1) / LMB_TILE;
-    b->frame.tiles_y = (view->frame_height + LMB_TILE - 1) / LMB_TILE;
+    b->frame.tiles_x = (with_last_tile(view->frame_width) + LMB_TILE - 1) / LMB_TILE;
+    b->frame.tiles_y = (with_last_tile(view->frame_height) + LMB_TILE - 1) / LMB_TILE;
     b->frame.origin_x = view_origin_x(view);
     b->frame.origin_y = view_origin_y(view);
 }
@@ -330,11 +336,14 @@ static void build_all(bin_builder *b, const lmb_culling *culling)
 {
     const lmb_bins *bins = b->bins;
     const lmb_scene *scene = bins->scene;
-    const lmb_instance *end = scene->instances + scene->instance_count;
     const lmb_instance *instance = lmb_instance_of(scene, bins->first_id);
     lmb_cluster_place place = {NULL, 0, 0, 0};
+    if (instance == NULL) {
+        return;
+    }
+    const lmb_instance *end = scene->instances + scene->instance_count;
     set_frame(b, &bins->view);
-    for (; instance != NULL && instance < end && instance->first_id < bins->end_id; ++instance) {
+    for (; instance < end && instance->first_id < bins->end_id; ++instance) {
         const uint32_t past = instance->first_id + scene->meshes[instance->mesh].triangle_count;
         lmb_draw_instance d;
         set_instance(&d, bins, instance);
@@ -533,8 +542,8 @@ static void clear_rows(const bin_drawing *d)
     }
 }
 
-/* What is set up of `count` bins, one's rows after the other's. */
-static void draw_rows(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
+/* What is set up of `count` bins, one's rows after the other's. Apart, as what did not fit needs the stack, too. */
+NOINLINE void draw_rows(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
                       int32_t clear, const lmb_culling *culling)
 {
     const int shift = rows_shift(&bins->view);
@@ -586,7 +595,7 @@ static lmb_status check_draw(const lmb_target *target, const lmb_kernels *kernel
         if (status != LMB_OK) {
             return status;
         }
-        if (culling != NULL && culling->clusters != NULL && bins[i].past_id < bins[i].end_id &&
+        if (culling != NULL && culling->clusters != NULL &&
             culling->cluster_count < lmb_culling_clusters(bins[i].scene)) {
             return LMB_ERR_CAPACITY;
         }

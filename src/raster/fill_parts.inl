@@ -319,7 +319,7 @@ typedef struct fill_found {
     float d[PARTS_TILES][LMB_BATCH];
     int32_t at[LMB_BATCH];     /* of a triangle's first tile, bytes */
     int32_t step[PARTS_TILES]; /* from there to tile i */
-    uint64_t left[LMB_BATCH / 4];
+    uint64_t left[4];
 } fill_found;
 
 /* Bit k becomes bit 4 k. */
@@ -519,11 +519,13 @@ LANE_INLINE void parts_wide(const lmb_fill_window *w, const lmb_batch *b, int k,
 LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int kind, int bounded)
 {
     const uint32_t wider = parts_narrow(b, bits, PARTS_SIDE), beside = wider & ~parts_narrow(b, bits, 2);
-    fill_slopes slopes;
-    parts_slopes(&slopes, b, wider);
-    parts_together(&slopes, w, b, wider, 0, kind, bounded);
-    for (int first = PARTS_TOGETHER; first < PARTS_TILES && beside != 0; first += PARTS_TOGETHER) {
-        parts_together(&slopes, w, b, beside, first, kind, bounded);
+    if (wider != 0) {
+        fill_slopes slopes;
+        parts_slopes(&slopes, b, wider);
+        parts_together(&slopes, w, b, wider, 0, kind, bounded);
+        for (int first = PARTS_TOGETHER; first < PARTS_TILES && beside != 0; first += PARTS_TOGETHER) {
+            parts_together(&slopes, w, b, beside, first, kind, bounded);
+        }
     }
     for (bits &= ~wider; bits != 0; bits &= bits - 1) {
         /* Sixteen lanes take wider triangles one by one where none is asked for: most of their rows are left out then. */

@@ -15,6 +15,7 @@ void test_bins(void);
 #if LMB_CULLING
 enum { WIDE = 136, HIGH = 420, TILES = (WIDE / 8 + 1) * (HIGH / 8 + 1) + 15, RANGES = 3, SCENES = 4 };
 enum { WHOLE = 1 << 20 }; /* bytes in which all of a stage fits */
+enum { PAST = 7 };        /* pixels of a window beyond the frame, in its last tile */
 
 static uint32_t depth_memory[2][WIDE * (HIGH + 8)], id_memory[2][WIDE * (HIGH + 8)];
 static float bound[TILES];
@@ -32,10 +33,9 @@ static void make_tall_stage(test_rng *r, int32_t kind)
     st.material[0].alpha = 1.0f;
     st.material[0].alpha_cutoff = 0.5f;
     st.material[0].flags = test_random(r) % 2 ? 0 : test_random(r) % 2 ? LMB_ALPHA_MASK : LMB_ALPHA_MASK | LMB_ALPHA_BLEND;
-    st.view.frame_width = WIDE;
-    st.view.frame_height = HIGH;
+    st.view.frame_width = WIDE - PAST;
+    st.view.frame_height = HIGH - PAST;
     st.view.half_height *= (float)HIGH / (float)WIDE;
-    /* Clusters are asked for where the sample lies, holes at the middles of pixels. */
     st.view.sample_x = LMB_MULTISAMPLE ? (int32_t)(test_random(r) % 200) - 100 : 0;
     CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK);
 }
@@ -60,10 +60,11 @@ static lmb_target window_of(int which, int32_t depth_format, int32_t id_format, 
 static void random_box(test_rng *r, int32_t box[4])
 {
     const int is_whole = test_random(r) % 3 == 0;
+    const int32_t wide = st.view.frame_width + PAST, high = st.view.frame_height + PAST;
     box[0] = is_whole ? 0 : 8 * (int32_t)(test_random(r) % 9);
     box[1] = is_whole ? 0 : 8 * (int32_t)(test_random(r) % 40);
-    box[2] = is_whole ? WIDE : 1 + (int32_t)(test_random(r) % (uint32_t)(WIDE - box[0]));
-    box[3] = is_whole ? HIGH : 1 + (int32_t)(test_random(r) % (uint32_t)(HIGH - box[1]));
+    box[2] = is_whole ? wide : 1 + (int32_t)(test_random(r) % (uint32_t)(wide - box[0]));
+    box[3] = is_whole ? high : 1 + (int32_t)(test_random(r) % (uint32_t)(high - box[1]));
 }
 
 /* Sets of what is culled: nothing, by bounds, by clusters, by both. */
@@ -152,6 +153,7 @@ static void test_same_bytes(void)
     for (int32_t m = 0; lmb_kernels_at(m) != NULL; ++m) {
         for (int i = 0; i < SCENES; ++i) {
             make_tall_stage(&r, i % 3 == 2 ? LMB_ORTHOGRAPHIC : LMB_PERSPECTIVE);
+            st.view.frame_height = i % 2 ? 384 - (int32_t)(test_random(&r) % 5) : st.view.frame_height; /* three bins end */
             same_bytes(&r, lmb_kernels_at(m));
         }
     }
@@ -274,6 +276,11 @@ static void test_refused(void)
     CHECK(lmb_bins_draw(&t, k, NULL, 1, 0, NULL) == LMB_ERR_ARG);
     CHECK(lmb_bins_draw(&t, k, bins, 0, 0, NULL) == LMB_ERR_ARG);
     CHECK(lmb_bins_draw(&t, k, bins, 1, 0, &few) == LMB_ERR_CAPACITY);
+    CHECK(lmb_bins_draw(&t, k, bins, 1, 0, &short_of_clusters) == LMB_ERR_CAPACITY);
+    lmb_scene empty = st.scene;
+    empty.instances = NULL;
+    empty.instance_count = 0;
+    CHECK(lmb_bins_build(&none, k, &st.view, &empty, 1, 9, 0, NULL, NULL) == LMB_OK);
     CHECK(lmb_bins_draw(&t, k, bins, RANGES, 0, NULL) == LMB_OK);
     bins[1].past_id = bins[1].first_id;
     CHECK(lmb_bins_draw(&t, k, bins, RANGES, 0, &short_of_clusters) == LMB_ERR_CAPACITY);

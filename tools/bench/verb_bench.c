@@ -344,7 +344,7 @@ static const option_row raster_rows[] = {
     {.name = "--peers", .value = "DIR", .kind = OPTION_TEXT, AT(peers),
      .help = "after each case let every program of this folder draw it, and print how long it takes, and how many times "
              "our time that is; tools/README.md says what such a program prints"},
-    {.name = "--html", .value = "FILE", .kind = OPTION_TEXT, AT(html), .file = OPTION_WRITES,
+    {.name = "--html", .value = "FILE.html", .kind = OPTION_TEXT, AT(html), .file = OPTION_WRITES,
      .help = "a page with each case's share of its bound as a bar"},
     ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
 };
