@@ -528,7 +528,7 @@ measure-pack: $(TOOL) $(B)/measure-pack ## packed scenes: bytes by part beside t
 measure-baked: $(TOOL) ## baked light against truth, its files and frames (SCENES, TURN=37, FILES=folder)
 	@$(IN_SH) tests/measure/baked.sh
 
-measure-crate: $(TOOL) ## an object that moves in baked light, which it neither blocks nor reflects: its error (SIZE)
+measure-crate: $(TOOL) ## an object that moves in baked light, which it neither blocks nor reflects: its error (FRAME)
 	@$(IN_SH) tests/measure/crate.sh
 
 measure-front: $(TOOL) ## one front of speed against error: gathering, baked, path tracing (SCENES, SETTINGS, LMT=folder)
@@ -576,7 +576,7 @@ measure-cuts: $(B)/measure-cuts ## what cuts save against all texels of a 1024 m
 measure-relight: $(B)/measure-relight ## objects lit by their world: errors and time of filters and glossy lobes
 	@$(IN_SH) tests/measure/relight.sh
 
-measure-capture: $(TOOL) ## an object carried through Sponza by captured cubes against drawing it there (SIZE, FACES)
+measure-capture: $(TOOL) ## an object carried through Sponza by captured cubes against drawing it there (FRAME, FACES)
 	@$(IN_SH) tests/measure/capture.sh
 
 MAPS ?= $(addprefix ../shared/data/env/,forest_slope_512x256.hdr potsdamer_platz_512x256.hdr)
@@ -595,7 +595,7 @@ measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is
 measure-rooms: $(B)/measure-rooms ## objects put into rooms of our own, against path-traced pictures (ROOMS="window ...")
 	@mkdir -p $(B)/rooms && $(RUN) $(B)/measure-rooms $(B)/rooms $(ROOMS)
 
-measure-sequence: $(TOOL) $(B)/measure-sequence $(B)/scenes ## sequences of noisy photos: flicker, frames a second (SIZE, COUNT, OBJECT)
+measure-sequence: $(TOOL) $(B)/measure-sequence $(B)/scenes ## sequences of noisy photos: flicker, frames a second (FRAME, COUNT, OBJECT)
 	@$(IN_SH) tests/measure/sequence.sh
 
 measure-voxels: $(B)/measure-voxels ## one bounce by cones through voxels: errors, time, memory (SCENES)

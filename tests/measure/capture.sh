@@ -3,13 +3,13 @@
 # The object, a matte white cow of 1.2 m, stands at places of Sponza that no sun reaches. Drawn there: in the scene, two
 # bounces. Carried: lit by the one cube of the middle, or by three, with one bounce in them, so that both have the light
 # that left the sun two reflections before. A row has the RMSE of the object's pixels over their mean, and what a
-# picture takes, all told. The first path is the one that was looked at, the second was not. SIZE (default 160x120),
+# picture takes, all told. The first path is the one that was looked at, the second was not. FRAME (default 160x120),
 # FACES (default 64).
 . tests/scripts/checks.sh
 
 shared=${LMB_SHARED:-../shared}
 work=$B/measure/capture
-size=${SIZE:-160x120}
+size=${FRAME:-160x120}
 mkdir -p "$work"
 [ -f "$shared/truth/sponza/mesh.obj" ] && [ -f "$shared/data/meshes/spot.obj" ] ||
     { skip "no shared folder"; finish; }

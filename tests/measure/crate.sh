@@ -1,7 +1,7 @@
 # crate.sh: what a moving object takes of baked light that it should block and reflect: a crate in a closed room.
 #
 # The crate stands at three places, and last out of the room, which shows the error of the room's own light. A row has
-# the whole picture's trim and rmse, bounced light against the best settings with the crate in place. SIZE (default
+# the whole picture's trim and rmse, bounced light against the best settings with the crate in place. FRAME (default
 # 160x120).
 . tests/scripts/checks.sh
 
@@ -49,7 +49,7 @@ cat >"$work/path.txt" <<'PATH'
 PATH
 "$TOOL" bake "$work/room.gltf" -q -o "$work/room.lmt" --moving 1 --elements 4096 --receivers 3000 || { fail "the room is not baked"; finish; }
 "$TOOL" play "$work/room.gltf" --transfer "$work/room.lmt" --path "$work/path.txt" --move object --fps 1 --frames 4 \
-    --check 1 --show indirect --size "${SIZE:-160x120}" --light spot:1.2,2.2,0.8:-0.3,-1,-0.2:30,28,25:25,40 \
+    --check 1 --show indirect --size "${FRAME:-160x120}" --light spot:1.2,2.2,0.8:-0.3,-1,-0.2:30,28,25:25,40 \
     --eye -1.6,2.1,1.8 --target 0.1,0,-0.2 --fov 75 >"$work/said" 2>&1 && pass || fail "$(head -n 1 "$work/said")"
 echo "| the crate | trim, rmse, mean |"
 echo "|---|---|"

@@ -2,13 +2,13 @@
 #
 #     sequence.sh [NAME SCENE EYE TARGET SEED]...    (default: one room that was looked at, one that was not)
 #
-# Of each room a camera that moves 25 mm a frame, and one that stands still before new noise. Frames have SIZE (default
+# Of each room a camera that moves 25 mm a frame, and one that stands still before new noise. Frames have FRAME (default
 # 640x480), COUNT of them move (default 6). Flicker: of 255, the 99.9th percentile and the largest change of a pixel
 # whose photo did not change. Frames a second: of all frames after the first, with their files. OBJECT: default a tent.
 . tests/scripts/checks.sh
 
 work=$B/measure/sequence
-size=${SIZE:-640x480} count=${COUNT:-6}
+size=${FRAME:-640x480} count=${COUNT:-6}
 maker=$B/measure-sequence
 mkdir -p "$work"
 printf 'v %s\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >"$work/tent.obj"
