@@ -34,6 +34,15 @@ static int load_library(const char *library)
     return load("mtllib m.mtl\nusemtl a\n" FACE "usemtl b\n" FACE);
 }
 
+/* A triangle of so many metres a side. */
+static void tiny(void)
+{
+    CHECK_LOADS(load("v 0 0 0.00001\nv 0.00002 0 0.00001\nv 0 0.00002 0.00001\nf 4 5 6\n"));
+    CHECK(noted("the scene is 2.83e-05 m across; light is inexact in what is under 0.0001 m, scale it up"));
+    CHECK_LOADS(load("v 0 0 0.0001\nv 0.0002 0 0.0001\nv 0 0.0002 0.0001\nf 4 5 6\n"));
+    CHECK(!noted("light is inexact"));
+}
+
 static void put_picture(const char *name)
 {
     static const uint8_t rgb[12] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
@@ -282,6 +291,7 @@ void test_mtl(void)
     hash();
     names_are_keyed();
     names_many();
+    tiny();
     model_free(&loaded);
     folder_close(&place);
 }
