@@ -13,7 +13,7 @@ PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_rel
              tools/relight/relight_hidden.c tools/relight/relight_lobes.c \
              %/gen_demo.c %/gen_srgb.c %/demo_scene.c tools/picture/io_png_write.c tools/picture/io_deflate.c \
              tools/common/slice.c tools/common/slice_items.c tools/common/byte_buffer.c tools/render/render_slice.c tools/common/area_light.c \
-             tools/mix/mix_sun.c tools/mix/mix_front.c tools/mix/mix_list.c tools/mix/mix_frames.c tools/mix/mix_again.c tools/mix/mix_lobes.c tools/mix/mix_sources.c tools/mix/mix_mirror.c tools/mix/mix_contact.c tools/mix/mix_around.c tools/mix/mix_carry.c tools/mix/mix_near.c tools/mix/mix_world.c tools/mix/mix_sequence.c tools/model/glb_write.c tools/relight/relight_worlds.c tools/relight/relight_path.c tools/relight/relight_contact.c tools/relight/relight_region.c tools/relight/relight_ground.c, \
+             tools/mix/mix_sun.c tools/mix/mix_front.c tools/mix/mix_list.c tools/mix/mix_frames.c tools/mix/mix_again.c tools/mix/mix_lobes.c tools/mix/mix_sources.c tools/mix/mix_mirror.c tools/mix/mix_contact.c tools/mix/mix_inside.c tools/mix/mix_around.c tools/mix/mix_carry.c tools/mix/mix_near.c tools/mix/mix_world.c tools/mix/mix_sequence.c tools/model/glb_write.c tools/relight/relight_worlds.c tools/relight/relight_path.c tools/relight/relight_contact.c tools/relight/relight_region.c tools/relight/relight_ground.c, \
              $(sort $(wildcard src/*/*.c $(foreach d,common picture mesh model demo render relight relief mix,tools/$(d)/*.c) \
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c

@@ -991,7 +991,11 @@ done
 status 0 mix --photo "$dir/photo.pfm" --depth "$dir/blind.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/same.pfm"
 check "nor does a photo without depth change" cmp "$dir/photo.pfm" "$dir/same.pfm"
 status 1 mix --photo "$dir/photo.pfm" --depth "$dir/blind.pfm" --intrinsics 30,30,11.5,11.5 --object "$dir/tent.obj" -o "$dir/bad.png"
-check "where nothing is measured, mix says what to do" grep -q "no plane in the depth to stand on; say where by --at X,Y" "$dir/err.txt"
+said "nothing to stand on: no pixel of the depth has a number over 0, so none is measured"
+status 2 mix $seen --object "$dir/tent.obj" --at 5000,10 -o "$dir/bad.png"
+said "--at 5000,10: the photo has 24 x 24 pixels"
+status 2 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" --intrinsics 0,0,0,0 --object "$dir/tent.obj" -o "$dir/bad.png"
+said "--intrinsics: focal lengths are over 0"
 # Stored pictures come out with the same codes; of ours, as the same file.
 far() { printf 'Pf\n%d %d\n-1.0\n' "$1" "$2"; head -c $(($1 * $2 * 4)) /dev/zero; }
 far 64 48 >"$dir/far.pfm"
@@ -1007,6 +1011,7 @@ dot="--photo $dir/photo1.pfm --depth $dir/depth1.pfm --intrinsics 30,30,0,0"
 status 0 mix $dot -o "$dir/same.pfm"
 check "one pixel comes out as it went in" cmp "$dir/photo1.pfm" "$dir/same.pfm"
 status 1 mix $dot --object "$dir/tent.obj" -o "$dir/bad.png"
+said "no plane in the depth to stand on; 100 % of its pixels are measured, 2 .. 2 m away: --depth-scale sets its unit"
 status 0 mix $dot --object "$dir/tent.obj" --at 0,0 --scale 0.01 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 # A wall alone: the object stands on it, and that is said.
 status 0 mix $seen --object "$dir/tent.obj" --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
@@ -1014,8 +1019,19 @@ check "that no plane faces up is said" grep -q "no plane faces up" "$dir/err.txt
 # Of planes that are shown nothing is said about a place where the object was not put.
 status 0 mix $seen --object "$dir/tent.obj" --show planes -o "$dir/planes.png"
 check "--show planes puts no object anywhere" sh -c '! grep -q "stands on\|no plane faces up" "$1"' sh "$dir/err.txt"
-status 0 mix $seen --object "$dir/tent.obj" --scale 0.5 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
+status 0 mix $seen --object "$dir/tent.obj" --scale 0.5 --at 2,12 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "that the object is off the picture is said" grep -q "part of the object is off the picture" "$dir/err.txt"
+# A spike out of the wall: its box's near corners are off the picture, and its own are not.
+printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n' >"$dir/spike.obj"
+spike="--object $dir/spike.obj --scale 0.6 --shadow-map 64 --voxels 4"
+for at in 11,11 9,11 14,11 11,9 11,14; do
+    status 0 mix $seen $spike --at $at -o "$dir/mixed.pfm"
+    check "a spike at $at is in the picture" sh -c '! grep -q "off the picture" "$1"' sh "$dir/err.txt"
+done
+for at in 7,11 16,11 11,7 11,16; do
+    status 0 mix $seen $spike --at $at -o "$dir/mixed.pfm"
+    said "part of the object is off the picture"
+done
 # A size is the file's own metres, and is said where that is absurd.
 status 0 mix $seen --object "$dir/tent.obj" --scale 300 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "an object that fills the picture is said" grep -q "m long and fills the picture; --fit chooses its size" "$dir/err.txt"
@@ -1113,7 +1129,11 @@ status 2 mix --frames "$dir/frames/own.txt" $tent --stats "$dir/bad.json" -o "$d
 status 1 mix --frames "$dir/frames/empty.txt" $tent -o "$dir/frames/bad_%02d.pfm"
 said "lists no frame"
 awk 'BEGIN { print "f0"; for (i = 1; i < 10000; ++i) print "gone" }' >"$dir/frames/long.txt"
-leaves_out 9999 mix --frames "$dir/frames/long.txt" $tent -o "$dir/frames/long_%04d.pfm"
+status_of_long() { "$TOOL" mix --frames "$dir/frames/long.txt" $tent -o "$dir/frames/long_%04d.pfm" >"$dir/out.txt" 2>"$dir/err.txt"; echo $?; }
+check "a list of nothing but its first frame: exit status 1" test "$(status_of_long)" = 1
+check "of frames in a row eight are said" test "$(grep -c 'frame [0-9]* is left out: ' "$dir/err.txt")" = 8
+said "frames 9 to 9999 are left out, too"
+said ": 9999 of 10000 frames are left out, the first because "
 check "and the first one is there" cmp "$dir/frames/m_00.pfm" "$dir/frames/long_0000.pfm"
 printf '# time name\n1.00 f0.color.pfm\n1.03 f4.color.pfm\n' >"$dir/frames/rgb.txt"
 printf '1.01 f0.depth.pfm\n1.04 f4.depth.pfm\n' >"$dir/frames/depth.txt"
@@ -1133,6 +1153,20 @@ printf '1.00 0 0 0 0 0 0 1\n1.03 0 0 0 0 0 0 0\n' >"$dir/frames/groundtruth.txt"
 leaves_out 1 mix --frames "$dir/frames" $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 -o "$dir/frames/ter_%02d.pfm"
 said "frame 1 is left out: $dir/frames/f4.color.pfm: its pose is no rotation and place"
 check "nor does a pose that is none" cmp "$dir/frames/tum_00.pfm" "$dir/frames/ter_00.pfm"
+# In any order; of two depths as near in time, or of one time, the earlier line; and of lists as long as they are.
+printf '1.00 0 0 0 0 0 0 1\n' >"$dir/frames/groundtruth.txt"
+awk 'BEGIN { for (i = 70000; i > 1; --i) print i, "f4.color.pfm"; print "1.00 f0.color.pfm"; print "nan f0.color.pfm" }' >"$dir/frames/rgb.txt"
+tie=0
+for times in '0.9921875 1.0078125' '1.0078125 0.9921875' '1 1' '0.9921875 0.9921875' '1.0078125 1.0078125'; do
+    printf '5 gone\n%s f0.depth.pfm\n%s near.depth.pfm\n-5 gone\n' $times >"$dir/frames/depth.txt"
+    status 0 mix --frames "$dir/frames" $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 -o "$dir/frames/tie${tie}_%02d.pfm"
+    said "photos without a depth within 0.02 s: 69998; without a pose: 1;"
+    said "lines of its lists that are no time and name, or pose: 1;"
+    check "depths at $times s: the earlier line" cmp "$dir/frames/o_00.pfm" "$dir/frames/tie${tie}_00.pfm"
+    tie=$((tie + 1))
+done
+printf '1.00 f0.color.pfm\n1.02\nlate f4.color.pfm\n1.03 f4.color.pfm\n2.00 f4.color.pfm\n3.00 f0.color.pfm\n' >"$dir/frames/rgb.txt"
+printf '1.00 0 0 0 0 0 0 1\n1.03 0 0 0 0 0 0 0\n' >"$dir/frames/groundtruth.txt"
 printf '9.00 f0.depth.pfm\n' >"$dir/frames/depth.txt"
 status 1 mix --frames "$dir/frames" $tent --intrinsics 30,30,11.5,11.5 -o "$dir/frames/bad_%02d.pfm"
 said "lists no frame: photos without a depth within 0.02 s: 4; without a pose: 0"
@@ -1156,6 +1190,34 @@ printf 'x0\nf0\n' >"$dir/frames/blind.txt"
 leaves_out 1 mix --frames "$dir/frames/blind.txt" $tent -o "$dir/frames/blind_%02d.pfm"
 said "frame 0 is left out: "
 check "a list whose first frame is blind begins with the next" cmp "$dir/frames/o_00.pfm" "$dir/frames/blind_01.pfm"
+# A wall 1.5 m away that is not measured where the object would stand: what it measured is forgotten with it.
+{
+    printf 'Pf\n24 24\n-1.0\n'
+    i=0
+    while [ $i -lt 576 ]; do
+        if [ $((i % 24)) -lt 22 ]; then printf '\000\000\300\177'; else printf '\000\000\300\077'; fi
+        i=$((i + 1))
+    done
+} >"$dir/frames/hole.depth.pfm"
+cp "$dir/photo.pfm" "$dir/frames/hole.color.pfm" && cp "$dir/frames/f0.json" "$dir/frames/hole.json"
+printf 'hole\nf0\n' >"$dir/frames/hole.txt"
+leaves_out 1 mix --frames "$dir/frames/hole.txt" $tent -o "$dir/frames/hole_%02d.pfm"
+said "frame 0 is left out: --at 8,12: neither a plane nor any depth there"
+check "what a frame measured that is left out changes no other" cmp "$dir/frames/o_00.pfm" "$dir/frames/hole_01.pfm"
+# A name that cannot be read, whatever the system's reason, is of its frame alone.
+ln -s loop.color.png "$dir/frames/loop.color.png" && cp "$dir/frames/f0.json" "$dir/frames/loop.json" && cp "$dir/wall.pfm" "$dir/frames/loop.depth.pfm"
+printf 'f0\nloop\nf5\n' >"$dir/frames/loop.txt"
+leaves_out 1 mix --frames "$dir/frames/loop.txt" $tent -o "$dir/frames/loop_%02d.pfm"
+said "frame 1 is left out: "
+check "a link to itself ends no sequence" cmp "$dir/frames/g_01.pfm" "$dir/frames/loop_02.pfm"
+# Linear photos: half of this one is as the first, and half shines; that half's codes stay.
+{ printf 'PF\n24 24\n-1.0\n'; tail -c 3456 "$dir/photo.pfm"; i=0; while [ $i -lt 864 ]; do printf '\000\000\000\101'; i=$((i + 1)); done; } >"$dir/frames/glow.color.pfm"
+cp "$dir/wall.pfm" "$dir/frames/glow.depth.pfm" && cp "$dir/frames/f0.json" "$dir/frames/glow.json"
+printf 'f0\nglow\n' >"$dir/frames/glow.txt"
+status 0 mix --frames "$dir/frames/glow.txt" -o "$dir/frames/glow_%02d.ppm"
+for i in 0 1; do tail -c 864 "$dir/frames/glow_0$i.ppm" >"$dir/frames/still_$i"; done
+check "the first frame's exposure stays" cmp "$dir/frames/still_0" "$dir/frames/still_1"
+check "the other half shines" sh -c '! cmp -s "$1" "$2"' sh "$dir/frames/glow_00.ppm" "$dir/frames/glow_01.ppm"
 status 2 mix --frames "$dir/frames/two.txt" --object "$dir/tent.obj" --fit --scale 2 -o "$dir/frames/bad_%02d.pfm"
 status 2 mix --frames "$dir/frames/two.txt" --object "$dir/tent.obj" --on wall --at 3,4 -o "$dir/frames/bad_%02d.pfm"
 status 2 mix --frames "$dir/frames/two.txt" --show object -o "$dir/frames/bad_%02d.pfm"
@@ -1163,6 +1225,9 @@ check "what is refused draws nothing" sh -c '! ls "$1"/bad_* 2>/dev/null | grep 
 status 2 mix --frames "$dir/frames" $tent -o "$dir/bad.png"
 status 2 mix --frames "$dir/frames" --photo "$dir/photo.pfm" $tent -o "$dir/bad%02d.png"
 status 1 mix --frames "$dir/nowhere" $tent -o "$dir/bad%02d.png"
+mkdir -p "$dir/frames/none"
+status 1 mix --frames "$dir/frames/none" $tent -o "$dir/bad%02d.png"
+said "$dir/frames/none: a folder with neither frames.txt nor TUM's rgb.txt"
 # Surroundings that shine in one colour light the object in that colour alone.
 { printf 'PF\n1 6\n-1.0\n'; i=0; while [ $i -lt 6 ]; do printf "$one\000\000\000\000\000\000\000\000"; i=$((i + 1)); done; } > "$dir/red.pfm"
 status 0 mix $seen $tent --world "$dir/red.pfm" --show object -o "$dir/mixed.pfm"
@@ -1172,7 +1237,7 @@ status 1 mix $seen $tent --world "$dir/nowhere.pfm" -o "$dir/bad.png"
 status 1 mix --photo "$dir/photo.pfm" --depth "$dir/facepx.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
 status 1 mix --photo "$dir/photo.pfm" --depth "$dir/demo.png" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
 status 1 mix --photo "$dir/nowhere.pfm" --depth "$dir/wall.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
-status 1 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" --intrinsics 0,30,11.5,11.5 -o "$dir/bad.png"
+status 2 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" --intrinsics 0,30,11.5,11.5 -o "$dir/bad.png"
 status 1 mix $seen --object "$dir/nowhere.obj" -o "$dir/bad.png"
 status 1 mix $seen --object "$dir/tent.obj" --at 24,0 -o "$dir/bad.png"
 status 1 mix $seen --object "$dir/tent.obj" --at 3e9,5 -o "$dir/bad.png"

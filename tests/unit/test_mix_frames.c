@@ -43,50 +43,50 @@ static void fill(mix_frame *f, float depth)
  * second time. */
 static void depth_stays(void)
 {
-    mix_kept k;
+    mix_depth d;
     report r = {""};
     mix_frame f = frame_at(0.0);
-    memset(&k, 0, sizeof k);
+    memset(&d, 0, sizeof d);
     fill(&f, 2.0f);
     f.depth[5] = 0.0f;
     f.depth[9] = NAN;
-    CHECK(mix_keep_depth(&k, &f, &r) && f.depth[5] == 0.0f && f.depth[9] == 0.0f && f.depth[6] == 2.0f);
+    CHECK(mix_keep_depth(&d, &f, &r) && f.depth[5] == 0.0f && f.depth[9] == 0.0f && f.depth[6] == 2.0f);
     fill(&f, 2.01f);
     f.depth[6] = 0.0f;
     f.depth[7] = 1.0f;
     f.depth[8] = INFINITY;
-    CHECK(mix_keep_depth(&k, &f, &r));
+    CHECK(mix_keep_depth(&d, &f, &r));
     CHECK(f.depth[4] == 2.0f && f.depth[6] == 2.0f && f.depth[7] == 2.0f && f.depth[8] == 2.0f);
     CHECK(fabsf(f.depth[5] - 2.01f) < 1e-5f);
     fill(&f, 2.01f);
     f.depth[7] = 1.0f;
-    CHECK(mix_keep_depth(&k, &f, &r) && f.depth[7] == 1.0f && f.depth[4] == 2.0f);
+    CHECK(mix_keep_depth(&d, &f, &r) && f.depth[7] == 1.0f && f.depth[4] == 2.0f);
     mix_frame_free(&f);
-    mix_kept_free(&k);
+    mix_depth_free(&d);
 }
 
 /* A camera that moves to the right by eight pixels of a wall: what it does not measure now is what was seen there, and
  * beyond its old picture it knows nothing. Another size begins anew. */
 static void depth_moves(void)
 {
-    mix_kept k;
+    mix_depth d;
     report r = {""};
     mix_frame f = frame_at(0.0);
-    memset(&k, 0, sizeof k);
+    memset(&d, 0, sizeof d);
     for (int i = 0; i < PIXELS; ++i) {
         f.depth[i] = i % WIDTH < 40 ? 2.0f : 2.5f;
     }
-    CHECK(mix_keep_depth(&k, &f, &r));
+    CHECK(mix_keep_depth(&d, &f, &r));
     fill(&f, 0.0f);
     f.pose[3] = 8.0 * 2.0 / 80.0;
-    CHECK(mix_keep_depth(&k, &f, &r));
+    CHECK(mix_keep_depth(&d, &f, &r));
     CHECK(f.depth[20 * WIDTH + 31] == 2.0f && fabsf(f.depth[20 * WIDTH + 60] - 2.5f) < 1e-5f);
     CHECK(f.depth[20 * WIDTH + 95] == 0.0f);
     f.camera.width = WIDTH / 2;
     fill(&f, 3.0f);
-    CHECK(mix_keep_depth(&k, &f, &r) && fabsf(f.depth[0] - 3.0f) < 1e-5f && k.camera.width == WIDTH / 2);
+    CHECK(mix_keep_depth(&d, &f, &r) && fabsf(f.depth[0] - 3.0f) < 1e-5f && d.camera.width == WIDTH / 2);
     mix_frame_free(&f);
-    mix_kept_free(&k);
+    mix_depth_free(&d);
 }
 
 static void poses(void)

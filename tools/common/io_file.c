@@ -130,13 +130,12 @@ int file_keep(const char *path, report *r)
 
 /* --- reading --- */
 
-/* That there is no such file is its user's affair, and so is what may not be read. */
+/* Of another file the machine would have no more memory or open files, either; all else is of this one. */
 static int cannot_read(report *r, const char *path, const char *what)
 {
-    const int error = errno, is_users = error == ENOENT || error == ENOTDIR || error == EACCES || error == EISDIR ||
-                                        error == ENAMETOOLONG || error == EINVAL;
+    const int error = errno, is_systems = error == ENOMEM || error == EMFILE || error == ENFILE;
     const char *why = reason();
-    return (is_users ? report_fail : report_fail_system)(r, "%s: cannot be %s: %s", path, what, why);
+    return (is_systems ? report_fail_system : report_fail)(r, "%s: cannot be %s: %s", path, what, why);
 }
 
 void file_free(file_bytes *file)
@@ -220,6 +219,12 @@ int file_is_plain(const char *path, report *r)
     errno = 0;
     if (stat(path, &s) != 0) return cannot_read(r, path, "opened");
     return IS_KIND(s, REG) || report_fail(r, "%s: not a file", path);
+}
+
+int file_is_folder(const char *path)
+{
+    struct stat s;
+    return stat(path, &s) == 0 && IS_KIND(s, DIR);
 }
 
 /* --- writing --- */

@@ -22,6 +22,9 @@ void file_free(file_bytes *file);
 /* file_is_plain: a regular file, or a link to one; no folder, device or pipe. */
 int file_is_plain(const char *path, report *r);
 
+/* file_is_folder: a folder, or a link to one. */
+int file_is_folder(const char *path);
+
 /* file_is_stdout: `-`, /dev/stdout, or `png:-` with any three letters: a name that says the format, too. */
 int file_is_stdout(const char *path);
 

@@ -45,7 +45,7 @@ static const mix_answer *kept_of(const mix_job *j, const lmb_tile *real, int k)
 {
     const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE, width = j->frame.light.width;
     const size_t at = (size_t)y * (size_t)width + (size_t)x;
-    return x < width && y < j->frame.light.height && !j->kept->fresh[at] ? &j->kept->last->answer[at] : NULL;
+    return x < width && y < j->frame.light.height && !j->kept->depth.fresh[at] ? &j->kept->last->answer[at] : NULL;
 }
 
 int mix_again_light(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real)

@@ -1,4 +1,4 @@
-/* mix_contact.c: the object touches what was measured; and the nearest place where it would have a plane to stand on. */
+/* mix_contact.c: the object touches what was measured; where nothing is to stand on, what there is, and the nearest place. */
 #include "mix_job.h"
 
 #include <math.h>
@@ -92,4 +92,23 @@ int mix_fail_at(const mix_job *j, report *r)
                              x, y, (int)at[0], (int)at[1])
                : report_fail(r, "--at %d,%d: neither a plane nor any depth there, and no plane faces up; lambent mix "
                                 "--show planes shows them", x, y);
+}
+
+int mix_fail_depth(const mix_job *j, report *r)
+{
+    const int32_t pixels = j->frame.camera.width * j->frame.camera.height;
+    int32_t count = 0;
+    float near = INFINITY, far = 0.0f;
+    for (int32_t i = 0; i < pixels; ++i) {
+        const float d = j->frame.depth[i];
+        if (d > 0.0f && d < INFINITY) {
+            near = fminf(near, d);
+            far = fmaxf(far, d);
+            ++count;
+        }
+    }
+    return count > 0 ? report_fail(r, "no plane in the depth to stand on; %.3g %% of its pixels are measured, %.3g .. %.3g m "
+                                      "away: --depth-scale sets its unit, --at X,Y says where the object stands",
+                                   100.0 * (double)count / (double)pixels, (double)near, (double)far)
+                     : report_fail(r, "nothing to stand on: no pixel of the depth has a number over 0, so none is measured");
 }

@@ -198,13 +198,18 @@ static int read_camera(mix_frame *f, mix_source *s, report *r)
     return ok;
 }
 
+int mix_is_camera(const float v[4])
+{
+    return v[0] > 0.1f && v[1] > 0.1f && v[0] < 1e5f && v[1] < 1e5f && v[2] > -8192.0f && v[2] < 16384.0f &&
+           v[3] > -8192.0f && v[3] < 16384.0f;
+}
+
 static int set_camera(mix_frame *f, const mix_source *s, report *r)
 {
     const lmb_pinhole c = {f->photo.width, f->photo.height, s->intrinsics[0], s->intrinsics[1], s->intrinsics[2],
                            s->intrinsics[3]};
     f->camera = c;
-    return (c.fx > 0.1f && c.fy > 0.1f && c.fx < 1e5f && c.fy < 1e5f && c.cx > -8192.0f && c.cx < 16384.0f &&
-            c.cy > -8192.0f && c.cy < 16384.0f) ||
+    return mix_is_camera(s->intrinsics) ||
            report_fail(r, "intrinsics %g,%g,%g,%g: focal lengths are over 0 and all in pixels", (double)c.fx,
                        (double)c.fy, (double)c.cx, (double)c.cy);
 }

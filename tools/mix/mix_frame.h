@@ -28,6 +28,9 @@ typedef struct mix_frame {
 int mix_frame_read(mix_frame *out, const mix_source *from, report *r);
 void mix_frame_free(mix_frame *f);
 
+/* mix_is_camera: are fx, fy, cx, cy of a camera, px? */
+int mix_is_camera(const float v[4]);
+
 /* mix_is_pose: a rotation and a place, all finite. */
 int mix_is_pose(const double pose[16]);
 

@@ -18,47 +18,70 @@ enum {
 
 static float inverse_of(float depth) { return depth >= 0.01f && depth <= 1000.0f ? 1.0f / depth : 0.0f; }
 
-static int is_same_view(const mix_kept *k, const mix_frame *f)
+static int is_same_view(const mix_depth *d, const mix_frame *f)
 {
-    return memcmp(&k->camera, &f->camera, sizeof f->camera) == 0 && memcmp(k->pose, f->pose, sizeof f->pose) == 0;
+    return memcmp(&d->camera, &f->camera, sizeof f->camera) == 0 && memcmp(d->pose, f->pose, sizeof f->pose) == 0;
 }
 
-static int has_size(const mix_kept *k, const mix_frame *f)
+static int has_size(const mix_depth *d, const mix_frame *f)
 {
-    return k->inverse != NULL && k->camera.width == f->camera.width && k->camera.height == f->camera.height;
+    return d->inverse != NULL && d->camera.width == f->camera.width && d->camera.height == f->camera.height;
 }
 
-static int take_depth(mix_kept *k, const mix_frame *f, report *r)
+void mix_depth_free(mix_depth *d)
 {
-    const size_t pixels = (size_t)f->camera.width * (size_t)f->camera.height;
-    free(k->inverse);
-    free(k->differs);
-    free(k->fresh);
-    k->inverse = calloc(pixels, sizeof *k->inverse);
-    k->differs = calloc(pixels, 1);
-    k->fresh = calloc(pixels, 1);
-    if (k->inverse != NULL && k->differs != NULL && k->fresh != NULL) {
+    free(d->inverse);
+    free(d->differs);
+    free(d->fresh);
+    memset(d, 0, sizeof *d);
+}
+
+static size_t pixels_of(const mix_depth *d) { return (size_t)d->camera.width * (size_t)d->camera.height; }
+
+/* All 0, for a camera. */
+static int take_depth(mix_depth *d, const lmb_pinhole *camera, report *r)
+{
+    memset(d, 0, sizeof *d);
+    d->camera = *camera;
+    d->inverse = calloc(pixels_of(d), sizeof *d->inverse);
+    d->differs = calloc(pixels_of(d), 1);
+    d->fresh = calloc(pixels_of(d), 1);
+    if (d->inverse == NULL || d->differs == NULL || d->fresh == NULL) {
+        mix_depth_free(d);
+        return report_fail(r, "out of memory");
+    }
+    return 1;
+}
+
+int mix_depth_copy(mix_depth *out, const mix_depth *in, report *r)
+{
+    memset(out, 0, sizeof *out);
+    if (in->inverse == NULL) {
         return 1;
     }
-    free(k->inverse);
-    free(k->differs);
-    free(k->fresh);
-    k->inverse = NULL;
-    k->differs = k->fresh = NULL;
-    return report_fail(r, "out of memory");
+    if (!take_depth(out, &in->camera, r)) {
+        return 0;
+    }
+    memcpy(out->inverse, in->inverse, pixels_of(in) * sizeof *in->inverse);
+    memcpy(out->differs, in->differs, pixels_of(in));
+    memcpy(out->fresh, in->fresh, pixels_of(in));
+    out->has_pose = in->has_pose;
+    memcpy(out->pose, in->pose, sizeof in->pose);
+    out->changed = in->changed;
+    return 1;
 }
 
 /* What is known of one pixel that does not move: the first measure stays while others agree, or nothing is measured. */
-static void keep_pixel(mix_kept *k, size_t i, float now)
+static void keep_pixel(mix_depth *d, size_t i, float now)
 {
-    const float was = k->inverse[i];
+    const float was = d->inverse[i];
     const int differs = was > 0.0f && now > 0.0f && !mix_agree(was, now);
-    k->differs[i] = (uint8_t)(differs ? k->differs[i] + 1 : 0);
-    if ((!(was > 0.0f) && now > 0.0f) || k->differs[i] >= TWICE) {
-        k->changed += !k->fresh[i];
-        k->fresh[i] = 1;
-        k->inverse[i] = now;
-        k->differs[i] = 0;
+    d->differs[i] = (uint8_t)(differs ? d->differs[i] + 1 : 0);
+    if ((!(was > 0.0f) && now > 0.0f) || d->differs[i] >= TWICE) {
+        d->changed += !d->fresh[i];
+        d->fresh[i] = 1;
+        d->inverse[i] = now;
+        d->differs[i] = 0;
     }
 }
 
@@ -79,18 +102,18 @@ static void to_camera(double out[3], const double pose[16], const double p[3])
 }
 
 /* What is known, as another camera sees it: each pixel's point, the nearest one of those that fall on a pixel. */
-static void move_depth(float *out, const mix_kept *k, const mix_frame *f)
+static void move_depth(float *out, const mix_depth *d, const mix_frame *f)
 {
-    const lmb_pinhole *a = &k->camera, *b = &f->camera;
+    const lmb_pinhole *a = &d->camera, *b = &f->camera;
     for (int32_t i = 0; i < a->width * a->height; ++i) {
-        const double q = (double)k->inverse[i];
+        const double q = (double)d->inverse[i];
         if (!(q > 0.0)) {
             continue;
         }
         const double p[3] = {((double)(i % a->width) - (double)a->cx) / (double)a->fx / q,
                              ((double)(i / a->width) - (double)a->cy) / (double)a->fy / q, 1.0 / q};
         double w[3], c[3];
-        to_world(w, k->pose, p);
+        to_world(w, d->pose, p);
         to_camera(c, f->pose, w);
         const double x = (double)b->fx * c[0] / c[2] + (double)b->cx, y = (double)b->fy * c[1] / c[2] + (double)b->cy;
         if (c[2] > 0.01 && x > -0.5 && y > -0.5 && x < b->width - 0.5 && y < b->height - 0.5) {
@@ -101,17 +124,17 @@ static void move_depth(float *out, const mix_kept *k, const mix_frame *f)
 }
 
 /* From another place what is measured now is believed, and the mean of both where they agree. */
-static int merge_moved(mix_kept *k, const mix_frame *f, report *r)
+static int merge_moved(mix_depth *d, const mix_frame *f, report *r)
 {
     const size_t pixels = (size_t)f->camera.width * (size_t)f->camera.height;
     float *moved = calloc(pixels, sizeof *moved);
     if (moved == NULL) {
         return report_fail(r, "out of memory");
     }
-    move_depth(moved, k, f);
-    free(k->inverse);
-    k->inverse = moved;
-    memset(k->differs, 0, pixels);
+    move_depth(moved, d, f);
+    free(d->inverse);
+    d->inverse = moved;
+    memset(d->differs, 0, pixels);
     for (size_t i = 0; i < pixels; ++i) {
         const float was = moved[i], now = inverse_of(f->depth[i]);
         moved[i] = !(now > 0.0f) ? was : was > 0.0f && mix_agree(was, now) ? 0.5f * (was + now) : now;
@@ -119,32 +142,33 @@ static int merge_moved(mix_kept *k, const mix_frame *f, report *r)
     return 1;
 }
 
-int mix_keep_depth(mix_kept *k, mix_frame *f, report *r)
+int mix_keep_depth(mix_depth *d, mix_frame *f, report *r)
 {
     const size_t pixels = (size_t)f->camera.width * (size_t)f->camera.height;
-    if (!has_size(k, f)) {
-        k->changed = pixels;
-        if (!take_depth(k, f, r)) {
+    if (!has_size(d, f)) {
+        mix_depth_free(d);
+        if (!take_depth(d, &f->camera, r)) {
             return 0;
         }
+        d->changed = pixels;
         for (size_t i = 0; i < pixels; ++i) {
-            k->inverse[i] = inverse_of(f->depth[i]);
+            d->inverse[i] = inverse_of(f->depth[i]);
         }
-    } else if (is_same_view(k, f)) {
+    } else if (is_same_view(d, f)) {
         for (size_t i = 0; i < pixels; ++i) {
-            keep_pixel(k, i, inverse_of(f->depth[i]));
+            keep_pixel(d, i, inverse_of(f->depth[i]));
         }
     } else {
-        k->changed = pixels;
-        if (!merge_moved(k, f, r)) {
+        d->changed = pixels;
+        if (!merge_moved(d, f, r)) {
             return 0;
         }
     }
-    k->camera = f->camera;
-    k->has_pose = f->has_pose;
-    memcpy(k->pose, f->pose, sizeof k->pose);
+    d->camera = f->camera;
+    d->has_pose = f->has_pose;
+    memcpy(d->pose, f->pose, sizeof d->pose);
     for (size_t i = 0; i < pixels; ++i) {
-        f->depth[i] = k->inverse[i] > 0.0f ? 1.0f / k->inverse[i] : 0.0f;
+        f->depth[i] = d->inverse[i] > 0.0f ? 1.0f / d->inverse[i] : 0.0f;
     }
     return 1;
 }
@@ -164,14 +188,14 @@ static int is_as_bright(const mix_kept *k, double bright) { return fabs(bright -
 int mix_is_still(mix_kept *k, double bright)
 {
     k->is_other_light = k->frames > 0 && !is_as_bright(k, bright);
-    const size_t pixels = (size_t)k->camera.width * (size_t)k->camera.height;
-    return k->last != NULL && k->last->answer != NULL && FEW * k->changed < pixels && !k->is_other_light;
+    const size_t pixels = pixels_of(&k->depth);
+    return k->last != NULL && k->last->answer != NULL && FEW * k->depth.changed < pixels && !k->is_other_light;
 }
 
 int mix_is_settled(const mix_kept *k)
 {
-    const size_t pixels = (size_t)k->camera.width * (size_t)k->camera.height;
-    return k->last != NULL && k->last->answer != NULL && SOME * k->changed < pixels && !k->is_other_light;
+    const size_t pixels = pixels_of(&k->depth);
+    return k->last != NULL && k->last->answer != NULL && SOME * k->depth.changed < pixels && !k->is_other_light;
 }
 
 /* --- the object and its light ------------------------------------------------------------------------------------- */
@@ -203,8 +227,6 @@ void mix_kept_free(mix_kept *k)
     }
     model_free(&k->object);
     free(k->env_memory);
-    free(k->inverse);
-    free(k->differs);
-    free(k->fresh);
+    mix_depth_free(&k->depth);
     memset(k, 0, sizeof *k);
 }

@@ -6,6 +6,17 @@
 
 #include "mix_job.h"
 
+/* Depth that is known, by the pixels of the frame before. */
+typedef struct mix_depth {
+    lmb_pinhole camera;     /* that `inverse` is seen by */
+    int has_pose;
+    double pose[16];
+    float *inverse;         /* 1/m, by pixel: 0 where nothing was ever measured */
+    uint8_t *differs;       /* how many frames running measured something else */
+    uint8_t *fresh;         /* 1: pixels whose depth has changed since `last` was drawn */
+    size_t changed;         /* how many these are */
+} mix_depth;
+
 /* What frames before have left, in the world of their poses. */
 typedef struct mix_kept {
     int32_t frames;         /* that were mixed */
@@ -19,15 +30,11 @@ typedef struct mix_kept {
     lmb_light sun;          /* guessed at the first frame */
     lmb_env env;            /* around the first frame */
     void *env_memory;
-    lmb_pinhole camera;     /* that `inverse` is seen by */
-    int has_pose;
-    double pose[16];
-    float *inverse;         /* 1/m, by pixel: 0 where nothing was ever measured */
-    uint8_t *differs;       /* how many frames running measured something else */
-    uint8_t *fresh;         /* 1: pixels whose depth has changed since `last` was drawn */
-    size_t changed;         /* how many these are */
+    mix_depth depth;
     double bright;          /* the mean of the photo that `last` was drawn for */
     int is_other_light;     /* the frame is brighter or darker by over a twentieth */
+    int has_exposure;
+    float exposure_ev;      /* of linear photos: chosen for the first one */
     mix_job *last;          /* the frame that was drawn last, with its answer; or NULL */
     mix_job *world;         /* the frame whose voxels are traced; or NULL */
 } mix_kept;
@@ -52,7 +59,11 @@ void mix_list_free(mix_list *l);
 
 /* mix_keep_depth: what was measured agrees with what is known, and that stays; or it is new, or it differs twice, and
  * replaces it. frame->depth becomes what is known now, as the frame's camera sees it. 1, or 0 with `r` set. */
-int mix_keep_depth(mix_kept *k, mix_frame *frame, report *r);
+int mix_keep_depth(mix_depth *d, mix_frame *frame, report *r);
+
+/* mix_depth_copy: 1, or 0 with `r` set and nothing allocated. mix_depth_free releases it. */
+int mix_depth_copy(mix_depth *out, const mix_depth *in, report *r);
+void mix_depth_free(mix_depth *d);
 
 /* Measures of one thing differ by less, 1/m and relatively: a Kinect's noise is 0.003 1/m. */
 #define MIX_NOISE    0.012f

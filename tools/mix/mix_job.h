@@ -115,6 +115,12 @@ void mix_touch(mix_job *j, float gap_m);
  * in view; where it is nowhere, one whose plane faces up; 0 where there is none. */
 int mix_plane_near(int32_t at[2], const mix_job *j);
 
+/* mix_is_inside: do all vertices of the object lie in the picture, where it stands? */
+int mix_is_inside(const mix_job *j);
+
+/* mix_fail_depth: 0, with `r` set: no plane is in the depth, and how much of that is measured, and how far away. */
+int mix_fail_depth(const mix_job *j, report *r);
+
 /* mix_fail_at: 0, with `r` set: --at shows nothing to stand on, and which pixel would. */
 int mix_fail_at(const mix_job *j, report *r);
 

@@ -8,8 +8,6 @@
 
 #include "../common/io_text.h"
 
-enum { STAMPED_CAP = 65536 };
-
 #define SAME_TIME 0.02 /* s: of a photo, its depth and its pose */
 
 /* A line of one of TUM's lists. */
@@ -19,8 +17,9 @@ typedef struct stamped {
 } stamped;
 
 typedef struct stamped_list {
-    stamped *line;
-    int32_t count, unread;
+    stamped *line;             /* in the file's order */
+    const stamped **by_time;   /* and by time; of one time in the file's */
+    int32_t count, cap, unread;
 } stamped_list;
 
 void mix_list_free(mix_list *l)
@@ -29,18 +28,29 @@ void mix_list_free(mix_list *l)
     memset(l, 0, sizeof *l);
 }
 
+/* Room for one more item: the items, or NULL with `r` set and the old ones as they were. */
+static void *with_room(void *items, int32_t *cap, int32_t count, size_t bytes, report *r)
+{
+    if (count < *cap) {
+        return items;
+    }
+    const int32_t larger = *cap > 0 ? 2 * *cap : 64;
+    void *more = realloc(items, (size_t)larger * bytes);
+    if (more == NULL) {
+        report_fail(r, "out of memory");
+        return NULL;
+    }
+    *cap = larger;
+    return more;
+}
+
 static mix_entry *add(mix_list *l, report *r)
 {
-    if (l->count == l->cap) {
-        const int32_t cap = l->cap > 0 ? 2 * l->cap : 64;
-        mix_entry *more = realloc(l->entry, (size_t)cap * sizeof *more);
-        if (more == NULL) {
-            report_fail(r, "out of memory");
-            return NULL;
-        }
-        l->entry = more;
-        l->cap = cap;
+    mix_entry *more = with_room(l->entry, &l->cap, l->count, sizeof *more, r);
+    if (more == NULL) {
+        return NULL;
     }
+    l->entry = more;
     memset(&l->entry[l->count], 0, sizeof *l->entry);
     return &l->entry[l->count++];
 }
@@ -56,16 +66,16 @@ static int beside(char *out, size_t size, const char *folder, const char *name, 
 /* --- TUM's lists -------------------------------------------------------------------------------------------------- */
 
 /* "time name", or "time" and seven numbers. Empty lines and headers, which begin with #, are passed over, and others that
- * are neither are counted. */
-static void read_line(stamped_list *out, cursor *c, int has_names)
+ * are neither are counted. 0 with `r` set where there is no memory. */
+static int read_line(stamped_list *out, cursor *c, int has_names, report *r)
 {
     slice s;
     stamped line;
     memset(&line, 0, sizeof line);
-    if (!text_token(&s, c) || s.at[0] == '#') {
-        return;
+    if (!text_token(&s, c)) {
+        return 1;
     }
-    int ok = slice_number(&line.time, s);
+    int ok = slice_number(&line.time, s) && isfinite(line.time);
     if (ok && has_names) {
         ok = text_token(&s, c) && s.size < sizeof line.name;
         memcpy(line.name, s.at, ok ? s.size : 0);
@@ -73,11 +83,37 @@ static void read_line(stamped_list *out, cursor *c, int has_names)
     for (int i = 0; i < 7 && ok && !has_names; ++i) {
         ok = text_token(&s, c) && slice_number(&line.value[i], s);
     }
-    if (ok && out->count < STAMPED_CAP) {
-        out->line[out->count++] = line;
-    } else {
+    if (!ok) {
         ++out->unread;
+        return 1;
     }
+    stamped *more = with_room(out->line, &out->cap, out->count, sizeof *more, r);
+    if (more == NULL) {
+        return 0;
+    }
+    out->line = more;
+    out->line[out->count++] = line;
+    return 1;
+}
+
+/* Both point into one array, in the file's order. */
+static int by_time(const void *a, const void *b)
+{
+    const stamped *x = *(const stamped *const *)a, *y = *(const stamped *const *)b;
+    return x->time != y->time ? (x->time > y->time) - (x->time < y->time) : (x > y) - (x < y);
+}
+
+static int sort(stamped_list *l, report *r)
+{
+    l->by_time = malloc((size_t)(l->count + 1) * sizeof *l->by_time);
+    if (l->by_time == NULL) {
+        return report_fail(r, "out of memory");
+    }
+    for (int32_t i = 0; i < l->count; ++i) {
+        l->by_time[i] = &l->line[i];
+    }
+    qsort(l->by_time, (size_t)l->count, sizeof *l->by_time, by_time);
+    return 1;
 }
 
 static int read_stamped(stamped_list *out, const char *folder, const char *name, int has_names, report *r)
@@ -89,25 +125,40 @@ static int read_stamped(stamped_list *out, const char *folder, const char *name,
     if (!file_read(&file, path, r)) {
         return 0;
     }
-    out->line = malloc(STAMPED_CAP * sizeof *out->line);
     cursor c = text_open(file.data, file.size, path);
+    int ok = 1;
     do {
-        if (out->line != NULL) {
-            read_line(out, &c, has_names);
-        }
-    } while (text_next_line(&c));
+        ok = read_line(out, &c, has_names, r);
+    } while (ok && text_next_line(&c));
     file_free(&file);
-    return out->line != NULL || report_fail(r, "out of memory");
+    return ok && sort(out, r);
 }
 
+/* The first by time that is no earlier, or the list's count. */
+static int32_t first_from(const stamped_list *l, double time)
+{
+    int32_t low = 0, high = l->count;
+    while (low < high) {
+        const int32_t middle = low + (high - low) / 2;
+        if (l->by_time[middle]->time < time) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/* Of two that are as near the earlier line; NULL: none is of that time. */
 static const stamped *nearest(const stamped_list *l, double time)
 {
-    const stamped *found = NULL;
-    for (int32_t i = 0; i < l->count; ++i) {
-        const double off = fabs(l->line[i].time - time);
-        found = off < SAME_TIME && (found == NULL || off < fabs(found->time - time)) ? &l->line[i] : found;
-    }
-    return found;
+    const int32_t from = first_from(l, time);
+    const stamped *after = from < l->count ? l->by_time[from] : NULL,
+                  *before = from > 0 ? l->by_time[first_from(l, l->by_time[from - 1]->time)] : NULL;
+    const double later = after != NULL ? after->time - time : HUGE_VAL,
+                 earlier = before != NULL ? time - before->time : HUGE_VAL;
+    const stamped *found = earlier < later || (earlier == later && before < after) ? before : after;
+    return fmin(earlier, later) < SAME_TIME ? found : NULL;
 }
 
 /* Of a place and a quaternion x, y, z, w. */
@@ -149,6 +200,7 @@ static int read_tum(mix_list *out, const char *folder, report *r)
                    read_stamped(&l[2], folder, "groundtruth.txt", 0, r) && join(out, l, folder, r);
     for (int i = 0; i < 3; ++i) {
         free(l[i].line);
+        free(l[i].by_time);
     }
     return ok;
 }
@@ -195,6 +247,9 @@ int mix_list_read(mix_list *out, const char *path, report *r)
     const int is_tum = file_is_plain(name, &none);
     snprintf(name, sizeof name, "%sframes.txt", folder);
     const int is_folder = file_is_plain(name, &none);
+    if (!is_tum && !is_folder && file_is_folder(path)) {
+        return report_fail(r, "%s: a folder with neither frames.txt nor TUM's rgb.txt; name one, or a list of PREFIXes", path);
+    }
     const int ok = (is_tum ? read_tum(out, folder, r) : read_prefixes(out, is_folder ? name : path, r)) &&
                    (out->count > 0 || fail_empty(out, path, r));
     if (!ok) {

@@ -122,7 +122,7 @@ static const option_row output_rows[] = {
      .help = HELP("a pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
-     .help = HELP("stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits)")},
+     .help = HELP("stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits; of --frames the first of these)")},
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
      .help = HELP("planes, voxels, seconds by stage")},
     OPTION_BACKEND_ROW(mix_options, kernels),
@@ -187,6 +187,9 @@ static int complete(const mix_options *o, report *r)
 {
     if (!(o->frames != NULL ? complete_frames(o, r) : complete_photo(o, r))) {
         return 0;
+    }
+    if (o->source.has_intrinsics && !mix_is_camera(o->source.intrinsics)) {
+        return report_fail(r, "--intrinsics: focal lengths are over 0, and all four in pixels");
     }
     if (o->object == NULL && (o->show == MIX_OBJECT || o->show == MIX_VOXELS)) {
         return report_fail(r, "--show: no object given; add --object MESH");

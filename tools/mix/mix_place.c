@@ -220,16 +220,13 @@ static void set_box(mix_job *j, float x0, float y0, float x1, float y1)
     j->box_px[3] = (int32_t)fminf(fmaxf(y1 + 4.0f, 0.0f), h);
 }
 
-/* Is the box of what the object covers in the picture, and how large is it there? */
+/* How large is the box of what the object covers in the picture, and is the object in it? */
 static void look(mix_job *j)
 {
     const lmb_pinhole *c = &j->frame.camera;
-    lmb_scene object = j->scene;
     lmb_vec3 low, high;
     float x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
-    ++object.instances;
-    --object.instance_count;
-    lmb_scene_bounds(&low, &high, &object);
+    mix_object_box(&low, &high, j);
     for (int i = 0; i < 8; ++i) {
         const lmb_vec3 p = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
         const float ahead = -dot(j->axes.back, p), x = c->cx + c->fx * dot(j->axes.right, p) / ahead,
@@ -247,7 +244,7 @@ static void look(mix_job *j)
     }
     set_box(j, x0, y0, x1, y1);
     j->seen_px = fmaxf(x1 - x0, y1 - y0);
-    j->inside = x0 >= -0.5f && y0 >= -0.5f && x1 <= (float)c->width - 0.5f && y1 <= (float)c->height - 0.5f;
+    j->inside = mix_is_inside(j);
 }
 
 /* Of the floor, or, where none is seen, what else tells. */

@@ -65,11 +65,11 @@ static int draw_one(mix_job **job, mix_kept *k, report *r)
 {
     mix_job *j = *job;
     double from = host_seconds();
-    if (k->frames > 0 && k->has_pose != j->frame.has_pose) {
+    if (k->frames > 0 && k->depth.has_pose != j->frame.has_pose) {
         return report_fail(r, j->frame.has_pose ? "has a pose, and those before it have none" : "has no pose");
     }
     lmb_pinhole_round(&j->frame.camera);
-    if (!mix_keep_depth(k, &j->frame, r)) {
+    if (!mix_keep_depth(&k->depth, &j->frame, r)) {
         return 0;
     }
     const double bright = mix_brightness(&j->frame);
@@ -93,9 +93,37 @@ static int draw_one(mix_job **job, mix_kept *k, report *r)
     }
     *job = take_over(k, j);
     k->bright = bright;
-    k->changed = 0;
-    memset(k->fresh, 0, (size_t)k->camera.width * (size_t)k->camera.height);
+    k->depth.changed = 0;
+    memset(k->depth.fresh, 0, (size_t)k->depth.camera.width * (size_t)k->depth.camera.height);
     return 1;
+}
+
+/* A frame that fails has measured nothing: the next ones are those of a list without it. */
+static int draw_or_forget(mix_job **job, mix_kept *k, report *r)
+{
+    mix_depth was;
+    if (!mix_depth_copy(&was, &k->depth, r)) {
+        return 0;
+    }
+    const int ok = draw_one(job, k, r);
+    if (!ok) {
+        const mix_depth failed = k->depth;
+        k->depth = was;
+        was = failed;
+    }
+    mix_depth_free(&was);
+    return ok;
+}
+
+/* Linear photos are exposed as the first one is: chosen anew, what does not move would flicker. */
+static float exposure_of(mix_kept *k, const mix_job *j)
+{
+    if (j->frame.photo.codes.texels != NULL) {
+        return mix_exposure(j);
+    }
+    k->exposure_ev = k->has_exposure ? k->exposure_ev : mix_exposure(j);
+    k->has_exposure = 1;
+    return k->exposure_ev;
 }
 
 /* Between two frames one is written and the next one is read, by a thread each. */
@@ -107,7 +135,7 @@ typedef struct sequence {
     int32_t at;                        /* of the list: what `next` is */
     int is_drawn, is_written;          /* the frame before it */
     int is_over;                       /* the machine has no more memory or open files: `failed` */
-    int32_t left_out;
+    int32_t left_out, run, last_out;   /* frames: all, those since one was drawn, the number of the last one */
     report why, failed, first;         /* first: why the first one is left out that is */
 } sequence;
 
@@ -133,7 +161,7 @@ static void write_drawn(sequence *s)
 {
     char name[4200];
     s->is_written = !s->is_drawn || (frame_name(name, sizeof name, s->o->out, s->at - 1, &s->failed) &&
-                                     picture_write(name, &s->kept.last->picture, mix_exposure(s->kept.last),
+                                     picture_write(name, &s->kept.last->picture, exposure_of(&s->kept, s->kept.last),
                                                    PICTURE_CLIPPED, &s->failed));
 }
 
@@ -147,17 +175,37 @@ static void write_or_read(void *user, int index, int thread)
     }
 }
 
+/* Of frames left out in a row the first ones are said, each by a line, and the others by one: a file that is no list has
+ * thousands of them. */
+enum { SAID = 8 };
+
+static void tell_left_out(sequence *s)
+{
+    report_note(s->o->is_quiet || s->run >= SAID, "frame %d is left out: %s", (int)s->at, s->why.text);
+    ++s->run;
+    s->last_out = s->at;
+}
+
+static void tell_rest(sequence *s)
+{
+    report_note(s->o->is_quiet || s->run <= SAID, "frames %d to %d are left out, too", (int)(s->last_out - s->run + SAID + 1),
+                (int)s->last_out);
+    s->run = 0;
+}
+
 /* A frame that cannot be used is said and left out; the others go on as if it had not been listed, and the end says it
  * again. Where the machine is at fault no other frame would fare better. */
 static void draw_next(sequence *s)
 {
     mix_job *j = s->next;
-    s->is_drawn = j != NULL && draw_one(&j, &s->kept, &s->why);
-    if (!s->is_drawn && report_is_system(&s->why)) {
+    s->is_drawn = j != NULL && draw_or_forget(&j, &s->kept, &s->why);
+    if (s->is_drawn) {
+        tell_rest(s);
+    } else if (report_is_system(&s->why)) {
         s->failed = s->why;
         s->is_over = 1;
-    } else if (!s->is_drawn) {
-        report_note(s->o->is_quiet, "frame %d is left out: %s", (int)s->at, s->why.text);
+    } else {
+        tell_left_out(s);
         if (s->left_out++ == 0) {
             s->first = s->why;
         }
@@ -236,6 +284,7 @@ int mix_frames(const mix_options *o, report *r)
     if (s.next != NULL) {
         mix_job_free(s.next);
     }
+    tell_rest(&s);
     const int ok = end(&s, r);
     mix_kept_free(&s.kept);
     mix_list_free(&s.list);

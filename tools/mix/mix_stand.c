@@ -86,7 +86,7 @@ static int32_t wall_of(const mix_job *j, lmb_vec3 up)
             return i;
         }
     }
-    return j->planes.count > 0 ? 0 : -1;
+    return 0;
 }
 
 /* What stands on an upright plane would lie in the air: it hangs there. */
@@ -102,15 +102,15 @@ static int find_plane(mix_job *j, report *r)
     const lmb_vec3 up = lmb_planes_up(&j->planes);
     static const char *const none[] = {"", "--on floor: no plane faces up", "--on table: no plane lies 0.3 m over another",
                                        "--on wall: no plane is upright and over 0.25 m wide and high"};
+    if (j->planes.count == 0) {
+        return mix_fail_depth(j, r);
+    }
     j->floor = j->o.on == MIX_ON_ANY ? lmb_planes_floor(&j->planes) : plane_asked(j, up);
     j->faces_up = j->floor >= 0;
     if (j->floor < 0 && j->o.on != MIX_ON_ANY) {
         return report_fail(r, "%s; --show planes shows them, --at X,Y names one", none[j->o.on]);
     }
     j->floor = j->floor < 0 ? wall_of(j, up) : j->floor;
-    if (j->floor < 0) {
-        return report_fail(r, "no plane in the depth to stand on; say where by --at X,Y");
-    }
     choose_hanging(j);
     return 1;
 }
@@ -201,7 +201,7 @@ static int stand_at_pixel(mix_job *j, report *r)
 {
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
     if (!(j->o.at_px[0] >= 0.0f && j->o.at_px[1] >= 0.0f && j->o.at_px[0] < (float)w && j->o.at_px[1] < (float)h)) {
-        return report_fail(r, "--at %g,%g: the photo has %d x %d pixels", (double)j->o.at_px[0], (double)j->o.at_px[1],
+        return report_fail_usage(r, "--at %g,%g: the photo has %d x %d pixels", (double)j->o.at_px[0], (double)j->o.at_px[1],
                            (int)w, (int)h);
     }
     const int32_t x = (int32_t)j->o.at_px[0], y = (int32_t)j->o.at_px[1];
