@@ -84,7 +84,7 @@ void *mix_take(mix_job *j, size_t bytes, report *r);
 /* The steps, in order. Each 1, or 0 with `r` set. */
 int mix_find_planes(mix_job *j, report *r); /* cloud and planes */
 int mix_place(mix_job *j, report *r);       /* the object, the real scene's mesh, and the scene of both */
-int mix_stand(mix_job *j, report *r);       /* of that: which plane, how large, and where on it */
+int mix_stand(mix_job *j, report *r);       /* of that: which plane (at the centre there is one), how large, and where */
 int mix_light(mix_job *j, report *r);       /* environment, lights and their maps */
 int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */

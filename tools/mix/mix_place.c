@@ -321,6 +321,9 @@ int mix_place(mix_job *j, report *r)
         turn_scene(j);
         return join_scene(j, &identity, r);
     }
+    if (j->o.at == MIX_AT_CENTRE && j->planes.count == 0) {
+        return mix_fail_depth(j, r);
+    }
     if (!model_load(&j->object, j->o.object, NULL, &j->notes, r) ||
         !mix_stand(j, r)) {
         return 0;

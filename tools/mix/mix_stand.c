@@ -78,7 +78,7 @@ static int32_t plane_asked(const mix_job *j, lmb_vec3 up)
     return j->o.on == MIX_ON_FLOOR ? low : -1;
 }
 
-/* Where none faces up, the first that is large enough. */
+/* Where none faces up, the first that is large enough, or the first. */
 static int32_t wall_of(const mix_job *j, lmb_vec3 up)
 {
     for (int32_t i = 0; i < j->planes.count; ++i) {
@@ -102,9 +102,6 @@ static int find_plane(mix_job *j, report *r)
     const lmb_vec3 up = lmb_planes_up(&j->planes);
     static const char *const none[] = {"", "--on floor: no plane faces up", "--on table: no plane lies 0.3 m over another",
                                        "--on wall: no plane is upright and over 0.25 m wide and high"};
-    if (j->planes.count == 0) {
-        return mix_fail_depth(j, r);
-    }
     j->floor = j->o.on == MIX_ON_ANY ? lmb_planes_floor(&j->planes) : plane_asked(j, up);
     j->faces_up = j->floor >= 0;
     if (j->floor < 0 && j->o.on != MIX_ON_ANY) {
