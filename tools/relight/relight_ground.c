@@ -55,10 +55,28 @@ int ground_throw(peak_runs *p, int map, hidden *h, const far_lights *f, const re
     return 1;
 }
 
+/* W/m2 that the ground receives where nothing stands, by lights that throw shadows on it: from above, and no less than it
+ * sends up by the same slopes, as it reflects no more. */
+static void light_of_ground(float out[3], const far_lights *f)
+{
+    float from_above[3] = {1e-30f, 1e-30f, 1e-30f}, sent_up[3] = {0.0f, 0.0f, 0.0f};
+    for (int32_t i = 0; i < f->count; ++i) {
+        const far_light *l = &f->light[i];
+        float *sum = l->to.y > 0.0f ? from_above : sent_up;
+        for (int k = 0; k < 3 && fabsf(l->to.y) >= HIDDEN_LOWEST; ++k) {
+            sum[k] += l->rgb[k] * fabsf(l->to.y);
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        out[k] = fmaxf(from_above[k], sent_up[k]);
+    }
+}
+
 void ground_shade(ground_map *g, const hidden_map *m, const peak_runs *peaks, lmb_vec3 foot, const far_lights *f,
                   float (*reflected)[3])
 {
-    float all[3] = {1e-30f, 1e-30f, 1e-30f};
+    float all[3];
+    light_of_ground(all, f);
     g->x = foot.x + m->corner_x;
     g->z = foot.z + m->corner_z;
     g->per_x = (float)HIDDEN_SIDE / m->wide;
@@ -71,9 +89,6 @@ void ground_shade(ground_map *g, const hidden_map *m, const peak_runs *peaks, lm
         const hidden_run *run = is_peak ? peaks->runs.run : m->runs.run;
         if (l->to.y < HIDDEN_LOWEST) {
             continue;
-        }
-        for (int k = 0; k < 3; ++k) {
-            all[k] += l->rgb[k] * l->to.y;
         }
         darken_runs(g, l, reflected, is_peak ? 0.0f : f->angle[i], run + first[0], first[is_peak ? 1 : HIDDEN_RAYS] - first[0],
                     is_peak ? 0.5f : 1.0f / HIDDEN_RAYS);
