@@ -247,20 +247,12 @@ static int take_contact(contact *c, const figures *f, const relight_options *o, 
     c->colours = calloc(c->instances, sizeof *c->colours);
     c->lights = malloc(c->figures * sizeof *c->lights);
     c->foot = malloc(c->figures * sizeof *c->foot);
-    c->albedo = malloc(f->parts * sizeof *c->albedo);
     c->grounds = o->place.ground != NULL ? malloc(c->figures * sizeof *c->grounds) : NULL;
-    const int ok = c->meshes != NULL && c->colours != NULL && c->lights != NULL && c->foot != NULL && c->albedo != NULL &&
+    const int ok = c->meshes != NULL && c->colours != NULL && c->lights != NULL && c->foot != NULL &&
            (c->grounds != NULL || o->place.ground == NULL) && hidden_make(&c->hidden, f, o, w->table[0].light) &&
            regions_make(&c->regions, &c->hidden, w->table[0].light) && take_meshes(c);
     c->hidden.region_of = c->regions.of;
     return ok;
-}
-
-static void set_albedo(contact *c, const figures *f)
-{
-    for (uint32_t i = 0; i < f->parts; ++i) {
-        memcpy(c->albedo[i], f->materials[f->scene.instances[i].material].albedo, sizeof c->albedo[i]);
-    }
 }
 
 /* The ground under one figure. */
@@ -293,7 +285,7 @@ static int light_figure(contact *c, figures *f, uint32_t i, relight_light *w, co
     if (!take_light(l, f, i, w, o)) {
         return 0;
     }
-    regions_light(c->reflected, l, &c->regions, c->fold, c->albedo, NULL, NULL);
+    regions_light(c->reflected, l, &c->regions, c->fold, NULL, NULL);
     if (c->grounds == NULL) {
         return 1;
     }
@@ -306,7 +298,7 @@ static int light_figure(contact *c, figures *f, uint32_t i, relight_light *w, co
         }
     }
     shade_map(c, i, 0);
-    regions_light(c->reflected, l, &c->regions, c->fold, c->albedo, left_below, &below);
+    regions_light(c->reflected, l, &c->regions, c->fold, left_below, &below);
     for (int map = 0; map < HIDDEN_MAPS; ++map) {
         shade_map(c, i, map);
     }
@@ -316,7 +308,6 @@ static int light_figure(contact *c, figures *f, uint32_t i, relight_light *w, co
 static int work(contact *c, figures *f, relight_light *w, const relight_options *o)
 {
     int ok = 1;
-    set_albedo(c, f);
     for (uint32_t i = 0; ok && i < c->figures; ++i) {
         c->foot[i] = hidden_foot(f, i);
         ok = light_figure(c, f, i, w, o);
@@ -371,6 +362,5 @@ void contact_free(contact *c)
     free(c->meshes);
     free(c->lights);
     free(c->foot);
-    free(c->albedo);
     free(c->grounds);
 }

@@ -17,7 +17,6 @@ typedef struct contact {
     contact_ground *grounds; /* by figure; NULL: the world has no ground */
     lmb_mesh *meshes;        /* by instance: with what is left of its light as vertex colours */
     uint8_t **colours;       /* theirs */
-    float (*albedo)[3];      /* by part */
     peak_runs peaks[HIDDEN_MAPS]; /* of one figure */
     const uint16_t *fold;    /* of the light's table */
     uint32_t figures, instances;

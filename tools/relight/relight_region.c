@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../src/base/vertex.h"
+#include "../../src/raster/texture.h"
+
 #define PI 3.14159265f
 
 enum { ROUNDS = 3, FACES = 6, STEPS = 64 };
@@ -81,8 +84,42 @@ static void slice_part(uint8_t out[4 * FACES][STEPS], const hidden *h, const hid
     }
 }
 
-static void add_part(regions *p, uint8_t *of, const hidden *h, const hidden_part *part, uint32_t first, uint32_t kinds,
-                     uint32_t slices, const float *directions)
+/* The texel that is about as large as a triangle of a mesh with a texture, at its middle. */
+static void texel_of(float out[4], const lmb_texture *t, const lmb_mesh *m, const uint32_t vertex[3])
+{
+    lmb_texture smooth = *t;
+    float uv[3][2];
+    for (int k = 0; k < 3; ++k) {
+        mesh_uv(m, vertex[k], uv[k]);
+    }
+    const float twice = fabsf((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[2][0] - uv[0][0]) * (uv[1][1] - uv[0][1]));
+    float texels = 0.5f * twice * (float)t->width * (float)t->height, level = 0.0f;
+    for (; texels >= 2.0f && level < (float)(t->levels - 1); texels *= 0.25f) {
+        level += 1.0f;
+    }
+    smooth.filter = t->levels > 1 ? LMB_TRILINEAR : t->filter;
+    lmb_texture_sample(out, &smooth, (uv[0][0] + uv[1][0] + uv[2][0]) / 3.0f, (uv[0][1] + uv[1][1] + uv[2][1]) / 3.0f, level);
+}
+
+/* As the picture shows it: material x texture x vertex colours. */
+static void add_albedo(region *p, const lmb_scene *scene, const lmb_instance *in, const lmb_mesh *m,
+                       const uint32_t vertex[3], float area)
+{
+    const lmb_material *material = &scene->materials[in->material];
+    float colour[3][4], texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    for (int k = 0; k < 3; ++k) {
+        mesh_colour(m, vertex[k], colour[k]);
+    }
+    if (material->texture >= 0) {
+        texel_of(texel, &scene->textures[material->texture], m, vertex);
+    }
+    for (int c = 0; c < 3; ++c) {
+        p->albedo[c] += area * material->albedo[c] * texel[c] * (colour[0][c] + colour[1][c] + colour[2][c]) / 3.0f;
+    }
+}
+
+static void add_part(regions *p, uint8_t *of, const hidden *h, const hidden_part *part, const lmb_instance *in,
+                     uint32_t first, uint32_t kinds, uint32_t slices, const float *directions)
 {
     uint8_t slice[4 * FACES][STEPS];
     slice_part(slice, h, part, kinds, slices);
@@ -92,6 +129,7 @@ static void add_part(regions *p, uint8_t *of, const hidden *h, const hidden_part
         for (int k = 0; k < 3; ++k) {
             add_corner(&p->region[of[t]], part, f.vertex[k], directions, area_of(&f) / 3.0f);
         }
+        add_albedo(&p->region[of[t]], &h->scene, in, &part->mesh, f.vertex, area_of(&f));
     }
 }
 
@@ -101,6 +139,9 @@ static void finish(region *p)
     for (int32_t i = 0; i < LMB_PROBE_TEXELS; ++i) {
         p->open[i] *= per;
         p->shut[i] *= per;
+    }
+    for (int c = 0; c < 3; ++c) {
+        p->albedo[c] *= per;
     }
     p->middle = (lmb_vec3){p->middle.x * per, p->middle.y * per, p->middle.z * per};
 }
@@ -130,10 +171,7 @@ int regions_make(regions *out, const hidden *h, const float *directions)
     for (uint32_t i = 0; i < h->parts; ++i) {
         const uint32_t wanted = slices * kinds * i, first = wanted < REGIONS ? wanted : REGIONS - 1;
         out->count = first + slices * kinds;
-        for (uint32_t k = first; k < out->count; ++k) {
-            out->region[k].part = i;
-        }
-        add_part(out, out->of + triangles, h, &h->part[i], first, kinds, slices, directions);
+        add_part(out, out->of + triangles, h, &h->part[i], &h->instances[i], first, kinds, slices, directions);
         triangles += h->part[i].mesh.triangle_count;
     }
     for (uint32_t i = 0; i < out->count; ++i) {
@@ -232,7 +270,7 @@ static void set_back(far_lights *f, const regions *p, float (*light)[3])
 }
 
 /* A region's radiance by its irradiance from the world, and by what the others throw back. */
-static void reflect(float out[3], const region *p, const float world[3], const far_lights *f, const float albedo[3])
+static void reflect(float out[3], const region *p, const float world[3], const far_lights *f)
 {
     float sum[3] = {world[0], world[1], world[2]};
     for (int32_t i = 0; i < LMB_PROBE_TEXELS; ++i) {
@@ -242,12 +280,12 @@ static void reflect(float out[3], const region *p, const float world[3], const f
         sum[2] += seen * f->light[i].back[2];
     }
     for (int c = 0; c < 3; ++c) {
-        out[c] = albedo[c] * sum[c] / PI;
+        out[c] = p->albedo[c] * sum[c] / PI;
     }
 }
 
-void regions_light(float out[REGIONS][3], far_lights *f, const regions *p, const uint16_t *fold, float (*albedo)[3],
-                   region_ground *ground, const void *user)
+void regions_light(float out[REGIONS][3], far_lights *f, const regions *p, const uint16_t *fold, region_ground *ground,
+                   const void *user)
 {
     float world[REGIONS][3];
     beside peaks;
@@ -266,7 +304,7 @@ void regions_light(float out[REGIONS][3], far_lights *f, const regions *p, const
     for (int round = 0; round < ROUNDS; ++round) {
         for (uint32_t k = 0; k < p->count; ++k) {
             if (p->region[k].area > 0.0f) {
-                reflect(out[k], &p->region[k], world[k], f, albedo[p->region[k].part]);
+                reflect(out[k], &p->region[k], world[k], f);
             }
         }
         set_back(f, p, out);

@@ -24,9 +24,9 @@ typedef struct far_lights {
  * and where the object itself is. */
 typedef struct region {
     float open[LMB_PROBE_TEXELS], shut[LMB_PROBE_TEXELS];
+    float albedo[3]; /* the mean */
     float area;      /* m2; 0: none are */
     lmb_vec3 middle; /* from the object's foot */
-    uint32_t part;
 } region;
 
 /* Zeroed: none. regions_free releases them. */
@@ -38,16 +38,17 @@ typedef struct regions {
     float per_seen[LMB_PROBE_TEXELS];    /* 1 / m2 across each direction that is shut; 0: none is */
 } regions;
 
-/* regions_make: of what hides from itself as `h` knows. 1, or 0: out of memory. */
+/* regions_make: of what hides from itself as `h` knows, a triangle's reflectance by the texel that covers it and its
+ * corners' colours. 1, or 0: out of memory. */
 int regions_make(regions *out, const hidden *h, const float *directions);
 
 /* What is left of the ground's light that comes along `to` to a place from the figure's foot. */
 typedef void region_ground(float left[3], const void *user, lmb_vec3 at, lmb_vec3 to);
 
-/* regions_light: the radiance of each region by the lights and by the others, and the lights' `back`. `albedo` by part;
- * `ground` NULL: all of its light is there. */
-void regions_light(float out[REGIONS][3], far_lights *inout, const regions *p, const uint16_t *fold,
-                   float (*albedo)[3], region_ground *ground, const void *user);
+/* regions_light: the radiance of each region by the lights and by the others, and the lights' `back`. `ground` NULL: all
+ * of its light is there. */
+void regions_light(float out[REGIONS][3], far_lights *inout, const regions *p, const uint16_t *fold, region_ground *ground,
+                   const void *user);
 
 /* region_directions: the four directions of the reduced cube that are nearest to `d`, and their weights: probe.h. */
 void region_directions(uint16_t at[4], float weight[4], const uint16_t *fold, lmb_vec3 d);
