@@ -73,7 +73,11 @@ one_bright() { { printf 'PF\n32 16\n-1.0\n'; i=0; while [ $i -lt 1536 ]; do [ $i
 one_bright '\000\000\200\177' "$w/infinite.pfm"
 one_bright '\000\000\000\000' "$w/black.pfm"
 status 0 render "$w/box.obj" $look --world "$w/infinite.pfm" -o "$w/infinite-lit.pfm"
-said "infinite.pfm: 1 numbers are infinite or none; they count as black"
+said "infinite.pfm: numbers that are infinite or none, and count as black: 1"
+for world in infinite:black black:infinite; do
+    status 0 relight --world "$w/${world%:*}.pfm" --ground "$w/${world#*:}.pfm" --cube "$w/cube.pfm"
+    check "what is infinite is told by its own file: $world" sh -c 'test "$(grep -c "infinite.pfm: numbers that are" "$1")" = 1 && ! grep -q "black.pfm: numbers" "$1"' sh "$dir/err.txt"
+done
 status 0 render "$w/box.obj" $look --world "$w/black.pfm" -o "$w/black-lit.pfm"
 check "an infinite texel is black" cmp "$w/infinite-lit.pfm" "$w/black-lit.pfm"
 status 1 render "$w/box.obj" $look --world "$w/box.obj" -o "$w/bad.pfm"

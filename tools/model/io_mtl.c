@@ -344,7 +344,7 @@ void mtl_tell_left_out(model_build *b, const obj_names *names)
     } all[] = {{OBJ_LEFT_OPACITY, "materials partly transparent (d, Tr), which light passes or does not by alpha 0.5"},
                {OBJ_LEFT_OPACITY_MAP, "materials whose map of opacity (map_d) is left out"},
                {OBJ_LEFT_EMISSION_MAP, "materials whose map of emission (map_Ke) is left out"},
-               {OBJ_LEFT_MIRROR, "mirrors and glasses (illum 3 to 9), drawn by their diffuse colour alone"},
+               {OBJ_LEFT_MIRROR, "mirrors and glasses (illum 3 to 9), drawn without their mirror"},
                {OBJ_LEFT_BUMP, "materials whose bump or normal map is left out"},
                {OBJ_LEFT_OPTION, "materials whose map_Kd is drawn without its options -t or -mm"}};
     size_t k;

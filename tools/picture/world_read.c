@@ -296,12 +296,13 @@ int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *
     return ok;
 }
 
-void world_tell_not_finite(const world_pictures *own, const char *path, int is_quiet)
+void world_tell_not_finite(world_pictures *own, const char *path, int is_quiet)
 {
     if (own->not_finite > 0) {
-        report_note(is_quiet, "note: %s: %.0f numbers are infinite or none; they count as black", path,
+        report_note(is_quiet, "note: %s: numbers that are infinite or none, and count as black: %.0f", path,
                     (double)own->not_finite);
     }
+    own->not_finite = 0;
 }
 
 void world_pictures_free(world_pictures *own)

@@ -24,8 +24,8 @@ int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *pa
 /* world_read_ground: a picture from above, rows towards +z; transparent pixels are blank. Sets the picture's own. */
 int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *path, report *r);
 
-/* world_tell_not_finite: a note where a picture of `path` had numbers that are none. */
-void world_tell_not_finite(const world_pictures *own, const char *path, int is_quiet);
+/* world_tell_not_finite: a note where a picture of `path`, read since the last one, had numbers that are none. */
+void world_tell_not_finite(world_pictures *inout, const char *path, int is_quiet);
 
 void world_pictures_free(world_pictures *own);
 

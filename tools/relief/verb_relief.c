@@ -90,7 +90,7 @@ static const option_row ask_rows[] = {OPTION_ASK, {.kind = OPTION_END}};
 
 static const option_table both_table = {
     .verb = "relief",
-    .usage = HELP("relief bake MODEL -o OUT.lmr [options]\nrelief render FILE.lmr -o OUT [options]"),
+    .usage = HELP("relief bake MODEL -o OUT.lmr [options]\nrelief render FILE.lmr [--path FILE] -o OUT [options]"),
     .about =
         "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
         "it: `bake` makes these and the simple model, `render` draws it. Each has its own --help.",

@@ -221,6 +221,9 @@ static int write(stage *s, const char *path, report *r)
 
 static int draw_along(stage *s, report *r)
 {
+    if (!frames_can_write(s->o->out, s->path.count, r)) {
+        return 0;
+    }
     for (int32_t i = 0; i < s->path.count; ++i) {
         const lmb_vec3 at = s->path.place[i];
         const uint32_t kept = s->cache.kept;

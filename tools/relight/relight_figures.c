@@ -142,8 +142,9 @@ int figures_load(figures *f, const relight_options *o, uint32_t count, report *r
     } else if (!model_load(&f->loaded, o->object, NULL, &notes, r)) {
         return 0;
     }
-    for (uint32_t i = 0; i < notes.count; ++i) {
-        report_note(o->view.is_quiet, "note: %s", notes.line[i]);
+    for (uint32_t i = 0; i < notes.count; ++i) { /* those of options that only `render` has are none of ours */
+        report_note(o->view.is_quiet || strstr(notes.line[i], "--glossy") != NULL || strstr(notes.line[i], "--grouping") != NULL,
+                    "note: %s", notes.line[i]);
     }
     f->count = count;
     f->parts = f->loaded.scene.instance_count;

@@ -15,11 +15,14 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
     o->place.centre = o->centre[i];
     world_pictures_free(&w->pictures);
     if (!(strcmp(name, "demo") == 0 ? demo_field_pictures(&o->place, &w->pictures, r)
-                                    : world_read_cube(&o->place, &w->pictures, name, r)) ||
-        (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r))) {
+                                    : world_read_cube(&o->place, &w->pictures, name, r))) {
         return 0;
     }
     world_tell_not_finite(&w->pictures, name, o->view.is_quiet);
+    if (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r)) {
+        return 0;
+    }
+    world_tell_not_finite(&w->pictures, o->ground, o->view.is_quiet || i > 0); /* all have the same */
     const size_t bytes = lmb_world_bytes(&o->place, o->format);
     if ((w->world_memory[i] = malloc(bytes)) == NULL) {
         return report_fail(r, "%s: out of memory", name);
