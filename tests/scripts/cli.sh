@@ -521,8 +521,10 @@ done
 # What blocks light is as dark as its texture or its corners' colours make it: a U of three boxes in one dark grey.
 grey_png='\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\001\000\000\000\001\010\002\000\000\000\220\167\123\336\000\000\000\014\111\104\101\124\170\234\143\210\214\214\004\000\002\032\001\014\047\014\256\360\000\000\000\000\111\105\116\104\256\102\140\202'
 printf "$grey_png" >"$dir/grey.png" # one texel, 89: 0.0998987 in linear light
-printf 'newmtl flat\nKd 0.0998987 0.0998987 0.0998987\nnewmtl paper\nmap_Kd grey.png\nnewmtl corners\nKd 1 1 1\n' >"$dir/grey.mtl"
-for grey in flat paper corners; do
+chess_png='\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\002\000\000\000\002\010\000\000\000\000\127\335\122\370\000\000\000\016\111\104\101\124\170\332\143\370\317\300\300\360\037\000\006\000\001\377\145\064\370\367\000\000\000\000\111\105\116\104\256\102\140\202'
+printf "$chess_png" >"$dir/chess.png" # two by two texels, white and black: 0.5 in the mean
+printf 'newmtl flat\nKd 0.0998987 0.0998987 0.0998987\nnewmtl paper\nmap_Kd grey.png\nnewmtl corners\nKd 1 1 1\nnewmtl half\nKd 0.5 0.5 0.5\nnewmtl chess\nmap_Kd chess.png\n' >"$dir/grey.mtl"
+for grey in flat paper corners half chess; do
     ink=1 && [ $grey = corners ] && ink=0.0998987
     awk -v ink=$ink -v grey=$grey 'BEGIN {
         print "mtllib grey.mtl\nusemtl " grey "\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1"
@@ -536,9 +538,17 @@ for grey in flat paper corners; do
             print line
         }
     }' >"$dir/grey_$grey.obj"
-    status 0 relight --world "$dir/white.pfm" --ground "$dir/facepx.pfm" --ground-size 40,40 --object "$dir/grey_$grey.obj" --f0 0 --contact --eye 0,2,3 --target 0,0.5,0 --size 48x32 -o "$dir/grey_$grey.pfm"
-    check "contact knows how dark $grey is" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.00[0-2]"' sh "$TOOL" "$dir/grey_$grey.pfm" "$dir/grey_flat.pfm"
 done
+lit="--world $dir/white.pfm --ground $dir/facepx.pfm --ground-size 40,40 --f0 0 --contact --size 48x32"
+for grey in flat paper corners; do
+    status 0 relight $lit --object "$dir/grey_$grey.obj" --eye 0,2,3 --target 0,0.5,0 -o "$dir/grey_$grey.pfm"
+    [ $grey = flat ] || check "contact knows how dark $grey is" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.00[0-2]"' sh "$TOOL" "$dir/grey_$grey.pfm" "$dir/grey_flat.pfm"
+done
+for grey in flat half chess; do
+    status 0 relight $lit --object "$dir/grey_$grey.obj" --eye 2,2,2 --target 2,0,0 --fov 20 -o "$dir/grey_$grey.pfm"
+done
+check "the ground beside a pattern is as bright as beside its mean" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" "$dir/grey_chess.pfm" "$dir/grey_half.pfm"
+check "and not as beside a darker one" sh -c '! "$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" "$dir/grey_chess.pfm" "$dir/grey_flat.pfm"
 # Lobes mirror the ground as dark as it is.
 shiny="$(echo "$low" | sed 's/--f0 0 /--f0 0.9 --roughness 0.2 /;s/0,0.3,2.5 --target 0,0.1,0/0.1,0.05,0.3 --target 0,0.5,0/') --show glossy"
 status 0 $shiny -o "$dir/shiny.pfm"

@@ -19,6 +19,10 @@ typedef struct pair {
     lmb_vec3 at[6], normal[6];
     hidden h;
     far_lights lights;
+    lmb_material material;
+    lmb_texture texture;
+    uint8_t texels[4 * 5], colours[4 * 6]; /* of two levels; of corners */
+    float uv[2 * 6];
 } pair;
 
 /* The reduced cube's directions and their angles: probe.h. */
@@ -70,6 +74,30 @@ static void build(pair *p)
     p->h.scene.mesh_count = 1;
     p->h.scene.instances = &p->instance;
     p->h.scene.instance_count = 1;
+    p->material = (lmb_material){.albedo = {1.0f, 1.0f, 0.0f}, .texture = -1};
+    p->h.scene.materials = &p->material;
+    p->h.scene.material_count = 1;
+    p->h.instances = &p->instance;
+}
+
+/* Each triangle covers half of it: white and black in one diagonal each. */
+static void add_pattern(pair *p)
+{
+    for (int i = 0; i < 6; ++i) {
+        p->uv[2 * i] = p->at[i].x;
+        p->uv[2 * i + 1] = p->at[i].z;
+    }
+    for (int i = 0; i < 4; ++i) {
+        memset(p->texels + 4 * i, i == 0 || i == 3 ? 255 : 0, 3);
+        p->texels[4 * i + 3] = 255;
+    }
+    CHECK(lmb_texture_mips(p->texels, 2, 2, 2) == LMB_OK);
+    p->texture = (lmb_texture){.texels = p->texels, .width = 2, .height = 2, .levels = 2, .filter = LMB_BILINEAR};
+    p->h.scene.textures = &p->texture;
+    p->h.scene.texture_count = 1;
+    p->material.texture = 0;
+    p->part.mesh.uvs = p->uv;
+    p->part.mesh.uv_format = LMB_UV_F32;
 }
 
 static void no_ground(float left[3], const void *user, lmb_vec3 at, lmb_vec3 to)
@@ -78,11 +106,35 @@ static void no_ground(float left[3], const void *user, lmb_vec3 at, lmb_vec3 to)
     left[0] = left[1] = left[2] = 0.0f;
 }
 
+/* A region's reflectance: the texel that covers its triangle, then also its corners' colours. */
+static void look_at_colours(pair *p)
+{
+    static const uint8_t red[6] = {255, 0, 51, 102, 102, 102};
+    static const float want[2] = {0.5f, 0.5f * 0.4f};
+    add_pattern(p);
+    for (int pass = 0; pass < 2; ++pass) {
+        regions r;
+        memset(&r, 0, sizeof r);
+        for (int i = 0; i < 6; ++i) {
+            p->colours[4 * i] = red[i];
+            memset(p->colours + 4 * i + 1, 255, 3);
+        }
+        p->part.mesh.colours = pass > 0 ? p->colours : NULL;
+        CHECK(regions_make(&r, &p->h, p->direction));
+        for (int i = 0; i < 2; ++i) {
+            const float *albedo = r.region[r.of[i]].albedo;
+            CHECK_MSG(fabsf(albedo[0] - want[pass]) < 0.003f && fabsf(albedo[1] - 0.5f) < 0.003f && albedo[2] == 0.0f,
+                      "%g %g", (double)albedo[0], (double)albedo[1]);
+        }
+        regions_free(&r);
+    }
+}
+
 /* Half of what each would reflect comes from the other: by three rounds 1/2 + 1/4 + 1/8. */
 void test_region(void)
 {
     pair *p = malloc(sizeof *p);
-    float albedo[1][3] = {{1.0f, 1.0f, 0.0f}}, light[REGIONS][3];
+    float light[REGIONS][3];
     regions r;
     memset(&r, 0, sizeof r);
     if (p == NULL) {
@@ -98,13 +150,14 @@ void test_region(void)
     const int low = r.of[0], high = r.of[1];
     CHECK(low != high);
     CHECK(fabsf(r.region[low].area - 0.5f) < 1e-6f && r.region[high].middle.y == 1.0f);
-    regions_light(light, &p->lights, &r, NULL, albedo, NULL, NULL);
+    regions_light(light, &p->lights, &r, NULL, NULL, NULL);
     CHECK_MSG(fabsf(light[low][0] - 0.875f) < 0.015f && fabsf(light[high][1] - 0.875f) < 0.015f, "%g %g", (double)light[low][0],
               (double)light[high][1]);
     CHECK(light[low][2] == 0.0f);
-    regions_light(light, &p->lights, &r, NULL, albedo, no_ground, p);
+    regions_light(light, &p->lights, &r, NULL, no_ground, p);
     CHECK_MSG(fabsf(light[low][0] - 0.625f) < 0.015f && fabsf(light[high][0] - 0.25f) < 0.015f, "%g %g", (double)light[low][0],
               (double)light[high][0]);
     regions_free(&r);
+    look_at_colours(p);
     free(p);
 }

@@ -133,8 +133,8 @@ static const option_row object_rows[] = {
      .help = HELP("each part of the object is lit as its own box's middle is")},
     {.name = "--contact", .kind = OPTION_FLAG, AT(contact),
      .help = HELP("objects darken the ground below them, themselves and each other, and light them by what they reflect; "
-             "lobes mirror that. What an object hides from itself is found once, by rays from each vertex; then by up "
-             "to 448 lights of the world a picture")},
+             "lobes mirror that. What an object hides is found once: from itself by rays from each vertex, from "
+             "the ground anew at another height; then by up to 448 lights of the world a picture")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), COUNTS(light_count), .times = RELIGHT_LIGHTS,
      .size = sizeof(lmb_light),
      .help = HELP("a light or sun beside the world's light, as in `lambent render`")},
