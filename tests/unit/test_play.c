@@ -77,7 +77,7 @@ static void names_frames(void)
     CHECK(frame_name(name, sizeof name, "%02d.pfm", 123, &r) && strcmp(name, "123.pfm") == 0);
     CHECK(frame_name(name, sizeof name, "50%_%04d.png", 7, &r) && strcmp(name, "50%_0007.png") == 0);
     CHECK(frame_name(name, sizeof name, "%04d-%d.png", 7, &r) && strcmp(name, "0007-%d.png") == 0);
-    CHECK(frame_digits("%%03d") == 3 && frame_digits("50%.png") == 0 && frame_digits("%02d_%02d") == 0 && frame_digits("%") == 0);
+    CHECK(frame_digits("%%_%03d") == 0 && frame_digits("%03d%%") == 0 && frame_digits("50%.png") == 0 && frame_digits("%02d_%02d") == 0 && frame_digits("%") == 0);
     CHECK(!frame_name(name, 8, "frames%04d.png", 0, &r) && r.text[0] != '\0');
 }
 

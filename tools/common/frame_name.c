@@ -21,7 +21,7 @@ static const char *find_number(const char *text)
 int frame_digits(const char *pattern)
 {
     const char *p = find_number(pattern);
-    return p == NULL || find_number(p + 4) != NULL ? 0 : p[2] - '0';
+    return p == NULL || find_number(p + 4) != NULL || strstr(pattern, "%%") != NULL ? 0 : p[2] - '0';
 }
 
 int frame_name(char *out, size_t size, const char *pattern, int32_t k, report *r)

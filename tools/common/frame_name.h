@@ -7,7 +7,7 @@
 
 #include "report.h"
 
-/* frame_digits: N of the pattern; 0 where there is no such thing, or more than one. */
+/* frame_digits: N of the pattern; 0 where there is no such thing, or more than one, or a `%%`. */
 int frame_digits(const char *pattern);
 
 /* frame_name: the file of frame k by a pattern that has digits. 1, or 0 with `r` set: too long. */
