@@ -35,11 +35,15 @@ lmb_vec3 lmb_planes_up(const lmb_planes *planes)
     float max = 0.0f;
     for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
         for (int32_t k = i; k < planes->count; ++k) {
-            const lmb_vec3 a = planes->plane[i].normal, b = planes->plane[k].normal, c = cross3(a, b);
-            if (i != k && dot3(c, c) < CROSSING) {
-                continue;
+            lmb_vec3 one = planes->plane[i].normal;
+            if (i != k) {
+                one = cross3(one, planes->plane[k].normal);
+                if (dot3(one, one) < CROSSING) {
+                    continue;
+                }
+                one = normalize3(one);
             }
-            const lmb_vec3 one = towards_up(i == k ? a : normalize3(c));
+            one = towards_up(one);
             const float says = says_up(planes, one) * (i == k ? 1.0f : WALLS);
             if (says > max) {
                 max = says;

@@ -29,7 +29,8 @@ typedef struct bin_large {
     uint32_t before; /* small ones of its bin */
 } bin_large;
 
-enum { LARGES = sizeof(lmb_bin_block) / sizeof(bin_large) }; /* of a block */
+enum { BLOCK_BYTES = sizeof(lmb_bin_block), LARGE_BYTES = sizeof(bin_large) };
+enum { LARGES = BLOCK_BYTES / LARGE_BYTES }; /* of a block */
 
 /* What lies in the caller's memory. */
 typedef struct bin_pool {

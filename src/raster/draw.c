@@ -56,7 +56,7 @@ void lmb_draw_instance_set(lmb_draw_instance *d, const lmb_fill_context *c, cons
     set_job(&d->job, c->target, c->view, &instance->to_world);
     d->guard.x = d->job.guard_x;
     d->guard.y = d->job.guard_y;
-    d->mirrored = is_mirrored(&instance->to_world);
+    d->mirrored = is_mirrored(&instance->to_world) != 0;
     d->cull = (flags & LMB_CULL_BACK) != 0 && (material->flags & LMB_DOUBLE_SIDED) == 0;
     d->job.cull = d->cull ? (d->mirrored ? -1 : 1) : 0;
     d->masked = (material->flags & LMB_ALPHA_MASK) != 0;
