@@ -522,12 +522,7 @@ static void set_rows(bin_drawing *out, lmb_target *rows, const lmb_target *targe
         out->context.window.farthest = culling->farthest + (ptrdiff_t)first * out->context.window.tiles_x;
     }
     memset(job, 0, sizeof *job);
-    job->origin_x = view_origin_x(view);
-    job->origin_y = view_origin_y(view);
-    job->x0 = rows->x0;
-    job->y0 = rows->y0;
-    job->x1 = rows->x0 + rows->depth.width - 1;
-    job->y1 = rows->y0 + rows->depth.height - 1;
+    job_window(job, view, rows);
 }
 
 static void clear_rows(const bin_drawing *d)

@@ -41,12 +41,7 @@ static void set_job(lmb_setup_job *job, const lmb_target *target, const lmb_view
     job->near_m = view->near_m;
     job->far_m = view->far_m;
     job->depth_scale = job->orthographic ? 1.0f / (view->far_m - view->near_m) : 0.0f;
-    job->origin_x = view_origin_x(view);
-    job->origin_y = view_origin_y(view);
-    job->x0 = target->x0;
-    job->y0 = target->y0;
-    job->x1 = target->x0 + target->depth.width - 1;
-    job->y1 = target->y0 + target->depth.height - 1;
+    job_window(job, view, target);
 }
 
 void lmb_draw_instance_set(lmb_draw_instance *d, const lmb_fill_context *c, const lmb_instance *instance,

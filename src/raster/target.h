@@ -14,6 +14,17 @@ static inline int32_t view_origin_y(const lmb_view *v)
     return 128 - v->frame_height * 128 + (LMB_MULTISAMPLE ? v->sample_y : 0);
 }
 
+/* Where the view's samples lie, and the window's pixels of the frame. */
+static inline void job_window(lmb_setup_job *job, const lmb_view *view, const lmb_target *target)
+{
+    job->origin_x = view_origin_x(view);
+    job->origin_y = view_origin_y(view);
+    job->x0 = target->x0;
+    job->y0 = target->y0;
+    job->x1 = target->x0 + target->depth.width - 1;
+    job->y1 = target->y0 + target->depth.height - 1;
+}
+
 /* Can a frame be seen this way? */
 int lmb_view_is_valid(const lmb_view *view);
 

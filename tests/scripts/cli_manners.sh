@@ -208,6 +208,10 @@ for out in x.png X.PPM x.pfm x.hdr x.jpg x.jpeg x.gltf x.GLB x.obj x.mtl x.ply x
     absent "$m/$out"
 done
 misused "x.lmt: a .lmp file would be written, under the name of a .lmt file; name it *.lmp" pack demo -o "$m/x.lmt"
+misused "--eye and --target are one place" render demo $few --eye 1,1,1 --target 1,1,1 -o "$m/y.png"
+misused "over 1048576 m from the origin" render demo $few --eye 3e6,1,1 --target 1,1,1 -o "$m/y.png"
+misused "they must not lie on one line" render demo $few --eye 1,1,1 --target 1,2,1 -o "$m/y.png"
+refused "is the view or a light over 1048576 m from the origin?" render demo $few --light point:2e6,0,0:0,-1,0:9,9,9 -o "$m/y.png"
 misused "--heat $m/x.obj: a .png file would be written, under the name of a .obj file" compare "$m/demo.png" "$m/demo.png" --heat "$m/x.obj"
 misused "--stats $m/x.ply: a .json file would be written, under the name of a .ply file" render demo $few -o "$m/y.png" --stats "$m/x.ply"
 absent "$m/y.png"

@@ -250,6 +250,47 @@ static void test_memory(void)
     CHECK(build(&bins, 1, WHOLE, picked_kernels(), 0, NULL, NULL) == 0 && bins.past_id == UINT32_MAX);
 }
 
+/* Bytes of memory in which the first `count` triangles just do not fit. */
+static size_t just_short(lmb_bins *bins, uint32_t count)
+{
+    size_t low = 0, high = WHOLE;
+    while (high - low > 1) {
+        bins->bytes = low + (high - low) / 2;
+        CHECK(lmb_bins_build(bins, picked_kernels(), &st.view, &st.scene, 1, count, 0, NULL, NULL) == LMB_OK);
+        if (bins->past_id == bins->end_id) {
+            high = bins->bytes;
+        } else {
+            low = bins->bytes;
+        }
+    }
+    return low;
+}
+
+/* Where all but a few triangles fit, of which some draws leave out one alone, that one is drawn, too. */
+static void test_last_one(void)
+{
+    test_rng r = {24};
+    const int32_t frame[4] = {0, 0, WIDE, HIGH};
+    int alone = 0;
+    make_tall_stage(&r, LMB_PERSPECTIVE);
+    for (uint32_t count = 1; count <= 80; ++count) {
+        lmb_bins bins;
+        int32_t x, y;
+        const lmb_target t[2] = {window_of(0, LMB_DEPTH32F, LMB_ID32, LMB_TILED, frame, 0),
+                                 window_of(1, LMB_DEPTH32F, LMB_ID32, LMB_TILED, frame, 1)};
+        memset(&bins, 0, sizeof bins);
+        bins.memory = memory[0];
+        bins.bytes = just_short(&bins, count);
+        CHECK(lmb_bins_build(&bins, picked_kernels(), &st.view, &st.scene, 1, count, 0, NULL, NULL) == LMB_OK);
+        alone += bins.end_id - bins.past_id == 1;
+        CHECK(lmb_draw(&t[0], picked_kernels(), &st.view, &st.scene, 1, count, 0, NULL) == LMB_OK);
+        CHECK(lmb_bins_draw(&t[1], picked_kernels(), &bins, 1, 1, NULL) == LMB_OK);
+        CHECK(lmb_surface_diff(&x, &y, &t[0].depth, &t[1].depth) == 0);
+        CHECK(lmb_surface_diff(&x, &y, &t[0].id, &t[1].id) == 0);
+    }
+    CHECK_MSG(alone > 0, "%d", alone);
+}
+
 static void test_refused(void)
 {
     test_rng r = {24};
@@ -294,6 +335,7 @@ void test_bins(void)
     test_windows();
     test_hidden();
     test_memory();
+    test_last_one();
     test_refused();
 }
 #else

@@ -16,8 +16,7 @@ static int explain(const render_job *j, lmb_status status, int stage, report *r)
                            (unsigned)j->stats.first_points, LMB_MAX_GROUPS);
     }
     if (status == LMB_ERR_ARG) {
-        return report_fail(r, "%s: the view or a light lies over 1048576 m from the origin; move them or the scene there",
-                           j->o.scene);
+        return report_fail(r, "%s: cannot be drawn; is the view or a light over 1048576 m from the origin?", j->o.scene);
     }
     return report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
 }
