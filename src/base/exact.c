@@ -7,21 +7,32 @@
 
 #include "vec.h"
 
+static int are_same(const volatile float *got, const float *right, int32_t count)
+{
+    int same = 1;
+    for (int32_t i = 0; i < count; ++i) {
+        same &= got[i] == right[i];
+    }
+    return same;
+}
+
 /* 1 + 2^-12 squared is 1 + 2^-11 + 2^-24: rounding drops the last term, a fused multiply-subtract keeps it. */
 static int float_is_plain(void)
 {
+    static const float zeros[3] = {0.0f, 0.0f, 0.0f};
     volatile float v_a = 1.000244140625f, v_c = 1.00048828125f, v_big = 16777216.0f, v_one = 1.0f;
     float a = v_a, c = v_c, big = v_big, one = v_one;
-    volatile float minus = a * a - c, plus = -c + a * a, excess = (big + one) - big;
-    return minus == 0.0f && plus == 0.0f && excess == 0.0f;
+    volatile float got[3] = {a * a - c, -c + a * a, (big + one) - big};
+    return are_same(got, zeros, 3);
 }
 
 /* In and out: a denormal operand must not count as 0, nor a denormal result become 0. */
 static int denormals_are_kept(void)
 {
+    static const float right[3] = {0x1p-127f, 0x1p-40f, 0x1p-141f};
     volatile float tiny = 0x1p-140f, half = 0.5f, min = FLT_MIN, huge = 0x1p+100f;
-    volatile float out = min * half, in = tiny * huge, both = tiny * half;
-    return out == 0x1p-127f && in == 0x1p-40f && both == 0x1p-141f;
+    volatile float got[3] = {min * half, tiny * huge, tiny * half};
+    return are_same(got, right, 3);
 }
 
 static int double_is_binary64(void)
@@ -49,14 +60,19 @@ static int edges_have_their_sign(void)
     return area == 300000;
 }
 
-/* Values whose roots lie just beside the middle of two floats, where an estimate rounds wrong. */
+/* Roots that lie just beside the middle of two floats, where an estimate rounds wrong; and floors. */
 static int roots_and_floors_are_exact(void)
 {
-    volatile float two = 2.0f, below_one = 0x1.fffffep-1f, above_one = 0x1.000002p+0f, below_four = 0x1.fffffep+1f;
-    volatile float tiny = 0x1p-140f, third = -0.3333f, whole = -7.0f, large = -8388607.5f;
-    return sqrtf(two) == 0x1.6a09e6p+0f && sqrtf(below_one) == 0x1.fffffep-1f && sqrtf(above_one) == 1.0f &&
-           sqrtf(below_four) == 0x1.fffffep+0f && sqrtf(tiny) == 0x1p-70f && floorf(third) == -1.0f &&
-           floorf(whole) == -7.0f && floorf(large) == -8388608.0f;
+    static const float of[8] = {2.0f,     0x1.fffffep-1f, 0x1.000002p+0f, 0x1.fffffep+1f,
+                                0x1p-140f, -0.3333f,       -7.0f,          -8388607.5f};
+    static const float right[8] = {0x1.6a09e6p+0f, 0x1.fffffep-1f, 1.0f,  0x1.fffffep+0f,
+                                   0x1p-70f,       -1.0f,          -7.0f, -8388608.0f};
+    volatile float got[8];
+    for (int i = 0; i < 8; ++i) {
+        volatile float v = of[i];
+        got[i] = i < 5 ? sqrtf(v) : floorf(v);
+    }
+    return are_same(got, right, 8);
 }
 
 /* By a constant, too: x / 3 is not x * (1 / 3), -0 + 0 is not -0, and (x + 2^24) - 2^24 is not x. */

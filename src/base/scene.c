@@ -11,16 +11,19 @@
 /* 3 * triangle + k must fit 32 bits. */
 #define MAX_MESH_TRIANGLES 0x55555555u
 
-static int is_finite(float v) { return v >= -FLT_MAX && v <= FLT_MAX; }
-
-static int are_finite(const float *v, int32_t count)
+/* NaN is not. */
+static int are_within(const float *v, int32_t count, float low, float high)
 {
     int32_t i;
     for (i = 0; i < count; ++i)
-        if (!is_finite(v[i]))
+        if (!(v[i] >= low && v[i] <= high))
             return 0;
     return 1;
 }
+
+static int are_finite(const float *v, int32_t count) { return are_within(v, count, -FLT_MAX, FLT_MAX); }
+
+static int is_finite(float v) { return v >= -FLT_MAX && v <= FLT_MAX; }
 
 static int is_finite3(lmb_vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
@@ -58,19 +61,12 @@ static lmb_status check_texture(const lmb_texture *t)
     return LMB_OK;
 }
 
-static int is_share(float v) { return v >= 0.0f && v <= 1.0f; }
-
 lmb_status lmb_check_material(const lmb_material *m, uint32_t texture_count)
 {
-    if (m->albedo[0] < 0.0f || m->albedo[1] < 0.0f || m->albedo[2] < 0.0f)
-        return LMB_ERR_ARG;
-    if (m->emission[0] < 0.0f || m->emission[1] < 0.0f || m->emission[2] < 0.0f)
-        return LMB_ERR_ARG;
-    if (!is_share(m->specular[0]) || !is_share(m->specular[1]) || !is_share(m->specular[2]) ||
-        !is_share(m->roughness) || !is_share(m->metallic))
-        return LMB_ERR_ARG;
-    if (!are_finite(m->albedo, 3) || !are_finite(m->emission, 3) || !is_finite(m->alpha) ||
-        !is_finite(m->alpha_cutoff) || !is_finite(m->normal_scale))
+    if (!are_within(m->albedo, 3, 0.0f, FLT_MAX) || !are_within(m->emission, 3, 0.0f, FLT_MAX) ||
+        !are_within(m->specular, 3, 0.0f, 1.0f) || !are_within(&m->roughness, 1, 0.0f, 1.0f) ||
+        !are_within(&m->metallic, 1, 0.0f, 1.0f) || !is_finite(m->alpha) || !is_finite(m->alpha_cutoff) ||
+        !is_finite(m->normal_scale))
         return LMB_ERR_ARG;
     if (m->normal_scale != 0.0f && m->normal_map >= texture_count)
         return LMB_ERR_SCENE;
@@ -85,10 +81,8 @@ lmb_status lmb_check_light(const lmb_light *l)
 {
     if (!light_kind_is(l->kind, LIGHT_KNOWN))
         return LMB_ERR_FORMAT;
-    if (!is_finite3(l->position) || !is_finite3(l->direction) || !are_finite(l->intensity, 3) ||
+    if (!is_finite3(l->position) || !is_finite3(l->direction) || !are_within(l->intensity, 3, 0.0f, FLT_MAX) ||
         !is_finite(l->cos_inner) || !is_finite(l->cos_outer))
-        return LMB_ERR_ARG;
-    if (l->intensity[0] < 0.0f || l->intensity[1] < 0.0f || l->intensity[2] < 0.0f)
         return LMB_ERR_ARG;
     return light_shape_is_valid(l) ? LMB_OK : LMB_ERR_ARG;
 }
@@ -178,8 +172,6 @@ int lmb_scene_emits(const lmb_scene *scene) { return any_coloured(scene, offseto
 
 int lmb_scene_is_glossy(const lmb_scene *scene) { return any_coloured(scene, offsetof(lmb_material, specular)); }
 
-static int is_sane_point(lmb_vec3 p) { return is_sane(p.x) && is_sane(p.y) && is_sane(p.z); }
-
 /* World positions that are not finite or beyond 2^20 m do not count: draws drop their triangles. */
 void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *scene)
 {
@@ -192,10 +184,10 @@ void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *sce
         const lmb_mesh *mesh = &scene->meshes[in->mesh];
         for (v = 0; v < mesh->vertex_count; ++v) {
             lmb_vec3 p = transform_point(&in->to_world, mesh_position(mesh, v));
-            if (!is_sane_point(p))
+            if (!is_place(p))
                 continue;
-            lo = vec3(minf(lo.x, p.x), minf(lo.y, p.y), minf(lo.z, p.z));
-            hi = vec3(maxf(hi.x, p.x), maxf(hi.y, p.y), maxf(hi.z, p.z));
+            lo = min3(lo, p);
+            hi = max3(hi, p);
         }
     }
     if (lo.x > hi.x)

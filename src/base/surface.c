@@ -84,7 +84,6 @@ int lmb_surface_is_valid(const lmb_surface *s)
     if (!s || !s->data || !is_size(s->width, s->height) || !lmb_pixel_bytes(s->format) || s->layout > LMB_TILED)
         return 0;
     tile = mini(lmb_pixel_bytes(s->format), 4);
-    tile = tile == 3 ? 4 : tile;
     if ((uintptr_t)s->data % (uintptr_t)tile != 0 || s->stride_bytes % tile != 0)
         return 0;
     tile = is_tile_format(s->format);

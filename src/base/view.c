@@ -6,8 +6,6 @@
 #define DEFAULT_FAR_M 1000.0f
 #define MIN_HALF 1e-30f /* lmb_view's */
 
-static int is_sane3(lmb_vec3 v) { return is_sane(v.x) && is_sane(v.y) && is_sane(v.z); }
-
 /* The cross product of nearly parallel vectors has few significant bits, so its remaining component along `back` is
  * removed. */
 static int look_axes(lmb_view *v, lmb_vec3 along, lmb_vec3 up)
@@ -28,7 +26,7 @@ lmb_status lmb_view_look_at(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_ve
                             int32_t height)
 {
     lmb_view v;
-    if (!out || !is_sane3(eye) || !is_sane3(target) || !is_sane3(up) || !(vfov_rad > 0.0f && vfov_rad < LMB_PI))
+    if (!out || !is_place(eye) || !is_place(target) || !is_place(up) || !(vfov_rad > 0.0f && vfov_rad < LMB_PI))
         return LMB_ERR_ARG;
     if (width < 1 || width > LMB_MAX_FRAME || height < 1 || height > LMB_MAX_FRAME)
         return LMB_ERR_ARG;

@@ -61,10 +61,11 @@ static void close_group(lmb_groups *out, int32_t k, const lmb_points *points, ui
     lmb_group_open(&g);
     for (uint32_t i = 0; i < out->members[k]; ++i) {
         lmb_group_add(&g, &members[i]);
-        area += lmb_disc_area(&members[i]);
+        const float own = lmb_disc_area(&members[i]);
+        area += own;
         for (int c = 0; c < 3; ++c) {
             flux[c] += members[i].flux[c];
-            albedo[c] += members[i].albedo[c] * lmb_disc_area(&members[i]);
+            albedo[c] += members[i].albedo[c] * own;
         }
     }
     lmb_vec3 centre = flags & LMB_POINT_CENTRE ? members[0].position : g.centre;
@@ -161,6 +162,9 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
     int32_t zone = first_zone(points, &g);
     float reach = g.reach;
     for (uint32_t tries = 0;; ++tries) {
+        for (uint32_t i = 0; i < points->count; ++i) {
+            points->data[i].link = LMB_UNGROUPED;
+        }
         count = g.method == LMB_GROUP_NONE     ? group_none(points, max)
                 : g.method == LMB_GROUP_GREEDY ? lmb_group_greedy(points, &g, reach, max)
                                                : lmb_group_zones(points, &g, zone, max);

@@ -28,7 +28,7 @@ static inline int lmb_group_agrees(const lmb_group_sum *sum, const lmb_point *di
 void lmb_group_open(lmb_group_sum *sum);
 void lmb_group_add(lmb_group_sum *sum, const lmb_point *disc);
 
-/* Groups of the discs by method, each disc's link set to its group or LMB_UNGROUPED (strict zones).
+/* Groups of the discs by method, each disc's link set from LMB_UNGROUPED to its group (strict zones: or kept).
  * They return the number of groups, which may exceed `most`: then the links mean nothing. */
 uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, float reach, uint32_t max);
 uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32_t zone, uint32_t max);

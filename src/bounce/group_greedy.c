@@ -38,9 +38,6 @@ uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, floa
 {
     uint32_t groups = 0;
     for (uint32_t i = 0; i < points->count; ++i) {
-        points->data[i].link = LMB_UNGROUPED;
-    }
-    for (uint32_t i = 0; i < points->count; ++i) {
         lmb_point *first = &points->data[i];
         if (first->link == LMB_UNGROUPED) {
             lmb_group_sum g;

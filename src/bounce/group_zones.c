@@ -63,9 +63,6 @@ uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32
 {
     uint32_t groups = 0, end = 0;
     for (uint32_t i = 0; i < points->count; ++i) {
-        points->data[i].link = LMB_UNGROUPED;
-    }
-    for (uint32_t i = 0; i < points->count; ++i) {
         end = i >= end ? zone_row_end(points, i, zone) : end;
         if (points->data[i].link == LMB_UNGROUPED) {
             if (groups == max) {

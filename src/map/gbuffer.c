@@ -11,30 +11,15 @@ static int is_surface(const lmb_surface *s, int32_t format, const lmb_view *view
                          s->height == view->frame_height);
 }
 
-static void store(const lmb_surface *s, int32_t x, int32_t y, const float *a, const float *b, const float *c, int k)
+/* A tile's values into the pixels of `s`, as many of each as it has channels. */
+static void store(const lmb_surface *s, const float (*values)[LMB_TILE_PIXELS], int32_t channels, const lmb_tile *t)
 {
-    float *p = (float *)(void *)((uint8_t *)s->data + (ptrdiff_t)y * s->stride_bytes) + (b != NULL ? 3 * x : x);
-    p[0] = a[k];
-    if (b != NULL) {
-        p[1] = b[k];
-        p[2] = c[k];
-    }
-}
-
-static void store_tile(const lmb_surface *depth, const lmb_surface *normal, const lmb_surface *albedo,
-                       const lmb_view *v, const lmb_tile *t)
-{
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        int32_t x = t->x + k % LMB_TILE, y = t->y + k / LMB_TILE;
-        if (x < v->frame_width && y < v->frame_height) {
-            if (depth != NULL) {
-                store(depth, x, y, t->depth, NULL, NULL, k);
-            }
-            if (normal != NULL) {
-                store(normal, x, y, t->normal[0], t->normal[1], t->normal[2], k);
-            }
-            if (albedo != NULL) {
-                store(albedo, x, y, t->albedo[0], t->albedo[1], t->albedo[2], k);
+    for (int32_t k = 0; s != NULL && k < LMB_TILE_PIXELS; ++k) {
+        const int32_t x = t->x + k % LMB_TILE, y = t->y + k / LMB_TILE;
+        if (x < s->width && y < s->height) {
+            float *p = (float *)(void *)((uint8_t *)s->data + (ptrdiff_t)y * s->stride_bytes) + channels * x;
+            for (int32_t c = 0; c < channels; ++c) {
+                p[c] = values[c][k];
             }
         }
     }
@@ -52,6 +37,7 @@ lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal,
         !is_surface(albedo, LMB_RGB32F, view)) {
         return LMB_ERR_FORMAT;
     }
+    const lmb_tile *shown = tile;
     for (int32_t x = target->x0; x < target->x0 + target->depth.width; x += LMB_TILE) {
         lmb_status status = depth == NULL && normal == NULL
                                 ? lmb_resolve_albedo(tile, kernels, view, scene, target, x, band * LMB_TILE)
@@ -59,7 +45,9 @@ lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal,
         if (status != LMB_OK) {
             return status;
         }
-        store_tile(depth, normal, albedo, view, tile);
+        store(depth, &shown->depth, 1, shown);
+        store(normal, shown->normal, 3, shown);
+        store(albedo, shown->albedo, 3, shown);
     }
     return LMB_OK;
 }

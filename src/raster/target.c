@@ -81,7 +81,7 @@ lmb_fill_window lmb_target_window(const lmb_target *t, const lmb_view *view)
     return w;
 }
 
-static int is_unit(lmb_vec3 v)
+NOINLINE int is_unit(lmb_vec3 v)
 {
     float d2 = dot3(v, v);
     return d2 > 0.99f && d2 < 1.01f;
@@ -100,7 +100,7 @@ int lmb_view_is_valid(const lmb_view *v)
 {
     return v->half_width > MIN_M && v->half_height > MIN_M && v->half_width < 1e30f && v->half_height < 1e30f &&
            (v->near_m > MIN_M || (v->kind == LMB_ORTHOGRAPHIC && v->near_m < -MIN_M)) && is_unit(v->right) &&
-           is_unit(v->up) && is_unit(v->back) && is_sane(v->eye.x) && is_sane(v->eye.y) && is_sane(v->eye.z) &&
+           is_unit(v->up) && is_unit(v->back) && is_place(v->eye) &&
            v->frame_width > 0 && v->frame_height > 0 && v->frame_width <= LMB_MAX_FRAME &&
            v->frame_height <= LMB_MAX_FRAME && is_in_pixel(v->sample_x) && is_in_pixel(v->sample_y) &&
            (v->kind == LMB_PERSPECTIVE || (v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m));
