@@ -322,11 +322,13 @@ int options_answer_to(FILE *out, FILE *err, int asked, const option_table *t, co
         fprintf(err, "lambent %s: %s\n", t->verb, r->text);
         return 2;
     }
+#if !defined(OPTIONS_WITHOUT_HELP)
     if (asked == OPTIONS_ASK_HELP) {
         (is_man_page ? options_man : options_help)(out, t);
     } else {
         options_version(out);
     }
+#endif
     if (fflush(out) == 0 && !ferror(out)) {
         return 0;
     }

@@ -40,8 +40,9 @@ PAGE_CALL(page_help) void page_help(void);
 PAGE_CALL(page_helpers) int32_t page_helpers(void);
 PAGE_CALL(page_take_helpers) int32_t page_take_helpers(void);
 
-/* `words` are a command line of the tool, a word a line. page_run: a verb, whole: its exit status. page_open: `render`,
- * loaded and set but not drawn: the scene at hand, in place of the last. 1, or 0 where page_report says why. */
+/* `words` are a command line of the tool, a word a line. page_run: `relight`, `relief` or `mix`, whole: its exit
+ * status. page_open: `render`, loaded and set but not drawn: the scene at hand, in place of the last. 1, or 0 where
+ * page_report says why. */
 PAGE_CALL(page_run) int page_run(const char *words);
 PAGE_CALL(page_open) int page_open(const char *words);
 PAGE_CALL(page_report) const char *page_report(void);

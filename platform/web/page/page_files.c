@@ -24,6 +24,7 @@
 #include "../../../tools/relief/relief_path.h"
 #include "../../../tools/relight/relight_contact.h"
 #include "../../../tools/relight/relight_path.h"
+#include "../../../tools/render/budget.h"
 #include "../../../tools/render/render_slice.h"
 
 enum { FILES = 256, NAME_BYTES = 256 };
@@ -312,6 +313,13 @@ int mix_plane_near(int32_t at[2], const mix_job *j) { return (void)at, (void)j, 
 int mix_is_inside(const mix_job *j) { return (void)j, 1; }
 int mix_fail_depth(const mix_job *j, report *r) { return (void)j, report_fail(r, "no plane in the depth"); }
 int mix_fail_at(const mix_job *j, report *r) { return (void)j, report_fail(r, "--at: nothing there"); }
+
+/* --- budget.h: its settings are chosen by a slider --------------------------------------------------------------------- */
+
+int budget_fit(budget_choice *out, render_job *j, report *r)
+{
+    return (void)out, (void)j, report_fail(r, "--budget: not on the page");
+}
 
 /* --- slice.h, render_slice.h: the page draws whole pictures --------------------------------------------------------------- */
 

@@ -90,7 +90,7 @@ int page_run(const char *words)
     static const struct verb {
         const char *name;
         int (*run)(int argc, char **argv);
-    } verbs[] = {{"render", verb_render}, {"relight", verb_relight}, {"relief", verb_relief}, {"mix", verb_mix}};
+    } verbs[] = {{"relight", verb_relight}, {"relief", verb_relief}, {"mix", verb_mix}};
     command c;
     int status = 2;
     begin_report();
