@@ -644,6 +644,10 @@ for size in pit vast; do
         --size 64x64 --show normal -o "$dir/$size-normal.pfm"
 done
 check "a relief of any size looks the same" cmp -s "$dir/pit-normal.pfm" "$dir/vast-normal.pfm"
+# Without normals it is flat, as in `lambent render`: a box has one colour in front, but at its rim.
+status 0 relief bake "$dir/box.obj" -o "$dir/box.lmr" --triangles 12 --size 32
+status 0 relief render "$dir/box.lmr" --eye 0,0,5 --target 0,0,0 --size 32x32 --show normal -o "$dir/box.ppm"
+check "a relief of a box is flat" test "$(tail -c 3072 "$dir/box.ppm" | od -An -v -tx1 -w3 | sort | uniq -c | sort -rn | awk 'NR == 2 { print $1 }')" -ge 300
 status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --with "$dir/box.obj" --compare "$dir/pit.obj"
 status 0 relief render "$dir/pit.lmr" -o "$dir/pit.png" --eye 1.5,2,5 --target 0,0,0 --size 64x64 --compare "$dir/pit.obj"
 check "relief render --compare shows both" grep -q 'pixels, ms  *[0-9.]*  *[0-9.]*$' "$dir/out.txt"

@@ -34,6 +34,9 @@ static const bench_try tries[] = {
     {"simple model", "--triangles 500", 3, 0},
     {"simple model", "--triangles 12000", 3, 0},
     {"storage", "--packed", 3, 0},
+    {"shadow map", "--shadow-map 128", 3, 0},
+    {"shadow map", "--shadow-map 256", 3, 0},
+    {"shadow map", "--shadow-map 0", 3, 0},
     {"draft and", "--views 14 --size 128 --steps 2 --keep 1", 3, 0},
 };
 
@@ -41,15 +44,12 @@ enum { SIDE = 512, SHADOW_MAP = 1024 };
 
 typedef struct statue {
     const char *model;
-    int32_t views, greedy, size, triangles, is_packed;
+    int32_t views, greedy, size, triangles, is_packed, shadow_map;
     view_options view;
     lmb_relief_how how;
     /* made of it */
     struct model loaded;
     triangle_mesh mesh, simple;
-    relief_scene flat;
-    lmb_scene scene;
-    lmb_mesh *meshes;
     relief_bake bake;
     file_bytes file;
     lmb_relief relief;
@@ -78,6 +78,8 @@ static const option_row bake_rows[] = {
 };
 static const option_row render_rows[] = {
     RELIEF_OPTIONS_LOOK(statue),
+    {.name = "--shadow-map", .kind = OPTION_MULTIPLE_OF_8, .value = "N", .at = offsetof(statue, shadow_map), .low = 0,
+     .high = LMB_MAX_SIDE, .help = HELP("texels of its side at most (default 1024); 0: no shadow")},
     VIEW_OPTIONS_CAMERA(statue, view, "where the camera stands (default: the whole model from a little above)"),
     {.kind = OPTION_END},
 };
@@ -91,6 +93,7 @@ static int parse(statue *s, const bench_line *l, report *r)
     s->views = 26;
     s->size = 256;
     s->triangles = 3000;
+    s->shadow_map = SHADOW_MAP;
     if (options_parse(s, &table, l->argc, argv, r) != OPTIONS_RUN) {
         return 0;
     }
@@ -136,16 +139,9 @@ static int load(statue *s, report *r)
 {
     static model_notes notes;
     memset(&notes, 0, sizeof notes);
-    if (!model_load(&s->loaded, s->model, NULL, &notes, r) || !relief_flatten(&s->mesh, &s->loaded.scene, r) ||
-        !relief_scene_of(&s->flat, &s->mesh, r)) {
-        return 0;
-    }
-    s->meshes = malloc((s->loaded.scene.mesh_count + 1) * sizeof *s->meshes);
-    if (s->meshes == NULL) {
-        return report_fail(r, "%s: out of memory", s->model);
-    }
-    relief_smooth(&s->scene, s->meshes, &s->loaded.scene, &s->flat);
-    return lmb_scene_triangles(&s->scene) > 0 || report_fail(r, "%s: nothing to bake: no triangles", s->model);
+    return model_load(&s->loaded, s->model, NULL, &notes, r) && relief_flatten(&s->mesh, &s->loaded.scene, r) &&
+           (lmb_scene_triangles(&s->loaded.scene) > 0 ||
+            report_fail(r, "%s: nothing to bake: no triangles", s->model));
 }
 
 static int bake(statue *s, report *r)
@@ -153,14 +149,14 @@ static int bake(statue *s, report *r)
     lmb_vec3 direction[LMB_RELIEF_VIEWS];
     simplify_facts facts;
     relief_directions(direction, s->views);
-    if ((s->greedy && !relief_greedy(direction, s->views, &s->mesh, &s->scene, s->size, r)) ||
+    if ((s->greedy && !relief_greedy(direction, s->views, &s->mesh, &s->loaded.scene, s->size, r)) ||
         !simplify_mesh(&s->simple, &s->mesh, (uint32_t)s->triangles, SIMPLIFY_AROUND, &facts, r)) {
         return 0;
     }
     s->bake.format = s->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
     for (int32_t i = 0; i < s->views; ++i) {
         const lmb_view view = relief_fit(&s->mesh, direction[i], s->size);
-        if (!relief_add(&s->bake, &s->scene, &view, r)) {
+        if (!relief_add(&s->bake, &s->loaded.scene, &view, r)) {
             return 0;
         }
     }
@@ -178,16 +174,16 @@ static int aim(statue *s, report *r)
     static const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
                                   LMB_LIGHT_DIRECTIONAL, 0};
     lmb_view middle;
-    if (s->view.has_eye ? !view_look(&middle, &s->view, r) : !view_frame(&middle, &s->view, &s->scene, s->model, r)) {
+    const lmb_scene *scene = &s->loaded.scene;
+    if (s->view.has_eye ? !view_look(&middle, &s->view, r) : !view_frame(&middle, &s->view, scene, s->model, r)) {
         return 0;
     }
     middle.near_m = 0.0f;
     s->sun = sun;
     s->shot.kernels = lmb_kernels_pick();
-    s->shot.view = view_from(&middle, 0.0f, &s->scene);
+    s->shot.view = view_from(&middle, 0.0f, scene);
     s->shot.how = s->how;
     s->shot.light = &s->sun;
-    s->shot.shadow_map = SHADOW_MAP;
     s->shot.ambient = 0.3f;
     return 1;
 }
@@ -233,11 +229,9 @@ static void statue_free(statue *s)
     model_free(&s->loaded);
     triangle_mesh_free(&s->mesh);
     triangle_mesh_free(&s->simple);
-    relief_scene_free(&s->flat);
     relief_bake_free(&s->bake);
     relief_frame_free(&s->frame);
     file_free(&s->file);
-    free(s->meshes);
     free(s);
 }
 
@@ -249,7 +243,8 @@ static int run(bench_shot *out, const bench_line *line, const bench_way *way, in
     ok = ok && (is_truth || bake(s, r));
     if (ok) {
         s->shot.relief = is_truth ? NULL : &s->relief;
-        s->shot.scene = is_truth ? &s->scene : NULL;
+        s->shot.scene = is_truth ? &s->loaded.scene : NULL;
+        s->shot.shadow_map = is_truth ? SHADOW_MAP : s->shadow_map;
         ok = bench_repeat(out, way, shoot_once, s, r) && keep(out, s, r);
     }
     if (!ok) {
@@ -293,9 +288,8 @@ const bench_subject bench_relief = {
         "Speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole from a little "
         "above: bakes it by so many views of such a size and draws it in so many steps. The truth is the model "
         "itself, drawn by its triangles. Of the options of lambent relief it takes --views, --size, --packed, "
-        "--triangles, --steps, --pixel-views, --keep, --eye, --target, --up and --fov; time is that of the picture, "
-        "memory "
-        "the relief's.",
+        "--triangles, --steps, --pixel-views, --keep, --shadow-map, --eye, --target, --up and --fov; time is that of the "
+        "picture, memory the relief's.",
     .examples = "  a tent by two numbers of views:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"

@@ -186,3 +186,42 @@ int relief_measure(relief_figures *out, const relief_frame *test, const relief_f
     free(normal);
     return ok || report_fail(r, "not enough memory to compare");
 }
+
+/* --- as text ------------------------------------------------------------------------------------------------------ */
+
+static void tell_compared(const relief_frame *f, const relief_frame *truth, const relief_figures *e)
+{
+    report_say("%-22s %12s %12s\n", "", "relief", "direct");
+    report_say("%-22s %12.2f %12.2f\n", "shadow map, ms", 1e3 * f->light_s, 1e3 * truth->light_s);
+    report_say("%-22s %12.2f %12.2f\n", "triangles, ms", 1e3 * f->draw_s, 1e3 * truth->draw_s);
+    report_say("%-22s %12.2f %12.2f\n", "pixels, ms", 1e3 * f->band_s, 1e3 * truth->band_s);
+    report_say("outline %.2f px (median), covered by both %.2f %%\n", e->silhouette_px, 100.0 * e->iou);
+    report_say("depth %.4f %% of the diagonal (median), %.4f %% (95 of 100)\n", 100.0 * e->depth_50, 100.0 * e->depth_95);
+    report_say("normals %.2f degrees (median), %.1f (95 of 100)\n", e->normal_50, e->normal_95);
+    report_say("light %.2f dB, without cast shadows %.2f; reflectance %.2f dB; lit or not as it should %.2f %%\n",
+           e->shadowed_db, e->psnr_db, e->albedo_db, 100.0 * e->lit);
+}
+
+static double diagonal(const lmb_scene *s)
+{
+    const double x = (double)(s->bounds_max.x - s->bounds_min.x), y = (double)(s->bounds_max.y - s->bounds_min.y),
+                 z = (double)(s->bounds_max.z - s->bounds_min.z);
+    return sqrt(x * x + y * y + z * z);
+}
+
+int relief_tell(const relief_frame *f, relief_shot shot, const lmb_scene *model, report *r)
+{
+    relief_frame truth;
+    relief_figures e;
+    shot.relief = NULL;
+    shot.scene = model;
+    if (!relief_shoot(&truth, &shot, r)) {
+        return 0;
+    }
+    const int ok = relief_measure(&e, f, &truth, diagonal(model), r);
+    if (ok) {
+        tell_compared(f, &truth, &e);
+    }
+    relief_frame_free(&truth);
+    return ok;
+}

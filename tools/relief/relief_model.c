@@ -1,4 +1,4 @@
-/* relief_model.c: a scene as reliefs are made of it: one mesh in the world, with smooth normals. */
+/* relief_model.c: a scene as reliefs are made of it: one mesh in the world. */
 #include "relief_model.h"
 
 #include <math.h>
@@ -232,31 +232,6 @@ void relief_scene_free(relief_scene *s)
     free(s->colours);
     s->normals = NULL;
     s->colours = NULL;
-}
-
-static int is_unmoved(const lmb_mat4 *t)
-{
-    for (int i = 0; i < 16; ++i) {
-        if (t->m[i] != (i % 5 == 0 ? 1.0f : 0.0f)) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-void relief_smooth(lmb_scene *out, lmb_mesh *meshes, const lmb_scene *scene, const relief_scene *flat)
-{
-    size_t first = 0;
-    memcpy(meshes, scene->meshes, scene->mesh_count * sizeof *meshes);
-    *out = *scene;
-    out->meshes = meshes;
-    for (uint32_t i = 0; i < scene->instance_count; ++i) {
-        lmb_mesh *m = &meshes[scene->instances[i].mesh];
-        if (m->normals == NULL && is_unmoved(&scene->instances[i].to_world)) {
-            m->normals = flat->normals + 2 * first;
-        }
-        first += m->vertex_count;
-    }
 }
 
 /* --- more triangles ----------------------------------------------------------------------------------------------- */

@@ -1,4 +1,4 @@
-/* relief_model.h: a scene as reliefs are made of it: one mesh in the world, with smooth normals. */
+/* relief_model.h: a scene as reliefs are made of it: one mesh in the world. */
 #ifndef RELIEF_MODEL_H
 #define RELIEF_MODEL_H
 
@@ -25,10 +25,6 @@ int relief_flatten(triangle_mesh *out, const lmb_scene *scene, report *r);
 /* relief_scene_of: draw a mesh. `mesh` stays as long as `out`, which must not move. 1, or 0 with `r` set. */
 int relief_scene_of(relief_scene *out, const triangle_mesh *mesh, report *r);
 void relief_scene_free(relief_scene *s);
-
-/* relief_smooth: the same scene with the normals of `flat`, which relief_flatten and relief_scene_of made of it, where
- * a mesh of it has none and stands as it is. `meshes` holds scene->mesh_count; the scene and `flat` stay. */
-void relief_smooth(lmb_scene *out, lmb_mesh *meshes, const lmb_scene *scene, const relief_scene *flat);
 
 /* relief_divide: each triangle in four, at the middles of its edges. `out` is a mesh of its own. */
 int relief_divide(triangle_mesh *out, const triangle_mesh *in, report *r);

@@ -13,7 +13,6 @@
 #include "../model/model.h"
 #include "../picture/picture.h"
 #include "relief_compare.h"
-#include "relief_model.h"
 #include "relief_options.h"
 #include "relief_path.h"
 
@@ -129,10 +128,6 @@ typedef struct work {
     lmb_relief relief;
     lmb_scene simple;
     model with, truth;
-    triangle_mesh mesh; /* the truth's, for its normals */
-    relief_scene flat;
-    lmb_scene complex;
-    lmb_mesh *meshes;
     lmb_light light; /* the sun that shines where none is asked for, or what is */
     key_path path;
 } work;
@@ -142,9 +137,6 @@ static void work_free(work *w)
     file_free(&w->file);
     model_free(&w->with);
     model_free(&w->truth);
-    triangle_mesh_free(&w->mesh);
-    relief_scene_free(&w->flat);
-    free(w->meshes);
     key_path_free(&w->path);
     free(w);
 }
@@ -173,21 +165,6 @@ static int load(model *out, const char *path, report *r)
     static model_notes notes;
     memset(&notes, 0, sizeof notes);
     return model_load(out, path, NULL, &notes, r);
-}
-
-/* The complex model as it was baked. */
-static int load_truth(work *w, const char *path, report *r)
-{
-    if (!load(&w->truth, path, r) || !relief_flatten(&w->mesh, &w->truth.scene, r) ||
-        !relief_scene_of(&w->flat, &w->mesh, r)) {
-        return 0;
-    }
-    w->meshes = malloc((w->truth.scene.mesh_count + 1) * sizeof *w->meshes);
-    if (w->meshes == NULL) {
-        return report_fail(r, "%s: out of memory", path);
-    }
-    relief_smooth(&w->complex, w->meshes, &w->truth.scene, &w->flat);
-    return 1;
 }
 
 static int choose_view(lmb_view *out, const work *w, relief_options *o, report *r)
@@ -247,43 +224,6 @@ static void tell(const relief_frame *f)
            100.0 * (double)s->hits / n, 100.0 * (double)s->missed / n, 100.0 * (double)s->holes / n);
 }
 
-static void tell_compared(const relief_frame *f, const relief_frame *truth, const relief_figures *e)
-{
-    report_say("%-22s %12s %12s\n", "", "relief", "direct");
-    report_say("%-22s %12.2f %12.2f\n", "shadow map, ms", 1e3 * f->light_s, 1e3 * truth->light_s);
-    report_say("%-22s %12.2f %12.2f\n", "triangles, ms", 1e3 * f->draw_s, 1e3 * truth->draw_s);
-    report_say("%-22s %12.2f %12.2f\n", "pixels, ms", 1e3 * f->band_s, 1e3 * truth->band_s);
-    report_say("outline %.2f px (median), covered by both %.2f %%\n", e->silhouette_px, 100.0 * e->iou);
-    report_say("depth %.4f %% of the diagonal (median), %.4f %% (95 of 100)\n", 100.0 * e->depth_50, 100.0 * e->depth_95);
-    report_say("normals %.2f degrees (median), %.1f (95 of 100)\n", e->normal_50, e->normal_95);
-    report_say("light %.2f dB, without cast shadows %.2f; reflectance %.2f dB; lit or not as it should %.2f %%\n",
-           e->shadowed_db, e->psnr_db, e->albedo_db, 100.0 * e->lit);
-}
-
-static double diagonal(const lmb_scene *s)
-{
-    const double x = (double)(s->bounds_max.x - s->bounds_min.x), y = (double)(s->bounds_max.y - s->bounds_min.y),
-                 z = (double)(s->bounds_max.z - s->bounds_min.z);
-    return sqrt(x * x + y * y + z * z);
-}
-
-static int compare(work *w, relief_shot shot, const relief_frame *f, report *r)
-{
-    relief_frame truth;
-    relief_figures e;
-    shot.relief = NULL;
-    shot.scene = &w->complex;
-    if (!relief_shoot(&truth, &shot, r)) {
-        return 0;
-    }
-    const int ok = relief_measure(&e, f, &truth, diagonal(&w->complex), r);
-    if (ok) {
-        tell_compared(f, &truth, &e);
-    }
-    relief_frame_free(&truth);
-    return ok;
-}
-
 static int render(work *w, relief_options *o, report *r)
 {
     relief_shot shot;
@@ -294,7 +234,7 @@ static int render(work *w, relief_options *o, report *r)
     w->light = o->has_light ? o->light : sun;
     if (!options_files(o, &table, r) || !open_relief(w, o->file, r) ||
         (o->with != NULL && !load(&w->with, o->with, r)) ||
-        (o->compare != NULL && !load_truth(w, o->compare, r)) ||
+        (o->compare != NULL && !load(&w->truth, o->compare, r)) ||
         !options_files(o, &table, r) || !relief_path_open(&w->path, o, &w->light, r) || !choose_view(&shot.view, w, o, r)) {
         return 0;
     }
@@ -322,7 +262,7 @@ static int render(work *w, relief_options *o, report *r)
     }
     report_note(!o->view.is_verbose, "shadow map %.2f ms, triangles %.2f ms, pixels %.2f ms", 1e3 * f.light_s,
                 1e3 * f.draw_s, 1e3 * f.band_s);
-    const int ok = (o->compare == NULL || compare(w, shot, &f, r)) && write_frame(o, &f, o->out, r);
+    const int ok = (o->compare == NULL || relief_tell(&f, shot, &w->truth.scene, r)) && write_frame(o, &f, o->out, r);
     relief_frame_free(&f);
     return ok;
 }

@@ -70,7 +70,7 @@ static const option_table table = {
              "relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]",
     .about =
         "Views of a complex model, for drawing it as a simple one that carries its surface. Meshes without normals "
-        "get smooth ones. Says how much of the surface no view sees: that will be filled with the simple model's.",
+        "are flat, as `lambent render` draws them. Says how much of the surface no view sees: that will be filled with the simple model's.",
     .part = {rows},
     .examples = "  a tent and its relief:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
@@ -105,9 +105,6 @@ static int parse(options *o, int argc, char **argv, report *r)
 typedef struct work {
     model loaded, loaded_simple;
     triangle_mesh mesh, simple;
-    relief_scene flat;
-    lmb_scene scene; /* what the views show: the model itself, with normals */
-    lmb_mesh *meshes;
     lmb_view view[LMB_RELIEF_VIEWS];
     int32_t views;
     relief_bake bake;
@@ -120,10 +117,8 @@ static void work_free(work *w)
     model_free(&w->loaded_simple);
     triangle_mesh_free(&w->mesh);
     triangle_mesh_free(&w->simple);
-    relief_scene_free(&w->flat);
     relief_bake_free(&w->bake);
     file_free(&w->file);
-    free(w->meshes);
     free(w);
 }
 
@@ -138,19 +133,6 @@ static int load(model *out, triangle_mesh *mesh, const char *path, report *r)
         return report_fail(r, "%s: nothing to bake: no triangles", path);
     }
     return relief_flatten(mesh, &out->scene, r);
-}
-
-static int load_complex(work *w, const options *o, report *r)
-{
-    if (!load(&w->loaded, &w->mesh, o->model, r) || !relief_scene_of(&w->flat, &w->mesh, r)) {
-        return 0;
-    }
-    w->meshes = malloc(w->loaded.scene.mesh_count * sizeof *w->meshes);
-    if (w->meshes == NULL) {
-        return report_fail(r, "%s: out of memory", o->model);
-    }
-    relief_smooth(&w->scene, w->meshes, &w->loaded.scene, &w->flat);
-    return 1;
 }
 
 static void tell_outside(double outside, const options *o)
@@ -259,7 +241,7 @@ static int choose_views(work *w, const options *o, report *r)
         return read_cameras(w, o, r);
     }
     relief_directions(direction, o->views);
-    if (o->greedy && !relief_greedy(direction, o->views, &w->mesh, &w->scene, o->size, r)) {
+    if (o->greedy && !relief_greedy(direction, o->views, &w->mesh, &w->loaded.scene, o->size, r)) {
         return 0;
     }
     for (w->views = 0; w->views < o->views; ++w->views) {
@@ -279,12 +261,12 @@ static void tell(const work *w, const options *o, const relief_coverage *c)
 static int bake(work *w, const options *o, report *r)
 {
     relief_coverage coverage;
-    if (!options_files(o, &table, r) || !load_complex(w, o, r) || !options_files(o, &table, r) ||
+    if (!options_files(o, &table, r) || !load(&w->loaded, &w->mesh, o->model, r) || !options_files(o, &table, r) ||
         !choose_views(w, o, r) || !make_simple(w, o, r)) {
         return 0;
     }
     w->bake.format = o->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
-    if (!relief_add_views(&w->bake, &w->scene, w->view, w->views, pool_threads(o->threads), r) ||
+    if (!relief_add_views(&w->bake, &w->loaded.scene, w->view, w->views, pool_threads(o->threads), r) ||
         !relief_cover(&coverage, &w->bake, &w->mesh, r) || !relief_encode(&w->file, &w->bake, &w->simple, r) ||
         !file_write(o->out, w->file.data, w->file.size, r)) {
         return 0;

@@ -20,7 +20,6 @@
 #include "../../../tools/mix/mix_sources.h"
 #include "../../../tools/picture/image.h"
 #include "../../../tools/relief/relief_compare.h"
-#include "../../../tools/relief/relief_model.h"
 #include "../../../tools/relief/relief_path.h"
 #include "../../../tools/relight/relight_contact.h"
 #include "../../../tools/relight/relight_path.h"
@@ -188,23 +187,11 @@ const lmb_world *relight_light_nearest(const relight_light *w, const relight_opt
     return (void)o, (void)at, w->world;
 }
 
-/* --- relief_model.h, relief_compare.h: its reliefs have no model beside them ------------------------------------------- */
+/* --- relief_compare.h: its reliefs have no model beside them ------------------------------------------------------ */
 
-int relief_flatten(triangle_mesh *out, const lmb_scene *scene, report *r)
+int relief_tell(const relief_frame *f, relief_shot shot, const lmb_scene *model, report *r)
 {
-    return (void)out, (void)scene, report_fail(r, "--compare: not on the page");
-}
-int relief_scene_of(relief_scene *out, const triangle_mesh *mesh, report *r) { return (void)out, (void)mesh, (void)r, 0; }
-void relief_scene_free(relief_scene *s) { (void)s; }
-void relief_smooth(lmb_scene *out, lmb_mesh *meshes, const lmb_scene *scene, const relief_scene *flat)
-{
-    (void)out, (void)meshes, (void)scene, (void)flat;
-}
-
-int relief_measure(relief_figures *out, const relief_frame *test, const relief_frame *truth, double diagonal,
-                   report *r)
-{
-    return (void)out, (void)test, (void)truth, (void)diagonal, (void)r, 0;
+    return (void)f, (void)shot, (void)model, report_fail(r, "--compare: not on the page");
 }
 
 const option_row relief_path_rows[] = {{.kind = OPTION_END}};
