@@ -143,19 +143,31 @@ static uint64_t in_picture(const lmb_tile *t, const lmb_view *view)
     return out;
 }
 
-/* One look at all pixels, by what the last one left. Returns whether one more shows something now. */
+/* Pixels with a surface, and those that stay as the simple model is. */
+static uint64_t showing(const lmb_tile *t, uint64_t missed)
+{
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        out |= (uint64_t)(t->id[k] != 0) << k;
+    }
+    return out & ~missed;
+}
+
+/* One look at all pixels, by what the last one left. Returns whether one more shows something now. A pixel that shows the
+ * simple model is mended by surfaces alone, one that shows nothing by whatever is around it. */
 static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
 {
-    const uint64_t hit = found->hit;
+    const uint64_t hit = found->hit, all = showing(m->tile, found->missed);
     around a;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const uint64_t own = (uint64_t)1 << k, beside = lmb_relief_beside(k) & inside, shown = beside & hit;
+        const uint64_t known = (all & own) != 0 ? shown : beside & all;
         const int pixels = count_bits_64(beside), hits = count_bits_64(shown), is_hit = (hit & own) != 0;
         if ((inside & own) == 0) {
             continue;
         }
-        if (!is_hit && hits > 0 && hits + (pixels >= 5) >= pixels) {
-            look_around(&a, m, hit, k);
+        if (!is_hit && known != 0 && count_bits_64(known) + (pixels >= 5) >= pixels) {
+            look_around(&a, m, known, k);
             take_surface(m, &a, k);
             found->hit |= own;
             found->missed &= ~own;
