@@ -1,4 +1,6 @@
 /* shade.c: small cubes with borders, and light from them for the pixels of a tile. Layer 6. [S17 S21 S22] */
+#include <string.h>
+
 #include "../base/memory_check.h"
 #include "../light/glossy.h"
 #include "../raster/plane.h"
@@ -110,6 +112,75 @@ static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_glossy *glossy, con
     }
 }
 
+/* --- facets smaller than pixels ----------------------------------------------------------------------------------- */
+
+#define FACETS (4.0f / 3.0f) /* so many times the facets' part of a change is taken for all of it */
+
+/* Pixels whose triangle none of the four beside them shows: several triangles lie in each. */
+static uint64_t crowded(const lmb_tile *t, uint64_t pixels)
+{
+    for (int step = 1; step <= LMB_TILE; step += LMB_TILE - 1) {
+        for (int k = 0; k + step < LMB_TILE_PIXELS; ++k) {
+            if (t->id[k] == t->id[k + step]) {
+                pixels &= ~((uint64_t)1 << k | (uint64_t)1 << (k + step));
+            }
+        }
+    }
+    return pixels;
+}
+
+/* Of three pixels in a row, `step` apart: the change of normals that is from facet to facet, and all of it. */
+static void add_change(float facets[LMB_TILE_PIXELS], float all[LMB_TILE_PIXELS], const lmb_tile *t, int k, int step)
+{
+    const lmb_vec3 before = tile_vec(t->normal, k - step), after = tile_vec(t->normal, k + step);
+    const lmb_vec3 along = sub3(after, before), off = sub3(add3(before, after), mul3(tile_vec(t->normal, k), 2.0f));
+    for (int i = k - step; i <= k + step; i += step) {
+        facets[i] += FACETS * dot3(off, off);
+        all[i] += dot3(along, along);
+    }
+}
+
+/* A pixel of several facets shows one of them: what all of them mirror is the mean of what those around it do, whose
+ * normals are as many samples of them. It counts as far as normals change from facet to facet, and do not just bend. */
+static void spread(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pixels)
+{
+    float *facets = rays->origin[0], *all = rays->origin[1]; /* and `direction`: not wanted any more */
+    const uint64_t several = crowded(t, pixels);
+    if (several == 0) {
+        return;
+    }
+    memcpy(rays->direction, rays->seen, sizeof rays->seen);
+    memset(rays->origin, 0, sizeof rays->origin);
+    for (int step = 1; step <= LMB_TILE; step += LMB_TILE - 1) {
+        for (int k = step; k + step < LMB_TILE_PIXELS; ++k) {
+            const uint64_t three = (uint64_t)1 << k | (uint64_t)1 << (k - step) | (uint64_t)1 << (k + step);
+            if ((k / step + 1) % LMB_TILE > 1 && (pixels & three) == three) {
+                add_change(facets, all, t, k, step);
+            }
+        }
+    }
+    for (uint64_t bits = several; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits), x = k % LMB_TILE;
+        const float part = minf(facets[k] / maxf(all[k], 1e-12f), 1.0f);
+        float sum[3] = {0.0f, 0.0f, 0.0f}, weights = 0.0f;
+        for (int i = 0; i < 9; ++i) {
+            const int at = k + LMB_TILE * (i / 3 - 1) + i % 3 - 1;
+            if (at >= 0 && at < LMB_TILE_PIXELS && (unsigned)(at % LMB_TILE - x + 1) < 3u && (pixels >> at & 1u) != 0) {
+                const float weight = i == 4 ? 4.0f : i % 2 == 1 ? 2.0f : 1.0f;
+                for (int c = 0; c < 3; ++c) {
+                    sum[c] += weight * rays->direction[c][at];
+                }
+                weights += weight;
+            }
+        }
+        for (int c = 0; c < 3; ++c) {
+            rays->seen[c][k] += part * (sum[c] / weights - rays->seen[c][k]);
+        }
+    }
+}
+
+/* --- what is mirrored, and what is behind ------------------------------------------------------------------------- */
+
 lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, const lmb_kernels *kernels, lmb_probe_rays *scratch,
                                  const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
                                  const lmb_world_query *query)
@@ -127,6 +198,7 @@ lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, const lmb_kernels *kernels, 
         lmb_world_ask(&job, query->world, LMB_WORLD_ALL, query->ray_width, query->blend);
         kernels->see(scratch->seen, (float (*)[LMB_TILE_PIXELS])tile->position, scratch->direction, &job);
     }
+    spread(scratch, tile, pixels & inout->pixels);
     for (uint64_t bits = pixels & inout->pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {

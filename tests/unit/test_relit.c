@@ -243,6 +243,81 @@ static void one_light(stage *s)
     CHECK_MSG(shaded == 0.0f && left > 0.1f, "%g %g", (double)shaded, (double)left);
 }
 
+/* --- facets smaller than pixels ----------------------------------------------------------------------------------- */
+
+enum { CELLS = 60, GRID = 15 /* pixels from the middle that it covers each way, and one more */ };
+
+static float half_lit(int c, lmb_vec3 d) { return c >= 0 && d.x > 0.0f ? 1.0f : 0.0f; }
+
+/* A grid's corner: the same height at each look, up to `rough` m. */
+static lmb_vec3 corner_of(int x, int y, float rough)
+{
+    const uint32_t hash = ((uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u) * 2654435761u;
+    const float high = rough * (float)(hash >> 8) / 16777216.0f;
+    return vec3(0.04f * (float)(x - CELLS / 2), 0.04f * (float)(y - CELLS / 2), high);
+}
+
+/* A mirror across the view of `cells` squares each way: of CELLS several triangles lie in each pixel. */
+static void draw_grid(stage *s, int cells, float rough)
+{
+    const int wide = CELLS / cells;
+    make_balls(s, 1.0f, 0.0f);
+    world_begin(0.0f, 0.0f, 0.0f);
+    world.material[0].specular[0] = world.material[0].specular[1] = world.material[0].specular[2] = 1.0f;
+    for (int i = 0; i < cells * cells; ++i) {
+        const int x = i % cells * wide, y = i / cells * wide;
+        const lmb_vec3 a = corner_of(x, y, rough), c = corner_of(x + wide, y + wide, rough);
+        world_triangle(a, corner_of(x + wide, y, rough), c);
+        world_triangle(a, c, corner_of(x, y + wide, rough));
+    }
+    CHECK(world_end() == LMB_OK);
+    s->probe_of[0] = 1; /* looks at the world itself */
+    world_draw(&s->relight.eye, &s->relight.view, 0);
+    CHECK(draw(s, LMB_RELIGHT_GLOSSY) == LMB_OK);
+}
+
+static float red(const stage *s, int x, int y) { return pixel(s, LMB_RELIGHT_GLOSSY, x, y)[0]; }
+
+/* Is the pixel's red more or less by a third than that of all eight around? */
+static int is_speck(const stage *s, int x, int y)
+{
+    int above = 1, below = 1;
+    for (int k = 0; k < 9; ++k) {
+        const float off = red(s, x, y) - red(s, x + k % 3 - 1, y + k / 3 - 1);
+        above &= k == 4 || off > 0.33f;
+        below &= k == 4 || off < -0.33f;
+    }
+    return above | below;
+}
+
+/* A rough mirror has no specks, and is as bright as its facets are in the mean; a flat one of as many triangles shows
+ * what one of two shows. */
+static void small_facets(stage *s)
+{
+    static float whole[PIXELS * PIXELS];
+    float sum = 0.0f, worst = 0.0f;
+    int specks = 0;
+    make_world(s, half_lit);
+    make_probe(s, 1, vec3(0.0f, 0.0f, 0.0f), 0.0f);
+    draw_grid(s, CELLS, 0.02f);
+    for (int i = 0; i < 4 * GRID * GRID; ++i) {
+        const int x = PIXELS / 2 - GRID + i % (2 * GRID), y = PIXELS / 2 - GRID + i / (2 * GRID);
+        sum += red(s, x, y) / (4.0f * GRID * GRID);
+        specks += is_speck(s, x, y);
+    }
+    CHECK_MSG(specks == 0, "%d specks", specks);
+    CHECK_MSG(fabsf(sum - 0.5f) < 0.05f, "%g", (double)sum);
+    draw_grid(s, 1, 0.0f);
+    for (int i = 0; i < PIXELS * PIXELS; ++i) {
+        whole[i] = red(s, i % PIXELS, i / PIXELS);
+    }
+    draw_grid(s, CELLS, 0.0f);
+    for (int i = 0; i < PIXELS * PIXELS; ++i) {
+        worst = maxf(worst, fabsf(whole[i] - red(s, i % PIXELS, i / PIXELS)));
+    }
+    CHECK_MSG(worst < 1e-4f, "%g", (double)worst);
+}
+
 /* --- cubes -------------------------------------------------------------------------------------------------------- */
 
 /* The red that a direction finds. */
@@ -321,6 +396,7 @@ void test_relit(void)
         normals(s);
         background(s);
         one_light(s);
+        small_facets(s);
         no_edges(s);
         refusals(s);
     }
