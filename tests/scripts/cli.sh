@@ -1433,6 +1433,8 @@ done
 status 0 bench relight --world demo --runs 1 --sweep filter=cosine,sh9,blur --csv "$dir/filters.csv"
 check "filters in their order" sh -c 'awk -F, "NR == 1 { for (i = 1; \$i != \"trim\"; ++i); next } { e[NR] = \$i } END { exit !(e[2] < e[3] && e[3] < e[4]) }" "$1"' sh "$dir/filters.csv"
 status 1 bench relight --world "$dir/nowhere.pfm" --runs 1
+status 0 bench relight --world demo --object demo --at 0,0,0 --size 24x16 --runs 1 --sweep samples=1,4 --csv "$dir/objects.csv"
+check "objects by samples: more are nearer to the truth" sh -c 'awk -F, "NR == 1 { for (i = 1; \$i != \"trim\"; ++i); next } { e[NR] = \$i } END { exit !(e[2] > e[3]) }" "$1"' sh "$dir/objects.csv"
 status 0 bench relief "$dir/pit.obj" --runs 1 --size 16 --triangles 20 --sweep views=6,14
 check "reliefs by views" test "$(grep -c -- '--views' "$dir/out.txt")" -eq 2
 status 0 bench mix $seen --object "$dir/tent.obj" --light sun:0,0,0:0.6,-0.2,-1:2,2,2 --runs 1 --sweep voxels=4,5 --truth "$dir/mixed.pfm"

@@ -95,6 +95,6 @@ int bench_line_hurry(bench_line *line, const bench_subject *subject);
 /* bench_results_about: the names of the subject's stages, and those of figures. */
 void bench_results_about(bench_results *b, const bench_subject *s);
 
-extern const bench_subject bench_render, bench_relight, bench_relief, bench_mixed;
+extern const bench_subject bench_render, bench_relight, bench_figures, bench_relief, bench_mixed;
 
 #endif

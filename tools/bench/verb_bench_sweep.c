@@ -44,19 +44,29 @@ static int sweep_and_write(const bench_options *o, report *r)
     return ok;
 }
 
-static const bench_subject *subject_of(const char *word)
+/* Of a world without objects the light at a place is swept. */
+static const bench_subject *relight_of(int argc, char **argv)
 {
-    return strcmp(word, "relight") == 0  ? &bench_relight
-           : strcmp(word, "relief") == 0 ? &bench_relief
-           : strcmp(word, "mix") == 0    ? &bench_mixed
-                                         : &bench_render;
+    int i = 2;
+    while (i < argc && strncmp(argv[i], "--object", 8) != 0) {
+        ++i;
+    }
+    return i < argc ? &bench_figures : &bench_relight;
+}
+
+static const bench_subject *subject_of(int argc, char **argv)
+{
+    return strcmp(argv[1], "relight") == 0  ? relight_of(argc, argv)
+           : strcmp(argv[1], "relief") == 0 ? &bench_relief
+           : strcmp(argv[1], "mix") == 0    ? &bench_mixed
+                                            : &bench_render;
 }
 
 int verb_bench_sweep(int argc, char **argv)
 {
     static bench_options o; /* too large for a small stack */
     report r = {""};
-    const bench_subject *subject = subject_of(argv[1]);
+    const bench_subject *subject = subject_of(argc, argv);
     const int words = subject == &bench_render ? 1 : 2;
     option_table own;
     bench_options_table(&own, subject);

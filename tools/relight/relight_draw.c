@@ -212,6 +212,11 @@ static int draw(stage *s, report *r)
 /* The first picture's exposure is that of all. */
 static int write(stage *s, const char *path, report *r)
 {
+    if (s->o->into != NULL) {
+        *s->o->into = s->picture;
+        s->picture.pixels = NULL;
+        return 1;
+    }
     if (isnan(s->o->exposure_ev) && !picture_is_linear(picture_format(path))) {
         s->o->exposure_ev = picture_auto_exposure(&s->picture, s->o->tone) + 0.0f; /* no minus zero */
         report_note(s->o->view.is_quiet, "exposure %+.3g EV (auto)", (double)s->o->exposure_ev);

@@ -6,6 +6,7 @@
 
 #include "../common/report.h"
 #include "../common/view_options.h"
+#include "../picture/image.h"
 
 enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8 }; /* --at, --keep; --light; --world: so often */
 
@@ -35,6 +36,7 @@ typedef struct relight_options {
     int32_t filter, faces, show;
     view_options view;
     const char *out, *cube, *map;
+    image *into;       /* gets the picture in place of the file `out`, to be released; NULL: none */
     int32_t samples;   /* a pixel; 0: by the output's format */
     int32_t tone;      /* PICTURE_ */
     float exposure_ev; /* NaN: chosen by the picture */
