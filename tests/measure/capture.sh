@@ -2,8 +2,9 @@
 #
 # The object, a matte white cow of 1.2 m, stands at places of Sponza that no sun reaches. Drawn there: in the scene, two
 # bounces. Carried: lit by the one cube of the middle, or by three, with one bounce in them, so that both have the light
-# that left the sun two reflections before. A row has the RMSE of the object's pixels over their mean, and what a
-# picture takes, all told. The first path is the one that was looked at, the second was not. FRAME (default 160x120),
+# that left the sun two reflections before; and by three with --contact, so that it hides light from itself and from the
+# ground. A row has the RMSE of the object's pixels over their mean, that mean over the right one, and what a picture
+# takes, all told. The first path is the one that was looked at, the second was not. FRAME (default 160x120),
 # FACES (default 64).
 . tests/scripts/checks.sh
 
@@ -33,11 +34,11 @@ seconds() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", (b - a) / 1000 }'; }
 error() { "$TOOL" compare "$1" "$work/there.pfm" --mask "$work/mask.pfm" 2>/dev/null | grep -o 'rmse [0-9.]*' | cut -d' ' -f2; }
 level() { "$TOOL" compare "$1" "$work/there.pfm" --mask "$work/mask.pfm" 2>/dev/null | grep -o 'mean [0-9.]*' | cut -d' ' -f2; }
 
-# carried OUT WORLD PLACE EYE TARGET
+# carried OUT WORLD PLACE EYE TARGET [--contact]
 carried() {
     # shellcheck disable=SC2086
     "$TOOL" relight $2 --object "$work/cow.obj" --at "$3" --eye "$4" --target "$5" --fov 40 --f0 0 --roughness 1 \
-        --size "$size" -q -o "$1"
+        --size "$size" ${6:-} -q -o "$1"
 }
 
 # path NAME Y HEIGHT CENTRES -- X,Z ...: cubes at X,HEIGHT,Z of the centres.
@@ -58,7 +59,8 @@ path() {
     all=$(cat "$work/$name.txt")
     rest=${all#* --world-box}
     one="--world $work/${name}_01.pfm $(echo "$all" | grep -o -e '--world-centre [^ ]*' | sed -n 2p) --world-box$rest"
-    printf '%-10s %8s %8s %8s %8s %10s %10s\n' place 'one' '(mean)' 'three' '(mean)' 'carried s' 'drawn s'
+    printf '%-10s %8s %8s %8s %8s %8s %8s %10s %10s %10s\n' place 'one' '(mean)' 'three' '(mean)' 'contact' '(mean)' \
+        'carried s' 'contact s' 'drawn s'
     for to in "$@"; do
         x=${to%,*} z=${to#*,}
         eye=$(awk -v x="$x" -v y="$y" -v z="$z" 'BEGIN { print x - 2 "," y + 1.3 "," z + 0.4 }') target="$x,$(awk -v y="$y" 'BEGIN { print y + 0.5 }'),$z"
@@ -76,14 +78,19 @@ path() {
         before=$(ms)
         carried "$work/three.pfm" "$all" "$x,$y,$z" "$eye" "$target" || { fail "$name $to"; return; }
         took=$(seconds "$before" "$(ms)")
-        printf '%-10s %8s %8s %8s %8s %10s %10s %s\n' "$to" "$(error "$work/one.pfm")" "$(level "$work/one.pfm")" \
-            "$(error "$work/three.pfm")" "$(level "$work/three.pfm")" "$took" "$drawn" \
+        before=$(ms)
+        carried "$work/contact.pfm" "$all" "$x,$y,$z" "$eye" "$target" --contact || { fail "$name $to"; return; }
+        touched=$(seconds "$before" "$(ms)")
+        printf '%-10s %8s %8s %8s %8s %8s %8s %10s %10s %10s %s\n' "$to" "$(error "$work/one.pfm")" "$(level "$work/one.pfm")" \
+            "$(error "$work/three.pfm")" "$(level "$work/three.pfm")" "$(error "$work/contact.pfm")" \
+            "$(level "$work/contact.pfm")" "$took" "$touched" "$drawn" \
             "$("$TOOL" compare "$work/direct.pfm" "$work/there.pfm" --mask "$work/mask.pfm" 2>/dev/null | grep -o 'mean [0-9.]*' | awk '$2 > 0.001 { print "in the sun" }')"
         cp "$work/there.pfm" "$work/$name-$to-there.pfm"; cp "$work/three.pfm" "$work/$name-$to-three.pfm"
+        cp "$work/contact.pfm" "$work/$name-$to-contact.pfm"
     done
     pass
 }
 
-path court 0.1 1.5 -8,-1.5 0,-1.5 8,-1.5 -- -8,-1.5 -6,-1.5 -4,-1.5 -2,-1.5 0,-1.5 2,-1.5 4,-1.5 6,-1.5 8,-1.5
+path court 0.1 1.5 -8,-1.5 0,-1.5 8,-1.5 -- -8,-1.5 -4,-1.5 0,-1.5 4,-1.5 8,-1.5
 path aisle 0.1 1.5 -10,5 0,5 10,5 -- -9,4.8 -5,4.8 -1,4.8 3,4.8 7,4.8
 finish

@@ -189,7 +189,7 @@ static const option_row world_rows[] = {
              "scene has no light of its own, else none)")},
     {.name = "--ground", .kind = OPTION_WORD, AT(no_ground), .words = grounds, .values = ground_values,
      .help = HELP("auto: under a scene without lights and without a floor lies a grey ground (default), but not before a "
-             "--background of its own")},
+             "--background of its own; in a picture of the world it is a round stand, four times as wide as the scene")},
     {.name = "--background", .value = "RRGGBB|world|transparent", .kind = OPTION_OWN, AT(background),
      .parse = parse_background, .expects = "world, transparent, or a colour such as ffffff",
      .help = HELP("what is seen where no surface is: a colour, the world (default; black where there is none), or "
