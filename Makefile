@@ -654,6 +654,10 @@ linux-fb: ## the room on a file that stands for Linux's framebuffer device
 web-check: $(TOOL) $(B)/page-hash ## the page of platform/web in headless Chromium: clicks, drags, keys, files, hashes
 	+@$(IN_SH) tests/scripts/web_check.sh
 
+.PHONY: three-check
+three-check: $(TOOL) ## baked light for other engines, drawn by three.js in headless Chromium beside our picture
+	+@BUILD='$(BUILD)' $(IN_SH) tests/scripts/three_check.sh
+
 # For compilers whose programs nothing here can run.
 .PHONY: compiles
 compiles: $(LIB_OBJ)

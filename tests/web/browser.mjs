@@ -29,13 +29,13 @@ export function serve(folders, isIsolated) {
         done({ url: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() })));
 }
 
-// modules: the folder that has node_modules/playwright-core.
-export function browser(modules) {
+// modules: the folder that has node_modules/playwright-core. more: arguments of Chromium's.
+export function browser(modules, more = []) {
     const { chromium } = createRequire(path.resolve(modules, 'x.js'))('playwright-core');
     return chromium.launch({
         executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
-        args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-               '--disable-component-update', '--disable-sync'] });
+        args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking',
+               '--disable-component-update', '--disable-sync', ...(more.length ? more : ['--disable-gpu'])] });
 }
 
 // Counts checks and says those that fail.
