@@ -1,4 +1,6 @@
 /* test_bench.c: the arithmetic of a sweep's report: front, knee, breakdown; its files' texts; its command line. */
+#include "../folder.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +9,7 @@
 #include "../../tools/bench/bench_front.h"
 #include "../../tools/bench/bench_html.h"
 #include "../../tools/bench/bench_breakdown.h"
+#include "../../tools/bench/bench_slice.h"
 #include "../../tools/bench/bench_sweep.h"
 #include "../../tools/bench/bench_task.h"
 #include "../../tools/bench/bench_table.h"
@@ -199,6 +202,61 @@ static void check_files(void)
     bench_results_free(&b);
 }
 
+/* One setting of two, as a machine of this name measures it. */
+static void put_slice(const char *out, int32_t number, const char *computer, report *r)
+{
+    static bench_options o;
+    bench_results b;
+    memset(&o, 0, sizeof o);
+    memset(&b, 0, sizeof b);
+    o.subject = &bench_render;
+    o.out = out;
+    o.is_quiet = 1;
+    o.slice.number = number;
+    o.slice.count = 2;
+    b.settings = 2;
+    b.job = 7;
+    snprintf(b.computer, sizeof b.computer, "%s", computer);
+    bench_point *p = add(&b, number == 1 ? "default" : "--tree 64", 1.0, 0.5);
+    p->number = number - 1;
+    CHECK_MSG(bench_slice_write(&o, &b, r), "%s", r->text);
+    bench_results_free(&b);
+}
+
+/* Slices of unlike machines are joined, and the report says so. */
+static void check_computers(void)
+{
+    static slice_set set; /* large */
+    static const char *const second[] = {"one, avx2 lanes", "another, avx512 lanes"};
+    folder f;
+    folder_open(&f);
+    for (int unlike = 0; unlike < 2; ++unlike) {
+        report r = {""};
+        file_bytes file = {NULL, 0};
+        const char *out = folder_put(&f, "joined.json", "", 0), *paths[2];
+        put_slice(out, 1, second[0], &r);
+        put_slice(out, 2, second[unlike], &r);
+        char name[2][SLICE_NAME];
+        for (int i = 0; i < 2; ++i) {
+            const slice s = {i + 1, 2};
+            CHECK(slice_name(name[i], out, s, &r));
+            paths[i] = name[i];
+        }
+        CHECK_MSG(slice_gather(&set, paths, 2, 1, &r) && bench_slice_merge(out, &set, 1, &r) && file_read(&file, out, &r),
+                  "%s", r.text);
+        byte_buffer text = {NULL, 0, 0, 0};
+        byte_put(&text, file.data, file.size);
+        byte_put(&text, "", 1);
+        const char *said = unlike ? "\"several unlike computers\"" : "\"one, avx2 lanes\"";
+        CHECK_MSG(text.data != NULL && strstr((const char *)text.data, said) != NULL, "%s", said);
+        free(text.data);
+        file_free(&file);
+        remove(name[0]);
+        remove(name[1]);
+    }
+    folder_close(&f);
+}
+
 /* --- what the truth is kept by ------------------------------------------------------------------------------------ */
 
 /* Copies are one scene; any number that draws makes another. */
@@ -272,6 +330,7 @@ void test_bench(void)
     check_page();
     check_says();
     check_files();
+    check_computers();
     check_hash();
     check_options();
 }

@@ -229,9 +229,12 @@ static int begin(bench_results *b, int subject, int settings)
     return 1;
 }
 
-static int get_head(bench_results *b, byte_reader *s, int is_first)
+/* What `set`'s slice i says of its sweep and machine. Pictures are the same on all machines; times are not. */
+static int get_head(bench_results *b, byte_reader *s, const slice_set *set, int32_t i, int is_quiet)
 {
+    const int is_first = i == 0;
     static bench_results own; /* of a later slice: what it says of itself */
+    static char first[sizeof own.computer];
     bench_results *to = is_first ? b : &own;
     const int subject = byte_get_int(s), settings = byte_get_int(s);
     if (subject < 0 || subject >= SUBJECTS || settings < 1 || settings > BENCH_POINTS ||
@@ -246,12 +249,15 @@ static int get_head(bench_results *b, byte_reader *s, int is_first)
     get_picture(&to->truth_picture, s);
     if (!is_first) {
         b->seconds += seconds;
-        if (strcmp(b->computer, own.computer) != 0) {
+        if (strcmp(first, own.computer) != 0) {
+            report_note(is_quiet, "%s: measured by %s, and %s by %s: times of one do not compare with those of the other",
+                        set->path[i], own.computer, set->path[0], first);
             snprintf(b->computer, sizeof b->computer, "several unlike computers");
         }
         bench_results_free(&own);
     } else {
         b->seconds = seconds;
+        memcpy(first, b->computer, sizeof first);
     }
     return !s->is_short;
 }
@@ -269,12 +275,12 @@ static int get_points(bench_results *b, byte_reader *s)
     return !s->is_short && s->at == s->end;
 }
 
-static int get_all(bench_results *b, const slice_set *set, report *r)
+static int get_all(bench_results *b, const slice_set *set, int is_quiet, report *r)
 {
     int ok = 1;
     for (int32_t i = 0; ok && i < set->count; ++i) {
         slice_file file;
-        ok = slice_read(&file, set->path[i], r) && ((get_head(b, &file.says, i == 0) && get_points(b, &file.says)) ||
+        ok = slice_read(&file, set->path[i], r) && ((get_head(b, &file.says, set, i, is_quiet) && get_points(b, &file.says)) ||
                                                     report_fail(r, "%s: damaged", set->path[i]));
         slice_file_free(&file);
     }
@@ -284,11 +290,11 @@ static int get_all(bench_results *b, const slice_set *set, report *r)
     return ok;
 }
 
-int bench_slice_merge(const char *path, const slice_set *set, report *r)
+int bench_slice_merge(const char *path, const slice_set *set, int is_quiet, report *r)
 {
     bench_results b;
     memset(&b, 0, sizeof b);
-    int ok = get_all(&b, set, r);
+    int ok = get_all(&b, set, is_quiet, r);
     if (ok) {
         bench_front(&b);
         ok = bench_output(path, &b, r);

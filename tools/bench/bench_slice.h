@@ -14,8 +14,8 @@ void bench_slice_deal(uint8_t is_own[BENCH_POINTS], slice s, const bench_task *t
 uint64_t bench_slice_job(const sweep *s);
 
 /* bench_slice_write: the points beside o->out. bench_slice_merge: the report; `path` ends in .csv, .json, .html or .svg.
- * 1, or 0 with `r` set. */
+ * Slices of unlike machines are told of, unless quiet. 1, or 0 with `r` set. */
 int bench_slice_write(const bench_options *o, const bench_results *b, report *r);
-int bench_slice_merge(const char *path, const slice_set *set, report *r);
+int bench_slice_merge(const char *path, const slice_set *set, int is_quiet, report *r);
 
 #endif

@@ -76,7 +76,7 @@ static int join(const options *o, report *r)
     switch (set.kind) {
     case SLICE_RENDER: return file_can_write(o->out, r) && render_slice_merge(o->out, &set, o->is_quiet, r);
     case SLICE_PLAY: return play_slice_merge(o->out, &set, r);
-    case SLICE_BENCH: return file_can_write(o->out, r) && bench_slice_merge(o->out, &set, r);
+    case SLICE_BENCH: return file_can_write(o->out, r) && bench_slice_merge(o->out, &set, o->is_quiet, r);
     default: return report_fail(r, "%s: slices of what this version does not know", set.first);
     }
 }
