@@ -1,14 +1,15 @@
 #!/bin/sh
-# parallel.sh: one picture, sequence or sweep on many machines, by GNU parallel over ssh.
+# parallel.sh: one picture, sequence, bake or sweep on many machines, by GNU parallel over ssh.
 #
-#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play, bench
+#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play, bake, bench
 #
 # N: slices; two or more a machine let fast ones do more. HOSTS: as parallel's --sshlogin: host1,host2, where `:` is this
 # machine and 2/host1 runs two at once. LAMBENT: the command on all of them (default lambent). SEND: files to send there
 # first, by relative names: the scene and what lies beside it; without it the machines share this folder, by one path.
-# A slice that fails is tried three times, on other machines where there are any; what is there already is made again.
+# Slices of a bake share it or gain nothing. A slice that fails is tried three times, on other machines where there are
+# any; what is there already is made again.
 set -eu
-[ $# -ge 5 ] || { sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 2; }
+[ $# -ge 5 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0"; exit 2; }
 count=$1 hosts=$2
 shift 2
 out= previous= quiet=--quiet
@@ -25,9 +26,14 @@ for file in ${SEND:-}; do
     there="$there --basefile $file"
 done
 rm -f "$out".*of"$count"
+[ "$1" != bake ] || rm -rf "$out.shared"
 # shellcheck disable=SC2086 # words of `there` are words, and quiet is one or none
 seq "$count" | parallel --quote --sshlogin "$hosts" --retries 3 $there "$lambent" "$@" $quiet --slice "{}/$count" || true
-[ "$1" = bench ] || exec "$lambent" merge "$out".*of"$count" -o "$out"
+if [ "$1" != bench ]; then
+    "$lambent" merge "$out".*of"$count" -o "$out"
+    [ "$1" != bake ] || rm -rf "$out.shared"
+    exit
+fi
 for end in csv json html; do
     "$lambent" merge "$out".*of"$count" -o "$out.$end"
 done

@@ -1,7 +1,7 @@
 #!/bin/sh
-# slurm.sh: one picture, sequence or sweep as a Slurm job array, and the job that joins it.
+# slurm.sh: one picture, sequence, bake or sweep as a Slurm job array, and the job that joins it.
 #
-#   sh slurm.sh N render SCENE -o OUT [options]     or play, bench
+#   sh slurm.sh N render SCENE -o OUT [options]     or play, bake, bench
 #
 # N: slices, which Slurm runs as machines are free. The machines share this folder. LAMBENT: the command on all of them
 # (default lambent). SBATCH: options for each job, as "--partition=long --cpus-per-task=8". A slice that fails is
@@ -19,7 +19,11 @@ if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then # a slice
     exit 1
 fi
 if [ -n "${MERGE:-}" ]; then # the last job
-    [ "$3" = bench ] || exec "$lambent" merge "$2".*of"$1" -o "$2"
+    if [ "$3" != bench ]; then
+        "$lambent" merge "$2".*of"$1" -o "$2"
+        [ "$3" != bake ] || rm -rf "$2.shared"
+        exit
+    fi
     for end in csv json html; do
         "$lambent" merge "$2".*of"$1" -o "$2.$end"
     done
@@ -35,6 +39,7 @@ done
 [ -n "$out" ] || { echo "slurm.sh: no -o OUT" >&2; exit 2; }
 export QUIET
 rm -f "$out".*of"$count"
+[ "$2" != bake ] || rm -rf "$out.shared"
 # shellcheck disable=SC2086 # words of SBATCH are words
 array=$(sbatch --parsable --requeue --array="1-$count" ${SBATCH:-} "$0" "$@")
 # shellcheck disable=SC2086

@@ -25,6 +25,7 @@ double host_cpu_seconds(void) /* clock() is the time of day there */
     return GetProcessTimes(GetCurrentProcess(), &from, &to, &system, &user) ? seconds_of(system) + seconds_of(user)
                                                                              : (double)clock() / CLOCKS_PER_SEC;
 }
+void host_sleep(double seconds) { Sleep((DWORD)(1e3 * seconds)); }
 int host_watched(void) { return _isatty(2); }
 #else
 #include <fcntl.h>
@@ -43,6 +44,13 @@ double host_cpu_seconds(void)
     struct timespec t;
     return clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t) == 0 ? (double)t.tv_sec + 1e-9 * (double)t.tv_nsec
                                                             : (double)clock() / CLOCKS_PER_SEC;
+}
+void host_sleep(double seconds)
+{
+    struct timespec t;
+    t.tv_sec = (time_t)seconds;
+    t.tv_nsec = (long)(1e9 * (seconds - (double)t.tv_sec));
+    nanosleep(&t, NULL); /* a signal may end it sooner */
 }
 int host_watched(void) { return isatty(STDERR_FILENO); }
 #endif

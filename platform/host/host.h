@@ -9,6 +9,9 @@ double host_seconds(void);
 /* Seconds of processor time that the whole program took. */
 double host_cpu_seconds(void);
 
+/* host_sleep: let others run for about so long, s. */
+void host_sleep(double seconds);
+
 /* Is stderr a terminal? */
 int host_watched(void);
 

@@ -100,6 +100,61 @@ status 2 $sweep --slice 1/4 -o "$s/bad" --svg "$s/bad.svg"
 status 2 bench raster --slice 1/4
 check "nothing bad was joined of a sweep" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$s"
 
+# A bake: slices at once, one after the other, by a folder that is half full or damaged, and without one.
+bake="bake demo --elements 1024 --receivers 500 --cluster 0.6 --threads 1"
+status 0 $bake -o "$s/bake.lmt"
+at_once() { # at_once COUNT NAME WORD...: all slices, each in a process of its own
+    of=$1 name=$2
+    shift 2
+    for i in $(seq "$of"); do
+        "$TOOL" "$@" --slice "$i/$of" -o "$s/$name" -q 2>"$s/said.$i" || echo "failed: $i" >>"$s/failed.txt" &
+    done
+    wait
+}
+rm -f "$s/failed.txt"
+at_once 4 four.lmt $bake
+check "four slices at once have no failure" test ! -e "$s/failed.txt"
+status 0 merge "$s"/four.lmt.*of4 -o "$s/four.lmt"
+check "four slices at once are one bake" cmp "$s/bake.lmt" "$s/four.lmt"
+part=$(find "$s/four.lmt.shared" -name '3of4.*' | sort | sed -n 2p)
+check "slices share their steps in a folder" test -s "$part"
+head -c 100 "$part" >"$s/cut" && cp "$s/cut" "$part"
+rm -f "$s"/four.lmt.shared/2of4.* "$s/four.lmt.2of4"
+status 1 merge -q "$s"/four.lmt.*of4 -o "$s/bad.lmt"
+said "of 4 slices 1 is missing: 2"
+status 0 $bake --slice 2/4 -o "$s/four.lmt"
+status 0 merge "$s"/four.lmt.*of4 -o "$s/again.lmt"
+check "a slice that was lost, with what it had shared, is made again" cmp "$s/bake.lmt" "$s/again.lmt"
+rm -rf "$s/four.lmt.shared" "$s/four.lmt.4of4"
+status 0 $bake --slice 4/4 -o "$s/four.lmt"
+status 0 merge "$s"/four.lmt.*of4 -o "$s/again.lmt"
+check "a slice alone makes what no other has shared" cmp "$s/bake.lmt" "$s/again.lmt"
+status 0 $bake --division 0.1 --slice 1/4 -o "$s/four.lmt"
+status 1 merge -q "$s"/four.lmt.*of4 -o "$s/bad.lmt"
+said "of another job"
+status 0 $bake --slice 1/4 -o "$s/four.lmt"
+status 0 merge "$s"/four.lmt.*of4 -o "$s/again.lmt"
+check "what another job has shared does not count" cmp "$s/bake.lmt" "$s/again.lmt"
+status 1 merge -q "$s"/four.lmt.*of4 -o "$s/bad.glb"
+said "the slices were made for a *.lmt"
+for form in "vertex-colours c.glb" "lightmap l.glb --texels 1024" "probes p.json --step 0.8"; do
+    set -- $form
+    to=$1 name=$2
+    shift 2
+    status 0 $bake --to $to "$@" -o "$s/$name"
+    cp "$s/$name" "$s/whole-$name"
+    [ $to != probes ] || mv "$s/p.bin" "$s/whole-p.bin"
+    rm "$s/$name"
+    at_once 2 $name $bake --to $to "$@"
+    status 0 merge "$s/$name".?of2 -o "$s/$name"
+    check "two slices are one bake to $to" cmp "$s/whole-$name" "$s/$name"
+done
+check "and its numbers" cmp "$s/whole-p.bin" "$s/p.bin"
+status 1 merge -q "$s"/p.json.?of2 -o "$s/bad.json"
+said "name a file beside it"
+status 2 bake demo --slice 3/2 -o "$s/bad.lmt"
+check "nothing bad was joined of a bake" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$s"
+
 # Light for other engines, read back and drawn, is the light it was baked from.
 light="--elements 256 --receivers 700"
 trim() { sed -n 's/.* trim \([0-9.]*\),.*/\1/p' "$dir/out.txt"; }

@@ -87,10 +87,12 @@ typedef struct bake_cluster {
     uint32_t key, generation;
 } bake_cluster;
 
+typedef struct bake_share bake_share; /* of slices */
 typedef struct bake_linker bake_linker; /* what bake_links works with; one a thread */
 
 typedef struct bake {
     bake_settings set;
+    bake_share *share; /* NULL: one machine bakes it all */
     const lmb_scene *scene;
     const lmb_kernels *kernels;
     lmb_bvh bvh;
@@ -194,6 +196,12 @@ void bake_nearest_put(bake_nearest *n, lmb_vec3 at, float far2);
  *          and others count for them */
 int bake_rows(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
               float *times, report *r);
+
+/* bake_rows_part: of `parts` up to BAKE_PARTS, entries of those elements alone that are `own` by bake_rows_has. */
+enum { BAKE_PARTS = 64 };
+int bake_rows_part(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
+                   float *times, int own, int parts, report *r);
+int bake_rows_has(const bake *b, uint32_t element, int own, int parts);
 
 /* bake_links: choose nodes whose means stand for a row of elements; axes 1 or 3 rows that share them.
  *   row     becomes what the links say

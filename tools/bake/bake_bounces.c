@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bake_share.h"
 #include "bake_triangle.h"
 
 enum { POINTS = 2, TOGETHER = 64 / POINTS }; /* looked from, of a run: in the middle of each part of its area */
@@ -148,43 +149,111 @@ static int look(float *const *row, const bake *b, const run *runs, uint32_t coun
     return 1;
 }
 
-static int put_run(bake *b, bake_linker *linker, const run *own, float *row, report *r)
-{
-    bake_words *to = &b->section[LMB_TRANSFER_COARSE];
-    const size_t first = b->section[LMB_TRANSFER_COARSE_LINKS].count;
-    const float error = LOOSE * b->set.error;
-    float *const rows[1] = {row};
+/* Batches of runs, and what becomes of them. */
+typedef struct bounce_step {
+    bake *b;
+    const run *runs;
     uint32_t count;
-    float scale;
-    return bake_links(linker, rows, 1, vec3(0.0f, 0.0f, 1.0f), error * error, &b->section[LMB_TRANSFER_COARSE_LINKS],
-                      &count, &scale, r) &&
-           bake_put(to, own->first, r) && bake_put(to, (uint32_t)first, r) && bake_put(to, count, r) &&
-           bake_put_float(to, scale, r);
+    bake_linker *linker;
+    float *row[TOGETHER * POINTS];
+    bake_target *target; /* of each run: its links and their unit */
+} bounce_step;
+
+static uint32_t past_of(const bounce_step *s, int32_t batch)
+{
+    const uint32_t past = ((uint32_t)batch + 1) * TOGETHER;
+    return past < s->count ? past : s->count;
+}
+
+static int make_batch(void *user, int32_t batch, report *r)
+{
+    const bounce_step *s = user;
+    const uint32_t first = (uint32_t)batch * TOGETHER;
+    const float error = LOOSE * s->b->set.error;
+    progress_tell("bounces", (double)first / (double)s->count);
+    int ok = look(s->row, s->b, s->runs + first, past_of(s, batch) - first, r);
+    for (uint32_t i = first; ok && i < past_of(s, batch); ++i) {
+        float *const row[1] = {s->row[i - first]};
+        bake_target *t = &s->target[i];
+        t->link.count = 0;
+        ok = bake_links(s->linker, row, 1, vec3(0.0f, 0.0f, 1.0f), error * error, &t->link, &t->links, &t->scale, r);
+    }
+    return ok;
+}
+
+static double weight_of(const void *user, int32_t batch)
+{
+    return (double)POINTS * (double)(past_of(user, batch) - (uint32_t)batch * TOGETHER);
+}
+
+static void put_batch(const void *user, int32_t batch, byte_buffer *to)
+{
+    const bounce_step *s = user;
+    for (uint32_t i = (uint32_t)batch * TOGETHER; i < past_of(s, batch); ++i) {
+        const bake_target *t = &s->target[i];
+        byte_put_float(to, t->scale);
+        byte_put_int(to, (int32_t)t->link.count);
+        for (size_t k = 0; k < t->link.count; ++k) {
+            byte_put_int(to, (int32_t)t->link.data[k]);
+        }
+    }
+}
+
+static int get_batch(void *user, int32_t batch, byte_reader *from)
+{
+    const bounce_step *s = user;
+    report unheard = {""};
+    for (uint32_t i = (uint32_t)batch * TOGETHER; i < past_of(s, batch); ++i) {
+        bake_target *t = &s->target[i];
+        t->scale = byte_get_float(from);
+        t->links = (uint32_t)byte_get_int(from);
+        t->link.count = 0;
+        for (uint32_t k = 0; k < t->links && !from->is_short; ++k) {
+            if (!bake_put(&t->link, (uint32_t)byte_get_int(from), &unheard)) {
+                return 0;
+            }
+        }
+    }
+    return !from->is_short;
+}
+
+/* Into the file. */
+static int put_runs(const bounce_step *s, report *r)
+{
+    bake_words *to = &s->b->section[LMB_TRANSFER_COARSE], *links = &s->b->section[LMB_TRANSFER_COARSE_LINKS];
+    int ok = 1;
+    for (uint32_t i = 0; ok && i < s->count; ++i) {
+        const bake_target *t = &s->target[i];
+        ok = bake_put(to, s->runs[i].first, r) && bake_put(to, (uint32_t)links->count, r) && bake_put(to, t->links, r) &&
+             bake_put_float(to, t->scale, r);
+        for (size_t k = 0; ok && k < t->link.count; ++k) {
+            ok = bake_put(links, t->link.data[k], r);
+        }
+    }
+    return ok;
 }
 
 int bake_bounces(bake *b, report *r)
 {
-    float *row[TOGETHER * POINTS];
     float *memory = malloc((size_t)TOGETHER * POINTS * b->set.elements * sizeof *memory);
     run *runs = malloc(LMB_TRANSFER_MAX_COARSE * sizeof *runs);
-    bake_linker *linker = bake_linker_new(b, r);
-    int ok = (linker != NULL && memory != NULL && runs != NULL) || report_fail(r, "not enough memory for further reflections");
-    const uint32_t count = ok ? part(runs, b) : 0;
+    bounce_step s = {b, runs, 0, bake_linker_new(b, r), {NULL}, calloc(LMB_TRANSFER_MAX_COARSE, sizeof *s.target)};
+    int ok = (s.linker != NULL && memory != NULL && runs != NULL && s.target != NULL) ||
+             report_fail(r, "not enough memory for further reflections");
     for (int k = 0; k < TOGETHER * POINTS && ok; ++k) {
-        row[k] = memory + (size_t)k * b->set.elements;
+        s.row[k] = memory + (size_t)k * b->set.elements;
     }
     if (ok) {
-        qsort(runs, count, sizeof *runs, by_first);
+        s.count = part(runs, b);
+        qsort(runs, s.count, sizeof *runs, by_first);
     }
-    for (uint32_t i = 0; i < count && ok; i += TOGETHER) {
-        progress_tell("bounces", (double)i / (double)count);
-        const uint32_t some = count - i < TOGETHER ? count - i : TOGETHER;
-        ok = look(row, b, runs + i, some, r);
-        for (uint32_t k = 0; k < some && ok; ++k) {
-            ok = put_run(b, linker, &runs[i + k], row[k], r);
-        }
+    const bake_step step = {(int32_t)((s.count + TOGETHER - 1) / TOGETHER), weight_of, make_batch, put_batch, get_batch, &s};
+    ok = ok && bake_share_step(b->share, &step, r) && put_runs(&s, r);
+    for (uint32_t i = 0; s.target != NULL && i < s.count; ++i) {
+        free(s.target[i].link.data);
     }
-    bake_linker_free(linker);
+    bake_linker_free(s.linker);
+    free(s.target);
     free(memory);
     free(runs);
     return ok;

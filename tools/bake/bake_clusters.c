@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bake_share.h"
 #include "bake_triangle.h"
 #include "../../src/raster/triangle.h"
 
@@ -12,6 +13,7 @@ enum { BATCH = 64, NEIGHBOURS = 4, TARGET = 2000, SHARING = 4 };
 #define ALIKE 0.6f /* cosine within which normals share a cluster */
 #define BLEND 0.3f /* down to which a corner takes light from one */
 #define REACH 1.3f /* cells */
+#define ACROSS 1.1 /* of the work of a receiver's row: that of a cluster's three */
 
 typedef struct clusters {
     bake *b;
@@ -100,37 +102,87 @@ static void put_in_order(clusters *c)
     }
 }
 
-static int keep_row(bake_target *t, const float *row, size_t words, report *r)
+static int keep_row(bake_target *t, size_t words, report *r)
 {
-    t->row = malloc(words * sizeof *t->row);
-    for (size_t i = 0; t->row != NULL && i < words; ++i) {
-        t->row[i] = bake_short(row[i]);
-    }
+    t->row = t->row != NULL ? t->row : malloc(words * sizeof *t->row);
     return t->row != NULL || report_fail(r, "not enough memory for the light at clusters");
+}
+
+/* Clusters in the order of their rows, in batches. */
+typedef struct cluster_step {
+    bake *b;
+    bake_cluster *const *cluster;
+    uint32_t all;
+    float *memory;
+} cluster_step;
+
+static uint32_t past_of(const cluster_step *c, int32_t batch)
+{
+    const uint32_t past = ((uint32_t)batch + 1) * BATCH;
+    return past < c->all ? past : c->all;
+}
+
+static int make_batch(void *user, int32_t batch, report *r)
+{
+    const cluster_step *c = user;
+    const uint32_t n = c->b->set.elements, first = (uint32_t)batch * BATCH, count = past_of(c, batch) - first;
+    float *row[3 * BATCH];
+    lmb_vec3 at[BATCH], normal[BATCH];
+    progress_tell("clusters", (double)first / (double)c->all);
+    for (uint32_t k = 0; k < BATCH; ++k) {
+        const bake_cluster *own = c->cluster[first + (k < count ? k : 0)];
+        at[k] = own->at;
+        normal[k] = own->target.normal;
+    }
+    for (uint32_t k = 0; k < 3 * BATCH; ++k) {
+        row[k] = c->memory + (size_t)k * n;
+    }
+    int ok = bake_rows(c->b, at, normal, (int)count, 3, row, NULL, r);
+    for (uint32_t k = 0; ok && k < count; ++k) {
+        bake_target *t = &c->cluster[first + k]->target;
+        ok = keep_row(t, 3 * (size_t)n, r);
+        for (size_t i = 0; ok && i < 3 * (size_t)n; ++i) {
+            t->row[i] = bake_short(row[3 * k][i]);
+        }
+    }
+    return ok;
+}
+
+static double weight_of(const void *user, int32_t batch)
+{
+    return ACROSS * (double)(past_of(user, batch) - (uint32_t)batch * BATCH);
+}
+
+static void put_batch(const void *user, int32_t batch, byte_buffer *to)
+{
+    const cluster_step *c = user;
+    for (uint32_t i = (uint32_t)batch * BATCH; i < past_of(c, batch); ++i) {
+        if (c->cluster[i]->target.row != NULL) {
+            bake_put_halves(to, c->cluster[i]->target.row, 3 * (size_t)c->b->set.elements);
+        }
+    }
+}
+
+static int get_batch(void *user, int32_t batch, byte_reader *from)
+{
+    const cluster_step *c = user;
+    const size_t words = 3 * (size_t)c->b->set.elements;
+    report unheard = {""};
+    int ok = 1;
+    for (uint32_t i = (uint32_t)batch * BATCH; ok && i < past_of(c, batch); ++i) {
+        bake_target *t = &c->cluster[i]->target;
+        ok = keep_row(t, words, &unheard) && bake_get_halves(t->row, words, from);
+    }
+    return ok;
 }
 
 int bake_cluster_rows(bake *b, bake_cluster *const *cluster, uint32_t all, report *r)
 {
-    const uint32_t n = b->set.elements;
-    float *memory = malloc(3 * BATCH * (size_t)n * sizeof *memory), *row[3 * BATCH];
-    lmb_vec3 at[BATCH], normal[BATCH];
-    int ok = memory != NULL || report_fail(r, "not enough memory for %u elements", (unsigned)n);
-    for (uint32_t first = 0; ok && first < all; first += BATCH) {
-        progress_tell("clusters", (double)first / (double)all);
-        const int count = (int)(all - first < BATCH ? all - first : BATCH);
-        for (int k = 0; k < count; ++k) {
-            at[k] = cluster[first + (uint32_t)k]->at;
-            normal[k] = cluster[first + (uint32_t)k]->target.normal;
-        }
-        for (int k = 0; k < 3 * count; ++k) {
-            row[k] = memory + (size_t)k * n;
-        }
-        ok = bake_rows(b, at, normal, count, 3, row, NULL, r);
-        for (int k = 0; k < count && ok; ++k) {
-            ok = keep_row(&cluster[first + (uint32_t)k]->target, row[3 * k], 3 * (size_t)n, r);
-        }
-    }
-    free(memory);
+    cluster_step c = {b, cluster, all, malloc(3 * BATCH * (size_t)b->set.elements * sizeof(float))};
+    const bake_step step = {(int32_t)((all + BATCH - 1) / BATCH), weight_of, make_batch, put_batch, get_batch, &c};
+    const int ok = (c.memory != NULL || report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements)) &&
+                   bake_share_step(b->share, &step, r);
+    free(c.memory);
     return ok;
 }
 

@@ -6,8 +6,10 @@
 #include <string.h>
 
 #include "../../src/base/vec.h"
+#include "bake_share.h"
 
-enum { BATCH = 64, PARTS = 64, WITNESSES = BAKE_NEAREST };
+enum { BATCH = 64, PARTS = 64, WITNESSES = BAKE_NEAREST, SHARED = 1024 /* elements, from which slices share a step */ };
+#define MIDDLES 0.5 /* of the work of a receiver's row: that of a place which asks for middles alone */
 #define BRIGHT 0.01f /* of the mean */
 #define OVER   0.05f /* of the smallest edge: parts of an element are looked at from so far over it */
 
@@ -25,26 +27,82 @@ typedef struct reach {
     uint8_t *has_sent; /* an element */
     sender *order;     /* the brightest first */
     float *memory;
+    float *before; /* each element's light before a step */
     float bright; /* light over this came through no crack */
     report *r;
 } reach;
 
-/* Light goes from points to all that they see: by reciprocity, as much as they see of it. */
-static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const float *power, int count)
+/* Points that send their light at once, to all elements or some. */
+typedef struct sending {
+    reach *w;
+    const lmb_vec3 *at, *normal;
+    const float *power;
+    int count, parts;
+    float *row[BATCH];
+} sending;
+
+/* By reciprocity all gets as much as the points see of it. */
+static int send_part(void *user, int32_t part, report *r)
 {
-    float *row[BATCH] = {NULL};
-    for (int k = 0; k < count; ++k) {
-        row[k] = w->memory + (size_t)k * w->b->set.elements;
-    }
-    if (!bake_rows(w->b, at, normal, count, 1, row, NULL, w->r)) {
+    const sending *s = user;
+    bake *b = s->w->b;
+    if (!bake_rows_part(b, s->at, s->normal, s->count, 1, s->row, NULL, part, s->parts, r)) {
         return 0;
     }
-    for (int k = 0; k < count; ++k) {
-        for (uint32_t i = 0; i < w->b->element_count; ++i) {
-            w->b->element[i].light += row[k][i] > 0.0f ? power[k] * row[k][i] / w->b->element[i].area : 0.0f;
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        if (!bake_rows_has(b, i, part, s->parts)) {
+            continue;
+        }
+        b->element[i].light = s->w->before[i];
+        for (int k = 0; k < s->count; ++k) {
+            b->element[i].light += s->row[k][i] > 0.0f ? s->power[k] * s->row[k][i] / b->element[i].area : 0.0f;
         }
     }
     return 1;
+}
+
+static double weight_of(const void *user, int32_t part)
+{
+    const sending *s = user;
+    (void)part;
+    return MIDDLES * (double)s->count / (double)s->parts;
+}
+
+static void put_part(const void *user, int32_t part, byte_buffer *to)
+{
+    const sending *s = user;
+    for (uint32_t i = 0; i < s->w->b->element_count; ++i) {
+        if (bake_rows_has(s->w->b, i, part, s->parts)) {
+            byte_put_float(to, s->w->b->element[i].light);
+        }
+    }
+}
+
+static int get_part(void *user, int32_t part, byte_reader *from)
+{
+    const sending *s = user;
+    for (uint32_t i = 0; i < s->w->b->element_count; ++i) {
+        if (bake_rows_has(s->w->b, i, part, s->parts)) {
+            s->w->b->element[i].light = byte_get_float(from);
+        }
+    }
+    return !from->is_short;
+}
+
+/* Light goes from points to all that they see. */
+static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const float *power, int count)
+{
+    bake_share *share = w->b->set.elements >= SHARED ? w->b->share : NULL;
+    const int slices = share != NULL ? (int)share->slice.count : 1;
+    sending s = {w, at, normal, power, count, slices < BAKE_PARTS ? slices : BAKE_PARTS, {NULL}};
+    const bake_step step = {s.parts, weight_of, send_part, put_part, get_part, &s};
+    for (int k = 0; k < count; ++k) {
+        s.row[k] = w->memory + (size_t)k * w->b->set.elements;
+    }
+    for (uint32_t i = 0; i < w->b->element_count; ++i) {
+        w->before[i] = w->b->element[i].light;
+    }
+    return bake_share_step(share, &step, w->r);
 }
 
 /* All around a point in the air. */
@@ -241,7 +299,7 @@ static void sort_out(const reach *w)
 
 static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
-    reach w = {b, NULL, NULL, NULL, 0.0f, r};
+    reach w = {b, NULL, NULL, NULL, NULL, 0.0f, r};
     bake_words *surfaces = &b->section[LMB_TRANSFER_SURFACES];
     if (count + b->scene->light_count == 0) {
         for (uint32_t i = 0; i < b->element_count; ++i) {
@@ -252,7 +310,8 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
     w.has_sent = calloc(b->set.elements, 1);
     w.order = malloc(b->set.elements * sizeof *w.order);
     w.memory = malloc((size_t)BATCH * b->set.elements * sizeof *w.memory);
-    int ok = (w.has_sent != NULL && w.order != NULL && w.memory != NULL) ||
+    w.before = malloc(b->set.elements * sizeof *w.before);
+    int ok = (w.has_sent != NULL && w.order != NULL && w.memory != NULL && w.before != NULL) ||
              report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements);
     b->by_middles = 1; /* what lies half in a solid must not lead into it */
     ok = ok && spread(&w, eyes, count);
@@ -274,6 +333,7 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
     free(w.has_sent);
     free(w.order);
     free(w.memory);
+    free(w.before);
     return ok;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../platform/host/pool.h"
+#include "bake_share.h"
 #include "bake_triangle.h"
 #include "../../src/raster/triangle.h"
 
@@ -13,6 +14,7 @@ enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64, PLACES = 4, DIVIDING = 12
 #define DIM    0.25f /* of the mean light: where less comes, errors count less */
 #define BURIED 2.0f /* times as much light comes to a place within a leaf as to its corners: these lie in something */
 #define WAIT   0.1f  /* of the worst error: what is off by less waits, as receivers may run out */
+#define LOOK   0.45 /* of the work of a receiver: that of a point which is only looked at */
 #define STANDS 0.1f /* surplus of a triangle on which something stands: what its corners differ by says nothing */
 
 /* A triangle of the division. */
@@ -273,41 +275,122 @@ static int by_key(const void *a, const void *b)
     return x->number < y->number ? -1 : x->number > y->number;
 }
 
-static int keep_rows(divider *d, const wanted *w, int count)
+static int keep_rows(divider *d, const wanted *w, int count, report *r)
 {
     for (int k = 0; k < count; ++k) {
         bake_target *t = w[k].receiver != LMB_TRANSFER_NONE ? &d->b->receiver[w[k].receiver].target : NULL;
-        if (t != NULL && (t->row = malloc(d->b->set.elements * sizeof *t->row)) == NULL) {
-            return report_fail(d->r, "not enough memory for %u receivers", (unsigned)d->b->receiver_count);
+        if (t != NULL && t->row == NULL && (t->row = malloc(d->b->set.elements * sizeof *t->row)) == NULL) {
+            return report_fail(r, "not enough memory for %u receivers", (unsigned)d->b->receiver_count);
         }
     }
     return 1;
 }
 
-/* Points that are only looked at get along with a quarter of the far elements. */
-static int make_batch(divider *d, wanted *w, int count, float *const *row, float *times)
+/* The queue in batches. */
+typedef struct queue_step {
+    divider *d;
+    size_t *first; /* of each batch; the end */
+    int32_t batches;
+    float *memory, *row[BATCH];
+} queue_step;
+
+static int count_of(const queue_step *q, int32_t i) { return (int)(q->first[i + 1] - q->first[i]); }
+
+static void tell_pieces(const queue_step *q, int32_t number)
 {
-    const int is_look = w->receiver == LMB_TRANSFER_NONE;
+    for (size_t i = q->first[number]; i < q->first[number + 1]; ++i) {
+        const wanted *w = &q->d->queue[i];
+        piece *p = w->piece != (size_t)-1 ? &q->d->now.data[w->piece] : NULL;
+        if (p != NULL) {
+            p->surplus = maxf(p->surplus, w->surplus);
+        }
+    }
+}
+
+/* Points that are only looked at get along with a quarter of the far elements. */
+static int make_batch(void *user, int32_t number, report *r)
+{
+    const queue_step *q = user;
+    divider *d = q->d;
+    wanted *w = &d->queue[q->first[number]];
+    const int is_look = w->receiver == LMB_TRANSFER_NONE, count = count_of(q, number);
+    float *times = is_look ? q->memory + BATCH * (size_t)d->b->set.elements : NULL;
     lmb_vec3 at[BATCH], normal[BATCH];
-    batch k = {d, w, row, is_look ? times : NULL};
+    batch k = {d, w, q->row, times};
     for (int i = 0; i < count; ++i) {
         at[i] = w[i].at;
         normal[i] = w[i].normal;
     }
-    if (!keep_rows(d, w, count) || !bake_rows(d->b, at, normal, count, 1, row, is_look ? times : NULL, d->r)) {
+    if (!keep_rows(d, w, count, r) || !bake_rows(d->b, at, normal, count, 1, q->row, times, r)) {
         return 0;
     }
     pool_run(d->b->set.threads, count, settle, &k);
-    for (int i = 0; i < count; ++i) {
-        if (w[i].piece != (size_t)-1) {
-            piece *p = &d->now.data[w[i].piece];
-            p->surplus = maxf(p->surplus, w[i].surplus);
-        }
-    }
+    tell_pieces(q, number);
     return 1;
 }
 
-/* Everything in the queue. Neighbours go together: they see the same things. */
+static double weight_of(const void *user, int32_t number)
+{
+    const queue_step *q = user;
+    const int is_look = q->d->queue[q->first[number]].receiver == LMB_TRANSFER_NONE;
+    return (double)count_of(q, number) * (is_look ? LOOK : 1.0);
+}
+
+static void put_batch(const void *user, int32_t number, byte_buffer *to)
+{
+    const queue_step *q = user;
+    for (size_t i = q->first[number]; i < q->first[number + 1]; ++i) {
+        const wanted *w = &q->d->queue[i];
+        const bake_receiver *v = w->receiver != LMB_TRANSFER_NONE ? &q->d->b->receiver[w->receiver] : NULL;
+        byte_put_float(to, w->surplus);
+        if (v != NULL && v->target.row != NULL) {
+            byte_put_float(to, v->light);
+            bake_put_halves(to, v->target.row, q->d->b->set.elements);
+        }
+    }
+}
+
+static int get_batch(void *user, int32_t number, byte_reader *from)
+{
+    const queue_step *q = user;
+    report unheard = {""};
+    int ok = keep_rows(q->d, &q->d->queue[q->first[number]], count_of(q, number), &unheard);
+    for (size_t i = q->first[number]; ok && i < q->first[number + 1]; ++i) {
+        wanted *w = &q->d->queue[i];
+        bake_receiver *v = w->receiver != LMB_TRANSFER_NONE ? &q->d->b->receiver[w->receiver] : NULL;
+        w->surplus = byte_get_float(from);
+        if (v != NULL) {
+            v->light = byte_get_float(from);
+            ok = bake_get_halves(v->target.row, q->d->b->set.elements, from);
+        }
+        ok = ok && !from->is_short;
+    }
+    if (ok) {
+        tell_pieces(q, number);
+    }
+    return ok;
+}
+
+/* Neighbours go together: they see the same things. Receivers and looks never do. */
+static int put_batches(queue_step *q)
+{
+    const divider *d = q->d;
+    q->first = malloc((d->queued + 1) * sizeof *q->first);
+    if (q->first == NULL) {
+        return report_fail(d->r, "not enough memory for %.0f points", (double)d->queued);
+    }
+    for (size_t i = 0; i < d->queued; ++i) {
+        const wanted *w = &d->queue[q->batches > 0 ? q->first[q->batches - 1] : 0];
+        if (q->batches == 0 || i - q->first[q->batches - 1] == BATCH ||
+            (d->queue[i].receiver == LMB_TRANSFER_NONE) != (w->receiver == LMB_TRANSFER_NONE)) {
+            q->first[q->batches++] = i;
+        }
+    }
+    q->first[q->batches] = d->queued;
+    return 1;
+}
+
+/* Everything in the queue. */
 static int make_rows(divider *d)
 {
     for (size_t i = 0; i < d->queued; ++i) {
@@ -316,21 +399,15 @@ static int make_rows(divider *d)
     }
     sort(d->queue, d->queued, sizeof *d->queue, by_key);
     const uint32_t n = d->b->set.elements;
-    float *memory = malloc((BATCH + 1) * (size_t)n * sizeof *memory), *row[BATCH];
-    int ok = memory != NULL || report_fail(d->r, "not enough memory for %u elements", (unsigned)n);
+    queue_step q = {d, NULL, 0, malloc((BATCH + 1) * (size_t)n * sizeof(float)), {NULL}};
+    int ok = (q.memory != NULL || report_fail(d->r, "not enough memory for %u elements", (unsigned)n)) && put_batches(&q);
     for (int k = 0; k < BATCH; ++k) {
-        row[k] = ok ? memory + (size_t)k * n : NULL;
+        q.row[k] = ok ? q.memory + (size_t)k * n : NULL;
     }
-    for (size_t first = 0, count; ok && first < d->queued; first += count) {
-        wanted *w = &d->queue[first];
-        for (count = 1; count < BATCH && first + count < d->queued; ++count) {
-            if ((w[count].receiver == LMB_TRANSFER_NONE) != (w->receiver == LMB_TRANSFER_NONE)) {
-                break;
-            }
-        }
-        ok = make_batch(d, w, (int)count, row, memory + BATCH * (size_t)n);
-    }
-    free(memory);
+    const bake_step step = {q.batches, weight_of, make_batch, put_batch, get_batch, &q};
+    ok = ok && bake_share_step(d->b->share, &step, d->r);
+    free(q.memory);
+    free(q.first);
     d->queued = 0;
     return ok;
 }
@@ -374,44 +451,70 @@ static int put_leaf(divider *d, const piece *p)
     return add_piece(&d->leaves, p, d->r);
 }
 
-/* How much light comes to places within leaves. */
-static int light_places(divider *d, const uint32_t *leaf, int count, float light[BATCH], float *memory)
+/* Leaves on which something stands, and how much light comes to places within each. */
+typedef struct mending {
+    divider *d;
+    uint32_t *leaf;
+    uint32_t count;
+    float (*light)[PLACES];
+    float *memory;
+} mending;
+
+static uint32_t past_of(const mending *m, int32_t number)
 {
-    const uint32_t n = d->b->set.elements;
-    lmb_vec3 at[BATCH], normal[BATCH];
-    float *row[BATCH], *times = memory + BATCH * (size_t)n;
-    for (int i = 0; i < PLACES * count; ++i) {
-        row[i] = memory + (size_t)i * n;
-        normal[i] = d->leaves.data[leaf[i / PLACES]].normal;
+    const uint32_t past = ((uint32_t)number + 1) * (BATCH / PLACES);
+    return past < m->count ? past : m->count;
+}
+
+/* BATCH / PLACES of them. */
+static int light_places(void *user, int32_t number, report *r)
+{
+    const mending *m = user;
+    const bake *b = m->d->b;
+    const uint32_t n = b->set.elements, first = (uint32_t)number * (BATCH / PLACES), some = past_of(m, number) - first;
+    lmb_vec3 at[BATCH] = {{0.0f, 0.0f, 0.0f}}, normal[BATCH] = {{0.0f, 0.0f, 0.0f}};
+    float *row[BATCH] = {NULL}, *times = m->memory + BATCH * (size_t)n;
+    for (uint32_t i = 0; i < PLACES * some; ++i) {
+        const piece *p = &m->d->leaves.data[m->leaf[first + i / PLACES]];
+        row[i] = m->memory + (size_t)i * n;
+        normal[i] = p->normal;
         if (i % PLACES == 0) {
-            bake_quarters(at + i, d->leaves.data[leaf[i / PLACES]].corner);
+            bake_quarters(at + i, p->corner);
         }
     }
-    if (!bake_rows(d->b, at, normal, PLACES * count, 1, row, times, d->r)) {
+    if (!bake_rows(b, at, normal, (int)(PLACES * some), 1, row, times, r)) {
         return 0;
     }
-    for (int i = 0; i < PLACES * count; ++i) {
-        light[i] = 0.0f;
+    for (uint32_t i = 0; i < PLACES * some; ++i) {
+        float light = 0.0f;
         for (uint32_t e = 0; e < n; ++e) {
-            light[i] += row[i][e] * times[e] * d->b->element[e].light;
+            light += row[i][e] * times[e] * b->element[e].light;
         }
+        m->light[first + i / PLACES][i % PLACES] = light;
     }
     return 1;
 }
 
-/* At most BATCH / PLACES leaves. */
-static int mend_some(divider *d, const uint32_t *leaf, int count, float *memory)
+static double light_weight(const void *user, int32_t number)
 {
-    float light[BATCH];
-    if (count > 0 && !light_places(d, leaf, count, light, memory)) {
-        return 0;
+    return LOOK * (double)(PLACES * (past_of(user, number) - (uint32_t)number * (BATCH / PLACES)));
+}
+
+static void put_light(const void *user, int32_t number, byte_buffer *to)
+{
+    const mending *m = user;
+    for (uint32_t i = (uint32_t)number * (BATCH / PLACES); i < past_of(m, number); ++i) {
+        byte_put_floats(to, m->light[i], PLACES);
     }
-    for (int i = 0; i < count; ++i) {
-        if (!mend_corners(d, &d->leaves.data[leaf[i]], light + PLACES * i)) {
-            return 0;
-        }
+}
+
+static int get_light(void *user, int32_t number, byte_reader *from)
+{
+    const mending *m = user;
+    for (uint32_t i = (uint32_t)number * (BATCH / PLACES); i < past_of(m, number); ++i) {
+        byte_get_floats(m->light[i], from, PLACES);
     }
-    return 1;
+    return !from->is_short;
 }
 
 /* From its middle, as a leaf would be mended: corners lie where the first triangle at them had them. */
@@ -426,24 +529,26 @@ static int sees_corners(divider *d, const piece *p)
     return 1;
 }
 
-/* Leaves on which something stands. */
 static int mend_leaves(divider *d)
 {
-    float *memory = malloc((BATCH + 1) * (size_t)d->b->set.elements * sizeof *memory);
-    uint32_t leaf[BATCH / PLACES];
-    int count = 0, ok = memory != NULL || report_fail(d->r, "not enough memory for %u elements",
-                                                      (unsigned)d->b->set.elements);
-    for (uint32_t i = 0; ok && i < d->leaves.count; ++i) {
-        const piece *p = &d->leaves.data[i];
-        leaf[count] = i;
-        count += !sees_corners(d, p);
-        if (count == BATCH / PLACES) {
-            ok = mend_some(d, leaf, count, memory);
-            count = 0;
-        }
+    mending m = {d, malloc((d->leaves.count + 1) * sizeof *m.leaf), 0, NULL,
+                 malloc((BATCH + 1) * (size_t)d->b->set.elements * sizeof *m.memory)};
+    for (uint32_t i = 0; m.leaf != NULL && i < d->leaves.count; ++i) {
+        m.leaf[m.count] = i;
+        m.count += !sees_corners(d, &d->leaves.data[i]);
     }
-    ok = ok && mend_some(d, leaf, count, memory);
-    free(memory);
+    m.light = malloc(((size_t)m.count + 1) * sizeof *m.light);
+    int ok = (m.leaf != NULL && m.light != NULL && m.memory != NULL) ||
+             report_fail(d->r, "not enough memory for %u elements", (unsigned)d->b->set.elements);
+    const bake_step step = {(int32_t)((m.count + BATCH / PLACES - 1) / (BATCH / PLACES)), light_weight, light_places,
+                            put_light, get_light, &m};
+    ok = ok && bake_share_step(d->b->share, &step, d->r);
+    for (uint32_t i = 0; ok && i < m.count; ++i) {
+        ok = mend_corners(d, &d->leaves.data[m.leaf[i]], m.light[i]);
+    }
+    free(m.leaf);
+    free(m.light);
+    free(m.memory);
     return ok;
 }
 

@@ -23,7 +23,7 @@ typedef struct rows {
     const lmb_vec3 *at, *normal;
     float *const *row;
     float *times;
-    int count, axes;
+    int count, axes, own, parts; /* of `parts` parts of the elements this one */
     lmb_traversal *traversal; /* one a thread */
 } rows;
 
@@ -202,7 +202,7 @@ static uint64_t near_points(const rows *w, const bake_element *e)
 static void element_job(void *user, int index, int worker)
 {
     const rows *w = user;
-    const uint32_t per = w->b->set.elements / CHUNK, first = (uint32_t)index * per;
+    const uint32_t per = w->b->set.elements / CHUNK, first = (uint32_t)(w->own + index * w->parts) * per;
     const uint64_t all = ~(uint64_t)0 >> (CHUNK - w->count);
     for (uint32_t j = first; j < first + per; ++j) {
         const bake_element *e = &w->b->element[j];
@@ -244,18 +244,29 @@ static void set_tile(lmb_tile *tile, const lmb_vec3 *at, const lmb_vec3 *normal,
     }
 }
 
-int bake_rows(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
-              float *times, report *r)
+int bake_rows_part(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
+                   float *times, int own, int parts, report *r)
 {
     lmb_tile *tile = malloc(sizeof *tile);
     lmb_traversal *traversal = calloc((size_t)b->set.threads, sizeof *traversal);
     const int ok = tile != NULL && traversal != NULL;
     if (ok) {
-        rows w = {b, tile, at, normal, row, times, count, axes, traversal};
+        rows w = {b, tile, at, normal, row, times, count, axes, own, parts, traversal};
         set_tile(tile, at, normal, count);
-        pool_run(b->set.threads, CHUNK, element_job, &w);
+        pool_run(b->set.threads, (CHUNK - own + parts - 1) / parts, element_job, &w);
     }
     free(tile);
     free(traversal);
     return ok || report_fail(r, "not enough memory for %d points", count);
+}
+
+int bake_rows(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
+              float *times, report *r)
+{
+    return bake_rows_part(b, at, normal, count, axes, row, times, 0, 1, r);
+}
+
+int bake_rows_has(const bake *b, uint32_t element, int own, int parts)
+{
+    return (int)(element / (b->set.elements / CHUNK)) % parts == own;
 }

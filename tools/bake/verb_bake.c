@@ -12,7 +12,9 @@
 #include "../common/options.h"
 #include "../demo/demo_scene.h"
 #include "../model/model.h"
+#include "../model/scene_hash.h"
 #include "bake.h"
+#include "bake_slice.h"
 #include "light_export.h"
 
 enum { MOVING = 256 }; /* objects, at most */
@@ -28,6 +30,8 @@ typedef struct options {
     lmb_light lights[RENDER_LIGHTS];
     int32_t light_count, bounces, texels;
     float step_m;
+    slice slice;
+    uint64_t slice_job;
 } options;
 
 #define AT(member) .at = offsetof(options, member)
@@ -91,6 +95,7 @@ static const option_row rows[] = {
      .help = "a larger --error where the file would be larger than this; which one is said"},
     {.name = "--endian", .kind = OPTION_WORD, AT(is_big), .words = orders,
      .help = "byte order of the machine that reads the file (default: of this one)"},
+    OPTION_SLICE_ROW(options, slice, "bake's rows of receivers"),
     {.name = "--report", .kind = OPTION_FLAG, AT(has_report), .help = "bytes of the file, part by part"},
     OPTION_THREADS_ROW(options, threads, "bake the file"),
     OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took"),
@@ -181,7 +186,8 @@ static int make_file(file_bytes *file, const options *o, bake *b, report *r)
 }
 
 /* The light that what was baked makes of the scene's lights, in another form. */
-static int export(const options *o, const lmb_scene *scene, const model *loaded, bake *b, file_bytes *lmt, report *r)
+static int export(const options *o, const char *path, const lmb_scene *scene, const model *loaded, bake *b,
+                  file_bytes *lmt, report *r)
 {
     static light_solve s; /* large */
     render_options ask;
@@ -199,17 +205,75 @@ static int export(const options *o, const lmb_scene *scene, const model *loaded,
     ask.light_count = (uint32_t)o->light_count;
     int ok = render_options_complete(&ask, r) && light_begin(&s, &ask, scene, loaded, lmt, r);
     if (ok) {
-        ok = o->to == LIGHT_PROBES ? light_probes(o->out, &s, b, o->step_m, o->is_quiet, r)
-             : (o->to == LIGHT_MAP ? light_picture(o->out, &s, loaded, o->texels, r) : light_colours(o->out, &s, loaded, r)) &&
-                   light_check(o->out, &s, forms[o->to], o->is_quiet, r);
+        ok = o->to == LIGHT_PROBES ? light_probes(path, &s, b, o->step_m, o->is_quiet, r)
+             : (o->to == LIGHT_MAP ? light_picture(path, &s, loaded, o->texels, r) : light_colours(path, &s, loaded, r)) &&
+                   light_check(path, &s, forms[o->to], o->is_quiet, r);
     }
     light_end(&s);
     return ok;
 }
 
+/* Other forms are written to the folder that slices share, read and removed. */
+static int export_slice(file_bytes file[BAKE_FILES], const options *o, const lmb_scene *scene, const model *loaded,
+                        bake *b, report *r)
+{
+    char path[BAKE_FILES][SLICE_NAME];
+    const char *slash = strrchr(o->out, '/');
+    const int n = snprintf(path[0], SLICE_NAME, "%s%d/%s", b->share->folder, (int)o->slice.number,
+                           slash != NULL ? slash + 1 : o->out);
+    const int files = o->to == LIGHT_PROBES ? 2 : 1;
+    int ok = (n > 0 && n < SLICE_NAME) || report_fail(r, "%s: the name is too long", o->out);
+    if (ok) {
+        host_make_folders(path[0]);
+    }
+    ok = ok && (files == 1 || bake_slice_numbers(path[1], path[0], r)) &&
+         export(o, path[0], scene, loaded, b, &file[0], r);
+    file_free(&file[0]);
+    for (int i = 0; ok && i < files; ++i) {
+        ok = file_read(&file[i], path[i], r);
+        remove(path[i]);
+    }
+    return ok;
+}
+
+/* `file`: the .lmt. */
+static int write_slice(const options *o, const lmb_scene *scene, const model *loaded, bake *b, file_bytes *file,
+                       report *r)
+{
+    file_bytes all[BAKE_FILES] = {*file, {NULL, 0}};
+    char about[SLICE_ABOUT];
+    memset(file, 0, sizeof *file);
+    snprintf(about, sizeof about, "bake %.160s to %s", o->scene, forms[o->to]);
+    const int ok = (o->to == LIGHT_TRANSFER || export_slice(all, o, scene, loaded, b, r)) &&
+                   bake_slice_write(o->out, b->share, about, all, o->to == LIGHT_PROBES ? 2 : 1, r);
+    report_note(!ok || o->is_quiet, "%s.%dof%d: %.0f of %.0f rows were made here", o->out, (int)o->slice.number,
+                (int)o->slice.count, b->share->made, b->share->all);
+    for (int i = 0; i < BAKE_FILES; ++i) {
+        file_free(&all[i]);
+    }
+    return ok;
+}
+
+/* Files of slices are read and written again: from now on none is kept from that. */
+static int begin_slice(bake_share *s, char folder[SLICE_NAME], const options *o, const lmb_scene *scene, report *r)
+{
+    char name[SLICE_NAME];
+    const uint64_t own = scene_hash(scene); /* with what its file has beside it */
+    s->slice = o->slice;
+    s->job = slice_hash(o->slice_job, &own, sizeof own);
+    s->folder = folder;
+    if (!slice_name(name, o->out, o->slice, r) || !file_can_write(name, r) || !bake_slice_folder(folder, o->out, r)) {
+        return 0;
+    }
+    file_keep_end();
+    return 1;
+}
+
 static int bake_scene(const options *o, const lmb_scene *whole, const model *loaded, const lmb_vec3 *eyes,
                       uint32_t eye_count, report *r)
 {
+    static bake_share share; /* large, as its folder's name is */
+    static char folder[SLICE_NAME];
     bake b;
     bake_settings set;
     file_bytes file = {NULL, 0};
@@ -225,14 +289,18 @@ static int bake_scene(const options *o, const lmb_scene *whole, const model *loa
     set.is_swapped = o->is_big != is_own_big();
     uint32_t moving[MOVING], count;
     bake_still_scene still = {*whole, NULL};
+    b.share = o->slice.count > 0 ? &share : NULL;
     int ok = (o->to != LIGHT_PROBES || light_probes_fit(whole, o->step_m, r)) &&
+             (b.share == NULL || begin_slice(&share, folder, o, whole, r)) &&
              parse_moving(moving, &count, o->moving, whole, r) &&
              (count == 0 || bake_still(&still, whole, moving, count, &b.section[LMB_TRANSFER_MOVING], r)) &&
              bake_begin(&b, &still.scene, &set, r) && bake_reach(&b, eyes, eye_count, r) && bake_receivers(&b, r) &&
              bake_clusters(&b, r) && bake_directed(&b, r) && bake_air(&b, r) && (o->is_once || bake_bounces(&b, r)) &&
              make_file(&file, o, &b, r);
-    if (ok && o->to != LIGHT_TRANSFER) {
-        ok = export(o, whole, loaded, &b, &file, r);
+    if (ok && b.share != NULL) {
+        ok = write_slice(o, whole, loaded, &b, &file, r);
+    } else if (ok && o->to != LIGHT_TRANSFER) {
+        ok = export(o, o->out, whole, loaded, &b, &file, r);
     } else if (ok && file_write(o->out, file.data, file.size, r)) {
         tell(o, &b, file.size);
     }
@@ -304,6 +372,7 @@ int verb_bake(int argc, char **argv)
     o.texels = o.texels > 0 ? o.texels : 2048;
     progress_begin(o.is_quiet, "bake");
     int ok = options_files(&o, &table, &r) &&
+             (o.slice.count == 0 || slice_job(&o.slice_job, &o, &table, argc, argv, &r)) &&
              (is_demo || model_load(&loaded, o.scene, o.scene_name, &notes, &r)) && options_files(&o, &table, &r) &&
              (!o.is_glossy || model_make_glossy(&loaded) ||
               report_fail(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene)) &&

@@ -7,6 +7,7 @@
 #include "../common/options.h"
 #include "../common/progress.h"
 #include "../common/slice.h"
+#include "../bake/bake_slice.h"
 #include "../bench/bench_slice.h"
 #include "../play/play_slice.h"
 #include "../render/render_slice.h"
@@ -36,8 +37,8 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "merge",
     .usage = "merge SLICE... -o OUT",
-    .about = "Joins what `lambent render`, `play` and `bench SCENE` made with --slice I/N, on as many machines: the "
-             "output has the bytes that one machine would have written, but for the times of a sweep.\n"
+    .about = "Joins what `lambent render`, `play`, `bake` and `bench SCENE` made with --slice I/N, on as many machines: "
+             "the output has the bytes that one machine would have written, but for the times of a sweep.\n"
              "A slice carries a hash of its inputs, options and version, and one of itself. Slices that are cut off or "
              "damaged are told of and left out; what is missing is named, and nothing is written; a slice of another "
              "job is refused, and so are two of one number that differ, unless they are of a sweep: then the first one counts.",
@@ -77,6 +78,7 @@ static int join(const options *o, report *r)
     case SLICE_RENDER: return file_can_write(o->out, r) && render_slice_merge(o->out, &set, o->is_quiet, r);
     case SLICE_PLAY: return play_slice_merge(o->out, &set, r);
     case SLICE_BENCH: return file_can_write(o->out, r) && bench_slice_merge(o->out, &set, o->is_quiet, r);
+    case SLICE_BAKE: return file_can_write(o->out, r) && bake_slice_merge(o->out, &set, r);
     default: return report_fail(r, "%s: slices of what this version does not know", set.first);
     }
 }

@@ -14,7 +14,7 @@
 enum { SLICE_MOST = 4096, SLICE_NAME = 4096, SLICE_ABOUT = 256 };
 
 /* What is sliced. */
-enum { SLICE_RENDER = 1, SLICE_PLAY, SLICE_BENCH };
+enum { SLICE_RENDER = 1, SLICE_PLAY, SLICE_BENCH, SLICE_BAKE, SLICE_BAKE_STEP };
 
 /* A row of an option table: I/N. */
 int slice_option(const char *text, void *at);
