@@ -112,7 +112,8 @@ static void texts(void)
     static const struct text {
         const char *text;
         float size; /* -1: refused */
-    } texts[] = {{"sun:0,0,0:0,-1,0:1,1,1", 0.0f},        {"sun:0,0,0:0,-1,0:1,1,1:0.5", 0.5f},
+    } texts[] = {{"sun:0,0,0:0,-1,0:1,1,1:60", 60.0f},
+                 {"sun:0,0,0:0,-1,0:1,1,1", 0.0f},        {"sun:0,0,0:0,-1,0:1,1,1:0.5", 0.5f},
                  {"spot:0,0,0:0,-1,0:1,1,1:20,30", 0.0f}, {"spot:0,0,0:0,-1,0:1,1,1:20,30:0.25", 0.25f},
                  {"point:0,0,0:0,-1,0:1,1,1:2", 2.0f},    {"sun:0,0,0:0,-1,0:1,1,1:91", -1.0f},
                  {"sun:0,0,0:0,-1,0:1,1,1:0", -1.0f},     {"point:0,0,0:0,-1,0:1,1,1:-1", -1.0f},
@@ -121,12 +122,37 @@ static void texts(void)
     for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
         lmb_light light;
         float size = 7.0f;
-        const int ok = option_light(texts[i].text, &light, &size);
+        const int ok = option_light(texts[i].text, &light, &size) == NULL;
         CHECK_MSG(ok == (texts[i].size >= 0.0f) && (!ok || size == texts[i].size), "%s: %d %g", texts[i].text, ok,
                   (double)size);
     }
     lmb_light light;
-    CHECK(!option_light(texts[1].text, &light, NULL) && option_light(texts[2].text, &light, NULL));
+    float size;
+    CHECK(option_light(texts[2].text, &light, NULL) != NULL && option_light(texts[3].text, &light, NULL) == NULL);
+    /* A size alone leaves the cone as it is by default: to its axis. */
+    CHECK(option_light("spot:0,0,0:0,-1,0:1,1,1:0.5", &light, &size) == NULL && light.cos_inner == 1.0f);
+}
+
+/* Which part is wrong. */
+static void parts(void)
+{
+    static const struct part {
+        const char *text, *wrong;
+    } all[] = {{"lamp:0,0,0:0,-1,0:1,1,1", "KIND"},           {"spot", "KIND"},
+               {"spot:0,0:0,-1,0:1,1,1", "PX,PY,PZ"},         {"spot:", "PX,PY,PZ"},
+               {"spot::0,-1,0:1,1,1", "PX,PY,PZ"},            {"spot:0,0,0,0:0,-1,0:1,1,1", "PX,PY,PZ"},
+               {"spot:0,0,0", "DX,DY,DZ"},                    {"spot:0,0,0:0,x,0:1,1,1", "DX,DY,DZ"},
+               {"spot:0,0,0:0,0,0:1,1,1", "DX,DY,DZ"},        {"spot:0,0,0:0,-1,0", "R,G,B"},
+               {"spot:0,0,0:0,-1,0:1,1", "R,G,B"},            {"spot:0,0,0:0,-1,0:1,1,-1", "R,G,B"},
+               {"spot:0,0,0:0,-1,0:1,1,1,1", "R,G,B"},        {"spot:0,0,0:0,-1,0:1,1,1:30,20", "INNER,OUTER"},
+               {"spot:0,0,0:0,-1,0:1,1,1:20,90", "INNER,OUTER"}, {"spot:0,0,0:0,-1,0:1,1,1:0.1:20,30", "INNER,OUTER"},
+               {"spot:0,0,0:0,-1,0:1,1,1:20,30:x", "SIZE"},   {"sun:0,0,0:0,-1,0:1,1,1:91", "SIZE"}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+        lmb_light light;
+        float size;
+        const char *wrong = option_light(all[i].text, &light, &size);
+        CHECK_MSG(wrong != NULL && strcmp(wrong, all[i].wrong) == 0, "%s: %s", all[i].text, wrong != NULL ? wrong : "none");
+    }
 }
 
 void test_area_light(void)
@@ -134,4 +160,5 @@ void test_area_light(void)
     penumbras();
     sums();
     texts();
+    parts();
 }

@@ -94,48 +94,52 @@ int option_stops(const char *text, void *at)
     return strcmp(text, "auto") == 0 || option_number(text, -60.0f, 60.0f, ev);
 }
 
-/* [:INNER,OUTER][:SIZE]: one number alone is the size. */
-static int light_rest(const char *text, float cone[2], float *size)
+/* A colon and numbers, up to the next colon or the text's end. */
+static int light_part(const char **p, float *out, int count)
 {
-    if (*text == ':') {
-        const char *p = text + 1;
-        if (option_floats(&p, cone, 2)) {
-            text = p;
-        }
-    }
-    if (*text == ':') {
-        ++text;
-        return size != NULL && option_float(&text, size) && *size > 0.0f && *text == '\0';
-    }
-    return *text == '\0';
+    return *(*p)++ == ':' && option_floats(p, out, count) && (**p == ':' || **p == '\0');
 }
 
-/* KIND:P:D:RGB[:INNER,OUTER][:SIZE] */
-int option_light(const char *text, lmb_light *out, float *size)
+static double length_of(const float d[3])
+{
+    return sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
+}
+
+/* KIND:P:D:RGB[:INNER,OUTER][:SIZE]; one number alone at the end is the size. */
+const char *option_light(const char *text, lmb_light *out, float *size)
 {
     static const char *const kinds[] = {"spot:", "point:", "sun:"};
     static const int32_t values[] = {LMB_LIGHT_SPOT, LMB_LIGHT_POINT, LMB_LIGHT_DIRECTIONAL};
-    float p[3], d[3], c[3], cone[2] = {0.0f, 45.0f}, wide = 0.0f;
+    float p[3], d[3], *c = out->intensity, cone[2] = {0.0f, 45.0f}, wide = 0.0f;
     memset(out, 0, sizeof *out);
     out->kind = -1;
     for (int i = 0; i < 3 && out->kind < 0; ++i) {
-        if (strncmp(text, kinds[i], strlen(kinds[i])) == 0) {
+        const size_t n = strlen(kinds[i]);
+        if (strncmp(text, kinds[i], n) == 0) {
             out->kind = values[i];
-            text += strlen(kinds[i]);
+            text += n - 1;
         }
     }
-    if (out->kind < 0 || !option_floats(&text, p, 3) || *text++ != ':' || !option_floats(&text, d, 3) ||
-        *text++ != ':' || !option_floats(&text, c, 3)) {
-        return 0;
+    if (out->kind < 0) {
+        return "KIND";
     }
-    if (!light_rest(text, cone, size != NULL ? &wide : NULL) ||
-        wide > (out->kind == LMB_LIGHT_DIRECTIONAL ? 90.0f : 1e6f)) {
-        return 0;
+    if (!light_part(&text, p, 3)) {
+        return "PX,PY,PZ";
     }
-    double length = sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
-    if (c[0] < 0.0f || c[1] < 0.0f || c[2] < 0.0f || cone[0] < 0.0f || cone[1] < cone[0] ||
-        cone[1] <= 0.0f || cone[1] > 89.0f || (length < 1e-20 && out->kind != LMB_LIGHT_POINT)) {
-        return 0;
+    double length;
+    if (!light_part(&text, d, 3) || ((length = length_of(d)) < 1e-20 && out->kind != LMB_LIGHT_POINT)) {
+        return "DX,DY,DZ";
+    }
+    if (!light_part(&text, c, 3) || c[0] < 0.0f || c[1] < 0.0f || c[2] < 0.0f) {
+        return "R,G,B";
+    }
+    if (strchr(text, ',') != NULL && (!light_part(&text, cone, 2) || cone[0] < 0.0f || cone[1] < cone[0] ||
+                                      cone[1] <= 0.0f || cone[1] > 89.0f)) {
+        return "INNER,OUTER";
+    }
+    if (*text != '\0' && (size == NULL || !light_part(&text, &wide, 1) || *text != '\0' || !(wide > 0.0f) ||
+                          wide > (out->kind == LMB_LIGHT_DIRECTIONAL ? 90.0f : 1e6f))) {
+        return size != NULL ? "SIZE" : "INNER,OUTER";
     }
     if (size != NULL) {
         *size = wide;
@@ -144,8 +148,7 @@ int option_light(const char *text, lmb_light *out, float *size)
     out->position = (lmb_vec3){p[0], p[1], p[2]};
     out->direction = (lmb_vec3){(float)((double)d[0] / length), (float)((double)d[1] / length),
                                 (float)((double)d[2] / length)};
-    memcpy(out->intensity, c, sizeof c);
     out->cos_inner = (float)cos((double)cone[0] * 3.14159265358979 / 180.0);
     out->cos_outer = (float)cos((double)cone[1] * 3.14159265358979 / 180.0);
-    return 1;
+    return NULL;
 }

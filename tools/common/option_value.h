@@ -23,8 +23,8 @@ int option_size(const char *text, int32_t *width, int32_t *height); /* WxH, 1 ..
 int option_word(const char *text, const char *const *words, const int32_t *values, int32_t *out);
 
 /* spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER][:SIZE]; size: m, of a sun degrees, 0 without one; NULL: there
- * may be none. */
-int option_light(const char *text, lmb_light *out, float *size);
+ * may be none. Returns NULL, or what that line calls the first part that is wrong (KIND: its word). */
+const char *option_light(const char *text, lmb_light *out, float *size);
 
 /* Samples a pixel, an int32_t by words. */
 extern const char *const option_samples[];

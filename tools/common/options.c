@@ -182,7 +182,7 @@ static int store(const option_row *row, const char *text, void *at, float *size)
     case OPTION_NUMBERS: return store_floats(row, text, at);
     case OPTION_WORD: return option_word(text, row->words, row->values, at);
     case OPTION_POINT: return option_vec3(text, at);
-    case OPTION_LIGHT: return option_light(text, at, size);
+    case OPTION_LIGHT: return option_light(text, at, size) == NULL;
     case OPTION_BACKEND: return (*(const lmb_kernels **)at = lmb_kernels_named(text)) != NULL;
     default: return row->parse(text, at);
     }
@@ -199,13 +199,24 @@ typedef struct line {
     const char *first[OPTION_ROWS]; /* the value that came first */
 } line;
 
+/* Which part of a value of several is wrong; "": not known. */
+static const char *wrong_part(const option_row *row, const char *value)
+{
+    lmb_light light;
+    float size;
+    const char *part = row->kind == OPTION_LIGHT ? option_light(value, &light, row->sizes > 0 ? &size : NULL) : NULL;
+    return part != NULL ? part : "";
+}
+
 static int refuse(const option_row *row, const char *value, report *r)
 {
+    const char *part = wrong_part(row, value);
     const char *meant = row->kind == OPTION_WORD ? options_nearest(row->words, value) : NULL;
     char expects[320];
     options_wants(expects, sizeof expects, row);
     return meant != NULL ? report_fail(r, "%s: `%s` is not %s; did you mean %s?", row->name, value, expects, meant)
-                         : report_fail(r, "%s: `%s` is not %s", row->name, value, expects);
+                         : report_fail(r, "%s: `%s` is not %s%s%s%s", row->name, value, expects,
+                                       part[0] != '\0' ? ": its " : "", part, part[0] != '\0' ? " is wrong" : "");
 }
 
 /* `value` goes behind those that the row has already. */
