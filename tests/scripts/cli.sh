@@ -35,7 +35,7 @@ absent() { [ ! -e "$1" ] && pass || fail "$1 should not be there"; }
 small="--size 64x48 --shadow-map 64 --exposure 0"
 
 # Only glTF has lobes.
-status 1 render demo $small --glossy -o "$dir/glossy.png"
+status 2 render demo $small --glossy -o "$dir/glossy.png"
 
 # Each format by its extension, whole.
 for extension in png ppm pfm hdr; do
@@ -74,6 +74,7 @@ done
 status 0 render demo $small --stats "$dir/stats.json" -o "$dir/again.pfm"
 check "the same command writes the same bytes" cmp "$dir/demo.pfm" "$dir/again.pfm"
 check "stats are JSON" grep -q '^{' "$dir/stats.json"
+check "light by cuts has no first points to count" grep -q '"first_points": null, "discs": null, "groups": null' "$dir/stats.json"
 
 # Strict zones say what they lose; the others lose nothing and say nothing.
 status 0 render demo $small --groups 40 --misfits drop -o "$dir/strict.pfm"
@@ -146,9 +147,10 @@ check "--thin 10 leaves few discs" test $((4 * $(count "$dir/option.json" discs)
 # Two eyes: each half is what one eye sees from there, and the light is found once.
 at() { echo "--eye $1,1.25,2.5 --target $1,1,-1 --fov 50"; }
 rows() { tail -c +"$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -v -tx1 | tr -d ' \n' | fold -w $((64 * 3 * 4 * 2)); }
-status 0 render demo $small $(at 0.5) --stereo 0.25 -o "$dir/both.pfm" --stats "$dir/both.json"
-status 0 render demo $small $(at 0.375) -o "$dir/left.pfm" --stats "$dir/left.json"
-status 0 render demo $small $(at 0.625) -o "$dir/right.pfm"
+eyes="$small --grouping zones"
+status 0 render demo $eyes $(at 0.5) --stereo 0.25 -o "$dir/both.pfm" --stats "$dir/both.json"
+status 0 render demo $eyes $(at 0.375) -o "$dir/left.pfm" --stats "$dir/left.json"
+status 0 render demo $eyes $(at 0.625) -o "$dir/right.pfm"
 check "two eyes side by side" test "$(sed -n 2p "$dir/both.pfm")" = "128 48"
 rows "$dir/both.pfm" >"$dir/both.txt"
 (rows "$dir/left.pfm"; echo) >"$dir/left.txt"
@@ -159,7 +161,8 @@ check "48 rows of an eye" test "$(grep -c . "$dir/left_half.txt")" -eq 48
 check "the left half is the left eye's picture" cmp "$dir/left.txt" "$dir/left_half.txt"
 check "the right half is the right eye's picture" cmp "$dir/right.txt" "$dir/right_half.txt"
 for what in first_points discs groups; do
-    check "two eyes: $what counted once" test "$(count "$dir/both.json" $what)" -eq "$(count "$dir/left.json" $what)"
+    check "two eyes: $what counted once" test "$(count "$dir/both.json" $what)" -gt 0 \
+        -a "$(count "$dir/both.json" $what)" -eq "$(count "$dir/left.json" $what)"
 done
 check "two eyes: shadow map once, view twice" test $((2 * $(count "$dir/both.json" triangles_read))) -eq $((3 * $(count "$dir/left.json" triangles_read)))
 check "two eyes: two views" test "$(count "$dir/both.json" views)" -eq 2
@@ -207,7 +210,7 @@ for show in direct full; do
     status 0 render "$dir/many.gltf" $look --show $show -o "$dir/$show.pfm"
 done
 check "a floor lights nothing but itself" cmp "$dir/direct.pfm" "$dir/full.pfm"
-status 1 render demo $small --many-lights 4 --grouping zones -o "$dir/bad.pfm"
+status 2 render demo $small --many-lights 4 --grouping zones -o "$dir/bad.pfm"
 status 0 render "$dir/many.gltf" $look --grouping zones --show direct -o "$dir/zones.pfm"
 check "direct light knows no grouping" cmp "$dir/direct.pfm" "$dir/zones.pfm"
 status 2 render demo $small --profile fast -o "$dir/bad.pfm"
@@ -258,6 +261,12 @@ done
 status 0 compare "$dir/demo.pfm" "$dir/again.pfm"
 status 0 render demo --size 32x24 --shadow-map 64 -o "$dir/half.pfm"
 status 3 compare "$dir/demo.pfm" "$dir/half.pfm"
+{ printf 'PF\n2 1\n-1\n'; head -c 24 /dev/zero; } >"$dir/black.pfm"
+{ printf 'PF\n2 1\n-1\n'; printf '\000\000\200\077%.0s' 1 2 3 4 5 6; } >"$dir/white.pfm"
+status 0 compare "$dir/white.pfm" "$dir/black.pfm"
+check "errors relative to black are infinite" grep -q '^trim inf rmse inf .* mean inf' "$dir/out.txt"
+status 0 compare "$dir/black.pfm" "$dir/black.pfm"
+check "black is black" grep -q '^trim 0.0000 rmse 0.0000 ' "$dir/out.txt"
 
 # info: a scene and pictures, as text and as one JSON object on one line.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$dir/one.obj"
@@ -268,6 +277,9 @@ for file in one.obj demo.png demo.ppm demo.pfm; do
     check "info $file --json is one line" test "$(wc -l <"$dir/out.txt")" -eq 1
     check "info $file --json is an object" grep -q '^{.*}$' "$dir/out.txt"
 done
+
+status 0 info demo
+check "info knows the built-in scene" sh -c 'grep -q "^file  *demo: built in$" "$1" && grep -q "^cameras  *1; placed: 1" "$1"' sh "$dir/out.txt"
 
 # One parser reads all command lines: `--name=value`, what is given twice, what may be meant, where options end.
 said() { check "lambent says: $1" grep -qF -e "$1" "$dir/err.txt"; }
@@ -298,6 +310,8 @@ status 2 bench rastr
 said "there is no file \`rastr\`; did you mean bench raster?"
 status 2 render demo --quality drfat -o "$dir/bad.png"
 said "did you mean draft?"
+status 2 render demo --light spot:0,0,0:0,-1:1,1,1 -o "$dir/bad.png"
+said "[:SIZE] with angles up to 89: its DX,DY,DZ is wrong"
 status 2 render demo --samples 3 -o "$dir/bad.png"
 said "--samples: \`3\` is not 1, 4, 8 or 16"
 check "numbers are not spelling mistakes" sh -c '! grep -q "did you mean" "$1"' sh "$dir/err.txt"
@@ -381,7 +395,7 @@ printf 'no scene' >"$dir/broken.glb"
 status 1 render "$dir/nowhere.gltf" -o "$dir/bad.png"
 status 1 render "$dir/broken.glb" -o "$dir/bad.png"
 absent "$dir/bad.png"
-status 1 render demo --size 5000x8 --stereo 0.1 -o "$dir/bad.png"
+status 2 render demo --size 5000x8 --stereo 0.1 -o "$dir/bad.png"
 status 1 render demo $small -o "$dir/nowhere/demo.png"
 absent "$dir/nowhere"
 mkdir "$dir/folder.png"
@@ -628,6 +642,11 @@ check "relief bake tells what it saw" grep -q 'as 12, 26 views of 32 x 32, .* by
 bit "$dir/pit.lmr" 3000 "$dir/bit.lmr"
 status 1 relief render "$dir/bit.lmr" -o "$dir/bad.png"
 said "bit.lmr: a damaged .lmr file"
+status 1 info "$dir/bit.lmr"
+status 0 info "$dir/pit.lmr"
+check "info knows reliefs" grep -q '^views  *[1-9][0-9]*, with sides of 32 to 32 texels, full$' "$dir/out.txt"
+status 0 info "$dir/pit.lmr" --json
+check "and those as JSON" grep -q '^{.*"kind":"relief".*"shortest_side":32,.*"packed":false,"min":.*}$' "$dir/out.txt"
 sed 's/1/0.9/g' "$dir/box.obj" | sed 's/^f.*//' >"$dir/less.obj"
 grep '^f' "$dir/box.obj" >>"$dir/less.obj"
 status 0 relief bake "$dir/pit.obj" -o "$dir/less.lmr" --simple "$dir/less.obj" --as-is --size 16
@@ -826,6 +845,10 @@ status 1 render "$dir/box.obj" $inside --transfer "$dir/cut.lmt" -o "$dir/bad.pf
 said "cut.lmt: a damaged light transfer"
 status 0 bake "$dir/box.obj" -o "$dir/little.lmt" --elements 256 --receivers 200 --endian little --report
 check "bake tells the bytes of each part" grep -q '  links  *[0-9]* bytes' "$dir/out.txt"
+status 0 info "$dir/little.lmt"
+check "info knows baked light" sh -c 'grep -q "little.lmt: baked light, version 2, [1-9][0-9]* bytes$" "$1" && grep -q "^elements  *256$" "$1"' sh "$dir/out.txt"
+status 0 info "$dir/little.lmt" --json
+check "and as JSON" grep -q '^{.*"kind":"transfer".*"elements":256,.*"scene":"[0-9a-f]*"}$' "$dir/out.txt"
 status 0 bake "$dir/box.obj" -o "$dir/big.lmt" --elements 256 --receivers 200 --endian big
 check "the other byte order has the same bytes but the checksum, turned round" sh -c '
     od -An -v -tx1 -w4 "$1" | sed "1d;24d" >"$1.txt"; od -An -v -tx1 -w4 "$2" | sed "1d;24d" | awk "{ print \" \" \$4, \$3, \$2, \$1 }" |

@@ -103,11 +103,13 @@ said "no output given; add -o FILE.lmp"
 status 2 pack demo -o "$p/bad.lmp" --name x
 status 2 pack demo -o "$p/bad.c" --name 2x
 said "is no name in C"
+status 0 pack demo -o "$p/1x-y.c"
+check "an array's name begins with a letter" grep -q 'scene_1x_y\[' "$p/1x-y.c"
 status 2 pack "$p/demo.lmp" -o "$p/bad.lmp" --position-error 0.1
 said "a packed scene stays as it is"
 status 2 pack demo -o "$p/bad.lmp" --endian middle
 status 2 pack demo -o "$p/bad.lmp" --textures dxt
-status 1 pack demo -o "$p/bad.lmp" --glossy
+status 2 pack demo -o "$p/bad.lmp" --glossy
 status 1 pack "$p/nowhere.glb" -o "$p/bad.lmp"
 status 1 pack demo -o "$p/nowhere/bad.lmp"
 check "nothing bad was packed" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$p"

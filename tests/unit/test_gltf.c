@@ -384,6 +384,19 @@ static void pixels(void)
     CHECK(noted("images[0]: 68161536 pixels are more than the model's pictures may still have"));
 }
 
+/* A picture that cannot be read is named by its file. */
+static void names_pictures(void)
+{
+    static const char document[] = ASSET "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
+                                         "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"a wall.png\"}]}";
+    folder place;
+    folder_open(&place);
+    folder_put(&place, "a wall.png", "no picture", 10);
+    CHECK_LOADS(load_file(folder_put(&place, "a.gltf", document, strlen(document))));
+    CHECK(noted("(first: images[0], a wall.png: "));
+    folder_close(&place);
+}
+
 /* A PNG of one pixel with a long chunk that nobody asks for, which its checksum takes time to walk. */
 static void put_long_png(blob *b, uint8_t *chunk, size_t size)
 {
@@ -554,6 +567,7 @@ void test_gltf(void)
     neighbours();
     counts();
     pixels();
+    names_pictures();
     pixels_left();
     decoded_often();
     many_places();

@@ -340,8 +340,8 @@ static void check_status(int wanted, const char *first, const char *second, cons
 
 static void errors(void)
 {
-    check_status(INFO_USAGE, NULL, NULL, "a scene or picture is needed");
-    check_status(INFO_USAGE, "--json", NULL, "a scene or picture is needed");
+    check_status(INFO_USAGE, NULL, NULL, "a scene, picture or baked file is needed");
+    check_status(INFO_USAGE, "--json", NULL, "a scene, picture or baked file is needed");
     check_status(INFO_USAGE, "a.glb", "b.glb", "`b.glb` is one word too many: FILE is `a.glb`");
     check_status(INFO_USAGE, "a.glb", "--jsn", "unknown option --jsn; did you mean --json?");
     check_status(INFO_FAILED, "no such file.glb", NULL, "no such file.glb");

@@ -375,7 +375,7 @@ int verb_bake(int argc, char **argv)
              (o.slice.count == 0 || slice_job(&o.slice_job, &o, &table, argc, argv, &r)) &&
              (is_demo || model_load(&loaded, o.scene, o.scene_name, &notes, &r)) && options_files(&o, &table, &r) &&
              (!o.is_glossy || model_make_glossy(&loaded) ||
-              report_fail(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene)) &&
+              report_fail_usage(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene)) &&
              bake_model(&o, is_demo ? demo_scene() : &loaded.scene, &loaded, &r);
     progress_end();
     model_free(&loaded);

@@ -303,12 +303,25 @@ static int measure(results *out, const loaded *l, const options *o, report *r)
 
 /* -- output ------------------------------------------------------------------------------------------------------- */
 
+/* What is relative to a black truth has no number. */
+static double shown(double v) { return v < 1e20 ? v : (double)INFINITY; }
+
+static void text_number(FILE *out, const char *name, double v)
+{
+    fprintf(out, v < 1e6 ? "%s %.4f " : "%s %.4g ", name, shown(v));
+}
+
 static void print_text(FILE *out, const results *res, const options *o)
 {
     const metrics *m = &res->figures;
     const metrics_equality *e = &res->equality;
-    fprintf(out, "trim %.4f rmse %.4f (n90 %" PRIu64 ") e50 %.4f e95 %.4f e99 %.4f mean %.4f", m->trim, m->rmse,
-            m->n90, m->e50, m->e95, m->e99, m->mean);
+    text_number(out, "trim", m->trim);
+    text_number(out, "rmse", m->rmse);
+    fprintf(out, "(n90 %" PRIu64 ") ", m->n90);
+    text_number(out, "e50", m->e50);
+    text_number(out, "e95", m->e95);
+    text_number(out, "e99", m->e99);
+    fprintf(out, m->mean < 1e6 ? "mean %.4f" : "mean %.4g", shown(m->mean));
     if (m->has_leak)
         fprintf(out, " leak %.3f", m->leak);
     if (m->nonfinite)
@@ -328,7 +341,7 @@ static void print_text(FILE *out, const results *res, const options *o)
 /* JSON has no infinity and no NaN. */
 static void json_number(FILE *out, const char *name, double v)
 {
-    if (isfinite(v))
+    if (isfinite(shown(v)))
         fprintf(out, "\"%s\":%.9g,", name, v);
     else
         fprintf(out, "\"%s\":null,", name);

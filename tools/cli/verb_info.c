@@ -9,10 +9,13 @@
 #include "../../platform/host/host.h"
 #include "../common/options.h"
 #include "../common/progress.h"
+#include "../demo/demo_scene.h"
 #include "../model/model.h"
 #include "../picture/image.h"
 #include "../picture/picture.h"
 #include "../picture/picture_read.h"
+#include "info_baked.h"
+#include "info_text.h"
 
 typedef struct options {
     const char *path; /* NULL: not given */
@@ -23,7 +26,7 @@ typedef struct options {
 #define AT(member) .at = offsetof(options, member)
 
 static const option_row info_rows[] = {
-    {.name = "FILE", .kind = OPTION_TEXT, .value = "", AT(path), .help = "a scene or a picture"},
+    {.name = "FILE", .kind = OPTION_TEXT, .value = "", AT(path), .help = "a scene, a picture, baked light (.lmt), a relief (.lmr), or demo, the built-in scene"},
     {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene),
      .help = "of a file with several scenes, by name or number from 0 (default: its own choice)"},
     {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object on one line"},
@@ -38,8 +41,8 @@ static const option_table table = {
     .verb = "info",
     .usage = "info FILE [--scene NAME|N] [--json]",
     .about =
-        "What is in a scene that `lambent render` reads, or in a picture: PNG, JPEG, PPM, PGM, PFM or Radiance HDR, "
-        "known by its content. Of a scene:\n"
+        "What is in a scene that `lambent render` reads, in a picture (PNG, JPEG, PPM, PGM, PFM or Radiance HDR), in "
+        "baked light or in a relief; each is known by its content. Of a scene:\n"
         "scenes: of a glTF file; read: the one that counts below (--scene chooses);\n"
         "nodes meshes: as the file has them, with the meshes' primitives;\n"
         "instances: primitives placed in the world;\n"
@@ -56,7 +59,11 @@ static const option_table table = {
         "bytes: the file, others read for it, and memory when loaded;\n"
         "notes: what the reader left out or replaced.\n"
         "Of a picture: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high "
-        "byte; palettes resolved), or linear light; values that are not finite are counted and left out.",
+        "byte; palettes resolved), or linear light; values that are not finite are counted and left out.\n"
+        "Of baked light: elements, which reflect it; receivers and clusters, which pixels take it from; links, each of "
+        "which carries light from one to the other; of what moves, the ranges of triangles and the places in the air; "
+        "and the fingerprint of the scene that it was baked from.\n"
+        "Of a relief: the simple model's triangles, and its reference views.",
     .part = {info_rows},
     .examples = "  lambent render demo --size 80x60 -o demo.pfm\n"
                 "  lambent info demo.pfm\n",
@@ -85,54 +92,6 @@ typedef struct picture_facts {
     channel values[4];
     uint64_t nonfinite, bytes;
 } picture_facts;
-
-/* --- text and JSON ------------------------------------------------------------------------------------------------ */
-
-/* Bytes of the UTF-8 character (RFC 3629) that starts here, 0: none does. The terminating 0 ends any sequence. */
-static int utf8_size(const unsigned char *s)
-{
-    const int n = s[0] < 0x80 ? 1 : s[0] < 0xC2 ? 0 : s[0] < 0xE0 ? 2 : s[0] < 0xF0 ? 3 : s[0] < 0xF5 ? 4 : 0;
-    for (int i = 1; i < n; ++i)
-        if ((s[i] & 0xC0) != 0x80)
-            return 0;
-    if ((s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xED && s[1] >= 0xA0) || /* overlong; a half of a pair */
-        (s[0] == 0xF0 && s[1] < 0x90) || (s[0] == 0xF4 && s[1] >= 0x90))   /* overlong; past U+10FFFF */
-        return 0;
-    return n;
-}
-
-/* A JSON string; bytes that are not UTF-8 become U+FFFD. */
-static void json_text(FILE *out, const char *text)
-{
-    const unsigned char *s = (const unsigned char *)text;
-    fputc('"', out);
-    while (*s) {
-        const int n = utf8_size(s);
-        if (n == 0)
-            fputs("\\ufffd", out);
-        else if (*s < 32 || *s == 127)
-            fprintf(out, "\\u%04x", (unsigned)*s);
-        else
-            fprintf(out, "%s%.*s", *s == '"' || *s == '\\' ? "\\" : "", n, (const char *)s);
-        s += n > 0 ? n : 1;
-    }
-    fputc('"', out);
-}
-
-/* Names may hold anything; a line of text stays one line. */
-static void plain_text(FILE *out, const char *text)
-{
-    for (; *text; ++text)
-        fputc((unsigned char)*text < 32 || *text == 127 ? '?' : *text, out);
-}
-
-/* A line's label, or blanks under the one before. */
-static void label(FILE *out, const char *text) { fprintf(out, "%-12s ", text); }
-
-static void json_vec3(FILE *out, const char *name, lmb_vec3 v)
-{
-    fprintf(out, "\"%s\":[%.9g,%.9g,%.9g]", name, (double)v.x, (double)v.y, (double)v.z);
-}
 
 /* --- scenes ------------------------------------------------------------------------------------------------------- */
 
@@ -417,17 +376,48 @@ static void json_scene(FILE *out, const char *path, const model *m, const summar
     fputs("]}\n", out);
 }
 
+/* The built-in scene, with the camera of `render demo`. */
+static void demo_model(model *out, model_camera *camera)
+{
+    const lmb_view v = demo_view(640, 480);
+    model_facts *f = &out->facts;
+    memset(out, 0, sizeof *out);
+    memset(camera, 0, sizeof *camera);
+    out->scene = *demo_scene();
+    out->cameras = camera;
+    out->camera_count = f->cameras = f->scenes = 1;
+    camera->eye = v.eye;
+    camera->yfov_rad = 2.0f * atanf(v.half_height);
+    snprintf(camera->name, sizeof camera->name, "demo");
+    f->format = "built in";
+    f->nodes = out->scene.instance_count;
+    f->meshes = f->primitives = out->scene.mesh_count;
+    f->materials = out->scene.material_count;
+    f->textures = f->images = out->scene.texture_count;
+    f->lights = out->scene.light_count;
+    for (uint32_t i = 0; i < out->scene.mesh_count; ++i)
+        f->vertices += out->scene.meshes[i].vertex_count;
+    for (uint32_t i = 0; i < out->scene.texture_count; ++i)
+        f->texel_bytes += texture_bytes(&out->scene.textures[i]);
+}
+
+/* `file`: NULL of the built-in scene. */
 static int scene_info(FILE *out, const options *o, const file_bytes *file, report *r)
 {
     model_notes notes;
+    model_camera camera;
     model m;
     summary s;
-    if (!model_read(&m, o->path, o->scene, file->data, file->size, &notes, r))
+    notes.count = 0;
+    if (file == NULL)
+        demo_model(&m, &camera);
+    else if (!model_read(&m, o->path, o->scene, file->data, file->size, &notes, r))
         return 0;
     int ok = summarize(&s, &m) || report_fail(r, "%s: memory is short for its materials", o->path);
     if (ok && !o->is_quiet)
         (o->json ? json_scene : text_scene)(out, o->path, &m, &s, &notes);
-    model_free(&m);
+    if (file != NULL)
+        model_free(&m);
     return ok;
 }
 
@@ -546,11 +536,15 @@ static int picture_info(FILE *out, const options *o, const file_bytes *file, rep
 static int file_info(FILE *out, const options *o, report *r)
 {
     file_bytes file = {NULL, 0};
+    if (strcmp(o->path, "demo") == 0 && o->scene == NULL)
+        return scene_info(out, o, NULL, r);
     if (!file_read(&file, o->path, r))
         return 0;
     int is_named = !file_is_stdout(o->path) && picture_format(o->path) != PICTURE_UNKNOWN;
     int is_picture = is_named || picture_begins(file.data, file.size);
-    int ok = (is_picture ? picture_info : scene_info)(out, o, &file, r);
+    int ok = is_picture                 ? picture_info(out, o, &file, r)
+             : info_baked_begins(&file) ? info_baked(o->is_quiet ? NULL : out, o->path, &file, o->json, r)
+                                        : scene_info(out, o, &file, r);
     file_free(&file);
     return ok;
 }
@@ -564,7 +558,7 @@ int info_to(FILE *out, FILE *err, int argc, char **argv)
     memset(&o, 0, sizeof o);
     int asked = options_parse(&o, &table, argc, argv, &r);
     if (asked == OPTIONS_RUN && o.path == NULL) {
-        asked = report_fail(&r, "a scene or picture is needed; see lambent info --help");
+        asked = report_fail(&r, "a scene, picture or baked file is needed; see lambent info --help");
     }
     if (asked != OPTIONS_RUN) {
         return options_answer_to(out, err, asked, &table, &r);
@@ -575,10 +569,8 @@ int info_to(FILE *out, FILE *err, int argc, char **argv)
     ok = ok && ((fflush(out) == 0 && !ferror(out)) || report_fail(&r, "the figures could not be written"));
     if (ok && o.is_verbose) {
         fprintf(err, "lambent: read in %.1f ms\n", (host_seconds() - start) * 1e3);
-    } else if (!ok) {
-        fprintf(err, "lambent info: %s\n", r.text);
     }
-    return ok ? INFO_OK : INFO_FAILED;
+    return ok ? INFO_OK : report_end_to(err, &r, "info", INFO_FAILED);
 }
 
 int verb_info(int argc, char **argv) { return info_to(stdout, stderr, argc, argv); }

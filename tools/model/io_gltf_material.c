@@ -40,15 +40,22 @@ static int read_sampler(lmb_texture *out, gltf *g, uint32_t texture)
     return 1;
 }
 
-/* The file's bytes of images[index], likely a PNG or a JPEG; `place` names it.
+enum { PLACE = 96 };
+
+/* The file's bytes of images[index], likely a PNG or a JPEG; `place` names it, by its file where it has one.
  * 0: see `why`, or g->b->r where the model itself is damaged. */
-static int image_bytes(gltf_bytes *out, char place[32], gltf *g, uint32_t index, report *why)
+static int image_bytes(gltf_bytes *out, char place[PLACE], gltf *g, uint32_t index, report *why)
 {
     const uint32_t node = g->images.items[index], reference = json_member(&g->doc, node, "bufferView");
     uint32_t view;
-    snprintf(place, 32, "images[%u]", (unsigned)index); /* json_path would count the images before it */
+    snprintf(place, PLACE, "images[%u]", (unsigned)index); /* json_path would count the images before it */
     if (reference == JSON_NONE) {
-        if (!gltf_uri(out, g, json_member(&g->doc, node, "uri"), why))
+        const uint32_t uri = json_member(&g->doc, node, "uri");
+        char file[64];
+        json_string(file, sizeof file, &g->doc, uri);
+        if (file[0] != '\0' && strncmp(file, "data:", 5) != 0)
+            snprintf(place, PLACE, "images[%u], %s", (unsigned)index, file);
+        if (!gltf_uri(out, g, uri, why))
             return 0;
     } else if (!gltf_item(&view, g, &g->views, reference) || !gltf_view(out, g, view)) {
         return 0;
@@ -61,7 +68,7 @@ static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int kind, int
 {
     lmb_texture *known = &g->image_texels[kind - 1][index];
     gltf_bytes bytes = {NULL, 0, 0};
-    char place[32];
+    char place[PLACE];
     int ok;
     if (!known->texels || (mips && known->levels == 1)) {
         if (!image_bytes(&bytes, place, g, index, why))

@@ -210,7 +210,7 @@ static int load_content(model_build *b, const file_bytes *file)
     if (!read)
         return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj, .ply or .lmp file", b->path);
     if (b->scene && read != gltf_load)
-        return report_fail(b->r, "%s: --scene %.60s: only glTF files hold several", b->path, b->scene);
+        return report_fail_usage(b->r, "--scene %.60s: %s: only glTF files hold several", b->scene, b->path);
     return read(b, file->data, file->size);
 }
 

@@ -184,7 +184,8 @@ static int is_code(const char *path)
     return n > 2 && strcmp(path + n - 2, ".c") == 0;
 }
 
-/* Of the array: what was asked for, or the file's name in letters, digits and _. */
+/* Of the array: what was asked for, or the file's name in letters, digits and _, behind `scene_` where it begins with
+ * none. */
 static int array_name(char out[NAME], const options *o, report *r)
 {
     const char *from = o->name, *slash;
@@ -193,6 +194,9 @@ static int array_name(char out[NAME], const options *o, report *r)
     if (from == NULL) {
         slash = strrchr(o->out, '/');
         from = slash != NULL ? slash + 1 : o->out;
+        if (isalpha((unsigned char)*from) == 0) {
+            n = (size_t)snprintf(out, NAME, "scene_");
+        }
     }
     for (; *from != '\0' && n < NAME - 1 && (o->name != NULL || *from != '.'); ++from) {
         const int is_letter = isalnum((unsigned char)*from) != 0 || *from == '_';
@@ -332,7 +336,7 @@ int verb_pack(int argc, char **argv)
     int ok = options_files(&o, &table, &r) && (is_demo || model_load(&loaded, o.scene, o.scene_name, &notes, &r)) &&
              options_files(&o, &table, &r) &&
              (!o.is_glossy || loaded.pack != NULL || model_make_glossy(&loaded) ||
-              report_fail(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene));
+              report_fail_usage(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene));
     for (uint32_t i = 0; ok && i < notes.count; ++i) {
         report_note(o.is_quiet, "%s", notes.line[i]);
     }

@@ -52,13 +52,13 @@ static int load_scene(render_job *j, report *r)
 {
     if (strcmp(j->o.scene, "demo") == 0) {
         j->scene = *demo_scene();
-        return !j->o.glossy || report_fail(r, "--glossy: the demo's materials have no lobe; give a glTF scene");
+        return !j->o.glossy || report_fail_usage(r, "--glossy: the demo's materials have no lobe; give a glTF scene");
     }
     if (!model_load(&j->loaded, j->o.scene, j->o.scene_name, &j->notes, r)) {
         return 0;
     }
     if (j->o.glossy && !model_make_glossy(&j->loaded)) {
-        return report_fail(r, "--glossy: %s: only glTF's materials have a lobe", j->o.scene);
+        return report_fail_usage(r, "--glossy: %s: only glTF's materials have a lobe", j->o.scene);
     }
     j->scene = j->loaded.scene;
     return lmb_scene_triangles(&j->scene) > 0 ||
@@ -72,7 +72,7 @@ static int load_transfer(render_job *j, report *r)
         return 1;
     }
     if (has_budget(&j->o.budget, j->o.budget_ms)) {
-        return report_fail(r, "--transfer: light is as exact as it was baked: no --budget-... goes with it");
+        return report_fail_usage(r, "--transfer: light is as exact as it was baked: no --budget-... goes with it");
     }
     if (!file_read(&j->transfer_file, j->o.transfer, r) ||
         !lmt_open(&j->transfer, &j->transfer_file, j->o.transfer, r)) {
@@ -223,10 +223,10 @@ static int set_world(render_job *j, int lit, report *r)
     const int is_sky = j->o.world == NULL || strcmp(j->o.world, "sky") == 0;
     world *w = &j->around;
     if (!can_bounce_many(j)) {
-        return report_fail(r, "--world: a sky's light bounces by --grouping cut alone; or use --world none");
+        return report_fail_usage(r, "--world: a sky's light bounces by --grouping cut alone; or use --world none");
     }
     if (has_budget(&j->o.budget, j->o.budget_ms)) {
-        return report_fail(r, "--world: settings for a budget are reckoned without a sky's light; use --quality");
+        return report_fail_usage(r, "--world: settings for a budget are reckoned without a sky's light; use --quality");
     }
     if (!(is_sky ? world_sky(w, r) : world_read(w, j->o.world, j->o.view.is_quiet, r)) ||
         (!lit && wants_ground(j) && !world_put_ground(w, &j->scene, j->middle.eye, r)) || !world_light(w, r) ||
@@ -234,7 +234,7 @@ static int set_world(render_job *j, int lit, report *r)
         return 0;
     }
     if (shows_map(j->o.show) && j->scene.light_count == 0) {
-        return report_fail(r, "--show: %s has no sun, and no other light has a map; add one by --light", j->o.world);
+        return report_fail_usage(r, "--show: %s has no sun, and no other light has a map; add one by --light", j->o.world);
     }
     tell_world(j);
     return 1;
@@ -319,8 +319,8 @@ static int set_light_stream(render_job *j, report *r)
         return 1;
     }
     if (!can_bounce_many(j)) {
-        return report_fail(r, "%s: %u lights bounce by --grouping cut only; or use --show direct", j->o.scene,
-                           (unsigned)(lists[0].count + lists[1].count));
+        return report_fail_usage(r, "--grouping: %u lights of %s bounce by cut only; or use --show direct",
+                           (unsigned)(lists[0].count + lists[1].count), j->o.scene);
     }
     if (!light_stream_take(&j->many_lights, lists, cells, r)) {
         return 0;
@@ -441,7 +441,7 @@ static int refuse(const lmb_frame_settings *s, report *r)
 {
     return s->quality == LMB_QUALITY_FIXED
                ? report_fail(r, "more first points than can be counted; use a larger --block or a smaller --shadow-map")
-               : report_fail(r, "--grouping cut: --shadow-map must be a power of two, not %d", (int)s->shadow_map);
+               : report_fail_usage(r, "--grouping cut: --shadow-map must be a power of two, not %d", (int)s->shadow_map);
 }
 
 /* What takes no memory, as the options have it. */
@@ -510,7 +510,7 @@ int render_job_set(render_job *j, report *r)
     }
     j->eyes = j->o.stereo_m > 0.0f ? 2 : 1;
     if (j->o.view.width * j->eyes > LMB_MAX_SIDE) {
-        return report_fail(r, "--stereo: two views of %d px are wider than %d; try a smaller --size",
+        return report_fail_usage(r, "--stereo: two views of %d px are wider than %d; try a smaller --size",
                            (int)j->o.view.width, LMB_MAX_SIDE);
     }
     tell_notes(j);

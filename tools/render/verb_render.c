@@ -60,8 +60,16 @@ static asked_lights sum_asked(const render_job *j)
     return sum;
 }
 
+/* Of what only fixed groups have; light by cuts has none of it, which is not 0. */
+static const char *count_text(char out[32], const render_job *j, double count)
+{
+    snprintf(out, 32, j->frame.points.data != NULL ? "%.9g" : "null", count);
+    return out;
+}
+
 static int write_stats(const render_job *j, report *r)
 {
+    char points[32], discs[32], groups[32], regroups[32], lit_w[32], grouped_w[32], kept[32];
     static const char *const names[] = {"shadow_maps", "BVH", "first_points", "groups",
                                         "bounces",    "view",     "samples", "bands"};
     char text[2048];
@@ -78,20 +86,21 @@ static int write_stats(const render_job *j, report *r)
     n += snprintf(
         text + n, sizeof text - (size_t)n,
         "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
-        "  \"lights\": %u, \"shadow_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n"
+        "  \"lights\": %u, \"shadow_map\": %d, \"first_points\": %s, \"discs\": %s, \"groups\": %s, \"regroups\": %s,\n"
         "  \"pairs\": %.0f, \"segments\": %.0f, \"full_cuts\": %.0f, \"elements\": %u, \"element_m\": %.6g,\n",
         (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
         (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.shadow_map,
-        (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups, (double)s->pairs,
-        (double)s->segments, (double)s->full_cuts, (unsigned)j->render->frame.elements.count,
+        count_text(points, j, s->first_points), count_text(discs, j, s->discs), count_text(groups, j, s->groups),
+        count_text(regroups, j, s->regroups), (double)s->pairs, (double)s->segments, (double)s->full_cuts, (unsigned)j->render->frame.elements.count,
         (double)j->render->frame.elements.side);
     n += snprintf(text + n, sizeof text - (size_t)n,
-                  "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n"
+                  "  \"flux_lit_w\": %s, \"flux_grouped_w\": %s, \"energy_kept\": %s,\n"
                   "  \"many_lights\": %u, \"light_cells\": %u, \"light_nodes\": %.0f, \"shadow_tests\": %.0f,\n"
                   "  \"light_stream_s\": %.6f, \"light_tree_s\": %.6f,\n"
                   "  \"bytes\": %.0f, \"model_bytes\": %.0f, \"loading_bytes\": %.0f,\n"
                   "  \"backend\": \"%s\"\n}\n",
-                  s->flux_lit, s->flux_grouped, s->flux_lit > 0.0 ? s->flux_grouped / s->flux_lit : 1.0,
+                  count_text(lit_w, j, s->flux_lit), count_text(grouped_w, j, s->flux_grouped),
+                  count_text(kept, j, s->flux_lit > 0.0 ? s->flux_grouped / s->flux_lit : 1.0),
                   (unsigned)j->many_lights.tree.lights, (unsigned)j->many_lights.tree.cell_count, lit.nodes, lit.tests,
                   j->many_lights.stream_s, j->many_lights.build_s,
                   (double)(j->bytes + j->many_lights.bytes), (double)j->loaded.facts.memory_bytes,
