@@ -83,7 +83,7 @@ check "an infinite texel is black" cmp "$w/infinite-lit.pfm" "$w/black-lit.pfm"
 status 1 render "$w/box.obj" $look --world "$w/box.obj" -o "$w/bad.pfm"
 status 1 render "$w/box.obj" $look --world "$w/missing.hdr" -o "$w/bad.pfm"
 absent "$w/bad.pfm"
-status 1 render demo $few --world sky --grouping zones -o "$w/bad.pfm"
+status 2 render demo $few --world sky --grouping zones -o "$w/bad.pfm"
 status 0 render demo $few --world sky -o "$w/both.pfm"
 check "a sky besides a scene's lights" sh -c '! cmp -s "$1" "$2"' sh "$w/both.pfm" "$w/demo.pfm"
 
@@ -105,6 +105,13 @@ status 0 render "$w/box.obj" $look --ground none -o "$w/a.png"
 ev=$(grep exposure "$dir/err.txt")
 status 0 render "$w/box.obj" $look --background 000000 -o "$w/b.png"
 check "exposed by the surfaces: $ev" test -n "$ev" -a "$ev" = "$(grep exposure "$dir/err.txt")"
+
+# What is a millionth as bright as the scene's other lamp is not lifted to be seen: the eye is most likely in a wall.
+sealed="$w/box.obj --size 48x36 --quality draft --eye 0,0.5,0.3 --target 0,0.5,-1 --light point:0,0.5,0:0,-1,0:1e-6,1e-6,1e-6"
+status 0 render $sealed -o "$w/dim.png"
+check "one dim lamp is lifted" grep -q 'exposure +1[0-9.]* EV (auto)$' "$dir/err.txt"
+status 0 render $sealed --light point:5,9,5:0,-1,0:1e4,1e4,1e4 -o "$w/dimmer.png"
+check "beside a bright one outside, it stays dark" grep -q 'EV (auto): hardly any light comes to what is seen' "$dir/err.txt"
 
 # --- what was baked ---
 

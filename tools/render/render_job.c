@@ -268,7 +268,7 @@ static int take_lights(render_job *j, report *r)
 /* Those of the command line or the scene, and of what lies around it. */
 static int set_lights(render_job *j, report *r)
 {
-    static const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
+    static const lmb_light sun = {{0, 0, 0}, {0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
                                   LMB_LIGHT_DIRECTIONAL, 0};
     if (j->o.light_count > 0 && !take_lights(j, r)) {
         return 0;
@@ -285,7 +285,7 @@ static int set_lights(render_job *j, report *r)
         j->sun = sun;
         j->scene.lights = &j->sun;
         j->scene.light_count = 1;
-        report_note(j->o.view.is_quiet, "no light in %s: a sun of 3 W/m2 from the upper right; --light sets others",
+        report_note(j->o.view.is_quiet, "no light in %s: a sun of 3 W/m2 from the upper left; --light sets others",
                     j->o.scene);
     }
     return 1;

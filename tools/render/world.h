@@ -23,7 +23,8 @@ typedef struct world {
     size_t bytes;
 } world;
 
-/* world_sky: a clear sky with a sun of 3 W/m2 from the upper right. world_read: a picture of all directions, as
+/* world_sky: a clear sky with a sun of 3 W/m2 from the upper left of the front; view_frame looks from its right, so that
+ * the sides of a box differ and its shadow is seen. world_read: a picture of all directions, as
  * world_read_cube takes them; what is small and bright in it becomes the sun. 1, or 0 with `r` set. */
 int world_sky(world *out, report *r);
 int world_read(world *out, const char *path, int is_quiet, report *r);
