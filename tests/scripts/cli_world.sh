@@ -106,12 +106,12 @@ ev=$(grep exposure "$dir/err.txt")
 status 0 render "$w/box.obj" $look --background 000000 -o "$w/b.png"
 check "exposed by the surfaces: $ev" test -n "$ev" -a "$ev" = "$(grep exposure "$dir/err.txt")"
 
-# What is a millionth as bright as the scene's other lamp is not lifted to be seen: the eye is most likely in a wall.
-sealed="$w/box.obj --size 48x36 --quality draft --eye 0,0.5,0.3 --target 0,0.5,-1 --light point:0,0.5,0:0,-1,0:1e-6,1e-6,1e-6"
-status 0 render $sealed -o "$w/dim.png"
-check "one dim lamp is lifted" grep -q 'exposure +1[0-9.]* EV (auto)$' "$dir/err.txt"
-status 0 render $sealed --light point:5,9,5:0,-1,0:1e4,1e4,1e4 -o "$w/dimmer.png"
-check "beside a bright one outside, it stays dark" grep -q 'EV (auto): hardly any light comes to what is seen' "$dir/err.txt"
+# What is lifted by more than eight stops is as good as black: the line names the likely cause, and the picture stays.
+sealed="$w/box.obj --size 48x36 --quality draft --eye 0,0.5,0.3 --target 0,0.5,-1 --light"
+status 0 render $sealed point:0,0.5,0:0,-1,0:1e-6,1e-6,1e-6 -o "$w/dim.png"
+check "of a dim picture the cause is named" grep -q 'EV (auto): hardly any light' "$dir/err.txt"
+status 0 render $sealed point:0,0.5,0:0,-1,0:1,1,1 -o "$w/dim.png"
+check "not of another" grep -q 'EV (auto)$' "$dir/err.txt"
 
 # --- what was baked ---
 

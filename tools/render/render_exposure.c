@@ -1,7 +1,6 @@
 /* render_exposure.c: a picture's stops, by the light that surfaces reflect. */
 #include "render_exposure.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +9,6 @@
 #include "background.h"
 
 #define GROUND_EV 1.25f
-#define DIMMEST_EV 10.0f /* under a thousandth of direct light: rooms behind several corners have more */
 #define NOTHING   1e-4f /* what is left of a glow's light counts from this share of it on: less is rounding */
 
 static int short_of_memory(report *r)
@@ -206,29 +204,10 @@ int exposure_of(float *ev, const exposure_view *v, const image *linear, report *
     return 1;
 }
 
-/* By half-white surfaces as far from each light as half the scene's diagonal. What emits, a world's picture and lights in
- * a tree have no bound. */
-float exposure_bound(const render_job *j)
-{
-    const lmb_scene *s = &j->scene;
-    const float x = s->bounds_max.x - s->bounds_min.x, y = s->bounds_max.y - s->bounds_min.y,
-                z = s->bounds_max.z - s->bounds_min.z, away2 = 0.25f * (x * x + y * y + z * z);
-    float light = 0.0f;
-    for (uint32_t i = 0; i < s->light_count; ++i) {
-        const lmb_light *l = &s->lights[i];
-        light += fmaxf(l->intensity[0], fmaxf(l->intensity[1], l->intensity[2])) /
-                 (l->kind == LMB_LIGHT_DIRECTIONAL ? 1.0f : away2);
-    }
-    return light > 0.0f && light < FLT_MAX && j->many_lights.tree.lights == 0 && !lmb_scene_emits(s)
-               ? DIMMEST_EV - log2f(0.16f * light)
-               : FLT_MAX;
-}
-
 int render_exposure(float *ev, const render_job *j, report *r)
 {
     exposure_view v;
     const int ok = exposure_look(&v, j, r) && exposure_of(ev, &v, &j->linear, r);
     exposure_view_free(&v);
-    *ev = ok ? fminf(*ev, exposure_bound(j)) : *ev;
     return ok;
 }

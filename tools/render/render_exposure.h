@@ -20,10 +20,6 @@ typedef struct exposure_view {
 int exposure_look(exposure_view *out, const render_job *j, report *r);
 void exposure_view_free(exposure_view *v);
 int exposure_of(float *ev, const exposure_view *v, const image *linear, report *r);
-
-/* exposure_bound: stops beyond which no picture is lifted by itself: what is so much darker than the scene's lights would
- * make it is lit by what leaks through edges. render_exposure keeps it. */
-float exposure_bound(const render_job *j);
 int render_exposure(float *ev, const render_job *j, report *r);
 
 #endif

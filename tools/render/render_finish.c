@@ -6,6 +6,8 @@
 #include "../picture/picture.h"
 #include "background.h"
 
+#define DIM_EV 8.0f /* what is lifted by more stops than these is as good as black */
+
 int finish_begin(render_finish *f, const render_job *j, report *r)
 {
     memset(f, 0, sizeof *f);
@@ -13,7 +15,7 @@ int finish_begin(render_finish *f, const render_job *j, report *r)
     f->background = j->o.background;
     f->tone = j->o.tone;
     f->exposure_auto = j->o.exposure_auto && !picture_is_linear(f->format);
-    f->exposure_ev = f->exposure_auto ? exposure_bound(j) : j->o.exposure_ev;
+    f->exposure_ev = j->o.exposure_ev;
     if (f->exposure_auto && !exposure_look(&f->view, j, r)) {
         return 0;
     }
@@ -49,10 +51,8 @@ int finish_write(const render_finish *f, const char *path, image *linear, int is
         if (!exposure_of(&ev, &by, linear, r)) {
             return 0;
         }
-        const int is_bound = ev > f->exposure_ev;
-        ev = is_bound ? f->exposure_ev : ev;
         report_note(is_quiet, "exposure %+.3g EV (auto)%s", (double)ev,
-                    is_bound ? ": hardly any light comes to what is seen; the eye may be inside a wall" : "");
+                    ev > DIM_EV ? ": hardly any light comes to what is seen; the eye may be inside a wall" : "");
     }
     return f->background.kind == BACKGROUND_WORLD ? picture_write(path, linear, ev, f->tone, r)
                                                   : write_before(f, path, linear, ev, r);

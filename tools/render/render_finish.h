@@ -9,7 +9,7 @@ typedef struct render_finish {
     int32_t format; /* PICTURE_ */
     render_background background;
     int32_t tone, exposure_auto;
-    float exposure_ev; /* with exposure_auto: its bound */
+    float exposure_ev;
     exposure_view view; /* its cover also where the background is none of the world's */
 } render_finish;
 

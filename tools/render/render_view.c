@@ -24,7 +24,8 @@ const model_camera *render_camera(const render_options *o, const model *m, repor
     if (*end == '\0' && n >= 0 && n < (long)m->camera_count) {
         return &m->cameras[n];
     }
-    report_fail_usage(r, "--camera: no `%s` in %s, which has %u, numbered from 0", o->camera, o->scene, (unsigned)m->camera_count);
+    report_fail_usage(r, "--camera: no `%s` in %s, which has %u, numbered from 0", o->camera, o->scene,
+                      (unsigned)m->camera_count);
     return NULL;
 }
 

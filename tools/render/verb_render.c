@@ -91,7 +91,8 @@ static int write_stats(const render_job *j, report *r)
         (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
         (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.shadow_map,
         count_text(points, j, s->first_points), count_text(discs, j, s->discs), count_text(groups, j, s->groups),
-        count_text(regroups, j, s->regroups), (double)s->pairs, (double)s->segments, (double)s->full_cuts, (unsigned)j->render->frame.elements.count,
+        count_text(regroups, j, s->regroups), (double)s->pairs, (double)s->segments, (double)s->full_cuts,
+        (unsigned)j->render->frame.elements.count,
         (double)j->render->frame.elements.side);
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "  \"flux_lit_w\": %s, \"flux_grouped_w\": %s, \"energy_kept\": %s,\n"
