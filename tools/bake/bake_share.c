@@ -80,6 +80,18 @@ static void deal(const sharing *w)
     }
 }
 
+/* The job, the step and who has which batch: by another deal a file has others. */
+static uint64_t job_of(const sharing *w)
+{
+    const uint8_t step[2] = {(uint8_t)(w->s->step & 255), (uint8_t)(w->s->step >> 8)};
+    uint64_t job = slice_hash(w->s->job, step, sizeof step);
+    for (int32_t i = 0; i < w->step->batches; ++i) {
+        const uint8_t owner[2] = {(uint8_t)(w->owner[i] & 255), (uint8_t)(w->owner[i] >> 8)};
+        job = slice_hash(job, owner, sizeof owner);
+    }
+    return job;
+}
+
 static int file_of(char out[SLICE_NAME], const sharing *w, int32_t k)
 {
     const int n = snprintf(out, SLICE_NAME, "%s%dof%d.%d", w->s->folder, (int)k + 1, (int)w->s->slice.count,
@@ -203,10 +215,16 @@ static int run(const sharing *w)
     return 1;
 }
 
-static int make_alone(const bake_step *step, report *r)
+/* `s`: NULL, or the only slice. */
+static int make_alone(bake_share *s, const bake_step *step, report *r)
 {
     int ok = 1;
     for (int32_t i = 0; ok && i < step->batches; ++i) {
+        const double own = s != NULL && step->weight != NULL ? step->weight(step->user, i) : 1.0;
+        if (s != NULL) {
+            s->made += own;
+            s->all += own;
+        }
         ok = step->make(step->user, i, r);
     }
     return ok;
@@ -215,7 +233,7 @@ static int make_alone(const bake_step *step, report *r)
 int bake_share_step(bake_share *s, const bake_step *step, report *r)
 {
     if (s == NULL || s->slice.count < 2) {
-        return make_alone(step, r);
+        return make_alone(s, step, r);
     }
     if (step->batches == 0) {
         return 1;
@@ -226,11 +244,11 @@ int bake_share_step(bake_share *s, const bake_step *step, report *r)
     w.weight = calloc(slices, sizeof *w.weight);
     w.is_there = calloc(slices, 1);
     ++s->step;
-    w.job = slice_hash(s->job, &s->step, sizeof s->step);
     int ok = (w.owner != NULL && w.weight != NULL && w.is_there != NULL) ||
              report_fail(r, "not enough memory for %d batches", (int)step->batches);
     if (ok) {
         deal(&w);
+        w.job = job_of(&w);
         ok = run(&w);
     }
     free(w.owner);

@@ -26,7 +26,9 @@ int bake_slice_folder(char out[SLICE_NAME], const char *path, report *r)
         return report_fail(r, "%s: the name is too long", path);
     }
     host_make_folders(out);
-    return 1;
+    char name[SLICE_NAME + 8];
+    snprintf(name, sizeof name, "%stry", out);
+    return file_can_write(name, r);
 }
 
 int bake_slice_numbers(char out[SLICE_NAME], const char *path, report *r)

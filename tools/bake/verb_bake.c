@@ -242,12 +242,16 @@ static int write_slice(const options *o, const lmb_scene *scene, const model *lo
 {
     file_bytes all[BAKE_FILES] = {*file, {NULL, 0}};
     char about[SLICE_ABOUT];
+    const size_t bytes = file->size;
     memset(file, 0, sizeof *file);
     snprintf(about, sizeof about, "bake %.160s to %s", o->scene, forms[o->to]);
     const int ok = (o->to == LIGHT_TRANSFER || export_slice(all, o, scene, loaded, b, r)) &&
                    bake_slice_write(o->out, b->share, about, all, o->to == LIGHT_PROBES ? 2 : 1, r);
-    report_note(!ok || o->is_quiet, "%s.%dof%d: %.0f of %.0f rows were made here", o->out, (int)o->slice.number,
-                (int)o->slice.count, b->share->made, b->share->all);
+    if (ok) {
+        report_note(o->is_quiet, "%s.%dof%d: %.0f of %.0f rows were made here", o->out, (int)o->slice.number,
+                    (int)o->slice.count, b->share->made, b->share->all);
+        tell(o, b, bytes);
+    }
     for (int i = 0; i < BAKE_FILES; ++i) {
         file_free(&all[i]);
     }
@@ -261,6 +265,7 @@ static int begin_slice(bake_share *s, char folder[SLICE_NAME], const options *o,
     const uint64_t own = scene_hash(scene); /* with what its file has beside it */
     s->slice = o->slice;
     s->job = slice_hash(o->slice_job, &own, sizeof own);
+    s->job = slice_hash(s->job, o->is_big ? "big" : "little", 3); /* by default it is the machine's */
     s->folder = folder;
     if (!slice_name(name, o->out, o->slice, r) || !file_can_write(name, r) || !bake_slice_folder(folder, o->out, r)) {
         return 0;
