@@ -116,12 +116,14 @@ static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_glossy *glossy, con
 
 #define FACETS (4.0f / 3.0f) /* so many times the facets' part of a change is taken for all of it */
 
-/* Pixels whose triangle none of the four beside them shows: several triangles lie in each. */
+/* Pixels whose triangle none of the four beside them in the tile shows: several triangles lie in each, but for some at
+ * the tile's edge. */
 static uint64_t crowded(const lmb_tile *t, uint64_t pixels)
 {
     for (int step = 1; step <= LMB_TILE; step += LMB_TILE - 1) {
         for (int k = 0; k + step < LMB_TILE_PIXELS; ++k) {
-            if (t->id[k] == t->id[k + step]) {
+            const int is_row_end = step == 1 && k % LMB_TILE == LMB_TILE - 1;
+            if (!is_row_end && t->id[k] == t->id[k + step]) {
                 pixels &= ~((uint64_t)1 << k | (uint64_t)1 << (k + step));
             }
         }

@@ -11,7 +11,7 @@
 #include "bench_front.h"
 #include "bench_outputs.h"
 
-static const bench_subject *const subjects[] = {&bench_render, &bench_relight, &bench_figures, &bench_relief, &bench_mixed};
+static const bench_subject *const subjects[] = {&bench_render, &bench_relight, &bench_relief, &bench_mixed, &bench_figures};
 enum { SUBJECTS = sizeof subjects / sizeof *subjects };
 
 /* --- which settings ----------------------------------------------------------------------------------------------- */

@@ -304,11 +304,11 @@ static int measure(results *out, const loaded *l, const options *o, report *r)
 /* -- output ------------------------------------------------------------------------------------------------------- */
 
 /* What is relative to a black truth has no number. */
-static double shown(double v) { return v < 1e20 ? v : (double)INFINITY; }
+static double shown(double v) { return fabs(v) >= 1e20 ? copysign((double)INFINITY, v) : v; }
 
 static void text_number(FILE *out, const char *name, double v)
 {
-    fprintf(out, v < 1e6 ? "%s %.4f " : "%s %.4g ", name, shown(v));
+    fprintf(out, fabs(v) < 1e6 ? "%s %.4f " : "%s %.4g ", name, shown(v));
 }
 
 static void print_text(FILE *out, const results *res, const options *o)
@@ -321,7 +321,7 @@ static void print_text(FILE *out, const results *res, const options *o)
     text_number(out, "e50", m->e50);
     text_number(out, "e95", m->e95);
     text_number(out, "e99", m->e99);
-    fprintf(out, m->mean < 1e6 ? "mean %.4f" : "mean %.4g", shown(m->mean));
+    fprintf(out, fabs(m->mean) < 1e6 ? "mean %.4f" : "mean %.4g", shown(m->mean));
     if (m->has_leak)
         fprintf(out, " leak %.3f", m->leak);
     if (m->nonfinite)

@@ -26,7 +26,8 @@ typedef struct options {
 #define AT(member) .at = offsetof(options, member)
 
 static const option_row info_rows[] = {
-    {.name = "FILE", .kind = OPTION_TEXT, .value = "", AT(path), .help = "a scene, a picture, baked light (.lmt), a relief (.lmr), or demo, the built-in scene"},
+    {.name = "FILE", .kind = OPTION_TEXT, .value = "", AT(path),
+     .help = "a scene, a picture, baked light (.lmt), a relief (.lmr), or demo, the built-in scene"},
     {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene),
      .help = "of a file with several scenes, by name or number from 0 (default: its own choice)"},
     {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object on one line"},

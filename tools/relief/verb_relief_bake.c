@@ -70,7 +70,8 @@ static const option_table table = {
              "relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]",
     .about =
         "Views of a complex model, for drawing it as a simple one that carries its surface. Meshes without normals "
-        "are flat, as `lambent render` draws them. Says how much of the surface no view sees: that will be filled with the simple model's.",
+        "are flat, as `lambent render` draws them. Says how much of the surface no view sees: that will be filled "
+        "with the simple model's.",
     .part = {rows},
     .examples = "  a tent and its relief:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
