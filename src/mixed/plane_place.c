@@ -6,8 +6,6 @@
 #define MIN_UP 0.34202014f /* cosine of 70 degrees: what a floor may be turned from the camera's up */
 #define LEVEL 0.90630779f    /* of 25: from what is up in the picture */
 #define UPRIGHT 0.17364818f  /* of 80: what is a wall by it */
-#define CROSSING 0.25f       /* squared sine of 30: between two walls that tell what is up */
-#define WALLS 0.9f           /* walls alone tell it less well than a floor */
 
 enum { CLEAR_STEP = 4 /* px */, RIM = 8 /* points of a circle */ };
 
@@ -28,23 +26,17 @@ static float says_up(const lmb_planes *planes, lmb_vec3 up)
 
 static lmb_vec3 towards_up(lmb_vec3 v) { return v.y < 0.0f ? mul3(v, -1.0f) : v; }
 
-/* What all planes speak for most: across a floor or ceiling, or along two walls, where neither is seen. */
+/* What all planes speak for most: across a floor or ceiling, or along two walls, where neither is seen. Walls tell the less
+ * the smaller their angle is, as what noise turns along both grows with 1 / its sine: by its square. */
 lmb_vec3 lmb_planes_up(const lmb_planes *planes)
 {
     lmb_vec3 up = vec3(0, 1, 0);
     float max = 0.0f;
     for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
         for (int32_t k = i; k < planes->count; ++k) {
-            lmb_vec3 one = planes->plane[i].normal;
-            if (i != k) {
-                one = cross3(one, planes->plane[k].normal);
-                if (dot3(one, one) < CROSSING) {
-                    continue;
-                }
-                one = normalize3(one);
-            }
-            one = towards_up(one);
-            const float says = says_up(planes, one) * (i == k ? 1.0f : WALLS);
+            const lmb_vec3 n = planes->plane[i].normal, both = cross3(n, planes->plane[k].normal),
+                           one = towards_up(i == k ? n : normalize3(both));
+            const float says = says_up(planes, one) * (i == k ? 1.0f : dot3(both, both));
             if (says > max) {
                 max = says;
                 up = one;

@@ -3,19 +3,25 @@
 #     sequence.sh [NAME SCENE EYE TARGET SEED]...    (default: one room that was looked at, one that was not)
 #
 # Of each room a camera that moves 25 mm a frame, and one that stands still before new noise. Frames have FRAME (default
-# 640x480), COUNT of them move (default 6). Flicker: of 255, the 99.9th percentile and the largest change of a pixel
-# whose photo did not change. Frames a second: of all frames after the first, with their files. OBJECT: default a tent.
+# 640x480), COUNT of them move (default 21). Flicker: of 255, the 99.9th percentile and the largest change of a pixel
+# whose photo did not change. Frames a second and seconds of processor a frame: of all frames after the first, with their
+# files, on THREADS threads (default 2). OBJECT: default a tent.
 . tests/scripts/checks.sh
 
 work=$B/measure/sequence
-size=${FRAME:-640x480} count=${COUNT:-6}
+size=${FRAME:-640x480} count=${COUNT:-21} threads=${THREADS:-2}
 maker=$B/measure-sequence
 mkdir -p "$work"
 printf 'v %s\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >"$work/tent.obj"
 printf 'f %s\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>"$work/tent.obj"
 object=${OBJECT:-$work/tent.obj}
 
-ms() { date +%s%N | cut -c1-13; }
+# now: wall ms; all its programs' processor ms.
+now() {
+    times >"$work/times.txt"
+    wall=$(date +%s%N | cut -c1-13)
+    cpu=$(sed -n 2p "$work/times.txt" | tr 'ms' '  ' | awk '{ printf "%d", 60000 * ($1 + $3) + 1000 * ($2 + $4) }')
+}
 
 # made NAME SCENE EYE TARGET SEED: photos and depth, once.
 made() {
@@ -41,19 +47,26 @@ made() {
     mv "$d/list.txt" "$d/still.txt"
 }
 
+# timed LIST OUT
+timed() {
+    now
+    took=$wall used=$cpu
+    "$TOOL" mix --frames "$1" --object "$object" --fit --threads "$threads" -q -o "$2" || return 1
+    now
+    took=$((wall - took)) used=$((cpu - used))
+}
+
 # sequence NAME SCENE EYE TARGET SEED
 sequence() {
     made "$@" || { fail "$1: no photos"; return; }
     for way in moving still; do
         head -n 1 "$d/$way.txt" >"$d/one.txt"
-        before=$(ms)
-        "$TOOL" mix --frames "$d/one.txt" --object "$object" --fit -q -o "$d/one%02d.png" || { fail "$1 $way"; return; }
-        one=$(($(ms) - before))
-        before=$(ms)
-        "$TOOL" mix --frames "$d/$way.txt" --object "$object" --fit -q -o "$d/$way%02d.png" || { fail "$1 $way"; return; }
-        all=$(($(ms) - before))
+        timed "$d/one.txt" "$d/one%02d.png" || { fail "$1 $way"; return; }
+        one=$took one_cpu=$used
+        timed "$d/$way.txt" "$d/$way%02d.png" || { fail "$1 $way"; return; }
         frames=$(grep -c . "$d/$way.txt")
-        echo "$1, $way: $(awk -v n="$frames" -v a="$all" -v o="$one" 'BEGIN { printf "%.2f frames a second", (n - 1) * 1000 / (a - o) }'), the first one $one ms"
+        echo "$1, $way, $frames frames: $(awk -v n="$((frames - 1))" -v a="$((took - one))" -v c="$((used - one_cpu))" \
+            'BEGIN { printf "%.2f a second, %.3f s of processor each", n * 1000 / a, c / n / 1000 }'), the first one $one ms"
     done
     for k in 1 2 3 4 5; do
         echo "$1: change of a still camera's pixels, frame $k: $("$maker" change "$d/still0$((k - 1)).png" "$d/still0$k.png" "$d/s0$((k - 1)).color.png" "$d/s0$k.color.png")"

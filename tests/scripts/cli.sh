@@ -1207,6 +1207,9 @@ printf 'r1\nr0\n' >"$dir/frames/own.txt"
 status 2 mix --frames "$dir/frames/own.txt" $tent -o "$dir/frames/r%01d.color.pfm"
 for i in 0 1; do check "photo $i of the list stays" cmp "$dir/frames/f0.color.pfm" "$dir/frames/r$i.color.pfm"; done
 status 2 mix --frames "$dir/frames/own.txt" $tent --stats "$dir/bad.json" -o "$dir/frames/bad_%02d.pfm"
+# What the command line says wrongly of the first photo it would say of none rightly.
+status 2 mix --frames "$dir/frames/begins.txt" --object "$dir/tent.obj" --at 5000,10 -o "$dir/frames/bad_%02d.pfm"
+said "--at 5000,10: the photo has 24 x 24 pixels"
 : >"$dir/frames/empty.txt"
 status 1 mix --frames "$dir/frames/empty.txt" $tent -o "$dir/frames/bad_%02d.pfm"
 said "lists no frame"

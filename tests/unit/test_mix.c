@@ -1,8 +1,8 @@
 /* test_mix.c: the steps of `lambent mix` on a photo of a floor and a wall that is known: where the object stands, what
  * the surfaces reflect, and what happens where there is nothing to stand on. [M4 M5 M7 M24] */
+#include "../folder.h"
+
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../../tools/mix/mix_front.h"
 #include "../photo_job.h"
@@ -241,6 +241,27 @@ static void metres_are_its_own(void)
         CHECK(i < 3 || (i == 3 ? j->seen_px > 200.0f : j->seen_px < 0.1f));
         mix_job_free(j);
     }
+}
+
+/* A needle that lies from corner to corner of its box: by the box it would be far wider than it is in the picture. */
+static void size_by_its_own(void)
+{
+    static const char needle[] = "v -1 0 -1\nv 1 2 1\nv 1 2.01 1\nv -1 0.01 -1\nf 1 2 3 4\nf 4 3 2 1\n";
+    static folder f;
+    char path[FOLDER_PATH];
+    folder_open(&f);
+    strcpy(path, folder_put(&f, "needle.obj", needle, sizeof needle - 1));
+    for (int turn = 45; turn >= -45; turn -= 90) {
+        char angle[8];
+        char *more[] = {"--object", path, "--scale", "0.1", "--turn", angle};
+        snprintf(angle, sizeof angle, "%d", turn);
+        mix_job *j = begin(more, 6);
+        set_depth(j, 2.5f, 1);
+        CHECK(place(j));
+        CHECK_MSG(turn > 0 ? j->seen_px > 11.0f : j->seen_px < 7.0f, "turned by %d: %g px", turn, (double)j->seen_px);
+        mix_job_free(j);
+    }
+    folder_close(&f);
 }
 
 /* One wall, no floor: it hangs there upright, and it is known to be none that faces up. So it does where the wall is
@@ -571,6 +592,7 @@ void test_mix(void)
     stands_on_what_is_asked();
     asked_for_nothing();
     metres_are_its_own();
+    size_by_its_own();
     albedo_is_told();
     nothing_changes();
 }

@@ -88,11 +88,13 @@ int file_keep(const char *path, report *r)
 typedef struct file_number {
     dev_t device;
     ino_t inode;
+    int is_used;
 } file_number;
 
+/* By their numbers' hash, at the next free place: a list of frames names thousands. */
 static struct kept_files {
     file_number *file;
-    size_t count, cap;
+    size_t count, cap; /* a power of two, at least twice the count; 0: none */
 } kept;
 
 void file_keep_end(void)
@@ -102,27 +104,44 @@ void file_keep_end(void)
     is_keeping = 0;
 }
 
-static int is_kept(const struct stat *s)
+/* Where a file is, or would be: there is room. */
+static file_number *kept_place(dev_t device, ino_t inode)
 {
+    size_t at = ((size_t)inode * 31 + (size_t)device) * (size_t)2654435761u >> 7;
+    file_number *f = &kept.file[at & (kept.cap - 1)];
+    while (f->is_used && (f->device != device || f->inode != inode)) f = &kept.file[++at & (kept.cap - 1)];
+    return f;
+}
+
+static int is_kept(const struct stat *s) { return kept.cap > 0 && kept_place(s->st_dev, s->st_ino)->is_used; }
+
+static int kept_grows(void)
+{
+    const struct kept_files was = kept;
     size_t i;
-    for (i = 0; i < kept.count; ++i)
-        if (kept.file[i].device == s->st_dev && kept.file[i].inode == s->st_ino) return 1;
-    return 0;
+    kept.cap = was.cap > 0 ? 2 * was.cap : 32;
+    kept.file = calloc(kept.cap, sizeof *kept.file);
+    if (!kept.file) {
+        kept = was;
+        return 0;
+    }
+    for (i = 0; i < was.cap; ++i)
+        if (was.file[i].is_used) *kept_place(was.file[i].device, was.file[i].inode) = was.file[i];
+    free(was.file);
+    return 1;
 }
 
 int file_keep(const char *path, report *r)
 {
     struct stat s;
-    file_number *grown;
+    file_number *f;
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || is_kept(&s)) return 1;
-    if (kept.count == kept.cap) {
-        grown = realloc(kept.file, (2 * kept.cap + 16) * sizeof *grown);
-        if (!grown) return report_fail(r, "%s: out of memory", path);
-        kept.file = grown;
-        kept.cap = 2 * kept.cap + 16;
-    }
-    kept.file[kept.count].device = s.st_dev;
-    kept.file[kept.count++].inode = s.st_ino;
+    if (2 * kept.count >= kept.cap && !kept_grows()) return report_fail(r, "%s: out of memory", path);
+    f = kept_place(s.st_dev, s.st_ino);
+    f->device = s.st_dev;
+    f->inode = s.st_ino;
+    f->is_used = 1;
+    ++kept.count;
     return 1;
 }
 

@@ -50,7 +50,9 @@ int report_fail_usage(report *r, const char *format, ...)
     return 0;
 }
 
-int report_is_system(const report *r) { return r->text[0] != '\0' && r->text[sizeof r->text - 1] == OF_SYSTEM; }
+static int is_of(const report *r, int kind) { return r->text[0] != '\0' && r->text[sizeof r->text - 1] == kind; }
+int report_is_system(const report *r) { return is_of(r, OF_SYSTEM); }
+int report_is_usage(const report *r) { return is_of(r, OF_USAGE); }
 
 static int is_taken;
 
@@ -96,5 +98,5 @@ int report_end(const report *r, const char *verb, int status)
 int report_end_to(FILE *err, const report *r, const char *verb, int status)
 {
     fprintf(err, "lambent %s: %s\n", verb, r->text);
-    return r->text[0] != '\0' && r->text[sizeof r->text - 1] == OF_USAGE ? 2 : status;
+    return report_is_usage(r) ? 2 : status;
 }

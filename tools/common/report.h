@@ -35,7 +35,8 @@ int report_is_system(const report *r);
 int report_fail_system(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
 /* report_fail_usage: the same where the command line is at fault, though its options alone do not show it: one file for
- * two purposes. */
+ * two purposes. report_is_usage: is it one? */
+int report_is_usage(const report *r);
 int report_fail_usage(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
 /* report_note: a line on stderr behind `lambent: `, unless it is to be quiet. */

@@ -19,11 +19,19 @@ int mix_carry_take(mix_job *j, report *r)
         return 1;
     }
     j->carried = mix_take(j, pixels * sizeof *j->carried, r);
+    j->lit = mix_take(j, pixels * sizeof *j->lit, r);
     if (j->kept->last != NULL && j->kept->last->carried != NULL) {
         const lmb_mat4 back = mix_back(&j->from_world);
         j->to_last = mix_product(&j->kept->last->from_world, &back);
     }
-    return j->carried != NULL;
+    return j->carried != NULL && j->lit != NULL;
+}
+
+int mix_carry_knows(const mix_job *j, int32_t x, int32_t y)
+{
+    const mix_job *last = j->kept != NULL ? j->kept->last : NULL;
+    return last != NULL && last->carried != NULL && j->carried != NULL && !j->kept->is_other_light &&
+           (x / LMB_TILE * 5 + y / LMB_TILE * 3 + j->kept->frames) % AGAIN != 0;
 }
 
 static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -40,15 +48,31 @@ static lmb_vec3 to_camera(const mix_job *j, lmb_vec3 v)
     return out;
 }
 
+static there project(const mix_job *last, lmb_vec3 p)
+{
+    const lmb_vec3 at = to_camera(last, p);
+    const lmb_pinhole *c = &last->frame.camera;
+    const there out = {c->cx - c->fx * at.x / at.z, c->cy + c->fy * at.y / at.z, -1.0f / at.z, {0, 0, 0}};
+    return out;
+}
+
 static there look(const mix_job *j, const mix_job *last, const lmb_tile *real, int k)
 {
     const lmb_vec3 p = {real->position[0][k], real->position[1][k], real->position[2][k]},
-                   n = {real->normal[0][k], real->normal[1][k], real->normal[2][k]},
-                   at = to_camera(last, mix_move(&j->to_last, p));
-    const lmb_pinhole *c = &last->frame.camera;
-    const there out = {c->cx - c->fx * at.x / at.z, c->cy + c->fy * at.y / at.z, -1.0f / at.z,
-                       to_camera(last, mix_turn(&j->to_last, n))};
+                   n = {real->normal[0][k], real->normal[1][k], real->normal[2][k]};
+    there out = project(last, mix_move(&j->to_last, p));
+    out.normal = to_camera(last, mix_turn(&j->to_last, n));
     return out;
+}
+
+static int is_seen(const there *t) { return t->inverse > 0.0f && fabsf(t->x) < 1e6f && fabsf(t->y) < 1e6f; }
+
+int mix_carry_see(float *x, float *y, const mix_job *last, lmb_vec3 at)
+{
+    const there t = project(last, at);
+    *x = t.x;
+    *y = t.y;
+    return is_seen(&t);
 }
 
 /* Is a pixel of the frame before of the same place? */
@@ -90,17 +114,13 @@ uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_
 {
     const mix_job *last = j->kept != NULL ? j->kept->last : NULL;
     uint64_t known = 0;
-    if (last == NULL || last->carried == NULL || j->carried == NULL || j->kept->is_other_light ||
-        (real->x / LMB_TILE * 5 + real->y / LMB_TILE * 3 + j->kept->frames) % AGAIN == 0) {
-        return 0;
-    }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+    for (int k = 0; k < LMB_TILE_PIXELS && mix_carry_knows(j, real->x, real->y); ++k) {
         mix_carried one;
         if (real->id[k] == 0) {
             continue;
         }
         const there t = look(j, last, real, k);
-        if (t.inverse > 0.0f && fabsf(t.x) < 1e6f && fabsf(t.y) < 1e6f && get_pixel(&one, last, &t)) {
+        if (is_seen(&t) && get_pixel(&one, last, &t)) {
             known |= (uint64_t)1 << k;
             for (int c = 0; c < 3; ++c) {
                 without->rgb[c][k] = one.rgb[0][c];

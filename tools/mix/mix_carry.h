@@ -13,4 +13,9 @@ int mix_carry_take(mix_job *j, report *r);
 uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real);
 void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with);
 
+/* mix_carry_knows: may a tile, x and y as the photo has them, take anything from the frame before? mix_carry_see: where `last`
+ * saw a place of its scene, px; 0 where it did not. */
+int mix_carry_knows(const mix_job *j, int32_t x, int32_t y);
+int mix_carry_see(float *x, float *y, const mix_job *last, lmb_vec3 at);
+
 #endif

@@ -26,26 +26,31 @@ static lmb_vec3 normal_of(const float slope[3])
 /* A point's place when inverse distances grow by dq. */
 static lmb_vec3 moved(lmb_vec3 p, float dq) { return times(p, 1.0f / (1.0f - p.z * dq)); }
 
-void mix_touch(mix_job *j, float gap_m)
+void mix_lift_plane(mix_job *j, int32_t plane, float dq)
 {
-    lmb_flat *p = &j->planes.plane[j->floor >= 0 ? j->floor : 0];
+    lmb_flat *p = &j->planes.plane[plane];
     const size_t pixels = (size_t)j->frame.camera.width * (size_t)j->frame.camera.height;
-    if (j->floor < 0 || !(fabsf(gap_m) <= MAX_BEND)) {
-        return;
-    }
-    const float dq = 1.0f / (gap_m - j->anchor.z) + 1.0f / j->anchor.z;
     p->slope[2] += dq;
     p->normal = normal_of(p->slope);
     p->centre = moved(p->centre, dq);
     p->distance = -dot(p->normal, p->centre);
-    j->anchor = moved(j->anchor, dq);
-    j->up = j->hangs ? j->up : p->normal;
     for (size_t i = 0; i < pixels; ++i) {
-        if (j->planes.label[i] == j->floor + 1) {
+        if (j->planes.label[i] == plane + 1) {
             j->cloud.inverse[i] = fmaxf(j->cloud.inverse[i] + dq, 0.0f);
             j->cloud.normal[i] = p->normal;
         }
     }
+}
+
+void mix_touch(mix_job *j, float gap_m)
+{
+    if (j->floor < 0 || !(fabsf(gap_m) <= MAX_BEND)) {
+        return;
+    }
+    const float dq = 1.0f / (gap_m - j->anchor.z) + 1.0f / j->anchor.z;
+    mix_lift_plane(j, j->floor, dq);
+    j->anchor = moved(j->anchor, dq);
+    j->up = j->hangs ? j->up : j->planes.plane[j->floor].normal;
 }
 
 /* How far a pixel is from --at, squared; infinite where its plane does not face up, or, with `whole`, where the object

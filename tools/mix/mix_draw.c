@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../platform/host/pool.h"
 #include "../common/binned.h"
 #include "../common/progress.h"
 #include "../picture/picture.h"
@@ -325,6 +324,6 @@ int mix_draw(mix_job *j, report *r)
     if (!mix_again_take(j, r) || !mix_carry_take(j, r) || !find_front(j, r) || !take_rows(&all, j, r)) {
         return 0;
     }
-    pool_run(all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);
+    mix_run_rows(j, all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);
     return 1;
 }

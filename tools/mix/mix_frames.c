@@ -183,13 +183,20 @@ double mix_brightness(const mix_frame *f)
     return sum / (double)count;
 }
 
+void mix_depth_seen(mix_depth *d)
+{
+    d->changed = 0;
+    memset(d->fresh, 0, pixels_of(d));
+}
+
+int mix_is_little_new(const mix_depth *d) { return FEW * d->changed < pixels_of(d); }
+
 static int is_as_bright(const mix_kept *k, double bright) { return fabs(bright - k->bright) <= ALIKE * k->bright; }
 
 int mix_is_still(mix_kept *k, double bright)
 {
     k->is_other_light = k->frames > 0 && !is_as_bright(k, bright);
-    const size_t pixels = pixels_of(&k->depth);
-    return k->last != NULL && k->last->answer != NULL && FEW * k->depth.changed < pixels && !k->is_other_light;
+    return k->last != NULL && k->last->answer != NULL && mix_is_little_new(&k->depth) && !k->is_other_light;
 }
 
 int mix_is_settled(const mix_kept *k)
@@ -203,6 +210,7 @@ int mix_is_settled(const mix_kept *k)
 int mix_keep(mix_kept *k, mix_job *j, report *r)
 {
     if (k->frames > 0) {
+        mix_keep_planes(k, j);
         ++k->frames;
         return 1;
     }
@@ -213,6 +221,7 @@ int mix_keep(mix_kept *k, mix_job *j, report *r)
     }
     k->object = j->object;
     mix_keep_place(k, j);
+    mix_keep_planes(k, j);
     ++k->frames;
     return 1;
 }

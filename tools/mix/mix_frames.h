@@ -17,6 +17,14 @@ typedef struct mix_depth {
     size_t changed;         /* how many these are */
 } mix_depth;
 
+/* A plane that frames have found, in the world of their poses: normal . p = -distance. */
+typedef struct mix_track {
+    lmb_vec3 normal;
+    float distance;
+    float weight;  /* by how many pixels; of the last frames */
+    int32_t seen;  /* by how many frames before this one; 0: by none */
+} mix_track;
+
 /* What frames before have left, in the world of their poses. */
 typedef struct mix_kept {
     int32_t frames;         /* that were mixed */
@@ -26,6 +34,8 @@ typedef struct mix_kept {
     lmb_vec3 anchor, up, facing;
     float scale;
     int hangs;
+    mix_track track[LMB_MAX_PLANES];
+    int32_t tracks, floor;  /* floor: the track of what the object stands on, or -1 */
     int has_sun;
     lmb_light sun;          /* guessed at the first frame */
     lmb_env env;            /* around the first frame */
@@ -61,6 +71,10 @@ void mix_list_free(mix_list *l);
  * replaces it. frame->depth becomes what is known now, as the frame's camera sees it. 1, or 0 with `r` set. */
 int mix_keep_depth(mix_depth *d, mix_frame *frame, report *r);
 
+/* mix_depth_seen: what is known now was drawn: nothing of it is new. mix_is_little_new: under one pixel in 500. */
+void mix_depth_seen(mix_depth *d);
+int mix_is_little_new(const mix_depth *d);
+
 /* mix_depth_copy: 1, or 0 with `r` set and nothing allocated. mix_depth_free releases it. */
 int mix_depth_copy(mix_depth *out, const mix_depth *in, report *r);
 void mix_depth_free(mix_depth *d);
@@ -72,8 +86,9 @@ void mix_depth_free(mix_depth *d);
 /* mix_agree: may two inverse distances, 1/m, be of one thing? */
 static inline int mix_agree(float a, float b) { return fabsf(a - b) <= MIX_NOISE + MIX_RELATIVE * fmaxf(a, b); }
 
-/* Parts of mix_keep. */
+/* Parts of mix_keep: where the object of the first frame stands, and its light; of each frame its planes. */
 void mix_keep_place(mix_kept *k, const mix_job *j);
+void mix_keep_planes(mix_kept *k, const mix_job *j);
 int mix_keep_light(mix_kept *k, const mix_job *j, report *r);
 
 /* mix_is_still: the camera has not moved since k->last was drawn, under one pixel in 500 measures something else, and the

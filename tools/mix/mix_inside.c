@@ -1,6 +1,10 @@
-/* mix_inside.c: is all of the object in the picture? By its vertices. */
-#include "mix_job.h"
+/* mix_inside.c: is all of the object in the picture, and how large is it there? By its vertices: of what is turned, the box
+ * in the scene's axes is larger. */
+#include "../../src/raster/triangle.h"
+#include "mix_frames.h"
 #include "mix_turn.h"
+
+#include <math.h>
 
 /* How far a point of the scene is within two edges of the picture, m; 1 m ahead these are `across` and `down` off the axis. */
 static lmb_mat4 edges(const lmb_axes *a, float sign, float across, float down)
@@ -30,11 +34,49 @@ static int is_within(const mix_job *j, const lmb_mat4 *within)
     return 1;
 }
 
-int mix_is_inside(const mix_job *j)
+static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/* What it covers in the picture, from the camera's axis. */
+typedef struct covered {
+    float low[2], high[2]; /* px */
+    int reaches_behind;    /* the camera */
+} covered;
+
+static void add_corner(covered *box, const mix_job *j, lmb_vec3 p)
+{
+    const lmb_pinhole *c = &j->frame.camera;
+    const float ahead = -dot(j->axes.back, p),
+                at[2] = {c->fx * dot(j->axes.right, p) / ahead, c->fy * dot(j->axes.up, p) / ahead};
+    box->reaches_behind |= !(ahead > 0.0f);
+    for (int k = 0; k < 2; ++k) {
+        box->low[k] = fminf(box->low[k], at[k]);
+        box->high[k] = fmaxf(box->high[k], at[k]);
+    }
+}
+
+/* The longer side of it, px; infinite where it reaches behind the camera. */
+static float side_px(const mix_job *j)
+{
+    covered box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0};
+    for (uint32_t i = 0; i < j->object_triangles; ++i) {
+        lmb_triangle t;
+        if (lmb_triangle_fetch(&t, &j->scene, j->real_triangles + 1 + i)) {
+            for (int k = 0; k < 3; ++k) {
+                add_corner(&box, j, t.corner[k]);
+            }
+        }
+    }
+    return box.reaches_behind ? INFINITY : fmaxf(box.high[0] - box.low[0], box.high[1] - box.low[1]);
+}
+
+int mix_is_inside(mix_job *j)
 {
     const lmb_pinhole *c = &j->frame.camera;
     const lmb_mat4 low = edges(&j->axes, 1.0f, (c->cx + 0.5f) / c->fx, (c->cy + 0.5f) / c->fy),
                    high = edges(&j->axes, -1.0f, ((float)c->width - 0.5f - c->cx) / c->fx,
                                 ((float)c->height - 0.5f - c->cy) / c->fy);
+    if (j->kept == NULL || j->kept->frames == 0) { /* it is said once */
+        j->seen_px = side_px(j);
+    }
     return is_within(j, &low) && is_within(j, &high);
 }

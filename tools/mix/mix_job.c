@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../platform/host/pool.h"
-
 void *mix_take(mix_job *j, size_t bytes, report *r)
 {
     void *p = j->block_count < MIX_BLOCKS ? calloc(1, bytes > 0 ? bytes : 1) : NULL;

@@ -4,6 +4,7 @@
 
 #include <lambent/lambent.h>
 
+#include "../../platform/host/pool.h"
 #include "../model/model.h"
 #include "mix_options.h"
 
@@ -24,9 +25,25 @@ typedef struct mix_carried {
     int32_t is_known;
 } mix_carried;
 
+/* Light from around at the object's part of a pixel, likewise. */
+typedef struct mix_lit {
+    lmb_vec3 position, normal; /* in the scene's space */
+    float x, y, rgb[3];        /* x, y: of the sample in the photo, px */
+    int32_t is_known;
+} mix_lit;
+
+/* Pieces of work that are done beside a picture's rows; count 0: they are done, or there are none. */
+typedef struct mix_aside {
+    pool_job run;
+    void *user;
+    int count;
+    int is_beside; /* they are done beside rows */
+} mix_aside;
+
 /* mix_job_free releases what it points to. */
 typedef struct mix_job {
     mix_options o;
+    mix_aside *aside; /* of a sequence; or NULL */
     mix_frame frame;
     const struct mix_kept *kept; /* of a sequence: its object is placed, and lit, by frames before; or NULL */
     lmb_cloud cloud;
@@ -35,6 +52,7 @@ typedef struct mix_job {
     float plane_albedo[LMB_MAX_PLANES][3]; /* means; set where the object has metal */
     lmb_vec3 ball_at;                      /* likewise: a ball as large as its box */
     float ball_radius;
+    int32_t track[LMB_MAX_PLANES]; /* of a sequence: each plane's number in it, or -1: it is new */
     float *front;        /* 1/m, by pixel: what may hide the object; mix_front.h */
     lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
     lmb_mat4 from_world; /* to the scene's space */
@@ -51,7 +69,7 @@ typedef struct mix_job {
     float scale;         /* m of a unit of the mesh */
     int32_t box_px[4];   /* its box in the picture, and a little more: x0, y0, x1, y1, the last ones behind it */
     int inside;          /* the picture has room for all of it */
-    float seen_px;       /* the longer side of its box in the picture; infinite where it is at the camera */
+    float seen_px;       /* the longer side of what it covers; infinite where it is at the camera */
     float gap_m;         /* how much farther than it stands what was measured at its foot is, along the camera's axis */
     lmb_env env[2];      /* around the scene without and with the object */
     float dim[3];        /* what the object leaves of it, by channel */
@@ -69,6 +87,7 @@ typedef struct mix_job {
     uint8_t *seen;       /* where the world has surfaces: mix_world.h */
     int32_t old_cells, gone; /* cells of the world that the frame does not see, behind real.count; those that it misses */
     mix_carried *carried;    /* of a sequence, by pixel */
+    mix_lit *lit;            /* likewise */
     lmb_mat4 to_last;        /* from the scene's space to that of the frame before */
     int is_settled;      /* a camera that stands still: pixels that measure what they did keep the last frame's answer */
     mix_answer *answer;  /* of a sequence, by pixel; NULL: it is not kept */
@@ -110,13 +129,22 @@ int mix_is_in_view(const mix_job *j, const lmb_flat *p, lmb_vec3 at, const mix_e
 /* mix_touch: move the plane that the object stands on, and the object, onto what was measured at its foot, gap_m farther
  * along the camera's axis. What is more than a sensor bends a plane by stays. */
 void mix_touch(mix_job *j, float gap_m);
+void mix_lift_plane(mix_job *j, int32_t p, float dq); /* that it is nearer by dq, 1/m, along each ray */
 
 /* mix_plane_near: the pixel nearest to --at whose plane faces up, and where the object, as large as it is, would be wholly
  * in view; where it is nowhere, one whose plane faces up; 0 where there is none. */
 int mix_plane_near(int32_t at[2], const mix_job *j);
 
-/* mix_is_inside: do all vertices of the object lie in the picture, where it stands? */
-int mix_is_inside(const mix_job *j);
+/* Parts of mix_place. mix_place_again: where the object of a sequence stands. mix_camera_of: from the world of the poses to the
+ * camera's space. mix_turn_scene: the scene's space stands upright on what the object stands on, or on the floor.
+ * mix_put_object: the object where it is placed, and the real scene's mesh. */
+int mix_place_again(mix_job *j, report *r);
+lmb_mat4 mix_camera_of(const mix_job *j);
+void mix_turn_scene(mix_job *j);
+int mix_put_object(mix_job *j, report *r);
+
+/* mix_is_inside: do all vertices of the object lie in the picture, where it stands? Sets seen_px by them. */
+int mix_is_inside(mix_job *j);
 
 /* mix_fail_depth: 0, with `r` set: no plane is in the depth, and how much of that is measured, and how far away. */
 int mix_fail_depth(const mix_job *j, report *r);
@@ -137,6 +165,10 @@ size_t mix_maps_bytes(const mix_job *j);
 int mix_show_planes(mix_job *j, report *r);
 int mix_show_env(mix_job *j, report *r);
 int mix_show_voxels(mix_job *j, report *r);
+
+/* mix_run_rows: all rows of a picture, and what there is aside. mix_aside_run: that alone. */
+void mix_aside_run(mix_aside *a, int threads);
+void mix_run_rows(const mix_job *j, int threads, int count, pool_job row, void *user);
 
 /* mix_image: black, 3 channels. */
 int mix_image(image *out, int32_t width, int32_t height, report *r);

@@ -187,10 +187,9 @@ static int32_t map_side(const mix_job *j, int32_t light)
     return light < j->light_count - j->lamp_count || side <= 256 ? side : side / 8 > 256 ? side / 8 : 256;
 }
 
-static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t count)
+static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t first_id, uint32_t count)
 {
-    return lmb_shadow_map_clear(map) == LMB_OK &&
-           (count == 0 || lmb_shadow_map_draw(map, j->o.kernels, &j->scene, 1, count, NULL) == LMB_OK);
+    return count == 0 || lmb_shadow_map_draw(map, j->o.kernels, &j->scene, first_id, count, NULL) == LMB_OK;
 }
 
 static size_t map_bytes(const mix_job *j, int32_t light)
@@ -218,9 +217,13 @@ static int draw_maps(mix_job *j, int32_t first, report *r)
     for (int32_t i = first; memory != NULL && i < j->light_count; ++i) {
         const size_t bytes = map_bytes(j, i);
         const int is_own = i >= j->light_count - j->lamp_count;
-        if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j, i), memory, bytes) != LMB_OK ||
-            !draw_map(j, &j->maps[i][0], is_own ? 0 : j->real_triangles) ||
-            !draw_map(j, &j->maps[i][1], j->real_triangles + j->object_triangles)) {
+        const uint32_t real = j->real_triangles;
+        int ok = lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j, i), memory, bytes) == LMB_OK &&
+                 lmb_shadow_map_clear(&j->maps[i][0]) == LMB_OK && draw_map(j, &j->maps[i][0], 1, is_own ? 0 : real);
+        memcpy(memory + bytes / 2, memory, bytes / 2); /* the other map: what is real is in both */
+        ok = ok && (!is_own || draw_map(j, &j->maps[i][1], 1, real)) &&
+             draw_map(j, &j->maps[i][1], real + 1, j->object_triangles);
+        if (!ok) {
             return report_fail(r, "--light: a shadow map cannot be drawn");
         }
         memory += bytes;

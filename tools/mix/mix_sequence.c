@@ -9,8 +9,7 @@
 #include "../common/io_file.h"
 #include "../common/progress.h"
 #include "../picture/picture.h"
-#include "mix_again.h"
-#include "mix_frames.h"
+#include "mix_next.h"
 #include "mix_run.h"
 
 static int read_entry(mix_job *j, const mix_entry *e, report *r)
@@ -37,84 +36,6 @@ static int read_entry(mix_job *j, const mix_entry *e, report *r)
     return 1;
 }
 
-/* The last frame's answer to this one's photo. */
-static void draw_still(mix_job *j, mix_job *last, double *from)
-{
-    const mix_frame was = last->frame;
-    last->frame = j->frame;
-    j->frame = was;
-    mix_again_draw(last);
-    j->draw_s = mix_lap(from);
-    mix_tell_times(j);
-}
-
-/* A frame that was drawn is the last one, and its world the next frames'. Returns a job that nobody needs any more. */
-static mix_job *take_over(mix_kept *k, mix_job *j)
-{
-    mix_job *last = k->last, *world = k->world;
-    k->last = j;
-    k->world = j->world;
-    if (world != NULL && world != k->world && world != last) {
-        mix_job_free(world);
-    }
-    return last != k->world ? last : NULL;
-}
-
-/* One frame that was read: its picture is k->last's, and what later frames need is kept; *job becomes what nobody needs. */
-static int draw_one(mix_job **job, mix_kept *k, report *r)
-{
-    mix_job *j = *job;
-    double from = host_seconds();
-    if (k->frames > 0 && k->depth.has_pose != j->frame.has_pose) {
-        return report_fail(r, j->frame.has_pose ? "has a pose, and those before it have none" : "has no pose");
-    }
-    lmb_pinhole_round(&j->frame.camera);
-    if (!mix_keep_depth(&k->depth, &j->frame, r)) {
-        return 0;
-    }
-    const double bright = mix_brightness(&j->frame);
-    if (mix_is_still(k, bright)) {
-        draw_still(j, k->last, &from);
-        return 1;
-    }
-    if (!mix_find_planes(j, r)) {
-        return 0;
-    }
-    j->planes_s = mix_lap(&from);
-    if (!mix_make_picture(j, &from, r)) {
-        return 0;
-    }
-    if (k->frames == 0) {
-        mix_tell(j);
-    }
-    mix_tell_times(j);
-    if (j->o.object != NULL && !mix_keep(k, j, r)) {
-        return 0;
-    }
-    *job = take_over(k, j);
-    k->bright = bright;
-    k->depth.changed = 0;
-    memset(k->depth.fresh, 0, (size_t)k->depth.camera.width * (size_t)k->depth.camera.height);
-    return 1;
-}
-
-/* A frame that fails has measured nothing: the next ones are those of a list without it. */
-static int draw_or_forget(mix_job **job, mix_kept *k, report *r)
-{
-    mix_depth was;
-    if (!mix_depth_copy(&was, &k->depth, r)) {
-        return 0;
-    }
-    const int ok = draw_one(job, k, r);
-    if (!ok) {
-        const mix_depth failed = k->depth;
-        k->depth = was;
-        was = failed;
-    }
-    mix_depth_free(&was);
-    return ok;
-}
-
 /* Linear photos are exposed as the first one is: chosen anew, what does not move would flicker. */
 static float exposure_of(mix_kept *k, const mix_job *j)
 {
@@ -126,52 +47,62 @@ static float exposure_of(mix_kept *k, const mix_job *j)
     return k->exposure_ev;
 }
 
-/* Between two frames one is written and the next one is read, by a thread each. */
+/* While a frame is drawn, the one before it is written and the next one is read, beside the picture's rows. */
 typedef struct sequence {
     const mix_options *o;
     mix_list list;
     mix_kept kept;
-    mix_job *next;                     /* that was read; or NULL: it cannot be used, and `why` */
-    int32_t at;                        /* of the list: what `next` is */
-    int is_drawn, is_written;          /* the frame before it */
+    mix_aside aside;
+    mix_ready next;
+    report why_next;                   /* next.job is NULL: why it cannot be used */
+    int32_t at, unwritten;             /* of the list: the frame that is drawn; the last one drawn, or -1: it is written */
+    int is_drawn, is_written;
     int is_over;                       /* the machine has no more memory or open files: `failed` */
     int32_t left_out, run, last_out;   /* frames: all, those since one was drawn, the number of the last one */
     report why, failed, first;         /* first: why the first one is left out that is */
 } sequence;
 
-static void read_next(sequence *s)
+static void read_at(sequence *s, int32_t at)
 {
     const double from = host_seconds();
-    s->next = s->at < s->list.count ? calloc(1, sizeof *s->next) : NULL;
-    if (s->next == NULL) {
-        report_fail(&s->why, "out of memory");
+    mix_job *j = at < s->list.count ? calloc(1, sizeof *j) : NULL;
+    memset(&s->next, 0, sizeof s->next);
+    s->why_next.text[0] = '\0';
+    if (j == NULL) {
+        report_fail(&s->why_next, "out of memory");
         return;
     }
-    s->next->o = *s->o;
-    s->next->kept = &s->kept;
-    if (!read_entry(s->next, &s->list.entry[s->at], &s->why)) {
-        free(s->next);
-        s->next = NULL;
+    j->o = *s->o;
+    j->kept = &s->kept;
+    j->aside = &s->aside;
+    if (!read_entry(j, &s->list.entry[at], &s->why_next)) {
+        free(j);
         return;
     }
-    s->next->read_s = host_seconds() - from;
+    j->read_s = host_seconds() - from;
+    s->next.job = j;
 }
 
 static void write_drawn(sequence *s)
 {
     char name[4200];
-    s->is_written = !s->is_drawn || (frame_name(name, sizeof name, s->o->out, s->at - 1, &s->failed) &&
-                                     picture_write(name, &s->kept.last->picture, exposure_of(&s->kept, s->kept.last),
-                                                   PICTURE_CLIPPED, &s->failed));
+    s->is_written = s->unwritten < 0 || (frame_name(name, sizeof name, s->o->out, s->unwritten, &s->failed) &&
+                                         picture_write(name, &s->kept.last->picture, exposure_of(&s->kept, s->kept.last),
+                                                       PICTURE_CLIPPED, &s->failed));
+    s->unwritten = -1;
 }
 
 static void write_or_read(void *user, int index, int thread)
 {
+    sequence *s = user;
     (void)thread;
     if (index == 0) {
-        write_drawn(user);
-    } else {
-        read_next(user);
+        write_drawn(s);
+        return;
+    }
+    read_at(s, s->at + 1);
+    if (s->aside.is_beside && s->next.job != NULL) {
+        mix_make_ready(&s->next, &s->kept);
     }
 }
 
@@ -195,25 +126,39 @@ static void tell_rest(sequence *s)
 
 /* A frame that cannot be used is said and left out; the others go on as if it had not been listed, and the end says it
  * again. Where the machine is at fault no other frame would fare better. */
-static void draw_next(sequence *s)
+static void tell_failed(sequence *s)
 {
-    mix_job *j = s->next;
-    s->is_drawn = j != NULL && draw_or_forget(&j, &s->kept, &s->why);
-    if (s->is_drawn) {
-        tell_rest(s);
-    } else if (report_is_system(&s->why)) {
+    if (report_is_system(&s->why) || report_is_usage(&s->why)) {
         s->failed = s->why;
         s->is_over = 1;
+        return;
+    }
+    tell_left_out(s);
+    if (s->left_out++ == 0) {
+        s->first = s->why;
+    }
+}
+
+/* What was made ready behind a frame that then failed is read again. */
+static void draw_next(sequence *s)
+{
+    mix_ready now = s->next;
+    s->why = s->why_next;
+    s->aside.count = 2;
+    s->is_drawn = now.job != NULL && mix_draw_next(&now, &s->kept, &s->why);
+    if (s->aside.count > 0) {
+        mix_aside_run(&s->aside, pool_threads(s->o->threads));
+    } else if (!s->is_drawn && s->next.has_depth) {
+        mix_ready_free(&s->next);
+        read_at(s, s->at + 1);
+    }
+    mix_ready_free(&now);
+    if (s->is_drawn) {
+        s->unwritten = s->at;
+        tell_rest(s);
     } else {
-        tell_left_out(s);
-        if (s->left_out++ == 0) {
-            s->first = s->why;
-        }
+        tell_failed(s);
     }
-    if (j != NULL) {
-        mix_job_free(j);
-    }
-    s->next = NULL;
 }
 
 /* Every file that a frame may be read from, before any is written: and while one is written, the next one is read. */
@@ -273,17 +218,19 @@ int mix_frames(const mix_options *o, report *r)
         return 0;
     }
     tell_list(o, &s.list);
+    s.aside.run = write_or_read;
+    s.aside.user = &s;
     s.is_written = 1;
-    read_next(&s);
+    s.unwritten = -1;
+    read_at(&s, 0);
     while (s.at < s.list.count && s.is_written && !s.is_over) {
         draw_next(&s);
         progress_tell("frames", (double)++s.at / (double)s.list.count);
-        s.why.text[0] = '\0';
-        pool_run(pool_threads(o->threads), 2, write_or_read, &s);
     }
-    if (s.next != NULL) {
-        mix_job_free(s.next);
+    if (s.is_written) {
+        write_drawn(&s);
     }
+    mix_ready_free(&s.next);
     tell_rest(&s);
     const int ok = end(&s, r);
     mix_kept_free(&s.kept);

@@ -297,7 +297,13 @@ void mix_lobes_finish(lmb_radiance *inout, mix_lobes *s, const mix_job *j, const
 }
 void mix_touch(mix_job *j, float gap_m) { (void)j, (void)gap_m; }
 int mix_plane_near(int32_t at[2], const mix_job *j) { return (void)at, (void)j, 0; }
-int mix_is_inside(const mix_job *j) { return (void)j, 1; }
+int mix_place_again(mix_job *j, report *r) { return (void)j, (void)r, 0; }
+int mix_is_inside(mix_job *j) { return (void)j, 1; }
+void mix_run_rows(const mix_job *j, int threads, int count, pool_job row, void *user)
+{
+    (void)j;
+    pool_run(threads, count, row, user);
+}
 int mix_fail_depth(const mix_job *j, report *r) { return (void)j, report_fail(r, "no plane in the depth"); }
 int mix_fail_at(const mix_job *j, report *r) { return (void)j, report_fail(r, "--at: nothing there"); }
 

@@ -1,0 +1,245 @@
+/* test_mix_stays.c: a sequence by a moving camera with a Kinect's noise against the same without: where the object stands
+ * in the picture, what stands below it, its light and its shadow do not step from frame to frame. */
+#include "../folder.h"
+
+#include <math.h>
+
+#include "../../tools/mix/mix_next.h"
+#include "../photo_job.h"
+#include "../test.h"
+
+void test_mix_stays(void);
+
+enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, FRAMES = 8 };
+
+static const lmb_pinhole camera = {WIDTH, HEIGHT, 131.25f, 131.25f, 79.5f, 59.5f};
+static const char *mesh;
+
+/* Of one frame. */
+typedef struct look {
+    double foot[2];   /* of the object in the picture, px */
+    double above;     /* m: what it stands on, over its foot */
+    double light;     /* the object's mean brightness */
+    double dark;      /* what its shadow takes of the photo, in pixels as black */
+    double middle[2]; /* of that, px */
+    int32_t track;    /* of what it stands on */
+    double walls;     /* m: of how far off planes of the frame before are in this one, the mean over their pixels */
+} look;
+
+/* --- the room ----------------------------------------------------------------------------------------------------- */
+
+/* Along x to the right, y down, z ahead. */
+typedef struct seen {
+    double far, shade;
+    int what; /* floor, wall, side, box */
+} seen;
+
+static void meet(seen *s, double far, double shade, int what)
+{
+    if (far > 0.0 && far < s->far) {
+        s->far = far;
+        s->shade = shade;
+        s->what = what;
+    }
+}
+
+/* A box on the floor, of three sides that can be seen. */
+static void meet_box(seen *s, const double from[3], const double ray[3])
+{
+    static const double low[3] = {0.55, 0.5, 2.0}, high[3] = {1.0, 0.9, 2.4};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double far = (low[axis] - from[axis]) / ray[axis];
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const double a = from[u] + far * ray[u], b = from[v] + far * ray[v];
+        if (a > low[u] && a < high[u] && b > low[v] && b < high[v]) {
+            meet(s, far, axis == 1 ? 0.5 : 0.3, 3);
+        }
+    }
+}
+
+static seen look_along(const double from[3], const double ray[3])
+{
+    seen s = {1e9, 0.0, 0};
+    meet(&s, (0.9 - from[1]) / ray[1], 0.4, 0);
+    meet(&s, (3.2 - from[2]) / ray[2], 0.3, 1);
+    meet(&s, (-1.6 - from[0]) / ray[0], 0.25, 2);
+    meet_box(&s, from, ray);
+    return s;
+}
+
+/* A hand's way to the right and a little down, turning back to what it looks at. */
+static void set_pose(double pose[16], int frame)
+{
+    test_rng rng = {(uint32_t)frame + 40};
+    const double turn = -0.008 * frame + 0.002 * (double)test_uniform(&rng, -1, 1), nod = 0.002 * (double)test_uniform(&rng, -1, 1);
+    const double c = cos(turn), s = sin(turn), d = cos(nod), e = sin(nod);
+    const double out[16] = {c, s * e, s * d, 0.025 * frame, 0, d, -e, 0.01 * sin(frame), -s, c * e, c * d, 0.005 * frame, 0, 0, 0, 1};
+    memcpy(pose, out, sizeof out);
+}
+
+static double gauss(test_rng *rng)
+{
+    double sum = 0.0;
+    for (int i = 0; i < 12; ++i) {
+        sum += (double)test_uniform(rng, -0.5f, 0.5f);
+    }
+    return sum;
+}
+
+/* Disparity over a base of 75 mm by a sensor of 525 px focal length: in eighths of a pixel, spots missing. */
+static float measured(double far, double noise, test_rng *rng)
+{
+    const double base = 0.075 * 525.0, shift = base / far + 0.1 * noise * gauss(rng);
+    const int hole = test_uniform(rng, 0, 1) < 0.03f * (float)noise;
+    return hole ? 0.0f : (float)(noise > 0.0 ? base / (floor(8.0 * shift + 0.5) / 8.0) : far);
+}
+
+static void take_frame(mix_job *j, int frame, double noise)
+{
+    static const float colours[4][3] = {{0.9f, 0.8f, 0.6f}, {0.8f, 0.8f, 0.9f}, {1.0f, 0.5f, 0.4f}, {0.4f, 0.6f, 1.0f}};
+    test_rng rng = {(uint32_t)frame * 77 + 5};
+    set_pose(j->frame.pose, frame);
+    j->frame.has_pose = 1;
+    const double *m = j->frame.pose, from[3] = {m[3], m[7], m[11]};
+    for (int i = 0; i < PIXELS; ++i) {
+        const double x = (i % WIDTH - (double)camera.cx) / (double)camera.fx, y = (i / WIDTH - (double)camera.cy) / (double)camera.fy;
+        const double ray[3] = {m[0] * x + m[1] * y + m[2], m[4] * x + m[5] * y + m[6], m[8] * x + m[9] * y + m[10]};
+        const seen s = look_along(from, ray);
+        j->frame.depth[i] = measured(s.far, noise, &rng);
+        for (int c = 0; c < 3; ++c) {
+            j->frame.light.pixels[3 * i + c] = fmaxf(colours[s.what][c] * (float)(s.shade + 0.005 * noise * gauss(&rng)), 0.0f);
+        }
+    }
+}
+
+/* --- one sequence ------------------------------------------------------------------------------------------------- */
+
+static mix_job *begin(const mix_kept *k)
+{
+    static char path[FOLDER_PATH];
+    strcpy(path, mesh);
+    char *argv[] = {"mix", "--frame", "known", "--object", path, "--fit", "--voxels", "6", "--shadow-map", "512",
+                    "--samples", "4", "-q", "-o", "known.png", NULL};
+    mix_job *j = photo_job(15, argv, &camera);
+    j->kept = k;
+    return j;
+}
+
+/* Two of a floor's pixels that the object does not cover. */
+static void add_shadow(look *out, const mix_job *j, int i)
+{
+    double photo = 0.0, now = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        photo += (double)j->frame.light.pixels[3 * i + c];
+        now += (double)j->picture.pixels[3 * i + c];
+    }
+    const double taken = photo > 0.0 ? 1.0 - now / photo : 0.0;
+    out->dark += taken;
+    out->middle[0] += taken * (i % WIDTH);
+    out->middle[1] += taken * (i / WIDTH);
+}
+
+static look look_at(const mix_kept *k)
+{
+    const mix_job *j = k->last;
+    look out = {{0, 0}, 0, 0, 0, {0, 0}, 0, 0};
+    double covered = 0.0;
+    out.foot[0] = (double)(camera.cx - camera.fx * j->anchor.x / j->anchor.z);
+    out.foot[1] = (double)(camera.cy + camera.fy * j->anchor.y / j->anchor.z);
+    out.track = k->floor;
+    if (j->floor >= 0) {
+        const lmb_flat *p = &j->planes.plane[j->floor];
+        out.above = -(double)(p->normal.x * j->anchor.x + p->normal.y * j->anchor.y + p->normal.z * j->anchor.z + p->distance);
+    }
+    for (int i = 0; i < PIXELS; ++i) {
+        const mix_answer *a = &j->answer[i];
+        covered += (double)a->covered;
+        out.light += (double)(a->object[0] + a->object[1] + a->object[2]);
+        if (a->covered == 0.0f) {
+            add_shadow(&out, j, i);
+        }
+    }
+    out.light /= covered;
+    out.middle[0] /= out.dark;
+    out.middle[1] /= out.dark;
+    CHECK_MSG(j->floor >= 0 && covered > 100.0, "plane %d, %g pixels", (int)j->floor, covered);
+    return out;
+}
+
+/* How far planes have moved since `was`, at what is 1.5 m to either side, up and down of the middle of the room. */
+static double moved(const mix_kept *k, const mix_track was[LMB_MAX_PLANES])
+{
+    double sum = 0.0, weight = 0.0;
+    for (int32_t i = 0; i < k->tracks; ++i) {
+        const mix_track *a = &was[i], *b = &k->track[i];
+        const lmb_vec3 turn = {b->normal.x - a->normal.x, b->normal.y - a->normal.y, b->normal.z - a->normal.z};
+        if (i != k->floor && a->seen > 0 && b->seen == a->seen + 1) {
+            const double off = fabs((double)(b->distance - a->distance - 2.0f * turn.z)) +
+                               1.5 * (double)(fabsf(turn.x) + fabsf(turn.y) + fabsf(turn.z));
+            sum += off * (double)b->weight;
+            weight += (double)b->weight;
+        }
+    }
+    return weight > 0.0 ? sum / weight : 0.0;
+}
+
+static void run(look out[FRAMES], double noise)
+{
+    static mix_track was[LMB_MAX_PLANES];
+    mix_kept k;
+    memset(&k, 0, sizeof k);
+    for (int i = 0; i < FRAMES; ++i) {
+        report r = {""};
+        mix_ready n;
+        memset(&n, 0, sizeof n);
+        n.job = begin(&k);
+        take_frame(n.job, i, noise);
+        memcpy(was, k.track, sizeof was);
+        const int ok = mix_draw_next(&n, &k, &r);
+        CHECK_MSG(ok, "frame %d: %s", i, r.text);
+        mix_ready_free(&n);
+        if (ok) {
+            out[i] = look_at(&k);
+            out[i].walls = moved(&k, was);
+        }
+    }
+    mix_kept_free(&k);
+}
+
+/* By how much noise takes a number of one frame farther off, or less, than it did that of the frame before. */
+static double step(double clean0, double clean1, double noisy0, double noisy1) { return fabs(noisy1 - clean1 - (noisy0 - clean0)); }
+
+static void nothing_steps(void)
+{
+    look clean[FRAMES], noisy[FRAMES];
+    run(clean, 0.0);
+    run(noisy, 1.0);
+    for (int i = 1; i < FRAMES; ++i) {
+        const look *a = &clean[i - 1], *b = &clean[i], *c = &noisy[i - 1], *d = &noisy[i];
+        for (int k = 0; k < 2; ++k) {
+            const double foot = step(a->foot[k], b->foot[k], c->foot[k], d->foot[k]),
+                         shadow = step(a->middle[k], b->middle[k], c->middle[k], d->middle[k]);
+            CHECK_MSG(foot < 0.05, "frame %d: the object's foot by %g px", i, foot);
+            CHECK_MSG(shadow < 0.6, "frame %d: its shadow by %g px", i, shadow);
+        }
+        const double light = step(log(a->light), log(b->light), log(c->light), log(d->light)),
+                     dark = step(log(a->dark), log(b->dark), log(c->dark), log(d->dark));
+        CHECK_MSG(light < 0.006, "frame %d: its light by %g", i, light);
+        CHECK_MSG(dark < 0.05, "frame %d: its shadow's depth by %g", i, dark);
+        CHECK_MSG(fabs(b->above) < 1e-4 && fabs(d->above) < 1e-4, "frame %d: the floor is %g, %g m over its foot", i, b->above,
+                  d->above);
+        CHECK_MSG(d->walls < 2.5e-3, "frame %d: walls by %g m", i, d->walls); /* 2.1 mm at most; 4.3 as each frame finds them */
+        CHECK_MSG(b->track == a->track && d->track == c->track, "frame %d: another floor", i);
+    }
+}
+
+void test_mix_stays(void)
+{
+    static const char box[] = "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
+                              "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+    static folder f;
+    folder_open(&f);
+    mesh = folder_put(&f, "box.obj", box, sizeof box - 1);
+    nothing_steps();
+    folder_close(&f);
+}
