@@ -41,7 +41,7 @@ static void tell_size(const mix_job *j)
     const double metres = (double)(mix_extent_of(j).longest * j->scale);
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
     const int fills = !(j->seen_px < 1.5f * (float)(w > h ? w : h)), vanishes = j->seen_px < 4.0f;
-    if (fills || vanishes) {
+    if (!j->o.fit && (fills || vanishes)) {
         report_note(j->o.is_quiet, "the object is %.3g m long and %s; --fit chooses its size, --scale M sets it", metres,
                     fills ? "fills the picture" : "vanishes in the picture");
         return;
