@@ -113,6 +113,14 @@ static int shows(const mix_job *j, int32_t light, const lmb_tile *t)
     return 0;
 }
 
+/* Is pixel k beyond the plane that the way's light lies in? Between both is the object itself, whose patches know that: of
+ * a ball those at a slant see farther round it than the light before its middle. */
+static int is_beyond(const mix_job *j, int32_t i, const lmb_tile *tile, int32_t k)
+{
+    const lmb_vec3 at = {tile->position[0][k], tile->position[1][k], tile->position[2][k]};
+    return dot(less(at, j->lights[i].position), j->sources->axis[way_of_light(j, i)]) < 0.0f;
+}
+
 void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int32_t i,
                       int photo)
 {
@@ -124,7 +132,7 @@ void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_view *v
     lmb_direct_tile(&seen, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][1]);
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
         float rgb[3];
-        if (seen.rgb[0][k] > 0.0f) {
+        if (seen.rgb[0][k] > 0.0f || (photo && tile->id[k] != 0 && is_beyond(j, i, tile, k))) {
             at_pixel(rgb, j, i, tile, k);
             for (int c = 0; c < 3; ++c) {
                 inout->rgb[c][k] += rgb[c];
@@ -279,7 +287,7 @@ static void gather(mix_patch *out, const point *from, size_t count, float cell)
     out->at = times(out->at, 1.0f / weight);
     out->normal = times(out->normal, 1.0f / fmaxf(n, 1e-12f));
     out->from = times(out->from, 1.0f / fmaxf(f, 1e-12f));
-    out->alpha2 = out->alpha2 > 0.0f ? out->alpha2 / weight + 2.0f * fmaxf(1.0f - n / weight, 0.0f) : 0.0f;
+    out->alpha2 = out->alpha2 > 0.0f ? out->alpha2 / weight + 6.0f * fmaxf(1.0f - n / weight, 0.0f) + 0.5f * fmaxf(1.0f - f / weight, 0.0f) : 0.0f;
     out->area = cell * cell;
 }
 
@@ -461,8 +469,8 @@ static int add_reflected(points *to, mix_job *j, report *r)
 /* --- their lights ------------------------------------------------------------------------------------------------- */
 
 /* Before the middle of a way's points, beyond the one that stands out most: a patch lies at the mean of its points, which of
- * a curved surface is within it, and a light there would see nothing. `clear`: how far beyond, m. */
-static void set_light(lmb_light *out, const point *p, size_t count, float clear)
+ * a curved surface is within it, and a light there would see nothing. `clear`: how far beyond, m. Returns their normal. */
+static lmb_vec3 set_light(lmb_light *out, const point *p, size_t count, float clear)
 {
     lmb_vec3 at = {0, 0, 0}, normal = {0, 0, 0};
     float weight = 0.0f, reach = 0.0f;
@@ -482,6 +490,7 @@ static void set_light(lmb_light *out, const point *p, size_t count, float clear)
     out->direction = (lmb_vec3){0, -1, 0};
     out->cos_inner = out->cos_outer = 1.0f;
     out->intensity[0] = out->intensity[1] = out->intensity[2] = 1.0f;
+    return normal;
 }
 
 /* Cells grow until patches are few enough for each pixel to ask them all. */
@@ -515,7 +524,7 @@ static int32_t make_patches(lmb_light out[MIX_WAYS], points *s, float side, mix_
             }
             gather(&p[n], &s->all[from], at - from, cell);
         }
-        set_light(&out[ways], &s->all[begins], at - begins, CLEAR * side);
+        j->sources->axis[ways] = set_light(&out[ways], &s->all[begins], at - begins, CLEAR * side);
         j->sources->first[++ways] = n;
     }
     return ways;

@@ -20,6 +20,7 @@ typedef struct mix_patch {
 typedef struct mix_sources {
     mix_patch *piece;
     int32_t first[MIX_WAYS + 1]; /* by light: pieces first[i] .. first[i + 1] - 1 */
+    lmb_vec3 axis[MIX_WAYS];     /* by light: the mean normal of what it stands for */
 } mix_sources;
 
 /* mix_sources_find: set j->sources, and the lights, `out`, of those ways that send something. The job's lights have their
