@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "../../tools/mix/mix_front.h"
+#include "../../tools/mix/mix_lights.h"
 #include "../photo_job.h"
 #include "../test.h"
 
@@ -460,7 +461,89 @@ static void sun_is_as_strong_as_shadows(void)
 {
     CHECK_MSG(fabsf(share_of(0.5f, 48) - 1.0f) < 0.1f, "%g", (double)share_of(0.5f, 48));
     CHECK_MSG(fabsf(share_of(0.6f, 48) - 0.667f) < 0.08f, "%g", (double)share_of(0.6f, 48));
-    CHECK(share_of(1.0f, 48) == 0.3f && share_of(0.5f, 1) == 0.3f && share_of(0.05f, 48) == 0.3f);
+    CHECK(share_of(1.0f, 48) == 0.0f && share_of(0.5f, 1) == 0.0f && share_of(0.05f, 48) == 0.0f);
+}
+
+/* A guessed sun's width in degrees for a floor half of which has `dark` of the light of the other half, and *up: what comes
+ * down on the floor of all light, over what the photo's floor shows. */
+static float guessed_size(float *up, float dark, float wall)
+{
+    char *object[] = {"--object", square, "--scale", "0.3", "--quiet"};
+    mix_job *j = begin(object, 5);
+    report r = {""};
+    float rgb[3];
+    set_depth(j, 2.5f, 1);
+    for (int i = 0; i < PIXELS; ++i) {
+        const float here = i / WIDTH < 52 ? wall : i % WIDTH < WIDTH / 2 ? dark : 1.0f;
+        for (int c = 0; c < 3; ++c) {
+            j->frame.light.pixels[3 * i + c] = GREY * here;
+        }
+    }
+    CHECK_MSG(place(j) && mix_light(j, &r) && j->light_count == MIX_SUN_SAMPLES, "%s", r.text);
+    lmb_env_irradiance(rgb, &j->env[0], (lmb_vec3){0, 1, 0});
+    *up = rgb[1];
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        *up -= j->lights[i].direction.y * j->lights[i].intensity[1];
+    }
+    *up /= 3.14159265f * GREY;
+    const float size = j->sun_size;
+    mix_job_free(j);
+    return size;
+}
+
+/* Without a shadow in the photo the sun is wide, with one it is small. A floor that is as bright as what is around is taken
+ * for grey; one that is three times as bright, for white: no surface reflects more light than there is. */
+static void sun_fits_the_photo(void)
+{
+    float plain, shadowed, bright;
+    const float wide = guessed_size(&plain, 1.0f, 1.0f), small = guessed_size(&shadowed, 0.45f, 1.0f);
+    guessed_size(&bright, 1.0f, 0.3f);
+    CHECK_MSG(wide > 40.0f && small < 10.0f, "%g, %g degrees", (double)wide, (double)small);
+    CHECK_MSG(plain > 1.5f && plain < 2.5f, "%g", (double)plain);
+    CHECK_MSG(bright > 1.2f && bright < 1.5f, "%g", (double)bright);
+}
+
+/* Tiles that no shadow of the object reaches are the photo's bit for bit, and the others are as if all lights had been
+ * asked for each of them: by a sun from a side, whose shadow is in the picture, and by a lamp. */
+static void lights_are_asked_where_they_change(void)
+{
+    static const char *const lights[2] = {"sun:0,0,0:1,-0.5,0.2:2,2,2:30", "point:-0.6,0.5,-1.2:0,-1,0:1,1,1:0.1"};
+    for (int i = 0; i < 2; ++i) {
+        char light[60];
+        char *more[] = {"--object", square, "--at", "40,66", "--scale", "0.2", "--turn", "60", "--light", light};
+        report r = {""};
+        int changed = 0, same = 0;
+        strcpy(light, lights[i]);
+        mix_job *j = begin(more, 10);
+        set_depth(j, 2.5f, 1);
+        CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
+        lmb_view view;
+        int32_t x0, y0;
+        CHECK(lmb_photo_view(&view, &x0, &y0, &j->frame.camera, &j->axes) == LMB_OK);
+        mix_lights_begin(j);
+        for (int t = 0; t < PIXELS / LMB_TILE_PIXELS; ++t) {
+            static lmb_tile tile;
+            static lmb_irradiance all[2], some[2];
+            lmb_real_tile(&tile, &j->cloud, &j->planes, &j->real, &j->axes, t % (WIDTH / LMB_TILE) * LMB_TILE,
+                          t / (WIDTH / LMB_TILE) * LMB_TILE);
+            memset(all, 0, sizeof all);
+            memset(some, 0, sizeof some);
+            for (int32_t k = 0; k < 2 * j->light_count; ++k) {
+                lmb_direct_tile(&all[k % 2], j->o.kernels, &tile, &view, &j->scene, &j->lights[k / 2],
+                                &j->maps[k / 2][k % 2]);
+            }
+            mix_lights_tile(&some[0], &some[1], j, &view, &tile);
+            if (memcmp(&all[0], &all[1], sizeof all[0]) != 0) {
+                CHECK_MSG(memcmp(all, some, sizeof all) == 0, "light %d, tile %d", i, t);
+                ++changed;
+            } else {
+                CHECK(memcmp(&some[0], &some[1], sizeof some[0]) == 0);
+                same += some[0].rgb[0][0] == 0.0f && all[0].rgb[0][0] > 0.0f;
+            }
+        }
+        CHECK_MSG(changed > 3 && same > 5, "light %d: %d tiles change, %d are not asked", i, changed, same);
+        mix_job_free(j);
+    }
 }
 
 /* A sun of 16 degrees lights the floor beside the shadow's middle in part, and one without a size does not. */
@@ -582,6 +665,8 @@ void test_mix(void)
     sun_is_from_a_side();
     sun_is_before_walls();
     sun_is_as_strong_as_shadows();
+    sun_fits_the_photo();
+    lights_are_asked_where_they_change();
     size_softens();
     stands_on_floor();
     touches(0.004f, 1);

@@ -3,9 +3,9 @@
 #include "mix_cones.h"
 #include "mix_front.h"
 #include "mix_carry.h"
+#include "mix_lights.h"
 #include "mix_lobes.h"
 #include "mix_near.h"
-#include "mix_sources.h"
 #include "mix_world.h"
 
 #include <stdlib.h>
@@ -94,19 +94,6 @@ static int draw_object(drawing *d, mix_job *j, report *r)
     return i == 0;
 }
 
-/* --- light -------------------------------------------------------------------------------------------------------- */
-
-static void add_lights(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int with)
-{
-    const int32_t told = j->light_count - j->lamp_count;
-    for (int32_t i = 0; i < told; ++i) {
-        lmb_direct_tile(inout, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][with]);
-    }
-    for (int32_t i = told; with && i < j->light_count; ++i) {
-        mix_sources_tile(inout, j, view, tile, i, 1);
-    }
-}
-
 /* --- tiles -------------------------------------------------------------------------------------------------------- */
 
 static void get_photo(lmb_radiance *out, const image *p, int32_t x, int32_t y)
@@ -130,7 +117,7 @@ static void put_tile(image *p, const lmb_radiance *in, int32_t x, int32_t y)
     }
 }
 
-static void light_object(drawing *d, const mix_job *j, const lmb_view *view)
+static void light_object(drawing *d, const mix_job *j, const lmb_view *view, int32_t sample)
 {
     memset(&d->lit, 0, sizeof d->lit);
     if (j->kept != NULL) {
@@ -138,7 +125,7 @@ static void light_object(drawing *d, const mix_job *j, const lmb_view *view)
     } else {
         mix_cones_tile(&d->lit, j, &d->object);
     }
-    mix_lobes_lights(&d->lobes, &d->lit, j, view, &d->object);
+    mix_lobes_lights(&d->lobes, &d->lit, j, view, &d->object, sample, d->samples);
     lmb_compose_tile(&d->light, j->o.kernels, &d->object, &d->lit, NULL);
     mix_lobes_finish(&d->light, &d->lobes, j, view, &d->object);
 }
@@ -195,7 +182,7 @@ static uint64_t put_sample(drawing *d, mix_job *j, const lmb_tile *real, int32_t
                          d->y0 + real->y) != LMB_OK || d->object.hits == 0) {
         return 0;
     }
-    light_object(d, j, view);
+    light_object(d, j, view, sample);
     mix_front_tile(&d->before, real, &d->object, j->front, &j->cloud, (float)view->sample_x * (1.0f / 256.0f),
                    (float)view->sample_y * (1.0f / 256.0f));
     return lmb_object_tile(&d->photo, &d->light, &d->object, &d->before, &j->cloud);
@@ -238,8 +225,8 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
     const lmb_tile *real = &d->batch.real[i];
     get_photo(&d->photo, &j->frame.light, real->x, real->y);
     const int is_kept = mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real);
-    for (int32_t with = 0; with < 2 && !is_kept; ++with) {
-        add_lights(&d->batch.light[with][i], j, &d->view[0], real, with);
+    if (!is_kept) {
+        mix_lights_tile(&d->batch.light[0][i], &d->batch.light[1][i], j, &d->view[0], real);
     }
     mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real); /* which has the lights */
     lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
@@ -321,6 +308,7 @@ static int take_rows(rows *out, mix_job *j, report *r)
 int mix_draw(mix_job *j, report *r)
 {
     rows all;
+    mix_lights_begin(j);
     if (!mix_again_take(j, r) || !mix_carry_take(j, r) || !find_front(j, r) || !take_rows(&all, j, r)) {
         return 0;
     }

@@ -38,6 +38,7 @@ typedef struct mix_kept {
     int32_t tracks, floor;  /* floor: the track of what the object stands on, or -1 */
     int has_sun;
     lmb_light sun;          /* guessed at the first frame */
+    float sun_size;
     lmb_env env;            /* around the first frame */
     void *env_memory;
     mix_depth depth;

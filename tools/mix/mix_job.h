@@ -8,7 +8,8 @@
 #include "../model/model.h"
 #include "mix_options.h"
 
-enum { MIX_BLOCKS = 128, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */ };
+enum { MIX_BLOCKS = 128, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */,
+       MIX_SUN_SAMPLES = 16 /* of a guessed one */ };
 
 struct mix_kept;
 struct mix_sources;
@@ -53,6 +54,8 @@ typedef struct mix_job {
     lmb_vec3 ball_at;                      /* likewise: a ball as large as its box */
     float ball_radius;
     int32_t track[LMB_MAX_PLANES]; /* of a sequence: each plane's number in it, or -1: it is new */
+    lmb_vec3 round_at;                     /* a ball that has all of it; mix_lights.h */
+    float round_radius;
     float *front;        /* 1/m, by pixel: what may hide the object; mix_front.h */
     lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
     lmb_mat4 from_world; /* to the scene's space */
@@ -73,7 +76,9 @@ typedef struct mix_job {
     float gap_m;         /* how much farther than it stands what was measured at its foot is, along the camera's axis */
     lmb_env env[2];      /* around the scene without and with the object */
     float dim[3];        /* what the object leaves of it, by channel */
-    lmb_light *lights;         /* those with a size are MIX_LIGHT_SAMPLES */
+    lmb_light *lights;         /* those with a size are MIX_LIGHT_SAMPLES, a guessed sun MIX_SUN_SAMPLES */
+    lmb_light sun;             /* where none is told, in the scene's space */
+    float sun_size;
     lmb_shadow_map (*maps)[2]; /* of each: without, with */
     int32_t light_count, lamp_count; /* the last ones are the object's own: they are there only with it */
     struct mix_sources *sources; /* what those send; NULL: none */
@@ -108,11 +113,12 @@ int mix_light(mix_job *j, report *r);       /* environment, lights and their map
 int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */
 
-/* mix_guess_sun: a sun for a photo that is given no light: from the side, about where the surroundings are brightest, so
- * strong that its shadows are as dark as those in the photo. mix_sun_share: what such a sun gives the floor for each
+/* mix_guess_sun: a sun for a photo that is given no light, and how wide it is, degrees: from the side, about where the
+ * surroundings are brightest; so strong that its shadows are as dark as those in the photo and that the photo's brightest
+ * surfaces are white; the less of it shadows tell, the wider. mix_sun_share: what such a sun gives the floor for each
  * unit that comes from everywhere else: of the photo's planes, by two brightnesses that each of them has, above
- * all of plane `floor` (-1: none). */
-void mix_guess_sun(lmb_light *out, const mix_job *j);
+ * all of plane `floor` (-1: none); 0 where none has two. */
+float mix_guess_sun(lmb_light *out, const mix_job *j);
 float mix_sun_share(const float *rgb, const lmb_planes *planes, const lmb_pinhole *camera, int32_t floor);
 
 /* mix_extent: the object's box in its own units. radius: of the cylinder that holds it, upright or out of its wall, and a

@@ -112,11 +112,10 @@ int mix_keep_light(mix_kept *k, const mix_job *j, report *r)
         return report_fail(r, "out of memory");
     }
     turn_env(&k->env, &j->env[0], &j->from_world);
-    k->has_sun = j->o.light_count == 0 && j->light_count - j->lamp_count == 1;
-    if (k->has_sun) {
-        k->sun = j->lights[0];
-        k->sun.direction = turned(&back, k->sun.direction);
-    }
+    k->has_sun = j->o.light_count == 0 && j->light_count > j->lamp_count;
+    k->sun = j->sun;
+    k->sun.direction = turned(&back, k->sun.direction);
+    k->sun_size = j->sun_size;
     return 1;
 }
 
@@ -152,23 +151,27 @@ static lmb_light placed(const mix_job *j, const lmb_light *from)
     return out;
 }
 
+static void add_light(mix_job *j, const lmb_light *light, float size, int32_t samples)
+{
+    if (size > 0.0f) {
+        area_light(j->lights + j->light_count, samples, light, size);
+    } else {
+        j->lights[j->light_count] = *light;
+    }
+    j->light_count += size > 0.0f ? samples : 1;
+}
+
 static void place_lights(mix_job *j)
 {
     for (int32_t i = 0; i < j->o.light_count; ++i) {
         const lmb_light light = placed(j, &j->o.lights[i]);
-        const int32_t samples = j->o.light_size[i] > 0.0f ? MIX_LIGHT_SAMPLES : 1;
-        if (samples == 1) {
-            j->lights[j->light_count] = light;
-        } else {
-            area_light(j->lights + j->light_count, samples, &light, j->o.light_size[i]);
-        }
-        j->light_count += samples;
+        add_light(j, &light, j->o.light_size[i], MIX_LIGHT_SAMPLES);
     }
 }
 
 static int take_lights(mix_job *j, report *r)
 {
-    size_t count = 1;
+    size_t count = MIX_SUN_SAMPLES;
     for (int32_t i = 0; i < j->o.light_count; ++i) {
         count += j->o.light_size[i] > 0.0f ? MIX_LIGHT_SAMPLES : 1;
     }
@@ -183,7 +186,7 @@ static int take_lights(mix_job *j, report *r)
 static int32_t map_side(const mix_job *j, int32_t light)
 {
     const int32_t given = j->o.shadow_map,
-                  side = j->light_count - j->lamp_count < MIX_LIGHT_SAMPLES || given < 16 ? given : given / 2;
+                  side = j->light_count - j->lamp_count < MIX_SUN_SAMPLES || given < 16 ? given : given / 2;
     return light < j->light_count - j->lamp_count || side <= 256 ? side : side / 8 > 256 ? side / 8 : 256;
 }
 
@@ -270,11 +273,12 @@ int mix_light(mix_job *j, report *r)
     if (j->o.light_count > 0) {
         place_lights(j);
     } else if (j->kept != NULL && j->kept->frames > 0 && j->kept->has_sun) {
-        j->lights[0] = placed(j, &j->kept->sun);
-        j->light_count = 1;
+        j->sun = placed(j, &j->kept->sun);
+        j->sun_size = j->kept->sun_size;
+        add_light(j, &j->sun, j->sun_size, MIX_SUN_SAMPLES);
     } else if (j->object_triangles > 0) {
-        mix_guess_sun(&j->lights[0], j);
-        j->light_count = 1;
+        j->sun_size = mix_guess_sun(&j->sun, j);
+        add_light(j, &j->sun, j->sun_size, MIX_SUN_SAMPLES);
     }
     return check_lights(j, r) && draw_maps(j, 0, r) && add_own(j, r) &&
            (!is_folded(j) || !has_lamps(j) || mix_around(j, r));

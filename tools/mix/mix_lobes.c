@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { PARTS = 4 /* of a guessed sun's places, one for each sample */ };
+
 #define THROWN 0.65f /* of what bounces to a metal, what it throws to all sides: the rest goes one way */
 #define MATT 0.08f /* reflectance of what is no metal, at most */
 
@@ -52,18 +54,43 @@ static void add_light(lmb_irradiance *inout, const mix_job *j, const lmb_view *v
     }
 }
 
+/* What lobes are wider by, so that places of a guessed sun make one highlight and no dots: alpha2 of half vectors, by what
+ * each place stands for of it. */
+static float sun_spread(const mix_job *j)
+{
+    const float reach = j->sun_size * 0.00872664626f;
+    return reach * reach * (1.0f / MIX_SUN_SAMPLES);
+}
+
+static void widen(lmb_glossy *lobes, float by)
+{
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        lobes->alpha2[k] = fminf(lobes->alpha2[k] + by, 1.0f);
+    }
+}
+
 void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
-                      const lmb_tile *object)
+                      const lmb_tile *object, int32_t sample, int32_t samples)
 {
     const int is_glossy = lmb_glossy_tile(&out->lobes, object, view, &j->scene);
+    const int32_t told = j->light_count - j->lamp_count,
+                  parts = j->o.light_count == 0 && told == MIX_SUN_SAMPLES && samples > 1 ? PARTS : 1;
     for (int32_t i = 0; i < j->light_count; ++i) {
-        if (!is_glossy) {
-            add_light(inout, j, view, object, i);
+        if (i < told && i % parts != sample % parts) {
             continue;
         }
         memset(&out->one, 0, sizeof out->one);
         add_light(&out->one, j, view, object, i);
-        lmb_glossy_direct(&out->lobes, j->o.kernels, object, &out->one, &j->lights[i]);
+        for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+            out->one.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= i < told ? (float)parts : 1.0f;
+        }
+        if (is_glossy) {
+            float own[LMB_TILE_PIXELS];
+            memcpy(own, out->lobes.alpha2, sizeof own);
+            widen(&out->lobes, parts > 1 && i < told ? sun_spread(j) : 0.0f);
+            lmb_glossy_direct(&out->lobes, j->o.kernels, object, &out->one, &j->lights[i]);
+            memcpy(out->lobes.alpha2, own, sizeof own);
+        }
         for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
             inout->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] += out->one.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
         }

@@ -9,9 +9,11 @@
 
 enum { BINS = 96, BINS_A_STOP = 8 };
 
-/* Without contrast there is still some sun, for objects without a shadow seem to float. A contrast of more stops is a
- * picture's on a wall, not a shadow's; the plane that the object stands on says more, and has few pictures. */
-#define SHARE_MIN 0.3f
+/* Where no shadow tells, light still comes from one side more than from others: rooms and grounds of measure-sun want nine
+ * tenths of what comes from everywhere. Told surroundings have their own sides. A contrast of more stops is a picture's on
+ * a wall, not a shadow's; the plane that the object stands on says more, and has few pictures. */
+#define SHARE_MIN  0.9f
+#define SHARE_TOLD 0.3f
 #define SHARE_MAX 4.0f
 #define WALL_STOPS  2.0
 #define FLOOR_STOPS 3.5
@@ -125,7 +127,7 @@ float mix_sun_share(const float *rgb, const lmb_planes *planes, const lmb_pinhol
     free(brightness);
     const double stops = brightness != NULL && all > 0.0 ? median(of, planes->count, all) : 0.0;
     const double counted = blocks > 0.0 ? fmin(4.0 * all / blocks, 1.0) : 0.0;
-    return fminf(fmaxf((float)(counted * (exp2(stops) - 1.0)), SHARE_MIN), SHARE_MAX);
+    return fminf((float)(counted * (exp2(stops) - 1.0)), SHARE_MAX);
 }
 
 /* --- direction ---------------------------------------------------------------------------------------------------- */
@@ -227,11 +229,95 @@ static lmb_vec3 direction(const mix_job *j)
     return best;
 }
 
-void mix_guess_sun(lmb_light *out, const mix_job *j)
+/* --- what is around and too dark ---------------------------------------------------------------------------------- */
+
+/* Hardly a surface reflects more than WHITE. Where the photo shows brighter ones than what is around would make of such,
+ * there is light from where it shows nothing: all that is around, and the sun, are as much brighter. Lamps and windows are
+ * brighter than white; the surface is asked that is as bright as BRIGHTEST of all. */
+#define WHITE     0.8f
+#define BRIGHTEST 0.95
+#define MORE_MAX  4.0f
+#define NEAR      1.0f /* m, beside the object's height: light differs from place to place */
+
+static float grey(const float *rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
+
+static float grey_around(const mix_job *j, lmb_vec3 normal)
+{
+    float rgb[3];
+    lmb_env_irradiance(rgb, &j->env[0], normal);
+    return grey(rgb);
+}
+
+/* The mean brightness of a block's measured pixels, and the normal at its middle; 0: hardly one is measured, or it lies
+ * farther from where the object stands. */
+static int block_seen(float *brightness, lmb_vec3 *normal, const mix_job *j, int32_t x0, int32_t y0,
+                      float near)
+{
+    const int32_t w = j->frame.camera.width, at = (y0 + LMB_TILE / 2) * w + x0 + LMB_TILE / 2;
+    const uint8_t label = j->planes.label[at];
+    float all = 0.0f;
+    int32_t n = 0;
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t i = (y0 + k / LMB_TILE) * w + x0 + k % LMB_TILE;
+        if (j->cloud.inverse[i] > 0.0f) {
+            all += grey(j->frame.light.pixels + 3 * (size_t)i);
+            ++n;
+        }
+    }
+    *brightness = all / fmaxf((float)n, 1.0f);
+    *normal = lmb_axes_turn(&j->axes, label > 0 ? j->planes.plane[label - 1].normal : j->cloud.normal[at]);
+    const lmb_vec3 off = sum(1.0f, lmb_cloud_point(&j->cloud, at % w, at / w), -1.0f, j->anchor);
+    return n > LMB_TILE_PIXELS / 2 && j->cloud.inverse[at] > 0.0f && along(off, off) < near * near;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* How much brighter all light is than what is around with a sun from there, of so much by its cosine. */
+static float brighter(const mix_job *j, lmb_vec3 from, float sun)
+{
+    const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
+    const float near = NEAR + mix_extent_of(j).longest * j->scale;
+    float *more = malloc((size_t)(w / LMB_TILE + 1) * (size_t)(h / LMB_TILE + 1) * sizeof *more);
+    size_t n = 0;
+    for (int32_t y = 0; more != NULL && y + LMB_TILE <= h; y += LMB_TILE) {
+        for (int32_t x = 0; x + LMB_TILE <= w; x += LMB_TILE) {
+            lmb_vec3 normal;
+            float brightness;
+            if (block_seen(&brightness, &normal, j, x, y, near)) {
+                const float light = grey_around(j, normal) + sun * fmaxf(along(normal, from), 0.0f);
+                more[n++] = 3.14159265f / WHITE * brightness / fmaxf(light, 1e-9f);
+            }
+        }
+    }
+    if (n > 0) {
+        qsort(more, n, sizeof *more, by_value);
+    }
+    const float out = n > 0 ? more[(size_t)(BRIGHTEST * (double)(n - 1))] : 1.0f;
+    free(more);
+    return fminf(fmaxf(out, 1.0f), MORE_MAX);
+}
+
+/* Degrees: where no shadow tells of a sun, it is as wide as windows and many lamps are; where shadows are twice as dark as
+ * what is beside them, small. */
+#define SOFT  60.0f
+#define SHARP 3.0f
+
+float mix_guess_sun(lmb_light *out, const mix_job *j)
 {
     float around[3];
     const lmb_vec3 faces = j->hangs ? in_front(j) : (lmb_vec3){0, 1, 0}, from = direction(j);
-    const float share = mix_sun_share(j->frame.light.pixels, &j->planes, &j->frame.camera, j->floor);
+    const float shadows = mix_sun_share(j->frame.light.pixels, &j->planes, &j->frame.camera, j->floor),
+                share = fmaxf(shadows, j->o.world != NULL ? SHARE_TOLD : SHARE_MIN),
+                size = SOFT + (SHARP - SOFT) * fminf(shadows, 1.0f),
+                more = j->o.world != NULL
+                           ? 1.0f
+                           : brighter(j, from, share * grey_around(j, faces) / along(from, faces)),
+                by[3] = {more, more, more};
+    lmb_env_dim(&j->env[0], &j->env[0], by);
     const lmb_axes *a = &j->axes;
     memset(out, 0, sizeof *out);
     out->kind = LMB_LIGHT_DIRECTIONAL;
@@ -243,8 +329,9 @@ void mix_guess_sun(lmb_light *out, const mix_job *j)
     }
     report_note(j->o.is_quiet,
                 "no light given: guessed a sun from a side, near where the surroundings are brightest, %.2f as strong "
-                "as they; --light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f in the camera's space",
-                (double)share, -(double)along(a->right, from), -(double)along(a->up, from),
+                "as they, which are %.2f times as bright as the photo has them; --light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f:%.0f in the camera's space",
+                (double)share, (double)more, -(double)along(a->right, from), -(double)along(a->up, from),
                 -(double)along(a->back, from), (double)out->intensity[0], (double)out->intensity[1],
-                (double)out->intensity[2]);
+                (double)out->intensity[2], (double)size);
+    return size;
 }

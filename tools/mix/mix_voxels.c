@@ -10,7 +10,7 @@
 
 #include "../../platform/host/host.h"
 
-enum { TREE_SIZE = 512, TURNS = 4 };
+enum { TREE_SIZE = 512, TURNS = 4, ASKED = 4 /* lights of many, for colours */ };
 
 /* The cube around the object is so many times as wide as it is. */
 #define ROOM 4.0f
@@ -32,9 +32,13 @@ typedef struct colour {
 /* A pixel's irradiance without the object: lights, and what is around as if nothing were in its way. */
 static void light_tile(lmb_irradiance *out, mix_job *j, const lmb_tile *tile, const lmb_view *view)
 {
+    const int32_t told = j->light_count - j->lamp_count, step = told < MIX_SUN_SAMPLES ? 1 : told / ASKED;
     memset(out, 0, sizeof *out);
-    for (int32_t i = 0; i < j->light_count - j->lamp_count; ++i) {
+    for (int32_t i = 0; i < told; i += step) {
         lmb_direct_tile(out, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][0]);
+    }
+    for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+        out->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= (float)step; /* those that are one stand for it */
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         float rgb[3];
@@ -160,7 +164,7 @@ static int map_texels(mix_job *j, points *p, int32_t light, const lmb_shadow_map
 /* As many texels for the many lights that make one shadow together as for one. */
 static int32_t tree_side(const mix_job *j, int32_t map)
 {
-    const int32_t cap = j->light_count < MIX_LIGHT_SAMPLES && j->lamp_count == 0 ? TREE_SIZE : TREE_SIZE / 4;
+    const int32_t cap = j->light_count < MIX_SUN_SAMPLES && j->lamp_count == 0 ? TREE_SIZE : TREE_SIZE / 4;
     const int32_t low = map / 8 > cap ? map / 8 : cap;
     return map < cap ? map : low;
 }

@@ -18,6 +18,7 @@
 #include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/mix/mix_mirror.h"
 #include "../../../tools/mix/mix_sources.h"
+#include "../../../tools/mix/mix_lights.h"
 #include "../../../tools/picture/image.h"
 #include "../../../tools/relief/relief_compare.h"
 #include "../../../tools/relief/relief_path.h"
@@ -265,7 +266,16 @@ void mix_again_keep(mix_job *j, const lmb_tile *real, const lmb_irradiance *with
 {
     (void)j, (void)real, (void)without, (void)with, (void)object, (void)covered;
 }
-void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
+void mix_lights_begin(mix_job *j) { (void)j; }
+void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_view *view,
+                     const lmb_tile *real)
+{
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        lmb_direct_tile(without, j->o.kernels, real, view, &j->scene, &j->lights[i], &j->maps[i][0]);
+        lmb_direct_tile(with, j->o.kernels, real, view, &j->scene, &j->lights[i], &j->maps[i][1]);
+    }
+}
+float mix_guess_sun(lmb_light *out, const mix_job *j) { return *out = j->o.lights[0], 0.0f; }
 
 /* --- mix_lobes.h, mix_mirror.h, mix_sources.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
 
@@ -284,8 +294,9 @@ void mix_sources_texels(lmb_texel *inout, int32_t size, double elsewhere[3], con
 }
 int mix_lobes_bounces(mix_job *j, report *r) { return (void)r, j->bounces = &j->scene, 1; }
 void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
-                      const lmb_tile *object)
+                      const lmb_tile *object, int32_t sample, int32_t samples)
 {
+    (void)sample, (void)samples;
     (void)out;
     for (int32_t i = 0; i < j->light_count; ++i) {
         lmb_direct_tile(inout, j->o.kernels, object, view, &j->scene, &j->lights[i], &j->maps[i][1]);

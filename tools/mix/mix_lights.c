@@ -1,0 +1,105 @@
+/* mix_lights.c: lights' light on real surfaces, without and with the object. */
+#include "mix_lights.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "mix_sources.h"
+
+enum { FEW = 4 };
+
+typedef struct sphere {
+    lmb_vec3 at;
+    float radius;
+} sphere;
+
+static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b)
+{
+    const lmb_vec3 out = {a.x - b.x, a.y - b.y, a.z - b.z};
+    return out;
+}
+
+void mix_lights_begin(mix_job *j)
+{
+    lmb_vec3 low, high;
+    mix_object_box(&low, &high, j);
+    const lmb_vec3 side = less(high, low);
+    j->round_at = (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
+    j->round_radius = 0.5f * sqrtf(dot(side, side));
+}
+
+/* Of the tile's places; radius under 0: it has none. */
+static sphere sphere_of(const lmb_tile *t)
+{
+    sphere s = {{0, 0, 0}, -1.0f};
+    float n = 0.0f, far = -1.0f;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (t->id[k] != 0) {
+            s.at = (lmb_vec3){s.at.x + t->position[0][k], s.at.y + t->position[1][k], s.at.z + t->position[2][k]};
+            n += 1.0f;
+        }
+    }
+    s.at = (lmb_vec3){s.at.x / fmaxf(n, 1.0f), s.at.y / fmaxf(n, 1.0f), s.at.z / fmaxf(n, 1.0f)};
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const lmb_vec3 p = {t->position[0][k], t->position[1][k], t->position[2][k]}, off = less(p, s.at);
+        far = t->id[k] != 0 ? fmaxf(far, dot(off, off)) : far;
+    }
+    s.radius = n > 0.0f ? sqrtf(far) : -1.0f;
+    return s;
+}
+
+/* Can the object lie between any place of a ball and a light? All ways to it pass within the ball's radius of that from
+ * its middle; and what is in a map is up to some of its texels wider. */
+static int may_shadow(const mix_job *j, const sphere *s, int32_t light)
+{
+    const lmb_light *l = &j->lights[light];
+    const lmb_shadow_map *map = &j->maps[light][1];
+    const int is_sun = l->kind == LMB_LIGHT_DIRECTIONAL;
+    const lmb_vec3 to = less(j->round_at, s->at), zero = {0, 0, 0}, from_light = less(j->round_at, l->position),
+                   way = is_sun ? less(zero, l->direction) : less(l->position, s->at);
+    const float texel = 2.0f * map->view[0].half_width / (float)map->size * (is_sun ? 1.0f : sqrtf(dot(from_light, from_light)));
+    const float reach = j->round_radius + 4.0f * texel + s->radius, length2 = fmaxf(dot(way, way), 1e-20f),
+                along = fmaxf(dot(to, way) / length2, 0.0f), t = is_sun ? along : fminf(along, 1.0f);
+    const lmb_vec3 off = {to.x - t * way.x, to.y - t * way.y, to.z - t * way.z};
+    return !(dot(off, off) > reach * reach);
+}
+
+static void add(lmb_irradiance *inout, const lmb_irradiance *one, float times)
+{
+    for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+        inout->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] +=
+            times * one->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
+    }
+}
+
+void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_view *view,
+                     const lmb_tile *real)
+{
+    const sphere s = sphere_of(real);
+    const int32_t told = j->light_count - j->lamp_count;
+    int falls = 0;
+    for (int32_t i = 0; !falls && i < told; ++i) {
+        falls = may_shadow(j, &s, i);
+    }
+    if (!(s.radius >= 0.0f) || (!falls && j->lamp_count == 0 && memcmp(without, with, sizeof *with) == 0)) {
+        return;
+    }
+    const int32_t step = falls || told < MIX_SUN_SAMPLES ? 1 : told / FEW;
+    for (int32_t i = 0; i < told; i += step) {
+        for (int k = 0; k < 2; ++k) {
+            lmb_irradiance one;
+            memset(&one, 0, sizeof one);
+            lmb_direct_tile(&one, j->o.kernels, real, view, &j->scene, &j->lights[i], &j->maps[i][k]);
+            add(k == 0 ? without : with, &one, (float)step);
+            if (k == 0 && !may_shadow(j, &s, i)) {
+                add(with, &one, (float)step);
+                break;
+            }
+        }
+    }
+    for (int32_t i = told; i < j->light_count; ++i) {
+        mix_sources_tile(with, j, view, real, i, 1);
+    }
+}
