@@ -38,7 +38,7 @@ void bake_generations(bake_cluster *c, uint32_t count, float cell)
 /* --- shares: a row as a sum of its parents', by least squares over few sums --------------------------------------- */
 
 typedef struct fit {
-    float row[BAKE_PARENTS + 1][AXES * GROUPS]; /* parents; the child */
+    const float *row[BAKE_PARENTS + 1]; /* parents; the child: AXES x GROUPS sums */
     float product[BAKE_PARENTS][BAKE_PARENTS + 1];
 } fit;
 
@@ -102,24 +102,27 @@ static int nearest(uint32_t best[BAKE_PARENTS], const bake_cluster *c, uint32_t 
 
 int bake_parents(bake *b, report *r)
 {
-    fit *f = malloc(sizeof *f);
-    if (f == NULL) {
+    enum { SUMS = AXES * GROUPS };
+    fit f;
+    float *sums = malloc(((size_t)b->cluster_count + 1) * SUMS * sizeof *sums); /* a cluster has many children */
+    if (sums == NULL) {
         return report_fail(r, "not enough memory for clusters");
     }
     for (uint32_t i = 0; i < b->cluster_count; ++i) {
         bake_target *t = &b->cluster[i].target;
         const int parents = nearest(t->parent, b->cluster, i, &b->cluster[i], b->set.cluster_m);
         memset(t->share, 0, sizeof t->share);
-        set_row(f->row[BAKE_PARENTS], t->row, b->set.elements);
+        set_row(sums + SUMS * (size_t)i, t->row, b->set.elements);
+        f.row[BAKE_PARENTS] = sums + SUMS * (size_t)i;
         for (int k = 0; k < parents; ++k) {
-            set_row(f->row[k], b->cluster[t->parent[k]].target.row, b->set.elements);
+            f.row[k] = sums + SUMS * (size_t)t->parent[k];
         }
-        solve(f, t->share, parents);
+        solve(&f, t->share, parents);
         for (int k = 0; k < BAKE_PARENTS; ++k) { /* as the file has them */
             t->share[k] = (float)(uint32_t)(t->share[k] * 255.0f) * (1.0f / 255.0f);
             t->parent[k] = t->share[k] > 0.0f ? t->parent[k] : 0;
         }
     }
-    free(f);
+    free(sums);
     return 1;
 }

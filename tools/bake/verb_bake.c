@@ -112,7 +112,9 @@ static const option_table table = {
              "reflections: the insides of solids, and closed rooms without a light or camera, for which --eye is. Of a "
              "scene with more than 64 cameras the first 64 count.\n"
              "Takes seconds to minutes, and memory while it does: 2 bytes x elements x receivers, 6 bytes x elements x "
-             "clusters, and up to 100 MB beside the scene's own; by default half a gigabyte for a room.",
+             "clusters, and up to 100 MB beside the scene's own; by default half a gigabyte for a room.\n"
+             "Slices run at the same time, on machines that share the output's folder: in OUT.shared they pass on what they "
+             "have made. What one does not find there in time it makes itself.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
                 "  lambent render demo --transfer demo.lmt -o demo.png\n"
