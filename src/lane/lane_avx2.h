@@ -192,6 +192,13 @@ static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
     __m256i *at = (__m256i *)(void *)p;
     _mm256_storeu_si256(at, _mm256_max_epu16(_mm256_loadu_si256(at), code));
 }
+/* The same of left halves of rows and right ones, which narrowing puts side by side. */
+static inline void lane_raise_u16_halves(uint16_t *p, lane left, lane right)
+{
+    const __m256i code = _mm256_packus_epi32(_mm256_cvttps_epi32(left), _mm256_cvttps_epi32(right));
+    __m256i *at = (__m256i *)(void *)p;
+    _mm256_storeu_si256(at, _mm256_max_epu16(_mm256_loadu_si256(at), code));
+}
 static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
 {
     __m128i *at = (__m128i *)(void *)p;

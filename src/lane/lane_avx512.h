@@ -205,6 +205,12 @@ static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
     const __m512i code = _mm512_permutexvar_epi64(_mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7), mixed);
     _mm512_storeu_si512(p, _mm512_max_epu16(_mm512_loadu_si512(p), code));
 }
+/* The same of left halves of rows and right ones, which narrowing puts side by side. */
+static inline void lane_raise_u16_halves(uint16_t *p, lane left, lane right)
+{
+    const __m512i code = _mm512_packus_epi32(_mm512_cvttps_epi32(left), _mm512_cvttps_epi32(right));
+    _mm512_storeu_si512(p, _mm512_max_epu16(_mm512_loadu_si512(p), code));
+}
 static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
 {
     avx512_put_rows_u16(p, step, _mm256_mask_blend_epi16(m, avx512_rows_u16(p, step), _mm256_set1_epi16((short)id)));

@@ -187,6 +187,13 @@ typedef struct large_plane {
 #endif
 } large_plane;
 
+/* A row's lanes are all alike, which gcc would see: it would add d to one and spread each sum, eight times a tile. */
+#if LANES == LMB_TILE && defined(__GNUC__)
+#define LARGE_VECTOR(v) __asm__("" : "+x"(v))
+#else
+#define LARGE_VECTOR(v) ((void)0)
+#endif
+
 #if LANES >= LMB_TILE
 LANE_INLINE void large_plane_set(large_plane *p, const fill_triangle *t)
 {
@@ -198,6 +205,14 @@ LANE_INLINE void large_plane_set(large_plane *p, const fill_triangle *t)
 #if LANES == LMB_TILE
     p->y4 = lane_mul(dy, lane_row(4 * LANES)), p->y5 = lane_mul(dy, lane_row(5 * LANES));
     p->y6 = lane_mul(dy, lane_row(6 * LANES)), p->y7 = lane_mul(dy, lane_row(7 * LANES));
+    LARGE_VECTOR(p->y0);
+    LARGE_VECTOR(p->y1);
+    LARGE_VECTOR(p->y2);
+    LARGE_VECTOR(p->y3);
+    LARGE_VECTOR(p->y4);
+    LARGE_VECTOR(p->y5);
+    LARGE_VECTOR(p->y6);
+    LARGE_VECTOR(p->y7);
 #endif
 }
 
@@ -230,6 +245,40 @@ LANE_INLINE void large_whole(const lmb_fill_tile *tile, const large_plane *p, fl
     large_put(tile, p, 7 * LANES, lane_add(d, p->y7), kind);
 #endif
 }
+
+/* LANES / 4 rows of codes, from pixel `at` of a tile on: left halves of rows and right ones, which narrowing leaves in
+ * their order. row: d + dy y. */
+LANE_INLINE void large_put_codes(const lmb_fill_tile *tile, const lmb_fill_job *job, int at, lane row, lane left,
+                                 lane right)
+{
+    const lane scale = lane_splat(job->d_scale), bias = lane_splat(job->d_bias);
+    lane_raise_u16_halves((uint16_t *)tile->depth + at, lane_add(lane_mul(lane_add(row, left), scale), bias),
+                          lane_add(lane_mul(lane_add(row, right), scale), bias));
+}
+
+/* `count` tiles of codes inside all edges whose depths are all in the triangle's range. */
+LANE_INLINE void large_codes(const lmb_fill_window *w, lmb_fill_tile *tile, const lmb_fill_job *job, const float *d,
+                             int32_t count)
+{
+    static const float column[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3},
+                       row[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+    const lane dx = lane_splat(job->dx), dy = lane_splat(job->dy), x = lane_load(column), y = lane_load(row);
+    const lane left = lane_mul(dx, x), right = lane_mul(dx, lane_add(x, lane_splat(4.0f)));
+    const lane y0 = lane_mul(dy, y), y1 = lane_mul(dy, lane_add(y, lane_splat((float)(LANES / 4))));
+#if LANES == LMB_TILE
+    const lane y2 = lane_mul(dy, lane_add(y, lane_splat(4.0f))), y3 = lane_mul(dy, lane_add(y, lane_splat(6.0f)));
+#endif
+    for (int32_t i = 0; i < count; ++i) {
+        const lane first = lane_splat(d[i]);
+        large_put_codes(tile, job, 0, lane_add(first, y0), left, right);
+        large_put_codes(tile, job, 2 * LANES, lane_add(first, y1), left, right);
+#if LANES == LMB_TILE
+        large_put_codes(tile, job, 4 * LANES, lane_add(first, y2), left, right);
+        large_put_codes(tile, job, 6 * LANES, lane_add(first, y3), left, right);
+#endif
+        large_next(w, tile, 1);
+    }
+}
 #endif
 
 /* `count` tiles inside all edges, which `tile` moves past; d: the depths at their first pixels. */
@@ -244,6 +293,10 @@ LANE_INLINE void large_run(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fi
         }
         return;
     }
+    if (kind == FILL_CODES && !clamped) {
+        large_codes(w, tile, job, d, count);
+        return;
+    }
 #endif
     (void)plane, (void)kind;
     for (int32_t i = 0; i < count; ++i) {
@@ -254,6 +307,63 @@ LANE_INLINE void large_run(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fi
             fill_inside(tile, job, t, 0);
         }
         large_next(w, tile, 1);
+    }
+}
+
+#if LANES > 1
+/* The code of a depth of the triangle, in which codes are held. */
+LANE_INLINE int32_t large_code(const lmb_fill_job *job, float d)
+{
+    d = minf(maxf(d, job->d_min), job->d_max);
+    return (int32_t)maxf(d * job->d_scale + job->d_bias, 0.0f);
+}
+
+/* The code that all corners of a tile take, and so (all is monotone) all of its pixels; -1 where there is none. */
+LANE_INLINE int32_t large_tile_code(const lmb_fill_job *job, float d)
+{
+    const float right = job->dx * (float)(LMB_TILE - 1), below = d + job->dy * (float)(LMB_TILE - 1);
+    const int32_t code = large_code(job, d);
+    return code == large_code(job, d + right) && code == large_code(job, below) &&
+                   code == large_code(job, below + right)
+               ? code
+               : -1;
+}
+
+/* `count` tiles inside all edges, from x_24_8 on, whose first and last, and so all, take one code, as surfaces do that
+ * face the viewer. 0, and nothing drawn, where they do not. */
+LANE_INLINE int large_run_code(const lmb_fill_window *w, const lmb_setup *s, lmb_fill_tile *tile,
+                               const lmb_fill_job *job, int32_t x_24_8, int32_t count, double d_row)
+{
+    const int32_t code = large_tile_code(job, large_depth(s, x_24_8, d_row));
+    const lane all = lane_splat((float)code);
+    if (code < 0 || code != large_tile_code(job, large_depth(s, x_24_8 + (count - 1) * (LMB_TILE * 256), d_row))) {
+        return 0;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        for (int k = 0; k < LMB_TILE_PIXELS; k += 2 * LANES) {
+            lane_raise_u16((uint16_t *)tile->depth + k, all, all);
+        }
+        large_next(w, tile, 1);
+    }
+    return 1;
+}
+#endif
+
+/* `count` tiles inside all edges, from x_24_8 on, which `tile` moves past. */
+LANE_INLINE void large_inside_tiles(const lmb_fill_window *w, const lmb_setup *s, const fill_triangle *t,
+                                    const large_plane *plane, lmb_fill_tile *tile, lmb_fill_job *job, int32_t x_24_8,
+                                    int32_t count, double d_row, int kind)
+{
+#if LANES > 1
+    if (kind == FILL_CODES && large_run_code(w, s, tile, job, x_24_8, count, d_row)) {
+        return;
+    }
+#endif
+    const int clamped = LANES == 1 || !large_in_range(s, job, x_24_8, count, d_row);
+    for (int32_t i = 0; i < count; i += LANES) {
+        float d[LANES];
+        lane_store(d, large_depths(s->d_origin, s->d_x, x_24_8 + i * (LMB_TILE * 256), d_row));
+        large_run(w, tile, job, t, plane, d, count - i < LANES ? count - i : LANES, clamped, kind);
     }
 }
 
@@ -272,12 +382,7 @@ LANE_INLINE void large_row(const lmb_fill_window *w, const lmb_setup *s, const f
             entered = 1;
             n = large_inside(edges, at, count, LARGE_LEAP);
             if (n > 0) {
-                const int clamped = LANES == 1 || !large_in_range(s, job, x_24_8, n, d_row);
-                for (int32_t i = 0; i < n; i += LANES) {
-                    float d[LANES];
-                    lane_store(d, large_depths(s->d_origin, s->d_x, x_24_8 + i * (LMB_TILE * 256), d_row));
-                    large_run(w, tile, job, t, plane, d, n - i < LANES ? n - i : LANES, clamped, kind);
-                }
+                large_inside_tiles(w, s, t, plane, tile, job, x_24_8, n, d_row, kind);
             } else {
                 n = 1;
                 job->d = large_depth(s, x_24_8, d_row);

@@ -40,6 +40,7 @@ typedef struct canvas {
     lmb_target target;
     lmb_surface out; /* data NULL: depth only */
     void *depth, *id, *rgba, *linear;
+    void *own_depth, *own_id; /* what depth and id lie in */
     size_t linear_bytes;
     lmb_culling culling; /* clusters NULL: lmb_draw */
     lmb_bins bins;       /* memory NULL: straight from the mesh */
@@ -110,10 +111,18 @@ static void draw_frame(canvas *c, const bench_scene *s, const lmb_kernels *kerne
 
 /* --- one case ----------------------------------------------------------------------------------------------------- */
 
+/* Surfaces lie on cache lines: vectors as wide as those would else lie in two each, which took a fifth longer. */
+enum { LINE = 64 };
+
+static void *on_line(void *own)
+{
+    return own != NULL ? (uint8_t *)own + (LINE - (uintptr_t)own % LINE) % LINE : NULL;
+}
+
 static void canvas_free(canvas *c)
 {
-    free(c->depth);
-    free(c->id);
+    free(c->own_depth);
+    free(c->own_id);
     free(c->rgba);
     free(c->linear);
     free(c->farthest);
@@ -141,8 +150,10 @@ static int canvas_make(canvas *c, const bench_case *k, const bench_scene *s, con
     const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, k->width, k->height),
                  id = lmb_surface_bytes(LMB_ID32, k->width, k->height);
     memset(c, 0, sizeof *c);
-    c->depth = malloc(depth);
-    c->id = colours ? malloc(id) : NULL;
+    c->own_depth = malloc(depth + LINE);
+    c->own_id = colours ? malloc(id + LINE) : NULL;
+    c->depth = on_line(c->own_depth);
+    c->id = on_line(c->own_id);
     c->rgba = colours ? malloc(4 * pixels) : NULL;
     c->linear = o->linear ? malloc(4 * pixels) : NULL;
     c->linear_bytes = 4 * pixels;
