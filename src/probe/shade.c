@@ -137,7 +137,7 @@ static void add_change(float facets[LMB_TILE_PIXELS], float all[LMB_TILE_PIXELS]
     const lmb_vec3 before = tile_vec(t->normal, k - step), after = tile_vec(t->normal, k + step);
     const lmb_vec3 along = sub3(after, before), off = sub3(add3(before, after), mul3(tile_vec(t->normal, k), 2.0f));
     for (int i = k - step; i <= k + step; i += step) {
-        facets[i] += FACETS * dot3(off, off);
+        facets[i] += dot3(off, off);
         all[i] += dot3(along, along);
     }
 }
@@ -163,7 +163,7 @@ static void spread(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pixels)
     }
     for (uint64_t bits = several; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits), x = k % LMB_TILE;
-        const float part = minf(facets[k] / maxf(all[k], 1e-12f), 1.0f);
+        const float part = minf(FACETS * facets[k] / maxf(all[k], 1e-12f), 1.0f);
         float sum[3] = {0.0f, 0.0f, 0.0f}, weights = 0.0f;
         for (int i = 0; i < 9; ++i) {
             const int at = k + LMB_TILE * (i / 3 - 1) + i % 3 - 1;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../src/base/codec.h"
+#include "../model/model.h"
 
 #define DEGREES 57.295779513082323
 
@@ -209,19 +210,26 @@ static double diagonal(const lmb_scene *s)
     return sqrt(x * x + y * y + z * z);
 }
 
-int relief_tell(const relief_frame *f, relief_shot shot, const lmb_scene *model, report *r)
+int relief_tell(const relief_frame *f, relief_shot shot, const char *path, report *r)
 {
+    static model_notes notes;
+    model complex;
     relief_frame truth;
     relief_figures e;
-    shot.relief = NULL;
-    shot.scene = model;
-    if (!relief_shoot(&truth, &shot, r)) {
+    memset(&notes, 0, sizeof notes);
+    if (!model_load(&complex, path, NULL, &notes, r)) {
         return 0;
     }
-    const int ok = relief_measure(&e, f, &truth, diagonal(model), r);
+    shot.relief = NULL;
+    shot.scene = &complex.scene;
+    int ok = relief_shoot(&truth, &shot, r);
     if (ok) {
-        tell_compared(f, &truth, &e);
+        ok = relief_measure(&e, f, &truth, diagonal(&complex.scene), r);
+        if (ok) {
+            tell_compared(f, &truth, &e);
+        }
+        relief_frame_free(&truth);
     }
-    relief_frame_free(&truth);
+    model_free(&complex);
     return ok;
 }

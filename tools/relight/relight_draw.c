@@ -8,7 +8,6 @@
 
 #include "../../platform/host/pool.h"
 #include "../common/binned.h"
-#include "../common/frame_name.h"
 #include "../common/progress.h"
 #include "../common/view_frame.h"
 #include "../picture/picture.h"
@@ -224,25 +223,13 @@ static int write(stage *s, const char *path, report *r)
     return picture_write(path, &s->picture, s->o->exposure_ev, s->o->tone, r);
 }
 
-static int draw_along(stage *s, report *r)
+static int draw_place(void *user, int32_t i, const char *name, report *r)
 {
-    if (!frames_can_write(s->o->out, s->path.count, r)) {
-        return 0;
-    }
-    for (int32_t i = 0; i < s->path.count; ++i) {
-        const lmb_vec3 at = s->path.place[i];
-        const uint32_t kept = s->cache.kept;
-        char name[4096];
-        figures_stand(&s->figures, 0, at);
-        if (!frame_numbered(name, sizeof name, s->o->out, i, r) || !light_figures(s, (uint32_t)i, r) ||
-            !draw_shadows(s, r) || !draw(s, r) || !write(s, name, r)) {
-            return 0;
-        }
-        report_say("%s  %g,%g,%g  %s\n", name, (double)at.x, (double)at.y, (double)at.z,
-               s->cache.kept - kept == s->figures.owners ? "kept" : "computed");
-    }
-    report_say("light computed %u times, kept %u times\n", (unsigned)s->cache.computed, (unsigned)s->cache.kept);
-    return report_flush(r);
+    stage *s = user;
+    const uint32_t kept = s->cache.kept;
+    figures_stand(&s->figures, 0, s->path.place[i]);
+    return light_figures(s, (uint32_t)i, r) && draw_shadows(s, r) && draw(s, r) && write(s, name, r) &&
+           place_tell(&s->path, i, name, s->cache.kept - kept == s->figures.owners);
 }
 
 /* --- before the first --------------------------------------------------------------------------------------------- */
@@ -362,7 +349,7 @@ static int run(stage *s, report *r)
     if (!take_view(s, r) || !take_frame(s, r)) {
         return 0;
     }
-    return o->path != NULL ? draw_along(s, r)
+    return o->path != NULL ? place_list_walk(&s->path, o->out, draw_place, s, &s->cache, r)
                            : light_figures(s, 0, r) && draw_shadows(s, r) && draw(s, r) && write(s, o->out, r);
 }
 

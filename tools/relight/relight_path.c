@@ -1,9 +1,10 @@
-/* relight_path.c: a file of places, X,Y,Z a line. */
+/* relight_path.c: a file of places, X,Y,Z a line, and a picture of each. */
 #include "relight_path.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/frame_name.h"
 #include "../common/io_file.h"
 #include "relight_options.h"
 
@@ -64,3 +65,26 @@ int place_list_read(place_list *out, const char *path, report *r)
 }
 
 void place_list_free(place_list *list) { free(list->place); }
+
+int place_tell(const place_list *list, int32_t i, const char *name, int is_kept)
+{
+    const lmb_vec3 at = list->place[i];
+    report_say("%s  %g,%g,%g  %s\n", name, (double)at.x, (double)at.y, (double)at.z, is_kept ? "kept" : "computed");
+    return 1;
+}
+
+int place_list_walk(const place_list *list, const char *out, place_draw *draw, void *user, const lmb_probe_cache *cache,
+                    report *r)
+{
+    if (!frames_can_write(out, list->count, r)) {
+        return 0;
+    }
+    for (int32_t i = 0; i < list->count; ++i) {
+        char name[4096];
+        if (!frame_numbered(name, sizeof name, out, i, r) || !draw(user, i, name, r)) {
+            return 0;
+        }
+    }
+    report_say("light computed %u times, kept %u times\n", (unsigned)cache->computed, (unsigned)cache->kept);
+    return report_flush(r);
+}

@@ -2,7 +2,7 @@
 #ifndef RELIGHT_PATH_H
 #define RELIGHT_PATH_H
 
-#include <lambent/types.h>
+#include <lambent/probe.h>
 
 #include "../common/report.h"
 
@@ -14,5 +14,12 @@ typedef struct place_list {
 /* 1, or 0 with `r` set; place_list_free releases it in either case. */
 int place_list_read(place_list *out, const char *path, report *r);
 void place_list_free(place_list *list);
+
+/* place_list_walk: calls `draw` for each place with the name of its picture, by `out`, and prints at the end how often
+ * `cache` had the light. place_tell prints a place's line. 1, or 0 with `r` set. */
+typedef int place_draw(void *user, int32_t i, const char *name, report *r);
+int place_list_walk(const place_list *list, const char *out, place_draw *draw, void *user, const lmb_probe_cache *cache,
+                    report *r);
+int place_tell(const place_list *list, int32_t i, const char *name, int is_kept);
 
 #endif

@@ -168,6 +168,15 @@ int place_list_read(place_list *out, const char *path, report *r)
     return (void)out, report_fail(r, "%s: the page draws one picture", path);
 }
 void place_list_free(place_list *list) { (void)list; }
+int place_list_walk(const place_list *list, const char *out, place_draw *draw, void *user, const lmb_probe_cache *cache,
+                    report *r)
+{
+    return (void)list, (void)out, (void)draw, (void)user, (void)cache, (void)r, 0;
+}
+int place_tell(const place_list *list, int32_t i, const char *name, int is_kept)
+{
+    return (void)list, (void)i, (void)name, is_kept;
+}
 
 int relight_worlds_check(const relight_options *o, report *r)
 {
@@ -190,9 +199,9 @@ const lmb_world *relight_light_nearest(const relight_light *w, const relight_opt
 
 /* --- relief_compare.h: its reliefs have no model beside them ------------------------------------------------------ */
 
-int relief_tell(const relief_frame *f, relief_shot shot, const lmb_scene *model, report *r)
+int relief_tell(const relief_frame *f, relief_shot shot, const char *path, report *r)
 {
-    return (void)f, (void)shot, (void)model, report_fail(r, "--compare: not on the page");
+    return (void)f, (void)shot, (void)path, report_fail(r, "--compare: not on the page");
 }
 
 const option_row relief_path_rows[] = {{.kind = OPTION_END}};
