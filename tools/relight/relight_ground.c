@@ -91,7 +91,7 @@ void ground_shade(ground_map *g, const hidden_map *m, const peak_runs *peaks, lm
             continue;
         }
         darken_runs(g, l, reflected, is_peak ? 0.0f : f->angle[i], run + first[0], first[is_peak ? 1 : HIDDEN_RAYS] - first[0],
-                    is_peak ? 0.5f : 1.0f / HIDDEN_RAYS);
+                    is_peak || !m->fades ? 0.5f : 1.0f / HIDDEN_RAYS);
     }
     turn_to_left(g, all, m->fades);
 }

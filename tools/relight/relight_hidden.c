@@ -339,7 +339,8 @@ static int fill_map(hidden *h, int map, const relight_options *o)
     for (int32_t i = 0; i < LMB_PROBE_TEXELS * HIDDEN_RAYS; ++i) {
         const lmb_vec3 to = ray_of(i / HIDDEN_RAYS, i % HIDDEN_RAYS);
         m->first[i] = m->runs.count;
-        if (to.y >= HIDDEN_LOWEST && !hidden_shadow(h, map, &m->runs, o, to, i % HIDDEN_RAYS)) {
+        const int is_cast = map == 0 || i % HIDDEN_RAYS % (HIDDEN_RAYS - 1) == 0; /* near: two of them, across */
+        if (is_cast && to.y >= HIDDEN_LOWEST && !hidden_shadow(h, map, &m->runs, o, to, i % HIDDEN_RAYS)) {
             return 0;
         }
     }
