@@ -12,7 +12,8 @@ for command in node npm; do
     command -v $command >/dev/null 2>&1 || skip "no $command"
 done
 [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || skip "no Chromium: apt-get install chromium"
-modules=$BUILD/web/modules version=0.187.0
+modules=$BUILD/web/three version=0.187.0 # of its own: docs-check may fill the other one at the same time
+mkdir -p "$modules"
 for name in playwright-core three@$version; do
     [ -d "$modules/node_modules/${name%@*}" ] || npm install --no-audit --no-fund --prefix "$modules" $name >/dev/null 2>&1 ||
         skip "npm gets no $name"
