@@ -166,7 +166,7 @@ static void stands_on_what_is_asked(void)
 static void floor_stays(void)
 {
     static float front[PIXELS];
-    static uint8_t doubt[PIXELS];
+    static mix_way way[PIXELS];
     static const int32_t all[4] = {0, 0, WIDTH, HEIGHT};
     char *object[] = {"--object", square};
     mix_job *j = begin(object, 2);
@@ -177,14 +177,14 @@ static void floor_stays(void)
         j->frame.depth[i] = x > 20 && x < 70 && y > 15 && y < 49 ? 2.2f : j->frame.depth[i];
     }
     CHECK(mix_find_planes(j, &r));
-    mix_front_refine(front, doubt, &j->cloud, &j->planes, j->frame.light.pixels, all);
+    mix_front_refine(front, way, &j->cloud, &j->planes, j->frame.light.pixels, all);
     int doubtful = 0, off = 0;
     for (int i = 55 * WIDTH; i < 62 * WIDTH; ++i) {
-        doubtful += doubt[i];
+        doubtful += way[i].is_doubtful;
         off += fabsf(front[i] / j->cloud.inverse[i] - 1.0f) > 0.02f;
     }
     for (int i = 52 * WIDTH; i < 55 * WIDTH; ++i) {
-        doubtful += doubt[i];
+        doubtful += way[i].is_doubtful;
         off += front[i] > 1.02f * j->cloud.inverse[i] && j->planes.label[i] != 0 &&
                j->planes.plane[j->planes.label[i] - 1].normal.y > 0.9f;
     }

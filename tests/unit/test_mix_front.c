@@ -194,13 +194,13 @@ static void judge(int wrong[2], uint32_t seed)
 {
     static const float at[4][2] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
     static float front[PIXELS];
-    static uint8_t doubt[PIXELS];
+    static mix_way way[PIXELS];
     static const int32_t all[4] = {0, 0, WIDTH, HEIGHT};
     static lmb_tile real;
     room r;
     make_room(&r, seed);
     mix_job *j = begin(&r, seed);
-    mix_front_refine(front, doubt, &j->cloud, &j->planes, j->frame.light.pixels, all);
+    mix_front_refine(front, way, &j->cloud, &j->planes, j->frame.light.pixels, all);
     for (int i = 0; i < PIXELS / LMB_TILE_PIXELS; ++i) {
         lmb_real_tile(&real, &j->cloud, &j->planes, &j->real, &j->axes, i % (WIDTH / LMB_TILE) * LMB_TILE,
                       i / (WIDTH / LMB_TILE) * LMB_TILE);
@@ -211,20 +211,21 @@ static void judge(int wrong[2], uint32_t seed)
     mix_job_free(j);
 }
 
-/* Half of the samples that a depth map alone puts wrong are right; the second group of seeds has been used for nothing
- * else. */
-static void half_as_many_wrong(void)
+/* Of the samples that a depth map alone puts wrong two in five stay wrong at most, 0.27 to 0.39 of them here. The last group
+ * has been used for nothing else; in the one before it things have the colour of what is behind them. */
+static void few_stay_wrong(void)
 {
-    for (int group = 0; group < 2; ++group) {
+    static const uint32_t first[4] = {1, 300, 903, 2500};
+    for (int group = 0; group < 4; ++group) {
         int wrong[2] = {0, 0};
         for (uint32_t i = 0; i < 4; ++i) {
-            judge(wrong, (group == 0 ? 1 : 300) + i);
+            judge(wrong, first[group] + i);
         }
-        CHECK_MSG(2 * wrong[1] <= wrong[0] && wrong[0] > 1000, "group %d: %d of %d samples", group, wrong[1], wrong[0]);
+        CHECK_MSG(5 * wrong[1] <= 2 * wrong[0] && wrong[0] > 1000, "group %d: %d of %d samples", group, wrong[1], wrong[0]);
     }
 }
 
 void test_mix_front(void)
 {
-    half_as_many_wrong();
+    few_stay_wrong();
 }

@@ -274,13 +274,13 @@ static void draw_row(void *user, int row, int thread)
 static int find_front(mix_job *j, report *r)
 {
     const size_t pixels = (size_t)j->frame.camera.width * (size_t)j->frame.camera.height;
-    uint8_t *doubt = mix_take(j, pixels, r);
+    mix_way *way = mix_take(j, pixels * sizeof *way, r);
     j->front = mix_take(j, pixels * sizeof *j->front, r);
-    if (doubt == NULL || j->front == NULL) {
+    if (way == NULL || j->front == NULL) {
         return 0;
     }
     if (j->object_triangles > 0) {
-        mix_front_refine(j->front, doubt, &j->cloud, &j->planes, j->frame.light.pixels, j->box_px);
+        mix_front_refine(j->front, way, &j->cloud, &j->planes, j->frame.light.pixels, j->box_px);
     }
     return 1;
 }

@@ -5,23 +5,29 @@
 #include <string.h>
 
 /* Sensors are wrong up to so many pixels from an edge; and surfaces so far apart, relatively, have an edge between. */
-enum { EDGE = 4, REACH = 8, HOLES = 14 /* px of a window: less is a spot, more may be what a near thing hides */ };
-#define STEP      0.04f
-#define COLOUR    0.08f /* of white, display's values: how like two pixels are */
-#define ALIKE     0.3f  /* what at least one pixel of a surface is, for a pixel to become part of it */
-#define GRAZES    0.7f  /* planes that change so much within the window tell nothing beside it */
-#define DOUBTFUL  0.1f  /* what a pixel near an edge counts beside one that is not */
+enum { EDGE = 4, HOLES = 14 /* px of a window: less is a spot, more may be what a near thing hides */,
+       AROUND = 24 /* px beyond what is asked for, from where surfaces may reach into it */, SWEEPS = 6 };
+#define STEP    0.04f
+#define GRAZES  0.7f   /* planes that change so much tell nothing beside what was measured of them */
+#define SHADOW  0.09f  /* by the focal length: as wide, px, as what a projector's shadow at 0.8 m is */
+
+/* What a way from a surface costs, in differences of display's values. */
+#define A_PIXEL 0.005f /* of its length */
+#define A_HOLE  0.15f  /* a pixel that is not measured, where something farther is beside it: near things are seen to their rims */
+#define DOUBT   0.5f   /* of a pixel's own measure near an edge: colours must tell it from its surface by less to be believed */
+
+/* Pixels of a picture, the last ones among them. */
+typedef struct window {
+    int32_t x0, y0, x1, y1;
+} window;
 
 typedef struct refiner {
     const lmb_cloud *cloud;
     const lmb_planes *planes;
     const float *rgb;
+    mix_way *way;
+    window all; /* what is refined, and as much beyond as may matter */
 } refiner;
-
-/* The window of `reach` around a pixel that lies in the picture. */
-typedef struct window {
-    int32_t x0, y0, x1, y1;
-} window;
 
 static window around(const lmb_pinhole *c, int32_t x, int32_t y, int32_t reach)
 {
@@ -57,18 +63,6 @@ static int is_doubtful(const refiner *f, int32_t x, int32_t y)
     return holes > HOLES || (mixed && max - min > STEP * max + 4.0f * lmb_cloud_sigma(f->cloud, max));
 }
 
-/* How like two pixels are, 0 .. 1, in about a display's values. */
-static float likeness(const float *a, const float *b)
-{
-    float sum = 0.0f;
-    for (int c = 0; c < 3; ++c) {
-        const float d = sqrtf(fmaxf(a[c], 0.0f)) - sqrtf(fmaxf(b[c], 0.0f));
-        sum += d * d;
-    }
-    sum *= 1.0f / (COLOUR * COLOUR);
-    return 1.0f / (1.0f + sum * sum);
-}
-
 /* What another pixel says of this one's distance: its plane goes on to here. A steep floor's mean of pixels around would
  * lie before what stands on it. */
 static float said_of(const refiner *f, int32_t x, int32_t y, int32_t other)
@@ -83,61 +77,111 @@ static float said_of(const refiner *f, int32_t x, int32_t y, int32_t other)
     return on > GRAZES * q && on * GRAZES < q ? on : q;
 }
 
-/* The surface, near or far, that the pixels like this one have. */
-static float chosen(const refiner *f, const uint8_t *doubt, int32_t x, int32_t y)
+/* --- ways from surfaces ------------------------------------------------------------------------------------------- */
+
+/* The farthest that is measured beside a hole, along the row: what is not measured lies in a near thing's shadow, on that. */
+static float beyond(const refiner *f, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &f->cloud->camera;
-    const window w = around(c, x, y, REACH);
-    const int32_t at = y * c->width + x;
-    const float own = f->cloud->inverse[at];
-    float min = INFINITY, max = 0.0f, weight[2] = {0, 0}, sum[2] = {0, 0}, alike[2] = {-1, -1};
-    for (int32_t v = w.y0; v <= w.y1; ++v) {
-        for (int32_t u = w.x0; u <= w.x1; ++u) {
-            const float q = said_of(f, x, y, v * c->width + u);
-            min = q > 0.0f ? fminf(min, q) : min;
-            max = fmaxf(max, q);
-        }
+    const window w = around(c, x, y, (int32_t)fminf(SHADOW * c->fx, (float)c->width) + 1);
+    float min = INFINITY;
+    for (int32_t u = w.x0; u <= w.x1; ++u) {
+        const float q = f->cloud->inverse[y * c->width + u];
+        min = q > 0.0f ? fminf(min, q) : min;
     }
-    const float between = 0.5f * (min + max);
-    for (int32_t v = w.y0; v <= w.y1; ++v) {
-        for (int32_t u = w.x0; u <= w.x1; ++u) {
-            const int32_t k = v * c->width + u;
-            const float q = said_of(f, x, y, k);
-            if (q > 0.0f) {
-                const float far = (float)((u - x) * (u - x) + (v - y) * (v - y));
-                const float like = likeness(f->rgb + 3 * (size_t)at, f->rgb + 3 * (size_t)k);
-                const float one = like * (doubt[k] ? DOUBTFUL : 1.0f) / (1.0f + far * (8.0f / (REACH * REACH)));
-                alike[q > between] = doubt[k] ? alike[q > between] : fmaxf(alike[q > between], like);
-                weight[q > between] += one;
-                sum[q > between] += one * q;
-            }
-        }
-    }
-    const int side = weight[1] > weight[0];
-    if (alike[side] < ALIKE) { /* a mixture of both keeps what was measured; beside one alone that is its ragged edge */
-        return own > 0.0f && (alike[own > between] < 0.0f || alike[own < between] >= 0.0f) ? own : 0.0f;
-    }
-    return own > 0.0f && (own > between) == side ? own : sum[side] / weight[side];
+    return min;
 }
 
-void mix_front_refine(float *out, uint8_t *doubt, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb,
+/* A pixel that is sure of its surface, or says what it measured though that may be its neighbour's; or a hole. */
+static void begin(const refiner *f, int32_t x, int32_t y)
+{
+    const int32_t at = y * f->cloud->camera.width + x;
+    mix_way *way = &f->way[at];
+    const int is_measured = f->cloud->inverse[at] > 0.0f;
+    way->is_doubtful = is_doubtful(f, x, y);
+    way->from = is_measured ? at : -1;
+    way->cost = !is_measured ? INFINITY : way->is_doubtful ? DOUBT : 0.0f;
+    way->beyond = is_measured ? 0.0f : beyond(f, x, y);
+}
+
+/* In about a display's values. */
+static float differ(const float *a, const float *b)
+{
+    float sum = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+        const float d = sqrtf(fmaxf(a[c], 0.0f)) - sqrtf(fmaxf(b[c], 0.0f));
+        sum += d * d;
+    }
+    return sqrtf(sum);
+}
+
+/* Does the surface that a neighbour is of come cheaper to a pixel than its own? */
+static void ask(const refiner *f, int32_t at, int32_t x, int32_t y, float length)
+{
+    const int32_t other = y * f->cloud->camera.width + x;
+    if (x < f->all.x0 || x > f->all.x1 || y < f->all.y0 || y > f->all.y1 || f->way[other].from < 0) {
+        return;
+    }
+    mix_way *to = &f->way[at];
+    const mix_way *way = &f->way[other];
+    const int is_near = to->beyond > 0.0f && f->cloud->inverse[way->from] > to->beyond * (1.0f + STEP);
+    const float cost = way->cost + length * (is_near ? A_HOLE + A_PIXEL : A_PIXEL) +
+                       differ(f->rgb + 3 * (size_t)at, f->rgb + 3 * (size_t)other);
+    if (cost < to->cost) {
+        to->cost = cost;
+        to->from = way->from;
+    }
+}
+
+/* From the top and left on, or from the bottom and right back. */
+static void sweep(const refiner *f, int32_t step)
+{
+    const window *w = &f->all;
+    const int32_t wide = w->x1 - w->x0 + 1, count = wide * (w->y1 - w->y0 + 1);
+    for (int32_t i = 0; i < count; ++i) {
+        const int32_t k = step > 0 ? i : count - 1 - i, x = w->x0 + k % wide, y = w->y0 + k / wide,
+                      at = y * f->cloud->camera.width + x;
+        if (f->way[at].is_doubtful) {
+            ask(f, at, x - step, y, 1.0f);
+            ask(f, at, x, y - step, 1.0f);
+            ask(f, at, x - step, y - step, 1.4142136f);
+            ask(f, at, x + step, y - step, 1.4142136f);
+        }
+    }
+}
+
+/* What was measured, where that may be of the surface. */
+static float chosen(const refiner *f, int32_t x, int32_t y)
+{
+    const int32_t at = y * f->cloud->camera.width + x;
+    const float own = f->cloud->inverse[at];
+    if (f->way[at].from < 0) {
+        return own;
+    }
+    const float q = said_of(f, x, y, f->way[at].from);
+    return own > 0.0f && fabsf(own - q) < STEP * fmaxf(own, q) + 4.0f * lmb_cloud_sigma(f->cloud, own) ? own : q;
+}
+
+void mix_front_refine(float *out, mix_way *way, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb,
                       const int32_t box[4])
 {
-    const refiner f = {cloud, planes, rgb};
     const int32_t w = cloud->camera.width, h = cloud->camera.height;
+    const window all = {box[0] > AROUND ? box[0] - AROUND : 0, box[1] > AROUND ? box[1] - AROUND : 0,
+                        (box[2] + AROUND < w ? box[2] + AROUND : w) - 1, (box[3] + AROUND < h ? box[3] + AROUND : h) - 1};
+    const refiner f = {cloud, planes, rgb, way, all};
     memcpy(out, cloud->inverse, (size_t)w * (size_t)h * sizeof *out);
-    memset(doubt, 0, (size_t)w * (size_t)h);
-    for (int32_t y = box[1] - REACH; y < box[3] + REACH; ++y) {
-        for (int32_t x = box[0] - REACH; x < box[2] + REACH; ++x) {
-            if (x >= 0 && y >= 0 && x < w && y < h) {
-                doubt[y * w + x] = (uint8_t)is_doubtful(&f, x, y);
-            }
+    for (int32_t y = all.y0; y <= all.y1; ++y) {
+        for (int32_t x = all.x0; x <= all.x1; ++x) {
+            begin(&f, x, y);
         }
+    }
+    for (int i = 0; i < SWEEPS; ++i) {
+        sweep(&f, i % 2 == 0 ? 1 : -1);
     }
     for (int32_t y = box[1]; y < box[3]; ++y) {
         for (int32_t x = box[0]; x < box[2]; ++x) {
-            if (doubt[y * w + x]) {
-                out[y * w + x] = chosen(&f, doubt, x, y);
+            if (way[y * w + x].is_doubtful) {
+                out[y * w + x] = chosen(&f, x, y);
             }
         }
     }

@@ -227,10 +227,10 @@ void area_light(lmb_light *out, int32_t count, const lmb_light *from, float size
         out[i] = *from;
     }
 }
-void mix_front_refine(float *out, uint8_t *doubt, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb,
+void mix_front_refine(float *out, mix_way *way, const lmb_cloud *cloud, const lmb_planes *planes, const float *rgb,
                       const int32_t box[4])
 {
-    (void)box, (void)out, (void)doubt, (void)cloud, (void)planes, (void)rgb;
+    (void)box, (void)out, (void)way, (void)cloud, (void)planes, (void)rgb;
 }
 void mix_front_tile(lmb_tile *out, const lmb_tile *real, const lmb_tile *object, const float *front,
                     const lmb_cloud *cloud, float x, float y)
