@@ -546,6 +546,38 @@ static void lights_are_asked_where_they_change(void)
     }
 }
 
+/* A mirror that faces the camera shows the wall behind that, which no photo does: where a lamp lights it, as bright as that
+ * makes it; a sun makes no room. The room has the camera and the lamp, and is as wide as what is measured. */
+static void metal_mirrors_the_room(void)
+{
+    static const char *const lights[3] = {"point:0.4,0.3,0.3:0,-1,0:0.4,0.4,0.4", "point:0.4,0.3,0.3:0,-1,0:4,4,4",
+                                          "sun:0,0,0:0.1,-1,-0.1:2,2,2"};
+    float shown[3];
+    for (int i = 0; i < 3; ++i) {
+        char light[60];
+        char *more[] = {"--object", square, "--at", "48,60", "--scale", "0.3", "--light", light};
+        strcpy(light, lights[i]);
+        mix_job *j = begin(more, 8);
+        lmb_material metal;
+        memset(&metal, 0, sizeof metal);
+        metal.specular[0] = metal.specular[1] = metal.specular[2] = 1.0f;
+        metal.alpha = 1.0f;
+        metal.roughness = 0.2f;
+        metal.texture = -1;
+        metal.flags = LMB_DOUBLE_SIDED;
+        set_depth(j, 2.5f, 1);
+        CHECK(place(j));
+        photo_draw(j, &metal);
+        CHECK(j->room.is_known == (i < 2));
+        CHECK_MSG(i == 2 || (j->room.high[2] > 0.75f && j->room.high[2] < 0.9f && j->room.low[2] < -2.4f), "%g .. %g",
+                  (double)j->room.low[2], (double)j->room.high[2]);
+        shown[i] = photo_mean(j, 46, 46, 51, 51);
+        mix_job_free(j);
+    }
+    CHECK_MSG(shown[1] > 1.5f * shown[0], "%g by a lamp, %g by one of ten times its light", (double)shown[0],
+              (double)shown[1]);
+}
+
 /* A sun of 16 degrees lights the floor beside the shadow's middle in part, and one without a size does not. */
 static void size_softens(void)
 {
@@ -667,6 +699,7 @@ void test_mix(void)
     sun_is_as_strong_as_shadows();
     sun_fits_the_photo();
     lights_are_asked_where_they_change();
+    metal_mirrors_the_room();
     size_softens();
     stands_on_floor();
     touches(0.004f, 1);

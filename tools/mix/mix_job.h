@@ -41,6 +41,14 @@ typedef struct mix_aside {
     int is_beside; /* they are done beside rows */
 } mix_aside;
 
+/* The room that lamps shine in, as far as the photo tells: a box along its largest wall, in the scene's space. */
+typedef struct mix_space {
+    lmb_vec3 axis[3];
+    float low[3], high[3]; /* m along these */
+    float albedo[3];
+    int is_known;
+} mix_space;
+
 /* mix_job_free releases what it points to. */
 typedef struct mix_job {
     mix_options o;
@@ -51,6 +59,7 @@ typedef struct mix_job {
     lmb_planes planes;
     lmb_real_mesh real;
     float plane_albedo[LMB_MAX_PLANES][3]; /* means; set where the object has metal */
+    mix_space room;                         /* likewise */
     lmb_vec3 ball_at;                      /* likewise: a ball as large as its box */
     float ball_radius;
     int32_t track[LMB_MAX_PLANES]; /* of a sequence: each plane's number in it, or -1: it is new */
@@ -115,7 +124,7 @@ int mix_draw(mix_job *j, report *r);        /* the picture */
 
 /* mix_guess_sun: a sun for a photo that is given no light, and how wide it is, degrees: from the side, about where the
  * surroundings are brightest; so strong that its shadows are as dark as those in the photo and that the photo's brightest
- * surfaces are white; the less of it shadows tell, the wider. mix_sun_share: what such a sun gives the floor for each
+ * surfaces are white; the less of it shadows tell, the wider. In a sequence it stays as it was. mix_sun_share: what such a sun gives the floor for each
  * unit that comes from everywhere else: of the photo's planes, by two brightnesses that each of them has, above
  * all of plane `floor` (-1: none); 0 where none has two. */
 float mix_guess_sun(lmb_light *out, const mix_job *j);

@@ -272,10 +272,6 @@ int mix_light(mix_job *j, report *r)
     }
     if (j->o.light_count > 0) {
         place_lights(j);
-    } else if (j->kept != NULL && j->kept->frames > 0 && j->kept->has_sun) {
-        j->sun = placed(j, &j->kept->sun);
-        j->sun_size = j->kept->sun_size;
-        add_light(j, &j->sun, j->sun_size, MIX_SUN_SAMPLES);
     } else if (j->object_triangles > 0) {
         j->sun_size = mix_guess_sun(&j->sun, j);
         add_light(j, &j->sun, j->sun_size, MIX_SUN_SAMPLES);

@@ -97,21 +97,13 @@ void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, c
     }
 }
 
-/* Of what comes from everywhere the lobe of pixel k reflects so much: lmb_compose_glossy takes as much from the rest. */
-static float reflected(const lmb_glossy *lobes, int c, int k)
-{
-    const float low = fmaxf(1.0f - lobes->facing[k], 0.0f), smooth = fmaxf(1.0f - sqrtf(sqrtf(lobes->alpha2[k])), 0.0f),
-                f0 = lobes->specular[c][k];
-    return fminf(f0 + (1.0f - f0) * low * low * low * low * low * smooth * smooth * smooth, 1.0f);
-}
-
 void mix_lobes_finish(lmb_radiance *inout, mix_lobes *s, const mix_job *j, const lmb_view *view, const lmb_tile *object)
 {
     if (s->lobes.pixels != 0) {
         mix_mirror_tile(s->seen, &s->mirror, j, view, object, &s->lobes);
         for (int32_t k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
             const int32_t c = k / LMB_TILE_PIXELS, i = k % LMB_TILE_PIXELS;
-            s->lobes.rgb[c][i] += (s->lobes.pixels >> i & 1u) != 0 ? reflected(&s->lobes, c, i) * s->seen[c][i] : 0.0f;
+            s->lobes.rgb[c][i] += (s->lobes.pixels >> i & 1u) != 0 ? s->seen[c][i] : 0.0f;
         }
         lmb_compose_glossy(inout, &s->lobes);
     }

@@ -16,6 +16,8 @@ enum { RAYS = 12, STEPS = 72, HALVINGS = 5, LIGHTS = 8 /* asked of many */ };
 #define BEHIND 0.05f /* m, beside two steps: what a ray passes farther behind it passes by */
 #define CLIPPED 0.98f /* white is at least that, however bright it was: there lights tell */
 #define WALL   1.0f  /* m2: planes that go on where the photo ends are as large */
+#define SPACE  0.5f  /* m: as far are walls at least from lamps and from who took the photo */
+#define UPRIGHT 0.25881905f
 
 static lmb_vec3 plus(lmb_vec3 a, lmb_vec3 b, float s)
 {
@@ -39,6 +41,77 @@ static lmb_vec3 to_camera(const mix_job *j, lmb_vec3 v)
 
 /* --- planes ------------------------------------------------------------------------------------------------------- */
 
+static void widen(mix_space *r, lmb_vec3 p, float by)
+{
+    for (int i = 0; i < 3; ++i) {
+        r->low[i] = fminf(r->low[i], dot(r->axis[i], p) - by);
+        r->high[i] = fmaxf(r->high[i], dot(r->axis[i], p) + by);
+    }
+}
+
+static void turn_room(mix_space *r, lmb_vec3 wall)
+{
+    const lmb_vec3 up = {0, 1, 0}, z = unit((lmb_vec3){wall.x, 0, wall.z}), x = {z.z, 0, -z.x};
+    r->axis[0] = x;
+    r->axis[1] = up;
+    r->axis[2] = z;
+}
+
+/* A room has all that is measured, its lamps, and who took the photo; its walls are as those that are seen. Told lamps
+ * light what the photo does not show: what is around has none of their light. */
+static void find_room(mix_job *j)
+{
+    mix_space *r = &j->room;
+    const lmb_vec3 eye = {0, 0, 0}, back = {0, 0, 1};
+    float area = 0.0f;
+    memset(r, 0, sizeof *r);
+    turn_room(r, back);
+    for (int32_t p = 0; p < j->planes.count; ++p) {
+        const lmb_vec3 n = lmb_axes_turn(&j->axes, j->planes.plane[p].normal);
+        const lmb_flat *f = &j->planes.plane[p];
+        const float one = (f->high[0] - f->low[0]) * (f->high[1] - f->low[1]);
+        if (fabsf(n.y) < UPRIGHT) {
+            if (!(area > 0.0f)) { /* they are in the order of their pictures' sizes */
+                turn_room(r, n);
+            }
+            area += one;
+            for (int c = 0; c < 3; ++c) {
+                r->albedo[c] += one * j->plane_albedo[p][c];
+            }
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        r->albedo[c] /= fmaxf(area, 1e-9f);
+    }
+    widen(r, eye, SPACE);
+    for (int32_t i = 0; i < j->light_count - j->lamp_count; ++i) {
+        if (j->lights[i].kind != LMB_LIGHT_DIRECTIONAL) {
+            widen(r, j->lights[i].position, SPACE);
+            r->is_known = area > 0.0f && j->o.world == NULL;
+        }
+    }
+    for (int32_t k = 0; k < 4 * j->real.count; ++k) {
+        const float *at = j->real.positions + 3 * (size_t)k;
+        widen(r, (lmb_vec3){at[0], at[1], at[2]}, 0.0f);
+    }
+}
+
+/* Where a ray of the scene's space leaves the room: how far off, and which way the wall there faces. */
+static float leave_room(lmb_vec3 *normal, const mix_space *r, lmb_vec3 from, lmb_vec3 along)
+{
+    float far = INFINITY;
+    for (int i = 0; i < 3; i += 2) { /* a lamp hangs so near to its ceiling that no guess of that is right */
+        const float d = dot(r->axis[i], along), p = dot(r->axis[i], from),
+                    t = fabsf(d) > 1e-6f ? ((d > 0.0f ? r->high[i] : r->low[i]) - p) / d : INFINITY;
+        if (t < far) {
+            const lmb_vec3 zero = {0, 0, 0};
+            far = t;
+            *normal = plus(zero, r->axis[i], d > 0.0f ? -1.0f : 1.0f);
+        }
+    }
+    return far;
+}
+
 void mix_mirror_planes(mix_job *j)
 {
     float sum[LMB_MAX_PLANES][4];
@@ -57,6 +130,7 @@ void mix_mirror_planes(mix_job *j)
             j->plane_albedo[p][c] = sum[p][3] > 0.0f ? sum[p][c] / sum[p][3] : 0.0f;
         }
     }
+    find_room(j);
 }
 
 /* The nearest large plane that a ray meets, all in the camera's space; -1: none. */
@@ -64,6 +138,7 @@ static int32_t plane_ahead(lmb_vec3 *at, const mix_job *j, lmb_vec3 from, lmb_ve
 {
     int32_t best = -1;
     float near = INFINITY;
+    *at = from;
     for (int32_t i = 0; i < j->planes.count; ++i) {
         const lmb_flat *p = &j->planes.plane[i];
         const float facing = dot(p->normal, along), far = -(dot(p->normal, from) + p->distance) / facing,
@@ -96,21 +171,30 @@ static void add_told(float inout[3], const mix_job *j, lmb_vec3 at, lmb_vec3 nor
     }
 }
 
-/* Where the photo shows nothing: a plane goes on beyond it, in its mean colour, by lamps and what is around; else what is
- * around. */
+/* What a surface sends by lamps and what is around. */
+static void shine(float out[3], const mix_job *j, lmb_vec3 at, lmb_vec3 normal, const float albedo[3])
+{
+    lmb_env_irradiance(out, &j->env[1], normal);
+    add_told(out, j, at, normal);
+    for (int c = 0; c < 3; ++c) {
+        out[c] *= albedo[c] * (1.0f / PI);
+    }
+}
+
+/* Where the photo shows nothing: a plane goes on beyond it, in its mean colour, or a wall of the room is nearer; else what
+ * is around. */
 static void unseen(float out[3], const mix_job *j, lmb_vec3 from, lmb_vec3 along, lmb_vec3 direction, float tangent)
 {
-    lmb_vec3 at;
+    lmb_vec3 at, wall = {0, 1, 0};
     const int32_t p = plane_ahead(&at, j, from, along);
-    if (p < 0) {
+    const lmb_vec3 here = lmb_axes_turn(&j->axes, from), off = plus(at, from, -1.0f);
+    const float ends = j->room.is_known ? leave_room(&wall, &j->room, here, direction) : INFINITY;
+    if (ends < INFINITY && (p < 0 || ends * ends < dot(off, off))) {
+        shine(out, j, plus(here, direction, ends), wall, j->room.albedo);
+    } else if (p >= 0) {
+        shine(out, j, lmb_axes_turn(&j->axes, at), lmb_axes_turn(&j->axes, j->planes.plane[p].normal), j->plane_albedo[p]);
+    } else {
         lmb_env_sample(out, &j->env[1], direction, tangent);
-        return;
-    }
-    const lmb_vec3 normal = lmb_axes_turn(&j->axes, j->planes.plane[p].normal);
-    lmb_env_irradiance(out, &j->env[1], normal);
-    add_told(out, j, lmb_axes_turn(&j->axes, at), normal);
-    for (int c = 0; c < 3; ++c) {
-        out[c] *= j->plane_albedo[p][c] * (1.0f / PI);
     }
 }
 
@@ -159,8 +243,11 @@ static int32_t march(float *far, const mix_job *j, lmb_vec3 from, lmb_vec3 along
     return -1;
 }
 
-/* Half vectors by their density, in an order that is turned from pixel to pixel; mirrored. 0: into the surface. */
-static int ray_of(lmb_vec3 *out, const lmb_tile *t, const lmb_glossy *lobes, int32_t k, int ray)
+/* Half vectors by their density, in an order that is turned from pixel to pixel; mirrored. Returns how much of its light is
+ * reflected, by channel: at a slant the surface's own roughness is in the way, by the height-correlated Smith term, and
+ * more is reflected, by Schlick. 0: into the surface. */
+static int ray_of(lmb_vec3 *out, float weight[3][LMB_TILE_PIXELS], const lmb_tile *t, const lmb_glossy *lobes,
+                  int32_t k, int ray)
 {
     const lmb_vec3 n = {t->normal[0][k], t->normal[1][k], t->normal[2][k]},
                    v = {lobes->towards[0][k], lobes->towards[1][k], lobes->towards[2][k]},
@@ -171,7 +258,16 @@ static int ray_of(lmb_vec3 *out, const lmb_tile *t, const lmb_glossy *lobes, int
                 wide = sqrtf(lobes->alpha2[k] * u / (1.0f - u)), s = cosf(turn) * wide, c = sinf(turn) * wide;
     const lmb_vec3 h = unit(plus(plus(n, a, s), b, c)), zero = {0, 0, 0};
     *out = plus(plus(zero, h, 2.0f * dot(v, h)), v, -1.0f);
-    return dot(v, h) > 0.0f && dot(*out, n) > 0.0f && dot(*out, (lmb_vec3){t->face[0][k], t->face[1][k], t->face[2][k]}) > 0.0f;
+    const float nl = dot(*out, n), nv = fmaxf(dot(v, n), 1e-3f), vh = dot(v, h), a2 = lobes->alpha2[k];
+    if (!(vh > 0.0f && nl > 0.0f && dot(*out, (lmb_vec3){t->face[0][k], t->face[1][k], t->face[2][k]}) > 0.0f)) {
+        return 0;
+    }
+    const float see = nl * sqrtf(a2 + (1.0f - a2) * nv * nv) + nv * sqrtf(a2 + (1.0f - a2) * nl * nl),
+                one = 2.0f * nl * vh / (dot(n, h) * see), low = fmaxf(1.0f - vh, 0.0f), rise = low * low * low * low * low;
+    for (int i = 0; i < 3; ++i) {
+        weight[i][k] = one * (lobes->specular[i][k] + (1.0f - lobes->specular[i][k]) * rise);
+    }
+    return 1;
 }
 
 /* The photo about a pixel, as wide as the lobe's rays lie apart there. */
@@ -191,15 +287,15 @@ static void photo_about(float out[3], const mix_job *j, int32_t pixel, float px)
     }
 }
 
-/* One ray of pixel k: what it sees into `out`, or, where that is the photo's, into s, to be lit. 1: it counts. */
-static int see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t, const lmb_glossy *lobes, int32_t k, int ray)
+/* One ray of pixel k: what it sees into `out`, or, where that is the photo's, into s, to be lit. */
+static void see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t, const lmb_glossy *lobes, int32_t k, int ray)
 {
     const lmb_vec3 at = {t->position[0][k], t->position[1][k], t->position[2][k]};
     const float wide = sqrtf(lobes->alpha2[k]);
     lmb_vec3 d;
     s->hit.id[k] = 0;
-    if (!ray_of(&d, t, lobes, k, ray)) {
-        return 0;
+    if (!ray_of(&d, s->weight, t, lobes, k, ray)) {
+        return;
     }
     float far = 0.0f;
     const lmb_vec3 from = to_camera(j, at), along = to_camera(j, d);
@@ -207,7 +303,7 @@ static int see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t,
     const int32_t cell = pixel < 0 ? -1 : j->real.cell[pixel / w / j->real.step * j->real.columns + pixel % w / j->real.step];
     if (pixel < 0) {
         unseen(out, j, from, along, d, 0.5f * wide);
-        return 1;
+        return;
     }
     photo_about(out, j, pixel, 0.3f * wide * far * j->frame.camera.fx * j->cloud.inverse[pixel]);
     if (cell >= 0) {
@@ -225,7 +321,6 @@ static int see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t,
             out[c] = 0.0f;
         }
     }
-    return 1;
 }
 
 /* --- their light -------------------------------------------------------------------------------------------------- */
@@ -268,7 +363,7 @@ static void add_hits(float out[3][LMB_TILE_PIXELS], const mix_mirror *s, const m
         for (int c = 0; c < 3 && s->hit.id[k] != 0; ++c) {
             const float was = s->light[0].rgb[c][k] + around[0][c], is = s->light[1].rgb[c][k] + open * around[1][c];
             const float photo = s->photo[c][k] < CLIPPED ? s->photo[c][k] : fmaxf(s->photo[c][k], s->albedo[c][k] * was * (1.0f / PI));
-            out[c][k] += photo * (was > 0.0f ? fminf(is / was, 8.0f) : 1.0f);
+            out[c][k] += s->weight[c][k] * photo * (was > 0.0f ? fminf(is / was, 8.0f) : 1.0f);
         }
     }
 }
@@ -276,24 +371,24 @@ static void add_hits(float out[3][LMB_TILE_PIXELS], const mix_mirror *s, const m
 void mix_mirror_tile(float out[3][LMB_TILE_PIXELS], mix_mirror *s, const mix_job *j, const lmb_view *view,
                      const lmb_tile *object, const lmb_glossy *lobes)
 {
-    int32_t count[LMB_TILE_PIXELS] = {0};
     memset(out, 0, 3 * sizeof *out);
     memset(&s->hit, 0, sizeof s->hit);
     for (int ray = 0; ray < RAYS; ++ray) {
+        memset(s->weight, 0, sizeof s->weight);
         for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
             float rgb[3] = {0, 0, 0};
             s->hit.id[k] = 0;
-            if ((lobes->pixels >> k & 1u) != 0 && see(rgb, s, j, object, lobes, k, ray)) {
-                ++count[k];
-                for (int c = 0; c < 3; ++c) {
-                    out[c][k] += rgb[c];
-                }
+            if ((lobes->pixels >> k & 1u) != 0) {
+                see(rgb, s, j, object, lobes, k, ray);
+            }
+            for (int c = 0; c < 3; ++c) {
+                out[c][k] += s->weight[c][k] * rgb[c];
             }
         }
         light_hits(s, j, view);
         add_hits(out, s, j);
     }
     for (int32_t k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
-        out[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= 1.0f / (float)(count[k % LMB_TILE_PIXELS] > 0 ? count[k % LMB_TILE_PIXELS] : 1);
+        out[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= 1.0f / RAYS;
     }
 }

@@ -114,11 +114,12 @@ static int shows(const mix_job *j, int32_t light, const lmb_tile *t)
 }
 
 /* Is pixel k beyond the plane that the way's light lies in? Between both is the object itself, whose patches know that: of
- * a ball those at a slant see farther round it than the light before its middle. */
+ * a metal ball those at a slant see farther round it than the light before its middle. What emits may stand on a foot. */
 static int is_beyond(const mix_job *j, int32_t i, const lmb_tile *tile, int32_t k)
 {
     const lmb_vec3 at = {tile->position[0][k], tile->position[1][k], tile->position[2][k]};
-    return dot(less(at, j->lights[i].position), j->sources->axis[way_of_light(j, i)]) < 0.0f;
+    const mix_sources *s = j->sources;
+    return s->piece[s->first[way_of_light(j, i)]].alpha2 > 0.0f && dot(less(at, j->lights[i].position), s->axis[way_of_light(j, i)]) < 0.0f;
 }
 
 void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int32_t i,

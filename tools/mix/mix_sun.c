@@ -1,5 +1,5 @@
 /* mix_sun.c: a sun for a photo that is given no light: one whose shadow shows, as dark as the photo's own shadows. */
-#include "mix_job.h"
+#include "mix_frames.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -306,8 +306,22 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 #define SOFT  60.0f
 #define SHARP 3.0f
 
+/* Of a sequence the first frame's. */
+static float kept_sun(lmb_light *out, const mix_job *j)
+{
+    const float *m = j->from_world.m;
+    const lmb_vec3 d = j->kept->sun.direction;
+    *out = j->kept->sun;
+    out->direction = (lmb_vec3){m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
+                                m[2] * d.x + m[6] * d.y + m[10] * d.z};
+    return j->kept->sun_size;
+}
+
 float mix_guess_sun(lmb_light *out, const mix_job *j)
 {
+    if (j->kept != NULL && j->kept->frames > 0 && j->kept->has_sun) {
+        return kept_sun(out, j);
+    }
     float around[3];
     const lmb_vec3 faces = j->hangs ? in_front(j) : (lmb_vec3){0, 1, 0}, from = direction(j);
     const float shadows = mix_sun_share(j->frame.light.pixels, &j->planes, &j->frame.camera, j->floor),
