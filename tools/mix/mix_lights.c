@@ -59,7 +59,8 @@ static int may_shadow(const mix_job *j, const sphere *s, int32_t light)
     const int is_sun = l->kind == LMB_LIGHT_DIRECTIONAL;
     const lmb_vec3 to = less(j->round_at, s->at), zero = {0, 0, 0}, from_light = less(j->round_at, l->position),
                    way = is_sun ? less(zero, l->direction) : less(l->position, s->at);
-    const float texel = 2.0f * map->view[0].half_width / (float)map->size * (is_sun ? 1.0f : sqrtf(dot(from_light, from_light)));
+    const float away = is_sun ? 1.0f : sqrtf(dot(from_light, from_light)),
+                texel = 2.0f * map->view[0].half_width / (float)map->size * away;
     const float reach = j->round_radius + 4.0f * texel + s->radius, length2 = fmaxf(dot(way, way), 1e-20f),
                 along = fmaxf(dot(to, way) / length2, 0.0f), t = is_sun ? along : fminf(along, 1.0f);
     const lmb_vec3 off = {to.x - t * way.x, to.y - t * way.y, to.z - t * way.z};

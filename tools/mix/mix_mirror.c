@@ -100,7 +100,7 @@ static void find_room(mix_job *j)
 static float leave_room(lmb_vec3 *normal, const mix_space *r, lmb_vec3 from, lmb_vec3 along)
 {
     float far = INFINITY;
-    for (int i = 0; i < 3; i += 2) { /* a lamp hangs so near to its ceiling that no guess of that is right */
+    for (int i = 0; i < 3; i += 2) { /* lamps hang so near to a ceiling that no guess of it is right */
         const float d = dot(r->axis[i], along), p = dot(r->axis[i], from),
                     t = fabsf(d) > 1e-6f ? ((d > 0.0f ? r->high[i] : r->low[i]) - p) / d : INFINITY;
         if (t < far) {
@@ -172,7 +172,7 @@ static void add_told(float inout[3], const mix_job *j, lmb_vec3 at, lmb_vec3 nor
 }
 
 /* What a surface sends by lamps and what is around. */
-static void shine(float out[3], const mix_job *j, lmb_vec3 at, lmb_vec3 normal, const float albedo[3])
+static void send_back(float out[3], const mix_job *j, lmb_vec3 at, lmb_vec3 normal, const float albedo[3])
 {
     lmb_env_irradiance(out, &j->env[1], normal);
     add_told(out, j, at, normal);
@@ -190,9 +190,9 @@ static void unseen(float out[3], const mix_job *j, lmb_vec3 from, lmb_vec3 along
     const lmb_vec3 here = lmb_axes_turn(&j->axes, from), off = plus(at, from, -1.0f);
     const float ends = j->room.is_known ? leave_room(&wall, &j->room, here, direction) : INFINITY;
     if (ends < INFINITY && (p < 0 || ends * ends < dot(off, off))) {
-        shine(out, j, plus(here, direction, ends), wall, j->room.albedo);
+        send_back(out, j, plus(here, direction, ends), wall, j->room.albedo);
     } else if (p >= 0) {
-        shine(out, j, lmb_axes_turn(&j->axes, at), lmb_axes_turn(&j->axes, j->planes.plane[p].normal), j->plane_albedo[p]);
+        send_back(out, j, lmb_axes_turn(&j->axes, at), lmb_axes_turn(&j->axes, j->planes.plane[p].normal), j->plane_albedo[p]);
     } else {
         lmb_env_sample(out, &j->env[1], direction, tangent);
     }

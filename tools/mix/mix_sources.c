@@ -119,7 +119,8 @@ static int is_beyond(const mix_job *j, int32_t i, const lmb_tile *tile, int32_t 
 {
     const lmb_vec3 at = {tile->position[0][k], tile->position[1][k], tile->position[2][k]};
     const mix_sources *s = j->sources;
-    return s->piece[s->first[way_of_light(j, i)]].alpha2 > 0.0f && dot(less(at, j->lights[i].position), s->axis[way_of_light(j, i)]) < 0.0f;
+    const int32_t way = way_of_light(j, i);
+    return s->piece[s->first[way]].alpha2 > 0.0f && dot(less(at, j->lights[i].position), s->axis[way]) < 0.0f;
 }
 
 void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int32_t i,
@@ -267,7 +268,8 @@ static size_t sort_points(points *s, float cell)
     return patches;
 }
 
-/* Means by flux. Where normals differ, the lobe is as much wider: by twice what their mean lacks of unit length. */
+/* Means by flux. Where normals differ, the lobe is wider by six times what their mean lacks of unit length, for it is to
+ * reach the next patch's; by less where directions of light differ, which move half vectors half as much. */
 static void gather(mix_patch *out, const point *from, size_t count, float cell)
 {
     float weight = 0.0f;
@@ -288,7 +290,8 @@ static void gather(mix_patch *out, const point *from, size_t count, float cell)
     out->at = times(out->at, 1.0f / weight);
     out->normal = times(out->normal, 1.0f / fmaxf(n, 1e-12f));
     out->from = times(out->from, 1.0f / fmaxf(f, 1e-12f));
-    out->alpha2 = out->alpha2 > 0.0f ? out->alpha2 / weight + 6.0f * fmaxf(1.0f - n / weight, 0.0f) + 0.5f * fmaxf(1.0f - f / weight, 0.0f) : 0.0f;
+    const float wider = 6.0f * fmaxf(1.0f - n / weight, 0.0f) + 0.5f * fmaxf(1.0f - f / weight, 0.0f);
+    out->alpha2 = out->alpha2 > 0.0f ? out->alpha2 / weight + wider : 0.0f;
     out->area = cell * cell;
 }
 
