@@ -302,9 +302,9 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 }
 
 /* Degrees: where no shadow tells of a sun, it is as wide as windows and many lamps are; where shadows are twice as dark as
- * what is beside them, small. */
+ * what is beside them, as narrow as one window far off. */
 #define SOFT  60.0f
-#define SHARP 3.0f
+#define SHARP 8.0f
 
 /* Of a sequence the first frame's. */
 static float kept_sun(lmb_light *out, const mix_job *j)
