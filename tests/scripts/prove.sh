@@ -24,6 +24,7 @@ if command -v frama-c >/dev/null 2>&1; then
     eva edges main "$related"
     eva small set_up "$ranges"
     eva small main "$ranges"
+    eva bins main "$ranges"
     # to_24_8: Eva keeps NaN among what a comparison holds for. maxf(NaN, low) is low: NaN is above nothing.
     eva snap main "$related" 'draw_one.c:26: .*is_finite|draw_one.c:26: .*non-finite float value'
 else
