@@ -10,9 +10,10 @@ fs.mkdirSync(shots, { recursive: true });
 const chromium = await browser(modules), server = await serve([folder], false);
 const pages = fs.readdirSync(folder).filter((f) => f.endsWith('.html'));
 
-// Widths and pictures. Structs have one layout: a tenth of them stands for all.
+// Widths and pictures. Structs have one layout, and so have indexes, folders and the pages of plain files: a tenth of
+// them stands for all.
 const page = await chromium.newPage();
-const looked = pages.filter((name, i) => !/^(struct|union)/.test(name) || i % 10 === 0);
+const looked = pages.filter((name, i) => !/^(struct|union|functions|globals|dir_)|_8md\.html$/.test(name) || i % 10 === 0);
 for (const name of looked) {
     await page.setViewportSize({ width: 1280, height: 800 });
     await page.goto(server.url + name);
