@@ -220,10 +220,11 @@ static void text_cameras(FILE *out, const model *m, const summary *s)
         label(out, "");
         fprintf(out, "%u: ", (unsigned)i);
         plain_text(out, c->name);
+        fputs(c->name[0] != '\0' ? ": " : "", out);
         if (c->orthographic)
-            fprintf(out, ": orthographic, %.6g x %.6g m", 2 * (double)c->half_width, 2 * (double)c->half_height);
+            fprintf(out, "orthographic, %.6g x %.6g m", 2 * (double)c->half_width, 2 * (double)c->half_height);
         else
-            fprintf(out, ": perspective, %.6g degrees high", degrees(c->yfov_rad));
+            fprintf(out, "perspective, %.6g degrees high", degrees(c->yfov_rad));
         fprintf(out, ", at %.6g %.6g %.6g\n", (double)c->eye.x, (double)c->eye.y, (double)c->eye.z);
     }
 }
