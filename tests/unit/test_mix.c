@@ -17,6 +17,9 @@ static const float GREY = 0.3f;
 static const lmb_pinhole camera = {WIDTH, HEIGHT, 80.0f, 80.0f, 47.5f, 35.5f};
 static char square[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, a unit wide and high */
 
+#define RED  "point:-0.6,0.5,-1.2:0,-1,0:2,0,0"
+#define BLUE "point:0.6,0.5,-1.2:0,-1,0:0,0,2"
+
 /* A job with a grey photo, and what more its command line says. */
 static mix_job *begin(char *const *more, int count)
 {
@@ -504,17 +507,23 @@ static void sun_fits_the_photo(void)
 }
 
 /* Tiles that no shadow of the object reaches are the photo's bit for bit, and the others are as if all lights had been
- * asked for each of them: by a sun from a side, whose shadow is in the picture, and by a lamp. */
+ * asked for each of them: by a sun from a side, whose shadow is in the picture, and by a lamp. Where what is around differs
+ * with the object each light is asked, too, also behind one that has a size. */
 static void lights_are_asked_where_they_change(void)
 {
-    static const char *const lights[2] = {"sun:0,0,0:1,-0.5,0.2:2,2,2:30", "point:-0.6,0.5,-1.2:0,-1,0:1,1,1:0.1"};
-    for (int i = 0; i < 2; ++i) {
-        char light[60];
-        char *more[] = {"--object", square, "--at", "40,66", "--scale", "0.2", "--turn", "60", "--light", light};
+    static const char *const lights[3][3] = {{"sun:0,0,0:1,-0.5,0.2:2,2,2:30"},
+                                             {"point:-0.6,0.5,-1.2:0,-1,0:1,1,1:0.1"},
+                                             {"sun:0,0,0:1,-0.5,0.2:2,2,2:5", RED, BLUE}};
+    for (int i = 0; i < 3; ++i) {
+        char light[3][60];
+        char *more[] = {"--object", square,    "--at",   "40,66",   "--scale", "0.2",     "--turn",
+                        "60",       "--light", light[0], "--light", light[1],  "--light", light[2]};
         report r = {""};
         int changed = 0, same = 0;
-        strcpy(light, lights[i]);
-        mix_job *j = begin(more, 10);
+        for (int k = 0; k < 3; ++k) {
+            strcpy(light[k], lights[i][k] != NULL ? lights[i][k] : "");
+        }
+        mix_job *j = begin(more, lights[i][1] != NULL ? 14 : 10);
         set_depth(j, 2.5f, 1);
         CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
         lmb_view view;
@@ -523,11 +532,12 @@ static void lights_are_asked_where_they_change(void)
         mix_lights_begin(j);
         for (int t = 0; t < PIXELS / LMB_TILE_PIXELS; ++t) {
             static lmb_tile tile;
-            static lmb_irradiance all[2], some[2];
+            static lmb_irradiance all[2], some[2], other[2];
             lmb_real_tile(&tile, &j->cloud, &j->planes, &j->real, &j->axes, t % (WIDTH / LMB_TILE) * LMB_TILE,
                           t / (WIDTH / LMB_TILE) * LMB_TILE);
             memset(all, 0, sizeof all);
             memset(some, 0, sizeof some);
+            memset(other, 0, sizeof other);
             for (int32_t k = 0; k < 2 * j->light_count; ++k) {
                 lmb_direct_tile(&all[k % 2], j->o.kernels, &tile, &view, &j->scene, &j->lights[k / 2],
                                 &j->maps[k / 2][k % 2]);
@@ -540,6 +550,9 @@ static void lights_are_asked_where_they_change(void)
                 CHECK(memcmp(&some[0], &some[1], sizeof some[0]) == 0);
                 same += some[0].rgb[0][0] == 0.0f && all[0].rgb[0][0] > 0.0f;
             }
+            other[1].rgb[2][0] = 1e-30f; /* too little to show in a sum */
+            mix_lights_tile(&other[0], &other[1], j, &view, &tile);
+            CHECK_MSG(memcmp(&all[0], &other[0], sizeof all[0]) == 0, "light %d, tile %d: not all are asked", i, t);
         }
         CHECK_MSG(changed > 3 && same > 5, "light %d: %d tiles change, %d are not asked", i, changed, same);
         mix_job_free(j);
@@ -576,6 +589,39 @@ static void metal_mirrors_the_room(void)
     }
     CHECK_MSG(shown[1] > 1.5f * shown[0], "%g by a lamp, %g by one of ten times its light", (double)shown[0],
               (double)shown[1]);
+}
+
+/* By a sun that has a size and two lamps of other colours. */
+static mix_job *lit_by(const char *first, const char *second)
+{
+    char sun[] = "sun:0,0,0:1,-0.5,0.2:1,1,1:5", light[2][40];
+    char *more[] = {"--object", square,  "--at", "40,66",   "--scale", "0.2",     "--show",
+                    "voxels",   "--light", sun,    "--light", light[0],  "--light", light[1]};
+    report r = {""};
+    strcpy(light[0], first);
+    strcpy(light[1], second);
+    mix_job *j = begin(more, 14);
+    set_depth(j, 2.5f, 1);
+    CHECK_MSG(place(j) && mix_light(j, &r) && mix_voxels(j, &r) && mix_show_voxels(j, &r), "%s", r.text);
+    return j;
+}
+
+/* Which lamp is told first says nothing: each of them counts once. */
+static void order_of_lights_says_nothing(void)
+{
+    mix_job *a = lit_by(RED, BLUE), *b = lit_by(BLUE, RED);
+    double off = 0.0, all = 0.0;
+    int unlike = 0;
+    for (int32_t i = 0; i < 16 * a->real.count; ++i) {
+        unlike += abs(a->real.colours[i] - b->real.colours[i]) > 1;
+    }
+    for (int i = 0; i < 3 * PIXELS; ++i) {
+        off += fabs((double)a->picture.pixels[i] - (double)b->picture.pixels[i]);
+        all += (double)a->picture.pixels[i];
+    }
+    CHECK_MSG(unlike == 0 && all > 0.0 && off < 1e-3 * all, "%d colours; %g of %g", unlike, off, all);
+    mix_job_free(a);
+    mix_job_free(b);
 }
 
 /* A sun of 16 degrees lights the floor beside the shadow's middle in part, and one without a size does not. */
@@ -700,6 +746,7 @@ void test_mix(void)
     sun_fits_the_photo();
     lights_are_asked_where_they_change();
     metal_mirrors_the_room();
+    order_of_lights_says_nothing();
     size_softens();
     stands_on_floor();
     touches(0.004f, 1);

@@ -87,7 +87,7 @@ void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, const mix_jo
     if (!(s.radius >= 0.0f) || (!falls && j->lamp_count == 0 && memcmp(without, with, sizeof *with) == 0)) {
         return;
     }
-    const int32_t step = falls || told < MIX_SUN_SAMPLES ? 1 : told / FEW;
+    const int32_t step = falls ? 1 : mix_lights_step(j, FEW);
     for (int32_t i = 0; i < told; i += step) {
         for (int k = 0; k < 2; ++k) {
             lmb_irradiance one;

@@ -4,11 +4,18 @@
 
 #include "mix_job.h"
 
+/* mix_lights_step: where `few` places of a guessed sun stand for all of it, each so manieth light is asked. Of told lights
+ * each counts: another one is elsewhere and has another colour. */
+static inline int32_t mix_lights_step(const mix_job *j, int32_t few)
+{
+    return j->o.light_count == 0 && j->light_count - j->lamp_count == MIX_SUN_SAMPLES ? MIX_SUN_SAMPLES / few : 1;
+}
+
 /* mix_lights_begin: the ball about the object, before any tile is asked. */
 void mix_lights_begin(mix_job *j);
 
 /* mix_lights_tile: add them to the light from around. Only lights whose shadow of the object can fall on the tile are asked
- * twice; where none is such, a few of those that are one stand for it, and where the light from around is the same in
+ * twice; where none is such, a few places of a guessed sun stand for it, and where the light from around is the same in
  * both none is asked: the tile stays the photo's. */
 void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_view *view,
                      const lmb_tile *real);

@@ -5,11 +5,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "mix_lights.h"
 #include "mix_sources.h"
 
 #define PI 3.14159265f
 
-enum { RAYS = 12, STEPS = 72, HALVINGS = 5, LIGHTS = 8 /* asked of many */ };
+enum { RAYS = 12, STEPS = 72, HALVINGS = 5, LIGHTS = 8 /* places of a guessed sun that are asked */ };
 
 #define FIRST  0.01f /* m: the first step, and how much each is longer than the one before */
 #define GROWTH 1.12f
@@ -327,7 +328,7 @@ static void see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t
 
 static void light_hits(mix_mirror *s, const mix_job *j, const lmb_view *view)
 {
-    const int32_t told = j->light_count - j->lamp_count, step = told > LIGHTS ? told / LIGHTS : 1;
+    const int32_t told = j->light_count - j->lamp_count, step = mix_lights_step(j, LIGHTS);
     memset(s->light, 0, sizeof s->light);
     for (int with = 0; with < 2; ++with) {
         for (int32_t i = 0; i < told; i += step) {

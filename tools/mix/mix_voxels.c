@@ -1,4 +1,5 @@
 /* mix_voxels.c: the light that real surfaces and the object throw about, as voxels around the object. */
+#include "mix_lights.h"
 #include "mix_lobes.h"
 #include "mix_sources.h"
 #include "mix_world.h"
@@ -10,7 +11,7 @@
 
 #include "../../platform/host/host.h"
 
-enum { TREE_SIZE = 512, TURNS = 4, ASKED = 4 /* lights of many, for colours */ };
+enum { TREE_SIZE = 512, TURNS = 4, ASKED = 4 /* places of a guessed sun, for colours */ };
 
 /* The cube around the object is so many times as wide as it is. */
 #define ROOM 4.0f
@@ -32,13 +33,13 @@ typedef struct colour {
 /* A pixel's irradiance without the object: lights, and what is around as if nothing were in its way. */
 static void light_tile(lmb_irradiance *out, mix_job *j, const lmb_tile *tile, const lmb_view *view)
 {
-    const int32_t told = j->light_count - j->lamp_count, step = told < MIX_SUN_SAMPLES ? 1 : told / ASKED;
+    const int32_t told = j->light_count - j->lamp_count, step = mix_lights_step(j, ASKED);
     memset(out, 0, sizeof *out);
     for (int32_t i = 0; i < told; i += step) {
         lmb_direct_tile(out, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][0]);
     }
     for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
-        out->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= (float)step; /* those that are one stand for it */
+        out->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= (float)step; /* those of a sun stand for it */
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         float rgb[3];
