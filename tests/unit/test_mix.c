@@ -506,6 +506,49 @@ static void sun_fits_the_photo(void)
     CHECK_MSG(bright > 1.2f && bright < 1.5f, "%g", (double)bright);
 }
 
+/* A photo of a floor that is brighter than what is around makes of white, with an object that has its place. */
+static mix_job *bright_floor(char **more, int count)
+{
+    mix_job *j = begin(more, count);
+    report r = {""};
+    set_depth(j, 2.5f, 1);
+    for (int i = 0; i < 3 * PIXELS; ++i) {
+        j->frame.light.pixels[i] = i / 3 / WIDTH < 52 ? 0.3f * GREY : GREY;
+    }
+    CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
+    return j;
+}
+
+/* An object that its file has in the world has the light of one that is put there: neither is by the camera. */
+static void world_has_the_same_light(void)
+{
+    static folder f;
+    char path[FOLDER_PATH], text[300];
+    char *at_pixel[] = {"--object", path, "--at", "47.5,60", "--scale", "0.3", "--quiet"},
+         *at_world[] = {"--object", path, "--at", "world", "--quiet"};
+    static const char unit[] = "v -0.5 0 0\nv 0.5 0 0\nv 0.5 1 0\nv -0.5 1 0\nf 1 2 3 4\n";
+    float rgb[2][3];
+    folder_open(&f);
+    strcpy(path, folder_put(&f, "unit.obj", unit, sizeof unit - 1));
+    mix_job *j[2] = {bright_floor(at_pixel, 7), NULL};
+    const double y = (double)j[0]->anchor.y, z = (double)j[0]->anchor.z;
+    const int size = snprintf(text, sizeof text, "v -0.15 %.6f %.6f\nv 0.15 %.6f %.6f\nv 0.15 %.6f %.6f\nv -0.15 %.6f %.6f\n"
+                              "f 1 2 3 4\n", y, z, y, z, y + 0.3, z, y + 0.3, z);
+    strcpy(path, folder_put(&f, "there.obj", text, (size_t)size));
+    j[1] = bright_floor(at_world, 5);
+    for (int i = 0; i < 2; ++i) {
+        lmb_env_irradiance(rgb[i], &j[i]->env[0], (lmb_vec3){0, 1, 0});
+    }
+    CHECK_MSG(fabsf(rgb[0][1] - rgb[1][1]) < 1e-4f * rgb[0][1], "around %g, in the world %g", (double)rgb[0][1],
+              (double)rgb[1][1]);
+    CHECK_MSG(fabsf(j[0]->sun.intensity[1] - j[1]->sun.intensity[1]) < 1e-4f * j[0]->sun.intensity[1], "%g, in the world %g",
+              (double)j[0]->sun.intensity[1], (double)j[1]->sun.intensity[1]);
+    for (int i = 0; i < 2; ++i) {
+        mix_job_free(j[i]);
+    }
+    folder_close(&f);
+}
+
 /* Tiles that no shadow of the object reaches are the photo's bit for bit, and the others are as if all lights had been
  * asked for each of them: by a sun from a side, whose shadow is in the picture, and by a lamp. Where what is around differs
  * with the object each light is asked, too, also behind one that has a size. */
@@ -744,6 +787,7 @@ void test_mix(void)
     sun_is_before_walls();
     sun_is_as_strong_as_shadows();
     sun_fits_the_photo();
+    world_has_the_same_light();
     lights_are_asked_where_they_change();
     metal_mirrors_the_room();
     order_of_lights_says_nothing();

@@ -145,6 +145,22 @@ static lmb_vec3 to_camera(const mix_job *j, lmb_vec3 v)
     return (lmb_vec3){along(j->axes.right, v), along(j->axes.up, v), along(j->axes.back, v)};
 }
 
+static int is_of_world(const mix_job *j) { return j->o.at == MIX_AT_WORLD; }
+
+/* The middle of the object's foot, in the camera's space. What a file has in the world was put nowhere: its box tells. */
+static lmb_vec3 foot_of(const mix_job *j)
+{
+    lmb_vec3 low, high;
+    if (!is_of_world(j)) {
+        return j->anchor;
+    }
+    mix_object_box(&low, &high, j);
+    return to_camera(j, (lmb_vec3){0.5f * (low.x + high.x), low.y, 0.5f * (low.z + high.z)});
+}
+
+/* Metres of a unit: such a file is in metres. */
+static float scale_of(const mix_job *j) { return is_of_world(j) ? 1.0f : j->scale; }
+
 /* Is a place of the camera's space seen as plane p's? */
 static int shows(const mix_job *j, int32_t p, lmb_vec3 at)
 {
@@ -158,7 +174,7 @@ static int shows(const mix_job *j, int32_t p, lmb_vec3 at)
 static int seen_steps(const mix_job *j, lmb_vec3 from, float height)
 {
     enum { STEPS = 12 };
-    const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
+    const lmb_vec3 foot = lmb_axes_turn(&j->axes, foot_of(j));
     int seen = 0;
     for (int i = 1; i <= STEPS && j->floor >= 0 && !j->hangs; ++i) {
         const float far = height / from.y * (float)i / STEPS;
@@ -171,7 +187,7 @@ static int seen_steps(const mix_job *j, lmb_vec3 from, float height)
 /* Level, towards the viewer; of a wall, out of it. */
 static lmb_vec3 in_front(const mix_job *j)
 {
-    const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
+    const lmb_vec3 foot = lmb_axes_turn(&j->axes, foot_of(j));
     const lmb_vec3 v = j->hangs ? lmb_axes_turn(&j->axes, j->facing) : (lmb_vec3){-foot.x, 0, -foot.z};
     const float level = hypotf(v.x, v.z);
     return level > 0.0f ? (lmb_vec3){v.x / level, 0, v.z / level} : (lmb_vec3){0, 0, 1};
@@ -181,7 +197,7 @@ static lmb_vec3 in_front(const mix_job *j)
 static int is_free(const mix_job *j, lmb_vec3 from)
 {
     const mix_extent e = mix_extent_of(j);
-    const lmb_vec3 way = to_camera(j, from), at = sum(1.0f, j->anchor, 0.5f * e.height * j->scale, j->facing);
+    const lmb_vec3 way = to_camera(j, from), at = sum(1.0f, foot_of(j), 0.5f * e.height * scale_of(j), j->facing);
     for (int32_t i = 0; i < j->planes.count; ++i) {
         const lmb_flat *p = &j->planes.plane[i];
         const float far = -(along(p->normal, at) + p->distance) / along(p->normal, way);
@@ -213,7 +229,7 @@ static lmb_vec3 direction(const mix_job *j)
                 high = j->hangs ? 0.70710678f : 0.5f,
                 facing = fminf(fmaxf(flat > 0.0f ? along(bright, front) / flat : 0.0f, low), high);
     const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
-    const float tall = (hi.y - lo.y) * j->scale, first = along(bright, side) < 0.0f ? -1.0f : 1.0f,
+    const float tall = (hi.y - lo.y) * scale_of(j), first = along(bright, side) < 0.0f ? -1.0f : 1.0f,
                 height = fminf(bright.y, heights[2]);
     const lmb_vec3 one = from_side(front, facing, first, height), other = from_side(front, facing, -first, height);
     const int turned = 2 * seen_steps(j, one, tall) < seen_steps(j, other, tall);
@@ -250,7 +266,7 @@ static float grey_around(const mix_job *j, lmb_vec3 normal)
 
 /* The mean brightness of a block's measured pixels, and the normal at its middle; 0: hardly one is measured, or it lies
  * farther from where the object stands. */
-static int block_seen(float *brightness, lmb_vec3 *normal, const mix_job *j, int32_t x0, int32_t y0,
+static int block_seen(float *brightness, lmb_vec3 *normal, const mix_job *j, int32_t x0, int32_t y0, lmb_vec3 foot,
                       float near)
 {
     const int32_t w = j->frame.camera.width, at = (y0 + LMB_TILE / 2) * w + x0 + LMB_TILE / 2;
@@ -266,7 +282,7 @@ static int block_seen(float *brightness, lmb_vec3 *normal, const mix_job *j, int
     }
     *brightness = all / fmaxf((float)n, 1.0f);
     *normal = lmb_axes_turn(&j->axes, label > 0 ? j->planes.plane[label - 1].normal : j->cloud.normal[at]);
-    const lmb_vec3 off = sum(1.0f, lmb_cloud_point(&j->cloud, at % w, at / w), -1.0f, j->anchor);
+    const lmb_vec3 off = sum(1.0f, lmb_cloud_point(&j->cloud, at % w, at / w), -1.0f, foot);
     return n > LMB_TILE_PIXELS / 2 && j->cloud.inverse[at] > 0.0f && along(off, off) < near * near;
 }
 
@@ -280,14 +296,15 @@ static int by_value(const void *a, const void *b)
 static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 {
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
-    const float near = NEAR + mix_extent_of(j).longest * j->scale;
+    const lmb_vec3 foot = foot_of(j);
+    const float near = NEAR + mix_extent_of(j).longest * scale_of(j);
     float *more = malloc((size_t)(w / LMB_TILE + 1) * (size_t)(h / LMB_TILE + 1) * sizeof *more);
     size_t n = 0;
     for (int32_t y = 0; more != NULL && y + LMB_TILE <= h; y += LMB_TILE) {
         for (int32_t x = 0; x + LMB_TILE <= w; x += LMB_TILE) {
             lmb_vec3 normal;
             float brightness;
-            if (block_seen(&brightness, &normal, j, x, y, near)) {
+            if (block_seen(&brightness, &normal, j, x, y, foot, near)) {
                 const float light = grey_around(j, normal) + sun * fmaxf(along(normal, from), 0.0f);
                 more[n++] = 3.14159265f / WHITE * brightness / fmaxf(light, 1e-9f);
             }
