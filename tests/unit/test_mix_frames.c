@@ -148,6 +148,78 @@ static void object_stays(void)
     mix_kept_free(&k);
 }
 
+enum { SEEN = 16 /* planes of a frame */ };
+
+/* A frame of planes that are `from`, from + 1 ... metres away; the object stands on plane `floor`. The first ones go on
+ * with tracks 0, 1 ... */
+static void keep_frame(mix_kept *k, mix_job *j, int from, int go_on, int32_t floor)
+{
+    memset(j, 0, sizeof *j);
+    j->planes.count = SEEN;
+    j->floor = floor;
+    for (int i = 0; i < SEEN; ++i) {
+        j->planes.plane[i].normal = (lmb_vec3){0, 0, 1};
+        j->planes.plane[i].distance = (float)(from + i);
+        j->planes.plane[i].pixels = 100;
+        j->track[i] = i < go_on ? i : -1;
+    }
+    mix_keep_planes(k, j);
+    ++k->frames;
+}
+
+static int32_t track_at(const mix_kept *k, int far)
+{
+    for (int32_t i = 0; i < k->tracks; ++i) {
+        if (k->track[i].distance == (float)far) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* More planes than there are tracks: the floor keeps its own, new ones get one each, and what was seen long ago gives way
+ * however often that was. */
+static void tracks_are_few(void)
+{
+    static mix_job j;
+    mix_kept k;
+    memset(&k, 0, sizeof k);
+    k.floor = -1;
+    keep_frame(&k, &j, 1, 0, 0);
+    keep_frame(&k, &j, 1, SEEN, 0);
+    CHECK(k.floor == 0 && k.tracks == SEEN && k.track[0].seen == 2);
+    keep_frame(&k, &j, 101, 0, -1); /* eight are free */
+    CHECK(k.tracks == LMB_MAX_PLANES && k.floor == 0 && k.track[0].distance == 1.0f);
+    for (int i = 0; i < SEEN; ++i) {
+        CHECK_MSG(track_at(&k, 101 + i) > 0, "plane %d of the third frame has no track", i);
+    }
+    keep_frame(&k, &j, 201, 0, -1);
+    int32_t left = 0;
+    for (int i = 0; i < SEEN; ++i) {
+        CHECK_MSG(track_at(&k, 201 + i) > 0, "plane %d of the fourth frame has no track", i);
+        left += track_at(&k, 101 + i) > 0;
+        CHECK_MSG(i == 0 || track_at(&k, 1 + i) < 0, "plane %d was not seen for two frames", i);
+    }
+    CHECK_MSG(k.floor == 0 && track_at(&k, 1) == 0 && left == LMB_MAX_PLANES - 1 - SEEN, "%d left", (int)left);
+}
+
+/* What has the number of the floor and lies elsewhere is not what the object stands on. */
+static void floor_is_below(void)
+{
+    mix_kept k;
+    report r = {""};
+    memset(&k, 0, sizeof k);
+    mix_job *a = job_at(0.0, &k);
+    CHECK(mix_find_planes(a, &r) && mix_place(a, &r) && mix_light(a, &r) && mix_keep(&k, a, &r));
+    CHECK(k.tracks == 2 && k.floor >= 0);
+    k.floor = 1 - k.floor;
+    mix_job *b = job_at(0.1, &k);
+    CHECK(mix_find_planes(b, &r) && mix_place(b, &r) && b->floor >= 0 && b->planes.plane[b->floor].normal.y > 0.99f);
+    mix_job_free(a);
+    mix_job_free(b);
+    mix_kept_free(&k);
+}
+
 /* A guessed sun is kept where the object's lamps shine beside it, too; lights that were given are not. */
 static void sun_stays(void)
 {
@@ -256,5 +328,7 @@ void test_mix_frames(void)
     depth_moves();
     poses();
     object_stays();
+    tracks_are_few();
+    floor_is_below();
     sun_stays();
 }

@@ -23,6 +23,7 @@ typedef struct mix_track {
     float distance;
     float weight;  /* by how many pixels; of the last frames */
     int32_t seen;  /* by how many frames before this one; 0: by none */
+    int32_t last;  /* the number of frames with the last one that found it */
 } mix_track;
 
 /* What frames before have left, in the world of their poses. */

@@ -8,7 +8,7 @@
  * middle measure what may be one thing (MIX_RELATIVE): of planes noise is the mean of their pixels', and counts little. */
 #define ONE_PLANE 0.9975641f /* cosine of 4 degrees */
 
-/* Where no plane is tracked, what the object may stand on lies so near. */
+/* What the object may stand on lies so near; the plane that it stood on is believed by what a sensor measures, too. */
 #define BELOW_M  0.05f
 #define BELOW    0.985f /* cosine of ten degrees */
 
@@ -87,34 +87,56 @@ static void track_planes(mix_job *j, const lmb_mat4 *camera)
     lmb_planes_move(&j->cloud, &j->planes);
 }
 
-/* A free number; of all the one that was seen in the fewest frames. */
+/* Does track a give way before b? The one that no frame has found for longer; of those alike that of fewer frames. */
+static int gives_way(const mix_track *a, const mix_track *b)
+{
+    return a->last != b->last ? a->last < b->last : a->seen < b->seen;
+}
+
+/* A free number; of all the one that is missed least: what the object stands on keeps its own, and so do planes of this
+ * frame. -1: there is no such one. */
 static int32_t new_track(mix_kept *k)
 {
-    int32_t rarest = 0;
+    int32_t least = -1;
     if (k->tracks < LMB_MAX_PLANES) {
         return k->tracks++;
     }
-    for (int32_t i = 1; i < k->tracks; ++i) {
-        rarest = k->track[i].seen < k->track[rarest].seen && i != k->floor ? i : rarest;
+    for (int32_t i = 0; i < k->tracks; ++i) {
+        if (i != k->floor && k->track[i].last <= k->frames && (least < 0 || gives_way(&k->track[i], &k->track[least]))) {
+            least = i;
+        }
     }
-    return rarest;
+    return least;
 }
 
-void mix_keep_planes(mix_kept *k, const mix_job *j)
+static void keep_plane(mix_kept *k, const mix_job *j, int32_t i, int is_new)
 {
     const lmb_mat4 camera = mix_camera_of(j), world = mix_back(&camera);
-    for (int32_t i = 0; i < j->planes.count; ++i) {
-        const lmb_flat *p = &j->planes.plane[i];
-        const lmb_vec3 at = {camera.m[12], camera.m[13], camera.m[14]};
-        const int is_new = k->frames == 0 || j->track[i] < 0;
-        const int32_t n = is_new ? new_track(k) : j->track[i];
-        mix_track *t = &k->track[n];
-        t->normal = mix_turn(&world, p->normal);
-        t->distance = p->distance + dot(p->normal, at);
-        t->weight = (is_new ? 0.0f : fminf(t->weight, (float)RECENT * (float)p->pixels)) + (float)p->pixels;
-        t->seen = is_new ? 1 : t->seen + 1;
-        if (i == j->floor && (k->frames == 0 || k->floor >= 0)) {
-            k->floor = n;
+    const lmb_flat *p = &j->planes.plane[i];
+    const lmb_vec3 at = {camera.m[12], camera.m[13], camera.m[14]};
+    const int32_t n = is_new ? new_track(k) : j->track[i];
+    if (n < 0) {
+        return;
+    }
+    mix_track *t = &k->track[n];
+    t->normal = mix_turn(&world, p->normal);
+    t->distance = p->distance + dot(p->normal, at);
+    t->weight = (is_new ? 0.0f : fminf(t->weight, (float)RECENT * (float)p->pixels)) + (float)p->pixels;
+    t->seen = is_new ? 1 : t->seen + 1;
+    t->last = k->frames + 1;
+    if (i == j->floor && (k->frames == 0 || k->floor >= 0)) {
+        k->floor = n;
+    }
+}
+
+/* Planes that go on first: their numbers are not free. */
+void mix_keep_planes(mix_kept *k, const mix_job *j)
+{
+    for (int is_new = 0; is_new < 2; ++is_new) {
+        for (int32_t i = 0; i < j->planes.count; ++i) {
+            if (is_new == (k->frames == 0 || j->track[i] < 0)) {
+                keep_plane(k, j, i, is_new);
+            }
         }
     }
 }
@@ -133,18 +155,27 @@ void mix_keep_place(mix_kept *k, const mix_job *j)
     k->floor = -1;
 }
 
+/* By how much a plane misses the object's foot, m; infinite: it lies aslant there, or not even by what a sensor bends it. */
+static float miss(const mix_job *j, const lmb_flat *p, lmb_vec3 normal, int is_its_own)
+{
+    const float off = fabsf(dot(p->normal, j->anchor) + p->distance);
+    const int may_be = off < BELOW_M || (is_its_own && j->anchor.z < -1e-3f &&
+                                         mix_agree(inverse_at(p->slope, j->anchor), -1.0f / j->anchor.z));
+    return may_be && dot(p->normal, normal) > BELOW ? off : INFINITY;
+}
+
 /* The plane of this frame that the object stands on: the one that it stood on, else the nearest where it stood; or -1. */
 static int32_t plane_below(const mix_job *j, lmb_vec3 normal)
 {
     int32_t best = -1;
-    float near = BELOW_M;
+    float near = INFINITY;
     for (int32_t i = 0; i < j->planes.count; ++i) {
-        const lmb_flat *p = &j->planes.plane[i];
-        const float off = fabsf(dot(p->normal, j->anchor) + p->distance);
-        if (j->kept->floor >= 0 && j->track[i] == j->kept->floor) {
+        const int is_its_own = j->kept->floor >= 0 && j->track[i] == j->kept->floor;
+        const float off = miss(j, &j->planes.plane[i], normal, is_its_own);
+        if (is_its_own && off < INFINITY) {
             return i;
         }
-        if (off < near && dot(p->normal, normal) > BELOW) {
+        if (off < near) {
             near = off;
             best = i;
         }
