@@ -519,6 +519,33 @@ static mix_job *bright_floor(char **more, int count)
     return j;
 }
 
+/* Pixels that hold no number say nothing of how bright the photo is, wherever they are. */
+static void no_number_says_nothing(void)
+{
+    char *more[] = {"--object", square, "--at", "47.5,60", "--scale", "0.3", "--quiet"};
+    static const float half[3] = {0.5f, 0.5f, 0.5f};
+    float rgb[2][3];
+    for (int i = 0; i < 2; ++i) {
+        mix_job *j = begin(more, 7);
+        report r = {""};
+        lmb_light sun;
+        set_depth(j, 2.5f, 1);
+        for (int k = 0; k < 3 * PIXELS; ++k) {
+            j->frame.light.pixels[k] = k / 3 / WIDTH < 52 ? 0.3f * GREY : GREY;
+        }
+        CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
+        for (int k = 0; k < 3 * PIXELS && i == 1; ++k) { /* the right half */
+            j->frame.light.pixels[k] = k / 3 % WIDTH >= WIDTH / 2 ? NAN : j->frame.light.pixels[k];
+        }
+        lmb_env_dim(&j->env[0], &j->env[0], half); /* the guess made it as bright as the photo wants */
+        mix_guess_sun(&sun, j);
+        lmb_env_irradiance(rgb[i], &j->env[0], (lmb_vec3){0, 1, 0});
+        mix_job_free(j);
+    }
+    CHECK_MSG(fabsf(rgb[0][1] - rgb[1][1]) < 0.02f * rgb[0][1], "around %g, with what is no number %g", (double)rgb[0][1],
+              (double)rgb[1][1]);
+}
+
 /* An object that its file has in the world has the light of one that is put there: neither is by the camera. */
 static void world_has_the_same_light(void)
 {
@@ -788,6 +815,7 @@ void test_mix(void)
     sun_is_as_strong_as_shadows();
     sun_fits_the_photo();
     world_has_the_same_light();
+    no_number_says_nothing();
     lights_are_asked_where_they_change();
     metal_mirrors_the_room();
     order_of_lights_says_nothing();

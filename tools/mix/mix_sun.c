@@ -306,7 +306,8 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
             float brightness;
             if (block_seen(&brightness, &normal, j, x, y, foot, near)) {
                 const float light = grey_around(j, normal) + sun * fmaxf(along(normal, from), 0.0f);
-                more[n++] = 3.14159265f / WHITE * brightness / fmaxf(light, 1e-9f);
+                more[n] = 3.14159265f / WHITE * brightness / fmaxf(light, 1e-9f);
+                n += isfinite(more[n]) ? 1 : 0; /* NaN has no place in an order */
             }
         }
     }
