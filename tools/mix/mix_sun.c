@@ -1,5 +1,6 @@
 /* mix_sun.c: a sun for a photo that is given no light: one whose shadow shows, as dark as the photo's own shadows. */
 #include "mix_frames.h"
+#include "mix_turn.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -350,7 +351,8 @@ float mix_guess_sun(lmb_light *out, const mix_job *j)
                            : brighter(j, from, share * grey_around(j, faces) / along(from, faces)),
                 by[3] = {more, more, more};
     lmb_env_dim(&j->env[0], &j->env[0], by);
-    const lmb_axes *a = &j->axes;
+    const lmb_mat4 world = mix_back(&j->from_world);
+    const lmb_vec3 way = mix_turn(&world, (lmb_vec3){-from.x, -from.y, -from.z});
     memset(out, 0, sizeof *out);
     out->kind = LMB_LIGHT_DIRECTIONAL;
     out->direction = (lmb_vec3){-from.x, -from.y, -from.z};
@@ -361,9 +363,9 @@ float mix_guess_sun(lmb_light *out, const mix_job *j)
     }
     report_note(j->o.is_quiet,
                 "no light given: guessed a sun from a side, near where the surroundings are brightest, %.2f as strong "
-                "as they, which are %.2f times as bright as the photo has them; --light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f:%.0f in the camera's space",
-                (double)share, (double)more, -(double)along(a->right, from), -(double)along(a->up, from),
-                -(double)along(a->back, from), (double)out->intensity[0], (double)out->intensity[1],
+                "as they, which are %.2f times as bright as the photo has them%s; --light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f:%.0f",
+                (double)share, (double)more, more > 1.0f ? "; given by hand, the sun leaves them as in the photo" : "", (double)way.x,
+                (double)way.y, (double)way.z, (double)out->intensity[0], (double)out->intensity[1],
                 (double)out->intensity[2], (double)size);
     return size;
 }
