@@ -129,7 +129,9 @@ static void tell_rest(sequence *s)
 static void tell_failed(sequence *s)
 {
     if (report_is_system(&s->why) || report_is_usage(&s->why)) {
-        s->failed = s->why;
+        if (s->is_written) { /* else what failed first is told: writing the frame before */
+            s->failed = s->why;
+        }
         s->is_over = 1;
         return;
     }
