@@ -137,7 +137,7 @@ static void set_box(mix_job *j, float x0, float y0, float x1, float y1)
     j->box_px[3] = (int32_t)fminf(fmaxf(y1 + 4.0f, 0.0f), h);
 }
 
-/* How large is the box of what the object covers in the picture, and is the object in it? */
+/* Where in the picture is the box of what the object covers, and is the object in it? */
 static void look(mix_job *j)
 {
     const lmb_pinhole *c = &j->frame.camera;
@@ -149,7 +149,6 @@ static void look(mix_job *j)
         const float ahead = -dot(j->axes.back, p), x = c->cx + c->fx * dot(j->axes.right, p) / ahead,
                     y = c->cy - c->fy * dot(j->axes.up, p) / ahead;
         if (!(ahead > 0.0f)) {
-            j->seen_px = INFINITY;
             j->inside = mix_is_inside(j);
             set_box(j, 0.0f, 0.0f, (float)c->width, (float)c->height);
             return;
@@ -160,7 +159,6 @@ static void look(mix_job *j)
         y1 = fmaxf(y1, y);
     }
     set_box(j, x0, y0, x1, y1);
-    j->seen_px = fmaxf(x1 - x0, y1 - y0);
     j->inside = mix_is_inside(j);
 }
 
