@@ -268,8 +268,13 @@ static size_t sort_points(points *s, float cell)
     return patches;
 }
 
-/* Means by flux. Where normals differ, the lobe is wider by six times what their mean lacks of unit length, for it is to
- * reach the next patch's; by less where directions of light differ, which move half vectors half as much. */
+/* By how much a lobe is wider where a patch's points face several ways, for it is to reach the next patch's, and where light
+ * comes to them from several, which moves half vectors half as much: alpha^2 for what the mean of those lacks of unit
+ * length. By less, single patches of a ball are seen as rays on the floor. */
+#define BY_NORMALS 6.0f
+#define BY_LIGHTS  0.5f
+
+/* Means by flux. */
 static void gather(mix_patch *out, const point *from, size_t count, float cell)
 {
     float weight = 0.0f;
@@ -290,7 +295,7 @@ static void gather(mix_patch *out, const point *from, size_t count, float cell)
     out->at = times(out->at, 1.0f / weight);
     out->normal = times(out->normal, 1.0f / fmaxf(n, 1e-12f));
     out->from = times(out->from, 1.0f / fmaxf(f, 1e-12f));
-    const float wider = 6.0f * fmaxf(1.0f - n / weight, 0.0f) + 0.5f * fmaxf(1.0f - f / weight, 0.0f);
+    const float wider = BY_NORMALS * fmaxf(1.0f - n / weight, 0.0f) + BY_LIGHTS * fmaxf(1.0f - f / weight, 0.0f);
     out->alpha2 = out->alpha2 > 0.0f ? out->alpha2 / weight + wider : 0.0f;
     out->area = cell * cell;
 }
