@@ -97,16 +97,16 @@ static int gives_way(const mix_track *a, const mix_track *b)
  * frame. -1: there is no such one. */
 static int32_t new_track(mix_kept *k)
 {
-    int32_t least = -1;
+    int32_t first = -1;
     if (k->tracks < LMB_MAX_PLANES) {
         return k->tracks++;
     }
     for (int32_t i = 0; i < k->tracks; ++i) {
-        if (i != k->floor && k->track[i].last <= k->frames && (least < 0 || gives_way(&k->track[i], &k->track[least]))) {
-            least = i;
+        if (i != k->floor && k->track[i].last <= k->frames && (first < 0 || gives_way(&k->track[i], &k->track[first]))) {
+            first = i;
         }
     }
-    return least;
+    return first;
 }
 
 static void keep_plane(mix_kept *k, const mix_job *j, int32_t i, int is_new)
