@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "../../src/base/codec.h"
-#include "../model/model.h"
 
 #define DEGREES 57.295779513082323
 
@@ -210,26 +209,19 @@ static double diagonal(const lmb_scene *s)
     return sqrt(x * x + y * y + z * z);
 }
 
-int relief_tell(const relief_frame *f, relief_shot shot, const char *path, report *r)
+int relief_tell(const relief_frame *f, relief_shot shot, const lmb_scene *complex, report *r)
 {
-    static model_notes notes;
-    model complex;
     relief_frame truth;
     relief_figures e;
-    memset(&notes, 0, sizeof notes);
-    if (!model_load(&complex, path, NULL, &notes, r)) {
+    shot.relief = NULL;
+    shot.scene = complex;
+    if (!relief_shoot(&truth, &shot, r)) {
         return 0;
     }
-    shot.relief = NULL;
-    shot.scene = &complex.scene;
-    int ok = relief_shoot(&truth, &shot, r);
+    const int ok = relief_measure(&e, f, &truth, diagonal(complex), r);
     if (ok) {
-        ok = relief_measure(&e, f, &truth, diagonal(&complex.scene), r);
-        if (ok) {
-            tell_compared(f, &truth, &e);
-        }
-        relief_frame_free(&truth);
+        tell_compared(f, &truth, &e);
     }
-    model_free(&complex);
+    relief_frame_free(&truth);
     return ok;
 }

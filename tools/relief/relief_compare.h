@@ -30,7 +30,7 @@ int relief_isolated(const relief_frame *f, int32_t x, int32_t y);
 int relief_measure(relief_figures *out, const relief_frame *test, const relief_frame *truth, double diagonal,
                    report *r);
 
-/* relief_tell: draws the complex model in file `path` as `shot` drew its relief's picture `f`; prints speed and errors. */
-int relief_tell(const relief_frame *f, relief_shot shot, const char *path, report *r);
+/* relief_tell: draws the complex model as `shot` drew its relief's picture `f`; prints speed and errors. */
+int relief_tell(const relief_frame *f, relief_shot shot, const lmb_scene *complex, report *r);
 
 #endif

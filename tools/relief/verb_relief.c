@@ -127,7 +127,7 @@ typedef struct work {
     file_bytes file;
     lmb_relief relief;
     lmb_scene simple;
-    model with;
+    model with, complex; /* complex: what --compare names */
     lmb_light light; /* the sun that shines where none is asked for, or what is */
     key_path path;
 } work;
@@ -136,6 +136,7 @@ static void work_free(work *w)
 {
     file_free(&w->file);
     model_free(&w->with);
+    model_free(&w->complex);
     key_path_free(&w->path);
     free(w);
 }
@@ -233,6 +234,7 @@ static int render(work *w, relief_options *o, report *r)
     w->light = o->has_light ? o->light : sun;
     if (!options_files(o, &table, r) || !open_relief(w, o->file, r) ||
         (o->with != NULL && !load(&w->with, o->with, r)) ||
+        (o->compare != NULL && !load(&w->complex, o->compare, r)) ||
         !options_files(o, &table, r) || !relief_path_open(&w->path, o, &w->light, r) || !choose_view(&shot.view, w, o, r)) {
         return 0;
     }
@@ -260,7 +262,7 @@ static int render(work *w, relief_options *o, report *r)
     }
     report_note(!o->view.is_verbose, "shadow map %.2f ms, triangles %.2f ms, pixels %.2f ms", 1e3 * f.light_s,
                 1e3 * f.draw_s, 1e3 * f.band_s);
-    const int ok = (o->compare == NULL || relief_tell(&f, shot, o->compare, r)) && write_frame(o, &f, o->out, r);
+    const int ok = (o->compare == NULL || relief_tell(&f, shot, &w->complex.scene, r)) && write_frame(o, &f, o->out, r);
     relief_frame_free(&f);
     return ok;
 }

@@ -199,9 +199,9 @@ const lmb_world *relight_light_nearest(const relight_light *w, const relight_opt
 
 /* --- relief_compare.h: its reliefs have no model beside them ------------------------------------------------------ */
 
-int relief_tell(const relief_frame *f, relief_shot shot, const char *path, report *r)
+int relief_tell(const relief_frame *f, relief_shot shot, const lmb_scene *complex, report *r)
 {
-    return (void)f, (void)shot, (void)path, report_fail(r, "--compare: not on the page");
+    return (void)f, (void)shot, (void)complex, report_fail(r, "--compare: not on the page");
 }
 
 const option_row relief_path_rows[] = {{.kind = OPTION_END}};
