@@ -151,22 +151,35 @@ static lmb_light placed(const mix_job *j, const lmb_light *from)
     return out;
 }
 
+/* A light of the world. Its places are chosen there: by the scene's axes, which turn with the camera, they would wander
+ * from frame to frame. */
 static void add_light(mix_job *j, const lmb_light *light, float size, int32_t samples)
 {
+    lmb_light *to = j->lights + j->light_count;
+    const int32_t count = size > 0.0f ? samples : 1;
+    *to = *light;
     if (size > 0.0f) {
-        area_light(j->lights + j->light_count, samples, light, size);
-    } else {
-        j->lights[j->light_count] = *light;
+        area_light(to, samples, light, size);
     }
-    j->light_count += size > 0.0f ? samples : 1;
+    for (int32_t i = 0; i < count; ++i) {
+        to[i] = placed(j, &to[i]);
+    }
+    j->light_count += count;
 }
 
 static void place_lights(mix_job *j)
 {
     for (int32_t i = 0; i < j->o.light_count; ++i) {
-        const lmb_light light = placed(j, &j->o.lights[i]);
-        add_light(j, &light, j->o.light_size[i], MIX_LIGHT_SAMPLES);
+        add_light(j, &j->o.lights[i], j->o.light_size[i], MIX_LIGHT_SAMPLES);
     }
+}
+
+static void add_sun(mix_job *j)
+{
+    const lmb_mat4 world = turned_back(&j->from_world);
+    lmb_light sun = j->sun;
+    sun.direction = turned(&world, sun.direction);
+    add_light(j, &sun, j->sun_size, MIX_SUN_SAMPLES);
 }
 
 static int take_lights(mix_job *j, report *r)
@@ -274,7 +287,7 @@ int mix_light(mix_job *j, report *r)
         place_lights(j);
     } else if (j->object_triangles > 0) {
         j->sun_size = mix_guess_sun(&j->sun, j);
-        add_light(j, &j->sun, j->sun_size, MIX_SUN_SAMPLES);
+        add_sun(j);
     }
     return check_lights(j, r) && draw_maps(j, 0, r) && add_own(j, r) &&
            (!is_folded(j) || !has_lamps(j) || mix_around(j, r));
