@@ -14,7 +14,7 @@
 /* Of the object's longest side: how far before its surface the lights are that stand for its patches. */
 #define CLEAR 0.01f
 
-enum { TREE_SIZE = 512, CELLS = 16 /* a side of the object, at most */, PATCHES = 768 /* at most */ };
+enum { TREE_SIZE = 512, CELLS = 32 /* a side of the object, at most */, PATCHES = 768 /* at most */ };
 
 static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b)
 {
