@@ -124,9 +124,9 @@ int mix_draw(mix_job *j, report *r);        /* the picture */
 
 /* mix_guess_sun: a sun for a photo that is given no light, and how wide it is, degrees: from the side, about where the
  * surroundings are brightest; so strong that its shadows are as dark as those in the photo and that the photo's brightest
- * surfaces are white; the less of it shadows tell, the wider. In a sequence it stays as it was. mix_sun_share: what such a sun gives the floor for each
- * unit that comes from everywhere else: of the photo's planes, by two brightnesses that each of them has, above
- * all of plane `floor` (-1: none); 0 where none has two. */
+ * surfaces are white; the less of it shadows tell, the wider. In a sequence it stays as it was. mix_sun_share: what such a
+ * sun gives the floor for each unit that comes from everywhere else: of the photo's planes, by two brightnesses that each
+ * of them has, above all of plane `floor` (-1: none); 0 where none has two. Both: -1 where memory is short. */
 float mix_guess_sun(lmb_light *out, const mix_job *j);
 float mix_sun_share(const float *rgb, const lmb_planes *planes, const lmb_pinhole *camera, int32_t floor);
 

@@ -287,6 +287,9 @@ int mix_light(mix_job *j, report *r)
         place_lights(j);
     } else if (j->object_triangles > 0) {
         j->sun_size = mix_guess_sun(&j->sun, j);
+        if (j->sun_size < 0.0f) {
+            return report_fail(r, "out of memory");
+        }
         add_sun(j);
     }
     return check_lights(j, r) && draw_maps(j, 0, r) && add_own(j, r) &&

@@ -119,14 +119,17 @@ float mix_sun_share(const float *rgb, const lmb_planes *planes, const lmb_pinhol
     double all = 0.0, blocks = 0.0;
     const size_t cap = (size_t)(c->width / LMB_TILE + 1) * (size_t)(c->height / LMB_TILE + 1);
     float *brightness = malloc(cap * sizeof *brightness);
-    for (int32_t p = 0; brightness != NULL && p < planes->count; ++p) {
+    if (brightness == NULL) {
+        return -1.0f;
+    }
+    for (int32_t p = 0; p < planes->count; ++p) {
         const size_t n = blocks_of(brightness, rgb, planes->label, c, p);
         of[p] = contrast_of(brightness, n, p == floor);
         all += of[p].weight;
         blocks += p == floor ? FLOOR_COUNTS * (double)n : (double)n;
     }
     free(brightness);
-    const double stops = brightness != NULL && all > 0.0 ? median(of, planes->count, all) : 0.0;
+    const double stops = all > 0.0 ? median(of, planes->count, all) : 0.0;
     const double counted = blocks > 0.0 ? fmin(4.0 * all / blocks, 1.0) : 0.0;
     return fminf((float)(counted * (exp2(stops) - 1.0)), SHARE_MAX);
 }
@@ -293,7 +296,7 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* How much brighter all light is than what is around with a sun from there, of so much by its cosine. */
+/* 0: memory is short. Else how much brighter all light is than what is around with a sun from there, of so much by its cosine. */
 static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 {
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
@@ -301,7 +304,10 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
     const float near = NEAR + mix_extent_of(j).longest * scale_of(j);
     float *more = malloc((size_t)(w / LMB_TILE + 1) * (size_t)(h / LMB_TILE + 1) * sizeof *more);
     size_t n = 0;
-    for (int32_t y = 0; more != NULL && y + LMB_TILE <= h; y += LMB_TILE) {
+    if (more == NULL) {
+        return 0.0f;
+    }
+    for (int32_t y = 0; y + LMB_TILE <= h; y += LMB_TILE) {
         for (int32_t x = 0; x + LMB_TILE <= w; x += LMB_TILE) {
             lmb_vec3 normal;
             float brightness;
@@ -350,6 +356,9 @@ float mix_guess_sun(lmb_light *out, const mix_job *j)
                            ? 1.0f
                            : brighter(j, from, share * grey_around(j, faces) / along(from, faces)),
                 by[3] = {more, more, more};
+    if (shadows < 0.0f || !(more > 0.0f)) {
+        return -1.0f;
+    }
     lmb_env_dim(&j->env[0], &j->env[0], by);
     const lmb_mat4 world = mix_back(&j->from_world);
     const lmb_vec3 way = mix_turn(&world, (lmb_vec3){-from.x, -from.y, -from.z});
