@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/mix/mix_job.h"
 #include "../../tools/picture/picture.h"
 #include "rooms.h"
+#include "scene_photo.h"
 
 int test_passed, test_failed, test_skipped;
 
@@ -28,19 +28,13 @@ typedef struct stage {
 
 /* --- the photo ---------------------------------------------------------------------------------------------------- */
 
-static int keep(const char *path, room_picture *p, int is_read)
-{
-    FILE *f = fopen(path, is_read ? "rb" : "wb");
-    const size_t n = f == NULL ? 0 : is_read ? fread(p, sizeof *p, 1, f) : fwrite(p, sizeof *p, 1, f);
-    return f != NULL && fclose(f) == 0 && n == 1;
-}
-
 static int get_picture(room_picture *p, stage *s, const char *folder, const char *name, int with, int half)
 {
     char path[600];
     snprintf(path, sizeof path, "%s/%s_%s_%d%s.room", folder, name, with ? "with" : "without", STRATA * STRATA,
              half ? "b" : "");
-    return keep(path, p, 1) || (room_trace(p, &s->r, with, STRATA, half) && keep(path, p, 0));
+    return scene_keep(path, p, sizeof *p, 1) ||
+           (room_trace(p, &s->r, with, STRATA, half) && scene_keep(path, p, sizeof *p, 0));
 }
 
 /* As a camera has it: white is 1. */
@@ -49,19 +43,6 @@ static void clip(float *rgb)
     for (int i = 0; i < 3 * ROOM_PIXELS; ++i) {
         rgb[i] = fminf(rgb[i], 1.0f);
     }
-}
-
-static void set_pose(double pose[16], const made_scene *s)
-{
-    const svec f = unit(less(s->target, s->eye)), right = unit(cross_of(f, s->up)), down = cross_of(f, right);
-    const svec columns[4] = {right, down, f, s->eye};
-    memset(pose, 0, 16 * sizeof *pose);
-    for (int c = 0; c < 4; ++c) {
-        pose[c] = columns[c].x;
-        pose[4 + c] = columns[c].y;
-        pose[8 + c] = columns[c].z;
-    }
-    pose[15] = 1.0;
 }
 
 static lmb_vec3 vec_of(svec a)
@@ -91,27 +72,13 @@ static void tell_lights(mix_options *o, const room *r)
 
 static int mix_room(mix_job *j, const stage *s, char *object, report *r)
 {
-    const double half = tan(0.5 * s->r.scene.fov_deg * 3.14159265358979 / 180.0);
-    const float focal = (float)(0.5 * ROOM_SIDE / half);
-    const lmb_pinhole camera = {ROOM_SIDE, ROOM_SIDE, focal, focal, 0.5f * (ROOM_SIDE - 1), 0.5f * (ROOM_SIDE - 1)};
     char *argv[] = {"mix", "--frame", "known", "--object", object, "--at", "world", "-o", "known.pfm", "--quiet", NULL};
     if (!mix_options_parse(&j->o, 10, argv, r)) {
         return 0;
     }
     tell_lights(&j->o, &s->r);
-    j->frame.camera = camera;
-    j->frame.has_pose = 1;
-    set_pose(j->frame.pose, &s->r.scene);
-    j->frame.light.width = j->frame.light.height = ROOM_SIDE;
-    j->frame.light.channels = 3;
-    j->frame.light.pixels = malloc(sizeof s->without.rgb);
-    j->frame.depth = malloc(sizeof s->without.depth);
-    if (j->frame.light.pixels == NULL || j->frame.depth == NULL) {
-        return report_fail(r, "out of memory");
-    }
-    memcpy(j->frame.light.pixels, s->without.rgb, sizeof s->without.rgb);
-    memcpy(j->frame.depth, s->without.depth, sizeof s->without.depth);
-    return mix_find_planes(j, r) && mix_place(j, r) && mix_light(j, r) && mix_voxels(j, r) && mix_draw(j, r);
+    return scene_photo(j, &s->r.scene, ROOM_SIDE, s->without.rgb, s->without.depth, r) && mix_find_planes(j, r) &&
+           mix_place(j, r) && mix_light(j, r) && mix_voxels(j, r) && mix_draw(j, r);
 }
 
 /* --- figures ------------------------------------------------------------------------------------------------------ */

@@ -10,8 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/mix/mix_job.h"
-#include "../truth/path.h"
+#include "scene_photo.h"
 
 int test_passed, test_failed, test_skipped;
 
@@ -159,59 +158,23 @@ static int get_photo(stage *st, const char *folder, int seed, const path_tracer 
 {
     char path[600];
     snprintf(path, sizeof path, "%s/sun_%d.photo", folder, seed);
-    FILE *f = fopen(path, "rb");
-    int ok = f != NULL && fread(&st->seen, sizeof st->seen, 1, f) == 1;
-    if (f != NULL) {
-        fclose(f);
+    if (scene_keep(path, &st->seen, sizeof st->seen, 1)) {
+        return 1;
     }
-    if (!ok) {
-        trace(st, (uint64_t)seed, p);
-        f = fopen(path, "wb");
-        ok = f != NULL && fwrite(&st->seen, sizeof st->seen, 1, f) == 1;
-        if (f != NULL) {
-            ok &= fclose(f) == 0;
-        }
-    }
-    return ok;
+    trace(st, (uint64_t)seed, p);
+    return scene_keep(path, &st->seen, sizeof st->seen, 0);
 }
 
 /* --- ours --------------------------------------------------------------------------------------------------------- */
 
-static void set_pose(double pose[16], const made_scene *s)
-{
-    const svec f = unit(less(s->target, s->eye)), right = unit(cross_of(f, s->up)), down = cross_of(f, right);
-    const svec columns[4] = {right, down, f, s->eye};
-    memset(pose, 0, 16 * sizeof *pose);
-    for (int c = 0; c < 4; ++c) {
-        pose[c] = columns[c].x;
-        pose[4 + c] = columns[c].y;
-        pose[8 + c] = columns[c].z;
-    }
-    pose[15] = 1.0;
-}
-
 static int light_photo(mix_job *j, const stage *st, char *object, report *r)
 {
-    const double half = tan(0.5 * st->s.fov_deg * PI / 180.0);
-    const float focal = (float)(0.5 * SIDE / half);
-    const lmb_pinhole camera = {SIDE, SIDE, focal, focal, 0.5f * (SIDE - 1), 0.5f * (SIDE - 1)};
     char *argv[] = {"mix", "--frame", "known", "--object", object, "-o", "known.pfm", "--quiet", NULL};
     if (!mix_options_parse(&j->o, 8, argv, r)) {
         return 0;
     }
-    j->frame.camera = camera;
-    j->frame.has_pose = 1;
-    set_pose(j->frame.pose, &st->s);
-    j->frame.light.width = j->frame.light.height = SIDE;
-    j->frame.light.channels = 3;
-    j->frame.light.pixels = malloc(sizeof st->seen.rgb);
-    j->frame.depth = malloc(sizeof st->seen.depth);
-    if (j->frame.light.pixels == NULL || j->frame.depth == NULL) {
-        return report_fail(r, "out of memory");
-    }
-    memcpy(j->frame.light.pixels, st->seen.rgb, sizeof st->seen.rgb);
-    memcpy(j->frame.depth, st->seen.depth, sizeof st->seen.depth);
-    return mix_find_planes(j, r) && mix_place(j, r) && mix_light(j, r);
+    return scene_photo(j, &st->s, SIDE, st->seen.rgb, st->seen.depth, r) && mix_find_planes(j, r) && mix_place(j, r) &&
+           mix_light(j, r);
 }
 
 /* --- both --------------------------------------------------------------------------------------------------------- */
@@ -313,7 +276,7 @@ static level our_level(const mix_job *j)
 static svec foot_of(const mix_job *j, const made_scene *s)
 {
     double pose[16];
-    set_pose(pose, s);
+    scene_pose(pose, s);
     const double a[3] = {(double)j->anchor.x, -(double)j->anchor.y, -(double)j->anchor.z};
     double out[3];
     for (int i = 0; i < 3; ++i) {

@@ -143,8 +143,21 @@ static void foot_mirrors_floor(void)
     mix_job_free(j);
 }
 
+/* What emits has patches a twentieth of the object's width at most: larger ones are nearer to the foot that they stand on
+ * than they are wide. */
+static void patches_are_small(void)
+{
+    lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 1.0f, .flags = LMB_DOUBLE_SIDED};
+    look.emission[0] = look.emission[1] = look.emission[2] = 2.0f;
+    mix_job *j = draw_square(&look, "48,62", "0", "point:0,0.5,-0.6:0,-1,0:3,3,3");
+    const double side = sqrt((double)j->sources->piece[0].area);
+    CHECK_MSG(side > 0.0 && side < 0.3 / 20.0, "patches of %g m", side);
+    mix_job_free(j);
+}
+
 void test_mix_sources(void)
 {
+    patches_are_small();
     foot_mirrors_floor();
     emits_by_form_factors();
     reflects_what_arrives();

@@ -161,8 +161,7 @@ typedef struct bounce_step {
 
 static uint32_t past_of(const bounce_step *s, int32_t batch)
 {
-    const uint32_t past = ((uint32_t)batch + 1) * TOGETHER;
-    return past < s->count ? past : s->count;
+    return bake_past(batch, TOGETHER, s->count);
 }
 
 static int make_batch(void *user, int32_t batch, report *r)

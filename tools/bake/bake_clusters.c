@@ -118,8 +118,7 @@ typedef struct cluster_step {
 
 static uint32_t past_of(const cluster_step *c, int32_t batch)
 {
-    const uint32_t past = ((uint32_t)batch + 1) * BATCH;
-    return past < c->all ? past : c->all;
+    return bake_past(batch, BATCH, c->all);
 }
 
 static int make_batch(void *user, int32_t batch, report *r)

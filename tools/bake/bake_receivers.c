@@ -462,8 +462,7 @@ typedef struct mending {
 
 static uint32_t past_of(const mending *m, int32_t number)
 {
-    const uint32_t past = ((uint32_t)number + 1) * (BATCH / PLACES);
-    return past < m->count ? past : m->count;
+    return bake_past(number, BATCH / PLACES, m->count);
 }
 
 /* BATCH / PLACES of them. */

@@ -33,6 +33,13 @@ typedef struct bake_step {
     void *user;
 } bake_step;
 
+/* bake_past: the first of `all` things that comes after a batch of `size`. */
+static inline uint32_t bake_past(int32_t batch, uint32_t size, uint32_t all)
+{
+    const uint32_t past = ((uint32_t)batch + 1) * size;
+    return past < all ? past : all;
+}
+
 /* bake_share_step: all batches. Without slices (`s` NULL) they are made in order. Else each goes to the slice that has the
  * least to do; a slice makes its own, writes them to a file of the folder, and reads those of others there. What does not
  * come in time it makes itself. 1, or 0 with `r` set. */
