@@ -46,6 +46,8 @@ static void join(thread t)
     CloseHandle(t);
 }
 
+static void let_others_run(void) { SwitchToThread(); }
+
 static long processors(void)
 {
     SYSTEM_INFO about;
@@ -56,6 +58,7 @@ static long processors(void)
 #else
 
 #include <pthread.h>
+#include <sched.h>
 #include <unistd.h>
 
 typedef pthread_mutex_t lock;
@@ -72,6 +75,7 @@ static void *begin(void *argument)
 
 static int start(thread *out, worker *w) { return pthread_create(out, NULL, begin, w) == 0; }
 static void join(thread t) { pthread_join(t, NULL); }
+static void let_others_run(void) { sched_yield(); }
 
 static long processors(void)
 {
@@ -89,6 +93,7 @@ static long processors(void)
 typedef struct pool {
     lock next_lock;
     int next, count; /* parts that nobody has taken: next .. count - 1 */
+    int first, done; /* parts of the first stage; those of them that are done */
     pool_job job;
     void *user;
 } pool;
@@ -115,19 +120,53 @@ static int take(pool *p)
     return i;
 }
 
-static void work(worker *w)
+static void note_done(pool *p)
 {
-    for (int i = w->number; i >= 0; i = take(w->shared)) {
-        w->shared->job(w->shared->user, i, w->number);
+    hold(&p->next_lock);
+    ++p->done;
+    let_go(&p->next_lock);
+}
+
+/* Until others have done what they took of the first stage, which is less than one part each. */
+static void await_first(pool *p)
+{
+    for (int done = 0; !done;) {
+        hold(&p->next_lock);
+        done = p->done == p->first;
+        let_go(&p->next_lock);
+        if (!done) {
+            let_others_run();
+        }
     }
 }
 
-void pool_run(int threads, int count, pool_job job, void *user)
+static void do_part(pool *p, int i, int number)
+{
+    if (i >= p->first && p->first > 0) {
+        await_first(p);
+    }
+    p->job(p->user, i, number);
+    if (i < p->first) {
+        note_done(p);
+    }
+}
+
+static void work(worker *w)
+{
+    for (int i = w->number; i >= 0; i = take(w->shared)) {
+        do_part(w->shared, i, w->number);
+    }
+}
+
+void pool_run(int threads, int count, pool_job job, void *user) { pool_run_stages(threads, 0, count, job, user); }
+
+void pool_run_stages(int threads, int first, int count, pool_job job, void *user)
 {
     threads = threads < 1 ? 1 : threads;
     threads = threads > count ? count : threads;
+    threads = first > 0 && threads > first ? first : threads;
     threads = threads > POOL_MAX ? POOL_MAX : threads;
-    pool p = {LOCK_FREE, threads, count, job, user};
+    pool p = {LOCK_FREE, threads, count, first, 0, job, user};
     worker workers[POOL_MAX];
     int started = 1;
     for (int i = 0; i < POOL_MAX; ++i) {
@@ -138,7 +177,7 @@ void pool_run(int threads, int count, pool_job job, void *user)
         ++started;
     }
     for (int i = started; i < threads; ++i) {
-        job(user, i, 0);
+        do_part(&p, i, 0);
     }
     if (threads > 0) {
         work(&workers[0]);

@@ -18,4 +18,8 @@ typedef void (*pool_job)(void *user, int index, int worker);
  * when all are done. Threads that the system refuses are done without. */
 void pool_run(int threads, int count, pool_job job, void *user);
 
+/* pool_run_stages: the same, but pieces first .. count - 1 begin when pieces 0 .. first - 1 are done. Threads start once
+ * for both, and keep what their processor has cached. `threads` <= first, or as many as first are used. */
+void pool_run_stages(int threads, int first, int count, pool_job job, void *user);
+
 #endif

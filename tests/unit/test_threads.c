@@ -53,6 +53,55 @@ static void check_pool(int threads, int count)
     CHECK_MSG(wrong == 0, "%d threads, %d pieces: %d wrong", threads, count, wrong);
 }
 
+/* Stages: pieces of the second see all of the first done, whatever the first's take. */
+typedef struct staged {
+    int first, done[64], early[THREADS]; /* done: by piece; early: by worker, pieces that began too soon */
+    int times[64];
+} staged;
+
+static void note_stage(void *user, int index, int worker)
+{
+    staged *s = user;
+    if (index < s->first) {
+        volatile int spun = 0;
+        while (spun < 20000 * (index % 3)) {
+            ++spun;
+        }
+        s->done[index] = 1;
+    }
+    for (int i = 0; i < s->first && index >= s->first; ++i) {
+        s->early[worker] += !s->done[i];
+    }
+    ++s->times[index];
+}
+
+static void check_stages(int threads, int first, int count)
+{
+    staged s;
+    int wrong = 0;
+    memset(&s, 0, sizeof s);
+    s.first = first;
+    pool_run_stages(threads, first, count, note_stage, &s);
+    for (int i = 0; i < 64; ++i) {
+        wrong += s.times[i] != (i < count);
+    }
+    for (int w = 0; w < THREADS; ++w) {
+        wrong += s.early[w];
+    }
+    CHECK_MSG(wrong == 0, "%d threads, %d of %d pieces first: %d wrong", threads, first, count, wrong);
+}
+
+static void test_stages(void)
+{
+    for (int threads = 1; threads <= THREADS; ++threads) {
+        check_stages(threads, threads, 64);
+        check_stages(threads, 1, 2);
+        check_stages(threads, 5, 40);
+        check_stages(threads, 64, 64);
+        check_stages(threads, 0, 9);
+    }
+}
+
 static void test_pool(void)
 {
     static const int counts[] = {0, 1, 2, 7, 8, 9, 60, PIECES};
@@ -223,6 +272,7 @@ static void test_map_rows(void)
 void test_threads(void)
 {
     test_pool();
+    test_stages();
     test_workers();
     test_stages_with_parts();
     test_map_rows();

@@ -212,7 +212,7 @@ static void print_turns(const bench_work *w, turns *t, const threads_options *o)
                  processes = min(t->processes, t->count);
     const double by_threads = alone / threads, by_processes = o->threads * alone / processes;
     printf(
-        "%-21s one thread %8.2f ms, %d threads %8.2f ms: x %.2f; %d processes: x %.2f; of processes %5.1f %% (median "
+        "%-29s one thread %8.2f ms, %d threads %8.2f ms: x %.2f; %d processes: x %.2f; of processes %5.1f %% (median "
         "%5.1f %%); %d turns, %s\n",
         w->name, alone * 1e3, o->threads, threads * 1e3, by_threads, o->threads, by_processes,
         by_threads / by_processes * 100.0, median_ratio(t, o->threads) * 100.0, t->count, lmb_kernels_name(o->kernels));
@@ -255,29 +255,42 @@ static int measure_gather(const threads_options *o, report *r)
     return ok;
 }
 
+/* Depth, then ids too; by windows of rows, then by bins. */
+static int measure_map(map_job *m, const bench_case *of, const threads_options *o, report *r)
+{
+    static const char *const kinds[2][2] = {{"depth-2048", "depth-2048 by bins"},
+                                            {"depth-id-2048", "depth-id-2048 by bins"}};
+    int ok = 1;
+    if (!bench_scene_load(&m->scene, of, o->folder, r)) {
+        return 0;
+    }
+    for (int i = 0; i < 4 && ok; ++i) {
+        const int ids = i / 2, bins = i % 2;
+        char name[64];
+        bench_work w = {name, map_rows, m, 0, bins ? map_binned : NULL, 0};
+        snprintf(name, sizeof name, "%s-%s", of->name, kinds[ids][bins]);
+        map_begin(m, ids, o->kernels);
+        ok = measure(&w, o, r);
+    }
+    bench_scene_free(&m->scene);
+    return ok;
+}
+
 static int measure_maps(const threads_options *o, report *r)
 {
-    static const bench_case of = {"sponzaL", BENCH_SPONZA_LIGHT, BENCH_DEPTH, MAP, MAP, 0};
-    static const char *const names[2][2] = {{"sponzaL-depth-2048", "sponzaL-depth-id-2048"},
-                                            {"the same by bins", "the same by bins"}};
+    static const bench_case of[] = {{"bunny", BENCH_BUNNY, BENCH_DEPTH, MAP, MAP, 0},
+                                    {"sponzaL", BENCH_SPONZA_LIGHT, BENCH_DEPTH, MAP, MAP, 0},
+                                    {"sponzaI", BENCH_SPONZA_INSIDE, BENCH_DEPTH, MAP, MAP, 0}};
     map_job *m = malloc(sizeof *m);
     int ok = 1;
     if (m == NULL) {
         return report_fail(r, "not enough memory for the maps");
     }
-    if (!bench_scene_load(&m->scene, &of, o->folder, r)) {
-        free(m);
-        return 0;
-    }
     memset(&m->bins, 0, sizeof m->bins);
-    for (int i = 0; i < 4 && ok; ++i) {
-        const int ids = i / 2, bins = i % 2;
-        bench_work w = {names[bins][ids], map_rows, m, 0, bins ? map_binned : NULL, 0};
-        map_begin(m, ids, o->kernels);
-        ok = measure(&w, o, r);
+    for (size_t i = 0; i < sizeof of / sizeof *of && ok; ++i) {
+        ok = measure_map(m, &of[i], o, r);
     }
     binned_free(&m->bins);
-    bench_scene_free(&m->scene);
     free(m);
     return ok;
 }
@@ -285,7 +298,7 @@ static int measure_maps(const threads_options *o, report *r)
 int bench_threads(const threads_options *o, report *r)
 {
     if (o->folder == NULL) {
-        return report_fail(r, "where is sponza.mesh? Give --data FOLDER or set BENCH_DATA");
+        return report_fail(r, "where are bunny.mesh and sponza.mesh? Give --data FOLDER or set BENCH_DATA");
     }
     return measure_gather(o, r) && measure_maps(o, r);
 }

@@ -7,7 +7,7 @@
 #include "../common/report.h"
 
 typedef struct threads_options {
-    const char *folder; /* of sponza.mesh; NULL: not known, an error */
+    const char *folder; /* of bunny.mesh and sponza.mesh; NULL: not known, an error */
     const lmb_kernels *kernels;
     int threads;    /* 2 .. POOL_MAX */
     double seconds; /* of each case */

@@ -367,7 +367,7 @@ static const option_row gather_rows[] = {
 static const option_row threads_rows[] = {
     {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 2, .high = POOL_MAX,
      .help = "as many threads, and processes (default 2)"},
-    ROW_FOLDER("sponza.mesh"),
+    ROW_FOLDER("bunny.mesh and sponza.mesh"),
     OPTION_BACKEND_ROW(options, kernels),
     ROW_SECONDS("of each case (default 4)"),
     ROW_LOUDNESS, OPTION_ASK, END,
@@ -507,11 +507,11 @@ static const struct workload {
      {.verb = "bench threads",
       .usage = "bench threads [options]",
       .about =
-          "The gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N threads, and in "
-          "N processes at once, in turn. `of processes` is what the threads gain over what the processes do: 100 % is "
-          "all that this machine gives.",
+          "The gather of the built-in scene, and 2048 x 2048 depths and ids of the workload's meshes by strips of rows "
+          "and by bins, on one thread, on N threads, and in N processes at once, in turn. `of processes` is what the "
+          "threads gain over what the processes do: 100 % is all that this machine gives.",
       .part = {threads_rows},
-      .examples = "  with a folder that holds sponza.mesh:\n"
+      .examples = "  with a folder that holds bunny.mesh and sponza.mesh:\n"
                   "    [ ! -e data/sponza.mesh ] || lambent bench threads --data data --seconds 1\n",
       .status = "exit status: 0 done, 1 a file that cannot be read or no processes to be had, 2 bad usage"}},
     {"hard",

@@ -22,22 +22,25 @@ typedef struct work {
     const binned_draw *draw;
     int ranges;
     int32_t rows; /* px of a piece */
-    lmb_status failed[POOL_MAX];
+    lmb_status built[POOL_MAX]; /* range by range */
+    lmb_status drawn[POOL_MAX]; /* by worker: of its last rows that failed */
 } work;
 
-static void note(work *w, int worker, lmb_status status)
+static lmb_status first_failure(const lmb_status *of, int count)
 {
-    w->failed[worker] = w->failed[worker] != LMB_OK ? w->failed[worker] : status;
+    lmb_status status = LMB_OK;
+    for (int i = 0; i < count && status == LMB_OK; ++i) {
+        status = of[i];
+    }
+    return status;
 }
 
-static void build_range(void *user, int i, int worker)
+static void build_range(work *w, int i)
 {
-    work *w = user;
     const binned_draw *d = w->draw;
     const uint32_t each = d->count / (uint32_t)w->ranges, first = each * (uint32_t)i;
-    note(w, worker,
-         lmb_bins_build(&w->b->bins[i], d->kernels, d->view, d->scene, d->first_id + first,
-                        i == w->ranges - 1 ? d->count - first : each, d->flags, NULL, NULL));
+    w->built[i] = lmb_bins_build(&w->b->bins[i], d->kernels, d->view, d->scene, d->first_id + first,
+                                 i == w->ranges - 1 ? d->count - first : each, d->flags, NULL, NULL);
 }
 
 /* Rows from .. past - 1 of a surface of tiles. */
@@ -49,9 +52,8 @@ static void cut(lmb_surface *s, int32_t from, int32_t past)
     }
 }
 
-static void draw_rows(void *user, int i, int worker)
+static void draw_rows(work *w, int i, int worker)
 {
-    work *w = user;
     const binned_draw *d = w->draw;
     const int32_t height = d->target->depth.height, first = d->target->y0 / w->rows * w->rows + i * w->rows,
                   from = first > d->target->y0 ? first - d->target->y0 : 0,
@@ -60,7 +62,19 @@ static void draw_rows(void *user, int i, int worker)
     t.y0 += from;
     cut(&t.depth, from, past);
     cut(&t.id, from, past);
-    note(w, worker, lmb_bins_draw(&t, d->kernels, w->b->bins, w->ranges, 1, NULL));
+    const lmb_status status = lmb_bins_draw(&t, d->kernels, w->b->bins, w->ranges, 1, NULL);
+    w->drawn[worker] = status != LMB_OK ? status : w->drawn[worker];
+}
+
+/* First the ranges; then rows, if all are built. */
+static void do_piece(void *user, int i, int worker)
+{
+    work *w = user;
+    if (i < w->ranges) {
+        build_range(w, i);
+    } else if (first_failure(w->built, w->ranges) == LMB_OK) {
+        draw_rows(w, i - w->ranges, worker);
+    }
 }
 
 /* Memory for `ranges` bins of as many bytes each; what there is, where there is no more. */
@@ -83,7 +97,6 @@ lmb_status binned_run(binned *b, const binned_draw *d)
 {
     work w;
     const int32_t high = d->target->depth.height;
-    lmb_status status = LMB_OK;
     memset(&w, 0, sizeof w);
     w.b = b;
     w.draw = d;
@@ -94,17 +107,10 @@ lmb_status binned_run(binned *b, const binned_draw *d)
         return draw_alone(d);
     }
     give_memory(b, d, w.ranges);
-    pool_run(d->threads, w.ranges, build_range, &w);
-    for (int i = 0; i < d->threads; ++i) {
-        status = status != LMB_OK ? status : w.failed[i];
-    }
-    if (status == LMB_OK) {
-        pool_run(d->threads, (d->target->y0 + high - 1) / w.rows - d->target->y0 / w.rows + 1, draw_rows, &w);
-    }
-    for (int i = 0; i < d->threads; ++i) {
-        status = status != LMB_OK ? status : w.failed[i];
-    }
-    return status;
+    const int pieces = (d->target->y0 + high - 1) / w.rows - d->target->y0 / w.rows + 1;
+    pool_run_stages(d->threads, w.ranges, w.ranges + pieces, do_piece, &w);
+    const lmb_status status = first_failure(w.built, w.ranges);
+    return status != LMB_OK ? status : first_failure(w.drawn, d->threads);
 }
 
 #else /* a library without bins */
