@@ -33,10 +33,11 @@ needs_tcc   := tcc
 how_tcc     := CC=tcc DEPS= RUN="sh tests/scripts/may_refuse.sh"
 
 i386            := -m32 -msse2 -mfpmath=sse -I/usr/include/x86_64-linux-gnu
-needs_i386       := gcc gcc-m32
-how_i386         := CC="gcc $(i386)"
-needs_clang-i386 := clang gcc-m32
-how_clang-i386   := CC="clang $(i386)"
+# By qemu, as a 64-bit kernel may run no 32-bit programs.
+needs_i386       := gcc gcc-m32 qemu-i386
+how_i386         := CC="gcc $(i386)" RUN=qemu-i386
+needs_clang-i386 := clang gcc-m32 qemu-i386
+how_clang-i386   := CC="clang $(i386)" RUN=qemu-i386
 
 # --- Windows ----------------------------------------------------------------------------------------------------------
 
