@@ -589,7 +589,7 @@ static void lights_are_asked_where_they_change(void)
         char *more[] = {"--object", square,    "--at",   "40,66",   "--scale", "0.2",     "--turn",
                         "60",       "--light", light[0], "--light", light[1],  "--light", light[2]};
         report r = {""};
-        int changed = 0, same = 0;
+        int changed = 0, same = 0, carried = 0;
         for (int k = 0; k < 3; ++k) {
             strcpy(light[k], lights[i][k] != NULL ? lights[i][k] : "");
         }
@@ -608,11 +608,12 @@ static void lights_are_asked_where_they_change(void)
             memset(all, 0, sizeof all);
             memset(some, 0, sizeof some);
             memset(other, 0, sizeof other);
+            mix_direct direct = {0}, again;
             for (int32_t k = 0; k < 2 * j->light_count; ++k) {
                 lmb_direct_tile(&all[k % 2], j->o.kernels, &tile, &view, &j->scene, &j->lights[k / 2],
                                 &j->maps[k / 2][k % 2]);
             }
-            mix_lights_tile(&some[0], &some[1], j, &view, &tile);
+            mix_lights_tile(&some[0], &some[1], &direct, j, &view, &tile);
             if (memcmp(&all[0], &all[1], sizeof all[0]) != 0) {
                 CHECK_MSG(memcmp(all, some, sizeof all) == 0, "light %d, tile %d", i, t);
                 ++changed;
@@ -621,9 +622,28 @@ static void lights_are_asked_where_they_change(void)
                 same += some[0].rgb[0][0] == 0.0f && all[0].rgb[0][0] > 0.0f;
             }
             other[1].rgb[2][0] = 1e-30f; /* too little to show in a sum */
-            mix_lights_tile(&other[0], &other[1], j, &view, &tile);
+            memset(&direct, 0, sizeof direct);
+            mix_lights_tile(&other[0], &other[1], &direct, j, &view, &tile);
             CHECK_MSG(memcmp(&all[0], &other[0], sizeof all[0]) == 0, "light %d, tile %d: not all are asked", i, t);
+            /* What the frame before knows is taken, where no shadow of the object can fall; the rest is asked. */
+            again = direct;
+            again.known &= 0x00ff00ff00ff00ffu;
+            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+                again.light.rgb[0][k] = again.known >> k & 1 ? 7.0f : 0.0f;
+                again.light.rgb[1][k] = again.light.rgb[2][k] = 0.0f;
+            }
+            const uint64_t taken = again.known;
+            memset(other, 0, sizeof other);
+            other[1].rgb[2][0] = 1e-30f;
+            mix_lights_tile(&other[0], &other[1], &again, j, &view, &tile);
+            for (int k = 0; k < LMB_TILE_PIXELS && tile.id[k] != 0; ++k) {
+                const float is = other[0].rgb[0][k], fresh = all[0].rgb[0][k];
+                const int falls = memcmp(&all[0], &all[1], sizeof all[0]) != 0;
+                CHECK_MSG(is == fresh || (!falls && (taken >> k & 1) != 0 && is == 7.0f), "light %d, tile %d: %g", i, t, (double)is);
+                carried += is == 7.0f && fresh != 7.0f;
+            }
         }
+        CHECK_MSG(carried > 100, "light %d: %d pixels are carried", i, carried);
         CHECK_MSG(changed > 3 && same > 5, "light %d: %d tiles change, %d are not asked", i, changed, same);
         mix_job_free(j);
     }

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "../../tools/mix/mix_cones.h"
+#include "../../tools/mix/mix_carry.h"
 #include "../../tools/mix/mix_world.h"
 #include "../photo_job.h"
 #include "../test.h"
@@ -112,8 +112,34 @@ static figures measure(char *object, const char *at, const char *light, float tu
 }
 
 /* Tiles that are traced whole from where light differs by half as much are 8,812 pixels, and by twice as much are 0.03 off. */
+/* A pixel that the frame before does not know takes the nearest one's light of its own surface, and of no other. */
+static void spreads_on_its_own_surface(void)
+{
+    static lmb_tile t;
+    static lmb_irradiance without, with;
+    memset(&t, 0, sizeof t);
+    memset(&without, 0, sizeof without);
+    memset(&with, 0, sizeof with);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* columns 0 to 3 face the camera, the others to its left; row 7 is nothing */
+        t.id[k] = k / LMB_TILE < 7;
+        t.position[0][k] = 0.01f * (float)(k % LMB_TILE);
+        t.position[1][k] = -0.01f * (float)(k / LMB_TILE);
+        t.position[2][k] = -1.0f;
+        t.normal[k % LMB_TILE < 4 ? 2 : 0][k] = k % LMB_TILE < 4 ? 1.0f : -1.0f;
+    }
+    without.rgb[1][8 + 1] = 3.0f;
+    with.rgb[2][8 + 1] = 4.0f;
+    without.rgb[1][8 + 7] = 5.0f;
+    const uint64_t carried = (uint64_t)1 << (8 + 1) | (uint64_t)1 << (8 + 7),
+                   found = mix_carry_spread(&without, &with, &t, carried, ~carried);
+    CHECK(found == 0x8f8f0d8fu); /* two rows and columns around (1, 1); of (7, 1) its column alone lies on its plane */
+    CHECK(without.rgb[1][0] == 3.0f && with.rgb[2][3 * LMB_TILE + 3] == 4.0f && without.rgb[1][8 + 6] == 0.0f);
+    CHECK(mix_carry_spread(&without, &with, &t, 0, ~carried) == 0);
+}
+
 void test_mix_cones(void)
 {
+    spreads_on_its_own_surface();
     static char text[40000];
     static folder f;
     char path[2][FOLDER_PATH];

@@ -11,6 +11,8 @@ enum { AGAIN = 16 /* frames after which a tile is traced again */ };
 /* Places of two frames are one where their distances agree and their normals are this near, as a cosine. */
 #define ALIKE 0.7f
 #define ENOUGH 0.5f /* of the weights of four pixels around a place */
+#define SMOOTH 0.9f /* pixels of one tile are on one surface: least cosine of their normals */
+#define FLAT 0.3f   /* and most that one lies over the other's plane, of the distance between them */
 
 int mix_carry_take(mix_job *j, report *r)
 {
@@ -92,6 +94,7 @@ static int get_pixel(mix_carried *out, const mix_job *last, const there *t)
     const int32_t w = last->frame.camera.width, u = (int32_t)floorf(t->x), v = (int32_t)floorf(t->y);
     const float s = t->x - (float)u, f = t->y - (float)v;
     float sum = 0.0f;
+    int all_lit = 1;
     memset(out, 0, sizeof *out);
     for (int32_t i = 0; i < 4; ++i) {
         const int32_t x = u + (i & 1), y = v + (i >> 1);
@@ -99,21 +102,30 @@ static int get_pixel(mix_carried *out, const mix_job *last, const there *t)
         if (weight > 0.0f && is_same(last, t, x, y)) {
             const mix_carried *from = &last->carried[(size_t)y * (size_t)w + (size_t)x];
             sum += weight;
+            all_lit &= from->direct[0] >= 0.0f;
             for (int c = 0; c < 6; ++c) {
                 out->rgb[c / 3][c % 3] += weight * from->rgb[c / 3][c % 3];
+            }
+            for (int c = 0; c < 3; ++c) {
+                out->direct[c] += weight * from->direct[c];
             }
         }
     }
     for (int c = 0; c < 6 && sum > 0.0f; ++c) {
         out->rgb[c / 3][c % 3] /= sum;
     }
+    for (int c = 0; c < 3 && sum > 0.0f; ++c) {
+        out->direct[c] = all_lit ? out->direct[c] / sum : -1.0f;
+    }
     return sum >= ENOUGH;
 }
 
-uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real)
+uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, mix_direct *direct, const mix_job *j,
+                       const lmb_tile *real)
 {
     const mix_job *last = j->kept != NULL ? j->kept->last : NULL;
     uint64_t known = 0;
+    memset(direct, 0, sizeof *direct);
     for (int k = 0; k < LMB_TILE_PIXELS && mix_carry_knows(j, real->x, real->y); ++k) {
         mix_carried one;
         if (real->id[k] == 0) {
@@ -122,13 +134,57 @@ uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_
         const there t = look(j, last, real, k);
         if (is_seen(&t) && get_pixel(&one, last, &t)) {
             known |= (uint64_t)1 << k;
+            direct->known |= (uint64_t)(one.direct[0] >= 0.0f) << k;
             for (int c = 0; c < 3; ++c) {
                 without->rgb[c][k] = one.rgb[0][c];
                 with->rgb[c][k] = one.rgb[1][c];
+                direct->light.rgb[c][k] = one.direct[0] >= 0.0f ? one.direct[c] : 0.0f;
             }
         }
     }
     return known;
+}
+
+static int is_beside(const lmb_tile *t, int a, int b)
+{
+    const lmb_vec3 n = {t->normal[0][a], t->normal[1][a], t->normal[2][a]},
+                   m = {t->normal[0][b], t->normal[1][b], t->normal[2][b]},
+                   d = {t->position[0][b] - t->position[0][a], t->position[1][b] - t->position[1][a],
+                        t->position[2][b] - t->position[2][a]};
+    const float over = fmaxf(fabsf(along(n, d)), fabsf(along(m, d)));
+    return along(n, m) > SMOOTH && over * over <= FLAT * FLAT * along(d, d);
+}
+
+/* The nearest one of the pixels around k, at most two rows and columns away; -1: none. */
+static int find_beside(const lmb_tile *t, uint64_t carried, int k)
+{
+    const int x = k % LMB_TILE, y = k / LMB_TILE;
+    int best = -1, least = 9;
+    for (int v = y > 1 ? y - 2 : 0; v <= y + 2 && v < LMB_TILE; ++v) {
+        for (int u = x > 1 ? x - 2 : 0; u <= x + 2 && u < LMB_TILE; ++u) {
+            const int i = v * LMB_TILE + u, d2 = (u - x) * (u - x) + (v - y) * (v - y);
+            if ((carried >> i & 1) != 0 && d2 < least && is_beside(t, k, i)) {
+                best = i;
+                least = d2;
+            }
+        }
+    }
+    return best;
+}
+
+uint64_t mix_carry_spread(lmb_irradiance *without, lmb_irradiance *with, const lmb_tile *real, uint64_t carried,
+                          uint64_t wanted)
+{
+    uint64_t found = 0;
+    for (int k = 0; carried != 0 && k < LMB_TILE_PIXELS; ++k) {
+        const int from = (wanted >> k & 1) != 0 && real->id[k] != 0 ? find_beside(real, carried, k) : -1;
+        for (int c = 0; c < 3 && from >= 0; ++c) {
+            without->rgb[c][k] = without->rgb[c][from];
+            with->rgb[c][k] = with->rgb[c][from];
+        }
+        found |= (uint64_t)(from >= 0) << k;
+    }
+    return found;
 }
 
 void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with)
@@ -139,10 +195,22 @@ void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance 
         if (x < width && y < height && real->id[k] != 0) {
             mix_carried *to = &j->carried[(size_t)y * (size_t)width + (size_t)x];
             to->is_known = 1;
+            to->direct[0] = -1.0f;
             for (int c = 0; c < 3; ++c) {
                 to->rgb[0][c] = without->rgb[c][k];
                 to->rgb[1][c] = with->rgb[c][k];
             }
+        }
+    }
+}
+
+void mix_carry_put_direct(const mix_job *j, const lmb_tile *real, const mix_direct *direct)
+{
+    const int32_t width = j->picture.width, height = j->picture.height;
+    for (int k = 0; k < LMB_TILE_PIXELS && j->carried != NULL; ++k) {
+        const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE;
+        for (int c = 0; c < 3 && x < width && y < height && (direct->known >> k & 1) != 0; ++c) {
+            j->carried[(size_t)y * (size_t)width + (size_t)x].direct[c] = direct->light.rgb[c][k];
         }
     }
 }

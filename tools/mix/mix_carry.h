@@ -7,11 +7,19 @@
 /* mix_carry_take: memory for a frame of a sequence. 1, or 0 with `r` set. */
 int mix_carry_take(mix_job *j, report *r);
 
-/* mix_carry_get: light[0] and [1] of the pixels of a real tile that the frame before has seen, between its pixels.
- * Returns which those are. Every sixteenth frame a tile knows nothing, so that what is carried does not blur, and
- * follows the voxels. mix_carry_put: a tile's, for the next frame. */
-uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real);
+/* mix_carry_get: light[0] and [1] of the pixels of a real tile that the frame before has seen, between its pixels, and of
+ * those where it knows it the lights' own. Returns which those are. Every sixteenth frame a tile knows nothing, so that
+ * what is carried does not blur, and follows the voxels. mix_carry_put: a tile's, for the next frame;
+ * mix_carry_put_direct: after it, the lights' own. */
+uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, mix_direct *direct, const mix_job *j,
+                       const lmb_tile *real);
 void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with);
+void mix_carry_put_direct(const mix_job *j, const lmb_tile *real, const mix_direct *direct);
+
+/* mix_carry_spread: of pixels `wanted`, those that lie beside one of `carried` on its surface take that one's light, as a
+ * sensor's noise hides a place from one frame to the next. Returns which do. */
+uint64_t mix_carry_spread(lmb_irradiance *without, lmb_irradiance *with, const lmb_tile *real, uint64_t carried,
+                          uint64_t wanted);
 
 /* mix_carry_knows: may a tile, x and y as the photo has them, take anything from the frame before? mix_carry_see: where `last`
  * saw a place of its scene, px; 0 where it did not. */

@@ -125,6 +125,7 @@ void mix_cones_batch(mix_batch *b, const mix_job *j)
 {
     uint64_t known[MIX_BATCH], carried[MIX_BATCH], more;
     memset(b->light, 0, sizeof b->light);
+    memset(b->direct, 0, sizeof b->direct);
     if (j->world == NULL) {
         for (int32_t i = 0; i < 2 * b->count; ++i) {
             add_around(&b->light[i / b->count][i % b->count], &j->env[0], &b->real[i % b->count]);
@@ -134,8 +135,9 @@ void mix_cones_batch(mix_batch *b, const mix_job *j)
     memset(&b->together, 0, sizeof b->together);
     b->gathered = 0;
     for (int32_t i = 0; i < b->count; ++i) {
-        carried[i] = mix_carry_get(&b->light[0][i], &b->light[1][i], j, &b->real[i]);
+        carried[i] = mix_carry_get(&b->light[0][i], &b->light[1][i], &b->direct[i], j, &b->real[i]);
         known[i] = lmb_sparse_pixels(&b->real[i], STEP);
+        carried[i] |= mix_carry_spread(&b->light[0][i], &b->light[1][i], &b->real[i], carried[i], known[i] & ~carried[i]);
         put_pixels(b, j, i, known[i] & ~carried[i]);
     }
     flush(b, j);

@@ -6,10 +6,17 @@
 
 enum { MIX_BATCH = 16 };
 
+/* What told lights and a guessed sun give a tile without the object, of those pixels that know it, a bit each. */
+typedef struct mix_direct {
+    lmb_irradiance light;
+    uint64_t known;
+} mix_direct;
+
 /* Tiles of real surfaces in a row, and the light that reaches their pixels without [0] and with [1] the object. */
 typedef struct mix_batch {
     lmb_tile real[MIX_BATCH];
     lmb_irradiance light[2][MIX_BATCH];
+    mix_direct direct[MIX_BATCH]; /* that the frame before knows */
     int32_t count;
     lmb_tile together;             /* pixels of several tiles */
     int32_t from[LMB_TILE_PIXELS]; /* tile x 64 + pixel */

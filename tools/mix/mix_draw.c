@@ -226,7 +226,8 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
     get_photo(&d->photo, &j->frame.light, real->x, real->y);
     const int is_kept = mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real);
     if (!is_kept) {
-        mix_lights_tile(&d->batch.light[0][i], &d->batch.light[1][i], j, &d->view[0], real);
+        mix_lights_tile(&d->batch.light[0][i], &d->batch.light[1][i], &d->batch.direct[i], j, &d->view[0], real);
+        mix_carry_put_direct(j, real, &d->batch.direct[i]);
     }
     mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real); /* which has the lights */
     lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);

@@ -4,14 +4,61 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The smallest piece that is large enough, and not much larger; zeroed. */
+static mix_memory take_spare(mix_spare *s, size_t bytes)
+{
+    mix_memory out = {NULL, 0};
+    int best = -1;
+    for (int i = 0; i < s->count; ++i) {
+        const size_t has = s->piece[i].bytes;
+        if (has >= bytes && has / 2 <= bytes && (best < 0 || has < s->piece[best].bytes)) {
+            best = i;
+        }
+    }
+    if (best >= 0) {
+        out = s->piece[best];
+        s->piece[best] = s->piece[--s->count];
+        memset(out.at, 0, bytes);
+    }
+    return out;
+}
+
+void mix_spare_free(mix_spare *s)
+{
+    while (s->count > 0) {
+        free(s->piece[--s->count].at);
+    }
+}
+
+static void give_back(mix_job *j)
+{
+    for (int i = 0; i < j->block_count; ++i) {
+        if (j->spare != NULL && j->spare->count < MIX_BLOCKS) {
+            j->spare->piece[j->spare->count++] = j->blocks[i];
+        } else {
+            free(j->blocks[i].at);
+        }
+    }
+}
+
 void *mix_take(mix_job *j, size_t bytes, report *r)
 {
-    void *p = j->block_count < MIX_BLOCKS ? calloc(1, bytes > 0 ? bytes : 1) : NULL;
-    if (p == NULL) {
+    mix_memory m = {NULL, bytes > 0 ? bytes : 1};
+    if (j->block_count < MIX_BLOCKS) {
+        if (j->spare != NULL) {
+            m = take_spare(j->spare, m.bytes);
+        }
+        if (m.at == NULL) {
+            m.bytes = bytes > 0 ? bytes : 1;
+            m.at = calloc(1, m.bytes);
+        }
+    }
+    if (m.at == NULL) {
         report_fail(r, "not enough memory: %.0f MiB more wanted", (double)bytes / 1048576.0);
         return NULL;
     }
-    return j->blocks[j->block_count++] = p;
+    j->blocks[j->block_count++] = m;
+    return m.at;
 }
 
 void mix_job_free(mix_job *j)
@@ -21,9 +68,7 @@ void mix_job_free(mix_job *j)
         model_free(&j->object);
     }
     image_free(&j->picture);
-    for (int i = 0; i < j->block_count; ++i) {
-        free(j->blocks[i]);
-    }
+    give_back(j);
     free(j);
 }
 

@@ -23,6 +23,7 @@ typedef struct mix_answer {
 /* Light from around at a pixel, without and with the object, for the frame after this one. */
 typedef struct mix_carried {
     float rgb[2][3];
+    float direct[3]; /* the lights' without the object; under 0: not known */
     int32_t is_known;
 } mix_carried;
 
@@ -48,6 +49,17 @@ typedef struct mix_space {
     float albedo[3];
     int is_known;
 } mix_space;
+
+typedef struct mix_memory {
+    void *at;
+    size_t bytes;
+} mix_memory;
+
+/* Of a sequence, the memory of jobs that are over: pages that the system gives anew cost a sixth of a frame. */
+typedef struct mix_spare {
+    mix_memory piece[MIX_BLOCKS];
+    int count;
+} mix_spare;
 
 /* mix_job_free releases what it points to. */
 typedef struct mix_job {
@@ -107,8 +119,9 @@ typedef struct mix_job {
     mix_answer *answer;  /* of a sequence, by pixel; NULL: it is not kept */
     image picture;       /* linear */
     double read_s, planes_s, place_s, light_s, build_s, voxels_s, draw_s; /* build_s: of voxels_s */
-    void *blocks[MIX_BLOCKS];
+    mix_memory blocks[MIX_BLOCKS];
     int block_count;
+    mix_spare *spare; /* where its memory is from, and goes to; or NULL */
 } mix_job;
 
 /* mix_take: zeroed memory that lives as long as the job; NULL with `r` set. */
@@ -189,5 +202,6 @@ void mix_run_rows(const mix_job *j, int threads, int count, pool_job row, void *
 int mix_image(image *out, int32_t width, int32_t height, report *r);
 
 void mix_job_free(mix_job *j);
+void mix_spare_free(mix_spare *s);
 
 #endif

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../platform/host/pool.h"
 #include "../common/area_light.h"
 #include "../picture/world_read.h"
 
@@ -222,29 +223,53 @@ size_t mix_maps_bytes(const mix_job *j)
     return bytes;
 }
 
-/* Of lights from `first` on. The object's own are there only with it: their maps without it stay empty. */
+typedef struct maps {
+    mix_job *j;
+    int32_t first;
+    char *memory; /* of light `first` and on */
+    int failed[POOL_MAX]; /* by thread */
+} maps;
+
+/* The object's own lights are there only with it: their maps without it stay empty. */
+static void draw_two(void *user, int index, int thread)
+{
+    maps *m = user;
+    mix_job *j = m->j;
+    const int32_t i = m->first + index;
+    const size_t bytes = map_bytes(j, i);
+    const int is_own = i >= j->light_count - j->lamp_count;
+    const uint32_t real = j->real_triangles;
+    char *memory = m->memory;
+    for (int32_t k = m->first; k < i; ++k) {
+        memory += map_bytes(j, k);
+    }
+    int ok = lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j, i), memory, bytes) == LMB_OK &&
+             lmb_shadow_map_clear(&j->maps[i][0]) == LMB_OK && draw_map(j, &j->maps[i][0], 1, is_own ? 0 : real);
+    memcpy(memory + bytes / 2, memory, bytes / 2); /* the other map: what is real is in both */
+    ok = ok && (!is_own || draw_map(j, &j->maps[i][1], 1, real)) &&
+         draw_map(j, &j->maps[i][1], real + 1, j->object_triangles);
+    m->failed[thread] |= !ok;
+}
+
+/* Of lights from `first` on. */
 static int draw_maps(mix_job *j, int32_t first, report *r)
 {
     size_t all = 0;
+    maps m = {j, first, NULL, {0}};
     for (int32_t i = first; i < j->light_count; ++i) {
         all += map_bytes(j, i);
     }
-    char *memory = mix_take(j, all, r);
-    for (int32_t i = first; memory != NULL && i < j->light_count; ++i) {
-        const size_t bytes = map_bytes(j, i);
-        const int is_own = i >= j->light_count - j->lamp_count;
-        const uint32_t real = j->real_triangles;
-        int ok = lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j, i), memory, bytes) == LMB_OK &&
-                 lmb_shadow_map_clear(&j->maps[i][0]) == LMB_OK && draw_map(j, &j->maps[i][0], 1, is_own ? 0 : real);
-        memcpy(memory + bytes / 2, memory, bytes / 2); /* the other map: what is real is in both */
-        ok = ok && (!is_own || draw_map(j, &j->maps[i][1], 1, real)) &&
-             draw_map(j, &j->maps[i][1], real + 1, j->object_triangles);
-        if (!ok) {
+    m.memory = mix_take(j, all, r);
+    if (m.memory == NULL) {
+        return 0;
+    }
+    pool_run(pool_threads(j->o.threads), j->light_count - first, draw_two, &m);
+    for (int i = 0; i < POOL_MAX; ++i) {
+        if (m.failed[i]) {
             return report_fail(r, "--light: a shadow map cannot be drawn");
         }
-        memory += bytes;
     }
-    return memory != NULL;
+    return 1;
 }
 
 static int check_lights(mix_job *j, report *r)

@@ -75,8 +75,57 @@ static void add(lmb_irradiance *inout, const lmb_irradiance *one, float times)
     }
 }
 
-void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_view *view,
-                     const lmb_tile *real)
+static uint64_t pixels_of(const lmb_tile *t)
+{
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        out |= (uint64_t)(t->id[k] != 0) << k;
+    }
+    return out;
+}
+
+/* Each `step`th light at pixels of the tile whose `direct` is not known. */
+static void ask_direct(mix_direct *direct, const mix_job *j, const lmb_view *view, const lmb_tile *real, int32_t told,
+                       int32_t step)
+{
+    const uint64_t all = pixels_of(real), wanted = all & ~direct->known;
+    lmb_tile some = *real;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        some.id[k] = wanted >> k & 1 ? real->id[k] : 0;
+    }
+    for (int32_t i = 0; i < told && wanted != 0; i += step) {
+        lmb_irradiance one;
+        memset(&one, 0, sizeof one);
+        lmb_direct_tile(&one, j->o.kernels, &some, view, &j->scene, &j->lights[i], &j->maps[i][0]);
+        add(&direct->light, &one, (float)step);
+    }
+    direct->known |= all;
+}
+
+/* All lights, and those whose shadow may fall here with the object, too. */
+static void ask_both(lmb_irradiance *with, mix_direct *direct, const mix_job *j, const lmb_view *view,
+                     const lmb_tile *real, const sphere *s, int32_t told)
+{
+    memset(direct, 0, sizeof *direct);
+    for (int32_t i = 0; i < told; ++i) {
+        const int both = may_shadow(j, s, i);
+        for (int k = 0; k < 1 + both; ++k) {
+            lmb_irradiance one;
+            memset(&one, 0, sizeof one);
+            lmb_direct_tile(&one, j->o.kernels, real, view, &j->scene, &j->lights[i], &j->maps[i][k]);
+            if (k == 0) {
+                add(&direct->light, &one, 1.0f);
+            }
+            if (k == both) {
+                add(with, &one, 1.0f);
+            }
+        }
+    }
+    direct->known = pixels_of(real);
+}
+
+void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, mix_direct *direct, const mix_job *j,
+                     const lmb_view *view, const lmb_tile *real)
 {
     const sphere s = sphere_of(real);
     const int32_t told = j->light_count - j->lamp_count;
@@ -87,19 +136,13 @@ void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, const mix_jo
     if (!(s.radius >= 0.0f) || (!falls && j->lamp_count == 0 && memcmp(without, with, sizeof *with) == 0)) {
         return;
     }
-    const int32_t step = falls ? 1 : mix_lights_step(j, FEW);
-    for (int32_t i = 0; i < told; i += step) {
-        for (int k = 0; k < 2; ++k) {
-            lmb_irradiance one;
-            memset(&one, 0, sizeof one);
-            lmb_direct_tile(&one, j->o.kernels, real, view, &j->scene, &j->lights[i], &j->maps[i][k]);
-            add(k == 0 ? without : with, &one, (float)step);
-            if (k == 0 && !may_shadow(j, &s, i)) {
-                add(with, &one, (float)step);
-                break;
-            }
-        }
+    if (falls) {
+        ask_both(with, direct, j, view, real, &s, told);
+    } else {
+        ask_direct(direct, j, view, real, told, mix_lights_step(j, FEW));
+        add(with, &direct->light, 1.0f);
     }
+    add(without, &direct->light, 1.0f);
     for (int32_t i = told; i < j->light_count; ++i) {
         mix_sources_tile(with, j, view, real, i, 1);
     }

@@ -2,7 +2,7 @@
 #ifndef MIX_LIGHTS_H
 #define MIX_LIGHTS_H
 
-#include "mix_job.h"
+#include "mix_cones.h"
 
 /* mix_lights_step: where `few` places of a guessed sun stand for all of it, each so manieth light is asked. Of told lights
  * each counts: another one is elsewhere and has another colour. */
@@ -15,9 +15,10 @@ static inline int32_t mix_lights_step(const mix_job *j, int32_t few)
 void mix_lights_begin(mix_job *j);
 
 /* mix_lights_tile: add them to the light from around. Only lights whose shadow of the object can fall on the tile are asked
- * twice; where none is such, a few places of a guessed sun stand for it, and where the light from around is the same in
- * both none is asked: the tile stays the photo's. */
-void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_view *view,
-                     const lmb_tile *real);
+ * twice; where none is such, `direct` is asked only where it is not known, a few places of a guessed sun stand for it, and
+ * where the light from around is the same in both none is asked: the tile stays the photo's. `direct` becomes what was
+ * asked. */
+void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, mix_direct *direct, const mix_job *j,
+                     const lmb_view *view, const lmb_tile *real);
 
 #endif

@@ -52,6 +52,7 @@ typedef struct sequence {
     const mix_options *o;
     mix_list list;
     mix_kept kept;
+    mix_spare spare; /* read_at, which may run beside rows, is the only one to use it then */
     mix_aside aside;
     mix_ready next;
     report why_next;                   /* next.job is NULL: why it cannot be used */
@@ -74,6 +75,7 @@ static void read_at(sequence *s, int32_t at)
     }
     j->o = *s->o;
     j->kept = &s->kept;
+    j->spare = &s->spare;
     j->aside = &s->aside;
     if (!read_entry(j, &s->list.entry[at], &s->why_next)) {
         free(j);
@@ -236,6 +238,7 @@ int mix_frames(const mix_options *o, report *r)
     tell_rest(&s);
     const int ok = end(&s, r);
     mix_kept_free(&s.kept);
+    mix_spare_free(&s.spare);
     mix_list_free(&s.list);
     return ok;
 }
