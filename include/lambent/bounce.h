@@ -3,7 +3,7 @@
  * The shadow map gives first points (lmb_points_collect), neighbours join into discs (lmb_discs_join), discs into
  * groups (lmb_group_points), and groups light the pixels of a tile (lmb_gather_tile).
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [V16] are requirements in src/SOURCES.md. */
 #ifndef LMB_BOUNCE_H
 #define LMB_BOUNCE_H
 

@@ -1,4 +1,6 @@
-/* compose.h: direct + indirect -> radiance -> a display's pixels. [V28 V29 V30] Stability: stable. */
+/* compose.h: direct + indirect -> radiance -> a display's pixels. [V28 V29 V30]
+ *
+ * Stability: stable. Tags like [V28] are requirements in src/SOURCES.md. */
 #ifndef LMB_COMPOSE_H
 #define LMB_COMPOSE_H
 

@@ -4,7 +4,7 @@
  * alike). The others follow from it, or from LMB_CONFIG_TINY, or are part of the arithmetic.
  * LMB_CONFIG_TINY picks the small set in one word. Capacities are not sizes: a run may use any size up to them.
  *
- * Stability: stable. */
+ * Stability: stable. Tags like [V19] are requirements in src/SOURCES.md. */
 #ifndef LMB_CONFIG_H
 #define LMB_CONFIG_H
 

@@ -13,7 +13,7 @@
  *     }                                  where materials emit light, one round more, before that of the maps: b = 0
  *     lmb_gather_cut(.., &lights, ..); lmb_gather_cut(.., &e.tree, ..);  a pixel
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [V3] are requirements in src/SOURCES.md. */
 #ifndef LMB_ELEMENTS_H
 #define LMB_ELEMENTS_H
 

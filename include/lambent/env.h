@@ -4,7 +4,7 @@
  * Six faces of n x n texels in GL order (+x -x +y -y +z -z), rows from the top: with s, t in -1 .. 1 the direction is
  * (1,-t,-s) (-1,-t,s) (s,1,t) (s,-1,-t) (s,-t,1) (-s,-t,-1). Each level halves the one before, down to one texel.
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [M14] are requirements in src/SOURCES.md. */
 #ifndef LMB_ENV_H
 #define LMB_ENV_H
 

@@ -1,6 +1,6 @@
 /* light.h: direct light of Lambertian surfaces, with its shadow test; and the lobe of glossy ones. [V7 V29]
  *
- * Stability: stable. */
+ * Stability: stable. Tags like [V7] are requirements in src/SOURCES.md. */
 #ifndef LMB_LIGHT_H
 #define LMB_LIGHT_H
 

@@ -15,7 +15,7 @@
  * In a tree over the cells each tile of pixels then takes its own cut: a node that is small for its distance stands for
  * all of its lights.
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [V3] are requirements in src/SOURCES.md. */
 #ifndef LMB_MANY_LIGHTS_H
 #define LMB_MANY_LIGHTS_H
 

@@ -1,6 +1,6 @@
 /* map.h: what a camera or a light sees: a view's G-buffer, and the shadow map of a light. [V6 V7 V33]
  *
- * Stability: stable. */
+ * Stability: stable. Tags like [V6] are requirements in src/SOURCES.md. */
 #ifndef LMB_MAP_H
 #define LMB_MAP_H
 

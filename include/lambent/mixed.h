@@ -12,7 +12,7 @@
  * What is drawn and lit is in the scene's, which is the same turned about the camera, so that the object's floor is
  * level (lmb_axes_upright): voxels then keep the floor's light apart from what stands on it.
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [M1] are requirements in src/SOURCES.md. */
 #ifndef LMB_MIXED_H
 #define LMB_MIXED_H
 

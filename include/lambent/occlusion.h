@@ -3,7 +3,7 @@
  * The viewer's depth map (lmb_occluder) knows only what the viewer sees; lmb_bvh knows every triangle. A tile's pixels
  * are tested together: their 64 segments to one point make a thin pyramid, so one traversal serves them all.
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [V25] are requirements in src/SOURCES.md. */
 #ifndef LMB_OCCLUSION_H
 #define LMB_OCCLUSION_H
 

@@ -11,7 +11,7 @@
  * Cubes have six faces of n x n texels in GL order (+x -x +y -y +z -z), rows from the top: with s, t in -1 .. 1 the
  * direction is (1,-t,-s) (-1,-t,s) (s,1,t) (s,-1,-t) (s,-t,1) (-s,-t,-1).
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [S1] are requirements in src/SOURCES.md. */
 #ifndef LMB_PROBE_H
 #define LMB_PROBE_H
 

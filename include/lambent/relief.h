@@ -25,7 +25,7 @@
  * Normals are octahedral (of int8: code / 127), world axes. Depth d of lmb_view is min + code (1 - min) / max, where
  * min is 0 (orthographic) or near_m / far_m (perspective), and max is the largest code.
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [P1] are requirements in src/SOURCES.md. */
 #ifndef LMB_RELIEF_H
 #define LMB_RELIEF_H
 

@@ -7,7 +7,7 @@
  * Objects of several instances have one each (face, shirt, helmet), or share one. The scene's lights come on top, with
  * shadows of the objects on each other.
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [S15] are requirements in src/SOURCES.md. */
 #ifndef LMB_RELIGHT_H
 #define LMB_RELIGHT_H
 

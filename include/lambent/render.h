@@ -22,7 +22,7 @@
  * LMB_GROUP_CUT or a transfer; fixed groups and direct light of `many_lights` reach their diffuse part alone. Tiles that show a lobe
  * are gathered at each pixel, whatever gather_step is. LMB_SHOW_IRRADIANCE has no lobes.
  *
- * Stability: stable. */
+ * Stability: stable. Tags like [V29] are requirements in src/SOURCES.md. */
 #ifndef LMB_RENDER_H
 #define LMB_RENDER_H
 

@@ -3,7 +3,7 @@
  * Every array belongs to the caller and may be const. Positions may live in RAM beside indices in flash (moving,
  * skinned meshes). `revision` numbers say what changed, so nothing needs hashing: raise them when you write.
  *
- * Stability: stable. */
+ * Stability: stable. Tags like [V2] are requirements in src/SOURCES.md. */
 #ifndef LMB_SCENE_H
 #define LMB_SCENE_H
 

@@ -23,7 +23,7 @@
  *
  * The sums over links are of integers, so they are the same in any order and width.
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [V3] are requirements in src/SOURCES.md. */
 #ifndef LMB_TRANSFER_H
 #define LMB_TRANSFER_H
 

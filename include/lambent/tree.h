@@ -4,7 +4,7 @@
  * upward from the finest texels, so no flux is lost, and a fine map costs only the pixels near its texels. A tile
  * starts at the roots and splits nodes until their estimated error is under `error` times the light that they give.
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [V3] are requirements in src/SOURCES.md. */
 #ifndef LMB_TREE_H
 #define LMB_TREE_H
 

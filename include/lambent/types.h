@@ -12,7 +12,7 @@
  *   window       the part of a frame that a surface holds
  *   near         a pixel so close to an emitter that the emitter's parts and shape count
  *
- * Stability: stable. */
+ * Stability: stable. Tags like [V4] are requirements in src/SOURCES.md. */
 #ifndef LMB_TYPES_H
 #define LMB_TYPES_H
 

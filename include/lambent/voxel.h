@@ -11,7 +11,7 @@
  * so a parent is exactly the mean of its children, no light is lost on the way up, a thin wall lets no light through
  * from its back, and it covers as much of a wide cone as of a narrow one.
  *
- * Stability: experimental. */
+ * Stability: experimental. Tags like [M6] are requirements in src/SOURCES.md. */
 #ifndef LMB_VOXEL_H
 #define LMB_VOXEL_H
 
