@@ -160,6 +160,7 @@ docs: ## the reference, build/docs/html/index.html: headers, documents, the syst
 	@awk -f tests/scripts/contracts.awk $(BUILD)/docs/calls.txt $(HEADERS) | awk -f tools/docs/calls.awk > $(BUILD)/docs/calls.md
 	@doxygen -l $(BUILD)/docs/layout.xml && sed -i -f tools/docs/layout.sed $(BUILD)/docs/layout.xml
 	@DOCS_TOP='$(CURDIR)' DOCS_OUT='$(BUILD)/docs' doxygen tools/docs/Doxyfile
+	@echo "$(BUILD)/docs/html/index.html"
 
 help: ## this list
 	@awk -F ':.*## ' '/^##@ / { printf "\n%s\n", substr($$0, 5) } \
