@@ -79,7 +79,7 @@ static const option_row rows[] = {
      .help = "a place of a camera or light to come, beside those of the scene: for rooms that these see nothing of"},
     {.name = "--once", .kind = OPTION_FLAG, AT(is_once),
      .help = "for pictures with one reflection: no links for further ones, which saves a tenth of the file, and memory of "
-             "small machines"},
+             "small machines; not for a scene that materials light, as it leaves out what reflects their light"},
     {.name = "--glossy", .kind = OPTION_FLAG, AT(is_glossy),
      .help = "for `render --glossy`: glTF's metals and smooth materials keep light by direction, as those with a normal "
              "map do, in two to three times the bytes"},
