@@ -217,8 +217,8 @@ status 2 render demo $small --profile fast -o "$dir/bad.pfm"
 if [ -z "$SHORT" ]; then
     for light in point:-0.5,2,0.5:0,-1,0:9,9,9 spot:-0.5,2,0.5:0.3,-1,0:9,9,9:20,40; do
         for bounces in 1 3; do
-            how="demo --size 64x48 --exposure 0 --light $light --shadow-map 512 --show indirect --bounces $bounces"
-            status 0 render $how --many-lights 4 --gather full --elements 65536 -o "$dir/elements.pfm"
+            how="demo --size 32x24 --exposure 0 --light $light --shadow-map 512 --show indirect --bounces $bounces --elements 16384"
+            status 0 render $how --many-lights 4 --gather full -o "$dir/elements.pfm"
             status 0 render $how -o "$dir/own.pfm"
             status 0 compare "$dir/elements.pfm" "$dir/own.pfm" --max trim=0.05
         done
@@ -247,7 +247,7 @@ status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"
 status 0 render demo $small --occlusion none --error-bound 0.001 --show indirect -o "$dir/proved.pfm"
 status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o "$dir/ruled.pfm"
 status 0 compare "$dir/proved.pfm" "$dir/ruled.pfm"
-[ -n "$SHORT" ] || status 0 render demo $small --bounces 3 --show occlusion -o "$dir/blocked.pfm"
+[ -n "$SHORT" ] || status 0 render demo --size 16x16 --shadow-map 64 --bounces 3 --elements 4096 --show occlusion -o "$dir/blocked.pfm"
 
 # Help and version go to stdout.
 status 0 --version
