@@ -62,7 +62,8 @@ cp scene.glb city.glb
 "$lambent" render demo --size 64x32 --world none -o sky.hdr >/dev/null 2>&1
 cd - >/dev/null || exit 1
 
-# Commands end at two blanks, or their line. One of two bakes is by the defaults: either takes 21 s. Blocks to run as they stand are left to `make paths`.
+# Commands end at two blanks, or their line. One of two bakes is by the defaults, as either takes 21 s. Blocks to run as
+# they stand are left to `make paths`.
 awk '/^<!-- run: / { apart = 1 } /^```/ { inside = !inside; if (!inside) apart = 0 } inside && !apart' README.md tools/README.md |
     sed -nE 's#^(build/)?lambent ##; t found; d; :found; s/ {2,}.*//; s/(relief bake .*-o [^ ]*) .*/\1/; s/--frames 300/--frames 2/; s/^bake scene.lmp/& --elements 1024/; p' \
         >"$dir/commands.txt"

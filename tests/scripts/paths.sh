@@ -1,4 +1,4 @@
-# paths.sh: what the documents tell a new user to type works in a clean copy, block by block; B, CC in the environment.
+# paths.sh: what the documents tell a new user to type works in a clean copy, block by block; B in the environment.
 #
 # A block is the one between ``` after a line `<!-- run: WHAT -->`, or `<!-- run: WHAT; needs COMMAND... -->`. Each runs
 # by `sh -e`; every file that it names after -o has to be there afterwards.
@@ -21,19 +21,12 @@ cat tools/README.md include/README.md platform/README.md | awk -v dir="$dir" '
     what != "" && /^```$/ { if (file == "") { file = dir "/" ++n ".sh"; print "# " what "\n# " needs > file } else { close(file); file = what = "" } next }
     file != "" { print > file }'
 
-# OBJECTS=FOLDER: a build of these very sources by CC and CFLAGS, whose objects the copy begins with: they need not be
-# compiled twice. Else as quick to build as may be: what is built is held against pictures elsewhere.
-if [ -d "${OBJECTS:-}/default/obj" ]; then
-    flags=$CFLAGS
-    mkdir -p "$dir/clone/build/default"
-    cp -a "$OBJECTS/default/obj" "$OBJECTS/default/flags" "$dir/clone/build/default"
-else
-    flags="-O1 -DLMB_HAVE_AVX512=0"
-fi
+# As quick to build as may be: what is built is held against pictures elsewhere, and these commands do little with it.
+flags="-O1 -DLMB_HAVE_AVX512=0"
 for block in "$dir"/*.sh; do
     what=$(sed -n '1s/^# //p' "$block")
     if missing=$(sh tests/scripts/tools.sh need $(sed -n '2s/^# //p' "$block") 2>&1); then
-        check "$what" sh -c 'cd "$1" && env -i PATH="$PATH" HOME="$HOME" CC="$CC" CFLAGS="$3" sh -e "$2"' sh "$dir/clone" "$block" "$flags"
+        check "$what" sh -c 'cd "$1" && env -i PATH="$PATH" HOME="$HOME" CFLAGS="$3" sh -e "$2"' sh "$dir/clone" "$block" "$flags"
         for out in $(tr -s ' \n' '\n\n' <"$block" | sed -n '/^-o$/{n;p;}'); do
             check "$what: $out is there" test -s "$dir/clone/$out"
         done

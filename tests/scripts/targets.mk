@@ -4,13 +4,11 @@
 #   how_NAME    what make is told: the compiler, its flags, and RUN, what runs the machine's programs
 #   goal_NAME   what is made, where it is not `golden`
 #
-# EACH=N: the emulated ones of CROSS_TARGETS draw every Nth golden picture, each from another one on. The two bare machines,
-# whose compiler's helpers for binary64 and int64 are what they are asked for, share one such part.
+# EACH=N: the emulated ones of CROSS_TARGETS draw every Nth golden picture, each from another one on.
 
 CROSS_TARGETS      := gcc clang aarch64 mips cortex-m4f riscv32 web web-simd
 LEVELS        := O0 O1 O2 O3 Os
 some = GOLDENS="$(EACH:%=-DGOLDEN_EACH=% -DGOLDEN_FROM=$(1))"
-half = GOLDENS="$(if $(EACH),-DGOLDEN_EACH=$(shell expr 2 '*' $(EACH)) -DGOLDEN_FROM=$(1))"
 MORE_CROSS_TARGETS := $(filter-out gcc-O2,$(LEVELS:%=gcc-%)) gcc-native $(LEVELS:%=clang-%) tcc \
                  i386 clang-i386 windows clang-windows clang-msvc clang-aarch64 armhf clang-armhf armel mipsel clang-mips \
                  powerpc ppc64 ppc64le clang-ppc64le riscv64 clang-riscv64 s390x clang-s390x cortex-m7 cortex-m55 neon
@@ -97,13 +95,13 @@ how_clang-riscv64    = CC="clang --target=riscv64-linux-gnu -isystem /usr/riscv6
 # --- no operating system ----------------------------------------------------------------------------------------------
 
 needs_cortex-m4f := arm-none-eabi-gcc qemu-system-arm
-how_cortex-m4f   := PORT=cortex-m $(call half,2)
+how_cortex-m4f   := PORT=cortex-m $(call some,2)
 needs_cortex-m7  := $(needs_cortex-m4f)
 how_cortex-m7    := PORT=cortex-m CORE=m7
 needs_cortex-m55 := $(needs_cortex-m4f)
 how_cortex-m55   := PORT=cortex-m CORE=m55 CFLAGS=-O3
 needs_riscv32    := riscv64-unknown-elf-gcc qemu-system-riscv32
-how_riscv32      := PORT=riscv CFLAGS=-O2 $(call half,5)
+how_riscv32      := PORT=riscv CFLAGS=-O2 $(call some,0)
 
 needs_web        := clang wasm-ld node
 how_web          := PORT=web
