@@ -75,8 +75,7 @@ typedef struct mix_job {
     lmb_vec3 ball_at;                      /* likewise: a ball as large as its box */
     float ball_radius;
     int32_t track[LMB_MAX_PLANES]; /* of a sequence: each plane's number in it, or -1: it is new */
-    lmb_vec3 round_at;                     /* a ball that has all of it; mix_lights.h */
-    float round_radius;
+    lmb_vec3 box_low, box_high;            /* that has all of it; mix_lights.h */
     float *front;        /* 1/m, by pixel: what may hide the object; mix_front.h */
     lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
     lmb_mat4 from_world; /* to the scene's space */

@@ -21,14 +21,7 @@ static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b)
     return out;
 }
 
-void mix_lights_begin(mix_job *j)
-{
-    lmb_vec3 low, high;
-    mix_object_box(&low, &high, j);
-    const lmb_vec3 side = less(high, low);
-    j->round_at = (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
-    j->round_radius = 0.5f * sqrtf(dot(side, side));
-}
+void mix_lights_begin(mix_job *j) { mix_object_box(&j->box_low, &j->box_high, j); }
 
 /* Of the tile's places; radius under 0: it has none. */
 static sphere sphere_of(const lmb_tile *t)
@@ -50,21 +43,37 @@ static sphere sphere_of(const lmb_tile *t)
     return s;
 }
 
+/* Where a way `from + t way` lies between low and high by one axis; t's range is *first .. *last before and after. */
+static void cut(float *first, float *last, float from, float way, float low, float high)
+{
+    const float a = (low - from) / way, b = (high - from) / way;
+    if (fabsf(way) > 1e-20f) {
+        *first = fmaxf(*first, fminf(a, b));
+        *last = fminf(*last, fmaxf(a, b));
+    } else if (from < low || from > high) {
+        *last = -1.0f;
+    }
+}
+
 /* Can the object lie between any place of a ball and a light? All ways to it pass within the ball's radius of that from
- * its middle; and what is in a map is up to some of its texels wider. */
+ * its middle, and so through the object's box, where that is as much larger; and what is in a map is up to some of its
+ * texels wider. */
 static int may_shadow(const mix_job *j, const sphere *s, int32_t light)
 {
     const lmb_light *l = &j->lights[light];
     const lmb_shadow_map *map = &j->maps[light][1];
     const int is_sun = l->kind == LMB_LIGHT_DIRECTIONAL;
-    const lmb_vec3 to = less(j->round_at, s->at), zero = {0, 0, 0}, from_light = less(j->round_at, l->position),
+    const lmb_vec3 zero = {0, 0, 0}, low = j->box_low, high = j->box_high,
+                   middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)},
+                   from_light = less(middle, l->position), side = less(high, low),
                    way = is_sun ? less(zero, l->direction) : less(l->position, s->at);
-    const float away = is_sun ? 1.0f : sqrtf(dot(from_light, from_light)),
-                texel = 2.0f * map->view[0].half_width / (float)map->size * away;
-    const float reach = j->round_radius + 4.0f * texel + s->radius, length2 = fmaxf(dot(way, way), 1e-20f),
-                along = fmaxf(dot(to, way) / length2, 0.0f), t = is_sun ? along : fminf(along, 1.0f);
-    const lmb_vec3 off = {to.x - t * way.x, to.y - t * way.y, to.z - t * way.z};
-    return !(dot(off, off) > reach * reach);
+    const float away = is_sun ? 1.0f : sqrtf(dot(from_light, from_light)) + 0.5f * sqrtf(dot(side, side)),
+                texel = 2.0f * map->view[0].half_width / (float)map->size * away, wide = s->radius + 4.0f * texel;
+    float first = 0.0f, last = is_sun ? INFINITY : 1.0f;
+    cut(&first, &last, s->at.x, way.x, low.x - wide, high.x + wide);
+    cut(&first, &last, s->at.y, way.y, low.y - wide, high.y + wide);
+    cut(&first, &last, s->at.z, way.z, low.z - wide, high.z + wide);
+    return first <= last;
 }
 
 static void add(lmb_irradiance *inout, const lmb_irradiance *one, float times)

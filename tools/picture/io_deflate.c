@@ -10,6 +10,8 @@ enum {
     HASH_BITS = 15,
     BLOCK_TOKENS = 16384, /* long enough to pay for a block's header, short enough to follow the picture */
     CHAIN_TRIES = 128,    /* candidates looked at for one match */
+    POOR_TRIES = 8,       /* where the block before had few matches, as a photo's noise has: half the time for 1.5 % */
+    POOR_TOKEN = 3,       /* bytes of its mean token, below which it had */
     GOOD_MATCH = 8,       /* with one this long in hand, a quarter of the tries */
     LAZY_MATCH = 16,      /* shorter ones wait: the next byte may start a longer one */
     NICE_MATCH = 128,     /* long enough to stop looking */
@@ -52,6 +54,7 @@ typedef struct deflater {
     code_table litlen, dist;
     block_header header;
     bit_writer w;
+    int tries;
     int failed; /* memory was short */
 } deflater;
 
@@ -336,6 +339,7 @@ static void close_block(deflater *d, uint32_t last)
     uint64_t raw = d->covered - d->block_start;
     uint64_t stored = 8 * raw + 40 * (raw / STORED_MAX + 1), fixed, dynamic, best; /* at most 5 bytes a piece */
 
+    d->tries = raw < POOR_TOKEN * (uint64_t)d->token_count ? POOR_TRIES : CHAIN_TRIES;
     ++d->litlen_freq[DEFLATE_END];
     fixed_codes(d);
     fixed = 3 + body_bits(d);
@@ -414,7 +418,7 @@ static match longest_match(deflater *d, size_t pos, uint32_t best)
     const uint8_t *here = d->in + pos;
     uint32_t max = d->size - pos < DEFLATE_MAX_MATCH ? (uint32_t)(d->size - pos) : DEFLATE_MAX_MATCH;
     uint32_t reach = pos < DEFLATE_WINDOW ? (uint32_t)pos : DEFLATE_WINDOW, before = 0, distance;
-    int tries = best >= GOOD_MATCH ? CHAIN_TRIES / 4 : CHAIN_TRIES;
+    int tries = best >= GOOD_MATCH ? d->tries / 4 : d->tries;
     match m = {0, 0};
 
     if (max <= best) return m;
@@ -461,6 +465,7 @@ int deflate_zlib(uint8_t **out, size_t *out_size, const uint8_t *in, size_t in_s
     if (!d) return 0;
     d->in = in;
     d->size = in_size;
+    d->tries = CHAIN_TRIES;
     if (reserve(&d->w, 2 + in_size / 4 + 64)) {
         put(&d->w, 0x78, 8); /* deflate, 32 KiB window */
         put(&d->w, 0x9c, 8); /* default effort; makes the pair a multiple of 31 */
