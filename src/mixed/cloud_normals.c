@@ -5,7 +5,7 @@
 
 #define STEEPEST 3.7320508f /* tangent of 75 degrees: what a surface may be turned from the ray */
 
-enum { MIN_POINTS = 6 };
+enum { MIN_POINTS = 6, MOST = 6 /* px to each side */ };
 
 /* The square of points around one. */
 typedef struct around {
@@ -27,22 +27,29 @@ static int keeps(const around *a, int32_t i, int32_t j, float q, lmb_vec3 ray, c
     return absf(q - plane_inverse(slope, ray.x, ray.y)) <= 2.5f * a->sigma;
 }
 
+/* Rays differ by their column and row alone: a division each of these, not of each pixel. */
 static int fit_around(float out[3], const around *a, const float *slope)
 {
     const lmb_pinhole *c = &a->cloud->camera;
     const lmb_vec3 middle = lmb_cloud_ray(c, (float)a->x, (float)a->y);
+    const int32_t x0 = maxi(-a->reach, -(a->x / a->step) * a->step), x1 = mini(a->reach, c->width - 1 - a->x);
     plane_fit f = plane_fit_at(middle.x, middle.y, a->q);
+    float ray_x[2 * MOST + 1];
     int32_t count = 0;
+    for (int32_t i = x0; i <= x1; i += a->step) {
+        ray_x[i + MOST] = middle.x + (float)i / c->fx;
+    }
     for (int32_t j = -a->reach; j <= a->reach; j += a->step) {
-        for (int32_t i = -a->reach; i <= a->reach; i += a->step) {
-            const int32_t x = a->x + i, y = a->y + j;
-            if (x < 0 || y < 0 || x >= c->width || y >= c->height) {
-                continue;
-            }
-            const float q = a->cloud->inverse[(size_t)y * (size_t)c->width + (size_t)x];
-            const lmb_vec3 ray = vec3(middle.x + (float)i / c->fx, middle.y - (float)j / c->fy, -1.0f);
-            if (keeps(a, i, j, q, ray, slope)) {
-                plane_fit_add(&f, ray.x, ray.y, q, 1.0f);
+        const int32_t y = a->y + j;
+        if (y < 0 || y >= c->height) {
+            continue;
+        }
+        const float *row = a->cloud->inverse + (size_t)y * (size_t)c->width + a->x;
+        const float ray_y = middle.y - (float)j / c->fy;
+        for (int32_t i = x0; i <= x1; i += a->step) {
+            const lmb_vec3 ray = vec3(ray_x[i + MOST], ray_y, -1.0f);
+            if (keeps(a, i, j, row[i], ray, slope)) {
+                plane_fit_add(&f, ray.x, ray.y, row[i], 1.0f);
                 ++count;
             }
         }
@@ -53,7 +60,7 @@ static int fit_around(float out[3], const around *a, const float *slope)
 static lmb_vec3 normal_at(const lmb_cloud *cloud, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &cloud->camera;
-    const int32_t wide = mini(maxi((int32_t)(c->fx / 90.0f), 2), 6);
+    const int32_t wide = mini(maxi((int32_t)(c->fx / 90.0f), 2), MOST);
     around a = {cloud, x, y, wide > 3 ? wide & ~1 : wide, wide > 3 ? 2 : 1, 0.0f, 0.0f, 0.0f};
     float first[3], slope[3], distance;
     a.q = cloud->inverse[(size_t)y * (size_t)c->width + (size_t)x];
