@@ -1,6 +1,7 @@
 /* main_rooms.c: objects put by `lambent mix` into photos of rooms of our own, against path-traced pictures. [M20 M23-M25]
  *
  *     measure-rooms FOLDER [NAME]...      pictures are kept in FOLDER and read again from there; all rooms, or some
+ *     measure-rooms FOLDER metal FIRST COUNT      COUNT metal objects in rooms by numbers from FIRST on: figures, no bars
  *
  * The photo is the room without the object, its white at 1; the depth is the room's. `mix` is told the lights, and of a
  * window that it is eight lights. Bars: on real surfaces the RMSE under 0.7 of that of the photo as it is, and the sign
@@ -155,6 +156,24 @@ static signs judge_signs(const stage *s, const float *ours)
 
 static double share(const int counts[2]) { return counts[0] + counts[1] > 0 ? counts[1] / (double)(counts[0] + counts[1]) : 1.0; }
 
+/* Of rooms by numbers: squares of errors, and pixels by sign. */
+static struct sums {
+    double surfaces, share, object;
+    int count, darker[2], brighter[2];
+} sums;
+
+static void add_sums(double surfaces, double share_of_photo, double object, const signs *n)
+{
+    sums.surfaces += surfaces * surfaces;
+    sums.share += share_of_photo;
+    sums.object += object * object;
+    ++sums.count;
+    for (int i = 0; i < 2; ++i) {
+        sums.darker[i] += n->darker[i];
+        sums.brighter[i] += n->brighter[i];
+    }
+}
+
 static void judge(const stage *s, const float *ours, const char *name)
 {
     const double surfaces = rmse(ours, s->with.rgb, s, is_same), photo = rmse(s->without.rgb, s->with.rgb, s, is_same),
@@ -165,6 +184,10 @@ static void judge(const stage *s, const float *ours, const char *name)
     printf("%-13s surfaces %.4f, photo %.4f: %.2f of it; darker %d of %d, brighter %d of %d; object %.3f\n", name,
            surfaces, photo, surfaces / photo, n.darker[1], n.darker[0] + n.darker[1], n.brighter[1],
            n.brighter[0] + n.brighter[1], object);
+    add_sums(surfaces, surfaces / photo, object, &n);
+    if (strncmp(name, "metal_", 6) == 0 && name[6] >= '0' && name[6] <= '9') {
+        return; /* by a number */
+    }
     if (is_small) {
         CHECK_MSG(object <= 0.1 && surfaces <= 0.1, "%s", name);
     } else {
@@ -189,22 +212,26 @@ static void show(const char *folder, const char *name, const char *what, const f
     }
 }
 
-static void measure(stage *s, const room_kind *kind, const char *folder)
+static void empty_room(room *r)
+{
+    memset(r, 0, sizeof *r);
+    for (int m = 0; m < SCENE_MATERIALS; ++m) {
+        r->rough_metal[m] = ROOM_MATT;
+    }
+    r->scene.up = at(0, 1, 0);
+}
+
+/* The room is built. */
+static void measure(stage *s, const char *name, const char *folder)
 {
     char object[600];
     report r = {""};
     mix_job *j = calloc(1, sizeof *j);
-    memset(&s->r, 0, sizeof s->r);
-    for (int m = 0; m < SCENE_MATERIALS; ++m) {
-        s->r.rough_metal[m] = ROOM_MATT;
-    }
-    s->r.scene.up = at(0, 1, 0);
-    kind->build(&s->r);
-    snprintf(object, sizeof object, "%s/%s.gltf", folder, kind->name);
-    if (j == NULL || !room_write_object(&s->r, object) || !get_picture(&s->without, s, folder, kind->name, 0, 0) ||
-        !get_picture(&s->with, s, folder, kind->name, 1, 0) || !get_picture(&s->again[0], s, folder, kind->name, 0, 1) ||
-        !get_picture(&s->again[1], s, folder, kind->name, 1, 1)) {
-        printf("FAIL %s: cannot be kept in %s\n", kind->name, folder);
+    snprintf(object, sizeof object, "%s/%s.gltf", folder, name);
+    if (j == NULL || !room_write_object(&s->r, object) || !get_picture(&s->without, s, folder, name, 0, 0) ||
+        !get_picture(&s->with, s, folder, name, 1, 0) || !get_picture(&s->again[0], s, folder, name, 0, 1) ||
+        !get_picture(&s->again[1], s, folder, name, 1, 1)) {
+        printf("FAIL %s: cannot be kept in %s\n", name, folder);
         ++test_failed;
         free(j);
         return;
@@ -215,12 +242,12 @@ static void measure(stage *s, const room_kind *kind, const char *folder)
     clip(s->again[1].rgb);
     if (mix_room(j, s, object, &r)) {
         clip(j->picture.pixels);
-        judge(s, j->picture.pixels, kind->name);
-        show(folder, kind->name, "photo", s->without.rgb);
-        show(folder, kind->name, "truth", s->with.rgb);
-        show(folder, kind->name, "mixed", j->picture.pixels);
+        judge(s, j->picture.pixels, name);
+        show(folder, name, "photo", s->without.rgb);
+        show(folder, name, "truth", s->with.rgb);
+        show(folder, name, "mixed", j->picture.pixels);
     } else {
-        printf("FAIL %s: %s\n", kind->name, r.text);
+        printf("FAIL %s: %s\n", name, r.text);
         ++test_failed;
     }
     mix_job_free(j);
@@ -236,12 +263,36 @@ static int is_wanted(const char *name, int argc, char **argv)
     return wanted;
 }
 
+/* Figures of rooms by numbers; returns how many there were. */
+static int measure_numbers(stage *s, const char *folder, int first, int count)
+{
+    sums = (struct sums){0, 0, 0, 0, {0, 0}, {0, 0}};
+    for (int i = 0; i < count; ++i) {
+        char name[32];
+        snprintf(name, sizeof name, "metal_%d", first + i);
+        empty_room(&s->r);
+        room_any_metal(&s->r, (uint64_t)(first + i));
+        measure(s, name, folder);
+    }
+    const double n = sums.count > 0 ? sums.count : 1;
+    printf("%d..%d: surfaces %.4f, %.3f of the photo's; object %.4f; darker %d of %d, brighter %d of %d\n", first,
+           first + count - 1, sqrt(sums.surfaces / n), sums.share / n, sqrt(sums.object / n), sums.darker[1],
+           sums.darker[0] + sums.darker[1], sums.brighter[1], sums.brighter[0] + sums.brighter[1]);
+    return count;
+}
+
 int main(int argc, char **argv)
 {
     static stage s;
-    for (int i = 0; i < room_kind_count; ++i) {
+    const int numbered = argc > 4 && strcmp(argv[2], "metal") == 0;
+    for (int i = 3; numbered && i + 1 < argc; i += 2) {
+        measure_numbers(&s, argv[1], atoi(argv[i]), atoi(argv[i + 1]));
+    }
+    for (int i = 0; !numbered && i < room_kind_count; ++i) {
         if (is_wanted(room_kinds[i].name, argc, argv)) {
-            measure(&s, &room_kinds[i], argc > 1 ? argv[1] : ".");
+            empty_room(&s.r);
+            room_kinds[i].build(&s.r);
+            measure(&s, room_kinds[i].name, argc > 1 ? argv[1] : ".");
         }
     }
     printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed, test_skipped);

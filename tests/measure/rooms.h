@@ -26,6 +26,9 @@ typedef struct room_kind {
 extern const room_kind room_kinds[];
 extern const int room_kind_count;
 
+/* room_any_metal: a metal object in a room, all of it by a number. */
+void room_any_metal(room *r, uint64_t seed);
+
 /* One picture: radiance, and depth along the axis, m. */
 typedef struct room_picture {
     float rgb[3 * ROOM_PIXELS], depth[ROOM_PIXELS];

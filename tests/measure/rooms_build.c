@@ -192,6 +192,33 @@ static void build_copper_ball(room *r)
     turn_any(r);
 }
 
+/* Ball or box, spot or point. */
+void room_any_metal(room *r, uint64_t seed)
+{
+    made_scene *s = &r->scene;
+    const svec size = any_room(r, seed);
+    const double x = any_between(s, 0.9, 1.4), z = any_between(s, 0.9, 1.5), radius = any_between(s, 0.2, 0.4);
+    if (any_between(s, 0, 1) < 0.5) {
+        spot(s, at(any_between(s, 0.4, 0.7) * size.x, 0.93 * size.y, any_between(s, 0.3, 0.6) * size.z), at(x, 0.2, z),
+             any_between(s, 16, 26), 26, 52);
+    } else {
+        point(s, at(any_between(s, 0.3, 0.75) * size.x, 0.85 * size.y, any_between(s, 0.3, 0.7) * size.z),
+              any_between(s, 6, 10));
+    }
+    look(s, at(any_between(s, 0.8, 0.9) * size.x, any_between(s, 1.3, 1.6), 0.92 * size.z), at(x, 0.45, z - 0.2),
+         any_between(s, 54, 64));
+    object_begins(r);
+    const int m = metal(r, any_between(s, 0.85, 0.96), any_between(s, 0.6, 0.9), any_between(s, 0.4, 0.9),
+                        any_between(s, 0.3, 0.5));
+    if (any_between(s, 0, 1) < 0.5) {
+        ball_outside(s, m, at(x, radius, z), radius, 16);
+    } else {
+        crate(s, m, at(x, 0, z), at(any_between(s, 0.3, 0.6), any_between(s, 0.4, 0.8), any_between(s, 0.3, 0.6)),
+              any_between(s, 5, 85));
+    }
+    turn_any(r);
+}
+
 const room_kind room_kinds[] = {
     {"small_object", build_small_object, "a crate and a ball in a large room"},
     {"metal_box", build_metal_box, "a bright metal box near a wall"},
