@@ -450,7 +450,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
 .PHONY: pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
-    measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sun measure-sequence \
+    measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sun measure-constants measure-sequence \
     measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
@@ -599,6 +599,10 @@ measure-rooms: $(B)/measure-rooms ## objects put into rooms of our own, against 
 
 measure-sun: $(B)/measure-sun ## the light that mix guesses, against the light of path-traced photos (SUNS="1 16 100 16")
 	@mkdir -p $(B)/suns && $(RUN) $(B)/measure-sun $(B)/suns $(SUNS)
+
+CONSTANTS ?= 610 4 710 4
+measure-constants: $(B)/measure-rooms $(B)/measure-sun ## constants of mix by half and twice, in rooms that chose none (CONSTANTS)
+	@ROOMS_OBJ='$(call measure_of,rooms) $(LIB)' SUN_OBJ='$(call measure_of,sun) $(LIB)' $(IN_SH) tests/measure/constants.sh $(CONSTANTS)
 
 measure-sequence: $(TOOL) $(B)/measure-sequence $(B)/scenes ## sequences of noisy photos: flicker, frames a second (FRAME, COUNT, OBJECT)
 	@$(IN_SH) tests/measure/sequence.sh

@@ -19,12 +19,13 @@
 
 int test_passed, test_failed, test_skipped;
 
-enum { STRATA = 32 };
+enum { STRATA = 32, FEWER = 16 /* of rooms by numbers, which are many */ };
 
 typedef struct stage {
     room r;
     room_picture without, with;
     room_picture again[2]; /* both by other paths */
+    int strata;
 } stage;
 
 /* --- the photo ---------------------------------------------------------------------------------------------------- */
@@ -32,10 +33,10 @@ typedef struct stage {
 static int get_picture(room_picture *p, stage *s, const char *folder, const char *name, int with, int half)
 {
     char path[600];
-    snprintf(path, sizeof path, "%s/%s_%s_%d%s.room", folder, name, with ? "with" : "without", STRATA * STRATA,
+    snprintf(path, sizeof path, "%s/%s_%s_%d%s.room", folder, name, with ? "with" : "without", s->strata * s->strata,
              half ? "b" : "");
     return scene_keep(path, p, sizeof *p, 1) ||
-           (room_trace(p, &s->r, with, STRATA, half) && scene_keep(path, p, sizeof *p, 0));
+           (room_trace(p, &s->r, with, s->strata, half) && scene_keep(path, p, sizeof *p, 0));
 }
 
 /* As a camera has it: white is 1. */
@@ -271,6 +272,7 @@ static int measure_numbers(stage *s, const char *folder, int first, int count)
         char name[32];
         snprintf(name, sizeof name, "metal_%d", first + i);
         empty_room(&s->r);
+        s->strata = FEWER;
         room_any_metal(&s->r, (uint64_t)(first + i));
         measure(s, name, folder);
     }
@@ -291,6 +293,7 @@ int main(int argc, char **argv)
     for (int i = 0; !numbered && i < room_kind_count; ++i) {
         if (is_wanted(room_kinds[i].name, argc, argv)) {
             empty_room(&s.r);
+            s.strata = STRATA;
             room_kinds[i].build(&s.r);
             measure(&s, room_kinds[i].name, argc > 1 ? argv[1] : ".");
         }

@@ -1,0 +1,57 @@
+# constants.sh: constants of tools/mix by half and by twice, on made rooms that chose none of them.
+#
+#     constants.sh FIRST COUNT FIRST COUNT [NAME]...    two columns: numbers of rooms; all constants, or some
+#
+# ROOMS_OBJ and SUN_OBJ: what measure-rooms and measure-sun are linked from. The source of a constant is compiled anew
+# with it changed, and linked in place of its own. A line a value: what the measure says of either column.
+set -eu
+work=$B/constants/$$
+mkdir -p "$work" "$B/rooms" "$B/suns"
+columns="$1 $2 $3 $4"
+shift 4
+
+# linked OUT SOURCE VALUE OBJECTS...: a measure whose constant $name is VALUE.
+linked() {
+    out=$1 source=$2 value=$3
+    shift 3
+    base=$(basename "$source" .c)
+    sed "s|^#define $name  *[0-9.]*f|#define $name ${value}f|" "tools/mix/$source" >"$work/$base.c"
+    grep -q "^#define $name ${value}f" "$work/$base.c" || { echo "constants.sh: $source has no $name" >&2; exit 1; }
+    $CC $FLAGS -iquote tools/mix -c -o "$work/$base.o" "$work/$base.c"
+    others=
+    for object in "$@"; do
+        case $object in
+        */mix/$base.o) others="$others $work/$base.o" ;;
+        *) others="$others $object" ;;
+        esac
+    done
+    $CC $FLAGS -o "$out" $others -lm -lpthread
+}
+
+# told NAME VALUE MEASURE: its summaries alone.
+told() {
+    case $3 in
+    rooms) "$work/measure" "$B/rooms" metal $columns ;;
+    sun) "$work/measure" "$B/suns" $columns ;;
+    esac | grep -E '^[0-9]+\.\.[0-9]+' | sed "s|^|$1 $2: |"
+}
+
+while read -r name source value measure; do
+    case " ${*:-$name} " in *" $name "*) ;; *) continue ;; esac
+    for by in 0.5 1 2; do
+        now=$(awk "BEGIN { printf \"%.4f\", $by * $value }")
+        case $measure in
+        rooms) linked "$work/measure" "$source" "$now" $ROOMS_OBJ ;;
+        sun) linked "$work/measure" "$source" "$now" $SUN_OBJ ;;
+        esac
+        told "$name" "$now" "$measure"
+    done
+done <<END
+MORE_MAX mix_sun.c 4 sun
+NEAR mix_sun.c 1 sun
+SHARP mix_sun.c 8 sun
+BY_NORMALS mix_sources.c 6 rooms
+BY_LIGHTS mix_sources.c 0.5 rooms
+CLEAR mix_sources.c 0.01 rooms
+THROWN mix_lobes.c 0.65 rooms
+END
