@@ -12,11 +12,11 @@ shift 4
 
 # linked OUT SOURCE VALUE OBJECTS...: a measure whose constant $name is VALUE.
 linked() {
-    out=$1 source=$2 value=$3
+    out=$1 file=$2 changed=$3
     shift 3
-    base=$(basename "$source" .c)
-    sed "s|^#define $name  *[0-9.]*f|#define $name ${value}f|" "tools/mix/$source" >"$work/$base.c"
-    grep -q "^#define $name ${value}f" "$work/$base.c" || { echo "constants.sh: $source has no $name" >&2; exit 1; }
+    base=$(basename "$file" .c)
+    sed "s|^#define $name  *[0-9.]*f|#define $name ${changed}f|" "tools/mix/$file" >"$work/$base.c"
+    grep -q "^#define $name ${changed}f" "$work/$base.c" || { echo "constants.sh: $file has no $name" >&2; exit 1; }
     $CC $FLAGS -iquote tools/mix -c -o "$work/$base.o" "$work/$base.c"
     others=
     for object in "$@"; do
