@@ -159,13 +159,13 @@ static int is_beside(const lmb_tile *t, int a, int b)
 static int find_beside(const lmb_tile *t, uint64_t carried, int k)
 {
     const int x = k % LMB_TILE, y = k / LMB_TILE;
-    int best = -1, least = 9;
+    int best = -1, near2 = 9;
     for (int v = y > 1 ? y - 2 : 0; v <= y + 2 && v < LMB_TILE; ++v) {
         for (int u = x > 1 ? x - 2 : 0; u <= x + 2 && u < LMB_TILE; ++u) {
             const int i = v * LMB_TILE + u, d2 = (u - x) * (u - x) + (v - y) * (v - y);
-            if ((carried >> i & 1) != 0 && d2 < least && is_beside(t, k, i)) {
+            if ((carried >> i & 1) != 0 && d2 < near2 && is_beside(t, k, i)) {
                 best = i;
-                least = d2;
+                near2 = d2;
             }
         }
     }
