@@ -365,7 +365,7 @@ static int cut_run(span *items, run *r, run *more, int *halves)
 {
     span *item = items + r->first;
     const uint32_t first = r->first, count = r->count;
-    cut best;
+    cut best = {0};
     best.cost = 3e38f;
     if (count <= FEW) {
         cut_few(&best, item, count);

@@ -6,7 +6,7 @@
 
 #include "mix_world.h"
 
-enum { AGAIN = 16 /* frames after which a tile is traced again */ };
+enum { AGAIN = 24 /* frames after which a tile is traced again */ };
 
 /* Places of two frames are one where their distances agree and their normals are this near, as a cosine. */
 #define ALIKE 0.7f
@@ -29,11 +29,15 @@ int mix_carry_take(mix_job *j, report *r)
     return j->carried != NULL && j->lit != NULL;
 }
 
-int mix_carry_knows(const mix_job *j, int32_t x, int32_t y)
+static int has_last(const mix_job *j)
 {
     const mix_job *last = j->kept != NULL ? j->kept->last : NULL;
-    return last != NULL && last->carried != NULL && j->carried != NULL && !j->kept->is_other_light &&
-           (x / LMB_TILE * 5 + y / LMB_TILE * 3 + j->kept->frames) % AGAIN != 0;
+    return last != NULL && last->carried != NULL && j->carried != NULL && !j->kept->is_other_light;
+}
+
+int mix_carry_knows(const mix_job *j, int32_t x, int32_t y)
+{
+    return has_last(j) && (x / LMB_TILE * 5 + y / LMB_TILE * 3 + j->kept->frames) % AGAIN != 0;
 }
 
 static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -126,7 +130,7 @@ uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, mix_direct
     const mix_job *last = j->kept != NULL ? j->kept->last : NULL;
     uint64_t known = 0;
     memset(direct, 0, sizeof *direct);
-    for (int k = 0; k < LMB_TILE_PIXELS && mix_carry_knows(j, real->x, real->y); ++k) {
+    for (int k = 0; k < LMB_TILE_PIXELS && has_last(j); ++k) {
         mix_carried one;
         if (real->id[k] == 0) {
             continue;

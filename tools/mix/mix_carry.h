@@ -8,8 +8,8 @@
 int mix_carry_take(mix_job *j, report *r);
 
 /* mix_carry_get: light[0] and [1] of the pixels of a real tile that the frame before has seen, between its pixels, and of
- * those where it knows it the lights' own. Returns which those are. Every sixteenth frame a tile knows nothing, so that
- * what is carried does not blur, and follows the voxels. mix_carry_put: a tile's, for the next frame;
+ * those where it knows it the lights' own. Returns which those are. Every 24th frame a tile does not `know` (below): what
+ * is carried is to follow the voxels, and not to blur. mix_carry_put: a tile's, for the next frame;
  * mix_carry_put_direct: after it, the lights' own. */
 uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, mix_direct *direct, const mix_job *j,
                        const lmb_tile *real);

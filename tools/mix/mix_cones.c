@@ -7,6 +7,10 @@
 
 enum { STEP = 4 };
 
+/* The pixels of a tile that others lie between. A tile that is traced again needs these anew; what noise sets apart from
+ * them keeps what it has. */
+#define CORNERS ((uint64_t)1 | (uint64_t)1 << 7 | (uint64_t)1 << 56 | (uint64_t)1 << 63)
+
 /* Where what the object leaves of a tile's light differs by more between the pixels that are traced, all are: the dark under
  * a ball is narrower than what lies between them. */
 #define STEEP 1.25f
@@ -121,6 +125,19 @@ static void upsample(uint64_t more[1], mix_batch *b, int32_t i, uint64_t known, 
     *more = (steep ? ~known : *more) & ~carried;
 }
 
+/* What the frame before knows of a tile: its pixels, or those alone that nothing lies between, if it is traced again. */
+static uint64_t take_carried(mix_batch *b, const mix_job *j, int32_t i, uint64_t known)
+{
+    const lmb_tile *real = &b->real[i];
+    uint64_t carried = mix_carry_get(&b->light[0][i], &b->light[1][i], &b->direct[i], j, real);
+    if (mix_carry_knows(j, real->x, real->y)) {
+        return carried | mix_carry_spread(&b->light[0][i], &b->light[1][i], real, carried, known & ~carried);
+    }
+    carried &= known & ~CORNERS;
+    b->direct[i].known &= carried;
+    return carried;
+}
+
 void mix_cones_batch(mix_batch *b, const mix_job *j)
 {
     uint64_t known[MIX_BATCH], carried[MIX_BATCH], more;
@@ -135,9 +152,8 @@ void mix_cones_batch(mix_batch *b, const mix_job *j)
     memset(&b->together, 0, sizeof b->together);
     b->gathered = 0;
     for (int32_t i = 0; i < b->count; ++i) {
-        carried[i] = mix_carry_get(&b->light[0][i], &b->light[1][i], &b->direct[i], j, &b->real[i]);
         known[i] = lmb_sparse_pixels(&b->real[i], STEP);
-        carried[i] |= mix_carry_spread(&b->light[0][i], &b->light[1][i], &b->real[i], carried[i], known[i] & ~carried[i]);
+        carried[i] = take_carried(b, j, i, known[i]);
         put_pixels(b, j, i, known[i] & ~carried[i]);
     }
     flush(b, j);

@@ -101,6 +101,9 @@ static void ask_direct(mix_direct *direct, const mix_job *j, const lmb_view *vie
     lmb_tile some = *real;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         some.id[k] = wanted >> k & 1 ? real->id[k] : 0;
+        for (int c = 0; c < 3 && (direct->known >> k & 1) == 0; ++c) {
+            direct->light.rgb[c][k] = 0.0f;
+        }
     }
     for (int32_t i = 0; i < told && wanted != 0; i += step) {
         lmb_irradiance one;
