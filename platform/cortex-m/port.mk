@@ -35,7 +35,7 @@ ifeq ($(CORE),m0plus)
 ROOM_RAM     ?= $(if $(filter pixel,$(ROOM)),163840,71168)
 PIXEL_FRAMES := 1
 endif
-# mps3-an547 has half a MiB of ROM; light by pixel and the golden suite lie in its DRAM.
+# mps3-an547 has half a MiB of ROM; light by pixel lies in its DRAM.
 ifeq ($(CORE)-$(ROOM),m55-pixel)
 ROM_ORIGIN := 0x60000000
 endif
@@ -51,10 +51,6 @@ PORT_CFLAGS  := $(core_$(CORE)) -mthumb $(BARE_CFLAGS)
 $(B)/demo: RAM_BYTES = 262144
 $(addprefix $(B)/,live baked gouraud): RAM_BYTES = 163840
 $(B)/baked $(B)/gouraud: ROM_BYTES = 1048576
-ifeq ($(CORE),m55)
-$(B)/golden: ROM_ORIGIN = 0x60000000
-$(B)/golden: ROM_BYTES = 1048576
-endif
 
 # Every instruction takes 1 ns (count.h).
 $(LIVE:%=run-%): COUNT := -icount shift=0
