@@ -185,17 +185,26 @@ static void add_middle(middle *m, lmb_vec3 p, float weight)
     m->weight += weight;
 }
 
-/* Holes towards a plane's horizon count as no farther than what was measured: `min`, an inverse distance. */
+/* Where a pixel's ray meets a plane. Holes towards its horizon count as no farther than what was measured: `min`, an
+ * inverse distance. Returns the point's inverse distance. */
+static float meet(lmb_vec3 *out, const lmb_flat *p, const lmb_pinhole *c, int32_t x, int32_t y, float min)
+{
+    const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
+    const float q = maxf(plane_inverse(p->slope, ray.x, ray.y), min);
+    *out = mul3(ray, q > 1e-3f ? 1.0f / q : 0.0f);
+    return q;
+}
+
 static void find_centre(lmb_flat *p, const lmb_planes *planes, const lmb_pinhole *c, int32_t label, float min)
 {
     middle all = {0, 0, 0, 0};
     for (int32_t y = p->y0; y < p->y1; ++y) {
         middle row = {0, 0, 0, 0};
         for (int32_t x = p->x0; x < p->x1; ++x) {
-            const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
-            const float q = maxf(plane_inverse(p->slope, ray.x, ray.y), min);
-            if (planes->label[y * c->width + x] == label && q > 1e-3f) {
-                add_middle(&row, mul3(ray, 1.0f / q), 1.0f / (q * q * q));
+            lmb_vec3 at;
+            const float q = planes->label[y * c->width + x] == label ? meet(&at, p, c, x, y, min) : 0.0f;
+            if (q > 1e-3f) {
+                add_middle(&row, at, 1.0f / (q * q * q));
             }
         }
         add_middle(&all, vec3(row.x, row.y, row.z), 1.0f);
@@ -209,10 +218,9 @@ static void find_extent(lmb_flat *p, const lmb_planes *planes, const lmb_pinhole
     p->low[0] = p->low[1] = p->high[0] = p->high[1] = 0.0f;
     for (int32_t y = p->y0; y < p->y1; ++y) {
         for (int32_t x = p->x0; x < p->x1; ++x) {
-            const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
-            const float q = maxf(plane_inverse(p->slope, ray.x, ray.y), min);
-            if (planes->label[y * c->width + x] == label && q > 1e-3f) {
-                const lmb_vec3 d = sub3(mul3(ray, 1.0f / q), p->centre);
+            lmb_vec3 at;
+            if (planes->label[y * c->width + x] == label && meet(&at, p, c, x, y, min) > 1e-3f) {
+                const lmb_vec3 d = sub3(at, p->centre);
                 const float u = dot3(d, p->across), v = dot3(d, p->along);
                 p->low[0] = minf(p->low[0], u);
                 p->low[1] = minf(p->low[1], v);
@@ -223,7 +231,7 @@ static void find_extent(lmb_flat *p, const lmb_planes *planes, const lmb_pinhole
     }
 }
 
-static void find_boxes(lmb_planes *planes, const lmb_pinhole *c)
+void lmb_planes_boxes(lmb_planes *planes, const lmb_pinhole *c)
 {
     for (int32_t i = 0; i < planes->count; ++i) {
         lmb_flat *p = &planes->plane[i];
@@ -246,17 +254,25 @@ static void find_boxes(lmb_planes *planes, const lmb_pinhole *c)
     }
 }
 
+void lmb_planes_centres(float min[LMB_MAX_PLANES], lmb_planes *planes, const lmb_cloud *cloud)
+{
+    lmb_planes_farthest(min, planes, cloud);
+    for (int32_t i = 0; i < planes->count; ++i) {
+        lmb_flat *p = &planes->plane[i];
+        min[i] = min[i] < 1e30f ? (1.0f - PLANE_MOVES) * min[i] : 0.0f;
+        find_centre(p, planes, &cloud->camera, i + 1, min[i]);
+    }
+}
+
 void lmb_planes_measure(lmb_planes *planes, const lmb_cloud *cloud)
 {
     float min[LMB_MAX_PLANES];
-    find_boxes(planes, &cloud->camera);
-    lmb_planes_farthest(min, planes, cloud);
+    lmb_planes_boxes(planes, &cloud->camera);
+    lmb_planes_centres(min, planes, cloud);
     for (int32_t i = 0; i < planes->count; ++i) {
         lmb_flat *p = &planes->plane[i];
         p->normal = lmb_plane_normal(&p->distance, p->slope);
         set_axes(p);
-        min[i] = min[i] < 1e30f ? (1.0f - PLANE_MOVES) * min[i] : 0.0f;
-        find_centre(p, planes, &cloud->camera, i + 1, min[i]);
         find_extent(p, planes, &cloud->camera, i + 1, min[i]);
     }
 }

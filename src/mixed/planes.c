@@ -165,6 +165,16 @@ static void grow_all(lmb_planes *planes, const lmb_cloud *cloud, int32_t min)
 
 /* --- fitting and joining ------------------------------------------------------------------------------------------ */
 
+static void add_near(plane_fit *sums, const lmb_flat *p, const lmb_cloud *cloud, int32_t x, int32_t y, float off)
+{
+    const float q = cloud->inverse[y * cloud->camera.width + x];
+    const lmb_vec3 ray = lmb_cloud_ray(&cloud->camera, (float)x, (float)y);
+    if (plane_off(cloud, p->slope, q, ray) <= off) {
+        const float sigma = lmb_cloud_sigma(cloud, q);
+        plane_fit_add(sums, ray.x, ray.y, q, cloud->noise * cloud->noise / (sigma * sigma));
+    }
+}
+
 /* Sums of rows first: 8192 terms at most go into one float before they meet the rest. */
 int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off)
 {
@@ -176,11 +186,8 @@ int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cl
         plane_fit row = plane_fit_at(all.x0, all.y0, all.q0);
         for (int32_t x = p->x0; x < p->x1; ++x) {
             const int32_t at = y * c->width + x;
-            const float q = cloud->inverse[at];
-            const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
-            if (planes->label[at] == label && q > 0.0f && plane_off(cloud, p->slope, q, ray) <= off) {
-                const float sigma = lmb_cloud_sigma(cloud, q);
-                plane_fit_add(&row, ray.x, ray.y, q, cloud->noise * cloud->noise / (sigma * sigma));
+            if (planes->label[at] == label && cloud->inverse[at] > 0.0f) {
+                add_near(&row, p, cloud, x, y, off);
             }
         }
         lmb_plane_fit_join(&all, &row);
@@ -190,13 +197,15 @@ int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cl
 
 static void fit_all(lmb_planes *planes, const lmb_cloud *cloud)
 {
+    lmb_planes_boxes(planes, &cloud->camera);
     for (int32_t i = 0; i < planes->count; ++i) {
+        lmb_flat *p = &planes->plane[i];
         float slope[3];
         if (lmb_planes_fit(slope, planes, cloud, i + 1, FIT_OFF)) {
-            memcpy(planes->plane[i].slope, slope, sizeof slope);
+            memcpy(p->slope, slope, sizeof slope);
         }
+        p->normal = lmb_plane_normal(&p->distance, p->slope);
     }
-    lmb_planes_measure(planes, cloud);
 }
 
 /* How many pairs of pixels a few apart are of planes i and k, i < k; 255: as many or more. */
@@ -246,6 +255,8 @@ static void remove_plane(lmb_planes *planes, const lmb_cloud *cloud, int32_t i, 
 static int join_two(lmb_planes *planes, const lmb_cloud *cloud)
 {
     touching t;
+    float min[LMB_MAX_PLANES];
+    lmb_planes_centres(min, planes, cloud);
     find_touching(&t, planes, &cloud->camera);
     for (int32_t i = 0; i < planes->count; ++i) {
         for (int32_t k = i + 1; k < planes->count; ++k) {
@@ -306,15 +317,13 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
     out->label = (uint8_t *)(out->queue + (size_t)w * (size_t)h);
     memset(out->label, 0, (size_t)w * (size_t)h);
     grow_all(out, cloud, min);
-    lmb_planes_measure(out, cloud);
     fit_all(out, cloud);
     while (join_two(out, cloud)) {
-        lmb_planes_measure(out, cloud);
         fit_all(out, cloud);
     }
     lmb_planes_outline(out, cloud);
-    lmb_planes_measure(out, cloud);
     fit_all(out, cloud);
+    lmb_planes_measure(out, cloud);
     drop_small(out, cloud, min);
     sort_planes(out, cloud);
     return LMB_OK;

@@ -31,6 +31,11 @@ void lmb_planes_outline(lmb_planes *planes, const lmb_cloud *cloud);
 /* lmb_planes_farthest: by plane, the smallest inverse distance that was measured on it. */
 void lmb_planes_farthest(float min[LMB_MAX_PLANES], const lmb_planes *planes, const lmb_cloud *cloud);
 
+/* lmb_planes_boxes: from the labels, of each plane its pixels and their box. lmb_planes_centres: from those and its slope
+ * its centre; min: by plane, the least inverse distance that holes in it count as. */
+void lmb_planes_boxes(lmb_planes *planes, const lmb_pinhole *camera);
+void lmb_planes_centres(float min[LMB_MAX_PLANES], lmb_planes *planes, const lmb_cloud *cloud);
+
 /* lmb_planes_measure: everything of lmb_flat beside `slope`, from the labels.                                  [M5] */
 void lmb_planes_measure(lmb_planes *planes, const lmb_cloud *cloud);
 
