@@ -1,79 +1,145 @@
 /* cloud_normals.c: normals of a cloud's points, in spite of holes and noise. Layer 6. [M2] */
 #include "plane_fit.h"
 
+#include <string.h>
+
 #if LMB_MIXED
 
 #define STEEPEST 3.7320508f /* tangent of 75 degrees: what a surface may be turned from the ray */
 
-enum { MIN_POINTS = 6, MOST = 6 /* px to each side */ };
+enum { MIN_POINTS = 6, MOST = 6 /* px to each side */, SPAN = 16 /* px */ };
 
-/* The square of points around one. */
+/* The squares of points around pixels side by side, in arrays that a compiler turns into vectors. */
 typedef struct around {
     const lmb_cloud *cloud;
     int32_t x, y, reach, step; /* px */
-    float q, sigma, tilt;      /* tilt: of the inverse a pixel, for the steepest surface */
+    float q[SPAN], sigma[SPAN], tilt[SPAN]; /* tilt: of the inverse a pixel, for the steepest surface */
+    float ray_x[SPAN], ray_y;
+    float slope[3][SPAN];
+    float near[SPAN + 2 * MOST]; /* inverses of a row; 0 beyond the picture */
 } around;
 
-/* The first round keeps what a surface can reach (slope NULL), the second what lies on the plane. */
-static int keeps(const around *a, int32_t i, int32_t j, float q, lmb_vec3 ray, const float *slope)
+/* plane_fit of each, whose weights are 1 or 0. */
+typedef struct sums {
+    float w[SPAN], x[SPAN], y[SPAN], xx[SPAN], xy[SPAN], yy[SPAN], q[SPAN], xq[SPAN], yq[SPAN];
+} sums;
+
+static void read_row(around *a, int32_t y)
 {
-    if (!(q > 0.0f)) {
-        return 0;
-    }
-    if (slope == NULL) {
-        const int32_t far = maxi(i < 0 ? -i : i, j < 0 ? -j : j);
-        return absf(q - a->q) <= 4.0f * a->sigma + a->tilt * (float)far;
-    }
-    return absf(q - plane_inverse(slope, ray.x, ray.y)) <= 2.5f * a->sigma;
+    const int32_t width = a->cloud->camera.width, from = maxi(a->x - MOST, 0), to = mini(a->x + SPAN + MOST, width);
+    memset(a->near, 0, sizeof a->near);
+    memcpy(a->near + (from - a->x + MOST), a->cloud->inverse + (size_t)y * (size_t)width + from,
+           (size_t)(to - from) * sizeof(float));
 }
 
-/* Rays differ by their column and row alone: a division each of these, not of each pixel. */
-static int fit_around(float out[3], const around *a, const float *slope)
+/* Add points to the right of each: those that `is_in` says, by 1 or 0. */
+static void add_points(sums *restrict s, const around *a, const float *q, const float *is_in, float right, float ray_y)
 {
-    const lmb_pinhole *c = &a->cloud->camera;
-    const lmb_vec3 middle = lmb_cloud_ray(c, (float)a->x, (float)a->y);
-    const int32_t x0 = maxi(-a->reach, -(a->x / a->step) * a->step), x1 = mini(a->reach, c->width - 1 - a->x);
-    plane_fit f = plane_fit_at(middle.x, middle.y, a->q);
-    float ray_x[2 * MOST + 1];
-    int32_t count = 0;
-    for (int32_t i = x0; i <= x1; i += a->step) {
-        ray_x[i + MOST] = middle.x + (float)i / c->fx;
+    for (int k = 0; k < SPAN; ++k) {
+        const float w = is_in[k], x = w * ((a->ray_x[k] + right) - a->ray_x[k]), y = w * (ray_y - a->ray_y),
+                    off = w * (q[k] - a->q[k]);
+        s->w[k] += w;
+        s->x[k] += x;
+        s->y[k] += y;
+        s->xx[k] += x * x;
+        s->xy[k] += x * y;
+        s->yy[k] += y * y;
+        s->q[k] += off;
+        s->xq[k] += x * off;
+        s->yq[k] += y * off;
     }
+}
+
+/* What a surface can reach that is `far` pixels away. */
+static void can_reach(float *is_in, const around *a, const float *q, float far)
+{
+    for (int k = 0; k < SPAN; ++k) {
+        is_in[k] = (float)((q[k] > 0.0f) & (absf(q[k] - a->q[k]) <= 4.0f * a->sigma[k] + a->tilt[k] * far));
+    }
+}
+
+/* What lies on the plane that was found first. */
+static void lies_on(float *is_in, const around *a, const float *q, float right, float ray_y)
+{
+    for (int k = 0; k < SPAN; ++k) {
+        const float on = a->slope[0][k] * (a->ray_x[k] + right) + a->slope[1][k] * ray_y + a->slope[2][k];
+        is_in[k] = (float)((q[k] > 0.0f) & (absf(q[k] - on) <= 2.5f * a->sigma[k]));
+    }
+}
+
+static void add_row(sums *s, const around *a, int32_t j, int is_again)
+{
+    const float ray_y = a->ray_y - (float)j / a->cloud->camera.fy;
+    float is_in[SPAN];
+    for (int32_t i = -a->reach; i <= a->reach; i += a->step) {
+        const float *q = a->near + MOST + i;
+        const float right = (float)i / a->cloud->camera.fx;
+        if (is_again) {
+            lies_on(is_in, a, q, right, ray_y);
+        } else {
+            can_reach(is_in, a, q, (float)maxi(i < 0 ? -i : i, j < 0 ? -j : j));
+        }
+        add_points(s, a, q, is_in, right, ray_y);
+    }
+}
+
+static void add_all(sums *s, around *a, int is_again)
+{
+    memset(s, 0, sizeof *s);
     for (int32_t j = -a->reach; j <= a->reach; j += a->step) {
-        const int32_t y = a->y + j;
-        if (y < 0 || y >= c->height) {
-            continue;
-        }
-        const float *row = a->cloud->inverse + (size_t)y * (size_t)c->width + a->x;
-        const float ray_y = middle.y - (float)j / c->fy;
-        for (int32_t i = x0; i <= x1; i += a->step) {
-            const lmb_vec3 ray = vec3(ray_x[i + MOST], ray_y, -1.0f);
-            if (keeps(a, i, j, row[i], ray, slope)) {
-                plane_fit_add(&f, ray.x, ray.y, row[i], 1.0f);
-                ++count;
-            }
+        if (a->y + j >= 0 && a->y + j < a->cloud->camera.height) {
+            read_row(a, a->y + j);
+            add_row(s, a, j, is_again);
         }
     }
-    return count >= MIN_POINTS && lmb_plane_fit_solve(out, &f);
 }
 
-static lmb_vec3 normal_at(const lmb_cloud *cloud, int32_t x, int32_t y)
+static int solve(float slope[3], const sums *s, const around *a, int k)
+{
+    const plane_fit f = {a->ray_x[k], a->ray_y, a->q[k], s->w[k], s->x[k], s->y[k], s->xx[k], s->xy[k], s->yy[k],
+                         s->q[k], s->xq[k], s->yq[k]};
+    return s->w[k] >= (float)MIN_POINTS && lmb_plane_fit_solve(slope, &f);
+}
+
+static void begin(around *a, const lmb_cloud *cloud, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &cloud->camera;
     const int32_t wide = mini(maxi((int32_t)(c->fx / 90.0f), 2), MOST);
-    around a = {cloud, x, y, wide > 3 ? wide & ~1 : wide, wide > 3 ? 2 : 1, 0.0f, 0.0f, 0.0f};
-    float first[3], slope[3], distance;
-    a.q = cloud->inverse[(size_t)y * (size_t)c->width + (size_t)x];
-    if (!(a.q > 0.0f)) {
-        return vec3(0, 0, 0);
+    memset(a, 0, sizeof *a);
+    a->cloud = cloud;
+    a->x = x;
+    a->y = y;
+    a->reach = wide > 3 ? wide & ~1 : wide;
+    a->step = wide > 3 ? 2 : 1;
+    for (int32_t k = 0; k < SPAN; ++k) {
+        const lmb_vec3 ray = lmb_cloud_ray(c, (float)(x + k), (float)y);
+        a->q[k] = x + k < c->width ? cloud->inverse[(size_t)y * (size_t)c->width + (size_t)(x + k)] : 0.0f;
+        a->ray_x[k] = ray.x;
+        a->ray_y = ray.y;
+        a->sigma[k] = lmb_cloud_sigma(cloud, a->q[k]);
+        a->tilt[k] = a->q[k] * STEEPEST / minf(c->fx, c->fy);
     }
-    a.sigma = lmb_cloud_sigma(cloud, a.q);
-    a.tilt = a.q * STEEPEST / minf(c->fx, c->fy);
-    if (!fit_around(first, &a, NULL)) {
-        return vec3(0, 0, 0);
+}
+
+/* Normals of pixels side by side: of a first fit, and of a second one that leaves out what the first does not explain. */
+static void find_span(lmb_vec3 *out, const lmb_cloud *cloud, int32_t x, int32_t y, int32_t count)
+{
+    around a;
+    sums s;
+    float first[SPAN][3], again[3], distance;
+    int32_t is_found[SPAN];
+    begin(&a, cloud, x, y);
+    add_all(&s, &a, 0);
+    for (int32_t k = 0; k < SPAN; ++k) {
+        is_found[k] = a.q[k] > 0.0f && solve(first[k], &s, &a, k);
+        for (int c = 0; c < 3; ++c) {
+            a.slope[c][k] = is_found[k] ? first[k][c] : 0.0f;
+        }
     }
-    const int again = fit_around(slope, &a, first);
-    return lmb_plane_normal(&distance, again ? slope : first);
+    add_all(&s, &a, 1);
+    for (int32_t k = 0; k < count; ++k) {
+        out[k] = is_found[k] ? lmb_plane_normal(&distance, solve(again, &s, &a, k) ? again : first[k]) : vec3(0, 0, 0);
+    }
 }
 
 lmb_status lmb_cloud_normals(const lmb_cloud *cloud, int32_t y0, int32_t y1)
@@ -81,9 +147,10 @@ lmb_status lmb_cloud_normals(const lmb_cloud *cloud, int32_t y0, int32_t y1)
     if (cloud == NULL || cloud->inverse == NULL || y0 < 0 || y1 < y0) {
         return LMB_ERR_ARG;
     }
+    const int32_t width = cloud->camera.width;
     for (int32_t y = y0; y < y1 && y < cloud->camera.height; ++y) {
-        for (int32_t x = 0; x < cloud->camera.width; ++x) {
-            cloud->normal[(size_t)y * (size_t)cloud->camera.width + (size_t)x] = normal_at(cloud, x, y);
+        for (int32_t x = 0; x < width; x += SPAN) {
+            find_span(cloud->normal + (size_t)y * (size_t)width + (size_t)x, cloud, x, y, mini(SPAN, width - x));
         }
     }
     return LMB_OK;
