@@ -6,7 +6,7 @@
 
 #include "mix_world.h"
 
-enum { AGAIN = 24 /* frames after which a tile is traced again */ };
+enum { AGAIN = 24 /* frames after which a tile is traced again */, BESIDE = 2 /* px, to each side */ };
 
 /* Places of two frames are one where their distances agree and their normals are this near, as a cosine. */
 #define ALIKE 0.7f
@@ -124,6 +124,26 @@ static int get_pixel(mix_carried *out, const mix_job *last, const there *t)
     return sum >= ENOUGH;
 }
 
+/* Where noise hides a place, or turns its normal, the nearest of the pixels around that shows its surface knows its light
+ * as well as a new trace would. */
+static int get_near(mix_carried *out, const mix_job *last, const there *t)
+{
+    const int32_t w = last->frame.camera.width, u = (int32_t)floorf(t->x + 0.5f), v = (int32_t)floorf(t->y + 0.5f);
+    float near2 = 2.0f * (BESIDE + 1) * (BESIDE + 1);
+    int is_found = 0;
+    for (int32_t y = v - BESIDE; y <= v + BESIDE; ++y) {
+        for (int32_t x = u - BESIDE; x <= u + BESIDE; ++x) {
+            const float dx = (float)x - t->x, dy = (float)y - t->y, d2 = dx * dx + dy * dy;
+            if (d2 < near2 && is_same(last, t, x, y)) {
+                near2 = d2;
+                is_found = 1;
+                *out = last->carried[(size_t)y * (size_t)w + (size_t)x];
+            }
+        }
+    }
+    return is_found;
+}
+
 uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, mix_direct *direct, const mix_job *j,
                        const lmb_tile *real)
 {
@@ -136,7 +156,7 @@ uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, mix_direct
             continue;
         }
         const there t = look(j, last, real, k);
-        if (is_seen(&t) && get_pixel(&one, last, &t)) {
+        if (is_seen(&t) && (get_pixel(&one, last, &t) || get_near(&one, last, &t))) {
             known |= (uint64_t)1 << k;
             direct->known |= (uint64_t)(one.direct[0] >= 0.0f) << k;
             for (int c = 0; c < 3; ++c) {
@@ -159,13 +179,13 @@ static int is_beside(const lmb_tile *t, int a, int b)
     return along(n, m) > SMOOTH && over * over <= FLAT * FLAT * along(d, d);
 }
 
-/* The nearest one of the pixels around k, at most two rows and columns away; -1: none. */
+/* The nearest one of the pixels around k; -1: none. */
 static int find_beside(const lmb_tile *t, uint64_t carried, int k)
 {
     const int x = k % LMB_TILE, y = k / LMB_TILE;
-    int best = -1, near2 = 9;
-    for (int v = y > 1 ? y - 2 : 0; v <= y + 2 && v < LMB_TILE; ++v) {
-        for (int u = x > 1 ? x - 2 : 0; u <= x + 2 && u < LMB_TILE; ++u) {
+    int best = -1, near2 = 2 * BESIDE * BESIDE + 1;
+    for (int v = y > BESIDE ? y - BESIDE : 0; v <= y + BESIDE && v < LMB_TILE; ++v) {
+        for (int u = x > BESIDE ? x - BESIDE : 0; u <= x + BESIDE && u < LMB_TILE; ++u) {
             const int i = v * LMB_TILE + u, d2 = (u - x) * (u - x) + (v - y) * (v - y);
             if ((carried >> i & 1) != 0 && d2 < near2 && is_beside(t, k, i)) {
                 best = i;
