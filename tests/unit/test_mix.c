@@ -649,6 +649,48 @@ static void lights_are_asked_where_they_change(void)
     }
 }
 
+/* Suns from all sides, and from behind the camera, by which the object's box is no larger than its shadow: a tile that an
+ * edge of that alone touches is asked with the object, too. */
+static void shadows_that_touch_a_tile(void)
+{
+    test_rng rng = {77};
+    char sun[60];
+    char *more[] = {"--object", square, "--at", "48,60", "--scale", "0.35", "--light", sun};
+    int changed = 0;
+    for (int i = 0; i < 90; ++i) {
+        report r = {""};
+        const double wide = i % 3 == 0 ? 1.0 : 0.2;
+        snprintf(sun, sizeof sun, "sun:0,0,0:%.3f,%.3f,%.3f:2,2,2", wide * (double)test_uniform(&rng, -1, 1),
+                 wide * (double)test_uniform(&rng, -1, -0.1f), i % 3 == 0 ? (double)test_uniform(&rng, -1, 1) : -1.0);
+        mix_job *j = begin(more, 8);
+        j->o.shadow_map = 1024;
+        set_depth(j, 2.5f, 1);
+        CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
+        lmb_view view;
+        int32_t x0, y0;
+        CHECK(lmb_photo_view(&view, &x0, &y0, &j->frame.camera, &j->axes) == LMB_OK);
+        mix_lights_begin(j);
+        for (int t = 0; t < PIXELS / LMB_TILE_PIXELS; ++t) {
+            static lmb_tile tile;
+            static lmb_irradiance all[2], some[2];
+            mix_direct direct = {0};
+            lmb_real_tile(&tile, &j->cloud, &j->planes, &j->real, &j->axes, t % (WIDTH / LMB_TILE) * LMB_TILE,
+                          t / (WIDTH / LMB_TILE) * LMB_TILE);
+            memset(all, 0, sizeof all);
+            memset(some, 0, sizeof some);
+            some[1].rgb[2][0] = all[1].rgb[2][0] = 1e-30f;
+            for (int k = 0; k < 2; ++k) {
+                lmb_direct_tile(&all[k], j->o.kernels, &tile, &view, &j->scene, &j->lights[0], &j->maps[0][k]);
+            }
+            mix_lights_tile(&some[0], &some[1], &direct, j, &view, &tile);
+            CHECK_MSG(memcmp(all, some, sizeof all) == 0, "%s, tile %d", sun, t);
+            changed += memcmp(&all[0], &all[1], sizeof all[0]) != 0;
+        }
+        mix_job_free(j);
+    }
+    CHECK_MSG(changed > 100, "%d tiles change", changed);
+}
+
 /* A mirror that faces the camera shows the wall behind that, which no photo does: where a lamp lights it, as bright as that
  * makes it; a sun makes no room. The room has the camera and the lamp, and is as wide as what is measured. */
 static void metal_mirrors_the_room(void)
@@ -837,6 +879,7 @@ void test_mix(void)
     world_has_the_same_light();
     no_number_says_nothing();
     lights_are_asked_where_they_change();
+    shadows_that_touch_a_tile();
     metal_mirrors_the_room();
     order_of_lights_says_nothing();
     size_softens();

@@ -321,8 +321,35 @@ static void one_world(void)
     mix_kept_free(&k);
 }
 
+/* Memory of a job that is over is the next one's where it is as large, or larger by less than half of it; as if new. */
+static void memory_is_used_again(void)
+{
+    static mix_spare spare;
+    report r = {""};
+    void *at[3] = {NULL, NULL, NULL};
+    for (int i = 0; i < 3; ++i) {
+        static const size_t bytes[3] = {1000, 600, 400}; /* of one piece: it is 1000, and too large for the last */
+        mix_job *j = calloc(1, sizeof *j);
+        if (j == NULL) {
+            abort();
+        }
+        j->spare = &spare;
+        unsigned char *m = mix_take(j, bytes[i], &r);
+        at[i] = m;
+        for (size_t k = 0; k < bytes[i]; ++k) {
+            CHECK(m[k] == 0);
+            m[k] = 0xff;
+        }
+        mix_job_free(j);
+    }
+    CHECK(at[1] == at[0] && at[2] != at[0] && spare.count == 2);
+    mix_spare_free(&spare);
+    CHECK(spare.count == 0);
+}
+
 void test_mix_frames(void)
 {
+    memory_is_used_again();
     one_world();
     depth_stays();
     depth_moves();

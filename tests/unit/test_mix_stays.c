@@ -3,6 +3,7 @@
 #include "../folder.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "../../tools/mix/mix_next.h"
 #include "../photo_job.h"
@@ -246,6 +247,97 @@ static void places_of_a_sun_stay(void)
     }
 }
 
+/* --- one frame read while the one before it is drawn -------------------------------------------------------------- */
+
+enum { LISTED = 6, NO_POSE = -1 };
+
+/* One cannot be used, and by one the camera stands where it stood. */
+static const int listed[LISTED] = {0, NO_POSE, 1, 1, 2, 3};
+
+typedef struct ahead {
+    mix_kept kept;
+    mix_spare spare;
+    mix_aside aside;
+    mix_ready next;
+    int is_ahead, at, made_ready; /* made_ready: frames */
+} ahead;
+
+static void read_listed(ahead *a)
+{
+    memset(&a->next, 0, sizeof a->next);
+    a->next.job = begin(&a->kept, 0);
+    a->next.job->spare = a->is_ahead ? &a->spare : NULL; /* else all memory is new */
+    a->next.job->aside = &a->aside;
+    take_frame(a->next.job, listed[a->at] < 0 ? 0 : listed[a->at], 1.0);
+    a->next.job->frame.has_pose = listed[a->at] >= 0;
+}
+
+static void read_next(void *user, int index, int thread)
+{
+    ahead *a = user;
+    (void)index;
+    (void)thread;
+    if (++a->at < LISTED) {
+        read_listed(a);
+        if (a->aside.is_beside) {
+            mix_make_ready(&a->next, &a->kept);
+            a->made_ready += a->next.has_depth;
+        }
+    }
+}
+
+/* The pictures of the list, one after the other; how many there are. */
+static int draw_list(float *pictures, int is_ahead, int *made_ready)
+{
+    static ahead a;
+    int drawn = 0;
+    memset(&a, 0, sizeof a);
+    a.aside.run = read_next;
+    a.aside.user = &a;
+    a.is_ahead = is_ahead;
+    read_listed(&a);
+    while (a.at < LISTED) {
+        report r = {""};
+        mix_ready now = a.next;
+        a.aside.count = is_ahead;
+        if (mix_draw_next(&now, &a.kept, &r)) {
+            memcpy(pictures + (size_t)(3 * PIXELS * drawn++), a.kept.last->picture.pixels, 3 * PIXELS * sizeof(float));
+        } else {
+            CHECK_MSG(listed[a.at - (is_ahead && a.aside.count == 0)] == NO_POSE, "frame %d: %s", a.at, r.text);
+        }
+        if (!is_ahead) {
+            a.aside.count = 1;
+        }
+        if (a.aside.count > 0) {
+            mix_aside_run(&a.aside, 1);
+        }
+        mix_ready_free(&now);
+    }
+    *made_ready = a.made_ready;
+    mix_kept_free(&a.kept);
+    mix_spare_free(&a.spare);
+    return drawn;
+}
+
+/* The same pictures as by frames that are read when it is their turn: of what is known by then, and no more. */
+static void ahead_is_the_same(void)
+{
+    const size_t bytes = (size_t)LISTED * 3 * PIXELS * sizeof(float);
+    float *one = calloc(1, bytes), *other = calloc(1, bytes);
+    int none, ready;
+    if (one == NULL || other == NULL) {
+        abort();
+    }
+    const int drawn = draw_list(one, 0, &none), same = draw_list(other, 1, &ready);
+    CHECK_MSG(drawn == LISTED - 1 && same == drawn, "%d and %d frames", drawn, same);
+    CHECK_MSG(none == 0 && ready == 2, "%d and %d made ready", none, ready);
+    for (int i = 0; i < drawn; ++i) {
+        CHECK_MSG(memcmp(one + 3 * PIXELS * i, other + 3 * PIXELS * i, 3 * PIXELS * sizeof(float)) == 0, "frame %d", i);
+    }
+    free(other);
+    free(one);
+}
+
 void test_mix_stays(void)
 {
     static const char box[] = "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
@@ -255,5 +347,6 @@ void test_mix_stays(void)
     mesh = folder_put(&f, "box.obj", box, sizeof box - 1);
     nothing_steps();
     places_of_a_sun_stay();
+    ahead_is_the_same();
     folder_close(&f);
 }
