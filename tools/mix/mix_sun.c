@@ -257,7 +257,7 @@ static lmb_vec3 direction(const mix_job *j)
 #define WHITE     0.8f
 #define BRIGHTEST 0.95
 #define MORE_MAX  4.0f
-#define NEAR      1.0f /* m, beside the object's height: light differs from place to place */
+#define NEAR      0.5f /* m, beside the object's height: light differs from place to place */
 
 static float grey(const float *rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
 
