@@ -48,10 +48,10 @@ while read -r name source value measure; do
     done
 done <<END
 MORE_MAX mix_sun.c 4 sun
-NEAR mix_sun.c 1 sun
+NEAR mix_sun.c 0.5 sun
 SHARP mix_sun.c 8 sun
 BY_NORMALS mix_sources.c 6 rooms
 BY_LIGHTS mix_sources.c 0.5 rooms
 CLEAR mix_sources.c 0.01 rooms
-THROWN mix_lobes.c 0.65 rooms
+THROWN mix_lobes.c 0.75 rooms
 END

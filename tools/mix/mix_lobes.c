@@ -9,7 +9,7 @@
 
 enum { PARTS = 4 /* of a guessed sun's places, one for each sample */ };
 
-#define THROWN 0.65f /* of what bounces to a metal, what it throws to all sides: the rest goes one way */
+#define THROWN 0.75f /* of what bounces to a metal, what it throws to all sides: the rest goes one way */
 #define MATT 0.08f /* reflectance of what is no metal, at most */
 
 /* --- metals ------------------------------------------------------------------------------------------------------- */
