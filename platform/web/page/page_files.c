@@ -249,9 +249,21 @@ int mix_cells(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 int mix_world_stays(mix_job *j) { return (void)j, 0; }
 int mix_world_begins(mix_job *j, report *r) { return (void)r, j->world = j, 1; }
 int mix_carry_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
-uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_tile *real)
+uint64_t mix_carry_get(lmb_irradiance *without, lmb_irradiance *with, mix_direct *direct, const mix_job *j,
+                       const lmb_tile *real)
 {
-    return (void)without, (void)with, (void)j, (void)real, 0;
+    return (void)without, (void)with, (void)direct, (void)j, (void)real, 0;
+}
+uint64_t mix_carry_spread(lmb_irradiance *without, lmb_irradiance *with, const lmb_tile *real, uint64_t carried,
+                          uint64_t wanted)
+{
+    return (void)without, (void)with, (void)real, (void)carried, (void)wanted, 0;
+}
+int mix_carry_knows(const mix_job *j, int32_t x, int32_t y) { return (void)j, (void)x, (void)y, 0; }
+int mix_carry_turn(const mix_job *j, int32_t x, int32_t y) { return (void)j, (void)x, (void)y, 0; }
+void mix_carry_put_direct(const mix_job *j, const lmb_tile *real, const mix_direct *direct)
+{
+    (void)j, (void)real, (void)direct;
 }
 void mix_carry_put(const mix_job *j, const lmb_tile *real, const lmb_irradiance *without, const lmb_irradiance *with)
 {
@@ -276,9 +288,10 @@ void mix_again_keep(mix_job *j, const lmb_tile *real, const lmb_irradiance *with
     (void)j, (void)real, (void)without, (void)with, (void)object, (void)covered;
 }
 void mix_lights_begin(mix_job *j) { (void)j; }
-void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, const mix_job *j, const lmb_view *view,
-                     const lmb_tile *real)
+void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, mix_direct *direct, const mix_job *j,
+                     const lmb_view *view, const lmb_tile *real)
 {
+    (void)direct;
     for (int32_t i = 0; i < j->light_count; ++i) {
         lmb_direct_tile(without, j->o.kernels, real, view, &j->scene, &j->lights[i], &j->maps[i][0]);
         lmb_direct_tile(with, j->o.kernels, real, view, &j->scene, &j->lights[i], &j->maps[i][1]);
