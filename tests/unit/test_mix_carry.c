@@ -127,7 +127,7 @@ static void beside_pixels(pair *p)
     }
 }
 
-/* Beyond the last picture nothing is known, and nothing of what stands behind its camera. */
+/* Beyond the last picture nothing is known, nothing of what stands behind its camera, of other light or another world. */
 static void out_of_sight(pair *p)
 {
     begin(p, 12.0f);
@@ -137,6 +137,9 @@ static void out_of_sight(pair *p)
     CHECK(get(p) == 0);
     begin(p, 0.0f);
     p->kept.is_other_light = 1;
+    CHECK(get(p) == 0);
+    begin(p, 0.0f);
+    p->now.world = &p->now; /* made anew */
     CHECK(get(p) == 0);
 }
 

@@ -111,7 +111,6 @@ static figures measure(char *object, const char *at, const char *light, float tu
     return f;
 }
 
-/* Tiles that are traced whole from where light differs by half as much are 8,812 pixels, and by twice as much are 0.03 off. */
 /* A pixel that the frame before does not know takes the nearest one's light of its own surface, and of no other. */
 static void spreads_on_its_own_surface(void)
 {
@@ -137,6 +136,7 @@ static void spreads_on_its_own_surface(void)
     CHECK(mix_carry_spread(&without, &with, &t, 0, ~carried) == 0);
 }
 
+/* Tiles that are traced whole from where light differs by half as much are 8,812 pixels, and by twice as much are 0.03 off. */
 void test_mix_cones(void)
 {
     spreads_on_its_own_surface();

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../tools/mix/mix_carry.h"
 #include "../../tools/mix/mix_frames.h"
 #include "../test.h"
 
@@ -285,6 +286,48 @@ static mix_job *sunny_at(double x, const mix_kept *k)
     return j;
 }
 
+/* Frame c takes all light from frame a, whose is 7 everywhere: within 72 frames each pixel that others lie between is traced
+ * anew, and so is each that edges and bent surfaces set apart from them; in one frame few are. */
+static void all_is_traced_again(mix_job *c, mix_job *a, mix_kept *k)
+{
+    enum { TURNS = 72, STEP = 4, TILES = PIXELS / LMB_TILE_PIXELS };
+    static mix_batch batch;
+    static uint64_t fresh[TILES], known[TILES];
+    int most = 0, never = 0, all = 0, stale = 0;
+    for (int i = 0; i < PIXELS; ++i) {
+        for (int n = 0; n < 6; ++n) {
+            a->carried[i].rgb[n / 3][n % 3] = 7.0f;
+            a->carried[i].direct[n % 3] = 1.0f;
+        }
+    }
+    memset(fresh, 0, sizeof fresh);
+    for (k->frames = 1; k->frames <= TURNS; ++k->frames) {
+        int now = 0;
+        for (int i = 0; i < TILES; ++i) {
+            batch.count = 1;
+            lmb_real_tile(&batch.real[0], &c->cloud, &c->planes, &c->real, &c->axes, i % (WIDTH / LMB_TILE) * LMB_TILE,
+                          i / (WIDTH / LMB_TILE) * LMB_TILE);
+            mix_cones_batch(&batch, c);
+            known[i] = lmb_sparse_pixels(&batch.real[0], STEP);
+            for (int q = 0; q < LMB_TILE_PIXELS; ++q) {
+                const int is_new = batch.real[0].id[q] != 0 && fabsf(batch.light[0][0].rgb[0][q] - 7.0f) > 1e-4f;
+                fresh[i] |= (uint64_t)is_new << q;
+                stale += is_new && (batch.direct[0].known >> q & 1) != 0;
+                now += is_new && (known[i] >> q & 1) != 0;
+            }
+        }
+        most = now > most ? now : most;
+    }
+    for (int i = 0; i < PIXELS; ++i) {
+        const int is_known = (int)(known[i / LMB_TILE_PIXELS] >> i % LMB_TILE_PIXELS & 1);
+        all += is_known;
+        never += is_known && (fresh[i / LMB_TILE_PIXELS] >> i % LMB_TILE_PIXELS & 1) == 0;
+    }
+    CHECK_MSG(never == 0 && all > 4 * TILES + 50, "%d of %d pixels keep their light", never, all);
+    CHECK_MSG(stale == 0, "%d pixels that are traced again keep the lights' own light", stale);
+    CHECK_MSG(10 * most < all, "%d of %d pixels in one frame", most, all);
+}
+
 /* The camera moves: the first frame's voxels are traced on, with the cells that are out of the picture now, and light is
  * carried to where it would be traced. A wall that comes near the object, and a lamp that is switched, end that. */
 static void one_world(void)
@@ -304,6 +347,7 @@ static void one_world(void)
         int all;
         CHECK_MSG(off > 0.0 && 2.0 * off < apart(b, a, &all) && both > PIXELS * 9 / 10, "%g of %g at %d pixels", off,
                   apart(b, a, &all), both);
+        all_is_traced_again(c, a, &k);
         for (int i = 0; i < PIXELS; ++i) {
             const int near = i % WIDTH > WIDTH * 5 / 8;
             d->frame.depth[i] = near && d->frame.depth[i] > 1.4f ? 1.4f : d->frame.depth[i];
@@ -343,6 +387,15 @@ static void memory_is_used_again(void)
         mix_job_free(j);
     }
     CHECK(at[1] == at[0] && at[2] != at[0] && spare.count == 2);
+    for (int i = 0; i < MIX_IDLE + 1; ++i) { /* jobs that need neither */
+        mix_job *j = calloc(1, sizeof *j);
+        if (j == NULL) {
+            abort();
+        }
+        j->spare = &spare;
+        mix_job_free(j);
+    }
+    CHECK_MSG(spare.count == 0, "%d pieces are kept", spare.count);
     mix_spare_free(&spare);
     CHECK(spare.count == 0);
 }

@@ -29,16 +29,19 @@ int mix_carry_take(mix_job *j, report *r)
     return j->carried != NULL && j->lit != NULL;
 }
 
+/* Of a world that was made anew all is traced anew: else tiles of old light and of new lie side by side. */
 static int has_last(const mix_job *j)
 {
     const mix_job *last = j->kept != NULL ? j->kept->last : NULL;
-    return last != NULL && last->carried != NULL && j->carried != NULL && !j->kept->is_other_light;
+    return last != NULL && last->carried != NULL && j->carried != NULL && last->world == j->world &&
+           !j->kept->is_other_light;
 }
 
-int mix_carry_knows(const mix_job *j, int32_t x, int32_t y)
-{
-    return has_last(j) && (x / LMB_TILE * 5 + y / LMB_TILE * 3 + j->kept->frames) % AGAIN != 0;
-}
+static int32_t turn_of(const mix_job *j, int32_t x, int32_t y) { return x / LMB_TILE * 5 + y / LMB_TILE * 3 + j->kept->frames; }
+
+int mix_carry_knows(const mix_job *j, int32_t x, int32_t y) { return has_last(j) && turn_of(j, x, y) % AGAIN != 0; }
+
+int mix_carry_turn(const mix_job *j, int32_t x, int32_t y) { return turn_of(j, x, y) / AGAIN; }
 
 static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 

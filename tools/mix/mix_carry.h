@@ -24,6 +24,9 @@ uint64_t mix_carry_spread(lmb_irradiance *without, lmb_irradiance *with, const l
 /* mix_carry_knows: may a tile, x and y as the photo has them, take anything from the frame before? mix_carry_see: where `last`
  * saw a place of its scene, px; 0 where it did not. */
 int mix_carry_knows(const mix_job *j, int32_t x, int32_t y);
+
+/* mix_carry_turn: how often a tile of a frame that is no sequence's first was traced again, but for a constant. */
+int mix_carry_turn(const mix_job *j, int32_t x, int32_t y);
 int mix_carry_see(float *x, float *y, const mix_job *last, lmb_vec3 at);
 
 #endif

@@ -7,9 +7,10 @@
 
 enum { STEP = 4 };
 
-/* The pixels of a tile that others lie between. A tile that is traced again needs these anew; what noise sets apart from
- * them keeps what it has. */
+/* The pixels of a tile that others lie between. A tile that is traced again needs these anew; of what noise, an edge or a
+ * bent surface sets apart from them a third, another one each time. */
 #define CORNERS ((uint64_t)1 | (uint64_t)1 << 7 | (uint64_t)1 << 56 | (uint64_t)1 << 63)
+#define THIRD   (uint64_t)0x9249249249249249u /* of the pixels; shifted by one and by two the others */
 
 /* Where what the object leaves of a tile's light differs by more between the pixels that are traced, all are: the dark under
  * a ball is narrower than what lies between them. */
@@ -125,15 +126,15 @@ static void upsample(uint64_t more[1], mix_batch *b, int32_t i, uint64_t known, 
     *more = (steep ? ~known : *more) & ~carried;
 }
 
-/* What the frame before knows of a tile: its pixels, or those alone that nothing lies between, if it is traced again. */
+/* What the frame before knows of a tile: its pixels, or if it is traced again those alone that are not due. */
 static uint64_t take_carried(mix_batch *b, const mix_job *j, int32_t i, uint64_t known)
 {
     const lmb_tile *real = &b->real[i];
     uint64_t carried = mix_carry_get(&b->light[0][i], &b->light[1][i], &b->direct[i], j, real);
-    if (mix_carry_knows(j, real->x, real->y)) {
+    if (carried == 0 || mix_carry_knows(j, real->x, real->y)) {
         return carried | mix_carry_spread(&b->light[0][i], &b->light[1][i], real, carried, known & ~carried);
     }
-    carried &= known & ~CORNERS;
+    carried &= known & ~(CORNERS | THIRD << mix_carry_turn(j, real->x, real->y) % 3);
     b->direct[i].known &= carried;
     return carried;
 }

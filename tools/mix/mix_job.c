@@ -7,7 +7,7 @@
 /* The smallest piece that is large enough, and not much larger; zeroed. */
 static mix_memory take_spare(mix_spare *s, size_t bytes)
 {
-    mix_memory out = {NULL, 0};
+    mix_memory out = {NULL, 0, 0};
     int best = -1;
     for (int i = 0; i < s->count; ++i) {
         const size_t has = s->piece[i].bytes;
@@ -30,11 +30,29 @@ void mix_spare_free(mix_spare *s)
     }
 }
 
+/* What no later job had a use for, as when a world's voxels have grown, is the system's again. */
+static void drop_idle(mix_spare *s)
+{
+    int kept = 0;
+    for (int i = 0; i < s->count; ++i) {
+        if (++s->piece[i].idle > MIX_IDLE) {
+            free(s->piece[i].at);
+        } else {
+            s->piece[kept++] = s->piece[i];
+        }
+    }
+    s->count = kept;
+}
+
 static void give_back(mix_job *j)
 {
+    if (j->spare != NULL) {
+        drop_idle(j->spare);
+    }
     for (int i = 0; i < j->block_count; ++i) {
         if (j->spare != NULL && j->spare->count < MIX_BLOCKS) {
-            j->spare->piece[j->spare->count++] = j->blocks[i];
+            j->spare->piece[j->spare->count] = j->blocks[i];
+            j->spare->piece[j->spare->count++].idle = 0;
         } else {
             free(j->blocks[i].at);
         }
@@ -43,13 +61,17 @@ static void give_back(mix_job *j)
 
 void *mix_take(mix_job *j, size_t bytes, report *r)
 {
-    mix_memory m = {NULL, bytes > 0 ? bytes : 1};
+    mix_memory m = {NULL, bytes > 0 ? bytes : 1, 0};
     if (j->block_count < MIX_BLOCKS) {
         if (j->spare != NULL) {
             m = take_spare(j->spare, m.bytes);
         }
         if (m.at == NULL) {
             m.bytes = bytes > 0 ? bytes : 1;
+            m.at = calloc(1, m.bytes);
+        }
+        if (m.at == NULL && j->spare != NULL && j->spare->count > 0) {
+            mix_spare_free(j->spare);
             m.at = calloc(1, m.bytes);
         }
     }

@@ -8,7 +8,7 @@
 #include "../model/model.h"
 #include "mix_options.h"
 
-enum { MIX_BLOCKS = 128, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */,
+enum { MIX_BLOCKS = 128, MIX_IDLE = 4 /* jobs */, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */,
        MIX_SUN_SAMPLES = 16 /* of a guessed one */ };
 
 struct mix_kept;
@@ -53,6 +53,7 @@ typedef struct mix_space {
 typedef struct mix_memory {
     void *at;
     size_t bytes;
+    int idle; /* jobs that have ended since it was given back */
 } mix_memory;
 
 /* Of a sequence, the memory of jobs that are over: pages that the system gives anew cost a sixth of a frame. */

@@ -11,7 +11,7 @@ static inline int32_t mix_lights_step(const mix_job *j, int32_t few)
     return j->o.light_count == 0 && j->light_count - j->lamp_count == MIX_SUN_SAMPLES ? MIX_SUN_SAMPLES / few : 1;
 }
 
-/* mix_lights_begin: the ball about the object, before any tile is asked. */
+/* mix_lights_begin: the object's box, before any tile is asked. */
 void mix_lights_begin(mix_job *j);
 
 /* mix_lights_tile: add them to the light from around. Only lights whose shadow of the object can fall on the tile are asked
