@@ -127,7 +127,7 @@ static void note_done(pool *p)
     let_go(&p->next_lock);
 }
 
-/* Until others have done what they took of the first stage, which is less than one part each. */
+/* Until others have done what they took of the first stage: a part each, or more where threads could not be started. */
 static void await_first(pool *p)
 {
     for (int done = 0; !done;) {

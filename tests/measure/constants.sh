@@ -18,22 +18,27 @@ linked() {
     sed "s|^#define $name  *[0-9.]*f|#define $name ${changed}f|" "tools/mix/$file" >"$work/$base.c"
     grep -q "^#define $name ${changed}f" "$work/$base.c" || { echo "constants.sh: $file has no $name" >&2; exit 1; }
     $CC $FLAGS -iquote tools/mix -c -o "$work/$base.o" "$work/$base.c"
-    others=
+    others= replaced=0
     for object in "$@"; do
         case $object in
-        */mix/$base.o) others="$others $work/$base.o" ;;
+        */mix/$base.o) others="$others $work/$base.o" replaced=1 ;;
         *) others="$others $object" ;;
         esac
     done
+    [ $replaced -eq 1 ] || { echo "constants.sh: no object of $file is linked" >&2; exit 1; }
     $CC $FLAGS -o "$out" $others -lm -lpthread
 }
 
-# told NAME VALUE MEASURE: its summaries alone.
+# told NAME VALUE MEASURE: its summaries alone; what it says where it fails.
 told() {
     case $3 in
-    rooms) "$work/measure" "$B/rooms" metal $columns ;;
-    sun) "$work/measure" "$B/suns" $columns ;;
-    esac | grep -E '^[0-9]+\.\.[0-9]+' | sed "s|^|$1 $2: |"
+    rooms) set -- "$1" "$2" "$B/rooms" metal ;;
+    sun) set -- "$1" "$2" "$B/suns" ;;
+    esac
+    label="$1 $2"
+    shift 2
+    "$work/measure" "$@" $columns >"$work/said.txt" || { cat "$work/said.txt" >&2; exit 1; }
+    sed -nE "s|^[0-9]+\.\.[0-9]+|$label: &|p" "$work/said.txt"
 }
 
 while read -r name source value measure; do

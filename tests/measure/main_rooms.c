@@ -277,6 +277,10 @@ static int measure_numbers(stage *s, const char *folder, int first, int count)
         measure(s, name, folder);
     }
     const double n = sums.count > 0 ? sums.count : 1;
+    if (sums.count < count) {
+        printf("FAIL %d..%d: of %d rooms %d have figures\n", first, first + count - 1, count, sums.count);
+        ++test_failed;
+    }
     printf("%d..%d: surfaces %.4f, %.3f of the photo's; object %.4f; darker %d of %d, brighter %d of %d\n", first,
            first + count - 1, sqrt(sums.surfaces / n), sums.share / n, sqrt(sums.object / n), sums.darker[1],
            sums.darker[0] + sums.darker[1], sums.brighter[1], sums.brighter[0] + sums.brighter[1]);
@@ -286,7 +290,11 @@ static int measure_numbers(stage *s, const char *folder, int first, int count)
 int main(int argc, char **argv)
 {
     static stage s;
-    const int numbered = argc > 4 && strcmp(argv[2], "metal") == 0;
+    const int numbered = argc > 2 && strcmp(argv[2], "metal") == 0;
+    if (numbered && (argc < 5 || argc % 2 == 0)) {
+        fprintf(stderr, "measure-rooms: metal takes FIRST COUNT [FIRST COUNT]...\n");
+        return 2;
+    }
     for (int i = 3; numbered && i + 1 < argc; i += 2) {
         measure_numbers(&s, argv[1], atoi(argv[i]), atoi(argv[i + 1]));
     }
