@@ -659,7 +659,10 @@ null-port: ## a port that begins as a copy of platform/null, in a tree of its ow
 
 linux-fb: ## the room on a file that stands for Linux's framebuffer device
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/linux_fb.sh
-.PHONY: web-check
+.PHONY: page-size web-check
+page-size: ## the page of platform/web compiles, and has room in what a browser loads
+	+@MAKE='$(MAKE)' sh tests/scripts/page_size.sh
+
 web-check: $(TOOL) $(B)/page-hash ## the page of platform/web in headless Chromium: clicks, drags, keys, files, hashes
 	+@$(IN_SH) tests/scripts/web_check.sh
 

@@ -77,10 +77,13 @@ $(PAGE)/page.js.lzma $(PAGE)/body.html.lzma: $(PAGE)/%.lzma: platform/web/page/%
 	@mkdir -p $(@D)
 	@$(PAGE_BARE) $< | xz --format=lzma --lzma1=preset=9e,pb=0 > $@
 
-.PHONY: page
-page: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html $(PAGE)/lambent.js \
-      $(PAGE)/page.js.lzma $(PAGE)/body.html.lzma
+.PHONY: page page-loads
+page: page-loads
 	+@$(MAKE) PORT=host BUILD=build all build/default/scenes
 	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
+
+# All but the scenes, which need the host's tool.
+page-loads: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html \
+            $(PAGE)/lambent.js $(PAGE)/page.js.lzma $(PAGE)/body.html.lzma
 	@cd $(PAGE) && cat index.html lambent.js page.js.lzma body.html.lzma lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c \
 	    | sed 's/$$/ bytes that a browser loads, without scenes/'

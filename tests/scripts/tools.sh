@@ -3,7 +3,7 @@
 # need: fails and names the missing commands with the Debian packages that have them.
 # get: installs what is missing, of the usual ones or of these, where apt-get and the right to use it are there. Says
 # what it does and what stays missing. It never removes a package: what needs that is left out.
-all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips
+all="clang clang-sanitizers wasm-ld wasi-libc node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips
     arm-none-eabi-gcc arm-newlib qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips
     cppcheck clang-tidy doxygen chromium cmake pkg-config tcc"
 
@@ -37,6 +37,7 @@ packages_of() {
     vips) echo libvips-tools ;;
     clang-sanitizers) echo "libclang-rt-$(clang -dumpversion 2>/dev/null | cut -d. -f1)-dev" | sed 's/--/-14-/' ;;
     wasm-ld) echo lld ;;
+    wasi-libc) echo wasi-libc libclang-rt-14-dev-wasm32 ;;
     node) echo nodejs ;;
     frama-c) echo frama-c-base ;;
     *) echo "$1" ;;
@@ -69,6 +70,8 @@ missing() {
         libretro-desmume) ls /usr/lib/*/libretro/desmume_libretro.so >/dev/null 2>&1 || echo "$command" ;;
         libretro-beetle-psx) ls /usr/lib/*/libretro/mednafen_psx_libretro.so >/dev/null 2>&1 || echo "$command" ;;
         mupen64plus | dolphin-emu-nogui) PATH=$PATH:/usr/games command -v "$command" >/dev/null 2>&1 || echo "$command" ;;
+        wasi-libc) [ -e /usr/lib/wasm32-wasi/libc.a ] && ls /usr/lib/llvm-*/lib/clang/*/lib/wasi/*wasm32.a >/dev/null 2>&1 \
+            || echo "$command" ;;
         wine64) [ -x /usr/lib/wine/wine64 ] || command -v wine64 >/dev/null 2>&1 || echo "$command" ;;
         *) command -v "$command" >/dev/null 2>&1 || echo "$command" ;;
         esac

@@ -16,7 +16,5 @@ if [ ! -d $modules/node_modules/playwright-core ]; then
     mkdir -p $modules
     npm install --no-audit --no-fund --prefix $modules playwright-core >/dev/null 2>&1 || skip "npm gets no playwright-core"
 fi
-bytes=$(${MAKE:-make} PORT=web page | awk '/bytes that a browser loads/ { print $1 }')
-[ "${bytes:-0}" -gt 0 ] || exit 1
-[ "$bytes" -le 307200 ] || { echo "FAIL the page has $bytes bytes, over 300 KiB"; exit 1; }
+sh tests/scripts/page_size.sh && ${MAKE:-make} PORT=web page >/dev/null || exit 1
 node tests/web/page_test.mjs build/web/default/page $modules "$B/page-hash" build/web/shots
