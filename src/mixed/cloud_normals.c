@@ -5,6 +5,7 @@
 
 #if LMB_MIXED
 
+#define LARGEST 1e30f /* 1/m */
 #define STEEPEST 3.7320508f /* tangent of 75 degrees: what a surface may be turned from the ray */
 
 enum { MIN_POINTS = 6, MOST = 6 /* px to each side */, SPAN = 16 /* px */ };
@@ -24,12 +25,16 @@ typedef struct sums {
     float w[SPAN], x[SPAN], y[SPAN], xx[SPAN], xy[SPAN], yy[SPAN], q[SPAN], xq[SPAN], yq[SPAN];
 } sums;
 
+/* What is no number would spoil the sums of points beside it, whose weight for it is 0. */
 static void read_row(around *a, int32_t y)
 {
     const int32_t width = a->cloud->camera.width, from = maxi(a->x - MOST, 0), to = mini(a->x + SPAN + MOST, width);
     memset(a->near, 0, sizeof a->near);
     memcpy(a->near + (from - a->x + MOST), a->cloud->inverse + (size_t)y * (size_t)width + from,
            (size_t)(to - from) * sizeof(float));
+    for (int i = 0; i < SPAN + 2 * MOST; ++i) {
+        a->near[i] = a->near[i] <= LARGEST ? a->near[i] : 0.0f;
+    }
 }
 
 /* Add points to the right of each: those that `is_in` says, by 1 or 0. */

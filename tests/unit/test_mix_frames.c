@@ -387,15 +387,17 @@ static void memory_is_used_again(void)
         mix_job_free(j);
     }
     CHECK(at[1] == at[0] && at[2] != at[0] && spare.count == 2);
-    for (int i = 0; i < MIX_IDLE + 1; ++i) { /* jobs that need neither */
+    for (int i = 0; i < 2 * MIX_IDLE + 1; ++i) { /* jobs that need none, and jobs that need others */
         mix_job *j = calloc(1, sizeof *j);
         if (j == NULL) {
             abort();
         }
         j->spare = &spare;
+        CHECK(i < MIX_IDLE || mix_take(j, 10, &r) != NULL);
         mix_job_free(j);
+        CHECK(i >= MIX_IDLE || spare.count == 2);
     }
-    CHECK_MSG(spare.count == 0, "%d pieces are kept", spare.count);
+    CHECK_MSG(spare.count == 1, "%d pieces are kept", spare.count); /* that of ten bytes */
     mix_spare_free(&spare);
     CHECK(spare.count == 0);
 }

@@ -305,6 +305,13 @@ static void test_no_planes(stage *s)
     }
     CHECK(find_planes(s) && s->planes.count == 1 && s->planes.plane[0].pixels == PIXELS);
     CHECK(fabsf(s->planes.plane[0].distance - 3.0f) < 1e-4f && s->planes.plane[0].normal.z > 0.999999f);
+    for (int i = 0; i < PIXELS; i += 7) { /* by a caller's own hand */
+        s->cloud.inverse[i] = i % 2 == 0 ? NAN : INFINITY;
+    }
+    CHECK(lmb_cloud_normals(&s->cloud, 0, LMB_MAX_SIDE) == LMB_OK);
+    for (int i = 0; i < PIXELS; ++i) {
+        CHECK(i % 7 == 0 || s->cloud.normal[i].z > 0.99f);
+    }
     for (int i = 0; i < PIXELS; ++i) {
         s->depth[i] = test_uniform(&rng, 0.5f, 5.0f);
     }

@@ -21,12 +21,12 @@ void mix_carry_put_direct(const mix_job *j, const lmb_tile *real, const mix_dire
 uint64_t mix_carry_spread(lmb_irradiance *without, lmb_irradiance *with, const lmb_tile *real, uint64_t carried,
                           uint64_t wanted);
 
-/* mix_carry_knows: may a tile, x and y as the photo has them, take anything from the frame before? mix_carry_see: where `last`
+/* mix_carry_knows: is a tile, x and y as the photo has them, not due to be traced again? mix_carry_see: where `last`
  * saw a place of its scene, px; 0 where it did not. */
 int mix_carry_knows(const mix_job *j, int32_t x, int32_t y);
+int mix_carry_see(float *x, float *y, const mix_job *last, lmb_vec3 at);
 
 /* mix_carry_turn: how often a tile of a frame that is no sequence's first was traced again, but for a constant. */
 int mix_carry_turn(const mix_job *j, int32_t x, int32_t y);
-int mix_carry_see(float *x, float *y, const mix_job *last, lmb_vec3 at);
 
 #endif

@@ -46,7 +46,7 @@ static void drop_idle(mix_spare *s)
 
 static void give_back(mix_job *j)
 {
-    if (j->spare != NULL) {
+    if (j->spare != NULL && j->block_count > 0) { /* a frame that the last one answers for needs none */
         drop_idle(j->spare);
     }
     for (int i = 0; i < j->block_count; ++i) {

@@ -53,7 +53,7 @@ typedef struct mix_space {
 typedef struct mix_memory {
     void *at;
     size_t bytes;
-    int idle; /* jobs that have ended since it was given back */
+    int idle; /* jobs with memory of their own that have ended since it was given back */
 } mix_memory;
 
 /* Of a sequence, the memory of jobs that are over: pages that the system gives anew cost a sixth of a frame. */

@@ -68,7 +68,8 @@ static int may_shadow(const mix_job *j, const sphere *s, int32_t light)
                    from_light = less(middle, l->position), side = less(high, low),
                    way = is_sun ? less(zero, l->direction) : less(l->position, s->at);
     const float away = is_sun ? 1.0f : sqrtf(dot(from_light, from_light)) + 0.5f * sqrtf(dot(side, side)),
-                texel = 2.0f * map->view[0].half_width / (float)map->size * away, wide = s->radius + 4.0f * texel;
+                half = fmaxf(map->view[0].half_width, map->view[0].half_height),
+                texel = 2.0f * half / (float)map->size * away, wide = s->radius + 4.0f * texel;
     float first = 0.0f, last = is_sun ? INFINITY : 1.0f;
     cut(&first, &last, s->at.x, way.x, low.x - wide, high.x + wide);
     cut(&first, &last, s->at.y, way.y, low.y - wide, high.y + wide);
