@@ -10,7 +10,13 @@
 
 enum { MIN_POINTS = 6, MOST = 6 /* px to each side */, SPAN = 16 /* px */ };
 
-/* The squares of points around pixels side by side, in arrays that a compiler turns into vectors. */
+/* plane_fit of each, whose weights are 1 or 0. */
+typedef struct sums {
+    float w[SPAN], x[SPAN], y[SPAN], xx[SPAN], xy[SPAN], yy[SPAN], q[SPAN], xq[SPAN], yq[SPAN];
+} sums;
+
+/* The squares of points around pixels side by side: arrays of one struct, of which a compiler sees that they are apart, and
+ * makes vectors. */
 typedef struct around {
     const lmb_cloud *cloud;
     int32_t x, y, reach, step; /* px */
@@ -18,12 +24,9 @@ typedef struct around {
     float ray_x[SPAN], ray_y;
     float slope[3][SPAN];
     float near[SPAN + 2 * MOST]; /* inverses of a row; 0 beyond the picture */
+    float is_in[SPAN];           /* points of it that count, 1 or 0 */
+    sums s;
 } around;
-
-/* plane_fit of each, whose weights are 1 or 0. */
-typedef struct sums {
-    float w[SPAN], x[SPAN], y[SPAN], xx[SPAN], xy[SPAN], yy[SPAN], q[SPAN], xq[SPAN], yq[SPAN];
-} sums;
 
 /* What is no number would spoil the sums of points beside it, whose weight for it is 0. */
 static void read_row(around *a, int32_t y)
@@ -37,70 +40,71 @@ static void read_row(around *a, int32_t y)
     }
 }
 
-/* Add points to the right of each: those that `is_in` says, by 1 or 0. */
-static void add_points(sums *restrict s, const around *a, const float *q, const float *is_in, float right, float ray_y)
+/* Add the points i to the right of each: those that are in. */
+static void add_points(around *a, int32_t i, float right, float ray_y)
 {
     for (int k = 0; k < SPAN; ++k) {
-        const float w = is_in[k], x = w * ((a->ray_x[k] + right) - a->ray_x[k]), y = w * (ray_y - a->ray_y),
-                    off = w * (q[k] - a->q[k]);
-        s->w[k] += w;
-        s->x[k] += x;
-        s->y[k] += y;
-        s->xx[k] += x * x;
-        s->xy[k] += x * y;
-        s->yy[k] += y * y;
-        s->q[k] += off;
-        s->xq[k] += x * off;
-        s->yq[k] += y * off;
+        const float w = a->is_in[k], x = w * ((a->ray_x[k] + right) - a->ray_x[k]), y = w * (ray_y - a->ray_y),
+                    q = w * (a->near[MOST + i + k] - a->q[k]);
+        a->s.w[k] += w;
+        a->s.x[k] += x;
+        a->s.y[k] += y;
+        a->s.xx[k] += x * x;
+        a->s.xy[k] += x * y;
+        a->s.yy[k] += y * y;
+        a->s.q[k] += q;
+        a->s.xq[k] += x * q;
+        a->s.yq[k] += y * q;
     }
 }
 
 /* What a surface can reach that is `far` pixels away. */
-static void can_reach(float *is_in, const around *a, const float *q, float far)
+static void can_reach(around *a, int32_t i, float far)
 {
     for (int k = 0; k < SPAN; ++k) {
-        is_in[k] = (float)((q[k] > 0.0f) & (absf(q[k] - a->q[k]) <= 4.0f * a->sigma[k] + a->tilt[k] * far));
+        const float q = a->near[MOST + i + k];
+        a->is_in[k] = (float)((q > 0.0f) & (absf(q - a->q[k]) <= 4.0f * a->sigma[k] + a->tilt[k] * far));
     }
 }
 
 /* What lies on the plane that was found first. */
-static void lies_on(float *is_in, const around *a, const float *q, float right, float ray_y)
+static void lies_on(around *a, int32_t i, float right, float ray_y)
 {
     for (int k = 0; k < SPAN; ++k) {
-        const float on = a->slope[0][k] * (a->ray_x[k] + right) + a->slope[1][k] * ray_y + a->slope[2][k];
-        is_in[k] = (float)((q[k] > 0.0f) & (absf(q[k] - on) <= 2.5f * a->sigma[k]));
+        const float q = a->near[MOST + i + k],
+                    on = a->slope[0][k] * (a->ray_x[k] + right) + a->slope[1][k] * ray_y + a->slope[2][k];
+        a->is_in[k] = (float)((q > 0.0f) & (absf(q - on) <= 2.5f * a->sigma[k]));
     }
 }
 
-static void add_row(sums *s, const around *a, int32_t j, int is_again)
+static void add_row(around *a, int32_t j, int is_again)
 {
     const float ray_y = a->ray_y - (float)j / a->cloud->camera.fy;
-    float is_in[SPAN];
     for (int32_t i = -a->reach; i <= a->reach; i += a->step) {
-        const float *q = a->near + MOST + i;
         const float right = (float)i / a->cloud->camera.fx;
         if (is_again) {
-            lies_on(is_in, a, q, right, ray_y);
+            lies_on(a, i, right, ray_y);
         } else {
-            can_reach(is_in, a, q, (float)maxi(i < 0 ? -i : i, j < 0 ? -j : j));
+            can_reach(a, i, (float)maxi(i < 0 ? -i : i, j < 0 ? -j : j));
         }
-        add_points(s, a, q, is_in, right, ray_y);
+        add_points(a, i, right, ray_y);
     }
 }
 
-static void add_all(sums *s, around *a, int is_again)
+static void add_all(around *a, int is_again)
 {
-    memset(s, 0, sizeof *s);
+    memset(&a->s, 0, sizeof a->s);
     for (int32_t j = -a->reach; j <= a->reach; j += a->step) {
         if (a->y + j >= 0 && a->y + j < a->cloud->camera.height) {
             read_row(a, a->y + j);
-            add_row(s, a, j, is_again);
+            add_row(a, j, is_again);
         }
     }
 }
 
-static int solve(float slope[3], const sums *s, const around *a, int k)
+static int solve(float slope[3], const around *a, int k)
 {
+    const sums *s = &a->s;
     const plane_fit f = {a->ray_x[k], a->ray_y, a->q[k], s->w[k], s->x[k], s->y[k], s->xx[k], s->xy[k], s->yy[k],
                          s->q[k], s->xq[k], s->yq[k]};
     return s->w[k] >= (float)MIN_POINTS && lmb_plane_fit_solve(slope, &f);
@@ -130,20 +134,19 @@ static void begin(around *a, const lmb_cloud *cloud, int32_t x, int32_t y)
 static void find_span(lmb_vec3 *out, const lmb_cloud *cloud, int32_t x, int32_t y, int32_t count)
 {
     around a;
-    sums s;
     float first[SPAN][3], again[3], distance;
     int32_t is_found[SPAN];
     begin(&a, cloud, x, y);
-    add_all(&s, &a, 0);
+    add_all(&a, 0);
     for (int32_t k = 0; k < SPAN; ++k) {
-        is_found[k] = a.q[k] > 0.0f && solve(first[k], &s, &a, k);
+        is_found[k] = a.q[k] > 0.0f && solve(first[k], &a, k);
         for (int c = 0; c < 3; ++c) {
             a.slope[c][k] = is_found[k] ? first[k][c] : 0.0f;
         }
     }
-    add_all(&s, &a, 1);
+    add_all(&a, 1);
     for (int32_t k = 0; k < count; ++k) {
-        out[k] = is_found[k] ? lmb_plane_normal(&distance, solve(again, &s, &a, k) ? again : first[k]) : vec3(0, 0, 0);
+        out[k] = is_found[k] ? lmb_plane_normal(&distance, solve(again, &a, k) ? again : first[k]) : vec3(0, 0, 0);
     }
 }
 
