@@ -201,10 +201,10 @@ static void find_centre(lmb_flat *p, const lmb_planes *planes, const lmb_pinhole
     for (int32_t y = p->y0; y < p->y1; ++y) {
         middle row = {0, 0, 0, 0};
         for (int32_t x = p->x0; x < p->x1; ++x) {
-            lmb_vec3 at;
-            const float q = planes->label[y * c->width + x] == label ? meet(&at, p, c, x, y, min) : 0.0f;
-            if (q > 1e-3f) {
-                add_middle(&row, at, 1.0f / (q * q * q));
+            if (planes->label[y * c->width + x] == label) {
+                lmb_vec3 at;
+                const float q = meet(&at, p, c, x, y, min);
+                add_middle(&row, at, q > 1e-3f ? 1.0f / (q * q * q) : 0.0f);
             }
         }
         add_middle(&all, vec3(row.x, row.y, row.z), 1.0f);
