@@ -576,6 +576,23 @@ static void world_has_the_same_light(void)
     folder_close(&f);
 }
 
+/* A job's lights and the view of its photo. */
+static void find_lights(mix_job *j, lmb_view *view)
+{
+    report r = {""};
+    int32_t x0, y0;
+    set_depth(j, 2.5f, 1);
+    CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
+    CHECK(lmb_photo_view(view, &x0, &y0, &j->frame.camera, &j->axes) == LMB_OK);
+    mix_lights_begin(j);
+}
+
+static void get_tile(lmb_tile *out, const mix_job *j, int t)
+{
+    lmb_real_tile(out, &j->cloud, &j->planes, &j->real, &j->axes, t % (WIDTH / LMB_TILE) * LMB_TILE,
+                  t / (WIDTH / LMB_TILE) * LMB_TILE);
+}
+
 /* Tiles that no shadow of the object reaches are the photo's bit for bit, and the others are as if all lights had been
  * asked for each of them: by a sun from a side, whose shadow is in the picture, and by a lamp. Where what is around differs
  * with the object each light is asked, too, also behind one that has a size. */
@@ -588,23 +605,17 @@ static void lights_are_asked_where_they_change(void)
         char light[3][60];
         char *more[] = {"--object", square,    "--at",   "40,66",   "--scale", "0.2",     "--turn",
                         "60",       "--light", light[0], "--light", light[1],  "--light", light[2]};
-        report r = {""};
         int changed = 0, same = 0, carried = 0;
         for (int k = 0; k < 3; ++k) {
             strcpy(light[k], lights[i][k] != NULL ? lights[i][k] : "");
         }
         mix_job *j = begin(more, lights[i][1] != NULL ? 14 : 10);
-        set_depth(j, 2.5f, 1);
-        CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
         lmb_view view;
-        int32_t x0, y0;
-        CHECK(lmb_photo_view(&view, &x0, &y0, &j->frame.camera, &j->axes) == LMB_OK);
-        mix_lights_begin(j);
+        find_lights(j, &view);
         for (int t = 0; t < PIXELS / LMB_TILE_PIXELS; ++t) {
             static lmb_tile tile;
             static lmb_irradiance all[2], some[2], other[2];
-            lmb_real_tile(&tile, &j->cloud, &j->planes, &j->real, &j->axes, t % (WIDTH / LMB_TILE) * LMB_TILE,
-                          t / (WIDTH / LMB_TILE) * LMB_TILE);
+            get_tile(&tile, j, t);
             memset(all, 0, sizeof all);
             memset(some, 0, sizeof some);
             memset(other, 0, sizeof other);
@@ -658,24 +669,18 @@ static void shadows_that_touch_a_tile(void)
     char *more[] = {"--object", square, "--at", "48,60", "--scale", "0.35", "--light", sun};
     int changed = 0;
     for (int i = 0; i < 90; ++i) {
-        report r = {""};
         const double wide = i % 3 == 0 ? 1.0 : 0.2;
         snprintf(sun, sizeof sun, "sun:0,0,0:%.3f,%.3f,%.3f:2,2,2", wide * (double)test_uniform(&rng, -1, 1),
                  wide * (double)test_uniform(&rng, -1, -0.1f), i % 3 == 0 ? (double)test_uniform(&rng, -1, 1) : -1.0);
         mix_job *j = begin(more, 8);
         j->o.shadow_map = 1024;
-        set_depth(j, 2.5f, 1);
-        CHECK_MSG(place(j) && mix_light(j, &r), "%s", r.text);
         lmb_view view;
-        int32_t x0, y0;
-        CHECK(lmb_photo_view(&view, &x0, &y0, &j->frame.camera, &j->axes) == LMB_OK);
-        mix_lights_begin(j);
+        find_lights(j, &view);
         for (int t = 0; t < PIXELS / LMB_TILE_PIXELS; ++t) {
             static lmb_tile tile;
             static lmb_irradiance all[2], some[2];
             mix_direct direct = {0};
-            lmb_real_tile(&tile, &j->cloud, &j->planes, &j->real, &j->axes, t % (WIDTH / LMB_TILE) * LMB_TILE,
-                          t / (WIDTH / LMB_TILE) * LMB_TILE);
+            get_tile(&tile, j, t);
             memset(all, 0, sizeof all);
             memset(some, 0, sizeof some);
             some[1].rgb[2][0] = all[1].rgb[2][0] = 1e-30f;

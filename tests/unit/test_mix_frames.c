@@ -365,7 +365,7 @@ static void one_world(void)
     mix_kept_free(&k);
 }
 
-/* Memory of a job that is over is the next one's where it is as large, or larger by less than half of it; as if new. */
+/* Memory of a job that is over is the next one's where it is as large, and at most twice as large; it is as if new. */
 static void memory_is_used_again(void)
 {
     static mix_spare spare;

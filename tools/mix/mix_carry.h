@@ -26,7 +26,7 @@ uint64_t mix_carry_spread(lmb_irradiance *without, lmb_irradiance *with, const l
 int mix_carry_knows(const mix_job *j, int32_t x, int32_t y);
 int mix_carry_see(float *x, float *y, const mix_job *last, lmb_vec3 at);
 
-/* mix_carry_turn: how often a tile of a frame that is no sequence's first was traced again, but for a constant. */
+/* mix_carry_turn: a number that grows by one each time a tile is due. The job is a sequence's. */
 int mix_carry_turn(const mix_job *j, int32_t x, int32_t y);
 
 #endif

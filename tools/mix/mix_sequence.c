@@ -52,7 +52,7 @@ typedef struct sequence {
     const mix_options *o;
     mix_list list;
     mix_kept kept;
-    mix_spare spare; /* read_at, which may run beside rows, is the only one to use it then */
+    mix_spare spare; /* beside rows the reader of the next frame is the only one to use it */
     mix_aside aside;
     mix_ready next;
     report why_next;                   /* next.job is NULL: why it cannot be used */
