@@ -42,7 +42,7 @@ endif
 WARNINGS := -Wall -Wextra -pedantic -Wshadow -Wvla -Wmissing-prototypes -Wdouble-promotion
 STD      ?= c99
 EXACT     = -std=$(STD) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp
-FLAGS     = $(CFLAGS) $(PORT_CFLAGS) $(WARNINGS) $(EXACT) $(config_$(CONFIG)) $(GOLDENS) -Iinclude
+FLAGS     = $(CFLAGS) $(PORT_CFLAGS) $(WARNINGS) $(EXACT) $(config_$(CONFIG)) -Iinclude
 # Who calls whom, and with how much stack: gcc tells since its version 10.
 CALLS    := $(shell $(CC) -fcallgraph-info=su -E -x c /dev/null >/dev/null 2>&1 && echo -fcallgraph-info=su)
 DEPS     ?= -fstack-usage $(CALLS) -MMD -MP
@@ -55,9 +55,8 @@ object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
 LIB_PARTS := $(wildcard src/*/*.h src/*/*.inl src/*/*.inc)
 HEADERS  := $(sort $(wildcard include/lambent/*.h))
-TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c),$(wildcard tools/*/*.c))) \
-            platform/host/host.c platform/host/pool.c \
-            platform/host/process.c platform/host/programs.c platform/host/count.c
+HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c)
+TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c),$(wildcard tools/*/*.c))) $(HOST_SRC)
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))
@@ -76,6 +75,7 @@ HOSTILE_OBJ := $(call object,tests/fuzz/main_hostile.c $(FUZZ_SRC)) $(filter-out
 AUDITED    := $(call object,tests/audit/isa_audit.c) $(filter-out %/isa_pick.o,$(LIB_OBJ))
 DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
+GOLDEN_ONE_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_one.c tools/demo/demo_scene.c) $(LIB_OBJ)
 HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
 PATH_OBJ   := $(call object,tests/truth/main_path.c tests/truth/path.c $(SCENES_SRC))
@@ -87,6 +87,9 @@ measure_contact := tests/truth/path.c $(SCENES_SRC)
 MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
 measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c) $(measure_$(1))) \
     $(filter-out %/lambent.o,$(TOOL_OBJ))
+# The part of the tool that draws a scene.
+PICTURE_OBJ := $(call object,tools/cli/main_demo.c $(filter-out %/main_demo.c,$(foreach d,common picture mesh model demo render,\
+              $(filter $(TOOL_SRC),$(wildcard tools/$(d)/*.c)))) $(HOST_SRC))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 # The room: the port's ROOM_SRC, or its start-up sources, and what all ports share. A port.mk may name what its emulator
@@ -104,7 +107,7 @@ PAGE_OBJ   := $(call object,tests/web/main_page.c platform/web/page/page_scene.c
               $(filter-out %/lambent.o %/verb_relief_bake.o,$(TOOL_OBJ))
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
-PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
+PROGRAMS := tests golden golden-one golden-orders reference hard replay hostile audit-golden audit-replay
 
 LIB  := $(B)/liblambent.a
 TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
@@ -118,8 +121,8 @@ AMALGAM := $(BUILD)/amalgam/lambent.h $(BUILD)/amalgam/lambent.c
 all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
 lib: $(LIB)
 
-demo: $(TOOL) ## render the built-in scene to build/demo.png
-	@$(TOOL) render demo -o $(BUILD)/demo.png
+demo: $(B)/demo-picture ## the library, and a picture of the built-in scene in build/demo.png
+	@$< $(BUILD)/demo.png
 
 pictures: $(TOOL) ## the README's pictures of relight, relief and mix, drawn anew into build/default/pictures
 	@$(IN_SH) tests/scripts/pictures.sh
@@ -171,13 +174,12 @@ clean: ## remove everything that was built
 
 # --- rules -----------------------------------------------------------------------------------------------------------
 
-# A line a module: who says it makes a folder in $(B)/said; V=1 shows every file.
-$(shell rm -rf $(B)/said)
+# One line per module; V=1 prints every file. Make itself prints it, because a shell per object costs a quarter of the
+# compile time of a small file.
+say_module = $(if $(said_$(1)),,$(eval said_$(1) := 1)$(info CC $(1)))
 
 $(B)/obj/%.o: %.c $(B)/flags
-	@mkdir -p $(@D) $(B)/said
-	@if [ -n "$(V)" ]; then echo "CC $<"; elif mkdir $(B)/said/$(subst /,-,$(<D)) 2>/dev/null; then echo "CC $(<D)"; fi
-	@$(COMPILE) -c $< -o $@
+	$(if $(V),$(info CC $<),$(call say_module,$(<D)))@$(COMPILE) -c $< -o $@
 
 $(LIB): $(LIB_OBJ)
 	@echo "AR $@"
@@ -187,6 +189,8 @@ $(LIB): $(LIB_OBJ)
 $(TOOL): $(TOOL_OBJ) $(LIB)
 $(B)/tests: $(TEST_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
+$(B)/demo-picture: $(PICTURE_OBJ) $(LIB)
+$(B)/golden-one: $(GOLDEN_ONE_OBJ)
 $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
@@ -206,22 +210,38 @@ $(B)/path: $(PATH_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(B)/packed $(B)/room $(LIVE:%=$(B)/%) $(B)/page-hash $(B)/decodes \
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/demo-picture $(B)/statue $(B)/packed $(B)/room $(LIVE:%=$(B)/%) $(B)/page-hash $(B)/decodes \
     $(B)/scenes $(B)/path $(B)/fuzzer $(B)/faults:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
-# Rewritten only when it changes, so that another compiler or flag rebuilds and nothing else does.
+# Rewritten only when it changes, so that another compiler or flag rebuilds and nothing else does. All folders of objects
+# are made here, by one command.
+OBJ_DIRS := $(addprefix $(B)/obj/,$(sort $(dir $(wildcard src/*/*.c tools/*/*.c tests/*/*.c platform/*/*.c platform/*/*/*.c))))
 export FLAGS_LINE := $(COMPILE) $(LINK) $(PORT_LDLIBS) $(LDLIBS)
 $(B)/flags: FORCE
-	@mkdir -p $(@D)
+	@mkdir -p $(OBJ_DIRS)
 	@printf '%s\n' "$$FLAGS_LINE" | cmp -s - $@ || printf '%s\n' "$$FLAGS_LINE" > $@
 
 # It counts operations, which no optimiser changes, of all kernels: a fifth of the build otherwise.
-$(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0
+$(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0 $(if $(findstring -fsanitize,$(CFLAGS)),-fno-sanitize=all)
 
-# What kernels are built without, where a sanitizer takes minutes over them.
-$(call object,$(wildcard src/isa/isa_*.c)): COMPILE += $(KERNEL_CFLAGS)
+# The code of tests that have no inner loops of their own: -O0 compiles in a third of the time of -O2. What they test is
+# compiled as CFLAGS say.
+ifeq ($(PORT),host)
+TEST_CFLAGS ?= -O0
+$(call object,$(wildcard tests/unit/*.c tests/analytic/*.c tests/fuzz/*.c)): COMPILE += $(TEST_CFLAGS)
+endif
+
+# GOLDENS: which of the golden pictures; a change of it compiles only their table again.
+$(B)/goldens: FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(GOLDENS)' | cmp -s - $@ || printf '%s\n' '$(GOLDENS)' > $@
+$(B)/obj/tests/golden/golden.o: $(B)/goldens
+$(B)/obj/tests/golden/golden.o: COMPILE += $(GOLDENS)
+
+# What wide kernels are built without, because a sanitizer takes minutes over them.
+$(call object,$(filter-out %_scalar.c,$(wildcard src/isa/isa_*.c))): COMPILE += $(KERNEL_CFLAGS)
 
 # What `lambent doctor -v` says it was built with.
 export BUILD_FLAGS := $(CC) $(FLAGS)
@@ -231,7 +251,8 @@ $(B)/obj/tools/cli/verb_doctor.o: $(B)/build_flags.inc
 $(B)/obj/tools/cli/verb_doctor.o: COMPILE += -I$(B)
 
 # The table of tests: tests/GROUP/test_NAME.c defines `void test_NAME(void)`; nobody registers anything by hand.
-group_of    = $(word 2,$(subst /, ,$(1)))
+# Tests named slow_NAME are a group of their own.
+group_of    = $(if $(filter slow_%,$(name_of)),slow,$(word 2,$(subst /, ,$(1))))
 name_of     = $(patsubst test_%.c,%,$(notdir $(1)))
 TEST_LINES := $(foreach f,$(TEST_SRC),'TEST($(call group_of,$(f)),$(call name_of,$(f)))')
 $(B)/tests.inc: FORCE
@@ -256,6 +277,7 @@ VERSION_OF = $(shell awk '$$2 == "LMB_VERSION_$(1)" { print $$3 }' include/lambe
 VERSION    = $(call VERSION_OF,MAJOR).$(call VERSION_OF,MINOR).$(call VERSION_OF,PATCH)
 USE_FLAGS  = $(strip $(config_$(CONFIG)) $(filter -DLMB_%,$(CFLAGS)))
 none  :=
+comma := ,
 space := $(none) $(none)
 $(PACKAGE_FILES): $(B)/%: platform/cmake/%.in include/lambent/types.h $(B)/flags FORCE
 	@sed -e 's,@PREFIX@,$(PREFIX),' -e 's,@LIBDIR@,$(LIBDIR),' -e 's,@VERSION@,$(VERSION),' \
@@ -288,26 +310,37 @@ $(B)/obj/platform/demo/main_pixel.o: COMPILE += -DPIXEL_FRAMES=$(or $(PIXEL_FRAM
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(ROOM_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(PICTURE_OBJ) $(GOLDEN_OBJ) $(GOLDEN_ONE_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(ROOM_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
     $(REPLAY_OBJ) $(HOSTILE_OBJ) \
     $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(SCENES_OBJ) $(PATH_OBJ) $(foreach f,$(MEASURES),$(call measure_of,$(f))) $(AUDITED)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
-# The longest first: what runs beside them fills the second core.
-
-CHECKS ?= one-command unit tiny statue live analytic truth lanes golden golden-orders audit slivers hard replay hostile \
-          hostile-cli layers no-float symbols stack headers contracts layout guard tables readme words examples examples-tiny cli package \
-          tool-setup
+# The checks of `make check`, and those that only `make check-all` adds; the longest first, because the checks that run
+# beside them fill the second core.
+QUICK_CHECKS := unit lanes golden analytic truth-small hostile layers words headers contracts slivers tables symbols \
+                replay stack
+SLOW_CHECKS  := cli truth hard one-command links page-links golden-orders slow tiny guard package audit examples-tiny \
+                statue live hostile-cli layout examples no-float readme tool-setup
+CHECKS ?= $(QUICK_CHECKS)
 NEEDS  :=
-PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
+RUN_PART = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
           LDLIBS='$(PORT_LDLIBS) $(LDLIBS)' sh
 
-##@ Checks (`make check` runs them all; CHECKS="unit golden" some of them)
-.PHONY: check $(CHECKS) $(CHECKS:%=check-%)
-check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 shows their output
+##@ Checks
+.PHONY: try check check-all nightly programs $(sort $(CHECKS) $(QUICK_CHECKS) $(SLOW_CHECKS)) $(CHECKS:%=check-%)
+try: ## one test by its name, after a build of what changed: make try T=cut (unit, golden, hard, cli, or a check)
+	+@MAKE='$(MAKE)' B='$(B)' T='$(T)' CHECK_NAMES='$(sort $(QUICK_CHECKS) $(SLOW_CHECKS))' sh tests/scripts/try.sh
+
+check: $(CHECKS:%=check-%) ## the quick checks, one line each, and their sum; V=1 prints their output; CHECKS="unit golden" picks
 	@sh tests/scripts/sum.sh $(CHECKS:%=$(B)/check/%.log)
+
+ALL_CHECKS := $(filter-out truth-small $(SKIP_CHECKS),$(SLOW_CHECKS) $(QUICK_CHECKS))
+check-all: ## the quick and the slow checks; links every program and the page (SKIP_CHECKS="cli hard" leaves some out)
+	+@$(MAKE) check CHECKS="$(ALL_CHECKS)"
+nightly: ## all jobs of .ci/jobs with all their parts; installs what it needs; prints the total time
+	@bash .ci/run nightly
 
 # The programs that some checks run; all are built before the first check, so that no two build one.
 programs_unit := tests
@@ -315,6 +348,8 @@ programs_unit-1 := tests
 programs_unit-2 := tests
 programs_analytic := tests
 programs_truth := tests
+programs_truth-small := tests
+programs_slow := tests
 programs_lanes := tests
 programs_golden := golden
 programs_golden-orders := golden-orders
@@ -324,26 +359,32 @@ programs_hard := hard
 programs_replay := replay
 programs_hostile := hostile
 
+# CHECKS="..." of the command line: those of these checks; all of them otherwise.
+programs: $(LIB) $(TOOL) $(sort $(foreach c,$(if $(filter command line,$(origin CHECKS)),$(CHECKS),$(ALL_CHECKS)),$(programs_$(c):%=$(B)/%))) ## the programs that the checks run
+
 $(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%)))
-	+@$(PART) $* $(MAKE) $*
+	+@$(RUN_PART) $* $(MAKE) $*
 
 # They make the library in the same place.
 check-statue: $(filter check-tiny,$(CHECKS:%=check-%))
 check-live: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 check-examples-tiny: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 
-unit: ## what functions do, alone and together
+unit: ## values of functions, alone and together
+slow: ## the unit tests that take seconds each
 analytic: ## light against closed forms
 truth: ## light against path-traced pictures: small ones, and those of ../shared (LMB_SHARED)
 lanes: ## each kernel by each backend against plain C; LANES_SEED=7 repeats a run
 
-unit analytic truth lanes: $(B)/tests
+unit slow analytic truth lanes: $(B)/tests
 	@$(RUN) $(B)/tests $@
 
-# The unit tests in two halves, for two cores; without what takes minutes under a sanitizer and is drawn by golden pictures,
-# too: cuts that are compared with every texel, adaptive samples, several samples a pixel.
+truth-small: $(B)/tests ## light against the small path-traced pictures of tests/truth/small
+	@$(RUN) $(B)/tests small_truth relight
+
+# The unit tests in two halves, for two cores.
 unit-1 unit-2: $(B)/tests
-	@$(RUN) $(B)/tests unit -cut -adaptive -multisample $(@:unit-%=%)/2
+	@$(RUN) $(B)/tests unit $(@:unit-%=%)/2
 
 golden: $(B)/golden ## small scenes' hashes against the committed ones
 	@$(RUN) $(B)/golden$(EXE)
@@ -399,6 +440,29 @@ guard: $(B)/golden $(LIB) ## -ffast-math, contraction, x87: such builds are refu
 
 one-command: ## a bare compiler command with all of src gives the same pictures
 	@$(IN_SH) tests/scripts/one_command.sh
+
+# The measure programs, linked once more: their own sources at -O0, in a folder of their own, because whoever measures
+# needs them optimised.
+linked_of = $(patsubst %.c,$(B)/links/%.o,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c)) \
+    $(call object,$(measure_$(1))) $(filter-out %/lambent.o,$(TOOL_OBJ)) $(LIB)
+$(B)/links/%.o: %.c $(B)/flags
+	@mkdir -p $(@D)
+	@$(COMPILE) -O0 -c $< -o $@
+define linked
+$(B)/links/measure-$(1): $(call linked_of,$(1))
+	@$(LINK) -o $$@ $$^ $(PORT_LDLIBS) $(LDLIBS)
+endef
+$(foreach f,$(MEASURES),$(eval $(call linked,$(f))))
+-include $(patsubst tests/measure/%.c,$(B)/links/tests/measure/%.d,$(wildcard tests/measure/*.c))
+
+LINKED := $(addprefix $(B)/,$(MEASURES:%=links/measure-%) $(PROGRAMS) decodes scenes path page-hash faults demo-picture demo torus live room)
+links: $(LIB) $(TOOL) ## every program links, those of tests/measure at -O0; the sources of make prove compile
+	+@MAKE='$(MAKE)' PROGRAMS='$(LINKED)' $(IN_SH) tests/scripts/links.sh
+
+page-links: ## the page of platform/web links at -O0
+	+@sh tests/scripts/tools.sh need clang wasm-ld wasi-libc || { echo "skipped: no compiler for the page"; \
+	    echo "0 passed, 0 failed, 1 skipped"; exit; }; \
+	    $(MAKE) PORT=web PAGE_OPT=-O0 BUILD='$(BUILD)/web' page-modules && echo "1 passed, 0 failed, 0 skipped"
 
 tables: $(LIB) ## generated tables are what their generators print
 	@$(IN_SH) tests/scripts/tables.sh
@@ -471,12 +535,18 @@ rom: module-sizes
 COV_PROGRAMS_src   := $(addprefix default/,tests replay golden golden-orders reference hard hostile)
 COV_PROGRAMS_tools := default/tests default/replay lambent
 
-ASAN_CC ?= clang
-# Sums of pointers in kernels are the fuzzer's: with what else is asked for, clang takes three times as long over each.
+# One build serves the checks under sanitizers and the fuzzer. Kernels go without counters of the fuzzer, and wide ones
+# without the checks of pointers' sums, with which clang takes three times as long over each.
+ASAN_CC     ?= clang
+ASAN_WANTED := cli hard unit-1 unit-2 golden replay hostile hostile-cli readme
+SANITIZED    = BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked \
+    KERNEL_CFLAGS="-fno-sanitize=pointer-overflow,object-size$(if $(findstring clang,$(ASAN_CC)),$(comma)fuzzer-no-link)" \
+    CFLAGS="-O1 -g1 -Werror -fno-omit-frame-pointer -fsanitize=address,undefined$(if $(findstring clang,$(ASAN_CC)),$(comma)fuzzer-no-link) -fno-sanitize-recover=all"
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@SHORT=1 $(MAKE) check CHECKS="cli hard unit-1 unit-2 golden replay hostile hostile-cli readme" \
-	    BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked KERNEL_CFLAGS="-fno-sanitize=pointer-overflow,object-size" \
-	    CFLAGS="-O2 -g1 -Werror -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
+	+@SHORT=1 $(MAKE) check CHECKS="$(ASAN_WANTED)" $(SANITIZED)
+
+asan-programs: ## what asan and fuzz link
+	+@$(MAKE) programs CHECKS="$(ASAN_WANTED)" $(SANITIZED)
 
 # In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
 MSAN_CHECKS ?= golden hard replay hostile
@@ -484,17 +554,16 @@ msan: ## pictures, hard cases and the corpus under the memory sanitizer
 	+@$(MAKE) check CHECKS="$(MSAN_CHECKS)" BUILD=$(BUILD)/msan CC=clang \
 	    CFLAGS="-O1 -g1 -fsanitize=memory -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
 
-FUZZER     := $(BUILD)/fuzz/default/fuzzer
-FUZZ_FLAGS := -g1 -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined \
-              -fno-sanitize-recover=all -Wno-missing-prototypes $(FUZZ_DEFINES)
-FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
+FUZZER   := $(BUILD)/asan/default/fuzzer
+FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages
 MINUTES   ?= 1
-fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...", FUZZ_DEFINES)
-	+@sh tests/scripts/tools.sh need clang clang-sanitizers \
-	    && $(MAKE) $(FUZZER) BUILD=$(BUILD)/fuzz CC=clang CFLAGS="$(FUZZ_FLAGS)" LDFLAGS=-fsanitize=fuzzer
+fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
+	+@sh tests/scripts/tools.sh need clang clang-sanitizers && $(MAKE) $(FUZZER) $(SANITIZED)
 	@sh tests/scripts/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
 
+$(B)/obj/tests/fuzz/main_fuzz.o: COMPILE += -Wno-missing-prototypes
+$(B)/fuzzer: LDFLAGS += -fsanitize=fuzzer
 $(B)/fuzzer: $(FUZZ_OBJ) $(LIB)
 
 N    ?= 60
@@ -508,7 +577,7 @@ cov: ## lines and branches of src/ that the checks run, by gcov; what they miss 
 	    CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage \
 	    && CC='$(CC)' FLAGS='$(FLAGS) --coverage' LDLIBS='$(LDLIBS)' sh tests/scripts/cov.sh $(BUILD)/cov $(COV)
 
-static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/
+static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/ (PART=2/3: over each third file)
 	@sh tests/scripts/static.sh $(BUILD)/static
 
 prove: ## Frama-C and Gappa: no integer of the raster overflows in any frame
@@ -624,8 +693,8 @@ RELIEFS ?= quality own rooms causes speed
 measure-relief: $(B)/measure-relief ## reliefs against their complex models: errors, speed (RELIEFS="own ...")
 	@$(RUN) $(B)/measure-relief $(RELIEFS)
 
-paths: ## what the documents tell new users to type, in a clean copy
-	@$(IN_SH) tests/scripts/paths.sh
+paths: $(TOOL) $(LIB) ## the commands that the documents tell new users to type, in a clean copy
+	@CFLAGS='$(CFLAGS)' $(IN_SH) tests/scripts/paths.sh
 
 docs-check: $(TOOL) $(LIB) ## code and commands of the documents; the reference's links and widths
 	+@BUILD='$(BUILD)' MAKE='$(MAKE)' $(IN_SH) tests/scripts/docs_check.sh
@@ -686,9 +755,11 @@ run: $(ROOM_IMAGE) ## that program in the port's emulator: hashes, costs
 # CROSS_TARGETS, MORE_CROSS_TARGETS, and for each needs_NAME and how_NAME.
 include tests/scripts/targets.mk
 
+# build_NAME: a folder of another job's build with the same flags.
+cross_build = $(or $(build_$(1)),$(BUILD)/cross/$(1))
 define cross_sum
 	@LOGS=$(B)/check sh tests/scripts/part.sh same sh tests/scripts/same.sh $(1:%=$(B)/check/cross-%.log)
-	@LOGS=$(B)/check sh tests/scripts/part.sh stacks sh tests/scripts/stacks.sh 4096 $(1:%=$(BUILD)/cross/%)
+	@LOGS=$(B)/check sh tests/scripts/part.sh stacks sh tests/scripts/stacks.sh 4096 $(foreach t,$(1),$(call cross_build,$(t)))
 	@sh tests/scripts/sum.sh $(1:%=$(B)/check/cross-%.log) $(B)/check/same.log $(B)/check/stacks.log
 endef
 
@@ -703,7 +774,7 @@ $(CROSS_TARGETS:%=cross-%): check-tools
 $(MORE_CROSS_TARGETS:%=cross-%): more-tools
 $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%): NEEDS = $(needs_$(@:cross-%=%))
 $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%): cross-%:
-	+@$(PART) cross-$* $(MAKE) $(or $(goal_$*),golden) BUILD=$(BUILD)/cross/$* $(how_$*)
+	+@$(RUN_PART) cross-$* $(MAKE) $(or $(goal_$*),golden) BUILD=$(call cross_build,$*) $(how_$*)
 
 # One installer at a time: all that the machines of cross-all need.
 more-tools: check-tools
