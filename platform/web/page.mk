@@ -5,7 +5,8 @@
 # that draws ever calls the C library.
 
 PAGE      := $(B)/page
-PAGE_WORK := $(B)/page-work
+# PAGE_OPT=-O0: only to see that it links, in a folder of its own.
+PAGE_WORK := $(B)/page-work$(PAGE_OPT)
 WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
@@ -32,7 +33,7 @@ PAGE_ONCE := src/occlusion/build.c src/occlusion/hull.c src/occlusion/sun.c src/
              $(patsubst %,src/raster/%.c,clip draw draw_one fill paint plane resolve setup target triangle) \
              $(patsubst %,src/lightcut/%.c,crease cut pixel_cluster tree) src/transfer/transfer.c \
              $(patsubst %,src/transfer/transfer_%.c,air light many_lights materials)
-page_opt   = $(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz)
+page_opt   = $(or $(PAGE_OPT),$(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz))
 
 # $(1): a folder of objects, $(2): flags, $(3): how they are optimised.
 define page_objects
@@ -41,9 +42,9 @@ $(PAGE_WORK)/$(1)/%.o: %.c $(PAGE_WORK)/flags
 	@clang $(PAGE_FLAGS) $(2) $(3) $$(if $$(findstring page_pool,$$<),-matomics -mbulk-memory) -c $$< -o $$@
 endef
 $(eval $(call page_objects,main,,$$(call page_opt,$$<)))
-$(eval $(call page_objects,scalar,,-Oz))
+$(eval $(call page_objects,scalar,,$(or $(PAGE_OPT),-Oz)))
 # Plain C's lanes set the layout of what modules hand each other: one, as without simd128.
-$(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,-O2))
+$(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,$(or $(PAGE_OPT),-O2)))
 -include $(patsubst %.c,$(PAGE_WORK)/main/%.d,$(PAGE_SRC)) \
          $(wildcard $(PAGE_WORK)/scalar/*/*/*.d $(PAGE_WORK)/simd/*/*/*.d)
 
@@ -77,7 +78,9 @@ $(PAGE)/page.js.lzma $(PAGE)/body.html.lzma: $(PAGE)/%.lzma: platform/web/page/%
 	@mkdir -p $(@D)
 	@$(PAGE_BARE) $< | xz --format=lzma --lzma1=preset=9e,pb=0 > $@
 
-.PHONY: page page-loads
+.PHONY: page page-loads page-modules
+page-modules: $(patsubst %,$(PAGE_WORK)/%.wasm,lambent kernels_scalar kernels_simd demo)
+
 page: page-loads
 	+@$(MAKE) PORT=host BUILD=build all build/default/scenes
 	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)

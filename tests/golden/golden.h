@@ -33,6 +33,9 @@ typedef int golden_samples;
 /* golden_give_samples: gives it to a worker, with noise in it. */
 void golden_give_samples(lmb_band_scratch *out, golden_samples *own, int32_t samples);
 
+/* The name of the only case to run; NULL: all. */
+extern const char *golden_only;
+
 /* golden_run: all cases, by the way's backends, a line each to `put`; how many have another hash. */
 int golden_run(const golden_way *way, void (*put)(const char *line));
 

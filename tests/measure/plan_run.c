@@ -68,7 +68,7 @@ int plan_draw(plan_run *out, render_job *j)
 {
     report r = {""};
     lmb_render *d = j->render;
-    budget_apply(j, &out->s);
+    render_job_apply(j, &out->s);
     memset(&j->stats, 0, sizeof j->stats);
     memset(out->seconds, 0, sizeof out->seconds);
     if (!render_job_refit(j, &r) || lmb_render_begin(d, &j->frame) != LMB_OK) {

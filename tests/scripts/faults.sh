@@ -1,7 +1,8 @@
 # faults.sh: every verb with its nth allocation, open, write, rename or thread failing: B TOOL SHIM in the environment.
 #
 # The inputs are made by the tool itself, small: a tent as OBJ with a texture, as PLY and as glTF, its relief, baked light,
-# a photo with depth, and a sequence of two. tests/faults/main_faults.c says what has to hold. CASES=WORD: only commands with this word.
+# a photo with depth, and a sequence of two. tests/faults/main_faults.c says what has to hold. CASES=WORD: only commands with this word; PART=K/N: every Nth command
+# from the Kth on.
 . tests/scripts/checks.sh
 
 case $(uname -sm)$(ldd --version 2>&1) in
@@ -82,6 +83,7 @@ bench tent.obj --size 16x16 --shadow-map 64 --runs 1 --sweep tree=8,16 --breakdo
 doctor -q
 help render
 END
+awk -v part="${PART:-1/1}" 'BEGIN { split(part, p, "/") } NR % p[2] == p[1] % p[2]' cases.txt >some.txt && mv some.txt cases.txt
 [ -z "$CASES" ] || { grep -e "$CASES" cases.txt >some.txt && mv some.txt cases.txt; }
 "$here/$B/faults" "$here/$SHIM" "$tool" <cases.txt >faults.txt
 status=$?

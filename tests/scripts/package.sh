@@ -78,7 +78,8 @@ CMAKE
     check "add_subdirectory" configure add_subdirectory -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
     check "a library without a build type is not optimised" grep -q -- '-O2 -ffp-contract=off.*/src/raster/fill\.c' \
         "$dir/add_subdirectory/build/compile_commands.json"
-    check "add_subdirectory, Debug" configure add_subdirectory -DCMAKE_BUILD_TYPE=Debug
+    check "add_subdirectory, Debug" configure add_subdirectory -DCMAKE_BUILD_TYPE=Debug \
+        -DCMAKE_C_FLAGS="-DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
     check "programs by add_subdirectory" cmake --build "$dir/add_subdirectory/build"
     check "programs by add_subdirectory run" runs "$dir/add_subdirectory/build"
     check "tiny by add_subdirectory" configure add_subdirectory -DLAMBENT_CONFIG=tiny -DCMAKE_EXPORT_COMPILE_COMMANDS=ON

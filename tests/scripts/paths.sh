@@ -21,8 +21,11 @@ cat tools/README.md include/README.md platform/README.md | awk -v dir="$dir" '
     what != "" && /^```$/ { if (file == "") { file = dir "/" ++n ".sh"; print "# " what "\n# " needs > file } else { close(file); file = what = "" } next }
     file != "" { print > file }'
 
-# As quick to build as may be: what is built is held against pictures elsewhere, and these commands do little with it.
-flags="-O1 -DLMB_HAVE_AVX512=0"
+# What the commands build is compared with pictures elsewhere. The build of this make serves if its flags are CFLAGS:
+# only its copy in the clean copy's place saves building everything once more.
+flags=$CFLAGS
+mkdir -p "$dir/clone/build/default"
+cp -pR "$B/obj" "$B/flags" "$B/liblambent.a" "$dir/clone/build/default" && cp -p "$TOOL" "$dir/clone/build/lambent"
 for block in "$dir"/*.sh; do
     what=$(sed -n '1s/^# //p' "$block")
     if missing=$(sh tests/scripts/tools.sh need $(sed -n '2s/^# //p' "$block") 2>&1); then
