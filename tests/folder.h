@@ -35,10 +35,9 @@ static inline void folder_open(folder *f)
 #endif
 }
 
-/* Write a file, or write it anew; its path. */
-static inline const char *folder_put(folder *f, const char *name, const void *data, size_t size)
+/* The path of a file that is written there by others; folder_close removes it. */
+static inline const char *folder_file(folder *f, const char *name)
 {
-    FILE *to;
     int i;
     char path[FOLDER_PATH];
     snprintf(path, sizeof path, "%.440s/%.60s", f->path, name);
@@ -47,12 +46,20 @@ static inline const char *folder_put(folder *f, const char *name, const void *da
     CHECK_MSG(i < FOLDER_FILES, "more than %d files", FOLDER_FILES);
     memcpy(f->files[i], path, sizeof path);
     f->count += i == f->count;
+    return f->files[i];
+}
+
+/* Write a file, or write it anew; its path. */
+static inline const char *folder_put(folder *f, const char *name, const void *data, size_t size)
+{
+    const char *path = folder_file(f, name);
+    FILE *to;
     remove(path); /* a new file is quicker than a truncated one, which some systems flush */
     to = fopen(path, "wb");
     CHECK_MSG(to && fwrite(data, 1, size, to) == size, "cannot write %s", path);
     if (to)
         fclose(to);
-    return f->files[i];
+    return path;
 }
 
 static inline void folder_close(folder *f)

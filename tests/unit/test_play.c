@@ -1,24 +1,18 @@
 /* test_play.c: keys of a path, between them, and figures of times. */
+#include "../folder.h"
+
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "../../tools/common/frame_name.h"
 #include "../../tools/play/play_options.h"
 #include "../../tools/common/key_path.h"
 #include "../../tools/play/play_times.h"
-#include "../test.h"
 
 void test_play(void);
 
-static int write_text(const char *path, const char *text)
-{
-    FILE *f = fopen(path, "wb");
-    const int ok = f != NULL && fputs(text, f) >= 0;
-    return f != NULL && fclose(f) == 0 && ok;
-}
+static folder place;
 
-static const char file[] = "test_play.tmp";
+static const char *keys(const char *text) { return folder_put(&place, "keys.txt", text, strlen(text)); }
 
 static int is_at(lmb_vec3 v, double x, double y, double z)
 {
@@ -30,7 +24,7 @@ static void goes_through_keys(void)
 {
     key_path p;
     report r = {""};
-    CHECK(write_text(file, "0 light:1 0,0,0\n0.5 camera 1,2,3 4,5,6 # a comment\n1 light:1 2,0,-4\n\n2 light:1 4,0,-8\n"));
+    const char *file = keys("0 light:1 0,0,0\n0.5 camera 1,2,3 4,5,6 # a comment\n1 light:1 2,0,-4\n\n2 light:1 4,0,-8\n");
     CHECK_MSG(key_path_read(&p, file, &r), "%s", r.text);
     CHECK(p.track_count == 2 && p.key_count == 4 && key_path_end(&p) == 2.0);
     CHECK(p.track[0].what == KEY_LIGHT && p.track[0].index == 1 && p.track[0].count == 3 && p.track[0].line == 1);
@@ -51,8 +45,8 @@ static void is_smooth(void)
     static const double at[] = {0, 0.5, 2, 2.25, 5};
     key_path p;
     report r = {""};
-    CHECK(write_text(file, "0 camera 0,0,0 0,0,9\n0.5 camera 1,0,3 1,0,9\n2 camera -1,2,0 0,1,9\n2.25 camera -1,3,1 0,0,8\n"
-                           "5 camera 4,4,4 0,0,9\n"));
+    const char *file = keys("0 camera 0,0,0 0,0,9\n0.5 camera 1,0,3 1,0,9\n2 camera -1,2,0 0,1,9\n2.25 camera -1,3,1 0,0,8\n"
+                            "5 camera 4,4,4 0,0,9\n");
     CHECK_MSG(key_path_read(&p, file, &r), "%s", r.text);
     for (int i = 0; i < 5; ++i) {
         const path_key *key = &p.key[p.track[0].first + (uint32_t)i];
@@ -110,9 +104,10 @@ static void sums_times_up(void)
 
 void test_play(void)
 {
+    folder_open(&place);
     goes_through_keys();
     is_smooth();
     names_frames();
     sums_times_up();
-    remove(file);
+    folder_close(&place);
 }

@@ -1,6 +1,6 @@
 /* test_sky.c: a clear sky against its published formula, far light as lights, a frame's background, and sky light on
  * surfaces against closed forms: an open plane, a wall, a room with a window. */
-#include <stdlib.h>
+#include "../folder.h"
 
 #include "../world.h"
 #include "../laid_out.h"
@@ -341,9 +341,12 @@ void test_sky(void)
     check_lights();
     check_sun();
     check_background();
+    folder place;
+    folder_open(&place);
     for (int i = 0; i < 60; ++i) {
-        check_picture_sun("lambent_test_world.pfm", i * 41 % ACROSS, 2 + i);
+        check_picture_sun(folder_file(&place, "world.pfm"), i * 41 % ACROSS, 2 + i);
     }
+    folder_close(&place);
     const lmb_many_lights sky = white_sky();
     check_open(&sky);
     check_scales(&sky);

@@ -1,5 +1,5 @@
 /* test_tone.c: how display formats take light over white: the curve, what exposes a picture, alpha in a PNG. */
-#include "../test.h"
+#include "../folder.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -89,12 +89,14 @@ static void check_alpha(const char *path)
     bitmap_free(&got);
     file_free(&file);
     CHECK(!picture_write_alpha("no/such/folder.png", &p, alpha, 0.0f, PICTURE_CLIPPED, &r) && r.text[0] != '\0');
-    remove(path);
 }
 
 void test_tone(void)
 {
     check_curve();
     check_exposure();
-    check_alpha("lambent_test_tone.png");
+    folder place;
+    folder_open(&place);
+    check_alpha(folder_file(&place, "tone.png"));
+    folder_close(&place);
 }
