@@ -52,6 +52,7 @@ differs() {
 rm -rf "$dir/include"
 mkdir -p "$dir/include"
 cp -r include/lambent "$dir/include"
+chmod -R u+w "$dir/include" # of a tree that may not be written to
 for capacity in $capacities; do
     awk -v name="$capacity" '$1 == "#define" && $2 == name { $3 += 1 } { print }' include/lambent/config.h \
         >"$dir/include/lambent/config.h"

@@ -25,6 +25,7 @@ for part in Makefile include src tests tools platform README.md; do
 done
 rm -rf "$folder/src" "$folder/tools"
 cp -pR src tools "$folder"
+chmod -R u+w "$tree" "$folder/src" "$folder/tools" # of a clone that may not be written to
 if [ -d "$folder/built" ]; then # of an earlier run, without any change
     rm -rf "$tree/build"
     cp -pR "$folder/built" "$tree/build"

@@ -14,6 +14,7 @@ for folder in platform/*; do
 done
 copy=$tree/platform/copied
 cp -r platform/null "$copy"
+chmod -R u+w "$copy" # of a tree that may not be written to
 mv "$copy/port_null.c" "$copy/port_copied.c"
 
 check "the copy builds" $MAKE -C "$tree" room PORT=copied BUILD=build
