@@ -2,7 +2,7 @@
 # said. B in the environment.
 . tests/scripts/checks.sh
 
-dir=$B/tool-setup
+case $B in /*) dir=$B/tool-setup ;; *) dir=$PWD/$B/tool-setup ;; esac
 rm -rf "$dir"
 mkdir -p "$dir/bin"
 
@@ -22,7 +22,7 @@ chmod +x "$dir/bin/id" "$dir/bin/apt-get"
 
 get() {
     : >"$dir/told"
-    TOLD=$dir/told PATH=$PWD/$dir/bin:$PATH sh tests/scripts/tools.sh get "$@" >"$dir/said" 2>&1
+    TOLD=$dir/told PATH=$dir/bin:$PATH sh tests/scripts/tools.sh get "$@" >"$dir/said" 2>&1
 }
 
 # What was asked for without -s: installations.

@@ -17,7 +17,8 @@ for kind in name code option file phrase; do
     [ "$kind" = code ] || [ -s "$tmp/$kind" ] || fail "$list has no line of $kind"
 done
 find src include tools platform -type f \( -name '*.[ch]' -o -name '*.inl' -o -name '*.inc' \) | sort > "$tmp/code"
-find . -name '*.md' ! -path './build/*' ! -path './.git/*' | sed 's,^\./,,' | sort > "$tmp/documents"
+built=${tmp%/*/*}
+find . -name '*.md' ! -path './build/*' ! -path "./${built#"$PWD"/}/*" ! -path './.git/*' | sed 's,^\./,,' | sort > "$tmp/documents"
 
 # The texts in one, and beside each of its lines where it comes from: a process a file would take minutes.
 # NEWS.md goes without its table of old names.
@@ -98,11 +99,13 @@ here=$(pwd)
 case $list in /*) ;; *) list=$here/$list ;; esac
 case $dir in /*) ;; *) dir=$here/$dir ;; esac
 
+made_words() (cd "$made" && MADE=1 B=out LIST="$list" sh "$dir/words.sh")
+
 # leftover KIND FILE TEXT: words.sh over the made-up tree with TEXT in FILE ends red, and says KIND.
 leftover() {
     mkdir -p "$made/${2%/*}"
     printf '%s\n' "$3" > "$made/$2"
-    if said=$(cd "$made" && MADE=1 B=out LIST="$list" sh "$dir/words.sh"); then
+    if said=$(made_words); then
         fail "a made-up leftover is not found: $1 in $2"
     elif printf '%s\n' "$said" | grep -q "^FAIL.* $1"; then
         pass
@@ -114,7 +117,7 @@ leftover() {
 
 printf 'See [the code](src).\n' > "$made/README.md"
 : > "$made/NEWS.md"
-check "a made-up tree without leftovers is refused" sh -c "cd '$made' && MADE=1 B=out LIST='$list' sh '$dir/words.sh'"
+check "a made-up tree without leftovers is refused" made_words
 leftover "by name" src/one.c 'int x = lmb_light_map_bytes;'
 leftover "by code" src/one.c 'int shine; /* a word of English in comments */'
 leftover "by option" tools/one.c 'puts("--light-map");'
@@ -122,6 +125,6 @@ leftover "by file" src/gloss.c 'int x;'
 leftover "by phrase" src/one.c '/* what a surface gives
  * off by itself */'
 leftover "links" docs/one.md 'See [nothing](nowhere.md).'
-check "NEWS.md may not have old names in its table" sh -c "
-    cd '$made' && printf '## Old names\n\n| lmb_light_map |\n' > NEWS.md && MADE=1 B=out LIST='$list' sh '$dir/words.sh'"
+printf '## Old names\n\n| lmb_light_map |\n' > "$made/NEWS.md"
+check "NEWS.md may not have old names in its table" made_words
 finish
