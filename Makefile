@@ -12,6 +12,9 @@ MAKEFLAGS += --no-print-directory
 CONFIG ?= default
 PORT   ?= host
 BUILD  ?= build$(if $(filter-out host,$(PORT)),/$(PORT))
+ifneq ($(words $(BUILD))$(findstring ',$(BUILD))$(findstring :,$(BUILD)),1)
+$(error BUILD=$(BUILD): make takes one folder, without blanks, quotes and colons in its name)
+endif
 # ROOM=pixel: the room with light by pixel, in the tiny configuration and without what it does not draw by; built apart.
 ifeq ($(ROOM),pixel)
 override CONFIG := tiny
@@ -162,7 +165,7 @@ docs: ## the reference, build/docs/html/index.html: headers, documents, the syst
 	    awk -f tests/scripts/prototypes.awk $$header | sed "s,^,$${header##*/}|,"; done > $(BUILD)/docs/calls.txt
 	@awk -f tests/scripts/contracts.awk $(BUILD)/docs/calls.txt $(HEADERS) | awk -f tools/docs/calls.awk > $(BUILD)/docs/calls.md
 	@doxygen -l $(BUILD)/docs/layout.xml && sed -i -f tools/docs/layout.sed $(BUILD)/docs/layout.xml
-	@DOCS_TOP='$(CURDIR)' DOCS_OUT='$(BUILD)/docs' doxygen tools/docs/Doxyfile
+	@DOCS_TOP="$$PWD" DOCS_OUT='$(BUILD)/docs' doxygen tools/docs/Doxyfile
 	@echo "$(BUILD)/docs/html/index.html"
 
 help: ## this list
