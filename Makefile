@@ -144,13 +144,13 @@ dist: ## the last commit as build/lambent-VERSION.tar.gz, the same bytes each ti
 
 install: lib $(if $(filter host,$(PORT)),$(TOOL) man) $(PACKAGE_FILES) ## library, headers, tool, man page, for pkg-config and CMake (PREFIX=/usr/local DESTDIR=)
 	@echo "INSTALL $(DESTDIR)$(PREFIX)"
-	@mkdir -p '$(DESTDIR)$(PREFIX)/include/lambent' '$(AT_LIB)/pkgconfig' '$(AT_LIB)/cmake/lambent'
+	@install -d '$(DESTDIR)$(PREFIX)/include/lambent' '$(AT_LIB)/pkgconfig' '$(AT_LIB)/cmake/lambent'
 	@install -m 644 $(HEADERS) '$(DESTDIR)$(PREFIX)/include/lambent'
 	@install -m 644 $(LIB) '$(AT_LIB)'
 	@install -m 644 $(B)/lambent.pc '$(AT_LIB)/pkgconfig'
 	@install -m 644 $(filter %.cmake,$(PACKAGE_FILES)) '$(AT_LIB)/cmake/lambent'
 ifeq ($(PORT),host)
-	@mkdir -p '$(DESTDIR)$(PREFIX)/bin' '$(AT_MAN)'
+	@install -d '$(DESTDIR)$(PREFIX)/bin' '$(AT_MAN)'
 	@install -m 755 $(TOOL) '$(DESTDIR)$(PREFIX)/bin'
 	@install -m 644 $(BUILD)/lambent.1 '$(AT_MAN)'
 endif

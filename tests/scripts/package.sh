@@ -16,7 +16,10 @@ cp tests/examples/depth_map.c tests/examples/golden_test.c tests/examples/room.h
 # runs DIRECTORY: both programs there say what they should.
 runs() { "$1/depth_map" && "$1/golden_test"; }
 
-check "make install" "$MAKE" install BUILD="$BUILD" DESTDIR="$root" PREFIX=$prefix
+# As by an administrator whose own files nobody else may read.
+check "make install" sh -c 'umask 077 && "$@"' sh "$MAKE" install BUILD="$BUILD" DESTDIR="$root" PREFIX=$prefix
+kept=$(find "$root$prefix" ! -perm -0444 -o -type d ! -perm -0111)
+check "everybody may read what is installed, but for: $kept" test -z "$kept"
 (cd "$root" && find . -type f | sort) >"$dir/installed"
 {
     for header in include/lambent/*.h; do echo ".$prefix/$header"; done
