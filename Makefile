@@ -15,6 +15,8 @@ BUILD  ?= build$(if $(filter-out host,$(PORT)),/$(PORT))
 ifneq ($(words $(BUILD))$(findstring ',$(BUILD))$(findstring :,$(BUILD)),1)
 $(error BUILD=$(BUILD): make takes one folder, without blanks, quotes and colons in its name)
 endif
+# Where builds for other machines have the tool that runs on this one.
+HOST_BUILD ?= $(if $(filter file,$(origin BUILD)),build,$(BUILD)/host)
 # ROOM=pixel: the room with light by pixel, in the tiny configuration and without what it does not draw by; built apart.
 ifeq ($(ROOM),pixel)
 override CONFIG := tiny
@@ -302,8 +304,8 @@ $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.
 HOST_CC ?= cc
 $(B)/room_pixel.inc: $(sort $(wildcard tools/bake/*.c tools/demo/*.c src/transfer/*.c))
 	@mkdir -p $(@D)
-	+@$(MAKE) build/lambent PORT=host CONFIG=default BUILD=build CC='$(HOST_CC)' CFLAGS=-O2 LDFLAGS= ROOM= >$@.log
-	@build/lambent bake demo -o $@.lmt --endian $(or $(ENDIAN),little) --elements 256 --receivers 300 \
+	+@$(MAKE) $(HOST_BUILD)/lambent PORT=host CONFIG=default BUILD=$(HOST_BUILD) CC='$(HOST_CC)' CFLAGS=-O2 LDFLAGS= ROOM= >$@.log
+	@$(HOST_BUILD)/lambent bake demo -o $@.lmt --endian $(or $(ENDIAN),little) --elements 256 --receivers 300 \
 	    --cluster 0.6 --error 0.00065 --once >>$@.log
 	@od -An -v -tx4 --endian=$(or $(ENDIAN),little) $@.lmt | sed 's/ *\([0-9a-f][0-9a-f]*\)/0x\1,/g' >$@
 $(B)/obj/platform/demo/room_pixel.o: $(B)/room_pixel.inc
@@ -733,10 +735,10 @@ linux-fb: ## the room on a file that stands for Linux's framebuffer device
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/linux_fb.sh
 .PHONY: page-size web-check
 page-size: ## the page of platform/web compiles, and has room in what a browser loads
-	+@MAKE='$(MAKE)' sh tests/scripts/page_size.sh
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/page_size.sh
 
 web-check: $(TOOL) $(B)/page-hash ## the page of platform/web in headless Chromium: clicks, drags, keys, files, hashes
-	+@$(IN_SH) tests/scripts/web_check.sh
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' $(IN_SH) tests/scripts/web_check.sh
 
 .PHONY: three-check
 three-check: $(TOOL) ## baked light for other engines, drawn by three.js in headless Chromium beside our picture

@@ -82,8 +82,8 @@ $(PAGE)/page.js.lzma $(PAGE)/body.html.lzma: $(PAGE)/%.lzma: platform/web/page/%
 page-modules: $(patsubst %,$(PAGE_WORK)/%.wasm,lambent kernels_scalar kernels_simd demo)
 
 page: page-loads
-	+@$(MAKE) PORT=host BUILD=build all build/default/scenes
-	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
+	+@$(MAKE) PORT=host BUILD=$(HOST_BUILD) all $(HOST_BUILD)/default/scenes
+	@sh platform/web/page_scenes.sh $(HOST_BUILD)/lambent $(HOST_BUILD)/default/scenes $(PAGE)
 
 # All but the scenes, which need the host's tool.
 page-loads: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html \

@@ -20,7 +20,8 @@ needs() {
     esac
 }
 
-out=$BUILD/ports
+out=$BUILD/ports HOST_BUILD=$BUILD
+export HOST_BUILD
 mkdir -p "$out"
 all=
 for mk in platform/*/port.mk; do
