@@ -76,7 +76,7 @@ void test_own_truth(void)
     };
     for (int i = 0; i < COUNT_OF(rows); ++i) {
         image truth;
-        own_drawn upright;
+        own_drawn upright = {0};
         if (own_truth(&truth, rows[i].file)) {
             check_errors(&rows[i], &truth, &upright);
             check_turns(&rows[i], &truth, &upright);
