@@ -1,4 +1,5 @@
-# checks.sh: counting for the shell checks that source it: pass, fail WHAT, skip WHY, bare; `finish` last.
+# checks.sh: counting for the shell checks that source it: pass, fail WHAT, skip WHY, bare, clean_copy;
+# `finish` last.
 passed=0 failed=0 skipped=0
 
 # Names without what layout.h adds to them.
@@ -26,6 +27,13 @@ check() {
         fail "$what"
         [ -z "$said" ] || printf '%s\n' "$said" | head -n 20
     fi
+}
+
+# clean_copy FOLDER: the tree as a new clone has it, with what is not committed yet; of a release all but build/.
+clean_copy() {
+    { git ls-files -co --exclude-standard 2>/dev/null || find . -type f ! -path './build/*' ! -path './.git/*'; } |
+        while read -r f; do [ ! -f "$f" ] || echo "$f"; done | tar cf - -T - |
+        (cd "$1" && tar xf - --no-same-owner --no-same-permissions)
 }
 
 finish() {

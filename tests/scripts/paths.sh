@@ -7,8 +7,7 @@
 case $B in /*) dir=$B/paths ;; *) dir=$PWD/$B/paths ;; esac
 rm -rf "$dir"
 mkdir -p "$dir/clone"
-copy() { git ls-files -co --exclude-standard | while read -r f; do [ ! -f "$f" ] || echo "$f"; done | tar cf - -T - | (cd "$dir/clone" && tar xf -); }
-check "a clean copy" copy
+check "a clean copy" clean_copy "$dir/clone"
 
 # The blocks as files 1.sh, 2.sh, ... whose first line is what they show, the second what they need.
 cat tools/README.md include/README.md platform/README.md | awk -v dir="$dir" '
