@@ -701,6 +701,10 @@ measure-relief: $(B)/measure-relief ## reliefs against their complex models: err
 paths: $(TOOL) $(LIB) ## the commands that the documents tell new users to type, in a clean copy
 	@CFLAGS='$(CFLAGS)' $(IN_SH) tests/scripts/paths.sh
 
+.PHONY: places
+places: ## make, make demo and make check without root, in a path with spaces, with umask 077, from a read-only clone (PLACES=umask)
+	+@MAKE='$(MAKE)' $(IN_SH) tests/scripts/places.sh $(PLACES)
+
 docs-check: $(TOOL) $(LIB) ## code and commands of the documents; the reference's links and widths
 	+@BUILD='$(BUILD)' MAKE='$(MAKE)' $(IN_SH) tests/scripts/docs_check.sh
 
