@@ -120,6 +120,11 @@ PACKAGE_FILES := $(addprefix $(B)/,lambent.pc lambent-config.cmake lambent-confi
 
 # --- what people want ------------------------------------------------------------------------------------------------
 
+##@ One test
+.PHONY: try
+try: ## one test by its name, after a build of what changed: make try T=cut (unit, golden, hard, cli, or a check)
+	+@MAKE='$(MAKE)' B='$(B)' T='$(T)' CHECK_NAMES='$(sort $(QUICK_CHECKS) $(SLOW_CHECKS))' sh tests/scripts/try.sh
+
 ##@ Build
 AMALGAM := $(BUILD)/amalgam/lambent.h $(BUILD)/amalgam/lambent.c
 .PHONY: all lib demo man amalgam dist install uninstall docs docs-check help clean
@@ -334,10 +339,7 @@ IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(C
           LDLIBS='$(PORT_LDLIBS) $(LDLIBS)' sh
 
 ##@ Checks
-.PHONY: try check check-all nightly programs $(sort $(CHECKS) $(QUICK_CHECKS) $(SLOW_CHECKS)) $(CHECKS:%=check-%)
-try: ## one test by its name, after a build of what changed: make try T=cut (unit, golden, hard, cli, or a check)
-	+@MAKE='$(MAKE)' B='$(B)' T='$(T)' CHECK_NAMES='$(sort $(QUICK_CHECKS) $(SLOW_CHECKS))' sh tests/scripts/try.sh
-
+.PHONY: check check-all nightly programs $(sort $(CHECKS) $(QUICK_CHECKS) $(SLOW_CHECKS)) $(CHECKS:%=check-%)
 check: $(CHECKS:%=check-%) ## the quick checks, one line each, and their sum; V=1 prints their output; CHECKS="unit golden" picks
 	@sh tests/scripts/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
