@@ -34,7 +34,7 @@
 #if LMB_TRANSFER
 #include "../map/texel.inl"
 #include "../transfer/links.inl"
-#include "../transfer/share.inl"
+#include "../transfer/coverage.inl"
 #include "../transfer/halve.inl"
 #include "../transfer/tile.inl"
 #endif

@@ -1,8 +1,8 @@
 # layers.sh: what may lean on what: layers.txt beside this has every folder of src/ and tools/ in order. CC B NM in the
 # environment, and the built library and tool.
 #
-#     layers.sh          folders by #include and by nm; circles among files by each; first lines; the plans in the
-#                        README files; and that made-up circles are found
+#     layers.sh          folders by #include and by nm; circles among files by each; first lines; names of files; the
+#                        plans in the README files; and that made-up faults are found
 #     layers.sh write    puts the plans into src/README.md and tools/README.md
 . tests/scripts/checks.sh
 table=tests/scripts/layers.txt
@@ -149,13 +149,25 @@ without_layer() {
         }' "$@"
 }
 none "the first line does not say the layer" "$(without_layer src/*/*.c src/*/*.h src/*/*.inl)"
+
+# same_names FILE...: those that have the name of an earlier one. `cc -c src/*/*.c` puts all objects into one folder.
+same_names() {
+    printf '%s\n' "$@" | awk '
+        { name = $0; sub(/^.*\//, "", name) }
+        name in at { print at[name] " and " $0; next }
+        { at[name] = $0 }'
+}
+none "two files have one name" "$(same_names src/*/*)"
+none "two files have one name" "$(same_names tools/*/*)"
+none "two sources have one name" "$(same_names src/*/*.c tools/*/*.c platform/host/*.c)"
+
 for root in src tools; do
     [ "$(plan $root)" = "$(planned $root)" ] && pass ||
         fail "$root/README.md has another plan than layers.txt: sh tests/scripts/layers.sh write"
 done
 
 # Could it fail? Two files that call each other and a third that is called; two headers that include each other; a file
-# that calls and includes upward; a first line without its layer.
+# that calls and includes upward; a first line without its layer; a second file of one name.
 made=$dir/made
 mkdir -p "$made/src/base" "$made/src/raster" "$made/obj/src/base" "$made/obj/src/raster"
 echo 'int one(void); int two(void); int three(void); int one(void) { return two() + three(); }' >"$made/src/base/one.c"
@@ -169,6 +181,8 @@ for name in base/one base/two raster/three; do
 done
 printf '/* four.inl: a kernel. Floor 1. */\n' >"$made/src/base/four.inl"
 check "a first line without its layer is not found" test -n "$(without_layer "$made/src/base/four.inl")"
+check "a second shade.c is not found" test "$(same_names src/*/* src/isa/shade.c)" = \
+    "src/frame/shade.c and src/isa/shade.c"
 (cd "$made/obj" && find src -name '*.o') | by_call "$made/obj" >"$made/calls"
 (cd "$made" && by_include src) >"$made/includes"
 check "a made-up circle of calls is not found" test "$(in_circles <"$made/calls" | sort | tr '\n' ';')" = \

@@ -9,7 +9,7 @@
 #include "../model/model.h"
 #include "../picture/image.h"
 #include "light_stream.h"
-#include "world.h"
+#include "render_world.h"
 #include "render_options.h"
 
 /* One run, from the options to the picture. Everything here is freed by render_job_free. */

@@ -1,5 +1,5 @@
-/* world.c: a sky, or a picture of one, around a scene, and the ground below it. */
-#include "world.h"
+/* render_world.c: a sky, or a picture of one, around a scene, and the ground below it. */
+#include "render_world.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
-/* share.inl: how triangles share the cells of a block of a shadow map. Layer 9. */
-#ifndef LMB_TRANSFER_SHARE_INL
-#define LMB_TRANSFER_SHARE_INL
+/* coverage.inl: how triangles share the cells of a block of a shadow map. Layer 9. */
+#ifndef LMB_TRANSFER_COVERAGE_INL
+#define LMB_TRANSFER_COVERAGE_INL
 
 static const float share_column[LMB_TRANSFER_BLOCK_CELLS] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 static const float share_row[LMB_TRANSFER_BLOCK_CELLS] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};

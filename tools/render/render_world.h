@@ -1,6 +1,6 @@
-/* world.h: what lies around a scene: a sky or a picture of one, as lights and as background, and a ground below. */
-#ifndef WORLD_H
-#define WORLD_H
+/* render_world.h: what lies around a scene: a sky or a picture of one, as lights and as background, and a ground. */
+#ifndef RENDER_WORLD_H
+#define RENDER_WORLD_H
 
 #include <lambent/lambent.h>
 
