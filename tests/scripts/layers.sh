@@ -2,9 +2,10 @@
 # environment, and the built library and tool.
 #
 #     layers.sh          folders by #include and by nm; circles among files by each; first lines; names of files; the
-#                        plans in the README files; and that made-up faults are found
+#                        plans in the README files; the rows of mutants.txt; and that made-up faults are found
 #     layers.sh write    puts the plans into src/README.md and tools/README.md
 . tests/scripts/checks.sh
+. tests/scripts/mutants.sh
 table=tests/scripts/layers.txt
 
 # plan ROOT: the table's part as a README shows it.
@@ -160,6 +161,7 @@ same_names() {
 none "two files have one name" "$(same_names src/*/*)"
 none "two files have one name" "$(same_names tools/*/*)"
 none "two sources have one name" "$(same_names src/*/*.c tools/*/*.c platform/host/*.c)"
+none "mutants.txt" "$(mutant_faults tests/scripts/mutants.txt .)"
 
 for root in src tools; do
     [ "$(plan $root)" = "$(planned $root)" ] && pass ||
@@ -167,7 +169,7 @@ for root in src tools; do
 done
 
 # Could it fail? Two files that call each other and a third that is called; two headers that include each other; a file
-# that calls and includes upward; a first line without its layer; a second file of one name.
+# that calls and includes upward; a first line without its layer; a second file of one name; rows of mutants.txt.
 made=$dir/made
 mkdir -p "$made/src/base" "$made/src/raster" "$made/obj/src/base" "$made/obj/src/raster"
 echo 'int one(void); int two(void); int three(void); int one(void) { return two() + three(); }' >"$made/src/base/one.c"
@@ -183,6 +185,13 @@ printf '/* four.inl: a kernel. Floor 1. */\n' >"$made/src/base/four.inl"
 check "a first line without its layer is not found" test -n "$(without_layer "$made/src/base/four.inl")"
 check "a second shade.c is not found" test "$(same_names src/*/* src/isa/shade.c)" = \
     "src/frame/shade.c and src/isa/shade.c"
+mkdir -p "$made/tests/unit" "$made/tools/cli"
+: >"$made/tests/unit/test_light.c"
+printf '%s\n' '# A table.' 'src/base tests:light' '    tests:gone' 'src/gone - why' 'tools/cli -' >"$made/mutants.txt"
+mutant_faults "$made/mutants.txt" "$made" >"$made/faults"
+check "made-up faults of mutants.txt are not found" test "$(tr '\n' ';' <"$made/faults")" = \
+    "$(printf '%s;' 'src/base: there is no test tests:gone' 'src/gone: there is no such folder' \
+        'tools/cli: neither tests nor a reason' 'src/raster: mutants.txt has not one row for it')"
 (cd "$made/obj" && find src -name '*.o') | by_call "$made/obj" >"$made/calls"
 (cd "$made" && by_include src) >"$made/includes"
 check "a made-up circle of calls is not found" test "$(in_circles <"$made/calls" | sort | tr '\n' ';')" = \

@@ -1,21 +1,31 @@
 # mutate.sh: test the tests: change one operator or constant of src/ or tools/ at a time, and see whether a test notices.
 #
-#     mutate.sh FOLDER N SEED [MODULE...]     N seeded changes in these modules of src/ (base, ...: all but lane and isa)
-#                                             or tools/ (tools/model, ...: those that unit tests link); default: both
+#     mutate.sh FOLDER N SEED [MODULE...]     N seeded changes in these modules of src/ (base, ...) or of tools/
+#                                             (tools/model, ...); default: all that have tests in mutants.txt
 #
 # Works on a copy in FOLDER/tree, with the kernels of two backends (scalar and AVX2), as each takes seconds to compile.
-# Of each change: it does not build, or gives the same code, and is none; then the quickest tests first, until one
-# fails, ends badly or takes six times as long as without it: golden pictures, the unit tests of the module, hard cases;
-# with FULL=1 all others too. Only what follows from the changed file is built, and a program when its turn comes.
+# Of each change: it does not build, or gives the same code, and is none; then the tests that mutants.txt names for the
+# module, the quickest first, until one fails, ends badly or takes six times as long as without the change; with FULL=1
+# also all others that link the library. Only what follows from the changed file is built, and a program when its turn
+# comes. Where mutants.txt names a folder or a test that is not there, nothing is tried.
 # Prints a line each, those that no test noticed with their line, and killed / tried by module. Exit status 1 where under
 # 85 % were noticed. Some changes change nothing (a bound that is never met, a tie that either way is right): survivors
 # are for reading, not for driving to nothing.
 # ONLY="NUMBER..." does some of them again; FILES=PATTERN takes only such files.
 folder=$1 wanted=$2 seed=$3
 shift 3
-modules=${*:-base raster map occlusion light manylights bounce lightcut radiosity voxel probe relief mixed compose \
-frame plan tools/common tools/picture tools/mesh tools/model tools/render tools/relight tools/mix tools/relief \
-tools/bake tools/play tools/hard tools/bench tools/cli}
+. tests/scripts/mutants.sh
+table=tests/scripts/mutants.txt
+mkdir -p "$folder"
+faults=$(mutant_faults $table .)
+[ -z "$faults" ] || { printf '%s\n' "$faults" | sed 's/^/FAIL mutants.txt: /'; exit 1; }
+mutant_rows $table | awk '$2 != "-"' >"$folder/rows" || exit 1
+modules=
+for module in ${*:-$(cut -d ' ' -f1 "$folder/rows")}; do
+    case $module in src/* | tools/*) ;; *) module=src/$module ;; esac
+    grep -q "^$module " "$folder/rows" || { echo "FAIL mutants.txt has no tests for $module"; exit 1; }
+    modules="$modules $module"
+done
 mkdir -p "$folder/tree"
 folder=$(cd "$folder" && pwd)
 tree=$folder/tree
@@ -40,51 +50,14 @@ make_it() {
 
 # tests MODULE: what is run for a change there; NAME:WORD is a program and its word.
 tests() {
-    case $1 in
-    base) echo tests:base tests:contracts tests:light hard:raster hard:whole tests:tree tests:frames tests:many_lights \
-        tests:glossy ;;
-    raster) echo hard:raster tests:resolve tests:textures tests:normal_map reference:hard hard:invariants \
-        tests:raster tests:bins ;;
-    map) echo tests:light tests:mixed tests:threads tests:elements hard:shadow hard:whole tests:frames tests:relit \
-        tests:glossy ;;
-    occlusion) echo tests:occlusion hard:bounce hard:whole tests:cut ;;
-    manylights) echo tests:many_lights hard:bounce tests:elements tests:frames ;;
-    light) echo tests:light hard:shadow tests:glossy tests:many_lights hard:bounce ;;
-    bounce | lightcut | radiosity)
-        echo tests:bounce hard:bounce tests:cut tests:tree tests:threads hard:whole tests:elements \
-        tests:analytic tests:glossy tests:frames tests:map_picture tests:contracts ;;
-    voxel) echo tests:voxel tests:voxels hard:mixed ;;
-    probe) echo tests:probe tests:probe_cache hard:probe tests:relit tests:frames ;;
-    relief) echo tests:relief tests:relief_light hard:relief ;;
-    mixed) echo tests:mixed tests:mix hard:mixed ;;
-    tools/*)
-        case $1 in
-        */picture) echo tests:images tests:jpeg tests:hdr tests:compare ;;
-        */mesh) echo tests:simplify tests:simplify_odd tests:enclose ;;
-        */model) echo tests:models tests:gltf tests:ply tests:mtl tests:textures tests:motion tests:info ;;
-        */relief) echo tests:photos tests:relief tests:relief_light ;;
-        */mix) echo tests:mix ;;
-        */bake) echo tests:transfer tests:play ;;
-        */play) echo tests:play tests:motion ;;
-        */bench) echo tests:bench ;;
-        */cli) echo tests:info tests:compare ;;
-        */hard) echo hard:hard ;;
-        *) echo tests:images tests:info tests:compare tests:play tests:plan tests:map_picture ;;
-        esac
-        return ;;
-    compose) echo tests:light tests:sparse hard:invariants tests:frames ;;
-    *) echo tests:frames tests:contracts tests:threads tests:sparse tests:reuse tests:plan tests:plan_frame tests:relit \
-        hard:invariants tests:elements ;;
-    esac
-    echo golden
-    [ -z "$FULL" ] || echo tests:unit tests:analytic tests:lanes reference:hard hard:again
+    sed -n "s,^$1 ,,p" "$folder/rows"
+    case $FULL,$1 in ?*,src/*) echo tests:unit tests:analytic tests:lanes reference:hard hard:again ;; esac
 }
 
 # candidates: FILE LINE COLUMN LENGTH TO of everything that can be changed, one a line.
 candidates() {
     for module in $modules; do
-        case $module in tools/*) from=$module ;; *) from=src/$module ;; esac
-        ls "$from"/*.c "$from"/*.inl "$from"/*.h 2>/dev/null
+        ls "$module"/*.c "$module"/*.inl "$module"/*.h 2>/dev/null
     done | grep -v -e _table.inc -e /gen_ | grep -e "${FILES:-.}" | while read -r file; do
         awk -v file="$file" '
             BEGIN {
@@ -152,7 +125,7 @@ run() {
 # What each test of the modules takes without any change, six times and a little: as SECONDS NAME:WORD. Asked again where
 # a program is newer.
 measure() {
-    modules=$(cut -f1 "$folder/drawn" | sed 's,/[^/]*$,,; s,^src/,,' | sort -u)
+    modules=$(cut -f1 "$folder/drawn" | sed 's,/[^/]*$,,' | sort -u)
     find "$tree/$out" -maxdepth 1 -type f -newer "$folder/limits" 2>/dev/null | grep -q . && : >"$folder/limits"
     for test in $(for module in $modules; do tests "$module"; done | tr ' ' '\n' | sort -u); do
         ! grep -q " $test " "$folder/limits" || continue
@@ -222,8 +195,7 @@ echo "$(wc -l <"$folder/drawn") of $(wc -l <"$folder/candidates") changes"
 : >"$folder/result"
 tab=$(printf '\t')
 while IFS="$tab" read -r number file line at from to; do
-    module=${file#src/}
-    module=${module%/*}
+    module=${file%/*}
     touch "$folder/stamp"
     change "$file" "$line" "$at" "$from" "$to"
     found=$(verdict "$module")
@@ -237,7 +209,7 @@ awk '
     $2 == "none" || $2 == "same" { ++not; next }
     { ++tried[$1]; ++all; if ($2 != "survived") { ++killed[$1]; ++dead; ++by[$2] } }
     END {
-        for (module in tried) printf "%-13s %d of %d\n", module, killed[module], tried[module] | "sort"
+        for (module in tried) printf "%-16s %d of %d\n", module, killed[module], tried[module] | "sort"
         close("sort")
         for (test in by) printf "by %-12s %d\n", test, by[test] | "sort"
         close("sort")
