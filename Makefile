@@ -518,7 +518,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+.PHONY: asan-programs pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sun measure-constants measure-sequence \
@@ -545,6 +545,7 @@ COV_PROGRAMS_tools := default/tests default/replay lambent
 # One build serves the checks under sanitizers and the fuzzer. Kernels go without counters of the fuzzer, and wide ones
 # without the checks of pointers' sums, with which clang takes three times as long over each.
 ASAN_CC     ?= clang
+FUZZER      := $(BUILD)/asan/default/fuzzer
 ASAN_WANTED := cli hard unit-1 unit-2 golden replay hostile hostile-cli readme
 SANITIZED    = BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked \
     KERNEL_CFLAGS="-fno-sanitize=pointer-overflow,object-size$(if $(findstring clang,$(ASAN_CC)),$(comma)fuzzer-no-link)" \
@@ -552,8 +553,8 @@ SANITIZED    = BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked \
 asan: ## the checks under address and undefined-behaviour sanitizers
 	+@SHORT=1 $(MAKE) check CHECKS="$(ASAN_WANTED)" $(SANITIZED)
 
-asan-programs: ## what asan and fuzz link
-	+@$(MAKE) programs CHECKS="$(ASAN_WANTED)" $(SANITIZED)
+asan-programs: ## the programs of asan and fuzz
+	+@$(MAKE) programs $(FUZZER) CHECKS="$(ASAN_WANTED)" $(SANITIZED)
 
 # In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
 MSAN_CHECKS ?= golden hard replay hostile
@@ -561,7 +562,6 @@ msan: ## pictures, hard cases and the corpus under the memory sanitizer
 	+@$(MAKE) check CHECKS="$(MSAN_CHECKS)" BUILD=$(BUILD)/msan CC=clang \
 	    CFLAGS="-O1 -g1 -fsanitize=memory -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
 
-FUZZER   := $(BUILD)/asan/default/fuzzer
 FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages
 MINUTES   ?= 1
