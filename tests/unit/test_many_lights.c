@@ -347,18 +347,18 @@ static void sum_lights(double out[LMB_TILE_PIXELS], const lmb_tile *tile, uint32
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         out[k] = 0.0;
     }
+    const lmb_view v = look(vec3(0, 5, 0), vec3(0, 0, 0), 60, 64);
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
     for (uint32_t i = 0; i < count; ++i) {
         lmb_irradiance e;
         memset(&e, 0, sizeof e);
-        const lmb_view v = look(vec3(0, 5, 0), vec3(0, 0, 0), 60, 64);
-        CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), tile, &v, &world.scene, &lights[i], NULL) == LMB_OK);
+        CHECK(lmb_direct_tile(&e, picked_kernels(), tile, &v, &world.scene, &lights[i], NULL) == LMB_OK);
         const uint64_t occluded =
             bvh == NULL ? 0
             : lights[i].kind == LMB_LIGHT_DIRECTIONAL
-                ? lmb_occluded_sun(lmb_kernels_pick(), &traversal, bvh, tile, UINT64_MAX, mul3(lights[i].direction, -1))
-                : lmb_occluded_tile(lmb_kernels_pick(), &traversal, bvh, tile, UINT64_MAX, lights[i].position,
+                ? lmb_occluded_sun(picked_kernels(), &traversal, bvh, tile, UINT64_MAX, mul3(lights[i].direction, -1))
+                : lmb_occluded_tile(picked_kernels(), &traversal, bvh, tile, UINT64_MAX, lights[i].position,
                                     lmb_tile_noise(tile, UINT64_MAX));
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             out[k] += (occluded >> k & 1u) != 0 || tile->id[k] == 0 ? 0.0 : (double)e.rgb[1][k];
@@ -384,7 +384,7 @@ static double light_tile(lmb_irradiance *e, const lmb_tile *tile, const lmb_many
     memset(e, 0, sizeof *e);
     memset(&scratch, 0x5a, sizeof scratch); /* what is in it means nothing */
     scratch.nodes = scratch.tests = 0;
-    CHECK(lmb_many_lights_direct_tile(e, lmb_kernels_pick(), &scratch, tile, &how) == LMB_OK);
+    CHECK(lmb_many_lights_direct_tile(e, picked_kernels(), &scratch, tile, &how) == LMB_OK);
     return off(e, want);
 }
 
@@ -678,7 +678,7 @@ static void check_bounce(test_rng *r)
     lmb_elements e, brute;
     grove g;
     void *memory = make_elements(&e), *other = make_elements(&brute);
-    const lmb_element_scratch receiver = {lmb_kernels_pick(), &cut, &own, &received, &fresh};
+    const lmb_element_scratch receiver = {picked_kernels(), &cut, &own, &received, &fresh};
     double off_sum = 0.0, sum = 0.0;
     grove_make(&g, BOUNCING, 3.0f * BOUNCING, lights, BOUNCING);
     const lmb_many_lights_query how = {&g.many_lights, &b, 0.02f, 0, 0};
@@ -731,13 +731,13 @@ static void check_tile_refusals(void)
     const lmb_many_lights_query how = {&g.many_lights, NULL, 0, 0, 0}, none = {NULL, NULL, 0, 0, 0};
     make_floor_tile(&tile, vec3(0, 0, 0));
     memset(&e, 0, sizeof e);
-    CHECK(lmb_many_lights_direct_tile(&e, lmb_kernels_pick(), &scratch, &tile, &how) == LMB_OK && e.rgb[0][0] == 0.0f);
-    CHECK(lmb_many_lights_direct_tile(NULL, lmb_kernels_pick(), &scratch, &tile, &how) == LMB_ERR_ARG);
+    CHECK(lmb_many_lights_direct_tile(&e, picked_kernels(), &scratch, &tile, &how) == LMB_OK && e.rgb[0][0] == 0.0f);
+    CHECK(lmb_many_lights_direct_tile(NULL, picked_kernels(), &scratch, &tile, &how) == LMB_ERR_ARG);
     CHECK(lmb_many_lights_direct_tile(&e, NULL, &scratch, &tile, &how) == LMB_ERR_ARG);
-    CHECK(lmb_many_lights_direct_tile(&e, lmb_kernels_pick(), NULL, &tile, &how) == LMB_ERR_ARG);
-    CHECK(lmb_many_lights_direct_tile(&e, lmb_kernels_pick(), &scratch, NULL, &how) == LMB_ERR_ARG);
-    CHECK(lmb_many_lights_direct_tile(&e, lmb_kernels_pick(), &scratch, &tile, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_many_lights_direct_tile(&e, lmb_kernels_pick(), &scratch, &tile, &none) == LMB_ERR_ARG);
+    CHECK(lmb_many_lights_direct_tile(&e, picked_kernels(), NULL, &tile, &how) == LMB_ERR_ARG);
+    CHECK(lmb_many_lights_direct_tile(&e, picked_kernels(), &scratch, NULL, &how) == LMB_ERR_ARG);
+    CHECK(lmb_many_lights_direct_tile(&e, picked_kernels(), &scratch, &tile, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_many_lights_direct_tile(&e, picked_kernels(), &scratch, &tile, &none) == LMB_ERR_ARG);
     grove_free(&g);
 }
 
