@@ -22,7 +22,7 @@ static void draw_map(const lmb_light *light, int32_t size)
 {
     CHECK(lmb_shadow_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
     CHECK(lmb_shadow_map_clear(&map) == LMB_OK);
-    CHECK(lmb_shadow_map_draw(&map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(&map, picked_kernels(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
 }
 
 static void draw_view(const lmb_view *v)
@@ -35,7 +35,7 @@ static void shade_tile(const lmb_view *v, const lmb_light *light, int32_t x, int
 {
     static lmb_tile tile;
     lmb_irradiance open, shadowed;
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     memset(&open, 0, sizeof open);
     memset(&shadowed, 0, sizeof shadowed);
     CHECK(lmb_resolve_tile(&tile, k, v, &world.scene, &eye, x, y) == LMB_OK);
@@ -139,7 +139,7 @@ static void check_cone(void)
         tile.id[k] = 1;
     }
     memset(&e, 0, sizeof e);
-    CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) == LMB_OK);
+    CHECK(lmb_direct_tile(&e, picked_kernels(), &tile, &v, &world.scene, &l, NULL) == LMB_OK);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         double cosine = 1.0 - 0.3 * k / (LMB_TILE_PIXELS - 1),
                t = (cosine - cos(PI * 40 / 180)) / (cos(PI * 20 / 180) - cos(PI * 40 / 180));
@@ -148,7 +148,7 @@ static void check_cone(void)
                   (double)e.rgb[0][k]);
     }
     l = spot(vec3(0, 1, 0), vec3(0, -1, 0), 30, 30);
-    CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) ==
+    CHECK(lmb_direct_tile(&e, picked_kernels(), &tile, &v, &world.scene, &l, NULL) ==
           LMB_OK); /* added to what is there */
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         double cosine = 1.0 - 0.3 * k / (LMB_TILE_PIXELS - 1),
@@ -163,9 +163,9 @@ static void check_cone(void)
         tile.face[1][k] = -tile.face[1][k];
     }
     memset(&e, 0, sizeof e);
-    CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) == LMB_OK);
+    CHECK(lmb_direct_tile(&e, picked_kernels(), &tile, &v, &world.scene, &l, NULL) == LMB_OK);
     CHECK(e.rgb[0][0] == 0.0f && e.rgb[1][20] == 0.0f && e.rgb[2][63] == 0.0f);
-    CHECK(lmb_direct_tile(NULL, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_direct_tile(NULL, picked_kernels(), &tile, &v, &world.scene, &l, NULL) == LMB_ERR_ARG);
     static const float cosines[4][2] = {{0.0f, 0.9f}, {0.9f, 0.8f}, {0.5f, 1.01f}, {NAN, 0.9f}};
     lmb_scene lit = world.scene;
     lmb_light bad = spot(vec3(0, 1, 0), vec3(0, -1, 0), 20, 40);
@@ -177,7 +177,7 @@ static void check_cone(void)
         bad.cos_inner = cosines[i][1];
         CHECK(lmb_scene_check(&lit) == LMB_ERR_ARG);
     }
-    CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, NULL, &l, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_direct_tile(&e, picked_kernels(), &tile, &v, NULL, &l, NULL) == LMB_ERR_ARG);
 }
 
 static void test_irradiance(void)
