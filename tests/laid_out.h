@@ -16,7 +16,7 @@ static inline lmb_frame_settings draft_settings(const lmb_scene *scene, lmb_view
 {
     lmb_frame_settings s;
     memset(&s, 0, sizeof s);
-    s.kernels = lmb_kernels_pick();
+    s.kernels = picked_kernels();
     s.scene = scene;
     s.view = view;
     s.format = LMB_RGB32F;
