@@ -212,11 +212,11 @@ static void draw_sky_light(lmb_frame_settings *s, const lmb_many_lights *sky)
 static float irradiance_at(const lmb_many_lights *sky, lmb_vec3 at, float from, int32_t samples)
 {
     lmb_view view;
-    CHECK(lmb_view_look_at(&view, add3(at, vec3(0, from, 0)), at, Z, 0.02f, 16, 16) == LMB_OK);
+    CHECK(lmb_view_look_at(&view, add3(at, vec3(0, from, 0)), at, Z, 0.02f, 8, 8) == LMB_OK);
     lmb_frame_settings s = draft_settings(&world.scene, view);
     s.samples = samples;
     draw_sky_light(&s, sky);
-    const float *p = (const float *)frame.out.data + 3 * (8 * 16 + 8);
+    const float *p = (const float *)frame.out.data + 3 * (4 * 8 + 4);
     return p[1] * (float)PI / 0.01f; /* the albedo: next to nothing bounces */
 }
 
@@ -296,7 +296,7 @@ static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
 /* Nothing is measured in metres: powers of two change no bit. */
 static void check_scales(const lmb_many_lights *sky)
 {
-    static const float scales[] = {1.0f / 256, 1.0f / 64, 64, 4096, 65536};
+    static const float scales[] = {1.0f / 256, 65536};
     const uint64_t want = scaled_hash(sky, 1);
     for (int i = 0; i < COUNT(scales); ++i) {
         CHECK_MSG(scaled_hash(sky, scales[i]) == want, "%g times as large: other bits", (double)scales[i]);
@@ -343,7 +343,7 @@ void test_sky(void)
     check_background();
     folder place;
     folder_open(&place);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 60; i += 12) {
         check_picture_sun(folder_file(&place, "world.pfm"), i * 41 % ACROSS, 2 + i);
     }
     folder_close(&place);
