@@ -136,19 +136,18 @@ static int hit(float *t, lmb_vec3 p, lmb_vec3 d)
     return nearest;
 }
 
-/* What the lamp sends straight to p, by 12 x 12 points of it; times the lamp's radiance. */
-static double straight(lmb_vec3 p, lmb_vec3 n)
+/* What the lamp sends straight to p, by `points` x `points` of it; times the lamp's radiance. */
+static double straight(lmb_vec3 p, lmb_vec3 n, int points)
 {
-    enum { POINTS = 12 };
     double sum = 0.0;
-    for (int i = 0; i < POINTS * POINTS; ++i) {
-        const lmb_vec3 at = vec3(0.5f * (((float)(i % POINTS) + 0.5f) / POINTS - 0.5f), 0.98f,
-                                 0.5f * (((float)(i / POINTS) + 0.5f) / POINTS - 0.5f));
+    for (int i = 0; i < points * points; ++i) {
+        const lmb_vec3 at = vec3(0.5f * (((float)(i % points) + 0.5f) / (float)points - 0.5f), 0.98f,
+                                 0.5f * (((float)(i / points) + 0.5f) / (float)points - 0.5f));
         const lmb_vec3 to = sub3(at, p);
         const float d2 = dot3(to, to), cosines = dot3(n, to) * to.y;
         float t;
         if (cosines > 0.0f && dot3(n, to) > 0.0f && hit(&t, p, to) >= (int)world.first && t > 0.999f) {
-            sum += (double)(cosines / (d2 * d2)) * 0.25 / (POINTS * POINTS);
+            sum += (double)(cosines / (d2 * d2)) * 0.25 / (points * points);
         }
     }
     return sum;
@@ -162,12 +161,12 @@ static lmb_vec3 normal_towards(int i, lmb_vec3 d)
     return dot3(n, d) > 0.0f ? mul3(n, -1.0f) : n;
 }
 
-/* Irradiance at p: straight, and of 32 x 32 directions by cosine what the surfaces there reflect of what they get
+/* Irradiance at p: straight, and of 20 x 20 directions by cosine what the surfaces there reflect of what they get
  * straight; the lamp's own albedo too, where its face is lit: it never is. */
 static void brute(double out[3], lmb_vec3 p, lmb_vec3 n)
 {
-    enum { RINGS = 32 };
-    const double direct = straight(p, n), lamp[3] = {17, 12, 4};
+    enum { RINGS = 20 };
+    const double direct = straight(p, n, 12), lamp[3] = {17, 12, 4};
     const lmb_vec3 u = normalize3(cross3(n, absf(n.y) < 0.9f ? Y : X)), v = cross3(n, u);
     for (int c = 0; c < 3; ++c) {
         out[c] = direct * lamp[c];
@@ -181,7 +180,7 @@ static void brute(double out[3], lmb_vec3 p, lmb_vec3 n)
         if (to < 0 || to >= (int)world.first) {
             continue;
         }
-        const double there = straight(add3(p, mul3(d, t)), normal_towards(to, d)) / (RINGS * RINGS);
+        const double there = straight(add3(p, mul3(d, t)), normal_towards(to, d), 4) / (RINGS * RINGS);
         for (int c = 0; c < 3; ++c) {
             out[c] += there * lamp[c] * colours[12 * to + c] / 255.0;
         }
