@@ -14,7 +14,7 @@
 
 void test_frame_init(void);
 
-enum { WIDE = 40, HIGH = 29, MAP = 64, ODD_CELLS = 16 };
+enum { WIDE = 24, HIGH = 13, MAP = 64, ODD_CELLS = 16 };
 
 static lmb_render render;
 static uint32_t own_picture[WIDE * HIGH * 3];
@@ -64,7 +64,7 @@ static lmb_frame_settings plain(const lmb_scene *scene)
 {
     lmb_frame_settings s;
     memset(&s, 0, sizeof s);
-    s.kernels = lmb_kernels_pick();
+    s.kernels = picked_kernels();
     s.scene = scene;
     s.view = demo_view(WIDE, HIGH);
     s.shadow_map = MAP;
