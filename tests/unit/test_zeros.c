@@ -54,7 +54,7 @@ static void *pointer(argument *a, size_t bytes)
         return NULL;
     }
     if (strcmp(a->type, "lmb_kernels") == 0) {
-        return (void *)(uintptr_t)lmb_kernels_pick();
+        return (void *)(uintptr_t)picked_kernels();
     }
     bytes = bytes > 0 && strcmp(a->type, "lmb_cluster") != 0 ? bytes : ARRAY; /* of clusters there are `count` */
     a->memory = calloc(1, bytes);
@@ -386,7 +386,7 @@ static const void *good_one(const argument *a, size_t *bytes)
     world_query.world = &g.world;
     part.scene = demo_scene();
     part.first_id = part.count = 1;
-    trace.kernels = lmb_kernels_pick();
+    trace.kernels = picked_kernels();
     trace.voxels = &g.voxels;
     trace.scratch = &g.cone_scratch;
     const known all[] = {
