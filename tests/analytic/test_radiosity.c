@@ -4,7 +4,7 @@
  * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls emit alike, every point sends the same: itself, what
  * others send straight to it, and that after N reflections are L (1 - rho^(N + 2)) / (1 - rho) everywhere; with the
  * rest of them, L / (1 - rho). What is sealed off stays dark. */
-enum { FRAME = 32, MAP = 128, FACES = 6, ELEMENTS = 4096, BVH = 64, BOUNCES = 12 };
+enum { FRAME = 16, MAP = 64, FACES = 6, ELEMENTS = 4096, BVH = 64, BOUNCES = 12 };
 
 #include "../bounce_frame.h"
 #include "facing.h"
