@@ -62,6 +62,8 @@ LIB_PARTS := $(wildcard src/*/*.h src/*/*.inl src/*/*.inc)
 HEADERS  := $(sort $(wildcard include/lambent/*.h))
 HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c)
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c),$(wildcard tools/*/*.c))) $(HOST_SRC)
+# Unit tests that take over a second each are a group of their own, which only `make check-all` runs.
+SLOW_TESTS := adaptive mix mix_cones mix_front mix_stays relief_ornate transfer
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))
@@ -236,11 +238,14 @@ $(B)/flags: FORCE
 # It counts operations, which no optimiser changes, of all kernels: a fifth of the build otherwise.
 $(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0 $(if $(findstring -fsanitize,$(CFLAGS)),-fno-sanitize=all)
 
-# The code of tests that have no inner loops of their own: -O0 compiles in a third of the time of -O2. What they test is
-# compiled as CFLAGS say.
+# The code of most tests is compiled at -O0, in a third of the time of -O2, because it has few loops; CFLAGS hold for the
+# code under test. TEST_CFLAGS= compiles all as CFLAGS say.
+LOOPING := $(SLOW_TESTS) bounce cut frames glossy map_picture occlusion tree
 ifeq ($(PORT),host)
 TEST_CFLAGS ?= -O0
-$(call object,$(wildcard tests/unit/*.c tests/analytic/*.c tests/fuzz/*.c)): COMPILE += $(TEST_CFLAGS)
+$(call object,$(filter-out $(LOOPING:%=tests/unit/test_%.c),$(wildcard tests/unit/*.c)) $(wildcard tests/fuzz/*.c)): \
+    COMPILE += $(TEST_CFLAGS)
+$(call object,$(LOOPING:%=tests/unit/test_%.c) $(wildcard tests/analytic/*.c)): COMPILE += $(TEST_CFLAGS:-O0=-O1)
 endif
 
 # GOLDENS: which of the golden pictures; a change of it compiles only their table again.
@@ -261,8 +266,7 @@ $(B)/obj/tools/cli/verb_doctor.o: $(B)/build_flags.inc
 $(B)/obj/tools/cli/verb_doctor.o: COMPILE += -I$(B)
 
 # The table of tests: tests/GROUP/test_NAME.c defines `void test_NAME(void)`; nobody registers anything by hand.
-# Tests named slow_NAME are a group of their own.
-group_of    = $(if $(filter slow_%,$(name_of)),slow,$(word 2,$(subst /, ,$(1))))
+group_of    = $(if $(filter $(SLOW_TESTS),$(name_of)),slow,$(word 2,$(subst /, ,$(1))))
 name_of     = $(patsubst test_%.c,%,$(notdir $(1)))
 TEST_LINES := $(foreach f,$(TEST_SRC),'TEST($(call group_of,$(f)),$(call name_of,$(f)))')
 $(B)/tests.inc: FORCE
@@ -389,9 +393,9 @@ unit slow analytic truth lanes: $(B)/tests
 truth-small: $(B)/tests ## light against the small path-traced pictures of tests/truth/small
 	@$(RUN) $(B)/tests small_truth relight
 
-# The unit tests in two halves, for two cores.
+# The unit tests, slow ones too, in two halves for two cores.
 unit-1 unit-2: $(B)/tests
-	@$(RUN) $(B)/tests unit $(@:unit-%=%)/2
+	@$(RUN) $(B)/tests unit slow $(@:unit-%=%)/2
 
 golden: $(B)/golden ## small scenes' hashes against the committed ones
 	@$(RUN) $(B)/golden$(EXE)

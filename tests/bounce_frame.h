@@ -17,7 +17,7 @@ static inline lmb_frame bounce_frame(const lmb_view *view, int32_t bounces)
 {
     lmb_frame f;
     memset(&f, 0, sizeof f);
-    f.kernels = lmb_kernels_pick();
+    f.kernels = picked_kernels();
     f.scene = &world.scene;
     f.view = *view;
     f.shadow_map = MAP;

@@ -88,7 +88,7 @@ static inline relief_shot shot_of(const stage *s, const lmb_view *view)
 {
     relief_shot shot;
     memset(&shot, 0, sizeof shot);
-    shot.kernels = lmb_kernels_pick();
+    shot.kernels = picked_kernels();
     shot.view = *view;
     shot.relief = &s->relief;
     return shot;

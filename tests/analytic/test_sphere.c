@@ -50,7 +50,7 @@ static void draw(int view, int32_t show, int32_t method, int32_t count, int32_t 
     lmb_frame f;
     memset(&f, 0, sizeof f);
     memset(&stats, 0, sizeof stats);
-    f.kernels = lmb_kernels_pick();
+    f.kernels = picked_kernels();
     f.scene = &world.scene;
     f.show = show;
     f.shadow_map = MAP;

@@ -75,7 +75,7 @@ static void make_tile(lmb_tile *tile)
 static void gather(lmb_irradiance *out, const lmb_tile *tile)
 {
     memset(out, 0, sizeof *out);
-    CHECK(lmb_gather_tile(out, lmb_kernels_pick(), &scratch, tile, &groups, &points, NULL) == LMB_OK);
+    CHECK(lmb_gather_tile(out, picked_kernels(), &scratch, tile, &groups, &points, NULL) == LMB_OK);
 }
 
 static void judge(const char *name, double where, double worst, double mean, double bound)

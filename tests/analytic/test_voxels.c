@@ -35,7 +35,7 @@ static void set_pixel(int k, lmb_vec3 at, lmb_vec3 normal)
 
 static void see(lmb_irradiance *light, float open[LMB_TILE_PIXELS])
 {
-    const lmb_cone_trace how = {lmb_kernels_pick(), &voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, NULL,
+    const lmb_cone_trace how = {picked_kernels(), &voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, NULL,
                                 &cone_scratch, 0};
     memset(light, 0, sizeof *light);
     CHECK(lmb_cones_diffuse(light, open, &how, &cones, &tile) == LMB_OK);

@@ -18,7 +18,7 @@ find "$folder" -name '*.gcda' -exec rm -f {} +
 case $tree in
 src)
     lines=98 branches=92
-    "$b/tests" unit analytic lanes # truth runs nothing else, for minutes
+    "$b/tests" unit slow analytic lanes # truth runs nothing else, for minutes
     "$b/golden"
     "$b/golden-orders"
     "$b/reference" hard
@@ -28,7 +28,7 @@ src)
     ;;
 tools)
     lines=85 branches=0
-    "$b/tests" unit
+    "$b/tests" unit slow
     "$b/replay" tests/fuzz/corpus/*/*
     B=$b LIB=$b/liblambent.a TOOL=$folder/lambent CC=$CC FLAGS=$FLAGS LDLIBS=$LDLIBS sh tests/scripts/cli.sh
     B=$b TOOL=$folder/lambent sh tests/scripts/hostile_cli.sh

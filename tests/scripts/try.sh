@@ -1,14 +1,13 @@
 # try.sh: runs one test by its name, after a build of the files that changed: MAKE B and T in the environment.
 #
 #     T=cut            each test of that name: unit/cut; a name of two kinds runs both
-#     T=golden/torus   one kind: unit, analytic, truth, lanes, slow, golden, hard, cli
+#     T=golden/torus   one kind: unit, analytic, truth, lanes, golden, hard, cli
 #     T=words          a check of the Makefile, if no test has the name
 # Exits 1 if the test fails, and 2 with a list of similar names if there is none.
 kinds=$(
     for file in tests/unit/test_*.c tests/analytic/test_*.c tests/truth/test_*.c tests/lanes/test_*.c; do
         group=${file#tests/} name=${file##*/test_}
         name=${name%.c} group=${group%%/*}
-        case $name in slow_*) group=slow ;; esac
         echo "$group/$name"
     done
     sed -nE 's,^ *\{"([a-z0-9-]+)"\, case_.*,golden/\1,p' tests/golden/*.inc

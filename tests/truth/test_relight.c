@@ -107,7 +107,7 @@ static void blur(stage *s, const lmb_kernels *kernels)
 
 static void light(stage *s, lmb_vec3 at)
 {
-    const lmb_kernels *kernels = lmb_kernels_pick();
+    const lmb_kernels *kernels = picked_kernels();
     float harmonics[3][LMB_SH_25];
     CHECK(lmb_probe_remap(s->map, kernels, &s->world, &s->table, at, 0) == LMB_OK);
     CHECK(lmb_probe_reduce(&s->lights, kernels, s->map, &s->table) == LMB_OK);
@@ -209,7 +209,7 @@ static void mirror_at(stage *s, int place)
     double sum = 0.0, mean = 0.0;
     int count = 0;
     snprintf(file, sizeof file, "pos%d_radiance.pfm", place + 1);
-    CHECK(lmb_probe_reflect(cube, MIRROR, lmb_kernels_pick(), &rays, &query, places[place], 0.0f) == LMB_OK);
+    CHECK(lmb_probe_reflect(cube, MIRROR, picked_kernels(), &rays, &query, places[place], 0.0f) == LMB_OK);
     if (load(&truth, file)) {
         for (int32_t i = 0; i < MIRRORED; ++i) {
             const int inside = is_inside(places[place], i);

@@ -82,7 +82,7 @@ static void take_frame(stage *s)
     CHECK(lmb_surface_init(&f->eye.depth, LMB_DEPTH32F, w, h, s->depth_memory, depth) == LMB_OK);
     CHECK(lmb_surface_init(&f->eye.id, LMB_ID32, w, h, s->id_memory, id) == LMB_OK);
     CHECK(lmb_surface_init(&f->out, LMB_RGB32F, w, h, s->drawn.pixels, out) == LMB_OK);
-    f->kernels = lmb_kernels_pick();
+    f->kernels = picked_kernels();
     f->scene = &s->loaded.scene;
     f->occlusion = LMB_OCCLUSION_VIEW;
     f->steps = 12;

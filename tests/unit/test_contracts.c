@@ -22,7 +22,7 @@ static lmb_frame demo_frame(const lmb_scene *scene)
 {
     lmb_frame f;
     memset(&f, 0, sizeof f);
-    f.kernels = lmb_kernels_pick();
+    f.kernels = picked_kernels();
     f.scene = scene;
     f.view = demo_view(W, H);
     f.show = LMB_SHOW_INDIRECT;

@@ -174,7 +174,7 @@ static void test_dropped(void)
     const lmb_target t = window_of(1, LMB_DEPTH32F, LMB_ID32, LMB_TILED, SIDE, 0);
     const lmb_culling culling = {bound, st.cluster, TILES, CLUSTERS};
     memset(bound, 0, sizeof bound);
-    CHECK(lmb_draw_culled(&t, lmb_kernels_pick(), &st.view, &st.scene, 1, 5000, 0, &culling, &stats) == LMB_OK);
+    CHECK(lmb_draw_culled(&t, picked_kernels(), &st.view, &st.scene, 1, 5000, 0, &culling, &stats) == LMB_OK);
     CHECK(stats.triangles_dropped == 2); /* by both instances */
 }
 
@@ -183,7 +183,7 @@ static void test_refused(void)
     test_rng r = {24};
     make_stage(&r, LMB_PERSPECTIVE);
     const lmb_target t = window_of(1, LMB_DEPTH32F, LMB_ID32, LMB_TILED, SIDE, 0);
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     const lmb_culling few = {bound, NULL, 17 * 17 - 1, 0}, short_of_clusters = {NULL, st.cluster, 0, 12},
                       none = {NULL, NULL, 0, 0};
     CHECK(lmb_culling_tiles(&t) >= 17 * 17 && lmb_culling_tiles(&t) <= TILES);

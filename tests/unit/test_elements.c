@@ -335,7 +335,7 @@ static void test_refusals(void)
 {
     lmb_frame f;
     lmb_cut_params cut_params;
-    const lmb_element_scratch own = {lmb_kernels_pick(), &scratch.gather.cut, &scratch.tile, &scratch.direct,
+    const lmb_element_scratch own = {picked_kernels(), &scratch.gather.cut, &scratch.tile, &scratch.direct,
                                      &scratch.indirect};
     make_room(0);
     f = make_frame(-1);
@@ -395,7 +395,7 @@ static void test_asked(void)
     cut_params.error = cut_params.visibility = 100.0f; /* all of it as one node */
     cut_params.bvh = &bvh;
     cut_params.stats = &stats;
-    CHECK(lmb_gather_cut(&scratch.indirect, lmb_kernels_pick(), &scratch.gather.cut, wall, &e.tree, &cut_params) ==
+    CHECK(lmb_gather_cut(&scratch.indirect, picked_kernels(), &scratch.gather.cut, wall, &e.tree, &cut_params) ==
           LMB_OK);
     CHECK_MSG(stats.segments == 6 * LMB_TILE && stats.pairs == stats.segments, "%u segments, %u pairs",
               (unsigned)stats.segments, (unsigned)stats.pairs);

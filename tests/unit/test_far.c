@@ -28,7 +28,7 @@ static uint64_t occluded(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels
 {
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
-    return lmb_occluded_tile(lmb_kernels_pick(), &traversal, b, tile, pixels, at, noise);
+    return lmb_occluded_tile(picked_kernels(), &traversal, b, tile, pixels, at, noise);
 }
 
 /* --- convex rooms: hull.c's proof --------------------------------------------------------------------------------- */

@@ -247,7 +247,7 @@ static void test_defaults(void)
     CHECK(f.shadow_map == 1024 && f.tree.size == 256 && f.tree.face_cap == 1);
     CHECK(f.occlusion == LMB_OCCLUSION_EXACT && f.grouping.method == LMB_GROUP_CUT && f.elements.data == NULL);
     CHECK(f.id_format == LMB_ID16 && f.out.format == LMB_RGBA8 && f.out.width == WIDE && f.out.height == HIGH);
-    CHECK(f.bvh.triangle_cap == lmb_scene_triangles(&lit) && f.kernels == lmb_kernels_pick());
+    CHECK(f.bvh.triangle_cap == lmb_scene_triangles(&lit) && f.kernels == picked_kernels());
     s.quality = LMB_QUALITY_BEST;
     s.shadow_map = 512;
     CHECK(lmb_frame_bytes(&s) == 0 || lmb_frame_init(&f, &s, memory, 0) == LMB_ERR_CAPACITY);

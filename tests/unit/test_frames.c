@@ -190,7 +190,7 @@ static lmb_frame plain_frame(const lmb_scene *scene, lmb_view view, picture *out
 {
     lmb_frame f;
     memset(&f, 0, sizeof f);
-    f.kernels = lmb_kernels_pick();
+    f.kernels = picked_kernels();
     f.scene = scene;
     f.view = view;
     f.shadow_map = MAP;
@@ -518,7 +518,7 @@ static void draw_maps(lmb_shadow_map maps[ALL_LIGHTS])
     for (int i = 0; i < LIGHTS; ++i) {
         lmb_shadow_map_init(&maps[i], &room_lights[i], &room, MAP, LMB_ID32, memory[i], sizeof memory[i]);
         lmb_shadow_map_clear(&maps[i]);
-        lmb_shadow_map_draw(&maps[i], lmb_kernels_pick(), &room, 1, UINT32_MAX, NULL);
+        lmb_shadow_map_draw(&maps[i], picked_kernels(), &room, 1, UINT32_MAX, NULL);
     }
 }
 
@@ -527,7 +527,7 @@ static void test_sum_of_lights(void)
 {
     static lmb_irradiance sum, one;
     static lmb_radiance radiance;
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     picture *built = &third;
     render_show(&reference, LMB_SHOW_DIRECT, LMB_OCCLUSION_NONE, 0);
     lmb_render *r = &m.render; /* its eye is still there */
@@ -553,13 +553,13 @@ static void test_sum_of_lights(void)
             }
         }
         lmb_compose_tile(&radiance, k, tile, &sum, NULL);
-        lmb_store_tile(&built->surface, lmb_kernels_pick(), 0, 0, &radiance, x, y, 0.0f);
+        lmb_store_tile(&built->surface, picked_kernels(), 0, 0, &radiance, x, y, 0.0f);
     }
     lmb_radiance none;
     memset(&none, 0, sizeof none);
     CHECK(lmb_store_tile(&built->surface, NULL, 0, 0, &none, 0, 0, 0.0f) == LMB_ERR_ARG);
-    CHECK(lmb_store_tile(&built->surface, lmb_kernels_pick(), 0, 0, NULL, 0, 0, 0.0f) == LMB_ERR_ARG);
-    CHECK(lmb_store_tile(NULL, lmb_kernels_pick(), 0, 0, &none, 0, 0, 0.0f) == LMB_ERR_ARG);
+    CHECK(lmb_store_tile(&built->surface, picked_kernels(), 0, 0, NULL, 0, 0, 0.0f) == LMB_ERR_ARG);
+    CHECK(lmb_store_tile(NULL, picked_kernels(), 0, 0, &none, 0, 0, 0.0f) == LMB_ERR_ARG);
     CHECK(same_picture(&reference, built));
 }
 
@@ -579,8 +579,8 @@ static void test_high_byte_first(void)
     CHECK(lmb_surface_init(&display, LMB_RGB565_BE, SIDE, SIDE, sent, sizeof sent) == LMB_OK);
     for (int32_t at = 0; at < 9; ++at) {
         const int32_t x = at % 3 * LMB_TILE, y = at / 3 * LMB_TILE;
-        CHECK(lmb_store_tile(&native, lmb_kernels_pick(), TOP, TOP, &in, x, y, 0.5f) == LMB_OK);
-        CHECK(lmb_store_tile(&display, lmb_kernels_pick(), TOP, TOP, &in, x, y, 0.5f) == LMB_OK);
+        CHECK(lmb_store_tile(&native, picked_kernels(), TOP, TOP, &in, x, y, 0.5f) == LMB_OK);
+        CHECK(lmb_store_tile(&display, picked_kernels(), TOP, TOP, &in, x, y, 0.5f) == LMB_OK);
     }
     for (int k = 0; k < SIDE * SIDE; ++k) {
         const uint32_t v = ((const uint16_t *)values)[k], high = ((const uint8_t *)sent)[2 * k];
@@ -613,7 +613,7 @@ static void test_reflected(void)
     render_show(&other, LMB_SHOW_INDIRECT, LMB_OCCLUSION_VIEW, LMB_GROUP_ZONES);
     set_gbuffer(s, gbuffer[0], &m.render.frame.view);
     for (int32_t b = 0; b < HEIGHT / 8; ++b) {
-        CHECK(lmb_gbuffer_band(NULL, NULL, &s[2], lmb_kernels_pick(), &m.scratch.tile, &m.render.frame.view, &room,
+        CHECK(lmb_gbuffer_band(NULL, NULL, &s[2], picked_kernels(), &m.scratch.tile, &m.render.frame.view, &room,
                                &m.render.frame.eye, b) == LMB_OK);
     }
     for (int i = 0; i < FLOATS; ++i) {
@@ -1024,7 +1024,7 @@ static int light_distances(const lmb_shadow_map *map, int32_t face)
     lmb_surface s;
     lmb_surface_init(&s, LMB_R32F, MAP, MAP, kept, sizeof kept);
     for (int32_t b = 0; b < MAP / 8; ++b) {
-        CHECK(lmb_gbuffer_band(&s, NULL, NULL, lmb_kernels_pick(), &m.scratch.tile, v, &room, &map->face[face], b) ==
+        CHECK(lmb_gbuffer_band(&s, NULL, NULL, picked_kernels(), &m.scratch.tile, v, &room, &map->face[face], b) ==
               LMB_OK);
     }
     for (int i = 0; i < MAP * MAP; ++i) {
@@ -1108,7 +1108,7 @@ static void check_gbuffer(const lmb_scene *scene, lmb_view view)
     lmb_frame f = plain_frame(scene, view, &other);
     int32_t bands = (view.frame_height + 7) / 8, failed = 0, flat = 0;
     lmb_surface s[3];
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     lmb_surface_clear(&f.eye.depth);
     lmb_surface_clear(&f.eye.id);
     lmb_draw(&f.eye, k, &view, scene, 1, UINT32_MAX, LMB_CULL_BACK, NULL);
@@ -1143,7 +1143,7 @@ static void test_gbuffer(void)
     check_gbuffer(&room, room_view(WIDTH - 11, HEIGHT - 11));
     check_gbuffer(demo_scene(), demo_view(WIDTH, HEIGHT));
     lmb_frame f = plain_frame(&room, view, &other);
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     set_gbuffer(s, gbuffer[0], &view);
     CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, k, &m.scratch.tile, &view, &room, &f.eye, HEIGHT / 8) == LMB_ERR_ARG);
     CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, k, &m.scratch.tile, &view, &room, &f.eye, -1) == LMB_ERR_ARG);
@@ -1160,8 +1160,8 @@ static void draw_shadow_map(lmb_shadow_map *map)
     lmb_status status = lmb_shadow_map_init(map, &room_lights[1], &room, MAP, LMB_ID32, m.map + CANARY, bytes);
     CHECK(status == LMB_OK && map->faces == 6 && map->drawn == 63 && map->size == MAP);
     CHECK(lmb_shadow_map_clear(map) == LMB_OK);
-    CHECK(lmb_shadow_map_draw(map, lmb_kernels_pick(), &room, 1, 555, NULL) == LMB_OK);
-    CHECK(lmb_shadow_map_draw(map, lmb_kernels_pick(), &room, 556, UINT32_MAX, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(map, picked_kernels(), &room, 1, 555, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(map, picked_kernels(), &room, 556, UINT32_MAX, NULL) == LMB_OK);
 }
 
 /* Texels with a surface; each face holds what lmb_draw gives in its view. */
@@ -1176,7 +1176,7 @@ static int check_faces(const lmb_shadow_map *map)
         lmb_surface_init(&t.id, LMB_ID32, MAP, MAP, id, sizeof id);
         lmb_surface_clear(&t.depth);
         lmb_surface_clear(&t.id);
-        lmb_draw(&t, lmb_kernels_pick(), &map->view[f], &room, 1, UINT32_MAX, 0, NULL);
+        lmb_draw(&t, picked_kernels(), &map->view[f], &room, 1, UINT32_MAX, 0, NULL);
         CHECK(memcmp(depth, map->face[f].depth.data, sizeof depth) == 0);
         CHECK(memcmp(id, map->face[f].id.data, sizeof id) == 0);
         for (int i = 0; i < MAP * MAP; ++i) {
@@ -1226,7 +1226,7 @@ static void test_shadow_map_arguments(void)
     CHECK(lmb_shadow_map_init(&map, light, &room, MAP, LMB_ID32, (uint8_t *)m.map + 2, 6 * MAP * MAP * 8) ==
           LMB_ERR_ALIGN);
     CHECK(memcmp(&map, &before, sizeof map) == 0);
-    CHECK(lmb_shadow_map_draw(NULL, lmb_kernels_pick(), &room, 1, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_draw(NULL, picked_kernels(), &room, 1, 1, NULL) == LMB_ERR_ARG);
     CHECK(lmb_shadow_map_clear(NULL) == LMB_ERR_ARG);
 }
 

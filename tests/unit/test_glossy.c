@@ -426,7 +426,7 @@ static void refusals(void)
         CHECK(lmb_scene_check(&world.scene) == LMB_ERR_ARG);
     }
     CHECK(lmb_glossy_tile(NULL, &tile, &render.frame.view, &world.scene) == 0);
-    CHECK(lmb_glossy_direct(NULL, lmb_kernels_pick(), &tile, NULL, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_glossy_direct(NULL, picked_kernels(), &tile, NULL, NULL) == LMB_ERR_ARG);
     CHECK(lmb_compose_glossy(NULL, &glossy) == LMB_ERR_ARG);
 }
 

@@ -160,7 +160,7 @@ static void draws_maps(void)
     CHECK(lmb_shadow_map_init(&other, &room.light, &room.scene, MAP, LMB_ID32, other_memory, sizeof other_memory) ==
           LMB_OK);
     CHECK(lmb_shadow_map_clear(&other) == LMB_OK);
-    CHECK(lmb_shadow_map_draw(&other, lmb_kernels_pick(), &room.scene, 1, ROOM_TRIANGLES, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(&other, picked_kernels(), &room.scene, 1, ROOM_TRIANGLES, NULL) == LMB_OK);
     for (int twice = 0; twice < 2; ++twice) {
         CHECK(lmb_gouraud_map(&map, &scratch, &room.scene) == LMB_OK);
     }

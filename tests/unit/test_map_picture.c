@@ -52,7 +52,7 @@ static lmb_frame make_frame(void)
 {
     lmb_frame f;
     memset(&f, 0, sizeof f);
-    f.kernels = lmb_kernels_pick();
+    f.kernels = picked_kernels();
     f.scene = &lit;
     f.view = demo_view(W, H);
     f.view.near_m = 0.05f;
@@ -118,7 +118,7 @@ static void see_all(const image *p, void (*see)(const seen *s))
         for (int32_t at = 0; at < map->faces * MAP * MAP / 64; ++at) {
             const int32_t face = at / (MAP * MAP / 64), tile = at % (MAP * MAP / 64);
             if ((map->drawn >> face) & 1u) {
-                CHECK(lmb_resolve_tile(&m.tile, lmb_kernels_pick(), &map->view[face], &lit, &map->face[face],
+                CHECK(lmb_resolve_tile(&m.tile, picked_kernels(), &map->view[face], &lit, &map->face[face],
                                        tile % (MAP / 8) * 8, tile / (MAP / 8) * 8) == LMB_OK);
                 see_tile(p, i, face, see);
             }

@@ -76,7 +76,7 @@ static void set_stage(void)
 /* The normal and face at the picture's middle, seen from `eye` towards the origin. */
 static lmb_vec3 look(lmb_vec3 *face, lmb_vec3 eye)
 {
-    const lmb_kernels *kernels = lmb_kernels_pick();
+    const lmb_kernels *kernels = picked_kernels();
     lmb_scene_bounds(&st.scene.bounds_min, &st.scene.bounds_max, &st.scene);
     CHECK(lmb_scene_check(&st.scene) == LMB_OK);
     CHECK(lmb_view_look_at(&st.view, eye, vec(0, 0, 0), vec(0, 1, 0), 0.5f, SIDE, SIDE) == LMB_OK);

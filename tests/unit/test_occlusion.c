@@ -79,7 +79,7 @@ static uint64_t occluded_anew(const lmb_bvh *b, const lmb_tile *tile, uint64_t p
 {
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
-    return lmb_occluded_tile(lmb_kernels_pick(), &traversal, b, tile, pixels, at, noise_of(tile, pixels, at));
+    return lmb_occluded_tile(picked_kernels(), &traversal, b, tile, pixels, at, noise_of(tile, pixels, at));
 }
 
 /* A few large triangles, or many smaller ones, or many small ones. */
@@ -132,7 +132,7 @@ static uint64_t occluded_sun_anew(const lmb_bvh *b, const lmb_tile *tile, uint64
 {
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
-    return lmb_occluded_sun(lmb_kernels_pick(), &traversal, b, tile, pixels, to);
+    return lmb_occluded_sun(picked_kernels(), &traversal, b, tile, pixels, to);
 }
 
 /* The same for light from infinity; some of it along an axis. */
@@ -219,10 +219,10 @@ static void capacities(void)
     CHECK(lmb_bvh_init(&b, 9, memory, lmb_bvh_bytes(9)) == LMB_OK);
     CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK && b.triangle_count == 9 && b.node_count >= 1);
     CHECK(occluded_anew(&b, &tile, 5, vec3(0, 1, 0)) == 5);
-    CHECK(lmb_occluded_tile(lmb_kernels_pick(), &traversal, NULL, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
+    CHECK(lmb_occluded_tile(picked_kernels(), &traversal, NULL, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
     CHECK(lmb_occluded_tile(NULL, &traversal, &b, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
-    CHECK(lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, NULL, 5, vec3(0, 1, 0), 0.0f) == 0);
-    CHECK(lmb_occluded_tile(lmb_kernels_pick(), NULL, &b, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
+    CHECK(lmb_occluded_tile(picked_kernels(), &traversal, &b, NULL, 5, vec3(0, 1, 0), 0.0f) == 0);
+    CHECK(lmb_occluded_tile(picked_kernels(), NULL, &b, &tile, 5, vec3(0, 1, 0), 0.0f) == 0);
     CHECK(lmb_bvh_init(&b, 9, memory, lmb_bvh_bytes(9) - 1) == LMB_ERR_CAPACITY);
     CHECK(lmb_bvh_init(&b, 9, (char *)memory + 1, sizeof memory - 1) == LMB_ERR_ALIGN);
     CHECK(lmb_bvh_init(&b, 0, memory, sizeof memory) == LMB_ERR_ARG);
@@ -264,7 +264,7 @@ static void few_nodes(void)
         const uint64_t got = occluded_anew(&b, &tile, ~UINT64_C(0), at);
         wrong += got != occluded_anew(&all, &tile, ~UINT64_C(0), at);
         traversal.first = (uint32_t)round * 13 % (b.triangle_count + 1);
-        other += got != lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, &tile, ~UINT64_C(0), at,
+        other += got != lmb_occluded_tile(picked_kernels(), &traversal, &b, &tile, ~UINT64_C(0), at,
                                           noise_of(&tile, ~UINT64_C(0), at));
         occluded += got != 0 && ~got != 0;
     }
@@ -290,7 +290,7 @@ static void from_corners(void)
                              from.z + (k & 4 ? 0.5f : -0.5f));
         }
         const float noise = 2.0f * noise_of(&tile, ~UINT64_C(0), corner[0]);
-        const int all = lmb_occluded_from(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), corner, 8, noise, 1);
+        const int all = lmb_occluded_from(&b, picked_kernels(), &tile, ~UINT64_C(0), corner, 8, noise, 1);
         for (int k = 0; k < 20; ++k) {
             const lmb_vec3 in = random_point(&r, 1.0f);
             const lmb_vec3 at = vec3(from.x + 0.49f * in.x, -0.6f + 0.29f * in.y, from.z + 0.49f * in.z);
@@ -298,8 +298,8 @@ static void from_corners(void)
         }
         hidden += all;
         b.triangle[0].id |= LMB_BVH_MASKED;
-        wrong += lmb_occluded_from(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), corner, 8, noise, 1);
-        wrong += lmb_occluded_from(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), corner, 8, noise, 0);
+        wrong += lmb_occluded_from(&b, picked_kernels(), &tile, ~UINT64_C(0), corner, 8, noise, 1);
+        wrong += lmb_occluded_from(&b, picked_kernels(), &tile, ~UINT64_C(0), corner, 8, noise, 0);
     }
     CHECK_MSG(wrong == 0 && hidden > 20 && hidden < 180, "%d wrong, %d of 200 hidden", wrong, hidden);
 }
@@ -353,11 +353,11 @@ static void far_apart_among_leaves(void)
         fill_tile(&tile, vec3(0, 0, 0), 1.0f, &r);
         const float noise = noise_of(&tile, asked, at);
         memset(&traversal, 0, sizeof traversal);
-        const uint64_t all = lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, &tile, asked, at, noise);
+        const uint64_t all = lmb_occluded_tile(picked_kernels(), &traversal, &b, &tile, asked, at, noise);
         together += traversal.asked;
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             memset(&traversal, 0, sizeof traversal);
-            each |= lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, &tile, asked & (uint64_t)1 << k, at, noise);
+            each |= lmb_occluded_tile(picked_kernels(), &traversal, &b, &tile, asked & (uint64_t)1 << k, at, noise);
             alone += traversal.asked;
         }
         other += all != each;
@@ -390,10 +390,10 @@ static void wide_among_leaves(void)
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             lmb_traversal traversal;
             memset(&traversal, 0, sizeof traversal);
-            each |= lmb_occluded_tile(lmb_kernels_pick(), &traversal, &b, &tile, (uint64_t)1 << k, at, noise);
+            each |= lmb_occluded_tile(picked_kernels(), &traversal, &b, &tile, (uint64_t)1 << k, at, noise);
         }
         alone += kept.alone > 0;
-        other += each != lmb_occluded_tile(lmb_kernels_pick(), &kept, &b, &tile, ~UINT64_C(0), at, noise);
+        other += each != lmb_occluded_tile(picked_kernels(), &kept, &b, &tile, ~UINT64_C(0), at, noise);
         blocked += each != 0;
     }
     CHECK_MSG(other == 0 && blocked > 20, "%d others, %d blocked", other, blocked);
@@ -404,8 +404,8 @@ static void wide_among_leaves(void)
 static uint64_t trace(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, int is_sun,
                       lmb_traversal *kept)
 {
-    return is_sun ? lmb_occluded_sun(lmb_kernels_pick(), kept, b, tile, pixels, normalize3(at))
-                  : lmb_occluded_tile(lmb_kernels_pick(), kept, b, tile, pixels, at, noise_of(tile, pixels, at));
+    return is_sun ? lmb_occluded_sun(picked_kernels(), kept, b, tile, pixels, normalize3(at))
+                  : lmb_occluded_tile(picked_kernels(), kept, b, tile, pixels, at, noise_of(tile, pixels, at));
 }
 
 /* Far from the origin boxes lie over one another, and a pixel alone would meet nearly all of them: so the pixels

@@ -39,7 +39,7 @@ static uint64_t draw(const lmb_scene *s, const lmb_view *view)
     lmb_frame_settings set;
     uint64_t hash = 0;
     memset(&set, 0, sizeof set);
-    set.kernels = lmb_kernels_pick();
+    set.kernels = picked_kernels();
     set.scene = s;
     set.view = *view;
     set.show = LMB_SHOW_DIRECT;

@@ -90,7 +90,7 @@ static lmb_vec3 direction_of(const stage *s, int k)
 
 static void see_from(stage *s, lmb_vec3 at, int32_t blend)
 {
-    CHECK(lmb_probe_remap(s->map, lmb_kernels_pick(), &s->world, &s->table, at, blend) == LMB_OK);
+    CHECK(lmb_probe_remap(s->map, picked_kernels(), &s->world, &s->table, at, blend) == LMB_OK);
 }
 
 /* --- codes -------------------------------------------------------------------------------------------------------- */
@@ -347,8 +347,8 @@ static void lamp(stage *s, int face, int at, float radiance, lmb_vec3 place, flo
     s->face[face][3 * at] = s->face[face][3 * at + 1] = s->face[face][3 * at + 2] = radiance;
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK && s->world.peaks == 1);
     see_from(s, place, 0);
-    CHECK(lmb_probe_reduce(&s->lights, lmb_kernels_pick(), s->map, &s->table) == LMB_OK && s->lights.peaks > 0);
-    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_OK);
+    CHECK(lmb_probe_reduce(&s->lights, picked_kernels(), s->map, &s->table) == LMB_OK && s->lights.peaks > 0);
+    CHECK(lmb_probe_cosine(s->cube, CUBE, picked_kernels(), &s->lights, &s->table) == LMB_OK);
     float worst = 0.0f;
     for (int i = 0; i < CUBE_TEXELS; ++i) {
         const lmb_vec3 n = cube_direction(i / (CUBE * CUBE), i % CUBE, i / CUBE % CUBE, CUBE);
@@ -388,9 +388,9 @@ static void many_lamps(stage *s)
     }
     CHECK_MSG(fabs(got / whole - 1.0) < 0.03, "%g of %g", got, whole);
     s->lights.peaks = LMB_PROBE_PEAKS + 1;
-    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_ERR_ARG);
+    CHECK(lmb_probe_cosine(s->cube, CUBE, picked_kernels(), &s->lights, &s->table) == LMB_ERR_ARG);
     s->lights.peaks = -1;
-    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_ERR_ARG);
+    CHECK(lmb_probe_cosine(s->cube, CUBE, picked_kernels(), &s->lights, &s->table) == LMB_ERR_ARG);
     paint_sky(s);
 }
 
@@ -421,8 +421,8 @@ static void one_radiance(stage *s)
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
     see_from(s, vec3(20.0f, 3.0f, -11.0f), 0);
     CHECK(farthest(s->map, 3 * COUNT, 1.0f) < 1e-6f);
-    CHECK(lmb_probe_reduce(&s->lights, lmb_kernels_pick(), s->map, &s->table) == LMB_OK);
-    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_OK);
+    CHECK(lmb_probe_reduce(&s->lights, picked_kernels(), s->map, &s->table) == LMB_OK);
+    CHECK(lmb_probe_cosine(s->cube, CUBE, picked_kernels(), &s->lights, &s->table) == LMB_OK);
     const float off = farthest(s->cube, 3 * CUBE_TEXELS, pi);
     CHECK_MSG(off < 1e-6f * pi, "%g", (double)off);
     CHECK(lmb_probe_sh(harmonics, s->map, &s->table) == LMB_OK);
@@ -492,12 +492,12 @@ static void blurred(stage *s)
         for (int i = 0; i < 3 * COUNT / 4; ++i) {
             half[i] = 1.0f;
         }
-        CHECK(lmb_probe_blur_map(out, lmb_kernels_pick(), line, half, &blur) == LMB_OK);
+        CHECK(lmb_probe_blur_map(out, picked_kernels(), line, half, &blur) == LMB_OK);
         CHECK(farthest(out, 3 * COUNT / 4, 3.14159265f) < 4e-6f);
-        CHECK(lmb_probe_remap(half, lmb_kernels_pick(), &s->world, &table, s->pictures.centre, 0) == LMB_OK);
-        CHECK(lmb_probe_blur_map(out, lmb_kernels_pick(), line, half, &blur) == LMB_OK);
+        CHECK(lmb_probe_remap(half, picked_kernels(), &s->world, &table, s->pictures.centre, 0) == LMB_OK);
+        CHECK(lmb_probe_blur_map(out, picked_kernels(), line, half, &blur) == LMB_OK);
         CHECK(lmb_probe_map_cube(s->cube, CUBE, out, &table) == LMB_OK);
-        CHECK(lmb_probe_blur_map(half, lmb_kernels_pick(), line, half, &blur) == LMB_OK);
+        CHECK(lmb_probe_blur_map(half, picked_kernels(), line, half, &blur) == LMB_OK);
         CHECK(memcmp(half, out, sizeof half) == 0); /* S13 */
         float worst = 0.0f;
         for (int i = 0; i < CUBE_TEXELS; ++i) {
@@ -508,7 +508,7 @@ static void blurred(stage *s)
         free(memory);
     }
     CHECK(lmb_probe_blur_bytes(&table, 3) == 0 && lmb_probe_blur_bytes(NULL, 1) == 0);
-    CHECK(lmb_probe_blur_map(out, lmb_kernels_pick(), line, out, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_probe_blur_map(out, picked_kernels(), line, out, NULL) == LMB_ERR_ARG);
     free(table_memory);
 }
 
@@ -538,8 +538,8 @@ static void known_irradiance(stage *s)
     CHECK(lmb_probe_sh_cube(nine, CUBE, (const float (*)[LMB_SH_25])harmonics, LMB_SH_9) == LMB_OK);
     CHECK(lmb_probe_sh_cube(s->cube, CUBE, (const float (*)[LMB_SH_25])harmonics, LMB_SH_16) == LMB_OK);
     CHECK(memcmp(nine, s->cube, sizeof nine) == 0);
-    CHECK(lmb_probe_reduce(&s->lights, lmb_kernels_pick(), s->map, &s->table) == LMB_OK);
-    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_OK);
+    CHECK(lmb_probe_reduce(&s->lights, picked_kernels(), s->map, &s->table) == LMB_OK);
+    CHECK(lmb_probe_cosine(s->cube, CUBE, picked_kernels(), &s->lights, &s->table) == LMB_OK);
     for (int i = 0; i < CUBE_TEXELS; ++i) {
         const lmb_vec3 n = cube_direction(i / (CUBE * CUBE), i % CUBE, i / CUBE % CUBE, CUBE);
         const float pi = 3.14159265f, one = 2.0f / 3.0f * pi, two = pi / 4.0f;
@@ -615,9 +615,9 @@ static void refusals(stage *s)
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
     CHECK(lmb_probe_halve(NULL, s->map, &s->table) == LMB_ERR_ARG &&
           lmb_probe_halve(s->cube, s->map, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_probe_remap(s->map, lmb_kernels_pick(), &s->world, &s->table, vec3(NAN, 0, 0), 0) == LMB_ERR_ARG);
-    CHECK(lmb_probe_remap(NULL, lmb_kernels_pick(), &s->world, &s->table, vec3(0, 0, 0), 0) == LMB_ERR_ARG);
-    CHECK(lmb_probe_cosine(s->cube, 65, lmb_kernels_pick(), &s->lights, &s->table) == LMB_ERR_ARG);
+    CHECK(lmb_probe_remap(s->map, picked_kernels(), &s->world, &s->table, vec3(NAN, 0, 0), 0) == LMB_ERR_ARG);
+    CHECK(lmb_probe_remap(NULL, picked_kernels(), &s->world, &s->table, vec3(0, 0, 0), 0) == LMB_ERR_ARG);
+    CHECK(lmb_probe_cosine(s->cube, 65, picked_kernels(), &s->lights, &s->table) == LMB_ERR_ARG);
     /* A place outside the far world counts as the nearest one inside. */
     see_from(s, vec3(400.0f, 1.5f, 0.0f), 0);
     const float outside = s->map[COUNT / 2];

@@ -189,10 +189,10 @@ static void bad_arguments(const stage *s)
     const lmb_relief_how bad[] = {{33, 0, 0, 0, 0}, {-1, 0, 0, 0, 0}, {0, 2, 0, 0, 0}, {0, 0, 2, 0, 0},
                                   {0, 0, 0, 9, 0}, {0, 0, 0, 0, 4}};
     for (int i = 0; i < COUNT(bad); ++i) {
-        CHECK(lmb_relief_tile(&tile, lmb_kernels_pick(), &s->relief, &v, &bad[i], NULL) == LMB_ERR_ARG);
+        CHECK(lmb_relief_tile(&tile, picked_kernels(), &s->relief, &v, &bad[i], NULL) == LMB_ERR_ARG);
     }
-    CHECK(lmb_relief_tile(NULL, lmb_kernels_pick(), &s->relief, &v, NULL, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_relief_tile(&tile, lmb_kernels_pick(), NULL, &v, NULL, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_relief_tile(NULL, picked_kernels(), &s->relief, &v, NULL, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_relief_tile(&tile, picked_kernels(), NULL, &v, NULL, NULL) == LMB_ERR_ARG);
 }
 
 void test_relief(void)

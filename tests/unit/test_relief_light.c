@@ -54,17 +54,17 @@ static void receives_bounce(const stage *s)
         lmb_target t = target_of(LMB_DEPTH32F, FRAME, depth, id);
         lmb_surface_clear(&t.depth);
         lmb_surface_clear(&t.id);
-        CHECK(lmb_draw(&t, lmb_kernels_pick(), &v, scene, 1, WORLD_TRIANGLES, 0, NULL) == LMB_OK);
-        CHECK(lmb_resolve_tile(&tile, lmb_kernels_pick(), &v, scene, &t, 64, 80) == LMB_OK);
+        CHECK(lmb_draw(&t, picked_kernels(), &v, scene, 1, WORLD_TRIANGLES, 0, NULL) == LMB_OK);
+        CHECK(lmb_resolve_tile(&tile, picked_kernels(), &v, scene, &t, 64, 80) == LMB_OK);
         if (i == 0) {
-            CHECK(lmb_relief_tile(&tile, lmb_kernels_pick(), &s->relief, &v, NULL, NULL) == LMB_OK);
+            CHECK(lmb_relief_tile(&tile, picked_kernels(), &s->relief, &v, NULL, NULL) == LMB_OK);
         }
         int32_t hits = 0;
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             hits += tile.id[k] != 0;
         }
         CHECK_MSG(tile.hits == hits, "%d, not %d", (int)tile.hits, (int)hits);
-        CHECK(lmb_gather_tile(&bounced[i], lmb_kernels_pick(), &scratch, &tile, &groups, NULL, NULL) == LMB_OK);
+        CHECK(lmb_gather_tile(&bounced[i], picked_kernels(), &scratch, &tile, &groups, NULL, NULL) == LMB_OK);
     }
     for (int k = 0; k < LMB_TILE_PIXELS; k += 9) {
         const double a = (double)bounced[0].rgb[0][k], b = (double)bounced[1].rgb[0][k];

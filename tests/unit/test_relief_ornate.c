@@ -89,7 +89,7 @@ static relief_figures compared(const ornate *o)
         relief_frame truth, test;
         relief_figures f;
         memset(&shot, 0, sizeof shot);
-        shot.kernels = lmb_kernels_pick();
+        shot.kernels = picked_kernels();
         CHECK(lmb_view_look_at(&shot.view, eye, middle, vec3(0, 1, 0), 0.78f, SIDE, SIDE) == LMB_OK);
         shot.view.near_m = 0.1f * across;
         shot.view.far_m = 3.0f * across;

@@ -49,7 +49,7 @@ static void make_world(stage *s, float (*radiance)(int c, lmb_vec3 d))
 
 static void make_probe(stage *s, int i, lmb_vec3 at, float roughness)
 {
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     const lmb_world_query query = {&s->world, 0.0f, 0};
     memset(&s->probe[i], 0, sizeof s->probe[i]);
     CHECK(lmb_probe_remap(s->map, k, &s->world, &s->table, at, 0) == LMB_OK);
@@ -78,7 +78,7 @@ static void make_balls(stage *s, float f0, float roughness)
     CHECK(world_end() == LMB_OK);
     lmb_relight *r = &s->relight;
     memset(r, 0, sizeof *r);
-    r->kernels = lmb_kernels_pick();
+    r->kernels = picked_kernels();
     r->scene = &world.scene;
     r->world = &s->world;
     r->probes = s->probe;
@@ -222,7 +222,7 @@ static float black(int c, lmb_vec3 d) { return 0.0f * white(c, d); }
 
 static void one_light(stage *s)
 {
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     lmb_light light = sun(vec3(1.0f, 0.0f, 0.0f));
     make_world(s, black);
     make_probe(s, 0, vec3(0, 0, 0), 0.5f);
@@ -330,7 +330,7 @@ static float found(const lmb_probe_cube *cube, lmb_vec3 d)
     tile.normal[0][9] = d.x;
     tile.normal[1][9] = d.y;
     tile.normal[2][9] = d.z;
-    CHECK(lmb_probe_light_tile(&e, lmb_kernels_pick(), &rays, &tile, 1u << 9, cube) == LMB_OK);
+    CHECK(lmb_probe_light_tile(&e, picked_kernels(), &rays, &tile, 1u << 9, cube) == LMB_OK);
     CHECK(e.rgb[0][8] == 0.0f);
     return e.rgb[0][9];
 }
@@ -381,8 +381,8 @@ static void refusals(stage *s)
     s->probe[1].irradiance.texel = NULL;
     CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_ERR_ARG);
     const lmb_world_query query = {&s->world, 0.0f, 0};
-    CHECK(lmb_probe_reflect(planes, 8, lmb_kernels_pick(), &s->rays, &query, vec3(0, 0, 0), 1.5f) == LMB_ERR_ARG);
-    CHECK(lmb_probe_reflect(planes, 8, lmb_kernels_pick(), &s->rays, &query, vec3(NAN, 0, 0), 0.5f) == LMB_ERR_ARG);
+    CHECK(lmb_probe_reflect(planes, 8, picked_kernels(), &s->rays, &query, vec3(0, 0, 0), 1.5f) == LMB_ERR_ARG);
+    CHECK(lmb_probe_reflect(planes, 8, picked_kernels(), &s->rays, &query, vec3(NAN, 0, 0), 0.5f) == LMB_ERR_ARG);
 }
 
 void test_relit(void)

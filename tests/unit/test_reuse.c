@@ -73,7 +73,7 @@ static void set_scene(void)
         lights[i] = i == 1 ? point_light(vec3(0.8f, 0.9f, 0.9f)) : sun(vec3(-0.5f, -1, -0.6f));
     }
     CHECK(world_end() == LMB_OK);
-    how.kernels = lmb_kernels_pick();
+    how.kernels = picked_kernels();
     how.scene = &world.scene;
     how.view = look(vec3(1.5f, 0.8f, 2.5f), vec3(-0.2f, -0.3f, 0), 45, FRAME);
     how.shadow_map = MAP;

@@ -155,7 +155,7 @@ static lmb_frame frame_of(float *out, int32_t step)
 {
     lmb_frame f;
     memset(&f, 0, sizeof f);
-    f.kernels = lmb_kernels_pick();
+    f.kernels = picked_kernels();
     f.scene = &world.scene;
     f.view = look(vec3(0.3f, 0.4f, 0.95f), vec3(-0.2f, -0.6f, -0.8f), 75, SIDE);
     f.show = LMB_SHOW_IRRADIANCE;

@@ -157,7 +157,7 @@ static void check_metal(int32_t x, double albedo, double f0, double roughness)
     lmb_tile *tile = &scratch.tile;
     int good = 0;
     world_draw(&t, &v, 0);
-    CHECK(lmb_resolve_tile(tile, lmb_kernels_pick(), &v, &world.scene, &t, x, 24) == LMB_OK);
+    CHECK(lmb_resolve_tile(tile, picked_kernels(), &v, &world.scene, &t, x, 24) == LMB_OK);
     CHECK(lmb_glossy_tile(&glossy, tile, &v, &world.scene) == 1);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const double a2 = fmax(pow(roughness, 4), 1e-4);

@@ -219,12 +219,12 @@ static void draw_scene(void)
     lmb_surface_init(&st.target.id, LMB_ID32, FRAME, FRAME, id_memory, sizeof id_memory);
     lmb_surface_clear(&st.target.depth);
     lmb_surface_clear(&st.target.id);
-    lmb_draw(&st.target, lmb_kernels_pick(), &st.view, &st.scene, 1, 1, 0, NULL);
+    lmb_draw(&st.target, picked_kernels(), &st.view, &st.scene, 1, 1, 0, NULL);
 }
 
 static lmb_status resolve(int32_t x, int32_t y)
 {
-    return lmb_resolve_tile(&tile, lmb_kernels_pick(), &st.view, &st.scene, &st.target, x, y);
+    return lmb_resolve_tile(&tile, picked_kernels(), &st.view, &st.scene, &st.target, x, y);
 }
 
 /* ---- attributes against rays in double ---- */
@@ -492,13 +492,13 @@ static void test_albedo_only(void)
             const int32_t x = at / 8 % FRAME, y = at / 8 / FRAME * 8;
             memset(&only, 0xa5, sizeof only);
             CHECK(resolve(x, y) == LMB_OK);
-            CHECK(lmb_resolve_albedo(&only, lmb_kernels_pick(), &st.view, &st.scene, &st.target, x, y) == LMB_OK);
+            CHECK(lmb_resolve_albedo(&only, picked_kernels(), &st.view, &st.scene, &st.target, x, y) == LMB_OK);
             CHECK(only.x == x && only.y == y && only.hits == tile.hits);
             CHECK(memcmp(only.albedo, tile.albedo, sizeof only.albedo) == 0 &&
                   memcmp(only.uv, tile.uv, sizeof only.uv) == 0 && memcmp(only.id, tile.id, sizeof only.id) == 0);
         }
     }
-    CHECK(lmb_resolve_albedo(NULL, lmb_kernels_pick(), &st.view, &st.scene, &st.target, 0, 0) == LMB_ERR_ARG);
+    CHECK(lmb_resolve_albedo(NULL, picked_kernels(), &st.view, &st.scene, &st.target, 0, 0) == LMB_ERR_ARG);
 }
 
 static void test_resolve_arguments(void)
@@ -512,7 +512,7 @@ static void test_resolve_arguments(void)
     before = tile;
     no_ids = st.target;
     no_ids.id.data = NULL;
-    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_kernels *k = picked_kernels();
     CHECK(lmb_resolve_tile(NULL, k, &st.view, &st.scene, &st.target, 0, 0) == LMB_ERR_ARG);
     CHECK(lmb_resolve_tile(&tile, NULL, &st.view, &st.scene, &st.target, 0, 0) == LMB_ERR_ARG);
     CHECK(lmb_resolve_tile(&tile, k, NULL, &st.scene, &st.target, 0, 0) == LMB_ERR_ARG);

@@ -138,7 +138,7 @@ static lmb_frame make_frame(int which, lmb_stats *stats)
     lights[0].position.y -= 0.5f;
     lit.lights = lights;
     lit.light_count = LMB_MAX_LIGHTS < 2 ? 1 : 2;
-    f.kernels = lmb_kernels_pick();
+    f.kernels = picked_kernels();
     f.scene = &lit;
     f.view = demo_view(W, H);
     f.shadow_map = MAP;
@@ -257,15 +257,15 @@ static void test_map_rows(void)
     lmb_stats stats;
     make_frame(0, NULL);
     CHECK(lmb_shadow_map_init(&map, &lights[0], &lit, MAP, LMB_ID32, m.map, sizeof m.map) == LMB_OK && map.faces == 6);
-    CHECK(lmb_shadow_map_rows(NULL, lmb_kernels_pick(), &lit, 0, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(NULL, picked_kernels(), &lit, 0, 1, NULL) == LMB_ERR_ARG);
     CHECK(lmb_shadow_map_rows(&map, NULL, &lit, 0, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), NULL, 0, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, -1, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, 2, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, 0, 6 * rows + 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(&map, picked_kernels(), NULL, 0, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(&map, picked_kernels(), &lit, -1, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(&map, picked_kernels(), &lit, 2, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(&map, picked_kernels(), &lit, 0, 6 * rows + 1, NULL) == LMB_ERR_ARG);
     memset(&stats, 0, sizeof stats);
-    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, 1, rows, &stats) == LMB_OK && stats.triangles == 0);
-    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, rows, 2 * rows + 1, &stats) == LMB_OK);
+    CHECK(lmb_shadow_map_rows(&map, picked_kernels(), &lit, 1, rows, &stats) == LMB_OK && stats.triangles == 0);
+    CHECK(lmb_shadow_map_rows(&map, picked_kernels(), &lit, rows, 2 * rows + 1, &stats) == LMB_OK);
     CHECK(stats.triangles == 2 * lmb_scene_triangles(&lit));
 }
 

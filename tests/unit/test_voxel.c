@@ -186,7 +186,7 @@ static void set_floor_tile(float y)
 
 static lmb_irradiance see(int32_t field, int32_t in_world, const lmb_env *env, float open[LMB_TILE_PIXELS])
 {
-    const lmb_cone_trace trace = {lmb_kernels_pick(), &v, field, in_world, env, &scratch, 0};
+    const lmb_cone_trace trace = {picked_kernels(), &v, field, in_world, env, &scratch, 0};
     lmb_irradiance light;
     memset(&light, 0, sizeof light);
     CHECK(lmb_cones_diffuse(&light, open, &trace, &cones, &tile) == LMB_OK);
@@ -351,7 +351,7 @@ static void mirror(void)
     lmb_cone_seen seen;
     make_worlds(0);
     CHECK(lmb_cone_width_init(&width, &v, lmb_cone_tangent(0.15f)) == LMB_OK && width.tangent < 0.06f);
-    const lmb_cone_trace trace = {lmb_kernels_pick(), &v, 0, 0, NULL, &scratch, 0};
+    const lmb_cone_trace trace = {picked_kernels(), &v, 0, 0, NULL, &scratch, 0};
     /* From over the floor's middle towards the wall at x = -1, and towards the open side. */
     CHECK(lmb_cones_glossy(&seen, &trace, &width, &tile, vec3(3.0f, 1.0f, 0.0f)) == LMB_OK);
     CHECK(seen.rgb[1][4 * 8 + 3] > 0.0f && seen.open[4 * 8 + 3] < 0.1f);
@@ -392,7 +392,7 @@ static void refusals(void)
     const lmb_vec3 low = {0, 0, 0}, high = {1, 1, 1}, nan = {NAN, 0, 0};
     const lmb_voxel_part part = {&world.scene, 1, 1, {1, 1}}, none = {NULL, 1, 1, {1, 1}};
     lmb_irradiance light;
-    lmb_cone_trace trace = {lmb_kernels_pick(), &v, 0, 0, NULL, &scratch, 0};
+    lmb_cone_trace trace = {picked_kernels(), &v, 0, 0, NULL, &scratch, 0};
     CHECK(lmb_voxels_bytes(4688, LMB_VOXELS_ONE) == 0 && lmb_voxels_bytes(4689, 2) == 0);
     CHECK(lmb_voxels_bytes(5000, LMB_VOXELS_ONE) == 5000 * 148);
     CHECK(lmb_voxels_bytes(5000, LMB_VOXELS_THREE) == 5000 * 388);

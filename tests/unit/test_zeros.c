@@ -156,7 +156,7 @@ static void make_frame(void)
                  points = lmb_points_bytes(MIN, SIDE / 8), bvh = lmb_bvh_bytes(MIN * 4),
                  elements = lmb_elements_bytes(MIN);
     memset(&f, 0, sizeof f);
-    f.kernels = lmb_kernels_pick();
+    f.kernels = picked_kernels();
     f.scene = demo_scene();
     f.view = demo_view(WIDE, HIGH);
     f.shadow_map = SIDE;
@@ -194,11 +194,11 @@ static void make_frame(void)
     CHECK(lmb_survey_even(&g.survey, &g.render, 1, 4) == LMB_OK);
     CHECK(lmb_render_sample(&g.query, &g.render, &g.scratch, &g.survey, 0.0) == LMB_OK);
     CHECK(lmb_surface_init(&g.metres, LMB_R32F, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
-    CHECK(lmb_bins_build(&g.bins, lmb_kernels_pick(), &g.render.frame.view, demo_scene(), 1, 100, 0, NULL, NULL) == LMB_OK);
+    CHECK(lmb_bins_build(&g.bins, picked_kernels(), &g.render.frame.view, demo_scene(), 1, 100, 0, NULL, NULL) == LMB_OK);
     const lmb_cut_params cut_params = {.error = 0.1f, .visibility = 0.1f, .bvh = &g.render.frame.bvh};
     const lmb_element_scratch receiver = {f.kernels, &g.cut, &g.scratch.tile, &g.irradiance[0], &g.irradiance[1]};
     const lmb_occluder occluder = {&g.render.frame.view, &g.render.frame.eye.depth, LMB_OCCLUSION_VIEW, 8};
-    g.settings.kernels = lmb_kernels_pick();
+    g.settings.kernels = picked_kernels();
     g.settings.scene = f.scene;
     g.settings.view = f.view;
     g.settings.shadow_map = SIDE;
@@ -262,11 +262,11 @@ static void make_probe(void)
     const size_t blur = lmb_probe_blur_bytes(&g.table, 1);
     CHECK(lmb_probe_blur_init(&g.blur, &g.table, 1, room(blur), blur) == LMB_OK);
     CHECK(lmb_probe_cube_init(&g.cube, room(6 * SMALL * SMALL * 12), SMALL, room(cube), cube) == LMB_OK);
-    CHECK(lmb_probe_reduce(&g.lights, lmb_kernels_pick(), room(32 * 16 * 12), &g.table) == LMB_OK);
+    CHECK(lmb_probe_reduce(&g.lights, picked_kernels(), room(32 * 16 * 12), &g.table) == LMB_OK);
     CHECK(lmb_probe_cache_init(&g.cache, 4, &policy) == LMB_OK);
     g.probe.irradiance = g.probe.glossy = g.cube;
     lmb_relight *r = &g.relight;
-    r->kernels = lmb_kernels_pick();
+    r->kernels = picked_kernels();
     r->scene = demo_scene();
     r->maps = g.render.maps;
     r->world = &g.world;
