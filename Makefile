@@ -347,9 +347,10 @@ IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(C
 check: $(CHECKS:%=check-%) ## the quick checks, one line each, and their sum; V=1 prints their output; CHECKS="unit golden" picks
 	@sh tests/scripts/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
+MANY       := PREFIXES=20 MUTATIONS=200
 ALL_CHECKS := $(filter-out truth-small $(SKIP_CHECKS),$(SLOW_CHECKS) $(QUICK_CHECKS))
 check-all: ## the quick and the slow checks; links every program and the page (SKIP_CHECKS="cli hard" leaves some out)
-	+@$(MAKE) check CHECKS="$(ALL_CHECKS)"
+	+@$(MAKE) check CHECKS="$(ALL_CHECKS)" $(MANY)
 nightly: ## all jobs of .ci/jobs with all their parts; installs what it needs; prints the total time
 	@bash .ci/run nightly
 
@@ -417,9 +418,9 @@ AUDIT_CORPUS = $(filter-out $(addprefix tests/fuzz/corpus/,api/% calls/% stages/
 audit: $(B)/audit-golden $(B)/audit-replay ## do kernels meet denormals, or numbers that int32 does not hold?
 	@$(RUN) $(B)/audit-golden && $(RUN) $(B)/audit-replay $(AUDIT_CORPUS)
 
-PREFIXES  ?= 20
-MUTATIONS ?= 200
-hostile: $(B)/hostile ## cut and changed samples through each parser (PREFIXES=20 MUTATIONS=200)
+PREFIXES  ?= 5
+MUTATIONS ?= 40
+hostile: $(B)/hostile ## cut and changed samples through each parser (PREFIXES=5 MUTATIONS=40; check-all and asan take 20 and 200)
 	@sh tests/scripts/hostile.sh $< $(PREFIXES) $(MUTATIONS)
 
 hostile-cli: $(TOOL) ## absurd files through the whole tool
@@ -555,7 +556,7 @@ SANITIZED    = BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked \
     KERNEL_CFLAGS="-fno-sanitize=pointer-overflow,object-size$(if $(findstring clang,$(ASAN_CC)),$(comma)fuzzer-no-link)" \
     CFLAGS="-O1 -g1 -Werror -fno-omit-frame-pointer -fsanitize=address,undefined$(if $(findstring clang,$(ASAN_CC)),$(comma)fuzzer-no-link) -fno-sanitize-recover=all"
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@SHORT=1 $(MAKE) check CHECKS="$(ASAN_WANTED)" $(SANITIZED)
+	+@SHORT=1 $(MAKE) check CHECKS="$(ASAN_WANTED)" $(SANITIZED) $(MANY)
 
 asan-programs: ## the programs of asan and fuzz
 	+@$(MAKE) programs $(FUZZER) CHECKS="$(ASAN_WANTED)" $(SANITIZED)
@@ -563,7 +564,7 @@ asan-programs: ## the programs of asan and fuzz
 # In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
 MSAN_CHECKS ?= golden hard replay hostile
 msan: ## pictures, hard cases and the corpus under the memory sanitizer
-	+@$(MAKE) check CHECKS="$(MSAN_CHECKS)" BUILD=$(BUILD)/msan CC=clang \
+	+@$(MAKE) check CHECKS="$(MSAN_CHECKS)" $(MANY) BUILD=$(BUILD)/msan CC=clang \
 	    CFLAGS="-O1 -g1 -fsanitize=memory -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
 
 FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
