@@ -1,0 +1,65 @@
+# bench.sh: bench raster, threads, gather and hard.
+. tests/cli/common.sh
+
+# The fixed workload: its own quads need no files.
+if [ -z "$SHORT" ]; then
+    status 0 bench raster fill-gouraud --seconds 0.01 --json
+    check "bench raster prints JSON" grep -q "^{.case.:.fill-gouraud-1280x720.," out.txt
+    status 0 bench raster fill-depth --seconds 0.01 --html shares.html
+    check "bench raster draws the quads" test "$(grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" out.txt)" = 2
+    check "bench raster --html has a bar a case" sh -c 'grep -o "<rect class=.on.[^>]*>" "$1" | grep -c "width=.[1-9]" | grep -qx 2' sh shares.html
+fi
+status 0 bench raster fill-depth-pass --seconds 0.01 -q
+check "bench raster -q prints nothing" empty out.txt
+status 2 bench raster nonsense
+status 1 bench raster fill-depth --seconds 0.01 --html none/shares.html
+status 2 bench raster fill-depth --seconds 1x
+status 2 bench raster fill-depth --seconds 0.01 --threads 2
+mkdir -p flat # one vertex at 0 and no triangle
+printf '\001\000\000\000' >flat/bunny.mesh
+head -c 36 /dev/zero >>flat/bunny.mesh
+status 1 bench raster bunny-depth-1024 --data flat --seconds 0.01
+# Threads beside processes: wants more than one, and sponza.
+status 2 bench threads --threads 1
+status 2 bench threads gather
+status 2 bench threads --threads 2x
+status 2 bench threads --json
+BENCH_DATA= status 1 bench threads --seconds 0.01
+# The gather, a line for each backend that is here; how fast is nobody's promise.
+n='[0-9.]*(e[+-][0-9]*)?' # a number
+ops="\\{(\"[a-z]+\":$n,?){7}\\}"
+line="^\\{\"case\":\"gather\",\"backend\":\"[a-z0-9]+\",\"pairs_per_s\":$n,\"cycles_per_pair\":$n,\"bound_cycles\":$n,\"share\":$n"
+line="$line,\"unit\":\"[a-z]+\",\"ghz\":$n,\"ops_per_vector\":$ops,\"cycles_per_op\":$ops,\"load_per_op\":$ops\\}\$"
+status 0 bench gather --seconds 0.01 --json
+backends=$(grep -c . out.txt)
+check "bench gather prints one object a line" test "$backends" -eq "$(grep -cE "$line" out.txt)"
+check "bench gather ends with the scalar lanes" sh -c 'tail -n 1 "$1" | grep -q "\"backend\":\"scalar\""' sh out.txt
+check "the gather's operations are counted" test "$backends" -eq "$(grep -c '"ops_per_vector":{"mul":[1-9][0-9.]*,"add":[1-9][0-9.]*,"max":[1-9][0-9.]*,"div":2[.0-9]*,"cmp":[1-9].*"sqrt":1[.0-9]*}' out.txt)"
+status 0 bench gather --backend scalar --seconds 0.01
+check "bench gather --backend measures that one" grep -q '^lambent,gather,backend=scalar,pairs_per_s=[1-9].*,share=[0-9.]*,unit=[a-z]*,ghz=' out.txt
+check "and no other" test "$(grep -c . out.txt)" -eq 1
+# Every figure of a group of cases on a line, and within its bound.
+status 0 bench hard raster
+check "bench hard prints a line a case" test "$(grep -c '^raster ' out.txt)" -ge 20
+status 0 bench hard mixed --json --backend scalar
+check "bench hard --json says which hold" test "$(grep -c ',"holds":true}$' out.txt)" -ge 8
+status 2 bench hard nowhere
+said "CASES: \`nowhere\` is not raster, shadow, bounce, probe, relief, mixed, far, whole or baked"
+status 2 bench hard rastr
+said "did you mean raster?"
+status 2 bench hard raster shadow
+status 2 bench hard --seconds 1
+status 0 bench hard probe -q
+check "bench hard -q is its exit status" empty out.txt err.txt
+status 0 bench hard probe -v
+check "bench hard -v says how long it took" grep -q '^lambent: bench hard took .* s$' err.txt
+status 0 bench gather --backend scalar --seconds 0.01 --quiet
+check "bench gather -q prints nothing" empty out.txt
+status 2 bench gather -q -v
+said "--quiet and --verbose exclude each other"
+
+status 2 bench gather --backend nothing
+status 2 bench gather bunny
+status 2 bench gather --linear
+
+finish

@@ -1,0 +1,49 @@
+# bounce.sh: light that bounces: --bounces, --elements, surfaces that emit, error bounds.
+. tests/cli/common.sh
+
+# More bounces add light, one is what there is without the option; what emits lights a scene without lamps.
+cut="--grouping cut --occlusion exact --shadow-map 32"
+coarse="--size 32x24 --exposure 0 $cut"
+status 0 render demo $coarse -o bounce.pfm
+status 0 render demo $coarse --bounces 1 -o bounce1.pfm
+check "--bounces 1 is the default" cmp bounce.pfm bounce1.pfm
+status 0 render demo $coarse --bounces 3 --elements 200 --threads 2 -o bounce3.pfm --stats bounce3.json
+check "--bounces 3 changes the picture" differ bounce.pfm bounce3.pfm
+check "--elements holds" test "$(count bounce3.json elements)" -le 256 -a "$(count bounce3.json elements)" -gt 16
+status 0 render demo $coarse --bounces 3 --elements 256 --threads 1 -o option.pfm
+check "threads do not change bounces" cmp bounce3.pfm option.pfm
+status 2 render demo $small --grouping zones --bounces 2 -o option.pfm
+status 2 render demo $coarse --bounces 0 -o option.pfm
+printf 'newmtl lamp\nKe 2 3 4\nKd 0 0 0\n' >emits.mtl
+printf '%s\n' 'mtllib emits.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
+    'f 1 2 3 4' 'usemtl lamp' 'f 5 6 7 8' >emits.obj
+status 0 render emits.obj --size 16x16 --eye 0,0.5,2 --target 0,0.4,0 $cut -o emits.pfm
+check "a lamp is enough light" lacks 'no light in' err.txt
+status 0 render emits.obj --size 16x16 --eye 0,0.9,0 --target 0,0,0.1 $cut --show irradiance -o floor.pfm
+check "its light is seen" test "$(tail -c 3072 floor.pfm | tr -d '\000' | wc -c)" -gt 2000
+# What stands between a lamp that is a surface and the floor blocks it, with no other lamp too.
+printf '%s\n' 'mtllib emits.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
+    'v -2 0.5 -2' 'v 2 0.5 -2' 'v 2 0.5 2' 'v -2 0.5 2' 'f 1 2 3 4' 'f 9 10 11 12' 'usemtl lamp' 'f 5 6 7 8' >shade.obj
+status 0 render shade.obj --size 16x16 --eye 0,0.45,0 --target 0,0,0.1 --shadow-map 32 --show irradiance -o shade.pfm
+check "a shade is dark below" test "$(tail -c 3072 shade.pfm | tr -d '\000' | wc -c)" -eq 0
+
+# A box with two lit eyes keeps its sun, and they do not change how it is exposed.
+printf 'newmtl eye\nKe 0 3 3\nKd 0 0 0\n' >eyes.mtl
+printf 'newmtl eye\nKd 0 0 0\n' >blind.mtl
+eyes="--size 32x32 --eye 0,0.5,3 --target 0,0.5,0 --show direct"
+for of in eyes blind; do
+    printf '%s\n' "mtllib $of.mtl" 'v -0.5 0 0.5' 'v 0.5 0 0.5' 'v 0.5 1 0.5' 'v -0.5 1 0.5' 'v -0.5 1 -0.5' 'v 0.5 1 -0.5' \
+        'v -0.3 0.6 0.502' 'v -0.1 0.6 0.502' 'v -0.1 0.8 0.502' 'v -0.3 0.8 0.502' 'v 0.1 0.6 0.502' 'v 0.3 0.6 0.502' \
+        'v 0.3 0.8 0.502' 'v 0.1 0.8 0.502' 'f 1 2 3 4' 'f 4 3 6 5' 'usemtl eye' 'f 7 8 9 10' 'f 11 12 13 14' >"$of.obj"
+    status 0 render "$of.obj" $eyes -o "$of.png"
+    cp err.txt "$of.txt"
+done
+check "what only glows leaves the sun on" grep -q "no light in" eyes.txt
+check "what glows does not expose" test "$(grep exposure eyes.txt)" = "$(grep exposure blind.txt)"
+status 0 render demo $small --occlusion none --error-bound 0.001 --show indirect -o proved.pfm
+status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o ruled.pfm
+status 0 compare proved.pfm ruled.pfm
+[ -n "$SHORT" ] || status 0 render demo --size 16x16 --shadow-map 64 --bounces 3 --elements 4096 --show occlusion -o blocked.pfm
+check "nothing is left behind" none bad* nowhere* *tmp*
+
+finish

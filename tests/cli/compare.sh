@@ -1,0 +1,35 @@
+# compare.sh: compare and info: pictures that are equal, differ or have other sizes; scenes and pictures as text and JSON.
+. tests/cli/common.sh
+
+for extension in png ppm pfm; do
+    status 0 render demo $few -o demo.$extension
+done
+cp demo.pfm again.pfm
+
+# compare: equal, different, sizes differ.
+status 0 compare demo.pfm again.pfm
+status 0 render demo --size 16x12 --shadow-map 64 --quality draft -o half.pfm
+status 3 compare demo.pfm half.pfm
+{ printf 'PF\n2 1\n-1\n'; head -c 24 /dev/zero; } >black.pfm
+{ printf 'PF\n2 1\n-1\n'; printf '\000\000\200\077%.0s' 1 2 3 4 5 6; } >white.pfm
+status 0 compare white.pfm black.pfm
+check "errors relative to black are infinite" grep -q '^trim inf rmse inf .* mean inf' out.txt
+status 0 compare black.pfm black.pfm
+check "black is black" grep -q '^trim 0.0000 rmse 0.0000 ' out.txt
+
+# info: a scene and pictures, as text and as one JSON object on one line.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
+status 0 info one.obj
+check "info counts the triangle" grep -q '^triangles  *1 placed, 1 unique$' out.txt
+for file in one.obj demo.png demo.ppm demo.pfm; do
+    status 0 info "$file" --json
+    check "info $file --json is one line" test "$(wc -l <out.txt)" -eq 1
+    check "info $file --json is an object" grep -q '^{.*}$' out.txt
+done
+
+status 0 info demo
+check "info knows the built-in scene" sh -c 'grep -q "^file  *demo: built in$" "$1" && grep -q "^cameras  *1; placed: 1" "$1"' sh out.txt
+status 0 compare demo.pfm again.pfm -q
+check "compare -q is its exit status" empty out.txt
+
+finish

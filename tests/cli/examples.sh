@@ -1,0 +1,6 @@
+# examples.sh: the examples of each verb's help work when pasted; but for bench and the doctor.
+. tests/cli/common.sh
+
+pasted render play capture relight relief "relief bake" "relief render" mix pack merge plan compare info
+
+finish

@@ -1,0 +1,80 @@
+# lights.sh: many lights: their tree, in any order, and what they bounce.
+. tests/cli/common.sh
+
+# Many lights: a floor under 200 of them, in two orders, of a kind. Too many for maps; the picture knows no order.
+many_lights() {
+    awk -v first="$1" -v step="$2" -v kind="${4:-point}" 'BEGIN {
+        printf "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":"
+        printf "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"%s\",\"intensity\":0.3%s}]}},\"scene\":0,\"nodes\":[{\"mesh\":0}", kind, kind == "spot" ? ",\"spot\":{\"outerConeAngle\":0.6}" : ""
+        for (i = first; i >= 0 && i < 200; i += step)
+            printf ",{\"rotation\":[-0.70710678,0,0,0.70710678],\"translation\":[%g,%g,%g],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}",
+                i % 17 / 10, 0.2 + i % 7 / 9, i % 23 / 12 - 1
+        printf "],\"scenes\":[{\"nodes\":[0"
+        for (i = 1; i <= 200; ++i) printf ",%d", i
+        printf "]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,"
+        printf "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[-2,0,-2],\"max\":[4,0,4]}],\"bufferViews\":"
+        printf "[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;"
+        printf "base64,AAAAwAAAAAAAAADAAAAAwAAAAAAAAIBAAACAQAAAAAAAAADA\"}]}"
+    }' >"$3"
+}
+many_lights 0 1 many.gltf
+many_lights 199 -1 manyback.gltf
+look="--size 32x24 --eye 0,3,3 --target 0,0,0"
+status 0 render many.gltf $look -o many.pfm --stats many.json
+check "render says what it does with many lights" holds '200 lights in 200 cells' err.txt
+check "stats count the lights" grep -q '"many_lights": 200, "light_cells": 200, "light_nodes": [1-9]' many.json
+status 0 render manyback.gltf $look --threads 3 --backend scalar -o manyback.pfm
+check "the order of lights changes the picture" cmp many.pfm manyback.pfm
+for kind in spot directional; do
+    many_lights 0 1 "$kind.gltf" $kind
+    many_lights 199 -1 "${kind}back.gltf" $kind
+    status 0 render "$kind.gltf" $look --show direct -o "$kind.pfm"
+    check "200 ${kind}s are drawn" holds '200 lights in' err.txt
+    status 0 render "${kind}back.gltf" $look --show direct -o "${kind}back.pfm"
+    check "the order of ${kind}s changes the picture" cmp "$kind.pfm" "${kind}back.pfm"
+done
+check "spots light what points do" differ spot.pfm many.pfm
+status 0 render many.gltf $look --many-lights 50 -o fewcells.pfm
+check "--many-lights 50 takes as many cells at most" grep -q '200 lights in [1-5][0-9] cells' err.txt
+status 0 compare many.pfm fewcells.pfm --max trim=0.1
+for show in direct full; do
+    status 0 render many.gltf $look --show $show -o "$show.pfm"
+done
+check "a floor lights nothing but itself" cmp direct.pfm full.pfm
+status 2 render demo $small --many-lights 4 --grouping zones -o bad.pfm
+status 0 render many.gltf $look --grouping zones --show direct -o zones.pfm
+check "direct light knows no grouping" cmp direct.pfm zones.pfm
+status 2 render demo $small --profile fast -o bad.pfm
+if [ -z "$SHORT" ]; then
+    for light in point:-0.5,2,0.5:0,-1,0:9,9,9 spot:-0.5,2,0.5:0.3,-1,0:9,9,9:20,40; do
+        for bounces in 1 3; do
+            elements=$((bounces == 1 ? 16384 : 4096))
+            how="demo --size 32x24 --exposure 0 --light $light --shadow-map 512 --show indirect --bounces $bounces --elements $elements"
+            status 0 render $how --many-lights 4 --gather full -o elements.pfm
+            status 0 render $how -o own.pfm
+            status 0 compare elements.pfm own.pfm --max trim=0.05
+        done
+    done
+fi
+status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 -o once.pfm
+status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 --threads 3 --backend scalar -o threads.pfm
+check "threads or lanes change what many lights bounce" cmp once.pfm threads.pfm
+few= # lights that bounce take a tree from 33 on, and less fine bounced light, which is as right as their direct light
+for i in $(seq 33); do
+    few="$few --light point:0.$((i % 10)),2,0.$((i / 4)):0,-1,0:1,1,1"
+done
+status 0 render demo $small $few --show indirect --stats few.json -o few.pfm
+check "33 lights that bounce are many" holds '33 lights in' err.txt
+status 0 render demo $small $few --show indirect --error 0.02 --visibility 0.015 --stats fine.json -o fine.pfm
+status 0 compare few.pfm fine.pfm --max trim=0.05
+check "33 lights' bounced light takes under three quarters of the finer segments" sh -c '
+    segments() { sed -n "s/.*\"segments\": \([0-9]*\).*/\1/p" "$1"; }
+    [ $((4 * $(segments "$1"))) -lt $((3 * $(segments "$2"))) ]' sh few.json fine.json
+status 0 render demo $small $few --show direct -o few.pfm
+check "33 lights' direct light has maps" lacks 'lights in' err.txt
+status 2 render many.gltf --bounce-lights 3 -o bad.pfm
+status 2 render many.gltf --many-lights 0 -o bad.pfm
+status 2 render many.gltf --light-error 0 -o bad.pfm
+check "nothing is left behind" none bad* nowhere* *tmp*
+
+finish

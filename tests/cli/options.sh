@@ -1,0 +1,98 @@
+# options.sh: one parser reads all command lines: what is unknown, given twice, wrong, or quiet.
+. tests/cli/common.sh
+
+status 0 render demo $small -o demo.pfm
+status 0 render demo $small --show depth -o depth.pfm
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
+
+# One parser reads all command lines: `--name=value`, what is given twice, what may be meant, where options end.
+status 0 render demo --size=32x24 --shadow-map=64 --exposure=0 -o inside.pfm
+check "--name=value is --name value" cmp demo.pfm inside.pfm
+cp one.obj ./-q.obj
+"$TOOL" info -- -q.obj >out.txt 2>err.txt
+check "behind -- a word that begins with - is no option" grep -q '^triangles' out.txt
+status 2 render demo --visibilty 0.1 -o bad.png
+said "unknown option --visibilty; did you mean --visibility?"
+status 2 render demo --vis=0.1 -o bad.png
+said "unknown option --vis; did you mean --visibility?"
+status 2 render demo --nonsense -o bad.png
+said "unknown option --nonsense; lambent render --help lists them"
+status 2 bench demo --swep tree=8
+said "did you mean --sweep?"
+status 2 bench demo --shadwo-map 64
+said "did you mean --shadow-map?"
+status 2 render demo -o=bad.png
+said "write \`-o bad.png\`"
+status 2 render demo --o=x.png
+said "unknown option --o; did you mean -o?"
+status 2 render demo -h=1
+said "-h takes no value"
+status 2 relief baek
+said "there is no \`relief baek\`; did you mean relief bake?"
+status 2 bench rastr
+said "there is no file \`rastr\`; did you mean bench raster?"
+status 2 render demo --quality drfat -o bad.png
+said "did you mean draft?"
+status 2 render demo --light spot:0,0,0:0,-1:1,1,1 -o bad.png
+said "[:SIZE] with angles up to 89: its DX,DY,DZ is wrong"
+status 2 render demo --samples 3 -o bad.png
+said "--samples: \`3\` is not 1, 4, 8 or 16"
+check "numbers are not spelling mistakes" lacks 'did you mean' err.txt
+for show in depth normal albedo eye-distance light-distance groups occlusion; do
+    status 2 render demo --show $show --samples 4 -o bad.png
+    said "--samples 4: only light has a mean over a pixel; --show $show takes one sample"
+done
+status 0 render demo $small --show depth --samples 1 -o sampled.pfm
+check "--samples 1 is what --show depth takes" cmp sampled.pfm depth.pfm
+status 2 rendr demo
+said "did you mean render?"
+status 2 render demo --size 64x48 --size 32x24 -o bad.png
+said "--size is given twice, 64x48 and 32x24; leave one out"
+status 2 render demo --glossy --glossy -o bad.png
+said "--glossy is given twice"
+status 2 bench demo --tree 8 --tree=16
+said "--tree is given twice"
+status 2 render demo --error 0.1 --error-bound 0.1 -o bad.png
+said "--error and --error-bound exclude each other"
+status 2 render demo -q -v -o bad.png
+said "--quiet and --verbose exclude each other"
+status 2 render demo --glossy=1 -o bad.png
+said "--glossy takes no value"
+status 2 render demo --tree=12 -o bad.png
+said "--tree: \`12\` is not a power of two, 8 .. 4096"
+status 2 render demo --tree
+said "--tree wants a value: a power of two, 8 .. 4096"
+status 2 render demo demo -o bad.png
+said "one word too many: SCENE is \`demo\`"
+status 2 render demo -o=bad.png
+absent bad.png
+# Quiet says nothing, verbose says more; both draw the same.
+status 0 render demo --size 32x24 --shadow-map 64 -o loud.png
+status 0 render demo --size 32x24 --shadow-map 64 -q -o hushed.png
+check "-q says nothing" empty out.txt err.txt
+status 0 render demo --size 32x24 --shadow-map 64 -v -o told.png
+check "-v says how long what took" grep -q '^lambent: bands .* ms$' err.txt
+check "what is said changes no byte" sh -c 'cmp "$1" "$2" && cmp "$1" "$3"' sh loud.png hushed.png told.png
+# Bad usage.
+status 2
+status 2 paint
+status 2 render
+status 2 render demo
+status 2 render demo -o bad.png --no-such-flag
+status 2 render demo -o bad.png --size 64
+status 2 render demo -o bad.png --size 0x48
+status 2 render demo -o bad.png --show nonsense
+status 2 render demo -o bad.png --show groups --stereo 0.1
+status 2 render demo -o bad.png --show occlusion --occlusion none
+status 2 render demo -o bad.png --stereo 0
+status 2 render demo -o bad.png --thin 65
+status 2 render demo -o bad.png --neighbourhood none
+status 2 render demo -o bad.png --size
+status 2 render demo -o bad.tiff
+status 2 compare demo.pfm
+status 2 info
+status 2 info demo.pfm demo.png
+status 2 info demo.pfm --no-such-flag
+check "nothing bad was drawn" none bad*
+
+finish

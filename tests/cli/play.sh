@@ -1,0 +1,57 @@
+# play.sh: play: frames that move by themselves and by paths, each the same alone.
+. tests/cli/common.sh
+
+box
+block
+status 0 bake block.obj -o block-1.lmt --elements 256 --receivers 300
+
+# Frames that move: each the same alone and among others, by cuts and by baked light; and as `render` has it.
+baked="--transfer block-1.lmt"
+for way in "--quality draft" "$baked"; do
+    for move in light camera all; do
+        status 0 play block.obj $inside $way --move $move --fps 2 --frames 4 -o play_%02d.pfm
+        check "frames move" sh -c '! cmp -s "$1_00.pfm" "$1_03.pfm"' sh play
+        status 0 play block.obj $inside $way --move $move --fps 2 --from 3 --frames 1 --threads 1 -o alone_%02d.pfm
+        check "a frame is the same alone, $way --move $move" cmp -s play_03.pfm alone_03.pfm
+    done
+done
+check "a frame's times are told" sh -c 'grep -q "^bands  *[0-9.]* " "$1" && grep -q "^whole frame  *[0-9.]* " "$1"' sh out.txt
+for extension in png hdr; do
+    status 0 play block.obj $inside $baked --frames 2 --fps 1 -o "play%02d.$extension"
+    status 0 play block.obj $inside $baked --frames 1 --fps 1 --from 1 -o "alone%02d.$extension"
+    check "a .$extension is the same alone" cmp -s "play01.$extension" "alone01.$extension"
+done
+printf '%s\n' "0 light 0.2,0.5,0 # begins here" "0 camera -0.8,0.6,-0.8 0.3,-0.6,0.3" "" \
+    "1 light 0.3,0.5,0.1" "1 camera -0.7,0.6,-0.8 0.2,-0.6,0.3" "3 light 0.5,0.4,0.2" "2 camera -0.5,0.6,-0.8 0,-0.5,0" >keys.txt
+status 0 play block.obj $inside $baked --path keys.txt --fps 1 --frames 4 -o key%01d.pfm
+status 0 render block.obj --eye -0.7,0.6,-0.8 --target 0.2,-0.6,0.3 --size 32x24 --light point:0.3,0.5,0.1:0,-1,0:5,4,3 \
+    --show indirect $baked -o rendered.pfm
+check "a frame at a key is as render has it" cmp -s key1.pfm rendered.pfm
+status 0 play block.obj $inside --path keys.txt --move camera --quality draft --fps 1 --from 2 --frames 3 -o key%01d.pfm
+check "that a path ends is said" holds "keys.txt ends at 3 s, the frames at 4 s: from there on nothing moves" err.txt
+check "after its last key nothing moves" cmp -s key2.pfm key4.pfm
+printf '0 object:0 0,0,0\n1 object:0 0.1,0,0 1,0,0\n' >mixed.txt
+status 1 play block.obj $inside --path mixed.txt --frames 2 -o bad%02d.pfm
+said "mixed.txt: line 2: keys of one thing have a target each, or none; see line 1"
+for what in light camera object:0; do
+    printf "0 $what -0.2,0.5,0 0.2,0.5,0\n2 $what 0.2,0.5,0 -0.2,0.5,0\n" >meets.txt
+    status 1 play block.obj $inside --path meets.txt --quality draft --fps 1 --frames 2 -o bad%02d.pfm
+    said "meets.txt: at frame 1 what line 1 moves stands at its own target; move one of its keys"
+    rm -f bad00.pfm
+done
+printf '0 object:0 0,0,0\n1 object:0 0.1,0,0\n' >object.txt
+status 0 play block.obj $inside --path object.txt --move object --quality draft --fps 2 --frames 3 -o play_%02d.pfm
+status 0 play block.obj $inside --path object.txt --quality draft --fps 2 --from 2 --frames 1 -o alone_%02d.pfm
+check "an object moves, and is the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' sh play alone
+status 1 play block.obj $inside --path object.txt $baked --frames 2 -o bad%02d.pfm
+said "object.txt: line 1: object:0 stands still in what was baked; bake it with --moving 0"
+little=$(echo "$inside" | sed s/32x24/8x6/)
+status 0 play block.obj $little $baked --frames 3 --check 2 --stats play.json
+check "every second frame's error is told" sh -c 'test "$(grep -c "^frame [02] *trim 0\.[0-9]* *rmse 0\." "$1")" = 2' sh out.txt
+check "--stats of play has the whole frame" grep -q '"whole frame": {"clock": \[[0-9.]*, ' play.json
+status 0 play block.obj $little --quality best --gather full --frames 1 --check 1
+check "the best has no error against itself" grep -q "trim 0.0000  rmse 0.0000" out.txt
+status 0 play block.obj $inside $baked --frames 1 -q -o play_%02d.ppm
+check "--quiet is quiet" sh -c '! cat "$1" "$2" | grep -q .' sh out.txt err.txt
+
+finish

@@ -1,0 +1,69 @@
+# progress.sh: progress, Ctrl-C in it, the same bytes by any threads.
+. tests/cli/common.sh
+
+pit
+floor
+photo
+
+# watched WANTED SIGNAL ARGUMENT...: on a terminal, until WANTED is on the screen, a minute at most; then the signal comes.
+# WANTED `nothing`: after 2 s. The screen is in screen.txt, and the status that of the tool. The tool runs in front, as
+# what a shell runs behind ignores Ctrl-C.
+watched() {
+    wanted=$1 sent=$2
+    shift 2
+    rm -f pid screen.txt
+    {
+        for tenth in $(seq 600); do
+            sleep 0.1
+            case $wanted/$tenth in
+            nothing/20) break ;;
+            nothing/*) ;;
+            *) ! grep -aqE "$wanted" screen.txt 2>/dev/null || break ;;
+            esac
+        done
+        kill -s "$sent" "$(cat pid)"
+    } &
+    script -qefc "echo \$\$ >pid; exec \"\$TOOL\" $*" screen.txt >/dev/null 2>&1 </dev/null
+    ended=$?
+    wait
+    return $ended
+}
+if command -v script >/dev/null && script -qec true /dev/null >/dev/null 2>&1; then
+    watched "[0-9] %" INT render demo --size 2048x2048 --quality best --threads 1 -o long.png
+    check "Ctrl-C is exit status 130" test $? -eq 130
+    check "progress has percent" grep -aqE 'lambent render: [a-zA-Z ]* [0-9]+ %' screen.txt
+    check "Ctrl-C wipes the line" sh -c 'tail -n 2 "$1" | tr "\r" "\n" | grep -av Script | grep -a . | tail -n 1 | grep -aqv "%"' sh screen.txt
+    watched "bake: [a-z ]* [0-9]+ %" TERM bake demo --threads 1 -o long.lmt
+    check "TERM is exit status 143" test $? -eq 143
+    check "bake tells percent" grep -aqE 'lambent bake: [a-z ]* [0-9]+ %' screen.txt
+    watched "frames [0-9]+ %" HUP play demo --size 16x16 --quality draft --frames 100000
+    check "HUP is exit status 129" test $? -eq 129
+    check "play tells percent and seconds" grep -aqE 'lambent play: frames [0-9]+ %' screen.txt
+    watched nothing INT render demo --size 2048x2048 --quality best --threads 1 -q -o long.png
+    check "no progress with -q" sh -c '! grep -aq "%" "$1"' sh screen.txt
+    timeout --preserve-status -s INT 2 "$TOOL" render demo --size 2048x2048 --quality best --threads 1 -o long.png >out.txt 2>err.txt
+    check "no progress where stderr is no terminal" lacks '%' err.txt
+    watched "(s|min) left" INT play demo --size 16x16 --quality draft --threads 1 --frames 20000
+    check "seconds left are told" grep -aqE 'frames [0-9]+ %, [0-9]+ (s|min) left' screen.txt
+    left=$(ls -A | grep -e long -e '\.tmp$')
+    check "left behind: $left" test -z "$left"
+else
+    skip "progress: no script(1)"
+fi
+
+status 0 relief bake pit.obj --size 16 --triangles 20 --views 6 -o pit.lmr
+# any FILE ARGUMENT...: the same bytes by one thread and by three.
+any() {
+    file=$1
+    shift
+    status 0 "$@" --threads 1 -o "one-$file"
+    status 0 "$@" --threads 3 -o "three-$file"
+    check "threads change lambent $*" cmp "one-$file" "three-$file"
+}
+any e.pfm capture demo --at 0.6,1.1,0.2 --faces 8 --shadow-map 128 --quality draft
+any a.pfm relight --world demo --object demo --size 64x48
+any b.pfm relief render pit.lmr --with floor.obj --bounce --size 64x48
+any c.lmr relief bake pit.obj --size 32 --triangles 20
+any d.pfm mix $seen $tent --roughness 0.2,0.5
+
+finish

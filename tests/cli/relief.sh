@@ -1,0 +1,111 @@
+# relief.sh: relief bake and render: views, pictures, paths, refusals.
+. tests/cli/common.sh
+
+box
+pit
+
+printf '# eye, target, degrees\n0 0 5 0 0 0 40\n\n3 2 4 0 0 0 40\n' >cameras.txt
+status 0 relief bake pit.obj -o pit.lmr --simple box.obj --size 32
+check "relief bake tells what it saw" grep -q 'as 12, 26 views of 32 x 32, .* bytes' out.txt
+bit pit.lmr 3000 bit.lmr
+status 1 relief render bit.lmr -o bad.png
+said "bit.lmr: a damaged .lmr file"
+status 1 info bit.lmr
+status 0 info pit.lmr
+check "info knows reliefs" grep -q '^views  *[1-9][0-9]*, with sides of 32 to 32 texels, full$' out.txt
+status 0 info pit.lmr --json
+check "and those as JSON" grep -q '^{.*"kind":"relief".*"shortest_side":32,.*"packed":false,"min":.*}$' out.txt
+sed 's/1/0.9/g' box.obj | sed 's/^f.*//' >less.obj
+grep '^f' box.obj >>less.obj
+status 0 relief bake pit.obj -o less.lmr --simple less.obj --as-is --size 16
+check "a simple model that is too small is told" grep -q 'sticks out of the simple one by 0.1[67]' err.txt
+status 0 relief bake pit.obj -o less.lmr --simple less.obj --size 16
+check "and else moved outwards" lacks 'sticks out' err.txt
+# Views in perspective: a world a thousand times as large gives the same picture, to the bit.
+awk '/^v /{print "v", $2 * 1024, $3 * 1024, $4 * 1024; next} {print}' pit.obj >vast.obj
+printf '%s\n' '-4 0 0 0 0 0 45' '4 0 0 0 0 0 45' '0 4 1 0 0 0 45' '0 -4 1 0 0 0 45' '0 0 4 0 0 0 45' '2 2 3 0 0 0 45' >views.txt
+awk '{print $1 * 1024, $2 * 1024, $3 * 1024, $4, $5, $6, $7}' views.txt >vast.txt
+for size in pit vast; do
+    status 0 relief bake "$size.obj" --views "$(test $size = pit && echo views || echo vast).txt" --size 64 -o seen.lmr
+    status 0 relief render seen.lmr --eye $(test $size = pit && echo 1.5,2,5 || echo 1536,2048,5120) --target 0,0,0 \
+        --size 64x64 --show normal -o "$size-normal.pfm"
+done
+check "a relief of any size looks the same" cmp -s pit-normal.pfm vast-normal.pfm
+# Without normals it is flat, as in `lambent render`: a box has one colour in front, but at its rim.
+status 0 relief bake box.obj -o box.lmr --triangles 12 --size 32
+status 0 relief render box.lmr --eye 0,0,5 --target 0,0,0 --size 32x32 --show normal -o box.ppm
+check "a relief of a box is flat" test "$(tail -c 3072 box.ppm | od -An -v -tx1 -w3 | sort | uniq -c | sort -rn | awk 'NR == 2 { print $1 }')" -ge 300
+status 2 relief render pit.lmr -o bad.png --with box.obj --compare pit.obj
+status 0 relief render pit.lmr -o pit.png --eye 1.5,2,5 --target 0,0,0 --size 64x64 --compare pit.obj
+check "relief render --compare shows both" grep -q 'pixels, ms  *[0-9.]*  *[0-9.]*$' out.txt
+status 0 relief render pit.lmr -o pit.pfm --pick eye-ray --sampling nearest --show depth --size 40x30 --with box.obj --light point:3,3,3:0,-1,0:90,90,90
+floor
+for more in '' --bounce; do
+    status 0 relief render pit.lmr -o "floor$more.pfm" --with floor.obj --ambient 0 --size 40x30 $more
+done
+check "bounced light adds some" differ floor.pfm floor--bounce.pfm
+for views in 14 greedy:5 cameras.txt; do
+    status 0 relief bake pit.obj -o pit.lmr --triangles 20 --size 16 --packed --views $views
+    status 0 relief render pit.lmr -o pit.ppm --size 40x30 --shadow-map 0 --steps 1 --pixel-views 2 --keep 1
+done
+# Along a path: each picture is the one that its camera and light give alone.
+sun=sun:0,0,0:0.6,-0.64,-0.48:3,2.9,2.7
+printf '# keys\n0 camera 1.5,2,5 0,0,0\n1 camera 4,1,3 0,0,0\n0 light 0,0,0 1,-1,0\n1 light 0,0,0 0.6,-0.64,-0.48\n' >keys.txt
+status 0 relief render pit.lmr --path keys.txt --fps 2 --size 40x30 -o lap_%02d.pfm
+check "a relief's path is drawn to its last key" sh -c 'test -s "$1/lap_02.pfm" && ! test -e "$1/lap_03.pfm"' sh .
+check "a relief's pictures are told by name" grep -q 'lap_01.pfm$' out.txt
+status 0 relief render pit.lmr --eye 4,1,3 --target 0,0,0 --light $sun --size 40x30 -o one.pfm
+check "a relief's last picture is that of its last keys" cmp one.pfm lap_02.pfm
+check "a relief moves between keys" sh -c '! cmp -s "$1/lap_00.pfm" "$1/lap_01.pfm" && ! cmp -s "$1/lap_01.pfm" "$1/lap_02.pfm"' sh .
+status 0 relief render pit.lmr --path keys.txt --fps 2 --frames 2 --size 40x30 -q -o lap.pfm
+check "a relief's pictures are numbered without a pattern" sh -c 'cmp "$1/lap-0001.pfm" "$1/lap_01.pfm" && ! test -e "$1/lap-0002.pfm"' sh .
+status 2 relief render pit.lmr -o bad_%04d.png
+said "numbers pictures of a --path, and none is given"
+status 2 relief render pit.lmr --fps 3 -o bad.png
+said "--frames and --fps are of a --path"
+status 2 relief render pit.lmr --path keys.txt -o -
+status 2 relief render pit.lmr --path keys.txt --compare pit.obj -o bad.png
+status 1 relief render pit.lmr --path nowhere.txt -o bad.png
+status 0 relief render pit.lmr --path keys.txt --frames 2 --size 40x30 -v -o 50%_%02d.pfm
+check "the time of a path's pictures is told" grep -q 'a picture in the mean: shadow map [0-9.]* ms, triangles [0-9.]* ms, pixels [0-9.]* ms' err.txt
+check "a number is found after another %" test -s 50%_01.pfm
+status 1 relief render pit.lmr --path keys.txt --eye 1,2,3 --target 0,0,0 -o bad.png
+said "keys.txt:2: the camera goes and looks by these keys; leave --eye and --target out"
+printf '0 camera 1,2,5\n11 camera 2,2,5\n' >keys.txt
+status 0 relief render pit.lmr --path keys.txt --eye 1,2,3 --target 0,0,0 --frames 1 --size 16x16 -o looks.pfm
+status 1 relief render pit.lmr --path keys.txt --fps 1e5 -o bad.png
+said "keys.txt: 1100001 pictures to its last key, of which 1000000 can be drawn"
+# keys_refused KEYS WORDS: a path that a relief cannot follow.
+keys_refused() {
+    printf "$1" >keys.txt
+    status 1 relief render pit.lmr --path keys.txt --fps 2 -o bad.png
+    said "$2"
+}
+keys_refused '0 camera 1,2,5 0,0,0\n1 camera 0,9,0 0,0,0\n' "at frame 2 the camera looks along what is up"
+keys_refused '0 object:1 0,0,0\n' "keys.txt:1: a relief has a camera and a light"
+keys_refused '0 light 0,0,0\n' "keys.txt:1: the light is a sun"
+keys_refused '0 camera 0,9,0 0,0,0\n' "at frame 0 the camera looks along what is up"
+printf '0 camera 0,0,9 0,0,0\n1 camera 0,0,-9 0,0,0\n2 camera 0,0,9 0,0,0\n' >lap_00.pfm
+status 2 relief render pit.lmr --path lap_00.pfm -o lap_%02d.pfm
+said "lap_00.pfm: cannot be written: it is read"
+status 1 relief bake nowhere.obj -o bad.lmr
+sed 's/\([0-9.]\{1,\}\)/\1e-10/g; /^[^v]/s/e-10//g' pit.obj >speck.obj
+status 1 relief bake speck.obj -o bad.lmr --simple speck.obj --as-is --size 16
+status 1 relief bake pit.obj -o bad.lmr --views nowhere.txt
+status 1 relief render box.obj -o bad.png
+check "who failed is told" grep -q '^lambent relief render: ' err.txt
+status 1 relief render pit.lmr -o bad.png --compare nowhere.obj
+status 2 relief
+status 2 relief bake pit.obj
+status 2 relief bake pit.obj -o bad.lmr --size 7
+status 2 relief bake pit.obj -o bad.lmr --views 65
+status 2 relief bake pit.obj -o bad.lmr --as-is
+status 2 relief render pit.lmr
+status 2 relief render pit.lmr -o bad.png --pick q
+status 2 relief render pit.lmr -o bad.png --eye 1,2,3
+status 2 relief render pit.lmr -o bad.png --shadow-map 12
+status 0 relief --help
+status 0 relief bake --help
+status 0 relief render --help
+
+finish

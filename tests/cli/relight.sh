@@ -1,0 +1,150 @@
+# relight.sh: relight: worlds, filters, objects in the built-in world, places along a path, --contact.
+. tests/cli/common.sh
+
+white
+
+# A world of one radiance gives pi times that to every normal, from any place, by any filter.
+for filter in cosine sh9 sh16 sh25 blur blur1 blur2; do
+    status 0 relight --world white.pfm --at 30,2,-9 --filter $filter --faces 3 --cube cube.pfm
+    check "relight --filter $filter is pi" sh -c '"$1" info "$2" | grep -c "min 3.14159 .*max 3.14159 " | grep -qx 3' sh "$TOOL" cube.pfm
+done
+status 0 relight --world face --world-box -1,-1,-1,1,1,1 --cube cube.png --map map.pfm
+check "where faces are missing it is dark" sh -c '"$1" info "$2" | grep -q "red   min 0 *max 0.9"' sh "$TOOL" map.pfm
+for option in "--storage log8" "--storage log16" "--overlap mean" "--backend scalar" "--ground facepx.pfm --ground-size 4,4"; do
+    status 0 relight --world white.pfm $option --cube cube.pfm
+done
+status 1 relight --world nowhere --cube bad.pfm
+status 1 relight --world facepx.pfm --cube bad.pfm
+status 1 relight --world white.pfm --world-centre 9,0,0 --world-sphere 0,0,0,5 --cube bad.pfm
+status 1 relight --world white.pfm --ground nowhere.png --cube bad.pfm
+status 2 relight --world white.pfm
+status 2 relight --world white.pfm --cube bad.txt
+status 2 relight --world white.pfm --cube bad.pfm --faces 65
+status 2 relight --world white.pfm --cube bad.pfm --filter sh4
+status 2 relight --cube bad.pfm
+status 0 relight --help
+# Objects in the built-in world: normal and glossy are the parts of both, everywhere; places along a path.
+field="relight --world demo --object demo --size 48x24 --exposure 0"
+for show in both normal glossy; do
+    status 0 $field --show $show -o "field-$show.pfm"
+done
+check "glossy alone is darker than both" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[0-9]"' sh "$TOOL" field-glossy.pfm field-both.pfm
+status 0 $field --backend scalar -o field-scalar.pfm
+check "a backend changes the field" cmp field-both.pfm field-scalar.pfm
+status 0 $field --at 3,0,1 --roughness 0 --f0 0.9 --per-part --light sun:0,0,0:-1,-1,0:2,2,2 --cube cube.pfm -o field.png
+printf '# a walk\n0,0,0\n0.1,0,0\n\n 1,0,0 \n1,0,0' >path.txt
+status 0 $field --path path.txt -o walk.ppm
+check "a walk keeps its light while it is near" grep -q '^light computed 2 times, kept 2 times$' out.txt
+check "a walk has a picture a place" sh -c 'test -s "$1/walk-0000.ppm" && test -s "$1/walk-0003.ppm" && ! test -e "$1/walk-0004.ppm"' sh .
+status 0 $field --path path.txt --reuse 0 -o walk.ppm
+check "a walk without reuse is computed until it rests" grep -q '^light computed 3 times, kept 1 times$' out.txt
+status 0 $field --path path.txt --reuse 5 --keep 0,0.9,0 -o walk.ppm
+check "a named place serves the whole walk" grep -q '^light computed 1 times, kept 3 times$' out.txt
+printf '2,0,1\n2.2,0,1\n2,0,1\n' >path.txt
+for parts in "" --per-part; do
+    status 0 $field --path path.txt --keep 2,0,1 $parts -o walk.ppm
+    check "a named place is where an object stands $parts" sh -c 'test "$(grep -c "  kept$" "$1")" = 1' sh out.txt
+done
+status 0 $field --path path.txt -o walk.ppm
+status 0 $field --path path.txt -o step_%03d.ppm
+check "a walk's pictures are numbered by the pattern" cmp step_002.ppm walk-0002.ppm
+cp white.pfm bad_001.pfm # what the second picture would replace is read
+status 2 relight --world bad_001.pfm --object demo --size 16x8 --path path.txt -o bad_%03d.pfm
+said "bad_001.pfm: cannot be written: it is read"
+check "no picture is drawn where one of them cannot be written" test ! -e bad_000.pfm
+rm -f bad_001.pfm
+status 2 $field -o bad_%04d.ppm
+check "a pattern wants a path" holds 'numbers pictures of a --path' err.txt
+printf '0,0,0\n1,2\n' >path.txt
+status 1 $field --path path.txt -o bad.ppm
+check "a path's error names its line" holds 'path.txt:2: `1,2` is not X,Y,Z' err.txt
+status 1 $field --path nowhere -o bad.ppm
+status 1 relight --world demo --object nowhere.glb -o bad.ppm
+status 2 $field --path path.txt --at 0,0,0 -o bad.ppm
+for option in "--world-sphere 0,0,0,5" "--world-centre 0,1,0" "--ground-size 5,5" "--ground-height 1"; do
+    status 2 $field $option -o bad.ppm
+    check "the built-in world says that it lies where it lies: $option" holds 'lies where it lies' err.txt
+done
+status 2 relight --world demo --object demo
+status 2 $field --eye 0,1,2 -o bad.ppm
+status 2 $field --roughness 2 -o bad.ppm
+status 2 $field --at 3e6,0,0 -o bad.ppm
+status 0 $field --ground facepx.pfm --faces 4 --at 0,0,0 -o field.png
+if [ -e /dev/full ]; then
+    printf '0,0,0\n' >path.txt
+    check "a full disk is an error of a walk" sh -c '! "$1" relight --world demo --object demo --size 16x8 --path "$2" -o "$3" >/dev/full 2>/dev/null' sh "$TOOL" path.txt walk.ppm
+fi
+status 2 $field -o bad.gif
+check "nothing was left behind" none bad*
+
+# What objects take of the ground's light and their own: nothing gets brighter, the ground right below gets darker.
+printf 'v -1 0.5 -1\nv 1 0.5 -1\nv 1 0.5 1\nv -1 0.5 1\nf 1 2 3 4\n' >table.obj
+low="relight --world white.pfm --ground facepx.pfm --ground-size 40,40 --object table.obj --f0 0 --at 0,0.5,0 --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24"
+status 0 $low -o bright.pfm
+status 0 $low --contact -o dark.pfm
+check "the ground is darker below a table" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[89]"' sh "$TOOL" dark.pfm bright.pfm
+status 0 $low --contact --threads 1 --backend scalar -o alike.pfm
+check "a backend changes no contact" cmp dark.pfm alike.pfm
+printf '0,0.5,0\n3,0.5,0\n0,0.5,0\n' >path.txt
+status 0 relight --world white.pfm --ground facepx.pfm --ground-size 40,40 --object table.obj --f0 0 --contact --path path.txt --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24 -o walk.pfm
+check "contact goes with what moves" sh -c 'cmp "$1/walk-0000.pfm" "$1/walk-0002.pfm" && ! cmp -s "$1/walk-0000.pfm" "$1/walk-0001.pfm"' sh .
+status 0 relight --world white.pfm --object demo --contact --size 16x8 -o field.png
+# A ground of radiance 1 that shines at night: it receives what it sends up at least, so a white box adds a part of that.
+printf 'v -1 0 -1\nv 1 0 -1\nv 1 2 -1\nv -1 2 -1\nv -1 0 1\nv 1 0 1\nv 1 2 1\nv -1 2 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >white_box.obj
+{ printf 'PF\n1 6\n-1.0\n'; head -c 72 /dev/zero; } >night.pfm
+{ printf 'PF\n1 6\n-1.0\n'; repeated 18 '\012\327\243\074'; } >dusk.pfm # 0.02
+for sky in night dusk; do
+    status 0 relight --world "$sky.pfm" --ground facepx.pfm --ground-size 40,40 --object white_box.obj --f0 0 --contact --eye 0,4,9 --target 0,0.5,0 --size 64x48 -o glow.pfm
+    check "contact lights a bright ground by a part of its own light: $sky" sh -c '"$1" info "$2" | awk "/ max /{ n += \$5 > 1.05 && \$5 < 1.5 } END { exit n != 3 }"' sh "$TOOL" glow.pfm
+done
+# What blocks light is as dark as its texture or its corners' colours make it: a U of three boxes in one dark grey.
+grey_png='\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\001\000\000\000\001\010\002\000\000\000\220\167\123\336\000\000\000\014\111\104\101\124\170\234\143\210\214\214\004\000\002\032\001\014\047\014\256\360\000\000\000\000\111\105\116\104\256\102\140\202'
+printf "$grey_png" >grey.png # one texel, 89: 0.0998987 in linear light
+chess_png='\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\002\000\000\000\002\010\000\000\000\000\127\335\122\370\000\000\000\016\111\104\101\124\170\332\143\370\317\300\300\360\037\000\006\000\001\377\145\064\370\367\000\000\000\000\111\105\116\104\256\102\140\202'
+printf "$chess_png" >chess.png # two by two texels, white and black: 0.5 in the mean
+printf 'newmtl flat\nKd 0.0998987 0.0998987 0.0998987\nnewmtl paper\nmap_Kd grey.png\nnewmtl corners\nKd 1 1 1\nnewmtl half\nKd 0.5 0.5 0.5\nnewmtl chess\nmap_Kd chess.png\n' >grey.mtl
+for grey in flat paper corners half chess; do
+    ink=1 && [ $grey = corners ] && ink=0.0998987
+    awk -v ink=$ink -v grey=$grey 'BEGIN {
+        print "mtllib grey.mtl\nusemtl " grey "\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1"
+        split("-1 0 1 0.2 -1 0.2 -0.7 1.2 0.7 0.2 1 1.2", b, " "); split("1 4 3 2 1 2 6 5 2 3 7 6 3 4 8 7 4 1 5 8 5 6 7 8", f, " ")
+        for (i = 0; i < 3; ++i)
+            for (k = 0; k < 8; ++k)
+                print "v " b[4 * i + (k % 4 == 1 || k % 4 == 2 ? 3 : 1)] " " b[4 * i + (k % 4 > 1 ? 4 : 2)] " " (k < 4 ? -1 : 1) " " ink " " ink " " ink
+        for (i = 0; i < 18; ++i) {
+            line = "f"
+            for (k = 1; k <= 4; ++k) line = line " " f[4 * (i % 6) + k] + 8 * int(i / 6) "/" k
+            print line
+        }
+    }' >"grey_$grey.obj"
+done
+lit="--world white.pfm --ground facepx.pfm --ground-size 40,40 --f0 0 --contact --size 48x32"
+for grey in flat paper corners; do
+    status 0 relight $lit --object "grey_$grey.obj" --eye 0,2,3 --target 0,0.5,0 -o "grey_$grey.pfm"
+    [ $grey = flat ] || check "contact knows how dark $grey is" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.00[0-2]"' sh "$TOOL" "grey_$grey.pfm" grey_flat.pfm
+done
+for grey in flat half chess; do
+    status 0 relight $lit --object "grey_$grey.obj" --eye 2,2,2 --target 2,0,0 --fov 20 -o "grey_$grey.pfm"
+done
+check "the ground beside a pattern is as bright as beside its mean" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" grey_chess.pfm grey_half.pfm
+check "and not as beside a darker one" sh -c '! "$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" grey_chess.pfm grey_flat.pfm
+# Lobes mirror the ground as dark as it is.
+shiny="$(echo "$low" | sed 's/--f0 0 /--f0 0.9 --roughness 0.2 /;s/0,0.3,2.5 --target 0,0.1,0/0.1,0.05,0.3 --target 0,0.5,0/') --show glossy"
+status 0 $shiny -o shiny.pfm
+status 0 $shiny --contact -o dull.pfm
+check "a lobe is darker below a table" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[5-9]"' sh "$TOOL" dull.pfm shiny.pfm
+# A small lamp in a white world, on the border of two of its map's texels; two bowls with smooth normals over a ground that
+# ends its shadow within the picture. Each constant of contact moves some of these pixels.
+row=$one$one$one$one; row=$row$row$row; row=$row$row$row$row$row$row$row$row
+lamp='\000\000\172\104\000\000\172\104\000\000\172\104'
+{ printf 'PF\n32 192\n-1.0\n'; i=0; while [ $i -lt 192 ]; do
+    if [ $i -eq 180 ]; then printf "$lamp"; printf "$row" | tail -c 372; else printf "$row"; fi
+    i=$((i + 1))
+done; } >lamp_world.pfm
+printf 'v 0 0 0\nv 1 0.3 -1\nv -1 0.3 -1\nv -1 0.3 1\nv 1 0.3 1\nvn 0 1 0\nvn -0.5 0.7 0.5\nvn 0.5 0.7 0.5\nvn 0.5 0.7 -0.5\nvn -0.5 0.7 -0.5\nf 1//1 2//2 3//3\nf 1//1 3//3 4//4\nf 1//1 4//4 5//5\nf 1//1 5//5 2//2\n' >bowl.obj
+printf '0,0.2,0\n' >path.txt
+status 0 relight --world lamp_world.pfm --ground facepx.pfm --ground-size 60,60 --object bowl.obj --f0 0.2 --roughness 0.3 --contact --at 0,0.2,0 --at 2.1,1.0,0 --eye 1,4,5 --target 1,0,0 --size 64x48 -o bowls.pfm
+contact_sum=$(cksum <bowls.pfm)
+check "contact's pixels are these: $contact_sum" test "$contact_sum" = "2008633955 36878"
+
+finish

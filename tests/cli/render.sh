@@ -1,0 +1,104 @@
+# render.sh: render's formats, what it shows, by which method, and its notes; the same bytes by threads; two eyes.
+. tests/cli/common.sh
+
+# Only glTF has lobes.
+status 2 render demo $small --glossy -o glossy.png
+
+# Each format by its extension, whole.
+for extension in png ppm pfm hdr; do
+    status 0 render demo $small -o "demo.$extension"
+done
+begins demo.png 211120116107
+begins demo.ppm 120066012066
+begins demo.pfm 120106012066
+begins demo.hdr 043077122101
+check "demo.ppm is 32x24" test "$(wc -c <demo.ppm)" -eq $((32 * 24 * 3 + 13))
+check "demo.pfm is 32x24" test "$(sed -n 2p demo.pfm)" = "32 24"
+
+# What is shown, and by which method.
+for show in direct indirect irradiance depth normal albedo; do
+    status 0 render demo $small --show $show -o "$show.pfm"
+done
+for show in occlusion eye-distance light-distance points groups; do
+    for extension in png pfm hdr; do
+        status 0 render demo $small --show $show -o "$show.$extension"
+    done
+done
+check "what the eye sees has the picture's size" test "$(sed -n 2p eye-distance.pfm)" = "32 24"
+for show in light-distance points groups; do
+    check "$show has the map's size" test "$(sed -n 2p "$show.pfm")" = "64 64"
+done
+status 0 render demo $small --show light-distance --light point:0,1,0:0,-1,0:1,1,1 --light sun:0,0,0:0,-1,0:1,1,1 -o two.pfm
+check "a row of faces a light" test "$(sed -n 2p two.pfm)" = "384 128"
+status 0 render demo $small --show eye-distance -o eye-distance.png
+check "distances say their range" grep -q '^lambent: from [0-9.]* m (white) to [0-9.]* m (dark grey)$' err.txt
+for grouping in greedy zones; do
+    status 0 render demo $small --grouping $grouping -o "$grouping.pfm"
+done
+for occlusion in none view view-world; do
+    status 0 render demo $small --occlusion $occlusion -o "$occlusion.pfm"
+done
+status 0 render demo $small --stats stats.json -o again.pfm
+check "the same command writes the same bytes" cmp demo.pfm again.pfm
+check "stats are JSON" grep -q '^{' stats.json
+check "light by cuts has no first points to count" grep -q '"first_points": null, "discs": null, "groups": null' stats.json
+
+# Strict zones say what they lose; the others lose nothing and say nothing.
+status 0 render demo $small --groups 40 --misfits drop -o strict.pfm
+check "strict zones say their loss" grep -q '^lambent: note: --misfits drop lost [1-9][0-9.]* % of the light' err.txt
+status 0 render demo $small --groups 40 --misfits keep -o kept.pfm
+check "kept misfits lose nothing" lacks lost err.txt
+
+# Groups that are too few are said; zones, neighbours and discs are as asked for.
+status 0 render demo $small --groups 7 -o few.pfm
+check "regrouping is said" grep -qE '^lambent: note: discs were grouped again [1-9][0-9]* times?, .*: [1-7]$' err.txt
+status 0 render demo $small --groups 400 -o plain.pfm
+for option in "--zones 20" "--neighbour 0.6" "--neighbour-blocks 3" "--disc-radius 2"; do
+    status 0 render demo $small --groups 400 $option -o other.pfm
+    check "$option changes nothing" differ other.pfm plain.pfm
+done
+# First points: fewer discs, another neighbourhood, thresholds.
+for option in "--thin 10" "--neighbourhood hemisphere" "--neighbour 0.25" "--neighbour 0.5" "--neighbour 1" "--centre disc"; do
+    status 0 render demo $small $option -o option.pfm --stats option.json
+    check "$option changes the picture" differ demo.pfm option.pfm
+done
+
+status 0 render demo $small --thin 10 -o option.pfm --stats option.json
+status 0 render demo $small --grouping zones -o option2.pfm --stats option2.json
+check "--thin 10 leaves few discs" test $((4 * $(count option.json discs))) -lt "$(count option2.json discs)"
+# The picture does not depend on how many threads draw it, nor on the backend.
+for option in "--threads 1 --profile exact" "--threads 3" "--backend scalar"; do
+    check "render demo $option" "$TOOL" render demo $small $option -o way.ppm
+    cp way.ppm "way$((ways = ways + 1)).ppm"
+done
+check "threads change the picture" cmp way1.ppm way2.ppm
+check "a backend changes the picture" cmp way1.ppm way3.ppm
+
+# Two eyes: each half is what one eye sees from there, and the light is found once.
+at() { echo "--eye $1,1.25,2.5 --target $1,1,-1 --fov 50"; }
+rows() { tail -c +"$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -v -tx1 | tr -d ' \n' | fold -w $((32 * 3 * 4 * 2)); }
+eyes="$small --grouping zones"
+status 0 render demo $eyes $(at 0.5) --stereo 0.25 -o both.pfm --stats both.json
+status 0 render demo $eyes $(at 0.375) -o left.pfm --stats left.json
+status 0 render demo $eyes $(at 0.625) -o right.pfm
+check "two eyes side by side" test "$(sed -n 2p both.pfm)" = "64 24"
+rows both.pfm >both.txt
+(rows left.pfm; echo) >left.txt
+(rows right.pfm; echo) >right.txt
+(sed -n 'p;n' both.txt; echo) | sed '/^$/d' >left_half.txt
+(sed -n 'n;p' both.txt; echo) | sed '/^$/d' >right_half.txt
+check "24 rows of an eye" test "$(grep -c . left_half.txt)" -eq 24
+check "the left half is the left eye's picture" cmp left.txt left_half.txt
+check "the right half is the right eye's picture" cmp right.txt right_half.txt
+for what in first_points discs groups; do
+    check "two eyes: $what counted once" test "$(count both.json $what)" -gt 0 \
+        -a "$(count both.json $what)" -eq "$(count left.json $what)"
+done
+check "two eyes: shadow map once, view twice" test $((2 * $(count both.json triangles_read))) -eq $((3 * $(count left.json triangles_read)))
+check "two eyes: two views" test "$(count both.json views)" -eq 2
+for show in depth eye-distance normal albedo occlusion direct; do
+    status 0 render demo $small --stereo 0.1 --show $show -o both.png
+done
+check "nothing is left behind" none bad* nowhere* *tmp*
+
+finish

@@ -1,0 +1,59 @@
+# slivers.sh: bake: slivers and buried corners leave others their elements and their light.
+. tests/cli/common.sh
+
+box
+
+# Long slivers: narrow strips over a floor, and splinters beside them as a mesh has.
+strips() { # strips STRIPS SPLINTERS ELEMENTS: how many elements they get, in `elements`.
+    awk -v strips=$1 -v splinters=$2 'BEGIN {
+        print "v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nf -4 -3 -2 -1"
+        for (i = 0; i < strips; ++i) {
+            z = -1.9 + 3.8 * i / strips
+            printf "v -1.5 0.5 %.5f\nv 1.5 0.5 %.5f\nv 1.5 0.5 %.5f\nv -1.5 0.5 %.5f\nf -4 -3 -2 -1\n", z + 0.002, z + 0.002, z, z
+        }
+        for (i = 0; i < splinters; ++i) {
+            x = -1.95 + 0.0003 * i
+            printf "v %.5f 1 1.9\nv %.5f 1 1.9\nv %.5f 1 1.86\nf -3 -2 -1\n", x, x + 0.0002, x
+        }
+    }' >strips.obj
+    status 0 bake strips.obj -o strips.lmt --elements $3 --receivers 2000 --division 1 --error 1 --once
+    elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' out.txt)
+}
+if [ -z "$SHORT" ]; then
+    strips 8 0 1024
+    alone=$elements
+    strips 8 600 1024
+    check "a mesh's splinters leave strips their elements: $elements, $alone without" test "$elements" -le $((alone + 16))
+    strips 300 0 1024
+    check "many strips share elements, and the floor has some: $elements" test "$elements" -gt 512
+    strips 255 0 4096
+    check "strips that crowd nothing out keep their elements: $elements" test "$elements" -lt 3300
+fi
+# Slivers in a room, many of them through a block: they crowd nothing out there either.
+awk 'function block(x0, y0, z0, x1, y1, z1,  i) {
+         for (i = 0; i < 8; ++i) print "v", i % 2 ? x1 : x0, int(i / 2) % 2 ? y1 : y0, (i > 3 ? z1 : z0)
+         print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }
+     BEGIN { block(0, 0, 0, 4, 3, 4); block(1, 0, 1, 2, 1, 2)
+             for (i = 0; i < 600; ++i) {
+                 x = 0.2 + 0.006 * i
+                 printf "v %.5f 0.5 0.2\nv %.5f 0.5 0.2\nv %.5f 0.5 3.8\nf -3 -1 -2\n", x, x + 0.003, x + 0.003
+             } }' >through.obj
+if [ -z "$SHORT" ]; then
+    status 0 bake through.obj -o through.lmt --elements 256 --receivers 1000 --division 1 --error 1 --once
+    elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' out.txt)
+    check "slivers through a block leave the room its elements: $elements" test "$elements" -gt 128
+fi
+# A panel whose corners, and the middle of its longest edge, lie in blocks: light comes to the rest of it.
+awk 'function block(x, z,  i) {
+         for (i = 0; i < 8; ++i) print "v", x + (i % 2 ? 0.12 : -0.12), int(i / 2) % 2 ? -0.3 : -0.7, z + (i > 3 ? 0.12 : -0.12)
+         print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }
+     { print }
+     END { print "v -0.7 -0.5 -0.6\nv 0.7 -0.5 -0.6\nv 0 -0.5 0.7\nf -1 -2 -3"
+           block(-0.7, -0.6); block(0.7, -0.6); block(0, 0.7); block(0, -0.6) }' box.obj >buried.obj
+above="--eye 0,0.4,-0.1 --target 0.01,-0.5,-0.1 --fov 30 --size 32x32 --light point:0.2,0.8,0:0,-1,0:5,4,3 --show indirect"
+status 0 bake buried.obj -o buried.lmt --elements 1024 --division 1
+status 0 render buried.obj $above --quality draft -o buried-draft.pfm
+status 0 render buried.obj $above --transfer buried.lmt -o buried.pfm
+status 0 compare buried.pfm buried-draft.pfm --max lo=0.7,hi=1.3
+
+finish
