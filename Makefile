@@ -515,8 +515,8 @@ examples-tiny: ## the same in the tiny configuration
 tool-setup: ## that check-tools removes nothing and says what it does
 	@$(IN_SH) tests/scripts/tool_setup.sh
 
-cli: $(TOOL) ## the tool's files, exit statuses and messages
-	@$(IN_SH) tests/scripts/cli.sh
+cli: $(TOOL) ## the tool's files, exit statuses and messages (PART="render mix": these parts; JOBS=2: so many at once)
+	@JOBS='$(JOBS)' $(IN_SH) tests/scripts/cli.sh $(if $(findstring command,$(origin PART)),$(PART))
 
 # --- instruments, and other processors -------------------------------------------------------------------------------
 
