@@ -1147,7 +1147,7 @@ static int compare_doubles(const void *a, const void *b)
 /* The formula's own error, measured when it was chosen: 1.6 / 0.4 / 0.05 / 0.01 % at 2-3 / 3-5 / 5-8 / 8-12 radii. */
 static void check_disc_error(float near_r, float far_r, double bound)
 {
-    enum { TRIES = 4000 };
+    enum { TRIES = 1000 };
     static double error[TRIES];
     test_rng rng = {UINT64_C(0x9e3779b97f4a7c15)};
     double mean = 0.0;
@@ -1195,7 +1195,7 @@ static void check_disc_limits(void)
         float got = lmb_disc_factor(vec3(0, 0, 0), Z, vec3(0, 0, r), vec3(0, 0, -1), (float)PI);
         CHECK_MSG(fabs((double)got / want - 1) < 2e-6, "at %g: %g, want %g", (double)r, (double)got, want);
     }
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0; i < 40000; ++i) {
         float r = (float)pow(10.0, (double)test_uniform(&rng, -3, 2));
         lmb_vec3 n = random_unit(&rng), c = mul3(random_unit(&rng), r), axis = random_unit(&rng);
         float f = lmb_disc_factor(vec3(0, 0, 0), n, c, axis, (float)PI);
@@ -1233,10 +1233,11 @@ static float quad_from(lmb_vec3 at, lmb_vec3 n, lmb_vec3 axis)
 /* Any orientation, the horizon often through the quad; parallelograms too. */
 static void check_quads(void)
 {
+    enum { QUADS = 50 };
     test_rng rng = {99};
     double worst = 0.0;
     uint32_t clipped = 0;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < QUADS; ++i) {
         lmb_vec3 axis = random_unit(&rng), n = random_unit(&rng), u, v;
         basis(&u, &v, axis);
         v = add3(mul3(v, test_uniform(&rng, 0.2f, 1)), mul3(u, test_uniform(&rng, -0.5f, 0.5f)));
@@ -1252,9 +1253,9 @@ static void check_quads(void)
         double want = quad_truth(at, n, vec3(0, 0, 0), axis, u, v);
         worst = fmax(worst, area * fabs((double)lmb_quad_factor(at, n, n, vec3(0, 0, 0), axis, u, v) - want));
     }
-    printf("  quad: form factor within %.1e of the integral, %u of 200 cut by the horizon\n", worst, (unsigned)clipped);
+    printf("  quad: form factor within %.1e of the integral, %u of %d cut by the horizon\n", worst, (unsigned)clipped, QUADS);
     CHECK_MSG(worst < 1e-3, "%g", worst);
-    CHECK(clipped > 20);
+    CHECK(clipped > QUADS / 10);
     CHECK(quad_from(vec3(0, 0, 1), vec3(0, 0, -1), vec3(0, 0, -1)) == 0.0f);                 /* emitter turned away */
     CHECK(quad_from(vec3(0, 0, 1), Z, Z) == 0.0f);                                           /* receiver */
     CHECK(quad_from(vec3(0, 0, 0), Z, Z) == 0.0f && quad_from(vec3(3, 0, 0), X, Z) == 0.0f); /* its own plane */
