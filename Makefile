@@ -255,8 +255,8 @@ $(B)/goldens: FORCE
 $(B)/obj/tests/golden/golden.o: $(B)/goldens
 $(B)/obj/tests/golden/golden.o: COMPILE += $(GOLDENS)
 
-# What wide kernels are built without, because a sanitizer takes minutes over them.
-$(call object,$(filter-out %_scalar.c,$(wildcard src/isa/isa_*.c))): COMPILE += $(KERNEL_CFLAGS)
+# What kernels are built without, because a sanitizer takes three times as long over them.
+$(call object,$(wildcard src/isa/isa_*.c)): COMPILE += $(KERNEL_CFLAGS)
 
 # What `lambent doctor -v` says it was built with.
 export BUILD_FLAGS := $(CC) $(FLAGS)
@@ -523,7 +523,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages (PART="render mix":
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: asan-programs pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+.PHONY: asan-programs pointers pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sun measure-constants measure-sequence \
@@ -547,9 +547,10 @@ rom: module-sizes
 COV_PROGRAMS_src   := $(addprefix default/,tests replay golden golden-orders reference hard hostile)
 COV_PROGRAMS_tools := default/tests default/replay lambent
 
-# One build serves the checks under sanitizers and the fuzzer. Kernels go without counters of the fuzzer, and wide ones
-# without the checks of pointers' sums, with which clang takes three times as long over each.
+# One build serves the checks under sanitizers and the fuzzer. Kernels go without the fuzzer's counters and without the
+# checks of pointers' sums, with which clang takes three times as long over each: `make pointers` has those.
 ASAN_CC     ?= clang
+PLAIN_KERNELS := -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0
 FUZZER      := $(BUILD)/asan/default/fuzzer
 ASAN_WANTED := cli hard unit-1 unit-2 golden replay hostile hostile-cli readme
 SANITIZED    = BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked \
@@ -558,6 +559,10 @@ SANITIZED    = BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked \
 asan: ## the checks under address and undefined-behaviour sanitizers
 	+@SHORT=1 $(MAKE) check CHECKS="$(ASAN_WANTED)" $(SANITIZED) $(MANY)
 
+pointers: ## pictures and parsers with a check of each sum of pointers, in plain C
+	+@$(MAKE) check CHECKS="golden replay hostile" BUILD=$(BUILD)/pointers CC=clang \
+	    CFLAGS="-O1 -g1 -fsanitize=pointer-overflow,object-size -fno-sanitize-recover=all $(PLAIN_KERNELS)"
+
 asan-programs: ## the programs of asan and fuzz
 	+@$(MAKE) programs $(FUZZER) CHECKS="$(ASAN_WANTED)" $(SANITIZED)
 
@@ -565,7 +570,7 @@ asan-programs: ## the programs of asan and fuzz
 MSAN_CHECKS ?= golden hard replay hostile
 msan: ## pictures, hard cases and the corpus under the memory sanitizer
 	+@$(MAKE) check CHECKS="$(MSAN_CHECKS)" $(MANY) BUILD=$(BUILD)/msan CC=clang \
-	    CFLAGS="-O1 -g1 -fsanitize=memory -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
+	    CFLAGS="-O1 -g1 -fsanitize=memory $(PLAIN_KERNELS)"
 
 FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages
