@@ -124,20 +124,20 @@ static int make_job(mix_job *j, const truth *t, char *object, report *r)
 static void our_shadow(uint8_t *out, mix_job *j)
 {
     static lmb_tile tile;
-    static lmb_irradiance light[2];
+    static lmb_irradiance by_map[2];
     lmb_view view;
     int32_t x0, y0;
     lmb_photo_view(&view, &x0, &y0, &j->frame.camera, &j->axes);
     for (int i = 0; i < PIXELS / LMB_TILE_PIXELS; ++i) {
         const int x = i % (SIDE / LMB_TILE) * LMB_TILE, y = i / (SIDE / LMB_TILE) * LMB_TILE;
-        memset(light, 0, sizeof light);
+        memset(by_map, 0, sizeof by_map);
         lmb_real_tile(&tile, &j->cloud, &j->planes, &j->real, &j->axes, x, y);
         for (int k = 0; k < 2; ++k) {
-            lmb_direct_tile(&light[k], j->o.kernels, &tile, &view, &j->scene, &j->lights[0], &j->maps[0][k]);
+            lmb_direct_tile(&by_map[k], j->o.kernels, &tile, &view, &j->scene, &j->lights[0], &j->maps[0][k]);
         }
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             out[(y + k / LMB_TILE) * SIDE + x + k % LMB_TILE] =
-                (uint8_t)(light[0].rgb[1][k] > 0.0f && light[1].rgb[1][k] == 0.0f);
+                (uint8_t)(by_map[0].rgb[1][k] > 0.0f && by_map[1].rgb[1][k] == 0.0f);
         }
     }
 }
