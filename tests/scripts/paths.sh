@@ -28,7 +28,7 @@ cp -pR "$B/obj" "$B/flags" "$B/liblambent.a" "$dir/clone/build/default" && cp -p
 for block in "$dir"/*.sh; do
     what=$(sed -n '1s/^# //p' "$block")
     if missing=$(sh tests/scripts/tools.sh need $(sed -n '2s/^# //p' "$block") 2>&1); then
-        check "$what" sh -c 'cd "$1" && env -i PATH="$PATH" HOME="$HOME" CFLAGS="$3" sh -e "$2"' sh "$dir/clone" "$block" "$flags"
+        check "$what" sh -c 'cd "$1" && env -i PATH="$PATH" HOME="$HOME" CC="$4" CFLAGS="$3" sh -e "$2"' sh "$dir/clone" "$block" "$flags" "$CC"
         for out in $(tr -s ' \n' '\n\n' <"$block" | sed -n '/^-o$/{n;p;}'); do
             check "$what: $out is there" test -s "$dir/clone/$out"
         done
