@@ -62,7 +62,7 @@ LIB_PARTS := $(wildcard src/*/*.h src/*/*.inl src/*/*.inc)
 HEADERS  := $(sort $(wildcard include/lambent/*.h))
 HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c)
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c),$(wildcard tools/*/*.c))) $(HOST_SRC)
-# Unit tests that take over a second each are a group of their own, which only `make check-all` runs.
+# Unit tests that take over a second each are a group of their own, which `make check` leaves out.
 SLOW_TESTS := adaptive gltf mix mix_cones mix_front mix_stays relief_light relief_ornate transfer
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
@@ -122,10 +122,10 @@ PACKAGE_FILES := $(addprefix $(B)/,lambent.pc lambent-config.cmake lambent-confi
 
 # --- what people want ------------------------------------------------------------------------------------------------
 
-##@ One test
+##@ While you work
 .PHONY: try
 try: ## one test by its name, after a build of what changed: make try T=cut (unit, golden, hard, cli, or a check)
-	+@MAKE='$(MAKE)' B='$(B)' T='$(T)' CHECK_NAMES='$(sort $(QUICK_CHECKS) $(SLOW_CHECKS))' sh tests/scripts/try.sh
+	+@MAKE='$(MAKE)' B='$(B)' CHECK_NAMES='$(sort $(QUICK_CHECKS) $(SLOW_CHECKS))' sh tests/scripts/try.sh
 
 ##@ Build
 AMALGAM := $(BUILD)/amalgam/lambent.h $(BUILD)/amalgam/lambent.c
@@ -407,7 +407,7 @@ slivers: $(B)/reference ## random slivers, specks, huge and cut triangles agains
 hard: $(B)/hard ## the gallery of hard cases, and what must not matter (CASES="raster ...")
 	@$(RUN) $(B)/hard $(CASES)
 
-golden-orders: $(B)/golden-orders ## the same in pieces, in any order, on 1 .. 8 threads (BACKENDS=all)
+golden-orders: $(B)/golden-orders ## the golden pictures in pieces, in any order, on 1 .. 8 threads (BACKENDS=all)
 	@$(RUN) $(B)/golden-orders$(EXE) $(if $(filter all,$(BACKENDS)),all)
 
 replay: $(B)/replay ## the fuzz targets on their corpus
@@ -453,8 +453,8 @@ guard: $(B)/golden $(LIB) ## -ffast-math, contraction, x87: such builds are refu
 one-command: ## a bare compiler command with all of src gives the same pictures
 	@$(IN_SH) tests/scripts/one_command.sh
 
-# The measure programs, linked once more: their own sources at -O0, in a folder of their own, because whoever measures
-# needs them optimised.
+# The measure programs, linked once more: their own sources at -O0, in a folder of their own, because measurements
+# need optimised code.
 linked_of = $(patsubst %.c,$(B)/links/%.o,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c)) \
     $(call object,$(measure_$(1))) $(filter-out %/lambent.o,$(TOOL_OBJ)) $(LIB)
 $(B)/links/%.o: %.c $(B)/flags
@@ -515,7 +515,7 @@ examples-tiny: ## the same in the tiny configuration
 tool-setup: ## that check-tools removes nothing and says what it does
 	@$(IN_SH) tests/scripts/tool_setup.sh
 
-cli: $(TOOL) ## the tool's files, exit statuses and messages (PART="render mix": these parts; JOBS=2: so many at once)
+cli: $(TOOL) ## the tool's files, exit statuses and messages (PART="render mix": these parts; JOBS=2: two at once)
 	@JOBS='$(JOBS)' $(IN_SH) tests/scripts/cli.sh $(if $(findstring command,$(origin PART)),$(PART))
 
 # --- instruments, and other processors -------------------------------------------------------------------------------

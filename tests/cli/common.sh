@@ -1,7 +1,7 @@
 # common.sh: what the parts of the tool's checks share. Each part sources it first, from the root of the tree, with TOOL
 # and B in the environment; from then on it is in a folder of its own, $B/cli/PART, and names files without a folder.
 #
-# SHORT=1, for builds that are slow: without the minutes of light that other checks run too.
+# SHORT=1 leaves out renders that take minutes and that other checks run; slow builds use it.
 . tests/scripts/checks.sh
 
 root=$PWD
@@ -18,7 +18,7 @@ cd "$B/cli/$part" || exit 1
 small="--size 32x24 --shadow-map 64 --exposure 0"
 few="--size 32x24 --shadow-map 64 --quality draft"
 
-# check WHAT COMMAND...: as in checks.sh, but in this shell, as a copy of it for each command takes as long as the command.
+# check WHAT COMMAND...: as in checks.sh, but without a subshell, because that takes as long as the command.
 check() {
     what=$1
     shift
@@ -90,7 +90,7 @@ empty() {
     done
 }
 
-# none FILE...: no such file; a pattern that no name is like stays as it is.
+# none FILE...: passes if no such file exists. The shell leaves a pattern unchanged if it matches nothing.
 none() {
     for each in "$@"; do
         if [ -e "$each" ] || [ -L "$each" ]; then

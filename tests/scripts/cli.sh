@@ -1,9 +1,10 @@
-# cli.sh: what the tool writes, says and returns: cli.sh [NAME...] runs these parts of tests/cli, or all of them.
+# cli.sh: files, messages and exit statuses of the tool: cli.sh [NAME...] runs these parts of tests/cli, or all of them.
 #
 # In the environment: TOOL and B, and CC FLAGS LIB LDLIBS for help and pack.
 #
-# A line each with its counts and seconds, what a part says if it fails, and the sum last. JOBS=N runs so many at once.
-# SHORT=1, for builds that are slow: without the minutes of light that other checks run too. Logs lie in $B/cli/logs.
+# Prints a line for each part with its counts and seconds, the output of a part that fails, and the sum last. JOBS=N
+# runs N parts at once. SHORT=1 leaves out renders that take minutes and that other checks run; slow builds use it.
+# Logs are in $B/cli/logs.
 names=$(for file in tests/cli/*.sh; do
     name=${file##*/}
     [ "$name" = common.sh ] || echo "${name%.sh}"

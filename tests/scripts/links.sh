@@ -4,7 +4,7 @@
 # The measure programs lie in $B/links, where their own sources are compiled at -O0.
 . tests/scripts/checks.sh
 
-# A make that found these in its environment would build all anew, with libraries twice.
+# If make inherits these variables, it rebuilds everything and links the libraries twice.
 unset LDLIBS FLAGS LIB TOOL
 mkdir -p "$B/links"
 log=$B/links/log

@@ -6,7 +6,7 @@
 #     read-only    from a clone that may not be written to, with BUILD elsewhere
 #
 # Each in a clean copy; without a CASE all four. MAKE CC B in the environment; PLACES_CHECKS: these checks only;
-# PLACES_CFLAGS: other flags than those that compile quickly. The source tree must be afterwards what it was before.
+# PLACES_CFLAGS: flags in place of the quick ones. The check fails if the source tree changed.
 . tests/scripts/checks.sh
 
 case $B in /*) dir=$B/places ;; *) dir=$PWD/$B/places ;; esac
@@ -17,7 +17,7 @@ flags=${PLACES_CFLAGS:--O1 -DLMB_HAVE_AVX512=0}
 jobs=$(nproc 2>/dev/null || echo 2)
 other=65534 # nobody, by number: no such user needs to be there
 
-# Root may read and write all: what a user may not do, only another one can show.
+# Root may read and write everything. Only another user shows what is forbidden.
 as_user() {
     if [ "$(id -u)" -eq 0 ]; then
         setpriv --reuid=$other --regid=$other --clear-groups "$@"
@@ -26,7 +26,7 @@ as_user() {
     fi
 }
 
-# place_for_user CASE: a folder that the user comes to, and that BUILD may name: a temporary one where B is neither.
+# place_for_user CASE: sets `place` to a folder that the user can reach and BUILD can name: a temporary one if $B is not.
 temporary=
 trap '[ -z "$temporary" ] || rm -rf "$temporary"' EXIT
 place_for_user() {
@@ -49,7 +49,7 @@ make_there() {
         "${MAKE:-make}" -j"$jobs" "$@")
 }
 
-# What the tree has, but for what is built.
+# listed: prints all files of the tree except those of the build.
 listed() {
     (cd "$tree" && find . ! -path './build*' ! -path . -exec ls -ld {} + &&
         find . -type f ! -path './build/*' -exec cksum {} +)
@@ -63,7 +63,7 @@ checked() {
     return 1
 }
 
-# works CASE: all three, in $tree by $who.
+# works CASE: checks `make`, `make demo` and `make check` in $tree, run by $who.
 works() {
     log=$dir/$1.log
     built=${build:-$tree/build}
