@@ -4,9 +4,9 @@
 #                                             (tools/model, ...); default: all that have tests in mutants.txt
 #
 # Works on a copy in FOLDER/tree, with the kernels of two backends (scalar and AVX2), as each takes seconds to compile.
-# Of each change: it does not build, or gives the same code, and is none; then the tests that mutants.txt names for the
-# module, the quickest first, until one fails, ends badly or takes six times as long as without the change; with FULL=1
-# also all others that link the library. Only what follows from the changed file is built, and a program when its turn
+# A change that does not build, or that gives the same code, does not count. For each other change the tests run that
+# mutants.txt names for its module, the quickest first, until one fails, ends badly or takes six times as long as without
+# the change; with FULL=1 also all others that link the library. Only what follows from the changed file is built, and a program when its turn
 # comes. Where mutants.txt names a folder or a test that is not there, nothing is tried.
 # Prints a line each, those that no test noticed with their line, and killed / tried by module. Exit status 1 where under
 # 85 % were noticed. Some changes change nothing (a bound that is never met, a tie that either way is right): survivors
