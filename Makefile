@@ -348,9 +348,10 @@ check: $(CHECKS:%=check-%) ## the quick checks, one line each, and their sum; V=
 	@sh tests/scripts/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
 MANY       := PREFIXES=20 MUTATIONS=200
+LONG       := LMB_LONG=1
 ALL_CHECKS := $(filter-out truth-small $(SKIP_CHECKS),$(SLOW_CHECKS) $(QUICK_CHECKS))
 check-all: ## the quick and the slow checks; links every program and the page (SKIP_CHECKS="cli hard" leaves some out)
-	+@$(MAKE) check CHECKS="$(ALL_CHECKS)" $(MANY)
+	+@$(MAKE) check CHECKS="$(ALL_CHECKS)" $(MANY) $(LONG)
 nightly: ## all jobs of .ci/jobs with all their parts; installs what it needs; prints the total time
 	@bash .ci/run nightly
 
@@ -371,8 +372,12 @@ programs_hard := hard
 programs_replay := replay
 programs_hostile := hostile
 
+# All programs, those of tests/measure in $(B)/links.
+LINKED := $(addprefix $(B)/,$(MEASURES:%=links/measure-%) $(PROGRAMS) decodes scenes path page-hash faults demo-picture demo torus live room)
+
 # CHECKS="..." of the command line: those of these checks; all of them otherwise.
-programs: $(LIB) $(TOOL) $(sort $(foreach c,$(if $(filter command line,$(origin CHECKS)),$(CHECKS),$(ALL_CHECKS)),$(programs_$(c):%=$(B)/%))) ## the programs that the checks run
+programs: $(LIB) $(TOOL) $(if $(filter command line,$(origin CHECKS)),$(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%))),\
+    $(filter-out $(B)/links/%,$(LINKED)) $(B)/fault.so) ## the programs that the checks run
 
 $(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%)))
 	+@$(RUN_PART) $* $(MAKE) $*
@@ -467,7 +472,6 @@ endef
 $(foreach f,$(MEASURES),$(eval $(call linked,$(f))))
 -include $(patsubst tests/measure/%.c,$(B)/links/tests/measure/%.d,$(wildcard tests/measure/*.c))
 
-LINKED := $(addprefix $(B)/,$(MEASURES:%=links/measure-%) $(PROGRAMS) decodes scenes path page-hash faults demo-picture demo torus live room)
 links: $(LIB) $(TOOL) ## every program links, those of tests/measure at -O0; the sources of make prove compile
 	+@MAKE='$(MAKE)' PROGRAMS='$(LINKED)' $(IN_SH) tests/scripts/links.sh
 

@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* Counters live in the test program's main. */
 extern int test_passed, test_failed, test_skipped;
@@ -39,6 +40,12 @@ extern int test_passed, test_failed, test_skipped;
         printf(__VA_ARGS__); \
         printf("\n"); \
     } while (0)
+
+/* How many random tries: `many` in make check-all, which sets LMB_LONG, `few` otherwise. */
+static inline int tries(int few, int many)
+{
+    return getenv("LMB_LONG") != NULL ? many : few;
+}
 
 /* Repeatable 32-bit random numbers (PCG XSH-RR, O'Neill 2014). */
 typedef struct test_rng {

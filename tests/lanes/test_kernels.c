@@ -16,7 +16,8 @@
 
 void test_kernels(void);
 
-enum { ROUNDS = 400, CANARY = 0x5a };
+enum { CANARY = 0x5a };
+#define ROUNDS tries(400, 1500)
 
 /* --- comparing ---------------------------------------------------------------------------------------------------- */
 

@@ -13,8 +13,10 @@
 
 void test_raster(void);
 
-/* `make slivers` draws many more random triangles. */
-enum { FRAME = 64, WINDOW = 32, CAP = 96, PIXELS = 128 * 128, RANDOM_TRIANGLES = 50000, CUTS = 300, DEPTHS = 400 };
+enum { FRAME = 64, WINDOW = 32, CAP = 96, PIXELS = 128 * 128 };
+#define RANDOM_TRIANGLES tries(50000, 1000000)
+#define CUTS             tries(300, 5000)
+#define DEPTHS           tries(400, 5000)
 
 /* One mesh in one instance, and where it is drawn. */
 typedef struct stage {
@@ -293,7 +295,7 @@ static void test_coverage(void)
     for (int kind = 0; kind <= KINDS; ++kind) {
         CHECK_MSG(wrong[kind] == 0, "kind %d: %d triangles differ", kind, wrong[kind]);
     }
-    CHECK(st.stats.triangles == RANDOM_TRIANGLES && st.stats.triangles_dropped == 0);
+    CHECK(st.stats.triangles == (uint32_t)RANDOM_TRIANGLES && st.stats.triangles_dropped == 0);
     CHECK(covered > RANDOM_TRIANGLES * 9 / 10);
 }
 
