@@ -25,6 +25,7 @@ cat tools/README.md include/README.md platform/README.md | awk -v dir="$dir" '
 flags=$CFLAGS
 mkdir -p "$dir/clone/build/default"
 cp -pR "$B/obj" "$B/flags" "$B/liblambent.a" "$dir/clone/build/default" && cp -p "$TOOL" "$dir/clone/build/lambent"
+[ ! -d "$B/../tiny/obj" ] || cp -pR "$B/../tiny" "$dir/clone/build"
 for block in "$dir"/*.sh; do
     what=$(sed -n '1s/^# //p' "$block")
     if missing=$(sh tests/scripts/tools.sh need $(sed -n '2s/^# //p' "$block") 2>&1); then
