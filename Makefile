@@ -63,7 +63,7 @@ HEADERS  := $(sort $(wildcard include/lambent/*.h))
 HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c)
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c),$(wildcard tools/*/*.c))) $(HOST_SRC)
 # Unit tests that take over a second each are a group of their own, which `make check` leaves out.
-SLOW_TESTS := adaptive gltf mix mix_cones mix_front mix_stays relief_light relief_ornate transfer
+SLOW_TESTS := adaptive gltf mix mix_cones mix_front mix_sources mix_stays relief_light relief_ornate transfer
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))

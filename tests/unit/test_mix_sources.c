@@ -63,7 +63,7 @@ static void emits_by_form_factors(void)
  * of it about the mirror direction. */
 static void reflects_what_arrives(void)
 {
-    enum { RINGS = 48, TURNS = 96 };
+    enum { RINGS = 64, TURNS = 128 };
     const lmb_vec3 from = {0.6f, -0.8f, 0.0f};
     for (int k = 0; k < 3; ++k) {
         const float alpha2 = k == 0 ? 0.0016f : k == 1 ? 0.0256f : 0.25f, far = 40.0f;
@@ -86,9 +86,9 @@ static void reflects_what_arrives(void)
 
 /* --- in a photo --------------------------------------------------------------------------------------------------- */
 
-enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
+enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT };
 
-static const lmb_pinhole camera = {WIDTH, HEIGHT, 40.0f, 40.0f, 23.5f, 17.5f};
+static const lmb_pinhole camera = {WIDTH, HEIGHT, 80.0f, 80.0f, 47.5f, 35.5f};
 static char quads[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, a unit wide and high */
 
 /* A floor half a metre under the camera and a wall before it, grey, lit by a lamp; the object is a square a third of a metre
@@ -96,7 +96,7 @@ static char quads[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, a unit wide
 static mix_job *draw_square(const lmb_material *look, const char *at, const char *turn, const char *lamp)
 {
     char place[20], turned[20], light[60];
-    char *argv[] = {"mix", "--frame", "known", "--voxels", "5", "--shadow-map", "64", "-o", "known.pfm", "--object", quads,
+    char *argv[] = {"mix", "--frame", "known", "--voxels", "5", "--shadow-map", "256", "-o", "known.pfm", "--object", quads,
                     "--at", place, "--scale", "0.3", "--turn", turned, "--light", light, "--quiet"};
     report r = {""};
     snprintf(place, sizeof place, "%s", at);
@@ -120,12 +120,12 @@ static void beam_lights_floor(void)
 {
     static const char lamp[] = "point:0,0.5,-0.6:0,-1,0:3,3,3";
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.3f, .flags = LMB_DOUBLE_SIDED};
-    mix_job *j = draw_square(&look, "24,31", "0", lamp);
-    const float dark = photo_mean(j, 21, 33, 27, 36);
+    mix_job *j = draw_square(&look, "48,62", "0", lamp);
+    const float dark = photo_mean(j, 42, 66, 54, 71);
     mix_job_free(j);
     look.specular[0] = look.specular[1] = look.specular[2] = 0.95f;
-    j = draw_square(&look, "24,31", "0", lamp);
-    const float lit = photo_mean(j, 21, 33, 27, 36);
+    j = draw_square(&look, "48,62", "0", lamp);
+    const float lit = photo_mean(j, 42, 66, 54, 71);
     CHECK(j->lamp_count == 1 && j->sources != NULL);
     CHECK_MSG(lit > 1.15f * dark && lit > 0.3f, "%g by black, %g by metal", (double)dark, (double)lit);
     mix_job_free(j);
@@ -137,8 +137,8 @@ static void foot_mirrors_floor(void)
 {
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.2f, .flags = LMB_DOUBLE_SIDED};
     look.specular[0] = look.specular[1] = look.specular[2] = 0.95f;
-    mix_job *j = draw_square(&look, "24,31", "0", "point:0,0.5,-0.6:0,-1,0:3,3,3");
-    const float foot = photo_mean(j, 22, 28, 26, 31), floor = photo_mean(j, 22, 32, 26, 34);
+    mix_job *j = draw_square(&look, "48,62", "0", "point:0,0.5,-0.6:0,-1,0:3,3,3");
+    const float foot = photo_mean(j, 44, 57, 52, 61), floor = photo_mean(j, 44, 64, 52, 68);
     CHECK_MSG(foot > 0.6f * floor && foot < 1.2f * floor, "the foot shows %g, the floor %g", (double)foot, (double)floor);
     mix_job_free(j);
 }
@@ -149,7 +149,7 @@ static void patches_are_small(void)
 {
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 1.0f, .flags = LMB_DOUBLE_SIDED};
     look.emission[0] = look.emission[1] = look.emission[2] = 2.0f;
-    mix_job *j = draw_square(&look, "24,31", "0", "point:0,0.5,-0.6:0,-1,0:3,3,3");
+    mix_job *j = draw_square(&look, "48,62", "0", "point:0,0.5,-0.6:0,-1,0:3,3,3");
     const double side = sqrt((double)j->sources->piece[0].area);
     CHECK_MSG(side > 0.0 && side < 0.3 / 20.0, "patches of %g m", side);
     mix_job_free(j);

@@ -486,7 +486,7 @@ static void test_split_meshes(void)
     static const int64_t steps[3] = {1, 128, 256};
     test_rng r = {7};
     int wrong = 0;
-    for (int n = 0; n < 48; ++n) {
+    for (int n = 0; n < tries(48, 300); ++n) {
         int64_t box[4];
         for (int k = 0; k < 4; ++k) {
             int64_t at = random_between(&r, 4, 28) * 256 + (n % 2 ? 128 : random_between(&r, 0, 255));
@@ -505,7 +505,7 @@ static void test_split_afar(void)
 {
     test_rng r = {8};
     int wrong = 0;
-    for (int n = 0; n < 30; ++n) {
+    for (int n = 0; n < tries(30, 200); ++n) {
         int64_t far_px = n % 2 ? 20000 : 65000, box[4] = {-far_px * 256, -far_px * 256, far_px * 256, far_px * 256};
         int count = split_rectangle(&r, box, 1);
         put_grid_mesh(count);
@@ -556,7 +556,7 @@ static void test_ground(void)
 {
     test_rng r = {9};
     int holes = 0, doubles = 0, extra = 0, seen = 0;
-    for (int n = 0; n < 30; ++n) {
+    for (int n = 0; n < tries(30, 300); ++n) {
         lmb_vec3 eye = {0, 0, 0}, up = {0, 1, 0};
         lmb_vec3 target = {test_uniform(&r, -1, 1), test_uniform(&r, -0.8f, 0.2f), test_uniform(&r, -1, 1)};
         put_ground(&r);
@@ -602,7 +602,7 @@ static void test_fans(void)
 {
     test_rng r = {17};
     int wrong = 0;
-    for (int n = 0; n < 60; ++n) {
+    for (int n = 0; n < tries(60, 600); ++n) {
         put_fan(&r, test_uniform(&r, -20, 20), test_uniform(&r, -20, 20), n % 2 ? 20000.0f : 100000.0f, 0);
         st.view = axis_view(LMB_ORTHOGRAPHIC, FRAME);
         count_hits(SPOKES);
@@ -618,7 +618,7 @@ static void test_ground_fans(void)
 {
     test_rng r = {18};
     int wrong = 0, seen = 0;
-    for (int n = 0; n < 60; ++n) {
+    for (int n = 0; n < tries(60, 600); ++n) {
         lmb_vec3 eye = {0, 0, 0}, up = {0, 1, 0}, target = {test_uniform(&r, -1, 1), -0.6f, -1.5f};
         put_fan(&r, test_uniform(&r, -2, 2), test_uniform(&r, -4, -2), n % 2 ? 40.0f : 1000.0f, 1);
         lmb_view_look_at(&st.view, eye, target, up, 1.2f, FRAME, FRAME);
@@ -781,7 +781,7 @@ static void test_depth16(void)
 {
     const int32_t box[4] = {0, 0, FRAME, FRAME};
     test_rng r = {11};
-    for (int variant = 0; variant < 8; ++variant) {
+    for (int variant = 0; variant < tries(8, 40); ++variant) {
         int perspective = variant & 1, off = 0, none = 0;
         double far_d, worst = 0;
         random_soup(&r, 40, 30.0f, 60.0f);
@@ -990,7 +990,7 @@ static void test_ranges(void)
 {
     const int32_t all[4] = {0, 0, WIDE, TALL};
     test_rng r = {13};
-    for (int n = 0; n < 6; ++n) {
+    for (int n = 0; n < tries(6, 40); ++n) {
         static lmb_instance parts[4];
         random_soup(&r, 60, 9.0f, 12.0f);
         set_wide_view(n & 1);
@@ -1007,7 +1007,7 @@ static void test_ranges(void)
         draw(&whole, 1, UINT32_MAX, LMB_CULL_BACK);
         CHECK(st.stats.triangles == 240);
         for (uint32_t first = 1; first <= 240;) {
-            uint32_t count = (uint32_t)random_between(&r, 1, n < 2 ? 7 : 100);
+            uint32_t count = (uint32_t)random_between(&r, 1, n < tries(2, 20) ? 7 : 100);
             draw(&t, first, count, LMB_CULL_BACK);
             first += count;
         }
@@ -1353,7 +1353,7 @@ static void test_masks(void)
     const int32_t box[4] = {0, 0, FRAME, FRAME};
     test_rng r = {15};
     mask_count n = {0, 0, 0};
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < tries(40, 200); ++i) {
         random_soup(&r, 1, i & 1 ? 3.0f : 30.0f, i & 1 ? 4.0f : 60.0f);
         st.view = axis_view(i & 1 ? LMB_PERSPECTIVE : LMB_ORTHOGRAPHIC, FRAME);
         set_mask(&r, 1);

@@ -165,7 +165,7 @@ static void test_against_double(void)
         int filter = variant / 9 % 3, levels = filter == LMB_TRILINEAR ? lmb_texture_level_count(side[0], side[1]) : 1;
         double worst = 0;
         set_texture(side[0], side[1], levels, variant % 3, variant / 3 % 3, filter);
-        for (int n = 0; n < 40; ++n) {
+        for (int n = 0; n < tries(40, 200); ++n) {
             float u = random_coordinate(&r, filter == LMB_NEAREST, side[0]);
             float v = random_coordinate(&r, filter == LMB_NEAREST, side[1]);
             float lod = test_uniform(&r, -1.0f, 7.0f), out[4];
@@ -435,7 +435,7 @@ static void test_attributes(void)
     test_rng r = {22};
     resolve_worst worst;
     memset(&worst, 0, sizeof worst);
-    for (int n = 0; n < 60; ++n) {
+    for (int n = 0; n < tries(60, 400); ++n) {
         random_scene(&r, n);
         draw_scene();
         judge_frame(&worst);
