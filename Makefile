@@ -399,9 +399,9 @@ unit slow analytic truth lanes: $(B)/tests
 truth-small: $(B)/tests ## light against the small path-traced pictures of tests/truth/small
 	@$(RUN) $(B)/tests small_truth relight
 
-# The unit tests, slow ones too, in two halves for two cores.
+# The quick unit tests in two halves for two cores.
 unit-1 unit-2: $(B)/tests
-	@$(RUN) $(B)/tests unit slow $(@:unit-%=%)/2
+	@$(RUN) $(B)/tests unit $(@:unit-%=%)/2
 
 golden: $(B)/golden ## small scenes' hashes against the committed ones
 	@$(RUN) $(B)/golden$(EXE)
@@ -556,7 +556,7 @@ COV_PROGRAMS_tools := default/tests default/replay lambent
 ASAN_CC     ?= clang
 PLAIN_KERNELS := -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0
 FUZZER      := $(BUILD)/asan/default/fuzzer
-ASAN_WANTED := cli hard unit-1 unit-2 golden replay hostile hostile-cli readme
+ASAN_WANTED ?= cli hard unit-1 unit-2 golden replay hostile hostile-cli readme
 SANITIZED    = BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked \
     KERNEL_CFLAGS="-fno-sanitize=pointer-overflow,object-size$(if $(findstring clang,$(ASAN_CC)),$(comma)fuzzer-no-link)" \
     CFLAGS="-O1 -g1 -Werror -fno-omit-frame-pointer -fsanitize=address,undefined$(if $(findstring clang,$(ASAN_CC)),$(comma)fuzzer-no-link) -fno-sanitize-recover=all"
