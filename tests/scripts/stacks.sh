@@ -12,15 +12,18 @@ for build in "$@"; do
         { n = split($1, part, ":"); print $2, part[n], $3 }' | sort -rn | head -n 1)
     [ -n "$largest" ] || continue
     printf '  %-14s %s\n' "$(basename "$build")" "$largest"
+    # include/README.md says which builds take up to 6.2 KiB a call.
+    limit=$budget
+    case $build in *-O3 | *-native | *ppc64* | *windows* | *riscv64* | *s390x*) limit=6400 ;; esac
     case $build in
     *-O0) ;;
     *-O1 | *-Os) sh tests/scripts/calls.sh "$build" "$budget" | sed -n '1s/^\([a-z]*\) \([0-9]* [a-z_0-9]*\) .*/                 \1 \2/p' ;;
     *)
         check "$build: $largest; the budget is $budget bytes" test "${largest%% *}" -le "$budget"
-        calls=$(sh tests/scripts/calls.sh "$build" "$budget")
+        calls=$(sh tests/scripts/calls.sh "$build" "$limit")
         [ -n "$calls" ] || continue
         printf '%s\n' "$calls" | sed -n '1s/^[a-z]*/                /p'
-        check "$build: calls over $budget bytes: $(printf '%s\n' "$calls" | sed -n 's/^over //p')" \
+        check "$build: calls over $limit bytes: $(printf '%s\n' "$calls" | sed -n 's/^over //p')" \
             test "${calls#over}" = "$calls" -a "${calls#*
 over}" = "$calls"
         ;;
