@@ -1,4 +1,4 @@
-# places.sh: `make`, `make demo` and `make check` where people work: places.sh [CASE]
+# places.sh: `make`, `make demo` and `make check` where people work: places.sh [CASE...]
 #
 #     rootless     by a user without root
 #     spaces       in a path with blanks and an apostrophe
@@ -117,7 +117,8 @@ read_only() {
 }
 
 umask=$(umask)
-for name in ${1:-rootless spaces umask read-only}; do
+[ $# -gt 0 ] || set -- rootless spaces umask read-only
+for name in "$@"; do
     who= build=
     umask "$umask"
     case $name in
