@@ -478,6 +478,7 @@ links: $(LIB) $(TOOL) ## every program links, those of tests/measure at -O0; the
 page-links: ## the page of platform/web links at -O0
 	+@sh tests/scripts/tools.sh need clang wasm-ld wasi-libc || { echo "skipped: no compiler for the page"; \
 	    echo "0 passed, 0 failed, 1 skipped"; exit; }; \
+	    rm -f '$(BUILD)'/web/default/page-work-O0/*.wasm; \
 	    $(MAKE) PORT=web PAGE_OPT=-O0 BUILD='$(BUILD)/web' page-modules && echo "1 passed, 0 failed, 0 skipped"
 
 tables: $(LIB) ## generated tables are what their generators print
