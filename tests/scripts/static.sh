@@ -4,7 +4,7 @@
 # Each tool is one check: it says nothing but what is listed here, with the reason. Ends with `N passed, ...`.
 . tests/scripts/checks.sh
 folder=$1
-mkdir -p "$folder"
+mkdir -p "$folder" || exit 1
 flags="-std=c99 -ffp-contract=off -Iinclude"
 sources=$(ls src/*/*.c | awk -v part="${PART:-1/1}" 'BEGIN { split(part, p, "/") } NR % p[2] == p[1] % p[2]')
 bare_sources=$(printf '%s\n' $sources | grep -v src/isa/)
