@@ -175,8 +175,9 @@ size_t lmb_texture_format_bytes(int32_t format, int32_t width, int32_t height, i
 /* lmb_texture_level_count: levels down to 1x1. */
 int32_t lmb_texture_level_count(int32_t width, int32_t height);
 
-/* lmb_texture_mips: fill levels 1.. from level 0 by a 2x2 box in linear light (alpha-weighted colour).
- * `texels` holds lmb_texture_bytes. Returns LMB_OK or LMB_ERR_ARG. */
+/* lmb_texture_mips: fill levels 1.. from level 0. Each texel is the mean of the area that it covers, in linear light and
+ * weighted by alpha; odd sides too, where it covers parts of three texels. `texels` holds lmb_texture_bytes. Returns LMB_OK
+ * or LMB_ERR_ARG. */
 lmb_status lmb_texture_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels);
 
 /* lmb_normal_map_mips: the same by plain means of the codes. LMB_OK or LMB_ERR_ARG. */

@@ -2,6 +2,7 @@
 #include <lambent/scene.h>
 
 #include "codec.h"
+#include "halve.h"
 #include "vec.h"
 
 int32_t lmb_texture_level_count(int32_t width, int32_t height)
@@ -40,54 +41,77 @@ size_t lmb_texture_format_bytes(int32_t format, int32_t width, int32_t height, i
     return nibbles;
 }
 
-typedef void (*mean_of_four)(uint8_t out[4], const uint8_t *const from[4]);
+/* The texels that one of the next level covers, with its part in each. */
+typedef struct {
+    const uint8_t *from;
+    size_t row; /* bytes */
+    halve_taps x, y;
+} box;
 
-/* Mean of four texels: colour weighted by alpha, so that what is invisible does not bleed; where all four are
- * invisible, by 1 each. Alpha is linear: a rounded integer mean. */
-static void mean_colour(uint8_t out[4], const uint8_t *const from[4])
+typedef void (*mean_of_box)(uint8_t out[4], const box *b);
+
+#define EACH_TEXEL(j, i, b)                                                                                            \
+    for (int32_t j = 0; j < (b)->y.count; ++j)                                                                         \
+        for (int32_t i = 0; i < (b)->x.count; ++i)
+
+static const uint8_t *box_texel(const box *b, int32_t i, int32_t j) { return b->from + (size_t)j * b->row + 4 * i; }
+
+static int32_t box_part(const box *b, int32_t i, int32_t j) { return b->x.part[i] * b->y.part[j]; }
+
+/* The rounded mean of one channel's codes. Whole numbers: at most 8191 * 8191 * 255. */
+static uint8_t mean_code(const box *b, int channel)
 {
-    int32_t i, k, weight, weights = 0, alpha = from[0][3] + from[1][3] + from[2][3] + from[3][3];
-    float sum[3] = {0.0f, 0.0f, 0.0f};
-    for (i = 0; i < 4; ++i) {
-        weight = alpha ? from[i][3] : 1;
+    const int64_t whole = (int64_t)b->x.whole * b->y.whole;
+    int64_t sum = whole / 2;
+    EACH_TEXEL (j, i, b)
+        sum += (int64_t)box_part(b, i, j) * box_texel(b, i, j)[channel];
+    return (uint8_t)(sum / whole);
+}
+
+/* Colour weighted by alpha, so that invisible texels do not bleed. If all are invisible, each has weight 1. Alpha is
+ * linear. */
+static void mean_colour(uint8_t out[4], const box *b)
+{
+    float weights = 0.0f, sum[3] = {0.0f, 0.0f, 0.0f};
+    int visible = 0;
+    EACH_TEXEL (j, i, b)
+        visible |= box_texel(b, i, j)[3];
+    EACH_TEXEL (j, i, b) {
+        const uint8_t *texel = box_texel(b, i, j);
+        const float weight = (float)box_part(b, i, j) * (float)(visible ? texel[3] : 1);
         weights += weight;
-        for (k = 0; k < 3; ++k)
-            sum[k] += (float)weight * lmb_srgb_decode(from[i][k]);
+        for (int k = 0; k < 3; ++k)
+            sum[k] += weight * lmb_srgb_decode(texel[k]);
     }
-    for (k = 0; k < 3; ++k)
-        out[k] = lmb_srgb_encode(sum[k] / (float)weights);
-    out[3] = (uint8_t)((alpha + 2) / 4);
+    for (int k = 0; k < 3; ++k)
+        out[k] = lmb_srgb_encode(sum[k] / weights);
+    out[3] = mean_code(b, 3);
 }
 
-/* Codes as they are, rounded: what looks a vector up makes it unit length. */
-static void mean_vector(uint8_t out[4], const uint8_t *const from[4])
+/* Codes as they are, rounded: a lookup makes the vector unit length. */
+static void mean_vector(uint8_t out[4], const box *b)
 {
-    int32_t k;
-    for (k = 0; k < 4; ++k)
-        out[k] = (uint8_t)((from[0][k] + from[1][k] + from[2][k] + from[3][k] + 2) / 4);
+    for (int k = 0; k < 4; ++k)
+        out[k] = mean_code(b, k);
 }
 
-/* One level from the one above it. A side halves rounding down, so an odd one's last texel has no part in it, and a
- * side of 1 is read twice. */
-static void half_level(uint8_t *to, const uint8_t *from, int32_t width, int32_t height, mean_of_four mean)
+/* One level from the one above it. */
+static void half_level(uint8_t *to, const uint8_t *from, int32_t width, int32_t height, mean_of_box mean)
 {
-    int32_t x, y, to_width = maxi(width >> 1, 1), to_height = maxi(height >> 1, 1);
-    for (y = 0; y < to_height; ++y) {
-        const uint8_t *row0 = from + (size_t)(2 * y) * (size_t)width * 4;
-        const uint8_t *row1 = from + (size_t)mini(2 * y + 1, height - 1) * (size_t)width * 4;
-        for (x = 0; x < to_width; ++x, to += 4) {
-            size_t x0 = (size_t)(2 * x) * 4, x1 = (size_t)mini(2 * x + 1, width - 1) * 4;
-            const uint8_t *box[4];
-            box[0] = row0 + x0;
-            box[1] = row0 + x1;
-            box[2] = row1 + x0;
-            box[3] = row1 + x1;
-            mean(to, box);
+    const int32_t to_width = maxi(width / 2, 1), to_height = maxi(height / 2, 1);
+    box b;
+    b.row = (size_t)width * 4;
+    for (int32_t y = 0; y < to_height; ++y) {
+        b.y = halve_axis(height, y);
+        for (int32_t x = 0; x < to_width; ++x, to += 4) {
+            b.x = halve_axis(width, x);
+            b.from = from + (size_t)b.y.first * b.row + (size_t)b.x.first * 4;
+            mean(to, &b);
         }
     }
 }
 
-static lmb_status fill_levels(uint8_t *texels, int32_t width, int32_t height, int32_t levels, mean_of_four mean)
+static lmb_status fill_levels(uint8_t *texels, int32_t width, int32_t height, int32_t levels, mean_of_box mean)
 {
     int32_t i;
     if (!texels || lmb_texture_bytes(width, height, levels) == 0)

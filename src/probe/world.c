@@ -1,6 +1,7 @@
 /* world.c: the world's pictures -> coded texels and their levels, in the caller's memory. Layer 6.          [S1-S4] */
 #include <string.h>
 
+#include "../base/halve.h"
 #include "../base/memory_check.h"
 #include "../base/poly.h"
 #include "../map/cube.h"
@@ -80,29 +81,41 @@ static float sane_radiance(float c) { return c > 1e-12f && c < 1e30f ? c : 0.0f;
 
 static float sane_alpha(float a) { return a > 1e-5f ? minf(a, 1.0f) : 0.0f; }
 
-/* The mean of four colours, by alpha. */
-static void mean_of(float out[4], float rgba[4][4])
+/* The texels of a level that one of the next covers: of a cube's face, or of the ground. */
+typedef struct {
+    halve_taps x, y;
+} box;
+
+static box box_of(const lmb_world_level *from, int32_t x, int32_t y)
 {
+    const box b = {halve_axis(from->width, x), halve_axis(from->height, y)};
+    return b;
+}
+
+/* How to read texel x y of a level: face is that of a cube. */
+typedef void (*read_texel)(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x,
+                           int32_t y);
+
+/* Their mean, weighted by alpha. */
+static void mean_of_box(float out[4], const lmb_world *w, const lmb_world_level *from, int32_t face, box b, read_texel read)
+{
+    const float whole = (float)b.x.whole * (float)b.y.whole;
     float sum[4] = {0};
-    for (int i = 0; i < 4; ++i) {
-        for (int c = 0; c < 3; ++c) {
-            sum[c] += rgba[i][c] * rgba[i][3];
+    for (int32_t j = 0; j < b.y.count; ++j) {
+        for (int32_t i = 0; i < b.x.count; ++i) {
+            float rgba[4];
+            read(rgba, w, from, face, b.x.first + i, b.y.first + j);
+            const float weight = (float)b.x.part[i] * (float)b.y.part[j] * rgba[3];
+            for (int c = 0; c < 3; ++c) {
+                sum[c] += rgba[c] * weight;
+            }
+            sum[3] += weight;
         }
-        sum[3] += rgba[i][3];
     }
     for (int c = 0; c < 3; ++c) {
         out[c] = sum[3] > 0.0f ? sum[c] / sum[3] : 0.0f;
     }
-    out[3] = 0.25f * sum[3];
-}
-
-static void mean4(float out[4], const lmb_world *w, const size_t at[4])
-{
-    float rgba[4][4];
-    for (int i = 0; i < 4; ++i) {
-        lmb_world_texel(rgba[i], w, at[i]);
-    }
-    mean_of(out, rgba);
+    out[3] = sum[3] / whole;
 }
 
 /* --- faces -------------------------------------------------------------------------------------------------------- */
@@ -121,16 +134,19 @@ static void take_faces(lmb_world *w, const lmb_world_pictures *p)
     }
 }
 
+static void read_face(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x, int32_t y)
+{
+    lmb_world_texel(rgba, w, lmb_world_face_texel(from, face, x, y));
+}
+
 static void halve_faces(lmb_world *w, const lmb_world_level *to, const lmb_world_level *from)
 {
     const int32_t n = to->width;
     for (int32_t i = 0; i < 6 * n * n; ++i) {
-        const int32_t face = i / (n * n), x = 2 * (i % n), y = 2 * (i / n % n);
-        const size_t at[4] = {lmb_world_face_texel(from, face, x, y), lmb_world_face_texel(from, face, x + 1, y),
-                              lmb_world_face_texel(from, face, x, y + 1), lmb_world_face_texel(from, face, x + 1, y + 1)};
+        const int32_t face = i / (n * n), x = i % n, y = i / n % n;
         float rgba[4];
-        mean4(rgba, w, at);
-        lmb_world_put(w, lmb_world_face_texel(to, face, x / 2, y / 2), rgba);
+        mean_of_box(rgba, w, from, face, box_of(from, x, y), read_face);
+        lmb_world_put(w, lmb_world_face_texel(to, face, x, y), rgba);
     }
 }
 
@@ -149,19 +165,24 @@ static void set_border(lmb_world *w, const lmb_world_level *l)
     }
 }
 
-/* The texels of the first calm level where a peak is: the mean of what stays of theirs. */
+static void read_calm(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x, int32_t y)
+{
+    (void)from;
+    lmb_world_calm_texel(rgba, w, face, x, y);
+}
+
+/* The texels of the first calm level that cover part of a peak: the mean of the peak's rest. Texel i of an odd side ends
+ * in the middle of texel 2 i + 2. */
 static void calm_part(lmb_world *w, const lmb_world_peak *peak)
 {
+    const int32_t last = w->calm[1].width - 1, odd = w->calm[0].width % 2;
     int32_t from[2], to[2];
     lmb_world_peak_texels(from, to, w, peak);
-    for (int32_t y = from[1] / 2; y <= mini((to[1] - 1) / 2, w->calm[1].width - 1); ++y) {
-        for (int32_t x = from[0] / 2; x <= mini((to[0] - 1) / 2, w->calm[1].width - 1); ++x) {
-            float rgba[4][4], mean[4];
-            for (int i = 0; i < 4; ++i) {
-                lmb_world_calm_texel(rgba[i], w, peak->face, 2 * x + i % 2, 2 * y + i / 2);
-            }
-            mean_of(mean, rgba);
-            lmb_world_put(w, lmb_world_face_texel(&w->calm[1], peak->face, x, y), mean);
+    for (int32_t y = (from[1] - odd) / 2; y <= mini((to[1] - 1) / 2, last); ++y) {
+        for (int32_t x = (from[0] - odd) / 2; x <= mini((to[0] - 1) / 2, last); ++x) {
+            float rgba[4];
+            mean_of_box(rgba, w, &w->calm[0], peak->face, box_of(&w->calm[0], x, y), read_calm);
+            lmb_world_put(w, lmb_world_face_texel(&w->calm[1], peak->face, x, y), rgba);
         }
     }
 }
@@ -190,16 +211,18 @@ static void take_ground(lmb_world *w, const lmb_world_pictures *p)
     }
 }
 
+static void read_ground(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x, int32_t y)
+{
+    (void)face;
+    lmb_world_texel(rgba, w, from->at + (size_t)y * (size_t)from->width + (size_t)x);
+}
+
 static void halve_ground(lmb_world *w, const lmb_world_level *to, const lmb_world_level *from)
 {
     for (int32_t y = 0; y < to->height; ++y) {
         for (int32_t x = 0; x < to->width; ++x) {
-            const int32_t x0 = mini(2 * x, from->width - 1), x1 = mini(2 * x + 1, from->width - 1);
-            const size_t row0 = from->at + (size_t)mini(2 * y, from->height - 1) * (size_t)from->width,
-                         row1 = from->at + (size_t)mini(2 * y + 1, from->height - 1) * (size_t)from->width;
-            const size_t at[4] = {row0 + (size_t)x0, row0 + (size_t)x1, row1 + (size_t)x0, row1 + (size_t)x1};
             float rgba[4];
-            mean4(rgba, w, at);
+            mean_of_box(rgba, w, from, 0, box_of(from, x, y), read_ground);
             lmb_world_put(w, to->at + (size_t)y * (size_t)to->width + (size_t)x, rgba);
         }
     }

@@ -758,15 +758,42 @@ static void mips_of_checkers(void)
     }
     CHECK(lmb_texture_mips(t, 2, 2, 2) == LMB_OK);
     CHECK(t[16] == 255 && t[17] == 0 && t[18] == 0 && t[19] == 128);
-    for (i = 0; i < 3; ++i) /* 3 x 1: the last texel has no part in level 1 */
-        memset(t + i * 4, i == 2 ? 0 : 255, 4);
-    CHECK(lmb_texture_mips(t, 3, 1, 2) == LMB_OK && t[12] == 255 && t[15] == 255);
+    for (i = 0; i < 3; ++i) /* 3 x 1: each texel has a third of level 1 */
+        memset(t + i * 4, i == 2 ? 0 : 255, 3), t[i * 4 + 3] = (uint8_t)(i == 2 ? 51 : 255);
+    CHECK(lmb_texture_mips(t, 3, 1, 2) == LMB_OK && t[12] == lmb_srgb_encode(510.0f / 561.0f) && t[15] == 187);
     memset(t, 0, 8); /* 1 x 4: the neighbour of a row's only texel is itself, not the next row's */
     memset(t + 8, 255, 8);
     CHECK(lmb_texture_mips(t, 1, 4, 2) == LMB_OK && t[16] == 0 && t[19] == 0 && t[20] == 255 && t[23] == 255);
     for (i = 0; i < 4; ++i) /* all invisible: the colour still is the mean */
         memset(t + i * 4, 200, 3), t[i * 4 + 3] = 0;
     CHECK(lmb_texture_mips(t, 2, 2, 2) == LMB_OK && t[16] == 200 && t[18] == 200 && t[19] == 0);
+}
+
+/* A lit band at the last columns or rows counts as much in each level as it covers: no side loses its last texels. */
+static void mips_of_odd_sides(void)
+{
+    static const int32_t sizes[][2] = {{3, 3}, {7, 5}, {96, 96}, {255, 3}, {100, 75}, {1, 33}, {47, 1}, {9, 16}};
+    uint8_t *t = (uint8_t *)room_a;
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; ++s) {
+        for (int32_t turn = 0; turn < 4; ++turn) {
+            const int32_t w = sizes[s][0], h = sizes[s][1], levels = lmb_texture_level_count(w, h);
+            const int32_t side = turn < 2 ? w : h, band = (side + 2) / 3;
+            for (int32_t i = 0; i < w * h; ++i) {
+                const int32_t at = turn < 2 ? i % w : i / w, lit = turn % 2 ? at < band : at >= side - band;
+                memset(t + 4 * i, lit ? 255 : 0, 3);
+                t[4 * i + 3] = 255;
+            }
+            CHECK(lmb_texture_mips(t, w, h, levels) == LMB_OK);
+            const uint8_t *last = t + lmb_texture_bytes(w, h, levels) - 4;
+            const float mean = lmb_srgb_decode(last[0]), want = (float)band / (float)side;
+            CHECK_MSG(mean > want - 0.02f && mean < want + 0.02f && last[3] == 255, "%dx%d, turn %d: %.3f, not %.3f",
+                      (int)w, (int)h, (int)turn, (double)mean, (double)want);
+        }
+    }
+    memset(t, 0, 16 * 9);
+    for (int32_t i = 0; i < 9; ++i) /* a normal map's codes: plain means, here of a ramp */
+        t[4 * i] = (uint8_t)(100 + 9 * (i % 3) + 3 * (i / 3)), t[4 * i + 1] = (uint8_t)(i == 8 ? 90 : 0);
+    CHECK(lmb_normal_map_mips(t, 3, 3, 2) == LMB_OK && t[36] == 112 && t[37] == 10);
 }
 
 void test_base(void)
@@ -796,4 +823,5 @@ void test_base(void)
     mip_sizes();
     mips_of_constants();
     mips_of_checkers();
+    mips_of_odd_sides();
 }

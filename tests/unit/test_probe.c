@@ -625,6 +625,38 @@ static void refusals(stage *s)
     CHECK(fabsf(outside - s->map[COUNT / 2]) < 1e-4f);
 }
 
+/* The last level of a face or a ground of any sides is the mean of all its texels, weighted by alpha. */
+static void means_of_levels(stage *s, int32_t face, int32_t width, int32_t height)
+{
+    double want[2][4] = {{0}};
+    float got[2][4];
+    paint_ground(s, 1.0f);
+    for (int32_t i = 0; i < face * face; ++i) {
+        s->face[1][3 * i] = 1.0f + (float)(i % face == face - 1) * 40.0f + (float)(i / face == face - 1) * 20.0f;
+        want[0][0] += (double)s->face[1][3 * i] / (face * face);
+    }
+    for (int32_t i = 0; i < width * height; ++i) {
+        float *rgba = &s->ground[4 * i];
+        rgba[0] = 1.0f + (float)(i % width == width - 1) * 40.0f + (float)(i / width == height - 1) * 20.0f;
+        rgba[3] = i % 3 == 1 ? 0.25f : 1.0f;
+        want[1][0] += (double)(rgba[0] * rgba[3]) / (width * height);
+        want[1][3] += (double)rgba[3] / (width * height);
+    }
+    s->pictures.face_size = face;
+    s->pictures.ground_width = width;
+    s->pictures.ground_height = height;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    lmb_world_texel(got[0], &s->world, lmb_world_face_texel(&s->world.cube[s->world.cube_levels - 1], 1, 0, 0));
+    lmb_world_texel(got[1], &s->world, s->world.ground[s->world.ground_levels - 1].at);
+    CHECK_MSG(fabs(got[0][0] - want[0][0]) < 1e-4 * want[0][0], "face of %d: %f, not %f", (int)face, (double)got[0][0],
+              want[0][0]);
+    CHECK_MSG(fabs(got[1][0] * got[1][3] - want[1][0]) < 1e-4 * want[1][0] && fabs(got[1][3] - want[1][3]) < 1e-5,
+              "ground of %dx%d: %f, not %f", (int)width, (int)height, (double)(got[1][0] * got[1][3]), want[1][0]);
+    s->pictures.face_size = FACE;
+    s->pictures.ground = NULL;
+    paint_sky(s);
+}
+
 void test_probe(void)
 {
     stage *s = stage_make();
@@ -648,6 +680,9 @@ void test_probe(void)
     no_seams(s);
     ground_and_sky(s);
     blank_in_part(s);
+    for (int32_t i = 1; i <= FACE; ++i) {
+        means_of_levels(s, i, 1 + i * 7 % GROUND, 1 + i * 5 % GROUND);
+    }
     lamps(s);
     many_lamps(s);
     refusals(s);

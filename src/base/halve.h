@@ -1,0 +1,25 @@
+/* halve.h: which texels a texel of the next level covers. Layer 1.
+ *
+ * A side of n texels becomes n / 2, rounded down, and 1 stays 1. If n = 2 m + 1 is odd, texel i covers n / m texels from
+ * i n / m on: parts of three. Every texel of the finer level so has the same part in the coarser one. */
+#ifndef LMB_HALVE_H
+#define LMB_HALVE_H
+
+#include <stdint.h>
+
+enum { HALVE_MOST = 3 };
+
+/* Texels of one axis from `first` on, and the part of each in units of 1 / whole. */
+typedef struct {
+    int32_t first, count, whole, part[HALVE_MOST];
+} halve_taps;
+
+/* For texel i of 0 .. side / 2 - 1; i = 0 if side = 1. */
+static inline halve_taps halve_axis(int32_t side, int32_t i)
+{
+    const int32_t m = side / 2;
+    const halve_taps one = {0, 1, 1, {1, 0, 0}}, even = {2 * i, 2, 2, {1, 1, 0}}, odd = {2 * i, 3, side, {m - i, m, i + 1}};
+    return side == 1 ? one : side % 2 == 0 ? even : odd;
+}
+
+#endif
