@@ -26,6 +26,7 @@ typedef struct own_drawn {
     int ok;
     double pairs, segments;
     metrics error; /* of one bounce; zeros without a truth */
+    double worst;  /* metrics_worst */
 } own_drawn;
 
 /* tests/truth/small/FILE. */
@@ -56,7 +57,7 @@ static inline const char *own_write(folder *f, const char *name, const scene_pla
 }
 
 /* Where no light has bounced to there is no surface: the rooms have no such place. */
-static inline int own_measure(metrics *m, const image *drawn, const own_how *how, report *r)
+static inline int own_measure(own_drawn *out, const image *drawn, const own_how *how, report *r)
 {
     static float surface[OWN_LARGEST * OWN_LARGEST * 3];
     const image *truth = how->truth;
@@ -73,7 +74,9 @@ static inline int own_measure(metrics *m, const image *drawn, const own_how *how
     in.surface = how->surface != NULL ? how->surface : surface;
     in.width = in.height = how->side;
     in.channels = 3;
-    return metrics_measure(m, &in, r);
+    const int ok = metrics_measure(&out->error, &in, r);
+    out->worst = ok ? metrics_worst(&out->error, &in) : 0.0;
+    return ok;
 }
 
 /* The scene by a preset, on one thread, with light of its own alone and no more than `bounces` reflections. Elements are
@@ -98,7 +101,7 @@ static inline void own_draw_as(own_drawn *out, const char *name, const scene_pla
         snprintf(bounces, sizeof bounces, "%d", how->bounces);
         out->ok = render_options_parse(&j.o, COUNT_OF(line), line, &r) && render_job_load(&j, &r) &&
                   render_job_set(&j, &r) && render_draw(&j, &r) &&
-                  (how->truth == NULL || own_measure(&out->error, &j.linear, how, &r));
+                  (how->truth == NULL || own_measure(out, &j.linear, how, &r));
         out->pairs = (double)j.stats.pairs;
         out->segments = (double)j.stats.segments;
         CHECK_MSG(out->ok, "%s, %s: %s", name, how->preset, r.text);

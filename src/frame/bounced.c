@@ -24,6 +24,7 @@ static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const l
     const lmb_frame *f = &r->frame;
     lmb_cut_params cut_params = cut_params_of(f, &s->counts);
     cut_params.glossy = glossy;
+    cut_params.view = &f->view;
     cut_params.direct = direct;
     cut_params.beside = gathers_many_lights(f) ? inout : NULL;
     if (f->gather_step == LMB_GATHER_ADAPTIVE && tile == &s->sparse.together) {

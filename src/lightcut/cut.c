@@ -227,17 +227,29 @@ static int all_before(const cutter *c, const lmb_texel *seen, float ends)
            -dot3(seen->normal, d) - lmb_pixel_cluster_reach(p, seen->normal) - 1e-5f * far > noise;
 }
 
+static lmb_vec3 to_eye(const lmb_view *v, lmb_vec3 at)
+{
+    return v->kind == LMB_PERSPECTIVE ? sub3(v->eye, at) : v->back;
+}
+
+/* before_plane, as a question about all pixels that lie in the plane. */
+static int eye_is_before(const cutter *c, lmb_vec3 at, lmb_vec3 normal)
+{
+    return c->cut_params->view != NULL && dot3(normal, to_eye(c->cut_params->view, at)) > 0.0f;
+}
+
 /* Returns those of `pixels` for which the point is not in front of the pixel, or the pixel not in front of the point,
  * by more than the offset within which a wall never occludes. A wall does not occlude what lies on it, so segments from
  * pixels behind it must not be tested. */
 NOINLINE uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen, float ends)
 {
     uint64_t out = 0;
+    const float sign = eye_is_before(c, seen->position, seen->normal) ? -1.0f : 1.0f;
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         const lmb_vec3 d = sub3(seen->position, tile_vec(c->tile->position, k));
         const float noise = ends + LMB_NOISE_TRIANGLE * length3(d);
-        const int before = dot3(tile_vec(c->tile->face, k), d) > noise && -dot3(seen->normal, d) > noise;
+        const int before = dot3(tile_vec(c->tile->face, k), d) > noise && -dot3(seen->normal, d) > sign * noise;
         out |= (uint64_t)!before << k;
     }
     return out;
@@ -557,6 +569,13 @@ static void leaf_at(leaf *out, const lmb_tree *tree, lmb_node_ref at)
     }
 }
 
+static lmb_vec3 place_before(const cutter *c, int k, lmb_vec3 on_plane, lmb_vec3 axis)
+{
+    const lmb_vec3 at = tile_vec(c->tile->position, k);
+    const float noise = 2.0f * c->noise + LMB_NOISE_TRIANGLE * length3(sub3(at, on_plane));
+    return c->cut_params->view == NULL ? at : before_plane(at, noise, on_plane, axis, to_eye(c->cut_params->view, at));
+}
+
 static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal)
 {
     return l->element != NULL ? lmb_triangle_factor(at, face, normal, l->element->corner, l->node.normal)
@@ -592,7 +611,7 @@ static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, 
         const int corners = lmb_crease_part(corner, c->tree, at, part);
         for (uint64_t bits = corners > 0 ? pixels : 0; bits != 0; bits &= bits - 1) {
             const int k = lowest_bit_64(bits);
-            const float f = lmb_polygon_factor(tile_vec(c->tile->position, k), tile_vec(c->tile->face, k),
+            const float f = lmb_polygon_factor(place_before(c, k, t->position, t->normal), tile_vec(c->tile->face, k),
                                                tile_vec(c->tile->normal, k), corner, corners, t->normal);
             add_flux(inout, k, f * per_area, t->flux);
         }
@@ -666,7 +685,7 @@ NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, 
                        face = tile_vec(tile->face, k);
         float f = 0.0f;
         if (near >> k & 1u) {
-            f = leaf_factor(l, to, face, normal);
+            f = leaf_factor(l, place_before(c, k, n->centre, n->normal), face, normal);
         } else if (dot3(face, sub3(n->centre, to)) > 0.0f) {
             f = lmb_disc_factor(to, normal, n->centre, n->normal, n->area);
         }
@@ -873,7 +892,7 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     memset(c->cut->use.traversal.last, 0, sizeof c->cut->use.traversal.last);
     c->cut->use.traversal.first = 0;
     c->cut->use.traversal.asked = c->cut->use.traversal.alone = 0;
-    c->noise = cut_params->bvh != NULL ? lmb_tile_noise(c->tile, p->pixels) : 0.0f;
+    c->noise = lmb_tile_noise(c->tile, p->pixels);
     c->in_hull = cut_params->bvh != NULL ? lmb_hull_pixels(&cut_params->bvh->hull, c->tile, p->pixels) : 0;
     c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);
     c->beside = beside(cut_params, p, c->per_pixel);

@@ -17,7 +17,7 @@ typedef struct small_truth {
 } small_truth;
 
 static const small_truth truths[] = {
-#define SMALL_TRUTH(kind, bounces, strata, slow, t0, r0, t1, r1, t2, r2) {#kind, bounces, strata},
+#define SMALL_TRUTH(kind, bounces, strata, slow, t0, r0, w0, t1, r1, w1, t2, r2, w2) {#kind, bounces, strata},
 #include "small_truths.inc"
 #undef SMALL_TRUTH
 };

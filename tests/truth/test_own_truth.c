@@ -35,8 +35,8 @@ static void check_errors(const own_row *row, const image *truth, own_drawn *by_d
             *by_default = d;
         }
         const int open = row->open & presets[i].open;
-        printf("  %-12s %-8s trim %.4f, rmse %.4f, mean %.4f, %.2f M pairs, %.2f M segments%s\n", row->name,
-               presets[i].name, d.error.trim, d.error.rmse, d.error.mean, d.pairs * 1e-6, d.segments * 1e-6,
+        printf("  %-12s %-8s trim %.4f, rmse %.4f, worst %.4f, mean %.4f, %.2f M pairs, %.2f M segments%s\n",
+               row->name, presets[i].name, d.error.trim, d.error.rmse, d.worst, d.error.mean, d.pairs * 1e-6, d.segments * 1e-6,
                open ? " (open)" : "");
         CHECK_MSG(open || trim[i] <= *presets[i].bar, "%s, %s: trim %g", row->name, presets[i].name, trim[i]);
     }

@@ -18,7 +18,7 @@ static const double slack = 1.3;
 typedef struct small_row {
     const char *name;
     int bounces, best_is_slow;
-    double error[PRESETS][2]; /* trim, rmse */
+    double error[PRESETS][3]; /* trim, rmse, worst */
 } small_row;
 
 static const char *const presets[PRESETS] = {"draft", "default", "best"};
@@ -108,10 +108,11 @@ static void check_bounced_light(const small_row *row, const image *truth)
         const own_how how = {presets[q], "indirect", SIDE, row->bounces, truth, surface};
         own_drawn d;
         own_draw_as(&d, row->name, &place, &how);
-        printf("  %-13s %-8s trim %.4f, rmse %.4f, mean %.4f, %.2f M pairs, %.2f M segments\n", row->name, presets[q],
-               d.error.trim, d.error.rmse, d.error.mean, d.pairs * 1e-6, d.segments * 1e-6);
+        printf("  %-13s %-8s trim %.4f, rmse %.4f, worst %.4f, mean %.4f, %.2f M pairs, %.2f M segments\n", row->name,
+               presets[q], d.error.trim, d.error.rmse, d.worst, d.error.mean, d.pairs * 1e-6, d.segments * 1e-6);
         CHECK_MSG(d.error.trim <= slack * row->error[q][0], "%s, %s: trim %g", row->name, presets[q], d.error.trim);
         CHECK_MSG(d.error.rmse <= slack * row->error[q][1], "%s, %s: rmse %g", row->name, presets[q], d.error.rmse);
+        CHECK_MSG(d.worst <= slack * row->error[q][2], "%s, %s: worst %g", row->name, presets[q], d.worst);
     }
 }
 
@@ -134,8 +135,8 @@ static void check_small(const small_row *row)
 void test_small_truth(void)
 {
     static const small_row rows[] = {
-#define SMALL_TRUTH(kind, bounces, strata, slow, t0, r0, t1, r1, t2, r2) \
-    {#kind, bounces, slow, {{t0, r0}, {t1, r1}, {t2, r2}}},
+#define SMALL_TRUTH(kind, bounces, strata, slow, t0, r0, w0, t1, r1, w1, t2, r2, w2) \
+    {#kind, bounces, slow, {{t0, r0, w0}, {t1, r1, w1}, {t2, r2, w2}}},
 #include "small_truths.inc"
 #undef SMALL_TRUTH
     };

@@ -50,6 +50,14 @@ static metrics measured(const pair *p, int masked, int classed)
     return m;
 }
 
+/* Without a mask. */
+static double worst_of(pair *p)
+{
+    const metrics m = measured(p, 0, 0);
+    const metrics_input in = input_of(p, 0, 0);
+    return metrics_worst(&m, &in);
+}
+
 static metrics_equality compared(const pair *p, double peak)
 {
     metrics_input in = input_of(p, 0, 0);
@@ -93,6 +101,12 @@ static void test_outlier(pair *p)
     metrics_equality e = compared(p, 0.0);
     CHECK(near(m.rmse, sqrt(1.0 / 3.0)) && m.trim == 0.0 && m.n90 == 1);
     CHECK(m.e50 == 0.0 && m.e95 == 0.0 && near(m.e99, 10.0 / 3.0 / 1.01));
+    CHECK(near(worst_of(p), 10.0 / 3.0 / 1.01));
+    set_pixel(p->truth, 58, 6.0f); /* the truth's mean over the 25 pixels around is 1.2, over all 1.05 */
+    set_pixel(p->test, 58, 6.0f);
+    CHECK(near(worst_of(p), 10.0 / 3.0 / (1.2 + 0.0105)));
+    set_pixel(p->truth, 58, 1.0f);
+    set_pixel(p->test, 58, 1.0f);
     CHECK(near(m.mean, 1.0 + 1.0 / 30.0));
     CHECK(e.max_abs == 10.0 && e.max_x == 7 && e.max_y == 5 && e.first_x == 7 && e.first_y == 5);
     CHECK(e.exact == COUNT - 1 && near(e.psnr_db, 10.0 * log10(3.0)));

@@ -154,6 +154,22 @@ static void test_flat_quads(void)
     lmb_vec3 over = {3, 1.001f, -2}, down = {0, -1, 0};
     float full = lmb_quad_factor(over, down, down, centre, up, u, v) * 4.0f * 1e-4f;
     CHECK_MSG(full > 0.95f && full <= 1.0f, "%g", (double)full);
+    /* On the quad's edge, which is a room's: the light does not end within rounding of the quad's plane. */
+    const lmb_vec3 wall = {1, 0, 0}, beyond = {-1, 0, 0}, corner[4] = {{2.99f, 1, -2.01f}, {2.99f, 1, -1.99f}, {3.01f, 1, -1.99f},
+                                                                     {3.01f, 1, -2.01f}};
+    const lmb_vec3 high = {2.99f, 1.0f + 3e-5f, -2.001f};
+    const float want = lmb_quad_factor(high, wall, wall, centre, up, u, v) * 4.0f * 1e-4f;
+    CHECK_MSG(want > 0.4f && want < 0.5f, "%g", (double)want);
+    for (int i = 1; i <= 3; ++i) {
+        const lmb_vec3 at = {2.99f, 1.0f + (float)i * 1e-6f, -2.001f};
+        const float near[3] = {lmb_quad_factor(at, wall, wall, centre, up, u, v) * 4.0f * 1e-4f,
+                               lmb_polygon_factor(at, wall, wall, corner, 4, up),
+                               lmb_triangle_factor(at, wall, wall, corner, up) * 2.0f * 1e-4f};
+        CHECK_MSG(near[0] > 0.97f * want && near[0] < 1.03f * want, "%g", (double)near[0]);
+        CHECK_MSG(near[1] > 0.97f * want && near[1] < 1.03f * want, "%g", (double)near[1]);
+        CHECK_MSG(near[2] > 0.3f * want && near[2] < 1.03f * want, "%g", (double)near[2]);
+        CHECK(lmb_quad_factor(at, beyond, beyond, centre, up, u, v) == 0.0f); /* a convex edge */
+    }
 }
 
 /* Doubling the light doubles every gathered pixel, however dim it is, black walls and all. */

@@ -648,9 +648,9 @@ static void means_of_levels(stage *s, int32_t face, int32_t width, int32_t heigh
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
     lmb_world_texel(got[0], &s->world, lmb_world_face_texel(&s->world.cube[s->world.cube_levels - 1], 1, 0, 0));
     lmb_world_texel(got[1], &s->world, s->world.ground[s->world.ground_levels - 1].at);
-    CHECK_MSG(fabs(got[0][0] - want[0][0]) < 1e-4 * want[0][0], "face of %d: %f, not %f", (int)face, (double)got[0][0],
+    CHECK_MSG(fabs((double)got[0][0] - want[0][0]) < 1e-4 * want[0][0], "face of %d: %f, not %f", (int)face, (double)got[0][0],
               want[0][0]);
-    CHECK_MSG(fabs(got[1][0] * got[1][3] - want[1][0]) < 1e-4 * want[1][0] && fabs(got[1][3] - want[1][3]) < 1e-5,
+    CHECK_MSG(fabs((double)(got[1][0] * got[1][3]) - want[1][0]) < 1e-4 * want[1][0] && fabs((double)got[1][3] - want[1][3]) < 1e-5,
               "ground of %dx%d: %f, not %f", (int)width, (int)height, (double)(got[1][0] * got[1][3]), want[1][0]);
     s->pictures.face_size = FACE;
     s->pictures.ground = NULL;

@@ -160,6 +160,44 @@ int metrics_measure(metrics *out, const metrics_input *in, report *r)
     return ok;
 }
 
+/* The truth's mean over the compared pixels of the 5 x 5 around a pixel. */
+static double local_mean(const metrics_input *in, size_t at)
+{
+    const int32_t x = (int32_t)(at % (size_t)in->width), y = (int32_t)(at / (size_t)in->width);
+    double sum = 0.0;
+    int count = 0;
+    for (int32_t j = y - 2; j <= y + 2; ++j) {
+        for (int32_t i = x - 2; i <= x + 2; ++i) {
+            const size_t k = (size_t)j * (size_t)in->width + (size_t)i;
+            if (i >= 0 && j >= 0 && i < in->width && j < in->height && is_compared(in, k)) {
+                sum += sample_at(in, k).truth;
+                ++count;
+            }
+        }
+    }
+    return sum / count; /* the pixel itself is compared */
+}
+
+double metrics_worst(const metrics *m, const metrics_input *in)
+{
+    size_t n = pixel_count(in), c = 0;
+    double *errors = malloc(n * sizeof *errors), worst = (double)INFINITY;
+    for (size_t i = 0; errors && i < n; ++i) {
+        if (is_compared(in, i)) {
+            sample s = sample_at(in, i), around = s;
+            around.truth = local_mean(in, i);
+            around.test = around.truth + fabs(s.test - s.truth);
+            errors[c++] = relative_error(around, m->truth_mean);
+        }
+    }
+    if (c > 0) {
+        qsort(errors, c, sizeof *errors, ascending);
+        worst = errors[(size_t)((double)c * 0.999)];
+    }
+    free(errors);
+    return worst;
+}
+
 /* Largest difference of the three colour channels; a test pixel that is not finite counts as black. */
 static double farthest_channel(const metrics_input *in, size_t i)
 {

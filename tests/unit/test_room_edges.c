@@ -1,0 +1,129 @@
+/* test_room_edges.c: pixels whose centres lie on the edges of a room have bounced light like their neighbours. */
+#include "../folder.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../tools/render/render_draw.h"
+#include "../test.h"
+
+#define COUNT_OF(a) ((int)(sizeof(a) / sizeof *(a)))
+
+void test_room_edges(void);
+
+enum { SIDE = 64, CORNERS = 8, MARGIN = 6 /* px beside the room's corners and the middle, where light is steep */ };
+
+/* A room turned about its own middle, then scaled and moved, all with its camera and its lamp. */
+typedef struct room {
+    double axis[3][3], scale, at[3];
+} room;
+
+static void room_place(double out[3], const room *r, double x, double y, double z)
+{
+    for (int i = 0; i < 3; ++i) {
+        out[i] = r->at[i] + r->scale * (r->axis[0][i] * x + r->axis[1][i] * y + r->axis[2][i] * z);
+    }
+}
+
+static room room_of(uint64_t seed, double scale, double far)
+{
+    test_rng random = {seed};
+    room r = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, scale, {far, 0.3 * far, -far}};
+    for (int turn = 0; turn < 3 && seed != 0; ++turn) {
+        const double angle = (double)test_uniform(&random, 0.0f, 6.2831853f), c = cos(angle), s = sin(angle);
+        for (int i = 0; i < 3; ++i) {
+            const double a = r.axis[turn][i], b = r.axis[(turn + 1) % 3][i];
+            r.axis[turn][i] = c * a + s * b;
+            r.axis[(turn + 1) % 3][i] = c * b - s * a;
+        }
+    }
+    return r;
+}
+
+/* A cube of 4 m, its walls inwards. */
+static int room_write(char *path, size_t size, folder *f, const room *r)
+{
+    static const int walls[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    char text[2048];
+    int end = 0;
+    for (int i = 0; i < CORNERS; ++i) {
+        double p[3];
+        room_place(p, r, i & 1 ? 2 : -2, i & 2 ? 2 : -2, i & 4 ? 2 : -2);
+        end += snprintf(text + end, sizeof text - (size_t)end, "v %.9g %.9g %.9g\n", p[0], p[1], p[2]);
+    }
+    for (int i = 0; i < 6; ++i) {
+        const int *w = walls[i];
+        end += snprintf(text + end, sizeof text - (size_t)end, "f %d %d %d %d\n", w[3] + 1, w[2] + 1, w[1] + 1, w[0] + 1);
+    }
+    return snprintf(path, size, "%s", folder_put(f, "room.obj", text, (size_t)end)) < (int)size;
+}
+
+/* Pixels on the picture's diagonals, where the room's edges are, that have under 0.8 of the pixels beside, over and under them. */
+static int dark_pixels(const image *picture)
+{
+    int dark = 0;
+    for (int i = MARGIN; i < SIDE - MARGIN; ++i) {
+        const int columns[2] = {i, SIDE - 1 - i};
+        for (int k = 0; k < 2 && (i < SIDE / 2 - MARGIN || i >= SIDE / 2 + MARGIN); ++k) {
+            const float *at = picture->pixels + 3 * (i * SIDE + columns[k]);
+            dark += at[0] < 0.8f * fminf(fminf(at[-3], at[3]), fminf(at[-3 * SIDE], at[3 * SIDE]));
+        }
+    }
+    return dark;
+}
+
+static int edge_count(const room *r, const char *how, const char *value)
+{
+    char path[512], eye[96], target[96], up[96], light[200], verb[] = "render";
+    double e[3], t[3], u[3], l[3];
+    static render_job j;
+    report said = {""};
+    folder f;
+    int dark = SIDE;
+    memset(&j, 0, sizeof j);
+    room_place(e, r, 0, 0, 1.9);
+    room_place(t, r, 0, 0, -2);
+    room_place(l, r, 0.3, 1.2, 0.1);
+    for (int i = 0; i < 3; ++i) {
+        u[i] = r->axis[1][i];
+    }
+    snprintf(eye, sizeof eye, "%.9g,%.9g,%.9g", e[0], e[1], e[2]);
+    snprintf(target, sizeof target, "%.9g,%.9g,%.9g", t[0], t[1], t[2]);
+    snprintf(up, sizeof up, "%.9g,%.9g,%.9g", u[0], u[1], u[2]);
+    snprintf(light, sizeof light, "point:%.9g,%.9g,%.9g:0,-1,0:1,1,1", l[0], l[1], l[2]);
+    folder_open(&f);
+    if (room_write(path, sizeof path, &f, r)) {
+        const char *line[] = {verb,     path,    "-o",      "none.pfm", "--size",    "64x64",      "--eye", eye,   "--target",
+                              target,   "--up",  up,        "--fov",    "91.7",      "--light",    light,   "--show", "irradiance",
+                              "--world", "none", "--threads", "1",      how,         value};
+        char *words[sizeof line / sizeof *line];
+        for (int i = 0; i < COUNT_OF(line); ++i) {
+            words[i] = (char *)(uintptr_t)line[i];
+        }
+        const int ok = render_options_parse(&j.o, COUNT_OF(line), words, &said) && render_job_load(&j, &said) &&
+                       render_job_set(&j, &said) && render_draw(&j, &said);
+        CHECK_MSG(ok, "%s", said.text);
+        dark = ok ? dark_pixels(&j.linear) : SIDE;
+        render_job_free(&j);
+    }
+    folder_close(&f);
+    return dark;
+}
+
+void test_room_edges(void)
+{
+    static const char *const how[][2] = {{"--quality", "default"}, {"--quality", "draft"}, {"--gather", "adaptive"},
+                                         {"--gather", "half"},     {"--occlusion", "none"}};
+    static const struct place {
+        uint64_t seed;
+        double scale, far;
+    } places[] = {{0, 1, 0}, {1, 1, 0}, {2, 1, 7}, {3, 10, 100}, {4, 0.01, 0}};
+    for (int i = 0; i < COUNT_OF(places); ++i) {
+        const room r = room_of(places[i].seed, places[i].scale, places[i].far);
+        for (int k = 0; k < (i < 2 ? COUNT_OF(how) : 1); ++k) {
+            const int dark = edge_count(&r, how[k][0], how[k][1]);
+            CHECK_MSG(dark <= 2, "place %d, %s %s: %d dark pixels", i, how[k][0], how[k][1], dark);
+        }
+    }
+}
