@@ -894,9 +894,48 @@ static void obj_corners(void)
     CHECK(loaded.scene.instances[0].material == loaded.scene.instances[1].material);
     CHECK(((const float *)m->uvs)[1] == 1 && ((const float *)m->uvs)[8] == 0.25f && ((const float *)m->uvs)[9] == 0);
     CHECK(is_vec(lmb_octahedral_decode(m->normals), 0, 0, 1));
-    CHECK(m->colours && m->colours[0] == 255 && m->colours[1] == 0 && m->colours[5] == 128 && m->colours[8] == 255);
+    CHECK(m->colours && m->colours[0] == 255 && m->colours[1] == 0 && m->colours[5] == 55 && m->colours[8] == 255);
     CHECK(loaded.scene.texture_count == 1 && loaded.scene.textures[0].wrap_s == LMB_WRAP_CLAMP);
     CHECK(loaded.scene.textures[0].filter == LMB_TRILINEAR && loaded.scene.textures[0].levels == 2);
+}
+
+/* A triangle of three lines `v`. */
+static int load_painted(const char *v, const char *more, int32_t colours)
+{
+    const model_choice choice = {NULL, colours};
+    char path[FOLDER_PATH];
+    const int n = snprintf(text, sizeof text, "%s%sf 1 2 3\n", v, more);
+    put_file("v.obj", text, (size_t)n);
+    path_of(path, "v.obj");
+    forget();
+    return model_load_as(&loaded, path, &choice, &notes, &problem);
+}
+
+static int is_colour(uint32_t v, int r, int g, int b)
+{
+    const uint8_t *c = loaded.scene.mesh_count ? loaded.scene.meshes[0].colours : NULL;
+    return c && c[4 * v] == r && c[4 * v + 1] == g && c[4 * v + 2] == b && c[4 * v + 3] == 255;
+}
+
+/* Colours of vertices are sRGB codes, behind a weight or before an alpha, too; white is white. */
+static void obj_colours(void)
+{
+    static const char plain[] = "v 0 0 0 1 0.737255 0\nv 1 0 0 .2 .2 .2\nv 0 1 0\n";
+    static const char kd[] = "newmtl a\nKd 0.5 0.5 0.5\n";
+    put_file("kd.mtl", kd, sizeof kd - 1);
+    CHECK_LOADS(load_painted(plain, "", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 8, 8, 8) && loaded.scene.materials[0].albedo[1] == 1.0f);
+    CHECK(is_colour(2, 204, 204, 204)); /* a vertex without one is as grey as it were in a file without colours */
+    CHECK_LOADS(load_painted(plain, "", MODEL_COLOURS_LINEAR));
+    CHECK(is_colour(0, 255, 188, 0) && is_colour(1, 51, 51, 51) && is_colour(2, 204, 204, 204));
+    CHECK_LOADS(load_painted(plain, "mtllib kd.mtl\nusemtl a\n", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 255, 128, 0) && is_colour(2, 255, 255, 255) && loaded.scene.materials[1].albedo[1] == 0.5f);
+    CHECK_LOADS(load_painted("v 0 0 0 1 0 .737255 0\nv 1 0 0 1 0 0 1\nv 0 1 0 1.0 1 1 1\n", "", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 0, 128, 0) && is_colour(1, 0, 0, 255) && notes.count == 0);
+    CHECK_LOADS(load_painted("v 0 0 0 1 .737255 0 1\nv 1 0 0 0 0 1 1\nv 0 1 0 1 1 1 .5\n", "", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 0, 0, 255) && noted("alpha under 1, drawn opaque: 1"));
+    CHECK_LOADS(load_painted("v 0 0 0 255 188 0\nv 1 0 0 0 0 1\nv 0 1 0 10 20 30\n", "", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 0, 0, 0) && noted("whole numbers, read as 0 to 255"));
 }
 
 static void obj_materials(void)
@@ -1098,6 +1137,7 @@ void test_models(void)
     far_away();
     obj_plain();
     obj_corners();
+    obj_colours();
     obj_materials();
     obj_refuses();
     obj_damage();

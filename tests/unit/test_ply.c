@@ -259,12 +259,12 @@ static void run_all(int encoding)
     CHECK(is_position(0, 2, 0, 0) && is_position(2, 0, 2, 0) && is_position(3, 0, 0, 0)); /* 3 and 5 are not used */
     CHECK((double)loaded.scene.bounds_max.x == 2);
     CHECK(is_normal(0, 0, 0.6, 0.8) && is_normal(1, 0, 1, 0) && noted("without length, set to +Y: 1"));
-    CHECK(is_colour(0, 0, 0, 0, 200) && is_colour(1, 10, 128, 1, 201) && is_colour(3, 40, 255, 4, 204));
+    CHECK(is_colour(0, 0, 0, 0, 200) && is_colour(1, 1, 55, 0, 201) && is_colour(3, 5, 255, 0, 204));
     CHECK(uvs && (double)uvs[6] == 1 && (double)uvs[7] == 0.75 && (double)uvs[2] == 0.25);
     CHECK(noted("other than vertex and face skipped: 2") && noted("fewer than 3 corners skipped: 1"));
     CHECK(noted("no face uses left out: 2"));
     CHECK(loaded.scene.material_count == 1 && loaded.scene.materials[0].flags == LMB_DOUBLE_SIDED);
-    CHECK(loaded.scene.materials[0].albedo[0] == 0.8f && loaded.scene.materials[0].texture == -1);
+    CHECK(loaded.scene.materials[0].albedo[0] == 1.0f && loaded.scene.materials[0].texture == -1);
     CHECK(loaded.scene.instance_count == 1 && loaded.scene.instances[0].to_world.m[15] == 1);
 }
 
@@ -293,6 +293,44 @@ static void text_forms(void)
     CHECK_LOADS(load_text(HEAD "element vertex 3\n" XYZ "property float red\nelement face 1\n" FACES
                                "end_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n"));
     CHECK(loaded.blocks && !mesh()->colours); /* one channel alone is no colour */
+}
+
+/* Three vertices of one grey in `type`, by its text. */
+static int load_grey(const char *type, const char *code, const model_choice *choice)
+{
+    char text[700];
+    const int n = snprintf(text, sizeof text,
+                           HEAD "element vertex 3\n" XYZ "property %s red\nproperty %s green\nproperty %s blue\n"
+                                "element face 1\n" FACES "end_header\n0 0 0 %s %s %s\n1 0 0 %s %s %s\n0 1 0 %s %s %s\n"
+                                "3 0 1 2\n", type, type, type, code, code, code, code, code, code, code, code, code);
+    forget();
+    return model_read_as(&loaded, "a", choice, (const uint8_t *)text, (size_t)n, &notes, &problem);
+}
+
+/* Codes are sRGB by default: 188 is half the light of 255, which is white and not a grey of 0.8. Floats are decoded as
+ * they are: 0.98235 lies between the codes 250 and 251, and so does its light. */
+static void scan_colours(void)
+{
+    static const struct {
+        const char *type, *code;
+        int srgb, linear;
+    } all[] = {
+        {"uchar", "188", 128, 188},       {"uchar", "255", 255, 255},  {"uchar", "0", 0, 0},
+        {"uchar", "1", 0, 1},             {"ushort", "48316", 128, 188}, {"float", "0.737255", 128, 188},
+        {"float", "0.980392", 244, 250},  {"float", "0.98235", 245, 250}, {"float", "0.984314", 246, 251},
+        {"double", "1", 255, 255},
+        {"float", "nan", 0, 0},           {"float", "-1", 0, 0},       {"float", "inf", 255, 255},
+    };
+    const model_choice linear = {NULL, MODEL_COLOURS_LINEAR};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        CHECK_LOADS(load_grey(all[i].type, all[i].code, NULL));
+        CHECK_MSG(loaded.blocks && is_colour(0, all[i].srgb, all[i].srgb, all[i].srgb, 255), "%s %s: %d", all[i].type,
+                  all[i].code, loaded.blocks ? mesh()->colours[0] : -1);
+        CHECK(loaded.scene.materials[0].albedo[0] == 1.0f);
+        CHECK_LOADS(load_grey(all[i].type, all[i].code, &linear));
+        CHECK_MSG(loaded.blocks && is_colour(2, all[i].linear, all[i].linear, all[i].linear, 255), "%s %s: %d", all[i].type,
+                  all[i].code, loaded.blocks ? mesh()->colours[0] : -1);
+    }
 }
 
 static void many_vertices(void)
@@ -519,6 +557,7 @@ void test_ply(void)
     all_types();
     extremes();
     text_forms();
+    scan_colours();
     many_vertices();
     loose_headers();
     refuses();

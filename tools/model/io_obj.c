@@ -32,13 +32,15 @@ typedef struct census {
     uint64_t v, vt, vn, corners, triangles, names, libraries;
     uint64_t widest; /* most corners of a face */
     int colours;     /* some v has six numbers */
+    uint64_t fourth, seventh;  /* v of seven numbers whose fourth, seventh is not 1 */
+    int whole_codes, fractions; /* some colour has two digits or more and no point; some colour has a point */
 } census;
 
 typedef struct obj {
     model_build *b;
     census n;
     float *v, *vt, *vn;
-    uint8_t *colours;                     /* RGBA8 by v, or NULL */
+    uint8_t *colours;                     /* RGBA8 by v, A 0: it has none; or NULL */
     uint32_t v_count, vt_count, vn_count; /* so far: what negative numbers count back from */
     corner *corners;                      /* different ones */
     uint32_t corner_count;
@@ -54,7 +56,7 @@ typedef struct obj {
     uint32_t *face_number, *face_cut, *face_links;
     double *face_points;
     uint64_t cut_steps; /* polygon_cut_within's, left for all faces */
-    uint32_t points_lines, degenerate, overlapping, zero_normals;
+    uint32_t points_lines, degenerate, overlapping, zero_normals, translucent;
 } obj;
 
 /* --- first pass --- */
@@ -70,20 +72,47 @@ static void count_face(census *n, cursor *c)
     n->widest = corners > n->widest ? corners : n->widest;
 }
 
+static int is_one(slice token)
+{
+    double v;
+    return slice_number(&v, token) && v == 1;
+}
+
+static void count_colour(census *n, slice code)
+{
+    size_t i = 0;
+    while (i < code.size && code.at[i] >= '0' && code.at[i] <= '9')
+        ++i;
+    n->whole_codes = n->whole_codes || (i == code.size && i > 1);
+    n->fractions = n->fractions || i < code.size;
+}
+
+static void count_v(census *n, cursor *c)
+{
+    slice token[7];
+    int numbers = 0, i;
+    while (numbers < 7 && text_token(&token[numbers], c))
+        ++numbers;
+    ++n->v;
+    n->colours = n->colours || numbers >= 6;
+    for (i = 4; numbers >= 6 && i < 6; ++i) /* these are colours with and without a weight */
+        count_colour(n, token[i]);
+    if (numbers == 7) {
+        n->fourth += !is_one(token[3]);
+        n->seventh += !is_one(token[6]);
+    }
+}
+
 static census count_all(cursor c)
 {
     census n;
-    slice word, token;
+    slice word;
     memset(&n, 0, sizeof n);
     do {
-        int numbers = 0;
         if (!text_token(&word, &c))
             continue;
         if (slice_is(word, "v")) {
-            while (numbers < 6 && text_token(&token, &c))
-                ++numbers;
-            n.colours = n.colours || numbers == 6;
-            ++n.v;
+            count_v(&n, &c);
         } else if (slice_is(word, "vt")) {
             ++n.vt;
         } else if (slice_is(word, "vn")) {
@@ -163,20 +192,32 @@ static int read_numbers(double *out, int *count, int min, int max, cursor *c, re
     return *count >= min || text_fail(c, r, "%d numbers where %d are needed; repair the line", *count, min);
 }
 
-/* x y z, then perhaps a weight (ignored), or r g b taken as linear. */
+/* Seven numbers are x y z r g b a, as most write them, or x y z w r g b with a weight of 1 in all of the file. */
+static int first_colour(const census *n, int numbers) { return numbers == 7 && n->fourth == 0 && n->seventh > 0 ? 4 : 3; }
+
+/* Codes are 0 .. 1, or whole numbers to 255. */
+static void put_colour(obj *o, const double *code, int has_alpha)
+{
+    uint8_t *to = o->colours + 4 * (size_t)o->v_count;
+    const double top = o->n.whole_codes && !o->n.fractions ? 255 : 1;
+    int i;
+    for (i = 0; i < 3; ++i)
+        to[i] = build_colour(o->b, code[i] / top);
+    to[3] = 255;
+    o->translucent += has_alpha && code[3] < top && code[3] != 1;
+}
+
+/* x y z, then perhaps a weight (ignored), or a colour. */
 static int read_v(obj *o, cursor *c)
 {
     double v[7];
     int n, i;
-    uint8_t *colour = o->colours ? o->colours + 4 * (size_t)o->v_count : NULL;
     if (!read_numbers(v, &n, 3, 7, c, o->b->r))
         return 0;
     for (i = 0; i < 3; ++i)
         o->v[3 * (size_t)o->v_count + (size_t)i] = build_float(v[i]);
-    for (i = 0; colour && i < 4; ++i) {
-        const double value = i < 3 && n >= 6 ? v[3 + i] : 1;
-        colour[i] = value > 0 ? value < 1 ? (uint8_t)(value * 255 + 0.5) : 255 : 0;
-    }
+    if (n >= 6)
+        put_colour(o, v + first_colour(&o->n, n), n == 7 && first_colour(&o->n, n) == 3);
     ++o->v_count;
     return 1;
 }
@@ -415,7 +456,11 @@ static int load_libraries(obj *o)
     return 1;
 }
 
-/* A middle grey until a library says more; double sided, because OBJ says nothing of sides. */
+/* Are the colours of vertices all that is known of it? */
+static int is_painted(const obj *o, uint32_t material) { return o->colours && !o->names.items[material].has_kd; }
+
+/* A middle grey until a library says more; white under colours of vertices; double sided, because OBJ says nothing of
+ * sides. */
 static int make_materials(obj *o)
 {
     uint32_t i, undefined = 0;
@@ -438,6 +483,9 @@ static int make_materials(obj *o)
         undefined += !o->names.items[i].defined;
     if (undefined)
         build_note(b, "materials that no library describes, drawn grey: %u", (unsigned)undefined);
+    for (i = 0; i < o->names.count; ++i)
+        if (is_painted(o, i))
+            b->materials[i].albedo[0] = b->materials[i].albedo[1] = b->materials[i].albedo[2] = 1.0f;
     mtl_tell_left_out(b, &o->names);
     return mtl_textures(b, &o->names);
 }
@@ -498,8 +546,18 @@ static int fill_indices(lmb_mesh *out, const obj *o, const uint32_t *local, cons
     return 1;
 }
 
-static int fill_positions(lmb_mesh *out, const obj *o, const uint32_t *used)
+/* A vertex without a colour beside others that have one is grey or white, as it were without them. */
+static void fill_colour(uint8_t *to, const uint8_t *from, int is_grey)
 {
+    if (from[3] != 0)
+        memcpy(to, from, 4);
+    else
+        memset(to, is_grey ? 204 : 255, 3), to[3] = 255;
+}
+
+static int fill_positions(lmb_mesh *out, const obj *o, uint32_t material, const uint32_t *used)
+{
+    const int is_grey = is_painted(o, material) && o->b->materials[material].texture < 0;
     float *positions = (float *)build_keep(o->b, out->vertex_count, 3 * sizeof *positions);
     uint8_t *colours = o->colours ? (uint8_t *)build_keep(o->b, out->vertex_count, 4) : NULL;
     uint32_t i;
@@ -509,7 +567,7 @@ static int fill_positions(lmb_mesh *out, const obj *o, const uint32_t *used)
         const size_t v = o->corners[used[i]].v;
         memcpy(positions + 3 * (size_t)i, o->v + 3 * v, 3 * sizeof *positions);
         if (colours)
-            memcpy(colours + 4 * (size_t)i, o->colours + 4 * v, 4);
+            fill_colour(colours + 4 * (size_t)i, o->colours + 4 * v, is_grey);
     }
     out->positions = positions;
     out->colours = colours;
@@ -562,7 +620,7 @@ static int fill_mesh(lmb_mesh *out, const obj *o, uint32_t group, const uint32_t
 {
     uint32_t i;
     out->vertex_count = number_corners(local, used, o, list, out->triangle_count);
-    if (!fill_indices(out, o, local, list) || !fill_positions(out, o, used))
+    if (!fill_indices(out, o, local, list) || !fill_positions(out, o, group / 2, used))
         return 0;
     if (o->b->materials[group / 2].texture >= 0 && !fill_uvs(out, o, &o->names.items[group / 2].map, used))
         return 0;
@@ -611,6 +669,9 @@ static void tell_left_out(const obj *o)
     build_note_count(o->b, "concave faces too large or too tangled to cut well, which may overlap themselves",
                      o->overlapping);
     build_note_count(o->b, "normals without length, set to +Y", o->zero_normals);
+    build_note_count(o->b, "vertices with an alpha under 1, drawn opaque", o->translucent);
+    if (o->colours && o->n.whole_codes && !o->n.fractions)
+        build_note(o->b, "colours of vertices are whole numbers, read as 0 to 255");
     build_note_count(o->b, "material libraries left out after the first 64", o->library_extra);
 }
 

@@ -530,12 +530,7 @@ static int allocate_vertices(ply *p)
 }
 
 /* Floats run from 0 to 1, whole numbers from 0 to their type's largest. */
-static uint8_t colour_byte(double v, const property *prop)
-{
-    if (!is_float(prop->type))
-        v /= prop->type->max;
-    return v > 0 ? v < 1 ? (uint8_t)(v * 255 + 0.5) : 255 : 0;
-}
+static double share_of(double v, const property *prop) { return is_float(prop->type) ? v : v / prop->type->max; }
 
 /* PLY's second texture coordinate counts upwards from the image's foot, lambent's downwards from its top. */
 static void store_vertex(ply *p, size_t i, const double *values)
@@ -548,7 +543,8 @@ static void store_vertex(ply *p, size_t i, const double *values)
         lmb_octahedral_encode(s->normals + 2 * i, build_normal(values + NX, &p->zero_normals));
     for (k = 0; s->colours && k < 4; ++k) {
         const property *prop = p->vertex->roles[RED + k];
-        s->colours[4 * i + (size_t)k] = prop ? colour_byte(values[RED + k], prop) : 255;
+        const double share = prop ? share_of(values[RED + k], prop) : 1;
+        s->colours[4 * i + (size_t)k] = k < 3 ? build_colour(p->b, share) : build_share(share);
     }
     if (s->uvs) {
         s->uvs[2 * i] = build_uv(values[U]);
@@ -683,7 +679,7 @@ static int fill_mesh(lmb_mesh *out, ply *p)
 
 /* --- the model --- */
 
-/* A middle grey, double sided, because PLY says nothing of materials. */
+/* A middle grey, white under colours of vertices; double sided, because PLY says nothing of materials. */
 static int make_scene(ply *p)
 {
     model_build *b = p->b;
@@ -693,7 +689,7 @@ static int make_scene(ply *p)
     if (!build_materials(b, 1) || !b->meshes || !b->instances)
         return 0;
     for (k = 0; k < 3; ++k)
-        b->materials->albedo[k] = 0.8f;
+        b->materials->albedo[k] = has_roles(p, RED, BLUE) ? 1.0f : 0.8f;
     b->materials->alpha = 1.0f;
     b->materials->alpha_cutoff = 0.5f;
     b->materials->texture = -1;
