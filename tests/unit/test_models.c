@@ -938,6 +938,91 @@ static void obj_colours(void)
     CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 0, 0, 0) && noted("whole numbers, read as 0 to 255"));
 }
 
+/* --- smoothing groups --- */
+
+#define ROOF "v -1 -1 0\nv 0 -1 1\nv 0 1 1\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n" /* the ridge: 2 and 3 */
+static const double slope = 0.7071067811865476;
+
+/* The normal of the only mesh at this place, of the first vertex there whose x has this sign; 0s: there is none. */
+static int has_normal(double px, double py, double pz, double x, double y, double z)
+{
+    const lmb_mesh *m = &loaded.scene.meshes[0];
+    uint32_t i;
+    for (i = 0; loaded.scene.mesh_count == 1 && m->normals && i < m->vertex_count; ++i) {
+        const lmb_vec3 n = lmb_octahedral_decode(m->normals + 2 * (size_t)i);
+        if (is_position(0, i, px, py, pz) && near(n.x, x, 1e-4) && near(n.y, y, 1e-4) && near(n.z, z, 1e-4))
+            return 1;
+    }
+    return 0;
+}
+
+static int is_flat(const char *lines)
+{
+    CHECK_LOADS(load_text("s.obj", "%s", lines));
+    return loaded.scene.mesh_count == 1 && !loaded.scene.meshes[0].normals && !noted("makes smooth");
+}
+
+static void obj_smoothing(void)
+{
+    CHECK_LOADS(load_text("s.obj", ROOF "s 1\nf 1 2 3 4\nf 2 5 6 3\n"));
+    CHECK(loaded.scene.meshes[0].vertex_count == 6 && has_normal(0, -1, 1, 0, 0, 1) && has_normal(0, 1, 1, 0, 0, 1));
+    CHECK(has_normal(-1, 1, 0, -slope, 0, slope) && has_normal(1, -1, 0, slope, 0, slope));
+    CHECK(noted("smoothing group (s) makes smooth: 2"));
+    CHECK(is_flat(ROOF "f 1 2 3 4\nf 2 5 6 3\n") && is_flat(ROOF "s off\nf 1 2 3 4\nf 2 5 6 3\n") &&
+          is_flat(ROOF "s 0\nf 1 2 3 4\nf 2 5 6 3\n") && is_flat(ROOF "s 7\ns 0\nf 1 2 3 4\nf 2 5 6 3\n"));
+    CHECK_LOADS(load_text("s.obj", ROOF "s 1\nf 1 2 3 4\ns 2\nf 2 5 6 3\n"));
+    CHECK(has_normal(0, -1, 1, -slope, 0, slope) && has_normal(0, -1, 1, slope, 0, slope));
+    CHECK(!has_normal(0, -1, 1, 0, 0, 1) && loaded.scene.meshes[0].vertex_count == 8);
+    CHECK_LOADS(load_text("s.obj", ROOF "s 3\nf 1 2 3 4\ns off\ns 3\no other\nf 2 5 6 3\n"));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1));
+}
+
+/* Vertices that are written twice, or with other coordinates of textures; a face before its vertices; normals of the
+ * file's own, which hold. */
+static void obj_smoothing_corners(void)
+{
+    CHECK_LOADS(load_text("s.obj", ROOF "v -0.0 -1 1\nv 0 1 1\ns 1\nf 1 2 3 4\nf 7 5 6 8\n"));
+    CHECK(loaded.scene.meshes[0].vertex_count == 8 && has_normal(0, -1, 1, 0, 0, 1) &&
+          !has_normal(0, -1, 1, slope, 0, slope) && !has_normal(0, -1, 1, -slope, 0, slope));
+    CHECK_LOADS(load_text("s.obj", "s 1\nf 1 2 3 4\nf 2/2 5 6 3/1\n" ROOF "vt 0 0\nvt 1 1\n"));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1) && !has_normal(0, -1, 1, slope, 0, slope));
+    CHECK_LOADS(load_text("s.obj", ROOF "vn 0 1 0\ns 1\nf 1 2 3 4\nf 2//1 5//1 6//1 3//1\n"));
+    CHECK(has_normal(0, -1, 1, -slope, 0, slope) && has_normal(0, -1, 1, 0, 1, 0) && !has_normal(0, -1, 1, 0, 0, 1));
+    CHECK_LOADS(load_text("s.obj", ROOF "vn 0 1 0\ns 1\nf 1 2//1 3 4\nf 2 5 6 3\n"));
+    CHECK(has_normal(0, -1, 1, 0, 1, 0) && has_normal(0, 1, 1, 0, 0, 1));
+    CHECK(is_flat(ROOF "vn 0 1 0\nf 1 2//1 3 4\n"));
+}
+
+/* However its sides are cut, a cube's corners point along its diagonals; one side in three times as many pieces. */
+static void obj_smoothing_weights(void)
+{
+    int i;
+    CHECK_LOADS(load_text("s.obj", "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                                   "v 0 0 1\ns 1\nf 4 3 2 1\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n"
+                                   "f 4 1 5 8\n"));
+    for (i = 0; i < 8; ++i) {
+        const double x = i & 1 ? 1 : -1, y = i & 2 ? 1 : -1, z = i & 4 ? 1 : -1, a = 0.5773502691896258;
+        CHECK_MSG(has_normal(x, y, z, a * x, a * y, a * z), "corner %d", i);
+    }
+    CHECK(has_normal(0, 0, 1, 0, 0, 1));
+}
+
+/* What has no area, or hardly any, turns no normal; sides that lie on each other keep theirs; odd lines are noted. */
+static void obj_smoothing_odd(void)
+{
+    CHECK_LOADS(load_text("s.obj", ROOF "v 0 0 1.00000001\nv 0 0 1\nv nan 0 0\ns 1\nf 1 2 3 4\nf 2 5 6 3\nf 2 3 3\nf 2 7 3\n"
+                                        "f 2 8 3\nf 2 2 2\nf 2 3 9\n"));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1) && has_normal(0, 1, 1, 0, 0, 1));
+    CHECK_LOADS(load_text("s.obj", ROOF "s 1\nf 1 2 3 4\nf 4 3 2 1\n"));
+    CHECK(has_normal(0, -1, 1, -slope, 0, slope));
+    CHECK_LOADS(load_text("s.obj", ROOF "v 0.00001 0 1\ns 1\nf 2 7 3\n")); /* a needle alone */
+    CHECK(has_normal(0, -1, 1, 0, 0, 1));
+    CHECK(is_flat(ROOF "s on\nf 1 2 3 4\n") && noted("smoothing groups that are no number, taken as off: 1"));
+    CHECK(is_flat(ROOF "s\ns -1\ns 2147483647\nf 1 2 3 4\n") && noted("taken as off: 3"));
+    CHECK_LOADS(load_text("s.obj", ROOF "s 2147483646\nf 1 2 3 4\nf 2 5 6 3\n"));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1));
+}
+
 static void obj_materials(void)
 {
     static const char library[] =
@@ -1138,6 +1223,10 @@ void test_models(void)
     obj_plain();
     obj_corners();
     obj_colours();
+    obj_smoothing();
+    obj_smoothing_corners();
+    obj_smoothing_weights();
+    obj_smoothing_odd();
     obj_materials();
     obj_refuses();
     obj_damage();

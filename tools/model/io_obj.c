@@ -2,8 +2,8 @@
  *
  * Two passes: the first counts, so that every array has its final size; the second fills. A corner, two bytes of text
  * or more, costs at most 36 bytes on the way, 60 more in the file's widest face, and 28 in the model; a triangle 20
- * and 12. The worst is one huge face of one-digit corners, 64 bytes a byte of file: within MODEL_BYTES_PER_BYTE,
- * textures aside. */
+ * and 12. A vertex of a smoothing group, or a corner where these are fewer, costs 88 more. The worst is one huge face of
+ * one-digit corners, 64 bytes a byte of file: within MODEL_BYTES_PER_BYTE, textures aside. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,12 +11,14 @@
 
 #include "io_obj.h"
 #include "ear_clip.h"
+#include "smooth_normals.h"
 
 #define NONE          UINT32_MAX
+#define SMOOTH        0x80000000u /* in place of a vn: the normal of the smoothing group in the bits below */
 #define MAX_LIBRARIES 64
 #define MAX_PROBES    256 /* of an index; half of it is empty, so that only a file made for it comes near */
 
-/* What a vertex is made of: numbers of v, vt, vn from 0; NONE: not given. */
+/* What a vertex is made of: numbers of v, vt, vn from 0; NONE: not given; vn may be SMOOTH | group. */
 typedef struct corner {
     uint32_t v, vt, vn;
 } corner;
@@ -29,7 +31,7 @@ typedef struct triangle {
 
 /* What the first pass found; 64 bits, because a file of 4 GiB can name more of something than 32 hold. */
 typedef struct census {
-    uint64_t v, vt, vn, corners, triangles, names, libraries;
+    uint64_t v, vt, vn, corners, triangles, names, libraries, smoothings;
     uint64_t widest; /* most corners of a face */
     int colours;     /* some v has six numbers */
     uint64_t fourth, seventh;  /* v of seven numbers whose fourth, seventh is not 1 */
@@ -52,11 +54,13 @@ typedef struct obj {
     slice libraries[MAX_LIBRARIES];
     uint32_t library_count, library_extra;
     uint32_t material; /* of the faces that follow */
+    uint32_t smoothing; /* their group; 0: flat */
+    smooth_normals smooth;
     corner *face;      /* scratch for one face: its corners, numbers, points and triangles */
     uint32_t *face_number, *face_cut, *face_links;
     double *face_points;
     uint64_t cut_steps; /* polygon_cut_within's, left for all faces */
-    uint32_t points_lines, degenerate, overlapping, zero_normals, translucent;
+    uint32_t points_lines, degenerate, overlapping, zero_normals, translucent, smoothed, odd_groups;
 } obj;
 
 /* --- first pass --- */
@@ -121,6 +125,8 @@ static census count_all(cursor c)
             count_face(&n, &c);
         } else if (slice_is(word, "usemtl")) {
             ++n.names;
+        } else if (slice_is(word, "s")) {
+            ++n.smoothings;
         }
     } while (text_next_line(&c));
     return n;
@@ -316,14 +322,25 @@ static uint32_t intern(obj *o, const corner *key)
     return o->corner_count - 1;
 }
 
+/* A corner without a normal takes the group's, else the face is flat. */
+static int smooth_face(obj *o, uint32_t n)
+{
+    uint32_t i;
+    for (i = 0; i < n; ++i)
+        if (o->smoothing == 0)
+            o->face[i].vn = NONE;
+        else if (o->face[i].vn == NONE)
+            o->face[i].vn = SMOOTH | o->smoothing;
+    o->smoothed += o->smoothing != 0;
+    return o->smoothing != 0;
+}
+
 /* A face may name vertices that come later in the file. They still lie at 0 here, so such a face is cut by what is
  * known of it; its corners are fetched when all has been read. */
 static void cut_face(obj *o, uint32_t n, int with_normals)
 {
     uint32_t i, k;
     for (i = 0; i < n; ++i) {
-        if (!with_normals)
-            o->face[i].vn = NONE;
         o->face_number[i] = intern(o, &o->face[i]);
         for (k = 0; k < 3; ++k)
             o->face_points[3 * (size_t)i + k] = (double)o->v[3 * (size_t)o->face[i].v + k];
@@ -352,8 +369,21 @@ static int read_face(obj *o, cursor *c)
     if (n < 3)
         ++o->degenerate;
     else
-        cut_face(o, n, with_normals);
+        cut_face(o, n, with_normals || smooth_face(o, n));
     return 1;
+}
+
+/* s off and s 0: flat. What is no group is none, and noted. */
+static void use_smoothing(obj *o, cursor *c)
+{
+    slice word = {"", 0};
+    int64_t group = 0;
+    const int is_off = text_token(&word, c) && slice_is(word, "off");
+    if (!is_off && (!slice_integer(&group, word) || group < 0 || group >= (int64_t)(NONE - SMOOTH))) {
+        ++o->odd_groups;
+        group = 0;
+    }
+    o->smoothing = (uint32_t)group;
 }
 
 static void use_material(obj *o, cursor *c)
@@ -396,6 +426,8 @@ static int read_line(obj *o, cursor *c)
         return read_face(o, c);
     if (slice_is(word, "usemtl"))
         use_material(o, c);
+    if (slice_is(word, "s"))
+        use_smoothing(o, c);
     if (slice_is(word, "mtllib")) {
         text_rest(&word, c);
         add_library(o, word);
@@ -488,6 +520,32 @@ static int make_materials(obj *o)
             b->materials[i].albedo[0] = b->materials[i].albedo[1] = b->materials[i].albedo[2] = 1.0f;
     mtl_tell_left_out(b, &o->names);
     return mtl_textures(b, &o->names);
+}
+
+/* --- smoothing groups --- */
+
+static uint32_t group_of(const corner *c) { return c->vn != NONE && c->vn >= SMOOTH ? c->vn - SMOOTH : 0; }
+
+/* Once all vertices are known: the normals of groups. */
+static int sum_normals(obj *o, uint64_t key)
+{
+    uint32_t i, k;
+    if (!o->smoothed)
+        return 1;
+    const uint64_t n = o->n.smoothings < o->n.corners / o->n.v ? o->n.v * o->n.smoothings : o->n.corners;
+    if (!smooth_open(&o->smooth, o->b, n, key))
+        return 0;
+    for (i = 0; i < o->triangle_count; ++i) {
+        const float *place[3];
+        uint32_t group[3];
+        for (k = 0; k < 3; ++k) {
+            const corner *c = &o->corners[o->triangles[i].corner[k]];
+            place[k] = o->v + 3 * (size_t)c->v;
+            group[k] = group_of(c);
+        }
+        smooth_add(&o->smooth, place, group);
+    }
+    return 1;
 }
 
 /* --- meshes --- */
@@ -601,6 +659,16 @@ static int fill_uvs(lmb_mesh *out, const obj *o, const obj_map *map, const uint3
     return 1;
 }
 
+static lmb_vec3 normal_of(const obj *o, const corner *c)
+{
+    const uint32_t group = group_of(c);
+    if (group != 0)
+        return smooth_at(&o->smooth, o->v + 3 * (size_t)c->v, group);
+    const float *n = o->vn + 3 * (size_t)c->vn;
+    const lmb_vec3 unit = {n[0], n[1], n[2]};
+    return unit;
+}
+
 static int fill_normals(lmb_mesh *out, const obj *o, const uint32_t *used)
 {
     int16_t *codes = (int16_t *)build_keep(o->b, out->vertex_count, 2 * sizeof *codes);
@@ -608,9 +676,7 @@ static int fill_normals(lmb_mesh *out, const obj *o, const uint32_t *used)
     if (!codes)
         return 0;
     for (i = 0; i < out->vertex_count; ++i) {
-        const float *n = o->vn + 3 * (size_t)o->corners[used[i]].vn;
-        const lmb_vec3 unit = {n[0], n[1], n[2]};
-        lmb_octahedral_encode(codes + 2 * (size_t)i, unit);
+        lmb_octahedral_encode(codes + 2 * (size_t)i, normal_of(o, &o->corners[used[i]]));
     }
     out->normals = codes;
     return 1;
@@ -669,6 +735,8 @@ static void tell_left_out(const obj *o)
     build_note_count(o->b, "concave faces too large or too tangled to cut well, which may overlap themselves",
                      o->overlapping);
     build_note_count(o->b, "normals without length, set to +Y", o->zero_normals);
+    build_note_count(o->b, "faces without normals that their smoothing group (s) makes smooth", o->smoothed);
+    build_note_count(o->b, "smoothing groups that are no number, taken as off", o->odd_groups);
     build_note_count(o->b, "vertices with an alpha under 1, drawn opaque", o->translucent);
     if (o->colours && o->n.whole_codes && !o->n.fractions)
         build_note(o->b, "colours of vertices are whole numbers, read as 0 to 255");
@@ -693,7 +761,7 @@ int obj_load(model_build *b, const uint8_t *data, size_t size)
         if (!read_line(&o, &c))
             return 0;
     } while (text_next_line(&c));
-    if (!make_materials(&o) || !make_meshes(&o))
+    if (!sum_normals(&o, o.smoothed ? obj_hash(1, data, size) : 0) || !make_materials(&o) || !make_meshes(&o))
         return 0;
     tell_left_out(&o);
     b->out->facts.format = "OBJ";
