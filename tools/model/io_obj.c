@@ -199,7 +199,10 @@ static int read_numbers(double *out, int *count, int min, int max, cursor *c, re
 }
 
 /* Seven numbers are x y z r g b a, as most write them, or x y z w r g b with a weight of 1 in all of the file. */
-static int first_colour(const census *n, int numbers) { return numbers == 7 && n->fourth == 0 && n->seventh > 0 ? 4 : 3; }
+static int first_colour(const census *n, int numbers)
+{
+    return numbers == 7 && n->fourth == 0 && n->seventh > 0 ? 4 : 3;
+}
 
 /* Codes are 0 .. 1, or whole numbers to 255. */
 static void put_colour(obj *o, const double *code, int has_alpha)
