@@ -115,17 +115,17 @@ static census count_all(cursor c)
     do {
         if (!text_token(&word, &c))
             continue;
-        if (slice_is(word, "v")) {
+        if (slice_is_like(word, "v")) {
             count_v(&n, &c);
-        } else if (slice_is(word, "vt")) {
+        } else if (slice_is_like(word, "vt")) {
             ++n.vt;
-        } else if (slice_is(word, "vn")) {
+        } else if (slice_is_like(word, "vn")) {
             ++n.vn;
-        } else if (slice_is(word, "f")) {
+        } else if (slice_is_like(word, "f")) {
             count_face(&n, &c);
-        } else if (slice_is(word, "usemtl")) {
+        } else if (slice_is_like(word, "usemtl")) {
             ++n.names;
-        } else if (slice_is(word, "s")) {
+        } else if (slice_is_like(word, "s")) {
             ++n.smoothings;
         }
     } while (text_next_line(&c));
@@ -381,7 +381,7 @@ static void use_smoothing(obj *o, cursor *c)
 {
     slice word = {"", 0};
     int64_t group = 0;
-    const int is_off = text_token(&word, c) && slice_is(word, "off");
+    const int is_off = text_token(&word, c) && slice_is_like(word, "off");
     if (!is_off && (!slice_integer(&group, word) || group < 0 || group >= (int64_t)(NONE - SMOOTH))) {
         ++o->odd_groups;
         group = 0;
@@ -419,23 +419,23 @@ static int read_line(obj *o, cursor *c)
     slice word;
     if (!text_token(&word, c))
         return 1;
-    if (slice_is(word, "v"))
+    if (slice_is_like(word, "v"))
         return read_v(o, c);
-    if (slice_is(word, "vt"))
+    if (slice_is_like(word, "vt"))
         return read_vt(o, c);
-    if (slice_is(word, "vn"))
+    if (slice_is_like(word, "vn"))
         return read_vn(o, c);
-    if (slice_is(word, "f"))
+    if (slice_is_like(word, "f"))
         return read_face(o, c);
-    if (slice_is(word, "usemtl"))
+    if (slice_is_like(word, "usemtl"))
         use_material(o, c);
-    if (slice_is(word, "s"))
+    if (slice_is_like(word, "s"))
         use_smoothing(o, c);
-    if (slice_is(word, "mtllib")) {
+    if (slice_is_like(word, "mtllib")) {
         text_rest(&word, c);
         add_library(o, word);
     }
-    o->points_lines += slice_is(word, "l") || slice_is(word, "p");
+    o->points_lines += slice_is_like(word, "l") || slice_is_like(word, "p");
     return 1;
 }
 
