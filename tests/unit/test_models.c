@@ -1023,6 +1023,47 @@ static void obj_smoothing_odd(void)
     CHECK(has_normal(0, -1, 1, 0, 0, 1));
 }
 
+/* Normals without length are those of the faces at the vertex; +Y where these have no area. Infinite ones, too. */
+static void obj_odd_normals(void)
+{
+    CHECK_LOADS(load_text("n.obj", ROOF "vn 0 0 0\nvn 0 0 inf\nvn 0 3 0\nf 1//1 2//1 3//1 4//2\nf 2//1 5//3 6//2 3//1\n"));
+    CHECK(has_normal(-1, -1, 0, -slope, 0, slope) && has_normal(-1, 1, 0, -slope, 0, slope));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1) && has_normal(1, 1, 0, slope, 0, slope) && has_normal(1, -1, 0, 0, 1, 0));
+    CHECK(noted("normals without length, made from the faces there: 5"));
+    CHECK_LOADS(load_text("n.obj", ROOF "vn 0 0 0\nf 1//1 1//1 3//1\n"));
+    CHECK(has_normal(-1, -1, 0, 0, 1, 0));
+}
+
+/* Two primitives share normals without length and use different vertices of them. */
+static void gltf_odd_normals(void)
+{
+    static const float places[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1};
+    float data[36] = {0};
+    static const uint16_t indices[6] = {0, 1, 2, 3, 4, 5};
+    uint8_t bytes[sizeof data + sizeof indices];
+    memcpy(data, places, sizeof places);
+    data[18 + 14] = 2; /* of vertex 4: z */
+    memcpy(bytes, data, sizeof data);
+    memcpy(bytes + sizeof data, indices, sizeof indices);
+    put_file("n.bin", bytes, sizeof bytes);
+    CHECK_LOADS(load_text("n.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"n.bin\",\"byteLength\":156}],\"bufferViews\":["
+        "{\"buffer\":0,\"byteLength\":72},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":72},"
+        "{\"buffer\":0,\"byteOffset\":144,\"byteLength\":12}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,1]},"
+        "{\"bufferView\":1,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},"
+        "{\"bufferView\":2,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"},"
+        "{\"bufferView\":2,\"byteOffset\":6,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2},"
+        "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":3}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}],"
+        "\"scene\":0}"));
+    CHECK(loaded.scene.mesh_count == 2 && noted("normals without length, made from the faces there: 5"));
+    for (uint32_t i = 0; loaded.scene.mesh_count == 2 && i < 6; ++i) {
+        const lmb_vec3 n = lmb_octahedral_decode(loaded.scene.meshes[0].normals + 2 * (size_t)i);
+        CHECK_MSG(is_vec(n, i > 2 && i != 4, 0, i < 3 || i == 4), "vertex %u", (unsigned)i);
+    }
+}
+
 static void obj_materials(void)
 {
     static const char library[] =
@@ -1223,6 +1264,8 @@ void test_models(void)
     obj_plain();
     obj_corners();
     obj_colours();
+    obj_odd_normals();
+    gltf_odd_normals();
     obj_smoothing();
     obj_smoothing_corners();
     obj_smoothing_weights();

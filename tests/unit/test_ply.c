@@ -258,7 +258,7 @@ static void run_all(int encoding)
     CHECK(!(at[0] == 0 && at[1] == 1 && at[2] == 2)); /* the dart is cut at its dent */
     CHECK(is_position(0, 2, 0, 0) && is_position(2, 0, 2, 0) && is_position(3, 0, 0, 0)); /* 3 and 5 are not used */
     CHECK((double)loaded.scene.bounds_max.x == 2);
-    CHECK(is_normal(0, 0, 0.6, 0.8) && is_normal(1, 0, 1, 0) && noted("without length, set to +Y: 1"));
+    CHECK(is_normal(0, 0, 0.6, 0.8) && is_normal(1, 0, 0, 1) && noted("without length, made from the faces there: 1"));
     CHECK(is_colour(0, 0, 0, 0, 200) && is_colour(1, 1, 55, 0, 201) && is_colour(3, 5, 255, 0, 204));
     CHECK(uvs && (double)uvs[6] == 1 && (double)uvs[7] == 0.75 && (double)uvs[2] == 0.25);
     CHECK(noted("other than vertex and face skipped: 2") && noted("fewer than 3 corners skipped: 1"));

@@ -60,7 +60,7 @@ typedef struct obj {
     uint32_t *face_number, *face_cut, *face_links;
     double *face_points;
     uint64_t cut_steps; /* polygon_cut_within's, left for all faces */
-    uint32_t points_lines, degenerate, overlapping, zero_normals, translucent, smoothed, odd_groups;
+    uint32_t points_lines, degenerate, overlapping, translucent, smoothed, odd_groups;
 } obj;
 
 /* --- first pass --- */
@@ -249,13 +249,14 @@ static int read_vn(obj *o, cursor *c)
     double v[3];
     lmb_vec3 unit;
     float *to = o->vn + 3 * (size_t)o->vn_count;
+    uint32_t zeros = 0;
     int n;
     if (!read_numbers(v, &n, 3, 3, c, o->b->r))
         return 0;
-    unit = build_normal(v, &o->zero_normals);
-    to[0] = unit.x;
-    to[1] = unit.y;
-    to[2] = unit.z;
+    unit = build_normal(v, &zeros);
+    to[0] = zeros ? 0 : unit.x;
+    to[1] = zeros ? 0 : unit.y;
+    to[2] = zeros ? 0 : unit.z;
     ++o->vn_count;
     return 1;
 }
@@ -662,14 +663,20 @@ static int fill_uvs(lmb_mesh *out, const obj *o, const obj_map *map, const uint3
     return 1;
 }
 
-static lmb_vec3 normal_of(const obj *o, const corner *c)
+static void code_normal(int16_t out[2], const obj *o, const corner *c)
 {
     const uint32_t group = group_of(c);
-    if (group != 0)
-        return smooth_at(&o->smooth, o->v + 3 * (size_t)c->v, group);
+    if (group != 0) {
+        lmb_octahedral_encode(out, smooth_at(&o->smooth, o->v + 3 * (size_t)c->v, group));
+        return;
+    }
+    static const double nothing[3] = {0, 0, 0};
     const float *n = o->vn + 3 * (size_t)c->vn;
     const lmb_vec3 unit = {n[0], n[1], n[2]};
-    return unit;
+    if (n[0] == 0 && n[1] == 0 && n[2] == 0)
+        build_normal_code(o->b, out, nothing);
+    else
+        lmb_octahedral_encode(out, unit);
 }
 
 static int fill_normals(lmb_mesh *out, const obj *o, const uint32_t *used)
@@ -679,7 +686,7 @@ static int fill_normals(lmb_mesh *out, const obj *o, const uint32_t *used)
     if (!codes)
         return 0;
     for (i = 0; i < out->vertex_count; ++i) {
-        lmb_octahedral_encode(codes + 2 * (size_t)i, normal_of(o, &o->corners[used[i]]));
+        code_normal(codes + 2 * (size_t)i, o, &o->corners[used[i]]);
     }
     out->normals = codes;
     return 1;
@@ -737,7 +744,6 @@ static void tell_left_out(const obj *o)
     build_note_count(o->b, "faces with fewer than 3 corners skipped", o->degenerate);
     build_note_count(o->b, "concave faces too large or too tangled to cut well, which may overlap themselves",
                      o->overlapping);
-    build_note_count(o->b, "normals without length, set to +Y", o->zero_normals);
     build_note_count(o->b, "faces without normals that their smoothing group (s) makes smooth", o->smoothed);
     build_note_count(o->b, "smoothing groups that are no number, taken as off", o->odd_groups);
     build_note_count(o->b, "vertices with an alpha under 1, drawn opaque", o->translucent);

@@ -185,7 +185,7 @@ static void store_vertex(ply *p, size_t i, const double *values)
     for (k = 0; k < 3; ++k)
         s->positions[3 * i + (size_t)k] = build_float(values[X + k]);
     if (s->normals)
-        lmb_octahedral_encode(s->normals + 2 * i, build_normal(values + NX, &p->zero_normals));
+        build_normal_code(p->b, s->normals + 2 * i, values + NX);
     if (s->colours)
         p->translucent += store_colour(s->colours + 4 * i, p, p->vertex, values) != 0;
     if (s->uvs) {
@@ -523,7 +523,6 @@ static void tell_left_out(const ply *p)
     build_note_count(p->b, "concave faces too large or too tangled to cut well, which may overlap themselves",
                      p->overlapping);
     build_note_count(p->b, "vertices that no face uses left out", p->unused);
-    build_note_count(p->b, "normals without length, set to +Y", p->zero_normals);
     build_note_count(p->b, "colours with an alpha under 1, drawn opaque", p->translucent);
     build_note_count(p->b, "faces whose texture coordinates are not two a corner, drawn plain", p->odd_coords);
 }

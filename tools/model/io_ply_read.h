@@ -86,7 +86,7 @@ typedef struct ply {
     uint32_t *wedge_of; /* by vertex: number + 1 of its last one */
     uint32_t wedge_count;
     uint8_t *paint;     /* by triangle its material; NULL: one for all */
-    uint32_t degenerate, short_strips, overlapping, zero_normals, unused, unknown_lines, translucent, odd_coords;
+    uint32_t degenerate, short_strips, overlapping, unused, unknown_lines, translucent, odd_coords;
     uint32_t more_pictures;
 } ply;
 

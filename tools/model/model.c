@@ -6,6 +6,7 @@
 #include "../common/ending.h"
 #include "io_lmp.h"
 #include "io_ply.h"
+#include "mend_normals.h"
 #include "model_build.h"
 
 /* Ids 1 .. in instance order. */
@@ -157,7 +158,7 @@ static int finish(model_build *b)
 {
     lmb_scene *scene = &b->out->scene;
     lmb_status status;
-    if (!number_triangles(b) || !check_work(b))
+    if (!number_triangles(b) || !check_work(b) || !mend_normals(b))
         return 0;
     scene->meshes = b->meshes;
     scene->materials = b->materials;

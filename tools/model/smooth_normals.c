@@ -13,6 +13,7 @@
 
 /* A height, by the longest edge, under which a triangle's normal is mostly rounding of its corners. */
 #define LEAST_HEIGHT 1e-4
+#define LOW_WEIGHT   1e-6
 
 int smooth_open(smooth_normals *out, model_build *b, uint64_t room, uint64_t key)
 {
@@ -61,9 +62,9 @@ static void add_at(smooth_normals *s, const float place[3], uint32_t group, cons
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-void smooth_add(smooth_normals *s, const float *const corner[3], const uint32_t group[3])
+int corner_weights(double normal[3], double weight[3], const float *const corner[3])
 {
-    double edge[3][3], length[3], normal[3], area;
+    double edge[3][3], length[3], area;
     int i, k;
     for (i = 0; i < 3; ++i) {
         for (k = 0; k < 3; ++k)
@@ -75,16 +76,25 @@ void smooth_add(smooth_normals *s, const float *const corner[3], const uint32_t 
     area = sqrt(dot(normal, normal));
     const double longest = fmax(length[0], fmax(length[1], length[2]));
     if (!(area > 0 && area < 1e300)) /* NaN, too */
-        return;
-    for (k = 0; k < 3; ++k)
-        normal[k] /= area;
+        return 0;
     for (i = 0; i < 3; ++i) {
         const int before = (i + 2) % 3;
         const double cosine = -dot(edge[i], edge[before]) / (length[i] * length[before]);
-        const double weight = area < LEAST_HEIGHT * longest * longest ? 0 : (double)lmb_acos((float)cosine);
-        if (group[i] != 0)
-            add_at(s, corner[i], group[i], normal, weight);
+        weight[i] = (double)lmb_acos((float)cosine) * (area < LEAST_HEIGHT * longest * longest ? LOW_WEIGHT : 1);
+        normal[i] /= area;
     }
+    return 1;
+}
+
+void smooth_add(smooth_normals *s, const float *const corner[3], const uint32_t group[3])
+{
+    double normal[3], weight[3];
+    int i;
+    if (!corner_weights(normal, weight, corner))
+        return;
+    for (i = 0; i < 3; ++i)
+        if (group[i] != 0)
+            add_at(s, corner[i], group[i], normal, weight[i]);
 }
 
 lmb_vec3 smooth_at(const smooth_normals *s, const float place[3], uint32_t group)
@@ -94,5 +104,5 @@ lmb_vec3 smooth_at(const smooth_normals *s, const float place[3], uint32_t group
     const smooth_place *at = slot != 0 ? &s->places[slot - 1] : &wanted;
     const double first[3] = {(double)at->first[0], (double)at->first[1], (double)at->first[2]};
     uint32_t zeros = 0;
-    return build_normal(dot(at->sum, at->sum) > 1e-12 ? at->sum : first, &zeros);
+    return build_normal(dot(at->sum, at->sum) > 1e-24 ? at->sum : first, &zeros);
 }

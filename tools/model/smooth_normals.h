@@ -19,6 +19,10 @@ typedef struct smooth_normals {
     uint64_t key; /* of the hash: so that no file can choose places that all go to one slot */
 } smooth_normals;
 
+/* corner_weights: a triangle's normal, of unit length, and how much it counts at its corners: by its angle there, and
+ * next to nothing where it is so low that its normal is mostly rounding. 0: it has no area. */
+int corner_weights(double normal[3], double weight[3], const float *const corner[3]);
+
 /* smooth_open: room for so many places. 1, or 0 with b->r set. */
 int smooth_open(smooth_normals *out, model_build *b, uint64_t room, uint64_t key);
 
