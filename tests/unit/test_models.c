@@ -894,9 +894,174 @@ static void obj_corners(void)
     CHECK(loaded.scene.instances[0].material == loaded.scene.instances[1].material);
     CHECK(((const float *)m->uvs)[1] == 1 && ((const float *)m->uvs)[8] == 0.25f && ((const float *)m->uvs)[9] == 0);
     CHECK(is_vec(lmb_octahedral_decode(m->normals), 0, 0, 1));
-    CHECK(m->colours && m->colours[0] == 255 && m->colours[1] == 0 && m->colours[5] == 128 && m->colours[8] == 255);
+    CHECK(m->colours && m->colours[0] == 255 && m->colours[1] == 0 && m->colours[5] == 55 && m->colours[8] == 255);
     CHECK(loaded.scene.texture_count == 1 && loaded.scene.textures[0].wrap_s == LMB_WRAP_CLAMP);
     CHECK(loaded.scene.textures[0].filter == LMB_TRILINEAR && loaded.scene.textures[0].levels == 2);
+}
+
+/* A triangle of three lines `v`. */
+static int load_painted(const char *v, const char *more, int32_t colours)
+{
+    const model_choice choice = {NULL, colours};
+    char path[FOLDER_PATH];
+    const int n = snprintf(text, sizeof text, "%s%sf 1 2 3\n", v, more);
+    put_file("v.obj", text, (size_t)n);
+    path_of(path, "v.obj");
+    forget();
+    return model_load_as(&loaded, path, &choice, &notes, &problem);
+}
+
+static int is_colour(uint32_t v, int r, int g, int b)
+{
+    const uint8_t *c = loaded.scene.mesh_count ? loaded.scene.meshes[0].colours : NULL;
+    return c && c[4 * v] == r && c[4 * v + 1] == g && c[4 * v + 2] == b && c[4 * v + 3] == 255;
+}
+
+/* Colours of vertices are sRGB codes, behind a weight or before an alpha, too; white is white. */
+static void obj_colours(void)
+{
+    static const char plain[] = "v 0 0 0 1 0.737255 0\nv 1 0 0 .2 .2 .2\nv 0 1 0\n";
+    static const char kd[] = "newmtl a\nKd 0.5 0.5 0.5\n";
+    put_file("kd.mtl", kd, sizeof kd - 1);
+    CHECK_LOADS(load_painted(plain, "", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 8, 8, 8) && loaded.scene.materials[0].albedo[1] == 1.0f);
+    CHECK(is_colour(2, 204, 204, 204)); /* a vertex without one is as grey as it were in a file without colours */
+    CHECK_LOADS(load_painted(plain, "", MODEL_COLOURS_LINEAR));
+    CHECK(is_colour(0, 255, 188, 0) && is_colour(1, 51, 51, 51) && is_colour(2, 204, 204, 204));
+    CHECK_LOADS(load_painted(plain, "mtllib kd.mtl\nusemtl a\n", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 255, 128, 0) && is_colour(2, 255, 255, 255) && loaded.scene.materials[1].albedo[1] == 0.5f);
+    CHECK_LOADS(load_painted("v 0 0 0 1 0 .737255 0\nv 1 0 0 1 0 0 1\nv 0 1 0 1.0 1 1 1\n", "", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 0, 128, 0) && is_colour(1, 0, 0, 255) && notes.count == 0);
+    CHECK_LOADS(load_painted("v 0 0 0 1 .737255 0 1\nv 1 0 0 0 0 1 1\nv 0 1 0 1 1 1 .5\n", "", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 0, 0, 255) && noted("alpha under 1, drawn opaque: 1"));
+    CHECK_LOADS(load_painted("v 0 0 0 255 188 0\nv 1 0 0 0 0 1\nv 0 1 0 10 20 30\n", "", MODEL_COLOURS_SRGB));
+    CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 0, 0, 0) && noted("whole numbers, read as 0 to 255"));
+}
+
+/* --- smoothing groups --- */
+
+#define ROOF "v -1 -1 0\nv 0 -1 1\nv 0 1 1\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n" /* the ridge: 2 and 3 */
+static const double slope = 0.7071067811865476;
+
+/* The normal of the only mesh at this place, of the first vertex there whose x has this sign; 0s: there is none. */
+static int has_normal(double px, double py, double pz, double x, double y, double z)
+{
+    const lmb_mesh *m = &loaded.scene.meshes[0];
+    uint32_t i;
+    for (i = 0; loaded.scene.mesh_count == 1 && m->normals && i < m->vertex_count; ++i) {
+        const lmb_vec3 n = lmb_octahedral_decode(m->normals + 2 * (size_t)i);
+        if (is_position(0, i, px, py, pz) && near(n.x, x, 1e-4) && near(n.y, y, 1e-4) && near(n.z, z, 1e-4))
+            return 1;
+    }
+    return 0;
+}
+
+static int is_flat(const char *lines)
+{
+    CHECK_LOADS(load_text("s.obj", "%s", lines));
+    return loaded.scene.mesh_count == 1 && !loaded.scene.meshes[0].normals && !noted("makes smooth");
+}
+
+static void obj_smoothing(void)
+{
+    CHECK_LOADS(load_text("s.obj", ROOF "s 1\nf 1 2 3 4\nf 2 5 6 3\n"));
+    CHECK(loaded.scene.meshes[0].vertex_count == 6 && has_normal(0, -1, 1, 0, 0, 1) && has_normal(0, 1, 1, 0, 0, 1));
+    CHECK(has_normal(-1, 1, 0, -slope, 0, slope) && has_normal(1, -1, 0, slope, 0, slope));
+    CHECK(noted("smoothing group (s) makes smooth: 2"));
+    CHECK(is_flat(ROOF "f 1 2 3 4\nf 2 5 6 3\n") && is_flat(ROOF "s off\nf 1 2 3 4\nf 2 5 6 3\n") &&
+          is_flat(ROOF "s 0\nf 1 2 3 4\nf 2 5 6 3\n") && is_flat(ROOF "s 7\ns 0\nf 1 2 3 4\nf 2 5 6 3\n"));
+    CHECK_LOADS(load_text("s.obj", ROOF "s 1\nf 1 2 3 4\ns 2\nf 2 5 6 3\n"));
+    CHECK(has_normal(0, -1, 1, -slope, 0, slope) && has_normal(0, -1, 1, slope, 0, slope));
+    CHECK(!has_normal(0, -1, 1, 0, 0, 1) && loaded.scene.meshes[0].vertex_count == 8);
+    CHECK_LOADS(load_text("s.obj", ROOF "s 3\nf 1 2 3 4\ns off\ns 3\no other\nf 2 5 6 3\n"));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1));
+}
+
+/* Vertices that are written twice, or with other coordinates of textures; a face before its vertices; normals of the
+ * file's own, which hold. */
+static void obj_smoothing_corners(void)
+{
+    CHECK_LOADS(load_text("s.obj", ROOF "v -0.0 -1 1\nv 0 1 1\ns 1\nf 1 2 3 4\nf 7 5 6 8\n"));
+    CHECK(loaded.scene.meshes[0].vertex_count == 8 && has_normal(0, -1, 1, 0, 0, 1) &&
+          !has_normal(0, -1, 1, slope, 0, slope) && !has_normal(0, -1, 1, -slope, 0, slope));
+    CHECK_LOADS(load_text("s.obj", "s 1\nf 1 2 3 4\nf 2/2 5 6 3/1\n" ROOF "vt 0 0\nvt 1 1\n"));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1) && !has_normal(0, -1, 1, slope, 0, slope));
+    CHECK_LOADS(load_text("s.obj", ROOF "vn 0 1 0\ns 1\nf 1 2 3 4\nf 2//1 5//1 6//1 3//1\n"));
+    CHECK(has_normal(0, -1, 1, -slope, 0, slope) && has_normal(0, -1, 1, 0, 1, 0) && !has_normal(0, -1, 1, 0, 0, 1));
+    CHECK_LOADS(load_text("s.obj", ROOF "vn 0 1 0\ns 1\nf 1 2//1 3 4\nf 2 5 6 3\n"));
+    CHECK(has_normal(0, -1, 1, 0, 1, 0) && has_normal(0, 1, 1, 0, 0, 1));
+    CHECK(is_flat(ROOF "vn 0 1 0\nf 1 2//1 3 4\n"));
+}
+
+/* However its sides are cut, a cube's corners point along its diagonals; one side in three times as many pieces. */
+static void obj_smoothing_weights(void)
+{
+    int i;
+    CHECK_LOADS(load_text("s.obj", "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                                   "v 0 0 1\ns 1\nf 4 3 2 1\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n"
+                                   "f 4 1 5 8\n"));
+    for (i = 0; i < 8; ++i) {
+        const double x = i & 1 ? 1 : -1, y = i & 2 ? 1 : -1, z = i & 4 ? 1 : -1, a = 0.5773502691896258;
+        CHECK_MSG(has_normal(x, y, z, a * x, a * y, a * z), "corner %d", i);
+    }
+    CHECK(has_normal(0, 0, 1, 0, 0, 1));
+}
+
+/* What has no area, or hardly any, turns no normal; sides that lie on each other keep theirs; odd lines are noted. */
+static void obj_smoothing_odd(void)
+{
+    CHECK_LOADS(load_text("s.obj", ROOF "v 0 0 1.00000001\nv 0 0 1\nv nan 0 0\ns 1\nf 1 2 3 4\nf 2 5 6 3\nf 2 3 3\nf 2 7 3\n"
+                                        "f 2 8 3\nf 2 2 2\nf 2 3 9\n"));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1) && has_normal(0, 1, 1, 0, 0, 1));
+    CHECK_LOADS(load_text("s.obj", ROOF "s 1\nf 1 2 3 4\nf 4 3 2 1\n"));
+    CHECK(has_normal(0, -1, 1, -slope, 0, slope));
+    CHECK_LOADS(load_text("s.obj", ROOF "v 0.00001 0 1\ns 1\nf 2 7 3\n")); /* a needle alone */
+    CHECK(has_normal(0, -1, 1, 0, 0, 1));
+    CHECK(is_flat(ROOF "s on\nf 1 2 3 4\n") && noted("smoothing groups that are no number, taken as off: 1"));
+    CHECK(is_flat(ROOF "s\ns -1\ns 2147483647\nf 1 2 3 4\n") && noted("taken as off: 3"));
+    CHECK_LOADS(load_text("s.obj", ROOF "s 2147483646\nf 1 2 3 4\nf 2 5 6 3\n"));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1));
+}
+
+/* Normals without length are those of the faces at the vertex; +Y where these have no area. Infinite ones, too. */
+static void obj_odd_normals(void)
+{
+    CHECK_LOADS(load_text("n.obj", ROOF "vn 0 0 0\nvn 0 0 inf\nvn 0 3 0\nf 1//1 2//1 3//1 4//2\nf 2//1 5//3 6//2 3//1\n"));
+    CHECK(has_normal(-1, -1, 0, -slope, 0, slope) && has_normal(-1, 1, 0, -slope, 0, slope));
+    CHECK(has_normal(0, -1, 1, 0, 0, 1) && has_normal(1, 1, 0, slope, 0, slope) && has_normal(1, -1, 0, 0, 1, 0));
+    CHECK(noted("normals without length, made from the faces there: 5"));
+    CHECK_LOADS(load_text("n.obj", ROOF "vn 0 0 0\nf 1//1 1//1 3//1\n"));
+    CHECK(has_normal(-1, -1, 0, 0, 1, 0));
+}
+
+/* Two primitives share normals without length and use different vertices of them. */
+static void gltf_odd_normals(void)
+{
+    static const float places[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1};
+    float data[36] = {0};
+    static const uint16_t indices[6] = {0, 1, 2, 3, 4, 5};
+    uint8_t bytes[sizeof data + sizeof indices];
+    memcpy(data, places, sizeof places);
+    data[18 + 14] = 2; /* of vertex 4: z */
+    memcpy(bytes, data, sizeof data);
+    memcpy(bytes + sizeof data, indices, sizeof indices);
+    put_file("n.bin", bytes, sizeof bytes);
+    CHECK_LOADS(load_text("n.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"n.bin\",\"byteLength\":156}],\"bufferViews\":["
+        "{\"buffer\":0,\"byteLength\":72},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":72},"
+        "{\"buffer\":0,\"byteOffset\":144,\"byteLength\":12}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,1]},"
+        "{\"bufferView\":1,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},"
+        "{\"bufferView\":2,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"},"
+        "{\"bufferView\":2,\"byteOffset\":6,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2},"
+        "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":3}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}],"
+        "\"scene\":0}"));
+    CHECK(loaded.scene.mesh_count == 2 && noted("normals without length, made from the faces there: 5"));
+    for (uint32_t i = 0; loaded.scene.mesh_count == 2 && i < 6; ++i) {
+        const lmb_vec3 n = lmb_octahedral_decode(loaded.scene.meshes[0].normals + 2 * (size_t)i);
+        CHECK_MSG(is_vec(n, i > 2 && i != 4, 0, i < 3 || i == 4), "vertex %u", (unsigned)i);
+    }
 }
 
 static void obj_materials(void)
@@ -1098,6 +1263,13 @@ void test_models(void)
     far_away();
     obj_plain();
     obj_corners();
+    obj_colours();
+    obj_odd_normals();
+    gltf_odd_normals();
+    obj_smoothing();
+    obj_smoothing_corners();
+    obj_smoothing_weights();
+    obj_smoothing_odd();
     obj_materials();
     obj_refuses();
     obj_damage();

@@ -70,7 +70,41 @@ static void emission(void)
     CHECK_LOADS(load_library("newmtl a\nKe 0 0 0\nnewmtl b\nKe 0 7 0\n"));
     CHECK(emits(1, 0, 0, 0) && emits(2, 0, 7, 0) && noted("light the scene (but with fixed --grouping): 1"));
     CHECK_LOADS(load_library("newmtl a\nKe spectral x.rfl 1\nnewmtl b\nKe xyz 1 2 3\n"));
-    CHECK(emits(1, 0, 0, 0) && emits(2, 0, 0, 0) && notes.count == 0);
+    CHECK(emits(1, 0, 0, 0) && noted("spectrum (Kd or Ke spectral) is left out: 1"));
+    CHECK(emits(2, 0, (float)(-0.9692660 + 2 * 1.8760108 + 3 * 0.0415560),
+                (float)(0.0556434 - 2 * 0.2040259 + 3 * 1.0572252)));
+}
+
+/* Kd by CIE XYZ: the white of D65, and a red; a spectrum leaves the grey. */
+static void xyz(void)
+{
+    const lmb_material *m;
+    CHECK_LOADS(load_library("newmtl a\nKd xyz 0.95047 1 1.08883\nnewmtl b\nKd XYZ 0.2062 0.1063 0.0097\n"));
+    m = loaded.scene.materials;
+    for (int k = 0; k < 3; ++k)
+        CHECK(fabs((double)m[1].albedo[k] - 1) < 1e-3 && fabs((double)m[2].albedo[k] - (k == 0 ? 0.5 : 0)) < 1e-3);
+    CHECK(notes.count == 0);
+    CHECK_LOADS(load_library("newmtl a\nKd xyz 0.25\nnewmtl b\nKd spectral a.rfl 1\n"));
+    m = loaded.scene.materials;
+    CHECK(fabs((double)m[1].albedo[1] - 0.25 * 0.9483) < 1e-3 && m[2].albedo[0] == 0.8f);
+    CHECK(noted("spectrum (Kd or Ke spectral) is left out: 1") && notes.count == 1);
+    CHECK(!load_library("newmtl a\nKd xyz\n") && strstr(problem.text, "line 2: Kd needs three numbers"));
+    CHECK(!load_library("newmtl a\nKd xyz 1 z\n") && strstr(problem.text, "line 2: Kd takes numbers, 0 to 1"));
+}
+
+/* Programs write keywords in any case; names of materials and files stay as they are. */
+static void letter_case(void)
+{
+    put_picture("Pic.png");
+    put("m.mtl", "NEWMTL a\nKD 0.25 0.5 0.75\nMap_KD -CLAMP ON Pic.png\nnewmtl b\nkd 0.25\nKE 1 2 3\nD 0.5\nMAP_BUMP x.png\nIllum 5\n");
+    CHECK_LOADS(load("MTLLIB m.mtl\nUSEMTL a\nF 1/1 2/2 3/3\nUseMtl b\n" FACE "s OFF\n"));
+    const lmb_material *m = loaded.scene.materials;
+    CHECK(loaded.scene.material_count == 3 && loaded.scene.mesh_count == 2 && loaded.scene.texture_count == 1);
+    CHECK(m[1].albedo[2] == 0.75f && m[1].texture == 0 && loaded.scene.textures[0].wrap_s == LMB_WRAP_CLAMP);
+    CHECK(m[2].albedo[0] == 0.25f && m[2].alpha == 0.5f && emits(2, 1, 2, 3) && noted("bump or normal map") && noted("mirrors"));
+    put("m.mtl", "newmtl A\nKd 1\nmap_kd pic.png\n");
+    CHECK_LOADS(load("mtllib m.mtl\nusemtl a\n" FACE "usemtl A\n" FACE));
+    CHECK(noted("no library describes, drawn grey: 1") && noted("pic.png"));
 }
 
 static void emission_refuses(void)
@@ -279,6 +313,8 @@ void test_mtl(void)
     put_picture("y.png");
     emission();
     emission_refuses();
+    xyz();
+    letter_case();
     opacity();
     maps_left_out();
     options_left_out();

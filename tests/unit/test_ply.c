@@ -1,9 +1,9 @@
 /* test_ply.c: the PLY reader: every encoding and type with exact values, hostile counts, damage, known files. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "../folder.h"
 
+#include <math.h>
+
+#include "../../tools/picture/image.h"
 #include "../model_case.h"
 #include "../shared_file.h"
 
@@ -258,13 +258,13 @@ static void run_all(int encoding)
     CHECK(!(at[0] == 0 && at[1] == 1 && at[2] == 2)); /* the dart is cut at its dent */
     CHECK(is_position(0, 2, 0, 0) && is_position(2, 0, 2, 0) && is_position(3, 0, 0, 0)); /* 3 and 5 are not used */
     CHECK((double)loaded.scene.bounds_max.x == 2);
-    CHECK(is_normal(0, 0, 0.6, 0.8) && is_normal(1, 0, 1, 0) && noted("without length, set to +Y: 1"));
-    CHECK(is_colour(0, 0, 0, 0, 200) && is_colour(1, 10, 128, 1, 201) && is_colour(3, 40, 255, 4, 204));
+    CHECK(is_normal(0, 0, 0.6, 0.8) && is_normal(1, 0, 0, 1) && noted("without length, made from the faces there: 1"));
+    CHECK(is_colour(0, 0, 0, 0, 200) && is_colour(1, 1, 55, 0, 201) && is_colour(3, 5, 255, 0, 204));
     CHECK(uvs && (double)uvs[6] == 1 && (double)uvs[7] == 0.75 && (double)uvs[2] == 0.25);
     CHECK(noted("other than vertex and face skipped: 2") && noted("fewer than 3 corners skipped: 1"));
     CHECK(noted("no face uses left out: 2"));
     CHECK(loaded.scene.material_count == 1 && loaded.scene.materials[0].flags == LMB_DOUBLE_SIDED);
-    CHECK(loaded.scene.materials[0].albedo[0] == 0.8f && loaded.scene.materials[0].texture == -1);
+    CHECK(loaded.scene.materials[0].albedo[0] == 1.0f && loaded.scene.materials[0].texture == -1);
     CHECK(loaded.scene.instance_count == 1 && loaded.scene.instances[0].to_world.m[15] == 1);
 }
 
@@ -293,6 +293,260 @@ static void text_forms(void)
     CHECK_LOADS(load_text(HEAD "element vertex 3\n" XYZ "property float red\nelement face 1\n" FACES
                                "end_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n"));
     CHECK(loaded.blocks && !mesh()->colours); /* one channel alone is no colour */
+}
+
+/* Three vertices of one grey in `type`, by its text. */
+static int load_grey(const char *type, const char *code, const model_choice *choice)
+{
+    char text[700];
+    const int n = snprintf(text, sizeof text,
+                           HEAD "element vertex 3\n" XYZ "property %s red\nproperty %s green\nproperty %s blue\n"
+                                "element face 1\n" FACES "end_header\n0 0 0 %s %s %s\n1 0 0 %s %s %s\n0 1 0 %s %s %s\n"
+                                "3 0 1 2\n", type, type, type, code, code, code, code, code, code, code, code, code);
+    forget();
+    return model_read_as(&loaded, "a", choice, (const uint8_t *)text, (size_t)n, &notes, &problem);
+}
+
+/* Codes are sRGB by default: 188 is half the light of 255, which is white and not a grey of 0.8. Floats are decoded as
+ * they are: 0.98235 lies between the codes 250 and 251, and so does its light. */
+static void scan_colours(void)
+{
+    static const struct {
+        const char *type, *code;
+        int srgb, linear;
+    } all[] = {
+        {"uchar", "188", 128, 188},       {"uchar", "255", 255, 255},  {"uchar", "0", 0, 0},
+        {"uchar", "1", 0, 1},             {"ushort", "48316", 128, 188}, {"float", "0.737255", 128, 188},
+        {"float", "0.980392", 244, 250},  {"float", "0.98235", 245, 250}, {"float", "0.984314", 246, 251},
+        {"double", "1", 255, 255},
+        {"float", "nan", 0, 0},           {"float", "-1", 0, 0},       {"float", "inf", 255, 255},
+    };
+    const model_choice linear = {NULL, MODEL_COLOURS_LINEAR};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        CHECK_LOADS(load_grey(all[i].type, all[i].code, NULL));
+        CHECK_MSG(loaded.blocks && is_colour(0, all[i].srgb, all[i].srgb, all[i].srgb, 255), "%s %s: %d", all[i].type,
+                  all[i].code, loaded.blocks ? mesh()->colours[0] : -1);
+        CHECK(loaded.scene.materials[0].albedo[0] == 1.0f);
+        CHECK_LOADS(load_grey(all[i].type, all[i].code, &linear));
+        CHECK_MSG(loaded.blocks && is_colour(2, all[i].linear, all[i].linear, all[i].linear, 255), "%s %s: %d", all[i].type,
+                  all[i].code, loaded.blocks ? mesh()->colours[0] : -1);
+    }
+}
+
+/* --- strips --- */
+
+enum { RESTART = -1 };
+
+/* Five vertices and the strips of this list, whose vertices and ends are of the type. */
+static int load_strips(int encoding, int type, const char *before, const int *list, int n)
+{
+    static const double places[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
+    char line[200];
+    writer w;
+    int i, k;
+    begin(&w, encoding);
+    put_string(&w, "element vertex 5\n" "property float x\nproperty float y\nproperty float z\n");
+    snprintf(line, sizeof line, "%selement tristrips 1\nproperty list int %s vertex_indices\nend_header\n", before,
+             types[type].name);
+    put_string(&w, line);
+    for (i = 0; i < 5; ++i, end_item(&w))
+        for (k = 0; k < 3; ++k)
+            put(&w, FLOAT, places[i][k]);
+    put(&w, INT, n);
+    for (i = 0; i < n; ++i)
+        put(&w, type, list[i] == RESTART && w.encoding == TEXT && type == UCHAR ? 255 : list[i]);
+    end_item(&w);
+    return load(w.bytes, w.size);
+}
+
+/* Every second triangle is the other way round, which vertices that stand twice count for, too; -1 begins another strip. */
+static void strips(void)
+{
+    static const int list[] = {0, 1, 2, 3, 4, RESTART, 3, 2, 4}, joined[] = {0, 1, 2, 2, 3, 3, 4, 2}, odd[] = {0, 1, 5};
+    static const int shorts[] = {RESTART, 0, RESTART, RESTART, 0, 1, 2, RESTART, 3, 4}, none[] = {0, 1, RESTART, 2, 3};
+    static const uint16_t expected[] = {0, 1, 2, 2, 1, 3, 2, 3, 4, 3, 2, 4}, first[] = {0, 1, 2},
+                          turned[] = {0, 1, 2, 4, 3, 2};
+    static const int kinds[] = {0, UCHAR, 2, INT, FLOAT};
+    for (int encoding = 0; encoding < ENCODINGS; ++encoding) {
+        for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k) {
+            CHECK_LOADS(load_strips(encoding, kinds[k], "", list, 9));
+            CHECK_MSG(loaded.blocks && are_indices(expected, 4) && notes.count == 0, "%s %s", encodings[encoding],
+                      types[kinds[k]].name);
+        }
+        CHECK_LOADS(load_strips(encoding, INT, "", joined, 8));
+        CHECK(loaded.blocks && are_indices(turned, 2));
+        CHECK_LOADS(load_strips(encoding, INT, "", shorts, 10));
+        CHECK(loaded.blocks && are_indices(first, 1) && noted("strips with fewer than 3 corners skipped: 2"));
+        check_fails(load_strips(encoding, INT, "", odd, 3), "vertex number 5, but there are 5 from 0");
+        check_fails(load_strips(encoding, INT, "", none, 5), "no strip makes a triangle");
+        check_fails(load_strips(encoding, INT, "", none, 2), "no face has 3 corners");
+    }
+    CHECK_LOADS(load_strips(TEXT, INT, "element face 0\nproperty list uchar int vertex_indices\n", list, 9));
+    CHECK(loaded.blocks && are_indices(expected, 4));
+    check_fails(load_text(HEAD "element vertex 3\n" XYZ "element tristrips 1\nproperty int a\nend_header\n"), "strips have no list");
+    check_fails(load_text(HEAD "element tristrips 1\nelement tristrips 1\n"), "line 4: a second element tristrips");
+    CHECK_LOADS(load_text(HEAD "element vertex 4\n" XYZ "element tristrips 2\n" FACES "element face 1\n" FACES "end_header\n"
+                               "0 0 0\n1 0 0\n0 1 0\n1 1 1\n3 0 1 2\n3 1 2 3\n3 0 2 3\n"));
+    CHECK(loaded.blocks && mesh()->triangle_count == 3);
+}
+
+/* --- colours by face and by other names --- */
+
+static const uint8_t *colour_of(uint32_t mesh_number, uint32_t corner)
+{
+    const lmb_mesh *m = &loaded.scene.meshes[mesh_number];
+    return m->colours + 4 * (size_t)((const uint16_t *)m->indices)[corner];
+}
+
+#define TWO   "0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
+#define HEAD4 HEAD "element vertex 4\n" XYZ
+#define RGB(prefix) "property uchar " prefix "red\nproperty uchar " prefix "green\nproperty uchar " prefix "blue\n"
+
+static void face_colours(void)
+{
+    static const char *const names[] = {"", "diffuse_"};
+    char text[700];
+    for (int k = 0; k < 2; ++k) {
+        snprintf(text, sizeof text, HEAD4 "element face 2\n" FACES "property uchar %sred\nproperty uchar %sgreen\n"
+                 "property uchar %sblue\nend_header\n" TWO "3 0 1 2 255 188 0\n3 1 3 2 0 0 255\n", names[k], names[k], names[k]);
+        CHECK_LOADS(load_text(text));
+        CHECK(mesh()->vertex_count == 6 && mesh()->triangle_count == 2 && mesh()->colours && notes.count == 0);
+        for (uint32_t i = 0; mesh()->colours && i < 3; ++i) {
+            CHECK(colour_of(0, i)[0] == 255 && colour_of(0, i)[1] == 128 && colour_of(0, i)[2] == 0);
+            CHECK(colour_of(0, i + 3)[0] == 0 && colour_of(0, i + 3)[2] == 255);
+        }
+        CHECK(loaded.scene.materials[0].albedo[0] == 1.0f && is_position(0, 0, 0, 0) && is_position(4, 1, 1, 0));
+    }
+    CHECK_LOADS(load_text(HEAD "element vertex 5\n" XYZ RGB("") "element face 3\n" FACES RGB("") "end_header\n0 0 0 9 9 9\n"
+                          "1 0 0 9 9 9\n0 1 0 9 9 9\n1 1 0 9 9 9\n5 5 5 9 9 9\n3 0 1 2 255 0 0\n4 0 1 3 2 255 0 0\n3 0 1 2 0 255 0\n"));
+    CHECK(mesh()->vertex_count == 7 && noted("colours of vertices left out, as faces have") && noted("left out: 1"));
+    CHECK((double)loaded.scene.bounds_max.x == 1);
+    CHECK_LOADS(load_text(HEAD "element vertex 3\n" XYZ RGB("diffuse_") "element face 1\n" FACES
+                          "end_header\n0 0 0 255 188 0\n1 0 0 0 0 255\n0 1 0 0 0 0\n3 0 1 2\n"));
+    CHECK(loaded.blocks && is_colour(0, 255, 128, 0, 255) && is_colour(1, 0, 0, 255, 255));
+    CHECK_LOADS(load_text(HEAD "element vertex 3\n" XYZ "property uchar red\nelement face 1\n" FACES
+                          "end_header\n0 0 0 255\n1 0 0 0\n0 1 0 0\n3 0 1 2\n"));
+    CHECK(loaded.blocks && !mesh()->colours && noted("colours that are not red, green and blue left out"));
+    CHECK_LOADS(load_text(HEAD "element vertex 3\n" XYZ RGB("") "property uchar alpha\nelement face 1\n" FACES
+                          "end_header\n0 0 0 1 1 1 255\n1 0 0 1 1 1 9\n0 1 0 1 1 1 254\n3 0 1 2\n"));
+    CHECK(loaded.blocks && noted("colours with an alpha under 1, drawn opaque: 2"));
+}
+
+/* Codes of 8 bits in a wider type. */
+static void wide_codes(void)
+{
+    CHECK_LOADS(load_grey("int", "188", NULL));
+    CHECK(loaded.blocks && is_colour(0, 128, 128, 128, 255) && noted("type int hold no more than codes, read as 0 to 255"));
+    CHECK_LOADS(load_grey("ushort", "188", NULL));
+    CHECK(loaded.blocks && is_colour(0, 128, 128, 128, 255) && noted("type ushort"));
+    CHECK_LOADS(load_grey("uint", "48316", NULL));
+    CHECK(loaded.blocks && is_colour(0, 128, 128, 128, 255) && noted("read as 0 to 65535"));
+    CHECK_LOADS(load_grey("float", "188", NULL));
+    CHECK(loaded.blocks && is_colour(0, 128, 128, 128, 255) && noted("type float"));
+    CHECK_LOADS(load_grey("float", "187.9", NULL));
+    CHECK(loaded.blocks && is_colour(0, 128, 128, 128, 255));
+    CHECK_LOADS(load_grey("float", "1.5", NULL));
+    CHECK(loaded.blocks && is_colour(0, 255, 255, 255, 255) && notes.count == 0);
+}
+
+/* --- textures --- */
+
+static int load_in(folder *place, const char *text)
+{
+    forget();
+    return model_load(&loaded, folder_put(place, "a.ply", text, strlen(text)), NULL, &notes, &problem);
+}
+
+static int has_uv(uint32_t mesh_number, uint32_t corner, double u, double v)
+{
+    const lmb_mesh *m = &loaded.scene.meshes[mesh_number];
+    const float *uv = m->uvs ? (const float *)m->uvs + 2 * (size_t)((const uint16_t *)m->indices)[corner] : NULL;
+    return uv && fabs((double)uv[0] - u) < 1e-6 && fabs((double)uv[1] - v) < 1e-6;
+}
+
+#define PICTURE   "comment TextureFile "
+#define FACE_UVS  "property list uchar float texcoord\n"
+#define START(c)  "ply\nformat ascii 1.0\n" c "element vertex 4\n" XYZ
+
+/* By vertex; the first of two pictures, as no face says which. */
+static void vertex_textures(folder *place)
+{
+    static const char *const names[] = {"s", "t", "u", "v", "texture_u", "texture_v", "texture_s", "texture_t"};
+    char text[700];
+    for (int k = 0; k < 8; k += 2) {
+        snprintf(text, sizeof text, START(PICTURE "a b.png\r\n") RGB("") "property float %s\nproperty float %s\n"
+                 "element face 1\n" FACES "end_header\n0 0 0 9 9 9 0 0\n1 0 0 9 9 9 1 0\n0 1 0 9 9 9 0.25 0.75\n1 1 0 9 9 9 1 1\n"
+                 "3 0 1 2\n", names[k], names[k + 1]);
+        CHECK_LOADS(load_in(place, text));
+        CHECK(loaded.scene.texture_count == 1 && loaded.scene.materials[0].texture == 0 && !mesh()->colours);
+        CHECK(loaded.scene.materials[0].albedo[2] == 1.0f && has_uv(0, 2, 0.25, 0.25) && has_uv(0, 0, 0, 1));
+        CHECK(noted("colours beside a texture left out") && noted("no face uses left out: 1"));
+    }
+    CHECK_LOADS(load_in(place, START(PICTURE "none.png\n") RGB("") "property float s\nproperty float t\nelement face 1\n" FACES
+                        "end_header\n0 0 0 255 188 0 0 0\n1 0 0 9 9 9 1 0\n0 1 0 9 9 9 0 1\n1 1 0 9 9 9 1 1\n3 0 1 2\n"));
+    CHECK(is_colour(0, 255, 128, 0, 255) && noted("textures left out, plain colour instead: 1 (first: ") && noted("none.png"));
+    CHECK_LOADS(load_in(place, START(PICTURE "a b.png\n") "element face 1\n" FACES "end_header\n" TWO "3 0 1 2\n"));
+    CHECK(loaded.scene.texture_count == 0 && noted("textures without texture coordinates left out: 1"));
+    CHECK_LOADS(load_in(place, START(PICTURE "../x.png\n" PICTURE "/x.png\n") "property float s\nproperty float t\nelement face 1\n"
+                        FACES "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n1 1 0 1 1\n3 0 1 2\n"));
+    CHECK(loaded.scene.texture_count == 0 && noted("plain colour instead: 2"));
+}
+
+/* By face: the corners of one vertex have several places in the picture; faces without a picture are grey. */
+static void face_textures(folder *place)
+{
+    CHECK_LOADS(load_in(place, START(PICTURE "a b.png\n" PICTURE "none.png\ncomment texturefile c.png\n") "element face 6\n" FACES FACE_UVS
+                        "property int texnumber\nend_header\n" TWO "3 0 1 2 6 0 0 1 0 0 1 0\n3 1 3 2 6 .5 0 .5 1 0 1 2\n"
+                        "3 0 1 2 6 0 0 1 0 0 1 -1\n3 0 1 2 0 0\n3 0 1 2 4 0 0 1 0 0\n3 0 1 2 6 0 0 1 0 0 1 1\n"));
+    if (loaded.scene.mesh_count != 3 || loaded.scene.material_count != 3 || loaded.scene.texture_count != 2) {
+        CHECK(!"a mesh a material");
+        return;
+    }
+    CHECK(loaded.scene.materials[0].texture == 0 && loaded.scene.materials[1].texture == 1 &&
+          loaded.scene.materials[2].texture == -1 && loaded.scene.materials[2].albedo[0] == 0.8f);
+    CHECK(loaded.scene.meshes[0].triangle_count == 1 && has_uv(0, 0, 0, 1) && has_uv(0, 1, 1, 1) && has_uv(0, 2, 0, 0));
+    CHECK(loaded.scene.meshes[1].triangle_count == 1 && has_uv(1, 0, 0.5, 1) && has_uv(1, 1, 0.5, 0) && has_uv(1, 2, 0, 0));
+    CHECK(loaded.scene.meshes[2].triangle_count == 4 && loaded.scene.instances[2].material == 2);
+    CHECK(noted("texture coordinates are not two a corner, drawn plain: 1") && noted("plain colour instead: 1"));
+}
+
+static void textures(void)
+{
+    static const uint8_t rgb[12] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
+    folder place;
+    file_bytes png;
+    folder_open(&place);
+    CHECK(png_encode(&png, rgb, 2, 2, &problem));
+    folder_put(&place, "a b.png", png.data, png.size);
+    file_free(&png);
+    CHECK(png_encode(&png, rgb, 1, 4, &problem));
+    folder_put(&place, "c.png", png.data, png.size);
+    file_free(&png);
+    vertex_textures(&place);
+    face_textures(&place);
+    forget();
+    folder_close(&place);
+}
+
+/* Many faces of many colours on two vertices: their wedges are no more than there is room for. */
+static void many_wedges(void)
+{
+    const int n = 3000;
+    char *text = malloc(40 * (size_t)n + 800), *at = text;
+    int i;
+    CHECK(text != NULL);
+    if (!text)
+        return;
+    at += sprintf(at, HEAD4 "element face %d\n" FACES RGB("") "element tristrips 1\n" FACES "end_header\n" TWO, n);
+    for (i = 0; i < n; ++i)
+        at += sprintf(at, "3 0 1 %d %d %d 0\n", 2 + i % 2, i % 256, i / 256);
+    at += sprintf(at, "100");
+    for (i = 0; i < 100; ++i)
+        at += sprintf(at, " %d", i % 3);
+    at += sprintf(at, "\n");
+    CHECK_LOADS(load(text, (size_t)(at - text)));
+    CHECK(loaded.blocks && mesh()->triangle_count == (uint32_t)n + 98);
+    free(text);
 }
 
 static void many_vertices(void)
@@ -519,6 +773,12 @@ void test_ply(void)
     all_types();
     extremes();
     text_forms();
+    scan_colours();
+    strips();
+    face_colours();
+    wide_codes();
+    textures();
+    many_wedges();
     many_vertices();
     loose_headers();
     refuses();

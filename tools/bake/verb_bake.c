@@ -9,6 +9,7 @@
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
 #include "../common/ending.h"
+#include "../common/option_value.h"
 #include "../common/options.h"
 #include "../demo/demo_scene.h"
 #include "../model/model.h"
@@ -21,7 +22,8 @@ enum { MOVING = 256 }; /* objects, at most */
 enum { EYES = 64 };    /* that are given, and cameras of the scene */
 
 typedef struct options {
-    const char *scene, *out, *scene_name, *moving;
+    const char *scene, *out, *moving;
+    model_choice choice;
     float error, division, cluster, smallest;
     lmb_vec3 eye[EYES];
     int32_t elements, receivers, threads, budget, is_big, eyes;
@@ -51,8 +53,9 @@ static const option_row rows[] = {
              "times the scale in asset.extras.lambent;\nlightmap: a .glb with TEXCOORD_1 and a PNG;\nprobes: a .json and a "
              ".bin: a lattice of harmonics.\nThe error of the form is measured and said (default transfer: for lights that "
              "move)"},
-    {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),
+    {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(choice.scene),
      .help = "of a file with several scenes: which, by name or number"},
+    OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--error", .value = "SHARE", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
      .help = "how accurate the links are, which carry light from pieces of the scene to receivers: the error that one more "
              "link has to save, as a share of all light around a receiver that stands for a 10,000th of the scene's "
@@ -380,7 +383,7 @@ int verb_bake(int argc, char **argv)
     progress_begin(o.is_quiet, "bake");
     int ok = options_files(&o, &table, &r) &&
              (o.slice.count == 0 || slice_job(&o.slice_job, &o, &table, argc, argv, &r)) &&
-             (is_demo || model_load(&loaded, o.scene, o.scene_name, &notes, &r)) && options_files(&o, &table, &r) &&
+             (is_demo || model_load_as(&loaded, o.scene, &o.choice, &notes, &r)) && options_files(&o, &table, &r) &&
              (!o.is_glossy || model_make_glossy(&loaded) ||
               report_fail_usage(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene)) &&
              bake_model(&o, is_demo ? demo_scene() : &loaded.scene, &loaded, &r);

@@ -44,6 +44,7 @@ enum { SIDE = 512, SHADOW_MAP = 1024 };
 
 typedef struct statue {
     const char *model;
+    model_choice choice;
     int32_t views, greedy, size, triangles, is_packed, shadow_map;
     view_options view;
     lmb_relief_how how;
@@ -139,7 +140,7 @@ static int load(statue *s, report *r)
 {
     static model_notes notes;
     memset(&notes, 0, sizeof notes);
-    return model_load(&s->loaded, s->model, NULL, &notes, r) && relief_flatten(&s->mesh, &s->loaded.scene, r) &&
+    return model_load_as(&s->loaded, s->model, &s->choice, &notes, r) && relief_flatten(&s->mesh, &s->loaded.scene, r) &&
            (lmb_scene_triangles(&s->loaded.scene) > 0 ||
             report_fail(r, "%s: nothing to bake: no triangles", s->model));
 }

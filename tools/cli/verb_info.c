@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
+#include "../common/option_value.h"
 #include "../common/options.h"
 #include "../common/progress.h"
 #include "../demo/demo_scene.h"
@@ -19,7 +20,7 @@
 
 typedef struct options {
     const char *path; /* NULL: not given */
-    const char *scene; /* NULL: the file's own choice */
+    model_choice choice;
     int json, is_quiet, is_verbose;
 } options;
 
@@ -28,8 +29,9 @@ typedef struct options {
 static const option_row info_rows[] = {
     {.name = "FILE", .kind = OPTION_TEXT, .value = "", AT(path),
      .help = "a scene, a picture, baked light (.lmt), a relief (.lmr), or demo, the built-in scene"},
-    {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene),
+    {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(choice.scene),
      .help = "of a file with several scenes, by name or number from 0 (default: its own choice)"},
+    OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object on one line"},
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet),
      .help = "no figures: the exit status alone, whether the file can be read"},
@@ -40,7 +42,7 @@ static const option_row info_rows[] = {
 
 static const option_table table = {
     .verb = "info",
-    .usage = "info FILE [--scene NAME|N] [--json]",
+    .usage = "info FILE [options]",
     .about =
         "What is in a scene that `lambent render` reads, in a picture (PNG, JPEG, PPM, PGM, PFM or Radiance HDR), in "
         "baked light or in a relief; each is known by its content. Of a scene:\n"
@@ -413,7 +415,7 @@ static int scene_info(FILE *out, const options *o, const file_bytes *file, repor
     notes.count = 0;
     if (file == NULL)
         demo_model(&m, &camera);
-    else if (!model_read(&m, o->path, o->scene, file->data, file->size, &notes, r))
+    else if (!model_read_as(&m, o->path, &o->choice, file->data, file->size, &notes, r))
         return 0;
     int ok = summarize(&s, &m) || report_fail(r, "%s: memory is short for its materials", o->path);
     if (ok && !o->is_quiet)
@@ -538,7 +540,7 @@ static int picture_info(FILE *out, const options *o, const file_bytes *file, rep
 static int file_info(FILE *out, const options *o, report *r)
 {
     file_bytes file = {NULL, 0};
-    if (strcmp(o->path, "demo") == 0 && o->scene == NULL)
+    if (strcmp(o->path, "demo") == 0 && o->choice.scene == NULL)
         return scene_info(out, o, NULL, r);
     if (!file_read(&file, o->path, r))
         return 0;

@@ -82,6 +82,16 @@ int text_next_line(cursor *c)
 
 int slice_is(slice s, const char *word) { return s.size == strlen(word) && memcmp(s.at, word, s.size) == 0; }
 
+static int lower(char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; }
+
+int slice_is_like(slice s, const char *word)
+{
+    size_t i = 0;
+    while (i < s.size && word[i] != '\0' && lower(s.at[i]) == lower(word[i]))
+        ++i;
+    return i == s.size && word[i] == '\0';
+}
+
 /* strtod needs an end; 63 characters hold every double written to its last useful digit. */
 int slice_number(double *out, slice s)
 {

@@ -83,6 +83,7 @@ int option_word(const char *text, const char *const *words, const int32_t *value
     return 0;
 }
 
+const char *const option_vertex_colours[] = {"srgb", "linear", NULL};
 const char *const option_tones[] = {"filmic", "linear", NULL};
 const char *const option_samples[] = {"1", "4", "8", "16", NULL};
 const int32_t option_sample_values[] = {1, 4, 8, 16};

@@ -128,6 +128,9 @@ int options_distance(const char *a, const char *b);
 #define OPTION_TONE_ROW(type, tone)                                                                         \
     {.name = "--tone", .kind = OPTION_WORD, .at = offsetof(type, tone), .words = option_tones,              \
      .help = HELP("how display formats show light over white: by a curve that keeps it apart (default), or clipped")}
+#define OPTION_VERTEX_COLOURS_ROW(type, colours)                                                            \
+    {.name = "--vertex-colours", .kind = OPTION_WORD, .at = offsetof(type, colours), .words = option_vertex_colours, \
+     .help = HELP("of OBJ and PLY: sRGB codes, as scanners and modellers write them (default), or linear light")}
 #define OPTION_BACKEND_ROW(type, kernels)                                                                   \
     {.name = "--backend", .value = "NAME", .kind = OPTION_BACKEND, .at = offsetof(type, kernels),           \
      .help = HELP("whose instructions draw: the same bytes by any (default: the fastest that this processor has)")}

@@ -71,6 +71,7 @@ static const option_row object_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("object")},
     {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
      .help = HELP(".gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in")},
+    OPTION_VERTEX_COLOURS_ROW(mix_options, choice.vertex_colours),
     {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale), .low = 1e-6, .high = 1e6,
      .help = HELP("m of a unit of the mesh (default 1: the mesh is in metres)")},
     {.name = "--fit", .kind = OPTION_FLAG, AT(fit),

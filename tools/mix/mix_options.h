@@ -3,6 +3,7 @@
 #define MIX_OPTIONS_H
 
 #include "../common/options.h"
+#include "../model/model.h"
 #include "mix_frame.h"
 
 enum { MIX_LIGHTS = 8 };
@@ -20,6 +21,7 @@ typedef struct mix_options {
     mix_source source;
     const char *frames; /* a list instead of `source`'s files */
     const char *object, *world, *out, *stats;
+    model_choice choice; /* of the object's file */
     float scale;      /* m of a unit of the mesh; 0: 1, or with `fit` chosen */
     int fit;
     int32_t on;       /* MIX_ON_* */

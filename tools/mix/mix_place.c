@@ -126,7 +126,7 @@ int mix_place(mix_job *j, report *r)
     if (j->o.at == MIX_AT_CENTRE && j->planes.count == 0) {
         return mix_fail_depth(j, r);
     }
-    if (!model_load(&j->object, j->o.object, NULL, &j->notes, r) ||
+    if (!model_load_as(&j->object, j->o.object, &j->o.choice, &j->notes, r) ||
         !mix_stand(j, r)) {
         return 0;
     }

@@ -171,7 +171,6 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "primitives without POSITION skipped", n->without_positions);
     build_note_count(g->b, "primitives with vertices left over, which are dropped", n->ragged);
     build_note_count(g->b, "primitives without a material, drawn white", n->bare);
-    build_note_count(g->b, "normals without length, set to +Y", n->zero_normals);
     build_note_count(g->b, "BLEND materials, which light passes or does not by alpha 0.5", n->blends);
     build_note_count(g->b, "metallic materials, which reflect with --glossy only", n->metals);
     build_note_count(g->b, "metallic maps used by their mean without --glossy, 0 where one cannot be read",

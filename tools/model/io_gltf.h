@@ -39,7 +39,7 @@ typedef struct gltf_mean {
 
 /* What was left out or stands for something else, told once at the end. */
 typedef struct gltf_counts {
-    uint32_t points_lines, without_positions, ragged, zero_normals, bare;       /* primitives, vertices */
+    uint32_t points_lines, without_positions, ragged, bare;       /* primitives, vertices */
     uint32_t textures, blends, metals, metal_maps, unlit, emissive_maps; /* materials */
     uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
     uint32_t ranges, skins, morphs, no_roots;                                      /* lights, nodes, meshes, nodes */

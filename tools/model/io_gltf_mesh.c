@@ -51,15 +51,18 @@ static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
 }
 
 /* Vectors of three floats or more, made unit length, as octahedral codes; NULL with the report set. */
-static int16_t *encode_vectors(gltf *g, const gltf_accessor *a, uint32_t *zeros)
+static int16_t *encode_vectors(gltf *g, const gltf_accessor *a, int normals)
 {
     const float *values = gltf_floats(g, a);
     int16_t *codes = (int16_t *)build_keep(g->b, (uint64_t)a->count * 2, sizeof *codes);
-    uint32_t i;
+    uint32_t i, zeros = 0;
     for (i = 0; values && codes && i < a->count; ++i) {
         const float *v = values + (size_t)i * a->components;
         const double wide[3] = {(double)v[0], (double)v[1], (double)v[2]};
-        lmb_octahedral_encode(codes + 2 * (size_t)i, build_normal(wide, zeros));
+        if (normals)
+            build_normal_code(g->b, codes + 2 * (size_t)i, wide);
+        else
+            lmb_octahedral_encode(codes + 2 * (size_t)i, build_normal(wide, &zeros));
     }
     return values ? codes : NULL;
 }
@@ -73,7 +76,7 @@ static int read_normals(lmb_mesh *out, gltf *g, uint32_t reference)
     if (index == JSON_NONE)
         return 1;
     if (!g->normals[index])
-        g->normals[index] = encode_vectors(g, &a, &g->left_out.zero_normals);
+        g->normals[index] = encode_vectors(g, &a, 1);
     out->normals = g->normals[index];
     return out->normals != NULL;
 }
@@ -82,7 +85,7 @@ static int read_normals(lmb_mesh *out, gltf *g, uint32_t reference)
 static int read_tangents(lmb_mesh *out, gltf *g, uint32_t reference, uint32_t material)
 {
     gltf_accessor a;
-    uint32_t index, zeros = 0;
+    uint32_t index;
     if (g->b->materials[material].normal_scale == 0.0f || g->material_uv[material].moved)
         return 1;
     if (!gltf_attribute(&a, &index, g, reference, 4, 4, out->vertex_count))
@@ -90,7 +93,7 @@ static int read_tangents(lmb_mesh *out, gltf *g, uint32_t reference, uint32_t ma
     if (index == JSON_NONE)
         return 1;
     if (!g->tangents[index])
-        g->tangents[index] = encode_vectors(g, &a, &zeros);
+        g->tangents[index] = encode_vectors(g, &a, 0);
     out->tangents = g->tangents[index];
     return out->tangents != NULL;
 }

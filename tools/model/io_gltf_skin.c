@@ -169,6 +169,10 @@ static int16_t *pose_vectors(gltf *g, const int16_t *from, const gltf_influences
     uint32_t i;
     for (i = 0; to && i < count; ++i) {
         gltf_matrix joint = blend(in, s, i);
+        if (from[2 * (size_t)i] == BUILD_NO_NORMAL) {
+            memcpy(to + 2 * (size_t)i, from + 2 * (size_t)i, 2 * sizeof *to);
+            continue;
+        }
         if (normals)
             joint = cofactors(&joint);
         lmb_octahedral_encode(to + 2 * (size_t)i, turn(&joint, lmb_octahedral_decode(from + 2 * (size_t)i)));

@@ -1,4 +1,5 @@
-/* io_mtl.c: reads OBJ material libraries: diffuse colour, its map, emission, and what is wholly transparent. */
+/* io_mtl.c: reads OBJ material libraries: diffuse colour, its map, emission, and what is wholly transparent. Keywords may
+ * be in upper or lower case: programs write map_kd, too. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,45 +62,66 @@ uint32_t obj_find(const obj_names *names, slice name, uint32_t *slot)
     return UINT32_MAX;
 }
 
+/* CIE XYZ to linear light of sRGB's primaries (IEC 61966-2-1), as the other colours are. */
+static void from_xyz(double c[3])
+{
+    const double x = c[0], y = c[1], z = c[2];
+    c[0] = 3.2404542 * x - 1.5371385 * y - 0.4985314 * z;
+    c[1] = -0.9692660 * x + 1.8760108 * y + 0.0415560 * z;
+    c[2] = 0.0556434 * x - 0.2040259 * y + 1.0572252 * z;
+}
+
+/* Kd and Ke: r g b, or xyz x y z; of one number all three. *found 0: a spectrum, which is a file of its own. */
+static int read_colour(double out[3], int *found, obj_material *m, const char *name, cursor *c, report *r)
+{
+    slice token = {"", 0};
+    int i = 0, is_xyz = 0;
+    *found = 0;
+    if (text_token(&token, c) && slice_is_like(token, "spectral")) {
+        m->left_out |= OBJ_LEFT_SPECTRUM;
+        return 1;
+    }
+    if (slice_is_like(token, "xyz")) {
+        is_xyz = 1;
+        token.size = 0;
+        text_token(&token, c);
+    }
+    do {
+        if (i == 0 && token.size == 0)
+            return text_fail(c, r, "%s", name);
+        if (!slice_number(&out[i], token))
+            return text_fail(c, r, "%.2s takes numbers%s", name, strchr(name, ','));
+        ++i;
+    } while (i < 3 && text_token(&token, c));
+    for (; i < 3; ++i)
+        out[i] = out[0];
+    if (is_xyz)
+        from_xyz(out);
+    *found = 1;
+    return 1;
+}
+
 static int read_kd(lmb_material *out, obj_material *m, cursor *c, report *r)
 {
-    slice token;
-    double v;
-    int i;
-    for (i = 0; i < 3 && text_token(&token, c); ++i) {
-        if (i == 0 && (slice_is(token, "spectral") || slice_is(token, "xyz")))
-            return 1;
-        if (!slice_number(&v, token))
-            return text_fail(c, r, "Kd takes numbers, 0 to 1");
-        out->albedo[i] = v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f;
-    }
-    if (i == 0)
-        return text_fail(c, r, "Kd needs three numbers, 0 to 1");
-    for (; i < 3; ++i)
-        out->albedo[i] = out->albedo[0]; /* one number: grey */
-    m->has_kd = 1;
+    double v[3];
+    int i, found;
+    if (!read_colour(v, &found, m, "Kd needs three numbers, 0 to 1", c, r))
+        return 0;
+    for (i = 0; found && i < 3; ++i)
+        out->albedo[i] = v[i] > 0 ? v[i] < 1 ? (float)v[i] : 1.0f : 0.0f;
+    m->has_kd |= (uint8_t)found;
     return 1;
 }
 
 /* Emitted radiance. */
-static int read_ke(float out[3], cursor *c, report *r)
+static int read_ke(float out[3], obj_material *m, cursor *c, report *r)
 {
-    double v[3] = {0, 0, 0};
-    slice token;
-    int i;
-    for (i = 0; i < 3 && text_token(&token, c); ++i) {
-        if (i == 0 && (slice_is(token, "spectral") || slice_is(token, "xyz")))
-            return 1;
-        if (!slice_number(&v[i], token))
-            return text_fail(c, r, "Ke takes numbers, 0 or more");
-        v[i] = v[i] > 0 && v[i] < 1e30 ? v[i] : 0;
-    }
-    if (i == 0)
-        return text_fail(c, r, "Ke needs three numbers, 0 or more");
-    for (; i < 3; ++i)
-        v[i] = v[0]; /* one number: white */
-    for (i = 0; i < 3; ++i)
-        out[i] = (float)v[i];
+    double v[3];
+    int i, found;
+    if (!read_colour(v, &found, m, "Ke needs three numbers, 0 or more", c, r))
+        return 0;
+    for (i = 0; found && i < 3; ++i)
+        out[i] = v[i] > 0 && v[i] < 1e30 ? (float)v[i] : 0.0f;
     return 1;
 }
 
@@ -109,10 +131,10 @@ static int option_values(slice option)
     static const char *const one[] = {"-blendu", "-blendv", "-boost", "-texres", "-bm", "-imfchan", "-cc", "-type"};
     size_t i;
     for (i = 0; i < sizeof one / sizeof one[0]; ++i)
-        if (slice_is(option, one[i]))
+        if (slice_is_like(option, one[i]))
             return 1;
-    return slice_is(option, "-mm")                                                      ? 2
-           : slice_is(option, "-o") || slice_is(option, "-s") || slice_is(option, "-t") ? 3
+    return slice_is_like(option, "-mm")                                                      ? 2
+           : slice_is_like(option, "-o") || slice_is_like(option, "-s") || slice_is_like(option, "-t") ? 3
                                                                                         : -1;
 }
 
@@ -120,15 +142,15 @@ static int option_values(slice option)
 static void take_value(obj_material *m, obj_map *map, slice option, int index, slice value)
 {
     double number;
-    if (slice_is(option, "-clamp"))
-        map->wrap = slice_is(value, "on") ? LMB_WRAP_CLAMP : LMB_WRAP_REPEAT;
+    if (slice_is_like(option, "-clamp"))
+        map->wrap = slice_is_like(value, "on") ? LMB_WRAP_CLAMP : LMB_WRAP_REPEAT;
     if (!slice_number(&number, value))
         return;
-    if (slice_is(option, "-s") && index < 2)
+    if (slice_is_like(option, "-s") && index < 2)
         map->scale[index] = number;
-    if (slice_is(option, "-o") && index < 2)
+    if (slice_is_like(option, "-o") && index < 2)
         map->offset[index] = number;
-    if ((slice_is(option, "-t") && number != 0) || (slice_is(option, "-mm") && number != index))
+    if ((slice_is_like(option, "-t") && number != 0) || (slice_is_like(option, "-mm") && number != index))
         m->left_out |= OBJ_LEFT_OPTION; /* turbulence; base and gain, of which 0 and 1 change nothing */
 }
 
@@ -142,7 +164,7 @@ static void read_options(obj_material *m, obj_map *map, cursor *c)
         int n, i;
         if (!text_token(&token, c))
             return;
-        n = slice_is(token, "-clamp") ? 1 : option_values(token);
+        n = slice_is_like(token, "-clamp") ? 1 : option_values(token);
         if (n < 0) {
             *c = before;
             return;
@@ -213,11 +235,11 @@ static uint8_t left_out_by(slice word, cursor c)
         const char *word;
         uint8_t left_out;
     } known[] = {{"map_d", OBJ_LEFT_OPACITY_MAP}, {"map_Ke", OBJ_LEFT_EMISSION_MAP}, {"bump", OBJ_LEFT_BUMP},
-                 {"map_bump", OBJ_LEFT_BUMP},     {"map_Bump", OBJ_LEFT_BUMP},       {"norm", OBJ_LEFT_BUMP}};
+                 {"map_bump", OBJ_LEFT_BUMP},     {"norm", OBJ_LEFT_BUMP}};
     slice token;
     size_t i;
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)
-        if (slice_is(word, known[i].word))
+        if (slice_is_like(word, known[i].word))
             return text_token(&token, &c) ? known[i].left_out : 0;
     return 0;
 }
@@ -226,16 +248,16 @@ static int read_statement(lmb_material *out, obj_material *m, model_build *b, sl
 {
     slice token;
     double v;
-    if (slice_is(word, "Kd"))
+    if (slice_is_like(word, "Kd"))
         return read_kd(out, m, c, b->r);
-    if (slice_is(word, "Ke"))
-        return read_ke(out->emission, c, b->r);
-    if (slice_is(word, "map_Kd"))
+    if (slice_is_like(word, "Ke"))
+        return read_ke(out->emission, m, c, b->r);
+    if (slice_is_like(word, "map_Kd"))
         return read_map(m, b, c);
     m->left_out |= left_out_by(word, *c);
-    if ((slice_is(word, "d") || slice_is(word, "Tr")) && text_token(&token, c) && slice_number(&v, token))
-        read_opacity(out, m, slice_is(word, "d") ? v : 1 - v);
-    if (slice_is(word, "illum") && text_token(&token, c) && slice_number(&v, token))
+    if ((slice_is_like(word, "d") || slice_is_like(word, "Tr")) && text_token(&token, c) && slice_number(&v, token))
+        read_opacity(out, m, slice_is_like(word, "d") ? v : 1 - v);
+    if (slice_is_like(word, "illum") && text_token(&token, c) && slice_number(&v, token))
         read_illum(m, v);
     return 1;
 }
@@ -248,7 +270,7 @@ int mtl_read(model_build *b, obj_names *names, cursor c)
     do {
         if (!text_token(&word, &c))
             continue;
-        if (slice_is(word, "newmtl")) {
+        if (slice_is_like(word, "newmtl")) {
             text_rest(&name, &c);
             current = obj_find(names, name, &slot);
             if (current != UINT32_MAX)
@@ -345,6 +367,7 @@ void mtl_tell_left_out(model_build *b, const obj_names *names)
                {OBJ_LEFT_OPACITY_MAP, "materials whose map of opacity (map_d) is left out"},
                {OBJ_LEFT_EMISSION_MAP, "materials whose map of emission (map_Ke) is left out"},
                {OBJ_LEFT_MIRROR, "mirrors and glasses (illum 3 to 9), drawn without their mirror"},
+               {OBJ_LEFT_SPECTRUM, "materials whose spectrum (Kd or Ke spectral) is left out"},
                {OBJ_LEFT_BUMP, "materials whose bump or normal map is left out"},
                {OBJ_LEFT_OPTION, "materials whose map_Kd is drawn without its options -t or -mm"}};
     size_t k;

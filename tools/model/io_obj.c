@@ -2,8 +2,8 @@
  *
  * Two passes: the first counts, so that every array has its final size; the second fills. A corner, two bytes of text
  * or more, costs at most 36 bytes on the way, 60 more in the file's widest face, and 28 in the model; a triangle 20
- * and 12. The worst is one huge face of one-digit corners, 64 bytes a byte of file: within MODEL_BYTES_PER_BYTE,
- * textures aside. */
+ * and 12. A vertex of a smoothing group, or a corner where these are fewer, costs 88 more. The worst is one huge face of
+ * one-digit corners, 64 bytes a byte of file: within MODEL_BYTES_PER_BYTE, textures aside. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,12 +11,14 @@
 
 #include "io_obj.h"
 #include "ear_clip.h"
+#include "smooth_normals.h"
 
 #define NONE          UINT32_MAX
+#define SMOOTH        0x80000000u /* in place of a vn: the normal of the smoothing group in the bits below */
 #define MAX_LIBRARIES 64
 #define MAX_PROBES    256 /* of an index; half of it is empty, so that only a file made for it comes near */
 
-/* What a vertex is made of: numbers of v, vt, vn from 0; NONE: not given. */
+/* What a vertex is made of: numbers of v, vt, vn from 0; NONE: not given; vn may be SMOOTH | group. */
 typedef struct corner {
     uint32_t v, vt, vn;
 } corner;
@@ -29,16 +31,18 @@ typedef struct triangle {
 
 /* What the first pass found; 64 bits, because a file of 4 GiB can name more of something than 32 hold. */
 typedef struct census {
-    uint64_t v, vt, vn, corners, triangles, names, libraries;
+    uint64_t v, vt, vn, corners, triangles, names, libraries, smoothings;
     uint64_t widest; /* most corners of a face */
     int colours;     /* some v has six numbers */
+    uint64_t fourth, seventh;  /* v of seven numbers whose fourth, seventh is not 1 */
+    int whole_codes, fractions; /* some colour has two digits or more and no point; some colour has a point */
 } census;
 
 typedef struct obj {
     model_build *b;
     census n;
     float *v, *vt, *vn;
-    uint8_t *colours;                     /* RGBA8 by v, or NULL */
+    uint8_t *colours;                     /* RGBA8 by v, A 0: it has none; or NULL */
     uint32_t v_count, vt_count, vn_count; /* so far: what negative numbers count back from */
     corner *corners;                      /* different ones */
     uint32_t corner_count;
@@ -50,11 +54,13 @@ typedef struct obj {
     slice libraries[MAX_LIBRARIES];
     uint32_t library_count, library_extra;
     uint32_t material; /* of the faces that follow */
+    uint32_t smoothing; /* their group; 0: flat */
+    smooth_normals smooth;
     corner *face;      /* scratch for one face: its corners, numbers, points and triangles */
     uint32_t *face_number, *face_cut, *face_links;
     double *face_points;
     uint64_t cut_steps; /* polygon_cut_within's, left for all faces */
-    uint32_t points_lines, degenerate, overlapping, zero_normals;
+    uint32_t points_lines, degenerate, overlapping, translucent, smoothed, odd_groups;
 } obj;
 
 /* --- first pass --- */
@@ -70,28 +76,57 @@ static void count_face(census *n, cursor *c)
     n->widest = corners > n->widest ? corners : n->widest;
 }
 
+static int is_one(slice token)
+{
+    double v;
+    return slice_number(&v, token) && v == 1;
+}
+
+static void count_colour(census *n, slice code)
+{
+    size_t i = 0;
+    while (i < code.size && code.at[i] >= '0' && code.at[i] <= '9')
+        ++i;
+    n->whole_codes = n->whole_codes || (i == code.size && i > 1);
+    n->fractions = n->fractions || i < code.size;
+}
+
+static void count_v(census *n, cursor *c)
+{
+    slice token[7];
+    int numbers = 0, i;
+    while (numbers < 7 && text_token(&token[numbers], c))
+        ++numbers;
+    ++n->v;
+    n->colours = n->colours || numbers >= 6;
+    for (i = 4; numbers >= 6 && i < 6; ++i) /* these are colours with and without a weight */
+        count_colour(n, token[i]);
+    if (numbers == 7) {
+        n->fourth += !is_one(token[3]);
+        n->seventh += !is_one(token[6]);
+    }
+}
+
 static census count_all(cursor c)
 {
     census n;
-    slice word, token;
+    slice word;
     memset(&n, 0, sizeof n);
     do {
-        int numbers = 0;
         if (!text_token(&word, &c))
             continue;
-        if (slice_is(word, "v")) {
-            while (numbers < 6 && text_token(&token, &c))
-                ++numbers;
-            n.colours = n.colours || numbers == 6;
-            ++n.v;
-        } else if (slice_is(word, "vt")) {
+        if (slice_is_like(word, "v")) {
+            count_v(&n, &c);
+        } else if (slice_is_like(word, "vt")) {
             ++n.vt;
-        } else if (slice_is(word, "vn")) {
+        } else if (slice_is_like(word, "vn")) {
             ++n.vn;
-        } else if (slice_is(word, "f")) {
+        } else if (slice_is_like(word, "f")) {
             count_face(&n, &c);
-        } else if (slice_is(word, "usemtl")) {
+        } else if (slice_is_like(word, "usemtl")) {
             ++n.names;
+        } else if (slice_is_like(word, "s")) {
+            ++n.smoothings;
         }
     } while (text_next_line(&c));
     return n;
@@ -163,20 +198,35 @@ static int read_numbers(double *out, int *count, int min, int max, cursor *c, re
     return *count >= min || text_fail(c, r, "%d numbers where %d are needed; repair the line", *count, min);
 }
 
-/* x y z, then perhaps a weight (ignored), or r g b taken as linear. */
+/* Seven numbers are x y z r g b a, as most write them, or x y z w r g b with a weight of 1 in all of the file. */
+static int first_colour(const census *n, int numbers)
+{
+    return numbers == 7 && n->fourth == 0 && n->seventh > 0 ? 4 : 3;
+}
+
+/* Codes are 0 .. 1, or whole numbers to 255. */
+static void put_colour(obj *o, const double *code, int has_alpha)
+{
+    uint8_t *to = o->colours + 4 * (size_t)o->v_count;
+    const double top = o->n.whole_codes && !o->n.fractions ? 255 : 1;
+    int i;
+    for (i = 0; i < 3; ++i)
+        to[i] = build_colour(o->b, code[i] / top);
+    to[3] = 255;
+    o->translucent += has_alpha && code[3] < top && code[3] != 1;
+}
+
+/* x y z, then perhaps a weight (ignored), or a colour. */
 static int read_v(obj *o, cursor *c)
 {
     double v[7];
     int n, i;
-    uint8_t *colour = o->colours ? o->colours + 4 * (size_t)o->v_count : NULL;
     if (!read_numbers(v, &n, 3, 7, c, o->b->r))
         return 0;
     for (i = 0; i < 3; ++i)
         o->v[3 * (size_t)o->v_count + (size_t)i] = build_float(v[i]);
-    for (i = 0; colour && i < 4; ++i) {
-        const double value = i < 3 && n >= 6 ? v[3 + i] : 1;
-        colour[i] = value > 0 ? value < 1 ? (uint8_t)(value * 255 + 0.5) : 255 : 0;
-    }
+    if (n >= 6)
+        put_colour(o, v + first_colour(&o->n, n), n == 7 && first_colour(&o->n, n) == 3);
     ++o->v_count;
     return 1;
 }
@@ -199,13 +249,14 @@ static int read_vn(obj *o, cursor *c)
     double v[3];
     lmb_vec3 unit;
     float *to = o->vn + 3 * (size_t)o->vn_count;
+    uint32_t zeros = 0;
     int n;
     if (!read_numbers(v, &n, 3, 3, c, o->b->r))
         return 0;
-    unit = build_normal(v, &o->zero_normals);
-    to[0] = unit.x;
-    to[1] = unit.y;
-    to[2] = unit.z;
+    unit = build_normal(v, &zeros);
+    to[0] = zeros ? 0 : unit.x;
+    to[1] = zeros ? 0 : unit.y;
+    to[2] = zeros ? 0 : unit.z;
     ++o->vn_count;
     return 1;
 }
@@ -275,14 +326,25 @@ static uint32_t intern(obj *o, const corner *key)
     return o->corner_count - 1;
 }
 
+/* A corner without a normal takes the group's, else the face is flat. */
+static int smooth_face(obj *o, uint32_t n)
+{
+    uint32_t i;
+    for (i = 0; i < n; ++i)
+        if (o->smoothing == 0)
+            o->face[i].vn = NONE;
+        else if (o->face[i].vn == NONE)
+            o->face[i].vn = SMOOTH | o->smoothing;
+    o->smoothed += o->smoothing != 0;
+    return o->smoothing != 0;
+}
+
 /* A face may name vertices that come later in the file. They still lie at 0 here, so such a face is cut by what is
  * known of it; its corners are fetched when all has been read. */
 static void cut_face(obj *o, uint32_t n, int with_normals)
 {
     uint32_t i, k;
     for (i = 0; i < n; ++i) {
-        if (!with_normals)
-            o->face[i].vn = NONE;
         o->face_number[i] = intern(o, &o->face[i]);
         for (k = 0; k < 3; ++k)
             o->face_points[3 * (size_t)i + k] = (double)o->v[3 * (size_t)o->face[i].v + k];
@@ -311,8 +373,21 @@ static int read_face(obj *o, cursor *c)
     if (n < 3)
         ++o->degenerate;
     else
-        cut_face(o, n, with_normals);
+        cut_face(o, n, with_normals || smooth_face(o, n));
     return 1;
+}
+
+/* s off and s 0: flat. What is no group is none, and noted. */
+static void use_smoothing(obj *o, cursor *c)
+{
+    slice word = {"", 0};
+    int64_t group = 0;
+    const int is_off = text_token(&word, c) && slice_is_like(word, "off");
+    if (!is_off && (!slice_integer(&group, word) || group < 0 || group >= (int64_t)(NONE - SMOOTH))) {
+        ++o->odd_groups;
+        group = 0;
+    }
+    o->smoothing = (uint32_t)group;
 }
 
 static void use_material(obj *o, cursor *c)
@@ -345,21 +420,23 @@ static int read_line(obj *o, cursor *c)
     slice word;
     if (!text_token(&word, c))
         return 1;
-    if (slice_is(word, "v"))
+    if (slice_is_like(word, "v"))
         return read_v(o, c);
-    if (slice_is(word, "vt"))
+    if (slice_is_like(word, "vt"))
         return read_vt(o, c);
-    if (slice_is(word, "vn"))
+    if (slice_is_like(word, "vn"))
         return read_vn(o, c);
-    if (slice_is(word, "f"))
+    if (slice_is_like(word, "f"))
         return read_face(o, c);
-    if (slice_is(word, "usemtl"))
+    if (slice_is_like(word, "usemtl"))
         use_material(o, c);
-    if (slice_is(word, "mtllib")) {
+    if (slice_is_like(word, "s"))
+        use_smoothing(o, c);
+    if (slice_is_like(word, "mtllib")) {
         text_rest(&word, c);
         add_library(o, word);
     }
-    o->points_lines += slice_is(word, "l") || slice_is(word, "p");
+    o->points_lines += slice_is_like(word, "l") || slice_is_like(word, "p");
     return 1;
 }
 
@@ -415,7 +492,11 @@ static int load_libraries(obj *o)
     return 1;
 }
 
-/* A middle grey until a library says more; double sided, because OBJ says nothing of sides. */
+/* Are the colours of vertices all that is known of it? */
+static int is_painted(const obj *o, uint32_t material) { return o->colours && !o->names.items[material].has_kd; }
+
+/* A middle grey until a library says more; white under colours of vertices; double sided, because OBJ says nothing of
+ * sides. */
 static int make_materials(obj *o)
 {
     uint32_t i, undefined = 0;
@@ -438,8 +519,37 @@ static int make_materials(obj *o)
         undefined += !o->names.items[i].defined;
     if (undefined)
         build_note(b, "materials that no library describes, drawn grey: %u", (unsigned)undefined);
+    for (i = 0; i < o->names.count; ++i)
+        if (is_painted(o, i))
+            b->materials[i].albedo[0] = b->materials[i].albedo[1] = b->materials[i].albedo[2] = 1.0f;
     mtl_tell_left_out(b, &o->names);
     return mtl_textures(b, &o->names);
+}
+
+/* --- smoothing groups --- */
+
+static uint32_t group_of(const corner *c) { return c->vn != NONE && c->vn >= SMOOTH ? c->vn - SMOOTH : 0; }
+
+/* Once all vertices are known: the normals of groups. */
+static int sum_normals(obj *o, uint64_t key)
+{
+    uint32_t i, k;
+    if (!o->smoothed)
+        return 1;
+    const uint64_t n = o->n.smoothings < o->n.corners / o->n.v ? o->n.v * o->n.smoothings : o->n.corners;
+    if (!smooth_open(&o->smooth, o->b, n, key))
+        return 0;
+    for (i = 0; i < o->triangle_count; ++i) {
+        const float *place[3];
+        uint32_t group[3];
+        for (k = 0; k < 3; ++k) {
+            const corner *c = &o->corners[o->triangles[i].corner[k]];
+            place[k] = o->v + 3 * (size_t)c->v;
+            group[k] = group_of(c);
+        }
+        smooth_add(&o->smooth, place, group);
+    }
+    return 1;
 }
 
 /* --- meshes --- */
@@ -498,8 +608,18 @@ static int fill_indices(lmb_mesh *out, const obj *o, const uint32_t *local, cons
     return 1;
 }
 
-static int fill_positions(lmb_mesh *out, const obj *o, const uint32_t *used)
+/* A vertex without a colour beside others that have one is grey or white, as it were without them. */
+static void fill_colour(uint8_t *to, const uint8_t *from, int is_grey)
 {
+    if (from[3] != 0)
+        memcpy(to, from, 4);
+    else
+        memset(to, is_grey ? 204 : 255, 3), to[3] = 255;
+}
+
+static int fill_positions(lmb_mesh *out, const obj *o, uint32_t material, const uint32_t *used)
+{
+    const int is_grey = is_painted(o, material) && o->b->materials[material].texture < 0;
     float *positions = (float *)build_keep(o->b, out->vertex_count, 3 * sizeof *positions);
     uint8_t *colours = o->colours ? (uint8_t *)build_keep(o->b, out->vertex_count, 4) : NULL;
     uint32_t i;
@@ -509,7 +629,7 @@ static int fill_positions(lmb_mesh *out, const obj *o, const uint32_t *used)
         const size_t v = o->corners[used[i]].v;
         memcpy(positions + 3 * (size_t)i, o->v + 3 * v, 3 * sizeof *positions);
         if (colours)
-            memcpy(colours + 4 * (size_t)i, o->colours + 4 * v, 4);
+            fill_colour(colours + 4 * (size_t)i, o->colours + 4 * v, is_grey);
     }
     out->positions = positions;
     out->colours = colours;
@@ -543,6 +663,22 @@ static int fill_uvs(lmb_mesh *out, const obj *o, const obj_map *map, const uint3
     return 1;
 }
 
+static void code_normal(int16_t out[2], const obj *o, const corner *c)
+{
+    const uint32_t group = group_of(c);
+    if (group != 0) {
+        lmb_octahedral_encode(out, smooth_at(&o->smooth, o->v + 3 * (size_t)c->v, group));
+        return;
+    }
+    static const double nothing[3] = {0, 0, 0};
+    const float *n = o->vn + 3 * (size_t)c->vn;
+    const lmb_vec3 unit = {n[0], n[1], n[2]};
+    if (n[0] == 0 && n[1] == 0 && n[2] == 0)
+        build_normal_code(o->b, out, nothing);
+    else
+        lmb_octahedral_encode(out, unit);
+}
+
 static int fill_normals(lmb_mesh *out, const obj *o, const uint32_t *used)
 {
     int16_t *codes = (int16_t *)build_keep(o->b, out->vertex_count, 2 * sizeof *codes);
@@ -550,9 +686,7 @@ static int fill_normals(lmb_mesh *out, const obj *o, const uint32_t *used)
     if (!codes)
         return 0;
     for (i = 0; i < out->vertex_count; ++i) {
-        const float *n = o->vn + 3 * (size_t)o->corners[used[i]].vn;
-        const lmb_vec3 unit = {n[0], n[1], n[2]};
-        lmb_octahedral_encode(codes + 2 * (size_t)i, unit);
+        code_normal(codes + 2 * (size_t)i, o, &o->corners[used[i]]);
     }
     out->normals = codes;
     return 1;
@@ -562,7 +696,7 @@ static int fill_mesh(lmb_mesh *out, const obj *o, uint32_t group, const uint32_t
 {
     uint32_t i;
     out->vertex_count = number_corners(local, used, o, list, out->triangle_count);
-    if (!fill_indices(out, o, local, list) || !fill_positions(out, o, used))
+    if (!fill_indices(out, o, local, list) || !fill_positions(out, o, group / 2, used))
         return 0;
     if (o->b->materials[group / 2].texture >= 0 && !fill_uvs(out, o, &o->names.items[group / 2].map, used))
         return 0;
@@ -610,7 +744,11 @@ static void tell_left_out(const obj *o)
     build_note_count(o->b, "faces with fewer than 3 corners skipped", o->degenerate);
     build_note_count(o->b, "concave faces too large or too tangled to cut well, which may overlap themselves",
                      o->overlapping);
-    build_note_count(o->b, "normals without length, set to +Y", o->zero_normals);
+    build_note_count(o->b, "faces without normals that their smoothing group (s) makes smooth", o->smoothed);
+    build_note_count(o->b, "smoothing groups that are no number, taken as off", o->odd_groups);
+    build_note_count(o->b, "vertices with an alpha under 1, drawn opaque", o->translucent);
+    if (o->colours && o->n.whole_codes && !o->n.fractions)
+        build_note(o->b, "colours of vertices are whole numbers, read as 0 to 255");
     build_note_count(o->b, "material libraries left out after the first 64", o->library_extra);
 }
 
@@ -632,7 +770,7 @@ int obj_load(model_build *b, const uint8_t *data, size_t size)
         if (!read_line(&o, &c))
             return 0;
     } while (text_next_line(&c));
-    if (!make_materials(&o) || !make_meshes(&o))
+    if (!sum_normals(&o, o.smoothed ? obj_hash(1, data, size) : 0) || !make_materials(&o) || !make_meshes(&o))
         return 0;
     tell_left_out(&o);
     b->out->facts.format = "OBJ";

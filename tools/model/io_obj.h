@@ -19,7 +19,8 @@ enum {
     OBJ_LEFT_EMISSION_MAP = 4,
     OBJ_LEFT_BUMP = 8,
     OBJ_LEFT_OPTION = 16,
-    OBJ_LEFT_MIRROR = 32
+    OBJ_LEFT_MIRROR = 32,
+    OBJ_LEFT_SPECTRUM = 64
 };
 
 /* One name that usemtl gave; [0] stands for faces before any. */

@@ -6,6 +6,7 @@
 #include "../common/ending.h"
 #include "io_lmp.h"
 #include "io_ply.h"
+#include "mend_normals.h"
 #include "model_build.h"
 
 /* Ids 1 .. in instance order. */
@@ -157,7 +158,7 @@ static int finish(model_build *b)
 {
     lmb_scene *scene = &b->out->scene;
     lmb_status status;
-    if (!number_triangles(b) || !check_work(b))
+    if (!number_triangles(b) || !check_work(b) || !mend_normals(b))
         return 0;
     scene->meshes = b->meshes;
     scene->materials = b->materials;
@@ -211,11 +212,19 @@ static int load_content(model_build *b, const file_bytes *file)
         return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj, .ply or .lmp file", b->path);
     if (b->scene && read != gltf_load)
         return report_fail_usage(b->r, "--scene %.60s: %s: only glTF files hold several", b->scene, b->path);
+    if (b->linear_colours && read != obj_load && read != ply_load)
+        build_note(b, "--vertex-colours linear changes nothing: OBJ and PLY alone leave it open");
     return read(b, file->data, file->size);
 }
 
-int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
-               report *r)
+static void fill_linear_of(model_build *b)
+{
+    for (int i = 0; i < 256; ++i)
+        b->linear_of[i] = build_share(srgb_decode(i));
+}
+
+int model_read_as(model *out, const char *path, const model_choice *choice, const uint8_t *data, size_t size,
+                  model_notes *notes, report *r)
 {
     const file_bytes file = {(uint8_t *)data, size};
     model_build b;
@@ -228,7 +237,9 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
     b.notes->count = 0;
     b.r = r;
     b.path = path;
-    b.scene = scene;
+    b.scene = choice ? choice->scene : NULL;
+    b.linear_colours = choice && choice->vertex_colours == MODEL_COLOURS_LINEAR;
+    fill_linear_of(&b);
     b.budget = MODEL_BYTES_FREE + (uint64_t)size * MODEL_BYTES_PER_BYTE;
     b.pixel_budget = MODEL_FREE_PIXELS + (uint64_t)size * MODEL_PIXELS_PER_BYTE;
     b.large_picture = MODEL_LARGE_PICTURE;
@@ -243,16 +254,29 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
     return ok;
 }
 
-int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r)
+int model_load_as(model *out, const char *path, const model_choice *choice, model_notes *notes, report *r)
 {
     file_bytes file;
     int ok;
     memset(out, 0, sizeof *out);
     if (!file_read(&file, path, r))
         return 0;
-    ok = model_read(out, path, scene, file.data, file.size, notes, r);
+    ok = model_read_as(out, path, choice, file.data, file.size, notes, r);
     file_free(&file);
     return ok;
+}
+
+int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
+               report *r)
+{
+    const model_choice choice = {scene, MODEL_COLOURS_SRGB};
+    return model_read_as(out, path, &choice, data, size, notes, r);
+}
+
+int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r)
+{
+    const model_choice choice = {scene, MODEL_COLOURS_SRGB};
+    return model_load_as(out, path, &choice, notes, r);
 }
 
 /* The model owns its materials; only the scene's view of them is const. */

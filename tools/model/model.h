@@ -81,6 +81,13 @@ typedef struct model_notes {
     uint32_t count;
 } model_notes;
 
+/* What the file leaves open. Zeros: as usual. */
+enum { MODEL_COLOURS_SRGB = 0, MODEL_COLOURS_LINEAR };
+typedef struct model_choice {
+    const char *scene;      /* of several the one of this name or number; NULL: the file's own choice */
+    int32_t vertex_colours; /* of OBJ and PLY: MODEL_COLOURS_; glTF says that its own are linear */
+} model_choice;
+
 /* model_load: .gltf, .glb, .obj, .ply or .lmp by content and extension; of several scenes the one of the name or number
  * `scene`, or with NULL the file's own choice. Returns 1, or 0 with `r` set and *out empty. */
 int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r);
@@ -89,6 +96,11 @@ int model_load(model *out, const char *path, const char *scene, model_notes *not
  * where files beside it are looked for. */
 int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
                report *r);
+
+/* The same by more choices; NULL: none. */
+int model_load_as(model *out, const char *path, const model_choice *choice, model_notes *notes, report *r);
+int model_read_as(model *out, const char *path, const model_choice *choice, const uint8_t *data, size_t size,
+                  model_notes *notes, report *r);
 
 /* model_make_glossy: give the materials their lobes. 0 where the format has none. */
 int model_make_glossy(model *m);

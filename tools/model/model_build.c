@@ -120,6 +120,26 @@ lmb_vec3 build_normal(const double v[3], uint32_t *zeros)
     return n;
 }
 
+void build_normal_code(model_build *b, int16_t out[2], const double v[3])
+{
+    uint32_t zeros = 0;
+    lmb_octahedral_encode(out, build_normal(v, &zeros));
+    if (zeros)
+        out[0] = out[1] = BUILD_NO_NORMAL;
+    b->marked_normals += zeros;
+}
+
+uint8_t build_share(double v) { return v > 0 ? v < 1 ? (uint8_t)(v * 255 + 0.5) : 255 : 0; }
+
+/* Codes of 8 bits, which nearly all are, by a table. */
+uint8_t build_colour(const model_build *b, double code)
+{
+    if (b->linear_colours || !(code > 0 && code < 1))
+        return build_share(code);
+    const int whole = (int)(code * 255 + 0.5);
+    return fabs(code * 255 - whole) < 1e-9 ? b->linear_of[whole] : build_share(srgb_curve(code));
+}
+
 /* a//b and a/./b are a/b; ".." stays, as it may lead through a link. */
 static void tidy_path(char *path)
 {

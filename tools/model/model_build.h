@@ -37,6 +37,8 @@ typedef struct model_build {
     report *r;
     const char *path;      /* the model's file, as the user named it */
     const char *scene;     /* wanted of several, by name or number; NULL: the file chooses */
+    int linear_colours;    /* vertex colours of OBJ and PLY are linear light, not sRGB codes */
+    uint8_t linear_of[256]; /* by sRGB code */
     uint64_t budget;       /* bytes that may still be allocated */
     uint64_t pixel_budget; /* pixels that may still be decoded */
     uint64_t large_picture; /* pixels that one picture may have beyond that; 0: one had */
@@ -45,6 +47,7 @@ typedef struct model_build {
     uint32_t content_count, content_slot_count;
     build_neighbour *neighbours; /* files read beside the model, each once */
     uint32_t neighbour_count, neighbour_cap;
+    uint32_t marked_normals; /* by build_normal_code */
     lmb_mesh *meshes;
     lmb_material *materials;
     lmb_texture *textures;
@@ -73,6 +76,15 @@ void build_note_count(model_build *b, const char *what, uint32_t count);
 float build_float(double v);
 float build_uv(double v);
 lmb_vec3 build_normal(const double v[3], uint32_t *zeros);
+
+/* build_normal_code: the same as an octahedral code; what has no direction is marked, for mend_normals at the end. */
+#define BUILD_NO_NORMAL INT16_MIN /* no code has it */
+void build_normal_code(model_build *b, int16_t out[2], const double v[3]);
+
+/* build_colour: a channel of OBJ or PLY, 0 .. 1 of its range, as the library's linear byte: it is rounded once, at the
+ * end. build_share: the same without decoding, for alpha. NaN and less are 0. */
+uint8_t build_colour(const model_build *b, double code);
+uint8_t build_share(double v);
 
 /* build_read: a whole file beside the model: a plain one, as what a model names may be a device that never ends. It is
  * read once, however often it is asked for, and raises the budgets once; the bytes stay until loading ends. */

@@ -8,13 +8,15 @@
 
 #include "../../platform/host/host.h"
 #include "../../src/pack/records.h"
+#include "../common/option_value.h"
 #include "../common/options.h"
 #include "../demo/demo_scene.h"
 #include "../model/io_lmt.h"
 #include "pack.h"
 
 typedef struct options {
-    const char *scene, *out, *name, *scene_name, *transfer;
+    const char *scene, *out, *name, *transfer;
+    model_choice choice;
     float position_error, texture_error;
     int32_t position_given, texture_given, order_given, textures_given;
     int32_t is_big, order, textures;
@@ -36,8 +38,9 @@ static const option_row rows[] = {
      .help = ".lmp: a file to load or map; .c: the same words as an array to link"},
     {.name = "--name", .value = "NAME", .kind = OPTION_TEXT, AT(name),
      .help = "of the array (default: by the file's name)"},
-    {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),
+    {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(choice.scene),
      .help = "of a file with several scenes: which, by name or number"},
+    OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--transfer", .value = "FILE.lmt", .kind = OPTION_TEXT, AT(transfer), .file = OPTION_READS,
      .help = "baked light goes into the file; it has to be baked from the packed scene, as packing moves vertices"},
     {.name = "--position-error", .value = "METRES", .kind = OPTION_NUMBER, AT(position_error), .low = 0.0, .high = 1e6,
@@ -333,7 +336,7 @@ int verb_pack(int argc, char **argv)
     if (is_demo) {
         make_demo(&loaded, &camera);
     }
-    int ok = options_files(&o, &table, &r) && (is_demo || model_load(&loaded, o.scene, o.scene_name, &notes, &r)) &&
+    int ok = options_files(&o, &table, &r) && (is_demo || model_load_as(&loaded, o.scene, &o.choice, &notes, &r)) &&
              options_files(&o, &table, &r) &&
              (!o.is_glossy || loaded.pack != NULL || model_make_glossy(&loaded) ||
               report_fail_usage(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene));

@@ -20,8 +20,6 @@ void bitmap_free(bitmap *map)
     map->width = map->height = 0;
 }
 
-double srgb_decode(int code)
-{
-    double c = code / 255.0;
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
+double srgb_curve(double code) { return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4); }
+
+double srgb_decode(int code) { return srgb_curve(code / 255.0); }

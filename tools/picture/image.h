@@ -46,6 +46,9 @@ int ppm_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t heigh
 /* srgb_decode: linear light of an sRGB code 0 .. 255 (IEC 61966-2-1). */
 double srgb_decode(int code);
 
+/* srgb_curve: the same of a code that is none of 256, 0 .. 1. */
+double srgb_curve(double code);
+
 void image_free(image *img);
 void bitmap_free(bitmap *map);
 

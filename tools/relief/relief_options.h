@@ -4,11 +4,14 @@
 
 #include <lambent/relief.h>
 
+#include "../common/option_value.h"
 #include "../common/options.h"
 #include "../common/view_options.h"
+#include "../model/model.h"
 
 /* int32_t size, triangles, is_packed of a struct of the type: how a relief is baked. */
 #define RELIEF_OPTIONS_BAKE(type)                                                                            \
+    OPTION_VERTEX_COLOURS_ROW(type, choice.vertex_colours),                                                  \
     {.name = "--size", .value = "PX", .kind = OPTION_INT, .at = offsetof(type, size), .low = 8, .high = 4096, \
      .help = HELP("texels of a view's side (default 256)")},                                                       \
     {.name = "--packed", .kind = OPTION_FLAG, .at = offsetof(type, is_packed),                               \
@@ -30,6 +33,7 @@
 /* What `lambent relief render` was asked for. */
 typedef struct relief_options {
     const char *file, *out, *compare, *with, *path;
+    model_choice choice; /* of --with and --compare */
     view_options view;
     lmb_relief_how how;
     lmb_light light;

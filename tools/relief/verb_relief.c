@@ -48,6 +48,7 @@ static const option_row rows[] = {
      .help = HELP("irradiance from everywhere, W/m2 (default 0.3)")},
     {.name = "--with", .value = "SCENE", .kind = OPTION_TEXT, AT(with), .file = OPTION_READS,
      .help = HELP("other geometry in the same picture: both shadow and hide each other")},
+    OPTION_VERTEX_COLOURS_ROW(relief_options, choice.vertex_colours),
     {.name = "--bounce", .kind = OPTION_FLAG, AT(bounce),
      .help = HELP("light once reflected, too, by the other geometry and the simple model")},
     {.kind = OPTION_TITLE, .help = HELP("output")},
@@ -160,11 +161,11 @@ static int open_relief(work *w, const char *path, report *r)
                                                                      : "not a whole .lmr file of version 1");
 }
 
-static int load(model *out, const char *path, report *r)
+static int load(model *out, const char *path, const model_choice *choice, report *r)
 {
     static model_notes notes;
     memset(&notes, 0, sizeof notes);
-    return model_load(out, path, NULL, &notes, r);
+    return model_load_as(out, path, choice, &notes, r);
 }
 
 static int choose_view(lmb_view *out, const work *w, relief_options *o, report *r)
@@ -233,8 +234,8 @@ static int render(work *w, relief_options *o, report *r)
     memset(&shot, 0, sizeof shot);
     w->light = o->has_light ? o->light : sun;
     if (!options_files(o, &table, r) || !open_relief(w, o->file, r) ||
-        (o->with != NULL && !load(&w->with, o->with, r)) ||
-        (o->compare != NULL && !load(&w->complex, o->compare, r)) ||
+        (o->with != NULL && !load(&w->with, o->with, &o->choice, r)) ||
+        (o->compare != NULL && !load(&w->complex, o->compare, &o->choice, r)) ||
         !options_files(o, &table, r) || !relief_path_open(&w->path, o, &w->light, r) || !choose_view(&shot.view, w, o, r)) {
         return 0;
     }

@@ -15,6 +15,7 @@
 
 typedef struct options {
     const char *model, *out, *simple, *views_file;
+    model_choice choice;
     int32_t views, size, triangles, greedy, is_packed;
     int as_is, is_quiet, is_verbose;
     const char *frame[LMB_RELIEF_VIEWS]; /* photos' */
@@ -123,11 +124,11 @@ static void work_free(work *w)
     free(w);
 }
 
-static int load(model *out, triangle_mesh *mesh, const char *path, report *r)
+static int load(model *out, triangle_mesh *mesh, const char *path, const model_choice *choice, report *r)
 {
     static model_notes notes;
     memset(&notes, 0, sizeof notes);
-    if (!model_load(out, path, NULL, &notes, r)) {
+    if (!model_load_as(out, path, choice, &notes, r)) {
         return 0;
     }
     if (lmb_scene_triangles(&out->scene) == 0) {
@@ -149,7 +150,7 @@ static int load_simple(work *w, const options *o, report *r)
     simplify_facts facts;
     counted_heap held = {0, 0};
     double outside = 0.0;
-    if (!load(&w->loaded_simple, &own, o->simple, r)) {
+    if (!load(&w->loaded_simple, &own, o->simple, &o->choice, r)) {
         return 0;
     }
     if (o->as_is) {
@@ -262,7 +263,7 @@ static void tell(const work *w, const options *o, const relief_coverage *c)
 static int bake(work *w, const options *o, report *r)
 {
     relief_coverage coverage;
-    if (!options_files(o, &table, r) || !load(&w->loaded, &w->mesh, o->model, r) || !options_files(o, &table, r) ||
+    if (!options_files(o, &table, r) || !load(&w->loaded, &w->mesh, o->model, &o->choice, r) || !options_files(o, &table, r) ||
         !choose_views(w, o, r) || !make_simple(w, o, r)) {
         return 0;
     }

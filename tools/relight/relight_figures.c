@@ -139,7 +139,7 @@ int figures_load(figures *f, const relight_options *o, uint32_t count, report *r
     memset(f, 0, sizeof *f);
     if (strcmp(o->object, "demo") == 0) {
         f->loaded.scene = *demo_field_figure();
-    } else if (!model_load(&f->loaded, o->object, NULL, &notes, r)) {
+    } else if (!model_load_as(&f->loaded, o->object, &o->choice, &notes, r)) {
         return 0;
     }
     for (uint32_t i = 0; i < notes.count; ++i) { /* those of options that only `render` has are none of ours */

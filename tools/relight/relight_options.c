@@ -123,6 +123,7 @@ static const option_row object_rows[] = {
     {.name = "--object", .value = "FILE", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
      .help = HELP(".gltf .glb .obj .ply, or `demo`, a figure: stands with the middle of its box's bottom at --at, and is "
              "lit as its box's middle is")},
+    OPTION_VERTEX_COLOURS_ROW(relight_options, choice.vertex_colours),
     {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale_m), .low = 1e-3, .high = 1e5,
      .help = HELP("its longest side, m (default: as the file says)")},
     {.name = "--roughness", .value = "R", .kind = OPTION_NUMBER, AT(roughness), .low = 0, .high = 1,

@@ -6,6 +6,7 @@
 
 #include "../common/report.h"
 #include "../common/view_options.h"
+#include "../model/model.h"
 #include "../picture/image.h"
 
 enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8 }; /* --at, --keep; --light; --world: so often */
@@ -23,6 +24,7 @@ typedef struct relight_options {
     int32_t format, blend;
     int32_t has_far, has_ground_centre;
     /* what is in it */
+    model_choice choice; /* of the object's file */
     const char *object, *path;
     lmb_vec3 at[RELIGHT_PLACES], keep[RELIGHT_PLACES];
     int32_t at_count, keep_count;

@@ -54,7 +54,7 @@ static int load_scene(render_job *j, report *r)
         j->scene = *demo_scene();
         return !j->o.glossy || report_fail_usage(r, "--glossy: the demo's materials have no lobe; give a glTF scene");
     }
-    if (!model_load(&j->loaded, j->o.scene, j->o.scene_name, &j->notes, r)) {
+    if (!model_load_as(&j->loaded, j->o.scene, &j->o.choice, &j->notes, r)) {
         return 0;
     }
     if (j->o.glossy && !model_make_glossy(&j->loaded)) {

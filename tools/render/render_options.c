@@ -170,8 +170,9 @@ const option_row render_view_rows[] = {
     VIEW_OPTION_SIZE(render_options, view,
                      "the picture, px (default: height 480, width by the camera's aspect; without a camera by the "
                      "scene's shape)"),
-    {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene_name),
+    {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(choice.scene),
      .help = HELP("of a file with several scenes (default: its own choice)")},
+    OPTION_VERTEX_COLOURS_ROW(render_options, choice.vertex_colours),
     {.name = "--camera", .value = "NAME|N", .kind = OPTION_TEXT, AT(camera),
      .help = HELP("one of the scene's cameras, by name or number from 0 (default 0)")},
     VIEW_OPTIONS_CAMERA(render_options, view, "where a camera of your own stands; with --target"),

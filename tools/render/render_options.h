@@ -7,6 +7,7 @@
 #include "../common/report.h"
 #include "../common/slice.h"
 #include "../common/view_options.h"
+#include "../model/model.h"
 
 #define RENDER_LIGHTS 64 /* --light given at most this often */
 
@@ -34,7 +35,7 @@ typedef struct render_background {
 typedef struct render_options {
     const char *scene, *out, *stats, *transfer;
     view_options view;
-    const char *scene_name; /* of a file with several; NULL: its own choice */
+    model_choice choice;    /* of what the scene's file leaves open */
     const char *camera;     /* name or number; NULL: the first */
     lmb_light lights[RENDER_LIGHTS];
     float light_size[RENDER_LIGHTS]; /* m, of a sun degrees; 0: none */
