@@ -16,8 +16,9 @@
  *                                            8  of each part: kind, offset, bytes, 0
  * No kind stands twice; unknown kinds are passed over. Records, in words; floats are binary32:
  *   SCENE      bounds_min, bounds_max; lmb_core: low, high, wide_low, wide_high, faces; then 0
- *   MESHES     vertices, triangles, position_format | uv_format << 8 | index_format << 16, offsets of positions, normals,
- *              tangents, uvs, colours, indices; position_scale, position_offset, uv_scale; then 0
+ *   MESHES     vertices, triangles, position_format | uv_format << 8 | index_format << 16 | tangent_format << 24,
+ *              offsets of positions, normals, tangents, uvs, colours, indices; position_scale, position_offset,
+ *              uv_scale; then 0
  *   MATERIALS  albedo, alpha, alpha_cutoff, texture, flags, normal_map, normal_scale, emission, specular, roughness,
  *              emission_map, metal_map, metallic, as lmb_material has them; then 0
  *   TEXTURES   offset, width | height << 16, levels | format << 8 | wrap_s << 16 | wrap_t << 24, filter
