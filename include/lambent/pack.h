@@ -112,9 +112,10 @@ lmb_status lmb_pack_scene(lmb_scene *out, const lmb_pack *pack, void *memory, si
  * things stand as at it. Revisions of what changed are raised, and bounds are found anew where instances did.
  *
  *   inout  as lmb_pack_scene made it: instances and lights are written where they lie in its memory
- * Returns LMB_OK; LMB_ERR_ARG (a scene of another file); LMB_ERR_SCENE: a scale of 0 where a direction is asked for, or
- * numbers past binary32; what is behind that stays. Cost: the nodes above each instance and light that moves, some 200
- * operations each; and one pass over all vertices where instances moved. */
+ * Returns LMB_OK; LMB_ERR_ARG (a scene of another file); LMB_ERR_SCENE: a rotation without length, or numbers past
+ * binary32; what is behind that stays. Lights below a scale of 0 have the directions of their turns. Cost: the nodes
+ * above each instance and light that moves, some 200 operations each; and one pass over all vertices where instances
+ * moved. */
 lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s);
 
 /* lmb_pack_view: what camera `camera` sees at a time, on a frame of square pixels.

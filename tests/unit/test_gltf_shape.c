@@ -223,6 +223,44 @@ static void shapes_before_it_poses(void)
     CHECK(is_vec(position(loaded.scene.instances[0].mesh, 1), 12, 0, 0));
 }
 
+/* --- nodes --- */
+
+#define LAMP "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}"
+#define LAMPS "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"directional\"}]}},"
+#define EYES "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1}}],"
+#define HIDDEN "\"KHR_node_visibility\":{\"visible\":false}"
+
+static void hides(void)
+{
+    CHECK_LOADS(load(ASSET "\"extensionsRequired\":[\"KHR_node_visibility\"]," LAMPS EYES
+                           "\"scenes\":[{\"nodes\":[0,4]}],\"nodes\":[{\"children\":[1,2,3],\"extensions\":{" HIDDEN "}},"
+                           "{\"mesh\":0,\"extensions\":{\"KHR_node_visibility\":{\"visible\":true}}},{" LAMP "},"
+                           "{\"camera\":0},{\"mesh\":0,\"children\":[5]},{" LAMP "}],"
+                           "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]," DATA, data()));
+    CHECK(loaded.scene.instance_count == 1 && loaded.scene.light_count == 1 && loaded.camera_count == 1);
+    check_fails(load(ASSET "\"nodes\":[{\"extensions\":{\"KHR_node_visibility\":{\"visible\":0}}}]}"), "visible");
+}
+
+/* A quarter turn about Y, below scales that leave less than an axis. */
+static void keeps_directions(void)
+{
+    static const char *const above[] = {
+        "\"scale\":[0,0,0]", "\"scale\":[0,1,0]", "\"scale\":[0,0,1]", "\"scale\":[1e-40,1e-40,1e-40]",
+        "\"matrix\":[0,0,0,0,0,0,0,0,0,0,0,0,3,4,5,1]", "\"matrix\":[0,0,0,0,0,2,0,0,0,0,0,0,3,4,5,1]",
+        "\"scale\":[1e-18,1e-18,1e-18]", "\"scale\":[1e18,1e18,1e18]"};
+    for (int i = 0; i < (int)(sizeof above / sizeof *above); ++i) {
+        CHECK_LOADS(load(ASSET LAMPS EYES "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{%s%s,\"children\":[1]},"
+                               "{\"rotation\":[0,0.70710678,0,0.70710678],\"camera\":0," LAMP "}]}", above[i],
+                         strstr(above[i], "matrix") ? "" : ",\"translation\":[3,4,5]"));
+        CHECK_MSG(is_vec(loaded.scene.lights[0].direction, -1, 0, 0), "light below %s", above[i]);
+        CHECK_MSG(is_vec(loaded.cameras[0].back, 1, 0, 0) && is_vec(loaded.cameras[0].up, 0, 1, 0) &&
+                      is_vec(loaded.cameras[0].right, 0, 0, -1), "camera below %s", above[i]);
+        CHECK(is_vec(loaded.cameras[0].eye, 3, 4, 5) && is_vec(loaded.scene.lights[0].position, 3, 4, 5));
+    }
+    CHECK_LOADS(load(ASSET LAMPS "\"nodes\":[{\"scale\":[1,1,-1]," LAMP "}]}")); /* a mirror turns it round, as ever */
+    CHECK(is_vec(loaded.scene.lights[0].direction, 0, 0, 1));
+}
+
 void test_gltf_shape(void)
 {
     keeps_sides();
@@ -230,5 +268,7 @@ void test_gltf_shape(void)
     fills_normals();
     shapes_by_weights();
     shapes_before_it_poses();
+    hides();
+    keeps_directions();
     forget();
 }

@@ -707,7 +707,7 @@ static void gltf_refuses(void)
         {"\"nodes\":[{\"scale\":[1e200,1,1]}]", "nodes[0]: its place"},
         {"\"nodes\":[{\"camera\":0}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":9,\"znear\":1}}]",
          "cameras[0].perspective"},
-        {"\"nodes\":[{\"camera\":0,\"scale\":[0,0,0]}],\"cameras\":[{}]", "nodes[0]: its camera has no direction"},
+        {"\"nodes\":[{\"camera\":0}],\"cameras\":[{}]", "cameras[0]: type must be"},
         {"\"nodes\":[{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}]", "light: index 0, but there are 0"},
         {"\"nodes\":[{}],\"extensionsRequired\":[\"KHR_lights_punctual\",\"KHR_draco_mesh_compression\"]",
          "extensionsRequired[1]: requires KHR_draco_mesh_compression"},

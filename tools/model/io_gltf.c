@@ -24,6 +24,7 @@ static int extension_use(const gltf *g, uint32_t name)
                  {"KHR_texture_transform", MODEL_EXTENSION_FOLDED},
                  {"KHR_materials_unlit", MODEL_EXTENSION_FOLDED},
                  {"KHR_materials_emissive_strength", MODEL_EXTENSION_FOLDED},
+                 {"KHR_node_visibility", MODEL_EXTENSION_READ},
                  {"KHR_mesh_quantization", MODEL_EXTENSION_READ}};
     size_t i;
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)
@@ -148,6 +149,8 @@ static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
         const uint32_t node = g->nodes.items[t->order[i]];
         if (!gltf_index(&to[i].mesh, g, &g->meshes, json_member(&g->doc, node, "mesh")))
             return 0;
+        if (t->hidden[t->order[i]])
+            to[i].mesh = JSON_NONE;
         if (to[i].mesh == JSON_NONE)
             continue;
         if (!make_mesh(g, to[i].mesh))

@@ -85,6 +85,8 @@ typedef struct gltf_tree {
     uint32_t count;
     uint32_t *parent;   /* by node; JSON_NONE: a root */
     gltf_matrix *world; /* by node; of those in `order` */
+    gltf_matrix *turn;  /* by node: the same without scale, for directions where that is 0 */
+    uint8_t *hidden;    /* by node: neither meshes nor lights show */
     uint8_t *placed;    /* by node: is it in `order`? */
 } gltf_tree;
 
