@@ -59,6 +59,8 @@ typedef struct lmb_texture {
 
 enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's view (never in a light's) */
        LMB_ALPHA_MASK = 2,   /* holes where alpha < alpha_cutoff: takes the masked path */
+       LMB_UNLIT = 8,        /* a frame's camera sees the diffuse albedo itself as its radiance, whatever light there
+                                is, without lobe and emission; for other surfaces it is as any */
        LMB_ALPHA_BLEND = 4   /* with LMB_ALPHA_MASK: a camera sees it in alpha's share of a pixel's samples, and what is
                                 behind it in the others, by an ordered pattern of 8 x 8 pixels; 64 levels without
                                 samples. Light goes by alpha_cutoff. Not in builds without LMB_MULTISAMPLE */ };

@@ -261,6 +261,38 @@ static void keeps_directions(void)
     CHECK(is_vec(loaded.scene.lights[0].direction, 0, 0, 1));
 }
 
+/* --- materials --- */
+
+#define GLOSS "\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":[0.5,0.25,1,0.75],\"specularFactor\":[0.2,0.1,0]," \
+              "\"glossinessFactor\":0.75}"
+
+static void reads_other_materials(void)
+{
+    const lmb_material *m;
+    CHECK_LOADS(load(ASSET "\"materials\":[{\"extensions\":{" GLOSS "}},{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
+                           "\"extensions\":{" GLOSS "}},{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,1,0.25,1]},"
+                           "\"normalTexture\":{\"index\":0},\"emissiveFactor\":[1,1,1],\"extensions\":{\"KHR_materials_unlit\":{}}}"
+                           "],\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));
+    m = loaded.scene.materials;
+    CHECK(near((double)m[0].albedo[0], 0.4) && near((double)m[0].albedo[1], 0.2) && near((double)m[0].albedo[2], 0.8));
+    CHECK(m[0].alpha == 0.75f && m[1].albedo[0] == 1 && m[1].alpha == 1);
+    CHECK(m[2].flags == LMB_UNLIT && m[2].albedo[0] == 0.5f && m[2].albedo[1] == 1 && m[2].albedo[2] == 0.25f);
+    CHECK(m[2].emission[0] == 0 && m[2].normal_scale == 0 && noted("unlit materials, shown by their own colour"));
+    CHECK(model_make_glossy(&loaded) && lmb_scene_check(&loaded.scene) == LMB_OK);
+    m = loaded.scene.materials;
+    CHECK(near((double)m[0].specular[0], 0.2) && m[0].specular[2] == 0 && m[0].roughness == 0.25f);
+    CHECK(near((double)m[0].albedo[0], 0.4) && m[2].specular[0] == 0);
+    /* The map's means: specular in light, glossiness in its alpha, which is 1. A metal is not black without its lobe. */
+    CHECK_LOADS(load(ASSET "\"materials\":[{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":"
+                           "[0,0,0,1],\"specularGlossinessTexture\":{\"index\":0},\"diffuseTexture\":{\"index\":0}}}}],"
+                           "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));
+    m = loaded.scene.materials;
+    CHECK(m->texture == 0 && near((double)m->albedo[0], 0.04 * 0.21586) && near((double)m->albedo[2], 0.04));
+    CHECK(noted("specular-glossiness maps used by their mean") && model_make_glossy(&loaded));
+    m = loaded.scene.materials;
+    CHECK(near((double)m->specular[0], 0.21586) && m->specular[2] == 1 && m->roughness == 0 && m->albedo[2] == 0);
+}
+
 void test_gltf_shape(void)
 {
     keeps_sides();
@@ -270,5 +302,6 @@ void test_gltf_shape(void)
     shapes_before_it_poses();
     hides();
     keeps_directions();
+    reads_other_materials();
     forget();
 }

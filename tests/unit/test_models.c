@@ -553,7 +553,7 @@ static void gltf_materials(void)
     CHECK(m[1].albedo[0] == 0.25f && m[1].flags == (LMB_ALPHA_MASK | LMB_ALPHA_BLEND) && m[1].alpha_cutoff == 0.5f && noted("BLEND"));
     CHECK(m[2].albedo[0] == 0.02f && m[2].albedo[2] == 0.04f && m[2].flags == LMB_ALPHA_MASK);
     CHECK(m[2].alpha_cutoff == 0.25f && m[3].albedo[0] == 1 && noted("unlit materials") && noted("metallic materials"));
-    CHECK(noted("emissive materials") && loaded.scene.instances[0].material == 4);
+    CHECK(!noted("emissive materials") && loaded.scene.instances[0].material == 4);
 }
 
 /* A PNG from a file with a space in its name, from a data URI and from a bufferView, each with its sampler. */

@@ -23,6 +23,7 @@ static int extension_use(const gltf *g, uint32_t name)
     } known[] = {{"KHR_lights_punctual", MODEL_EXTENSION_READ},
                  {"KHR_texture_transform", MODEL_EXTENSION_FOLDED},
                  {"KHR_materials_unlit", MODEL_EXTENSION_FOLDED},
+                 {"KHR_materials_pbrSpecularGlossiness", MODEL_EXTENSION_FOLDED},
                  {"KHR_materials_emissive_strength", MODEL_EXTENSION_FOLDED},
                  {"KHR_node_visibility", MODEL_EXTENSION_READ},
                  {"KHR_mesh_quantization", MODEL_EXTENSION_READ}};
@@ -213,7 +214,9 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "metallic materials, which reflect with --glossy only", n->metals);
     build_note_count(g->b, "metallic maps used by their mean without --glossy, 0 where one cannot be read",
                      n->metal_maps);
-    build_note_count(g->b, "unlit materials treated as Lambertian", n->unlit);
+    build_note_count(g->b, "specular-glossiness maps used by their mean, or left out where one cannot be read",
+                     n->gloss_maps);
+    build_note_count(g->b, "unlit materials, shown by their own colour; to other surfaces they are as any", n->unlit);
     build_note_count(g->b,
                      "emissive maps used by their mean, or left out: not the base colour's texture coordinates, or not "
                      "read",

@@ -35,13 +35,13 @@ typedef struct gltf_influences {
 /* Of an image by its texels: channels as numbers, and as linear light. */
 typedef struct gltf_mean {
     int known;
-    double green, blue, light[3]; /* 0 .. 1 */
+    double green, blue, alpha, light[3]; /* 0 .. 1 */
 } gltf_mean;
 
 /* What was left out or stands for something else, told once at the end. */
 typedef struct gltf_counts {
     uint32_t points_lines, without_positions, ragged, zero_normals, bare;       /* primitives, vertices */
-    uint32_t textures, blends, metals, metal_maps, unlit, emissive_maps; /* materials */
+    uint32_t textures, blends, metals, metal_maps, gloss_maps, unlit, emissive_maps; /* materials */
     uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
     uint32_t ranges, skins, odd_morphs, no_roots;                               /* lights, nodes, primitives, nodes */
 } gltf_counts;
