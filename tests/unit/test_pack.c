@@ -106,6 +106,8 @@ static void test_refused(void)
     CHECK(open_with(at_part(LMB_PACK_INDICES, 1), 0x00040004u, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_MESHES, 0), 3, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_MESHES, 1), 0x00ffffffu, bytes) == LMB_ERR_FORMAT);
+    CHECK(open_with(at_part(LMB_PACK_MESHES, 2), words[at_part(LMB_PACK_MESHES, 2)] | 1u << 24, bytes) == LMB_OK);
+    CHECK(open_with(at_part(LMB_PACK_MESHES, 2), words[at_part(LMB_PACK_MESHES, 2)] | 2u << 24, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_MESHES, 3), (uint32_t)bytes - 8, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_TEXTURES, 1), 200 | 200 << 16, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_TEXTURES, 2), 3 | 3 << 8, bytes) == LMB_ERR_FORMAT);
