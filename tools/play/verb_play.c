@@ -11,6 +11,7 @@
 #include "../common/text_buffer.h"
 #include "../picture/picture.h"
 #include "../render/render_exposure.h"
+#include "../render/unlit.h"
 #include "play_check.h"
 #include "play_motion.h"
 #include "play_options.h"
@@ -71,15 +72,43 @@ static int find_exposure(play *p, report *r)
     return 1;
 }
 
-static int write_frame(play *p, int32_t k, report *r)
+static int write_picture(play *p, int32_t k, const image *shown, float exposure_ev, int tone, report *r)
 {
     char name[NAME];
     if (p->o.render.slice.count > 0) {
-        return play_slice_put(&p->made, k, picture_format(p->o.render.out), &p->job.linear, p->exposure_ev,
-                              p->job.o.tone, r);
+        return play_slice_put(&p->made, k, picture_format(p->o.render.out), shown, exposure_ev, tone, r);
     }
-    return p->o.render.out == NULL || (frame_name(name, sizeof name, p->o.render.out, k, r) &&
-                                       picture_write(name, &p->job.linear, p->exposure_ev, p->job.o.tone, r));
+    return frame_name(name, sizeof name, p->o.render.out, k, r) && picture_write(name, shown, exposure_ev, tone, r);
+}
+
+/* What is unlit is not exposed; of a copy, as the frame may still be checked. */
+static int write_frame(play *p, int32_t k, report *r)
+{
+    const image *drawn = &p->job.linear;
+    const size_t bytes = (size_t)drawn->width * (size_t)drawn->height * 3 * sizeof(float);
+    float *unlit = NULL;
+    image shown = *drawn;
+    int ok = 1;
+    if (p->o.render.out == NULL) {
+        return 1;
+    }
+    if (!picture_is_linear(picture_format(p->o.render.out)) && !unlit_colours(&unlit, &p->job, r)) {
+        return 0;
+    }
+    if (unlit == NULL) {
+        return write_picture(p, k, drawn, p->exposure_ev, p->job.o.tone, r);
+    }
+    shown.pixels = malloc(bytes);
+    if (shown.pixels == NULL) {
+        ok = report_fail(r, "not enough memory for the picture; try a smaller --size");
+    } else {
+        memcpy(shown.pixels, drawn->pixels, bytes);
+        unlit_expose(&shown, unlit, p->exposure_ev, p->job.o.tone);
+        ok = write_picture(p, k, &shown, 0.0f, PICTURE_CLIPPED, r);
+    }
+    free(shown.pixels);
+    free(unlit);
+    return ok;
 }
 
 static int check_frame(play *p, int32_t k, report *r)
