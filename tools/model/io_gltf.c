@@ -209,7 +209,6 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "primitives without POSITION skipped", n->without_positions);
     build_note_count(g->b, "primitives with vertices left over, which are dropped", n->ragged);
     build_note_count(g->b, "primitives without a material, drawn white", n->bare);
-    build_note_count(g->b, "normals without length, which take their faces'", n->zero_normals);
     build_note_count(g->b, "BLEND materials, which light passes or does not by alpha 0.5", n->blends);
     build_note_count(g->b, "metallic materials, which reflect with --glossy only", n->metals);
     build_note_count(g->b, "metallic maps used by their mean without --glossy, 0 where one cannot be read",
@@ -269,7 +268,6 @@ static int make_tables(const gltf_tree *t, gltf *g)
     g->positions = (const void **)build_scratch(g->b, accessors, sizeof *g->positions);
     g->uvs = (const void **)build_scratch(g->b, accessors, sizeof *g->uvs);
     g->normals = (int16_t **)build_scratch(g->b, accessors, sizeof *g->normals);
-    g->bare_normals = (uint32_t **)build_scratch(g->b, accessors, sizeof *g->bare_normals);
     g->tangents = (const int16_t **)build_scratch(g->b, accessors, sizeof *g->tangents);
     g->colours = (const uint8_t **)build_scratch(g->b, accessors, sizeof *g->colours);
     g->uv_owner = (uint32_t *)build_scratch(g->b, accessors, sizeof *g->uv_owner);

@@ -40,7 +40,7 @@ typedef struct gltf_mean {
 
 /* What was left out or stands for something else, told once at the end. */
 typedef struct gltf_counts {
-    uint32_t points_lines, without_positions, ragged, zero_normals, bare;       /* primitives, vertices */
+    uint32_t points_lines, without_positions, ragged, bare;       /* primitives, vertices */
     uint32_t textures, blends, metals, metal_maps, gloss_maps, unlit, emissive_maps; /* materials */
     uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
     uint32_t ranges, skins, odd_morphs, no_roots;                               /* lights, nodes, primitives, nodes */
@@ -56,7 +56,6 @@ typedef struct gltf {
     const void **positions, **uvs;
     int16_t **normals;
     const int16_t **tangents;
-    uint32_t **bare_normals;          /* by vertex: 1 where one without length waits for its face's; NULL: none does */
     const uint8_t **colours;
     uint32_t *uv_owner;               /* the material that uvs[accessor] was made for */
     gltf_uv *material_uv;             /* by material */

@@ -50,113 +50,22 @@ static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
     return 1;
 }
 
-/* --- normals without length --- */
-
-/* Corner k's vertex of triangle t. */
-static uint32_t vertex_at(const lmb_mesh *m, uint32_t t, uint32_t k)
-{
-    const size_t corner = 3 * (size_t)t + k;
-    return m->index_format == LMB_INDEX_NONE  ? (uint32_t)corner
-           : m->index_format == LMB_INDEX_U16 ? ((const uint16_t *)m->indices)[corner]
-                                              : ((const uint32_t *)m->indices)[corner];
-}
-
-/* The bare vertices that triangles show get numbers: 2, 3, ... *corners: of those. */
-static uint32_t number_bare(uint32_t *bare, uint64_t *corners, const lmb_mesh *m)
-{
-    uint32_t count = 0, t, k;
-    *corners = 0;
-    for (t = 0; t < m->triangle_count; ++t)
-        for (k = 0; k < 3; ++k) {
-            uint32_t *own = &bare[vertex_at(m, t, k)];
-            if (*own == 1)
-                *own = 2 + count++;
-            *corners += *own != 0;
-        }
-    return count;
-}
-
-/* A triangle's normal, as long as twice its area. */
-static void face_normal(double out[3], const lmb_mesh *m, uint32_t t)
-{
-    const float *p = (const float *)m->positions, *a = p + 3 * (size_t)vertex_at(m, t, 0),
-                *b = p + 3 * (size_t)vertex_at(m, t, 1), *c = p + 3 * (size_t)vertex_at(m, t, 2);
-    double u[3], v[3];
-    int k;
-    for (k = 0; k < 3; ++k) {
-        u[k] = (double)b[k] - (double)a[k];
-        v[k] = (double)c[k] - (double)a[k];
-    }
-    for (k = 0; k < 3; ++k)
-        out[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
-}
-
-/* Each bare vertex takes the mean of its faces by area, and is bare no longer. */
-static void take_faces(int16_t *codes, uint32_t *bare, double (*sum)[3], const lmb_mesh *m)
-{
-    uint32_t t, k, c, none = 0;
-    for (t = 0; t < m->triangle_count; ++t) {
-        double face[3];
-        face_normal(face, m, t);
-        for (k = 0; k < 3; ++k) {
-            const uint32_t own = bare[vertex_at(m, t, k)];
-            for (c = 0; c < 3 && own != 0; ++c)
-                sum[own - 2][c] += face[c];
-        }
-    }
-    for (t = 0; t < m->triangle_count; ++t)
-        for (k = 0; k < 3; ++k) {
-            const uint32_t vertex = vertex_at(m, t, k), own = bare[vertex];
-            if (own != 0)
-                lmb_octahedral_encode(codes + 2 * (size_t)vertex, build_normal(sum[own - 2], &none));
-            bare[vertex] = 0;
-        }
-}
-
-/* Normals without length become those of their faces; where no corner has another one, flat shading is just that. */
-static int fill_normals(gltf *g, lmb_mesh *m, uint32_t accessor)
-{
-    uint32_t *bare = g->bare_normals[accessor], t, k;
-    uint64_t corners;
-    const uint32_t count = number_bare(bare, &corners, m);
-    double(*sum)[3];
-    g->left_out.zero_normals += count;
-    if (count == 0)
-        return 1;
-    if (corners == 3 * (uint64_t)m->triangle_count) {
-        for (t = 0; t < m->triangle_count; ++t)
-            for (k = 0; k < 3; ++k)
-                bare[vertex_at(m, t, k)] = 1;
-        m->normals = NULL;
-        return 1;
-    }
-    sum = (double(*)[3])build_scratch(g->b, count, sizeof *sum);
-    if (!sum)
-        return 0;
-    take_faces(g->normals[accessor], bare, sum, m);
-    return 1;
-}
-
-/* Vectors made unit length, as octahedral codes; of four numbers with the sign of the fourth. *bare: by vertex, 1 where
- * one has no length; NULL where all have one. NULL with the report set. */
-static int16_t *encode_vectors(gltf *g, const gltf_accessor *a, uint32_t **bare)
+/* Vectors made unit length, as octahedral codes; of four numbers with the sign of the fourth. Normals without length are
+ * marked for mend_normals. NULL with the report set. */
+static int16_t *encode_vectors(gltf *g, const gltf_accessor *a)
 {
     const float *values = gltf_floats(g, a);
     int16_t *codes = (int16_t *)build_keep(g->b, (uint64_t)a->count * 2, sizeof *codes);
     uint32_t i, zeros = 0;
-    *bare = NULL;
     for (i = 0; values && codes && i < a->count; ++i) {
         const float *v = values + (size_t)i * a->components;
         const double wide[3] = {(double)v[0], (double)v[1], (double)v[2]};
-        const uint32_t before = zeros;
-        lmb_octahedral_encode(codes + 2 * (size_t)i, build_normal(wide, &zeros));
-        if (a->components == 4)
+        if (a->components == 3) {
+            build_normal_code(g->b, codes + 2 * (size_t)i, wide);
+        } else {
+            lmb_octahedral_encode(codes + 2 * (size_t)i, build_normal(wide, &zeros));
             model_set_side(codes + 2 * (size_t)i, v[3] < 0.0f);
-        if (zeros == before)
-            continue;
-        if (!*bare && !(*bare = (uint32_t *)build_scratch(g->b, a->count, sizeof **bare)))
-            return NULL;
-        (*bare)[i] = 1;
+        }
     }
     return values ? codes : NULL;
 }
@@ -170,16 +79,16 @@ static int read_normals(lmb_mesh *out, gltf *g, uint32_t reference)
     if (index == JSON_NONE)
         return 1;
     if (!g->normals[index])
-        g->normals[index] = encode_vectors(g, &a, &g->bare_normals[index]);
+        g->normals[index] = encode_vectors(g, &a);
     out->normals = g->normals[index];
-    return out->normals != NULL && (!g->bare_normals[index] || fill_normals(g, out, index));
+    return out->normals != NULL;
 }
 
 /* Only where a normal map asks for them. Without normals they do not count (glTF 2.0, 3.7.2.1). */
 static int read_tangents(lmb_mesh *out, gltf *g, uint32_t reference, uint32_t material)
 {
     gltf_accessor a;
-    uint32_t index, *bare;
+    uint32_t index;
     if (g->b->materials[material].normal_scale == 0.0f || !out->normals)
         return 1;
     if (!gltf_attribute(&a, &index, g, reference, 4, 4, out->vertex_count))
@@ -187,7 +96,7 @@ static int read_tangents(lmb_mesh *out, gltf *g, uint32_t reference, uint32_t ma
     if (index == JSON_NONE)
         return 1;
     if (!g->tangents[index])
-        g->tangents[index] = encode_vectors(g, &a, &bare);
+        g->tangents[index] = encode_vectors(g, &a);
     out->tangents = g->tangents[index];
     out->tangent_format = LMB_TANGENT_SIDED;
     return out->tangents != NULL;
