@@ -83,8 +83,11 @@ static int run(int argc, char **argv)
         meant = far < best ? verbs[i].name : meant;
         best = far < best ? far : best;
     }
-    fprintf(stderr, meant != NULL ? "lambent: there is no verb `%s`; did you mean %s?\n"
-                                  : "lambent: there is no verb `%s`; lambent --help lists them\n", argv[1], meant);
+    if (meant != NULL) {
+        report_print(stderr, "lambent: there is no verb `%s`; did you mean %s?\n", argv[1], meant);
+    } else {
+        report_print(stderr, "lambent: there is no verb `%s`; lambent --help lists them\n", argv[1]);
+    }
     return 2;
 }
 
