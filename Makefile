@@ -60,7 +60,7 @@ object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
 LIB_PARTS := $(wildcard src/*/*.h src/*/*.inl src/*/*.inc)
 HEADERS  := $(sort $(wildcard include/lambent/*.h))
-HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c)
+HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c limit.c)
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c),$(wildcard tools/*/*.c))) $(HOST_SRC)
 # Unit tests that take over a second each are a group of their own, which `make check` leaves out.
 SLOW_TESTS := adaptive gltf mix mix_cones mix_front mix_sources mix_stays relief_light relief_ornate transfer

@@ -64,6 +64,7 @@ static const option_row rows[] = {
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no figures: the exit status alone"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
      .help = "say how each picture was taken, and how many pixels count"},
+    OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_END},
 };
