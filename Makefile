@@ -578,7 +578,7 @@ msan: ## pictures, hard cases and the corpus under the memory sanitizer
 	    CFLAGS="-O1 -g1 -fsanitize=memory $(PLAIN_KERNELS)"
 
 FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
-TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages
+TARGETS   ?= png jpeg hdr pfm ppm pam picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages
 MINUTES   ?= 1
 fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers && $(MAKE) $(FUZZER) $(SANITIZED)
