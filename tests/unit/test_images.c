@@ -885,15 +885,21 @@ static void check_pam_kinds(void)
 
 static void check_pam_refusals(void)
 {
-    CHECK(PAM_REFUSED(PAM_HEAD("2", "3", "255", "RGB") "abcde") && PAM_REFUSED(PAM_HEAD("2", "3", "255", "RGB") "abcdefg"));
+    CHECK(PAM_REFUSED(PAM_HEAD("2", "3", "255", "RGB") "abcde") &&
+          PAM_REFUSED(PAM_HEAD("2", "3", "255", "RGB") "abcdefg"));
     CHECK(PAM_REFUSED(PAM_HEAD("0", "3", "255", "RGB")) && PAM_REFUSED(PAM_HEAD("-1", "3", "255", "RGB") "abc"));
-    CHECK(PAM_REFUSED(PAM_HEAD("99999999999", "3", "255", "RGB") "abc") && PAM_REFUSED(PAM_HEAD("1.0", "1", "255", "GRAYSCALE") "a"));
+    CHECK(PAM_REFUSED(PAM_HEAD("99999999999", "3", "255", "RGB") "abc") &&
+          PAM_REFUSED(PAM_HEAD("1.0", "1", "255", "GRAYSCALE") "a"));
     CHECK(PAM_REFUSED(PAM_HEAD("1", "5", "255", "RGB") "abcde") && PAM_REFUSED(PAM_HEAD("1", "0", "255", "RGB")));
-    CHECK(PAM_REFUSED(PAM_HEAD("1", "1", "0", "GRAYSCALE") "a") && PAM_REFUSED(PAM_HEAD("1", "1", "65536", "GRAYSCALE") "ab"));
-    CHECK(PAM_REFUSED(PAM_HEAD("1", "1", "7", "GRAYSCALE") "\x08") && PAM_REFUSED(PAM_HEAD("1", "1", "2", "BLACKANDWHITE") "\1"));
+    CHECK(PAM_REFUSED(PAM_HEAD("1", "1", "0", "GRAYSCALE") "a") &&
+          PAM_REFUSED(PAM_HEAD("1", "1", "65536", "GRAYSCALE") "ab"));
+    CHECK(PAM_REFUSED(PAM_HEAD("1", "1", "7", "GRAYSCALE") "\x08") &&
+          PAM_REFUSED(PAM_HEAD("1", "1", "2", "BLACKANDWHITE") "\1"));
     CHECK(PAM_REFUSED(PAM_HEAD("1", "1", "255", "RGB") "a") && PAM_REFUSED(PAM_HEAD("1", "3", "255", "CMYK") "abc"));
-    CHECK(PAM_REFUSED(PAM_HEAD("1 2", "1", "255", "GRAYSCALE") "a") && PAM_REFUSED(PAM_HEAD("1\nWIDTH 1", "1", "255", "GRAYSCALE") "a"));
-    CHECK(PAM_REFUSED("P7\nWIDTH 1\nHEIGHT 1\nDEPTH 1\nENDHDR\na") && PAM_REFUSED("P7\nENDHDR\n") && PAM_REFUSED("P7\n"));
+    CHECK(PAM_REFUSED(PAM_HEAD("1 2", "1", "255", "GRAYSCALE") "a") &&
+          PAM_REFUSED(PAM_HEAD("1\nWIDTH 1", "1", "255", "GRAYSCALE") "a"));
+    CHECK(PAM_REFUSED("P7\nWIDTH 1\nHEIGHT 1\nDEPTH 1\nENDHDR\na"));
+    CHECK(PAM_REFUSED("P7\nENDHDR\n") && PAM_REFUSED("P7\n"));
     CHECK(PAM_REFUSED("P7\nWIDTH 1\nHEIGHT 1\nDEPTH 1\nMAXVAL 255\nENDHDR") && PAM_REFUSED("P7\nCOLOUR 1\nENDHDR\na"));
     CHECK(PAM_REFUSED("P7\nWIDTH 16385\nHEIGHT 16385\nDEPTH 1\nMAXVAL 255\nENDHDR\na") && PAM_REFUSED("P6\n"));
 }

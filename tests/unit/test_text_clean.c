@@ -21,7 +21,8 @@ static int cleans(const char *text, const char *wanted)
 
 static void characters(void)
 {
-    CHECK(cleans("", "") && cleans("plain ~", "plain ~") && cleans("\xC3\xBC\xE2\x82\xAC\xF0\x9F\x99\x82", "\xC3\xBC\xE2\x82\xAC\xF0\x9F\x99\x82"));
+    CHECK(cleans("", "") && cleans("plain ~", "plain ~") &&
+          cleans("\xC3\xBC\xE2\x82\xAC\xF0\x9F\x99\x82", "\xC3\xBC\xE2\x82\xAC\xF0\x9F\x99\x82"));
     for (int c = 1; c < 256; ++c) {
         const char text[3] = {(char)c, 'x', '\0'};
         char copy[3];
@@ -31,7 +32,8 @@ static void characters(void)
     }
     /* C1, a soft hyphen, marks, overrides, isolates, separators, a byte order mark, tags, no characters */
     CHECK(cleans("\xC2\x80\xC2\x9B\xC2\x9F\xC2\xA0", "???\xC2\xA0") && cleans("\xC2\xAD\xD8\x9C", "??"));
-    CHECK(cleans("\xE2\x80\x8E\xE2\x80\x8F\xE2\x80\xA8\xE2\x80\xA9\xE2\x80\xAA\xE2\x80\xAE\xE2\x80\xAF", "??????\xE2\x80\xAF"));
+    CHECK(cleans("\xE2\x80\x8E\xE2\x80\x8F\xE2\x80\xA8\xE2\x80\xA9\xE2\x80\xAA\xE2\x80\xAE\xE2\x80\xAF",
+                 "??????\xE2\x80\xAF"));
     CHECK(cleans("\xE2\x81\xA6\xE2\x81\xA9\xEF\xBB\xBF\xEF\xBF\xBE\xEF\xBF\xBF\xF3\xA0\x81\x81", "??????"));
     CHECK(cleans("\xE2\x80\x8D", "\xE2\x80\x8D")); /* a joiner, which scripts need */
     /* not UTF-8: overlong, halves of pairs, past U+10FFFF, cut */
@@ -74,7 +76,8 @@ static void buffers(void)
     text_buffer_csv(&b, "a,\n\"\x1B\x9B\xC3\xBC");
     text_buffer_add(&b, "|%s|", "\x1B\xC2\x80");
     CHECK_MSG(strcmp(b.data, "\"\\\"\\\\\\u001b\\u007f\\u009b\\ufffd\\u202e\xC3\xBC\\udb40\\udc41\xF0\x9F\x99\x82\"|"
-                             "&lt;'&quot;&gt;&amp;???\xC3\xBC|\"a,?\"\"??\xC3\xBC\"|??|") == 0, "%s", b.data);
+                             "&lt;'&quot;&gt;&amp;???\xC3\xBC|\"a,?\"\"??\xC3\xBC\"|??|") == 0,
+              "%s", b.data);
     text_buffer_free(&b);
 }
 

@@ -29,9 +29,9 @@ int file_is_folder(const char *path);
 int file_is_stdout(const char *path);
 
 /* file_only_here: from now on file_is_below refuses what is not below its folder, till file_keep_end.
- * file_is_below: may a file that another file names be read? `folder` ends with a slash, or is "" for the folder at hand.
- * No root, no .. that leaves the folder, and no link that does; whether there is such a file outside it does not tell.
- * 1 where file_only_here was not called. */
+ * file_is_below: may a file that another file names be read? `folder` ends with a slash, or is "" for the folder at
+ * hand. No root, no .. that leaves the folder, and no link that does; whether there is such a file outside it does not
+ * tell. 1 where file_only_here was not called. */
 void file_only_here(void);
 int file_is_below(const char *path, const char *folder, size_t folder_size, report *r);
 

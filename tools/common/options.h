@@ -114,8 +114,8 @@ const char *options_nearest(const char *const *names, const char *word);
  * `b`, which may each have 40; over 40 where they have more. */
 int options_distance(const char *a, const char *b);
 
-/* options_limit_by: what --time-limit calls with its seconds: 1, or 0 where there can be no limit. Without it the option
- * is read and does nothing, as in tests. */
+/* options_limit_by: what --time-limit calls with its seconds: 1, or 0 where there can be no limit. Without it the
+ * option is read and does nothing, as in tests. */
 void options_limit_by(int (*limit)(double seconds));
 
 /* Rows' parse. */

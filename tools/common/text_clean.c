@@ -26,7 +26,7 @@ int text_character(uint32_t *code, const char *text)
 int text_is_hidden(uint32_t code)
 {
     static const uint32_t ranges[][2] = {
-        {0x00, 0x1F},     {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},   {0x180E, 0x180E},   {0x200B, 0x200B},
+        {0x00, 0x1F},     {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},   {0x180E, 0x180E}, {0x200B, 0x200B},
         {0x200E, 0x200F}, {0x2028, 0x202E}, {0x2060, 0x206F}, {0xFEFF, 0xFEFF}, {0xFFF9, 0xFFFB}, {0xE0000, 0xE007F},
     };
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; ++i) {
@@ -106,7 +106,8 @@ void text_json(char out[TEXT_JSON], const char **at)
     if (n == 0) {
         strcpy(out, "\\ufffd");
     } else if (code > 0xFFFF && text_is_hidden(code)) {
-        snprintf(out, TEXT_JSON, "\\u%04x\\u%04x", (unsigned)(0xD7C0 + (code >> 10)), (unsigned)(0xDC00 + (code & 0x3FF)));
+        snprintf(out, TEXT_JSON, "\\u%04x\\u%04x", (unsigned)(0xD7C0 + (code >> 10)),
+                 (unsigned)(0xDC00 + (code & 0x3FF)));
     } else if (text_is_hidden(code)) {
         snprintf(out, TEXT_JSON, "\\u%04x", (unsigned)code);
     } else {

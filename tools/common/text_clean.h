@@ -6,17 +6,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* text_character: bytes of the UTF-8 character (RFC 3629) at `s`, and its code point; 0: the byte there begins none. The
- * terminating 0 ends any sequence. */
+/* text_character: bytes of the UTF-8 character (RFC 3629) at `s`, and its code point; 0: the byte there begins none.
+ * The terminating 0 ends any sequence. */
 int text_character(uint32_t *code, const char *s);
 
-/* text_is_hidden: a control character, or one that turns or hides the text beside it: C0, DEL, C1, marks and overrides of
- * the direction, separators of lines, tags, and what XML has no place for. */
+/* text_is_hidden: a control character, or one that turns or hides the text beside it: C0, DEL, C1, marks and overrides
+ * of the direction, separators of lines, tags, and what XML has no place for. */
 int text_is_hidden(uint32_t code);
 
-/* text_clean: in place: hidden characters, line breaks too, and bytes that are not UTF-8 become a question mark each. It
- * never gets longer. text_clean_lines: line breaks stay, if there are no more than `breaks`; if there are more, a name
- * has brought some, and only one at the end stays. */
+/* text_clean: in place: hidden characters, line breaks too, and bytes that are not UTF-8 become a question mark each.
+ * It never gets longer. text_clean_lines: line breaks stay, if there are no more than `breaks`; if there are more, a
+ * name has brought some, and only one at the end stays. */
 void text_clean(char *inout);
 void text_clean_lines(char *inout, int breaks);
 

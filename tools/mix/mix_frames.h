@@ -68,7 +68,8 @@ typedef struct mix_list {
 
 /* mix_list_read: of a folder with TUM's rgb.txt, depth.txt and groundtruth.txt or with frames.txt, or of a file with a
  * PREFIX a line. A prefix is its line as it stands, blanks within too; those around it count if there is such a frame.
- * A line that begins with # is none. A list with bytes of 0 in it has these instead of line breaks. Of TUM's, photos that have no depth or no pose within 0.02 s are no frames: they are counted. 1, or 0 with `r` set. */
+ * A line that begins with # is none. A list with bytes of 0 in it has these instead of line breaks. Of TUM's, photos
+ * that have no depth or no pose within 0.02 s are no frames: they are counted. 1, or 0 with `r` set. */
 int mix_list_read(mix_list *out, const char *path, report *r);
 void mix_list_free(mix_list *l);
 

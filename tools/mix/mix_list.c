@@ -223,7 +223,8 @@ static int read_tum(mix_list *out, const char *folder, report *r)
     stamped_list l[3];
     memset(l, 0, sizeof l);
     out->folder = with(folder, "", r);
-    const int ok = out->folder != NULL && read_stamped(&l[0], folder, "rgb.txt", 1, r) && read_stamped(&l[1], folder, "depth.txt", 1, r) &&
+    const int ok = out->folder != NULL && read_stamped(&l[0], folder, "rgb.txt", 1, r) &&
+                   read_stamped(&l[1], folder, "depth.txt", 1, r) &&
                    read_stamped(&l[2], folder, "groundtruth.txt", 0, r) && join(out, l, r);
     for (int i = 0; i < 3; ++i) {
         free(l[i].line);

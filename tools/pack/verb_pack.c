@@ -33,8 +33,8 @@ static const option_row rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
      .help = ".lmp: a file to load or map; .c: the same words as an array to link"},
     {.name = "--name", .value = "NAME", .kind = OPTION_TEXT, AT(name),
-     .help = "of the array, which has to suit C, C++ and their libraries (default: the file's name up to its first dot, "
-             "with _ for what is no letter or digit; if that suits none, scene_ stands before it)"},
+     .help = "of the array, which has to suit C, C++ and their libraries (default: the file's name up to its first "
+             "dot, with _ for what is no letter or digit; if that suits none, scene_ stands before it)"},
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),
      .help = "of a file with several scenes: which, by name or number"},
     {.name = "--transfer", .value = "FILE.lmt", .kind = OPTION_TEXT, AT(transfer), .file = OPTION_READS,

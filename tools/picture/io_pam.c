@@ -72,7 +72,7 @@ static int read_number(pam_reader *p, int which, words line)
 {
     static const uint32_t limits[NUMBERS] = {(uint32_t)PICTURE_MAX_PIXELS, (uint32_t)PICTURE_MAX_PIXELS, 4, 65535};
     static const char *const ranges[NUMBERS] = {"WIDTH: 1 to 2^28", "HEIGHT: 1 to 2^28", "DEPTH: 1 to 4 are read",
-                                               "MAXVAL: 1 to 65535"};
+                                                "MAXVAL: 1 to 65535"};
     if (p->number[which] != 0) {
         return fail(p, "it stands there twice");
     }
@@ -121,8 +121,8 @@ static int check_type(const pam_reader *p)
     static const struct {
         const char *name;
         uint32_t depth;
-    } types[] = {{"BLACKANDWHITE", 1}, {"BLACKANDWHITE_ALPHA", 2}, {"GRAYSCALE", 1}, {"GRAYSCALE_ALPHA", 2},
-                 {"RGB", 3},           {"RGB_ALPHA", 4}};
+    } types[] = {{"BLACKANDWHITE", 1}, {"BLACKANDWHITE_ALPHA", 2}, {"GRAYSCALE", 1}, {"GRAYSCALE_ALPHA", 2}, {"RGB", 3},
+                 {"RGB_ALPHA", 4}};
     for (size_t i = 0; i < sizeof types / sizeof *types; ++i) {
         if (strcmp(p->type, types[i].name) == 0) {
             if (types[i].depth != p->number[DEPTH]) {
@@ -158,19 +158,19 @@ static int read_header(pam_reader *p)
             return report_fail(p->r, "%s: the header has no %s", p->name, missing[i]);
         }
     }
-    return picture_fits(p->number[WIDTH], p->number[HEIGHT]) ? check_type(p)
-           : report_fail(p->r, "%s: %u x %u: at most 2^28 pixels are read", p->name, (unsigned)p->number[WIDTH],
-                         (unsigned)p->number[HEIGHT]);
+    return picture_fits(p->number[WIDTH], p->number[HEIGHT])
+               ? check_type(p)
+               : report_fail(p->r, "%s: %u x %u: at most 2^28 pixels are read", p->name, (unsigned)p->number[WIDTH],
+                             (unsigned)p->number[HEIGHT]);
 }
 
 static int check_length(const pam_reader *p)
 {
     const uint64_t left = p->size - p->at, need = (uint64_t)p->number[WIDTH] * p->number[HEIGHT] * p->number[DEPTH] *
                                                   (p->number[MAXVAL] > 255 ? 2 : 1);
-    return left == need ||
-           report_fail(p->r, "%s: %" PRIu64 " bytes of pixels, but %u x %u take %" PRIu64 "%s", p->name, left,
-                       (unsigned)p->number[WIDTH], (unsigned)p->number[HEIGHT], need,
-                       left > need ? "; one picture is read" : "");
+    return left == need || report_fail(p->r, "%s: %" PRIu64 " bytes of pixels, but %u x %u take %" PRIu64 "%s", p->name,
+                                       left, (unsigned)p->number[WIDTH], (unsigned)p->number[HEIGHT], need,
+                                       left > need ? "; one picture is read" : "");
 }
 
 static int read_sample(uint32_t *out, pam_reader *p)
@@ -231,8 +231,8 @@ static int decode(bitmap *out, const uint8_t *data, size_t size, const char *nam
         return 0;
     }
     if (is_16 && (p.number[DEPTH] != 1 || p.number[MAXVAL] < 256)) {
-        return report_fail(r, "%s: DEPTH %u and MAXVAL %u; 1 and over 255 are read here", name, (unsigned)p.number[DEPTH],
-                           (unsigned)p.number[MAXVAL]);
+        return report_fail(r, "%s: DEPTH %u and MAXVAL %u; 1 and over 255 are read here", name,
+                           (unsigned)p.number[DEPTH], (unsigned)p.number[MAXVAL]);
     }
     if (!check_length(&p)) {
         return 0;

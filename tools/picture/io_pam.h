@@ -5,8 +5,8 @@
 #include "image.h"
 
 /* pam_decode: one picture of type BLACKANDWHITE, GRAYSCALE or RGB, each also with _ALPHA, of one or two bytes a sample;
- * without a type DEPTH chooses: 1 to 4. `name` stands in messages. Codes are as ppm_decode has them, alpha too. The file
- * must end where the picture does. Takes at most 4 times the file's size in memory. bitmap_free releases it.
+ * without a type DEPTH chooses: 1 to 4. `name` stands in messages. Codes are as ppm_decode has them, alpha too. The
+ * file must end where the picture does. Takes at most 4 times the file's size in memory. bitmap_free releases it.
  * pam_decode_16: GRAYSCALE of two bytes, nothing else: the high byte as red, the low one as green, as png_decode_16.
  *
  * Return 1, or 0 with `r` set and nothing allocated. */
