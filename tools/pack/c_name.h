@@ -9,8 +9,8 @@
 enum { C_NAME = 64 };
 
 /* c_name_check: is this a name for an array that compiles as C99 .. C23 and as C++, and links with any program?
- * Letters, digits and single _, first a letter, under 64 characters; no keyword, no name or macro of the C library, POSIX
- * or the usual compilers, nothing that begins with lmb_ or LMB_. NULL, or what is against it. */
+ * Letters, digits and single _, first a letter, under 64 characters; no keyword, no name or macro of the C library,
+ * POSIX or the usual compilers, nothing that begins with lmb_ or LMB_. NULL, or what is against it. */
 const char *c_name_check(const char *name);
 
 /* c_name_of: a name that passes, of a file's: up to its first dot, with _ for each run of other characters; where that
