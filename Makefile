@@ -60,7 +60,7 @@ object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
 LIB_PARTS := $(wildcard src/*/*.h src/*/*.inl src/*/*.inc)
 HEADERS  := $(sort $(wildcard include/lambent/*.h))
-HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c)
+HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c limit.c)
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c),$(wildcard tools/*/*.c))) $(HOST_SRC)
 # Unit tests that take over a second each are a group of their own, which `make check` leaves out.
 SLOW_TESTS := adaptive gltf mix mix_cones mix_front mix_sources mix_stays relief_light relief_ornate transfer
@@ -578,7 +578,7 @@ msan: ## pictures, hard cases and the corpus under the memory sanitizer
 	    CFLAGS="-O1 -g1 -fsanitize=memory $(PLAIN_KERNELS)"
 
 FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
-TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages
+TARGETS   ?= png jpeg hdr pfm ppm pam picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages
 MINUTES   ?= 1
 fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers && $(MAKE) $(FUZZER) $(SANITIZED)
@@ -772,6 +772,42 @@ compiles: $(LIB_OBJ)
 
 run-demo run-statue run-packed $(LIVE:%=run-%): run-%: $(B)/%
 	@$(RUN) $<
+
+# Programs of your own: make run-NAME. Their sources are platform/FOLDER/main_NAME.c, the port's folder first, or PROGRAM.
+RUN_NAMES := demo statue packed $(LIVE)
+OWN_NAMES := $(filter-out $(RUN_NAMES),$(patsubst run-%,%,$(filter run-%,$(MAKECMDGOALS))))
+ROOM_MAIN := $(wildcard platform/demo/main_*.c)
+own_mains  = $(filter-out $(ROOM_MAIN),$(wildcard platform/$(PORT)/main_$(1).c platform/*/main_$(1).c))
+own_source = $(or $(PROGRAM),$(firstword $(call own_mains,$(1))))
+own_lists  = $(sort $(RUN_NAMES) $(patsubst main_%.c,%,$(notdir $(call own_mains,*))))
+own_object = $(B)/own/$(1)/$(notdir $(basename $(2))).o
+own_scene  = $(if $(shell grep -l demo_scene $(1)),tools/demo/demo_scene.c)
+define own_compile
+$(call own_object,$(1),$(2)): $(2) $(B)/flags
+	@mkdir -p $$(@D)
+	@$$(COMPILE) -Iplatform -Iplatform/$(PORT) -c $$< -o $$@
+endef
+define own_program
+$(foreach f,$(2),$(eval $(call own_compile,$(1),$(f))))
+$(B)/own/$(1)/program: $(foreach f,$(2),$(call own_object,$(1),$(f))) $(call object,$(call own_scene,$(2)) $(PORT_SRC)) $(LIB_OBJ)
+	@echo "LD $$@"
+	@$$(LINK) -o $$@ $$^ $$(PORT_LDLIBS) $$(LDLIBS)
+.PHONY: run-$(1)
+run-$(1): COUNT := -icount shift=0
+run-$(1): $(B)/own/$(1)/program
+	@$$(RUN) $$<
+endef
+define own
+$(if $(call own_source,$(1)),,$(error run-$(1): there is no program $(1); there are: $(own_lists). \
+    Yours is platform/$(PORT)/main_$(1).c, or name it: make run-$(1) PROGRAM=FILE.c))
+$(foreach f,$(call own_source,$(1)),$(if $(wildcard $(f)),,$(error run-$(1): PROGRAM=$(PROGRAM): there is no file $(f))))
+$(call own_program,$(1),$(call own_source,$(1)))
+endef
+$(foreach n,$(OWN_NAMES),$(eval $(call own,$(n))))
+-include $(wildcard $(OWN_NAMES:%=$(B)/own/%/*.d))
+ifneq ($(PROGRAM),)
+$(foreach n,$(filter $(RUN_NAMES:%=run-%),$(MAKECMDGOALS)),$(error $(n): lambent has this program; give that of PROGRAM another name))
+endif
 
 .PHONY: room run
 room: $(ROOM_IMAGE) ## the port's program that all ports show (PORT=...)

@@ -50,7 +50,7 @@ check "a photo of another brightness has its own light" test "$(on_object frames
 printf 'f0\nf4\n' >frames/two.txt
 status 0 mix --frames frames/two.txt $tent --threads 3 --backend scalar -o frames/t_%02d.pfm
 check "threads, backends and frames left out change no byte" cmp frames/o_04.pfm frames/t_01.pfm
-# A camera that moves: the bytes are the list's up to there, by any threads, and a frame of another size starts anew.
+# A camera that moves: the bytes are the list's up to there, by any threads, and a frame of another size is left out.
 for i in 5 6 7; do
     cp photo.pfm "frames/f$i.color.pfm" && cp wall.pfm "frames/f$i.depth.pfm"
     sed "s/\[\[1,0,0,0\]/[[1,0,0,0.0$i]/" frames/f0.json >"frames/f$i.json"
@@ -59,14 +59,15 @@ done
 { printf 'Pf\n2 1\n-1.0\n\000\000\200\077\000\000\300\177'; } >frames/f8.depth.pfm # 1 m, and no number
 cp frames/f0.json frames/f8.json
 printf 'f0\nf5\nf6\nf8\nf7\n' >frames/moves.txt && printf 'f0\nf5\nf6\n' >frames/begins.txt
-status 0 mix --frames frames/moves.txt $tent --threads 1 -o frames/m_%02d.pfm
+leaves_out 1 mix --frames frames/moves.txt $tent --threads 1 -o frames/m_%02d.pfm
+said "frame 3 is left out: frames/f8: 2 x 1 pixels, and the first frame has 24 x 24; frames of a sequence have one size"
 status 0 mix --frames frames/begins.txt $tent --threads 3 --backend scalar -o frames/g_%02d.pfm
 for i in 0 1 2; do
     check "moving frame $i is the same by threads, backends and what follows" cmp "frames/m_0$i.pfm" "frames/g_0$i.pfm"
 done
 check "the object moves in the picture" differ frames/m_00.pfm frames/m_02.pfm
-check "a frame of another size is drawn in its own" sh -c '"$1" info "$2" | grep -q "size  *2x1"' sh "$TOOL" frames/m_03.pfm
-check "and the next one after it" test -s frames/m_04.pfm
+check "a frame of another size is not drawn" test ! -e frames/m_03.pfm
+check "and the next one is" test -s frames/m_04.pfm
 # A camera that trembles by a micrometre sees the same in all frames: the world gathers no cells that it has.
 status 0 render demo --eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 40x30 --quality draft -o frames/h.color.pfm
 status 0 render demo --eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 40x30 --show depth -o frames/h.depth.pfm
@@ -78,6 +79,41 @@ for i in 00 01 02 03 04 05 06 07; do
 done >frames/tremble.txt
 status 0 mix --frames frames/tremble.txt --object tent.obj --fit --voxels 5 -o frames/h_%02d.pfm
 check "a camera that trembles changes nothing" sh -c '"$1" compare "$2" "$3" | grep -q "rmse 0\.000[0-4]"' sh "$TOOL" frames/h_01.pfm frames/h_07.pfm
+# A unit of depth has a size. --depth-scale does not hide a wrong one.
+for unit in 0 -0 -1 1e-7 1e7 1e300 '"1"' null '[1]'; do
+    sed "s/\"depth_unit_mm\": 1000/\"depth_unit_mm\": $unit/" frames/f0.json >frames/unit.json
+    cp photo.pfm frames/unit.color.pfm && cp wall.pfm frames/unit.depth.pfm
+    status 1 mix --frame frames/unit $tent -o frames/bad.pfm
+    said "frames/unit.json: depth_unit_mm: "
+    status 1 mix --frame frames/unit --depth-scale 1 $tent -o frames/bad.pfm
+done
+# A prefix has any bytes, and a path any length that the system takes: blanks within and without, a # and quotes, bytes that
+# are no UTF-8; of a list with bytes of 0, line breaks.
+long=frames
+while [ ${#long} -lt 900 ]; do long=$long/a_folder_with_a_name_of_some_length_to_come_over_what_was_there_before; done
+mkdir -p "$long/two words"
+i=0
+for prefix in 'two words/f' 'a  b' ' before' 'behind ' '#x' 'x#y z' "q'u\"o" 'back\' "$(printf 'b\377\001')" 'f # g'; do
+    for part in color.pfm depth.pfm json; do cp "frames/f0.$part" "$long/$prefix.$part"; done
+    case $prefix in '#'*) printf './%s\n' "$prefix" ;; *) printf '%s\n' "$prefix" ;; esac
+    i=$((i + 1))
+done >"$long/frames.txt"
+status 0 mix --frames "$long" $tent -q -o frames/any_%02d.pfm
+status 0 mix --frames "$long/frames.txt" $tent -q -o frames/any_%02d.pfm
+check "all prefixes are read" cmp frames/o_00.pfm frames/any_09.pfm
+two=$(printf 'line\nbreak')
+for part in color.pfm depth.pfm json; do cp "frames/f0.$part" "$long/$two.$part"; done
+printf 'two words/f\000%s\000' "$two" >"$long/zero.txt"
+status 0 mix --frames "$long/zero.txt" $tent -q -o frames/zero_%02d.pfm
+check "a list with bytes of 0" cmp frames/o_00.pfm frames/zero_01.pfm
+printf '  f0 \r\n\n  # none\n\tf4\t\n' >frames/blanks.txt
+status 0 mix --frames frames/blanks.txt $tent -q -o frames/blank_%02d.pfm
+check "blanks around a prefix are none of it" cmp frames/o_00.pfm frames/blank_01.pfm
+for part in color depth; do cp "frames/f0.$part.pfm" "$long/two words/a  b # $part"; done
+printf '1 two words/a  b # color\n' >"$long/rgb.txt" && printf '1 two words/a  b # depth\n' >"$long/depth.txt"
+printf '1 0 0 0 0 0 0 1\n' >"$long/groundtruth.txt"
+status 0 mix --frames "$long" $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 -q -o frames/blank_%02d.pfm
+check "and TUM's lists have names with blanks" cmp frames/o_00.pfm frames/blank_00.pfm
 # No frame is written over a photo of the list, whenever it is read.
 for i in 0 1; do
     for part in color.pfm depth.pfm json; do cp "frames/f0.$part" "frames/r$i.$part"; done

@@ -102,9 +102,31 @@ status 2 pack demo
 said "no output given; add -o FILE.lmp"
 status 2 pack demo -o bad.lmp --name x
 status 2 pack demo -o bad.c --name 2x
-said "is no name in C"
+said "is no name in C and C++"
 status 0 pack demo -o 1x-y.c
 check "an array's name begins with a letter" grep -q 'scene_1x_y\[' 1x-y.c
+# Names that C or C++ has, its library, the compiler or lambent: refused, or made into others where they are a file's.
+for name in sizeof int restrict _Bool _x __x a__b x_ class namespace co_await alignas asm typeof std main memcpy printf sinf \
+    hypotl uint32_t int_fast8_t INT8_MAX UINT64_C SIZE_MAX NULL EDOM SIGINT linux unix errno size_t write lmb_scene LMB_OK \
+    1x 'a b' 'x;y' "$(printf '\303\274')" aaaaaaaaaabbbbbbbbbbccccccccccddddddddddeeeeeeeeeeffffffffffgggg; do
+    status 2 pack demo -q -o bad.c --name "$name"
+    said "--name: \`$name\` is no name in C and C++: "
+done
+absent bad.c
+mkdir -p names
+for pair in sizeof:scene_sizeof class:scene_class memcpy:scene_memcpy lmb_x:scene_lmb_x linux:scene_linux _x:scene_x :scene \
+    ___:scene a__b:a_b a-b.old:a_b 'two words':two_words "$(printf '\303\274n')":scene_n 7:scene_7 town:town sinf:scene_sinf \
+    aaaaaaaaaabbbbbbbbbbccccccccccddddddddddeeeeeeeeeeffffffffffgggg:aaaaaaaaaabbbbbbbbbbccccccccccddddddddddeeeeeeeeeeffffffffffggg; do
+    status 0 pack demo -q -o "names/${pair%:*}.c"
+    check "${pair%:*}.c has the array ${pair##*:}" grep -q "^const uint32_t ${pair##*:}\[\] = {" "names/${pair%:*}.c"
+done
+for file in names/sizeof.c names/class.c names/memcpy.c names/linux.c names/.c names/7.c; do
+    check "$file is C" compile -Wall -Wextra -pedantic -Werror -c -o "$PWD/names/c.o" "$PWD/$file"
+    check "$file is C of GNU" compile -std=gnu99 -Wall -Wextra -Werror -c -o "$PWD/names/c.o" "$PWD/$file"
+    if command -v g++ >/dev/null; then
+        check "$file is C++" g++ -Wall -Wextra -pedantic -Werror -c -x c++ -o names/cpp.o "$file"
+    fi
+done
 status 2 pack demo.lmp -o bad.lmp --position-error 0.1
 said "a packed scene stays as it is"
 status 2 pack demo -o bad.lmp --endian middle

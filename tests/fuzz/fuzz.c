@@ -5,11 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const fuzz_names[] = {"png",  "jpeg", "hdr", "pfm", "ppm", "picture", "inflate",
+const char *const fuzz_names[] = {"png",  "jpeg", "hdr", "pfm", "ppm", "pam", "picture", "inflate",
                                   "json", "gltf", "obj", "mtl", "ply", "lmr", "lmt", "lmf", "lmp", "cli",
                                   "api",  "calls", "stages", NULL};
 
-static const fuzz_target targets[] = {fuzz_png,  fuzz_jpeg, fuzz_hdr, fuzz_pfm, fuzz_ppm, fuzz_picture, fuzz_inflate,
+static const fuzz_target targets[] = {fuzz_png,  fuzz_jpeg, fuzz_hdr, fuzz_pfm, fuzz_ppm, fuzz_pam, fuzz_picture,
+                                      fuzz_inflate,
                                       fuzz_json, fuzz_gltf, fuzz_obj, fuzz_mtl, fuzz_ply, fuzz_lmr, fuzz_lmt, fuzz_lmf,
                                       fuzz_lmp,  fuzz_cli,  fuzz_api,  fuzz_calls, fuzz_stages};
 

@@ -30,6 +30,7 @@ void fuzz_jpeg(const uint8_t *data, size_t size);
 void fuzz_hdr(const uint8_t *data, size_t size);
 void fuzz_pfm(const uint8_t *data, size_t size);
 void fuzz_ppm(const uint8_t *data, size_t size);
+void fuzz_pam(const uint8_t *data, size_t size);
 void fuzz_picture(const uint8_t *data, size_t size);
 void fuzz_inflate(const uint8_t *data, size_t size);
 void fuzz_json(const uint8_t *data, size_t size);

@@ -4,6 +4,7 @@
 
 #include "../../tools/picture/image.h"
 #include "../../tools/picture/io_jpeg.h"
+#include "../../tools/picture/io_pam.h"
 #include "../../tools/picture/io_png.h"
 #include "../../tools/picture/io_ppm_read.h"
 #include "../../tools/picture/picture_read.h"
@@ -113,6 +114,12 @@ void fuzz_repair(fuzz_target target, uint8_t *data, size_t size, uint64_t seed)
 void fuzz_jpeg(const uint8_t *data, size_t size) { try_bitmap(jpeg_decode, data, size); }
 
 void fuzz_ppm(const uint8_t *data, size_t size) { try_bitmap(ppm_decode, data, size); }
+
+void fuzz_pam(const uint8_t *data, size_t size)
+{
+    try_bitmap(pam_decode, data, size);
+    try_bitmap(pam_decode_16, data, size);
+}
 
 void fuzz_hdr(const uint8_t *data, size_t size) { try_image(hdr_decode, data, size); }
 

@@ -32,6 +32,9 @@ for source in "$dir"/*.c; do
     fi
     program=${source%.c}
     check "$source compiles" $CC $FLAGS -Werror -o "$program" "$source" "$LIB" $LDLIBS
+    rm -f "$dir/picture.pam"
     [ ! -x "$program" ] || check "$source runs" sh -c 'cd "${1%/*}" && "./${1##*/}"' sh "$program"
+    [ ! -f "$dir/picture.pam" ] || check "the tool reads the picture of $source" \
+        sh -c '"$1" info "$2" | grep -q "^channels  *4, "' sh "$TOOL" "$dir/picture.pam"
 done
 finish

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "../../tools/picture/image.h"
+#include "../../tools/picture/io_pam.h"
 #include "../../tools/picture/io_ppm_read.h"
 #include "../../tools/picture/picture_read.h"
 
@@ -823,6 +824,86 @@ static void check_ppm_refusals(void)
     CHECK(PPM_REFUSED("P2 16384 16384 255 1 2 3")); /* no memory is taken for it */
 }
 
+/* --- reading PAM --- */
+
+typedef int (*pam_reader)(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
+
+static int pam_texels(bitmap *out, pam_reader read, const char *text, size_t size)
+{
+    report r = {""};
+    uint8_t *copy = malloc(size); /* of just its size, so that a sanitizer sees a read behind the end */
+    int ok = 0;
+    memset(out, 0, sizeof *out);
+    if (copy) {
+        memcpy(copy, text, size);
+        ok = read(out, copy, size, "t.pam", &r);
+        CHECK(ok ? out->texels != NULL && !r.text[0] : strncmp(r.text, "t.pam: ", 7) == 0 && !out->texels);
+    }
+    free(copy);
+    return ok;
+}
+
+static int gives_texels(pam_reader read, const char *text, size_t size, int32_t width, const char *texels, size_t n)
+{
+    bitmap map;
+    const int same = pam_texels(&map, read, text, size) && map.width == width && memcmp(map.texels, texels, n) == 0;
+    bitmap_free(&map);
+    return same;
+}
+
+static int refuses_pam(pam_reader read, const char *text, size_t size)
+{
+    bitmap map;
+    const int ok = pam_texels(&map, read, text, size);
+    bitmap_free(&map);
+    return !ok;
+}
+
+#define PAM_HEAD(width, depth, max, type) \
+    "P7\nWIDTH " width "\nHEIGHT 1\nDEPTH " depth "\nMAXVAL " max "\nTUPLTYPE " type "\nENDHDR\n"
+#define PAM_GIVES(text, width, texels) gives_texels(pam_decode, text, sizeof text - 1, width, texels, sizeof texels - 1)
+#define PAM_REFUSED(text)              refuses_pam(pam_decode, text, sizeof text - 1)
+
+static void check_pam_kinds(void)
+{
+    CHECK(PAM_GIVES(PAM_HEAD("2", "1", "1", "BLACKANDWHITE") "\0\1", 2, "\0\0\0\xFF\xFF\xFF\xFF\xFF"));
+    CHECK(PAM_GIVES(PAM_HEAD("1", "2", "1", "BLACKANDWHITE_ALPHA") "\1\0", 1, "\xFF\xFF\xFF\0"));
+    CHECK(PAM_GIVES(PAM_HEAD("2", "1", "255", "GRAYSCALE") "ab", 2, "aaa\xFF" "bbb\xFF"));
+    CHECK(PAM_GIVES(PAM_HEAD("1", "2", "255", "GRAYSCALE_ALPHA") "ab", 1, "aaab"));
+    CHECK(PAM_GIVES(PAM_HEAD("2", "3", "255", "RGB") "abcdef", 2, "abc\xFF" "def\xFF"));
+    CHECK(PAM_GIVES(PAM_HEAD("2", "4", "255", "RGB_ALPHA") "abcdefgh", 2, "abcdefgh"));
+    /* of 65535 the high byte; 3 of 7 is 109.3; 300 of 1000 is 76.5, halves go up */
+    CHECK(PAM_GIVES(PAM_HEAD("1", "2", "65535", "GRAYSCALE_ALPHA") "\x12\xFF\xFE\0", 1, "\x12\x12\x12\xFE"));
+    CHECK(PAM_GIVES(PAM_HEAD("1", "3", "7", "RGB") "\3\0\7", 1, "\x6D\0\xFF\xFF"));
+    CHECK(PAM_GIVES(PAM_HEAD("1", "1", "1000", "GRAYSCALE") "\x01\x2C", 1, "\x4D\x4D\x4D\xFF"));
+    /* words in any order, comments, empty lines, CR; no type: DEPTH says it */
+    CHECK(PAM_GIVES("P7\n# c\n\nMAXVAL 255\nDEPTH 4\r\n  HEIGHT\t1 \nWIDTH 1\nENDHDR\nabcd", 1, "abcd"));
+    CHECK(PAM_GIVES("P7\r\nWIDTH 1\r\nHEIGHT 1\r\nDEPTH 1\r\nMAXVAL 255\r\nENDHDR\r\na", 1, "aaa\xFF"));
+    CHECK(gives_texels(pam_decode_16, PAM_HEAD("1", "1", "65535", "GRAYSCALE") "ab", 69, 1, "ab", 2));
+    CHECK(refuses_pam(pam_decode_16, PAM_HEAD("1", "1", "255", "GRAYSCALE") "a", 66));
+}
+
+static void check_pam_refusals(void)
+{
+    CHECK(PAM_REFUSED(PAM_HEAD("2", "3", "255", "RGB") "abcde") &&
+          PAM_REFUSED(PAM_HEAD("2", "3", "255", "RGB") "abcdefg"));
+    CHECK(PAM_REFUSED(PAM_HEAD("0", "3", "255", "RGB")) && PAM_REFUSED(PAM_HEAD("-1", "3", "255", "RGB") "abc"));
+    CHECK(PAM_REFUSED(PAM_HEAD("99999999999", "3", "255", "RGB") "abc") &&
+          PAM_REFUSED(PAM_HEAD("1.0", "1", "255", "GRAYSCALE") "a"));
+    CHECK(PAM_REFUSED(PAM_HEAD("1", "5", "255", "RGB") "abcde") && PAM_REFUSED(PAM_HEAD("1", "0", "255", "RGB")));
+    CHECK(PAM_REFUSED(PAM_HEAD("1", "1", "0", "GRAYSCALE") "a") &&
+          PAM_REFUSED(PAM_HEAD("1", "1", "65536", "GRAYSCALE") "ab"));
+    CHECK(PAM_REFUSED(PAM_HEAD("1", "1", "7", "GRAYSCALE") "\x08") &&
+          PAM_REFUSED(PAM_HEAD("1", "1", "2", "BLACKANDWHITE") "\1"));
+    CHECK(PAM_REFUSED(PAM_HEAD("1", "1", "255", "RGB") "a") && PAM_REFUSED(PAM_HEAD("1", "3", "255", "CMYK") "abc"));
+    CHECK(PAM_REFUSED(PAM_HEAD("1 2", "1", "255", "GRAYSCALE") "a") &&
+          PAM_REFUSED(PAM_HEAD("1\nWIDTH 1", "1", "255", "GRAYSCALE") "a"));
+    CHECK(PAM_REFUSED("P7\nWIDTH 1\nHEIGHT 1\nDEPTH 1\nENDHDR\na"));
+    CHECK(PAM_REFUSED("P7\nENDHDR\n") && PAM_REFUSED("P7\n"));
+    CHECK(PAM_REFUSED("P7\nWIDTH 1\nHEIGHT 1\nDEPTH 1\nMAXVAL 255\nENDHDR") && PAM_REFUSED("P7\nCOLOUR 1\nENDHDR\na"));
+    CHECK(PAM_REFUSED("P7\nWIDTH 16385\nHEIGHT 16385\nDEPTH 1\nMAXVAL 255\nENDHDR\na") && PAM_REFUSED("P6\n"));
+}
+
 /* --- pictures by their content --- */
 
 static int says_of(const char *data, size_t size, const char *format, const char *part)
@@ -844,7 +925,7 @@ static void check_foreign(void)
     CHECK(SAYS_OF("RIFF\x10\0\0\0WEBPVP8 ", "WebP", "dwebp") && SAYS_OF("\0\0\0\x20" "ftypavif", "AVIF", "avifdec"));
     CHECK(SAYS_OF("\xABKTX 20\xBB\r\n\x1A\n", "KTX2", "ktx extract") && SAYS_OF("DDS |", "DDS", "magick"));
     CHECK(SAYS_OF("GIF89a", "GIF", "magick") && SAYS_OF("II*\0\x08", "TIFF", "magick"));
-    CHECK(SAYS_OF("\x76\x2F\x31\x01\2", "OpenEXR", "oiiotool") && SAYS_OF("P7\nWIDTH 1", "PAM", "pamtopng"));
+    CHECK(SAYS_OF("\x76\x2F\x31\x01\2", "OpenEXR", "oiiotool") && SAYS_OF("P7\nWIDTH 1", "line 2", "ENDHDR"));
     CHECK(SAYS_OF(end_of_tga, "TGA", "magick"));
     CHECK(SAYS_OF("RIFF\x10\0\0\0WAVE", "not a PNG", "by its first bytes") && SAYS_OF("", "not a PNG", "JPEG"));
     CHECK(picture_begins((const uint8_t *)"GIF89a", 6) && !picture_begins((const uint8_t *)"o cube\nv 0 0 0", 14));
@@ -1278,6 +1359,8 @@ void test_images(void)
     check_ppm();
     check_ppm_kinds();
     check_ppm_refusals();
+    check_pam_kinds();
+    check_pam_refusals();
     check_foreign();
     check_stored();
     check_pfm_round(&rng);

@@ -290,11 +290,21 @@ static void pictures(void)
                                       "channels     3, codes 0 to 255\n", " red   min 0             max 10 ",
                                       " mean 5\n", " green min 2 ", " mean 16\n", " blue  min 3 ", " mean 129\n"};
     static const char *const grey[] = {"tiny.PFM: PFM, 28 bytes\n", "size         2x2\n", "channels     1, linear\n",
-                                       " grey  min -1 ", " max 2.5 ", " mean 1.16667\n", "not finite   1\n"};
+                                       " grey  min -1 ", " max 2.5 ", " mean 1.16667\n",
+                                       "scale        1, little endian\n", "not finite   1\n"};
+    static const char *const scaled[] = {" grey  min 3 ", "scale        1.5, big endian\n"};
+    static const char *const pam[] = {"tiny.pam: PAM, 73 bytes\n", "channels     2, codes 0 to 255\n",
+                                      " grey  min 10 ", " alpha min 7 "};
     CHECK(info(put_file("tiny.ppm", "P6\n2 1\n255\n\x0A\x02\xFF\x00\x1E\x03", 17), NULL) == INFO_OK);
     SAYS(ppm);
     CHECK(info(put_file("tiny.PFM", pfm, sizeof pfm - 1), NULL) == INFO_OK);
     SAYS(grey);
+    CHECK(info(put_file("big.pfm", "Pf\n1 1\n1.5\n\x40\0\0\0", 15), NULL) == INFO_OK);
+    SAYS(scaled);
+    CHECK(info(put_file("tiny.pam",
+                        "P7\nWIDTH 1\nHEIGHT 1\nDEPTH 2\nMAXVAL 255\nTUPLTYPE GRAYSCALE_ALPHA\nENDHDR\n\x0A\x07",
+                        73), NULL) == INFO_OK);
+    SAYS(pam);
     if (read_json(put_file("none.pfm", none, sizeof none - 1))) {
         CHECK(is_text(find("kind", NULL, NULL, NULL), "picture") && number("nonfinite", NULL, NULL, NULL) == 1);
         CHECK(json_kind(&doc, find("channels", "", "mean", NULL)) == JSON_NULL);

@@ -101,6 +101,7 @@ static const option_row rows[] = {
     OPTION_SLICE_ROW(options, slice, "bake's rows of receivers"),
     {.name = "--report", .kind = OPTION_FLAG, AT(has_report), .help = "bytes of the file, part by part"},
     OPTION_THREADS_ROW(options, threads, "bake the file"),
+    OPTION_ONLY_HERE,
     OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took"),
     OPTION_ASK,
     {.kind = OPTION_END},

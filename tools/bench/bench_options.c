@@ -92,6 +92,7 @@ static const option_row output_rows[] = {
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no table and no progress"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
      .help = "say each setting's command before it is measured"},
+    OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_TITLE,
      .help = "A setting is on the front where no other is both faster and nearer to the truth. At the knee more time "

@@ -100,6 +100,16 @@ int bench_line_hurry(bench_line *l, const bench_subject *s)
     return bench_line_add(l, words);
 }
 
+/* In single quotes, of which those in the word stand outside. Returns bytes as snprintf does, or `size`. */
+static size_t say_quoted(char *out, size_t size, const char *word)
+{
+    size_t n = (size_t)snprintf(out, size, " '");
+    for (; *word != '\0' && n < size; ++word) {
+        n += (size_t)snprintf(out + n, size - n, *word == '\'' ? "'\\''" : "%c", *word);
+    }
+    return n < size ? n + (size_t)snprintf(out + n, size - n, "'") : size;
+}
+
 /* A word that a shell would not leave alone stands in single quotes. */
 void bench_line_say(char *out, size_t size, const bench_line *l)
 {
@@ -108,7 +118,7 @@ void bench_line_say(char *out, size_t size, const bench_line *l)
         const char *word = l->argv[i];
         const int plain = word[0] != '\0' && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                                           "0123456789_-+=.,:/%@") == strlen(word);
-        n += (size_t)snprintf(out + n, size - n, plain ? " %s" : " '%s'", word);
+        n += plain ? (size_t)snprintf(out + n, size - n, " %s", word) : say_quoted(out + n, size - n, word);
     }
 }
 

@@ -381,7 +381,7 @@ static const option_row hard_rows[] = {
 static const option_row calibrate_rows[] = {
     {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = POOL_MAX,
      .help = "that draw at once (default: the processors)"},
-    OPTION_ASK, END,
+    OPTION_TIME_LIMIT, OPTION_ASK, END,
 };
 static const option_row bench_rows[] = {OPTION_ASK, END};
 

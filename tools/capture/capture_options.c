@@ -54,6 +54,7 @@ static const option_row other_rows[] = {
     {.name = "--glossy", .kind = OPTION_FLAG, AT(render.glossy), .help = "glTF's materials with their lobes"},
     OPTION_BACKEND_ROW(capture_options, render.kernels),
     OPTION_THREADS_ROW(capture_options, render.threads, "draw the faces"),
+    OPTION_ONLY_HERE,
     OPTION_LOUDNESS(capture_options, render.view.is_quiet, render.view.is_verbose, "say how long what took"),
     OPTION_ASK,
     {.kind = OPTION_END},

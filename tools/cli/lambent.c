@@ -1,10 +1,12 @@
 /* lambent.c: the command line: finds the verb. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <lambent/lambent.h>
 
 #include "../../platform/host/host.h"
+#include "../../platform/host/limit.h"
 #include "../common/io_file.h"
 #include "../common/options.h"
 #include "../common/progress.h"
@@ -83,8 +85,11 @@ static int run(int argc, char **argv)
         meant = far < best ? verbs[i].name : meant;
         best = far < best ? far : best;
     }
-    fprintf(stderr, meant != NULL ? "lambent: there is no verb `%s`; did you mean %s?\n"
-                                  : "lambent: there is no verb `%s`; lambent --help lists them\n", argv[1], meant);
+    if (meant != NULL) {
+        report_print(stderr, "lambent: there is no verb `%s`; did you mean %s?\n", argv[1], meant);
+    } else {
+        report_print(stderr, "lambent: there is no verb `%s`; lambent --help lists them\n", argv[1]);
+    }
     return 2;
 }
 
@@ -161,6 +166,32 @@ static void clean_up(void)
     progress_wipe();
 }
 
+static char over_line[128];
+
+/* By the thread of --time-limit, which holds the limit: no file is being written. */
+static void end_over(void)
+{
+    file_drop_aside();
+    file_drop_written();
+    progress_wipe();
+    limit_tell(over_line);
+}
+
+static const char *verb_name;
+
+static int limit(double seconds)
+{
+    snprintf(over_line, sizeof over_line,
+             "lambent %.16s: --time-limit %g: the time is over; what this command has written is removed\n", verb_name,
+             seconds);
+    file_keep_names();
+    if (!limit_time(seconds, end_over)) {
+        fprintf(stderr, "lambent %.16s: --time-limit: the system gives no thread that could keep it\n", verb_name);
+        exit(1);
+    }
+    return 1;
+}
+
 static int start(int argc, char **argv)
 {
     if (argc >= 2 && (is_one_of(argv[1], "--help", "-h") || strcmp(argv[1], "help") == 0)) {
@@ -185,7 +216,10 @@ int main(int argc, char **argv)
     host_take_streams();
     host_outlive_file_limit();
     host_end_cleanly(clean_up);
+    verb_name = argc >= 2 ? argv[1] : "";
+    options_limit_by(limit);
     const int status = start(argc, argv);
+    limit_end();
     file_keep_end();
     return status != 0 || report_flush(&r) ? status : report_end(&r, argc >= 2 ? argv[1] : "", 1);
 }

@@ -86,9 +86,9 @@ void plan_print_table(const lmb_plan *p, const render_job *j, const budget_choic
 {
     const lmb_frame *f = &j->frame;
     char work[16], words[200];
-    printf("%s: %d x %d, %u triangles, %u lights; --shadow-map %d", j->o.scene, (int)f->view.frame_width,
-           (int)f->view.frame_height, (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->scene.light_count,
-           (int)f->shadow_map);
+    report_print(stdout, "%s: %d x %d, %u triangles, %u lights; --shadow-map %d", j->o.scene,
+                 (int)f->view.frame_width, (int)f->view.frame_height, (unsigned)lmb_scene_triangles(&j->scene),
+                 (unsigned)j->scene.light_count, (int)f->shadow_map);
     if (f->tree.texel != NULL) {
         printf(" --tree %d --error %.3g --visibility %.3g --gather %s", (int)f->tree.size, (double)f->error,
                (double)f->visibility, gather_word(f->gather_step));

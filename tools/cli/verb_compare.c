@@ -64,6 +64,7 @@ static const option_row rows[] = {
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no figures: the exit status alone"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
      .help = "say how each picture was taken, and how many pixels count"},
+    OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -327,7 +328,7 @@ static void print_text(FILE *out, const results *res, const options *o)
     if (m->nonfinite)
         fprintf(out, " NONFINITE %" PRIu64, m->nonfinite);
     if (!res->ok && o->max)
-        fprintf(out, " [bound %s]", o->max);
+        report_print(out, " [bound %s]", o->max);
     fprintf(out, "\npsnr %.2f dB (rgb, %s, peak %.6g) max %.6g", e->psnr_db, res->in_codes ? "sRGB codes" : "linear",
             e->peak, e->max_abs);
     if (e->max_x >= 0)
@@ -420,8 +421,8 @@ static void tell_taken(FILE *err, const loaded *l, const options *o, const metri
     const picture *const both[] = {&l->test, &l->truth};
     const char *const path[] = {o->test, o->truth};
     for (int i = 0; i < 2 && o->is_verbose; ++i)
-        fprintf(err, "lambent: %s: %dx%d, %s\n", path[i], (int)both[i]->width, (int)both[i]->height,
-                both[i]->codes ? "8-bit sRGB, decoded" : "linear light");
+        report_print(err, "lambent: %s: %dx%d, %s\n", path[i], (int)both[i]->width, (int)both[i]->height,
+                     both[i]->codes ? "8-bit sRGB, decoded" : "linear light");
     if (o->is_verbose)
         fprintf(err, "lambent: %" PRIu64 " pixels count\n", m->pixels);
 }

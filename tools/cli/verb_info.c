@@ -36,6 +36,8 @@ static const option_row info_rows[] = {
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet),
      .help = "no figures: the exit status alone, whether the file can be read"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose), .help = "say how long reading took"},
+    OPTION_ONLY_HERE,
+    OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -44,8 +46,8 @@ static const option_table table = {
     .verb = "info",
     .usage = "info FILE [options]",
     .about =
-        "What is in a scene that `lambent render` reads, in a picture (PNG, JPEG, PPM, PGM, PFM or Radiance HDR), in "
-        "baked light or in a relief; each is known by its content. Of a scene:\n"
+        "What is in a scene that `lambent render` reads, in a picture (PNG, JPEG, PPM, PGM, PAM, PFM or Radiance HDR), "
+        "in baked light or in a relief; each is known by its content. Of a scene:\n"
         "scenes: of a glTF file; read: the one that counts below (--scene chooses);\n"
         "nodes meshes: as the file has them, with the meshes' primitives;\n"
         "instances: primitives placed in the world;\n"
@@ -62,7 +64,8 @@ static const option_table table = {
         "bytes: the file, others read for it, and memory when loaded;\n"
         "notes: what the reader left out or replaced.\n"
         "Of a picture: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high "
-        "byte; palettes resolved), or linear light; values that are not finite are counted and left out.\n"
+        "byte; palettes resolved), or linear light; values that are not finite are counted and left out. Of a PFM the "
+        "scale, which values here are multiplied by, and the byte order.\n"
         "Of baked light: elements, which reflect it; receivers and clusters, which pixels take it from; links, each of "
         "which carries light from one to the other; of what moves, the ranges of triangles and the places in the air; "
         "and the fingerprint of the scene that it was baked from.\n"
@@ -92,6 +95,8 @@ typedef struct picture_facts {
     int32_t width, height;
     int channels; /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA */
     int linear;   /* floats; else codes 0 .. 255 */
+    int has_scale, is_little; /* of a PFM */
+    float scale;
     channel values[4];
     uint64_t nonfinite, bytes;
 } picture_facts;
@@ -468,6 +473,7 @@ static int measure_picture(picture_facts *p, const file_bytes *file, const char 
     p->height = stored.height;
     p->channels = stored.channels;
     p->linear = stored.light.pixels != NULL;
+    p->has_scale = p->linear && pfm_figures(&p->scale, &p->is_little, file->data, file->size);
     if (p->linear)
         measure_floats(p, &stored.light);
     else
@@ -500,6 +506,10 @@ static void text_picture(FILE *out, const char *path, const picture_facts *p)
         else
             fputs("no finite value\n", out);
     }
+    if (p->has_scale) {
+        label(out, "scale");
+        fprintf(out, "%.9g, %s endian\n", (double)p->scale, p->is_little ? "little" : "big");
+    }
     if (p->linear) {
         label(out, "not finite");
         fprintf(out, "%" PRIu64 "\n", p->nonfinite);
@@ -512,6 +522,8 @@ static void json_picture(FILE *out, const char *path, const picture_facts *p)
     json_text(out, path);
     fprintf(out, ",\"kind\":\"picture\",\"format\":\"%s\",\"bytes\":%" PRIu64 ",\"width\":%d,\"height\":%d,", p->format,
             p->bytes, (int)p->width, (int)p->height);
+    if (p->has_scale)
+        fprintf(out, "\"scale\":%.9g,\"endian\":\"%s\",", (double)p->scale, p->is_little ? "little" : "big");
     fprintf(out, "\"values\":\"%s\",\"nonfinite\":%" PRIu64 ",\"channels\":[", p->linear ? "linear" : "codes",
             p->nonfinite);
     for (int k = 0; k < p->channels; ++k) {

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "../../platform/host/host.h"
+#include "../../platform/host/limit.h"
 #include "ending.h"
 
 #ifdef _WIN32
@@ -38,7 +39,7 @@ static const char *reason(void)
     return errno ? strerror(errno) : "the system does not say why";
 }
 
-static int is_keeping;
+static int is_keeping, is_only_here;
 
 void file_keep_all(void)
 {
@@ -72,7 +73,7 @@ int file_suits(const char *option, const char *path, const char *own, report *r)
 
 void file_keep_end(void)
 {
-    is_keeping = 0;
+    is_keeping = is_only_here = 0;
 }
 
 /* Files have no number here. */
@@ -101,7 +102,7 @@ void file_keep_end(void)
 {
     free(kept.file);
     memset(&kept, 0, sizeof kept);
-    is_keeping = 0;
+    is_keeping = is_only_here = 0;
 }
 
 /* Where a file is, or would be: there is room. */
@@ -246,6 +247,82 @@ int file_is_folder(const char *path)
     return stat(path, &s) == 0 && IS_KIND(s, DIR);
 }
 
+/* --- what a file may name --- */
+
+void file_only_here(void) { is_only_here = 1; }
+
+static int is_separator(char c)
+{
+#ifdef _WIN32
+    return c == '/' || c == '\\';
+#else
+    return c == '/';
+#endif
+}
+
+/* Does a path from a folder stay below it, by its words alone? Only the last name is a file's. */
+static int stays_below(const char *path)
+{
+    int depth = 0;
+    if (is_separator(path[0])) return 0;
+#ifdef _WIN32
+    if (strchr(path, ':')) return 0;
+#endif
+    while (*path) {
+        size_t n = 0;
+        while (path[n] && !is_separator(path[n])) ++n;
+        if (n == 2 && path[0] == '.' && path[1] == '.') {
+            if (depth-- == 0) return 0;
+        } else if (n > 0 && !(n == 1 && path[0] == '.')) {
+            ++depth;
+        }
+        path += n + (path[n] != '\0');
+    }
+    return depth > 0;
+}
+
+#ifdef _WIN32
+/* Where a path leads once all links are followed; NULL: nowhere. The caller's to free. */
+static char *real_path(const char *path)
+{
+    const HANDLE f = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING,
+                                 FILE_FLAG_BACKUP_SEMANTICS, NULL);
+    const DWORD size = f != INVALID_HANDLE_VALUE ? GetFinalPathNameByHandleA(f, NULL, 0, 0) : 0;
+    char *out = size > 0 ? malloc((size_t)size + 1) : NULL;
+    if (out && GetFinalPathNameByHandleA(f, out, size + 1, 0) == 0) {
+        free(out);
+        out = NULL;
+    }
+    if (f != INVALID_HANDLE_VALUE) CloseHandle(f);
+    return out;
+}
+#else
+static char *real_path(const char *path) { return realpath(path, NULL); }
+#endif
+
+int file_is_below(const char *path, const char *folder, size_t folder_size, report *r)
+{
+    char *own = NULL, *real = NULL, *real_folder = NULL;
+    size_t n;
+    int ok = 0;
+    if (!is_only_here) return 1;
+    if (strncmp(path, folder, folder_size) == 0 && stays_below(path + folder_size)) own = malloc(folder_size + 2);
+    if (own) {
+        memcpy(own, folder, folder_size);
+        strcpy(own + folder_size, ".");
+        real = real_path(path);
+        real_folder = real_path(own);
+    }
+    if (real && real_folder) {
+        n = strlen(real_folder);
+        ok = strncmp(real, real_folder, n) == 0 && (is_separator(real[n]) || (n > 0 && is_separator(real[n - 1])));
+    }
+    free(own);
+    free(real);
+    free(real_folder);
+    return ok || report_fail(r, "%s: no file in or below its folder (--only-here)", path);
+}
+
 /* --- writing --- */
 
 /* Write, flush and close; every step may be the one at which a full disk shows. */
@@ -372,6 +449,40 @@ static int create_aside(char *temporary, int mode)
     return fd;
 }
 
+/* What was written, for file_drop_written. Guarded by limit_hold. */
+static struct written_files {
+    char **name;
+    size_t count, cap;
+    int is_on;
+} written;
+
+void file_keep_names(void) { written.is_on = 1; }
+
+void file_drop_written(void)
+{
+    size_t i;
+    for (i = 0; i < written.count; ++i) remove_now(written.name[i]);
+}
+
+/* Room for one name more, before its file is there. */
+static int written_grows(const char *path, report *r)
+{
+    char **more;
+    if (!written.is_on || written.count < written.cap) return 1;
+    more = realloc(written.name, (2 * written.cap + 16) * sizeof *more);
+    if (!more) return report_fail(r, "%s: out of memory", path);
+    written.name = more;
+    written.cap = 2 * written.cap + 16;
+    return 1;
+}
+
+static char *copy_of(const char *path)
+{
+    char *copy = malloc(strlen(path) + 1);
+    if (copy) strcpy(copy, path);
+    return copy;
+}
+
 /* A new file in the directory of `path`, under a name that nobody has; `temporary` holds strlen(path) + SUFFIX_MAX. */
 static FILE *open_beside(char *temporary, const char *path, int mode)
 {
@@ -392,15 +503,20 @@ static FILE *open_beside(char *temporary, const char *path, int mode)
 
 static int write_aside(const char *path, int mode, const void *data, size_t size, report *r)
 {
-    char *temporary = malloc(strlen(path) + SUFFIX_MAX);
+    char *temporary = malloc(strlen(path) + SUFFIX_MAX), *name = written.is_on ? copy_of(path) : NULL;
     FILE *f;
     int done;
 
-    if (!temporary) return report_fail(r, "%s: out of memory", path);
+    if (!temporary || (written.is_on && !name) || !written_grows(path, r)) {
+        free(temporary);
+        free(name);
+        return report_fail(r, "%s: out of memory", path);
+    }
     f = open_beside(temporary, path, mode);
     if (!f) {
         report_fail(r, "%s: cannot be written: no file can be made in its folder: %s", path, reason());
         free(temporary);
+        free(name);
         return 0;
     }
     done = write_and_close(f, data, size) && replace(temporary, path);
@@ -409,7 +525,12 @@ static int write_aside(const char *path, int mode, const void *data, size_t size
         drop(temporary);
     }
     aside = NULL;
+    if (done && name) {
+        written.name[written.count++] = name;
+        name = NULL;
+    }
     free(temporary);
+    free(name);
     return done;
 }
 
@@ -508,7 +629,13 @@ int file_write(const char *path, const void *data, size_t size, report *r)
     if (file_is_stdout(path)) return write_stream(stdout, path, data, size, r);
     if (strcmp(path, "/dev/stderr") == 0) return write_stream(stderr, path, data, size, r);
     if (!find_place(&to, path, r)) return 0;
-    done = to.over ? write_aside(to.over, to.mode, data, size, r) : write_direct(path, data, size, r);
+    if (to.over) {
+        limit_hold(1);
+        done = write_aside(to.over, to.mode, data, size, r);
+        limit_hold(0);
+    } else {
+        done = write_direct(path, data, size, r);
+    }
     free(to.over);
     return done;
 }
@@ -576,6 +703,7 @@ int file_can_write(const char *path, report *r)
     if (!find_place(&to, path, r)) return 0;
     if (!to.over) return 1; /* a device or a pipe: only writing tells */
     temporary = malloc(strlen(to.over) + SUFFIX_MAX);
+    limit_hold(1);
     if (!temporary) {
         report_fail(r, "%s: out of memory", path);
     } else if (!(f = open_beside(temporary, to.over, -1))) {
@@ -584,6 +712,7 @@ int file_can_write(const char *path, report *r)
         fclose(f);
         drop(temporary);
     }
+    limit_hold(0);
     free(temporary);
     free(to.over);
     return f != NULL;

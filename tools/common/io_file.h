@@ -28,6 +28,13 @@ int file_is_folder(const char *path);
 /* file_is_stdout: `-`, /dev/stdout, or `png:-` with any three letters: a name that says the format, too. */
 int file_is_stdout(const char *path);
 
+/* file_only_here: from now on file_is_below refuses what is not below its folder, till file_keep_end.
+ * file_is_below: may a file that another file names be read? `folder` ends with a slash, or is "" for the folder at
+ * hand. No root, no .. that leaves the folder, and no link that does; whether there is such a file outside it does not
+ * tell. 1 where file_only_here was not called. */
+void file_only_here(void);
+int file_is_below(const char *path, const char *folder, size_t folder_size, report *r);
+
 /* file_suits: is a name's ending not that of another kind of file: a picture's, a model's, a table's, or another one of
  * lambent's? `option` took the name; `own` is what would be written, as ".lmt". A name with no ending, or with an unknown
  * one, suits anything. */
@@ -55,5 +62,10 @@ int file_is_same_place(const char *a, const char *b);
 
 /* file_drop_aside: remove the temporary file, if there is one: for signals that end the program. */
 void file_drop_aside(void);
+
+/* file_keep_names: file_write remembers what it has written from now on, by limit_hold. file_drop_written: remove all
+ * that; for one who holds the limit. */
+void file_keep_names(void);
+void file_drop_written(void);
 
 #endif

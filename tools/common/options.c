@@ -5,6 +5,7 @@
 
 #include <lambent/lambent.h>
 
+#include "io_file.h"
 #include "option_value.h"
 #include "options_table.h"
 
@@ -169,6 +170,26 @@ static int store_floats(const option_row *row, const char *text, float *at)
     return ok;
 }
 
+static int (*limit_by)(double seconds);
+
+void options_limit_by(int (*limit)(double seconds)) { limit_by = limit; }
+
+int options_time_limit(const char *text, void *at)
+{
+    float seconds;
+    (void)at;
+    return option_number(text, 0.0f, 1e7f, &seconds) && seconds > 0.0f &&
+           (limit_by == NULL || limit_by((double)seconds));
+}
+
+int options_only_here(const char *text, void *at)
+{
+    (void)text;
+    (void)at;
+    file_only_here();
+    return 1;
+}
+
 /* 1, or 0 where the text is no such value. */
 static int store(const option_row *row, const char *text, void *at, float *size)
 {
@@ -238,6 +259,8 @@ static int take(line *l, int i, const char *value, report *r)
         if (!store(row, value, at, size)) {
             return refuse(row, value, r);
         }
+    } else if (row->parse != NULL) {
+        row->parse(value, at);
     } else {
         *(int *)(void *)at = 1;
     }

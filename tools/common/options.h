@@ -18,7 +18,7 @@ enum {
     OPTION_VERSION,
     OPTION_QUIET,   /* int: 1. They exclude each other */
     OPTION_VERBOSE,
-    OPTION_FLAG,    /* int: 1, without a value */
+    OPTION_FLAG,    /* int: 1, without a value; or what `parse` does */
     OPTION_TEXT,    /* const char *, not empty */
     OPTION_INT,     /* int32_t within low .. high */
     OPTION_POWER_OF_2,
@@ -114,11 +114,28 @@ const char *options_nearest(const char *const *names, const char *word);
  * `b`, which may each have 40; over 40 where they have more. */
 int options_distance(const char *a, const char *b);
 
+/* options_limit_by: what --time-limit calls with its seconds: 1, or 0 where there can be no limit. Without it the
+ * option is read and does nothing, as in tests. */
+void options_limit_by(int (*limit)(double seconds));
+
+/* Rows' parse. */
+int options_time_limit(const char *text, void *at);
+int options_only_here(const char *text, void *at);
+
 /* Rows that several tables have. */
+#define OPTION_TIME_LIMIT                                                                                   \
+    {.name = "--time-limit", .value = "SECONDS", .kind = OPTION_OWN, .parse = options_time_limit,           \
+     .expects = "seconds, over 0, at most 1e7",                                                             \
+     .help = HELP("when so much time has passed, end with status 1 and remove what this command has written")}
+#define OPTION_ONLY_HERE                                                                                    \
+    {.name = "--only-here", .kind = OPTION_FLAG, .parse = options_only_here,                                \
+     .help = HELP("files name no others but those in or below their own folder: none by a root, by .. or by a link "  \
+                  "that leaves it; others count as missing. For files of strangers")}
 #define OPTION_ASK                                                                                          \
     {.name = "--help", .brief = "-h", .kind = OPTION_HELP, .help = HELP("this text")},                            \
     {.name = "--version", .brief = "-V", .kind = OPTION_VERSION, .help = HELP("the version of lambent")}
 #define OPTION_LOUDNESS(type, quiet, verbose, more)                                                         \
+    OPTION_TIME_LIMIT,                                                                                      \
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, .at = offsetof(type, quiet),                   \
      .help = HELP("say nothing but errors")},                                                                     \
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, .at = offsetof(type, verbose), .help = HELP(more)}

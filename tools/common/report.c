@@ -2,9 +2,11 @@
 #include "report.h"
 
 #include "progress.h"
+#include "text_clean.h"
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { OF_FILES, OF_SYSTEM, OF_USAGE }; /* whose fault a failure is: the last byte of its text */
@@ -14,12 +16,8 @@ static void set_text(report *r, int kind, const char *format, va_list args)
     if (r == NULL || r->text[0] != '\0') {
         return;
     }
-    vsnprintf(r->text, sizeof r->text - 1, format, args);
-    for (char *c = r->text; *c != '\0'; ++c) { /* file names may hold anything; a report stays one printable line */
-        if ((unsigned char)*c < 32 || *c == 127) {
-            *c = '?';
-        }
-    }
+    text_format(r->text, sizeof r->text - 1, format, args);
+    text_clean(r->text); /* a report stays one line */
     r->text[sizeof r->text - 1] = (char)kind;
 }
 
@@ -58,11 +56,35 @@ static int is_taken;
 
 FILE *report_words(void) { return is_taken ? stderr : stdout; }
 
+/* A text that no memory is left for is cut. */
+static void print(FILE *out, const char *format, va_list args)
+{
+    char few[1024];
+    va_list again;
+    va_copy(again, args);
+    const int n = vsnprintf(few, sizeof few, format, args);
+    const size_t size = n < 0 ? 0 : (size_t)n + 1;
+    char *more = size > sizeof few ? malloc(size) : NULL;
+    char *text = more != NULL ? more : few;
+    text_format(text, more != NULL ? size : sizeof few, format, again);
+    va_end(again);
+    fputs(text, out);
+    free(more);
+}
+
+void report_print(FILE *out, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    print(out, format, args);
+    va_end(args);
+}
+
 void report_say(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    vfprintf(report_words(), format, args);
+    print(report_words(), format, args);
     va_end(args);
 }
 
@@ -83,7 +105,7 @@ void report_note(int is_quiet, const char *format, ...)
         progress_wipe();
         va_start(args, format);
         fputs("lambent: ", stderr);
-        vfprintf(stderr, format, args);
+        print(stderr, format, args);
         fputc('\n', stderr);
         va_end(args);
     }
@@ -97,6 +119,6 @@ int report_end(const report *r, const char *verb, int status)
 
 int report_end_to(FILE *err, const report *r, const char *verb, int status)
 {
-    fprintf(err, "lambent %s: %s\n", verb, r->text);
+    report_print(err, "lambent %s: %s\n", verb, r->text);
     return report_is_usage(r) ? 2 : status;
 }

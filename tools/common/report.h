@@ -20,8 +20,10 @@ typedef struct report {
  * a parser can `return report_fail(...)`. */
 int report_fail(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_words: where a verb's words go: stdout; stderr once report_take_stdout has said that a file goes there.
- * report_say: printf to there. */
+/* report_print: printf for text with names from files and command lines in it: text_format cleans it.
+ * report_words: where a verb's words go: stdout; stderr once report_take_stdout has said that a file goes there.
+ * report_say: report_print to there. */
+void report_print(FILE *out, const char *format, ...) REPORT_PRINTF(2, 3);
 FILE *report_words(void);
 void report_say(const char *format, ...) REPORT_PRINTF(1, 2);
 void report_take_stdout(void);

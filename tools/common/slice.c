@@ -47,7 +47,8 @@ static uint64_t hash_text(uint64_t hash, const char *text) { return slice_hash(h
 /* Names of what changes no byte of the work. Of files that are read the contents count, and not the name. */
 static int is_free(const option_row *row)
 {
-    static const char *const names[] = {"--slice", "--threads", "--backend", "--stats", "--report", NULL};
+    static const char *const names[] = {"--slice", "--time-limit", "--threads", "--backend",
+                                        "--stats", "--report",     NULL};
     int i = 0;
     while (names[i] != NULL && strcmp(names[i], row->name) != 0) {
         ++i;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "io_file.h"
+#include "text_clean.h"
 
 enum { FIRST = 1 << 14 };
 
@@ -51,15 +52,20 @@ void text_buffer_add(text_buffer *p, const char *format, ...)
         return;
     }
     va_start(args, format);
-    vsnprintf(p->data + p->size, (size_t)n + 1, format, args);
+    text_format(p->data + p->size, (size_t)n + 1, format, args);
     va_end(args);
-    p->size += (size_t)n;
+    p->size += strlen(p->data + p->size);
 }
 
 void text_buffer_html(text_buffer *p, const char *text)
 {
-    for (; *text != '\0'; ++text) {
-        switch (*text) {
+    while (*text != '\0') {
+        uint32_t code;
+        const int n = text_character(&code, text);
+        switch (n == 0 || text_is_hidden(code) ? '\0' : *text) {
+        case '\0':
+            text_buffer_plain(p, "?");
+            break;
         case '&':
             text_buffer_plain(p, "&amp;");
             break;
@@ -73,37 +79,35 @@ void text_buffer_html(text_buffer *p, const char *text)
             text_buffer_plain(p, "&quot;");
             break;
         default:
-            put(p, text, 1);
+            put(p, text, (size_t)n);
         }
+        text += n > 0 ? n : 1;
     }
 }
 
 void text_buffer_json(text_buffer *p, const char *text)
 {
     text_buffer_plain(p, "\"");
-    for (; *text != '\0'; ++text) {
-        if ((unsigned char)*text < 0x20) {
-            text_buffer_add(p, "\\u%04x", (unsigned)(unsigned char)*text);
-        } else {
-            put(p, "\\", *text == '"' || *text == '\\');
-            put(p, text, 1);
-        }
+    while (*text != '\0') {
+        char character[TEXT_JSON];
+        text_json(character, &text);
+        text_buffer_plain(p, character);
     }
     text_buffer_plain(p, "\"");
 }
 
 void text_buffer_csv(text_buffer *p, const char *text)
 {
-    if (strpbrk(text, ",\"\r\n") == NULL) {
-        text_buffer_plain(p, text);
-        return;
-    }
-    text_buffer_plain(p, "\"");
-    for (; *text != '\0'; ++text) {
+    const int is_quoted = strpbrk(text, ",\"\r\n") != NULL;
+    put(p, "\"", is_quoted);
+    while (*text != '\0') {
+        uint32_t code;
+        const int n = text_character(&code, text), is_shown = n > 0 && !text_is_hidden(code);
         put(p, "\"", *text == '"');
-        put(p, text, 1);
+        put(p, is_shown ? text : "?", is_shown ? (size_t)n : 1);
+        text += n > 0 ? n : 1;
     }
-    text_buffer_plain(p, "\"");
+    put(p, "\"", is_quoted);
 }
 
 void text_buffer_base64(text_buffer *p, const uint8_t *data, size_t size)

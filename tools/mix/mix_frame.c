@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../common/io_json.h"
+#include "../picture/io_pam.h"
 
 enum { PATH_CAP = 4096 };
 
@@ -71,7 +72,7 @@ static int read_photo(mix_frame *f, const char *path, report *r)
 static int grey_of_png(image *out, const file_bytes *file, const char *path, report *r)
 {
     bitmap codes;
-    if (!png_decode_16(&codes, file->data, file->size, path, r)) {
+    if (!(is_pam(file->data, file->size) ? pam_decode_16 : png_decode_16)(&codes, file->data, file->size, path, r)) {
         return 0;
     }
     const size_t pixels = (size_t)codes.width * (size_t)codes.height;
@@ -108,7 +109,7 @@ static int read_depth(mix_frame *f, const char *path, float scale, report *r)
     if (!file_read(&file, path, r)) {
         return 0;
     }
-    const int is_pfm = file.size > 2 && file.data[0] == 'P';
+    const int is_pfm = file.size > 2 && file.data[0] == 'P' && !is_pam(file.data, file.size);
     int ok = is_pfm ? pfm_decode(&in, file.data, file.size, path, r) : grey_of_png(&in, &file, path, r);
     if (ok) {
         ok = take_depth(f, &in, scale > 0.0f ? scale : is_pfm ? 1.0f : 0.001f, path, r);
@@ -162,6 +163,7 @@ static int read_pose(mix_frame *f, const json *doc, report *r)
 static int read_numbers(mix_frame *f, mix_source *s, const json *doc, report *r)
 {
     static const char *const names[4] = {"fx", "fy", "cx", "cy"};
+    const uint32_t unit = json_member(doc, 0, "depth_unit_mm");
     double unit_mm = 0.0, v[4] = {0};
     for (int i = 0; i < 4; ++i) {
         const uint32_t node = json_member(doc, 0, names[i]);
@@ -176,11 +178,20 @@ static int read_numbers(mix_frame *f, mix_source *s, const json *doc, report *r)
         s->intrinsics[i] = (float)v[i];
     }
     s->has_intrinsics = 1;
-    if (!json_read_double(&unit_mm, doc, json_member(doc, 0, "depth_unit_mm"), r)) {
+    if (!json_read_double(&unit_mm, doc, unit, r)) {
         return 0;
+    }
+    if (unit != JSON_NONE && !(unit_mm >= 1e-6 && unit_mm <= 1e6)) {
+        return json_fail(doc, unit, r, "is %g; a unit of depth has 0.000001 to 1,000,000 mm", unit_mm);
     }
     s->depth_scale = s->depth_scale > 0.0f ? s->depth_scale : (float)(unit_mm * 0.001);
     return read_pose(f, doc, r);
+}
+
+/* May this file be read that a list of frames names? */
+static int may_read(const mix_source *s, const char *path, report *r)
+{
+    return s->folder == NULL || (file_is_below(path, s->folder, strlen(s->folder), r) && file_is_plain(path, r));
 }
 
 static int read_camera(mix_frame *f, mix_source *s, report *r)
@@ -189,7 +200,7 @@ static int read_camera(mix_frame *f, mix_source *s, report *r)
     static const char *const endings[] = {".json", NULL};
     file_bytes file;
     json doc;
-    if (!find_file(path, s->frame, endings, r) || !file_read(&file, path, r)) {
+    if (!find_file(path, s->frame, endings, r) || !may_read(s, path, r) || !file_read(&file, path, r)) {
         return 0;
     }
     int ok = json_parse(&doc, (const char *)file.data, file.size, path, r);
@@ -231,6 +242,9 @@ static int read_all(mix_frame *f, mix_source s, report *r)
         }
         s.photo = s.photo != NULL ? s.photo : photo;
         s.depth = s.depth != NULL ? s.depth : depth;
+    }
+    if (!may_read(&s, s.photo, r) || !may_read(&s, s.depth, r)) {
+        return 0;
     }
     return read_photo(f, s.photo, r) && read_depth(f, s.depth, s.depth_scale, r) && set_camera(f, &s, r);
 }

@@ -53,19 +53,23 @@ typedef struct mix_kept {
 
 /* One frame of a list. */
 typedef struct mix_entry {
-    char prefix[512];               /* as --frame; or, empty, by these: */
-    char photo[512], depth[512];
+    char *prefix;                   /* as --frame; or, NULL, by these: */
+    char *photo, *depth;
+    int is_rooted;                  /* a name of it begins with the root */
     double pose[16];
 } mix_entry;
 
 typedef struct mix_list {
     mix_entry *entry;
     int32_t count, cap;
+    char *folder; /* of the list, which names begin with; "" or with a slash at its end */
     int32_t no_depth, no_pose, unread; /* of TUM's lists: photos without a depth, or a pose, of their time; odd lines */
 } mix_list;
 
 /* mix_list_read: of a folder with TUM's rgb.txt, depth.txt and groundtruth.txt or with frames.txt, or of a file with a
- * PREFIX a line. Of TUM's, photos that have no depth or no pose within 0.02 s are no frames: they are counted. 1, or 0 with `r` set. */
+ * PREFIX a line. A prefix is its line as it stands, blanks within too; those around it count if there is such a frame.
+ * A line that begins with # is none. A list with bytes of 0 in it has these instead of line breaks. Of TUM's, photos
+ * that have no depth or no pose within 0.02 s are no frames: they are counted. 1, or 0 with `r` set. */
 int mix_list_read(mix_list *out, const char *path, report *r);
 void mix_list_free(mix_list *l);
 

@@ -13,18 +13,25 @@
 /* A line of one of TUM's lists. */
 typedef struct stamped {
     double time, value[7];
-    char name[256];
+    slice name; /* of the file's bytes */
 } stamped;
 
 typedef struct stamped_list {
     stamped *line;             /* in the file's order */
     const stamped **by_time;   /* and by time; of one time in the file's */
     int32_t count, cap, unread;
+    file_bytes file;
 } stamped_list;
 
 void mix_list_free(mix_list *l)
 {
+    for (int32_t i = 0; i < l->count; ++i) {
+        free(l->entry[i].prefix);
+        free(l->entry[i].photo);
+        free(l->entry[i].depth);
+    }
     free(l->entry);
+    free(l->folder);
     memset(l, 0, sizeof *l);
 }
 
@@ -55,12 +62,33 @@ static mix_entry *add(mix_list *l, report *r)
     return &l->entry[l->count++];
 }
 
-/* A name beside the list. */
-static int beside(char *out, size_t size, const char *folder, const char *name, size_t length, report *r)
+static int is_rooted(slice name) { return name.size > 0 && name.at[0] == '/'; }
+
+/* Both in a row; NULL with `r` set. The caller's to free. */
+static char *joined(const char *a, slice b, report *r)
 {
-    const int n = length > 0 && name[0] == '/' ? snprintf(out, size, "%.*s", (int)length, name)
-                                               : snprintf(out, size, "%s%.*s", folder, (int)length, name);
-    return (n >= 0 && (size_t)n < size) || report_fail(r, "%s: a name is too long", folder);
+    const size_t n = strlen(a);
+    char *out = malloc(n + b.size + 1);
+    if (out == NULL) {
+        report_fail(r, "%s: out of memory", a);
+        return NULL;
+    }
+    memcpy(out, a, n);
+    memcpy(out + n, b.at, b.size);
+    out[n + b.size] = '\0';
+    return out;
+}
+
+static char *with(const char *a, const char *b, report *r)
+{
+    const slice s = {b, strlen(b)};
+    return joined(a, s, r);
+}
+
+/* A name beside the list; NULL with `r` set. The caller's to free. */
+static char *beside(const char *folder, slice name, report *r)
+{
+    return joined(is_rooted(name) ? "" : folder, name, r);
 }
 
 /* --- TUM's lists -------------------------------------------------------------------------------------------------- */
@@ -77,8 +105,8 @@ static int read_line(stamped_list *out, cursor *c, int has_names, report *r)
     }
     int ok = slice_number(&line.time, s) && isfinite(line.time);
     if (ok && has_names) {
-        ok = text_token(&s, c) && s.size < sizeof line.name;
-        memcpy(line.name, s.at, ok ? s.size : 0);
+        text_rest(&line.name, c);
+        ok = line.name.size > 0 && memchr(line.name.at, 0, line.name.size) == NULL;
     }
     for (int i = 0; i < 7 && ok && !has_names; ++i) {
         ok = text_token(&s, c) && slice_number(&line.value[i], s);
@@ -118,19 +146,16 @@ static int sort(stamped_list *l, report *r)
 
 static int read_stamped(stamped_list *out, const char *folder, const char *name, int has_names, report *r)
 {
-    char path[600];
-    file_bytes file;
+    char *path = with(folder, name, r);
     memset(out, 0, sizeof *out);
-    snprintf(path, sizeof path, "%s%s", folder, name);
-    if (!file_read(&file, path, r)) {
-        return 0;
+    int ok = path != NULL && file_read(&out->file, path, r);
+    if (ok) {
+        cursor c = text_open(out->file.data, out->file.size, path);
+        do {
+            ok = read_line(out, &c, has_names, r);
+        } while (ok && text_next_line(&c));
     }
-    cursor c = text_open(file.data, file.size, path);
-    int ok = 1;
-    do {
-        ok = read_line(out, &c, has_names, r);
-    } while (ok && text_next_line(&c));
-    file_free(&file);
+    free(path);
     return ok && sort(out, r);
 }
 
@@ -172,7 +197,7 @@ static void pose_of(double out[16], const double v[7])
     memcpy(out, m, sizeof m);
 }
 
-static int join(mix_list *out, const stamped_list l[3], const char *folder, report *r)
+static int join(mix_list *out, const stamped_list l[3], report *r)
 {
     for (int32_t i = 0; i < l[0].count; ++i) {
         const stamped *photo = &l[0].line[i], *depth = nearest(&l[1], photo->time), *pose = nearest(&l[2], photo->time);
@@ -182,10 +207,11 @@ static int join(mix_list *out, const stamped_list l[3], const char *folder, repo
             continue;
         }
         mix_entry *e = add(out, r);
-        if (e == NULL || !beside(e->photo, sizeof e->photo, folder, photo->name, strlen(photo->name), r) ||
-            !beside(e->depth, sizeof e->depth, folder, depth->name, strlen(depth->name), r)) {
+        if (e == NULL || (e->photo = beside(out->folder, photo->name, r)) == NULL ||
+            (e->depth = beside(out->folder, depth->name, r)) == NULL) {
             return 0;
         }
+        e->is_rooted = is_rooted(photo->name) || is_rooted(depth->name);
         pose_of(e->pose, pose->value);
     }
     out->unread = l[0].unread + l[1].unread + l[2].unread;
@@ -196,35 +222,85 @@ static int read_tum(mix_list *out, const char *folder, report *r)
 {
     stamped_list l[3];
     memset(l, 0, sizeof l);
-    const int ok = read_stamped(&l[0], folder, "rgb.txt", 1, r) && read_stamped(&l[1], folder, "depth.txt", 1, r) &&
-                   read_stamped(&l[2], folder, "groundtruth.txt", 0, r) && join(out, l, folder, r);
+    out->folder = with(folder, "", r);
+    const int ok = out->folder != NULL && read_stamped(&l[0], folder, "rgb.txt", 1, r) &&
+                   read_stamped(&l[1], folder, "depth.txt", 1, r) &&
+                   read_stamped(&l[2], folder, "groundtruth.txt", 0, r) && join(out, l, r);
     for (int i = 0; i < 3; ++i) {
         free(l[i].line);
         free(l[i].by_time);
+        file_free(&l[i].file);
     }
     return ok;
 }
 
 /* --- prefixes ----------------------------------------------------------------------------------------------------- */
 
-static int read_prefixes(mix_list *out, const char *path, report *r)
+static int is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/* Is there a frame of this prefix? */
+static int is_frame(const char *prefix, report *r)
 {
-    char folder[512];
-    file_bytes file;
-    const char *last = strrchr(path, '/');
-    const size_t n = last != NULL ? (size_t)(last + 1 - path) : 0;
-    if (!file_read(&file, path, r)) {
+    static const char *const endings[] = {".json", ".color.png", ".color.jpg", ".color.pfm"};
+    int found = 0;
+    for (size_t i = 0; !found && i < sizeof endings / sizeof *endings; ++i) {
+        report none = {""};
+        char *name = with(prefix, endings[i], r);
+        if (name == NULL) {
+            return 0;
+        }
+        found = file_is_plain(name, &none);
+        free(name);
+    }
+    return found;
+}
+
+/* A line of a list. Blanks around a prefix belong to it only if there is such a frame. */
+static int read_prefix(mix_list *out, slice line, report *r)
+{
+    slice bare = line;
+    while (bare.size > 0 && is_blank(bare.at[0])) {
+        ++bare.at;
+        --bare.size;
+    }
+    while (bare.size > 0 && is_blank(bare.at[bare.size - 1])) {
+        --bare.size;
+    }
+    if (bare.size == 0 || bare.at[0] == '#') {
+        return 1;
+    }
+    mix_entry *e = add(out, r);
+    if (e == NULL || (e->prefix = beside(out->folder, line, r)) == NULL) {
         return 0;
     }
-    int ok = beside(folder, sizeof folder, "", path, n, r);
-    cursor c = text_open(file.data, file.size, path);
-    do {
-        slice s;
-        if (ok && text_token(&s, &c)) {
-            mix_entry *e = add(out, r);
-            ok = e != NULL && beside(e->prefix, sizeof e->prefix, folder, s.at, s.size, r);
-        }
-    } while (text_next_line(&c));
+    e->is_rooted = is_rooted(line);
+    if (bare.size < line.size && !is_frame(e->prefix, r)) {
+        free(e->prefix);
+        e->prefix = beside(out->folder, bare, r);
+        e->is_rooted = is_rooted(bare);
+    }
+    return e->prefix != NULL && r->text[0] == '\0';
+}
+
+static int read_prefixes(mix_list *out, const char *path, report *r)
+{
+    file_bytes file;
+    const char *last = strrchr(path, '/');
+    const slice folder = {path, last != NULL ? (size_t)(last + 1 - path) : 0};
+    out->folder = beside("", folder, r);
+    if (out->folder == NULL || !file_read(&file, path, r)) {
+        return 0;
+    }
+    const int breaks = file.size > 0 && memchr(file.data, 0, file.size) != NULL ? '\0' : '\n';
+    const char *at = (const char *)file.data, *end = at + file.size;
+    at += file.size >= 3 && memcmp(at, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    int ok = 1;
+    while (ok && at < end) {
+        const char *stop = memchr(at, breaks, (size_t)(end - at));
+        const slice line = {at, (size_t)((stop != NULL ? stop : end) - at)};
+        ok = read_prefix(out, line, r);
+        at = stop != NULL ? stop + 1 : end;
+    }
     file_free(&file);
     return ok;
 }
@@ -237,21 +313,29 @@ static int fail_empty(const mix_list *l, const char *path, report *r)
                : report_fail(r, "%s: lists no frame", path);
 }
 
-int mix_list_read(mix_list *out, const char *path, report *r)
+/* Which of both lists a folder has. */
+static int read_list(mix_list *out, const char *path, const char *folder, const char *tum, const char *own, report *r)
 {
-    char folder[512], name[600];
     report none = {""};
-    memset(out, 0, sizeof *out);
-    snprintf(folder, sizeof folder, "%s%s", path, path[0] != '\0' && path[strlen(path) - 1] == '/' ? "" : "/");
-    snprintf(name, sizeof name, "%srgb.txt", folder);
-    const int is_tum = file_is_plain(name, &none);
-    snprintf(name, sizeof name, "%sframes.txt", folder);
-    const int is_folder = file_is_plain(name, &none);
+    const int is_tum = file_is_plain(tum, &none), is_folder = file_is_plain(own, &none);
     if (!is_tum && !is_folder && file_is_folder(path)) {
         return report_fail(r, "%s: a folder with neither frames.txt nor TUM's rgb.txt; name one, or a list of PREFIXes", path);
     }
-    const int ok = (is_tum ? read_tum(out, folder, r) : read_prefixes(out, is_folder ? name : path, r)) &&
-                   (out->count > 0 || fail_empty(out, path, r));
+    return (is_tum ? read_tum(out, folder, r) : read_prefixes(out, is_folder ? own : path, r)) &&
+           (out->count > 0 || fail_empty(out, path, r));
+}
+
+int mix_list_read(mix_list *out, const char *path, report *r)
+{
+    const size_t n = strlen(path);
+    memset(out, 0, sizeof *out);
+    char *folder = with(path, n > 0 && path[n - 1] == '/' ? "" : "/", r);
+    char *tum = folder != NULL ? with(folder, "rgb.txt", r) : NULL;
+    char *own = folder != NULL ? with(folder, "frames.txt", r) : NULL;
+    const int ok = tum != NULL && own != NULL && read_list(out, path, folder, tum, own, r);
+    free(folder);
+    free(tum);
+    free(own);
     if (!ok) {
         mix_list_free(out);
     }

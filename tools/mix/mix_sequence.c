@@ -12,10 +12,12 @@
 #include "mix_next.h"
 #include "mix_run.h"
 
-static int read_entry(mix_job *j, const mix_entry *e, report *r)
+/* `folder`: of the list. */
+static int read_entry(mix_job *j, const mix_entry *e, const char *folder, report *r)
 {
     mix_source *s = &j->o.source;
-    if (e->prefix[0] != '\0') {
+    s->folder = e->is_rooted ? "" : folder;
+    if (e->prefix != NULL) {
         s->frame = e->prefix;
         return mix_frame_read(&j->frame, s, r);
     }
@@ -57,11 +59,23 @@ typedef struct sequence {
     mix_ready next;
     report why_next;                   /* next.job is NULL: why it cannot be used */
     int32_t at, unwritten;             /* of the list: the frame that is drawn; the last one drawn, or -1: it is written */
+    int32_t width, height;             /* of the first photo that was read; 0: none was */
     int is_drawn, is_written;
     int is_over;                       /* the machine has no more memory or open files: `failed` */
     int32_t left_out, run, last_out;   /* frames: all, those since one was drawn, the number of the last one */
     report why, failed, first;         /* first: why the first one is left out that is */
 } sequence;
+
+/* Depth, planes and light are kept from frame to frame, so all have the size of the first. */
+static int has_size(sequence *s, const mix_entry *e, const mix_frame *f, report *r)
+{
+    s->width = s->width > 0 ? s->width : f->camera.width;
+    s->height = s->height > 0 ? s->height : f->camera.height;
+    return (f->camera.width == s->width && f->camera.height == s->height) ||
+           report_fail(r, "%s: %d x %d pixels, and the first frame has %d x %d; frames of a sequence have one size",
+                       e->prefix != NULL ? e->prefix : e->photo, (int)f->camera.width, (int)f->camera.height,
+                       (int)s->width, (int)s->height);
+}
 
 static void read_at(sequence *s, int32_t at)
 {
@@ -77,7 +91,13 @@ static void read_at(sequence *s, int32_t at)
     j->kept = &s->kept;
     j->spare = &s->spare;
     j->aside = &s->aside;
-    if (!read_entry(j, &s->list.entry[at], &s->why_next)) {
+    const mix_entry *e = &s->list.entry[at];
+    if (!read_entry(j, e, s->list.folder, &s->why_next)) {
+        free(j);
+        return;
+    }
+    if (!has_size(s, e, &j->frame, &s->why_next)) {
+        mix_frame_free(&j->frame);
         free(j);
         return;
     }
@@ -172,12 +192,15 @@ static int keep_inputs(const mix_list *list, report *r)
     int ok = 1;
     for (int32_t i = 0; ok && i < list->count; ++i) {
         const mix_entry *e = &list->entry[i];
-        for (size_t k = 0; ok && e->prefix[0] != '\0' && k < sizeof endings / sizeof *endings; ++k) {
-            char name[sizeof e->prefix + 16];
-            snprintf(name, sizeof name, "%s%s", e->prefix, endings[k]);
+        const size_t size = e->prefix != NULL ? strlen(e->prefix) + sizeof ".color.png" : 0;
+        char *name = size > 0 ? malloc(size) : NULL;
+        ok = size == 0 || name != NULL || report_fail(r, "out of memory");
+        for (size_t k = 0; ok && name != NULL && k < sizeof endings / sizeof *endings; ++k) {
+            snprintf(name, size, "%s%s", e->prefix, endings[k]);
             ok = file_keep(name, r);
         }
-        ok = ok && (e->prefix[0] != '\0' || (file_keep(e->photo, r) && file_keep(e->depth, r)));
+        free(name);
+        ok = ok && (e->prefix != NULL || (file_keep(e->photo, r) && file_keep(e->depth, r)));
     }
     return ok;
 }

@@ -186,6 +186,18 @@ static int pass_on(model_build *b, const report *why)
     return report_is_system(why) ? report_fail_system(b->r, "%s", why->text) : 0;
 }
 
+/* Bytes of the model's path before its own name. */
+static size_t folder_size(const model_build *b)
+{
+    const char *slash = strrchr(b->path, '/');
+#if defined(_WIN32)
+    const char *back = strrchr(b->path, '\\');
+    if (back && (!slash || back > slash))
+        slash = back;
+#endif
+    return slash ? (size_t)(slash - b->path) + 1 : 0;
+}
+
 static int read_neighbour(model_build *b, file_bytes *out, const char *path, report *r)
 {
     char tidy[MODEL_PATH_MAX];
@@ -198,6 +210,8 @@ static int read_neighbour(model_build *b, file_bytes *out, const char *path, rep
             *out = b->neighbours[i].file;
             return 1;
         }
+    if (!file_is_below(path, b->path, folder_size(b), r))
+        return 0;
     if (strcmp(path, "-") == 0)
         return report_fail(r, "-: a file of this name beside the model is not read");
     if (!file_is_plain(path, r))
@@ -240,14 +254,7 @@ int build_is_relative(const char *name)
 
 int build_sibling(char *out, size_t cap, const model_build *b, const char *name, report *r)
 {
-    const char *slash = strrchr(b->path, '/');
-    size_t folder, n = strlen(name);
-#if defined(_WIN32)
-    const char *back = strrchr(b->path, '\\');
-    if (back && (!slash || back > slash))
-        slash = back;
-#endif
-    folder = slash ? (size_t)(slash - b->path) + 1 : 0;
+    const size_t folder = folder_size(b), n = strlen(name);
     if (folder >= cap || n >= cap - folder)
         return report_fail(r, "%s: a path beside it is longer than %u bytes; move the model", b->path, (unsigned)cap);
     memcpy(out, b->path, folder);

@@ -1,7 +1,6 @@
 /* verb_pack.c: `lambent pack`: a scene as one file to use in place, or as a C array. */
 #include "verb_pack.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +11,7 @@
 #include "../common/options.h"
 #include "../demo/demo_scene.h"
 #include "../model/io_lmt.h"
+#include "c_name.h"
 #include "pack.h"
 
 typedef struct options {
@@ -22,8 +22,6 @@ typedef struct options {
     int32_t is_big, order, textures;
     int is_quiet, is_verbose, has_report, is_glossy;
 } options;
-
-enum { NAME = 64 };
 
 #define AT(member) .at = offsetof(options, member)
 
@@ -37,7 +35,8 @@ static const option_row rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
      .help = ".lmp: a file to load or map; .c: the same words as an array to link"},
     {.name = "--name", .value = "NAME", .kind = OPTION_TEXT, AT(name),
-     .help = "of the array (default: by the file's name)"},
+     .help = "of the array, which has to suit C, C++ and their libraries (default: the file's name up to its first "
+             "dot, with _ for what is no letter or digit; if that suits none, scene_ stands before it)"},
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(choice.scene),
      .help = "of a file with several scenes: which, by name or number"},
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
@@ -61,6 +60,7 @@ static const option_row rows[] = {
     {.name = "--endian", .kind = OPTION_WORD, AT(is_big), .words = endians,
      .help = "byte order of the machine that reads the file (default: of this one)"},
     {.name = "--report", .kind = OPTION_FLAG, AT(has_report), .help = "bytes of the file, part by part"},
+    OPTION_ONLY_HERE,
     OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took"),
     OPTION_ASK,
     {.kind = OPTION_END},
@@ -187,28 +187,19 @@ static int is_code(const char *path)
     return n > 2 && strcmp(path + n - 2, ".c") == 0;
 }
 
-/* Of the array: what was asked for, or the file's name in letters, digits and _, behind `scene_` where it begins with
- * none. */
-static int array_name(char out[NAME], const options *o, report *r)
+/* Of the array: what was asked for, or by the file's name. */
+static int array_name(char out[C_NAME], const options *o, report *r)
 {
-    const char *from = o->name, *slash;
-    size_t n = 0;
-    int ok = 1;
-    if (from == NULL) {
-        slash = strrchr(o->out, '/');
-        from = slash != NULL ? slash + 1 : o->out;
-        if (isalpha((unsigned char)*from) == 0) {
-            n = (size_t)snprintf(out, NAME, "scene_");
-        }
+    const char *wrong = o->name != NULL ? c_name_check(o->name) : NULL;
+    if (wrong != NULL) {
+        return report_fail_usage(r, "--name: `%s` is no name in C and C++: %s; give another one", o->name, wrong);
     }
-    for (; *from != '\0' && n < NAME - 1 && (o->name != NULL || *from != '.'); ++from) {
-        const int is_letter = isalnum((unsigned char)*from) != 0 || *from == '_';
-        ok &= is_letter || o->name == NULL;
-        out[n++] = (char)(is_letter ? *from : '_');
+    if (o->name != NULL) {
+        strcpy(out, o->name);
+    } else {
+        c_name_of(out, o->out);
     }
-    out[n] = '\0';
-    ok &= n > 0 && (*from == '\0' || o->name == NULL) && isdigit((unsigned char)out[0]) == 0;
-    return ok || report_fail_usage(r, "--name: `%s` is no name in C; letters, digits and _", o->name != NULL ? o->name : out);
+    return 1;
 }
 
 static void tell(const options *o, const pack *p, const lmb_pack *opened, size_t size, int is_new)
@@ -235,7 +226,7 @@ static int write_out(const options *o, const pack *p, int is_new, report *r)
 {
     file_bytes file = {NULL, 0};
     lmb_pack opened;
-    char name[NAME];
+    char name[C_NAME];
     int ok = (!is_code(o->out) || array_name(name, o, r)) && pack_file(&file, p, r) &&
              (lmb_pack_open(&opened, file.data, file.size) == LMB_OK || report_fail(r, "what was packed does not open"));
     if (ok && o->is_big != is_own_big()) {

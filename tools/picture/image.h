@@ -36,6 +36,9 @@ int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t heigh
 int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_t height, report *r);
 
 int pfm_decode(image *out, const uint8_t *data, size_t size, const char *name, report *r);
+/* pfm_figures: what the header of a PFM that was decoded says: *scale, over 0, by which stored values are multiplied,
+ * and whether the low byte comes first. 0: no PFM. */
+int pfm_figures(float *scale, int *is_little, const uint8_t *data, size_t size);
 int pfm_encode(file_bytes *out, const image *in, report *r); /* little-endian, bottom row first */
 /* hdr_decode: Radiance RGBE from memory, coded either way or not at all, in any of its eight orientations, always 3
  * channels; EXPOSURE and COLORCORR are divided out. At most 16 MiB and 1024 bytes a byte of file. */

@@ -90,6 +90,17 @@ static int read_header(pfm_header *h, const uint8_t *data, size_t size, const ch
     return 1;
 }
 
+int pfm_figures(float *scale, int *is_little, const uint8_t *data, size_t size)
+{
+    report unheard = {""};
+    pfm_header h;
+    memset(&h, 0, sizeof h);
+    if (!read_header(&h, data, size, "", &unheard)) return 0;
+    *scale = h.scale;
+    *is_little = h.little_endian;
+    return 1;
+}
+
 static float get_float(const uint8_t *p, int little_endian)
 {
     uint32_t bits = little_endian ? get_u32_le(p) : get_u32_be(p);

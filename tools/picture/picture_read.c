@@ -5,6 +5,7 @@
 
 #include "../common/progress.h"
 #include "io_jpeg.h"
+#include "io_pam.h"
 #include "io_png.h"
 #include "io_ppm_read.h"
 
@@ -38,6 +39,7 @@ static const picture_kind kinds[] = {
     {"JPEG", is_jpeg, jpeg_decode, NULL},
     {"PGM", is_grey_map, ppm_decode, NULL},
     {"PPM", is_ppm, ppm_decode, NULL},
+    {"PAM", is_pam, pam_decode, NULL},
     {"PFM", is_pfm, NULL, pfm_decode},
     {"HDR", is_hdr, NULL, hdr_decode},
 };
@@ -84,7 +86,6 @@ static const foreign_kind foreign_kinds[] = {
     {"QOI", MAGIC("qoif"), "magick in.qoi out.png"},
     {"PBM", MAGIC("P1\n"), "pnmtopng in.pbm > out.png"},
     {"PBM", MAGIC("P4\n"), "pnmtopng in.pbm > out.png"},
-    {"PAM", MAGIC("P7\n"), "pamtopng in.pam > out.png"},
 };
 
 /* TGA has no mark at its start, but most files end in one. */
@@ -112,7 +113,7 @@ static int refuse(const uint8_t *data, size_t size, const char *name, report *r)
     if (f)
         return report_fail(r, "%s: this picture is %s, which is not read; convert it, for example: %s", name, f->format,
                            f->advice);
-    return report_fail(r, "%s: not a PNG, JPEG, PPM, PGM, PFM or Radiance HDR picture, by its first bytes", name);
+    return report_fail(r, "%s: not a PNG, JPEG, PPM, PGM, PAM, PFM or Radiance HDR picture, by its first bytes", name);
 }
 
 /* --- channels --- */
@@ -165,6 +166,8 @@ static int32_t code_channels(const picture_kind *kind, const uint8_t *data, size
 {
     if (kind->read_codes == png_decode)
         return png_channels(data, map);
+    if (kind->read_codes == pam_decode)
+        return pam_channels(data, size);
     return kind->read_codes == jpeg_decode ? jpeg_channels(data, size) : is_grey_map(data, size) ? 1 : 3;
 }
 

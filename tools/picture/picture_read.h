@@ -1,4 +1,4 @@
-/* picture_read.h: any picture file, known by its content: PNG, JPEG, PPM, PGM, PFM or Radiance HDR. Files of other
+/* picture_read.h: any picture file, known by its content: PNG, JPEG, PPM, PGM, PAM, PFM or Radiance HDR. Files of other
  * kinds are refused with a line that says what they are and what converts them. */
 #ifndef PICTURE_READ_H
 #define PICTURE_READ_H

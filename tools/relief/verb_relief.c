@@ -65,6 +65,7 @@ static const option_row rows[] = {
      .help = HELP("draws the complex model too, and prints speed and errors side by side")},
     OPTION_BACKEND_ROW(relief_options, kernels),
     OPTION_THREADS_ROW(relief_options, threads, "draw the picture"),
+    OPTION_ONLY_HERE,
     OPTION_LOUDNESS(relief_options, view.is_quiet, view.is_verbose, "say how long what took"),
     OPTION_ASK,
     {.kind = OPTION_END},

@@ -60,6 +60,7 @@ static const option_row rows[] = {
      .help = "its simple model: cubes of this size that hold a point of a photo (default 1/24 of all)"},
     {.kind = OPTION_TITLE, .help = "other"},
     OPTION_THREADS_ROW(options, threads, "draw the views"),
+    OPTION_ONLY_HERE,
     OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long what took"),
     OPTION_ASK,
     {.kind = OPTION_END},

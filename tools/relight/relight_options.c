@@ -170,6 +170,7 @@ static const option_row picture_rows[] = {
      .help = HELP("stops, display formats only (default auto: said on stderr)")},
     OPTION_BACKEND_ROW(relight_options, kernels),
     OPTION_THREADS_ROW(relight_options, threads, "draw the objects' picture"),
+    OPTION_ONLY_HERE,
     OPTION_LOUDNESS(relight_options, view.is_quiet, view.is_verbose, "say how long what took"),
     OPTION_ASK,
     {.kind = OPTION_END},

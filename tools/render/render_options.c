@@ -357,6 +357,7 @@ const option_row render_other_rows[] = {
     OPTION_THREADS_ROW(render_options, threads, "draw the picture"),
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
      .help = HELP("time by stage, counts, bytes")},
+    OPTION_ONLY_HERE,
     OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose,
                     "say what it draws with, and how long each stage took"),
     OPTION_ASK,

@@ -1,0 +1,198 @@
+# strangers.sh: files of strangers: names with control characters, references that leave a folder, a limit of time.
+. tests/cli/common.sh
+
+# --- names: nothing that a terminal obeys, nothing that turns or hides the text beside it, no line of its own ---
+
+# ESC ] 0 and BEL, C1 as UTF-8 and as a bare byte, an override, an isolate, two marks, a line break, what ends a comment
+# and what a page or a trigraph would take for its own.
+odd=$(printf 'o\033]0;x\007y\302\233\233z\342\200\256\342\201\246\342\200\216\330\234\nq*?\?\\<b>&"'"'")
+text=$(printf 'o\033]0;x\007y\302\233\233z\342\200\256\342\201\246\342\200\216\330\234q')
+name='o\u001b]0;x\u0007\u009bz\u202e\u2066\u200e\u061c\nq*/<b>&\"'"'$(printf '\302\233\342\200\256')"
+
+# clean WHAT FILE...: no such byte is in it, and all is UTF-8.
+clean() {
+    what=$1
+    shift
+    for each in "$@"; do
+        if [ ! -f "$each" ]; then
+            fail "$what: there is no $each"
+        elif od -An -v -tx1 "$each" | tr '\n' ' ' | grep -qE \
+            ' (0[0-9b-f]|1[0-9a-f]|7f|c2 +[89][0-9a-f]|d8 +9c|e2 +80 +(8[ef]|a[89a-e])|e2 +81 +a[0-9a-f])'; then
+            fail "$what: a control character or mark in $each"
+        elif ! iconv -f UTF-8 -t UTF-8 "$each" >/dev/null; then
+            fail "$what: $each is not UTF-8"
+        else
+            pass
+        fi
+    done
+}
+
+# says WANTED ARGUMENT...: the exit status, and what it prints is clean.
+says() {
+    wanted=$1
+    shift
+    "$TOOL" "$@" >out.txt 2>err.txt
+    got=$?
+    [ $got -eq "$wanted" ] && pass || fail "$1: exit status $got, not $wanted: $(head -n 1 err.txt)"
+    clean "$1 $2" out.txt err.txt
+}
+
+photo
+cat >odd.gltf <<GLTF
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"name":"$name","nodes":[0,1]}],"nodes":[{"mesh":0,"name":"$name"},
+{"camera":0,"name":"$name"}],"cameras":[{"name":"$name","type":"perspective","perspective":{"yfov":1,"znear":0.1}}],
+"extensionsUsed":["$name","$(printf 'plain\233')"],"materials":[{"name":"$name","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+"textures":[{"source":0}],"images":[{"uri":"$name.png"}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]}
+GLTF
+cp odd.gltf "$odd.gltf"
+printf 'mtllib %s.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl %s\nf 1 2 3\n' "$text" "$text" >odd.obj
+printf 'ply\nformat ascii 1.0\ncomment %s\nelement vertex 1\nproperty %s x\nend_header\n0\n' "$text" "$text" >odd.ply
+cp odd.obj "$odd.obj"
+cp photo.pfm "$odd.pfm"
+for model in odd.gltf "$odd.gltf" "$odd.obj"; do
+    says 0 info "$model"
+    says 0 info "$model" --json
+    says 0 render "$model" $small -v --stats odd.json -o "$odd.png"
+    clean "render's statistics" odd.json
+    says 0 plan "$model" --size 32x24
+    says 0 plan "$model" --size 32x24 --json
+done
+"$TOOL" info "$odd.gltf" --json >out.txt
+check "a name stays in JSON, by escapes" holds 'o\u001b]0;x\u0007y\u009b\ufffdz\u202e\u2066\u200e\u061c\u000aq*?' out.txt
+says 1 info odd.ply
+says 0 bake "$odd.obj" -v --elements 64 --receivers 64 -o "$odd.lmt"
+says 0 bake "$odd.obj" --to probes -o "$odd.json"
+clean "the probes" "$odd.json"
+says 0 info "$odd.lmt"
+says 0 pack "$odd.obj" -v --report -o "$odd.c"
+clean "the packed scene" "$odd.c"
+says 0 play "$odd.obj" $few --frames 1 --stats odd.json -o "$odd%02d.png"
+clean "play's statistics" odd.json
+says 0 capture "$odd.obj" --at 0.2,0.2,1 --faces 8 -o "$odd.hdr"
+says 0 relight --world "$odd.hdr" --object "$odd.obj" --size 16x16 -v -o "$odd.png"
+says 0 mix $seen --object "$odd.obj" --scale 0.2 --at 8,12 --shadow-map 64 --voxels 4 -v -o "$odd.png"
+says 1 mix --frame "$odd" $tent -o "$odd.png"
+says 0 relief bake "$odd.obj" --size 16 --triangles 8 -v -o "$odd.lmr"
+says 0 relief render "$odd.lmr" --size 16x16 -v -o "$odd.png"
+says 0 info "$odd.lmr" --json
+says 0 compare -v "$odd.pfm" photo.pfm
+says 1 compare "$odd" photo.pfm
+says 2 compare photo.pfm photo.pfm --max "mean=$text"
+says 0 bench "$odd.obj" --size 24x24 --shadow-map 64 --sweep tree=8,16 --runs 1 --truth "$odd.pfm" -v -o "$odd-table" --svg "$odd.svg"
+clean "the tables" "$odd-table.html" "$odd-table.csv" "$odd-table.json" "$odd.svg"
+says 1 merge "$odd" -o joined.png
+says 2 "$odd"
+says 2 render "--$odd" -o x.png
+says 2 render demo --show "$odd" -o x.png
+says 1 bench "$odd"
+printf '%s\n' "$text" >names.txt
+says 1 mix --frames names.txt $tent -o frame_%02d.png
+
+# --- references: with --only-here none leaves the folder of the file that has it ---
+
+mkdir -p in/sub out
+status 0 render demo --size 8x8 --shadow-map 64 --show direct --exposure 0 -q -o out/t.png
+cp out/t.png in/sub/t.png
+ln -s ../out in/folder
+ln -s ../out/t.png in/link.png
+ln -s sub/t.png in/own.png
+ln -s ../in/sub in/around
+printf '\000\000\000\000\000\000\000\000\000\000\000\000\000\000\200\077\000\000\000\000\000\000\000\000\000\000\000\000\000\000\200\077\000\000\000\000' >out/t.bin
+cp out/t.bin in/sub/t.bin
+ln -s ../out/t.bin in/link.bin
+obj() { # MTLLIB MAP
+    printf 'mtllib %s\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n' "$1" >in/m.obj
+    printf 'newmtl a\nKd 1 1 1\nmap_Kd %s\n' "$2" >in/m.mtl
+    cp in/m.mtl out/m.mtl
+}
+gltf() { # BUFFER IMAGE
+    printf '{"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"meshes":[{"primitives":[{"attributes":
+{"POSITION":0},"material":0}]}],"materials":[{"pbrMetallicRoughness":{"metallicFactor":0,"baseColorTexture":{"index":0}}}],"textures":
+[{"source":0}],"images":[{"uri":"%s"}],"buffers":[{"byteLength":36,"uri":"%s"}],"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]}' "$2" "$1" >in/m.gltf
+}
+# textures MODEL OPTION...: how many are read.
+textures() { "$TOOL" info "$@" 2>err.txt | sed -n 's/^textures .*read: \([0-9]*\) .*/\1/p'; }
+inside="sub/t.png own.png ./sub/../sub/t.png around/t.png"
+outside="../out/t.png folder/t.png link.png sub/../../out/t.png ../in/sub/t.png around/../../out/t.png $PWD/out/t.png $PWD/in/sub/t.png"
+for map in $inside; do
+    obj m.mtl "$map" && gltf sub/t.bin "$map"
+    check "$map is inside" test "$(textures in/m.obj --only-here)$(textures in/m.gltf --only-here)$(cd in && textures m.obj --only-here)" = 111
+done
+for map in $outside; do
+    obj m.mtl "$map" && gltf sub/t.bin "$map"
+    check "$map is outside" test "$(textures in/m.obj --only-here)$(textures in/m.gltf --only-here)$(cd in && textures m.obj --only-here)" = 000
+    status 0 render in/m.obj $small --only-here -q -o here.png
+done
+obj m.mtl ../out/t.png && gltf sub/t.bin ../out/t.png
+check "without --only-here both are read" test "$(textures in/m.obj)$(textures in/m.gltf)" = 11
+"$TOOL" render in/m.obj $small --only-here -o here.png >out.txt 2>err.txt
+check "what is refused has one line" test "$(grep -c 'no file in or below its folder (--only-here)' err.txt)" = 1
+for library in ../out/m.mtl folder/m.mtl; do
+    obj "$library" sub/t.png && check "$library is outside" test "$(textures in/m.obj --only-here)" = 0
+done
+for buffer in ../out/t.bin link.bin folder/t.bin sub/%2e%2e/../../out/t.bin gone.bin; do
+    gltf "$buffer" sub/t.png
+    status 1 info in/m.gltf --only-here
+    said "no file in or below its folder (--only-here)"
+done
+for verb in "render in/m.gltf $few -o x.png" "plan in/m.gltf --size 8x8" "play in/m.gltf $few --frames 1" "pack in/m.gltf -o x.lmp" \
+    "bake in/m.gltf -o x.lmt" "capture in/m.gltf --at 0,0,1 -o x.hdr" "relief bake in/m.gltf -o x.lmr" \
+    "relight --world demo --object in/m.gltf -o x.png" "mix $seen --object in/m.gltf --scale 0.2 --at 8,12 -o x.png"; do
+    gltf link.bin sub/t.png
+    status 1 $verb --only-here
+    said "no file in or below its folder (--only-here)"
+done
+for part in color.pfm depth.pfm; do cp wall.pfm "in/f.$part" && cp wall.pfm "out/f.$part"; done
+printf '{"fx": 30, "fy": 30, "cx": 11.5, "cy": 11.5, "depth_unit_mm": 1000, "camera_to_world": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}' >in/f.json
+cp in/f.json out/f.json
+for prefix in ../out/f folder/f "$PWD/out/f" "$PWD/in/f"; do
+    printf 'f\n%s\n' "$prefix" >in/list.txt
+    status 1 mix --frames in/list.txt $tent --only-here -q -o listed_%01d.pfm
+    said "1 of 2 frames are left out, the first because"
+    said "no file in or below its folder (--only-here)"
+    status 0 mix --frames in/list.txt $tent -q -o listed_%01d.pfm
+done
+printf '1 f.color.pfm\n2 ../out/f.color.pfm\n' >in/rgb.txt && printf '1 f.depth.pfm\n2 f.depth.pfm\n' >in/depth.txt
+printf '1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n' >in/groundtruth.txt
+status 1 mix --frames in $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 --only-here -q -o listed_%01d.pfm
+said "1 of 2 frames are left out, the first because in/../out/f.color.pfm: no file in or below"
+
+# --- a limit of time: one line, status 1, and nothing that this command wrote ---
+
+mkdir -p late
+box
+white
+late() {
+    rm -rf late && mkdir late
+    begun=$(date +%s)
+    status 1 "$@" --time-limit 0.3
+    said "--time-limit 0.3: the time is over"
+    check "lambent $1: ends soon" test $(($(date +%s) - begun)) -lt 20
+    check "lambent $1: leaves nothing" test -z "$(ls -A late)"
+}
+late render demo --size 2000x2000 --quality best -q -o late/x.png --stats late/x.json
+late play demo --size 64x48 --quality draft --frames 100000 -q -o late/f%06d.png
+late bake demo -q -o late/x.lmt
+late bake demo --to lightmap -q -o late/x.glb
+late plan demo --size 2000x2000 --budget-error 0.001
+late capture demo --at 0.5,1,0.5 --faces 512 -q -o late/x.hdr --ground late/g.hdr
+late relight --world demo --object demo --size 4000x4000 --samples 16 -q -o late/x.png
+late relief bake tent.obj --size 512 --views 48 -q -o late/x.lmr
+late bench demo --size 800x600 -q -o late/table
+mkfifo pipe.glb
+late info pipe.glb
+late pack pipe.glb -q -o late/x.lmp
+late compare pipe.glb photo.pfm
+status 0 render demo $small --time-limit 1e5 -q -o in-time.png
+status 0 render demo $small -q -o plain.png
+check "a limit changes no byte" cmp in-time.png plain.png
+for seconds in 0 -1 nan inf 1e99 x ''; do
+    status 2 render demo $small -o bad.png --time-limit "$seconds"
+done
+
+finish
