@@ -123,6 +123,41 @@ static void test_refused(void)
     CHECK(open_with(at_part(LMB_PACK_TRACKS, 1), 200, bytes) == LMB_ERR_FORMAT);
 }
 
+/* Parts that share a byte with another one or with the table. The one that moves is of an unknown kind, so that nothing
+ * else is wrong with the file. */
+static void test_overlaps(void)
+{
+    const uint32_t bytes = (uint32_t)make_small(), parts = words[3], last = parts - 3; /* KEYS, behind most of them */
+    uint32_t *table = words + LMB_PACK_HEADER_WORDS, *own = table + LMB_PACK_PART_WORDS * last, refused = 0;
+    lmb_pack p;
+    own[0] = 9999;
+    CHECK(open_with(0, words[0], bytes) == LMB_OK);
+    const uint32_t at = own[1], size = own[2];
+    for (uint32_t i = 0; i < parts; ++i) {
+        const uint32_t *other = table + LMB_PACK_PART_WORDS * i;
+        if (i != last) {
+            own[2] = 4;
+            own[1] = other[1] + other[2] - 4;
+            refused += lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT;
+            own[1] = other[1];
+            refused += lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT;
+            own[2] = 0;
+            CHECK(lmb_pack_open(&p, words, bytes) == LMB_OK); /* nothing shares nothing */
+        }
+    }
+    CHECK_MSG(refused == 2 * (parts - 1), "%u of %u", (unsigned)refused, (unsigned)(2 * (parts - 1)));
+    own[1] = at;
+    own[2] = size + 4;
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT); /* into the one behind it */
+    own[1] = at - 4;
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT);
+    own[1] = 4 * LMB_PACK_HEADER_WORDS; /* the table */
+    own[2] = 4;
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT);
+    own[1] = 4 * (LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * (parts - 1));
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT);
+}
+
 /* Each word as something else: what opens can be drawn. */
 static void test_damaged(void)
 {
@@ -520,6 +555,7 @@ void test_pack(void)
     test_checksum();
     test_in_place();
     test_refused();
+    test_overlaps();
     test_damaged();
     test_moves();
     test_formats();
