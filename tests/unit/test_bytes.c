@@ -1,5 +1,5 @@
-/* test_bytes.c: every public call that returns bytes, at the limits of what it takes: the true sum, or 0 where a size_t does
- * not hold it. `make cross-bytes-i386` runs it where a size_t has 32 bits. */
+/* test_bytes.c: every public call that returns bytes, at the limits of what it takes: the true sum, or 0 where a size_t
+ * does not hold it. `make cross-bytes-i386` runs it where a size_t has 32 bits. */
 #include <lambent/lambent.h>
 
 #include <string.h>
