@@ -14,7 +14,7 @@
  *        1  0x01020304                       4 .. 6  0
  *        2  bytes of the file                7  FNV-1a, 32 bits, of all other bytes; 0: not told
  *                                            8  of each part: kind, offset, bytes, 0
- * No kind stands twice; unknown kinds are passed over. Records, in words; floats are binary32:
+ * No kind stands twice, parts lie behind the table and apart; unknown kinds are passed over. Records, in words; floats are binary32:
  *   SCENE      bounds_min, bounds_max; lmb_core: low, high, wide_low, wide_high, faces; then 0
  *   MESHES     vertices, triangles, position_format | uv_format << 8 | index_format << 16 | tangent_format << 24,
  *              offsets of positions, normals, tangents, uvs, colours, indices; position_scale, position_offset,
@@ -92,15 +92,16 @@ extern "C" {
 /* lmb_pack_open: check a .lmp and find its parts. Nothing is copied: `data` stays as long as `out` and its scenes.
  *
  * Returns LMB_OK, LMB_ERR_ARG (null), LMB_ERR_ALIGN (data not on 4 bytes), LMB_ERR_FORMAT (no .lmp of version 1, the other
- * byte order, cut off, an offset, index or number that may not be). `out` is then all 0. No number of a file that it takes
- * leads outside: vertex indices are checked, too; word 7 is not, which `lambent` does. The parts TRANSFER and VERTEX_LIGHT are checked by who opens them.
+ * byte order, cut off, parts that overlap, an offset, index or number that may not be). `out` is then all 0. No number of
+ * a file that it takes leads outside: vertex indices are checked, too; word 7 is not, which `lambent` does. The parts
+ * TRANSFER and VERTEX_LIGHT are checked by who opens them.
  * Cost: one pass over indices and records; vertices and texels are not read. */
 lmb_status lmb_pack_open(lmb_pack *out, const void *data, size_t bytes);
 
 /* lmb_pack_part: a part in place and its bytes; NULL and 0: there is none. */
 const void *lmb_pack_part(const lmb_pack *pack, int32_t kind, size_t *bytes);
 
-/* lmb_pack_bytes: memory that lmb_pack_scene takes. */
+/* lmb_pack_bytes: memory that lmb_pack_scene takes; 0: null, an empty scene, or more than this target can address. */
 size_t lmb_pack_bytes(const lmb_pack *pack);
 
 /* lmb_pack_scene: the scene; its structs in `memory`, its streams and texels in the file.

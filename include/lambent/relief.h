@@ -7,7 +7,7 @@
  *     direct light, gathers, lmb_compose_tile           as ever
  *
  * A .lmr, version 1. All but the texels is in the byte order that word 1 tells; offsets are bytes from the file's
- * start, multiples of 4.
+ * start, multiples of 4; no two arrays share a byte.
  *   word  0  the bytes L M R 1            word  8  offset of positions, 3 floats a vertex
  *         1  0x01020304                         9  of normals, octahedral, 2 int16 a vertex
  *         2  bytes of the file                 10  of colours, RGBA8 linear; 0: none
@@ -82,8 +82,8 @@ extern "C" {
 /* lmb_relief_open: check a .lmr and find its parts. Nothing is copied: `data` stays as long as `out`.
  *
  * Returns LMB_OK, LMB_ERR_ARG (null), LMB_ERR_ALIGN (data not on 4 bytes), LMB_ERR_FORMAT (no .lmr of version 1, cut
- * off, the other byte order: lmb_relief_swap; a view or offset that is none), LMB_ERR_CAPACITY (more views than
- * LMB_RELIEF_VIEWS): then `out` is untouched. Every file that it takes is safe to draw: draws check each index. */
+ * off, the other byte order: lmb_relief_swap; a view or offset that is none, arrays that overlap), LMB_ERR_CAPACITY
+ * (more views than LMB_RELIEF_VIEWS): then `out` is untouched. Every file that it takes is safe to draw: draws check each index. */
 lmb_status lmb_relief_open(lmb_relief *out, const void *data, size_t bytes);
 
 /* lmb_relief_swap: turn a file of the other byte order into one of this target's, in RAM. Files of its own stay.

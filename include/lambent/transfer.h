@@ -226,7 +226,8 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes);
 void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene, const uint32_t *moving, uint32_t count);
 lmb_status lmb_transfer_fits(const lmb_transfer *transfer, const lmb_scene *scene);
 
-/* lmb_transfer_light_bytes: memory of the light: about 50 bytes an element, 12 a receiver, 36 a cluster. 0: null.
+/* lmb_transfer_light_bytes: memory of the light: about 50 bytes an element, 12 a receiver, 36 a cluster. 0: null, or
+ * more than this target can address.
  * lmb_transfer_light_init: lay it out. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 size_t lmb_transfer_light_bytes(const lmb_transfer *transfer);
 lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *transfer, void *memory, size_t bytes);

@@ -4,6 +4,9 @@
 
 #include <lambent/types.h>
 
+/* A sum of bytes in 64 bits as a size; 0: more than this target can address. */
+static inline size_t size_or_none(uint64_t bytes) { return bytes <= SIZE_MAX ? (size_t)bytes : 0; }
+
 /* For arrays of 32-bit numbers. needed 0: more than this target can address. */
 static inline lmb_status check_memory(const void *memory, size_t bytes, size_t needed)
 {

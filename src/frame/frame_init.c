@@ -226,7 +226,7 @@ static lmb_status place_transfer(lmb_frame *f, block *b)
     const size_t bytes = lmb_transfer_light_bytes(f->transfer);
     void *memory = take(b, bytes), *places = NULL;
     if (f->many_lights != NULL) {
-        places = take(b, f->transfer->count[LMB_TRANSFER_AREAS] * sizeof(lmb_transfer_place));
+        places = take(b, (uint64_t)sizeof(lmb_transfer_place) * f->transfer->count[LMB_TRANSFER_AREAS]);
     }
     if (bytes == 0 || is_measured(b)) {
         return bytes == 0 ? LMB_ERR_ARG : LMB_OK;

@@ -196,6 +196,12 @@ static int are_nodes(const lmb_pack *p)
 
 /* --- the whole ---------------------------------------------------------------------------------------------------- */
 
+/* Where the table of parts ends, in bytes. */
+static uint32_t table_end(const uint32_t *word)
+{
+    return 4 * (LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * word[PARTS]);
+}
+
 static int is_header(const uint32_t *word, size_t bytes)
 {
     uint32_t rest = 0;
@@ -207,7 +213,22 @@ static int is_header(const uint32_t *word, size_t bytes)
     for (int i = RESERVED; i < LMB_PACK_HEADER_WORDS - 1; ++i) { /* the last one is the tool's checksum */
         rest |= word[i];
     }
-    return rest == 0 && 4 * (LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * word[PARTS]) <= word[SIZE];
+    return rest == 0 && table_end(word) <= word[SIZE];
+}
+
+/* Does a part share no byte with the table of parts and with those before it? All of them lie in the file. */
+static int is_apart(const uint32_t *data, uint32_t i)
+{
+    const uint32_t *part = data + LMB_PACK_HEADER_WORDS, *own = part + LMB_PACK_PART_WORDS * (size_t)i;
+    if (own[2] == 0) {
+        return 1;
+    }
+    for (; part < own; part += LMB_PACK_PART_WORDS) {
+        if (part[2] > 0 && own[1] < part[1] + part[2] && part[1] < own[1] + own[2]) {
+            return 0;
+        }
+    }
+    return own[1] >= table_end(data);
 }
 
 static int find_parts(source *s)
@@ -215,7 +236,7 @@ static int find_parts(source *s)
     lmb_pack *p = s->pack;
     for (uint32_t i = 0; i < p->data[PARTS]; ++i) {
         const uint32_t *w = p->data + LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * (size_t)i, kind = w[0];
-        if (!holds(s, w[1], w[2]) || w[3] != 0 || kind == 0) {
+        if (!holds(s, w[1], w[2]) || !is_apart(p->data, i) || w[3] != 0 || kind == 0) {
             return 0;
         }
         if (kind >= LMB_PACK_KINDS) {
@@ -301,24 +322,28 @@ const void *lmb_pack_part(const lmb_pack *pack, int32_t kind, size_t *bytes)
 
 /* --- the scene ---------------------------------------------------------------------------------------------------- */
 
-/* Where the arrays lie in the caller's memory: those with pointers first. */
+/* Where the arrays lie in the caller's memory: those with pointers first. In 64 bits, as on small targets the sum may be
+ * more than a size_t holds. */
 typedef struct layout {
-    size_t meshes, textures, materials, instances, lights, bytes;
+    uint64_t meshes, textures, materials, instances, lights, bytes;
 } layout;
 
 static layout lay_out(const lmb_pack *p)
 {
     layout l;
     l.meshes = 0;
-    l.textures = l.meshes + p->count[LMB_PACK_MESHES] * sizeof(lmb_mesh);
-    l.materials = l.textures + p->count[LMB_PACK_TEXTURES] * sizeof(lmb_texture);
-    l.instances = l.materials + p->count[LMB_PACK_MATERIALS] * sizeof(lmb_material);
-    l.lights = l.instances + p->count[LMB_PACK_INSTANCES] * sizeof(lmb_instance);
-    l.bytes = l.lights + p->count[LMB_PACK_LIGHTS] * sizeof(lmb_light);
+    l.textures = l.meshes + (uint64_t)p->count[LMB_PACK_MESHES] * sizeof(lmb_mesh);
+    l.materials = l.textures + (uint64_t)p->count[LMB_PACK_TEXTURES] * sizeof(lmb_texture);
+    l.instances = l.materials + (uint64_t)p->count[LMB_PACK_MATERIALS] * sizeof(lmb_material);
+    l.lights = l.instances + (uint64_t)p->count[LMB_PACK_INSTANCES] * sizeof(lmb_instance);
+    l.bytes = l.lights + (uint64_t)p->count[LMB_PACK_LIGHTS] * sizeof(lmb_light);
     return l;
 }
 
-size_t lmb_pack_bytes(const lmb_pack *pack) { return pack != NULL && pack->data != NULL ? lay_out(pack).bytes : 0; }
+size_t lmb_pack_bytes(const lmb_pack *pack)
+{
+    return pack != NULL && pack->data != NULL ? size_or_none(lay_out(pack).bytes) : 0;
+}
 
 static lmb_status check_pack(const lmb_pack *pack, const void *memory, size_t bytes)
 {
@@ -328,7 +353,7 @@ static lmb_status check_pack(const lmb_pack *pack, const void *memory, size_t by
     if ((uintptr_t)memory % sizeof(void *) != 0) {
         return LMB_ERR_ALIGN;
     }
-    return check_memory(memory, bytes, lmb_pack_bytes(pack) > 0 ? lmb_pack_bytes(pack) : 1);
+    return check_memory(memory, bytes, lay_out(pack).bytes > 0 ? lmb_pack_bytes(pack) : 1);
 }
 
 static void take_instances(lmb_instance *out, const lmb_pack *p)

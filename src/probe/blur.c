@@ -25,7 +25,8 @@ static size_t words(int32_t width, int32_t height, int32_t terms)
 
 size_t lmb_probe_blur_bytes(const lmb_probe_table *table, int32_t terms)
 {
-    return table != NULL && terms >= 0 && terms <= 2 ? 4 * words(table->width, table->height, terms) : 0;
+    const int is_table = table != NULL && lmb_probe_table_bytes(table->width, table->height) > 0;
+    return is_table && terms >= 0 && terms <= 2 ? 4 * words(table->width, table->height, terms) : 0;
 }
 
 static float *column_of(const lmb_probe_blur *b, int32_t term, int32_t row)

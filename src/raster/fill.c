@@ -19,20 +19,40 @@ typedef struct masked_surface {
     int32_t x, y; /* of the tile at hand, px */
 } masked_surface;
 
-/* The alpha from which on pixel (x, y) of the tile shows a surface that blends: 1/512 .. 511/512, by Bayer's 8 x 8.
+/* A number of 32 bits that looks random, of a surface and a square of pixels. */
+static uint32_t hash_square(uint32_t own, uint32_t x, uint32_t y)
+{
+    const uint32_t place = x * 2246822519u + y * 3266489917u;
+    uint32_t h = (own ^ place) * 668265263u;
+    h = (h ^ h >> 15) * 2246822519u;
+    return h ^ h >> 13;
+}
+
+/* The rank of a pixel among 64: that of its quarter of the square of 8 x 8, of 4 x 4 and of 2 x 2, the smallest first as
+ * Bayer has it. The quarters of each square are in an order of the surface's own. So each surface fills every square
+ * evenly, and surfaces in front of each other are independent: by the same or shifted ranks, three layers of 0.25 would
+ * cover 0.25 to 0.75 and not 0.58. */
+static uint32_t rank_of(uint32_t own, uint32_t x, uint32_t y)
+{
+    uint32_t rank = 0;
+    for (int bit = 2; bit >= 0; --bit) {
+        const uint32_t right = x >> bit & 1u, low = y >> bit & 1u, quarter = (right ^ low) << 1 | low;
+        const uint32_t order = hash_square(own + (uint32_t)bit, x >> (bit + 1), y >> (bit + 1)) >> 30;
+        rank |= (quarter ^ order) << (4 - 2 * bit);
+    }
+    return rank;
+}
+
+/* The alpha from which on pixel (x, y) of the tile shows a surface that blends: 1/512 .. 511/512.
  *
  * The samples of a pixel lie in different columns, one in each of as many strips as there are samples, and so do their
- * thresholds. Each triangle begins elsewhere, and with several samples each of its pixels takes the quarters in an order
- * of its own: by the same thresholds a nearer surface would hide what blends behind it. */
+ * thresholds. With several samples each pixel takes the quarters in an order of its own as well. */
 static float threshold(const masked_surface *s, const lmb_view *v, int32_t x, int32_t y)
 {
-    const int32_t a = x ^ y, rank = (a & 1) << 5 | (y & 1) << 4 | (a & 2) << 2 | (y & 2) << 1 | (a & 4) >> 1 |
-                                    (y & 4) >> 2;
-    const uint32_t own = s->id * 2654435761u;
-    const uint32_t place = (uint32_t)(s->x + x) * 2246822519u + (uint32_t)(s->y + y) * 3266489917u;
-    const uint32_t mixed = ((own ^ place) >> 15 ^ own ^ place) * 668265263u;
-    const uint32_t quarter = (v->sample_x | v->sample_y) != 0 ? mixed >> 30 : 0;
-    const uint32_t at = (uint32_t)(v->sample_x + 128 + 4 * rank) + 4 * (own >> 26) + 64 * quarter;
+    const uint32_t own = s->id * 2654435761u, px = (uint32_t)(s->x + x), py = (uint32_t)(s->y + y);
+    const uint32_t quarter = (v->sample_x | v->sample_y) != 0 ? hash_square(own + 3, px, py) >> 30 : 0;
+    const uint32_t part = hash_square(own + 4, px >> 3, py >> 3) >> 30; /* of a rank, other squares other ones */
+    const uint32_t at = (uint32_t)(v->sample_x + 128) + 4 * rank_of(own, px, py) + part + 64 * quarter;
     return ((float)(at & 255u) + 0.5f) * (1.0f / 256.0f);
 }
 

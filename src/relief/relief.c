@@ -178,6 +178,55 @@ static lmb_status check_header(const source *s)
     return LMB_OK;
 }
 
+typedef struct range {
+    uint64_t at, bytes;
+} range;
+
+enum { ARRAYS = 5 }; /* besides the views' texels */
+
+/* Where array i lies, or the texels of view i - ARRAYS. */
+static range range_of(const source *s, uint32_t i)
+{
+    const uint64_t vertices = header(s, VERTICES), corners = 3 * (uint64_t)header(s, TRIANGLES);
+    range r = {0, 0};
+    switch (i) {
+    case 0: r.at = header(s, RECORDS), r.bytes = (uint64_t)header(s, VIEWS) * VIEW_BYTES; break;
+    case 1: r.at = header(s, POSITIONS), r.bytes = 12 * vertices; break;
+    case 2: r.at = header(s, NORMALS), r.bytes = 4 * vertices; break;
+    case 3: r.at = header(s, COLOURS), r.bytes = r.at != 0 ? 4 * vertices : 0; break;
+    case 4: r.at = header(s, INDICES), r.bytes = corners * (header(s, INDEX_FORMAT) == LMB_INDEX_U16 ? 2 : 4); break;
+    default: {
+        const uint64_t record = header(s, RECORDS) + (uint64_t)(i - ARRAYS) * VIEW_BYTES;
+        const uint64_t width = word_at(s, record + 4 * V_WIDTH), height = word_at(s, record + 4 * V_HEIGHT);
+        r.at = word_at(s, record + 4 * V_TEXELS);
+        r.bytes = texel_bytes(header(s, FORMAT), width * height);
+    }
+    }
+    return r;
+}
+
+static int overlaps(range a, range b)
+{
+    return a.bytes > 0 && b.bytes > 0 && a.at < b.at + b.bytes && b.at < a.at + a.bytes;
+}
+
+/* Do no two share a byte? Views are compared with each other only if there are no more than lmb_relief_open takes:
+ * so the time grows no faster than the file. */
+static int are_apart(const source *s)
+{
+    const uint32_t views = header(s, VIEWS), all = ARRAYS + views;
+    for (uint32_t i = 1; i < all; ++i) {
+        const range own = range_of(s, i);
+        const uint32_t past = i < ARRAYS || views <= LMB_RELIEF_VIEWS ? i : ARRAYS;
+        for (uint32_t k = 0; k < past; ++k) {
+            if (overlaps(own, range_of(s, k))) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
 /* Every offset and every number, in either byte order. */
 static lmb_status check_file(source *s, const void *data, size_t bytes)
 {
@@ -208,7 +257,7 @@ static lmb_status check_file(source *s, const void *data, size_t bytes)
             return LMB_ERR_FORMAT;
         }
     }
-    return LMB_OK;
+    return are_apart(s) ? LMB_OK : LMB_ERR_FORMAT;
 }
 
 static void set_mesh(lmb_mesh *m, const source *s)
@@ -299,7 +348,7 @@ static void turn(uint8_t *p, uint64_t count, int size)
     }
 }
 
-/* Bytes of sections that overlap would be swapped twice, so the swapped file is checked again. */
+/* Sections do not overlap, so that no byte is swapped twice. */
 lmb_status lmb_relief_swap(void *data, size_t bytes)
 {
     source s;

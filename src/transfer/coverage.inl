@@ -66,14 +66,16 @@ static void KERNEL(transfer_share)(float out[LMB_TRANSFER_SHARING][LMB_TRANSFER_
         const lane one = lane_splat(1.0f);
         const lane x = lane_add(lane_splat(at[0]), lane_load(share_column + k));
         const lane y = lane_add(lane_splat(at[1]), lane_load(share_row + k));
-        lane cover[LMB_TRANSFER_SHARING], reach[LMB_TRANSFER_SHARING], part[LMB_TRANSFER_SHARING];
+        lane cover[LMB_TRANSFER_SHARING], part[LMB_TRANSFER_SHARING];
         lane all = lane_splat(0.0f);
         for (int32_t i = 0; i < count; ++i) {
-            cover[i] = reach[i] = one;
+            lane reach = one;
+            cover[i] = one;
             if (shown[i].id != 0) {
-                share_cover(&cover[i], &reach[i], &shown[i], x, y);
+                share_cover(&cover[i], &reach, &shown[i], x, y);
             }
             part[i] = cover[i];
+            lane_store(out[i] + k, reach); /* until the end: three arrays of 512 bits were over the stack's budget */
         }
         for (int32_t i = 0; i < count; ++i) {
             for (int32_t j = 0; j < i; ++j) {
@@ -85,7 +87,7 @@ static void KERNEL(transfer_share)(float out[LMB_TRANSFER_SHARING][LMB_TRANSFER_
             }
         }
         for (int32_t i = 0; i < count; ++i) {
-            part[i] = lane_add(part[i], lane_mul(reach[i], lane_splat(SHARE_REACH)));
+            part[i] = lane_add(part[i], lane_mul(lane_load(out[i] + k), lane_splat(SHARE_REACH)));
             all = lane_add(all, part[i]);
         }
         for (int32_t i = 0; i < count; ++i) {

@@ -14,12 +14,14 @@
 
 size_t lmb_transfer_light_bytes(const lmb_transfer *t)
 {
-    return t == NULL || t->section[0] == NULL
-               ? 0
-               : t->count[LMB_TRANSFER_AREAS] * (size_t)36 + t->nodes * (size_t)8 +
-                     t->count[LMB_TRANSFER_RECEIVERS] * (size_t)12 + t->count[LMB_TRANSFER_CLUSTERS] * (size_t)36 +
-                     t->count[LMB_TRANSFER_COARSE] * sizeof(lmb_transfer_coarse) +
-                     LMB_TRANSFER_PARTS * sizeof(lmb_transfer_part);
+    if (t == NULL || t->section[0] == NULL) {
+        return 0;
+    }
+    return size_or_none((uint64_t)36 * t->count[LMB_TRANSFER_AREAS] + (uint64_t)8 * t->nodes +
+                        (uint64_t)12 * t->count[LMB_TRANSFER_RECEIVERS] +
+                        (uint64_t)36 * t->count[LMB_TRANSFER_CLUSTERS] +
+                        (uint64_t)sizeof(lmb_transfer_coarse) * t->count[LMB_TRANSFER_COARSE] +
+                        LMB_TRANSFER_PARTS * sizeof(lmb_transfer_part));
 }
 
 lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *t, void *memory, size_t bytes)

@@ -26,7 +26,7 @@ static struct memory {
     lmb_band_scratch scratch;
     lmb_render render;
     uint64_t lights[LIGHT_CELLS * 700 / 8];
-} memory;
+} memory GOLDEN_ALIGNED;
 /* First points, or the tree of a shadow map in their place: one face, or more that are smaller. */
 static union light_memory {
     lmb_point points[POINTS];
@@ -35,10 +35,10 @@ static union light_memory {
         lmb_node nodes[(TREE * TREE - 1) / 3];
         lmb_view view;
     } tree;
-} light_memory;
-static uint32_t point_cells[MAP / 4 * (MAP / 4) + 1];
+} light_memory GOLDEN_ALIGNED;
+static uint32_t point_cells[MAP / 4 * (MAP / 4) + 1] GOLDEN_ALIGNED;
 static lmb_points points = {light_memory.points, POINTS, 0, point_cells, MAP / 4 * (MAP / 4) + 1, 0, NULL, 0, 0};
-static uint32_t bvh_memory[TRIANGLES * 29 + 1024], element_memory[ELEMENTS * 44 + 64];
+static uint32_t bvh_memory[TRIANGLES * 29 + 1024] GOLDEN_ALIGNED, element_memory[ELEMENTS * 44 + 64] GOLDEN_ALIGNED;
 const lmb_kernels *golden_kernels;
 static const golden_way *way;
 
@@ -102,9 +102,9 @@ static uint64_t hash_groups(uint64_t h)
 
 /* --- a scene of random triangles, some masked, some textured ------------------------------------------------------ */
 
-static float soup_positions[TRIANGLES * 9], soup_uvs[TRIANGLES * 6];
-static uint32_t soup_colours[TRIANGLES * 3];
-static uint32_t soup_texels[16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1];
+static float soup_positions[TRIANGLES * 9] GOLDEN_ALIGNED, soup_uvs[TRIANGLES * 6] GOLDEN_ALIGNED;
+static uint32_t soup_colours[TRIANGLES * 3] GOLDEN_ALIGNED;
+static uint32_t soup_texels[16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1] GOLDEN_ALIGNED;
 static lmb_texture soup_texture;
 static lmb_mesh soup_meshes[2];
 static const lmb_material soup_materials[2] = {
@@ -641,7 +641,7 @@ static uint64_t case_cut(int variant)
  * room, by groups; 1: of the soup, by cuts, where hardly a pixel explains another. */
 static uint64_t case_adaptive(int variant)
 {
-    static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024];
+    static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024] GOLDEN_ALIGNED;
     lmb_frame f = variant ? soup_frame(1, 8) : demo_frame();
     f.show = LMB_SHOW_INDIRECT;
     f.gather_step = LMB_GATHER_ADAPTIVE;

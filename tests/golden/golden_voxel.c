@@ -9,7 +9,7 @@
 
 enum { VOXELS = 5600, MAP = 32, TRIANGLES = 40 };
 
-static float voxel_memory[VOXELS * (1 + LMB_VOXEL_COVER + LMB_VOXEL_LIGHT)];
+static float voxel_memory[VOXELS * (1 + LMB_VOXEL_COVER + LMB_VOXEL_LIGHT)] GOLDEN_ALIGNED;
 
 typedef struct voxel_space {
     uint32_t map[MAP * MAP * 2];

@@ -11,7 +11,8 @@ LEVELS        := O0 O1 O2 O3 Os
 some = GOLDENS="$(EACH:%=-DGOLDEN_EACH=% -DGOLDEN_FROM=$(1))"
 MORE_CROSS_TARGETS := $(filter-out gcc-O2,$(LEVELS:%=gcc-%)) gcc-native $(LEVELS:%=clang-%) tcc \
                  i386 clang-i386 windows clang-windows clang-msvc clang-aarch64 armhf clang-armhf armel mipsel clang-mips \
-                 powerpc ppc64 ppc64le clang-ppc64le riscv64 clang-riscv64 s390x clang-s390x cortex-m7 cortex-m55 neon
+                 powerpc ppc64 ppc64le clang-ppc64le riscv64 clang-riscv64 s390x clang-s390x sparc64 m68k hppa cortex-m7 \
+                 cortex-m55 neon bytes-i386
 
 # --- this machine: compilers, and what their optimisers do differently ------------------------------------------------
 
@@ -36,6 +37,10 @@ i386            := -m32 -msse2 -mfpmath=sse -I/usr/include/x86_64-linux-gnu
 # By qemu, as a 64-bit kernel may run no 32-bit programs.
 needs_i386       := gcc gcc-m32 qemu-i386
 how_i386         := CC="gcc $(i386)" RUN=qemu-i386
+# Sums of bytes where a size_t has 32 bits.
+needs_bytes-i386 := $(needs_i386)
+how_bytes-i386   := $(how_i386) TEST_SRC=tests/unit/test_bytes.c
+goal_bytes-i386  := unit
 needs_clang-i386 := clang gcc-m32 qemu-i386
 how_clang-i386   := CC="clang $(i386)" RUN=qemu-i386
 
@@ -72,6 +77,12 @@ $(eval $(call linux,mipsel,mipsel-linux-gnu,qemu-mipsel))
 $(eval $(call linux,powerpc,powerpc-linux-gnu,qemu-ppc))
 $(eval $(call linux,ppc64,powerpc64-linux-gnu,qemu-ppc64))
 $(eval $(call linux,ppc64le,powerpc64le-linux-gnu,qemu-ppc64le))
+$(eval $(call linux,hppa,hppa-linux-gnu,qemu-hppa))
+# gcc 12 ends in an internal error when it takes a struct of eight floats that a function gets apart.
+$(eval $(call linux,sparc64,sparc64-linux-gnu,qemu-sparc64,CFLAGS="-O2 -fno-ipa-sra"))
+# The 68881 of a 68020 computes float with excess precision, which exact.h refuses; the 68040 rounds each result.
+needs_m68k := m68k-linux-gnu-gcc qemu-m68k
+how_m68k   := CC="m68k-linux-gnu-gcc -m68040" LDFLAGS=-static RUN=qemu-m68k
 $(eval $(call linux,riscv64,riscv64-linux-gnu,qemu-riscv64))
 # Every kernel of AArch64 against plain C's. (gcc 12 for AArch64 fails on another module's tests.)
 needs_neon := $(needs_aarch64)

@@ -19,6 +19,9 @@ packages_of() {
     powerpc64le-linux-gnu-gcc) echo gcc-powerpc64le-linux-gnu libc6-dev-ppc64el-cross ;;
     riscv64-linux-gnu-gcc) echo gcc-riscv64-linux-gnu libc6-dev-riscv64-cross ;;
     s390x-linux-gnu-gcc) echo gcc-s390x-linux-gnu libc6-dev-s390x-cross ;;
+    sparc64-linux-gnu-gcc) echo gcc-sparc64-linux-gnu libc6-dev-sparc64-cross ;;
+    m68k-linux-gnu-gcc) echo gcc-m68k-linux-gnu libc6-dev-m68k-cross ;;
+    hppa-linux-gnu-gcc) echo gcc-hppa-linux-gnu libc6-dev-hppa-cross ;;
     gcc-m32) echo gcc-12-multilib libc6-dev-i386 ;;
     x86_64-w64-mingw32-gcc) echo gcc-mingw-w64-x86-64-win32 ;;
     arm-none-eabi-gcc) echo gcc-arm-none-eabi ;;

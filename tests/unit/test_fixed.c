@@ -353,6 +353,72 @@ static void test_light(void)
     CHECK_MSG(most_off < 1.2, "direct light is off by %g codes", most_off);
 }
 
+/* A frame without bounces, by a blob of so many units a metre, whose places see all. */
+static void make_open(lmb_fixed *s, lmb_fixed_frame *f, int which, uint32_t units_log2, uint32_t intensity)
+{
+    make_frame(s, f, which);
+    uint32_t *seen = words + SMALL_FIXED_WORDS - SMALL_FIXED_RECEIVERS;
+    for (int i = 0; i < SMALL_FIXED_RECEIVERS; ++i) {
+        seen[i] = 0x07ffffffu;
+    }
+    words[2] = units_log2;
+    CHECK(lmb_fixed_open(s, words, sizeof words) == LMB_OK);
+    f->bounces = 0;
+    f->lamp.intensity[0] = f->lamp.intensity[1] = f->lamp.intensity[2] = intensity;
+}
+
+/* Where a unit is a metre most lamps' light is under the smallest step, by up to more bits than a word has. */
+static void test_dim(void)
+{
+    lmb_fixed s;
+    lmb_fixed_frame f;
+    for (uint32_t bit = 0; bit < 15; ++bit) {
+        int wrong = 0, dark = 0;
+        make_open(&s, &f, (int)bit % 4, 0, 1u << bit);
+        CHECK(lmb_fixed_transform(&f) == LMB_OK && lmb_fixed_light(&f) == LMB_OK);
+        for (uint32_t i = 0; i < s.vertices; ++i) {
+            fixed_receiver r;
+            double far2 = 0.0;
+            fixed_receiver_at(&r, &s, i);
+            for (int k = 0; k < 3; ++k) {
+                far2 += (double)(f.lamp.position[k] - r.at[k]) * (f.lamp.position[k] - r.at[k]);
+            }
+            if ((f.vertex[i].flags & FIXED_USED) != 0 && (double)(1u << bit) * 16.0 / far2 < 2.0) { /* of 65,536 */
+                ++dark;
+                for (int c = 0; c < 3; ++c) {
+                    wrong += f.vertex[i].colour[c] != FIXED_LEAST;
+                }
+            }
+        }
+        CHECK_MSG(wrong == 0 && dark > 30, "intensity %u: %d of %d", 1u << bit, wrong, dark);
+    }
+}
+
+/* A lamp close to a vertex is over the largest step there, however many bits are lost. */
+static void test_dazzling(void)
+{
+    lmb_fixed s;
+    lmb_fixed_frame f;
+    int wrong = 0, lit = 0;
+    for (uint32_t n = 0; n < 20 * SMALL_FIXED_VERTICES; n += 3) {
+        const uint32_t i = n % SMALL_FIXED_VERTICES, near = n / SMALL_FIXED_VERTICES;
+        fixed_receiver r;
+        make_open(&s, &f, (int)i % 4, 16, (1u << 20) - 1 - 977 * i - 31 * near);
+        fixed_receiver_at(&r, &s, i);
+        for (int k = 0; k < 3; ++k) {
+            f.lamp.position[k] = r.at[k] + r.normal[k] / 127 * (near < 12 ? 1 : (int32_t)near);
+        }
+        if (lmb_fixed_transform(&f) != LMB_OK || lmb_fixed_light(&f) != LMB_OK) {
+            ++wrong;
+        }
+        for (int c = 0; c < 3 && (f.vertex[i].flags & FIXED_USED) != 0; ++c) {
+            wrong += f.vertex[i].colour[c] != FIXED_MOST;
+            ++lit;
+        }
+    }
+    CHECK_MSG(wrong == 0 && lit > 1000, "%d of %d", wrong, lit);
+}
+
 /* Links: a bounce more is never darker, and light scales with its lamp. */
 static void test_bounces(void)
 {
@@ -485,6 +551,8 @@ void test_fixed(void)
     test_hull();
     test_views();
     test_light();
+    test_dim();
+    test_dazzling();
     test_bounces();
     test_one_link();
     test_refused();

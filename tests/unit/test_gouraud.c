@@ -5,6 +5,7 @@
 
 #include "../../src/base/codec.h"
 #include "../../src/gouraud/gouraud_fill.h"
+#include "../../src/gouraud/gouraud_light.h"
 #include "../small_transfer.h"
 
 void test_gouraud(void);
@@ -211,6 +212,111 @@ static void casts_shadows(void)
     }
 }
 
+/* One square around `middle`, along two axes, under a light of its own. */
+static struct {
+    float corner[4][3];
+    lmb_mesh mesh;
+    lmb_material material;
+    lmb_instance instance;
+    lmb_light light;
+    lmb_scene scene;
+} alone;
+
+static lmb_gouraud square_under(lmb_vec3 middle, lmb_vec3 u, lmb_vec3 v)
+{
+    static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
+    lmb_gouraud g;
+    memset(&g, 0, sizeof g);
+    for (int i = 0; i < 4; ++i) {
+        const lmb_vec3 at = add3(middle, add3(mul3(u, i == 1 || i == 2 ? 1.0f : -1.0f), mul3(v, i < 2 ? -1.0f : 1.0f)));
+        alone.corner[i][0] = at.x, alone.corner[i][1] = at.y, alone.corner[i][2] = at.z;
+    }
+    memset(&alone.mesh, 0, sizeof alone.mesh);
+    memset(&alone.material, 0, sizeof alone.material);
+    memset(&alone.instance, 0, sizeof alone.instance);
+    memset(&alone.scene, 0, sizeof alone.scene);
+    alone.mesh.positions = alone.corner;
+    alone.mesh.indices = indices;
+    alone.mesh.index_format = LMB_INDEX_U32;
+    alone.mesh.vertex_count = 4;
+    alone.mesh.triangle_count = 2;
+    alone.material.flags = LMB_DOUBLE_SIDED;
+    alone.material.alpha = 1.0f;
+    alone.material.texture = -1;
+    alone.instance.first_id = 1;
+    for (int i = 0; i < 4; ++i) {
+        alone.instance.to_world.m[5 * i] = 1.0f;
+    }
+    alone.scene.meshes = &alone.mesh;
+    alone.scene.materials = &alone.material;
+    alone.scene.instances = &alone.instance;
+    alone.scene.lights = &alone.light;
+    alone.scene.mesh_count = alone.scene.material_count = alone.scene.instance_count = alone.scene.light_count = 1;
+    lmb_scene_bounds(&alone.scene.bounds_min, &alone.scene.bounds_max, &alone.scene);
+    CHECK(lmb_scene_check(&alone.scene) == LMB_OK);
+    CHECK(lmb_shadow_map_init(&map, &alone.light, &alone.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) ==
+          LMB_OK);
+    CHECK(lmb_gouraud_map(&map, &scratch, &alone.scene) == LMB_OK);
+    g.scene = &alone.scene;
+    g.maps = &map;
+    return g;
+}
+
+static void light_alone(int32_t kind, lmb_vec3 direction)
+{
+    memset(&alone.light, 0, sizeof alone.light);
+    alone.light.kind = kind;
+    alone.light.direction = direction;
+    alone.light.intensity[0] = 1.0f;
+}
+
+/* A point light in the middle: what lies behind the square is dark, on that one side of the six. */
+static void shadows_by_face(void)
+{
+    light_alone(LMB_LIGHT_POINT, vec3(0, 0, 0));
+    for (int side = 0; side < 6; ++side) {
+        const lmb_vec3 axes[3] = {X, Y, Z};
+        const float sign = side % 2 ? -1.0f : 1.0f;
+        const lmb_gouraud g = square_under(mul3(axes[side / 2], 0.5f * sign), mul3(axes[(side / 2 + 1) % 3], 0.1f),
+                                           mul3(axes[(side / 2 + 2) % 3], 0.1f));
+        CHECK(map.faces == 6);
+        for (int to = 0; to < 6; ++to) {
+            const lmb_vec3 way = mul3(axes[to / 2], to % 2 ? -1.0f : 1.0f);
+            float behind[3] = {0, 0, 0}, near[3] = {0, 0, 0};
+            lmb_gouraud_direct(behind, &g, mul3(way, 0.9f), mul3(way, -1.0f), 0, 0);
+            lmb_gouraud_direct(near, &g, mul3(way, 0.4f), mul3(way, -1.0f), 0, 0);
+            CHECK_MSG(fabsf(behind[0] - (to == side ? 0.0f : 1.0f / 0.81f)) < 1e-5f, "square %d, face %d: %g", side, to,
+                      (double)behind[0]);
+            CHECK_MSG(fabsf(near[0] - 1.0f / 0.16f) < 1e-4f, "square %d, face %d: %g", side, to, (double)near[0]);
+        }
+    }
+}
+
+/* A square that lies aslant lights up all over, and all that is behind it is dark: by a point light and by a sun. */
+static void lights_slopes(void)
+{
+    for (int i = 0; i < 24; ++i) {
+        const lmb_vec3 sun = normalize3(vec3(0.3f * (float)(i % 3 - 1), -1.0f, 0.4f * (float)(i / 3 % 2) - 0.2f));
+        const lmb_vec3 n = normalize3(vec3(0.5f - 0.2f * (float)(i % 4), 0.7f, i % 2 ? -0.4f : 0.3f));
+        const lmb_vec3 u = normalize3(cross3(n, vec3(0, 0.1f, 1))), v = cross3(n, u);
+        const lmb_vec3 middle = vec3(0.05f, -1.0f, -0.1f);
+        light_alone(i < 12 ? LMB_LIGHT_POINT : LMB_LIGHT_DIRECTIONAL, sun);
+        const lmb_gouraud g = square_under(middle, mul3(u, 0.9f), mul3(v, 0.9f));
+        int dark = 0, bright = 0;
+        for (int k = 0; k < 17 * 17; ++k) {
+            const float a = 0.1f * (float)(k % 17 - 8), b = 0.1f * (float)(k / 17 - 8);
+            const lmb_vec3 at = add3(middle, add3(mul3(u, a), mul3(v, b)));
+            const lmb_vec3 way = i < 12 ? at : sun, under = add3(at, mul3(normalize3(way), 0.3f));
+            float on[3] = {0, 0, 0}, behind[3] = {0, 0, 0};
+            lmb_gouraud_direct(on, &g, at, n, 0, 0);
+            lmb_gouraud_direct(behind, &g, under, n, 0, 0);
+            dark += !(on[0] > 0.0f);
+            bright += behind[0] > 0.0f;
+        }
+        CHECK_MSG(dark == 0 && bright == 0, "case %d: %d dark, %d bright", i, dark, bright);
+    }
+}
+
 /* A mesh by 16-bit positions is where the same by binary32 is; a triangle that names no vertex is none. */
 static void reads_positions(void)
 {
@@ -310,6 +416,8 @@ void test_gouraud(void)
     shows_receivers();
     draws_maps();
     casts_shadows();
+    shadows_by_face();
+    lights_slopes();
     reads_positions();
     in_pieces();
     refuses();

@@ -388,6 +388,15 @@ static double light_tile(lmb_irradiance *e, const lmb_tile *tile, const lmb_many
     return off(e, want);
 }
 
+/* The worst entry on top, and each above two that are no worse: how many there are. */
+static int32_t check_heap(void)
+{
+    for (int32_t i = 1; i < scratch.open; ++i) {
+        CHECK_MSG(scratch.entry[(i - 1) / 2].key >= scratch.entry[i].key, "entry %d of %d", (int)i, (int)scratch.open);
+    }
+    return scratch.open;
+}
+
 /* What the last tile's cut keeps of its sums, and where it stops: both rules hold, and nothing was parted in vain. */
 static void check_stop(float asked)
 {
@@ -403,6 +412,7 @@ static void check_stop(float asked)
               error);
     CHECK_MSG(fabs((double)scratch.light / light - 1.0) < 1e-4, "%g, %g", (double)scratch.light, light);
     CHECK(error <= 16.01 * (double)asked * light && scratch.allowed == asked);
+    check_heap();
 }
 
 /* Without shadows: lights in cells of their own, all taken, are the sum of lmb_direct_tile; cuts err by less than
@@ -473,6 +483,7 @@ static void check_full_cut(test_rng *r)
     CHECK_MSG(scratch.nodes <= LMB_MANY_LIGHTS_CUT && scratch.nodes > LMB_MANY_LIGHTS_CUT - 8, "%u",
               (unsigned)scratch.nodes);
     CHECK_MSG(error < 0.02, "%g", error);
+    CHECK(check_heap() > LMB_MANY_LIGHTS_CUT / 2);
     CHECK(e.rgb[0][9] == 0.0f && e.rgb[0][8] > 0.0f);
     grove_free(&g);
 }

@@ -125,6 +125,41 @@ static void test_refused(void)
     CHECK(open_with(at_part(LMB_PACK_TRACKS, 1), 200, bytes) == LMB_ERR_FORMAT);
 }
 
+/* Parts that share a byte with another one or with the table. The one that moves is of an unknown kind, so that nothing
+ * else is wrong with the file. */
+static void test_overlaps(void)
+{
+    const uint32_t bytes = (uint32_t)make_small(), parts = words[3], last = parts - 3; /* KEYS, behind most of them */
+    uint32_t *table = words + LMB_PACK_HEADER_WORDS, *own = table + LMB_PACK_PART_WORDS * last, refused = 0;
+    lmb_pack p;
+    own[0] = 9999;
+    CHECK(open_with(0, words[0], bytes) == LMB_OK);
+    const uint32_t at = own[1], size = own[2];
+    for (uint32_t i = 0; i < parts; ++i) {
+        const uint32_t *other = table + LMB_PACK_PART_WORDS * i;
+        if (i != last) {
+            own[2] = 4;
+            own[1] = other[1] + other[2] - 4;
+            refused += lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT;
+            own[1] = other[1];
+            refused += lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT;
+            own[2] = 0;
+            CHECK(lmb_pack_open(&p, words, bytes) == LMB_OK); /* nothing shares nothing */
+        }
+    }
+    CHECK_MSG(refused == 2 * (parts - 1), "%u of %u", (unsigned)refused, (unsigned)(2 * (parts - 1)));
+    own[1] = at;
+    own[2] = size + 4;
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT); /* into the one behind it */
+    own[1] = at - 4;
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT);
+    own[1] = 4 * LMB_PACK_HEADER_WORDS; /* the table */
+    own[2] = 4;
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT);
+    own[1] = 4 * (LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * (parts - 1));
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT);
+}
+
 /* Each word as something else: what opens can be drawn. */
 static void test_damaged(void)
 {
@@ -205,6 +240,35 @@ static void test_no_scale(void)
         CHECK(lmb_pack_view(&view, &opened, &scene, 0, 0.5f, WIDE, HIGH) == LMB_OK);
         CHECK(is_near(view.back, 0.70710678f, 0, 0.70710678f) && is_near(view.up, 0, 1, 0));
     }
+}
+
+/* Spans of two seconds: a cubic's tangents are by the second; rotations turn evenly and by the shorter way, also where
+ * the keys' quaternions have other signs. */
+static void test_spans(void)
+{
+    const float pi_8 = 0.39269908f;
+    make_small();
+    uint32_t *key = words + (opened.part[LMB_PACK_KEYS] - words);
+    const lmb_mat4 *m = &scene.instances[1].to_world;
+    key[1] = float_bits(2.0f);
+    for (int sign = 0; sign < 2; ++sign) {
+        CHECK(lmb_pack_pose(&scene, &opened, 0.5f) == LMB_OK);
+        /* h = u^2 (3 - 2 u) + 2 s u (1 - u) (1 - u - u) / 2 at u = 1/4, where both tangents are 1 a second */
+        CHECK_MSG(is_near(scene.lights[0].position, 0.34375f, 1.8f, 0.5f), "%g", (double)scene.lights[0].position.x);
+        CHECK_MSG(is_near(column(m, 0), 0.5f * cosf(pi_8), 0, -0.5f * sinf(pi_8)), "%g %g", (double)m->m[0],
+                  (double)m->m[2]);
+        CHECK(is_near(column(m, 3), 0, 0.75f, 0));
+        CHECK(lmb_pack_pose(&scene, &opened, 1.75f) == LMB_OK);
+        CHECK(is_near(column(m, 0), 0.5f * cosf(3.5f * pi_8), 0, -0.5f * sinf(3.5f * pi_8)));
+        for (int i = 12; i < 16; ++i) { /* the second rotation, the other way round */
+            key[i] ^= 0x80000000u;
+        }
+    }
+    key[22] = float_bits(2.0f); /* out of the first key twice as fast; into the second at rest */
+    key[25] = 0;
+    lmb_pack_pose(&scene, &opened, 0.5f);
+    CHECK_MSG(fabsf(scene.lights[0].position.x - (0.15625f + 0.1875f * 2.0f * 0.75f * 2.0f)) < 1e-5f, "%g",
+              (double)scene.lights[0].position.x);
 }
 
 /* --- textures ----------------------------------------------------------------------------------------------------- */
@@ -450,6 +514,63 @@ static void test_order(void)
     CHECK(pack_order(index, 0, 0));
 }
 
+/* One picture that materials read in several ways: each way has a format that keeps what it reads; a way that is there
+ * already is not packed again. */
+static void test_shared_picture(void)
+{
+    enum { SIDE = 16, BYTES = 4 * SIDE * SIDE };
+    static uint8_t rgba[BYTES];
+    test_rng rng = {11};
+    lmb_texture texture[4];
+    lmb_material material[6];
+    lmb_scene s;
+    report r = {""};
+    uint32_t slot[4];
+    static pack out;
+    memset(texture, 0, sizeof texture);
+    memset(material, 0, sizeof material);
+    memset(&s, 0, sizeof s);
+    memset(&out, 0, sizeof out);
+    for (size_t i = 0; i < BYTES; ++i) {
+        rgba[i] = (uint8_t)test_random(&rng);
+    }
+    for (int i = 0; i < 4; ++i) {
+        texture[i].texels = rgba;
+        texture[i].width = texture[i].height = SIDE;
+        texture[i].levels = 1;
+        texture[i].wrap_s = (uint8_t)(i % 2);
+        material[i].texture = i;
+        material[i].flags = i % 2 ? LMB_ALPHA_MASK : 0;
+    }
+    s.textures = texture;
+    s.materials = material;
+    s.texture_count = 4;
+    s.material_count = 4;
+    const pack_settings small = {0.0, 3.0, PACK_FILE, PACK_RGB565};
+    CHECK_MSG(pack_textures(&out, slot, &s, &small, &r), "%s", r.text);
+    const uint32_t *record = (const uint32_t *)(const void *)out.part[LMB_PACK_TEXTURES].data;
+    CHECK(out.part[LMB_PACK_TEXTURES].size == 4 * 4 * LMB_PACK_TEXTURE_WORDS);
+    CHECK(out.part[LMB_PACK_TEXELS].size == BYTES / 2 + BYTES); /* opaque, and with its alpha */
+    for (int i = 0; i < 4; ++i) {
+        const uint32_t *w = record + LMB_PACK_TEXTURE_WORDS * slot[i];
+        CHECK((w[2] >> 8 & 255u) == (i % 2 ? LMB_TEXELS_RGBA8 : LMB_TEXELS_RGB565));
+        CHECK(w[0] == record[LMB_PACK_TEXTURE_WORDS * slot[i % 2]] && (w[2] >> 16 & 255u) == (uint32_t)(i % 2));
+    }
+    pack_free(&out);
+    memset(&out, 0, sizeof out);
+    material[4] = material[0]; /* one texture of both kinds of material keeps its alpha */
+    material[4].flags = LMB_ALPHA_MASK;
+    material[5] = material[1]; /* in either order */
+    material[5].flags = 0;
+    s.material_count = 6;
+    CHECK(pack_textures(&out, slot, &s, &small, &r));
+    CHECK(out.part[LMB_PACK_TEXELS].size == BYTES + BYTES / 2);
+    record = (const uint32_t *)(const void *)out.part[LMB_PACK_TEXTURES].data;
+    CHECK((record[LMB_PACK_TEXTURE_WORDS * slot[0] + 2] >> 8 & 255u) == LMB_TEXELS_RGBA8);
+    CHECK((record[LMB_PACK_TEXTURE_WORDS * slot[1] + 2] >> 8 & 255u) == LMB_TEXELS_RGBA8);
+    pack_free(&out);
+}
+
 /* Errors are what they are said to be; sixteen colours are kept. */
 static void test_encode(void)
 {
@@ -547,14 +668,17 @@ void test_pack(void)
     test_checksum();
     test_in_place();
     test_refused();
+    test_overlaps();
     test_damaged();
     test_moves();
     test_no_scale();
+    test_spans();
     test_formats();
     test_formats_drawn();
     test_demo();
     test_no_cracks();
     test_order();
     test_encode();
+    test_shared_picture();
     test_swapped();
 }

@@ -3,9 +3,11 @@
 
 #include <math.h>
 
+#include "../../src/base/vec.h"
 #include "../../tools/common/frame_name.h"
 #include "../../tools/play/play_options.h"
 #include "../../tools/common/key_path.h"
+#include "../../tools/play/play_motion.h"
 #include "../../tools/play/play_times.h"
 
 void test_play(void);
@@ -63,6 +65,65 @@ static void is_smooth(void)
     key_path_free(&p);
 }
 
+/* object:0 at places with targets: a mirrored object stays one, its +Z goes to the target and its +Y stays up. A key
+ * without a target leaves it as it was turned. */
+static void turns_objects(void)
+{
+    static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    static render_job job;
+    lmb_mesh mesh;
+    lmb_material material;
+    lmb_instance instance;
+    play_motion m;
+    play_options o;
+    report r = {""};
+    memset(&job, 0, sizeof job);
+    memset(&mesh, 0, sizeof mesh);
+    memset(&material, 0, sizeof material);
+    memset(&instance, 0, sizeof instance);
+    memset(&o, 0, sizeof o);
+    mesh.positions = corners;
+    mesh.vertex_count = 3;
+    mesh.triangle_count = 1;
+    material.texture = -1;
+    material.alpha = 1.0f;
+    instance.first_id = 1;
+    instance.to_world.m[0] = -2.0f; /* mirrored */
+    instance.to_world.m[5] = 3.0f;
+    instance.to_world.m[10] = 0.5f;
+    instance.to_world.m[15] = 1.0f;
+    job.scene.meshes = &mesh;
+    job.scene.materials = &material;
+    job.scene.instances = &instance;
+    job.scene.mesh_count = job.scene.material_count = job.scene.instance_count = 1;
+    o.move = KEY_LIGHT | KEY_CAMERA | KEY_OBJECT;
+    o.fps = 1.0f;
+    static const struct { const char *keys; double axis[3][3]; } cases[] = {
+        {"0 object:0 1,2,3 1,2,9\n", {{-2, 0, 0}, {0, 3, 0}, {0, 0, 0.5}}},
+        {"0 object:0 1,2,3 8,2,3\n", {{0, 0, 2}, {0, 3, 0}, {0.5, 0, 0}}},
+        {"0 object:0 1,2,3 -4,2,3\n", {{0, 0, -2}, {0, 3, 0}, {-0.5, 0, 0}}},
+        {"0 object:0 1,2,3 1,2,-1\n", {{2, 0, 0}, {0, 3, 0}, {0, 0, -0.5}}},
+        {"0 object:0 1,2,3 1,6,7\n", {{-2, 0, 0}, {0, 2.12132034, -2.12132034}, {0, 0.35355339, 0.35355339}}},
+        {"0 object:0 1,2,3 1,9,3\n", {{-2, 0, 0}, {0, 0, -3}, {0, 0.5, 0}}},
+        {"0 object:0 1,2,3\n", {{-2, 0, 0}, {0, 3, 0}, {0, 0, 0.5}}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        job.scene.instances = &instance;
+        o.path = keys(cases[i].keys);
+        CHECK_MSG(play_motion_read(&m, &o, &r) && play_motion_find(&m, &job, &r) && play_motion_make(&m, &r) &&
+                  play_motion_set(&m, 0, &r), "case %d: %s", (int)i, r.text);
+        const float *to = job.scene.instances[0].to_world.m;
+        for (int c = 0; c < 3; ++c) {
+            const double *want = cases[i].axis[c];
+            CHECK_MSG(is_at(vec3(to[4 * c], to[4 * c + 1], to[4 * c + 2]), want[0], want[1], want[2]),
+                      "case %d, axis %d: %g %g %g", (int)i, c, (double)to[4 * c], (double)to[4 * c + 1],
+                      (double)to[4 * c + 2]);
+        }
+        CHECK(is_at(vec3(to[12], to[13], to[14]), 1, 2, 3) && job.scene.instances[0].revision == 1);
+        play_motion_free(&m);
+    }
+}
+
 static void names_frames(void)
 {
     char name[32];
@@ -107,6 +168,7 @@ void test_play(void)
     folder_open(&place);
     goes_through_keys();
     is_smooth();
+    turns_objects();
     names_frames();
     sums_times_up();
     folder_close(&place);

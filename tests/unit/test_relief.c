@@ -144,6 +144,34 @@ static void other_order(const stage *s)
     free(copy);
 }
 
+/* Arrays that share a byte. A file of the other byte order would be swapped twice there. */
+static void overlaps(const stage *s)
+{
+    static const int offset[] = {8, 9, 10, 11, 35, 55}; /* of the simple model's arrays, of two views' texels */
+    const lmb_relief none = s->relief;
+    lmb_relief r = none;
+    uint32_t *copy = malloc(s->file.size);
+    memcpy(copy, s->file.data, s->file.size);
+    CHECK(copy[4] > 1 && lmb_relief_open(&r, copy, s->file.size) == LMB_OK);
+    const uint32_t records = copy[5];
+    for (int i = 0; i < COUNT(offset); ++i) {
+        const uint32_t was = copy[offset[i]];
+        for (int k = 0; k < COUNT(offset); ++k) {
+            copy[offset[i]] = k == i ? records : copy[offset[k]];
+            CHECK_MSG(lmb_relief_open(&r, copy, s->file.size) == LMB_ERR_FORMAT, "word %d as %d", offset[i],
+                      k == i ? 5 : offset[k]);
+        }
+        copy[offset[i]] = was;
+    }
+    copy[10] = 0; /* no colours lie nowhere */
+    CHECK(lmb_relief_open(&r, copy, s->file.size) == LMB_OK);
+    copy[9] = copy[8];
+    turn_words((uint8_t *)copy + records, (size_t)copy[4] * LMB_RELIEF_VIEW_WORDS, 4);
+    turn_words((uint8_t *)copy + 4, LMB_RELIEF_HEADER_WORDS - 1, 4);
+    CHECK(lmb_relief_swap(copy, s->file.size) == LMB_ERR_FORMAT);
+    free(copy);
+}
+
 /* Cut anywhere, or with any word of its head or of a view's record out of range, a file is refused. */
 static void bad_files(const stage *s)
 {
@@ -205,6 +233,7 @@ void test_relief(void)
     is_its_own_view(s, 25);
     other_order(s);
     bad_files(s);
+    overlaps(s);
     bad_arguments(s);
     stage_free(s);
     s = stage_make(LMB_RELIEF_PACKED, 0);

@@ -386,6 +386,31 @@ static void put_air(void)
     airy[6 + LMB_TRANSFER_AIR] = 2;
 }
 
+/* A place's six receivers lie among those that there are: of eight, from 0, 1 or 2 on. */
+static void last_air(void)
+{
+    enum { MORE = 3, EACH = LMB_TRANSFER_RECEIVER_WORDS };
+    static uint32_t longer[AIRY_WORDS + MORE * EACH];
+    lmb_transfer t;
+    put_air();
+    airy[SMALL_WORDS + 9] = LMB_TRANSFER_NONE;
+    CHECK(lmb_transfer_open(&t, airy, sizeof airy) == LMB_OK && t.count[LMB_TRANSFER_RECEIVERS] + MORE == 8);
+    const size_t past = (size_t)(t.section[LMB_TRANSFER_RECEIVERS + 1] - airy);
+    memcpy(longer, airy, past * sizeof *airy);
+    for (int i = 0; i < MORE; ++i) {
+        const uint32_t one[EACH] = {LMB_TRANSFER_NONE, LMB_TRANSFER_NONE, 0, 0, float_bits(SMALL_ONE)};
+        memcpy(longer + past + EACH * i, one, sizeof one);
+    }
+    memcpy(longer + past + MORE * EACH, airy + past, sizeof airy - past * sizeof *airy);
+    longer[2] = sizeof longer;
+    longer[6 + LMB_TRANSFER_RECEIVERS] += MORE;
+    for (uint32_t first = 0; first < 12; ++first) {
+        longer[SMALL_WORDS + 9 + MORE * EACH] = first;
+        CHECK_MSG(lmb_transfer_open(&t, longer, sizeof longer) == (first <= 2 ? LMB_OK : LMB_ERR_FORMAT), "from %u",
+                  (unsigned)first);
+    }
+}
+
 /* The small file has five receivers, and a place in the air takes six. */
 static void bad_air(void)
 {
@@ -1415,6 +1440,7 @@ void test_transfer(void)
     bad_header();
     bad_words();
     bad_air();
+    last_air();
     shared_halves();
     bad_arguments();
     is_same_by(&t, &room.scene);

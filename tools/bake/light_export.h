@@ -36,6 +36,12 @@ int light_colours(const char *path, light_solve *s, const model *loaded, report 
 int light_picture(const char *path, light_solve *s, const model *loaded, int32_t side, report *r);
 int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is_quiet, report *r);
 
+/* light_probe_normal: the normals that a place's light is asked for, and what each counts, 4 pi together.
+ * light_probe_add: irradiance on one of them into the harmonics of radiance, R, G and B of each. */
+enum { LIGHT_PROBE_NORMALS = 14 };
+lmb_vec3 light_probe_normal(int k, float *weight);
+void light_probe_add(float inout[27], int k, const float e[3]);
+
 /* light_probes_fit: are the places of a lattice few enough? Asked before a bake, which takes minutes. 1, or 0 with `r` set. */
 int light_probes_fit(const lmb_scene *scene, float step_m, report *r);
 

@@ -10,7 +10,8 @@
 #include "../common/io_json.h"
 #include "../common/text_buffer.h"
 
-enum { TERMS = 9, FLOATS = 3 * TERMS + 1, NORMALS = 14, TOGETHER = 4, ACROSS = 12, MOST = 1 << 16, PATH = 4096 };
+enum { TERMS = 9, FLOATS = 3 * TERMS + 1, NORMALS = LIGHT_PROBE_NORMALS, TOGETHER = 4, ACROSS = 12, MOST = 1 << 16,
+       PATH = 4096 };
 #define OPEN 0.25f /* of all directions: a place that sees less of lit surfaces lies in a solid, or behind one */
 
 /* The harmonics of radiance, of R, G and B, W/(sr m2); then the share of directions that show a lit surface. */
@@ -44,7 +45,7 @@ static void harmonics(float y[TERMS], lmb_vec3 n)
 static float cosine_of(int term) { return term == 0 ? 3.141593f : term < 4 ? 2.094395f : 0.785398f; }
 
 /* Along axes and diagonals: with these weights sums over the sphere are exact up to the fifth order (Lebedev). */
-static lmb_vec3 normal_of(int k, float *weight)
+lmb_vec3 light_probe_normal(int k, float *weight)
 {
     const float sign = k % 2 ? -1.0f : 1.0f, d = 0.57735027f;
     *weight = 12.566371f * (k < 6 ? 1.0f / 15.0f : 3.0f / 40.0f);
@@ -113,25 +114,34 @@ static lmb_vec3 place_of(const lattice *l, size_t i)
                 l->first.z + (float)z * l->step.z);
 }
 
+void light_probe_add(float inout[3 * TERMS], int k, const float e[3])
+{
+    float weight, y[TERMS];
+    harmonics(y, light_probe_normal(k, &weight));
+    for (int t = 0; t < TERMS; ++t) {
+        for (int c = 0; c < 3; ++c) {
+            inout[3 * t + c] += e[c] * y[t] * weight / cosine_of(t);
+        }
+    }
+}
+
 /* One place's harmonics, by the rows of its normals. */
 static void set_probe(probe *p, const light_solve *s, const bake *b, float *const *row)
 {
     const lmb_transfer_light *light = &s->job.render->frame.transfer_light;
     for (int k = 0; k < NORMALS; ++k) {
-        float e[3] = {0.0f, 0.0f, 0.0f}, seen = 0.0f, weight, y[TERMS];
-        const lmb_vec3 n = normal_of(k, &weight);
+        float e[3] = {0.0f, 0.0f, 0.0f}, seen = 0.0f, weight;
+        light_probe_normal(k, &weight);
         for (uint32_t i = 0; i < b->element_count; ++i) {
             seen += row[k][i];
             for (int c = 0; c < 3; ++c) {
                 e[c] += row[k][i] * (float)light->node[i][c];
             }
         }
-        harmonics(y, n);
-        for (int t = 0; t < TERMS; ++t) {
-            for (int c = 0; c < 3; ++c) {
-                p->v[3 * t + c] += e[c] * light->step * y[t] * weight / cosine_of(t);
-            }
+        for (int c = 0; c < 3; ++c) {
+            e[c] *= light->step;
         }
+        light_probe_add(p->v, k, e);
         p->v[FLOATS - 1] += seen * weight / 12.566371f;
     }
 }
@@ -149,7 +159,7 @@ static int fill(lattice *l, const light_solve *s, const bake *b, report *r)
         progress_tell("probes", (double)first / (double)all);
         for (size_t k = 0; k < some * NORMALS; ++k) {
             at[k] = place_of(l, first + k / NORMALS);
-            normal[k] = normal_of((int)(k % NORMALS), &unused);
+            normal[k] = light_probe_normal((int)(k % NORMALS), &unused);
             row[k] = memory + k * b->set.elements;
         }
         ok = bake_rows(b, at, normal, (int)(some * NORMALS), 1, row, NULL, r);
