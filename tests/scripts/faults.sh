@@ -64,7 +64,7 @@ pack tent.obj -q -o out/a.lmp
 pack floor.gltf -q -o out/a.c
 pack tent.lmp --transfer tent.lmt -q -o out/a.lmp
 info tent.lmp -q
-play tent.obj --size 16x16 --shadow-map 64 --quality draft --frames 2 --threads 2 -q -o out/a%02d.png --stats out/a.json
+play tent.obj --size 16x16 --shadow-map 64 --quality draft --frames 2 --threads 2 -q --background transparent -o out/a%02d.png --stats out/a.json
 capture tent.obj --at 0,0.3,0 --faces 8 --samples 1 --shadow-map 64 --quality draft --threads 2 -q -o out/c.hdr --ground out/g.pfm
 relight --world cube.pfm --object tent.obj --size 24x16 --threads 2 -q --cube out/c.pfm -o out/a.png
 relight --world demo --object demo --contact --path path.txt --size 16x16 --threads 1 -q -o out/a.ppm

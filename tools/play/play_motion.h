@@ -7,8 +7,8 @@
 #include "play_options.h"
 #include "../common/key_path.h"
 
-/* By a path; else by the file's animations; else by itself: a light within `radius` of its place, m, or a sun's direction
- * by its tangent; 0: it stands still. */
+/* By a path; else by the file's animations; else by itself, from where all is at rest: a light within `radius` of its
+ * place, m, or a sun's direction by its tangent; 0: it stands still. */
 typedef struct play_motion {
     render_job *job;
     const play_options *options;

@@ -10,7 +10,7 @@
 #include "../common/progress.h"
 #include "../common/text_buffer.h"
 #include "../picture/picture.h"
-#include "../render/render_exposure.h"
+#include "../render/render_finish.h"
 #include "play_check.h"
 #include "play_motion.h"
 #include "play_options.h"
@@ -71,15 +71,31 @@ static int find_exposure(play *p, report *r)
     return 1;
 }
 
-static int write_frame(play *p, int32_t k, report *r)
+static int put_frame(play *p, int32_t k, const render_finish *f, report *r)
 {
     char name[NAME];
-    if (p->o.render.slice.count > 0) {
-        return play_slice_put(&p->made, k, picture_format(p->o.render.out), &p->job.linear, p->exposure_ev,
-                              p->job.o.tone, r);
+    file_bytes file = {NULL, 0};
+    if (p->o.render.slice.count == 0) {
+        return frame_name(name, sizeof name, p->o.render.out, k, r) && finish_write(f, name, &p->job.linear, 1, r);
     }
-    return p->o.render.out == NULL || (frame_name(name, sizeof name, p->o.render.out, k, r) &&
-                                       picture_write(name, &p->job.linear, p->exposure_ev, p->job.o.tone, r));
+    const int ok = finish_encode(&file, f, &p->job.linear, 1, r) && play_slice_put(&p->made, k, f->format, &file, r);
+    file_free(&file);
+    return ok;
+}
+
+/* As `render` writes its picture. The light is then no more what it was. */
+static int write_frame(play *p, int32_t k, report *r)
+{
+    render_finish f;
+    if (p->o.render.out == NULL) {
+        return 1;
+    }
+    const int ok = finish_begin_at(&f, &p->job, p->exposure_ev, r) && put_frame(p, k, &f, r);
+    finish_free(&f);
+    if (p->job.o.background.kind != BACKGROUND_WORLD) {
+        p->job.render->stage = LMB_STAGE_VIEW; /* what lies behind was looked for over the view: it is drawn anew */
+    }
+    return ok;
 }
 
 static int check_frame(play *p, int32_t k, report *r)
@@ -106,7 +122,7 @@ static int draw_all(play *p, report *r)
         const int32_t k = p->o.from + slice_item(own, i);
         play_time took;
         progress_whole("frames", (double)i / (double)frames);
-        ok = draw(p, k, &took, r) && write_frame(p, k, r) && check_frame(p, k, r);
+        ok = draw(p, k, &took, r) && check_frame(p, k, r) && write_frame(p, k, r);
         if (ok) {
             play_times_add(&p->times, &took);
         }
