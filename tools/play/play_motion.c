@@ -7,6 +7,7 @@
 
 #include "../../src/base/light_kind.h"
 #include "../../src/base/vec.h"
+#include "../model/model_shape.h"
 #include "../render/render_view.h"
 #include "play_space.h"
 
@@ -17,7 +18,7 @@
 #define SMALLER 0.8f     /* tried next where there is no room */
 #define LEAST_M 1e-6f    /* from a place to its target: nearer there is no direction between them */
 #define AIR    1.2f      /* so much farther than it moves there has to be room */
-enum { TRIES = 16, PLACES = 64 };
+enum { TRIES = 16, PLACES = 64, EVERYTHING = KEY_LIGHT | KEY_CAMERA | KEY_OBJECT };
 
 static const double two_pi = 6.283185307179586;
 
@@ -248,6 +249,22 @@ static int set_by_path(play_motion *m, int32_t k, double time_s, report *r)
     return ok && (!moved || set_moved(m, k, r));
 }
 
+/* Meshes that change their shape, where their instances may. Returns 1 where any has another than before. */
+static int reshape(play_motion *m, double time_s)
+{
+    const struct model_motion *motion = m->job->loaded.motion;
+    const double until = time_s < motion->end_s ? time_s : motion->end_s;
+    if (motion->reshapes == NULL || until == m->shaped_s) {
+        return 0;
+    }
+    model_pose_shapes(&m->job->loaded, time_s);
+    m->shaped_s = until;
+    for (uint32_t i = 0; i < m->job->loaded.scene.instance_count; ++i) {
+        m->instance[i].revision += motion->reshapes[i];
+    }
+    return 1;
+}
+
 static int set_by_animations(play_motion *m, int32_t k, double time_s, report *r)
 {
     const model *loaded = &m->job->loaded;
@@ -262,6 +279,7 @@ static int set_by_animations(play_motion *m, int32_t k, double time_s, report *r
     for (uint32_t i = 0; (m->moves & KEY_OBJECT) != 0 && i < m->job->scene.instance_count; ++i) {
         moved |= put_object(m, i, &m->instance_posed[i].to_world);
     }
+    moved |= (m->moves & KEY_OBJECT) != 0 && reshape(m, time_s);
     if ((m->moves & KEY_CAMERA) != 0 && m->camera_used >= 0) {
         const model_camera *c = &m->camera[m->camera_used];
         m->job->middle.eye = c->eye;
@@ -382,7 +400,8 @@ static int animated(play_motion *m, report *r)
                ? KEY_LIGHT
                : 0;
     all |= camera != NULL && any_moves(motion, motion->of_camera + m->camera_used, 1) ? KEY_CAMERA : 0;
-    all |= any_moves(motion, motion->of_instance, loaded->scene.instance_count) ? KEY_OBJECT : 0;
+    all |= motion->shapes != NULL || any_moves(motion, motion->of_instance, loaded->scene.instance_count) ? KEY_OBJECT
+                                                                                                          : 0;
     return all & m->moves;
 }
 
@@ -392,7 +411,9 @@ static int moves_baked(const play_motion *m)
     const struct model_motion *motion = m->job->loaded.motion;
     int any = 0;
     for (uint32_t i = 0; motion != NULL && i < m->job->loaded.scene.instance_count; ++i) {
-        any |= any_moves(motion, motion->of_instance + i, 1) && !may_move(m, i);
+        const int moves = any_moves(motion, motion->of_instance + i, 1) ||
+                          (motion->reshapes != NULL && motion->reshapes[i] != 0);
+        any |= moves && !may_move(m, i);
     }
     return any;
 }
@@ -405,6 +426,9 @@ int play_motion_find(play_motion *m, render_job *j, report *r)
         return 1;
     }
     int all = animated(m, r);
+    report_note(loaded->idle_channels == 0 || m->options->render.view.is_quiet,
+                "note: channels of animations that move nothing of the scene, or what does not move here: %u",
+                (unsigned)loaded->idle_channels);
     if (loaded->motion_problem.text[0] != '\0') {
         return report_fail(r, "%s; or give --path", loaded->motion_problem.text);
     }
@@ -420,6 +444,12 @@ int play_motion_find(play_motion *m, render_job *j, report *r)
         return report_fail(r, "--move object: nothing in %s moves objects; give --path FILE", m->job->o.scene);
     }
     m->is_animated = all != 0;
+    if (!m->is_animated && m->moves == EVERYTHING && loaded->facts.animations > 0) { /* it says itself what moves */
+        report_note(m->options->render.view.is_quiet,
+                    "nothing moves: of the animations of %s nothing is left here; --move light or camera moves those by "
+                    "themselves", m->job->o.scene);
+        m->moves = 0;
+    }
     m->moves = m->is_animated ? all : m->moves;
     return 1;
 }
@@ -476,6 +506,7 @@ int play_motion_read(play_motion *m, const play_options *o, report *r)
     memset(m, 0, sizeof *m);
     m->options = o;
     m->moves = o->move;
+    m->shaped_s = -1.0;
     return o->path == NULL || key_path_read(&m->path, o->path, r);
 }
 

@@ -20,6 +20,7 @@ typedef struct play_motion {
     lmb_light *light, *light_at_rest, *light_posed;
     float *radius;  /* by light */
     lmb_instance *instance, *instance_at_rest, *instance_posed;
+    double shaped_s; /* the time that meshes have the shape of; -1: none yet */
     lmb_view view_at_rest;
     lmb_vec3 middle; /* that the camera swings around, by at most `swing` rad; 0: it stands still */
     float swing;
