@@ -213,10 +213,12 @@ static int take_streams(model_shape *out, gltf *g, lmb_mesh *mesh, const lmb_mes
     out->tangents = out->rest_tangents
                         ? (int16_t *)own_stream(g, mesh->tangents, is_own, 2 * n, sizeof(int16_t))
                         : NULL;
+    if (!out->positions || (!out->normals && out->rest_normals) || (!out->tangents && out->rest_tangents))
+        return 0; /* the mesh stands as it was */
     mesh->positions = out->positions;
     mesh->normals = out->normals;
     mesh->tangents = out->tangents;
-    return out->positions && (out->normals || !out->rest_normals) && (out->tangents || !out->rest_tangents);
+    return 1;
 }
 
 /* The shape of an instance, whose mesh is its own. */
@@ -246,15 +248,13 @@ static int add_room(model_build *b, uint32_t more)
 {
     model_light *l = &b->out->light;
     lmb_mesh *meshes = (lmb_mesh *)longer(b, b->meshes, b->mesh_count, more, sizeof *meshes);
-    if (!meshes)
+    float **colour = l->colour ? (float **)longer(b, l->colour, b->mesh_count, more, sizeof *colour) : NULL,
+          **uv = l->colour ? (float **)longer(b, l->uv, b->mesh_count, more, sizeof *uv) : NULL;
+    if (!meshes || (l->colour && (!colour || !uv)))
         return 0;
-    if (l->colour) {
-        l->colour = (float **)longer(b, l->colour, b->mesh_count, more, sizeof *l->colour);
-        l->uv = (float **)longer(b, l->uv, b->mesh_count, more, sizeof *l->uv);
-        if (!l->colour || !l->uv)
-            return 0;
-    }
     b->meshes = meshes;
+    l->colour = colour;
+    l->uv = uv;
     return 1;
 }
 
