@@ -69,6 +69,10 @@ status 0 play outside.obj $few --path path.txt --background 0000ff --fps 1 --fra
 status 0 play outside.obj $few --path path.txt --background 0000ff --fps 1 --from 2 --frames 1 --exposure auto -o alone%01d.png
 check "a still camera before a colour: the same alone" cmp -s all2.png alone2.png
 
+# Errors under a sky are against the same sky.
+status 0 play outside.obj --size 16x12 --quality best --gather full --frames 1 --check 1
+check "the best has no error against itself under a sky" grep -q "trim 0.0000  rmse 0.0000  mean 1.0000" out.txt
+
 status 2 play outside.obj $few --background transparent --frames 1 -o bad%01d.ppm
 status 1 play outside.obj $few -q --world missing.hdr --frames 1 -o bad%01d.png
 status 1 play outside.obj $few --world world.pfm --ground none --many-lights 64 --move light -q --frames 1 -o bad%01d.png
