@@ -16,8 +16,9 @@
  *                                            8  of each part: kind, offset, bytes, 0
  * No kind stands twice; unknown kinds are passed over. Records, in words; floats are binary32:
  *   SCENE      bounds_min, bounds_max; lmb_core: low, high, wide_low, wide_high, faces; then 0
- *   MESHES     vertices, triangles, position_format | uv_format << 8 | index_format << 16, offsets of positions, normals,
- *              tangents, uvs, colours, indices; position_scale, position_offset, uv_scale; then 0
+ *   MESHES     vertices, triangles, position_format | uv_format << 8 | index_format << 16 | tangent_format << 24,
+ *              offsets of positions, normals, tangents, uvs, colours, indices; position_scale, position_offset,
+ *              uv_scale; then 0
  *   MATERIALS  albedo, alpha, alpha_cutoff, texture, flags, normal_map, normal_scale, emission, specular, roughness,
  *              emission_map, metal_map, metallic, as lmb_material has them; then 0
  *   TEXTURES   offset, width | height << 16, levels | format << 8 | wrap_s << 16 | wrap_t << 24, filter
@@ -111,9 +112,10 @@ lmb_status lmb_pack_scene(lmb_scene *out, const lmb_pack *pack, void *memory, si
  * things stand as at it. Revisions of what changed are raised, and bounds are found anew where instances did.
  *
  *   inout  as lmb_pack_scene made it: instances and lights are written where they lie in its memory
- * Returns LMB_OK; LMB_ERR_ARG (a scene of another file); LMB_ERR_SCENE: a scale of 0 where a direction is asked for, or
- * numbers past binary32; what is behind that stays. Cost: the nodes above each instance and light that moves, some 200
- * operations each; and one pass over all vertices where instances moved. */
+ * Returns LMB_OK; LMB_ERR_ARG (a scene of another file); LMB_ERR_SCENE: a rotation without length, or numbers past
+ * binary32; what is behind that stays. Lights below a scale of 0 have the directions of their turns. Cost: the nodes
+ * above each instance and light that moves, some 200 operations each; and one pass over all vertices where instances
+ * moved. */
 lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s);
 
 /* lmb_pack_view: what camera `camera` sees at a time, on a frame of square pixels.

@@ -16,6 +16,9 @@ enum { LMB_UV_F32 = 0, /* float u, v */
        LMB_UV_U16 = 1  /* uint16 u, v: uv_scale * v / 65535 */ };
 enum { LMB_INDEX_NONE = 0, /* vertices in order, three a triangle */
        LMB_INDEX_U16 = 1, LMB_INDEX_U32 = 2 };
+enum { LMB_TANGENT_BY_UV = 0, /* a normal map's other axis goes towards smaller v of the triangle */
+       LMB_TANGENT_SIDED = 1  /* normal x tangent where the first number is odd, its opposite where even (glTF's w = 1
+                                 and -1); corners that differ mix. Texture coordinates count for the lookup only */ };
 
 typedef struct lmb_mesh {
     const void *positions;
@@ -28,7 +31,7 @@ typedef struct lmb_mesh {
     uint32_t triangle_count;
     lmb_vec3 position_scale, position_offset; /* LMB_POSITION_I16 only */
     float uv_scale[2];                        /* LMB_UV_U16 only */
-    uint8_t position_format, uv_format, index_format, reserved;
+    uint8_t position_format, uv_format, index_format, tangent_format;
 } lmb_mesh;
 
 enum { LMB_WRAP_REPEAT = 0, LMB_WRAP_CLAMP = 1, LMB_WRAP_MIRROR = 2 };
@@ -56,6 +59,8 @@ typedef struct lmb_texture {
 
 enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's view (never in a light's) */
        LMB_ALPHA_MASK = 2,   /* holes where alpha < alpha_cutoff: takes the masked path */
+       LMB_UNLIT = 8,        /* a frame's camera sees the diffuse albedo itself as its radiance, whatever light there
+                                is, without lobe and emission; for other surfaces it is as any */
        LMB_ALPHA_BLEND = 4   /* with LMB_ALPHA_MASK: a camera sees it in alpha's share of a pixel's samples, and what is
                                 behind it in the others, by an ordered pattern of 8 x 8 pixels; 64 levels without
                                 samples. Light goes by alpha_cutoff. Not in builds without LMB_MULTISAMPLE */ };

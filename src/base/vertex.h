@@ -51,6 +51,12 @@ static inline lmb_vec3 mesh_tangent(const lmb_mesh *m, uint32_t vertex)
     return lmb_octahedral_decode(m->tangents + (size_t)vertex * 2);
 }
 
+/* Of LMB_TANGENT_SIDED: 1 where the other axis is normal x tangent, -1 where it is the opposite. */
+static inline float mesh_tangent_side(const lmb_mesh *m, uint32_t vertex)
+{
+    return (m->tangents[(size_t)vertex * 2] & 1) != 0 ? 1.0f : -1.0f;
+}
+
 /* Linear RGBA, 0 .. 1; white without a stream. */
 static inline void mesh_colour(const lmb_mesh *m, uint32_t vertex, float out[4])
 {

@@ -44,6 +44,15 @@ void lmb_render_defaults(lmb_frame *f)
     }
 }
 
+static int has_unlit(const lmb_scene *scene)
+{
+    uint32_t flags = 0;
+    for (uint32_t i = 0; i < scene->material_count; ++i) {
+        flags |= scene->materials[i].flags;
+    }
+    return (flags & LMB_UNLIT) != 0;
+}
+
 lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
 {
     if (r == NULL || frame == NULL) {
@@ -64,6 +73,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     }
     r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
     r->emits = status == LMB_OK && lmb_scene_emits(f->scene);
+    r->is_unlit = status == LMB_OK && has_unlit(f->scene);
     r->is_glossy = LMB_TREES && status == LMB_OK && lmb_scene_is_glossy(f->scene);
 #if LMB_PLAN
     if (status == LMB_OK) {

@@ -5,6 +5,7 @@
 #include "../light/light_tile.h"
 #include "../raster/plane.h"
 #include "../raster/tile.h"
+#include "../raster/triangle.h"
 #include "stages.h"
 #include "requires.h"
 
@@ -32,6 +33,22 @@ lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_s
         status = lmb_many_lights_direct_tile(&s->direct, f->kernels, &s->many_lights, tile, &query);
     }
     return status;
+}
+
+/* Materials that show their albedo instead of light. */
+static void show_unlit(lmb_radiance *inout, const lmb_scene *scene, const lmb_tile *tile)
+{
+    const lmb_material *m = NULL;
+    uint32_t id = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (tile->id[k] != id) {
+            id = tile->id[k];
+            m = lmb_material_of(scene, id);
+        }
+        for (int c = 0; c < 3 && m != NULL && (m->flags & LMB_UNLIT) != 0; ++c) {
+            inout->rgb[c][k] = tile->albedo[c][k];
+        }
+    }
 }
 
 #if LMB_TREES
@@ -69,6 +86,9 @@ lmb_status lmb_render_radiance(const lmb_render *r, const lmb_glossy *glossy, lm
     }
     if (status == LMB_OK && r->emits && requires_direct(f)) {
         status = lmb_compose_emission(&s->radiance, f->scene, view, tile);
+    }
+    if (status == LMB_OK && r->is_unlit && requires_direct(f)) {
+        show_unlit(&s->radiance, f->scene, tile);
     }
 #if LMB_TREES
     if (f->background != NULL && requires_direct(f) && tile_pixels(tile) != UINT64_MAX) {

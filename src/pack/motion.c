@@ -123,12 +123,63 @@ static int compose(lmb_mat4 *out, const float t[3], const float q[4], const floa
     return 1;
 }
 
-/* A node's way to its parent. */
-static int local(lmb_mat4 *out, const lmb_pack *p, const uint32_t *node, float time_s)
+static lmb_vec3 column(const lmb_mat4 *m, int c) { return vec3(m->m[4 * c], m->m[4 * c + 1], m->m[4 * c + 2]); }
+
+/* To unit length; 0 where it has none. */
+static int to_unit(lmb_vec3 *v)
+{
+    const float longest = largest3(*v);
+    if (!(longest > 1e-30f && longest < 1e30f)) {
+        return 0;
+    }
+    *v = normalize3(mul3(*v, 1.0f / longest));
+    return 1;
+}
+
+#define FLAT 1e-6f /* of the longest column: a shorter one is what rounding left of a scale of 0 */
+
+/* Column c to unit length; 0 where it has none. */
+static int direction_of(lmb_vec3 *out, const lmb_mat4 *m, int c)
+{
+    float longest = 0.0f, own = 0.0f;
+    *out = column(m, c);
+    for (int i = 0; i < 12; ++i) {
+        longest = i % 4 != 3 ? maxf(longest, absf(m->m[i])) : longest;
+        own = i % 4 != 3 && i / 4 == c ? maxf(own, absf(m->m[i])) : own;
+    }
+    return own > FLAT * longest && to_unit(out);
+}
+
+/* Columns to unit length; one without any becomes square to the others, or an axis. */
+static void unscale(lmb_mat4 *inout)
+{
+    lmb_vec3 own[3];
+    int has[3];
+    for (int c = 0; c < 3; ++c) {
+        own[c] = column(inout, c);
+        has[c] = to_unit(&own[c]);
+    }
+    for (int c = 0; c < 3; ++c) {
+        const int a = (c + 1) % 3, b = (c + 2) % 3;
+        lmb_vec3 v = has[c] ? own[c] : cross3(own[a], own[b]);
+        if (!has[c] && !(has[a] && has[b] && to_unit(&v))) {
+            v = vec3(c == 0 ? 1.0f : 0.0f, c == 1 ? 1.0f : 0.0f, c == 2 ? 1.0f : 0.0f);
+        }
+        inout->m[4 * c] = v.x;
+        inout->m[4 * c + 1] = v.y;
+        inout->m[4 * c + 2] = v.z;
+    }
+}
+
+/* A node's way to its parent; without its scale where it is only to turn. */
+static int local(lmb_mat4 *out, const lmb_pack *p, const uint32_t *node, float time_s, int turns)
 {
     float v[3][4]; /* translation, rotation, scale */
     if (node[3] == 1) {
         lmb_pack_take_matrix(out, node + 4);
+        if (turns) {
+            unscale(out);
+        }
         return 1;
     }
     memcpy(v[TRANSLATION], node + N_TRANSLATION, 3 * sizeof(float));
@@ -137,6 +188,9 @@ static int local(lmb_mat4 *out, const lmb_pack *p, const uint32_t *node, float t
     for (uint32_t i = node[1]; i < node[1] + node[2]; ++i) {
         const track t = track_at(p, i);
         evaluate(v[lmb_pack_record(p, LMB_PACK_TRACKS, i)[0] & 255u], &t, time_s);
+    }
+    for (int k = 0; turns && k < 3; ++k) {
+        v[SCALE][k] = v[SCALE][k] < 0.0f ? -1.0f : 1.0f;
     }
     return compose(out, v[TRANSLATION], v[ROTATION], v[SCALE]);
 }
@@ -153,15 +207,15 @@ static void put_above(lmb_mat4 *inout, const lmb_mat4 *a)
     }
 }
 
-/* A node's way to the world: 0 where that leads nowhere. */
-static int world_of(lmb_mat4 *out, const lmb_pack *p, uint32_t node, float time_s)
+/* A node's way to the world, or its turns alone: 0 where that leads nowhere. */
+static int way_of(lmb_mat4 *out, const lmb_pack *p, uint32_t node, float time_s, int turns)
 {
     const uint32_t *w = lmb_pack_record(p, LMB_PACK_NODES, node);
-    int all = local(out, p, w, time_s);
+    int all = local(out, p, w, time_s, turns);
     for (uint32_t n = w[0]; all && n != LMB_PACK_NONE; n = w[0]) {
         lmb_mat4 above;
         w = lmb_pack_record(p, LMB_PACK_NODES, n);
-        all = local(&above, p, w, time_s);
+        all = local(&above, p, w, time_s, turns);
         if (all) {
             put_above(out, &above);
         }
@@ -174,19 +228,6 @@ static int world_of(lmb_mat4 *out, const lmb_pack *p, uint32_t node, float time_
 
 /* --- what they move ----------------------------------------------------------------------------------------------- */
 
-static lmb_vec3 column(const lmb_mat4 *m, int c) { return vec3(m->m[4 * c], m->m[4 * c + 1], m->m[4 * c + 2]); }
-
-/* To unit length; 0 where it has none. */
-static int to_unit(lmb_vec3 *v)
-{
-    const float longest = largest3(*v);
-    if (!(longest > 1e-30f && longest < 1e30f)) {
-        return 0;
-    }
-    *v = normalize3(mul3(*v, 1.0f / longest));
-    return 1;
-}
-
 uint32_t lmb_pack_node_of(const lmb_pack *p, int kind, uint32_t i)
 {
     const int word = kind == LMB_PACK_INSTANCES ? PACK_INSTANCE_NODE
@@ -198,23 +239,24 @@ uint32_t lmb_pack_node_of(const lmb_pack *p, int kind, uint32_t i)
 int lmb_pack_place_instance(lmb_instance *inout, const lmb_pack *p, uint32_t i, float time_s)
 {
     const uint32_t node = lmb_pack_node_of(p, LMB_PACK_INSTANCES, i);
-    return node == LMB_PACK_NONE || world_of(&inout->to_world, p, node, time_s);
+    return node == LMB_PACK_NONE || way_of(&inout->to_world, p, node, time_s, 0);
 }
 
-/* It points along the node's -Z; a point light has no use for a direction. */
+/* It points along the node's -Z, and where a scale of 0 leaves nothing of that, by the turns; a point light has no use
+ * for a direction. */
 int lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i, float time_s)
 {
     const uint32_t node = lmb_pack_node_of(p, LMB_PACK_LIGHTS, i);
-    lmb_mat4 world;
+    lmb_mat4 world, turn;
     if (node == LMB_PACK_NONE) {
         return 1;
     }
-    if (!world_of(&world, p, node, time_s)) {
+    if (!way_of(&world, p, node, time_s, 0)) {
         return 0;
     }
-    lmb_vec3 way = sub3(vec3(0.0f, 0.0f, 0.0f), column(&world, 2));
-    if (to_unit(&way)) {
-        inout->direction = way;
+    lmb_vec3 way;
+    if (direction_of(&way, &world, 2) || (way_of(&turn, p, node, time_s, 1) && direction_of(&way, &turn, 2))) {
+        inout->direction = sub3(vec3(0.0f, 0.0f, 0.0f), way);
     } else if (inout->kind != LMB_LIGHT_POINT) {
         return 0;
     }
@@ -222,29 +264,38 @@ int lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i, float 
     return 1;
 }
 
+/* 0 where the matrix has no such axes. */
+static int axes_of(lmb_vec3 *right, lmb_vec3 *up, lmb_vec3 *back, const lmb_mat4 *m)
+{
+    if (!direction_of(back, m, 2) || !direction_of(up, m, 1)) {
+        return 0;
+    }
+    *right = cross3(*up, *back);
+    if (!to_unit(right)) {
+        return 0;
+    }
+    *up = normalize3(cross3(*back, *right));
+    return 1;
+}
+
 /* Back along the node's Z, up as near its Y as that allows; scale and mirroring drop out. */
 int lmb_pack_place_camera(lmb_view *inout, const lmb_pack *p, uint32_t i, float time_s)
 {
     const uint32_t node = lmb_pack_node_of(p, LMB_PACK_CAMERAS, i);
-    lmb_mat4 world;
+    lmb_mat4 world, turn;
+    lmb_vec3 right, up, back;
     if (node == LMB_PACK_NONE) {
         return 1;
     }
-    if (!world_of(&world, p, node, time_s)) {
-        return 0;
-    }
-    lmb_vec3 back = column(&world, 2), up = column(&world, 1);
-    if (!to_unit(&back) || !to_unit(&up)) {
-        return 0;
-    }
-    lmb_vec3 right = cross3(up, back);
-    if (!to_unit(&right)) {
+    if (!way_of(&world, p, node, time_s, 0) ||
+        (!axes_of(&right, &up, &back, &world) &&
+         !(way_of(&turn, p, node, time_s, 1) && axes_of(&right, &up, &back, &turn)))) {
         return 0;
     }
     inout->eye = column(&world, 3);
-    inout->back = back;
     inout->right = right;
-    inout->up = normalize3(cross3(back, right));
+    inout->up = up;
+    inout->back = back;
     return 1;
 }
 

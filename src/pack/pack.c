@@ -72,7 +72,7 @@ static int is_mesh(source *s, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(s->pack, LMB_PACK_MESHES, i);
     const uint64_t vertices = w[0], triangles = w[1];
-    const uint32_t position = w[2] & 255u, uv = w[2] >> 8 & 255u, index = w[2] >> 16;
+    const uint32_t position = w[2] & 255u, uv = w[2] >> 8 & 255u, index = w[2] >> 16 & 255u;
     const uint64_t corners = index == LMB_INDEX_NONE ? 0 : 3 * triangles * (index == LMB_INDEX_U16 ? 2 : 4);
     lmb_mesh m;
     if (vertices > MAX_COUNT || triangles > MAX_COUNT || position > LMB_POSITION_I16 || uv > LMB_UV_U16 ||

@@ -22,8 +22,8 @@ static void take_slot(lmb_painted *p, const lmb_resolve_batch *b, int32_t slot)
     p->plane.w_min = b->w_min[slot];
     p->plane.w_max = b->w_max[slot];
     for (int i = 0; i < 3; ++i) {
-        p->uv[i][0] = b->uv[i][0][slot];
-        p->uv[i][1] = b->uv[i][1][slot];
+        p->uv[i][0] = b->mesh->uvs != NULL ? b->uv[i][0][slot] : 0.0f;
+        p->uv[i][1] = b->mesh->uvs != NULL ? b->uv[i][1][slot] : 0.0f;
     }
 }
 
@@ -93,12 +93,15 @@ static void paint_coded(lmb_tile *out, const lmb_resolve_batch *b, const lmb_tex
 }
 #endif
 
-/* How a triangle's texture coordinates lie in the world. */
+/* How a normal map's axes lie in the world. */
 typedef struct tangent_frame {
-    lmb_vec3 tangent[3]; /* towards larger u, at the corners */
-    float turn;          /* +1 or -1: smaller v is turn * (front normal x tangent) */
+    lmb_vec3 tangent[3]; /* the first one, at the corners */
+    float turn[3];       /* +1 or -1: the second one is turn * (front normal x tangent) */
     float side;          /* -1 where the pixels show the back */
 } tangent_frame;
+
+/* Does the mesh itself bring both axes? */
+static int is_sided(const lmb_mesh *m) { return m->tangents != NULL && m->tangent_format == LMB_TANGENT_SIDED; }
 
 static lmb_vec3 transform_direction(const lmb_mat4 *t, lmb_vec3 d)
 {
@@ -107,43 +110,65 @@ static lmb_vec3 transform_direction(const lmb_mat4 *t, lmb_vec3 d)
                 mul3(vec3(m[8], m[9], m[10]), d.z));
 }
 
+static lmb_vec3 tangent_in_world(const lmb_triangle *t, int corner)
+{
+    return normalize3(transform_direction(&t->instance->to_world, mesh_tangent(t->mesh, t->vertex[corner])));
+}
+
+/* The mesh's own. A mirror turns a cross product round. */
+static void set_sided(tangent_frame *f, const lmb_triangle *t, float mirror)
+{
+    for (int k = 0; k < 3; ++k) {
+        f->tangent[k] = tangent_in_world(t, k);
+        f->turn[k] = mesh_tangent_side(t->mesh, t->vertex[k]) * mirror;
+    }
+}
+
 /* Of P(u, v): dP/du = (e1 dv2 - e2 dv1) / area and dP/dv = (e2 du1 - e1 du2) / area; only directions count. 0 where the
  * coordinates have no area. */
-static int set_frame(tangent_frame *f, const lmb_painted *p, const lmb_triangle *t, lmb_vec3 face)
+static int set_by_uv(tangent_frame *f, const lmb_painted *p, const lmb_triangle *t, lmb_vec3 front)
 {
     float du1 = p->uv[1][0], dv1 = p->uv[1][1], du2 = p->uv[2][0], dv2 = p->uv[2][1];
     float area = du1 * dv2 - du2 * dv1, sign = area < 0.0f ? -1.0f : 1.0f;
-    int mirrored = is_mirrored(&t->instance->to_world);
     lmb_vec3 e1 = sub3(t->corner[1], t->corner[0]), e2 = sub3(t->corner[2], t->corner[0]);
     lmb_vec3 along_u = normalize3(mul3(sub3(mul3(e1, dv2), mul3(e2, dv1)), sign));
     lmb_vec3 against_v = mul3(sub3(mul3(e1, du2), mul3(e2, du1)), sign);
-    lmb_vec3 front = mirrored ? mul3(p->plane.plane, -1.0f) : p->plane.plane;
     if (!(area * area > 1e-30f) || !is_sane(area)) {
         return 0;
     }
+    const float turn = dot3(cross3(front, along_u), against_v) < 0.0f ? -1.0f : 1.0f;
     for (int k = 0; k < 3; ++k) {
-        f->tangent[k] = along_u;
-        if (t->mesh->tangents != NULL) {
-            f->tangent[k] =
-                normalize3(transform_direction(&t->instance->to_world, mesh_tangent(t->mesh, t->vertex[k])));
-        }
+        f->tangent[k] = t->mesh->tangents != NULL ? tangent_in_world(t, k) : along_u;
+        f->turn[k] = turn;
     }
-    f->turn = dot3(cross3(front, along_u), against_v) < 0.0f ? -1.0f : 1.0f;
-    f->side = dot3(front, face) < 0.0f ? -1.0f : 1.0f;
     return 1;
 }
 
-/* The tangent at pixel `k`, made square to its normal; of any length where that leaves nothing. */
-static lmb_vec3 tangent_at(const tangent_frame *f, const lmb_painted *p, const lmb_rays *rays, lmb_vec3 normal,
-                           int32_t k)
+static int set_frame(tangent_frame *f, const lmb_painted *p, const lmb_triangle *t, lmb_vec3 face)
+{
+    const float mirror = is_mirrored(&t->instance->to_world) ? -1.0f : 1.0f;
+    const lmb_vec3 front = mul3(p->plane.plane, mirror);
+    f->side = dot3(front, face) < 0.0f ? -1.0f : 1.0f;
+    if (!is_sided(t->mesh)) {
+        return set_by_uv(f, p, t, front);
+    }
+    set_sided(f, t, mirror);
+    return 1;
+}
+
+/* Both axes at pixel `k`, the first one made square to the normal; of any length where that leaves nothing. */
+static void axes_at(lmb_vec3 axis[2], const tangent_frame *f, const lmb_painted *p, const lmb_rays *rays,
+                    lmb_vec3 normal, int32_t k)
 {
     const lmb_vec3 *t = f->tangent;
+    const float *turn = f->turn;
     float b1, b2;
     lmb_resolve_point(&b1, &b2, &p->plane, rays, (float)(k % LMB_TILE), (float)(k / LMB_TILE));
     b1 = clampf(b1, 0.0f, 1.0f);
     b2 = clampf(b2, 0.0f, 1.0f - b1);
     lmb_vec3 mixed = add3(t[0], add3(mul3(sub3(t[1], t[0]), b1), mul3(sub3(t[2], t[0]), b2)));
-    return normalize3(sub3(mixed, mul3(normal, dot3(mixed, normal))));
+    axis[0] = normalize3(sub3(mixed, mul3(normal, dot3(mixed, normal))));
+    axis[1] = mul3(cross3(normal, axis[0]), turn[0] + ((turn[1] - turn[0]) * b1 + (turn[2] - turn[0]) * b2));
 }
 
 /* Normals stay on the viewer's side of the face, off its plane by this sine. */
@@ -166,10 +191,10 @@ static void paint_normal(lmb_tile *out, const lmb_resolve_batch *b, const lmb_pa
             continue;
         }
         float code[4];
-        lmb_vec3 n = mul3(vec3(out->normal[0][k], out->normal[1][k], out->normal[2][k]), f->side);
-        lmb_vec3 t = tangent_at(f, p, &b->rays, n, k), across = mul3(cross3(n, t), f->turn);
+        lmb_vec3 n = mul3(vec3(out->normal[0][k], out->normal[1][k], out->normal[2][k]), f->side), axis[2];
+        axes_at(axis, f, p, &b->rays, n, k);
         lmb_normal_map_sample(code, map, out->uv[0][k], out->uv[1][k], pixel_lod(p, &b->rays, map, k));
-        lmb_vec3 bent = add3(add3(mul3(t, code[0] * scale), mul3(across, code[1] * scale)), mul3(n, code[2]));
+        lmb_vec3 bent = add3(add3(mul3(axis[0], code[0] * scale), mul3(axis[1], code[1] * scale)), mul3(n, code[2]));
         float length2 = dot3(bent, bent);
         if (length2 > 1e-12f && is_sane(length2)) {
             n = above_face(mul3(bent, f->side / sqrtf(length2)), face);
@@ -317,7 +342,7 @@ void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_ker
         paint_metal(out, batch, &scene->textures[m->metal_map - 1]);
     }
 #endif
-    if (m->normal_scale != 0.0f && batch->mesh->uvs != NULL && !batch->albedo_only) {
+    if (m->normal_scale != 0.0f && (batch->mesh->uvs != NULL || is_sided(batch->mesh)) && !batch->albedo_only) {
         paint_normals(out, batch, scene);
     }
 }

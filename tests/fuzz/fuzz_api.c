@@ -107,6 +107,7 @@ static void make_mesh(world *w, uint32_t k, bytes *b)
     m->vertex_count = 3 * TRIANGLES;
     m->position_format = (uint8_t)(how >> 4 & 1u);
     m->uv_format = (uint8_t)(how >> 5 & 1u);
+    m->tangent_format = (uint8_t)(how >> 5 & 1u);
     m->position_scale = (lmb_vec3){positive(b), positive(b), positive(b)};
     m->position_offset = (lmb_vec3){positive(b), positive(b), positive(b)};
     m->uv_scale[0] = positive(b);

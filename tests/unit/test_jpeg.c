@@ -39,6 +39,8 @@ static const sample samples[] = {
     SAMPLE(progressive_444, 17, 13, 3),
     SAMPLE(progressive_restarts, 17, 13, 3),
     SAMPLE(progressive_grey, 17, 13, 1),
+    SAMPLE(cmyk, 11, 7, 3),
+    SAMPLE(ycck_progressive, 13, 9, 3),
 };
 enum { SAMPLES = sizeof samples / sizeof samples[0], SAMPLE_MAX = 2048 };
 
@@ -215,16 +217,15 @@ static void check_structure(void)
     refuses(progressive, SCAN, 13, 0x21, "lacks the one before it");
 }
 
-/* CMYK: a frame header of four components, its length right; and a Huffman code with three symbols of one bit. */
+/* A frame header of two components, its length right; and a Huffman code with three symbols of one bit. */
 static void check_made(void)
 {
-    static const uint8_t cmyk[] = {0xFF, 0xD8, 0xFF, 0xC0, 0, 20, 8, 0, 8, 0, 8, 4, 1, 0x11, 0, 2, 0x11, 0, 3, 0x11, 0,
-                                   4, 0x11, 0, 0xFF, 0xD9};
+    static const uint8_t two[] = {0xFF, 0xD8, 0xFF, 0xC0, 0, 14, 8, 0, 8, 0, 8, 2, 1, 0x11, 0, 2, 0x11, 0, 0xFF, 0xD9};
     static const uint8_t crowded[] = {0xFF, 0xD8, 0xFF, 0xC4, 0, 22, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
                                       0, 1, 2, 3, 0xFF, 0xD9};
     bitmap map;
     report r;
-    CHECK(!decode_copy(&map, cmyk, sizeof cmyk, &r) && strstr(r.text, "a CMYK picture; convert it to RGB"));
+    CHECK(!decode_copy(&map, two, sizeof two, &r) && strstr(r.text, "2 components are not read; convert it to grey"));
     CHECK(!decode_copy(&map, crowded, sizeof crowded, &r) && strstr(r.text, "more Huffman codes than"));
     CHECK(!decode_copy(&map, crowded, 2, &r) && strstr(r.text, "ends at byte 2, before EOI"));
 }

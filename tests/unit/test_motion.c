@@ -150,18 +150,17 @@ static void stands_still(void)
     CHECK(loaded.motion == NULL && loaded.motion_problem.text[0] == '\0');
 }
 
-/* A scale of 0 on its way takes a light's direction away. */
-static void loses_its_way(void)
+/* A scale of 0 on the way leaves a light and a camera the directions of their turns. */
+static void keeps_its_way(void)
 {
-    lmb_instance instance[2];
-    lmb_light light;
-    model_camera camera;
-    CHECK_LOADS(load(SCENE(ONE(CHANNEL(0, 1, "scale"), SAMPLER(0, 1, "")), ""), coded()));
-    CHECK(loaded.motion != NULL);
-    memcpy(instance, loaded.scene.instances, sizeof instance);
-    light = loaded.scene.lights[0];
-    camera = loaded.cameras[0];
-    CHECK(loaded.motion != NULL && !model_pose(instance, &light, &camera, &loaded, 0.0));
+    CHECK_LOADS(load(SCENE(ONE(CHANNEL(0, 1, "scale") "," CHANNEL(1, 0, "rotation") "," CHANNEL(0, 2, "scale"),
+                               SAMPLER(0, 1, "") "," SAMPLER(0, 2, "")), ""), coded()));
+    CHECK_MSG(loaded.motion != NULL, "%s", loaded.motion_problem.text);
+    pose p = at(0.0);
+    CHECK(is_vec(p.light.direction, 0, 0, -1) && is_vec(p.light.position, 5, 6, 5));
+    CHECK(is_vec(p.camera.back, 0, 0, 1) && is_vec(p.camera.up, 0, 1, 0) && is_vec(p.camera.right, 1, 0, 0));
+    p = at(1.0); /* a scale of (2, 0, 0) below a quarter turn */
+    CHECK(is_vec(p.light.direction, -1, 0, 0) && is_vec(p.camera.back, 0, 0, 1));
 }
 
 void test_motion(void)
@@ -169,6 +168,6 @@ void test_motion(void)
     moves_by_keys();
     refuses();
     stands_still();
-    loses_its_way();
+    keeps_its_way();
     forget();
 }

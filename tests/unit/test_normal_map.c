@@ -158,6 +158,49 @@ static void test_tangents(void)
     check_normal(vec(0, 0, 5), -0.7071 + half * 0.985, 0.7071 + half * 0.985, 1, "and what is square to it");
 }
 
+/* A tangent along x at each corner, its side at each from a sign. */
+static void set_sides(int a, int b, int c)
+{
+    const int odd[3] = {a > 0, b > 0, c > 0};
+    for (int k = 0; k < 3; ++k) {
+        lmb_octahedral_encode(st.tangents + 2 * k, vec(1, 0, 0));
+        st.tangents[2 * k] = (int16_t)(odd[k] ? 32767 : 32766);
+    }
+    st.mesh.tangents = st.tangents;
+    st.mesh.tangent_format = LMB_TANGENT_SIDED;
+}
+
+/* Both axes by the mesh: texture coordinates count for the lookup alone. */
+static void test_sides(void)
+{
+    const lmb_mat4 mirror = {{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    const lmb_vec3 front = vec(0, 0, 5), back = vec(0, 0, -5);
+    set_stage();
+    set_sides(1, 1, 1);
+    set_map(128, 219, 219);
+    check_normal(front, half / 0.7176, 1, 1, "w = 1: green leans along normal x tangent");
+    set_sides(-1, -1, -1);
+    check_normal(front, half / 0.7176, -1, 1, "w = -1: the other way");
+    check_normal(back, -half / 0.7176, 1, -1, "and turned round from behind");
+    st.uvs[0] = 1, st.uvs[2] = 0, st.uvs[4] = 1;
+    check_normal(front, half / 0.7176, -1, 1, "a mirrored image changes nothing");
+    for (int k = 0; k < 6; ++k) {
+        st.uvs[k] = 0.3f;
+    }
+    check_normal(front, half / 0.7176, -1, 1, "nor do coordinates at one point");
+    st.mesh.uvs = NULL;
+    check_normal(front, half / 0.7176, -1, 1, "nor a mesh without any");
+    st.positions[0] = st.positions[6] = -8;
+    st.instance.to_world = mirror;
+    check_normal(front, -half / 0.7176, -1, 1, "a mirrored node mirrors red and leaves green");
+    set_sides(1, -1, -1);
+    st.instance.to_world = (lmb_mat4){{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    st.positions[0] = st.positions[6] = -4;
+    check_normal(front, half / 0.7176, -1.0 / 3, 1, "corners that differ mix");
+    st.mesh.tangent_format = 2;
+    CHECK(lmb_scene_check(&st.scene) == LMB_ERR_FORMAT);
+}
+
 /* However far a map leans, the normal stays on the viewer's side of the face. */
 static void test_rise(void)
 {
@@ -282,6 +325,7 @@ void test_normal_map(void)
     test_axes();
     test_transforms();
     test_tangents();
+    test_sides();
     test_rise();
     test_any_triangle();
     test_checks();

@@ -106,6 +106,8 @@ static void test_refused(void)
     CHECK(open_with(at_part(LMB_PACK_INDICES, 1), 0x00040004u, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_MESHES, 0), 3, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_MESHES, 1), 0x00ffffffu, bytes) == LMB_ERR_FORMAT);
+    CHECK(open_with(at_part(LMB_PACK_MESHES, 2), words[at_part(LMB_PACK_MESHES, 2)] | 1u << 24, bytes) == LMB_OK);
+    CHECK(open_with(at_part(LMB_PACK_MESHES, 2), words[at_part(LMB_PACK_MESHES, 2)] | 2u << 24, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_MESHES, 3), (uint32_t)bytes - 8, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_TEXTURES, 1), 200 | 200 << 16, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_TEXTURES, 2), 3 | 3 << 8, bytes) == LMB_ERR_FORMAT);
@@ -178,6 +180,31 @@ static void test_moves(void)
     CHECK(lmb_pack_pose(&scene, &opened, NAN) == LMB_OK);
     scene.light_count = 0;
     CHECK(lmb_pack_pose(&scene, &opened, 0.0f) == LMB_ERR_ARG);
+}
+
+/* A sun and a camera on the panel's node, turned by 45 degrees about Y, where scales are 0: its own, or a matrix's. */
+static void test_no_scale(void)
+{
+    static const float nothing[12] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0};
+    const size_t bytes = make_small();
+    lmb_view view;
+    words[at_part(LMB_PACK_LIGHTS, 11)] = LMB_LIGHT_DIRECTIONAL;
+    words[at_part(LMB_PACK_LIGHTS, 12)] = words[at_part(LMB_PACK_CAMERAS, 19)] = 1;
+    for (int k = 0; k < 2; ++k) {
+        memset(&words[at_part(LMB_PACK_NODES, 16 * (k == 0) + 11)], 0, 3 * sizeof *words);
+        if (k == 1) { /* the node above: a matrix of zeros, 1 m up */
+            words[at_part(LMB_PACK_NODES, 2)] = 0;
+            words[at_part(LMB_PACK_NODES, 3)] = 1;
+            memcpy(&words[at_part(LMB_PACK_NODES, 4)], nothing, sizeof nothing);
+        }
+        CHECK(lmb_pack_open(&opened, words, bytes) == LMB_OK &&
+              lmb_pack_scene(&scene, &opened, memory, sizeof memory) == LMB_OK);
+        CHECK(lmb_pack_pose(&scene, &opened, 0.5f) == LMB_OK);
+        CHECK(is_near(scene.lights[0].direction, -0.70710678f, 0, -0.70710678f));
+        CHECK(is_near(scene.lights[0].position, 0, 1, 0));
+        CHECK(lmb_pack_view(&view, &opened, &scene, 0, 0.5f, WIDE, HIGH) == LMB_OK);
+        CHECK(is_near(view.back, 0.70710678f, 0, 0.70710678f) && is_near(view.up, 0, 1, 0));
+    }
 }
 
 /* --- textures ----------------------------------------------------------------------------------------------------- */
@@ -522,6 +549,7 @@ void test_pack(void)
     test_refused();
     test_damaged();
     test_moves();
+    test_no_scale();
     test_formats();
     test_formats_drawn();
     test_demo();

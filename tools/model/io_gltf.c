@@ -23,7 +23,9 @@ static int extension_use(const gltf *g, uint32_t name)
     } known[] = {{"KHR_lights_punctual", MODEL_EXTENSION_READ},
                  {"KHR_texture_transform", MODEL_EXTENSION_FOLDED},
                  {"KHR_materials_unlit", MODEL_EXTENSION_FOLDED},
+                 {"KHR_materials_pbrSpecularGlossiness", MODEL_EXTENSION_FOLDED},
                  {"KHR_materials_emissive_strength", MODEL_EXTENSION_FOLDED},
+                 {"KHR_node_visibility", MODEL_EXTENSION_READ},
                  {"KHR_mesh_quantization", MODEL_EXTENSION_READ}};
     size_t i;
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)
@@ -95,11 +97,49 @@ static int check_extensions(gltf *g)
     list_extensions(g, used, 0);
     return 1;
 }
-/* Where the meshes of each drawn node start, in the tree's order: made at first use, a skinned node's anew. `mesh` of a
- * node that shows none is JSON_NONE. */
+/* Where the meshes of each drawn node start, in the tree's order: made at first use, those of a node with a skin or
+ * weights anew. `mesh` of a node that shows none is JSON_NONE. */
 typedef struct shown {
     uint32_t mesh, first;
+    int is_posed; /* in world metres */
 } shown;
+
+static int has(const gltf *g, uint32_t node, const char *key) { return json_member(&g->doc, node, key) != JSON_NONE; }
+
+/* A mesh at its own weights; once a mesh. */
+static int make_mesh(gltf *g, uint32_t mesh)
+{
+    const int is_new = g->mesh_first[mesh] == JSON_NONE;
+    if (!gltf_mesh(g, mesh))
+        return 0;
+    for (uint32_t i = g->mesh_first[mesh]; is_new && i < g->mesh_first[mesh] + g->mesh_size[mesh]; ++i)
+        if (!gltf_morph(&g->b->meshes[i], g, g->meshes.items[mesh], g->mesh_primitive[i], JSON_NONE))
+            return 0;
+    return 1;
+}
+
+/* A node's own copies of its mesh, shaped and posed. */
+static int make_own(shown *inout, const gltf_tree *t, gltf *g, uint32_t node)
+{
+    const uint32_t mesh = inout->mesh;
+    uint32_t i;
+    inout->first = g->b->mesh_count;
+    for (i = 0; i < g->mesh_size[mesh]; ++i) {
+        const uint32_t from = g->mesh_first[mesh] + i, to = g->b->mesh_count++;
+        lmb_mesh *m = &g->b->meshes[to];
+        g->mesh_material[to] = g->mesh_material[from];
+        g->mesh_primitive[to] = g->mesh_primitive[from];
+        *m = g->b->meshes[from];
+        if (!has(g, node, "weights"))
+            continue;
+        *m = g->mesh_rest[from];
+        if (!gltf_morph(m, g, g->meshes.items[mesh], g->mesh_primitive[from], node))
+            return 0;
+    }
+    inout->is_posed = has(g, node, "skin");
+    g->left_out.skins += (uint32_t)inout->is_posed;
+    return !inout->is_posed || gltf_pose(g, t, node, mesh, inout->first);
+}
 
 /* The meshes that drawn nodes show; *total of them, repeated ones counted again. */
 static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
@@ -110,17 +150,15 @@ static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
         const uint32_t node = g->nodes.items[t->order[i]];
         if (!gltf_index(&to[i].mesh, g, &g->meshes, json_member(&g->doc, node, "mesh")))
             return 0;
+        if (t->hidden[t->order[i]])
+            to[i].mesh = JSON_NONE;
         if (to[i].mesh == JSON_NONE)
             continue;
-        if (!gltf_mesh(g, to[i].mesh))
+        if (!make_mesh(g, to[i].mesh))
             return 0;
         to[i].first = g->mesh_first[to[i].mesh];
         *total += g->mesh_size[to[i].mesh];
-        if (json_member(&g->doc, node, "skin") == JSON_NONE)
-            continue;
-        to[i].first = g->b->mesh_count;
-        ++g->left_out.skins;
-        if (!gltf_pose(g, t, node, to[i].mesh))
+        if ((has(g, node, "skin") || has(g, node, "weights")) && !make_own(&to[i], t, g, node))
             return 0;
     }
     return 1;
@@ -146,7 +184,7 @@ static int add_instances(const gltf_tree *t, gltf *g)
     for (i = 0; i < t->count; ++i) {
         const uint32_t mesh = nodes[i].mesh, size = mesh == JSON_NONE ? 0 : g->mesh_size[mesh];
         const gltf_matrix *world = &t->world[t->order[i]];
-        const int is_posed = size > 0 && nodes[i].first != g->mesh_first[mesh];
+        const int is_posed = nodes[i].is_posed;
         if (is_posed)
             world = &unit;
         for (k = 0; k < size; ++k, ++to, ++of) {
@@ -173,12 +211,14 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "primitives without POSITION skipped", n->without_positions);
     build_note_count(g->b, "primitives with vertices left over, which are dropped", n->ragged);
     build_note_count(g->b, "primitives without a material, drawn white", n->bare);
-    build_note_count(g->b, "normals without length, set to +Y", n->zero_normals);
+    build_note_count(g->b, "normals without length, which take their faces'", n->zero_normals);
     build_note_count(g->b, "BLEND materials, which light passes or does not by alpha 0.5", n->blends);
     build_note_count(g->b, "metallic materials, which reflect with --glossy only", n->metals);
     build_note_count(g->b, "metallic maps used by their mean without --glossy, 0 where one cannot be read",
                      n->metal_maps);
-    build_note_count(g->b, "unlit materials treated as Lambertian", n->unlit);
+    build_note_count(g->b, "specular-glossiness maps used by their mean, or left out where one cannot be read",
+                     n->gloss_maps);
+    build_note_count(g->b, "unlit materials, shown by their own colour; to other surfaces they are as any", n->unlit);
     build_note_count(g->b,
                      "emissive maps used by their mean, or left out: not the base colour's texture coordinates, or not "
                      "read",
@@ -192,26 +232,27 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "light ranges ignored", n->ranges);
     build_note_count(g->b, "skinned nodes posed by their joints as the file places them, or in `lambent play` as "
                      "animations do", n->skins);
-    build_note_count(g->b, "primitives with morph targets, which are ignored", n->morphs);
+    build_note_count(g->b, "primitives whose morph targets move colours or texture coordinates, which stay",
+                     n->odd_morphs);
     build_note_count(g->b, "animations, which move things in `lambent play` alone",
                      json_count(&g->doc, json_member(&g->doc, 0, "animations")));
 }
 
-/* Meshes that the scene may need: one a primitive, and as many again for each skinned node's own. */
+/* Meshes that the scene may need: one a primitive, and as many again for each node's own. */
 static uint64_t count_primitives(const gltf_tree *t, gltf *g, uint64_t *all)
 {
-    uint64_t skinned = 0;
+    uint64_t own = 0;
     uint32_t i, mesh;
     *all = 0;
     for (i = 0; i < g->meshes.count; ++i)
         *all += json_count(&g->doc, json_member(&g->doc, g->meshes.items[i], "primitives"));
     for (i = 0; i < t->count; ++i) {
         const uint32_t node = g->nodes.items[t->order[i]];
-        if (json_member(&g->doc, node, "skin") != JSON_NONE &&
+        if ((has(g, node, "skin") || has(g, node, "weights")) &&
             gltf_item(&mesh, g, &g->meshes, json_member(&g->doc, node, "mesh")))
-            skinned += json_count(&g->doc, json_member(&g->doc, mesh, "primitives"));
+            own += json_count(&g->doc, json_member(&g->doc, mesh, "primitives"));
     }
-    return *all + skinned;
+    return *all + own;
 }
 
 /* The tables by accessor, buffer and mesh. */
@@ -224,12 +265,14 @@ static int make_tables(const gltf_tree *t, gltf *g)
     g->b->meshes = (lmb_mesh *)build_keep(g->b, meshes, sizeof *g->b->meshes);
     g->mesh_material = (uint32_t *)build_scratch(g->b, meshes, sizeof *g->mesh_material);
     g->mesh_primitive = (uint32_t *)build_scratch(g->b, meshes, sizeof *g->mesh_primitive);
+    g->mesh_rest = (lmb_mesh *)build_scratch(g->b, meshes, sizeof *g->mesh_rest);
     g->mesh_influences = (gltf_influences *)build_scratch(g->b, meshes, sizeof *g->mesh_influences);
     g->mesh_first = (uint32_t *)build_scratch(g->b, g->meshes.count, sizeof *g->mesh_first);
     g->mesh_size = (uint32_t *)build_scratch(g->b, g->meshes.count, sizeof *g->mesh_size);
     g->positions = (const void **)build_scratch(g->b, accessors, sizeof *g->positions);
     g->uvs = (const void **)build_scratch(g->b, accessors, sizeof *g->uvs);
-    g->normals = (const int16_t **)build_scratch(g->b, accessors, sizeof *g->normals);
+    g->normals = (int16_t **)build_scratch(g->b, accessors, sizeof *g->normals);
+    g->bare_normals = (uint32_t **)build_scratch(g->b, accessors, sizeof *g->bare_normals);
     g->tangents = (const int16_t **)build_scratch(g->b, accessors, sizeof *g->tangents);
     g->colours = (const uint8_t **)build_scratch(g->b, accessors, sizeof *g->colours);
     g->uv_owner = (uint32_t *)build_scratch(g->b, accessors, sizeof *g->uv_owner);

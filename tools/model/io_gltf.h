@@ -4,6 +4,7 @@
 
 #include "../common/io_json.h"
 #include "model_build.h"
+#include "model_morph.h"
 #include "model_motion.h"
 
 /* JSON nodes of a top-level array, so that an index is found without walking. */
@@ -34,15 +35,15 @@ typedef struct gltf_influences {
 /* Of an image by its texels: channels as numbers, and as linear light. */
 typedef struct gltf_mean {
     int known;
-    double green, blue, light[3]; /* 0 .. 1 */
+    double green, blue, alpha, light[3]; /* 0 .. 1 */
 } gltf_mean;
 
 /* What was left out or stands for something else, told once at the end. */
 typedef struct gltf_counts {
     uint32_t points_lines, without_positions, ragged, zero_normals, bare;       /* primitives, vertices */
-    uint32_t textures, blends, metals, metal_maps, unlit, emissive_maps; /* materials */
+    uint32_t textures, blends, metals, metal_maps, gloss_maps, unlit, emissive_maps; /* materials */
     uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
-    uint32_t ranges, skins, morphs, no_roots;                                      /* lights, nodes, meshes, nodes */
+    uint32_t ranges, skins, odd_morphs, no_roots;                               /* lights, nodes, primitives, nodes */
 } gltf_counts;
 
 typedef struct gltf {
@@ -53,7 +54,9 @@ typedef struct gltf {
     gltf_bytes *buffer_bytes; /* by buffer */
     /* by accessor: streams already made, so that primitives share them */
     const void **positions, **uvs;
-    const int16_t **normals, **tangents;
+    int16_t **normals;
+    const int16_t **tangents;
+    uint32_t **bare_normals;          /* by vertex: 1 where one without length waits for its face's; NULL: none does */
     const uint8_t **colours;
     uint32_t *uv_owner;               /* the material that uvs[accessor] was made for */
     gltf_uv *material_uv;             /* by material */
@@ -63,6 +66,7 @@ typedef struct gltf {
     gltf_mean *image_means;           /* by those numbers */
     uint32_t *mesh_first, *mesh_size; /* by mesh: its run in b->meshes; mesh_first JSON_NONE: not made yet */
     uint32_t *mesh_material, *mesh_primitive; /* by lambent mesh: index; JSON node */
+    lmb_mesh *mesh_rest;                      /* by lambent mesh: at morph weights of 0 */
     gltf_influences *mesh_influences;         /* by lambent mesh, for as often as it is posed */
     uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
     uint32_t *instance_node, *light_node, *camera_node; /* of the model's: place in the tree's order, or MODEL_NONE */
@@ -82,6 +86,8 @@ typedef struct gltf_tree {
     uint32_t count;
     uint32_t *parent;   /* by node; JSON_NONE: a root */
     gltf_matrix *world; /* by node; of those in `order` */
+    gltf_matrix *turn;  /* by node: the same without scale, for directions where that is 0 */
+    uint8_t *hidden;    /* by node: neither meshes nor lights show */
     uint8_t *placed;    /* by node: is it in `order`? */
 } gltf_tree;
 
@@ -150,7 +156,13 @@ int gltf_light_begin(gltf *g, uint32_t meshes);            /* before the meshes:
 int gltf_light_end(gltf *g);                               /* its picture */
 
 /* io_gltf_skin.c */
-/* The meshes of a skinned node, posed by its joints: `size` new ones from b->mesh_count on, in world metres. */
-int gltf_pose(gltf *g, const gltf_tree *t, uint32_t node, uint32_t mesh);
+/* Pose a skinned node's own copies of its mesh, from b->meshes[first] on, by its joints, in world metres. */
+int gltf_pose(gltf *g, const gltf_tree *t, uint32_t node, uint32_t mesh, uint32_t first);
+
+/* io_gltf_morph.c */
+/* Shape one primitive, read at weights of 0, by a node's weights or with JSON_NONE by its mesh's; both JSON nodes. */
+int gltf_morph(lmb_mesh *inout, gltf *g, uint32_t mesh, uint32_t primitive, uint32_t node);
+/* A primitive's targets in scratch memory, for model_morph_pose; with weights only those that have one other than 0. */
+int gltf_morph_read(model_morph *out, gltf *g, uint32_t primitive, const lmb_mesh *mesh, const double *weights);
 
 #endif

@@ -104,17 +104,18 @@ static int texture_image(uint32_t *out, gltf *g, uint32_t texture)
 static void measure(gltf_mean *out, const bitmap *map)
 {
     const size_t n = (size_t)map->width * (size_t)map->height;
-    uint64_t counts[3][256];
+    uint64_t counts[4][256];
     size_t i;
     int k, code;
     memset(counts, 0, sizeof counts);
     memset(out, 0, sizeof *out);
     for (i = 0; i < n; ++i)
-        for (k = 0; k < 3; ++k)
+        for (k = 0; k < 4; ++k)
             ++counts[k][map->texels[4 * i + (size_t)k]];
     for (code = 0; code < 256; ++code) {
         out->green += code / 255.0 * (double)counts[1][code] / (double)n;
         out->blue += code / 255.0 * (double)counts[2][code] / (double)n;
+        out->alpha += code / 255.0 * (double)counts[3][code] / (double)n;
         for (k = 0; k < 3; ++k)
             out->light[k] += srgb_decode(code) * (double)counts[k][code] / (double)n;
     }
@@ -227,6 +228,8 @@ static int read_normal_map(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t inf
     out->normal_scale = scale > -1e6 && scale < 1e6 ? (float)scale : 0.0f;
     return 1;
 }
+
+#define LEAST_DIFFUSE 0.04 /* of a metal's colour, where it has no lobe */
 
 static float clamp01(double v) { return v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f; }
 
@@ -396,30 +399,95 @@ static int read_emission(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t mater
 
 /* Metals have no diffuse light of their own; without their lobe 0.04 of their colour stands for it, and of a map that
  * tells metal from what is none its mean: by texel the metal would be black, with nothing to show that it is metal. */
+static int read_metal_rough(lmb_material *out, model_lobe *lobe, gltf_uv *uv, gltf *g, uint32_t pbr,
+                            const double base[3])
+{
+    gltf_metal metal = {1, 1, 0, -1};
+    if (!read_metallic(&metal, uv, g, pbr))
+        return 0;
+    const double diffuse = 1 - metal.mean > LEAST_DIFFUSE ? 1 - metal.mean : LEAST_DIFFUSE;
+    for (int i = 0; i < 3; ++i)
+        out->albedo[i] = clamp01(base[i] * diffuse);
+    return read_lobe(lobe, g, out, base, &metal, json_member(&g->doc, pbr, "baseColorTexture"));
+}
+
+/* Specular colour and glossiness by the map's mean; one that cannot be had leaves the factors. */
+static int read_specular_map(double specular[3], double *glossiness, gltf *g, uint32_t map)
+{
+    const gltf_mean *mean;
+    gltf_uv own;
+    int32_t slot = -1;
+    if (!read_texture(&slot, &own, g, map, TEXELS_COLOUR))
+        return 0;
+    g->left_out.gloss_maps += map != JSON_NONE;
+    if (slot < 0)
+        return 1;
+    if (!texture_mean(&mean, g, map, &g->b->textures[slot]))
+        return 0;
+    for (int k = 0; k < 3; ++k)
+        specular[k] *= mean->light[k];
+    *glossiness *= mean->alpha;
+    return 1;
+}
+
+/* KHR_materials_pbrSpecularGlossiness: of the diffuse colour what the highest specular channel leaves; F0 is the
+ * specular colour, alpha (1 - glossiness)^2. */
+static int read_specular_glossiness(lmb_material *out, model_lobe *lobe, gltf *g, uint32_t other, const double base[3])
+{
+    const json *doc = &g->doc;
+    double specular[3] = {1, 1, 1}, glossiness = 1, peak;
+    if (!json_read_doubles(specular, 3, doc, json_member(doc, other, "specularFactor"), g->b->r) ||
+        !json_read_double(&glossiness, doc, json_member(doc, other, "glossinessFactor"), g->b->r) ||
+        !read_specular_map(specular, &glossiness, g, json_member(doc, other, "specularGlossinessTexture")))
+        return 0;
+    peak = (double)clamp01(fmax(specular[0], fmax(specular[1], specular[2])));
+    for (int k = 0; k < 3; ++k) {
+        const double diffuse = base[k] * (1 - peak), dark = LEAST_DIFFUSE * specular[k];
+        lobe->albedo[k] = clamp01(diffuse);
+        lobe->specular[k] = clamp01(specular[k]);
+        out->albedo[k] = clamp01(diffuse > dark ? diffuse : dark);
+    }
+    lobe->roughness = clamp01(1 - glossiness);
+    g->left_out.metals += peak >= 0.5;
+    return 1;
+}
+
+/* The base colour itself. */
+static void set_unlit(lmb_material *out, model_lobe *lobe, gltf *g, const double base[3])
+{
+    for (int k = 0; k < 3; ++k)
+        lobe->albedo[k] = out->albedo[k] = clamp01(base[k]);
+    out->flags |= LMB_UNLIT;
+    ++g->left_out.unlit;
+}
+
 static int read_material(lmb_material *out, model_lobe *lobe, gltf_uv *uv, gltf *g, uint32_t material)
 {
     const json *doc = &g->doc;
-    const uint32_t pbr = json_member(doc, material, "pbrMetallicRoughness");
-    const int unlit = json_member(doc, json_member(doc, material, "extensions"), "KHR_materials_unlit") != JSON_NONE;
-    gltf_metal metal = {1, 1, 0, -1};
-    double base[4] = {1, 1, 1, 1}, diffuse;
-    int sided = 0, i;
-    if (!json_read_doubles(base, 4, doc, json_member(doc, pbr, "baseColorFactor"), g->b->r) ||
+    const uint32_t pbr = json_member(doc, material, "pbrMetallicRoughness"),
+                   more = json_member(doc, material, "extensions"),
+                   other = pbr == JSON_NONE ? json_member(doc, more, "KHR_materials_pbrSpecularGlossiness") : JSON_NONE;
+    const int unlit = json_member(doc, more, "KHR_materials_unlit") != JSON_NONE;
+    const uint32_t factor = other != JSON_NONE ? json_member(doc, other, "diffuseFactor")
+                                               : json_member(doc, pbr, "baseColorFactor"),
+                   texture = other != JSON_NONE ? json_member(doc, other, "diffuseTexture")
+                                                : json_member(doc, pbr, "baseColorTexture");
+    double base[4] = {1, 1, 1, 1};
+    int sided = 0;
+    if (!json_read_doubles(base, 4, doc, factor, g->b->r) ||
         !json_read_bool(&sided, doc, json_member(doc, material, "doubleSided"), g->b->r) ||
-        !read_alpha(out, g, material) ||
-        !read_texture(&out->texture, uv, g, json_member(doc, pbr, "baseColorTexture"), TEXELS_COLOUR) ||
-        !read_normal_map(out, uv, g, json_member(doc, material, "normalTexture")) ||
-        (!unlit && !read_metallic(&metal, uv, g, pbr)))
-        return 0;
-    diffuse = 1 - metal.mean > 0.04 ? 1 - metal.mean : 0.04;
-    for (i = 0; i < 3; ++i)
-        lobe->albedo[i] = out->albedo[i] = clamp01(base[i] * diffuse);
-    if (!unlit && !read_lobe(lobe, g, out, base, &metal, json_member(doc, pbr, "baseColorTexture")))
+        !read_alpha(out, g, material) || !read_texture(&out->texture, uv, g, texture, TEXELS_COLOUR))
         return 0;
     out->alpha = clamp01(base[3]);
     out->flags |= sided ? LMB_DOUBLE_SIDED : 0;
-    g->left_out.unlit += (uint32_t)unlit;
-    return 1;
+    if (unlit) {
+        set_unlit(out, lobe, g, base);
+        return 1;
+    }
+    return read_normal_map(out, uv, g, json_member(doc, material, "normalTexture")) &&
+           (other != JSON_NONE ? read_specular_glossiness(out, lobe, g, other, base)
+                               : read_metal_rough(out, lobe, uv, g, pbr, base)) &&
+           read_emission(out, uv, g, material);
 }
 
 static void plain_material(lmb_material *out)
@@ -458,8 +526,7 @@ int gltf_materials(gltf *g)
         return 0;
     for (i = 0; i < n; ++i) {
         plain_material(&g->b->materials[i]);
-        if (!read_material(&g->b->materials[i], &g->b->out->lobes[i], &g->material_uv[i], g, g->materials.items[i]) ||
-            !read_emission(&g->b->materials[i], &g->material_uv[i], g, g->materials.items[i]))
+        if (!read_material(&g->b->materials[i], &g->b->out->lobes[i], &g->material_uv[i], g, g->materials.items[i]))
             return 0;
     }
     g->b->material_count = n;

@@ -50,16 +50,113 @@ static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
     return 1;
 }
 
-/* Vectors of three floats or more, made unit length, as octahedral codes; NULL with the report set. */
-static int16_t *encode_vectors(gltf *g, const gltf_accessor *a, uint32_t *zeros)
+/* --- normals without length --- */
+
+/* Corner k's vertex of triangle t. */
+static uint32_t vertex_at(const lmb_mesh *m, uint32_t t, uint32_t k)
+{
+    const size_t corner = 3 * (size_t)t + k;
+    return m->index_format == LMB_INDEX_NONE  ? (uint32_t)corner
+           : m->index_format == LMB_INDEX_U16 ? ((const uint16_t *)m->indices)[corner]
+                                              : ((const uint32_t *)m->indices)[corner];
+}
+
+/* The bare vertices that triangles show get numbers: 2, 3, ... *corners: of those. */
+static uint32_t number_bare(uint32_t *bare, uint64_t *corners, const lmb_mesh *m)
+{
+    uint32_t count = 0, t, k;
+    *corners = 0;
+    for (t = 0; t < m->triangle_count; ++t)
+        for (k = 0; k < 3; ++k) {
+            uint32_t *own = &bare[vertex_at(m, t, k)];
+            if (*own == 1)
+                *own = 2 + count++;
+            *corners += *own != 0;
+        }
+    return count;
+}
+
+/* A triangle's normal, as long as twice its area. */
+static void face_normal(double out[3], const lmb_mesh *m, uint32_t t)
+{
+    const float *p = (const float *)m->positions, *a = p + 3 * (size_t)vertex_at(m, t, 0),
+                *b = p + 3 * (size_t)vertex_at(m, t, 1), *c = p + 3 * (size_t)vertex_at(m, t, 2);
+    double u[3], v[3];
+    int k;
+    for (k = 0; k < 3; ++k) {
+        u[k] = (double)b[k] - (double)a[k];
+        v[k] = (double)c[k] - (double)a[k];
+    }
+    for (k = 0; k < 3; ++k)
+        out[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+}
+
+/* Each bare vertex takes the mean of its faces by area, and is bare no longer. */
+static void take_faces(int16_t *codes, uint32_t *bare, double (*sum)[3], const lmb_mesh *m)
+{
+    uint32_t t, k, c, none = 0;
+    for (t = 0; t < m->triangle_count; ++t) {
+        double face[3];
+        face_normal(face, m, t);
+        for (k = 0; k < 3; ++k) {
+            const uint32_t own = bare[vertex_at(m, t, k)];
+            for (c = 0; c < 3 && own != 0; ++c)
+                sum[own - 2][c] += face[c];
+        }
+    }
+    for (t = 0; t < m->triangle_count; ++t)
+        for (k = 0; k < 3; ++k) {
+            const uint32_t vertex = vertex_at(m, t, k), own = bare[vertex];
+            if (own != 0)
+                lmb_octahedral_encode(codes + 2 * (size_t)vertex, build_normal(sum[own - 2], &none));
+            bare[vertex] = 0;
+        }
+}
+
+/* Normals without length become those of their faces; where no corner has another one, flat shading is just that. */
+static int fill_normals(gltf *g, lmb_mesh *m, uint32_t accessor)
+{
+    uint32_t *bare = g->bare_normals[accessor], t, k;
+    uint64_t corners;
+    const uint32_t count = number_bare(bare, &corners, m);
+    double(*sum)[3];
+    g->left_out.zero_normals += count;
+    if (count == 0)
+        return 1;
+    if (corners == 3 * (uint64_t)m->triangle_count) {
+        for (t = 0; t < m->triangle_count; ++t)
+            for (k = 0; k < 3; ++k)
+                bare[vertex_at(m, t, k)] = 1;
+        m->normals = NULL;
+        return 1;
+    }
+    sum = (double(*)[3])build_scratch(g->b, count, sizeof *sum);
+    if (!sum)
+        return 0;
+    take_faces(g->normals[accessor], bare, sum, m);
+    return 1;
+}
+
+/* Vectors made unit length, as octahedral codes; of four numbers with the sign of the fourth. *bare: by vertex, 1 where
+ * one has no length; NULL where all have one. NULL with the report set. */
+static int16_t *encode_vectors(gltf *g, const gltf_accessor *a, uint32_t **bare)
 {
     const float *values = gltf_floats(g, a);
     int16_t *codes = (int16_t *)build_keep(g->b, (uint64_t)a->count * 2, sizeof *codes);
-    uint32_t i;
+    uint32_t i, zeros = 0;
+    *bare = NULL;
     for (i = 0; values && codes && i < a->count; ++i) {
         const float *v = values + (size_t)i * a->components;
         const double wide[3] = {(double)v[0], (double)v[1], (double)v[2]};
-        lmb_octahedral_encode(codes + 2 * (size_t)i, build_normal(wide, zeros));
+        const uint32_t before = zeros;
+        lmb_octahedral_encode(codes + 2 * (size_t)i, build_normal(wide, &zeros));
+        if (a->components == 4)
+            model_set_side(codes + 2 * (size_t)i, v[3] < 0.0f);
+        if (zeros == before)
+            continue;
+        if (!*bare && !(*bare = (uint32_t *)build_scratch(g->b, a->count, sizeof **bare)))
+            return NULL;
+        (*bare)[i] = 1;
     }
     return values ? codes : NULL;
 }
@@ -73,25 +170,26 @@ static int read_normals(lmb_mesh *out, gltf *g, uint32_t reference)
     if (index == JSON_NONE)
         return 1;
     if (!g->normals[index])
-        g->normals[index] = encode_vectors(g, &a, &g->left_out.zero_normals);
+        g->normals[index] = encode_vectors(g, &a, &g->bare_normals[index]);
     out->normals = g->normals[index];
-    return out->normals != NULL;
+    return out->normals != NULL && (!g->bare_normals[index] || fill_normals(g, out, index));
 }
 
-/* Only where a normal map asks for them, and the texture coordinates stay as they are. */
+/* Only where a normal map asks for them. Without normals they do not count (glTF 2.0, 3.7.2.1). */
 static int read_tangents(lmb_mesh *out, gltf *g, uint32_t reference, uint32_t material)
 {
     gltf_accessor a;
-    uint32_t index, zeros = 0;
-    if (g->b->materials[material].normal_scale == 0.0f || g->material_uv[material].moved)
+    uint32_t index, *bare;
+    if (g->b->materials[material].normal_scale == 0.0f || !out->normals)
         return 1;
     if (!gltf_attribute(&a, &index, g, reference, 4, 4, out->vertex_count))
         return 0;
     if (index == JSON_NONE)
         return 1;
     if (!g->tangents[index])
-        g->tangents[index] = encode_vectors(g, &a, &zeros);
+        g->tangents[index] = encode_vectors(g, &a, &bare);
     out->tangents = g->tangents[index];
+    out->tangent_format = LMB_TANGENT_SIDED;
     return out->tangents != NULL;
 }
 
@@ -315,14 +413,15 @@ static int read_primitive(gltf *g, uint32_t primitive)
     }
     memset(out, 0, sizeof *out);
     if (!refuse_draco(g, primitive, position) || !primitive_material(&material, g, primitive) ||
-        !read_positions(out, g, position) || !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) ||
-        !read_uvs(out, g, attributes, material) ||
+        !read_positions(out, g, position) || !read_triangles(out, g, primitive, mode) ||
+        !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) || !read_uvs(out, g, attributes, material) ||
         !read_tangents(out, g, json_member(&g->doc, attributes, "TANGENT"), material) ||
         !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) ||
-        !read_baked(g, out, attributes) || !read_triangles(out, g, primitive, mode))
+        !read_baked(g, out, attributes))
         return 0;
     if (out->triangle_count == 0)
         return 1;
+    g->mesh_rest[g->b->mesh_count] = *out;
     g->mesh_primitive[g->b->mesh_count] = primitive;
     g->mesh_material[g->b->mesh_count++] = material;
     return 1;
@@ -338,11 +437,9 @@ int gltf_mesh(gltf *g, uint32_t mesh)
     if (!gltf_list_of(&primitives, g, json_member(&g->doc, node, "primitives")))
         return 0;
     g->mesh_first[mesh] = g->b->mesh_count;
-    for (i = 0; i < primitives.count; ++i) {
+    for (i = 0; i < primitives.count; ++i)
         if (!read_primitive(g, primitives.items[i]))
             return 0;
-        g->left_out.morphs += json_member(&g->doc, primitives.items[i], "targets") != JSON_NONE;
-    }
     g->mesh_size[mesh] = g->b->mesh_count - g->mesh_first[mesh];
     return 1;
 }

@@ -180,7 +180,8 @@ static int make_nodes(struct model_motion *out, const reading *m)
     model_local *rest = (model_local *)build_keep(m->g->b, t->count, sizeof *rest);
     out->moves = (uint8_t *)build_keep(m->g->b, t->count, 1);
     out->world = (double(*)[16])build_keep(m->g->b, t->count, sizeof *out->world);
-    if (!parent || !rest || !out->moves || !out->world)
+    out->turn = (double(*)[16])build_keep(m->g->b, t->count, sizeof *out->turn);
+    if (!parent || !rest || !out->moves || !out->world || !out->turn)
         return 0;
     for (i = 0; i < t->count; ++i) {
         const uint32_t up = t->parent[t->order[i]];

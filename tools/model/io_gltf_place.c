@@ -38,7 +38,7 @@ static int light_kind(lmb_light *out, gltf *g, uint32_t light)
 }
 
 /* A light of the document placed by a node: it points along the node's -Z. */
-static int read_light(lmb_light *out, gltf *g, uint32_t light, const gltf_matrix *world, uint32_t node)
+static int read_light(lmb_light *out, gltf *g, uint32_t light)
 {
     const json *doc = &g->doc;
     double colour[3] = {1, 1, 1}, intensity = 1;
@@ -53,8 +53,6 @@ static int read_light(lmb_light *out, gltf *g, uint32_t light, const gltf_matrix
             return json_fail(doc, light, g->b->r, "color x intensity is no intensity");
         out->intensity[i] = (float)value;
     }
-    if (!model_place_light(out, world->m))
-        return json_fail(doc, node, g->b->r, "its light has no direction: the node's scale is 0");
     g->left_out.ranges += json_member(doc, light, "range") != JSON_NONE;
     return 1;
 }
@@ -79,14 +77,16 @@ int gltf_lights(const gltf_tree *t, gltf *g)
     if (!g->b->lights || !g->light_node)
         return 0;
     for (i = 0; i < t->count; ++i) {
-        const uint32_t index = t->order[i], node = g->nodes.items[index];
-        if (!gltf_item(&light, g, &g->lights, light_reference(g, node)))
+        const uint32_t index = t->order[i];
+        lmb_light *to = &g->b->lights[g->b->light_count];
+        if (!gltf_item(&light, g, &g->lights, light_reference(g, g->nodes.items[index])))
             return 0;
-        if (light == JSON_NONE)
+        if (light == JSON_NONE || t->hidden[index])
             continue;
-        g->light_node[g->b->light_count] = i;
-        if (!read_light(&g->b->lights[g->b->light_count++], g, light, &t->world[index], node))
+        if (!read_light(to, g, light))
             return 0;
+        model_place_light(to, t->world[index].m, t->turn[index].m);
+        g->light_node[g->b->light_count++] = i;
     }
     return 1;
 }
@@ -134,15 +134,13 @@ static int read_orthographic(model_camera *out, gltf *g, uint32_t camera)
 }
 
 /* Named as the node that places it, else as the camera itself, else by its number. */
-static int read_camera(model_camera *out, gltf *g, uint32_t camera, const gltf_matrix *world, uint32_t node)
+static int read_camera(model_camera *out, gltf *g, uint32_t camera, uint32_t node)
 {
     const json *doc = &g->doc;
     const uint32_t flat = json_member(doc, camera, "orthographic"), deep = json_member(doc, camera, "perspective");
     if (json_string(out->name, sizeof out->name, doc, json_member(doc, node, "name")) == 0 &&
         json_string(out->name, sizeof out->name, doc, json_member(doc, camera, "name")) == 0)
         snprintf(out->name, sizeof out->name, "camera %u", (unsigned)g->b->out->camera_count);
-    if (!model_place_camera(out, world->m))
-        return json_fail(doc, node, g->b->r, "its camera has no direction: the node's scale is 0");
     if (json_equals(doc, json_member(doc, camera, "type"), "orthographic") && flat != JSON_NONE)
         return read_orthographic(out, g, flat);
     if (json_equals(doc, json_member(doc, camera, "type"), "perspective") && deep != JSON_NONE)
@@ -166,8 +164,9 @@ int gltf_cameras(const gltf_tree *t, gltf *g)
             return 0;
         if (camera == JSON_NONE)
             continue;
-        if (!read_camera(&out->cameras[out->camera_count], g, camera, &t->world[index], node))
+        if (!read_camera(&out->cameras[out->camera_count], g, camera, node))
             return 0;
+        model_place_camera(&out->cameras[out->camera_count], t->world[index].m, t->turn[index].m);
         g->camera_node[out->camera_count++] = i;
     }
     return 1;

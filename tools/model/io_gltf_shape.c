@@ -230,7 +230,7 @@ static int make_shape(model_shape *out, shaping *s, uint32_t instance)
     if (!read_skin(s))
         return 0;
     *out = s->at.skin;
-    return take_streams(out, g, mesh, &g->b->meshes[from], s->at.has_skin) &&
+    return take_streams(out, g, mesh, &g->mesh_rest[from], s->at.has_skin) &&
            read_targets(out, s, g->mesh_primitive[from]) &&
            (!s->at.has_skin || keep_influences(out, g, &g->mesh_influences[from]));
 }

@@ -172,6 +172,8 @@ static int16_t *pose_vectors(gltf *g, const int16_t *from, const gltf_influences
         if (normals)
             joint = cofactors(&joint);
         lmb_octahedral_encode(to + 2 * (size_t)i, turn(&joint, lmb_octahedral_decode(from + 2 * (size_t)i)));
+        if (!normals)
+            model_set_side(to + 2 * (size_t)i, model_side_of(from + 2 * (size_t)i));
     }
     return to;
 }
@@ -190,13 +192,10 @@ static float *pose_positions(gltf *g, const float *from, const gltf_influences *
     return to;
 }
 
-/* b->meshes[to] becomes `from`, posed; a primitive without influences stays as the first joint places it. */
-static int pose_mesh(gltf *g, uint32_t to, uint32_t from, const skin *s)
+/* A primitive without influences stays as the first joint places it. `in`: once for all of its meshes. */
+static int pose_mesh(gltf *g, lmb_mesh *out, gltf_influences *in, uint32_t primitive, const skin *s)
 {
-    lmb_mesh *out = &g->b->meshes[to];
-    gltf_influences *in = &g->mesh_influences[from];
-    const uint32_t primitive = g->mesh_primitive[from], n = g->b->meshes[from].vertex_count;
-    *out = g->b->meshes[from];
+    const uint32_t n = out->vertex_count;
     if (!read_influences(in, g, json_member(&g->doc, primitive, "attributes"), n) ||
         !check_joints(g, in, primitive, s, n))
         return 0;
@@ -208,19 +207,16 @@ static int pose_mesh(gltf *g, uint32_t to, uint32_t from, const skin *s)
     return !out->tangents || (out->tangents = pose_vectors(g, out->tangents, in, s, n, 0));
 }
 
-int gltf_pose(gltf *g, const gltf_tree *t, uint32_t node, uint32_t mesh)
+int gltf_pose(gltf *g, const gltf_tree *t, uint32_t node, uint32_t mesh, uint32_t first)
 {
     skin s;
     uint32_t i, index;
     if (!gltf_item(&index, g, &g->skins, json_member(&g->doc, node, "skin")) || !read_skin(&s, g, t, index))
         return 0;
     for (i = 0; i < g->mesh_size[mesh]; ++i) {
-        const uint32_t from = g->mesh_first[mesh] + i, to = g->b->mesh_count;
-        g->mesh_material[to] = g->mesh_material[from];
-        g->mesh_primitive[to] = g->mesh_primitive[from];
-        if (!pose_mesh(g, to, from, &s))
+        const uint32_t from = g->mesh_first[mesh] + i;
+        if (!pose_mesh(g, &g->b->meshes[first + i], &g->mesh_influences[from], g->mesh_primitive[from], &s))
             return 0;
-        ++g->b->mesh_count;
     }
     return 1;
 }

@@ -186,23 +186,27 @@ int gltf_local(model_local *out, gltf *g, uint32_t node)
            json_read_doubles(out->s, 3, doc, json_member(doc, node, "scale"), g->b->r);
 }
 
-static int local_matrix(gltf_matrix *out, gltf *g, uint32_t node)
+static int local_matrix(gltf_matrix *out, gltf_matrix *turn, gltf *g, uint32_t node)
 {
     model_local l;
     if (!gltf_local(&l, g, node))
         return 0;
-    if (!model_compose(out->m, &l))
+    if (!model_compose(out->m, &l) || !model_compose_turn(turn->m, &l))
         return json_fail(&g->doc, node, g->b->r, "rotation is no quaternion (its length is 0)");
     return 1;
 }
 
-void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b)
+void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b) { model_multiply(out->m, a->m, b->m); }
+
+/* KHR_node_visibility; what is below a hidden node is hidden too. */
+static int read_visibility(uint8_t *hidden, gltf *g, uint32_t node)
 {
-    int row, column;
-    for (column = 0; column < 4; ++column)
-        for (row = 0; row < 4; ++row)
-            out->m[4 * column + row] = a->m[row] * b->m[4 * column] + a->m[4 + row] * b->m[4 * column + 1] +
-                                       a->m[8 + row] * b->m[4 * column + 2] + a->m[12 + row] * b->m[4 * column + 3];
+    const uint32_t own = json_member(&g->doc, json_member(&g->doc, node, "extensions"), "KHR_node_visibility");
+    int visible = 1;
+    if (!json_read_bool(&visible, &g->doc, json_member(&g->doc, own, "visible"), g->b->r))
+        return 0;
+    *hidden = !visible;
+    return 1;
 }
 
 /* The world gltf_matrix of every drawn node; each must fit binary32. */
@@ -211,13 +215,17 @@ static int place_nodes(gltf_tree *t, gltf *g)
     uint32_t i, k;
     for (i = 0; i < t->count; ++i) {
         const uint32_t node = t->order[i], up = t->parent[node];
-        gltf_matrix local;
-        if (!local_matrix(&local, g, g->nodes.items[node]))
+        gltf_matrix local, turn;
+        if (!local_matrix(&local, &turn, g, g->nodes.items[node]) ||
+            !read_visibility(&t->hidden[node], g, g->nodes.items[node]))
             return 0;
-        if (up == JSON_NONE)
-            t->world[node] = local;
-        else
+        t->world[node] = local;
+        t->turn[node] = turn;
+        if (up != JSON_NONE) {
             gltf_multiply(&t->world[node], &t->world[up], &local);
+            gltf_multiply(&t->turn[node], &t->turn[up], &turn);
+            t->hidden[node] |= t->hidden[up];
+        }
         for (k = 0; k < 16; ++k)
             if (!(fabs(t->world[node].m[k]) <= (double)FLT_MAX))
                 return json_fail(&g->doc, g->nodes.items[node], g->b->r, "its place in the world is not finite");
@@ -230,6 +238,9 @@ int gltf_make_tree(gltf_tree *t, gltf *g)
     t->order = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *t->order);
     t->parent = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *t->parent);
     t->world = (gltf_matrix *)build_scratch(g->b, g->nodes.count, sizeof *t->world);
+    t->turn = (gltf_matrix *)build_scratch(g->b, g->nodes.count, sizeof *t->turn);
+    t->hidden = (uint8_t *)build_scratch(g->b, g->nodes.count, 1);
     t->placed = (uint8_t *)build_scratch(g->b, g->nodes.count, 1);
-    return t->order && t->parent && t->world && t->placed && traversal(t, g) && place_nodes(t, g);
+    return t->order && t->parent && t->world && t->turn && t->hidden && t->placed && traversal(t, g) &&
+           place_nodes(t, g);
 }

@@ -35,15 +35,6 @@ int model_compose(double m[16], const model_local *l)
     return 1;
 }
 
-static void multiply(double out[16], const double a[16], const double b[16])
-{
-    int row, column;
-    for (column = 0; column < 4; ++column)
-        for (row = 0; row < 4; ++row)
-            out[4 * column + row] = a[row] * b[4 * column] + a[4 + row] * b[4 * column + 1] +
-                                    a[8 + row] * b[4 * column + 2] + a[12 + row] * b[4 * column + 3];
-}
-
 static lmb_vec3 to_vec3(const double v[3])
 {
     lmb_vec3 out;
@@ -72,36 +63,129 @@ static void cross(double out[3], const double a[3], const double b[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* It points along the node's -Z. A point light has no use for a direction; the scene wants unit length. */
-int model_place_light(lmb_light *out, const double world[16])
+/* Square to v, which has unit length: from the axis that v is farthest from. */
+static void square_to(double out[3], const double v[3])
 {
-    double way[3] = {-world[8], -world[9], -world[10]};
-    if (!normalize(way)) {
-        if (out->kind != LMB_LIGHT_POINT)
-            return 0;
-        way[0] = way[1] = 0;
-        way[2] = -1;
+    const double axis[3] = {fabs(v[0]) <= fabs(v[1]) && fabs(v[0]) <= fabs(v[2]),
+                            fabs(v[1]) < fabs(v[0]) && fabs(v[1]) <= fabs(v[2]), 1};
+    cross(out, axis, v);
+    if (!normalize(out)) {
+        out[0] = 1;
+        out[1] = out[2] = 0;
     }
-    out->direction = to_vec3(way);
-    out->position = to_vec3(world + 12);
+}
+
+#define FLAT 1e-6 /* of the longest column: a shorter one is what rounding left of a scale of 0 */
+
+/* Column c to unit length; 0 where it has none. */
+static int direction_of(double out[3], const double m[16], int c)
+{
+    double longest = 0;
+    for (int i = 0; i < 12; i += 4)
+        longest = fmax(longest, fmax(fabs(m[i]), fmax(fabs(m[i + 1]), fabs(m[i + 2]))));
+    memcpy(out, m + 4 * c, 3 * sizeof *out);
+    return fmax(fabs(out[0]), fmax(fabs(out[1]), fabs(out[2]))) > FLAT * longest && normalize(out);
+}
+
+/* The camera's axes of columns 1 and 2; 0 where they name none. */
+static int axes_of(double right[3], double up[3], double back[3], const double m[16])
+{
+    if (!direction_of(up, m, 1) || !direction_of(back, m, 2))
+        return 0;
+    cross(right, up, back);
+    if (!normalize(right))
+        return 0;
+    cross(up, back, right);
     return 1;
 }
 
+/* v less its part along `unit`, to unit length; another square to it where nothing is left. */
+static void make_square(double v[3], const double unit[3])
+{
+    const double along = v[0] * unit[0] + v[1] * unit[1] + v[2] * unit[2];
+    for (int k = 0; k < 3; ++k)
+        v[k] -= along * unit[k];
+    if (!normalize(v))
+        square_to(v, unit);
+}
+
+/* Square axes for a matrix whose columns may have no length or lie in one line: a column that is missing is square to
+ * the others, or the axis of its name. */
+static void complete(double m[16])
+{
+    double axis[3][3], x[3];
+    int has[3], i, k;
+    for (i = 0; i < 3; ++i) {
+        memcpy(axis[i], m + 4 * i, sizeof axis[i]);
+        has[i] = normalize(axis[i]);
+    }
+    for (i = 0; i < 3; ++i) {
+        const int a = (i + 1) % 3, b = (i + 2) % 3;
+        if (has[i])
+            continue;
+        cross(axis[i], axis[a], axis[b]);
+        if (!(has[a] && has[b] && normalize(axis[i])))
+            for (k = 0; k < 3; ++k)
+                axis[i][k] = k == i;
+    }
+    if (!has[2] && has[1])
+        make_square(axis[2], axis[1]);
+    make_square(axis[1], axis[2]);
+    cross(x, axis[1], axis[2]);
+    const int mirrored = x[0] * axis[0][0] + x[1] * axis[0][1] + x[2] * axis[0][2] < 0;
+    for (k = 0; k < 3; ++k) {
+        m[k] = mirrored ? -x[k] : x[k];
+        m[4 + k] = axis[1][k];
+        m[8 + k] = axis[2][k];
+    }
+}
+
+/* Mirrors stay. */
+int model_compose_turn(double m[16], const model_local *l)
+{
+    model_local turn = *l;
+    int i;
+    for (i = 0; i < 3; ++i)
+        turn.s[i] = l->s[i] < 0 ? -1 : 1;
+    if (!model_compose(m, &turn))
+        return 0;
+    if (l->is_matrix)
+        complete(m);
+    return 1;
+}
+
+void model_multiply(double out[16], const double a[16], const double b[16])
+{
+    int row, column;
+    for (column = 0; column < 4; ++column)
+        for (row = 0; row < 4; ++row)
+            out[4 * column + row] = a[row] * b[4 * column] + a[4 + row] * b[4 * column + 1] +
+                                    a[8 + row] * b[4 * column + 2] + a[12 + row] * b[4 * column + 3];
+}
+
+/* It points along the node's -Z. A point light has no use for a direction; the scene wants unit length. */
+void model_place_light(lmb_light *out, const double world[16], const double turn[16])
+{
+    double way[3];
+    int i;
+    if (!direction_of(way, world, 2))
+        memcpy(way, turn + 8, sizeof way);
+    for (i = 0; i < 3; ++i)
+        way[i] = -way[i];
+    out->direction = to_vec3(way);
+    out->position = to_vec3(world + 12);
+}
+
 /* Back along the node's Z, up as near its Y as that allows; scale and mirroring drop out. */
-int model_place_camera(model_camera *out, const double world[16])
+void model_place_camera(model_camera *out, const double world[16], const double turn[16])
 {
     double right[3], up[3], back[3];
-    memcpy(up, world + 4, sizeof up);
-    memcpy(back, world + 8, sizeof back);
-    cross(right, up, back);
-    if (!normalize(back) || !normalize(right))
-        return 0;
-    cross(up, back, right);
+    if (!axes_of(right, up, back, world))
+        axes_of(right, up, back, turn);
     out->eye = to_vec3(world + 12);
     out->right = to_vec3(right);
     out->up = to_vec3(up);
     out->back = to_vec3(back);
-    return 1;
 }
 
 /* --- between keys ------------------------------------------------------------------------------------------------- */
@@ -186,20 +270,24 @@ void model_track_at(double *out, const model_track *t, double time_s, int size)
 /* The node's own way, then that of its parent. Tracks lie by their nodes. */
 static int place(const struct model_motion *m, uint32_t node, uint32_t *track, double time_s)
 {
+    const uint32_t up = m->parent[node];
     model_local l = m->rest[node];
-    double local[16];
+    double local[16], turn[16];
     int i;
     for (; *track < m->tracks && m->track[*track].node == node; ++*track) {
         const model_track *t = &m->track[*track];
         model_track_at(t->what == MODEL_ROTATION ? l.q : t->what == MODEL_SCALE ? l.s : l.t, t, time_s,
                  t->what == MODEL_ROTATION ? 4 : 3);
     }
-    if (!model_compose(local, &l))
+    if (!model_compose(local, &l) || !model_compose_turn(turn, &l))
         return 0;
-    if (m->parent[node] == MODEL_NONE)
+    if (up == MODEL_NONE) {
         memcpy(m->world[node], local, sizeof local);
-    else
-        multiply(m->world[node], m->world[m->parent[node]], local);
+        memcpy(m->turn[node], turn, sizeof turn);
+    } else {
+        model_multiply(m->world[node], m->world[up], local);
+        model_multiply(m->turn[node], m->turn[up], turn);
+    }
     for (i = 0; i < 16; ++i)
         if (!(fabs(m->world[node][i]) <= (double)FLT_MAX))
             return 0;
@@ -243,10 +331,10 @@ int model_pose(lmb_instance *instances, lmb_light *lights, model_camera *cameras
         for (c = 0; c < 16 && is_moved(m, m->of_instance[i]); ++c)
             instances[i].to_world.m[c] = (float)m->world[m->of_instance[i]][c];
     for (i = 0; i < of->scene.light_count; ++i)
-        if (is_moved(m, m->of_light[i]) && !model_place_light(&lights[i], m->world[m->of_light[i]]))
-            return 0;
+        if (is_moved(m, m->of_light[i]))
+            model_place_light(&lights[i], m->world[m->of_light[i]], m->turn[m->of_light[i]]);
     for (i = 0; i < of->camera_count; ++i)
-        if (is_moved(m, m->of_camera[i]) && !model_place_camera(&cameras[i], m->world[m->of_camera[i]]))
-            return 0;
+        if (is_moved(m, m->of_camera[i]))
+            model_place_camera(&cameras[i], m->world[m->of_camera[i]], m->turn[m->of_camera[i]]);
     return 1;
 }

@@ -32,7 +32,7 @@ struct model_motion {
     const model_track *track;
     const uint32_t *of_instance, *of_light, *of_camera; /* their nodes; MODEL_NONE: stands still whatever moves */
     uint8_t *moves;                                     /* a node: it or one above it has a track */
-    double (*world)[16];                                /* scratch of model_pose */
+    double (*world)[16], (*turn)[16];                   /* scratch of model_pose */
     double end_s;                                       /* the last key */
     struct model_shapes *shapes;                        /* model_shape.h; NULL: no mesh changes its shape */
     const uint8_t *reshapes;                            /* an instance: its mesh does; NULL: none does */
@@ -43,14 +43,18 @@ void model_track_at(double *out, const model_track *t, double time_s, int size);
 
 /* model_pose: the model's instances, lights and cameras as they are at a time, in arrays of as many as the model has;
  * only what moves is written. Before the first key and after the last one things stand as at it. 1, or 0 where
- * something has no place: a scale of 0 where a direction is asked for, or numbers past binary32. */
+ * something has no place: a rotation without length, or numbers past binary32. */
 int model_pose(lmb_instance *instances, lmb_light *lights, model_camera *cameras, const model *of, double time_s);
 
-/* model_compose: a column-major matrix; 0 where the rotation has no length. */
+/* model_compose: a column-major matrix; 0 where the rotation has no length. model_compose_turn: that of the rotation
+ * and mirrors alone, which a scale of 0 leaves; of a matrix, axes that are square. */
 int model_compose(double out[16], const model_local *l);
+int model_compose_turn(double out[16], const model_local *l);
+void model_multiply(double out[16], const double a[16], const double b[16]);
 
-/* A light's place and direction, and a camera's place and axes, by their node's way to the world; 0: no direction. */
-int model_place_light(lmb_light *inout, const double world[16]);
-int model_place_camera(model_camera *inout, const double world[16]);
+/* A light's place and direction, and a camera's place and axes, by their node's way to the world; where a scale of 0
+ * leaves no direction in it, by the product of turns. */
+void model_place_light(lmb_light *inout, const double world[16], const double turn[16]);
+void model_place_camera(model_camera *inout, const double world[16], const double turn[16]);
 
 #endif

@@ -368,7 +368,8 @@ static void put_mesh(pack *out, const mesh_job *j, const vertex_table *t, const 
     uint32_t at = 0;
     pack_word(record, t->count);
     pack_word(record, triangles);
-    pack_word(record, (uint32_t)j->position_format | (uint32_t)j->uv_format << 8 | (uint32_t)index_format << 16);
+    pack_word(record, (uint32_t)j->position_format | (uint32_t)j->uv_format << 8 | (uint32_t)index_format << 16 |
+                          (m->tangents != NULL ? (uint32_t)m->tangent_format << 24 : 0));
     pack_word(record, put_stream(vertices, t, &at, j->position_format == LMB_POSITION_I16 ? 2 : 3));
     pack_word(record, m->normals != NULL ? put_stream(vertices, t, &at, 1) : 0);
     pack_word(record, m->tangents != NULL ? put_stream(vertices, t, &at, 1) : 0);
@@ -395,7 +396,7 @@ static lmb_mesh needed(const mesh_job *j)
 {
     lmb_mesh m = *j->mesh;
     m.uvs = j->has_maps ? m.uvs : NULL;
-    m.tangents = j->has_normal_map && m.uvs != NULL ? m.tangents : NULL;
+    m.tangents = j->has_normal_map && (m.uvs != NULL || m.tangent_format == LMB_TANGENT_SIDED) ? m.tangents : NULL;
     m.colours = j->has_colours ? m.colours : NULL;
     return m;
 }

@@ -3,9 +3,9 @@
  * Memory beside the file: samples and texels, for progressive pictures the coefficients. A block takes at least two
  * bits of the file (one where progressive), fills up to 1024 / 9 pixels (three components of 4 x 1, 1 x 4 and 1 x 1)
  * and takes 64 bytes of samples and 128 of coefficients: all in all at most 2080 times the file, progressive 5184
- * times; and as picture_is_paid, at most 832 times the file beside 832 MiB (13 bytes a pixel, the padding of narrow
- * pictures aside). Files too short for their blocks are refused before anything is allocated. Bytes behind EOI are
- * ignored. Time goes with pixels, bits and JPEG_IDLE_BLOCKS. */
+ * times; and as picture_is_paid, at most 1024 times the file beside 1024 MiB (16 bytes a pixel of four components, the
+ * padding of narrow pictures aside). Files too short for their blocks are refused before anything is allocated. Bytes
+ * behind EOI are ignored. Time goes with pixels, bits and JPEG_IDLE_BLOCKS. */
 #include "io_jpeg.h"
 
 #include <inttypes.h>
@@ -200,9 +200,7 @@ static int read_shape(jpeg_reader *j, const jpeg_segment *s)
     if (s->size < 6 || s->size != 6 + 3 * (size_t)b[5]) return wrong_size(j, s);
     if (b[0] != 8)
         return report_fail(j->r, "%s: %d bits a sample are not read, only 8; convert it to 8 bits", j->name, b[0]);
-    if (b[5] == 4)
-        return report_fail(j->r, "%s: a CMYK picture; convert it to RGB", j->name);
-    if (b[5] != 1 && b[5] != 3)
+    if (b[5] != 1 && b[5] != 3 && b[5] != 4)
         return report_fail(j->r, "%s: %d components are not read; convert it to grey or RGB", j->name, b[5]);
     j->height = get_u16_be(b + 1);
     j->width = get_u16_be(b + 3);
@@ -351,11 +349,12 @@ static int read_markers(jpeg_reader *j)
     return 1;
 }
 
-/* JFIF means YCbCr; else Adobe's transform 0, or components named R G B, mean RGB. */
+/* JFIF means YCbCr; else Adobe's transform 0, or components named R G B, mean RGB. Of four, Adobe's 2 means YCCK. */
 static int is_ycc(const jpeg_reader *j)
 {
     const jpeg_component *c = j->components;
     if (j->count == 1) return 0;
+    if (j->count == 4) return j->adobe == 2;
     if (j->is_jfif) return 1;
     return j->adobe >= 0 ? j->adobe != 0 : !(c[0].id == 'R' && c[1].id == 'G' && c[2].id == 'B');
 }
@@ -378,7 +377,7 @@ static void transform_coefficients(jpeg_reader *j)
 static uint8_t *make_texels(jpeg_reader *j)
 {
     size_t bytes = (size_t)j->width * j->height * 4;
-    uint8_t *texels = malloc(bytes), *rows = malloc(3 * ((size_t)j->width + 4));
+    uint8_t *texels = malloc(bytes), *rows = malloc(JPEG_COMPONENTS * ((size_t)j->width + 4));
     if (texels && rows) {
         transform_coefficients(j);
         jpeg_colour_rows(texels, j, is_ycc(j), rows);

@@ -8,7 +8,9 @@
 #include "image.h"
 
 /* jpeg_decode: JPEG from memory; `name` stands in messages. Huffman coded, sequential or progressive, 8 bits; grey,
- * YCbCr or RGB with sampling factors 1, 2 and 4. Alpha is 255. 1, or 0 with `r` set and nothing allocated. */
+ * YCbCr, RGB, CMYK or YCCK with sampling factors 1, 2 and 4. Of CMYK, 255 is no ink, as Adobe's programs write it and
+ * browsers read it, and red, green and blue are C, M and Y times K: no profile counts. Alpha is 255. 1, or 0 with `r`
+ * set and nothing allocated. */
 int jpeg_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 
 /* Does a JPEG begin here? */
@@ -19,7 +21,7 @@ static inline int is_jpeg(const uint8_t *data, size_t size)
 
 /* --- inside the reader --- */
 
-enum { JPEG_TABLES = 4, JPEG_COMPONENTS = 3, JPEG_QUICK_BITS = 9 };
+enum { JPEG_TABLES = 4, JPEG_COMPONENTS = 4, JPEG_QUICK_BITS = 9 };
 
 /* A Huffman code: quick for codes up to 9 bits, the canonical order for longer ones. */
 typedef struct jpeg_code {
@@ -46,8 +48,8 @@ typedef struct jpeg_component {
 enum { JPEG_VALID = 0, JPEG_NO_BITS, JPEG_NO_CODE, JPEG_IDLE };
 
 /* Blocks that refining scans may visit without a bit of their own, so that time is bounded by the file's size: these,
- * and 32 for each byte. That is ten scans over any picture that picture_is_paid, in three components; pictures for
- * people have two or three. */
+ * and 32 for each byte. That is ten scans over any picture that picture_is_paid, in three components (seven in four);
+ * pictures for people have two or three. */
 #define JPEG_IDLE_BLOCKS (UINT64_C(1) << 25)
 
 typedef struct jpeg_reader {
@@ -82,7 +84,7 @@ int jpeg_scan(jpeg_reader *j);
 /* jpeg_inverse_dct: the 8 x 8 samples of a block, rows `stride` bytes apart. */
 void jpeg_inverse_dct(uint8_t *out, size_t stride, const int16_t block[64], const uint16_t quant[64]);
 
-/* jpeg_colour_rows: the whole picture as RGBA. `rows`: scratch, 3 * (width + 4) bytes. */
+/* jpeg_colour_rows: the whole picture as RGBA. `rows`: scratch, JPEG_COMPONENTS * (width + 4) bytes. */
 void jpeg_colour_rows(uint8_t *texels, const jpeg_reader *j, int is_ycc, uint8_t *rows);
 
 #endif

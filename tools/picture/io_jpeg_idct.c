@@ -175,12 +175,25 @@ static void colour_row(uint8_t *texels, const uint8_t *row, size_t pitch, uint32
     }
 }
 
+/* Four rows, of CMYK or YCCK, where 255 is no ink. */
+static void ink_row(uint8_t *texels, const uint8_t *row, size_t pitch, uint32_t n, int is_ycc)
+{
+    for (; n > 0; --n, ++row, texels += 4) {
+        const uint32_t black = row[3 * pitch];
+        colour_row(texels, row, pitch, 1, is_ycc);
+        for (int c = 0; c < 3; ++c) {
+            const uint32_t ink = is_ycc ? 255u - texels[c] : texels[c];
+            texels[c] = (uint8_t)((ink * black + 127u) / 255u);
+        }
+    }
+}
+
 void jpeg_colour_rows(uint8_t *texels, const jpeg_reader *j, int is_ycc, uint8_t *rows)
 {
     size_t pitch = (size_t)j->width + 4;
     uint32_t y, k;
     for (y = 0; y < j->height; ++y, texels += 4 * (size_t)j->width) {
         for (k = 0; k < j->count; ++k) upsample_row(rows + k * pitch, j, &j->components[k], y);
-        colour_row(texels, rows, j->count == 1 ? 0 : pitch, j->width, is_ycc);
+        (j->count == 4 ? ink_row : colour_row)(texels, rows, j->count == 1 ? 0 : pitch, j->width, is_ycc);
     }
 }

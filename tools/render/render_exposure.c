@@ -7,6 +7,7 @@
 
 #include "../picture/picture.h"
 #include "background.h"
+#include "unlit.h"
 
 #define GROUND_EV 1.25f
 #define NOTHING   1e-4f /* what is left of a glow's light counts from this share of it on: less is rounding */
@@ -77,6 +78,7 @@ int exposure_look(exposure_view *out, const render_job *j, report *r)
     out->emitted = glows ? calloc(pixels, 3 * sizeof *out->emitted) : NULL;
     out->own = j->around.has_ground ? calloc(pixels, 1) : NULL;
     int ok = ((!glows || out->emitted != NULL) && (!j->around.has_ground || out->own != NULL)) || short_of_memory(r);
+    ok = ok && unlit_colours(&out->unlit, j, r);
     if (ok && glows) {
         look_at_tiles(out, j, put_emitted);
     }
@@ -93,6 +95,7 @@ int exposure_look(exposure_view *out, const render_job *j, report *r)
 void exposure_view_free(exposure_view *v)
 {
     free(v->emitted);
+    free(v->unlit);
     free(v->cover);
     free(v->own);
     memset(v, 0, sizeof *v);
@@ -160,6 +163,24 @@ static void leave_background(image *inout, const exposure_view *v)
     }
 }
 
+/* The picture without what is unlit, in `inout`'s place, where that leaves anything: of all eyes, or of the last. */
+static void leave_unlit(image *inout, const exposure_view *v)
+{
+    const size_t left = (size_t)(v->width - inout->width), values = 3 * (size_t)inout->width;
+    float peak = 0.0f;
+    for (int pass = 0; pass < 2 && (pass == 0 || peak > 0.0f); ++pass) {
+        for (int32_t y = 0; y < inout->height; ++y) {
+            float *to = inout->pixels + values * (size_t)y;
+            const float *unlit = v->unlit + 3 * ((size_t)y * (size_t)v->width + left);
+            for (size_t i = 0; i < values; ++i) {
+                const float rest = unlit_rest(to[i], unlit[i]);
+                peak = fmaxf(peak, rest);
+                to[i] = pass == 0 ? to[i] : rest;
+            }
+        }
+    }
+}
+
 /* The picture without the ground that was put below the scene, in `inout`'s place. 1 where anything is left. */
 static int leave_ground(image *inout, const exposure_view *v)
 {
@@ -194,6 +215,9 @@ int exposure_of(float *ev, const exposure_view *v, const image *linear, report *
     if (v->emitted == NULL || !put_reflected(&by, v, linear)) {
         by.width = v->width;
         memcpy(by.pixels, linear->pixels, bytes);
+    }
+    if (v->unlit != NULL) {
+        leave_unlit(&by, v);
     }
     if (v->cover != NULL) {
         leave_background(&by, v);

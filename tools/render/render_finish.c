@@ -5,6 +5,7 @@
 
 #include "../picture/picture.h"
 #include "background.h"
+#include "unlit.h"
 
 #define DIM_EV 8.0f /* what is lifted by more stops than these is as good as black */
 
@@ -16,7 +17,7 @@ static int begin(render_finish *f, const render_job *j, int is_auto, float expos
     f->tone = j->o.tone;
     f->exposure_auto = is_auto && !picture_is_linear(f->format);
     f->exposure_ev = exposure_ev;
-    if (f->exposure_auto && !exposure_look(&f->view, j, r)) {
+    if (!(f->exposure_auto ? exposure_look(&f->view, j, r) : unlit_colours(&f->view.unlit, j, r))) {
         return 0;
     }
     f->view.width = j->linear.width;
@@ -42,12 +43,12 @@ int finish_begin_at(render_finish *f, const render_job *j, float exposure_ev, re
 void finish_free(render_finish *f) { exposure_view_free(&f->view); }
 
 /* What lies behind surfaces is dark in the light: a colour of the display's, or nothing, comes behind them. */
-static int encode_before(file_bytes *out, const render_finish *f, image *linear, float ev, report *r)
+static int encode_before(file_bytes *out, const render_finish *f, image *linear, float ev, int tone, report *r)
 {
     if (f->background.kind == BACKGROUND_TRANSPARENT) {
-        return picture_encode_alpha(out, linear, f->view.cover, ev, f->tone, r);
+        return picture_encode_alpha(out, linear, f->view.cover, ev, tone, r);
     }
-    picture_expose(linear, ev, f->tone);
+    picture_expose(linear, ev, tone);
     background_colour(linear, f->background.rgb, f->view.cover);
     return picture_encode(out, f->format, linear, 0.0f, PICTURE_CLIPPED, r);
 }
@@ -55,6 +56,7 @@ static int encode_before(file_bytes *out, const render_finish *f, image *linear,
 int finish_encode(file_bytes *out, const render_finish *f, image *linear, int is_quiet, report *r)
 {
     float ev = f->exposure_ev;
+    int tone = f->tone;
     if (f->exposure_auto) {
         exposure_view by = f->view;
         by.cover = f->background.kind == BACKGROUND_WORLD ? by.cover : NULL;
@@ -64,8 +66,13 @@ int finish_encode(file_bytes *out, const render_finish *f, image *linear, int is
         report_note(is_quiet, "exposure %+.3g EV (auto)%s", (double)ev,
                     ev > DIM_EV ? ": hardly any light comes to what is seen; the eye may be inside a wall" : "");
     }
-    return f->background.kind == BACKGROUND_WORLD ? picture_encode(out, f->format, linear, ev, f->tone, r)
-                                                  : encode_before(out, f, linear, ev, r);
+    if (f->view.unlit != NULL && !picture_is_linear(f->format)) {
+        unlit_expose(linear, f->view.unlit, ev, tone);
+        ev = 0.0f;
+        tone = PICTURE_CLIPPED;
+    }
+    return f->background.kind == BACKGROUND_WORLD ? picture_encode(out, f->format, linear, ev, tone, r)
+                                                  : encode_before(out, f, linear, ev, tone, r);
 }
 
 int finish_write(const render_finish *f, const char *path, image *linear, int is_quiet, report *r)

@@ -9,7 +9,7 @@
 #include "../picture/picture.h"
 
 /* What lies in a slice beside the light. */
-enum { HAS_EMITTED = 1, HAS_COVER = 2, HAS_OWN = 4 };
+enum { HAS_EMITTED = 1, HAS_COVER = 2, HAS_OWN = 4, HAS_UNLIT = 8 };
 
 static int rows_of(const exposure_view *v, int32_t band)
 {
@@ -17,6 +17,12 @@ static int rows_of(const exposure_view *v, int32_t band)
 }
 
 static int32_t bands_of(const exposure_view *v) { return (v->height + LMB_TILE - 1) / LMB_TILE; }
+
+static int what_it_has(const exposure_view *v)
+{
+    return (v->emitted != NULL ? HAS_EMITTED : 0) | (v->cover != NULL ? HAS_COVER : 0) |
+           (v->own != NULL ? HAS_OWN : 0) | (v->unlit != NULL ? HAS_UNLIT : 0);
+}
 
 /* --- out ---------------------------------------------------------------------------------------------------------- */
 
@@ -34,8 +40,7 @@ static void put_head(byte_buffer *b, const render_finish *f)
     byte_put_int(b, v->eye_width);
     byte_put_int(b, v->samples);
     byte_put_int(b, v->tone);
-    byte_put_int(b, (v->emitted != NULL ? HAS_EMITTED : 0) | (v->cover != NULL ? HAS_COVER : 0) |
-                        (v->own != NULL ? HAS_OWN : 0));
+    byte_put_int(b, what_it_has(v));
 }
 
 static void put_band(byte_buffer *b, const exposure_view *v, const image *linear, int32_t band)
@@ -47,6 +52,7 @@ static void put_band(byte_buffer *b, const exposure_view *v, const image *linear
                     v->emitted != NULL ? 3 * eye * rows : 0);
     byte_put_floats(b, v->cover != NULL ? v->cover + wide * first : NULL, v->cover != NULL ? wide * rows : 0);
     byte_put(b, v->own != NULL ? v->own + eye * first : NULL, v->own != NULL ? eye * rows : 0);
+    byte_put_floats(b, v->unlit != NULL ? v->unlit + 3 * wide * first : NULL, v->unlit != NULL ? 3 * wide * rows : 0);
 }
 
 int render_slice_write(const render_job *j, const render_finish *f, report *r)
@@ -89,7 +95,7 @@ static int get_head(render_finish *f, byte_reader *s)
     v->tone = byte_get_int(s);
     const int has = byte_get_int(s);
     const int ok = !s->is_short && v->width > 0 && v->height > 0 && v->eye_width > 0 && v->eye_width <= v->width &&
-                   picture_fits((uint64_t)v->width, (uint64_t)v->height) && has >= 0 && has < 8 &&
+                   picture_fits((uint64_t)v->width, (uint64_t)v->height) && has >= 0 && has < 16 &&
                    ((has & HAS_COVER) != 0 || f->background.kind == BACKGROUND_WORLD);
     return ok ? has : -1;
 }
@@ -106,8 +112,10 @@ static int take(render_finish *f, image *linear, int has, report *r)
     v->emitted = has & HAS_EMITTED ? calloc(eye, 3 * sizeof(float)) : NULL;
     v->cover = has & HAS_COVER ? calloc(pixels, sizeof(float)) : NULL;
     v->own = has & HAS_OWN ? calloc(eye, 1) : NULL;
+    v->unlit = has & HAS_UNLIT ? calloc(pixels, 3 * sizeof(float)) : NULL;
     return (linear->pixels != NULL && (!(has & HAS_EMITTED) || v->emitted != NULL) &&
-            (!(has & HAS_COVER) || v->cover != NULL) && (!(has & HAS_OWN) || v->own != NULL)) ||
+            (!(has & HAS_COVER) || v->cover != NULL) && (!(has & HAS_OWN) || v->own != NULL) &&
+            (!(has & HAS_UNLIT) || v->unlit != NULL)) ||
            report_fail(r, "not enough memory for %d x %d pixels", (int)v->width, (int)v->height);
 }
 
@@ -125,6 +133,9 @@ static void get_band(const exposure_view *v, image *linear, byte_reader *s, int3
     const uint8_t *own = v->own != NULL ? byte_get(s, eye * rows) : NULL;
     if (own != NULL) {
         memcpy(v->own + eye * first, own, eye * rows);
+    }
+    if (v->unlit != NULL) {
+        byte_get_floats(v->unlit + 3 * wide * first, s, 3 * wide * rows);
     }
 }
 
@@ -144,8 +155,7 @@ static int add(render_finish *f, image *linear, int32_t i, slice_file *file, rep
     }
     const exposure_view *a = &own.view, *b = &f->view;
     if (a->width != b->width || a->height != b->height || a->eye_width != b->eye_width ||
-        has != ((b->emitted != NULL ? HAS_EMITTED : 0) | (b->cover != NULL ? HAS_COVER : 0) |
-                (b->own != NULL ? HAS_OWN : 0))) {
+        has != what_it_has(b)) {
         return report_fail(r, "another picture than the first slice's");
     }
     for (int32_t k = 0; k < slice_items(file->slice, bands_of(b)); ++k) {

@@ -1,0 +1,307 @@
+/* test_gltf_shape.c: glTF's tangents and their sides, normals without length, morph targets at rest, hidden nodes, nodes of
+ * scale 0, and materials with another description. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "../../tools/model/model_morph.h"
+#include "../../tools/picture/image.h"
+#include "../../tools/picture/io_png.h"
+#include "../blob.h"
+#include "../model_case.h"
+
+void test_gltf_shape(void);
+
+static char text[1 << 16];
+
+static int load(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    const int n = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    CHECK(n > 0 && n < (int)sizeof text);
+    forget();
+    memset(&notes, 0, sizeof notes);
+    return model_read(&loaded, "a.gltf", NULL, (const uint8_t *)text, (size_t)n, &notes, &problem);
+}
+
+static int near(double a, double b) { return fabs(a - b) <= 2e-4; }
+
+static int is_vec(lmb_vec3 v, double x, double y, double z)
+{
+    return near((double)v.x, x) && near((double)v.y, y) && near((double)v.z, z);
+}
+
+/* Six floats' vectors from byte 0 on, as accessors of three each: 0 positions, 1 normals, 2 more positions, 3 more
+ * normals, 4 tangents of four, 5 texture coordinates, 6 what is added to tangents; 7 the second's, sparse. */
+static const float numbers[] = {
+    0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, -1, 1, 0, -1, 1, 0, -1,
+    1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, -1, 1, 0, -1, 1, 0, -1, 1, 0};
+enum { NUMBERS = sizeof numbers / sizeof *numbers };
+
+#define FLOATS(offset, type) \
+    "{\"bufferView\":0,\"byteOffset\":" #offset ",\"componentType\":5126,\"count\":3,\"type\":\"" type "\"}"
+#define ASSET "{\"asset\":{\"version\":\"2.0\"},"
+#define DATA                                                                                                        \
+    "\"accessors\":[" FLOATS(0, "VEC3") "," FLOATS(36, "VEC3") "," FLOATS(72, "VEC3") "," FLOATS(108, "VEC3") ","     \
+    FLOATS(144, "VEC4") "," FLOATS(192, "VEC2") "," FLOATS(216, "VEC3") ","                                          \
+    "{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":1,"    \
+    "\"componentType\":5121},\"values\":{\"bufferView\":0,\"byteOffset\":72}}},"                                      \
+    "{\"bufferView\":2,\"componentType\":5120,\"count\":3,\"type\":\"VEC3\",\"normalized\":true}],"                   \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":252},{\"buffer\":0,\"byteOffset\":252,\"byteLength\":1},"            \
+    "{\"buffer\":0,\"byteOffset\":256,\"byteLength\":12,\"byteStride\":4}],"                                          \
+    "\"buffers\":[{\"byteLength\":268,\"uri\":\"data:;base64,%s\"}]}"
+
+/* Two bytes of index 2, then what a target adds in bytes: (127, 0, 0) at each vertex. */
+static const char *data_with(int at, float instead)
+{
+    static char coded[2048];
+    static blob b;
+    float v[NUMBERS];
+    memset(&b, 0, sizeof b);
+    memcpy(v, numbers, sizeof v);
+    for (int k = 0; at >= 0 && k < 3; ++k)
+        v[at + k] = instead;
+    put_floats(&b, v, NUMBERS);
+    put_u32(&b, 2);
+    for (int k = 0; k < 3; ++k)
+        put_u32(&b, 127);
+    snprintf(coded, sizeof coded, "%s", base64(b.bytes, b.size));
+    return coded;
+}
+
+static const char *data(void) { return data_with(-1, 0); }
+
+static lmb_vec3 normal(uint32_t mesh, uint32_t vertex)
+{
+    const int16_t *n = loaded.scene.meshes[mesh].normals;
+    return n ? lmb_octahedral_decode(n + 2 * (size_t)vertex) : (lmb_vec3){0, 0, 0};
+}
+
+static lmb_vec3 tangent(uint32_t mesh, uint32_t vertex)
+{
+    const int16_t *t = loaded.scene.meshes[mesh].tangents;
+    return t ? lmb_octahedral_decode(t + 2 * (size_t)vertex) : (lmb_vec3){0, 0, 0};
+}
+
+static lmb_vec3 position(uint32_t mesh, uint32_t vertex)
+{
+    const float *p = (const float *)loaded.scene.meshes[mesh].positions + 3 * (size_t)vertex;
+    return (lmb_vec3){p[0], p[1], p[2]};
+}
+
+/* --- tangents --- */
+
+#define MAPPED(attributes, texture)                                                                                  \
+    ASSET "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0" attributes "},"       \
+          "\"material\":0}]}],\"materials\":[{\"normalTexture\":{\"index\":0" texture "}}],\"textures\":[{\"source\":0}],"  \
+          "\"images\":[{\"uri\":\"data:;base64,%s\"}]," DATA
+
+static const char *flat_map(void)
+{
+    static blob b;
+    static char coded[256];
+    static const uint8_t rgb[] = {128, 128, 255};
+    file_bytes png = {NULL, 0};
+    CHECK(png_encode(&png, rgb, 1, 1, &problem));
+    memcpy(b.bytes, png.data, png.size);
+    b.size = png.size;
+    file_free(&png);
+    snprintf(coded, sizeof coded, "%s", base64(b.bytes, b.size));
+    return coded;
+}
+
+/* The sign stays beside the direction, whatever the texture transform does; without normals there are no tangents. */
+static void keeps_sides(void)
+{
+    const lmb_mesh *m;
+    CHECK_LOADS(load(MAPPED(",\"NORMAL\":1,\"TANGENT\":4,\"TEXCOORD_0\":5", ""), flat_map(), data()));
+    m = loaded.scene.meshes;
+    CHECK(m->tangents != NULL && m->tangent_format == LMB_TANGENT_SIDED);
+    for (uint32_t i = 0; m->tangents != NULL && i < 3; ++i)
+        CHECK(is_vec(tangent(0, i), 1, 0, 0) && model_side_of(m->tangents + 2 * i) == (i < 2));
+    CHECK_LOADS(load(MAPPED(",\"NORMAL\":1,\"TANGENT\":4,\"TEXCOORD_0\":5",
+                            ",\"extensions\":{\"KHR_texture_transform\":{\"scale\":[-1,1]}}"), flat_map(), data()));
+    CHECK(loaded.scene.meshes[0].tangents != NULL && model_side_of(loaded.scene.meshes[0].tangents));
+    CHECK_LOADS(load(MAPPED(",\"TANGENT\":4,\"TEXCOORD_0\":5", ""), flat_map(), data()));
+    CHECK(loaded.scene.meshes[0].tangents == NULL);
+}
+
+/* Every code has a neighbour of either side, within a turn of 1e-4. */
+static void sides_turn_little(void)
+{
+    for (int i = 0; i < 200; ++i) {
+        const double a = 0.37 * i, z = i / 100.0 - 0.995, s = sqrt(1 - z * z);
+        const lmb_vec3 v = {(float)(s * cos(a)), (float)(s * sin(a)), (float)z};
+        for (int side = 0; side < 2; ++side) {
+            int16_t code[2];
+            lmb_octahedral_encode(code, v);
+            model_set_side(code, side);
+            const lmb_vec3 back = lmb_octahedral_decode(code);
+            CHECK(model_side_of(code) == side && fabs((double)(back.x - v.x)) < 1e-4 && fabs((double)(back.y - v.y)) < 1e-4 &&
+                  fabs((double)(back.z - v.z)) < 1e-4);
+        }
+    }
+}
+
+/* --- normals --- */
+
+#define TWO_FACES                                                                                                   \
+    ASSET "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1}},"      \
+          "{\"attributes\":{\"POSITION\":2,\"NORMAL\":1}}]}]," DATA
+
+static void fills_normals(void)
+{
+    float tilted[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    blob b;
+    CHECK_LOADS(load(TWO_FACES, data_with(12, 0)));
+    CHECK(is_vec(normal(0, 0), 0, 0, 1) && is_vec(normal(0, 1), 0, 0, 1));
+    CHECK(noted("normals without length, which take their faces': 1"));
+    CHECK_LOADS(load(TWO_FACES, data_with(9, NAN)));
+    CHECK(is_vec(normal(0, 0), 0, 0, 1) && noted("faces': 1"));
+    /* Of a face that looks along (1, 1, 1). */
+    memset(&b, 0, sizeof b);
+    put_floats(&b, tilted, 9);
+    put_floats(&b, numbers + 9, 6);
+    put_floats(&b, (const float[3]){0, 0, 0}, 3);
+    put_floats(&b, numbers + 18, NUMBERS - 18);
+    put_u32(&b, 2);
+    put_u32(&b, 127), put_u32(&b, 127), put_u32(&b, 127);
+    CHECK_LOADS(load(TWO_FACES, base64(b.bytes, b.size)));
+    CHECK(is_vec(normal(0, 2), sqrt(1 / 3.0), sqrt(1 / 3.0), sqrt(1 / 3.0)) && is_vec(normal(0, 1), 0, 0, 1));
+    /* None has a length: flat, as if there were none. */
+    memset(b.bytes + 36, 0, 36);
+    CHECK_LOADS(load(TWO_FACES, base64(b.bytes, b.size)));
+    CHECK(loaded.scene.meshes[0].normals == NULL && loaded.scene.meshes[1].normals == NULL && noted("faces': 6"));
+}
+
+/* --- morph targets --- */
+
+#define SHAPED(weights, nodes, target)                                                                               \
+    ASSET "\"nodes\":[" nodes "],\"scenes\":[{\"nodes\":[0,1]}],\"meshes\":[{" weights "\"primitives\":[{"               \
+          "\"attributes\":{\"POSITION\":0,\"NORMAL\":1,\"TANGENT\":4,\"TEXCOORD_0\":5},\"material\":0,"                  \
+          "\"targets\":[{},{" target "}]}]}],\"materials\":[{\"normalTexture\":{\"index\":0}}],"                         \
+          "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]," DATA
+#define TWO "{\"mesh\":0},{\"mesh\":0,\"translation\":[0,0,5]}"
+#define ALL "\"POSITION\":2,\"NORMAL\":3,\"TANGENT\":6"
+
+static void shapes_by_weights(void)
+{
+    CHECK_LOADS(load(SHAPED("\"weights\":[0.3,0.5],", TWO, ALL), flat_map(), data()));
+    CHECK(loaded.scene.mesh_count == 1 && is_vec(position(0, 1), 1.5, 0, 0) && is_vec(position(0, 2), 0.5, 1, 0));
+    CHECK(is_vec(normal(0, 0), sqrt(0.5), 0, sqrt(0.5)) && is_vec(tangent(0, 2), sqrt(0.5), sqrt(0.5), 0));
+    CHECK(model_side_of(loaded.scene.meshes[0].tangents) && !model_side_of(loaded.scene.meshes[0].tangents + 4));
+    CHECK(!noted("morph"));
+    /* A node's own override them, for it alone; those that it leaves out are 0. */
+    CHECK_LOADS(load(SHAPED("\"weights\":[0,1],", "{\"mesh\":0,\"weights\":[1]},{\"mesh\":0}", ALL), flat_map(), data()));
+    CHECK(loaded.scene.instance_count == 2 && loaded.scene.mesh_count == 2);
+    CHECK(is_vec(position(loaded.scene.instances[0].mesh, 1), 1, 0, 0));
+    CHECK(is_vec(position(loaded.scene.instances[1].mesh, 1), 2, 0, 0));
+    CHECK(is_vec(normal(loaded.scene.instances[1].mesh, 1), 1, 0, 0));
+    CHECK_LOADS(load(SHAPED("", "{\"mesh\":0,\"weights\":[0,-2]},{\"mesh\":0}", ALL), flat_map(), data()));
+    CHECK(is_vec(position(loaded.scene.instances[0].mesh, 0), -2, 0, 0) && loaded.scene.instances[0].to_world.m[0] == 1);
+    CHECK(is_vec(position(loaded.scene.instances[1].mesh, 0), 0, 0, 0));
+    /* Sparse, without a view; and bytes. */
+    CHECK_LOADS(load(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":7"), flat_map(), data()));
+    CHECK(is_vec(position(0, 1), 1, 0, 0) && is_vec(position(0, 2), 1, 1, 0) && is_vec(normal(0, 2), 0, 0, 1));
+    CHECK_LOADS(load(SHAPED("\"weights\":[0,0.25],", TWO, "\"POSITION\":8"), flat_map(), data()));
+    CHECK(is_vec(position(0, 1), 1.25, 0, 0));
+    /* What else a target moves stays, and is told. */
+    CHECK_LOADS(load(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":2,\"TEXCOORD_0\":5"), flat_map(), data()));
+    CHECK(noted("primitives whose morph targets move colours or texture coordinates, which stay: 1"));
+    check_fails(load(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":5"), flat_map(), data()), "does not take");
+    check_fails(load(SHAPED("\"weights\":[0,{}],", TWO, ALL), flat_map(), data()), "weights[1]");
+}
+
+/* Shaped first, then posed: joint 0 moves all by 10 along x. */
+static void shapes_before_it_poses(void)
+{
+    CHECK_LOADS(load(ASSET "\"nodes\":[{\"mesh\":0,\"skin\":0,\"weights\":[1]},{\"translation\":[10,0,0]}],"
+                           "\"skins\":[{\"joints\":[1]}],\"scenes\":[{\"nodes\":[0,1]}],\"meshes\":[{\"primitives\":[{"
+                           "\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":2}]}]}]," DATA, data()));
+    CHECK(is_vec(position(loaded.scene.instances[0].mesh, 1), 12, 0, 0));
+}
+
+/* --- nodes --- */
+
+#define LAMP "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}"
+#define LAMPS "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"directional\"}]}},"
+#define EYES "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1}}],"
+#define HIDDEN "\"KHR_node_visibility\":{\"visible\":false}"
+
+static void hides(void)
+{
+    CHECK_LOADS(load(ASSET "\"extensionsRequired\":[\"KHR_node_visibility\"]," LAMPS EYES
+                           "\"scenes\":[{\"nodes\":[0,4]}],\"nodes\":[{\"children\":[1,2,3],\"extensions\":{" HIDDEN "}},"
+                           "{\"mesh\":0,\"extensions\":{\"KHR_node_visibility\":{\"visible\":true}}},{" LAMP "},"
+                           "{\"camera\":0},{\"mesh\":0,\"children\":[5]},{" LAMP "}],"
+                           "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]," DATA, data()));
+    CHECK(loaded.scene.instance_count == 1 && loaded.scene.light_count == 1 && loaded.camera_count == 1);
+    check_fails(load(ASSET "\"nodes\":[{\"extensions\":{\"KHR_node_visibility\":{\"visible\":0}}}]}"), "visible");
+}
+
+/* A quarter turn about Y, below scales that leave less than an axis. */
+static void keeps_directions(void)
+{
+    static const char *const above[] = {
+        "\"scale\":[0,0,0]", "\"scale\":[0,1,0]", "\"scale\":[0,0,1]", "\"scale\":[1e-40,1e-40,1e-40]",
+        "\"matrix\":[0,0,0,0,0,0,0,0,0,0,0,0,3,4,5,1]", "\"matrix\":[0,0,0,0,0,2,0,0,0,0,0,0,3,4,5,1]",
+        "\"scale\":[1e-18,1e-18,1e-18]", "\"scale\":[1e18,1e18,1e18]"};
+    for (int i = 0; i < (int)(sizeof above / sizeof *above); ++i) {
+        CHECK_LOADS(load(ASSET LAMPS EYES "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{%s%s,\"children\":[1]},"
+                               "{\"rotation\":[0,0.70710678,0,0.70710678],\"camera\":0," LAMP "}]}", above[i],
+                         strstr(above[i], "matrix") ? "" : ",\"translation\":[3,4,5]"));
+        CHECK_MSG(is_vec(loaded.scene.lights[0].direction, -1, 0, 0), "light below %s", above[i]);
+        CHECK_MSG(is_vec(loaded.cameras[0].back, 1, 0, 0) && is_vec(loaded.cameras[0].up, 0, 1, 0) &&
+                      is_vec(loaded.cameras[0].right, 0, 0, -1), "camera below %s", above[i]);
+        CHECK(is_vec(loaded.cameras[0].eye, 3, 4, 5) && is_vec(loaded.scene.lights[0].position, 3, 4, 5));
+    }
+    CHECK_LOADS(load(ASSET LAMPS "\"nodes\":[{\"scale\":[1,1,-1]," LAMP "}]}")); /* a mirror turns it round, as ever */
+    CHECK(is_vec(loaded.scene.lights[0].direction, 0, 0, 1));
+}
+
+/* --- materials --- */
+
+#define GLOSS "\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":[0.5,0.25,1,0.75],\"specularFactor\":[0.2,0.1,0]," \
+              "\"glossinessFactor\":0.75}"
+
+static void reads_other_materials(void)
+{
+    const lmb_material *m;
+    CHECK_LOADS(load(ASSET "\"materials\":[{\"extensions\":{" GLOSS "}},{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
+                           "\"extensions\":{" GLOSS "}},{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,1,0.25,1]},"
+                           "\"normalTexture\":{\"index\":0},\"emissiveFactor\":[1,1,1],\"extensions\":{\"KHR_materials_unlit\":{}}}"
+                           "],\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));
+    m = loaded.scene.materials;
+    CHECK(near((double)m[0].albedo[0], 0.4) && near((double)m[0].albedo[1], 0.2) && near((double)m[0].albedo[2], 0.8));
+    CHECK(m[0].alpha == 0.75f && m[1].albedo[0] == 1 && m[1].alpha == 1);
+    CHECK(m[2].flags == LMB_UNLIT && m[2].albedo[0] == 0.5f && m[2].albedo[1] == 1 && m[2].albedo[2] == 0.25f);
+    CHECK(m[2].emission[0] == 0 && m[2].normal_scale == 0 && noted("unlit materials, shown by their own colour"));
+    CHECK(model_make_glossy(&loaded) && lmb_scene_check(&loaded.scene) == LMB_OK);
+    m = loaded.scene.materials;
+    CHECK(near((double)m[0].specular[0], 0.2) && m[0].specular[2] == 0 && m[0].roughness == 0.25f);
+    CHECK(near((double)m[0].albedo[0], 0.4) && m[2].specular[0] == 0);
+    /* The map's means: specular in light, glossiness in its alpha, which is 1. A metal is not black without its lobe. */
+    CHECK_LOADS(load(ASSET "\"materials\":[{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":"
+                           "[0,0,0,1],\"specularGlossinessTexture\":{\"index\":0},\"diffuseTexture\":{\"index\":0}}}}],"
+                           "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));
+    m = loaded.scene.materials;
+    CHECK(m->texture == 0 && near((double)m->albedo[0], 0.04 * 0.21586) && near((double)m->albedo[2], 0.04));
+    CHECK(noted("specular-glossiness maps used by their mean") && model_make_glossy(&loaded));
+    m = loaded.scene.materials;
+    CHECK(near((double)m->specular[0], 0.21586) && m->specular[2] == 1 && m->roughness == 0 && m->albedo[2] == 0);
+}
+
+void test_gltf_shape(void)
+{
+    keeps_sides();
+    sides_turn_little();
+    fills_normals();
+    shapes_by_weights();
+    shapes_before_it_poses();
+    hides();
+    keeps_directions();
+    reads_other_materials();
+    forget();
+}
