@@ -458,6 +458,16 @@ static float reach_of(const lmb_scene *s, lmb_vec3 eye)
     return maxf(sqrtf(far2), 1e-4f);
 }
 
+/* As the tool has it: a ten-thousandth of what is seen, halved until it is at most 0.1 mm. */
+static float near_of(float reach)
+{
+    float near_m = 1e-4f * reach;
+    while (near_m > 1e-4f && near_m < 1e30f) { /* beyond, no view is valid */
+        near_m *= 0.5f;
+    }
+    return near_m;
+}
+
 lmb_status lmb_pack_view(lmb_view *out, const lmb_pack *pack, const lmb_scene *scene, uint32_t camera, float time_s,
                          int32_t width, int32_t height)
 {
@@ -483,7 +493,7 @@ lmb_status lmb_pack_view(lmb_view *out, const lmb_pack *pack, const lmb_scene *s
         return LMB_ERR_SCENE;
     }
     const float reach = reach_of(scene, v.eye);
-    v.near_m = v.near_m > 0.0f ? v.near_m : 1e-4f * reach;
+    v.near_m = v.near_m > 0.0f ? v.near_m : near_of(reach);
     v.far_m = v.kind == LMB_ORTHOGRAPHIC && v.far_m > v.near_m ? v.far_m : v.near_m + 2.0f * reach;
     *out = v;
     return LMB_OK;

@@ -34,4 +34,39 @@ status 0 render odd.gltf --size 32x24 --shadow-map 64 -o odd.png
 status 1 play odd.gltf --size 32x24 --frames 2
 said "2 values for 2 keys; or give --path"
 
+# Skins and morph weights move: shaped.gltf bends a triangle by two skins, moves one by weights, and one by both.
+shaped="$root/tests/fuzz/corpus/gltf/shaped.gltf"
+few="--size 32x24 --quality draft --eye 2,2,-9 --target 2,1,0"
+for move in object all; do
+    status 0 play $shaped $few --move $move --fps 4 --frames 4 -o play_%02d.pfm
+    check "skins and weights move --move $move" sh -c '! cmp -s play_00.pfm play_01.pfm && ! cmp -s play_01.pfm play_03.pfm'
+    status 0 play $shaped $few --move $move --fps 4 --from 3 --frames 1 -o alone_%02d.pfm
+    check "the same alone" cmp -s play_03.pfm alone_03.pfm
+done
+status 0 play $shaped $few --fps 1 --from 1 --frames 4 -o play_%02d.pfm
+check "after their last key they stand" cmp -s play_01.pfm play_04.pfm
+check "and so does the camera" lacks 'camera' err.txt
+status 0 bake $shaped -o shaped.lmt --elements 64 --receivers 64
+status 0 play $shaped $few --transfer shaped.lmt --fps 1 --frames 2 -o play_%02d.pfm
+check "that baked shapes stand still is said" holds "objects stand still: what was baked" err.txt
+check "with them all does" cmp -s play_00.pfm play_01.pfm
+status 0 pack $shaped -o shaped.lmp
+said "skins and morph targets that animations move stand still in what is packed"
+
+# Where nothing of a file's animations moves what is drawn, nothing moves by itself, and a line says so.
+sed 's/"path":"[a-z]*"/"path":"pointer"/g' $shaped >idle.gltf
+status 0 play idle.gltf $few --fps 1 --frames 2 -o play_%02d.pfm
+check "idle animations are counted" holds "channels of animations that move nothing of the scene, or what does not move here: 3" err.txt
+check "that nothing moves is said" holds "nothing moves: of the animations of idle.gltf nothing is left here" err.txt
+check "nothing moves" cmp -s play_00.pfm play_01.pfm
+status 0 play idle.gltf $few --move camera --fps 1 --frames 2 -o play_%02d.pfm
+check "a camera that is asked to does" differ play_00.pfm play_01.pfm
+status 1 play idle.gltf $few --move object --frames 2 -q
+
+# Lights of the file that --light replaces may be more than those of the command line.
+more=$(awk 'BEGIN { while (n++ < 64) printf "{\"translation\":[0,2,0],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}," }')
+sed "s/{\"translation\":\[0,2,0\],[^}]*}}}/{\"children\":[4]}/; s/\"camera\":0}\]/\"camera\":0},{\"children\":[$(seq -s, 5 68)]},${more%,}]/" moving.gltf >lamps.gltf
+status 0 play lamps.gltf --size 32x24 --quality draft --light point:0,2,0:0,-1,0:4,4,4 --fps 1 --frames 2 -o play_%02d.pfm
+check "one light for 64" differ play_00.pfm play_01.pfm
+
 finish

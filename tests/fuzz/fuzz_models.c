@@ -4,7 +4,7 @@
 
 #include "../../tools/common/io_json.h"
 #include "../../tools/model/io_obj.h"
-#include "../../tools/model/model_motion.h"
+#include "../../tools/model/model_shape.h"
 #include "fuzz.h"
 
 #define FOLDER "tests/fuzz/neighbours/" /* a.bin, a.mtl and a.png, for a model to name */
@@ -64,6 +64,10 @@ static void pose_scene(const model *m)
     model_camera *cameras = copy_of(m->cameras, m->camera_count * sizeof *cameras);
     for (int t = 0; t < 3; ++t) {
         const int ok = model_pose(instances, lights, cameras, m, times[t]);
+        if (ok) {
+            model_pose_shapes(m, times[t]);
+            draw_scene(&m->scene);
+        }
         for (uint32_t i = 0; ok && i < m->scene.light_count; ++i) {
             const lmb_vec3 at = lights[i].position, along = lights[i].direction;
             fuzz_require(at.x - at.x == 0.0f && at.y - at.y == 0.0f && at.z - at.z == 0.0f);

@@ -32,6 +32,7 @@ make_inputs() {
         '"byteLength":36,"uri":"data:application/octet-stream;base64,' \
         'AAAAwAAAAAAAAADAAAAAwAAAAAAAAIBAAACAQAAAAAAAAADA"}]}' >floor.gltf
     printf '0,0,0\n1,0,0\n' >path.txt
+    cp "$here/tests/fuzz/corpus/gltf/shaped.gltf" .
     printf 'f0\nf1\n' >frames.txt
     eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 24x16'
     "$tool" render demo --size 16x16 -q -o cloth.png &&
@@ -64,7 +65,8 @@ pack tent.obj -q -o out/a.lmp
 pack floor.gltf -q -o out/a.c
 pack tent.lmp --transfer tent.lmt -q -o out/a.lmp
 info tent.lmp -q
-play tent.obj --size 16x16 --shadow-map 64 --quality draft --frames 2 --threads 2 -q -o out/a%02d.png --stats out/a.json
+play shaped.gltf --size 16x16 --shadow-map 64 --quality draft --frames 2 --threads 1 -q -o out/a%02d.pfm
+play tent.obj --size 16x16 --shadow-map 64 --quality draft --frames 2 --threads 2 -q --background transparent -o out/a%02d.png --stats out/a.json
 capture tent.obj --at 0,0.3,0 --faces 8 --samples 1 --shadow-map 64 --quality draft --threads 2 -q -o out/c.hdr --ground out/g.pfm
 relight --world cube.pfm --object tent.obj --size 24x16 --threads 2 -q --cube out/c.pfm -o out/a.png
 relight --world demo --object demo --contact --path path.txt --size 16x16 --threads 1 -q -o out/a.ppm

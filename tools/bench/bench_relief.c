@@ -179,7 +179,7 @@ static int aim(statue *s, report *r)
     if (s->view.has_eye ? !view_look(&middle, &s->view, r) : !view_frame(&middle, &s->view, scene, s->model, r)) {
         return 0;
     }
-    middle.near_m = 0.0f;
+    middle.near_m = s->view.near_m;
     s->sun = sun;
     s->shot.kernels = lmb_kernels_pick();
     s->shot.view = view_from(&middle, 0.0f, scene);

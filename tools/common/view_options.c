@@ -6,6 +6,8 @@
 
 #include "option_value.h"
 
+#define MOST_NEAR 1e-4f /* m */
+
 /* --- command line ------------------------------------------------------------------------------------------------- */
 
 void view_options_init(view_options *out)
@@ -72,7 +74,17 @@ static float from_eye(const lmb_scene *s, lmb_vec3 eye)
     return sqrtf(far2);
 }
 
-/* A near plane of the scene's own size where none is given: a ten-thousandth of what is seen. */
+/* A ten-thousandth of what is seen, halved until it is short: a sign before the eye is seen in any landscape. Depths
+ * are near / w in binary32, so that by halves their fractions stay as they are, and so does what hides what. */
+static float near_of(float reach)
+{
+    float near_m = 1e-4f * reach;
+    while (near_m > MOST_NEAR && near_m < 1e30f) { /* beyond, no view is valid */
+        near_m *= 0.5f;
+    }
+    return near_m;
+}
+
 lmb_view view_from(const lmb_view *middle, float right_m, const lmb_scene *scene)
 {
     lmb_view v = *middle;
@@ -80,7 +92,7 @@ lmb_view view_from(const lmb_view *middle, float right_m, const lmb_scene *scene
     v.eye.y += right_m * v.right.y;
     v.eye.z += right_m * v.right.z;
     float reach = fmaxf(from_eye(scene, v.eye), 1e-4f);
-    v.near_m = v.near_m > 0.0f ? v.near_m : 1e-4f * reach;
+    v.near_m = v.near_m > 0.0f ? v.near_m : near_of(reach);
     v.far_m = v.kind == LMB_ORTHOGRAPHIC && v.far_m > v.near_m ? v.far_m : v.near_m + 2.0f * reach;
     return v;
 }

@@ -170,7 +170,7 @@ static int add_instances(const gltf_tree *t, gltf *g)
     static const gltf_matrix unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     shown *nodes = (shown *)build_scratch(g->b, t->count, sizeof *nodes);
     uint64_t total;
-    uint32_t i, k, c, *of;
+    uint32_t i, k, c, *of, *shown_by;
     lmb_instance *to;
     if (!nodes || !make_meshes(nodes, &total, t, g))
         return 0;
@@ -178,7 +178,8 @@ static int add_instances(const gltf_tree *t, gltf *g)
         return report_fail(g->b->r, "%s: too many instances", g->b->path);
     to = g->b->instances = (lmb_instance *)build_keep(g->b, total, sizeof *to);
     of = g->instance_node = (uint32_t *)build_keep(g->b, total, sizeof *of);
-    if (!to || !of)
+    shown_by = g->instance_shown = (uint32_t *)build_scratch(g->b, total, sizeof *shown_by);
+    if (!to || !of || !shown_by)
         return 0;
     for (i = 0; i < t->count; ++i) {
         const uint32_t mesh = nodes[i].mesh, size = mesh == JSON_NONE ? 0 : g->mesh_size[mesh];
@@ -188,6 +189,7 @@ static int add_instances(const gltf_tree *t, gltf *g)
             world = &unit;
         for (k = 0; k < size; ++k, ++to, ++of) {
             *of = is_posed ? MODEL_NONE : i;
+            *shown_by++ = i;
             for (c = 0; c < 16; ++c)
                 to->to_world.m[c] = (float)world->m[c];
             to->mesh = nodes[i].first + k;
@@ -227,7 +229,8 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "occlusion maps ignored: light is worked out here", n->occlusion_maps);
     build_note_count(g->b, "nodes that a scene names though they are no roots, or twice; drawn once", n->no_roots);
     build_note_count(g->b, "light ranges ignored", n->ranges);
-    build_note_count(g->b, "skinned nodes posed by their joints as the file places them", n->skins);
+    build_note_count(g->b, "skinned nodes posed by their joints as the file places them, or in `lambent play` as "
+                     "animations do", n->skins);
     build_note_count(g->b, "primitives whose morph targets move colours or texture coordinates, which stay",
                      n->odd_morphs);
     build_note_count(g->b, "animations, which move things in `lambent play` alone",

@@ -69,6 +69,7 @@ typedef struct gltf {
     gltf_influences *mesh_influences;         /* by lambent mesh, for as often as it is posed */
     uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
     uint32_t *instance_node, *light_node, *camera_node; /* of the model's: place in the tree's order, or MODEL_NONE */
+    uint32_t *instance_shown;         /* the place of the node that shows it, skinned or not */
     gltf_counts left_out;
     report texture_error; /* the first one */
 } gltf;
@@ -128,6 +129,12 @@ int gltf_cameras(const gltf_tree *t, gltf *g);
 
 /* io_gltf_motion.c: after all that moves; sets the model's motion, or motion_problem */
 void gltf_motion(const gltf_tree *t, gltf *g);
+
+/* io_gltf_shape.c: of nodes with moving joints, or with a track of morph weights; `place` of the document's nodes in the
+ * tree's order. gltf_targets: how many morph targets the mesh of a node has, by JSON node. */
+int gltf_shapes(struct model_motion *inout, const gltf_tree *t, gltf *g, const uint32_t *place,
+                const model_track *weight_track, uint32_t weight_tracks);
+uint32_t gltf_targets(const gltf *g, uint32_t node);
 
 /* io_gltf_material.c */
 int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */

@@ -1,5 +1,5 @@
-/* io_gltf_motion.c: animations of nodes: translation, rotation and scale by STEP, LINEAR or CUBICSPLINE; all of the
- * document's together, and of two that move the same the first one's. Morph weights are left out. */
+/* io_gltf_motion.c: animations of nodes: translation, rotation, scale and morph weights by STEP, LINEAR or CUBICSPLINE;
+ * all of the document's together, and of two that move the same the first one's. */
 #include <math.h>
 #include <string.h>
 
@@ -11,15 +11,15 @@ typedef struct reading {
     const gltf_tree *tree;
     uint32_t *place;  /* by the document's nodes: the motion's; MODEL_NONE: not in the scene */
     uint8_t *taken;   /* by the motion's nodes: bits of what has a track */
-    model_track *track;
-    uint32_t tracks;
+    model_track *track, *weight_track; /* weight_track: of morph weights */
+    uint32_t tracks, weight_tracks;
     double end_s;
 } reading;
 
 /* --- one channel -------------------------------------------------------------------------------------------------- */
 
-/* An accessor's floats, which are numbers. `components` 1, 3 or 4. */
-static const float *read_floats(uint32_t *count, gltf *g, uint32_t reference, uint32_t components)
+/* An accessor's floats, which are numbers. `components` 1, 3 or 4. has_codes: it may have normalized integers. */
+static const float *read_floats(uint32_t *count, gltf *g, uint32_t reference, uint32_t components, int has_codes)
 {
     gltf_accessor a;
     uint32_t index, i;
@@ -30,7 +30,7 @@ static const float *read_floats(uint32_t *count, gltf *g, uint32_t reference, ui
         json_fail(&g->doc, reference, g->b->r, "an animation's sampler needs input and output");
         return NULL;
     }
-    if (a.component != GLTF_F32 && (components != 4 || !a.normalized)) {
+    if (a.component != GLTF_F32 && (!has_codes || !a.normalized)) {
         json_fail(&g->doc, reference, g->b->r, "accessor %u is of no type that an animation takes", (unsigned)index);
         return NULL;
     }
@@ -49,7 +49,7 @@ static const float *read_floats(uint32_t *count, gltf *g, uint32_t reference, ui
 static int read_times(model_track *t, gltf *g, uint32_t reference)
 {
     uint32_t i;
-    t->time = read_floats(&t->count, g, reference, 1);
+    t->time = read_floats(&t->count, g, reference, 1, 0);
     if (!t->time)
         return 0;
     for (i = 0; i < t->count; ++i)
@@ -72,16 +72,18 @@ static int read_between(model_track *t, gltf *g, uint32_t sampler)
     return word == JSON_NONE || json_fail(&g->doc, word, g->b->r, "interpolation must be LINEAR, STEP or CUBICSPLINE");
 }
 
-static int read_sampler(model_track *t, gltf *g, uint32_t sampler)
+/* `targets`: numbers a key, of weights. */
+static int read_sampler(model_track *t, gltf *g, uint32_t sampler, uint32_t targets)
 {
-    const uint32_t output = json_member(&g->doc, sampler, "output");
+    const uint32_t output = json_member(&g->doc, sampler, "output"),
+                   components = t->what == MODEL_ROTATION ? 4 : t->what == MODEL_WEIGHTS ? 1 : 3;
     uint32_t values;
     if (!read_between(t, g, sampler) || !read_times(t, g, json_member(&g->doc, sampler, "input")))
         return 0;
-    t->value = read_floats(&values, g, output, t->what == MODEL_ROTATION ? 4 : 3);
+    t->value = read_floats(&values, g, output, components, components != 3);
     if (!t->value)
         return 0;
-    if (values != (t->between == MODEL_CUBIC ? 3 : 1) * (uint64_t)t->count)
+    if (values != (t->between == MODEL_CUBIC ? 3 : 1) * (components == 1 ? (uint64_t)targets : 1) * t->count)
         return json_fail(&g->doc, output, g->b->r, "%u values for %u keys", (unsigned)values, (unsigned)t->count);
     return 1;
 }
@@ -89,8 +91,8 @@ static int read_sampler(model_track *t, gltf *g, uint32_t sampler)
 /* What a channel moves; -1: nothing that is read. */
 static int target_of(const gltf *g, uint32_t target)
 {
-    static const char *const names[] = {"translation", "rotation", "scale"};
-    for (int i = 0; i < 3; ++i)
+    static const char *const names[] = {"translation", "rotation", "scale", "weights"};
+    for (int i = 0; i < 4; ++i)
         if (json_equals(&g->doc, json_member(&g->doc, target, "path"), names[i]))
             return i;
     return -1;
@@ -100,26 +102,31 @@ static int read_channel(reading *m, const gltf_list *samplers, uint32_t channel)
 {
     gltf *g = m->g;
     const uint32_t target = json_member(&g->doc, channel, "target");
-    uint32_t node, sampler;
-    model_track *t = &m->track[m->tracks];
-    t->what = target_of(g, target);
+    const int what = target_of(g, target), is_weights = what == MODEL_WEIGHTS;
+    uint32_t node, sampler, targets;
+    model_track *t = is_weights ? &m->weight_track[m->weight_tracks] : &m->track[m->tracks];
+    t->what = what;
     if (!gltf_index(&node, g, &g->nodes, json_member(&g->doc, target, "node")))
         return 0;
-    if (node == JSON_NONE || t->what < 0 || m->place[node] == MODEL_NONE ||
-        (m->taken[m->place[node]] & 1u << t->what) != 0)
+    targets = is_weights && node != JSON_NONE ? gltf_targets(g, g->nodes.items[node]) : 0;
+    if (node == JSON_NONE || what < 0 || m->place[node] == MODEL_NONE || (is_weights && targets == 0)) {
+        ++g->b->out->idle_channels;
         return 1;
-    if (json_member(&g->doc, g->nodes.items[node], "matrix") != JSON_NONE)
+    }
+    if ((m->taken[m->place[node]] & 1u << what) != 0)
+        return 1;
+    if (!is_weights && json_member(&g->doc, g->nodes.items[node], "matrix") != JSON_NONE)
         return json_fail(&g->doc, channel, g->b->r, "node %u has a matrix, which cannot be animated", (unsigned)node);
     t->node = m->place[node];
     if (!gltf_item(&sampler, g, samplers, json_member(&g->doc, channel, "sampler")))
         return 0;
     if (sampler == JSON_NONE)
         return json_fail(&g->doc, channel, g->b->r, "a channel without a sampler");
-    if (!read_sampler(t, g, sampler))
+    if (!read_sampler(t, g, sampler, targets))
         return 0;
-    m->taken[t->node] |= (uint8_t)(1u << t->what);
+    m->taken[t->node] |= (uint8_t)(1u << what);
     m->end_s = fmax(m->end_s, (double)t->time[t->count - 1]);
-    ++m->tracks;
+    ++*(is_weights ? &m->weight_tracks : &m->tracks);
     return 1;
 }
 
@@ -179,7 +186,8 @@ static int make_nodes(struct model_motion *out, const reading *m)
     for (i = 0; i < t->count; ++i) {
         const uint32_t up = t->parent[t->order[i]];
         parent[i] = up == JSON_NONE ? MODEL_NONE : m->place[up];
-        out->moves[i] = m->taken[i] != 0 || (parent[i] != MODEL_NONE && out->moves[parent[i]]);
+        out->moves[i] = (m->taken[i] & ~(1u << MODEL_WEIGHTS)) != 0 ||
+                        (parent[i] != MODEL_NONE && out->moves[parent[i]]);
         if (!gltf_local(&rest[i], m->g, m->g->nodes.items[t->order[i]]))
             return 0;
     }
@@ -192,14 +200,16 @@ static int make_nodes(struct model_motion *out, const reading *m)
 static int take(reading *m, uint32_t animations)
 {
     const uint32_t nodes = m->g->nodes.count;
+    const uint64_t channels = count_channels(m->g, animations) + 1;
     m->place = (uint32_t *)build_scratch(m->g->b, nodes, sizeof *m->place);
     m->taken = (uint8_t *)build_scratch(m->g->b, nodes, 1);
-    m->track = (model_track *)build_scratch(m->g->b, count_channels(m->g, animations) + 1, sizeof *m->track);
+    m->track = (model_track *)build_scratch(m->g->b, channels, sizeof *m->track);
+    m->weight_track = (model_track *)build_keep(m->g->b, channels, sizeof *m->weight_track);
     for (uint32_t i = 0; m->place && i < nodes; ++i)
         m->place[i] = MODEL_NONE;
     for (uint32_t i = 0; m->place && i < m->tree->count; ++i)
         m->place[m->tree->order[i]] = i;
-    return m->place && m->taken && m->track;
+    return m->place && m->taken && m->track && m->weight_track;
 }
 
 static int read_motion(reading *m)
@@ -209,7 +219,7 @@ static int read_motion(reading *m)
     struct model_motion *out = (struct model_motion *)build_keep(g->b, 1, sizeof *out);
     if (!out || !take(m, animations) || !read_channels(m, animations))
         return 0;
-    if (m->tracks == 0)
+    if (m->tracks + m->weight_tracks == 0)
         return 1;
     out->track = sorted(m);
     out->tracks = m->tracks;
@@ -217,7 +227,7 @@ static int read_motion(reading *m)
     out->of_instance = g->instance_node;
     out->of_light = g->light_node;
     out->of_camera = g->camera_node;
-    if (!out->track || !make_nodes(out, m))
+    if (!out->track || !make_nodes(out, m) || !gltf_shapes(out, m->tree, g, m->place, m->weight_track, m->weight_tracks))
         return 0;
     g->b->out->motion = out;
     return 1;

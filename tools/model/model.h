@@ -69,6 +69,7 @@ typedef struct model {
     model_light light;
     struct model_motion *motion; /* model_motion.h; NULL: nothing of the scene moves, or `motion_problem` says why */
     report motion_problem;
+    uint32_t idle_channels; /* of animations: they move nothing of the scene that is read */
     const lmb_pack *pack; /* a packed scene, in memory of the model's; NULL: it is none */
     model_facts facts;
     void **blocks; /* every allocation, for model_free */

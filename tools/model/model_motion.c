@@ -229,7 +229,7 @@ static void linear(double *out, const model_track *t, uint32_t key, double u, in
 {
     const float *a = value_at(t, key, size), *b = value_at(t, key + 1, size);
     int i;
-    if (size == 4) {
+    if (t->what == MODEL_ROTATION) {
         spherical(out, a, b, u);
         return;
     }
@@ -237,7 +237,7 @@ static void linear(double *out, const model_track *t, uint32_t key, double u, in
         out[i] = (1 - u) * (double)a[i] + u * (double)b[i];
 }
 
-static void evaluate(double *out, const model_track *t, double time_s, int size)
+void model_track_at(double *out, const model_track *t, double time_s, int size)
 {
     uint32_t low = 0, high = t->count - 1;
     const float *value;
@@ -276,7 +276,7 @@ static int place(const struct model_motion *m, uint32_t node, uint32_t *track, d
     int i;
     for (; *track < m->tracks && m->track[*track].node == node; ++*track) {
         const model_track *t = &m->track[*track];
-        evaluate(t->what == MODEL_ROTATION ? l.q : t->what == MODEL_SCALE ? l.s : l.t, t, time_s,
+        model_track_at(t->what == MODEL_ROTATION ? l.q : t->what == MODEL_SCALE ? l.s : l.t, t, time_s,
                  t->what == MODEL_ROTATION ? 4 : 3);
     }
     if (!model_compose(local, &l) || !model_compose_turn(turn, &l))

@@ -10,16 +10,16 @@ typedef struct model_local {
     int is_matrix;
 } model_local;
 
-enum { MODEL_TRANSLATION, MODEL_ROTATION, MODEL_SCALE };
+enum { MODEL_TRANSLATION, MODEL_ROTATION, MODEL_SCALE, MODEL_WEIGHTS };
 enum { MODEL_STEP, MODEL_LINEAR, MODEL_CUBIC };
 
-/* One of a node's three by its keys. */
+/* One of a node's three by its keys, or all weights of its morph targets. */
 typedef struct model_track {
     uint32_t node;
     int what, between;
     uint32_t count;     /* of the keys */
     const float *time;  /* s, rising */
-    const float *value; /* 3 or 4 a key; MODEL_CUBIC: three of them: in-tangent, value, out-tangent */
+    const float *value; /* 3, 4 or as many as targets a key; MODEL_CUBIC: three of them: in-tangent, value, out-tangent */
 } model_track;
 
 #define MODEL_NONE UINT32_MAX
@@ -34,7 +34,12 @@ struct model_motion {
     uint8_t *moves;                                     /* a node: it or one above it has a track */
     double (*world)[16], (*turn)[16];                   /* scratch of model_pose */
     double end_s;                                       /* the last key */
+    struct model_shapes *shapes;                        /* model_shape.h; NULL: no mesh changes its shape */
+    const uint8_t *reshapes;                            /* an instance: its mesh does; NULL: none does */
 };
+
+/* model_track_at: its `size` numbers at a time: as at the first key before it, as at the last one after it. */
+void model_track_at(double *out, const model_track *t, double time_s, int size);
 
 /* model_pose: the model's instances, lights and cameras as they are at a time, in arrays of as many as the model has;
  * only what moves is written. Before the first key and after the last one things stand as at it. 1, or 0 where

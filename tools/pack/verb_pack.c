@@ -11,6 +11,7 @@
 #include "../common/options.h"
 #include "../demo/demo_scene.h"
 #include "../model/io_lmt.h"
+#include "../model/model_motion.h"
 #include "c_name.h"
 #include "pack.h"
 
@@ -334,6 +335,8 @@ int verb_pack(int argc, char **argv)
     for (uint32_t i = 0; ok && i < notes.count; ++i) {
         report_note(o.is_quiet, "%s", notes.line[i]);
     }
+    report_note(!ok || o.is_quiet || loaded.motion == NULL || loaded.motion->shapes == NULL,
+                "skins and morph targets that animations move stand still in what is packed");
     ok = ok && pack_scene(&o, &loaded, &r);
     if (!is_demo) {
         model_free(&loaded);

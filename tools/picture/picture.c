@@ -215,11 +215,11 @@ static int divide_by(image *out, const image *p, const float *alpha)
     return out->pixels != NULL;
 }
 
-int picture_write_alpha(const char *path, const image *p, const float *alpha, float exposure_ev, int tone, report *r)
+int picture_encode_alpha(file_bytes *out, const image *p, const float *alpha, float exposure_ev, int tone, report *r)
 {
     const size_t pixels = (size_t)p->width * (size_t)p->height;
-    file_bytes file = {NULL, 0};
     image whole;
+    memset(out, 0, sizeof *out);
     uint8_t *rgb = divide_by(&whole, p, alpha) ? picture_codes(&whole, exposure_ev, tone) : NULL;
     uint8_t *rgba = malloc(4 * pixels);
     int ok = rgb != NULL && rgba != NULL;
@@ -227,9 +227,8 @@ int picture_write_alpha(const char *path, const image *p, const float *alpha, fl
         memcpy(rgba + 4 * i, rgb + 3 * i, 3);
         rgba[4 * i + 3] = (uint8_t)(alpha[i] * 255.0f + 0.5f);
     }
-    ok = ok ? png_encode_alpha(&file, rgba, p->width, p->height, r) && file_write(path, file.data, file.size, r)
-            : report_fail(r, "%s: not enough memory for the picture; try a smaller --size", path);
-    file_free(&file);
+    ok = ok ? png_encode_alpha(out, rgba, p->width, p->height, r)
+            : report_fail(r, "not enough memory for the picture; try a smaller --size");
     free(rgba);
     free(rgb);
     image_free(&whole);

@@ -20,6 +20,8 @@ static int make(play_check *c, const render_job *j, report *r)
     b->middle = j->middle;
     b->eyes = 1;
     b->many_lights.tree = j->many_lights.tree;
+    b->gathers_sky = j->gathers_sky;
+    b->around = j->around; /* the job's, to whom its memory stays */
     b->workers.threads = j->workers.threads;
     c->is_made = 1;
     return render_job_take(b, r);
@@ -49,4 +51,8 @@ int play_check_frame(metrics *out, play_check *c, const render_job *j, report *r
     return metrics_measure(out, &in, r);
 }
 
-void play_check_free(play_check *c) { render_job_free(&c->best); }
+void play_check_free(play_check *c)
+{
+    memset(&c->best.around, 0, sizeof c->best.around);
+    render_job_free(&c->best);
+}

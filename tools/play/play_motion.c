@@ -7,17 +7,18 @@
 
 #include "../../src/base/light_kind.h"
 #include "../../src/base/vec.h"
+#include "../model/model_shape.h"
 #include "../render/render_view.h"
 #include "play_space.h"
 
-#define TURN_S 10.0      /* that a circle or swing takes by itself */
-#define CIRCLE 0.25f     /* its largest radius, of the scene's smaller horizontal side */
+#define TURN_S 10.0      /* that a figure of eight or a swing takes by itself */
+#define CIRCLE 0.25f     /* the radius of the largest eight, of the scene's smaller horizontal side */
 #define CONE   0.2f      /* tangent of a sun's */
 #define SWING  0.35f     /* rad, the largest */
 #define SMALLER 0.8f     /* tried next where there is no room */
 #define LEAST_M 1e-6f    /* from a place to its target: nearer there is no direction between them */
 #define AIR    1.2f      /* so much farther than it moves there has to be room */
-enum { TRIES = 16, PLACES = 64 };
+enum { TRIES = 16, PLACES = 64, EVERYTHING = KEY_LIGHT | KEY_CAMERA | KEY_OBJECT };
 
 static const double two_pi = 6.283185307179586;
 
@@ -84,6 +85,12 @@ static float room_for_camera(play_space *space, const play_motion *m)
     return 0.0f;
 }
 
+/* The sun of a picture of the world stands where the picture has it. */
+static int is_pictured(const render_job *j, uint32_t light)
+{
+    return j->around.has_sun && !j->around.is_sky && light == j->scene.light_count - 1;
+}
+
 static int find_room(play_motion *m, report *r)
 {
     const lmb_scene *s = &m->job->scene;
@@ -91,9 +98,9 @@ static int find_room(play_motion *m, report *r)
     play_space space;
     int ok = play_space_make(&space, s, m->options->render.kernels, r);
     for (uint32_t i = 0; ok && (m->moves & KEY_LIGHT) != 0 && i < s->light_count; ++i) {
-        m->radius[i] = room_for_light(&space, s, &m->light_at_rest[i]);
-        report_note(is_quiet || m->radius[i] > 0.0f, "light %u stands still: no room for a circle around it",
-                    (unsigned)i);
+        m->radius[i] = is_pictured(m->job, i) ? 0.0f : room_for_light(&space, s, &m->light_at_rest[i]);
+        report_note(is_quiet || m->radius[i] > 0.0f, "light %u stands still: %s", (unsigned)i,
+                    is_pictured(m->job, i) ? "it is the sun of --world" : "no room for a circle around it");
         report_note(!m->options->render.view.is_verbose || m->radius[i] <= 0.0f, "light %u moves by %.3g%s",
                     (unsigned)i, (double)m->radius[i], is_sun(&m->light_at_rest[i]) ? " of its length" : " m");
     }
@@ -119,19 +126,19 @@ static void set_across(lmb_vec3 *a, lmb_vec3 *b, lmb_vec3 v)
     *b = cross3(v, *a);
 }
 
-/* By itself. */
-static lmb_light circling(const play_motion *m, uint32_t i, double time_s)
+/* By itself: on a figure of eight, which begins in its middle, where the file has the light: frame 0 is as `render` has
+ * it. */
+static lmb_light wandering(const play_motion *m, uint32_t i, double time_s)
 {
     lmb_light l = m->light_at_rest[i];
-    const double turn = time_s / TURN_S;
+    const double turn = two_pi * time_s / TURN_S, along = (double)m->radius[i] * sin(turn), aside = along * cos(turn);
     lmb_vec3 a, b;
     if (!is_sun(&l)) {
-        l.position = on_circle(l.position, (double)m->radius[i], turn);
-        return l;
+        l.position = add3(l.position, vec3((float)along, 0.0f, (float)aside));
+    } else if (along != 0.0) {
+        set_across(&a, &b, l.direction);
+        l.direction = normalize3(add3(l.direction, add3(mul3(a, (float)along), mul3(b, (float)aside))));
     }
-    set_across(&a, &b, l.direction);
-    l.direction = normalize3(add3(l.direction, add3(mul3(a, m->radius[i] * (float)cos(two_pi * turn)),
-                                                    mul3(b, m->radius[i] * (float)sin(two_pi * turn)))));
     return l;
 }
 
@@ -242,6 +249,22 @@ static int set_by_path(play_motion *m, int32_t k, double time_s, report *r)
     return ok && (!moved || set_moved(m, k, r));
 }
 
+/* Meshes that change their shape, where their instances may. Returns 1 where any has another than before. */
+static int reshape(play_motion *m, double time_s)
+{
+    const struct model_motion *motion = m->job->loaded.motion;
+    const double until = time_s < motion->end_s ? time_s : motion->end_s;
+    if (motion->reshapes == NULL || until == m->shaped_s) {
+        return 0;
+    }
+    model_pose_shapes(&m->job->loaded, time_s);
+    m->shaped_s = until;
+    for (uint32_t i = 0; i < m->job->loaded.scene.instance_count; ++i) {
+        m->instance[i].revision += motion->reshapes[i];
+    }
+    return 1;
+}
+
 static int set_by_animations(play_motion *m, int32_t k, double time_s, report *r)
 {
     const model *loaded = &m->job->loaded;
@@ -256,6 +279,7 @@ static int set_by_animations(play_motion *m, int32_t k, double time_s, report *r
     for (uint32_t i = 0; (m->moves & KEY_OBJECT) != 0 && i < m->job->scene.instance_count; ++i) {
         moved |= put_object(m, i, &m->instance_posed[i].to_world);
     }
+    moved |= (m->moves & KEY_OBJECT) != 0 && reshape(m, time_s);
     if ((m->moves & KEY_CAMERA) != 0 && m->camera_used >= 0) {
         const model_camera *c = &m->camera[m->camera_used];
         m->job->middle.eye = c->eye;
@@ -278,11 +302,11 @@ int play_motion_set(play_motion *m, int32_t k, report *r)
     }
     for (uint32_t i = 0; i < m->job->scene.light_count; ++i) {
         if (m->radius[i] > 0.0f) {
-            put_light(m, i, circling(m, i, time_s));
+            put_light(m, i, wandering(m, i, time_s));
         }
     }
-    if (m->swing > 0.0f) {
-        const double angle = (double)m->swing * sin(two_pi * time_s / TURN_S);
+    const double angle = (double)m->swing * sin(two_pi * time_s / TURN_S);
+    if (angle != 0.0) {
         lmb_view *v = &m->job->middle;
         v->eye = swung(m, angle);
         v->right = normalize3(turned(v->right, angle));
@@ -337,10 +361,10 @@ static int check_path(const play_motion *m, report *r)
     return used > 0 || report_fail(r, "%s: nothing in it that --move lets move", m->options->path);
 }
 
-/* Lights in a tree are another's; the tree is not made again for each frame. */
+/* Lights in a tree are another's, be they the scene's or the sky's; the tree is not made again for each frame. */
 static int check_lights(play_motion *m, report *r)
 {
-    if (m->job->many_lights.tree.node == NULL || (m->moves & KEY_LIGHT) == 0) {
+    if (m->job->many_lights.tree.node == NULL || m->job->scene.light_count > 0 || (m->moves & KEY_LIGHT) == 0) {
         return 1;
     }
     if (m->moves == KEY_LIGHT) {
@@ -376,7 +400,8 @@ static int animated(play_motion *m, report *r)
                ? KEY_LIGHT
                : 0;
     all |= camera != NULL && any_moves(motion, motion->of_camera + m->camera_used, 1) ? KEY_CAMERA : 0;
-    all |= any_moves(motion, motion->of_instance, loaded->scene.instance_count) ? KEY_OBJECT : 0;
+    all |= motion->shapes != NULL || any_moves(motion, motion->of_instance, loaded->scene.instance_count) ? KEY_OBJECT
+                                                                                                          : 0;
     return all & m->moves;
 }
 
@@ -386,7 +411,9 @@ static int moves_baked(const play_motion *m)
     const struct model_motion *motion = m->job->loaded.motion;
     int any = 0;
     for (uint32_t i = 0; motion != NULL && i < m->job->loaded.scene.instance_count; ++i) {
-        any |= any_moves(motion, motion->of_instance + i, 1) && !may_move(m, i);
+        const int moves = any_moves(motion, motion->of_instance + i, 1) ||
+                          (motion->reshapes != NULL && motion->reshapes[i] != 0);
+        any |= moves && !may_move(m, i);
     }
     return any;
 }
@@ -399,6 +426,9 @@ int play_motion_find(play_motion *m, render_job *j, report *r)
         return 1;
     }
     int all = animated(m, r);
+    report_note(loaded->idle_channels == 0 || m->options->render.view.is_quiet,
+                "note: channels of animations that move nothing of the scene, or what does not move here: %u",
+                (unsigned)loaded->idle_channels);
     if (loaded->motion_problem.text[0] != '\0') {
         return report_fail(r, "%s; or give --path", loaded->motion_problem.text);
     }
@@ -414,6 +444,12 @@ int play_motion_find(play_motion *m, render_job *j, report *r)
         return report_fail(r, "--move object: nothing in %s moves objects; give --path FILE", m->job->o.scene);
     }
     m->is_animated = all != 0;
+    if (!m->is_animated && m->moves == EVERYTHING && loaded->facts.animations > 0) { /* it says itself what moves */
+        report_note(m->options->render.view.is_quiet,
+                    "nothing moves: of the animations of %s nothing is left here; --move light or camera moves those by "
+                    "themselves", m->job->o.scene);
+        m->moves = 0;
+    }
     m->moves = m->is_animated ? all : m->moves;
     return 1;
 }
@@ -423,13 +459,17 @@ static int take_poses(play_motion *m, report *r)
 {
     const model *loaded = &m->job->loaded;
     const size_t lights = m->job->scene.light_count * sizeof *m->light;
+    const size_t own_lights = loaded->scene.light_count * sizeof *m->light; /* which may be more, and be posed, too */
     const size_t instances = m->job->scene.instance_count * sizeof *m->instance;
     const size_t cameras = loaded->camera_count * sizeof *m->camera;
-    m->light_posed = malloc(lights + 1);
+    m->light_posed = malloc((lights > own_lights ? lights : own_lights) + 1);
     m->instance_posed = malloc(instances + 1);
     m->camera = malloc(cameras + 1);
     if (m->light_posed == NULL || m->instance_posed == NULL || m->camera == NULL) {
         return report_fail(r, "not enough memory for what moves");
+    }
+    if (own_lights > 0) {
+        memcpy(m->light_posed, loaded->scene.lights, own_lights);
     }
     memcpy(m->light_posed, m->light_at_rest, lights);
     memcpy(m->instance_posed, m->instance_at_rest, instances);
@@ -466,6 +506,7 @@ int play_motion_read(play_motion *m, const play_options *o, report *r)
     memset(m, 0, sizeof *m);
     m->options = o;
     m->moves = o->move;
+    m->shaped_s = -1.0;
     return o->path == NULL || key_path_read(&m->path, o->path, r);
 }
 

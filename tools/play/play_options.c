@@ -25,9 +25,10 @@ static const option_row play_rows[] = {
     OPTION_SLICE_ROW(play_options, render.slice, "frames"),
     {.kind = OPTION_TITLE, .help = "motion"},
     {.name = "--move", .kind = OPTION_WORD, AT(move), .words = moves, .values = move_values,
-     .help = "what moves (default all): by --path; else by a glTF file's animations of nodes, all of them together; "
-             "else by itself: a light goes round its place in a circle (a sun's direction in a cone) and the camera "
-             "swings on an arc around what it looks at, once in 10 s, both as far as the scene leaves room"},
+     .help = "what moves (default all): by --path; else by a glTF file's animations of nodes, skins and morph weights, all "
+             "of them together; else by itself, from frame 0 as `render` has it: a light on a figure of eight about its "
+             "place (a sun's direction in a cone), the camera on an arc around what it looks at, once in 10 s, both as "
+             "far as the scene leaves room"},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
      .help = "what moves, by keys: lines of TIME WHAT X,Y,Z [X,Y,Z]: seconds; camera, light (or light:N) or object:N, "
              "numbered from 0; position; what it looks at or shines on (an object: faces with its +Z), where that "
@@ -52,8 +53,8 @@ const option_table play_table = {
              "stage, the least, the median, and what 95 of 100 keep to, by the clock and of the processor (all "
              "threads together; --threads 1: the drawing thread). A frame is made of the scene, the path and its "
              "number alone. What did not move since the last one is kept, which changes no byte.",
-    .part = {render_scene_rows, play_rows, render_view_rows, render_light_rows, render_bounce_rows,
-             render_picture_rows, render_other_rows},
+    .part = {render_scene_rows, play_rows, render_view_rows, render_world_rows, render_light_rows,
+             render_bounce_rows, render_picture_rows, render_other_rows},
     .examples = "  lambent play demo --size 64x48 --quality draft --frames 4 --check 2\n"
                 "  with bounced light by what was baked once:\n"
                 "    lambent bake demo -o demo.lmt --elements 1024 --receivers 2000\n"
@@ -79,6 +80,7 @@ int play_options_parse(play_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
     render_options_begin(&o->render);
+    o->render.has_sky = 1;
     o->move = KEY_LIGHT | KEY_CAMERA | KEY_OBJECT;
     o->frames = 60;
     o->fps = 30.0f;

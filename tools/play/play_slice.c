@@ -5,17 +5,12 @@
 #include "../picture/picture.h"
 #include "play_options.h"
 
-int play_slice_put(byte_buffer *to, int32_t k, int format, const image *linear, float exposure_ev, int tone, report *r)
+int play_slice_put(byte_buffer *to, int32_t k, int format, const file_bytes *file, report *r)
 {
-    file_bytes file;
-    if (!picture_encode(&file, format, linear, exposure_ev, tone, r)) {
-        return 0;
-    }
     byte_put_int(to, k);
     byte_put_int(to, format);
-    byte_put_long(to, file.size);
-    byte_put(to, file.data, file.size);
-    file_free(&file);
+    byte_put_long(to, file->size);
+    byte_put(to, file->data, file->size);
     return !to->is_short || report_fail(r, "not enough memory for the frames of a slice; use more slices");
 }
 

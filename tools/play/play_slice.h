@@ -3,12 +3,12 @@
 #define PLAY_SLICE_H
 
 #include "../common/slice.h"
-#include "../picture/image.h"
+#include "../common/io_file.h"
 
-/* play_slice_put: frame k, as its file would be. play_slice_write: all that were put, beside `out`. play_slice_merge:
+/* play_slice_put: frame k, as its file of a PICTURE_ format would be. play_slice_write: all that were put, beside `out`. play_slice_merge:
  * the files of all frames, from the slices of one job; `pattern` has a %0Nd, and the ending that they were made for.
  * 1, or 0 with `r` set. */
-int play_slice_put(byte_buffer *to, int32_t k, int format, const image *linear, float exposure_ev, int tone, report *r);
+int play_slice_put(byte_buffer *to, int32_t k, int format, const file_bytes *file, report *r);
 int play_slice_write(const char *out, slice s, uint64_t job, const char *about, const byte_buffer *made, report *r);
 int play_slice_merge(const char *pattern, const slice_set *set, report *r);
 

@@ -10,8 +10,7 @@
 #include "../common/progress.h"
 #include "../common/text_buffer.h"
 #include "../picture/picture.h"
-#include "../render/render_exposure.h"
-#include "../render/unlit.h"
+#include "../render/render_finish.h"
 #include "play_check.h"
 #include "play_motion.h"
 #include "play_options.h"
@@ -72,42 +71,30 @@ static int find_exposure(play *p, report *r)
     return 1;
 }
 
-static int write_picture(play *p, int32_t k, const image *shown, float exposure_ev, int tone, report *r)
+static int put_frame(play *p, int32_t k, const render_finish *f, report *r)
 {
     char name[NAME];
-    if (p->o.render.slice.count > 0) {
-        return play_slice_put(&p->made, k, picture_format(p->o.render.out), shown, exposure_ev, tone, r);
+    file_bytes file = {NULL, 0};
+    if (p->o.render.slice.count == 0) {
+        return frame_name(name, sizeof name, p->o.render.out, k, r) && finish_write(f, name, &p->job.linear, 1, r);
     }
-    return frame_name(name, sizeof name, p->o.render.out, k, r) && picture_write(name, shown, exposure_ev, tone, r);
+    const int ok = finish_encode(&file, f, &p->job.linear, 1, r) && play_slice_put(&p->made, k, f->format, &file, r);
+    file_free(&file);
+    return ok;
 }
 
-/* What is unlit is not exposed; of a copy, as the frame may still be checked. */
+/* As `render` writes its picture. The light is then no more what it was. */
 static int write_frame(play *p, int32_t k, report *r)
 {
-    const image *drawn = &p->job.linear;
-    const size_t bytes = (size_t)drawn->width * (size_t)drawn->height * 3 * sizeof(float);
-    float *unlit = NULL;
-    image shown = *drawn;
-    int ok = 1;
+    render_finish f;
     if (p->o.render.out == NULL) {
         return 1;
     }
-    if (!picture_is_linear(picture_format(p->o.render.out)) && !unlit_colours(&unlit, &p->job, r)) {
-        return 0;
+    const int ok = finish_begin_at(&f, &p->job, p->exposure_ev, r) && put_frame(p, k, &f, r);
+    finish_free(&f);
+    if (p->job.o.background.kind != BACKGROUND_WORLD) {
+        p->job.render->stage = LMB_STAGE_VIEW; /* what lies behind was looked for over the view: it is drawn anew */
     }
-    if (unlit == NULL) {
-        return write_picture(p, k, drawn, p->exposure_ev, p->job.o.tone, r);
-    }
-    shown.pixels = malloc(bytes);
-    if (shown.pixels == NULL) {
-        ok = report_fail(r, "not enough memory for the picture; try a smaller --size");
-    } else {
-        memcpy(shown.pixels, drawn->pixels, bytes);
-        unlit_expose(&shown, unlit, p->exposure_ev, p->job.o.tone);
-        ok = write_picture(p, k, &shown, 0.0f, PICTURE_CLIPPED, r);
-    }
-    free(shown.pixels);
-    free(unlit);
     return ok;
 }
 
@@ -135,7 +122,7 @@ static int draw_all(play *p, report *r)
         const int32_t k = p->o.from + slice_item(own, i);
         play_time took;
         progress_whole("frames", (double)i / (double)frames);
-        ok = draw(p, k, &took, r) && write_frame(p, k, r) && check_frame(p, k, r);
+        ok = draw(p, k, &took, r) && check_frame(p, k, r) && write_frame(p, k, r);
         if (ok) {
             play_times_add(&p->times, &took);
         }

@@ -68,7 +68,7 @@ static int put_camera(tour *w, const path_key *key, int32_t k, report *r)
                            (int)k);
     }
     v.eye = key->at;
-    v.near_m = 0.0f;
+    v.near_m = w->o->view.near_m;
     w->shot->view = view_from(&v, 0.0f, w->simple);
     return 1;
 }

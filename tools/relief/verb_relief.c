@@ -178,7 +178,7 @@ static int choose_view(lmb_view *out, const work *w, relief_options *o, report *
         return 0;
     }
     o->view.is_quiet = is_quiet;
-    middle.near_m = 0.0f;
+    middle.near_m = o->view.near_m;
     *out = view_from(&middle, 0.0f, &w->simple);
     return 1;
 }

@@ -292,7 +292,7 @@ static int take_view(stage *s, report *r)
     if (!(v->has_eye ? view_look(&l->view, v, r) : view_frame(&l->view, v, scene, s->o->object, r))) {
         return 0;
     }
-    l->view.near_m = 0.0f;
+    l->view.near_m = v->near_m;
     l->view = view_from(&l->view, 0.0f, scene);
     return 1;
 }

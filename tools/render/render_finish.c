@@ -9,14 +9,14 @@
 
 #define DIM_EV 8.0f /* what is lifted by more stops than these is as good as black */
 
-int finish_begin(render_finish *f, const render_job *j, report *r)
+static int begin(render_finish *f, const render_job *j, int is_auto, float exposure_ev, report *r)
 {
     memset(f, 0, sizeof *f);
     f->format = picture_format(j->o.out);
     f->background = j->o.background;
     f->tone = j->o.tone;
-    f->exposure_auto = j->o.exposure_auto && !picture_is_linear(f->format);
-    f->exposure_ev = j->o.exposure_ev;
+    f->exposure_auto = is_auto && !picture_is_linear(f->format);
+    f->exposure_ev = exposure_ev;
     if (!(f->exposure_auto ? exposure_look(&f->view, j, r) : unlit_colours(&f->view.unlit, j, r))) {
         return 0;
     }
@@ -30,20 +30,30 @@ int finish_begin(render_finish *f, const render_job *j, report *r)
     return 1;
 }
 
+int finish_begin(render_finish *f, const render_job *j, report *r)
+{
+    return begin(f, j, j->o.exposure_auto, j->o.exposure_ev, r);
+}
+
+int finish_begin_at(render_finish *f, const render_job *j, float exposure_ev, report *r)
+{
+    return begin(f, j, 0, exposure_ev, r);
+}
+
 void finish_free(render_finish *f) { exposure_view_free(&f->view); }
 
 /* What lies behind surfaces is dark in the light: a colour of the display's, or nothing, comes behind them. */
-static int write_before(const render_finish *f, const char *path, image *linear, float ev, int tone, report *r)
+static int encode_before(file_bytes *out, const render_finish *f, image *linear, float ev, int tone, report *r)
 {
     if (f->background.kind == BACKGROUND_TRANSPARENT) {
-        return picture_write_alpha(path, linear, f->view.cover, ev, tone, r);
+        return picture_encode_alpha(out, linear, f->view.cover, ev, tone, r);
     }
     picture_expose(linear, ev, tone);
     background_colour(linear, f->background.rgb, f->view.cover);
-    return picture_write(path, linear, 0.0f, PICTURE_CLIPPED, r);
+    return picture_encode(out, f->format, linear, 0.0f, PICTURE_CLIPPED, r);
 }
 
-int finish_write(const render_finish *f, const char *path, image *linear, int is_quiet, report *r)
+int finish_encode(file_bytes *out, const render_finish *f, image *linear, int is_quiet, report *r)
 {
     float ev = f->exposure_ev;
     int tone = f->tone;
@@ -61,6 +71,16 @@ int finish_write(const render_finish *f, const char *path, image *linear, int is
         ev = 0.0f;
         tone = PICTURE_CLIPPED;
     }
-    return f->background.kind == BACKGROUND_WORLD ? picture_write(path, linear, ev, tone, r)
-                                                  : write_before(f, path, linear, ev, tone, r);
+    return f->background.kind == BACKGROUND_WORLD ? picture_encode(out, f->format, linear, ev, tone, r)
+                                                  : encode_before(out, f, linear, ev, tone, r);
+}
+
+int finish_write(const render_finish *f, const char *path, image *linear, int is_quiet, report *r)
+{
+    file_bytes file = {NULL, 0};
+    report own = {""};
+    int ok = finish_encode(&file, f, linear, is_quiet, &own) || report_fail(r, "%s: %s", path, own.text);
+    ok = ok && file_write(path, file.data, file.size, r);
+    file_free(&file);
+    return ok;
 }

@@ -182,7 +182,7 @@ const option_row render_view_rows[] = {
 static const char *const grounds[] = {"auto", "none", NULL};
 static const int32_t ground_values[] = {0, 1};
 
-static const option_row world_rows[] = {
+const option_row render_world_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("world")},
     {.name = "--world", .value = "FILE|sky|none", .kind = OPTION_TEXT, AT(world),
      .help = HELP("what lies around the scene, lights it and is seen behind it: a clear sky with a sun, or a picture of all "
@@ -374,8 +374,8 @@ const option_table render_table = {
     .verb = "render",
     .usage = HELP("render SCENE -o OUT [options]"),
     .about = HELP("A scene in, a picture with bounced light out."),
-    .part = {render_scene_rows, output_rows, render_view_rows, stereo_rows, world_rows, render_light_rows,
-             render_bounce_rows, render_picture_rows, budget_rows, render_other_rows},
+    .part = {render_scene_rows, output_rows, render_view_rows, stereo_rows, render_world_rows,
+             render_light_rows, render_bounce_rows, render_picture_rows, budget_rows, render_other_rows},
     .examples = HELP("  lambent render demo --size 320x240 -o demo.png\n"
                 "  lambent render demo --size 160x120 --show indirect -o light.pfm\n"
                 "  lambent render demo --size 160x120 --eye 0.5,1.25,2.5 --target 0.5,1,-1 \\\n"

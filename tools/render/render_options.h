@@ -41,7 +41,7 @@ typedef struct render_options {
     float light_size[RENDER_LIGHTS]; /* m, of a sun degrees; 0: none */
     uint32_t light_count;
     const char *world; /* NULL: a sky where the scene has no light; sky, none, or a file */
-    int32_t has_sky; /* where the scene has no light: of `render`, and of no other verb */
+    int32_t has_sky; /* where the scene has no light: of verbs that draw pictures */
     int32_t no_ground;
     render_background background;
     float stereo_m; /* between the eyes; 0: one eye */
@@ -76,8 +76,8 @@ typedef struct render_options {
 extern const option_table render_table, plan_table;
 
 /* Rows that other verbs have, too, whose struct begins with a render_options. */
-extern const option_row render_scene_rows[], render_view_rows[], render_light_rows[], render_bounce_rows[],
-    render_picture_rows[], render_other_rows[];
+extern const option_row render_scene_rows[], render_view_rows[], render_world_rows[], render_light_rows[],
+    render_bounce_rows[], render_picture_rows[], render_other_rows[];
 
 /* render_options_begin: what holds where nothing is given. render_options_complete: what was left open, after the
  * command line was read, and whether it goes together; 1, or 0 with `r` set. render_options_parse does both. */

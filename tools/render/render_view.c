@@ -68,6 +68,7 @@ int render_view(lmb_view *v, render_options *o, const model *loaded, const lmb_s
             use_camera(o, v, c);
         }
     }
-    v->near_m = loaded->camera_count > 0 && !o->view.has_eye ? v->near_m : 0.0f;
+    const int has_own = loaded->camera_count > 0 && !o->view.has_eye;
+    v->near_m = o->view.near_m > 0.0f ? o->view.near_m : has_own ? v->near_m : 0.0f;
     return 1;
 }
