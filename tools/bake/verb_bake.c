@@ -380,7 +380,7 @@ int verb_bake(int argc, char **argv)
     progress_begin(o.is_quiet, "bake");
     int ok = options_files(&o, &table, &r) &&
              (o.slice.count == 0 || slice_job(&o.slice_job, &o, &table, argc, argv, &r)) &&
-             (is_demo || model_load(&loaded, o.scene, o.scene_name, &notes, &r)) && options_files(&o, &table, &r) &&
+             (is_demo || (o.to == LIGHT_COLOURS || o.to == LIGHT_MAP ? model_load_source : model_load)(&loaded, o.scene, o.scene_name, &notes, &r)) && options_files(&o, &table, &r) &&
              (!o.is_glossy || model_make_glossy(&loaded) ||
               report_fail_usage(&r, "--glossy: %s: only glTF's materials have a lobe", o.scene)) &&
              bake_model(&o, is_demo ? demo_scene() : &loaded.scene, &loaded, &r);

@@ -132,7 +132,7 @@ static int add_instances(const gltf_tree *t, gltf *g)
     static const gltf_matrix unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     shown *nodes = (shown *)build_scratch(g->b, t->count, sizeof *nodes);
     uint64_t total;
-    uint32_t i, k, c, *of;
+    uint32_t i, k, c, *of, *from;
     lmb_instance *to;
     if (!nodes || !make_meshes(nodes, &total, t, g))
         return 0;
@@ -140,7 +140,8 @@ static int add_instances(const gltf_tree *t, gltf *g)
         return report_fail(g->b->r, "%s: too many instances", g->b->path);
     to = g->b->instances = (lmb_instance *)build_keep(g->b, total, sizeof *to);
     of = g->instance_node = (uint32_t *)build_keep(g->b, total, sizeof *of);
-    if (!to || !of)
+    from = g->instance_from = (uint32_t *)build_scratch(g->b, total, sizeof *from);
+    if (!to || !of || !from)
         return 0;
     for (i = 0; i < t->count; ++i) {
         const uint32_t mesh = nodes[i].mesh, size = mesh == JSON_NONE ? 0 : g->mesh_size[mesh];
@@ -148,8 +149,9 @@ static int add_instances(const gltf_tree *t, gltf *g)
         const int is_posed = size > 0 && nodes[i].first != g->mesh_first[mesh];
         if (is_posed)
             world = &unit;
-        for (k = 0; k < size; ++k, ++to, ++of) {
+        for (k = 0; k < size; ++k, ++to, ++of, ++from) {
             *of = is_posed ? MODEL_NONE : i;
+            *from = t->order[i];
             for (c = 0; c < 16; ++c)
                 to->to_world.m[c] = (float)world->m[c];
             to->mesh = nodes[i].first + k;
@@ -255,7 +257,7 @@ static int load_document(gltf *g)
 {
     gltf_tree t;
     if (!check_version(g) || !check_extensions(g) || !gltf_lists(g) || !gltf_make_tree(&t, g) || !make_tables(&t, g) ||
-        !gltf_materials(g) || !add_instances(&t, g) || !gltf_light_end(g) || !gltf_lights(&t, g) || !gltf_cameras(&t, g))
+        !gltf_materials(g) || !add_instances(&t, g) || (g->b->keeps_source && !gltf_source(g)) || !gltf_light_end(g) || !gltf_lights(&t, g) || !gltf_cameras(&t, g))
         return 0;
     gltf_motion(&t, g);
     tell_left_out(g);

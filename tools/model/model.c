@@ -214,8 +214,8 @@ static int load_content(model_build *b, const file_bytes *file)
     return read(b, file->data, file->size);
 }
 
-int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
-               report *r)
+static int read_model(model *out, const char *path, const char *scene, const uint8_t *data, size_t size,
+                      int keeps_source, model_notes *notes, report *r)
 {
     const file_bytes file = {(uint8_t *)data, size};
     model_build b;
@@ -229,6 +229,7 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
     b.r = r;
     b.path = path;
     b.scene = scene;
+    b.keeps_source = keeps_source;
     b.budget = MODEL_BYTES_FREE + (uint64_t)size * MODEL_BYTES_PER_BYTE;
     b.pixel_budget = MODEL_FREE_PIXELS + (uint64_t)size * MODEL_PIXELS_PER_BYTE;
     b.large_picture = MODEL_LARGE_PICTURE;
@@ -243,16 +244,32 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
     return ok;
 }
 
-int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r)
+int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
+               report *r)
+{
+    return read_model(out, path, scene, data, size, 0, notes, r);
+}
+
+static int load_model(model *out, const char *path, const char *scene, int keeps_source, model_notes *notes, report *r)
 {
     file_bytes file;
     int ok;
     memset(out, 0, sizeof *out);
     if (!file_read(&file, path, r))
         return 0;
-    ok = model_read(out, path, scene, file.data, file.size, notes, r);
+    ok = read_model(out, path, scene, file.data, file.size, keeps_source, notes, r);
     file_free(&file);
     return ok;
+}
+
+int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r)
+{
+    return load_model(out, path, scene, 0, notes, r);
+}
+
+int model_load_source(model *out, const char *path, const char *scene, model_notes *notes, report *r)
+{
+    return load_model(out, path, scene, 1, notes, r);
 }
 
 /* The model owns its materials; only the scene's view of them is const. */

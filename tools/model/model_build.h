@@ -37,6 +37,7 @@ typedef struct model_build {
     report *r;
     const char *path;      /* the model's file, as the user named it */
     const char *scene;     /* wanted of several, by name or number; NULL: the file chooses */
+    int keeps_source;      /* out->source is wanted */
     uint64_t budget;       /* bytes that may still be allocated */
     uint64_t pixel_budget; /* pixels that may still be decoded */
     uint64_t large_picture; /* pixels that one picture may have beyond that; 0: one had */
