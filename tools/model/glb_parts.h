@@ -24,6 +24,7 @@ typedef struct glb_writer {
 uint32_t glb_end_view(glb_writer *w, size_t from, int target);
 
 /* Parts of the JSON, without what is around them. `is_first`: no comma before it. */
+void glb_put_name(text_buffer *p, const char *name); /* "name":"...", or nothing */
 void glb_put_primitive(glb_writer *w, const glb_mesh *m); /* {"attributes":... and no closing brace */
 void glb_put_material(text_buffer *p, const lmb_material *m, const char *name, const char *light_slot, int is_first);
 void glb_put_lights(text_buffer *p, const lmb_scene *scene); /* the extension KHR_lights_punctual */

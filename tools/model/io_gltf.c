@@ -162,6 +162,15 @@ static int add_instances(const gltf_tree *t, gltf *g)
     return 1;
 }
 
+static void count_occlusion_maps(gltf *g)
+{
+    uint32_t i;
+    for (i = 0; i < g->materials.count; ++i) {
+        const uint32_t map = json_member(&g->doc, g->materials.items[i], "occlusionTexture");
+        g->left_out.occlusion_maps += map != JSON_NONE && !gltf_light_is_slot(g, map);
+    }
+}
+
 /* What a reader of the picture should know. */
 static void tell_left_out(gltf *g)
 {
@@ -260,6 +269,7 @@ static int load_document(gltf *g)
         !gltf_materials(g) || !add_instances(&t, g) || (g->b->keeps_source && !gltf_source(g)) || !gltf_light_end(g) || !gltf_lights(&t, g) || !gltf_cameras(&t, g))
         return 0;
     gltf_motion(&t, g);
+    count_occlusion_maps(g);
     tell_left_out(g);
     count_facts(g);
     return 1;

@@ -392,8 +392,6 @@ static int read_emission(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t mater
         factor[k] *= strength;
         out->emission[k] = factor[k] > 0 && factor[k] < 1e30 ? (float)factor[k] : 0.0f;
     }
-    const uint32_t occlusion = json_member(doc, material, "occlusionTexture");
-    g->left_out.occlusion_maps += occlusion != JSON_NONE && !gltf_light_is_slot(g, occlusion);
     return 1;
 }
 
