@@ -14,6 +14,11 @@ said "give a larger one"
 status 0 bake demo $light --to probes --step 0.8 -o air.json
 check "probes say how far they are from it: $(trim)" under 0.2
 check "they have their numbers beside them" test -s air.bin
+if command -v node >/dev/null 2>&1; then
+    check "JavaScript reads them" node "$root/tests/web/probes_test.mjs" air.json
+else
+    skip "probes in JavaScript: no node"
+fi
 for name in colours map; do
     status 0 render "$name.glb" --size 24x16 --shadow-map 64 -q -o "$name.png"
 done
