@@ -4,35 +4,14 @@
  * pi B here, and by the polygon's area: W/m2 a watt of flux. */
 #include <lambent/bounce.h>
 
-#include "../base/poly.h"
-#include "../base/vec.h"
-
-enum { CORNERS = LMB_TREES ? 8 : 4 };
-#define FLAT 1e-3f /* of the half sides */
-
-/* Keep what lies above the horizon, n . v >= 0: at most one corner more. */
-static int clip_horizon(lmb_vec3 out[CORNERS + 1], const lmb_vec3 *corner, int corners, lmb_vec3 n)
-{
-    int count = 0;
-    for (int i = 0; i < corners; ++i) {
-        lmb_vec3 a = corner[i], b = corner[i + 1 < corners ? i + 1 : 0];
-        float ha = dot3(n, a), hb = dot3(n, b);
-        if (ha >= 0.0f && count <= CORNERS) {
-            out[count++] = a;
-        }
-        if ((ha >= 0.0f) != (hb >= 0.0f) && count <= CORNERS) {
-            out[count++] = add3(a, mul3(sub3(b, a), ha / (ha - hb)));
-        }
-    }
-    return count;
-}
+#include "polygon.h"
 
 /* 2 pi x the form factor of a convex polygon, corners relative to the point; negative one way round. */
 static float edges_sum(const lmb_vec3 *polygon, int corners, lmb_vec3 face, lmb_vec3 normal)
 {
-    lmb_vec3 corner[CORNERS + 1];
+    lmb_vec3 corner[POLYGON_CORNERS + 1];
     float sum = 0.0f;
-    const int n = clip_horizon(corner, polygon, corners, face);
+    const int n = polygon_clip(corner, polygon, corners, face);
     for (int i = 0; i < n; ++i) {
         lmb_vec3 a = corner[i], b = corner[i + 1 < n ? i + 1 : 0], edge = cross3(a, b);
         float sine = length3(edge);
@@ -49,7 +28,7 @@ float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 cent
     lmb_vec3 c = sub3(centre, at), side = cross3(u, v), quad[4];
     float area = 4.0f * length3(side), height = -dot3(axis, c);
     /* A point in the quad's own plane sees its edge. Rounding must not lift it: the factor would jump to 1 / area. */
-    if (!(height > FLAT * (length3(u) + length3(v))) || !(area > 0.0f)) {
+    if (!(height > POLYGON_FLAT * (length3(u) + length3(v))) || !(area > 0.0f)) {
         return 0.0f;
     }
     quad[0] = sub3(sub3(c, u), v);
@@ -65,13 +44,13 @@ float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 cent
 float lmb_polygon_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 *corner, int corners,
                          lmb_vec3 axis)
 {
-    lmb_vec3 own[CORNERS];
+    lmb_vec3 own[POLYGON_CORNERS];
     float reach2 = 0.0f;
-    for (int i = 0; corner != NULL && i < corners && i < CORNERS; ++i) {
+    for (int i = 0; corner != NULL && i < corners && i < POLYGON_CORNERS; ++i) {
         own[i] = sub3(corner[i], at);
         reach2 = maxf(reach2, dot3(sub3(own[i], own[0]), sub3(own[i], own[0])));
     }
-    if (corner == NULL || corners < 3 || corners > CORNERS || !(-dot3(axis, own[0]) > FLAT * sqrtf(reach2))) {
+    if (corner == NULL || corners < 3 || corners > POLYGON_CORNERS || !(-dot3(axis, own[0]) > POLYGON_FLAT * sqrtf(reach2))) {
         return 0.0f;
     }
     return maxf(-edges_sum(own, corners, face, normal), 0.0f) * 0.15915494f;
@@ -85,7 +64,7 @@ float lmb_triangle_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb
     const lmb_vec3 own[3] = {sub3(corner[0], at), sub3(corner[1], at), sub3(corner[2], at)};
     const lmb_vec3 side = cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
     const float area = 0.5f * length3(side);
-    if (!(area > 0.0f) || !(-dot3(axis, own[0]) > FLAT * sqrtf(area))) {
+    if (!(area > 0.0f) || !(-dot3(axis, own[0]) > POLYGON_FLAT * sqrtf(area))) {
         return 0.0f;
     }
     const float sum = edges_sum(own, 3, face, normal);

@@ -63,7 +63,7 @@ static const option_row rows[] = {
      .help = "of a file with several scenes: which, by name or number"},
     {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities,
      .help = "draft: 1024 elements and 1500 receivers beside those at triangles' corners; default: 4096 and 4000; best: "
-             "16384 and 12000, in about three times the time of the default (default default)"},
+             "16384 and 12000, in five to seven times the time of the default (default default)"},
     {.name = "--error", .value = "SHARE", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
      .help = "how accurate the links are, which carry light from pieces of the scene to receivers: the error that one more "
              "link has to save, as a share of all light around a receiver that stands for a 10,000th of the scene's "
@@ -123,7 +123,7 @@ static const option_table table = {
              "reflections: the insides of solids, and closed rooms without a light or camera, for which --eye is. Of a "
              "scene with more than 64 cameras the first 64 count.\n"
              "Takes seconds to minutes, and memory while it does: 2 bytes x elements x receivers, 6 bytes x elements x "
-             "clusters, and up to 100 MB beside the scene's own; by default half a gigabyte for a room.\n"
+             "clusters, and up to 100 MB beside the scene's own; half a gigabyte for a room by --quality best.\n"
              "Slices run at the same time, on machines that share the output's folder: in OUT.shared they pass on what they "
              "have made. What one does not find there in time it makes itself.",
     .part = {rows},
