@@ -1,5 +1,6 @@
-/* glb_copy.c: a glTF document with other meshes: names, nodes, materials, textures, cameras and extras stay as they are, and
- * so do their numbers. Animations and skins go, as baked light stands still; so do extensions that name accessors. */
+/* glb_copy.c: a glTF document with other meshes: names, nodes, materials, textures, cameras and extras stay as they
+ * are, and so do their numbers. Animations and skins go, as baked light stands still; so do extensions that name
+ * accessors. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -343,9 +344,9 @@ static int emits(const json *doc, uint32_t material)
            factor[2] > 0.0;
 }
 
-/* The picture of light is in the first free slot that has no effect of its own: occlusion of strength 0, emission of the
- * factor 0, or the alpha of a specular texture, which the picture has not. Sides show their fronts alone, so no material
- * is double-sided. */
+/* The picture of light is in the first free slot that has no effect of its own: occlusion of strength 0, emission of
+ * factor 0, or a specular texture, of which the alpha counts, which the picture does not have. Sides show only their
+ * fronts, so no material is double-sided. */
 static void put_material(copy *c, uint32_t material)
 {
     static const char *const without[] = {"doubleSided", "extensions", "occlusionTexture", NULL};
@@ -425,7 +426,8 @@ static void put_bytes(copy *c, const uint8_t *data, size_t size)
 /* With their files' bytes; an image that cannot be read stays as it is. */
 static void put_images(copy *c)
 {
-    static const char *const of_bytes[] = {"bufferView", "uri", "mimeType", NULL}, *const of_none[] = {"bufferView", NULL},
+    static const char *const of_bytes[] = {"bufferView", "uri", "mimeType", NULL},
+                      *const of_none[] = {"bufferView", NULL},
                       *const of_old[] = {"bufferView", "uri", "mimeType", "name", NULL};
     const model_source *s = c->w->loaded->source;
     const json *doc = &c->doc;

@@ -25,7 +25,8 @@ static int put_pictures(glb_writer *w, text_buffer *images)
         const lmb_texture *t = &w->scene->textures[i];
         file_bytes file;
         if (t->format != LMB_TEXELS_RGBA8) {
-            return report_fail(w->r, "textures in few colours cannot be written; bake from the file before it was packed");
+            return report_fail(w->r,
+                               "textures in few colours cannot be written; bake from the file before it was packed");
         }
         if (!png_encode_alpha(&file, t->texels, t->width, t->height, w->r)) {
             return 0;
@@ -149,8 +150,8 @@ static void put_materials(glb_writer *w)
     glb_light_slot(slot, w, w->scene->texture_count);
     text_buffer_plain(&w->json, ",\"materials\":[");
     for (uint32_t i = 0; i < w->scene->material_count; ++i) {
-        glb_put_material(&w->json, &w->scene->materials[i], material_name(w, i), w->light->picture != NULL ? slot : NULL,
-                         i == 0);
+        glb_put_material(&w->json, &w->scene->materials[i], material_name(w, i),
+                         w->light->picture != NULL ? slot : NULL, i == 0);
     }
     text_buffer_plain(&w->json, "]");
 }

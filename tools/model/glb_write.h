@@ -1,4 +1,4 @@
-/* glb_write.h: a scene with baked light as a GLB, for other engines: one buffer, one node an object, in its own space. */
+/* glb_write.h: a scene with baked light as a GLB, for other engines: one buffer, one node an object, in its space. */
 #ifndef GLB_WRITE_H
 #define GLB_WRITE_H
 
@@ -29,8 +29,8 @@ typedef struct glb_light {
     const file_bytes *picture; /* a PNG, by light_uv; NULL: none */
 } glb_light;
 
-/* glb_write: these meshes, in the order of their instances, with the materials, textures, lights and cameras of the model
- * and its scene. If the model has its source, all else that stands in its document is written, too: names, nodes, maps,
+/* glb_write: these meshes, in the order of their instances, with the materials, textures, lights and cameras of the
+ * model and its scene. If the model has its source, all else that stands in its document is written, too: names, nodes, maps,
  * extras, extensions. 1, or 0 with `r` set. */
 int glb_write(const char *path, const lmb_scene *scene, const model *loaded, const glb_mesh *mesh, uint32_t mesh_count,
               const glb_light *light, report *r);

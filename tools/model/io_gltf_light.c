@@ -1,8 +1,8 @@
 /* io_gltf_light.c: baked light of a file that `lambent bake --to` wrote: its scale, and its picture.
  *
- * The picture is an image of the name MODEL_LIGHT_NAME, and lies in a slot of each material whose own effect is none, as
- * tools that write the file again keep what materials name. Older files have the texture's number in asset.extras, which
- * holds as long as no tool has written them again. */
+ * The picture is an image of the name MODEL_LIGHT_NAME, and lies in a slot of each material whose own effect is none:
+ * tools that write the file again keep what materials name. Older files have the texture's number in asset.extras,
+ * which holds as long as no tool has written them again. */
 #include "io_gltf.h"
 
 /* What asset.extras say; JSON_NONE where the file is another one's. */

@@ -1,5 +1,5 @@
-/* io_gltf_source.c: what a document has beyond the scene, for a file that is written from it: its text, its images' files,
- * and streams by vertex as they are. */
+/* io_gltf_source.c: what a document has beyond the scene, for a file that is written from it: its text, its images'
+ * files, and streams by vertex as they are. */
 #include <stdio.h>
 #include <string.h>
 
