@@ -84,6 +84,12 @@ status 1 bake box.obj -o nowhere/bad.lmt
 status 2 bake
 status 2 bake box.obj
 said "no output given"
+status 0 bake box.obj --quality draft --once -o draft.lmt
+status 0 info draft.lmt
+check "--quality draft has 1024 elements" grep -q "^elements  *1024$" out.txt
+status 0 bake box.obj --quality draft --elements 256 --receivers 200 -o own.lmt
+check "--elements and --receivers count before --quality" cmp own.lmt box-1.lmt
+status 2 bake box.obj --quality good -o bad.lmt
 for elements in 32 128 1000 512 65536; do
     status 2 bake box.obj -o bad.lmt --elements $elements
 done

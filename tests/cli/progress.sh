@@ -5,6 +5,12 @@ pit
 floor
 photo
 
+# Where stderr is no terminal, bake has a line every ten seconds. It runs while the rest is tried.
+timeout --preserve-status -s TERM 25 "$TOOL" bake demo --quality best --threads 1 -o log.lmt >log-out.txt 2>log-err.txt &
+log=$!
+timeout --preserve-status -s TERM 25 "$TOOL" bake demo --quality best --threads 1 -q -o quiet.lmt >quiet-out.txt 2>quiet-err.txt &
+quiet=$!
+
 # watched WANTED SIGNAL ARGUMENT...: on a terminal, until WANTED is on the screen, a minute at most; then the signal comes.
 # WANTED `nothing`: after 2 s. The screen is in screen.txt, and the status that of the tool. The tool runs in front, as
 # what a shell runs behind ignores Ctrl-C.
@@ -65,5 +71,12 @@ any a.pfm relight --world demo --object demo --size 64x48
 any b.pfm relief render pit.lmr --with floor.obj --bounce --size 64x48
 any c.lmr relief bake pit.obj --size 32 --triangles 20
 any d.pfm mix $seen $tent --roughness 0.2,0.5
+
+wait $log $quiet
+check "bake has a line every ten seconds" grep -qE '^lambent bake: [a-z ]* [0-9]+ %(, [0-9]+ (s|min) left)?$' log-err.txt
+check "lines of a log end as lines do" lacks "$(printf '\r')" log-err.txt
+check "lines are ten seconds apart" test "$(grep -c '%' log-err.txt)" -le 2
+check "no line with -q" lacks % quiet-err.txt
+check "lines are on stderr" lacks % log-out.txt
 
 finish

@@ -56,7 +56,7 @@ bake() {
         return
     fi
     start=$(date +%s)
-    baked=$("$TOOL" bake "$scene" -o "$file") || return
+    baked=$("$TOOL" bake "$scene" --quality best -o "$file") || return
     baked=${baked#*: }
     seconds=$(($(date +%s) - start))
 }

@@ -21,7 +21,7 @@ row() {
     [ "$1" = demo ] || scene=$truth/$1/scene.gltf
     if [ -z "$OPTIONS" ]; then
         options="--transfer $folder/$1.lmt"
-        [ -f "$folder/$1.lmt" ] || "$TOOL" bake "$scene" -q -o "$folder/$1.lmt" || return
+        [ -f "$folder/$1.lmt" ] || "$TOOL" bake "$scene" --quality best -q -o "$folder/$1.lmt" || return
     fi
     # shellcheck disable=SC2086 # words
     "$B/measure-lights" "$scene" $options --size "${FRAME:-160x120}" --threads 1 >"$work/lights.$1" || return

@@ -8,7 +8,7 @@
 folder=${LMT:-$work}
 for scene in ${SCENES:-cornell corridor}; do
     if [ ! -f "$folder/$scene.lmt" ] &&
-        ! "$TOOL" bake "$truth/$scene/scene.gltf" -o "$folder/$scene.lmt" >"$work/said" 2>&1; then
+        ! "$TOOL" bake "$truth/$scene/scene.gltf" --quality best -o "$folder/$scene.lmt" >"$work/said" 2>&1; then
         fail "$scene: $(head -n 1 "$work/said")"
         continue
     fi

@@ -555,6 +555,66 @@ static void shared_vertices(void)
     }
 }
 
+/* --- light that `lambent bake --to lightmap` stored --- */
+
+/* The triangle of TRIANGLE with extras, names of the two images, and its material. */
+static int load_baked(const char *extras, const char *first, const char *second, const char *material)
+{
+    static const char form[] =
+        "{\"asset\":{\"version\":\"2.0\",\"extras\":{\"lambent\":{%s}}},\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1,\"TEXCOORD_1\":2},\"material\":0}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"},"
+        "{\"bufferView\":0,\"byteOffset\":16,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":144},{\"buffer\":0,\"byteOffset\":144,\"byteLength\":%u}],"
+        "\"textures\":[{\"source\":0},{\"source\":1}],\"images\":[{\"bufferView\":1,\"name\":\"%s\"},"
+        "{\"bufferView\":1,\"name\":\"%s\"}],"
+        "\"buffers\":[{\"byteLength\":%u,\"uri\":\"data:;base64,%s\"}],\"materials\":[{%s}]}";
+    blob b = {{0}, 0};
+    size_t png;
+    put_lookable(&b, &png);
+    return load(form, extras, (unsigned)png, first, second, (unsigned)b.size, base64(b.bytes, b.size), material);
+}
+
+/* Is there a picture, by the second corner's texture coordinates (u, v)? */
+static int is_lit(float u, float v)
+{
+    const model_light *l = &loaded.light;
+    return l->picture != NULL && l->uv[0] != NULL && near(l->uv[0][2], (double)u) && near(l->uv[0][3], (double)v) &&
+           !noted("lightmap is gone");
+}
+
+static int is_gone(void) { return loaded.light.picture == NULL && noted("the lightmap is gone"); }
+
+static void baked_light(void)
+{
+    static const char now[] = "\"light\":\"lightmap\",\"scale\":2,\"texCoord\":1",
+                      then[] = "\"light\":\"lightmap\",\"scale\":2,\"texture\":1,\"texCoord\":1",
+                      past[] = "\"light\":\"lightmap\",\"scale\":2,\"texture\":2,\"texCoord\":1";
+    /* Corner 1: (1, 0) of TEXCOORD_0, (0, 1) of TEXCOORD_1. */
+    CHECK_LOADS(load_baked(now, "a", MODEL_LIGHT_NAME, "\"occlusionTexture\":{\"index\":1,\"texCoord\":1,\"strength\":0}"));
+    CHECK(is_lit(0, 1) && !noted("occlusion"));
+    CHECK_LOADS(load_baked(now, MODEL_LIGHT_NAME, "b", "\"emissiveTexture\":{\"index\":0,\"texCoord\":0}"));
+    CHECK(is_lit(1, 0));
+    CHECK_LOADS(load_baked(now, "a", MODEL_LIGHT_NAME,
+                           "\"extensions\":{\"KHR_materials_specular\":{\"specularTexture\":{\"index\":1,\"texCoord\":1,"
+                           "\"extensions\":{\"KHR_texture_transform\":{\"offset\":[0.25,0.5],\"scale\":[1,2]}}}}}"));
+    CHECK(is_lit(0.25f, 2.5f));
+    CHECK_LOADS(load_baked(now, "a", "b", "\"occlusionTexture\":{\"index\":7,\"texCoord\":1}"));
+    CHECK(is_gone() && !noted("occlusion"));
+    CHECK_LOADS(load_baked(now, "a", "b", "\"occlusionTexture\":{\"index\":1}"));
+    CHECK(is_gone() && noted("occlusion maps ignored"));
+    /* As older versions wrote it. */
+    CHECK_LOADS(load_baked(then, "a", "b", "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}"));
+    CHECK(is_lit(0, 1));
+    CHECK_LOADS(load_baked(past, "a", "b", "\"doubleSided\":true"));
+    CHECK(is_gone());
+    CHECK_LOADS(load_baked(then, "a", "b", "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":1}}"));
+    CHECK(is_gone()); /* the number of another texture by now */
+    CHECK_LOADS(load_baked("\"light\":\"vertex-colours\",\"scale\":2", "a", "b", "\"doubleSided\":true"));
+    CHECK(loaded.light.scale == 2 && !noted("lightmap is gone"));
+}
+
 void test_gltf(void)
 {
     scenes();
@@ -572,5 +632,6 @@ void test_gltf(void)
     decoded_often();
     many_places();
     shared_vertices();
+    baked_light();
     model_free(&loaded);
 }

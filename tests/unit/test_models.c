@@ -902,7 +902,7 @@ static void obj_corners(void)
 /* A triangle of three lines `v`. */
 static int load_painted(const char *v, const char *more, int32_t colours)
 {
-    const model_choice choice = {NULL, colours};
+    const model_choice choice = {NULL, colours, 0};
     char path[FOLDER_PATH];
     const int n = snprintf(text, sizeof text, "%s%sf 1 2 3\n", v, more);
     put_file("v.obj", text, (size_t)n);

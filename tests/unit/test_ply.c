@@ -321,7 +321,7 @@ static void scan_colours(void)
         {"double", "1", 255, 255},
         {"float", "nan", 0, 0},           {"float", "-1", 0, 0},       {"float", "inf", 255, 255},
     };
-    const model_choice linear = {NULL, MODEL_COLOURS_LINEAR};
+    const model_choice linear = {NULL, MODEL_COLOURS_LINEAR, 0};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         CHECK_LOADS(load_grey(all[i].type, all[i].code, NULL));
         CHECK_MSG(loaded.blocks && is_colour(0, all[i].srgb, all[i].srgb, all[i].srgb, 255), "%s %s: %d", all[i].type,

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "../../src/bounce/polygon.h"
 #include "../../src/light/glossy.h"
 #include "../../src/raster/target.h"
 #include "../../src/raster/tile.h"
@@ -605,6 +606,7 @@ static bake_settings few(float error, float division, int receivers)
     set.division = division;
     set.elements = 256;
     set.receivers = receivers;
+    set.dividing = 12000;
     set.threads = 2;
     return set;
 }
@@ -994,6 +996,30 @@ static void turned_in_furnace(const lmb_transfer *t, const lmb_tile *tile)
                   want);
     }
     free(l.memory);
+}
+
+/* A triangle's form factors along three axes at once are those along each way of each axis, also through the horizon. */
+static void factors_at_once(void)
+{
+    static const lmb_vec3 corner[3] = {{0.5f, 0.25f, 2.0f}, {-1.0f, 1.5f, 1.0f}, {0.25f, -1.0f, 1.5f}};
+    const lmb_vec3 at = vec3(0.125f, 0.25f, -0.5f), out = normalize3(cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0])));
+    const lmb_vec3 axis = dot3(out, sub3(at, corner[0])) > 0.0f ? out : mul3(out, -1.0f);
+    const int is_turned = axis.x != out.x;
+    const lmb_vec3 round[3] = {corner[0], corner[is_turned ? 2 : 1], corner[is_turned ? 1 : 2]};
+    const lmb_vec3 faces[] = {{0, 0, 1}, {0.6f, 0, 0.8f}, {1, 0, 0}, {0, -0.8f, 0.6f}};
+    for (size_t i = 0; i < sizeof faces / sizeof faces[0]; ++i) {
+        const lmb_vec3 all = polygon_vector(at, faces[i], round, axis);
+        const float own[3] = {all.x, all.y, all.z};
+        CHECK(dot3(all, all) > 0.0f);
+        for (int k = 0; k < 3; ++k) {
+            const lmb_vec3 along = vec3(k == 0, k == 1, k == 2);
+            const float one = lmb_polygon_factor(at, faces[i], along, round, 3, axis) -
+                              lmb_polygon_factor(at, faces[i], mul3(along, -1.0f), round, 3, axis);
+            CHECK_MSG(fabsf(own[k] - one) < 1e-7f, "face %d, axis %d: %g, not %g", (int)i, k, (double)own[k], (double)one);
+        }
+    }
+    CHECK(lmb_polygon_factor(at, faces[0], faces[0], round, 3, mul3(axis, -1.0f)) == 0.0f &&
+          polygon_vector(at, faces[0], round, mul3(axis, -1.0f)).z == 0.0f); /* its back */
 }
 
 /* Form factor of the block to a plane of the normal, and of the triangles that face the place alone. */
@@ -1431,6 +1457,7 @@ static void test_box(void)
 
 void test_transfer(void)
 {
+    factors_at_once();
     by_hand();
     again_by_hand();
     emits_by_hand();

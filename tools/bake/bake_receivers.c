@@ -10,7 +10,7 @@
 #include "bake_triangle.h"
 #include "../../src/raster/triangle.h"
 
-enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64, PLACES = 4, DIVIDING = 12000 };
+enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64, PLACES = 4 };
 #define DIM    0.25f /* of the mean light: where less comes, errors count less */
 #define BURIED 2.0f /* times as much light comes to a place within a leaf as to its corners: these lie in something */
 #define WAIT   0.1f  /* of the worst error: what is off by less waits, as receivers may run out */
@@ -729,7 +729,7 @@ static int add_roots(divider *d)
         d->queue[i].piece = (size_t)-1;
     }
     if (b->set.receivers == 0) {
-        d->b->set.receivers = b->receiver_count + DIVIDING;
+        d->b->set.receivers = b->receiver_count + b->set.dividing;
     }
     if (b->receiver_count > b->set.receivers) {
         return report_fail(d->r, "%u receivers are wanted before any division, and --receivers allows %u; raise it, or "

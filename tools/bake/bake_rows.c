@@ -7,6 +7,7 @@
 
 #include "../../platform/host/pool.h"
 #include "../../src/base/poly.h"
+#include "../../src/bounce/polygon.h"
 #include "bake_triangle.h"
 
 #define DISC2 100.0f /* squared distance, of a part's squared reach, from which it counts as a disc: 0.5 % at most */
@@ -66,10 +67,10 @@ static int factors(float out[3], const bake_element *e, const part *p, lmb_vec3 
         out[0] = factor_along(e, p, at, n, n);
         return out[0] > 0.0f;
     }
-    for (int k = 0; k < 3; ++k) {
-        const lmb_vec3 along = vec3(k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
-        out[k] = factor_along(e, p, at, n, along) - factor_along(e, p, at, n, mul3(along, -1.0f));
-    }
+    const lmb_vec3 all = polygon_vector(at, n, p->corner, e->normal);
+    out[0] = all.x;
+    out[1] = all.y;
+    out[2] = all.z;
     return out[0] != 0.0f || out[1] != 0.0f || out[2] != 0.0f;
 }
 

@@ -24,6 +24,7 @@ typedef struct leaf {
 /* All of one object's leaves, and of all of them the places of corners. */
 typedef struct colours {
     light_solve *s;
+    const model_source *source;
     leaf *leaf;
     size_t count, cap;
     lmb_vec3 *place; /* a set, by hash; w of an empty slot: used 0 */
@@ -140,7 +141,7 @@ static int put_side(colours *c, uint32_t id, uint32_t back)
     light_corner corner[3];
     lmb_vec3 face;
     lmb_triangle own;
-    if (!light_corners(corner, &face, &c->s->job.scene, id, back) || !lmb_triangle_fetch(&own, &c->s->job.scene, id)) {
+    if (!light_corners(corner, &face, &c->s->job.scene, c->source, id, back) || !lmb_triangle_fetch(&own, &c->s->job.scene, id)) {
         return 1; /* a speck */
     }
     if (root == LMB_TRANSFER_NONE) {
@@ -264,17 +265,14 @@ static int put_conform(colours *c, light_mesh *m, const leaf *l, float per, int 
         }
         return put_conform(c, m, &a, per, depth + 1) && put_conform(c, m, &b, per, depth + 1);
     }
+    glb_vertex v[3];
     for (int k = 0; k < 3; ++k) {
-        glb_vertex v;
-        light_vertex_of(&v, &l->corner[k]);
+        light_vertex_of(&v[k], &l->corner[k]);
         for (int i = 0; i < 3; ++i) {
-            v.light[i] = (uint16_t)(minf(maxf(l->light[k][i], 0.0f) * per, 1.0f) * 65535.0f + 0.5f);
-        }
-        if (!light_mesh_put(m, &v, c->r)) {
-            return 0;
+            v[k].light[i] = (uint16_t)(minf(maxf(l->light[k][i], 0.0f) * per, 1.0f) * 65535.0f + 0.5f);
         }
     }
-    return 1;
+    return light_mesh_put(m, v, c->r);
 }
 
 static float brightest(const colours *c)
@@ -297,7 +295,7 @@ static int put_meshes(colours *c, glb_mesh *mesh, uint32_t *count, float per)
         if (c->leaf[i].id >= past) {
             continue;
         }
-        int ok = light_mesh_begin(&m, own->material, c->r);
+        int ok = light_mesh_begin(&m, scene, o, c->r);
         for (; ok && i < c->count && c->leaf[i].id < past; ++i) {
             ok = put_conform(c, &m, &c->leaf[i], per, 0);
         }
@@ -317,6 +315,7 @@ int light_colours(const char *path, light_solve *s, const model *loaded, report 
     uint32_t meshes = 0;
     memset(&c, 0, sizeof c);
     c.s = s;
+    c.source = loaded->source;
     c.r = r;
     glb_mesh *mesh = calloc((size_t)scene->instance_count + 1, sizeof *mesh);
     int ok = mesh != NULL || report_fail(r, "not enough memory for %u objects", (unsigned)scene->instance_count);

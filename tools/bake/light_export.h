@@ -8,14 +8,17 @@
 
 enum { LIGHT_TRANSFER, LIGHT_COLOURS, LIGHT_MAP, LIGHT_PROBES };
 
-/* A corner of a triangle in the world. */
+/* A corner of a triangle in the world, and as its object has it. */
 typedef struct light_corner {
     lmb_vec3 at, normal;
-    float uv[2], colour[4];
+    lmb_vec3 own_at, own_normal;
+    float uv[MODEL_UV_SETS][2], tangent[4], colour[4];
 } light_corner;
 
-/* light_corners: of triangle `id`'s front or back, counter-clockwise from that side. */
-int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, uint32_t id, uint32_t back);
+/* light_corners: of triangle `id`'s front or back, counter-clockwise from that side in the world. `source` NULL: the model
+ * has none. */
+int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, const model_source *source, uint32_t id,
+                  uint32_t back);
 light_corner light_between(const light_corner *a, const light_corner *b);
 
 /* A mesh that grows by corners; those with equal bytes are one vertex. light_mesh_put: 1, or 0 with `r` set. */
@@ -23,11 +26,12 @@ enum { LIGHT_SLOTS = 1 << 16 };
 typedef struct light_mesh {
     glb_mesh mesh;
     int32_t *slot, *next; /* of vertices by their bytes */
+    int is_mirrored;      /* the object's place turns its triangles round */
 } light_mesh;
 
-int light_mesh_begin(light_mesh *m, uint32_t material, report *r);
+int light_mesh_begin(light_mesh *m, const lmb_scene *scene, uint32_t instance, report *r);
 void light_mesh_end(light_mesh *m); /* all but the mesh itself */
-int light_mesh_put(light_mesh *m, const glb_vertex *v, report *r);
+int light_mesh_put(light_mesh *m, const glb_vertex triangle[3], report *r);
 void light_vertex_of(glb_vertex *out, const light_corner *c);
 
 /* light_colours, light_picture: the GLB. light_probes: the JSON, and the numbers beside it; then as light_check. 1, or 0 with

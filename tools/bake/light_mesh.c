@@ -21,7 +21,40 @@ static lmb_vec3 to_world(const lmb_mat4 *m, lmb_vec3 n)
     return dot3(cross3(x, y), z) < 0.0f ? mul3(sum, -1.0f) : sum;
 }
 
-int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, uint32_t id, uint32_t back)
+static int is_mirror(const lmb_mat4 *m)
+{
+    const lmb_vec3 x = vec3(m->m[0], m->m[1], m->m[2]), y = vec3(m->m[4], m->m[5], m->m[6]),
+                   z = vec3(m->m[8], m->m[9], m->m[10]);
+    return dot3(cross3(x, y), z) < 0.0f;
+}
+
+/* The corner's texture coordinates as the file has them, or as the scene does; a back's tangent turns with its normal. */
+static void read_streams(light_corner *c, const lmb_triangle *t, const model_source *source, uint32_t vertex,
+                         uint32_t back)
+{
+    const uint32_t mesh = t->instance->mesh;
+    memset(c->uv, 0, sizeof c->uv);
+    memset(c->tangent, 0, sizeof c->tangent);
+    if (source == NULL) {
+        mesh_uv(t->mesh, vertex, c->uv[0]);
+        return;
+    }
+    for (int set = 0; set < MODEL_UV_SETS; ++set) {
+        if (source->uv[set][mesh] != NULL) {
+            memcpy(c->uv[set], source->uv[set][mesh] + 2 * (size_t)vertex, sizeof c->uv[set]);
+        }
+    }
+    for (int i = 0; i < 4 && source->tangent[mesh] != NULL; ++i) {
+        const float v = source->tangent[mesh][4 * (size_t)vertex + (size_t)i];
+        c->tangent[i] = back ? -v : v;
+    }
+}
+
+/* The place of a vertex in its object. */
+static lmb_vec3 own_place(const lmb_triangle *t, uint32_t vertex) { return mesh_position(t->mesh, vertex); }
+
+int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, const model_source *source, uint32_t id,
+                  uint32_t back)
 {
     lmb_triangle t;
     float area;
@@ -30,16 +63,22 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, u
     }
     const lmb_vec3 across = cross3(sub3(t.corner[1], t.corner[0]), sub3(t.corner[2], t.corner[0]));
     const int is_mirrored = dot3(across, *face) < 0.0f; /* its front is the clockwise side */
+    const lmb_vec3 first = own_place(&t, t.vertex[0]);
+    const lmb_vec3 flat = unit_or(cross3(sub3(own_place(&t, t.vertex[1]), first), sub3(own_place(&t, t.vertex[2]), first)),
+                                  *face);
     *face = back ? mul3(*face, -1.0f) : *face;
     for (int k = 0; k < 3; ++k) {
         const int from = (back != 0) != is_mirrored ? 2 - k : k;
         light_corner *c = &out[k];
         c->at = t.corner[from];
-        const lmb_vec3 n = t.mesh->normals != NULL
-                               ? unit_or(to_world(&t.instance->to_world, mesh_normal(t.mesh, t.vertex[from])), *face)
-                               : *face;
-        c->normal = dot3(n, *face) < 0.0f ? mul3(n, -1.0f) : n;
-        mesh_uv(t.mesh, t.vertex[from], c->uv);
+        c->own_at = own_place(&t, t.vertex[from]);
+        c->own_normal = t.mesh->normals != NULL ? mesh_normal(t.mesh, t.vertex[from]) : back ? mul3(flat, -1.0f) : flat;
+        c->normal = t.mesh->normals != NULL ? unit_or(to_world(&t.instance->to_world, c->own_normal), *face) : *face;
+        if (dot3(c->normal, *face) < 0.0f) {
+            c->normal = mul3(c->normal, -1.0f);
+            c->own_normal = mul3(c->own_normal, -1.0f);
+        }
+        read_streams(c, &t, source, t.vertex[from], back);
         for (int i = 0; i < 4; ++i) {
             c->colour[i] =
                 t.mesh->colours != NULL ? (float)t.mesh->colours[4 * (size_t)t.vertex[from] + (size_t)i] : 255.0f;
@@ -48,40 +87,57 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, u
     return 1;
 }
 
+/* Halfway; a tangent's last is its sign. */
+static void mean_of(float *out, const float *a, const float *b, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        out[i] = 0.5f * (a[i] + b[i]);
+    }
+}
+
 light_corner light_between(const light_corner *a, const light_corner *b)
 {
     light_corner c;
     c.at = mul3(add3(a->at, b->at), 0.5f);
     c.normal = unit_or(add3(a->normal, b->normal), a->normal);
-    for (int i = 0; i < 2; ++i) {
-        c.uv[i] = 0.5f * (a->uv[i] + b->uv[i]);
-    }
-    for (int i = 0; i < 4; ++i) {
-        c.colour[i] = 0.5f * (a->colour[i] + b->colour[i]);
-    }
+    c.own_at = mul3(add3(a->own_at, b->own_at), 0.5f);
+    c.own_normal = unit_or(add3(a->own_normal, b->own_normal), a->own_normal);
+    const lmb_vec3 ta = vec3(a->tangent[0], a->tangent[1], a->tangent[2]),
+                   t = unit_or(add3(ta, vec3(b->tangent[0], b->tangent[1], b->tangent[2])), ta);
+    c.tangent[0] = t.x;
+    c.tangent[1] = t.y;
+    c.tangent[2] = t.z;
+    c.tangent[3] = a->tangent[3];
+    mean_of(c.uv[0], a->uv[0], b->uv[0], 2 * MODEL_UV_SETS);
+    mean_of(c.colour, a->colour, b->colour, 4);
     return c;
+}
+
+static void put_vec3(float out[3], lmb_vec3 v)
+{
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
 }
 
 void light_vertex_of(glb_vertex *v, const light_corner *c)
 {
     memset(v, 0, sizeof *v);
-    v->position[0] = c->at.x;
-    v->position[1] = c->at.y;
-    v->position[2] = c->at.z;
-    v->normal[0] = c->normal.x;
-    v->normal[1] = c->normal.y;
-    v->normal[2] = c->normal.z;
+    put_vec3(v->position, c->own_at);
+    put_vec3(v->normal, c->own_normal);
     memcpy(v->uv, c->uv, sizeof v->uv);
+    memcpy(v->tangent, c->tangent, sizeof v->tangent);
     for (int i = 0; i < 4; ++i) {
         v->colour[i] = (uint8_t)(c->colour[i] + 0.5f);
         v->light[i] = 65535;
     }
 }
 
-int light_mesh_begin(light_mesh *m, uint32_t material, report *r)
+int light_mesh_begin(light_mesh *m, const lmb_scene *scene, uint32_t instance, report *r)
 {
     memset(m, 0, sizeof *m);
-    m->mesh.material = material;
+    m->mesh.instance = instance;
+    m->is_mirrored = is_mirror(&scene->instances[instance].to_world);
     m->slot = malloc(LIGHT_SLOTS * sizeof *m->slot);
     for (int i = 0; m->slot != NULL && i < LIGHT_SLOTS; ++i) {
         m->slot[i] = -1;
@@ -122,7 +178,7 @@ static int grow(light_mesh *m, report *r)
     return 1;
 }
 
-int light_mesh_put(light_mesh *m, const glb_vertex *v, report *r)
+static int put_vertex(light_mesh *m, const glb_vertex *v, report *r)
 {
     glb_mesh *g = &m->mesh;
     uint32_t hash = 2166136261u;
@@ -145,4 +201,13 @@ int light_mesh_put(light_mesh *m, const glb_vertex *v, report *r)
     }
     g->index[g->index_count++] = (uint32_t)at;
     return 1;
+}
+
+int light_mesh_put(light_mesh *m, const glb_vertex triangle[3], report *r)
+{
+    int ok = 1;
+    for (int k = 0; ok && k < 3; ++k) {
+        ok = put_vertex(m, &triangle[m->is_mirrored ? 2 - k : k], r);
+    }
+    return ok;
 }

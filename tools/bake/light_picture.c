@@ -46,6 +46,7 @@ typedef struct texel {
 
 typedef struct map {
     light_solve *s;
+    const model_source *source;
     face *face;
     edge *edge;
     chart *chart;
@@ -78,7 +79,7 @@ static int put_faces(map *m)
             const uint32_t root =
                 t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2 + back];
             face *f = &m->face[m->faces];
-            if ((back && root == LMB_TRANSFER_NONE) || !light_corners(f->corner, &f->normal, scene, id, back)) {
+            if ((back && root == LMB_TRANSFER_NONE) || !light_corners(f->corner, &f->normal, scene, m->source, id, back)) {
                 continue;
             }
             const lmb_vec3 at[3] = {f->corner[0].at, f->corner[1].at, f->corner[2].at};
@@ -469,16 +470,16 @@ static int put_mesh(map *m, glb_mesh *out, uint32_t first, uint32_t past)
 {
     const lmb_scene *scene = &m->s->job.scene;
     light_mesh own;
-    int ok = light_mesh_begin(&own, lmb_instance_of(scene, m->face[first].id)->material, m->r);
+    int ok = light_mesh_begin(&own, scene, (uint32_t)(lmb_instance_of(scene, m->face[first].id) - scene->instances), m->r);
     for (uint32_t i = first; ok && i < past; ++i) {
-        for (int k = 0; ok && k < 3; ++k) {
-            glb_vertex v;
-            light_vertex_of(&v, &m->face[i].corner[k]);
-            texel_of(v.light_uv, m, &m->face[i], m->face[i].corner[k].at);
-            v.light_uv[0] /= (float)m->side;
-            v.light_uv[1] /= (float)m->side;
-            ok = light_mesh_put(&own, &v, m->r);
+        glb_vertex v[3];
+        for (int k = 0; k < 3; ++k) {
+            light_vertex_of(&v[k], &m->face[i].corner[k]);
+            texel_of(v[k].light_uv, m, &m->face[i], m->face[i].corner[k].at);
+            v[k].light_uv[0] /= (float)m->side;
+            v[k].light_uv[1] /= (float)m->side;
         }
+        ok = light_mesh_put(&own, v, m->r);
     }
     light_mesh_end(&own);
     *out = own.mesh;
@@ -524,6 +525,7 @@ int light_picture(const char *path, light_solve *s, const model *loaded, int32_t
     map m;
     memset(&m, 0, sizeof m);
     m.s = s;
+    m.source = loaded->source;
     m.r = r;
     m.side = side;
     const size_t texels = (size_t)side * (size_t)side;

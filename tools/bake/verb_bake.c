@@ -26,7 +26,8 @@ typedef struct options {
     model_choice choice;
     float error, division, cluster, smallest;
     lmb_vec3 eye[EYES];
-    int32_t elements, receivers, threads, budget, is_big, eyes;
+    int32_t elements, receivers, dividing, threads, budget, is_big, eyes;
+    int32_t quality; /* QUALITY_ */
     int is_quiet, is_verbose, has_report, is_once, is_glossy;
     int32_t to; /* LIGHT_ */
     lmb_light lights[RENDER_LIGHTS];
@@ -42,6 +43,13 @@ static const char *const orders[] = {"little", "big", NULL};
 static const char *const forms[] = {"transfer", "vertex-colours", "lightmap", "probes", NULL};
 static const char *const endings[] = {".lmt", ".glb", ".glb", ".json"};
 
+/* What --quality stands for: elements, and receivers beside those at triangles' corners. */
+enum { QUALITY_DRAFT, QUALITY_DEFAULT, QUALITY_BEST };
+static const char *const qualities[] = {"draft", "default", "best", NULL};
+static const struct {
+    int32_t elements, dividing;
+} quality_counts[] = {{1024, 1500}, {4096, 4000}, {16384, 12000}};
+
 static const option_row rows[] = {
     {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene), .file = OPTION_READS,
      .help = ".gltf .glb .obj .ply .lmp, or `demo`"},
@@ -56,6 +64,9 @@ static const option_row rows[] = {
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(choice.scene),
      .help = "of a file with several scenes: which, by name or number"},
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
+    {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities,
+     .help = "draft: 1024 elements and 1500 receivers beside those at triangles' corners; default: 4096 and 4000; best: "
+             "16384 and 12000, in five to seven times the time of the default (default default)"},
     {.name = "--error", .value = "SHARE", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
      .help = "how accurate the links are, which carry light from pieces of the scene to receivers: the error that one more "
              "link has to save, as a share of all light around a receiver that stands for a 10,000th of the scene's "
@@ -66,9 +77,9 @@ static const option_row rows[] = {
              "light, more receivers (default 0.008)"},
     {.name = "--elements", .value = "N", .kind = OPTION_POWER_OF_2, AT(elements), .low = 64,
      .high = LMB_TRANSFER_MAX_ELEMENTS,
-     .help = "pieces of surface that send light: 256, 1024, 4096 or 16384 (default 16384); fewer bake faster"},
+     .help = "pieces of surface that send light: 256, 1024, 4096 or 16384 (default: by --quality); fewer bake faster"},
     {.name = "--receivers", .value = "N", .kind = OPTION_INT, AT(receivers), .low = 64, .high = 500000,
-     .help = "no triangle is halved from so many receivers on (default: 12000 and those at triangles' corners)"},
+     .help = "no triangle is halved from so many receivers on (default: by --quality)"},
     {.name = "--cluster", .value = "METRES", .kind = OPTION_ABOVE, AT(cluster), .low = 0.0, .high = 1e5,
      .help = "triangles of meshes under twice this size are lit by clusters of this size (default: by the scene)"},
     {.name = "--smallest", .value = "METRES", .kind = OPTION_ABOVE, AT(smallest), .low = 0.0, .high = 1e5,
@@ -116,7 +127,7 @@ static const option_table table = {
              "reflections: the insides of solids, and closed rooms without a light or camera, for which --eye is. Of a "
              "scene with more than 64 cameras the first 64 count.\n"
              "Takes seconds to minutes, and memory while it does: 2 bytes x elements x receivers, 6 bytes x elements x "
-             "clusters, and up to 100 MB beside the scene's own; by default half a gigabyte for a room.\n"
+             "clusters, and up to 100 MB beside the scene's own; half a gigabyte for a room by --quality best.\n"
              "Slices run at the same time, on machines that share the output's folder: in OUT.shared they pass on what they "
              "have made. What one does not find there in time it makes itself.",
     .part = {rows},
@@ -296,6 +307,7 @@ static int bake_scene(const options *o, const lmb_scene *whole, const model *loa
     set.smallest_m = o->smallest;
     set.elements = (uint32_t)o->elements;
     set.receivers = (uint32_t)o->receivers;
+    set.dividing = (uint32_t)o->dividing;
     set.threads = pool_threads(o->threads);
     set.is_swapped = o->is_big != is_own_big();
     uint32_t moving[MOVING], count;
@@ -371,9 +383,11 @@ int verb_bake(int argc, char **argv)
     memset(&notes, 0, sizeof notes);
     o.error = 0.00014f;
     o.division = 0.008f;
-    o.elements = 16384;
+    o.quality = QUALITY_DEFAULT;
     o.is_big = is_own_big();
     int asked = options_parse(&o, &table, argc, argv, &r);
+    o.elements = o.elements > 0 ? o.elements : quality_counts[o.quality].elements;
+    o.dividing = quality_counts[o.quality].dividing;
     asked = asked == OPTIONS_RUN && !is_complete(&o, &r) ? OPTIONS_BAD : asked;
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &table, &r);
@@ -381,7 +395,8 @@ int verb_bake(int argc, char **argv)
     const int is_demo = strcmp(o.scene, "demo") == 0;
     o.bounces = o.bounces > 0 ? o.bounces : 4;
     o.texels = o.texels > 0 ? o.texels : 2048;
-    progress_begin(o.is_quiet, "bake");
+    o.choice.keeps_source = o.to == LIGHT_COLOURS || o.to == LIGHT_MAP;
+    progress_begin_log(o.is_quiet, "bake");
     int ok = options_files(&o, &table, &r) &&
              (o.slice.count == 0 || slice_job(&o.slice_job, &o, &table, argc, argv, &r)) &&
              (is_demo || model_load_as(&loaded, o.scene, &o.choice, &notes, &r)) && options_files(&o, &table, &r) &&

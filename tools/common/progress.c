@@ -1,4 +1,4 @@
-/* progress.c: one line on a terminal that says how far the work is. */
+/* progress.c: one line on a terminal that says how far the work is; elsewhere, for some verbs, a line every ten seconds. */
 #include "progress.h"
 
 #include <signal.h>
@@ -9,9 +9,10 @@
 
 #define SILENT_S 1.0 /* what is done sooner is not told */
 #define EVERY_S  0.2
+#define LINE_EVERY_S 10.0 /* in a log */
 
 static struct watch {
-    int is_on, is_whole, is_quiet;
+    int is_on, is_whole, is_quiet, is_log;
     const char *verb;
     char step[40];
     double share;                    /* that was told last */
@@ -27,6 +28,15 @@ void progress_begin(int is_quiet, const char *verb)
     watch.is_on = !is_quiet && host_watched();
     watch.verb = verb;
     watch.begun = watch.step_begun = watch.is_on ? host_seconds() : 0.0;
+}
+
+void progress_begin_log(int is_quiet, const char *verb)
+{
+    progress_begin(is_quiet, verb);
+    if (!is_quiet && !watch.is_on) {
+        watch.is_on = watch.is_log = 1;
+        watch.begun = watch.step_begun = watch.shown = host_seconds();
+    }
 }
 
 int progress_is_quiet(void) { return watch.is_quiet; }
@@ -46,13 +56,17 @@ static void left_of(char *out, size_t size, double share, double passed)
 static void show(const char *name, double share, double begun, double now)
 {
     char line[128], left[40];
-    if (now - watch.begun < SILENT_S || now - watch.shown < EVERY_S) {
+    if (now - watch.begun < SILENT_S || now - watch.shown < (watch.is_log ? LINE_EVERY_S : EVERY_S)) {
         return;
     }
     left_of(left, sizeof left, share, now - begun);
     snprintf(line, sizeof line, "lambent %s: %s %.0f %%%s", watch.verb, name, 100.0 * share, left);
-    has_line = 1;
     watch.shown = now;
+    if (watch.is_log) {
+        fprintf(stderr, "%s\n", line);
+        return;
+    }
+    has_line = 1;
     fprintf(stderr, "\r%-78.78s", line);
 }
 

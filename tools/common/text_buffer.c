@@ -41,6 +41,8 @@ static void put(text_buffer *p, const char *text, size_t n)
 
 void text_buffer_plain(text_buffer *p, const char *text) { put(p, text, strlen(text)); }
 
+void text_buffer_span(text_buffer *p, const char *text, size_t size) { put(p, text, size); }
+
 void text_buffer_add(text_buffer *p, const char *format, ...)
 {
     va_list args;

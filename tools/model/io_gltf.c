@@ -170,7 +170,7 @@ static int add_instances(const gltf_tree *t, gltf *g)
     static const gltf_matrix unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     shown *nodes = (shown *)build_scratch(g->b, t->count, sizeof *nodes);
     uint64_t total;
-    uint32_t i, k, c, *of, *shown_by;
+    uint32_t i, k, c, *of, *shown_by, *from;
     lmb_instance *to;
     if (!nodes || !make_meshes(nodes, &total, t, g))
         return 0;
@@ -179,7 +179,8 @@ static int add_instances(const gltf_tree *t, gltf *g)
     to = g->b->instances = (lmb_instance *)build_keep(g->b, total, sizeof *to);
     of = g->instance_node = (uint32_t *)build_keep(g->b, total, sizeof *of);
     shown_by = g->instance_shown = (uint32_t *)build_scratch(g->b, total, sizeof *shown_by);
-    if (!to || !of || !shown_by)
+    from = g->instance_from = (uint32_t *)build_scratch(g->b, total, sizeof *from);
+    if (!to || !of || !shown_by || !from)
         return 0;
     for (i = 0; i < t->count; ++i) {
         const uint32_t mesh = nodes[i].mesh, size = mesh == JSON_NONE ? 0 : g->mesh_size[mesh];
@@ -187,9 +188,10 @@ static int add_instances(const gltf_tree *t, gltf *g)
         const int is_posed = nodes[i].is_posed;
         if (is_posed)
             world = &unit;
-        for (k = 0; k < size; ++k, ++to, ++of) {
+        for (k = 0; k < size; ++k, ++to, ++of, ++from) {
             *of = is_posed ? MODEL_NONE : i;
             *shown_by++ = i;
+            *from = t->order[i];
             for (c = 0; c < 16; ++c)
                 to->to_world.m[c] = (float)world->m[c];
             to->mesh = nodes[i].first + k;
@@ -198,6 +200,15 @@ static int add_instances(const gltf_tree *t, gltf *g)
     }
     g->b->instance_count = (uint32_t)total;
     return 1;
+}
+
+static void count_occlusion_maps(gltf *g)
+{
+    uint32_t i;
+    for (i = 0; i < g->materials.count; ++i) {
+        const uint32_t map = json_member(&g->doc, g->materials.items[i], "occlusionTexture");
+        g->left_out.occlusion_maps += map != JSON_NONE && !gltf_light_is_slot(g, map);
+    }
 }
 
 /* What a reader of the picture should know. */
@@ -299,9 +310,10 @@ static int load_document(gltf *g)
 {
     gltf_tree t;
     if (!check_version(g) || !check_extensions(g) || !gltf_lists(g) || !gltf_make_tree(&t, g) || !make_tables(&t, g) ||
-        !gltf_materials(g) || !add_instances(&t, g) || !gltf_light_end(g) || !gltf_lights(&t, g) || !gltf_cameras(&t, g))
+        !gltf_materials(g) || !add_instances(&t, g) || (g->b->keeps_source && !gltf_source(g)) || !gltf_light_end(g) || !gltf_lights(&t, g) || !gltf_cameras(&t, g))
         return 0;
     gltf_motion(&t, g);
+    count_occlusion_maps(g);
     tell_left_out(g);
     count_facts(g);
     return 1;

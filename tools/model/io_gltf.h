@@ -68,6 +68,8 @@ typedef struct gltf {
     lmb_mesh *mesh_rest;                      /* by lambent mesh: at morph weights of 0 */
     gltf_influences *mesh_influences;         /* by lambent mesh, for as often as it is posed */
     uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
+    uint32_t *instance_from;          /* by instance: its node, an index of the document */
+    gltf_uv *light_uv;                /* by material, of baked light; NULL: the file has none */
     uint32_t *instance_node, *light_node, *camera_node; /* of the model's: place in the tree's order, or MODEL_NONE */
     uint32_t *instance_shown;         /* the place of the node that shows it, skinned or not */
     gltf_counts left_out;
@@ -140,6 +142,13 @@ uint32_t gltf_targets(const gltf *g, uint32_t node);
 int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */
 void gltf_default_material(gltf *g); /* makes default_material, once */
 
+/* images[index]: its bytes, likely a PNG or a JPEG, and its name for messages. 0: see `why`, or the report if the model is
+ * damaged. */
+enum { GLTF_PLACE = 96 };
+int gltf_image_bytes(gltf_bytes *out, char place[GLTF_PLACE], gltf *g, uint32_t index, report *why);
+
+int gltf_read_uv(gltf_uv *out, gltf *g, uint32_t info); /* the set and transform of a texture info */
+
 int gltf_texture(int32_t *out, gltf *g, uint32_t texture); /* place in b->textures, as a colour; -1: it cannot be had */
 
 /* io_gltf_mesh.c */
@@ -153,6 +162,10 @@ float *gltf_floats(gltf *g, const gltf_accessor *a); /* all values in scratch me
 /* io_gltf_light.c: of what `lambent bake --to` wrote */
 int gltf_light_begin(gltf *g, uint32_t meshes);            /* before the meshes: is there any? */
 int gltf_light_end(gltf *g);                               /* its picture */
+int gltf_light_is_slot(const gltf *g, uint32_t info);      /* does a texture info show that picture, or did it? */
+
+/* io_gltf_source.c: after the instances: sets the model's source */
+int gltf_source(gltf *g);
 
 /* io_gltf_skin.c */
 /* Pose a skinned node's own copies of its mesh, from b->meshes[first] on, by its joints, in world metres. */

@@ -40,21 +40,18 @@ static int read_sampler(lmb_texture *out, gltf *g, uint32_t texture)
     return 1;
 }
 
-enum { PLACE = 96 };
-
-/* The file's bytes of images[index], likely a PNG or a JPEG; `place` names it, by its file where it has one.
- * 0: see `why`, or g->b->r where the model itself is damaged. */
-static int image_bytes(gltf_bytes *out, char place[PLACE], gltf *g, uint32_t index, report *why)
+/* `place` names its file if it has one. */
+int gltf_image_bytes(gltf_bytes *out, char place[GLTF_PLACE], gltf *g, uint32_t index, report *why)
 {
     const uint32_t node = g->images.items[index], reference = json_member(&g->doc, node, "bufferView");
     uint32_t view;
-    snprintf(place, PLACE, "images[%u]", (unsigned)index); /* json_path would count the images before it */
+    snprintf(place, GLTF_PLACE, "images[%u]", (unsigned)index); /* json_path would count the images before it */
     if (reference == JSON_NONE) {
         const uint32_t uri = json_member(&g->doc, node, "uri");
         char file[64];
         json_string(file, sizeof file, &g->doc, uri);
         if (file[0] != '\0' && strncmp(file, "data:", 5) != 0)
-            snprintf(place, PLACE, "images[%u], %s", (unsigned)index, file);
+            snprintf(place, GLTF_PLACE, "images[%u], %s", (unsigned)index, file);
         if (!gltf_uri(out, g, uri, why))
             return 0;
     } else if (!gltf_item(&view, g, &g->views, reference) || !gltf_view(out, g, view)) {
@@ -68,10 +65,10 @@ static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int kind, int
 {
     lmb_texture *known = &g->image_texels[kind - 1][index];
     gltf_bytes bytes = {NULL, 0, 0};
-    char place[PLACE];
+    char place[GLTF_PLACE];
     int ok;
     if (!known->texels || (mips && known->levels == 1)) {
-        if (!image_bytes(&bytes, place, g, index, why))
+        if (!gltf_image_bytes(&bytes, place, g, index, why))
             return 0;
         ok = build_texels(g->b, known, bytes.data, bytes.size, mips ? kind : TEXELS_PLAIN, place,
                           &g->image_content[index], why);
@@ -178,12 +175,21 @@ static int read_transform(gltf_uv *uv, gltf *g, uint32_t transform)
     return 1;
 }
 
+int gltf_read_uv(gltf_uv *out, gltf *g, uint32_t info)
+{
+    const json *doc = &g->doc;
+    const uint32_t transform = json_member(doc, json_member(doc, info, "extensions"), "KHR_texture_transform");
+    memset(out, 0, sizeof *out);
+    return json_read_uint(&out->set, doc, json_member(doc, info, "texCoord"), g->b->r) &&
+           (transform == JSON_NONE || read_transform(out, g, transform));
+}
+
 /* A texture info: the place of its image of that kind, -1: none to be had, and how it takes texture coordinates. */
 static int read_texture(int32_t *slot, gltf_uv *uv, gltf *g, uint32_t info, int kind)
 {
     const json *doc = &g->doc;
     const uint32_t reference = json_member(doc, info, "index");
-    uint32_t index, transform;
+    uint32_t index;
     memset(uv, 0, sizeof *uv);
     uv->set = JSON_NONE;
     if (info == JSON_NONE)
@@ -194,11 +200,7 @@ static int read_texture(int32_t *slot, gltf_uv *uv, gltf *g, uint32_t info, int 
         return 0;
     if (*slot < 0)
         return 1;
-    uv->set = 0;
-    if (!json_read_uint(&uv->set, doc, json_member(doc, info, "texCoord"), g->b->r))
-        return 0;
-    transform = json_member(doc, json_member(doc, info, "extensions"), "KHR_texture_transform");
-    return transform == JSON_NONE || read_transform(uv, g, transform);
+    return gltf_read_uv(uv, g, info);
 }
 
 /* A mesh has one stream of texture coordinates, the base colour's or those of the first map: 0 for a map that wants
@@ -393,7 +395,6 @@ static int read_emission(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t mater
         factor[k] *= strength;
         out->emission[k] = factor[k] > 0 && factor[k] < 1e30 ? (float)factor[k] : 0.0f;
     }
-    g->left_out.occlusion_maps += json_member(doc, material, "occlusionTexture") != JSON_NONE;
     return 1;
 }
 

@@ -295,14 +295,25 @@ static int read_baked_values(float **out, gltf *g, uint32_t reference, uint32_t 
     return 1;
 }
 
-/* Of a file that `lambent bake --to` wrote, COLOR_1 and TEXCOORD_1 of the next mesh. */
-static int read_baked(gltf *g, const lmb_mesh *m, uint32_t attributes)
+/* Of a file that `lambent bake --to` wrote, the light of the next mesh: COLOR_1, or its place in the picture. */
+static int read_baked(gltf *g, const lmb_mesh *m, uint32_t attributes, uint32_t material)
 {
     model_light *l = &g->b->out->light;
     const uint32_t mesh = g->b->mesh_count;
-    return !(l->scale > 0.0f) ||
-           (read_baked_values(&l->colour[mesh], g, json_member(&g->doc, attributes, "COLOR_1"), 3, m->vertex_count) &&
-            read_baked_values(&l->uv[mesh], g, json_member(&g->doc, attributes, "TEXCOORD_1"), 2, m->vertex_count));
+    char key[32];
+    if (!(l->scale > 0.0f)) {
+        return 1;
+    }
+    const gltf_uv *how = &g->light_uv[material < g->materials.count ? material : g->materials.count];
+    snprintf(key, sizeof key, "TEXCOORD_%u", (unsigned)how->set);
+    if (!read_baked_values(&l->colour[mesh], g, json_member(&g->doc, attributes, "COLOR_1"), 3, m->vertex_count) ||
+        !read_baked_values(&l->uv[mesh], g, json_member(&g->doc, attributes, key), 2, m->vertex_count)) {
+        return 0;
+    }
+    if (l->uv[mesh] != NULL) {
+        move_uvs(l->uv[mesh], m->vertex_count, how);
+    }
+    return 1;
 }
 
 /* One primitive to the next free mesh; none for points, lines and what has no triangle. */
@@ -326,7 +337,7 @@ static int read_primitive(gltf *g, uint32_t primitive)
         !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) || !read_uvs(out, g, attributes, material) ||
         !read_tangents(out, g, json_member(&g->doc, attributes, "TANGENT"), material) ||
         !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) ||
-        !read_baked(g, out, attributes))
+        !read_baked(g, out, attributes, material))
         return 0;
     if (out->triangle_count == 0)
         return 1;

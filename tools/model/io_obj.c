@@ -492,6 +492,23 @@ static int load_libraries(obj *o)
     return 1;
 }
 
+/* Faces before any name have none. */
+static int keep_names(obj *o)
+{
+    const char **names = (const char **)build_keep(o->b, o->names.count, sizeof *names);
+    uint32_t i;
+    for (i = 1; names && i < o->names.count; ++i) {
+        const slice name = o->names.items[i].name;
+        char *kept = (char *)build_keep(o->b, (uint64_t)name.size + 1, 1);
+        if (!kept)
+            return 0;
+        memcpy(kept, name.at, name.size);
+        names[i] = kept;
+    }
+    o->b->out->material_names = names;
+    return names != NULL;
+}
+
 /* Are the colours of vertices all that is known of it? */
 static int is_painted(const obj *o, uint32_t material) { return o->colours && !o->names.items[material].has_kd; }
 
@@ -513,7 +530,7 @@ static int make_materials(obj *o)
         m->texture = -1;
         m->flags = LMB_DOUBLE_SIDED;
     }
-    if (!load_libraries(o))
+    if (!load_libraries(o) || !keep_names(o))
         return 0;
     for (i = 1; i < o->names.count; ++i)
         undefined += !o->names.items[i].defined;

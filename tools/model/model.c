@@ -240,6 +240,7 @@ int model_read_as(model *out, const char *path, const model_choice *choice, cons
     b.scene = choice ? choice->scene : NULL;
     b.linear_colours = choice && choice->vertex_colours == MODEL_COLOURS_LINEAR;
     fill_linear_of(&b);
+    b.keeps_source = choice && choice->keeps_source;
     b.budget = MODEL_BYTES_FREE + (uint64_t)size * MODEL_BYTES_PER_BYTE;
     b.pixel_budget = MODEL_FREE_PIXELS + (uint64_t)size * MODEL_PIXELS_PER_BYTE;
     b.large_picture = MODEL_LARGE_PICTURE;
@@ -269,13 +270,13 @@ int model_load_as(model *out, const char *path, const model_choice *choice, mode
 int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
                report *r)
 {
-    const model_choice choice = {scene, MODEL_COLOURS_SRGB};
+    const model_choice choice = {scene, MODEL_COLOURS_SRGB, 0};
     return model_read_as(out, path, &choice, data, size, notes, r);
 }
 
 int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r)
 {
-    const model_choice choice = {scene, MODEL_COLOURS_SRGB};
+    const model_choice choice = {scene, MODEL_COLOURS_SRGB, 0};
     return model_load_as(out, path, &choice, notes, r);
 }
 

@@ -52,13 +52,30 @@ typedef struct model_lobe {
     uint32_t metal_map;
 } model_lobe;
 
+#define MODEL_LIGHT_NAME "lambent lightmap" /* of the image */
+
 /* Baked light of a file that `lambent bake --to` wrote. */
 typedef struct model_light {
     float scale;          /* W/m2 that a colour of 1 stands for; 0: the file has none */
     float **colour;       /* by mesh: COLOR_1, 3 a vertex, 0 .. 1; NULL: it has none */
-    float **uv;           /* by mesh: TEXCOORD_1, 2 a vertex; NULL: it has none */
+    float **uv;           /* by mesh: where the picture shows it, 2 a vertex; NULL: it has none */
     const lmb_texture *picture; /* by uv, sRGB-coded; NULL: none */
 } model_light;
+
+enum { MODEL_UV_SETS = 4 };
+
+/* What a glTF file has beyond the scene, for a file that is written from it. */
+typedef struct model_source {
+    const char *json;            /* the document */
+    size_t json_size;
+    const uint8_t **image;       /* by image of the document: its file's bytes; NULL: they cannot be read */
+    size_t *image_size;
+    uint32_t *node, *primitive;  /* by instance: its node, an index; its primitive, a node of the parsed JSON */
+    uint8_t *is_posed;           /* by instance: a skin placed its vertices in the world */
+    uint32_t uv_sets;            /* TEXCOORD_ sets that its materials name */
+    float **uv[MODEL_UV_SETS];   /* by mesh: 2 a vertex, without any transform; NULL: it has none */
+    float **tangent;             /* by mesh: 4 a vertex; NULL: it has none */
+} model_source;
 
 /* Owns everything `scene` points to. model_free releases it; a zeroed model is empty. */
 typedef struct model {
@@ -67,6 +84,8 @@ typedef struct model {
     uint32_t camera_count;
     model_lobe *lobes; /* by material; NULL: the format has none */
     model_light light;
+    model_source *source;        /* model_choice.keeps_source; NULL: not asked for, or the format is not glTF */
+    const char **material_names; /* by material, each may be NULL; NULL: the format has none, or `source` has them */
     struct model_motion *motion; /* model_motion.h; NULL: nothing of the scene moves, or `motion_problem` says why */
     report motion_problem;
     uint32_t idle_channels; /* of animations: they move nothing of the scene that is read */
@@ -87,11 +106,13 @@ enum { MODEL_COLOURS_SRGB = 0, MODEL_COLOURS_LINEAR };
 typedef struct model_choice {
     const char *scene;      /* of several the one of this name or number; NULL: the file's own choice */
     int32_t vertex_colours; /* of OBJ and PLY: MODEL_COLOURS_; glTF says that its own are linear */
+    int32_t keeps_source;   /* 1: out->source, if the file is glTF */
 } model_choice;
 
 /* model_load: .gltf, .glb, .obj, .ply or .lmp by content and extension; of several scenes the one of the name or number
  * `scene`, or with NULL the file's own choice. Returns 1, or 0 with `r` set and *out empty. */
 int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r);
+
 
 /* model_read: the same from memory; `path` names it in messages, tells the format where the content does not, and is
  * where files beside it are looked for. */

@@ -39,6 +39,7 @@ typedef struct model_build {
     const char *scene;     /* wanted of several, by name or number; NULL: the file chooses */
     int linear_colours;    /* vertex colours of OBJ and PLY are linear light, not sRGB codes */
     uint8_t linear_of[256]; /* by sRGB code */
+    int keeps_source;      /* out->source is wanted */
     uint64_t budget;       /* bytes that may still be allocated */
     uint64_t pixel_budget; /* pixels that may still be decoded */
     uint64_t large_picture; /* pixels that one picture may have beyond that; 0: one had */

@@ -1,0 +1,84 @@
+/* polygon.h: what the form factors of polygons are made of. Layer 6. */
+#ifndef POLYGON_H
+#define POLYGON_H
+
+#include "../base/poly.h"
+#include "../base/vec.h"
+
+enum { POLYGON_CORNERS = LMB_TREES ? 8 : 4 };
+#define POLYGON_FLAT 1e-3f /* of the half sides: a point this close to a polygon's plane is in it */
+#define POLYGON_BENT 0.9f  /* cosine of 26 degrees: the next facet of a curve is bent less than that */
+
+/* How far a polygon is moved back from a point that is closer than `min_height` to the plane, m; below 0: no light.
+ *
+ * A surface that is parallel to the polygon lies in its plane, on either side, and rounding must not lift it out: the
+ * form factor would jump to 1. Nor may rounding do that if the polygon's middle is below the point's horizon, as beyond
+ * a convex edge. A point on a concave edge gets the light that a point `min_height` above the plane gets. */
+static inline float polygon_back(float height, float min_height, lmb_vec3 face, lmb_vec3 axis, lmb_vec3 middle)
+{
+    if (height > min_height) {
+        return 0.0f;
+    }
+    return height > 0.0f && absf(dot3(face, axis)) < POLYGON_BENT && dot3(face, middle) > 0.0f ? min_height - height
+                                                                                               : -1.0f;
+}
+
+/* Corners relative to a point that is at least `min_height` above their plane; 0: the point gets no light. */
+static inline int polygon_corners(lmb_vec3 *out, lmb_vec3 at, lmb_vec3 face, const lmb_vec3 *corner, int corners, float min_height,
+                        lmb_vec3 axis)
+{
+    lmb_vec3 sum = vec3(0, 0, 0);
+    for (int i = 0; i < corners; ++i) {
+        out[i] = sub3(corner[i], at);
+        sum = add3(sum, out[i]);
+    }
+    const float back = polygon_back(-dot3(axis, out[0]), min_height, face, axis, sum);
+    for (int i = 0; back > 0.0f && i < corners; ++i) {
+        out[i] = sub3(out[i], mul3(axis, back));
+    }
+    return back >= 0.0f;
+}
+
+
+/* Keep what lies above the horizon, n . v >= 0: at most one corner more. */
+static inline int polygon_clip(lmb_vec3 out[POLYGON_CORNERS + 1], const lmb_vec3 *corner, int corners, lmb_vec3 n)
+{
+    int count = 0;
+    for (int i = 0; i < corners; ++i) {
+        lmb_vec3 a = corner[i], b = corner[i + 1 < corners ? i + 1 : 0];
+        float ha = dot3(n, a), hb = dot3(n, b);
+        if (ha >= 0.0f && count <= POLYGON_CORNERS) {
+            out[count++] = a;
+        }
+        if ((ha >= 0.0f) != (hb >= 0.0f) && count <= POLYGON_CORNERS) {
+            out[count++] = add3(a, mul3(sub3(b, a), ha / (ha - hb)));
+        }
+    }
+    return count;
+}
+
+/* polygon_vector: the form factor of a triangle along each axis, with its sign: that along any direction is the dot
+ * product. Corners go round `axis`, its normal; clipped to the horizon of `face`. */
+static inline lmb_vec3 polygon_vector(lmb_vec3 at, lmb_vec3 face, const lmb_vec3 triangle[3], lmb_vec3 axis)
+{
+    lmb_vec3 own[3], corner[POLYGON_CORNERS + 1], sum = vec3(0.0f, 0.0f, 0.0f);
+    float reach2 = 0.0f;
+    for (int i = 1; i < 3; ++i) {
+        reach2 = maxf(reach2, dot3(sub3(triangle[i], triangle[0]), sub3(triangle[i], triangle[0])));
+    }
+    if (!polygon_corners(own, at, face, triangle, 3, POLYGON_FLAT * sqrtf(reach2), axis)) {
+        return sum;
+    }
+    const int n = polygon_clip(corner, own, 3, face);
+    for (int i = 0; i < n; ++i) {
+        const lmb_vec3 a = corner[i], b = corner[i + 1 < n ? i + 1 : 0], edge = cross3(a, b);
+        const float sine = length3(edge);
+        if (sine > 1e-18f) {
+            const float angle = lmb_atan2(sine, dot3(a, b));
+            sum = add3(sum, vec3(angle * (edge.x / sine), angle * (edge.y / sine), angle * (edge.z / sine)));
+        }
+    }
+    return mul3(sum, -0.15915494f);
+}
+
+#endif
