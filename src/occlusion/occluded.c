@@ -371,6 +371,12 @@ uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, cons
         occluded |= now & ~w.left;
         bits &= ~now;
         boxes = kept->asked - before;
+        if (w.left == 0 && bits != 0) { /* what blocks one pixel, as a wall does, often blocks more */
+            w.left = bits;
+            test_triangle(&w, kept->blocker - 1, bits);
+            occluded |= bits & ~w.left;
+            bits = w.left;
+        }
     }
     return occluded;
 }
