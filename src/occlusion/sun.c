@@ -13,6 +13,7 @@
 #define FEW   7              /* up to so many pixels are traced alone, as in occluded.c */
 #define WIDE  8u             /* boxes a pixel after which a sweep is given up: each pixel alone meets fewer */
 #define ALONE 15u            /* directions after such a one in which pixels are traced alone at once */
+#define MISSES 2             /* triangles that blocked one pixel alone, after which none is tested for the others */
 #define ALONG 9.5367432e-7f  /* 2^-20: cosine under which rays run along a triangle, and it blocks none */
 #define THIN  1e-20f
 #define TRIANGLE_NOISE 0x1p-21f /* of how far its corners are */
@@ -227,6 +228,7 @@ static void sun_trace(sun_traversal *w)
         }
     }
     uint32_t boxes = 0;
+    int misses = 0;
     for (uint64_t bits = w->left; bits != 0;) {
         const uint32_t before = w->kept->asked;
         w->left = boxes > LMB_MANY_BOXES ? bits : bits & (~bits + 1);
@@ -234,7 +236,11 @@ static void sun_trace(sun_traversal *w)
         (void)sun_descend(w, ~0u);
         open |= w->left;
         boxes = w->kept->asked - before;
-        bits = w->left == 0 ? without_blocked(w, bits) : bits;
+        if (w->left == 0 && misses < MISSES) {
+            const uint64_t others = bits;
+            bits = without_blocked(w, bits);
+            misses += bits == others;
+        }
     }
     w->left = open;
 }

@@ -172,10 +172,10 @@ void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, fl
 static void texels_between(int32_t *first, int32_t *last, float low, float high, int32_t size, int wrap)
 {
     const float period = wrap == LMB_WRAP_MIRROR ? 2.0f : 1.0f, at = reduce(low, wrap), wide = high - low;
-    const float most = (float)size * maxf(absf(low), absf(high)); /* beyond 2^20 a mix of corners is off by texels */
+    const float largest = (float)size * maxf(absf(low), absf(high)); /* beyond 2^20 a mix of corners is off by texels */
     *first = 0;
     *last = size - 1;
-    if (!is_sane(low) || !is_sane(high) || !is_sane(most)) {
+    if (!is_sane(low) || !is_sane(high) || !is_sane(largest)) {
         return;
     }
     if (wrap == LMB_WRAP_CLAMP) {
@@ -200,7 +200,7 @@ static int32_t alpha_at(const lmb_texture *t, const level *from, int32_t x, int3
 #endif
 }
 
-int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float high[2], float least, uint32_t *texels)
+int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float high[2], float cutoff, uint32_t *texels)
 {
     const level from = find_level(t, 0);
     int32_t x0, x1, y0, y1;
@@ -212,7 +212,7 @@ int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float h
         }
         *texels -= (uint32_t)(x1 - x0 + 1);
         for (int32_t x = x0; x <= x1; ++x) {
-            if (!((float)alpha_at(t, &from, x, y) * (1.0f / 255.0f) < least)) {
+            if (!((float)alpha_at(t, &from, x, y) * (1.0f / 255.0f) < cutoff)) {
                 return 0;
             }
         }
