@@ -13,6 +13,7 @@
 
 #include "../base/memory_check.h"
 #include "../base/vec.h"
+#include "../raster/resolve.h"
 #include "../raster/triangle.h"
 #include "traversal.h"
 
@@ -116,9 +117,26 @@ static int fetch(lmb_triangle *out, const lmb_instance **instance, const lmb_sce
     return *instance != NULL && triangle_of(out, scene, *instance, id);
 }
 
+/* Texels that one triangle may read to find out whether it is all hole, and all of them together. */
+#define TEXELS     65536u
+#define ALL_TEXELS (1u << 26)
+
+/* A triangle that is all hole blocks nothing. */
+NOINLINE int is_hole(const lmb_triangle *t, const lmb_scene *scene, uint32_t *texels)
+{
+    lmb_resolve_alpha alpha;
+    uint32_t own = *texels < TEXELS ? *texels : TEXELS;
+    const uint32_t before = own;
+    lmb_resolve_alpha_of(&alpha, t);
+    const int hole = lmb_resolve_is_hole(&alpha, scene, &own);
+    *texels -= before - own;
+    return hole;
+}
+
 /* The items of all triangles that can block; how many. */
 static uint32_t take_items(span *out, const lmb_scene *scene)
 {
+    uint32_t texels = ALL_TEXELS;
     const uint32_t all = lmb_scene_triangles(scene);
     const lmb_instance *instance = NULL;
     uint32_t count = 0;
@@ -126,7 +144,8 @@ static uint32_t take_items(span *out, const lmb_scene *scene)
         lmb_triangle t;
         lmb_vec3 normal;
         float longest;
-        if (fetch(&t, &instance, scene, id) && triangle_cross(&normal, &longest, &t)) {
+        if (fetch(&t, &instance, scene, id) && triangle_cross(&normal, &longest, &t) &&
+            !((t.material->flags & LMB_ALPHA_MASK) && is_hole(&t, scene, &texels))) {
             set_item(&out[count++], &t);
         }
     }

@@ -20,6 +20,7 @@
 #endif
 #define ALONE      15u   /* points after such a one whose segments are traced alone at once */
 #define MUCH       16     /* a triangle that blocks so many pixels is tested first for the next segments */
+#define MISSES     2      /* triangles that blocked one pixel alone, after which none is tested for the others */
 #define THIN       1e-20f /* m: a pyramid is never thinner */
 
 static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
@@ -359,6 +360,7 @@ uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, cons
     }
     occluded = pixels & ~w.left;
     uint32_t boxes = 0;
+    int misses = 0;
     for (uint64_t bits = w.left; bits != 0;) {
         const uint64_t now = boxes > LMB_MANY_BOXES ? bits : bits & (~bits + 1);
         const uint32_t before = kept->asked;
@@ -371,6 +373,13 @@ uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, cons
         occluded |= now & ~w.left;
         bits &= ~now;
         boxes = kept->asked - before;
+        if (w.left == 0 && bits != 0 && misses < MISSES) { /* what blocks one pixel, as a wall does, often blocks more */
+            w.left = bits;
+            test_triangle(&w, kept->blocker - 1, bits);
+            misses += w.left == bits;
+            occluded |= bits & ~w.left;
+            bits = w.left;
+        }
     }
     return occluded;
 }

@@ -13,6 +13,7 @@
 #define FEW   7              /* up to so many pixels are traced alone, as in occluded.c */
 #define WIDE  8u             /* boxes a pixel after which a sweep is given up: each pixel alone meets fewer */
 #define ALONE 15u            /* directions after such a one in which pixels are traced alone at once */
+#define MISSES 2             /* triangles that blocked one pixel alone, after which none is tested for the others */
 #define ALONG 9.5367432e-7f  /* 2^-20: cosine under which rays run along a triangle, and it blocks none */
 #define THIN  1e-20f
 #define TRIANGLE_NOISE 0x1p-21f /* of how far its corners are */
@@ -24,7 +25,8 @@ typedef struct sun_traversal {
     lmb_vec3 at, to; /* a pixel of the tile, that numbers are small there; unit, towards the light */
     lmb_traversal *kept;
     float noise;   /* m: how far rounding may have left the pixels off their surfaces */
-    uint64_t left; /* pixels that nothing blocked yet */
+    uint64_t left;    /* pixels that nothing blocked yet */
+    uint32_t blocker; /* the triangle that blocked one last, + 1 */
 } sun_traversal;
 
 /* 2^-22 of their coordinates and 2^-20 of how far the ray that found them came. */
@@ -125,6 +127,7 @@ static void test_box(sun_traversal *w, const lmb_boxes *node, int i)
     for (uint32_t k = 0; k < node->count[i] && w->left != 0; ++k) {
         const uint64_t before = w->left;
         test_triangle(w, node->first[i] + k);
+        w->blocker = before != w->left ? node->first[i] + k + 1 : w->blocker;
         if (count_bits_64(before & ~w->left) >= MUCH) {
             for (int last = LMB_LAST_OCCLUDERS - 1; last > 0; --last) {
                 w->kept->last[last] = w->kept->last[last - 1];
@@ -157,37 +160,57 @@ typedef struct sun_branch {
     uint32_t node, boxes;
 } sun_branch;
 
+/* Test the leaves that the sweep meets; the children that it meets. Leaves first: what is large, as walls are, lies in
+ * those near the root, and often blocks all. */
+static uint32_t sun_node(sun_traversal *w, const lmb_sun_sweep *sweep, const lmb_boxes *node)
+{
+    uint32_t children = 0;
+    for (uint32_t bits = w->kernels->sun_meets(sweep, node); bits != 0 && w->left != 0; bits &= bits - 1) {
+        const int i = lowest_bit(bits);
+        if (node->count[i] > 0) {
+            ++w->kept->asked;
+            test_box(w, node, i);
+        } else if (node->first[i] != 0) { /* the root is nobody's child: an empty box, met by a sweep of NaN */
+            children |= 1u << i;
+        }
+    }
+    return children;
+}
+
 /* The pixels left, as one sweep. 0 where that takes over `limit` boxes: some may still be blocked. */
 static int sun_descend(sun_traversal *w, uint32_t limit)
 {
     const lmb_sun_sweep sweep = sweep_of(w);
     const uint32_t before = w->kept->asked;
     sun_branch waiting[LMB_TRAVERSAL_LEVELS];
-    int count = 1;
-    waiting[0].node = 0;
-    waiting[0].boxes = w->kernels->sun_meets(&sweep, &w->b->node[0]);
-    while (count > 0 && w->left != 0) {
-        sun_branch *top = &waiting[count - 1];
-        const lmb_boxes *node = &w->b->node[top->node];
-        if (top->boxes == 0) {
-            --count;
-            continue;
+    int count = 0;
+    uint32_t here = 0;
+    for (;;) {
+        ++w->kept->asked;
+        waiting[count].node = here;
+        waiting[count].boxes = sun_node(w, &sweep, &w->b->node[here]);
+        count += waiting[count].boxes != 0;
+        if (count == 0 || w->left == 0) {
+            return 1;
         }
-        if (++w->kept->asked - before > limit) {
+        if (w->kept->asked - before > limit) {
             return 0;
         }
-        const int i = lowest_bit(top->boxes);
+        sun_branch *top = &waiting[count - 1];
+        here = w->b->node[top->node].first[lowest_bit(top->boxes)];
         top->boxes &= top->boxes - 1;
-        if (node->count[i] > 0) {
-            test_box(w, node, i);
-        } else if (node->first[i] != 0) { /* the root is nobody's child: an empty box, met by a sweep of NaN */
-            count -= top->boxes == 0;
-            waiting[count].node = node->first[i];
-            waiting[count].boxes = w->kernels->sun_meets(&sweep, &w->b->node[node->first[i]]);
-            ++count;
-        }
+        count -= top->boxes == 0;
     }
-    return 1;
+}
+
+/* What blocks one pixel, as a wall does, often blocks more: those of `bits` that it does not. */
+static uint64_t without_blocked(sun_traversal *w, uint64_t bits)
+{
+    w->left = bits;
+    if (bits != 0) {
+        test_triangle(w, w->blocker - 1);
+    }
+    return w->left;
 }
 
 /* Rays that fill a wide sweep, as from pixels that lie apart, meet most of its boxes one by one. */
@@ -205,6 +228,7 @@ static void sun_trace(sun_traversal *w)
         }
     }
     uint32_t boxes = 0;
+    int misses = 0;
     for (uint64_t bits = w->left; bits != 0;) {
         const uint32_t before = w->kept->asked;
         w->left = boxes > LMB_MANY_BOXES ? bits : bits & (~bits + 1);
@@ -212,6 +236,11 @@ static void sun_trace(sun_traversal *w)
         (void)sun_descend(w, ~0u);
         open |= w->left;
         boxes = w->kept->asked - before;
+        if (w->left == 0 && misses < MISSES) {
+            const uint64_t others = bits;
+            bits = without_blocked(w, bits);
+            misses += bits == others;
+        }
     }
     w->left = open;
 }
@@ -223,7 +252,7 @@ uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *kept, const
         return 0;
     }
     sun_traversal w = {bvh, kernels, tile, tile_vec(tile->position, lowest_bit_64(pixels)), to, kept,
-                  noise_of(tile, pixels), pixels};
+                       noise_of(tile, pixels), pixels, 0};
     test_kept(&w);
     if (w.left != 0) {
         sun_trace(&w);

@@ -9,6 +9,9 @@
 #include "resolve.h"
 #include "target.h"
 
+#define TEXELS 8u             /* read a pixel of a triangle's tiles, at most, to find out whether it is all hole */
+#define LEAST  (1.0f / 512.0f) /* the least threshold of what blends */
+
 /* The triangle's own surface, and the rays of the tile at hand. */
 typedef struct masked_surface {
     lmb_rays rays;
@@ -167,6 +170,18 @@ NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_
     return 1;
 }
 
+/* Is all of the surface a hole? To read a texel costs about a fiftieth of a pixel, so that many more of them may be read
+ * than there are pixels. One that blends stands from the least threshold on. */
+NOINLINE int is_hole(const masked_surface *s, const lmb_fill_context *c, int32_t tiles)
+{
+    uint32_t texels = tiles > 0 ? (uint32_t)mini(tiles, 1 << 20) * (LMB_TILE_PIXELS * TEXELS) : 0;
+    lmb_resolve_alpha alpha = s->alpha;
+    if (LMB_MULTISAMPLE && s->blends) {
+        alpha.cutoff = LEAST;
+    }
+    return lmb_resolve_is_hole(&alpha, c->scene, &texels);
+}
+
 void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id, int blends)
 {
     const lmb_target *target = c->target;
@@ -183,6 +198,9 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
     const int32_t origin_x = view_origin_x(c->view), origin_y = view_origin_y(c->view);
     tile_span(&tx0, &tx1, s->x_min, s->x_max, origin_x, target->x0, target->depth.width);
     tile_span(&ty0, &ty1, s->y_min, s->y_max, origin_y, target->y0, target->depth.height);
+    if (is_hole(&surface, c, (tx1 - tx0 + 1) * (ty1 - ty0 + 1))) {
+        return;
+    }
     job.dx = (float)s->d_x;
     job.dy = (float)s->d_y;
     job.d_min = s->d_min;

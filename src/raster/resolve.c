@@ -38,6 +38,27 @@ int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, f
     return a >= alpha->cutoff;
 }
 
+/* Rounding of the mix and of the sample's shares. */
+#define ROUNDING 1.0001f
+#define MIDDLE   (1.0f / 3.0f)
+
+int lmb_resolve_is_hole(const lmb_resolve_alpha *a, const lmb_scene *scene, uint32_t *texels)
+{
+    const float largest = maxf(maxf(a->corner[0], a->corner[1]), a->corner[2]) * ROUNDING;
+    if (!(a->cutoff > 0.0f) || !is_sane(largest)) {
+        return 0;
+    }
+    if (largest < a->cutoff) { /* a texture can but lessen it */
+        return 1;
+    }
+    if (a->texture < 0 || lmb_resolve_opaque(a, scene, MIDDLE, MIDDLE)) {
+        return 0;
+    }
+    const float low[2] = {minf(minf(a->u[0], a->u[1]), a->u[2]), minf(minf(a->v[0], a->v[1]), a->v[2])};
+    const float high[2] = {maxf(maxf(a->u[0], a->u[1]), a->u[2]), maxf(maxf(a->v[0], a->v[1]), a->v[2])};
+    return lmb_texture_is_clear(&scene->textures[a->texture], low, high, a->cutoff / (largest * ROUNDING), texels);
+}
+
 int lmb_triangle_opaque(const lmb_triangle *t, const lmb_scene *scene, float b1, float b2)
 {
     lmb_resolve_alpha alpha;

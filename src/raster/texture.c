@@ -167,6 +167,59 @@ void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, fl
     sample(out, t, AS_COLOUR, u, v, lod);
 }
 
+/* The texels that samples from low to high read along one axis, with one more on each side for rounding: numbers that
+ * wrap_texel takes. All of them where these go round. */
+static void texels_between(int32_t *first, int32_t *last, float low, float high, int32_t size, int wrap)
+{
+    const float period = wrap == LMB_WRAP_MIRROR ? 2.0f : 1.0f, at = reduce(low, wrap), wide = high - low;
+    const float largest = (float)size * maxf(absf(low), absf(high)); /* beyond 2^20 a mix of corners is off by texels */
+    *first = 0;
+    *last = size - 1;
+    if (!is_sane(low) || !is_sane(high) || !is_sane(largest)) {
+        return;
+    }
+    if (wrap == LMB_WRAP_CLAMP) {
+        *first = (int32_t)(at * (float)size) - 2;
+        *last = (int32_t)(reduce(high, wrap) * (float)size) + 2;
+    } else if (wide + 4.0f / (float)size < period && at + wide < period) {
+        *first = maxi((int32_t)(at * (float)size) - 2, wrap == LMB_WRAP_MIRROR ? -1 : -size);
+        *last = (int32_t)((at + wide) * (float)size) + 2;
+    }
+}
+
+/* Alpha of a texel of level 0, 0 .. 255. */
+static int32_t alpha_at(const lmb_texture *t, const level *from, int32_t x, int32_t y)
+{
+    const size_t at = (size_t)wrap_texel(y, from->height, t->wrap_t) * (size_t)from->width +
+                      (size_t)wrap_texel(x, from->width, t->wrap_s);
+#if LMB_TEXTURE_FORMATS
+    uint8_t codes_of[4];
+    return is_rgba8(t) ? from->texels[4 * at + 3] : find_codes(codes_of, t, from->texels, at)[3];
+#else
+    return from->texels[4 * at + 3];
+#endif
+}
+
+int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float high[2], float cutoff, uint32_t *texels)
+{
+    const level from = find_level(t, 0);
+    int32_t x0, x1, y0, y1;
+    texels_between(&x0, &x1, low[0], high[0], from.width, t->wrap_s);
+    texels_between(&y0, &y1, low[1], high[1], from.height, t->wrap_t);
+    for (int32_t y = y0; y <= y1; ++y) {
+        if ((uint32_t)(x1 - x0 + 1) > *texels) {
+            return 0;
+        }
+        *texels -= (uint32_t)(x1 - x0 + 1);
+        for (int32_t x = x0; x <= x1; ++x) {
+            if (!((float)alpha_at(t, &from, x, y) * (1.0f / 255.0f) < cutoff)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
 void lmb_normal_map_sample(float out[4], const lmb_texture *t, float u, float v, float lod)
 {
     sample(out, t, AS_VECTOR, u, v, lod);

@@ -331,6 +331,73 @@ static void holes(void)
     CHECK(occluded_sun_anew(&b, &tile, ~UINT64_C(0), mul3(Y, -1)) == 0);
 }
 
+/* Two triangles that are all hole are left out: by the texture, by the part of it that they show, by alpha of their own. */
+static void all_hole(void)
+{
+    static const uint8_t half_clear[8 * 4 * 4] = {
+#define CLEAR 9, 9, 9, 100
+#define SOLID 9, 9, 9, 255
+        SOLID, CLEAR, CLEAR, CLEAR, CLEAR, CLEAR, CLEAR, SOLID, SOLID, CLEAR, CLEAR, CLEAR, CLEAR, CLEAR, CLEAR, SOLID,
+        SOLID, CLEAR, CLEAR, CLEAR, CLEAR, CLEAR, CLEAR, SOLID, SOLID, CLEAR, CLEAR, CLEAR, CLEAR, CLEAR, CLEAR, SOLID};
+    static const struct {
+        float low, high, alpha;
+        uint32_t left;
+    } row[] = {{0.45f, 0.55f, 1.0f, 0}, {0.05f, 0.55f, 1.0f, 2}, {1.45f, 1.55f, 1.0f, 0}, {0.0f, 1.0f, 1.0f, 2},
+               {0.0f, 1.0f, 0.4f, 0},   {0.0f, 0.1f, 1.0f, 2},   {0.45f, 1.55f, 1.0f, 2}, {-0.55f, -0.45f, 1.0f, 0}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; ++i) {
+        world_begin(1, 1, 1);
+        world.texture.texels = half_clear;
+        world.texture.width = 8;
+        world.texture.height = 4;
+        world.texture.levels = 1;
+        world.texture.filter = LMB_BILINEAR;
+        world.material[0].texture = 0;
+        world.material[0].flags |= LMB_ALPHA_MASK;
+        world.material[0].alpha = row[i].alpha;
+        world.material[0].alpha_cutoff = 0.5f;
+        world_quad(vec3(0, 1, 0), Z, X);
+        for (uint32_t k = 0; k < 6; ++k) {
+            world.uvs[k / 3][k % 3][0] = world.uvs[k / 3][k % 3][0] > 0.5f ? row[i].high : row[i].low;
+        }
+        const lmb_bvh b = bvh_of_world();
+        CHECK_MSG(b.triangle_count == row[i].left, "row %d: %u", (int)i, (unsigned)b.triangle_count);
+    }
+}
+
+/* A star of needles in a room. */
+static void star(test_rng *r, int needles)
+{
+    world_begin(1, 1, 1);
+    for (int i = 0; i < needles; ++i) {
+        const lmb_vec3 far = mul3(normalize3(random_point(r, 1.0f)), 0.9f), wide = random_point(r, 0.002f);
+        world_triangle(mul3(far, -1.0f), add3(far, wide), sub3(far, wide));
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const lmb_vec3 at[3] = {X, Y, Z};
+        world_quad(at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3]);
+        world_quad(mul3(at[axis], -1.0f), at[(axis + 2) % 3], at[(axis + 1) % 3]);
+    }
+}
+
+/* Points on needles in a closed room: walls block them all, and are found before the needles are all tested. */
+static void walls_before_needles(void)
+{
+    test_rng r = {91};
+    lmb_traversal traversal;
+    int open = 0;
+    star(&r, 2000);
+    lmb_bvh b = bvh_of_world();
+    memset(&traversal, 0, sizeof traversal);
+    for (int round = 0; round < 20; ++round) {
+        lmb_tile tile;
+        fill_tile(&tile, vec3(0, 0, 0), 0.5f, &r);
+        open += ~lmb_occluded_sun(picked_kernels(), &traversal, &b, &tile, ~UINT64_C(0),
+                                  normalize3(random_point(&r, 1.0f))) != 0;
+    }
+    CHECK(open == 0);
+    CHECK_MSG(traversal.asked < 20 * 200, "%u boxes", (unsigned)traversal.asked);
+}
+
 /* Few pixels far apart among leaves: no more boxes are asked for all together than for each alone, and the answers are
  * the same. */
 static void far_apart_among_leaves(void)
@@ -754,4 +821,6 @@ void test_occlusion(void)
     few_nodes();
     from_corners();
     holes();
+    all_hole();
+    walls_before_needles();
 }
