@@ -251,11 +251,12 @@ typedef struct lmb_march_job {
     int32_t kind, steps, perspective;
 } lmb_march_job;
 
-/* A triangle as a point `at` sees it: a segment from there along d crosses it where every edge . d >= 0 and
+/* A triangle as a point `at` sees it: a segment from there along d crosses it where every edge . d >= -slack and
  * normal . d > beyond. */
 typedef struct lmb_cross_job {
     lmb_vec3 at, edge[3], normal;
     float beyond; /* of `at` from the plane and the noise, m */
+    float slack;  /* m3 */
 } lmb_cross_job;
 
 /* A triangle as rays to infinity see it: one from `at` + d crosses it where every edge . d + offset >= 0 and

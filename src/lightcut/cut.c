@@ -23,6 +23,7 @@
 #define BENT       0.98f /* agreement of normals under which it is tested which children face the pixels */
 #define HOLDS      100.0 /* factor over the allowed error that tells of nodes with pixels inside: fewer pixels help */
 #define WIDER      1.001f /* of a box against what lies in it, for rounding */
+#define STAND_OFF  4.0f  /* of the noise */
 #define CLOSER     0.7   /* a half that reduces the error to this share is worth its cut */
 enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
@@ -244,12 +245,13 @@ static int eye_is_before(const cutter *c, lmb_vec3 at, lmb_vec3 normal)
 NOINLINE uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen, float ends)
 {
     uint64_t out = 0;
-    const float sign = eye_is_before(c, seen->position, seen->normal) ? -1.0f : 1.0f;
+    const int faces_eye = eye_is_before(c, seen->position, seen->normal);
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         const lmb_vec3 d = sub3(seen->position, tile_vec(c->tile->position, k));
         const float noise = ends + LMB_NOISE_TRIANGLE * length3(d);
-        const int before = dot3(tile_vec(c->tile->face, k), d) > noise && -dot3(seen->normal, d) > sign * noise;
+        const float lowest = faces_eye ? -noise : noise;
+        const int before = dot3(tile_vec(c->tile->face, k), d) > noise && -dot3(seen->normal, d) > lowest;
         out |= (uint64_t)!before << k;
     }
     return out;
@@ -323,6 +325,17 @@ static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
     return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
 }
 
+/* A texel's point, moved towards its light out of all planes that it lies in by rounding: it is on the side of them that
+ * the light is on. An element's lies inside its own triangle. */
+static lmb_vec3 before_walls(const cutter *c, uint32_t face, lmb_vec3 at, float noise)
+{
+    if (c->tree->element != NULL || c->cut_params->view == NULL) {
+        return at;
+    }
+    const lmb_vec3 to_light = to_eye(&c->tree->view[face], at);
+    return add3(at, mul3(to_light, STAND_OFF * noise / maxf(length3(to_light), 1e-18f)));
+}
+
 /* The triangle that hid a node which no pixel sees, + 1; else 0. */
 static uint32_t blocker_of(const lmb_cut *cut, int32_t i) { return cut->visible[i] == 0 ? cut->of.blocker[i] : 0; }
 
@@ -349,7 +362,7 @@ static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
     c->cut->use.traversal.first = blocker;
     c->cut->use.traversal.blocker = 0;
     c->cut->visible[i] &= ~lmb_occluded_tile(c->kernels, &c->cut->use.traversal, c->cut_params->bvh, c->tile, asked,
-                                             seen->position, noise);
+                                             before_walls(c, at.face, seen->position, noise), noise);
     if (c->cut->visible[i] == 0) {
         c->cut->of.blocker[i] = c->cut->use.traversal.blocker;
     }
@@ -892,6 +905,12 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     memset(c->cut->use.traversal.last, 0, sizeof c->cut->use.traversal.last);
     c->cut->use.traversal.first = 0;
     c->cut->use.traversal.asked = c->cut->use.traversal.alone = 0;
+    c->cut->use.traversal.eye_kind = LMB_EYE_NONE;
+    if (cut_params->view != NULL) {
+        const lmb_view *v = cut_params->view;
+        c->cut->use.traversal.eye_kind = v->kind == LMB_PERSPECTIVE ? LMB_EYE_PLACE : LMB_EYE_FAR;
+        c->cut->use.traversal.eye = v->kind == LMB_PERSPECTIVE ? v->eye : v->back;
+    }
     c->noise = lmb_tile_noise(c->tile, p->pixels);
     c->in_hull = cut_params->bvh != NULL ? lmb_hull_pixels(&cut_params->bvh->hull, c->tile, p->pixels) : 0;
     c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);

@@ -64,8 +64,9 @@ static inline lmb_vec3 edge_plane(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge)
     return cross3(add3(b, c), edge);
 }
 
-/* A triangle as the point sees it; noise: of both ends. 0 where the point lies in its plane. */
-static int cross_job(lmb_cross_job *out, const lmb_bvh_triangle *t, lmb_vec3 at, float noise, float min)
+/* A triangle as the point sees it; noise: of both ends. 0 if the point lies in its plane. kept: knows the eye; or NULL. */
+static int cross_job(lmb_cross_job *out, const lmb_bvh_triangle *t, lmb_vec3 at, float noise, float min,
+                     const lmb_traversal *kept)
 {
     const lmb_vec3 *p = t->corner;
     const lmb_vec3 a = sub3(p[0], at), b = sub3(p[1], at), c = sub3(p[2], at);
@@ -87,6 +88,12 @@ static int cross_job(lmb_cross_job *out, const lmb_bvh_triangle *t, lmb_vec3 at,
         out->normal = t->normal;
     }
     out->beyond = absf(ahead) + noise;
+    out->slack = 0.0f;
+    if (kept != NULL && eye_is_across(kept, t->normal, p[0], -ahead)) {
+        const lmb_vec3 *e = out->edge;
+        out->beyond = absf(ahead) - noise;
+        out->slack = noise * sqrtf(maxf(maxf(dot3(e[0], e[0]), dot3(e[1], e[1])), dot3(e[2], e[2])));
+    }
     return 1;
 }
 
@@ -138,7 +145,7 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     lmb_cross_job job;
-    if (cross_job(&job, t, w->at, w->noise, w->b->noise)) {
+    if (cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept)) {
         const uint64_t crossed = w->kernels->crossed(w->tile, w->left & asked, &job);
         w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? standing(w->b, t, &job, w->tile, crossed) : crossed);
         w->kept->blocker = crossed != 0 ? triangle + 1 : w->kept->blocker;
@@ -272,6 +279,13 @@ static ray ray_of(const lmb_tile *tile, int k, lmb_vec3 at)
     return r;
 }
 
+/* The same as `crossed`, to the bit. */
+static int crosses(const lmb_cross_job *job, lmb_vec3 d)
+{
+    const float min = minf(minf(dot3(job->edge[0], d), dot3(job->edge[1], d)), dot3(job->edge[2], d));
+    return 0.0f - job->slack <= min && job->beyond < dot3(job->normal, d);
+}
+
 /* Does a triangle block this one pixel? The same as `crossed` says, to the bit, by the cheapest test first: turned
  * round, an edge's plane is exactly negated. */
 static int blocks_one(traversal *w, uint32_t triangle, const ray *r)
@@ -281,10 +295,15 @@ static int blocks_one(traversal *w, uint32_t triangle, const ray *r)
     const lmb_vec3 a = sub3(p[0], w->at), b = sub3(p[1], w->at), c = sub3(p[2], w->at);
     const float ahead = dot3(t->normal, a), side = ahead < 0.0f ? -1.0f : 1.0f, past = side * dot3(t->normal, r->d);
     lmb_cross_job job;
+    if (eye_is_across(w->kept, t->normal, p[0], -ahead)) {
+        return 0.5f * absf(ahead) < past && cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept) &&
+               crosses(&job, r->d) &&
+               (!(t->id & LMB_BVH_MASKED) || standing(w->b, t, &job, w->tile, w->left) != 0);
+    }
     return absf(ahead) < past && 0.0f <= side * dot3(edge_plane(b, c, sub3(p[2], p[1])), r->d) &&
            0.0f <= side * dot3(edge_plane(c, a, sub3(p[0], p[2])), r->d) &&
            0.0f <= side * dot3(edge_plane(a, b, sub3(p[1], p[0])), r->d) &&
-           cross_job(&job, t, w->at, w->noise, w->b->noise) && job.beyond < past &&
+           cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept) && job.beyond < past &&
            (!(t->id & LMB_BVH_MASKED) || standing(w->b, t, &job, w->tile, w->left) != 0);
 }
 
@@ -392,7 +411,7 @@ int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_
     int blocked = t != NULL && !(t->id & LMB_BVH_MASKED);
     for (int i = 0; i < count && blocked; ++i) {
         lmb_cross_job job;
-        blocked = cross_job(&job, t, at[i], noise, bvh->noise) && kernels->crossed(tile, pixels, &job) == pixels;
+        blocked = cross_job(&job, t, at[i], noise, bvh->noise, NULL) && kernels->crossed(tile, pixels, &job) == pixels;
     }
     return blocked;
 }

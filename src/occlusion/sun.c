@@ -60,7 +60,14 @@ static int sun_job(lmb_sun_job *out, const sun_traversal *w, const lmb_bvh_trian
     out->offset[1] = side * dot3(cross3(c, a), w->to);
     out->offset[2] = side * dot3(cross3(a, b), w->to);
     out->normal = mul3(t->normal, -side);
-    out->beyond = dot3(out->normal, a) + maxf(w->noise + TRIANGLE_NOISE * sqrtf(far2), w->b->noise);
+    const float noise = maxf(w->noise + TRIANGLE_NOISE * sqrtf(far2), w->b->noise);
+    out->beyond = dot3(out->normal, a) + noise;
+    if (eye_is_across(w->kept, t->normal, t->corner[0], along)) {
+        out->beyond = dot3(out->normal, a) - noise;
+        for (int i = 0; i < 3; ++i) {
+            out->offset[i] += noise * length3(out->edge[i]);
+        }
+    }
     return 1;
 }
 
@@ -94,6 +101,13 @@ static int sun_blocks_one(const sun_traversal *w, const lmb_bvh_triangle *t, uin
     const lmb_vec3 a = sub3(t->corner[0], w->at), b = sub3(t->corner[1], w->at), c = sub3(t->corner[2], w->at);
     const float along = dot3(t->normal, w->to), side = along < 0.0f ? -1.0f : 1.0f;
     lmb_sun_job job;
+    if (eye_is_across(w->kept, t->normal, t->corner[0], along)) {
+        int inside = sun_job(&job, w, t) && job.beyond < dot3(job.normal, d);
+        for (int i = 0; i < 3 && inside; ++i) {
+            inside = dot3(job.edge[i], d) + job.offset[i] >= 0.0f;
+        }
+        return inside && (!(t->id & LMB_BVH_MASKED) || sun_standing(w, t, &job, pixel) != 0);
+    }
     return absf(along) > ALONG &&
            dot3(mul3(cross3(w->to, sub3(c, b)), side), d) + side * dot3(cross3(b, c), w->to) >= 0.0f &&
            dot3(mul3(cross3(w->to, sub3(a, c)), side), d) + side * dot3(cross3(c, a), w->to) >= 0.0f &&

@@ -6,6 +6,8 @@
 
 #include <lambent/occlusion.h>
 
+#include "../base/vec.h"
+
 /* Levels: eight for 2^31 triangles cut into sixteen by halves, and as many above for cuts that are not even. */
 #define LMB_TRAVERSAL_LEVELS 16
 
@@ -33,5 +35,14 @@ int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_
 /* How far boxes reach past what they hold: of their size and of their coordinates. */
 #define LMB_BOX_SIZE  3.8146973e-6f /* 2^-18 */
 #define LMB_BOX_PLACE 9.5367432e-7f /* 2^-20 */
+
+/* Is the eye on the other side of a plane than a point that is `ahead` of the plane, m, along the normal? */
+static inline int eye_is_across(const lmb_traversal *t, lmb_vec3 normal, lmb_vec3 on_plane, float ahead)
+{
+    const float eye = t->eye_kind == LMB_EYE_PLACE ? dot3(normal, sub3(t->eye, on_plane))
+                      : t->eye_kind == LMB_EYE_FAR ? dot3(normal, t->eye)
+                                                   : 0.0f;
+    return ahead > 0.0f ? eye < 0.0f : eye > 0.0f;
+}
 
 #endif

@@ -1,4 +1,5 @@
-/* test_room_edges.c: pixels whose centres lie on the edges of a room have bounced light like their neighbours. */
+/* test_room_edges.c: pixels whose centres lie on the edges of a room have bounced light like their neighbours, and none
+ * if the room is dark. */
 #include "../folder.h"
 
 #include <math.h>
@@ -41,20 +42,31 @@ static room room_of(uint64_t seed, double scale, double far)
     return r;
 }
 
-/* A cube of 4 m, its walls inwards. */
-static int room_write(char *path, size_t size, folder *f, const room *r)
+/* Six walls, their fronts inwards; `first`: corners written so far. */
+static int box_write(char *text, size_t size, const room *r, const double low[3], const double high[3], int first)
 {
     static const int walls[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    char text[2048];
     int end = 0;
     for (int i = 0; i < CORNERS; ++i) {
         double p[3];
-        room_place(p, r, i & 1 ? 2 : -2, i & 2 ? 2 : -2, i & 4 ? 2 : -2);
-        end += snprintf(text + end, sizeof text - (size_t)end, "v %.9g %.9g %.9g\n", p[0], p[1], p[2]);
+        room_place(p, r, i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]);
+        end += snprintf(text + end, size - (size_t)end, "v %.9g %.9g %.9g\n", p[0], p[1], p[2]);
     }
     for (int i = 0; i < 6; ++i) {
-        const int *w = walls[i];
-        end += snprintf(text + end, sizeof text - (size_t)end, "f %d %d %d %d\n", w[3] + 1, w[2] + 1, w[1] + 1, w[0] + 1);
+        end += snprintf(text + end, size - (size_t)end, "f %d %d %d %d\n", first + walls[i][3] + 1,
+                        first + walls[i][2] + 1, first + walls[i][1] + 1, first + walls[i][0] + 1);
+    }
+    return end;
+}
+
+/* The room that is looked at, a cube of 4 m, and another box with the lamp in it, or NULL. */
+static int room_write(char *path, size_t size, folder *f, const room *r, const double other[2][3])
+{
+    static const double low[3] = {-2, -2, -2}, high[3] = {2, 2, 2};
+    char text[4096];
+    int end = box_write(text, sizeof text, r, low, high, 0);
+    if (other != NULL) {
+        end += box_write(text + end, sizeof text - (size_t)end, r, other[0], other[1], CORNERS);
     }
     return snprintf(path, size, "%s", folder_put(f, "room.obj", text, (size_t)end)) < (int)size;
 }
@@ -73,7 +85,18 @@ static int dark_pixels(const image *picture)
     return dark;
 }
 
-static int edge_count(const room *r, const char *how, const char *value)
+/* Pixels that have any bounced light to speak of; the lamp's own room has about 0.1 W/m2sr. */
+static int lit_pixels(const image *picture)
+{
+    int lit = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        lit += !(picture->pixels[3 * i + 1] < 1e-4f);
+    }
+    return lit;
+}
+
+/* Dark pixels on the edges of the lamp's room, or lit ones of a room that the lamp is not in. */
+static int edge_count(const room *r, const double other[2][3], const double lamp[3], const char *how, const char *value)
 {
     char path[512], eye[96], target[96], up[96], light[200], verb[] = "render";
     double e[3], t[3], u[3], l[3];
@@ -84,18 +107,19 @@ static int edge_count(const room *r, const char *how, const char *value)
     memset(&j, 0, sizeof j);
     room_place(e, r, 0, 0, 1.9);
     room_place(t, r, 0, 0, -2);
-    room_place(l, r, 0.3, 1.2, 0.1);
+    room_place(l, r, lamp[0], lamp[1], lamp[2]);
     for (int i = 0; i < 3; ++i) {
         u[i] = r->axis[1][i];
     }
     snprintf(eye, sizeof eye, "%.9g,%.9g,%.9g", e[0], e[1], e[2]);
     snprintf(target, sizeof target, "%.9g,%.9g,%.9g", t[0], t[1], t[2]);
     snprintf(up, sizeof up, "%.9g,%.9g,%.9g", u[0], u[1], u[2]);
-    snprintf(light, sizeof light, "point:%.9g,%.9g,%.9g:0,-1,0:1,1,1", l[0], l[1], l[2]);
+    snprintf(light, sizeof light, "point:%.9g,%.9g,%.9g:0,-1,0:%g,%g,%g", l[0], l[1], l[2],
+             30 * r->scale * r->scale, 30 * r->scale * r->scale, 30 * r->scale * r->scale);
     folder_open(&f);
-    if (room_write(path, sizeof path, &f, r)) {
+    if (room_write(path, sizeof path, &f, r, other)) {
         const char *line[] = {verb,     path,    "-o",      "none.pfm", "--size",    "64x64",      "--eye", eye,   "--target",
-                              target,   "--up",  up,        "--fov",    "91.7",      "--light",    light,   "--show", "irradiance",
+                              target,   "--up",  up,        "--fov",    "91.7",      "--light",    light,   "--show", other != NULL ? "indirect" : "irradiance",
                               "--world", "none", "--threads", "1",      how,         value};
         char *words[sizeof line / sizeof *line];
         for (int i = 0; i < COUNT_OF(line); ++i) {
@@ -104,7 +128,7 @@ static int edge_count(const room *r, const char *how, const char *value)
         const int ok = render_options_parse(&j.o, COUNT_OF(line), words, &said) && render_job_load(&j, &said) &&
                        render_job_set(&j, &said) && render_draw(&j, &said);
         CHECK_MSG(ok, "%s", said.text);
-        dark = ok ? dark_pixels(&j.linear) : SIDE;
+        dark = ok ? (other != NULL ? lit_pixels : dark_pixels)(&j.linear) : SIDE;
         render_job_free(&j);
     }
     folder_close(&f);
@@ -119,11 +143,20 @@ void test_room_edges(void)
         uint64_t seed;
         double scale, far;
     } places[] = {{0, 1, 0}, {1, 1, 0}, {2, 1, 7}, {3, 10, 100}, {4, 0.01, 0}};
+    static const double inside[3] = {0.3, 1.2, 0.1}, outside[3] = {3, 4, -4}, beside[3] = {-4.3, 0.4, 0.2};
+    static const double around[2][3] = {{-6, -5, -6}, {6, 6, 6}}, next[2][3] = {{-6, -2, -2}, {-2, 2, 2}};
     for (int i = 0; i < COUNT_OF(places); ++i) {
         const room r = room_of(places[i].seed, places[i].scale, places[i].far);
         for (int k = 0; k < (i < 2 ? COUNT_OF(how) : 1); ++k) {
-            const int dark = edge_count(&r, how[k][0], how[k][1]);
+            const int dark = edge_count(&r, NULL, inside, how[k][0], how[k][1]);
             CHECK_MSG(dark <= 2, "place %d, %s %s: %d dark pixels", i, how[k][0], how[k][1], dark);
+        }
+        /* Exact occlusion. Place 2 is open: the rasterizer rounds corners to 1/256 px, and a dozen of its pixels lie so far
+         * beyond the wall's edge that no triangle of the room is between them and the lamp. */
+        for (int k = 0; k < 3 && i != 2; ++k) {
+            const int lit = edge_count(&r, around, outside, how[k][0], how[k][1]) +
+                            edge_count(&r, next, beside, how[k][0], how[k][1]);
+            CHECK_MSG(lit == 0, "place %d, %s %s: %d lit pixels of a dark room", i, how[k][0], how[k][1], lit);
         }
     }
 }
