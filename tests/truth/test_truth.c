@@ -650,9 +650,9 @@ void test_truth(void)
         {"corridor", 1024, 0.01f, 0.005f, 0.015, 0.04, 0.095, 0.1},
     };
     static const cut_row more_cuts[] = {
-        {"cornell", 1024, 0.01f, 0.005f, 0.015, 0.04, 9.0, 0.1},
-        {"corner_contact", 1024, 0.01f, 0.005f, 0.015, 0.08, 9.0, 0.3},
-        {"bunny_room", 1024, 0.01f, 0.005f, 0.015, 0.04, 9.0, 0.1},
+        {"cornell", 1024, 0.01f, 0.005f, 0.015, 0.04, 0.051, 0.1},
+        {"corner_contact", 1024, 0.01f, 0.005f, 0.015, 0.08, 0.078, 0.3},
+        {"bunny_room", 1024, 0.01f, 0.005f, 0.015, 0.04, 0.142, 0.1},
     };
     printf(" G-buffer\n");
     for (int i = 0; i < COUNT(scenes); ++i) {
