@@ -332,7 +332,7 @@ FORCE:
 # The checks of `make check`, and those that only `make check-all` adds; the longest first, because the checks that run
 # beside them fill the second core.
 QUICK_CHECKS := unit lanes golden analytic truth-small hostile layers words headers contracts slivers tables symbols \
-                replay stack
+                replay stack own
 SLOW_CHECKS  := cli truth hard one-command links page-links golden-orders slow tiny guard package audit examples-tiny \
                 statue live hostile-cli layout examples no-float readme tool-setup
 CHECKS ?= $(QUICK_CHECKS)
@@ -515,6 +515,9 @@ examples: $(LIB) ## the programs of tests/examples compile, run and print what t
 
 examples-tiny: ## the same in the tiny configuration
 	+@$(MAKE) examples CONFIG=tiny
+
+own: $(LIB) $(TOOL) ## make run-NAME: programs of your own, what it prints if one is not there, main_scene.c on this machine
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' B='$(B)' TOOL='$(TOOL)' sh tests/scripts/own.sh
 
 tool-setup: ## that check-tools removes nothing and says what it does
 	@$(IN_SH) tests/scripts/tool_setup.sh
@@ -729,8 +732,8 @@ large: $(TOOL) ## ten million triangles from a file to a picture; time and memor
 	@$(IN_SH) tests/scripts/large.sh
 
 ##@ Other processors (PORT=cortex-m|riscv|cortex-a|aarch64|web builds for one)
-tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
-	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/tiny.sh
+tiny: $(TOOL) ## the demo in 256 KiB on a Cortex-M4F (qemu), and a packed scene; the same pixels as here
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/tiny.sh
 
 statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/statue.sh
@@ -773,21 +776,26 @@ compiles: $(LIB_OBJ)
 run-demo run-statue run-packed $(LIVE:%=run-%): run-%: $(B)/%
 	@$(RUN) $<
 
-# Programs of your own: make run-NAME. Their sources are platform/FOLDER/main_NAME.c, the port's folder first, or PROGRAM.
+# Programs of your own: make run-NAME. Their sources are platform/FOLDER/main_NAME.c, the port's folder first, with PACKED
+# where that has scene_words; or PROGRAM, which names all of them.
 RUN_NAMES := demo statue packed $(LIVE)
 OWN_NAMES := $(filter-out $(RUN_NAMES),$(patsubst run-%,%,$(filter run-%,$(MAKECMDGOALS))))
 ROOM_MAIN := $(wildcard platform/demo/main_*.c)
 own_mains  = $(filter-out $(ROOM_MAIN),$(wildcard platform/$(PORT)/main_$(1).c platform/*/main_$(1).c))
-own_source = $(or $(PROGRAM),$(firstword $(call own_mains,$(1))))
+own_main   = $(firstword $(call own_mains,$(1)))
+own_packed = $(if $(1),$(1) $(if $(shell grep -l scene_words $(1)),$(PACKED)))
+own_source = $(or $(PROGRAM),$(call own_packed,$(call own_main,$(1))))
 own_lists  = $(sort $(RUN_NAMES) $(patsubst main_%.c,%,$(notdir $(call own_mains,*))))
 own_object = $(B)/own/$(1)/$(notdir $(basename $(2))).o
 own_scene  = $(if $(shell grep -l demo_scene $(1)),tools/demo/demo_scene.c)
 define own_compile
-$(call own_object,$(1),$(2)): $(2) $(B)/flags
-	@mkdir -p $$(@D)
+$(call own_object,$(1),$(2)): $(2) $(B)/flags $(B)/own/$(1)/sources
 	@$$(COMPILE) -Iplatform -Iplatform/$(PORT) -c $$< -o $$@
 endef
 define own_program
+$(B)/own/$(1)/sources: FORCE
+	@mkdir -p $$(@D)
+	@echo '$(2)' | cmp -s - $$@ || echo '$(2)' > $$@
 $(foreach f,$(2),$(eval $(call own_compile,$(1),$(f))))
 $(B)/own/$(1)/program: $(foreach f,$(2),$(call own_object,$(1),$(f))) $(call object,$(call own_scene,$(2)) $(PORT_SRC)) $(LIB_OBJ)
 	@echo "LD $$@"
@@ -800,7 +808,8 @@ endef
 define own
 $(if $(call own_source,$(1)),,$(error run-$(1): there is no program $(1); there are: $(own_lists). \
     Yours is platform/$(PORT)/main_$(1).c, or name it: make run-$(1) PROGRAM=FILE.c))
-$(foreach f,$(call own_source,$(1)),$(if $(wildcard $(f)),,$(error run-$(1): PROGRAM=$(PROGRAM): there is no file $(f))))
+$(foreach f,$(call own_source,$(1)),$(if $(wildcard $(f)),,$(error run-$(1): \
+    $(if $(PROGRAM),PROGRAM=$(PROGRAM),PACKED=$(PACKED)): there is no file $(f))))
 $(call own_program,$(1),$(call own_source,$(1)))
 endef
 $(foreach n,$(OWN_NAMES),$(eval $(call own,$(n))))

@@ -1,5 +1,5 @@
-# tiny.sh: the demo on a Cortex-M4F under qemu and here, both built tiny: equal pictures, and its RAM. MAKE BUILD in the
-# environment. Without cross compiler or qemu: skipped within `make check`, failed when asked for by itself.
+# tiny.sh: the demo on a Cortex-M4F under qemu and here, both built tiny: equal pictures, and its RAM. MAKE BUILD TOOL in
+# the environment. Without cross compiler or qemu: skipped within `make check`, failed when asked for by itself.
 . tests/scripts/checks.sh
 
 if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 2>&1); then
@@ -40,4 +40,21 @@ check "the torus differs" test "$(torus_of "$BUILD/tiny/torus.out")" = "$(torus_
 check "five pictures of the torus" test "$(torus_of "$BUILD/cortex-m/tiny/torus.out" | grep -c LMB_OK)" -eq 5
 taken=$(sed -n 's/^direct 160 .*instructions \([0-9]*\) .*/\1/p' "$BUILD/cortex-m/tiny/torus.out")
 check "${taken:-0} instructions for direct light on the torus, bound 32 million" test "${taken:-0}" -gt 1000000 -a "${taken:-0}" -le 32000000
+
+# A packed scene by the settings of the table's row for bounced light: the same memory and, here and there, picture.
+scene=$BUILD/cortex-m/tiny/packed_scene.c
+check "the demo is packed" "$TOOL" pack demo -o "$scene" --name scene_words -q
+$MAKE run-scene PORT=host CONFIG=tiny BUILD="$BUILD" PACKED="$scene" >"$BUILD/tiny/scene.out" 2>&1
+check "exit status of the packed scene here: $?" test $? -eq 0
+$MAKE run-scene PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS= PACKED="$scene" \
+    >"$BUILD/cortex-m/tiny/scene.out" 2>&1
+check "exit status of the packed scene on the Cortex-M4F: $?" test $? -eq 0
+sed 's/^/  /' "$BUILD/cortex-m/tiny/scene.out"
+scene_of() { sed -n 's/^scene-160x120-rgb565 //p' "$1"; }
+here=$(scene_of "$BUILD/tiny/scene.out") there=$(scene_of "$BUILD/cortex-m/tiny/scene.out")
+check "packed scene: hashes differ: $here here, $there there" test -n "$here" -a "$here" = "$there"
+row=$(sed -n 's/^bounced, fixed groups 160 bytes \([0-9]*\),.*/\1/p' "$BUILD/cortex-m/tiny/torus.out")
+kib=$(awk -F ' *[|] *' '$2 == "bounced light, fixed groups" { print $4 }' platform/README.md)
+check "its frame takes what the torus does, $row bytes, $kib KiB in platform/README.md" \
+    grep -q "^frame $row bytes ($kib KiB)" "$BUILD/cortex-m/tiny/scene.out"
 finish
