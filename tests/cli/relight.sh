@@ -104,7 +104,7 @@ chess_png='\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\
 printf "$chess_png" >chess.png # two by two texels, white and black: 0.5 in the mean
 printf 'newmtl flat\nKd 0.0998987 0.0998987 0.0998987\nnewmtl paper\nmap_Kd grey.png\nnewmtl corners\nKd 1 1 1\nnewmtl half\nKd 0.5 0.5 0.5\nnewmtl chess\nmap_Kd chess.png\n' >grey.mtl
 for grey in flat paper corners half chess; do
-    ink=1 && [ $grey = corners ] && ink=0.0998987
+    ink=1 && [ $grey = corners ] && ink=0.349020 # an sRGB code: 0.0998987 in linear light
     awk -v ink=$ink -v grey=$grey 'BEGIN {
         print "mtllib grey.mtl\nusemtl " grey "\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1"
         split("-1 0 1 0.2 -1 0.2 -0.7 1.2 0.7 0.2 1 1.2", b, " "); split("1 4 3 2 1 2 6 5 2 3 7 6 3 4 8 7 4 1 5 8 5 6 7 8", f, " ")
