@@ -24,6 +24,7 @@
 #define HOLDS      100.0 /* factor over the allowed error that tells of nodes with pixels inside: fewer pixels help */
 #define WIDER      1.001f /* of a box against what lies in it, for rounding */
 #define STAND_OFF  4.0f  /* of the noise */
+#define LARGE_NOISE 1.5258789e-5f /* 2^-16 of the distance: from the origin 64 times as far as from the eye */
 #define CLOSER     0.7   /* a half that reduces the error to this share is worth its cut */
 enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
@@ -39,6 +40,7 @@ typedef struct cutter {
     const lmb_cut_params *cut_params;
     const lmb_pixel_cluster *p;
     float noise;         /* m: lmb_tile_noise of the pixel cluster */
+    const lmb_view *view; /* tells sides of planes within the noise; NULL: not known, or the noise is too large for that */
     uint64_t in_hull;    /* pixels of the cluster in a convex room: nothing stands between them and others in it */
     float per_pixel;     /* 1 / pixels of the cluster */
     int lobe;            /* a pixel whose lobe stands for the pixel cluster's; NONE: they have none */
@@ -236,7 +238,7 @@ static lmb_vec3 to_eye(const lmb_view *v, lmb_vec3 at)
 /* before_plane, as a question about all pixels that lie in the plane. */
 static int eye_is_before(const cutter *c, lmb_vec3 at, lmb_vec3 normal)
 {
-    return c->cut_params->view != NULL && dot3(normal, to_eye(c->cut_params->view, at)) > 0.0f;
+    return c->view != NULL && dot3(normal, to_eye(c->view, at)) > 0.0f;
 }
 
 /* Returns those of `pixels` for which the point is not in front of the pixel, or the pixel not in front of the point,
@@ -329,7 +331,7 @@ static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
  * the light is on. An element's lies inside its own triangle. */
 static lmb_vec3 before_walls(const cutter *c, uint32_t face, lmb_vec3 at, float noise)
 {
-    if (c->tree->element != NULL || c->cut_params->view == NULL) {
+    if (c->tree->element != NULL || c->view == NULL) {
         return at;
     }
     const lmb_vec3 to_light = to_eye(&c->tree->view[face], at);
@@ -586,7 +588,7 @@ static lmb_vec3 place_before(const cutter *c, int k, lmb_vec3 on_plane, lmb_vec3
 {
     const lmb_vec3 at = tile_vec(c->tile->position, k);
     const float noise = 2.0f * c->noise + LMB_NOISE_TRIANGLE * length3(sub3(at, on_plane));
-    return c->cut_params->view == NULL ? at : before_plane(at, noise, on_plane, axis, to_eye(c->cut_params->view, at));
+    return c->view == NULL ? at : before_plane(at, noise, on_plane, axis, to_eye(c->view, at));
 }
 
 static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal)
@@ -905,13 +907,17 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     memset(c->cut->use.traversal.last, 0, sizeof c->cut->use.traversal.last);
     c->cut->use.traversal.first = 0;
     c->cut->use.traversal.asked = c->cut->use.traversal.alone = 0;
+    c->noise = lmb_tile_noise(c->tile, p->pixels);
+    c->view = cut_params->view;
+    if (c->view != NULL && c->noise > LARGE_NOISE * length3(sub3(c->view->eye, p->centre))) {
+        c->view = NULL;
+    }
     c->cut->use.traversal.eye_kind = LMB_EYE_NONE;
-    if (cut_params->view != NULL) {
-        const lmb_view *v = cut_params->view;
+    if (c->view != NULL) {
+        const lmb_view *v = c->view;
         c->cut->use.traversal.eye_kind = v->kind == LMB_PERSPECTIVE ? LMB_EYE_PLACE : LMB_EYE_FAR;
         c->cut->use.traversal.eye = v->kind == LMB_PERSPECTIVE ? v->eye : v->back;
     }
-    c->noise = lmb_tile_noise(c->tile, p->pixels);
     c->in_hull = cut_params->bvh != NULL ? lmb_hull_pixels(&cut_params->bvh->hull, c->tile, p->pixels) : 0;
     c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);
     c->beside = beside(cut_params, p, c->per_pixel);
