@@ -96,7 +96,7 @@ static inline void small_room_make(small_room *r)
     static const float at[ROOM_TRIANGLES][3][3] = {
         {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}}, {{-1, 0, -1}, {1, 0, 1}, {1, 0, -1}},
         {{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}}, {{-1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}};
-    static const lmb_light spot = {{0, 0.75f, 0}, {0, -1, 0}, {2, 3, 5}, 0.9f, 0.7f, LMB_LIGHT_SPOT, 0};
+    static const lmb_light spot = {{0, 0.75f, 0}, {0, -1, 0}, {2, 3, 5}, 0.9f, 0.7f, LMB_LIGHT_SPOT, 0, 0};
     memset(r, 0, sizeof *r);
     memcpy(r->corners, at, sizeof at);
     r->mesh.positions = &r->corners[0][0][0];

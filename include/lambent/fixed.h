@@ -75,7 +75,7 @@ typedef struct lmb_fixed_view {
     int32_t near_units;    /* nothing nearer is seen, at least 16 */
 } lmb_fixed_view;
 
-/* A point light, or a spot: full inside of the inner cone, 0 outside of the outer one. */
+/* A point light, or a spot: full inside of the inner cone, 0 outside of the outer one. It has no range. */
 typedef struct lmb_fixed_lamp {
     int32_t position[3];  /* units */
     int32_t direction[3]; /* LMB_FIXED_ONE long; of spots */

@@ -32,6 +32,7 @@ typedef struct lmb_many_lights_source {
     lmb_vec3 position;          /* m; a sun's: unit, towards it */
     lmb_vec3 direction;         /* a spot's, as in lmb_light; else 0 */
     float cos_inner, cos_outer; /* a spot's; else 0 */
+    float range2;               /* m2: the square of its range; 0: it has none */
 } lmb_many_lights_source;
 
 typedef struct lmb_many_lights_member {
@@ -40,7 +41,7 @@ typedef struct lmb_many_lights_member {
     uint32_t hash; /* of equals the one with the smaller hash, then source */
 } lmb_many_lights_member;
 
-/* The lights of one kind and one cube of the world; spots' directions are in one cube too. 216 bytes. */
+/* The lights of one kind and one cube of the world; spots' directions are in one cube too. 232 bytes. */
 typedef struct lmb_many_lights_cell {
     uint64_t key;         /* the cube's position: bits of x, y, z in turn */
     uint64_t turn;        /* spots: the same for their directions, in a cube of -1 .. 1; else 0 */
@@ -50,12 +51,13 @@ typedef struct lmb_many_lights_cell {
     float low[3], high[3]; /* m: the lights' own box */
     float axis_low[3], axis_high[3]; /* of spots' directions */
     float cos_outer;                 /* of the widest spot */
+    float range2_low, range2_high;   /* m2: of the lights' ranges; 2^60 for none */
     lmb_many_lights_member strongest, median; /* median: one drawn at random, in proportion to intensity */
     uint32_t lights;
     uint32_t kind; /* < LMB_MANY_LIGHTS_KINDS: 0 points, 7 suns */
 } lmb_many_lights_cell;
 
-/* A cell, or several, that may stand for all of their lights. 120 bytes.
+/* A cell, or several, that may stand for all of their lights. 128 bytes.
  * A sun's position is a point of the unit sphere around whatever pixel it lights, so its W/sr equal its W/m2. Of a root
  * over lights of several kinds, intensity, lights and children alone mean anything. */
 typedef struct lmb_many_lights_node {
@@ -80,7 +82,8 @@ enum {
     LMB_MANY_LIGHTS_COSINE = 13,  /* 1: of the angle between axis and rim */
     LMB_MANY_LIGHTS_SINE = 14,
     LMB_MANY_LIGHTS_OUTER = 15, /* 1: cosine of the widest spot's own */
-    LMB_MANY_LIGHTS_PLANES = 16
+    LMB_MANY_LIGHTS_RANGE = 16, /* 2: squares of the least range and of the greatest, m2 */
+    LMB_MANY_LIGHTS_PLANES = 18
 };
 
 /* The builder and, after lmb_many_lights_build, the tree: in the caller's memory. node[0] is the root. */
@@ -97,7 +100,8 @@ typedef struct lmb_many_lights {
     int64_t total;            /* quanta of R + G + B */
     uint32_t doubled;         /* times the cell's side did: it is 8 x 2^doubled steps */
     uint32_t lights, dropped; /* lights that were added; and those refused: dark, not finite, outside the box, or with a
-                                 direction or cone that lmb_scene_check refuses */
+                                 direction, cone or range that lmb_scene_check refuses */
+    uint32_t ranged;          /* of the added ones have a range */
 } lmb_many_lights;
 
 /* What a tile's cut is taken from, and how. */
@@ -145,7 +149,7 @@ typedef struct lmb_many_lights_scratch {
 extern "C" {
 #endif
 
-/* lmb_many_lights_bytes: memory for `cells` cells, 1 .. 2^22; 0 for another number. About 600 bytes a cell. */
+/* lmb_many_lights_bytes: memory for `cells` cells, 1 .. 2^22; 0 for another number. About 650 bytes a cell. */
 size_t lmb_many_lights_bytes(uint32_t cells);
 
 /* lmb_many_lights_init: lay the builder out in `memory` and begin an empty stream.

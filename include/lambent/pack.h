@@ -23,7 +23,7 @@
  *              emission_map, metal_map, metallic, as lmb_material has them; then 0
  *   TEXTURES   offset, width | height << 16, levels | format << 8 | wrap_s << 16 | wrap_t << 24, filter
  *   INSTANCES  to_world without its last row, by columns; mesh, material, node, 0
- *   LIGHTS     position, direction, intensity, cos_inner, cos_outer, kind, node; then 0
+ *   LIGHTS     position, direction, intensity, cos_inner, cos_outer, kind, node, range, which is 0 for none; then 0
  *   CAMERAS    eye, right, up, back, kind, half_width, half_height, aspect, near_m, far_m, vfov_rad, node, as lmb_view has
  *              them; aspect, near_m and far_m 0: not given; vfov_rad 0: orthographic
  *   NODES      parent, which is a node before it, or LMB_PACK_NONE; first track; tracks; 0; translation, rotation x y z w,

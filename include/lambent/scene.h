@@ -106,7 +106,9 @@ typedef struct lmb_instance {
 enum { LMB_LIGHT_POINT = 0, LMB_LIGHT_SPOT = 1, LMB_LIGHT_DIRECTIONAL = 2 };
 
 /* A light without area. Spot: full inside the inner cone, zero outside the outer one, smoothstep of the cosine
- * between. `direction` is the way the light travels, unit length. */
+ * between. `direction` is the way the light travels, unit length.
+ * A point or spot with a range gives max(1 - (d / range)^4, 0) of its light at the distance d, as viewers draw
+ * KHR_lights_punctual; suns have none. */
 typedef struct lmb_light {
     lmb_vec3 position;
     lmb_vec3 direction;
@@ -114,6 +116,7 @@ typedef struct lmb_light {
     float cos_inner, cos_outer;
     int32_t kind;
     uint32_t revision; /* raise when the light at this index of scene->lights changes */
+    float range;       /* m; 0, or 2^30 and more: it never ends */
 } lmb_light;
 
 /* The part of a scene that has its fine detail, m: the house on a terrain, the room in a scene with a stray triangle a

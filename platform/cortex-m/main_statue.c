@@ -26,7 +26,8 @@ static lmb_surface out;
 static lmb_tile tile;
 static lmb_irradiance direct, ambient;
 static lmb_radiance radiance;
-static const lmb_light sun = {{0, 0, 0}, {-0.48f, -0.6f, -0.64f}, {2.6f, 2.6f, 2.6f}, 1, 1, LMB_LIGHT_DIRECTIONAL, 0};
+static const lmb_light sun = {{0, 0, 0}, {-0.48f, -0.6f, -0.64f}, {2.6f, 2.6f, 2.6f}, 1, 1,
+                              LMB_LIGHT_DIRECTIONAL, 0, 0};
 
 static lmb_status place(lmb_view *view)
 {

@@ -83,7 +83,7 @@ lmb_status lmb_check_light(const lmb_light *l)
     if (!light_kind_is(l->kind, LIGHT_KNOWN))
         return LMB_ERR_FORMAT;
     if (!is_finite3(l->position) || !is_finite3(l->direction) || !are_within(l->intensity, 3, 0.0f, FLT_MAX) ||
-        !is_finite(l->cos_inner) || !is_finite(l->cos_outer))
+        !is_finite(l->cos_inner) || !is_finite(l->cos_outer) || !are_within(&l->range, 1, 0.0f, FLT_MAX))
         return LMB_ERR_ARG;
     return light_shape_is_valid(l) ? LMB_OK : LMB_ERR_ARG;
 }

@@ -10,6 +10,7 @@
 #include "../base/memory_check.h"
 #include "../base/vec.h"
 #include "../map/footprint.h"
+#include "../map/texel.h"
 #include "points.h"
 
 #define ELEMENTS 4       /* a block's surfaces at most; more join the most similar */
@@ -158,9 +159,10 @@ static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_
             if (tile->id[k] == 0) {
                 continue;
             }
+            const lmb_vec3 p = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
             lmb_light_texel_power(power, c->light, c->map, c->face, tile->x + bx + x, tile->y + by + y);
+            light_end_power(power, c->light, p);
             if (power[0] + power[1] + power[2] > 0.0f) {
-                lmb_vec3 p = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
                 lmb_vec3 n = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
                 float texel_m = texel * (v->kind == LMB_PERSPECTIVE ? tile->depth[k] : 1.0f);
                 element *own = find_element(e, &count, p, n, texel_m);

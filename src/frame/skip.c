@@ -2,6 +2,8 @@
  *
  *   no lobe, no emission   of materials that no triangle has
  *   a light of 0 W         lights nothing: every product with its intensity is 0; adding 0 changes no sum
+ *   a light whose range    likewise: the box of the scene begins behind it
+ *   ends before all
  *   a face of a map        whose pyramid the scene's box does not meet: no triangle would be drawn into it, so it has
  *                          no first points, and no shadow falls where a map names no triangle
  *   bounced light          where no light meets a triangle, or all reflect 0: the first points' flux is 0
@@ -75,6 +77,17 @@ static void skip_faces(lmb_shadow_map *map, const lmb_scene *s)
             map->drawn &= ~(1u << f);
         }
     }
+}
+
+/* Does the light's range end before the scene's box? By a thousandth: pixels may lie outside by what rounding moved
+ * them. */
+static int ends_before(const lmb_light *l, const lmb_scene *s)
+{
+    const lmb_vec3 low = sub3(s->bounds_min, l->position), high = sub3(l->position, s->bounds_max);
+    const lmb_vec3 gap = vec3(maxf(maxf(low.x, high.x), 0.0f), maxf(maxf(low.y, high.y), 0.0f),
+                              maxf(maxf(low.z, high.z), 0.0f));
+    const float range2 = light_range2(l);
+    return range2 > 0.0f && dot3(gap, gap) > 1.001f * range2;
 }
 
 /* --- lights that are too dim to bounce ---------------------------------------------------------------------------- */
@@ -155,7 +168,7 @@ void lmb_render_skip(lmb_render *r)
     r->emits = r->emits && l.emits;
     r->is_glossy = r->is_glossy && l.is_glossy;
     for (uint32_t i = 0; i < s->light_count; ++i) {
-        if (!any3(s->lights[i].intensity)) {
+        if (!any3(s->lights[i].intensity) || ends_before(&s->lights[i], s)) {
             r->light_state[i] |= LMB_LIGHT_DARK;
             r->maps[i].drawn = 0;
         } else {

@@ -16,8 +16,10 @@ static float arriving(const lmb_light *light, lmb_vec3 at, lmb_vec3 normal)
     float e = 1.0f;
     if (!light_kind_is(light->kind, LIGHT_FAR)) {
         to = sub3(light->position, at);
-        e = 1.0f / maxf(dot3(to, to), 1e-24f);
+        const float d2 = dot3(to, to), left = light_within(d2, light_range2(light));
+        e = 1.0f / maxf(d2, 1e-24f);
         to = mul3(to, sqrtf(e));
+        e *= left;
         if (light_kind_is(light->kind, LIGHT_CONED)) {
             const float width = maxf(light->cos_inner - light->cos_outer, 1e-6f);
             const float t = clampf((-dot3(to, light->direction) - light->cos_outer) / width, 0.0f, 1.0f);

@@ -211,6 +211,7 @@ typedef struct lmb_direct_job {
     lmb_vec3 position, direction;
     float intensity[3];
     float cos_outer, cone_scale; /* fall-off t = (cos - cos_outer) * cone_scale */
+    float range2;                /* light_range2 */
     int32_t kind;
 } lmb_direct_job;
 

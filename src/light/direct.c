@@ -1,6 +1,7 @@
 /* direct.c: direct light on a tile: the kernel's irradiance where the shadow map says lit. Layer 5. */
 #include <lambent/light.h>
 
+#include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "shadow.h"
@@ -13,6 +14,7 @@ static lmb_direct_job make_job(const lmb_light *light)
     job.direction = light->direction;
     job.cos_outer = light->cos_outer;
     job.cone_scale = 1.0f / maxf(width, 1e-6f); /* a hard edge: a step over a millionth */
+    job.range2 = light_range2(light);
     job.kind = light->kind;
     for (int c = 0; c < 3; ++c) {
         /* Under 2^-80 it is nothing, as in the maps: a kernel meets no denormal. */

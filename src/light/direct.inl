@@ -8,6 +8,14 @@ static inline lane direct_falloff(const lmb_direct_job *job, lane cosine)
     return lane_mul(lane_mul(t, t), lane_sub(lane_splat(3.0f), lane_mul(lane_splat(2.0f), t)));
 }
 
+/* light_within. */
+static inline lane direct_within(lane d2, lane range2)
+{
+    const lane one = lane_splat(1.0f);
+    const lane t = lane_min(lane_div(lane_max(d2, lane_mul(range2, lane_splat(0x1p-40f))), range2), one);
+    return lane_sub(one, lane_mul(t, t));
+}
+
 static void KERNEL(direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_direct_job *job)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
@@ -21,9 +29,13 @@ static void KERNEL(direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_
             to = lane3_sub(lane3_splat(0.0f, 0.0f, 0.0f), travel);
         } else {
             to = lane3_sub(from, lane3_load(tile->position, k));
-            lane inverse2 = lane_div(one, lane_max(lane3_dot(to, to), lane_splat(1e-24f)));
+            const lane d2 = lane3_dot(to, to);
+            lane inverse2 = lane_div(one, lane_max(d2, lane_splat(1e-24f)));
             to = lane3_scale(to, lane_sqrt(inverse2));
             e = inverse2;
+            if (job->range2 > 0.0f) {
+                e = lane_mul(e, direct_within(d2, lane_splat(job->range2)));
+            }
             if (light_kind_is(job->kind, LIGHT_CONED)) {
                 e = lane_mul(e, direct_falloff(job, lane_sub(zero, lane3_dot(to, travel))));
             }

@@ -6,6 +6,7 @@
 #include "../base/memory_check.h"
 #include "../base/vec.h"
 #include "../map/footprint.h"
+#include "../map/texel.h"
 #include "../raster/tile.h"
 #include "box.h"
 
@@ -169,6 +170,7 @@ static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light 
     if (goes && is_near_by(v, out->position, moved, coarse->size)) {
         out->position = moved;
     }
+    light_end_power(power, light, out->position);
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = flux_or_none(power[c] * t->albedo[c][own]);
     }

@@ -105,18 +105,23 @@ static uint64_t spread_bits(uint32_t v)
     return x;
 }
 
+static uint64_t hash_more(uint64_t h, float v)
+{
+    h = (h ^ float_bits(v)) * UINT64_C(0x9e3779b97f4a7c15);
+    return h ^ h >> 32;
+}
+
 static uint32_t hash_of(const lmb_light *l)
 {
     const lmb_vec3 p = light_kind_is(l->kind, LIGHT_FAR) ? vec3(0.0f, 0.0f, 0.0f) : l->position, d = l->direction;
     const float v[11] = {p.x, p.y, p.z, l->intensity[0], l->intensity[1], l->intensity[2], d.x, d.y, d.z,
-                         l->cos_inner, l->cos_outer};
+                         l->cos_inner, l->cos_outer}, range2 = light_range2(l);
     const int count = light_kind_is(l->kind, LIGHT_CONED) ? 11 : light_kind_is(l->kind, LIGHT_AIMED) ? 9 : 6;
     uint64_t h = 0;
     for (int i = 0; i < count; ++i) {
-        h = (h ^ float_bits(v[i])) * UINT64_C(0x9e3779b97f4a7c15);
-        h ^= h >> 32;
+        h = hash_more(h, v[i]);
     }
-    return (uint32_t)h;
+    return (uint32_t)(range2 > 0.0f ? hash_more(h, range2) : h);
 }
 
 /* A weighted random choice: of scores log2(u) / w with u from the hash, even in 0 .. 1, the largest is light i's with
@@ -157,7 +162,7 @@ static int is_taken(const lmb_many_lights *m, const lmb_light *l)
         }
         dark = dark && l->intensity[c] < maxf(m->quantum, 0x1p-60f);
     }
-    return !dark && light_kind_is(l->kind, LIGHT_KNOWN) && light_shape_is_valid(l) &&
+    return !dark && l->range >= 0.0f && light_kind_is(l->kind, LIGHT_KNOWN) && light_shape_is_valid(l) &&
            (light_kind_is(l->kind, LIGHT_FAR) || is_inside(m, l->position));
 }
 
@@ -176,6 +181,7 @@ static lmb_many_lights_source source_of(const lmb_light *l)
         s.cos_inner = l->cos_inner;
         s.cos_outer = l->cos_outer;
     }
+    s.range2 = light_range2(l);
     return s;
 }
 
@@ -235,6 +241,7 @@ static void cell_of(lmb_many_lights_cell *out, const lmb_many_lights *m, const l
     }
     out->key >>= 3 * m->doubled;
     out->turn >>= 3 * m->doubled;
+    out->range2_low = out->range2_high = source.range2 > 0.0f ? source.range2 : LMB_MANY_LIGHTS_ENDLESS2;
     out->strongest = member_of(&source, weight, hash);
     out->median = member_of(&source, lot_of(hash, weight), hash);
     out->lights = 1;
@@ -258,12 +265,12 @@ static int is_better(const lmb_many_lights_member *a, const lmb_many_lights_memb
         return a->hash < b->hash;
     }
     const lmb_many_lights_source *s = &a->source, *t = &b->source;
-    const float u[8] = {s->position.x,  s->position.y,  s->position.z, s->direction.x,
-                        s->direction.y, s->direction.z, s->cos_inner,  s->cos_outer};
-    const float v[8] = {t->position.x,  t->position.y,  t->position.z, t->direction.x,
-                        t->direction.y, t->direction.z, t->cos_inner,  t->cos_outer};
+    const float u[9] = {s->position.x,  s->position.y, s->position.z, s->direction.x, s->direction.y,
+                        s->direction.z, s->cos_inner,  s->cos_outer,  s->range2};
+    const float v[9] = {t->position.x,  t->position.y, t->position.z, t->direction.x, t->direction.y,
+                        t->direction.z, t->cos_inner,  t->cos_outer,  t->range2};
     int i = 0;
-    while (i < 7 && u[i] == v[i]) {
+    while (i < 8 && u[i] == v[i]) {
         ++i;
     }
     return u[i] < v[i];
@@ -280,6 +287,8 @@ void lmb_many_lights_merge(lmb_many_lights_cell *into, const lmb_many_lights_cel
         into->axis_high[c] = maxf(into->axis_high[c], from->axis_high[c]);
     }
     into->cos_outer = minf(into->cos_outer, from->cos_outer);
+    into->range2_low = minf(into->range2_low, from->range2_low);
+    into->range2_high = maxf(into->range2_high, from->range2_high);
     into->weight += from->weight;
     into->lights += from->lights;
     if (is_better(&from->strongest, &into->strongest)) {
@@ -376,6 +385,7 @@ lmb_status lmb_many_lights_add(lmb_many_lights *inout, const lmb_light *lights, 
         }
         inout->total += sum;
         ++inout->lights;
+        inout->ranged += c.range2_low < LMB_MANY_LIGHTS_ENDLESS2;
     }
     return LMB_OK;
 }

@@ -43,6 +43,22 @@ static inline lane many_cone_share(const lmb_many_lights *many_lights, uint32_t 
     return lane_keep(lane_lt(reach, along), lane_max(share, lane_splat(0x1p-20f)));
 }
 
+/* Sums of bounds may be SUM_OF_BOUNDS times the error that is asked for, as places err by far less than theirs. Ranges,
+ * of which two stand for all, do not. */
+#define MANY_RANGES 16.0f
+
+/* What ranges leave of a node's light, where any light of the tree has one: the most of it, from the boxes' distance by
+ * the greatest range, and *min_left, from their farthest points by the least one. All of the node's lights lie between,
+ * at all pixels, and so does what stands for them. */
+static inline lane many_range_share(lane *min_left, const lmb_many_lights *many_lights, uint32_t at, lane gap2,
+                                    lane3 between, lane3 halves)
+{
+    const float *plane = many_lights->plane + LMB_MANY_LIGHTS_RANGE * many_lights->plane_step + at;
+    const lane3 far = lane3_add(lane3_abs(between), halves);
+    *min_left = direct_within(lane3_dot(far, far), lane_max(lane_load(plane), lane_splat(0x1p-80f)));
+    return direct_within(gap2, lane_max(lane_load(plane + many_lights->plane_step), lane_splat(0x1p-80f)));
+}
+
 /* Lanes are nodes here: none of them meets another. The upper bound of a node's light is I cos / d^2 with d the boxes'
  * distance and the cosine from the highest that a corner of one box rises over the plane of one of the other. */
 static void KERNEL(many_places)(float error[16], float light[16], float inside[16], const lmb_many_lights *many_lights,
@@ -60,16 +76,29 @@ static void KERNEL(many_places)(float error[16], float light[16], float inside[1
         const lane gap2 = lane3_dot(gap, gap), d2 = lane_max(gap2, min), own2 = lane3_dot(own, own);
         const lane rise = lane_add(lane3_dot(n, between), lane3_dot(lane3_abs(n), halves));
         const lane cosine = lane_min(lane_add(many_cosine(lane_div(rise, lane_sqrt(d2))), bend), one);
+        lane min_left = one, max_left = one; /* of the light, by ranges */
+        if (many_lights->ranged > 0) {
+            max_left = many_range_share(&min_left, many_lights, at, gap2, between, halves);
+        }
         const lane upper = lane_div(lane_mul(power, cosine), d2);
         const lane3 to = lane3_sub(many_load3(many_lights, LMB_MANY_LIGHTS_POSITION, at), middle);
         const lane r2 = lane_max(lane_add(lane3_dot(to, to), size2), min);
         const lane likely = lane_min(lane_add(many_cosine(lane_div(lane3_dot(n, to), lane_sqrt(r2))), bend), one);
-        const lane size = lane_min(one, lane_div(own2, d2)), some = lane_splat(MANY_SOME);
+        const lane some = lane_splat(MANY_SOME);
+        lane size = lane_min(one, lane_div(own2, d2));
+        if (many_lights->ranged > 0) {
+            size = lane_add(size, lane_mul(lane_splat(MANY_RANGES), lane_sub(max_left, min_left)));
+        }
         lane wrong = lane_keep(mask_and(lane_lt(some, upper), lane_lt(some, size)), lane_mul(upper, size));
         wrong = lane_pick(lane_lt(gap2, own2), lane_splat(LMB_MANY_LIGHTS_NEAR), wrong);
-        const lane about = lane_div(lane_mul(power, likely), r2);
+        lane about = lane_div(lane_mul(power, likely), r2);
+        if (many_lights->ranged > 0) {
+            const lane left = lane_mul(lane_splat(0.5f), lane_add(max_left, min_left));
+            about = lane_keep(lane_lt(some, about), lane_mul(about, left));
+        }
         const lane share = have_cones ? many_cone_share(many_lights, at, between, halves) : one;
-        const lane_mask reaches = mask_and(lane_lt(zero, cosine), lane_lt(zero, share));
+        const lane_mask reaches =
+            mask_and(lane_lt(zero, cosine), mask_and(lane_lt(zero, share), lane_lt(zero, max_left)));
         lane_store(error + k, lane_pick(reaches, wrong, lane_splat(-1.0f)));
         lane_store(light + k, have_cones ? lane_keep(lane_lt(some, about), lane_mul(about, share)) : about);
         lane_store(inside + k, about);
@@ -148,10 +177,21 @@ static inline lane many_light(lane3 at, lane3 n, lane3 face, const lmb_active_li
                : many_factor(at, n, face, active);
 }
 
+/* What a range leaves, from the mean position: there the first order of how it differs between the lights is gone. */
+static inline lane many_in_range(lane3 at, const lmb_active_light *active, float range2)
+{
+    const lane3 to = lane3_sub(lane3_of(active->position), at);
+    const lane left = direct_within(lane3_dot(to, to), lane_splat(range2));
+    return lane_keep(lane_lt(lane_splat(0x1p-20f), left), left);
+}
+
 /* What comes with one of its two lights, for the pixels from k on. */
 static inline lane many_share(lane3 at, const lmb_active_light *active, int i, int k)
 {
-    const lane seen = lane_keep(mask_of_bits((uint32_t)(active->seen[i] >> k)), lane_splat(active->share[i]));
+    lane seen = lane_keep(mask_of_bits((uint32_t)(active->seen[i] >> k)), lane_splat(active->share[i]));
+    if (active->source[i].range2 > 0.0f) {
+        seen = lane_mul(seen, many_in_range(at, active, active->source[i].range2));
+    }
     return light_kind_is((int32_t)active->kind, LIGHT_CONED)
                ? lane_mul(seen, many_falloff(at, &active->source[i], active->per[i]))
                : seen;

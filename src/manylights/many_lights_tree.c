@@ -96,6 +96,8 @@ static void set_planes(lmb_many_lights *m, uint32_t i, const lmb_many_lights_cel
         plane[(LMB_MANY_LIGHTS_POSITION + a) * m->plane_step] = at[a];
     }
     plane[LMB_MANY_LIGHTS_POWER * m->plane_step] = node->intensity[0] + node->intensity[1] + node->intensity[2];
+    plane[LMB_MANY_LIGHTS_RANGE * m->plane_step] = c->range2_low;
+    plane[(LMB_MANY_LIGHTS_RANGE + 1) * m->plane_step] = c->range2_high;
     if (light_kind_is((int32_t)node->kind, LIGHT_CONED)) {
         set_cone(m, i, c);
     }

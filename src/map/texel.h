@@ -2,6 +2,7 @@
 #ifndef LMB_MAP_TEXEL_H
 #define LMB_MAP_TEXEL_H
 
+#include "../base/light_kind.h"
 #include "../lane/kernels.h"
 
 #define FLUX_FLOOR 8.2718061e-25f /* 2^-80 W: less is nothing, so that kernels meet no denormal */
@@ -25,6 +26,15 @@ static inline float texel_flux(float intensity, float power)
 {
     const float w = intensity * power;
     return w < FLUX_FLOOR ? 0.0f : w;
+}
+
+/* What of that power arrives at a surface that is there, by the light's range. */
+static inline void light_end_power(float power[3], const lmb_light *light, lmb_vec3 at)
+{
+    const float left = light_within_at(light, at);
+    for (int c = 0; c < 3 && left < 1.0f; ++c) {
+        power[c] = texel_flux(power[c], left);
+    }
 }
 
 #endif

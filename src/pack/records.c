@@ -107,6 +107,7 @@ void lmb_pack_take_light(lmb_light *out, const lmb_pack *p, uint32_t i)
     out->cos_inner = lmb_pack_float(w + 9);
     out->cos_outer = lmb_pack_float(w + 10);
     memcpy(&out->kind, w + 11, sizeof out->kind);
+    out->range = lmb_pack_float(w + 13); /* 0 in files that older tools made */
 }
 
 void lmb_pack_take_bounds(lmb_scene *out, const lmb_pack *p)

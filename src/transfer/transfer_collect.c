@@ -228,11 +228,26 @@ static void set_corners(float corner[3][3], const collection *c, const lmb_trans
     }
 }
 
+/* What the light's range leaves in the middle of block k. The corners' functions add up to 1 / depth there, which is 0
+ * or less where the block sees none of the triangle's plane. */
+static float left_by_range(const collection *c, const lmb_transfer_sharer *from, int k, float range2)
+{
+    const float x = (float)(k % LMB_TILE), y = (float)(k / LMB_TILE);
+    const float sx = texel_sx(c->view, c->blocks->size, c->first[0] + k % LMB_TILE),
+                sy = texel_sy(c->view, c->blocks->size, c->first[1] + k / LMB_TILE);
+    const float near = value(from->corner[0], x, y) + value(from->corner[1], x, y) + value(from->corner[2], x, y);
+    return near > 1e-10f ? light_within((1.0f + sx * sx + sy * sy) / (near * near), range2) : 0.0f;
+}
+
 static void collect_sharer(const collection *c, const lmb_transfer_sharer *from)
 {
+    const float range2 = light_range2(c->from);
     lmb_transfer_part *p = c->light->part;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         p->light[k] = (float)(int32_t)(minf(from->share[k], 1.0f) * c->work->power[k]);
+        if (range2 > 0.0f && p->light[k] > 0.0f) {
+            p->light[k] = (float)(int32_t)(p->light[k] * left_by_range(c, from, k, range2));
+        }
     }
     p->rows = from->rows;
     p->at = from->root;

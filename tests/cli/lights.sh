@@ -3,14 +3,14 @@
 
 # Many lights: a floor under 200 of them, in two orders, of a kind. Too many for maps; the picture knows no order.
 many_lights() {
-    awk -v first="$1" -v step="$2" -v kind="${4:-point}" 'BEGIN {
+    awk -v first="$1" -v step="$2" -v kind="${4:-point}" -v all="${5:-200}" 'BEGIN {
         printf "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":"
         printf "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"%s\",\"intensity\":0.3%s}]}},\"scene\":0,\"nodes\":[{\"mesh\":0}", kind, kind == "spot" ? ",\"spot\":{\"outerConeAngle\":0.6}" : ""
-        for (i = first; i >= 0 && i < 200; i += step)
+        for (i = first; i >= 0 && i < all; i += step)
             printf ",{\"rotation\":[-0.70710678,0,0,0.70710678],\"translation\":[%g,%g,%g],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}",
                 i % 17 / 10, 0.2 + i % 7 / 9, i % 23 / 12 - 1
         printf "],\"scenes\":[{\"nodes\":[0"
-        for (i = 1; i <= 200; ++i) printf ",%d", i
+        for (i = 1; i <= all; ++i) printf ",%d", i
         printf "]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,"
         printf "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[-2,0,-2],\"max\":[4,0,4]}],\"bufferViews\":"
         printf "[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;"
@@ -45,6 +45,29 @@ status 2 render demo $small --many-lights 4 --grouping zones -o bad.pfm
 status 0 render many.gltf $look --grouping zones --show direct -o zones.pfm
 check "direct light knows no grouping" cmp direct.pfm zones.pfm
 status 2 render demo $small --profile fast -o bad.pfm
+
+# Ranges: by maps and by a tree, in either file; 0 is none, and what ends before the floor gives nothing.
+is_black() { [ "$(tail -c 9216 "$1" | tr -d '\000' | wc -c)" -eq 0 ]; }
+for count in 3 200; do
+    for kind in point spot; do
+        many_lights 0 1 open.gltf $kind $count
+        for range in 0 0.1 0.6; do
+            sed "s/\"intensity\":0.3/&,\"range\":$range/" open.gltf >range.gltf
+            status 0 render range.gltf $look --show direct -o "range$range.pfm"
+            check "a range is drawn, not left out" lacks range err.txt
+        done
+        status 0 render open.gltf $look --show direct -o open.pfm
+        check "$count ${kind}s: a range of 0 is none" cmp range0.pfm open.pfm
+        check "$count ${kind}s: one of 0.6 m is seen" differ range0.6.pfm open.pfm
+        check "$count ${kind}s: one of 0.1 m ends before the floor" is_black range0.1.pfm
+        check "$count ${kind}s: without it there is light" sh -c '! "$@"' sh cmp -s range0.1.pfm range0.6.pfm
+        status 0 pack range.gltf -o range.lmp --position-error 0 --order file
+        status 0 render range.lmp $look --show direct -o packed.pfm
+        check "$count ${kind}s: a packed scene keeps ranges" cmp packed.pfm range0.6.pfm
+        status 0 render range.gltf $look --show direct --many-lights 300 --light-error 0.0001 -o tree.pfm
+        status 0 compare tree.pfm range0.6.pfm --max trim=0.02
+    done
+done
 if [ -z "$SHORT" ]; then
     for light in point:-0.5,2,0.5:0,-1,0:9,9,9 spot:-0.5,2,0.5:0.3,-1,0:9,9,9:20,40; do
         for bounces in 1 3; do

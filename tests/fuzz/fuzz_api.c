@@ -152,6 +152,7 @@ static void make_light(lmb_light *l, bytes *b)
     }
     l->cos_inner = share(b);
     l->cos_outer = l->cos_inner * share(b);
+    l->range = below(b, 4) == 0 ? positive(b) : 0.0f;
 }
 
 static void make_instance(lmb_instance *n, uint32_t k, bytes *b)

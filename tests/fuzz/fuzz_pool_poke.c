@@ -21,6 +21,7 @@ static const struct {
     WHOLE(lmb_view, sample_y), WHOLE(lmb_target, x0), WHOLE(lmb_target, y0), REAL(lmb_light, position.x),
     REAL(lmb_light, position.y), REAL(lmb_light, direction.x), REAL(lmb_light, direction.y),
     REAL(lmb_light, intensity[0]), REAL(lmb_light, cos_inner), REAL(lmb_light, cos_outer), WHOLE(lmb_light, kind),
+    REAL(lmb_light, range),
     WHOLE(lmb_grouping, method), WHOLE(lmb_grouping, block), WHOLE(lmb_grouping, groups),
     REAL(lmb_grouping, neighbour_m), REAL(lmb_grouping, join), REAL(lmb_grouping, reach), REAL(lmb_grouping, cosine),
     WHOLE(lmb_grouping, flags), WHOLE(lmb_grouping, thin), WHOLE(lmb_grouping, neighbour_cells),

@@ -261,6 +261,7 @@ static void many_lights(source *b)
         l[sent].intensity[0] = number(b);
         l[sent].cos_inner = number(b);
         l[sent].cos_outer = number(b);
+        l[sent].range = number(b);
     }
     const lmb_status status = lmb_many_lights_add(&many, l, sent);
     fuzz_require(status == LMB_ERR_CAPACITY || (status == LMB_OK && many.lights + many.dropped == sent));
@@ -308,7 +309,7 @@ static int make(drawn *d, source *b)
     for (int i = 0; i < 4; ++i) {
         d->instance.to_world.m[5 * i] = 1.0f;
     }
-    d->light = (lmb_light){vector(b), unit(b), {1, number(b), 2}, 0.9f, 0.5f, take(b) % 3, 0};
+    d->light = (lmb_light){vector(b), unit(b), {1, number(b), 2}, 0.9f, 0.5f, take(b) % 3, 0, 0.0f};
     d->scene = (lmb_scene){.meshes = &d->mesh, .materials = &d->material, .textures = &d->texture,
                            .instances = &d->instance, .lights = &d->light, .mesh_count = 1, .material_count = 1,
                            .texture_count = 1, .instance_count = 1, .light_count = 1};

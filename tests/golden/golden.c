@@ -25,7 +25,7 @@ static struct memory {
     lmb_groups groups;
     lmb_band_scratch scratch;
     lmb_render render;
-    uint64_t lights[LIGHT_CELLS * 700 / 8];
+    uint64_t lights[LIGHT_CELLS * 720 / 8];
 } memory GOLDEN_ALIGNED;
 /* First points, or the tree of a shadow map in their place: one face, or more that are smaller. */
 static union light_memory {
@@ -335,7 +335,7 @@ static uint64_t case_normal_map(int variant)
 
 static lmb_light make_light(int kind)
 {
-    lmb_light l = {{0.5f, 1.5f, 3.0f}, {-0.16439899f, -0.49319696f, -0.85424364f}, {9, 8, 7}, 0.95f, 0.8f, 0, 0};
+    lmb_light l = {{0.5f, 1.5f, 3.0f}, {-0.16439899f, -0.49319696f, -0.85424364f}, {9, 8, 7}, 0.95f, 0.8f, 0, 0, 0};
     l.kind = kind;
     return l;
 }
@@ -441,6 +441,21 @@ static uint64_t case_show(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
+/* A range that ends on the floor and before the walls. */
+static uint64_t case_range(int variant)
+{
+    lmb_frame f = demo_frame();
+    static lmb_scene scene;
+    static lmb_light light;
+    scene = *f.scene;
+    light = scene.lights[0];
+    light.range = 3.0f;
+    scene.lights = &light;
+    f.scene = &scene;
+    f.show = variant;
+    return hash_frame(GOLDEN_START, &f);
+}
+
 static uint64_t case_occlusion(int variant)
 {
     lmb_frame f = demo_frame();
@@ -514,21 +529,22 @@ static lmb_status stream_lights(lmb_many_lights *many_lights, int kinds)
             if (kinds && k > 0) {
                 turn_light(&slice[k], i + k);
             }
+            slice[k].range = kinds == 3 ? 0.4f * (float)(k % 6) : 0.0f;
         }
         status = lmb_many_lights_add(many_lights, slice, 7);
     }
     return status == LMB_OK ? lmb_many_lights_build(many_lights) : status;
 }
 
-/* Many lights on the soup, with shadows (0) and without; points, spots and suns (2). LIGHT_CELLS never fill
- * a cut of the least capacity. */
+/* Many lights on the soup, with shadows (0) and without; points, spots and suns (2), with ranges (3). LIGHT_CELLS never
+ * fill a cut of the least capacity. */
 static uint64_t case_many(int variant)
 {
     lmb_frame f = demo_frame();
     lmb_many_lights many_lights;
     golden_soup(57u, 1.6f);
     soup.light_count = 0;
-    lmb_status status = stream_lights(&many_lights, variant == 2);
+    lmb_status status = stream_lights(&many_lights, variant > 1 ? variant : 0);
     uint64_t h = golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)status), many_lights.doubled);
     for (uint32_t i = 0; i < many_lights.node_count; ++i) {
         h = golden_hash_floats(golden_hash_floats(h, many_lights.node[i].intensity, 3), &many_lights.node[i].position.x,

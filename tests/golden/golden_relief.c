@@ -37,7 +37,7 @@ uint64_t case_relief(int variant)
 {
     relief_space *s = golden_first();
     const lmb_target eye = golden_eye(LMB_DEPTH32F, LMB_ID16);
-    const lmb_light sun = {{0, 0, 0}, {-0.48f, -0.6f, -0.64f}, {3, 3, 3}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL, 0};
+    const lmb_light sun = {{0, 0, 0}, {-0.48f, -0.6f, -0.64f}, {3, 3, 3}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL, 0, 0};
     const lmb_relief_how how = {variant & 4 ? 1 : 0, variant >> 1 & 1, variant >> 1 & 1, 0, 0};
     uint64_t h = GOLDEN_START;
     lmb_scene scene;

@@ -408,6 +408,7 @@ static int trial_direct(const trial *t, test_rng r)
     job.cos_outer = test_uniform(&r, 0.0f, 0.9f);
     job.cone_scale = number(&r, 1.0f, 1e6f, rare);
     job.kind = (int32_t)(t->seed / 2u % 3u);
+    job.range2 = t->seed / 6u % 2u ? 0.0f : number(&r, 0.01f, 30.0f, 0);
     lmb_kernels_scalar.direct(&want.it, &tile, &job);
     t->kernels->direct(&got.it, &tile, &job);
     CHECK(canaries_stay(got.before, got.after));
@@ -947,6 +948,9 @@ static int trial_many_lights_bounds(const trial *t, test_rng r)
     numbers(plane[0], LMB_MANY_LIGHTS_PLANES * STEP, &r, -3.0f, 3.0f, rare);
     numbers(plane[LMB_MANY_LIGHTS_HALF], 3 * STEP, &r, 0.0f, 0.5f, rare);
     numbers(plane[LMB_MANY_LIGHTS_POWER], STEP, &r, 0.0f, 5.0f, rare);
+    numbers(plane[LMB_MANY_LIGHTS_RANGE], STEP, &r, 0.0f, 9.0f, rare);
+    numbers(plane[LMB_MANY_LIGHTS_RANGE + 1], STEP, &r, 9.0f, 30.0f, rare);
+    many_lights.ranged = t->seed / 6u % 2u;
     job.middle = place(&r, 2.0f, 0);
     job.half = vec3(test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f));
     job.normal = direction(&r);
@@ -977,6 +981,7 @@ static lmb_active_light make_active_light(test_rng *r, uint32_t rare)
         light.source[i].direction = direction(r);
         light.source[i].cos_outer = test_uniform(r, 0.0f, 1.0f);
         light.per[i] = test_uniform(r, 1.0f, 20.0f);
+        light.source[i].range2 = test_random(r) % 2u ? 0.0f : test_uniform(r, 0.1f, 30.0f);
     }
     light.kind = test_random(r) % 3u;
     return light;

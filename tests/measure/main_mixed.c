@@ -22,7 +22,7 @@ enum { SIDE = 192, PIXELS = SIDE * SIDE };
 /* The scene of mixed_without/scene.json. */
 static const double eye[3] = {3.6, 1.6, 4.1}, target[3] = {1.6, 0.65, 1.0};
 static const lmb_light light = {{2.6f, 2.5f, 2.4f}, {-0.2996672f, -0.8324089f, -0.466149f}, {11.0f, 10.4f, 9.4f},
-                               0.8386706f, 0.7660444f, LMB_LIGHT_SPOT, 0};
+                               0.8386706f, 0.7660444f, LMB_LIGHT_SPOT, 0, 0};
 
 typedef struct truth {
     image without, with, depth[2], albedo, direct[2];

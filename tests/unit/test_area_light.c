@@ -24,7 +24,7 @@ static double disc_below(double x)
 
 static lmb_light light_of(int32_t kind)
 {
-    const lmb_light l = {{1, 2, 3}, {0.48f, -0.6f, 0.64f}, {5, 6, 7}, 0.9f, 0.8f, kind, 4};
+    const lmb_light l = {{1, 2, 3}, {0.48f, -0.6f, 0.64f}, {5, 6, 7}, 0.9f, 0.8f, kind, 4, 0};
     return l;
 }
 

@@ -159,6 +159,9 @@ static void test_flux(void)
     make_floor();
     check_flux("sun overhead", sun(vec3(0, -1, 0)), 4.0, 2e-3);
     check_flux("sun at 60 degrees", sun(vec3(0.8660254f, -0.5f, 0)), 2.0, 2e-3);
+    lmb_light ends = point_light(vec3(0, 0.3f, 0)); /* on the floor where it is 0.85 m away from the middle */
+    ends.range = 0.9f;
+    check_flux("point, range 0.9", ends, range_power(0.3, 0.9, 0.0), 2e-3);
 }
 
 /* V5, V6, V7: on the walls of the box, normals inwards, facing the light, in its cone, each in its own cell. */

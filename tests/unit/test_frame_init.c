@@ -73,7 +73,7 @@ static lmb_frame_settings plain(const lmb_scene *scene)
 
 static void make_scenes(void)
 {
-    static uint64_t many_lights_memory[ODD_CELLS * 700 / 8];
+    static uint64_t many_lights_memory[ODD_CELLS * 720 / 8];
     world_begin(0.7f, 0.6f, 0.5f);
     world_quad(vec3(0, 1, -2), vec3(2, 0, 0), vec3(0, 1, 0));
     world_part();

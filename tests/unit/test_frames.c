@@ -105,9 +105,9 @@ static void put_side(int n, const float p[12], const float colour[3])
 static void set_lights(uint32_t count)
 {
     static const lmb_light lights[ALL_LIGHTS] = {
-        {{0.2f, 1.8f, 0.5f}, {-0.2f, -0.96f, -0.196f}, {9, 8, 7}, 0.95f, 0.8f, LMB_LIGHT_SPOT, 0},
-        {{-0.5f, 1.2f, 0.9f}, {0, -1, 0}, {1, 2, 3}, 0, 0, LMB_LIGHT_POINT, 0},
-        {{0, 0, 0}, {0.6f, 0, -0.8f}, {2, 1, 0.5f}, 0, 0, LMB_LIGHT_DIRECTIONAL, 0},
+        {{0.2f, 1.8f, 0.5f}, {-0.2f, -0.96f, -0.196f}, {9, 8, 7}, 0.95f, 0.8f, LMB_LIGHT_SPOT, 0, 0},
+        {{-0.5f, 1.2f, 0.9f}, {0, -1, 0}, {1, 2, 3}, 0, 0, LMB_LIGHT_POINT, 0, 0},
+        {{0, 0, 0}, {0.6f, 0, -0.8f}, {2, 1, 0.5f}, 0, 0, LMB_LIGHT_DIRECTIONAL, 0, 0},
     };
     memcpy(room_lights, lights, sizeof lights);
     room.light_count = count;

@@ -292,6 +292,26 @@ static void shadows_by_face(void)
     }
 }
 
+/* A range, as pixels have it. */
+static void ends_by_range(void)
+{
+    for (int kind = 0; kind < 2; ++kind) {
+        light_alone(kind, vec3(0, -1, 0));
+        alone.light.cos_inner = 0.9f;
+        alone.light.cos_outer = 0.8f;
+        alone.light.range = 2.0f;
+        const lmb_gouraud g = square_under(vec3(0, -4, 0), mul3(X, 0.1f), mul3(Z, 0.1f));
+        for (int i = 1; i <= 12; ++i) {
+            const float d = 0.25f * (float)i, by4 = d * d * d * d / 16.0f;
+            const float want = maxf(1.0f - by4, 0.0f) / (d * d);
+            float got[3] = {0, 0, 0};
+            lmb_gouraud_direct(got, &g, vec3(0, -d, 0), vec3(0, 1, 0), 0, 0);
+            CHECK_MSG(want > 0.0f ? fabsf(got[0] - want) <= 1e-5f * want + 1e-6f : got[0] == 0.0f,
+                      "kind %d, %g m: %g, not %g", kind, (double)d, (double)got[0], (double)want);
+        }
+    }
+}
+
 /* A square that lies aslant lights up all over, and all that is behind it is dark: by a point light and by a sun. */
 static void lights_slopes(void)
 {
@@ -417,6 +437,7 @@ void test_gouraud(void)
     draws_maps();
     casts_shadows();
     shadows_by_face();
+    ends_by_range();
     lights_slopes();
     reads_positions();
     in_pieces();

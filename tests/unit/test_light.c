@@ -82,6 +82,9 @@ static double irradiance(const lmb_light *l, lmb_vec3 p, lmb_vec3 n)
         t = fmin(fmax((t - (double)l->cos_outer) / fmax(wide, 1e-6), 0.0), 1.0);
         share = t * t * (3.0 - 2.0 * t);
     }
+    if (l->range > 0.0f) {
+        share *= fmax(1.0 - pow(r / (double)l->range, 4.0), 0.0);
+    }
     return share * fmax(0.0, (d[0] * (double)n.x + d[1] * (double)n.y + d[2] * (double)n.z) / (r * r2));
 }
 
@@ -180,8 +183,64 @@ static void check_cone(void)
     CHECK(lmb_direct_tile(&e, picked_kernels(), &tile, &v, NULL, &l, NULL) == LMB_ERR_ARG);
 }
 
+/* A range against viewers' formula: at its end and behind it exactly nothing; 0 and 2^30 m are none; suns have none. */
+static void check_range(void)
+{
+    static const float ranges[] = {2.0f, 0.75f, 5.0f, 1e-20f, 0x1p-45f, 0.0f, 0x1p30f, 3e38f};
+    static lmb_tile tile;
+    const lmb_view v = look(vec3(0, 2, 0), vec3(0, 0, 0), 60, FRAME);
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
+    CHECK(world_end() == LMB_OK);
+    memset(&tile, 0, sizeof tile);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* 1/16 to 4 m under the light */
+        tile.position[1][k] = -0.0625f * (float)(k + 1);
+        tile.normal[1][k] = tile.face[1][k] = 1.0f;
+        tile.id[k] = 1;
+    }
+    for (int i = 0; i < COUNT(ranges); ++i) {
+        for (int kind = 0; kind < 3; ++kind) {
+            lmb_irradiance e;
+            lmb_light l = kind == LMB_LIGHT_SPOT ? spot(vec3(0, 0, 0), vec3(0, -1, 0), 20, 40)
+                                                 : make_light(kind, vec3(0, 0, 0), vec3(0, -1, 0));
+            l.range = ranges[i];
+            memset(&e, 0, sizeof e);
+            CHECK(lmb_direct_tile(&e, picked_kernels(), &tile, &v, &world.scene, &l, NULL) == LMB_OK);
+            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+                const double d = 0.0625 * (k + 1), end = (double)ranges[i];
+                const int ends = end > 0.0 && kind != LMB_LIGHT_DIRECTIONAL;
+                const double left = ends ? fmax(1.0 - pow(d / end, 4.0), 0.0) : 1.0;
+                const double want = (double)l.intensity[0] * left / (kind == LMB_LIGHT_DIRECTIONAL ? 1.0 : d * d);
+                CHECK_MSG(left > 0.0 ? fabs((double)e.rgb[0][k] - want) < 1e-5 * fmax(want, (double)l.intensity[0])
+                                     : e.rgb[0][k] == 0.0f,
+                          "kind %d, range %g, %g m: %g, not %g", kind, end, d, (double)e.rgb[0][k], want);
+            }
+        }
+    }
+    static const float bad[] = {-1.0f, NAN, INFINITY};
+    lmb_scene lit = world.scene;
+    lmb_light l = point_light(vec3(0, 1, 0));
+    lit.lights = &l;
+    lit.light_count = 1;
+    l.range = 2.0f;
+    CHECK(lmb_scene_check(&lit) == LMB_OK);
+    for (int i = 0; i < COUNT(bad); ++i) {
+        l.range = bad[i];
+        CHECK(lmb_scene_check(&lit) == LMB_ERR_ARG);
+    }
+}
+
+static lmb_light ranged(lmb_light l, float range)
+{
+    l.range = range;
+    return l;
+}
+
 static void test_irradiance(void)
 {
+    check_range();
+    check_irradiance("ranged", ranged(point_light(vec3(0.3f, 1.2f, -0.4f)), 1.7f));
+    check_irradiance("ranged spot", ranged(spot(vec3(0.3f, 1.2f, -0.4f), vec3(-0.2f, -1, -0.3f), 20, 38), 1.5f));
     check_irradiance("point", point_light(vec3(0.3f, 1.2f, -0.4f)));
     check_irradiance("spot", spot(vec3(0.3f, 1.2f, -0.4f), vec3(-0.2f, -1, -0.3f), 20, 38));
     check_irradiance("wide spot", spot(vec3(0.3f, 0.7f, -0.4f), vec3(-0.2f, -1, -0.1f), 30, 62));

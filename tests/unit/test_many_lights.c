@@ -467,6 +467,72 @@ static void check_light(test_rng *r)
     grove_free(&twice);
 }
 
+static void set_ranges(uint32_t count, test_rng *r)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        lights[i].range = i % 4u == 0 ? 0.0f : test_uniform(r, 0.2f, 3.0f);
+    }
+}
+
+/* Ranges: any order, all nodes taken, cuts within their error, none taken that ends before the tile; one light alone is
+ * that of lmb_direct_tile. */
+static void check_ranges(void)
+{
+    test_rng own = {23}, *const r = &own;
+    static const float asked[] = {0.003f, 0.02f, 0.1f};
+    static lmb_tile tile;
+    double want[LMB_TILE_PIXELS];
+    lmb_irradiance e;
+    grove g, other;
+    make_floor_tile(&tile, vec3(-0.5f, -0.9f, -1.2f));
+    make_kinds(LIGHTS, r);
+    set_ranges(LIGHTS, r);
+    shuffle(LIGHTS, r);
+    grove_make(&g, CELLS, 3.0f * LIGHTS, lights, LIGHTS);
+    grove_make(&other, CELLS, 3.0f * LIGHTS, shuffled, LIGHTS);
+    CHECK(is_same_tree(&g.many_lights, &other.many_lights) && g.many_lights.ranged == other.many_lights.ranged);
+    grove_free(&g);
+    grove_free(&other);
+    for (int kinds = 0; kinds < 2; ++kinds) {
+        if (kinds) {
+            make_kinds(300, r);
+        } else {
+            make_lights(300, r);
+        }
+        for (int i = 0; i < 300; ++i) { /* no two in one place, so that each has a cell */
+            lights[i].position = vec3(test_uniform(r, -2, 2), lights[i].position.y, lights[i].position.z);
+        }
+        set_ranges(300, r);
+        sum_lights(want, &tile, 300, NULL);
+        grove_make(&g, 400, 900.0f, lights, 300);
+        CHECK_MSG(light_tile(&e, &tile, &g.many_lights, NULL, 1e-7f, want) < 1e-5, "%g", off(&e, want));
+        const uint32_t all = scratch.nodes;
+        CHECK(all < 200); /* of those that reach so far */
+        for (int i = 0; i < COUNT(asked); ++i) {
+            const double error = light_tile(&e, &tile, &g.many_lights, NULL, asked[i], want);
+            printf("  ranges, error %.3f: %3u nodes of %u, off by %.4f\n", (double)asked[i], (unsigned)scratch.nodes,
+                   (unsigned)all, error);
+            CHECK_MSG(error < (double)asked[i], "%g at %g", error, (double)asked[i]);
+        }
+        grove_free(&g);
+    }
+    lights[0] = point_light(vec3(-0.3f, 0, -1.1f));
+    for (int i = 0; i < 8; ++i) {
+        lights[0].range = 0.5f + 0.1f * (float)i; /* the tile is 0.9 m below */
+        lights[1] = spot(lights[0].position, vec3(0, -1, 0), 10, 60);
+        lights[1].range = lights[0].range;
+        sum_lights(want, &tile, 2, NULL);
+        grove_make(&g, 8, 90.0f, lights, 2);
+        light_tile(&e, &tile, &g.many_lights, NULL, 0.02f, want);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const double by = fabs((double)e.rgb[1][k] - want[k]);
+            CHECK_MSG(want[k] > 0.0 ? by < 3e-6 * (1.0 + want[k]) : e.rgb[1][k] == 0.0f,
+                      "range %g, pixel %d: %g, not %g", (double)lights[0].range, k, (double)e.rgb[1][k], want[k]);
+        }
+        grove_free(&g);
+    }
+}
+
 /* A room full of lights, far more than a cut holds, asked for too much: the cut stops at its capacity. */
 static void check_full_cut(test_rng *r)
 {
@@ -762,6 +828,7 @@ void test_many_lights(void)
     check_refusals();
     check_tree(&r);
     check_light(&r);
+    check_ranges();
     check_full_cut(&r);
     check_shadows(&r);
     check_corners();

@@ -713,7 +713,7 @@ static void test_two_maps(void)
     enum { SIZE = 16 };
     static uint32_t memory[2 * 6 * SIZE * SIZE * 2];
     lmb_scene scene;
-    lmb_light light = {{0, 2, -3}, {0, -1, 0}, {1, 2, 3}, 0.9f, 0.8f, LMB_LIGHT_SPOT, 0};
+    lmb_light light = {{0, 2, -3}, {0, -1, 0}, {1, 2, 3}, 0.9f, 0.8f, LMB_LIGHT_SPOT, 0, 0};
     memset(&scene, 0, sizeof scene);
     scene.bounds_min = (lmb_vec3){-1, 0, -5};
     scene.bounds_max = (lmb_vec3){1, 1, -3};

@@ -54,6 +54,29 @@ static uint64_t draw(const lmb_scene *s, const lmb_view *view)
     return hash;
 }
 
+static uint32_t word_of(float v)
+{
+    uint32_t w;
+    memcpy(&w, &v, sizeof w);
+    return w;
+}
+
+/* Word 13 of a light; files that older tools made have 0 there. */
+static void test_range(void)
+{
+    make_small();
+    CHECK(scene.lights[0].range == 0.0f);
+    uint32_t *w = words + (opened.part[LMB_PACK_LIGHTS] - words) + 13;
+    const size_t bytes = words[2];
+    *w = word_of(2.5f);
+    CHECK(lmb_pack_open(&opened, words, bytes) == LMB_OK);
+    CHECK(lmb_pack_scene(&scene, &opened, memory, sizeof memory) == LMB_OK && scene.lights[0].range == 2.5f);
+    *w = word_of(-1.0f);
+    CHECK(lmb_pack_open(&opened, words, bytes) == LMB_ERR_FORMAT);
+    *w = 0x7fc00000u;
+    CHECK(lmb_pack_open(&opened, words, bytes) == LMB_ERR_FORMAT);
+}
+
 /* --- the library -------------------------------------------------------------------------------------------------- */
 
 static void test_in_place(void)
@@ -667,6 +690,7 @@ void test_pack(void)
 {
     test_checksum();
     test_in_place();
+    test_range();
     test_refused();
     test_overlaps();
     test_damaged();

@@ -247,6 +247,17 @@ static void test_reasons(void)
     f.show = LMB_SHOW_DIRECT;
     make_plan(&f, NULL);
     CHECK(why_of(LMB_PLAN_GATHER) == LMB_WHY_NOT_SHOWN && why_of(LMB_PLAN_DIRECT) == LMB_WHY_RUNS);
+    /* Its range ends before all that there is: no map. */
+    const lmb_vec3 was = lights[0].position;
+    for (int near = 0; near < 2; ++near) {
+        lights[0].position.y = world.scene.bounds_max.y + 3.0f;
+        lights[0].range = near ? 3.1f : 2.9f;
+        make_plan(&f, NULL);
+        CHECK(near ? plan.light[0] != LMB_WHY_NO_LIGHT && plan.faces_drawn > 0
+                   : plan.light[0] == LMB_WHY_NO_LIGHT && plan.faces_drawn == 0);
+    }
+    lights[0].position = was;
+    lights[0].range = 0.0f;
     f.show = LMB_SHOW_INDIRECT;
     f.occlusion = LMB_OCCLUSION_NONE;
     make_plan(&f, NULL);

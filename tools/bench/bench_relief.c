@@ -173,7 +173,7 @@ static int bake(statue *s, report *r)
 static int aim(statue *s, report *r)
 {
     static const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
-                                  LMB_LIGHT_DIRECTIONAL, 0};
+                                  LMB_LIGHT_DIRECTIONAL, 0, 0};
     lmb_view middle;
     const lmb_scene *scene = &s->loaded.scene;
     if (s->view.has_eye ? !view_look(&middle, &s->view, r) : !view_frame(&middle, &s->view, scene, s->model, r)) {

@@ -696,7 +696,7 @@ static void print_light(const lmb_light *light)
     print_float(light->cos_inner);
     printf(", ");
     print_float(light->cos_outer);
-    printf(", LMB_LIGHT_SPOT, 0},\n};\n\n");
+    printf(", LMB_LIGHT_SPOT, 0, 0},\n};\n\n");
 }
 
 /* ---- putting it together ---- */

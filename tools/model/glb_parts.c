@@ -206,6 +206,9 @@ static void put_light_source(text_buffer *p, const lmb_light *l, int is_first)
         text_buffer_add(p, ",\"spot\":{\"innerConeAngle\":%.9g,\"outerConeAngle\":%.9g}",
                         inner < outer ? inner : 0.999 * outer, outer);
     }
+    if (l->range > 0.0f && l->kind != LMB_LIGHT_DIRECTIONAL) {
+        text_buffer_add(p, ",\"range\":%.9g", (double)l->range);
+    }
     text_buffer_plain(p, "}");
 }
 

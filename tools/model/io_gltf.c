@@ -239,7 +239,6 @@ static void tell_left_out(gltf *g)
                      n->without_uvs);
     build_note_count(g->b, "occlusion maps ignored: light is worked out here", n->occlusion_maps);
     build_note_count(g->b, "nodes that a scene names though they are no roots, or twice; drawn once", n->no_roots);
-    build_note_count(g->b, "light ranges ignored", n->ranges);
     build_note_count(g->b, "skinned nodes posed by their joints as the file places them, or in `lambent play` as "
                      "animations do", n->skins);
     build_note_count(g->b, "primitives whose morph targets move colours or texture coordinates, which stay",

@@ -43,7 +43,7 @@ typedef struct gltf_counts {
     uint32_t points_lines, without_positions, ragged, bare;       /* primitives, vertices */
     uint32_t textures, blends, metals, metal_maps, gloss_maps, unlit, emissive_maps; /* materials */
     uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
-    uint32_t ranges, skins, odd_morphs, no_roots;                               /* lights, nodes, primitives, nodes */
+    uint32_t skins, odd_morphs, no_roots;                                       /* nodes, primitives, nodes */
 } gltf_counts;
 
 typedef struct gltf {

@@ -41,11 +41,12 @@ static int light_kind(lmb_light *out, gltf *g, uint32_t light)
 static int read_light(lmb_light *out, gltf *g, uint32_t light)
 {
     const json *doc = &g->doc;
-    double colour[3] = {1, 1, 1}, intensity = 1;
+    double colour[3] = {1, 1, 1}, intensity = 1, range = 0;
     int i;
     memset(out, 0, sizeof *out);
     if (!light_kind(out, g, light) || !json_read_doubles(colour, 3, doc, json_member(doc, light, "color"), g->b->r) ||
-        !json_read_double(&intensity, doc, json_member(doc, light, "intensity"), g->b->r))
+        !json_read_double(&intensity, doc, json_member(doc, light, "intensity"), g->b->r) ||
+        !json_read_double(&range, doc, json_member(doc, light, "range"), g->b->r))
         return 0;
     for (i = 0; i < 3; ++i) {
         const double value = colour[i] * intensity;
@@ -53,7 +54,8 @@ static int read_light(lmb_light *out, gltf *g, uint32_t light)
             return json_fail(doc, light, g->b->r, "color x intensity is no intensity");
         out->intensity[i] = (float)value;
     }
-    g->left_out.ranges += json_member(doc, light, "range") != JSON_NONE;
+    /* As viewers do: 0 or less is none. Suns have none, whatever is given. */
+    out->range = out->kind != LMB_LIGHT_DIRECTIONAL && range > 0 && range < 1e9 ? (float)range : 0.0f;
     return 1;
 }
 

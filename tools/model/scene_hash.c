@@ -75,7 +75,8 @@ static uint64_t hash_light(uint64_t hash, const lmb_light *l)
     hash = HASH_OF(hash, l->intensity);
     hash = HASH_OF(hash, l->cos_inner);
     hash = HASH_OF(hash, l->cos_outer);
-    return HASH_OF(hash, l->kind);
+    hash = HASH_OF(hash, l->kind);
+    return l->range > 0.0f ? HASH_OF(hash, l->range) : hash;
 }
 
 uint64_t scene_hash(const lmb_scene *s)

@@ -78,7 +78,8 @@ static void put_lights(pack *out, const lmb_scene *s, const uint32_t *node)
         pack_float(to, l->cos_outer);
         pack_word(to, (uint32_t)l->kind);
         pack_word(to, node[i]);
-        pack_words(to, 3, 0);
+        pack_float(to, l->range);
+        pack_words(to, 2, 0);
     }
 }
 

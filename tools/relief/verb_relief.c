@@ -231,7 +231,7 @@ static int render(work *w, relief_options *o, report *r)
     relief_shot shot;
     relief_frame f;
     const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
-                           LMB_LIGHT_DIRECTIONAL, 0};
+                           LMB_LIGHT_DIRECTIONAL, 0, 0};
     memset(&shot, 0, sizeof shot);
     w->light = o->has_light ? o->light : sun;
     if (!options_files(o, &table, r) || !open_relief(w, o->file, r) ||

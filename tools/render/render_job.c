@@ -269,7 +269,7 @@ static int take_lights(render_job *j, report *r)
 static int set_lights(render_job *j, report *r)
 {
     static const lmb_light sun = {{0, 0, 0}, {0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
-                                  LMB_LIGHT_DIRECTIONAL, 0};
+                                  LMB_LIGHT_DIRECTIONAL, 0, 0};
     if (j->o.light_count > 0 && !take_lights(j, r)) {
         return 0;
     }

@@ -53,7 +53,7 @@ static int take_env(world *w, int32_t side, report *r)
 int world_sky(world *w, report *r)
 {
     static const lmb_light sun = {{0, 0, 0}, {0.45f, -0.8f, -0.3968627f}, {3.2f, 2.85f, 2.3f}, 1.0f, 1.0f,
-                                  LMB_LIGHT_DIRECTIONAL, 0};
+                                  LMB_LIGHT_DIRECTIONAL, 0, 0};
     static const float black[3] = {0, 0, 0};
     const lmb_vec3 to_sun = {-sun.direction.x, -sun.direction.y, -sun.direction.z};
     w->sun = sun;
