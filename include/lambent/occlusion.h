@@ -80,7 +80,7 @@ typedef struct lmb_traversal {
     lmb_segments segments;
 } lmb_traversal;
 /* If the eye is known, a pixel that lies in a triangle's plane, within rounding, is on the eye's side of it, and the
- * triangle is wider by rounding. So no light from behind a wall reaches pixels on its edge. */
+ * triangle is wider by rounding, as far as its boxes are. So no light from behind a wall reaches pixels on its edge. */
 enum { LMB_EYE_NONE = 0, LMB_EYE_PLACE = 1, LMB_EYE_FAR = 2 };
 
 #ifdef __cplusplus

@@ -91,8 +91,9 @@ static int cross_job(lmb_cross_job *out, const lmb_bvh_triangle *t, lmb_vec3 at,
     out->slack = 0.0f;
     if (kept != NULL && eye_is_across(kept, t->normal, p[0], -ahead)) {
         const lmb_vec3 *e = out->edge;
-        out->beyond = absf(ahead) - noise;
-        out->slack = noise * sqrtf(maxf(maxf(dot3(e[0], e[0]), dot3(e[1], e[1])), dot3(e[2], e[2])));
+        const float wider = minf(noise, triangle_margin(t));
+        out->beyond = absf(ahead) - wider;
+        out->slack = wider * sqrtf(maxf(maxf(dot3(e[0], e[0]), dot3(e[1], e[1])), dot3(e[2], e[2])));
     }
     return 1;
 }
@@ -296,7 +297,7 @@ static int blocks_one(traversal *w, uint32_t triangle, const ray *r)
     const float ahead = dot3(t->normal, a), side = ahead < 0.0f ? -1.0f : 1.0f, past = side * dot3(t->normal, r->d);
     lmb_cross_job job;
     if (eye_is_across(w->kept, t->normal, p[0], -ahead)) {
-        return 0.5f * absf(ahead) < past && cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept) &&
+        return 0.0f < past && cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept) &&
                crosses(&job, r->d) &&
                (!(t->id & LMB_BVH_MASKED) || standing(w->b, t, &job, w->tile, w->left) != 0);
     }

@@ -63,9 +63,10 @@ static int sun_job(lmb_sun_job *out, const sun_traversal *w, const lmb_bvh_trian
     const float noise = maxf(w->noise + TRIANGLE_NOISE * sqrtf(far2), w->b->noise);
     out->beyond = dot3(out->normal, a) + noise;
     if (eye_is_across(w->kept, t->normal, t->corner[0], along)) {
-        out->beyond = dot3(out->normal, a) - noise;
+        const float wider = minf(noise, triangle_margin(t));
+        out->beyond = dot3(out->normal, a) - wider;
         for (int i = 0; i < 3; ++i) {
-            out->offset[i] += noise * length3(out->edge[i]);
+            out->offset[i] += wider * length3(out->edge[i]);
         }
     }
     return 1;

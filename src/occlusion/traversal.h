@@ -45,4 +45,12 @@ static inline int eye_is_across(const lmb_traversal *t, lmb_vec3 normal, lmb_vec
     return ahead > 0.0f ? eye < 0.0f : eye > 0.0f;
 }
 
+/* By how much a triangle may be wider than it is, m: half of what its boxes reach past it, so that none is missed. */
+static inline float triangle_margin(const lmb_bvh_triangle *t)
+{
+    const lmb_vec3 low = min3(min3(t->corner[0], t->corner[1]), t->corner[2]),
+                   high = max3(max3(t->corner[0], t->corner[1]), t->corner[2]), size = sub3(high, low);
+    return 0.5f * (LMB_BOX_SIZE * largest3(size) + LMB_BOX_PLACE * maxf(largest3(low), largest3(high)));
+}
+
 #endif
