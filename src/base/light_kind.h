@@ -31,10 +31,10 @@ static inline int light_shape_is_valid(const lmb_light *l)
            (l->cos_outer > 0.0f && l->cos_inner >= l->cos_outer && l->cos_inner <= 1.0f);
 }
 
-/* The square of its range, 2^-80 .. 2^60 m2; 0: its light never ends. */
+/* The square of its range, 2^-80 .. 2^60 m2; 0: its light never ends, as in small builds (LMB_TREES 0). */
 static inline float light_range2(const lmb_light *l)
 {
-    return light_kind_is(l->kind, LIGHT_PLACED) && l->range > 0.0f && l->range < 0x1p+30f
+    return LMB_TREES && light_kind_is(l->kind, LIGHT_PLACED) && l->range > 0.0f && l->range < 0x1p+30f
                ? maxf(l->range * l->range, 0x1p-80f) : 0.0f;
 }
 

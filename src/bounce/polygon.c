@@ -31,7 +31,9 @@ float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 cent
     if (!(back >= 0.0f) || !(area > 0.0f)) {
         return 0.0f;
     }
-    c = sub3(c, mul3(axis, back));
+    if (LMB_TREES) {
+        c = sub3(c, mul3(axis, back));
+    }
     quad[0] = sub3(sub3(c, u), v);
     quad[1] = sub3(add3(c, u), v);
     quad[2] = add3(add3(c, u), v);

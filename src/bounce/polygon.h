@@ -13,13 +13,14 @@ enum { POLYGON_CORNERS = LMB_TREES ? 8 : 4 };
  *
  * A surface that is parallel to the polygon lies in its plane, on either side, and rounding must not lift it out: the
  * form factor would jump to 1. Nor may rounding do that if the polygon's middle is below the point's horizon, as beyond
- * a convex edge. A point on a concave edge gets the light that a point `min_height` above the plane gets. */
+ * a convex edge. A point on a concave edge gets the light that a point `min_height` above the plane gets;
+ * none in small builds, which save the code. */
 static inline float polygon_back(float height, float min_height, lmb_vec3 face, lmb_vec3 axis, lmb_vec3 middle)
 {
     if (height > min_height) {
         return 0.0f;
     }
-    return height > 0.0f && absf(dot3(face, axis)) < POLYGON_BENT && dot3(face, middle) > 0.0f ? min_height - height
+    return LMB_TREES && height > 0.0f && absf(dot3(face, axis)) < POLYGON_BENT && dot3(face, middle) > 0.0f ? min_height - height
                                                                                                : -1.0f;
 }
 

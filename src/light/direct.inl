@@ -33,7 +33,7 @@ static void KERNEL(direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_
             lane inverse2 = lane_div(one, lane_max(d2, lane_splat(1e-24f)));
             to = lane3_scale(to, lane_sqrt(inverse2));
             e = inverse2;
-            if (job->range2 > 0.0f) {
+            if (LMB_TREES && job->range2 > 0.0f) {
                 e = lane_mul(e, direct_within(d2, lane_splat(job->range2)));
             }
             if (light_kind_is(job->kind, LIGHT_CONED)) {

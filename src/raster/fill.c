@@ -170,6 +170,7 @@ NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_
     return 1;
 }
 
+#if LMB_TREES
 /* Is all of the surface a hole? To read a texel costs about a fiftieth of a pixel, so that many more of them may be read
  * than there are pixels. One that blends stands from the least threshold on. */
 NOINLINE int is_hole(const masked_surface *s, const lmb_fill_context *c, int32_t tiles)
@@ -181,6 +182,7 @@ NOINLINE int is_hole(const masked_surface *s, const lmb_fill_context *c, int32_t
     }
     return lmb_resolve_is_hole(&alpha, c->scene, &texels);
 }
+#endif
 
 void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id, int blends)
 {
@@ -198,9 +200,11 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
     const int32_t origin_x = view_origin_x(c->view), origin_y = view_origin_y(c->view);
     tile_span(&tx0, &tx1, s->x_min, s->x_max, origin_x, target->x0, target->depth.width);
     tile_span(&ty0, &ty1, s->y_min, s->y_max, origin_y, target->y0, target->depth.height);
+#if LMB_TREES
     if (is_hole(&surface, c, (tx1 - tx0 + 1) * (ty1 - ty0 + 1))) {
         return;
     }
+#endif
     job.dx = (float)s->d_x;
     job.dy = (float)s->d_y;
     job.d_min = s->d_min;

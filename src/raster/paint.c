@@ -100,8 +100,8 @@ typedef struct tangent_frame {
     float side;          /* -1 where the pixels show the back */
 } tangent_frame;
 
-/* Does the mesh itself bring both axes? */
-static int is_sided(const lmb_mesh *m) { return m->tangents != NULL && m->tangent_format == LMB_TANGENT_SIDED; }
+/* Does the mesh itself bring both axes? Small builds take the side from texture coordinates. */
+static int is_sided(const lmb_mesh *m) { return LMB_TREES && m->tangents != NULL && m->tangent_format == LMB_TANGENT_SIDED; }
 
 static lmb_vec3 transform_direction(const lmb_mat4 *t, lmb_vec3 d)
 {

@@ -38,6 +38,7 @@ int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, f
     return a >= alpha->cutoff;
 }
 
+#if LMB_TREES /* small builds draw holes pixel by pixel */
 /* Rounding of the mix and of the sample's shares. */
 #define ROUNDING 1.0001f
 #define MIDDLE   (1.0f / 3.0f)
@@ -58,6 +59,7 @@ int lmb_resolve_is_hole(const lmb_resolve_alpha *a, const lmb_scene *scene, uint
     const float high[2] = {maxf(maxf(a->u[0], a->u[1]), a->u[2]), maxf(maxf(a->v[0], a->v[1]), a->v[2])};
     return lmb_texture_is_clear(&scene->textures[a->texture], low, high, a->cutoff / (largest * ROUNDING), texels);
 }
+#endif
 
 int lmb_triangle_opaque(const lmb_triangle *t, const lmb_scene *scene, float b1, float b2)
 {

@@ -167,6 +167,7 @@ void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, fl
     sample(out, t, AS_COLOUR, u, v, lod);
 }
 
+#if LMB_TREES
 /* The texels that samples from low to high read along one axis, with one more on each side for rounding: numbers that
  * wrap_texel takes. All of them where these go round. */
 static void texels_between(int32_t *first, int32_t *last, float low, float high, int32_t size, int wrap)
@@ -219,6 +220,7 @@ int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float h
     }
     return 1;
 }
+#endif
 
 void lmb_normal_map_sample(float out[4], const lmb_texture *t, float u, float v, float lod)
 {
