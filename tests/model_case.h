@@ -2,6 +2,8 @@
 #ifndef MODEL_CASE_H
 #define MODEL_CASE_H
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../tools/model/model.h"
@@ -22,6 +24,20 @@ static inline int load_file(const char *path)
 {
     forget();
     return model_load(&loaded, path, NULL, &notes, &problem);
+}
+
+/* A glTF document, as printf has it. Notes of earlier models go. */
+static inline int load_gltf(const char *format, ...)
+{
+    static char text[1 << 16];
+    va_list args;
+    va_start(args, format);
+    const int n = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    CHECK(n > 0 && n < (int)sizeof text);
+    forget();
+    memset(&notes, 0, sizeof notes);
+    return model_read(&loaded, "a.gltf", NULL, (const uint8_t *)text, (size_t)n, &notes, &problem);
 }
 
 static inline int noted(const char *part)

@@ -1,7 +1,6 @@
 /* test_gltf_shape.c: glTF's tangents and their sides, normals without length, morph targets at rest, hidden nodes, nodes of
  * scale 0, and materials with another description. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 
 #include "../../tools/model/model_morph.h"
@@ -11,20 +10,6 @@
 #include "../model_case.h"
 
 void test_gltf_shape(void);
-
-static char text[1 << 16];
-
-static int load(const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    const int n = vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    CHECK(n > 0 && n < (int)sizeof text);
-    forget();
-    memset(&notes, 0, sizeof notes);
-    return model_read(&loaded, "a.gltf", NULL, (const uint8_t *)text, (size_t)n, &notes, &problem);
-}
 
 static int near(double a, double b) { return fabs(a - b) <= 2e-4; }
 
@@ -116,15 +101,15 @@ static const char *flat_map(void)
 static void keeps_sides(void)
 {
     const lmb_mesh *m;
-    CHECK_LOADS(load(MAPPED(",\"NORMAL\":1,\"TANGENT\":4,\"TEXCOORD_0\":5", ""), flat_map(), data()));
+    CHECK_LOADS(load_gltf(MAPPED(",\"NORMAL\":1,\"TANGENT\":4,\"TEXCOORD_0\":5", ""), flat_map(), data()));
     m = loaded.scene.meshes;
     CHECK(m->tangents != NULL && m->tangent_format == LMB_TANGENT_SIDED);
     for (uint32_t i = 0; m->tangents != NULL && i < 3; ++i)
         CHECK(is_vec(tangent(0, i), 1, 0, 0) && model_side_of(m->tangents + 2 * i) == (i < 2));
-    CHECK_LOADS(load(MAPPED(",\"NORMAL\":1,\"TANGENT\":4,\"TEXCOORD_0\":5",
+    CHECK_LOADS(load_gltf(MAPPED(",\"NORMAL\":1,\"TANGENT\":4,\"TEXCOORD_0\":5",
                             ",\"extensions\":{\"KHR_texture_transform\":{\"scale\":[-1,1]}}"), flat_map(), data()));
     CHECK(loaded.scene.meshes[0].tangents != NULL && model_side_of(loaded.scene.meshes[0].tangents));
-    CHECK_LOADS(load(MAPPED(",\"TANGENT\":4,\"TEXCOORD_0\":5", ""), flat_map(), data()));
+    CHECK_LOADS(load_gltf(MAPPED(",\"TANGENT\":4,\"TEXCOORD_0\":5", ""), flat_map(), data()));
     CHECK(loaded.scene.meshes[0].tangents == NULL);
 }
 
@@ -155,10 +140,10 @@ static void fills_normals(void)
 {
     float tilted[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     blob b;
-    CHECK_LOADS(load(TWO_FACES, data_with(12, 0)));
+    CHECK_LOADS(load_gltf(TWO_FACES, data_with(12, 0)));
     CHECK(is_vec(normal(0, 0), 0, 0, 1) && is_vec(normal(0, 1), 0, 0, 1));
     CHECK(noted("normals without length, made from the faces there: 1"));
-    CHECK_LOADS(load(TWO_FACES, data_with(9, NAN)));
+    CHECK_LOADS(load_gltf(TWO_FACES, data_with(9, NAN)));
     CHECK(is_vec(normal(0, 0), 0, 0, 1) && noted("faces there: 1"));
     /* Of a face that looks along (1, 1, 1). */
     memset(&b, 0, sizeof b);
@@ -168,11 +153,11 @@ static void fills_normals(void)
     put_floats(&b, numbers + 18, NUMBERS - 18);
     put_u32(&b, 2);
     put_u32(&b, 127), put_u32(&b, 127), put_u32(&b, 127);
-    CHECK_LOADS(load(TWO_FACES, base64(b.bytes, b.size)));
+    CHECK_LOADS(load_gltf(TWO_FACES, base64(b.bytes, b.size)));
     CHECK(is_vec(normal(0, 2), sqrt(1 / 3.0), sqrt(1 / 3.0), sqrt(1 / 3.0)) && is_vec(normal(0, 1), 0, 0, 1));
     /* None has a length. */
     memset(b.bytes + 36, 0, 36);
-    CHECK_LOADS(load(TWO_FACES, base64(b.bytes, b.size)));
+    CHECK_LOADS(load_gltf(TWO_FACES, base64(b.bytes, b.size)));
     CHECK(is_vec(normal(0, 0), sqrt(1 / 3.0), sqrt(1 / 3.0), sqrt(1 / 3.0)) && noted("faces there: "));
 }
 
@@ -188,36 +173,36 @@ static void fills_normals(void)
 
 static void shapes_by_weights(void)
 {
-    CHECK_LOADS(load(SHAPED("\"weights\":[0.3,0.5],", TWO, ALL), flat_map(), data()));
+    CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0.3,0.5],", TWO, ALL), flat_map(), data()));
     CHECK(loaded.scene.mesh_count == 1 && is_vec(position(0, 1), 1.5, 0, 0) && is_vec(position(0, 2), 0.5, 1, 0));
     CHECK(is_vec(normal(0, 0), sqrt(0.5), 0, sqrt(0.5)) && is_vec(tangent(0, 2), sqrt(0.5), sqrt(0.5), 0));
     CHECK(model_side_of(loaded.scene.meshes[0].tangents) && !model_side_of(loaded.scene.meshes[0].tangents + 4));
     CHECK(!noted("morph"));
     /* A node's own override them, for it alone; those that it leaves out are 0. */
-    CHECK_LOADS(load(SHAPED("\"weights\":[0,1],", "{\"mesh\":0,\"weights\":[1]},{\"mesh\":0}", ALL), flat_map(), data()));
+    CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,1],", "{\"mesh\":0,\"weights\":[1]},{\"mesh\":0}", ALL), flat_map(), data()));
     CHECK(loaded.scene.instance_count == 2 && loaded.scene.mesh_count == 2);
     CHECK(is_vec(position(loaded.scene.instances[0].mesh, 1), 1, 0, 0));
     CHECK(is_vec(position(loaded.scene.instances[1].mesh, 1), 2, 0, 0));
     CHECK(is_vec(normal(loaded.scene.instances[1].mesh, 1), 1, 0, 0));
-    CHECK_LOADS(load(SHAPED("", "{\"mesh\":0,\"weights\":[0,-2]},{\"mesh\":0}", ALL), flat_map(), data()));
+    CHECK_LOADS(load_gltf(SHAPED("", "{\"mesh\":0,\"weights\":[0,-2]},{\"mesh\":0}", ALL), flat_map(), data()));
     CHECK(is_vec(position(loaded.scene.instances[0].mesh, 0), -2, 0, 0) && loaded.scene.instances[0].to_world.m[0] == 1);
     CHECK(is_vec(position(loaded.scene.instances[1].mesh, 0), 0, 0, 0));
     /* Sparse, without a view; and bytes. */
-    CHECK_LOADS(load(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":7"), flat_map(), data()));
+    CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":7"), flat_map(), data()));
     CHECK(is_vec(position(0, 1), 1, 0, 0) && is_vec(position(0, 2), 1, 1, 0) && is_vec(normal(0, 2), 0, 0, 1));
-    CHECK_LOADS(load(SHAPED("\"weights\":[0,0.25],", TWO, "\"POSITION\":8"), flat_map(), data()));
+    CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,0.25],", TWO, "\"POSITION\":8"), flat_map(), data()));
     CHECK(is_vec(position(0, 1), 1.25, 0, 0));
     /* What else a target moves stays, and is told. */
-    CHECK_LOADS(load(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":2,\"TEXCOORD_0\":5"), flat_map(), data()));
+    CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":2,\"TEXCOORD_0\":5"), flat_map(), data()));
     CHECK(noted("primitives whose morph targets move colours or texture coordinates, which stay: 1"));
-    check_fails(load(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":5"), flat_map(), data()), "does not take");
-    check_fails(load(SHAPED("\"weights\":[0,{}],", TWO, ALL), flat_map(), data()), "weights[1]");
+    check_fails(load_gltf(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":5"), flat_map(), data()), "does not take");
+    check_fails(load_gltf(SHAPED("\"weights\":[0,{}],", TWO, ALL), flat_map(), data()), "weights[1]");
 }
 
 /* Shaped first, then posed: joint 0 moves all by 10 along x. */
 static void shapes_before_it_poses(void)
 {
-    CHECK_LOADS(load(ASSET "\"nodes\":[{\"mesh\":0,\"skin\":0,\"weights\":[1]},{\"translation\":[10,0,0]}],"
+    CHECK_LOADS(load_gltf(ASSET "\"nodes\":[{\"mesh\":0,\"skin\":0,\"weights\":[1]},{\"translation\":[10,0,0]}],"
                            "\"skins\":[{\"joints\":[1]}],\"scenes\":[{\"nodes\":[0,1]}],\"meshes\":[{\"primitives\":[{"
                            "\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":2}]}]}]," DATA, data()));
     CHECK(is_vec(position(loaded.scene.instances[0].mesh, 1), 12, 0, 0));
@@ -232,13 +217,13 @@ static void shapes_before_it_poses(void)
 
 static void hides(void)
 {
-    CHECK_LOADS(load(ASSET "\"extensionsRequired\":[\"KHR_node_visibility\"]," LAMPS EYES
+    CHECK_LOADS(load_gltf(ASSET "\"extensionsRequired\":[\"KHR_node_visibility\"]," LAMPS EYES
                            "\"scenes\":[{\"nodes\":[0,4]}],\"nodes\":[{\"children\":[1,2,3],\"extensions\":{" HIDDEN "}},"
                            "{\"mesh\":0,\"extensions\":{\"KHR_node_visibility\":{\"visible\":true}}},{" LAMP "},"
                            "{\"camera\":0},{\"mesh\":0,\"children\":[5]},{" LAMP "}],"
                            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]," DATA, data()));
     CHECK(loaded.scene.instance_count == 1 && loaded.scene.light_count == 1 && loaded.camera_count == 1);
-    check_fails(load(ASSET "\"nodes\":[{\"extensions\":{\"KHR_node_visibility\":{\"visible\":0}}}]}"), "visible");
+    check_fails(load_gltf(ASSET "\"nodes\":[{\"extensions\":{\"KHR_node_visibility\":{\"visible\":0}}}]}"), "visible");
 }
 
 /* A quarter turn about Y, below scales that leave less than an axis. */
@@ -249,7 +234,7 @@ static void keeps_directions(void)
         "\"matrix\":[0,0,0,0,0,0,0,0,0,0,0,0,3,4,5,1]", "\"matrix\":[0,0,0,0,0,2,0,0,0,0,0,0,3,4,5,1]",
         "\"scale\":[1e-18,1e-18,1e-18]", "\"scale\":[1e18,1e18,1e18]"};
     for (int i = 0; i < (int)(sizeof above / sizeof *above); ++i) {
-        CHECK_LOADS(load(ASSET LAMPS EYES "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{%s%s,\"children\":[1]},"
+        CHECK_LOADS(load_gltf(ASSET LAMPS EYES "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{%s%s,\"children\":[1]},"
                                "{\"rotation\":[0,0.70710678,0,0.70710678],\"camera\":0," LAMP "}]}", above[i],
                          strstr(above[i], "matrix") ? "" : ",\"translation\":[3,4,5]"));
         CHECK_MSG(is_vec(loaded.scene.lights[0].direction, -1, 0, 0), "light below %s", above[i]);
@@ -257,7 +242,7 @@ static void keeps_directions(void)
                       is_vec(loaded.cameras[0].right, 0, 0, -1), "camera below %s", above[i]);
         CHECK(is_vec(loaded.cameras[0].eye, 3, 4, 5) && is_vec(loaded.scene.lights[0].position, 3, 4, 5));
     }
-    CHECK_LOADS(load(ASSET LAMPS "\"nodes\":[{\"scale\":[1,1,-1]," LAMP "}]}")); /* a mirror turns it round, as ever */
+    CHECK_LOADS(load_gltf(ASSET LAMPS "\"nodes\":[{\"scale\":[1,1,-1]," LAMP "}]}")); /* a mirror turns it round, as ever */
     CHECK(is_vec(loaded.scene.lights[0].direction, 0, 0, 1));
 }
 
@@ -269,7 +254,7 @@ static void keeps_directions(void)
 static void reads_other_materials(void)
 {
     const lmb_material *m;
-    CHECK_LOADS(load(ASSET "\"materials\":[{\"extensions\":{" GLOSS "}},{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
+    CHECK_LOADS(load_gltf(ASSET "\"materials\":[{\"extensions\":{" GLOSS "}},{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
                            "\"extensions\":{" GLOSS "}},{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,1,0.25,1]},"
                            "\"normalTexture\":{\"index\":0},\"emissiveFactor\":[1,1,1],\"extensions\":{\"KHR_materials_unlit\":{}}}"
                            "],\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));
@@ -283,7 +268,7 @@ static void reads_other_materials(void)
     CHECK(near((double)m[0].specular[0], 0.2) && m[0].specular[2] == 0 && m[0].roughness == 0.25f);
     CHECK(near((double)m[0].albedo[0], 0.4) && m[2].specular[0] == 0);
     /* The map's means: specular in light, glossiness in its alpha, which is 1. A metal is not black without its lobe. */
-    CHECK_LOADS(load(ASSET "\"materials\":[{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":"
+    CHECK_LOADS(load_gltf(ASSET "\"materials\":[{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":"
                            "[0,0,0,1],\"specularGlossinessTexture\":{\"index\":0},\"diffuseTexture\":{\"index\":0}}}}],"
                            "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));
     m = loaded.scene.materials;

@@ -1,26 +1,11 @@
 /* test_motion.c: glTF's animations of nodes: keys, what lies between them, and files that are refused. */
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 
 #include "../../tools/model/model_motion.h"
 #include "../blob.h"
 #include "../model_case.h"
 
 void test_motion(void);
-
-static char text[1 << 14];
-
-static int load(const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    const int n = vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    CHECK(n > 0 && n < (int)sizeof text);
-    forget();
-    return model_read(&loaded, "a.gltf", NULL, (const uint8_t *)text, (size_t)n, &notes, &problem);
-}
 
 static int is_vec(lmb_vec3 v, double x, double y, double z)
 {
@@ -97,7 +82,7 @@ static lmb_vec3 place_of(const lmb_instance *i)
 static void moves_by_keys(void)
 {
     const double half = sqrt(0.5);
-    CHECK_LOADS(load(SCENE(ALL, ""), coded()));
+    CHECK_LOADS(load_gltf(SCENE(ALL, ""), coded()));
     CHECK_MSG(loaded.motion != NULL, "%s", loaded.motion_problem.text);
     CHECK(loaded.motion->tracks == 4 && loaded.motion->end_s == 3.0);
     CHECK(is_vec(loaded.scene.lights[0].position, 5, 6, 5)); /* at rest as the file has it */
@@ -121,7 +106,7 @@ static void moves_by_keys(void)
 /* The scene is read all the same; what is wrong is kept for who wants to see it move. */
 #define REFUSED(animation, node, part)                                                                       \
     do {                                                                                                     \
-        CHECK_LOADS(load(SCENE(animation, node), coded()));                                                  \
+        CHECK_LOADS(load_gltf(SCENE(animation, node), coded()));                                                  \
         CHECK(loaded.motion == NULL && loaded.scene.instance_count == 2);                                    \
         CHECK_MSG(strstr(loaded.motion_problem.text, part) != NULL, "\"%s\"", loaded.motion_problem.text);   \
     } while (0)
@@ -146,14 +131,14 @@ static void refuses(void)
 /* Nothing of the scene moves: no motion, and no problem. */
 static void stands_still(void)
 {
-    CHECK_LOADS(load(SCENE("{},{\"channels\":[]}," ONE(CHANNEL(0, 5, "scale"), SAMPLER(0, 1, "")), ""), coded()));
+    CHECK_LOADS(load_gltf(SCENE("{},{\"channels\":[]}," ONE(CHANNEL(0, 5, "scale"), SAMPLER(0, 1, "")), ""), coded()));
     CHECK(loaded.motion == NULL && loaded.motion_problem.text[0] == '\0');
 }
 
 /* A scale of 0 on the way leaves a light and a camera the directions of their turns. */
 static void keeps_its_way(void)
 {
-    CHECK_LOADS(load(SCENE(ONE(CHANNEL(0, 1, "scale") "," CHANNEL(1, 0, "rotation") "," CHANNEL(0, 2, "scale"),
+    CHECK_LOADS(load_gltf(SCENE(ONE(CHANNEL(0, 1, "scale") "," CHANNEL(1, 0, "rotation") "," CHANNEL(0, 2, "scale"),
                                SAMPLER(0, 1, "") "," SAMPLER(0, 2, "")), ""), coded()));
     CHECK_MSG(loaded.motion != NULL, "%s", loaded.motion_problem.text);
     pose p = at(0.0);
