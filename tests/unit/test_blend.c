@@ -34,20 +34,26 @@ static void count_ids(uint32_t counts[8], int32_t samples, uint32_t flags)
     }
 }
 
-/* Two walls that fill the picture, the nearer one first, and an opaque one behind both. */
-static void walls(float near_alpha, float far_alpha)
+/* Walls that fill the picture, the nearest one first. */
+static void walls_of(const float *alpha, int count)
 {
     world_begin(0.5f, 0.5f, 0.5f);
-    world_quad(vec3(0, 0, 1), mul3(X, 9), mul3(Y, 9));
-    world_part();
-    world_quad(vec3(0, 0, 0), mul3(X, 9), mul3(Y, 9));
-    world.material[0].alpha = near_alpha;
-    world.material[1].alpha = far_alpha;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < count; ++i) {
+        if (i > 0) {
+            world_part();
+        }
+        world_quad(vec3(0, 0, 1.0f - (float)i), mul3(X, 9), mul3(Y, 9));
+        world.material[i].alpha = alpha[i];
         world.material[i].flags |= LMB_ALPHA_MASK | LMB_ALPHA_BLEND;
         world.material[i].alpha_cutoff = 0.5f;
     }
     CHECK(world_end() == LMB_OK);
+}
+
+static void walls(float near_alpha, float far_alpha)
+{
+    const float alpha[2] = {near_alpha, far_alpha};
+    walls_of(alpha, 2);
 }
 
 static void check_shares(float near_alpha, float far_alpha, int32_t samples)
@@ -58,8 +64,19 @@ static void check_shares(float near_alpha, float far_alpha, int32_t samples)
     count_ids(n, samples, LMB_CULL_BACK | LMB_BLEND);
     const double near_share = (n[1] + n[2]) / all, far_share = (n[3] + n[4]) / all;
     CHECK_MSG(fabs(near_share - (double)near_alpha) <= 1.0 / 64, "%g of %g", near_share, (double)near_alpha);
-    const double want = (1.0 - near_share) * (double)far_alpha, within = samples == 1 ? 0.2 : samples == 4 ? 0.04 : 0.02;
+    const double want = (1.0 - near_share) * (double)far_alpha, within = samples == 16 ? 0.02 : 0.04;
     CHECK_MSG(fabs(far_share - want) <= within, "%d samples: %g instead of %g", (int)samples, far_share, want);
+}
+
+/* Three walls of one alpha in front of nothing: each covers its share of what the others leave. */
+static void check_layers(float alpha, int32_t samples)
+{
+    uint32_t n[8];
+    const float alphas[3] = {alpha, alpha, alpha};
+    walls_of(alphas, 3);
+    count_ids(n, samples, LMB_BLEND);
+    const double left = n[0] / ((double)samples * SIDE * SIDE), open = 1.0 - (double)alpha;
+    CHECK_MSG(fabs(left - open * open * open) <= 0.02, "%d samples of %g: %g is left", (int)samples, (double)alpha, left);
 }
 
 /* Of four samples of a pixel, a half shows twice. */
@@ -97,7 +114,13 @@ void test_blend(void)
     static const float alphas[] = {0.0f, 0.1f, 0.3f, 0.5f, 0.77f, 1.0f};
     uint32_t n[8];
     for (int i = 0; i < COUNT(alphas) * COUNT(alphas); ++i) {
-        check_shares(alphas[i % COUNT(alphas)], alphas[i / COUNT(alphas)], i % 3 == 0 ? 1 : i % 3 == 1 ? 4 : 16);
+        for (int32_t samples = 1; samples <= 16; samples *= 4) {
+            check_shares(alphas[i % COUNT(alphas)], alphas[i / COUNT(alphas)], samples);
+        }
+    }
+    for (int32_t samples = 1; samples <= 16; samples *= 4) {
+        check_layers(0.25f, samples);
+        check_layers(0.6f, samples);
     }
     check_strips();
     walls(0.6f, 1.0f); /* lights go by the cutoff */
