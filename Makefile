@@ -186,7 +186,7 @@ clean: ## remove everything that was built
 
 # --- rules -----------------------------------------------------------------------------------------------------------
 
-# One line per module; V=1 prints every file. Make itself prints it: a shell per object costs 3 % of a whole build.
+# One line per module; V=1 prints every file. Make prints it, because a shell per object costs 3 % of a whole build.
 say_module = $(if $(said_$(1)),,$(eval said_$(1) := 1)$(info CC $(1)))
 
 $(B)/obj/%.o: %.c $(B)/flags
@@ -516,7 +516,7 @@ examples: $(LIB) ## the programs of tests/examples compile, run and print what t
 examples-tiny: ## the same in the tiny configuration
 	+@$(MAKE) examples CONFIG=tiny
 
-own: $(LIB) $(TOOL) ## make run-NAME: programs of your own, what it prints if one is not there, main_scene.c on this machine
+own: $(LIB) $(TOOL) ## make run-NAME with your own programs, its error message, and main_scene.c on this machine
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' B='$(B)' TOOL='$(TOOL)' sh tests/scripts/own.sh
 
 tool-setup: ## that check-tools removes nothing and says what it does
@@ -573,7 +573,7 @@ pointers: ## pictures and parsers with a check of each sum of pointers, in plain
 asan-programs: ## the programs of asan and fuzz
 	+@$(MAKE) programs $(FUZZER) CHECKS="$(ASAN_WANTED)" $(SANITIZED)
 
-# TEST_CFLAGS=: at -O0 clang marks the padding of structs as unset, which tests compare by memcmp.
+# TEST_CFLAGS=: at -O0 clang marks struct padding as uninitialized, and tests compare structs with memcmp.
 # In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
 MSAN_CHECKS ?= golden hard replay hostile
 msan: ## pictures, hard cases and the corpus under the memory sanitizer
@@ -732,7 +732,7 @@ large: $(TOOL) ## ten million triangles from a file to a picture; time and memor
 	@$(IN_SH) tests/scripts/large.sh
 
 ##@ Other processors (PORT=cortex-m|riscv|cortex-a|aarch64|web builds for one)
-tiny: $(TOOL) ## the demo in 256 KiB on a Cortex-M4F (qemu), and a packed scene; the same pixels as here
+tiny: $(TOOL) ## the demo in 256 KiB and a packed scene on a Cortex-M4F (qemu): the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/tiny.sh
 
 statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pixels as here
@@ -776,8 +776,8 @@ compiles: $(LIB_OBJ)
 run-demo run-statue run-packed $(LIVE:%=run-%): run-%: $(B)/%
 	@$(RUN) $<
 
-# Programs of your own: make run-NAME. Their sources are platform/FOLDER/main_NAME.c, the port's folder first, with PACKED
-# where that has scene_words; or PROGRAM, which names all of them.
+# make run-NAME builds your own program from platform/FOLDER/main_NAME.c; the port's folder comes first. If the source
+# uses scene_words, PACKED is linked too. PROGRAM, if set, lists all sources instead.
 RUN_NAMES := demo statue packed $(LIVE)
 OWN_NAMES := $(filter-out $(RUN_NAMES),$(patsubst run-%,%,$(filter run-%,$(MAKECMDGOALS))))
 ROOM_MAIN := $(wildcard platform/demo/main_*.c)

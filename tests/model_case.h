@@ -26,7 +26,7 @@ static inline int load_file(const char *path)
     return model_load(&loaded, path, NULL, &notes, &problem);
 }
 
-/* A glTF document, as printf has it. Notes of earlier models go. */
+/* Loads a glTF document made by printf. Notes of earlier models are removed. */
 static inline int load_gltf(const char *format, ...)
 {
     static char text[1 << 16];

@@ -26,7 +26,7 @@ typedef struct own_drawn {
     int ok;
     double pairs, segments;
     metrics error; /* of one bounce; zeros without a truth */
-    double worst;  /* metrics_worst */
+    double worst;  /* from metrics_worst */
 } own_drawn;
 
 /* tests/truth/small/FILE. */

@@ -167,8 +167,8 @@ static inline double cone_power(double inner_deg, double outer_deg)
     return 2.0 * PI * (1.0 - inner + 0.5 * (inner - outer));
 }
 
-/* Power that arrives on a wide plane at distance h from a point light of 1 W/sr by its range, within the angle of that
- * cosine: 2 pi times the integral of 1 - (h / range / c)^4 over c. */
+/* Power on a wide plane at distance h from a point light of 1 W/sr with this range, within the angle of this cosine: 2
+ * pi times the integral of 1 - (h / range / c)^4 over c. */
 static inline double range_power(double h, double range, double cosine)
 {
     const double end = h / range, from = fmax(cosine, end), end4 = end * end * end * end;

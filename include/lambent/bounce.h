@@ -148,9 +148,9 @@ lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lm
 /* lmb_disc_factor: the far formula for one pair, per unit flux (1/m2); 0 where either faces away.
  * lmb_quad_factor: the near one: the exact form factor of a quad, corners centre +- u +- v, over its area. `face` is
  * the receiver's horizon, `normal` what it is lit by (the same on flat surfaces); `axis` the side that emits light. 0
- * from behind, and 0 on its plane, if the receiver is parallel to the quad. A receiver within a thousandth of the quad's
- * size of its plane that is bent by over 26 degrees, as on the edge of a room, gets the light that a thousandth above
- * the plane has. lmb_triangle_factor: the same of a triangle.
+ * from behind, and 0 in the quad's plane if the receiver is parallel to the quad. A receiver that is closer to the
+ * plane than a thousandth of the quad's size and bent by over 26 degrees, as on the edge of a room, gets the light of a
+ * point a thousandth of that size above the plane. lmb_triangle_factor: the same of a triangle.
  * lmb_polygon_factor: the form factor itself, per unit of exitance, of a convex polygon of 3 .. 8 corners,
  * counter-clockwise on the side that emits light; fewer or more: 0. */
 float lmb_disc_factor(lmb_vec3 at, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, float area);

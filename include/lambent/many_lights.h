@@ -32,7 +32,7 @@ typedef struct lmb_many_lights_source {
     lmb_vec3 position;          /* m; a sun's: unit, towards it */
     lmb_vec3 direction;         /* a spot's, as in lmb_light; else 0 */
     float cos_inner, cos_outer; /* a spot's; else 0 */
-    float range2;               /* m2: the square of its range; 0: it has none */
+    float range2;               /* m2: the range squared; 0: no range */
 } lmb_many_lights_source;
 
 typedef struct lmb_many_lights_member {
@@ -51,7 +51,7 @@ typedef struct lmb_many_lights_cell {
     float low[3], high[3]; /* m: the lights' own box */
     float axis_low[3], axis_high[3]; /* of spots' directions */
     float cos_outer;                 /* of the widest spot */
-    float range2_low, range2_high;   /* m2: of the lights' ranges; 2^60 for none */
+    float range2_low, range2_high;   /* m2: least and greatest squared range; 2^60: no range */
     lmb_many_lights_member strongest, median; /* median: one drawn at random, in proportion to intensity */
     uint32_t lights;
     uint32_t kind; /* < LMB_MANY_LIGHTS_KINDS: 0 points, 7 suns */
@@ -82,7 +82,7 @@ enum {
     LMB_MANY_LIGHTS_COSINE = 13,  /* 1: of the angle between axis and rim */
     LMB_MANY_LIGHTS_SINE = 14,
     LMB_MANY_LIGHTS_OUTER = 15, /* 1: cosine of the widest spot's own */
-    LMB_MANY_LIGHTS_RANGE = 16, /* 2: squares of the least range and of the greatest, m2 */
+    LMB_MANY_LIGHTS_RANGE = 16, /* 2: least and greatest range, squared, m2 */
     LMB_MANY_LIGHTS_PLANES = 18
 };
 
@@ -101,7 +101,7 @@ typedef struct lmb_many_lights {
     uint32_t doubled;         /* times the cell's side did: it is 8 x 2^doubled steps */
     uint32_t lights, dropped; /* lights that were added; and those refused: dark, not finite, outside the box, or with a
                                  direction, cone or range that lmb_scene_check refuses */
-    uint32_t ranged;          /* of the added ones have a range */
+    uint32_t ranged;          /* lights added that have a range */
 } lmb_many_lights;
 
 /* What a tile's cut is taken from, and how. */

@@ -72,8 +72,8 @@ lmb_status lmb_shadow_map_rows(const lmb_shadow_map *map, const lmb_kernels *ker
 
 /* lmb_light_texel_power: W per channel that a light of `intensity` sends through texel (x, y) of a face: intensity x
  * exact solid angle of the texel (directional: its area, or 0 where a finer face has it), with the spot's fall-off
- * averaged over 2x2 points; its range, which goes by where the light arrives, takes nothing here. Relative
- * error of the solid angle under 1e-6 for maps of 16 texels or more. */
+ * averaged over 2x2 points. The light's range is not applied, because it depends on the distance of the receiver.
+ * Relative error of the solid angle under 1e-6 for maps of 16 texels or more. */
 void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_shadow_map *map, int32_t face, int32_t x,
                            int32_t y);
 

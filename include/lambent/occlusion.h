@@ -75,12 +75,12 @@ typedef struct lmb_traversal {
     uint32_t first;   /* the caller's: is tested before those, as in `last` */
     uint32_t blocker; /* the triangle that blocked a pixel last, as in `last` */
     uint32_t alone;                   /* how many more tiles' segments are traced one by one */
-    int32_t eye_kind; /* LMB_EYE_: of what sees the pixels */
-    lmb_vec3 eye;     /* its place, or the direction towards it */
+    int32_t eye_kind; /* LMB_EYE_: kind of eye that sees the pixels */
+    lmb_vec3 eye;     /* position of the eye, or direction towards it */
     lmb_segments segments;
 } lmb_traversal;
-/* If the eye is known, a pixel that lies in a triangle's plane, within rounding, is on the eye's side of it, and the
- * triangle is wider by rounding, as far as its boxes are. So no light from behind a wall reaches pixels on its edge. */
+/* If the eye is known, a pixel within rounding of a triangle's plane counts as on the eye's side of the plane. The
+ * triangle is widened by rounding, within its boxes. So no light from behind a wall reaches pixels on its edge. */
 enum { LMB_EYE_NONE = 0, LMB_EYE_PLACE = 1, LMB_EYE_FAR = 2 };
 
 #ifdef __cplusplus

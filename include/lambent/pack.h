@@ -14,7 +14,8 @@
  *        1  0x01020304                       4 .. 6  0
  *        2  bytes of the file                7  FNV-1a, 32 bits, of all other bytes; 0: not told
  *                                            8  of each part: kind, offset, bytes, 0
- * No kind stands twice, parts lie behind the table and apart; unknown kinds are passed over. Records, in words; floats are binary32:
+ * No kind occurs twice. Parts follow the table and do not overlap. Unknown kinds are skipped. Records, in words; floats
+ * are binary32:
  *   SCENE      bounds_min, bounds_max; lmb_core: low, high, wide_low, wide_high, faces; then 0
  *   MESHES     vertices, triangles, position_format | uv_format << 8 | index_format << 16 | tangent_format << 24,
  *              offsets of positions, normals, tangents, uvs, colours, indices; position_scale, position_offset,
@@ -23,7 +24,7 @@
  *              emission_map, metal_map, metallic, as lmb_material has them; then 0
  *   TEXTURES   offset, width | height << 16, levels | format << 8 | wrap_s << 16 | wrap_t << 24, filter
  *   INSTANCES  to_world without its last row, by columns; mesh, material, node, 0
- *   LIGHTS     position, direction, intensity, cos_inner, cos_outer, kind, node, range, which is 0 for none; then 0
+ *   LIGHTS     position, direction, intensity, cos_inner, cos_outer, kind, node, range (0: none); then 0
  *   CAMERAS    eye, right, up, back, kind, half_width, half_height, aspect, near_m, far_m, vfov_rad, node, as lmb_view has
  *              them; aspect, near_m and far_m 0: not given; vfov_rad 0: orthographic
  *   NODES      parent, which is a node before it, or LMB_PACK_NONE; first track; tracks; 0; translation, rotation x y z w,
@@ -92,9 +93,9 @@ extern "C" {
 /* lmb_pack_open: check a .lmp and find its parts. Nothing is copied: `data` stays as long as `out` and its scenes.
  *
  * Returns LMB_OK, LMB_ERR_ARG (null), LMB_ERR_ALIGN (data not on 4 bytes), LMB_ERR_FORMAT (no .lmp of version 1, the other
- * byte order, cut off, parts that overlap, an offset, index or number that may not be). `out` is then all 0. No number of
- * a file that it takes leads outside: vertex indices are checked, too; word 7 is not, which `lambent` does. The parts
- * TRANSFER and VERTEX_LIGHT are checked by who opens them.
+ * byte order, cut off, parts that overlap, an invalid offset, index or number). `out` is then all 0. In an accepted
+ * file no number leads outside; vertex indices are checked, too. Word 7 is not checked here; the tool checks it. The
+ * parts TRANSFER and VERTEX_LIGHT are checked by the calls that open them.
  * Cost: one pass over indices and records; vertices and texels are not read. */
 lmb_status lmb_pack_open(lmb_pack *out, const void *data, size_t bytes);
 
@@ -113,10 +114,10 @@ lmb_status lmb_pack_scene(lmb_scene *out, const lmb_pack *pack, void *memory, si
  * things stand as at it. Revisions of what changed are raised, and bounds are found anew where instances did.
  *
  *   inout  as lmb_pack_scene made it: instances and lights are written where they lie in its memory
- * Returns LMB_OK; LMB_ERR_ARG (a scene of another file); LMB_ERR_SCENE: a rotation without length, or numbers past
- * binary32; what is behind that stays. Lights below a scale of 0 have the directions of their turns. Cost: the nodes
- * above each instance and light that moves, some 200 operations each; and one pass over all vertices where instances
- * moved. */
+ * Returns LMB_OK; LMB_ERR_ARG (a scene of another file); LMB_ERR_SCENE: a rotation of length 0, or numbers past
+ * binary32; instances and lights after the failing one stay as they were. A light below a scale of 0 takes its
+ * direction from the rotations. Cost: the nodes above each instance and light that moves, some 200 operations each; and
+ * one pass over all vertices if instances moved. */
 lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s);
 
 /* lmb_pack_view: what camera `camera` sees at a time, on a frame of square pixels.

@@ -82,8 +82,9 @@ extern "C" {
 /* lmb_relief_open: check a .lmr and find its parts. Nothing is copied: `data` stays as long as `out`.
  *
  * Returns LMB_OK, LMB_ERR_ARG (null), LMB_ERR_ALIGN (data not on 4 bytes), LMB_ERR_FORMAT (no .lmr of version 1, cut
- * off, the other byte order: lmb_relief_swap; a view or offset that is none, arrays that overlap), LMB_ERR_CAPACITY
- * (more views than LMB_RELIEF_VIEWS): then `out` is untouched. Every file that it takes is safe to draw: draws check each index. */
+ * off, the other byte order: lmb_relief_swap; an invalid view or offset, arrays that overlap), LMB_ERR_CAPACITY (more
+ * views than LMB_RELIEF_VIEWS): then `out` is untouched. Every accepted file is safe to draw, because draws check each
+ * index. */
 lmb_status lmb_relief_open(lmb_relief *out, const void *data, size_t bytes);
 
 /* lmb_relief_swap: turn a file of the other byte order into one of this target's, in RAM. Files of its own stay.

@@ -222,7 +222,7 @@ typedef struct lmb_render {
     uint32_t triangles;          /* of the scene */
     int32_t emits;               /* 1 where a material emits light */
     int32_t is_glossy;           /* 1 where one has a lobe, in builds with trees */
-    int32_t is_unlit;            /* 1 where one is LMB_UNLIT */
+    int32_t is_unlit;            /* 1 if a material is LMB_UNLIT */
     uint32_t skips, reuses;      /* LMB_SKIP_*, LMB_REUSE_* */
     float dimmed;                /* upper bound of the radiance missing by lights that are too dim to bounce */
     uint8_t light_state[LMB_MAX_LIGHTS]; /* LMB_LIGHT_*, bits */

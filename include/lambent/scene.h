@@ -16,9 +16,10 @@ enum { LMB_UV_F32 = 0, /* float u, v */
        LMB_UV_U16 = 1  /* uint16 u, v: uv_scale * v / 65535 */ };
 enum { LMB_INDEX_NONE = 0, /* vertices in order, three a triangle */
        LMB_INDEX_U16 = 1, LMB_INDEX_U32 = 2 };
-enum { LMB_TANGENT_BY_UV = 0, /* a normal map's other axis goes towards smaller v of the triangle */
-       LMB_TANGENT_SIDED = 1  /* normal x tangent where the first number is odd, its opposite where even (glTF's w = 1
-                                 and -1); corners that differ mix. Texture coordinates count for the lookup only */ };
+enum { LMB_TANGENT_BY_UV = 0, /* a normal map's second axis points towards smaller v of the triangle */
+       LMB_TANGENT_SIDED = 1  /* the second axis is normal x tangent if the tangent's first number is odd (glTF's
+                                 w = 1), the opposite if it is even (w = -1). It is interpolated if corners differ.
+                                 Texture coordinates are used only for the lookup */ };
 
 typedef struct lmb_mesh {
     const void *positions;
@@ -59,8 +60,8 @@ typedef struct lmb_texture {
 
 enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's view (never in a light's) */
        LMB_ALPHA_MASK = 2,   /* holes where alpha < alpha_cutoff: takes the masked path */
-       LMB_UNLIT = 8,        /* a frame's camera sees the diffuse albedo itself as its radiance, whatever light there
-                                is, without lobe and emission; for other surfaces it is as any */
+       LMB_UNLIT = 8,        /* a frame's camera sees the diffuse albedo as radiance, independent of light and without
+                                lobe and emission; other surfaces see the material as if this were not set */
        LMB_ALPHA_BLEND = 4   /* with LMB_ALPHA_MASK: a camera sees it in alpha's share of a pixel's samples, and what is
                                 behind it in the others, by an ordered pattern of 8 x 8 pixels; 64 levels without
                                 samples. Light goes by alpha_cutoff. Not in builds without LMB_MULTISAMPLE */ };
@@ -107,8 +108,8 @@ enum { LMB_LIGHT_POINT = 0, LMB_LIGHT_SPOT = 1, LMB_LIGHT_DIRECTIONAL = 2 };
 
 /* A light without area. Spot: full inside the inner cone, zero outside the outer one, smoothstep of the cosine
  * between. `direction` is the way the light travels, unit length.
- * A point or spot with a range gives max(1 - (d / range)^4, 0) of its light at the distance d, as viewers draw
- * KHR_lights_punctual; suns have none. */
+ * If a point or spot light has a range, its light at the distance d is multiplied by max(1 - (d / range)^4, 0), as
+ * viewers draw KHR_lights_punctual. Directional lights have no range. */
 typedef struct lmb_light {
     lmb_vec3 position;
     lmb_vec3 direction;
@@ -116,7 +117,7 @@ typedef struct lmb_light {
     float cos_inner, cos_outer;
     int32_t kind;
     uint32_t revision; /* raise when the light at this index of scene->lights changes */
-    float range;       /* m; 0, or 2^30 and more: it never ends */
+    float range;       /* m; 0, or 2^30 and more: unlimited */
 } lmb_light;
 
 /* The part of a scene that has its fine detail, m: the house on a terrain, the room in a scene with a stray triangle a
@@ -183,9 +184,9 @@ size_t lmb_texture_format_bytes(int32_t format, int32_t width, int32_t height, i
 /* lmb_texture_level_count: levels down to 1x1. */
 int32_t lmb_texture_level_count(int32_t width, int32_t height);
 
-/* lmb_texture_mips: fill levels 1.. from level 0. Each texel is the mean of the area that it covers, in linear light and
- * weighted by alpha; odd sides too, where it covers parts of three texels. `texels` holds lmb_texture_bytes. Returns LMB_OK
- * or LMB_ERR_ARG. */
+/* lmb_texture_mips: fill levels 1.. from level 0. Each texel is the mean of the area that it covers, in linear light
+ * and weighted by alpha. If a side is odd, each texel covers parts of three texels. `texels` holds lmb_texture_bytes.
+ * Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_texture_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels);
 
 /* lmb_normal_map_mips: the same by plain means of the codes. LMB_OK or LMB_ERR_ARG. */

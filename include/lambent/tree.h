@@ -107,8 +107,8 @@ typedef struct lmb_cut_params {
     int32_t spread;               /* 1: the pixels lie apart: what is all behind a pixel is not tested, and what one
                                      triangle hides from all of them is not divided. It changes what is divided */
     lmb_glossy *glossy;           /* the tile's lobes, to which their reflection of the nodes is added; NULL: none */
-    const lmb_view *view;         /* that the pixels are seen by: if a pixel lies in a wall's plane, within rounding, it is
-                                     on the side of the view's eye. NULL: such a pixel gets no light from that wall */
+    const lmb_view *view;         /* sees the pixels; a pixel within rounding of a wall's plane counts as on the eye's
+                                     side. NULL: such a pixel gets no light from that wall */
 } lmb_cut_params;
 
 #ifdef __cplusplus

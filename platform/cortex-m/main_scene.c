@@ -1,8 +1,8 @@
-/* main_scene.c: a scene of yours that `lambent pack OUT.c --name scene_words` wrote, in place in ROM, 160x120 in RGB565
- * with bounced light by fixed groups: the settings of that row in the table of platform/README.md. No heap.
+/* main_scene.c: draws your packed scene (`lambent pack OUT.c --name scene_words`) from ROM, 160x120 in RGB565 with
+ * bounced light from fixed groups: the settings of that row in the table of platform/README.md. No heap.
  *
- * Prints the frame's memory as that table counts it, all that was taken of MEMORY_KIB, the picture's hash, which is the
- * same on a host, and the RAM. If the scene does not fit, it prints why. */
+ * Prints the frame's memory as that table counts it, the used part of MEMORY_KIB, the picture's hash and the RAM. The
+ * hash is the same on a host. If the scene does not fit, the program prints why. */
 #include <lambent/lambent.h>
 
 #include "../port_say.h"
@@ -11,7 +11,7 @@ extern const uint32_t scene_words[];
 extern const size_t scene_words_bytes;
 
 #ifndef MEMORY_KIB
-#define MEMORY_KIB 384 /* of the scene's structs and the frame; one spot light takes 371 of the frame */
+#define MEMORY_KIB 384 /* for the scene's structs and the frame; a frame with one spot light takes 371 */
 #endif
 enum { WIDTH = 160, HEIGHT = 120 };
 

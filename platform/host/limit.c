@@ -1,5 +1,5 @@
-/* limit.c: a limit of the time that the program may take: a thread that waits, as only this works within a long call on
- * every system: Windows has no alarm, and a signal might come while a file stands under no name yet. */
+/* limit.c: limits the time that the program may take. A thread waits for the limit, because only a thread works during
+ * a long call on every system: Windows has no alarm, and a signal might arrive while a file has no name yet. */
 #if defined(_WIN32)
 #undef _WIN32_WINNT
 #define _WIN32_WINNT 0x0600 /* SRWLOCK: Windows Vista */
@@ -12,7 +12,7 @@
 
 #include "host.h"
 
-#define LONGEST_S 60.0 /* a signal may end a sleep, and none is longer */
+#define LONGEST_S 60.0 /* longest single sleep; a signal may end it early */
 
 static struct limit {
     double until; /* s */

@@ -1,19 +1,19 @@
-/* limit.h: a limit of the time that the program may take. */
+/* limit.h: limits the time that the program may take. */
 #ifndef LIMIT_H
 #define LIMIT_H
 
-/* limit_time: after so many seconds a thread of its own calls `over`, and the program ends with status 1, whatever its
- * other threads do. Returns 1, or 0 where the system gives no thread. A second call changes nothing. */
+/* limit_time: after `seconds` a separate thread calls `over` and ends the program with status 1, whatever other threads
+ * do. Returns 1, or 0 if the system starts no thread. A second call changes nothing. */
 int limit_time(double seconds, void (*over)(void));
 
-/* limit_hold: while it is held the limit waits: for what is to be done whole. Short: a file that is made, written and
- * renamed. Not within another one. */
+/* limit_hold: while it is held, the limit does not end the program. Hold it briefly, for work that must not be
+ * interrupted, such as creating, writing and renaming a file. Do not nest holds. */
 void limit_hold(int is_held);
 
-/* limit_end: the program has done its work: it ends by itself from here on. */
+/* limit_end: the program has done its work; from here on the limit no longer ends it. */
 void limit_end(void);
 
-/* limit_tell: a line on stderr, past the buffers that other threads may hold. */
+/* limit_tell: writes a line to stderr without the buffers that other threads may hold. */
 void limit_tell(const char *line);
 
 #endif

@@ -1,7 +1,8 @@
-/* halve.h: which texels a texel of the next level covers. Layer 1.
+/* halve.h: finds the texels that a texel of the next mip level covers. Layer 1.
  *
- * A side of n texels becomes n / 2, rounded down, and 1 stays 1. If n = 2 m + 1 is odd, texel i covers n / m texels from
- * i n / m on: parts of three. Every texel of the finer level so has the same part in the coarser one. */
+ * A side of n texels becomes n / 2, rounded down; a side of 1 stays 1. If n = 2 m + 1 is odd, texel i covers n / m
+ * texels from i n / m on, which are parts of three texels. So every texel of the finer level has the same weight in the
+ * coarser level. */
 #ifndef LMB_HALVE_H
 #define LMB_HALVE_H
 
@@ -9,7 +10,7 @@
 
 enum { HALVE_MOST = 3 };
 
-/* Texels of one axis from `first` on, and the part of each in units of 1 / whole. */
+/* Texels of one axis from `first` on, and the weight of each in units of 1 / whole. */
 typedef struct {
     int32_t first, count, whole, part[HALVE_MOST];
 } halve_taps;

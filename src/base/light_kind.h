@@ -1,4 +1,4 @@
-/* light_kind.h: which kinds of light have a place, a direction, a cone; and where their light ends. Layer 1. */
+/* light_kind.h: kinds of light that have a place, a direction or a cone; ranges of lights. Layer 1. */
 #ifndef LMB_BASE_LIGHT_KIND_H
 #define LMB_BASE_LIGHT_KIND_H
 
@@ -31,22 +31,22 @@ static inline int light_shape_is_valid(const lmb_light *l)
            (l->cos_outer > 0.0f && l->cos_inner >= l->cos_outer && l->cos_inner <= 1.0f);
 }
 
-/* The square of its range, 2^-80 .. 2^60 m2; 0: its light never ends, as in small builds (LMB_TREES 0). */
+/* The light's range squared, 2^-80 .. 2^60 m2; 0: no range, as always in small builds (LMB_TREES 0). */
 static inline float light_range2(const lmb_light *l)
 {
     return LMB_TREES && light_kind_is(l->kind, LIGHT_PLACED) && l->range > 0.0f && l->range < 0x1p+30f
                ? maxf(l->range * l->range, 0x1p-80f) : 0.0f;
 }
 
-/* What its range leaves of its light at a squared distance: 1 - (d / range)^4, exactly 0 from d = range on. Under 2^-40
- * of range2 a distance makes no difference, and would make denormals. */
+/* Factor of a light's range at a squared distance: 1 - (d / range)^4, exactly 0 from d = range on. Squared distances
+ * under 2^-40 of range2 are raised to that, because they change nothing and would make denormals. */
 static inline float light_within(float d2, float range2)
 {
     const float t = range2 > 0.0f ? minf(maxf(d2, range2 * 0x1p-40f) / range2, 1.0f) : 0.0f;
     return 1.0f - t * t;
 }
 
-/* The same of a light at a place. */
+/* The same factor for a light and a position. */
 static inline float light_within_at(const lmb_light *l, lmb_vec3 at)
 {
     const lmb_vec3 to = sub3(l->position, at);

@@ -4,7 +4,7 @@
 
 #include <lambent/types.h>
 
-/* A sum of bytes in 64 bits as a size; 0: more than this target can address. */
+/* A 64-bit sum of bytes as a size_t; 0 if this target cannot address so many. */
 static inline size_t size_or_none(uint64_t bytes) { return bytes <= SIZE_MAX ? (size_t)bytes : 0; }
 
 /* For arrays of 32-bit numbers. needed 0: more than this target can address. */

@@ -41,7 +41,7 @@ size_t lmb_texture_format_bytes(int32_t format, int32_t width, int32_t height, i
     return nibbles;
 }
 
-/* The texels that one of the next level covers, with its part in each. */
+/* The texels that one texel of the next level covers, with the weight of each. */
 typedef struct {
     const uint8_t *from;
     size_t row; /* bytes */
@@ -58,7 +58,7 @@ static const uint8_t *box_texel(const box *b, int32_t i, int32_t j) { return b->
 
 static int32_t box_part(const box *b, int32_t i, int32_t j) { return b->x.part[i] * b->y.part[j]; }
 
-/* The rounded mean of one channel's codes. Whole numbers: at most 8191 * 8191 * 255. */
+/* The rounded mean of one channel's codes, in integers of at most 8191 * 8191 * 255. */
 static uint8_t mean_code(const box *b, int channel)
 {
     const int64_t whole = (int64_t)b->x.whole * b->y.whole;
@@ -88,7 +88,7 @@ static void mean_colour(uint8_t out[4], const box *b)
     out[3] = mean_code(b, 3);
 }
 
-/* Codes as they are, rounded: a lookup makes the vector unit length. */
+/* The rounded mean of the codes; a lookup makes the vector unit length. */
 static void mean_vector(uint8_t out[4], const box *b)
 {
     for (int k = 0; k < 4; ++k)

@@ -117,8 +117,9 @@ static inline int is_mirrored(const lmb_mat4 *t)
     return dot3(cross3(vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6])), vec3(m[8], m[9], m[10])) < 0.0f;
 }
 
-/* A place that a view sees, moved in front of a plane if it lies in the plane by less than `noise`, m, and the eye is in
- * front of it: nothing else lets the eye see the place. So a pixel on the edge of a room keeps the other wall's light. */
+/* A position that a view sees. If it is within `noise` (m) of a plane and the eye is in front of the plane, the
+ * position is moved in front, because otherwise the eye could not see it. So a pixel on the edge of a room keeps the
+ * other wall's light. */
 static inline lmb_vec3 before_plane(lmb_vec3 at, float noise, lmb_vec3 on_plane, lmb_vec3 axis, lmb_vec3 to_eye)
 {
     const float height = dot3(axis, sub3(at, on_plane));

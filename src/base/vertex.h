@@ -51,7 +51,7 @@ static inline lmb_vec3 mesh_tangent(const lmb_mesh *m, uint32_t vertex)
     return lmb_octahedral_decode(m->tangents + (size_t)vertex * 2);
 }
 
-/* Of LMB_TANGENT_SIDED: 1 where the other axis is normal x tangent, -1 where it is the opposite. */
+/* For LMB_TANGENT_SIDED: 1 if the second axis is normal x tangent, -1 if it is the opposite. */
 static inline float mesh_tangent_side(const lmb_mesh *m, uint32_t vertex)
 {
     return (m->tangents[(size_t)vertex * 2] & 1) != 0 ? 1.0f : -1.0f;

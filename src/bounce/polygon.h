@@ -1,4 +1,4 @@
-/* polygon.h: what the form factors of polygons are made of. Layer 6. */
+/* polygon.h: helpers of the form factors of polygons. Layer 6. */
 #ifndef POLYGON_H
 #define POLYGON_H
 
@@ -6,15 +6,15 @@
 #include "../base/vec.h"
 
 enum { POLYGON_CORNERS = LMB_TREES ? 8 : 4 };
-#define POLYGON_FLAT 1e-3f /* of the half sides: a point this close to a polygon's plane is in it */
-#define POLYGON_BENT 0.9f  /* cosine of 26 degrees: the next facet of a curve is bent less than that */
+#define POLYGON_FLAT 1e-3f /* of the half sides: a point closer to a polygon's plane counts as in the plane */
+#define POLYGON_BENT 0.9f  /* cosine of 26 degrees: neighbouring facets of a curved surface are bent by less */
 
-/* How far a polygon is moved back from a point that is closer than `min_height` to the plane, m; below 0: no light.
+/* Distance (m) by which a polygon is moved back from a point closer to its plane than `min_height`; below 0: no light.
  *
- * A surface that is parallel to the polygon lies in its plane, on either side, and rounding must not lift it out: the
- * form factor would jump to 1. Nor may rounding do that if the polygon's middle is below the point's horizon, as beyond
- * a convex edge. A point on a concave edge gets the light that a point `min_height` above the plane gets;
- * none in small builds, which save the code. */
+ * A surface that is parallel to the polygon lies in the polygon's plane. Rounding must not lift it out on either side,
+ * because the form factor would jump to 1. The same holds if the polygon's middle is below the point's horizon, as
+ * beyond a convex edge. A point on a concave edge gets the light of a point `min_height` above the plane. Small builds
+ * give it no light, to save code. */
 static inline float polygon_back(float height, float min_height, lmb_vec3 face, lmb_vec3 axis, lmb_vec3 middle)
 {
     if (height > min_height) {
@@ -24,7 +24,8 @@ static inline float polygon_back(float height, float min_height, lmb_vec3 face, 
                                                                                                : -1.0f;
 }
 
-/* Corners relative to a point that is at least `min_height` above their plane; 0: the point gets no light. */
+/* Corners relative to the point, moved back until it is at least `min_height` above their plane. Returns 0 if the point
+ * gets no light. */
 static inline int polygon_corners(lmb_vec3 *out, lmb_vec3 at, lmb_vec3 face, const lmb_vec3 *corner, int corners, float min_height,
                         lmb_vec3 axis)
 {
@@ -41,7 +42,7 @@ static inline int polygon_corners(lmb_vec3 *out, lmb_vec3 at, lmb_vec3 face, con
 }
 
 
-/* Keep what lies above the horizon, n . v >= 0: at most one corner more. */
+/* Keep the part above the horizon, n . v >= 0. It has at most one corner more. */
 static inline int polygon_clip(lmb_vec3 out[POLYGON_CORNERS + 1], const lmb_vec3 *corner, int corners, lmb_vec3 n)
 {
     int count = 0;
@@ -58,8 +59,8 @@ static inline int polygon_clip(lmb_vec3 out[POLYGON_CORNERS + 1], const lmb_vec3
     return count;
 }
 
-/* polygon_vector: the form factor of a triangle along each axis, with its sign: that along any direction is the dot
- * product. Corners go round `axis`, its normal; clipped to the horizon of `face`. */
+/* polygon_vector: the signed form factor of a triangle along each axis. The form factor along any direction is the dot
+ * product with it. Corners go round `axis`, the triangle's normal. The triangle is clipped to the horizon of `face`. */
 static inline lmb_vec3 polygon_vector(lmb_vec3 at, lmb_vec3 face, const lmb_vec3 triangle[3], lmb_vec3 axis)
 {
     lmb_vec3 own[3], corner[POLYGON_CORNERS + 1], sum = vec3(0.0f, 0.0f, 0.0f);

@@ -35,7 +35,7 @@ lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_s
     return status;
 }
 
-/* Materials that show their albedo instead of light. */
+/* Pixels of LMB_UNLIT materials show the albedo instead of light. */
 static void show_unlit(lmb_radiance *inout, const lmb_scene *scene, const lmb_tile *tile)
 {
     const lmb_material *m = NULL;

@@ -2,8 +2,7 @@
  *
  *   no lobe, no emission   of materials that no triangle has
  *   a light of 0 W         lights nothing: every product with its intensity is 0; adding 0 changes no sum
- *   a light whose range    likewise: the box of the scene begins behind it
- *   ends before all
+ *   a light out of reach   likewise: its range ends before the box of the scene
  *   a face of a map        whose pyramid the scene's box does not meet: no triangle would be drawn into it, so it has
  *                          no first points, and no shadow falls where a map names no triangle
  *   bounced light          where no light meets a triangle, or all reflect 0: the first points' flux is 0
@@ -79,8 +78,8 @@ static void skip_faces(lmb_shadow_map *map, const lmb_scene *s)
     }
 }
 
-/* Does the light's range end before the scene's box? By a thousandth: pixels may lie outside by what rounding moved
- * them. */
+/* Does the light's range end before the scene's box? The margin is a thousandth, because rounding may move pixels out
+ * of the box. */
 static int ends_before(const lmb_light *l, const lmb_scene *s)
 {
     const lmb_vec3 low = sub3(s->bounds_min, l->position), high = sub3(l->position, s->bounds_max);

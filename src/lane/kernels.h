@@ -252,7 +252,7 @@ typedef struct lmb_march_job {
     int32_t kind, steps, perspective;
 } lmb_march_job;
 
-/* A triangle as a point `at` sees it: a segment from there along d crosses it where every edge . d >= -slack and
+/* A triangle as seen from the point `at`: a segment from there along d crosses it if every edge . d >= -slack and
  * normal . d > beyond. */
 typedef struct lmb_cross_job {
     lmb_vec3 at, edge[3], normal;

@@ -8,7 +8,7 @@ static inline lane direct_falloff(const lmb_direct_job *job, lane cosine)
     return lane_mul(lane_mul(t, t), lane_sub(lane_splat(3.0f), lane_mul(lane_splat(2.0f), t)));
 }
 
-/* light_within. */
+/* light_within for a lane. */
 static inline lane direct_within(lane d2, lane range2)
 {
     const lane one = lane_splat(1.0f);

@@ -23,8 +23,8 @@
 #define BENT       0.98f /* agreement of normals under which it is tested which children face the pixels */
 #define HOLDS      100.0 /* factor over the allowed error that tells of nodes with pixels inside: fewer pixels help */
 #define WIDER      1.001f /* of a box against what lies in it, for rounding */
-#define STAND_OFF  4.0f  /* of the noise */
-#define LARGE_NOISE 1.5258789e-5f /* 2^-16 of the distance: from the origin 64 times as far as from the eye */
+#define STAND_OFF  4.0f  /* times the noise: by so much a texel's point is moved towards its light */
+#define LARGE_NOISE 1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
 #define CLOSER     0.7   /* a half that reduces the error to this share is worth its cut */
 enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
@@ -40,7 +40,7 @@ typedef struct cutter {
     const lmb_cut_params *cut_params;
     const lmb_pixel_cluster *p;
     float noise;         /* m: lmb_tile_noise of the pixel cluster */
-    const lmb_view *view; /* tells sides of planes within the noise; NULL: not known, or the noise is too large for that */
+    const lmb_view *view; /* decides sides of planes within the noise; NULL: unknown, or the noise is too large */
     uint64_t in_hull;    /* pixels of the cluster in a convex room: nothing stands between them and others in it */
     float per_pixel;     /* 1 / pixels of the cluster */
     int lobe;            /* a pixel whose lobe stands for the pixel cluster's; NONE: they have none */
@@ -235,7 +235,7 @@ static lmb_vec3 to_eye(const lmb_view *v, lmb_vec3 at)
     return v->kind == LMB_PERSPECTIVE ? sub3(v->eye, at) : v->back;
 }
 
-/* before_plane, as a question about all pixels that lie in the plane. */
+/* Would before_plane move the pixels that lie in the plane? */
 static int eye_is_before(const cutter *c, lmb_vec3 at, lmb_vec3 normal)
 {
     return c->view != NULL && dot3(normal, to_eye(c->view, at)) > 0.0f;
@@ -327,8 +327,8 @@ static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
     return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
 }
 
-/* A texel's point, moved towards its light out of all planes that it lies in by rounding: it is on the side of them that
- * the light is on. An element's lies inside its own triangle. */
+/* A texel's point, moved towards its light, out of all planes that it lies in by rounding; it belongs on the light's
+ * side of them. An element's point lies inside its own triangle and is not moved. */
 static lmb_vec3 before_walls(const cutter *c, uint32_t face, lmb_vec3 at, float noise)
 {
     if (c->tree->element != NULL || c->view == NULL) {

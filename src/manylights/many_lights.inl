@@ -43,13 +43,14 @@ static inline lane many_cone_share(const lmb_many_lights *many_lights, uint32_t 
     return lane_keep(lane_lt(reach, along), lane_max(share, lane_splat(0x1p-20f)));
 }
 
-/* Sums of bounds may be SUM_OF_BOUNDS times the error that is asked for, as places err by far less than theirs. Ranges,
- * of which two stand for all, do not. */
+/* The sum of bounds may be SUM_OF_BOUNDS times the allowed error, because positions err by far less than their bounds.
+ * Ranges do not, because two of them represent all. */
 #define MANY_RANGES 16.0f
 
-/* What ranges leave of a node's light, where any light of the tree has one: the most of it, from the boxes' distance by
- * the greatest range, and *min_left, from their farthest points by the least one. All of the node's lights lie between,
- * at all pixels, and so does what stands for them. */
+/* Bounds of the factor by which ranges reduce a node's light, if any light of the tree has a range. Returns the upper
+ * bound, from the boxes' distance and the greatest range. *min_left is the lower bound, from the boxes' farthest points
+ * and the least range. The factors of all of the node's lights at all pixels lie between these bounds, and so do those
+ * of the lights that represent them. */
 static inline lane many_range_share(lane *min_left, const lmb_many_lights *many_lights, uint32_t at, lane gap2,
                                     lane3 between, lane3 halves)
 {
@@ -76,7 +77,7 @@ static void KERNEL(many_places)(float error[16], float light[16], float inside[1
         const lane gap2 = lane3_dot(gap, gap), d2 = lane_max(gap2, min), own2 = lane3_dot(own, own);
         const lane rise = lane_add(lane3_dot(n, between), lane3_dot(lane3_abs(n), halves));
         const lane cosine = lane_min(lane_add(many_cosine(lane_div(rise, lane_sqrt(d2))), bend), one);
-        lane min_left = one, max_left = one; /* of the light, by ranges */
+        lane min_left = one, max_left = one; /* bounds of the factor of ranges */
         if (many_lights->ranged > 0) {
             max_left = many_range_share(&min_left, many_lights, at, gap2, between, halves);
         }
@@ -177,7 +178,8 @@ static inline lane many_light(lane3 at, lane3 n, lane3 face, const lmb_active_li
                : many_factor(at, n, face, active);
 }
 
-/* What a range leaves, from the mean position: there the first order of how it differs between the lights is gone. */
+/* Factor of a range, from the lights' mean position, because the first-order differences between the lights cancel
+ * there. */
 static inline lane many_in_range(lane3 at, const lmb_active_light *active, float range2)
 {
     const lane3 to = lane3_sub(lane3_of(active->position), at);

@@ -4,7 +4,7 @@
 
 #include <lambent/many_lights.h>
 
-#define LMB_MANY_LIGHTS_ENDLESS2 0x1p+60f /* m2: stands for the range of lights without one */
+#define LMB_MANY_LIGHTS_ENDLESS2 0x1p+60f /* m2: squared range of lights that have none */
 #define LMB_MANY_LIGHTS_SUNS (LMB_MANY_LIGHTS_KINDS - 1u) /* lmb_many_lights_cell.kind */
 
 /* What positions of a kind are counted in: suns' are directions, -1 .. 1. */

@@ -28,7 +28,7 @@ static inline float texel_flux(float intensity, float power)
     return w < FLUX_FLOOR ? 0.0f : w;
 }
 
-/* What of that power arrives at a surface that is there, by the light's range. */
+/* Reduces a texel's power by the light's range, at the position of a surface. */
 static inline void light_end_power(float power[3], const lmb_light *light, lmb_vec3 at)
 {
     const float left = light_within_at(light, at);

@@ -117,11 +117,11 @@ static int fetch(lmb_triangle *out, const lmb_instance **instance, const lmb_sce
     return *instance != NULL && triangle_of(out, scene, *instance, id);
 }
 
-/* Texels that one triangle may read to find out whether it is all hole, and all of them together. */
+/* Most texels read to find out whether triangles are entirely holes: for one triangle, and for all of them together. */
 #define TEXELS     65536u
 #define ALL_TEXELS (1u << 26)
 
-/* A triangle that is all hole blocks nothing. */
+/* Is the triangle entirely a hole? Then it blocks nothing. */
 NOINLINE int is_hole(const lmb_triangle *t, const lmb_scene *scene, uint32_t *texels)
 {
     lmb_resolve_alpha alpha;

@@ -20,7 +20,7 @@
 #endif
 #define ALONE      15u   /* points after such a one whose segments are traced alone at once */
 #define MUCH       16     /* a triangle that blocks so many pixels is tested first for the next segments */
-#define MISSES     2      /* triangles that blocked one pixel alone, after which none is tested for the others */
+#define MISSES     2      /* after so many triangles that blocked only one pixel, none is tested for the others */
 #define THIN       1e-20f /* m: a pyramid is never thinner */
 
 static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
@@ -64,7 +64,8 @@ static inline lmb_vec3 edge_plane(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge)
     return cross3(add3(b, c), edge);
 }
 
-/* A triangle as the point sees it; noise: of both ends. 0 if the point lies in its plane. kept: knows the eye; or NULL. */
+/* A triangle as seen from the point. noise: of both ends; kept: has the eye, or NULL. Returns 0 if the point lies in
+ * the triangle's plane. */
 static int cross_job(lmb_cross_job *out, const lmb_bvh_triangle *t, lmb_vec3 at, float noise, float min,
                      const lmb_traversal *kept)
 {
@@ -280,7 +281,7 @@ static ray ray_of(const lmb_tile *tile, int k, lmb_vec3 at)
     return r;
 }
 
-/* The same as `crossed`, to the bit. */
+/* The same result as the kernel `crossed`, bit for bit. */
 static int crosses(const lmb_cross_job *job, lmb_vec3 d)
 {
     const float min = minf(minf(dot3(job->edge[0], d), dot3(job->edge[1], d)), dot3(job->edge[2], d));
@@ -393,7 +394,7 @@ uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, cons
         occluded |= now & ~w.left;
         bits &= ~now;
         boxes = kept->asked - before;
-        if (w.left == 0 && bits != 0 && misses < MISSES) { /* what blocks one pixel, as a wall does, often blocks more */
+        if (w.left == 0 && bits != 0 && misses < MISSES) { /* a triangle that blocks one pixel often blocks more */
             w.left = bits;
             test_triangle(&w, kept->blocker - 1, bits);
             misses += w.left == bits;

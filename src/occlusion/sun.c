@@ -13,7 +13,7 @@
 #define FEW   7              /* up to so many pixels are traced alone, as in occluded.c */
 #define WIDE  8u             /* boxes a pixel after which a sweep is given up: each pixel alone meets fewer */
 #define ALONE 15u            /* directions after such a one in which pixels are traced alone at once */
-#define MISSES 2             /* triangles that blocked one pixel alone, after which none is tested for the others */
+#define MISSES 2             /* after so many triangles that blocked only one pixel, none is tested for the others */
 #define ALONG 9.5367432e-7f  /* 2^-20: cosine under which rays run along a triangle, and it blocks none */
 #define THIN  1e-20f
 #define TRIANGLE_NOISE 0x1p-21f /* of how far its corners are */
@@ -26,7 +26,7 @@ typedef struct sun_traversal {
     lmb_traversal *kept;
     float noise;   /* m: how far rounding may have left the pixels off their surfaces */
     uint64_t left;    /* pixels that nothing blocked yet */
-    uint32_t blocker; /* the triangle that blocked one last, + 1 */
+    uint32_t blocker; /* number of the last triangle that blocked a pixel, + 1 */
 } sun_traversal;
 
 /* 2^-22 of their coordinates and 2^-20 of how far the ray that found them came. */
@@ -175,8 +175,8 @@ typedef struct sun_branch {
     uint32_t node, boxes;
 } sun_branch;
 
-/* Test the leaves that the sweep meets; the children that it meets. Leaves first: what is large, as walls are, lies in
- * those near the root, and often blocks all. */
+/* Tests the leaves that the sweep meets and returns the children that it meets. Leaves come first: those near the root
+ * have large triangles, such as walls, which often block all pixels. */
 static uint32_t sun_node(sun_traversal *w, const lmb_sun_sweep *sweep, const lmb_boxes *node)
 {
     uint32_t children = 0;
@@ -218,7 +218,8 @@ static int sun_descend(sun_traversal *w, uint32_t limit)
     }
 }
 
-/* What blocks one pixel, as a wall does, often blocks more: those of `bits` that it does not. */
+/* Returns the pixels of `bits` that the last blocker does not block. A triangle that blocks one pixel, such as a wall,
+ * often blocks more. */
 static uint64_t without_blocked(sun_traversal *w, uint64_t bits)
 {
     w->left = bits;

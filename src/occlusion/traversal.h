@@ -36,7 +36,8 @@ int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_
 #define LMB_BOX_SIZE  3.8146973e-6f /* 2^-18 */
 #define LMB_BOX_PLACE 9.5367432e-7f /* 2^-20 */
 
-/* Is the eye on the other side of a plane than a point that is `ahead` of the plane, m, along the normal? */
+/* Are the eye and a point on different sides of a plane? `ahead`: height of the point over the plane along the normal,
+ * m. */
 static inline int eye_is_across(const lmb_traversal *t, lmb_vec3 normal, lmb_vec3 on_plane, float ahead)
 {
     const float eye = t->eye_kind == LMB_EYE_PLACE ? dot3(normal, sub3(t->eye, on_plane))
@@ -45,7 +46,7 @@ static inline int eye_is_across(const lmb_traversal *t, lmb_vec3 normal, lmb_vec
     return ahead > 0.0f ? eye < 0.0f : eye > 0.0f;
 }
 
-/* By how much a triangle may be wider than it is, m: half of what its boxes reach past it, so that none is missed. */
+/* Distance (m) by which a triangle may be widened: half of the margin of its boxes, so that none is missed. */
 static inline float triangle_margin(const lmb_bvh_triangle *t)
 {
     const lmb_vec3 low = min3(min3(t->corner[0], t->corner[1]), t->corner[2]),

@@ -125,7 +125,7 @@ static int compose(lmb_mat4 *out, const float t[3], const float q[4], const floa
 
 static lmb_vec3 column(const lmb_mat4 *m, int c) { return vec3(m->m[4 * c], m->m[4 * c + 1], m->m[4 * c + 2]); }
 
-/* To unit length; 0 where it has none. */
+/* To unit length; returns 0 if the vector has none. */
 static int to_unit(lmb_vec3 *v)
 {
     const float longest = largest3(*v);
@@ -136,9 +136,9 @@ static int to_unit(lmb_vec3 *v)
     return 1;
 }
 
-#define FLAT 1e-6f /* of the longest column: a shorter one is what rounding left of a scale of 0 */
+#define FLAT 1e-6f /* of the longest column: a shorter column is a scale of 0 after rounding */
 
-/* Column c to unit length; 0 where it has none. */
+/* Column c to unit length; returns 0 if the column has none. */
 static int direction_of(lmb_vec3 *out, const lmb_mat4 *m, int c)
 {
     float longest = 0.0f, own = 0.0f;
@@ -150,7 +150,7 @@ static int direction_of(lmb_vec3 *out, const lmb_mat4 *m, int c)
     return own > FLAT * longest && to_unit(out);
 }
 
-/* Columns to unit length; one without any becomes square to the others, or an axis. */
+/* Columns to unit length. A column without length becomes perpendicular to the others, or an axis. */
 static void unscale(lmb_mat4 *inout)
 {
     lmb_vec3 own[3];
@@ -171,7 +171,7 @@ static void unscale(lmb_mat4 *inout)
     }
 }
 
-/* A node's way to its parent; without its scale where it is only to turn. */
+/* A node's transform to its parent, without scale if `turns`. */
 static int local(lmb_mat4 *out, const lmb_pack *p, const uint32_t *node, float time_s, int turns)
 {
     float v[3][4]; /* translation, rotation, scale */
@@ -207,7 +207,7 @@ static void put_above(lmb_mat4 *inout, const lmb_mat4 *a)
     }
 }
 
-/* A node's way to the world, or its turns alone: 0 where that leads nowhere. */
+/* A node's transform to the world, or only its rotations if `turns`. Returns 0 if that leads nowhere. */
 static int way_of(lmb_mat4 *out, const lmb_pack *p, uint32_t node, float time_s, int turns)
 {
     const uint32_t *w = lmb_pack_record(p, LMB_PACK_NODES, node);
@@ -242,8 +242,8 @@ int lmb_pack_place_instance(lmb_instance *inout, const lmb_pack *p, uint32_t i, 
     return node == LMB_PACK_NONE || way_of(&inout->to_world, p, node, time_s, 0);
 }
 
-/* It points along the node's -Z, and where a scale of 0 leaves nothing of that, by the turns; a point light has no use
- * for a direction. */
+/* A light points along the node's -Z. If a scale of 0 leaves no length there, the direction comes from the rotations. A
+ * point light does not use a direction. */
 int lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i, float time_s)
 {
     const uint32_t node = lmb_pack_node_of(p, LMB_PACK_LIGHTS, i);
@@ -264,7 +264,7 @@ int lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i, float 
     return 1;
 }
 
-/* 0 where the matrix has no such axes. */
+/* Returns 0 if the matrix has no such axes. */
 static int axes_of(lmb_vec3 *right, lmb_vec3 *up, lmb_vec3 *back, const lmb_mat4 *m)
 {
     if (!direction_of(back, m, 2) || !direction_of(up, m, 1)) {

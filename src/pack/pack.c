@@ -196,7 +196,7 @@ static int are_nodes(const lmb_pack *p)
 
 /* --- the whole ---------------------------------------------------------------------------------------------------- */
 
-/* Where the table of parts ends, in bytes. */
+/* End of the table of parts, in bytes. */
 static uint32_t table_end(const uint32_t *word)
 {
     return 4 * (LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * word[PARTS]);
@@ -216,7 +216,7 @@ static int is_header(const uint32_t *word, size_t bytes)
     return rest == 0 && table_end(word) <= word[SIZE];
 }
 
-/* Does a part share no byte with the table of parts and with those before it? All of them lie in the file. */
+/* Is part i apart from the table of parts and from the parts before it? All of them lie in the file. */
 static int is_apart(const uint32_t *data, uint32_t i)
 {
     const uint32_t *part = data + LMB_PACK_HEADER_WORDS, *own = part + LMB_PACK_PART_WORDS * (size_t)i;
@@ -322,8 +322,8 @@ const void *lmb_pack_part(const lmb_pack *pack, int32_t kind, size_t *bytes)
 
 /* --- the scene ---------------------------------------------------------------------------------------------------- */
 
-/* Where the arrays lie in the caller's memory: those with pointers first. In 64 bits, as on small targets the sum may be
- * more than a size_t holds. */
+/* Offsets of the arrays in the caller's memory; arrays with pointers come first. They have 64 bits, because the sum may
+ * overflow size_t on small targets. */
 typedef struct layout {
     uint64_t meshes, textures, materials, instances, lights, bytes;
 } layout;
@@ -458,11 +458,11 @@ static float reach_of(const lmb_scene *s, lmb_vec3 eye)
     return maxf(sqrtf(far2), 1e-4f);
 }
 
-/* As the tool has it: a ten-thousandth of what is seen, halved until it is at most 0.1 mm. */
+/* Near plane, as in the tool: a ten-thousandth of `reach`, halved until it is at most 0.1 mm. */
 static float near_of(float reach)
 {
     float near_m = 1e-4f * reach;
-    while (near_m > 1e-4f && near_m < 1e30f) { /* beyond, no view is valid */
+    while (near_m > 1e-4f && near_m < 1e30f) { /* beyond 1e30 no view is valid */
         near_m *= 0.5f;
     }
     return near_m;

@@ -81,7 +81,7 @@ static float sane_radiance(float c) { return c > 1e-12f && c < 1e30f ? c : 0.0f;
 
 static float sane_alpha(float a) { return a > 1e-5f ? minf(a, 1.0f) : 0.0f; }
 
-/* The texels of a level that one of the next covers: of a cube's face, or of the ground. */
+/* The texels of a level that one texel of the next level covers, in a cube's face or in the ground. */
 typedef struct {
     halve_taps x, y;
 } box;
@@ -92,11 +92,11 @@ static box box_of(const lmb_world_level *from, int32_t x, int32_t y)
     return b;
 }
 
-/* How to read texel x y of a level: face is that of a cube. */
+/* Reads texel x y of a level; face: of a cube. */
 typedef void (*read_texel)(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x,
                            int32_t y);
 
-/* Their mean, weighted by alpha. */
+/* The mean of the texels of a box, weighted by alpha. */
 static void mean_of_box(float out[4], const lmb_world *w, const lmb_world_level *from, int32_t face, box b, read_texel read)
 {
     const float whole = (float)b.x.whole * (float)b.y.whole;
@@ -171,8 +171,8 @@ static void read_calm(float rgba[4], const lmb_world *w, const lmb_world_level *
     lmb_world_calm_texel(rgba, w, face, x, y);
 }
 
-/* The texels of the first calm level that cover part of a peak: the mean of the peak's rest. Texel i of an odd side ends
- * in the middle of texel 2 i + 2. */
+/* Sets each texel of the first calm level that covers part of a peak to the mean of the peak's rest. If the side is
+ * odd, texel i ends inside texel 2 i + 2. */
 static void calm_part(lmb_world *w, const lmb_world_peak *peak)
 {
     const int32_t last = w->calm[1].width - 1, odd = w->calm[0].width % 2;

@@ -9,8 +9,8 @@
 #include "resolve.h"
 #include "target.h"
 
-#define TEXELS 8u             /* read a pixel of a triangle's tiles, at most, to find out whether it is all hole */
-#define LEAST  (1.0f / 512.0f) /* the least threshold of what blends */
+#define TEXELS 8u             /* most texels read per pixel of a triangle's tiles to find out whether it is all hole */
+#define LEAST  (1.0f / 512.0f) /* least threshold of a surface that blends */
 
 /* The triangle's own surface, and the rays of the tile at hand. */
 typedef struct masked_surface {
@@ -22,7 +22,7 @@ typedef struct masked_surface {
     int32_t x, y; /* of the tile at hand, px */
 } masked_surface;
 
-/* A number of 32 bits that looks random, of a surface and a square of pixels. */
+/* A 32-bit hash of a surface and a square of pixels. */
 static uint32_t hash_square(uint32_t own, uint32_t x, uint32_t y)
 {
     const uint32_t place = x * 2246822519u + y * 3266489917u;
@@ -31,10 +31,10 @@ static uint32_t hash_square(uint32_t own, uint32_t x, uint32_t y)
     return h ^ h >> 13;
 }
 
-/* The rank of a pixel among 64: that of its quarter of the square of 8 x 8, of 4 x 4 and of 2 x 2, the smallest first as
- * Bayer has it. The quarters of each square are in an order of the surface's own. So each surface fills every square
- * evenly, and surfaces in front of each other are independent: by the same or shifted ranks, three layers of 0.25 would
- * cover 0.25 to 0.75 and not 0.58. */
+/* The rank of a pixel among 64, from the ranks of its quarters in the squares of 8 x 8, 4 x 4 and 2 x 2. The smallest
+ * square counts most, as in Bayer's matrix. Each surface has its own order of the quarters of each square. So each
+ * surface fills every square evenly, and surfaces in front of each other are independent. With the same or shifted
+ * ranks, three layers of 0.25 would cover 0.25 to 0.75 instead of 0.58. */
 static uint32_t rank_of(uint32_t own, uint32_t x, uint32_t y)
 {
     uint32_t rank = 0;
@@ -46,15 +46,15 @@ static uint32_t rank_of(uint32_t own, uint32_t x, uint32_t y)
     return rank;
 }
 
-/* The alpha from which on pixel (x, y) of the tile shows a surface that blends: 1/512 .. 511/512.
+/* Least alpha at which pixel (x, y) of the tile shows a surface that blends: 1/512 .. 511/512.
  *
  * The samples of a pixel lie in different columns, one in each of as many strips as there are samples, and so do their
- * thresholds. With several samples each pixel takes the quarters in an order of its own as well. */
+ * thresholds. With several samples, each pixel also has its own order of the quarters. */
 static float threshold(const masked_surface *s, const lmb_view *v, int32_t x, int32_t y)
 {
     const uint32_t own = s->id * 2654435761u, px = (uint32_t)(s->x + x), py = (uint32_t)(s->y + y);
     const uint32_t quarter = (v->sample_x | v->sample_y) != 0 ? hash_square(own + 3, px, py) >> 30 : 0;
-    const uint32_t part = hash_square(own + 4, px >> 3, py >> 3) >> 30; /* of a rank, other squares other ones */
+    const uint32_t part = hash_square(own + 4, px >> 3, py >> 3) >> 30; /* of a rank; differs between squares */
     const uint32_t at = (uint32_t)(v->sample_x + 128) + 4 * rank_of(own, px, py) + part + 64 * quarter;
     return ((float)(at & 255u) + 0.5f) * (1.0f / 256.0f);
 }
@@ -171,8 +171,8 @@ NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_
 }
 
 #if LMB_TREES
-/* Is all of the surface a hole? To read a texel costs about a fiftieth of a pixel, so that many more of them may be read
- * than there are pixels. One that blends stands from the least threshold on. */
+/* Is the surface entirely a hole? Reading a texel costs about a fiftieth of drawing a pixel, so many more texels than
+ * pixels may be read. A surface that blends is solid from the least threshold on. */
 NOINLINE int is_hole(const masked_surface *s, const lmb_fill_context *c, int32_t tiles)
 {
     uint32_t texels = tiles > 0 ? (uint32_t)mini(tiles, 1 << 20) * (LMB_TILE_PIXELS * TEXELS) : 0;

@@ -93,7 +93,7 @@ static void paint_coded(lmb_tile *out, const lmb_resolve_batch *b, const lmb_tex
 }
 #endif
 
-/* How a normal map's axes lie in the world. */
+/* The axes of a normal map in the world. */
 typedef struct tangent_frame {
     lmb_vec3 tangent[3]; /* the first one, at the corners */
     float turn[3];       /* +1 or -1: the second one is turn * (front normal x tangent) */
@@ -115,7 +115,7 @@ static lmb_vec3 tangent_in_world(const lmb_triangle *t, int corner)
     return normalize3(transform_direction(&t->instance->to_world, mesh_tangent(t->mesh, t->vertex[corner])));
 }
 
-/* The mesh's own. A mirror turns a cross product round. */
+/* The mesh's own axes. Mirroring flips a cross product. */
 static void set_sided(tangent_frame *f, const lmb_triangle *t, float mirror)
 {
     for (int k = 0; k < 3; ++k) {
@@ -156,7 +156,8 @@ static int set_frame(tangent_frame *f, const lmb_painted *p, const lmb_triangle 
     return 1;
 }
 
-/* Both axes at pixel `k`, the first one made square to the normal; of any length where that leaves nothing. */
+/* Both axes at pixel `k`. The first one is made perpendicular to the normal. If that leaves nothing, its length is
+ * arbitrary. */
 static void axes_at(lmb_vec3 axis[2], const tangent_frame *f, const lmb_painted *p, const lmb_rays *rays,
                     lmb_vec3 normal, int32_t k)
 {

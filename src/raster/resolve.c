@@ -49,7 +49,7 @@ int lmb_resolve_is_hole(const lmb_resolve_alpha *a, const lmb_scene *scene, uint
     if (!(a->cutoff > 0.0f) || !is_sane(largest)) {
         return 0;
     }
-    if (largest < a->cutoff) { /* a texture can but lessen it */
+    if (largest < a->cutoff) { /* a texture can only reduce it */
         return 1;
     }
     if (a->texture < 0 || lmb_resolve_opaque(a, scene, MIDDLE, MIDDLE)) {

@@ -22,11 +22,11 @@ void lmb_resolve_alpha_of(lmb_resolve_alpha *out, const lmb_triangle *triangle);
 /* Does the surface stand at barycentrics (b1, b2), or is there a hole? They are clamped into the triangle. */
 int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2);
 
-/* 1 where the whole triangle is a hole; 0 also where to find out takes more than *texels of its texture, which is reduced
- * by those that were read. */
+/* 1 if the whole triangle is a hole. 0 also if the answer needs more than *texels texels of its texture. *texels is
+ * reduced by the texels that were read. */
 int lmb_resolve_is_hole(const lmb_resolve_alpha *alpha, const lmb_scene *scene, uint32_t *texels);
 
-/* As lmb_resolve_opaque, of a triangle. */
+/* As lmb_resolve_opaque, for a triangle. */
 int lmb_triangle_opaque(const lmb_triangle *triangle, const lmb_scene *scene, float b1, float b2);
 
 #endif

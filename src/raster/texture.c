@@ -168,12 +168,12 @@ void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, fl
 }
 
 #if LMB_TREES
-/* The texels that samples from low to high read along one axis, with one more on each side for rounding: numbers that
- * wrap_texel takes. All of them where these go round. */
+/* The texels that samples from low to high read along one axis, with one more on each side for rounding, as numbers for
+ * wrap_texel. If the samples go all the way round, these are all texels. */
 static void texels_between(int32_t *first, int32_t *last, float low, float high, int32_t size, int wrap)
 {
     const float period = wrap == LMB_WRAP_MIRROR ? 2.0f : 1.0f, at = reduce(low, wrap), wide = high - low;
-    const float largest = (float)size * maxf(absf(low), absf(high)); /* beyond 2^20 a mix of corners is off by texels */
+    const float largest = (float)size * maxf(absf(low), absf(high)); /* beyond 2^20 interpolation is off by texels */
     *first = 0;
     *last = size - 1;
     if (!is_sane(low) || !is_sane(high) || !is_sane(largest)) {

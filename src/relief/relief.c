@@ -184,7 +184,7 @@ typedef struct range {
 
 enum { ARRAYS = 5 }; /* besides the views' texels */
 
-/* Where array i lies, or the texels of view i - ARRAYS. */
+/* The bytes of array i, or of the texels of view i - ARRAYS. */
 static range range_of(const source *s, uint32_t i)
 {
     const uint64_t vertices = header(s, VERTICES), corners = 3 * (uint64_t)header(s, TRIANGLES);
@@ -210,8 +210,8 @@ static int overlaps(range a, range b)
     return a.bytes > 0 && b.bytes > 0 && a.at < b.at + b.bytes && b.at < a.at + a.bytes;
 }
 
-/* Do no two share a byte? Views are compared with each other only if there are no more than lmb_relief_open takes:
- * so the time grows no faster than the file. */
+/* Do no two arrays share a byte? Views are compared with each other only if lmb_relief_open accepts so many, so that
+ * the time grows no faster than the file. */
 static int are_apart(const source *s)
 {
     const uint32_t views = header(s, VIEWS), all = ARRAYS + views;
@@ -348,7 +348,7 @@ static void turn(uint8_t *p, uint64_t count, int size)
     }
 }
 
-/* Sections do not overlap, so that no byte is swapped twice. */
+/* Sections do not overlap, so no byte is swapped twice. */
 lmb_status lmb_relief_swap(void *data, size_t bytes)
 {
     source s;

@@ -75,7 +75,7 @@ static void KERNEL(transfer_share)(float out[LMB_TRANSFER_SHARING][LMB_TRANSFER_
                 share_cover(&cover[i], &reach, &shown[i], x, y);
             }
             part[i] = cover[i];
-            lane_store(out[i] + k, reach); /* until the end: three arrays of 512 bits were over the stack's budget */
+            lane_store(out[i] + k, reach); /* kept here: a third array of 512-bit lanes exceeds the stack budget */
         }
         for (int32_t i = 0; i < count; ++i) {
             for (int32_t j = 0; j < i; ++j) {

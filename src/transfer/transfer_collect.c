@@ -228,8 +228,8 @@ static void set_corners(float corner[3][3], const collection *c, const lmb_trans
     }
 }
 
-/* What the light's range leaves in the middle of block k. The corners' functions add up to 1 / depth there, which is 0
- * or less where the block sees none of the triangle's plane. */
+/* Factor of the light's range in the middle of block k. The corners' functions add up to 1 / depth there. The sum is 0
+ * or less if the block does not see the triangle's plane. */
 static float left_by_range(const collection *c, const lmb_transfer_sharer *from, int k, float range2)
 {
     const float x = (float)(k % LMB_TILE), y = (float)(k / LMB_TILE);

@@ -219,7 +219,7 @@ static void check_cornell(void)
         if (to < 0 || to >= (int)world.first) {
             continue;
         }
-        /* A little before the wall: on an edge, rays into the other wall would start behind it. */
+        /* Start slightly in front of the wall. On an edge, rays into the other wall would start behind that wall. */
         brute(want, add3(v.eye, mul3(d, 0.9995f * t)), normal_towards(to, d));
         for (int c = 0; c < 3; ++c) {
             mean += want[c];

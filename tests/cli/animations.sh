@@ -53,7 +53,7 @@ check "with them all does" cmp -s play_00.pfm play_01.pfm
 status 0 pack $shaped -o shaped.lmp
 said "skins and morph targets that animations move stand still in what is packed"
 
-# Where nothing of a file's animations moves what is drawn, nothing moves by itself, and a line says so.
+# If the animations of a file move nothing that is drawn, there is no default motion either, and a line reports it.
 sed 's/"path":"[a-z]*"/"path":"pointer"/g' $shaped >idle.gltf
 status 0 play idle.gltf $few --fps 1 --frames 2 -o play_%02d.pfm
 check "idle animations are counted" holds "channels of animations that move nothing of the scene, or what does not move here: 3" err.txt
@@ -63,7 +63,7 @@ status 0 play idle.gltf $few --move camera --fps 1 --frames 2 -o play_%02d.pfm
 check "a camera that is asked to does" differ play_00.pfm play_01.pfm
 status 1 play idle.gltf $few --move object --frames 2 -q
 
-# Lights of the file that --light replaces may be more than those of the command line.
+# The file may have more lights than the command line that replaces them with --light.
 more=$(awk 'BEGIN { while (n++ < 64) printf "{\"translation\":[0,2,0],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}," }')
 sed "s/{\"translation\":\[0,2,0\],[^}]*}}}/{\"children\":[4]}/; s/\"camera\":0}\]/\"camera\":0},{\"children\":[$(seq -s, 5 68)]},${more%,}]/" moving.gltf >lamps.gltf
 status 0 play lamps.gltf --size 32x24 --quality draft --light point:0,2,0:0,-1,0:4,4,4 --fps 1 --frames 2 -o play_%02d.pfm

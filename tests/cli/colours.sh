@@ -1,7 +1,7 @@
-# colours.sh: what colours of vertices stand for, and how the user says it.
+# colours.sh: checks how vertex colours are interpreted, and the option for that.
 . tests/cli/common.sh
 
-# Vertex colours are sRGB codes, or linear light where the user says it; glTF says it itself.
+# Vertex colours are sRGB codes, or linear light if the user sets that. In glTF they are always linear.
 printf 'v -1 -1 0 .5 .5 .5\nv 1 -1 0 .5 .5 .5\nv 0 1 0 .5 .5 .5\nf 1 2 3\n' >grey.obj
 for colours in srgb linear; do
     status 0 render grey.obj --size 32x24 --show albedo --vertex-colours $colours -o "$colours.pfm"

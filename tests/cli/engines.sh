@@ -23,8 +23,9 @@ for name in colours map; do
     status 0 render "$name.glb" --size 24x16 --shadow-map 64 -q -o "$name.png"
 done
 
-# What the scene's file has beyond surfaces and light is in the GLB, too: two tables of one mesh, the second one below a
-# node that turns it; own occlusion and emission maps in one material, so that each slot for the light's picture is used.
+# The GLB keeps parts of the scene's file other than surfaces and light. The file has two tables with one mesh, the
+# second below a node that mirrors it. One material has its own occlusion and emission maps, so each slot for the
+# lightmap is used.
 png="data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNoaPgPAAODAgAApfuJAAAAAElFTkSuQmCC"
 quad="data:;base64,AAAAwAAAAAAAAABAAAAAQAAAAAAAAABAAAAAQAAAAAAAAADAAAAAwAAAAAAAAADAAAAAAAAAAAAAAIA/AAAAAAAAgD8AAIA/AAAAAAAAgD8AAAEAAgAAAAIAAwA="
 part='"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2'
@@ -48,7 +49,7 @@ cat >named.gltf <<END
 {"bufferView":0,"byteOffset":80,"componentType":5123,"count":6,"type":"SCALAR"}],
 "bufferViews":[{"buffer":0,"byteLength":92}],"buffers":[{"byteLength":92,"uri":"$quad"}]}
 END
-# kept FILE TEXT...: the JSON in a GLB has each, as it is.
+# kept FILE TEXT...: checks that the JSON in a GLB contains each text unchanged.
 kept() {
     glb=$1
     shift
@@ -66,7 +67,7 @@ for to in lightmap vertex-colours; do
         '"metallicRoughnessTexture":{"index":0}' '"clearcoatFactor":0.5' '"copyright":"of ours"' '"author":"me"' \
         '"name":"room"' '"name":"grain"' '"name":"wood"' '"name":"unused"'
 done
-# The picture of light is named by each material, in a slot that its own maps leave free.
+# Each material refers to the lightmap, in a slot that its own maps do not use.
 kept named-lightmap.glb '"specularTexture":{"index":1,"texCoord":1}' '"emissiveTexture":{"index":1,"texCoord":1}' \
     '"occlusionTexture":{"index":1,"texCoord":1,"strength":0}' '"name":"lambent lightmap"' '"KHR_materials_specular"'
 status 0 bake named.gltf --elements 256 --receivers 500 --light point:0,1,0:0,-1,0:9,9,9 --to vertex-colours -o lit.glb
@@ -77,7 +78,7 @@ printf 'newmtl brick wall\nKd 0.5 0.5 0.5\n' >a.mtl
 status 0 bake named.obj --elements 256 --receivers 500 --to lightmap --texels 64 -o obj.glb
 kept obj.glb '{"name":"brick wall","mesh":0' '{"name":"brick wall","pbrMetallicRoughness"'
 
-# Other tools write such a file again. One that drops the picture leaves a file that is drawn, with a line about it.
+# Other tools may rewrite such a file. If a tool drops the lightmap, the file is still drawn, and a line reports it.
 sed 's/"lambent lightmap"/"another picture."/' map.glb >gone.glb
 status 0 render map.glb --size 24x16 --shadow-map 64 --show direct -o kept.pfm
 check "a lightmap is no occlusion map" lacks occlusion err.txt

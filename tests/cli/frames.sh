@@ -50,7 +50,8 @@ check "a photo of another brightness has its own light" test "$(on_object frames
 printf 'f0\nf4\n' >frames/two.txt
 status 0 mix --frames frames/two.txt $tent --threads 3 --backend scalar -o frames/t_%02d.pfm
 check "threads, backends and frames left out change no byte" cmp frames/o_04.pfm frames/t_01.pfm
-# A camera that moves: the bytes are the list's up to there, by any threads, and a frame of another size is left out.
+# A moving camera: a shorter list gives the same bytes, for any number of threads, and a frame of another size is
+# skipped.
 for i in 5 6 7; do
     cp photo.pfm "frames/f$i.color.pfm" && cp wall.pfm "frames/f$i.depth.pfm"
     sed "s/\[\[1,0,0,0\]/[[1,0,0,0.0$i]/" frames/f0.json >"frames/f$i.json"
@@ -79,7 +80,7 @@ for i in 00 01 02 03 04 05 06 07; do
 done >frames/tremble.txt
 status 0 mix --frames frames/tremble.txt --object tent.obj --fit --voxels 5 -o frames/h_%02d.pfm
 check "a camera that trembles changes nothing" sh -c '"$1" compare "$2" "$3" | grep -q "rmse 0\.000[0-4]"' sh "$TOOL" frames/h_01.pfm frames/h_07.pfm
-# A unit of depth has a size. --depth-scale does not hide a wrong one.
+# A unit of depth must be valid. --depth-scale does not hide an invalid one.
 for unit in 0 -0 -1 1e-7 1e7 1e300 '"1"' null '[1]'; do
     sed "s/\"depth_unit_mm\": 1000/\"depth_unit_mm\": $unit/" frames/f0.json >frames/unit.json
     cp photo.pfm frames/unit.color.pfm && cp wall.pfm frames/unit.depth.pfm
@@ -87,8 +88,8 @@ for unit in 0 -0 -1 1e-7 1e7 1e300 '"1"' null '[1]'; do
     said "frames/unit.json: depth_unit_mm: "
     status 1 mix --frame frames/unit --depth-scale 1 $tent -o frames/bad.pfm
 done
-# A prefix has any bytes, and a path any length that the system takes: blanks within and without, a # and quotes, bytes that
-# are no UTF-8; of a list with bytes of 0, line breaks.
+# A prefix may contain any bytes: blanks inside and around it, #, quotes, bytes that are not UTF-8, and line breaks if
+# the list has zero bytes. A path may have any length that the system allows.
 long=frames
 while [ ${#long} -lt 900 ]; do long=$long/a_folder_with_a_name_of_some_length_to_come_over_what_was_there_before; done
 mkdir -p "$long/two words"

@@ -46,7 +46,8 @@ status 0 render many.gltf $look --grouping zones --show direct -o zones.pfm
 check "direct light knows no grouping" cmp direct.pfm zones.pfm
 status 2 render demo $small --profile fast -o bad.pfm
 
-# Ranges: by maps and by a tree, in either file; 0 is none, and what ends before the floor gives nothing.
+# Ranges with shadow maps and with a light tree, in both files. 0 means no range, and a light that ends before the floor
+# does not light it.
 is_black() { [ "$(tail -c 9216 "$1" | tr -d '\000' | wc -c)" -eq 0 ]; }
 for count in 3 200; do
     for kind in point spot; do

@@ -105,7 +105,8 @@ status 2 pack demo -o bad.c --name 2x
 said "is no name in C and C++"
 status 0 pack demo -o 1x-y.c
 check "an array's name begins with a letter" grep -q 'scene_1x_y\[' 1x-y.c
-# Names that C or C++ has, its library, the compiler or lambent: refused, or made into others where they are a file's.
+# Names that C, C++, their libraries, the compiler or lambent use are refused as --name, and changed if they come from a
+# file name.
 for name in sizeof int restrict _Bool _x __x a__b x_ class namespace co_await alignas asm typeof std main memcpy printf sinf \
     hypotl uint32_t int_fast8_t INT8_MAX UINT64_C SIZE_MAX NULL EDOM SIGINT linux unix errno size_t write lmb_scene LMB_OK \
     1x 'a b' 'x;y' "$(printf '\303\274')" aaaaaaaaaabbbbbbbbbbccccccccccddddddddddeeeeeeeeeeffffffffffgggg; do

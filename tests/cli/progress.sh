@@ -5,7 +5,7 @@ pit
 floor
 photo
 
-# Where stderr is no terminal, bake has a line every ten seconds. It runs while the rest is tried.
+# If stderr is no terminal, bake prints a line every ten seconds. It runs in the background during the other tests.
 timeout --preserve-status -s TERM 25 "$TOOL" bake demo --quality best --threads 1 -o log.lmt >log-out.txt 2>log-err.txt &
 log=$!
 timeout --preserve-status -s TERM 25 "$TOOL" bake demo --quality best --threads 1 -q -o quiet.lmt >quiet-out.txt 2>quiet-err.txt &

@@ -1,15 +1,16 @@
-# strangers.sh: files of strangers: names with control characters, references that leave a folder, a limit of time.
+# strangers.sh: checks files from strangers: names with control characters, references that leave a folder, a time
+# limit.
 . tests/cli/common.sh
 
-# --- names: nothing that a terminal obeys, nothing that turns or hides the text beside it, no line of its own ---
+# --- names: no terminal controls, no characters that reorder or hide text, no line breaks ---
 
-# ESC ] 0 and BEL, C1 as UTF-8 and as a bare byte, an override, an isolate, two marks, a line break, what ends a comment
-# and what a page or a trigraph would take for its own.
+# ESC ] 0 and BEL, C1 as UTF-8 and as a bare byte, an override, an isolate, two marks, a line break, the end of a
+# comment, and characters with a meaning in HTML or trigraphs.
 odd=$(printf 'o\033]0;x\007y\302\233\233z\342\200\256\342\201\246\342\200\216\330\234\nq*?\?\\<b>&"'"'")
 text=$(printf 'o\033]0;x\007y\302\233\233z\342\200\256\342\201\246\342\200\216\330\234q')
 name='o\u001b]0;x\u0007\u009bz\u202e\u2066\u200e\u061c\nq*/<b>&\"'"'$(printf '\302\233\342\200\256')"
 
-# clean WHAT FILE...: no such byte is in it, and all is UTF-8.
+# clean WHAT FILE...: checks that the files have no such byte and are UTF-8.
 clean() {
     what=$1
     shift
@@ -27,7 +28,7 @@ clean() {
     done
 }
 
-# says WANTED ARGUMENT...: the exit status, and what it prints is clean.
+# says WANTED ARGUMENT...: checks the exit status, and that the output is clean.
 says() {
     status "$@"
     clean "$2 $3" out.txt err.txt
@@ -88,7 +89,7 @@ says 1 bench "$odd"
 printf '%s\n' "$text" >names.txt
 says 1 mix --frames names.txt $tent -o frame_%02d.png
 
-# --- references: with --only-here none leaves the folder of the file that has it ---
+# --- references: with --only-here no reference leaves the folder of its file ---
 
 mkdir -p in/sub out
 status 0 render demo --size 8x8 --shadow-map 64 --show direct --exposure 0 -q -o out/t.png
@@ -111,7 +112,7 @@ gltf() { # BUFFER IMAGE
 [{"source":0}],"images":[{"uri":"%s"}],"buffers":[{"byteLength":36,"uri":"%s"}],"bufferViews":[{"buffer":0,"byteLength":36}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]}' "$2" "$1" >in/m.gltf
 }
-# textures MODEL OPTION...: how many are read.
+# textures MODEL OPTION...: prints the number of textures read.
 textures() { "$TOOL" info "$@" 2>err.txt | sed -n 's/^textures .*read: \([0-9]*\) .*/\1/p'; }
 inside="sub/t.png own.png ./sub/../sub/t.png around/t.png"
 outside="../out/t.png folder/t.png link.png sub/../../out/t.png ../in/sub/t.png around/../../out/t.png $PWD/out/t.png $PWD/in/sub/t.png"
@@ -158,7 +159,7 @@ printf '1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n' >in/groundtruth.txt
 status 1 mix --frames in $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 --only-here -q -o listed_%01d.pfm
 said "1 of 2 frames are left out, the first because in/../out/f.color.pfm: no file in or below"
 
-# --- a limit of time: one line, status 1, and nothing that this command wrote ---
+# --- a time limit: one line, status 1, and no files from this command ---
 
 mkdir -p late
 box

@@ -1,7 +1,7 @@
-# unlit.sh: KHR_materials_unlit: a colour that is shown as it is, whatever light, exposure, samples and eyes there are.
+# unlit.sh: checks KHR_materials_unlit: a colour is shown unchanged for any light, exposure, samples and eyes.
 . tests/cli/common.sh
 
-# A wall that fills the view, of (0.5, 0.25, 0.125): codes 188, 137 and 99. Before it a small lit square.
+# A wall of colour (0.5, 0.25, 0.125), with codes 188, 137 and 99, fills the view. A small lit square is in front of it.
 unlit() { # unlit MATERIALS NODES >FILE.gltf
     cat <<EOF
 {"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_unlit","KHR_mesh_quantization"],
@@ -34,7 +34,7 @@ check "an unlit wall shows its colour in each frame" is_wall wall01.ppm
 status 0 render wall.gltf --size 16x16 --stereo 0.1 --exposure 2 -o eyes.ppm
 check "and to both eyes" sh -c '[ "$(tail -c 1536 eyes.ppm | od -An -v -tu1 -w3 | sort -u | tr -s " ")" = " 188 137 99" ]'
 
-# A lit square before it is exposed as without it; its edges mix.
+# A lit square in front of the wall has the same exposure as without the wall. Its edges are mixed.
 pixel() { tail -c 768 "$1" | od -An -v -tu1 -j $((3 * $2)) -N 3 | tr -s ' '; } # pixel FILE NUMBER
 for how in "--exposure -1" ""; do
     status 0 render both.gltf --size 16x16 $lamp $how -o both.ppm

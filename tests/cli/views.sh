@@ -1,8 +1,8 @@
-# views.sh: what stands before an eye is seen, however large the scene is; --near cuts it away.
+# views.sh: checks that objects close to the eye are visible in a scene of any size, and that --near cuts them away.
 . tests/cli/common.sh
 
-# sign SIDE AWAY WIDE: a ground of SIDE metres, and AWAY metres before the eye, which looks along -Z from 0,1.6,0, a
-# square that fills the picture.
+# sign SIDE AWAY WIDE: writes a ground of SIDE metres, and a square that fills the picture AWAY metres in front of the
+# eye. The eye is at 0,1.6,0 and looks along -Z.
 sign() {
     awk -v h="$1" -v d="$2" 'BEGIN {
         h /= 2; printf "v %g 0 %g\nv %g 0 %g\nv %g 0 %g\nv %g 0 %g\nf 1 2 3 4\n", -h, h, h, h, h, -h, -h, -h
@@ -11,7 +11,7 @@ sign() {
 }
 ahead="--eye 0,1.6,0 --target 0,1.6,-1"
 
-# depths LOW HIGH: all 64 of a picture of 8 x 8 lie between.
+# depths LOW HIGH: checks that all 64 depths of a picture of 8 x 8 are in this range.
 depths() {
     tail -c 256 seen.pfm | od -An -v -tf4 | tr -s ' ' '\n' | awk -v low="$1" -v high="$2" '
         /./ { ++n; ok += $1 >= low && $1 <= high } END { exit !(n == 64 && ok == 64) }'
@@ -32,14 +32,14 @@ for bad in 0 -1 2e6 x; do
     status 2 render sign.obj $ahead --size 8x8 --near $bad -o bad.pfm
 done
 
-# Frames of `play`, and a model among others, are seen by the same rule.
+# The same rule holds for frames of `play` and for several models.
 light="--light sun:0,0,5:0,0,-1:3,3,3 --show direct"
 status 0 render sign.obj $ahead --size 8x8 $light -o lit.pfm
 echo "0 camera 0,1.6,0 0,1.6,-1" >stays.txt
 status 0 play sign.obj $ahead --size 8x8 $light --path stays.txt --frames 1 -o frame%01d.pfm
 check "frames show the sign, too" cmp -s lit.pfm frame0.pfm
 
-# An orthographic camera whose file has 0 for its near plane begins there.
+# If an orthographic camera has znear 0, its near plane is at 0.
 flat() {
     printf '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},{"camera":0}],
 "cameras":[{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":%s,"zfar":30000}}],

@@ -441,7 +441,7 @@ static uint64_t case_show(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* A range that ends on the floor and before the walls. */
+/* The range ends on the floor, before the walls. */
 static uint64_t case_range(int variant)
 {
     lmb_frame f = demo_frame();

@@ -4,8 +4,8 @@
 
 #include "golden.h"
 
-/* Of static memory that calls take: compilers align it as its type needs, which is 4 bytes of structs of floats, and 2 of
- * everything on a 68000. */
+/* Alignment of static memory that is passed to calls. Compilers align by type only, which is 4 bytes for structs of
+ * floats, and 2 bytes for everything on a 68000. */
 #ifdef __GNUC__
 #define GOLDEN_ALIGNED __attribute__((aligned(8)))
 #else

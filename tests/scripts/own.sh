@@ -1,13 +1,14 @@
-# own.sh: make run-NAME for programs of a user's own, on this machine: a new program in a folder of its own, what it
-# prints if a name or a file is not there, and platform/cortex-m/main_scene.c with scenes that it draws and that it refuses.
-# MAKE BUILD TOOL B in the environment.
+# own.sh: checks make run-NAME for user programs on this machine: a new program in its own folder, the messages if a
+# name or a file is missing, and platform/cortex-m/main_scene.c with valid and refused scenes. MAKE BUILD TOOL B in the
+# environment.
 . tests/scripts/checks.sh
 
 dir=$B/own-check
 rm -rf "$dir"
 mkdir -p "$dir/a" "$dir/b"
 
-# runs WHAT STATUS LINE WORDS...: make with these words ends with that status and prints that line, a regular expression.
+# runs WHAT STATUS LINE WORDS...: checks that make with these words exits with this status and prints a line that
+# matches the regular expression LINE.
 runs() {
     what=$1 status=$2 line=$3
     shift 3
@@ -32,7 +33,7 @@ runs "no such source" 2 'PROGRAM=nowhere\.c: there is no file nowhere\.c' run-he
 runs "a name that is lambent's" 2 'run-demo: lambent has this program' run-demo PROGRAM="$dir/a/hello.c"
 runs "no packed scene" 2 'PACKED=nowhere\.c: there is no file nowhere\.c' run-scene PACKED=nowhere.c
 
-# A frame of the default configuration takes more than the 384 KiB, which are for the tiny one.
+# A frame of the default configuration needs more than 384 KiB, the size for the tiny configuration.
 sized() { printf '#define MEMORY_KIB %s\n#include "cortex-m/main_scene.c"\n' "$1"; }
 sized 8 >"$dir/small.c"
 check "a scene" "$TOOL" pack demo -o "$dir/scene.c" --name scene_words -q
@@ -42,7 +43,7 @@ sized "${needs:-8}" >"$dir/sized.c"
 runs "a frame that fits" 0 '^scene-160x120-rgb565 [0-9a-f]\{16\}$' run-sized PROGRAM="$dir/sized.c $dir/scene.c"
 check "its memory: $(grep frame "$dir/said")" grep -q '^frame [0-9]* bytes ([0-9]* KiB), with the scene.s structs [0-9]* of [0-9]*$' "$dir/said"
 
-# refused WHAT LINE MODEL OPTION...: a model that is packed, and the line that the program prints.
+# refused WHAT LINE MODEL OPTION...: packs a model and checks the line that the program prints.
 refused() {
     what=$1 line=$2 model=$3
     shift 3

@@ -1,4 +1,4 @@
-# places.sh: `make`, `make demo` and `make check` where people work: places.sh [CASE...]
+# places.sh: runs `make`, `make demo` and `make check` in different working environments: places.sh [CASE...]
 #
 #     rootless     by a user without root
 #     spaces       in a path with blanks and an apostrophe

@@ -4,8 +4,8 @@
 # A machine that drew none has said why in its own log, and counts there.
 . tests/scripts/checks.sh
 
-# The cases that a configuration's capacities change are left out: machines have two configurations here, and each machine
-# holds its own lines against the hash of its configuration.
+# Cases that depend on the capacities of a configuration are left out: the machines here have two configurations, and
+# each machine checks its own lines against the hash of its configuration.
 capacity_cases() { sed -n 's/^CAPACITY_CASE("\([^"]*\)".*/\1/p' tests/golden/golden_capacity.inc; }
 lines() { capacity_cases | awk 'NR == FNR { no[$1]; next } NF == 2 && $2 ~ /^[0-9a-f]+$/ && length($2) == 16 && !($1 in no)' - "$1"; }
 

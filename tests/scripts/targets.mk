@@ -37,7 +37,7 @@ i386            := -m32 -msse2 -mfpmath=sse -I/usr/include/x86_64-linux-gnu
 # By qemu, as a 64-bit kernel may run no 32-bit programs.
 needs_i386       := gcc gcc-m32 qemu-i386
 how_i386         := CC="gcc $(i386)" RUN=qemu-i386
-# Sums of bytes where a size_t has 32 bits.
+# Sums of bytes with a 32-bit size_t.
 needs_bytes-i386 := $(needs_i386)
 how_bytes-i386   := $(how_i386) TEST_SRC=tests/unit/test_bytes.c
 goal_bytes-i386  := unit
@@ -78,7 +78,7 @@ $(eval $(call linux,powerpc,powerpc-linux-gnu,qemu-ppc))
 $(eval $(call linux,ppc64,powerpc64-linux-gnu,qemu-ppc64))
 $(eval $(call linux,ppc64le,powerpc64le-linux-gnu,qemu-ppc64le))
 $(eval $(call linux,hppa,hppa-linux-gnu,qemu-hppa))
-# gcc 12 ends in an internal error when it takes a struct of eight floats that a function gets apart.
+# gcc 12 has an internal error when it splits a struct of eight floats that is passed to a function.
 $(eval $(call linux,sparc64,sparc64-linux-gnu,qemu-sparc64,CFLAGS="-O2 -fno-ipa-sra"))
 # The 68881 of a 68020 computes float with excess precision, which exact.h refuses; the 68040 rounds each result.
 needs_m68k := m68k-linux-gnu-gcc qemu-m68k

@@ -1,6 +1,6 @@
-# three_check.sh: baked light for other engines, drawn by three.js in headless Chromium beside our picture of the same
-# view, also after glTF-Transform, gltf-pipeline and gltfpack have written the file again; and read by Babylon.js. Skipped,
-# with the reason, if tools are missing.
+# three_check.sh: compares baked light for other engines, drawn by three.js in headless Chromium, with our picture of
+# the same view, also after glTF-Transform, gltf-pipeline and gltfpack have rewritten the file. Babylon.js reads the
+# files too. Skipped, with the reason, if tools are missing.
 #
 # Gets the packages below by npm if it may. Pictures, ours on the left: $B/three/shots. B, BUILD and TOOL in the
 # environment.
@@ -13,7 +13,7 @@ for command in node npm; do
     command -v $command >/dev/null 2>&1 || skip "no $command"
 done
 [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || skip "no Chromium: apt-get install chromium"
-modules=$BUILD/web/three # of its own: docs-check may fill the other one at the same time
+modules=$BUILD/web/three # a separate folder, because docs-check may fill the other one at the same time
 mkdir -p "$modules"
 for name in playwright-core three@0.187.0 @gltf-transform/cli@4.5.1 gltf-pipeline@4.3.1 gltfpack@1.3.0 @babylonjs/core@9.28.0 \
     @babylonjs/loaders@9.28.0; do
@@ -30,7 +30,7 @@ light="--elements 1024 --receivers 3000"
     "$TOOL" render demo --transfer "$dir/demo.lmt" --bounces 4 --show indirect --samples 1 --size 240x160 -q -o "$dir/ours.pfm" &&
     "$TOOL" bake demo $light --to vertex-colours -q -o "$dir/colours.glb" &&
     "$TOOL" bake demo $light --to lightmap --texels 1024 -q -o "$dir/lightmap.glb" || { echo "0 passed, 1 failed, 0 skipped"; exit 1; }
-# Each tool with its defaults, which quantize in gltfpack. What lambent reads of it is its light, or a line says that it is gone.
+# Runs each tool with its defaults; gltfpack quantizes. lambent must read the same light, or report that it is gone.
 failed=0 files=
 bin=$PWD/$modules/node_modules/.bin
 case $modules in /*) bin=$modules/node_modules/.bin ;; esac

@@ -1,5 +1,6 @@
-# tiny.sh: the demo on a Cortex-M4F under qemu and here, both built tiny: equal pictures, and its RAM. MAKE BUILD TOOL in
-# the environment. Without cross compiler or qemu: skipped within `make check`, failed when asked for by itself.
+# tiny.sh: checks that the tiny demo draws the same pictures on a Cortex-M4F under qemu as here, and measures its RAM.
+# MAKE BUILD TOOL in the environment. Without a cross compiler or qemu it is skipped in `make check`, and fails if run
+# on its own.
 . tests/scripts/checks.sh
 
 if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 2>&1); then
@@ -41,7 +42,8 @@ check "five pictures of the torus" test "$(torus_of "$BUILD/cortex-m/tiny/torus.
 taken=$(sed -n 's/^direct 160 .*instructions \([0-9]*\) .*/\1/p' "$BUILD/cortex-m/tiny/torus.out")
 check "${taken:-0} instructions for direct light on the torus, bound 32 million" test "${taken:-0}" -gt 1000000 -a "${taken:-0}" -le 32000000
 
-# A packed scene by the settings of the table's row for bounced light: the same memory and, here and there, picture.
+# A packed scene with the settings of the table row for bounced light: the same memory, and the same picture on both
+# machines.
 scene=$BUILD/cortex-m/tiny/packed_scene.c
 check "the demo is packed" "$TOOL" pack demo -o "$scene" --name scene_words -q
 $MAKE run-scene PORT=host CONFIG=tiny BUILD="$BUILD" PACKED="$scene" >"$BUILD/tiny/scene.out" 2>&1

@@ -11,7 +11,7 @@ enum { OPEN_DEFAULT = 1, OPEN_BEST = 2, OPEN_HALF = 4, OPEN_TURNED = 8 };
 
 typedef struct own_row {
     const char *name, *file;
-    double worst[2]; /* metrics_worst as measured, by default and at best; held to 1.3 times that */
+    double worst[2]; /* measured metrics_worst with default and best quality; the limit is 1.3 times that */
     int open;
 } own_row;
 

@@ -769,7 +769,8 @@ static void mips_of_checkers(void)
     CHECK(lmb_texture_mips(t, 2, 2, 2) == LMB_OK && t[16] == 200 && t[18] == 200 && t[19] == 0);
 }
 
-/* A lit band at the last columns or rows counts as much in each level as it covers: no side loses its last texels. */
+/* A lit band at the last columns or rows contributes its covered share in each mip level: no side loses its last
+ * texels. */
 static void mips_of_odd_sides(void)
 {
     static const int32_t sizes[][2] = {{3, 3}, {7, 5}, {96, 96}, {255, 3}, {100, 75}, {1, 33}, {47, 1}, {9, 16}};

@@ -1,5 +1,5 @@
-/* test_bytes.c: every public call that returns bytes, at the limits of what it takes: the true sum, or 0 where a size_t
- * does not hold it. `make cross-bytes-i386` runs it where a size_t has 32 bits. */
+/* test_bytes.c: checks every public call that returns bytes at the limits of its arguments: the true sum, or 0 if it
+ * does not fit into a size_t. `make cross-bytes-i386` runs it with a 32-bit size_t. */
 #include <lambent/lambent.h>
 
 #include <string.h>
@@ -10,7 +10,7 @@
 
 void test_bytes(void);
 
-/* `name` stands for the call in messages. */
+/* `name` is the name of the call in messages. */
 static void check_sum(const char *name, size_t bytes, uint64_t truth)
 {
     const size_t wanted = truth <= SIZE_MAX ? (size_t)truth : 0;
@@ -57,7 +57,7 @@ static void test_mixed(void)
 
 /* --- probes ------------------------------------------------------------------------------------------------------- */
 
-/* Of a face with its border, over all levels from `side` on. */
+/* Sums the texels of a face with its border over all levels, starting at `side`. */
 static uint64_t bordered(uint64_t side)
 {
     uint64_t sum = 0;
@@ -89,7 +89,7 @@ static void test_probes(void)
     table.width = 1024;
     table.height = 512;
     check_sum("blur", lmb_probe_blur_bytes(&table, 2), 4 * 2 * 512 * 2048);
-    table.width = 40000; /* of no table: the sum is over 2^32 */
+    table.width = 40000; /* no real table: the sum is over 2^32 */
     table.height = 20000;
     check_sum("blur", lmb_probe_blur_bytes(&table, 2), 0);
     table.width = table.height = -40000;
@@ -134,7 +134,7 @@ static void test_bins(void)
 
 /* --- files in place ----------------------------------------------------------------------------------------------- */
 
-/* Counts that no file of a small machine has. */
+/* Counts that no file of a small machine can have. */
 static void test_files(void)
 {
     const uint64_t most = UINT32_MAX;

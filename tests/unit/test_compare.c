@@ -102,7 +102,7 @@ static void test_outlier(pair *p)
     CHECK(near(m.rmse, sqrt(1.0 / 3.0)) && m.trim == 0.0 && m.n90 == 1);
     CHECK(m.e50 == 0.0 && m.e95 == 0.0 && near(m.e99, 10.0 / 3.0 / 1.01));
     CHECK(near(worst_of(p), 10.0 / 3.0 / 1.01));
-    set_pixel(p->truth, 58, 6.0f); /* the truth's mean over the 25 pixels around is 1.2, over all 1.05 */
+    set_pixel(p->truth, 58, 6.0f); /* the mean of the truth is 1.2 over the 25 pixels around it, and 1.05 over all */
     set_pixel(p->test, 58, 6.0f);
     CHECK(near(worst_of(p), 10.0 / 3.0 / (1.2 + 0.0105)));
     set_pixel(p->truth, 58, 1.0f);

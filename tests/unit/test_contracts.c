@@ -154,7 +154,7 @@ static void test_flat_quads(void)
     lmb_vec3 over = {3, 1.001f, -2}, down = {0, -1, 0};
     float full = lmb_quad_factor(over, down, down, centre, up, u, v) * 4.0f * 1e-4f;
     CHECK_MSG(full > 0.95f && full <= 1.0f, "%g", (double)full);
-    /* On the quad's edge, which is a room's: the light does not end within rounding of the quad's plane. */
+    /* On an edge of the quad and of the room: the light does not end within rounding error of the plane of the quad. */
     const lmb_vec3 wall = {1, 0, 0}, beyond = {-1, 0, 0}, corner[4] = {{2.99f, 1, -2.01f}, {2.99f, 1, -1.99f}, {3.01f, 1, -1.99f},
                                                                      {3.01f, 1, -2.01f}};
     const lmb_vec3 high = {2.99f, 1.0f + 3e-5f, -2.001f};

@@ -353,7 +353,7 @@ static void test_light(void)
     CHECK_MSG(most_off < 1.2, "direct light is off by %g codes", most_off);
 }
 
-/* A frame without bounces, by a blob of so many units a metre, whose places see all. */
+/* Makes a frame without bounces from a blob with the given units per metre, and without occlusion. */
 static void make_open(lmb_fixed *s, lmb_fixed_frame *f, int which, uint32_t units_log2, uint32_t intensity)
 {
     make_frame(s, f, which);
@@ -367,7 +367,7 @@ static void make_open(lmb_fixed *s, lmb_fixed_frame *f, int which, uint32_t unit
     f->lamp.intensity[0] = f->lamp.intensity[1] = f->lamp.intensity[2] = intensity;
 }
 
-/* Where a unit is a metre most lamps' light is under the smallest step, by up to more bits than a word has. */
+/* If a unit is a metre, the light of most lamps is below the smallest step, by up to more bits than a word has. */
 static void test_dim(void)
 {
     lmb_fixed s;
@@ -394,7 +394,7 @@ static void test_dim(void)
     }
 }
 
-/* A lamp close to a vertex is over the largest step there, however many bits are lost. */
+/* A lamp close to a vertex exceeds the largest step there, for any number of lost bits. */
 static void test_dazzling(void)
 {
     lmb_fixed s;

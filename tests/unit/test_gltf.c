@@ -133,7 +133,7 @@ static void normal_maps(void)
     CHECK(loaded.scene.materials[0].normal_scale == 0 && noted("normal maps left out"));
     CHECK_MSG(load_look("\"normalTexture\":{\"index\":0,\"extensions\":{\"KHR_texture_transform\":{\"rotation\":1}}}"),
               "%s", problem.text);
-    CHECK(loaded.scene.materials[0].normal_scale == 1 && loaded.scene.meshes[0].tangents); /* the lookup alone turns */
+    CHECK(loaded.scene.materials[0].normal_scale == 1 && loaded.scene.meshes[0].tangents); /* only the lookup turns */
     check_fails(load_look("\"normalTexture\":{\"index\":1}"), "materials[0].normalTexture.index: index 1");
     check_fails(load_look("\"normalTexture\":{}"), "materials[0].normalTexture: index is missing");
     CHECK_MSG(load_look("\"occlusionTexture\":{\"index\":0}"), "%s", problem.text);
@@ -576,7 +576,7 @@ static int load_baked(const char *extras, const char *first, const char *second,
     return load(form, extras, (unsigned)png, first, second, (unsigned)b.size, base64(b.bytes, b.size), material);
 }
 
-/* Is there a picture, by the second corner's texture coordinates (u, v)? */
+/* Checks that there is a lightmap, with the texture coordinates (u, v) at the second corner. */
 static int is_lit(float u, float v)
 {
     const model_light *l = &loaded.light;
@@ -604,13 +604,13 @@ static void baked_light(void)
     CHECK(is_gone() && !noted("occlusion"));
     CHECK_LOADS(load_baked(now, "a", "b", "\"occlusionTexture\":{\"index\":1}"));
     CHECK(is_gone() && noted("occlusion maps ignored"));
-    /* As older versions wrote it. */
+    /* As older versions wrote the file. */
     CHECK_LOADS(load_baked(then, "a", "b", "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}"));
     CHECK(is_lit(0, 1));
     CHECK_LOADS(load_baked(past, "a", "b", "\"doubleSided\":true"));
     CHECK(is_gone());
     CHECK_LOADS(load_baked(then, "a", "b", "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":1}}"));
-    CHECK(is_gone()); /* the number of another texture by now */
+    CHECK(is_gone()); /* now the index of another texture */
     CHECK_LOADS(load_baked("\"light\":\"vertex-colours\",\"scale\":2", "a", "b", "\"doubleSided\":true"));
     CHECK(loaded.light.scale == 2 && !noted("lightmap is gone"));
 }

@@ -1,5 +1,5 @@
-/* test_gltf_shape.c: glTF's tangents and their sides, normals without length, morph targets at rest, hidden nodes, nodes of
- * scale 0, and materials with another description. */
+/* test_gltf_shape.c: tests glTF tangents and their sides, normals without length, morph targets at rest, hidden nodes,
+ * nodes of scale 0, and materials with other extensions. */
 #include <math.h>
 #include <stdio.h>
 
@@ -18,8 +18,8 @@ static int is_vec(lmb_vec3 v, double x, double y, double z)
     return near((double)v.x, x) && near((double)v.y, y) && near((double)v.z, z);
 }
 
-/* Six floats' vectors from byte 0 on, as accessors of three each: 0 positions, 1 normals, 2 more positions, 3 more
- * normals, 4 tangents of four, 5 texture coordinates, 6 what is added to tangents; 7 the second's, sparse. */
+/* Vectors of floats from byte 0, as accessors of three each: 0 positions, 1 normals, 2 more positions, 3 more normals,
+ * 4 tangents of four, 5 texture coordinates, 6 offsets of tangents, 7 offsets of the second target, sparse. */
 static const float numbers[] = {
     0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, -1, 1, 0, -1, 1, 0, -1,
     1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, -1, 1, 0, -1, 1, 0, -1, 1, 0};
@@ -38,7 +38,7 @@ enum { NUMBERS = sizeof numbers / sizeof *numbers };
     "{\"buffer\":0,\"byteOffset\":256,\"byteLength\":12,\"byteStride\":4}],"                                          \
     "\"buffers\":[{\"byteLength\":268,\"uri\":\"data:;base64,%s\"}]}"
 
-/* Two bytes of index 2, then what a target adds in bytes: (127, 0, 0) at each vertex. */
+/* Two bytes of index 2, then the offsets of a target as bytes: (127, 0, 0) at each vertex. */
 static const char *data_with(int at, float instead)
 {
     static char coded[2048];
@@ -97,7 +97,7 @@ static const char *flat_map(void)
     return coded;
 }
 
-/* The sign stays beside the direction, whatever the texture transform does; without normals there are no tangents. */
+/* The sign is kept with the direction for any texture transform. Without normals there are no tangents. */
 static void keeps_sides(void)
 {
     const lmb_mesh *m;
@@ -113,7 +113,7 @@ static void keeps_sides(void)
     CHECK(loaded.scene.meshes[0].tangents == NULL);
 }
 
-/* Every code has a neighbour of either side, within a turn of 1e-4. */
+/* Every code has a neighbour with each sign within an angle of 1e-4. */
 static void sides_turn_little(void)
 {
     for (int i = 0; i < 200; ++i) {
@@ -145,7 +145,7 @@ static void fills_normals(void)
     CHECK(noted("normals without length, made from the faces there: 1"));
     CHECK_LOADS(load_gltf(TWO_FACES, data_with(9, NAN)));
     CHECK(is_vec(normal(0, 0), 0, 0, 1) && noted("faces there: 1"));
-    /* Of a face that looks along (1, 1, 1). */
+    /* The face points along (1, 1, 1). */
     memset(&b, 0, sizeof b);
     put_floats(&b, tilted, 9);
     put_floats(&b, numbers + 9, 6);
@@ -155,7 +155,7 @@ static void fills_normals(void)
     put_u32(&b, 127), put_u32(&b, 127), put_u32(&b, 127);
     CHECK_LOADS(load_gltf(TWO_FACES, base64(b.bytes, b.size)));
     CHECK(is_vec(normal(0, 2), sqrt(1 / 3.0), sqrt(1 / 3.0), sqrt(1 / 3.0)) && is_vec(normal(0, 1), 0, 0, 1));
-    /* None has a length. */
+    /* No normal has a length. */
     memset(b.bytes + 36, 0, 36);
     CHECK_LOADS(load_gltf(TWO_FACES, base64(b.bytes, b.size)));
     CHECK(is_vec(normal(0, 0), sqrt(1 / 3.0), sqrt(1 / 3.0), sqrt(1 / 3.0)) && noted("faces there: "));
@@ -178,7 +178,7 @@ static void shapes_by_weights(void)
     CHECK(is_vec(normal(0, 0), sqrt(0.5), 0, sqrt(0.5)) && is_vec(tangent(0, 2), sqrt(0.5), sqrt(0.5), 0));
     CHECK(model_side_of(loaded.scene.meshes[0].tangents) && !model_side_of(loaded.scene.meshes[0].tangents + 4));
     CHECK(!noted("morph"));
-    /* A node's own override them, for it alone; those that it leaves out are 0. */
+    /* The weights of a node override those of the mesh, for that node only. Weights missing in the node are 0. */
     CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,1],", "{\"mesh\":0,\"weights\":[1]},{\"mesh\":0}", ALL), flat_map(), data()));
     CHECK(loaded.scene.instance_count == 2 && loaded.scene.mesh_count == 2);
     CHECK(is_vec(position(loaded.scene.instances[0].mesh, 1), 1, 0, 0));
@@ -192,14 +192,14 @@ static void shapes_by_weights(void)
     CHECK(is_vec(position(0, 1), 1, 0, 0) && is_vec(position(0, 2), 1, 1, 0) && is_vec(normal(0, 2), 0, 0, 1));
     CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,0.25],", TWO, "\"POSITION\":8"), flat_map(), data()));
     CHECK(is_vec(position(0, 1), 1.25, 0, 0));
-    /* What else a target moves stays, and is told. */
+    /* Other attributes of a target do not change, and a note reports them. */
     CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":2,\"TEXCOORD_0\":5"), flat_map(), data()));
     CHECK(noted("primitives whose morph targets move colours or texture coordinates, which stay: 1"));
     check_fails(load_gltf(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":5"), flat_map(), data()), "does not take");
     check_fails(load_gltf(SHAPED("\"weights\":[0,{}],", TWO, ALL), flat_map(), data()), "weights[1]");
 }
 
-/* Shaped first, then posed: joint 0 moves all by 10 along x. */
+/* Morph targets are applied first, then the skin: joint 0 moves all by 10 along x. */
 static void shapes_before_it_poses(void)
 {
     CHECK_LOADS(load_gltf(ASSET "\"nodes\":[{\"mesh\":0,\"skin\":0,\"weights\":[1]},{\"translation\":[10,0,0]}],"
@@ -226,7 +226,7 @@ static void hides(void)
     check_fails(load_gltf(ASSET "\"nodes\":[{\"extensions\":{\"KHR_node_visibility\":{\"visible\":0}}}]}"), "visible");
 }
 
-/* A quarter turn about Y, below scales that leave less than an axis. */
+/* A quarter turn about Y, below scales that leave less than one axis. */
 static void keeps_directions(void)
 {
     static const char *const above[] = {
@@ -242,7 +242,7 @@ static void keeps_directions(void)
                       is_vec(loaded.cameras[0].right, 0, 0, -1), "camera below %s", above[i]);
         CHECK(is_vec(loaded.cameras[0].eye, 3, 4, 5) && is_vec(loaded.scene.lights[0].position, 3, 4, 5));
     }
-    CHECK_LOADS(load_gltf(ASSET LAMPS "\"nodes\":[{\"scale\":[1,1,-1]," LAMP "}]}")); /* a mirror turns it round, as ever */
+    CHECK_LOADS(load_gltf(ASSET LAMPS "\"nodes\":[{\"scale\":[1,1,-1]," LAMP "}]}")); /* mirroring reverses it */
     CHECK(is_vec(loaded.scene.lights[0].direction, 0, 0, 1));
 }
 
@@ -267,7 +267,8 @@ static void reads_other_materials(void)
     m = loaded.scene.materials;
     CHECK(near((double)m[0].specular[0], 0.2) && m[0].specular[2] == 0 && m[0].roughness == 0.25f);
     CHECK(near((double)m[0].albedo[0], 0.4) && m[2].specular[0] == 0);
-    /* The map's means: specular in light, glossiness in its alpha, which is 1. A metal is not black without its lobe. */
+    /* Means of the map: specular as linear light, glossiness in alpha, which is 1. A metal is not black without its
+     * lobe. */
     CHECK_LOADS(load_gltf(ASSET "\"materials\":[{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":"
                            "[0,0,0,1],\"specularGlossinessTexture\":{\"index\":0},\"diffuseTexture\":{\"index\":0}}}}],"
                            "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));

@@ -212,7 +212,7 @@ static void casts_shadows(void)
     }
 }
 
-/* One square around `middle`, along two axes, under a light of its own. */
+/* A square around `middle`, along two axes, under its own light. */
 static struct {
     float corner[4][3];
     lmb_mesh mesh;
@@ -270,7 +270,7 @@ static void light_alone(int32_t kind, lmb_vec3 direction)
     alone.light.intensity[0] = 1.0f;
 }
 
-/* A point light in the middle: what lies behind the square is dark, on that one side of the six. */
+/* A point light in the middle: the part behind the square is dark, on only one of the six sides. */
 static void shadows_by_face(void)
 {
     light_alone(LMB_LIGHT_POINT, vec3(0, 0, 0));
@@ -292,7 +292,7 @@ static void shadows_by_face(void)
     }
 }
 
-/* A range, as pixels have it. */
+/* A light range, as for pixels. */
 static void ends_by_range(void)
 {
     for (int kind = 0; kind < 2; ++kind) {
@@ -312,7 +312,7 @@ static void ends_by_range(void)
     }
 }
 
-/* A square that lies aslant lights up all over, and all that is behind it is dark: by a point light and by a sun. */
+/* A slanted square is lit everywhere, and everything behind it is dark, with a point light and with a sun. */
 static void lights_slopes(void)
 {
     for (int i = 0; i < 24; ++i) {

@@ -857,11 +857,11 @@ static void check_pam_kinds(void)
     CHECK(PAM_GIVES(PAM_HEAD("1", "2", "255", "GRAYSCALE_ALPHA") "ab", 1, "aaab"));
     CHECK(PAM_GIVES(PAM_HEAD("2", "3", "255", "RGB") "abcdef", 2, "abc\xFF" "def\xFF"));
     CHECK(PAM_GIVES(PAM_HEAD("2", "4", "255", "RGB_ALPHA") "abcdefgh", 2, "abcdefgh"));
-    /* of 65535 the high byte; 3 of 7 is 109.3; 300 of 1000 is 76.5, halves go up */
+    /* from 65535 the high byte; 3 of 7 is 109.3; 300 of 1000 is 76.5, halves are rounded up */
     CHECK(PAM_GIVES(PAM_HEAD("1", "2", "65535", "GRAYSCALE_ALPHA") "\x12\xFF\xFE\0", 1, "\x12\x12\x12\xFE"));
     CHECK(PAM_GIVES(PAM_HEAD("1", "3", "7", "RGB") "\3\0\7", 1, "\x6D\0\xFF\xFF"));
     CHECK(PAM_GIVES(PAM_HEAD("1", "1", "1000", "GRAYSCALE") "\x01\x2C", 1, "\x4D\x4D\x4D\xFF"));
-    /* words in any order, comments, empty lines, CR; no type: DEPTH says it */
+    /* words in any order, comments, empty lines, CR; no type: DEPTH determines it */
     CHECK(PAM_GIVES("P7\n# c\n\nMAXVAL 255\nDEPTH 4\r\n  HEIGHT\t1 \nWIDTH 1\nENDHDR\nabcd", 1, "abcd"));
     CHECK(PAM_GIVES("P7\r\nWIDTH 1\r\nHEIGHT 1\r\nDEPTH 1\r\nMAXVAL 255\r\nENDHDR\r\na", 1, "aaa\xFF"));
     CHECK(gives_texels(pam_decode_16, PAM_HEAD("1", "1", "65535", "GRAYSCALE") "ab", 69, 1, "ab", 2));

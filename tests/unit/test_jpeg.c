@@ -217,7 +217,7 @@ static void check_structure(void)
     refuses(progressive, SCAN, 13, 0x21, "lacks the one before it");
 }
 
-/* A frame header of two components, its length right; and a Huffman code with three symbols of one bit. */
+/* A frame header of two components with a correct length; and a Huffman code with three symbols of one bit. */
 static void check_made(void)
 {
     static const uint8_t two[] = {0xFF, 0xD8, 0xFF, 0xC0, 0, 14, 8, 0, 8, 0, 8, 2, 1, 0x11, 0, 2, 0x11, 0, 0xFF, 0xD9};

@@ -183,7 +183,8 @@ static void check_cone(void)
     CHECK(lmb_direct_tile(&e, picked_kernels(), &tile, &v, NULL, &l, NULL) == LMB_ERR_ARG);
 }
 
-/* A range against viewers' formula: at its end and behind it exactly nothing; 0 and 2^30 m are none; suns have none. */
+/* Compares a range with the formula of viewers: exactly 0 at its end and beyond. 0 and 2^30 m mean no range, and suns
+ * have none. */
 static void check_range(void)
 {
     static const float ranges[] = {2.0f, 0.75f, 5.0f, 1e-20f, 0x1p-45f, 0.0f, 0x1p30f, 3e38f};

@@ -1,4 +1,4 @@
-/* test_light_probes.c: irradiance -> the harmonics of `lambent bake --to probes`: a sky whose light is known. */
+/* test_light_probes.c: tests irradiance -> the harmonics of `lambent bake --to probes`, under a sky of known light. */
 #include "../../tools/bake/light_export.h"
 
 #include <math.h>
@@ -10,8 +10,8 @@ void test_light_probes(void);
 
 #define PI 3.14159265358979323846
 
-/* Of radiance a + b.d + c (3 (p.d)^2 - 1) / 2 a plane of normal n takes pi (a + 2/3 b.n + c / 4 (3 (p.n)^2 - 1) / 2)
- * [Ramamoorthi and Hanrahan 2001]: each band has its own factor. */
+/* With radiance a + b.d + c (3 (p.d)^2 - 1) / 2, a plane of normal n receives pi (a + 2/3 b.n + c / 4 (3 (p.n)^2 - 1) /
+ * 2) [Ramamoorthi and Hanrahan 2001]: each band has its own factor. */
 static const double flat[3] = {1.0, 0.3, 2.0}, way[3][3] = {{0.5, 0, 0}, {0, -0.2, 0.1}, {0, 0, 0.7}},
                     bend[3] = {0.4, 0.2, -0.3};
 static const double pole[3] = {2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0};
@@ -24,7 +24,7 @@ static double band(int which, int c, const double d[3])
                         : bend[c] * (1.5 * p * p - 0.5);
 }
 
-/* The harmonics as three.js and others read them: in the order l l + l + m. */
+/* The harmonics in the order of three.js and others: l l + l + m. */
 static double radiance(const float sh[27], int c, const double d[3])
 {
     const double x = d[0], y = d[1], z = d[2], a = sqrt(1.0 / (4.0 * PI)), b = sqrt(3.0 / (4.0 * PI)),

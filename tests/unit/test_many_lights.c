@@ -388,7 +388,8 @@ static double light_tile(lmb_irradiance *e, const lmb_tile *tile, const lmb_many
     return off(e, want);
 }
 
-/* The worst entry on top, and each above two that are no worse: how many there are. */
+/* Checks that each entry is at least as bad as its two children, so that the worst is on top. Returns the number of
+ * entries. */
 static int32_t check_heap(void)
 {
     for (int32_t i = 1; i < scratch.open; ++i) {
@@ -474,8 +475,8 @@ static void set_ranges(uint32_t count, test_rng *r)
     }
 }
 
-/* Ranges: any order, all nodes taken, cuts within their error, none taken that ends before the tile; one light alone is
- * that of lmb_direct_tile. */
+/* Ranges: any order, all nodes used, cuts within their error, no light used that ends before the tile. A single light
+ * gives the result of lmb_direct_tile. */
 static void check_ranges(void)
 {
     test_rng own = {23}, *const r = &own;
@@ -499,7 +500,7 @@ static void check_ranges(void)
         } else {
             make_lights(300, r);
         }
-        for (int i = 0; i < 300; ++i) { /* no two in one place, so that each has a cell */
+        for (int i = 0; i < 300; ++i) { /* no two at the same position, so that each has a cell */
             lights[i].position = vec3(test_uniform(r, -2, 2), lights[i].position.y, lights[i].position.z);
         }
         set_ranges(300, r);
@@ -507,7 +508,7 @@ static void check_ranges(void)
         grove_make(&g, 400, 900.0f, lights, 300);
         CHECK_MSG(light_tile(&e, &tile, &g.many_lights, NULL, 1e-7f, want) < 1e-5, "%g", off(&e, want));
         const uint32_t all = scratch.nodes;
-        CHECK(all < 200); /* of those that reach so far */
+        CHECK(all < 200); /* only the lights that reach so far */
         for (int i = 0; i < COUNT(asked); ++i) {
             const double error = light_tile(&e, &tile, &g.many_lights, NULL, asked[i], want);
             printf("  ranges, error %.3f: %3u nodes of %u, off by %.4f\n", (double)asked[i], (unsigned)scratch.nodes,

@@ -918,7 +918,7 @@ static int is_colour(uint32_t v, int r, int g, int b)
     return c && c[4 * v] == r && c[4 * v + 1] == g && c[4 * v + 2] == b && c[4 * v + 3] == 255;
 }
 
-/* Colours of vertices are sRGB codes, behind a weight or before an alpha, too; white is white. */
+/* Vertex colours are sRGB codes, also after a weight or before an alpha. White stays white. */
 static void obj_colours(void)
 {
     static const char plain[] = "v 0 0 0 1 0.737255 0\nv 1 0 0 .2 .2 .2\nv 0 1 0\n";
@@ -926,7 +926,7 @@ static void obj_colours(void)
     put_file("kd.mtl", kd, sizeof kd - 1);
     CHECK_LOADS(load_painted(plain, "", MODEL_COLOURS_SRGB));
     CHECK(is_colour(0, 255, 128, 0) && is_colour(1, 8, 8, 8) && loaded.scene.materials[0].albedo[1] == 1.0f);
-    CHECK(is_colour(2, 204, 204, 204)); /* a vertex without one is as grey as it were in a file without colours */
+    CHECK(is_colour(2, 204, 204, 204)); /* a vertex without a colour is as grey as in a file without colours */
     CHECK_LOADS(load_painted(plain, "", MODEL_COLOURS_LINEAR));
     CHECK(is_colour(0, 255, 188, 0) && is_colour(1, 51, 51, 51) && is_colour(2, 204, 204, 204));
     CHECK_LOADS(load_painted(plain, "mtllib kd.mtl\nusemtl a\n", MODEL_COLOURS_SRGB));
@@ -944,7 +944,8 @@ static void obj_colours(void)
 #define ROOF "v -1 -1 0\nv 0 -1 1\nv 0 1 1\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n" /* the ridge: 2 and 3 */
 static const double slope = 0.7071067811865476;
 
-/* The normal of the only mesh at this place, of the first vertex there whose x has this sign; 0s: there is none. */
+/* Returns the normal of the only mesh at this position: the first one with an x of this sign; zeros if there is
+ * none. */
 static int has_normal(double px, double py, double pz, double x, double y, double z)
 {
     const lmb_mesh *m = &loaded.scene.meshes[0];
@@ -978,8 +979,8 @@ static void obj_smoothing(void)
     CHECK(has_normal(0, -1, 1, 0, 0, 1));
 }
 
-/* Vertices that are written twice, or with other coordinates of textures; a face before its vertices; normals of the
- * file's own, which hold. */
+/* Vertices that are written twice, or with different texture coordinates; a face before its vertices; normals of the
+ * file, which are kept. */
 static void obj_smoothing_corners(void)
 {
     CHECK_LOADS(load_text("s.obj", ROOF "v -0.0 -1 1\nv 0 1 1\ns 1\nf 1 2 3 4\nf 7 5 6 8\n"));
@@ -994,7 +995,8 @@ static void obj_smoothing_corners(void)
     CHECK(is_flat(ROOF "vn 0 1 0\nf 1 2//1 3 4\n"));
 }
 
-/* However its sides are cut, a cube's corners point along its diagonals; one side in three times as many pieces. */
+/* For any triangulation, the corner normals of a cube point along its diagonals. One side has three times as many
+ * pieces. */
 static void obj_smoothing_weights(void)
 {
     int i;
@@ -1008,7 +1010,8 @@ static void obj_smoothing_weights(void)
     CHECK(has_normal(0, 0, 1, 0, 0, 1));
 }
 
-/* What has no area, or hardly any, turns no normal; sides that lie on each other keep theirs; odd lines are noted. */
+/* Triangles with no area, or almost none, change no normal. Coincident sides keep their normals. Invalid lines are
+ * noted. */
 static void obj_smoothing_odd(void)
 {
     CHECK_LOADS(load_text("s.obj", ROOF "v 0 0 1.00000001\nv 0 0 1\nv nan 0 0\ns 1\nf 1 2 3 4\nf 2 5 6 3\nf 2 3 3\nf 2 7 3\n"
@@ -1016,7 +1019,7 @@ static void obj_smoothing_odd(void)
     CHECK(has_normal(0, -1, 1, 0, 0, 1) && has_normal(0, 1, 1, 0, 0, 1));
     CHECK_LOADS(load_text("s.obj", ROOF "s 1\nf 1 2 3 4\nf 4 3 2 1\n"));
     CHECK(has_normal(0, -1, 1, -slope, 0, slope));
-    CHECK_LOADS(load_text("s.obj", ROOF "v 0.00001 0 1\ns 1\nf 2 7 3\n")); /* a needle alone */
+    CHECK_LOADS(load_text("s.obj", ROOF "v 0.00001 0 1\ns 1\nf 2 7 3\n")); /* only a needle */
     CHECK(has_normal(0, -1, 1, 0, 0, 1));
     CHECK(is_flat(ROOF "s on\nf 1 2 3 4\n") && noted("smoothing groups that are no number, taken as off: 1"));
     CHECK(is_flat(ROOF "s\ns -1\ns 2147483647\nf 1 2 3 4\n") && noted("taken as off: 3"));
@@ -1024,7 +1027,8 @@ static void obj_smoothing_odd(void)
     CHECK(has_normal(0, -1, 1, 0, 0, 1));
 }
 
-/* Normals without length are those of the faces at the vertex; +Y where these have no area. Infinite ones, too. */
+/* Normals without length are replaced by those of the faces at the vertex, or +Y if the faces have no area. So are
+ * infinite ones. */
 static void obj_odd_normals(void)
 {
     CHECK_LOADS(load_text("n.obj", ROOF "vn 0 0 0\nvn 0 0 inf\nvn 0 3 0\nf 1//1 2//1 3//1 4//2\nf 2//1 5//3 6//2 3//1\n"));

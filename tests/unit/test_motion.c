@@ -135,7 +135,7 @@ static void stands_still(void)
     CHECK(loaded.motion == NULL && loaded.motion_problem.text[0] == '\0');
 }
 
-/* A scale of 0 on the way leaves a light and a camera the directions of their turns. */
+/* With a scale of 0 in a parent, a light and a camera keep the directions of their rotations. */
 static void keeps_its_way(void)
 {
     CHECK_LOADS(load_gltf(SCENE(ONE(CHANNEL(0, 1, "scale") "," CHANNEL(1, 0, "rotation") "," CHANNEL(0, 2, "scale"),

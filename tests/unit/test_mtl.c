@@ -75,7 +75,7 @@ static void emission(void)
                 (float)(0.0556434 - 2 * 0.2040259 + 3 * 1.0572252)));
 }
 
-/* Kd by CIE XYZ: the white of D65, and a red; a spectrum leaves the grey. */
+/* Kd as CIE XYZ: the white of D65, and a red. With a spectrum the material stays grey. */
 static void xyz(void)
 {
     const lmb_material *m;
@@ -92,7 +92,7 @@ static void xyz(void)
     CHECK(!load_library("newmtl a\nKd xyz 1 z\n") && strstr(problem.text, "line 2: Kd takes numbers, 0 to 1"));
 }
 
-/* Programs write keywords in any case; names of materials and files stay as they are. */
+/* Keywords are not case-sensitive, but names of materials and files are. */
 static void letter_case(void)
 {
     put_picture("Pic.png");

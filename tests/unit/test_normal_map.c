@@ -158,7 +158,7 @@ static void test_tangents(void)
     check_normal(vec(0, 0, 5), -0.7071 + half * 0.985, 0.7071 + half * 0.985, 1, "and what is square to it");
 }
 
-/* A tangent along x at each corner, its side at each from a sign. */
+/* A tangent along x at each corner, with its side from a sign. */
 static void set_sides(int a, int b, int c)
 {
     const int odd[3] = {a > 0, b > 0, c > 0};
@@ -170,7 +170,7 @@ static void set_sides(int a, int b, int c)
     st.mesh.tangent_format = LMB_TANGENT_SIDED;
 }
 
-/* Both axes by the mesh: texture coordinates count for the lookup alone. */
+/* Both axes come from the mesh: texture coordinates are used only for the lookup. */
 static void test_sides(void)
 {
     const lmb_mat4 mirror = {{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};

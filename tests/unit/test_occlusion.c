@@ -331,7 +331,8 @@ static void holes(void)
     CHECK(occluded_sun_anew(&b, &tile, ~UINT64_C(0), mul3(Y, -1)) == 0);
 }
 
-/* Two triangles that are all hole are left out: by the texture, by the part of it that they show, by alpha of their own. */
+/* Two triangles that are fully transparent are left out: by the texture, by the visible part of it, or by their own
+ * alpha. */
 static void all_hole(void)
 {
     static const uint8_t half_clear[8 * 4 * 4] = {
@@ -379,7 +380,7 @@ static void star(test_rng *r, int needles)
     }
 }
 
-/* Points on needles in a closed room: walls block them all, and are found before the needles are all tested. */
+/* Points on needles in a closed room: walls block them all, and are found before all needles have been tested. */
 static void walls_before_needles(void)
 {
     test_rng r = {91};

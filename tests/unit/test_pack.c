@@ -61,7 +61,7 @@ static uint32_t word_of(float v)
     return w;
 }
 
-/* Word 13 of a light; files that older tools made have 0 there. */
+/* Word 13 of a light. Files from older tools have 0 there. */
 static void test_range(void)
 {
     make_small();
@@ -148,11 +148,11 @@ static void test_refused(void)
     CHECK(open_with(at_part(LMB_PACK_TRACKS, 1), 200, bytes) == LMB_ERR_FORMAT);
 }
 
-/* Parts that share a byte with another one or with the table. The one that moves is of an unknown kind, so that nothing
- * else is wrong with the file. */
+/* Parts that share a byte with another part or with the table. The part that is moved has an unknown kind, so the file
+ * is valid otherwise. */
 static void test_overlaps(void)
 {
-    const uint32_t bytes = (uint32_t)make_small(), parts = words[3], last = parts - 3; /* KEYS, behind most of them */
+    const uint32_t bytes = (uint32_t)make_small(), parts = words[3], last = parts - 3; /* KEYS, after most of them */
     uint32_t *table = words + LMB_PACK_HEADER_WORDS, *own = table + LMB_PACK_PART_WORDS * last, refused = 0;
     lmb_pack p;
     own[0] = 9999;
@@ -167,13 +167,13 @@ static void test_overlaps(void)
             own[1] = other[1];
             refused += lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT;
             own[2] = 0;
-            CHECK(lmb_pack_open(&p, words, bytes) == LMB_OK); /* nothing shares nothing */
+            CHECK(lmb_pack_open(&p, words, bytes) == LMB_OK); /* an empty part overlaps nothing */
         }
     }
     CHECK_MSG(refused == 2 * (parts - 1), "%u of %u", (unsigned)refused, (unsigned)(2 * (parts - 1)));
     own[1] = at;
     own[2] = size + 4;
-    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT); /* into the one behind it */
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT); /* into the part after it */
     own[1] = at - 4;
     CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT);
     own[1] = 4 * LMB_PACK_HEADER_WORDS; /* the table */
@@ -240,7 +240,8 @@ static void test_moves(void)
     CHECK(lmb_pack_pose(&scene, &opened, 0.0f) == LMB_ERR_ARG);
 }
 
-/* A sun and a camera on the panel's node, turned by 45 degrees about Y, where scales are 0: its own, or a matrix's. */
+/* A sun and a camera on the node of the panel, turned by 45 degrees about Y, with a scale of 0 in the node or in a
+ * matrix above it. */
 static void test_no_scale(void)
 {
     static const float nothing[12] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0};
@@ -265,8 +266,8 @@ static void test_no_scale(void)
     }
 }
 
-/* Spans of two seconds: a cubic's tangents are by the second; rotations turn evenly and by the shorter way, also where
- * the keys' quaternions have other signs. */
+/* Spans of two seconds: tangents of cubic keys are per second. Rotations turn at constant speed and take the shorter
+ * way, also if the quaternions of the keys have opposite signs. */
 static void test_spans(void)
 {
     const float pi_8 = 0.39269908f;
@@ -276,14 +277,14 @@ static void test_spans(void)
     key[1] = float_bits(2.0f);
     for (int sign = 0; sign < 2; ++sign) {
         CHECK(lmb_pack_pose(&scene, &opened, 0.5f) == LMB_OK);
-        /* h = u^2 (3 - 2 u) + 2 s u (1 - u) (1 - u - u) / 2 at u = 1/4, where both tangents are 1 a second */
+        /* h = u^2 (3 - 2 u) + 2 s u (1 - u) (1 - u - u) / 2 at u = 1/4, with both tangents 1 per second */
         CHECK_MSG(is_near(scene.lights[0].position, 0.34375f, 1.8f, 0.5f), "%g", (double)scene.lights[0].position.x);
         CHECK_MSG(is_near(column(m, 0), 0.5f * cosf(pi_8), 0, -0.5f * sinf(pi_8)), "%g %g", (double)m->m[0],
                   (double)m->m[2]);
         CHECK(is_near(column(m, 3), 0, 0.75f, 0));
         CHECK(lmb_pack_pose(&scene, &opened, 1.75f) == LMB_OK);
         CHECK(is_near(column(m, 0), 0.5f * cosf(3.5f * pi_8), 0, -0.5f * sinf(3.5f * pi_8)));
-        for (int i = 12; i < 16; ++i) { /* the second rotation, the other way round */
+        for (int i = 12; i < 16; ++i) { /* the second rotation with its sign flipped */
             key[i] ^= 0x80000000u;
         }
     }
@@ -537,8 +538,8 @@ static void test_order(void)
     CHECK(pack_order(index, 0, 0));
 }
 
-/* One picture that materials read in several ways: each way has a format that keeps what it reads; a way that is there
- * already is not packed again. */
+/* Materials use one picture in several ways. For each way it is packed once, in a format that keeps the channels
+ * used. */
 static void test_shared_picture(void)
 {
     enum { SIDE = 16, BYTES = 4 * SIDE * SIDE };
@@ -573,7 +574,7 @@ static void test_shared_picture(void)
     CHECK_MSG(pack_textures(&out, slot, &s, &small, &r), "%s", r.text);
     const uint32_t *record = (const uint32_t *)(const void *)out.part[LMB_PACK_TEXTURES].data;
     CHECK(out.part[LMB_PACK_TEXTURES].size == 4 * 4 * LMB_PACK_TEXTURE_WORDS);
-    CHECK(out.part[LMB_PACK_TEXELS].size == BYTES / 2 + BYTES); /* opaque, and with its alpha */
+    CHECK(out.part[LMB_PACK_TEXELS].size == BYTES / 2 + BYTES); /* once opaque, and once with alpha */
     for (int i = 0; i < 4; ++i) {
         const uint32_t *w = record + LMB_PACK_TEXTURE_WORDS * slot[i];
         CHECK((w[2] >> 8 & 255u) == (i % 2 ? LMB_TEXELS_RGBA8 : LMB_TEXELS_RGB565));
@@ -581,7 +582,7 @@ static void test_shared_picture(void)
     }
     pack_free(&out);
     memset(&out, 0, sizeof out);
-    material[4] = material[0]; /* one texture of both kinds of material keeps its alpha */
+    material[4] = material[0]; /* a texture for both kinds of material keeps its alpha */
     material[4].flags = LMB_ALPHA_MASK;
     material[5] = material[1]; /* in either order */
     material[5].flags = 0;

@@ -247,7 +247,7 @@ static void test_reasons(void)
     f.show = LMB_SHOW_DIRECT;
     make_plan(&f, NULL);
     CHECK(why_of(LMB_PLAN_GATHER) == LMB_WHY_NOT_SHOWN && why_of(LMB_PLAN_DIRECT) == LMB_WHY_RUNS);
-    /* Its range ends before all that there is: no map. */
+    /* The range ends before all surfaces, so there is no shadow map. */
     const lmb_vec3 was = lights[0].position;
     for (int near = 0; near < 2; ++near) {
         lights[0].position.y = world.scene.bounds_max.y + 3.0f;

@@ -65,8 +65,8 @@ static void is_smooth(void)
     key_path_free(&p);
 }
 
-/* object:0 at places with targets: a mirrored object stays one, its +Z goes to the target and its +Y stays up. A key
- * without a target leaves it as it was turned. */
+/* object:0 at positions with targets: a mirrored object stays mirrored, its +Z points to the target and its +Y stays
+ * up. A key without a target does not change its rotation. */
 static void turns_objects(void)
 {
     static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};

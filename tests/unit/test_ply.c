@@ -295,7 +295,7 @@ static void text_forms(void)
     CHECK(loaded.blocks && !mesh()->colours); /* one channel alone is no colour */
 }
 
-/* Three vertices of one grey in `type`, by its text. */
+/* Loads three vertices of one grey in `type`, written as `code`. */
 static int load_grey(const char *type, const char *code, const model_choice *choice)
 {
     char text[700];
@@ -307,8 +307,8 @@ static int load_grey(const char *type, const char *code, const model_choice *cho
     return model_read_as(&loaded, "a", choice, (const uint8_t *)text, (size_t)n, &notes, &problem);
 }
 
-/* Codes are sRGB by default: 188 is half the light of 255, which is white and not a grey of 0.8. Floats are decoded as
- * they are: 0.98235 lies between the codes 250 and 251, and so does its light. */
+/* Codes are sRGB by default: 188 is half the light of 255, which is white and not a grey of 0.8. Floats are decoded
+ * without rounding: 0.98235 lies between the codes 250 and 251, and so does its light. */
 static void scan_colours(void)
 {
     static const struct {
@@ -337,7 +337,7 @@ static void scan_colours(void)
 
 enum { RESTART = -1 };
 
-/* Five vertices and the strips of this list, whose vertices and ends are of the type. */
+/* Loads five vertices and the strips of this list. Indices and strip ends have this type. */
 static int load_strips(int encoding, int type, const char *before, const int *list, int n)
 {
     static const double places[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
@@ -359,7 +359,7 @@ static int load_strips(int encoding, int type, const char *before, const int *li
     return load(w.bytes, w.size);
 }
 
-/* Every second triangle is the other way round, which vertices that stand twice count for, too; -1 begins another strip. */
+/* Every second triangle has the opposite winding, and repeated vertices count too. -1 begins a new strip. */
 static void strips(void)
 {
     static const int list[] = {0, 1, 2, 3, 4, RESTART, 3, 2, 4}, joined[] = {0, 1, 2, 2, 3, 3, 4, 2}, odd[] = {0, 1, 5};
@@ -432,7 +432,7 @@ static void face_colours(void)
     CHECK(loaded.blocks && noted("colours with an alpha under 1, drawn opaque: 2"));
 }
 
-/* Codes of 8 bits in a wider type. */
+/* 8-bit codes in a wider type. */
 static void wide_codes(void)
 {
     CHECK_LOADS(load_grey("int", "188", NULL));
@@ -468,7 +468,7 @@ static int has_uv(uint32_t mesh_number, uint32_t corner, double u, double v)
 #define FACE_UVS  "property list uchar float texcoord\n"
 #define START(c)  "ply\nformat ascii 1.0\n" c "element vertex 4\n" XYZ
 
-/* By vertex; the first of two pictures, as no face says which. */
+/* Coordinates per vertex. The first of two pictures is used because faces do not choose one. */
 static void vertex_textures(folder *place)
 {
     static const char *const names[] = {"s", "t", "u", "v", "texture_u", "texture_v", "texture_s", "texture_t"};
@@ -492,7 +492,8 @@ static void vertex_textures(folder *place)
     CHECK(loaded.scene.texture_count == 0 && noted("plain colour instead: 2"));
 }
 
-/* By face: the corners of one vertex have several places in the picture; faces without a picture are grey. */
+/* Coordinates per face: corners at one vertex have different positions in the picture. Faces without a picture are
+ * grey. */
 static void face_textures(folder *place)
 {
     CHECK_LOADS(load_in(place, START(PICTURE "a b.png\n" PICTURE "none.png\ncomment texturefile c.png\n") "element face 6\n" FACES FACE_UVS
@@ -528,7 +529,7 @@ static void textures(void)
     folder_close(&place);
 }
 
-/* Many faces of many colours on two vertices: their wedges are no more than there is room for. */
+/* Many faces of many colours on two vertices: there must be room for all wedges. */
 static void many_wedges(void)
 {
     const int n = 3000;

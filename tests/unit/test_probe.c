@@ -625,7 +625,7 @@ static void refusals(stage *s)
     CHECK(fabsf(outside - s->map[COUNT / 2]) < 1e-4f);
 }
 
-/* The last level of a face or a ground of any sides is the mean of all its texels, weighted by alpha. */
+/* The last mip level of a face or a ground of any size is the mean of all texels, weighted by alpha. */
 static void means_of_levels(stage *s, int32_t face, int32_t width, int32_t height)
 {
     double want[2][4] = {{0}};

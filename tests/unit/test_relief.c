@@ -144,10 +144,10 @@ static void other_order(const stage *s)
     free(copy);
 }
 
-/* Arrays that share a byte. A file of the other byte order would be swapped twice there. */
+/* Arrays that overlap. In a file of the other byte order, shared bytes would be swapped twice. */
 static void overlaps(const stage *s)
 {
-    static const int offset[] = {8, 9, 10, 11, 35, 55}; /* of the simple model's arrays, of two views' texels */
+    static const int offset[] = {8, 9, 10, 11, 35, 55}; /* arrays of the simple model, texels of two views */
     const lmb_relief none = s->relief;
     lmb_relief r = none;
     uint32_t *copy = malloc(s->file.size);
@@ -163,7 +163,7 @@ static void overlaps(const stage *s)
         }
         copy[offset[i]] = was;
     }
-    copy[10] = 0; /* no colours lie nowhere */
+    copy[10] = 0; /* without colours the offset is 0 */
     CHECK(lmb_relief_open(&r, copy, s->file.size) == LMB_OK);
     copy[9] = copy[8];
     turn_words((uint8_t *)copy + records, (size_t)copy[4] * LMB_RELIEF_VIEW_WORDS, 4);

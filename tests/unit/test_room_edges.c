@@ -1,5 +1,5 @@
-/* test_room_edges.c: pixels whose centres lie on the edges of a room have bounced light like their neighbours, and none
- * if the room is dark. */
+/* test_room_edges.c: checks that pixels with centres on the edges of a room have the same bounced light as their
+ * neighbours, and none if the room is dark. */
 #include "../folder.h"
 
 #include <math.h>
@@ -13,9 +13,9 @@
 
 void test_room_edges(void);
 
-enum { SIDE = 64, CORNERS = 8, MARGIN = 6 /* px beside the room's corners and the middle, where light is steep */ };
+enum { SIDE = 64, CORNERS = 8, MARGIN = 6 /* px at corners and the middle, where light changes quickly */ };
 
-/* A room turned about its own middle, then scaled and moved, all with its camera and its lamp. */
+/* A room with its camera and lamp, rotated about the middle of the room, then scaled and moved. */
 typedef struct room {
     double axis[3][3], scale, at[3];
 } room;
@@ -42,7 +42,7 @@ static room room_of(uint64_t seed, double scale, double far)
     return r;
 }
 
-/* Six walls, their fronts inwards; `first`: corners written so far. */
+/* Writes six walls with their fronts inwards. `first`: number of corners written so far. */
 static int box_write(char *text, size_t size, const room *r, const double low[3], const double high[3], int first)
 {
     static const int walls[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
@@ -59,7 +59,7 @@ static int box_write(char *text, size_t size, const room *r, const double low[3]
     return end;
 }
 
-/* The room that is looked at, a cube of 4 m, and another box with the lamp in it, or NULL. */
+/* Writes the room that is drawn, a cube of 4 m. `other`: another box that contains the lamp, or NULL. */
 static int room_write(char *path, size_t size, folder *f, const room *r, const double other[2][3])
 {
     static const double low[3] = {-2, -2, -2}, high[3] = {2, 2, 2};
@@ -71,7 +71,8 @@ static int room_write(char *path, size_t size, folder *f, const room *r, const d
     return snprintf(path, size, "%s", folder_put(f, "room.obj", text, (size_t)end)) < (int)size;
 }
 
-/* Pixels on the picture's diagonals, where the room's edges are, that have under 0.8 of the pixels beside, over and under them. */
+/* Counts pixels on the diagonals of the picture, where the edges of the room are, with less than 0.8 of the light of
+ * all four neighbours. */
 static int dark_pixels(const image *picture)
 {
     int dark = 0;
@@ -85,7 +86,7 @@ static int dark_pixels(const image *picture)
     return dark;
 }
 
-/* Pixels that have any bounced light to speak of; the lamp's own room has about 0.1 W/m2sr. */
+/* Counts pixels with bounced light above 1e-4. The room with the lamp has about 0.1 W/m2sr. */
 static int lit_pixels(const image *picture)
 {
     int lit = 0;
@@ -95,7 +96,7 @@ static int lit_pixels(const image *picture)
     return lit;
 }
 
-/* Dark pixels on the edges of the lamp's room, or lit ones of a room that the lamp is not in. */
+/* Counts dark pixels on the edges of a room with the lamp, or lit pixels of a room without the lamp. */
 static int edge_count(const room *r, const double other[2][3], const double lamp[3], const char *how, const char *value)
 {
     char path[512], eye[96], target[96], up[96], light[200], verb[] = "render";
@@ -151,8 +152,8 @@ void test_room_edges(void)
             const int dark = edge_count(&r, NULL, inside, how[k][0], how[k][1]);
             CHECK_MSG(dark <= 2, "place %d, %s %s: %d dark pixels", i, how[k][0], how[k][1], dark);
         }
-        /* Exact occlusion. Place 2 is open: the rasterizer rounds corners to 1/256 px, and a dozen of its pixels lie so far
-         * beyond the wall's edge that no triangle of the room is between them and the lamp. */
+        /* Only with exact occlusion. Place 2 has gaps: the rasterizer rounds corners to 1/256 px, and a dozen pixels
+         * lie so far beyond the edge of the wall that no triangle of the room is between them and the lamp. */
         for (int k = 0; k < 3 && i != 2; ++k) {
             const int lit = edge_count(&r, around, outside, how[k][0], how[k][1]) +
                             edge_count(&r, next, beside, how[k][0], how[k][1]);

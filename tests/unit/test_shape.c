@@ -1,4 +1,4 @@
-/* test_shape.c: meshes that glTF's animations reshape: two skins, morph weights, and both at once. */
+/* test_shape.c: tests meshes that glTF animations reshape: two skins, morph weights, and both at once. */
 #include <math.h>
 #include <stdio.h>
 
@@ -10,23 +10,24 @@ void test_shape(void);
 
 static char text[1 << 14];
 
-/* A joint at 0 and one 1 m above it, which turns by -90 degrees about Z within a second; a triangle at 0, 2 m up, and
- * beside that; what its two targets add. */
+/* A joint at 0, and one 1 m above it that turns by -90 degrees about Z in one second. A triangle with corners at 0, 2 m
+ * above, and next to that. The offsets of two morph targets. */
 static const float numbers[] = {
     0, 1,                                                    /* 0: times */
     0, 0, 0, 1, 0, 0, -0.70710678f, 0.70710678f,             /* 8: turns */
     1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,          /* 40: inverse bind */
     1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1,
-    0, 0, 0, 0, 2, 0, 1, 2, 0,                               /* 168: places */
+    0, 0, 0, 0, 2, 0, 1, 2, 0,                               /* 168: positions */
     0, 0, 1, 0, 1, 0, 0, 0.8f, 0.6f,                         /* 204: normals */
     1, 0, 0, 0, 0.5f, 1.5f, 0, 0, 3, 0, 0, 0,                /* 240: weights of the second skin, not of sum 1 */
-    1, 0, 0, 1, 0, 0, 1, 0, 0,                               /* 288: first target, places */
-    1, 0, -1, 0, 0, 0, 0, 0, 0,                              /* 324: its normals */
+    1, 0, 0, 1, 0, 0, 1, 0, 0,                               /* 288: first target, positions */
+    1, 0, -1, 0, 0, 0, 0, 0, 0,                              /* 324: normals of the first target */
     0, 0, 2, 0, 0, 2, 0, 0, 2,                               /* 360: second target */
     0, 0, 1, 0.5f,                                           /* 396: weights, linear */
-    0, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0};                     /* 412: weights, cubic: 0, by a tangent of 4 */
+    0, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0};                     /* 412: weights, cubic: 0, with a tangent of 4 */
 enum { NUMBERS = sizeof numbers / sizeof *numbers };
-/* 460: joints of the first skin; 472: its weights; 484: joints of the second, 508: weights as codes. */
+/* 460: joints of the first skin; 472: weights of the first skin; 484: joints of the second; 508: weights as normalized
+ * integers. */
 
 #define VIEW(offset, bytes) "{\"buffer\":0,\"byteOffset\":" #offset ",\"byteLength\":" #bytes "}"
 #define ACCESSOR(view, component, count, type) \
@@ -115,14 +116,15 @@ static int faces(uint32_t instance, uint32_t vertex, double x, double y, double 
     return fabs((double)n.x - x) < 1e-4 && fabs((double)n.y - y) < 1e-4 && fabs((double)n.z - z) < 1e-4;
 }
 
-/* In the file's order: skin 0, skin 1, the mesh with weights, the same mesh that stands, skin 0 with weights. */
+/* In the order of the file: skin 0, skin 1, the mesh with weights, the same mesh without animation, skin 0 with
+ * weights. */
 static void moves_all(void)
 {
     const double half = sqrt(0.5);
     CHECK_LOADS(load(ALL));
     CHECK_MSG(loaded.motion != NULL && loaded.motion->shapes != NULL, "%s", loaded.motion_problem.text);
     CHECK(loaded.motion->shapes->count == 4 && !loaded.motion->reshapes[3] && loaded.motion->tracks == 1);
-    is_at(0, 1, 0, 2, 0); /* as the file places it */
+    is_at(0, 1, 0, 2, 0); /* the position in the file */
     pose(1.0);
     is_at(0, 0, 0, 0, 0);
     is_at(0, 1, 1, 1, 0);
@@ -139,9 +141,9 @@ static void moves_all(void)
     pose(0.5);
     is_at(0, 1, half, 1 + half, 0);
     is_at(2, 0, 0.5, 0, 0.5);
-    is_at(4, 0, 0.5, 0, 0); /* the first target by 4 u (1 - u)^2, and then the skin */
+    is_at(4, 0, 0.5, 0, 0); /* the first target with weight 4 u (1 - u)^2, then the skin */
     is_at(4, 1, 1.0 * half + 0.5 * half, 1 + 1.0 * half - 0.5 * half, 0);
-    CHECK(faces(4, 0, half, 0, half)); /* 0.5, 0, 0.5 at the joint that stands */
+    CHECK(faces(4, 0, half, 0, half)); /* 0.5, 0, 0.5 at the joint that does not move */
     pose(1e9);
     is_at(0, 1, 1, 1, 0);
     pose(0.0);
@@ -149,7 +151,8 @@ static void moves_all(void)
     is_at(2, 0, 0, 0, 0);
 }
 
-/* Weights alone, by steps and by codes: the skins stand, and their weights at rest are the node's. */
+/* Only weights, with STEP and as normalized integers: the skins do not move, and their weights at rest are those of the
+ * node. */
 static void moves_weights(void)
 {
     CHECK_LOADS(load("\"channels\":[" CHANNEL(0, 4, "weights") "],\"samplers\":[" SAMPLER(14, "STEP") "]"));

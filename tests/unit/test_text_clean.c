@@ -1,4 +1,4 @@
-/* test_text_clean.c: what of a text may be printed, as plain text, JSON, HTML and CSV. */
+/* test_text_clean.c: tests which parts of a text are printed, as plain text, JSON, HTML and CSV. */
 #include "../test.h"
 
 #include <stdarg.h>
@@ -35,8 +35,8 @@ static void characters(void)
     CHECK(cleans("\xE2\x80\x8E\xE2\x80\x8F\xE2\x80\xA8\xE2\x80\xA9\xE2\x80\xAA\xE2\x80\xAE\xE2\x80\xAF",
                  "??????\xE2\x80\xAF"));
     CHECK(cleans("\xE2\x81\xA6\xE2\x81\xA9\xEF\xBB\xBF\xEF\xBF\xBE\xEF\xBF\xBF\xF3\xA0\x81\x81", "??????"));
-    CHECK(cleans("\xE2\x80\x8D", "\xE2\x80\x8D")); /* a joiner, which scripts need */
-    /* not UTF-8: overlong, halves of pairs, past U+10FFFF, cut */
+    CHECK(cleans("\xE2\x80\x8D", "\xE2\x80\x8D")); /* a joiner; some scripts need it */
+    /* not UTF-8: overlong, surrogates, beyond U+10FFFF, truncated */
     CHECK(cleans("\xC0\xAF", "??") && cleans("\xE0\x80\x80", "???") && cleans("\xED\xA0\x80", "???"));
     CHECK(cleans("\xF4\x90\x80\x80", "????") && cleans("\xE2\x82", "??") && cleans("\xE2\x82y\x9B", "??y?"));
     CHECK(cleans("\n", "?") && cleans("a\nb\n", "a?b?") && cleans("\t\r", "??"));

@@ -387,7 +387,7 @@ static void put_air(void)
     airy[6 + LMB_TRANSFER_AIR] = 2;
 }
 
-/* A place's six receivers lie among those that there are: of eight, from 0, 1 or 2 on. */
+/* The six receivers of a place must exist: with eight receivers they start at 0, 1 or 2. */
 static void last_air(void)
 {
     enum { MORE = 3, EACH = LMB_TRANSFER_RECEIVER_WORDS };
@@ -742,7 +742,7 @@ static void keeps_power(const lmb_transfer *t, const lmb_scene *scene)
     free(l.memory);
 }
 
-/* A range leaves of each triangle's light what its distance says: a hard cone, 0.75 m over the floor. */
+/* A range scales the light on each triangle by distance: tested with a hard cone, 0.75 m above the floor. */
 static void keeps_to_range(const lmb_transfer *t)
 {
     static const float ranges[] = {3.0f, 1.2f, 0.9f, 0.7f};
@@ -1023,7 +1023,8 @@ static void turned_in_furnace(const lmb_transfer *t, const lmb_tile *tile)
     free(l.memory);
 }
 
-/* A triangle's form factors along three axes at once are those along each way of each axis, also through the horizon. */
+/* The form factors of a triangle along three axes at once equal those along both directions of each axis, also if the
+ * triangle crosses the horizon. */
 static void factors_at_once(void)
 {
     static const lmb_vec3 corner[3] = {{0.5f, 0.25f, 2.0f}, {-1.0f, 1.5f, 1.0f}, {0.25f, -1.0f, 1.5f}};

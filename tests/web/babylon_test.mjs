@@ -1,6 +1,6 @@
-// babylon_test.mjs: baked lightmaps as Babylon.js reads them, without a GPU: babylon_test.mjs MODULES FILE...
+// babylon_test.mjs: tests baked lightmaps in Babylon.js, without a GPU: babylon_test.mjs MODULES FILE...
 //
-// Each mesh's material has the picture of light in a slot without an effect of its own.
+// The material of each mesh has the lightmap in a slot without an effect.
 import fs from 'fs';
 import path from 'path';
 import { createRequire } from 'module';

@@ -15,7 +15,7 @@ export function openProbes(header, numbers) {
     if (header.lambent !== 'probes' || numbers.byteLength !== 4 * floats * count[0] * count[1] * count[2])
         throw new Error('these are no probes of lambent, or the numbers are of another file');
 
-    // The nearest place before a coordinate, and the share of the next one.
+    // Returns the last probe before a coordinate, and the weight of the next one.
     const before = (at, k) => {
         const along = Math.min(Math.max((at - first[k]) / step[k], 0), count[k] - 1);
         const i = Math.min(Math.floor(along), Math.max(count[k] - 2, 0));

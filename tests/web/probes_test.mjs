@@ -1,4 +1,5 @@
-// probes_test.mjs: the reader of probes on light that is known by hand, and on a file of the tool: probes_test.mjs AIR.json
+// probes_test.mjs: tests the reader of probes with light computed by hand, and with a file of the tool: probes_test.mjs
+// AIR.json
 import fs from 'fs';
 import { openProbes } from './probes.mjs';
 
@@ -9,8 +10,8 @@ const check = (what, is, wanted) => {
     failed = 1;
 };
 
-// Two places along x: the first without light, the second with radiance 1 in red from all around, and with a term along +y
-// in green.
+// Two probes along x: the first without light, the second with red radiance 1 from all directions, and with a green
+// term along +y.
 const numbers = new DataView(new ArrayBuffer(2 * 28 * 4));
 numbers.setFloat32(4 * 28, 1 / 0.282095, true);
 numbers.setFloat32(4 * (28 + 4), 0.5, true);

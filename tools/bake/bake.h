@@ -18,7 +18,7 @@ typedef struct bake_settings {
     float cluster_m;    /* triangles under twice this are lit by clusters of that size; 0: by the scene's area */
     float smallest_m;   /* no edge under it is halved; 0: by the scene's area */
     uint32_t elements;  /* a power of 4, up to LMB_TRANSFER_MAX_ELEMENTS */
-    uint32_t receivers; /* at most; 0: `dividing` beside those at triangles' corners */
+    uint32_t receivers; /* maximum; 0: `dividing` in addition to those at the corners of triangles */
     uint32_t dividing;
     int threads;
     int is_swapped;     /* the file is for the other byte order */

@@ -8,15 +8,15 @@
 
 enum { LIGHT_TRANSFER, LIGHT_COLOURS, LIGHT_MAP, LIGHT_PROBES };
 
-/* A corner of a triangle in the world, and as its object has it. */
+/* A corner of a triangle, in world space and in object space. */
 typedef struct light_corner {
     lmb_vec3 at, normal;
     lmb_vec3 own_at, own_normal;
     float uv[MODEL_UV_SETS][2], tangent[4], colour[4];
 } light_corner;
 
-/* light_corners: of triangle `id`'s front or back, counter-clockwise from that side in the world. `source` NULL: the model
- * has none. */
+/* light_corners: returns the corners of the front or back of triangle `id`, counter-clockwise seen from that side in
+ * world space. `source` NULL: the model has no source. */
 int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, const model_source *source, uint32_t id,
                   uint32_t back);
 light_corner light_between(const light_corner *a, const light_corner *b);
@@ -26,7 +26,7 @@ enum { LIGHT_SLOTS = 1 << 16 };
 typedef struct light_mesh {
     glb_mesh mesh;
     int32_t *slot, *next; /* of vertices by their bytes */
-    int is_mirrored;      /* the object's place turns its triangles round */
+    int is_mirrored;      /* the transform of the object is mirrored */
 } light_mesh;
 
 int light_mesh_begin(light_mesh *m, const lmb_scene *scene, uint32_t instance, report *r);
@@ -40,8 +40,8 @@ int light_colours(const char *path, light_solve *s, const model *loaded, report 
 int light_picture(const char *path, light_solve *s, const model *loaded, int32_t side, report *r);
 int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is_quiet, report *r);
 
-/* light_probe_normal: the normals that a place's light is asked for, and what each counts, 4 pi together.
- * light_probe_add: irradiance on one of them into the harmonics of radiance, R, G and B of each. */
+/* light_probe_normal: returns normal k for sampling the light at a probe, and its weight; the weights sum to 4 pi.
+ * light_probe_add: adds the irradiance at normal k to the spherical harmonics of radiance, R, G and B for each. */
 enum { LIGHT_PROBE_NORMALS = 14 };
 lmb_vec3 light_probe_normal(int k, float *weight);
 void light_probe_add(float inout[27], int k, const float e[3]);

@@ -28,7 +28,8 @@ static int is_mirror(const lmb_mat4 *m)
     return dot3(cross3(x, y), z) < 0.0f;
 }
 
-/* The corner's texture coordinates as the file has them, or as the scene does; a back's tangent turns with its normal. */
+/* Reads the texture coordinates of a corner from the file, or from the scene. On the back of a triangle the tangent is
+ * negated like the normal. */
 static void read_streams(light_corner *c, const lmb_triangle *t, const model_source *source, uint32_t vertex,
                          uint32_t back)
 {
@@ -50,7 +51,7 @@ static void read_streams(light_corner *c, const lmb_triangle *t, const model_sou
     }
 }
 
-/* The place of a vertex in its object. */
+/* Returns the position of a vertex in object space. */
 static lmb_vec3 own_place(const lmb_triangle *t, uint32_t vertex) { return mesh_position(t->mesh, vertex); }
 
 int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, const model_source *source, uint32_t id,
@@ -87,7 +88,7 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, c
     return 1;
 }
 
-/* Halfway; a tangent's last is its sign. */
+/* Averages two corners. The last number of a tangent is its sign. */
 static void mean_of(float *out, const float *a, const float *b, int count)
 {
     for (int i = 0; i < count; ++i) {

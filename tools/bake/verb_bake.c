@@ -43,7 +43,7 @@ static const char *const orders[] = {"little", "big", NULL};
 static const char *const forms[] = {"transfer", "vertex-colours", "lightmap", "probes", NULL};
 static const char *const endings[] = {".lmt", ".glb", ".glb", ".json"};
 
-/* What --quality stands for: elements, and receivers beside those at triangles' corners. */
+/* Settings of --quality: elements, and receivers in addition to those at the corners of triangles. */
 enum { QUALITY_DRAFT, QUALITY_DEFAULT, QUALITY_BEST };
 static const char *const qualities[] = {"draft", "default", "best", NULL};
 static const struct {
@@ -65,8 +65,8 @@ static const option_row rows[] = {
      .help = "of a file with several scenes: which, by name or number"},
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities,
-     .help = "draft: 1024 elements and 1500 receivers beside those at triangles' corners; default: 4096 and 4000; best: "
-             "16384 and 12000, in five to seven times the time of the default (default default)"},
+     .help = "draft: 1024 elements, and 1500 receivers beside those at corners of triangles; default: 4096 and "
+             "4000; best: 16384 and 12000, which takes five to seven times as long as the default (default default)"},
     {.name = "--error", .value = "SHARE", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
      .help = "how accurate the links are, which carry light from pieces of the scene to receivers: the error that one more "
              "link has to save, as a share of all light around a receiver that stands for a 10,000th of the scene's "
@@ -77,9 +77,9 @@ static const option_row rows[] = {
              "light, more receivers (default 0.008)"},
     {.name = "--elements", .value = "N", .kind = OPTION_POWER_OF_2, AT(elements), .low = 64,
      .high = LMB_TRANSFER_MAX_ELEMENTS,
-     .help = "pieces of surface that send light: 256, 1024, 4096 or 16384 (default: by --quality); fewer bake faster"},
+     .help = "pieces of surface that emit light: 256, 1024, 4096 or 16384 (default: set by --quality); fewer: faster"},
     {.name = "--receivers", .value = "N", .kind = OPTION_INT, AT(receivers), .low = 64, .high = 500000,
-     .help = "no triangle is halved from so many receivers on (default: by --quality)"},
+     .help = "stop halving triangles at this number of receivers (default: set by --quality)"},
     {.name = "--cluster", .value = "METRES", .kind = OPTION_ABOVE, AT(cluster), .low = 0.0, .high = 1e5,
      .help = "triangles of meshes under twice this size are lit by clusters of this size (default: by the scene)"},
     {.name = "--smallest", .value = "METRES", .kind = OPTION_ABOVE, AT(smallest), .low = 0.0, .high = 1e5,

@@ -100,7 +100,8 @@ int bench_line_hurry(bench_line *l, const bench_subject *s)
     return bench_line_add(l, words);
 }
 
-/* In single quotes, of which those in the word stand outside. Returns bytes as snprintf does, or `size`. */
+/* Puts a word into single quotes. Quotes inside the word are escaped outside the quotes. Returns bytes as snprintf
+ * does, or `size`. */
 static size_t say_quoted(char *out, size_t size, const char *word)
 {
     size_t n = (size_t)snprintf(out, size, " '");

@@ -168,7 +168,7 @@ static void clean_up(void)
 
 static char over_line[128];
 
-/* By the thread of --time-limit, which holds the limit: no file is being written. */
+/* Called by the thread of --time-limit. It holds the limit, so no file is being written. */
 static void end_over(void)
 {
     file_drop_aside();

@@ -95,7 +95,7 @@ typedef struct picture_facts {
     int32_t width, height;
     int channels; /* 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA */
     int linear;   /* floats; else codes 0 .. 255 */
-    int has_scale, is_little; /* of a PFM */
+    int has_scale, is_little; /* only of a PFM */
     float scale;
     channel values[4];
     uint64_t nonfinite, bytes;

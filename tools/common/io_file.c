@@ -247,7 +247,7 @@ int file_is_folder(const char *path)
     return stat(path, &s) == 0 && IS_KIND(s, DIR);
 }
 
-/* --- what a file may name --- */
+/* --- references to other files --- */
 
 void file_only_here(void) { is_only_here = 1; }
 
@@ -260,7 +260,7 @@ static int is_separator(char c)
 #endif
 }
 
-/* Does a path from a folder stay below it, by its words alone? Only the last name is a file's. */
+/* Returns 1 if the text of a relative path stays below its folder. Links are not followed. The last name is a file. */
 static int stays_below(const char *path)
 {
     int depth = 0;
@@ -282,7 +282,7 @@ static int stays_below(const char *path)
 }
 
 #ifdef _WIN32
-/* Where a path leads once all links are followed; NULL: nowhere. The caller's to free. */
+/* Resolves all links of a path. Returns NULL if the path does not exist. The caller frees the result. */
 static char *real_path(const char *path)
 {
     const HANDLE f = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING,
@@ -449,7 +449,7 @@ static int create_aside(char *temporary, int mode)
     return fd;
 }
 
-/* What was written, for file_drop_written. Guarded by limit_hold. */
+/* Names of written files, for file_drop_written. Guarded by limit_hold. */
 static struct written_files {
     char **name;
     size_t count, cap;
@@ -464,7 +464,7 @@ void file_drop_written(void)
     for (i = 0; i < written.count; ++i) remove_now(written.name[i]);
 }
 
-/* Room for one name more, before its file is there. */
+/* Makes room for one more name, before the file exists. */
 static int written_grows(const char *path, report *r)
 {
     char **more;

@@ -28,10 +28,10 @@ int file_is_folder(const char *path);
 /* file_is_stdout: `-`, /dev/stdout, or `png:-` with any three letters: a name that says the format, too. */
 int file_is_stdout(const char *path);
 
-/* file_only_here: from now on file_is_below refuses what is not below its folder, till file_keep_end.
- * file_is_below: may a file that another file names be read? `folder` ends with a slash, or is "" for the folder at
- * hand. No root, no .. that leaves the folder, and no link that does; whether there is such a file outside it does not
- * tell. 1 where file_only_here was not called. */
+/* file_only_here: from now on file_is_below refuses files outside the folder, until file_keep_end. file_is_below:
+ * returns 1 if a file that another file refers to may be read. `folder` ends with a slash, or is "" for the current
+ * folder. Refuses absolute paths, and .. or links that leave the folder; the result does not reveal whether such a file
+ * exists. Returns 1 if file_only_here was not called. */
 void file_only_here(void);
 int file_is_below(const char *path, const char *folder, size_t folder_size, report *r);
 
@@ -63,8 +63,8 @@ int file_is_same_place(const char *a, const char *b);
 /* file_drop_aside: remove the temporary file, if there is one: for signals that end the program. */
 void file_drop_aside(void);
 
-/* file_keep_names: file_write remembers what it has written from now on, by limit_hold. file_drop_written: remove all
- * that; for one who holds the limit. */
+/* file_keep_names: from now on file_write records the files that it writes, under limit_hold. file_drop_written:
+ * removes all of them; the caller must hold the limit. */
 void file_keep_names(void);
 void file_drop_written(void);
 

@@ -26,7 +26,7 @@ int text_token(slice *out, cursor *c); /* the next on this line; 0 at its end */
 void text_rest(slice *out, cursor *c); /* what remains of this line (not of one it goes on in), outer blanks cut */
 int text_next_line(cursor *c);         /* 0 at the end of the text */
 int slice_is(slice s, const char *word);
-int slice_is_like(slice s, const char *word); /* in upper and lower case alike */
+int slice_is_like(slice s, const char *word); /* ignoring case */
 int slice_number(double *out, slice s);   /* 0: not a number; inf and nan are numbers */
 int slice_integer(int64_t *out, slice s); /* 0: not one of at most 18 digits */
 int text_fail(const cursor *c, report *r, const char *format, ...) REPORT_PRINTF(3, 4);

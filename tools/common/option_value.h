@@ -28,7 +28,7 @@ const char *option_light(const char *text, lmb_light *out, float *size);
 
 /* Samples a pixel, an int32_t by words. */
 extern const char *const option_samples[];
-extern const char *const option_vertex_colours[]; /* by their places the values of MODEL_COLOURS_ */
+extern const char *const option_vertex_colours[]; /* indexed by MODEL_COLOURS_ */
 extern const char *const option_tones[]; /* by their places the values of PICTURE_CURVED and PICTURE_CLIPPED */
 extern const int32_t option_sample_values[];
 

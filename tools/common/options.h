@@ -18,7 +18,7 @@ enum {
     OPTION_VERSION,
     OPTION_QUIET,   /* int: 1. They exclude each other */
     OPTION_VERBOSE,
-    OPTION_FLAG,    /* int: 1, without a value; or what `parse` does */
+    OPTION_FLAG,    /* int: 1, without a value; or stored by `parse` */
     OPTION_TEXT,    /* const char *, not empty */
     OPTION_INT,     /* int32_t within low .. high */
     OPTION_POWER_OF_2,
@@ -114,11 +114,11 @@ const char *options_nearest(const char *const *names, const char *word);
  * `b`, which may each have 40; over 40 where they have more. */
 int options_distance(const char *a, const char *b);
 
-/* options_limit_by: what --time-limit calls with its seconds: 1, or 0 where there can be no limit. Without it the
- * option is read and does nothing, as in tests. */
+/* options_limit_by: sets the function that --time-limit calls. It returns 1, or 0 if no limit can be set. If it is not
+ * set, the option is parsed but has no effect, for example in tests. */
 void options_limit_by(int (*limit)(double seconds));
 
-/* Rows' parse. */
+/* `parse` functions of the rows below. */
 int options_time_limit(const char *text, void *at);
 int options_only_here(const char *text, void *at);
 
@@ -126,11 +126,11 @@ int options_only_here(const char *text, void *at);
 #define OPTION_TIME_LIMIT                                                                                   \
     {.name = "--time-limit", .value = "SECONDS", .kind = OPTION_OWN, .parse = options_time_limit,           \
      .expects = "seconds, over 0, at most 1e7",                                                             \
-     .help = HELP("when so much time has passed, end with status 1 and remove what this command has written")}
+     .help = HELP("after this time, exit with status 1 and remove the files that this command has written")}
 #define OPTION_ONLY_HERE                                                                                    \
     {.name = "--only-here", .kind = OPTION_FLAG, .parse = options_only_here,                                \
-     .help = HELP("files name no others but those in or below their own folder: none by a root, by .. or by a link "  \
-                  "that leaves it; others count as missing. For files of strangers")}
+     .help = HELP("a file may only refer to files in or below its own folder, not by an absolute path, by .. or "   \
+                  "by a link that leaves it; other files count as missing. Use it for files from strangers")}
 #define OPTION_ASK                                                                                          \
     {.name = "--help", .brief = "-h", .kind = OPTION_HELP, .help = HELP("this text")},                            \
     {.name = "--version", .brief = "-V", .kind = OPTION_VERSION, .help = HELP("the version of lambent")}
@@ -147,7 +147,7 @@ int options_only_here(const char *text, void *at);
      .help = HELP("how display formats show light over white: by a curve that keeps it apart (default), or clipped")}
 #define OPTION_VERTEX_COLOURS_ROW(type, colours)                                                            \
     {.name = "--vertex-colours", .kind = OPTION_WORD, .at = offsetof(type, colours), .words = option_vertex_colours, \
-     .help = HELP("of OBJ and PLY: sRGB codes, as scanners and modellers write them (default), or linear light")}
+     .help = HELP("vertex colours of OBJ and PLY: sRGB codes, as most programs write (default), or linear light")}
 #define OPTION_BACKEND_ROW(type, kernels)                                                                   \
     {.name = "--backend", .value = "NAME", .kind = OPTION_BACKEND, .at = offsetof(type, kernels),           \
      .help = HELP("whose instructions draw: the same bytes by any (default: the fastest that this processor has)")}

@@ -1,4 +1,4 @@
-/* progress.c: one line on a terminal that says how far the work is; elsewhere, for some verbs, a line every ten seconds. */
+/* progress.c: shows progress in one line on a terminal; elsewhere, for some verbs, in a line every ten seconds. */
 #include "progress.h"
 
 #include <signal.h>
@@ -9,7 +9,7 @@
 
 #define SILENT_S 1.0 /* what is done sooner is not told */
 #define EVERY_S  0.2
-#define LINE_EVERY_S 10.0 /* in a log */
+#define LINE_EVERY_S 10.0 /* if stderr is no terminal */
 
 static struct watch {
     int is_on, is_whole, is_quiet, is_log;

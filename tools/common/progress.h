@@ -5,7 +5,8 @@
 /* progress_begin: where stderr is a terminal and it is not to be quiet, what follows is told. */
 void progress_begin(int is_quiet, const char *verb);
 
-/* progress_begin_log: the same, and where stderr is no terminal a line every ten seconds, for what takes minutes. */
+/* progress_begin_log: the same, but if stderr is no terminal, it prints a line every ten seconds. For work that takes
+ * minutes. */
 void progress_begin_log(int is_quiet, const char *verb);
 
 /* progress_is_quiet: was it to be quiet? For those who know no options. */

@@ -17,7 +17,7 @@ static void set_text(report *r, int kind, const char *format, va_list args)
         return;
     }
     text_format(r->text, sizeof r->text - 1, format, args);
-    text_clean(r->text); /* a report stays one line */
+    text_clean(r->text); /* a report must stay one line */
     r->text[sizeof r->text - 1] = (char)kind;
 }
 
@@ -56,7 +56,7 @@ static int is_taken;
 
 FILE *report_words(void) { return is_taken ? stderr : stdout; }
 
-/* A text that no memory is left for is cut. */
+/* If memory runs out, the text is truncated. */
 static void print(FILE *out, const char *format, va_list args)
 {
     char few[1024];

@@ -20,9 +20,9 @@ typedef struct report {
  * a parser can `return report_fail(...)`. */
 int report_fail(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_print: printf for text with names from files and command lines in it: text_format cleans it.
- * report_words: where a verb's words go: stdout; stderr once report_take_stdout has said that a file goes there.
- * report_say: report_print to there. */
+/* report_print: like printf, for text with names from files and command lines. text_format cleans it. report_words:
+ * returns the stream for messages of a verb: stdout, or stderr after report_take_stdout, if a file goes to stdout.
+ * report_say: report_print to that stream. */
 void report_print(FILE *out, const char *format, ...) REPORT_PRINTF(2, 3);
 FILE *report_words(void);
 void report_say(const char *format, ...) REPORT_PRINTF(1, 2);

@@ -14,10 +14,10 @@ typedef struct text_buffer {
     int is_short;
 } text_buffer;
 
-/* text_buffer_add: as printf, cleaned by text_format. text_buffer_plain, text_buffer_span: as it is, for texts of the tool's own.
- * text_buffer_html: with & < > " escaped. text_buffer_json: a string with its quotes. text_buffer_csv: quoted where a
- * comma or quote asks for it. What text_clean hides, html and csv hide, too, and JSON escapes. text_buffer_base64: RFC
- * 4648, padded. */
+/* text_buffer_add: like printf, cleaned by text_format. text_buffer_plain, text_buffer_span: unchanged, for the tool's
+ * own text. text_buffer_html: escapes & < > ". text_buffer_json: writes a string with quotes. text_buffer_csv: quotes
+ * the text if it contains a comma or a quote. html and csv replace hidden characters like text_clean, and json escapes
+ * them. text_buffer_base64: RFC 4648, padded. */
 void text_buffer_add(text_buffer *p, const char *format, ...) REPORT_PRINTF(2, 3);
 void text_buffer_plain(text_buffer *p, const char *text);
 void text_buffer_span(text_buffer *p, const char *text, size_t size);

@@ -1,4 +1,4 @@
-/* text_clean.c: text from files and command lines, as it may be printed. */
+/* text_clean.c: makes text from files and command lines safe to print. */
 #include "text_clean.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ int text_character(uint32_t *code, const char *text)
         }
         value = value << 6 | (s[i] & 0x3Fu);
     }
-    if ((n == 3 && (value < 0x800 || (value >= 0xD800 && value <= 0xDFFF))) || /* overlong; a half of a pair */
+    if ((n == 3 && (value < 0x800 || (value >= 0xD800 && value <= 0xDFFF))) || /* overlong; a surrogate */
         (n == 4 && (value < 0x10000 || value > 0x10FFFF))) {
         return 0;
     }

@@ -74,12 +74,13 @@ static float from_eye(const lmb_scene *s, lmb_vec3 eye)
     return sqrtf(far2);
 }
 
-/* A ten-thousandth of what is seen, halved until it is short: a sign before the eye is seen in any landscape. Depths
- * are near / w in binary32, so that by halves their fractions stay as they are, and so does what hides what. */
+/* Returns a ten-thousandth of the visible distance, halved until it is at most MOST_NEAR, so that a sign in front of
+ * the eye is visible in any landscape. Depth is near / w as a float, so halving keeps the fractions and therefore the
+ * visibility. */
 static float near_of(float reach)
 {
     float near_m = 1e-4f * reach;
-    while (near_m > MOST_NEAR && near_m < 1e30f) { /* beyond, no view is valid */
+    while (near_m > MOST_NEAR && near_m < 1e30f) { /* beyond this, no view is valid */
         near_m *= 0.5f;
     }
     return near_m;

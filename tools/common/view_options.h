@@ -11,7 +11,7 @@ typedef struct view_options {
     int32_t width, height; /* 0: default */
     int32_t has_eye, has_target;
     lmb_vec3 eye, target, up;
-    float fov_deg, near_m; /* near_m 0: chosen */
+    float fov_deg, near_m; /* near_m 0: chosen automatically */
     int is_quiet, is_verbose; /* nothing but errors is said on stderr; also how long what took */
 } view_options;
 
@@ -32,7 +32,7 @@ int view_option_size(const char *text, void *at);
     {.name = "--fov", .value = "DEG", .kind = OPTION_ABOVE, .at = offsetof(type, view.fov_deg), .low = 0.0,  \
      .high = 178.999, .help = HELP("its vertical angle, degrees (default 45)")},                              \
     {.name = "--near", .value = "METRES", .kind = OPTION_NUMBER, .at = offsetof(type, view.near_m), .low = 1e-6, \
-     .high = 1e6, .help = HELP("what is nearer along the view is cut away (default: the file's camera's own, else " \
+     .high = 1e6, .help = HELP("near plane: nearer surfaces are cut away (default: from the file's camera, else "     \
                                "0.1 mm or less)")}
 
 /* Does what was given go together? 1, or 0 with `r` set. */
@@ -44,8 +44,8 @@ void view_size(view_options *o, float aspect);
 /* view_look: from --eye to --target, with the size where it was left open, but not near_m. 1, or 0 with `r` set. */
 int view_look(lmb_view *out, view_options *o, report *r);
 
-/* view_from: `middle` moved right_m metres to its right, with the far plane of where it then stands; where near_m is 0,
- * with a near plane of at most 0.1 mm: depth is as exact with any. */
+/* view_from: moves `middle` right_m metres to the right and sets the far plane for the new position. If near_m is 0, it
+ * chooses a near plane of at most 0.1 mm; the precision of depth does not depend on it. */
 lmb_view view_from(const lmb_view *middle, float right_m, const lmb_scene *scene);
 
 #endif

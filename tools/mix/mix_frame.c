@@ -188,7 +188,7 @@ static int read_numbers(mix_frame *f, mix_source *s, const json *doc, report *r)
     return read_pose(f, doc, r);
 }
 
-/* May this file be read that a list of frames names? */
+/* Returns 1 if a file that a list of frames refers to may be read. */
 static int may_read(const mix_source *s, const char *path, report *r)
 {
     return s->folder == NULL || (file_is_below(path, s->folder, strlen(s->folder), r) && file_is_plain(path, r));

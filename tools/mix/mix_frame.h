@@ -9,7 +9,7 @@
 typedef struct mix_source {
     const char *frame; /* PREFIX of .color.(png|jpg|pfm), .depth.(png|pfm) and .json */
     const char *photo, *depth;
-    const char *folder;  /* of the list that names them all, for file_is_below; NULL: the command line does */
+    const char *folder;  /* of the list with all names, for file_is_below; NULL: names are from the command line */
     float depth_scale; /* metres of a unit; 0: 0.001 for PNG, 1 for PFM, or what the JSON says */
     float intrinsics[4];
     int32_t has_intrinsics;

@@ -53,23 +53,23 @@ typedef struct mix_kept {
 
 /* One frame of a list. */
 typedef struct mix_entry {
-    char *prefix;                   /* as --frame; or, NULL, by these: */
+    char *prefix;                   /* as for --frame; if NULL, these are used: */
     char *photo, *depth;
-    int is_rooted;                  /* a name of it begins with the root */
+    int is_rooted;                  /* a name is an absolute path */
     double pose[16];
 } mix_entry;
 
 typedef struct mix_list {
     mix_entry *entry;
     int32_t count, cap;
-    char *folder; /* of the list, which names begin with; "" or with a slash at its end */
+    char *folder; /* folder of the list, the prefix of all names; "" or ending with a slash */
     int32_t no_depth, no_pose, unread; /* of TUM's lists: photos without a depth, or a pose, of their time; odd lines */
 } mix_list;
 
-/* mix_list_read: of a folder with TUM's rgb.txt, depth.txt and groundtruth.txt or with frames.txt, or of a file with a
- * PREFIX a line. A prefix is its line as it stands, blanks within too; those around it count if there is such a frame.
- * A line that begins with # is none. A list with bytes of 0 in it has these instead of line breaks. Of TUM's, photos
- * that have no depth or no pose within 0.02 s are no frames: they are counted. 1, or 0 with `r` set. */
+/* mix_list_read: reads a folder with TUM's rgb.txt, depth.txt and groundtruth.txt or with frames.txt, or a file with
+ * one PREFIX per line. A prefix may contain blanks. Blanks around it belong to it only if there is such a frame. A line
+ * that begins with # is a comment. If a list contains zero bytes, they separate the prefixes instead of line breaks.
+ * TUM photos without a depth or a pose within 0.02 s are skipped and counted. Returns 1, or 0 with `r` set. */
 int mix_list_read(mix_list *out, const char *path, report *r);
 void mix_list_free(mix_list *l);
 

@@ -13,7 +13,7 @@
 /* A line of one of TUM's lists. */
 typedef struct stamped {
     double time, value[7];
-    slice name; /* of the file's bytes */
+    slice name; /* points into the bytes of the file */
 } stamped;
 
 typedef struct stamped_list {
@@ -64,7 +64,7 @@ static mix_entry *add(mix_list *l, report *r)
 
 static int is_rooted(slice name) { return name.size > 0 && name.at[0] == '/'; }
 
-/* Both in a row; NULL with `r` set. The caller's to free. */
+/* Joins both strings. Returns NULL with `r` set on failure. The caller frees the result. */
 static char *joined(const char *a, slice b, report *r)
 {
     const size_t n = strlen(a);
@@ -85,7 +85,7 @@ static char *with(const char *a, const char *b, report *r)
     return joined(a, s, r);
 }
 
-/* A name beside the list; NULL with `r` set. The caller's to free. */
+/* Returns the path of a name relative to the list, or NULL with `r` set. The caller frees the result. */
 static char *beside(const char *folder, slice name, report *r)
 {
     return joined(is_rooted(name) ? "" : folder, name, r);
@@ -238,7 +238,7 @@ static int read_tum(mix_list *out, const char *folder, report *r)
 
 static int is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/* Is there a frame of this prefix? */
+/* Returns 1 if there is a frame with this prefix. */
 static int is_frame(const char *prefix, report *r)
 {
     static const char *const endings[] = {".json", ".color.png", ".color.jpg", ".color.pfm"};
@@ -255,7 +255,7 @@ static int is_frame(const char *prefix, report *r)
     return found;
 }
 
-/* A line of a list. Blanks around a prefix belong to it only if there is such a frame. */
+/* Reads a line of a list. Blanks around a prefix belong to it only if there is such a frame. */
 static int read_prefix(mix_list *out, slice line, report *r)
 {
     slice bare = line;
@@ -313,7 +313,7 @@ static int fail_empty(const mix_list *l, const char *path, report *r)
                : report_fail(r, "%s: lists no frame", path);
 }
 
-/* Which of both lists a folder has. */
+/* Reads a TUM list or frames.txt, whichever the folder has. */
 static int read_list(mix_list *out, const char *path, const char *folder, const char *tum, const char *own, report *r)
 {
     report none = {""};

@@ -51,9 +51,9 @@ static const option_row photo_rows[] = {
      .help = HELP("PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
              "camera_to_world (4 x 4, rows) where it is known")},
     {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),
-     .help = HELP("many, in order: LIST, or DIR/frames.txt, has a PREFIX a line, blanks and all, beside it; a line "
-             "that begins with # is none, and a list with bytes of 0 has "
-             "these between PREFIXes. A DIR of TUM's has rgb.txt, "
+     .help = HELP("many frames, in order. LIST or DIR/frames.txt has one PREFIX per line, relative to the list. A "
+             "line that begins with # is a comment; if the list has zero bytes, these separate the PREFIXes. "
+             "A TUM DIR has rgb.txt, "
              "depth.txt and groundtruth.txt (with --intrinsics; --depth-scale is 0.0002 then). The object stays where "
              "it stands in the first, and voxels are built again only when a twentieth of what is about it is new or gone, or the photo is that much brighter or darker; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
              "out, and the exit status is 1 then")},

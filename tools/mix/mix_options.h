@@ -21,7 +21,7 @@ typedef struct mix_options {
     mix_source source;
     const char *frames; /* a list instead of `source`'s files */
     const char *object, *world, *out, *stats;
-    model_choice choice; /* of the object's file */
+    model_choice choice; /* choices for the file of the object */
     float scale;      /* m of a unit of the mesh; 0: 1, or with `fit` chosen */
     int fit;
     int32_t on;       /* MIX_ON_* */

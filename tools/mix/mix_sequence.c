@@ -12,7 +12,7 @@
 #include "mix_next.h"
 #include "mix_run.h"
 
-/* `folder`: of the list. */
+/* `folder`: the folder of the list. */
 static int read_entry(mix_job *j, const mix_entry *e, const char *folder, report *r)
 {
     mix_source *s = &j->o.source;
@@ -59,14 +59,14 @@ typedef struct sequence {
     mix_ready next;
     report why_next;                   /* next.job is NULL: why it cannot be used */
     int32_t at, unwritten;             /* of the list: the frame that is drawn; the last one drawn, or -1: it is written */
-    int32_t width, height;             /* of the first photo that was read; 0: none was */
+    int32_t width, height;             /* size of the first photo; 0: none read yet */
     int is_drawn, is_written;
     int is_over;                       /* the machine has no more memory or open files: `failed` */
     int32_t left_out, run, last_out;   /* frames: all, those since one was drawn, the number of the last one */
     report why, failed, first;         /* first: why the first one is left out that is */
 } sequence;
 
-/* Depth, planes and light are kept from frame to frame, so all have the size of the first. */
+/* Depth, planes and light are kept between frames, so all frames must have the size of the first. */
 static int has_size(sequence *s, const mix_entry *e, const mix_frame *f, report *r)
 {
     s->width = s->width > 0 ? s->width : f->camera.width;

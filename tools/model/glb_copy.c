@@ -1,6 +1,6 @@
-/* glb_copy.c: a glTF document with other meshes: names, nodes, materials, textures, cameras and extras stay as they
- * are, and so do their numbers. Animations and skins go, as baked light stands still; so do extensions that name
- * accessors. */
+/* glb_copy.c: copies a glTF document with new meshes. Names, nodes, materials, textures, cameras and extras are copied
+ * unchanged and keep their indices. Animations and skins are dropped because baked light does not move. Extensions that
+ * refer to accessors are dropped too. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,16 +13,16 @@ typedef struct copy {
     text_buffer *p; /* of the writer */
     json doc;
     uint32_t nodes, materials, textures, images, samplers; /* of the document */
-    uint32_t *mesh_of;  /* by node: the mesh that is written; NONE */
-    uint32_t *posed;    /* nodes whose vertices a skin placed in the world: each gets a node without a parent */
+    uint32_t *mesh_of;  /* by node: index of the mesh that is written, or NONE */
+    uint32_t *posed;    /* nodes with a skin, in world space; each mesh moves to a node without a parent */
     uint32_t posed_count;
-    int has_lights;     /* the scene's lights are the document's */
-    int has_specular;   /* a material has the light's picture in KHR_materials_specular */
+    int has_lights;     /* the lights of the scene come from the document */
+    int has_specular;   /* a material has the lightmap in KHR_materials_specular */
 } copy;
 
 /* --- JSON as it is ------------------------------------------------------------------------------------------------ */
 
-/* Between members and items. */
+/* Writes a comma between members or items. */
 static void put_comma(text_buffer *p)
 {
     if (p->size > 0 && p->data[p->size - 1] != '{' && p->data[p->size - 1] != '[') {
@@ -61,7 +61,7 @@ static void put_member(text_buffer *p, const json *doc, uint32_t node)
     put_value(p, doc, node);
 }
 
-/* An object's members but those of a list that ends with NULL. */
+/* Writes all members of an object except those in `without`, a list that ends with NULL. */
 static void put_members(text_buffer *p, const json *doc, uint32_t object, const char *const *without)
 {
     for (uint32_t i = json_first(doc, object); i != JSON_NONE; i = json_next(doc, i)) {
@@ -71,7 +71,7 @@ static void put_members(text_buffer *p, const json *doc, uint32_t object, const 
     }
 }
 
-/* Member `key`'s items; an array that does not exist has none. */
+/* Writes the items of the top-level array `key`. A missing array has no items. */
 static void put_items(text_buffer *p, const json *doc, const char *key)
 {
     for (uint32_t i = json_first(doc, json_member(doc, 0, key)); i != JSON_NONE; i = json_next(doc, i)) {
@@ -80,7 +80,7 @@ static void put_items(text_buffer *p, const json *doc, const char *key)
     }
 }
 
-/* The item of a top-level array that a reference names; the reader has checked it. */
+/* Returns the item of a top-level array that `reference` points to. The reader has already checked the reference. */
 static uint32_t item_of(const json *doc, const char *key, uint32_t reference)
 {
     uint32_t index = 0, i;
@@ -96,7 +96,7 @@ static uint32_t item_of(const json *doc, const char *key, uint32_t reference)
 
 /* --- extensions --------------------------------------------------------------------------------------------------- */
 
-/* Of meshes, or with numbers of what is not written. */
+/* Extensions of meshes, and extensions with indices of objects that are not written. */
 static const char *const dropped[] = {
     "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",
     "EXT_mesh_gpu_instancing",    "EXT_structural_metadata", "EXT_mesh_features",       "EXT_instance_features",
@@ -107,7 +107,7 @@ static int is_kept(const copy *c, uint32_t node)
     return !is_among(&c->doc, node, dropped) && (c->has_lights || !is_key(&c->doc, node, "KHR_lights_punctual"));
 }
 
-/* Member "extensions" of `object`, with `more` in it, which may be NULL, in place of the one of the name `instead`. */
+/* Writes the member "extensions" of `object`. If `more` is not NULL, it replaces the extension `instead`. */
 static void put_extensions(copy *c, uint32_t object, const char *instead, const char *more)
 {
     const json *doc = &c->doc;
@@ -133,7 +133,7 @@ static void put_extensions(copy *c, uint32_t object, const char *instead, const 
     text_buffer_plain(c->p, "}");
 }
 
-/* The names of `key`, without those that are gone, and with `more`, a list that ends with NULL. */
+/* Writes the list of names `key` without the dropped extensions, then adds `more`, a list that ends with NULL. */
 static void put_names(copy *c, const char *key, const char *const *more)
 {
     const json *doc = &c->doc;
@@ -159,7 +159,7 @@ static void put_names(copy *c, const char *key, const char *const *more)
         put_comma(c->p);
         text_buffer_add(c->p, "\"%s\"", *more);
     }
-    if (c->p->size == empty && !c->p->is_short) { /* glTF allows no empty list */
+    if (c->p->size == empty && !c->p->is_short) { /* glTF forbids empty lists */
         c->p->size = before;
         return;
     }
@@ -168,7 +168,8 @@ static void put_names(copy *c, const char *key, const char *const *more)
 
 /* --- nodes and meshes --------------------------------------------------------------------------------------------- */
 
-/* The meshes from `first` on that one mesh of the file has as primitives: those of one node. */
+/* Returns the index after the meshes that belong to the same node as `first`: the primitives of one mesh of the
+ * file. */
 static uint32_t past_of(const copy *c, uint32_t first)
 {
     const model_source *s = c->w->loaded->source;
@@ -180,7 +181,7 @@ static uint32_t past_of(const copy *c, uint32_t first)
     return past;
 }
 
-/* Which node shows which mesh. */
+/* Assigns a mesh to each node that shows one. */
 static int share_meshes(copy *c)
 {
     const model_source *s = c->w->loaded->source;
@@ -210,7 +211,7 @@ static int is_posed(const copy *c, uint32_t node)
     return i < c->posed_count;
 }
 
-/* A node whose mesh stands in the world has neither that nor its name: the one that takes its mesh does. */
+/* If the mesh of a node is in world space, the node loses the mesh and its name. A new node gets both. */
 static void put_nodes(copy *c)
 {
     static const char *const own[] = {"mesh", "skin", "weights", "extensions", NULL},
@@ -264,7 +265,7 @@ static int has_parent(const copy *c, uint32_t node)
     return 0;
 }
 
-/* The scene that was read, with the new nodes. */
+/* Writes the scene that was read, with the new nodes. */
 static void put_scene(copy *c)
 {
     static const char *const without[] = {"nodes", "extensions", NULL};
@@ -327,7 +328,7 @@ static void put_meshes(copy *c)
 
 /* --- materials ---------------------------------------------------------------------------------------------------- */
 
-/* Is this a slot of the picture of light that an earlier bake wrote? */
+/* Returns 1 if this texture info shows the lightmap of an earlier bake. */
 static int is_old_slot(const json *doc, uint32_t info)
 {
     const uint32_t texture = item_of(doc, "textures", json_member(doc, info, "index"));
@@ -344,9 +345,9 @@ static int emits(const json *doc, uint32_t material)
            factor[2] > 0.0;
 }
 
-/* The picture of light is in the first free slot that has no effect of its own: occlusion of strength 0, emission of
- * factor 0, or a specular texture, of which the alpha counts, which the picture does not have. Sides show only their
- * fronts, so no material is double-sided. */
+/* Puts the lightmap into the first free slot without an effect: occlusion of strength 0, emission of factor 0, or a
+ * specular texture (only its alpha has an effect, and the lightmap has no alpha). Each side has its own front faces, so
+ * no material is double-sided. */
 static void put_material(copy *c, uint32_t material)
 {
     static const char *const without[] = {"doubleSided", "extensions", "occlusionTexture", NULL};
@@ -386,7 +387,7 @@ static void put_material(copy *c, uint32_t material)
     text_buffer_plain(c->p, "}");
 }
 
-/* The document's, then those that the reader made for primitives that name none. */
+/* Writes the materials of the document, then those that the reader made for primitives without a material. */
 static void put_materials(copy *c)
 {
     const json *doc = &c->doc;
@@ -423,7 +424,7 @@ static void put_bytes(copy *c, const uint8_t *data, size_t size)
                     (unsigned)glb_end_view(w, from, 0));
 }
 
-/* With their files' bytes; an image that cannot be read stays as it is. */
+/* Embeds the bytes of each image file. An image that cannot be read is copied unchanged. */
 static void put_images(copy *c)
 {
     static const char *const of_bytes[] = {"bufferView", "uri", "mimeType", NULL},

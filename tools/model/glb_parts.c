@@ -1,4 +1,4 @@
-/* glb_parts.c: parts of a GLB: its bytes, primitives, materials, lights and what its asset says. */
+/* glb_parts.c: writes parts of a GLB: bytes, primitives, materials, lights and the asset object. */
 #include "glb_parts.h"
 
 #include <math.h>
@@ -110,7 +110,7 @@ static int is_coloured(const glb_mesh *m)
     return i < m->vertex_count;
 }
 
-/* Sets that the vertices have no room for are zeros, as glTF wants each set up to the last. */
+/* glTF requires all texture coordinate sets up to the last one. Sets that do not fit into glb_vertex are zeros. */
 static void put_sets(glb_writer *w, const glb_mesh *m)
 {
     const size_t light_at = offsetof(glb_vertex, light_uv);
@@ -186,7 +186,7 @@ void glb_put_material(text_buffer *p, const lmb_material *m, const char *name, c
             text_buffer_add(p, ",\"emissiveTexture\":{\"index\":%u}", (unsigned)m->emission_map - 1);
         }
     }
-    if (light_slot != NULL) { /* of strength 0: it changes no engine's picture, and no tool drops it */
+    if (light_slot != NULL) { /* strength 0: no engine renders it, and no tool drops it */
         text_buffer_add(p, ",\"occlusionTexture\":{%s,\"strength\":0}", light_slot);
     }
     text_buffer_plain(p, "}");
@@ -212,7 +212,7 @@ static void put_light_source(text_buffer *p, const lmb_light *l, int is_first)
     text_buffer_plain(p, "}");
 }
 
-/* Turned so that -Z is its direction. */
+/* Turns the node so that -Z is the direction of the light. */
 static void put_light_node(text_buffer *p, const lmb_light *l, uint32_t number)
 {
     const double d[3] = {(double)l->direction.x, (double)l->direction.y, (double)l->direction.z};

@@ -111,7 +111,7 @@ static void put_object_node(glb_writer *w, uint32_t number)
     const lmb_instance *own = &w->scene->instances[w->mesh[number].instance];
     text_buffer *p = &w->json;
     text_buffer_plain(p, ",{");
-    glb_put_name(p, material_name(w, own->material)); /* formats without nodes have an object a material */
+    glb_put_name(p, material_name(w, own->material)); /* formats without nodes have one object for each material */
     text_buffer_add(p, "\"mesh\":%u", (unsigned)number);
     if (memcmp(&own->to_world, &unit, sizeof unit) != 0) {
         for (int k = 0; k < 16; ++k) {
@@ -231,7 +231,7 @@ int glb_write(const char *path, const lmb_scene *scene, const model *loaded, con
     w.light = light;
     w.r = r;
     w.uv_sets = loaded->source != NULL ? loaded->source->uv_sets : 1;
-    w.uv_sets = w.uv_sets == 0 && light->picture != NULL ? 1 : w.uv_sets; /* the second set wants a first */
+    w.uv_sets = w.uv_sets == 0 && light->picture != NULL ? 1 : w.uv_sets; /* the second set requires a first */
     int ok = put_all(&w);
     if (ok) {
         while (w.json.size % 4 != 0) {

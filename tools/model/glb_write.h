@@ -1,4 +1,5 @@
-/* glb_write.h: a scene with baked light as a GLB, for other engines: one buffer, one node an object, in its space. */
+/* glb_write.h: writes a scene with baked light as a GLB for other engines: one buffer, and one node for each object, in
+ * object space. */
 #ifndef GLB_WRITE_H
 #define GLB_WRITE_H
 
@@ -7,15 +8,15 @@
 
 /* As it lies in the file. */
 typedef struct glb_vertex {
-    float position[3], normal[3];   /* in the object's space */
-    float uv[MODEL_UV_SETS][2];     /* TEXCOORD_0 and on */
+    float position[3], normal[3];   /* in object space */
+    float uv[MODEL_UV_SETS][2];     /* TEXCOORD_0 and following */
     float tangent[4];               /* TANGENT */
-    float light_uv[2];              /* the TEXCOORD_ of the picture of light */
-    uint16_t light[4];              /* COLOR_1: of the scale; the fourth 65535 */
+    float light_uv[2];              /* the TEXCOORD_ of the lightmap */
+    uint16_t light[4];              /* COLOR_1: times the scale; alpha is 65535 */
     uint8_t colour[4];              /* COLOR_0 */
 } glb_vertex;
 
-/* Triangles of one instance of the scene, whose front alone shows. */
+/* Triangles of one instance of the scene. Only their fronts are visible. */
 typedef struct glb_mesh {
     glb_vertex *vertex;
     uint32_t *index;
@@ -29,9 +30,9 @@ typedef struct glb_light {
     const file_bytes *picture; /* a PNG, by light_uv; NULL: none */
 } glb_light;
 
-/* glb_write: these meshes, in the order of their instances, with the materials, textures, lights and cameras of the
- * model and its scene. If the model has its source, all else that stands in its document is written, too: names, nodes, maps,
- * extras, extensions. 1, or 0 with `r` set. */
+/* glb_write: writes these meshes, sorted by instance, with the materials, textures, lights and cameras of the model and
+ * its scene. If the model has a source, the rest of the document is written too: names, nodes, maps, extras,
+ * extensions. Returns 1, or 0 with `r` set. */
 int glb_write(const char *path, const lmb_scene *scene, const model *loaded, const glb_mesh *mesh, uint32_t mesh_count,
               const glb_light *light, report *r);
 

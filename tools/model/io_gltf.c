@@ -97,8 +97,8 @@ static int check_extensions(gltf *g)
     list_extensions(g, used, 0);
     return 1;
 }
-/* Where the meshes of each drawn node start, in the tree's order: made at first use, those of a node with a skin or
- * weights anew. `mesh` of a node that shows none is JSON_NONE. */
+/* First mesh of each drawn node, in the tree's order. Meshes are made at first use, and again for each node with a skin
+ * or weights. `mesh` is JSON_NONE if the node has no mesh. */
 typedef struct shown {
     uint32_t mesh, first;
     int is_posed; /* in world metres */
@@ -106,7 +106,7 @@ typedef struct shown {
 
 static int has(const gltf *g, uint32_t node, const char *key) { return json_member(&g->doc, node, key) != JSON_NONE; }
 
-/* A mesh at its own weights; once a mesh. */
+/* Makes a mesh at its own weights, once for each mesh. */
 static int make_mesh(gltf *g, uint32_t mesh)
 {
     const int is_new = g->mesh_first[mesh] == JSON_NONE;
@@ -118,7 +118,7 @@ static int make_mesh(gltf *g, uint32_t mesh)
     return 1;
 }
 
-/* A node's own copies of its mesh, shaped and posed. */
+/* Copies the mesh of a node for this node only, and applies morph weights and skin. */
 static int make_own(shown *inout, const gltf_tree *t, gltf *g, uint32_t node)
 {
     const uint32_t mesh = inout->mesh;
@@ -247,7 +247,7 @@ static void tell_left_out(gltf *g)
                      json_count(&g->doc, json_member(&g->doc, 0, "animations")));
 }
 
-/* Meshes that the scene may need: one a primitive, and as many again for each node's own. */
+/* Counts the meshes that the scene may need: one for each primitive, and a copy for each node with its own shape. */
 static uint64_t count_primitives(const gltf_tree *t, gltf *g, uint64_t *all)
 {
     uint64_t own = 0;

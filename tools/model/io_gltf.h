@@ -65,13 +65,13 @@ typedef struct gltf {
     gltf_mean *image_means;           /* by those numbers */
     uint32_t *mesh_first, *mesh_size; /* by mesh: its run in b->meshes; mesh_first JSON_NONE: not made yet */
     uint32_t *mesh_material, *mesh_primitive; /* by lambent mesh: index; JSON node */
-    lmb_mesh *mesh_rest;                      /* by lambent mesh: at morph weights of 0 */
+    lmb_mesh *mesh_rest;                      /* by lambent mesh: with all morph weights 0 */
     gltf_influences *mesh_influences;         /* by lambent mesh, for as often as it is posed */
     uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
-    uint32_t *instance_from;          /* by instance: its node, an index of the document */
-    gltf_uv *light_uv;                /* by material, of baked light; NULL: the file has none */
+    uint32_t *instance_from;          /* by instance: index of the node in the document */
+    gltf_uv *light_uv;                /* by material, for baked light; NULL: the file has no baked light */
     uint32_t *instance_node, *light_node, *camera_node; /* of the model's: place in the tree's order, or MODEL_NONE */
-    uint32_t *instance_shown;         /* the place of the node that shows it, skinned or not */
+    uint32_t *instance_shown;         /* by instance: place in the tree of the node with this mesh, skinned or not */
     gltf_counts left_out;
     report texture_error; /* the first one */
 } gltf;
@@ -87,8 +87,8 @@ typedef struct gltf_tree {
     uint32_t count;
     uint32_t *parent;   /* by node; JSON_NONE: a root */
     gltf_matrix *world; /* by node; of those in `order` */
-    gltf_matrix *turn;  /* by node: the same without scale, for directions where that is 0 */
-    uint8_t *hidden;    /* by node: neither meshes nor lights show */
+    gltf_matrix *turn;  /* by node: the same without scale, for directions if the scale is 0 */
+    uint8_t *hidden;    /* by node: meshes and lights are not drawn */
     uint8_t *placed;    /* by node: is it in `order`? */
 } gltf_tree;
 
@@ -132,8 +132,8 @@ int gltf_cameras(const gltf_tree *t, gltf *g);
 /* io_gltf_motion.c: after all that moves; sets the model's motion, or motion_problem */
 void gltf_motion(const gltf_tree *t, gltf *g);
 
-/* io_gltf_shape.c: of nodes with moving joints, or with a track of morph weights; `place` of the document's nodes in the
- * tree's order. gltf_targets: how many morph targets the mesh of a node has, by JSON node. */
+/* io_gltf_shape.c: makes shapes of nodes with moving joints or with a track of morph weights; `place`: of each document
+ * node in the tree's order. gltf_targets: returns the number of morph targets of the mesh of a JSON node. */
 int gltf_shapes(struct model_motion *inout, const gltf_tree *t, gltf *g, const uint32_t *place,
                 const model_track *weight_track, uint32_t weight_tracks);
 uint32_t gltf_targets(const gltf *g, uint32_t node);
@@ -142,8 +142,8 @@ uint32_t gltf_targets(const gltf *g, uint32_t node);
 int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */
 void gltf_default_material(gltf *g); /* makes default_material, once */
 
-/* images[index]: its bytes, likely a PNG or a JPEG, and its name for messages. 0: see `why`, or the report if the model is
- * damaged. */
+/* Reads the bytes of images[index], usually a PNG or a JPEG, and its name for messages. On failure returns 0 with `why`
+ * set, or with the report set if the model is damaged. */
 enum { GLTF_PLACE = 96 };
 int gltf_image_bytes(gltf_bytes *out, char place[GLTF_PLACE], gltf *g, uint32_t index, report *why);
 
@@ -162,19 +162,21 @@ float *gltf_floats(gltf *g, const gltf_accessor *a); /* all values in scratch me
 /* io_gltf_light.c: of what `lambent bake --to` wrote */
 int gltf_light_begin(gltf *g, uint32_t meshes);            /* before the meshes: is there any? */
 int gltf_light_end(gltf *g);                               /* its picture */
-int gltf_light_is_slot(const gltf *g, uint32_t info);      /* does a texture info show that picture, or did it? */
+int gltf_light_is_slot(const gltf *g, uint32_t info);      /* 1: the texture info shows the lightmap, or did */
 
 /* io_gltf_source.c: after the instances: sets the model's source */
 int gltf_source(gltf *g);
 
 /* io_gltf_skin.c */
-/* Pose a skinned node's own copies of its mesh, from b->meshes[first] on, by its joints, in world metres. */
+/* Skins the copies of the mesh made for this node, starting at b->meshes[first]. Positions are then in world metres. */
 int gltf_pose(gltf *g, const gltf_tree *t, uint32_t node, uint32_t mesh, uint32_t first);
 
 /* io_gltf_morph.c */
-/* Shape one primitive, read at weights of 0, by a node's weights or with JSON_NONE by its mesh's; both JSON nodes. */
+/* Applies morph weights to a primitive that was read with all weights 0. `mesh` and `node` are JSON nodes; if `node` is
+ * JSON_NONE, the weights of the mesh are used. */
 int gltf_morph(lmb_mesh *inout, gltf *g, uint32_t mesh, uint32_t primitive, uint32_t node);
-/* A primitive's targets in scratch memory, for model_morph_pose; with weights only those that have one other than 0. */
+/* Reads the morph targets of a primitive into scratch memory, for model_morph_pose. If `weights` is not NULL, only
+ * targets with a nonzero weight are read. */
 int gltf_morph_read(model_morph *out, gltf *g, uint32_t primitive, const lmb_mesh *mesh, const double *weights);
 
 #endif

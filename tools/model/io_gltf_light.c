@@ -1,8 +1,8 @@
-/* io_gltf_light.c: baked light of a file that `lambent bake --to` wrote: its scale, and its picture.
+/* io_gltf_light.c: reads baked light from a file that `lambent bake --to` wrote: the scale and the lightmap.
  *
- * The picture is an image of the name MODEL_LIGHT_NAME, and lies in a slot of each material whose own effect is none:
- * tools that write the file again keep what materials name. Older files have the texture's number in asset.extras,
- * which holds as long as no tool has written them again. */
+ * The lightmap is an image with the name MODEL_LIGHT_NAME. Each material refers to it in a slot without an effect,
+ * because tools that rewrite the file keep only textures that materials refer to. Older files have the index of the
+ * texture in asset.extras. That index is valid only until another tool rewrites the file. */
 #include "io_gltf.h"
 
 /* What asset.extras say; JSON_NONE where the file is another one's. */
@@ -12,7 +12,7 @@ static uint32_t extras(const gltf *g)
     return json_member(doc, json_member(doc, json_member(doc, 0, "asset"), "extras"), "lambent");
 }
 
-/* Does texture `index` show the picture of light? */
+/* Returns 1 if texture `index` shows the lightmap. */
 static int is_light(const gltf *g, uint32_t index)
 {
     uint32_t source = JSON_NONE;
@@ -23,7 +23,7 @@ static int is_light(const gltf *g, uint32_t index)
            json_equals(&g->doc, json_member(&g->doc, g->images.items[source], "name"), MODEL_LIGHT_NAME);
 }
 
-/* The texture info of a material that shows the picture of light; JSON_NONE: there is none. */
+/* Returns the texture info of a material that shows the lightmap, or JSON_NONE if there is none. */
 static uint32_t find_slot(const gltf *g, uint32_t material)
 {
     const json *doc = &g->doc;
@@ -47,7 +47,7 @@ int gltf_light_is_slot(const gltf *g, uint32_t info)
            (index >= g->textures.count || is_light(g, index));
 }
 
-/* By material: which texture coordinates its light has. */
+/* Finds the texture coordinates of the lightmap for each material. */
 static int find_coordinates(gltf *g)
 {
     uint32_t set = 1;
@@ -82,7 +82,7 @@ int gltf_light_begin(gltf *g, uint32_t meshes)
     return l->colour != NULL && l->uv != NULL && find_coordinates(g);
 }
 
-/* The texture by its name; else by the number that older files have, unless a material shows it. */
+/* Finds the texture by name, else by the index in older files unless a material uses that texture. */
 static int find_picture(uint32_t *out, gltf *g)
 {
     const json *doc = &g->doc;

@@ -40,7 +40,7 @@ static int read_sampler(lmb_texture *out, gltf *g, uint32_t texture)
     return 1;
 }
 
-/* `place` names its file if it has one. */
+/* Sets `place` to the name of the file, if the image has one. */
 int gltf_image_bytes(gltf_bytes *out, char place[GLTF_PLACE], gltf *g, uint32_t index, report *why)
 {
     const uint32_t node = g->images.items[index], reference = json_member(&g->doc, node, "bufferView");
@@ -231,7 +231,7 @@ static int read_normal_map(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t inf
     return 1;
 }
 
-#define LEAST_DIFFUSE 0.04 /* of a metal's colour, where it has no lobe */
+#define LEAST_DIFFUSE 0.04 /* share of the colour of a metal, for drawing without a specular lobe */
 
 static float clamp01(double v) { return v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f; }
 
@@ -412,7 +412,7 @@ static int read_metal_rough(lmb_material *out, model_lobe *lobe, gltf_uv *uv, gl
     return read_lobe(lobe, g, out, base, &metal, json_member(&g->doc, pbr, "baseColorTexture"));
 }
 
-/* Specular colour and glossiness by the map's mean; one that cannot be had leaves the factors. */
+/* Multiplies specular colour and glossiness by the mean of the map. If the map cannot be read, the factors stay. */
 static int read_specular_map(double specular[3], double *glossiness, gltf *g, uint32_t map)
 {
     const gltf_mean *mean;
@@ -431,8 +431,8 @@ static int read_specular_map(double specular[3], double *glossiness, gltf *g, ui
     return 1;
 }
 
-/* KHR_materials_pbrSpecularGlossiness: of the diffuse colour what the highest specular channel leaves; F0 is the
- * specular colour, alpha (1 - glossiness)^2. */
+/* KHR_materials_pbrSpecularGlossiness: the diffuse colour is scaled by 1 - the highest specular channel. F0 is the
+ * specular colour, and alpha is (1 - glossiness)^2. */
 static int read_specular_glossiness(lmb_material *out, model_lobe *lobe, gltf *g, uint32_t other, const double base[3])
 {
     const json *doc = &g->doc;
@@ -453,7 +453,7 @@ static int read_specular_glossiness(lmb_material *out, model_lobe *lobe, gltf *g
     return 1;
 }
 
-/* The base colour itself. */
+/* Uses the base colour unchanged. */
 static void set_unlit(lmb_material *out, model_lobe *lobe, gltf *g, const double base[3])
 {
     for (int k = 0; k < 3; ++k)

@@ -50,8 +50,8 @@ static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
     return 1;
 }
 
-/* Vectors made unit length, as octahedral codes; of four numbers with the sign of the fourth. Normals without length are
- * marked for mend_normals. NULL with the report set. */
+/* Normalizes vectors and encodes them as octahedral codes. Vectors of four numbers keep the sign of the fourth. Normals
+ * without length are marked for mend_normals. Returns NULL with the report set on failure. */
 static int16_t *encode_vectors(gltf *g, const gltf_accessor *a)
 {
     const float *values = gltf_floats(g, a);
@@ -84,7 +84,7 @@ static int read_normals(lmb_mesh *out, gltf *g, uint32_t reference)
     return out->normals != NULL;
 }
 
-/* Only where a normal map asks for them. Without normals they do not count (glTF 2.0, 3.7.2.1). */
+/* Reads tangents only if the material has a normal map. Tangents without normals are ignored (glTF 2.0, 3.7.2.1). */
 static int read_tangents(lmb_mesh *out, gltf *g, uint32_t reference, uint32_t material)
 {
     gltf_accessor a;
@@ -295,7 +295,7 @@ static int read_baked_values(float **out, gltf *g, uint32_t reference, uint32_t 
     return 1;
 }
 
-/* Of a file that `lambent bake --to` wrote, the light of the next mesh: COLOR_1, or its place in the picture. */
+/* Reads the light of the next mesh from a file that `lambent bake --to` wrote: COLOR_1, or lightmap coordinates. */
 static int read_baked(gltf *g, const lmb_mesh *m, uint32_t attributes, uint32_t material)
 {
     model_light *l = &g->b->out->light;

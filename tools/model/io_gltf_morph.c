@@ -1,4 +1,4 @@
-/* io_gltf_morph.c: morph targets: a mesh's shape by its default weights, and by those of a node that has its own. */
+/* io_gltf_morph.c: morph targets: shapes a mesh by its default weights, or by the weights of a node. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 
 static const char *const names[MODEL_MORPH_STREAMS] = {"POSITION", "NORMAL", "TANGENT"};
 
-/* The weights that a node gives its mesh, or with JSON_NONE the mesh's own, of at least `targets`; those that the file
- * leaves out are 0. NULL with the report set. */
+/* Reads `targets` weights from the node, or from the mesh if the node has none or is JSON_NONE. Weights missing in the
+ * file are 0. Returns NULL with the report set on failure. */
 static double *read_weights(gltf *g, uint32_t mesh, uint32_t node, uint32_t targets)
 {
     const uint32_t own = json_member(&g->doc, node, "weights"),
@@ -21,7 +21,7 @@ static double *read_weights(gltf *g, uint32_t mesh, uint32_t node, uint32_t targ
     return weights;
 }
 
-/* What target i adds to one stream; *out NULL: nothing. */
+/* Reads the offsets that a target adds to one stream. *out is NULL if there are none. */
 static int read_stream(const float **out, gltf *g, uint32_t reference, uint32_t vertices)
 {
     gltf_accessor a;
@@ -32,7 +32,7 @@ static int read_stream(const float **out, gltf *g, uint32_t reference, uint32_t 
     return index == JSON_NONE || (*out = gltf_floats(g, &a)) != NULL;
 }
 
-/* Targets may also move colours and texture coordinates, which is optional. */
+/* Targets may also change colours and texture coordinates. Support for that is optional in glTF. */
 static int has_more(const gltf *g, uint32_t target)
 {
     uint32_t known = 0;
@@ -70,7 +70,7 @@ int gltf_morph_read(model_morph *out, gltf *g, uint32_t primitive, const lmb_mes
     return 1;
 }
 
-/* Streams of its own, shaped. */
+/* Gives the mesh new streams and applies the targets to them. */
 static int shape(lmb_mesh *m, gltf *g, const model_morph *morph, const double *weights)
 {
     const uint64_t n = morph->vertices;

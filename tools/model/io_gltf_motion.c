@@ -1,5 +1,5 @@
-/* io_gltf_motion.c: animations of nodes: translation, rotation, scale and morph weights by STEP, LINEAR or CUBICSPLINE;
- * all of the document's together, and of two that move the same the first one's. */
+/* io_gltf_motion.c: reads animations of nodes: translation, rotation, scale and morph weights with STEP, LINEAR or
+ * CUBICSPLINE. All animations of the document play together. If two move the same property, the first one counts. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,8 @@ typedef struct reading {
 
 /* --- one channel -------------------------------------------------------------------------------------------------- */
 
-/* An accessor's floats, which are numbers. `components` 1, 3 or 4. has_codes: it may have normalized integers. */
+/* Reads the floats of an accessor and checks that they are finite. `components`: 1, 3 or 4. has_codes: normalized
+ * integers are allowed too. */
 static const float *read_floats(uint32_t *count, gltf *g, uint32_t reference, uint32_t components, int has_codes)
 {
     gltf_accessor a;
@@ -72,7 +73,7 @@ static int read_between(model_track *t, gltf *g, uint32_t sampler)
     return word == JSON_NONE || json_fail(&g->doc, word, g->b->r, "interpolation must be LINEAR, STEP or CUBICSPLINE");
 }
 
-/* `targets`: numbers a key, of weights. */
+/* `targets`: numbers per key of a track of weights. */
 static int read_sampler(model_track *t, gltf *g, uint32_t sampler, uint32_t targets)
 {
     const uint32_t output = json_member(&g->doc, sampler, "output"),

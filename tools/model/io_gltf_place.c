@@ -54,7 +54,7 @@ static int read_light(lmb_light *out, gltf *g, uint32_t light)
             return json_fail(doc, light, g->b->r, "color x intensity is no intensity");
         out->intensity[i] = (float)value;
     }
-    /* As viewers do: 0 or less is none. Suns have none, whatever is given. */
+    /* As in other viewers, 0 or less means no range. Directional lights never have one. */
     out->range = out->kind != LMB_LIGHT_DIRECTIONAL && range > 0 && range < 1e9 ? (float)range : 0.0f;
     return 1;
 }

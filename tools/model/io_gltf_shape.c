@@ -1,18 +1,18 @@
-/* io_gltf_shape.c: meshes that animations reshape: by joints that move, and by morph weights. Each instance gets a mesh
- * and streams of its own, which stand as the file places them until model_pose_shapes fills them. */
+/* io_gltf_shape.c: meshes that animations reshape: by moving joints, and by morph weights. Each instance gets its own
+ * mesh and streams. They have the shape of the file until model_pose_shapes fills them. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "io_gltf.h"
 #include "model_shape.h"
 
-/* What moves the meshes of one node, and which of its primitives are next. */
+/* The node of the current instance, the motion of its meshes, and the next primitive. */
 typedef struct moved_node {
-    uint32_t order, node, mesh; /* in the tree's order; JSON; of g->meshes */
+    uint32_t order, node, mesh; /* place in the tree's order; JSON node; index in g->meshes */
     uint32_t next;
-    const model_track *track; /* NULL: its weights do not move */
+    const model_track *track; /* NULL: the weights are not animated */
     int has_skin, moves;
-    model_shape skin; /* its joints, once they are read */
+    model_shape skin; /* joints of the skin, once they are read */
 } moved_node;
 
 typedef struct shaping {
@@ -21,8 +21,8 @@ typedef struct shaping {
     const struct model_motion *motion;
     const uint32_t *place;
     const model_track **track_of; /* by place in the tree's order; NULL: none */
-    moved_node at;                /* the node of the instance at hand */
-    uint32_t targets, joints;     /* the most of one shape */
+    moved_node at;                /* the node of the current instance */
+    uint32_t targets, joints;     /* largest count of any shape */
 } shaping;
 
 uint32_t gltf_targets(const gltf *g, uint32_t node)
@@ -34,7 +34,7 @@ uint32_t gltf_targets(const gltf *g, uint32_t node)
     return json_count(&g->doc, json_member(&g->doc, primitive, "targets"));
 }
 
-/* Does a joint of the skin move? They were checked when the skin was posed. */
+/* Returns 1 if any joint of the skin moves. The joints were checked when the skin was posed. */
 static int skin_moves(const shaping *s, uint32_t skin)
 {
     const json *doc = &s->g->doc;
@@ -45,7 +45,7 @@ static int skin_moves(const shaping *s, uint32_t skin)
     return 0;
 }
 
-/* Of the instance at hand: the node that shows it. Instances of one node follow each other. */
+/* Moves to the node of an instance. The instances of one node follow each other. */
 static int come_to(shaping *s, uint32_t instance)
 {
     gltf *g = s->g;
@@ -84,7 +84,7 @@ static int read_bind(double (*bind)[16], gltf *g, uint32_t skin, uint32_t joints
     return 1;
 }
 
-/* The joints of a node's skin, once for all of its primitives. */
+/* Reads the joints of the skin, once for all primitives of a node. */
 static int read_skin(shaping *s)
 {
     gltf *g = s->g;
@@ -112,7 +112,7 @@ static int read_skin(shaping *s)
     return 1;
 }
 
-/* A primitive's joints and weights, as many at each vertex. */
+/* Keeps the joints and weights of a primitive, with the same number of influences for each vertex. */
 static int keep_influences(model_shape *out, gltf *g, const gltf_influences *in)
 {
     const uint64_t count = 4 * (uint64_t)in->sets;
@@ -147,7 +147,7 @@ static int read_add(const float **out, gltf *g, uint32_t reference, uint32_t ver
     return values && gltf_accessor_floats(values, g, &a);
 }
 
-/* The node's weights at rest, else the mesh's; those that the file leaves out are 0. */
+/* Reads the weights of the node without animation, else those of the mesh. Weights missing in the file are 0. */
 static double *rest_weights(const shaping *s, uint32_t targets)
 {
     gltf *g = s->g;
@@ -187,7 +187,8 @@ static int read_targets(model_shape *out, shaping *s, uint32_t primitive)
 
 /* --- meshes ------------------------------------------------------------------------------------------------------- */
 
-/* A stream that is written: the mesh's, where that was made for this node, as those of a skin are, else a copy. */
+/* Returns the stream to write: the stream of the mesh if the mesh was made for this node (as for a skin), else a
+ * copy. */
 static void *own_stream(gltf *g, const void *mesh, int is_own, uint64_t count, size_t size)
 {
     void *copy;
@@ -214,14 +215,14 @@ static int take_streams(model_shape *out, gltf *g, lmb_mesh *mesh, const lmb_mes
                         ? (int16_t *)own_stream(g, mesh->tangents, is_own, 2 * n, sizeof(int16_t))
                         : NULL;
     if (!out->positions || (!out->normals && out->rest_normals) || (!out->tangents && out->rest_tangents))
-        return 0; /* the mesh stands as it was */
+        return 0; /* the mesh is unchanged */
     mesh->positions = out->positions;
     mesh->normals = out->normals;
     mesh->tangents = out->tangents;
     return 1;
 }
 
-/* The shape of an instance, whose mesh is its own. */
+/* Makes the shape of an instance. No other instance shares the mesh. */
 static int make_shape(model_shape *out, shaping *s, uint32_t instance)
 {
     gltf *g = s->g;
@@ -243,7 +244,7 @@ static void *longer(model_build *b, const void *from, uint32_t count, uint32_t m
     return to;
 }
 
-/* Room for as many meshes more. */
+/* Makes room for `more` meshes. */
 static int add_room(model_build *b, uint32_t more)
 {
     model_light *l = &b->out->light;
@@ -258,7 +259,7 @@ static int add_room(model_build *b, uint32_t more)
     return 1;
 }
 
-/* Meshes without a skin may be shown by several nodes: one of its own. */
+/* Gives an instance its own mesh, because several nodes may show one mesh without a skin. */
 static void add_mesh(model_build *b, uint32_t instance)
 {
     const uint32_t from = b->instances[instance].mesh, to = b->mesh_count++;
@@ -270,7 +271,7 @@ static void add_mesh(model_build *b, uint32_t instance)
     b->instances[instance].mesh = to;
 }
 
-/* How many instances change their shape, and of them those without a skin. */
+/* Counts the instances that change their shape, and those of them without a skin. */
 static int count_shapes(uint32_t *bare, struct model_shapes *out, uint8_t *reshapes, shaping *s)
 {
     *bare = 0;

@@ -196,7 +196,7 @@ static float *pose_positions(gltf *g, const float *from, const gltf_influences *
     return to;
 }
 
-/* A primitive without influences stays as the first joint places it. `in`: once for all of its meshes. */
+/* A primitive without influences follows the first joint. `in` is read once for all meshes of the primitive. */
 static int pose_mesh(gltf *g, lmb_mesh *out, gltf_influences *in, uint32_t primitive, const skin *s)
 {
     const uint32_t n = out->vertex_count;

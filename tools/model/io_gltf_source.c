@@ -1,11 +1,11 @@
-/* io_gltf_source.c: what a document has beyond the scene, for a file that is written from it: its text, its images'
- * files, and streams by vertex as they are. */
+/* io_gltf_source.c: keeps parts of a document that the scene does not have, for writing a file from it: the JSON text,
+ * the image files, and vertex attributes unchanged. */
 #include <stdio.h>
 #include <string.h>
 
 #include "io_gltf.h"
 
-/* The highest texture coordinates that a material names, + 1; nodes of its JSON lie side by side. */
+/* Returns the highest TEXCOORD_ index that a material uses, + 1. The JSON nodes of a material are contiguous. */
 static uint32_t count_sets(const gltf *g)
 {
     const json *doc = &g->doc;
@@ -27,7 +27,7 @@ static uint32_t count_sets(const gltf *g)
     return sets;
 }
 
-/* One stream an accessor, which primitives share. */
+/* Makes one stream for each accessor. Primitives share it. */
 static int read_stream(float **out, gltf *g, float **known, uint32_t reference, uint32_t components, uint32_t vertices)
 {
     gltf_accessor a;
@@ -50,7 +50,7 @@ static int read_stream(float **out, gltf *g, float **known, uint32_t reference, 
     return 1;
 }
 
-/* Tangents of a posed mesh are left to who draws it. */
+/* A posed mesh gets no tangents: the renderer that reads the file must compute them. */
 static int read_streams(model_source *s, gltf *g, float **known, uint32_t mesh, int is_posed)
 {
     const uint32_t attributes = json_member(&g->doc, g->mesh_primitive[mesh], "attributes"),
@@ -66,7 +66,7 @@ static int read_streams(model_source *s, gltf *g, float **known, uint32_t mesh, 
            read_stream(&s->tangent[mesh], g, known, json_member(&g->doc, attributes, "TANGENT"), 4, vertices);
 }
 
-/* An image that cannot be read stays as the document has it. */
+/* An image that cannot be read stays as it is in the document. */
 static int keep_images(model_source *s, gltf *g)
 {
     for (uint32_t i = 0; i < g->images.count; ++i) {

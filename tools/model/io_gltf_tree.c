@@ -198,7 +198,7 @@ static int local_matrix(gltf_matrix *out, gltf_matrix *turn, gltf *g, uint32_t n
 
 void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b) { model_multiply(out->m, a->m, b->m); }
 
-/* KHR_node_visibility; what is below a hidden node is hidden too. */
+/* KHR_node_visibility: descendants of a hidden node are hidden too. */
 static int read_visibility(uint8_t *hidden, gltf *g, uint32_t node)
 {
     const uint32_t own = json_member(&g->doc, json_member(&g->doc, node, "extensions"), "KHR_node_visibility");

@@ -1,5 +1,5 @@
-/* io_mtl.c: reads OBJ material libraries: diffuse colour, its map, emission, and what is wholly transparent. Keywords may
- * be in upper or lower case: programs write map_kd, too. */
+/* io_mtl.c: reads OBJ material libraries: diffuse colour and map, emission, and fully transparent materials. Keywords
+ * are not case-sensitive, because some programs write map_kd. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,7 +62,7 @@ uint32_t obj_find(const obj_names *names, slice name, uint32_t *slot)
     return UINT32_MAX;
 }
 
-/* CIE XYZ to linear light of sRGB's primaries (IEC 61966-2-1), as the other colours are. */
+/* Converts CIE XYZ to linear light with sRGB primaries (IEC 61966-2-1), like all other colours. */
 static void from_xyz(double c[3])
 {
     const double x = c[0], y = c[1], z = c[2];
@@ -71,7 +71,8 @@ static void from_xyz(double c[3])
     c[2] = 0.0556434 * x - 0.2040259 * y + 1.0572252 * z;
 }
 
-/* Kd and Ke: r g b, or xyz x y z; of one number all three. *found 0: a spectrum, which is a file of its own. */
+/* Reads Kd or Ke: r g b, or xyz x y z; a single number stands for all three. *found is 0 for a spectrum, which is in
+ * another file. */
 static int read_colour(double out[3], int *found, obj_material *m, const char *name, cursor *c, report *r)
 {
     slice token = {"", 0};

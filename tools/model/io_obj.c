@@ -1,9 +1,10 @@
 /* io_obj.c: reads Wavefront OBJ: polygons to triangles, corners to vertices, one mesh and instance a material.
  *
  * Two passes: the first counts, so that every array has its final size; the second fills. A corner, two bytes of text
- * or more, costs at most 36 bytes on the way, 60 more in the file's widest face, and 28 in the model; a triangle 20
- * and 12. A vertex of a smoothing group, or a corner where these are fewer, costs 88 more. The worst is one huge face of
- * one-digit corners, 64 bytes a byte of file: within MODEL_BYTES_PER_BYTE, textures aside. */
+ * or more, costs at most 36 bytes on the way, 60 more in the file's widest face, and 28 in the model; a triangle 20 and
+ * 12. Smoothing groups cost 88 more for each vertex, or for each corner if there are fewer corners. The worst case is
+ * one huge face of one-digit corners, 64 bytes for each byte of the file: within MODEL_BYTES_PER_BYTE, textures
+ * excluded. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,11 +15,11 @@
 #include "smooth_normals.h"
 
 #define NONE          UINT32_MAX
-#define SMOOTH        0x80000000u /* in place of a vn: the normal of the smoothing group in the bits below */
+#define SMOOTH        0x80000000u /* in place of a vn: use the normal of the smoothing group in the lower bits */
 #define MAX_LIBRARIES 64
 #define MAX_PROBES    256 /* of an index; half of it is empty, so that only a file made for it comes near */
 
-/* What a vertex is made of: numbers of v, vt, vn from 0; NONE: not given; vn may be SMOOTH | group. */
+/* A vertex: indices of v, vt and vn from 0; NONE: not given. vn may be SMOOTH | group. */
 typedef struct corner {
     uint32_t v, vt, vn;
 } corner;
@@ -34,7 +35,7 @@ typedef struct census {
     uint64_t v, vt, vn, corners, triangles, names, libraries, smoothings;
     uint64_t widest; /* most corners of a face */
     int colours;     /* some v has six numbers */
-    uint64_t fourth, seventh;  /* v of seven numbers whose fourth, seventh is not 1 */
+    uint64_t fourth, seventh;  /* lines of v with seven numbers, if the fourth (seventh) is not 1 */
     int whole_codes, fractions; /* some colour has two digits or more and no point; some colour has a point */
 } census;
 
@@ -42,7 +43,7 @@ typedef struct obj {
     model_build *b;
     census n;
     float *v, *vt, *vn;
-    uint8_t *colours;                     /* RGBA8 by v, A 0: it has none; or NULL */
+    uint8_t *colours;                     /* RGBA8 by v, A 0: no colour; or NULL */
     uint32_t v_count, vt_count, vn_count; /* so far: what negative numbers count back from */
     corner *corners;                      /* different ones */
     uint32_t corner_count;
@@ -54,7 +55,7 @@ typedef struct obj {
     slice libraries[MAX_LIBRARIES];
     uint32_t library_count, library_extra;
     uint32_t material; /* of the faces that follow */
-    uint32_t smoothing; /* their group; 0: flat */
+    uint32_t smoothing; /* group of the faces that follow; 0: flat */
     smooth_normals smooth;
     corner *face;      /* scratch for one face: its corners, numbers, points and triangles */
     uint32_t *face_number, *face_cut, *face_links;
@@ -99,7 +100,7 @@ static void count_v(census *n, cursor *c)
         ++numbers;
     ++n->v;
     n->colours = n->colours || numbers >= 6;
-    for (i = 4; numbers >= 6 && i < 6; ++i) /* these are colours with and without a weight */
+    for (i = 4; numbers >= 6 && i < 6; ++i) /* colours with and without a weight */
         count_colour(n, token[i]);
     if (numbers == 7) {
         n->fourth += !is_one(token[3]);
@@ -198,13 +199,13 @@ static int read_numbers(double *out, int *count, int min, int max, cursor *c, re
     return *count >= min || text_fail(c, r, "%d numbers where %d are needed; repair the line", *count, min);
 }
 
-/* Seven numbers are x y z r g b a, as most write them, or x y z w r g b with a weight of 1 in all of the file. */
+/* Seven numbers are x y z r g b a, as most programs write, or x y z w r g b if the weight is 1 in the whole file. */
 static int first_colour(const census *n, int numbers)
 {
     return numbers == 7 && n->fourth == 0 && n->seventh > 0 ? 4 : 3;
 }
 
-/* Codes are 0 .. 1, or whole numbers to 255. */
+/* Colours are 0 .. 1, or integers up to 255. */
 static void put_colour(obj *o, const double *code, int has_alpha)
 {
     uint8_t *to = o->colours + 4 * (size_t)o->v_count;
@@ -216,7 +217,7 @@ static void put_colour(obj *o, const double *code, int has_alpha)
     o->translucent += has_alpha && code[3] < top && code[3] != 1;
 }
 
-/* x y z, then perhaps a weight (ignored), or a colour. */
+/* Reads x y z, then an optional weight (ignored) or colour. */
 static int read_v(obj *o, cursor *c)
 {
     double v[7];
@@ -326,7 +327,7 @@ static uint32_t intern(obj *o, const corner *key)
     return o->corner_count - 1;
 }
 
-/* A corner without a normal takes the group's, else the face is flat. */
+/* A corner without a normal uses the normal of the smoothing group. Without a group the face is flat. */
 static int smooth_face(obj *o, uint32_t n)
 {
     uint32_t i;
@@ -377,7 +378,7 @@ static int read_face(obj *o, cursor *c)
     return 1;
 }
 
-/* s off and s 0: flat. What is no group is none, and noted. */
+/* `s off` and `s 0` mean flat. An invalid group counts as no group and is noted. */
 static void use_smoothing(obj *o, cursor *c)
 {
     slice word = {"", 0};
@@ -492,7 +493,7 @@ static int load_libraries(obj *o)
     return 1;
 }
 
-/* Faces before any name have none. */
+/* Faces before the first usemtl have no material. */
 static int keep_names(obj *o)
 {
     const char **names = (const char **)build_keep(o->b, o->names.count, sizeof *names);
@@ -509,11 +510,11 @@ static int keep_names(obj *o)
     return names != NULL;
 }
 
-/* Are the colours of vertices all that is known of it? */
+/* Returns 1 if the only known colours of a material are vertex colours. */
 static int is_painted(const obj *o, uint32_t material) { return o->colours && !o->names.items[material].has_kd; }
 
-/* A middle grey until a library says more; white under colours of vertices; double sided, because OBJ says nothing of
- * sides. */
+/* Materials are middle grey until a library sets them, or white with vertex colours. They are double-sided because OBJ
+ * does not specify sides. */
 static int make_materials(obj *o)
 {
     uint32_t i, undefined = 0;
@@ -547,7 +548,7 @@ static int make_materials(obj *o)
 
 static uint32_t group_of(const corner *c) { return c->vn != NONE && c->vn >= SMOOTH ? c->vn - SMOOTH : 0; }
 
-/* Once all vertices are known: the normals of groups. */
+/* Computes the normals of smoothing groups once all vertices are known. */
 static int sum_normals(obj *o, uint64_t key)
 {
     uint32_t i, k;
@@ -625,7 +626,7 @@ static int fill_indices(lmb_mesh *out, const obj *o, const uint32_t *local, cons
     return 1;
 }
 
-/* A vertex without a colour beside others that have one is grey or white, as it were without them. */
+/* If only some vertices have colours, the others are grey or white, as in a file without vertex colours. */
 static void fill_colour(uint8_t *to, const uint8_t *from, int is_grey)
 {
     if (from[3] != 0)

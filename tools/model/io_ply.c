@@ -1,4 +1,4 @@
-/* io_ply.c: a PLY file to a scene: the pass that counts, then the pass that fills. */
+/* io_ply.c: loads a PLY file into a scene: one pass counts, the next fills. */
 #include <string.h>
 
 #include "ear_clip.h"

@@ -1,4 +1,5 @@
-/* io_ply.h: the PLY reader: polygons and triangle strips, with normals, and colours and textures by vertex or face. */
+/* io_ply.h: the PLY reader: polygons and triangle strips with normals, and with colours and textures per vertex or
+ * face. */
 #ifndef IO_PLY_H
 #define IO_PLY_H
 
@@ -7,8 +8,8 @@
 /* ply_begins: is this a PLY file by its first line? */
 int ply_begins(const uint8_t *data, size_t size);
 
-/* ply_load: PLY 1.0, text or binary of either byte order: a mesh, an instance and a double-sided material
- * for each texture (comment TextureFile), and one for what has none. 1, or 0 with b->r set. */
+/* ply_load: loads PLY 1.0, text or binary in either byte order. Makes a mesh, an instance and a double-sided material
+ * for each texture (comment TextureFile), and one more for faces without a texture. Returns 1, or 0 with b->r set. */
 int ply_load(model_build *b, const uint8_t *data, size_t size);
 
 #endif

@@ -1,20 +1,20 @@
-/* io_ply_mesh.c: the PLY reader's second pass: vertices, faces and strips to the scene. */
+/* io_ply_mesh.c: second pass of the PLY reader: converts vertices, faces and strips to a scene. */
 #include <math.h>
 #include <string.h>
 
 #include "ear_clip.h"
 #include "io_ply_read.h"
 
-enum { NEAR_WEDGES = 64 }; /* of one vertex that are looked at; beyond them a vertex may be there twice */
+enum { NEAR_WEDGES = 64 }; /* wedges of one vertex that are compared; beyond them a wedge may be stored twice */
 
-/* --- what colours mean -------------------------------------------------------------------------------------------- */
+/* --- ranges of colours -------------------------------------------------------------------------------------------- */
 
 typedef struct codes {
     double top;
     int is_whole;
 } codes;
 
-/* The values of one type that an element's colours have. */
+/* Properties of the colour values of one type in an element. */
 static int survey(codes *out, ply *p, const element *e, const scalar_type *type)
 {
     double values[ROLES];
@@ -35,7 +35,7 @@ static int survey(codes *out, ply *p, const element *e, const scalar_type *type)
     return 1;
 }
 
-/* Floats run from 0 to 1, whole numbers from 0 to their type's largest; but programs write codes of 8 bits as any
+/* Floats are 0 .. 1, and integers are 0 .. the maximum of their type. But some programs write 8-bit codes as any
  * type. */
 static double range_of(const scalar_type *type, const codes *c)
 {
@@ -46,7 +46,7 @@ static double range_of(const scalar_type *type, const codes *c)
     return c->top <= 255 ? 255 : c->top <= 65535 && type->size > 2 ? 65535 : type->max;
 }
 
-/* The ranges of an element's colours; a note where one is not the type's own. */
+/* Finds the colour ranges of an element. Adds a note if a range is not the usual range of the type. */
 static int find_ranges(double range[4], ply *p, const element *e)
 {
     codes c = {0, 1};
@@ -72,7 +72,7 @@ static int find_ranges(double range[4], ply *p, const element *e)
     return 1;
 }
 
-/* Returns whether an alpha is left out. */
+/* Returns 1 if an alpha is ignored. */
 static int store_colour(uint8_t to[4], const ply *p, const element *e, const double *values)
 {
     const double *range = p->range[e == p->face];
@@ -138,8 +138,8 @@ static int has_part(const element *e)
     return (e->roles[RED] || e->roles[GREEN] || e->roles[BLUE]) && !ply_has(e, RED, BLUE);
 }
 
-/* Which of several colours and coordinates count: a texture, then those of faces, then those of vertices. A picture of
- * a scan holds what its vertices' colours hold, which would count twice. */
+/* Chooses between several colours and coordinates: a texture first, then face colours, then vertex colours. The texture
+ * of a scan already contains the vertex colours, so using both would count them twice. */
 static int choose(ply *p)
 {
     const int by_vertex = ply_has(p->vertex, U, V), by_face = ply_has(p->face, TEXCOORDS, TEXCOORDS);
@@ -165,7 +165,7 @@ static int choose(ply *p)
 
 /* --- vertices ----------------------------------------------------------------------------------------------------- */
 
-/* For n vertices, by build_keep or, where wedges take their place, build_scratch. */
+/* Allocates streams for n vertices with build_keep, or with build_scratch if wedges replace the vertices. */
 static int allocate_streams(streams *s, const ply *p, uint32_t n, void *(*get)(model_build *, uint64_t, size_t),
                             int colours, int uvs)
 {
@@ -177,7 +177,8 @@ static int allocate_streams(streams *s, const ply *p, uint32_t n, void *(*get)(m
     return s->positions && !s->normals == !normals && !s->colours == !colours && !s->uvs == !uvs;
 }
 
-/* PLY's second texture coordinate counts upwards from the image's foot, lambent's downwards from its top. */
+/* The second texture coordinate of PLY counts upwards from the bottom of the image. In lambent it counts downwards from
+ * the top. */
 static void store_vertex(ply *p, size_t i, const double *values)
 {
     const streams *s = &p->s;
@@ -256,7 +257,8 @@ static void set_index(ply *p, size_t at, uint32_t vertex)
         p->s.indices32[at] = vertex;
 }
 
-/* The number of the vertex with these: one that is there, or a new one. uv NULL: the vertex's own, else (0, 0). */
+/* Returns the index of the wedge with this vertex, uv and colour, and adds it if it is new. uv NULL: use the uv of the
+ * vertex, else (0, 0). */
 static uint32_t find_wedge(ply *p, uint32_t vertex, const float *uv, const uint8_t colour[4])
 {
     wedge want = {vertex, p->wedge_of[vertex], {0, 0}, {0, 0, 0, 0}};
@@ -275,7 +277,7 @@ static uint32_t find_wedge(ply *p, uint32_t vertex, const float *uv, const uint8
     return p->wedge_count - 1;
 }
 
-/* The material of the face read last: that of its texture; the last one, plain, where it has none. */
+/* Returns the material of the face read last: the material of its texture, or the last material, which has none. */
 static uint8_t paint_of(ply *p, const double *values)
 {
     const double picture = p->face->roles[PICTURE] ? values[PICTURE] : 0;
@@ -286,7 +288,7 @@ static uint8_t paint_of(ply *p, const double *values)
     return (uint8_t)p->texture_of[(uint32_t)picture];
 }
 
-/* The face's corners as the mesh's vertices. */
+/* Converts the corners of the face to vertices of the mesh. */
 static void number_corners(ply *p, const double *values)
 {
     const int has_uvs = p->has_face_uvs && p->coords == 2 * p->corners;
@@ -299,7 +301,7 @@ static void number_corners(ply *p, const double *values)
                                       : find_wedge(p, p->corner[i], has_uvs ? p->coord + 2 * (size_t)i : NULL, colour);
 }
 
-/* The face read last to its triangles, from the mesh's index `at`. Returns the index behind. */
+/* Writes the triangles of the face read last, starting at index `at` of the mesh. Returns the next free index. */
 static size_t cut_face(ply *p, size_t at, const double *values)
 {
     const uint32_t n = p->corners;
@@ -344,8 +346,8 @@ static size_t put_triangle(ply *p, size_t at, uint32_t a, uint32_t b, uint32_t c
     return at;
 }
 
-/* The strip read last: each vertex makes a triangle with the two before it, every second one the other way round. One
- * with a vertex twice only turns or joins strips. */
+/* Writes the triangles of the strip read last. Each vertex makes a triangle with the two before it, and every second
+ * triangle has the opposite winding. A triangle with a repeated vertex only turns or joins strips. */
 static size_t cut_strip(ply *p, size_t at)
 {
     uint32_t i, run = 0;
@@ -398,7 +400,8 @@ static void copy_vertex(const streams *out, size_t to, const streams *in, size_t
         memmove(out->uvs + 2 * to, in->uvs + 2 * from, 2 * sizeof *out->uvs);
 }
 
-/* Scans leave stray points far outside; kept, they would widen the scene's bounds. The others move up in order. */
+/* Removes vertices that no triangle uses: scans have stray points far outside, which would widen the bounds of the
+ * scene. The other vertices keep their order. */
 static int drop_unused(uint32_t *count, ply *p)
 {
     const size_t indices = 3 * (size_t)p->triangles;
@@ -420,7 +423,7 @@ static int drop_unused(uint32_t *count, ply *p)
     return 1;
 }
 
-/* The wedges become the mesh's vertices. */
+/* Makes the wedges the vertices of the mesh. */
 static int take_wedges(uint32_t *count, ply *p)
 {
     streams to = p->s;
@@ -473,7 +476,7 @@ static void place_mesh(model_build *b, const lmb_mesh *mesh, uint32_t material)
     b->meshes[b->mesh_count++] = *mesh;
 }
 
-/* A mesh for each material that triangles have; they share the vertices. */
+/* Makes a mesh for each material that triangles use. The meshes share the vertices. */
 static int share_out(ply *p, const lmb_mesh *whole)
 {
     const size_t width = p->s.indices16 ? sizeof *p->s.indices16 : sizeof *p->s.indices32;
@@ -499,7 +502,8 @@ static int share_out(ply *p, const lmb_mesh *whole)
     return 1;
 }
 
-/* White under a texture or colours, else a middle grey; double sided, because PLY says nothing of sides. */
+/* Materials are white with a texture or colours, else middle grey. They are double-sided because PLY does not specify
+ * sides. */
 static void make_material(lmb_material *out, int32_t texture, int is_white)
 {
     int k;

@@ -1,10 +1,10 @@
 /* io_ply_read.c: reads PLY: a header that describes elements, then their values as text or in either byte order.
  *
- * Two passes over the values: the first only finds where elements begin and how many corners faces have, and so proves
- * that the file is as long as its header says before anything is allocated; the second fills. A corner, one byte or
- * more, costs 13 bytes in the model and 52 more in the file's widest face; a vertex, three bytes or more, at most 32;
- * one of a face with colours or texture coordinates of its own, which is several bytes wide, 48 more: within
- * MODEL_BYTES_PER_BYTE. */
+ * There are two passes over the values. The first finds the start of each element and counts the corners of faces. So
+ * it checks that the file is as long as the header claims before anything is allocated. The second pass fills the
+ * scene. A corner takes at least one byte in the file and costs 13 bytes in the model, and 52 more in the widest face
+ * of the file. A vertex takes at least three bytes and costs at most 32. A corner of a face with its own colours or
+ * texture coordinates takes several bytes and costs 48 more. All of these are within MODEL_BYTES_PER_BYTE. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -71,14 +71,14 @@ int ply_fail(const ply *p, const char *format, ...)
     return report_fail(p->b->r, "%s: line %u: %s", p->b->path, (unsigned)p->line, message);
 }
 
-/* For %.*s: names and numbers of a damaged file can be long. */
+/* Limits the length for %.*s, because names and numbers of a damaged file can be long. */
 static int shown(slice s) { return s.size < 40 ? (int)s.size : 40; }
 
 /* --- header --- */
 
 static int is_blank(uint8_t c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/* The next word of this line; 0 at its end. */
+/* Reads the next word of this line. Returns 0 at the end of the line. */
 static int next_word(slice *out, ply *p)
 {
     while (p->at < p->end && is_blank(*p->at))
@@ -159,8 +159,8 @@ static int role_of(const element *e, slice name)
     return NO_ROLE;
 }
 
-/* Of several pairs of texture coordinates, or colours, the first counts; anything else given twice leaves no telling
- * which. */
+/* If there are several pairs of texture coordinates, or several colours, the first counts. Any other duplicate is
+ * ambiguous. */
 static int take_role(ply *p, element *e, property *out)
 {
     const int role = role_of(e, out->name), is_list = out->count_type != NULL;
@@ -173,7 +173,7 @@ static int take_role(ply *p, element *e, property *out)
     if (role == NO_ROLE)
         return 1;
     if (is_list != (role >= INDICES) && e->kind == FACE && role != INDICES)
-        return 1; /* of a face these are extras that other programs may mean otherwise */
+        return 1; /* in a face these are extras, and other programs may use them differently */
     if (is_list != (role >= INDICES))
         return ply_fail(p, "%.*s must %sbe a list", shown(out->name), out->name.at, is_list ? "not " : "");
     if (e->roles[role] && role == INDICES)
@@ -211,10 +211,10 @@ static int read_property(ply *p, const slice *words, int n)
     return 1;
 }
 
-/* Lines of the header, or of text between items, that are for people. */
+/* Comment lines in the header, or between items in text files. */
 static int is_remark(slice word) { return slice_is(word, "comment") || slice_is(word, "obj_info"); }
 
-/* comment TextureFile NAME, of which there may be several; what texnumber counts. */
+/* Reads a line "comment TextureFile NAME". There may be several; texnumber is an index into them. */
 static void take_picture(ply *p, const slice *words)
 {
     slice name = {words[2].at, 0};
@@ -228,8 +228,8 @@ static void take_picture(ply *p, const slice *words)
         ++p->more_pictures;
 }
 
-/* A line behind the first one; *done at end_header. Other readers pass over what they do not know, as a comment's second
- * line without its keyword: so does this one, and says so. */
+/* Reads a header line after the first; sets *done at end_header. Like other readers, it skips unknown lines, for
+ * example the second line of a comment without the keyword, and adds a note. */
 static int read_header_line(ply *p, int *done)
 {
     slice words[MAX_WORDS], extra;
@@ -255,7 +255,7 @@ static int read_header_line(ply *p, int *done)
                      : 1;
 }
 
-/* The bytes that an item takes at least, now that the format is known, wherever it stood. */
+/* Computes the minimum number of bytes of an item. It runs after the header because the format line may be anywhere. */
 static void count_bytes(ply *p)
 {
     uint32_t i, k;
@@ -343,7 +343,7 @@ static int text_value(double *out, slice word, const scalar_type *t, const ply *
     return 1;
 }
 
-/* One value; out NULL: only step over it. A double holds every type's values exactly. */
+/* Reads one value; out NULL: skips it. A double holds the values of every type exactly. */
 static int take_value(ply *p, double *out, const scalar_type *t)
 {
     slice word;
@@ -359,7 +359,7 @@ static int take_value(ply *p, double *out, const scalar_type *t)
     return 1;
 }
 
-/* How many values the list has: not more than there are bytes left, each taking one at least. */
+/* Reads the length of a list. It cannot exceed the bytes left, because each value takes at least one byte. */
 static int take_count(ply *p, uint32_t *out, const property *list)
 {
     const double left = (double)(p->end - p->at);
@@ -374,7 +374,7 @@ static int take_count(ply *p, uint32_t *out, const property *list)
     return 1;
 }
 
-/* -1, also as a type without a sign writes it. */
+/* Returns 1 for -1, or for -1 converted to an unsigned type. */
 static int is_restart(const ply *p, double v, const scalar_type *t)
 {
     return v == -1 || (t->min == 0 && t->max > 0 && v == t->max && v >= (double)p->vertex->count);
@@ -430,7 +430,7 @@ static int take_list(ply *p, const property *list, int kind)
     return 1;
 }
 
-/* In text, an item is a line; empty ones and comments are passed over. */
+/* In text files each item is one line. Empty lines and comments are skipped. */
 static void skip_empty_lines(ply *p)
 {
     while (p->format == TEXT && p->at < p->end) {
@@ -492,14 +492,14 @@ static void count_item(ply *p, int kind)
     p->longest_coords = larger(p->longest_coords, p->coords);
 }
 
-/* Items without properties take no bytes, so that any number of them may be claimed. */
+/* Items without properties take no bytes, so a header may claim any number of them. */
 static int walk_element(ply *p, element *e)
 {
     uint32_t i;
     skip_empty_lines(p);
     e->at = p->at;
     e->line = p->line;
-    /* the last value of a text need not have a separator behind it */
+    /* the last value of a text file needs no separator after it */
     if ((uint64_t)e->count * e->bytes > (uint64_t)(p->end - p->at) + (p->format == TEXT))
         return ply_fail(p, "%u elements, which is more than the rest of the file holds; get the whole file",
                     (unsigned)e->count);

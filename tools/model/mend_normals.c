@@ -1,5 +1,5 @@
-/* mend_normals.c: normals of faces where a file's own have no length. Meshes may share their streams, so a vertex that a
- * mesh does not draw waits for one that does. */
+/* mend_normals.c: replaces normals without length by normals of faces. Meshes may share streams, so a vertex stays
+ * marked until a mesh that draws it is processed. */
 #include <string.h>
 
 #include "../../src/base/vertex.h"
@@ -8,7 +8,7 @@
 
 static int is_marked(const lmb_mesh *m, uint32_t vertex) { return m->normals[2 * (size_t)vertex] == BUILD_NO_NORMAL; }
 
-/* The marked ones' sums: of all triangles that have them. */
+/* Adds the normal of a triangle to the sum of each marked vertex. */
 static void add_triangle(double *sums, const lmb_mesh *m, const uint32_t vertex[3])
 {
     double normal[3], weight[3];
@@ -29,7 +29,7 @@ static void set_normal(const lmb_mesh *m, uint32_t vertex, const double v[3])
     lmb_octahedral_encode((int16_t *)(uintptr_t)m->normals + 2 * (size_t)vertex, build_normal(v, &zeros));
 }
 
-/* The marked vertices of a triangle, at most three; 0: none, or indices that lie outside. */
+/* Counts the marked vertices of a triangle. Returns 0 if there are none, or if an index is out of range. */
 static uint32_t marked_of(const lmb_mesh *m, uint32_t triangle, uint32_t vertex[3])
 {
     uint32_t i, count = 0;

@@ -58,23 +58,23 @@ typedef struct model_lobe {
 typedef struct model_light {
     float scale;          /* W/m2 that a colour of 1 stands for; 0: the file has none */
     float **colour;       /* by mesh: COLOR_1, 3 a vertex, 0 .. 1; NULL: it has none */
-    float **uv;           /* by mesh: where the picture shows it, 2 a vertex; NULL: it has none */
+    float **uv;           /* by mesh: lightmap coordinates, 2 per vertex; NULL: not in the lightmap */
     const lmb_texture *picture; /* by uv, sRGB-coded; NULL: none */
 } model_light;
 
 enum { MODEL_UV_SETS = 4 };
 
-/* What a glTF file has beyond the scene, for a file that is written from it. */
+/* Parts of a glTF file that the scene does not have, for writing a file from it. */
 typedef struct model_source {
     const char *json;            /* the document */
     size_t json_size;
-    const uint8_t **image;       /* by image of the document: its file's bytes; NULL: they cannot be read */
+    const uint8_t **image;       /* by image of the document: bytes of the image file; NULL: unreadable */
     size_t *image_size;
-    uint32_t *node, *primitive;  /* by instance: its node, an index; its primitive, a node of the parsed JSON */
-    uint8_t *is_posed;           /* by instance: a skin placed its vertices in the world */
-    uint32_t uv_sets;            /* TEXCOORD_ sets that its materials name */
-    float **uv[MODEL_UV_SETS];   /* by mesh: 2 a vertex, without any transform; NULL: it has none */
-    float **tangent;             /* by mesh: 4 a vertex; NULL: it has none */
+    uint32_t *node, *primitive;  /* by instance: index of the node; JSON node of the primitive */
+    uint8_t *is_posed;           /* by instance: a skin has put the vertices into world space */
+    uint32_t uv_sets;            /* TEXCOORD_ sets that materials use */
+    float **uv[MODEL_UV_SETS];   /* by mesh: 2 per vertex, without texture transform; NULL: none */
+    float **tangent;             /* by mesh: 4 per vertex; NULL: none */
 } model_source;
 
 /* Owns everything `scene` points to. model_free releases it; a zeroed model is empty. */
@@ -84,11 +84,11 @@ typedef struct model {
     uint32_t camera_count;
     model_lobe *lobes; /* by material; NULL: the format has none */
     model_light light;
-    model_source *source;        /* model_choice.keeps_source; NULL: not asked for, or the format is not glTF */
-    const char **material_names; /* by material, each may be NULL; NULL: the format has none, or `source` has them */
+    model_source *source;        /* set with model_choice.keeps_source if the format is glTF; else NULL */
+    const char **material_names; /* by material, each may be NULL; NULL: no names, or they are in `source` */
     struct model_motion *motion; /* model_motion.h; NULL: nothing of the scene moves, or `motion_problem` says why */
     report motion_problem;
-    uint32_t idle_channels; /* of animations: they move nothing of the scene that is read */
+    uint32_t idle_channels; /* animation channels that move nothing in the scene that was read */
     const lmb_pack *pack; /* a packed scene, in memory of the model's; NULL: it is none */
     model_facts facts;
     void **blocks; /* every allocation, for model_free */
@@ -101,12 +101,12 @@ typedef struct model_notes {
     uint32_t count;
 } model_notes;
 
-/* What the file leaves open. Zeros: as usual. */
+/* Choices that the file leaves open. Zeros are the defaults. */
 enum { MODEL_COLOURS_SRGB = 0, MODEL_COLOURS_LINEAR };
 typedef struct model_choice {
-    const char *scene;      /* of several the one of this name or number; NULL: the file's own choice */
-    int32_t vertex_colours; /* of OBJ and PLY: MODEL_COLOURS_; glTF says that its own are linear */
-    int32_t keeps_source;   /* 1: out->source, if the file is glTF */
+    const char *scene;      /* name or index of the scene to load; NULL: the default scene of the file */
+    int32_t vertex_colours; /* of OBJ and PLY: MODEL_COLOURS_; glTF specifies linear colours */
+    int32_t keeps_source;   /* 1: fill out->source if the file is glTF */
 } model_choice;
 
 /* model_load: .gltf, .glb, .obj, .ply or .lmp by content and extension; of several scenes the one of the name or number
@@ -119,7 +119,7 @@ int model_load(model *out, const char *path, const char *scene, model_notes *not
 int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
                report *r);
 
-/* The same by more choices; NULL: none. */
+/* The same with more choices; NULL: the defaults. */
 int model_load_as(model *out, const char *path, const model_choice *choice, model_notes *notes, report *r);
 int model_read_as(model *out, const char *path, const model_choice *choice, const uint8_t *data, size_t size,
                   model_notes *notes, report *r);

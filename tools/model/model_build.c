@@ -131,7 +131,7 @@ void build_normal_code(model_build *b, int16_t out[2], const double v[3])
 
 uint8_t build_share(double v) { return v > 0 ? v < 1 ? (uint8_t)(v * 255 + 0.5) : 255 : 0; }
 
-/* Codes of 8 bits, which nearly all are, by a table. */
+/* A table converts 8-bit codes, which are the usual case. */
 uint8_t build_colour(const model_build *b, double code)
 {
     if (b->linear_colours || !(code > 0 && code < 1))
@@ -186,7 +186,7 @@ static int pass_on(model_build *b, const report *why)
     return report_is_system(why) ? report_fail_system(b->r, "%s", why->text) : 0;
 }
 
-/* Bytes of the model's path before its own name. */
+/* Returns the length of the folder part of the model's path. */
 static size_t folder_size(const model_build *b)
 {
     const char *slash = strrchr(b->path, '/');

@@ -39,7 +39,7 @@ typedef struct model_build {
     const char *scene;     /* wanted of several, by name or number; NULL: the file chooses */
     int linear_colours;    /* vertex colours of OBJ and PLY are linear light, not sRGB codes */
     uint8_t linear_of[256]; /* by sRGB code */
-    int keeps_source;      /* out->source is wanted */
+    int keeps_source;      /* out->source must be filled */
     uint64_t budget;       /* bytes that may still be allocated */
     uint64_t pixel_budget; /* pixels that may still be decoded */
     uint64_t large_picture; /* pixels that one picture may have beyond that; 0: one had */
@@ -48,7 +48,7 @@ typedef struct model_build {
     uint32_t content_count, content_slot_count;
     build_neighbour *neighbours; /* files read beside the model, each once */
     uint32_t neighbour_count, neighbour_cap;
-    uint32_t marked_normals; /* by build_normal_code */
+    uint32_t marked_normals; /* normals marked by build_normal_code */
     lmb_mesh *meshes;
     lmb_material *materials;
     lmb_texture *textures;
@@ -78,12 +78,13 @@ float build_float(double v);
 float build_uv(double v);
 lmb_vec3 build_normal(const double v[3], uint32_t *zeros);
 
-/* build_normal_code: the same as an octahedral code; what has no direction is marked, for mend_normals at the end. */
+/* build_normal_code: returns the same as an octahedral code. A normal without direction is marked for mend_normals,
+ * which runs at the end. */
 #define BUILD_NO_NORMAL INT16_MIN /* no code has it */
 void build_normal_code(model_build *b, int16_t out[2], const double v[3]);
 
-/* build_colour: a channel of OBJ or PLY, 0 .. 1 of its range, as the library's linear byte: it is rounded once, at the
- * end. build_share: the same without decoding, for alpha. NaN and less are 0. */
+/* build_colour: converts a colour channel of OBJ or PLY, scaled to 0 .. 1, to the linear byte of the library. It rounds
+ * once, at the end. build_share: the same without decoding, for alpha. NaN and negative values become 0. */
 uint8_t build_colour(const model_build *b, double code);
 uint8_t build_share(double v);
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* Toward 0, as -32768 is no code. */
+/* Rounds toward 0, because -32768 is not a valid code. */
 void model_set_side(int16_t code[2], int negative)
 {
     if ((code[0] & 1) == (negative != 0))
@@ -12,7 +12,7 @@ void model_set_side(int16_t code[2], int negative)
 
 int model_side_of(const int16_t code[2]) { return (code[0] & 1) == 0; }
 
-/* What all targets add to a vertex. */
+/* Sums the offsets of all targets at a vertex. */
 static void add_targets(double inout[3], const model_morph *m, int stream, const double *weights, uint32_t vertex)
 {
     for (uint32_t i = 0; i < m->targets; ++i) {

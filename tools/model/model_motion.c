@@ -63,7 +63,7 @@ static void cross(double out[3], const double a[3], const double b[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Square to v, which has unit length: from the axis that v is farthest from. */
+/* Sets `out` perpendicular to v, which has unit length, using the axis that v is farthest from. */
 static void square_to(double out[3], const double v[3])
 {
     const double axis[3] = {fabs(v[0]) <= fabs(v[1]) && fabs(v[0]) <= fabs(v[2]),
@@ -75,9 +75,9 @@ static void square_to(double out[3], const double v[3])
     }
 }
 
-#define FLAT 1e-6 /* of the longest column: a shorter one is what rounding left of a scale of 0 */
+#define FLAT 1e-6 /* share of the longest column; a shorter column is rounding error of a scale of 0 */
 
-/* Column c to unit length; 0 where it has none. */
+/* Normalizes column c. Returns 0 if the column has no length. */
 static int direction_of(double out[3], const double m[16], int c)
 {
     double longest = 0;
@@ -87,7 +87,7 @@ static int direction_of(double out[3], const double m[16], int c)
     return fmax(fabs(out[0]), fmax(fabs(out[1]), fabs(out[2]))) > FLAT * longest && normalize(out);
 }
 
-/* The camera's axes of columns 1 and 2; 0 where they name none. */
+/* Computes the axes of the camera from columns 1 and 2. Returns 0 if they define no axes. */
 static int axes_of(double right[3], double up[3], double back[3], const double m[16])
 {
     if (!direction_of(up, m, 1) || !direction_of(back, m, 2))
@@ -99,7 +99,7 @@ static int axes_of(double right[3], double up[3], double back[3], const double m
     return 1;
 }
 
-/* v less its part along `unit`, to unit length; another square to it where nothing is left. */
+/* Makes v perpendicular to `unit` and normalizes it. If nothing is left, chooses another perpendicular vector. */
 static void make_square(double v[3], const double unit[3])
 {
     const double along = v[0] * unit[0] + v[1] * unit[1] + v[2] * unit[2];
@@ -109,8 +109,8 @@ static void make_square(double v[3], const double unit[3])
         square_to(v, unit);
 }
 
-/* Square axes for a matrix whose columns may have no length or lie in one line: a column that is missing is square to
- * the others, or the axis of its name. */
+/* Makes the axes of a matrix orthonormal, even if columns have no length or are parallel. A missing column becomes
+ * perpendicular to the other two, or else the coordinate axis with its index. */
 static void complete(double m[16])
 {
     double axis[3][3], x[3];
@@ -140,7 +140,7 @@ static void complete(double m[16])
     }
 }
 
-/* Mirrors stay. */
+/* Keeps mirroring. */
 int model_compose_turn(double m[16], const model_local *l)
 {
     model_local turn = *l;
@@ -163,7 +163,8 @@ void model_multiply(double out[16], const double a[16], const double b[16])
                                     a[8 + row] * b[4 * column + 2] + a[12 + row] * b[4 * column + 3];
 }
 
-/* It points along the node's -Z. A point light has no use for a direction; the scene wants unit length. */
+/* The light points along -Z of the node. A point light does not use its direction, but the scene requires unit
+ * length. */
 void model_place_light(lmb_light *out, const double world[16], const double turn[16])
 {
     double way[3];

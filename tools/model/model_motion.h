@@ -13,13 +13,13 @@ typedef struct model_local {
 enum { MODEL_TRANSLATION, MODEL_ROTATION, MODEL_SCALE, MODEL_WEIGHTS };
 enum { MODEL_STEP, MODEL_LINEAR, MODEL_CUBIC };
 
-/* One of a node's three by its keys, or all weights of its morph targets. */
+/* The keys of a node's translation, rotation or scale, or of all weights of its morph targets. */
 typedef struct model_track {
     uint32_t node;
     int what, between;
     uint32_t count;     /* of the keys */
     const float *time;  /* s, rising */
-    const float *value; /* 3, 4 or as many as targets a key; MODEL_CUBIC: three of them: in-tangent, value, out-tangent */
+    const float *value; /* 3, 4 or the number of targets per key; MODEL_CUBIC: in-tangent, value, out-tangent */
 } model_track;
 
 #define MODEL_NONE UINT32_MAX
@@ -34,26 +34,27 @@ struct model_motion {
     uint8_t *moves;                                     /* a node: it or one above it has a track */
     double (*world)[16], (*turn)[16];                   /* scratch of model_pose */
     double end_s;                                       /* the last key */
-    struct model_shapes *shapes;                        /* model_shape.h; NULL: no mesh changes its shape */
-    const uint8_t *reshapes;                            /* an instance: its mesh does; NULL: none does */
+    struct model_shapes *shapes;                        /* see model_shape.h; NULL: no mesh changes shape */
+    const uint8_t *reshapes;                            /* by instance: 1 if its mesh changes shape; NULL: none does */
 };
 
-/* model_track_at: its `size` numbers at a time: as at the first key before it, as at the last one after it. */
+/* model_track_at: writes the `size` numbers of a track at a time: the first value before the first key, and the last
+ * value after the last key. */
 void model_track_at(double *out, const model_track *t, double time_s, int size);
 
 /* model_pose: the model's instances, lights and cameras as they are at a time, in arrays of as many as the model has;
- * only what moves is written. Before the first key and after the last one things stand as at it. 1, or 0 where
- * something has no place: a rotation without length, or numbers past binary32. */
+ * only moving items are written. Before the first key and after the last key, the first and last values apply. Returns
+ * 1, or 0 if a transform is invalid: a rotation without length, or numbers beyond the range of float. */
 int model_pose(lmb_instance *instances, lmb_light *lights, model_camera *cameras, const model *of, double time_s);
 
-/* model_compose: a column-major matrix; 0 where the rotation has no length. model_compose_turn: that of the rotation
- * and mirrors alone, which a scale of 0 leaves; of a matrix, axes that are square. */
+/* model_compose: makes a column-major matrix. Returns 0 if the rotation has no length. model_compose_turn: uses only
+ * rotation and mirroring, so the result is valid for a scale of 0. For a matrix it makes orthonormal axes. */
 int model_compose(double out[16], const model_local *l);
 int model_compose_turn(double out[16], const model_local *l);
 void model_multiply(double out[16], const double a[16], const double b[16]);
 
-/* A light's place and direction, and a camera's place and axes, by their node's way to the world; where a scale of 0
- * leaves no direction in it, by the product of turns. */
+/* Set the position and direction of a light, or the position and axes of a camera, from the world matrix of the node.
+ * If a scale of 0 leaves no direction in that matrix, the product of turns is used. */
 void model_place_light(lmb_light *inout, const double world[16], const double turn[16]);
 void model_place_camera(model_camera *inout, const double world[16], const double turn[16]);
 

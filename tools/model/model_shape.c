@@ -1,11 +1,11 @@
-/* model_shape.c: the vertices of a shape at a time. glTF 2.0, 3.7.2.2 and 3.7.3.3: what targets add comes before the
- * skin, and a skinned node's own place does not count. */
+/* model_shape.c: computes the vertices of a shape at a time. Morph targets are applied before the skin, and the
+ * transform of a skinned node is ignored (glTF 2.0, 3.7.2.2 and 3.7.3.3). */
 #include "model_shape.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A vertex's own: what its joints make of places, and of normals. */
+/* The weighted mean of the joint matrices of one vertex. */
 typedef struct joint_mean {
     double m[16];
 } joint_mean;
@@ -18,7 +18,7 @@ static void multiply(double out[16], const double a[16], const double b[16])
                                     a[8 + row] * b[4 * column + 2] + a[12 + row] * b[4 * column + 3];
 }
 
-/* The joints' mean by weight; of a vertex without weights, the first joint. */
+/* Returns the weighted mean of the joint matrices, or the first joint if the vertex has no weights. */
 static joint_mean mean_of(const model_shape *s, const double (*matrix)[16], uint32_t vertex)
 {
     const uint16_t *joint = s->joint + (size_t)vertex * s->influences;
@@ -37,7 +37,7 @@ static joint_mean mean_of(const model_shape *s, const double (*matrix)[16], uint
     return sum;
 }
 
-/* Cofactors of the upper 3 x 3, for normals: right where a joint scales unevenly. */
+/* Computes the cofactors of the upper 3 x 3 for normals, so that nonuniform scale is correct. */
 static joint_mean cofactors(const joint_mean *a)
 {
     joint_mean c = {{0}};
@@ -59,7 +59,7 @@ static void add_targets(double inout[3], const model_shape *s, int stream, const
     }
 }
 
-/* Times the upper 3 x 3, and moved by `place` of the last column. */
+/* Multiplies by the upper 3 x 3 and adds `place` times the last column. */
 static void turn(double v[3], const joint_mean *by, double place)
 {
     const double x = v[0], y = v[1], z = v[2], *m = by->m;
@@ -80,7 +80,7 @@ static void pose_position(model_shape *s, const double *weights, const joint_mea
         s->positions[3 * (size_t)vertex + (size_t)k] = to_float(v[k]);
 }
 
-/* To unit length: what has none stays as it was at rest. The code's last bit stays, too. */
+/* Normalizes the vector; a vector without length stays as it was at rest. The last bit of the code is kept too. */
 static void pose_vector(int16_t out[2], const int16_t rest[2], const model_shape *s, int stream, const double *weights,
                         const joint_mean *joint, uint32_t vertex)
 {

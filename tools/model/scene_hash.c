@@ -28,7 +28,7 @@ static uint64_t hash_mesh(uint64_t hash, const lmb_mesh *m)
     hash = HASH_OF(hash, m->position_format);
     hash = HASH_OF(hash, m->uv_format);
     hash = HASH_OF(hash, m->index_format);
-    if (m->tangents != NULL && m->tangent_format != LMB_TANGENT_BY_UV) /* others' hashes stay */
+    if (m->tangents != NULL && m->tangent_format != LMB_TANGENT_BY_UV) /* hashes of other meshes do not change */
         hash = HASH_OF(hash, m->tangent_format);
     hash = hash_array(hash, m->positions, vertices, m->position_format == LMB_POSITION_F32 ? 12 : 8);
     hash = hash_array(hash, m->normals, vertices, 4);

@@ -1,9 +1,9 @@
-/* smooth_normals.c: sums triangles' normals by place and group.
+/* smooth_normals.c: sums the normals of triangles by position and group.
  *
- * Places are compared by their numbers, not by the vertices' numbers, as programs write a vertex once for each of its
- * texture coordinates. A normal counts by the triangle's angle at the place: how a polygon is cut into triangles then
- * changes nothing, and a cube's corners point along its diagonals. By area they would lean to the side that has two
- * triangles there. */
+ * Positions are compared by value, not by vertex index, because programs write a vertex once for each of its texture
+ * coordinates. Each normal is weighted by the angle of the triangle at the vertex. So the result does not depend on the
+ * triangulation of a polygon, and the normals of a cube point along the diagonals. Weighted by area, they would lean to
+ * the side with two triangles there. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 #include "io_obj.h"
 #include "smooth_normals.h"
 
-/* A height, by the longest edge, under which a triangle's normal is mostly rounding of its corners. */
+/* Height divided by longest edge; below it the normal of a triangle is mostly rounding error. */
 #define LEAST_HEIGHT 1e-4
 #define LOW_WEIGHT   1e-6
 
@@ -28,7 +28,7 @@ int smooth_open(smooth_normals *out, model_build *b, uint64_t room, uint64_t key
     return out->places && out->slots;
 }
 
-/* The slot of this place and group, or the free one where they belong; -0 is 0. */
+/* Returns the slot of this position and group, or the free slot for them. -0 counts as 0. */
 static uint32_t *slot_of(const smooth_normals *s, smooth_place *wanted, const float place[3], uint32_t group)
 {
     uint32_t at;
@@ -75,7 +75,7 @@ int corner_weights(double normal[3], double weight[3], const float *const corner
         normal[k] = edge[0][(k + 1) % 3] * edge[1][(k + 2) % 3] - edge[0][(k + 2) % 3] * edge[1][(k + 1) % 3];
     area = sqrt(dot(normal, normal));
     const double longest = fmax(length[0], fmax(length[1], length[2]));
-    if (!(area > 0 && area < 1e300)) /* NaN, too */
+    if (!(area > 0 && area < 1e300)) /* NaN too */
         return 0;
     for (i = 0; i < 3; ++i) {
         const int before = (i + 2) % 3;

@@ -1,10 +1,10 @@
-/* c_name.c: names of arrays in C code that goes into programs of any C or C++. */
+/* c_name.c: checks and makes names of arrays in C code for any C or C++ program. */
 #include "c_name.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Words with a blank on either side. C89 to C23, C++98 to C++26, GNU's and Microsoft's. */
+/* Keywords with a blank on either side: C89 to C23, C++98 to C++26, GNU and Microsoft. */
 static const char keywords[] =
     " alignas alignof and and_eq asm atomic_cancel atomic_commit atomic_noexcept auto bitand bitor bool break case "
     "catch "
@@ -19,7 +19,7 @@ static const char keywords[] =
     "virtual "
     "void volatile wchar_t while xor xor_eq ";
 
-/* Macros of compilers that are not strict, and what stddef.h and stdint.h declare beside what the patterns have. */
+/* Macros of compilers in non-strict modes, and names of stddef.h and stdint.h that the patterns below do not match. */
 static const char macros[] =
     " hpux i386 i486 i586 i686 linux m68k mips mips64 powerpc ppc riscv sgi sparc sun unix vax "
     "FALSE NULL PTRDIFF_MAX PTRDIFF_MIN SIG_ATOMIC_MAX SIG_ATOMIC_MIN SIZE_MAX TRUE WCHAR_MAX WCHAR_MIN WINT_MAX "
@@ -27,7 +27,7 @@ static const char macros[] =
     "EOF BUFSIZ RAND_MAX CHAR_BIT PPC R3000 R4000 WIN32 WIN64 WINNT errno assert offsetof unreachable max_align_t "
     "nullptr_t ptrdiff_t size_t ssize_t small I complex imaginary ";
 
-/* What is linked: names of the C library; those of math.h have an f or an l behind them, too. */
+/* Linked names of the C library. The names of math.h also exist with the suffixes f and l. */
 static const char mathematics[] =
     " acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs fdim floor fma "
     "fmax "
@@ -63,7 +63,7 @@ static const char functions[] =
     "wcstok wcstol wcstold wcstoll wcstombs wcstoul wcstoull wcstoumax wcsxfrm wctob wctomb wctrans wctype wmemchr "
     "wmemcmp wmemcpy wmemmove wmemset wprintf wscanf ";
 
-/* POSIX's short ones: a C library calls some of these itself. */
+/* Short names of POSIX. A C library calls some of these itself. */
 static const char posix[] =
     " accept access alarm alloca alphasort bcmp bcopy bind brk bzero chdir chmod chown close connect creat daylight "
     "dirname "
@@ -99,7 +99,8 @@ static int ends(const char *name, const char *with)
     return n >= m && strcmp(name + n - m, with) == 0;
 }
 
-/* int8_t, uint_least16_t, intptr_t, INT8_C, UINTMAX_MAX and so on, also those to come (C99, 7.26.8). */
+/* int8_t, uint_least16_t, intptr_t, INT8_C, UINTMAX_MAX and so on, including names reserved for the future (C99,
+ * 7.26.8). */
 static int is_integer_type(const char *name)
 {
     if (begins(name, "int") || begins(name, "uint")) {
@@ -109,7 +110,7 @@ static int is_integer_type(const char *name)
            (ends(name, "_MAX") || ends(name, "_MIN") || ends(name, "_C") || ends(name, "_WIDTH"));
 }
 
-/* Macros of errno.h, fenv.h, float.h, locale.h and signal.h, also those to come. */
+/* Macros of errno.h, fenv.h, float.h, locale.h and signal.h, including names reserved for the future. */
 static int is_macro(const char *name, size_t n)
 {
     static const char *const heads[] = {"E", "FE_", "DBL_", "FLT_", "LDBL_", "LC_", "SIG", "SIG_"};
@@ -161,7 +162,8 @@ const char *c_name_check(const char *name)
                                                                   : NULL;
 }
 
-/* The file's name up to its first dot; each run of what is no letter and no digit is one _. Returns how many. */
+/* Copies the file name up to its first dot. Each run of other characters than letters and digits becomes one _. Returns
+ * the length. */
 static size_t put_letters(char *out, size_t size, const char *name)
 {
     size_t n = 0;

@@ -36,8 +36,8 @@ static const option_row rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
      .help = ".lmp: a file to load or map; .c: the same words as an array to link"},
     {.name = "--name", .value = "NAME", .kind = OPTION_TEXT, AT(name),
-     .help = "of the array, which has to suit C, C++ and their libraries (default: the file's name up to its first "
-             "dot, with _ for what is no letter or digit; if that suits none, scene_ stands before it)"},
+     .help = "name of the array, valid in C and C++ (default: the file's name up to its first dot, with _ for "
+             "other characters than letters and digits; if that is not valid, scene_ is put in front)"},
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(choice.scene),
      .help = "of a file with several scenes: which, by name or number"},
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
@@ -188,7 +188,7 @@ static int is_code(const char *path)
     return n > 2 && strcmp(path + n - 2, ".c") == 0;
 }
 
-/* Of the array: what was asked for, or by the file's name. */
+/* Chooses the name of the array: --name, or a name made from the file name. */
 static int array_name(char out[C_NAME], const options *o, report *r)
 {
     const char *wrong = o->name != NULL ? c_name_check(o->name) : NULL;

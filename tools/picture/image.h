@@ -36,8 +36,8 @@ int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t heigh
 int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_t height, report *r);
 
 int pfm_decode(image *out, const uint8_t *data, size_t size, const char *name, report *r);
-/* pfm_figures: what the header of a PFM that was decoded says: *scale, over 0, by which stored values are multiplied,
- * and whether the low byte comes first. 0: no PFM. */
+/* pfm_figures: reads the header of a PFM that was decoded: *scale, over 0, the factor of stored values, and whether the
+ * low byte comes first. Returns 0 if the file is no PFM. */
 int pfm_figures(float *scale, int *is_little, const uint8_t *data, size_t size);
 int pfm_encode(file_bytes *out, const image *in, report *r); /* little-endian, bottom row first */
 /* hdr_decode: Radiance RGBE from memory, coded either way or not at all, in any of its eight orientations, always 3
@@ -49,7 +49,7 @@ int ppm_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t heigh
 /* srgb_decode: linear light of an sRGB code 0 .. 255 (IEC 61966-2-1). */
 double srgb_decode(int code);
 
-/* srgb_curve: the same of a code that is none of 256, 0 .. 1. */
+/* srgb_curve: the same for a fractional code, 0 .. 1. */
 double srgb_curve(double code);
 
 void image_free(image *img);

@@ -3,9 +3,9 @@
  * Memory beside the file: samples and texels, for progressive pictures the coefficients. A block takes at least two
  * bits of the file (one where progressive), fills up to 1024 / 9 pixels (three components of 4 x 1, 1 x 4 and 1 x 1)
  * and takes 64 bytes of samples and 128 of coefficients: all in all at most 2080 times the file, progressive 5184
- * times; and as picture_is_paid, at most 1024 times the file beside 1024 MiB (16 bytes a pixel of four components, the
- * padding of narrow pictures aside). Files too short for their blocks are refused before anything is allocated. Bytes
- * behind EOI are ignored. Time goes with pixels, bits and JPEG_IDLE_BLOCKS. */
+ * times; and because of picture_is_paid, at most 1024 times the file plus 1024 MiB (16 bytes per pixel of four
+ * components, without the padding of narrow pictures). Files too short for their blocks are refused before anything is
+ * allocated. Bytes behind EOI are ignored. Time goes with pixels, bits and JPEG_IDLE_BLOCKS. */
 #include "io_jpeg.h"
 
 #include <inttypes.h>
@@ -349,7 +349,8 @@ static int read_markers(jpeg_reader *j)
     return 1;
 }
 
-/* JFIF means YCbCr; else Adobe's transform 0, or components named R G B, mean RGB. Of four, Adobe's 2 means YCCK. */
+/* JFIF means YCbCr; else Adobe's transform 0, or components named R G B, mean RGB. With four components, Adobe's 2
+ * means YCCK. */
 static int is_ycc(const jpeg_reader *j)
 {
     const jpeg_component *c = j->components;

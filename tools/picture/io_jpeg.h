@@ -8,8 +8,8 @@
 #include "image.h"
 
 /* jpeg_decode: JPEG from memory; `name` stands in messages. Huffman coded, sequential or progressive, 8 bits; grey,
- * YCbCr, RGB, CMYK or YCCK with sampling factors 1, 2 and 4. Of CMYK, 255 is no ink, as Adobe's programs write it and
- * browsers read it, and red, green and blue are C, M and Y times K: no profile counts. Alpha is 255. 1, or 0 with `r`
+ * YCbCr, RGB, CMYK or YCCK with sampling factors 1, 2 and 4. In CMYK, 255 is no ink, as Adobe's programs write it and
+ * browsers read it. Red, green and blue are C, M and Y times K; profiles are ignored. Alpha is 255. 1, or 0 with `r`
  * set and nothing allocated. */
 int jpeg_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 
@@ -84,7 +84,7 @@ int jpeg_scan(jpeg_reader *j);
 /* jpeg_inverse_dct: the 8 x 8 samples of a block, rows `stride` bytes apart. */
 void jpeg_inverse_dct(uint8_t *out, size_t stride, const int16_t block[64], const uint16_t quant[64]);
 
-/* jpeg_colour_rows: the whole picture as RGBA. `rows`: scratch, JPEG_COMPONENTS * (width + 4) bytes. */
+/* jpeg_colour_rows: converts the whole picture to RGBA. `rows`: scratch, JPEG_COMPONENTS * (width + 4) bytes. */
 void jpeg_colour_rows(uint8_t *texels, const jpeg_reader *j, int is_ycc, uint8_t *rows);
 
 #endif

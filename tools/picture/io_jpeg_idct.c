@@ -175,7 +175,7 @@ static void colour_row(uint8_t *texels, const uint8_t *row, size_t pitch, uint32
     }
 }
 
-/* Four rows, of CMYK or YCCK, where 255 is no ink. */
+/* Converts four rows of CMYK or YCCK. 255 is no ink. */
 static void ink_row(uint8_t *texels, const uint8_t *row, size_t pitch, uint32_t n, int is_ycc)
 {
     for (; n > 0; --n, ++row, texels += 4) {

@@ -1,4 +1,4 @@
-/* io_pam.c: PAM files into 8-bit pictures: lines of a word and its value up to ENDHDR, then samples. */
+/* io_pam.c: decodes PAM files into 8-bit pictures: header lines of a word and a value up to ENDHDR, then samples. */
 #include "io_pam.h"
 
 #include <inttypes.h>
@@ -15,11 +15,11 @@ typedef struct pam_reader {
     const char *name;
     report *r;
     uint32_t number[NUMBERS];
-    char type[TYPE_MAX]; /* "": none was given */
+    char type[TYPE_MAX]; /* "": not given */
     uint32_t line;
 } pam_reader;
 
-/* Some bytes of a line. */
+/* A part of a line. */
 typedef struct words {
     const uint8_t *at;
     size_t size;
@@ -29,7 +29,7 @@ static int is_blank(uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 static int is_word(words w, const char *text) { return w.size == strlen(text) && memcmp(w.at, text, w.size) == 0; }
 
-/* The next word, cut off; empty: there is none. */
+/* Removes the next word from the line and returns it; empty if there is none. */
 static words next_word(words *line)
 {
     words w;
@@ -47,7 +47,7 @@ static words next_word(words *line)
     return w;
 }
 
-/* 1 .. limit, which is at most 2^28; 0: it is no such number. */
+/* Returns a number of 1 .. limit, or 0 if the word is no such number. limit: at most 2^28. */
 static uint32_t number_of(words w, uint32_t limit)
 {
     uint32_t value = 0;
@@ -91,7 +91,7 @@ static int read_type(pam_reader *p, words line)
     return 1;
 }
 
-/* A line of the header; *is_end: it was ENDHDR. */
+/* Reads a line of the header. *is_end: it was ENDHDR. */
 static int read_line(int *is_end, pam_reader *p)
 {
     static const char *const names[NUMBERS] = {"WIDTH", "HEIGHT", "DEPTH", "MAXVAL"};
@@ -115,7 +115,7 @@ static int read_line(int *is_end, pam_reader *p)
     return is_word(word, "TUPLTYPE") ? read_type(p, line) : fail(p, "no word of a PAM header");
 }
 
-/* Does the type go with the depth? */
+/* Checks that the type fits the depth. */
 static int check_type(const pam_reader *p)
 {
     static const struct {
@@ -196,7 +196,7 @@ static void put_texel(uint8_t to[4], const uint32_t *sample, uint32_t depth, uin
     to[3] = depth % 2 == 0 ? code_of(sample[depth - 1], max) : 255;
 }
 
-/* `is_16`: one sample a pixel, both of whose bytes are kept. */
+/* `is_16`: one sample per pixel; both bytes are kept. */
 static int read_texels(uint8_t *texels, pam_reader *p, int is_16)
 {
     const size_t count = (size_t)p->number[WIDTH] * p->number[HEIGHT];

@@ -160,7 +160,7 @@ int metrics_measure(metrics *out, const metrics_input *in, report *r)
     return ok;
 }
 
-/* The truth's mean over the compared pixels of the 5 x 5 around a pixel. */
+/* Returns the mean of the truth over the compared pixels among the 5 x 5 around a pixel. */
 static double local_mean(const metrics_input *in, size_t at)
 {
     const int32_t x = (int32_t)(at % (size_t)in->width), y = (int32_t)(at / (size_t)in->width);
@@ -175,7 +175,7 @@ static double local_mean(const metrics_input *in, size_t at)
             }
         }
     }
-    return sum / count; /* the pixel itself is compared */
+    return sum / count; /* count > 0: the pixel itself is compared */
 }
 
 double metrics_worst(const metrics *m, const metrics_input *in)

@@ -45,8 +45,9 @@ typedef struct metrics_equality {
  * Returns 1, or 0 with `r` set: no pixel left to compare, a truth that is not finite, or memory is short. */
 int metrics_measure(metrics *out, const metrics_input *in, report *r);
 
-/* metrics_worst: the 99.9th percentile of |a - b| / (mean of b over the 5 x 5 pixels around + 0.01 mean truth), grey: dark
- * or bright specks, which trim leaves out. `m` holds the figures of the same input. Memory as above; infinite if short. */
+/* metrics_worst: the 99.9th percentile of |a - b| / (mean of b over the 5 x 5 pixels around + 0.01 mean truth), grey:
+ * it finds dark or bright specks, which trim ignores. `m` holds the figures of the same input. Memory as above;
+ * infinite if memory runs out. */
 double metrics_worst(const metrics *m, const metrics_input *in);
 
 /* metrics_compare: `peak` is the PSNR's full scale; 0 takes the truth's largest value. */

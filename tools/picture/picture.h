@@ -35,7 +35,8 @@ uint8_t *picture_codes(const image *linear, float exposure_ev, int tone);
 /* picture_expose: the light of display formats in place: exposed, and by the curve. */
 void picture_expose(image *inout, float exposure_ev, int tone);
 
-/* picture_encode_alpha: a PNG's bytes with alpha: `alpha` 0 .. 1 for each pixel, whose light `linear` has times that. */
+/* picture_encode_alpha: encodes a PNG with alpha: `alpha` is 0 .. 1 for each pixel, and `linear` is premultiplied by
+ * it. */
 int picture_encode_alpha(file_bytes *out, const image *linear, const float *alpha, float exposure_ev, int tone, report *r);
 
 /* picture_encode: a file's bytes, of a PICTURE_ format. picture_write: the file that its name asks for, whole or not at

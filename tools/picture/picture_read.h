@@ -1,5 +1,5 @@
-/* picture_read.h: any picture file, known by its content: PNG, JPEG, PPM, PGM, PAM, PFM or Radiance HDR. Files of other
- * kinds are refused with a line that says what they are and what converts them. */
+/* picture_read.h: reads any picture file, recognized by content: PNG, JPEG, PPM, PGM, PAM, PFM or Radiance HDR. Other
+ * files are refused with a message that names their format and a converter. */
 #ifndef PICTURE_READ_H
 #define PICTURE_READ_H
 

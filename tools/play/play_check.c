@@ -21,7 +21,7 @@ static int make(play_check *c, const render_job *j, report *r)
     b->eyes = 1;
     b->many_lights.tree = j->many_lights.tree;
     b->gathers_sky = j->gathers_sky;
-    b->around = j->around; /* the job's, to whom its memory stays */
+    b->around = j->around; /* memory stays owned by the job */
     b->workers.threads = j->workers.threads;
     c->is_made = 1;
     return render_job_take(b, r);

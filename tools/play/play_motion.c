@@ -11,8 +11,8 @@
 #include "../render/render_view.h"
 #include "play_space.h"
 
-#define TURN_S 10.0      /* that a figure of eight or a swing takes by itself */
-#define CIRCLE 0.25f     /* the radius of the largest eight, of the scene's smaller horizontal side */
+#define TURN_S 10.0      /* time of a figure of eight or a swing */
+#define CIRCLE 0.25f     /* largest radius of a figure of eight / smaller horizontal side of the scene */
 #define CONE   0.2f      /* tangent of a sun's */
 #define SWING  0.35f     /* rad, the largest */
 #define SMALLER 0.8f     /* tried next where there is no room */
@@ -85,7 +85,7 @@ static float room_for_camera(play_space *space, const play_motion *m)
     return 0.0f;
 }
 
-/* The sun of a picture of the world stands where the picture has it. */
+/* Returns 1 if the light is the sun of an environment map. That sun does not move. */
 static int is_pictured(const render_job *j, uint32_t light)
 {
     return j->around.has_sun && !j->around.is_sky && light == j->scene.light_count - 1;
@@ -126,8 +126,8 @@ static void set_across(lmb_vec3 *a, lmb_vec3 *b, lmb_vec3 v)
     *b = cross3(v, *a);
 }
 
-/* By itself: on a figure of eight, which begins in its middle, where the file has the light: frame 0 is as `render` has
- * it. */
+/* Moves a light on a figure of eight. It starts in the middle, where the light is in the file, so frame 0 equals the
+ * picture of `render`. */
 static lmb_light wandering(const play_motion *m, uint32_t i, double time_s)
 {
     lmb_light l = m->light_at_rest[i];
@@ -249,7 +249,7 @@ static int set_by_path(play_motion *m, int32_t k, double time_s, report *r)
     return ok && (!moved || set_moved(m, k, r));
 }
 
-/* Meshes that change their shape, where their instances may. Returns 1 where any has another than before. */
+/* Updates meshes that change shape, if their instances may move. Returns 1 if any shape has changed. */
 static int reshape(play_motion *m, double time_s)
 {
     const struct model_motion *motion = m->job->loaded.motion;
@@ -361,7 +361,7 @@ static int check_path(const play_motion *m, report *r)
     return used > 0 || report_fail(r, "%s: nothing in it that --move lets move", m->options->path);
 }
 
-/* Lights in a tree are another's, be they the scene's or the sky's; the tree is not made again for each frame. */
+/* Rejects moving lights that are in a light tree, from the scene or the sky. The tree is not rebuilt for each frame. */
 static int check_lights(play_motion *m, report *r)
 {
     if (m->job->many_lights.tree.node == NULL || m->job->scene.light_count > 0 || (m->moves & KEY_LIGHT) == 0) {
@@ -444,7 +444,7 @@ int play_motion_find(play_motion *m, render_job *j, report *r)
         return report_fail(r, "--move object: nothing in %s moves objects; give --path FILE", m->job->o.scene);
     }
     m->is_animated = all != 0;
-    if (!m->is_animated && m->moves == EVERYTHING && loaded->facts.animations > 0) { /* it says itself what moves */
+    if (!m->is_animated && m->moves == EVERYTHING && loaded->facts.animations > 0) { /* the file specifies the motion */
         report_note(m->options->render.view.is_quiet,
                     "nothing moves: of the animations of %s nothing is left here; --move light or camera moves those by "
                     "themselves", m->job->o.scene);
@@ -459,7 +459,7 @@ static int take_poses(play_motion *m, report *r)
 {
     const model *loaded = &m->job->loaded;
     const size_t lights = m->job->scene.light_count * sizeof *m->light;
-    const size_t own_lights = loaded->scene.light_count * sizeof *m->light; /* which may be more, and be posed, too */
+    const size_t own_lights = loaded->scene.light_count * sizeof *m->light; /* may be more, and are posed too */
     const size_t instances = m->job->scene.instance_count * sizeof *m->instance;
     const size_t cameras = loaded->camera_count * sizeof *m->camera;
     m->light_posed = malloc((lights > own_lights ? lights : own_lights) + 1);

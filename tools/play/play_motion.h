@@ -7,8 +7,8 @@
 #include "play_options.h"
 #include "../common/key_path.h"
 
-/* By a path; else by the file's animations; else by itself, from where all is at rest: a light within `radius` of its
- * place, m, or a sun's direction by its tangent; 0: it stands still. */
+/* Motion by a path, else by the animations of the file, else a default motion around the rest position. `radius` is the
+ * distance of a light in metres, or for a sun the tangent of the angle; 0: it does not move. */
 typedef struct play_motion {
     render_job *job;
     const play_options *options;
@@ -20,7 +20,7 @@ typedef struct play_motion {
     lmb_light *light, *light_at_rest, *light_posed;
     float *radius;  /* by light */
     lmb_instance *instance, *instance_at_rest, *instance_posed;
-    double shaped_s; /* the time that meshes have the shape of; -1: none yet */
+    double shaped_s; /* time of the current mesh shapes; -1: none yet */
     lmb_view view_at_rest;
     lmb_vec3 middle; /* that the camera swings around, by at most `swing` rad; 0: it stands still */
     float swing;

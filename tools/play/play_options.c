@@ -25,10 +25,10 @@ static const option_row play_rows[] = {
     OPTION_SLICE_ROW(play_options, render.slice, "frames"),
     {.kind = OPTION_TITLE, .help = "motion"},
     {.name = "--move", .kind = OPTION_WORD, AT(move), .words = moves, .values = move_values,
-     .help = "what moves (default all): by --path; else by a glTF file's animations of nodes, skins and morph weights, all "
-             "of them together; else by itself, from frame 0 as `render` has it: a light on a figure of eight about its "
-             "place (a sun's direction in a cone), the camera on an arc around what it looks at, once in 10 s, both as "
-             "far as the scene leaves room"},
+     .help = "what moves (default all): with --path, the keys; else all animations of a glTF file (nodes, skins, "
+             "morph weights) together; else a light on a figure of eight (a sun's direction in a cone) and the "
+             "camera on an arc around its target, once in 10 s, as far as there is room. Frame 0 is then the "
+             "picture of `render`"},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
      .help = "what moves, by keys: lines of TIME WHAT X,Y,Z [X,Y,Z]: seconds; camera, light (or light:N) or object:N, "
              "numbered from 0; position; what it looks at or shines on (an object: faces with its +Z), where that "

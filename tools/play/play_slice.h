@@ -5,9 +5,9 @@
 #include "../common/slice.h"
 #include "../common/io_file.h"
 
-/* play_slice_put: frame k, as its file of a PICTURE_ format would be. play_slice_write: all that were put, beside `out`. play_slice_merge:
- * the files of all frames, from the slices of one job; `pattern` has a %0Nd, and the ending that they were made for.
- * 1, or 0 with `r` set. */
+/* play_slice_put: adds frame k, encoded as a file of a PICTURE_ format. play_slice_write: writes all added frames to a
+ * file next to `out`. play_slice_merge: writes the files of all frames from the slices of one job; `pattern` has a %0Nd
+ * and the ending that the slices were made for. Return 1, or 0 with `r` set. */
 int play_slice_put(byte_buffer *to, int32_t k, int format, const file_bytes *file, report *r);
 int play_slice_write(const char *out, slice s, uint64_t job, const char *about, const byte_buffer *made, report *r);
 int play_slice_merge(const char *pattern, const slice_set *set, report *r);

@@ -83,7 +83,7 @@ static int put_frame(play *p, int32_t k, const render_finish *f, report *r)
     return ok;
 }
 
-/* As `render` writes its picture. The light is then no more what it was. */
+/* Writes a frame as `render` writes its picture. This changes the light. */
 static int write_frame(play *p, int32_t k, report *r)
 {
     render_finish f;
@@ -93,7 +93,7 @@ static int write_frame(play *p, int32_t k, report *r)
     const int ok = finish_begin_at(&f, &p->job, p->exposure_ev, r) && put_frame(p, k, &f, r);
     finish_free(&f);
     if (p->job.o.background.kind != BACKGROUND_WORLD) {
-        p->job.render->stage = LMB_STAGE_VIEW; /* what lies behind was looked for over the view: it is drawn anew */
+        p->job.render->stage = LMB_STAGE_VIEW; /* finding the background has overwritten the view */
     }
     return ok;
 }

@@ -33,7 +33,7 @@
 /* What `lambent relief render` was asked for. */
 typedef struct relief_options {
     const char *file, *out, *compare, *with, *path;
-    model_choice choice; /* of --with and --compare */
+    model_choice choice; /* choices for the files of --with and --compare */
     view_options view;
     lmb_relief_how how;
     lmb_light light;

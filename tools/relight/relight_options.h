@@ -24,7 +24,7 @@ typedef struct relight_options {
     int32_t format, blend;
     int32_t has_far, has_ground_centre;
     /* what is in it */
-    model_choice choice; /* of the object's file */
+    model_choice choice; /* choices for the file of the object */
     const char *object, *path;
     lmb_vec3 at[RELIGHT_PLACES], keep[RELIGHT_PLACES];
     int32_t at_count, keep_count;

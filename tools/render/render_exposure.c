@@ -163,7 +163,8 @@ static void leave_background(image *inout, const exposure_view *v)
     }
 }
 
-/* The picture without what is unlit, in `inout`'s place, where that leaves anything: of all eyes, or of the last. */
+/* Removes unlit colours from the picture `inout`, unless nothing would be left. The picture has all eyes, or only the
+ * last. */
 static void leave_unlit(image *inout, const exposure_view *v)
 {
     const size_t left = (size_t)(v->width - inout->width), values = 3 * (size_t)inout->width;

@@ -13,9 +13,9 @@ typedef struct render_finish {
     exposure_view view; /* its cover also where the background is none of the world's */
 } render_finish;
 
-/* finish_begin: of the picture of light that was drawn. finish_begin_at: the same by stops that are known. finish_free
- * releases it. finish_encode: the file's bytes, of this light, which it may change; finish_write: the file. 1, or 0 with
- * `r` set. Looking for what lies behind surfaces draws over the frame's view. */
+/* finish_begin: prepares the picture of light that was drawn. finish_begin_at: the same with known stops. finish_free
+ * releases it. finish_encode: encodes the bytes of the file from `linear`, which it may change. finish_write: writes
+ * the file. Return 1, or 0 with `r` set. Finding the background behind surfaces overwrites the view of the frame. */
 int finish_begin(render_finish *out, const render_job *j, report *r);
 int finish_begin_at(render_finish *out, const render_job *j, float exposure_ev, report *r);
 void finish_free(render_finish *f);

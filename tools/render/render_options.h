@@ -35,13 +35,13 @@ typedef struct render_background {
 typedef struct render_options {
     const char *scene, *out, *stats, *transfer;
     view_options view;
-    model_choice choice;    /* of what the scene's file leaves open */
+    model_choice choice;    /* choices that the scene's file leaves open */
     const char *camera;     /* name or number; NULL: the first */
     lmb_light lights[RENDER_LIGHTS];
     float light_size[RENDER_LIGHTS]; /* m, of a sun degrees; 0: none */
     uint32_t light_count;
     const char *world; /* NULL: a sky where the scene has no light; sky, none, or a file */
-    int32_t has_sky; /* where the scene has no light: of verbs that draw pictures */
+    int32_t has_sky; /* use a sky if the scene has no light; set by verbs that draw pictures */
     int32_t no_ground;
     render_background background;
     float stereo_m; /* between the eyes; 0: one eye */

@@ -1,4 +1,4 @@
-/* unlit.c: colours that are shown as they are: seen by the picture's own samples, taken out before its exposure. */
+/* unlit.c: colours that are shown unchanged: sampled like the picture, and removed before its exposure. */
 #include "unlit.h"
 
 #include <stdlib.h>
@@ -7,9 +7,9 @@
 #include "../../src/raster/triangle.h"
 #include "../picture/picture.h"
 
-#define NOTHING 1e-4f /* less than this share is what rounding left */
+#define NOTHING 1e-4f /* below this share, light is rounding error */
 
-/* One sample's depth and ids, apart from the frame's, which its next picture may use again. */
+/* Depth and ids of one sample, separate from those of the frame, which the next picture may use again. */
 typedef struct sight {
     lmb_frame f;
     void *memory[2];

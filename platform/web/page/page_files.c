@@ -111,7 +111,7 @@ int file_read(file_bytes *out, const char *path, report *r)
     return file_is_plain(path, r) && copy_to(out, k->data, k->size, path, r);
 }
 
-/* A page has no folders: what is dropped is all that is here. */
+/* A page has no folders; only dropped files exist. */
 void file_only_here(void) {}
 int file_is_below(const char *path, const char *folder, size_t folder_size, report *r)
 {
