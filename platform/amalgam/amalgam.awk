@@ -82,7 +82,7 @@ function add_name(name) {
 
 function end_statement() {
     was = at_paren = after_equals = parens = tag_next = function_seen = 0
-    previous = ""
+    previous = before = ""
 }
 
 # One token of a unit's code; braces, parens: how deep it lies.
@@ -116,6 +116,7 @@ function scan(token,    word) {
         --parens
     } else if (parens > 0) {
         # parameters; of a pointer to a function, `(*name)`
+        if (word && parens == 1 && previous == "*" && before == "(") add_name(token)
     } else if (token == ";" || token == "," || token == "[" || token == "=") {
         if (previous ~ /^[A-Za-z_]/ && !function_seen && !after_equals) add_name(previous)
         if (token == "=") after_equals = 1
@@ -127,6 +128,7 @@ function scan(token,    word) {
     }
     if (token == "{" && tag != "") { add_name(tag) }
     if (!(word && previous ~ /^(struct|union|enum)$/)) tag = ""
+    before = previous
     previous = token
 }
 

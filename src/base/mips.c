@@ -48,11 +48,7 @@ typedef struct {
     halve_taps x, y;
 } box;
 
-typedef void (*mean_of_box)(uint8_t out[4], const box *b);
-
-#define EACH_TEXEL(j, i, b)                                                                                            \
-    for (int32_t j = 0; j < (b)->y.count; ++j)                                                                         \
-        for (int32_t i = 0; i < (b)->x.count; ++i)
+typedef void (*mean_of_codes)(uint8_t out[4], const box *b);
 
 static const uint8_t *box_texel(const box *b, int32_t i, int32_t j) { return b->from + (size_t)j * b->row + 4 * i; }
 
@@ -63,8 +59,10 @@ static uint8_t mean_code(const box *b, int channel)
 {
     const int64_t whole = (int64_t)b->x.whole * b->y.whole;
     int64_t sum = whole / 2;
-    EACH_TEXEL (j, i, b)
-        sum += (int64_t)box_part(b, i, j) * box_texel(b, i, j)[channel];
+    for (int32_t j = 0; j < b->y.count; ++j) {
+        for (int32_t i = 0; i < b->x.count; ++i)
+            sum += (int64_t)box_part(b, i, j) * box_texel(b, i, j)[channel];
+    }
     return (uint8_t)(sum / whole);
 }
 
@@ -74,14 +72,18 @@ static void mean_colour(uint8_t out[4], const box *b)
 {
     float weights = 0.0f, sum[3] = {0.0f, 0.0f, 0.0f};
     int visible = 0;
-    EACH_TEXEL (j, i, b)
-        visible |= box_texel(b, i, j)[3];
-    EACH_TEXEL (j, i, b) {
-        const uint8_t *texel = box_texel(b, i, j);
-        const float weight = (float)box_part(b, i, j) * (float)(visible ? texel[3] : 1);
-        weights += weight;
-        for (int k = 0; k < 3; ++k)
-            sum[k] += weight * lmb_srgb_decode(texel[k]);
+    for (int32_t j = 0; j < b->y.count; ++j) {
+        for (int32_t i = 0; i < b->x.count; ++i)
+            visible |= box_texel(b, i, j)[3];
+    }
+    for (int32_t j = 0; j < b->y.count; ++j) {
+        for (int32_t i = 0; i < b->x.count; ++i) {
+            const uint8_t *texel = box_texel(b, i, j);
+            const float weight = (float)box_part(b, i, j) * (float)(visible ? texel[3] : 1);
+            weights += weight;
+            for (int k = 0; k < 3; ++k)
+                sum[k] += weight * lmb_srgb_decode(texel[k]);
+        }
     }
     for (int k = 0; k < 3; ++k)
         out[k] = lmb_srgb_encode(sum[k] / weights);
@@ -96,7 +98,7 @@ static void mean_vector(uint8_t out[4], const box *b)
 }
 
 /* One level from the one above it. */
-static void half_level(uint8_t *to, const uint8_t *from, int32_t width, int32_t height, mean_of_box mean)
+static void half_level(uint8_t *to, const uint8_t *from, int32_t width, int32_t height, mean_of_codes mean)
 {
     const int32_t to_width = maxi(width / 2, 1), to_height = maxi(height / 2, 1);
     box b;
@@ -111,7 +113,7 @@ static void half_level(uint8_t *to, const uint8_t *from, int32_t width, int32_t 
     }
 }
 
-static lmb_status fill_levels(uint8_t *texels, int32_t width, int32_t height, int32_t levels, mean_of_box mean)
+static lmb_status fill_levels(uint8_t *texels, int32_t width, int32_t height, int32_t levels, mean_of_codes mean)
 {
     int32_t i;
     if (!texels || lmb_texture_bytes(width, height, levels) == 0)

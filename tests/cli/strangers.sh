@@ -81,7 +81,8 @@ says 1 compare "$odd" photo.pfm
 says 2 compare photo.pfm photo.pfm --max "mean=$text"
 says 0 bench "$odd.obj" --size 24x24 --shadow-map 64 --sweep tree=8,16 --runs 1 --truth "$odd.pfm" -v -o "$odd-table" --svg "$odd.svg"
 clean "the tables" "$odd-table.html" "$odd-table.csv" "$odd-table.json" "$odd.svg"
-says 1 merge "$odd" -o joined.png
+"$TOOL" merge "$odd" -o joined.png >out.txt 2>err.txt && fail "merge: no slice, and exit status 0" || pass
+clean "merge's notes" out.txt err.txt
 says 2 "$odd"
 says 2 render "--$odd" -o x.png
 says 2 render demo --show "$odd" -o x.png

@@ -441,6 +441,7 @@ static uint64_t case_show(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
+#ifndef LMB_CONFIG_TINY
 /* The range ends on the floor, before the walls. */
 static uint64_t case_range(int variant)
 {
@@ -455,6 +456,7 @@ static uint64_t case_range(int variant)
     f.show = variant;
     return hash_frame(GOLDEN_START, &f);
 }
+#endif
 
 static uint64_t case_occlusion(int variant)
 {
