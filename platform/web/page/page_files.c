@@ -20,6 +20,7 @@
 #include "../../../tools/mix/mix_sources.h"
 #include "../../../tools/mix/mix_lights.h"
 #include "../../../tools/picture/image.h"
+#include "../../../tools/picture/io_pam.h"
 #include "../../../tools/relief/relief_compare.h"
 #include "../../../tools/relief/relief_path.h"
 #include "../../../tools/relight/relight_contact.h"
@@ -350,6 +351,18 @@ void mix_run_rows(const mix_job *j, int threads, int count, pool_job row, void *
 }
 int mix_fail_depth(const mix_job *j, report *r) { return (void)j, report_fail(r, "no plane in the depth"); }
 int mix_fail_at(const mix_job *j, report *r) { return (void)j, report_fail(r, "--at: nothing there"); }
+
+/* --- io_pam.h: the page reads no PAM ------------------------------------------------------------------------------------ */
+
+int pam_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r)
+{
+    return (void)out, (void)data, (void)size, report_fail(r, "%s: the page reads no PAM", name);
+}
+int pam_decode_16(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r)
+{
+    return pam_decode(out, data, size, name, r);
+}
+int32_t pam_channels(const uint8_t *data, size_t size) { return (void)data, (void)size, 0; }
 
 /* --- budget.h: its settings are chosen by a slider --------------------------------------------------------------------- */
 
