@@ -34,15 +34,18 @@ static void count_ids(uint32_t counts[8], int32_t samples, uint32_t flags)
     }
 }
 
-/* Walls that fill the picture, the nearest one first. */
-static void walls_of(const float *alpha, int count)
+/* Walls that fill the picture, the nearest one first; only the last one has the second material. */
+static void walls(int count, float near_alpha, float last_alpha)
 {
+    const float alpha[2] = {near_alpha, last_alpha};
     world_begin(0.5f, 0.5f, 0.5f);
     for (int i = 0; i < count; ++i) {
-        if (i > 0) {
+        if (i == count - 1) {
             world_part();
         }
         world_quad(vec3(0, 0, 1.0f - (float)i), mul3(X, 9), mul3(Y, 9));
+    }
+    for (int i = 0; i < 2; ++i) {
         world.material[i].alpha = alpha[i];
         world.material[i].flags |= LMB_ALPHA_MASK | LMB_ALPHA_BLEND;
         world.material[i].alpha_cutoff = 0.5f;
@@ -50,17 +53,11 @@ static void walls_of(const float *alpha, int count)
     CHECK(world_end() == LMB_OK);
 }
 
-static void walls(float near_alpha, float far_alpha)
-{
-    const float alpha[2] = {near_alpha, far_alpha};
-    walls_of(alpha, 2);
-}
-
 static void check_shares(float near_alpha, float far_alpha, int32_t samples)
 {
     const double all = (double)samples * SIDE * SIDE;
     uint32_t n[8];
-    walls(near_alpha, far_alpha);
+    walls(2, near_alpha, far_alpha);
     count_ids(n, samples, LMB_CULL_BACK | LMB_BLEND);
     const double near_share = (n[1] + n[2]) / all, far_share = (n[3] + n[4]) / all;
     CHECK_MSG(fabs(near_share - (double)near_alpha) <= 1.0 / 64, "%g of %g", near_share, (double)near_alpha);
@@ -72,8 +69,7 @@ static void check_shares(float near_alpha, float far_alpha, int32_t samples)
 static void check_layers(float alpha, int32_t samples)
 {
     uint32_t n[8];
-    const float alphas[3] = {alpha, alpha, alpha};
-    walls_of(alphas, 3);
+    walls(3, alpha, alpha);
     count_ids(n, samples, LMB_BLEND);
     const double left = n[0] / ((double)samples * SIDE * SIDE), open = 1.0 - (double)alpha;
     CHECK_MSG(fabs(left - open * open * open) <= 0.02, "%d samples of %g: %g is left", (int)samples, (double)alpha, left);
@@ -88,7 +84,7 @@ static void check_strips(void)
     int wrong = 0;
     memset(&t, 0, sizeof t);
     memset(shows, 0, sizeof shows);
-    walls(0.5f, 1.0f);
+    walls(2, 0.5f, 1.0f);
     CHECK(lmb_view_look_at(&v, vec3(0, 0, 5), vec3(0, 0, 0), Y, 0.6f, SIDE, SIDE) == LMB_OK);
     v.near_m = 0.1f;
     for (int32_t i = 0; i < 4; ++i) {
@@ -123,7 +119,7 @@ void test_blend(void)
         check_layers(0.6f, samples);
     }
     check_strips();
-    walls(0.6f, 1.0f); /* lights go by the cutoff */
+    walls(2, 0.6f, 1.0f); /* lights go by the cutoff */
     count_ids(n, 1, 0);
     CHECK(n[1] + n[2] == SIDE * SIDE);
 }
