@@ -112,6 +112,7 @@ typedef struct lmb_many_lights_query {
     int32_t each;                 /* 1: every pixel tests every shadow for itself */
     int32_t by_seen;              /* 1: `error` is a share of what arrives: where under a fifth of the light does, a surface
                                      takes a second, finer cut. For a sky that is seen through windows */
+    lmb_stats *stats;             /* counts tiles whose shadows are tested, and coarse ones; may be NULL */
 } lmb_many_lights_query;
 
 /* One node of a tile's cut. */

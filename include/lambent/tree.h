@@ -70,6 +70,8 @@ typedef int32_t lmb_cut_slot;
 /* One tile's cut; one a thread. */
 typedef struct lmb_cut {
     int32_t count;                     /* nodes, with those that were split since */
+    int32_t tests_left;                /* tests of visibility that the tile may still spend: as in lmb_traversal */
+    uint32_t coarse;                   /* calls that were answered coarsely: as in lmb_traversal */
     uint64_t visible[LMB_MAX_CUT];     /* the pixels that see it, a bit each */
     lmb_node_ref ref[LMB_MAX_CUT];
     float value[LMB_MAX_CUT];          /* irradiance that it gives where it is seen, W/m2, R + G + B */

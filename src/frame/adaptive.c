@@ -176,15 +176,6 @@ static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
     return status;
 }
 
-static void add_counts(lmb_stats *stats, const lmb_stats *counts)
-{
-    if (stats != NULL) {
-        stats->pairs += counts->pairs;
-        stats->segments += counts->segments;
-        stats->full_cuts += counts->full_cuts;
-    }
-}
-
 /* The next phase. */
 lmb_status lmb_render_samples_on(lmb_render *r)
 {

@@ -138,10 +138,8 @@ lmb_status lmb_render_bands(lmb_render *r, int32_t units)
         }
         if (r->frame.stats != NULL) {
             ++r->frame.stats->bands;
-            r->frame.stats->pairs += r->frame.scratch->counts.pairs;
-            r->frame.stats->segments += r->frame.scratch->counts.segments;
-            r->frame.stats->full_cuts += r->frame.scratch->counts.full_cuts;
         }
+        add_counts(r->frame.stats, &r->frame.scratch->counts);
         if (!hand_over(&r->frame, band)) {
             return LMB_OK;
         }

@@ -13,7 +13,7 @@ NOINLINE lmb_status gather_many_lights(lmb_irradiance *inout, const lmb_render *
 {
     const lmb_frame *f = &r->frame;
     const lmb_many_lights_query query = {f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, f->many_lights_error,
-                                         tile != &s->tile, 1};
+                                         tile != &s->tile, 1, &s->counts};
     return lmb_many_lights_direct_tile(inout, f->kernels, &s->many_lights, tile, &query);
 }
 

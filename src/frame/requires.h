@@ -154,4 +154,16 @@ static inline lmb_cut_params cut_params_of(const lmb_frame *f, lmb_stats *stats)
     return c;
 }
 
+/* What cuts count in a scratch; other builds count none of it. */
+static inline void add_counts(lmb_stats *stats, const lmb_stats *counts)
+{
+    if (LMB_TREES && stats != NULL) {
+        stats->pairs += counts->pairs;
+        stats->segments += counts->segments;
+        stats->full_cuts += counts->full_cuts;
+        stats->tiles += counts->tiles;
+        stats->coarse_tiles += counts->coarse_tiles;
+    }
+}
+
 #endif

@@ -30,6 +30,7 @@ lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_s
         query.bvh = f->bvh.triangle != NULL ? &f->bvh : NULL;
         query.error = f->many_lights_error;
         query.each = query.by_seen = 0;
+        query.stats = &s->counts;
         status = lmb_many_lights_direct_tile(&s->direct, f->kernels, &s->many_lights, tile, &query);
     }
     return status;

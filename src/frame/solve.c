@@ -86,18 +86,19 @@ static lmb_status collect_rows(const lmb_render *r, int32_t first, int32_t past)
                                 &f->scene->lights[r->light], map, (int32_t)r->face, each, rows * first / all, rows * past / all);
 }
 
-static lmb_many_lights_query elements_query(const lmb_frame *f)
+static lmb_many_lights_query elements_query(const lmb_frame *f, lmb_stats *stats)
 {
     const float error = (f->many_lights_error > 0.0f ? f->many_lights_error : 0.02f) * ELEMENT_ERROR;
-    const lmb_many_lights_query query = {f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, error, 1, 0};
+    const lmb_many_lights_query query = {f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, error, 1, 0,
+                                         stats};
     return query;
 }
 
 /* Lights without maps into the transfer's elements; a unit is a tile of these. */
-static lmb_status step_many_lights(lmb_render *r, int32_t units)
+NOINLINE lmb_status step_many_lights(lmb_render *r, int32_t units)
 {
     const lmb_frame *f = &r->frame;
-    const lmb_many_lights_query query = elements_query(f);
+    const lmb_many_lights_query query = elements_query(f, f->stats);
     const lmb_element_scratch own = {f->kernels, NULL, &f->scratch->tile, NULL, &f->scratch->indirect};
     const int32_t tiles = lmb_transfer_tiles(f->transfer), first = (int32_t)r->progress,
                   past = tiles - first < units ? tiles : first + units;
@@ -190,7 +191,7 @@ static lmb_status receive_direct(const lmb_render *r, const lmb_element_scratch 
                                  const lmb_cut_params *cut_params, int32_t first, int32_t past)
 {
     const lmb_frame *f = &r->frame;
-    const lmb_many_lights_query query = elements_query(f);
+    const lmb_many_lights_query query = elements_query(f, cut_params->stats);
     const lmb_status status =
         r->emits ? lmb_elements_receive(&f->elements, own, NULL, cut_params, first, past) : LMB_OK;
     return status != LMB_OK || !requires_many_lights_bounce(f)

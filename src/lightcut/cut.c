@@ -922,7 +922,12 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);
     c->beside = beside(cut_params, p, c->per_pixel);
     c->lobe = lobe_of(cut_params, p);
+    c->cut->use.traversal.bounded = 1;
+    c->cut->use.traversal.left = c->cut->tests_left;
+    c->cut->use.traversal.coarse = 0;
     const double now = take_cut(c);
+    c->cut->tests_left = c->cut->use.traversal.left;
+    c->cut->coarse += c->cut->use.traversal.coarse;
     if (now > 0.0 && (now < CLOSER * *over || now > HOLDS) && count_bits_64(p->pixels) > 1) {
         *over = now;
         return 0;
@@ -976,10 +981,16 @@ lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb
     c.kernels = kernels;
     c.cut_params = cut_params;
     c.floor = (double)cut_params->floor;
+    scratch->tests_left = LMB_TRAVERSAL_FIRST;
+    scratch->coarse = 0;
     for (uint64_t left = tile_pixels(tile); left != 0;) {
         const uint64_t pixels = tile_surface(tile, left);
         light_surface(inout, &c, pixels);
         left &= ~pixels;
+    }
+    if (cut_params->stats != NULL && cut_params->bvh != NULL) {
+        ++cut_params->stats->tiles;
+        cut_params->stats->coarse_tiles += scratch->coarse != 0;
     }
     return LMB_OK;
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "../base/light_kind.h"
+#include "../occlusion/traversal.h"
 #include "../raster/tile.h"
 #include "many_lights_cut.h"
 
@@ -205,6 +206,7 @@ lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels 
     }
     memset(scratch->traversal.last, 0, sizeof scratch->traversal.last);
     scratch->traversal.first = 0;
+    traversal_bound(&scratch->traversal);
     scratch->traversal.asked = scratch->traversal.alone = 0;
     scratch->traversal.eye_kind = LMB_EYE_NONE;
     uint64_t left = query->many_lights->node_count > 0 ? tile_pixels(tile) : 0;
@@ -225,6 +227,10 @@ lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels 
             add_irradiance(inout, scratch, &s);
         }
         left &= ~s.pixels;
+    }
+    if (query->stats != NULL && query->bvh != NULL) {
+        ++query->stats->tiles;
+        query->stats->coarse_tiles += scratch->traversal.coarse != 0;
     }
     return LMB_OK;
 }

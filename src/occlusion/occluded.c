@@ -151,6 +151,7 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
         const uint64_t crossed = w->kernels->crossed(w->tile, w->left & asked, &job);
         w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? standing(w->b, t, &job, w->tile, crossed) : crossed);
         w->kept->blocker = crossed != 0 ? triangle + 1 : w->kept->blocker;
+        w->kept->spent += t->id & LMB_BVH_MASKED ? (uint32_t)count_bits_64(crossed) : 0;
     }
 }
 
@@ -184,8 +185,9 @@ static int test_last(traversal *w)
 
 static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t asked)
 {
-    for (uint32_t k = 0; k < node->count[i] && (w->left & asked) != 0; ++k) {
+    for (uint32_t k = 0; k < node->count[i] && (w->left & asked) != 0 && !traversal_is_over(w->kept); ++k) {
         const uint64_t before = w->left;
+        ++w->kept->spent;
         test_triangle(w, node->first[i] + k, asked);
         if (count_bits_64(before & ~w->left) >= MUCH) {
             remember(w->kept->last, node->first[i] + k);
@@ -208,6 +210,7 @@ static uint32_t test_node(traversal *w, rays *r, const lmb_boxes *node)
 {
     uint32_t children = 0;
     ++w->kept->asked;
+    ++w->kept->spent;
     for (uint32_t bits = w->kernels->meets(&r->pyramid, node); bits != 0 && w->left != 0; bits &= bits - 1) {
         const int i = lowest_bit(bits);
         uint64_t here = w->left;
@@ -216,6 +219,7 @@ static uint32_t test_node(traversal *w, rays *r, const lmb_boxes *node)
             continue;
         }
         ++w->kept->asked;
+        ++w->kept->spent;
         if (++r->leaves > BY_PYRAMID) {
             if (r->leaves == BY_PYRAMID + 1) {
                 w->kernels->segments(&w->kept->segments, w->tile, w->at);
@@ -245,7 +249,7 @@ static int trace_together(traversal *w, uint32_t limit)
         if (count == 0 || w->left == 0) {
             return 1;
         }
-        if (w->kept->asked - before > limit) {
+        if (w->kept->asked - before > limit || traversal_is_over(w->kept)) {
             return 0;
         }
         branch *up = &waiting[count - 1];
@@ -314,6 +318,7 @@ static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *no
 {
     *children = 0;
     ++w->kept->asked;
+    ++w->kept->spent;
     for (uint32_t bits = w->kernels->meets_one(&r->segment, node); bits != 0; bits &= bits - 1) {
         const int i = lowest_bit(bits);
         if (node->count[i] == 0) {
@@ -321,7 +326,9 @@ static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *no
             continue;
         }
         ++w->kept->asked;
-        for (uint32_t j = 0; j < node->count[i]; ++j) {
+        ++w->kept->spent;
+        for (uint32_t j = 0; j < node->count[i] && !traversal_is_over(w->kept); ++j) {
+            ++w->kept->spent;
             if (blocks_one(w, node->first[i] + j, r)) {
                 w->kept->blocker = node->first[i] + j + 1;
                 return 1;
@@ -343,7 +350,7 @@ static int one_blocked(traversal *w, int k)
             return 1;
         }
         count += waiting[count].children != 0;
-        if (count == 0) {
+        if (count == 0 || traversal_is_over(w->kept)) {
             return 0;
         }
         branch *up = &waiting[count - 1];
@@ -353,56 +360,65 @@ static int one_blocked(traversal *w, int k)
     }
 }
 
-uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, const lmb_bvh *bvh, const lmb_tile *tile,
-                           uint64_t pixels, lmb_vec3 at, float noise)
+static uint64_t trace(traversal *w)
 {
-    traversal w = {bvh, kernels, tile, at, noise, kept, pixels};
+    lmb_traversal *kept = w->kept;
+    const uint64_t pixels = w->left;
     uint64_t occluded = 0;
-    if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
-        return 0;
-    }
     if (kept->first != 0) {
-        test_triangle(&w, kept->first - 1, pixels);
-        if (w.left == 0) {
+        test_triangle(w, kept->first - 1, pixels);
+        if (w->left == 0) {
             return pixels;
         }
     }
-    if (count_bits_64(w.left) > FEW) {
-        if (test_last(&w)) {
+    if (count_bits_64(w->left) > FEW) {
+        if (test_last(w)) {
             return pixels;
         }
         if (kept->alone > 0) {
             --kept->alone;
-        } else if (trace_together(&w, WIDE * (uint32_t)count_bits_64(pixels))) {
-            return pixels & ~w.left;
+        } else if (trace_together(w, WIDE * (uint32_t)count_bits_64(pixels))) {
+            return pixels & ~w->left;
         } else {
             kept->alone = ALONE;
         }
     }
-    occluded = pixels & ~w.left;
+    occluded = pixels & ~w->left;
     uint32_t boxes = 0;
     int misses = 0;
-    for (uint64_t bits = w.left; bits != 0;) {
+    for (uint64_t bits = w->left; bits != 0 && !traversal_is_over(kept);) {
         const uint64_t now = boxes > LMB_MANY_BOXES ? bits : bits & (~bits + 1);
         const uint32_t before = kept->asked;
-        w.left = now;
+        w->left = now;
         if ((now & (now - 1)) != 0) {
-            (void)trace_together(&w, ~0u);
+            (void)trace_together(w, ~0u);
         } else {
-            w.left = one_blocked(&w, lowest_bit_64(now)) ? 0 : now;
+            w->left = one_blocked(w, lowest_bit_64(now)) ? 0 : now;
         }
-        occluded |= now & ~w.left;
+        occluded |= now & ~w->left;
         bits &= ~now;
         boxes = kept->asked - before;
-        if (w.left == 0 && bits != 0 && misses < MISSES) { /* a triangle that blocks one pixel often blocks more */
-            w.left = bits;
-            test_triangle(&w, kept->blocker - 1, bits);
-            misses += w.left == bits;
-            occluded |= bits & ~w.left;
-            bits = w.left;
+        if (w->left == 0 && bits != 0 && misses < MISSES) { /* a triangle that blocks one pixel often blocks more */
+            w->left = bits;
+            test_triangle(w, kept->blocker - 1, bits);
+            misses += w->left == bits;
+            occluded |= bits & ~w->left;
+            bits = w->left;
         }
     }
     return occluded;
+}
+
+uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, const lmb_bvh *bvh, const lmb_tile *tile,
+                           uint64_t pixels, lmb_vec3 at, float noise)
+{
+    traversal w = {bvh, kernels, tile, at, noise, kept, pixels};
+    if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
+        return 0;
+    }
+    const uint32_t before = kept->spent;
+    const uint64_t asked = w.left = traversal_begin(kept, pixels, LMB_TRAVERSAL_EACH);
+    return traversal_end(kept, before, pixels, asked, trace(&w));
 }
 
 /* For one pixel, the points from which a triangle blocks it are a convex set. */

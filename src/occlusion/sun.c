@@ -83,6 +83,7 @@ static uint64_t sun_standing(const sun_traversal *w, const lmb_bvh_triangle *t, 
         return 0;
     }
     lmb_resolve_alpha_of(&alpha, &triangle);
+    w->kept->spent += (uint32_t)count_bits_64(crossed);
     for (uint64_t bits = crossed; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         const lmb_vec3 d = sub3(tile_vec(w->tile->position, k), job->at);
@@ -139,8 +140,9 @@ static void test_kept(sun_traversal *w)
 
 static void test_box(sun_traversal *w, const lmb_boxes *node, int i)
 {
-    for (uint32_t k = 0; k < node->count[i] && w->left != 0; ++k) {
+    for (uint32_t k = 0; k < node->count[i] && w->left != 0 && !traversal_is_over(w->kept); ++k) {
         const uint64_t before = w->left;
+        ++w->kept->spent;
         test_triangle(w, node->first[i] + k);
         w->blocker = before != w->left ? node->first[i] + k + 1 : w->blocker;
         if (count_bits_64(before & ~w->left) >= MUCH) {
@@ -184,6 +186,7 @@ static uint32_t sun_node(sun_traversal *w, const lmb_sun_sweep *sweep, const lmb
         const int i = lowest_bit(bits);
         if (node->count[i] > 0) {
             ++w->kept->asked;
+            ++w->kept->spent;
             test_box(w, node, i);
         } else if (node->first[i] != 0) { /* the root is nobody's child: an empty box, met by a sweep of NaN */
             children |= 1u << i;
@@ -202,13 +205,14 @@ static int sun_descend(sun_traversal *w, uint32_t limit)
     uint32_t here = 0;
     for (;;) {
         ++w->kept->asked;
+        ++w->kept->spent;
         waiting[count].node = here;
         waiting[count].boxes = sun_node(w, &sweep, &w->b->node[here]);
         count += waiting[count].boxes != 0;
         if (count == 0 || w->left == 0) {
             return 1;
         }
-        if (w->kept->asked - before > limit) {
+        if (w->kept->asked - before > limit || traversal_is_over(w->kept)) {
             return 0;
         }
         sun_branch *top = &waiting[count - 1];
@@ -245,7 +249,8 @@ static void sun_trace(sun_traversal *w)
     }
     uint32_t boxes = 0;
     int misses = 0;
-    for (uint64_t bits = w->left; bits != 0;) {
+    uint64_t bits = w->left;
+    while (bits != 0 && !traversal_is_over(w->kept)) {
         const uint32_t before = w->kept->asked;
         w->left = boxes > LMB_MANY_BOXES ? bits : bits & (~bits + 1);
         bits &= ~w->left;
@@ -258,7 +263,7 @@ static void sun_trace(sun_traversal *w)
             misses += bits == others;
         }
     }
-    w->left = open;
+    w->left = open | bits;
 }
 
 uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *kept, const lmb_bvh *bvh, const lmb_tile *tile,
@@ -267,13 +272,15 @@ uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *kept, const
     if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
         return 0;
     }
-    sun_traversal w = {bvh, kernels, tile, tile_vec(tile->position, lowest_bit_64(pixels)), to, kept,
-                       noise_of(tile, pixels), pixels, 0};
+    const uint32_t before = kept->spent;
+    const uint64_t asked = traversal_begin(kept, pixels, LMB_TRAVERSAL_SUN);
+    sun_traversal w = {bvh, kernels, tile, tile_vec(tile->position, lowest_bit_64(asked)), to, kept,
+                       noise_of(tile, asked), asked, 0};
     test_kept(&w);
     if (w.left != 0) {
         sun_trace(&w);
     }
-    return pixels & ~w.left;
+    return traversal_end(kept, before, pixels, asked, asked & ~w.left);
 }
 
 #endif

@@ -32,6 +32,47 @@ int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_
  * mesh far from the origin. The pixels after it then go together, that each triangle is tested once for all of them. */
 #define LMB_MANY_BOXES 256u
 
+#define LMB_TRAVERSAL_MOST 0x10000000 /* left at most, that no sum leaves its type */
+
+/* Begin a call: the pixels to test. each: tests that it adds. */
+static inline uint64_t traversal_begin(lmb_traversal *t, uint64_t pixels, int32_t each)
+{
+    uint64_t asked = pixels;
+    t->end = t->spent + 0x7fffffffu;
+    if (t->bounded) {
+        const int is_coarse = t->left < 0;
+        t->end = t->spent + (uint32_t)(is_coarse ? each : t->left + LMB_TRAVERSAL_FIRST);
+        t->left = mini(t->left, LMB_TRAVERSAL_MOST) + each;
+        for (int i = is_coarse ? count_bits_64(asked) / 2 : 0; i > 0; --i) {
+            asked &= asked - 1;
+        }
+        asked = is_coarse ? asked & (~asked + 1) : asked;
+    }
+    return asked;
+}
+
+/* Has this call spent what it may? */
+static inline int traversal_is_over(const lmb_traversal *t) { return (int32_t)(t->spent - t->end) >= 0; }
+
+/* End it; before: `spent` at its begin. Returns what is occluded of all pixels. */
+static inline uint64_t traversal_end(lmb_traversal *t, uint32_t before, uint64_t pixels, uint64_t asked,
+                                     uint64_t occluded)
+{
+    if (t->bounded) {
+        t->left -= (int32_t)(t->spent - before);
+        t->coarse += asked != pixels || traversal_is_over(t);
+    }
+    return asked == pixels ? occluded : occluded != 0 ? pixels : 0;
+}
+
+/* A tile begins. */
+static inline void traversal_bound(lmb_traversal *t)
+{
+    t->bounded = 1;
+    t->left = LMB_TRAVERSAL_FIRST;
+    t->spent = t->end = t->coarse = 0;
+}
+
 /* How far boxes reach past what they hold: of their size and of their coordinates. */
 #define LMB_BOX_SIZE  3.8146973e-6f /* 2^-18 */
 #define LMB_BOX_PLACE 9.5367432e-7f /* 2^-20 */

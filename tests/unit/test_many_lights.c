@@ -380,7 +380,7 @@ static double off(const lmb_irradiance *e, const double want[LMB_TILE_PIXELS])
 static double light_tile(lmb_irradiance *e, const lmb_tile *tile, const lmb_many_lights *many_lights,
                          const lmb_bvh *bvh, float error, const double want[LMB_TILE_PIXELS])
 {
-    const lmb_many_lights_query how = {many_lights, bvh, error, 0, 0};
+    const lmb_many_lights_query how = {many_lights, bvh, error, 0, 0, NULL};
     memset(e, 0, sizeof *e);
     memset(&scratch, 0x5a, sizeof scratch); /* what is in it means nothing */
     scratch.nodes = scratch.tests = 0;
@@ -759,7 +759,7 @@ static void check_bounce(test_rng *r)
     const lmb_element_scratch receiver = {picked_kernels(), &cut, &own, &received, &fresh};
     double off_sum = 0.0, sum = 0.0;
     grove_make(&g, BOUNCING, 3.0f * BOUNCING, lights, BOUNCING);
-    const lmb_many_lights_query how = {&g.many_lights, &b, 0.02f, 0, 0};
+    const lmb_many_lights_query how = {&g.many_lights, &b, 0.02f, 0, 0, NULL};
     const int32_t tiles = lmb_elements_tiles(&e);
     CHECK(lmb_many_lights_elements(&e, &receiver, &scratch, &how, tiles / 2, tiles) == LMB_OK);
     CHECK(lmb_many_lights_elements(&e, &receiver, &scratch, &how, 0, tiles / 2) == LMB_OK);
@@ -806,7 +806,7 @@ static void check_tile_refusals(void)
     lmb_irradiance e;
     grove g;
     grove_make(&g, 4, 1.0f, lights, 0);
-    const lmb_many_lights_query how = {&g.many_lights, NULL, 0, 0, 0}, none = {NULL, NULL, 0, 0, 0};
+    const lmb_many_lights_query how = {&g.many_lights, NULL, 0, 0, 0, NULL}, none = {NULL, NULL, 0, 0, 0, NULL};
     make_floor_tile(&tile, vec3(0, 0, 0));
     memset(&e, 0, sizeof e);
     CHECK(lmb_many_lights_direct_tile(&e, picked_kernels(), &scratch, &tile, &how) == LMB_OK && e.rgb[0][0] == 0.0f);

@@ -365,14 +365,19 @@ static void all_hole(void)
     }
 }
 
-/* A star of needles in a room. */
-static void star(test_rng *r, int needles)
+/* A star of needles; and one in a room. */
+static void open_star(test_rng *r, int needles)
 {
     world_begin(1, 1, 1);
     for (int i = 0; i < needles; ++i) {
         const lmb_vec3 far = mul3(normalize3(random_point(r, 1.0f)), 0.9f), wide = random_point(r, 0.002f);
         world_triangle(mul3(far, -1.0f), add3(far, wide), sub3(far, wide));
     }
+}
+
+static void star(test_rng *r, int needles)
+{
+    open_star(r, needles);
     for (int axis = 0; axis < 3; ++axis) {
         const lmb_vec3 at[3] = {X, Y, Z};
         world_quad(at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3]);
@@ -803,8 +808,53 @@ static void hull_is_tight(void)
     CHECK(!lmb_hull_holds(&hull, vec3(1.0f + 0.5f * n, 0, 0)) && lmb_hull_holds(&hull, vec3(1, 1, 1)));
 }
 
+/* Many points by one traversal, from a first budget: what is blocked, as a hash. */
+static uint64_t by_points(const lmb_kernels *kernels, lmb_traversal *t, const lmb_bvh *b, int is_sun, int is_bounded)
+{
+    enum { CALLS = 200 };
+    test_rng r = {17};
+    lmb_tile tile;
+    uint64_t hash = 0;
+    fill_tile(&tile, vec3(0, 0, 0), 0.3f, &r);
+    memset(t, 0, sizeof *t);
+    t->bounded = is_bounded;
+    t->left = LMB_TRAVERSAL_FIRST;
+    for (int i = 0; i < CALLS; ++i) {
+        const lmb_vec3 at = random_point(&r, 0.3f);
+        hash = hash * 31 + (is_sun ? lmb_occluded_sun(kernels, t, b, &tile, ~UINT64_C(0), normalize3(at))
+                                   : lmb_occluded_tile(kernels, t, b, &tile, ~UINT64_C(0), at,
+                                                       noise_of(&tile, ~UINT64_C(0), at)));
+    }
+    const uint32_t each = is_sun ? LMB_TRAVERSAL_SUN : LMB_TRAVERSAL_EACH;
+    CHECK_MSG(!is_bounded || t->spent <= 2 * LMB_TRAVERSAL_FIRST + CALLS * each, "%u tests", (unsigned)t->spent);
+    CHECK_MSG((t->coarse > 0) <= (t->spent + CALLS > LMB_TRAVERSAL_FIRST), "%u coarse", (unsigned)t->coarse);
+    return hash;
+}
+
+/* A bounded traversal ends within its tests, counts the coarse calls, and answers the same by every back end. With few
+ * triangles it is as any other. */
+static void bounded_tests(void)
+{
+    for (int is_sun = 0; is_sun < 2; ++is_sun) {
+        for (int many = 0; many < 2; ++many) {
+            test_rng r = {29};
+            lmb_traversal whole, bound, plain;
+            open_star(&r, many ? 9000 : 40);
+            const lmb_bvh b = bvh_of_world();
+            const uint64_t free_hash = by_points(picked_kernels(), &whole, &b, is_sun, 0);
+            const uint64_t hash = by_points(picked_kernels(), &bound, &b, is_sun, 1);
+            CHECK(by_points(lmb_kernels_named("scalar"), &plain, &b, is_sun, 1) == hash);
+            CHECK(plain.spent == bound.spent && plain.coarse == bound.coarse && whole.coarse == 0);
+            CHECK(many || (hash == free_hash && bound.spent == whole.spent && bound.coarse == 0));
+            CHECK_MSG(!many || (bound.coarse > 0 && bound.spent < whole.spent), "%u coarse, %u of %u tests",
+                      (unsigned)bound.coarse, (unsigned)bound.spent, (unsigned)whole.spent);
+        }
+    }
+}
+
 void test_occlusion(void)
 {
+    bounded_tests();
     boxes_are_wider();
     hull_is_tight();
     hostile_trees();

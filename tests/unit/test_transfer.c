@@ -847,7 +847,7 @@ static void takes_many_lights(const lmb_transfer *t)
     CHECK(lmb_many_lights_add(&many, lights, LIGHTS) == LMB_OK && lmb_many_lights_build(&many) == LMB_OK);
     CHECK(lmb_bvh_init(&bvh, lmb_scene_triangles(&world.scene), bvh_memory, bvh_bytes) == LMB_OK);
     CHECK(lmb_bvh_build(&bvh, &world.scene) == LMB_OK);
-    const lmb_many_lights_query query = {&many, &bvh, 0.001f, 1, 0};
+    const lmb_many_lights_query query = {&many, &bvh, 0.001f, 1, 0, NULL};
     const lmb_element_scratch own = {picked_kernels(), NULL, &tile, NULL, &fresh};
     const uint32_t elements = t->count[LMB_TRANSFER_AREAS];
     const int32_t tiles = lmb_transfer_tiles(t);
