@@ -1,6 +1,8 @@
 /* workers.c: a frame's stages shared out among threads. */
 #include "workers.h"
 
+#include "report.h"
+
 #include <string.h>
 
 #include "../../platform/host/host.h"
@@ -58,10 +60,20 @@ static void draw_band(void *user, int part, int worker)
     w->counts[worker].pairs += scratch->counts.pairs;
     w->counts[worker].segments += scratch->counts.segments;
     w->counts[worker].full_cuts += scratch->counts.full_cuts;
+    w->counts[worker].tiles += scratch->counts.tiles;
+    w->counts[worker].coarse_tiles += scratch->counts.coarse_tiles;
     if (worker == 0 && w->workers->tell != NULL) {
         lmb_render at = *w->render;
         at.progress = (uint32_t)band;
         tell(w->workers, &at);
+    }
+}
+
+void workers_tell_coarse(int is_quiet, const lmb_stats *stats)
+{
+    if (stats->coarse_tiles > 0) {
+        report_note(is_quiet, "note: %.0f of %.0f tiles have coarser visibility: too many triangles cross there",
+                    (double)stats->coarse_tiles, (double)stats->tiles);
     }
 }
 
@@ -78,6 +90,8 @@ static lmb_status sum_up(const stage_work *w, lmb_stats *stats)
             stats->pairs += w->counts[i].pairs;
             stats->segments += w->counts[i].segments;
             stats->full_cuts += w->counts[i].full_cuts;
+            stats->tiles += w->counts[i].tiles;
+            stats->coarse_tiles += w->counts[i].coarse_tiles;
         }
     }
     return status;
