@@ -13,7 +13,7 @@ kinds=$(
         echo "${group%%/*}/${name%.c}"
     done
     sed -nE 's,^ *\{"([a-z0-9-]+)"\, case_.*,golden/\1,p' tests/golden/*.inc
-    sed -n '/^const char \*const hard_groups/{s/^[^{]*{//;s/NULL.*//;s/[",]/ /g;p;}' tools/hard/hard.c |
+    sed -n '/^const char \*const hard_groups/,/NULL/{s/^[^{]*{//;s/NULL.*//;s/[",]/ /g;p;}' tools/hard/hard.c |
         tr -s ' ' '\n' | sed -n 's,^[a-z],hard/&,p'
     printf '%s\n' hard/invariants hard/again
     for file in tests/cli/*.sh; do

@@ -22,5 +22,6 @@ void hard_mixed(hard_list *list);
 void hard_far(hard_list *list);
 void hard_whole(hard_list *list);
 void hard_baked(hard_list *list);
+void hard_cliff(hard_list *list);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "../common/dvec.h"
 
-enum { HARD_TRIANGLES = 4608, HARD_PARTS = 4, HARD_SIDE = 64, HARD_MAP = 512, HARD_FACES = 6, HARD_TREE = 256 };
+enum { HARD_TRIANGLES = 12288, HARD_PARTS = 4, HARD_SIDE = 64, HARD_MAP = 512, HARD_FACES = 6, HARD_TREE = 256 };
 
 typedef struct hard_stage {
     const lmb_kernels *kernels;
