@@ -78,17 +78,17 @@ typedef struct lmb_segments {
 enum { LMB_LAST_OCCLUDERS = 4 };
 typedef struct lmb_traversal {
     uint32_t last[LMB_LAST_OCCLUDERS]; /* number in lmb_bvh + 1, the latest first; 0: none */
-    uint32_t asked;                   /* nodes and leaves tested so far: the cost of traversals; wraps */
-    uint32_t first;   /* the caller's: is tested before those, as in `last` */
-    uint32_t blocker; /* the triangle that blocked a pixel last, as in `last` */
-    uint32_t alone;                   /* how many more tiles' segments are traced one by one */
-    uint32_t spent;   /* tests so far: of boxes of a node or leaf, of a triangle, of a pixel against its holes; wraps */
-    uint32_t end;     /* value of `spent` at which this call ends */
-    int32_t bounded;  /* 1: `left` bounds the tests; 0: nothing does */
-    int32_t left;     /* tests that are left to this tile; each call adds LMB_TRAVERSAL_EACH or _SUN */
-    uint32_t coarse;  /* calls that were answered coarsely, as too few tests were left */
-    int32_t eye_kind; /* LMB_EYE_: kind of eye that sees the pixels */
-    lmb_vec3 eye;     /* position of the eye, or direction towards it */
+    uint32_t asked;                    /* nodes and leaves tested so far: the cost of traversals; wraps */
+    uint32_t first;                    /* the caller's: is tested before those, as in `last` */
+    uint32_t blocker;                  /* the triangle that blocked a pixel last, as in `last` */
+    uint32_t alone;                    /* how many more tiles' segments are traced one by one */
+    uint32_t spent;                    /* tests so far: of nodes, leaves, triangles, and of pixels against holes; wraps */
+    uint32_t end;                      /* value of `spent` at which this call ends */
+    int32_t bounded;                   /* 1: `left` bounds the tests; 0: nothing does */
+    int32_t left;                      /* tests that are left to this tile; each call adds LMB_TRAVERSAL_EACH or _SUN */
+    uint32_t coarse;                   /* calls that were answered coarsely, as too few tests were left */
+    int32_t eye_kind;                  /* LMB_EYE_: kind of eye that sees the pixels */
+    lmb_vec3 eye;                      /* position of the eye, or direction towards it */
     lmb_segments segments;
 } lmb_traversal;
 /* If the eye is known, a pixel within rounding of a triangle's plane counts as on the eye's side of the plane. The
