@@ -25,8 +25,9 @@ static float even(float x, float y) { return 0.3f + 0.0f * (x + y); }
 static float curved(float x, float y) { return 2.0f + 0.01f * x - 0.02f * y + 1e-4f * (x * x - x * y); }
 static float stepped(float x, float y) { return x + 0.3f * y > 61.0f ? 1.0f : 3.0f; }
 
-/* A wall of a centimetre a pixel; in columns from `bent` on it is another one, across it. */
-static lmb_lattice wall(int32_t bent)
+/* A wall of a centimetre a pixel; in columns from `bent` on it is another one, across it. With `deep`, four columns from
+ * there on are a groove in it, so many metres deep, instead. */
+static lmb_lattice wall_with(int32_t bent, float deep)
 {
     lmb_lattice l;
     CHECK(lmb_lattice_bytes(WIDE, HIGH) <= sizeof lattice_memory);
@@ -37,11 +38,14 @@ static lmb_lattice wall(int32_t bent)
         tile.x = i % 13 * 8;
         tile.y = i / 13 * 8;
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            const int32_t x = tile.x + k % 8, y = tile.y + k / 8, over = x > bent ? x - bent : 0;
+            const int32_t x = tile.x + k % 8, y = tile.y + k / 8, past = x >= bent && !(deep > 0.0f) ? x - bent : 0;
+            const lmb_vec3 n = x >= bent && !(deep > 0.0f) ? vec3(-1, 0, 0) : Z;
+            const float low = x >= bent && x < bent + 4 ? deep : 0.0f;
             if (x < WIDE && y < HIGH) {
-                set_plane(tile.position, k, vec3(0.01f * (float)(x - over), 0.01f * (float)y, 0.01f * (float)over));
-                set_plane(tile.face, k, x >= bent ? vec3(-1, 0, 0) : Z);
-                set_plane(tile.normal, k, x >= bent ? vec3(-1, 0, 0) : Z);
+                set_plane(tile.position, k,
+                          vec3(0.01f * (float)(x - past), 0.01f * (float)y, 0.01f * (float)past - low));
+                set_plane(tile.face, k, n);
+                set_plane(tile.normal, k, n);
                 tile.id[k] = 1;
             }
         }
@@ -49,6 +53,8 @@ static lmb_lattice wall(int32_t bent)
     }
     return l;
 }
+
+static lmb_lattice wall(int32_t bent) { return wall_with(bent, 0.0f); }
 
 /* What is asked for, asked. Returns how many. */
 static int gather(const lmb_lattice *l, light_at light)
@@ -138,6 +144,40 @@ static void test_two_walls(void)
     const int count = solve(&l, either);
     CHECK_MSG(worst(&l, either, &off) < 1e-5f, "%g", (double)worst(&l, either, &off)); /* of 1 and 10 */
     CHECK_MSG(count < WIDE * HIGH / 8, "%d", count);
+}
+
+/* A groove between samples, whose bottom is parallel to the wall: it does not take the wall's light. */
+static float grooved(float x, float y) { return x >= 42.0f && x < 46.0f ? 10.0f + 0.0f * y : 1.0f; }
+
+static void test_groove(void)
+{
+    int off = 0;
+    lmb_lattice l = wall_with(42, 0.5f);
+    const int count = solve(&l, grooved);
+    CHECK_MSG(worst(&l, grooved, &off) < 1e-5f, "%g", (double)worst(&l, grooved, &off));
+    CHECK_MSG(count < WIDE * HIGH / 8, "%d", count);
+}
+
+/* Where no sample is known, the mean is 0, and what waits for a sample near by is dark. */
+static void test_no_samples(void)
+{
+    lmb_lattice l = wall(WIDE);
+    CHECK(lmb_lattice_mean(&l) == 0.0f);
+    for (int32_t i = 0; i < TILES; ++i) {
+        l.tile[i].early = 0;
+        l.tile[i].late = l.tile[i].shown;
+        memset(&l.tile[i].light, 0x5a, sizeof l.tile[i].light);
+    }
+    for (int32_t w = 0; w < lmb_lattice_windows(&l); ++w) {
+        lmb_lattice_late(&l, w);
+    }
+    int off = 0;
+    for (int32_t i = 0; i < TILES; ++i) {
+        for (uint64_t bits = l.tile[i].shown; bits != 0; bits &= bits - 1) {
+            off += !(l.tile[i].light.rgb[i % 3][lowest_bit_64(bits)] == 0.0f);
+        }
+    }
+    CHECK_MSG(off == 0, "%d pixels", off);
 }
 
 /* A corner in the dark, six pixels before the next window: light grows beyond it too, and does not jump there. */
@@ -414,6 +454,40 @@ static void test_flat_wall(void)
     CHECK(share < 0.06f && error < 0.02f);
 }
 
+/* Tiles with a polished surface are gathered whole: they show what every pixel's own light does, to the bit. */
+static void test_lobes(void)
+{
+    world_begin(0.7f, 0.6f, 0.5f);
+    world_quad(vec3(0, 2, -3), vec3(3, 0, 0), vec3(0, 2, 0));
+    world_part();
+    world_quad(vec3(0, 0, 0), vec3(3, 0, 0), vec3(0, 0, -3));
+    world.material[1].specular[1] = 0.5f;
+    world.material[1].roughness = 0.5f;
+    CHECK(world_end() == LMB_OK);
+    lmb_light lamp = spot(vec3(0, 1.5f, 0.0f), vec3(0, 0, -1), 20, 35);
+    world.scene.lights = &lamp;
+    world.scene.light_count = 1;
+    lmb_view view;
+    CHECK(lmb_view_look_at(&view, vec3(0, 1.8f, 2.0f), vec3(0, 0.5f, -1), vec3(0, 1, 0), 0.8f, 40, 32) == LMB_OK);
+    lmb_frame_settings s = settings_of(&world.scene, view, 1);
+    s.show = LMB_SHOW_INDIRECT;
+    drawn(&s);
+    memcpy(full, frame.out.data, sizeof *full * 3 * 40 * 32);
+    s.gather_step = LMB_GATHER_ADAPTIVE;
+    drawn(&s);
+    memcpy(adaptive, frame.out.data, sizeof *adaptive * 3 * 40 * 32);
+    int polished = 0, other = 0, off = 0;
+    for (int32_t y = 0; y < 32; ++y) {
+        for (int32_t x = 0; x < 40; ++x) {
+            const int at = 3 * (40 * y + x), whole = lattice_tile(&render.frame.lattice, x / 8, y / 8)->shown == 0;
+            polished += whole;
+            other += !whole;
+            off += whole && memcmp(full + at, adaptive + at, 3 * sizeof *full) != 0;
+        }
+    }
+    CHECK_MSG(polished > 300 && other > 300 && off == 0, "%d, %d, %d are off", polished, other, off);
+}
+
 /* The camera moves by parts of a step: the lattice lies elsewhere, the error stays what it is. */
 static void test_shift(void)
 {
@@ -454,6 +528,8 @@ void test_adaptive(void)
 {
     test_lattice();
     test_two_walls();
+    test_groove();
+    test_no_samples();
     test_window_side();
     test_memory();
     test_whole_gallery();
@@ -462,6 +538,7 @@ void test_adaptive(void)
     test_same_bytes(129, 9);
     test_history();
     test_flat_wall();
+    test_lobes();
     test_shift();
     test_refused();
     free_laid_out();
