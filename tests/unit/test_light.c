@@ -1,4 +1,5 @@
 /* test_light.c: direct light and its shadow test, against formulas and exact rays. [V3 V7 V29] */
+#include "../../src/light/shadow.h"
 #include "../world.h"
 
 void test_light(void);
@@ -519,8 +520,67 @@ static void test_acne(void)
     check_low_light();
 }
 
+/* --- one point and a map ------------------------------------------------------------------------------------------ */
+
+static int lights(const lmb_light *light, lmb_vec3 at)
+{
+    const lmb_view v = look(vec3(0, 8, 8), vec3(0, 0, 0), 60, FRAME);
+    const lmb_receiver r = {at, Y, 1};
+    lmb_shadow_query query;
+    lmb_shadow_ask(&query, &map, light, &world.scene, &v);
+    return lmb_is_lit(&query, &r);
+}
+
+/* Of all texels. */
+static void set_ids(uint32_t id)
+{
+    for (int32_t i = 0; i < map.size * map.size; ++i) {
+        ((uint32_t *)map.face[0].id.data)[i] = id;
+    }
+}
+
+/* A floor, a roof 2 m over all of it, and a triangle without area. */
+static void floor_and_roof(void)
+{
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 30), mul3(X, 30));
+    world_quad(vec3(0, 2, 0), mul3(Z, 30), mul3(X, 30));
+    world_triangle(X, X, X);
+    CHECK(world_end() == LMB_OK);
+}
+
+/* The roof shadows what is in the map of a spot; outside the cone, behind the lamp and where no map was drawn nothing
+ * does. Where the map names a triangle that is not there or has no area, its depth decides. */
+static void test_spot_map(void)
+{
+    const lmb_light lamp = spot(vec3(0, 3, 0), vec3(0, -1, 0), 20, 25);
+    floor_and_roof();
+    draw_map(&lamp, 64);
+    CHECK(!lights(&lamp, vec3(0, 0, 0)) && !lights(&lamp, vec3(0.9f, 0, 0.2f)));
+    CHECK(lights(&lamp, vec3(9, 0, 0)) && lights(&lamp, vec3(-9, 0, 0)));
+    CHECK(lights(&lamp, vec3(0, 0, 9)) && lights(&lamp, vec3(0, 0, -9)));
+    CHECK(lights(&lamp, vec3(0, 4, 0)) && lights(&lamp, vec3(0, 2.5f, 0)));
+    set_ids(1000);
+    CHECK(!lights(&lamp, vec3(0, 0, 0)) && lights(&lamp, vec3(0, 2.5f, 0)));
+    set_ids(5);
+    CHECK(!lights(&lamp, vec3(0, 0, 0)) && lights(&lamp, vec3(0, 2.5f, 0)));
+    map.drawn = 0;
+    CHECK(lights(&lamp, vec3(0, 0, 0)));
+}
+
+/* The sun is never nearer than what shadows: not by a roof farther away than the length of its direction. */
+static void test_sun_map(void)
+{
+    const lmb_light light = sun(vec3(0, -1, 0));
+    floor_and_roof();
+    draw_map(&light, 64);
+    CHECK(!lights(&light, vec3(0, 0, 0)) && lights(&light, vec3(0, 2.5f, 0)));
+}
+
 void test_light(void)
 {
+    test_spot_map();
+    test_sun_map();
     test_irradiance();
     test_shadows();
     test_acne();
