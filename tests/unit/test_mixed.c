@@ -44,6 +44,33 @@ static void test_points(stage *s)
     CHECK(s->cloud.normal[PIXELS / 2].z > 0.99999f && s->cloud.normal[0].z == 0.0f);
 }
 
+/* A normal is of the pixels around it: two to each side in a small picture, three, or every other one of six where a
+ * degree is as many pixels as in a large one. Some are farther away by 1 / 1000, one after the other. */
+static void test_reach(stage *s)
+{
+    static const struct {
+        float fx;
+        uint32_t sees; /* bits 1 .. 7: the pixel so far to the right counts */
+    } pictures[] = {{80.0f, 0x06}, {290.0f, 0x0e}, {400.0f, 0x14}, {470.0f, 0x14}, {600.0f, 0x54}};
+    enum { AT = 60 + 35 * WIDTH };
+    for (int i = 0; i < (int)(sizeof pictures / sizeof *pictures); ++i) {
+        uint32_t sees = 0;
+        lmb_pinhole lens = camera;
+        lmb_vec3 alike = {0, 0, 0};
+        lens.fx = lens.fy = pictures[i].fx;
+        for (int far = 0; far < 8; ++far) {
+            for (int k = 0; k < PIXELS; ++k) {
+                s->depth[k] = 2.0f + 0.002f * (float)(far > 0 && k == AT + far);
+            }
+            CHECK(lmb_cloud_init(&s->cloud, &lens, s->depth, s->cloud_memory, sizeof s->cloud_memory) == LMB_OK);
+            CHECK(lmb_cloud_normals(&s->cloud, 0, LMB_MAX_SIDE) == LMB_OK);
+            alike = far == 0 ? s->cloud.normal[AT] : alike;
+            sees |= (uint32_t)(memcmp(&alike, &s->cloud.normal[AT], sizeof alike) != 0) << far;
+        }
+        CHECK_MSG(sees == pictures[i].sees, "%g px: %x", (double)lens.fx, sees);
+    }
+}
+
 static void test_refusals(stage *s)
 {
     lmb_pinhole bad = camera;
@@ -885,6 +912,7 @@ void test_mixed(void)
         abort();
     }
     test_points(s);
+    test_reach(s);
     test_refusals(s);
     test_picture_neighbours(s);
     test_corner(s);

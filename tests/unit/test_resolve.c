@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../src/base/vec.h"
+#include "../../src/raster/plane.h"
 #include "../test.h"
 
 void test_resolve(void);
@@ -264,9 +266,40 @@ static void test_codes(const lmb_kernels *k, test_rng *r)
     CHECK(seen > 256 && wrong == 0);
 }
 
+/* Where a ray lies in a triangle's plane, edge-on, it meets the plane no farther than the triangle's last corner, nor is
+ * it nowhere where the eye lies in that plane; a ray through the triangle meets it where it is. */
+static void test_edge_on(void)
+{
+    const lmb_vec3 back = {0, 0, 1}, floor[3] = {{0, -1, -2}, {1, -1, -2}, {0, -1, -3}},
+                   turned[3] = {{0, -1, -2}, {0, -1, -3}, {1, -1, -2}};
+    lmb_rays rays;
+    lmb_plane plane;
+    float b1 = -1.0f, b2 = -1.0f;
+    memset(&rays, 0, sizeof rays);
+    rays.back = back;
+    rays.direction = mul3(back, -1.0f);
+    rays.ry.y = -0.25f;
+    rays.near_m = 0.5f;
+    rays.perspective = 1;
+    for (int i = 0; i < 2; ++i) {
+        lmb_resolve_plane(&plane, i == 0 ? floor : turned, &rays);
+        CHECK(plane.w_min == 2.0f && plane.w_max == 3.0f);
+        lmb_resolve_point(&b1, &b2, &plane, &rays, 0.0f, 0.0f);
+        const float along = i == 0 ? b2 : b1, across = i == 0 ? b1 : b2;
+        CHECK_MSG(across == 0.0f && (along == 0.0f || along == 1.0f), "%g %g", (double)b1, (double)b2);
+        lmb_resolve_point(&b1, &b2, &plane, &rays, 0.0f, 1.6f); /* 1 down at 2.5 */
+        CHECK_MSG(fabsf((i == 0 ? b2 : b1) - 0.5f) < 1e-6f, "%g %g", (double)b1, (double)b2);
+    }
+    rays.eye.y = -1.0f;
+    lmb_resolve_plane(&plane, floor, &rays);
+    lmb_resolve_point(&b1, &b2, &plane, &rays, 0.0f, 0.0f);
+    CHECK_MSG(b1 == 0.0f && b2 == 0.0f, "%g %g", (double)b1, (double)b2);
+}
+
 void test_resolve(void)
 {
     const lmb_kernels *k;
+    test_edge_on();
     for (int32_t i = 0; (k = lmb_kernels_at(i)) != NULL; ++i) {
         test_rng r = {71};
         make_world(&r);
