@@ -88,6 +88,74 @@ static void covers_once(void)
     }
 }
 
+/* --- depth -------------------------------------------------------------------------------------------------------- */
+
+/* Of a depth: at[0], and by at[1] more from left to right, by at[2] from top to bottom. */
+static float plane_depth(const float at[3], int32_t x, int32_t y)
+{
+    return at[0] + (at[1] * (float)x + at[2] * (float)y) / (16.0f * SIDE);
+}
+
+/* In 16 bits: 4096 codes from each power of two to the next, from 2^-16 on; 1 has the last. */
+static int code_of_depth(float d)
+{
+    int power = 0;
+    const float fraction = 2.0f * frexpf(d, &power) - 1.0f;
+    return d >= 1.0f ? 65535 : (power + 15) * 4096 + (int)(4096.0f * fraction);
+}
+
+/* All of the picture, by one triangle. */
+static void fill_all(const gouraud_target *t, const float at[3], int channel, int how)
+{
+    static const int32_t corner[3][2] = {{-800, -800}, {3200, -800}, {-800, 3200}};
+    gouraud_corner c[3];
+    memset(c, 0, sizeof c);
+    for (int i = 0; i < 3; ++i) {
+        c[i].x = corner[i][0], c[i].y = corner[i][1];
+        c[i].d = plane_depth(at, c[i].x, c[i].y);
+        c[i].colour[channel] = 255.0f;
+    }
+    lmb_gouraud_fill(t, c, 1, how);
+}
+
+/* Of two planes through each other the nearer one shows at each pixel, whichever is drawn first, and its depth is kept,
+ * within two codes: also where the last pixel of a row lies a little over 1. Rows of depths are shorter than those of
+ * pixels. */
+static void shows_the_nearer(void)
+{
+    enum { WIDE = SIDE - 5 };
+    static const float planes[][2][3] = {{{0.2f, 0.6f, 0.0f}, {0.5f, 0.0f, 0.0f}},
+                                         {{0.1f, 0.3f, 0.5f}, {0.6f, -0.2f, 0.1f}},
+                                         {{0.4f, 0.65642f, 0.0f}, {0.7f, 0.0f, 0.1f}},
+                                         {{0.02f, -0.019f, 0.0f}, {0.001f, 0.0f, 0.02f}}};
+    gouraud_target t;
+    memset(&t, 0, sizeof t);
+    t.pixel = (uint16_t *)picture;
+    t.depth16 = depth;
+    t.width = t.step = WIDE;
+    t.height = t.pixel_step = SIDE;
+    for (int i = 0; i < COUNT(planes) * 6; ++i) {
+        const float(*plane)[3] = planes[i / 6];
+        int wrong = 0, off = 0, red = 0;
+        memset(depth, 0, sizeof depth);
+        for (int k = 0; k < 2; ++k) {
+            const int own = k ^ (i & 1);
+            fill_all(&t, plane[own], own, i % 6 / 2); /* GOURAUD_MIXED, _FLAT, _GROWN */
+        }
+        for (int k = 0; k < WIDE * SIDE; ++k) {
+            const int32_t x = k % WIDE, y = k / WIDE;
+            const int a = code_of_depth(plane_depth(plane[0], 16 * x + 8, 16 * y + 8)),
+                      b = code_of_depth(plane_depth(plane[1], 16 * x + 8, 16 * y + 8)), more = a > b ? a : b;
+            const uint16_t shown = pixels()[SIDE * y + x];
+            wrong += a > b + 2 ? shown != 0xf800u : b > a + 2 && shown != 0x07e0u;
+            off += depth[k] > more + 2 || depth[k] + 2 < more;
+            red += shown == 0xf800u;
+        }
+        CHECK_MSG(wrong == 0 && off == 0, "case %d: %d wrong, %d depths are off", i, wrong, off);
+        CHECK_MSG(red > 100 && red < WIDE * SIDE - 100, "case %d: %d", i, red);
+    }
+}
+
 /* --- frames ------------------------------------------------------------------------------------------------------- */
 
 static lmb_gouraud frame_of(lmb_vec3 eye, lmb_vec3 target)
@@ -433,6 +501,7 @@ static void refuses(void)
 void test_gouraud(void)
 {
     covers_once();
+    shows_the_nearer();
     shows_receivers();
     draws_maps();
     casts_shadows();
