@@ -25,8 +25,8 @@ static float even(float x, float y) { return 0.3f + 0.0f * (x + y); }
 static float curved(float x, float y) { return 2.0f + 0.01f * x - 0.02f * y + 1e-4f * (x * x - x * y); }
 static float stepped(float x, float y) { return x + 0.3f * y > 61.0f ? 1.0f : 3.0f; }
 
-/* A wall of a centimetre a pixel; in columns from `bent` on it is another one, across it. With `deep`, four columns from
- * there on are a groove in it, so many metres deep, instead. */
+/* A wall of a centimetre a pixel; in columns from `bent` on it is another one, across it. With `deep`, four columns
+ * from there on are a groove in it, so many metres deep, instead. */
 static lmb_lattice wall_with(int32_t bent, float deep)
 {
     lmb_lattice l;

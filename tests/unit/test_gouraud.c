@@ -219,6 +219,41 @@ static void shows_receivers(void)
     CHECK_MSG(left > right || falls == 0, "%d fall", falls);
 }
 
+/* Does a ray through the middle of a pixel meet the floor's front, further away than the near plane? `slack`: what is
+ * added to the floor's half sides. */
+static int meets_floor(const lmb_view *v, int k, float slack)
+{
+    const float x = ((float)(k % SIDE) + 0.5f) * (2.0f / SIDE) - 1.0f,
+                y = 1.0f - ((float)(k / SIDE) + 0.5f) * (2.0f / SIDE);
+    const lmb_vec3 across = add3(mul3(v->right, x * v->half_width), mul3(v->up, y * v->half_height)),
+                   ray = sub3(across, v->back);
+    const float along = v->eye.y > 0.0f && ray.y < 0.0f ? v->eye.y / -ray.y : -1.0f;
+    const lmb_vec3 at = add3(v->eye, mul3(ray, along));
+    return along > v->near_m && maxf(absf(at.x), absf(at.z)) < 1.0f + slack;
+}
+
+/* A floor that goes on behind the eye or far beside the picture is seen from above, where a ray to it says so, and not
+ * from below. */
+static void cuts_the_floor(void)
+{
+    test_rng r = {9};
+    int seen = 0;
+    for (int i = 0; i < 40; ++i) {
+        const lmb_vec3 eye = vec3(test_uniform(&r, -0.9f, 0.9f), i % 4 == 3 ? -0.2f : test_uniform(&r, 0.05f, 0.4f),
+                                  test_uniform(&r, -0.9f, 0.9f));
+        const lmb_vec3 to = vec3(test_uniform(&r, -1, 1), test_uniform(&r, 0, 0.2f), test_uniform(&r, -1, 1));
+        const lmb_gouraud g = frame_of(eye, to);
+        int wrong = 0;
+        CHECK(lmb_gouraud_begin(&g) == LMB_OK && lmb_gouraud_draw(&g, 1, 2) == LMB_OK);
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            wrong += depth[k] != 0 ? !meets_floor(&g.view, k, 0.05f) : meets_floor(&g.view, k, -0.05f);
+            seen += depth[k] != 0;
+        }
+        CHECK_MSG(wrong == 0, "eye %d: %d pixels", i, wrong);
+    }
+    CHECK(seen > 10 * SIDE * SIDE);
+}
+
 /* Ids as the rasterizer's, but for what faces away from the light. */
 static void draws_maps(void)
 {
@@ -503,6 +538,7 @@ void test_gouraud(void)
     covers_once();
     shows_the_nearer();
     shows_receivers();
+    cuts_the_floor();
     draws_maps();
     casts_shadows();
     shadows_by_face();

@@ -266,8 +266,8 @@ static void test_codes(const lmb_kernels *k, test_rng *r)
     CHECK(seen > 256 && wrong == 0);
 }
 
-/* Where a ray lies in a triangle's plane, edge-on, it meets the plane no farther than the triangle's last corner, nor is
- * it nowhere where the eye lies in that plane; a ray through the triangle meets it where it is. */
+/* Where a ray lies in a triangle's plane, edge-on, it meets the plane no farther than the triangle's last corner. It
+ * meets it also where the eye lies in that plane. A ray through the triangle meets it where it is. */
 static void test_edge_on(void)
 {
     const lmb_vec3 back = {0, 0, 1}, floor[3] = {{0, -1, -2}, {1, -1, -2}, {0, -1, -3}},
