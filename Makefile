@@ -599,7 +599,7 @@ mutants: ## src/ and tools/ with one change at a time: do tests notice? (N=60 SE
 COV    ?= src
 cov: ## lines and branches of src/ that the checks run, by gcov; what they miss (COV=tools: of tools/)
 	+@sh tests/scripts/tools.sh need gcov && $(MAKE) $(COV_PROGRAMS_$(COV):%=$(BUILD)/cov/%) BUILD=$(BUILD)/cov \
-	    CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage \
+	    CFLAGS="-O1 -g --coverage -fprofile-update=atomic" LDFLAGS=--coverage \
 	    && CC='$(CC)' FLAGS='$(FLAGS) --coverage' LDLIBS='$(LDLIBS)' sh tests/scripts/cov.sh $(BUILD)/cov $(COV)
 
 static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/ (PART=2/3: over each third file)

@@ -1,5 +1,8 @@
 # cov.sh: which lines and branches of src/ or tools/ the checks run: cov.sh FOLDER src|tools, as `make cov` built it.
 #
+# Threads count by atomic additions. Otherwise counts get lost, and gcov, which computes some from others, takes the
+# difference for a branch that was taken, or for a negative number.
+#
 # A line counts where any of its copies was run (kernels are compiled for each backend; those that this processor lacks
 # count as not there), a branch where one of its two ways was taken, twice. What was not run is in FOLDER/uncovered.
 # Bars of src/: 98 % of lines, 92 % of branches, a reason in uncovered.txt beside this for each line that was not run.
