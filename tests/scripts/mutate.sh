@@ -6,12 +6,14 @@
 # Works on a copy in FOLDER/tree, with the kernels of two backends (scalar and AVX2), as each takes seconds to compile.
 # A change that does not build, or that gives the same code, does not count. For each other change the tests run that
 # mutants.txt names for its module, the quickest first, until one fails, ends badly or takes six times as long as without
-# the change; with FULL=1 also all others that link the library. Only what follows from the changed file is built, and a program when its turn
-# comes. Where mutants.txt names a folder or a test that is not there, nothing is tried.
+# the change; with FULL=1 also all others that link the library. Only what follows from the changed file is built, and a
+# program when its turn comes. Where mutants.txt names a folder or a test that is not there, nothing is tried.
 # Prints a line each, those that no test noticed with their line, and killed / tried by module. Exit status 1 where under
 # 85 % were noticed. Some changes change nothing (a bound that is never met, a tie that either way is right): survivors
 # are for reading, not for driving to nothing.
-# ONLY="NUMBER..." does some of them again; FILES=PATTERN takes only such files.
+# ONLY="NUMBER..." does some of them again; FILES=PATTERN takes only such files. WARM=build starts from what `make` left
+# there, at its level of optimisation and with all kernels: in seconds, where a first build takes minutes; but then each
+# change of a kernel takes minutes.
 folder=$1 wanted=$2 seed=$3
 shift 3
 . tests/scripts/mutants.sh
@@ -36,7 +38,11 @@ done
 rm -rf "$folder/src" "$folder/tools"
 cp -pR src tools "$folder"
 chmod -R u+w "$tree" "$folder/src" "$folder/tools" # of a clone that may not be written to
-if [ -d "$folder/built" ]; then # of an earlier run, without any change
+if [ -n "$WARM" ]; then
+    rm -rf "$tree/build"
+    mkdir -p "$tree/build/default"
+    (cd "$WARM/default" && cp -pR obj flags build_flags.inc tests.inc liblambent.a "$tree/build/default") || exit 1
+elif [ -d "$folder/built" ]; then # of an earlier run, without any change
     rm -rf "$tree/build"
     cp -pR "$folder/built" "$tree/build"
 fi
@@ -45,7 +51,11 @@ build="make -C $tree BUILD=build"
 by_line=$(command -v stdbuf >/dev/null && echo stdbuf -oL)
 
 make_it() {
-    $build CFLAGS='-O1 -DLMB_HAVE_SSE2=0 -DLMB_HAVE_AVX512=0' "$@" >"$folder/build.log" 2>&1 </dev/null
+    if [ -n "$WARM" ]; then
+        $build "$@"
+    else
+        $build CFLAGS='-O1 -DLMB_HAVE_SSE2=0 -DLMB_HAVE_AVX512=0' "$@"
+    fi >"$folder/build.log" 2>&1 </dev/null
 }
 
 # tests MODULE: what is run for a change there; NAME:WORD is a program and its word.
@@ -181,7 +191,9 @@ restore() {
     done
 }
 
-make_it lib $out/golden $out/tests $out/hard $out/reference || { tail -5 "$folder/build.log"; exit 1; }
+# Only the programs that the modules' tests are in: all of them take three times as long to build.
+programs=$(for module in $modules; do tests "$module"; done | tr ' ' '\n' | sed "s,:.*,,; s,^,$out/," | sort -u)
+make_it lib $programs || { tail -5 "$folder/build.log"; exit 1; }
 rm -rf "$folder/built"
 cp -pR "$tree/build" "$folder/built"
 candidates >"$folder/candidates"
