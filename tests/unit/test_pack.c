@@ -1,5 +1,7 @@
 /* test_pack.c: packed scenes: a file made by hand, damage to it, what moves, texture formats; what `lambent pack` makes of
- * a model. */
+ * a model, and of its options. */
+#include "../folder.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +12,7 @@
 #include "../../tools/demo/demo_scene.h"
 #include "../../tools/model/model_motion.h"
 #include "../../tools/pack/pack.h"
+#include "../../tools/pack/verb_pack.h"
 #include "../model_case.h"
 #include "../small_pack.h"
 
@@ -687,8 +690,52 @@ static void test_checksum(void)
     CHECK(checksum_fits((const uint8_t *)words, bytes, LMB_PACK_HEADER_WORDS)); /* has none */
 }
 
+/* The verb, of a scene, by --position-error `error`; NULL: by default. Its file, to be freed. */
+static file_bytes packed_by_verb(folder *f, const char *from, const char *error)
+{
+    char in[FOLDER_PATH], out[FOLDER_PATH], value[40];
+    char *argv[] = {"pack", in, "--quiet", "-o", out, "--position-error", value, NULL};
+    file_bytes file = {NULL, 0};
+    report r = {""};
+    snprintf(in, sizeof in, "%s", from);
+    snprintf(out, sizeof out, "%s", folder_file(f, "out.lmp"));
+    snprintf(value, sizeof value, "%s", error != NULL ? error : "");
+    CHECK(verb_pack(error != NULL ? 7 : 5, argv) == 0);
+    CHECK_MSG(file_read(&file, out, &r), "%s", r.text);
+    file_keep_end();
+    return file;
+}
+
+/* By default a vertex of a scene that is long along any axis moves by a 32768th of its diagonal, which 16 bits hold.
+ * They do not hold half as much. */
+static void test_default_error(void)
+{
+    folder f;
+    folder_open(&f);
+    for (int axis = 0; axis < 3; ++axis) {
+        float size[3] = {1.25f, 1.5f, 1.125f};
+        char obj[200], error[40];
+        size[axis] = 13.0f;
+        snprintf(obj, sizeof obj, "v 0 0 0\nv %g %g 0\nv 0.25 0.5 %g\nf 1 2 3\n", (double)size[0], (double)size[1],
+                 (double)size[2]);
+        const char *from = folder_put(&f, "in.obj", obj, strlen(obj));
+        const double diagonal = sqrt((double)(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]));
+        file_bytes by_default = packed_by_verb(&f, from, NULL);
+        for (int i = 1; i <= 2; ++i) {
+            snprintf(error, sizeof error, "%.9g", diagonal / (32768.0 * i));
+            file_bytes given = packed_by_verb(&f, from, error);
+            const int same = given.size == by_default.size && memcmp(given.data, by_default.data, given.size) == 0;
+            CHECK_MSG(same == (i == 1), "axis %d, %s m", axis, error);
+            file_free(&given);
+        }
+        file_free(&by_default);
+    }
+    folder_close(&f);
+}
+
 void test_pack(void)
 {
+    test_default_error();
     test_checksum();
     test_in_place();
     test_range();
