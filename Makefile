@@ -768,6 +768,10 @@ web-check: $(TOOL) $(B)/page-hash ## the page of platform/web in headless Chromi
 three-check: $(TOOL) ## baked light for other engines, drawn by three.js in headless Chromium beside our picture
 	+@BUILD='$(BUILD)' $(IN_SH) tests/scripts/three_check.sh
 
+.PHONY: godot-check
+godot-check: $(TOOL) ## a baked lightmap, drawn by Godot 3 in software beside our picture
+	+@BUILD='$(BUILD)' $(IN_SH) tests/scripts/godot_check.sh
+
 # For compilers whose programs nothing here can run.
 .PHONY: compiles
 compiles: $(LIB_OBJ)
