@@ -117,13 +117,13 @@ static inline int is_mirrored(const lmb_mat4 *t)
     return dot3(cross3(vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6])), vec3(m[8], m[9], m[10])) < 0.0f;
 }
 
-/* A position that a view sees. If it is within `noise` (m) of a plane and the eye is in front of the plane, the
- * position is moved in front, because otherwise the eye could not see it. So a pixel on the edge of a room keeps the
- * other wall's light. */
+/* A position that a view sees. If it is within `noise` (m) of a plane, the position is moved to the eye's side of the
+ * plane, because otherwise the eye could not see it. So a pixel on the edge of a room has the light of the other wall's
+ * inner side, and none of its outer side. */
 static inline lmb_vec3 before_plane(lmb_vec3 at, float noise, lmb_vec3 on_plane, lmb_vec3 axis, lmb_vec3 to_eye)
 {
-    const float height = dot3(axis, sub3(at, on_plane));
-    return absf(height) <= noise && dot3(axis, to_eye) > 0.0f ? add3(at, mul3(axis, 2.0f * noise)) : at;
+    const float height = dot3(axis, sub3(at, on_plane)), eye = dot3(axis, to_eye);
+    return absf(height) <= noise && eye != 0.0f ? add3(at, mul3(axis, eye > 0.0f ? 2.0f * noise : -2.0f * noise)) : at;
 }
 
 #endif
