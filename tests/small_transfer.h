@@ -58,7 +58,7 @@ static inline size_t small_transfer(uint32_t *words, const lmb_scene *scene)
                                      SMALL_LINK(0, 2048), SMALL_LINK(1, 2048), SMALL_LINK(2, 4096)};
     small_words w = {words, LMB_TRANSFER_HEADER_WORDS};
     memset(words, 0, LMB_TRANSFER_HEADER_WORDS * sizeof *words);
-    memcpy(words, "LMT\2", 4);
+    memcpy(words, "LMT\3", 4);
     words[1] = 0x01020304u;
     lmb_transfer_fingerprint(words + 3, scene, NULL, 0);
     words[5] = 3;

@@ -12,7 +12,8 @@
  *     lmb_transfer_receivers(..)  from the nodes, by the links, to the receivers
  *     lmb_transfer_tile(..)       from the receivers to a tile's pixels
  *
- * Receivers lie at the corners of triangles that the baker halved until light is nearly linear on each. A pixel
+ * Receivers lie at the corners of triangles that the baker halved until light is nearly linear on each. Before that it
+ * cuts triangles along the lines where others stand on them or go through them, as light differs on both sides. A pixel
  * interpolates the three receivers of its triangle by barycentric weights. The receiver in the middle of an edge stores
  * its difference from the mean of the edge's two ends. Small triangles of meshes take their light from clusters, which
  * keep it by direction, as differences from blends of clusters around them. So do large triangles with a normal map or
@@ -49,11 +50,12 @@ enum {
     LMB_TRANSFER_GRID,   /* none or one: of places in the air, for light on what moves */
     LMB_TRANSFER_AIR,    /* a place of the grid, along x, then y, then z: the first of six receivers, which face +x, -x,
                             +y, -y, +z, -z; or LMB_TRANSFER_NONE, where no light comes */
+    LMB_TRANSFER_CUTS,   /* divisions of an edge elsewhere than in its middle */
     LMB_TRANSFER_SECTIONS
 };
 
 enum {
-    LMB_TRANSFER_VERSION = 2, /* the file's fourth byte, behind `LMT` */
+    LMB_TRANSFER_VERSION = 3, /* the file's fourth byte, behind `LMT` */
     LMB_TRANSFER_HEADER_WORDS = 24, /* the last one: FNV-1a, 32 bits, of all other bytes; 0: not told, never checked here */
     LMB_TRANSFER_SURFACE_WORDS = 4,
     LMB_TRANSFER_CORNER_WORDS = 3,
@@ -67,6 +69,7 @@ enum {
     LMB_TRANSFER_GRID_WORDS = 7, /* the first place, m, binary32; places a metre, binary32; how many along each axis */
     LMB_TRANSFER_AIR_RECEIVERS = 6,
     LMB_TRANSFER_MAX_AIR = 1024, /* places along an axis */
+    LMB_TRANSFER_CUT_WORDS = 2, /* as of a halving, with LMB_TRANSFER_WALL; where on the edge, 0 to 1, binary32 */
     LMB_TRANSFER_MAX_ELEMENTS = 16384,
     LMB_TRANSFER_MAX_CLUSTERS = 65536,
     LMB_TRANSFER_KEPT = 64, /* triangles */
@@ -82,6 +85,9 @@ enum {
 #define LMB_TRANSFER_NONE      0xffffffffu
 #define LMB_TRANSFER_LEAF      0x80000000u /* of a halving: the rest is an element, or the place of three corners */
 #define LMB_TRANSFER_EDGE_BIT  29          /* of others, bits 29 and 30: the edge that is halved; below: its halves */
+#define LMB_TRANSFER_CUT       3u          /* in place of the edge: below is one of the cuts, which has both */
+#define LMB_TRANSFER_WALL      0x80000000u /* of a cut: a surface stands on this line, so light goes to what is shown */
+#define LMB_TRANSFER_LEAST_CUT 1e-6f       /* of the edge, from either end */
 #define LMB_TRANSFER_MAX_SUM   32767       /* of the absolute weights of a receiver, or of an axis of a cluster */
 
 /* A file in place, checked by lmb_transfer_open. */

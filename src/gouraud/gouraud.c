@@ -8,6 +8,7 @@
 #include "../base/vec.h"
 #include "../base/vertex.h"
 #include "../raster/target.h"
+#include "../transfer/halvings.h"
 #include "gouraud_fill.h"
 #include "gouraud_light.h"
 
@@ -373,16 +374,18 @@ static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, con
     }
 }
 
-/* The half whose corner k is the middle of edge `from`; exactly the same middle for both triangles that share it. */
-static void halve(part *p, int from, int k, uint32_t node)
+/* Corner k of the half goes to where the edge is halved; of halvings exactly the same place for both triangles that share
+ * the edge. */
+static void enter_half(part *p, const transfer_halving *h, int second)
 {
-    const int to = from == 2 ? 0 : from + 1;
-    const lmb_vec3 middle = mul3(add3(p->at[from], p->at[to]), 0.5f);
-    const float b1 = 0.5f * (p->b1[from] + p->b1[to]), b2 = 0.5f * (p->b2[from] + p->b2[to]);
-    p->at[k] = middle;
+    const int from = h->from, to = halving_to(from), k = second ? from : to;
+    const float rest = 1.0f - h->part;
+    const lmb_vec3 at = add3(mul3(p->at[from], rest), mul3(p->at[to], h->part));
+    const float b1 = rest * p->b1[from] + h->part * p->b1[to], b2 = rest * p->b2[from] + h->part * p->b2[to];
+    p->at[k] = at;
     p->b1[k] = b1;
     p->b2[k] = b2;
-    p->node = node;
+    p->node = h->first + (uint32_t)second;
 }
 
 /* All leaves below a root. `left`: how many there may be, for damaged files. */
@@ -403,11 +406,10 @@ static void draw_divided(const drawing *d, const triangle *t, uint32_t root)
     for (; count > 0 && left > 0; --left) {
         part here = d->parts[--count];
         while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count <= LMB_TRANSFER_MAX_HALVINGS) {
-            const int from = (int)(node[here.node] >> LMB_TRANSFER_EDGE_BIT & 3u), to = from == 2 ? 0 : from + 1;
-            const uint32_t child = node[here.node] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+            const transfer_halving h = halving_of(file, node[here.node]);
             d->parts[count] = here;
-            halve(&d->parts[count++], from, from, child + 1);
-            halve(&here, from, to, child);
+            enter_half(&d->parts[count++], &h, 1);
+            enter_half(&here, &h, 0);
         }
         const uint32_t place = node[here.node] & ~LMB_TRANSFER_LEAF;
         if ((node[here.node] & LMB_TRANSFER_LEAF) != 0) {

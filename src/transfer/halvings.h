@@ -4,6 +4,8 @@
 
 #include <lambent/transfer.h>
 
+#include <string.h>
+
 #include "../base/vec.h"
 #include "../raster/triangle.h"
 
@@ -35,9 +37,44 @@ static inline const lmb_transfer_triangle *transfer_triangle_kept(lmb_transfer_k
 }
 
 /* One halving of edge `from`: from corner `from` to the next, `to`. Its middle becomes a corner of both halves: of the
- * first in place of the edge's end, of the second in place of its beginning. */
-static inline int halving_from(uint32_t node) { return (int)(node >> LMB_TRANSFER_EDGE_BIT & 3u); }
+ * first in place of the edge's end, of the second in place of its beginning. A cut has another place on the edge: `part`
+ * of it from its beginning. */
+typedef struct transfer_halving {
+    int from, is_wall;
+    uint32_t first; /* of two halves, which lie side by side */
+    float part, ratio; /* ratio: (1 - part) / part */
+} transfer_halving;
+
 static inline int halving_to(int from) { return from == 2 ? 0 : from + 1; }
-static inline uint32_t halving_first(uint32_t node) { return node & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u); }
+
+static inline transfer_halving halving_of(const lmb_transfer *t, uint32_t node)
+{
+    transfer_halving h = {(int)(node >> LMB_TRANSFER_EDGE_BIT & 3u), 0, 0, 0.5f, 1.0f};
+    h.first = node & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+    if (h.from == (int)LMB_TRANSFER_CUT) {
+        const uint32_t *cut = t->section[LMB_TRANSFER_CUTS] + LMB_TRANSFER_CUT_WORDS * (size_t)h.first;
+        h.from = (int)(cut[0] >> LMB_TRANSFER_EDGE_BIT & 3u);
+        h.is_wall = (cut[0] & LMB_TRANSFER_WALL) != 0;
+        h.first = cut[0] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+        memcpy(&h.part, &cut[1], sizeof h.part);
+        h.ratio = (1.0f - h.part) / h.part;
+    }
+    return h;
+}
+
+/* Weights of a place: the corner that a half keeps loses `less` times that of the one which goes; the new corner has
+ * `more` times that. */
+typedef struct transfer_half {
+    int keeps, moves; /* corners */
+    float less, more;
+} transfer_half;
+
+static inline transfer_half half_of(const transfer_halving *h, int second)
+{
+    const int to = halving_to(h->from);
+    const transfer_half first = {h->from, to, h->ratio, 1.0f / h->part};
+    const transfer_half last = {to, h->from, 1.0f / h->ratio, 1.0f / (1.0f - h->part)};
+    return second ? last : first;
+}
 
 #endif

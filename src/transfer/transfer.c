@@ -5,6 +5,7 @@
 
 #include "../base/vec.h"
 #include "../raster/triangle.h"
+#include "halvings.h"
 #include "sections.h"
 
 #if LMB_TRANSFER
@@ -13,6 +14,7 @@
 enum { MAGIC, ORDER, SIZE, SCENE, LEAVES = 5, COUNTS, RESERVED = COUNTS + LMB_TRANSFER_SECTIONS };
 
 #define OWN_ORDER 0x01020304u
+#define LOW_BITS  ((1u << LMB_TRANSFER_EDGE_BIT) - 1u)
 #define MAX_COUNT 0x10000000u /* entries of a section: no product of theirs leaves 64 bits, no place a halving's bits */
 
 static float as_float(uint32_t word)
@@ -27,15 +29,31 @@ static int is_scale(uint32_t word) { return as_float(word) >= 0.0f && as_float(w
 /* --- what words may say ------------------------------------------------------------------------------------------- */
 
 /* Children lie behind their parent, two side by side, so that every way down ends. Leaves name one of `places`. */
-static int are_halvings(const uint32_t *node, uint32_t count, uint32_t places)
+static int are_halvings(const lmb_transfer *t, int section, uint32_t places)
 {
+    const uint32_t *node = t->section[section], count = t->count[section];
     for (uint32_t i = 0; i < count; ++i) {
-        const uint32_t first = node[i] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
-        if (node[i] & LMB_TRANSFER_LEAF) {
-            if ((node[i] & ~LMB_TRANSFER_LEAF) >= places) {
-                return 0;
-            }
-        } else if (first <= i || first >= count - 1 || (node[i] >> LMB_TRANSFER_EDGE_BIT & 3u) == 3u) {
+        const int is_leaf = (node[i] & LMB_TRANSFER_LEAF) != 0;
+        const int is_cut = !is_leaf && node[i] >> LMB_TRANSFER_EDGE_BIT == LMB_TRANSFER_CUT;
+        if (is_leaf ? (node[i] & ~LMB_TRANSFER_LEAF) >= places
+                    : is_cut && (node[i] & LOW_BITS) >= t->count[LMB_TRANSFER_CUTS]) {
+            return 0;
+        }
+        const uint32_t first = is_leaf ? i + 1 : halving_of(t, node[i]).first;
+        if (!is_leaf && (first <= i || first >= count - 1)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int are_cuts(const lmb_transfer *t)
+{
+    const uint32_t *cut = t->section[LMB_TRANSFER_CUTS];
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_CUTS]; ++i, cut += LMB_TRANSFER_CUT_WORDS) {
+        const float part = as_float(cut[1]);
+        if ((cut[0] >> LMB_TRANSFER_EDGE_BIT & 3u) == LMB_TRANSFER_CUT ||
+            !(part >= LMB_TRANSFER_LEAST_CUT && part <= 1.0f - LMB_TRANSFER_LEAST_CUT)) {
             return 0;
         }
     }
@@ -285,9 +303,8 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
     if (t.nodes == 0 || t.count[LMB_TRANSFER_CLUSTERS] > LMB_TRANSFER_MAX_CLUSTERS || !are_surfaces(&t) ||
         !are_areas(&t) || !are_corners(&t) || !are_receivers(&t) ||
         !are_clusters(&t) || !are_blends(&t) || !are_coarse(&t) || !are_moving(&t) || !is_air(&t) ||
-        !are_halvings(t.section[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_AREAS]) ||
-        !are_halvings(t.section[LMB_TRANSFER_DIVISIONS], t.count[LMB_TRANSFER_DIVISIONS],
-                      t.count[LMB_TRANSFER_CORNERS])) {
+        !are_cuts(&t) || !are_halvings(&t, LMB_TRANSFER_PIECES, t.count[LMB_TRANSFER_AREAS]) ||
+        !are_halvings(&t, LMB_TRANSFER_DIVISIONS, t.count[LMB_TRANSFER_CORNERS])) {
         return LMB_ERR_FORMAT;
     }
     *out = t;

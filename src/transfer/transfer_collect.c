@@ -19,6 +19,7 @@
 #define WHOLE 16777216.0f /* 2^24: what no block's light is over, and binary32 counts to */
 
 enum { VISITS = 8192 }; /* halvings of a tile's triangle; what is left goes down whole */
+#define WALL_REACH 2.5f /* blocks from a wall within which light goes by what cells show */
 
 /* What a collection is about. */
 typedef struct collection {
@@ -123,6 +124,37 @@ static const lmb_transfer_shown *shown(const collection *c, uint32_t id)
 
 static float value(const float f[3], float x, float y) { return f[0] + f[1] * x + f[2] * y; }
 
+/* --- ids of cells ------------------------------------------------------------------------------------------------- */
+
+/* Eight ids beside each other, of which x is one. */
+static const uint8_t *ids_at(const collection *c, int32_t x, int32_t y)
+{
+    const lmb_fill_window *w = &c->ids;
+    const int32_t bytes = w->first.id_format == LMB_ID16 ? 2 : 4;
+    return (const uint8_t *)w->first.id + (ptrdiff_t)(y / LMB_TILE) * w->id_row +
+           (ptrdiff_t)(x / LMB_TILE) * w->id_tile + (ptrdiff_t)(y % LMB_TILE) * w->first.id_step * bytes;
+}
+
+/* A texel of a cell's row or column; beyond the face, of its last one. */
+static int32_t texel_of(const collection *c, int32_t cell)
+{
+    return maxi(mini(cell, c->size / c->step - 1), 0) * c->step + c->step / 2;
+}
+
+/* One of eight ids beside each other. */
+static uint32_t id_in(const collection *c, const uint8_t *eight, int32_t i)
+{
+    return c->ids.first.id_format == LMB_ID16 ? ((const uint16_t *)(const void *)eight)[i]
+                                              : ((const uint32_t *)(const void *)eight)[i];
+}
+
+/* What the middle of a block's cell shows. */
+static uint32_t cell_id(const collection *c, int32_t x, int32_t y, int32_t column, int32_t row)
+{
+    const int32_t at = texel_of(c, (c->first[0] + x) * c->cells + column);
+    return id_in(c, ids_at(c, at, texel_of(c, (c->first[1] + y) * c->cells + row)), at % LMB_TILE);
+}
+
 /* --- a triangle's light down its halvings ------------------------------------------------------------------------- */
 
 static void add_light(const collection *c, uint32_t element, int32_t sum)
@@ -134,30 +166,80 @@ static void add_light(const collection *c, uint32_t element, int32_t sum)
 }
 
 /* Into a half: the corner that it keeps loses what the other one weighs, which counts twice. */
-static void enter_half(lmb_transfer_part *p, uint32_t node, int second)
+static void enter_half(lmb_transfer_part *p, const transfer_halving *h, int second)
 {
-    const int from = halving_from(node), to = halving_to(from);
-    const int keeps = second ? to : from, moves = second ? from : to;
+    const transfer_half half = half_of(h, second);
     for (int k = 0; k < 3; ++k) {
-        p->corner[keeps][k] -= p->corner[moves][k];
-        p->corner[moves][k] *= 2.0f;
+        p->corner[half.keeps][k] -= half.less * p->corner[half.moves][k];
+        p->corner[half.moves][k] *= half.more;
     }
-    p->at = halving_first(node) + (uint32_t)second;
+    p->at = h->first + (uint32_t)second;
     ++p->depth;
 }
 
+/* --- walls -------------------------------------------------------------------------------------------------------- */
+
+/* Of the blocks within `ring` of a block: how many cells' middles show the triangle on each side of a line. */
+static void count_sides(int32_t count[2], const collection *c, uint32_t id, const float line[3], int32_t x, int32_t y,
+                        int32_t ring)
+{
+    const float per = 1.0f / (float)c->cells;
+    count[0] = count[1] = 0;
+    for (int32_t row = -ring * c->cells; row < (ring + 1) * c->cells; ++row) {
+        for (int32_t column = -ring * c->cells; column < (ring + 1) * c->cells; ++column) {
+            if (cell_id(c, x, y, column, row) == id) {
+                const float at_x = (float)x + ((float)column + 0.5f) * per - 0.5f,
+                            at_y = (float)y + ((float)row + 0.5f) * per - 0.5f;
+                ++count[value(line, at_x, at_y) < 0.0f];
+            }
+        }
+    }
+}
+
+/* A block's light near a wall goes to the side that the light sees, by the cells that show the triangle there: of the
+ * block, or where none does of those around it. By area alone some would go through. Both parts stay whole numbers. */
+static void part_at_wall(const collection *c, lmb_transfer_part *p, uint32_t id, const float line[3])
+{
+    uint32_t rows[2] = {0, 0};
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t x = k % LMB_TILE, y = k / LMB_TILE;
+        const uint32_t row = 1u << y;
+        float *first = &p[1].light[k], *last = &p->light[k];
+        if ((row & (p->rows | p[1].rows)) == 0) {
+            continue;
+        }
+        *first = (row & p[1].rows) != 0 ? *first : 0.0f;
+        *last = (row & p->rows) != 0 ? *last : 0.0f;
+        const float all = *first + *last;
+        int32_t count[2] = {0, 0};
+        for (int32_t ring = 0; ring < 2 && all > 0.0f && absf(value(line, (float)x, (float)y)) < WALL_REACH &&
+                               count[0] + count[1] == 0; ++ring) {
+            count_sides(count, c, id, line, x, y, ring);
+        }
+        if (count[0] + count[1] > 0) {
+            *first = (float)(int32_t)(all * ((float)count[0] / (float)(count[0] + count[1])));
+            *last = all - *first;
+        }
+        rows[0] |= *first > 0.0f ? row : 0u;
+        rows[1] |= *last > 0.0f ? row : 0u;
+    }
+    p[1].rows = rows[0];
+    p->rows = rows[1];
+}
+
 /* Goes on with one half, or with both: then the second waits. Returns how many parts there are. */
-static int32_t halve(const collection *c, int32_t parts, uint32_t node, int can_part)
+static int32_t halve(const collection *c, int32_t parts, uint32_t id, uint32_t node, int can_part)
 {
     lmb_transfer_part *p = &c->light->part[parts - 1];
-    const int from = halving_from(node), to = halving_to(from);
+    const transfer_halving h = halving_of(c->transfer, node);
+    const float reach = h.is_wall ? 4.0f + WALL_REACH : 4.0f;
     float line[3];
     for (int k = 0; k < 3; ++k) {
-        line[k] = p->corner[from][k] - p->corner[to][k];
+        line[k] = p->corner[h.from][k] - h.ratio * p->corner[halving_to(h.from)][k];
     }
     const float by = absf(line[1]) + absf(line[2]), middle = value(line, 3.5f, 3.5f);
-    if (!can_part || parts == LMB_TRANSFER_PARTS || !(absf(middle) < 4.0f * by)) {
-        enter_half(p, node, middle < 0.0f);
+    if (!can_part || parts == LMB_TRANSFER_PARTS || !(absf(middle) < reach * by) || !(by < 1e30f)) {
+        enter_half(p, &h, middle < 0.0f);
         return parts;
     }
     for (int k = 0; k < 3; ++k) {
@@ -166,11 +248,14 @@ static int32_t halve(const collection *c, int32_t parts, uint32_t node, int can_
     const uint32_t has = c->kernels->transfer_halve(p[1].light, p->light, line, p->rows);
     p[1].rows = has & LMB_TRANSFER_ALL_ROWS;
     p->rows = has >> LMB_TILE;
+    if (h.is_wall) {
+        part_at_wall(c, p, id, line);
+    }
     if (p[1].rows != 0 && p->rows != 0) {
         memcpy(p[1].corner, p->corner, sizeof p->corner);
         p[1].depth = p->depth;
-        enter_half(p, node, 1);
-        enter_half(p + 1, node, 0);
+        enter_half(p, &h, 1);
+        enter_half(p + 1, &h, 0);
         return parts + 1;
     }
     const int is_second = p->rows != 0;
@@ -178,7 +263,7 @@ static int32_t halve(const collection *c, int32_t parts, uint32_t node, int can_
         memcpy(p->light, p[1].light, sizeof p->light);
         p->rows = p[1].rows;
     }
-    enter_half(p, node, is_second);
+    enter_half(p, &h, is_second);
     return parts;
 }
 
@@ -197,7 +282,7 @@ static int32_t sum_of(const lmb_transfer_part *p)
 }
 
 /* From the first of the parts, with its light. */
-static void collect_parts(const collection *c)
+static void collect_parts(const collection *c, uint32_t id)
 {
     const uint32_t *node = c->transfer->section[LMB_TRANSFER_PIECES];
     for (int32_t parts = 1, visits = 0; parts > 0; ++visits) {
@@ -209,7 +294,7 @@ static void collect_parts(const collection *c)
         } else if (p->depth == LMB_TRANSFER_MAX_HALVINGS) {
             --parts;
         } else {
-            parts = halve(c, parts, word, visits < VISITS);
+            parts = halve(c, parts, id, word, visits < VISITS);
         }
     }
 }
@@ -253,7 +338,7 @@ static void collect_sharer(const collection *c, const lmb_transfer_sharer *from)
     p->at = from->root;
     p->depth = 0;
     memcpy(p->corner, from->corner, sizeof p->corner);
-    collect_parts(c);
+    collect_parts(c, from->id);
 }
 
 /* --- shares of triangles ------------------------------------------------------------------------------------------ */
@@ -302,35 +387,6 @@ static void add_share(const collection *c, uint32_t id, int block, float share)
 }
 
 /* --- ids of blocks ------------------------------------------------------------------------------------------------ */
-
-/* Eight ids beside each other, of which x is one. */
-static const uint8_t *ids_at(const collection *c, int32_t x, int32_t y)
-{
-    const lmb_fill_window *w = &c->ids;
-    const int32_t bytes = w->first.id_format == LMB_ID16 ? 2 : 4;
-    return (const uint8_t *)w->first.id + (ptrdiff_t)(y / LMB_TILE) * w->id_row +
-           (ptrdiff_t)(x / LMB_TILE) * w->id_tile + (ptrdiff_t)(y % LMB_TILE) * w->first.id_step * bytes;
-}
-
-/* A texel of a cell's row or column; beyond the face, of its last one. */
-static int32_t texel_of(const collection *c, int32_t cell)
-{
-    return maxi(mini(cell, c->size / c->step - 1), 0) * c->step + c->step / 2;
-}
-
-/* One of eight ids beside each other. */
-static uint32_t id_in(const collection *c, const uint8_t *eight, int32_t i)
-{
-    return c->ids.first.id_format == LMB_ID16 ? ((const uint16_t *)(const void *)eight)[i]
-                                              : ((const uint32_t *)(const void *)eight)[i];
-}
-
-/* What the middle of a block's cell shows. */
-static uint32_t cell_id(const collection *c, int32_t x, int32_t y, int32_t column, int32_t row)
-{
-    const int32_t at = texel_of(c, (c->first[0] + x) * c->cells + column);
-    return id_in(c, ids_at(c, at, texel_of(c, (c->first[1] + y) * c->cells + row)), at % LMB_TILE);
-}
 
 /* One more id, unless it is among them. */
 static void add_id(lmb_transfer_several *to, uint32_t id)

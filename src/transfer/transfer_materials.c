@@ -5,6 +5,7 @@
 
 #include "../base/poly.h"
 #include "../radiosity/piece.h"
+#include "halvings.h"
 
 #if LMB_TRANSFER
 
@@ -16,15 +17,16 @@ typedef struct part {
     uint32_t node;
 } part;
 
-/* The half whose corner k is the middle of edge `from`. */
-static void halve(part *p, int from, int k, uint32_t node)
+/* Corner k of the half goes to where the edge is halved. */
+static void enter_half(part *p, const transfer_halving *h, int second)
 {
-    const int to = from == 2 ? 0 : from + 1;
-    const float b1 = 0.5f * (p->b1[from] + p->b1[to]), b2 = 0.5f * (p->b2[from] + p->b2[to]);
+    const int from = h->from, to = halving_to(from), k = second ? from : to;
+    const float rest = 1.0f - h->part;
+    const float b1 = rest * p->b1[from] + h->part * p->b1[to], b2 = rest * p->b2[from] + h->part * p->b2[to];
     p->b1[k] = b1;
     p->b2[k] = b2;
-    p->share *= 0.5f;
-    p->node = node;
+    p->share *= second ? rest : h->part;
+    p->node = h->first + (uint32_t)second;
 }
 
 /* Sums by area, in light->albedo and emission; areas in light->power[..][0]. */
@@ -73,11 +75,10 @@ static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, co
         part here = stack[--count];
         --*left;
         while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count < WAITING) {
-            const int from = (int)(node[here.node] >> LMB_TRANSFER_EDGE_BIT & 3u), to = from == 2 ? 0 : from + 1;
-            const uint32_t first = node[here.node] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+            const transfer_halving h = halving_of(t, node[here.node]);
             stack[count] = here;
-            halve(&stack[count++], from, from, first + 1);
-            halve(&here, from, to, first);
+            enter_half(&stack[count++], &h, 1);
+            enter_half(&here, &h, 0);
         }
         if (node[here.node] & LMB_TRANSFER_LEAF) {
             const uint32_t element = node[here.node] & ~LMB_TRANSFER_LEAF;

@@ -31,24 +31,34 @@ static void set_corners(lmb_transfer_leaf *leaf, const lmb_transfer_light *light
 
 static float weight_at(const float w[3], float b1, float b2) { return w[0] + w[1] * b1 + w[2] * b2; }
 
-/* Into the half that holds a place. The corner that it keeps loses what the other one weighs, which counts twice: it is
- * the middle of the edge now. All these numbers are whole. */
-static void enter_half(lmb_transfer_step *s, uint32_t node, float b1, float b2)
+/* Into the half that holds a place. Its corner on the edge that is halved loses what the other one weighs, which counts
+ * twice: it is the middle of the edge now. All these numbers are whole, but for those of cuts. */
+static void enter_half(lmb_transfer_step *s, const transfer_halving *h, float b1, float b2)
 {
-    const int from = halving_from(node), to = halving_to(from), other = 3 - from - to;
+    const int from = h->from, to = halving_to(from), other = 3 - from - to;
     float more[3];
     for (int c = 0; c < 3; ++c) {
-        more[c] = s->weight[c][from] - s->weight[c][to];
+        more[c] = s->weight[c][from] - h->ratio * s->weight[c][to];
     }
     s->second = weight_at(more, b1, b2) < 0.0f;
-    const int keeps = s->second ? to : from, moves = s->second ? from : to;
+    const transfer_half half = half_of(h, s->second);
     for (int c = 0; c < 3; ++c) {
         s->side[c] = s->second ? -more[c] : more[c];
-        s[1].weight[c][keeps] = s->side[c];
-        s[1].weight[c][moves] = 2.0f * s->weight[c][moves];
+        s[1].weight[c][half.keeps] = s->second ? half.less * s->side[c] : s->side[c];
+        s[1].weight[c][half.moves] = half.more * s->weight[c][half.moves];
         s[1].weight[c][other] = s->weight[c][other];
     }
-    s[1].at = halving_first(node) + (uint32_t)s->second;
+    s[1].at = h->first + (uint32_t)s->second;
+}
+
+/* 0 where cuts of a damaged file have made them too large. */
+static int are_weights(const lmb_transfer_step *s)
+{
+    float sum = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+        sum += absf(s->weight[c][0]) + absf(s->weight[c][1]) + absf(s->weight[c][2]);
+    }
+    return sum < 1e18f;
 }
 
 /* How many steps of the last way down a place shares. */
@@ -66,8 +76,9 @@ static uint32_t shared_steps(const lmb_transfer_met *s, float b1, float b2)
 
 /* Down to the leaf that holds a place of the triangle: the last of the steps. Returns what it says, or
  * LMB_TRANSFER_NONE where it lies too deep. */
-static uint32_t enter_leaf(lmb_transfer_met *s, const uint32_t *node, uint32_t root, float b1, float b2)
+static uint32_t enter_leaf(lmb_transfer_met *s, const lmb_transfer *t, uint32_t root, float b1, float b2)
 {
+    const uint32_t *node = t->section[LMB_TRANSFER_DIVISIONS];
     static const float whole[3][3] = {{1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}};
     if (s->root != root + 1) {
         s->root = root + 1;
@@ -78,8 +89,12 @@ static uint32_t enter_leaf(lmb_transfer_met *s, const uint32_t *node, uint32_t r
     uint32_t i = shared_steps(s, b1, b2);
     uint32_t word = node[s->step[i].at];
     for (; i < LMB_TRANSFER_MAX_HALVINGS && (word & LMB_TRANSFER_LEAF) == 0; ++i) {
-        const uint32_t *half = node + halving_first(word), first = half[0], second = half[1];
-        enter_half(&s->step[i], word, b1, b2);
+        const transfer_halving h = halving_of(t, word);
+        const uint32_t *half = node + h.first, first = half[0], second = half[1];
+        enter_half(&s->step[i], &h, b1, b2);
+        if (!are_weights(&s->step[i + 1])) {
+            break;
+        }
         word = s->step[i].second ? second : first;
     }
     s->depth = i;
@@ -105,7 +120,7 @@ static void light_side(lmb_irradiance *inout, const job *j, uint32_t root, uint6
     lmb_transfer_leaf leaf;
     while (pixels != 0) {
         const int first = lowest_bit_64(pixels);
-        const uint32_t place = enter_leaf(s, j->transfer->section[LMB_TRANSFER_DIVISIONS], root, s->weight[0][first],
+        const uint32_t place = enter_leaf(s, j->transfer, root, s->weight[0][first],
                                           s->weight[1][first]);
         uint64_t own = (uint64_t)1 << first;
         if (place != LMB_TRANSFER_NONE) {

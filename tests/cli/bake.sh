@@ -54,7 +54,7 @@ said "cut.lmt: a damaged light transfer"
 status 0 bake box.obj -o little.lmt --elements 256 --receivers 200 --endian little --report
 check "bake tells the bytes of each part" grep -q '  links  *[0-9]* bytes' out.txt
 status 0 info little.lmt
-check "info knows baked light" sh -c 'grep -q "little.lmt: baked light, version 2, [1-9][0-9]* bytes$" "$1" && grep -q "^elements  *256$" "$1"' sh out.txt
+check "info knows baked light" sh -c 'grep -q "little.lmt: baked light, version 3, [1-9][0-9]* bytes$" "$1" && grep -q "^elements  *256$" "$1"' sh out.txt
 status 0 info little.lmt --json
 check "and as JSON" grep -q '^{.*"kind":"transfer".*"elements":256,.*"scene":"[0-9a-f]*"}$' out.txt
 status 0 bake box.obj -o big.lmt --elements 256 --receivers 200 --endian big
@@ -67,7 +67,7 @@ status 1 render box.obj $inside --transfer "$other.lmt" -o bad.pfm
 said "$other.lmt: baked for $other-endian machines, unlike this one"
 { printf 'LMT\001'; tail -c +5 box-1.lmt; } >old.lmt
 status 1 render box.obj $inside --transfer old.lmt -o bad.pfm
-said "old.lmt: a light transfer of version 1, and this reads version 2"
+said "old.lmt: a light transfer of version 1, and this reads version 3"
 budget=$(($(wc -c <box-1.lmt) * 3 / 4))
 status 0 bake box.obj -o less.lmt --elements 256 --receivers 200 --budget-bytes $budget
 check "bake says by which error a file fits" grep -q "by --error .*, which fits into $budget bytes" out.txt

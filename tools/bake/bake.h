@@ -45,6 +45,7 @@ typedef struct bake_element {
     int is_hidden; /* hardly any does: inside of a solid, it may be, through a crack */
     float light;   /* about how much comes, in any unit */
     uint32_t key, number; /* order along a Z curve; where it was made */
+    uint32_t zone; /* light goes between elements of one zone, by any way; BAKE_NO_ZONE: not known */
     uint32_t first_part, parts; /* its triangles, where it has several */
 } bake_element;
 
@@ -60,6 +61,17 @@ typedef struct bake_part {
 
 enum { BAKE_PARENTS = 4 };
 
+/* A node of a triangle's cuts: an edge is divided there, or nothing is. */
+typedef struct bake_cut {
+    uint32_t first; /* of two nodes side by side; 0: a leaf */
+    int from;       /* the edge */
+    int is_wall;    /* something stands on the line */
+    float part;     /* of the edge, from its beginning; 0.5: a halving */
+    uint8_t is_closed[2]; /* a leaf's front and back: no light comes there */
+} bake_cut;
+
+enum { BAKE_NO_ZONE = 0 };
+
 /* What receives light: what its parents do, by their shares, and what its links say. */
 typedef struct bake_target {
     uint16_t *row; /* what arrives of each element, along each axis: upper halves of binary32 */
@@ -70,6 +82,7 @@ typedef struct bake_target {
     bake_words link;
     uint32_t links;
     float scale;
+    uint32_t zone; /* that its light comes from */
 } bake_target;
 
 /* A point that receives light. */
@@ -112,6 +125,11 @@ typedef struct bake {
 
     bake_receiver *receiver;
     uint32_t receiver_count, receiver_cap;
+
+    bake_cut *cut; /* of all triangles */
+    uint32_t cut_count, cut_cap;
+    uint32_t *cut_root; /* a triangle's first node; 0: it is not cut */
+    uint32_t *node_zone; /* of nodes of elements: theirs, BAKE_NO_ZONE, or BAKE_ZONES where they have several */
 
     uint8_t *small_open; /* of each side of small triangles: which of bake_quarters light comes to; NULL: all */
     bake_words section[LMB_TRANSFER_SECTIONS];
@@ -156,6 +174,21 @@ int bake_put_float(bake_words *w, float v, report *r);
 /* The scene's BVH, and elements with the way to them from each triangle. */
 int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report *r);
 int bake_elements(bake *b, report *r);
+
+/* bake_cuts: the lines along which large triangles are cut, as others stand on them or go through them: light differs on
+ * both sides. Where there are many close together a triangle is halved first.
+ * bake_divide: makes a node of pieces or divisions one of the cut's kind, with two more nodes for its parts, from *first
+ * on. bake_first: the first part of any node that is no leaf. bake_part_of: its share of the area. bake_cut_at: the place on the edge. */
+int bake_cuts(bake *b, report *r);
+int bake_divide(bake *b, bake_words *nodes, size_t node, const bake_cut *c, uint32_t *first, report *r);
+uint32_t bake_first(const bake *b, uint32_t word);
+float bake_part_of(const bake *b, uint32_t word);
+lmb_vec3 bake_cut_at(const bake_cut *c, const lmb_vec3 corner[3]);
+
+/* bake_zones: b->node_zone, of the elements as they are now. bake_zone_of: of the element of which most arrives. */
+#define BAKE_ZONES UINT32_MAX
+int bake_zones(bake *b, report *r);
+uint32_t bake_zone_of(const bake *b, const uint16_t *row, int axes);
 
 /* bake_order: put elements in order, so that neighbours that face alike lie side by side: their means become nodes.
  * Hidden ones and those that emit lie apart, as what others send is not like what they do. */

@@ -11,6 +11,7 @@
 enum { POINTS = 2, TOGETHER = 64 / POINTS }; /* looked from, of a run: in the middle of each part of its area */
 
 #define LOOSE 24.0f /* times a receiver's error: a run stands for many places, and what it sends is seen by all */
+#define FOREIGN 1e20f /* error of a run of several zones: light of one is none of another's */
 #define FLAT  0.2f /* error of a run to which light comes evenly, beside its relative deviation: large ones are parted */
 
 /* --- runs --------------------------------------------------------------------------------------------------------- */
@@ -20,6 +21,19 @@ typedef struct run {
     uint32_t first, past;
     float error;
 } run;
+
+static int has_zones(const bake *b, uint32_t first, uint32_t past)
+{
+    uint32_t zone = BAKE_NO_ZONE;
+    for (uint32_t e = first; e < past; ++e) {
+        const uint32_t own = b->node_zone[e];
+        if (own != BAKE_NO_ZONE && zone != BAKE_NO_ZONE && own != zone) {
+            return 1;
+        }
+        zone = own != BAKE_NO_ZONE ? own : zone;
+    }
+    return 0;
+}
 
 static run run_of(const bake *b, uint32_t first, uint32_t past, float floor)
 {
@@ -34,6 +48,7 @@ static run run_of(const bake *b, uint32_t first, uint32_t past, float floor)
         off += bake_open_area(&b->element[e]) * absf(b->element[e].light - mean);
     }
     out.error = past - first > 1 && area > 0.0f ? off / (mean + floor) + FLAT * area : 0.0f;
+    out.error = has_zones(b, first, past) ? out.error + FOREIGN : out.error;
     return out;
 }
 

@@ -42,9 +42,10 @@ static void mark_leaves(const directing *d, uint32_t node, float area)
         d->area[word & ~LMB_TRANSFER_LEAF] = area;
         return;
     }
-    const uint32_t half = word & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
-    mark_leaves(d, half, 0.5f * area);
-    mark_leaves(d, half + 1, 0.5f * area);
+    const uint32_t half = bake_first(d->b, word);
+    const float part = bake_part_of(d->b, word);
+    mark_leaves(d, half, part * area);
+    mark_leaves(d, half + 1, (1.0f - part) * area);
 }
 
 /* Of large triangles; returns whether there is one. */

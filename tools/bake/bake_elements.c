@@ -126,6 +126,7 @@ typedef struct maker {
     int had_slivers; /* when elements were as small as they may be */
     int is_crowded;  /* so many go through something that they share elements there, too */
     uint32_t own; /* its side: 2 (id - 1) + back */
+    uint32_t cut; /* its cuts' leaf at hand; 0: it has none */
     report *r;
 } maker;
 
@@ -222,6 +223,13 @@ static uint32_t is_closed(const maker *m)
     return m->b->small_open != NULL && m->is_small && m->b->small_open[m->own] == 0;
 }
 
+/* Nothing lies between a triangle and the first one of an element: no thin wall parts them. */
+static int are_together(maker *m, const bake_element *e, lmb_vec3 at, lmb_vec3 normal)
+{
+    const lmb_vec3 d = sub3(at, e->middle), up = normalize3(add3(e->normal, normal));
+    return dot3(d, d) < 1e-12f || bake_sees(&m->sight, m->b, at, e->middle, up);
+}
+
 static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
 {
     const lmb_vec3 at = triangle_middle(corner), low = m->b->scene->bounds_min;
@@ -240,20 +248,49 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
             slot[4] = e + 1;
             return e;
         }
-        if (memcmp(slot, cell, sizeof cell) == 0) {
+        if (memcmp(slot, cell, sizeof cell) == 0 && are_together(m, &m->b->element[slot[4] - 1], at, normal)) {
             m->b->element[slot[4] - 1].is_one = 0;
             return slot[4] - 1;
         }
     }
 }
 
-/* Halve a triangle at its longest edge until it is small enough; nodes into the section of pieces. */
+static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth);
+
+static int halve_by(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth, const bake_cut *cut)
+{
+    const uint32_t own = m->cut;
+    uint32_t first;
+    if (!bake_divide(m->b, &m->b->section[LMB_TRANSFER_PIECES], node, cut, &first, m->r)) {
+        return 0;
+    }
+    for (uint32_t h = 0; h < 2; ++h) {
+        lmb_vec3 half[3];
+        memcpy(half, corner, sizeof half);
+        half[h == 0 ? (cut->from + 1) % 3 : cut->from] = bake_cut_at(cut, corner);
+        m->cut = cut->first > 0 ? cut->first + h : own;
+        if (!halve(m, half, normal, first + h, depth + 1)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Cut a triangle, then halve it at its longest edge until it is small enough; nodes into the section of pieces. */
 static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth)
 {
     bake_words *w = &m->b->section[LMB_TRANSFER_PIECES];
+    bake_cut cut = m->b->cut[m->cut];
     int from;
     const float longest = triangle_longest(&from, corner);
     if (m->is_full) {
+        return 1;
+    }
+    if (cut.first > 0) {
+        return halve_by(m, corner, normal, node, depth, &cut);
+    }
+    if (cut.is_closed[m->own % 2]) {
+        w->data[node] = LMB_TRANSFER_LEAF | add_element(m, corner, normal);
         return 1;
     }
     const int is_small = depth == 0 && longest * 2.0f < m->side, is_last = depth == LMB_TRANSFER_MAX_HALVINGS;
@@ -266,19 +303,10 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
         m->b->element[e].is_stood_on = !is_free;
         return !is_shared || add_part(m, corner, normal, e, depth == 0 ? m->own : LMB_TRANSFER_NONE);
     }
-    const int to = (from + 1) % 3;
-    const lmb_vec3 mid = mul3(add3(corner[from], corner[to]), 0.5f);
-    lmb_vec3 half[2][3];
-    memcpy(half[0], corner, sizeof half[0]);
-    memcpy(half[1], corner, sizeof half[1]);
-    half[0][to] = mid;
-    half[1][from] = mid;
-    const size_t first = w->count;
-    if (!bake_put(w, 0, m->r) || !bake_put(w, 0, m->r)) {
-        return 0;
-    }
-    w->data[node] = (uint32_t)from << LMB_TRANSFER_EDGE_BIT | (uint32_t)first;
-    return halve(m, half[0], normal, first, depth + 1) && halve(m, half[1], normal, first + 1, depth + 1);
+    memset(&cut, 0, sizeof cut);
+    cut.from = from;
+    cut.part = 0.5f;
+    return halve_by(m, corner, normal, node, depth, &cut);
 }
 
 /* Both sides of a triangle: which show, by its material and how its instance mirrors it. */
@@ -298,6 +326,7 @@ static int add_triangle(maker *m, uint32_t id)
             exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world)) &&
             m->is_reached[2 * (id - 1) + (size_t)back];
         m->own = 2 * (id - 1) + (uint32_t)back;
+        m->cut = b->cut_root[id - 1];
         surfaces->data[4 * (id - 1) + (size_t)back] = shows ? (uint32_t)pieces->count : LMB_TRANSFER_NONE;
         if (shows && (!bake_put(pieces, 0, m->r) ||
                       !halve(m, t.corner, mul3(normal, back ? -1.0f : 1.0f), pieces->count - 1, 0))) {
@@ -351,7 +380,7 @@ static uint32_t slivers(const maker *m)
 static int make(maker *m)
 {
     const uint32_t all = lmb_scene_triangles(m->b->scene), long_ones = slivers(m);
-    m->b->section[LMB_TRANSFER_PIECES].count = 0;
+    m->b->section[LMB_TRANSFER_PIECES].count = m->b->section[LMB_TRANSFER_CUTS].count = 0;
     m->b->element_count = m->b->part_count = 0;
     memset(m->b->element, 0, m->b->set.elements * sizeof *m->b->element);
     m->is_full = 0;
@@ -381,7 +410,61 @@ uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal)
 static int by_key(const void *a, const void *b)
 {
     const bake_element *x = a, *y = b;
+    const uint32_t hidden = 1u << 31;
+    if ((x->key & hidden) != (y->key & hidden)) {
+        return (x->key & hidden) < (y->key & hidden) ? -1 : 1;
+    }
+    if (x->zone != y->zone) {
+        return x->zone < y->zone ? -1 : 1;
+    }
     return x->key != y->key ? (x->key < y->key ? -1 : 1) : x->number < y->number ? -1 : 1;
+}
+
+/* Of nodes of four: theirs, if it is one. */
+static uint32_t join_zones(const uint32_t child[4])
+{
+    uint32_t zone = BAKE_NO_ZONE;
+    for (int k = 0; k < 4; ++k) {
+        zone = child[k] == BAKE_NO_ZONE || child[k] == zone ? zone : zone == BAKE_NO_ZONE ? child[k] : BAKE_ZONES;
+    }
+    return zone;
+}
+
+int bake_zones(bake *b, report *r)
+{
+    const uint32_t n = b->set.elements;
+    free(b->node_zone);
+    b->node_zone = malloc(((size_t)n / 3 * 4 + 2) * sizeof *b->node_zone);
+    if (b->node_zone == NULL) {
+        return report_fail(r, "not enough memory for %u elements", (unsigned)n);
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        b->node_zone[i] = bake_open_area(&b->element[i]) > 0.0f ? b->element[i].zone : BAKE_NO_ZONE;
+    }
+    for (uint32_t below = 0, at = n, count = n / 4; count > 0; below = at, at += count, count /= 4) {
+        for (uint32_t i = 0; i < count; ++i) {
+            b->node_zone[at + i] = join_zones(&b->node_zone[below + 4 * i]);
+        }
+    }
+    return 1;
+}
+
+uint32_t bake_zone_of(const bake *b, const uint16_t *row, int axes)
+{
+    const uint32_t n = b->set.elements;
+    uint32_t best = 0;
+    float most = 0.0f;
+    for (uint32_t i = 0; i < n; ++i) {
+        float sum = 0.0f;
+        for (int a = 0; a < axes; ++a) {
+            sum += absf(bake_long(row[(size_t)a * n + i]));
+        }
+        if (sum > most) {
+            most = sum;
+            best = i;
+        }
+    }
+    return most > 0.0f ? b->element[best].zone : BAKE_NO_ZONE;
 }
 
 int bake_order(bake *b, report *r)

@@ -127,6 +127,9 @@ void bake_free(bake *b)
     free(b->receiver);
     free(b->element);
     free(b->part);
+    free(b->cut);
+    free(b->cut_root);
+    free(b->node_zone);
     free(b->small_open);
     free(b->bvh_memory);
 }

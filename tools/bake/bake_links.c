@@ -8,6 +8,7 @@
 #include "../../src/base/vec.h"
 
 enum { AXES = 3, MAX_LINKS = 4096 };
+#define FOREIGN 1e30f /* error of a node that has elements of several zones: these see nothing of each other */
 #define ACROSS 0.35f /* of an error across the normal: what counts of it on surfaces turned by up to some 50 degrees */
 
 /* Sums over a node's elements, of one row. */
@@ -54,6 +55,8 @@ void bake_linker_free(bake_linker *l)
     }
 }
 
+static float size_of(const sums *s) { return s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2]; }
+
 /* A node as one says that each child gives as much as its area is. The error is what that is off by, times how much
  * light differs among the children. Lit and dark places meet along lines: a node of twice the side is as likely again
  * to hold both. */
@@ -74,8 +77,6 @@ static void join(sums *to, const sums child[4], float likely)
         }
     }
 }
-
-static float size_of(const sums *s) { return s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2]; }
 
 static uint32_t level_of(uint32_t elements, uint32_t *first, uint32_t node)
 {
@@ -130,7 +131,11 @@ static void set_sums(bake_linker *l, float *const *row)
     uint32_t below = 0, at = n;
     for (uint32_t count = n / 4; count > 0; count /= 4, likely *= 2.0f) {
         for (uint32_t i = 0; i < count; ++i) {
-            join(&l->sum[at + i], &l->sum[below + 4 * i], likely);
+            sums *s = &l->sum[at + i];
+            join(s, &l->sum[below + 4 * i], likely);
+            if (l->b->node_zone[at + i] == BAKE_ZONES && (s->error > 0.0f || size_of(s) > 0.0f)) {
+                s->error = FOREIGN;
+            }
         }
         below = at;
         at += count;

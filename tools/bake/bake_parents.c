@@ -85,6 +85,9 @@ static int nearest(uint32_t best[BAKE_PARENTS], const bake_cluster *c, uint32_t 
     int found = 0;
     for (uint32_t i = 0; i < count && c[i].generation < of->generation; ++i) {
         const float d = apart(&c[i], of, cell);
+        if (c[i].target.zone != of->target.zone) {
+            continue;
+        }
         if (found == BAKE_PARENTS && d >= far[BAKE_PARENTS - 1]) {
             continue;
         }
@@ -110,6 +113,7 @@ int bake_parents(bake *b, report *r)
     }
     for (uint32_t i = 0; i < b->cluster_count; ++i) {
         bake_target *t = &b->cluster[i].target;
+        t->zone = bake_zone_of(b, t->row, AXES);
         const int parents = nearest(t->parent, b->cluster, i, &b->cluster[i], b->set.cluster_m);
         memset(t->share, 0, sizeof t->share);
         set_row(sums + SUMS * (size_t)i, t->row, b->set.elements);

@@ -29,6 +29,8 @@ typedef struct reach {
     float *memory;
     float *before; /* each element's light before a step */
     float bright; /* light over this came through no crack */
+    uint64_t *seen; /* by an element: which points of a batch */
+    uint32_t *zone; /* an element's: itself, or another one with which it shares light */
     report *r;
 } reach;
 
@@ -54,7 +56,9 @@ static int send_part(void *user, int32_t part, report *r)
             continue;
         }
         b->element[i].light = s->w->before[i];
+        s->w->seen[i] = 0;
         for (int k = 0; k < s->count; ++k) {
+            s->w->seen[i] |= (uint64_t)(s->row[k][i] > 0.0f) << k;
             b->element[i].light += s->row[k][i] > 0.0f ? s->power[k] * s->row[k][i] / b->element[i].area : 0.0f;
         }
     }
@@ -74,6 +78,8 @@ static void put_part(const void *user, int32_t part, byte_buffer *to)
     for (uint32_t i = 0; i < s->w->b->element_count; ++i) {
         if (bake_rows_has(s->w->b, i, part, s->parts)) {
             byte_put_float(to, s->w->b->element[i].light);
+            byte_put_int(to, (int32_t)(uint32_t)(s->w->seen[i] & 0xffffffffu));
+            byte_put_int(to, (int32_t)(uint32_t)(s->w->seen[i] >> 32));
         }
     }
 }
@@ -84,13 +90,64 @@ static int get_part(void *user, int32_t part, byte_reader *from)
     for (uint32_t i = 0; i < s->w->b->element_count; ++i) {
         if (bake_rows_has(s->w->b, i, part, s->parts)) {
             s->w->b->element[i].light = byte_get_float(from);
+            s->w->seen[i] = (uint32_t)byte_get_int(from);
+            s->w->seen[i] |= (uint64_t)(uint32_t)byte_get_int(from) << 32;
         }
     }
     return !from->is_short;
 }
 
+/* --- zones -------------------------------------------------------------------------------------------------------- */
+
+static uint32_t zone_of(reach *w, uint32_t i)
+{
+    while (w->zone[i] != i) {
+        w->zone[i] = w->zone[w->zone[i]];
+        i = w->zone[i];
+    }
+    return i;
+}
+
+static void unite(reach *w, uint32_t a, uint32_t b)
+{
+    a = zone_of(w, a);
+    b = zone_of(w, b);
+    w->zone[a > b ? a : b] = a > b ? b : a;
+}
+
+/* Elements share light with those that sent it to them: all that a point sees has one zone. `from`: the senders, or NULL
+ * where all points are one place in the air. */
+static void unite_seen(reach *w, const uint32_t *from)
+{
+    uint32_t first = LMB_TRANSFER_NONE;
+    for (uint32_t i = 0; i < w->b->element_count; ++i) {
+        for (uint64_t bits = w->seen[i]; from != NULL && bits != 0; bits &= bits - 1) {
+            unite(w, from[lowest_bit_64(bits)], i);
+        }
+        if (from == NULL && w->seen[i] != 0) {
+            first = first == LMB_TRANSFER_NONE ? i : first;
+            unite(w, first, i);
+        }
+    }
+}
+
+/* 1 and up, by their first elements; elements alone have none, as nothing is known of these. */
+static int set_zones(reach *w)
+{
+    const bake *b = w->b;
+    uint32_t *size = calloc(b->element_count + 1, sizeof *size);
+    for (uint32_t i = 0; size != NULL && i < b->element_count; ++i) {
+        ++size[zone_of(w, i)];
+    }
+    for (uint32_t i = 0; size != NULL && i < b->element_count; ++i) {
+        b->element[i].zone = size[zone_of(w, i)] > 1 ? 1 + zone_of(w, i) : BAKE_NO_ZONE;
+    }
+    free(size);
+    return size != NULL || report_fail(w->r, "not enough memory for %u elements", (unsigned)b->element_count);
+}
+
 /* Light goes from points to all that they see. */
-static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const float *power, int count)
+static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const float *power, int count, const uint32_t *from)
 {
     bake_share *share = w->b->set.elements >= SHARED ? w->b->share : NULL;
     const int slices = share != NULL ? (int)share->slice.count : 1;
@@ -102,7 +159,11 @@ static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const floa
     for (uint32_t i = 0; i < w->b->element_count; ++i) {
         w->before[i] = w->b->element[i].light;
     }
-    return bake_share_step(share, &step, w->r);
+    const int ok = bake_share_step(share, &step, w->r);
+    if (ok) {
+        unite_seen(w, from);
+    }
+    return ok;
 }
 
 /* All around a point in the air. */
@@ -115,7 +176,7 @@ static int send_around(reach *w, lmb_vec3 from)
         at[k] = from;
         normal[k] = vec3(k / 2 == 0 ? sign : 0.0f, k / 2 == 1 ? sign : 0.0f, k / 2 == 2 ? sign : 0.0f);
     }
-    return send(w, at, normal, power, 6);
+    return send(w, at, normal, power, 6, NULL);
 }
 
 static int by_light(const void *a, const void *b)
@@ -172,7 +233,7 @@ static int spread(reach *w, const lmb_vec3 *eyes, uint32_t count)
             normal[k] = bake_facing(e);
             power[k] = ALBEDO * e->light * e->area;
         }
-        if (!send(w, at, normal, power, n)) {
+        if (!send(w, at, normal, power, n, chosen)) {
             return 0;
         }
     }
@@ -187,8 +248,35 @@ static int is_side_reached(const reach *w, uint32_t root)
         const uint32_t e = node[root] & ~LMB_TRANSFER_LEAF;
         return w->b->element[e].is_stood_on ? w->b->element[e].open > 0.0f : w->has_sent[e];
     }
-    const uint32_t first = node[root] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+    const uint32_t first = bake_first(w->b, node[root]);
     return is_side_reached(w, first) || is_side_reached(w, first + 1);
+}
+
+/* Leaves of cuts to which no light comes, as the floor under a box, need one element each. */
+static void close_leaves(const reach *w, uint32_t root, uint32_t cut, uint32_t back)
+{
+    bake_cut *c = &w->b->cut[cut];
+    const uint32_t word = w->b->section[LMB_TRANSFER_PIECES].data[root];
+    if (c->first == 0) {
+        c->is_closed[back] = !is_side_reached(w, root);
+        return;
+    }
+    const uint32_t first = bake_first(w->b, word);
+    close_leaves(w, first, c->first, back);
+    close_leaves(w, first + 1, c->first + 1, back);
+}
+
+static void close_cuts(const reach *w, int ok)
+{
+    const bake *b = w->b;
+    for (uint32_t id = 1; ok && id <= lmb_scene_triangles(b->scene); ++id) {
+        const uint32_t *root = b->section[LMB_TRANSFER_SURFACES].data + LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1);
+        for (uint32_t back = 0; back < 2 && b->cut_root[id - 1] > 0; ++back) {
+            if (root[back] != LMB_TRANSFER_NONE) {
+                close_leaves(w, root[back], b->cut_root[id - 1], back);
+            }
+        }
+    }
 }
 
 /* --- elements on which something stands --------------------------------------------------------------------------- */
@@ -299,7 +387,7 @@ static void sort_out(const reach *w)
 
 static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
-    reach w = {b, NULL, NULL, NULL, NULL, 0.0f, r};
+    reach w = {b, NULL, NULL, NULL, NULL, 0.0f, NULL, NULL, r};
     bake_words *surfaces = &b->section[LMB_TRANSFER_SURFACES];
     if (count + b->scene->light_count == 0) {
         for (uint32_t i = 0; i < b->element_count; ++i) {
@@ -311,12 +399,19 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
     w.order = malloc(b->set.elements * sizeof *w.order);
     w.memory = malloc((size_t)BATCH * b->set.elements * sizeof *w.memory);
     w.before = malloc(b->set.elements * sizeof *w.before);
-    int ok = (w.has_sent != NULL && w.order != NULL && w.memory != NULL && w.before != NULL) ||
+    w.seen = calloc(b->set.elements, sizeof *w.seen);
+    w.zone = malloc(b->set.elements * sizeof *w.zone);
+    for (uint32_t i = 0; w.zone != NULL && i < b->set.elements; ++i) {
+        w.zone[i] = i;
+    }
+    int ok = (w.has_sent != NULL && w.order != NULL && w.memory != NULL && w.before != NULL && w.seen != NULL &&
+              w.zone != NULL) ||
              report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements);
     b->by_middles = 1; /* what lies half in a solid must not lead into it */
     ok = ok && spread(&w, eyes, count);
     b->by_middles = 0;
-    ok = ok && open_elements(&w) && bake_smalls(b, r);
+    ok = ok && open_elements(&w) && bake_smalls(b, r) && set_zones(&w);
+    close_cuts(&w, ok);
     for (size_t i = 0; ok && i < surfaces->count; ++i) {
         const size_t back = i % LMB_TRANSFER_SURFACE_WORDS;
         if (back < 2 && surfaces->data[i] != LMB_TRANSFER_NONE &&
@@ -334,12 +429,14 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
     free(w.order);
     free(w.memory);
     free(w.before);
+    free(w.seen);
+    free(w.zone);
     return ok;
 }
 
 /* Once to leave out whole sides; then all elements lie on the others. */
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
-    return bake_elements(b, r) && find_reached(b, eyes, count, r) && bake_elements(b, r) &&
-           find_reached(b, eyes, count, r);
+    return bake_cuts(b, r) && bake_elements(b, r) && find_reached(b, eyes, count, r) && bake_elements(b, r) &&
+           find_reached(b, eyes, count, r) && bake_zones(b, r);
 }

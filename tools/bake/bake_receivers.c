@@ -117,14 +117,15 @@ static uint32_t hash_of(const bake *b, lmb_vec3 at, int dx, int dy, int dz)
     return h ^ h >> 15;
 }
 
-/* The receiver near a place, or NONE. */
-static uint32_t find(const divider *d, lmb_vec3 at, lmb_vec3 normal)
+/* The receiver near a place that one at `own` sees, so that no wall parts them; or NONE. */
+static uint32_t find(divider *d, lmb_vec3 at, lmb_vec3 own, lmb_vec3 normal)
 {
     for (int i = 0; i < 27; ++i) {
         uint32_t h = hash_of(d->b, at, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
         for (; d->slot[h & d->mask] != 0; ++h) {
             const uint32_t v = d->slot[h & d->mask] - 1;
-            if (is_there(d->b, &d->b->receiver[v], at, normal)) {
+            if (is_there(d->b, &d->b->receiver[v], at, normal) &&
+                bake_sees(&d->sight, d->b, own, d->b->receiver[v].at, normal)) {
                 return v;
             }
         }
@@ -164,8 +165,9 @@ static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, lmb_vec3 n
 
 static uint32_t receiver_at(divider *d, lmb_vec3 at, lmb_vec3 normal, lmb_vec3 towards, uint32_t a, uint32_t b)
 {
-    const uint32_t there = find(d, at, normal);
-    return there != LMB_TRANSFER_NONE ? there : add_receiver(d, at, bake_pulled(d->b, at, towards), normal, a, b, 1);
+    const lmb_vec3 own = bake_pulled(d->b, at, towards);
+    const uint32_t there = find(d, at, own, normal);
+    return there != LMB_TRANSFER_NONE ? there : add_receiver(d, at, own, normal, a, b, 1);
 }
 
 /* --- what stands on a triangle ------------------------------------------------------------------------------------ */
@@ -184,9 +186,9 @@ static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t pa
         *(bake_sees(&d->sight, d->b, anchor, at, p->normal) ? &low : &high) = half;
     }
     const lmb_vec3 at = bake_pulled(d->b, add3(anchor, mul3(sub3(corner, anchor), low)), anchor);
-    const uint32_t there = find(d, at, p->normal);
+    const uint32_t there = find(d, at, anchor, p->normal);
     p->receiver[k] =
-        there != LMB_TRANSFER_NONE && bake_sees(&d->sight, d->b, anchor, d->b->receiver[there].at, p->normal)
+        there != LMB_TRANSFER_NONE
             ? there
             : add_receiver(d, at, at, p->normal, parent, parent, 0);
     return p->receiver[k] != LMB_TRANSFER_NONE;
@@ -296,11 +298,26 @@ typedef struct queue_step {
 
 static int count_of(const queue_step *q, int32_t i) { return (int)(q->first[i + 1] - q->first[i]); }
 
+/* What comes to a receiver is no difference from light of another zone. */
+static void part_zones(const bake *b, bake_target *t)
+{
+    t->zone = bake_zone_of(b, t->row, 1);
+    for (int k = 0; k < BAKE_PARENTS; ++k) {
+        const uint32_t other = t->share[k] > 0.0f ? b->receiver[t->parent[k]].target.zone : BAKE_NO_ZONE;
+        if (other != BAKE_NO_ZONE && other != t->zone) {
+            memset(t->share, 0, sizeof t->share);
+        }
+    }
+}
+
 static void tell_pieces(const queue_step *q, int32_t number)
 {
     for (size_t i = q->first[number]; i < q->first[number + 1]; ++i) {
         const wanted *w = &q->d->queue[i];
         piece *p = w->piece != (size_t)-1 ? &q->d->now.data[w->piece] : NULL;
+        if (w->receiver != LMB_TRANSFER_NONE) {
+            part_zones(q->d->b, &q->d->b->receiver[w->receiver].target);
+        }
         if (p != NULL) {
             p->surplus = maxf(p->surplus, w->surplus);
         }
@@ -573,7 +590,7 @@ static float brightest(const bake *b, uint32_t node)
     if (word & LMB_TRANSFER_LEAF) {
         return b->element[word & ~LMB_TRANSFER_LEAF].light;
     }
-    const uint32_t first = word & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+    const uint32_t first = bake_first(b, word);
     return maxf(brightest(b, first), brightest(b, first + 1));
 }
 
@@ -585,7 +602,7 @@ static void enter_source(const bake *b, piece *half, uint32_t h)
     if (word & LMB_TRANSFER_LEAF) {
         return;
     }
-    half->source = (word & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u)) + h;
+    half->source = bake_first(b, word) + h;
     const uint32_t own = node[half->source];
     if ((own & LMB_TRANSFER_LEAF) == 0 || !b->element[own & ~LMB_TRANSFER_LEAF].is_stood_on) {
         half->light = brightest(b, half->source);
@@ -685,6 +702,38 @@ static int halve_worst(divider *d)
 
 /* --- roots -------------------------------------------------------------------------------------------------------- */
 
+/* What is left of a triangle where it is cut: each part has receivers of its own at its corners, or shares those that
+ * its own see. */
+static int add_parts(divider *d, const piece *p, uint32_t cut)
+{
+    const bake_cut c = d->b->cut[cut];
+    uint32_t first;
+    if (c.first == 0) {
+        piece own = *p;
+        for (int k = 0; k < 3; ++k) {
+            own.receiver[k] = receiver_at(d, p->corner[k], p->normal, triangle_middle(p->corner), LMB_TRANSFER_NONE,
+                                          LMB_TRANSFER_NONE);
+            if (own.receiver[k] == LMB_TRANSFER_NONE) {
+                return 0;
+            }
+        }
+        return add_piece(&d->now, &own, d->r);
+    }
+    if (!bake_divide(d->b, &d->b->section[LMB_TRANSFER_DIVISIONS], p->node, &c, &first, d->r)) {
+        return 0;
+    }
+    for (uint32_t h = 0; h < 2; ++h) {
+        piece half = *p;
+        half.corner[h == 0 ? (c.from + 1) % 3 : c.from] = bake_cut_at(&c, p->corner);
+        half.node = first + h;
+        enter_source(d->b, &half, h);
+        if (!add_parts(d, &half, c.first + h)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 static int add_root(divider *d, const lmb_triangle *t, lmb_vec3 normal, uint32_t id, uint32_t back)
 {
     bake_words *divisions = &d->b->section[LMB_TRANSFER_DIVISIONS];
@@ -696,14 +745,7 @@ static int add_root(divider *d, const lmb_triangle *t, lmb_vec3 normal, uint32_t
     p.source = d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + back];
     p.light = brightest(d->b, p.source);
     d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + 2 + back] = p.node;
-    for (int k = 0; k < 3; ++k) {
-        p.receiver[k] =
-            receiver_at(d, p.corner[k], p.normal, triangle_middle(p.corner), LMB_TRANSFER_NONE, LMB_TRANSFER_NONE);
-        if (p.receiver[k] == LMB_TRANSFER_NONE) {
-            return 0;
-        }
-    }
-    return bake_put(divisions, 0, d->r) && add_piece(&d->now, &p, d->r);
+    return bake_put(divisions, 0, d->r) && add_parts(d, &p, d->b->cut_root[id - 1]);
 }
 
 static int add_roots(divider *d)

@@ -182,7 +182,7 @@ static void put_sides(smalls *w)
         for (uint32_t back = 0; back < 2; ++back) {
             uint32_t at = root[LMB_TRANSFER_SURFACE_WORDS * (id - 1) + back];
             while (at != LMB_TRANSFER_NONE && (node[at] & LMB_TRANSFER_LEAF) == 0) {
-                at = node[at] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+                at = bake_first(b, node[at]);
             }
             if (at != LMB_TRANSFER_NONE && b->small_open[2 * (id - 1) + back] == 0) {
                 add_side(w, node[at] & ~LMB_TRANSFER_LEAF, 2 * (id - 1) + back, LMB_TRANSFER_NONE);

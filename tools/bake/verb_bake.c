@@ -164,7 +164,7 @@ static void tell(const options *o, const bake *b, size_t bytes)
     static const char *const names[LMB_TRANSFER_SECTIONS] = {
         "surfaces",  "pieces", "areas",  "divisions", "corners",
         "receivers", "links",  "blends", "clusters",  "cluster links",
-        "coarse",    "coarse links", "moving", "grid",  "air"};
+        "coarse",    "coarse links", "moving", "grid",  "air",   "cuts"};
     const double links = (double)b->section[LMB_TRANSFER_LINKS].count, receivers = b->receiver_count;
     const double more = (double)b->section[LMB_TRANSFER_CLUSTER_LINKS].count / LMB_TRANSFER_CLUSTER_LINK_WORDS;
     if (o->is_quiet) {

@@ -14,6 +14,7 @@
 #include "own_light.h"
 #include "render_view.h"
 #include "../../src/raster/triangle.h"
+#include "../../src/transfer/halvings.h"
 
 #define HALF_STEP   0.00015f /* of black in 8 bits: radiance at exposure 0 */
 #define SKY_ERROR   0.01f   /* of a sky's light, that one of its nodes may be wrong by */
@@ -87,7 +88,7 @@ static int keeps_direction(const lmb_transfer *t, uint32_t root)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_DIVISIONS];
     while ((node[root] & LMB_TRANSFER_LEAF) == 0) {
-        root = node[root] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+        root = halving_of(t, node[root]).first;
     }
     return (node[root] & ~LMB_TRANSFER_LEAF) >= t->leaves;
 }
