@@ -19,6 +19,7 @@ typedef struct clusters {
     bake *b;
     uint32_t *slot; /* number + 1 */
     uint32_t mask;
+    bake_sight sight;
     report *r;
 } clusters;
 
@@ -44,7 +45,8 @@ static int add_cluster(clusters *c, lmb_vec3 at, lmb_vec3 normal)
     uint32_t *slot = &c->slot[hash_of(cell) & c->mask];
     for (uint32_t i = *slot; i != 0; i = b->cluster[i - 1].next) {
         const bake_cluster *k = &b->cluster[i - 1];
-        if (memcmp(k->cell, cell, sizeof cell) == 0 && dot3(k->target.normal, normal) > ALIKE) {
+        if (memcmp(k->cell, cell, sizeof cell) == 0 && dot3(k->target.normal, normal) > ALIKE &&
+            bake_sees(&c->sight, b, k->at, at, normalize3(add3(k->target.normal, normal)))) {
             return 1;
         }
     }
@@ -231,23 +233,32 @@ static void offer_nearest(candidate best[NEIGHBOURS], const clusters *c, lmb_vec
     }
 }
 
-/* Four clusters and their weights, of 255 in all. They light `area`. */
-static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n, float area)
+static int is_seen(clusters *c, const bake_cluster *o, lmb_vec3 inside, lmb_vec3 normal)
+{
+    const lmb_vec3 d = sub3(o->at, inside);
+    return dot3(d, d) < 1e-12f || bake_sees(&c->sight, c->b, inside, o->at, normalize3(add3(o->target.normal, normal)));
+}
+
+/* Four clusters and their weights, of 255 in all. They light `area` around a corner. Those that its triangle's middle,
+ * `inside`, does not see lie behind a wall, but where it sees none. */
+static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n, lmb_vec3 inside, float area)
 {
     candidate best[NEIGHBOURS] = {{0, 0.0f}, {0, 0.0f}, {0, 0.0f}, {0, 0.0f}};
     bake_words *w = &c->b->section[LMB_TRANSFER_BLENDS];
     int32_t middle[3];
     float sum = 0.0f;
     cell_of(middle, c->b, p);
-    for (int i = 0; i < 27; ++i) {
-        const int32_t cell[3] = {middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
+    for (int i = 0; i < 54 && (i < 27 || best[0].weight == 0.0f); ++i) {
+        const int32_t cell[3] = {middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 % 3 - 1};
         for (uint32_t k = c->slot[hash_of(cell) & c->mask]; k != 0; k = c->b->cluster[k - 1].next) {
             const bake_cluster *o = &c->b->cluster[k - 1];
             const float far = length3(sub3(o->at, p)) / (REACH * c->b->set.cluster_m),
                         cosine = dot3(o->target.normal, n);
             if (memcmp(o->cell, cell, sizeof cell) == 0 && far < 1.0f && cosine > BLEND) {
                 const float v = (1.0f - far) * (1.0f - far) * (cosine - BLEND) * (cosine - BLEND);
-                offer(best, k - 1, v * v);
+                if (v * v > best[NEIGHBOURS - 1].weight && (i >= 27 || is_seen(c, o, inside, n))) {
+                    offer(best, k - 1, v * v);
+                }
             }
         }
     }
@@ -317,7 +328,7 @@ static int bind_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, ui
     for (int k = 0; k < 3; ++k) {
         const uint32_t blend = (uint32_t)(b->section[LMB_TRANSFER_BLENDS].count / LMB_TRANSFER_BLEND_WORDS);
         if (!bake_put(corners, blend, c->r) ||
-            !put_blend(c, t->corner[k], normal, triangle_area(t->corner) * (1.0f / 3.0f))) {
+            !put_blend(c, t->corner[k], normal, triangle_middle(t->corner), triangle_area(t->corner) * (1.0f / 3.0f))) {
             return 0;
         }
     }
@@ -326,9 +337,13 @@ static int bind_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, ui
 
 int bake_clusters(bake *b, report *r)
 {
-    clusters c = {b, NULL, (1u << 18) - 1, r};
+    clusters c;
+    memset(&c, 0, sizeof c);
+    c.b = b;
+    c.mask = (1u << 18) - 1;
+    c.r = r;
     c.slot = calloc((size_t)c.mask + 1, sizeof *c.slot);
-    int ok = c.slot != NULL || report_fail(r, "not enough memory for clusters");
+    int ok = (c.slot != NULL || report_fail(r, "not enough memory for clusters")) && bake_sight_begin(&c.sight, r);
     while (ok) {
         b->cluster_count = 0;
         memset(c.slot, 0, ((size_t)c.mask + 1) * sizeof *c.slot);
@@ -349,5 +364,6 @@ int bake_clusters(bake *b, report *r)
     }
     ok = ok && make_rows(&c) && bake_parents(b, r) && visit(&c, bind_triangle);
     free(c.slot);
+    bake_sight_end(&c.sight);
     return ok;
 }

@@ -8,7 +8,7 @@
 #include "../../src/raster/triangle.h"
 #include "bake_triangle.h"
 
-enum { DEPTH = 16, LINES = 512, FEW = 6, SHARE = 8 };
+enum { DEPTH = 16, LINES = 512, FEW = 4, SHARE = 2 };
 #define TOUCH  0.01  /* of the smallest edge: what is that near to a plane lies on it */
 #define BESIDE 0.005 /* of it: lines so near to an edge cut nothing off */
 #define SHORT  0.05  /* of it: lines under this length are left out, at first */

@@ -9,6 +9,7 @@
 
 enum { AXES = 3, MAX_LINKS = 4096 };
 #define FOREIGN 1e30f /* error of a node that has elements of several zones: these see nothing of each other */
+#define FAINT 1e-20f /* squared: so little comes along planes, by rounding */
 #define ACROSS 0.35f /* of an error across the normal: what counts of it on surfaces turned by up to some 50 degrees */
 
 /* Sums over a node's elements, of one row. */
@@ -133,7 +134,7 @@ static void set_sums(bake_linker *l, float *const *row)
         for (uint32_t i = 0; i < count; ++i) {
             sums *s = &l->sum[at + i];
             join(s, &l->sum[below + 4 * i], likely);
-            if (l->b->node_zone[at + i] == BAKE_ZONES && (s->error > 0.0f || size_of(s) > 0.0f)) {
+            if (l->b->node_zone[at + i] == BAKE_ZONES && (s->error > FAINT || size_of(s) > FAINT)) {
                 s->error = FOREIGN;
             }
         }

@@ -10,6 +10,7 @@
 
 enum { BATCH = 64, PARTS = 64, WITNESSES = BAKE_NEAREST, SHARED = 1024 /* elements, from which slices share a step */ };
 #define MIDDLES 0.5 /* of the work of a receiver's row: that of a place which asks for middles alone */
+#define GRAZING 0.003f /* cosine from which two elements see each other for sure */
 #define BRIGHT 0.01f /* of the mean */
 #define OVER   0.05f /* of the smallest edge: parts of an element are looked at from so far over it */
 
@@ -43,6 +44,14 @@ typedef struct sending {
     float *row[BATCH];
 } sending;
 
+/* Neither lies in the other's plane, where rounding may show one to the other through the edge of a wall. */
+static int are_facing(const bake_element *e, lmb_vec3 at, lmb_vec3 normal)
+{
+    const lmb_vec3 d = sub3(bake_place(e), at), facing = bake_facing(e);
+    const float least = GRAZING * length3(d);
+    return dot3(d, normal) > least && dot3(d, facing) < -least;
+}
+
 /* By reciprocity all gets as much as the points see of it. */
 static int send_part(void *user, int32_t part, report *r)
 {
@@ -58,7 +67,7 @@ static int send_part(void *user, int32_t part, report *r)
         b->element[i].light = s->w->before[i];
         s->w->seen[i] = 0;
         for (int k = 0; k < s->count; ++k) {
-            s->w->seen[i] |= (uint64_t)(s->row[k][i] > 0.0f) << k;
+            s->w->seen[i] |= (uint64_t)(s->row[k][i] > 0.0f && are_facing(&b->element[i], s->at[k], s->normal[k])) << k;
             b->element[i].light += s->row[k][i] > 0.0f ? s->power[k] * s->row[k][i] / b->element[i].area : 0.0f;
         }
     }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../src/raster/triangle.h"
+#include "../../src/transfer/halvings.h"
 #include "bake_triangle.h"
 
 #define INSIDE 0.002f /* of the way to its middle: a leaf's corners are asked for so far inside of it */
@@ -111,26 +112,25 @@ static int put_leaf(colours *c, const light_corner corner[3], lmb_vec3 face, uin
 }
 
 /* The triangle's corners in the file's order are halved; `turn` says which of them is which. */
-static int divide(colours *c, const uint32_t *node, uint32_t at, const light_corner corner[3], lmb_vec3 face,
-                  uint32_t id, int is_turned)
+static int divide(colours *c, uint32_t at, const light_corner corner[3], lmb_vec3 face, uint32_t id, int is_turned)
 {
-    const uint32_t word = node[at];
+    const uint32_t word = c->s->job.transfer.section[LMB_TRANSFER_DIVISIONS][at];
     if (word & LMB_TRANSFER_LEAF) {
         const light_corner turned[3] = {corner[2], corner[1], corner[0]};
         return put_leaf(c, is_turned ? turned : corner, face, id);
     }
-    const int from = (int)(word >> LMB_TRANSFER_EDGE_BIT & 3u), to = (from + 1) % 3;
-    const uint32_t first = word & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
-    const light_corner middle = light_between(&corner[from], &corner[to]);
+    const transfer_halving h = halving_of(&c->s->job.transfer, word);
+    const int to = halving_to(h.from);
+    const light_corner between = light_along(&corner[h.from], &corner[to], h.part);
     light_corner half[3];
     memcpy(half, corner, sizeof half);
-    half[to] = middle;
-    if (!divide(c, node, first, half, face, id, is_turned)) {
+    half[to] = between;
+    if (!divide(c, h.first, half, face, id, is_turned)) {
         return 0;
     }
     half[to] = corner[to];
-    half[from] = middle;
-    return divide(c, node, first + 1, half, face, id, is_turned);
+    half[h.from] = between;
+    return divide(c, h.first + 1, half, face, id, is_turned);
 }
 
 /* A side's leaves; where no light comes to it one that stays dark, but of a back nothing. */
@@ -149,7 +149,7 @@ static int put_side(colours *c, uint32_t id, uint32_t back)
     }
     const int is_turned = !is_same(corner[0].at, own.corner[0]);
     const light_corner turned[3] = {corner[2], corner[1], corner[0]};
-    return divide(c, t->section[LMB_TRANSFER_DIVISIONS], root, is_turned ? turned : corner, face, id, is_turned);
+    return divide(c, root, is_turned ? turned : corner, face, id, is_turned);
 }
 
 /* A little inside of the leaf: its own light, not a neighbour's. */

@@ -19,7 +19,8 @@ typedef struct light_corner {
  * world space. `source` NULL: the model has no source. */
 int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, const model_source *source, uint32_t id,
                   uint32_t back);
-light_corner light_between(const light_corner *a, const light_corner *b);
+light_corner light_along(const light_corner *a, const light_corner *b, float part);
+light_corner light_between(const light_corner *a, const light_corner *b); /* in the middle */
 
 /* A mesh that grows by corners; those with equal bytes are one vertex. light_mesh_put: 1, or 0 with `r` set. */
 enum { LIGHT_SLOTS = 1 << 16 };

@@ -88,31 +88,35 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, c
     return 1;
 }
 
-/* Averages two corners. The last number of a tangent is its sign. */
-static void mean_of(float *out, const float *a, const float *b, int count)
+static void mix(float *out, const float *a, const float *b, float part, int count)
 {
     for (int i = 0; i < count; ++i) {
-        out[i] = 0.5f * (a[i] + b[i]);
+        out[i] = (1.0f - part) * a[i] + part * b[i];
     }
 }
 
-light_corner light_between(const light_corner *a, const light_corner *b)
+static lmb_vec3 mix3(lmb_vec3 a, lmb_vec3 b, float part) { return add3(mul3(a, 1.0f - part), mul3(b, part)); }
+
+/* The last number of a tangent is its sign. */
+light_corner light_along(const light_corner *a, const light_corner *b, float part)
 {
     light_corner c;
-    c.at = mul3(add3(a->at, b->at), 0.5f);
-    c.normal = unit_or(add3(a->normal, b->normal), a->normal);
-    c.own_at = mul3(add3(a->own_at, b->own_at), 0.5f);
-    c.own_normal = unit_or(add3(a->own_normal, b->own_normal), a->own_normal);
+    c.at = mix3(a->at, b->at, part);
+    c.normal = unit_or(mix3(a->normal, b->normal, part), a->normal);
+    c.own_at = mix3(a->own_at, b->own_at, part);
+    c.own_normal = unit_or(mix3(a->own_normal, b->own_normal, part), a->own_normal);
     const lmb_vec3 ta = vec3(a->tangent[0], a->tangent[1], a->tangent[2]),
-                   t = unit_or(add3(ta, vec3(b->tangent[0], b->tangent[1], b->tangent[2])), ta);
+                   t = unit_or(mix3(ta, vec3(b->tangent[0], b->tangent[1], b->tangent[2]), part), ta);
     c.tangent[0] = t.x;
     c.tangent[1] = t.y;
     c.tangent[2] = t.z;
     c.tangent[3] = a->tangent[3];
-    mean_of(c.uv[0], a->uv[0], b->uv[0], 2 * MODEL_UV_SETS);
-    mean_of(c.colour, a->colour, b->colour, 4);
+    mix(c.uv[0], a->uv[0], b->uv[0], part, 2 * MODEL_UV_SETS);
+    mix(c.colour, a->colour, b->colour, part, 4);
     return c;
 }
+
+light_corner light_between(const light_corner *a, const light_corner *b) { return light_along(a, b, 0.5f); }
 
 static void put_vec3(float out[3], lmb_vec3 v)
 {

@@ -1,7 +1,8 @@
 /* light_picture.c: bounced light as a picture, by texture coordinates of its own: charts of triangles that face alike, laid
  * side by side.
  *
- * A chart grows from its largest triangle over shared edges, and is seen along that one's normal. Triangles that would
+ * Triangles are cut where what was baked cuts them, as light differs on both sides of a wall. A chart grows from its
+ * largest triangle over shared edges, but not those at walls, and is seen along that one's normal. Triangles that would
  * lie over others of their chart become charts of their own. Texels that show an edge take the light of the nearest
  * place on the triangle, and two more around them that of their neighbours, so that no filter finds what is dark. */
 #include "light_export.h"
@@ -11,6 +12,7 @@
 #include <string.h>
 
 #include "../../src/raster/triangle.h"
+#include "../../src/transfer/halvings.h"
 #include "bake_triangle.h"
 
 #define ALIKE  0.8f /* cosine between a triangle and the chart that it joins */
@@ -24,6 +26,7 @@ typedef struct face {
     uint32_t id, object;
     int32_t chart;
     int is_alone;
+    uint32_t walls; /* a bit each: edges at which something stands */
 } face;
 
 typedef struct edge {
@@ -54,6 +57,7 @@ typedef struct map {
     float *light; /* 3 a texel */
     uint8_t *known;
     uint32_t *neighbour; /* three a face: another, or UINT32_MAX */
+    uint32_t *beyond;    /* likewise: one that a wall parts from it */
     uint32_t faces, charts;
     int32_t side;
     float per; /* texels a metre */
@@ -62,31 +66,85 @@ typedef struct map {
 
 /* --- faces -------------------------------------------------------------------------------------------------------- */
 
+/* Are there cuts at a node or below it? */
+static int has_cut(const lmb_transfer *t, uint32_t at)
+{
+    const uint32_t word = t->section[LMB_TRANSFER_DIVISIONS][at];
+    if ((word & LMB_TRANSFER_LEAF) != 0 || word >> LMB_TRANSFER_EDGE_BIT == LMB_TRANSFER_CUT) {
+        return (word & LMB_TRANSFER_LEAF) == 0;
+    }
+    const uint32_t first = word & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+    return has_cut(t, first) || has_cut(t, first + 1);
+}
+
+/* The bits of edges k, k + 1 and k + 2 from bit 0 on, put into place. */
+static uint32_t edges_from(int k, uint32_t own, uint32_t next, uint32_t last)
+{
+    return own << k | next << (k + 1) % 3 | last << (k + 2) % 3;
+}
+
+/* The parts of a face; its corners are in the file's order, `is_turned`: those of faces go the other way round. */
+static void put_parts(map *m, const face *of, uint32_t at, int is_turned)
+{
+    const lmb_transfer *t = &m->s->job.transfer;
+    if (at == LMB_TRANSFER_NONE || !has_cut(t, at)) {
+        face *f = &m->face[m->faces++];
+        *f = *of;
+        if (is_turned) {
+            f->corner[0] = of->corner[2];
+            f->corner[2] = of->corner[0];
+            f->walls = (of->walls & 1u) << 1 | (of->walls >> 1 & 1u) | (of->walls & 4u);
+        }
+        const lmb_vec3 corner[3] = {f->corner[0].at, f->corner[1].at, f->corner[2].at};
+        f->area = triangle_area(corner);
+        return;
+    }
+    const transfer_halving h = halving_of(t, t->section[LMB_TRANSFER_DIVISIONS][at]);
+    const int from = h.from, to = halving_to(from);
+    const uint32_t own = of->walls >> from & 1u, next = of->walls >> to & 1u, last = of->walls >> (to + 1) % 3 & 1u;
+    face half = *of;
+    half.corner[to] = light_along(&of->corner[from], &of->corner[to], h.part);
+    half.walls = edges_from(from, own, (uint32_t)h.is_wall, last);
+    put_parts(m, &half, h.first, is_turned);
+    half.corner[from] = half.corner[to];
+    half.corner[to] = of->corner[to];
+    half.walls = edges_from(from, own, next, (uint32_t)h.is_wall);
+    put_parts(m, &half, h.first + 1, is_turned);
+}
+
 static int put_faces(map *m)
 {
     const lmb_scene *scene = &m->s->job.scene;
     const lmb_transfer *t = &m->s->job.transfer;
     const uint32_t ids = t->count[LMB_TRANSFER_SURFACES];
-    m->face = calloc(2 * (size_t)ids + 1, sizeof *m->face);
-    m->edge = malloc((6 * (size_t)ids + 1) * sizeof *m->edge);
-    m->chart = calloc(2 * (size_t)ids + 1, sizeof *m->chart);
-    m->neighbour = malloc((6 * (size_t)ids + 1) * sizeof *m->neighbour);
-    if (m->face == NULL || m->edge == NULL || m->chart == NULL || m->neighbour == NULL) {
+    const size_t most = 2 * (size_t)ids + t->count[LMB_TRANSFER_DIVISIONS] + 1;
+    m->face = calloc(most, sizeof *m->face);
+    m->edge = malloc(3 * most * sizeof *m->edge);
+    m->chart = calloc(most, sizeof *m->chart);
+    m->neighbour = malloc(3 * most * sizeof *m->neighbour);
+    m->beyond = malloc(3 * most * sizeof *m->beyond);
+    if (m->face == NULL || m->edge == NULL || m->chart == NULL || m->neighbour == NULL || m->beyond == NULL) {
         return report_fail(m->r, "not enough memory for %u triangles", (unsigned)ids);
     }
     for (uint32_t id = 1; id <= ids; ++id) {
         for (uint32_t back = 0; back < 2; ++back) {
             const uint32_t root =
                 t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2 + back];
-            face *f = &m->face[m->faces];
-            if ((back && root == LMB_TRANSFER_NONE) || !light_corners(f->corner, &f->normal, scene, m->source, id, back)) {
+            lmb_triangle own;
+            face f;
+            memset(&f, 0, sizeof f);
+            if ((back && root == LMB_TRANSFER_NONE) || !lmb_triangle_fetch(&own, scene, id) ||
+                !light_corners(f.corner, &f.normal, scene, m->source, id, back)) {
                 continue;
             }
-            const lmb_vec3 at[3] = {f->corner[0].at, f->corner[1].at, f->corner[2].at};
-            f->area = triangle_area(at);
-            f->id = id;
-            f->object = 2 * (uint32_t)(lmb_instance_of(scene, id) - scene->instances) + back;
-            ++m->faces;
+            const lmb_vec3 d = sub3(f.corner[0].at, own.corner[0]);
+            const int is_turned = dot3(d, d) > 0.0f;
+            const light_corner first = f.corner[is_turned ? 2 : 0];
+            f.corner[2] = f.corner[is_turned ? 0 : 2];
+            f.corner[0] = first;
+            f.id = id;
+            f.object = 2 * (uint32_t)(lmb_instance_of(scene, id) - scene->instances) + back;
+            put_parts(m, &f, root, is_turned);
         }
     }
     return 1;
@@ -107,12 +165,14 @@ static int by_key(const void *a, const void *b)
     return x->key != y->key ? (x->key < y->key ? -1 : 1) : x->face < y->face ? -1 : x->face > y->face;
 }
 
+static int is_at_wall(const map *m, uint32_t i) { return (m->face[i / 3].walls >> i % 3 & 1u) != 0; }
+
 static void join_faces(map *m)
 {
     for (uint32_t i = 0; i < 3 * m->faces; ++i) {
         m->edge[i].key = key_of(&m->face[i / 3], (int)(i % 3));
         m->edge[i].face = i;
-        m->neighbour[i] = UINT32_MAX;
+        m->neighbour[i] = m->beyond[i] = UINT32_MAX;
     }
     if (m->faces > 0) {
         qsort(m->edge, 3 * (size_t)m->faces, sizeof *m->edge, by_key);
@@ -120,8 +180,9 @@ static void join_faces(map *m)
     for (uint32_t i = 1; i < 3 * m->faces; ++i) {
         const edge *a = &m->edge[i - 1], *b = &m->edge[i];
         if (a->key == b->key) {
-            m->neighbour[a->face] = b->face / 3;
-            m->neighbour[b->face] = a->face / 3;
+            uint32_t *to = is_at_wall(m, a->face) || is_at_wall(m, b->face) ? m->beyond : m->neighbour;
+            to[a->face] = b->face / 3;
+            to[b->face] = a->face / 3;
         }
     }
 }
@@ -171,6 +232,18 @@ static void add_to_chart(map *m, chart *c, uint32_t i)
     }
 }
 
+/* Does a wall part it from a face of the chart? A way may lead around that wall. */
+static int is_parted(const map *m, uint32_t i, int32_t of)
+{
+    for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t other = m->beyond[3 * i + k];
+        if (other != UINT32_MAX && m->face[other].chart == of) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Over shared edges, wave after wave. */
 static void grow_chart(map *m, chart *c, uint32_t first, uint32_t *wave)
 {
@@ -181,7 +254,7 @@ static void grow_chart(map *m, chart *c, uint32_t first, uint32_t *wave)
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t other = m->neighbour[3 * wave[at] + k];
             if (other != UINT32_MAX && m->face[other].chart < 0 && !m->face[other].is_alone &&
-                dot3(m->face[other].normal, normal) > ALIKE) {
+                dot3(m->face[other].normal, normal) > ALIKE && !is_parted(m, other, (int32_t)(c - m->chart))) {
                 add_to_chart(m, c, other);
                 wave[count++] = other;
             }
@@ -552,6 +625,7 @@ int light_picture(const char *path, light_solve *s, const model *loaded, int32_t
     free(m.edge);
     free(m.chart);
     free(m.neighbour);
+    free(m.beyond);
     free(m.texel);
     free(m.light);
     free(m.known);
