@@ -245,6 +245,90 @@ static void emits_by_hand(void)
     free(l.memory);
 }
 
+/* --- cuts --------------------------------------------------------------------------------------------------------- */
+
+/* The floor's first triangle is cut at `part` of its edge, as elements and as divisions. */
+enum { CUT_FILE_WORDS = SMALL_WORDS + LMB_TRANSFER_CUT_WORDS };
+static uint32_t cut_file[CUT_FILE_WORDS];
+
+static lmb_status open_cut(lmb_transfer *t, float part, uint32_t flags)
+{
+    lmb_transfer good = open_small();
+    const uint32_t cut[LMB_TRANSFER_CUT_WORDS] = {SMALL_HALF(0, 4) | flags, float_bits(part)};
+    memcpy(cut_file, file, sizeof file);
+    cut_file[good.section[LMB_TRANSFER_PIECES] - file] = SMALL_HALF(LMB_TRANSFER_CUT, 0);
+    cut_file[good.section[LMB_TRANSFER_DIVISIONS] - file] = SMALL_HALF(LMB_TRANSFER_CUT, 0);
+    memcpy(cut_file + SMALL_WORDS, cut, sizeof cut);
+    cut_file[2] = sizeof cut_file;
+    cut_file[6 + LMB_TRANSFER_CUTS] = 1;
+    return lmb_transfer_open(t, cut_file, sizeof cut_file);
+}
+
+static void cuts_of_files(void)
+{
+    static const float bad[] = {0.0f, 1.0f, -0.5f, 1.5f, 5e-7f, 0.9999999f};
+    lmb_transfer t;
+    CHECK(open_cut(&t, 0.25f, 0) == LMB_OK && t.count[LMB_TRANSFER_CUTS] == 1);
+    CHECK(open_cut(&t, 0.25f, LMB_TRANSFER_WALL) == LMB_OK);
+    for (int i = 0; i < COUNT(bad); ++i) {
+        CHECK_MSG(open_cut(&t, bad[i], 0) == LMB_ERR_FORMAT, "%g", (double)bad[i]);
+    }
+    CHECK(open_cut(&t, 0.25f, 3u << LMB_TRANSFER_EDGE_BIT) == LMB_ERR_FORMAT);
+    CHECK(open_cut(&t, 0.25f, 1) == LMB_ERR_FORMAT); /* its halves: from 5 on, of 6 */
+    CHECK(open_cut(&t, 0.25f, 0) == LMB_OK);
+    cut_file[SMALL_WORDS + 1] = 0x7fc00000u;
+    CHECK(lmb_transfer_open(&t, cut_file, sizeof cut_file) == LMB_ERR_FORMAT);
+    CHECK(open_cut(&t, 0.25f, 0) == LMB_OK);
+    cut_file[t.section[LMB_TRANSFER_PIECES] - cut_file] = SMALL_HALF(LMB_TRANSFER_CUT, 1);
+    CHECK(lmb_transfer_open(&t, cut_file, sizeof cut_file) == LMB_ERR_FORMAT);
+}
+
+/* Light is linear on both parts, and elements have theirs. */
+static void lit_by_cuts(float part)
+{
+    static lmb_tile tile;
+    static const float along[] = {0.0f, 0.5f, 0.999f, 1.001f, 1.5f, 2.0f}; /* of the first part, then of the second */
+    lmb_transfer t;
+    lmb_irradiance out;
+    CHECK(open_cut(&t, part, 0) == LMB_OK);
+    lit l = lit_by(&t, &room.scene);
+    for (int i = 0; i < SMALL_RECEIVERS; ++i) {
+        l.light.receiver[i][0] = (float)(i == 4 ? 10 : i);
+    }
+    memset(&tile, 0, sizeof tile);
+    memset(&out, 0, sizeof out);
+    memset(&scratch, 0, sizeof scratch);
+    for (int k = 0; k < COUNT(along); ++k) {
+        const float at = along[k] < 1.0f ? part * along[k] : part + (1.0f - part) * (along[k] - 1.0f);
+        pixel(&tile, k, 1, vec3(-1, 0, -1 + 2 * at), Y);
+    }
+    CHECK(lmb_transfer_tile(&out, NULL, picked_kernels(), &scratch, &l.light, &t, &room.scene, &tile) == LMB_OK);
+    for (int k = 0; k < COUNT(along); ++k) {
+        const float a = along[k], want = a < 1.0f ? 10.0f * a : 10.0f * (2.0f - a) + (a - 1.0f);
+        CHECK_MSG(is_near(out.rgb[0][k], want, 1e-3f), "cut at %g, %g: %g, not %g", (double)part, (double)a,
+                  (double)out.rgb[0][k], (double)want);
+    }
+    free(l.memory);
+}
+
+/* Of the light on the triangle both elements get as much as they are large, if it is even. */
+static void collected_by_cuts(float part)
+{
+    lmb_transfer t, halved = open_small();
+    lit one = lit_by(&halved, &room.scene);
+    const lmb_shadow_map map = draw_map(&room.scene);
+    collect(&one, &map, 1, MAP);
+    const float all = one.light.power[0][0] + one.light.power[1][0];
+    CHECK(open_cut(&t, part, 0) == LMB_OK);
+    lit l = lit_by(&t, &room.scene);
+    collect(&l, &map, 1, MAP);
+    CHECK(all > 0.0f && is_near(l.light.power[0][0] + l.light.power[1][0], all, 1e-4f * all));
+    CHECK(part < 0.5f ? l.light.power[0][0] < one.light.power[0][0] : l.light.power[0][0] > one.light.power[0][0]);
+    CHECK(is_near(l.light.power[2][0], one.light.power[2][0], 1e-4f * all));
+    free(one.memory);
+    free(l.memory);
+}
+
 /* --- damage ------------------------------------------------------------------------------------------------------- */
 
 /* An element of half of triangle 1, dark, and all of triangle 2, bright: colours count by area, whatever the depth. */
@@ -1495,6 +1579,13 @@ void test_transfer(void)
     bad_air();
     last_air();
     shared_halves();
+    cuts_of_files();
+    lit_by_cuts(0.5f);
+    lit_by_cuts(0.25f);
+    lit_by_cuts(0.9f);
+    collected_by_cuts(0.25f);
+    collected_by_cuts(0.8f);
+    open_small();
     bad_arguments();
     is_same_by(&t, &room.scene);
     keeps_power(&t, &room.scene);

@@ -453,18 +453,18 @@ uint32_t bake_zone_of(const bake *b, const uint16_t *row, int axes)
 {
     const uint32_t n = b->set.elements;
     uint32_t best = 0;
-    float most = 0.0f;
+    float highest = 0.0f;
     for (uint32_t i = 0; i < n; ++i) {
         float sum = 0.0f;
         for (int a = 0; a < axes; ++a) {
             sum += absf(bake_long(row[(size_t)a * n + i]));
         }
-        if (sum > most) {
-            most = sum;
+        if (sum > highest) {
+            highest = sum;
             best = i;
         }
     }
-    return most > 0.0f ? b->element[best].zone : BAKE_NO_ZONE;
+    return highest > 0.0f ? b->element[best].zone : BAKE_NO_ZONE;
 }
 
 int bake_order(bake *b, report *r)

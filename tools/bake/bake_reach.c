@@ -48,8 +48,8 @@ typedef struct sending {
 static int are_facing(const bake_element *e, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_vec3 d = sub3(bake_place(e), at), facing = bake_facing(e);
-    const float least = GRAZING * length3(d);
-    return dot3(d, normal) > least && dot3(d, facing) < -least;
+    const float low = GRAZING * length3(d);
+    return dot3(d, normal) > low && dot3(d, facing) < -low;
 }
 
 /* By reciprocity all gets as much as the points see of it. */

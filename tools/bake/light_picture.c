@@ -117,12 +117,12 @@ static int put_faces(map *m)
     const lmb_scene *scene = &m->s->job.scene;
     const lmb_transfer *t = &m->s->job.transfer;
     const uint32_t ids = t->count[LMB_TRANSFER_SURFACES];
-    const size_t most = 2 * (size_t)ids + t->count[LMB_TRANSFER_DIVISIONS] + 1;
-    m->face = calloc(most, sizeof *m->face);
-    m->edge = malloc(3 * most * sizeof *m->edge);
-    m->chart = calloc(most, sizeof *m->chart);
-    m->neighbour = malloc(3 * most * sizeof *m->neighbour);
-    m->beyond = malloc(3 * most * sizeof *m->beyond);
+    const size_t cap = 2 * (size_t)ids + t->count[LMB_TRANSFER_DIVISIONS] + 1;
+    m->face = calloc(cap, sizeof *m->face);
+    m->edge = malloc(3 * cap * sizeof *m->edge);
+    m->chart = calloc(cap, sizeof *m->chart);
+    m->neighbour = malloc(3 * cap * sizeof *m->neighbour);
+    m->beyond = malloc(3 * cap * sizeof *m->beyond);
     if (m->face == NULL || m->edge == NULL || m->chart == NULL || m->neighbour == NULL || m->beyond == NULL) {
         return report_fail(m->r, "not enough memory for %u triangles", (unsigned)ids);
     }
