@@ -19,7 +19,7 @@
 #define WHOLE 16777216.0f /* 2^24: what no block's light is over, and binary32 counts to */
 
 enum { VISITS = 8192 }; /* halvings of a tile's triangle; what is left goes down whole */
-#define WALL_REACH 2.5f /* blocks from a wall within which light goes by what cells show */
+#define WALL_REACH 2.5f /* blocks from a wall within which light goes to what cells show */
 
 /* What a collection is about. */
 typedef struct collection {
@@ -179,25 +179,25 @@ static void enter_half(lmb_transfer_part *p, const transfer_halving *h, int seco
 
 /* --- walls -------------------------------------------------------------------------------------------------------- */
 
-/* Of the blocks within `ring` of a block: how many cells' middles show the triangle on each side of a line. */
-static void count_sides(int32_t count[2], const collection *c, uint32_t id, const float line[3], int32_t x, int32_t y,
-                        int32_t ring)
+/* Of a block and those around it: which sides of a line the cells' middles show that show the triangle, a bit each. */
+static uint32_t sides_shown(const collection *c, uint32_t id, const float line[3], int32_t x, int32_t y)
 {
     const float per = 1.0f / (float)c->cells;
-    count[0] = count[1] = 0;
-    for (int32_t row = -ring * c->cells; row < (ring + 1) * c->cells; ++row) {
-        for (int32_t column = -ring * c->cells; column < (ring + 1) * c->cells; ++column) {
+    uint32_t sides = 0;
+    for (int32_t row = -c->cells; row < 2 * c->cells && sides != 3; ++row) {
+        for (int32_t column = -c->cells; column < 2 * c->cells && sides != 3; ++column) {
             if (cell_id(c, x, y, column, row) == id) {
                 const float at_x = (float)x + ((float)column + 0.5f) * per - 0.5f,
                             at_y = (float)y + ((float)row + 0.5f) * per - 0.5f;
-                ++count[value(line, at_x, at_y) < 0.0f];
+                sides |= value(line, at_x, at_y) < 0.0f ? 2u : 1u;
             }
         }
     }
+    return sides;
 }
 
-/* A block's light near a wall goes to the side that the light sees, by the cells that show the triangle there: of the
- * block, or where none does of those around it. By area alone some would go through. Both parts stay whole numbers. */
+/* A block's light near a wall goes to the one side that the light sees there, if it sees one. By area a part would go
+ * through. Both parts stay whole numbers. */
 static void part_at_wall(const collection *c, lmb_transfer_part *p, uint32_t id, const float line[3])
 {
     uint32_t rows[2] = {0, 0};
@@ -210,14 +210,11 @@ static void part_at_wall(const collection *c, lmb_transfer_part *p, uint32_t id,
         }
         *first = (row & p[1].rows) != 0 ? *first : 0.0f;
         *last = (row & p->rows) != 0 ? *last : 0.0f;
-        const float all = *first + *last;
-        int32_t count[2] = {0, 0};
-        for (int32_t ring = 0; ring < 2 && all > 0.0f && absf(value(line, (float)x, (float)y)) < WALL_REACH &&
-                               count[0] + count[1] == 0; ++ring) {
-            count_sides(count, c, id, line, x, y, ring);
-        }
-        if (count[0] + count[1] > 0) {
-            *first = (float)(int32_t)(all * ((float)count[0] / (float)(count[0] + count[1])));
+        const int is_near = *first + *last > 0.0f && absf(value(line, (float)x, (float)y)) < WALL_REACH;
+        const uint32_t sides = is_near ? sides_shown(c, id, line, x, y) : 0;
+        if (sides == 1 || sides == 2) {
+            const float all = *first + *last;
+            *first = sides == 1 ? all : 0.0f;
             *last = all - *first;
         }
         rows[0] |= *first > 0.0f ? row : 0u;

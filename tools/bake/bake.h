@@ -128,6 +128,7 @@ typedef struct bake {
 
     bake_cut *cut; /* of all triangles */
     uint32_t cut_count, cut_cap;
+    float cut_shortest; /* m: shorter lines cut nothing */
     uint32_t *cut_root; /* a triangle's first node; 0: it is not cut */
     uint32_t *node_zone; /* of nodes of elements: theirs, BAKE_NO_ZONE, or BAKE_ZONES where they have several */
 
@@ -159,10 +160,12 @@ typedef struct bake_sight {
 } bake_sight;
 
 /* bake_sees: does nothing stand between two points of a plane, just over it?
+ * bake_sees_over: likewise between two places of a mesh, higher over it: no wall parts them.
  * bake_stands_free: does a triangle's middle see its corners so? bake_pulled: a corner, a little towards its middle. */
 int bake_sight_begin(bake_sight *s, report *r);
 void bake_sight_end(bake_sight *s);
 int bake_sees(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 to, lmb_vec3 normal);
+int bake_sees_over(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 from_normal, lmb_vec3 to, lmb_vec3 to_normal);
 int bake_stands_free(bake_sight *s, const bake *b, const lmb_vec3 corner[3], lmb_vec3 normal);
 lmb_vec3 bake_pulled(const bake *b, lmb_vec3 at, lmb_vec3 to);
 
@@ -176,7 +179,7 @@ int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report
 int bake_elements(bake *b, report *r);
 
 /* bake_cuts: the lines along which large triangles are cut, as others stand on them or go through them: light differs on
- * both sides. Where there are many close together a triangle is halved first.
+ * both sides. Where there are many close together a triangle is halved first. Each further call makes fewer.
  * bake_divide: makes a node of pieces or divisions one of the cut's kind, with two more nodes for its parts, from *first
  * on. bake_first: the first part of any node that is no leaf. bake_part_of: its share of the area. bake_cut_at: the place on the edge. */
 int bake_cuts(bake *b, report *r);

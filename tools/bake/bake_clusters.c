@@ -46,7 +46,7 @@ static int add_cluster(clusters *c, lmb_vec3 at, lmb_vec3 normal)
     for (uint32_t i = *slot; i != 0; i = b->cluster[i - 1].next) {
         const bake_cluster *k = &b->cluster[i - 1];
         if (memcmp(k->cell, cell, sizeof cell) == 0 && dot3(k->target.normal, normal) > ALIKE &&
-            bake_sees(&c->sight, b, k->at, at, normalize3(add3(k->target.normal, normal)))) {
+            bake_sees_over(&c->sight, b, k->at, k->target.normal, at, normal)) {
             return 1;
         }
     }
@@ -233,12 +233,6 @@ static void offer_nearest(candidate best[NEIGHBOURS], const clusters *c, lmb_vec
     }
 }
 
-static int is_seen(clusters *c, const bake_cluster *o, lmb_vec3 inside, lmb_vec3 normal)
-{
-    const lmb_vec3 d = sub3(o->at, inside);
-    return dot3(d, d) < 1e-12f || bake_sees(&c->sight, c->b, inside, o->at, normalize3(add3(o->target.normal, normal)));
-}
-
 /* Four clusters and their weights, of 255 in all. They light `area` around a corner. Those that its triangle's middle,
  * `inside`, does not see lie behind a wall, but where it sees none. */
 static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n, lmb_vec3 inside, float area)
@@ -256,7 +250,7 @@ static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n, lmb_vec3 inside, float
                         cosine = dot3(o->target.normal, n);
             if (memcmp(o->cell, cell, sizeof cell) == 0 && far < 1.0f && cosine > BLEND) {
                 const float v = (1.0f - far) * (1.0f - far) * (cosine - BLEND) * (cosine - BLEND);
-                if (v * v > best[NEIGHBOURS - 1].weight && (i >= 27 || is_seen(c, o, inside, n))) {
+                if (v * v > best[NEIGHBOURS - 1].weight && (i >= 27 || bake_sees_over(&c->sight, c->b, inside, n, o->at, o->target.normal))) {
                     offer(best, k - 1, v * v);
                 }
             }

@@ -11,7 +11,8 @@
 enum { DEPTH = 16, LINES = 512, FEW = 4, SHARE = 2 };
 #define TOUCH  0.01  /* of the smallest edge: what is that near to a plane lies on it */
 #define BESIDE 0.005 /* of it: lines so near to an edge cut nothing off */
-#define SHORT  0.05  /* of it: lines under this length are left out, at first */
+#define SHORT  0.05f /* of it: lines under this length are left out, at first */
+#define FEWER  4.0f  /* times that, where there are too many */
 
 /* A place on a triangle's plane, m, and a line between two. */
 typedef struct spot {
@@ -373,7 +374,7 @@ static int cut_all(cutter *c)
 {
     bake *b = c->b;
     const uint32_t all = lmb_scene_triangles(b->scene);
-    c->shortest = SHORT * (double)b->set.smallest_m;
+    c->shortest = (double)b->cut_shortest;
     do {
         memset(b->cut_root, 0, ((size_t)all + 1) * sizeof *b->cut_root);
         b->cut_count = 2; /* node 0 is none */
@@ -385,6 +386,7 @@ static int cut_all(cutter *c)
                 break;
             }
         }
+        b->cut_shortest = (float)c->shortest;
         c->shortest *= 2.0;
     } while (b->cut_count > b->set.elements / SHARE && b->cut_count > 2 * SHARE);
     return 1;
@@ -396,7 +398,10 @@ int bake_cuts(bake *b, report *r)
     cutter *c = calloc(1, sizeof *c);
     uint32_t first;
     int ok = c != NULL;
+    free(b->cut_root);
     b->cut_root = calloc(all + 1, sizeof *b->cut_root);
+    b->cut_shortest = b->cut_shortest > 0.0f ? FEWER * b->cut_shortest : SHORT * b->set.smallest_m;
+    b->cut_count = 0;
     if (ok) {
         c->b = b;
         c->r = r;

@@ -8,7 +8,7 @@
 #include "bake_triangle.h"
 #include "../../src/radiosity/piece.h"
 
-enum { MESH = 500, CROWD = 8, WASTE = 4 };
+enum { MESH = 500, CROWD = 8, WASTE = 4, CELL = 3 /* elements of a cell, at most, which walls part */ };
 #define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
 #define CLOSER  0.5f /* of that, where there are elements left for it */
 #define SLIVER  0.25f /* of that size: narrower triangles share elements, or they would take them all */
@@ -223,13 +223,6 @@ static uint32_t is_closed(const maker *m)
     return m->b->small_open != NULL && m->is_small && m->b->small_open[m->own] == 0;
 }
 
-/* Nothing lies between a triangle and the first one of an element: no thin wall parts them. */
-static int are_together(maker *m, const bake_element *e, lmb_vec3 at, lmb_vec3 normal)
-{
-    const lmb_vec3 d = sub3(at, e->middle), up = normalize3(add3(e->normal, normal));
-    return dot3(d, d) < 1e-12f || bake_sees(&m->sight, m->b, at, e->middle, up);
-}
-
 static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
 {
     const lmb_vec3 at = triangle_middle(corner), low = m->b->scene->bounds_min;
@@ -239,6 +232,7 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
                               (uint32_t)clampf((at.z - low.z) * per, 0.0f, 1e6f),
                               piece_facing(normal) | (uint32_t)m->emits << 3 | is_closed(m) << 4};
     uint32_t h = cell[0] * 73856093u ^ cell[1] * 19349663u ^ cell[2] * 83492791u ^ cell[3] * 2654435761u;
+    int met = 0;
     h ^= h >> 15;
     for (;; ++h) {
         uint32_t *slot = &m->slot[5 * (size_t)(h & m->mask)];
@@ -248,7 +242,9 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
             slot[4] = e + 1;
             return e;
         }
-        if (memcmp(slot, cell, sizeof cell) == 0 && are_together(m, &m->b->element[slot[4] - 1], at, normal)) {
+        const bake_element *first = &m->b->element[slot[4] - 1];
+        if (memcmp(slot, cell, sizeof cell) == 0 &&
+            (++met == CELL || bake_sees_over(&m->sight, m->b, at, normal, first->middle, first->normal))) {
             m->b->element[slot[4] - 1].is_one = 0;
             return slot[4] - 1;
         }
@@ -521,10 +517,17 @@ static int set_reached(maker *m, uint32_t all)
 /* Elements as small as they may be. */
 static int make_small(maker *m)
 {
+    const lmb_scene *s = m->b->scene;
+    const float smallest = 0.5f * sqrtf(m->b->area / (float)m->b->set.elements);
+    const float longest = largest3(sub3(s->bounds_max, s->bounds_min));
     int ok = 1;
-    m->side = 0.5f * sqrtf(m->b->area / (float)m->b->set.elements);
+    m->side = smallest;
     while (ok && (ok = make(m)) != 0 && m->is_full) {
         m->side *= 1.1f;
+        if (m->side > longest && m->b->cut_count > 2) { /* what is left are cuts */
+            m->side = smallest;
+            ok = bake_cuts(m->b, m->r);
+        }
     }
     return ok;
 }

@@ -7,6 +7,7 @@
 #include "bake_triangle.h"
 
 #define PULL 0.1f  /* of the smallest edge: receivers lie so far inside their triangle, off what stands at its edges */
+#define OVER 0.25f /* of a way: so high over a mesh it bends over what bulges out between two places that face alike */
 #define UP   0.05f /* of it: so high over a triangle its corners have to see its middle */
 
 int bake_sight_begin(bake_sight *s, report *r)
@@ -39,6 +40,14 @@ int bake_sees(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 to, lmb_vec3
     s->tile->position[2][0] = over.z;
     const float noise = lmb_place_noise(over, 0.0f) + lmb_place_noise(end, 0.0f);
     return lmb_occluded_tile(b->kernels, &s->traversal, &b->bvh, s->tile, 1, end, noise) == 0;
+}
+
+int bake_sees_over(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 from_normal, lmb_vec3 to, lmb_vec3 to_normal)
+{
+    const lmb_vec3 d = sub3(to, from);
+    const float up = OVER * length3(d);
+    return dot3(d, d) < 1e-12f || bake_sees(s, b, add3(from, mul3(from_normal, up)), add3(to, mul3(to_normal, up)),
+                                            normalize3(add3(from_normal, to_normal)));
 }
 
 int bake_stands_free(bake_sight *s, const bake *b, const lmb_vec3 corner[3], lmb_vec3 normal)
