@@ -178,10 +178,10 @@ int bake_put_float(bake_words *w, float v, report *r);
 int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report *r);
 int bake_elements(bake *b, report *r);
 
-/* bake_cuts: the lines along which large triangles are cut, as others stand on them or go through them: light differs on
- * both sides. Where there are many close together a triangle is halved first. Each further call makes fewer.
- * bake_divide: makes a node of pieces or divisions one of the cut's kind, with two more nodes for its parts, from *first
- * on. bake_first: the first part of any node that is no leaf. bake_part_of: its share of the area. bake_cut_at: the place on the edge. */
+/* bake_cuts: divides large triangles along lines where other triangles stand on them or go through them, because light
+ * differs on the two sides. bake_divide: makes a node of pieces or divisions one of the cut's kind, with two more nodes
+ * for its parts, from *first on. bake_first: returns the first part of a node that is no leaf. bake_part_of: returns its
+ * share of the area. bake_cut_at: returns the place on the edge. */
 int bake_cuts(bake *b, report *r);
 int bake_divide(bake *b, bake_words *nodes, size_t node, const bake_cut *c, uint32_t *first, report *r);
 uint32_t bake_first(const bake *b, uint32_t word);

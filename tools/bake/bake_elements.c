@@ -13,36 +13,6 @@ enum { MESH = 500, CROWD = 8, WASTE = 4, CELL = 3 /* elements of a cell, at most
 #define CLOSER  0.5f /* of that, where there are elements left for it */
 #define SLIVER  0.25f /* of that size: narrower triangles share elements, or they would take them all */
 
-int bake_put(bake_words *w, uint32_t word, report *r)
-{
-    if (w->count == w->cap) {
-        const size_t cap = w->cap > 0 ? 2 * w->cap : 1024;
-        uint32_t *data = cap < SIZE_MAX / 8 ? realloc(w->data, cap * sizeof *data) : NULL;
-        if (data == NULL) {
-            return report_fail(r, "not enough memory for %.0f words", (double)cap);
-        }
-        w->data = data;
-        w->cap = cap;
-    }
-    w->data[w->count++] = word;
-    return 1;
-}
-
-int bake_put_float(bake_words *w, float v, report *r)
-{
-    uint32_t word;
-    memcpy(&word, &v, sizeof word);
-    return bake_put(w, word, r);
-}
-
-int32_t bake_cell(float at, float per) { return (int32_t)clampf(floorf(at * per), -1e9f, 1e9f); }
-
-int bake_is_small(const bake *b, const lmb_vec3 corner[3])
-{
-    int from;
-    return triangle_longest(&from, corner) < b->small_m;
-}
-
 /* Few small triangles are no mesh: a box's sides get receivers of their own. */
 static void set_small(bake *b)
 {
