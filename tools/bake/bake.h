@@ -179,7 +179,8 @@ int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report
 int bake_elements(bake *b, report *r);
 
 /* bake_cuts: divides large triangles along lines where other triangles stand on them or go through them, because light
- * differs on the two sides. bake_divide: makes a node of pieces or divisions one of the cut's kind, with two more nodes
+ * differs on the two sides; if many lie close together, a triangle is halved first; each further call makes fewer.
+ * bake_divide: makes a node of pieces or divisions one of the cut's kind, with two more nodes
  * for its parts, from *first on. bake_first: returns the first part of a node that is no leaf. bake_part_of: returns its
  * share of the area. bake_cut_at: returns the place on the edge. */
 int bake_cuts(bake *b, report *r);
