@@ -15,6 +15,7 @@
 #include "many_lights.h"
 #include "bounce.h"
 #include "tree.h"
+#include "live.h"
 #include "elements.h"
 #include "voxel.h"
 #include "probe.h"

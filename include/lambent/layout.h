@@ -48,6 +48,8 @@
 #define lmb_hull_find               LMB_LAYOUT(lmb_hull_find)
 #define lmb_hull_holds              LMB_LAYOUT(lmb_hull_holds)
 #define lmb_hull_pixels             LMB_LAYOUT(lmb_hull_pixels)
+#define lmb_live_collect            LMB_LAYOUT(lmb_live_collect)
+#define lmb_live_receive            LMB_LAYOUT(lmb_live_receive)
 #define lmb_many_lights_direct_tile LMB_LAYOUT(lmb_many_lights_direct_tile)
 #define lmb_many_lights_elements    LMB_LAYOUT(lmb_many_lights_elements)
 #define lmb_mirror_tile             LMB_LAYOUT(lmb_mirror_tile)

@@ -117,6 +117,12 @@ static inline int is_mirrored(const lmb_mat4 *t)
     return dot3(cross3(vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6])), vec3(m[8], m[9], m[10])) < 0.0f;
 }
 
+/* From a position towards who sees it; of any length. */
+static inline lmb_vec3 view_to_eye(const lmb_view *v, lmb_vec3 at)
+{
+    return v->kind == LMB_PERSPECTIVE ? sub3(v->eye, at) : v->back;
+}
+
 /* A position that a view sees. If it is within `noise` (m) of a plane, the position is moved to the eye's side of the
  * plane, because otherwise the eye could not see it. So a pixel on the edge of a room has the light of the other wall's
  * inner side, and none of its outer side. */

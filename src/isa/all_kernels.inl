@@ -24,6 +24,7 @@
 #include "../manylights/many_lights.inl"
 #include "../occlusion/crossed.inl"
 #include "../occlusion/sun.inl"
+#include "../live/live_sum.inl"
 #endif
 #if LMB_LOBES
 #include "../light/lobe.inl"
@@ -124,5 +125,12 @@ const lmb_kernels KERNEL(lmb_kernels) = {
 #if LMB_RELIEF
     KERNEL(relief_rank),
     KERNEL(relief_warp),
+#endif
+#if LMB_TREES
+    KERNEL(live_values),
+    KERNEL(live_sums),
+    KERNEL(live_targets),
+    KERNEL(live_boxes),
+    KERNEL(live_crossed),
 #endif
 };

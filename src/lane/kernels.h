@@ -9,6 +9,7 @@
 #include <lambent/compose.h>
 #include <lambent/transfer.h>
 #include <lambent/tree.h>
+#include <lambent/live.h>
 #include <lambent/many_lights.h>
 #include <lambent/probe.h>
 #include <lambent/voxel.h>
@@ -260,6 +261,13 @@ typedef struct lmb_cross_job {
     float slack;  /* m3 */
 } lmb_cross_job;
 
+/* A receiver of live light. */
+typedef struct lmb_live_job {
+    lmb_vec3 position, face, normal;
+    int32_t is_bent; /* 1: the normal is not the face's */
+    float split;     /* as in lmb_live */
+} lmb_live_job;
+
 /* A triangle as rays to infinity see it: one from `at` + d crosses it where every edge . d + offset >= 0 and
  * normal . d > beyond. */
 typedef struct lmb_sun_job {
@@ -495,6 +503,18 @@ struct lmb_kernels {
                         const lmb_relief_job *job);
     /* The pixels that hit the complex surface get it; no other changes. */
     void (*relief_warp)(lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job);
+#endif
+#if LMB_TREES
+    /* Values of the cut's chunks from inout->done on, with those that near nodes ask for. */
+    void (*live_values)(lmb_live_scratch *inout, const lmb_live *live, const lmb_live_job *job);
+    /* Sums of the cut's chunks, and the cut's light. Returns the sum of all. */
+    float (*live_sums)(float light[3], lmb_live_scratch *inout);
+    /* A target from each of `strata` strata of the cut: inout->rays. `all`: over 0, what live_sums returned. Writes
+     * whole vectors. */
+    void (*live_targets)(lmb_live_scratch *inout, const lmb_live *live, int32_t strata, float all);
+    /* Of the segments `asked`, those that meet each of a node's boxes, and those that cross a triangle. */
+    void (*live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *segments, uint64_t asked, const lmb_boxes *boxes);
+    uint64_t (*live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job);
 #endif
 };
 

@@ -83,6 +83,51 @@ static inline float lane_lowest(lane a)
 }
 #endif
 
+/* The sum of sixteen values: those eight apart first, then four, two, and the last two: the same by every backend. A
+ * backend's header may have its own. */
+#ifndef LANE_HAS_SUM16
+static inline float lane_sum16(const float v[16])
+{
+    float b[4];
+#if LANES == 4
+    lane_store(b, lane_add(lane_add(lane_load(v), lane_load(v + 8)), lane_add(lane_load(v + 4), lane_load(v + 12))));
+#else
+    for (int i = 0; i < 4; ++i) {
+        b[i] = (v[i] + v[i + 8]) + (v[i + 4] + v[i + 12]);
+    }
+#endif
+    return (b[0] + b[2]) + (b[1] + b[3]);
+}
+#endif
+
+/* Sums of sixteen values up to each, added to `base`: each takes the one before it, then what that 2, 4, 8 before it
+ * has. A backend's header may have its own. */
+#ifndef LANE_HAS_SCAN16
+static inline void lane_scan16(float out[16], const float v[16], float base)
+{
+    float a[24], b[32];
+    for (int i = 0; i < 16; ++i) {
+        b[i] = 0.0f;
+    }
+    for (int i = 0; i < 8; ++i) {
+        a[i] = 0.0f;
+    }
+    b[16] = v[0];
+    for (int i = 1; i < 16; ++i) {
+        b[16 + i] = v[i] + v[i - 1];
+    }
+    for (int i = 0; i < 16; ++i) {
+        a[8 + i] = b[16 + i] + b[14 + i];
+    }
+    for (int i = 0; i < 16; ++i) {
+        b[16 + i] = a[8 + i] + a[4 + i];
+    }
+    for (int i = 0; i < 16; ++i) {
+        out[i] = b[16 + i] + b[8 + i] + base;
+    }
+}
+#endif
+
 /* A word each. A backend's header may have its own. */
 #ifndef LANE_GATHERS_I32
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at)

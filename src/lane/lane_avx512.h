@@ -103,6 +103,29 @@ static inline float lane_lowest(lane a)
     return _mm_cvtss_f32(_mm_min_ss(d, _mm_movehdup_ps(d)));
 }
 
+#define LANE_HAS_SUM16 1
+static inline float lane_sum16(const float v[16])
+{
+    const __m512 all = _mm512_loadu_ps(v);
+    const __m256 a = _mm256_add_ps(_mm512_castps512_ps256(all), _mm512_extractf32x8_ps(all, 1));
+    const __m128 b = _mm_add_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
+    const __m128 c = _mm_add_ps(b, _mm_movehl_ps(b, b));
+    return _mm_cvtss_f32(_mm_add_ss(c, _mm_movehdup_ps(c)));
+}
+
+#define LANE_HAS_SCAN16 1
+static inline __m512 lane_add_before(__m512 a, __m512i before) { return _mm512_add_ps(a, _mm512_castsi512_ps(before)); }
+static inline void lane_scan16(float out[16], const float v[16], float base)
+{
+    const __m512i zero = _mm512_setzero_si512();
+    __m512 a = _mm512_loadu_ps(v);
+    a = lane_add_before(a, _mm512_alignr_epi32(_mm512_castps_si512(a), zero, 15));
+    a = lane_add_before(a, _mm512_alignr_epi32(_mm512_castps_si512(a), zero, 14));
+    a = lane_add_before(a, _mm512_alignr_epi32(_mm512_castps_si512(a), zero, 12));
+    a = lane_add_before(a, _mm512_alignr_epi32(_mm512_castps_si512(a), zero, 8));
+    _mm512_storeu_ps(out, _mm512_add_ps(a, _mm512_set1_ps(base)));
+}
+
 #define LANE_GATHERS_I32 1
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
 static inline lane lane_gather_f32(const float *p, lanei at) { return _mm512_i32gather_ps(at, p, 4); }

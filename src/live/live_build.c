@@ -1,0 +1,389 @@
+/* live_build.c: first points sorted by cells of the world -> a tree of chunks of sixteen nodes. Layer 6.        [ours]
+ *
+ * A key is a cell of 1/16 of the world, one of six sides, then the way down to a cell of 1/512 along a Z curve. What
+ * shares a cell of some level and a plane is a node, and lies side by side. Levels are made one after another, so where
+ * chunks run out, it is the finest nodes that are missing. */
+#include "live_part.h"
+
+#include <string.h>
+
+#if LMB_TREES
+
+enum {
+    CELLS = 512,     /* of the world a side, by nine bits an axis */
+    TOP_SHIFT = 15,  /* of a key: what is left is the cell of 1/16 and the side */
+    GROUPS = 4,      /* planes of a cell; more join the one that is closest to them */
+    GROUP_SHIFT = 30, /* of a key, while points are put by planes */
+    PARTS = 64,      /* of a node; the last one takes the rest */
+    TOP = LMB_LIVE_CUT / 2 * LMB_LIVE_NODES, /* nodes of the first level: half of a cut */
+    DIGIT = 256      /* four passes sort 30 bits */
+};
+#define ALIKE  0.9f  /* least cosine between the normals of a plane's points, */
+#define LIFT   0.25f /* and the height that they may lie over it, of their extent */
+#define GROUND 1e-4f /* or of the world's */
+#define NOBODY 0xffffffffu
+
+typedef struct pair {
+    uint32_t key, point;
+} pair;
+
+typedef struct builder {
+    lmb_live *live;
+    lmb_vec3 low;
+    float per_cell, extent; /* 1 / m; m, of the world */
+    uint32_t slots;         /* used: 16 times a chunk plus a lane */
+} builder;
+
+typedef struct range {
+    uint32_t first, past;
+} range;
+
+/* --- keys --------------------------------------------------------------------------------------------------------- */
+
+/* Every third bit of nine. */
+static uint32_t spread(uint32_t v)
+{
+    v = (v | v << 16) & 0x030000ffu;
+    v = (v | v << 8) & 0x0300f00fu;
+    v = (v | v << 4) & 0x030c30c3u;
+    return (v | v << 2) & 0x09249249u;
+}
+
+static uint32_t cell_of(float v) { return (uint32_t)clampi((int32_t)clampf(v, 0.0f, CELLS - 1), 0, CELLS - 1); }
+
+/* 0 .. 5: the axis along which the normal is longest, and its sign. */
+static uint32_t side_of(lmb_vec3 n)
+{
+    const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
+    return x >= y && x >= z ? (n.x < 0.0f) : y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
+}
+
+static uint32_t key_of(const builder *b, const lmb_live_point *p)
+{
+    const lmb_vec3 at = mul3(sub3(p->position, b->low), b->per_cell);
+    const uint32_t z = spread(cell_of(at.x)) | spread(cell_of(at.y)) << 1 | spread(cell_of(at.z)) << 2;
+    return (z >> TOP_SHIFT) << (TOP_SHIFT + 3) | side_of(p->normal) << TOP_SHIFT | (z & ((1u << TOP_SHIFT) - 1));
+}
+
+/* The box of what is lit. */
+static int lit_box(lmb_vec3 *low, lmb_vec3 *high, const lmb_live *live)
+{
+    const size_t each = (size_t)live->side * (size_t)live->side;
+    int any = 0;
+    *low = vec3(3e38f, 3e38f, 3e38f);
+    *high = vec3(-3e38f, -3e38f, -3e38f);
+    for (uint32_t f = 0; f < live->faces; ++f) {
+        const size_t blocks = (size_t)live_blocks(&live->face[f]) * (size_t)live_blocks(&live->face[f]);
+        for (size_t i = 0; i < blocks; ++i) {
+            const lmb_live_point *p = &live->point[f * each + i];
+            if (live_power(p->flux) > 0.0f) {
+                *low = min3(*low, p->position);
+                *high = max3(*high, p->position);
+                any = 1;
+            }
+        }
+    }
+    return any;
+}
+
+/* Cells are those of the scene's box, halved as long as all that is lit lies in fewer than 480 of them: with a corner
+ * on a cell of 1/16, so that cells stay where they are while light moves a little. */
+static void set_cells(builder *b, const lmb_scene *scene, lmb_vec3 low, lmb_vec3 high)
+{
+    const lmb_vec3 size = sub3(scene->bounds_max, scene->bounds_min);
+    const float lit = largest3(sub3(high, low));
+    float extent = maxf(maxf(size.x, maxf(size.y, size.z)), 1e-6f);
+    while (extent * 0.5f * (480.0f / 512.0f) > lit && extent > 1e-6f) {
+        extent *= 0.5f;
+    }
+    const float top = extent * (1.0f / 16.0f);
+    b->extent = extent;
+    b->per_cell = (float)CELLS / extent;
+    b->low.x = scene->bounds_min.x + floorf((low.x - scene->bounds_min.x) / top) * top;
+    b->low.y = scene->bounds_min.y + floorf((low.y - scene->bounds_min.y) / top) * top;
+    b->low.z = scene->bounds_min.z + floorf((low.z - scene->bounds_min.z) / top) * top;
+}
+
+/* --- sorting ------------------------------------------------------------------------------------------------------ */
+
+/* By one digit of the keys; equal ones stay in order. */
+static void sort_by(pair *to, const pair *from, uint32_t count, int shift)
+{
+    uint32_t at[DIGIT], sum = 0;
+    memset(at, 0, sizeof at);
+    for (uint32_t i = 0; i < count; ++i) {
+        ++at[from[i].key >> shift & (DIGIT - 1)];
+    }
+    for (int d = 0; d < DIGIT; ++d) {
+        const uint32_t own = at[d];
+        at[d] = sum;
+        sum += own;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        to[at[from[i].key >> shift & (DIGIT - 1)]++] = from[i];
+    }
+}
+
+/* The lit points along the cells. Pairs lie where chunks will. */
+static void sort_points(const builder *b)
+{
+    lmb_live *live = b->live;
+    const size_t each = (size_t)live->side * (size_t)live->side;
+    pair *one = (pair *)(void *)live->chunk, *other = one + (size_t)live->face_cap * each;
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < live->faces; ++f) {
+        const size_t blocks = (size_t)live_blocks(&live->face[f]) * (size_t)live_blocks(&live->face[f]);
+        for (size_t i = 0; i < blocks; ++i) {
+            if (live_power(live->point[f * each + i].flux) > 0.0f) {
+                one[count].key = key_of(b, &live->point[f * each + i]);
+                one[count++].point = (uint32_t)(f * each + i);
+            }
+        }
+    }
+    for (int shift = 0; shift < 32; shift += 16) {
+        sort_by(other, one, count, shift);
+        sort_by(one, other, count, shift + 8);
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        live->sorted[i] = live->point[one[i].point];
+        live->sorted[i].key = one[i].key;
+    }
+    live->points = count;
+}
+
+/* --- planes ------------------------------------------------------------------------------------------------------- */
+
+/* Put a cell's points by planes. Returns how many there are, with where they lie. */
+static uint32_t group(range out[GROUPS], const builder *b, range r)
+{
+    lmb_live_point *p = b->live->sorted;
+    uint32_t first[GROUPS], count[GROUPS], groups = 0;
+    const float reach = maxf(LIFT * 1.5f * sqrtf(p[r.first].area * (float)(r.past - r.first)), GROUND * b->extent);
+    lmb_live_point *aside = (lmb_live_point *)(void *)(b->live->chunk + (b->slots / LMB_LIVE_NODES + 1));
+    const size_t room = (size_t)((uint8_t *)(b->live->chunk + b->live->chunk_cap) - (uint8_t *)aside);
+    out[0] = r;
+    if ((r.past - r.first) * sizeof *p > room || b->slots / LMB_LIVE_NODES + 1 >= b->live->chunk_cap) {
+        return 1;
+    }
+    for (uint32_t i = r.first; i < r.past; ++i) {
+        uint32_t own = NOBODY, best = 0;
+        float closest = -2.0f;
+        for (uint32_t g = 0; g < groups && own == NOBODY; ++g) {
+            const lmb_live_point *of = &p[first[g]];
+            const float cosine = dot3(of->normal, p[i].normal);
+            own = cosine > ALIKE && absf(dot3(of->normal, sub3(p[i].position, of->position))) < reach ? g : NOBODY;
+            best = cosine > closest ? g : best;
+            closest = maxf(closest, cosine);
+        }
+        if (own == NOBODY && groups < GROUPS) {
+            first[groups] = i;
+            count[groups] = 0;
+            own = groups++;
+        }
+        own = own == NOBODY ? best : own;
+        ++count[own];
+        p[i].key |= own << GROUP_SHIFT;
+    }
+    if (groups > 1) {
+        uint32_t to = r.first;
+        memcpy(aside, p + r.first, (r.past - r.first) * sizeof *p);
+        for (uint32_t g = 0; g < groups; ++g) {
+            out[g].first = to;
+            out[g].past = to + count[g];
+            for (uint32_t i = 0; i < r.past - r.first; ++i) {
+                if (aside[i].key >> GROUP_SHIFT == g) {
+                    p[to] = aside[i];
+                    p[to++].key &= (1u << GROUP_SHIFT) - 1;
+                }
+            }
+        }
+    }
+    return groups;
+}
+
+/* --- nodes -------------------------------------------------------------------------------------------------------- */
+
+/* Of several lights' points: that of the one which has the largest part, as all of them may show the same place. */
+static float area_of(float *mean, const lmb_live_point *p, uint32_t count)
+{
+    float sum = 0.0f, by_light[LMB_MAX_LIGHTS], largest = 0.0f;
+    uint32_t others = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        sum += p[i].area;
+        others |= (uint32_t)p[i].light ^ p[0].light;
+    }
+    *mean = sum / (float)count;
+    if (others == 0) {
+        return sum;
+    }
+    memset(by_light, 0, sizeof by_light);
+    for (uint32_t i = 0; i < count; ++i) {
+        float *own = &by_light[p[i].light % LMB_MAX_LIGHTS];
+        *own += p[i].area;
+        largest = maxf(largest, *own);
+    }
+    return largest;
+}
+
+/* Points of one plane as a node. */
+static void put_node(const builder *b, uint32_t slot, range r)
+{
+    lmb_live_chunk *c = &b->live->chunk[slot / LMB_LIVE_NODES];
+    const int i = (int)(slot % LMB_LIVE_NODES);
+    const lmb_live_point *p = b->live->sorted + r.first, *target = p;
+    const uint32_t count = r.past - r.first;
+    lmb_vec3 place = vec3(0, 0, 0), normal = vec3(0, 0, 0);
+    float flux[3] = {0, 0, 0}, far2 = 0.0f, near2 = 3e38f;
+    for (uint32_t k = 0; k < count; ++k) {
+        const float w = live_power(p[k].flux);
+        place = add3(place, mul3(sub3(p[k].position, p->position), w));
+        normal = add3(normal, mul3(p[k].normal, w));
+        for (int h = 0; h < 3; ++h) {
+            flux[h] += p[k].flux[h];
+        }
+    }
+    const float power = live_power(flux);
+    place = add3(p->position, mul3(place, 1.0f / power));
+    normal = dot3(normal, normal) > 1e-37f ? normalize3(normal) : p->normal;
+    for (uint32_t k = 0; k < count; ++k) {
+        const lmb_vec3 d = sub3(p[k].position, place);
+        const float d2 = dot3(d, d);
+        target = d2 < near2 ? &p[k] : target;
+        near2 = minf(near2, d2);
+        far2 = maxf(far2, d2);
+    }
+    float spacing2;
+    const float area = area_of(&spacing2, p, count);
+    live_put(c, i, place, normal, flux, maxf(area, 1e-30f), target->position, target->normal,
+             target->id);
+    c->radius2[i] = far2 + spacing2;
+    c->first[i] = r.first;
+    c->count[i] = count | LMB_LIVE_LEAF;
+}
+
+/* Room for a node's parts, which begin a chunk where they would straddle two. NOBODY: there is none. */
+static uint32_t reserve(builder *b, uint32_t count)
+{
+    const uint32_t in = b->slots % LMB_LIVE_NODES;
+    const uint32_t first = in + count > LMB_LIVE_NODES && in > 0 ? b->slots + LMB_LIVE_NODES - in : b->slots;
+    const uint32_t before = (b->slots + LMB_LIVE_NODES - 1) / LMB_LIVE_NODES,
+                   chunks = (first + count + LMB_LIVE_NODES - 1) / LMB_LIVE_NODES;
+    if (chunks > b->live->chunk_cap) {
+        return NOBODY;
+    }
+    for (uint32_t k = before; k < chunks; ++k) {
+        for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+            live_blank(&b->live->chunk[k], i);
+        }
+    }
+    b->slots = first + count;
+    return first;
+}
+
+/* The end of a run of points of one cell. */
+static uint32_t run_past(const lmb_live_point *p, uint32_t first, uint32_t past, int shift)
+{
+    uint32_t i = first + 1;
+    while (i < past && p[i].key >> shift == p[first].key >> shift) {
+        ++i;
+    }
+    return i;
+}
+
+/* Divide a node by cells and planes. Where that gives one part alone, a finer level does it. */
+static void divide(builder *b, uint32_t slot, int shift)
+{
+    lmb_live_chunk *c = &b->live->chunk[slot / LMB_LIVE_NODES];
+    const int i = (int)(slot % LMB_LIVE_NODES);
+    const uint32_t past = c->first[i] + (c->count[i] & ~LMB_LIVE_LEAF);
+    range part[PARTS];
+    uint32_t parts = 0;
+    for (range r = {c->first[i], 0}; r.first < past; r.first = r.past) {
+        r.past = parts + GROUPS > PARTS ? past : run_past(b->live->sorted, r.first, past, shift);
+        if (parts + GROUPS > PARTS) {
+            part[parts++] = r;
+        } else {
+            parts += group(part + parts, b, r);
+        }
+    }
+    if (parts < 2) {
+        return;
+    }
+    const uint32_t first = reserve(b, parts);
+    if (first == NOBODY) {
+        ++b->live->merged;
+        return;
+    }
+    for (uint32_t k = 0; k < parts; ++k) {
+        put_node(b, first + k, part[k]);
+    }
+    c->first[i] = first;
+    c->count[i] = parts;
+}
+
+static void divide_level(builder *b, int shift)
+{
+    const uint32_t slots = b->slots;
+    for (uint32_t slot = 0; slot < slots; ++slot) {
+        const uint32_t count = b->live->chunk[slot / LMB_LIVE_NODES].count[slot % LMB_LIVE_NODES];
+        if (count > (LMB_LIVE_LEAF | 1u)) {
+            divide(b, slot, shift);
+        }
+    }
+}
+
+/* Cells of 1/16 of the world, or larger ones, of which there are not too many; by planes as far as there is room. */
+static void put_top(builder *b)
+{
+    const lmb_live *live = b->live;
+    uint32_t cells = TOP + 1;
+    const uint32_t limit = (uint32_t)mini(TOP, (int32_t)(live->chunk_cap / 2 * LMB_LIVE_NODES));
+    int shift = TOP_SHIFT;
+    for (; cells > limit; shift += 3) {
+        cells = 0;
+        for (uint32_t i = 0; i < live->points; i = run_past(live->sorted, i, live->points, shift)) {
+            ++cells;
+        }
+    }
+    shift -= 3;
+    for (uint32_t i = 0, past; i < live->points; i = past) {
+        range part[GROUPS];
+        past = run_past(live->sorted, i, live->points, shift);
+        part[0].first = i;
+        part[0].past = past;
+        const uint32_t parts = b->slots + cells + GROUPS <= limit ? group(part, b, part[0]) : 1;
+        const uint32_t first = reserve(b, parts);
+        for (uint32_t k = 0; k < parts && first != NOBODY; ++k) {
+            put_node(b, first + k, part[k]);
+        }
+        --cells;
+    }
+}
+
+lmb_status lmb_live_build(lmb_live *live, const lmb_scene *scene)
+{
+    lmb_vec3 low, high;
+    builder b;
+    if (live == NULL || live->face == NULL || scene == NULL || live->faces > live->face_cap) {
+        return LMB_ERR_ARG;
+    }
+    live->chunks = live->top = live->points = live->merged = 0;
+    memset(&b, 0, sizeof b);
+    b.live = live;
+    live->scene = scene;
+    if (!lit_box(&low, &high, live)) {
+        return LMB_OK;
+    }
+    set_cells(&b, scene, low, high);
+    sort_points(&b);
+    put_top(&b);
+    live->top = b.slots;
+    for (int shift = TOP_SHIFT - 6; shift > 0; shift -= 6) {
+        b.slots = (b.slots + LMB_LIVE_NODES - 1) / LMB_LIVE_NODES * LMB_LIVE_NODES;
+        divide_level(&b, shift);
+    }
+    live->chunks = (b.slots + LMB_LIVE_NODES - 1) / LMB_LIVE_NODES;
+    return LMB_OK;
+}
+
+#endif

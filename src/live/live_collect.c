@@ -1,0 +1,259 @@
+/* live_collect.c: a shadow map -> the first points of the live tree: one of each block of texels. Layer 6.      [ours]
+ *
+ * A block's point is what one of its texels shows, which a hash names: so points do not line up along the map, and of
+ * surfaces that share a block each is taken as often as it shows. All the light through the block is its own. It lies
+ * over the texel's middle, where the map has it: so never behind an edge. */
+#include "live_part.h"
+
+#include <string.h>
+
+#include "../base/memory_check.h"
+
+#if LMB_TREES
+
+enum { BLOCK = 4, LARGE_BLOCK = 8 };
+#define MANY_BLOCKS (1u << 18)
+
+/* --- memory ------------------------------------------------------------------------------------------------------- */
+
+static int32_t side_by(int32_t size, int32_t each) { return (size + each - 1) / each; }
+
+static uint64_t blocks_of(uint32_t faces, int32_t side) { return (uint64_t)faces * (uint64_t)side * (uint64_t)side; }
+
+int32_t lmb_live_side(uint32_t faces, int32_t size)
+{
+    if (size < LMB_TILE || size > LMB_MAX_SIDE || size % LMB_TILE != 0) {
+        return 0;
+    }
+    return side_by(size, blocks_of(faces, size / BLOCK) > MANY_BLOCKS ? LARGE_BLOCK : BLOCK);
+}
+
+/* A node for each first point, a quarter more for those above them, and room to begin each level on a chunk. */
+static uint64_t chunks_of(uint64_t blocks) { return blocks / LMB_LIVE_NODES * 5 / 4 + 16; }
+
+static uint64_t bytes_of(uint32_t faces, int32_t side)
+{
+    const uint64_t blocks = blocks_of(faces, side), chunks = chunks_of(blocks) * sizeof(lmb_live_chunk);
+    return chunks + blocks * (2 * sizeof(lmb_live_point)) + faces * (uint64_t)sizeof(lmb_live_face);
+}
+
+size_t lmb_live_bytes(uint32_t faces, int32_t side)
+{
+    if (faces == 0 || faces > 6 * LMB_MAX_LIGHTS || side < 1 || side > LMB_MAX_SIDE / BLOCK ||
+        blocks_of(faces, side) > (1u << 28)) {
+        return 0;
+    }
+    return size_or_none(bytes_of(faces, side));
+}
+
+lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, void *memory, size_t bytes)
+{
+    const size_t needed = lmb_live_bytes(faces, side);
+    if (out == NULL || memory == NULL || needed == 0) {
+        return LMB_ERR_ARG;
+    }
+    if ((uintptr_t)memory % sizeof(uint64_t) != 0) {
+        return LMB_ERR_ALIGN;
+    }
+    if (bytes < needed) {
+        return LMB_ERR_CAPACITY;
+    }
+    const size_t blocks = (size_t)blocks_of(faces, side);
+    memset(out, 0, sizeof *out);
+    out->face = (lmb_live_face *)memory;
+    out->chunk = (lmb_live_chunk *)(void *)(out->face + faces);
+    out->chunk_cap = (uint32_t)chunks_of(blocks);
+    out->point = (lmb_live_point *)(void *)(out->chunk + out->chunk_cap);
+    out->sorted = out->point + blocks;
+    out->face_cap = faces;
+    out->side = side;
+    out->strata = LMB_LIVE_STRATA;
+    out->split = 16.0f;
+    return LMB_OK;
+}
+
+/* --- faces -------------------------------------------------------------------------------------------------------- */
+
+static lmb_status set_face(lmb_live_face *out, const lmb_live *live, const lmb_shadow_map *map, int32_t face,
+                           uint32_t light)
+{
+    const int32_t each = side_by(map->size, BLOCK) <= live->side ? BLOCK : LARGE_BLOCK;
+    memset(out, 0, sizeof *out);
+    out->view = map->view[face];
+    out->id = map->face[face].id;
+    out->size = map->size;
+    out->each = each;
+    out->light = light;
+    return side_by(map->size, each) > live->side ? LMB_ERR_CAPACITY : LMB_OK;
+}
+
+/* --- a tile of blocks --------------------------------------------------------------------------------------------- */
+
+/* One face, while its tiles are taken. */
+typedef struct collector {
+    const lmb_live *live;
+    const lmb_kernels *kernels;
+    lmb_tile *tile;
+    const lmb_scene *scene;
+    const lmb_light *light;
+    const lmb_shadow_map *map;
+    const lmb_live_face *face;
+    int32_t map_face, side; /* side: blocks */
+    uint32_t into;
+    live_plane known[LIVE_PLANES];
+} collector;
+
+/* What goes through eight blocks of a row, at 1 W/sr. Whether a sun's finer face has them is told by their middle. */
+static void set_powers(float out[16], const collector *c, int32_t column, int32_t row)
+{
+#if LMB_TRANSFER
+    const lmb_view *v = &c->face->view;
+    lmb_texel_row texels;
+    float sx[16];
+    for (int32_t i = 0; i < 16; ++i) {
+        sx[i] = texel_sx(v, c->side, column + i % LMB_TILE);
+    }
+    lmb_texel_row_of(&texels, c->light, c->map, c->map_face, row * c->face->each + c->face->each / 2);
+    texels.side_x = 2.0f * v->half_width / (float)c->side;
+    texels.side_y = 2.0f * v->half_height / (float)c->side;
+    texels.sy = texel_sy(v, c->side, row);
+    c->kernels->texel_powers(out, sx, LMB_TILE, &texels);
+#else
+    lmb_shadow_map blocks = *c->map;
+    lmb_light even = *c->light;
+    blocks.size = c->side;
+    for (int h = 0; h < 3; ++h) {
+        even.intensity[h] = 1.0f;
+    }
+    for (int32_t i = 0; i < LMB_TILE; ++i) {
+        float power[3];
+        lmb_light_texel_power(power, &even, &blocks, c->map_face, column + i, row);
+        out[i] = power[0];
+    }
+#endif
+}
+
+/* The texel of a block that it is taken at. */
+static void texel_of(int32_t *x, int32_t *y, const collector *c, int32_t column, int32_t row)
+{
+    const int32_t each = c->face->each;
+    const uint32_t h = live_hash((uint32_t)column, (uint32_t)row, c->into);
+    *x = mini(column * each + (int32_t)(h >> 8 & (uint32_t)(each - 1)), c->face->size - 1);
+    *y = mini(row * each + (int32_t)(h >> 16 & (uint32_t)(each - 1)), c->face->size - 1);
+}
+
+static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t row, int k, float power)
+{
+    const lmb_view *v = &c->face->view;
+    const live_plane *p = c->tile->id[k] != 0 ? lmb_live_plane(c->known, c->scene, v, c->tile->id[k]) : NULL;
+    int32_t x, y;
+    float each[3];
+    lmb_vec3 at, across, down;
+    memset(out, 0, sizeof *out);
+    texel_of(&x, &y, c, column, row);
+    if (p == NULL || !lmb_live_place(&at, p, v, texel_sx(v, c->face->size, x), texel_sy(v, c->face->size, y))) {
+        return;
+    }
+    footprint_sides(&across, &down, v, c->side, at, p->normal);
+    for (int h = 0; h < 3; ++h) {
+        each[h] = texel_flux(c->light->intensity[h], power);
+    }
+    light_end_power(each, c->light, at);
+    for (int h = 0; h < 3; ++h) {
+        const float flux = each[h] * c->tile->albedo[h][k];
+        out->flux[h] = flux < FLUX_FLOOR ? 0.0f : flux;
+    }
+    out->position = at;
+    out->normal = p->normal;
+    out->area = length3(cross3(across, down));
+    out->id = c->tile->id[k];
+    out->column = (uint16_t)column;
+    out->row = (uint16_t)row;
+    out->face = (uint16_t)c->into;
+    out->light = (uint16_t)c->face->light;
+}
+
+/* The ids of 8 x 8 blocks as a window of the map of blocks, whose albedo is resolved. */
+static lmb_status resolve_blocks(collector *c, int32_t column, int32_t row)
+{
+    uint32_t id[LMB_TILE_PIXELS];
+    const int32_t side = c->side;
+    lmb_view view = c->face->view;
+    lmb_target window;
+    memset(&window, 0, sizeof window);
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t at = column + k % LMB_TILE, down = row + k / LMB_TILE;
+        int32_t x, y;
+        id[k] = 0;
+        if (at < side && down < side) {
+            texel_of(&x, &y, c, at, down);
+            id[k] = live_id(&c->face->id, x, y);
+        }
+    }
+    view.frame_width = view.frame_height = (side + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
+    window.depth.data = window.id.data = id; /* depths are not read */
+    window.depth.width = window.depth.height = window.id.width = window.id.height = LMB_TILE;
+    window.depth.stride_bytes = window.id.stride_bytes = LMB_TILE * 4;
+    window.depth.format = LMB_DEPTH32F;
+    window.id.format = LMB_ID32;
+    window.x0 = column;
+    window.y0 = row;
+    return lmb_resolve_albedo(c->tile, c->kernels, &view, c->scene, &window, column, row);
+}
+
+static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
+{
+    const int32_t side = c->side;
+    lmb_live_point *out = c->live->point + (size_t)c->into * (size_t)c->live->side * (size_t)c->live->side;
+    const lmb_status status = resolve_blocks(c, column, row);
+    for (int32_t y = 0; y < LMB_TILE && row + y < side && status == LMB_OK; ++y) {
+        float power[16];
+        set_powers(power, c, column, row + y);
+        for (int32_t x = 0; x < LMB_TILE && column + x < side; ++x) {
+            set_point(&out[(size_t)(row + y) * (size_t)side + (size_t)(column + x)], c, column + x, row + y,
+                      y * LMB_TILE + x, power[x]);
+        }
+    }
+    return status;
+}
+
+/* Tile row `row` of a map has the blocks of tile row row / each, where it is the first of these. */
+lmb_status lmb_live_collect(const lmb_live *live, const lmb_kernels *kernels, lmb_tile *scratch,
+                            const lmb_scene *scene, uint32_t light, const lmb_shadow_map *map, int32_t face,
+                            uint32_t into, int32_t first, int32_t past)
+{
+    lmb_live_face own;
+    collector c;
+    if (live == NULL || live->face == NULL || kernels == NULL || scratch == NULL || scene == NULL || map == NULL ||
+        light >= scene->light_count || light >= LMB_MAX_LIGHTS || face < 0 || face >= map->faces || first < 0 ||
+        past < first || past > map->size / LMB_TILE) {
+        return LMB_ERR_ARG;
+    }
+    lmb_status status = into < live->face_cap ? set_face(&own, live, map, face, light) : LMB_ERR_CAPACITY;
+    if (status != LMB_OK) {
+        return status;
+    }
+    if (first == 0 && past > 0) { /* by one part alone */
+        live->face[into] = own;
+    }
+    memset(&c, 0, sizeof c);
+    c.live = live;
+    c.kernels = kernels;
+    c.tile = scratch;
+    c.scene = scene;
+    c.light = &scene->lights[light];
+    c.map = map;
+    c.face = &own;
+    c.map_face = face;
+    c.into = into;
+    c.side = live_blocks(&own);
+    for (int32_t row = first; row < past && status == LMB_OK; ++row) {
+        for (int32_t column = 0; row % own.each == 0 && column < c.side && status == LMB_OK;
+             column += LMB_TILE) {
+            status = collect_tile(&c, column, row / own.each * LMB_TILE);
+        }
+    }
+    return status;
+}
+
+#endif

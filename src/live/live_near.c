@@ -1,0 +1,252 @@
+/* live_near.c: what is near a receiver: first points of a leaf, texels of a point, parts of a texel. Layer 6.   [ours]
+ *
+ * A first point stands for a block of texels. Near by, the block's own texels count, each where the map has it; nearer,
+ * each texel's parts. A part of a texel lies off the texel's middle, where the map was not asked: so it stays on the
+ * triangle, and does not move towards a neighbour that shows another one. */
+#include "live_part.h"
+
+#include "../raster/triangle.h"
+
+#if LMB_TREES
+
+#define INSIDE (1.0f / 512.0f) /* least barycentric of a place that was moved on to its triangle */
+
+enum {
+    DEEPEST = 3, /* quarters of a block's side, of those, and of those: of a texel's side a sixteenth */
+    PART_BITS = 10
+};
+
+/* --- places ------------------------------------------------------------------------------------------------------- */
+
+const live_plane *lmb_live_plane(live_plane known[LIVE_PLANES], const lmb_scene *scene, const lmb_view *view,
+                                 uint32_t id)
+{
+    live_plane *p = &known[id % LIVE_PLANES];
+    lmb_triangle t;
+    float area;
+    if (p->id == id) {
+        return p;
+    }
+    p->id = 0;
+    if (!lmb_triangle_fetch(&t, scene, id) || !lmb_triangle_shape(&p->normal, &area, &t)) {
+        return NULL;
+    }
+    const lmb_vec3 u = sub3(t.corner[1], t.corner[0]), v = sub3(t.corner[2], t.corner[0]), n = cross3(u, v);
+    const float n2 = dot3(n, n), per = n2 > 1e-30f ? 1.0f / n2 : 0.0f;
+    const lmb_vec3 to_light = view->kind == LMB_PERSPECTIVE ? sub3(view->eye, t.corner[0]) : view->back;
+    p->normal = dot3(p->normal, to_light) < 0.0f ? mul3(p->normal, -1.0f) : p->normal;
+    p->corner = t.corner[0];
+    p->side[0] = u;
+    p->side[1] = v;
+    p->along[0] = mul3(cross3(v, n), per);
+    p->along[1] = mul3(cross3(n, u), per);
+    p->id = id;
+    return p;
+}
+
+int lmb_live_place(lmb_vec3 *out, const live_plane *p, const lmb_view *view, float sx, float sy)
+{
+    const lmb_vec3 at = footprint_over(view, p->corner, p->normal, sx, sy), from = sub3(at, p->corner);
+    float b1 = dot3(p->along[0], from), b2 = dot3(p->along[1], from);
+    *out = at;
+    if (!is_place(at)) {
+        return 0;
+    }
+    if (b1 < 0.0f || b2 < 0.0f || b1 + b2 > 1.0f) {
+        b1 = maxf(b1, INSIDE);
+        b2 = maxf(b2, INSIDE);
+        const float over = b1 + b2 > 1.0f - INSIDE ? (1.0f - INSIDE) / (b1 + b2) : 1.0f;
+        *out = add3(p->corner, add3(mul3(p->side[0], b1 * over), mul3(p->side[1], b2 * over)));
+    }
+    return 1;
+}
+
+/* --- chunks of what is near --------------------------------------------------------------------------------------- */
+
+/* How many nodes may still be put. */
+static int32_t room(const lmb_live_scratch *s)
+{
+    const int32_t cut = LMB_LIVE_CUT - s->count, near = LMB_LIVE_NEAR - s->near_count;
+    return (cut < near ? cut : near) * LMB_LIVE_NODES + LMB_LIVE_NODES - s->near_lane;
+}
+
+/* The next node, where there is room. */
+static lmb_live_chunk *take(lmb_live_scratch *s, int *lane)
+{
+    if (s->near_lane == LMB_LIVE_NODES) {
+        s->chunk[s->count] = &s->near[s->near_count];
+        s->asked[s->count++] = 0;
+        for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+            live_blank(&s->near[s->near_count], i);
+        }
+        ++s->near_count;
+        s->near_lane = 0;
+    }
+    *lane = s->near_lane++;
+    s->asked[s->count - 1] |= (uint16_t)(1u << *lane);
+    return &s->near[s->near_count - 1];
+}
+
+static uint32_t part_of(uint32_t level, uint32_t x, uint32_t y) { return (level << PART_BITS | x) << PART_BITS | y; }
+
+/* Points of a leaf. */
+static void put_points(lmb_live_scratch *s, const lmb_live *live, uint32_t first, uint32_t count)
+{
+    for (uint32_t k = first; k < first + count; ++k) {
+        const lmb_live_point *p = &live->sorted[k];
+        int i;
+        lmb_live_chunk *c = take(s, &i);
+        live_put(c, i, p->position, p->normal, p->flux, maxf(p->area, 1e-30f), p->position, p->normal, p->id);
+        c->radius2[i] = p->area;
+        c->first[i] = k;
+        c->count[i] = LMB_LIVE_LEAF | 1u;
+        s->part[s->near_count - 1][i] = part_of(0, 0, 0);
+    }
+}
+
+/* --- parts of a point --------------------------------------------------------------------------------------------- */
+
+/* A face, and planes that it shows. */
+typedef struct live_look {
+    const lmb_live *live;
+    const lmb_live_face *face;
+    live_plane known[LIVE_PLANES];
+} live_look;
+
+/* A part of a point's block: where it lies in the map, and what the map shows there. */
+typedef struct live_spot {
+    float u, v; /* texels */
+    uint32_t id;
+} live_spot;
+
+/* Do two triangles lie in one plane? */
+static int goes_on(live_look *l, uint32_t id, uint32_t other)
+{
+    const live_plane *a = other != 0 ? lmb_live_plane(l->known, l->live->scene, &l->face->view, id) : NULL;
+    if (a == NULL) {
+        return 0;
+    }
+    const live_plane own = *a, *b = lmb_live_plane(l->known, l->live->scene, &l->face->view, other);
+    if (b == NULL) {
+        return 0;
+    }
+    const lmb_vec3 to = sub3(b->corner, own.corner), side = b->side[0];
+    const float flat = 1e-8f * (dot3(to, to) + dot3(side, side)), lift = dot3(own.normal, to);
+    return dot3(own.normal, b->normal) > 0.99999f && lift * lift <= flat;
+}
+
+/* Off a texel's middle, if the neighbour on that side shows the same plane; else on its middle line. */
+static float towards(live_look *l, int32_t x, int32_t y, uint32_t id, float off)
+{
+    const lmb_live_face *f = l->face;
+    const uint32_t other = x >= 0 && y >= 0 && x < f->size && y < f->size ? live_id(&f->id, x, y) : 0;
+    return other == id || goes_on(l, id, other) ? off : 0.0f;
+}
+
+/* Part (x, y) of 4^level a side. `wide`: its side, texels. */
+static live_spot spot_of(live_look *l, const lmb_live_point *p, uint32_t x, uint32_t y, float wide)
+{
+    const lmb_live_face *f = l->face;
+    live_spot s;
+    const float u = (float)(p->column * f->each) + ((float)x + 0.5f) * wide,
+                v = (float)(p->row * f->each) + ((float)y + 0.5f) * wide;
+    const int32_t tx = clampi((int32_t)u, 0, f->size - 1), ty = clampi((int32_t)v, 0, f->size - 1);
+    float du = u - ((float)tx + 0.5f), dv = v - ((float)ty + 0.5f);
+    s.id = live_id(&f->id, tx, ty);
+    if (wide >= 1.0f) {
+        du = dv = 0.0f;
+    } else if (s.id != 0) {
+        const int32_t nx = du < 0.0f ? tx - 1 : tx + 1, ny = dv < 0.0f ? ty - 1 : ty + 1;
+        du = towards(l, nx, ty, s.id, du);
+        dv = towards(l, tx, ny, s.id, dv);
+        dv = du != 0.0f && dv != 0.0f ? towards(l, nx, ny, s.id, dv) : dv;
+    }
+    s.u = (float)tx + 0.5f + du;
+    s.v = (float)ty + 0.5f + dv;
+    return s;
+}
+
+/* The sixteen parts of a point's part. 0 where nothing of it is there. */
+static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t part, const lmb_live_chunk *whole,
+                     uint32_t lane)
+{
+    const lmb_live_point *p = &l->live->sorted[point];
+    const lmb_live_face *f = l->face;
+    const uint32_t level = (part >> 2 * PART_BITS) + 1, mask = (1u << PART_BITS) - 1,
+                   x = (part >> PART_BITS & mask) * 4, y = (part & mask) * 4;
+    const float wide = (float)f->each / (float)(1u << 2 * level), per = 2.0f / (float)f->size;
+    lmb_vec3 place[LMB_LIVE_NODES], normal[LMB_LIVE_NODES];
+    uint32_t id[LMB_LIVE_NODES], count = 0, at[LMB_LIVE_NODES];
+    for (uint32_t i = 0; i < LMB_LIVE_NODES; ++i) {
+        const live_spot to = spot_of(l, p, x + i % 4, y + i / 4, wide);
+        const live_plane *on = to.id != 0 ? lmb_live_plane(l->known, l->live->scene, &f->view, to.id) : NULL;
+        if (on != NULL && lmb_live_place(&place[count], on, &f->view, (to.u * per - 1.0f) * f->view.half_width,
+                                         (1.0f - to.v * per) * f->view.half_height)) {
+            normal[count] = on->normal;
+            at[count] = part_of(level, x + i % 4, y + i / 4);
+            id[count++] = to.id;
+        }
+    }
+    const float share = count > 0 ? 1.0f / (float)count : 0.0f, power = whole->power[lane] * share,
+                area = whole->area[lane] * share;
+    const float flux[3] = {whole->colour[0][lane] * power, whole->colour[1][lane] * power,
+                           whole->colour[2][lane] * power};
+    if (!(live_power(flux) > 0.0f)) {
+        return 0;
+    }
+    for (uint32_t k = 0; k < count; ++k) {
+        int i;
+        lmb_live_chunk *c = take(s, &i);
+        live_put(c, i, place[k], normal[k], flux, maxf(area, 1e-30f), place[k], normal[k], id[k]);
+        c->radius2[i] = area;
+        c->first[i] = point;
+        c->count[i] = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;
+        s->part[s->near_count - 1][i] = at[k];
+    }
+    return 1;
+}
+
+/* Planes are turned to the face's light: those of another face are not kept. Returns 1. */
+static int look_at(live_look *l, uint32_t face)
+{
+    if (l->face != &l->live->face[face]) {
+        l->face = &l->live->face[face];
+        for (int i = 0; i < LIVE_PLANES; ++i) {
+            l->known[i].id = 0;
+        }
+    }
+    return 1;
+}
+
+/* Is a chunk of the cut one of what is near? */
+static int is_near(const lmb_live_scratch *s, const lmb_live_chunk *c)
+{
+    return c >= s->near && c < s->near + LMB_LIVE_NEAR;
+}
+
+int lmb_live_come_near(lmb_live_scratch *s, const lmb_live *live)
+{
+    const int32_t before = s->count, leaves = s->leaves;
+    live_look l;
+    l.live = live;
+    l.face = NULL;
+    s->near_lane = LMB_LIVE_NODES;
+    for (int32_t n = 0; n < leaves; ++n) {
+        const uint32_t k = s->leaf[n] / LMB_LIVE_NODES, i = s->leaf[n] % LMB_LIVE_NODES;
+        const lmb_live_chunk *c = s->chunk[k];
+        const uint32_t first = c->first[i], count = c->count[i] & ~LMB_LIVE_LEAF;
+        if (room(s) < (int32_t)(count > 1 ? count : LMB_LIVE_NODES)) {
+            s->is_full = 1;
+        } else if (count > 1) {
+            put_points(s, live, first, count);
+            s->value[k][i] = 0.0f;
+        } else if (look_at(&l, live->sorted[first].face) &&
+                   put_parts(s, &l, first, is_near(s, c) ? s->part[c - s->near][i] : part_of(0, 0, 0), c, i)) {
+            s->value[k][i] = 0.0f;
+        }
+    }
+    s->leaves = 0;
+    return s->count > before;
+}
+
+#endif

@@ -1,0 +1,94 @@
+/* live_part.h: what the files of src/live call of each other. Layer 6. */
+#ifndef LMB_LIVE_PART_H
+#define LMB_LIVE_PART_H
+
+#include <lambent/live.h>
+
+#include "../base/vec.h"
+#include "../map/footprint.h"
+#include "../map/texel.h"
+
+/* Of scratch->rays, those `asked` that something blocks. */
+uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_bvh *bvh,
+                          const lmb_live_receiver *receiver, uint64_t asked);
+
+/* Add what stands for the near nodes without nodes below, scratch->leaf, to the cut. 1 where there is any. */
+int lmb_live_come_near(lmb_live_scratch *scratch, const lmb_live *live);
+
+/* A triangle that a map shows, with its unit normal on the side that is lit; and what barycentrics are made by. */
+typedef struct live_plane {
+    uint32_t id;
+    lmb_vec3 corner, normal, side[2], along[2];
+} live_plane;
+
+enum { LIVE_PLANES = 8 };
+
+/* That of an id, by those known: all 0 to begin with. NULL where it names no triangle with an area. */
+const live_plane *lmb_live_plane(live_plane known[LIVE_PLANES], const lmb_scene *scene, const lmb_view *view,
+                                 uint32_t id);
+
+/* The place of a plane over (sx, sy) of a view, moved on to the triangle where it lies outside: rasters snap corners,
+ * so a texel's middle may be beside the triangle that it shows, and behind another one. 0 where that is nowhere. */
+int lmb_live_place(lmb_vec3 *out, const live_plane *plane, const lmb_view *view, float sx, float sy);
+
+/* Blocks of a face a side. */
+static inline int32_t live_blocks(const lmb_live_face *f) { return (f->size + f->each - 1) / f->each; }
+
+static inline float live_power(const float flux[3]) { return (flux[0] + flux[1] + flux[2]) * (1.0f / 3.0f); }
+
+/* A node that holds nothing, and is near nothing. */
+static inline void live_blank(lmb_live_chunk *c, int i)
+{
+    for (int h = 0; h < 3; ++h) {
+        c->place[h][i] = c->normal[h][i] = c->colour[h][i] = c->target[h][i] = c->facet[h][i] = 0.0f;
+    }
+    c->area[i] = 1.0f;
+    c->power[i] = c->radius2[i] = 0.0f;
+    c->id[i] = c->first[i] = c->count[i] = 0;
+}
+
+/* All of a node but its radius and parts. */
+static inline void live_put(lmb_live_chunk *c, int i, lmb_vec3 place, lmb_vec3 normal, const float flux[3], float area,
+                            lmb_vec3 to, lmb_vec3 facet, uint32_t id)
+{
+    const float power = live_power(flux), per = 1.0f / power;
+    const float at[3][4] = {{place.x, normal.x, to.x, facet.x},
+                            {place.y, normal.y, to.y, facet.y},
+                            {place.z, normal.z, to.z, facet.z}};
+    for (int h = 0; h < 3; ++h) {
+        c->place[h][i] = at[h][0];
+        c->normal[h][i] = at[h][1];
+        c->target[h][i] = at[h][2];
+        c->facet[h][i] = at[h][3];
+        c->colour[h][i] = flux[h] * per;
+    }
+    c->power[i] = power;
+    c->area[i] = area;
+    c->id[i] = id;
+}
+
+/* The id that a map shows at a texel. */
+static inline uint32_t live_id(const lmb_surface *s, int32_t x, int32_t y)
+{
+    const uint8_t *data = (const uint8_t *)s->data;
+    const int32_t bytes = s->format == LMB_ID16 ? 2 : 4;
+    const uint8_t *row = s->layout == LMB_TILED
+                             ? data + (ptrdiff_t)(y / LMB_TILE) * s->stride_bytes +
+                                   (ptrdiff_t)(x / LMB_TILE * LMB_TILE_PIXELS + y % LMB_TILE * LMB_TILE) * bytes
+                             : data + (ptrdiff_t)y * s->stride_bytes + (ptrdiff_t)(x / LMB_TILE * LMB_TILE) * bytes;
+    return bytes == 2 ? ((const uint16_t *)(const void *)row)[x % LMB_TILE]
+                      : ((const uint32_t *)(const void *)row)[x % LMB_TILE];
+}
+
+/* Even over three numbers. */
+static inline uint32_t live_hash(uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t h = a * 0x9e3779b1u ^ b * 0x85ebca77u ^ c * 0xc2b2ae3du;
+    h ^= h >> 15;
+    h *= 0x2c1b3c6du;
+    h ^= h >> 12;
+    h *= 0x297a2d39u;
+    return h ^ h >> 15;
+}
+
+#endif

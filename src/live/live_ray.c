@@ -1,0 +1,189 @@
+/* live_ray.c: which segments of a receiver something blocks: all in one packet, from one origin. Layer 6.       [ours]
+ *
+ * Whether a triangle blocks a segment depends on these two alone, and so does whether the segment meets a box. So the
+ * order of the traversal and the other segments change nothing. */
+#include "live_part.h"
+
+#include <stddef.h>
+
+#include "../lane/kernels.h"
+#include "../occlusion/traversal.h"
+#include "../raster/resolve.h"
+
+#if LMB_TREES
+
+#define FEW 2             /* so many segments meet boxes one by one */
+#define END 1.00001000f   /* 1 / .99999: a segment's end, before which it is blocked */
+
+typedef struct traversal {
+    const lmb_kernels *kernels;
+    const lmb_bvh *bvh;
+    lmb_live_scratch *scratch;
+    const lmb_live_receiver *receiver;
+    uint64_t left; /* segments that nothing blocked yet */
+    int32_t waiting;
+} traversal;
+
+/* As occluded.c has it: swapping the corners negates the result exactly. */
+static inline lmb_vec3 edge_plane(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge) { return cross3(add3(b, c), edge); }
+
+/* The planes through the receiver and the edges, so that what crosses along the normal, or against it, is inside. */
+static void set_edges(lmb_cross_job *out, const lmb_bvh_triangle *t, const lmb_vec3 to[3], int against)
+{
+    const lmb_vec3 *p = t->corner;
+    if (against) {
+        out->edge[0] = edge_plane(to[1], to[2], sub3(p[1], p[2]));
+        out->edge[1] = edge_plane(to[2], to[0], sub3(p[2], p[0]));
+        out->edge[2] = edge_plane(to[0], to[1], sub3(p[0], p[1]));
+        out->normal = mul3(t->normal, -1.0f);
+    } else {
+        out->edge[0] = edge_plane(to[1], to[2], sub3(p[2], p[1]));
+        out->edge[1] = edge_plane(to[2], to[0], sub3(p[0], p[2]));
+        out->edge[2] = edge_plane(to[0], to[1], sub3(p[1], p[0]));
+        out->normal = t->normal;
+    }
+}
+
+/* A triangle as seen from the receiver. 0: it blocks nothing. If the receiver lies in its plane, it counts as on the
+ * eye's side, and the triangle is widened by rounding, within its boxes. */
+static int job_of(lmb_cross_job *out, const traversal *w, const lmb_bvh_triangle *t)
+{
+    const lmb_vec3 *p = t->corner, at = w->receiver->position;
+    const lmb_vec3 to[3] = {sub3(p[0], at), sub3(p[1], at), sub3(p[2], at)};
+    const float ahead = dot3(t->normal, to[0]);
+    const float noise =
+        w->receiver->noise + LMB_NOISE_TRIANGLE * (largest3(to[0]) + largest3(to[1]) + largest3(to[2]));
+    out->at = at;
+    out->slack = 0.0f;
+    if (absf(ahead) > noise) {
+        set_edges(out, t, to, ahead < 0.0f);
+        out->beyond = absf(ahead) * END;
+        return 1;
+    }
+    const float eye = dot3(t->normal, w->receiver->to_eye);
+    if (!(absf(eye) > 0.0f)) {
+        return 0;
+    }
+    set_edges(out, t, to, eye > 0.0f);
+    const lmb_vec3 *e = out->edge;
+    const float wider = minf(noise, triangle_margin(t));
+    out->beyond = noise;
+    out->slack = wider * sqrtf(maxf(maxf(dot3(e[0], e[0]), dot3(e[1], e[1])), dot3(e[2], e[2])));
+    return 1;
+}
+
+/* Of the segments that cross a triangle with holes, those that do so where it stands. */
+NOINLINE uint64_t standing(const traversal *w, uint32_t id, const lmb_cross_job *job, uint64_t crossed)
+{
+    const lmb_live_rays *r = &w->scratch->rays;
+    lmb_triangle triangle;
+    lmb_resolve_alpha alpha;
+    uint64_t out = 0;
+    if (!lmb_triangle_fetch(&triangle, w->bvh->scene, id)) {
+        return 0;
+    }
+    lmb_resolve_alpha_of(&alpha, &triangle);
+    for (uint64_t bits = crossed; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 d = vec3(r->to[0][k], r->to[1][k], r->to[2][k]);
+        const float e0 = dot3(job->edge[0], d), e1 = dot3(job->edge[1], d), e2 = dot3(job->edge[2], d);
+        const float sum = e0 + e1 + e2;
+        if (sum > 0.0f && lmb_resolve_opaque(&alpha, w->bvh->scene, e1 / sum, e2 / sum)) {
+            out |= (uint64_t)1 << k;
+        }
+    }
+    return out;
+}
+
+static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
+{
+    const lmb_bvh_triangle *t = &w->bvh->triangle[triangle];
+    const uint32_t id = t->id & ~LMB_BVH_MASKED;
+    lmb_cross_job job;
+    if (id == w->receiver->id || !job_of(&job, w, t)) {
+        return;
+    }
+    uint64_t crossed = w->kernels->live_crossed(w->scratch->rays.to, asked, &job);
+    for (uint64_t bits = crossed; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        crossed &= ~((uint64_t)(w->scratch->rays.id[k] == id) << k);
+    }
+    w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? standing(w, id, &job, crossed) : crossed);
+}
+
+static lmb_segment segment_of(const lmb_live_rays *r, int k)
+{
+    enum { HIGH = (int)(offsetof(lmb_boxes, high) / sizeof(float)) };
+    lmb_segment s;
+    s.at = r->segments.at;
+    s.per = vec3(r->segments.per[0][k], r->segments.per[1][k], r->segments.per[2][k]);
+    const float per[3] = {s.per.x, s.per.y, s.per.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        const int back = per[axis] < 0.0f;
+        s.enter[axis] = axis * LMB_BOXES + (back ? HIGH : 0);
+        s.leave[axis] = axis * LMB_BOXES + (back ? 0 : HIGH);
+    }
+    return s;
+}
+
+/* The segments that meet each box of a node. Returns the boxes that some meet. */
+static uint32_t meet(uint64_t met[LMB_BOXES], const traversal *w, const lmb_boxes *node, uint64_t asked)
+{
+    const lmb_live_rays *r = &w->scratch->rays;
+    uint32_t boxes = 0;
+    if (count_bits_64(asked) > FEW) {
+        w->kernels->live_boxes(met, &r->segments, asked, node);
+        for (int i = 0; i < LMB_BOXES; ++i) {
+            boxes |= (uint32_t)(met[i] != 0) << i;
+        }
+        return boxes;
+    }
+    for (uint64_t bits = asked; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_segment s = segment_of(r, k);
+        for (uint32_t here = w->kernels->meets_one(&s, node); here != 0; here &= here - 1) {
+            const int i = lowest_bit(here);
+            met[i] = (boxes >> i & 1u ? met[i] : 0) | (uint64_t)1 << k;
+            boxes |= 1u << i;
+        }
+    }
+    return boxes;
+}
+
+static void test_node(traversal *w, uint32_t at, uint64_t asked)
+{
+    const lmb_boxes *node = &w->bvh->node[at];
+    uint64_t met[LMB_BOXES];
+    uint32_t boxes = meet(met, w, node, asked), inner = 0;
+    for (; boxes != 0 && w->left != 0; boxes &= boxes - 1) {
+        const int i = lowest_bit(boxes);
+        for (uint32_t k = 0; k < node->count[i] && (w->left & met[i]) != 0; ++k) {
+            test_triangle(w, node->first[i] + k, w->left & met[i]);
+        }
+        inner |= (uint32_t)(node->count[i] == 0) << i;
+    }
+    for (; inner != 0 && w->waiting < LMB_LIVE_STACK; inner &= inner - 1) {
+        const int i = lowest_bit(inner);
+        w->scratch->waiting[w->waiting].node = node->first[i];
+        w->scratch->waiting[w->waiting++].rays = met[i];
+    }
+}
+
+uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_bvh *bvh,
+                          const lmb_live_receiver *receiver, uint64_t asked)
+{
+    traversal w = {kernels, bvh, scratch, receiver, asked, 0};
+    if (bvh == NULL || bvh->node_count == 0 || asked == 0) {
+        return 0;
+    }
+    test_node(&w, 0, asked);
+    while (w.waiting > 0 && w.left != 0) {
+        const lmb_live_branch next = scratch->waiting[--w.waiting];
+        if ((next.rays & w.left) != 0) {
+            test_node(&w, next.node, next.rays & w.left);
+        }
+    }
+    return asked & ~w.left;
+}
+
+#endif

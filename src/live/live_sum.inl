@@ -1,0 +1,252 @@
+/* live_sum.inl: a receiver's cut of the live tree, and the targets of its segments. Layer 6.                    [ours]
+ *
+ * Lanes are the nodes of a chunk, sixteen whatever the backend: sums of them go by one fixed tree. */
+
+/* Light of nodes i .. i + LANES - 1, and bits of those that are near. A point of area A that faces the receiver from
+ * distance d gives no more than a disc: d^2 pi + A divides it. */
+LANE_INLINE lane live_nodes(uint32_t *near, const lmb_live_chunk *c, int i, const lmb_live_job *job)
+{
+    const lane zero = lane_splat(0.0f);
+    lane3 d, facing;
+    d.x = lane_sub(lane_load(c->place[0] + i), lane_splat(job->position.x));
+    d.y = lane_sub(lane_load(c->place[1] + i), lane_splat(job->position.y));
+    d.z = lane_sub(lane_load(c->place[2] + i), lane_splat(job->position.z));
+    facing.x = lane_load(c->normal[0] + i);
+    facing.y = lane_load(c->normal[1] + i);
+    facing.z = lane_load(c->normal[2] + i);
+    const lane d2 = lane3_dot(d, d);
+    const lane here = lane3_dot(d, lane3_of(job->normal));
+    const lane there = lane_sub(zero, lane3_dot(d, facing));
+    const lane under = lane_mul(d2, lane_add(lane_mul(d2, lane_splat(3.14159265f)), lane_load(c->area + i)));
+    const lane light = lane_div(lane_mul(lane_load(c->power + i), lane_mul(here, there)), under);
+    lane_mask lit = mask_and(lane_lt(zero, here), lane_lt(zero, there));
+    if (job->is_bent) {
+        lit = mask_and(lit, lane_lt(zero, lane3_dot(d, lane3_of(job->face))));
+    }
+    *near = mask_bits(lane_lt(d2, lane_mul(lane_splat(job->split), lane_load(c->radius2 + i))));
+    return lane_keep(mask_and(lit, lane_lt(light, lane_splat(1e30f))), light);
+}
+
+/* Ask for the nodes first .. first + count - 1. 0 where there is no room. */
+static inline int live_ask(lmb_live_scratch *s, const lmb_live *live, uint32_t first, uint32_t count)
+{
+    const uint32_t past = first + count, from = first / LMB_LIVE_NODES, to = (past - 1) / LMB_LIVE_NODES;
+    if (s->count + (int32_t)(to - from) + 1 > LMB_LIVE_CUT) {
+        return 0;
+    }
+    for (uint32_t i = from; i <= to; ++i) {
+        const uint32_t low = i == from ? first % LMB_LIVE_NODES : 0,
+                       high = i == to ? (past - 1) % LMB_LIVE_NODES : LMB_LIVE_NODES - 1;
+        s->chunk[s->count] = &live->chunk[i];
+        s->asked[s->count++] = (uint16_t)((0xffffu << low) & (0xffffu >> (LMB_LIVE_NODES - 1 - high)));
+    }
+    return 1;
+}
+
+/* Can some of a first point's block light the receiver? It is flat: so not where the receiver is behind its plane, or
+ * next to it, nor where all of it is under the receiver's horizon. */
+static inline int live_is_ahead(const lmb_live_chunk *c, int i, const lmb_live_job *job)
+{
+    const lmb_vec3 d = sub3(vec3(c->place[0][i], c->place[1][i], c->place[2][i]), job->position);
+    const float here = dot3(d, job->face);
+    const float there = 0.0f - dot3(d, vec3(c->normal[0][i], c->normal[1][i], c->normal[2][i]));
+    return there > 0.0f && there * there > 1e-6f * dot3(d, d) && (here > 0.0f || here * here < c->radius2[i]);
+}
+
+/* Near nodes of chunk k of the cut: their parts are asked for, and they give nothing themselves. */
+static inline void live_divide(lmb_live_scratch *s, const lmb_live *live, int32_t k, uint32_t near,
+                               const lmb_live_job *job)
+{
+    const lmb_live_chunk *c = s->chunk[k];
+    for (; near != 0; near &= near - 1) {
+        const int i = lowest_bit(near);
+        if ((c->count[i] & LMB_LIVE_LEAF) != 0) {
+            if (s->leaves < LMB_LIVE_CUT && (c->count[i] != (LMB_LIVE_LEAF | 1u) || live_is_ahead(c, i, job))) {
+                s->leaf[s->leaves++] = (uint32_t)(k * LMB_LIVE_NODES + i);
+            }
+        } else if (c->count[i] != 0) {
+            if (live_ask(s, live, c->first[i], c->count[i])) {
+                s->value[k][i] = 0.0f;
+            } else {
+                s->is_full = 1;
+            }
+        }
+    }
+}
+
+/* Values of the chunks of the cut from s->done on, with those that they ask for. */
+static void KERNEL(live_values)(lmb_live_scratch *s, const lmb_live *live, const lmb_live_job *job)
+{
+    for (; s->done < s->count; ++s->done) {
+        const int32_t k = s->done;
+        const uint32_t asked = s->asked[k];
+        uint32_t near = 0;
+        for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
+            uint32_t bits;
+            const lane value = live_nodes(&bits, s->chunk[k], i, job);
+            near |= bits << i;
+            lane_store(s->value[k] + i, lane_keep(mask_of_bits(asked >> i & (~0u >> (32 - LANES))), value));
+        }
+        near &= asked;
+        if (near != 0) {
+            live_divide(s, live, k, near, job);
+        }
+    }
+}
+
+/* Sums of the cut's chunks, and of each channel. Returns all of it. */
+static float KERNEL(live_sums)(float light[3], lmb_live_scratch *s)
+{
+    float all = 0.0f, sums[LMB_LIVE_NODES];
+    lane sum[3][LMB_LIVE_NODES / LANES];
+    for (int i = 0; i < LMB_LIVE_NODES / LANES; ++i) {
+        sum[0][i] = sum[1][i] = sum[2][i] = lane_splat(0.0f);
+    }
+    for (int32_t k = 0; k < s->count; ++k) {
+        const lmb_live_chunk *c = s->chunk[k];
+        s->sum[k] = lane_sum16(s->value[k]);
+        all += s->sum[k];
+        for (int i = 0; i < LMB_LIVE_NODES / LANES && s->sum[k] > 0.0f; ++i) {
+            const lane value = lane_load(s->value[k] + i * LANES);
+            for (int h = 0; h < 3; ++h) {
+                sum[h][i] = lane_add(sum[h][i], lane_mul(value, lane_load(c->colour[h] + i * LANES)));
+            }
+        }
+    }
+    for (int h = 0; h < 3; ++h) {
+        for (int i = 0; i < LMB_LIVE_NODES / LANES; ++i) {
+            lane_store(sums + i * LANES, sum[h][i]);
+        }
+        light[h] = lane_sum16(sums);
+    }
+    return all;
+}
+
+/* One target: the first point of node i. */
+static inline void live_put_target(lmb_live_rays *r, int32_t to, const lmb_live_chunk *c, int i)
+{
+    const lmb_vec3 at = r->segments.at;
+    r->to[0][to] = c->target[0][i] - at.x;
+    r->to[1][to] = c->target[1][i] - at.y;
+    r->to[2][to] = c->target[2][i] - at.z;
+    for (int h = 0; h < 3; ++h) {
+        r->facet[h][to] = c->facet[h][i];
+        r->colour[h][to] = c->colour[h][i];
+    }
+    r->id[to] = c->id[i];
+}
+
+/* Of a node that has more than a stratum, the part at a fraction of its power. */
+static inline void live_put_part(lmb_live_rays *r, int32_t to, const lmb_live *live, const lmb_live_chunk *c, int i,
+                                 float fraction)
+{
+    const uint32_t first = c->first[i], count = c->count[i];
+    float at = fraction * c->power[i];
+    if (count == 0 || (count & LMB_LIVE_LEAF) != 0) {
+        live_put_target(r, to, c, i);
+        return;
+    }
+    for (uint32_t k = first; k < first + count; ++k) {
+        const lmb_live_chunk *part = &live->chunk[k / LMB_LIVE_NODES];
+        at -= part->power[k % LMB_LIVE_NODES];
+        if (at < 0.0f || k == first + count - 1) {
+            live_put_target(r, to, part, (int)(k % LMB_LIVE_NODES));
+            return;
+        }
+    }
+}
+
+/* Targets from `strata` strata of `all` light, each from its middle. */
+static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int32_t strata, float all)
+{
+    lmb_live_rays *r = &s->rays;
+    const float step = all / (float)strata;
+    float so_far = 0.0f;
+    int32_t k = 0;
+    for (int32_t e = 0; e < s->count && k < strata; ++e) {
+        const float next = so_far + s->sum[e];
+        float sums[LMB_LIVE_NODES];
+        uint32_t some = 0;
+        if (((float)k + 0.5f) * step < next) {
+            lane_scan16(sums, s->value[e], so_far);
+            for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
+                some |= mask_bits(lane_lt(lane_splat(0.0f), lane_load(s->value[e] + i))) << i;
+            }
+        }
+        for (float at = ((float)k + 0.5f) * step; some != 0 && k < strata && at < next;
+             ++k, at = ((float)k + 0.5f) * step) {
+            uint32_t after = 0;
+            for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
+                after |= mask_bits(lane_lt(lane_splat(at), lane_load(sums + i))) << i;
+            }
+            after &= some;
+            for (; after == 0 && (some & (some - 1)) != 0; some &= some - 1) { /* the last: rounding went past it */
+            }
+            const int i = lowest_bit(after != 0 ? after : some);
+            if (s->value[e][i] > step) {
+                const float rest = clampf((sums[i] - at) / s->value[e][i], 0.0f, 1.0f);
+                live_put_part(r, k, live, s->chunk[e], i, 1.0f - rest);
+            } else {
+                live_put_target(r, k, s->chunk[e], i);
+            }
+        }
+        so_far = next;
+    }
+    s->targets = k;
+    for (int i = 0; i < k; i += LANES) {
+        for (int h = 0; h < 3; ++h) {
+            lane_store(r->segments.per[h] + i, crossed_per(lane_load(r->to[h] + i)));
+        }
+    }
+}
+
+/* Of the rays `asked`, those that meet each of a node's boxes. */
+static void KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *s, uint64_t asked, const lmb_boxes *boxes)
+{
+    float low[3][LMB_BOXES], high[3][LMB_BOXES];
+    const float at[3] = {s->at.x, s->at.y, s->at.z};
+    for (int h = 0; h < 3; ++h) {
+        for (int i = 0; i < LMB_BOXES; i += LANES) {
+            lane_store(low[h] + i, lane_sub(lane_load(boxes->low[h] + i), lane_splat(at[h])));
+            lane_store(high[h] + i, lane_sub(lane_load(boxes->high[h] + i), lane_splat(at[h])));
+        }
+    }
+    for (int i = 0; i < LMB_BOXES; ++i) {
+        out[i] = 0;
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const uint32_t here = (uint32_t)(asked >> k) & (~0u >> (32 - LANES));
+        if (here != 0) {
+            const lane x = lane_load(s->per[0] + k), y = lane_load(s->per[1] + k), z = lane_load(s->per[2] + k);
+            for (int i = 0; i < LMB_BOXES && low[0][i] <= high[0][i]; ++i) {
+                lane from = lane_splat(0.0f), to = lane_splat(1.0f);
+                crossed_slab(&from, &to, x, low[0][i], high[0][i]);
+                crossed_slab(&from, &to, y, low[1][i], high[1][i]);
+                crossed_slab(&from, &to, z, low[2][i], high[2][i]);
+                out[i] |= (uint64_t)(mask_bits(crossed_some(from, to)) & here) << k;
+            }
+        }
+    }
+}
+
+/* Of the rays `asked`, those that cross a triangle. */
+static uint64_t KERNEL(live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job)
+{
+    const lane3 n = lane3_of(job->normal);
+    const lane3 e0 = lane3_of(job->edge[0]), e1 = lane3_of(job->edge[1]), e2 = lane3_of(job->edge[2]);
+    const lane outer = lane_splat(0.0f - job->slack), beyond = lane_splat(job->beyond);
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const uint32_t here = (uint32_t)(asked >> k) & (~0u >> (32 - LANES));
+        if (here != 0) {
+            lane3 d;
+            d.x = lane_load(to[0] + k);
+            d.y = lane_load(to[1] + k);
+            d.z = lane_load(to[2] + k);
+            const lane min = lane_min(lane_min(lane3_dot(e0, d), lane3_dot(e1, d)), lane3_dot(e2, d));
+            const lane_mask inside = mask_and(lane_le(outer, min), lane_lt(beyond, lane3_dot(n, d)));
+            out |= (uint64_t)(mask_bits(inside) & here) << k;
+        }
+    }
+    return out;
+}

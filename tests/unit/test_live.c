@@ -1,0 +1,410 @@
+/* test_live.c: light at single points, against sums over all first points; what must stay dark; the same bytes by every
+ * back end. */
+#include "../world.h"
+
+#include <math.h>
+
+#include "../../src/lane/kernels.h"
+#include "../../src/live/live_part.h"
+
+void test_live(void);
+
+enum { MAP = 256, FACES = 12 };
+
+static uint64_t live_memory[1 << 21], bvh_memory[1 << 18];
+static uint32_t map_memory[6 * MAP * MAP * 2];
+static lmb_live live;
+static lmb_live_scratch scratch;
+static lmb_shadow_map map;
+static lmb_tile tile;
+static lmb_bvh bvh;
+
+/* --- a lit world -------------------------------------------------------------------------------------------------- */
+
+static void collect(uint32_t light)
+{
+    CHECK(lmb_shadow_map_init(&map, &world.scene.lights[light], &world.scene, MAP, LMB_ID32, map_memory,
+                              sizeof map_memory) == LMB_OK);
+    lmb_shadow_map_clear(&map);
+    CHECK(lmb_shadow_map_draw(&map, picked_kernels(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    for (int32_t f = 0; f < map.faces; ++f) {
+        if ((map.drawn >> f) & 1u) {
+            CHECK(lmb_live_collect(&live, picked_kernels(), &tile, &world.scene, light, &map, f, live.faces, 0,
+                                   MAP / LMB_TILE) == LMB_OK);
+            ++live.faces;
+        }
+    }
+}
+
+/* The world by these lights, which share one map's memory: each is collected before the next one is drawn. */
+static void light_world(const lmb_light *lights, uint32_t count)
+{
+    CHECK(world_end() == LMB_OK);
+    world.scene.lights = lights;
+    world.scene.light_count = count;
+    memset(live_memory, 0x5a, sizeof live_memory);
+    CHECK(lmb_live_bytes(FACES, lmb_live_side(FACES, MAP)) <= sizeof live_memory);
+    CHECK(lmb_live_init(&live, FACES, lmb_live_side(FACES, MAP), live_memory, sizeof live_memory) == LMB_OK);
+    for (uint32_t i = 0; i < count; ++i) {
+        collect(i);
+    }
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK);
+    CHECK(live.points > 0 && live.merged == 0);
+    CHECK(lmb_bvh_init(&bvh, world.count, bvh_memory, sizeof bvh_memory) == LMB_OK);
+    CHECK(lmb_bvh_build(&bvh, &world.scene) == LMB_OK);
+}
+
+static lmb_vec3 corner(uint32_t triangle, int k)
+{
+    const float *p = world.corners[triangle][k];
+    return vec3(p[0], p[1], p[2]);
+}
+
+/* A random place on a triangle, seen from the side where `eye` is. */
+static lmb_live_receiver place_on(uint32_t triangle, lmb_vec3 eye, test_rng *r)
+{
+    lmb_live_receiver at;
+    const lmb_vec3 a = corner(triangle, 0), u = sub3(corner(triangle, 1), a), v = sub3(corner(triangle, 2), a);
+    float s = test_uniform(r, 0.01f, 0.99f), t = test_uniform(r, 0.01f, 0.99f);
+    s = s + t > 0.99f ? 0.99f - s : s;
+    t = s + t > 0.99f ? 0.99f - t : t;
+    at.position = add3(a, add3(mul3(u, absf(s)), mul3(v, absf(t))));
+    at.face = normalize3(cross3(u, v));
+    at.face = dot3(at.face, sub3(eye, at.position)) < 0.0f ? mul3(at.face, -1.0f) : at.face;
+    at.normal = at.face;
+    at.id = triangle + 1;
+    at.noise = lmb_place_noise(at.position, length3(sub3(eye, at.position)));
+    at.to_eye = sub3(eye, at.position);
+    return at;
+}
+
+static void receive(float light[3], const lmb_kernels *kernels, const lmb_live_receiver *at, int shadows)
+{
+    CHECK(lmb_live_receive(light, kernels, &scratch, &live, shadows ? &bvh : NULL, at) == LMB_OK);
+}
+
+/* --- all first points, one by one --------------------------------------------------------------------------------- */
+
+/* Does any triangle stand between, but the two ends' own? In binary64. */
+static int is_hidden(lmb_vec3 from, lmb_vec3 to, uint32_t own, uint32_t other)
+{
+    for (uint32_t i = 0; i < world.count; ++i) {
+        double e[3][3], d[3], v[3], vol = 0.0;
+        const float a[3] = {from.x, from.y, from.z}, b[3] = {to.x, to.y, to.z};
+        if (i + 1 == own || i + 1 == other) {
+            continue;
+        }
+        for (int k = 0; k < 3; ++k) {
+            d[k] = (double)b[k] - (double)a[k];
+            for (int j = 0; j < 3; ++j) {
+                e[k][j] = (double)world.corners[i][k][j] - (double)a[j];
+            }
+        }
+        for (int k = 0; k < 3; ++k) {
+            const double *p = e[(k + 1) % 3], *q = e[(k + 2) % 3];
+            const double n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+            v[k] = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+            vol = n[0] * e[k][0] + n[1] * e[k][1] + n[2] * e[k][2];
+        }
+        const double side = vol < 0.0 ? -1.0 : 1.0, sum = side * (v[0] + v[1] + v[2]);
+        if (side * v[0] >= 0.0 && side * v[1] >= 0.0 && side * v[2] >= 0.0 && sum * 0.99999 > side * vol) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Light of all first points by the formula of nodes. */
+static double sum_of_all(const lmb_live_receiver *at, int channel, int shadows)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < live.points; ++i) {
+        const lmb_live_point *p = &live.sorted[i];
+        const lmb_vec3 d = sub3(p->position, at->position);
+        const double here = (double)dot3(d, at->normal), there = -(double)dot3(d, p->normal), d2 = (double)dot3(d, d);
+        if (here > 0.0 && there > 0.0 && (!shadows || !is_hidden(at->position, p->position, at->id, p->id))) {
+            sum += (double)p->flux[channel] * here * there / (d2 * (PI * d2 + (double)p->area));
+        }
+    }
+    return sum;
+}
+
+/* Is a first point so near that parts of it count? */
+static int is_near(const lmb_live_receiver *at)
+{
+    for (uint32_t i = 0; i < live.points; ++i) {
+        const lmb_vec3 d = sub3(live.sorted[i].position, at->position);
+        if (dot3(d, d) < 16.0f * live.sorted[i].area && live.sorted[i].id != at->id) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+typedef struct errors {
+    double rms, worst, bias;
+} errors;
+
+/* Of `count` receivers of the world that are near no first point, relative to their mean. */
+static errors errors_of(int count, lmb_vec3 eye, int shadows, test_rng *r)
+{
+    errors e = {0, 0, 0};
+    double mean = 0.0;
+    for (int i = 0; i < count; ++i) {
+        lmb_live_receiver at = place_on(test_random(r) % world.count, eye, r);
+        while (is_near(&at)) {
+            at = place_on(test_random(r) % world.count, eye, r);
+        }
+        const int channel = i % 3;
+        float light[3];
+        receive(light, picked_kernels(), &at, shadows);
+        const double all = sum_of_all(&at, channel, shadows), off = (double)light[channel] - all;
+        mean += all / count;
+        e.rms += off * off / count;
+        e.worst = fmax(e.worst, fabs(off));
+        e.bias += off / count;
+    }
+    CHECK(mean > 0.0);
+    e.rms = sqrt(e.rms) / mean;
+    e.worst /= mean;
+    e.bias /= mean;
+    return e;
+}
+
+/* A room with a table in it, whose first points fall on all of that. */
+static void room_with_table(void)
+{
+    world_begin(0.7f, 0.5f, 0.3f);
+    world_box(vec3(0, 1, 0), 1.0f);
+    world_quad(vec3(0.1f, 0.7f, 0.0f), mul3(X, 0.45f), mul3(Z, 0.4f));
+    world_quad(vec3(-0.5f, 0.4f, 0.3f), mul3(X, 0.2f), mul3(Y, 0.4f));
+}
+
+/* --- tests -------------------------------------------------------------------------------------------------------- */
+
+static void sums_and_shares(void)
+{
+    test_rng r = {5};
+    const lmb_vec3 eye = vec3(-0.7f, 1.5f, -0.7f);
+    const lmb_light lights[2] = {spot(vec3(0.6f, 1.8f, 0.5f), vec3(-0.5f, -1, -0.4f), 20, 35),
+                                 point_light(vec3(-0.6f, 1.6f, 0.2f))};
+    for (uint32_t count = 1; count <= 2; ++count) {
+        room_with_table();
+        light_world(lights, count);
+        live.split = 16.0f;
+        const errors sum = errors_of(150, eye, 0, &r);
+        CHECK_MSG(sum.rms < 0.02 && fabs(sum.bias) < 0.005, "%u lights: sums rms %.4f, bias %.4f", (unsigned)count,
+                  sum.rms, sum.bias);
+        const errors shadows = errors_of(150, eye, 1, &r);
+        CHECK_MSG(shadows.rms < 0.08 && fabs(shadows.bias) < 0.02, "%u lights: shadows rms %.4f, bias %.4f",
+                  (unsigned)count, shadows.rms, shadows.bias);
+    }
+    CHECK_MSG(scratch.full == 0, "%u full", (unsigned)scratch.full);
+}
+
+/* Eight equal lights of an eighth each give what one gives: a place's area counts once. */
+static void area_counts_once(void)
+{
+    test_rng r = {9};
+    lmb_light lights[8];
+    lmb_live_receiver at[60];
+    float one[60][3];
+    const lmb_light whole = spot(vec3(0.6f, 1.8f, 0.5f), vec3(-0.5f, -1, -0.4f), 20, 35);
+    room_with_table();
+    light_world(&whole, 1);
+    for (int i = 0; i < 60; ++i) {
+        at[i] = place_on((uint32_t)i % world.count, vec3(0, 1, 0), &r);
+        while (is_near(&at[i])) {
+            at[i] = place_on((uint32_t)i % world.count, vec3(0, 1, 0), &r);
+        }
+        receive(one[i], picked_kernels(), &at[i], 0);
+    }
+    for (int i = 0; i < 8; ++i) {
+        lights[i] = whole;
+        lights[i].position.x += 1e-3f * (float)i;
+        for (int c = 0; c < 3; ++c) {
+            lights[i].intensity[c] *= 0.125f;
+        }
+    }
+    light_world(lights, 8);
+    double sum = 0.0, off = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        float light[3];
+        receive(light, picked_kernels(), &at[i], 0);
+        sum += (double)one[i][0];
+        off += (double)light[0] - (double)one[i][0];
+    }
+    CHECK_MSG(fabs(off / sum) < 0.01, "eight lights are %.4f of one", 1.0 + off / sum);
+}
+
+/* Close over a wide floor that is lit evenly from straight above: at any height a wall gets half of what the floor
+ * sends, though the points lie far apart there. */
+static void near_field(void)
+{
+    const lmb_light light = sun(vec3(0, -1, 0));
+    lmb_live_receiver at;
+    float here[3];
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 4), mul3(X, 4));
+    light_world(&light, 1);
+    live.split = 16.0f;
+    memset(&at, 0, sizeof at);
+    at.face = at.normal = X;
+    double sum = 0.0, worst = 0.0;
+    for (int i = 0; i < 40; ++i) {
+        at.position = vec3(0.013f * (float)(i % 7) - 0.05f, 0.02f + 0.004f * (float)i, 0.017f * (float)(i % 5));
+        receive(here, picked_kernels(), &at, 1);
+        const double y = (double)at.position.y, x = 4.0 - (double)at.position.x;
+        const double truth = 0.5 * (1.0 - y / sqrt(x * x + y * y)); /* of a floor that is endless along z */
+        const double off = (double)here[0] / truth - 1.0;
+        sum += off / 40.0;
+        worst = fmax(worst, fabs(off));
+    }
+    CHECK_MSG(fabs(sum) < 0.02 && worst < 0.1, "%.4f more than the floor sends, at worst %.4f off", sum, worst);
+}
+
+static float height_of(int x, int z) { return 0.08f * sinf(0.9f * (float)x) * cosf(0.7f * (float)z); }
+
+/* A bent sheet, lit from above: a segment from its underside to its upper side crosses it. */
+static void under_a_sheet_is_dark(void)
+{
+    enum { CELLS = 24 };
+    test_rng r = {3};
+    const lmb_light light = sun(vec3(0.3f, -1, 0.2f));
+    int lit = 0, over = 0;
+    world_begin(0.7f, 0.7f, 0.7f);
+    for (int i = 0; i < CELLS * CELLS; ++i) {
+        const int x = i % CELLS, z = i / CELLS;
+        const lmb_vec3 a = vec3(0.1f * (float)x, height_of(x, z), 0.1f * (float)z),
+                       b = vec3(0.1f * (float)(x + 1), height_of(x + 1, z), 0.1f * (float)z),
+                       c = vec3(0.1f * (float)(x + 1), height_of(x + 1, z + 1), 0.1f * (float)(z + 1)),
+                       d = vec3(0.1f * (float)x, height_of(x, z + 1), 0.1f * (float)(z + 1));
+        world_triangle(a, b, c);
+        world_triangle(a, c, d);
+    }
+    light_world(&light, 1);
+    for (int i = 0; i < 3000; ++i) {
+        const uint32_t on = test_random(&r) % world.count;
+        const float up = i % 10 == 0 ? 9.0f : -9.0f;
+        lmb_live_receiver at = place_on(on, add3(corner(on, 0), vec3(0, up, 0)), &r);
+        float light_here[3];
+        at.noise = lmb_place_noise(at.position, 3.0f);
+        receive(light_here, picked_kernels(), &at, 1);
+        lit += up < 0.0f && light_here[0] > 0.0f;
+        over += up > 0.0f && light_here[0] > 0.0f;
+    }
+    CHECK_MSG(lit == 0 && over > 100, "%d of its underside are lit; %d of its upper side", lit, over);
+}
+
+/* Behind a wall of a millimetre, and of none, in a room whose other half is lit. */
+static void behind_a_thin_wall_is_dark(void)
+{
+    test_rng r = {4};
+    const lmb_light light = point_light(vec3(0.5f, 1.2f, 0.1f));
+    for (int thick = 0; thick < 2; ++thick) {
+        int lit = 0, count = 0;
+        world_begin(0.7f, 0.7f, 0.7f);
+        world_quad(vec3(0, 1, 0), Y, Z);
+        world_box(vec3(0, 1, 0), 1.0f);
+        if (thick) {
+            world_quad(vec3(-0.001f, 1, 0), Y, Z);
+        }
+        light_world(&light, 1);
+        for (int i = 0; i < 4000; ++i) {
+            const lmb_live_receiver at = place_on(test_random(&r) % world.count, vec3(-0.5f, 0.9f, 0.1f), &r);
+            float here[3];
+            if (at.position.x > (thick ? -0.0009f : 0.0f)) {
+                continue;
+            }
+            receive(here, picked_kernels(), &at, 1);
+            lit += here[0] > 0.0f;
+            ++count;
+        }
+        CHECK_MSG(lit == 0 && count > 1000, "%d of %d behind the wall are lit", lit, count);
+    }
+}
+
+/* Every back end, every number of strata. */
+static void same_bytes(void)
+{
+    const lmb_light lights[2] = {spot(vec3(0.6f, 1.8f, 0.5f), vec3(-0.5f, -1, -0.4f), 20, 35),
+                                 point_light(vec3(-0.6f, 1.6f, 0.2f))};
+    test_rng r = {11};
+    int wrong = 0;
+    room_with_table();
+    world_sphere(vec3(0.4f, 0.3f, -0.4f), 0.25f, 12, 20);
+    light_world(lights, 2);
+#define SAME_BYTES(upper, lower) \
+    if (lmb_kernels_named(#lower) != NULL) { \
+        float light[3]; \
+        receive(light, lmb_kernels_named(#lower), &at, 1); \
+        wrong += memcmp(light, plain, sizeof plain) != 0; \
+    }
+    for (int i = 0; i < 600; ++i) {
+        lmb_live_receiver at = place_on(test_random(&r) % world.count, vec3(-0.7f, 1.5f, -0.7f), &r);
+        float plain[3];
+        at.normal = i % 2 ? normalize3(add3(at.face, vec3(0.2f, 0.1f, -0.1f))) : at.face;
+        live.strata = 1 + (int32_t)(test_random(&r) % LMB_LIVE_STRATA);
+        receive(plain, lmb_kernels_named("scalar"), &at, 1);
+        LMB_BACKENDS(SAME_BYTES)
+    }
+    CHECK_MSG(wrong == 0, "%d differ", wrong);
+}
+
+/* Too few chunks: coarser nodes, the same light. */
+static void few_chunks(void)
+{
+    test_rng r = {21};
+    const lmb_light light = point_light(vec3(-0.6f, 1.6f, 0.2f));
+    room_with_table();
+    light_world(&light, 1);
+    const uint32_t used = live.chunks;
+    live.chunk_cap = used / 2;
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK);
+    CHECK(live.merged > 0 && live.chunks <= used / 2);
+    const errors sum = errors_of(100, vec3(-0.7f, 1.5f, -0.7f), 0, &r);
+    CHECK_MSG(sum.rms < 0.05, "rms %.4f", sum.rms);
+    live.chunk_cap = 3;
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK);
+    CHECK(live.chunks <= 3);
+}
+
+static void refused(void)
+{
+    const lmb_light light = point_light(vec3(-0.6f, 1.6f, 0.2f));
+    lmb_live none;
+    lmb_live_receiver at;
+    float out[3] = {1, 1, 1};
+    memset(&none, 0, sizeof none);
+    memset(&at, 0, sizeof at);
+    CHECK(lmb_live_side(1, 1024) == 256 && lmb_live_side(6, 512) == 128 && lmb_live_side(6, 4096) == 512);
+    CHECK(lmb_live_side(1, 0) == 0 && lmb_live_side(1, 12) == 0 && lmb_live_side(1, 16384) == 0);
+    CHECK(lmb_live_bytes(0, 64) == 0 && lmb_live_bytes(1, 0) == 0 && lmb_live_bytes(100000, 64) == 0);
+    const size_t bytes = lmb_live_bytes(1, 64);
+    CHECK(lmb_live_init(&none, 1, 64, live_memory, bytes - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_live_init(&none, 1, 64, (uint8_t *)live_memory + 4, bytes) == LMB_ERR_ALIGN);
+    CHECK(lmb_live_init(NULL, 1, 64, live_memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_live_receive(out, picked_kernels(), &scratch, &none, NULL, &at) == LMB_ERR_ARG);
+    CHECK(lmb_live_build(&none, &world.scene) == LMB_ERR_ARG);
+    room_with_table();
+    light_world(&light, 1);
+    CHECK(lmb_live_collect(&live, picked_kernels(), &tile, &world.scene, 1, &map, 0, 0, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_live_collect(&live, picked_kernels(), &tile, &world.scene, 0, &map, 6, 0, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_live_collect(&live, picked_kernels(), &tile, &world.scene, 0, &map, 0, FACES, 0, 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_live_collect(&live, picked_kernels(), &tile, &world.scene, 0, &map, 0, 0, 0, 99) == LMB_ERR_ARG);
+    live.faces = 0;
+    CHECK(lmb_live_build(&live, &world.scene) == LMB_OK && live.points == 0);
+    CHECK(lmb_live_receive(out, picked_kernels(), &scratch, &live, &bvh, &at) == LMB_OK && out[0] == 0.0f);
+}
+
+void test_live(void)
+{
+    sums_and_shares();
+    area_counts_once();
+    near_field();
+    under_a_sheet_is_dark();
+    behind_a_thin_wall_is_dark();
+    same_bytes();
+    few_chunks();
+    refused();
+}
