@@ -15,6 +15,7 @@ typedef struct lmb_radiance {
 typedef struct lmb_lattice_tile {
     float position[3][LMB_TILE_PIXELS], face[3][LMB_TILE_PIXELS], normal[3][LMB_TILE_PIXELS];
     lmb_irradiance light;
+    uint32_t id[LMB_TILE_PIXELS];
     uint64_t shown, known, wanted, late; /* pixels with a surface; those gathered; to gather next; to light by those */
     uint64_t early; /* known before the last phase: what other windows may read of this one in it */
     int32_t flat;                  /* 1: all that are shown lie on one plane and are shaded as such */

@@ -30,6 +30,7 @@
 #include "compose.h"
 #include "elements.h"
 #include "env.h"
+#include "live.h"
 #include "many_lights.h"
 #include "transfer.h"
 #include "tree.h"
@@ -39,7 +40,7 @@ enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_I
 
 /* A gather_step: samples 8 px apart, and closer where light or surfaces ask for it; what lies between goes on by their
  * slopes. The picture is a function of scene, view and settings, whatever the order, threads and bands. */
-enum { LMB_GATHER_ADAPTIVE = 8 };
+enum { LMB_GATHER_ADAPTIVE = 8, LMB_GATHER_LIVE = 16 /* the same samples, by lmb_live: for light that moves */ };
 
 /* Light gathered for some pixels of a block of tiles side by side. */
 typedef struct lmb_sparse {
@@ -81,6 +82,7 @@ typedef struct lmb_band_scratch {
     lmb_sparse sparse; /* where gather_step is over 1 */
     lmb_glossy glossy; /* where a material has a lobe */
     lmb_multisample *multisample; /* where frame.samples is over 1 */
+    lmb_live_scratch *live; /* LMB_GATHER_LIVE */
 } lmb_band_scratch;
 
 /* Called once a finished band, with a surface of up to 8 rows whose first is row y of the frame. Return 0 to go on,
@@ -130,7 +132,8 @@ typedef struct lmb_frame {
     lmb_transfer_light transfer_light;   /* laid out for it, with the scene's materials */
     lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows of many_lights; triangle NULL: these cast none */
     lmb_elements elements; /* for bounces > 1, bounced many_lights, and materials that emit; data NULL: none of these */
-    lmb_lattice lattice; /* LMB_GATHER_ADAPTIVE: of the view's size; tile NULL: none */
+    lmb_lattice lattice; /* LMB_GATHER_ADAPTIVE and _LIVE: of the view's size; tile NULL: none */
+    lmb_live *live; /* LMB_GATHER_LIVE, with LMB_GROUP_CUT: for all faces of the maps; NULL: none */
     lmb_target eye;     /* depth and id of the whole frame; when memory is short, of a strip of some bands of 8 rows:
                            the scene is drawn again for each strip */
     lmb_surface eye_depth; /* with such an `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */

@@ -154,6 +154,7 @@ void lmb_lattice_put(const lmb_lattice *l, const lmb_tile *tile, int lobes)
     memcpy(out->position, tile->position, sizeof out->position);
     memcpy(out->face, tile->face, sizeof out->face);
     memcpy(out->normal, tile->normal, sizeof out->normal);
+    memcpy(out->id, tile->id, sizeof out->id);
     out->shown = lobes ? 0 : tile_pixels(tile);
     out->known = out->wanted = 0;
     out->flat = is_flat(tile, out->shown);

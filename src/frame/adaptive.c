@@ -23,6 +23,7 @@ enum {
 enum { WINDOW_UNITS = 64 };
 
 #define SPLIT 28.0f /* of the allowed error, squared: lmb_lattice.split */
+#define LIVE_SPLIT 290.0f /* over the square of the strata: what shadows are off by is not to be divided for */
 
 static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, int32_t band)
 {
@@ -61,15 +62,15 @@ static int on_plane(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b,
 }
 
 /* Its depth says how far rounding may have left it off its surface. */
-static void put_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int from, const lmb_view *view)
+static void put_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int from, const lmb_frame *f)
 {
     for (int c = 0; c < 3; ++c) {
         out->position[c][to] = in->position[c][from];
         out->face[c][to] = in->face[c][from];
         out->normal[c][to] = in->normal[c][from];
     }
-    out->depth[to] = absf(dot3(view->back, sub3(tile_vec(in->position, from), view->eye)));
-    out->id[to] = 1;
+    out->depth[to] = absf(dot3(f->view.back, sub3(tile_vec(in->position, from), f->view.eye)));
+    out->id[to] = requires_live(f) ? in->id[from] : 1;
 }
 
 /* A pack under way: its pixels lie in s->sparse.together, and where they come from in its light. */
@@ -92,7 +93,7 @@ static void put_alike(pack *p, lmb_lattice_tile *tile, int32_t i)
             p->seed_pixel = k;
         }
         if (on_plane(p->seed, p->seed_pixel, tile, k)) {
-            put_pixel(&p->s->sparse.together, p->count, tile, k, &p->r->frame.view);
+            put_pixel(&p->s->sparse.together, p->count, tile, k, &p->r->frame);
             p->s->sparse.pixel[p->count] = (uint16_t)k;
             p->tile[p->count++] = (uint16_t)i;
             tile->wanted &= ~((uint64_t)1 << k);
@@ -118,12 +119,53 @@ static lmb_status gather_pack(const pack *p)
     return status;
 }
 
+/* Each for itself, where all bounced light is that of single points. */
+static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, lmb_lattice_tile *tile)
+{
+    const lmb_lattice_tile *in = tile;
+    const lmb_view *v = &r->frame.view;
+    lmb_status status = LMB_OK;
+    for (uint64_t bits = tile->wanted; bits != 0 && status == LMB_OK; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 at = tile_vec(in->position, k);
+        const lmb_live_receiver receiver = {at, tile_vec(in->face, k), tile_vec(in->normal, k), in->id[k],
+                                            lmb_place_noise(at, absf(dot3(v->back, sub3(at, v->eye)))),
+                                            view_to_eye(v, at)};
+        float light[3];
+        status = lmb_render_live(light, r, s, &receiver);
+        for (int c = 0; c < 3 && status == LMB_OK; ++c) {
+            tile->light.rgb[c][k] = light[c];
+        }
+    }
+    tile->known |= tile->wanted;
+    tile->wanted = 0;
+    return status;
+}
+
+static lmb_status light_window(const lmb_render *r, lmb_band_scratch *s, int32_t window)
+{
+    const lmb_lattice *l = &r->frame.lattice;
+    lmb_status status = LMB_OK;
+    int32_t column[2], row[2];
+    lmb_lattice_window(column, row, l, window);
+    for (int32_t y = row[0]; y < row[1]; ++y) {
+        for (int32_t x = column[0]; x < column[1] && status == LMB_OK; ++x) {
+            lmb_lattice_tile *tile = lattice_tile(l, x, y);
+            status = tile->wanted != 0 ? light_tile(r, s, tile) : LMB_OK;
+        }
+    }
+    return status;
+}
+
 /* Gather the wanted pixels of a window. */
 static lmb_status gather_window(const lmb_render *r, lmb_band_scratch *s, int32_t window)
 {
     const lmb_lattice *l = &r->frame.lattice;
     lmb_status status = LMB_OK;
     pack p;
+    if (requires_live(&r->frame) && !requires_elements(r) && !gathers_many_lights(&r->frame)) {
+        return light_window(r, s, window);
+    }
     p.r = r;
     p.s = s;
     lmb_lattice_window(p.column, p.row, l, window);
@@ -176,13 +218,19 @@ static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
     return status;
 }
 
+static float split_of(const lmb_frame *f)
+{
+    const float strata = requires_live(f) ? (float)f->live->strata : 0.0f;
+    return requires_live(f) ? LIVE_SPLIT / (strata * strata) : SPLIT * f->error * f->error;
+}
+
 /* The next phase. */
 lmb_status lmb_render_samples_on(lmb_render *r)
 {
     const int32_t level = (int32_t)r->light - LEVELS;
     if (level == 0) {
         r->frame.lattice.mean = lmb_lattice_mean(&r->frame.lattice);
-        r->frame.lattice.split = SPLIT * r->frame.error * r->frame.error;
+        r->frame.lattice.split = split_of(&r->frame);
     }
     if (level >= 0 && level < LATTICE_LEVELS - 1) {
         lmb_lattice_divide(&r->frame.lattice, level);

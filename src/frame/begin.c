@@ -39,7 +39,7 @@ void lmb_render_defaults(lmb_frame *f)
     f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : ERROR;
     f->visibility = f->visibility != 0.0f ? f->visibility : even ? EVEN_VISIBLE : VISIBILITY;
     f->gather_step = f->gather_step != 0 && requires_bounce(f) ? f->gather_step : 1;
-    if (f->gather_step == LMB_GATHER_ADAPTIVE && requires_transfer(f)) {
+    if (takes_lattice(f->gather_step) && requires_transfer(f)) {
         f->gather_step = 1; /* what was baked costs a pixel less than a sample */
     }
 }
@@ -121,6 +121,10 @@ static int is_solved(const lmb_frame *f, const lmb_render *r)
     const int same = f->occlusion == before->occlusion && f->error == before->error &&
                      f->visibility == before->visibility && f->conservative == before->conservative &&
                      f->many_lights_error == before->many_lights_error;
+    const int texels = !requires_live(f) || (r->is_glossy && f->show != LMB_SHOW_IRRADIANCE) || requires_elements(r);
+    if (requires_cut(f) && ((requires_live(f) && !requires_live(before)) || (texels && !requires_texels(r)))) {
+        return 0;
+    }
     return (!requires_bounce(f) || requires_bounce(before)) && (same || !requires_bounce(f) || !requires_elements(r)) &&
            (!exact || before->occlusion == LMB_OCCLUSION_EXACT || before->bvh.node_count > 0);
 }

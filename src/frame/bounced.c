@@ -1,5 +1,6 @@
 /* bounced.c: the bounced light of a tile, from cuts of the trees or from groups. Layer 10. */
 #include "../base/vec.h"
+#include "../raster/tile.h"
 #include "stages.h"
 #include "requires.h"
 
@@ -17,6 +18,38 @@ NOINLINE lmb_status gather_many_lights(lmb_irradiance *inout, const lmb_render *
     return lmb_many_lights_direct_tile(inout, f->kernels, &s->many_lights, tile, &query);
 }
 
+lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *s, const lmb_live_receiver *at)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_status status = lmb_live_receive(light, f->kernels, s->live, f->live,
+                                               f->occlusion == LMB_OCCLUSION_EXACT ? &f->bvh : NULL, at);
+    s->counts.segments += s->live->segments;
+    s->counts.pairs += s->live->pairs;
+    s->counts.full_cuts += s->live->full;
+    s->live->segments = s->live->pairs = s->live->full = 0;
+    return status;
+}
+
+/* Each pixel for itself. */
+NOINLINE lmb_status gather_live(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, const lmb_tile *tile)
+{
+    lmb_status status = LMB_OK;
+    for (int k = 0; k < LMB_TILE_PIXELS && status == LMB_OK; ++k) {
+        if (tile->id[k] != 0) {
+            const lmb_live_receiver at = {tile_vec(tile->position, k), tile_vec(tile->face, k),
+                                          tile_vec(tile->normal, k), tile->id[k],
+                                          lmb_place_noise(tile_vec(tile->position, k), absf(tile->depth[k])),
+                                          view_to_eye(&r->frame.view, tile_vec(tile->position, k))};
+            float light[3];
+            status = lmb_render_live(light, r, s, &at);
+            for (int c = 0; c < 3 && status == LMB_OK; ++c) {
+                inout->rgb[c][k] += light[c];
+            }
+        }
+    }
+    return status;
+}
+
 /* What the light's shadow maps bounce, and what elements send. */
 static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,
                               const lmb_tile *tile, const lmb_irradiance *direct)
@@ -27,11 +60,13 @@ static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const l
     cut_params.view = &f->view;
     cut_params.direct = direct;
     cut_params.beside = gathers_many_lights(f) ? inout : NULL;
-    if (f->gather_step == LMB_GATHER_ADAPTIVE && tile == &s->sparse.together) {
+    if (takes_lattice(f->gather_step) && tile == &s->sparse.together) {
         cut_params.visibility *= SPREAD_VISIBILITY;
         cut_params.spread = 1;
     }
-    lmb_status status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cut_params);
+    lmb_status status = requires_live(f) && glossy == NULL
+                            ? gather_live(inout, r, s, tile)
+                            : lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cut_params);
     if (status == LMB_OK && requires_elements(r)) {
         cut_params.beside = inout;
         status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->elements.tree, &cut_params);

@@ -65,7 +65,7 @@ static lmb_status check(const lmb_frame_settings *s)
         s->show > LMB_SHOW_IRRADIANCE || s->quality < LMB_QUALITY_DEFAULT || s->quality > LMB_QUALITY_FIXED ||
         s->bounces < 0 || s->bounces > LMB_MAX_BOUNCES || s->threads < 0 || s->threads > MAX_THREADS ||
         s->shadow_map < 0 || s->tree < 0 || s->gather_step < 0 || s->gather_step == 3 ||
-        (s->gather_step > 4 && s->gather_step != LMB_GATHER_ADAPTIVE) || !(s->error >= 0.0f) || !(s->visibility >= 0.0f) ||
+        (s->gather_step > 4 && !takes_lattice(s->gather_step)) || !(s->error >= 0.0f) || !(s->visibility >= 0.0f) ||
         (s->by_bands && s->threads > 1) || (s->samples > 1 && !LMB_MULTISAMPLE) ||
         (s->samples > 1 && s->samples != 4 && s->samples != 8 && s->samples != 16) || s->samples < 0) {
         return LMB_ERR_ARG;
@@ -73,7 +73,7 @@ static lmb_status check(const lmb_frame_settings *s)
     if (!LMB_TRANSFER && s->transfer != NULL) {
         return LMB_ERR_ARG;
     }
-    if (is_fixed(s) && (s->bounces > 1 || s->grouping.method == LMB_GROUP_CUT)) {
+    if (is_fixed(s) && (s->bounces > 1 || s->grouping.method == LMB_GROUP_CUT || s->gather_step == LMB_GATHER_LIVE)) {
         return LMB_ERR_ARG;
     }
     if (s->scene->light_count > LMB_MAX_LIGHTS) {
@@ -275,7 +275,7 @@ static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block
 static lmb_status place_lattice(lmb_frame *f, block *b)
 {
     const lmb_view *v = &f->view;
-    if (f->gather_step != LMB_GATHER_ADAPTIVE || f->show == LMB_SHOW_DIRECT) {
+    if (!takes_lattice(f->gather_step) || f->show == LMB_SHOW_DIRECT) {
         return LMB_OK;
     }
     const size_t bytes = lmb_lattice_bytes(v->frame_width, v->frame_height);
@@ -284,6 +284,34 @@ static lmb_status place_lattice(lmb_frame *f, block *b)
            : is_measured(b) ? LMB_OK
                               : lmb_lattice_init(&f->lattice, v->frame_width, v->frame_height, memory, bytes);
 }
+
+#if LMB_TREES
+/* The tree of single points, and a scratch for each thread. */
+static lmb_status place_live(lmb_frame *f, const lmb_frame_settings *s, block *b)
+{
+    const uint32_t lit = map_faces(f->scene), faces = lit > 0 ? lit : 1;
+    const int32_t side = lmb_live_side(faces, f->shadow_map);
+    const size_t bytes = lmb_live_bytes(faces, side);
+    if (f->gather_step != LMB_GATHER_LIVE || f->show == LMB_SHOW_DIRECT || f->transfer != NULL) {
+        return LMB_OK;
+    }
+    f->live = (lmb_live *)take(b, sizeof *f->live);
+    void *memory = take(b, bytes);
+    lmb_live_scratch *scratch =
+        (lmb_live_scratch *)take(b, sizeof *scratch * (uint64_t)(s->threads > 1 ? s->threads : 1));
+    if (bytes == 0 || is_measured(b)) {
+        return bytes == 0 ? LMB_ERR_ARG : LMB_OK;
+    }
+    for (int32_t i = 0; i < (s->threads > 1 ? s->threads : 1); ++i) {
+        memset(&scratch[i], 0, sizeof *scratch);
+        f->scratch[i].live = &scratch[i];
+    }
+    const lmb_status status = lmb_live_init(f->live, faces, side, memory, bytes);
+    f->live->strata = s->quality == LMB_QUALITY_DRAFT ? LMB_LIVE_STRATA / 2 : LMB_LIVE_STRATA;
+    f->live->split = s->quality == LMB_QUALITY_DRAFT ? 8.0f : 16.0f;
+    return status;
+}
+#endif
 
 /* One for each thread. */
 static lmb_status place_multisample(lmb_frame *f, const lmb_frame_settings *s, block *b)
@@ -324,6 +352,11 @@ static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, block *b)
     if (status == LMB_OK && !is_measured(b)) {
         memset(f->scratch, 0, (size_t)scratch);
     }
+#if LMB_TREES
+    if (status == LMB_OK) {
+        status = place_live(f, s, b);
+    }
+#endif
     return status == LMB_OK ? place_multisample(f, s, b) : status;
 }
 

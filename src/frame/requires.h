@@ -43,10 +43,22 @@ static inline int requires_bounce(const lmb_frame *f)
     return requires_cut(f) || requires_groups(f) || requires_transfer(f);
 }
 
+/* Is bounced light of the maps that of single points? */
+static inline int requires_live(const lmb_frame *f)
+{
+    return LMB_TREES && f->gather_step == LMB_GATHER_LIVE && f->live != NULL && requires_cut(f);
+}
+
+/* Does a gather_step take a lattice? */
+static inline int takes_lattice(int32_t gather_step)
+{
+    return LMB_TREES && (gather_step == LMB_GATHER_ADAPTIVE || gather_step == LMB_GATHER_LIVE);
+}
+
 /* Is bounced light gathered at a lattice's samples? */
 static inline int requires_samples(const lmb_render *r)
 {
-    return LMB_TREES && r->frame.gather_step == LMB_GATHER_ADAPTIVE && !(LMB_PLAN && (r->skips & LMB_SKIP_BOUNCE) != 0);
+    return takes_lattice(r->frame.gather_step) && !(LMB_PLAN && (r->skips & LMB_SKIP_BOUNCE) != 0);
 }
 
 /* What is left out and what is kept; nothing in builds without plan. */
@@ -103,6 +115,12 @@ static inline int requires_elements(const lmb_render *r)
 
 /* Do lobes count? */
 static inline int requires_glossy(const lmb_render *r) { return r->is_glossy && r->frame.show != LMB_SHOW_IRRADIANCE; }
+
+/* Does a frame take the maps' light from the tree of texels? */
+static inline int requires_texels(const lmb_render *r)
+{
+    return requires_cut(&r->frame) && (!requires_live(&r->frame) || requires_glossy(r) || requires_elements(r));
+}
 
 /* Do elements receive direct light first, of what emits light or of many lights? */
 static inline int sends_direct(const lmb_render *r)

@@ -62,6 +62,11 @@ static int same_bvh(const lmb_frame *was, const lmb_frame *f)
 
 static int same_tree(const lmb_frame *a, const lmb_frame *b)
 {
+    const int live = requires_live(a) || requires_live(b);
+    if (live && (a->live != b->live || a->gather_step != b->gather_step || a->show != b->show ||
+                 a->bounces != b->bounces || a->many_lights != b->many_lights)) {
+        return 0; /* texels of the one or the other tree may not have been collected */
+    }
     return requires_cut(a) && requires_cut(b) && a->tree.texel == b->tree.texel && a->tree.node == b->tree.node &&
            a->tree.view == b->tree.view && a->tree.size == b->tree.size && a->tree.face_cap == b->tree.face_cap;
 }

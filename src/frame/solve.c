@@ -53,7 +53,7 @@ static lmb_status end_face(lmb_render *r)
     const int drawn = (map->drawn >> r->face) & 1u && !requires_transfer(&r->frame);
     lmb_status status = LMB_OK;
     if (requires_cut(&r->frame)) {
-        status = drawn ? lmb_tree_sum(&r->frame.tree, r->frame.tree.faces) : LMB_OK;
+        status = drawn && requires_texels(r) ? lmb_tree_sum(&r->frame.tree, r->frame.tree.faces) : LMB_OK;
         r->frame.tree.faces += drawn ? 1 : 0;
     } else if (drawn) {
         status = lmb_discs_join(&r->frame.points, map, &r->frame.grouping);
@@ -108,6 +108,21 @@ NOINLINE lmb_status step_many_lights(lmb_render *r, int32_t units)
     return status != LMB_OK ? status : past < tiles ? LMB_MORE : LMB_OK;
 }
 
+/* First points of the tile rows first .. past - 1 of the face at hand: of single points' tree, of the tiles', or both. */
+static lmb_status collect_points(const lmb_render *r, lmb_tile *tile, int32_t first, int32_t past)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_shadow_map *map = &r->maps[r->light];
+    const int32_t face = (int32_t)r->face;
+    const lmb_status status = requires_live(f) ? lmb_live_collect(f->live, f->kernels, tile, f->scene, r->light, map,
+                                                                  face, f->tree.faces, first, past)
+                                               : LMB_OK;
+    return status != LMB_OK || !requires_texels(r)
+               ? status
+               : lmb_tree_texels(&f->tree, f->kernels, tile, f->scene, &f->scene->lights[r->light], map, face,
+                                 f->tree.faces, first, past);
+}
+
 static lmb_status step_points(lmb_render *r, int32_t units)
 {
     lmb_frame *f = &r->frame;
@@ -132,8 +147,7 @@ static lmb_status step_points(lmb_render *r, int32_t units)
         lmb_status status =
             requires_transfer(f) ? collect_rows(r, (int32_t)r->progress, last)
             : requires_cut(f)
-                ? lmb_tree_texels(&f->tree, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light], map,
-                                  (int32_t)r->face, f->tree.faces, (int32_t)r->progress, last)
+                ? collect_points(r, &f->scratch->tile, (int32_t)r->progress, last)
                 : lmb_points_collect(&f->points, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light],
                                      map, (int32_t)r->face, (int32_t)r->progress, last, &f->grouping);
         if (status != LMB_OK) {
@@ -176,6 +190,17 @@ static lmb_status step_groups(lmb_render *r)
     lmb_frame *f = &r->frame;
     if (requires_transfer(f)) {
         return skips(r, LMB_SKIP_BOUNCE) ? LMB_OK : step_sent(r);
+    }
+    if (requires_live(f) && !skips(r, LMB_SKIP_BOUNCE) && !reuses(r, LMB_REUSE_BOUNCES)) {
+        f->live->faces = f->tree.faces;
+        const lmb_status status = lmb_live_build(f->live, f->scene);
+        if (status != LMB_OK) {
+            return status;
+        }
+        if (f->stats != NULL) {
+            f->stats->first_points += f->live->points;
+            f->stats->full_cuts += f->live->merged;
+        }
     }
     if (requires_elements(r)) {
         return reuses(r, LMB_REUSE_BOUNCES) ? LMB_OK : lmb_elements_build(&f->elements, f->scene, &f->tree);
@@ -319,8 +344,7 @@ static lmb_status part_points(const lmb_render *r, lmb_tile *tile, int32_t part,
     if (requires_cut(f)) {
         int64_t first, past;
         share_out(&first, &past, map->size / LMB_TILE, part, parts);
-        return lmb_tree_texels(&f->tree, f->kernels, tile, f->scene, &f->scene->lights[r->light], map, (int32_t)r->face,
-                               f->tree.faces, (int32_t)first, (int32_t)past);
+        return collect_points(r, tile, (int32_t)first, (int32_t)past);
     }
     return lmb_points_part(&f->points, f->kernels, tile, f->scene, &f->scene->lights[r->light], map, (int32_t)r->face,
                            part, parts, &f->grouping);

@@ -55,8 +55,16 @@ static int reflects_again(const lmb_frame *f)
 
 static int has_lattice(const lmb_frame *f)
 {
-    return LMB_TREES && f->gather_step == LMB_GATHER_ADAPTIVE && f->lattice.tile != NULL &&
-           f->lattice.width == f->view.frame_width && f->lattice.height == f->view.frame_height;
+    return takes_lattice(f->gather_step) && f->lattice.tile != NULL && f->lattice.width == f->view.frame_width &&
+           f->lattice.height == f->view.frame_height;
+}
+
+/* Is there what single points are lit by? */
+static int has_live(const lmb_frame *f)
+{
+    return f->gather_step != LMB_GATHER_LIVE ||
+           (requires_live(f) && f->live->face != NULL && f->live->strata >= 1 && f->live->strata <= LMB_LIVE_STRATA &&
+            f->scratch->live != NULL);
 }
 
 lmb_status lmb_render_check(const lmb_frame *f)
@@ -80,7 +88,7 @@ lmb_status lmb_render_check(const lmb_frame *f)
         (f->bounces > 1 && requires_bounce(f) && !reflects_again(f))) {
         return LMB_ERR_ARG;
     }
-    if (f->gather_step != 1 && f->gather_step != 2 && f->gather_step != 4 && !has_lattice(f)) {
+    if (f->gather_step != 1 && f->gather_step != 2 && f->gather_step != 4 && !(has_lattice(f) && has_live(f))) {
         return LMB_ERR_ARG;
     }
     if (f->scene->light_count > LMB_MAX_LIGHTS) {

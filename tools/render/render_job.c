@@ -440,6 +440,9 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
 /* What the library refuses of what the options let through. */
 static int refuse(const lmb_frame_settings *s, report *r)
 {
+    if (s->gather_step == LMB_GATHER_LIVE && s->quality == LMB_QUALITY_FIXED) {
+        return report_fail_usage(r, "--gather live takes its light from --grouping cut alone");
+    }
     return s->quality == LMB_QUALITY_FIXED
                ? report_fail(r, "more first points than can be counted; use a larger --block or a smaller --shadow-map")
                : report_fail_usage(r, "--grouping cut: --shadow-map must be a power of two, not %d", (int)s->shadow_map);

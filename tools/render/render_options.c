@@ -140,8 +140,8 @@ static const int32_t block_values[] = {1, 2, 4, 8};
 static const char *const occlusions[] = {"exact", "none", "view", "view-world", NULL};
 static const int32_t occlusion_values[] = {LMB_OCCLUSION_EXACT, LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW,
                                            LMB_OCCLUSION_VIEW_WORLD};
-static const char *const gathers[] = {"full", "half", "quarter", "adaptive", NULL};
-static const int32_t gather_values[] = {1, 2, 4, LMB_GATHER_ADAPTIVE};
+static const char *const gathers[] = {"full", "half", "quarter", "adaptive", "live", NULL};
+static const int32_t gather_values[] = {1, 2, 4, LMB_GATHER_ADAPTIVE, LMB_GATHER_LIVE};
 static const char *const shows[] = {"full",           "direct", "indirect", "irradiance", "depth", "eye-distance",
                                     "normal",         "albedo", "light-distance", "points", "groups", "occlusion",
                                     NULL};
@@ -299,7 +299,8 @@ const option_row render_bounce_rows[] = {
     {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
      .help = HELP("at every pixel (default; half with many lights; adaptive under a sky), or at every second or fourth each "
              "way and between them where surface and light go on; pixels that have no such neighbours are gathered "
-             "too. adaptive: at every eighth, and closer where light asks for it: the fastest, by a smaller --error closer")},
+             "too. adaptive: at every eighth, and closer where light asks for it, by a smaller --error closer. live: there, "
+             "each by 64 segments (draft: 32): the fastest, for light that moves")},
     {.kind = OPTION_END},
 };
 

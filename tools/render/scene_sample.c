@@ -194,7 +194,7 @@ static lmb_status take_own(looker *l)
     lmb_frame f = j->frame;
     f.many_lights = NULL;
     f.show = f.show == LMB_SHOW_FULL ? LMB_SHOW_FULL : LMB_SHOW_INDIRECT;
-    if (f.gather_step == LMB_GATHER_ADAPTIVE) {
+    if (f.gather_step == LMB_GATHER_ADAPTIVE || f.gather_step == LMB_GATHER_LIVE) {
         f.gather_step = 4; /* a lattice is the whole frame's */
     }
     lmb_status status = solve(j, f);

@@ -233,8 +233,9 @@ static int run(render_job *j, report *r)
         !render_draw(j, r)) {
         return 0;
     }
-    report_note(j->o.view.is_quiet || j->o.slice.count == 0 || j->frame.gather_step != LMB_GATHER_ADAPTIVE,
-                "note: --gather adaptive takes its samples from the whole picture in every slice; full or half is shared");
+    report_note(j->o.view.is_quiet || j->o.slice.count == 0 || 
+                    (j->frame.gather_step != LMB_GATHER_ADAPTIVE && j->frame.gather_step != LMB_GATHER_LIVE),
+                "note: --gather adaptive and live take their samples from the whole picture in every slice; full or half is shared");
     tell_loss(j);
     tell_regroups(j);
     tell_full_cuts(j);
