@@ -667,6 +667,23 @@ static uint64_t case_adaptive(int variant)
     const lmb_status status = lmb_lattice_init(&f.lattice, WIDTH, HEIGHT, lattice, sizeof lattice);
     return hash_frame(golden_hash_u32(GOLDEN_START, (uint32_t)status), &f);
 }
+
+/* The soup by light of single points, each near some of the map's texels. Variant: occlusion. */
+static uint64_t case_live(int variant)
+{
+    static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024] GOLDEN_ALIGNED;
+    static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED;
+    static lmb_live_scratch live_scratch;
+    static lmb_live live;
+    lmb_frame f = soup_frame(1, TREE);
+    f.gather_step = LMB_GATHER_LIVE;
+    f.occlusion = variant;
+    f.live = &live;
+    memory.scratch.live = &live_scratch;
+    const lmb_status one = lmb_lattice_init(&f.lattice, WIDTH, HEIGHT, lattice, sizeof lattice);
+    const lmb_status two = lmb_live_init(&live, 1, lmb_live_side(1, TREE), live_memory, sizeof live_memory);
+    return hash_frame(golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)one), (uint32_t)two), &f);
+}
 #endif
 
 #if LMB_MULTISAMPLE && !defined(LMB_CONFIG_TINY)

@@ -31,6 +31,7 @@ static const struct golden_order {
 static int order_now, threads_now; /* threads 0: in order_now */
 static lmb_band_scratch scratches[THREADS];
 static golden_samples samples[THREADS];
+static lmb_live_scratch live[THREADS];
 
 static void shuffle(int *p, int n, uint32_t seed)
 {
@@ -131,6 +132,7 @@ static lmb_frame with_room(const lmb_frame *frame)
 {
     lmb_frame f = *frame;
     f.scratch = scratches;
+    scratches[0].live = &live[0];
     if (f.samples > 1) {
         golden_give_samples(&scratches[0], &samples[0], f.samples);
     }
@@ -151,6 +153,7 @@ typedef struct frame_job {
 static void do_part(void *user, int part, int worker)
 {
     frame_job *j = user;
+    scratches[worker].live = &live[worker];
     const lmb_status status = lmb_render_part(j->render, &scratches[worker], part, j->parts, NULL);
     j->status = status != LMB_OK ? status : j->status;
 }
@@ -159,6 +162,7 @@ static void do_band(void *user, int band, int worker)
 {
     frame_job *j = user;
     const lmb_frame *f = &j->render->frame;
+    scratches[worker].live = &live[worker];
     if (f->samples > 1) {
         golden_give_samples(&scratches[worker], &samples[worker], f->samples);
     }
@@ -206,8 +210,11 @@ static lmb_status by_workers(workers_call call, lmb_render *r, const lmb_frame *
     int32_t stage;
     memset(&c, 0, sizeof c);
     memset(scratches, 0x3c, sizeof scratches);
-    for (int i = 0; f.samples > 1 && i < THREADS; ++i) {
-        golden_give_samples(&scratches[i], &samples[i], f.samples);
+    for (int i = 0; i < THREADS; ++i) {
+        scratches[i].live = &live[i];
+        if (f.samples > 1) {
+            golden_give_samples(&scratches[i], &samples[i], f.samples);
+        }
     }
     c.threads = threads_now;
     c.scratches = scratches;

@@ -210,6 +210,7 @@ static void test_memory(void)
 
 static lmb_render render;
 static lmb_band_scratch other_scratch;
+static lmb_live_scratch other_live;
 
 static lmb_frame_settings settings_of(const lmb_scene *scene, lmb_view view, int32_t step)
 {
@@ -266,6 +267,8 @@ static uint64_t drawn_in_parts(const lmb_frame_settings *s, int32_t parts)
         if (lmb_render_has_parts(&render)) {
             for (int32_t i = parts - 1; i >= 0; --i) {
                 memset(&other_scratch, 0x3c, sizeof other_scratch);
+                memset(&other_live, 0x3c, sizeof other_live);
+                other_scratch.live = &other_live;
                 CHECK(lmb_render_part(&render, &other_scratch, i, parts, NULL) == LMB_OK);
             }
             status = lmb_render_parts_done(&render, parts);
@@ -315,9 +318,9 @@ static void test_whole_gallery(void)
     CHECK(drawn_by_bands(s) == whole);
 }
 
-static void test_same_bytes(int32_t width, int32_t height)
+static void test_same_bytes(int32_t width, int32_t height, int32_t step)
 {
-    const lmb_frame_settings s = settings_of(demo_scene(), near_view(width, height), LMB_GATHER_ADAPTIVE);
+    const lmb_frame_settings s = settings_of(demo_scene(), near_view(width, height), step);
     const uint64_t whole = drawn(&s);
     CHECK(lmb_render_reuse(&render, &frame) == LMB_OK && render.stage == LMB_STAGE_SHADOW_MAP);
     while (lmb_render_step(&render, 7) == LMB_MORE) {
@@ -519,6 +522,19 @@ static void test_refused(void)
     CHECK(lmb_render_begin(&render, &frame) == LMB_OK);
     frame.view.frame_width = 32;
     CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* of another size */
+    frame.view.frame_width = 40;
+    frame.gather_step = LMB_GATHER_LIVE;
+    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* no tree of single points */
+    s.gather_step = LMB_GATHER_LIVE;
+    s.quality = LMB_QUALITY_FIXED;
+    CHECK(lmb_frame_bytes(&s) == 0);
+    s.quality = LMB_QUALITY_DRAFT;
+    lay_out(&s);
+    CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+    frame.gather_step = 1; /* whose tree of texels was not needed */
+    CHECK(lmb_render_again(&render, &frame) == LMB_ERR_ARG);
+    frame.gather_step = LMB_GATHER_LIVE;
+    CHECK(lmb_render_again(&render, &frame) == LMB_OK);
     s.show = LMB_SHOW_DIRECT;
     lay_out(&s);
     CHECK(frame.lattice.tile == NULL && lmb_render_frame(&render, &frame) == LMB_OK);
@@ -533,9 +549,12 @@ void test_adaptive(void)
     test_window_side();
     test_memory();
     test_whole_gallery();
-    test_same_bytes(27, 19);
-    test_same_bytes(1, 9);
-    test_same_bytes(129, 9);
+    for (int i = 0; i < 2; ++i) {
+        const int32_t step = i == 0 ? LMB_GATHER_ADAPTIVE : LMB_GATHER_LIVE;
+        test_same_bytes(27, 19, step);
+        test_same_bytes(1, 9, step);
+        test_same_bytes(129, 9, step);
+    }
     test_history();
     test_flat_wall();
     test_lobes();

@@ -107,6 +107,7 @@ static int make_kinds(kind *out)
     s = KIND("fixed by bands", &lit), s->quality = LMB_QUALITY_FIXED, s->by_bands = 1, s->points = 700;
     s = KIND("adaptive", &lit), s->gather_step = LMB_GATHER_ADAPTIVE, s->quality = LMB_QUALITY_DRAFT;
     s = KIND("adaptive by bands", &lit), s->gather_step = LMB_GATHER_ADAPTIVE, s->by_bands = 1, s->format = LMB_RGB32F;
+    s = KIND("live", &lit), s->gather_step = LMB_GATHER_LIVE, s->quality = LMB_QUALITY_DRAFT, s->threads = 2;
     s = KIND("own picture", &lit), s->shadow_map = 32;
     CHECK(lmb_surface_init(&s->out, LMB_RGBA8, WIDE, HIGH, own_picture, sizeof own_picture) == LMB_OK);
     s = KIND("emitting", &emitting), s->elements = 64;
@@ -150,10 +151,12 @@ static uint64_t by_hand_hash(const lmb_frame *like)
     static uint32_t depth[WIDE * (HIGH + 8)], id[WIDE * (HIGH + 8)], picture[WIDE * HIGH * 3], whole[WIDE * (HIGH + 8)];
     static lmb_band_scratch scratch;
     static lmb_groups groups;
+    static lmb_live live;
+    static lmb_live_scratch live_scratch;
     lmb_frame f = *like;
     const size_t tree = lmb_tree_bytes(f.tree.face_cap, f.tree.size);
     const size_t bvh = lmb_bvh_bytes(f.bvh.triangle_cap);
-    void *memory[6] = {malloc(f.map_bytes + 1), malloc(tree + 1), malloc(bvh + 1), NULL, NULL, NULL};
+    void *memory[7] = {malloc(f.map_bytes + 1), malloc(tree + 1), malloc(bvh + 1), NULL, NULL, NULL, NULL};
     f.map_memory = memory[0];
     f.scratch = &scratch;
     CHECK(lmb_surface_init(&f.eye.depth, LMB_DEPTH32F, WIDE, f.eye.depth.height, depth, sizeof depth) == LMB_OK);
@@ -181,6 +184,15 @@ static uint64_t by_hand_hash(const lmb_frame *like)
     if (f.lattice.tile != NULL) {
         memory[5] = malloc(lmb_lattice_bytes(WIDE, HIGH));
         CHECK(lmb_lattice_init(&f.lattice, WIDE, HIGH, memory[5], lmb_lattice_bytes(WIDE, HIGH)) == LMB_OK);
+    }
+    if (f.live != NULL) {
+        const size_t bytes = lmb_live_bytes(f.live->face_cap, f.live->side);
+        memory[6] = malloc(bytes);
+        CHECK(lmb_live_init(&live, f.live->face_cap, f.live->side, memory[6], bytes) == LMB_OK);
+        live.strata = f.live->strata;
+        live.split = f.live->split;
+        f.live = &live;
+        scratch.live = &live_scratch;
     }
     const uint64_t hash = drawn_hash(&f);
     for (int i = 0; i < COUNT(memory); ++i) {
@@ -319,7 +331,7 @@ static void test_refused(void)
 
 void test_frame_init(void)
 {
-    static kind kinds[16];
+    static kind kinds[17];
     make_scenes();
     for (int i = 0, n = make_kinds(kinds); i < n; ++i) {
         test_block(&kinds[i]);
