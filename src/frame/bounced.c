@@ -18,6 +18,7 @@ NOINLINE lmb_status gather_many_lights(lmb_irradiance *inout, const lmb_render *
     return lmb_many_lights_direct_tile(inout, f->kernels, &s->many_lights, tile, &query);
 }
 
+#if LMB_TREES
 lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *s, const lmb_live_receiver *at)
 {
     const lmb_frame *f = &r->frame;
@@ -49,6 +50,10 @@ NOINLINE lmb_status gather_live(lmb_irradiance *inout, const lmb_render *r, lmb_
     }
     return status;
 }
+
+#else
+#define gather_live(...) LMB_ERR_ARG /* no frame asks for it */
+#endif
 
 /* What the light's shadow maps bounce, and what elements send. */
 static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,
