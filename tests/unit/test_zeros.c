@@ -110,6 +110,8 @@ static struct {
     lmb_band_scratch scratch;
     lmb_glossy glossy;
     lmb_cut cut;
+    lmb_live live;
+    lmb_live_receiver live_receiver;
     lmb_irradiance irradiance[2];
     lmb_cut_params cut_params;
     lmb_element_scratch receiver;
@@ -169,6 +171,8 @@ static void make_frame(void)
     f.groups = &g.groups;
     f.scratch = &g.scratch;
     CHECK(lmb_tree_init(&f.tree, 6, SIDE, room(tree), tree) == LMB_OK);
+    const size_t live = lmb_live_bytes(6, lmb_live_side(6, SIDE));
+    CHECK(lmb_live_init(&g.live, 6, lmb_live_side(6, SIDE), room(live), live) == LMB_OK);
     CHECK(lmb_points_init(&f.points, MIN, SIDE / 8, room(points), points) == LMB_OK);
     CHECK(lmb_bvh_init(&f.bvh, MIN * 4, room(bvh), bvh) == LMB_OK);
     CHECK(lmb_elements_init(&f.elements, MIN, room(elements), elements) == LMB_OK);
@@ -439,6 +443,8 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_fixed_frame", &g.fixed_frame, sizeof g.fixed_frame},
         {"lmb_fixed_view", &g.fixed_frame.view, sizeof g.fixed_frame.view},
         {"lmb_tree", &f->tree, sizeof f->tree},
+        {"lmb_live", &g.live, sizeof g.live},
+        {"lmb_live_receiver", &g.live_receiver, sizeof g.live_receiver},
         {"lmb_view", &f->view, sizeof f->view},
         {"lmb_voxel_part", &part, sizeof part},
         {"lmb_voxels", &g.voxels, sizeof g.voxels},
@@ -477,6 +483,7 @@ static void set_number(argument *a)
         {"lmb_probe_blur_init", "terms", 1},
         {"lmb_voxels_init", "cap", 5000},
         {"lmb_cones_init", "count", 7},
+        {"lmb_live_collect", "light", 0},
         {"lmb_view_sample", "samples", 4},
         {"lmb_clusters_build", "count", 1 << 17},
     };
