@@ -70,6 +70,12 @@
 #define LMB_TREES 1
 #endif
 
+/* 0: this build has no light of single points (lambent/live.h); frames with LMB_GATHER_LIVE are refused. Saves 12 KiB of
+ * ROM on a Cortex-M4F. 0 in a build without trees. */
+#ifndef LMB_LIVE
+#define LMB_LIVE LMB_TREES
+#endif
+
 /* 0: this build has no probes (lambent/probe.h). Saves 6 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_PROBES
 #define LMB_PROBES 1

@@ -19,7 +19,7 @@ PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_rel
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
 PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
-              -fno-builtin-bcmp -flto -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL -DOPTIONS_WITHOUT_HELP -DLMB_CULLING=0 \
+              -fno-builtin-bcmp -flto -mbulk-memory -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL -DOPTIONS_WITHOUT_HELP -DLMB_CULLING=0 -DLMB_LIVE=0 \
               -mnontrapping-fptoint -msign-ext -MMD -MP
 # Below the module's data and its 1 MiB of stack: 128 KiB each for the data of the kernels and
 # of the demo, and stacks that nobody uses.
@@ -32,7 +32,7 @@ PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/ligh
 PAGE_ONCE := src/occlusion/build.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c \
              $(patsubst %,src/raster/%.c,clip draw draw_one fill paint plane resolve setup target triangle) \
              $(patsubst %,src/lightcut/%.c,crease cut pixel_cluster tree) src/transfer/transfer.c \
-             $(patsubst %,src/transfer/transfer_%.c,air light many_lights materials)
+             $(patsubst %,src/transfer/transfer_%.c,air collect light many_lights materials)
 page_opt   = $(or $(PAGE_OPT),$(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz))
 
 # $(1): a folder of objects, $(2): flags, $(3): how they are optimised.

@@ -18,7 +18,7 @@ NOINLINE lmb_status gather_many_lights(lmb_irradiance *inout, const lmb_render *
     return lmb_many_lights_direct_tile(inout, f->kernels, &s->many_lights, tile, &query);
 }
 
-#if LMB_TREES
+#if LMB_LIVE
 lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *s, const lmb_live_receiver *at)
 {
     const lmb_frame *f = &r->frame;

@@ -285,7 +285,7 @@ static lmb_status place_lattice(lmb_frame *f, block *b)
                               : lmb_lattice_init(&f->lattice, v->frame_width, v->frame_height, memory, bytes);
 }
 
-#if LMB_TREES
+#if LMB_LIVE
 /* The tree of single points, and a scratch for each thread. */
 static lmb_status place_live(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
@@ -352,7 +352,7 @@ static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, block *b)
     if (status == LMB_OK && !is_measured(b)) {
         memset(f->scratch, 0, (size_t)scratch);
     }
-#if LMB_TREES
+#if LMB_LIVE
     if (status == LMB_OK) {
         status = place_live(f, s, b);
     }

@@ -46,13 +46,13 @@ static inline int requires_bounce(const lmb_frame *f)
 /* Is bounced light of the maps that of single points? */
 static inline int requires_live(const lmb_frame *f)
 {
-    return LMB_TREES && f->gather_step == LMB_GATHER_LIVE && f->live != NULL && requires_cut(f);
+    return LMB_LIVE && f->gather_step == LMB_GATHER_LIVE && f->live != NULL && requires_cut(f);
 }
 
 /* Does a gather_step take a lattice? */
 static inline int takes_lattice(int32_t gather_step)
 {
-    return LMB_TREES && (gather_step == LMB_GATHER_ADAPTIVE || gather_step == LMB_GATHER_LIVE);
+    return (LMB_TREES && gather_step == LMB_GATHER_ADAPTIVE) || (LMB_LIVE && gather_step == LMB_GATHER_LIVE);
 }
 
 /* Is bounced light gathered at a lattice's samples? */

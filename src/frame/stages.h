@@ -23,11 +23,6 @@
 #define lmb_bvh_build(...)               never(LMB_LAYOUT(lmb_bvh_build)(__VA_ARGS__))
 #define lmb_tree_texels(...)      never(LMB_LAYOUT(lmb_tree_texels)(__VA_ARGS__))
 #define lmb_elements_receive(...) never(LMB_LAYOUT(lmb_elements_receive)(__VA_ARGS__))
-#undef lmb_live_collect
-#undef lmb_live_receive
-#define lmb_live_collect(...)     never(LMB_LAYOUT(lmb_live_collect)(__VA_ARGS__))
-#define lmb_live_receive(...)     never(LMB_LAYOUT(lmb_live_receive)(__VA_ARGS__))
-#define lmb_live_build(...)       never(lmb_live_build(__VA_ARGS__))
 #define lmb_compose_glossy(...)          never(lmb_compose_glossy(__VA_ARGS__))
 #define lmb_tree_sum(...)         never(lmb_tree_sum(__VA_ARGS__))
 #define lmb_elements_build(...)   never(lmb_elements_build(__VA_ARGS__))
@@ -42,6 +37,12 @@
 #if !LMB_TREES
 #define lmb_lattice_bytes(...)        ((void)sizeof(lmb_lattice_bytes(__VA_ARGS__)), (size_t)0)
 #define lmb_lattice_init(...)         never(lmb_lattice_init(__VA_ARGS__))
+#endif
+
+#if !LMB_LIVE
+#undef lmb_live_collect
+#define lmb_live_collect(...) never(LMB_LAYOUT(lmb_live_collect)(__VA_ARGS__))
+#define lmb_live_build(...)   never(lmb_live_build(__VA_ARGS__))
 #endif
 
 #if !LMB_TRANSFER
@@ -157,6 +158,9 @@ lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lm
 
 /* Set the light of a receiver, of a frame that requires_live. */
 lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *scratch, const lmb_live_receiver *at);
+#if !LMB_LIVE
+#define lmb_render_live(...) never(lmb_render_live(__VA_ARGS__))
+#endif
 
 /* Set scratch->sparse.light[0 .. tiles - 1]: that of the tiles from frame pixel (x, y) on which show no lobe.
  * r->frame.gather_step is 2 or 4. scratch->tile and scratch->glossy are written. */

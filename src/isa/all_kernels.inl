@@ -24,6 +24,8 @@
 #include "../manylights/many_lights.inl"
 #include "../occlusion/crossed.inl"
 #include "../occlusion/sun.inl"
+#endif
+#if LMB_LIVE
 #include "../live/live_sum.inl"
 #endif
 #if LMB_LOBES
@@ -126,7 +128,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(relief_rank),
     KERNEL(relief_warp),
 #endif
-#if LMB_TREES
+#if LMB_LIVE
     KERNEL(live_values),
     KERNEL(live_sums),
     KERNEL(live_targets),

@@ -504,7 +504,7 @@ struct lmb_kernels {
     /* The pixels that hit the complex surface get it; no other changes. */
     void (*relief_warp)(lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job);
 #endif
-#if LMB_TREES
+#if LMB_LIVE
     /* Values of the cut's chunks from inout->done on, with those that near nodes ask for. */
     void (*live_values)(lmb_live_scratch *inout, const lmb_live *live, const lmb_live_job *job);
     /* Sums of the cut's chunks, and the cut's light. Returns the sum of all. */

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#if LMB_TREES
+#if LMB_LIVE
 
 enum {
     CELLS = 512,     /* of the world a side, by nine bits an axis */

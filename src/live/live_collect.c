@@ -9,7 +9,7 @@
 
 #include "../base/memory_check.h"
 
-#if LMB_TREES
+#if LMB_LIVE
 
 enum { BLOCK = 4, LARGE_BLOCK = 8 };
 #define MANY_BLOCKS (1u << 18)

@@ -7,7 +7,7 @@
 
 #include "../raster/triangle.h"
 
-#if LMB_TREES
+#if LMB_LIVE
 
 #define INSIDE (1.0f / 512.0f) /* least barycentric of a place that was moved on to its triangle */
 

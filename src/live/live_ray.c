@@ -10,7 +10,7 @@
 #include "../occlusion/traversal.h"
 #include "../raster/resolve.h"
 
-#if LMB_TREES
+#if LMB_LIVE
 
 #define FEW 2             /* so many segments meet boxes one by one */
 #define END 1.00001000f   /* 1 / .99999: a segment's end, before which it is blocked */

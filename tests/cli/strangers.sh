@@ -159,6 +159,17 @@ printf '1 f.color.pfm\n2 ../out/f.color.pfm\n' >in/rgb.txt && printf '1 f.depth.
 printf '1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n' >in/groundtruth.txt
 status 1 mix --frames in $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 --only-here -q -o listed_%01d.pfm
 said "1 of 2 frames are left out, the first because in/../out/f.color.pfm: no file in or below"
+printf '1 f.color.pfm\n' >in/rgb.txt
+for list in rgb depth groundtruth frames; do
+    [ $list != frames ] || { rm in/rgb.txt && echo f >in/frames.txt; }
+    seen="$tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 --only-here"
+    [ $list != frames ] || seen="$tent --only-here"
+    status 0 mix --frames in $seen -q -o listed_%01d.pfm
+    mv in/$list.txt out/$list.txt && ln -s ../out/$list.txt in/$list.txt
+    status 1 mix --frames in $seen -q -o listed_%01d.pfm
+    said "in/$list.txt: no file in or below its folder (--only-here)"
+    rm in/$list.txt && mv out/$list.txt in/$list.txt
+done
 
 # --- a time limit: one line, status 1, and no files from this command ---
 

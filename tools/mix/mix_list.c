@@ -148,7 +148,7 @@ static int read_stamped(stamped_list *out, const char *folder, const char *name,
 {
     char *path = with(folder, name, r);
     memset(out, 0, sizeof *out);
-    int ok = path != NULL && file_read(&out->file, path, r);
+    int ok = path != NULL && file_is_below(path, folder, strlen(folder), r) && file_read(&out->file, path, r);
     if (ok) {
         cursor c = text_open(out->file.data, out->file.size, path);
         do {
@@ -320,6 +320,9 @@ static int read_list(mix_list *out, const char *path, const char *folder, const 
     const int is_tum = file_is_plain(tum, &none), is_folder = file_is_plain(own, &none);
     if (!is_tum && !is_folder && file_is_folder(path)) {
         return report_fail(r, "%s: a folder with neither frames.txt nor TUM's rgb.txt; name one, or a list of PREFIXes", path);
+    }
+    if (!is_tum && is_folder && !file_is_below(own, folder, strlen(folder), r)) {
+        return 0;
     }
     return (is_tum ? read_tum(out, folder, r) : read_prefixes(out, is_folder ? own : path, r)) &&
            (out->count > 0 || fail_empty(out, path, r));
