@@ -107,7 +107,8 @@ status 0 pack demo -o 1x-y.c
 check "an array's name begins with a letter" grep -q 'scene_1x_y\[' 1x-y.c
 # Names that C, C++, their libraries, the compiler or lambent use are refused as --name, and changed if they come from a
 # file name.
-for name in sizeof int restrict _Bool _x __x a__b x_ class namespace co_await alignas asm typeof std main memcpy printf sinf \
+for name in isnan isinf HUGE_VAL INFINITY NAN M_PI FILE time_t jmp_buf sig_atomic_t fenv_t PRIu64 SCNx8 SEEK_SET LONG_MAX FP_NAN \
+    sizeof int restrict _Bool _x __x a__b x_ class namespace co_await alignas asm typeof std main memcpy printf sinf \
     hypotl uint32_t int_fast8_t INT8_MAX UINT64_C SIZE_MAX NULL EDOM SIGINT linux unix errno size_t write lmb_scene LMB_OK \
     1x 'a b' 'x;y' "$(printf '\303\274')" aaaaaaaaaabbbbbbbbbbccccccccccddddddddddeeeeeeeeeeffffffffffgggg; do
     status 2 pack demo -q -o bad.c --name "$name"

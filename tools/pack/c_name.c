@@ -24,8 +24,12 @@ static const char macros[] =
     " hpux i386 i486 i586 i686 linux m68k mips mips64 powerpc ppc riscv sgi sparc sun unix vax "
     "FALSE NULL PTRDIFF_MAX PTRDIFF_MIN SIG_ATOMIC_MAX SIG_ATOMIC_MIN SIZE_MAX TRUE WCHAR_MAX WCHAR_MIN WINT_MAX "
     "WINT_MIN "
-    "EOF BUFSIZ RAND_MAX CHAR_BIT PPC R3000 R4000 WIN32 WIN64 WINNT errno assert offsetof unreachable max_align_t "
-    "nullptr_t ptrdiff_t size_t ssize_t small I complex imaginary ";
+    "EOF BUFSIZ RAND_MAX CHAR_BIT PPC R3000 R4000 WIN32 WIN64 WINNT errno assert offsetof unreachable "
+    "small I complex imaginary CHAR_MAX CHAR_MIN CLOCKS_PER_SEC DECIMAL_DIG EXIT_FAILURE EXIT_SUCCESS FILE "
+    "FILENAME_MAX FOPEN_MAX HUGE_VAL HUGE_VALF HUGE_VALL INFINITY LLONG_MAX LLONG_MIN LONG_MAX LONG_MIN L_tmpnam "
+    "MB_CUR_MAX MB_LEN_MAX NAN SCHAR_MAX SCHAR_MIN SHRT_MAX SHRT_MIN TMP_MAX UCHAR_MAX ULLONG_MAX ULONG_MAX USHRT_MAX "
+    "WEOF fpclassify isfinite isgreater isgreaterequal isinf isless islessequal islessgreater isnan isnormal "
+    "isunordered jmp_buf math_errhandling signbit ";
 
 /* Linked names of the C library. The names of math.h also exist with the suffixes f and l. */
 static const char mathematics[] =
@@ -99,28 +103,29 @@ static int ends(const char *name, const char *with)
     return n >= m && strcmp(name + n - m, with) == 0;
 }
 
-/* int8_t, uint_least16_t, intptr_t, INT8_C, UINTMAX_MAX and so on, including names reserved for the future (C99,
- * 7.26.8). */
-static int is_integer_type(const char *name)
+/* size_t, time_t and all other names that end with _t, which POSIX reserves; INT8_C, UINTMAX_MAX and so on, including
+ * names reserved for the future (C99, 7.26.8). */
+static int is_type(const char *name)
 {
-    if (begins(name, "int") || begins(name, "uint")) {
-        return ends(name, "_t");
-    }
-    return (begins(name, "INT") || begins(name, "UINT")) &&
-           (ends(name, "_MAX") || ends(name, "_MIN") || ends(name, "_C") || ends(name, "_WIDTH"));
+    return ends(name, "_t") ||
+           ((begins(name, "INT") || begins(name, "UINT")) &&
+            (ends(name, "_MAX") || ends(name, "_MIN") || ends(name, "_C") || ends(name, "_WIDTH")));
 }
 
-/* Macros of errno.h, fenv.h, float.h, locale.h and signal.h, including names reserved for the future. */
+/* Macros of errno.h, fenv.h, float.h, inttypes.h, locale.h, math.h, signal.h and stdio.h, including names reserved for
+ * the future. */
 static int is_macro(const char *name, size_t n)
 {
-    static const char *const heads[] = {"E", "FE_", "DBL_", "FLT_", "LDBL_", "LC_", "SIG", "SIG_"};
+    static const char *const heads[] = {"E", "FE_", "DBL_", "FLT_", "LDBL_", "LC_",
+                                        "SIG", "SIG_", "FP_", "M_", "MATH_", "SEEK_"};
     for (size_t i = 0; i < sizeof heads / sizeof *heads; ++i) {
         const char *rest = begins(name, heads[i]) ? name + strlen(heads[i]) : "";
         if (is_digit(rest[0]) || (rest[0] >= 'A' && rest[0] <= 'Z')) {
             return 1;
         }
     }
-    return is_in(macros, name, n);
+    const int is_format = (begins(name, "PRI") || begins(name, "SCN")) && n > 3 && strchr("diouxX", name[3]) != NULL;
+    return is_format || is_in(macros, name, n);
 }
 
 static int is_mathematics(const char *name, size_t n)
@@ -155,7 +160,7 @@ const char *c_name_check(const char *name)
         return shape;
     }
     return is_in(keywords, name, n)                               ? "it is a keyword of C or C++"
-           : is_macro(name, n) || is_integer_type(name)           ? "compilers or headers have it as their own"
+           : is_macro(name, n) || is_type(name)           ? "compilers or headers have it as their own"
            : is_in(functions, name, n) || is_mathematics(name, n) ? "the C library has it"
            : is_in(posix, name, n)                                ? "system libraries have it"
            : begins(name, "lmb_") || begins(name, "LMB_")         ? "names that begin with lmb_ are the library's"
