@@ -119,7 +119,7 @@ static void fill_occluder(void *out, int how)
 static void fill_many_lights_query(void *out, int how)
 {
     *(lmb_many_lights_query *)out =
-        (lmb_many_lights_query){SLOT(lmb_many_lights), SLOT(lmb_bvh), 0.1f, how & 1, how >> 1 & 1};
+        (lmb_many_lights_query){SLOT(lmb_many_lights), SLOT(lmb_bvh), 0.1f, how & 1, how >> 1 & 1, NULL};
 }
 
 static void fill_pinhole(void *out, int how)

@@ -655,11 +655,12 @@ static uint64_t case_cut(int variant)
 }
 
 #ifndef LMB_CONFIG_TINY
+static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024] GOLDEN_ALIGNED;
+
 /* Bounced light at the samples of a lattice, which the small configuration's memory has no room for. Variant 0: of the
  * room, by groups; 1: of the soup, by cuts, where hardly a pixel explains another. */
 static uint64_t case_adaptive(int variant)
 {
-    static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024] GOLDEN_ALIGNED;
     lmb_frame f = variant ? soup_frame(1, 8) : demo_frame();
     f.show = LMB_SHOW_INDIRECT;
     f.gather_step = LMB_GATHER_ADAPTIVE;
@@ -671,7 +672,6 @@ static uint64_t case_adaptive(int variant)
 /* The soup by light of single points, each near some of the map's texels. Variant: occlusion. */
 static uint64_t case_live(int variant)
 {
-    static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024] GOLDEN_ALIGNED;
     static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED;
     static lmb_live_scratch live_scratch;
     static lmb_live live;

@@ -1,8 +1,6 @@
 /* workers.c: a frame's stages shared out among threads. */
 #include "workers.h"
 
-#include "report.h"
-
 #include <string.h>
 
 #include "../../platform/host/host.h"
@@ -66,14 +64,6 @@ static void draw_band(void *user, int part, int worker)
         lmb_render at = *w->render;
         at.progress = (uint32_t)band;
         tell(w->workers, &at);
-    }
-}
-
-void workers_tell_coarse(int is_quiet, const lmb_stats *stats)
-{
-    if (stats->coarse_tiles > 0) {
-        report_note(is_quiet, "note: %.0f of %.0f tiles have coarser visibility: too many triangles cross there",
-                    (double)stats->coarse_tiles, (double)stats->tiles);
     }
 }
 

@@ -32,7 +32,4 @@ lmb_status workers_reuse(workers *c, int32_t *stage, lmb_render *r, const lmb_fr
 lmb_status workers_light(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame, int32_t past);
 lmb_status workers_again(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame);
 
-/* workers_tell_coarse: a note of tiles whose visibility is coarser, if there are such. */
-void workers_tell_coarse(int is_quiet, const lmb_stats *stats);
-
 #endif

@@ -213,7 +213,7 @@ static int run(play *p, report *r)
         return 0;
     }
     tell_frames(p);
-    workers_tell_coarse(p->o.render.view.is_quiet, &p->job.stats);
+    render_tell_coarse(p->o.render.view.is_quiet, &p->job.stats);
     tell_end(p);
     return (p->o.render.stats == NULL || write_stats(p, r)) && tell(p, r);
 }

@@ -84,3 +84,11 @@ int finish_write(const render_finish *f, const char *path, image *linear, int is
     file_free(&file);
     return ok;
 }
+
+void render_tell_coarse(int is_quiet, const lmb_stats *stats)
+{
+    if (stats->coarse_tiles > 0) {
+        report_note(is_quiet, "note: %.0f of %.0f tiles have coarser visibility: too many triangles cross there",
+                    (double)stats->coarse_tiles, (double)stats->tiles);
+    }
+}

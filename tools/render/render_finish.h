@@ -22,4 +22,7 @@ void finish_free(render_finish *f);
 int finish_encode(file_bytes *out, const render_finish *f, image *linear, int is_quiet, report *r);
 int finish_write(const render_finish *f, const char *path, image *linear, int is_quiet, report *r);
 
+/* render_tell_coarse: prints a note about tiles whose visibility is coarser, if there are any. */
+void render_tell_coarse(int is_quiet, const lmb_stats *stats);
+
 #endif

@@ -239,7 +239,7 @@ static int run(render_job *j, report *r)
     tell_loss(j);
     tell_regroups(j);
     tell_full_cuts(j);
-    workers_tell_coarse(j->o.view.is_quiet, &j->stats);
+    render_tell_coarse(j->o.view.is_quiet, &j->stats);
     if (j->stats.triangles_dropped > 0) {
         report_note(j->o.view.is_quiet, "note: %u triangles dropped: vertices not finite or over 2^20 m away",
                     (unsigned)j->stats.triangles_dropped);
