@@ -8,7 +8,7 @@ shared=${LMB_SHARED:-../shared}
 corpus=${CORPUS:-tests/fuzz/corpus}
 
 # How many there are; raise them when files are added.
-corpus_files=159 shared_files=66
+corpus_files=160 shared_files=66
 
 # counted WHAT THERE EXPECTED
 counted() {
