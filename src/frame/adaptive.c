@@ -142,7 +142,7 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, lmb_latti
     return status;
 }
 
-static lmb_status light_window(const lmb_render *r, lmb_band_scratch *s, int32_t window)
+NOINLINE lmb_status light_window(const lmb_render *r, lmb_band_scratch *s, int32_t window)
 {
     const lmb_lattice *l = &r->frame.lattice;
     lmb_status status = LMB_OK;
