@@ -923,6 +923,7 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     c->beside = beside(cut_params, p, c->per_pixel);
     c->lobe = lobe_of(cut_params, p);
     c->cut->use.traversal.bounded = 1;
+    c->cut->use.traversal.spent = c->cut->use.traversal.end = 0;
     c->cut->use.traversal.left = c->cut->tests_left;
     c->cut->use.traversal.coarse = 0;
     const double now = take_cut(c);
