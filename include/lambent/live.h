@@ -28,6 +28,7 @@
 #define LMB_LIVE_NEAR   96   /* of these, chunks that are made for one point: what lies near it */
 #define LMB_LIVE_STRATA 64   /* segments of a point, at most */
 #define LMB_LIVE_STACK  256  /* nodes of the BVH that wait */
+#define LMB_LIVE_LAST   4    /* triangles that blocked much */
 
 /* A first point: what one block of a map's texels shows at one of them, taken by a hash. 56 bytes. */
 typedef struct lmb_live_point {
@@ -48,7 +49,14 @@ typedef struct lmb_live_face {
     uint32_t light;
 } lmb_live_face;
 
-/* Sixteen nodes side by side. 1,344 bytes. A node with `count` 0 has no parts; those of one with LMB_LIVE_LEAF are the
+/* Where a segment ends: a first point. */
+typedef struct lmb_live_target {
+    float at[3], facet[3]; /* m; the normal of its triangle, on the lit side */
+    float colour[3];       /* flux by power */
+    uint32_t id;           /* its triangle */
+} lmb_live_target;
+
+/* Sixteen nodes side by side. 1,536 bytes. A node with `count` 0 has no parts; those of one with LMB_LIVE_LEAF are the
  * first points first .. first + count - 1, those of others are nodes: `first` is 16 times a chunk plus a lane. */
 typedef struct lmb_live_chunk {
     float place[3][LMB_LIVE_NODES], normal[3][LMB_LIVE_NODES]; /* means by power */
@@ -56,9 +64,8 @@ typedef struct lmb_live_chunk {
     float power[LMB_LIVE_NODES];   /* W, mean of R, G, B; 0: nothing */
     float radius2[LMB_LIVE_NODES]; /* m2, of the place to its farthest first point, and the square of their spacing */
     float colour[3][LMB_LIVE_NODES]; /* flux by power */
-    float target[3][LMB_LIVE_NODES], facet[3][LMB_LIVE_NODES]; /* the first point nearest to `place`, and its normal */
-    uint32_t id[LMB_LIVE_NODES];   /* its triangle */
     uint32_t first[LMB_LIVE_NODES], count[LMB_LIVE_NODES];
+    lmb_live_target target[LMB_LIVE_NODES]; /* the first point nearest to `place`, with the node's colour */
 } lmb_live_chunk;
 #define LMB_LIVE_LEAF 0x80000000u /* in `count` */
 
@@ -101,7 +108,7 @@ typedef struct lmb_live_branch {
 } lmb_live_branch;
 
 /* One a thread: 190 KiB. Its contents mean nothing between calls, but for `full`, `segments` and `pairs`, which are
- * added to. */
+ * added to, and `whole` and `seen`, which are those of the last point. */
 typedef struct lmb_live_scratch {
     float value[LMB_LIVE_CUT][LMB_LIVE_NODES]; /* light of each node without shadows; 0 where its parts give it */
     float sum[LMB_LIVE_CUT];
@@ -116,8 +123,12 @@ typedef struct lmb_live_scratch {
     int32_t targets, is_full;
     lmb_live_rays rays;
     lmb_live_branch waiting[LMB_LIVE_STACK];
+    uint32_t last[LMB_LIVE_LAST]; /* of the BVH, plus 1: those that blocked much lately, which are tested first */
+    lmb_target window; /* what src/frame draws meanwhile */
     uint32_t full;     /* points whose cut found no room: nodes near them counted whole */
     uint64_t segments, pairs;
+    float whole[3]; /* the light without shadows */
+    float seen[3]; /* the share that shadows leave of each channel; -1: there is no light to shade */
 } lmb_live_scratch;
 
 #ifdef __cplusplus
@@ -128,7 +139,7 @@ extern "C" {
  * where that would be over 2^18 blocks in all. */
 int32_t lmb_live_side(uint32_t faces, int32_t size);
 
-/* lmb_live_bytes: memory for `faces` faces of side x side blocks; 0 where that cannot be. 220 bytes a block.
+/* lmb_live_bytes: memory for `faces` faces of side x side blocks; 0 where that cannot be. 232 bytes a block.
  * lmb_live_init: lay a tree out in it, aligned as for a uint64_t. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or
  * LMB_ERR_CAPACITY. */
 size_t lmb_live_bytes(uint32_t faces, int32_t side);

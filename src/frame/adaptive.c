@@ -119,53 +119,12 @@ static lmb_status gather_pack(const pack *p)
     return status;
 }
 
-/* Each for itself, where all bounced light is that of single points. */
-static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, lmb_lattice_tile *tile)
-{
-    const lmb_lattice_tile *in = tile;
-    const lmb_view *v = &r->frame.view;
-    lmb_status status = LMB_OK;
-    for (uint64_t bits = tile->wanted; bits != 0 && status == LMB_OK; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
-        const lmb_vec3 at = tile_vec(in->position, k);
-        const lmb_live_receiver receiver = {at, tile_vec(in->face, k), tile_vec(in->normal, k), in->id[k],
-                                            lmb_place_noise(at, absf(dot3(v->back, sub3(at, v->eye)))),
-                                            view_to_eye(v, at)};
-        float light[3];
-        status = lmb_render_live(light, r, s, &receiver);
-        for (int c = 0; c < 3 && status == LMB_OK; ++c) {
-            tile->light.rgb[c][k] = light[c];
-        }
-    }
-    tile->known |= tile->wanted;
-    tile->wanted = 0;
-    return status;
-}
-
-NOINLINE lmb_status light_window(const lmb_render *r, lmb_band_scratch *s, int32_t window)
-{
-    const lmb_lattice *l = &r->frame.lattice;
-    lmb_status status = LMB_OK;
-    int32_t column[2], row[2];
-    lmb_lattice_window(column, row, l, window);
-    for (int32_t y = row[0]; y < row[1]; ++y) {
-        for (int32_t x = column[0]; x < column[1] && status == LMB_OK; ++x) {
-            lmb_lattice_tile *tile = lattice_tile(l, x, y);
-            status = tile->wanted != 0 ? light_tile(r, s, tile) : LMB_OK;
-        }
-    }
-    return status;
-}
-
 /* Gather the wanted pixels of a window. */
 static lmb_status gather_window(const lmb_render *r, lmb_band_scratch *s, int32_t window)
 {
     const lmb_lattice *l = &r->frame.lattice;
     lmb_status status = LMB_OK;
     pack p;
-    if (requires_live(&r->frame) && !requires_elements(r) && !gathers_many_lights(&r->frame)) {
-        return light_window(r, s, window);
-    }
     p.r = r;
     p.s = s;
     lmb_lattice_window(p.column, p.row, l, window);

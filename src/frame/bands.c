@@ -48,6 +48,10 @@ static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, l
     const lmb_frame *f = &r->frame;
     const int32_t part = x / LMB_TILE % LMB_SPARSE_TILES;
     const int sparse = f->gather_step > 1 && !skips(r, LMB_SKIP_BOUNCE);
+    if (lights_points(r)) {
+        *out = &s->sparse.light[0]; /* once the tile is resolved */
+        return LMB_OK;
+    }
     if (requires_samples(r)) {
         *out = &lattice_tile(&f->lattice, x / LMB_TILE, band)->light;
         return LMB_OK;
@@ -75,6 +79,9 @@ static lmb_status light_band(const lmb_render *r, lmb_band_scratch *scratch, con
         status = block_light(&indirect, r, scratch, window, x, band);
         if (status == LMB_OK) {
             status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, window, x, band * LMB_TILE);
+        }
+        if (status == LMB_OK && lights_points(r)) {
+            status = lmb_render_live_tile(&scratch->sparse.light[0], r, scratch);
         }
         if (status == LMB_OK) {
             status = light_pixels(r, scratch, indirect, out, band);

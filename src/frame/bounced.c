@@ -19,15 +19,21 @@ NOINLINE lmb_status gather_many_lights(lmb_irradiance *inout, const lmb_render *
 }
 
 #if LMB_LIVE
-lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *s, const lmb_live_receiver *at)
+static const lmb_bvh *bvh_of(const lmb_frame *f) { return f->occlusion == LMB_OCCLUSION_EXACT ? &f->bvh : NULL; }
+
+static void count_live(lmb_band_scratch *s)
 {
-    const lmb_frame *f = &r->frame;
-    const lmb_status status = lmb_live_receive(light, f->kernels, s->live, f->live,
-                                               f->occlusion == LMB_OCCLUSION_EXACT ? &f->bvh : NULL, at);
     s->counts.segments += s->live->segments;
     s->counts.pairs += s->live->pairs;
     s->counts.full_cuts += s->live->full;
     s->live->segments = s->live->pairs = s->live->full = 0;
+}
+
+lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *s, const lmb_live_receiver *at)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_status status = lmb_live_receive(light, f->kernels, s->live, f->live, bvh_of(f), at);
+    count_live(s);
     return status;
 }
 

@@ -113,6 +113,12 @@ static inline int requires_elements(const lmb_render *r)
            (f->bounces > 1 || r->emits || requires_many_lights_bounce(f));
 }
 
+/* Is all bounced light that of single points? */
+static inline int lights_points(const lmb_render *r)
+{
+    return requires_samples(r) && requires_live(&r->frame) && !requires_elements(r) && !gathers_many_lights(&r->frame);
+}
+
 /* Do lobes count? */
 static inline int requires_glossy(const lmb_render *r) { return r->is_glossy && r->frame.show != LMB_SHOW_IRRADIANCE; }
 

@@ -27,6 +27,7 @@
 #endif
 #if LMB_LIVE
 #include "../live/live_sum.inl"
+#include "../compose/live_fill.inl"
 #endif
 #if LMB_LOBES
 #include "../light/lobe.inl"
@@ -132,7 +133,10 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(live_values),
     KERNEL(live_sums),
     KERNEL(live_targets),
+    KERNEL(live_ahead),
+    KERNEL(live_share),
     KERNEL(live_boxes),
     KERNEL(live_crossed),
+    KERNEL(live_fill),
 #endif
 };

@@ -268,6 +268,23 @@ typedef struct lmb_live_job {
     float split;     /* as in lmb_live */
 } lmb_live_job;
 
+/* A pixel that is lit by itself. */
+typedef struct lmb_live_sample {
+    lmb_vec3 position, face, normal; /* as of lmb_tile */
+    float light[3];                  /* irradiance, W/m2 */
+    float slope[2][3];               /* of it along columns and rows, W/m2 a px; first [0] is light without shadows */
+    uint32_t id;                     /* the triangle */
+    uint8_t seen[3], is_lit;         /* the share that shadows leave of each channel, 0 .. 254; 0: no light to shade */
+} lmb_live_sample;
+
+/* A cell between four samples, and pixels of a tile in it. */
+typedef struct lmb_live_cell {
+    const lmb_live_sample *corner[4]; /* NULL: not known */
+    float x[2], y[2], per_x, per_y;   /* px in the tile, and one by the cell's sides */
+    int32_t even;                     /* 1: all corners count in full at all pixels */
+    uint64_t pixels;                  /* to light, a bit each */
+} lmb_live_cell;
+
 /* A triangle as rays to infinity see it: one from `at` + d crosses it where every edge . d + offset >= 0 and
  * normal . d > beyond. */
 typedef struct lmb_sun_job {
@@ -509,12 +526,17 @@ struct lmb_kernels {
     void (*live_values)(lmb_live_scratch *inout, const lmb_live *live, const lmb_live_job *job);
     /* Sums of the cut's chunks, and the cut's light. Returns the sum of all. */
     float (*live_sums)(float light[3], lmb_live_scratch *inout);
-    /* A target from each of `strata` strata of the cut: inout->rays. `all`: over 0, what live_sums returned. Writes
-     * whole vectors. */
-    void (*live_targets)(lmb_live_scratch *inout, const lmb_live *live, int32_t strata, float all);
+    /* A target from each of `strata` strata of the cut, at `place` of it: inout->rays. `all`: over 0, what live_sums
+     * returned. Writes whole vectors. */
+    void (*live_targets)(lmb_live_scratch *inout, const lmb_live *live, int32_t strata, float place, float all);
+    /* Of the targets, those that may light the receiver; and sums of colours, added: of all, and of those `seen`. */
+    uint64_t (*live_ahead)(const lmb_live_rays *rays, int32_t targets, const lmb_live_receiver *at);
+    void (*live_share)(float all[3], float some[3], const lmb_live_rays *rays, int32_t targets, uint64_t seen);
     /* Of the segments `asked`, those that meet each of a node's boxes, and those that cross a triangle. */
     void (*live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *segments, uint64_t asked, const lmb_boxes *boxes);
     uint64_t (*live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job);
+    /* The light of a cell's pixels; no other changes. Returns those that no corner explains. */
+    uint64_t (*live_fill)(lmb_irradiance *inout, const lmb_tile *tile, const lmb_live_cell *cell);
 #endif
 };
 

@@ -254,7 +254,7 @@ static void put_node(const builder *b, uint32_t slot, range r)
     }
     float spacing2;
     const float area = area_of(&spacing2, p, count);
-    live_put(c, i, place, normal, flux, maxf(area, 1e-30f), target->position, target->normal,
+    live_put(c, i, place, normal, flux, maxf(LIVE_DISC * area, 1e-30f), target->position, target->normal,
              target->id);
     c->radius2[i] = far2 + spacing2;
     c->first[i] = r.first;
@@ -272,9 +272,7 @@ static uint32_t reserve(builder *b, uint32_t count)
         return NOBODY;
     }
     for (uint32_t k = before; k < chunks; ++k) {
-        for (int i = 0; i < LMB_LIVE_NODES; ++i) {
-            live_blank(&b->live->chunk[k], i);
-        }
+        live_blank(&b->live->chunk[k]);
     }
     b->slots = first + count;
     return first;

@@ -142,19 +142,32 @@ static void texel_of(int32_t *x, int32_t *y, const collector *c, int32_t column,
     *y = mini(row * each + (int32_t)(h >> 16 & (uint32_t)(each - 1)), c->face->size - 1);
 }
 
+/* Of a block on the plane through `at`: a pencil's cross-section is z^2 times the block at distance 1, and lies across the
+ * view's axis. */
+static float area_of(const collector *c, lmb_vec3 at, lmb_vec3 normal)
+{
+    const lmb_view *v = &c->face->view;
+    const float block = 4.0f * v->half_width * v->half_height / (float)(c->side * c->side);
+    const lmb_vec3 ray = v->kind == LMB_PERSPECTIVE ? sub3(at, v->eye) : v->back;
+    const float z = absf(dot3(v->back, ray)), slope = absf(dot3(normal, ray));
+    return block * z * z * z / maxf(slope, GRAZE * sqrtf(dot3(ray, ray)));
+}
+
 static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t row, int k, float power)
 {
     const lmb_view *v = &c->face->view;
     const live_plane *p = c->tile->id[k] != 0 ? lmb_live_plane(c->known, c->scene, v, c->tile->id[k]) : NULL;
     int32_t x, y;
     float each[3];
-    lmb_vec3 at, across, down;
+    lmb_vec3 at;
     memset(out, 0, sizeof *out);
+    if (!(power > 0.0f)) {
+        return;
+    }
     texel_of(&x, &y, c, column, row);
     if (p == NULL || !lmb_live_place(&at, p, v, texel_sx(v, c->face->size, x), texel_sy(v, c->face->size, y))) {
         return;
     }
-    footprint_sides(&across, &down, v, c->side, at, p->normal);
     for (int h = 0; h < 3; ++h) {
         each[h] = texel_flux(c->light->intensity[h], power);
     }
@@ -165,7 +178,7 @@ static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t
     }
     out->position = at;
     out->normal = p->normal;
-    out->area = length3(cross3(across, down));
+    out->area = area_of(c, at, p->normal);
     out->id = c->tile->id[k];
     out->column = (uint16_t)column;
     out->row = (uint16_t)row;

@@ -76,9 +76,7 @@ static lmb_live_chunk *take(lmb_live_scratch *s, int *lane)
     if (s->near_lane == LMB_LIVE_NODES) {
         s->chunk[s->count] = &s->near[s->near_count];
         s->asked[s->count++] = 0;
-        for (int i = 0; i < LMB_LIVE_NODES; ++i) {
-            live_blank(&s->near[s->near_count], i);
-        }
+        live_blank(&s->near[s->near_count]);
         ++s->near_count;
         s->near_lane = 0;
     }
@@ -96,7 +94,7 @@ static void put_points(lmb_live_scratch *s, const lmb_live *live, uint32_t first
         const lmb_live_point *p = &live->sorted[k];
         int i;
         lmb_live_chunk *c = take(s, &i);
-        live_put(c, i, p->position, p->normal, p->flux, maxf(p->area, 1e-30f), p->position, p->normal, p->id);
+        live_put(c, i, p->position, p->normal, p->flux, maxf(LIVE_DISC * p->area, 1e-30f), p->position, p->normal, p->id);
         c->radius2[i] = p->area;
         c->first[i] = k;
         c->count[i] = LMB_LIVE_LEAF | 1u;
@@ -116,6 +114,7 @@ typedef struct live_look {
 /* A part of a point's block: where it lies in the map, and what the map shows there. */
 typedef struct live_spot {
     float u, v; /* texels */
+    float over; /* how many parts lie there, if they do not move towards a neighbour */
     uint32_t id;
 } live_spot;
 
@@ -153,6 +152,7 @@ static live_spot spot_of(live_look *l, const lmb_live_point *p, uint32_t x, uint
     const int32_t tx = clampi((int32_t)u, 0, f->size - 1), ty = clampi((int32_t)v, 0, f->size - 1);
     float du = u - ((float)tx + 0.5f), dv = v - ((float)ty + 0.5f);
     s.id = live_id(&f->id, tx, ty);
+    s.over = 1.0f;
     if (wide >= 1.0f) {
         du = dv = 0.0f;
     } else if (s.id != 0) {
@@ -160,6 +160,7 @@ static live_spot spot_of(live_look *l, const lmb_live_point *p, uint32_t x, uint
         du = towards(l, nx, ty, s.id, du);
         dv = towards(l, tx, ny, s.id, dv);
         dv = du != 0.0f && dv != 0.0f ? towards(l, nx, ny, s.id, dv) : dv;
+        s.over = (du == 0.0f ? 0.5f / wide : 1.0f) * (dv == 0.0f ? 0.5f / wide : 1.0f);
     }
     s.u = (float)tx + 0.5f + du;
     s.v = (float)ty + 0.5f + dv;
@@ -177,6 +178,7 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
     const float wide = (float)f->each / (float)(1u << 2 * level), per = 2.0f / (float)f->size;
     lmb_vec3 place[LMB_LIVE_NODES], normal[LMB_LIVE_NODES];
     uint32_t id[LMB_LIVE_NODES], count = 0, at[LMB_LIVE_NODES];
+    float over[LMB_LIVE_NODES];
     for (uint32_t i = 0; i < LMB_LIVE_NODES; ++i) {
         const live_spot to = spot_of(l, p, x + i % 4, y + i / 4, wide);
         const live_plane *on = to.id != 0 ? lmb_live_plane(l->known, l->live->scene, &f->view, to.id) : NULL;
@@ -184,11 +186,12 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
                                          (1.0f - to.v * per) * f->view.half_height)) {
             normal[count] = on->normal;
             at[count] = part_of(level, x + i % 4, y + i / 4);
+            over[count] = to.over;
             id[count++] = to.id;
         }
     }
     const float share = count > 0 ? 1.0f / (float)count : 0.0f, power = whole->power[lane] * share,
-                area = whole->area[lane] * share;
+                area = whole->radius2[lane] * share; /* a point's: its area */
     const float flux[3] = {whole->colour[0][lane] * power, whole->colour[1][lane] * power,
                            whole->colour[2][lane] * power};
     if (!(live_power(flux) > 0.0f)) {
@@ -197,7 +200,7 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
     for (uint32_t k = 0; k < count; ++k) {
         int i;
         lmb_live_chunk *c = take(s, &i);
-        live_put(c, i, place[k], normal[k], flux, maxf(area, 1e-30f), place[k], normal[k], id[k]);
+        live_put(c, i, place[k], normal[k], flux, maxf(level < DEEPEST ? LIVE_DISC * area : over[k] * area, 1e-30f), place[k], normal[k], id[k]);
         c->radius2[i] = area;
         c->first[i] = point;
         c->count[i] = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;

@@ -4,6 +4,8 @@
 
 #include <lambent/live.h>
 
+#include <string.h>
+
 #include "../base/vec.h"
 #include "../map/footprint.h"
 #include "../map/texel.h"
@@ -34,17 +36,19 @@ int lmb_live_place(lmb_vec3 *out, const live_plane *plane, const lmb_view *view,
 /* Blocks of a face a side. */
 static inline int32_t live_blocks(const lmb_live_face *f) { return (f->size + f->each - 1) / f->each; }
 
+/* What divides a node's light beside its distance, of its area: parts of it are not all as near as its middle, so where
+ * parts follow it is less. */
+#define LIVE_DISC 0.25f
+
 static inline float live_power(const float flux[3]) { return (flux[0] + flux[1] + flux[2]) * (1.0f / 3.0f); }
 
-/* A node that holds nothing, and is near nothing. */
-static inline void live_blank(lmb_live_chunk *c, int i)
+/* Nodes that hold nothing, and are near nothing. */
+static inline void live_blank(lmb_live_chunk *c)
 {
-    for (int h = 0; h < 3; ++h) {
-        c->place[h][i] = c->normal[h][i] = c->colour[h][i] = c->target[h][i] = c->facet[h][i] = 0.0f;
+    memset(c, 0, sizeof *c);
+    for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+        c->area[i] = 1.0f;
     }
-    c->area[i] = 1.0f;
-    c->power[i] = c->radius2[i] = 0.0f;
-    c->id[i] = c->first[i] = c->count[i] = 0;
 }
 
 /* All of a node but its radius and parts. */
@@ -58,13 +62,13 @@ static inline void live_put(lmb_live_chunk *c, int i, lmb_vec3 place, lmb_vec3 n
     for (int h = 0; h < 3; ++h) {
         c->place[h][i] = at[h][0];
         c->normal[h][i] = at[h][1];
-        c->target[h][i] = at[h][2];
-        c->facet[h][i] = at[h][3];
-        c->colour[h][i] = flux[h] * per;
+        c->target[i].at[h] = at[h][2];
+        c->target[i].facet[h] = at[h][3];
+        c->target[i].colour[h] = c->colour[h][i] = flux[h] * per;
     }
     c->power[i] = power;
     c->area[i] = area;
-    c->id[i] = id;
+    c->target[i].id = id;
 }
 
 /* The id that a map shows at a texel. */

@@ -12,7 +12,8 @@
 
 #if LMB_LIVE
 
-#define FEW 2             /* so many segments meet boxes one by one */
+#define FEW 4             /* so many segments meet boxes one by one */
+#define MUCH 2            /* segments that a triangle blocks, to be remembered */
 #define END 1.00001000f   /* 1 / .99999: a segment's end, before which it is blocked */
 
 typedef struct traversal {
@@ -111,6 +112,31 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? standing(w, id, &job, crossed) : crossed);
 }
 
+/* A triangle that blocks at least MUCH: to the front of those tested first, which changes no result. */
+static void remember(uint32_t last[LMB_LIVE_LAST], uint32_t triangle)
+{
+    uint32_t moved = triangle + 1;
+    for (int i = 0; i < LMB_LIVE_LAST; ++i) {
+        const uint32_t here = last[i];
+        last[i] = moved;
+        moved = here;
+        if (here == triangle + 1) {
+            return;
+        }
+    }
+}
+
+static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t met)
+{
+    for (uint32_t k = 0; k < node->count[i] && (w->left & met) != 0; ++k) {
+        const uint64_t before = w->left;
+        test_triangle(w, node->first[i] + k, w->left & met);
+        if (count_bits_64(before & ~w->left) >= MUCH) {
+            remember(w->scratch->last, node->first[i] + k);
+        }
+    }
+}
+
 static lmb_segment segment_of(const lmb_live_rays *r, int k)
 {
     enum { HIGH = (int)(offsetof(lmb_boxes, high) / sizeof(float)) };
@@ -157,9 +183,7 @@ static void test_node(traversal *w, uint32_t at, uint64_t asked)
     uint32_t boxes = meet(met, w, node, asked), inner = 0;
     for (; boxes != 0 && w->left != 0; boxes &= boxes - 1) {
         const int i = lowest_bit(boxes);
-        for (uint32_t k = 0; k < node->count[i] && (w->left & met[i]) != 0; ++k) {
-            test_triangle(w, node->first[i] + k, w->left & met[i]);
-        }
+        test_leaf(w, node, i, met[i]);
         inner |= (uint32_t)(node->count[i] == 0) << i;
     }
     for (; inner != 0 && w->waiting < LMB_LIVE_STACK; inner &= inner - 1) {
@@ -176,7 +200,15 @@ uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch,
     if (bvh == NULL || bvh->node_count == 0 || asked == 0) {
         return 0;
     }
-    test_node(&w, 0, asked);
+    for (int i = 0; i < LMB_LIVE_LAST && w.left != 0; ++i) {
+        const uint32_t triangle = scratch->last[i];
+        if (triangle != 0 && triangle <= bvh->triangle_count) {
+            test_triangle(&w, triangle - 1, w.left);
+        }
+    }
+    if (w.left != 0) {
+        test_node(&w, 0, w.left);
+    }
     while (w.waiting > 0 && w.left != 0) {
         const lmb_live_branch next = scratch->waiting[--w.waiting];
         if ((next.rays & w.left) != 0) {

@@ -26,35 +26,16 @@ static void cut(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live 
     s->pairs += (uint64_t)s->count * LMB_LIVE_NODES;
 }
 
-/* Targets that count: over the receiver's horizon, and with the receiver in front of their own facet by more than
- * rounding. A node's target may be neither, though its middle is. */
-static uint64_t targets_ahead(const lmb_live_rays *r, int32_t targets, const lmb_live_receiver *at)
-{
-    uint64_t out = 0;
-    for (int32_t k = 0; k < targets; ++k) {
-        const lmb_vec3 to = vec3(r->to[0][k], r->to[1][k], r->to[2][k]),
-                       facet = vec3(r->facet[0][k], r->facet[1][k], r->facet[2][k]);
-        out |= (uint64_t)(r->id[k] != at->id && dot3(at->face, to) > 0.0f && dot3(facet, to) < -at->noise) << k;
-    }
-    return out;
-}
-
-/* Of each channel, the share that is seen. */
-static void set_seen(float light[3], const lmb_live_rays *r, int32_t targets, uint64_t seen)
-{
-    for (int h = 0; h < 3; ++h) {
-        float all = 0.0f, some = 0.0f;
-        for (int32_t k = 0; k < targets; ++k) {
-            all += r->colour[h][k];
-            some += seen >> k & 1u ? r->colour[h][k] : 0.0f;
-        }
-        light[h] = all > 0.0f ? light[h] * (some / all) : 0.0f;
-    }
-}
+/* Where little is seen, noise is a large part of it: more segments. */
+static int packets_of(int32_t seen, int32_t targets) { return seen * 5 >= targets * 2 ? 1 : seen * 5 >= targets ? 2 : seen > 0 ? 3 : 2; }
 
 lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
                             const lmb_bvh *bvh, const lmb_live_receiver *receiver)
 {
+    static const float place[3] = {0.5f, 0.16666667f, 0.83333333f}; /* of the strata: all of them are even, too */
+    float all[3] = {0, 0, 0}, some[3] = {0, 0, 0};
+    int32_t seen = 0, targets = 0;
+    int packets = 1;
     lmb_live_job job;
     if (light == NULL || kernels == NULL || s == NULL || live == NULL || live->face == NULL || receiver == NULL ||
         live->strata < 1 || live->strata > LMB_LIVE_STRATA) {
@@ -67,19 +48,27 @@ lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live
     job.split = live->split;
     job.is_bent = job.face.x != job.normal.x || job.face.y != job.normal.y || job.face.z != job.normal.z;
     cut(s, kernels, live, &job);
-    const float all = kernels->live_sums(light, s);
-    if (!(all > 0.0f && all < 1e30f)) {
+    const float sum = kernels->live_sums(light, s);
+    s->rays.segments.at = receiver->position;
+    if (!(sum > 0.0f && sum < 1e30f)) {
         light[0] = light[1] = light[2] = 0.0f;
+        s->seen[0] = s->seen[1] = s->seen[2] = -1.0f;
         return LMB_OK;
     }
-    s->rays.segments.at = receiver->position;
-    kernels->live_targets(s, live, live->strata, all);
-    const uint64_t targets = s->targets < 64 ? ((uint64_t)1 << s->targets) - 1 : ~(uint64_t)0,
-                   asked = targets_ahead(&s->rays, s->targets, receiver),
-                   seen = asked & ~lmb_live_blocked(kernels, s, bvh, receiver, asked);
-    s->segments += (uint64_t)count_bits_64(asked);
-    if (seen != targets) {
-        set_seen(light, &s->rays, s->targets, seen);
+    for (int packet = 0; packet < packets; ++packet) {
+        kernels->live_targets(s, live, live->strata, place[packet], sum);
+        const uint64_t asked = kernels->live_ahead(&s->rays, s->targets, receiver),
+                       clear = asked & ~lmb_live_blocked(kernels, s, bvh, receiver, asked);
+        s->segments += (uint64_t)count_bits_64(asked);
+        kernels->live_share(all, some, &s->rays, s->targets, clear);
+        seen += count_bits_64(clear);
+        targets += s->targets;
+        packets = packet == 0 ? packets_of(seen, targets) : packets;
+    }
+    for (int h = 0; h < 3; ++h) {
+        s->seen[h] = seen == targets ? 1.0f : all[h] > 0.0f ? some[h] / all[h] : (float)seen / (float)maxi(targets, 1);
+        s->whole[h] = light[h];
+        light[h] *= s->seen[h];
     }
     return LMB_OK;
 }

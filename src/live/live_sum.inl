@@ -2,8 +2,8 @@
  *
  * Lanes are the nodes of a chunk, sixteen whatever the backend: sums of them go by one fixed tree. */
 
-/* Light of nodes i .. i + LANES - 1, and bits of those that are near. A point of area A that faces the receiver from
- * distance d gives no more than a disc: d^2 pi + A divides it. */
+/* Light of nodes i .. i + LANES - 1, and bits of those that are near. A disc of area A that faces the receiver from
+ * distance d gives what d^2 pi + A divides; chunks have less for A where parts follow. */
 LANE_INLINE lane live_nodes(uint32_t *near, const lmb_live_chunk *c, int i, const lmb_live_job *job)
 {
     const lane zero = lane_splat(0.0f);
@@ -122,18 +122,20 @@ static float KERNEL(live_sums)(float light[3], lmb_live_scratch *s)
     return all;
 }
 
-/* One target: the first point of node i. */
 static inline void live_put_target(lmb_live_rays *r, int32_t to, const lmb_live_chunk *c, int i)
 {
+    const lmb_live_target *t = &c->target[i];
     const lmb_vec3 at = r->segments.at;
-    r->to[0][to] = c->target[0][i] - at.x;
-    r->to[1][to] = c->target[1][i] - at.y;
-    r->to[2][to] = c->target[2][i] - at.z;
-    for (int h = 0; h < 3; ++h) {
-        r->facet[h][to] = c->facet[h][i];
-        r->colour[h][to] = c->colour[h][i];
-    }
-    r->id[to] = c->id[i];
+    r->to[0][to] = t->at[0] - at.x;
+    r->to[1][to] = t->at[1] - at.y;
+    r->to[2][to] = t->at[2] - at.z;
+    r->facet[0][to] = t->facet[0];
+    r->facet[1][to] = t->facet[1];
+    r->facet[2][to] = t->facet[2];
+    r->colour[0][to] = t->colour[0];
+    r->colour[1][to] = t->colour[1];
+    r->colour[2][to] = t->colour[2];
+    r->id[to] = t->id;
 }
 
 /* Of a node that has more than a stratum, the part at a fraction of its power. */
@@ -156,8 +158,8 @@ static inline void live_put_part(lmb_live_rays *r, int32_t to, const lmb_live *l
     }
 }
 
-/* Targets from `strata` strata of `all` light, each from its middle. */
-static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int32_t strata, float all)
+/* Targets from `strata` strata of `all` light, each at `place` of it, 0 .. 1. */
+static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int32_t strata, float place, float all)
 {
     lmb_live_rays *r = &s->rays;
     const float step = all / (float)strata;
@@ -167,14 +169,14 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
         const float next = so_far + s->sum[e];
         float sums[LMB_LIVE_NODES];
         uint32_t some = 0;
-        if (((float)k + 0.5f) * step < next) {
+        if (((float)k + place) * step < next) {
             lane_scan16(sums, s->value[e], so_far);
             for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
                 some |= mask_bits(lane_lt(lane_splat(0.0f), lane_load(s->value[e] + i))) << i;
             }
         }
-        for (float at = ((float)k + 0.5f) * step; some != 0 && k < strata && at < next;
-             ++k, at = ((float)k + 0.5f) * step) {
+        for (float at = ((float)k + place) * step; some != 0 && k < strata && at < next;
+             ++k, at = ((float)k + place) * step) {
             uint32_t after = 0;
             for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
                 after |= mask_bits(lane_lt(lane_splat(at), lane_load(sums + i))) << i;
@@ -193,10 +195,59 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
         so_far = next;
     }
     s->targets = k;
+    for (; k % LMB_LIVE_NODES != 0; ++k) { /* what the sums go over */
+        for (int h = 0; h < 3; ++h) {
+            r->to[h][k] = r->facet[h][k] = r->colour[h][k] = 0.0f;
+        }
+        r->id[k] = 0;
+    }
     for (int i = 0; i < k; i += LANES) {
         for (int h = 0; h < 3; ++h) {
             lane_store(r->segments.per[h] + i, crossed_per(lane_load(r->to[h] + i)));
         }
+    }
+}
+
+/* Targets that count: over the receiver's horizon, and with the receiver in front of their own facet by more than
+ * rounding. A node's target may be neither, though its middle is. */
+static uint64_t KERNEL(live_ahead)(const lmb_live_rays *r, int32_t targets, const lmb_live_receiver *at)
+{
+    const lane3 face = lane3_of(at->face);
+    const lane below = lane_splat(-at->noise);
+    uint64_t out = 0;
+    for (int k = 0; k < targets; k += LANES) {
+        lane3 to, facet;
+        to.x = lane_load(r->to[0] + k);
+        to.y = lane_load(r->to[1] + k);
+        to.z = lane_load(r->to[2] + k);
+        facet.x = lane_load(r->facet[0] + k);
+        facet.y = lane_load(r->facet[1] + k);
+        facet.z = lane_load(r->facet[2] + k);
+        const lane_mask own = lanei_equal(lanei_load((const int32_t *)(const void *)(r->id + k)), lanei_splat((int32_t)at->id));
+        const lane_mask ahead =
+            mask_and(lane_lt(lane_splat(0.0f), lane3_dot(face, to)), lane_lt(lane3_dot(facet, to), below));
+        out |= (uint64_t)(mask_bits(ahead) & ~mask_bits(own)) << k;
+    }
+    return targets < LMB_TILE_PIXELS ? out & (((uint64_t)1 << targets) - 1) : out;
+}
+
+/* Add the colours of all targets, and of those that are seen. */
+static void KERNEL(live_share)(float all[3], float some[3], const lmb_live_rays *r, int32_t targets, uint64_t seen)
+{
+    for (int h = 0; h < 3; ++h) {
+        float sums[2][LMB_LIVE_NODES];
+        for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
+            lane a = lane_splat(0.0f), b = a;
+            for (int k = i; k < targets; k += LMB_LIVE_NODES) {
+                const lane c = lane_load(r->colour[h] + k);
+                a = lane_add(a, c);
+                b = lane_add(b, lane_keep(mask_of_bits((uint32_t)(seen >> k) & (~0u >> (32 - LANES))), c));
+            }
+            lane_store(sums[0] + i, a);
+            lane_store(sums[1] + i, b);
+        }
+        all[h] += lane_sum16(sums[0]);
+        some[h] += lane_sum16(sums[1]);
     }
 }
 

@@ -44,6 +44,25 @@ status 0 render demo $small --occlusion none --error-bound 0.001 --show indirect
 status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o ruled.pfm
 status 0 compare proved.pfm ruled.pfm
 [ -n "$SHORT" ] || status 0 render demo --size 16x16 --shadow-map 64 --bounces 3 --elements 4096 --show occlusion -o blocked.pfm
+
+# --gather live: bytes by threads, back ends and slices; errors; a view frame by frame.
+live="--size 96x64 --exposure 0 --quality draft --show indirect --gather live"
+status 0 render demo $live --threads 1 -o live.pfm
+status 0 render demo $live --threads 3 -o live3.pfm
+check "threads do not change live light" cmp live.pfm live3.pfm
+status 0 render demo $live --backend scalar -o scalar.pfm
+check "back ends do not change live light" cmp live.pfm scalar.pfm
+for i in 1 2 3; do
+    status 0 render demo $live --slice $i/3 -o live.pfm
+done
+cp live.pfm before.pfm
+status 0 merge live.pfm.1of3 live.pfm.2of3 live.pfm.3of3 -o live.pfm
+check "slices do not change live light" cmp live.pfm before.pfm
+status 0 play demo $live --frames 1 -q -o live%01d.pfm
+check "play does not change live light" cmp live.pfm live0.pfm
+status 0 render demo --size 96x64 --exposure 0 --quality best --show indirect -o truth.pfm
+status 0 compare live.pfm truth.pfm --max trim=0.12,rmse=0.18,lo=0.97,hi=1.03
+status 2 render demo $live --grouping zones -o live0.pfm
 check "nothing is left behind" none bad* nowhere* *tmp*
 
 finish

@@ -1,0 +1,302 @@
+/* live_phases.c: bounced light of single points: at the samples of a grid, level after level, and between them. Layer 10.
+ *
+ * r->light is the phase, r->progress the piece: two rows of tiles. In a phase a piece writes its own samples alone and
+ * reads of others what the phases before wrote: so any order and number of threads gives the same bytes. Pixels between
+ * samples are lit as the bands are drawn. */
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../bounce/points.h"
+#include "../compose/live_grid.h"
+#include "../raster/tile.h"
+#include "stages.h"
+#include "requires.h"
+
+#if LMB_LIVE
+
+enum {
+    SURFACES = 0, /* what the samples show; those of level 0 are lit */
+    CELLS_8,      /* divide */
+    SAMPLES_4,    /* light */
+    CELLS_4,
+    SAMPLES_2,
+    SHADOWS, /* take their noise away */
+    SLOPES,
+    PHASES
+};
+enum { ROWS = 2, PIECE_UNITS = 32 };
+
+#define REACH 3 /* px each way from a pixel that no sample explains to one that is lit by itself */
+
+static live_grid grid_of(const lmb_render *r) { return lmb_live_grid_of(&r->frame.lattice, r->frame.live->strata); }
+
+/* --- samples -------------------------------------------------------------------------------------------------------- */
+
+static lmb_live_receiver receiver_of(const lmb_render *r, const lmb_live_sample *s)
+{
+    const lmb_view *v = &r->frame.view;
+    const lmb_vec3 at = s->position;
+    const lmb_live_receiver receiver = {at, s->face, s->normal, s->id,
+                                        lmb_place_noise(at, absf(dot3(v->back, sub3(at, v->eye)))),
+                                        view_to_eye(v, at)};
+    return receiver;
+}
+
+static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_live_sample *inout)
+{
+    const lmb_live_receiver receiver = receiver_of(r, inout);
+    const lmb_status status = lmb_render_live(inout->light, r, s, &receiver);
+    inout->is_lit = 0;
+    for (int c = 0; c < 3 && status == LMB_OK; ++c) {
+        const float seen = s->live->seen[c];
+        inout->is_lit |= (uint8_t)(seen >= 0.0f);
+        inout->seen[c] = (uint8_t)(clampf(seen, 0.0f, 1.0f) * 254.0f + 0.5f);
+        inout->slope[0][c] = s->live->whole[c];
+    }
+    return status;
+}
+
+NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t column, int32_t row,
+                             int32_t level)
+{
+    live_grid_tile *t = grid_tile(g, column, row);
+    const uint32_t asked = lmb_live_grid_asks(g, column, row, level);
+    lmb_status status = LMB_OK;
+    for (uint32_t bits = asked; bits != 0 && status == LMB_OK; bits &= bits - 1) {
+        status = light_sample(r, s, &t->sample[lowest_bit(bits)]);
+    }
+    t->known |= (uint16_t)asked;
+    return status;
+}
+
+static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_target *eye = &s->live->window;
+    lmb_status status = lmb_render_view_band(r, eye, &f->eye, row);
+    for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
+        status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, eye, column * LMB_TILE, row * LMB_TILE);
+        if (status == LMB_OK) {
+            const int lobes = requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene);
+            lmb_live_grid_put(g, &s->tile, lobes);
+            status = light_tile(r, s, g, column, row, 0);
+        }
+    }
+    return status;
+}
+
+/* --- phases --------------------------------------------------------------------------------------------------------- */
+
+static int32_t pieces_of(const lmb_render *r) { return (band_count(&r->frame.view) + ROWS - 1) / ROWS; }
+
+static lmb_status do_row(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
+{
+    lmb_status status = LMB_OK;
+    if (r->light == SURFACES) {
+        return take_surfaces(r, s, g, row);
+    }
+    for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
+        if (r->light == SHADOWS) {
+            lmb_live_grid_smooth(g, column, row);
+        } else if (r->light == SLOPES) {
+            lmb_live_grid_slopes(g, column, row);
+        } else {
+            status = light_tile(r, s, g, column, row, r->light == SAMPLES_4 ? 1 : 2);
+        }
+    }
+    return status;
+}
+
+static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
+{
+    const live_grid g = grid_of(r);
+    lmb_status status = LMB_OK;
+    if (r->light == CELLS_8 || r->light == CELLS_4) {
+        lmb_live_grid_divide(&g, i * ROWS, r->light == CELLS_8 ? 0 : 1);
+        return LMB_OK;
+    }
+    for (int32_t row = i * ROWS; row < mini(i * ROWS + ROWS, g.rows) && status == LMB_OK; ++row) {
+        status = do_row(r, s, &g, row);
+    }
+    return status;
+}
+
+NOINLINE void set_mean(lmb_render *r)
+{
+    const live_grid g = grid_of(r);
+    r->frame.lattice.mean = lmb_live_grid_mean(&g);
+}
+
+/* The next phase. */
+lmb_status lmb_render_live_on(lmb_render *r)
+{
+    if (r->light == SURFACES) {
+        set_mean(r);
+    }
+    r->progress = 0;
+    return ++r->light < PHASES ? LMB_MORE : LMB_OK;
+}
+
+lmb_status lmb_render_live_samples(lmb_render *r, int32_t units)
+{
+    lmb_band_scratch *s = r->frame.scratch;
+    for (int32_t n = 0; (n == 0 || n + PIECE_UNITS <= units) && (int32_t)r->progress < pieces_of(r); n += PIECE_UNITS) {
+        memset(&s->counts, 0, sizeof s->counts);
+        const lmb_status status = do_piece(r, s, (int32_t)r->progress++);
+        if (status != LMB_OK) {
+            return status;
+        }
+        add_counts(r->frame.stats, &s->counts);
+    }
+    return (int32_t)r->progress < pieces_of(r) ? LMB_MORE : lmb_render_live_on(r);
+}
+
+lmb_status lmb_render_live_part(const lmb_render *r, lmb_band_scratch *s, int32_t part, int32_t parts,
+                                lmb_stats *stats)
+{
+    int64_t first, past;
+    lmb_status status = LMB_OK;
+    memset(&s->counts, 0, sizeof s->counts);
+    share_out(&first, &past, pieces_of(r), part, parts);
+    for (int64_t i = first; i < past && status == LMB_OK; ++i) {
+        status = do_piece(r, s, (int32_t)i);
+    }
+    add_counts(stats, &s->counts);
+    return status;
+}
+
+/* --- pixels that no sample explains ----------------------------------------------------------------------------------- */
+
+static lmb_live_sample sample_of(const lmb_tile *tile, int k)
+{
+    lmb_live_sample s;
+    memset(&s, 0, sizeof s);
+    s.position = tile_vec(tile->position, k);
+    s.face = tile_vec(tile->face, k);
+    s.normal = tile_vec(tile->normal, k);
+    s.id = tile->id[k];
+    return s;
+}
+
+/* What a pixel may take its light from: pixels of the tile that are lit by themselves, a bit each, and the tile's and its
+ * cell's samples. */
+typedef struct sources {
+    const lmb_tile *tile;
+    const lmb_irradiance *light;
+    uint64_t known;
+    int count;
+    const lmb_live_sample *sample[GRID_SAMPLES + 3];
+    int8_t x[GRID_SAMPLES + 3], y[GRID_SAMPLES + 3];
+} sources;
+
+/* Light at a pixel by its sources. */
+typedef struct around {
+    float sum, light[3]; /* weights, and light by them */
+} around;
+
+static void add_around(around *a, const float light[3], float weight)
+{
+    a->sum += weight;
+    for (int c = 0; c < 3; ++c) {
+        a->light[c] += weight * light[c];
+    }
+}
+
+static int is_within(int dx, int dy) { return dx >= -REACH && dx <= REACH && dy >= -REACH && dy <= REACH; }
+
+/* The weight of what lies dx, dy px away. */
+static float nearness(int dx, int dy)
+{
+    const float d2 = 0.5f + (float)(dx * dx + dy * dy);
+    return 1.0f / (d2 * d2);
+}
+
+/* By those within REACH. */
+static around around_of(const sources *s, int k)
+{
+    const lmb_live_sample own = sample_of(s->tile, k);
+    const int x = k % LMB_TILE, y = k / LMB_TILE;
+    around a;
+    memset(&a, 0, sizeof a);
+    for (int i = 0; i < s->count; ++i) {
+        const int dx = s->x[i] - x, dy = s->y[i] - y;
+        const float weight = is_within(dx, dy) ? live_agree(&own, s->sample[i]) * nearness(dx, dy) : 0.0f;
+        if (weight > 0.0f) {
+            add_around(&a, s->sample[i]->light, weight);
+        }
+    }
+    for (uint64_t bits = s->known; bits != 0; bits &= bits - 1) {
+        const int from = lowest_bit_64(bits), dx = from % LMB_TILE - x, dy = from / LMB_TILE - y;
+        const lmb_live_sample other = sample_of(s->tile, from);
+        const float weight = is_within(dx, dy) ? live_agree(&own, &other) * nearness(dx, dy) : 0.0f;
+        if (weight > 0.0f) {
+            const float light[3] = {s->light->rgb[0][from], s->light->rgb[1][from], s->light->rgb[2][from]};
+            add_around(&a, light, weight);
+        }
+    }
+    return a;
+}
+
+static void set_sources(sources *out, const live_grid *g, const lmb_tile *tile, const lmb_irradiance *light)
+{
+    const int32_t column = tile->x / LMB_TILE, row = tile->y / LMB_TILE;
+    out->tile = tile;
+    out->light = light;
+    out->known = 0;
+    out->count = 0;
+    for (int i = 0; i < 4; ++i) {
+        const int32_t right = i & 1, down = i >> 1;
+        if (column + right < g->columns && row + down < g->rows) {
+            const live_grid_tile *t = grid_tile(g, column + right, row + down);
+            for (uint32_t bits = i == 0 ? t->known : t->known & 1u; bits != 0; bits &= bits - 1) {
+                const int k = lowest_bit(bits);
+                out->sample[out->count] = &t->sample[k];
+                out->x[out->count] = (int8_t)(right * LMB_TILE + k % GRID_SIDE * GRID_STEP);
+                out->y[out->count++] = (int8_t)(down * LMB_TILE + k / GRID_SIDE * GRID_STEP);
+            }
+        }
+    }
+}
+
+/* Light some of the pixels left by themselves, so that each has a source within REACH. */
+static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, const live_grid *g,
+                             uint64_t left)
+{
+    lmb_status status = LMB_OK;
+    sources from;
+    set_sources(&from, g, &s->tile, inout);
+    for (uint64_t bits = left; bits != 0 && status == LMB_OK; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        if (!(around_of(&from, k).sum > 0.0f)) {
+            lmb_live_sample own = sample_of(from.tile, k);
+            status = light_sample(r, s, &own);
+            for (int c = 0; c < 3; ++c) {
+                inout->rgb[c][k] = own.light[c];
+            }
+            from.known |= (uint64_t)1 << k;
+        }
+    }
+    for (uint64_t bits = left & ~from.known; bits != 0 && status == LMB_OK; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const around a = around_of(&from, k);
+        for (int c = 0; c < 3; ++c) {
+            inout->rgb[c][k] = a.light[c] / a.sum;
+        }
+    }
+    return status;
+}
+
+lmb_status lmb_render_live_tile(lmb_irradiance *out, const lmb_render *r, lmb_band_scratch *s)
+{
+    const live_grid g = grid_of(r);
+    if (s->tile.hits == 0 || grid_tile(&g, s->tile.x / LMB_TILE, s->tile.y / LMB_TILE)->lobes) {
+        return LMB_OK;
+    }
+    if (s->tile.hits < LMB_TILE_PIXELS) {
+        memset(out, 0, sizeof *out);
+    }
+    const uint64_t left = lmb_live_grid_fill(out, r->frame.kernels, &g, &s->tile);
+    return left != 0 ? light_left(out, r, s, &g, left) : LMB_OK;
+}
+
+#endif

@@ -1,0 +1,209 @@
+/* test_live_grid.c: samples of single points' light on a wall: how many there are, what lies between them, what noise is
+ * taken away; all of it by every back end. */
+#include <lambent/lambent.h>
+
+#include <stdlib.h>
+
+#include "../../src/compose/live_grid.h"
+#include "../../src/raster/tile.h"
+#include "../world.h"
+
+void test_live_grid(void);
+
+enum { WIDE = 101, HIGH = 75, COLUMNS = 13, ROWS = 10, TILES = COLUMNS * ROWS };
+
+typedef float (*light_at)(float x, float y);
+
+static float even(float x, float y) { return 0.3f + 0.0f * (x + y); }
+static float curved(float x, float y) { return 2.0f + 0.01f * x - 0.02f * y + 1e-4f * (x * x - x * y); }
+static float stepped(float x, float y) { return x + 0.3f * y > 61.0f ? 1.0f : 3.0f; }
+
+static uint64_t memory[TILES * (sizeof(lmb_lattice_tile) / 8) + 1024];
+static lmb_tile tile[TILES];
+static lmb_irradiance light[TILES];
+static live_grid grid;
+
+/* A wall of a centimetre a pixel; from column `bent` on it turns to the viewer. */
+static void put_wall(int32_t bent)
+{
+    lmb_lattice l;
+    CHECK(lmb_lattice_init(&l, WIDE, HIGH, memory, sizeof memory) == LMB_OK);
+    memset(memory, 0x5a, sizeof memory);
+    grid = lmb_live_grid_of(&l, 32);
+    memset(tile, 0, sizeof tile);
+    memset(light, 0, sizeof light);
+    for (int32_t i = 0; i < TILES; ++i) {
+        tile[i].x = i % COLUMNS * LMB_TILE;
+        tile[i].y = i / COLUMNS * LMB_TILE;
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const int32_t x = tile[i].x + k % 8, y = tile[i].y + k / 8, past = x >= bent ? x - bent : 0;
+            const lmb_vec3 n = x >= bent ? vec3(-1, 0, 0) : Z;
+            if (x < WIDE && y < HIGH) {
+                set_plane(tile[i].position, k,
+                          vec3(0.01f * (float)(x - past), 0.01f * (float)y, 0.01f * (float)past));
+                set_plane(tile[i].face, k, n);
+                set_plane(tile[i].normal, k, n);
+                tile[i].id[k] = x >= bent ? 2 : 1;
+                ++tile[i].hits;
+            }
+        }
+        lmb_live_grid_put(&grid, &tile[i], 0);
+    }
+}
+
+/* Light what a level asks for. Returns how many samples that is. */
+static int light_level(int32_t level, light_at at)
+{
+    int count = 0;
+    for (int32_t i = 0; i < TILES; ++i) {
+        live_grid_tile *t = &grid.tile[i];
+        const uint32_t asked = lmb_live_grid_asks(&grid, i % COLUMNS, i / COLUMNS, level);
+        CHECK((asked & (t->known | ~(uint32_t)t->shown)) == 0);
+        for (uint32_t bits = asked; bits != 0; bits &= bits - 1, ++count) {
+            const int k = lowest_bit(bits);
+            lmb_live_sample *s = &t->sample[k];
+            s->is_lit = 1;
+            for (int c = 0; c < 3; ++c) {
+                s->light[c] = (float)(c + 1) * at((float)(tile[i].x + k % 4 * 2), (float)(tile[i].y + k / 4 * 2));
+                s->slope[0][c] = s->light[c];
+                s->seen[c] = 254;
+            }
+        }
+        t->known |= (uint16_t)asked;
+    }
+    return count;
+}
+
+/* All that a frame does. Returns how many samples it took; *left: pixels that none explains. */
+static int solve(const lmb_kernels *kernels, light_at at, int *left)
+{
+    int count = light_level(0, at);
+    grid.mean = lmb_live_grid_mean(&grid);
+    for (int32_t level = 0; level < GRID_LEVELS - 1; ++level) {
+        for (int32_t row = 0; row < ROWS; row += 2) {
+            lmb_live_grid_divide(&grid, row, level);
+        }
+        count += light_level(level + 1, at);
+    }
+    for (int32_t i = 0; i < TILES; ++i) {
+        lmb_live_grid_smooth(&grid, i % COLUMNS, i / COLUMNS);
+    }
+    for (int32_t i = 0; i < TILES; ++i) {
+        lmb_live_grid_slopes(&grid, i % COLUMNS, i / COLUMNS);
+    }
+    *left = 0;
+    for (int32_t i = 0; i < TILES; ++i) {
+        *left += count_bits_64(lmb_live_grid_fill(&light[i], kernels, &grid, &tile[i]));
+    }
+    return count;
+}
+
+/* The largest error of a pixel; `off`: how many are off by over a tenth. */
+static float worst(light_at at, int *off)
+{
+    float out = 0.0f;
+    *off = 0;
+    for (int32_t y = 0; y < HIGH; ++y) {
+        for (int32_t x = 0; x < WIDE; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                const float is = light[y / 8 * COLUMNS + x / 8].rgb[c][y % 8 * 8 + x % 8] / (float)(c + 1),
+                            e = absf(is - at((float)x, (float)y));
+                out = maxf(out, e);
+                *off += c == 0 && e > 0.1f;
+            }
+        }
+    }
+    return out;
+}
+
+enum { FIRST = 14 * 11 /* columns 0, 8 .. 96 and 100, rows 0 .. 72 and 74 */ };
+
+static void test_walls(const lmb_kernels *kernels)
+{
+    int left, off;
+    put_wall(1000);
+    int count = solve(kernels, even, &left);
+    float most = worst(even, &off);
+    CHECK_MSG(count == FIRST && left == 0 && most < 1e-5f, "%d, %d, %g", count, left, (double)most);
+    put_wall(1000);
+    count = solve(kernels, curved, &left);
+    most = worst(curved, &off);
+    CHECK_MSG(count == FIRST && left == 0 && most < 0.01f, "%d, %d, %g", count, left, (double)most);
+    put_wall(1000);
+    count = solve(kernels, stepped, &left);
+    worst(stepped, &off);
+    CHECK_MSG(count > FIRST + 50 && count < 1200 && left == 0 && off < 300, "%d, %d, %d", count, left, off);
+    put_wall(50);
+    count = solve(kernels, even, &left);
+    most = worst(even, &off);
+    CHECK_MSG(count < FIRST + 40 && left > 0 && left < 4 * HIGH, "%d, %d", count, left);
+}
+
+/* A wall that turns: light of one side does not go on over the edge. */
+static float by_side(float x, float y) { return x >= 50.0f ? 5.0f : 1.0f + 0.0f * y; }
+
+static void test_edge(const lmb_kernels *kernels)
+{
+    int left, wrong = 0;
+    put_wall(50);
+    solve(kernels, by_side, &left);
+    for (int32_t i = 0; i < TILES; ++i) {
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const float is = light[i].rgb[0][k];
+            wrong += tile[i].id[k] != 0 && is != 0.0f && absf(is - (tile[i].id[k] == 2 ? 5.0f : 1.0f)) > 1e-4f;
+        }
+    }
+    CHECK_MSG(wrong == 0, "%d pixels", wrong);
+}
+
+/* Shares that are off by noise become one; a shadow's edge stays. */
+static void test_noise(void)
+{
+    float before = 0.0f, after = 0.0f, lit = 0.0f, dark = 0.0f;
+    int count = 0;
+    put_wall(1000);
+    light_level(0, even);
+    for (int32_t i = 0; i < TILES; ++i) {
+        lmb_live_sample *s = &grid.tile[i].sample[0];
+        for (int c = 0; c < 3; ++c) {
+            s->slope[0][c] = 1.0f;
+            s->seen[c] = (uint8_t)(i % COLUMNS < 6 ? 127 + (i * 7 % 5 - 2) * 9 : 0);
+            s->light[c] = (float)s->seen[c] / 254.0f;
+        }
+        before += i % COLUMNS < 6 ? (s->light[0] - 0.5f) * (s->light[0] - 0.5f) : 0.0f;
+    }
+    for (int32_t i = 0; i < TILES; ++i) {
+        lmb_live_grid_smooth(&grid, i % COLUMNS, i / COLUMNS);
+        const float now = grid.tile[i].sample[0].light[0];
+        after += i % COLUMNS < 6 ? (now - 0.5f) * (now - 0.5f) : 0.0f;
+        count += i % COLUMNS < 6;
+        lit += i % COLUMNS == 5 ? now : 0.0f;
+        dark += i % COLUMNS == 6 ? now : 0.0f;
+    }
+    CHECK_MSG(after < 0.3f * before, "%g of %g", (double)after, (double)before);
+    CHECK_MSG(dark == 0.0f && lit > 4.0f, "%g, %g", (double)lit, (double)dark);
+    CHECK(count == 6 * ROWS);
+}
+
+/* The same light by all back ends. */
+static void test_backends(void)
+{
+    static lmb_irradiance first[TILES];
+    for (int i = 0; lmb_kernels_at(i) != NULL; ++i) {
+        int left;
+        put_wall(50);
+        solve(lmb_kernels_at(i), stepped, &left);
+        if (i > 0) {
+            CHECK_MSG(memcmp(first, light, sizeof first) == 0, "%s", lmb_kernels_name(lmb_kernels_at(i)));
+        }
+        memcpy(first, light, sizeof first);
+    }
+}
+
+void test_live_grid(void)
+{
+    test_walls(lmb_kernels_pick());
+    test_edge(lmb_kernels_pick());
+    test_noise();
+    test_backends();
+}
