@@ -531,7 +531,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages (PART="render mix":
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
 .PHONY: asan-programs pointers pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
-    measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
+    measure-steady measure-pack measure-baked measure-edges measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sun measure-constants measure-sequence \
     measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
@@ -623,6 +623,9 @@ measure-pack: $(TOOL) $(B)/measure-pack ## packed scenes: bytes by part beside t
 
 measure-baked: $(TOOL) ## baked light against truth, its files and frames (SCENES, TURN=37, FILES=folder)
 	@$(IN_SH) tests/measure/baked.sh
+
+measure-edges: $(TOOL) $(B)/scenes ## baked light on stairs, shelves and in attics beside gathered light (TUNED, HELD_OUT)
+	@$(IN_SH) tests/measure/baked_edges.sh
 
 measure-crate: $(TOOL) ## an object that moves in baked light, which it neither blocks nor reflects: its error (FRAME)
 	@$(IN_SH) tests/measure/crate.sh

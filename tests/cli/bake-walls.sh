@@ -85,4 +85,24 @@ for kind in $kinds; do
     look "$2" "$4" lit.pfm --transfer room.lmt
     check "a dark room behind a wall, $kind, seed $seed" is_dark dark.pfm lit.pfm
 done
+
+# At the foot of a crate in the border of a spot's light, light changes from black to bright within a centimetre. With
+# elements as large there as elsewhere the rmse was 0.078, and the worst pixel 0.18.
+if [ -z "$SHORT" ]; then
+    awk 'function v(x, y, z) { print "v " x, y, z }
+        function sides(y) { v(0.13, y, 0.065); v(0.29, y, 0.114); v(0.24, y, 0.272); v(0.082, y, 0.225) }
+        BEGIN {
+            for (i = 0; i < 8; ++i) v(int(i / 2) % 2 * 0.56, int(i / 4) * 0.55, int((i + 1) / 2) % 2 * 0.56)
+            print "f 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7"
+            sides(0); sides(0.165)
+            print "f 13 14 15 16"
+            for (i = 0; i < 4; ++i) print "f", 9 + i, 9 + (i + 1) % 4, 13 + (i + 1) % 4, 13 + i
+        }' >foot.obj
+    foot="--eye 0.4,0.12,-0.3 --target 0.24,0.04,0.1 --fov 30 --size 48x48 --bounces 1 --show indirect -q
+        --light spot:0.278,0.54,0.2:0.3294831,-0.9413804,-0.0724139:2,2,2:24,28"
+    status 0 bake foot.obj -o foot.lmt -q --receivers 7000 --eye 0.3,0.3,-0.5
+    status 0 render foot.obj $foot --transfer foot.lmt -o foot.pfm
+    status 0 render foot.obj $foot --quality best -o best.pfm
+    status 0 compare foot.pfm best.pfm --max rmse=0.065
+fi
 finish

@@ -36,6 +36,7 @@ const scene_kind scene_kinds[] = {
     {"terrain_in", HELD_OUT, build_terrain_in, "the house on 4 km of land, from inside"},
     {"small_room", HELD_OUT, build_small_room, "a spot on a wall, two crates"},
     {"small_stairs", HELD_OUT, build_small_stairs, "nine steps under a lamp"},
+    {"small_shelf", FITTED, build_small_shelf, "boxes on boards, in a spot that comes in aslant"},
     {"doorway", HELD_OUT, build_doorway, "a lit room behind a door and a screen"},
     {"leaves", HELD_OUT, build_leaves, "40 large leaves in the sun"},
     {"glow", HELD_OUT, build_glow, "a panel that emits light"},

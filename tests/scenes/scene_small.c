@@ -46,6 +46,30 @@ void build_small_stairs(made_scene *s)
     look(s, at(0.4, 1.6, size.z - 0.3), at(1.0 + 0.6 * STEPS * tread, 0.9, 0.5), 65);
 }
 
+/* Boards between two sides before a wall, with boxes on them that lean on nothing; a spot comes in aslant. */
+void build_small_shelf(made_scene *s)
+{
+    enum { BOARDS = 4, BOXES = 4 };
+    const svec size = at(any_between(s, 3.0, 3.4), 2.5, any_between(s, 2.8, 3.2));
+    const double left = any_between(s, 0.7, 1.0), wide = 1.5, deep = any_between(s, 0.3, 0.4), thick = 0.03;
+    const double rise = any_between(s, 0.42, 0.5), high = BOARDS * rise + thick;
+    const paints p = four_paints(s);
+    shell(s, p.floor, p.white, p.white, at(0, 0, 0), size);
+    box(s, p.red, at(left, 0, 0), at(left + thick, high, deep));
+    box(s, p.red, at(left + wide, 0, 0), at(left + wide + thick, high, deep));
+    for (int i = 1; i <= BOARDS; ++i) {
+        const double y = i * rise;
+        box(s, p.red, at(left + thick, y, 0), at(left + wide, y + thick, deep));
+        for (int k = 0; k < BOXES && i < BOARDS; ++k) {
+            const double x = left + 0.1 + 0.34 * k, tall = any_between(s, 0.15, rise - 0.1);
+            box(s, k % 2 ? p.green : p.white, at(x, y + thick, any_between(s, 0.02, 0.06)),
+                at(x + any_between(s, 0.12, 0.3), y + thick + tall, deep - any_between(s, 0.03, 0.1)));
+        }
+    }
+    spot(s, at(size.x - 0.4, 2.2, size.z - 0.5), at(left + 0.5 * wide, 0.5 * high, 0), 30, 20, 30);
+    look(s, at(0.5, 1.5, size.z - 0.3), at(left + 0.6 * wide, 1.0, 0.2), 60);
+}
+
 /* The lit room behind a door, before which a screen stands; seen from the dark room. */
 void build_doorway(made_scene *s)
 {

@@ -163,6 +163,7 @@ void build_city(made_scene *s);
 void build_cave(made_scene *s);
 void build_small_room(made_scene *s);
 void build_small_stairs(made_scene *s);
+void build_small_shelf(made_scene *s);
 void build_doorway(made_scene *s);
 void build_leaves(made_scene *s);
 void build_glow(made_scene *s);

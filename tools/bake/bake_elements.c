@@ -11,7 +11,10 @@
 enum { MESH = 500, CROWD = 8, WASTE = 4, CELL = 3 /* elements of a cell, at most, which walls part */ };
 #define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
 #define CLOSER  0.5f /* of that, where there are elements left for it */
+#define STANDING 0.4f /* of an element's size: so small are those that walls stand on by a corner or more */
 #define SLIVER  0.25f /* of that size: narrower triangles share elements, or they would take them all */
+#define BESIDE  0.1f  /* of the smallest edge: so far off a wall on either side places are looked at */
+#define CORNERS (7u << 3) /* of what a piece has on walls: a bit for each edge, then for each corner */
 
 /* Few small triangles are no mesh: a box's sides get receivers of their own. */
 static void set_small(bake *b)
@@ -221,29 +224,55 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
     }
 }
 
-static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth);
+/* Does a wall stand there on the line to another place? Lines of cuts go on where their walls end. */
+static int is_wall(maker *m, lmb_vec3 at, lmb_vec3 to, lmb_vec3 normal)
+{
+    const lmb_vec3 near = bake_pulled(m->b, at, to);
+    const lmb_vec3 across = mul3(normalize3(cross3(normal, sub3(to, at))), BESIDE * m->b->set.smallest_m);
+    return !bake_sees(&m->sight, m->b, add3(near, across), sub3(near, across), normal);
+}
 
-static int halve_by(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth, const bake_cut *cut)
+/* What a half has on walls: the line that cuts is an edge of both, from its new corner to the one opposite. */
+static void half_walls(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, const bake_cut *cut, uint32_t walls,
+                       uint32_t out[2])
+{
+    const int from = cut->from, to = (from + 1) % 3, other = (from + 2) % 3;
+    const lmb_vec3 mid = bake_cut_at(cut, corner);
+    const uint32_t own = (cut->is_wall && is_wall(m, mid, corner[other], normal)) ||
+                         ((walls >> from & 1u) != 0 && is_wall(m, mid, corner[to], normal));
+    walls |= (uint32_t)(cut->is_wall && is_wall(m, corner[other], mid, normal)) << (3 + other);
+    for (int h = 0; h < 2; ++h) {
+        const int moves = h == 0 ? to : from, line = h == 0 ? to : other;
+        out[h] = (walls & ~(1u << line | 8u << moves)) | (uint32_t)cut->is_wall << line | own << (3 + moves);
+    }
+}
+
+static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth, uint32_t walls);
+
+static int halve_by(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth, const bake_cut *cut,
+                    uint32_t walls)
 {
     const uint32_t own = m->cut;
-    uint32_t first;
+    uint32_t first, on[2];
     if (!bake_divide(m->b, &m->b->section[LMB_TRANSFER_PIECES], node, cut, &first, m->r)) {
         return 0;
     }
+    half_walls(m, corner, normal, cut, walls, on);
     for (uint32_t h = 0; h < 2; ++h) {
         lmb_vec3 half[3];
         memcpy(half, corner, sizeof half);
         half[h == 0 ? (cut->from + 1) % 3 : cut->from] = bake_cut_at(cut, corner);
         m->cut = cut->first > 0 ? cut->first + h : own;
-        if (!halve(m, half, normal, first + h, depth + 1)) {
+        if (!halve(m, half, normal, first + h, depth + 1, on[h])) {
             return 0;
         }
     }
     return 1;
 }
 
-/* Cut a triangle, then halve it at its longest edge until it is small enough; nodes into the section of pieces. */
-static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth)
+/* Cut a triangle, then halve it at its longest edge until it is small enough; nodes into the section of pieces. Where
+ * walls stand on it light changes fast, so pieces are smaller there; but not as small as the blocks of a shadow map. */
+static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth, uint32_t walls)
 {
     bake_words *w = &m->b->section[LMB_TRANSFER_PIECES];
     bake_cut cut = m->b->cut[m->cut];
@@ -253,7 +282,7 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
         return 1;
     }
     if (cut.first > 0) {
-        return halve_by(m, corner, normal, node, depth, &cut);
+        return halve_by(m, corner, normal, node, depth, &cut, walls);
     }
     if (cut.is_closed[m->own % 2]) {
         w->data[node] = LMB_TRANSFER_LEAF | add_element(m, corner, normal);
@@ -262,7 +291,8 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     const int is_small = depth == 0 && longest * 2.0f < m->side, is_last = depth == LMB_TRANSFER_MAX_HALVINGS;
     const int is_free = longest <= m->side && (is_small || (m->is_crowded && m->is_sliver) ||
                                                bake_stands_free(&m->sight, m->b, corner, normal));
-    if (is_last || is_free || longest <= m->contact * m->side) {
+    const int is_beside = (walls & CORNERS) != 0 && !is_small && !m->is_sliver;
+    if (is_last || (is_free && !(is_beside && longest > STANDING * m->side)) || longest <= m->contact * m->side) {
         const int is_shared = is_free && (is_small || m->is_sliver);
         const uint32_t e = is_shared ? small_element(m, corner, normal) : add_element(m, corner, normal);
         w->data[node] = LMB_TRANSFER_LEAF | e;
@@ -272,7 +302,7 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     memset(&cut, 0, sizeof cut);
     cut.from = from;
     cut.part = 0.5f;
-    return halve_by(m, corner, normal, node, depth, &cut);
+    return halve_by(m, corner, normal, node, depth, &cut, walls);
 }
 
 /* Both sides of a triangle: which show, by its material and how its instance mirrors it. */
@@ -295,7 +325,7 @@ static int add_triangle(maker *m, uint32_t id)
         m->cut = b->cut_root[id - 1];
         surfaces->data[4 * (id - 1) + (size_t)back] = shows ? (uint32_t)pieces->count : LMB_TRANSFER_NONE;
         if (shows && (!bake_put(pieces, 0, m->r) ||
-                      !halve(m, t.corner, mul3(normal, back ? -1.0f : 1.0f), pieces->count - 1, 0))) {
+                      !halve(m, t.corner, mul3(normal, back ? -1.0f : 1.0f), pieces->count - 1, 0, 0))) {
             return 0;
         }
     }
