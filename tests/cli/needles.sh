@@ -20,6 +20,11 @@ status 0 render needles.obj $view -q -o quiet.pfm
 check "--quiet prints the note" lacks coarser err.txt
 status 0 play needles.obj $view --frames 1 -o frame%01d.pfm
 said "note: 1 of 1 tiles have coarser visibility: too many triangles cross there"
+# So it is in a bake, by any threads.
+status 0 bake needles.obj -o one.lmt --elements 64 --receivers 16 --threads 1
+check "bake prints no note" grep -q '^lambent: note: [1-9][0-9]* sights have coarser visibility' err.txt
+status 0 bake needles.obj -o three.lmt --elements 64 --receivers 16 --threads 3
+check "threads change coarse visibility of a bake" cmp one.lmt three.lmt
 status 0 render demo $small -o demo.pfm --stats demo.json
 check "an ordinary scene has coarse tiles" lacks coarser err.txt
 check "an ordinary scene counts tiles" test "$(count demo.json coarse_tiles)" -eq 0 -a "$(count demo.json tiles)" -gt 0
