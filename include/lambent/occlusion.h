@@ -66,12 +66,13 @@ typedef struct lmb_segments {
     float per[3][LMB_TILE_PIXELS];
 } lmb_segments;
 
-/* Tests that a bounded tile has from the start, and those that each call adds: of lmb_occluded_tile and of
- * lmb_occluded_sun. Beside the first ones, ordinary scenes take up to 1,859 and 347 a call, a room of 2,000 triangles
- * 42 and 61. If many triangles meet in one point, a call takes about as many tests as there are triangles. */
-#define LMB_TRAVERSAL_FIRST 262144
-#define LMB_TRAVERSAL_EACH  8192
-#define LMB_TRAVERSAL_SUN   2048
+/* Tests that a bounded tile has from the start, and those that each call adds, once and for each of its pixels. So the
+ * many small calls of a tile whose pixels all lie on triangles of their own add about as much as few large ones. Beside
+ * 2^18 tests, ordinary scenes take up to 36 for each pixel of their calls at default quality, and 44 at best; 1,000
+ * needles through one point take 442. If no tests are left, a call adds none, and takes LMB_TRAVERSAL_COARSE at most. */
+#define LMB_TRAVERSAL_FIRST  1048576
+#define LMB_TRAVERSAL_EACH   64
+#define LMB_TRAVERSAL_COARSE 64
 
 /* What a traversal keeps, one for each thread: the triangles that blocked most lately, as they often block the next
  * segments too. All 0 to begin with. */
@@ -85,7 +86,7 @@ typedef struct lmb_traversal {
     uint32_t spent;                    /* tests so far: of nodes, leaves, triangles, and of pixels against holes; wraps */
     uint32_t end;                      /* value of `spent` at which this call ends */
     int32_t bounded;                   /* 1: `left` bounds the tests; 0: nothing does */
-    int32_t left;                      /* tests that are left to this tile; each call adds LMB_TRAVERSAL_EACH or _SUN */
+    int32_t left;                      /* tests that are left to this tile: each call adds some */
     uint32_t coarse;                   /* calls that were answered coarsely, as too few tests were left */
     int32_t eye_kind;                  /* LMB_EYE_: kind of eye that sees the pixels */
     lmb_vec3 eye;                      /* position of the eye, or direction towards it */
@@ -130,9 +131,10 @@ lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene);
  * traversal only leaves out what no segment can meet. NULL: nothing blocks. Cost: 0.1 to 1 us.                [V25]
  *
  * If the traversal is bounded and no tests are left, the answer is coarser: the middle one of `pixels` answers for all
- * of them, after at most LMB_TRAVERSAL_EACH tests. A call that begins with tests left ends at most LMB_TRAVERSAL_FIRST
- * tests past them. Pixels that nothing blocked by then count as seen. So n calls take at most about 2 FIRST + n EACH
- * tests in any scene, and the same ones on every machine. To bound a tile, set `bounded` to 1 and `left` to
+ * of them, after at most LMB_TRAVERSAL_COARSE tests, to the end of the tile. A call that begins with tests left ends at
+ * most LMB_TRAVERSAL_FIRST tests past them. Pixels that nothing blocked by then count as seen. So n calls for m pixels
+ * take at most about 2 FIRST + (n + m) EACH + n COARSE tests in any scene, most often far fewer, and the same ones on
+ * every machine. To bound a tile, set `bounded` to 1 and `left` to
  * LMB_TRAVERSAL_FIRST, and all else to 0. */
 uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *traversal, const lmb_bvh *bvh,
                            const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise);

@@ -25,6 +25,7 @@
 #define WIDER      1.001f /* of a box against what lies in it, for rounding */
 #define STAND_OFF  4.0f  /* times the noise: by so much a texel's point is moved towards its light */
 #define LARGE_NOISE 1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
+#define SPENT      8.0   /* times as large a share of light and error is allowed in a tile that has spent its tests */
 #define CLOSER     0.7   /* a half that reduces the error to this share is worth its cut */
 enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
@@ -190,9 +191,15 @@ static double counted_error(const cutter *c, int32_t i)
     return c->cut_params->conservative ? e : e * e;
 }
 
+/* Has the tile spent its tests of visibility? Then nodes are no longer divided once they are tested, they may give more
+ * light and a larger error, and pixels that share a cut stay together: all else would ask for more tests, and light that
+ * triangles chop up for many nodes without any. A conservative bound holds in every tile. */
+static int is_spent(const cutter *c) { return !c->cut_params->conservative && c->cut->use.traversal.left < 0; }
+
 static double allowed_error(const cutter *c)
 {
-    const double upper = (double)c->cut_params->error * (c->beside + c->value);
+    const double share = (double)c->cut_params->error * (is_spent(c) ? SPENT : 1.0);
+    const double upper = share * (c->beside + c->value);
     return c->cut_params->conservative ? upper : maxd(upper * upper, c->floor * c->floor);
 }
 
@@ -434,7 +441,8 @@ static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; 
 /* How much light a node may give whose visibility is tested as one. */
 static double allowed_upper(const cutter *c, double lower)
 {
-    return maxd((double)c->cut_params->visibility * (c->beside + maxd(c->value, lower)), c->floor);
+    const double share = (double)c->cut_params->visibility * (is_spent(c) ? SPENT : 1.0);
+    return maxd(share * (c->beside + maxd(c->value, lower)), c->floor);
 }
 
 /* Does one triangle stand between all of the pixels and all of the node in slot i? By the corners of the node's box:
@@ -463,6 +471,10 @@ static double divide_by_upper(cutter *c, double lower, int asks)
 {
     int32_t i = largest(c);
     while (i != NONE && has_room(c) && (double)c->cut->upper[i] > allowed_upper(c, lower)) {
+        if (asks && is_spent(c)) {
+            ++c->cut->use.traversal.coarse;
+            return 0.0;
+        }
         c->cut->bucket[c->highest] = c->cut->next[i];
         if (!asks || !c->cut_params->spread || !is_dark(c, i)) {
             divide(c, i, c->p->pixels, asks);
@@ -929,7 +941,7 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     const double now = take_cut(c);
     c->cut->tests_left = c->cut->use.traversal.left;
     c->cut->coarse += c->cut->use.traversal.coarse;
-    if (now > 0.0 && (now < CLOSER * *over || now > HOLDS) && count_bits_64(p->pixels) > 1) {
+    if (now > 0.0 && (now < CLOSER * *over || now > HOLDS) && count_bits_64(p->pixels) > 1 && !is_spent(c)) {
         *over = now;
         return 0;
     }

@@ -204,10 +204,7 @@ lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels 
         query->many_lights == NULL) {
         return LMB_ERR_ARG;
     }
-    memset(scratch->traversal.last, 0, sizeof scratch->traversal.last);
-    scratch->traversal.first = 0;
     traversal_bound(&scratch->traversal);
-    scratch->traversal.asked = scratch->traversal.alone = 0;
     scratch->traversal.eye_kind = LMB_EYE_NONE;
     uint64_t left = query->many_lights->node_count > 0 ? tile_pixels(tile) : 0;
     for (int n = 1; left != 0; ++n) {

@@ -417,7 +417,7 @@ uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, cons
         return 0;
     }
     const uint32_t before = kept->spent;
-    const uint64_t asked = w.left = traversal_begin(kept, pixels, LMB_TRAVERSAL_EACH);
+    const uint64_t asked = w.left = traversal_begin(kept, pixels);
     return traversal_end(kept, before, pixels, asked, trace(&w));
 }
 

@@ -273,7 +273,7 @@ uint64_t lmb_occluded_sun(const lmb_kernels *kernels, lmb_traversal *kept, const
         return 0;
     }
     const uint32_t before = kept->spent;
-    const uint64_t asked = traversal_begin(kept, pixels, LMB_TRAVERSAL_SUN);
+    const uint64_t asked = traversal_begin(kept, pixels);
     sun_traversal w = {bvh, kernels, tile, tile_vec(tile->position, lowest_bit_64(asked)), to, kept,
                        noise_of(tile, asked), asked, 0};
     test_kept(&w);

@@ -34,15 +34,16 @@ int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_
 
 #define LMB_TRAVERSAL_MOST 0x10000000 /* left at most, that no sum leaves its type */
 
-/* Begin a call: the pixels to test. each: tests that it adds. */
-static inline uint64_t traversal_begin(lmb_traversal *t, uint64_t pixels, int32_t each)
+/* Begin a call: the pixels to test. */
+static inline uint64_t traversal_begin(lmb_traversal *t, uint64_t pixels)
 {
     uint64_t asked = pixels;
     t->end = t->spent + 0x7fffffffu;
     if (t->bounded) {
         const int is_coarse = t->left < 0;
-        t->end = t->spent + (uint32_t)(is_coarse ? each : t->left + LMB_TRAVERSAL_FIRST);
-        t->left = mini(t->left, LMB_TRAVERSAL_MOST) + each;
+        t->end = t->spent + (uint32_t)(is_coarse ? LMB_TRAVERSAL_COARSE : t->left + LMB_TRAVERSAL_FIRST);
+        t->left = is_coarse ? t->left
+                            : mini(t->left, LMB_TRAVERSAL_MOST) + LMB_TRAVERSAL_EACH * (1 + count_bits_64(pixels));
         for (int i = is_coarse ? count_bits_64(asked) / 2 : 0; i > 0; --i) {
             asked &= asked - 1;
         }
@@ -59,15 +60,19 @@ static inline uint64_t traversal_end(lmb_traversal *t, uint32_t before, uint64_t
                                      uint64_t occluded)
 {
     if (t->bounded) {
-        t->left -= (int32_t)(t->spent - before);
+        t->left -= t->left < 0 ? 0 : (int32_t)(t->spent - before);
         t->coarse += asked != pixels || traversal_is_over(t);
     }
     return asked == pixels ? occluded : occluded != 0 ? pixels : 0;
 }
 
-/* A tile begins. */
+/* A tile begins: with tests of its own, and with nothing kept of another tile, which would change the count of tests. */
 static inline void traversal_bound(lmb_traversal *t)
 {
+    for (int i = 0; i < LMB_LAST_OCCLUDERS; ++i) {
+        t->last[i] = 0;
+    }
+    t->asked = t->first = t->blocker = t->alone = 0;
     t->bounded = 1;
     t->left = LMB_TRAVERSAL_FIRST;
     t->spent = t->end = t->coarse = 0;

@@ -1,7 +1,7 @@
 # needles.sh: triangles that all cross in one point: tests of visibility are bounded, and a note reports it.
 . tests/cli/common.sh
 
-awk 'function crossing(n,  i, a, z, s) { # a needle each, through the middle of a room, in directions that fill a sphere
+crossing='function crossing(n,  i, a, z, s) { # a needle each, through the middle of a room, in directions that fill a sphere
          for (i = 0; i < n; ++i) {
              a = 2.399963 * i; z = 1 - (i + 0.5) / n; s = sqrt(1 - z * z)
              x = 1.4 * s * cos(a); y = 1.4 * s * sin(a); z = 1.4 * z
@@ -9,7 +9,8 @@ awk 'function crossing(n,  i, a, z, s) { # a needle each, through the middle of 
                  x + 0.002, 1.5 + y, z, x - 0.002, 1.5 + y, z
          } }
      BEGIN { printf "v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nv -2 3 -2\nv 2 3 -2\nf 1 2 3 4\nf 4 3 6 5\n"
-             crossing(12000) }' >needles.obj
+             crossing(many) }'
+awk -v many=12000 "$crossing" >needles.obj
 view="--size 8x8 --show direct --eye 0,1.5,6 --target 0,1.5,0 --exposure 0"
 status 0 render needles.obj $view --threads 1 -o one.pfm --stats needles.json
 said "note: 1 of 1 tiles have coarser visibility: too many triangles cross there"
@@ -20,6 +21,12 @@ status 0 render needles.obj $view -q -o quiet.pfm
 check "--quiet prints the note" lacks coarser err.txt
 status 0 play needles.obj $view --frames 1 -o frame%01d.pfm
 said "note: 1 of 1 tiles have coarser visibility: too many triangles cross there"
+# So it is in a bake, by any threads.
+awk -v many=600 "$crossing" >few.obj
+status 0 bake few.obj -o one.lmt --elements 64 --receivers 64 --cluster 3 --threads 1
+check "bake prints no note" grep -q '^lambent: note: [1-9][0-9]* sights have coarser visibility' err.txt
+status 0 bake few.obj -o three.lmt --elements 64 --receivers 64 --cluster 3 --threads 3
+check "threads change coarse visibility of a bake" cmp one.lmt three.lmt
 status 0 render demo $small -o demo.pfm --stats demo.json
 check "an ordinary scene has coarse tiles" lacks coarser err.txt
 check "an ordinary scene counts tiles" test "$(count demo.json coarse_tiles)" -eq 0 -a "$(count demo.json tiles)" -gt 0

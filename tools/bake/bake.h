@@ -115,6 +115,7 @@ typedef struct bake {
     float small_m;  /* no edge of a small triangle is longer */
     uint32_t small_count;
     int has_cluster_m; /* the settings say how large clusters are: they do not shrink until there are many */
+    uint32_t *coarse; /* counts the calls whose visibility is coarser, as too many triangles cross */
     int by_middles; /* rows ask for elements' middles alone */
     int is_coded;   /* areas of targets were handed up */
 
@@ -168,6 +169,10 @@ int bake_sees(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 to, lmb_vec3
 int bake_sees_over(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 from_normal, lmb_vec3 to, lmb_vec3 to_normal);
 int bake_stands_free(bake_sight *s, const bake *b, const lmb_vec3 corner[3], lmb_vec3 normal);
 lmb_vec3 bake_pulled(const bake *b, lmb_vec3 at, lmb_vec3 to);
+
+/* bake_bound: begin a job of some calls, which has tests of visibility of its own whatever thread runs it: beyond them
+ * visibility is coarser. traversal->coarse goes on. */
+void bake_bound(lmb_traversal *traversal);
 
 /* All of these return 1, or 0 with `r` set. */
 

@@ -334,6 +334,7 @@ static void open_element(const reach *w, bake_element *e, lmb_tile *tile, lmb_tr
     bake_nearest witness;
     lmb_vec3 at[PARTS], sum = vec3(0.0f, 0.0f, 0.0f);
     uint64_t hidden = ~(uint64_t)0;
+    bake_bound(traversal);
     find_witnesses(&witness, w, e);
     set_parts(w->b, e, at, tile);
     const float noise = lmb_tile_noise(tile, hidden);
@@ -365,6 +366,7 @@ static int open_elements(reach *w)
             open_element(w, &w->b->element[i], tile, &traversal);
         }
     }
+    *w->b->coarse += traversal.coarse;
     free(tile);
     return tile != NULL || report_fail(w->r, "not enough memory for a tile");
 }

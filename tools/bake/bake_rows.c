@@ -205,6 +205,7 @@ static void element_job(void *user, int index, int worker)
     const rows *w = user;
     const uint32_t per = w->b->set.elements / CHUNK, first = (uint32_t)(w->own + index * w->parts) * per;
     const uint64_t all = ~(uint64_t)0 >> (CHUNK - w->count);
+    bake_bound(&w->traversal[worker]);
     for (uint32_t j = first; j < first + per; ++j) {
         const bake_element *e = &w->b->element[j];
         for (int k = 0; k < w->axes * w->count; ++k) {
@@ -255,6 +256,9 @@ int bake_rows_part(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, in
         rows w = {b, tile, at, normal, row, times, count, axes, own, parts, traversal};
         set_tile(tile, at, normal, count);
         pool_run(b->set.threads, (CHUNK - own + parts - 1) / parts, element_job, &w);
+        for (int k = 0; k < b->set.threads; ++k) {
+            *b->coarse += traversal[k].coarse;
+        }
     }
     free(tile);
     free(traversal);

@@ -4,8 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../src/occlusion/traversal.h"
 #include "bake_triangle.h"
 
+#define FIRST 16384 /* tests of visibility that a job has from the start, besides those that its calls add */
 #define PULL 0.1f  /* of the smallest edge: receivers lie so far inside their triangle, off what stands at its edges */
 #define OVER 0.25f /* of a way: so high over a mesh it bends over what bulges out between two places that face alike */
 #define UP   0.05f /* of it: so high over a triangle its corners have to see its middle */
@@ -21,6 +23,14 @@ int bake_sight_begin(bake_sight *s, report *r)
     s->tile->id[0] = 1;
     s->tile->depth[0] = 1.0f;
     return 1;
+}
+
+void bake_bound(lmb_traversal *traversal)
+{
+    const uint32_t coarse = traversal->coarse;
+    traversal_bound(traversal);
+    traversal->left = FIRST;
+    traversal->coarse = coarse;
 }
 
 void bake_sight_end(bake_sight *s) { free(s->tile); }

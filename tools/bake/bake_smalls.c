@@ -123,6 +123,7 @@ static void look(void *user, int index, int worker)
     const uint32_t count = w->job[index + 1] - w->job[index];
     bake_nearest witness;
     uint64_t open = 0;
+    bake_bound(w->traversal[worker]);
     find_witnesses(&witness, w, s->element);
     tile->hits = 0;
     for (uint32_t i = 0; i < count; ++i) {
@@ -234,6 +235,7 @@ int bake_smalls(bake *b, report *r)
         pool_run(b->set.threads, (int)w.jobs, look, &w);
     }
     for (int k = 0; k < b->set.threads; ++k) {
+        *b->coarse += ok ? w.traversal[k]->coarse : 0;
         free(w.tile[k]);
         free(w.traversal[k]);
     }

@@ -310,8 +310,9 @@ static int bake_scene(const options *o, const lmb_scene *whole, const model *loa
     set.dividing = (uint32_t)o->dividing;
     set.threads = pool_threads(o->threads);
     set.is_swapped = o->is_big != is_own_big();
-    uint32_t moving[MOVING], count;
+    uint32_t moving[MOVING], count, coarse = 0;
     bake_still_scene still = {*whole, NULL};
+    b.coarse = &coarse;
     b.share = o->slice.count > 0 ? &share : NULL;
     int ok = (o->to != LIGHT_PROBES || light_probes_fit(whole, o->step_m, r)) &&
              (b.share == NULL || begin_slice(&share, folder, o, whole, r)) &&
@@ -328,6 +329,8 @@ static int bake_scene(const options *o, const lmb_scene *whole, const model *loa
         tell(o, &b, file.size);
     }
     ok = ok && r->text[0] == '\0';
+    report_note(!ok || o->is_quiet || coarse == 0, "note: %.0f sights have coarser visibility: too many triangles cross "
+                "there", (double)coarse);
     file_free(&file);
     free(still.instance);
     bake_free(&b);

@@ -172,7 +172,7 @@ void hard_cliff(hard_list *list)
                      "times");
         }
     }
-    const double limit = 2.0 * LMB_TRAVERSAL_FIRST / MANY_CALLS + LMB_TRAVERSAL_EACH;
+    const double limit = 2.0 * LMB_TRAVERSAL_FIRST / MANY_CALLS + LMB_TRAVERSAL_COARSE;
     hard_put(list, HARD_BOUNDED, "12,000 needles: tests a call of a bounded tile",
              tests(list->stage, NEEDLES, 1, 1).each, limit, "tests");
     hard_put(list, HARD_BOUNDED, "12,000 hairs: tests a call of a bounded tile", tests(list->stage, HAIR, 1, 1).each,
