@@ -33,6 +33,7 @@ static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, int32_
     for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
         status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &eye, x, band * LMB_TILE);
         if (status == LMB_OK) {
+            lmb_render_onto_triangles(&s->tile, f);
             const int lobes = requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene);
             lmb_lattice_put(&f->lattice, &s->tile, lobes);
         }

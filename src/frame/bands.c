@@ -33,6 +33,7 @@ NOINLINE lmb_status light_pixels(const lmb_render *r, lmb_band_scratch *s, const
     if (gathers && status == LMB_OK) {
         indirect = &s->indirect;
         memset(&s->indirect, 0, sizeof s->indirect);
+        lmb_render_onto_triangles(&s->tile, f);
         status = lmb_render_gather(&s->indirect, glossy, r, s, &s->tile, requires_direct(f) ? &s->direct : NULL);
     }
     if (status == LMB_OK && many) {

@@ -1,6 +1,7 @@
 /* bounced.c: the bounced light of a tile, from cuts of the trees or from groups. Layer 10. */
 #include "../base/vec.h"
 #include "../raster/tile.h"
+#include "../raster/triangle.h"
 #include "stages.h"
 #include "requires.h"
 
@@ -60,6 +61,18 @@ NOINLINE lmb_status gather_live(lmb_irradiance *inout, const lmb_render *r, lmb_
 #else
 #define gather_live(...) LMB_ERR_ARG /* no frame asks for it */
 #endif
+
+void lmb_render_onto_triangles(lmb_tile *inout, const lmb_frame *f)
+{
+#if LMB_TREES
+    if (requires_cut(f)) {
+        (void)lmb_tile_onto_triangles(inout, f->scene);
+    }
+#else
+    (void)inout;
+    (void)f;
+#endif
+}
 
 /* What the light's shadow maps bounce, and what elements send. */
 static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,

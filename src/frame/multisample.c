@@ -105,6 +105,7 @@ NOINLINE lmb_status gather_left(const lmb_render *r, lmb_band_scratch *s, uint64
         tile_put_pixel(tile, count++, &m->tile, lowest_bit_64(bits));
     }
     memset(&s->indirect, 0, sizeof s->indirect);
+    lmb_render_onto_triangles(tile, &r->frame);
     const lmb_status status = lmb_render_gather(&s->indirect, NULL, r, s, tile, NULL);
     count = 0;
     for (uint64_t bits = left; bits != 0; bits &= bits - 1, ++count) {

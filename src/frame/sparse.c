@@ -57,6 +57,7 @@ lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *s, const lmb_
             if (status != LMB_OK) {
                 return status;
             }
+            lmb_render_onto_triangles(&s->tile, f);
             if (requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene)) {
                 continue;
             }

@@ -169,6 +169,10 @@ lmb_status lmb_multisample_light(const lmb_render *r, lmb_band_scratch *scratch,
 lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *scratch,
                              const lmb_tile *tile, const lmb_irradiance *direct);
 
+/* Where cuts light it, move a tile's pixels on to the triangles that they show: a cut asks what stands between a pixel
+ * and its light, and a pixel past a fold is on the fold's other side. Direct light is that of the resolved places. */
+void lmb_render_onto_triangles(lmb_tile *inout, const lmb_frame *f);
+
 /* Set the light of a receiver, of a frame that requires_live. */
 lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *scratch, const lmb_live_receiver *at);
 #if !LMB_LIVE

@@ -695,11 +695,27 @@ static void add_near_glossy(const cutter *c, const leaf *l, uint64_t pixels)
     }
 }
 
+/* Of `pixels`, those before the plane of a texel's own point. If light grazes a texel, its shape leaves that plane, and
+ * so may be before pixels that are behind the surface. */
+static uint64_t before_point(const cutter *c, uint64_t pixels, const lmb_texel *t)
+{
+    uint64_t out = 0;
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 at = place_before(c, k, t->position, t->normal);
+        out |= (uint64_t)(dot3(t->normal, sub3(at, t->position)) >= 0.0f) << k;
+    }
+    return out;
+}
+
 /* Add a leaf that is so near that its shape counts, pixel by pixel. */
 NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t visible)
 {
     const lmb_tile *tile = c->tile;
     const lmb_node *n = &l->node;
+    if (l->element == NULL) {
+        visible = before_point(c, visible, tree_texel(c->tree, at.face, at.x, at.y));
+    }
     const uint64_t near = near_pixels(tile, l, visible);
     add_near_glossy(c, l, visible);
     if (l->is_crease && near != 0) {

@@ -8,6 +8,7 @@
 #include "../map/footprint.h"
 #include "../map/texel.h"
 #include "../raster/tile.h"
+#include "../raster/triangle.h"
 #include "box.h"
 
 #if LMB_TREES
@@ -74,13 +75,14 @@ static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, l
 }
 
 /* Of the four pixels around a texel's middle, of which k is the last, one whose surface shows there; NOBODY where that
- * is not known. Of surfaces that lie one before the other and do not meet either will do. */
-static int pixel_of_middle(const lmb_tile *t, int k, const lmb_view *v, float sx, float sy)
+ * is not known. Of surfaces that lie one before the other and do not meet either will do. at_end: pixels at the end of
+ * their surface, as lmb_tile_onto_triangles has them. */
+static int pixel_of_middle(const lmb_tile *t, uint64_t at_end, int k, const lmb_view *v, float sx, float sy)
 {
     const int around[4] = {k, k - 1, k - LMB_TILE, k - LMB_TILE - 1};
     for (int i = 0; i < 4; ++i) {
         const lmb_vec3 place = at_middle(t, around[i], v, sx, sy);
-        int ends = t->id[around[i]] == 0;
+        int ends = t->id[around[i]] == 0 || (at_end >> around[i] & 1u);
         for (int j = 0; j < 4 && !ends; ++j) {
             ends = t->id[around[j]] != 0 && ends_before(t, around[i], around[j], v, place);
         }
@@ -133,31 +135,31 @@ static int pixel_in_turn(const lmb_tile *t, int own, int k, int32_t each, const 
 
 /* Which pixel a texel is of, and whether its plane goes on to the texel's middle. k: the last of the four around
  * that. */
-static int choose_pixel(int *goes, const lmb_tile *t, int k, const lmb_shadow_map *coarse, int32_t face, int32_t x,
-                        int32_t y, float sx, float sy)
+static int choose_pixel(int *goes, const lmb_tile *t, uint64_t at_end, int k, const lmb_shadow_map *coarse,
+                        int32_t face, int32_t x, int32_t y, float sx, float sy)
 {
     const lmb_view *v = &coarse->view[face];
     const int32_t each = coarse->face[face].id.width / coarse->size;
     if (each == 1) {
-        *goes = 1;
+        *goes = !(at_end >> k & 1u);
         return k;
     }
-    const int found = pixel_of_middle(t, k, v, sx, sy), own = found != NOBODY ? found : k;
+    const int found = pixel_of_middle(t, at_end, k, v, sx, sy), own = found != NOBODY ? found : k;
     const int turn = pixel_in_turn(t, own, k, each, v, x, y, sx, sy);
     *goes = found != NOBODY && turn == own;
     return turn;
 }
 
 /* A texel of the tree: at its middle, or at a pixel, where that pixel's plane is edge-on or does not go on so far. */
-static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light *light, const lmb_shadow_map *coarse,
-                      int32_t face, int32_t x, int32_t y)
+static void set_texel(lmb_texel *out, const lmb_tile *t, uint64_t at_end, int k, const lmb_light *light,
+                      const lmb_shadow_map *coarse, int32_t face, int32_t x, int32_t y)
 {
     const lmb_view *v = &coarse->view[face];
     const float size = (float)coarse->size, sx = ((float)(2 * x + 1) / size - 1.0f) * v->half_width,
                 sy = (1.0f - (float)(2 * y + 1) / size) * v->half_height;
     float power[3];
     int goes;
-    const int own = choose_pixel(&goes, t, k, coarse, face, x, y, sx, sy);
+    const int own = choose_pixel(&goes, t, at_end, k, coarse, face, x, y, sx, sy);
     memset(out, 0, sizeof *out);
     memset(out->side, SIDE_WHOLE, sizeof out->side);
     if (t->id[own] == 0) {
@@ -203,12 +205,13 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
     for (int32_t i = first * map->size; i < past * map->size && status == LMB_OK; i += LMB_TILE) {
         const int32_t x0 = i % map->size, y0 = i / map->size * LMB_TILE;
         status = lmb_resolve_tile(scratch, kernels, &map->view[face], scene, &map->face[face], x0, y0);
+        const uint64_t at_end = status == LMB_OK ? lmb_tile_onto_triangles(scratch, scene) : 0;
         for (int k = 0; k < LMB_TILE_PIXELS && status == LMB_OK; ++k) {
             const int32_t x = x0 + k % LMB_TILE, y = y0 + k / LMB_TILE;
             if (x % each == each / 2 && y % each == each / 2) {
                 set_texel(&tree->texel[((size_t)into * (size_t)size + (size_t)(y / each)) * (size_t)size +
                                        (size_t)(x / each)],
-                          scratch, k, light, &coarse, face, x / each, y / each);
+                          scratch, at_end, k, light, &coarse, face, x / each, y / each);
             }
         }
     }

@@ -43,6 +43,7 @@ lmb_status lmb_render_tiles(uint64_t *shown, const lmb_render *r, lmb_band_scrat
         if (status == LMB_OK && f->gather_step == 1) {
             memset(&s->sparse.light[part], 0, sizeof s->sparse.light[part]);
             status = lmb_render_direct(r, NULL, s, &s->tile, &f->view);
+            lmb_render_onto_triangles(&s->tile, f);
             status = status != LMB_OK ? status
                                       : lmb_render_gather(&s->sparse.light[part], NULL, r, s, &s->tile,
                                                           requires_direct(f) ? &s->direct : NULL);

@@ -1,6 +1,8 @@
 /* triangle.c: from an id back to its triangle. Layer 3. */
 #include "triangle.h"
 
+#include "tile.h"
+
 const lmb_instance *lmb_instance_of(const lmb_scene *scene, uint32_t id)
 {
     uint32_t lo = 0, hi = scene->instance_count; /* the owner is in [lo, hi) */
@@ -43,5 +45,51 @@ int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
     *normal = normalize3(n);
     *area = 0.5f * longest * length3(n);
     return 1;
+}
+#endif
+
+#if LMB_TREES
+/* The nearest point of a triangle to a place of its plane. */
+static lmb_vec3 onto_triangle(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
+{
+    lmb_vec3 out = at;
+    float nearest = 3e38f;
+    for (int i = 0; i < 3; ++i) {
+        const lmb_vec3 from = t->corner[i], edge = sub3(t->corner[i < 2 ? i + 1 : 0], from), d = sub3(at, from);
+        if (dot3(cross3(normal, edge), d) < 0.0f) {
+            const float share = clampf(dot3(d, edge) / dot3(edge, edge), 0.0f, 1.0f);
+            const lmb_vec3 on = add3(from, mul3(edge, share)), off = sub3(at, on);
+            const float distance2 = dot3(off, off);
+            out = distance2 < nearest ? on : out;
+            nearest = minf(nearest, distance2);
+        }
+    }
+    return out;
+}
+
+uint64_t lmb_tile_onto_triangles(lmb_tile *inout, const lmb_scene *scene)
+{
+    const lmb_tile *in = inout;
+    uint64_t moved = 0;
+    uint32_t known = 0;
+    int is_shape = 0;
+    lmb_triangle t;
+    lmb_vec3 normal = vec3(0, 0, 0);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const lmb_vec3 at = tile_vec(in->position, k);
+        float area;
+        if (inout->id[k] != 0 && inout->id[k] != known) {
+            known = inout->id[k];
+            is_shape = lmb_triangle_fetch(&t, scene, known) && lmb_triangle_shape(&normal, &area, &t);
+        }
+        if (inout->id[k] != 0 && is_shape) {
+            const lmb_vec3 on = onto_triangle(&t, normal, at);
+            moved |= (uint64_t)(on.x != at.x || on.y != at.y || on.z != at.z) << k;
+            inout->position[0][k] = on.x;
+            inout->position[1][k] = on.y;
+            inout->position[2][k] = on.z;
+        }
+    }
+    return moved;
 }
 #endif

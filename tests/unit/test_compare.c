@@ -50,12 +50,24 @@ static metrics measured(const pair *p, int masked, int classed)
     return m;
 }
 
+static int near(double a, double b) { return fabs(a - b) <= 1e-12 * (1.0 + fabs(b)); }
+
 /* Without a mask. */
 static double worst_of(pair *p)
 {
     const metrics m = measured(p, 0, 0);
     const metrics_input in = input_of(p, 0, 0);
     return metrics_worst(&m, &in);
+}
+
+/* Without a mask: the worst pixel is at (x, y), by that error. */
+static int worst_is(const pair *p, double error, int x, int y)
+{
+    const metrics m = measured(p, 0, 0);
+    const metrics_input in = input_of(p, 0, 0);
+    int32_t at_x, at_y;
+    const double got = metrics_worst_pixel(&at_x, &at_y, &m, &in);
+    return near(got, error) && at_x == x && at_y == y;
 }
 
 static metrics_equality compared(const pair *p, double peak)
@@ -65,8 +77,6 @@ static metrics_equality compared(const pair *p, double peak)
     metrics_compare(&e, &in, peak);
     return e;
 }
-
-static int near(double a, double b) { return fabs(a - b) <= 1e-12 * (1.0 + fabs(b)); }
 
 static void test_equal(pair *p)
 {
@@ -104,7 +114,7 @@ static void test_outlier(pair *p)
     CHECK(near(worst_of(p), 10.0 / 3.0 / 1.01));
     set_pixel(p->truth, 58, 6.0f); /* the mean of the truth is 1.2 over the 25 pixels around it, and 1.05 over all */
     set_pixel(p->test, 58, 6.0f);
-    CHECK(near(worst_of(p), 10.0 / 3.0 / (1.2 + 0.0105)));
+    CHECK(near(worst_of(p), 10.0 / 3.0 / (1.2 + 0.0105)) && worst_is(p, 10.0 / 3.0 / (1.2 + 0.0105), 7, 5));
     set_pixel(p->truth, 58, 1.0f);
     set_pixel(p->test, 58, 1.0f);
     CHECK(near(m.mean, 1.0 + 1.0 / 30.0));
@@ -213,6 +223,26 @@ static void test_degenerate(pair *p)
     CHECK(m.e50 == 0.0 && near(m.e99, 10001.0 / 10002.0));
 }
 
+/* The worst pixel is worst relative to what lies around it, and the first of equal ones; 99.9 % may hide it. */
+static void test_worst_pixel(pair *p)
+{
+    fill(p, 1.0f, 1.0f);
+    CHECK(worst_is(p, 0.0, -1, -1));
+    for (int i = 0; i < COUNT / 2; ++i) {
+        set_pixel(p->test, i, 10.0f);
+        set_pixel(p->truth, i, 10.0f);
+    }
+    set_pixel(p->test, 12, 12.0f); /* 2 of 10, and 0.5 of 1: the mean of the truth is 5.5 */
+    set_pixel(p->test, 88, 0.5f);
+    set_pixel(p->test, 99, 1.5f);
+    CHECK(worst_is(p, 0.5 / 1.055, 8, 8));
+    p->surface[3 * 88 + 2] = 0.0f; /* of 99 pixels */
+    metrics m = measured(p, 1, 0);
+    const metrics_input in = input_of(p, 1, 0);
+    int32_t x, y;
+    CHECK(metrics_worst_pixel(&x, &y, &m, &in) > 0.4 && x == 9 && y == 9);
+}
+
 static int lightness_order(const uint8_t *c) { return 2126 * c[0] + 7152 * c[1] + 722 * c[2]; }
 
 static void test_heat(pair *p)
@@ -311,6 +341,10 @@ static void test_verb(scratch *s)
     CHECK(compare_status(s, "--max", "rmse=0.5,lo=0.9,hi=1.1") == COMPARE_OK);
     CHECK_MSG(compare_status(s, "--max", "rmse=0.001") == COMPARE_FAILED && says(s, " [bound rmse=0.001]\n"), "%s",
               s->text);
+    CHECK_MSG(says(s, " worst 0.0") && says(s, " at 3,0 mean 1.0"), "%s", s->text);
+    CHECK(compare_status(s, "--json", NULL) == COMPARE_OK && says(s, "\"worst_at\":[3,0]"));
+    CHECK(compare_status(s, "--max", "worst=0.001") == COMPARE_FAILED && says(s, " [bound worst=0.001]\n"));
+    CHECK(compare_status(s, "--max", "worst=0.1") == COMPARE_OK);
     CHECK(compare_status(s, "--max", "hi=1") == COMPARE_FAILED && compare_status(s, "--max", "lo=1") == COMPARE_OK);
     CHECK(compare_status(s, "--max", "rms=1") == COMPARE_USAGE && compare_status(s, "--max", "rmse=") == COMPARE_USAGE);
     CHECK(compare_status(s, "--max", NULL) == COMPARE_USAGE && compare_status(s, "--nothing", NULL) == COMPARE_USAGE);
@@ -352,6 +386,7 @@ void test_compare(void)
     test_leak(&p);
     test_not_finite(&p);
     test_degenerate(&p);
+    test_worst_pixel(&p);
     test_heat(&p);
     if (!scratch_init(&s)) {
         SKIP("compare on files: no temporary folder can be written to");

@@ -12,9 +12,9 @@
 #include "../picture/metrics.h"
 #include "../picture/picture_read.h"
 
-enum { KEY_TRIM, KEY_RMSE, KEY_E50, KEY_E95, KEY_E99, KEY_LO, KEY_HI, KEY_LEAK, KEY_COUNT };
+enum { KEY_TRIM, KEY_RMSE, KEY_E50, KEY_E95, KEY_E99, KEY_WORST, KEY_LO, KEY_HI, KEY_LEAK, KEY_COUNT };
 
-static const char *const key_names[KEY_COUNT] = {"trim", "rmse", "e50", "e95", "e99", "lo", "hi", "leak"};
+static const char *const key_names[KEY_COUNT] = {"trim", "rmse", "e50", "e95", "e99", "worst", "lo", "hi", "leak"};
 
 typedef struct options {
     const char *test, *truth, *mask, *classes, *heat, *max; /* NULL: not given */
@@ -38,6 +38,8 @@ typedef struct loaded {
 typedef struct results {
     metrics figures;
     metrics_equality equality;
+    double worst;             /* metrics_worst_pixel, and its place */
+    int32_t worst_x, worst_y;
     int in_codes;          /* equality is in sRGB codes */
     int passed[KEY_COUNT]; /* 1 where a bound is passed */
     int ok;
@@ -55,7 +57,7 @@ static const option_row rows[] = {
     {.name = "--classes", .value = "FILE", .kind = OPTION_TEXT, AT(classes), .file = OPTION_READS,
      .help = "class of each pixel (1-channel PFM)"},
     {.name = "--max", .value = "KEY=V,...", .kind = OPTION_TEXT, AT(max),
-     .help = "upper bounds for trim, rmse, e50, e95, e99; lo and hi bound mean; leak bounds |leak - 1|"},
+     .help = "upper bounds for trim, rmse, e50, e95, e99, worst; lo and hi bound mean; leak bounds |leak - 1|"},
     {.name = "--json", .kind = OPTION_FLAG, AT(json),
      .help = "one object on one line; what is infinite or was not measured is null"},
     {.name = "--heat", .value = "OUT.png", .kind = OPTION_TEXT, AT(heat), .file = OPTION_WRITES,
@@ -79,6 +81,8 @@ static const option_table table = {
              "rmse: relative RMSE; n90: how many pixels carry 90 % of the squared error;\n"
              "e50 (median relative error), e95, e99: percentiles of |a - b| / (b + 0.01 mean of B), grey (mean of the "
              "channels);\n"
+             "worst: largest |a - b| / (mean of B over the 5x5 pixels around + 0.01 mean of B), grey, and its first "
+             "pixel x,y (from the top left);\n"
              "mean: mean of A / mean of B;\n"
              "leak: the same over dark pixels: class 3, or B < 1 % of its mean without --classes (21 or more);\n"
              "NONFINITE: pixels of A that are not finite, if there are any;\n"
@@ -120,8 +124,8 @@ static int parse_bounds(options *o, report *r)
     for (const char *item = o->max; *item;) {
         size_t length = strcspn(item, ",");
         if (length && !parse_bound(o, item, length))
-            return report_fail(r, "--max: '%.*s' is not KEY=NUMBER with KEY one of trim rmse e50 e95 e99 lo hi leak",
-                               (int)(length < 60 ? length : 60), item);
+            return report_fail(r, "--max: '%.*s' is not KEY=NUMBER with KEY one of trim rmse e50 e95 e99 worst lo hi "
+                               "leak", (int)(length < 60 ? length : 60), item);
         item += length + (item[length] == ',');
     }
     return 1;
@@ -267,9 +271,10 @@ static metrics_input linear_input(const loaded *l)
 }
 
 /* Written so that a figure that is not a number passes its bound. */
-static int is_passed(const metrics *m, int key, double bound)
+static int is_passed(const results *res, int key, double bound)
 {
-    const double upper[] = {m->trim, m->rmse, m->e50, m->e95, m->e99};
+    const metrics *m = &res->figures;
+    const double upper[] = {m->trim, m->rmse, m->e50, m->e95, m->e99, res->worst};
     switch (key) {
     case KEY_LO:
         return !(m->mean >= bound);
@@ -287,9 +292,10 @@ static int measure(results *out, const loaded *l, const options *o, report *r)
     metrics_input in = linear_input(l);
     if (!metrics_measure(&out->figures, &in, r))
         return 0;
+    out->worst = metrics_worst_pixel(&out->worst_x, &out->worst_y, &out->figures, &in);
     out->ok = out->figures.nonfinite == 0;
     for (int k = 0; k < KEY_COUNT; ++k) {
-        out->passed[k] = is_passed(&out->figures, k, o->bounds[k]);
+        out->passed[k] = is_passed(out, k, o->bounds[k]);
         out->ok = out->ok && !out->passed[k];
     }
     out->in_codes = l->test.codes && l->truth.codes;
@@ -322,6 +328,9 @@ static void print_text(FILE *out, const results *res, const options *o)
     text_number(out, "e50", m->e50);
     text_number(out, "e95", m->e95);
     text_number(out, "e99", m->e99);
+    text_number(out, "worst", res->worst);
+    if (res->worst_x >= 0)
+        fprintf(out, "at %d,%d ", (int)res->worst_x, (int)res->worst_y);
     fprintf(out, fabs(m->mean) < 1e6 ? "mean %.4f" : "mean %.4g", shown(m->mean));
     if (m->has_leak)
         fprintf(out, " leak %.3f", m->leak);
@@ -389,6 +398,8 @@ static void print_json(FILE *out, const results *res, const loaded *l)
     const char *comma = "";
     fprintf(out, "{\"width\":%d,\"height\":%d,", (int)l->truth.width, (int)l->truth.height);
     json_figures(out, &res->figures);
+    json_number(out, "worst", res->worst);
+    json_place(out, "worst_at", res->worst_x, res->worst_y);
     json_equality(out, &res->equality, res->in_codes);
     fprintf(out, "\"passed_bounds\":[");
     for (int k = 0; k < KEY_COUNT; ++k) {

@@ -178,23 +178,44 @@ static double local_mean(const metrics_input *in, size_t at)
     return sum / count; /* count > 0: the pixel itself is compared */
 }
 
+/* Error of a compared pixel relative to the truth around it. */
+static double local_error(const metrics *m, const metrics_input *in, size_t i)
+{
+    sample s = sample_at(in, i), around = s;
+    around.truth = local_mean(in, i);
+    around.test = around.truth + fabs(s.test - s.truth);
+    return relative_error(around, m->truth_mean);
+}
+
 double metrics_worst(const metrics *m, const metrics_input *in)
 {
     size_t n = pixel_count(in), c = 0;
     double *errors = malloc(n * sizeof *errors), worst = (double)INFINITY;
     for (size_t i = 0; errors && i < n; ++i) {
-        if (is_compared(in, i)) {
-            sample s = sample_at(in, i), around = s;
-            around.truth = local_mean(in, i);
-            around.test = around.truth + fabs(s.test - s.truth);
-            errors[c++] = relative_error(around, m->truth_mean);
-        }
+        if (is_compared(in, i))
+            errors[c++] = local_error(m, in, i);
     }
     if (c > 0) {
         qsort(errors, c, sizeof *errors, ascending);
         worst = errors[(size_t)((double)c * 0.999)];
     }
     free(errors);
+    return worst;
+}
+
+double metrics_worst_pixel(int32_t *x, int32_t *y, const metrics *m, const metrics_input *in)
+{
+    const size_t n = pixel_count(in);
+    double worst = 0.0;
+    *x = *y = -1;
+    for (size_t i = 0; i < n; ++i) {
+        const double error = is_compared(in, i) ? local_error(m, in, i) : 0.0;
+        if (error > worst) {
+            worst = error;
+            *x = (int32_t)(i % (size_t)in->width);
+            *y = (int32_t)(i / (size_t)in->width);
+        }
+    }
     return worst;
 }
 

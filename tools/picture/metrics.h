@@ -50,6 +50,9 @@ int metrics_measure(metrics *out, const metrics_input *in, report *r);
  * infinite if memory runs out. */
 double metrics_worst(const metrics *m, const metrics_input *in);
 
+/* metrics_worst_pixel: the largest of those errors, with its first pixel; -1 and 0 where all grey values are equal. */
+double metrics_worst_pixel(int32_t *x, int32_t *y, const metrics *m, const metrics_input *in);
+
 /* metrics_compare: `peak` is the PSNR's full scale; 0 takes the truth's largest value. */
 void metrics_compare(metrics_equality *out, const metrics_input *in, double peak);
 
