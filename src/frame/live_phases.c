@@ -9,6 +9,7 @@
 #include "../bounce/points.h"
 #include "../compose/live_grid.h"
 #include "../raster/tile.h"
+#include "../raster/triangle.h"
 #include "stages.h"
 #include "requires.h"
 
@@ -77,6 +78,7 @@ static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const 
     for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
         status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, eye, column * LMB_TILE, row * LMB_TILE);
         if (status == LMB_OK) {
+            lmb_render_onto_triangles(&s->tile, f);
             const int lobes = requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene);
             lmb_live_grid_put(g, &s->tile, lobes);
             status = light_tile(r, s, g, column, row, 0);
@@ -269,6 +271,7 @@ static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_ban
         const int k = lowest_bit_64(bits);
         if (!(around_of(&from, k).sum > 0.0f)) {
             lmb_live_sample own = sample_of(from.tile, k);
+            own.position = lmb_place_onto_triangle(r->frame.scene, own.id, own.position);
             status = light_sample(r, s, &own);
             for (int c = 0; c < 3; ++c) {
                 inout->rgb[c][k] = own.light[c];

@@ -67,6 +67,30 @@ static lmb_vec3 onto_triangle(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 a
     return out;
 }
 
+lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 at)
+{
+    lmb_triangle t;
+    lmb_vec3 normal;
+    float area;
+    return lmb_triangle_fetch(&t, scene, id) && lmb_triangle_shape(&normal, &area, &t) ? onto_triangle(&t, normal, at)
+                                                                                        : at;
+}
+
+/* Does one triangle hold all of a tile? It is convex, so the corner pixels tell. */
+static int is_within_one(const lmb_tile *tile, const lmb_scene *scene)
+{
+    static const int corner[4] = {0, LMB_TILE - 1, LMB_TILE_PIXELS - LMB_TILE, LMB_TILE_PIXELS - 1};
+    uint32_t other = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        other |= tile->id[k] ^ tile->id[0];
+    }
+    for (int i = 0; i < 4 && other == 0; ++i) {
+        const lmb_vec3 at = tile_vec(tile->position, corner[i]), on = lmb_place_onto_triangle(scene, tile->id[0], at);
+        other |= on.x != at.x || on.y != at.y || on.z != at.z;
+    }
+    return other == 0;
+}
+
 uint64_t lmb_tile_onto_triangles(lmb_tile *inout, const lmb_scene *scene)
 {
     const lmb_tile *in = inout;
@@ -75,6 +99,9 @@ uint64_t lmb_tile_onto_triangles(lmb_tile *inout, const lmb_scene *scene)
     int is_shape = 0;
     lmb_triangle t;
     lmb_vec3 normal = vec3(0, 0, 0);
+    if (is_within_one(inout, scene)) {
+        return 0;
+    }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const lmb_vec3 at = tile_vec(in->position, k);
         float area;

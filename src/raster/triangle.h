@@ -33,6 +33,7 @@ int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id);
  * returns those pixels. Rasters snap corners, so near an edge a pixel may show a triangle that its ray just misses. The
  * place on that triangle's plane then lies past a fold, on the other side of the next triangle. */
 uint64_t lmb_tile_onto_triangles(lmb_tile *inout, const lmb_scene *scene);
+lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 at); /* the same for one place */
 
 /* lmb_triangle_fetch where its instance is known. */
 static inline int triangle_of(lmb_triangle *out, const lmb_scene *scene, const lmb_instance *instance, uint32_t id)
