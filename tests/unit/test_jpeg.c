@@ -103,6 +103,32 @@ static void check_pixels(const sample *s)
     bitmap_free(&map);
 }
 
+/* Four components are CMYK by Adobe's transform 0 and without Adobe's marker, and YCCK by any other: 1 as 2. In both 255
+ * is no ink. */
+static void check_inks(const sample *s)
+{
+    enum { MARKER = 2, TRANSFORM = 17, AFTER = 18 };
+    uint8_t copy[SAMPLE_MAX];
+    bitmap plain = {0}, map = {0}, ycck = {0};
+    report r;
+    const size_t texels = 4 * (size_t)s->width * (size_t)s->height;
+    int ok = s->jpeg[MARKER + 1] == 0xEE && s->jpeg[TRANSFORM] == 0 && decode_copy(&plain, s->jpeg, s->size, &r);
+    memcpy(copy, s->jpeg, MARKER);
+    memcpy(copy + MARKER, s->jpeg + AFTER, s->size - AFTER);
+    ok = ok && decode_copy(&map, copy, s->size - (AFTER - MARKER), &r);
+    CHECK(ok && memcmp(map.texels, plain.texels, texels) == 0);
+    bitmap_free(&map);
+    memcpy(copy, s->jpeg, s->size);
+    copy[TRANSFORM] = 2;
+    ok = ok && decode_copy(&ycck, copy, s->size, &r);
+    CHECK(ok && memcmp(ycck.texels, plain.texels, texels) != 0);
+    copy[TRANSFORM] = 1;
+    CHECK(ok && decode_copy(&map, copy, s->size, &r) && memcmp(map.texels, ycck.texels, texels) == 0);
+    bitmap_free(&map);
+    bitmap_free(&ycck);
+    bitmap_free(&plain);
+}
+
 /* --- damage --- */
 
 static void check_prefixes(const sample *s)
@@ -253,6 +279,7 @@ void test_jpeg(void)
         check_pixels(&samples[i]);
         check_prefixes(&samples[i]);
         check_flips(&samples[i]);
+        if (strcmp(samples[i].name, "cmyk") == 0) check_inks(&samples[i]);
     }
     check_methods();
     check_structure();

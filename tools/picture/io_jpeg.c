@@ -349,13 +349,13 @@ static int read_markers(jpeg_reader *j)
     return 1;
 }
 
-/* JFIF means YCbCr; else Adobe's transform 0, or components named R G B, mean RGB. With four components, Adobe's 2
- * means YCCK. */
+/* JFIF means YCbCr; else Adobe's transform 0, or components named R G B, mean RGB. With four components, all
+ * of Adobe's transforms but 0 mean YCCK. */
 static int is_ycc(const jpeg_reader *j)
 {
     const jpeg_component *c = j->components;
     if (j->count == 1) return 0;
-    if (j->count == 4) return j->adobe == 2;
+    if (j->count == 4) return j->adobe > 0;
     if (j->is_jfif) return 1;
     return j->adobe >= 0 ? j->adobe != 0 : !(c[0].id == 'R' && c[1].id == 'G' && c[2].id == 'B');
 }
