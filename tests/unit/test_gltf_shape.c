@@ -268,15 +268,22 @@ static void reads_other_materials(void)
     CHECK(near((double)m[0].specular[0], 0.2) && m[0].specular[2] == 0 && m[0].roughness == 0.25f);
     CHECK(near((double)m[0].albedo[0], 0.4) && m[2].specular[0] == 0);
     /* Means of the map: specular as linear light, glossiness in alpha, which is 1. A metal is not black without its
-     * lobe. */
+     * lobe, and its diffuse texture does not darken what stands for the lobe. */
     CHECK_LOADS(load_gltf(ASSET "\"materials\":[{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":"
                            "[0,0,0,1],\"specularGlossinessTexture\":{\"index\":0},\"diffuseTexture\":{\"index\":0}}}}],"
                            "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));
     m = loaded.scene.materials;
-    CHECK(m->texture == 0 && near((double)m->albedo[0], 0.04 * 0.21586) && near((double)m->albedo[2], 0.04));
+    CHECK(m->texture == -1 && near((double)m->albedo[0], 0.04 * 0.21586) && near((double)m->albedo[2], 0.04));
     CHECK(noted("specular-glossiness maps used by their mean") && model_make_glossy(&loaded));
     m = loaded.scene.materials;
     CHECK(near((double)m->specular[0], 0.21586) && m->specular[2] == 1 && m->roughness == 0 && m->albedo[2] == 0);
+    /* A texture stays if it shows more, or if its alpha cuts holes. */
+    CHECK_LOADS(load_gltf(ASSET "\"materials\":[{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"specularFactor\":"
+                           "[0.6,0.5,0.4],\"diffuseTexture\":{\"index\":0}}}},{\"alphaMode\":\"MASK\",\"extensions\":{"
+                           "\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseTexture\":{\"index\":0}}}}],"
+                           "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));
+    m = loaded.scene.materials;
+    CHECK(m[0].texture == 0 && near((double)m[0].albedo[0], 0.4) && m[1].texture == 0);
 }
 
 void test_gltf_shape(void)

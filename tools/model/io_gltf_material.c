@@ -431,26 +431,45 @@ static int read_specular_map(double specular[3], double *glossiness, gltf *g, ui
     return 1;
 }
 
+/* A metal without its lobe shows a share of its specular colour. The diffuse texture of a metal is black, and must not
+ * darken that. It is left out if it shows no more than that share, unless its alpha cuts holes. */
+static int leave_out_dark_texture(lmb_material *out, gltf *g, uint32_t texture, const double diffuse[3],
+                                  const double dark[3])
+{
+    const gltf_mean *mean;
+    if (out->texture < 0 || (out->flags & LMB_ALPHA_MASK) != 0)
+        return 1;
+    if (!texture_mean(&mean, g, texture, &g->b->textures[out->texture]))
+        return 0;
+    for (int k = 0; k < 3; ++k) {
+        if (diffuse[k] * mean->light[k] > dark[k])
+            return 1;
+    }
+    out->texture = -1;
+    return 1;
+}
+
 /* KHR_materials_pbrSpecularGlossiness: the diffuse colour is scaled by 1 - the highest specular channel. F0 is the
  * specular colour, and alpha is (1 - glossiness)^2. */
 static int read_specular_glossiness(lmb_material *out, model_lobe *lobe, gltf *g, uint32_t other, const double base[3])
 {
     const json *doc = &g->doc;
-    double specular[3] = {1, 1, 1}, glossiness = 1, peak;
+    double specular[3] = {1, 1, 1}, glossiness = 1, peak, diffuse[3], dark[3];
     if (!json_read_doubles(specular, 3, doc, json_member(doc, other, "specularFactor"), g->b->r) ||
         !json_read_double(&glossiness, doc, json_member(doc, other, "glossinessFactor"), g->b->r) ||
         !read_specular_map(specular, &glossiness, g, json_member(doc, other, "specularGlossinessTexture")))
         return 0;
     peak = (double)clamp01(fmax(specular[0], fmax(specular[1], specular[2])));
     for (int k = 0; k < 3; ++k) {
-        const double diffuse = base[k] * (1 - peak), dark = LEAST_DIFFUSE * specular[k];
-        lobe->albedo[k] = clamp01(diffuse);
+        diffuse[k] = base[k] * (1 - peak);
+        dark[k] = LEAST_DIFFUSE * specular[k];
+        lobe->albedo[k] = clamp01(diffuse[k]);
         lobe->specular[k] = clamp01(specular[k]);
-        out->albedo[k] = clamp01(diffuse > dark ? diffuse : dark);
+        out->albedo[k] = clamp01(diffuse[k] > dark[k] ? diffuse[k] : dark[k]);
     }
     lobe->roughness = clamp01(1 - glossiness);
     g->left_out.metals += peak >= 0.5;
-    return 1;
+    return peak < 0.5 || leave_out_dark_texture(out, g, json_member(doc, other, "diffuseTexture"), diffuse, dark);
 }
 
 /* Uses the base colour unchanged. */
