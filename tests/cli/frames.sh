@@ -107,6 +107,12 @@ for part in color.pfm depth.pfm json; do cp "frames/f0.$part" "$long/$two.$part"
 printf 'two words/f\000%s\000' "$two" >"$long/zero.txt"
 status 0 mix --frames "$long/zero.txt" $tent -q -o frames/zero_%02d.pfm
 check "a list with bytes of 0" cmp frames/o_00.pfm frames/zero_01.pfm
+printf '#x\000two words/f\000' >"$long/hash.txt"
+status 0 mix --frames "$long/hash.txt" $tent -q -o frames/hash_%02d.pfm
+check "has no comments" cmp frames/o_00.pfm frames/hash_01.pfm
+printf 'two words/f\r\nbehind \r\n' >"$long/returns.txt"
+status 0 mix --frames "$long/returns.txt" $tent -q -o frames/return_%02d.pfm
+check "a blank before a carriage return may be the prefix's" cmp frames/o_00.pfm frames/return_01.pfm
 printf '  f0 \r\n\n  # none\n\tf4\t\n' >frames/blanks.txt
 status 0 mix --frames frames/blanks.txt $tent -q -o frames/blank_%02d.pfm
 check "blanks around a prefix are none of it" cmp frames/o_00.pfm frames/blank_01.pfm

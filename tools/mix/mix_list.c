@@ -255,9 +255,26 @@ static int is_frame(const char *prefix, report *r)
     return found;
 }
 
-/* Reads a line of a list. Blanks around a prefix belong to it only if there is such a frame. */
-static int read_prefix(mix_list *out, slice line, report *r)
+/* The line without the carriage return at its end, if there is such a frame: the prefix may end with blanks of its own. */
+static slice without_return(const mix_list *l, slice line, report *r)
 {
+    slice kept = line;
+    if (line.size > 0 && line.at[line.size - 1] == '\r') {
+        --kept.size;
+        char *prefix = beside(l->folder, kept, r);
+        if (prefix != NULL && is_frame(prefix, r)) {
+            line = kept;
+        }
+        free(prefix);
+    }
+    return line;
+}
+
+/* Reads a line of a list. Blanks around a prefix belong to it only if there is such a frame. In a list with zero bytes,
+ * which `breaks` says, no line is a comment. */
+static int read_prefix(mix_list *out, slice line, int breaks, report *r)
+{
+    line = breaks == '\n' ? without_return(out, line, r) : line;
     slice bare = line;
     while (bare.size > 0 && is_blank(bare.at[0])) {
         ++bare.at;
@@ -266,7 +283,7 @@ static int read_prefix(mix_list *out, slice line, report *r)
     while (bare.size > 0 && is_blank(bare.at[bare.size - 1])) {
         --bare.size;
     }
-    if (bare.size == 0 || bare.at[0] == '#') {
+    if (bare.size == 0 || (bare.at[0] == '#' && breaks == '\n')) {
         return 1;
     }
     mix_entry *e = add(out, r);
@@ -298,7 +315,7 @@ static int read_prefixes(mix_list *out, const char *path, report *r)
     while (ok && at < end) {
         const char *stop = memchr(at, breaks, (size_t)(end - at));
         const slice line = {at, (size_t)((stop != NULL ? stop : end) - at)};
-        ok = read_prefix(out, line, r);
+        ok = read_prefix(out, line, breaks, r);
         at = stop != NULL ? stop + 1 : end;
     }
     file_free(&file);

@@ -52,7 +52,7 @@ static const option_row photo_rows[] = {
              "camera_to_world (4 x 4, rows) where it is known")},
     {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),
      .help = HELP("many frames, in order. LIST or DIR/frames.txt has one PREFIX per line, relative to the list. A "
-             "line that begins with # is a comment; if the list has zero bytes, these separate the PREFIXes. "
+             "line that begins with # is a comment; if the list has zero bytes, these separate the PREFIXes, and none is a comment. "
              "A TUM DIR has rgb.txt, "
              "depth.txt and groundtruth.txt (with --intrinsics; --depth-scale is 0.0002 then). The object stays where "
              "it stands in the first, and voxels are built again only when a twentieth of what is about it is new or gone, or the photo is that much brighter or darker; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
