@@ -52,6 +52,9 @@ check "that baked shapes stand still is said" holds "objects stand still: what w
 check "with them all does" cmp -s play_00.pfm play_01.pfm
 status 0 pack $shaped -o shaped.lmp
 said "skins and morph targets that animations move stand still in what is packed"
+status 0 play shaped.lmp $few --fps 1 --frames 2 -o play_%02d.pfm
+check "nothing else moves instead" holds "nothing moves: of the animations of shaped.lmp nothing is left here" err.txt
+check "neither lights nor the camera" cmp -s play_00.pfm play_01.pfm
 
 # If the animations of a file move nothing that is drawn, there is no default motion either, and a line reports it.
 sed 's/"path":"[a-z]*"/"path":"pointer"/g' $shaped >idle.gltf

@@ -175,7 +175,7 @@ static void count_facts(model *m, const lmb_pack *p)
     f->materials = p->count[LMB_PACK_MATERIALS];
     f->lights = p->count[LMB_PACK_LIGHTS];
     f->cameras = p->count[LMB_PACK_CAMERAS];
-    f->animations = p->count[LMB_PACK_TRACKS] > 0;
+    f->animations = p->count[LMB_PACK_NODES] > 0; /* without tracks, they moved what a pack leaves out */
     f->nodes = p->count[LMB_PACK_NODES];
     f->texel_bytes = p->bytes[LMB_PACK_TEXELS];
 }

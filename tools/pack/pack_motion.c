@@ -107,6 +107,22 @@ static void put_nodes(pack *out, const struct model_motion *m, const uint8_t *us
     }
 }
 
+/* A node that moves nothing, if only skins and morph targets move, which are left out: so `play` finds that the file had
+ * animations, and makes no motion up. */
+static void put_still_node(pack *out, const struct model_motion *m, const uint8_t *used)
+{
+    pack_buffer *to = &out->part[LMB_PACK_NODES];
+    model_local still;
+    if (m->shapes == NULL || (m->nodes > 0 && memchr(used, 1, m->nodes) != NULL)) {
+        return;
+    }
+    memset(&still, 0, sizeof still);
+    still.q[3] = still.s[0] = still.s[1] = still.s[2] = 1.0;
+    pack_word(to, LMB_PACK_NONE);
+    pack_words(to, 3, 0);
+    put_rest(to, &still);
+}
+
 int pack_motion(pack *out, const model *m, uint32_t *node_of_instance, uint32_t *node_of_light, uint32_t *node_of_camera,
                 report *r)
 {
@@ -129,6 +145,7 @@ int pack_motion(pack *out, const model *m, uint32_t *node_of_instance, uint32_t 
     }
     if (ok) {
         put_nodes(out, motion, used, number, number + motion->nodes);
+        put_still_node(out, motion, used);
         renumber(node_of_instance, s->instance_count, number);
         renumber(node_of_light, s->light_count, number);
         renumber(node_of_camera, m->camera_count, number);
