@@ -49,22 +49,34 @@ int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
 #endif
 
 #if LMB_TREES
-/* The nearest point of a triangle to a place of its plane. */
-static lmb_vec3 onto_triangle(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
+static int is_inside(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
 {
-    lmb_vec3 out = at;
+    int inside = 1;
+    for (int i = 0; i < 3; ++i) {
+        const lmb_vec3 from = t->corner[i], edge = sub3(t->corner[i < 2 ? i + 1 : 0], from);
+        inside &= dot3(cross3(normal, edge), sub3(at, from)) >= 0.0f;
+    }
+    return inside;
+}
+
+/* A place of a triangle's plane that lies outside of it, moved into it: past the nearest point by as much as it was
+ * outside, as on an edge it would lie in its neighbour's plane too, and behind that one at a silhouette. */
+static lmb_vec3 into_triangle(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
+{
+    lmb_vec3 on = at;
     float nearest = 3e38f;
     for (int i = 0; i < 3; ++i) {
         const lmb_vec3 from = t->corner[i], edge = sub3(t->corner[i < 2 ? i + 1 : 0], from), d = sub3(at, from);
         if (dot3(cross3(normal, edge), d) < 0.0f) {
             const float share = clampf(dot3(d, edge) / dot3(edge, edge), 0.0f, 1.0f);
-            const lmb_vec3 on = add3(from, mul3(edge, share)), off = sub3(at, on);
+            const lmb_vec3 to = add3(from, mul3(edge, share)), off = sub3(at, to);
             const float distance2 = dot3(off, off);
-            out = distance2 < nearest ? on : out;
+            on = distance2 < nearest ? to : on;
             nearest = minf(nearest, distance2);
         }
     }
-    return out;
+    const lmb_vec3 in = add3(on, sub3(on, at));
+    return nearest < 3e38f && is_inside(t, normal, in) ? in : on;
 }
 
 lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 at)
@@ -72,7 +84,7 @@ lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 a
     lmb_triangle t;
     lmb_vec3 normal;
     float area;
-    return lmb_triangle_fetch(&t, scene, id) && lmb_triangle_shape(&normal, &area, &t) ? onto_triangle(&t, normal, at)
+    return lmb_triangle_fetch(&t, scene, id) && lmb_triangle_shape(&normal, &area, &t) ? into_triangle(&t, normal, at)
                                                                                         : at;
 }
 
@@ -80,12 +92,18 @@ lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 a
 static int is_within_one(const lmb_tile *tile, const lmb_scene *scene)
 {
     static const int corner[4] = {0, LMB_TILE - 1, LMB_TILE_PIXELS - LMB_TILE, LMB_TILE_PIXELS - 1};
+    lmb_triangle t;
+    lmb_vec3 normal;
+    float area;
     uint32_t other = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         other |= tile->id[k] ^ tile->id[0];
     }
+    if (other != 0 || !lmb_triangle_fetch(&t, scene, tile->id[0]) || !lmb_triangle_shape(&normal, &area, &t)) {
+        return 0;
+    }
     for (int i = 0; i < 4 && other == 0; ++i) {
-        const lmb_vec3 at = tile_vec(tile->position, corner[i]), on = lmb_place_onto_triangle(scene, tile->id[0], at);
+        const lmb_vec3 at = tile_vec(tile->position, corner[i]), on = into_triangle(&t, normal, at);
         other |= on.x != at.x || on.y != at.y || on.z != at.z;
     }
     return other == 0;
@@ -110,7 +128,7 @@ uint64_t lmb_tile_onto_triangles(lmb_tile *inout, const lmb_scene *scene)
             is_shape = lmb_triangle_fetch(&t, scene, known) && lmb_triangle_shape(&normal, &area, &t);
         }
         if (inout->id[k] != 0 && is_shape) {
-            const lmb_vec3 on = onto_triangle(&t, normal, at);
+            const lmb_vec3 on = into_triangle(&t, normal, at);
             moved |= (uint64_t)(on.x != at.x || on.y != at.y || on.z != at.z) << k;
             inout->position[0][k] = on.x;
             inout->position[1][k] = on.y;

@@ -29,9 +29,9 @@ int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *triang
 /* 1, or 0 where the id names no drawable triangle. */
 int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id);
 
-/* Moves each place of a tile that lies beside the triangle that shows there on to that triangle, to its nearest point;
- * returns those pixels. Rasters snap corners, so near an edge a pixel may show a triangle that its ray just misses. The
- * place on that triangle's plane then lies past a fold, on the other side of the next triangle. */
+/* Moves each place of a tile that lies beside the triangle that shows there into that triangle, past its nearest point
+ * by as much; returns those pixels. Rasters snap corners, so near an edge a pixel may show a triangle that its ray just
+ * misses. The place on that triangle's plane then lies past a fold, on the other side of the next triangle. */
 uint64_t lmb_tile_onto_triangles(lmb_tile *inout, const lmb_scene *scene);
 lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 at); /* the same for one place */
 
