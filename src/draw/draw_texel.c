@@ -7,7 +7,7 @@ typedef struct texel_level {
     int32_t width, height;
 } texel_level;
 
-static size_t texel_bytes(const lmb_texture *t, size_t texels)
+static size_t texel_code_bytes(const lmb_texture *t, size_t texels)
 {
     switch (t->format) {
     case LMB_TEXELS_RGB565:
@@ -26,7 +26,7 @@ static texel_level texel_find_level(const lmb_texture *t, int32_t n)
     l.width = t->width;
     l.height = t->height;
     for (int32_t i = 0; i < n; ++i) {
-        l.texels += texel_bytes(t, (size_t)l.width * (size_t)l.height);
+        l.texels += texel_code_bytes(t, (size_t)l.width * (size_t)l.height);
         l.width = maxi(l.width / 2, 1);
         l.height = maxi(l.height / 2, 1);
     }
