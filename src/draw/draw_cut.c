@@ -33,17 +33,20 @@ static float cut_distance(const lmb_draw_corner *c, int cut, const lmb_draw_pass
     }
 }
 
-/* Those that the state has. */
+/* Does the state have this plane of its own? */
 static int cut_is_on(int cut, const lmb_draw_pass *pass)
 {
-    return cut < DRAW_CUT_OWN || (pass->state->planes >> (cut - DRAW_CUT_OWN) & 1u) != 0;
+    return (pass->state->planes >> (cut - DRAW_CUT_OWN) & 1u) != 0;
 }
 
 /* A bit for each that the corner is outside of. */
 static uint32_t cut_code(const lmb_draw_corner *c, const lmb_draw_pass *pass)
 {
     uint32_t code = 0;
-    for (int cut = 0; cut < DRAW_CUTS; ++cut) {
+    for (int cut = 0; cut < DRAW_CUT_OWN; ++cut) {
+        code |= (uint32_t)(cut_distance(c, cut, pass) < 0.0f) << cut;
+    }
+    for (int cut = DRAW_CUT_OWN; pass->state->planes >> (cut - DRAW_CUT_OWN) != 0; ++cut) {
         code |= (uint32_t)(cut_is_on(cut, pass) && cut_distance(c, cut, pass) < 0.0f) << cut;
     }
     return code;

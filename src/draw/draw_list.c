@@ -14,18 +14,13 @@
 static void list_fetch_values(float *out, const void *data, uint32_t i, int n, int format)
 {
     const size_t at = (size_t)i * (size_t)(format == LMB_DRAW_I16 && n == 3 ? 4 : n);
+    if (format == LMB_DRAW_F32) {
+        memcpy(out, (const float *)data + at, (size_t)n * sizeof *out);
+        return;
+    }
     for (int k = 0; k < n; ++k) {
-        switch (format) {
-        case LMB_DRAW_I16:
-            out[k] = (float)((const int16_t *)data)[at + (size_t)k];
-            break;
-        case LMB_DRAW_FIXED:
-            out[k] = (float)((const int32_t *)data)[at + (size_t)k] * (1.0f / 65536.0f);
-            break;
-        default:
-            out[k] = ((const float *)data)[at + (size_t)k];
-            break;
-        }
+        out[k] = format == LMB_DRAW_I16 ? (float)((const int16_t *)data)[at + (size_t)k]
+                                        : (float)((const int32_t *)data)[at + (size_t)k] * (1.0f / 65536.0f);
     }
 }
 

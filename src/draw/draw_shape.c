@@ -107,16 +107,17 @@ static int shape_enter(shape_edges *out, const lmb_setup *s, int32_t x_24_8, int
     return 1;
 }
 
-/* The pixels inside, a bit each. */
-static uint64_t shape_covered(const shape_edges *s)
+/* The pixels of the tile inside, a bit each, of columns x0 .. x1 and rows y0 .. y1. */
+static uint64_t shape_covered(const shape_edges *s, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
     uint64_t mask = 0;
     if ((s->ex[0] | s->ey[0] | s->ex[1] | s->ey[1] | s->ex[2] | s->ey[2]) == 0) {
         return ~(uint64_t)0;
     }
-    for (int y = 0; y < LMB_TILE; ++y) {
-        int32_t a = s->e[0] + s->ey[0] * y, b = s->e[1] + s->ey[1] * y, c = s->e[2] + s->ey[2] * y;
-        for (int x = 0; x < LMB_TILE; ++x, a += s->ex[0], b += s->ex[1], c += s->ex[2]) {
+    for (int32_t y = y0; y <= y1; ++y) {
+        int32_t a = s->e[0] + s->ey[0] * y + s->ex[0] * x0, b = s->e[1] + s->ey[1] * y + s->ex[1] * x0,
+                c = s->e[2] + s->ey[2] * y + s->ex[2] * x0;
+        for (int32_t x = x0; x <= x1; ++x, a += s->ex[0], b += s->ex[1], c += s->ex[2]) {
             mask |= (uint64_t)((a | b | c) >= 0) << (y * LMB_TILE + x);
         }
     }
@@ -126,13 +127,17 @@ static uint64_t shape_covered(const shape_edges *s)
 static void shape_fill(const lmb_draw_pass *pass, const lmb_draw_shape *shape, const lmb_setup *s)
 {
     const int32_t origin_x = 128 - pass->middle_x, origin_y = 128 - pass->middle_y;
-    const int32_t x0 = maxi((s->x_min - origin_x) >> 8, pass->x0), x1 = mini((s->x_max - origin_x) >> 8, pass->x1);
-    const int32_t y0 = maxi((s->y_min - origin_y) >> 8, pass->y0), y1 = mini((s->y_max - origin_y) >> 8, pass->y1);
+    const int32_t x0 = maxi((s->x_min - origin_x + 255) >> 8, pass->x0),
+                  x1 = mini((s->x_max - origin_x) >> 8, pass->x1);
+    const int32_t y0 = maxi((s->y_min - origin_y + 255) >> 8, pass->y0),
+                  y1 = mini((s->y_max - origin_y) >> 8, pass->y1);
     for (int32_t y = y0 & ~7; y <= y1; y += LMB_TILE) {
         for (int32_t x = x0 & ~7; x <= x1; x += LMB_TILE) {
             shape_edges edges;
             if (shape_enter(&edges, s, x * 256 + origin_x, y * 256 + origin_y)) {
-                lmb_draw_tile(pass, shape, x, y, shape_covered(&edges));
+                lmb_draw_tile(pass, shape, x, y,
+                              shape_covered(&edges, maxi(x0 - x, 0), mini(x1 - x, LMB_TILE - 1), maxi(y0 - y, 0),
+                                            mini(y1 - y, LMB_TILE - 1)));
             }
         }
     }
@@ -145,6 +150,17 @@ static int shape_is_culled(const lmb_draw_state *s, int back)
     return (s->flags & (front ? LMB_DRAW_CULL_FRONT : LMB_DRAW_CULL_BACK)) != 0;
 }
 
+/* Is there the centre of a pixel to be drawn in the corners' box? Of small triangles, most have none. */
+static int shape_holds_pixel(const lmb_draw_pass *pass, const lmb_screen_vertex at[3])
+{
+    const int32_t x = 128 - pass->middle_x, y = 128 - pass->middle_y;
+    const int32_t x0 = (mini(at[0].x_24_8, mini(at[1].x_24_8, at[2].x_24_8)) - x + 255) >> 8;
+    const int32_t x1 = (maxi(at[0].x_24_8, maxi(at[1].x_24_8, at[2].x_24_8)) - x) >> 8;
+    const int32_t y0 = (mini(at[0].y_24_8, mini(at[1].y_24_8, at[2].y_24_8)) - y + 255) >> 8;
+    const int32_t y1 = (maxi(at[0].y_24_8, maxi(at[1].y_24_8, at[2].y_24_8)) - y) >> 8;
+    return maxi(x0, pass->x0) <= mini(x1, pass->x1) && maxi(y0, pass->y0) <= mini(y1, pass->y1);
+}
+
 static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, const lmb_draw_corner *b,
                           const lmb_draw_corner *c)
 {
@@ -153,7 +169,7 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
     lmb_setup s;
     float inverse[3] = {shape_snap(&at[0], a, pass), shape_snap(&at[1], b, pass), shape_snap(&at[2], c, pass)};
     const int64_t area = setup_area(&at[0], &at[1], &at[2]);
-    if (area == 0 || shape_is_culled(pass->state, area > 0)) {
+    if (area == 0 || shape_is_culled(pass->state, area > 0) || !shape_holds_pixel(pass, at)) {
         return 0;
     }
     if (area < 0) { /* the edges run round it one way */
