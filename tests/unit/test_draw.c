@@ -319,6 +319,28 @@ static void test_cuts(void)
           drawn.colour[4][21][0] == 0);
 }
 
+/* Roads from before the near plane to 1,000 km away keep their sides: an edge is cut from the end that is near. */
+static void test_long_edges(void)
+{
+    int wrong = 0, shown = 0;
+    for (int i = 0; i < 8; ++i) {
+        const float far = 1e6f - 12345.6f * (float)i, slope = 0.2f + 0.013f * (float)i, side = far * slope;
+        const float c[4][3] = {{-0.1f, -1, -0.005f}, {0.1f, -1, -0.005f}, {side, -1, -far}, {-side, -1, -far}};
+        case_begin();
+        memset(&state.to_clip, 0, sizeof state.to_clip);
+        state.to_clip.m[0] = state.to_clip.m[5] = 1, state.to_clip.m[11] = -1, state.to_clip.m[14] = 0.25f;
+        CHECK(case_draw(LMB_DRAW_QUADS, c, NULL, 4) == LMB_OK);
+        for (int k = 17 * CASE_WIDE; k < CASE_HIGH * CASE_WIDE; ++k) {
+            const int x = k % CASE_WIDE, y = k / CASE_WIDE;
+            const double sx = fabs((x + 0.5) / CASE_WIDE * 2 - 1), w = 1 / ((y + 0.5) / CASE_HIGH * 2 - 1);
+            const double right = (0.1 + (double)slope * (w - 0.005)) / w;
+            wrong += fabs(sx - right) > 0.002 && (drawn.colour[y][x][0] != 0) != (sx < right);
+            shown += drawn.colour[y][x][0] != 0;
+        }
+    }
+    CHECK_MSG(wrong == 0 && shown > 800, "%d of %d", wrong, shown);
+}
+
 static void test_culls(void)
 {
     for (int i = 0; i < 8; ++i) {
@@ -512,6 +534,7 @@ void test_draw(void)
     test_widths();
     test_windows();
     test_cuts();
+    test_long_edges();
     test_culls();
     test_formats();
     test_dropped();
