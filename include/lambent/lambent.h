@@ -30,5 +30,6 @@
 #include "relight.h"
 #include "render.h"
 #include "plan.h"
+#include "draw.h"
 
 #endif

@@ -277,6 +277,12 @@ static int take_array(const call *c, argument *a, int i)
         a[i].is_ready = 1;
         return 1;
     }
+    if (is_named(&a[i], "text")) {
+        static const char *const texts[] = {"", "a", "two\nlines", "\x7f\xff\t", "0123456789"};
+        a[i].memory = a[i].byte >= 240 ? NULL : (void *)(uintptr_t)texts[a[i].byte % 5];
+        a[i].is_ready = 1;
+        return 1;
+    }
     if (fuzz_length(&asked, a, at_call, a[i].name)) {
         return take_memory(&a[i], size, asked);
     }

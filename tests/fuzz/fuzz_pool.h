@@ -9,7 +9,7 @@
 
 #define FUZZ_CALLS \
     (LMB_TREES && LMB_PROBES && LMB_VOXELS && LMB_MIXED && LMB_RELIEF && LMB_PLAN && LMB_TRANSFER && LMB_MULTISAMPLE && \
-     LMB_CULLING)
+     LMB_CULLING && LMB_DRAW)
 
 /* Good numbers are small, so that a call takes well under a millisecond. */
 enum { POOL_WIDE = 24, POOL_HIGH = 16, POOL_MAP = 32, POOL_SMALL = 8, POOL_SLOTS = 2, POOL_SCENES = 5 };

@@ -316,6 +316,95 @@ static void fill_frame(void *out, int how)
     set_surface(&f->out, how & 16 ? LMB_RGB565 : LMB_RGB32F, POOL_WIDE, POOL_HIGH);
 }
 
+static void fill_draw_target(void *out, int how)
+{
+    lmb_draw_target *t = out;
+    memset(t, 0, sizeof *t);
+    if (how != 3) {
+        set_surface(&t->colour, LMB_RGB565 + how % 5, POOL_WIDE, POOL_HIGH);
+    }
+    if (!(how & 8)) {
+        set_surface(&t->depth, how & 16 ? LMB_DEPTH16 : LMB_DEPTH32F, POOL_WIDE, POOL_HIGH);
+    }
+    t->stencil = how & 32 ? NULL : pool_block(POOL_WIDE * POOL_HIGH);
+    t->stencil_stride = POOL_WIDE;
+    t->x0 = how & 64 ? LMB_TILE : 0;
+}
+
+static void fill_draw_state(void *out, int how)
+{
+    lmb_draw_state *s = out;
+    const int32_t format = how % 3;
+    lmb_texture *t = pool_block(sizeof *t);
+    fuzz_require(lmb_draw_state_init(s, POOL_WIDE, POOL_HIGH) == LMB_OK);
+    t->width = POOL_SMALL, t->height = POOL_SMALL - 1, t->levels = 3;
+    t->format = (uint8_t)(LMB_TEXTURE_FORMATS ? format : 0);
+    t->filter = (uint8_t)(how / 3 % 3);
+    t->wrap_s = (uint8_t)(how / 9 % 3);
+    t->texels = pool_block(lmb_texture_format_bytes(t->format, t->width, t->height, t->levels));
+    s->stage[how & 1].texture = how & 2 ? t : NULL;
+    s->stage[how & 1].mode = (uint8_t)(how % 5);
+    s->flags = (uint32_t)how * 37u & LMB_DRAW_FLAGS;
+    s->fog = how >> 2 & 3;
+    s->planes = how & 16 ? 5 : 0;
+    s->line_px = s->point_px = (uint8_t)(1 + how % 9);
+    if (how & 32) {
+        fuzz_require(lmb_draw_pixels(s) == LMB_OK);
+    }
+}
+
+static void fill_draw_vertices(void *out, int how)
+{
+    lmb_draw_vertices *v = out;
+    enum { COUNT_OF = 24, NUMBERS = 4 * COUNT_OF };
+    float *positions = pool_block(NUMBERS * sizeof *positions), *uvs = pool_block(NUMBERS * sizeof *uvs);
+    memset(v, 0, sizeof *v);
+    for (int i = 0; i < NUMBERS; ++i) {
+        positions[i] = how & 1 ? pool_float((uint8_t)(how + i)) : (float)((i * 37 + how) % 23) * 0.1f - 1.0f;
+        uvs[i] = how & 2 ? pool_float((uint8_t)(how * 3 + i)) : (float)(i % 7) * 0.3f;
+    }
+    v->positions = positions;
+    v->uvs[0] = v->uvs[1] = uvs;
+    v->colours = how & 4 ? NULL : pool_block(4 * COUNT_OF);
+    v->count = COUNT_OF;
+    v->position_format = (uint8_t)(how / 8 % 3);
+    v->uv_format = (uint8_t)(how / 16 % 3);
+    v->position_scale = v->position_offset = (lmb_vec3){0.01f, 0.01f, 0.01f};
+    v->uv_scale = 0.1f;
+}
+
+static void fill_draw_indices(void *out, int how)
+{
+    lmb_draw_indices *x = out;
+    enum { INDICES = 30 };
+    uint32_t *data = pool_block(INDICES * sizeof *data);
+    for (uint32_t i = 0; i < INDICES; ++i) {
+        data[i] = (i * 7 + (uint32_t)how) % (how & 64 ? 40 : 24);
+    }
+    x->data = data;
+    x->count = INDICES;
+    x->format = (uint8_t)(how % 4);
+}
+
+static void fill_blit_image(void *out, int how)
+{
+    lmb_blit_image *b = out;
+    const int32_t format = how % 6 == 5 ? LMB_BLIT_PALETTE8 : LMB_RGB565 + how % 6;
+    const int32_t bytes = format == LMB_BLIT_PALETTE8 ? 1 : lmb_pixel_bytes(format);
+    b->data = pool_block((size_t)(POOL_SMALL * POOL_SMALL * bytes));
+    b->palette = pool_block(1024);
+    b->width = b->height = POOL_SMALL;
+    b->stride_bytes = POOL_SMALL * bytes;
+    b->format = (uint8_t)format;
+}
+
+static void fill_blit_how(void *out, int how)
+{
+    lmb_blit_how *h = out;
+    *h = (lmb_blit_how){{how & 1, how >> 1 & 1, POOL_SMALL - 2, POOL_SMALL - 1}, 1 + how % 5, (uint32_t)how >> 5, 0,
+                        (uint8_t)how};
+}
+
 static const struct {
     const char *type;
     void (*fill)(void *out, int how);
@@ -330,7 +419,9 @@ static const struct {
     {"lmb_irradiance", fill_irradiance}, {"lmb_cone_seen", fill_seen}, {"lmb_vec3", fill_places},
     {"lmb_texel", fill_texels}, {"lmb_band_scratch", fill_scratch}, {"lmb_transfer_light", fill_transfer_light},
     {"lmb_frame", fill_frame}, {"lmb_culling", fill_culling}, {"lmb_cluster", fill_cluster},
-    {"lmb_bins", fill_bins},
+    {"lmb_bins", fill_bins}, {"lmb_draw_target", fill_draw_target}, {"lmb_draw_state", fill_draw_state},
+    {"lmb_draw_vertices", fill_draw_vertices}, {"lmb_draw_indices", fill_draw_indices},
+    {"lmb_blit_image", fill_blit_image}, {"lmb_blit_how", fill_blit_how},
 };
 
 void pool_fill(const uint8_t b[12])

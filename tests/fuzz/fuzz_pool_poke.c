@@ -66,6 +66,13 @@ static const struct {
     WHOLE(lmb_tile, x), WHOLE(lmb_tile, y), WHOLE(lmb_tile, id[9]), REAL(lmb_tile, depth[3]),
     REAL(lmb_tile, position[0][5]), REAL(lmb_tile, normal[1][0]), REAL(lmb_irradiance, rgb[0][7]),
     REAL(lmb_texel, flux[0]), REAL(lmb_texel, position.x), REAL(lmb_vec3, x), REAL(lmb_traversal, segments.at.x),
+    REAL(lmb_draw_state, to_clip.m[0]), REAL(lmb_draw_state, to_clip.m[15]), REAL(lmb_draw_state, plane[0][1]),
+    REAL(lmb_draw_state, fog_axis[2]), REAL(lmb_draw_state, depth_range[0]), REAL(lmb_draw_state, offset_units),
+    REAL(lmb_draw_state, fog_density), REAL(lmb_draw_state, stage[1].level_bias), WHOLE(lmb_draw_state, flags),
+    WHOLE(lmb_draw_state, viewport[0]), WHOLE(lmb_draw_state, viewport[3]), WHOLE(lmb_draw_state, scissor[1]),
+    WHOLE(lmb_draw_state, scissor[2]), WHOLE(lmb_draw_target, x0), REAL(lmb_draw_target, depth_far),
+    REAL(lmb_draw_vertices, position_scale.x), REAL(lmb_draw_vertices, uv_scale), REAL(lmb_mat4, m[5]),
+    WHOLE(lmb_blit_how, scale), WHOLE(lmb_blit_how, part[0]), WHOLE(lmb_blit_how, part[3]),
 };
 
 void pool_poke(const uint8_t b[12])

@@ -53,6 +53,10 @@ uint64_t case_voxels(int variant); /* golden_voxel.c */
 #if LMB_TRANSFER
 uint64_t case_gouraud(int variant); /* golden_gouraud.c */
 #endif
+#if LMB_DRAW
+uint64_t case_draw(int variant); /* golden_draw.c */
+uint64_t case_blit(int variant);
+#endif
 uint64_t case_fixed(int variant); /* golden_fixed.c */
 #if LMB_RELIEF
 uint64_t case_relief(int variant); /* golden_relief.c */

@@ -11,7 +11,7 @@
 
 void test_zeros(void);
 
-#if LMB_TREES && LMB_PROBES && LMB_VOXELS && LMB_MIXED && LMB_RELIEF && LMB_PLAN && LMB_TRANSFER
+#if LMB_TREES && LMB_DRAW && LMB_PROBES && LMB_VOXELS && LMB_MIXED && LMB_RELIEF && LMB_PLAN && LMB_TRANSFER
 
 /* --- arguments ---------------------------------------------------------------------------------------------------- */
 
@@ -123,6 +123,12 @@ static struct {
     lmb_transfer transfer;
     lmb_transfer_light transfer_light;
     lmb_gouraud gouraud;
+    lmb_draw_target draw_target;
+    lmb_draw_state draw_state;
+    lmb_draw_vertices draw_vertices;
+    lmb_draw_indices draw_indices;
+    lmb_blit_image blit_image;
+    lmb_blit_how blit_how;
     uint32_t *transfer_file;
     size_t transfer_bytes;
     lmb_pack pack;
@@ -365,6 +371,8 @@ static int good_for_call(known *out, const argument *a)
         *out = (known){"int32_t", fixed_places[strcmp(a->name, "target") == 0], sizeof fixed_places[0]};
     } else if (calls_for("lmb_pack_open")) {
         *out = (known){"void", g.pack_file, g.pack_bytes};
+    } else if (calls_for("lmb_blit") || calls_for("lmb_text")) {
+        *out = (known){"lmb_surface", &g.draw_target.colour, sizeof g.draw_target.colour};
     } else if (calls_for("lmb_pack_pose") || calls_for("lmb_pack_view")) {
         *out = (known){"lmb_scene", &g.pack_scene, sizeof g.pack_scene};
     } else {
@@ -445,6 +453,12 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_tree", &f->tree, sizeof f->tree},
         {"lmb_live", &g.live, sizeof g.live},
         {"lmb_live_receiver", &g.live_receiver, sizeof g.live_receiver},
+        {"lmb_draw_target", &g.draw_target, sizeof g.draw_target},
+        {"lmb_draw_state", &g.draw_state, sizeof g.draw_state},
+        {"lmb_draw_vertices", &g.draw_vertices, sizeof g.draw_vertices},
+        {"lmb_draw_indices", &g.draw_indices, sizeof g.draw_indices},
+        {"lmb_blit_image", &g.blit_image, sizeof g.blit_image},
+        {"lmb_blit_how", &g.blit_how, sizeof g.blit_how},
         {"lmb_view", &f->view, sizeof f->view},
         {"lmb_voxel_part", &part, sizeof part},
         {"lmb_voxels", &g.voxels, sizeof g.voxels},
@@ -485,6 +499,7 @@ static void set_number(argument *a)
         {"lmb_cones_init", "count", 7},
         {"lmb_live_collect", "light", 0},
         {"lmb_view_sample", "samples", 4},
+        {"lmb_draw_list", "primitive", LMB_DRAW_QUADS},
         {"lmb_clusters_build", "count", 1 << 17},
     };
     a->whole = 1;
@@ -616,6 +631,23 @@ static void test_named(void)
     CHECK(lmb_render_step(&none, 1) == LMB_ERR_ARG && lmb_render_has_parts(&none) == 0);
 }
 
+static void make_drawing(void)
+{
+    static uint32_t colours[WIDE * HIGH], texels[4];
+    static float depth[WIDE * HIGH];
+    static const float corners[4][3] = {{0, 0, 0.5f}, {0, 8, 0.5f}, {8, 8, 0.5f}, {8, 0, 0.5f}};
+    static const uint8_t order[4] = {0, 1, 2, 3};
+    CHECK(lmb_surface_init(&g.draw_target.colour, LMB_RGBA8, WIDE, HIGH, colours, sizeof colours) == LMB_OK);
+    CHECK(lmb_surface_init(&g.draw_target.depth, LMB_DEPTH32F, WIDE, HIGH, depth, sizeof depth) == LMB_OK);
+    CHECK(lmb_draw_state_init(&g.draw_state, WIDE, HIGH) == LMB_OK && lmb_draw_pixels(&g.draw_state) == LMB_OK);
+    g.draw_state.flags = LMB_DRAW_DEPTH_TEST | LMB_DRAW_BLEND;
+    g.draw_vertices.positions = corners;
+    g.draw_vertices.count = 4;
+    g.draw_indices = (lmb_draw_indices){order, 4, LMB_DRAW_INDEX_U8};
+    g.blit_image = (lmb_blit_image){texels, NULL, 2, 2, 8, LMB_RGBA8};
+    g.blit_how = (lmb_blit_how){{0, 0, 2, 2}, 1, 0, 0, 255};
+}
+
 void test_zeros(void)
 {
     stage *s = stage_make(LMB_RELIEF_FULL, 0);
@@ -628,6 +660,7 @@ void test_zeros(void)
     make_transfer();
     make_pack();
     make_fixed();
+    make_drawing();
     for (int i = 0; i < COUNT(calls); ++i) {
         test_call(&calls[i]);
     }

@@ -1,0 +1,210 @@
+/* draw.h: fixed-function drawing: triangles, lines, points, pictures and text on a colour, depth and stencil target.
+ *
+ * There is no current state: each call gets all that it depends on. A pixel depends on the target's old value there,
+ * and on nothing else of other draws. It does not depend on the scissor, or on the window of the frame that the target
+ * holds. Colours are the codes 0 .. 255 in memory, without conversion between sRGB and linear light.
+ *
+ * Clip space: x and y from -w to w, z from 0 to w; d = z / w. lmb_draw_view sets a matrix by which d is the depth of a
+ * frame: larger is nearer, and 0 is infinitely far. So lmb_draw_list draws into a frame's own depth, with
+ * LMB_DRAW_GREATER.
+ *
+ * Stability: experimental. */
+#ifndef LMB_DRAW_H
+#define LMB_DRAW_H
+
+#include "scene.h"
+#include "surface.h"
+
+#if LMB_DRAW
+enum { LMB_DRAW_STAGES = 2, LMB_DRAW_PLANES = 6 };
+
+/* Where draws go. Surfaces that are there have one size; at least one is there. */
+typedef struct lmb_draw_target {
+    lmb_surface colour; /* LMB_RGB565 .. LMB_BGRA8; data NULL: none. Alpha of 16-bit formats reads as 255 */
+    lmb_surface depth;  /* LMB_DEPTH32F or LMB_DEPTH16, tiled or linear; data NULL: none */
+    uint8_t *stencil;   /* rows of `stencil_stride` bytes, >= the width; NULL: none */
+    int32_t stencil_stride;
+    float depth_far;    /* LMB_DEPTH16: the d of code 1, 0 .. 0.999 (of a view, near_m / far_m) */
+    int32_t x0, y0;     /* px in the frame of pixel (0, 0), multiples of LMB_TILE, 0 .. LMB_MAX_FRAME */
+} lmb_draw_target;
+
+/* Primitives. Quads are split (0, 1, 2) (0, 2, 3), also if folded. With LMB_DRAW_FLAT, a primitive has the colour of
+ * its last vertex. */
+enum { LMB_DRAW_TRIANGLES = 0, LMB_DRAW_TRIANGLE_STRIP = 1, LMB_DRAW_TRIANGLE_FAN = 2, LMB_DRAW_QUADS = 3,
+       LMB_DRAW_QUAD_STRIP = 4, LMB_DRAW_LINES = 5, LMB_DRAW_LINE_STRIP = 6, LMB_DRAW_LINE_LOOP = 7,
+       LMB_DRAW_POINTS = 8 };
+
+enum { LMB_DRAW_F32 = 0,  /* float */
+       LMB_DRAW_I16 = 1,  /* int16; positions are x, y, z, 0 */
+       LMB_DRAW_FIXED = 2 /* int32, 16.16 fixed point */ };
+
+/* Vertex streams, each tightly packed and aligned to its values. */
+typedef struct lmb_draw_vertices {
+    const void *positions;            /* x, y, z */
+    const void *uvs[LMB_DRAW_STAGES]; /* u, v of each stage; NULL: (0, 0) */
+    const uint8_t *colours;           /* R G B A; NULL: the state's */
+    uint32_t count;
+    lmb_vec3 position_scale, position_offset; /* LMB_DRAW_I16: scale * v + offset */
+    float uv_scale;                           /* LMB_DRAW_I16: scale * v */
+    uint8_t position_format, uv_format;       /* LMB_DRAW_F32, ... */
+} lmb_draw_vertices;
+
+enum { LMB_DRAW_INDEX_U8 = 3 /* beside LMB_INDEX_NONE, LMB_INDEX_U16, LMB_INDEX_U32 */ };
+
+typedef struct lmb_draw_indices {
+    const void *data; /* NULL with LMB_INDEX_NONE: vertices in order */
+    uint32_t count;   /* of indices, or of vertices */
+    uint8_t format;
+} lmb_draw_indices;
+
+enum { LMB_DRAW_DEPTH_TEST = 1, LMB_DRAW_DEPTH_WRITE = 2 /* only with the test */, LMB_DRAW_SCISSOR = 4,
+       LMB_DRAW_STENCIL = 8, LMB_DRAW_ALPHA_TEST = 16, LMB_DRAW_BLEND = 32,
+       LMB_DRAW_LOGIC = 64 /* instead of blending */,
+       LMB_DRAW_DITHER = 128 /* 16-bit colours: lmb_store_tile's pattern */, LMB_DRAW_FLAT = 256,
+       LMB_DRAW_CLOCKWISE = 512 /* front faces are clockwise in the picture */, LMB_DRAW_CULL_FRONT = 1024,
+       LMB_DRAW_CULL_BACK = 2048, LMB_DRAW_FLAGS = 4095 };
+
+/* Tests pass if VALUE FUNC OTHER: a pixel's d and the stored one; its alpha and alpha_value; stencil_value and the
+ * stencil, both and-ed with stencil_mask. */
+enum { LMB_DRAW_NEVER = 0, LMB_DRAW_LESS = 1, LMB_DRAW_EQUAL = 2, LMB_DRAW_LEQUAL = 3, LMB_DRAW_GREATER = 4,
+       LMB_DRAW_NOTEQUAL = 5, LMB_DRAW_GEQUAL = 6, LMB_DRAW_ALWAYS = 7 };
+
+enum { LMB_DRAW_KEEP = 0, LMB_DRAW_CLEAR = 1, LMB_DRAW_PUT = 2, LMB_DRAW_INCREASE = 3, LMB_DRAW_DECREASE = 4,
+       LMB_DRAW_INVERT = 5, LMB_DRAW_INCREASE_WRAP = 6, LMB_DRAW_DECREASE_WRAP = 7 };
+
+/* Factors, 0 .. 1, of a new colour (SOURCE) and of the target's (TARGET). CONSTANT: blend_colour. INVERSE: 1 minus. */
+enum { LMB_DRAW_ZERO = 0, LMB_DRAW_ONE = 1, LMB_DRAW_SOURCE_COLOUR = 2, LMB_DRAW_INVERSE_SOURCE_COLOUR = 3,
+       LMB_DRAW_SOURCE_ALPHA = 4, LMB_DRAW_INVERSE_SOURCE_ALPHA = 5, LMB_DRAW_TARGET_ALPHA = 6,
+       LMB_DRAW_INVERSE_TARGET_ALPHA = 7, LMB_DRAW_TARGET_COLOUR = 8, LMB_DRAW_INVERSE_TARGET_COLOUR = 9,
+       LMB_DRAW_SATURATE = 10 /* min(source alpha, 1 - target alpha); of alpha 1 */, LMB_DRAW_CONSTANT_COLOUR = 11,
+       LMB_DRAW_INVERSE_CONSTANT_COLOUR = 12, LMB_DRAW_CONSTANT_ALPHA = 13, LMB_DRAW_INVERSE_CONSTANT_ALPHA = 14 };
+enum { LMB_DRAW_ADD = 0, LMB_DRAW_SUBTRACT = 1 /* source - target */, LMB_DRAW_REVERSE_SUBTRACT = 2, LMB_DRAW_MIN = 3,
+       LMB_DRAW_MAX = 4 /* both without factors */ };
+
+/* logic_op, a truth table. Bit 0: what a bit becomes if the source and the target have 1; bit 1: source 1, target 0;
+ * bit 2: source 0, target 1; bit 3: both 0. So 3 copies, 6 is exclusive or, 1 and, 7 or, 10 inverts the target. */
+
+/* How a stage's texel T with alpha a changes the colour C so far, alpha A. Every product is divided by 255 exactly, and
+ * rounded to nearest. */
+enum { LMB_DRAW_MODULATE = 0, /* C T, A a */
+       LMB_DRAW_REPLACE = 1,  /* T, a */
+       LMB_DRAW_DECAL = 2,    /* C (1 - a) + T a, A */
+       LMB_DRAW_MIX = 3,      /* C (1 - T) + colour T, A a */
+       LMB_DRAW_PLUS = 4      /* C + T, A a */ };
+
+/* A texture stage. The texture's own filter holds: LMB_NEAREST and LMB_BILINEAR read level 0, LMB_TRILINEAR the two
+ * levels around log2 of the texels per pixel. Weights are whole 1/256. Codes are mixed as they are. */
+typedef struct lmb_draw_stage {
+    const lmb_texture *texture; /* NULL: the colour passes */
+    float level_bias;           /* added to the level, -16 .. 16 */
+    uint8_t mode;               /* LMB_DRAW_MODULATE, ... */
+    uint8_t colour[3];          /* of LMB_DRAW_MIX */
+} lmb_draw_stage;
+
+/* Fog by distance c: f = (end - c) / (end - start), 2^(-density c log2 e), or 2^(-(density c)^2 log2 e) by the
+ * library's own exp2, as a code 0 .. 255. The colour becomes f C + (1 - f) fog_colour, rounded to nearest. */
+enum { LMB_DRAW_FOG_NONE = 0, LMB_DRAW_FOG_LINEAR = 1, LMB_DRAW_FOG_EXP = 2, LMB_DRAW_FOG_EXP2 = 3 };
+
+/* All that a draw depends on. lmb_draw_state_init sets it; then change what you need. */
+typedef struct lmb_draw_state {
+    lmb_mat4 to_clip;                 /* of vertices */
+    float plane[LMB_DRAW_PLANES][4];  /* plane[i] . (x, y, z, 1) >= 0 stays, in the vertices' space */
+    float fog_axis[4];                /* c = fog_axis . (x, y, z, 1); all 0: the w of clip space */
+    int32_t viewport[4];              /* x, y, width, height: px of the frame; nothing is drawn outside of it */
+    int32_t scissor[4];               /* likewise, with LMB_DRAW_SCISSOR; width and height from 0 */
+    float depth_range[2];             /* stored d for z / w = 0 and 1; each 0 .. 1 */
+    float offset_slope, offset_units; /* triangles' d += slope x its larger change per px + units x the least step */
+    lmb_draw_stage stage[LMB_DRAW_STAGES];
+    float fog_start, fog_end, fog_density;
+    uint32_t flags;                   /* LMB_DRAW_DEPTH_TEST, ... */
+    uint8_t colour[4], fog_colour[3], blend_colour[4];
+    uint8_t planes;                   /* which planes clip, a bit each */
+    uint8_t fog;                      /* LMB_DRAW_FOG_NONE, ... */
+    uint8_t depth_func, alpha_func, alpha_value;
+    uint8_t colour_mask;              /* bits 0 .. 3: R, G, B, A are written */
+    uint8_t stencil_func, stencil_value, stencil_mask, stencil_write; /* write: bits that change */
+    uint8_t stencil_op[3];            /* if the stencil test fails; if the depth test fails; if both pass */
+    uint8_t blend_source[2], blend_target[2], blend_equation[2]; /* of colour, of alpha */
+    uint8_t logic_op;
+    uint8_t line_px, point_px;        /* widths, 1 .. 255 */
+} lmb_draw_state;
+
+/* A picture to copy from. */
+enum { LMB_BLIT_PALETTE8 = 64 /* beside LMB_RGB565 .. LMB_BGRA8: a byte a pixel */ };
+typedef struct lmb_blit_image {
+    const void *data; /* first row, aligned to its pixels */
+    const uint8_t *palette; /* 256 colours R G B A, of LMB_BLIT_PALETTE8 */
+    int32_t width, height, stride_bytes;
+    uint8_t format;
+} lmb_blit_image;
+
+enum { LMB_BLIT_KEY = 1, LMB_BLIT_ALPHA = 2, LMB_BLIT_DITHER = 4, LMB_BLIT_FLAGS = 7 };
+typedef struct lmb_blit_how {
+    int32_t part[4]; /* x, y, width, height of the image, inside it */
+    int32_t scale;   /* each pixel becomes scale x scale, 1 .. 64 */
+    uint32_t flags;
+    uint32_t key;    /* LMB_BLIT_KEY: pixels of this value stay out; palette: the index; 4 bytes: R in the low bits */
+    uint8_t alpha;   /* LMB_BLIT_ALPHA: times the pixel's alpha: source x alpha + target x (1 - alpha) */
+} lmb_blit_how;
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if LMB_DRAW
+/* lmb_draw_state_init: a state that draws white, without tests, into a viewport of width x height at (0, 0); vertices
+ * are in clip space with w = 1. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_draw_state_init(lmb_draw_state *out, int32_t width, int32_t height);
+
+/* lmb_draw_view: set to_clip, fog_axis and the viewport for the frame of a view, and vertices that `to_world` places.
+ * Samples of the view are not used. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_draw_view(lmb_draw_state *inout, const lmb_view *view, const lmb_mat4 *to_world);
+
+/* lmb_draw_pixels: set to_clip so that vertices are pixels of the viewport, (0, 0) its upper left corner, y down; z is
+ * d. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_draw_pixels(lmb_draw_state *inout);
+
+/* lmb_draw_list: draw primitives.
+ *
+ * Vertices snap to 1/256 px. Triangles cover the pixels whose centres they hold, by the top-left rule. A line of one
+ * pixel has the pixels whose diamonds (|dx| + |dy| < 1/2) it leaves. A point on a diamond's edge counts as a little
+ * further to the left, and much less of it up. A line of n pixels begins (n - 1) / 2 further up, and has n pixels
+ * down for each; if it is steep, to the left and to the right. Points are squares. Points and wide lines are drawn as
+ * far as they lie in the viewport. Attributes are perspective-correct. Blending rounds the exact quotient to nearest.
+ * If blending leaves a channel of 16-bit colours as it was, the channel keeps its bits.
+ *
+ *   indices  NULL: all vertices in order.   primitive  LMB_DRAW_TRIANGLES, ...; vertices left over are ignored.
+ *   stats    or NULL: primitives count as triangles. Primitives are dropped and counted if a vertex is not finite, if a
+ *            position or texture coordinate is 2^20 or more, or if an index is outside.
+ * The order of draws does not matter if they blend by ADD with the factors ONE and ONE, by MIN or by MAX.
+ * Returns LMB_OK; LMB_ERR_ARG, LMB_ERR_FORMAT or LMB_ERR_ALIGN if a value of target, state, vertices or indices is
+ * out of range, or if a test has no surface: then nothing is written. Stack: under 4 KiB. */
+lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *state, const lmb_draw_vertices *vertices,
+                         int32_t primitive, const lmb_draw_indices *indices, lmb_stats *stats);
+
+/* lmb_blit: copy an image to (x, y) of a surface; what lies outside is left out.
+ *
+ *   how  NULL: the whole image, scale 1, no flags.
+ * An image may lie in the surface's own memory. At scale 1, with equal formats and strides, the result is as if the
+ * image were read first. Otherwise, if the bytes from the first to the last pixel that is written overlap those that
+ * are read, the call returns LMB_ERR_ARG.
+ * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_FORMAT; nothing is written unless LMB_OK. */
+lmb_status lmb_blit(const lmb_surface *to, int32_t x, int32_t y, const lmb_blit_image *from, const lmb_blit_how *how);
+
+/* lmb_text: write text at (x, y), its upper left corner, in cells of 6 x 8 px times `scale`, 1 .. 64. '\n' begins a
+ * line. Bytes outside ASCII 32 .. 126 are shown as a box.
+ *
+ *   colour  R G B A; alpha blends.
+ * LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
+lmb_status lmb_text(const lmb_surface *to, int32_t x, int32_t y, const char *text, int32_t scale,
+                    const uint8_t colour[4]);
+
+/* lmb_text_width: px of the text's widest line at scale 1; 0 for NULL. */
+int32_t lmb_text_width(const char *text);
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,126 @@
+/* draw_part.h: what the parts of a draw share: corners, shapes, and the pixels of a shape in a tile. Layer 4.
+ *
+ * A primitive becomes corners, which are clipped, and then shapes: triangles, lines, points. A shape goes through the
+ * frame's tiles of 8x8 pixels. For each it says which pixels it covers, and draw_pixels does the rest for these: tests,
+ * colours, the target. A specialised kernel would take draw_pixels' place for the states it is made for. */
+#ifndef LMB_DRAW_PART_H
+#define LMB_DRAW_PART_H
+
+#include <lambent/draw.h>
+
+#include "../base/vec.h"
+
+#if LMB_DRAW
+/* Values of a corner: all are linear in clip space. */
+enum {
+    CORNER_X = 0,
+    CORNER_Y = 1,
+    CORNER_Z = 2,
+    CORNER_W = 3,
+    CORNER_RED = 4,
+    CORNER_ALPHA = 7,
+    CORNER_UV = 8, /* u, v of each stage */
+    CORNER_FOG = CORNER_UV + 2 * LMB_DRAW_STAGES,
+    CORNER_PLANES,
+    CORNER_VALUES = CORNER_PLANES + LMB_DRAW_PLANES
+};
+typedef struct lmb_draw_corner {
+    float v[CORNER_VALUES];
+} lmb_draw_corner;
+
+/* Planes of clip space, in the order of cutting: w > 0, near, far, the guard band, and the state's own ones. */
+enum {
+    DRAW_CUT_W = 0,
+    DRAW_CUT_NEAR = 1,
+    DRAW_CUT_FAR = 2,
+    DRAW_CUT_LEFT = 3,
+    DRAW_CUT_RIGHT = 4,
+    DRAW_CUT_TOP = 5,
+    DRAW_CUT_BOTTOM = 6,
+    DRAW_CUT_OWN = 7,
+    DRAW_CUTS = DRAW_CUT_OWN + LMB_DRAW_PLANES
+};
+enum { DRAW_CORNERS = 3 + DRAW_CUTS }; /* of a triangle cut by all of them */
+
+/* What stays the same over a call. */
+typedef struct lmb_draw_pass {
+    const lmb_draw_target *target;
+    const lmb_draw_state *state;
+    const lmb_draw_vertices *vertices;
+    const lmb_draw_indices *indices;
+    int32_t x0, y0, x1, y1;     /* pixels of the frame that may be drawn */
+    int32_t middle_x, middle_y; /* of the viewport, 24.8 in the frame */
+    float snap_x, snap_y, guard_x, guard_y;
+    float depth_scale, depth_bias; /* LMB_DEPTH16: code = d scale + bias */
+    int32_t tests;                 /* 1: depth or stencil */
+    int32_t shows;                 /* 1: some colour may be written */
+    lmb_stats *stats;
+} lmb_draw_pass;
+
+/* A value that is linear in the picture: at the viewport's middle, and per px. */
+typedef struct lmb_draw_plane {
+    double origin, x, y;
+} lmb_draw_plane;
+
+/* A set-up primitive. A value at a pixel is that of corner 0, plus n1 / q and n2 / q times the differences of the other
+ * corners' values from it. */
+typedef struct lmb_draw_shape {
+    const lmb_draw_corner *corner[3];
+    lmb_draw_plane d, n1, n2, q;
+    float d_min, d_max; /* of the corners */
+    float d_add;        /* depth offset */
+    int32_t corners;    /* 1: values are corner 0's; 2: n2 is 0 */
+    int32_t is_even;    /* 1: q is 1 */
+} lmb_draw_shape;
+
+/* lmb_draw_cut_polygon: cut a triangle; returns its corners, 0 or 3 .. DRAW_CORNERS.
+ * lmb_draw_cut_line: cut a line; 0 if nothing is left. lmb_draw_is_out: is a point outside? */
+int lmb_draw_cut_polygon(lmb_draw_corner corner[DRAW_CORNERS], const lmb_draw_pass *pass);
+int lmb_draw_cut_line(lmb_draw_corner corner[2], const lmb_draw_pass *pass);
+int lmb_draw_is_out(const lmb_draw_corner *corner, const lmb_draw_pass *pass);
+
+/* Primitives whose corners are sane; 1 if something of it may show. The corners are changed. */
+int lmb_draw_triangle(const lmb_draw_pass *pass, lmb_draw_corner corner[DRAW_CORNERS]);
+int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2]);
+int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner);
+
+/* The pixels `mask` of the shape in the tile with pixel 0 at (x, y) of the frame; those outside the pass's are left
+ * out. */
+void lmb_draw_tile(const lmb_draw_pass *pass, const lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask);
+
+/* Numbers as the state has them. */
+lmb_status lmb_draw_check_target(const lmb_draw_target *target);
+lmb_status lmb_draw_check_state(const lmb_draw_state *state, const lmb_draw_target *target);
+
+/* 255 a b of two codes, to nearest: no tie can be. */
+static inline uint32_t draw_times(uint32_t a, uint32_t b) { return (a * b + 127u) / 255u; }
+
+/* a where share is 255, b where it is 0. */
+static inline uint32_t draw_between(uint32_t a, uint32_t b, uint32_t share)
+{
+    return (a * share + b * (255u - share) + 127u) / 255u;
+}
+
+static inline float draw_value(const lmb_draw_shape *s, int i, float b1, float b2)
+{
+    const float at = s->corner[0]->v[i];
+    return at + (b1 * (s->corner[1]->v[i] - at) + b2 * (s->corner[2]->v[i] - at));
+}
+
+/* One texel's bytes R G B A. level: in 1/256 levels. */
+void lmb_draw_texel(uint8_t out[4], const lmb_texture *texture, float u, float v, int32_t level);
+
+static inline int draw_passes(int func, int32_t value, int32_t other)
+{
+    return (func & (value < other ? LMB_DRAW_LESS : value == other ? LMB_DRAW_EQUAL : LMB_DRAW_GREATER)) != 0;
+}
+
+/* Codes of a picture's pixel in memory, R G B A; and back. Dithered at (x, y) of the frame. */
+void lmb_draw_read_pixel(uint8_t out[4], int32_t format, const uint8_t *at);
+uint32_t lmb_draw_pixel_bits(int32_t format, const uint8_t *at);
+uint32_t lmb_draw_pixel_of(int32_t format, const uint8_t codes[4], int dithers, int32_t x, int32_t y);
+uint32_t lmb_draw_pixel_mask(int32_t format, uint32_t channels); /* bits of channels 0 .. 3 */
+void lmb_draw_put_bits(int32_t format, uint8_t *at, uint32_t bits);
+#endif
+
+#endif
