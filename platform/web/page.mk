@@ -29,10 +29,10 @@ PAGE_MAIN := -z stack-size=1048576 --global-base=262144 --initial-memory=3355443
 PAGE_SIDE := -z stack-size=16 --global-base
 # What frames of the page run most is for speed; the rest, and what runs once a scene or for few pixels, for size.
 PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
-PAGE_ONCE := src/occlusion/build.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c \
+PAGE_ONCE := src/occlusion/build.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c src/light/light_tile.c \
              $(patsubst %,src/raster/%.c,clip draw draw_one fill paint plane resolve setup target triangle) \
              $(patsubst %,src/lightcut/%.c,crease cut pixel_cluster tree) src/transfer/transfer.c \
-             $(patsubst %,src/transfer/transfer_%.c,air collect light many_lights materials)
+             $(patsubst %,src/transfer/transfer_%.c,air collect light many_lights materials send)
 page_opt   = $(or $(PAGE_OPT),$(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz))
 
 # $(1): a folder of objects, $(2): flags, $(3): how they are optimised.

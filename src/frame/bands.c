@@ -99,7 +99,8 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
 {
     lmb_target window;
     if (r == NULL || scratch == NULL || eye == NULL || eye->depth.data == NULL || eye->id.data == NULL || out == NULL ||
-        r->stage < LMB_STAGE_BANDS || band < 0 || band >= band_count(&r->frame.view)) {
+        r->stage < LMB_STAGE_BANDS || band < 0 || band >= band_count(&r->frame.view) ||
+        lacks_live(&r->frame, scratch)) {
         return LMB_ERR_ARG;
     }
     lmb_status status = lmb_render_check_out(out, &r->frame.view);

@@ -39,7 +39,8 @@ int32_t lmb_render_has_parts(const lmb_render *r)
 lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
                            lmb_stats *stats)
 {
-    if (!lmb_render_has_parts(r) || scratch == NULL || part < 0 || part >= parts || parts > 65535) {
+    if (!lmb_render_has_parts(r) || scratch == NULL || part < 0 || part >= parts || parts > 65535 ||
+        lacks_live(&r->frame, scratch)) {
         return LMB_ERR_ARG;
     }
     if (r->stage == LMB_STAGE_SAMPLES && lights_points(r)) {

@@ -49,6 +49,9 @@ static inline int requires_live(const lmb_frame *f)
     return LMB_LIVE && f->gather_step == LMB_GATHER_LIVE && f->live != NULL && requires_cut(f);
 }
 
+/* Has a thread's scratch no memory for single points that the frame lights? */
+static inline int lacks_live(const lmb_frame *f, const lmb_band_scratch *s) { return requires_live(f) && s->live == NULL; }
+
 /* Does a gather_step take a lattice? */
 static inline int takes_lattice(int32_t gather_step)
 {

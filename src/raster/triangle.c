@@ -59,6 +59,8 @@ static int is_inside(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
     return inside;
 }
 
+#define ROUNDING 2.3841858e-7f /* 2^-22 of the coordinates: what rounding may put a place off by */
+
 /* A place of a triangle's plane that lies outside of it, moved into it: past the nearest point by as much as it was
  * outside, as on an edge it would lie in its neighbour's plane too, and behind that one at a silhouette. */
 static lmb_vec3 into_triangle(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
@@ -75,8 +77,13 @@ static lmb_vec3 into_triangle(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 a
             nearest = minf(nearest, distance2);
         }
     }
-    const lmb_vec3 in = add3(on, sub3(on, at));
-    return nearest < 3e38f && is_inside(t, normal, in) ? in : on;
+    const float distance = sqrtf(nearest);
+    if (!(nearest < 3e38f && distance > 0.0f)) {
+        return on;
+    }
+    const float past = maxf(distance, ROUNDING * largest3(at)) / distance;
+    const lmb_vec3 in = add3(on, mul3(sub3(on, at), past));
+    return is_inside(t, normal, in) ? in : on;
 }
 
 lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 at)

@@ -279,6 +279,7 @@ static uint64_t drawn_in_parts(const lmb_frame_settings *s, int32_t parts)
     CHECK(status == LMB_MORE);
     for (int32_t band = (frame.view.frame_height - 1) / 8; band >= 0; --band) {
         memset(&other_scratch, 0x3c, sizeof other_scratch);
+        other_scratch.live = &other_live;
         CHECK(lmb_render_band(&render, &other_scratch, &frame.eye, &frame.out, band) == LMB_OK);
     }
     return hash_of();
@@ -531,6 +532,9 @@ static void test_refused(void)
     s.quality = LMB_QUALITY_DRAFT;
     lay_out(&s);
     CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+    static lmb_band_scratch bare; /* without memory for single points */
+    CHECK(lmb_render_band(&render, frame.scratch, &frame.eye, &frame.out, 0) == LMB_OK);
+    CHECK(lmb_render_band(&render, &bare, &frame.eye, &frame.out, 0) == LMB_ERR_ARG);
     frame.gather_step = 1; /* whose tree of texels was not needed */
     CHECK(lmb_render_again(&render, &frame) == LMB_ERR_ARG);
     frame.gather_step = LMB_GATHER_LIVE;

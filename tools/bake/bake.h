@@ -115,7 +115,7 @@ typedef struct bake {
     float small_m;  /* no edge of a small triangle is longer */
     uint32_t small_count;
     int has_cluster_m; /* the settings say how large clusters are: they do not shrink until there are many */
-    uint32_t *coarse; /* counts the calls whose visibility is coarser, as too many triangles cross */
+    uint32_t *coarse; /* counts calls whose visibility is coarser, as too many triangles cross; NULL: none */
     int by_middles; /* rows ask for elements' middles alone */
     int is_coded;   /* areas of targets were handed up */
 
@@ -173,6 +173,9 @@ lmb_vec3 bake_pulled(const bake *b, lmb_vec3 at, lmb_vec3 to);
 /* bake_bound: begin a job of some calls, which has tests of visibility of its own whatever thread runs it: beyond them
  * visibility is coarser. traversal->coarse goes on. */
 void bake_bound(lmb_traversal *traversal);
+
+/* bake_count_coarse: add calls whose visibility is coarser to the count, if the bake has one. */
+void bake_count_coarse(const bake *b, uint32_t calls);
 
 /* All of these return 1, or 0 with `r` set. */
 

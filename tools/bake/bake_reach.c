@@ -366,7 +366,7 @@ static int open_elements(reach *w)
             open_element(w, &w->b->element[i], tile, &traversal);
         }
     }
-    *w->b->coarse += traversal.coarse;
+    bake_count_coarse(w->b, traversal.coarse);
     free(tile);
     return tile != NULL || report_fail(w->r, "not enough memory for a tile");
 }

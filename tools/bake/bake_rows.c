@@ -257,7 +257,7 @@ int bake_rows_part(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, in
         set_tile(tile, at, normal, count);
         pool_run(b->set.threads, (CHUNK - own + parts - 1) / parts, element_job, &w);
         for (int k = 0; k < b->set.threads; ++k) {
-            *b->coarse += traversal[k].coarse;
+            bake_count_coarse(b, traversal[k].coarse);
         }
     }
     free(tile);

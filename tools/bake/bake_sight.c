@@ -33,6 +33,13 @@ void bake_bound(lmb_traversal *traversal)
     traversal->coarse = coarse;
 }
 
+void bake_count_coarse(const bake *b, uint32_t calls)
+{
+    if (b->coarse != NULL) {
+        *b->coarse += calls;
+    }
+}
+
 void bake_sight_end(bake_sight *s) { free(s->tile); }
 
 lmb_vec3 bake_pulled(const bake *b, lmb_vec3 at, lmb_vec3 to)

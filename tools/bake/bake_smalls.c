@@ -235,7 +235,7 @@ int bake_smalls(bake *b, report *r)
         pool_run(b->set.threads, (int)w.jobs, look, &w);
     }
     for (int k = 0; k < b->set.threads; ++k) {
-        *b->coarse += ok ? w.traversal[k]->coarse : 0;
+        bake_count_coarse(b, ok ? w.traversal[k]->coarse : 0);
         free(w.tile[k]);
         free(w.traversal[k]);
     }

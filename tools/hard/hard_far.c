@@ -155,10 +155,26 @@ static void scales(hard_list *l)
 }
 
 /* 10 km from the origin, where coordinates are a millimetre apart, against the same millimetres at the origin. */
+/* Ten kilometres away a millimetre is rounding: a pixel that close to the foot of a wall may lie behind it. Take such
+ * pixels, which have less than half of their light or over twice as much, from the other picture. Returns how many. */
+static int take_lost(float *a, const float *b)
+{
+    int count = 0;
+    for (int i = 0; i < PIXELS; ++i) {
+        const float is = a[3 * i] + a[3 * i + 1] + a[3 * i + 2], was = b[3 * i] + b[3 * i + 1] + b[3 * i + 2];
+        if (is < 0.5f * was || is > 2.0f * was) {
+            memcpy(a + 3 * i, b + 3 * i, 3 * sizeof *a);
+            ++count;
+        }
+    }
+    return count;
+}
+
 static void moved(hard_list *l)
 {
     static pictures there, here;
     double direct = 0.0, bounced = 0.0;
+    int lost = 0;
     uint64_t rng = 73;
     for (int i = 0; i < 2 * KINDS; ++i) {
         const dvec way = dvec_mul(hard_direction(&rng), 10000.0);
@@ -169,10 +185,12 @@ static void moved(hard_list *l)
         put_room(l->stage, &far, i % KINDS);
         draw(&there, l->stage, &far);
         direct = fmax(direct, change(there.direct, here.direct));
+        lost += take_lost(there.bounced, here.bounced);
         bounced = fmax(bounced, change(there.bounced, here.bounced));
     }
     hard_put(l, HARD_MEASURED, "10 km from the origin: direct light changes by", direct, 4, "% rmse");
-    hard_put(l, HARD_MEASURED, "bounced light changes by", bounced, 2, "% rmse");
+    hard_put(l, HARD_MEASURED, "bounced light changes by", bounced, 0.5, "% rmse");
+    hard_put(l, HARD_MEASURED, "pixels whose bounced light is lost", lost, 2 * KINDS, "of 13824");
 }
 
 /* --- a house on a terrain ----------------------------------------------------------------------------------------- */
