@@ -29,7 +29,7 @@ PAGE_MAIN := -z stack-size=1048576 --global-base=262144 --initial-memory=3355443
 PAGE_SIDE := -z stack-size=16 --global-base
 # What frames of the page run most is for speed; the rest, and what runs once a scene or for few pixels, for size.
 PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
-PAGE_ONCE := src/occlusion/build.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c src/light/light_tile.c \
+PAGE_ONCE := src/occlusion/build.c src/occlusion/occluded.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c src/light/light_tile.c src/light/direct.c \
              $(patsubst %,src/raster/%.c,clip draw draw_one fill paint plane resolve setup target triangle) \
              $(patsubst %,src/lightcut/%.c,crease cut pixel_cluster tree) src/transfer/transfer.c \
              $(patsubst %,src/transfer/transfer_%.c,air collect light many_lights materials send)
@@ -65,9 +65,10 @@ $(PAGE_WORK)/demo.wasm: $(patsubst %.c,$(PAGE_WORK)/scalar/%.o,tools/demo/demo_s
 	@$(PAGE_LINK) $(PAGE_SIDE)=131072 --export=demo_scene --export=demo_view -o $@ $^ $(PAGE_LIBC)/libm.a \
 	    $(PAGE_LIBC)/libc.a
 
+# Four bits of context suit the large module, three the others, two text.
 $(PAGE)/%.wasm.lzma: $(PAGE_WORK)/%.wasm
 	@mkdir -p $(@D)
-	@xz --format=lzma --lzma1=preset=9e,pb=0 -c $< > $@
+	@xz --format=lzma --lzma1=preset=9e,pb=0,lc=$(if $(filter lambent,$*),4,3) -c $< > $@
 
 # Without comments and indentation.
 PAGE_BARE := sed -e 's/^ *//' -e '/^\/\/ /d' -e 's|\([;{},)]\)  *// .*|\1|' -e '/^$$/d'
@@ -76,7 +77,7 @@ $(PAGE)/%: platform/web/page/%
 	@$(PAGE_BARE) $< > $@
 $(PAGE)/page.js.lzma $(PAGE)/body.html.lzma: $(PAGE)/%.lzma: platform/web/page/%
 	@mkdir -p $(@D)
-	@$(PAGE_BARE) $< | xz --format=lzma --lzma1=preset=9e,pb=0 > $@
+	@$(PAGE_BARE) $< | xz --format=lzma --lzma1=preset=9e,pb=0,lc=2 > $@
 
 .PHONY: page page-loads page-modules
 page-modules: $(patsubst %,$(PAGE_WORK)/%.wasm,lambent kernels_scalar kernels_simd demo)
