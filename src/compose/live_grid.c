@@ -445,10 +445,10 @@ static uint64_t fill_cell(lmb_irradiance *out, const lmb_kernels *kernels, const
     cell c;
     set_cell(&c, g, tile->x + x, tile->y + y, step);
     memcpy(p.corner, c.corner, sizeof p.corner);
-    for (int i = 0; i < 2; ++i) {
-        p.x[i] = (float)(c.x[i] - tile->x);
-        p.y[i] = (float)(c.y[i] - tile->y);
-    }
+    p.x[0] = (float)(c.x[0] - tile->x);
+    p.x[1] = (float)(c.x[1] - tile->x);
+    p.y[0] = (float)(c.y[0] - tile->y);
+    p.y[1] = (float)(c.y[1] - tile->y);
     p.per_x = 1.0f / maxf(p.x[1] - p.x[0], 1.0f);
     p.per_y = 1.0f / maxf(p.y[1] - p.y[0], 1.0f);
     p.even = is_even(&c, t);

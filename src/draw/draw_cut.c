@@ -106,7 +106,9 @@ NOINLINE int cut_by(lmb_draw_corner *corner, int n, int cut, const lmb_draw_pass
             cut_edge(&out[m++], a, b, cut, pass);
         }
     }
-    memcpy(corner, out, (size_t)m * sizeof *out);
+    for (int i = 0; i < m; ++i) {
+        corner[i] = out[i];
+    }
     return m;
 }
 

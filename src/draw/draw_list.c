@@ -298,6 +298,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
     if (status != LMB_OK) {
         return status;
     }
+    memset(&pass, 0, sizeof pass);
     pass.target = target;
     pass.state = state;
     pass.vertices = vertices;

@@ -209,14 +209,19 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
     return 1;
 }
 
+static void look_along(live_look *l, const lmb_live_face *face)
+{
+    l->face = face;
+    for (int i = 0; i < LIVE_PLANES; ++i) {
+        l->known[i].id = 0;
+    }
+}
+
 /* Planes are turned to the face's light: those of another face are not kept. Returns 1. */
 static int look_at(live_look *l, uint32_t face)
 {
     if (l->face != &l->live->face[face]) {
-        l->face = &l->live->face[face];
-        for (int i = 0; i < LIVE_PLANES; ++i) {
-            l->known[i].id = 0;
-        }
+        look_along(l, &l->live->face[face]);
     }
     return 1;
 }
@@ -232,7 +237,7 @@ int lmb_live_come_near(lmb_live_scratch *s, const lmb_live *live)
     const int32_t before = s->count, leaves = s->leaves;
     live_look l;
     l.live = live;
-    l.face = NULL;
+    look_along(&l, live->face);
     s->near_lane = LMB_LIVE_NODES;
     for (int32_t n = 0; n < leaves; ++n) {
         const uint32_t k = s->leaf[n] / LMB_LIVE_NODES, i = s->leaf[n] % LMB_LIVE_NODES;

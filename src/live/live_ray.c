@@ -5,6 +5,7 @@
 #include "live_part.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "../lane/kernels.h"
 #include "../occlusion/traversal.h"
@@ -164,12 +165,13 @@ static uint32_t meet(uint64_t met[LMB_BOXES], const traversal *w, const lmb_boxe
         }
         return boxes;
     }
+    memset(met, 0, LMB_BOXES * sizeof *met);
     for (uint64_t bits = asked; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         const lmb_segment s = segment_of(r, k);
         for (uint32_t here = w->kernels->meets_one(&s, node); here != 0; here &= here - 1) {
             const int i = lowest_bit(here);
-            met[i] = (boxes >> i & 1u ? met[i] : 0) | (uint64_t)1 << k;
+            met[i] |= (uint64_t)1 << k;
             boxes |= 1u << i;
         }
     }
