@@ -3,8 +3,6 @@
  * Corners that agree count by their bilinear weights; each goes on by half its slopes, which is right for quadratics,
  * or, where a corner is missing, by all of them, which is right for what is linear. */
 
-#define FILL_COS    0.95f  /* as in live_grid.h */
-#define FILL_LIFT   1e-3f
 #define FILL_ENOUGH 0.5f /* least share of the bilinear weights that the corners must have, */
 #define FILL_NEAR   1.01f  /* but for pixels that lie within so many px of one, squared */
 
@@ -28,10 +26,10 @@ LANE_INLINE lane corners_agree(const lmb_live_sample *s, const lmb_tile *tile, i
     d.z = lane_sub(lane_load(tile->position[2] + k), lane_splat(s->position.z));
     const lane bend = lane_sub(lane_splat(1.0f), lane3_dot(normal, lane3_of(s->normal)));
     const lane lift = lane_max(lane_abs(lane3_dot(face, d)), lane_abs(lane3_dot(lane3_of(s->face), d)));
-    const lane max = lane_mul(lane_add(lane_add(bend, bend), lane_splat(FILL_LIFT)), lane3_dot(d, d));
+    const lane max = lane_mul(lane_add(lane_add(bend, bend), lane_splat(LIVE_SAME_LIFT)), lane3_dot(d, d));
     const lane_mask same =
-        mask_and(lane_le(bend, lane_splat(1.0f - FILL_COS)), lane_le(lane_mul(lift, lift), max));
-    const lane part = lane_sub(lane_splat(1.0f), lane_mul(bend, lane_splat(1.0f / (1.0f - FILL_COS) * 0.999f)));
+        mask_and(lane_le(bend, lane_splat(1.0f - LIVE_SAME_COS)), lane_le(lane_mul(lift, lift), max));
+    const lane part = lane_sub(lane_splat(1.0f), lane_mul(bend, lane_splat(1.0f / (1.0f - LIVE_SAME_COS) * 0.999f)));
     return lane_keep(same, lane_pick(lane_lt(lane_splat(1e-4f), bend), part, lane_splat(1.0f)));
 }
 

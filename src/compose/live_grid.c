@@ -85,9 +85,9 @@ void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes)
     }
 }
 
-/* --- samples that are asked for ------------------------------------------------------------------------------------ */
+/* --- samples that are asked for ----------------------------------------------------------------------------------- */
 
-/* Samples that a tile's own cell asks for: of its square of 5 x 5, a bit each, those of its right and lower edges too. */
+/* Samples that a tile's own cell asks for: of its square of 5 x 5, a bit each, with its right and lower edges. */
 static uint32_t asks_of(const live_grid_tile *t, int32_t level)
 {
     uint32_t out = 0;
@@ -154,7 +154,7 @@ uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int
     return out & t->shown & ~(uint32_t)t->known;
 }
 
-/* --- between samples ------------------------------------------------------------------------------------------------ */
+/* --- between samples ---------------------------------------------------------------------------------------------- */
 
 /* The sample of a grid before or after one in a row or column, or the one beyond; -1: none. */
 static int32_t before(int32_t x, int32_t step) { return x > 0 ? (x - 1) / step * step : -1; }
@@ -212,11 +212,14 @@ static void set_cell(cell *out, const live_grid *g, int32_t x, int32_t y, int32_
     }
 }
 
-/* --- dividing ------------------------------------------------------------------------------------------------------- */
+/* --- dividing ----------------------------------------------------------------------------------------------------- */
 
 static float all_of(const float light[3]) { return light[0] + light[1] + light[2]; }
 
-static float share_of(const lmb_live_sample *s) { return (float)(s->seen[0] + s->seen[1] + s->seen[2]) / (3.0f * WHOLE); }
+static float share_of(const lmb_live_sample *s)
+{
+    return (float)(s->seen[0] + s->seen[1] + s->seen[2]) / (3.0f * WHOLE);
+}
 
 /* Half the standard deviation of a sample's light, R + G + B, where its share is that of a single segment. */
 static float spread_of(const lmb_live_sample *s)
@@ -346,7 +349,7 @@ float lmb_live_grid_mean(const live_grid *g)
     return count > 0.0 ? (float)(sum / count) : 0.0f;
 }
 
-/* --- noise ------------------------------------------------------------------------------------------------------------ */
+/* --- noise -------------------------------------------------------------------------------------------------------- */
 
 static int is_on(int32_t x, int32_t step, int32_t size) { return x % step == 0 || x == last_of(size); }
 
@@ -368,8 +371,8 @@ static void add_share(float sum[4], const lmb_live_sample *from, float weight)
     sum[3] += weight;
 }
 
-/* Light by the mean share of those around it, of its own step, on its surface and within its noise. What others may read of
- * it meanwhile stays. */
+/* Light by the mean share of those around it, of its own step, on its surface and within its noise. What others may read
+ * of it meanwhile stays. */
 static void smooth(const live_grid *g, int32_t x, int32_t y)
 {
     lmb_live_sample *own = sample_at(g, x, y);
@@ -417,7 +420,7 @@ void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row)
     }
 }
 
-/* --- pixels ----------------------------------------------------------------------------------------------------------- */
+/* --- pixels ------------------------------------------------------------------------------------------------------- */
 
 /* Do all corners count in full at a flat tile's first pixel? */
 static int is_even(const cell *c, const live_grid_tile *t)

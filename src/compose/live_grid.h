@@ -59,23 +59,20 @@ void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row);
 /* Light a tile's pixels between the samples. Returns those that no sample explains, a bit each. */
 uint64_t lmb_live_grid_fill(lmb_irradiance *out, const lmb_kernels *kernels, const live_grid *g, const lmb_tile *tile);
 
-#define SAME_COS  0.95f /* least cosine between the normals of what shares light */
-#define SAME_LIFT 1e-3f /* most that either lies over the other's plane, of their distance, squared: where both are flat */
-
 /* 0 .. 1: how far two places are on one surface. Over a smooth one, the height over the other's plane grows with the
  * angle between the normals. */
 static inline float live_agree(const lmb_live_sample *a, const lmb_live_sample *b)
 {
     const float bend = 1.0f - dot3(a->normal, b->normal);
-    if (!(bend <= 1.0f - SAME_COS)) {
+    if (!(bend <= 1.0f - LIVE_SAME_COS)) {
         return 0.0f;
     }
     const lmb_vec3 d = sub3(b->position, a->position);
     const float lift = maxf(absf(dot3(a->face, d)), absf(dot3(b->face, d)));
-    if (!(lift * lift <= (2.0f * bend + SAME_LIFT) * dot3(d, d))) {
+    if (!(lift * lift <= (2.0f * bend + LIVE_SAME_LIFT) * dot3(d, d))) {
         return 0.0f;
     }
-    return bend > 1e-4f ? 1.0f - bend * (1.0f / (1.0f - SAME_COS)) * 0.999f : 1.0f;
+    return bend > 1e-4f ? 1.0f - bend * (1.0f / (1.0f - LIVE_SAME_COS)) * 0.999f : 1.0f;
 }
 
 static inline live_grid_tile *grid_tile(const live_grid *g, int32_t column, int32_t row)

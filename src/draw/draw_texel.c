@@ -1,75 +1,9 @@
 /* draw_texel.c: a texture's codes at a point, mixed in whole numbers. Layer 4. */
 #include "draw_part.h"
 
+#include "../raster/texels.h"
+
 #if LMB_DRAW
-typedef struct texel_level {
-    const uint8_t *texels;
-    int32_t width, height;
-} texel_level;
-
-static size_t texel_code_bytes(const lmb_texture *t, size_t texels)
-{
-    switch (t->format) {
-    case LMB_TEXELS_RGB565:
-        return 2 * texels;
-    case LMB_TEXELS_PALETTE4:
-        return (texels + 1) / 2;
-    default:
-        return 4 * texels;
-    }
-}
-
-static texel_level texel_find_level(const lmb_texture *t, int32_t n)
-{
-    texel_level l;
-    l.texels = t->texels + (t->format == LMB_TEXELS_PALETTE4 ? 64 : 0);
-    l.width = t->width;
-    l.height = t->height;
-    for (int32_t i = 0; i < n; ++i) {
-        l.texels += texel_code_bytes(t, (size_t)l.width * (size_t)l.height);
-        l.width = maxi(l.width / 2, 1);
-        l.height = maxi(l.height / 2, 1);
-    }
-    return l;
-}
-
-static float texel_floor(float v)
-{
-    const float whole = (float)(int32_t)v;
-    return whole > v ? whole - 1.0f : whole;
-}
-
-/* Into one period: 0 .. 1, or 0 .. 2 for mirrored ones; what is absurd is 0. */
-static float texel_reduce(float u, int wrap)
-{
-    if (!is_sane(u)) {
-        return 0.0f;
-    }
-    switch (wrap) {
-    case LMB_WRAP_CLAMP:
-        return clampf(u, 0.0f, 1.0f);
-    case LMB_WRAP_MIRROR:
-        return u - 2.0f * texel_floor(u * 0.5f);
-    default:
-        return u - texel_floor(u);
-    }
-}
-
-/* The texel i of a side, -1 .. twice the size. */
-static int32_t texel_wrap(int32_t i, int32_t size, int wrap)
-{
-    switch (wrap) {
-    case LMB_WRAP_CLAMP:
-        return clampi(i, 0, size - 1);
-    case LMB_WRAP_MIRROR:
-        i = i < 0 ? -1 - i : i;
-        i = i >= 2 * size ? i - 2 * size : i;
-        return i >= size ? 2 * size - 1 - i : i;
-    default:
-        return i < 0 ? i + size : i >= size ? i - size : i;
-    }
-}
-
 /* Adds weight x the codes of texel (x, y). */
 static void texel_add(uint32_t sum[4], const lmb_texture *t, const texel_level *l, int32_t x, int32_t y,
                       uint32_t weight)

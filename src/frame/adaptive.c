@@ -1,4 +1,4 @@
-/* adaptive.c: bounced light at the samples of a lattice, level after level, and between them. Layer 10.
+/* adaptive.c: bounced light at the samples of a lattice and between them; runs the phases of live_phases.c too. Layer 10.
  *
  * r->light is the phase, r->progress the band or window at hand. In a phase a window writes its own pixels alone and
  * reads of others what the phases before wrote: so any order and number of threads gives the same bytes. */
@@ -153,6 +153,9 @@ static lmb_status gather_window(const lmb_render *r, lmb_band_scratch *s, int32_
 
 static int32_t pieces_of(const lmb_render *r)
 {
+    if (lights_points(r)) {
+        return lmb_render_live_pieces(r);
+    }
     return r->light == SURFACES ? band_count(&r->frame.view) : lmb_lattice_windows(&r->frame.lattice);
 }
 
@@ -187,6 +190,10 @@ static float split_of(const lmb_frame *f)
 /* The next phase. */
 lmb_status lmb_render_samples_on(lmb_render *r)
 {
+    r->progress = 0;
+    if (lights_points(r)) {
+        return lmb_render_live_on(r);
+    }
     const int32_t level = (int32_t)r->light - LEVELS;
     if (level == 0) {
         r->frame.lattice.mean = lmb_lattice_mean(&r->frame.lattice);
@@ -195,7 +202,6 @@ lmb_status lmb_render_samples_on(lmb_render *r)
     if (level >= 0 && level < LATTICE_LEVELS - 1) {
         lmb_lattice_divide(&r->frame.lattice, level);
     }
-    r->progress = 0;
     return ++r->light < PHASES ? LMB_MORE : LMB_OK;
 }
 
@@ -205,7 +211,8 @@ lmb_status lmb_render_samples(lmb_render *r, int32_t units)
     const int32_t each = r->light == SURFACES ? LMB_TILE : WINDOW_UNITS;
     for (int32_t n = 0; (n == 0 || n + each <= units) && (int32_t)r->progress < pieces_of(r); n += each) {
         memset(&s->counts, 0, sizeof s->counts);
-        const lmb_status status = do_piece(r, s, (int32_t)r->progress++);
+        const int32_t i = (int32_t)r->progress++;
+        const lmb_status status = lights_points(r) ? lmb_render_live_piece(r, s, i) : do_piece(r, s, i);
         if (status != LMB_OK) {
             return status;
         }
@@ -222,7 +229,7 @@ lmb_status lmb_render_samples_part(const lmb_render *r, lmb_band_scratch *s, int
     memset(&s->counts, 0, sizeof s->counts);
     share_out(&first, &past, pieces_of(r), part, parts);
     for (int64_t i = first; i < past && status == LMB_OK; ++i) {
-        status = do_piece(r, s, (int32_t)i);
+        status = lights_points(r) ? lmb_render_live_piece(r, s, (int32_t)i) : do_piece(r, s, (int32_t)i);
     }
     add_counts(stats, &s->counts);
     return status;

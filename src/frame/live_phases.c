@@ -1,4 +1,4 @@
-/* live_phases.c: bounced light of single points: at the samples of a grid, level after level, and between them. Layer 10.
+/* live_phases.c: light of single points at the samples of a grid, and between them: phases of adaptive.c. Layer 10.
  *
  * r->light is the phase, r->progress the piece: two rows of tiles. In a phase a piece writes its own samples alone and
  * reads of others what the phases before wrote: so any order and number of threads gives the same bytes. Pixels between
@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../bounce/points.h"
 #include "../compose/live_grid.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
@@ -25,13 +24,13 @@ enum {
     SLOPES,
     PHASES
 };
-enum { ROWS = 2, PIECE_UNITS = 32 };
+enum { ROWS = 2 };
 
 #define REACH 3 /* px each way from a pixel that no sample explains to one that is lit by itself */
 
 static live_grid grid_of(const lmb_render *r) { return lmb_live_grid_of(&r->frame.lattice, r->frame.live->strata); }
 
-/* --- samples -------------------------------------------------------------------------------------------------------- */
+/* --- samples ------------------------------------------------------------------------------------------------------ */
 
 static lmb_live_receiver receiver_of(const lmb_render *r, const lmb_live_sample *s)
 {
@@ -57,8 +56,8 @@ static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_liv
     return status;
 }
 
-NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t column, int32_t row,
-                             int32_t level)
+NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t column,
+                               int32_t row, int32_t level)
 {
     live_grid_tile *t = grid_tile(g, column, row);
     const uint32_t asked = lmb_live_grid_asks(g, column, row, level);
@@ -87,9 +86,9 @@ static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const 
     return status;
 }
 
-/* --- phases --------------------------------------------------------------------------------------------------------- */
+/* --- phases ------------------------------------------------------------------------------------------------------- */
 
-static int32_t pieces_of(const lmb_render *r) { return (band_count(&r->frame.view) + ROWS - 1) / ROWS; }
+int32_t lmb_render_live_pieces(const lmb_render *r) { return (band_count(&r->frame.view) + ROWS - 1) / ROWS; }
 
 static lmb_status do_row(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
 {
@@ -109,7 +108,7 @@ static lmb_status do_row(const lmb_render *r, lmb_band_scratch *s, const live_gr
     return status;
 }
 
-static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
+lmb_status lmb_render_live_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
 {
     const live_grid g = grid_of(r);
     lmb_status status = LMB_OK;
@@ -135,39 +134,10 @@ lmb_status lmb_render_live_on(lmb_render *r)
     if (r->light == SURFACES) {
         set_mean(r);
     }
-    r->progress = 0;
     return ++r->light < PHASES ? LMB_MORE : LMB_OK;
 }
 
-lmb_status lmb_render_live_samples(lmb_render *r, int32_t units)
-{
-    lmb_band_scratch *s = r->frame.scratch;
-    for (int32_t n = 0; (n == 0 || n + PIECE_UNITS <= units) && (int32_t)r->progress < pieces_of(r); n += PIECE_UNITS) {
-        memset(&s->counts, 0, sizeof s->counts);
-        const lmb_status status = do_piece(r, s, (int32_t)r->progress++);
-        if (status != LMB_OK) {
-            return status;
-        }
-        add_counts(r->frame.stats, &s->counts);
-    }
-    return (int32_t)r->progress < pieces_of(r) ? LMB_MORE : lmb_render_live_on(r);
-}
-
-lmb_status lmb_render_live_part(const lmb_render *r, lmb_band_scratch *s, int32_t part, int32_t parts,
-                                lmb_stats *stats)
-{
-    int64_t first, past;
-    lmb_status status = LMB_OK;
-    memset(&s->counts, 0, sizeof s->counts);
-    share_out(&first, &past, pieces_of(r), part, parts);
-    for (int64_t i = first; i < past && status == LMB_OK; ++i) {
-        status = do_piece(r, s, (int32_t)i);
-    }
-    add_counts(stats, &s->counts);
-    return status;
-}
-
-/* --- pixels that no sample explains ----------------------------------------------------------------------------------- */
+/* --- pixels that no sample explains ------------------------------------------------------------------------------- */
 
 static lmb_live_sample sample_of(const lmb_tile *tile, int k)
 {
@@ -180,8 +150,8 @@ static lmb_live_sample sample_of(const lmb_tile *tile, int k)
     return s;
 }
 
-/* What a pixel may take its light from: pixels of the tile that are lit by themselves, a bit each, and the tile's and its
- * cell's samples. */
+/* What a pixel may take its light from: pixels of the tile that are lit by themselves, a bit each, and samples of the
+ * tile and of its cell. */
 typedef struct sources {
     const lmb_tile *tile;
     const lmb_irradiance *light;

@@ -43,9 +43,6 @@ lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32
         lacks_live(&r->frame, scratch)) {
         return LMB_ERR_ARG;
     }
-    if (r->stage == LMB_STAGE_SAMPLES && lights_points(r)) {
-        return lmb_render_live_part(r, scratch, part, parts, stats);
-    }
     return r->stage == LMB_STAGE_VIEW      ? lmb_render_view_part(r, part, parts, stats)
            : r->stage == LMB_STAGE_SAMPLES ? lmb_render_samples_part(r, scratch, part, parts, stats)
                                            : lmb_render_solve_part(r, scratch, part, parts, stats);
@@ -71,10 +68,7 @@ lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts)
     if (!lmb_render_has_parts(r) || parts < 1) {
         return LMB_ERR_ARG;
     }
-    if (r->stage == LMB_STAGE_SAMPLES) {
-        return end_stage(r, lights_points(r) ? lmb_render_live_on(r) : lmb_render_samples_on(r));
-    }
-    return end_stage(r, lmb_render_solve_on(r, parts));
+    return end_stage(r, r->stage == LMB_STAGE_SAMPLES ? lmb_render_samples_on(r) : lmb_render_solve_on(r, parts));
 }
 
 lmb_status lmb_render_step(lmb_render *r, int32_t units)
@@ -96,7 +90,7 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units)
     case LMB_STAGE_VIEW:
         return end_stage(r, lmb_render_view(r, units));
     case LMB_STAGE_SAMPLES:
-        return end_stage(r, lights_points(r) ? lmb_render_live_samples(r, units) : lmb_render_samples(r, units));
+        return end_stage(r, lmb_render_samples(r, units));
     case LMB_STAGE_BANDS:
         return end_stage(r, lmb_render_bands(r, units));
     default:

@@ -105,17 +105,17 @@ lmb_status lmb_render_samples_part(const lmb_render *r, lmb_band_scratch *scratc
                                    lmb_stats *stats);
 lmb_status lmb_render_samples_on(lmb_render *r);
 
-/* The same where all bounced light is that of single points. tile: that of the tile's pixels with a surface. */
-lmb_status lmb_render_live_samples(lmb_render *r, int32_t units);
-lmb_status lmb_render_live_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
-                                lmb_stats *stats);
+/* Where all bounced light is that of single points: how many pieces the phase at hand has; one of them; the next phase.
+ * tile: the light of the tile's pixels with a surface, once all phases are done. */
+int32_t lmb_render_live_pieces(const lmb_render *r);
+lmb_status lmb_render_live_piece(const lmb_render *r, lmb_band_scratch *scratch, int32_t i);
 lmb_status lmb_render_live_on(lmb_render *r);
 lmb_status lmb_render_live_tile(lmb_irradiance *out, const lmb_render *r, lmb_band_scratch *scratch);
 #if !LMB_LIVE
-#define lmb_render_live_samples(...) never(lmb_render_live_samples(__VA_ARGS__))
-#define lmb_render_live_part(...)    never(lmb_render_live_part(__VA_ARGS__))
-#define lmb_render_live_on(...)      never(lmb_render_live_on(__VA_ARGS__))
-#define lmb_render_live_tile(...)    never(lmb_render_live_tile(__VA_ARGS__))
+#define lmb_render_live_pieces(...) ((void)sizeof(lmb_render_live_pieces(__VA_ARGS__)), 0)
+#define lmb_render_live_piece(...)  never(lmb_render_live_piece(__VA_ARGS__))
+#define lmb_render_live_on(...)     never(lmb_render_live_on(__VA_ARGS__))
+#define lmb_render_live_tile(...)   never(lmb_render_live_tile(__VA_ARGS__))
 #endif
 #if !LMB_TREES
 #define lmb_render_samples(...)       never(lmb_render_samples(__VA_ARGS__))

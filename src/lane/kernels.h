@@ -277,6 +277,9 @@ typedef struct lmb_live_sample {
     uint8_t seen[3], is_lit;         /* the share that shadows leave of each channel, 0 .. 254; 0: no light to shade */
 } lmb_live_sample;
 
+#define LIVE_SAME_COS  0.95f /* least cosine between the normals of places that share light, */
+#define LIVE_SAME_LIFT 1e-3f /* and most that either lies over the other's plane, of the distance, squared, if flat */
+
 /* A cell between four samples, and pixels of a tile in it. */
 typedef struct lmb_live_cell {
     const lmb_live_sample *corner[4]; /* NULL: not known */

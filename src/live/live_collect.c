@@ -142,8 +142,8 @@ static void texel_of(int32_t *x, int32_t *y, const collector *c, int32_t column,
     *y = mini(row * each + (int32_t)(h >> 16 & (uint32_t)(each - 1)), c->face->size - 1);
 }
 
-/* Of a block on the plane through `at`: a pencil's cross-section is z^2 times the block at distance 1, and lies across the
- * view's axis. */
+/* Of a block on the plane through `at`: a cross-section of its pencil is z^2 times the block at distance 1, and lies
+ * across the view's axis. */
 static float area_of(const collector *c, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_view *v = &c->face->view;

@@ -94,7 +94,8 @@ static void put_points(lmb_live_scratch *s, const lmb_live *live, uint32_t first
         const lmb_live_point *p = &live->sorted[k];
         int i;
         lmb_live_chunk *c = take(s, &i);
-        live_put(c, i, p->position, p->normal, p->flux, maxf(LIVE_DISC * p->area, 1e-30f), p->position, p->normal, p->id);
+        const float disc = maxf(LIVE_DISC * p->area, 1e-30f);
+        live_put(c, i, p->position, p->normal, p->flux, disc, p->position, p->normal, p->id);
         c->radius2[i] = p->area;
         c->first[i] = k;
         c->count[i] = LMB_LIVE_LEAF | 1u;
@@ -200,7 +201,8 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
     for (uint32_t k = 0; k < count; ++k) {
         int i;
         lmb_live_chunk *c = take(s, &i);
-        live_put(c, i, place[k], normal[k], flux, maxf(level < DEEPEST ? LIVE_DISC * area : over[k] * area, 1e-30f), place[k], normal[k], id[k]);
+        const float disc = level < DEEPEST ? LIVE_DISC * area : over[k] * area;
+        live_put(c, i, place[k], normal[k], flux, maxf(disc, 1e-30f), place[k], normal[k], id[k]);
         c->radius2[i] = area;
         c->first[i] = point;
         c->count[i] = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;

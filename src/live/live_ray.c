@@ -113,27 +113,14 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? standing(w, id, &job, crossed) : crossed);
 }
 
-/* A triangle that blocks at least MUCH: to the front of those tested first, which changes no result. */
-static void remember(uint32_t last[LMB_LIVE_LAST], uint32_t triangle)
-{
-    uint32_t moved = triangle + 1;
-    for (int i = 0; i < LMB_LIVE_LAST; ++i) {
-        const uint32_t here = last[i];
-        last[i] = moved;
-        moved = here;
-        if (here == triangle + 1) {
-            return;
-        }
-    }
-}
-
+/* Those that block at least MUCH are tested first from then on, which changes no result. */
 static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t met)
 {
     for (uint32_t k = 0; k < node->count[i] && (w->left & met) != 0; ++k) {
         const uint64_t before = w->left;
         test_triangle(w, node->first[i] + k, w->left & met);
         if (count_bits_64(before & ~w->left) >= MUCH) {
-            remember(w->scratch->last, node->first[i] + k);
+            traversal_remember(w->scratch->last, LMB_LIVE_LAST, node->first[i] + k);
         }
     }
 }

@@ -27,12 +27,15 @@ static void cut(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live 
 }
 
 /* Where little is seen, noise is a large part of it: more segments. */
-static int packets_of(int32_t seen, int32_t targets) { return seen * 5 >= targets * 2 ? 1 : seen * 5 >= targets ? 2 : seen > 0 ? 3 : 2; }
+static int packets_of(int32_t seen, int32_t targets)
+{
+    return seen * 5 >= targets * 2 ? 1 : seen * 5 >= targets || seen == 0 ? 2 : 3;
+}
 
 lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
                             const lmb_bvh *bvh, const lmb_live_receiver *receiver)
 {
-    static const float place[3] = {0.5f, 0.16666667f, 0.83333333f}; /* of the strata: all of them are even, too */
+    static const float place[3] = {0.5f, 0.16666667f, 0.83333333f}; /* of the strata; all three are as far apart */
     float all[3] = {0, 0, 0}, some[3] = {0, 0, 0};
     int32_t seen = 0, targets = 0;
     int packets = 1;

@@ -223,7 +223,8 @@ static uint64_t KERNEL(live_ahead)(const lmb_live_rays *r, int32_t targets, cons
         facet.x = lane_load(r->facet[0] + k);
         facet.y = lane_load(r->facet[1] + k);
         facet.z = lane_load(r->facet[2] + k);
-        const lane_mask own = lanei_equal(lanei_load((const int32_t *)(const void *)(r->id + k)), lanei_splat((int32_t)at->id));
+        const lanei id = lanei_load((const int32_t *)(const void *)(r->id + k));
+        const lane_mask own = lanei_equal(id, lanei_splat((int32_t)at->id));
         const lane_mask ahead =
             mask_and(lane_lt(lane_splat(0.0f), lane3_dot(face, to)), lane_lt(lane3_dot(facet, to), below));
         out |= (uint64_t)(mask_bits(ahead) & ~mask_bits(own)) << k;

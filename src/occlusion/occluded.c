@@ -155,20 +155,6 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     }
 }
 
-/* To the front; the last falls off where it is not among them. */
-static void remember(uint32_t last[LMB_LAST_OCCLUDERS], uint32_t triangle)
-{
-    uint32_t moved = triangle + 1;
-    for (int i = 0; i < LMB_LAST_OCCLUDERS; ++i) {
-        const uint32_t here = last[i];
-        last[i] = moved;
-        moved = here;
-        if (here == triangle + 1) {
-            return;
-        }
-    }
-}
-
 /* 1 where they alone block all. */
 static int test_last(traversal *w)
 {
@@ -176,7 +162,7 @@ static int test_last(traversal *w)
         const uint32_t triangle = w->kept->last[i] - 1;
         test_triangle(w, triangle, w->left);
         if (w->left == 0) {
-            remember(w->kept->last, triangle);
+            traversal_remember(w->kept->last, LMB_LAST_OCCLUDERS, triangle);
             return 1;
         }
     }
@@ -190,7 +176,7 @@ static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t asked
         ++w->kept->spent;
         test_triangle(w, node->first[i] + k, asked);
         if (count_bits_64(before & ~w->left) >= MUCH) {
-            remember(w->kept->last, node->first[i] + k);
+            traversal_remember(w->kept->last, LMB_LAST_OCCLUDERS, node->first[i] + k);
         }
     }
 }

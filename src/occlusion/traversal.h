@@ -78,6 +78,20 @@ static inline void traversal_bound(lmb_traversal *t)
     t->spent = t->end = t->coarse = 0;
 }
 
+/* Put a triangle to the front of `count` numbers + 1; the last falls off where it is not among them. */
+static inline void traversal_remember(uint32_t *last, int count, uint32_t triangle)
+{
+    uint32_t moved = triangle + 1;
+    for (int i = 0; i < count; ++i) {
+        const uint32_t here = last[i];
+        last[i] = moved;
+        moved = here;
+        if (here == triangle + 1) {
+            return;
+        }
+    }
+}
+
 /* How far boxes reach past what they hold: of their size and of their coordinates. */
 #define LMB_BOX_SIZE  3.8146973e-6f /* 2^-18 */
 #define LMB_BOX_PLACE 9.5367432e-7f /* 2^-20 */

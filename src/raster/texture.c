@@ -5,66 +5,7 @@
 
 #include "../base/codec.h"
 #include "../base/vec.h"
-
-typedef struct level {
-    const uint8_t *texels;
-    int32_t width, height;
-} level;
-
-enum { PALETTE_BYTES = 64 };
-
-static int is_rgba8(const lmb_texture *t) { return !LMB_TEXTURE_FORMATS || t->format == LMB_TEXELS_RGBA8; }
-
-static size_t bytes_of(const lmb_texture *t, size_t texels)
-{
-    return is_rgba8(t) ? 4 * texels : t->format == LMB_TEXELS_RGB565 ? 2 * texels : (texels + 1) / 2;
-}
-
-static level find_level(const lmb_texture *t, int32_t n)
-{
-    level l;
-    l.texels = t->texels + (!is_rgba8(t) && t->format == LMB_TEXELS_PALETTE4 ? PALETTE_BYTES : 0);
-    l.width = t->width;
-    l.height = t->height;
-    for (int32_t i = 0; i < n; ++i) {
-        l.texels += bytes_of(t, (size_t)l.width * (size_t)l.height);
-        l.width = maxi(l.width / 2, 1);
-        l.height = maxi(l.height / 2, 1);
-    }
-    return l;
-}
-
-/* floorf of what is sane: no call, so that less is kept for callers. */
-static float floor_of(float v)
-{
-    const float whole = (float)(int32_t)v;
-    return whole > v ? whole - 1.0f : whole;
-}
-
-/* Into one period, so that texel numbers stay small: [0, 1), or [0, 2) for mirrored ones. */
-static float reduce(float u, int wrap)
-{
-    if (!is_sane(u)) {
-        return 0.0f;
-    }
-    switch (wrap) {
-    case LMB_WRAP_CLAMP: return clampf(u, 0.0f, 1.0f);
-    case LMB_WRAP_MIRROR: return u - 2.0f * floor_of(u * 0.5f);
-    default: return u - floor_of(u);
-    }
-}
-
-static int32_t wrap_texel(int32_t i, int32_t size, int wrap)
-{
-    switch (wrap) {
-    case LMB_WRAP_CLAMP: return mini(maxi(i, 0), size - 1);
-    case LMB_WRAP_MIRROR:
-        i = i < 0 ? -1 - i : i;
-        i = i >= 2 * size ? i - 2 * size : i;
-        return i >= size ? 2 * size - 1 - i : i;
-    default: return i < 0 ? i + size : i >= size ? i - size : i;
-    }
-}
+#include "texels.h"
 
 /* What the codes of R G B stand for. Alpha is linear. */
 enum { AS_COLOUR, AS_VECTOR };
@@ -76,7 +17,7 @@ static float decode(int32_t codes, uint8_t code)
 
 /* Up to four texels of a level, and how much each counts. */
 typedef struct footprint {
-    level from;
+    texel_level from;
     int32_t x, y, count;
     float share[4]; /* upper left, upper right, lower left, lower right; nearest: the first */
 } footprint;
@@ -84,8 +25,8 @@ typedef struct footprint {
 static footprint find_texels(const lmb_texture *t, int32_t n, float u, float v, float weight)
 {
     footprint f;
-    f.from = find_level(t, n);
-    const float x = reduce(u, t->wrap_s) * (float)f.from.width, y = reduce(v, t->wrap_t) * (float)f.from.height;
+    f.from = texel_find_level(t, n);
+    const float x = texel_reduce(u, t->wrap_s) * (float)f.from.width, y = texel_reduce(v, t->wrap_t) * (float)f.from.height;
     if (t->filter == LMB_NEAREST) {
         f.count = 1;
         f.x = (int32_t)x;
@@ -93,7 +34,7 @@ static footprint find_texels(const lmb_texture *t, int32_t n, float u, float v, 
         f.share[0] = weight;
         return f;
     }
-    const float x0 = floor_of(x - 0.5f), y0 = floor_of(y - 0.5f);
+    const float x0 = texel_floor(x - 0.5f), y0 = texel_floor(y - 0.5f);
     const float fx = (x - 0.5f) - x0, fy = (y - 0.5f) - y0;
     f.count = 4;
     f.x = (int32_t)x0;
@@ -125,12 +66,12 @@ static const uint8_t *find_codes(uint8_t out[4], const lmb_texture *t, const uin
 static void add_texels(float out[4], const lmb_texture *t, const footprint *f, int32_t codes)
 {
     for (int k = 0; k < f->count; ++k) {
-        const int32_t x = wrap_texel(f->x + (k & 1), f->from.width, t->wrap_s),
-                      y = wrap_texel(f->y + (k >> 1), f->from.height, t->wrap_t);
+        const int32_t x = texel_wrap(f->x + (k & 1), f->from.width, t->wrap_s),
+                      y = texel_wrap(f->y + (k >> 1), f->from.height, t->wrap_t);
         const size_t at = (size_t)y * (size_t)f->from.width + (size_t)x;
 #if LMB_TEXTURE_FORMATS
         uint8_t codes_of[4];
-        const uint8_t *p = is_rgba8(t) ? f->from.texels + 4 * at : find_codes(codes_of, t, f->from.texels, at);
+        const uint8_t *p = texels_are_rgba8(t) ? f->from.texels + 4 * at : find_codes(codes_of, t, f->from.texels, at);
 #else
         const uint8_t *p = f->from.texels + 4 * at;
 #endif
@@ -172,7 +113,7 @@ void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, fl
  * wrap_texel. If the samples go all the way round, these are all texels. */
 static void texels_between(int32_t *first, int32_t *last, float low, float high, int32_t size, int wrap)
 {
-    const float period = wrap == LMB_WRAP_MIRROR ? 2.0f : 1.0f, at = reduce(low, wrap), wide = high - low;
+    const float period = wrap == LMB_WRAP_MIRROR ? 2.0f : 1.0f, at = texel_reduce(low, wrap), wide = high - low;
     const float largest = (float)size * maxf(absf(low), absf(high)); /* beyond 2^20 interpolation is off by texels */
     *first = 0;
     *last = size - 1;
@@ -181,7 +122,7 @@ static void texels_between(int32_t *first, int32_t *last, float low, float high,
     }
     if (wrap == LMB_WRAP_CLAMP) {
         *first = (int32_t)(at * (float)size) - 2;
-        *last = (int32_t)(reduce(high, wrap) * (float)size) + 2;
+        *last = (int32_t)(texel_reduce(high, wrap) * (float)size) + 2;
     } else if (wide + 4.0f / (float)size < period && at + wide < period) {
         *first = maxi((int32_t)(at * (float)size) - 2, wrap == LMB_WRAP_MIRROR ? -1 : -size);
         *last = (int32_t)((at + wide) * (float)size) + 2;
@@ -189,13 +130,13 @@ static void texels_between(int32_t *first, int32_t *last, float low, float high,
 }
 
 /* Alpha of a texel of level 0, 0 .. 255. */
-static int32_t alpha_at(const lmb_texture *t, const level *from, int32_t x, int32_t y)
+static int32_t alpha_at(const lmb_texture *t, const texel_level *from, int32_t x, int32_t y)
 {
-    const size_t at = (size_t)wrap_texel(y, from->height, t->wrap_t) * (size_t)from->width +
-                      (size_t)wrap_texel(x, from->width, t->wrap_s);
+    const size_t at = (size_t)texel_wrap(y, from->height, t->wrap_t) * (size_t)from->width +
+                      (size_t)texel_wrap(x, from->width, t->wrap_s);
 #if LMB_TEXTURE_FORMATS
     uint8_t codes_of[4];
-    return is_rgba8(t) ? from->texels[4 * at + 3] : find_codes(codes_of, t, from->texels, at)[3];
+    return texels_are_rgba8(t) ? from->texels[4 * at + 3] : find_codes(codes_of, t, from->texels, at)[3];
 #else
     return from->texels[4 * at + 3];
 #endif
@@ -203,7 +144,7 @@ static int32_t alpha_at(const lmb_texture *t, const level *from, int32_t x, int3
 
 int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float high[2], float cutoff, uint32_t *texels)
 {
-    const level from = find_level(t, 0);
+    const texel_level from = texel_find_level(t, 0);
     int32_t x0, x1, y0, y1;
     texels_between(&x0, &x1, low[0], high[0], from.width, t->wrap_s);
     texels_between(&y0, &y1, low[1], high[1], from.height, t->wrap_t);
