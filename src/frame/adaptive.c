@@ -1,4 +1,4 @@
-/* adaptive.c: bounced light at the samples of a lattice and between them; runs the phases of live_phases.c too. Layer 10.
+/* adaptive.c: bounced light at samples of a lattice and between them; runs the phases of live_phases.c too. Layer 10.
  *
  * r->light is the phase, r->progress the band or window at hand. In a phase a window writes its own pixels alone and
  * reads of others what the phases before wrote: so any order and number of threads gives the same bytes. */
