@@ -239,7 +239,7 @@ $(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0 $(if $(findstring -fsani
 
 # The code of most tests is compiled at -O0, in a third of the time of -O2, because it has few loops; CFLAGS hold for the
 # code under test. TEST_CFLAGS= compiles all as CFLAGS say.
-LOOPING := $(SLOW_TESTS) bounce cut frames glossy live map_picture occlusion tree
+LOOPING := $(SLOW_TESTS) bounce cut frames glossy live map_picture multisample occlusion tree
 ifeq ($(PORT),host)
 TEST_CFLAGS ?= -O0
 $(call object,$(filter-out $(LOOPING:%=tests/unit/test_%.c),$(wildcard tests/unit/*.c)) $(wildcard tests/fuzz/*.c)): \
