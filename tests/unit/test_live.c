@@ -377,6 +377,24 @@ static void few_chunks(void)
     CHECK(live.chunks <= 3);
 }
 
+/* The parts of a block lie one behind the other, and the last one ends within lmb_live_bytes. */
+static void parts_fit(void)
+{
+    static const int32_t sides[] = {1, 7, 64};
+    for (uint32_t faces = 1; faces <= 16; faces *= 4) {
+        for (int i = 0; i < COUNT(sides); ++i) {
+            lmb_live l;
+            const size_t bytes = lmb_live_bytes(faces, sides[i]);
+            CHECK(bytes <= sizeof live_memory && lmb_live_init(&l, faces, sides[i], live_memory, bytes) == LMB_OK);
+            const uint8_t *const end = (const uint8_t *)(l.sorted + (l.sorted - l.point));
+            CHECK((void *)l.face == (void *)live_memory && (void *)l.chunk >= (void *)(l.face + faces));
+            CHECK((void *)l.point >= (void *)(l.chunk + l.chunk_cap) && l.chunk_cap > 0);
+            CHECK(l.sorted - l.point >= (ptrdiff_t)faces * sides[i] * sides[i]);
+            CHECK(end <= (const uint8_t *)live_memory + bytes);
+        }
+    }
+}
+
 static void refused(void)
 {
     const lmb_light light = point_light(vec3(-0.6f, 1.6f, 0.2f));
@@ -414,5 +432,6 @@ void test_live(void)
     behind_a_thin_wall_is_dark();
     same_bytes();
     few_chunks();
+    parts_fit();
     refused();
 }
