@@ -244,7 +244,8 @@ ifeq ($(PORT),host)
 TEST_CFLAGS ?= -O0
 $(call object,$(filter-out $(LOOPING:%=tests/unit/test_%.c),$(wildcard tests/unit/*.c)) $(wildcard tests/fuzz/*.c)): \
     COMPILE += $(TEST_CFLAGS)
-$(call object,$(LOOPING:%=tests/unit/test_%.c) $(wildcard tests/analytic/*.c)): COMPILE += $(TEST_CFLAGS:-O0=-O1)
+$(call object,$(LOOPING:%=tests/unit/test_%.c) $(wildcard tests/analytic/*.c) tests/lanes/test_kernels.c \
+    tests/lanes/test_draws.c): COMPILE += $(TEST_CFLAGS:-O0=-O1)
 endif
 
 # GOLDENS: which of the golden pictures; a change of it compiles only their table again.
