@@ -66,6 +66,15 @@ status 0 render demo $live --threads 3 -o live3.pfm
 check "threads do not change live light" cmp live.pfm live3.pfm
 status 0 render demo $live --backend scalar -o scalar.pfm
 check "back ends do not change live light" cmp live.pfm scalar.pfm
+# Later bounces, and surfaces that emit, come by the same points.
+for of in demo emits.obj; do
+    again="--size 48x32 --exposure 0 --show indirect --bounces 3 --shadow-map 512"
+    status 0 render $of $again --quality draft --threads 1 -o again.pfm
+    status 0 render $of $again --quality draft --threads 3 --backend scalar -o again3.pfm
+    check "threads and back ends do not change live bounces of $of" cmp again.pfm again3.pfm
+    status 0 render $of $again --gather full -o full.pfm
+    status 0 compare again.pfm full.pfm --max trim=0.12,lo=0.95,hi=1.05
+done
 for i in 1 2 3; do
     status 0 render demo $live --slice $i/3 -o live.pfm
 done

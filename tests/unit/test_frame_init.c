@@ -195,8 +195,9 @@ static uint64_t by_hand_hash(const lmb_frame *like)
         CHECK(lmb_lattice_init(&f.lattice, WIDE, HIGH, part(&memory[5], bytes), bytes) == LMB_OK);
     }
     if (f.live != NULL) {
-        const size_t bytes = lmb_live_bytes(f.live->face_cap, f.live->side);
-        CHECK(lmb_live_init(&live, f.live->face_cap, f.live->side, part(&memory[6], bytes), bytes) == LMB_OK);
+        const size_t bytes = lmb_live_bytes(f.live->face_cap, f.live->side, f.live->element_cap);
+        CHECK(lmb_live_init(&live, f.live->face_cap, f.live->side, f.live->element_cap, part(&memory[6], bytes),
+                            bytes) == LMB_OK);
         live.strata = f.live->strata;
         live.split = f.live->split;
         f.live = &live;

@@ -43,8 +43,8 @@ static void light_world(const lmb_light *lights, uint32_t count)
     world.scene.lights = lights;
     world.scene.light_count = count;
     memset(live_memory, 0x5a, sizeof live_memory);
-    CHECK(lmb_live_bytes(FACES, lmb_live_side(FACES, MAP)) <= sizeof live_memory);
-    CHECK(lmb_live_init(&live, FACES, lmb_live_side(FACES, MAP), live_memory, sizeof live_memory) == LMB_OK);
+    CHECK(lmb_live_bytes(FACES, lmb_live_side(FACES, MAP), 0) <= sizeof live_memory);
+    CHECK(lmb_live_init(&live, FACES, lmb_live_side(FACES, MAP), 0, live_memory, sizeof live_memory) == LMB_OK);
     for (uint32_t i = 0; i < count; ++i) {
         collect(i);
     }
@@ -381,17 +381,17 @@ static void few_chunks(void)
 static void parts_fit(void)
 {
     static const int32_t sides[] = {1, 7, 64};
-    for (uint32_t faces = 1; faces <= 16; faces *= 4) {
-        for (int i = 0; i < COUNT(sides); ++i) {
-            lmb_live l;
-            const size_t bytes = lmb_live_bytes(faces, sides[i]);
-            CHECK(bytes <= sizeof live_memory && lmb_live_init(&l, faces, sides[i], live_memory, bytes) == LMB_OK);
-            const uint8_t *const end = (const uint8_t *)(l.sorted + (l.sorted - l.point));
-            CHECK((void *)l.face == (void *)live_memory && (void *)l.chunk >= (void *)(l.face + faces));
-            CHECK((void *)l.point >= (void *)(l.chunk + l.chunk_cap) && l.chunk_cap > 0);
-            CHECK(l.sorted - l.point >= (ptrdiff_t)faces * sides[i] * sides[i]);
-            CHECK(end <= (const uint8_t *)live_memory + bytes);
-        }
+    for (int i = 0; i < 3 * COUNT(sides) * 2; ++i) {
+        lmb_live l;
+        const uint32_t faces = 1u << (2 * (i % 3)), elements = i / 9 ? 100 : 0;
+        const int32_t side = sides[i / 3 % 3];
+        const size_t bytes = lmb_live_bytes(faces, side, elements);
+        CHECK(bytes <= sizeof live_memory && lmb_live_init(&l, faces, side, elements, live_memory, bytes) == LMB_OK);
+        const uint8_t *const end = (const uint8_t *)(l.sorted + (l.sorted - l.point));
+        CHECK((void *)l.face == (void *)live_memory && (void *)l.chunk >= (void *)(l.face + faces));
+        CHECK((void *)l.point >= (void *)(l.chunk + l.chunk_cap) && l.chunk_cap > 0);
+        CHECK(l.sorted - l.point >= (ptrdiff_t)faces * side * side + (ptrdiff_t)elements);
+        CHECK(end <= (const uint8_t *)live_memory + bytes);
     }
 }
 
@@ -405,11 +405,12 @@ static void refused(void)
     memset(&at, 0, sizeof at);
     CHECK(lmb_live_side(1, 1024) == 256 && lmb_live_side(6, 512) == 128 && lmb_live_side(6, 4096) == 512);
     CHECK(lmb_live_side(1, 0) == 0 && lmb_live_side(1, 12) == 0 && lmb_live_side(1, 16384) == 0);
-    CHECK(lmb_live_bytes(0, 64) == 0 && lmb_live_bytes(1, 0) == 0 && lmb_live_bytes(100000, 64) == 0);
-    const size_t bytes = lmb_live_bytes(1, 64);
-    CHECK(lmb_live_init(&none, 1, 64, live_memory, bytes - 1) == LMB_ERR_CAPACITY);
-    CHECK(lmb_live_init(&none, 1, 64, (uint8_t *)live_memory + 4, bytes) == LMB_ERR_ALIGN);
-    CHECK(lmb_live_init(NULL, 1, 64, live_memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_live_bytes(0, 64, 0) == 0 && lmb_live_bytes(1, 0, 0) == 0 && lmb_live_bytes(100000, 64, 0) == 0 &&
+          lmb_live_bytes(1, 64, (1u << 24) + 1) == 0);
+    const size_t bytes = lmb_live_bytes(1, 64, 0);
+    CHECK(lmb_live_init(&none, 1, 64, 0, live_memory, bytes - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_live_init(&none, 1, 64, 0, (uint8_t *)live_memory + 4, bytes) == LMB_ERR_ALIGN);
+    CHECK(lmb_live_init(NULL, 1, 64, 0, live_memory, bytes) == LMB_ERR_ARG);
     CHECK(lmb_live_receive(out, picked_kernels(), &scratch, &none, NULL, &at) == LMB_ERR_ARG);
     CHECK(lmb_live_build(&none, &world.scene) == LMB_ERR_ARG);
     room_with_table();
