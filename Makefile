@@ -239,12 +239,13 @@ $(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0 $(if $(findstring -fsani
 
 # The code of most tests is compiled at -O0, in a third of the time of -O2, because it has few loops; CFLAGS hold for the
 # code under test. TEST_CFLAGS= compiles all as CFLAGS say.
-LOOPING := $(SLOW_TESTS) bounce cut frames glossy map_picture occlusion tree
+LOOPING := $(SLOW_TESTS) bounce cut frames glossy live map_picture multisample occlusion tree
 ifeq ($(PORT),host)
 TEST_CFLAGS ?= -O0
 $(call object,$(filter-out $(LOOPING:%=tests/unit/test_%.c),$(wildcard tests/unit/*.c)) $(wildcard tests/fuzz/*.c)): \
     COMPILE += $(TEST_CFLAGS)
-$(call object,$(LOOPING:%=tests/unit/test_%.c) $(wildcard tests/analytic/*.c)): COMPILE += $(TEST_CFLAGS:-O0=-O1)
+$(call object,$(LOOPING:%=tests/unit/test_%.c) $(wildcard tests/analytic/*.c) tests/lanes/test_kernels.c \
+    tests/lanes/test_draws.c): COMPILE += $(TEST_CFLAGS:-O0=-O1)
 endif
 
 # GOLDENS: which of the golden pictures; a change of it compiles only their table again.

@@ -15,6 +15,12 @@ for way in "--quality draft" "$baked"; do
         check "a frame is the same alone, $way --move $move" cmp -s play_03.pfm alone_03.pfm
     done
 done
+status 0 play block.obj $inside --quality draft --move all --fps 2 --frames 1 -v -o play_%02d.pfm
+for note in "light 0 moves by 0" "the camera swings by "; do
+    check "--verbose has: $note" holds "$note" err.txt
+done
+status 0 play block.obj $inside --quality draft --move all --fps 2 --frames 1 -o play_%02d.pfm
+check "without --verbose no note of how far things move" sh -c '! grep -q -e "moves by" -e "swings by" "$1"' sh err.txt
 check "a frame's times are told" sh -c 'grep -q "^bands  *[0-9.]* " "$1" && grep -q "^whole frame  *[0-9.]* " "$1"' sh out.txt
 for extension in png hdr; do
     status 0 play block.obj $inside $baked --frames 2 --fps 1 -o "play%02d.$extension"

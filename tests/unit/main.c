@@ -5,6 +5,7 @@
 #include "../test.h"
 
 #include <string.h>
+#include <time.h>
 
 int test_passed, test_failed, test_skipped;
 
@@ -33,10 +34,11 @@ static int is_wanted(const struct test *t, int argc, char **argv)
     return wanted;
 }
 
-/* One line a test, so that a crash shows where it happened. */
+/* One line a test, so that a crash shows where it happened; then its counts and its seconds of processor time. */
 static void run(const struct test *t)
 {
     int passed = test_passed, failed = test_failed, skipped = test_skipped;
+    clock_t begun = clock();
     printf("%s/%s\n", t->group, t->name);
     fflush(stdout);
     t->run();
@@ -45,7 +47,7 @@ static void run(const struct test *t)
         printf(", %d failed", test_failed - failed);
     if (test_skipped > skipped)
         printf(", %d skipped", test_skipped - skipped);
-    printf("\n");
+    printf(", %.2f s\n", (double)(clock() - begun) / CLOCKS_PER_SEC);
 }
 
 /* How many tests have that name or are of that group. */

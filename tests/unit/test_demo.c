@@ -6,6 +6,7 @@
 
 #include "../../src/base/vec.h"
 #include "../../src/base/vertex.h"
+#include "../../tools/demo/demo_field.h"
 #include "../../tools/demo/demo_scene.h"
 #include "../test.h"
 
@@ -218,8 +219,52 @@ static void test_view(const lmb_scene *s)
     CHECK(none.frame_width == 0 && none.near_m == zero.near_m && none.kind == zero.kind);
 }
 
+/* --- the field ---------------------------------------------------------------------------------------------------- */
+
+/* The cube's faces and the ground's picture are of one world: a texel that looks down on the field has the colour of
+ * the ground there, but for texels across its lines. Four lamps are above, as far to the left as to the right. */
+static void test_field(void)
+{
+    lmb_world_pictures p;
+    world_pictures own;
+    report r = {""};
+    float size[2];
+    double lamp[2] = {0.0, 0.0};
+    int down = 0, same = 0, lamps = 0, whole = 1; /* texels: the field's; of its colour; bright ones */
+    memset(&own, 0, sizeof own);
+    demo_field_place(&p, size);
+    CHECK_MSG(demo_field_pictures(&p, &own, &r), "%s", r.text);
+    for (int face = 0; face < 6; ++face) {
+        whole &= p.face[face] != NULL;
+    }
+    CHECK(whole && p.ground != NULL && p.face_size > 0);
+    for (int i = 0, n = p.face_size; whole && i < 6 * n * n; ++i) {
+        const int face = i / (n * n), x = i % n, y = i / n % n;
+        const float s = 2.0f * ((float)x + 0.5f) / (float)n - 1.0f, t = 2.0f * ((float)y + 0.5f) / (float)n - 1.0f;
+        const lmb_vec3 to[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+        const lmb_vec3 d = normalize3(to[face]), at = mul3(d, d.y < 0.0f ? p.centre.y / -d.y : 0.0f);
+        const float *seen = (const float *)p.face[face] + 3 * (y * n + x);
+        if (d.y < -0.2f && absf(at.x) < 10.0f && absf(at.z) < 6.0f) {
+            const int column = (int)((at.x / size[0] + 0.5f) * (float)p.ground_width),
+                      row = (int)((at.z / size[1] + 0.5f) * (float)p.ground_height);
+            const float *own_texel = (const float *)p.ground + 4 * (row * p.ground_width + column);
+            ++down;
+            same += absf(seen[0] - own_texel[0]) + absf(seen[1] - own_texel[1]) + absf(seen[2] - own_texel[2]) < 0.1f;
+        } else if (seen[0] > 30.0f) {
+            ++lamps;
+            lamp[0] += (double)d.x;
+            lamp[1] += (double)d.y;
+        }
+    }
+    CHECK_MSG(down > 10000 && same > down - down / 16, "%d of %d texels have the ground's colour", same, down);
+    CHECK_MSG(lamps > 16 && fabs(lamp[0]) < 0.02 * lamps && fabs(lamp[1] / lamps - sin(0.401)) < 0.02,
+              "%d lamps: %g, %g", lamps, lamp[0] / lamps, lamp[1] / lamps);
+    world_pictures_free(&own);
+}
+
 void test_demo(void)
 {
+    test_field();
     const lmb_scene *s = demo_scene();
     test_data(s);
     test_formats(s);

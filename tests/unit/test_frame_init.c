@@ -145,6 +145,13 @@ static uint64_t drawn_hash(lmb_frame *f)
     return picture_hash;
 }
 
+/* A part's memory: what comes next may not be touched. */
+static void *part(fenced *f, size_t bytes)
+{
+    fence(f, (bytes + 15) / 16 * 16, 1);
+    return f->block;
+}
+
 /* The same frame, each part in memory of its own. */
 static uint64_t by_hand_hash(const lmb_frame *like)
 {
@@ -156,8 +163,11 @@ static uint64_t by_hand_hash(const lmb_frame *like)
     lmb_frame f = *like;
     const size_t tree = lmb_tree_bytes(f.tree.face_cap, f.tree.size);
     const size_t bvh = lmb_bvh_bytes(f.bvh.triangle_cap);
-    void *memory[7] = {malloc(f.map_bytes + 1), malloc(tree + 1), malloc(bvh + 1), NULL, NULL, NULL, NULL};
-    f.map_memory = memory[0];
+    fenced memory[7];
+    for (int i = 0; i < COUNT(memory); ++i) {
+        memory[i].whole = NULL;
+    }
+    f.map_memory = part(&memory[0], f.map_bytes);
     f.scratch = &scratch;
     CHECK(lmb_surface_init(&f.eye.depth, LMB_DEPTH32F, WIDE, f.eye.depth.height, depth, sizeof depth) == LMB_OK);
     CHECK(lmb_surface_init(&f.eye.id, f.id_format, WIDE, f.eye.id.height, id, sizeof id) == LMB_OK);
@@ -166,29 +176,28 @@ static uint64_t by_hand_hash(const lmb_frame *like)
         CHECK(lmb_surface_init(&f.eye_depth, f.eye_depth.format, WIDE, HIGH, whole, sizeof whole) == LMB_OK);
     }
     if (f.tree.texel != NULL) {
-        CHECK(lmb_tree_init(&f.tree, f.tree.face_cap, f.tree.size, memory[1], tree) == LMB_OK);
+        CHECK(lmb_tree_init(&f.tree, f.tree.face_cap, f.tree.size, part(&memory[1], tree), tree) == LMB_OK);
     }
     if (f.bvh.triangle != NULL) {
-        CHECK(lmb_bvh_init(&f.bvh, f.bvh.triangle_cap, memory[2], bvh) == LMB_OK);
+        CHECK(lmb_bvh_init(&f.bvh, f.bvh.triangle_cap, part(&memory[2], bvh), bvh) == LMB_OK);
     }
     if (f.elements.data != NULL) {
-        memory[3] = malloc(lmb_elements_bytes(f.elements.cap));
-        CHECK(lmb_elements_init(&f.elements, f.elements.cap, memory[3], lmb_elements_bytes(f.elements.cap)) == LMB_OK);
+        const size_t bytes = lmb_elements_bytes(f.elements.cap);
+        CHECK(lmb_elements_init(&f.elements, f.elements.cap, part(&memory[3], bytes), bytes) == LMB_OK);
     }
     if (f.points.data != NULL) {
         const size_t points = lmb_points_bytes(f.points.cap, MAP / LMB_TILE);
-        memory[4] = malloc(points);
         f.groups = &groups;
-        CHECK(lmb_points_init(&f.points, f.points.cap, MAP / LMB_TILE, memory[4], points) == LMB_OK);
+        CHECK(lmb_points_init(&f.points, f.points.cap, MAP / LMB_TILE, part(&memory[4], points), points) == LMB_OK);
     }
     if (f.lattice.tile != NULL) {
-        memory[5] = malloc(lmb_lattice_bytes(WIDE, HIGH));
-        CHECK(lmb_lattice_init(&f.lattice, WIDE, HIGH, memory[5], lmb_lattice_bytes(WIDE, HIGH)) == LMB_OK);
+        const size_t bytes = lmb_lattice_bytes(WIDE, HIGH);
+        CHECK(lmb_lattice_init(&f.lattice, WIDE, HIGH, part(&memory[5], bytes), bytes) == LMB_OK);
     }
     if (f.live != NULL) {
         const size_t bytes = lmb_live_bytes(f.live->face_cap, f.live->side, f.live->element_cap);
-        memory[6] = malloc(bytes);
-        CHECK(lmb_live_init(&live, f.live->face_cap, f.live->side, f.live->element_cap, memory[6], bytes) == LMB_OK);
+        CHECK(lmb_live_init(&live, f.live->face_cap, f.live->side, f.live->element_cap, part(&memory[6], bytes),
+                            bytes) == LMB_OK);
         live.strata = f.live->strata;
         live.split = f.live->split;
         f.live = &live;
@@ -196,7 +205,9 @@ static uint64_t by_hand_hash(const lmb_frame *like)
     }
     const uint64_t hash = drawn_hash(&f);
     for (int i = 0; i < COUNT(memory); ++i) {
-        free(memory[i]);
+        if (memory[i].whole != NULL) {
+            unfence(&memory[i]);
+        }
     }
     return hash;
 }

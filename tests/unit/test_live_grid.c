@@ -61,11 +61,12 @@ static int light_level(int32_t level, light_at at)
         CHECK((asked & (t->known | ~(uint32_t)t->shown)) == 0);
         for (uint32_t bits = asked; bits != 0; bits &= bits - 1, ++count) {
             const int k = lowest_bit(bits);
+            const lmb_tile *from = &tile[i];
             lmb_live_sample *s = grid_sample(&grid, t, k);
-            s->position = tile_vec(tile[i].position, grid_pixel(k));
-            s->face = tile_vec(tile[i].face, grid_pixel(k));
-            s->normal = tile_vec(tile[i].normal, grid_pixel(k));
-            s->id = tile[i].id[grid_pixel(k)];
+            s->position = tile_vec(from->position, grid_pixel(k));
+            s->face = tile_vec(from->face, grid_pixel(k));
+            s->normal = tile_vec(from->normal, grid_pixel(k));
+            s->id = from->id[grid_pixel(k)];
             s->is_lit = 1;
             for (int c = 0; c < 3; ++c) {
                 s->light[c] = (float)(c + 1) * at((float)(tile[i].x + k % 4 * 2), (float)(tile[i].y + k / 4 * 2));

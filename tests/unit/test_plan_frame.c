@@ -396,6 +396,10 @@ static void test_budgets(void)
     facts.max = 64;
     lmb_plan_rung(&c.settings, &facts, LMB_PLAN_RUNGS - 1);
     CHECK(c.settings.tree == 64 && c.settings.shadow_map == 64 && c.settings.gather_step == 1);
+    facts.max = LMB_TILE;
+    CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_OK);
+    facts.max = LMB_TILE - 1;
+    CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_ERR_ARG);
     facts.max = 0;
     CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_ERR_ARG && lmb_plan_choose(NULL, &facts, &none, 0) < 0);
 }

@@ -1,4 +1,4 @@
-/* test_play.c: keys of a path, between them, and figures of times. */
+/* test_play.c: keys of a path, between them, motion without a path, and figures of times. */
 #include "../folder.h"
 
 #include <math.h>
@@ -163,9 +163,109 @@ static void sums_times_up(void)
     play_times_free(&t);
 }
 
+/* --- motion of the demo ------------------------------------------------------------------------------------------- */
+
+static play_options options;
+static render_job job;
+static play_motion motion;
+
+/* The demo as `play` with these words begins it; the transfer's ranges of moving ids, if any. */
+static int begin_demo(const char *what, const char *path, uint32_t *ranges, uint32_t range_count)
+{
+    const char *line[] = {"play", "demo", "-o", "none_%02d.pfm", "--size", "32x24", "-q", "--fps", "2", "--move", what,
+                          "--path", path};
+    char *words[sizeof line / sizeof *line];
+    const int count = (int)(sizeof line / sizeof *line) - (path != NULL ? 0 : 2);
+    report r = {""};
+    memset(&job, 0, sizeof job);
+    for (int i = 0; i < count; ++i) {
+        words[i] = (char *)(uintptr_t)line[i];
+    }
+    int ok = play_options_parse(&options, count, words, &r) == OPTIONS_RUN;
+    job.o = options.render;
+    ok = ok && play_motion_read(&motion, &options, &r) && render_job_load(&job, &r) &&
+         play_motion_find(&motion, &job, &r) && render_job_set(&job, &r);
+    CHECK_MSG(ok, "%s", r.text);
+    if (ok && ranges != NULL) {
+        options.render.transfer = "baked";
+        job.transfer.count[LMB_TRANSFER_MOVING] = range_count;
+        job.transfer.section[LMB_TRANSFER_MOVING] = ranges;
+    }
+    return ok && play_motion_make(&motion, &r);
+}
+
+static void end_demo(void)
+{
+    job.transfer.section[LMB_TRANSFER_MOVING] = NULL;
+    play_motion_free(&motion);
+    render_job_free(&job);
+}
+
+static int near_vec(lmb_vec3 a, lmb_vec3 b) { return length3(sub3(a, b)) < 1e-4f; }
+
+/* Lights move on figures of eight within the room, and the camera on an arc around what it sees. Both return after
+ * 10 s, and each frame is the same whichever was set before. */
+static void moves_by_itself(void)
+{
+    report r = {""};
+    const int ok = begin_demo("all", NULL, NULL, 0);
+    CHECK(ok && motion.swing > 0.0f && motion.radius != NULL && motion.radius[0] > 0.0f);
+    if (ok) {
+        const lmb_view rest = job.middle;
+        const lmb_light lamp = job.scene.lights[0];
+        const lmb_vec3 arm = sub3(rest.eye, motion.middle), low = job.scene.bounds_min, high = job.scene.bounds_max;
+        CHECK(play_motion_set(&motion, 0, &r) && memcmp(&job.middle, &rest, sizeof rest) == 0);
+        CHECK(memcmp(&job.scene.lights[0], &lamp, sizeof lamp) == 0);
+        for (int k = 0; k <= 20; ++k) {
+            CHECK(play_motion_set(&motion, k, &r));
+            const lmb_view *v = &job.middle;
+            const lmb_vec3 at = job.scene.lights[0].position, now = sub3(v->eye, motion.middle);
+            CHECK(at.x > low.x && at.x < high.x && at.z > low.z && at.z < high.z && at.y == lamp.position.y);
+            CHECK(length3(sub3(at, lamp.position)) <= 1.001f * motion.radius[0]);
+            CHECK(fabsf(length3(now) - length3(arm)) < 1e-4f && fabsf(v->eye.y - rest.eye.y) < 1e-6f);
+            CHECK(fabsf(dot3(now, v->back) - dot3(arm, rest.back)) < 1e-4f);
+            CHECK(fabsf(dot3(now, v->right) - dot3(arm, rest.right)) < 1e-4f);
+            CHECK(near_vec(cross3(v->right, v->up), v->back) && fabsf(length3(v->right) - 1.0f) < 1e-5f);
+            CHECK(k % 10 != 0 || (near_vec(at, lamp.position) && near_vec(v->eye, rest.eye)));
+        }
+        CHECK(play_motion_set(&motion, 5, &r)); /* a quarter of the 10 s */
+        CHECK(fabsf(job.scene.lights[0].position.x - lamp.position.x - motion.radius[0]) < 1e-4f);
+        CHECK(fabsf(dot3(job.middle.back, rest.back) -
+                    (1.0f - (1.0f - cosf(motion.swing)) * (1.0f - rest.back.y * rest.back.y))) < 1e-4f);
+        const lmb_view quarter = job.middle;
+        const lmb_light lit = job.scene.lights[0];
+        CHECK(play_motion_set(&motion, 5, &r) && job.scene.lights[0].revision == lit.revision);
+        CHECK(play_motion_set(&motion, 3, &r) && job.scene.lights[0].revision == lit.revision + 1);
+        CHECK(!near_vec(job.middle.eye, quarter.eye) && job.scene.lights[0].position.z != lamp.position.z);
+        CHECK(play_motion_set(&motion, 5, &r) && memcmp(&job.middle, &quarter, sizeof quarter) == 0);
+        CHECK(near_vec(job.scene.lights[0].position, lit.position));
+    }
+    end_demo();
+}
+
+/* With baked light a path moves those objects only that were baked to move. */
+static void moves_baked_objects(void)
+{
+    const char *const path = keys("0 object:2 0,0,0\n1 object:2 0.1,0,0\n");
+    CHECK(begin_demo("object", path, NULL, 0));
+    const uint32_t id = job.scene.instances[2].first_id, last = job.scene.instances[1].first_id;
+    end_demo();
+    uint32_t both[] = {last, last + 1, id, id + 1}, before[] = {last, id}, after[] = {id + 1, id + 2};
+    CHECK(begin_demo("object", path, both, 2));
+    end_demo();
+    CHECK(begin_demo("object", path, both + 2, 1));
+    end_demo();
+    CHECK(!begin_demo("object", path, before, 1));
+    end_demo();
+    CHECK(!begin_demo("object", path, after, 1));
+    end_demo();
+}
+
 void test_play(void)
 {
     folder_open(&place);
+    moves_by_itself();
+    moves_baked_objects();
     goes_through_keys();
     is_smooth();
     turns_objects();
