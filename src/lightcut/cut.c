@@ -17,16 +17,16 @@
 
 #if LMB_TREES
 
-#define INVERSE_PI 0.31830989f
-#define PI         3.14159265f
-#define DARK       0.03  /* pixels that see less than this share of their unblocked light count as dark */
-#define BENT       0.98f /* agreement of normals under which it is tested which children face the pixels */
-#define HOLDS      100.0 /* factor over the allowed error that tells of nodes with pixels inside: fewer pixels help */
-#define WIDER      1.001f /* of a box against what lies in it, for rounding */
-#define STAND_OFF  4.0f  /* times the noise: by so much a texel's point is moved towards its light */
-#define LARGE_NOISE 1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
-#define SPENT      8.0   /* times as large a share of light and error is allowed in a tile that has spent its tests */
-#define CLOSER     0.7   /* a half that reduces the error to this share is worth its cut */
+#define INVERSE_PI         0.31830989f
+#define PI                 3.14159265f
+#define MIN_SEEN_SHARE     0.03  /* pixels that see less than this share of their unblocked light count as dark */
+#define MIN_FLAT_AGREEMENT 0.98f /* agreement of normals under which it is tested which children face the pixels */
+#define MAX_ERROR_EXCESS   100.0 /* times the allowed error: if it is over, nodes hold pixels, and fewer pixels help */
+#define WIDER              1.001f /* of a box against what lies in it, for rounding */
+#define STAND_OFF          4.0f  /* times the noise: by so much a texel's point is moved towards its light */
+#define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
+#define SPENT              8.0 /* times as large a share of light and error is allowed in a tile that has spent its tests */
+#define CLOSER             0.7 /* a half that reduces the error to this share is worth its cut */
 enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
 enum { AHEAD = LMB_BOUNDS_NODES / 4 /* nodes whose parts are bounded together */ };
@@ -557,7 +557,7 @@ static double take_cut(cutter *c)
     begin(c);
     divide_by_upper(c, 0.0, 0);
     if (c->cut_params->bvh != NULL) {
-        const double lower = c->value * DARK;
+        const double lower = c->value * MIN_SEEN_SHARE;
         for (int32_t i = 0; i < c->cut->count; ++i) {
             if (c->cut->ref[i].level != GONE) {
                 test_visibility(c, i, 0);
@@ -809,7 +809,7 @@ static void light_by(stream *s, lmb_node_ref at, uint64_t visible)
     s->pairs += (uint64_t)count_bits_64(visible);
     if (at.level > 0) {
         n = tree_node(c->tree, at);
-        if (n->agreement < BENT && !c->cut_params->conservative) {
+        if (n->agreement < MIN_FLAT_AGREEMENT && !c->cut_params->conservative) {
             face_on(&part, c, at, n);
             n = &part;
         }
@@ -957,7 +957,7 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     const double now = take_cut(c);
     c->cut->tests_left = c->cut->use.traversal.left;
     c->cut->coarse += c->cut->use.traversal.coarse;
-    if (now > 0.0 && (now < CLOSER * *over || now > HOLDS) && count_bits_64(p->pixels) > 1 && !is_spent(c)) {
+    if (now > 0.0 && (now < CLOSER * *over || now > MAX_ERROR_EXCESS) && count_bits_64(p->pixels) > 1 && !is_spent(c)) {
         *over = now;
         return 0;
     }

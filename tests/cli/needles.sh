@@ -21,6 +21,13 @@ status 0 render needles.obj $view -q -o quiet.pfm
 check "--quiet prints the note" lacks coarser err.txt
 status 0 play needles.obj $view --frames 1 -o frame%01d.pfm
 said "note: 1 of 1 tiles have coarser visibility: too many triangles cross there"
+# So are searches for room to move, of eight lights where all needles meet.
+lights=
+for i in 1 2 3 4 5 6 7 8; do
+    lights="$lights --light point:0,1.5$i,0:0,-1,0:9,9,9"
+done
+status 0 play needles.obj $view $lights --shadow-map 64 --frames 1 -o frame%01d.pfm
+check "play prints no note of searches" grep -q '^lambent: note: [1-9][0-9]* searches for room to move have coarser' err.txt
 # So it is in a bake, by any threads.
 awk -v many=600 "$crossing" >few.obj
 status 0 bake few.obj -o one.lmt --elements 64 --receivers 64 --cluster 3 --threads 1

@@ -60,6 +60,22 @@ status 2 render demo --glossy=1 -o bad.png
 said "--glossy takes no value"
 status 2 render demo --tree=12 -o bad.png
 said "--tree: \`12\` is not a power of two, 8 .. 4096"
+status 2 render demo --threads -1 -o bad.png
+said "--threads: \`-1\` is out of range; give a whole number, 1 .. 64"
+status 2 render demo --error=11 -o bad.png
+said "--error: \`11\` is out of range; give a number, 0.0001 .. 10"
+status 2 render demo --fov 1e99 -o bad.png
+said "--fov: \`1e99\` is out of range; give a number, over 0, at most 178.999"
+status 2 render demo --stereo 0 -o bad.png
+said "--stereo: \`0\` is out of range; give a number, over 0"
+status 2 render demo --tree 4 -o bad.png
+said "--tree: \`4\` is out of range; give a power of two, 8 .. 4096"
+status 2 render demo --threads 99999999999999999999 -o bad.png
+said "--threads: \`99999999999999999999\` is out of range; give a whole number, 1 .. 64"
+status 2 render demo --threads 1.5 -o bad.png
+said "--threads: \`1.5\` is not a whole number, 1 .. 64"
+status 2 render demo --error 1x -o bad.png
+said "--error: \`1x\` is not a number, 0.0001 .. 10"
 status 2 render demo --tree
 said "--tree wants a value: a power of two, 8 .. 4096"
 status 2 render demo demo -o bad.png

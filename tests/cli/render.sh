@@ -99,6 +99,24 @@ check "two eyes: two views" test "$(count both.json views)" -eq 2
 for show in depth eye-distance normal albedo occlusion direct; do
     status 0 render demo $small --stereo 0.1 --show $show -o both.png
 done
+# Triangles that cannot be drawn count once, however many views and faces of a shadow map draw them.
+printf 'v -1 0 1\nv 1 0 1\nv 0 0 -1\nv 3e6 0 0\nv 0 3e6 0\nf 1 2 3\nf 1 2 4\nf 1 3 5\n' >absurd.obj
+status 0 render absurd.obj $small --eye 0,2,2 --target 0,0,0 --light point:0,1,0:0,-1,0:1,1,1 --stereo 0.1 -o absurd.png
+said "note: 2 of 3 triangles dropped: vertices not finite or over 2^20 m away"
+status 0 play absurd.obj $small --eye 0,2,2 --target 0,0,0 --light point:0,1,0:0,-1,0:1,1,1 --frames 2 -o absurd%01d.png
+said "note: 2 of 3 triangles dropped: vertices not finite or over 2^20 m away"
+# A file without a byte, of any kind.
+for extension in glb gltf obj ply lmp; do
+    : >empty.$extension
+    status 1 render empty.$extension -o bad.png
+    said "empty.$extension: the file is empty (0 bytes); export or copy it again"
+done
+: >empty.png
+status 1 compare empty.png demo.png
+said "empty.png: the file is empty (0 bytes); export or copy it again"
+: >empty.lmt
+status 1 render demo --transfer empty.lmt -o bad.png
+said "empty.lmt: the file is empty (0 bytes); export or copy it again"
 check "nothing is left behind" none bad* nowhere* *tmp*
 
 finish

@@ -1097,7 +1097,7 @@ static void obj_refuses(void)
     static const struct {
         const char *lines, *says;
     } bad[] = {
-        {"", "no faces"},
+        {"", "the file is empty (0 bytes)"},
         {"v 0 0 0\n", "no faces"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: v number 4, but there are 3"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "line 4: v number 0"},

@@ -164,7 +164,7 @@ typedef struct bake_sight {
  * bake_sees_over: likewise between two places of a mesh, higher over it: no wall parts them.
  * bake_stands_free: does a triangle's middle see its corners so? bake_pulled: a corner, a little towards its middle. */
 int bake_sight_begin(bake_sight *s, report *r);
-void bake_sight_end(bake_sight *s);
+void bake_sight_end(bake_sight *s, const bake *b);
 int bake_sees(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 to, lmb_vec3 normal);
 int bake_sees_over(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 from_normal, lmb_vec3 to, lmb_vec3 to_normal);
 int bake_stands_free(bake_sight *s, const bake *b, const lmb_vec3 corner[3], lmb_vec3 normal);

@@ -358,6 +358,6 @@ int bake_clusters(bake *b, report *r)
     }
     ok = ok && make_rows(&c) && bake_parents(b, r) && visit(&c, bind_triangle);
     free(c.slot);
-    bake_sight_end(&c.sight);
+    bake_sight_end(&c.sight, b);
     return ok;
 }

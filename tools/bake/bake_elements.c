@@ -558,6 +558,6 @@ int bake_elements(bake *b, report *r)
     }
     free(m.slot);
     free(m.is_reached);
-    bake_sight_end(&m.sight);
+    bake_sight_end(&m.sight, b);
     return ok && bake_order(b, r);
 }

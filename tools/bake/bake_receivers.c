@@ -811,7 +811,7 @@ int bake_receivers(bake *b, report *r)
     }
     ok = ok && make_rows(&d) && mend_leaves(&d) && put_leaves(&d) && make_rows(&d);
     free(d.slot);
-    bake_sight_end(&d.sight);
+    bake_sight_end(&d.sight, b);
     b->leaves = (uint32_t)(b->section[LMB_TRANSFER_CORNERS].count / LMB_TRANSFER_CORNER_WORDS);
     free(d.queue);
     free(d.now.data);

@@ -19,6 +19,7 @@ int bake_sight_begin(bake_sight *s, report *r)
     if (s->tile == NULL) {
         return report_fail(r, "not enough memory for a tile");
     }
+    traversal_bound(&s->traversal);
     s->tile->hits = 1;
     s->tile->id[0] = 1;
     s->tile->depth[0] = 1.0f;
@@ -40,7 +41,11 @@ void bake_count_coarse(const bake *b, uint32_t calls)
     }
 }
 
-void bake_sight_end(bake_sight *s) { free(s->tile); }
+void bake_sight_end(bake_sight *s, const bake *b)
+{
+    bake_count_coarse(b, s->traversal.coarse);
+    free(s->tile);
+}
 
 lmb_vec3 bake_pulled(const bake *b, lmb_vec3 at, lmb_vec3 to)
 {

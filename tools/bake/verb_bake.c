@@ -66,7 +66,7 @@ static const option_row rows[] = {
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities,
      .help = "draft: 1024 elements, and 1500 receivers beside those at corners of triangles; default: 4096 and "
-             "7000; best: 16384 and 12000, which takes 1.5 to seven times as long as the default (default default)"},
+             "7000; best: 16384 and 12000, which takes 1.5 to nine times as long as the default (default default)"},
     {.name = "--error", .value = "SHARE", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
      .help = "how accurate the links are, which carry light from pieces of the scene to receivers: the error that one more "
              "link has to save, as a share of all light around a receiver that stands for a 10,000th of the scene's "

@@ -1,6 +1,7 @@
 /* options.c: reads command lines by a verb's table of options. The help is options_help.c's. */
 #include "options.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include <lambent/lambent.h>
@@ -229,12 +230,25 @@ static const char *wrong_part(const option_row *row, const char *value)
     return part != NULL ? part : "";
 }
 
+/* Is the value a number of the row's kind, but beyond its range? */
+static int is_beyond(const option_row *row, const char *value)
+{
+    const int is_int = row->kind >= OPTION_INT && row->kind <= OPTION_MULTIPLE_OF_8;
+    char *end;
+    const double v = is_int ? (double)strtol(value, &end, 10) : strtod(value, &end);
+    return (is_int || row->kind == OPTION_NUMBER || row->kind == OPTION_ABOVE) && end != value && *end == '\0' &&
+           (v < row->low || v > row->high || (row->kind == OPTION_ABOVE && v <= row->low));
+}
+
 static int refuse(const option_row *row, const char *value, report *r)
 {
     const char *part = wrong_part(row, value);
     const char *meant = row->kind == OPTION_WORD ? options_nearest(row->words, value) : NULL;
     char expects[320];
     options_wants(expects, sizeof expects, row);
+    if (is_beyond(row, value)) {
+        return report_fail(r, "%s: `%s` is out of range; give %s", row->name, value, expects);
+    }
     return meant != NULL ? report_fail(r, "%s: `%s` is not %s; did you mean %s?", row->name, value, expects, meant)
                          : report_fail(r, "%s: `%s` is not %s%s%s%s", row->name, value, expects,
                                        part[0] != '\0' ? ": its " : "", part, part[0] != '\0' ? " is wrong" : "");

@@ -30,6 +30,9 @@ int lmt_open(lmb_transfer *out, const file_bytes *file, const char *path, report
     const uint8_t *data = file->data;
     size_t size = file->size;
     lmb_pack pack;
+    if (size == 0) {
+        return report_fail(r, "%s: the file is empty (0 bytes); export or copy it again", path);
+    }
     if (lmp_begins(data, size)) {
         if (lmb_pack_open(&pack, data, size) != LMB_OK || !checksum_fits(data, size, LMB_PACK_HEADER_WORDS)) {
             return lmp_refuse(path, data, size, r);

@@ -208,6 +208,8 @@ static model_reader find_reader(const char *path, const file_bytes *file)
 static int load_content(model_build *b, const file_bytes *file)
 {
     const model_reader read = find_reader(b->path, file);
+    if (file->size == 0)
+        return report_fail(b->r, "%s: the file is empty (0 bytes); export or copy it again", b->path);
     if (!read)
         return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj, .ply or .lmp file", b->path);
     if (b->scene && read != gltf_load)

@@ -110,6 +110,8 @@ static const foreign_kind *foreign_kind_of(const uint8_t *data, size_t size)
 static int refuse(const uint8_t *data, size_t size, const char *name, report *r)
 {
     const foreign_kind *f = foreign_kind_of(data, size);
+    if (size == 0)
+        return report_fail(r, "%s: the file is empty (0 bytes); export or copy it again", name);
     if (f)
         return report_fail(r, "%s: this picture is %s, which is not read; convert it, for example: %s", name, f->format,
                            f->advice);

@@ -113,6 +113,8 @@ static int find_room(play_motion *m, report *r)
         report_note(!m->options->render.view.is_verbose || m->swing <= 0.0f, "the camera swings by %.3g degrees",
                     (double)m->swing * 360.0 / two_pi);
     }
+    report_note(is_quiet || space.traversal.coarse == 0, "note: %u searches for room to move have coarser visibility: "
+                "too many triangles cross there; --path gives the way instead", (unsigned)space.traversal.coarse);
     play_space_free(&space);
     return ok;
 }

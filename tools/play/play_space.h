@@ -15,7 +15,9 @@ typedef struct play_space {
     lmb_traversal traversal;
 } play_space;
 
-/* play_space_make: of a checked scene as it stands. 1, or 0 with `r` set: out of memory. */
+/* play_space_make: of a checked scene as it stands. 1, or 0 with `r` set: out of memory. All calls together spend a
+ * tile's tests of visibility (LMB_TRAVERSAL_FIRST). Beyond these, calls are answered coarsely, and traversal.coarse
+ * counts them. */
 int play_space_make(play_space *out, const lmb_scene *scene, const lmb_kernels *kernels, report *r);
 void play_space_free(play_space *space);
 

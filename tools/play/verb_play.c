@@ -214,6 +214,7 @@ static int run(play *p, report *r)
     }
     tell_frames(p);
     render_tell_coarse(p->o.render.view.is_quiet, &p->job.stats);
+    render_tell_dropped(p->o.render.view.is_quiet, &p->job.scene, &p->job.stats);
     tell_end(p);
     return (p->o.render.stats == NULL || write_stats(p, r)) && tell(p, r);
 }

@@ -25,4 +25,8 @@ int finish_write(const render_finish *f, const char *path, image *linear, int is
 /* render_tell_coarse: prints a note about tiles whose visibility is coarser, if there are any. */
 void render_tell_coarse(int is_quiet, const lmb_stats *stats);
 
+/* render_tell_dropped: prints a note about triangles that cannot be drawn, if draws met any. It counts each triangle of
+ * the scene once; stats count one each time that it is drawn, for each view and each face of a shadow map. */
+void render_tell_dropped(int is_quiet, const lmb_scene *scene, const lmb_stats *stats);
+
 #endif

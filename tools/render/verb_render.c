@@ -245,10 +245,7 @@ static int run(render_job *j, report *r)
     tell_regroups(j);
     tell_full_cuts(j);
     render_tell_coarse(j->o.view.is_quiet, &j->stats);
-    if (j->stats.triangles_dropped > 0) {
-        report_note(j->o.view.is_quiet, "note: %u triangles dropped: vertices not finite or over 2^20 m away",
-                    (unsigned)j->stats.triangles_dropped);
-    }
+    render_tell_dropped(j->o.view.is_quiet, &j->scene, &j->stats);
     const int demo = strcmp(j->o.scene, "demo") == 0 && j->o.show == LMB_SHOW_FULL && !j->o.view.is_quiet &&
                      j->o.slice.count == 0;
     if (demo && !measure_share(j, r)) {
