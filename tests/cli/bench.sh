@@ -44,7 +44,7 @@ check "bench hard prints a line a case" test "$(grep -c '^raster ' out.txt)" -ge
 status 0 bench hard mixed --json --backend scalar
 check "bench hard --json says which hold" test "$(grep -c ',"holds":true}$' out.txt)" -ge 8
 status 2 bench hard nowhere
-said "CASES: \`nowhere\` is not raster, shadow, bounce, probe, relief, mixed, far, whole, baked, cliff or sheet"
+said "CASES: \`nowhere\` is not raster, shadow, bounce, probe, relief, mixed, far, whole, baked, cliff, sheet or pillar"
 status 2 bench hard rastr
 said "did you mean raster?"
 status 2 bench hard raster shadow

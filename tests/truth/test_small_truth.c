@@ -15,6 +15,9 @@ enum { SIDE = OWN_LARGEST, BLOCK = 8, PRESETS = 3, FEW = 4 };
 /* How far a figure may grow: compilers and processors give the same pictures, so that a change of code alone does it. */
 static const double slack = 1.3;
 
+/* How far the mean may be from the truth's. */
+static const double mean_bar = 0.01;
+
 typedef struct small_row {
     const char *name;
     int bounces, best_is_slow;
@@ -113,6 +116,7 @@ static void check_bounced_light(const small_row *row, const image *truth)
         CHECK_MSG(d.error.trim <= slack * row->error[q][0], "%s, %s: trim %g", row->name, presets[q], d.error.trim);
         CHECK_MSG(d.error.rmse <= slack * row->error[q][1], "%s, %s: rmse %g", row->name, presets[q], d.error.rmse);
         CHECK_MSG(d.worst <= slack * row->error[q][2], "%s, %s: worst %g", row->name, presets[q], d.worst);
+        CHECK_MSG(fabs(d.error.mean - 1.0) <= mean_bar, "%s, %s: mean %g", row->name, presets[q], d.error.mean);
     }
 }
 

@@ -395,9 +395,14 @@ static double check_many(const char *name, int parts)
         const double spent = seconds() - start;
         if (measure(&m, &s, &truth)) {
             tests = (double)s.frame.scratch->many_lights.tests;
-            printf("  %-17s rmse %.4f, trim %.4f, mean %.4f, %.0f nodes and %.0f shadow tests a tile, %.2f s\n", name,
-                   m.rmse, m.trim, m.mean, (double)s.frame.scratch->many_lights.nodes / 1024.0, tests / 1024.0, spent);
+            const metrics_input in = input_of(&s, &truth);
+            const double worst = metrics_worst(&m, &in);
+            printf("  %-17s rmse %.4f, trim %.4f, worst %.4f, mean %.4f, %.0f nodes and %.0f shadow tests a tile, "
+                   "%.2f s\n",
+                   name, m.rmse, m.trim, worst, m.mean, (double)s.frame.scratch->many_lights.nodes / 1024.0,
+                   tests / 1024.0, spent);
             CHECK_MSG(m.rmse <= 0.015, "%s: rmse %g", name, m.rmse);
+            CHECK_MSG(worst <= 0.15, "%s: worst %g", name, worst);
             CHECK_MSG(m.mean >= 0.99 && m.mean <= 1.01, "%s: mean %g", name, m.mean);
         }
         image_free(&truth);
@@ -429,9 +434,13 @@ static void check_indirect(const char *name, int barred)
     if (truth_picture(&s.depth, name, "gbuffer_depth.pfm") && truth_picture(&truth, name, "pt_indirect1.pfm")) {
         stage_draw(&s, LMB_SHOW_INDIRECT);
         if (measure(&m, &s, &truth)) {
-            printf("  %-15s trim %.4f, e50 %.4f, e95 %.4f, mean %.4f, %u groups\n", name, m.trim, m.e50, m.e95, m.mean,
-                   (unsigned)s.stats.groups);
+            const metrics_input in = input_of(&s, &truth);
+            const double worst = metrics_worst(&m, &in);
+            printf("  %-15s trim %.4f, rmse %.4f, worst %.4f, e50 %.4f, e95 %.4f, mean %.4f, %u groups\n", name, m.trim,
+                   m.rmse, worst, m.e50, m.e95, m.mean, (unsigned)s.stats.groups);
             CHECK_MSG(!barred || m.trim <= 0.25, "%s: trim %g", name, m.trim);
+            CHECK_MSG(!barred || m.rmse <= 0.25, "%s: rmse %g", name, m.rmse);
+            CHECK_MSG(!barred || worst <= 2.0, "%s: worst %g", name, worst);
             CHECK_MSG(!barred || m.e50 <= 0.08, "%s: e50 %g", name, m.e50);
             CHECK_MSG(!barred || (m.mean >= 0.88 && m.mean <= 1.08), "%s: mean %g", name, m.mean);
             CHECK_MSG(s.stats.flux_grouped >= 0.999 * s.stats.flux_lit, "%s: %g of %g W", name, s.stats.flux_grouped,
@@ -497,6 +506,7 @@ static void check_cut(const cut_row *row)
             CHECK_MSG(m.trim <= row->trim, "%s: trim %g", row->name, m.trim);
             CHECK_MSG(m.rmse <= row->rmse, "%s: rmse %g", row->name, m.rmse);
             CHECK_MSG(worst <= row->worst, "%s: worst %g", row->name, worst);
+            CHECK_MSG(fabs(m.mean - 1.0) <= 0.01, "%s: mean %g", row->name, m.mean);
             CHECK_MSG(!m.has_leak || fabs(m.leak - 1.0) <= row->leak, "%s: leak %g", row->name, m.leak);
             CHECK(m.nonfinite == 0);
         }

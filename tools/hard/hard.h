@@ -24,5 +24,6 @@ void hard_whole(hard_list *list);
 void hard_baked(hard_list *list);
 void hard_cliff(hard_list *list);
 void hard_sheet(hard_list *list);
+void hard_pillar(hard_list *list);
 
 #endif

@@ -16,7 +16,7 @@ typedef struct hard_case {
     double figure, bound; /* holds where figure <= bound; NaN never does */
 } hard_case;
 
-enum { HARD_CASES = 192 };
+enum { HARD_CASES = 224 };
 
 typedef struct hard_list {
     hard_case item[HARD_CASES];

@@ -310,7 +310,8 @@ lmb_status hard_frame(hard_stage *s, int32_t show, int32_t map, float error)
     f.eye = s->eye;
     f.scratch = &s->scratch;
     f.stats = &s->stats;
-    lmb_tree_init(&f.tree, HARD_FACES, map < HARD_TREE ? map : HARD_TREE, s->tree_memory, s->tree_bytes);
+    const int32_t own = map < HARD_TREE ? map : HARD_TREE;
+    lmb_tree_init(&f.tree, HARD_FACES, s->tree_size > 0 ? s->tree_size : own, s->tree_memory, s->tree_bytes);
     lmb_bvh_init(&f.bvh, HARD_TRIANGLES, s->bvh_memory, s->bvh_bytes);
     f.gather_step = s->gather_step;
     lmb_lattice_init(&f.lattice, side, side, s->lattice_memory, s->lattice_bytes);

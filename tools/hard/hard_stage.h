@@ -35,6 +35,7 @@ typedef struct hard_stage {
     const lmb_transfer *transfer; /* NULL: bounced light by cuts */
     lmb_transfer_light transfer_light;
     int32_t gather_step; /* 0: every pixel */
+    int32_t tree_size;   /* first points a side; 0: as the map, HARD_TREE at most */
     void *map_memory, *tree_memory, *bvh_memory, *lattice_memory;
     size_t map_bytes, tree_bytes, bvh_bytes, lattice_bytes;
 } hard_stage;
