@@ -17,7 +17,7 @@ void test_mix_sources(void);
 enum { SIDE = 16 };
 
 static mix_patch pieces[SIDE * SIDE];
-static mix_sources square = {pieces, {0, SIDE * SIDE}, {{0, -1, 0}}};
+static mix_sources square = {.piece = pieces, .first = {0, SIDE * SIDE}};
 
 /* A unit square at height 1 that faces down, and sends `flux` W in all, or reflects it. */
 static void set_square(float flux, float alpha2, lmb_vec3 from)
