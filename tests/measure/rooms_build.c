@@ -210,7 +210,7 @@ static int dark_floor(room *r, double floor)
     made_scene *s = &r->scene;
     const int white = paint(s, 0.6, 0.6, 0.58);
     shell(s, paint(s, floor, floor, floor), white, white, at(0, 0, 0), at(3.6, 2.5, 4));
-    point(s, at(2.4, 2.2, 2.9), 8);
+    spot(s, at(2.4, 2.4, 2.9), at(1.8, 0, 2.06), 24, 40, 70);
     look(s, at(2.6, 1.3, 3.4), at(1.5, 0.2, 1.6), 46);
     object_begins(r);
     return glowing(s, 6, 5.5, 4.5);
@@ -245,18 +245,6 @@ static void build_glow_cone(room *r)
         quad(s, glow, low_a, high_a, high_b, low_b);
         quad(s, glow, high_a, top, top, high_b);
     }
-    tell_lights(r);
-}
-
-/* A table of matt grey whose leg is hidden by what glows beneath it: the table's shadow lies on the floor. */
-static void build_glow_under(room *r)
-{
-    const int glow = dark_floor(r, 0.3);
-    made_scene *s = &r->scene;
-    const int grey = paint(s, 0.5, 0.5, 0.5);
-    ball_outside(s, glow, at(1.6, 0.12, 1.7), 0.12, 16);
-    box(s, grey, at(1.35, 0.3, 1.45), at(1.85, 0.34, 1.95));
-    box(s, grey, at(1.36, 0, 1.46), at(1.42, 0.3, 1.52));
     tell_lights(r);
 }
 
@@ -299,6 +287,5 @@ const room_kind room_kinds[] = {
     {"glow_ball", build_glow_ball, "a ball that glows, on a dark floor"},
     {"glow_box", build_glow_box, "held out: a low box that glows, on the floor"},
     {"glow_cone", build_glow_cone, "held out: a cone that glows and stands on its tip"},
-    {"glow_under", build_glow_under, "held out: a ball that glows under a small table, which is put there with it"},
 };
 const int room_kind_count = COUNT_OF(room_kinds);

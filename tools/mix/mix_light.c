@@ -297,7 +297,7 @@ int mix_light(mix_job *j, report *r)
     }
     if (j->o.light_count > 0) {
         place_lights(j);
-    } else if (j->object_triangles > 0) {
+    } else if (j->object_triangles > 0 && !j->o.no_light) {
         j->sun_size = mix_guess_sun(&j->sun, j);
         if (j->sun_size < 0.0f) {
             return report_fail(r, "out of memory");

@@ -18,6 +18,8 @@
 #define ROUNDED 1e-4f
 
 enum { TREE_SIZE = 512, CELLS = 32 /* a side of the object, at most */, PATCHES = 768 /* at most */,
+       GLOWING = 4096 /* likewise, where nothing is metal: the foot of what glows is nearer than larger ones are wide */,
+       MERGED = 6 /* of these are one from afar */,
        BUNDLES = 48 /* of what emits; a way, and a light that metal reflects, begin others */ };
 
 static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b)
@@ -78,17 +80,12 @@ static void add_patch(float inout[3], const mix_patch *p, lmb_vec3 at, lmb_vec3 
     }
 }
 
-static void add_patches(float inout[3], const mix_sources *s, int32_t first, int32_t past, lmb_vec3 at, lmb_vec3 normal)
-{
-    for (int32_t i = first; i < past; ++i) {
-        add_patch(inout, &s->piece[i], at, normal);
-    }
-}
-
 void mix_sources_at(float out[3], const mix_sources *s, int32_t light, lmb_vec3 at, lmb_vec3 normal)
 {
     out[0] = out[1] = out[2] = 0.0f;
-    add_patches(out, s, s->first[light], s->first[light + 1], at, normal);
+    for (int32_t i = s->first[light]; i < s->first[light + 1]; ++i) {
+        add_patch(out, &s->piece[i], at, normal);
+    }
 }
 
 /* --- tiles -------------------------------------------------------------------------------------------------------- */
@@ -147,29 +144,73 @@ static uint64_t hidden(asked *a, const mix_sources *s, uint64_t pixels, lmb_vec3
     return found | lmb_occluded_tile(a->kernels, &a->traversal, &s->bvh, a->tile, pixels & ~some, at, noise);
 }
 
-/* Adds what a way's patches send to a tile's pixels. */
-static void add_way(lmb_irradiance *inout, asked *a, const mix_sources *s, int32_t way)
+/* Is all of a tile so far away? By its pixels at the corners, and what it may reach beyond these. */
+static int is_afar(const lmb_tile *t, const mix_bundle *b)
 {
-    const lmb_tile *t = a->tile;
-    for (int32_t b = s->bundles[way]; b < s->bundles[way + 1]; ++b) {
-        const mix_bundle *from = &s->bundle[b];
-        lmb_irradiance sent;
-        uint64_t reached = 0;
-        memset(&sent, 0, sizeof sent);
+    static const int32_t corner[] = {0, 7, 56, 63};
+    float near = INFINITY, wide = 0.0f;
+    for (int i = 0; i < 4; ++i) {
+        const lmb_vec3 off = less(of_planes(t->position, corner[i]), b->middle),
+                       side = less(of_planes(t->position, corner[i]), of_planes(t->position, 27));
+        if (t->id[corner[i]] == 0 || t->id[27] == 0) {
+            return 0;
+        }
+        near = fminf(near, sqrtf(dot(off, off)));
+        wide = fmaxf(wide, sqrtf(dot(side, side)));
+    }
+    return near - wide > b->reach;
+}
+
+/* What a bundle's patches send to some of a tile's pixels. Returns those that get something. *at: the place of the patch that
+ * sends most to them all: one that turns its back on them the object itself would hide. */
+static uint64_t send_bundle(lmb_irradiance *out, lmb_vec3 *at, const lmb_tile *t, const mix_sources *s, const mix_bundle *from,
+                            uint64_t pixels)
+{
+    uint64_t reached = 0;
+    float most = 0.0f;
+    const int afar = is_afar(t, from);
+    memset(out, 0, sizeof *out);
+    for (int32_t i = afar ? from->far_first : from->first; i < (afar ? from->far_past : from->past); ++i) {
+        float all = 0.0f;
         for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
             float rgb[3] = {0, 0, 0};
-            if (t->id[k] != 0) {
-                add_patches(rgb, s, from->first, from->past, of_planes(t->position, k), of_planes(t->normal, k));
-                reached |= (uint64_t)(rgb[0] + rgb[1] + rgb[2] > 0.0f) << k;
+            if ((pixels >> k & 1u) == 0) {
+                continue;
             }
+            add_patch(rgb, &s->piece[i], of_planes(t->position, k), of_planes(t->normal, k));
+            const float one = rgb[0] + rgb[1] + rgb[2];
+            all += one;
+            reached |= (uint64_t)(one > 0.0f) << k;
             for (int c = 0; c < 3; ++c) {
-                sent.rgb[c][k] = rgb[c];
+                out->rgb[c][k] += rgb[c];
             }
         }
-        reached &= reached != 0 ? ~hidden(a, s, reached, from->at) : 0;
-        for (int32_t k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
-            const int32_t c = k / LMB_TILE_PIXELS, i = k % LMB_TILE_PIXELS;
-            inout->rgb[c][i] += (reached >> i & 1u) != 0 ? sent.rgb[c][i] : 0.0f;
+        *at = all > most ? s->piece[i].on : *at;
+        most = fmaxf(most, all);
+    }
+    return reached;
+}
+
+/* Adds what a way's patches send to a tile's pixels. Those that do not see the place ask again with that of the patch that
+ * sends most to them: near the foot of a ball each pixel sees another part of its side. */
+static void add_way(lmb_irradiance *inout, asked *a, const mix_sources *s, int32_t way)
+{
+    enum { AGAIN = 3 };
+    uint64_t all = 0;
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        all |= (uint64_t)(a->tile->id[k] != 0) << k;
+    }
+    for (int32_t b = s->bundles[way]; b < s->bundles[way + 1]; ++b) {
+        uint64_t left = all;
+        for (int i = 0; i < AGAIN && left != 0; ++i) {
+            lmb_irradiance sent;
+            lmb_vec3 at = {0, 0, 0};
+            const uint64_t reached = send_bundle(&sent, &at, a->tile, s, &s->bundle[b], left);
+            left = reached != 0 ? hidden(a, s, reached, at) : 0;
+            for (int32_t k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+                const int32_t c = k / LMB_TILE_PIXELS, p = k % LMB_TILE_PIXELS;
+                inout->rgb[c][p] += ((reached & ~left) >> p & 1u) != 0 ? sent.rgb[c][p] : 0.0f;
+            }
         }
     }
 }
@@ -302,6 +343,9 @@ static int by_order(const void *a, const void *b)
 }
 
 static uint32_t cell_of(float at, float low, float per) { return (uint32_t)fminf(fmaxf((at - low) * per, 0.0f), 31.0f); }
+
+/* So many widths of a merged patch away a place sees it as one. */
+#define AFAR 8.0f
 
 /* Five bits, each the third one of what is returned: cells that follow each other lie side by side. */
 static uint32_t apart(uint32_t v)
@@ -573,34 +617,17 @@ static void set_light(lmb_light *out, const point *p, size_t count, float clear)
 static float choose_cell(points *s, float side, size_t *patches)
 {
     float cell = side / CELLS;
-    while ((*patches = sort_points(s, cell)) > PATCHES && cell < side) {
+    size_t most = GLOWING;
+    for (size_t i = 0; i < s->count; ++i) {
+        most = s->all[i].p.alpha2 > 0.0f ? PATCHES : most;
+    }
+    while ((*patches = sort_points(s, cell)) > most && cell < side) {
         cell *= 1.25f;
     }
     return cell;
 }
 
 static float sends(const mix_patch *p) { return p->flux[0] + p->flux[1] + p->flux[2]; }
-
-/* The place of the patch that is nearest to the middle of its bundle. */
-static lmb_vec3 place_of(const mix_patch *p, int32_t first, int32_t past)
-{
-    lmb_vec3 middle = {0, 0, 0};
-    float weight = 0.0f, near = INFINITY;
-    int32_t best = first;
-    for (int32_t i = first; i < past; ++i) {
-        middle = plus(middle, times(p[i].at, sends(&p[i])));
-        weight += sends(&p[i]);
-    }
-    middle = times(middle, 1.0f / weight);
-    for (int32_t i = first; i < past; ++i) {
-        const lmb_vec3 off = less(p[i].at, middle);
-        if (dot(off, off) < near) {
-            near = dot(off, off);
-            best = i;
-        }
-    }
-    return p[best].on;
-}
 
 /* Adds patch i to its way's last bundle, or begins one where that sends its share. */
 static void add_to_bundle(mix_sources *s, int32_t way, int32_t i, int is_new, float share)
@@ -615,6 +642,52 @@ static void add_to_bundle(mix_sources *s, int32_t way, int32_t i, int is_new, fl
         last->first = i;
     }
     last->past = i + 1;
+}
+
+/* What a few patches are from afar. */
+static mix_patch merge(const mix_patch *p, int32_t count)
+{
+    mix_patch out = p[0];
+    float all = 0.0f, most = 0.0f;
+    out.at = out.normal = (lmb_vec3){0, 0, 0};
+    out.area = out.flux[0] = out.flux[1] = out.flux[2] = 0.0f;
+    for (int32_t i = 0; i < count; ++i) {
+        const float one = sends(&p[i]);
+        out.at = plus(out.at, times(p[i].at, one));
+        out.normal = plus(out.normal, times(p[i].normal, one));
+        out.area += p[i].area;
+        out.on = one > most ? p[i].on : out.on;
+        most = fmaxf(most, one);
+        all += one;
+        for (int c = 0; c < 3; ++c) {
+            out.flux[c] += p[i].flux[c];
+        }
+    }
+    out.at = times(out.at, 1.0f / all);
+    out.normal = times(out.normal, 1.0f / sqrtf(fmaxf(dot(out.normal, out.normal), 1e-30f)));
+    return out;
+}
+
+/* Metal's patches stay: lobes are narrow. Returns how many pieces there are then. */
+static int32_t add_far(mix_sources *s, mix_bundle *b, int32_t n)
+{
+    float far = 0.0f;
+    if (s->piece[b->first].alpha2 > 0.0f) {
+        b->reach = INFINITY;
+        return n;
+    }
+    b->far_first = n;
+    for (int32_t i = b->first; i < b->past; i += MERGED) {
+        s->piece[n++] = merge(&s->piece[i], b->past - i < MERGED ? b->past - i : MERGED);
+    }
+    b->far_past = n;
+    b->middle = merge(&s->piece[b->first], b->past - b->first).at;
+    for (int32_t i = b->first; i < b->past; ++i) {
+        const lmb_vec3 off = less(s->piece[i].at, b->middle);
+        far = fmaxf(far, sqrtf(dot(off, off)));
+    }
+    b->reach = far + AFAR * sqrtf(MERGED * s->piece[b->first].area);
+    return n;
 }
 
 /* The points of one way, from s->all[at] on; returns how many. */
@@ -647,7 +720,7 @@ static int32_t make_patches(lmb_light out[MIX_WAYS], points *s, float side, mix_
     float all = 0.0f;
     const float cell = choose_cell(s, side, &patches);
     mix_sources *to = j->sources = mix_take(j, sizeof *to, r);
-    if (to == NULL || (to->piece = mix_take(j, (patches + 1) * sizeof *to->piece, r)) == NULL ||
+    if (to == NULL || (to->piece = mix_take(j, 2 * (patches + 1) * sizeof *to->piece, r)) == NULL ||
         (to->bundle = mix_take(j, (patches + 1) * sizeof *to->bundle, r)) == NULL) {
         return -1;
     }
@@ -660,8 +733,9 @@ static int32_t make_patches(lmb_light out[MIX_WAYS], points *s, float side, mix_
     for (size_t at = 0; at < s->count; ++ways) {
         at += make_way(&out[ways], to, s, at, ways, cell, CLEAR * side, all / BUNDLES);
     }
+    int32_t n = to->first[ways];
     for (int32_t i = 0; i < to->bundles[ways]; ++i) {
-        to->bundle[i].at = place_of(to->piece, to->bundle[i].first, to->bundle[i].past);
+        n = add_far(to, &to->bundle[i], n);
     }
     to->noise = ROUNDED * side;
     return ways;

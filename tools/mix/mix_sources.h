@@ -17,17 +17,19 @@ typedef struct mix_patch {
     lmb_vec3 on;      /* the place of the surface in it that sends most */
 } mix_patch;
 
-/* Patches first .. past - 1 of one way, side by side: a place sees all of them, or none, by the one point `at`. */
+/* Patches first .. past - 1 of one way, side by side: a pixel sees all of them that face it, or none. */
 typedef struct mix_bundle {
     int32_t first, past;
-    lmb_vec3 at;
+    int32_t far_first, far_past; /* pieces that stand for them from `reach` m on */
+    lmb_vec3 middle;
+    float reach;
 } mix_bundle;
 
 /* Patches by way; each way that has some has a light of 1 W/sr among the job's last ones, which tells lobes where it comes
  * from. No map is drawn from that: right under a ball on a floor a light of the ball would lie in the floor. */
 typedef struct mix_sources {
     mix_patch *piece;
-    int32_t first[MIX_WAYS + 1]; /* by light: pieces first[i] .. first[i + 1] - 1 */
+    int32_t first[MIX_WAYS + 1]; /* by light: pieces first[i] .. first[i + 1] - 1; behind the last ones those for afar */
     mix_bundle *bundle;
     int32_t bundles[MIX_WAYS + 1]; /* by light, likewise */
     lmb_bvh bvh; /* of the scene */
