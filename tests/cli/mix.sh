@@ -124,6 +124,15 @@ check "depth of another size is resampled" "$TOOL" compare half_mixed.pfm mixed.
 { printf 'Pf\n12 6\n-1.0\n'; repeated 72 "$two"; } >flat.pfm
 status 1 mix --photo photo.pfm --depth flat.pfm --intrinsics 30,30,11.5,11.5 -o bad.png
 said "12 x 6 pixels, the photo has 24 x 24"
+# What each pixel shows of the object, beside the picture: its depth is the plane's where it hangs on the wall, its mask white there.
+status 0 mix $seen --object tent.obj --scale 0.3 --labels lab --light none -o mixed.png
+for file in lab.mask.png lab.depth.pfm lab.normal.pfm lab.pose.json; do
+    check "--labels writes $file" test -s $file
+done
+check "the depth of the object is before the wall" sh -c '"$1" info "$2" | grep -q "max 1\.[0-9]*\|max 2 "' sh "$TOOL" lab.depth.pfm
+check "the pose is as far away as the wall" grep -q 'object_to_camera' lab.pose.json
+status 2 mix $seen --labels lab -o mixed.png
+said "--labels is of an object in the photo"
 status 0 mix --help
 
 finish

@@ -436,7 +436,7 @@ static void sun_is_by_shadows(void)
         const float share = -sun.direction.y * sun.intensity[1] / rgb[1];
         CHECK_MSG(!has_shadow || (cosine > 0.906f && size < 20.0f && share > 0.5f && share < 2.5f), "%d: cosine %g, %g wide, %g", i,
                   (double)cosine, (double)size, (double)share);
-        CHECK_MSG(has_shadow || (sun.direction.y < -0.99f && size > 40.0f && share < 0.3f), "%d: from %g, %g wide, %g", i,
+        CHECK_MSG(has_shadow || (sun.direction.y < -0.99f && size > 40.0f && share < 0.5f), "%d: from %g, %g wide, %g", i,
                   (double)-sun.direction.y, (double)size, (double)share);
         mix_job_free(j);
     }

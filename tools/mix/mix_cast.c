@@ -190,7 +190,7 @@ static void add_open(cast *c, lmb_vec3 to)
 }
 
 /* What its shadows explain: squares of stops, less those that they would have the wrong way round. *stops: by how many
- * they are darker. */
+ * they would be darker on a surface that faces the sun. */
 static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_first)
 {
     const int32_t all = c->first[c->j->planes.count], rays = size > 0.0f ? RAYS : 1;
@@ -210,7 +210,8 @@ static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_fi
         const int32_t n = c->first[p + 1] - c->first[p];
         const place *here = c->all + c->first[p];
         double here_xy = 0.0, here_xx = 0.0;
-        if (n == 0 || !(dot(here->normal, to) > 0.05f)) {
+        const double cosine = n > 0 ? (double)dot(here->normal, to) : 0.0;
+        if (!(cosine > 0.05)) {
             continue;
         }
         flatten(c->lit + c->first[p], 1, here, n);
@@ -220,8 +221,8 @@ static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_fi
         }
         if (here_xx > 1.0) {
             sum += (here_xy > 0.0 ? 1.0 : -1.0) * here_xy * here_xy / here_xx;
-            xy += here_xy;
-            xx += here_xx;
+            xy += cosine * here_xy;
+            xx += cosine * cosine * here_xx;
         }
     }
     *stops = xx > 0.0 ? xy / xx : 0.0;

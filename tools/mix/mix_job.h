@@ -118,6 +118,7 @@ typedef struct mix_job {
     int is_settled;      /* a camera that stands still: pixels that measure what they did keep the last frame's answer */
     mix_answer *answer;  /* of a sequence, by pixel; NULL: it is not kept */
     image picture;       /* linear */
+    struct mix_labels *labels; /* what each pixel shows of the object; NULL: nobody asks */
     double read_s, planes_s, place_s, light_s, build_s, voxels_s, draw_s; /* build_s: of voxels_s */
     mix_memory blocks[MIX_BLOCKS];
     int block_count;

@@ -137,6 +137,10 @@ static const option_row output_rows[] = {
              "round middle grey;\nplanes: each in its colour;\nvoxels: the light in them as the camera sees "
              "it;\nenv: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\nobject: alone, before "
              "black")},
+    {.name = "--labels", .value = "PREFIX", .kind = OPTION_TEXT, AT(labels),
+     .help = HELP("also PREFIX.mask.png: white where the object is seen; PREFIX.depth.pfm: its depth, m; PREFIX.normal.pfm: its "
+             "normals, x right, y up, z towards the camera; PREFIX.pose.json: from the mesh to the camera, as camera_to_world, and "
+             "to the world")},
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
      .help = HELP("a pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
@@ -181,6 +185,9 @@ static int complete_frames(const mix_options *o, report *r)
     if (o->out == NULL || frame_digits(o->out) == 0) {
         return report_fail(r, "--frames: -o is a name with one %%0Nd, as frame_%%04d.png");
     }
+    if (o->labels != NULL) {
+        return report_fail(r, "--frames: --labels is of one photo");
+    }
     if (o->stats != NULL) {
         return report_fail(r, "--frames: --stats is of one photo; -v says what each frame took");
     }
@@ -210,6 +217,9 @@ static int complete(const mix_options *o, report *r)
     }
     if (o->source.has_intrinsics && !mix_is_camera(o->source.intrinsics)) {
         return report_fail(r, "--intrinsics: focal lengths are over 0, and all four in pixels");
+    }
+    if (o->labels != NULL && (o->object == NULL || o->show != MIX_FINAL)) {
+        return report_fail(r, "--labels is of an object in the photo; add --object MESH, and leave --show out");
     }
     if (o->object == NULL && (o->show == MIX_OBJECT || o->show == MIX_VOXELS)) {
         return report_fail(r, "--show: no object given; add --object MESH");

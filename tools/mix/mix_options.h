@@ -24,7 +24,7 @@ enum { MIX_ON_ANY = 0, MIX_ON_FLOOR, MIX_ON_TABLE, MIX_ON_WALL };
 typedef struct mix_options {
     mix_source source;
     const char *frames; /* a list instead of `source`'s files */
-    const char *object, *world, *out, *stats;
+    const char *object, *world, *out, *stats, *labels;
     model_choice choice; /* choices for the file of the object */
     float scale;      /* m of a unit of the mesh; 0: 1, or with `fit` chosen */
     int fit;

@@ -137,7 +137,7 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 #define UNSURE    0.2f
 #define SURE      0.3f
 #define WIDE      80.0f
-#define WEAK      0.15f
+#define WEAK      0.35f
 #define SHARE_MAX 4.0f
 
 typedef struct guess {
@@ -182,7 +182,7 @@ float mix_guess_sun(lmb_light *out, const mix_job *j)
         return -1.0f;
     }
     const lmb_vec3 from = g.from;
-    const float more = j->o.world != NULL ? 1.0f : brighter(j, from, g.share * grey_around(j, faces) / along(from, faces)),
+    const float more = j->o.world != NULL ? 1.0f : brighter(j, from, g.share * grey_around(j, faces)),
                 by[3] = {more, more, more};
     if (!(more > 0.0f)) {
         return -1.0f;
@@ -196,7 +196,7 @@ float mix_guess_sun(lmb_light *out, const mix_job *j)
     out->cos_inner = out->cos_outer = 1.0f;
     lmb_env_irradiance(around, &j->env[0], faces);
     for (int c = 0; c < 3; ++c) {
-        out->intensity[c] = g.share * around[c] / along(from, faces);
+        out->intensity[c] = g.share * around[c];
     }
     report_note(j->o.is_quiet,
                 "no light given: %s, %.2f as strong as what is around, which is %.2f times as bright as the photo has it%s; "
