@@ -108,7 +108,7 @@ status 0 mix $seen $tent --up 0,0,1 -o mixed.pfm
 check "--up: what faces the camera is a floor" lacks "no plane faces up" err.txt
 said "stands on number 1"
 status 0 mix $seen $tent --up camera -o mixed.pfm
-said "no plane faces up"
+check "--up camera: that is a wall" holds "hangs on number 1" err.txt
 status 2 mix $seen $tent --up 0,0,0 -o bad.png
 status 2 mix $seen $tent --up down -o bad.png
 # No light at all, and not beside another.

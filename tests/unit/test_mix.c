@@ -526,7 +526,7 @@ static void sun_fits_the_photo(void)
     const float wide = guessed_size(&plain, 1.0f, 1.0f), half = guessed_size(&shadowed, 0.45f, 1.0f);
     guessed_size(&bright, 1.0f, 0.3f);
     CHECK_MSG(wide > 40.0f && half > 40.0f, "%g, %g degrees", (double)wide, (double)half);
-    CHECK_MSG(plain > 1.1f && plain < 1.6f, "%g", (double)plain);
+    CHECK_MSG(plain > 1.1f && plain < 1.8f, "%g", (double)plain);
     CHECK_MSG(bright > 1.2f && bright < 1.5f, "%g", (double)bright);
 }
 

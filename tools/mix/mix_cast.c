@@ -13,6 +13,10 @@ enum { COLUMNS = 80 /* of places, about */, WAYS = 240, TURNS = 8, RAYS = 16, TE
 #define CLEAR   0.005f /* m: what is nearer to a place is its own plane. More makes shadows shorter, and the sun lower */
 #define CLIPPED 0.98f
 #define DARKEST 1e-4f
+#define WHITE   0.05   /* of a plane's pixels */
+#define RED_STOPS  0.5f /* from the plane's mean colour on a place is of another colour: a sun and a sky differ by blue */
+#define BLUE_STOPS 0.9f
+#define DARKER  3.0    /* stops: what is darker is a picture or a rug, no shadow */
 #define STOPS   1.5f   /* by which a place's light counts at most: pictures on a wall are no shadows */
 
 /* A place of a plane: how far its light is from the plane's other places, in stops, smooth change taken out. */
@@ -56,19 +60,60 @@ static int32_t step_of(const mix_job *j)
     return step < 1 ? 1 : step;
 }
 
-/* The mean of a block of plane p; 0 where some of it is another's, or white. */
-static float light_of(const mix_job *j, int32_t p, int32_t x0, int32_t y0, int32_t step)
+/* A plane's own look: the channel that tells its light, which is its brightest one that is hardly anywhere white; and its
+ * mean colour, as stops of red and blue over green. */
+typedef struct look {
+    int channel;
+    float red, blue;
+} look;
+
+static float stops_over(float a, float b) { return log2f(fmaxf(a, DARKEST) / fmaxf(b, DARKEST)); }
+
+static look look_of(const mix_job *j, int32_t p)
 {
-    float sum = 0.0f;
+    const size_t pixels = (size_t)j->frame.camera.width * (size_t)j->frame.camera.height;
+    double sum[3] = {0, 0, 0}, white[3] = {0, 0, 0}, n = 0.0;
+    look out = {1, 0, 0};
+    for (size_t i = 0; i < pixels; ++i) {
+        for (int c = 0; c < 3 && j->planes.label[i] == p + 1; ++c) {
+            const float one = j->frame.light.pixels[3 * i + (size_t)c];
+            sum[c] += one >= 0.0f ? (double)fminf(one, 1.0f) : 0.0;
+            white[c] += !(one < CLIPPED);
+            n += 1.0 / 3.0;
+        }
+    }
+    double best = -INFINITY;
+    for (int c = 0; c < 3; ++c) {
+        const double value = sum[c] - (white[c] > WHITE * n ? 4.0 * n + 2.0 * sum[c] : 0.0); /* of white ones the darkest */
+        if (value > best) {
+            best = value;
+            out.channel = c;
+        }
+    }
+    out.red = stops_over((float)sum[0], (float)sum[1]);
+    out.blue = stops_over((float)sum[2], (float)sum[1]);
+    return out;
+}
+
+/* The light of a block of plane p; 0 where some of it is another's, or white, or where its colour is no shadow's: those are
+ * bluer or redder than what is beside them, but hardly greener. */
+static float light_of(const mix_job *j, int32_t p, const look *l, int32_t x0, int32_t y0, int32_t step)
+{
+    float sum[3] = {0, 0, 0}, peak = 0.0f;
     for (int32_t k = 0; k < step * step; ++k) {
         const size_t at = (size_t)(y0 + k / step) * (size_t)j->frame.camera.width + (size_t)(x0 + k % step);
-        const float *rgb = j->frame.light.pixels + 3 * at, one = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
-        if (j->planes.label[at] != p + 1 || !(fmaxf(rgb[0], fmaxf(rgb[1], rgb[2])) < CLIPPED) || !(one >= 0.0f)) {
+        const float *rgb = j->frame.light.pixels + 3 * at;
+        if (j->planes.label[at] != p + 1 || !(rgb[l->channel] < CLIPPED) || !(rgb[l->channel] >= 0.0f)) {
             return 0.0f;
         }
-        sum += one;
+        for (int c = 0; c < 3; ++c) {
+            sum[c] += rgb[c] / (float)(step * step);
+            peak = fmaxf(peak, rgb[c]);
+        }
     }
-    return fmaxf(sum / (float)(step * step), DARKEST);
+    const int is_alike = !(peak < CLIPPED) || (fabsf(stops_over(sum[0], sum[1]) - l->red) < RED_STOPS &&
+                                               fabsf(stops_over(sum[2], sum[1]) - l->blue) < BLUE_STOPS);
+    return is_alike ? fmaxf(sum[l->channel], DARKEST) : 0.0f;
 }
 
 static int32_t add_plane(cast *c, int32_t p, int32_t n)
@@ -76,9 +121,10 @@ static int32_t add_plane(cast *c, int32_t p, int32_t n)
     const mix_job *j = c->j;
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height, step = step_of(j);
     const lmb_vec3 normal = lmb_axes_turn(&j->axes, j->planes.plane[p].normal);
+    const look l = look_of(j, p);
     for (int32_t y = 0; y + step <= h; y += step) {
         for (int32_t x = 0; x + step <= w; x += step) {
-            const float light = light_of(j, p, x, y, step);
+            const float light = light_of(j, p, &l, x, y, step);
             const int32_t mx = x + step / 2, my = y + step / 2, at = my * w + mx;
             if (!(light > 0.0f) || !(j->cloud.inverse[at] > 0.0f)) {
                 continue;
@@ -311,8 +357,8 @@ static void measure(mix_cast *out, cast *c)
             out->size = sizes[i];
         }
     }
-    out->explained = c->total > 0.0 ? (float)(best / c->total) : 0.0f;
-    out->share = (float)(exp2(fmin(fmax(stops, 0.0), 3.0)) - 1.0);
+    out->explained = c->total > 0.0 && stops < DARKER ? (float)(best / c->total) : 0.0f;
+    out->share = (float)(exp2(fmin(fmax(stops, 0.0), DARKER)) - 1.0);
 }
 
 static int build_bvh(cast *c)

@@ -8,6 +8,8 @@
 #define EDGE  0.05f /* of a distance: samples that differ by more lie on two surfaces */
 #define ALIKE 0.08f /* of two colours' difference: how much tells the surfaces apart */
 
+enum { COARSEST = 16 /* photo's pixels a sample, each way */ };
+
 /* One of the four samples around a pixel. */
 typedef struct sample {
     float inverse, weight, alike; /* 1/m, 0: not measured; by how near it is; and by its colour */
@@ -79,5 +81,6 @@ int mix_has_shape(const mix_frame *f, const image *in)
 {
     const double wide = (double)in->width * (double)f->light.height, high = (double)in->height * (double)f->light.width,
                  most = (double)(f->light.height > f->light.width ? f->light.height : f->light.width);
-    return fabs(wide - high) <= 0.5 * most; /* half a sample, of sizes that are rounded */
+    return fabs(wide - high) <= 0.5 * most && /* half a sample, of sizes that are rounded */
+           in->width >= f->light.width / COARSEST && in->height >= f->light.height / COARSEST;
 }
