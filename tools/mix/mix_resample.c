@@ -50,7 +50,7 @@ static float pixel_of(const mix_frame *f, const image *in, int32_t x, int32_t y,
                 at[2] = {((float)x + 0.5f) * px - 0.5f, ((float)y + 0.5f) * py - 0.5f};
     const int32_t x0 = (int32_t)floorf(at[0]), y0 = (int32_t)floorf(at[1]);
     const float *own = f->light.pixels + 3 * ((size_t)y * (size_t)f->light.width + (size_t)x);
-    float nearest = 0.0f, most = 0.0f;
+    float nearest = 0.0f, max = 0.0f;
     sample s[4];
     for (int i = 0; i < 4; ++i) {
         const int32_t ix = x0 + i % 2, iy = y0 + i / 2, sx = inside(ix, in->width), sy = inside(iy, in->height),
@@ -61,8 +61,8 @@ static float pixel_of(const mix_frame *f, const image *in, int32_t x, int32_t y,
         s[i].inverse = d > 0.0f && d < INFINITY ? 1.0f / d : 0.0f;
         s[i].weight = fmaxf(1.0f - fabsf(at[0] - (float)ix), 0.0f) * fmaxf(1.0f - fabsf(at[1] - (float)iy), 0.0f);
         s[i].alike = (s[i].weight + 0.05f) * expf(-difference(own, colour) / (ALIKE * ALIKE));
-        nearest = s[i].weight > most ? s[i].inverse : nearest;
-        most = fmaxf(most, s[i].weight);
+        nearest = s[i].weight > max ? s[i].inverse : nearest;
+        max = fmaxf(max, s[i].weight);
     }
     return nearest > 0.0f ? depth_of(s) : 0.0f; /* a hole stays one */
 }
@@ -80,7 +80,7 @@ int mix_resample(mix_frame *f, const image *in, float scale)
 int mix_has_shape(const mix_frame *f, const image *in)
 {
     const double wide = (double)in->width * (double)f->light.height, high = (double)in->height * (double)f->light.width,
-                 most = (double)(f->light.height > f->light.width ? f->light.height : f->light.width);
-    return fabs(wide - high) <= 0.5 * most && /* half a sample, of sizes that are rounded */
+                 max = (double)(f->light.height > f->light.width ? f->light.height : f->light.width);
+    return fabs(wide - high) <= 0.5 * max && /* half a sample, of sizes that are rounded */
            in->width >= f->light.width / COARSEST && in->height >= f->light.height / COARSEST;
 }

@@ -167,7 +167,7 @@ static uint64_t send_bundle(lmb_irradiance *out, lmb_vec3 *at, const lmb_tile *t
                             uint64_t pixels)
 {
     uint64_t reached = 0;
-    float most = 0.0f;
+    float max = 0.0f;
     const int afar = is_afar(t, from);
     memset(out, 0, sizeof *out);
     for (int32_t i = afar ? from->far_first : from->first; i < (afar ? from->far_past : from->past); ++i) {
@@ -185,8 +185,8 @@ static uint64_t send_bundle(lmb_irradiance *out, lmb_vec3 *at, const lmb_tile *t
                 out->rgb[c][k] += rgb[c];
             }
         }
-        *at = all > most ? s->piece[i].on : *at;
-        most = fmaxf(most, all);
+        *at = all > max ? s->piece[i].on : *at;
+        max = fmaxf(max, all);
     }
     return reached;
 }
@@ -378,13 +378,13 @@ static size_t sort_points(points *s, float cell)
 /* Means by flux. */
 static void gather(mix_patch *out, const point *from, size_t count, float cell)
 {
-    float weight = 0.0f, most = 0.0f;
+    float weight = 0.0f, max = 0.0f;
     memset(out, 0, sizeof *out);
     for (size_t i = 0; i < count; ++i) {
         const point *p = &from[i];
         weight += p->weight;
-        out->on = p->weight > most ? p->p.at : out->on;
-        most = fmaxf(most, p->weight);
+        out->on = p->weight > max ? p->p.at : out->on;
+        max = fmaxf(max, p->weight);
         out->at = plus(out->at, times(p->p.at, p->weight));
         out->normal = plus(out->normal, times(p->p.normal, p->weight));
         out->from = plus(out->from, times(p->p.from, p->weight));
@@ -617,11 +617,11 @@ static void set_light(lmb_light *out, const point *p, size_t count, float clear)
 static float choose_cell(points *s, float side, size_t *patches)
 {
     float cell = side / CELLS;
-    size_t most = GLOWING;
+    size_t max = GLOWING;
     for (size_t i = 0; i < s->count; ++i) {
-        most = s->all[i].p.alpha2 > 0.0f ? PATCHES : most;
+        max = s->all[i].p.alpha2 > 0.0f ? PATCHES : max;
     }
-    while ((*patches = sort_points(s, cell)) > most && cell < side) {
+    while ((*patches = sort_points(s, cell)) > max && cell < side) {
         cell *= 1.25f;
     }
     return cell;
@@ -648,7 +648,7 @@ static void add_to_bundle(mix_sources *s, int32_t way, int32_t i, int is_new, fl
 static mix_patch merge(const mix_patch *p, int32_t count)
 {
     mix_patch out = p[0];
-    float all = 0.0f, most = 0.0f;
+    float all = 0.0f, max = 0.0f;
     out.at = out.normal = (lmb_vec3){0, 0, 0};
     out.area = out.flux[0] = out.flux[1] = out.flux[2] = 0.0f;
     for (int32_t i = 0; i < count; ++i) {
@@ -656,8 +656,8 @@ static mix_patch merge(const mix_patch *p, int32_t count)
         out.at = plus(out.at, times(p[i].at, one));
         out.normal = plus(out.normal, times(p[i].normal, one));
         out.area += p[i].area;
-        out.on = one > most ? p[i].on : out.on;
-        most = fmaxf(most, one);
+        out.on = one > max ? p[i].on : out.on;
+        max = fmaxf(max, one);
         all += one;
         for (int c = 0; c < 3; ++c) {
             out.flux[c] += p[i].flux[c];

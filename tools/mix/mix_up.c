@@ -66,15 +66,15 @@ int32_t mix_floor(const mix_job *j)
 {
     lmb_vec3 up;
     int32_t best = -1;
-    float most = 0.0f;
+    float max = 0.0f;
     if (!told_up(&up, j)) {
         return lmb_planes_floor(&j->planes);
     }
     for (int32_t i = 0; i < j->planes.count; ++i) {
         const lmb_flat *p = &j->planes.plane[i];
         const float size = (float)p->pixels * (dot(p->normal, up) - LEVEL);
-        if (size > most) {
-            most = size;
+        if (size > max) {
+            max = size;
             best = i;
         }
     }
