@@ -2,6 +2,7 @@
 #include "mix_job.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define SPECK 2e-4f /* of the picture's pixels; at least LEAST */
@@ -67,12 +68,10 @@ int mix_drop_islands(mix_job *j, report *r)
     islands s;
     memset(&s, 0, sizeof s);
     s.j = j;
-    s.pixel = mix_take(j, (size_t)pixels * sizeof *s.pixel, r);
-    s.done = mix_take(j, (size_t)pixels, r);
-    if (s.pixel == NULL || s.done == NULL) {
-        return 0;
-    }
-    for (int32_t i = 0; i < pixels; ++i) {
+    s.pixel = malloc((size_t)pixels * sizeof *s.pixel);
+    s.done = calloc((size_t)pixels, 1);
+    const int ok = s.pixel != NULL && s.done != NULL;
+    for (int32_t i = 0; ok && i < pixels; ++i) {
         if (s.done[i] || j->planes.label[i] == 0) {
             continue;
         }
@@ -81,5 +80,7 @@ int mix_drop_islands(mix_job *j, report *r)
             drop(&s);
         }
     }
-    return 1;
+    free(s.pixel);
+    free(s.done);
+    return ok || report_fail(r, "out of memory");
 }
