@@ -103,6 +103,36 @@ status 2 mix $seen -o bad.png --show nonsense
 status 2 mix $seen -o bad.png --shadow-map 100
 status 2 mix $seen -o bad.png --roughness 2
 status 2 mix $seen -o bad.png --show object
+# What is up is told: a camera that looks down on a desk has the desk before it, as others have a wall.
+status 0 mix $seen $tent --up 0,0,1 -o mixed.pfm
+check "--up: what faces the camera is a floor" lacks "no plane faces up" err.txt
+said "stands on number 1"
+status 0 mix $seen $tent --up camera -o mixed.pfm
+check "--up camera: that is a wall" holds "hangs on number 1" err.txt
+status 2 mix $seen $tent --up 0,0,0 -o bad.png
+status 2 mix $seen $tent --up down -o bad.png
+# No light at all, and not beside another.
+status 0 mix $seen $tent --light none -o mixed.pfm
+check "--light none guesses no light" lacks "no light given" err.txt
+status 2 mix $seen $tent --light none --light sun:0,0,0:0.6,-0.2,-1:2,2,2 -o bad.png
+said "--light none leaves all lights out"
+# Depth of half the size, and of another shape.
+{ printf 'Pf\n12 12\n-1.0\n'; repeated 144 "$two"; } >half.pfm
+status 0 mix --photo photo.pfm --depth half.pfm --intrinsics 30,30,11.5,11.5 $tent --light none -o half_mixed.pfm
+status 0 mix $seen $tent --light none -o mixed.pfm
+check "depth of another size is resampled" "$TOOL" compare half_mixed.pfm mixed.pfm --max rmse=0.001
+{ printf 'Pf\n12 6\n-1.0\n'; repeated 72 "$two"; } >flat.pfm
+status 1 mix --photo photo.pfm --depth flat.pfm --intrinsics 30,30,11.5,11.5 -o bad.png
+said "12 x 6 pixels, the photo has 24 x 24"
+# What each pixel shows of the object, beside the picture: its depth is the plane's where it hangs on the wall, its mask white there.
+status 0 mix $seen --object tent.obj --scale 0.3 --labels lab --light none -o mixed.png
+for file in lab.mask.png lab.depth.pfm lab.normal.pfm lab.pose.json; do
+    check "--labels writes $file" test -s $file
+done
+check "the depth of the object is before the wall" sh -c '"$1" info "$2" | grep -q "max 1\.[0-9]*\|max 2 "' sh "$TOOL" lab.depth.pfm
+check "the pose is as far away as the wall" grep -q 'object_to_camera' lab.pose.json
+status 2 mix $seen --labels lab -o mixed.png
+said "--labels is of an object in the photo"
 status 0 mix --help
 
 finish

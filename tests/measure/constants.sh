@@ -54,7 +54,7 @@ while read -r name source value measure; do
 done <<END
 MORE_MAX mix_sun.c 4 sun
 NEAR mix_sun.c 0.5 sun
-SHARP mix_sun.c 8 sun
+WEAK mix_sun.c 0.35 sun
 BY_NORMALS mix_sources.c 6 rooms
 BY_LIGHTS mix_sources.c 0.5 rooms
 CLEAR mix_sources.c 0.01 rooms

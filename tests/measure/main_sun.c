@@ -334,9 +334,8 @@ static void measure(stage *st, int seed, const char *folder, sums all[KINDS])
     } else {
         const level theirs = kept_level(st, &p, plus(foot_of(j, &st->s), at(0, 0.15, 0)), folder, seed), ours = our_level(j);
         const double bright = log2(ours.mean / theirs.mean), a = ours.side / ours.mean, b = theirs.side / theirs.mean;
-        printf("%3d %-8s mean %.2f of %.2f (%+.2f stops), to one side %.2f, true %.2f; share %.2f\n", seed, kinds[kind],
-               ours.mean, theirs.mean, bright, a, b,
-               (double)mix_sun_share(j->frame.light.pixels, &j->planes, &j->frame.camera, j->floor));
+        printf("%3d %-8s mean %.2f of %.2f (%+.2f stops), to one side %.2f, true %.2f; %.0f degrees wide\n", seed, kinds[kind],
+               ours.mean, theirs.mean, bright, a, b, (double)j->sun_size);
         all[kind].level += bright * bright;
         all[kind].bias += bright;
         all[kind].side += (a - b) * (a - b);

@@ -1,4 +1,5 @@
 /* rooms_build.c: the rooms. Constants may be chosen on the first ones; those that are held out chose none. */
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -192,6 +193,61 @@ static void build_copper_ball(room *r)
     turn_any(r);
 }
 
+/* --- what glows and stands on the floor ------------------------------------------------------------------------------ */
+
+static int glowing(made_scene *s, double red, double green, double blue)
+{
+    const int m = paint(s, 0, 0, 0);
+    s->emission[m][0] = red;
+    s->emission[m][1] = green;
+    s->emission[m][2] = blue;
+    return m;
+}
+
+/* A room under a lamp, its floor as dark as many carpets are. */
+static int dark_floor(room *r, double floor)
+{
+    made_scene *s = &r->scene;
+    const int white = paint(s, 0.6, 0.6, 0.58);
+    shell(s, paint(s, floor, floor, floor), white, white, at(0, 0, 0), at(3.6, 2.5, 4));
+    spot(s, at(2.4, 2.4, 2.9), at(1.8, 0, 2.06), 24, 40, 70);
+    look(s, at(2.6, 1.3, 3.4), at(1.5, 0.2, 1.6), 46);
+    object_begins(r);
+    return glowing(s, 6, 5.5, 4.5);
+}
+
+static void build_glow_ball(room *r)
+{
+    const int glow = dark_floor(r, 0.2);
+    ball_outside(&r->scene, glow, at(1.6, 0.2, 1.7), 0.2, 24);
+    tell_lights(r);
+}
+
+static void build_glow_box(room *r)
+{
+    const int glow = dark_floor(r, 0.35);
+    crate(&r->scene, glow, at(1.5, 0, 1.7), at(0.35, 0.15, 0.25), 35);
+    tell_lights(r);
+}
+
+/* A cone that stands on its tip, so that all of it but the lid leans over the floor. */
+static void build_glow_cone(room *r)
+{
+    enum { SIDES = 24 };
+    const int glow = dark_floor(r, 0.25);
+    made_scene *s = &r->scene;
+    for (int i = 0; i < SIDES; ++i) {
+        const double a = 2.0 * 3.14159265358979 * i / SIDES, b = 2.0 * 3.14159265358979 * (i + 1) / SIDES;
+        const svec c = at(1.6, 0, 1.7), low_a = plus(c, at(0.04 * cos(a), 0, 0.04 * sin(a))),
+                   low_b = plus(c, at(0.04 * cos(b), 0, 0.04 * sin(b))),
+                   high_a = plus(c, at(0.22 * cos(a), 0.35, 0.22 * sin(a))),
+                   high_b = plus(c, at(0.22 * cos(b), 0.35, 0.22 * sin(b))), top = plus(c, at(0, 0.35, 0));
+        quad(s, glow, low_a, high_a, high_b, low_b);
+        quad(s, glow, high_a, top, top, high_b);
+    }
+    tell_lights(r);
+}
+
 /* Ball or box, spot or point. */
 void room_any_metal(room *r, uint64_t seed)
 {
@@ -228,5 +284,8 @@ const room_kind room_kinds[] = {
     {"metal_tall", build_metal_tall, "held out: a turned metal box in a turned room"},
     {"glow_panel", build_glow_panel, "held out: a leaning panel that glows, on a foot"},
     {"copper_ball", build_copper_ball, "held out: a metal ball in a turned room"},
+    {"glow_ball", build_glow_ball, "a ball that glows, on a dark floor"},
+    {"glow_box", build_glow_box, "held out: a low box that glows, on the floor"},
+    {"glow_cone", build_glow_cone, "held out: a cone that glows and stands on its tip"},
 };
 const int room_kind_count = COUNT_OF(room_kinds);

@@ -1,5 +1,7 @@
 /* test_mix_sources.c: what an object sends on, against closed forms: a square that emits, a square of metal under a lamp; and
  * what a texel's emission and a metal's beam do to a photo. [M20 M25] */
+#include "../folder.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +19,7 @@ void test_mix_sources(void);
 enum { SIDE = 16 };
 
 static mix_patch pieces[SIDE * SIDE];
-static mix_sources square = {pieces, {0, SIDE * SIDE}, {{0, -1, 0}}};
+static mix_sources square = {.piece = pieces, .first = {0, SIDE * SIDE}};
 
 /* A unit square at height 1 that faces down, and sends `flux` W in all, or reflects it. */
 static void set_square(float flux, float alpha2, lmb_vec3 from)
@@ -155,8 +157,95 @@ static void patches_are_small(void)
     mix_job_free(j);
 }
 
+/* --- what glows and stands on the floor --------------------------------------------------------------------------- */
+
+/* A ball as .obj, its fronts outside. */
+static int ball_text(char *out, size_t size, double radius)
+{
+    enum { RINGS = 16, TURNS = 32 };
+    int n = 0;
+    for (int i = 0; i <= RINGS; ++i) {
+        for (int k = 0; k < TURNS; ++k) {
+            const double a = PI * i / RINGS, b = 2.0 * PI * k / TURNS;
+            n += snprintf(out + n, size - (size_t)n, "v %.6f %.6f %.6f\n", radius * sin(a) * cos(b), -radius * cos(a),
+                          -radius * sin(a) * sin(b));
+        }
+    }
+    for (int i = 0; i < RINGS; ++i) {
+        for (int k = 0; k < TURNS; ++k) {
+            const int a = i * TURNS + k + 1, b = i * TURNS + (k + 1) % TURNS + 1;
+            n += snprintf(out + n, size - (size_t)n, "f %d %d %d %d\n", a, b, b + TURNS, a + TURNS);
+        }
+    }
+    return n;
+}
+
+/* W/m2 of a ball of radius r that stands on a floor, so far from its foot, for 1 W/(m2 sr). */
+static double ball_light(double r, double far)
+{
+    const double d = sqrt(far * far + r * r);
+    return PI * r * r * r / (d * d * d);
+}
+
+/* What a ball that glows sends to the floor about it, under it too, by distance: under it nothing came, for the light that
+ * stood for its lower side lay in the floor, and it hid itself. */
+static void ball_lights_its_foot(double radius)
+{
+    static folder f;
+    static char text[80000];
+    char path[FOLDER_PATH];
+    double sum[6] = {0}, want[6] = {0}, off = 0.0;
+    int count = 0;
+    lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 1.0f};
+    report r = {""};
+    folder_open(&f);
+    const int size = ball_text(text, sizeof text, radius);
+    strcpy(path, folder_put(&f, "ball.obj", text, (size_t)size));
+    char *argv[] = {"mix", "--frame", "known", "--voxels", "5", "--shadow-map", "256", "-o", "known.pfm", "--object", path,
+                    "--at", "48,58", "--light", "sun:0,0,0:0.2,-1,-0.1:1,1,1", "--quiet"};
+    mix_job *j = photo_job(16, argv, &camera);
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH));
+        j->frame.depth[i] = ray.y < -0.01f && -0.5f / ray.y < 2.5f ? -0.5f / ray.y : 2.5f;
+        j->frame.light.pixels[3 * i] = j->frame.light.pixels[3 * i + 1] = j->frame.light.pixels[3 * i + 2] = 0.2f;
+    }
+    CHECK_MSG(mix_find_planes(j, &r) && mix_place(j, &r), "%s", r.text);
+    look.emission[0] = look.emission[1] = look.emission[2] = 5.0f;
+    photo_draw(j, &look);
+    const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
+    for (int t = 0; t < PIXELS / LMB_TILE_PIXELS; ++t) {
+        static lmb_tile tile;
+        static lmb_irradiance light;
+        lmb_real_tile(&tile, &j->cloud, &j->planes, &j->real, &j->axes, t % (WIDTH / LMB_TILE) * LMB_TILE,
+                      t / (WIDTH / LMB_TILE) * LMB_TILE);
+        memset(&light, 0, sizeof light);
+        for (int32_t i = j->light_count - j->lamp_count; i < j->light_count; ++i) {
+            mix_sources_tile(&light, j, &tile, i, 1);
+        }
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const double far = hypot((double)(tile.position[0][k] - foot.x), (double)(tile.position[2][k] - foot.z)) / radius;
+            if (tile.id[k] != 0 && tile.normal[1][k] > 0.99f && far > 0.25 && far < 3.0) {
+                const double one = 5.0 * ball_light(radius, far * radius);
+                sum[(int)(2.0 * far)] += (double)light.rgb[1][k];
+                want[(int)(2.0 * far)] += one;
+                off += pow((double)light.rgb[1][k] / one - 1.0, 2.0);
+                ++count;
+            }
+        }
+    }
+    for (int i = 0; i < 6; ++i) {
+        CHECK_MSG(want[i] > 0.0 && fabs(sum[i] / want[i] - 1.0) < (i == 0 ? 0.2 : 0.08), "%.1f radii from the foot of %g m: %.2f of the light", 0.5 * i,
+                  radius, sum[i] / want[i]);
+    }
+    CHECK_MSG(sqrt(off / count) < 0.1, "%g m: off by %g", radius, sqrt(off / count));
+    mix_job_free(j);
+    folder_close(&f);
+}
+
 void test_mix_sources(void)
 {
+    ball_lights_its_foot(0.2);
+    ball_lights_its_foot(0.11);
     patches_are_small();
     foot_mirrors_floor();
     emits_by_form_factors();

@@ -268,6 +268,10 @@ static int take(line *l, int i, const char *value, report *r)
     l->given[i] = before + 1;
     l->first[i] = before == 0 ? value : l->first[i];
     char *at = (char *)l->out + row->at + (times > 1 ? (size_t)before * row->size : 0);
+    if (row->nones > 0 && strcmp(value, "none") == 0) {
+        *(int *)(void *)((char *)l->out + row->nones) = 1;
+        return 1;
+    }
     if (options_has_value(row)) {
         float *size = row->sizes > 0 ? (float *)(void *)((char *)l->out + row->sizes) + before : NULL;
         if (!store(row, value, at, size)) {

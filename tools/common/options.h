@@ -50,6 +50,7 @@ typedef struct option_row {
     int32_t times;       /* how often it may be given, values one behind the other; 0: once */
     size_t size;         /* of each of those values; OPTION_NUMBERS: how many */
     size_t sizes;        /* of a float for each light: how wide it is; 0: it may have no size */
+    size_t nones;        /* of an int for a light: 1 where the value is `none`; 0: no light is none */
     double low, high;
     const char *const *words; /* ends with NULL */
     const int32_t *values;    /* of the words; NULL: their places */

@@ -51,8 +51,8 @@ void options_wants(char *out, size_t size, const option_row *row)
     } else if (row->kind == OPTION_BACKEND) {
         snprintf(out, size, "one of %s", backends);
     } else if (row->kind == OPTION_LIGHT) {
-        snprintf(out, size, "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]%s with angles up to 89",
-                 row->sizes > 0 ? "[:SIZE]" : "");
+        snprintf(out, size, "%sspot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]%s with angles up to 89",
+                 row->nones > 0 ? "none or " : "", row->sizes > 0 ? "[:SIZE]" : "");
     } else if (row->kind == OPTION_TEXT) {
         snprintf(out, size, "a text that is not empty");
     } else if (row->kind >= OPTION_INT && row->kind <= OPTION_MULTIPLE_OF_8) {
@@ -108,7 +108,8 @@ void options_value(char *out, size_t size, const option_row *row)
     } else if (row->kind == OPTION_POINT) {
         snprintf(out, size, "X,Y,Z");
     } else if (row->kind == OPTION_LIGHT) {
-        snprintf(out, size, "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]%s", row->sizes > 0 ? "[:SIZE]" : "");
+        snprintf(out, size, "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]%s%s", row->sizes > 0 ? "[:SIZE]" : "",
+                 row->nones > 0 ? "|none" : "");
     }
 }
 

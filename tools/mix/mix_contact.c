@@ -71,7 +71,7 @@ static float unfit(const mix_job *j, int32_t x, int32_t y, lmb_vec3 up, const mi
 int mix_plane_near(int32_t at[2], const mix_job *j)
 {
     const int32_t w = j->frame.camera.width, pixels = w * j->frame.camera.height;
-    const lmb_vec3 up = lmb_planes_up(&j->planes);
+    const lmb_vec3 up = mix_up(j);
     mix_extent e = mix_extent_of(j);
     float min = INFINITY;
     e.radius *= 1.4142136f; /* the corners of its box, whichever way it is turned */

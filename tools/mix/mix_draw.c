@@ -3,6 +3,7 @@
 #include "mix_cones.h"
 #include "mix_front.h"
 #include "mix_carry.h"
+#include "mix_labels.h"
 #include "mix_lights.h"
 #include "mix_lobes.h"
 #include "mix_near.h"
@@ -209,8 +210,10 @@ static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real, int is_
     for (int32_t i = 0; i < d->samples && !is_kept; ++i) {
         const uint64_t shown = put_sample(d, j, real, i);
         add_part(d, shown, 1.0f / (float)d->samples);
+        mix_labels_sample(j, real, &d->object, shown);
         all |= shown;
     }
+    mix_labels_cover(j, real, d->covered);
     mix_again_object(&d->over, d->covered, j, real);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         for (int c = 0; c < 3; ++c) {
@@ -310,7 +313,7 @@ int mix_draw(mix_job *j, report *r)
 {
     rows all;
     mix_lights_begin(j);
-    if (!mix_again_take(j, r) || !mix_carry_take(j, r) || !find_front(j, r) || !take_rows(&all, j, r)) {
+    if (!mix_labels_take(j, r) || !mix_again_take(j, r) || !mix_carry_take(j, r) || !find_front(j, r) || !take_rows(&all, j, r)) {
         return 0;
     }
     mix_run_rows(j, all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);

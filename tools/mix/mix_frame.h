@@ -29,6 +29,11 @@ typedef struct mix_frame {
 int mix_frame_read(mix_frame *out, const mix_source *from, report *r);
 void mix_frame_free(mix_frame *f);
 
+/* mix_has_shape: is a depth picture as wide for its height as the photo is, and not too coarse? mix_resample: such a one as f->depth, m, edges
+ * where the photo has them; 0 without memory. */
+int mix_has_shape(const mix_frame *f, const image *in);
+int mix_resample(mix_frame *f, const image *in, float scale);
+
 /* mix_is_camera: are fx, fy, cx, cy of a camera, px? */
 int mix_is_camera(const float v[4]);
 

@@ -151,5 +151,5 @@ int mix_find_planes(mix_job *j, report *r)
         return 0;
     }
     lmb_planes_move(&j->cloud, &j->planes);
-    return 1;
+    return mix_drop_islands(j, r);
 }

@@ -118,6 +118,7 @@ typedef struct mix_job {
     int is_settled;      /* a camera that stands still: pixels that measure what they did keep the last frame's answer */
     mix_answer *answer;  /* of a sequence, by pixel; NULL: it is not kept */
     image picture;       /* linear */
+    struct mix_labels *labels; /* what each pixel shows of the object; NULL: nobody asks */
     double read_s, planes_s, place_s, light_s, build_s, voxels_s, draw_s; /* build_s: of voxels_s */
     mix_memory blocks[MIX_BLOCKS];
     int block_count;
@@ -135,13 +136,18 @@ int mix_light(mix_job *j, report *r);       /* environment, lights and their map
 int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */
 
-/* mix_guess_sun: a sun for a photo that is given no light, and how wide it is, degrees: from the side, about where the
- * surroundings are brightest; so strong that its shadows are as dark as those in the photo and that the photo's brightest
- * surfaces are white; the less of it shadows tell, the wider. In a sequence it stays as it was. mix_sun_share: what such a
- * sun gives the floor for each unit that comes from everywhere else: of the photo's planes, by two brightnesses that each
- * of them has, above all of plane `floor` (-1: none); 0 where none has two. Both: -1 where memory is short. */
+/* mix_guess_sun: a sun for a photo that is given no light, and how wide it is, degrees: the one that the photo's own shadows
+ * tell of (mix_cast.h); where they tell of none, a wide and weak one overhead. It makes what is around so bright that the
+ * photo's brightest surfaces are white at most. In a sequence it stays as it was. -1 where memory is short. */
 float mix_guess_sun(lmb_light *out, const mix_job *j);
-float mix_sun_share(const float *rgb, const lmb_planes *planes, const lmb_pinhole *camera, int32_t floor);
+
+/* mix_up: what is up, unit, in the camera's space: as --up has it; or of the world that the pose is in, +Y or else +Z, where
+ * a plane lies across it; or as the planes have it. mix_floor: the largest plane that faces up, or -1. */
+lmb_vec3 mix_up(const mix_job *j);
+int32_t mix_floor(const mix_job *j);
+
+/* mix_drop_islands: specks of a plane's label in the midst of another's. 1, or 0 with `r` set. */
+int mix_drop_islands(mix_job *j, report *r);
 
 /* mix_extent: the object's box in its own units. radius: of the cylinder that holds it, upright or out of its wall, and a
  * fifth more. */

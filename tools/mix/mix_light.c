@@ -195,13 +195,10 @@ static int take_lights(mix_job *j, report *r)
     return j->lights != NULL && j->maps != NULL;
 }
 
-/* Of many lights that make one shadow together, half a side is enough; of lamps, which see all ways and have soft shadows,
- * an eighth, but all texels of the voxels' first points. */
-static int32_t map_side(const mix_job *j, int32_t light)
+/* Of many lights that make one shadow together, half a side is enough. */
+static int32_t map_side(const mix_job *j)
 {
-    const int32_t given = j->o.shadow_map,
-                  side = j->light_count - j->lamp_count < MIX_SUN_SAMPLES || given < 16 ? given : given / 2;
-    return light < j->light_count - j->lamp_count || side <= 256 ? side : side / 8 > 256 ? side / 8 : 256;
+    return j->light_count - j->lamp_count < MIX_SUN_SAMPLES || j->o.shadow_map < 16 ? j->o.shadow_map : j->o.shadow_map / 2;
 }
 
 static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t first_id, uint32_t count)
@@ -211,13 +208,13 @@ static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t first_
 
 static size_t map_bytes(const mix_job *j, int32_t light)
 {
-    return 2 * lmb_shadow_map_bytes(lmb_shadow_map_faces(&j->lights[light], &j->scene), map_side(j, light), LMB_ID32);
+    return 2 * lmb_shadow_map_bytes(lmb_shadow_map_faces(&j->lights[light], &j->scene), map_side(j), LMB_ID32);
 }
 
 size_t mix_maps_bytes(const mix_job *j)
 {
     size_t bytes = 0;
-    for (int32_t i = 0; i < j->light_count; ++i) {
+    for (int32_t i = 0; i < j->light_count - j->lamp_count; ++i) {
         bytes += map_bytes(j, i);
     }
     return bytes;
@@ -225,45 +222,35 @@ size_t mix_maps_bytes(const mix_job *j)
 
 typedef struct maps {
     mix_job *j;
-    int32_t first;
-    char *memory; /* of light `first` and on */
+    char *memory; /* of all maps */
     int failed[POOL_MAX]; /* by thread */
 } maps;
 
-/* The object's own lights are there only with it: their maps without it stay empty. */
-static void draw_two(void *user, int index, int thread)
+static void draw_two(void *user, int i, int thread)
 {
     maps *m = user;
     mix_job *j = m->j;
-    const int32_t i = m->first + index;
     const size_t bytes = map_bytes(j, i);
-    const int is_own = i >= j->light_count - j->lamp_count;
     const uint32_t real = j->real_triangles;
     char *memory = m->memory;
-    for (int32_t k = m->first; k < i; ++k) {
+    for (int32_t k = 0; k < i; ++k) {
         memory += map_bytes(j, k);
     }
-    int ok = lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j, i), memory, bytes) == LMB_OK &&
-             lmb_shadow_map_clear(&j->maps[i][0]) == LMB_OK && draw_map(j, &j->maps[i][0], 1, is_own ? 0 : real);
+    int ok = lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j), memory, bytes) == LMB_OK &&
+             lmb_shadow_map_clear(&j->maps[i][0]) == LMB_OK && draw_map(j, &j->maps[i][0], 1, real);
     memcpy(memory + bytes / 2, memory, bytes / 2); /* the other map: what is real is in both */
-    ok = ok && (!is_own || draw_map(j, &j->maps[i][1], 1, real)) &&
-         draw_map(j, &j->maps[i][1], real + 1, j->object_triangles);
+    ok = ok && draw_map(j, &j->maps[i][1], real + 1, j->object_triangles);
     m->failed[thread] |= !ok;
 }
 
-/* Of lights from `first` on. */
-static int draw_maps(mix_job *j, int32_t first, report *r)
+static int draw_maps(mix_job *j, report *r)
 {
-    size_t all = 0;
-    maps m = {j, first, NULL, {0}};
-    for (int32_t i = first; i < j->light_count; ++i) {
-        all += map_bytes(j, i);
-    }
-    m.memory = mix_take(j, all, r);
+    maps m = {j, NULL, {0}};
+    m.memory = mix_take(j, mix_maps_bytes(j), r);
     if (m.memory == NULL) {
         return 0;
     }
-    pool_run(pool_threads(j->o.threads), j->light_count - first, draw_two, &m);
+    pool_run(pool_threads(j->o.threads), j->light_count, draw_two, &m);
     for (int i = 0; i < POOL_MAX; ++i) {
         if (m.failed[i]) {
             return report_fail(r, "--light: a shadow map cannot be drawn");
@@ -288,7 +275,7 @@ static int add_own(mix_job *j, report *r)
     }
     j->lamp_count = own;
     j->light_count += own;
-    return check_lights(j, r) && draw_maps(j, told, r);
+    return check_lights(j, r);
 }
 
 /* The photo alone tells what is around; of a sequence its first one. */
@@ -310,13 +297,13 @@ int mix_light(mix_job *j, report *r)
     }
     if (j->o.light_count > 0) {
         place_lights(j);
-    } else if (j->object_triangles > 0) {
+    } else if (j->object_triangles > 0 && !j->o.no_light) {
         j->sun_size = mix_guess_sun(&j->sun, j);
         if (j->sun_size < 0.0f) {
             return report_fail(r, "out of memory");
         }
         add_sun(j);
     }
-    return check_lights(j, r) && draw_maps(j, 0, r) && add_own(j, r) &&
+    return check_lights(j, r) && draw_maps(j, r) && add_own(j, r) &&
            (!is_folded(j) || !has_lamps(j) || mix_around(j, r));
 }

@@ -157,6 +157,6 @@ void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, mix_direct *
     }
     add(without, &direct->light, 1.0f);
     for (int32_t i = told; i < j->light_count; ++i) {
-        mix_sources_tile(with, j, view, real, i, 1);
+        mix_sources_tile(with, j, real, i, 1);
     }
 }

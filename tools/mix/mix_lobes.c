@@ -48,7 +48,7 @@ int mix_lobes_bounces(mix_job *j, report *r)
 static void add_light(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *object, int32_t i)
 {
     if (i >= j->light_count - j->lamp_count) {
-        mix_sources_tile(inout, j, view, object, i, 0);
+        mix_sources_tile(inout, j, object, i, 0);
     } else {
         lmb_direct_tile(inout, j->o.kernels, object, view, &j->scene, &j->lights[i], &j->maps[i][1]);
     }

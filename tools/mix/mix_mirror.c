@@ -339,7 +339,7 @@ static void light_hits(mix_mirror *s, const mix_job *j, const lmb_view *view)
         }
     }
     for (int32_t i = told; i < j->light_count; ++i) {
-        mix_sources_tile(&s->light[1], j, view, &s->hit, i, 0);
+        mix_sources_tile(&s->light[1], j, &s->hit, i, 0);
     }
 }
 

@@ -23,6 +23,15 @@ static int parse_at(const char *text, void *at)
     return o->at == MIX_AT_WORLD || all_floats(text, o->at_px, 2);
 }
 
+static int parse_up(const char *text, void *at)
+{
+    mix_options *o = at;
+    const int is_camera = strcmp(text, "camera") == 0, is_pose = strcmp(text, "pose") == 0;
+    o->up = is_camera ? MIX_UP_CAMERA : is_pose ? MIX_UP_POSE : MIX_UP_GIVEN;
+    return is_camera || is_pose ||
+           (all_floats(text, o->up_to, 3) && fabsf(o->up_to[0]) + fabsf(o->up_to[1]) + fabsf(o->up_to[2]) > 1e-6f);
+}
+
 static int parse_roughness(const char *text, void *at)
 {
     mix_options *o = at;
@@ -60,7 +69,8 @@ static const option_row photo_rows[] = {
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = HELP(".png .jpg .pfm")},
     {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth), .file = OPTION_READS,
-     .help = HELP("along the camera's axis, registered to the photo: 16-bit grey .png or .pfm; 0 is not measured")},
+     .help = HELP("along the camera's axis, registered to the photo: 16-bit grey .png or .pfm; 0 is not measured. Where it has "
+             "another size of the same shape it is resampled, edges by the photo's colours")},
     {.name = "--depth-scale", .value = "S", .kind = OPTION_NUMBER, AT(source.depth_scale), .low = 1e-9, .high = 1e6,
      .help = HELP("m of a unit of it (default 0.001 for .png, 1 for .pfm)")},
     {.name = "--intrinsics", .value = "FX,FY,CX,CY", .kind = OPTION_NUMBERS, AT(source.intrinsics), .size = 4,
@@ -84,6 +94,10 @@ static const option_row object_rows[] = {
     {.name = "--on", .kind = OPTION_WORD, AT(on), .words = ons, .values = on_values,
      .help = HELP("floor: the lowest plane that faces up; table: the largest that lies 0.3 m over another; wall: the mesh "
              "hangs there, +Z away from it, upright (default: the largest that faces up, or else the largest wall)")},
+    {.name = "--up", .value = "X,Y,Z|camera|pose", .kind = OPTION_OWN, .parse = parse_up, .expects = "X,Y,Z, camera or pose",
+     .help = HELP("what is up, for cameras that look down: a direction in the frame's world, or without a pose the camera's "
+             "(x right, y up, -z ahead); camera: up in the picture; pose: +Y of the world. Default: +Y or +Z of the world "
+             "where a plane lies across it, or else what the planes within 70 degrees of the picture's up agree on")},
     {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
      .help = HELP("about its upright axis (default 0: +Z towards the viewer); on a wall about what sticks out of it")},
     {.kind = OPTION_END},
@@ -93,9 +107,11 @@ static const option_row light_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("light")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(mix_options, light_count),
      .times = MIX_LIGHTS, .size = sizeof(lmb_light), .sizes = offsetof(mix_options, light_size),
+     .nones = offsetof(mix_options, no_light),
      .help = HELP("KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; SIZE: how "
              "wide it is, m, of a sun degrees: its shadow is soft then; in the frame's world, or without a pose the "
-             "camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). Default: a sun is guessed")},
+             "camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). none: only what is around lights it. Default: a sun by the photo's own shadows, or "
+             "where none tells of one, a weak one from above")},
     {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
      .help = HELP("what is around, a panorama or cube (default: folded from the photo)")},
     {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness,
@@ -121,6 +137,10 @@ static const option_row output_rows[] = {
              "round middle grey;\nplanes: each in its colour;\nvoxels: the light in them as the camera sees "
              "it;\nenv: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\nobject: alone, before "
              "black")},
+    {.name = "--labels", .value = "PREFIX", .kind = OPTION_TEXT, AT(labels),
+     .help = HELP("also PREFIX.mask.png: white where the object is seen; PREFIX.depth.pfm: its depth, m; PREFIX.normal.pfm: its "
+             "normals, x right, y up, z towards the camera; PREFIX.pose.json: from the mesh to the camera, as camera_to_world, and "
+             "to the world")},
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
      .help = HELP("a pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
@@ -165,6 +185,9 @@ static int complete_frames(const mix_options *o, report *r)
     if (o->out == NULL || frame_digits(o->out) == 0) {
         return report_fail(r, "--frames: -o is a name with one %%0Nd, as frame_%%04d.png");
     }
+    if (o->labels != NULL) {
+        return report_fail(r, "--frames: --labels is of one photo");
+    }
     if (o->stats != NULL) {
         return report_fail(r, "--frames: --stats is of one photo; -v says what each frame took");
     }
@@ -195,8 +218,14 @@ static int complete(const mix_options *o, report *r)
     if (o->source.has_intrinsics && !mix_is_camera(o->source.intrinsics)) {
         return report_fail(r, "--intrinsics: focal lengths are over 0, and all four in pixels");
     }
+    if (o->labels != NULL && (o->object == NULL || o->show != MIX_FINAL)) {
+        return report_fail(r, "--labels is of an object in the photo; add --object MESH, and leave --show out");
+    }
     if (o->object == NULL && (o->show == MIX_OBJECT || o->show == MIX_VOXELS)) {
         return report_fail(r, "--show: no object given; add --object MESH");
+    }
+    if (o->no_light && o->light_count > 0) {
+        return report_fail(r, "--light none leaves all lights out, and another --light adds one; leave one out");
     }
     if (o->fit && (o->scale > 0.0f || o->at == MIX_AT_WORLD)) {
         return report_fail(r, "--fit chooses the size that %s; leave one out",

@@ -107,8 +107,8 @@ static lmb_mat4 object_to_scene(mix_job *j)
 /* Of the floor, or, where none is seen, what else tells. */
 static void set_up(mix_job *j)
 {
-    const int32_t floor = lmb_planes_floor(&j->planes);
-    j->up = floor >= 0 ? j->planes.plane[floor].normal : lmb_planes_up(&j->planes);
+    const int32_t floor = mix_floor(j);
+    j->up = floor >= 0 ? j->planes.plane[floor].normal : mix_up(j);
 }
 
 int mix_place(mix_job *j, report *r)

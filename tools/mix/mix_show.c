@@ -17,7 +17,7 @@ static void tell_planes(const mix_job *j)
                     (double)p->distance, (double)p->normal.x, (double)p->normal.y, (double)p->normal.z, (int)p->pixels,
                     (int)((p->x0 + p->x1) / 2), (int)((p->y0 + p->y1) / 2));
     }
-    const int32_t floor = lmb_planes_floor(&j->planes);
+    const int32_t floor = mix_floor(j);
     report_note(j->o.is_quiet || floor < 0, "an object would stand on plane %d, which faces up", (int)floor + 1);
 }
 

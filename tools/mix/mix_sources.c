@@ -14,7 +14,13 @@
 /* Of the object's longest side: how far before its surface the lights are that stand for its patches. */
 #define CLEAR 0.01f
 
-enum { TREE_SIZE = 512, CELLS = 32 /* a side of the object, at most */, PATCHES = 768 /* at most */ };
+/* Likewise: how far off its surface a point of it may lie that a shadow map has found. */
+#define ROUNDED 1e-4f
+
+enum { TREE_SIZE = 512, CELLS = 32 /* a side of the object, at most */, PATCHES = 768 /* at most */,
+       GLOWING = 4096 /* likewise, where nothing is metal: the foot of what glows is nearer than larger ones are wide */,
+       MERGED = 6 /* of these are one from afar */,
+       BUNDLES = 48 /* of what emits; a way, and a light that metal reflects, begin others */ };
 
 static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b)
 {
@@ -86,11 +92,10 @@ void mix_sources_at(float out[3], const mix_sources *s, int32_t light, lmb_vec3 
 
 static int32_t way_of_light(const mix_job *j, int32_t i) { return i - (j->light_count - j->lamp_count); }
 
-static void at_pixel(float out[3], const mix_job *j, int32_t light, const lmb_tile *t, int32_t k)
+static lmb_vec3 of_planes(const float planes[3][LMB_TILE_PIXELS], int32_t k)
 {
-    const lmb_vec3 at = {t->position[0][k], t->position[1][k], t->position[2][k]},
-                   normal = {t->normal[0][k], t->normal[1][k], t->normal[2][k]};
-    mix_sources_at(out, j->sources, way_of_light(j, light), at, normal);
+    const lmb_vec3 out = {planes[0][k], planes[1][k], planes[2][k]};
+    return out;
 }
 
 /* Would the picture show what comes to the tile? By pixels at its corners and in its middle. */
@@ -105,7 +110,7 @@ static int shows(const mix_job *j, int32_t light, const lmb_tile *t)
             continue;
         }
         const float *photo = p->pixels + 3 * ((size_t)y * (size_t)p->width + (size_t)x);
-        at_pixel(rgb, j, light, t, k);
+        mix_sources_at(rgb, j->sources, way_of_light(j, light), of_planes(t->position, k), of_planes(t->normal, k));
         if (rgb[0] + rgb[1] + rgb[2] > SHOWS * PI * (photo[0] + photo[1] + photo[2])) {
             return 1;
         }
@@ -113,82 +118,169 @@ static int shows(const mix_job *j, int32_t light, const lmb_tile *t)
     return 0;
 }
 
-/* Is pixel k beyond the plane that the way's light lies in? Between both is the object itself, whose patches know that: of
- * a metal ball those at a slant see farther round it than the light before its middle. What emits may stand on a foot. */
-static int is_beyond(const mix_job *j, int32_t i, const lmb_tile *tile, int32_t k)
+/* A tile's pixels, while they are asked which bundles they see. */
+typedef struct asked {
+    const lmb_kernels *kernels;
+    const lmb_tile *tile;
+    float noise; /* m: how far off their surfaces pixels may lie */
+    lmb_traversal traversal;
+} asked;
+
+/* Columns and rows 0, 2, 5 and 7 of a tile: where these agree, those between them are not asked. */
+#define SOME UINT64_C(0xa500a50000a500a5)
+
+/* Those of `pixels` that do not see a place. */
+static uint64_t hidden(asked *a, const mix_sources *s, uint64_t pixels, lmb_vec3 at)
 {
-    const lmb_vec3 at = {tile->position[0][k], tile->position[1][k], tile->position[2][k]};
-    const mix_sources *s = j->sources;
-    const int32_t way = way_of_light(j, i);
-    return s->piece[s->first[way]].alpha2 > 0.0f && dot(less(at, j->lights[i].position), s->axis[way]) < 0.0f;
+    const float noise = a->noise + s->noise + lmb_place_noise(at, 0.0f);
+    const uint64_t some = pixels & SOME;
+    uint64_t found = 0;
+    if (some != 0) {
+        found = lmb_occluded_tile(a->kernels, &a->traversal, &s->bvh, a->tile, some, at, noise);
+        if (found == 0 || found == some) {
+            return found == 0 ? 0 : pixels;
+        }
+    }
+    return found | lmb_occluded_tile(a->kernels, &a->traversal, &s->bvh, a->tile, pixels & ~some, at, noise);
 }
 
-void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int32_t i,
-                      int photo)
+/* Is all of a tile so far away? By its pixels at the corners, and what it may reach beyond these. */
+static int is_afar(const lmb_tile *t, const mix_bundle *b)
 {
-    lmb_irradiance seen;
-    if (photo && !shows(j, i, tile)) {
-        return;
+    static const int32_t corner[] = {0, 7, 56, 63};
+    float near = INFINITY, wide = 0.0f;
+    for (int i = 0; i < 4; ++i) {
+        const lmb_vec3 off = less(of_planes(t->position, corner[i]), b->middle),
+                       side = less(of_planes(t->position, corner[i]), of_planes(t->position, 27));
+        if (t->id[corner[i]] == 0 || t->id[27] == 0) {
+            return 0;
+        }
+        near = fminf(near, sqrtf(dot(off, off)));
+        wide = fmaxf(wide, sqrtf(dot(side, side)));
     }
-    memset(&seen, 0, sizeof seen);
-    lmb_direct_tile(&seen, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][1]);
-    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
-        float rgb[3];
-        if (seen.rgb[0][k] > 0.0f || (photo && tile->id[k] != 0 && is_beyond(j, i, tile, k))) {
-            at_pixel(rgb, j, i, tile, k);
+    return near - wide > b->reach;
+}
+
+/* What a bundle's patches send to some of a tile's pixels. Returns those that get something. *at: the place of the patch that
+ * sends most to them all: one that turns its back on them the object itself would hide. */
+static uint64_t send_bundle(lmb_irradiance *out, lmb_vec3 *at, const lmb_tile *t, const mix_sources *s, const mix_bundle *from,
+                            uint64_t pixels)
+{
+    uint64_t reached = 0;
+    float max = 0.0f;
+    const int afar = is_afar(t, from);
+    memset(out, 0, sizeof *out);
+    for (int32_t i = afar ? from->far_first : from->first; i < (afar ? from->far_past : from->past); ++i) {
+        float all = 0.0f;
+        for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+            float rgb[3] = {0, 0, 0};
+            if ((pixels >> k & 1u) == 0) {
+                continue;
+            }
+            add_patch(rgb, &s->piece[i], of_planes(t->position, k), of_planes(t->normal, k));
+            const float one = rgb[0] + rgb[1] + rgb[2];
+            all += one;
+            reached |= (uint64_t)(one > 0.0f) << k;
             for (int c = 0; c < 3; ++c) {
-                inout->rgb[c][k] += rgb[c];
+                out->rgb[c][k] += rgb[c];
+            }
+        }
+        *at = all > max ? s->piece[i].on : *at;
+        max = fmaxf(max, all);
+    }
+    return reached;
+}
+
+/* Adds what a way's patches send to a tile's pixels. Those that do not see the place ask again with that of the patch that
+ * sends most to them: near the foot of a ball each pixel sees another part of its side. */
+static void add_way(lmb_irradiance *inout, asked *a, const mix_sources *s, int32_t way)
+{
+    enum { AGAIN = 3 };
+    uint64_t all = 0;
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        all |= (uint64_t)(a->tile->id[k] != 0) << k;
+    }
+    for (int32_t b = s->bundles[way]; b < s->bundles[way + 1]; ++b) {
+        uint64_t left = all;
+        for (int i = 0; i < AGAIN && left != 0; ++i) {
+            lmb_irradiance sent;
+            lmb_vec3 at = {0, 0, 0};
+            const uint64_t reached = send_bundle(&sent, &at, a->tile, s, &s->bundle[b], left);
+            left = reached != 0 ? hidden(a, s, reached, at) : 0;
+            for (int32_t k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+                const int32_t c = k / LMB_TILE_PIXELS, p = k % LMB_TILE_PIXELS;
+                inout->rgb[c][p] += ((reached & ~left) >> p & 1u) != 0 ? sent.rgb[c][p] : 0.0f;
             }
         }
     }
 }
 
-/* --- first points ------------------------------------------------------------------------------------------------- */
-
-/* What arrives over what a light of 1 W/sr brings; at grazing angles patches lie elsewhere than the light. */
-static void scale_texel(lmb_texel *t, const mix_job *j, int32_t i)
+/* How far off the mesh of real surfaces pixels may lie, m: those of a plane do not, others by three deviations of what was
+ * measured. */
+static float measured_noise(const mix_job *j, const lmb_tile *t)
 {
-    const lmb_vec3 to = less(j->lights[i].position, t->position);
-    const float r2 = dot(to, to), one = fmaxf(dot(to, t->normal) / sqrtf(fmaxf(r2, 1e-12f)), 0.05f) / fmaxf(r2, 1e-12f);
-    float rgb[3];
-    mix_sources_at(rgb, j->sources, way_of_light(j, i), t->position, t->normal);
-    for (int c = 0; c < 3; ++c) {
-        t->flux[c] *= rgb[c] / one;
+    float noise = lmb_tile_noise(t, ~(uint64_t)0);
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (t->id[k] != 0 && t->id[k] <= j->real_triangles && t->depth[k] > 0.0f &&
+            j->real.label[(t->id[k] - 1) / 2] == 0) {
+            const float q = 1.0f / t->depth[k];
+            noise = fmaxf(noise, 3.0f * lmb_cloud_sigma(&j->cloud, q) / (q * q));
+        }
     }
+    return noise;
 }
 
-/* The direction of a texel's middle. */
-static lmb_vec3 way_out(const lmb_view *v, int32_t size, int32_t i)
+void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, int32_t i, int photo)
 {
-    const float s = ((2.0f * (float)(i % size) + 1.0f) / (float)size - 1.0f) * v->half_width,
-                t = (1.0f - (2.0f * (float)(i / size) + 1.0f) / (float)size) * v->half_height;
-    const lmb_vec3 d = less(plus(times(v->right, s), times(v->up, t)), v->back);
-    return times(d, 1.0f / sqrtf(dot(d, d)));
-}
-
-/* W that leave for nowhere through a texel of `power` sr: by what arrives far away. */
-static void add_elsewhere(double elsewhere[3], const mix_job *j, int32_t i, lmb_vec3 out, float power)
-{
-    const float far = 1e3f;
-    float rgb[3];
-    mix_sources_at(rgb, j->sources, way_of_light(j, i), plus(j->lights[i].position, times(out, far)), times(out, -1.0f));
-    for (int c = 0; c < 3; ++c) {
-        elsewhere[c] += (double)(rgb[c] * far * far * power);
+    asked a;
+    if (photo && !shows(j, i, tile)) {
+        return;
     }
+    memset(&a, 0, sizeof a);
+    a.kernels = j->o.kernels;
+    a.tile = tile;
+    a.noise = measured_noise(j, tile);
+    add_way(inout, &a, j->sources, way_of_light(j, i));
 }
 
-void mix_sources_texels(lmb_texel *inout, int32_t size, double elsewhere[3], const mix_job *j, int32_t i,
-                        int32_t face)
+/* --- points ------------------------------------------------------------------------------------------------------- */
+
+static void put_point(lmb_tile *to, int32_t k, const lmb_texel *from)
 {
-    lmb_shadow_map coarse = j->maps[i][1];
-    coarse.size = size;
-    for (int32_t k = 0; k < size * size; ++k) {
-        if (inout[k].flux[0] + inout[k].flux[1] + inout[k].flux[2] > 0.0f) {
-            scale_texel(&inout[k], j, i);
-        } else {
-            float power[3];
-            lmb_light_texel_power(power, &j->lights[i], &coarse, face, k % size, k / size);
-            add_elsewhere(elsewhere, j, i, way_out(&coarse.view[face], size, k), power[0]);
+    const float p[3] = {from->position.x, from->position.y, from->position.z},
+                n[3] = {from->normal.x, from->normal.y, from->normal.z};
+    for (int32_t i = 0; i < 3; ++i) {
+        to->position[i][k] = p[i];
+        to->face[i][k] = to->normal[i][k] = n[i];
+    }
+    to->depth[k] = 1.0f;
+    to->id[k] = 1;
+}
+
+void mix_sources_points(lmb_texel *inout, const lmb_texel *white, size_t count, double arrives[3], const mix_job *j)
+{
+    lmb_tile tile;
+    for (size_t i = 0; i < count; i += LMB_TILE_PIXELS) {
+        const size_t n = count - i < LMB_TILE_PIXELS ? count - i : LMB_TILE_PIXELS;
+        lmb_irradiance light;
+        asked a;
+        memset(&tile, 0, sizeof tile);
+        memset(&light, 0, sizeof light);
+        memset(&a, 0, sizeof a);
+        for (size_t k = 0; k < n; ++k) {
+            put_point(&tile, (int32_t)k, &inout[i + k]);
+        }
+        a.kernels = j->o.kernels;
+        a.tile = &tile;
+        a.noise = lmb_tile_noise(&tile, ~(uint64_t)0);
+        for (int32_t way = 0; way < j->lamp_count; ++way) {
+            add_way(&light, &a, j->sources, way);
+        }
+        for (size_t k = 0; k < n; ++k) {
+            for (int c = 0; c < 3; ++c) {
+                inout[i + k].flux[c] *= light.rgb[c][k] * (1.0f / PI);
+                arrives[c] += (double)(white[i + k].flux[c] * light.rgb[c][k] * (1.0f / PI));
+            }
         }
     }
 }
@@ -252,14 +344,23 @@ static int by_order(const void *a, const void *b)
 
 static uint32_t cell_of(float at, float low, float per) { return (uint32_t)fminf(fmaxf((at - low) * per, 0.0f), 31.0f); }
 
+/* So many widths of a merged patch away a place sees it as one. */
+#define AFAR 8.0f
+
+/* Five bits, each the third one of what is returned: cells that follow each other lie side by side. */
+static uint32_t apart(uint32_t v)
+{
+    return (v & 1u) | (v & 2u) << 2 | (v & 4u) << 4 | (v & 8u) << 6 | (v & 16u) << 8;
+}
+
 /* Points of one way, one cell of the object's box and one light are a patch. */
 static size_t sort_points(points *s, float cell)
 {
     size_t patches = 0;
     for (size_t i = 0; i < s->count; ++i) {
         point *p = &s->all[i];
-        p->key = ((p->told << 5 | cell_of(p->p.at.x, s->low.x, 1.0f / cell)) << 5 |
-                  cell_of(p->p.at.y, s->low.y, 1.0f / cell)) << 5 | cell_of(p->p.at.z, s->low.z, 1.0f / cell);
+        p->key = p->told << 15 | apart(cell_of(p->p.at.x, s->low.x, 1.0f / cell)) << 2 |
+                 apart(cell_of(p->p.at.y, s->low.y, 1.0f / cell)) << 1 | apart(cell_of(p->p.at.z, s->low.z, 1.0f / cell));
     }
     qsort(s->all, s->count, sizeof *s->all, by_order);
     for (size_t i = 0; i < s->count; ++i) {
@@ -277,11 +378,13 @@ static size_t sort_points(points *s, float cell)
 /* Means by flux. */
 static void gather(mix_patch *out, const point *from, size_t count, float cell)
 {
-    float weight = 0.0f;
+    float weight = 0.0f, max = 0.0f;
     memset(out, 0, sizeof *out);
     for (size_t i = 0; i < count; ++i) {
         const point *p = &from[i];
         weight += p->weight;
+        out->on = p->weight > max ? p->p.at : out->on;
+        max = fmaxf(max, p->weight);
         out->at = plus(out->at, times(p->p.at, p->weight));
         out->normal = plus(out->normal, times(p->p.normal, p->weight));
         out->from = plus(out->from, times(p->p.from, p->weight));
@@ -302,6 +405,19 @@ static void gather(mix_patch *out, const point *from, size_t count, float cell)
 
 /* --- what emits --------------------------------------------------------------------------------------------------- */
 
+int mix_white_env(lmb_env *out, int32_t side, void *memory, size_t bytes)
+{
+    const float one[3] = {1, 1, 1};
+    if (lmb_env_init(out, side, memory, bytes) != LMB_OK) {
+        return 0;
+    }
+    for (int32_t i = 0; i < 6 * side * side; ++i) {
+        lmb_env_set(out, i / (side * side), i % side, i / side % side, one);
+    }
+    lmb_env_mips(out);
+    return 1;
+}
+
 /* First points of what emits, as if it reflected a light of pi W/m2 everywhere: their flux over `*peak` is what it
  * emits. */
 static lmb_texel *emitted(size_t *count, float *peak, mix_job *j, report *r)
@@ -311,17 +427,13 @@ static lmb_texel *emitted(size_t *count, float *peak, mix_job *j, report *r)
     lmb_env white;
     lmb_vec3 low, high;
     mix_object_box(&low, &high, j);
-    const float size = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z), one[3] = {1, 1, 1};
+    const float size = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z);
     const size_t bytes = lmb_env_bytes(SIDE);
     void *memory = mix_take(j, bytes, r);
     lmb_scene *scene = mix_copy_scene(&m, j, r);
-    if (memory == NULL || scene == NULL || lmb_env_init(&white, SIDE, memory, bytes) != LMB_OK) {
+    if (memory == NULL || scene == NULL || !mix_white_env(&white, SIDE, memory, bytes)) {
         return NULL;
     }
-    for (int32_t i = 0; i < 6 * SIDE * SIDE; ++i) {
-        lmb_env_set(&white, i / (SIDE * SIDE), i % SIDE, i / SIDE % SIDE, one);
-    }
-    lmb_env_mips(&white);
     *peak = 0.0f;
     for (uint32_t i = 0; i < 3 * scene->material_count; ++i) {
         *peak = fmaxf(*peak, m[i / 3].emission[i % 3]);
@@ -478,8 +590,8 @@ static int add_reflected(points *to, mix_job *j, report *r)
 /* --- their lights ------------------------------------------------------------------------------------------------- */
 
 /* Before the middle of a way's points, beyond the one that stands out most: a patch lies at the mean of its points, which of
- * a curved surface is within it, and a light there would see nothing. `clear`: how far beyond, m. Returns their normal. */
-static lmb_vec3 set_light(lmb_light *out, const point *p, size_t count, float clear)
+ * a curved surface is within it, and a light there would be within it. `clear`: how far beyond, m. */
+static void set_light(lmb_light *out, const point *p, size_t count, float clear)
 {
     lmb_vec3 at = {0, 0, 0}, normal = {0, 0, 0};
     float weight = 0.0f, reach = 0.0f;
@@ -499,44 +611,144 @@ static lmb_vec3 set_light(lmb_light *out, const point *p, size_t count, float cl
     out->direction = (lmb_vec3){0, -1, 0};
     out->cos_inner = out->cos_outer = 1.0f;
     out->intensity[0] = out->intensity[1] = out->intensity[2] = 1.0f;
-    return normal;
 }
 
 /* Cells grow until patches are few enough for each pixel to ask them all. */
 static float choose_cell(points *s, float side, size_t *patches)
 {
     float cell = side / CELLS;
-    while ((*patches = sort_points(s, cell)) > PATCHES && cell < side) {
+    size_t max = GLOWING;
+    for (size_t i = 0; i < s->count; ++i) {
+        max = s->all[i].p.alpha2 > 0.0f ? PATCHES : max;
+    }
+    while ((*patches = sort_points(s, cell)) > max && cell < side) {
         cell *= 1.25f;
     }
     return cell;
 }
 
+static float sends(const mix_patch *p) { return p->flux[0] + p->flux[1] + p->flux[2]; }
+
+/* Adds patch i to its way's last bundle, or begins one where that sends its share. */
+static void add_to_bundle(mix_sources *s, int32_t way, int32_t i, int is_new, float share)
+{
+    mix_bundle *last = &s->bundle[s->bundles[way + 1] - 1];
+    float sum = 0.0f;
+    for (int32_t k = last->first; !is_new && k < last->past; ++k) {
+        sum += sends(&s->piece[k]);
+    }
+    if (is_new || sum >= share) {
+        last = &s->bundle[s->bundles[way + 1]++];
+        last->first = i;
+    }
+    last->past = i + 1;
+}
+
+/* What a few patches are from afar. */
+static mix_patch merge(const mix_patch *p, int32_t count)
+{
+    mix_patch out = p[0];
+    float all = 0.0f, max = 0.0f;
+    out.at = out.normal = (lmb_vec3){0, 0, 0};
+    out.area = out.flux[0] = out.flux[1] = out.flux[2] = 0.0f;
+    for (int32_t i = 0; i < count; ++i) {
+        const float one = sends(&p[i]);
+        out.at = plus(out.at, times(p[i].at, one));
+        out.normal = plus(out.normal, times(p[i].normal, one));
+        out.area += p[i].area;
+        out.on = one > max ? p[i].on : out.on;
+        max = fmaxf(max, one);
+        all += one;
+        for (int c = 0; c < 3; ++c) {
+            out.flux[c] += p[i].flux[c];
+        }
+    }
+    out.at = times(out.at, 1.0f / all);
+    out.normal = times(out.normal, 1.0f / sqrtf(fmaxf(dot(out.normal, out.normal), 1e-30f)));
+    return out;
+}
+
+/* Metal's patches stay: lobes are narrow. Returns how many pieces there are then. */
+static int32_t add_far(mix_sources *s, mix_bundle *b, int32_t n)
+{
+    float far = 0.0f;
+    if (s->piece[b->first].alpha2 > 0.0f) {
+        b->reach = INFINITY;
+        return n;
+    }
+    b->far_first = n;
+    for (int32_t i = b->first; i < b->past; i += MERGED) {
+        s->piece[n++] = merge(&s->piece[i], b->past - i < MERGED ? b->past - i : MERGED);
+    }
+    b->far_past = n;
+    b->middle = merge(&s->piece[b->first], b->past - b->first).at;
+    for (int32_t i = b->first; i < b->past; ++i) {
+        const lmb_vec3 off = less(s->piece[i].at, b->middle);
+        far = fmaxf(far, sqrtf(dot(off, off)));
+    }
+    b->reach = far + AFAR * sqrtf(MERGED * s->piece[b->first].area);
+    return n;
+}
+
+/* The points of one way, from s->all[at] on; returns how many. */
+static size_t make_way(lmb_light *light, mix_sources *to, const points *s, size_t at, int32_t ways, float cell, float clear,
+                       float share)
+{
+    const size_t begins = at;
+    const uint32_t way = s->all[at].way;
+    int32_t n = to->first[ways];
+    uint32_t told = UINT32_MAX;
+    to->bundles[ways + 1] = to->bundles[ways];
+    while (at < s->count && s->all[at].way == way) {
+        const size_t from = at;
+        while (at < s->count && by_key(&s->all[from], &s->all[at]) == 0) {
+            ++at;
+        }
+        gather(&to->piece[n], &s->all[from], at - from, cell);
+        add_to_bundle(to, ways, n++, told != s->all[from].told, share);
+        told = s->all[from].told;
+    }
+    to->first[ways + 1] = n;
+    set_light(light, &s->all[begins], at - begins, clear);
+    return at - begins;
+}
+
 static int32_t make_patches(lmb_light out[MIX_WAYS], points *s, float side, mix_job *j, report *r)
 {
-    size_t patches = 0, at = 0;
-    int32_t ways = 0, n = 0;
+    size_t patches = 0;
+    int32_t ways = 0;
+    float all = 0.0f;
     const float cell = choose_cell(s, side, &patches);
-    j->sources = mix_take(j, sizeof *j->sources, r);
-    mix_patch *p = mix_take(j, (patches + 1) * sizeof *p, r);
-    if (j->sources == NULL || p == NULL) {
+    mix_sources *to = j->sources = mix_take(j, sizeof *to, r);
+    if (to == NULL || (to->piece = mix_take(j, 2 * (patches + 1) * sizeof *to->piece, r)) == NULL ||
+        (to->bundle = mix_take(j, (patches + 1) * sizeof *to->bundle, r)) == NULL) {
         return -1;
     }
-    j->sources->piece = p;
-    while (at < s->count) {
-        const uint32_t way = s->all[at].way;
-        const size_t begins = at;
-        for (j->sources->first[ways] = n; at < s->count && s->all[at].way == way; ++n) {
-            const size_t from = at;
-            while (at < s->count && by_key(&s->all[from], &s->all[at]) == 0) {
-                ++at;
-            }
-            gather(&p[n], &s->all[from], at - from, cell);
+    for (size_t i = 0; i < s->count; ++i) {
+        all += s->all[i].weight;
+        for (int c = 0; c < 3; ++c) {
+            to->sent[c] += (double)s->all[i].p.flux[c];
         }
-        j->sources->axis[ways] = set_light(&out[ways], &s->all[begins], at - begins, CLEAR * side);
-        j->sources->first[++ways] = n;
     }
+    for (size_t at = 0; at < s->count; ++ways) {
+        at += make_way(&out[ways], to, s, at, ways, cell, CLEAR * side, all / BUNDLES);
+    }
+    int32_t n = to->first[ways];
+    for (int32_t i = 0; i < to->bundles[ways]; ++i) {
+        n = add_far(to, &to->bundle[i], n);
+    }
+    to->noise = ROUNDED * side;
     return ways;
+}
+
+static int build_bvh(mix_job *j, report *r)
+{
+    const uint32_t triangles = lmb_scene_triangles(&j->scene);
+    const size_t bytes = lmb_bvh_bytes(triangles);
+    void *memory = mix_take(j, bytes, r);
+    return memory != NULL && ((lmb_bvh_init(&j->sources->bvh, triangles, memory, bytes) == LMB_OK &&
+                               lmb_bvh_build(&j->sources->bvh, &j->scene) == LMB_OK) ||
+                              report_fail(r, "the object has too many triangles to shine"));
 }
 
 int32_t mix_sources_find(lmb_light out[MIX_WAYS], mix_job *j, report *r)
@@ -555,5 +767,5 @@ int32_t mix_sources_find(lmb_light out[MIX_WAYS], mix_job *j, report *r)
         ways = ok ? make_patches(out, &s, side, j, r) : -1;
     }
     free(s.all);
-    return ways;
+    return ways > 0 && !build_bvh(j, r) ? -1 : ways;
 }

@@ -92,17 +92,17 @@ static int32_t wall_of(const mix_job *j, lmb_vec3 up)
 /* What stands on an upright plane would lie in the air: it hangs there. */
 static void choose_hanging(mix_job *j)
 {
-    const lmb_vec3 up = lmb_planes_up(&j->planes);
+    const lmb_vec3 up = mix_up(j);
     j->hangs = is_upright(&j->planes.plane[j->floor], up);
     j->up = j->hangs ? up : j->planes.plane[j->floor].normal;
 }
 
 static int find_plane(mix_job *j, report *r)
 {
-    const lmb_vec3 up = lmb_planes_up(&j->planes);
+    const lmb_vec3 up = mix_up(j);
     static const char *const none[] = {"", "--on floor: no plane faces up", "--on table: no plane lies 0.3 m over another",
                                        "--on wall: no plane is upright and over 0.25 m wide and high"};
-    j->floor = j->o.on == MIX_ON_ANY ? lmb_planes_floor(&j->planes) : plane_asked(j, up);
+    j->floor = j->o.on == MIX_ON_ANY ? mix_floor(j) : plane_asked(j, up);
     j->faces_up = j->floor >= 0;
     if (j->floor < 0 && j->o.on != MIX_ON_ANY) {
         return report_fail(r, "%s; --show planes shows them, --at X,Y names one", none[j->o.on]);

@@ -149,16 +149,15 @@ typedef struct points {
     lmb_texel *real, *object, *again; /* again: those of one of them, with other light */
     size_t real_count, object_count;
     lmb_texel *sent;                 /* where what the object sends first meets a surface */
-    size_t sent_count, sent_cap;
-    double sent_flux[3], sent_out[3]; /* W, by what they give what is around; and of what goes where no surface is */
+    size_t sent_count;
+    double sent_flux[3], sent_out[3]; /* W, by what they give what is around; and of what leaves the cube */
     lmb_vec3 about; /* the object's middle */
 } points;
 
 /* All of a face's first points, in p->tree. What metal throws on of the lights' light is light of its own. */
 static int map_texels(mix_job *j, points *p, int32_t light, const lmb_shadow_map *map, int32_t face)
 {
-    const lmb_scene *scene = light < j->light_count - j->lamp_count ? &j->scene : j->bounces;
-    return lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, scene, &j->lights[light], map, face, 0, 0,
+    return lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, &j->scene, &j->lights[light], map, face, 0, 0,
                            map->size / LMB_TILE) == LMB_OK;
 }
 
@@ -254,41 +253,58 @@ static size_t inside(lmb_texel *all, size_t count, const lmb_voxels *v)
     return n;
 }
 
-/* One face's. What meets a surface in the cube is in its voxels, and lights what is around by what bounces there. */
-static void keep_sent(mix_job *j, points *p, int32_t light, int32_t face)
+/* What all surfaces of the scene, or of one that is white everywhere, reflect of pi W/m2, by points in the cube. */
+static lmb_texel *reflect_all(size_t *count, const mix_job *j, const lmb_scene *scene, const lmb_env *white, lmb_texel *out,
+                              size_t cap)
 {
-    const int32_t texels = p->tree.size * p->tree.size;
-    mix_sources_texels(p->tree.texel, p->tree.size, p->sent_out, j, light, face);
-    for (int32_t k = 0; k < texels; ++k) {
-        const lmb_texel *t = &p->tree.texel[k];
-        const int is_near = is_inside(t, &j->voxels);
-        if (is_near && t->flux[0] + t->flux[1] + t->flux[2] > 0.0f && p->sent_count < p->sent_cap) {
-            p->sent[p->sent_count++] = *t;
-        }
-        for (int c = 0; c < 3; ++c) {
-            p->sent_flux[c] += (is_near ? UNSEEN_ALBEDO : 1.0) * (double)t->flux[c];
-        }
-    }
+    const uint32_t all = j->real_triangles + j->object_triangles;
+    lmb_around_points(out, cap, scene, 1, all, 0.5f * j->voxels.leaf, white);
+    *count = inside(out, cap, &j->voxels);
+    return out;
 }
 
-/* Once, as each of them asks all patches of its way. */
+static lmb_scene *white_scene(mix_job *j, report *r)
+{
+    lmb_material *m;
+    lmb_scene *out = mix_copy_scene(&m, j, r);
+    for (uint32_t i = 0; out != NULL && i < out->material_count; ++i) {
+        m[i].albedo[0] = m[i].albedo[1] = m[i].albedo[2] = 1.0f;
+        m[i].texture = -1;
+    }
+    return out;
+}
+
+/* What the object sends, where it first meets a surface. What meets one in the cube is in its voxels, and lights what is
+ * around by what bounces there; all else lights what is around. */
 static int find_sent(mix_job *j, points *p, report *r)
 {
-    const size_t cap = 6 * (size_t)j->lamp_count * (size_t)p->tree.size * (size_t)p->tree.size;
-    p->sent = mix_take(j, cap * sizeof *p->sent, r);
-    p->sent_cap = cap;
-    for (int32_t i = j->light_count - j->lamp_count; p->sent != NULL && i < j->light_count; ++i) {
-        const lmb_shadow_map *map = &j->maps[i][1];
-        for (int32_t f = 0; f < map->faces; ++f) {
-            if ((map->drawn >> f & 1u) != 0 && !map_texels(j, p, i, map, f)) {
-                return report_fail(r, "voxels cannot take their light");
-            }
-            if ((map->drawn >> f & 1u) != 0) {
-                keep_sent(j, p, i, f);
-            }
-        }
+    enum { SIDE = 8 };
+    lmb_env white;
+    double arrives[3] = {0, 0, 0};
+    if (j->lamp_count == 0) {
+        return 1;
     }
-    return p->sent != NULL;
+    const uint32_t all = j->real_triangles + j->object_triangles;
+    const size_t bytes = lmb_env_bytes(SIDE),
+                 cap = lmb_around_points(NULL, 0, j->bounces, 1, all, 0.5f * j->voxels.leaf, &j->env[0]);
+    void *memory = mix_take(j, bytes, r);
+    lmb_texel *bare = mix_take(j, cap * sizeof *bare, r);
+    const lmb_scene *scene = white_scene(j, r);
+    p->sent = mix_take(j, cap * sizeof *p->sent, r);
+    if (memory == NULL || bare == NULL || scene == NULL || p->sent == NULL ||
+        !mix_white_env(&white, SIDE, memory, bytes)) {
+        return 0;
+    }
+    reflect_all(&p->sent_count, j, j->bounces, &white, p->sent, cap);
+    reflect_all(&p->sent_count, j, scene, &white, bare, cap);
+    mix_sources_points(p->sent, bare, p->sent_count, arrives, j);
+    for (size_t i = 0; i < 3 * p->sent_count; ++i) {
+        p->sent_flux[i % 3] += UNSEEN_ALBEDO * (double)p->sent[i / 3].flux[i % 3];
+    }
+    for (int c = 0; c < 3; ++c) {
+        p->sent_out[c] = fmax(j->sources->sent[c] - arrives[c], 0.0);
+    }
+    return 1;
 }
 
 /* What is not seen is lit by what lamps' light first meets: it darkens as much as the object takes of that, which

@@ -9,6 +9,7 @@
 #include "../../platform/host/host.h"
 #include "../common/progress.h"
 #include "../picture/picture.h"
+#include "mix_labels.h"
 #include "mix_run.h"
 
 static int write_stats(const mix_job *j, report *r)
@@ -46,7 +47,8 @@ static int mix(mix_job *j, report *r)
     }
     mix_tell(j);
     mix_tell_times(j);
-    return picture_write(j->o.out, &j->picture, mix_exposure(j), PICTURE_CLIPPED, r) && (j->o.stats == NULL || write_stats(j, r));
+    return picture_write(j->o.out, &j->picture, mix_exposure(j), PICTURE_CLIPPED, r) && mix_labels_write(j, r) &&
+           (j->o.stats == NULL || write_stats(j, r));
 }
 
 int verb_mix(int argc, char **argv)
