@@ -147,4 +147,43 @@ status 0 relight --world lamp_world.pfm --ground facepx.pfm --ground-size 60,60 
 contact_sum=$(cksum <bowls.pfm)
 check "contact's pixels are these: $contact_sum" test "$contact_sum" = "2008633955 36878"
 
+# A world without a picture of the ground: its lower half is the ground, and takes an object's contact and a sun's shadow.
+stand="relight --world white.pfm --object table.obj --f0 0 --at 0,0.5,0 --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24"
+least() { "$TOOL" info "$1" | awk -v low="$2" -v high="$3" '/ min /{ n += $3 >= low && $3 <= high } END { exit n != 3 }'; }
+status 0 $stand -o stood.pfm
+status 0 $stand --no-contact -o hung.pfm
+check "a world is a ground without a picture of one" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[89]"' sh "$TOOL" stood.pfm hung.pfm
+status 0 $stand --floor none -o none.pfm
+status 0 $stand --floor none --no-contact -o none2.pfm
+check "without a floor nothing stands on it" cmp none.pfm none2.pfm
+# Pi from the white world and pi from the sun: half of the ground's light is left below the table, and all of it elsewhere.
+noon="--light sun:0,0,0:0,-1,0:3.14159265,3.14159265,3.14159265"
+status 0 $stand --no-contact $noon -o noon.pfm
+check "a given sun casts a shadow on the ground" least noon.pfm 0.49 0.51
+check "and lights it nowhere else" sh -c '"$1" info "$2" | awk "/ max /{ n += \$5 < 1.6 } END { exit n != 3 }"' sh "$TOOL" noon.pfm
+status 0 $stand --no-contact $noon --threads 1 --backend scalar -o alike.pfm
+check "a backend changes no shadow" cmp noon.pfm alike.pfm
+status 0 $low $noon -o noon.pfm
+check "a given sun casts a shadow on a picture of the ground" least noon.pfm 0.49 0.51
+status 2 $stand --contact --no-contact -o bad.pfm
+status 1 $stand --floor on --world-centre 0,-1,0 -o bad.pfm
+said "under the --floor"
+status 0 relight --world white.pfm --object table.obj --size 16x12 -o framed.png
+said "no camera in table.obj: framing"
+# Objects with many vertices are thinned: the contact of a ball hardly changes. Many triangles that cross bound the work.
+ball() { awk -v n="$1" 'BEGIN { p = atan2(0, -1)
+    for (j = 0; j <= n; ++j) for (i = 0; i < n; ++i)
+        printf "v %.6f %.6f %.6f\n", sin(p * j / n) * cos(2 * p * i / n), 1 + cos(p * j / n), sin(p * j / n) * sin(2 * p * i / n)
+    for (j = 0; j < n; ++j) for (i = 1; i <= n; ++i) { a = j * n; k = i % n + 1
+        print "f", a + i, a + k, a + n + k; print "f", a + i, a + n + k, a + n + i } }'; }
+for n in 60 110; do
+    ball $n >"ball_$n.obj"
+    status 0 relight --world white.pfm --object "ball_$n.obj" --f0 0 --eye 0,2,6 --target 0,0.8,0 --size 64x48 -o "ball_$n.pfm"
+done
+check "a thinned ball has the contact of a whole one" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.00"' sh "$TOOL" ball_110.pfm ball_60.pfm
+awk 'BEGIN { srand(3); for (i = 0; i < 6000; ++i) { z = 2 * rand() - 1; a = 6.2831853 * rand(); r = sqrt(1 - z * z); x = r * cos(a); y = r * sin(a)
+    print "v", x, z + 1, y; print "v", -x, 1 - z, -y; print "v", 0.002 - x, 1.002 - z, -y; print "f", 3 * i + 1, 3 * i + 2, 3 * i + 3 } }' >needles.obj
+status 0 relight --world white.pfm --object needles.obj --size 16x12 -o needles.pfm
+said "sights have coarser visibility"
+
 finish

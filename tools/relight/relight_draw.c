@@ -14,7 +14,7 @@
 #include "relight_contact.h"
 #include "relight_path.h"
 
-enum { SHADOW_MAP = 512 };
+enum { SHADOW_MAP = 2048 };
 
 /* The cubes of one of the cache's slots. */
 typedef struct slot_cubes {
@@ -37,6 +37,7 @@ typedef struct stage {
     void *map_memory[RELIGHT_LIGHTS], *depth_memory, *id_memory;
     lmb_relight relight;
     contact contact;
+    ground_lights ground; /* by given lights */
     lmb_relight_scratch *scratch; /* by thread */
     int threads;
     binned bins;
@@ -147,10 +148,17 @@ static int draw_shadows(stage *s, report *r)
 static void draw_band(void *user, int band, int thread)
 {
     stage *s = user;
-    const lmb_status status =
-        s->o->contact ? contact_band(&s->contact, &s->figures, &s->relight, &s->scratch[thread],
-                                     s->rows + 3 * LMB_TILE * (size_t)thread * (size_t)s->out.width, &s->out, band)
-                      : lmb_relight_band(&s->relight, &s->scratch[thread], &s->out, band);
+    lmb_relight_scratch *scratch = &s->scratch[thread];
+    lmb_status status = LMB_OK;
+    if (s->o->contact) {
+        status = contact_band(&s->contact, &s->figures, &s->ground, &s->relight, scratch,
+                              s->rows + 3 * LMB_TILE * (size_t)thread * (size_t)s->out.width, &s->out, band);
+    } else {
+        status = lmb_relight_band(&s->relight, scratch, &s->out, band);
+        if (status == LMB_OK && s->o->show != LMB_RELIGHT_GLOSSY) {
+            status = ground_band(&s->ground, NULL, &s->relight, scratch, &s->out, band);
+        }
+    }
     s->failed[thread] = status != LMB_OK ? status : s->failed[thread];
     if (thread == 0) {
         progress_tell("pictures", (s->done + (double)(band * LMB_TILE) / ((double)s->out.height * s->samples)) / s->all);
@@ -184,7 +192,8 @@ static lmb_status draw_sample(stage *s, float *pixels)
 /* Pictures of one path may move the figure: what it takes goes with it. */
 static int touch(stage *s, report *r)
 {
-    return !s->o->contact || contact_make(&s->contact, &s->figures, s->light, s->o, r);
+    return ground_lights_take(&s->ground, &s->figures, s->light, s->o, r) &&
+           (!s->o->contact || contact_make(&s->contact, &s->figures, s->light, s->o, r));
 }
 
 static int draw(stage *s, report *r)
@@ -375,6 +384,7 @@ static void stage_free(stage *s)
     free(s->id_memory);
     image_free(&s->picture);
     contact_free(&s->contact);
+    ground_lights_free(&s->ground);
     place_list_free(&s->path);
     figures_free(&s->figures);
     free(s);

@@ -28,7 +28,7 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
         return report_fail(r, "%s: out of memory", name);
     }
     return lmb_world_init(&w->world[i], &o->place, o->format, w->world_memory[i], bytes) == LMB_OK ||
-           report_fail(r, "--world-centre: lies outside the far world, or numbers are over 1,000,000 m");
+           report_fail(r, "--world-centre: lies outside the far world or under the --floor, or numbers are over 1,000,000 m");
 }
 
 static int make_table(relight_light *w, int i, report *r)

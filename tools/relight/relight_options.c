@@ -11,6 +11,7 @@
 #include "../picture/picture.h"
 
 #define PLAIN_GROUND 100.0f /* m, its sides where nothing is said */
+#define EYE_HEIGHT   1.6f   /* m: of who took a world's picture over its floor */
 
 const char *const relight_filters[FILTERS + 1] = {"cosine", "sh9", "sh16", "sh25", "blur", "blur1", "blur2", NULL};
 
@@ -57,6 +58,7 @@ static int parse_place(const char *text, void *at) { return relight_place(text, 
 /* --- the table ---------------------------------------------------------------------------------------------------- */
 
 static const char *const storages[] = {"f32", "log16", "log8", NULL}; /* in the order of LMB_WORLD_ */
+static const char *const floors[] = {"auto", "on", "none", NULL};
 static const char *const overlaps[] = {"nearer", "mean", NULL};
 static const char *const shows[] = {"both", "normal", "glossy", NULL}; /* in the order of LMB_RELIGHT_ */
 
@@ -89,6 +91,10 @@ static const option_row world_rows[] = {
      .help = HELP("the picture's middle (default: the world's centre)")},
     {.name = "--ground-height", .value = "H", .kind = OPTION_NUMBER, AT(place.ground_y), .low = -1e30, .high = 1e30,
      .help = HELP("of the ground, m (default 0)")},
+    {.name = "--floor", .kind = OPTION_WORD, AT(floor), .words = floors,
+     .help = HELP("on: all below the horizon of the world lies flat at --ground-height, and objects stand on it; none: it "
+             "lies as far as the rest; auto (default): on if an object is drawn in a single --world without --ground, "
+             "--world-sphere and --world-box. The world's centre is then 1.6 m above the floor by default")},
     {.name = "--storage", .kind = OPTION_WORD, AT(format), .words = storages,
      .help = HELP("how the world is kept: floats, or log codes of 0 to 100 (default f32)")},
     {.name = "--overlap", .kind = OPTION_WORD, AT(blend), .words = overlaps,
@@ -135,10 +141,13 @@ static const option_row object_rows[] = {
     {.name = "--contact", .kind = OPTION_FLAG, AT(contact),
      .help = HELP("objects darken the ground below them, themselves and each other, and light them by what they reflect; "
              "lobes mirror that. What an object hides is found once: from itself by rays from each vertex, from "
-             "the ground anew at another height; then by up to 448 lights of the world a picture")},
+             "the ground anew at another height; then by up to 448 lights of the world a picture. An object with over "
+             "4,096 vertices is thinned to about as many for this. Default with a --floor")},
+    {.name = "--no-contact", .kind = OPTION_FLAG, AT(no_contact), .help = HELP("leave that out")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), COUNTS(light_count), .times = RELIGHT_LIGHTS,
      .size = sizeof(lmb_light),
-     .help = HELP("a light or sun beside the world's light, as in `lambent render`")},
+     .help = HELP("a light or sun beside the world's light, as in `lambent render`. The world's pictures show the ground "
+             "in its light: it darkens the ground where objects block it")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
      .help = HELP("all light, that by normals alone, or what is mirrored alone (default both)")},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
@@ -224,6 +233,12 @@ static int check_together(const relight_options *o, report *r)
 static void complete(relight_options *o)
 {
     lmb_world_pictures *p = &o->place;
+    const int floor_fits = o->object != NULL && o->ground == NULL && !o->has_far && o->worlds == 1;
+    p->has_floor = o->floor == FLOOR_ON || (o->floor == FLOOR_AUTO && floor_fits && (o->centres == 0 || p->centre.y > p->ground_y));
+    if (p->has_floor && o->centres == 0 && !o->has_far) {
+        p->centre.y = p->ground_y + EYE_HEIGHT;
+    }
+    o->contact = (o->contact || p->has_floor) && !o->no_contact;
     o->centre[0] = p->centre; /* the built-in world has its own */
     if (!o->has_far) {
         p->middle = p->centre;
@@ -239,7 +254,7 @@ static void complete(relight_options *o)
     p->ground_z = o->ground_centre[1] - 0.5f * o->ground_size[1];
     if (o->at_count == 0 && o->path == NULL) {
         o->at[0] = p->centre;
-        o->at[0].y = o->object != NULL && o->ground != NULL ? p->ground_y : p->centre.y;
+        o->at[0].y = o->object != NULL && (o->ground != NULL || p->has_floor) ? p->ground_y : p->centre.y;
         o->at_count = 1;
     }
 }
@@ -286,6 +301,10 @@ int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
     }
     o->place.centre = o->centre[0];
     if (o->worlds == 1 && strcmp(o->world[0], "demo") == 0 && !demo_options(o, r)) {
+        return OPTIONS_BAD;
+    }
+    if (o->contact && o->no_contact) {
+        report_fail(r, "--contact and --no-contact exclude each other");
         return OPTIONS_BAD;
     }
     complete(o);

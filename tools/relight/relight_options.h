@@ -14,6 +14,8 @@ enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8 }; /* --at, 
 enum { FILTER_COSINE, FILTER_SH9, FILTER_SH16, FILTER_SH25, FILTER_BLUR, FILTER_BLUR1, FILTER_BLUR2, FILTERS };
 extern const char *const relight_filters[FILTERS + 1];
 
+enum { FLOOR_AUTO, FLOOR_ON, FLOOR_NONE };
+
 typedef struct relight_options {
     /* the world */
     const char *world[RELIGHT_WORLDS], *ground;
@@ -23,6 +25,7 @@ typedef struct relight_options {
     float ground_size[2], ground_centre[2];
     int32_t format, blend;
     int32_t has_far, has_ground_centre;
+    int32_t floor; /* FLOOR_ */
     /* what is in it */
     model_choice choice; /* choices for the file of the object */
     const char *object, *path;
@@ -30,7 +33,7 @@ typedef struct relight_options {
     int32_t at_count, keep_count;
     float scale_m;       /* of the object's longest side; 0: as its file says */
     float roughness, f0; /* < 0: its materials' own */
-    int per_part, contact;
+    int per_part, contact, no_contact;
     lmb_light lights[RELIGHT_LIGHTS];
     int32_t light_count;
     lmb_probe_policy policy;
