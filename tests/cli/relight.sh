@@ -93,6 +93,7 @@ status 0 relight --world white.pfm --object demo --contact --size 16x8 -o field.
 printf 'v -1 0 -1\nv 1 0 -1\nv 1 2 -1\nv -1 2 -1\nv -1 0 1\nv 1 0 1\nv 1 2 1\nv -1 2 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >white_box.obj
 { printf 'PF\n1 6\n-1.0\n'; head -c 72 /dev/zero; } >night.pfm
 { printf 'PF\n1 6\n-1.0\n'; repeated 18 '\012\327\243\074'; } >dusk.pfm # 0.02
+{ printf 'PF\n1 6\n-1.0\n'; repeated 9 '\012\327\243\074'; head -c 36 /dev/zero; } >dusk_half.pfm
 for sky in night dusk; do
     status 0 relight --world "$sky.pfm" --ground facepx.pfm --ground-size 40,40 --object white_box.obj --f0 0 --contact --eye 0,4,9 --target 0,0.5,0 --size 64x48 -o glow.pfm
     check "contact lights a bright ground by a part of its own light: $sky" sh -c '"$1" info "$2" | awk "/ max /{ n += \$5 > 1.05 && \$5 < 1.5 } END { exit n != 3 }"' sh "$TOOL" glow.pfm
@@ -185,5 +186,31 @@ awk 'BEGIN { srand(3); for (i = 0; i < 6000; ++i) { z = 2 * rand() - 1; a = 6.28
     print "v", x, z + 1, y; print "v", -x, 1 - z, -y; print "v", 0.002 - x, 1.002 - z, -y; print "f", 3 * i + 1, 3 * i + 2, 3 * i + 3 } }' >needles.obj
 status 0 relight --world white.pfm --object needles.obj --size 16x12 -o needles.pfm
 said "sights have coarser visibility"
+
+# Files for other programs: a white world has lobes of 1, and harmonics of one constant. A transform image gives its map.
+status 0 relight --world white.pfm --lobes lobe_%02d.pfm --side 16 --harmonics harmonics.json --dfg dfg.pfm --map own.pfm --map-height 16 --azimuth -90 --save-vectors vectors.pfm
+for k in 00 01 02 03 04 05; do
+    check "lobe $k of a white world is white" sh -c '"$1" info "$2" | grep -cE "min (1|0.99999.*) .*max (1|1.00000.*) " | grep -qx 3' sh "$TOOL" "lobe_$k.pfm"
+done
+check "a white world's harmonics" sh -c 'tr -d " \n" <"$1" | grep -q "\"radiance\":\[\[3\.5449.*\"irradiance\":\[\[11\.1366"' sh harmonics.json
+check "a smooth lobe reflects all of F0" sh -c '"$1" info "$2" | grep -q "red .*max 1 "' sh "$TOOL" dfg.pfm
+status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map quarter.pfm --map-height 16 --azimuth 0 --save-vectors vectors.pfm
+status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map again.pfm --vectors vectors.pfm
+check "a saved transform image gives the same map" cmp quarter.pfm again.pfm
+status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map half.pfm --map-height 16
+check "a map begins at its azimuth" sh -c '! cmp -s "$1" "$2"' sh half.pfm quarter.pfm
+status 1 relight --world white.pfm --map bad.pfm --vectors white.pfm
+said "no transform image"
+status 2 relight --world white.pfm --map bad.pfm --vectors vectors.pfm --azimuth 0
+status 2 relight --world white.pfm --save-vectors bad.png
+status 2 relight --world white.pfm --harmonics bad.json --at 0,0,0 --at 1,0,0
+check "a world that is half black is reported" sh -c '"$1" relight --world dusk_half.pfm --cube half_cube.pfm 2>&1 | grep -q "note: dusk_half.pfm: 50 % of it is black or blank"' sh "$TOOL"
+# Light follows what is carried: no step over 1 % where the light itself changes by 3 % from cube to cube.
+awk 'BEGIN { for (i = 0; i < 40; ++i) printf "%.3f,0,-2.5\n", -9.8 + 0.02 * i }' >path.txt
+status 0 relight --world demo --object demo --size 16x12 --path path.txt -q -o walk.ppm
+check "steps of light are under 1 %" sh -c 'awk "/^largest step of light/{ ok = \$5 > 0.05 && \$5 <= 1 } END { exit !ok }" "$1"' sh out.txt
+awk 'BEGIN { for (i = 0; i < 6; ++i) printf "%.3f,0,-2.5\n", -9.8 + 0.151 * i }' >path.txt
+status 0 relight --world demo --object demo --size 16x12 --path path.txt -q -o walk.ppm
+check "and from cube to cube more" sh -c 'awk "/^largest step of light/{ ok = \$5 > 2 } END { exit !ok }" "$1"' sh out.txt
 
 finish

@@ -6,7 +6,23 @@
 
 #include "../demo/demo_field.h"
 
+#define DARK 0.1 /* of a world: over this is reported */
+
 /* --- once --------------------------------------------------------------------------------------------------------- */
+
+/* How much of the sphere is black, blank or missing; by texels. */
+static double dark_share(const lmb_world_pictures *p)
+{
+    const size_t texels = (size_t)p->face_size * (size_t)p->face_size;
+    size_t dark = 0;
+    for (int f = 0; f < 6; ++f) {
+        for (size_t i = 0; i < texels; ++i) {
+            const float *rgb = p->face[f] != NULL ? p->face[f] + 3 * i : NULL;
+            dark += rgb == NULL || (p->alpha[f] != NULL && !(p->alpha[f][i] > 0.0f)) || !(rgb[0] + rgb[1] + rgb[2] > 0.0f);
+        }
+    }
+    return (double)dark / (6.0 * (double)texels);
+}
 
 /* Its pictures are not read again: all worlds share the room for one's. */
 static int make_world(relight_light *w, relight_options *o, int32_t i, report *r)
@@ -19,6 +35,9 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
         return 0;
     }
     world_tell_not_finite(&w->pictures, name, o->view.is_quiet);
+    const double dark = strcmp(name, "demo") == 0 ? 0.0 : dark_share(&o->place);
+    report_note(o->view.is_quiet || dark < DARK, "note: %s: %.0f %% of it is black or blank: no light comes from there", name,
+                100.0 * dark);
     if (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r)) {
         return 0;
     }

@@ -9,7 +9,8 @@
 #include "../model/model.h"
 #include "../picture/image.h"
 
-enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8 }; /* --at, --keep; --light; --world: so often */
+enum { RELIGHT_WIDTH = 128, RELIGHT_HEIGHT = 64, RELIGHT_MAX_FACES = 64 };
+enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8, RELIGHT_OBJECTS = 16 }; /* --at, --keep; --light; --world; --object: so often */
 
 enum { FILTER_COSINE, FILTER_SH9, FILTER_SH16, FILTER_SH25, FILTER_BLUR, FILTER_BLUR1, FILTER_BLUR2, FILTERS };
 extern const char *const relight_filters[FILTERS + 1];
@@ -28,10 +29,12 @@ typedef struct relight_options {
     int32_t floor; /* FLOOR_ */
     /* what is in it */
     model_choice choice; /* choices for the file of the object */
-    const char *object, *path;
+    const char *object, *path; /* the first of its objects */
+    const char *object_of[RELIGHT_OBJECTS];
+    int32_t objects, scales;
+    float scale_of[RELIGHT_OBJECTS]; /* m, of the longest side; 0: as its file says. One: of all objects */
     lmb_vec3 at[RELIGHT_PLACES], keep[RELIGHT_PLACES];
     int32_t at_count, keep_count;
-    float scale_m;       /* of the object's longest side; 0: as its file says */
     float roughness, f0; /* < 0: its materials' own */
     int per_part, contact, no_contact;
     lmb_light lights[RELIGHT_LIGHTS];
@@ -40,7 +43,9 @@ typedef struct relight_options {
     /* how and where to */
     int32_t filter, faces, show;
     view_options view;
-    const char *out, *cube, *map;
+    const char *out, *cube, *map, *vectors_out, *vectors_in, *lobes, *harmonics, *dfg;
+    int32_t map_height, side;
+    float azimuth;     /* degrees: the longitude of the map's left edge */
     image *into;       /* gets the picture in place of the file `out`, to be released; NULL: none */
     int32_t samples;   /* a pixel; 0: by the output's format */
     int32_t tone;      /* PICTURE_ */
