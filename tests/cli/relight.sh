@@ -213,4 +213,17 @@ awk 'BEGIN { for (i = 0; i < 6; ++i) printf "%.3f,0,-2.5\n", -9.8 + 0.151 * i }'
 status 0 relight --world demo --object demo --size 16x12 --path path.txt -q -o walk.ppm
 check "and from cube to cube more" sh -c 'awk "/^largest step of light/{ ok = \$5 > 2 } END { exit !ok }" "$1"' sh out.txt
 
+# Several objects: the picture of one at two places is that of two.
+two="relight --world white.pfm --no-contact --eye 0,3,9 --target 1,0.5,0 --size 48x32 $noon"
+status 0 $two --object white_box.obj --at -1,0,0 --at 3,0,1 -o twice.pfm
+status 0 $two --object white_box.obj --at -1,0,0 --object white_box.obj --at 3,0,1 --scale 2 -o both.pfm
+check "two objects are as one at two places" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" both.pfm twice.pfm
+status 0 $two --object white_box.obj --at -1,0,0 --object grey_paper.obj --at 3,0,1 --scale 2 --scale 1 -o mixed.pfm
+check "each has its own materials" sh -c '! "$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" both.pfm mixed.pfm
+status 0 relight --world demo --object demo --at 0,0,0 --object white_box.obj --at 2,0,0 --per-part --size 32x24 -o several.png
+status 2 $two --object white_box.obj --object table.obj --at 3,0,1 -o bad.pfm
+said "give each object its place"
+status 2 $two --object white_box.obj --at 0,0,0 --object table.obj --at 3,0,1 --scale 1 --scale 2 --scale 3 -o bad.pfm
+status 2 relight --world demo --object demo --object demo --path path.txt -o bad.ppm
+
 finish

@@ -40,7 +40,7 @@ static vec texel(int32_t n, int32_t i)
 }
 
 /* The weight of light from a direction at this cosine to the normal. */
-static double weigh(double cosine, double alpha)
+static double lobe_weight(double cosine, double alpha)
 {
     const double a2 = alpha * alpha, nh2 = 0.5 * (1.0 + cosine), d = nh2 * (a2 - 1.0) + 1.0;
     return alpha < 0.0 ? cosine : cosine / (d * d * (cosine + sqrt(cosine * cosine * (1.0 - a2) + a2)));
@@ -56,7 +56,7 @@ static void gather(double out[3], const image *map, vec n, double alpha)
         for (int32_t x = 0; x < map->width; ++x) {
             const double a = 2.0 * PI * (x + 0.5) / map->width - PI;
             const double cosine = dot(n, (vec){round * sin(a), cos(north), -round * cos(a)});
-            const double w = cosine > 0.0 ? area * weigh(cosine, alpha) : 0.0;
+            const double w = cosine > 0.0 ? area * lobe_weight(cosine, alpha) : 0.0;
             all += w;
             for (int c = 0; c < 3 && w > 0.0; ++c) {
                 out[c] += w * (double)map->pixels[3 * ((size_t)y * (size_t)map->width + (size_t)x) + (size_t)c];

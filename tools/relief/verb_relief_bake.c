@@ -262,10 +262,10 @@ static void tell(const work *w, const options *o, const relief_coverage *c)
            100.0 * c->slanted);
 }
 
-/* The least processor time of a few pictures, s; the last of them stays. < 0: `r` is set. */
+/* The shortest processor time of a few pictures, s; the last of them stays. < 0: `r` is set. */
 static double shoot(relief_frame *out, const relief_shot *shot, report *r)
 {
-    double least = 1e30;
+    double shortest = 1e30;
     for (int i = 0; i < 3; ++i) {
         if (i > 0) {
             relief_frame_free(out);
@@ -274,9 +274,9 @@ static double shoot(relief_frame *out, const relief_shot *shot, report *r)
             return -1.0;
         }
         const double s = out->draw_s + out->band_s;
-        least = s < least ? s : least;
+        shortest = s < shortest ? s : shortest;
     }
-    return least;
+    return shortest;
 }
 
 static double mesh_bytes(const triangle_mesh *m) { return 20.0 * m->vertex_count + 12.0 * m->triangle_count; }

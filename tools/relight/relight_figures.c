@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../demo/demo_field.h"
-
 #define PLAIN_F0 0.04f       /* of glass, plastic, skin */
 #define PLAIN_ROUGHNESS 0.4f /* where the file says nothing */
 
@@ -58,19 +56,6 @@ static int take_materials(figures *f, const relight_options *o, report *r)
 }
 
 /* --- places ------------------------------------------------------------------------------------------------------- */
-
-void figures_place(lmb_mat4 *out, const lmb_mat4 *from, lmb_vec3 low, lmb_vec3 high, float scale, lmb_vec3 at)
-{
-    const float foot[3] = {0.5f * (low.x + high.x), low.y, 0.5f * (low.z + high.z)},
-                to[3] = {at.x, at.y, at.z};
-    *out = *from;
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 3; ++row) {
-            float *m = &out->m[4 * column + row];
-            *m = column < 3 ? *m * scale : (*m - foot[row]) * scale + to[row];
-        }
-    }
-}
 
 void figures_stand(figures *f, uint32_t figure, lmb_vec3 at)
 {
@@ -147,21 +132,6 @@ static float set_scale(const figures *f, float longest_m)
 {
     const float x = f->high.x - f->low.x, y = f->high.y - f->low.y, z = f->high.z - f->low.z;
     return longest_m > 0.0f ? longest_m / fmaxf(fmaxf(x, y), z) : 1.0f;
-}
-
-int figures_load_model(model *out, const char *name, const relight_options *o, report *r)
-{
-    model_notes notes = {0};
-    if (strcmp(name, "demo") == 0) {
-        out->scene = *demo_field_figure();
-    } else if (!model_load_as(out, name, &o->choice, &notes, r)) {
-        return 0;
-    }
-    for (uint32_t i = 0; i < notes.count; ++i) { /* those of options that only `render` has are none of ours */
-        report_note(o->view.is_quiet || strstr(notes.line[i], "--glossy") != NULL || strstr(notes.line[i], "--grouping") != NULL,
-                    "note: %s", notes.line[i]);
-    }
-    return 1;
 }
 
 int figures_load(figures *f, const relight_options *o, uint32_t count, report *r)

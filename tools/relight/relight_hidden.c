@@ -13,8 +13,6 @@ static const float reach[HIDDEN_MAPS] = {2.5f, 0.25f}; /* of a figure's height: 
 #define LIFT 0.005f /* of a figure's height: off its surface, as a smooth one's facets lie below it */
 #define NEAR_M 0.5f
 
-float hidden_dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
 static void bounds_of(lmb_vec3 *low, lmb_vec3 *high, const figures *f, uint32_t figure)
 {
     lmb_scene own = f->scene;
@@ -31,13 +29,6 @@ lmb_vec3 hidden_foot(const figures *f, uint32_t figure)
 }
 
 /* --- vertices ----------------------------------------------------------------------------------------------------- */
-
-uint32_t hidden_vertex(const lmb_mesh *m, uint32_t corner)
-{
-    return m->index_format == LMB_INDEX_NONE  ? corner
-           : m->index_format == LMB_INDEX_U16 ? ((const uint16_t *)m->indices)[corner]
-                                              : ((const uint32_t *)m->indices)[corner];
-}
 
 static lmb_vec3 turned(const lmb_mat4 *m, lmb_vec3 p, float one)
 {
@@ -116,17 +107,6 @@ static void set_vertices(hidden_part *p, const lmb_mat4 *to_world, float lift)
         p->normal[i] = n;
         p->at[i] = (lmb_vec3){at.x + lift * n.x, at.y + lift * n.y, at.z + lift * n.z};
     }
-}
-
-uint32_t hidden_sampled(const hidden_part *p, uint32_t sample)
-{
-    return p->vertex_of != NULL ? p->vertex_of[sample] : sample;
-}
-
-float hidden_shared(uint32_t *sample, const hidden_part *p, uint32_t vertex, int i)
-{
-    *sample = p->share != NULL ? p->share[vertex].sample[i] : vertex;
-    return p->share != NULL ? p->share[vertex].weight[i] : (float)(i == 0);
 }
 
 /* --- sights ------------------------------------------------------------------------------------------------------- */

@@ -228,6 +228,8 @@ const option_table relight_table = {
                 "  lambent relight --world demo --object demo -o field.png\n"),
 };
 
+int relight_has_ground(const relight_options *o) { return o->place.ground != NULL || o->place.has_floor; }
+
 /* --- all of it ---------------------------------------------------------------------------------------------------- */
 
 /* Several objects have a place each, and one size or one each. */

@@ -62,6 +62,9 @@ int relight_place(const char *text, lmb_vec3 *out);
 /* Do several worlds go together with their centres? 1, or 0 with `r` set. */
 int relight_worlds_check(const relight_options *o, report *r);
 
+/* relight_has_ground: does the world have a ground: a picture of it that was read, or a floor? */
+int relight_has_ground(const relight_options *o);
+
 /* As options_parse. */
 int relight_options_parse(relight_options *out, int argc, char **argv, report *r);
 

@@ -10,6 +10,30 @@
 
 enum { NEIGHBOURS = 12, SHARES = HIDDEN_SHARES };
 
+/* --- what all files of contact ask -------------------------------------------------------------------------------- */
+
+float hidden_dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+uint32_t hidden_vertex(const lmb_mesh *m, uint32_t corner)
+{
+    return m->index_format == LMB_INDEX_NONE  ? corner
+           : m->index_format == LMB_INDEX_U16 ? ((const uint16_t *)m->indices)[corner]
+                                              : ((const uint32_t *)m->indices)[corner];
+}
+
+uint32_t hidden_sampled(const hidden_part *p, uint32_t sample)
+{
+    return p->vertex_of != NULL ? p->vertex_of[sample] : sample;
+}
+
+float hidden_shared(uint32_t *sample, const hidden_part *p, uint32_t vertex, int i)
+{
+    *sample = p->share != NULL ? p->share[vertex].sample[i] : vertex;
+    return p->share != NULL ? p->share[vertex].weight[i] : (float)(i == 0);
+}
+
+/* --- clusters ----------------------------------------------------------------------------------------------------- */
+
 /* The vertices in one cell that face one way. */
 typedef struct cluster {
     uint64_t key;
@@ -145,13 +169,13 @@ static float weight_of(const thinning *t, uint32_t vertex, uint32_t k)
 /* The heaviest stay behind the first. */
 static void add_share(hidden_share *s, uint32_t sample, float weight)
 {
-    int least = 1;
+    int lightest = 1;
     for (int i = 2; i < SHARES; ++i) {
-        least = s->weight[i] < s->weight[least] ? i : least;
+        lightest = s->weight[i] < s->weight[lightest] ? i : lightest;
     }
-    if (weight > s->weight[least]) {
-        s->weight[least] = weight;
-        s->sample[least] = sample;
+    if (weight > s->weight[lightest]) {
+        s->weight[lightest] = weight;
+        s->sample[lightest] = sample;
     }
 }
 

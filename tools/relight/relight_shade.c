@@ -9,8 +9,6 @@
 
 #define FARTHEST 1e5f /* m: what lies beyond is as it is */
 
-int relight_has_ground(const relight_options *o) { return o->place.ground != NULL || o->place.has_floor; }
-
 int ground_lights_take(ground_lights *g, const figures *f, relight_light *w, const relight_options *o, report *r)
 {
     if (o->light_count == 0 || !relight_has_ground(o)) {
@@ -102,7 +100,7 @@ static int take_ground(lmb_tile *t, const lmb_relight *r, int32_t x0, int32_t y0
 }
 
 /* What is left of the ground's light by given lights and the world's. */
-static void weigh(float left[3], const ground_lights *g, const lmb_irradiance *all, const lmb_irradiance *lit, const lmb_tile *t,
+static void ground_share(float left[3], const ground_lights *g, const lmb_irradiance *all, const lmb_irradiance *lit, const lmb_tile *t,
                   int k)
 {
     float world[3];
@@ -136,7 +134,7 @@ static lmb_status ground_tile(const ground_lights *g, const contact *c, const lm
             contact_ground_left(left, c, s->tile.position[0][k], s->tile.position[2][k]);
         }
         if (g->figures > 0) {
-            weigh(left, g, &s->one, &s->light, &s->tile, k);
+            ground_share(left, g, &s->one, &s->light, &s->tile, k);
         }
         for (int h = 0; h < 3; ++h) {
             rgb[h] *= left[h];

@@ -17,9 +17,6 @@ typedef struct ground_lights {
     float ground_y;
 } ground_lights;
 
-/* relight_has_ground: does the world have a ground: a picture of it, or a floor? */
-int relight_has_ground(const relight_options *o);
-
 /* figure_light: the world's light where a figure is. 1, or 0. */
 int figure_light(far_lights *out, const figures *f, uint32_t figure, relight_light *w, const relight_options *o);
 
