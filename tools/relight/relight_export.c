@@ -19,21 +19,6 @@
 
 enum { LEVELS = 6, LEAST_SIDE = 8, DFG_SIDE = 128, DFG_SAMPLES = 512, HARMONICS = 9 };
 
-int relight_write_planes(const char *path, const float *planes, int32_t width, int32_t height, report *r)
-{
-    const size_t pixels = (size_t)width * (size_t)height;
-    image out = {width, height, 3, malloc(3 * pixels * sizeof(float))};
-    if (out.pixels == NULL) {
-        return report_fail(r, "%s: out of memory", path);
-    }
-    for (size_t i = 0; i < 3 * pixels; ++i) {
-        out.pixels[i] = planes[i % 3 * pixels + i / 3];
-    }
-    const int ok = picture_write(path, &out, picture_auto_exposure(&out, PICTURE_CLIPPED), PICTURE_CLIPPED, r);
-    image_free(&out);
-    return ok;
-}
-
 /* --- lobes -------------------------------------------------------------------------------------------------------- */
 
 /* One cube of a wide lobe: each texel is a sum over the whole map. */

@@ -11,7 +11,4 @@ int relight_export_check(const relight_options *o, report *r);
 /* relight_export: all such files of one place. 1, or 0 with `r` set. */
 int relight_export(relight_light *w, const relight_options *o, lmb_vec3 at, report *r);
 
-/* relight_write_planes: planes of R, G and B as a picture. 1, or 0 with `r` set. */
-int relight_write_planes(const char *path, const float *planes, int32_t width, int32_t height, report *r);
-
 #endif

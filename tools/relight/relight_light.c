@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../demo/demo_field.h"
+#include "../picture/picture.h"
 
 #define DARK 0.1 /* of a world: over this is reported */
 
@@ -35,7 +36,7 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
         return 0;
     }
     world_tell_not_finite(&w->pictures, name, o->view.is_quiet);
-    const double dark = strcmp(name, "demo") == 0 ? 0.0 : dark_share(&o->place);
+    const double dark = strcmp(name, "demo") == 0 || o->view.is_quiet ? 0.0 : dark_share(&o->place);
     report_note(o->view.is_quiet || dark < DARK, "note: %s: %.0f %% of it is black or blank: no light comes from there", name,
                 100.0 * dark);
     if (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r)) {
@@ -120,4 +121,19 @@ void relight_light_free(relight_light *w)
         free(w->table_memory[i]);
     }
     free(w->blur_memory);
+}
+
+int relight_write_planes(const char *path, const float *planes, int32_t width, int32_t height, report *r)
+{
+    const size_t pixels = (size_t)width * (size_t)height;
+    image out = {width, height, 3, malloc(3 * pixels * sizeof(float))};
+    if (out.pixels == NULL) {
+        return report_fail(r, "%s: out of memory", path);
+    }
+    for (size_t i = 0; i < 3 * pixels; ++i) {
+        out.pixels[i] = planes[i % 3 * pixels + i / 3];
+    }
+    const int ok = picture_write(path, &out, picture_auto_exposure(&out, PICTURE_CLIPPED), PICTURE_CLIPPED, r);
+    image_free(&out);
+    return ok;
 }

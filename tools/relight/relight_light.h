@@ -37,4 +37,7 @@ int relight_light_reflect(relight_light *inout, const relight_options *o, float 
 const lmb_world *relight_light_nearest(const relight_light *w, const relight_options *o, lmb_vec3 at);
 void relight_light_free(relight_light *w);
 
+/* relight_write_planes: planes of R, G and B as a picture. 1, or 0 with `r` set. */
+int relight_write_planes(const char *path, const float *planes, int32_t width, int32_t height, report *r);
+
 #endif

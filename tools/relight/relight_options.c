@@ -123,6 +123,7 @@ static const option_row light_rows[] = {
     {.name = "--map", .value = "OUT", .kind = OPTION_OWN, AT(map), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP("what the place sees, longitude by latitude, north on top; W/(sr m2); files as --cube")},
+#if !defined(OPTIONS_WITHOUT_HELP) /* a page has no other programs */
     {.name = "--map-height", .value = "H", .kind = OPTION_MULTIPLE_OF_8, AT(map_height), .low = 8, .high = 512,
      .help = HELP("its rows; it is twice as wide (default 64)")},
     {.name = "--azimuth", .value = "DEG", .kind = OPTION_NUMBER, AT(azimuth), .low = -360, .high = 360,
@@ -131,11 +132,13 @@ static const option_row light_rows[] = {
      .help = HELP("a transform image: each pixel of the map looks along its vector there")},
     {.name = "--save-vectors", .value = "OUT.pfm", .kind = OPTION_OWN, AT(vectors_out), .file = OPTION_WRITES,
      .parse = picture_option, .expects = PICTURE_OPTION_WANTS, .help = HELP("the map's own transform image")},
+#endif
     {.kind = OPTION_END},
 };
 
 static const option_row file_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("light for other programs, as one --at has it")},
+#if !defined(OPTIONS_WITHOUT_HELP)
     {.name = "--lobes", .value = "OUT", .kind = OPTION_OWN, AT(lobes), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP("radiance by mirrored direction, GGX: six cubes of roughness 0, 0.2 .. 1 as --cube has them, numbered as "
@@ -149,6 +152,7 @@ static const option_row file_rows[] = {
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP("what a lobe reflects of white light is F0 x red + green: 128 x 128, the cosine to the viewer to the right, "
              "roughness down")},
+#endif
     {.kind = OPTION_END},
 };
 
