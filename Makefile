@@ -534,7 +534,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
 .PHONY: asan-programs pointers pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-edges measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
-    measure-simplify measure-capture measure-contact measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sun measure-constants measure-sequence \
+    measure-simplify measure-capture measure-contact measure-export measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sun measure-constants measure-sequence \
     measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
@@ -682,6 +682,9 @@ measure-capture: $(TOOL) ## an object carried through Sponza by captured cubes a
 MAPS ?= $(addprefix ../shared/data/env/,forest_slope_512x256.hdr potsdamer_platz_512x256.hdr)
 measure-contact: $(B)/measure-contact ## objects on a ground under maps, against path-traced pictures (MAPS)
 	@mkdir -p $(B)/contact && for map in $(MAPS); do $(RUN) $(B)/measure-contact $(B)/contact $$map || exit 1; done
+
+measure-export: $(B)/measure-export ## relight's files for other programs against plain sums over the map (MAPS)
+	@mkdir -p $(B)/export && for map in $(MAPS); do $(RUN) $(B)/measure-export $(B)/export $$map || exit 1; done
 
 measure-simplify: $(B)/measure-simplify ## what simpler meshes lose and add: distances, silhouettes, time
 	@$(RUN) $(B)/measure-simplify

@@ -39,6 +39,7 @@ typedef struct lmb_world_pictures {
     float radius;         /* m */
     lmb_vec3 low, high;   /* of the box */
     uint32_t revision;    /* raise when the world changes: cubes of before are stale [S20] */
+    int32_t has_floor;    /* 1: rays that go down meet the far world at ground_y: its lower half lies there, flat */
 } lmb_world_pictures;
 
 #define LMB_WORLD_LEVELS 14
@@ -183,7 +184,7 @@ size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format);
 
 /* lmb_world_init: the pictures and their levels into `memory`, coded.
  *
- * The centre lies inside the sphere or box. Missing faces and blank parts are alpha 0: a ray that meets them goes on
+ * The centre lies inside the sphere or box, and above a floor. The ground's picture lies on a floor. Missing faces and blank parts are alpha 0: a ray that meets them goes on
  * to the other candidate, then sees nothing. Radiance that is not finite, or under 1e-12, counts as 0; over 100 as 100
  * where it is coded. Peaks are texels at least four times as bright as a quarter by a quarter of a face around them, on
  * faces of 32 texels and more: the strongest LMB_WORLD_PEAKS 32nds by 32nds of a face, each at its light's mean

@@ -318,6 +318,7 @@ typedef struct lmb_world_job {
     const void *texels;
     const float *log8, (*log16)[256];
     int32_t format, blend, shape;
+    int32_t has_floor;          /* at ground.y */
     int32_t means;              /* 1: rays are averaged over texels; else each by itself, smoothly */
     int32_t side, cube_at;      /* the cube's level, and its first texel */
     lmb_vec3 centre, middle;    /* of the cube; of the sphere */

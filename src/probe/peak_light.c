@@ -32,8 +32,7 @@ static lmb_vec3 box_from_centre(lmb_vec3 *normal, const lmb_world_job *job, lmb_
     return mul3(to, far);
 }
 
-/* Where the far world lies from the cube's centre along `to`, and its normal there, either way. */
-static lmb_vec3 far_from_centre(lmb_vec3 *normal, const lmb_world_job *job, lmb_vec3 to)
+static lmb_vec3 shape_from_centre(lmb_vec3 *normal, const lmb_world_job *job, lmb_vec3 to)
 {
     if (job->shape == LMB_WORLD_BOX) {
         return box_from_centre(normal, job, to);
@@ -43,6 +42,18 @@ static lmb_vec3 far_from_centre(lmb_vec3 *normal, const lmb_world_job *job, lmb_
     const lmb_vec3 met = mul3(to, far);
     *normal = normalize3(add3(from, met));
     return met;
+}
+
+/* Where the far world lies from the cube's centre along `to`, and its normal there, either way. */
+static lmb_vec3 far_from_centre(lmb_vec3 *normal, const lmb_world_job *job, lmb_vec3 to)
+{
+    const lmb_vec3 far = shape_from_centre(normal, job, to);
+    const float high = job->centre.y - job->ground.y;
+    if (!job->has_floor || to.y > -1e-5f || -far.y < high) {
+        return far;
+    }
+    *normal = vec3(0.0f, 1.0f, 0.0f);
+    return mul3(to, high / -to.y);
 }
 
 /* What the ground's picture leaves of light that comes from `far` away along `to`: by its nearest texel. */

@@ -21,6 +21,7 @@ static void set_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
     job->side = levels[level].width;
     job->cube_at = (int32_t)levels[level].at;
     job->shape = p->shape;
+    job->has_floor = p->has_floor;
     job->centre = p->centre;
     job->middle = p->middle;
     job->radius2 = p->radius * p->radius;

@@ -172,8 +172,8 @@ LANE_PART void remap_stand(remap_place *out, const lmb_world_job *job, lane3 at)
     out->from_ground = lane3_sub(at, lane3_of(job->ground));
 }
 
-/* How far the far world is along d. */
-LANE_PART lane remap_far(const lmb_world_job *job, const remap_place *from, lane3 d)
+/* How far the sphere or the box is along d. */
+LANE_PART lane remap_shape(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
     const lane zero = lane_splat(0.0f);
     if (job->shape == LMB_WORLD_SPHERE) {
@@ -190,6 +190,19 @@ LANE_PART lane remap_far(const lmb_world_job *job, const remap_place *from, lane
         t = lane_min(t, lane_pick(along, lane_div(wall, lane_pick(along, axis[i], lane_splat(1.0f))), t));
     }
     return t;
+}
+
+/* How far the far world is along d. A floor is a little farther than the ground's picture on it. */
+LANE_PART lane remap_far(const lmb_world_job *job, const remap_place *from, lane3 d)
+{
+    const lane far = remap_shape(job, from, d);
+    if (!job->has_floor) {
+        return far;
+    }
+    const lane down = lane_sub(lane_splat(0.0f), d.y), high = from->from_ground.y;
+    const lane_mask falls = mask_and(lane_lt(lane_splat(1e-5f), down), lane_lt(lane_splat(1e-6f), high));
+    const lane floor = lane_mul(lane_splat(1.00001f), lane_div(high, lane_pick(falls, down, lane_splat(1.0f))));
+    return lane_pick(falls, lane_min(floor, far), far);
 }
 
 /* The ground's picture at metres x, z from its corner; `wide`: the ray's width there, m. */

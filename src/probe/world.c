@@ -233,7 +233,8 @@ static void halve_ground(lmb_world *w, const lmb_world_level *to, const lmb_worl
 static int is_inside(const lmb_world_pictures *p)
 {
     const lmb_vec3 c = p->centre;
-    if (!is_place(c) || !is_place(p->middle) || !is_place(p->low) || !is_place(p->high)) {
+    if (!is_place(c) || !is_place(p->middle) || !is_place(p->low) || !is_place(p->high) ||
+        (p->has_floor && !(is_sane(p->ground_y) && c.y > p->ground_y))) {
         return 0;
     }
     if (p->shape == LMB_WORLD_SPHERE) {

@@ -6,6 +6,7 @@ pit
 
 printf '# eye, target, degrees\n0 0 5 0 0 0 40\n\n3 2 4 0 0 0 40\n' >cameras.txt
 status 0 relief bake pit.obj -o pit.lmr --simple box.obj --size 32
+check "relief bake prints when the mesh is worth more" holds 'the mesh is the faster and exact: draw that' out.txt
 check "relief bake tells what it saw" grep -q 'as 12, 26 views of 32 x 32, .* bytes' out.txt
 bit pit.lmr 3000 bit.lmr
 status 1 relief render bit.lmr -o bad.png

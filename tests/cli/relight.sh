@@ -93,6 +93,7 @@ status 0 relight --world white.pfm --object demo --contact --size 16x8 -o field.
 printf 'v -1 0 -1\nv 1 0 -1\nv 1 2 -1\nv -1 2 -1\nv -1 0 1\nv 1 0 1\nv 1 2 1\nv -1 2 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >white_box.obj
 { printf 'PF\n1 6\n-1.0\n'; head -c 72 /dev/zero; } >night.pfm
 { printf 'PF\n1 6\n-1.0\n'; repeated 18 '\012\327\243\074'; } >dusk.pfm # 0.02
+{ printf 'PF\n1 6\n-1.0\n'; repeated 9 '\012\327\243\074'; head -c 36 /dev/zero; } >dusk_half.pfm
 for sky in night dusk; do
     status 0 relight --world "$sky.pfm" --ground facepx.pfm --ground-size 40,40 --object white_box.obj --f0 0 --contact --eye 0,4,9 --target 0,0.5,0 --size 64x48 -o glow.pfm
     check "contact lights a bright ground by a part of its own light: $sky" sh -c '"$1" info "$2" | awk "/ max /{ n += \$5 > 1.05 && \$5 < 1.5 } END { exit n != 3 }"' sh "$TOOL" glow.pfm
@@ -146,5 +147,83 @@ printf '0,0.2,0\n' >path.txt
 status 0 relight --world lamp_world.pfm --ground facepx.pfm --ground-size 60,60 --object bowl.obj --f0 0.2 --roughness 0.3 --contact --at 0,0.2,0 --at 2.1,1.0,0 --eye 1,4,5 --target 1,0,0 --size 64x48 -o bowls.pfm
 contact_sum=$(cksum <bowls.pfm)
 check "contact's pixels are these: $contact_sum" test "$contact_sum" = "2008633955 36878"
+
+# A world without a picture of the ground: its lower half is the ground, and takes an object's contact and a sun's shadow.
+stand="relight --world white.pfm --object table.obj --f0 0 --at 0,0.5,0 --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24"
+least() { "$TOOL" info "$1" | awk -v low="$2" -v high="$3" '/ min /{ n += $3 >= low && $3 <= high } END { exit n != 3 }'; }
+status 0 $stand -o stood.pfm
+status 0 $stand --no-contact -o hung.pfm
+check "a world is a ground without a picture of one" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[89]"' sh "$TOOL" stood.pfm hung.pfm
+status 0 $stand --floor none -o none.pfm
+status 0 $stand --floor none --no-contact -o none2.pfm
+check "without a floor nothing stands on it" cmp none.pfm none2.pfm
+# Pi from the white world and pi from the sun: half of the ground's light is left below the table, and all of it elsewhere.
+noon="--light sun:0,0,0:0,-1,0:3.14159265,3.14159265,3.14159265"
+status 0 $stand --no-contact $noon -o noon.pfm
+check "a given sun casts a shadow on the ground" least noon.pfm 0.49 0.51
+check "and lights it nowhere else" sh -c '"$1" info "$2" | awk "/ max /{ n += \$5 < 1.6 } END { exit n != 3 }"' sh "$TOOL" noon.pfm
+status 0 $stand --no-contact $noon --threads 1 --backend scalar -o alike.pfm
+check "a backend changes no shadow" cmp noon.pfm alike.pfm
+status 0 $low $noon -o noon.pfm
+check "a given sun casts a shadow on a picture of the ground" least noon.pfm 0.49 0.51
+status 2 $stand --contact --no-contact -o bad.pfm
+status 1 $stand --floor on --world-centre 0,-1,0 -o bad.pfm
+said "under the --floor"
+status 0 relight --world white.pfm --object table.obj --size 16x12 -o framed.png
+said "no camera in table.obj: framing"
+# Objects with many vertices are thinned: the contact of a ball hardly changes. Many triangles that cross bound the work.
+ball() { awk -v n="$1" 'BEGIN { p = atan2(0, -1)
+    for (j = 0; j <= n; ++j) for (i = 0; i < n; ++i)
+        printf "v %.6f %.6f %.6f\n", sin(p * j / n) * cos(2 * p * i / n), 1 + cos(p * j / n), sin(p * j / n) * sin(2 * p * i / n)
+    for (j = 0; j < n; ++j) for (i = 1; i <= n; ++i) { a = j * n; k = i % n + 1
+        print "f", a + i, a + k, a + n + k; print "f", a + i, a + n + k, a + n + i } }'; }
+for n in 60 110; do
+    ball $n >"ball_$n.obj"
+    status 0 relight --world white.pfm --object "ball_$n.obj" --f0 0 --eye 0,2,6 --target 0,0.8,0 --size 64x48 -o "ball_$n.pfm"
+done
+check "a thinned ball has the contact of a whole one" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.00"' sh "$TOOL" ball_110.pfm ball_60.pfm
+awk 'BEGIN { srand(3); for (i = 0; i < 6000; ++i) { z = 2 * rand() - 1; a = 6.2831853 * rand(); r = sqrt(1 - z * z); x = r * cos(a); y = r * sin(a)
+    print "v", x, z + 1, y; print "v", -x, 1 - z, -y; print "v", 0.002 - x, 1.002 - z, -y; print "f", 3 * i + 1, 3 * i + 2, 3 * i + 3 } }' >needles.obj
+status 0 relight --world white.pfm --object needles.obj --size 16x12 -o needles.pfm
+said "sights have coarser visibility"
+
+# Files for other programs: a white world has lobes of 1, and harmonics of one constant. A transform image gives its map.
+status 0 relight --world white.pfm --lobes lobe_%02d.pfm --side 16 --harmonics harmonics.json --dfg dfg.pfm --map own.pfm --map-height 16 --azimuth -90 --save-vectors vectors.pfm
+for k in 00 01 02 03 04 05; do
+    check "lobe $k of a white world is white" sh -c '"$1" info "$2" | grep -cE "min (1|0.99999.*) .*max (1|1.00000.*) " | grep -qx 3' sh "$TOOL" "lobe_$k.pfm"
+done
+check "a white world's harmonics" sh -c 'tr -d " \n" <"$1" | grep -q "\"radiance\":\[\[3\.5449.*\"irradiance\":\[\[11\.1366"' sh harmonics.json
+check "a smooth lobe reflects all of F0" sh -c '"$1" info "$2" | grep -q "red .*max 1 "' sh "$TOOL" dfg.pfm
+status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map quarter.pfm --map-height 16 --azimuth 0 --save-vectors vectors.pfm
+status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map again.pfm --vectors vectors.pfm
+check "a saved transform image gives the same map" cmp quarter.pfm again.pfm
+status 0 relight --world face --world-box -1,-1,-1,1,1,1 --map half.pfm --map-height 16
+check "a map begins at its azimuth" sh -c '! cmp -s "$1" "$2"' sh half.pfm quarter.pfm
+status 1 relight --world white.pfm --map bad.pfm --vectors white.pfm
+said "no transform image"
+status 2 relight --world white.pfm --map bad.pfm --vectors vectors.pfm --azimuth 0
+status 2 relight --world white.pfm --save-vectors bad.png
+status 2 relight --world white.pfm --harmonics bad.json --at 0,0,0 --at 1,0,0
+check "a world that is half black is reported" sh -c '"$1" relight --world dusk_half.pfm --cube half_cube.pfm 2>&1 | grep -q "note: dusk_half.pfm: 50 % of it is black or blank"' sh "$TOOL"
+# Light follows what is carried: no step over 1 % where the light itself changes by 3 % from cube to cube.
+awk 'BEGIN { for (i = 0; i < 40; ++i) printf "%.3f,0,-2.5\n", -9.8 + 0.02 * i }' >path.txt
+status 0 relight --world demo --object demo --size 16x12 --path path.txt -q -o walk.ppm
+check "steps of light are under 1 %" sh -c 'awk "/^largest step of light/{ ok = \$5 > 0.05 && \$5 <= 1 } END { exit !ok }" "$1"' sh out.txt
+awk 'BEGIN { for (i = 0; i < 6; ++i) printf "%.3f,0,-2.5\n", -9.8 + 0.151 * i }' >path.txt
+status 0 relight --world demo --object demo --size 16x12 --path path.txt -q -o walk.ppm
+check "and from cube to cube more" sh -c 'awk "/^largest step of light/{ ok = \$5 > 2 } END { exit !ok }" "$1"' sh out.txt
+
+# Several objects: the picture of one at two places is that of two.
+two="relight --world white.pfm --no-contact --eye 0,3,9 --target 1,0.5,0 --size 48x32 $noon"
+status 0 $two --object white_box.obj --at -1,0,0 --at 3,0,1 -o twice.pfm
+status 0 $two --object white_box.obj --at -1,0,0 --object white_box.obj --at 3,0,1 --scale 2 -o both.pfm
+check "two objects are as one at two places" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" both.pfm twice.pfm
+status 0 $two --object white_box.obj --at -1,0,0 --object grey_paper.obj --at 3,0,1 --scale 2 --scale 1 -o mixed.pfm
+check "each has its own materials" sh -c '! "$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" both.pfm mixed.pfm
+status 0 relight --world demo --object demo --at 0,0,0 --object white_box.obj --at 2,0,0 --per-part --size 32x24 -o several.png
+status 2 $two --object white_box.obj --object table.obj --at 3,0,1 -o bad.pfm
+said "give each object its place"
+status 2 $two --object white_box.obj --at 0,0,0 --object table.obj --at 3,0,1 --scale 1 --scale 2 --scale 3 -o bad.pfm
+status 2 relight --world demo --object demo --object demo --path path.txt -o bad.ppm
 
 finish

@@ -156,6 +156,7 @@ static void fill_pictures(void *out, int how)
         p->ground_width = p->ground_height = POOL_SMALL;
         p->ground_x = p->ground_z = p->ground_y = -1.0f;
         p->ground_width_m = p->ground_depth_m = 2.0f;
+        p->has_floor = how & 1;
     }
 }
 

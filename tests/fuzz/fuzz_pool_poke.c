@@ -35,7 +35,7 @@ static const struct {
     REAL(lmb_world_pictures, ground_z), REAL(lmb_world_pictures, ground_width_m),
     REAL(lmb_world_pictures, ground_depth_m), REAL(lmb_world_pictures, ground_y), REAL(lmb_world_pictures, centre.x),
     REAL(lmb_world_pictures, middle.y), REAL(lmb_world_pictures, radius), REAL(lmb_world_pictures, low.z),
-    REAL(lmb_world_pictures, high.x), WHOLE(lmb_world_pictures, shape), REAL(lmb_world_query, ray_width),
+    REAL(lmb_world_pictures, high.x), WHOLE(lmb_world_pictures, shape), WHOLE(lmb_world_pictures, has_floor), REAL(lmb_world_query, ray_width),
     WHOLE(lmb_world_query, blend), WHOLE(lmb_voxel_part, first_id), WHOLE(lmb_voxel_part, count),
     WHOLE(lmb_voxel_part, in[0]), WHOLE(lmb_cone_trace, field), WHOLE(lmb_cone_trace, world),
     WHOLE(lmb_cone_trace, faced), REAL(lmb_probe_policy, radius_m), WHOLE(lmb_probe_policy, every),

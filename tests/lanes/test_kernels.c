@@ -1055,6 +1055,7 @@ static int make_surroundings(lmb_world *out, uint32_t *memory, const trial *t, t
     p.ground_depth_m = test_uniform(r, 1.0f, 40.0f);
     p.ground_y = test_uniform(r, -2.0f, 0.0f);
     p.centre = vec3(0.0f, 1.0f, 0.0f);
+    p.has_floor = t->seed % 4u == 1u;
     p.shape = t->seed % 3u ? LMB_WORLD_SPHERE : LMB_WORLD_BOX;
     p.radius = test_uniform(r, 2.0f, 30.0f);
     p.low = vec3(-8.0f, -3.0f, -5.0f);

@@ -39,6 +39,16 @@ vase 256 >"$to/vase.obj"
 vase 64 >"$to/small_vase.obj"
 room >"$to/room.obj"
 
+: "${data:=../shared/data}"
+if [ -d "$data" ]; then
+    check "stand.png" "$TOOL" relight --world "$data/env/venice_sunset_1024x512.hdr" \
+        --object "$data/meshes/rhino_60k.ply" --scale 1.7 --at -0.2,0,0.9 \
+        --object "$data/gltf/plastic_monobloc_chair.glb" --scale 0.88 --at 1.15,0,-0.3 \
+        --object "$data/gltf/kenney-character.glb" --scale 0.8 --at -1.15,0,-0.5 \
+        --object "$data/gltf/GlassVaseFlowers.glb" --scale 0.45 --at 0.3,0,-0.9 \
+        --light sun:0,0,0:-0.85,-0.5,0.35:5,3.4,2.2 --eye 0.5,1.3,-4.2 --target -0.05,0.55,0 --fov 34 --size 640x360 \
+        --exposure -0.5 --samples 16 -q -o "$to/stand.png"
+fi
 check "field.png" "$TOOL" relight --world demo --object demo --contact -q -o "$to/field.png"
 
 check "vase.lmr" "$TOOL" relief bake "$to/vase.obj" -q -o "$to/vase.lmr"

@@ -194,7 +194,7 @@ static exact exact_of(lmb_vec3 p)
 static double exact_dot(exact a, exact b) { return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2]; }
 
 /* How far along r the sphere or the box is from o. */
-static double far_distance(const lmb_world_pictures *p, exact o, exact r)
+static double shape_distance(const lmb_world_pictures *p, exact o, exact r)
 {
     double t = 1e30;
     if (p->shape == LMB_WORLD_SPHERE) {
@@ -210,6 +210,13 @@ static double far_distance(const lmb_world_pictures *p, exact o, exact r)
         t = wall < t ? wall : t;
     }
     return t;
+}
+
+/* The same, or the floor, if that is nearer. */
+static double far_distance(const lmb_world_pictures *p, exact o, exact r)
+{
+    const double far = shape_distance(p, o, r), floor = ((double)p->ground_y - o.v[1]) / r.v[1];
+    return p->has_floor && r.v[1] < 0.0 && floor < far ? floor : far;
 }
 
 /* The far world's point by double arithmetic. */
@@ -233,6 +240,42 @@ static void elsewhere(stage *s, lmb_vec3 at)
         }
     }
     CHECK_MSG(worst < 0.006f, "%g", (double)worst);
+}
+
+/* A lamp below the horizon lies on the floor: from the centre it is where it was, and the nearer the larger. */
+static void lamp_on_floor(stage *s)
+{
+    const lmb_vec3 centre = s->pictures.centre, down = vec3(0.6f, -0.8f, 0.0f);
+    const lmb_world_peak lamp = {{0.6f, -0.8f, 0.0f}, {1, 1, 1}, 1e-4f, 0, 0, 0, 0};
+    lmb_world_job job;
+    lmb_vec3 to;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    lmb_world_ask(&job, &s->world, LMB_WORLD_ALL, 0.01f, 0);
+    const float there = lmb_world_see_peak(&to, &job, &s->world, &lamp, centre);
+    CHECK(fabsf(there - 1.0f) < 1e-4f && fabsf(dot3(to, down) - 1.0f) < 1e-5f);
+    const float high = centre.y - s->pictures.ground_y;
+    const lmb_vec3 above = vec3(centre.x + 0.75f * high, centre.y - 0.5f * high, centre.z);
+    const float near = lmb_world_see_peak(&to, &job, &s->world, &lamp, above); /* cosine 1, not 0.8; 1/2 high, not 5/4 */
+    CHECK_MSG(fabsf(near - 6.25f / 0.8f) < 0.01f && to.y < -0.9999f, "%g", (double)near);
+}
+
+/* The lower half of the world lies on a floor, from anywhere; its centre is above it. */
+static void floor_below(stage *s)
+{
+    s->pictures.ground_y = -1.25f;
+    s->pictures.has_floor = 1;
+    elsewhere(s, vec3(20.0f, 3.0f, -11.0f));
+    elsewhere(s, vec3(-3.0f, -1.0f, 0.5f));
+    if (s->pictures.shape == LMB_WORLD_SPHERE) {
+        identity(s, LMB_WORLD_F32, 0.003f);
+        lamp_on_floor(s);
+    }
+    s->pictures.ground_y = s->pictures.centre.y;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_ERR_ARG);
+    s->pictures.ground_y = NAN;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_ERR_ARG);
+    s->pictures.ground_y = 0.0f;
+    s->pictures.has_floor = 0;
 }
 
 /* --- ground ------------------------------------------------------------------------------------------------------- */
@@ -273,6 +316,14 @@ static void ground_and_sky(stage *s)
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
     see_from(s, at, 0);
     CHECK(fabsf(s->map[2 * COUNT + down] - far) < 0.01f);
+    s->pictures.has_floor = 1; /* the picture lies on the floor */
+    s->pictures.ground_y = -0.001f;
+    paint_ground(s, 1.0f);
+    s->pictures.ground_y = -0.001f;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    see_from(s, at, 0);
+    CHECK(fabsf(s->map[2 * COUNT + down] - 1.0f) < 1e-5f);
+    s->pictures.has_floor = 0;
     /* S2: the ground fills what the cube lacks, and beyond it is nothing. */
     paint_ground(s, 1.0f);
     s->pictures.ground_y = -60.0f; /* under the far world */
@@ -667,11 +718,13 @@ void test_probe(void)
     identity(s, LMB_WORLD_LOG16, 0.003f);
     identity(s, LMB_WORLD_LOG8, 0.026f); /* half a step of 1.85 */
     elsewhere(s, vec3(20.0f, 3.0f, -11.0f));
+    floor_below(s);
     centre_by_the_wall(s);
     s->pictures.shape = LMB_WORLD_BOX;
     s->pictures.low = vec3(-30.0f, -10.0f, -20.0f);
     s->pictures.high = vec3(40.0f, 15.0f, 25.0f);
     elsewhere(s, vec3(-12.0f, 3.0f, 7.0f));
+    floor_below(s);
     s->pictures.shape = LMB_WORLD_SPHERE;
     one_radiance(s);
     known_irradiance(s);

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/progress.h"
+
 #define FAR 0.05f  /* a figure's radius over its distance, from which on others count */
 #define SAME 0.9976f /* cosine of 4 degrees, between parts of one small light: the map's texels take 2.8 */
 
@@ -46,7 +48,7 @@ static void add_peaks(far_lights *f, const lmb_probe_lights *l)
     }
 }
 
-static int take_light(far_lights *out, const figures *f, uint32_t figure, relight_light *w, const relight_options *o)
+int figure_light(far_lights *out, const figures *f, uint32_t figure, relight_light *w, const relight_options *o)
 {
     const float *at = w->table[0].light;
     const lmb_probe_lights *l = &w->lights;
@@ -77,7 +79,7 @@ void contact_ground_left(float out[3], const contact *c, float x, float z)
 
 /* --- vertices ----------------------------------------------------------------------------------------------------- */
 
-/* 64 of a figure's vertices, from its foot. */
+/* 64 of a figure's samples, from its foot. */
 typedef struct vertices {
     lmb_tile tile; /* their places and normals */
     lmb_vec3 middle;
@@ -88,11 +90,12 @@ typedef struct vertices {
 
 static void take_vertices(vertices *v, const hidden_part *p, uint32_t first)
 {
-    const uint32_t left = p->mesh.vertex_count - first, count = left < LMB_TILE_PIXELS ? left : LMB_TILE_PIXELS;
-    lmb_vec3 low = p->at[first], high = low;
+    const uint32_t left = p->samples - first, count = left < LMB_TILE_PIXELS ? left : LMB_TILE_PIXELS;
+    lmb_vec3 low = p->at[hidden_sampled(p, first)], high = low;
     memset(&v->tile, 0, sizeof v->tile);
     for (uint32_t k = 0; k < count; ++k) {
-        const lmb_vec3 at = p->at[first + k], n = p->normal[first + k];
+        const uint32_t vertex = hidden_sampled(p, first + k);
+        const lmb_vec3 at = p->at[vertex], n = p->normal[vertex];
         v->tile.position[0][k] = at.x;
         v->tile.position[1][k] = at.y;
         v->tile.position[2][k] = at.z;
@@ -185,38 +188,58 @@ static void add_light_of(float all[LMB_TILE_PIXELS][3], float left[LMB_TILE_PIXE
     }
 }
 
-/* 64 vertices from `first` on. */
-static void shade_vertices(uint8_t *colours, contact *c, const relight_options *o, const hidden_part *p,
-                           uint32_t figure, uint32_t first)
+/* What is left of the light of 64 samples from `first` on. */
+static void shade_samples(float (*share)[3], contact *c, const relight_options *o, const hidden_part *p,
+                          uint32_t figure, uint32_t first)
 {
     float all[LMB_TILE_PIXELS][3] = {{0}}, left[LMB_TILE_PIXELS][3] = {{0}};
     vertices v;
     take_vertices(&v, p, first);
+    hidden_bound(&c->hidden.traversal);
     v.figure = figure;
     for (int32_t i = 0; i < c->lights[figure].count; ++i) {
         add_light_of(all, left, c, o, &v, i, p, first);
     }
     for (uint32_t k = 0; k < LMB_TILE_PIXELS && v.all >> k & 1; ++k) {
         for (uint32_t h = 0; h < 3; ++h) {
-            const size_t at = 4 * (size_t)(first + k) + h;
-            const float share = all[k][h] > 0.0f ? fminf(left[k][h] / all[k][h], 1.0f) : 1.0f;
-            const float own = p->mesh.colours != NULL ? (float)p->mesh.colours[at] : 255.0f;
-            colours[at] = (uint8_t)(own * share + 0.5f);
+            share[first + k][h] = all[k][h] > 0.0f ? fminf(left[k][h] / all[k][h], 1.0f) : 1.0f;
         }
     }
 }
 
-static void shade_part(contact *c, const relight_options *o, uint32_t instance)
+static void colour_vertex(uint8_t out[4], const hidden_part *p, uint32_t vertex, float (*share)[3])
 {
-    const uint32_t part = instance % c->hidden.parts;
-    const hidden_part *p = &c->hidden.part[part];
-    uint8_t *colours = c->colours[instance];
+    static const uint8_t white[4] = {255, 255, 255, 255};
+    const uint8_t *own = p->mesh.colours != NULL ? p->mesh.colours + 4 * (size_t)vertex : white;
+    float sum[3] = {0.0f, 0.0f, 0.0f};
+    for (int i = 0; i < (p->share != NULL ? HIDDEN_SHARES : 1); ++i) {
+        uint32_t sample;
+        const float weight = hidden_shared(&sample, p, vertex, i);
+        for (int h = 0; h < 3; ++h) {
+            sum[h] += weight * share[sample][h];
+        }
+    }
+    for (int h = 0; h < 3; ++h) {
+        out[h] = (uint8_t)((float)own[h] * fminf(sum[h], 1.0f) + 0.5f);
+    }
+    out[3] = own[3];
+}
+
+static int shade_part(contact *c, const relight_options *o, uint32_t instance)
+{
+    const hidden_part *p = &c->hidden.part[instance % c->hidden.parts];
+    float (*share)[3] = malloc(((size_t)p->samples + 1) * sizeof *share);
+    if (share == NULL) {
+        return 0;
+    }
+    for (uint32_t first = 0; first < p->samples; first += LMB_TILE_PIXELS) {
+        shade_samples(share, c, o, p, instance / c->hidden.parts, first);
+    }
     for (uint32_t i = 0; i < p->mesh.vertex_count; ++i) {
-        colours[4 * (size_t)i + 3] = p->mesh.colours != NULL ? p->mesh.colours[4 * (size_t)i + 3] : 255;
+        colour_vertex(c->colours[instance] + 4 * (size_t)i, p, i, share);
     }
-    for (uint32_t first = 0; first < p->mesh.vertex_count; first += LMB_TILE_PIXELS) {
-        shade_vertices(colours, c, o, p, instance / c->hidden.parts, first);
-    }
+    free(share);
+    return 1;
 }
 
 /* --- all ---------------------------------------------------------------------------------------------------------- */
@@ -234,6 +257,24 @@ static int take_meshes(contact *c)
     return ok;
 }
 
+/* Of the triangles that throw shadows. */
+static int take_regions(contact *c)
+{
+    hidden_proxy *x = &c->hidden.proxy;
+    c->hidden.region_of = c->regions.of;
+    if (x->count == 0) {
+        return 1;
+    }
+    if ((x->region = malloc(x->count)) == NULL) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < x->count; ++i) {
+        x->region[i] = c->regions.of[x->source[i]];
+    }
+    c->hidden.region_of = x->region;
+    return 1;
+}
+
 static int take_contact(contact *c, const figures *f, const relight_options *o, const relight_light *w)
 {
     c->fold = w->table[0].fold;
@@ -247,12 +288,11 @@ static int take_contact(contact *c, const figures *f, const relight_options *o, 
     c->colours = calloc(c->instances, sizeof *c->colours);
     c->lights = malloc(c->figures * sizeof *c->lights);
     c->foot = malloc(c->figures * sizeof *c->foot);
-    c->grounds = o->place.ground != NULL ? malloc(c->figures * sizeof *c->grounds) : NULL;
+    c->grounds = relight_has_ground(o) ? malloc(c->figures * sizeof *c->grounds) : NULL;
     const int ok = c->meshes != NULL && c->colours != NULL && c->lights != NULL && c->foot != NULL &&
-           (c->grounds != NULL || o->place.ground == NULL) && hidden_make(&c->hidden, f, o, w->table[0].light) &&
+           (c->grounds != NULL || !relight_has_ground(o)) && hidden_make(&c->hidden, f, o, w->table[0].light) &&
            regions_make(&c->regions, &c->hidden, w->table[0].light) && take_meshes(c);
-    c->hidden.region_of = c->regions.of;
-    return ok;
+    return ok && take_regions(c);
 }
 
 /* The ground under one figure. */
@@ -282,7 +322,7 @@ static int light_figure(contact *c, figures *f, uint32_t i, relight_light *w, co
     const float height = c->foot[i].y - c->ground_y;
     const ground_below below = {c->grounds != NULL ? &c->grounds[i] : NULL, c->foot[i], height};
     far_lights *l = &c->lights[i];
-    if (!take_light(l, f, i, w, o)) {
+    if (!figure_light(l, f, i, w, o)) {
         return 0;
     }
     regions_light(c->reflected, l, &c->regions, c->fold, NULL, NULL);
@@ -313,7 +353,8 @@ static int work(contact *c, figures *f, relight_light *w, const relight_options 
         ok = light_figure(c, f, i, w, o);
     }
     for (uint32_t i = 0; ok && i < c->instances; ++i) {
-        shade_part(c, o, i);
+        ok = shade_part(c, o, i);
+        progress_tell("contact: light", (double)(i + 1) / (double)c->instances);
     }
     return ok;
 }
@@ -344,6 +385,10 @@ int contact_make(contact *c, figures *f, relight_light *w, const relight_options
     const int ok = take_contact(c, f, o, w) && work(c, f, w, o);
     if (ok) {
         show_darkened(f, c);
+        const uint32_t coarse = hidden_coarse(&c->hidden);
+        report_note(o->view.is_quiet || coarse == 0 || c->has_told, "note: %u sights have coarser visibility: too many "
+                    "triangles cross there", (unsigned)coarse);
+        c->has_told |= coarse > 0;
     }
     return ok || report_fail(r, "--contact: %s: out of memory", o->object);
 }

@@ -6,6 +6,7 @@
 
 #include "relight_ground.h"
 #include "relight_light.h"
+#include "relight_shade.h"
 
 /* Zeroed: none. contact_free releases it. */
 typedef struct contact {
@@ -20,6 +21,7 @@ typedef struct contact {
     peak_runs peaks[HIDDEN_MAPS]; /* of one figure */
     const uint16_t *fold;    /* of the light's table */
     uint32_t figures, instances;
+    int has_told; /* that sights are coarser */
     float ground_y; /* m */
 } contact;
 
@@ -33,8 +35,8 @@ void contact_ground_left(float out[3], const contact *c, float x, float z);
 /* contact_band: lmb_relight_band with the ground darkened, where no object is, and so what lobes mirror: from the ground,
  * as dark as it is; from where the object hides the world, the object instead. `out` is the whole frame; `rows` scratch:
  * eight of its rows, RGB. */
-lmb_status contact_band(const contact *c, const figures *f, const lmb_relight *r, lmb_relight_scratch *scratch,
-                        float *rows, const lmb_surface *out, int32_t band);
+lmb_status contact_band(const contact *c, const figures *f, const ground_lights *g, const lmb_relight *r,
+                        lmb_relight_scratch *scratch, float *rows, const lmb_surface *out, int32_t band);
 
 void contact_free(contact *c);
 

@@ -13,12 +13,15 @@
 #include "../picture/picture.h"
 #include "relight_contact.h"
 #include "relight_path.h"
+#include "relight_way.h"
 
-enum { SHADOW_MAP = 512 };
+enum { SHADOW_MAP = 2048 };
 
 /* The cubes of one of the cache's slots. */
 typedef struct slot_cubes {
     void *irradiance, *glossy[RELIGHT_GLOSSY_CUBES];
+    float *planes, *glossy_planes[RELIGHT_GLOSSY_CUBES]; /* the same, if a path blends them */
+    lmb_vec3 place; /* whose light it is */
     int is_known[RELIGHT_GLOSSY_CUBES]; /* for the place that the slot stands for */
 } slot_cubes;
 
@@ -29,7 +32,9 @@ typedef struct stage {
     place_list path;
     lmb_probe_cache cache;
     slot_cubes cubes[LMB_MAX_PROBES];
-    lmb_probe *probes;      /* by slot, then by roughness */
+    lmb_probe *probes;      /* by slot, or along a path by owner, then by roughness */
+    way *ways;              /* by owner; NULL: no path, or the light changes at once */
+    float step;             /* the largest change of light between two pictures */
     uint16_t *probe_of;     /* by instance */
     float *planes;          /* of the largest glossy reflection cube */
     lmb_probe_rays rays;
@@ -37,6 +42,7 @@ typedef struct stage {
     void *map_memory[RELIGHT_LIGHTS], *depth_memory, *id_memory;
     lmb_relight relight;
     contact contact;
+    ground_lights ground; /* by given lights */
     lmb_relight_scratch *scratch; /* by thread */
     int threads;
     binned bins;
@@ -60,6 +66,16 @@ static void *take(size_t bytes, report *r)
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
+static int keep_planes(float **to, const float *from, int32_t side, report *r)
+{
+    const size_t bytes = 18 * (size_t)side * (size_t)side * sizeof *from;
+    if (*to == NULL && (*to = take(bytes, r)) == NULL) {
+        return 0;
+    }
+    memcpy(*to, from, bytes);
+    return 1;
+}
+
 /* A slot's irradiance, for a new place: what was mirrored at the old one is void. */
 static int light_slot(stage *s, int32_t slot, lmb_vec3 at, report *r)
 {
@@ -67,9 +83,13 @@ static int light_slot(stage *s, int32_t slot, lmb_vec3 at, report *r)
     const int32_t side = s->o->faces;
     const size_t bytes = lmb_probe_cube_bytes(side);
     memset(c->is_known, 0, sizeof c->is_known);
+    c->place = at;
     if (!relight_light_at(s->light, s->o, at, side, r) ||
         (c->irradiance == NULL && (c->irradiance = take(bytes, r)) == NULL)) {
         return 0;
+    }
+    if (s->ways != NULL) {
+        return keep_planes(&c->planes, s->light->cube, side, r);
     }
     for (int32_t i = 0; i < s->figures.glossy_cubes; ++i) {
         lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSY_CUBES + i].irradiance, s->light->cube, side, c->irradiance,
@@ -91,9 +111,42 @@ static int mirror_slot(stage *s, int32_t slot, int32_t glossy, report *r)
         return 0;
     }
     c->is_known[glossy] = 1;
-    return relight_light_reflect(s->light, s->o, s->planes, n, &s->rays, s->cache.slot[slot].place, roughness) &&
+    if (!relight_light_reflect(s->light, s->o, s->planes, n, &s->rays, c->place, roughness)) {
+        return report_fail(r, "--at: numbers over 1,000,000 m");
+    }
+    return s->ways != NULL ? keep_planes(&c->glossy_planes[glossy], s->planes, n, r) :
            lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSY_CUBES + glossy].glossy, s->planes, n, c->glossy[glossy],
                                bytes) == LMB_OK;
+}
+
+/* What an owner shows of its slot's cubes. */
+static int show_way(stage *s, uint32_t owner, int32_t slot, uint16_t glossy, report *r)
+{
+    way *w = &s->ways[owner];
+    const slot_cubes *c = &s->cubes[slot];
+    lmb_probe *p = &s->probes[owner * RELIGHT_GLOSSY_CUBES + glossy];
+    const int32_t n = lmb_probe_glossy_side(s->figures.roughness[glossy]);
+    return way_show(&p->irradiance, &s->step, &w->irradiance, w, c->planes, s->o->faces, r) &&
+           (n == 0 || way_show(&p->glossy, &s->step, &w->glossy[glossy], w, c->glossy_planes[glossy], n, r));
+}
+
+/* Light is computed where the owner will be when it has been blended in. */
+static int light_owner(stage *s, lmb_probe_answer *answer, uint32_t owner, uint32_t frame, report *r)
+{
+    const float radius = s->o->policy.radius_m;
+    const lmb_vec3 at = figures_middle(&s->figures, owner);
+    if (lmb_probe_cache_ask(answer, &s->cache, owner, at, 0, frame) != LMB_OK) {
+        return report_fail(r, "--at: numbers over 1,000,000 m");
+    }
+    lmb_vec3 place = answer->place;
+    if (s->ways != NULL) {
+        const lmb_vec3 ahead = way_move(&s->ways[owner], at, radius);
+        way_turn(&s->ways[owner], answer->slot, answer->compute, radius);
+        if (s->cache.slot[answer->slot].kind == LMB_PROBE_OWNED) {
+            place = (lmb_vec3){place.x + radius * ahead.x, place.y + radius * ahead.y, place.z + radius * ahead.z};
+        }
+    }
+    return !answer->compute || light_slot(s, answer->slot, place, r);
 }
 
 /* All owners' cubes for one picture. */
@@ -105,20 +158,14 @@ static int light_figures(stage *s, uint32_t frame, report *r)
     for (uint32_t i = 0, last = f->owners; i < f->scene.instance_count; ++i) {
         const uint32_t owner = figures_owner(f, i);
         const uint16_t glossy = f->glossy_of[i % f->parts];
-        if (owner != last) {
-            const lmb_vec3 at = figures_middle(f, owner);
-            if (lmb_probe_cache_ask(&answer, &s->cache, owner, at, 0, frame) != LMB_OK) {
-                return report_fail(r, "--at: numbers over 1,000,000 m");
-            }
-            if (answer.compute && !light_slot(s, answer.slot, answer.place, r)) {
-                return 0;
-            }
-            last = owner;
-        }
-        if (!mirror_slot(s, answer.slot, glossy, r)) {
+        if (owner != last && !light_owner(s, &answer, owner, frame, r)) {
             return 0;
         }
-        s->probe_of[i] = (uint16_t)(answer.slot * RELIGHT_GLOSSY_CUBES + glossy);
+        last = owner;
+        if (!mirror_slot(s, answer.slot, glossy, r) || (s->ways != NULL && !show_way(s, owner, answer.slot, glossy, r))) {
+            return 0;
+        }
+        s->probe_of[i] = (uint16_t)((s->ways != NULL ? (int32_t)owner : answer.slot) * RELIGHT_GLOSSY_CUBES + glossy);
     }
     return 1;
 }
@@ -147,10 +194,17 @@ static int draw_shadows(stage *s, report *r)
 static void draw_band(void *user, int band, int thread)
 {
     stage *s = user;
-    const lmb_status status =
-        s->o->contact ? contact_band(&s->contact, &s->figures, &s->relight, &s->scratch[thread],
-                                     s->rows + 3 * LMB_TILE * (size_t)thread * (size_t)s->out.width, &s->out, band)
-                      : lmb_relight_band(&s->relight, &s->scratch[thread], &s->out, band);
+    lmb_relight_scratch *scratch = &s->scratch[thread];
+    lmb_status status = LMB_OK;
+    if (s->o->contact) {
+        status = contact_band(&s->contact, &s->figures, &s->ground, &s->relight, scratch,
+                              s->rows + 3 * LMB_TILE * (size_t)thread * (size_t)s->out.width, &s->out, band);
+    } else {
+        status = lmb_relight_band(&s->relight, scratch, &s->out, band);
+        if (status == LMB_OK && s->o->show != LMB_RELIGHT_GLOSSY) {
+            status = ground_band(&s->ground, NULL, &s->relight, scratch, &s->out, band);
+        }
+    }
     s->failed[thread] = status != LMB_OK ? status : s->failed[thread];
     if (thread == 0) {
         progress_tell("pictures", (s->done + (double)(band * LMB_TILE) / ((double)s->out.height * s->samples)) / s->all);
@@ -184,7 +238,8 @@ static lmb_status draw_sample(stage *s, float *pixels)
 /* Pictures of one path may move the figure: what it takes goes with it. */
 static int touch(stage *s, report *r)
 {
-    return !s->o->contact || contact_make(&s->contact, &s->figures, s->light, s->o, r);
+    return ground_lights_take(&s->ground, &s->figures, s->light, s->o, r) &&
+           (!s->o->contact || contact_make(&s->contact, &s->figures, s->light, s->o, r));
 }
 
 static int draw(stage *s, report *r)
@@ -260,6 +315,9 @@ static int take_cache(stage *s, report *r)
     if (s->probes != NULL) {
         memset(s->probes, 0, probes);
     }
+    if (o->path != NULL && (s->ways = calloc(f->owners, sizeof *s->ways)) == NULL) {
+        return report_fail(r, "%s: out of memory", o->object);
+    }
     return s->probes != NULL && s->probe_of != NULL && s->planes != NULL && s->scratch != NULL;
 }
 
@@ -329,16 +387,25 @@ static int take_frame(stage *s, report *r)
     return 1;
 }
 
+static int tell_step(const stage *s, report *r)
+{
+    report_say("largest step of light %.2f %%\n", 100.0 * (double)s->step);
+    return report_flush(r);
+}
+
 static int run(stage *s, report *r)
 {
     const relight_options *o = s->o;
     s->all = 1.0;
     if ((o->path != NULL && !place_list_read(&s->path, o->path, r)) ||
-        !figures_load(&s->figures, o, o->path != NULL ? 1 : (uint32_t)o->at_count, r) || !take_cache(s, r)) {
+        !figures_load(&s->figures, o, o->path != NULL || o->objects > 1 ? 1 : (uint32_t)o->at_count, r) || !take_cache(s, r)) {
         return 0;
     }
-    for (int32_t i = 0; i < o->at_count; ++i) {
+    for (int32_t i = 0; i < o->at_count && o->objects == 1; ++i) {
         figures_stand(&s->figures, (uint32_t)i, o->at[i]);
+    }
+    if (o->objects > 1) {
+        figures_stand(&s->figures, 0, figures_foot(&s->figures));
     }
     if (o->path != NULL) {
         s->all = (double)s->path.count;
@@ -349,7 +416,7 @@ static int run(stage *s, report *r)
     if (!take_view(s, r) || !take_frame(s, r)) {
         return 0;
     }
-    return o->path != NULL ? place_list_walk(&s->path, o->out, draw_place, s, &s->cache, r)
+    return o->path != NULL ? place_list_walk(&s->path, o->out, draw_place, s, &s->cache, r) && tell_step(s, r)
                            : light_figures(s, 0, r) && draw_shadows(s, r) && draw(s, r) && write(s, o->out, r);
 }
 
@@ -357,10 +424,16 @@ static void stage_free(stage *s)
 {
     for (int i = 0; i < LMB_MAX_PROBES; ++i) {
         free(s->cubes[i].irradiance);
+        free(s->cubes[i].planes);
         for (int k = 0; k < RELIGHT_GLOSSY_CUBES; ++k) {
             free(s->cubes[i].glossy[k]);
+            free(s->cubes[i].glossy_planes[k]);
         }
     }
+    for (uint32_t i = 0; s->ways != NULL && i < s->figures.owners; ++i) {
+        way_free(&s->ways[i]);
+    }
+    free(s->ways);
     for (int i = 0; i < RELIGHT_LIGHTS; ++i) {
         free(s->map_memory[i]);
     }
@@ -375,6 +448,7 @@ static void stage_free(stage *s)
     free(s->id_memory);
     image_free(&s->picture);
     contact_free(&s->contact);
+    ground_lights_free(&s->ground);
     place_list_free(&s->path);
     figures_free(&s->figures);
     free(s);

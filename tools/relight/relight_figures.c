@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../demo/demo_field.h"
-
 #define PLAIN_F0 0.04f       /* of glass, plastic, skin */
 #define PLAIN_ROUGHNESS 0.4f /* where the file says nothing */
 
@@ -41,7 +39,7 @@ static uint16_t glossy_of(figures *f, float roughness)
 static int take_materials(figures *f, const relight_options *o, report *r)
 {
     const lmb_scene *s = &f->loaded.scene;
-    const int has_lobes = model_make_glossy(&f->loaded);
+    const int has_lobes = f->is_many || model_make_glossy(&f->loaded);
     f->materials = malloc((s->material_count > 0 ? s->material_count : 1) * sizeof *f->materials);
     f->glossy_of = malloc((s->instance_count > 0 ? s->instance_count : 1) * sizeof *f->glossy_of);
     if (f->materials == NULL || f->glossy_of == NULL) {
@@ -49,7 +47,7 @@ static int take_materials(figures *f, const relight_options *o, report *r)
     }
     memcpy(f->materials, s->materials, s->material_count * sizeof *f->materials);
     for (uint32_t i = 0; i < s->material_count; ++i) {
-        set_lobe(&f->materials[i], o, has_lobes);
+        set_lobe(&f->materials[i], o, f->is_many ? f->joined.has_lobe[i] : has_lobes);
     }
     for (uint32_t i = 0; i < s->instance_count; ++i) {
         f->glossy_of[i] = glossy_of(f, f->materials[s->instances[i].material].roughness);
@@ -59,44 +57,47 @@ static int take_materials(figures *f, const relight_options *o, report *r)
 
 /* --- places ------------------------------------------------------------------------------------------------------- */
 
-/* Scaled about the middle of the box's bottom, which goes to `at`. */
-static void place(lmb_mat4 *out, const lmb_mat4 *from, const figures *f, lmb_vec3 at)
-{
-    const float foot[3] = {0.5f * (f->low.x + f->high.x), f->low.y, 0.5f * (f->low.z + f->high.z)},
-                to[3] = {at.x, at.y, at.z};
-    *out = *from;
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 3; ++row) {
-            float *m = &out->m[4 * column + row];
-            *m = column < 3 ? *m * f->scale : (*m - foot[row]) * f->scale + to[row];
-        }
-    }
-}
-
 void figures_stand(figures *f, uint32_t figure, lmb_vec3 at)
 {
     for (uint32_t i = 0; i < f->parts; ++i) {
         lmb_instance *to = &f->instances[figure * f->parts + i];
-        place(&to->to_world, &f->loaded.scene.instances[i].to_world, f, at);
+        figures_place(&to->to_world, &f->loaded.scene.instances[i].to_world, f->low, f->high, f->scale, at);
         ++to->revision;
     }
+}
+
+lmb_vec3 figures_foot(const figures *f)
+{
+    return (lmb_vec3){0.5f * (f->low.x + f->high.x), f->low.y, 0.5f * (f->low.z + f->high.z)};
 }
 
 void figures_bounds(figures *f) { lmb_scene_bounds(&f->scene.bounds_min, &f->scene.bounds_max, &f->scene); }
 
 uint32_t figures_owner(const figures *f, uint32_t instance)
 {
-    return f->owners == f->count ? instance / f->parts : instance;
+    uint32_t object = 0;
+    if (!f->is_many || f->owners > RELIGHT_OBJECTS || f->object_first[f->owners] != f->parts) {
+        return f->owners == f->count ? instance / f->parts : instance;
+    }
+    while (f->object_first[object + 1] <= instance) {
+        ++object;
+    }
+    return object;
 }
 
 /* Of the box of what the owner is made of. */
 lmb_vec3 figures_middle(const figures *f, uint32_t owner)
 {
-    const uint32_t each = f->count * f->parts / f->owners;
     lmb_scene own = f->scene;
     lmb_vec3 low, high;
-    own.instances = f->instances + owner * each;
-    own.instance_count = each;
+    uint32_t first = 0, end = 0;
+    for (uint32_t i = 0; i < own.instance_count; ++i) {
+        const int is_own = figures_owner(f, i) == owner;
+        first = is_own && end == 0 ? i : first;
+        end = is_own ? i + 1 : end;
+    }
+    own.instances = f->instances + first;
+    own.instance_count = end - first;
     lmb_scene_bounds(&low, &high, &own);
     return (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
 }
@@ -135,22 +136,16 @@ static float set_scale(const figures *f, float longest_m)
 
 int figures_load(figures *f, const relight_options *o, uint32_t count, report *r)
 {
-    model_notes notes = {0};
     memset(f, 0, sizeof *f);
-    if (strcmp(o->object, "demo") == 0) {
-        f->loaded.scene = *demo_field_figure();
-    } else if (!model_load_as(&f->loaded, o->object, &o->choice, &notes, r)) {
+    f->is_many = o->objects > 1;
+    if (!(f->is_many ? figures_load_many(f, o, r) : figures_load_model(&f->loaded, o->object, o, r))) {
         return 0;
-    }
-    for (uint32_t i = 0; i < notes.count; ++i) { /* those of options that only `render` has are none of ours */
-        report_note(o->view.is_quiet || strstr(notes.line[i], "--glossy") != NULL || strstr(notes.line[i], "--grouping") != NULL,
-                    "note: %s", notes.line[i]);
     }
     f->count = count;
     f->parts = f->loaded.scene.instance_count;
-    f->owners = o->per_part ? count * f->parts : count;
+    f->owners = o->per_part ? count * f->parts : f->is_many ? (uint32_t)o->objects : count;
     lmb_scene_bounds(&f->low, &f->high, &f->loaded.scene);
-    f->scale = set_scale(f, o->scale_m);
+    f->scale = f->is_many ? 1.0f : set_scale(f, o->scale_of[0]);
     if (lmb_scene_triangles(&f->loaded.scene) == 0 || !(f->scale > 0.0f && f->scale < 1e6f)) {
         return report_fail(r, "%s: nothing to draw: no triangles, or no extent", o->object);
     }
@@ -175,5 +170,13 @@ void figures_free(figures *f)
     free(f->instances);
     free(f->materials);
     free(f->glossy_of);
+    free(f->joined.meshes);
+    free(f->joined.materials);
+    free(f->joined.textures);
+    free(f->joined.instances);
+    free(f->joined.has_lobe);
+    for (int i = 0; i < RELIGHT_OBJECTS; ++i) {
+        model_free(&f->object[i]);
+    }
     model_free(&f->loaded);
 }

@@ -57,7 +57,7 @@ int ground_throw(peak_runs *p, int map, hidden *h, const far_lights *f, const re
 
 /* W/m2 that the ground receives where nothing stands, by lights that throw shadows on it: from above, and no less than it
  * sends up by the same slopes, as it reflects no more. */
-static void light_of_ground(float out[3], const far_lights *f)
+void ground_light(float out[3], const far_lights *f)
 {
     float from_above[3] = {1e-30f, 1e-30f, 1e-30f}, sent_up[3] = {0.0f, 0.0f, 0.0f};
     for (int32_t i = 0; i < f->count; ++i) {
@@ -76,7 +76,7 @@ void ground_shade(ground_map *g, const hidden_map *m, const peak_runs *peaks, lm
                   float (*reflected)[3])
 {
     float all[3];
-    light_of_ground(all, f);
+    ground_light(all, f);
     g->x = foot.x + m->corner_x;
     g->z = foot.z + m->corner_z;
     g->per_x = (float)HIDDEN_SIDE / m->wide;

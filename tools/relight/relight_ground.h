@@ -27,6 +27,9 @@ int ground_throw(peak_runs *inout, int map, hidden *h, const far_lights *lights,
 void ground_shade(ground_map *out, const hidden_map *map, const peak_runs *peaks, lmb_vec3 foot, const far_lights *lights,
                   float (*reflected)[3]);
 
+/* ground_light: W/m2 that the ground receives where nothing stands, by lights that throw shadows on it. */
+void ground_light(float out[3], const far_lights *lights);
+
 /* ground_left: times what is left of the ground's light at a place by this figure, by so many of its maps:
  * bilinear, 1 beside them. */
 void ground_left(float inout[3], const contact_ground *g, int maps, float x, float z);

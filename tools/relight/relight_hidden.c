@@ -5,11 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../platform/host/pool.h"
+#include "../common/progress.h"
+#include "relight_samples.h"
+
 static const float reach[HIDDEN_MAPS] = {2.5f, 0.25f}; /* of a figure's height: how far around it the ground is looked at */
 #define LIFT 0.005f /* of a figure's height: off its surface, as a smooth one's facets lie below it */
 #define NEAR_M 0.5f
-
-float hidden_dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 static void bounds_of(lmb_vec3 *low, lmb_vec3 *high, const figures *f, uint32_t figure)
 {
@@ -27,13 +29,6 @@ lmb_vec3 hidden_foot(const figures *f, uint32_t figure)
 }
 
 /* --- vertices ----------------------------------------------------------------------------------------------------- */
-
-uint32_t hidden_vertex(const lmb_mesh *m, uint32_t corner)
-{
-    return m->index_format == LMB_INDEX_NONE  ? corner
-           : m->index_format == LMB_INDEX_U16 ? ((const uint16_t *)m->indices)[corner]
-                                              : ((const uint32_t *)m->indices)[corner];
-}
 
 static lmb_vec3 turned(const lmb_mat4 *m, lmb_vec3 p, float one)
 {
@@ -114,15 +109,37 @@ static void set_vertices(hidden_part *p, const lmb_mat4 *to_world, float lift)
     }
 }
 
-/* 64 of them by all directions. */
-static void look_around(hidden *h, hidden_part *p, const relight_options *o, const float *directions, uint32_t first)
+/* --- sights ------------------------------------------------------------------------------------------------------- */
+
+void hidden_bound(lmb_traversal *t)
+{
+    const uint32_t coarse = t->coarse;
+    memset(t, 0, sizeof *t);
+    t->bounded = 1;
+    t->left = LMB_TRAVERSAL_FIRST;
+    t->coarse = coarse;
+}
+
+uint32_t hidden_coarse(const hidden *h)
+{
+    uint32_t sum = h->traversal.coarse;
+    for (int i = 0; h->hand != NULL && i < h->threads; ++i) {
+        sum += h->hand[i].traversal.coarse;
+    }
+    return sum;
+}
+
+/* 64 samples by all directions. */
+static void look_around(lmb_traversal *traversal, const hidden *h, hidden_part *p, const relight_options *o,
+                        const float *directions, uint32_t first)
 {
     lmb_tile t;
     float all[LMB_TILE_PIXELS] = {0}, open[LMB_TILE_PIXELS] = {0};
-    const uint32_t left = p->mesh.vertex_count - first, count = left < LMB_TILE_PIXELS ? left : LMB_TILE_PIXELS;
+    const uint32_t left = p->samples - first, count = left < LMB_TILE_PIXELS ? left : LMB_TILE_PIXELS;
     memset(&t, 0, sizeof t);
+    hidden_bound(traversal);
     for (uint32_t k = 0; k < count; ++k) {
-        const lmb_vec3 at = p->at[first + k];
+        const lmb_vec3 at = p->at[hidden_sampled(p, first + k)];
         t.position[0][k] = at.x;
         t.position[1][k] = at.y;
         t.position[2][k] = at.z;
@@ -133,11 +150,11 @@ static void look_around(hidden *h, hidden_part *p, const relight_options *o, con
         float cosine[LMB_TILE_PIXELS];
         uint64_t faces = 0;
         for (uint32_t k = 0; k < count; ++k) {
-            cosine[k] = hidden_dot(p->normal[first + k], to);
+            cosine[k] = hidden_dot(p->normal[hidden_sampled(p, first + k)], to);
             faces |= (uint64_t)(cosine[k] > 0.0f) << k;
         }
         const uint64_t blocked =
-            faces != 0 ? lmb_occluded_sun(o->kernels, &h->traversal, &h->bvh, &t, faces, to) & faces : 0;
+            faces != 0 ? lmb_occluded_sun(o->kernels, traversal, &h->bvh, &t, faces, to) & faces : 0;
         p->blocked[first / LMB_TILE_PIXELS][i] = blocked;
         for (uint32_t k = 0; k < count; ++k) {
             all[k] += faces >> k & 1 ? cosine[k] : 0.0f;
@@ -149,25 +166,103 @@ static void look_around(hidden *h, hidden_part *p, const relight_options *o, con
     }
 }
 
-static int take_part(hidden *h, hidden_part *p, const figures *f, const relight_options *o, const float *directions,
-                     const lmb_instance *in)
+/* All tiles of one part, by any threads. */
+typedef struct looking {
+    hidden *h;
+    hidden_part *p;
+    const relight_options *o;
+    const float *directions;
+} looking;
+
+static void look_job(void *user, int tile, int thread)
+{
+    const looking *l = user;
+    const uint32_t tiles = (l->p->samples + LMB_TILE_PIXELS - 1) / LMB_TILE_PIXELS;
+    look_around(&l->h->hand[thread].traversal, l->h, l->p, l->o, l->directions, (uint32_t)tile * LMB_TILE_PIXELS);
+    if (thread == 0) {
+        progress_tell("contact: the object", (double)(tile + 1) / (double)tiles);
+    }
+}
+
+static int look_part(hidden *h, hidden_part *p, const relight_options *o, const float *directions)
+{
+    const uint32_t tiles = (p->samples + LMB_TILE_PIXELS - 1) / LMB_TILE_PIXELS;
+    looking l = {h, p, o, directions};
+    p->open = malloc(((size_t)p->samples + 1) * sizeof *p->open);
+    p->blocked = malloc(((size_t)tiles + 1) * sizeof *p->blocked);
+    if (p->open == NULL || p->blocked == NULL) {
+        return 0;
+    }
+    pool_run(h->threads, (int)tiles, look_job, &l);
+    return 1;
+}
+
+/* --- once --------------------------------------------------------------------------------------------------------- */
+
+static int take_part(hidden *h, hidden_part *p, const figures *f, const lmb_instance *in)
 {
     if (!take_mesh(p, &f->loaded.scene.meshes[in->mesh])) {
         return 0;
     }
-    const size_t n = p->mesh.vertex_count + 1;
+    const size_t n = (size_t)p->mesh.vertex_count + 1;
     p->at = malloc(n * sizeof *p->at);
     p->normal = malloc(n * sizeof *p->normal);
-    p->open = malloc(n * sizeof *p->open);
-    p->blocked = malloc((n / LMB_TILE_PIXELS + 1) * sizeof *p->blocked);
-    if (p->at == NULL || p->normal == NULL || p->open == NULL || p->blocked == NULL) {
+    if (p->at == NULL || p->normal == NULL) {
         return 0;
     }
-    set_vertices(p, &in->to_world, LIFT * f->scale * (f->high.y - f->low.y));
-    for (uint32_t first = 0; first < p->mesh.vertex_count; first += LMB_TILE_PIXELS) {
-        look_around(h, p, o, directions, first);
-    }
+    set_vertices(p, &in->to_world, h->lift);
     return 1;
+}
+
+/* The proxy throws the shadows, but for an object with holes. */
+static void choose_thrown(hidden *h)
+{
+    hidden_proxy *x = &h->proxy;
+    int has_holes = 0;
+    for (uint32_t i = 0; i < h->scene.material_count; ++i) {
+        has_holes |= (h->scene.materials[i].flags & LMB_ALPHA_MASK) != 0;
+    }
+    h->thrown = h->scene;
+    if (x->count == 0 || has_holes) {
+        x->count = 0;
+        return;
+    }
+    x->mesh.positions = x->corners;
+    x->mesh.vertex_count = 3 * x->count;
+    x->mesh.triangle_count = x->count;
+    x->material.alpha = 1.0f;
+    x->material.texture = -1;
+    x->instance.first_id = 1;
+    for (int i = 0; i < 4; ++i) {
+        x->instance.to_world.m[5 * i] = 1.0f;
+    }
+    h->thrown.meshes = &x->mesh;
+    h->thrown.materials = &x->material;
+    h->thrown.instances = &x->instance;
+    h->thrown.mesh_count = h->thrown.material_count = h->thrown.instance_count = 1;
+}
+
+static int take_hand(hidden_hand *hand, uint32_t instances)
+{
+    const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, HIDDEN_SIDE, HIDDEN_SIDE),
+                 id = lmb_surface_bytes(LMB_ID32, HIDDEN_SIDE, HIDDEN_SIDE);
+    hand->memory[0] = malloc(depth);
+    hand->memory[1] = malloc(id);
+    hand->sheared = malloc(((size_t)instances + 1) * sizeof *hand->sheared);
+    return hand->memory[0] != NULL && hand->memory[1] != NULL && hand->sheared != NULL &&
+           lmb_surface_init(&hand->depth, LMB_DEPTH32F, HIDDEN_SIDE, HIDDEN_SIDE, hand->memory[0], depth) == LMB_OK &&
+           lmb_surface_init(&hand->id, LMB_ID32, HIDDEN_SIDE, HIDDEN_SIDE, hand->memory[1], id) == LMB_OK;
+}
+
+static int take_hands(hidden *h, int threads)
+{
+    h->threads = pool_threads(threads);
+    h->hand = calloc((size_t)h->threads, sizeof *h->hand);
+    int ok = h->hand != NULL;
+    for (int i = 0; ok && i < h->threads; ++i) {
+        ok = take_hand(&h->hand[i], h->parts);
+    }
+    return ok;
 }
 
 /* The first figure, its foot at 0, 0, 0. */
@@ -178,9 +273,8 @@ static int take_object(hidden *h, const figures *f)
     lmb_scene *own = &h->scene;
     *own = f->scene;
     h->instances = malloc(f->parts * sizeof *h->instances);
-    h->sheared = malloc(f->parts * sizeof *h->sheared);
     h->part = calloc(f->parts, sizeof *h->part);
-    if (h->instances == NULL || h->sheared == NULL || h->part == NULL) {
+    if (h->instances == NULL || h->part == NULL) {
         return 0;
     }
     h->parts = f->parts;
@@ -200,16 +294,12 @@ static int take_object(hidden *h, const figures *f)
     const lmb_vec3 half = {0.5f * (high.x - low.x), 0.5f * (high.y - low.y), 0.5f * (high.z - low.z)};
     h->middle = (lmb_vec3){low.x + half.x, low.y + half.y, low.z + half.z};
     h->radius = sqrtf(hidden_dot(half, half));
+    h->lift = LIFT * f->scale * (f->high.y - f->low.y);
     const uint32_t triangles = lmb_scene_triangles(own);
-    const size_t bytes = lmb_bvh_bytes(triangles), depth = lmb_surface_bytes(LMB_DEPTH32F, HIDDEN_SIDE, HIDDEN_SIDE),
-                 id = lmb_surface_bytes(LMB_ID32, HIDDEN_SIDE, HIDDEN_SIDE);
-    h->memory[0] = malloc(bytes);
-    h->memory[1] = malloc(depth);
-    h->memory[2] = malloc(id);
-    return h->memory[0] != NULL && h->memory[1] != NULL && h->memory[2] != NULL &&
-           lmb_surface_init(&h->depth, LMB_DEPTH32F, HIDDEN_SIDE, HIDDEN_SIDE, h->memory[1], depth) == LMB_OK &&
-           lmb_surface_init(&h->id, LMB_ID32, HIDDEN_SIDE, HIDDEN_SIDE, h->memory[2], id) == LMB_OK &&
-           lmb_bvh_init(&h->bvh, triangles, h->memory[0], bytes) == LMB_OK && lmb_bvh_build(&h->bvh, own) == LMB_OK;
+    const size_t bytes = lmb_bvh_bytes(triangles);
+    h->memory = malloc(bytes);
+    return h->memory != NULL && lmb_bvh_init(&h->bvh, triangles, h->memory, bytes) == LMB_OK &&
+           lmb_bvh_build(&h->bvh, own) == LMB_OK;
 }
 
 int hidden_make(hidden *h, const figures *f, const relight_options *o, const float *directions)
@@ -217,9 +307,16 @@ int hidden_make(hidden *h, const figures *f, const relight_options *o, const flo
     if (h->part != NULL) {
         return 1;
     }
-    int ok = take_object(h, f);
+    int ok = take_object(h, f) && take_hands(h, o->threads);
     for (uint32_t i = 0; ok && i < h->parts; ++i) {
-        ok = take_part(h, &h->part[i], f, o, directions, &h->instances[i]);
+        ok = take_part(h, &h->part[i], f, &h->instances[i]);
+    }
+    ok = ok && samples_take(h);
+    for (uint32_t i = 0; ok && i < h->parts; ++i) {
+        ok = look_part(h, &h->part[i], o, directions);
+    }
+    if (ok) {
+        choose_thrown(h);
     }
     return ok;
 }
@@ -259,14 +356,14 @@ static void look_up(lmb_view *v, const hidden_map *m, float height, int ray)
 }
 
 /* The object projected onto the ground along a light: moved sideways by height. */
-static void shear(hidden *h, lmb_vec3 to)
+static void shear(lmb_instance *sheared, const hidden *h, lmb_vec3 to)
 {
     uint32_t id = 1;
-    for (uint32_t i = 0; i < h->parts; ++i) {
-        float *m = h->sheared[i].to_world.m;
-        h->sheared[i] = h->instances[i];
-        h->sheared[i].first_id = id;
-        id += h->scene.meshes[h->sheared[i].mesh].triangle_count;
+    for (uint32_t i = 0; i < h->thrown.instance_count; ++i) {
+        float *m = sheared[i].to_world.m;
+        sheared[i] = h->thrown.instances[i];
+        sheared[i].first_id = id;
+        id += h->thrown.meshes[sheared[i].mesh].triangle_count;
         for (int column = 0; column < 4; ++column) {
             const float height = m[4 * column + 1] + (column == 3 ? h->height : 0.0f);
             m[4 * column] -= height * (to.x / to.y);
@@ -276,9 +373,9 @@ static void shear(hidden *h, lmb_vec3 to)
 }
 
 /* A row of the ids' surface, by region; -1: open. */
-static int take_row(int16_t region[HIDDEN_SIDE], const hidden *h, int32_t y)
+static int take_row(int16_t region[HIDDEN_SIDE], const hidden *h, const hidden_hand *hand, int32_t y)
 {
-    const uint32_t *ids = (const uint32_t *)h->id.data + y / LMB_TILE * (HIDDEN_SIDE / LMB_TILE) * LMB_TILE_PIXELS + y % LMB_TILE * LMB_TILE;
+    const uint32_t *ids = (const uint32_t *)hand->id.data + y / LMB_TILE * (HIDDEN_SIDE / LMB_TILE) * LMB_TILE_PIXELS + y % LMB_TILE * LMB_TILE;
     uint32_t any = 0;
     for (int32_t x = 0; x < HIDDEN_SIDE; ++x) {
         const uint32_t id = ids[x / LMB_TILE * LMB_TILE_PIXELS + x % LMB_TILE];
@@ -289,11 +386,11 @@ static int take_row(int16_t region[HIDDEN_SIDE], const hidden *h, int32_t y)
 }
 
 /* Rows of the surface run from the far side, as it is seen from below. */
-static int add_rows(hidden *h, hidden_runs *runs)
+static int add_rows(const hidden *h, const hidden_hand *hand, hidden_runs *runs)
 {
     int16_t region[HIDDEN_SIDE];
     for (int32_t y = 0; y < HIDDEN_SIDE; ++y) {
-        const int has_any = take_row(region, h, y);
+        const int has_any = take_row(region, h, hand, y);
         for (int32_t x = 0, from = 0; has_any && x < HIDDEN_SIDE; ++x) {
             const int ends = x + 1 == HIDDEN_SIDE || region[x + 1] != region[x];
             if (ends && region[x] >= 0 &&
@@ -306,20 +403,27 @@ static int add_rows(hidden *h, hidden_runs *runs)
     return 1;
 }
 
-int hidden_shadow(hidden *h, int map, hidden_runs *runs, const relight_options *o, lmb_vec3 to, int ray)
+static int throw_shadow(hidden_hand *hand, const hidden *h, int map, hidden_runs *runs, const relight_options *o,
+                        lmb_vec3 to, int ray)
 {
-    lmb_scene own = h->scene;
+    lmb_scene own = h->thrown;
     lmb_view v;
     lmb_target target;
     memset(&target, 0, sizeof target);
-    target.depth = h->depth;
-    target.id = h->id;
+    target.depth = hand->depth;
+    target.id = hand->id;
     look_up(&v, &h->map[map], h->height, ray);
-    shear(h, to);
-    own.instances = h->sheared;
-    lmb_surface_clear(&h->depth);
-    lmb_surface_clear(&h->id);
-    return lmb_draw(&target, o->kernels, &v, &own, 1, lmb_scene_triangles(&own), 0, NULL) == LMB_OK && add_rows(h, runs);
+    shear(hand->sheared, h, to);
+    own.instances = hand->sheared;
+    lmb_surface_clear(&hand->depth);
+    lmb_surface_clear(&hand->id);
+    return lmb_draw(&target, o->kernels, &v, &own, 1, lmb_scene_triangles(&own), 0, NULL) == LMB_OK &&
+           add_rows(h, hand, runs);
+}
+
+int hidden_shadow(hidden *h, int map, hidden_runs *runs, const relight_options *o, lmb_vec3 to, int ray)
+{
+    return throw_shadow(&h->hand[0], h, map, runs, o, to, ray);
 }
 
 /* A ray in one quarter of a direction's texel of the reduced cube: probe.h. */
@@ -332,20 +436,80 @@ static lmb_vec3 ray_of(int32_t i, int ray)
     return unit_of(to[i / (N * N)]);
 }
 
-static int fill_map(hidden *h, int map, const relight_options *o)
+/* A map's shadows by any threads: where each one's runs are. */
+typedef struct filling {
+    hidden *h;
+    const relight_options *o;
+    int map;
+    struct {
+        uint32_t first, count;
+        int thread;
+    } of[LMB_PROBE_TEXELS * HIDDEN_RAYS];
+} filling;
+
+static void fill_job(void *user, int i, int thread)
 {
-    hidden_map *m = &h->map[map];
-    m->runs.count = 0;
-    for (int32_t i = 0; i < LMB_PROBE_TEXELS * HIDDEN_RAYS; ++i) {
-        const lmb_vec3 to = ray_of(i / HIDDEN_RAYS, i % HIDDEN_RAYS);
-        m->first[i] = m->runs.count;
-        const int is_cast = map == 0 || i % HIDDEN_RAYS % (HIDDEN_RAYS - 1) == 0; /* near: two of them, across */
-        if (is_cast && to.y >= HIDDEN_LOWEST && !hidden_shadow(h, map, &m->runs, o, to, i % HIDDEN_RAYS)) {
+    filling *f = user;
+    hidden_hand *hand = &f->h->hand[thread];
+    const lmb_vec3 to = ray_of(i / HIDDEN_RAYS, i % HIDDEN_RAYS);
+    const int is_cast = f->map == 0 || i % HIDDEN_RAYS % (HIDDEN_RAYS - 1) == 0; /* near: two of them, across */
+    f->of[i].thread = thread;
+    f->of[i].first = hand->runs.count;
+    if (is_cast && to.y >= HIDDEN_LOWEST && !hand->failed) {
+        hand->failed = !throw_shadow(hand, f->h, f->map, &hand->runs, f->o, to, i % HIDDEN_RAYS);
+    }
+    f->of[i].count = hand->runs.count - f->of[i].first;
+    if (thread == 0) {
+        progress_tell("contact: the ground", (f->map + (double)i / (LMB_PROBE_TEXELS * HIDDEN_RAYS)) / HIDDEN_MAPS);
+    }
+}
+
+/* The threads' runs in the order of the rays. */
+static int join_runs(hidden_map *m, const filling *f)
+{
+    uint32_t all = 0;
+    for (int i = 0; i < LMB_PROBE_TEXELS * HIDDEN_RAYS; ++i) {
+        m->first[i] = all;
+        all += f->of[i].count;
+    }
+    m->first[LMB_PROBE_TEXELS * HIDDEN_RAYS] = all;
+    if (m->runs.cap < all) {
+        free(m->runs.run);
+        m->runs.cap = 0;
+        if ((m->runs.run = malloc((size_t)all * sizeof *m->runs.run)) == NULL) {
             return 0;
         }
+        m->runs.cap = all;
     }
-    m->first[LMB_PROBE_TEXELS * HIDDEN_RAYS] = m->runs.count;
+    m->runs.count = all;
+    for (int i = 0; i < LMB_PROBE_TEXELS * HIDDEN_RAYS; ++i) {
+        const hidden_run *from = f->h->hand[f->of[i].thread].runs.run;
+        if (f->of[i].count > 0) {
+            memcpy(m->runs.run + m->first[i], from + f->of[i].first, f->of[i].count * sizeof *from);
+        }
+    }
     return 1;
+}
+
+static int fill_map(hidden *h, int map, const relight_options *o)
+{
+    filling *f = calloc(1, sizeof *f);
+    int ok = f != NULL;
+    if (ok) {
+        f->h = h;
+        f->o = o;
+        f->map = map;
+        for (int i = 0; i < h->threads; ++i) {
+            h->hand[i].runs.count = 0;
+        }
+        pool_run(h->threads, LMB_PROBE_TEXELS * HIDDEN_RAYS, fill_job, f);
+        ok = join_runs(&h->map[map], f);
+    }
+    for (int i = 0; i < h->threads; ++i) {
+        ok = ok && !h->hand[i].failed;
+    }
+    free(f);
+    return ok;
 }
 
 int hidden_ground(hidden *h, const figures *f, const relight_options *o, float height)
@@ -378,6 +542,8 @@ void hidden_free(hidden *h)
         free(h->part[i].memory);
         free(h->part[i].at);
         free(h->part[i].normal);
+        free(h->part[i].vertex_of);
+        free(h->part[i].share);
         free(h->part[i].open);
         free(h->part[i].blocked);
     }
@@ -385,9 +551,17 @@ void hidden_free(hidden *h)
     for (int i = 0; i < HIDDEN_MAPS; ++i) {
         free(h->map[i].runs.run);
     }
-    free(h->instances);
-    free(h->sheared);
-    for (int i = 0; i < 3; ++i) {
-        free(h->memory[i]);
+    for (int i = 0; h->hand != NULL && i < h->threads; ++i) {
+        free(h->hand[i].memory[0]);
+        free(h->hand[i].memory[1]);
+        free(h->hand[i].sheared);
+        free(h->hand[i].runs.run);
     }
+    free(h->hand);
+    free(h->proxy.key);
+    free(h->proxy.corners);
+    free(h->proxy.source);
+    free(h->proxy.region);
+    free(h->instances);
+    free(h->memory);
 }

@@ -5,8 +5,25 @@
 #include <string.h>
 
 #include "../demo/demo_field.h"
+#include "../picture/picture.h"
+
+#define DARK 0.1 /* of a world: over this is reported */
 
 /* --- once --------------------------------------------------------------------------------------------------------- */
+
+/* How much of the sphere is black, blank or missing; by texels. */
+static double dark_share(const lmb_world_pictures *p)
+{
+    const size_t texels = (size_t)p->face_size * (size_t)p->face_size;
+    size_t dark = 0;
+    for (int f = 0; f < 6; ++f) {
+        for (size_t i = 0; i < texels; ++i) {
+            const float *rgb = p->face[f] != NULL ? p->face[f] + 3 * i : NULL;
+            dark += rgb == NULL || (p->alpha[f] != NULL && !(p->alpha[f][i] > 0.0f)) || !(rgb[0] + rgb[1] + rgb[2] > 0.0f);
+        }
+    }
+    return (double)dark / (6.0 * (double)texels);
+}
 
 /* Its pictures are not read again: all worlds share the room for one's. */
 static int make_world(relight_light *w, relight_options *o, int32_t i, report *r)
@@ -19,6 +36,9 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
         return 0;
     }
     world_tell_not_finite(&w->pictures, name, o->view.is_quiet);
+    const double dark = strcmp(name, "demo") == 0 || o->view.is_quiet ? 0.0 : dark_share(&o->place);
+    report_note(o->view.is_quiet || dark < DARK, "note: %s: %.0f %% of it is black or blank: no light comes from there", name,
+                100.0 * dark);
     if (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r)) {
         return 0;
     }
@@ -28,7 +48,7 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
         return report_fail(r, "%s: out of memory", name);
     }
     return lmb_world_init(&w->world[i], &o->place, o->format, w->world_memory[i], bytes) == LMB_OK ||
-           report_fail(r, "--world-centre: lies outside the far world, or numbers are over 1,000,000 m");
+           report_fail(r, "--world-centre: lies outside the far world or under the --floor, or numbers are over 1,000,000 m");
 }
 
 static int make_table(relight_light *w, int i, report *r)
@@ -101,4 +121,19 @@ void relight_light_free(relight_light *w)
         free(w->table_memory[i]);
     }
     free(w->blur_memory);
+}
+
+int relight_write_planes(const char *path, const float *planes, int32_t width, int32_t height, report *r)
+{
+    const size_t pixels = (size_t)width * (size_t)height;
+    image out = {width, height, 3, malloc(3 * pixels * sizeof(float))};
+    if (out.pixels == NULL) {
+        return report_fail(r, "%s: out of memory", path);
+    }
+    for (size_t i = 0; i < 3 * pixels; ++i) {
+        out.pixels[i] = planes[i % 3 * pixels + i / 3];
+    }
+    const int ok = picture_write(path, &out, picture_auto_exposure(&out, PICTURE_CLIPPED), PICTURE_CLIPPED, r);
+    image_free(&out);
+    return ok;
 }

@@ -5,8 +5,6 @@
 #include "../picture/world_read.h"
 #include "relight_options.h"
 
-enum { RELIGHT_WIDTH = 128, RELIGHT_HEIGHT = 64, RELIGHT_MAX_FACES = 64 };
-
 /* All that the work needs; large, and one of it. Zero it before use. */
 typedef struct relight_light {
     world_pictures pictures;
@@ -29,11 +27,17 @@ int relight_light_at(relight_light *inout, const relight_options *o, lmb_vec3 at
 int relight_light_filter(relight_light *inout, const relight_options *o, int32_t n);
 /* relight_light_see: into `map`, what a place sees by all worlds, each by its share. 1, or 0. */
 int relight_light_see(relight_light *inout, const relight_options *o, lmb_vec3 at);
-/* relight_light_reflect: lmb_probe_reflect of all worlds, n <= RELIGHT_MAX_FACES. Uses `cube`. 1, or 0. */
+/* relight_light_map: the same into another map by its table; `one`: scratch as large as that. 1, or 0. */
+int relight_light_map(float *map, float *one, const lmb_probe_table *table, const relight_light *w, const relight_options *o,
+                      lmb_vec3 at);
+/* relight_light_reflect: lmb_probe_reflect of all worlds, n <= RELIGHT_MAX_FACES if they are several. Uses `cube`. 1, or 0. */
 int relight_light_reflect(relight_light *inout, const relight_options *o, float *planes, int32_t n,
                           lmb_probe_rays *rays, lmb_vec3 at, float roughness);
 /* relight_light_nearest: the world that was taken nearest to a place. */
 const lmb_world *relight_light_nearest(const relight_light *w, const relight_options *o, lmb_vec3 at);
 void relight_light_free(relight_light *w);
+
+/* relight_write_planes: planes of R, G and B as a picture. 1, or 0 with `r` set. */
+int relight_write_planes(const char *path, const float *planes, int32_t width, int32_t height, report *r);
 
 #endif

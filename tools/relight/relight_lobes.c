@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The part of the world that vertex i of a part sees of a direction, between its four nearest of the reduced cube. */
-static float vertex_open(const hidden_part *p, uint32_t i, const uint16_t at[4], const float weight[4])
+/* The part of the world that sample i of a part sees of a direction, between its four nearest of the reduced cube. */
+static float sample_open(const hidden_part *p, uint32_t i, const uint16_t at[4], const float weight[4])
 {
     const uint64_t *blocked = p->blocked[i / LMB_TILE_PIXELS];
     float open = 0.0f;
@@ -13,6 +13,21 @@ static float vertex_open(const hidden_part *p, uint32_t i, const uint16_t at[4],
         open += blocked[at[k]] >> (i % LMB_TILE_PIXELS) & 1 ? 0.0f : weight[k];
     }
     return open;
+}
+
+/* That of a vertex, and of all directions. */
+static void vertex_open(float *mirrored, float *all, const hidden_part *p, uint32_t vertex, const uint16_t at[4],
+                        const float weight[4])
+{
+    *mirrored = *all = 0.0f;
+    for (int i = 0; i < (p->share != NULL ? HIDDEN_SHARES : 1); ++i) {
+        uint32_t sample;
+        const float share = hidden_shared(&sample, p, vertex, i);
+        if (share > 0.0f) {
+            *mirrored += share * sample_open(p, sample, at, weight);
+            *all += share * p->open[sample];
+        }
+    }
 }
 
 /* Shares of a triangle's corners in a place on it. */
@@ -45,8 +60,10 @@ static float pixel_open(const contact *c, const figures *f, const lmb_tile *tile
     }
     corner_shares(share, corner, at);
     for (int i = 0; i < 3; ++i) {
-        mirrored += share[i] * vertex_open(p, vertex[i], near, weight);
-        all += share[i] * p->open[vertex[i]];
+        float own, whole;
+        vertex_open(&own, &whole, p, vertex[i], near, weight);
+        mirrored += share[i] * own;
+        all += share[i] * whole;
     }
     return mirrored + alpha * (all - mirrored);
 }
@@ -126,50 +143,15 @@ static lmb_status lobes_of_band(const contact *c, const figures *f, const lmb_re
     return status;
 }
 
-/* The ray through a pixel's sample meets the ground in front of the eye? */
-static int ground_at(float out[2], const lmb_view *v, int32_t x, int32_t y, float ground_y)
+lmb_status contact_band(const contact *c, const figures *f, const ground_lights *g, const lmb_relight *r,
+                        lmb_relight_scratch *scratch, float *rows, const lmb_surface *out, int32_t band)
 {
-    const float across = 2.0f * ((float)x + 0.5f + (float)v->sample_x * (1.0f / 256.0f)) / (float)v->frame_width - 1.0f,
-                up = 1.0f - 2.0f * ((float)y + 0.5f + (float)v->sample_y * (1.0f / 256.0f)) / (float)v->frame_height;
-    const float a = across * v->half_width, b = up * v->half_height;
-    const int is_far = v->kind == LMB_ORTHOGRAPHIC;
-    const lmb_vec3 side = {a * v->right.x + b * v->up.x, a * v->right.y + b * v->up.y, a * v->right.z + b * v->up.z};
-    const lmb_vec3 from = is_far ? (lmb_vec3){v->eye.x + side.x, v->eye.y + side.y, v->eye.z + side.z} : v->eye;
-    const lmb_vec3 along = is_far ? (lmb_vec3){-v->back.x, -v->back.y, -v->back.z}
-                                  : (lmb_vec3){side.x - v->back.x, side.y - v->back.y, side.z - v->back.z};
-    const float far = (ground_y - from.y) / along.y;
-    out[0] = from.x + far * along.x;
-    out[1] = from.z + far * along.z;
-    return along.y < 0.0f && far > 0.0f;
-}
-
-static void darken_rows(const contact *c, const lmb_relight *r, const lmb_surface *out, int32_t from, int32_t to)
-{
-    const lmb_surface *id = &r->eye.id;
-    const int32_t tiles = (id->width + LMB_TILE - 1) / LMB_TILE;
-    for (int32_t i = from * out->width; c->grounds != NULL && i < to * out->width; ++i) {
-        const int32_t x = i % out->width, y = i / out->width;
-        const uint32_t *tile = (const uint32_t *)id->data + (size_t)(y / LMB_TILE * tiles + x / LMB_TILE) * LMB_TILE_PIXELS;
-        float place[2], left[3], *rgb = (float *)(void *)((uint8_t *)out->data + y * out->stride_bytes) + 3 * x;
-        if (tile[y % LMB_TILE * LMB_TILE + x % LMB_TILE] == 0 && ground_at(place, &r->view, x, y, c->ground_y)) {
-            contact_ground_left(left, c, place[0], place[1]);
-            for (int k = 0; k < 3; ++k) {
-                rgb[k] *= left[k];
-            }
-        }
-    }
-}
-
-lmb_status contact_band(const contact *c, const figures *f, const lmb_relight *r, lmb_relight_scratch *scratch,
-                        float *rows, const lmb_surface *out, int32_t band)
-{
-    const int32_t from = band * LMB_TILE, to = from + LMB_TILE < out->height ? from + LMB_TILE : out->height;
     lmb_status status = LMB_OK;
     if (r->show != LMB_RELIGHT_GLOSSY) {
         lmb_relight matte = *r;
         matte.show = LMB_RELIGHT_NORMAL;
         status = lmb_relight_band(&matte, scratch, out, band);
-        darken_rows(c, r, out, from, to);
+        status = status == LMB_OK ? ground_band(g, c, r, scratch, out, band) : status;
     }
     return status != LMB_OK || r->show == LMB_RELIGHT_NORMAL ? status : lobes_of_band(c, f, r, scratch, rows, out, band);
 }

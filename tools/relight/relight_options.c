@@ -9,8 +9,10 @@
 #include "../common/options.h"
 #include "../demo/demo_field.h"
 #include "../picture/picture.h"
+#include "relight_export.h"
 
 #define PLAIN_GROUND 100.0f /* m, its sides where nothing is said */
+#define EYE_HEIGHT   1.6f   /* m: of who took a world's picture over its floor */
 
 const char *const relight_filters[FILTERS + 1] = {"cosine", "sh9", "sh16", "sh25", "blur", "blur1", "blur2", NULL};
 
@@ -57,6 +59,7 @@ static int parse_place(const char *text, void *at) { return relight_place(text, 
 /* --- the table ---------------------------------------------------------------------------------------------------- */
 
 static const char *const storages[] = {"f32", "log16", "log8", NULL}; /* in the order of LMB_WORLD_ */
+static const char *const floors[] = {"auto", "on", "none", NULL};
 static const char *const overlaps[] = {"nearer", "mean", NULL};
 static const char *const shows[] = {"both", "normal", "glossy", NULL}; /* in the order of LMB_RELIGHT_ */
 
@@ -89,6 +92,10 @@ static const option_row world_rows[] = {
      .help = HELP("the picture's middle (default: the world's centre)")},
     {.name = "--ground-height", .value = "H", .kind = OPTION_NUMBER, AT(place.ground_y), .low = -1e30, .high = 1e30,
      .help = HELP("of the ground, m (default 0)")},
+    {.name = "--floor", .kind = OPTION_WORD, AT(floor), .words = floors,
+     .help = HELP("on: all below the horizon of the world lies flat at --ground-height, and objects stand on it; none: it "
+             "lies as far as the rest; auto (default): on if an object is drawn in a single --world without --ground, "
+             "--world-sphere and --world-box. The world's centre is then 1.6 m above the floor by default")},
     {.name = "--storage", .kind = OPTION_WORD, AT(format), .words = storages,
      .help = HELP("how the world is kept: floats, or log codes of 0 to 100 (default f32)")},
     {.name = "--overlap", .kind = OPTION_WORD, AT(blend), .words = overlaps,
@@ -105,7 +112,8 @@ static const option_row light_rows[] = {
     {.name = "--filter", .kind = OPTION_WORD, AT(filter), .words = relight_filters,
      .help = HELP("cosine: exact, from 6 x 8 x 8 directions (default); off by about 0.5 %;\nsh9, sh16, sh25: spherical "
              "harmonics: 1 %, the same, 0.6 %; may be negative beside sharp lights;\nblur, blur1, blur2: by rows and "
-             "columns: the source's 6 %, one product fitted a row 4 %, two 1.5 %")},
+             "columns: 6 %, with one product fitted a row 4 %, with two 1.5 %, in the built-in world. Beside small lamps and "
+             "suns all blurs are off by 15 to 250 %, and harmonics by 5 %: use cosine there")},
     {.name = "--cube", .value = "OUT", .kind = OPTION_OWN, AT(cube), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP("W/m2, N wide and 6 N high, faces +x -x +y -y +z -z from the top (.pfm .hdr; .png .ppm to look at; "
@@ -114,18 +122,50 @@ static const option_row light_rows[] = {
      .help = HELP("texels of a face's side (default 8)")},
     {.name = "--map", .value = "OUT", .kind = OPTION_OWN, AT(map), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = HELP("what the place sees, 128 x 64: longitude from -180 degrees, north on top; W/(sr m2); files as --cube")},
+     .help = HELP("what the place sees, longitude by latitude, north on top; W/(sr m2); files as --cube")},
+#if !defined(OPTIONS_WITHOUT_HELP) /* a page has no other programs */
+    {.name = "--map-height", .value = "H", .kind = OPTION_MULTIPLE_OF_8, AT(map_height), .low = 8, .high = 512,
+     .help = HELP("its rows; it is twice as wide (default 64)")},
+    {.name = "--azimuth", .value = "DEG", .kind = OPTION_NUMBER, AT(azimuth), .low = -360, .high = 360,
+     .help = HELP("the longitude of its left edge: -180 (default), -90 or 0; 0 is -z, 90 is +x")},
+    {.name = "--vectors", .value = "FILE.pfm", .kind = OPTION_TEXT, AT(vectors_in), .file = OPTION_READS,
+     .help = HELP("a transform image: each pixel of the map looks along its vector there")},
+    {.name = "--save-vectors", .value = "OUT.pfm", .kind = OPTION_OWN, AT(vectors_out), .file = OPTION_WRITES,
+     .parse = picture_option, .expects = PICTURE_OPTION_WANTS, .help = HELP("the map's own transform image")},
+#endif
+    {.kind = OPTION_END},
+};
+
+static const option_row file_rows[] = {
+    {.kind = OPTION_TITLE, .help = HELP("light for other programs, as one --at has it")},
+#if !defined(OPTIONS_WITHOUT_HELP)
+    {.name = "--lobes", .value = "OUT", .kind = OPTION_OWN, AT(lobes), .file = OPTION_WRITES, .parse = picture_option,
+     .expects = PICTURE_OPTION_WANTS,
+     .help = HELP("radiance by mirrored direction, GGX: six cubes of roughness 0, 0.2 .. 1 as --cube has them, numbered as "
+             "light_%01d.hdr or light-0000.hdr; the first is the world as a cube")},
+    {.name = "--side", .value = "N", .kind = OPTION_POWER_OF_2, AT(side), .low = 16, .high = 256,
+     .help = HELP("texels of a side of the first; each other one has half, at least 8 (default 128)")},
+    {.name = "--harmonics", .value = "OUT.json", .kind = OPTION_TEXT, AT(harmonics), .file = OPTION_WRITES,
+     .help = HELP("nine coefficients of radiance, as a LightProbe of three.js, and of irradiance; the file names their "
+             "functions")},
+    {.name = "--dfg", .value = "OUT", .kind = OPTION_OWN, AT(dfg), .file = OPTION_WRITES, .parse = picture_option,
+     .expects = PICTURE_OPTION_WANTS,
+     .help = HELP("what a lobe reflects of white light is F0 x red + green: 128 x 128, the cosine to the viewer to the right, "
+             "roughness down")},
+#endif
     {.kind = OPTION_END},
 };
 
 static const option_row object_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("objects")},
-    {.name = "--object", .value = "FILE", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
+    {.name = "--object", .value = "FILE", .kind = OPTION_TEXT, AT(object_of), COUNTS(objects), .times = RELIGHT_OBJECTS,
+     .size = sizeof(char *), .file = OPTION_READS,
      .help = HELP(".gltf .glb .obj .ply, or `demo`, a figure: stands with the middle of its box's bottom at --at, and is "
-             "lit as its box's middle is")},
+             "lit as its box's middle is. Of several each has one --at, in their order")},
     OPTION_VERTEX_COLOURS_ROW(relight_options, choice.vertex_colours),
-    {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale_m), .low = 1e-3, .high = 1e5,
-     .help = HELP("its longest side, m (default: as the file says)")},
+    {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale_of), COUNTS(scales), .times = RELIGHT_OBJECTS,
+     .size = sizeof(float), .low = 1e-3, .high = 1e5,
+     .help = HELP("its longest side, m (default: as the file says); of several objects one for all, or one each")},
     {.name = "--roughness", .value = "R", .kind = OPTION_NUMBER, AT(roughness), .low = 0, .high = 1,
      .help = HELP("0: a mirror (default: glTF's materials' own, else 0.4)")},
     {.name = "--f0", .value = "F", .kind = OPTION_NUMBER, AT(f0), .low = 0, .high = 1,
@@ -135,10 +175,13 @@ static const option_row object_rows[] = {
     {.name = "--contact", .kind = OPTION_FLAG, AT(contact),
      .help = HELP("objects darken the ground below them, themselves and each other, and light them by what they reflect; "
              "lobes mirror that. What an object hides is found once: from itself by rays from each vertex, from "
-             "the ground anew at another height; then by up to 448 lights of the world a picture")},
+             "the ground anew at another height; then by up to 448 lights of the world a picture. An object with over "
+             "4,096 vertices is thinned to about as many for this. Default with a --floor")},
+    {.name = "--no-contact", .kind = OPTION_FLAG, AT(no_contact), .help = HELP("leave that out")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), COUNTS(light_count), .times = RELIGHT_LIGHTS,
      .size = sizeof(lmb_light),
-     .help = HELP("a light or sun beside the world's light, as in `lambent render`")},
+     .help = HELP("a light or sun beside the world's light, as in `lambent render`. The world's pictures show the ground "
+             "in its light: it darkens the ground where objects block it")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
      .help = HELP("all light, that by normals alone, or what is mirrored alone (default both)")},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
@@ -184,22 +227,44 @@ const option_table relight_table = {
         "What a place in a world receives, from pictures of the world that were taken elsewhere: irradiance by "
         "normal, as a small cube map; and objects drawn in that light, over the world as background. Metres, +Y up, "
         "linear light.",
-    .part = {world_rows, light_rows, object_rows, picture_rows},
+    .part = {world_rows, light_rows, file_rows, object_rows, picture_rows},
     .examples = HELP("  lambent relight --world demo --at 4,1,-2 --cube light.pfm\n"
                 "  lambent relight --world demo --object demo -o field.png\n"),
 };
 
+int relight_has_ground(const relight_options *o) { return o->place.ground != NULL || o->place.has_floor; }
+
 /* --- all of it ---------------------------------------------------------------------------------------------------- */
+
+/* Several objects have a place each, and one size or one each. */
+static int check_objects(const relight_options *o, report *r)
+{
+    if (o->scales > 1 && o->scales != o->objects) {
+        return report_fail(r, "--object and --scale: %d and %d of them; give one --scale, or each object one", (int)o->objects,
+                           (int)o->scales);
+    }
+    if (o->objects < 2) {
+        return 1;
+    }
+    if (o->path != NULL || o->keep_count > 0) {
+        return report_fail(r, "--path and --keep are for one --object");
+    }
+    return o->at_count == o->objects ||
+           report_fail(r, "--object and --at: %d and %d of them; give each object its place", (int)o->objects, (int)o->at_count);
+}
 
 static int check_together(const relight_options *o, report *r)
 {
+    if (!check_objects(o, r)) {
+        return 0;
+    }
     if (o->worlds == 0) {
         return report_fail(r, "no world given; add --world FILE");
     }
     if (!relight_worlds_check(o, r)) {
         return 0;
     }
-    if (o->cube == NULL && o->map == NULL && o->out == NULL) {
+    if (o->cube == NULL && !relight_exports(o) && o->out == NULL) {
         return report_fail(r, "no output given; add --cube FILE.pfm, or --object FILE -o FILE.png");
     }
     if ((o->object == NULL) != (o->out == NULL)) {
@@ -217,13 +282,22 @@ static int check_together(const relight_options *o, report *r)
     if ((o->cube != NULL || o->map != NULL) && (o->at_count > 1 || o->path != NULL)) {
         return report_fail(r, "--cube and --map are of one place: give one --at");
     }
-    return view_options_check(&o->view, r);
+    if (relight_exports(o) && (o->at_count > 1 || o->path != NULL)) {
+        return report_fail(r, "light for other programs is of one place: give one --at");
+    }
+    return relight_export_check(o, r) && view_options_check(&o->view, r);
 }
 
 /* What follows from what was given. */
 static void complete(relight_options *o)
 {
     lmb_world_pictures *p = &o->place;
+    const int floor_fits = o->object != NULL && o->ground == NULL && !o->has_far && o->worlds == 1;
+    p->has_floor = o->floor == FLOOR_ON || (o->floor == FLOOR_AUTO && floor_fits && (o->centres == 0 || p->centre.y > p->ground_y));
+    if (p->has_floor && o->centres == 0 && !o->has_far) {
+        p->centre.y = p->ground_y + EYE_HEIGHT;
+    }
+    o->contact = (o->contact || p->has_floor) && !o->no_contact;
     o->centre[0] = p->centre; /* the built-in world has its own */
     if (!o->has_far) {
         p->middle = p->centre;
@@ -237,9 +311,9 @@ static void complete(relight_options *o)
     p->ground_depth_m = o->ground_size[1];
     p->ground_x = o->ground_centre[0] - 0.5f * o->ground_size[0];
     p->ground_z = o->ground_centre[1] - 0.5f * o->ground_size[1];
-    if (o->at_count == 0 && o->path == NULL) {
+    if (o->at_count == 0 && o->path == NULL && o->objects < 2) {
         o->at[0] = p->centre;
-        o->at[0].y = o->object != NULL && o->ground != NULL ? p->ground_y : p->centre.y;
+        o->at[0].y = o->object != NULL && (o->ground != NULL || p->has_floor) ? p->ground_y : p->centre.y;
         o->at_count = 1;
     }
 }
@@ -257,7 +331,7 @@ static int demo_options(relight_options *o, report *r)
     demo_field_place(&o->place, o->ground_size);
     o->has_far = o->has_ground_centre = 1;
     o->ground_centre[0] = o->ground_centre[1] = 0.0f;
-    if (o->object != NULL && strcmp(o->object, "demo") == 0 && o->at_count == 0 && o->path == NULL) {
+    if (o->object != NULL && strcmp(o->object, "demo") == 0 && o->objects == 1 && o->at_count == 0 && o->path == NULL) {
         memcpy(o->at, places, sizeof places);
         o->at_count = (int32_t)(sizeof places / sizeof *places);
         if (!o->view.has_eye && !o->view.has_target) {
@@ -274,6 +348,9 @@ int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
     o->faces = 8;
+    o->map_height = RELIGHT_HEIGHT;
+    o->azimuth = -180.0f;
+    o->side = 128;
     o->ground_size[0] = o->ground_size[1] = PLAIN_GROUND;
     o->roughness = o->f0 = -1.0f;
     o->policy.radius_m = LMB_PROBE_RADIUS;
@@ -285,7 +362,12 @@ int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
         return asked;
     }
     o->place.centre = o->centre[0];
+    o->object = o->objects > 0 ? o->object_of[0] : NULL;
     if (o->worlds == 1 && strcmp(o->world[0], "demo") == 0 && !demo_options(o, r)) {
+        return OPTIONS_BAD;
+    }
+    if (o->contact && o->no_contact) {
+        report_fail(r, "--contact and --no-contact exclude each other");
         return OPTIONS_BAD;
     }
     complete(o);

@@ -9,10 +9,13 @@
 #include "../model/model.h"
 #include "../picture/image.h"
 
-enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8 }; /* --at, --keep; --light; --world: so often */
+enum { RELIGHT_WIDTH = 128, RELIGHT_HEIGHT = 64, RELIGHT_MAX_FACES = 64 };
+enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8, RELIGHT_OBJECTS = 16 }; /* --at, --keep; --light; --world; --object: so often */
 
 enum { FILTER_COSINE, FILTER_SH9, FILTER_SH16, FILTER_SH25, FILTER_BLUR, FILTER_BLUR1, FILTER_BLUR2, FILTERS };
 extern const char *const relight_filters[FILTERS + 1];
+
+enum { FLOOR_AUTO, FLOOR_ON, FLOOR_NONE };
 
 typedef struct relight_options {
     /* the world */
@@ -23,21 +26,26 @@ typedef struct relight_options {
     float ground_size[2], ground_centre[2];
     int32_t format, blend;
     int32_t has_far, has_ground_centre;
+    int32_t floor; /* FLOOR_ */
     /* what is in it */
     model_choice choice; /* choices for the file of the object */
-    const char *object, *path;
+    const char *object, *path; /* the first of its objects */
+    const char *object_of[RELIGHT_OBJECTS];
+    int32_t objects, scales;
+    float scale_of[RELIGHT_OBJECTS]; /* m, of the longest side; 0: as its file says. One: of all objects */
     lmb_vec3 at[RELIGHT_PLACES], keep[RELIGHT_PLACES];
     int32_t at_count, keep_count;
-    float scale_m;       /* of the object's longest side; 0: as its file says */
     float roughness, f0; /* < 0: its materials' own */
-    int per_part, contact;
+    int per_part, contact, no_contact;
     lmb_light lights[RELIGHT_LIGHTS];
     int32_t light_count;
     lmb_probe_policy policy;
     /* how and where to */
     int32_t filter, faces, show;
     view_options view;
-    const char *out, *cube, *map;
+    const char *out, *cube, *map, *vectors_out, *vectors_in, *lobes, *harmonics, *dfg;
+    int32_t map_height, side;
+    float azimuth;     /* degrees: the longitude of the map's left edge */
     image *into;       /* gets the picture in place of the file `out`, to be released; NULL: none */
     int32_t samples;   /* a pixel; 0: by the output's format */
     int32_t tone;      /* PICTURE_ */
@@ -53,6 +61,9 @@ int relight_place(const char *text, lmb_vec3 *out);
 
 /* Do several worlds go together with their centres? 1, or 0 with `r` set. */
 int relight_worlds_check(const relight_options *o, report *r);
+
+/* relight_has_ground: does the world have a ground: a picture of it that was read, or a floor? */
+int relight_has_ground(const relight_options *o);
 
 /* As options_parse. */
 int relight_options_parse(relight_options *out, int argc, char **argv, report *r);

@@ -27,14 +27,15 @@ static uint32_t facing_of(lmb_vec3 n, uint32_t kinds)
 
 static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b) { return (lmb_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 
-static void add_corner(region *p, const hidden_part *part, uint32_t vertex, const float *directions, float area)
+static void add_sample(region *p, const hidden_part *part, uint32_t sample, const float *directions, float area)
 {
+    const uint32_t vertex = hidden_sampled(part, sample);
     const lmb_vec3 n = part->normal[vertex], at = part->at[vertex];
-    const uint64_t *blocked = part->blocked[vertex / LMB_TILE_PIXELS];
+    const uint64_t *blocked = part->blocked[sample / LMB_TILE_PIXELS];
     for (int32_t i = 0; i < LMB_PROBE_TEXELS; ++i) {
         const float cosine = n.x * directions[i] + n.y * directions[LMB_PROBE_TEXELS + i] + n.z * directions[2 * LMB_PROBE_TEXELS + i];
         if (cosine > 0.0f) {
-            *(blocked[i] >> (vertex % LMB_TILE_PIXELS) & 1 ? &p->shut[i] : &p->open[i]) += area * cosine;
+            *(blocked[i] >> (sample % LMB_TILE_PIXELS) & 1 ? &p->shut[i] : &p->open[i]) += area * cosine;
         }
     }
     p->area += area;
@@ -118,19 +119,45 @@ static void add_albedo(region *p, const lmb_scene *scene, const lmb_instance *in
     }
 }
 
-static void add_part(regions *p, uint8_t *of, const hidden *h, const hidden_part *part, const lmb_instance *in,
-                     uint32_t first, uint32_t kinds, uint32_t slices, const float *directions)
+/* The area of each region that is nearest to each sample: many corners share one. `sums`: REGIONS x samples. */
+static void add_sums(regions *p, const hidden_part *part, const float *sums, const float *directions)
+{
+    for (uint32_t k = 0; k < REGIONS; ++k) {
+        for (uint32_t i = 0; i < part->samples; ++i) {
+            const float area = sums[(size_t)k * part->samples + i];
+            if (area > 0.0f) {
+                add_sample(&p->region[k], part, i, directions, area);
+            }
+        }
+    }
+}
+
+static int add_part(regions *p, uint8_t *of, const hidden *h, const hidden_part *part, const lmb_instance *in,
+                    uint32_t first, uint32_t kinds, uint32_t slices, const float *directions)
 {
     uint8_t slice[4 * FACES][STEPS];
+    float *sums = part->share != NULL ? calloc((size_t)part->samples * REGIONS, sizeof *sums) : NULL;
+    if (part->share != NULL && sums == NULL) {
+        return 0;
+    }
     slice_part(slice, h, part, kinds, slices);
     for (uint32_t t = 0; t < part->mesh.triangle_count; ++t) {
         const facet f = facet_of(h, part, t, kinds);
         of[t] = (uint8_t)(first + slices * f.kind + slice[f.kind][f.step]);
         for (int k = 0; k < 3; ++k) {
-            add_corner(&p->region[of[t]], part, f.vertex[k], directions, area_of(&f) / 3.0f);
+            if (sums != NULL) {
+                sums[(size_t)of[t] * part->samples + part->share[f.vertex[k]].sample[0]] += area_of(&f) / 3.0f;
+            } else {
+                add_sample(&p->region[of[t]], part, f.vertex[k], directions, area_of(&f) / 3.0f);
+            }
         }
         add_albedo(&p->region[of[t]], &h->scene, in, &part->mesh, f.vertex, area_of(&f));
     }
+    if (sums != NULL) {
+        add_sums(p, part, sums, directions);
+    }
+    free(sums);
+    return 1;
 }
 
 static void finish(region *p)
@@ -171,7 +198,9 @@ int regions_make(regions *out, const hidden *h, const float *directions)
     for (uint32_t i = 0; i < h->parts; ++i) {
         const uint32_t wanted = slices * kinds * i, first = wanted < REGIONS ? wanted : REGIONS - 1;
         out->count = first + slices * kinds;
-        add_part(out, out->of + triangles, h, &h->part[i], &h->instances[i], first, kinds, slices, directions);
+        if (!add_part(out, out->of + triangles, h, &h->part[i], &h->instances[i], first, kinds, slices, directions)) {
+            return 0;
+        }
         triangles += h->part[i].mesh.triangle_count;
     }
     for (uint32_t i = 0; i < out->count; ++i) {

@@ -38,17 +38,24 @@ static void add_share(float *sum, const float *one, size_t count, int32_t i, flo
     }
 }
 
-int relight_light_see(relight_light *w, const relight_options *o, lmb_vec3 at)
+int relight_light_map(float *map, float *one, const lmb_probe_table *table, const relight_light *w, const relight_options *o,
+                      lmb_vec3 at)
 {
+    const size_t numbers = 3 * (size_t)table->width * (size_t)table->height;
     int ok = 1;
     for (int32_t i = 0; ok && i < o->worlds; ++i) {
-        float *into = o->worlds > 1 ? w->one : w->map;
-        ok = lmb_probe_remap(into, o->kernels, &w->world[i], &w->table[0], at, o->blend) == LMB_OK;
+        float *into = o->worlds > 1 ? one : map;
+        ok = lmb_probe_remap(into, o->kernels, &w->world[i], table, at, o->blend) == LMB_OK;
         if (ok && o->worlds > 1) {
-            add_share(w->map, w->one, sizeof w->map / sizeof *w->map, i, share_of(o, i, at));
+            add_share(map, one, numbers, i, share_of(o, i, at));
         }
     }
     return ok;
+}
+
+int relight_light_see(relight_light *w, const relight_options *o, lmb_vec3 at)
+{
+    return relight_light_map(w->map, w->one, &w->table[0], w, o, at);
 }
 
 int relight_light_reflect(relight_light *w, const relight_options *o, float *planes, int32_t n, lmb_probe_rays *rays,

@@ -5,32 +5,16 @@
 
 #include "../../platform/host/host.h"
 #include "../common/progress.h"
-#include "../picture/picture.h"
 #include "relight_draw.h"
+#include "relight_export.h"
 #include "relight_light.h"
-
-/* Planes as a picture. */
-static int write_planes(const char *path, const float *planes, int32_t width, int32_t height, report *r)
-{
-    const size_t pixels = (size_t)width * (size_t)height;
-    image out = {width, height, 3, malloc(3 * pixels * sizeof(float))};
-    if (out.pixels == NULL) {
-        return report_fail(r, "%s: out of memory", path);
-    }
-    for (size_t i = 0; i < 3 * pixels; ++i) {
-        out.pixels[i] = planes[i % 3 * pixels + i / 3];
-    }
-    const int ok = picture_write(path, &out, picture_auto_exposure(&out, PICTURE_CLIPPED), PICTURE_CLIPPED, r);
-    image_free(&out);
-    return ok;
-}
 
 /* Of the one place that was asked for; with an object, of its middle. */
 static int write_light(relight_light *w, const relight_options *o, lmb_vec3 at, report *r)
 {
-    return relight_light_at(w, o, at, o->faces, r) &&
-           (o->map == NULL || write_planes(o->map, w->map, RELIGHT_WIDTH, RELIGHT_HEIGHT, r)) &&
-           (o->cube == NULL || write_planes(o->cube, w->cube, o->faces, 6 * o->faces, r));
+    return (o->cube == NULL || (relight_light_at(w, o, at, o->faces, r) &&
+                                relight_write_planes(o->cube, w->cube, o->faces, 6 * o->faces, r))) &&
+           relight_export(w, o, at, r);
 }
 
 static int relight(relight_light *w, relight_options *o, report *r)
@@ -48,7 +32,7 @@ static int relight(relight_light *w, relight_options *o, report *r)
     }
     const double drawn = host_seconds();
     report_note(is_brief || o->object == NULL, "objects and their picture %8.1f ms", (drawn - made) * 1e3);
-    if ((o->cube != NULL || o->map != NULL) && !write_light(w, o, at, r)) {
+    if ((o->cube != NULL || relight_exports(o)) && !write_light(w, o, at, r)) {
         return 0;
     }
     report_note(is_brief, "light at the place %16.1f ms", (host_seconds() - drawn) * 1e3);

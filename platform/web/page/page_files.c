@@ -24,7 +24,9 @@
 #include "../../../tools/relief/relief_compare.h"
 #include "../../../tools/relief/relief_path.h"
 #include "../../../tools/relight/relight_contact.h"
+#include "../../../tools/relight/relight_export.h"
 #include "../../../tools/relight/relight_path.h"
+#include "../../../tools/relight/relight_way.h"
 #include "../../../tools/render/budget.h"
 #include "../../../tools/render/render_slice.h"
 
@@ -166,14 +168,50 @@ int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_
 
 int contact_make(contact *c, figures *f, relight_light *w, const relight_options *o, report *r)
 {
-    return (void)c, (void)f, (void)w, (void)o, report_fail(r, "--contact: not on the page");
+    return (void)c, (void)f, (void)w, (void)o, (void)r, 1;
 }
-lmb_status contact_band(const contact *c, const figures *f, const lmb_relight *l, lmb_relight_scratch *s, float *rows,
-                        const lmb_surface *out, int32_t band)
+lmb_status contact_band(const contact *c, const figures *f, const ground_lights *g, const lmb_relight *l,
+                        lmb_relight_scratch *s, float *rows, const lmb_surface *out, int32_t band)
 {
-    return (void)c, (void)f, (void)l, (void)s, (void)rows, (void)out, (void)band, LMB_ERR_ARG;
+    return (void)c, (void)f, (void)g, (void)rows, lmb_relight_band(l, s, out, band);
 }
 void contact_free(contact *c) { (void)c; }
+int ground_lights_take(ground_lights *g, const figures *f, relight_light *w, const relight_options *o, report *r)
+{
+    return (void)g, (void)f, (void)w, (void)o, (void)r, 1;
+}
+lmb_status ground_band(const ground_lights *g, const contact *c, const lmb_relight *l, lmb_relight_scratch *s,
+                       const lmb_surface *out, int32_t band)
+{
+    return (void)g, (void)c, (void)l, (void)s, (void)out, (void)band, LMB_OK;
+}
+void ground_lights_free(ground_lights *g) { (void)g; }
+
+int relight_exports(const relight_options *o)
+{
+    return o->map != NULL || o->vectors_out != NULL || o->lobes != NULL || o->harmonics != NULL || o->dfg != NULL;
+}
+int relight_export_check(const relight_options *o, report *r)
+{
+    return !relight_exports(o) || report_fail(r, "the page writes no light for other programs");
+}
+int relight_export(relight_light *w, const relight_options *o, lmb_vec3 at, report *r)
+{
+    return (void)w, (void)o, (void)at, (void)r, 1;
+}
+
+int figures_load_many(figures *f, const relight_options *o, report *r)
+{
+    return (void)f, (void)o, report_fail(r, "--object: the page has one");
+}
+
+lmb_vec3 way_move(way *w, lmb_vec3 at, float radius) { return (void)w, (void)radius, at; }
+void way_turn(way *w, int32_t slot, int is_computed, float radius) { (void)w, (void)slot, (void)is_computed, (void)radius; }
+int way_show(lmb_probe_cube *out, float *step, way_cube *c, const way *w, const float *planes, int32_t n, report *r)
+{
+    return (void)out, (void)step, (void)c, (void)w, (void)planes, (void)n, (void)r, 0;
+}
+void way_free(way *w) { (void)w; }
 
 int place_list_read(place_list *out, const char *path, report *r)
 {
