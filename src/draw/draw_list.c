@@ -86,21 +86,6 @@ static int list_vertex(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t
     return sane;
 }
 
-/* Which vertex comes n-th; the vertices' count if there is no such. */
-static uint32_t list_index(const lmb_draw_pass *pass, uint32_t n)
-{
-    const lmb_draw_indices *x = pass->indices;
-    uint32_t i = n;
-    if (x != NULL && x->format == LMB_DRAW_INDEX_U8) {
-        i = ((const uint8_t *)x->data)[n];
-    } else if (x != NULL && x->format == LMB_INDEX_U16) {
-        i = ((const uint16_t *)x->data)[n];
-    } else if (x != NULL && x->format == LMB_INDEX_U32) {
-        i = ((const uint32_t *)x->data)[n];
-    }
-    return i < pass->vertices->count ? i : pass->vertices->count;
-}
-
 /* --- primitives --------------------------------------------------------------------------------------------------- */
 
 /* One with `n` corners, the last of which gives a flat colour: the `flat`-th of the list. */
@@ -109,10 +94,10 @@ static void list_draw(const lmb_draw_pass *pass, const uint32_t *order, int n, u
     lmb_draw_corner corner[DRAW_CORNERS];
     int sane = 1, drawn;
     for (int i = 0; i < n && sane; ++i) {
-        const uint32_t at = list_index(pass, order[i]);
+        const uint32_t at = draw_index(pass, order[i]);
         sane = at < pass->vertices->count && list_vertex(&corner[i], pass, at);
     }
-    const uint32_t at = list_index(pass, flat);
+    const uint32_t at = draw_index(pass, flat);
     sane &= at < pass->vertices->count;
     if (pass->stats != NULL) {
         ++pass->stats->triangles;
@@ -138,7 +123,9 @@ static void list_draw(const lmb_draw_pass *pass, const uint32_t *order, int n, u
 static void list_triangle(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
 {
     const uint32_t order[3] = {a, b, c};
-    list_draw(pass, order, 3, flat);
+    if (pass->kept == NULL || !lmb_draw_quick(pass, a, b, c, flat)) {
+        list_draw(pass, order, 3, flat);
+    }
 }
 
 static void list_line(const lmb_draw_pass *pass, uint32_t a, uint32_t b)
@@ -295,6 +282,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
 {
     const lmb_status status = list_check(target, state, vertices, primitive, indices);
     lmb_draw_pass pass;
+    lmb_draw_kept kept;
     if (status != LMB_OK) {
         return status;
     }
@@ -305,6 +293,10 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
     pass.indices = indices;
     pass.stats = stats;
     list_set_pass(&pass);
+    lmb_draw_rows_begin(&pass);
+    if (primitive < LMB_DRAW_LINES) {
+        lmb_draw_quick_begin(&pass, &kept);
+    }
     const uint32_t count = indices != NULL ? indices->count : vertices->count;
     if (primitive == LMB_DRAW_POINTS) {
         for (uint32_t i = 0; i < count; ++i) {
