@@ -7,10 +7,12 @@
 
 #include <string.h>
 
+#include "../base/vertex.h"
 #include "../raster/setup.h"
 
 #if LMB_DRAW
 enum { QUICK_24_8 = 16 * 256 /* a side of the box of corners that are small */ };
+enum { QUICK_AHEAD = 24 /* indices */ };
 #define QUICK_ABSURD 1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
@@ -51,45 +53,72 @@ static float quick_fog(const lmb_draw_pass *pass, const float p[3], float w)
 
 static int quick_is_absurd(float v) { return !(v > -QUICK_ABSURD && v < QUICK_ABSURD); }
 
+/* Which planes a corner is outside of, if it is finite. */
+static uint32_t quick_out(const lmb_draw_pass *pass, const float p[3], const float clip[4])
+{
+    const float x = clip[0], y = clip[1], z = clip[2], w = clip[3];
+    const float side = pass->guard_x * w, top = pass->guard_y * w;
+    if (quick_is_absurd(x) || quick_is_absurd(y) || quick_is_absurd(z) || quick_is_absurd(w) ||
+        quick_is_absurd(quick_fog(pass, p, w)) || !is_place(vec3(p[0], p[1], p[2]))) {
+        return DRAW_DROPPED;
+    }
+    return (uint32_t)(w - QUICK_LEAST_W < 0.0f) << DRAW_CUT_W | (uint32_t)(w - z < 0.0f) << DRAW_CUT_NEAR |
+           (uint32_t)(z < 0.0f) << DRAW_CUT_FAR | (uint32_t)(side + x < 0.0f) << DRAW_CUT_LEFT |
+           (uint32_t)(side - x < 0.0f) << DRAW_CUT_RIGHT | (uint32_t)(top - y < 0.0f) << DRAW_CUT_TOP |
+           (uint32_t)(top + y < 0.0f) << DRAW_CUT_BOTTOM;
+}
+
+/* 1 if quick_out is 0; the usual corner needs no more than this. */
+static int quick_is_in(const lmb_draw_pass *pass, const float p[3], const float clip[4])
+{
+    const float w = clip[3];
+    return pass->fog_is_w && w >= 2.0f * QUICK_LEAST_W && w < 1e20f && w >= clip[2] && clip[2] >= 0.0f &&
+           absf(clip[0]) <= pass->guard_x * w && absf(clip[1]) <= pass->guard_y * w &&
+           is_place(vec3(p[0], p[1], p[2]));
+}
+
+/* draw_to_24_8 of what lies in the guard band. */
+static int32_t quick_to_24_8(float v)
+{
+    const int32_t whole = (int32_t)v;
+    return whole - ((float)whole > v);
+}
+
 static void quick_place(struct draw_kept_corner *out, const lmb_draw_pass *pass, uint32_t i)
 {
     const float *m = pass->state->to_clip.m, *range = pass->state->depth_range;
-    float p[3];
-    memcpy(p, (const float *)pass->vertices->positions + 3 * (size_t)i, sizeof p);
-    const float x = quick_row(m, p), y = quick_row(m + 1, p), z = quick_row(m + 2, p), w = quick_row(m + 3, p);
-    const float side = pass->guard_x * w, top = pass->guard_y * w;
+    const float *from = (const float *)pass->vertices->positions + 3 * (size_t)i;
+    const float p[3] = {from[0], from[1], from[2]};
+    const float clip[4] = {quick_row(m, p), quick_row(m + 1, p), quick_row(m + 2, p), quick_row(m + 3, p)};
     out->name = i + 1;
-    if (quick_is_absurd(x) || quick_is_absurd(y) || quick_is_absurd(z) || quick_is_absurd(w) ||
-        quick_is_absurd(quick_fog(pass, p, w)) || !is_place(vec3(p[0], p[1], p[2]))) {
-        out->out = DRAW_DROPPED;
-        return;
-    }
-    out->out = (uint32_t)(w - QUICK_LEAST_W < 0.0f) << DRAW_CUT_W | (uint32_t)(w - z < 0.0f) << DRAW_CUT_NEAR |
-               (uint32_t)(z < 0.0f) << DRAW_CUT_FAR | (uint32_t)(side + x < 0.0f) << DRAW_CUT_LEFT |
-               (uint32_t)(side - x < 0.0f) << DRAW_CUT_RIGHT | (uint32_t)(top - y < 0.0f) << DRAW_CUT_TOP |
-               (uint32_t)(top + y < 0.0f) << DRAW_CUT_BOTTOM;
+    out->out = quick_is_in(pass, p, clip) ? 0 : quick_out(pass, p, clip);
     if (out->out != 0) {
         return;
     }
-    const float inverse = 1.0f / w, d = minf(maxf(z * inverse, 0.0f), 1.0f);
-    out->x = draw_to_24_8(x * inverse * pass->snap_x + 0.5f);
-    out->y = draw_to_24_8(0.5f - y * inverse * pass->snap_y);
+    const float inverse = 1.0f / clip[3], d = minf(maxf(clip[2] * inverse, 0.0f), 1.0f);
+    out->x = quick_to_24_8(clip[0] * inverse * pass->snap_x + 0.5f);
+    out->y = quick_to_24_8(0.5f - clip[1] * inverse * pass->snap_y);
     out->d = range[0] == 0.0f && range[1] == 1.0f ? d : range[0] + (range[1] - range[0]) * d;
     out->inverse = inverse;
 }
 
+NOINLINE void quick_renew(struct draw_kept_corner *at, const lmb_draw_pass *pass, uint32_t i)
+{
+    quick_place(at, pass, i);
+    for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
+        if (pass->vertices->uvs[k] != NULL && pass->state->stage[k].texture != NULL) {
+            const float *uv = (const float *)pass->vertices->uvs[k] + 2 * (size_t)i;
+            at->out |= is_sane(uv[0]) && is_sane(uv[1]) ? 0 : DRAW_DROPPED;
+        }
+    }
+}
+
 /* Vertex i, whose texture coordinates must be sane too. */
-static struct draw_kept_corner quick_corner(const lmb_draw_pass *pass, uint32_t i)
+static inline struct draw_kept_corner quick_corner(const lmb_draw_pass *pass, uint32_t i)
 {
     struct draw_kept_corner *at = &pass->kept->corner[i % DRAW_KEPT];
     if (at->name != i + 1) {
-        quick_place(at, pass, i);
-        for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
-            if (pass->vertices->uvs[k] != NULL && pass->state->stage[k].texture != NULL) {
-                const float *uv = (const float *)pass->vertices->uvs[k] + 2 * (size_t)i;
-                at->out |= is_sane(uv[0]) && is_sane(uv[1]) ? 0 : DRAW_DROPPED;
-            }
-        }
+        quick_renew(at, pass, i);
     }
     return *at;
 }
@@ -107,10 +136,11 @@ static void quick_values(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32
     }
     for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
         float *uv = &out->v[CORNER_UV + 2 * k];
-        const int has = v->uvs[k] != NULL && s->stage[k].texture != NULL;
-        const float *from = has ? (const float *)v->uvs[k] + 2 * (size_t)i : NULL;
-        uv[0] = has ? from[0] : 0.0f;
-        uv[1] = has ? from[1] : 0.0f;
+        if (s->stage[k].texture != NULL) { /* else nobody asks */
+            const float *from = v->uvs[k] != NULL ? (const float *)v->uvs[k] + 2 * (size_t)i : NULL;
+            uv[0] = from != NULL ? from[0] : 0.0f;
+            uv[1] = from != NULL ? from[1] : 0.0f;
+        }
     }
     if (s->fog != LMB_DRAW_FOG_NONE) {
         float p[3];
@@ -166,17 +196,22 @@ typedef struct quick_edges {
     int32_t x0, y0, x1, y1;
 } quick_edges;
 
-static void quick_set_edges(quick_edges *out, const lmb_draw_pass *pass, const lmb_screen_vertex at[3])
+static inline void quick_set_edge(quick_edges *out, int i, const lmb_screen_vertex *a, const lmb_screen_vertex *b, int32_t x,
+                                  int32_t y)
+{
+    const int32_t ex = a->y_24_8 - b->y_24_8, ey = b->x_24_8 - a->x_24_8;
+    const int32_t rule = ex > 0 || (ex == 0 && ey > 0) ? 0 : 1;
+    out->e[i] = (ex * (x - a->x_24_8) + ey * (y - a->y_24_8) - rule) >> 8;
+    out->ex[i] = ex;
+    out->ey[i] = ey;
+}
+
+static inline void quick_set_edges(quick_edges *out, const lmb_draw_pass *pass, const lmb_screen_vertex at[3])
 {
     const int32_t x = out->x0 * 256 + 128 - pass->middle_x, y = out->y0 * 256 + 128 - pass->middle_y;
-    for (int i = 0; i < 3; ++i) {
-        const lmb_screen_vertex *a = &at[i], *b = &at[i == 2 ? 0 : i + 1];
-        const int32_t ex = a->y_24_8 - b->y_24_8, ey = b->x_24_8 - a->x_24_8;
-        const int32_t rule = ex > 0 || (ex == 0 && ey > 0) ? 0 : 1;
-        out->e[i] = (ex * (x - a->x_24_8) + ey * (y - a->y_24_8) - rule) >> 8;
-        out->ex[i] = ex;
-        out->ey[i] = ey;
-    }
+    quick_set_edge(out, 0, &at[0], &at[1], x, y);
+    quick_set_edge(out, 1, &at[1], &at[2], x, y);
+    quick_set_edge(out, 2, &at[2], &at[0], x, y);
 }
 
 /* The pixels of the box in the tile at (x, y) that all edges have inside. */
@@ -214,29 +249,78 @@ static void quick_set_depth(lmb_draw_shape *s, const lmb_screen_vertex at[3], do
     s->d_add = 0.0f;
 }
 
+static void quick_begin_shape(lmb_draw_shape *out, lmb_draw_late *late, int64_t area)
+{
+    late->by_area = 1.0 / (double)area;
+    out->late = late;
+    out->corners = 3;
+    for (int i = 0; i < 3; ++i) {
+        out->corner[i] = &late->corner[i];
+    }
+    quick_set_depth(out, late->at, late->by_area);
+}
+
+/* Bit i of the four from `i` on: is pixel i inside? */
+#define QUICK_BIT(i) ((~(uint32_t)((a + ex0 * (i)) | (b + ex1 * (i)) | (c + ex2 * (i))) >> 31) << (i))
+
+/* The pixels of a box of at most 8 x 8, its first one bit 0. Four pixels at once: a loop as long as the box is wide ends
+ * where processors do not expect it. */
+static inline uint64_t quick_covered_box(const quick_edges *s)
+{
+    const int32_t wide = s->x1 - s->x0, ex0 = s->ex[0], ex1 = s->ex[1], ex2 = s->ex[2];
+    int32_t a = s->e[0], b = s->e[1], c = s->e[2];
+    uint64_t mask = 0;
+    for (int32_t j = 0; j <= s->y1 - s->y0; ++j) {
+        uint32_t row = QUICK_BIT(0) | QUICK_BIT(1) | QUICK_BIT(2) | QUICK_BIT(3);
+        if (wide > 3) {
+            row |= QUICK_BIT(4) | QUICK_BIT(5) | QUICK_BIT(6) | QUICK_BIT(7);
+        }
+        mask |= (uint64_t)row << (LMB_TILE * j);
+        a += s->ey[0], b += s->ey[1], c += s->ey[2];
+    }
+    return mask & (uint64_t)(0xffu >> (7 - wide)) * UINT64_C(0x0101010101010101);
+}
+
+/* A box of at most 8 x 8 pixels, in one to four tiles. */
+static void quick_fill_box(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t area, const quick_edges *edges)
+{
+    const uint64_t mask = quick_covered_box(edges);
+    const int32_t x = edges->x0 & ~7, y = edges->y0 & ~7, right = edges->x0 & 7, down = LMB_TILE * (edges->y0 & 7);
+    const uint64_t near_columns = (uint64_t)(0xffu >> right) * UINT64_C(0x0101010101010101);
+    const uint64_t left = (mask & near_columns) << right, other = right != 0 ? (mask & ~near_columns) >> (8 - right) : 0;
+    lmb_draw_shape shape;
+    if (mask == 0) {
+        return;
+    }
+    quick_begin_shape(&shape, late, area);
+    if (left << down != 0) {
+        lmb_draw_tile(pass, &shape, x, y, left << down);
+    }
+    if (other << down != 0) {
+        lmb_draw_tile(pass, &shape, x + LMB_TILE, y, other << down);
+    }
+    if (down == 0) {
+        return;
+    }
+    if (left >> (64 - down) != 0) {
+        lmb_draw_tile(pass, &shape, x, y + LMB_TILE, left >> (64 - down));
+    }
+    if (other >> (64 - down) != 0) {
+        lmb_draw_tile(pass, &shape, x + LMB_TILE, y + LMB_TILE, other >> (64 - down));
+    }
+}
+
 /* Tiles in rows, as the long way. */
-static void quick_fill(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t area, quick_edges *edges)
+static void quick_fill(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t area, const quick_edges *edges)
 {
     lmb_draw_shape shape;
-    int is_set = 0;
-    quick_set_edges(edges, pass, late->at);
+    quick_begin_shape(&shape, late, area);
     for (int32_t y = edges->y0 & ~7; y <= edges->y1; y += LMB_TILE) {
         for (int32_t x = edges->x0 & ~7; x <= edges->x1; x += LMB_TILE) {
             const uint64_t mask = quick_covered(edges, x, y);
-            if (mask == 0) {
-                continue;
+            if (mask != 0) {
+                lmb_draw_tile(pass, &shape, x, y, mask);
             }
-            if (!is_set) {
-                late->by_area = 1.0 / (double)area;
-                shape.late = late;
-                shape.corners = 3;
-                for (int i = 0; i < 3; ++i) {
-                    shape.corner[i] = &late->corner[i];
-                }
-                quick_set_depth(&shape, late->at, late->by_area);
-                is_set = 1;
-            }
-            lmb_draw_tile(pass, &shape, x, y, mask);
         }
     }
 }
@@ -248,6 +332,17 @@ static void quick_set_corner(lmb_draw_late *late, int i, const struct draw_kept_
     late->at[i].d = c->d;
     late->inverse[i] = c->inverse;
     late->vertex[i] = c->name - 1;
+}
+
+/* Asks for the depths of a tile. */
+MESH_HINT void quick_ask_depth(const lmb_draw_pass *pass, int32_t x, int32_t y)
+{
+    const lmb_surface *s = &pass->target->depth;
+    if (pass->tests_rows && s->layout == LMB_TILED) {
+        const int32_t column = (x - pass->target->x0) >> 3, row = (y - pass->target->y0) >> 3;
+        MESH_SOON((const uint8_t *)s->data + (ptrdiff_t)row * s->stride_bytes + (ptrdiff_t)column * LMB_TILE_PIXELS * 4 +
+                  (y & 7) * LMB_TILE * 4);
+    }
 }
 
 /* 1 or 0: something may show, or not; -1: it is to be drawn the long way. */
@@ -273,22 +368,41 @@ static int quick_draw(const lmb_draw_pass *pass, const struct draw_kept_corner *
     if (x_max - x_min >= QUICK_24_8 || y_max - y_min >= QUICK_24_8) {
         return -1;
     }
+    quick_ask_depth(pass, edges.x0, edges.y0);
     quick_set_corner(&late, 0, a);
     quick_set_corner(&late, back ? 1 : 2, b);
     quick_set_corner(&late, back ? 2 : 1, c);
     late.flat = flat;
-    quick_fill(pass, &late, back ? area : -area, &edges);
+    quick_set_edges(&edges, pass, late.at);
+    if (edges.x1 - edges.x0 < LMB_TILE && edges.y1 - edges.y0 < LMB_TILE) {
+        quick_fill_box(pass, &late, back ? area : -area, &edges);
+    } else {
+        quick_fill(pass, &late, back ? area : -area, &edges);
+    }
     return 1;
+}
+
+/* Asks for the positions of a triangle's corners that come a little later. */
+MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
+{
+    const lmb_draw_indices *x = pass->indices;
+    if (x != NULL && x->format == LMB_INDEX_U32 && n < x->count) {
+        const uint32_t i = ((const uint32_t *)x->data)[n];
+        MESH_SOON((const void *)((uintptr_t)pass->vertices->positions + (size_t)i * 12)); /* not checked yet */
+    }
 }
 
 int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
 {
     const uint32_t count = pass->vertices->count;
     const uint32_t i = draw_index(pass, a), j = draw_index(pass, b), k = draw_index(pass, c),
-                   last = draw_index(pass, flat);
+                   last = flat == c ? k : draw_index(pass, flat);
     if (i >= count || j >= count || k >= count || last >= count) {
         return 0;
     }
+    quick_ask(pass, a + QUICK_AHEAD);
+    quick_ask(pass, b + QUICK_AHEAD);
+    quick_ask(pass, c + QUICK_AHEAD);
     const struct draw_kept_corner p = quick_corner(pass, i), q = quick_corner(pass, j), r = quick_corner(pass, k);
     int drawn = 0;
     if (((p.out | q.out | r.out) & DRAW_DROPPED) != 0) {

@@ -57,31 +57,32 @@ uint64_t lmb_draw_rows_test(const tile_job *j, uint64_t mask)
     const int32_t step = tiled ? LMB_TILE * 4 : t->depth.stride_bytes;
     uint8_t *row = (uint8_t *)t->depth.data + (tiled ? (ptrdiff_t)(y >> 3) * t->depth.stride_bytes + (ptrdiff_t)x * LMB_TILE * 4
                                                      : (ptrdiff_t)y * t->depth.stride_bytes + (ptrdiff_t)x * 4);
-    const int func = s->depth_func, writes = (s->flags & LMB_DRAW_DEPTH_WRITE) != 0;
+    const uint32_t writes = (s->flags & LMB_DRAW_DEPTH_WRITE) != 0;
+    const int less = s->depth_func & 1, equal = s->depth_func >> 1 & 1, greater = s->depth_func >> 2;
+    const float per_x = j->d.x;
     const float low = shape->d_min, high = shape->d_max, add = shape->d_add;
     uint64_t out = 0;
-    for (int i = 0; mask >> (LMB_TILE * i) != 0; ++i, row += step) {
-        float *depth = (float *)(void *)row;
+    while (mask != 0) {
+        const int i = lowest_bit_64(mask) >> 3;
+        float *depth = (float *)(void *)(row + (ptrdiff_t)i * step);
         const float at = j->d.at + j->d.y * (float)i;
         uint32_t passing = 0;
-        for (uint32_t bits = (uint32_t)(mask >> (LMB_TILE * i)) & 0xffu; bits != 0; bits &= bits - 1) {
+        uint32_t bits = (uint32_t)(mask >> (LMB_TILE * i)) & 0xffu;
+        mask ^= (uint64_t)bits << (LMB_TILE * i);
+        for (; bits != 0; bits &= bits - 1) {
             const int k = lowest_bit(bits);
-            float d = minf(maxf(at + j->d.x * (float)k, low), high);
+            float d = minf(maxf(at + per_x * (float)k, low), high);
             const float was = depth[k];
             if (add != 0.0f) {
                 d = minf(maxf(d + add, 0.0f), 1.0f);
             }
-            if ((func & (d < was ? LMB_DRAW_LESS : d == was ? LMB_DRAW_EQUAL : LMB_DRAW_GREATER)) != 0) {
-                passing |= 1u << k;
-                if (writes) {
-                    depth[k] = d;
-                }
+            const uint32_t passes = (uint32_t)(d < was ? less : d == was ? equal : greater);
+            passing |= passes << k;
+            if ((passes & writes) != 0) {
+                depth[k] = d;
             }
         }
         out |= (uint64_t)passing << (LMB_TILE * i);
-        if (i == LMB_TILE - 1) {
-            break;
-        }
     }
     return out;
 }
@@ -93,30 +94,38 @@ enum { ROWS_VALUES = 6 /* R G B A u v */ };
 /* Values of corner 0, and the differences of the others'. */
 typedef struct rows_values {
     float at[ROWS_VALUES], more1[ROWS_VALUES], more2[ROWS_VALUES];
-    uint32_t same; /* its four codes if all corners have one colour */
-    int varies;    /* 1: they have not */
+    uint32_t same;  /* its four codes if all corners have one colour */
+    uint32_t alpha; /* of the first corner */
+    int varies, alpha_varies; /* 1: corners differ */
 } rows_values;
 
-static uint32_t rows_code(float v) { return (uint32_t)(int32_t)(minf(maxf(v, 0.0f), 255.0f) + 0.5f); }
+static inline uint32_t rows_code(float v) { return (uint32_t)(int32_t)(minf(maxf(v, 0.0f), 255.0f) + 0.5f); }
 
-static uint32_t rows_pack(uint32_t r, uint32_t g, uint32_t b, uint32_t a) { return r | g << 8 | b << 16 | a << 24; }
+static inline uint32_t rows_pack(uint32_t r, uint32_t g, uint32_t b, uint32_t a) { return r | g << 8 | b << 16 | a << 24; }
 
 static void rows_set_values(rows_values *out, const lmb_draw_shape *s, int textured)
 {
     const float *a = s->corner[0]->v, *b = s->corner[1]->v, *c = s->corner[2]->v;
-    out->varies = 0;
-    for (int i = 0; i < (textured ? ROWS_VALUES : 4); ++i) {
-        const int from = i < 4 ? CORNER_RED + i : CORNER_UV + i - 4;
-        out->at[i] = a[from];
-        out->more1[i] = b[from] - a[from];
-        out->more2[i] = c[from] - a[from];
-        out->varies |= i < 4 && (out->more1[i] != 0.0f || out->more2[i] != 0.0f);
+    for (int i = 0; i < 4; ++i) {
+        out->at[i] = a[CORNER_RED + i];
+        out->more1[i] = b[CORNER_RED + i] - out->at[i];
+        out->more2[i] = c[CORNER_RED + i] - out->at[i];
     }
-    out->same = rows_pack(rows_code(a[CORNER_RED]), rows_code(a[CORNER_RED + 1]), rows_code(a[CORNER_RED + 2]),
-                          rows_code(a[CORNER_ALPHA]));
+    for (int i = 4; i < ROWS_VALUES && textured; ++i) {
+        out->at[i] = a[CORNER_UV + i - 4];
+        out->more1[i] = b[CORNER_UV + i - 4] - out->at[i];
+        out->more2[i] = c[CORNER_UV + i - 4] - out->at[i];
+    }
+    const float *m1 = out->more1, *m2 = out->more2;
+    out->alpha_varies = m1[3] != 0.0f || m2[3] != 0.0f;
+    out->alpha = rows_code(a[CORNER_ALPHA]);
+    out->varies = out->alpha_varies || m1[0] != 0.0f || m2[0] != 0.0f || m1[1] != 0.0f || m2[1] != 0.0f || m1[2] != 0.0f ||
+                  m2[2] != 0.0f;
+    out->same = out->varies ? 0
+                            : rows_pack(rows_code(out->at[0]), rows_code(out->at[1]), rows_code(out->at[2]), out->alpha);
 }
 
-static float rows_value(const rows_values *v, int i, float b1, float b2)
+static inline float rows_value(const rows_values *v, int i, float b1, float b2)
 {
     return v->at[i] + (b1 * v->more1[i] + b2 * v->more2[i]);
 }
@@ -132,7 +141,7 @@ static const uint8_t *rows_texel(const lmb_texture *t, float u, float v)
 /* Two codes at once, in the low and the high half: (a b + 127) / 255 of each, and so exact. */
 static uint32_t rows_between(uint32_t a, uint32_t b, uint32_t share)
 {
-    const uint32_t v = a * share + b * (255u - share) + 0x007f007fu + 0x00010001u;
+    const uint32_t v = a * share + b * (255u - share) + 0x00800080u;
     return ((v + (v >> 8 & 0x00ff00ffu)) >> 8) & 0x00ff00ffu;
 }
 
@@ -171,33 +180,75 @@ static uint32_t rows_blended(uint32_t v, uint32_t was, int blend)
            rows_add(v >> 8 & 0x00ff00ffu, was >> 8 & 0x00ff00ffu, share) << 8;
 }
 
-/* The colour of pixel k. */
-static uint32_t rows_colour(const tile_job *j, const rows_values *v, const lmb_draw_stage *stage, float row1, float row2,
-                            float row_q, int k)
+/* What the pixels of one row share. */
+typedef struct rows_line {
+    float at1, at2, at_q, x1, x2, x_q;
+    int is_even;
+} rows_line;
+
+static inline rows_line rows_line_of(const tile_job *j, int i)
+{
+    rows_line l;
+    l.at1 = j->n1.at + j->n1.y * (float)i;
+    l.at2 = j->n2.at + j->n2.y * (float)i;
+    l.x1 = j->n1.x;
+    l.x2 = j->n2.x;
+    l.is_even = j->shape->is_even;
+    l.at_q = l.is_even ? 1.0f : j->q.at + j->q.y * (float)i;
+    l.x_q = l.is_even ? 0.0f : j->q.x;
+    return l;
+}
+
+/* The shares of pixel k. */
+static inline void rows_share(float share[2], const rows_line *l, int k)
 {
     const float x = (float)k;
-    float b1 = row1 + j->n1.x * x, b2 = row2 + j->n2.x * x;
-    uint32_t code = v->same;
-    if (!j->shape->is_even) {
-        const float q = row_q + j->q.x * x, inverse = q > 1e-30f ? 1.0f / q : 0.0f;
+    float b1 = l->at1 + l->x1 * x, b2 = l->at2 + l->x2 * x;
+    if (!l->is_even) {
+        const float q = l->at_q + l->x_q * x, inverse = q > 1e-30f ? 1.0f / q : 0.0f;
         b1 *= inverse;
         b2 *= inverse;
     }
-    b1 = minf(maxf(b1, 0.0f), 1.0f);
-    b2 = minf(maxf(b2, 0.0f), 1.0f);
-    if (v->varies) {
-        code = rows_pack(rows_code(rows_value(v, 0, b1, b2)), rows_code(rows_value(v, 1, b1, b2)),
-                         rows_code(rows_value(v, 2, b1, b2)), rows_code(rows_value(v, 3, b1, b2)));
+    share[0] = minf(maxf(b1, 0.0f), 1.0f);
+    share[1] = minf(maxf(b2, 0.0f), 1.0f);
+}
+
+/* Four codes of values 0 .. 255 that may be a little outside. */
+static inline uint32_t rows_smooth(const rows_values *v, const float share[2])
+{
+    const float b1 = share[0], b2 = share[1];
+    return rows_pack(rows_code(rows_value(v, 0, b1, b2)), rows_code(rows_value(v, 1, b1, b2)),
+                     rows_code(rows_value(v, 2, b1, b2)), v->alpha_varies ? rows_code(rows_value(v, 3, b1, b2)) : v->alpha);
+}
+
+/* The colour of pixel k. */
+static uint32_t rows_colour(const rows_values *v, const lmb_draw_stage *stage, const rows_line *l, int k)
+{
+    float share[2];
+    rows_share(share, l, k);
+    const uint32_t code = v->varies ? rows_smooth(v, share) : v->same;
+    if (stage == NULL) {
+        return code;
     }
-    if (stage != NULL) {
-        const uint8_t *t = rows_texel(stage->texture, rows_value(v, 4, b1, b2), rows_value(v, 5, b1, b2));
-        if (stage->mode == LMB_DRAW_REPLACE || code == 0xffffffffu) {
-            return rows_load(t);
-        }
-        code = rows_pack(draw_times(code & 0xffu, t[0]), draw_times(code >> 8 & 0xffu, t[1]),
-                         draw_times(code >> 16 & 0xffu, t[2]), draw_times(code >> 24, t[3]));
+    const uint8_t *t =
+        rows_texel(stage->texture, rows_value(v, 4, share[0], share[1]), rows_value(v, 5, share[0], share[1]));
+    if (stage->mode == LMB_DRAW_REPLACE || code == 0xffffffffu) {
+        return rows_load(t);
     }
-    return code;
+    return rows_pack(draw_times(code & 0xffu, t[0]), draw_times(code >> 8 & 0xffu, t[1]),
+                     draw_times(code >> 16 & 0xffu, t[2]), draw_times(code >> 24, t[3]));
+}
+
+/* A row of smooth, opaque colours. */
+static void rows_paint_smooth(uint8_t *pixel, const rows_values *v, const rows_line *l, uint32_t bits, int swaps)
+{
+    for (; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
+        float share[2];
+        rows_share(share, l, k);
+        const uint32_t code = rows_smooth(v, share);
+        rows_store(pixel + 4 * k, swaps ? rows_swapped(code) : code);
+    }
 }
 
 void lmb_draw_rows_paint(const tile_job *j, uint64_t mask)
@@ -210,22 +261,27 @@ void lmb_draw_rows_paint(const tile_job *j, uint64_t mask)
     uint8_t *row = (uint8_t *)to->data + (ptrdiff_t)(j->y - j->pass->target->y0) * to->stride_bytes +
                    (ptrdiff_t)(j->x - j->pass->target->x0) * 4;
     rows_set_values(&v, j->shape, stage != NULL);
-    const int flat = !v.varies && (stage == NULL || !shares);
-    uint32_t code = flat ? rows_colour(j, &v, stage, 0.0f, 0.0f, 1.0f, 0) : 0;
+    const int flat = !v.varies && (stage == NULL || !shares), is_smooth = v.varies && stage == NULL && blend == ROWS_OPAQUE;
+    rows_line l = rows_line_of(j, 0);
+    uint32_t code = flat ? rows_colour(&v, stage, &l, 0) : 0;
     code = swaps ? rows_swapped(code) : code;
-    for (int i = 0; mask >> (LMB_TILE * i) != 0; ++i, row += to->stride_bytes) {
-        const float at1 = j->n1.at + j->n1.y * (float)i, at2 = j->n2.at + j->n2.y * (float)i;
-        const float at_q = j->shape->is_even ? 1.0f : j->q.at + j->q.y * (float)i;
-        for (uint32_t bits = (uint32_t)(mask >> (LMB_TILE * i)) & 0xffu; bits != 0; bits &= bits - 1) {
+    while (mask != 0) {
+        const int i = lowest_bit_64(mask) >> 3;
+        uint8_t *pixel = row + (ptrdiff_t)i * to->stride_bytes;
+        uint32_t bits = (uint32_t)(mask >> (LMB_TILE * i)) & 0xffu;
+        mask ^= (uint64_t)bits << (LMB_TILE * i);
+        l = rows_line_of(j, i);
+        if (is_smooth) {
+            rows_paint_smooth(pixel, &v, &l, bits, swaps);
+            continue;
+        }
+        for (; bits != 0; bits &= bits - 1) {
             const int k = lowest_bit(bits);
             if (!flat) {
-                code = rows_colour(j, &v, stage, at1, at2, at_q, k);
+                code = rows_colour(&v, stage, &l, k);
                 code = swaps ? rows_swapped(code) : code;
             }
-            rows_store(row + 4 * k, blend == ROWS_OPAQUE ? code : rows_blended(code, rows_load(row + 4 * k), blend));
-        }
-        if (i == LMB_TILE - 1) {
-            break;
+            rows_store(pixel + 4 * k, blend == ROWS_OPAQUE ? code : rows_blended(code, rows_load(pixel + 4 * k), blend));
         }
     }
 }

@@ -365,9 +365,6 @@ static uint64_t tile_inside(const lmb_draw_pass *p, int32_t x, int32_t y)
     if (x0 > x1 || y0 > y1) {
         return 0;
     }
-    if (x1 - x0 + y1 - y0 == 2 * (LMB_TILE - 1)) {
-        return ~mask;
-    }
     const uint64_t row = (uint64_t)((0xffu >> (7 - x1)) & (0xffu << x0) & 0xffu);
     for (int32_t i = y0; i <= y1; ++i) {
         mask |= row << (i * LMB_TILE);
@@ -395,7 +392,9 @@ void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, 
                  at_y = (y * 256 + 128 - pass->middle_y) * (1.0 / 256.0);
     const int alpha = (pass->state->flags & LMB_DRAW_ALPHA_TEST) != 0;
     tile_job j;
-    mask &= tile_inside(pass, x, y);
+    if (x < pass->x0 || y < pass->y0 || x + LMB_TILE - 1 > pass->x1 || y + LMB_TILE - 1 > pass->y1) {
+        mask &= tile_inside(pass, x, y);
+    }
     if (mask == 0) {
         return;
     }
