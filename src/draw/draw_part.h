@@ -21,7 +21,8 @@ enum {
     CORNER_ALPHA = 7,
     CORNER_UV = 8, /* u, v of each stage */
     CORNER_FOG = CORNER_UV + 2 * LMB_DRAW_STAGES,
-    CORNER_PLANES,
+    CORNER_SECOND, /* R, G, B */
+    CORNER_PLANES = CORNER_SECOND + 3,
     CORNER_VALUES = CORNER_PLANES + LMB_DRAW_PLANES
 };
 typedef struct lmb_draw_corner {
@@ -54,6 +55,7 @@ typedef struct lmb_draw_pass {
     float depth_scale, depth_bias; /* LMB_DEPTH16: code = d scale + bias */
     int32_t tests;                 /* 1: depth or stencil */
     int32_t shows;                 /* 1: some colour may be written */
+    uint32_t *dashed;              /* pixels of the lines before, which line_pattern counts on from */
     int32_t tests_rows, paints_rows; /* 1: draw_rows.c can for this state */
     struct lmb_draw_kept *kept;    /* corners of triangles; NULL: each is transformed as often as it comes */
     int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
@@ -169,6 +171,10 @@ static inline uint32_t draw_between(uint32_t a, uint32_t b, uint32_t share)
     return (a * share + b * (255u - share) + 127u) / 255u;
 }
 
+/* A stage's LMB_DRAW_COMBINE. first: the colour before all stages. */
+void lmb_draw_combine_codes(uint8_t inout[4], const lmb_draw_state *state, int stage, const uint8_t first[4],
+                            const uint8_t texel[LMB_DRAW_STAGES][4]);
+
 static inline float draw_value(const lmb_draw_shape *s, int i, float b1, float b2)
 {
     const float at = s->corner[0]->v[i];
@@ -177,6 +183,11 @@ static inline float draw_value(const lmb_draw_shape *s, int i, float b1, float b
 
 /* One texel's bytes R G B A. level: in 1/256 levels. */
 void lmb_draw_texel(uint8_t out[4], const lmb_texture *texture, float u, float v, int32_t level);
+
+/* Vertices: are their numbers good; `n` values of the i-th one; where it is. */
+lmb_status lmb_draw_check_vertices(const lmb_draw_vertices *vertices);
+void lmb_draw_fetch(float *out, const void *data, uint32_t i, int n, int format);
+lmb_vec3 lmb_draw_position(const lmb_draw_vertices *vertices, uint32_t i);
 
 static inline int draw_passes(int func, int32_t value, int32_t other)
 {

@@ -28,10 +28,13 @@ typedef struct lmb_draw_late {
 void lmb_draw_quick_begin(lmb_draw_pass *pass, lmb_draw_kept *kept)
 {
     const lmb_draw_state *s = pass->state;
+    const lmb_draw_vertices *v = pass->vertices;
     const float *axis = s->fog_axis, *m = s->to_clip.m;
     const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
-    if (pass->vertices->position_format != LMB_DRAW_F32 || pass->vertices->uv_format != LMB_DRAW_F32 ||
-        s->planes != 0 || s->offset_slope != 0.0f || s->offset_units != 0.0f) {
+    if (v->position_format != LMB_DRAW_F32 || v->uv_format != LMB_DRAW_F32 ||
+        s->planes != 0 || s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
+        s->polygon_mode[1] != LMB_DRAW_FILL || v->fogs != NULL || v->seconds != NULL || v->back_colours != NULL ||
+        v->back_seconds != NULL) {
         return;
     }
     pass->fog_is_w = !has_axis || (axis[0] == m[3] && axis[1] == m[7] && axis[2] == m[11] && axis[3] == m[15]);

@@ -39,7 +39,8 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass)
                                                    (stage->mode == LMB_DRAW_MODULATE || stage->mode == LMB_DRAW_REPLACE)));
     pass->tests_rows = (s->flags & LMB_DRAW_DEPTH_TEST) != 0 && (s->flags & LMB_DRAW_STENCIL) == 0 &&
                        pass->target->depth.format == LMB_DEPTH32F;
-    pass->paints_rows = pass->shows && (s->flags & LMB_DRAW_ALPHA_TEST) == 0 && s->fog == LMB_DRAW_FOG_NONE && stages &&
+    const int seconds = pass->vertices->seconds != NULL || pass->vertices->back_seconds != NULL;
+    pass->paints_rows = pass->shows && !seconds && (s->flags & LMB_DRAW_ALPHA_TEST) == 0 && s->fog == LMB_DRAW_FOG_NONE && stages &&
                                 (format == LMB_RGBA8 || format == LMB_BGRA8)
                             ? rows_blend(s)
                             : ROWS_NOT;

@@ -268,34 +268,105 @@ static int shape_leaves(const shape_way *w, int32_t pixel_along, int32_t pixel_a
     return forth ? middle >= w->from_along && middle < w->to_along : middle < w->from_along && middle >= w->to_along;
 }
 
-/* The pixels first .. last along the line, `px` wide. */
-static void shape_walk(shape_run *run, const shape_way *w, int32_t first, int32_t last, int32_t px)
+/* How far a line goes along its axis, and across it in the same direction. */
+typedef struct shape_slope {
+    int64_t length, rise;
+} shape_slope;
+
+static shape_slope shape_slope_of(const shape_way *w)
 {
     const int forth = w->to_along > w->from_along;
-    const int64_t length = forth ? (int64_t)w->to_along - w->from_along : (int64_t)w->from_along - w->to_along;
-    const int64_t rise = forth ? (int64_t)w->to_across - w->from_across : (int64_t)w->from_across - w->to_across;
-    const int64_t whole = 256 * length, step = 256 * rise;
-    const int64_t start = w->from_across * length + ((int64_t)first * 256 + 128 - w->from_along) * rise;
-    int64_t across = start / whole, rest = start % whole;
-    if (rest < 0) {
-        rest += whole;
-        --across;
+    shape_slope s;
+    s.length = forth ? (int64_t)w->to_along - w->from_along : (int64_t)w->from_along - w->to_along;
+    s.rise = forth ? (int64_t)w->to_across - w->from_across : (int64_t)w->from_across - w->to_across;
+    return s;
+}
+
+/* Where the line crosses the middle of a pixel along it: whole pixels across, and 1 / (256 length) of one. */
+typedef struct shape_cross {
+    int64_t across, rest;
+} shape_cross;
+
+static shape_cross shape_cross_at(const shape_way *w, const shape_slope *s, int32_t along)
+{
+    const int64_t whole = 256 * s->length;
+    const int64_t at = w->from_across * s->length + ((int64_t)along * 256 + 128 - w->from_along) * s->rise;
+    shape_cross c;
+    c.across = at / whole;
+    c.rest = at % whole;
+    if (c.rest < 0) {
+        c.rest += whole;
+        --c.across;
     }
+    return c;
+}
+
+/* On the border of two pixels: the one to the left, or the upper one unless the line falls to the right. */
+static int32_t shape_crossed(const shape_way *w, const shape_slope *s, const shape_cross *c)
+{
+    return (int32_t)c->across - (c->rest == 0 && (w->is_steep || s->rise <= 0));
+}
+
+/* Which pixels a line draws, by line_pattern. */
+typedef struct shape_dash {
+    int32_t from, forth; /* the first pixel along the line, and where it goes */
+    uint32_t before, repeat, pattern;
+} shape_dash;
+
+static int shape_is_dashed(const shape_dash *d, int32_t along)
+{
+    const uint32_t n = d->before + (uint32_t)(d->forth ? along - d->from : d->from - along);
+    return (d->pattern >> (n / d->repeat & 15u) & 1u) != 0;
+}
+
+/* The first pixel that the line has from `at` on, of few. */
+static int32_t shape_end(const shape_way *w, const shape_slope *s, int32_t at, int32_t step)
+{
+    for (int i = 0; i < 3; ++i, at += step) {
+        const shape_cross c = shape_cross_at(w, s, at);
+        if (shape_leaves(w, at, shape_crossed(w, s, &c))) {
+            break;
+        }
+    }
+    return at;
+}
+
+/* A line's dashes, from its end pixels first .. last; and what the next line counts on from. */
+static shape_dash shape_dash_of(const lmb_draw_pass *pass, const shape_way *w, int32_t first, int32_t last)
+{
+    const shape_slope s = shape_slope_of(w);
+    shape_dash d = {0, 1, *pass->dashed, pass->state->line_repeat, pass->state->line_pattern};
+    if (d.pattern == 0xffff) {
+        return d;
+    }
+    const int32_t low = shape_end(w, &s, first, 1), high = shape_end(w, &s, last, -1);
+    d.forth = w->to_along > w->from_along;
+    d.from = d.forth ? low : high;
+    *pass->dashed += (uint32_t)maxi(high - low + 1, 0);
+    return d;
+}
+
+/* The pixels first .. last along the line, `px` wide. */
+static void shape_walk(shape_run *run, const shape_way *w, int32_t first, int32_t last, const shape_dash *dash)
+{
+    const shape_slope s = shape_slope_of(w);
+    const int64_t whole = 256 * s.length, step = 256 * s.rise;
+    const int32_t px = run->pass->state->line_px;
+    shape_cross c = shape_cross_at(w, &s, first);
     for (int32_t along = first; along <= last; ++along) {
-        /* On the border of two pixels: the one to the left, or the upper one unless the line falls to the right. */
-        const int32_t at = (int32_t)across - (rest == 0 && (w->is_steep || rise <= 0));
-        if (shape_leaves(w, along, at)) {
+        const int32_t at = shape_crossed(w, &s, &c);
+        if (shape_leaves(w, along, at) && (dash->pattern == 0xffff || shape_is_dashed(dash, along))) {
             for (int32_t k = 0; k < px; ++k) {
                 shape_put(run, w->is_steep ? at + k : along, w->is_steep ? along : at + k);
             }
         }
-        rest += step;
-        if (rest >= whole) {
-            rest -= whole;
-            ++across;
-        } else if (rest < 0) {
-            rest += whole;
-            --across;
+        c.rest += step;
+        if (c.rest >= whole) {
+            c.rest -= whole;
+            ++c.across;
+        } else if (c.rest < 0) {
+            c.rest += whole;
+            --c.across;
         }
     }
 }
@@ -317,8 +388,9 @@ static void shape_trace(const lmb_draw_pass *pass, lmb_draw_shape *shape, const 
         return;
     }
     const int32_t first = (mini(w.from_along, w.to_along) - 1) >> 8, last = maxi(w.from_along, w.to_along) >> 8;
+    const shape_dash dash = shape_dash_of(pass, &w, first, last);
     shape_walk(&run, &w, maxi(first, w.is_steep ? pass->y0 : pass->x0), mini(last, w.is_steep ? pass->y1 : pass->x1),
-               px);
+               &dash);
     shape_flush(&run);
 }
 

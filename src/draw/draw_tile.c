@@ -229,22 +229,42 @@ static uint8_t tile_fog(const lmb_draw_state *s, float c)
     }
 }
 
+/* A colour through all stages. */
+static void tile_stages(uint8_t inout[4], const tile_job *j, const tile_share *share)
+{
+    const lmb_draw_stage *stage = j->pass->state->stage;
+    uint8_t texel[LMB_DRAW_STAGES][4];
+    const uint8_t first[4] = {inout[0], inout[1], inout[2], inout[3]};
+    for (int i = 0; i < LMB_DRAW_STAGES; ++i) {
+        const int uv = CORNER_UV + 2 * i;
+        if (stage[i].texture != NULL) {
+            lmb_draw_texel(texel[i], stage[i].texture, draw_value(j->shape, uv, share->b1, share->b2),
+                           draw_value(j->shape, uv + 1, share->b1, share->b2), tile_level(j, &stage[i], uv, share));
+        } else {
+            texel[i][0] = texel[i][1] = texel[i][2] = texel[i][3] = 255;
+        }
+    }
+    for (int i = 0; i < LMB_DRAW_STAGES; ++i) {
+        if (stage[i].texture != NULL && stage[i].mode == LMB_DRAW_COMBINE) {
+            lmb_draw_combine_codes(inout, j->pass->state, i, first, (const uint8_t(*)[4])texel);
+        } else if (stage[i].texture != NULL) {
+            tile_combine(inout, &stage[i], texel[i]);
+        }
+    }
+}
+
 static void tile_colour(uint8_t out[4], const tile_job *j, int k)
 {
     const lmb_draw_state *s = j->pass->state;
     const tile_share share = tile_find_share(j, k);
+    const int adds = j->pass->vertices->seconds != NULL || j->pass->vertices->back_seconds != NULL;
     for (int i = 0; i < 4; ++i) {
         out[i] = tile_code(draw_value(j->shape, CORNER_RED + i, share.b1, share.b2));
     }
-    for (int i = 0; i < LMB_DRAW_STAGES; ++i) {
-        const lmb_draw_stage *stage = &s->stage[i];
-        if (stage->texture != NULL) {
-            const int uv = CORNER_UV + 2 * i;
-            uint8_t texel[4];
-            lmb_draw_texel(texel, stage->texture, draw_value(j->shape, uv, share.b1, share.b2),
-                           draw_value(j->shape, uv + 1, share.b1, share.b2), tile_level(j, stage, uv, &share));
-            tile_combine(out, stage, texel);
-        }
+    tile_stages(out, j, &share);
+    for (int i = 0; i < 3 && adds; ++i) {
+        const uint8_t second = tile_code(draw_value(j->shape, CORNER_SECOND + i, share.b1, share.b2));
+        out[i] = (uint8_t)mini(out[i] + second, 255);
     }
     if (s->fog != LMB_DRAW_FOG_NONE) {
         const uint8_t left = tile_fog(s, draw_value(j->shape, CORNER_FOG, share.b1, share.b2));
@@ -372,6 +392,17 @@ static uint64_t tile_inside(const lmb_draw_pass *p, int32_t x, int32_t y)
     return mask;
 }
 
+/* The pixels that a pattern of 32 x 32 px leaves. */
+static uint64_t tile_pattern(const uint8_t *pattern, int32_t x, int32_t y)
+{
+    const uint8_t *at = pattern + 4 * (y & 31) + (x >> 3 & 3);
+    uint64_t mask = 0;
+    for (int i = 0; i < LMB_TILE; ++i) {
+        mask |= (uint64_t)at[4 * i] << (LMB_TILE * i);
+    }
+    return mask;
+}
+
 /* Tests before colours, but for those that need colours. */
 static void tile_draw_tested(const tile_job *j, uint64_t mask)
 {
@@ -394,6 +425,9 @@ void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, 
     tile_job j;
     if (x < pass->x0 || y < pass->y0 || x + LMB_TILE - 1 > pass->x1 || y + LMB_TILE - 1 > pass->y1) {
         mask &= tile_inside(pass, x, y);
+    }
+    if (shape->corners == 3 && pass->state->area_pattern != NULL) {
+        mask &= tile_pattern(pass->state->area_pattern, x, y);
     }
     if (mask == 0) {
         return;
