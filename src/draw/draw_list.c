@@ -80,21 +80,6 @@ static int list_vertex(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t
     return sane;
 }
 
-/* Which vertex comes n-th; the vertices' count if there is no such. */
-static uint32_t list_index(const lmb_draw_pass *pass, uint32_t n)
-{
-    const lmb_draw_indices *x = pass->indices;
-    uint32_t i = n;
-    if (x != NULL && x->format == LMB_DRAW_INDEX_U8) {
-        i = ((const uint8_t *)x->data)[n];
-    } else if (x != NULL && x->format == LMB_INDEX_U16) {
-        i = ((const uint16_t *)x->data)[n];
-    } else if (x != NULL && x->format == LMB_INDEX_U32) {
-        i = ((const uint32_t *)x->data)[n];
-    }
-    return i < pass->vertices->count ? i : pass->vertices->count;
-}
-
 /* --- primitives --------------------------------------------------------------------------------------------------- */
 
 /* Does it face away? By the corners before they snap. */
@@ -153,10 +138,10 @@ static void list_draw(const lmb_draw_pass *pass, const list_primitive *listed)
     const lmb_draw_vertices *v = pass->vertices;
     lmb_draw_corner corner[DRAW_CORNERS];
     list_primitive p = *listed;
-    p.flat = list_index(pass, listed->flat);
+    p.flat = draw_index(pass, listed->flat);
     int sane = p.flat < v->count;
     for (int i = 0; i < p.n && sane; ++i) {
-        p.at[i] = list_index(pass, listed->at[i]);
+        p.at[i] = draw_index(pass, listed->at[i]);
         sane = p.at[i] < v->count && list_vertex(&corner[i], pass, p.at[i]);
         if (sane && (p.sides & SIDES_CHOSEN) != 0 && v->edges != NULL && v->edges[p.at[i]] == 0) {
             p.sides &= ~(1 << i);
@@ -178,7 +163,9 @@ static void list_draw(const lmb_draw_pass *pass, const list_primitive *listed)
 static void list_triangle(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat, int sides)
 {
     const list_primitive p = {{a, b, c}, flat, 3, sides};
-    list_draw(pass, &p);
+    if (pass->kept == NULL || !lmb_draw_quick(pass, a, b, c, flat)) {
+        list_draw(pass, &p);
+    }
 }
 
 static void list_line(const lmb_draw_pass *pass, uint32_t a, uint32_t b)
@@ -338,6 +325,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
     const lmb_status status = list_check(target, state, vertices, primitive, indices);
     uint32_t dashed = 0;
     lmb_draw_pass pass;
+    lmb_draw_kept kept;
     if (status != LMB_OK) {
         return status;
     }
@@ -349,6 +337,10 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
     pass.stats = stats;
     pass.dashed = &dashed;
     list_set_pass(&pass);
+    lmb_draw_rows_begin(&pass);
+    if (primitive < LMB_DRAW_LINES) {
+        lmb_draw_quick_begin(&pass, &kept);
+    }
     const uint32_t count = indices != NULL ? indices->count : vertices->count;
     if (primitive == LMB_DRAW_POINTS) {
         list_points(&pass, count);

@@ -56,6 +56,9 @@ typedef struct lmb_draw_pass {
     int32_t tests;                 /* 1: depth or stencil */
     int32_t shows;                 /* 1: some colour may be written */
     uint32_t *dashed;              /* pixels of the lines before, which line_pattern counts on from */
+    int32_t tests_rows, paints_rows; /* 1: draw_rows.c can for this state */
+    struct lmb_draw_kept *kept;    /* corners of triangles; NULL: each is transformed as often as it comes */
+    int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
     lmb_stats *stats;
 } lmb_draw_pass;
 
@@ -73,7 +76,27 @@ typedef struct lmb_draw_shape {
     float d_add;        /* depth offset */
     int32_t corners;    /* 1: values are corner 0's; 2: n2 is 0 */
     int32_t is_even;    /* 1: q is 1 */
+    struct lmb_draw_late *late; /* what corners, n1, n2 and q are made of at the first pixel that is seen; or NULL */
 } lmb_draw_shape;
+
+/* A linear value over a tile: at its first pixel, and per px. */
+typedef struct tile_plane {
+    float at, x, y;
+} tile_plane;
+
+/* A shape in a tile. */
+typedef struct tile_job {
+    const lmb_draw_pass *pass;
+    const lmb_draw_shape *shape;
+    int32_t x, y; /* of pixel 0, px of the frame */
+    tile_plane d, n1, n2, q;
+} tile_job;
+
+/* As in src/raster. */
+static inline float tile_at(const tile_plane *p, int k)
+{
+    return (p->at + p->y * (float)(k >> 3)) + p->x * (float)(k & 7);
+}
 
 /* lmb_draw_cut_polygon: cut a triangle; returns its corners, 0 or 3 .. DRAW_CORNERS.
  * lmb_draw_cut_line: cut a line; 0 if nothing is left. lmb_draw_is_out: is a point outside? */
@@ -86,9 +109,54 @@ int lmb_draw_triangle(const lmb_draw_pass *pass, lmb_draw_corner corner[DRAW_COR
 int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2]);
 int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner);
 
+/* draw_quick.c: a triangle of vertices by their places in the list; 0: it is to be drawn the long way. begin: what a
+ * pass keeps, if it can. finish: all of a late shape. */
+enum { DRAW_KEPT = 32 };
+typedef struct lmb_draw_kept {
+    struct draw_kept_corner {
+        uint32_t name, out; /* vertex + 1, 0: none; bits of the planes it is outside of, DRAW_DROPPED */
+        int32_t x, y;       /* 24.8 of the viewport's middle */
+        float d, inverse;   /* 1 / w */
+    } corner[DRAW_KEPT];
+} lmb_draw_kept;
+enum { DRAW_DROPPED = 256 };
+void lmb_draw_quick_begin(lmb_draw_pass *pass, lmb_draw_kept *kept);
+int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat);
+void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *shape);
+
+/* draw_rows.c: usual states, row by row. begin: which. tests: those of the mask's pixels that pass, whose depths are
+ * stored. paints: their colours. */
+void lmb_draw_rows_begin(lmb_draw_pass *pass);
+uint64_t lmb_draw_rows_test(const tile_job *job, uint64_t mask);
+void lmb_draw_rows_paint(const tile_job *job, uint64_t mask);
+
+/* Which vertex comes n-th; the vertices' count if there is no such. */
+static inline uint32_t draw_index(const lmb_draw_pass *pass, uint32_t n)
+{
+    const lmb_draw_indices *x = pass->indices;
+    uint32_t i = n;
+    if (x != NULL && x->format == LMB_DRAW_INDEX_U8) {
+        i = ((const uint8_t *)x->data)[n];
+    } else if (x != NULL && x->format == LMB_INDEX_U16) {
+        i = ((const uint16_t *)x->data)[n];
+    } else if (x != NULL && x->format == LMB_INDEX_U32) {
+        i = ((const uint32_t *)x->data)[n];
+    }
+    return i < pass->vertices->count ? i : pass->vertices->count;
+}
+
+/* 24.8 of what setup.c takes. floorf is a call where processors lack it. */
+#define DRAW_SNAP_MAX 4194304.0f
+static inline int32_t draw_to_24_8(float v)
+{
+    const float held = minf(maxf(v, -DRAW_SNAP_MAX), DRAW_SNAP_MAX);
+    const int32_t whole = (int32_t)held;
+    return whole - ((float)whole > held);
+}
+
 /* The pixels `mask` of the shape in the tile with pixel 0 at (x, y) of the frame; those outside the pass's are left
  * out. */
-void lmb_draw_tile(const lmb_draw_pass *pass, const lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask);
+void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask);
 
 /* Numbers as the state has them. */
 lmb_status lmb_draw_check_target(const lmb_draw_target *target);

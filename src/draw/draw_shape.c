@@ -7,17 +7,13 @@
 #include "../raster/setup.h"
 
 #if LMB_DRAW
-#define SHAPE_SNAP_MAX 4194304.0f /* 24.8: what setup.c takes */
-
-static int32_t shape_to_24_8(float v) { return (int32_t)minf(maxf(floorf(v), -SHAPE_SNAP_MAX), SHAPE_SNAP_MAX); }
-
 /* 1 / w, and the corner in the picture. */
 static float shape_snap(lmb_screen_vertex *out, const lmb_draw_corner *c, const lmb_draw_pass *pass)
 {
     const float *range = pass->state->depth_range, inverse = 1.0f / c->v[CORNER_W];
     const float d = minf(maxf(c->v[CORNER_Z] * inverse, 0.0f), 1.0f);
-    out->x_24_8 = shape_to_24_8(c->v[CORNER_X] * inverse * pass->snap_x + 0.5f);
-    out->y_24_8 = shape_to_24_8(0.5f - c->v[CORNER_Y] * inverse * pass->snap_y);
+    out->x_24_8 = draw_to_24_8(c->v[CORNER_X] * inverse * pass->snap_x + 0.5f);
+    out->y_24_8 = draw_to_24_8(0.5f - c->v[CORNER_Y] * inverse * pass->snap_y);
     out->d = range[0] == 0.0f && range[1] == 1.0f ? d : range[0] + (range[1] - range[0]) * d;
     return inverse;
 }
@@ -124,7 +120,7 @@ static uint64_t shape_covered(const shape_edges *s, int32_t x0, int32_t x1, int3
     return mask;
 }
 
-static void shape_fill(const lmb_draw_pass *pass, const lmb_draw_shape *shape, const lmb_setup *s)
+static void shape_fill(const lmb_draw_pass *pass, lmb_draw_shape *shape, const lmb_setup *s)
 {
     const int32_t origin_x = 128 - pass->middle_x, origin_y = 128 - pass->middle_y;
     const int32_t x0 = maxi((s->x_min - origin_x + 255) >> 8, pass->x0),
@@ -188,6 +184,7 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
     shape.corner[1] = b;
     shape.corner[2] = c;
     shape.corners = 3;
+    shape.late = NULL;
     shape.d = shape_plane(s.d_origin, s.d_x, s.d_y);
     shape.d_min = s.d_min;
     shape.d_max = s.d_max;
@@ -215,7 +212,7 @@ int lmb_draw_triangle(const lmb_draw_pass *pass, lmb_draw_corner corner[DRAW_COR
 /* Pixels of a shape in one tile that wait to be drawn. */
 typedef struct shape_run {
     const lmb_draw_pass *pass;
-    const lmb_draw_shape *shape;
+    lmb_draw_shape *shape;
     int32_t x, y;
     uint64_t mask;
 } shape_run;
@@ -375,7 +372,7 @@ static void shape_walk(shape_run *run, const shape_way *w, int32_t first, int32_
 }
 
 /* a and b: 24.8 of the viewport's middle. */
-static void shape_trace(const lmb_draw_pass *pass, const lmb_draw_shape *shape, const lmb_screen_vertex *a,
+static void shape_trace(const lmb_draw_pass *pass, lmb_draw_shape *shape, const lmb_screen_vertex *a,
                         const lmb_screen_vertex *b)
 {
     const int32_t px = pass->state->line_px, shift = (px - 1) * 128;
@@ -415,6 +412,7 @@ int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2])
     shape.corner[0] = shape.corner[2] = &corner[0];
     shape.corner[1] = &corner[1];
     shape.corners = 2;
+    shape.late = NULL;
     shape.n1 = shape_plane(-(ax * dx + ay * dy) / square, dx / square, dy / square);
     shape.n2 = shape_plane(0.0, 0.0, 0.0);
     shape.d = shape_scaled(&shape.n1, more);
@@ -441,6 +439,7 @@ int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner)
     (void)shape_snap(&at, corner, pass);
     shape.corner[0] = shape.corner[1] = shape.corner[2] = corner;
     shape.corners = 1;
+    shape.late = NULL;
     shape.d = shape.n1 = shape.n2 = shape.q = none;
     shape.d.origin = (double)at.d;
     shape.d_min = shape.d_max = at.d;

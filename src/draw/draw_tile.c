@@ -9,18 +9,6 @@
 #if LMB_DRAW
 #define TILE_LOG2_E 1.44269504f
 
-/* A linear value over a tile. */
-typedef struct tile_plane {
-    float at, x, y;
-} tile_plane;
-
-typedef struct tile_job {
-    const lmb_draw_pass *pass;
-    const lmb_draw_shape *shape;
-    int32_t x, y; /* of pixel 0, px of the frame */
-    tile_plane d, n1, n2, q;
-} tile_job;
-
 static tile_plane tile_set(const lmb_draw_plane *p, double x, double y)
 {
     tile_plane t;
@@ -29,9 +17,6 @@ static tile_plane tile_set(const lmb_draw_plane *p, double x, double y)
     t.y = (float)p->y;
     return t;
 }
-
-/* As in src/raster. */
-static float tile_at(const tile_plane *p, int k) { return (p->at + p->y * (float)(k >> 3)) + p->x * (float)(k & 7); }
 
 /* --- tests -------------------------------------------------------------------------------------------------------- */
 
@@ -418,18 +403,13 @@ static uint64_t tile_pattern(const uint8_t *pattern, int32_t x, int32_t y)
     return mask;
 }
 
-static void tile_draw(const tile_job *j, uint64_t mask)
+/* Tests before colours, but for those that need colours. */
+static void tile_draw_tested(const tile_job *j, uint64_t mask)
 {
-    const uint32_t flags = j->pass->state->flags;
     uint8_t colour[LMB_TILE_PIXELS][4];
-    /* Tests before colours, but for those that need colours. */
-    if ((flags & LMB_DRAW_ALPHA_TEST) != 0) {
-        mask = tile_tests(j, tile_colours(colour, j, mask));
-    } else {
+    mask = tile_colours(colour, j, mask);
+    if ((j->pass->state->flags & LMB_DRAW_ALPHA_TEST) != 0) {
         mask = tile_tests(j, mask);
-        if (j->pass->shows) {
-            mask = tile_colours(colour, j, mask);
-        }
     }
     for (uint64_t bits = j->pass->shows ? mask : 0; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
@@ -437,12 +417,15 @@ static void tile_draw(const tile_job *j, uint64_t mask)
     }
 }
 
-void lmb_draw_tile(const lmb_draw_pass *pass, const lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask)
+void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask)
 {
     const double at_x = (x * 256 + 128 - pass->middle_x) * (1.0 / 256.0),
                  at_y = (y * 256 + 128 - pass->middle_y) * (1.0 / 256.0);
+    const int alpha = (pass->state->flags & LMB_DRAW_ALPHA_TEST) != 0;
     tile_job j;
-    mask &= tile_inside(pass, x, y);
+    if (x < pass->x0 || y < pass->y0 || x + LMB_TILE - 1 > pass->x1 || y + LMB_TILE - 1 > pass->y1) {
+        mask &= tile_inside(pass, x, y);
+    }
     if (shape->corners == 3 && pass->state->area_pattern != NULL) {
         mask &= tile_pattern(pass->state->area_pattern, x, y);
     }
@@ -453,12 +436,27 @@ void lmb_draw_tile(const lmb_draw_pass *pass, const lmb_draw_shape *shape, int32
     j.shape = shape;
     j.x = x;
     j.y = y;
-    j.d = tile_set(&shape->d, at_x, at_y);
+    if (pass->tests) {
+        j.d = tile_set(&shape->d, at_x, at_y);
+    }
+    if (!alpha) {
+        mask = pass->tests_rows ? lmb_draw_rows_test(&j, mask) : tile_tests(&j, mask);
+    }
+    if (mask == 0 || (!pass->shows && !alpha)) {
+        return;
+    }
+    if (shape->late != NULL) {
+        lmb_draw_finish(pass, shape);
+    }
     j.n1 = tile_set(&shape->n1, at_x, at_y);
     j.n2 = tile_set(&shape->n2, at_x, at_y);
     if (!shape->is_even) {
         j.q = tile_set(&shape->q, at_x, at_y);
     }
-    tile_draw(&j, mask);
+    if (pass->paints_rows) {
+        lmb_draw_rows_paint(&j, mask);
+    } else {
+        tile_draw_tested(&j, mask);
+    }
 }
 #endif
