@@ -76,7 +76,7 @@
 #define LMB_LIVE LMB_TREES
 #endif
 
-/* 0: this build has no fixed-function drawing (lambent/draw.h). Saves 16 KiB of ROM on a Cortex-M4F. */
+/* 0: this build has no fixed-function drawing (lambent/draw.h). Saves 30 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_DRAW
 #define LMB_DRAW LMB_TREES
 #endif
