@@ -170,7 +170,7 @@ typedef struct lmb_draw_state {
  * and looks along -z. Colours are codes / 255. */
 enum { LMB_DRAW_LAMPS = 8 };
 typedef struct lmb_draw_lamp {
-    float position[4];                       /* w 0: the way to a lamp that is infinitely far */
+    float position[4];                       /* w 0: the way to it, infinitely far */
     float ambient[3], diffuse[3], specular[3];
     float spot_direction[3];                 /* any length */
     float spot_exponent;                     /* 0 .. 128 */

@@ -16,7 +16,10 @@
 #define WHOLE     254.0f /* of `seen` */
 #define SPLIT     800.0f /* over the square of the strata: what shadows are off by is not to be divided for */
 
-typedef char grid_fits_lattice[sizeof(live_grid_tile) <= sizeof(lmb_lattice_tile) ? 1 : -1];
+typedef char grid_fits_lattice[sizeof(live_grid_tile) + GRID_SAMPLES * sizeof(lmb_live_sample) <=
+                                       sizeof(lmb_lattice_tile)
+                                   ? 1
+                                   : -1];
 
 /* --- layout ------------------------------------------------------------------------------------------------------- */
 
@@ -28,6 +31,8 @@ live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata)
     g.height = l->height;
     g.columns = (l->width + LMB_TILE - 1) / LMB_TILE;
     g.rows = (l->height + LMB_TILE - 1) / LMB_TILE;
+    g.first = (lmb_live_sample *)(void *)(g.tile + (size_t)g.columns * (size_t)g.rows);
+    g.other = g.first + (size_t)g.columns * (size_t)g.rows;
     g.mean = l->mean;
     g.split = SPLIT / (float)(strata * strata);
     g.noise = 1.0f / sqrtf((float)strata);
@@ -36,8 +41,8 @@ live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata)
 
 static lmb_live_sample *sample_at(const live_grid *g, int32_t x, int32_t y)
 {
-    return &grid_tile(g, x / LMB_TILE, y / LMB_TILE)
-                ->sample[y % LMB_TILE / GRID_STEP * GRID_SIDE + x % LMB_TILE / GRID_STEP];
+    return grid_sample(g, grid_tile(g, x / LMB_TILE, y / LMB_TILE),
+                       y % LMB_TILE / GRID_STEP * GRID_SIDE + x % LMB_TILE / GRID_STEP);
 }
 
 static int is_known(const live_grid *g, int32_t x, int32_t y)
@@ -73,15 +78,7 @@ void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes)
     out->lobes = (uint8_t)(lobes != 0);
     out->flat = (uint8_t)(tile->id[0] != 0 && !lobes && is_flat(tile));
     for (int i = 0; i < GRID_SAMPLES && !lobes; ++i) {
-        const int k = i / GRID_SIDE * GRID_STEP * LMB_TILE + i % GRID_SIDE * GRID_STEP;
-        lmb_live_sample *s = &out->sample[i];
-        if (tile->id[k] != 0) {
-            s->position = tile_vec(tile->position, k);
-            s->face = tile_vec(tile->face, k);
-            s->normal = tile_vec(tile->normal, k);
-            s->id = tile->id[k];
-            out->shown |= (uint16_t)(1u << i);
-        }
+        out->shown |= (uint16_t)((unsigned)(tile->id[grid_pixel(i)] != 0) << i);
     }
 }
 
@@ -342,7 +339,7 @@ float lmb_live_grid_mean(const live_grid *g)
     double sum = 0.0, count = 0.0;
     for (size_t i = 0; i < tiles; ++i) {
         if (g->tile[i].known & 1u) {
-            sum += (double)all_of(g->tile[i].sample[0].light);
+            sum += (double)all_of(g->first[i].light);
             count += 1.0;
         }
     }
@@ -410,27 +407,27 @@ void lmb_live_grid_smooth(const live_grid *g, int32_t column, int32_t row)
 
 void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row)
 {
-    live_grid_tile *t = grid_tile(g, column, row);
+    const live_grid_tile *t = grid_tile(g, column, row);
     for (uint32_t bits = t->known; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit(bits);
         const int32_t x = column * LMB_TILE + k % GRID_SIDE * GRID_STEP,
                       y = row * LMB_TILE + k / GRID_SIDE * GRID_STEP, step = own_step(g, x, y);
-        set_slope(t->sample[k].slope[0], g, x, y, 0, step);
-        set_slope(t->sample[k].slope[1], g, x, y, 1, step);
+        set_slope(grid_sample(g, t, k)->slope[0], g, x, y, 0, step);
+        set_slope(grid_sample(g, t, k)->slope[1], g, x, y, 1, step);
     }
 }
 
 /* --- pixels ------------------------------------------------------------------------------------------------------- */
 
 /* Do all corners count in full at a flat tile's first pixel? */
-static int is_even(const cell *c, const live_grid_tile *t)
+static int is_even(const cell *c, const live_grid *g, const live_grid_tile *t)
 {
     for (int i = 0; i < 4; ++i) {
-        if (c->corner[i] == NULL || live_agree(&t->sample[0], c->corner[i]) < 1.0f) {
+        if (!t->flat || c->corner[i] == NULL || live_agree(grid_sample(g, t, 0), c->corner[i]) < 1.0f) {
             return 0;
         }
     }
-    return t->flat;
+    return 1;
 }
 
 /* Pixels x .. x + step - 1 of rows y .. y + step - 1. */
@@ -454,7 +451,7 @@ static uint64_t fill_cell(lmb_irradiance *out, const lmb_kernels *kernels, const
     p.y[1] = (float)(c.y[1] - tile->y);
     p.per_x = 1.0f / maxf(p.x[1] - p.x[0], 1.0f);
     p.per_y = 1.0f / maxf(p.y[1] - p.y[0], 1.0f);
-    p.even = is_even(&c, t);
+    p.even = is_even(&c, g, t);
     p.pixels = shown & square(x, y, step);
     return kernels->live_fill(out, tile, &p);
 }

@@ -1,8 +1,8 @@
 /* live_grid.h: samples of a frame whose bounced light is that of single points: what src/frame does with them. Layer 9.
  *
  * Samples lie on a grid of 8 px, at the first pixel of each tile. Where light changes, the cell between four of them is
- * divided into cells of 4 px, and these into cells of 2 px. A sample keeps its surface, so no other pixel is stored:
- * the grid lies in the memory of lmb_lattice. */
+ * divided into cells of 4 px, and these into cells of 2 px. Only a sample that is lit keeps its surface. The grid lies
+ * in the memory of lmb_lattice. */
 #ifndef LMB_COMPOSE_LIVE_GRID_H
 #define LMB_COMPOSE_LIVE_GRID_H
 
@@ -26,11 +26,11 @@ typedef struct live_grid_tile {
     uint8_t parts;         /* which of its cells of 4 px are, a bit each */
     uint8_t flat;          /* all its pixels show one triangle, by one normal */
     uint8_t lobes;         /* gathered whole: it has no samples */
-    lmb_live_sample sample[GRID_SAMPLES];
 } live_grid_tile;
 
 typedef struct live_grid {
     live_grid_tile *tile;
+    lmb_live_sample *first, *other; /* of each tile sample 0, and samples 1 .. 15: most tiles have only the first */
     int32_t width, height, columns, rows; /* px; tiles */
     float mean;  /* light of the first samples, R + G + B, W/m2 */
     float split; /* a cell is divided where (surplus / 3)^2 x its area is over split x mean^2 */
@@ -40,8 +40,11 @@ typedef struct live_grid {
 /* The grid of a lattice. `strata`: segments of a sample. */
 live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata);
 
-/* Keep the surfaces of a tile's samples. `lobes`: it is gathered whole. */
+/* Keep which samples of a tile have a surface. `lobes`: it is gathered whole. */
 void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes);
+
+/* The pixel of a tile at which sample k lies. */
+static inline int grid_pixel(int k) { return k / GRID_SIDE * GRID_STEP * LMB_TILE + k % GRID_SIDE * GRID_STEP; }
 
 /* The samples of a tile that level 0 .. GRID_LEVELS - 1 asks for and that are not known, a bit each. */
 uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int32_t level);
@@ -78,6 +81,13 @@ static inline float live_agree(const lmb_live_sample *a, const lmb_live_sample *
 static inline live_grid_tile *grid_tile(const live_grid *g, int32_t column, int32_t row)
 {
     return g->tile + (size_t)row * (size_t)g->columns + (size_t)column;
+}
+
+/* Sample k of a tile. */
+static inline lmb_live_sample *grid_sample(const live_grid *g, const live_grid_tile *t, int k)
+{
+    const size_t i = (size_t)(t - g->tile);
+    return k == 0 ? &g->first[i] : &g->other[i * (GRID_SAMPLES - 1) + (size_t)(k - 1)];
 }
 
 #endif

@@ -13,7 +13,7 @@ typedef struct light_place {
     lmb_vec3 at, normal, to_eye;
 } light_place;
 
-/* What a lamp does to a vertex. */
+/* What one of the lights does to a vertex. */
 typedef struct light_ray {
     lmb_vec3 to;    /* the lamp, unit */
     float strength; /* by distance and cone */
@@ -45,7 +45,7 @@ static light_ray light_ray_to(const lmb_draw_lamp *lamp, lmb_vec3 at)
     return ray;
 }
 
-/* Add a lamp: what is matt, and highlights. */
+/* Add one light: what is matt, and highlights. */
 static void light_add(float matt[3], float shine[3], const lmb_draw_lamp *lamp, const lmb_draw_material *m,
                       const light_place *p)
 {

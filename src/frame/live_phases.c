@@ -56,14 +56,29 @@ static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_liv
     return status;
 }
 
-NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t column,
-                               int32_t row, int32_t level)
+/* The surface at a pixel of a tile. */
+static lmb_live_sample sample_of(const lmb_tile *tile, int k)
 {
-    live_grid_tile *t = grid_tile(g, column, row);
-    const uint32_t asked = lmb_live_grid_asks(g, column, row, level);
+    lmb_live_sample s;
+    memset(&s, 0, sizeof s);
+    s.position = tile_vec(tile->position, k);
+    s.face = tile_vec(tile->face, k);
+    s.normal = tile_vec(tile->normal, k);
+    s.id = tile->id[k];
+    return s;
+}
+
+/* The samples `asked` of the tile at hand. */
+NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, uint32_t asked)
+{
+    live_grid_tile *t = grid_tile(g, s->tile.x / LMB_TILE, s->tile.y / LMB_TILE);
     lmb_status status = LMB_OK;
     for (uint32_t bits = asked; bits != 0 && status == LMB_OK; bits &= bits - 1) {
-        status = light_sample(r, s, &t->sample[lowest_bit(bits)]);
+        const int k = lowest_bit(bits);
+        lmb_live_sample *sample = grid_sample(g, t, k);
+        *sample = sample_of(&s->tile, grid_pixel(k));
+        sample->position = lmb_place_onto_triangle(r->frame.scene, sample->id, sample->position);
+        status = light_sample(r, s, sample);
     }
     t->known |= (uint16_t)asked;
     return status;
@@ -77,10 +92,32 @@ static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const 
     for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
         status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, eye, column * LMB_TILE, row * LMB_TILE);
         if (status == LMB_OK) {
-            lmb_render_onto_triangles(&s->tile, f);
             const int lobes = requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene);
             lmb_live_grid_put(g, &s->tile, lobes);
-            status = light_tile(r, s, g, column, row, 0);
+            status = light_tile(r, s, g, lmb_live_grid_asks(g, column, row, 0));
+        }
+    }
+    return status;
+}
+
+/* The samples of a row of tiles that level 1 or 2 asks for. */
+static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row, int32_t level)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_target *eye = &s->live->window;
+    lmb_status status = LMB_OK;
+    int is_drawn = 0;
+    for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
+        const uint32_t asked = lmb_live_grid_asks(g, column, row, level);
+        if (asked != 0 && !is_drawn) {
+            status = lmb_render_view_band(r, eye, &f->eye, row);
+            is_drawn = 1;
+        }
+        if (asked != 0 && status == LMB_OK) {
+            status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, eye, column * LMB_TILE, row * LMB_TILE);
+        }
+        if (asked != 0 && status == LMB_OK) {
+            status = light_tile(r, s, g, asked);
         }
     }
     return status;
@@ -92,20 +129,20 @@ int32_t lmb_render_live_pieces(const lmb_render *r) { return (band_count(&r->fra
 
 static lmb_status do_row(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row)
 {
-    lmb_status status = LMB_OK;
     if (r->light == SURFACES) {
         return take_surfaces(r, s, g, row);
     }
-    for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
+    if (r->light == SAMPLES_4 || r->light == SAMPLES_2) {
+        return light_row(r, s, g, row, r->light == SAMPLES_4 ? 1 : 2);
+    }
+    for (int32_t column = 0; column < g->columns; ++column) {
         if (r->light == SHADOWS) {
             lmb_live_grid_smooth(g, column, row);
-        } else if (r->light == SLOPES) {
-            lmb_live_grid_slopes(g, column, row);
         } else {
-            status = light_tile(r, s, g, column, row, r->light == SAMPLES_4 ? 1 : 2);
+            lmb_live_grid_slopes(g, column, row);
         }
     }
-    return status;
+    return LMB_OK;
 }
 
 lmb_status lmb_render_live_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
@@ -138,17 +175,6 @@ lmb_status lmb_render_live_on(lmb_render *r)
 }
 
 /* --- pixels that no sample explains ------------------------------------------------------------------------------- */
-
-static lmb_live_sample sample_of(const lmb_tile *tile, int k)
-{
-    lmb_live_sample s;
-    memset(&s, 0, sizeof s);
-    s.position = tile_vec(tile->position, k);
-    s.face = tile_vec(tile->face, k);
-    s.normal = tile_vec(tile->normal, k);
-    s.id = tile->id[k];
-    return s;
-}
 
 /* What a pixel may take its light from: pixels of the tile that are lit by themselves, a bit each, and samples of the
  * tile and of its cell. */
@@ -222,7 +248,7 @@ static void set_sources(sources *out, const live_grid *g, const lmb_tile *tile, 
             const live_grid_tile *t = grid_tile(g, column + right, row + down);
             for (uint32_t bits = i == 0 ? t->known : t->known & 1u; bits != 0; bits &= bits - 1) {
                 const int k = lowest_bit(bits);
-                out->sample[out->count] = &t->sample[k];
+                out->sample[out->count] = grid_sample(g, t, k);
                 out->x[out->count] = (int8_t)(right * LMB_TILE + k % GRID_SIDE * GRID_STEP);
                 out->y[out->count++] = (int8_t)(down * LMB_TILE + k / GRID_SIDE * GRID_STEP);
             }

@@ -1,7 +1,7 @@
 /* render_vertices.c: a frame's light at vertices, for lmb_draw_list. Layer 10.
  *
  * Vertices are the pixels of a tile that lie apart, of no triangle. Without a normal a vertex takes the mean of the light on all
- * planes through it. A lamp gives to it a quarter of what a plane that faces the lamp receives: the mean of a cosine
+ * planes through it. A light gives to it a quarter of what a plane that faces the light receives: the mean of a cosine
  * over all ways, where negative ones count as 0. Of other light, it is the mean of six planes. */
 #include <string.h>
 

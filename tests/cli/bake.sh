@@ -13,7 +13,7 @@ for room in box:256:200 block:256:500; do
     done
     check "bake tells what it made" grep -q "$name-2.lmt: .* elements, .* receivers, .* MB" out.txt
     check "bakes of $name by one and two threads are equal" cmp -s "$name-1.lmt" "$name-2.lmt"
-    status 0 render "$name.obj" $inside --quality draft -o "$name-draft.pfm"
+    status 0 render "$name.obj" $inside --quality draft --gather full -o "$name-draft.pfm"
     status 0 render "$name.obj" $inside --transfer "$name-1.lmt" -o "$name-baked.pfm"
     status 0 compare "$name-baked.pfm" "$name-draft.pfm" --max lo=0.95,hi=1.05,trim=0.06
     status 0 render "$name.obj" $inside --transfer "$name-1.lmt" --threads 1 -o "$name-again.pfm"
@@ -35,7 +35,7 @@ check "so it does by two threads" cmp -s box-four.pfm box-again.pfm
 # Forty lights go into a tree, light the elements and are thrown back.
 forty=$(awk 'BEGIN { for (i = 0; i < 40; ++i) printf " --light point:%g,%g,%g:0,-1,0:0.3,0.2,0.1", i % 5 / 4 - 0.5, i % 7 / 6 - 0.5, i % 11 / 10 - 0.5 }')
 among="--eye -0.8,0.6,-0.8 --target 0.3,-0.6,0.3 --size 32x24 --show indirect $forty"
-status 0 render box.obj $among --quality draft -o forty.pfm
+status 0 render box.obj $among --quality draft --gather full -o forty.pfm
 status 0 render box.obj $among --transfer box-1.lmt --threads 1 -o box-forty.pfm
 check "render says what it does with lights and a transfer" grep -q '40 lights in .* cells' err.txt
 status 0 compare box-forty.pfm forty.pfm --max lo=0.95,hi=1.05,trim=0.06

@@ -45,6 +45,20 @@ status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o r
 status 0 compare proved.pfm ruled.pfm
 [ -n "$SHORT" ] || status 0 render demo --size 16x16 --shadow-map 64 --bounces 3 --elements 4096 --show occlusion -o blocked.pfm
 
+# Draft and frames of play have it, unless --gather names another way.
+drawn="--size 96x64 --exposure 0 --show indirect --shadow-map 256"
+status 0 render demo $drawn --quality draft -o implied.pfm
+status 0 render demo $drawn --quality draft --gather live -o named.pfm
+check "--quality draft has live light" cmp implied.pfm named.pfm
+status 0 render demo $drawn --quality draft --gather full -o named.pfm
+check "--gather full holds by draft" differ implied.pfm named.pfm
+status 0 play demo $drawn --frames 1 -o implied%01d.pfm
+status 0 play demo $drawn --frames 1 --gather live -o named%01d.pfm
+check "play has live light" cmp implied0.pfm named0.pfm
+status 0 play demo $drawn --frames 1 --quality best -o implied%01d.pfm
+status 0 play demo $drawn --frames 1 --quality best --gather full -o named%01d.pfm
+check "--quality best gathers each pixel in play" cmp implied0.pfm named0.pfm
+
 # --gather live: bytes by threads, back ends and slices; errors; a view frame by frame.
 live="--size 96x64 --exposure 0 --quality draft --show indirect --gather live"
 status 0 render demo $live --threads 1 -o live.pfm

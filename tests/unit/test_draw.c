@@ -317,6 +317,53 @@ static void test_windows(void)
     }
 }
 
+/* A list has the bytes of its primitives drawn one by one, and of an indexed one; what is drawn elsewhere does not
+ * matter. */
+static void test_parts(void)
+{
+    static const int32_t kinds[4] = {LMB_DRAW_TRIANGLES, LMB_DRAW_QUADS, LMB_DRAW_LINES, LMB_DRAW_POINTS};
+    static const uint32_t each[4] = {3, 4, 2, 1};
+    soup s;
+    make_soup(&s, 31);
+    for (int i = 0; i < 4; ++i) {
+        static uint8_t whole[CASE_HIGH][CASE_WIDE][4];
+        uint8_t order[60];
+        lmb_draw_vertices v;
+        memset(&v, 0, sizeof v);
+        v.positions = s.corners, v.colours = &s.colours[0][0], v.count = 60;
+        case_begin();
+        soup_state(i);
+        CHECK(draw_soup(&drawn_on, &s, kinds[i], NULL) == LMB_OK);
+        memcpy(whole, drawn.colour, sizeof whole);
+        case_begin();
+        soup_state(i);
+        for (uint32_t k = 0; k < 60; k += each[i]) {
+            const lmb_draw_state kept = state;
+            v.positions = s.corners[k], v.colours = s.colours[k], v.count = each[i];
+            CHECK(lmb_draw_list(&drawn_on, &state, &v, kinds[i], NULL, NULL) == LMB_OK);
+            state.flags |= LMB_DRAW_SCISSOR; /* another draw, where these are not */
+            state.scissor[0] = CASE_WIDE;
+            CHECK(draw_soup(&drawn_on, &s, kinds[3 - i], NULL) == LMB_OK);
+            state = kept;
+        }
+        CHECK_MSG(memcmp(whole, drawn.colour, sizeof whole) == 0, "primitive %d", kinds[i]);
+        for (uint32_t k = 0; k < 60; ++k) {
+            order[k] = (uint8_t)(59 - k);
+        }
+        soup turned;
+        for (int k = 0; k < 60; ++k) {
+            memcpy(turned.corners[k], s.corners[59 - k], sizeof turned.corners[k]);
+            memcpy(turned.colours[k], s.colours[59 - k], sizeof turned.colours[k]);
+        }
+        const lmb_draw_indices x = {order, 60, LMB_DRAW_INDEX_U8};
+        v.positions = turned.corners, v.colours = turned.colours[0], v.count = 60;
+        case_begin();
+        soup_state(i);
+        CHECK(lmb_draw_list(&drawn_on, &state, &v, kinds[i], &x, NULL) == LMB_OK);
+        CHECK_MSG(memcmp(whole, drawn.colour, sizeof whole) == 0, "primitive %d by indices", kinds[i]);
+    }
+}
+
 /* A plane of the state cuts where it says; so do near and far. */
 static void test_cuts(void)
 {
@@ -571,6 +618,7 @@ void test_draw(void)
     test_diamonds();
     test_widths();
     test_windows();
+    test_parts();
     test_cuts();
     test_long_edges();
     test_culls();

@@ -61,7 +61,11 @@ static int light_level(int32_t level, light_at at)
         CHECK((asked & (t->known | ~(uint32_t)t->shown)) == 0);
         for (uint32_t bits = asked; bits != 0; bits &= bits - 1, ++count) {
             const int k = lowest_bit(bits);
-            lmb_live_sample *s = &t->sample[k];
+            lmb_live_sample *s = grid_sample(&grid, t, k);
+            s->position = tile_vec(tile[i].position, grid_pixel(k));
+            s->face = tile_vec(tile[i].face, grid_pixel(k));
+            s->normal = tile_vec(tile[i].normal, grid_pixel(k));
+            s->id = tile[i].id[grid_pixel(k)];
             s->is_lit = 1;
             for (int c = 0; c < 3; ++c) {
                 s->light[c] = (float)(c + 1) * at((float)(tile[i].x + k % 4 * 2), (float)(tile[i].y + k / 4 * 2));
@@ -164,7 +168,7 @@ static void test_noise(void)
     put_wall(1000);
     light_level(0, even);
     for (int32_t i = 0; i < TILES; ++i) {
-        lmb_live_sample *s = &grid.tile[i].sample[0];
+        lmb_live_sample *s = &grid.first[i];
         for (int c = 0; c < 3; ++c) {
             s->slope[0][c] = 1.0f;
             s->seen[c] = (uint8_t)(i % COLUMNS < 6 ? 127 + (i * 7 % 5 - 2) * 9 : 0);
@@ -174,7 +178,7 @@ static void test_noise(void)
     }
     for (int32_t i = 0; i < TILES; ++i) {
         lmb_live_grid_smooth(&grid, i % COLUMNS, i / COLUMNS);
-        const float now = grid.tile[i].sample[0].light[0];
+        const float now = grid.first[i].light[0];
         after += i % COLUMNS < 6 ? (now - 0.5f) * (now - 0.5f) : 0.0f;
         count += i % COLUMNS < 6;
         lit += i % COLUMNS == 5 ? now : 0.0f;

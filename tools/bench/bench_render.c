@@ -15,6 +15,7 @@ static const char *const stages[BENCH_STAGES] = {"shadow maps", "BVH",  "first p
 static const bench_try tries[] = {
     {"presets", "", 4, 0},
     {"presets", "--quality draft", 1, 0},
+    {"draft and", "--quality draft --gather full", 1, 0},
     {"presets", "--quality best", 24, 0},
     {"first points", "--tree 64 --shadow-map 512", 3, 0},
     {"first points", "--tree 128", 3, 0},
@@ -32,8 +33,8 @@ static const bench_try tries[] = {
     {"occlusion", "--occlusion none", 1, 0},
     {"gather", "--gather half", 3, 0},
     {"gather", "--gather quarter", 3, 0},
-    {"draft and", "--quality draft --error 0.2 --visibility 0.2", 1, 0},
-    {"draft and", "--quality draft --tree 64 --shadow-map 512", 1, 0},
+    {"draft and", "--quality draft --gather full --error 0.2 --visibility 0.2", 1, 0},
+    {"draft and", "--quality draft --gather full --tree 64 --shadow-map 512", 1, 0},
     {"draft and", "--quality draft --gather half", 1, 0},
     {"draft and", "--quality draft --gather quarter", 1, 0},
     {"best and", "--quality best --gather half", 24, 0},

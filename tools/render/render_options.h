@@ -12,7 +12,7 @@
 #define RENDER_LIGHTS 64 /* --light given at most this often */
 
 /* --show beyond LMB_SHOW_*: the view's attributes; what lives in the shadow maps; how much light is blocked. */
-enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO, SHOW_EYE_DISTANCE };
+enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO, SHOW_WIREFRAME, SHOW_EYE_DISTANCE };
 enum { SHOW_LIGHT_DISTANCE = 32, SHOW_POINTS, SHOW_GROUPS };
 enum { SHOW_OCCLUSION = 48 };
 
@@ -57,7 +57,8 @@ typedef struct render_options {
     int32_t occlusion, steps;
     int32_t many_lights_cells; /* 0: only where the scene has too many lights for maps */
     float light_error;
-    int32_t gather_step; /* 1, 2, 4; 0: default */
+    int32_t gather_step; /* LMB_GATHER_*; 0: default */
+    int32_t is_moving;   /* many frames of one scene: set by `play` */
     int32_t samples;     /* a pixel; 0: by the output's format */
     int glossy;          /* materials get their lobe */
     int32_t exposure_auto;
