@@ -81,6 +81,12 @@
 #define LMB_DRAW LMB_TREES
 #endif
 
+/* 0: draws ignore a state's kernels. Builds whose plain C has one lane (no SSE2, NEON or simd128) have none in any case.
+ * Saves 6 KiB of ROM for each backend. */
+#ifndef LMB_DRAW_KERNELS
+#define LMB_DRAW_KERNELS LMB_DRAW
+#endif
+
 /* 0: this build has no probes (lambent/probe.h). Saves 6 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_PROBES
 #define LMB_PROBES 1

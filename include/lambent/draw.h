@@ -138,6 +138,7 @@ enum { LMB_DRAW_FILL = 0, LMB_DRAW_EDGES = 1, LMB_DRAW_CORNERS = 2 };
 
 /* All that a draw depends on. lmb_draw_state_init sets it; then change what you need. */
 typedef struct lmb_draw_state {
+    const struct lmb_kernels *kernels; /* lmb_kernels_pick(): the same pixels in less time; NULL: plain C */
     lmb_mat4 to_clip;                 /* of vertices */
     float plane[LMB_DRAW_PLANES][4];  /* plane[i] . (x, y, z, 1) >= 0 stays, in the vertices' space */
     float fog_axis[4];                /* c = fog_axis . (x, y, z, 1); all 0: the w of clip space */

@@ -56,7 +56,7 @@ typedef struct lmb_draw_pass {
     int32_t tests;                 /* 1: depth or stencil */
     int32_t shows;                 /* 1: some colour may be written */
     uint32_t *dashed;              /* pixels of the lines before, which line_pattern counts on from */
-    int32_t tests_rows, paints_rows; /* 1: draw_rows.c can for this state */
+    int32_t tests_rows, paints_rows, paints_lanes; /* 1: draw_rows.c can for this state, or a kernel */
     struct lmb_draw_kept *kept;    /* corners of triangles; NULL: each is transformed as often as it comes */
     int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
     lmb_stats *stats;
@@ -129,6 +129,7 @@ void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *shape);
 void lmb_draw_rows_begin(lmb_draw_pass *pass);
 uint64_t lmb_draw_rows_test(const tile_job *job, uint64_t mask);
 void lmb_draw_rows_paint(const tile_job *job, uint64_t mask);
+int lmb_draw_lanes_paint(const tile_job *job, uint64_t mask); /* by the state's kernels; 0: these cannot */
 
 /* Which vertex comes n-th; the vertices' count if there is no such. */
 static inline uint32_t draw_index(const lmb_draw_pass *pass, uint32_t n)

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "../lane/kernels.h"
 #include "../raster/texels.h"
 
 #if LMB_DRAW
@@ -28,23 +29,144 @@ static int rows_blend(const lmb_draw_state *s)
     return target == LMB_DRAW_INVERSE_SOURCE_ALPHA ? ROWS_ALPHA : target == LMB_DRAW_ONE ? ROWS_ADD : ROWS_NOT;
 }
 
+static int rows_are_wide(const lmb_draw_target *t)
+{
+    return t->colour.format == LMB_RGBA8 || t->colour.format == LMB_BGRA8;
+}
+
+/* One texture at most, nearest, by the usual modes. */
+static int rows_sample(const lmb_draw_state *s)
+{
+    const lmb_draw_stage *stage = &s->stage[0];
+    return s->stage[1].texture == NULL &&
+           (stage->texture == NULL || (texels_are_rgba8(stage->texture) && stage->texture->filter == LMB_NEAREST &&
+                                       (stage->mode == LMB_DRAW_MODULATE || stage->mode == LMB_DRAW_REPLACE)));
+}
+
+#if LMB_DRAW_LANES
+/* Colours in memory are read as numbers of 32 bits, red the lowest. */
+static int rows_are_little(void)
+{
+    const uint32_t one = 1;
+    uint8_t first;
+    memcpy(&first, &one, 1);
+    return first == 1;
+}
+
+static int rows_lanes_sample(const lmb_draw_state *s)
+{
+    int good = 1;
+    for (int i = 0; i < LMB_DRAW_STAGES; ++i) {
+        const lmb_texture *t = s->stage[i].texture;
+        good &= t == NULL || (texels_are_rgba8(t) && (t->filter != LMB_TRILINEAR || t->levels < 2) &&
+                              s->stage[i].mode <= LMB_DRAW_PLUS);
+    }
+    return good;
+}
+#endif
+
 void lmb_draw_rows_begin(lmb_draw_pass *pass)
 {
     const lmb_draw_state *s = pass->state;
-    const int32_t format = pass->target->colour.format;
-    const lmb_draw_stage *stage = &s->stage[0];
-    const int stages = s->stage[1].texture == NULL &&
-                       (stage->texture == NULL || (texels_are_rgba8(stage->texture) &&
-                                                   stage->texture->filter == LMB_NEAREST &&
-                                                   (stage->mode == LMB_DRAW_MODULATE || stage->mode == LMB_DRAW_REPLACE)));
+    const int seconds = pass->vertices->seconds != NULL || pass->vertices->back_seconds != NULL;
+    const int paints = pass->shows && !seconds && (s->flags & LMB_DRAW_ALPHA_TEST) == 0 && rows_are_wide(pass->target);
     pass->tests_rows = (s->flags & LMB_DRAW_DEPTH_TEST) != 0 && (s->flags & LMB_DRAW_STENCIL) == 0 &&
                        pass->target->depth.format == LMB_DEPTH32F;
-    const int seconds = pass->vertices->seconds != NULL || pass->vertices->back_seconds != NULL;
-    pass->paints_rows = pass->shows && !seconds && (s->flags & LMB_DRAW_ALPHA_TEST) == 0 && s->fog == LMB_DRAW_FOG_NONE && stages &&
-                                (format == LMB_RGBA8 || format == LMB_BGRA8)
-                            ? rows_blend(s)
-                            : ROWS_NOT;
+    pass->paints_rows = paints && s->fog == LMB_DRAW_FOG_NONE && rows_sample(s) ? rows_blend(s) : ROWS_NOT;
+#if LMB_DRAW_LANES
+    pass->paints_lanes = s->kernels != NULL && paints && rows_are_little() && s->fog <= LMB_DRAW_FOG_LINEAR &&
+                         rows_lanes_sample(s);
+#endif
 }
+
+/* --- by lanes ----------------------------------------------------------------------------------------------------- */
+
+#if LMB_DRAW_LANES
+/* Kernels write whole rows of a tile: the target must have them. And of few pixels a row at a time is as fast. */
+enum { ROWS_FEW_TESTED = 6, ROWS_FEW_PAINTED = 3 };
+
+static int rows_are_whole(const tile_job *j)
+{
+    const lmb_draw_target *t = j->pass->target;
+    const lmb_surface *s = t->colour.data != NULL ? &t->colour : &t->depth;
+    return j->x - t->x0 + LMB_TILE <= s->width && j->y - t->y0 + LMB_TILE <= s->height;
+}
+
+static int rows_are_few(uint64_t mask, int few)
+{
+    for (int i = 0; i < few; ++i) {
+        mask &= mask - 1;
+    }
+    return mask == 0;
+}
+
+static lmb_draw_slope rows_slope(const tile_plane *p)
+{
+    const lmb_draw_slope s = {p->at, p->x, p->y};
+    return s;
+}
+
+static uint64_t rows_lanes_test(const tile_job *j, uint8_t *depth, int32_t step, uint64_t mask)
+{
+    lmb_draw_patch p;
+    p.state = j->pass->state;
+    p.d = rows_slope(&j->d);
+    p.d_min = j->shape->d_min;
+    p.d_max = j->shape->d_max;
+    p.d_add = j->shape->d_add;
+    p.depth = (float *)(void *)depth;
+    p.depth_step = step / 4;
+    return p.state->kernels->draw_test(&p, mask);
+}
+
+/* Value i of the kernel's is the corners' value `from`. */
+static void rows_lanes_value(lmb_draw_patch *p, const lmb_draw_shape *s, int i, int from)
+{
+    p->at[i] = s->corner[0]->v[from];
+    p->more1[i] = s->corner[1]->v[from] - p->at[i];
+    p->more2[i] = s->corner[2]->v[from] - p->at[i];
+}
+
+static void rows_lanes_paint(const tile_job *j, uint64_t mask)
+{
+    const lmb_surface *to = &j->pass->target->colour;
+    lmb_draw_patch p;
+    p.state = j->pass->state;
+    p.varies = 0;
+    for (int i = 0; i < 4; ++i) {
+        rows_lanes_value(&p, j->shape, i, CORNER_RED + i);
+        p.varies |= p.more1[i] != 0.0f || p.more2[i] != 0.0f;
+    }
+    for (int i = 0; i < 2 * LMB_DRAW_STAGES; ++i) {
+        if (p.state->stage[i >> 1].texture != NULL) {
+            rows_lanes_value(&p, j->shape, 4 + i, CORNER_UV + i);
+        }
+    }
+    if (p.state->fog != LMB_DRAW_FOG_NONE) {
+        rows_lanes_value(&p, j->shape, LMB_DRAW_VALUES - 1, CORNER_FOG);
+    }
+    p.n1 = rows_slope(&j->n1);
+    p.n2 = rows_slope(&j->n2);
+    p.is_even = j->shape->is_even;
+    if (!p.is_even) {
+        p.q = rows_slope(&j->q);
+    }
+    p.swaps = to->format == LMB_BGRA8;
+    p.colour = (uint8_t *)to->data + (ptrdiff_t)(j->y - j->pass->target->y0) * to->stride_bytes +
+               (ptrdiff_t)(j->x - j->pass->target->x0) * 4;
+    p.colour_stride = to->stride_bytes;
+    p.state->kernels->draw_paint(&p, mask);
+}
+
+int lmb_draw_lanes_paint(const tile_job *j, uint64_t mask)
+{
+    if (!j->pass->paints_lanes || !rows_are_whole(j) || (j->pass->paints_rows && rows_are_few(mask, ROWS_FEW_PAINTED))) {
+        return 0;
+    }
+    rows_lanes_paint(j, mask);
+    return 1;
+}
+#endif
 
 /* --- depth -------------------------------------------------------------------------------------------------------- */
 
@@ -58,6 +180,11 @@ uint64_t lmb_draw_rows_test(const tile_job *j, uint64_t mask)
     const int32_t step = tiled ? LMB_TILE * 4 : t->depth.stride_bytes;
     uint8_t *row = (uint8_t *)t->depth.data + (tiled ? (ptrdiff_t)(y >> 3) * t->depth.stride_bytes + (ptrdiff_t)x * LMB_TILE * 4
                                                      : (ptrdiff_t)y * t->depth.stride_bytes + (ptrdiff_t)x * 4);
+#if LMB_DRAW_LANES
+    if (s->kernels != NULL && !rows_are_few(mask, ROWS_FEW_TESTED) && rows_are_whole(j)) {
+        return rows_lanes_test(j, row, step, mask);
+    }
+#endif
     const uint32_t writes = (s->flags & LMB_DRAW_DEPTH_WRITE) != 0;
     const int less = s->depth_func & 1, equal = s->depth_func >> 1 & 1, greater = s->depth_func >> 2;
     const float per_x = j->d.x;

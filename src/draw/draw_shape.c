@@ -104,12 +104,19 @@ static int shape_enter(shape_edges *out, const lmb_setup *s, int32_t x_24_8, int
 }
 
 /* The pixels of the tile inside, a bit each, of columns x0 .. x1 and rows y0 .. y1. */
-static uint64_t shape_covered(const shape_edges *s, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+static uint64_t shape_covered(const lmb_draw_pass *pass, const shape_edges *s, int32_t x0, int32_t x1, int32_t y0,
+                              int32_t y1)
 {
     uint64_t mask = 0;
     if ((s->ex[0] | s->ey[0] | s->ex[1] | s->ey[1] | s->ex[2] | s->ey[2]) == 0) {
         return ~(uint64_t)0;
     }
+#if LMB_DRAW_LANES
+    if (pass->state->kernels != NULL) { /* outside the box, no pixel is inside all edges, or lmb_draw_tile leaves it out */
+        return pass->state->kernels->draw_cover(s->e, s->ex, s->ey);
+    }
+#endif
+    (void)pass;
     for (int32_t y = y0; y <= y1; ++y) {
         int32_t a = s->e[0] + s->ey[0] * y + s->ex[0] * x0, b = s->e[1] + s->ey[1] * y + s->ex[1] * x0,
                 c = s->e[2] + s->ey[2] * y + s->ex[2] * x0;
@@ -132,7 +139,7 @@ static void shape_fill(const lmb_draw_pass *pass, lmb_draw_shape *shape, const l
             shape_edges edges;
             if (shape_enter(&edges, s, x * 256 + origin_x, y * 256 + origin_y)) {
                 lmb_draw_tile(pass, shape, x, y,
-                              shape_covered(&edges, maxi(x0 - x, 0), mini(x1 - x, LMB_TILE - 1), maxi(y0 - y, 0),
+                              shape_covered(pass, &edges, maxi(x0 - x, 0), mini(x1 - x, LMB_TILE - 1), maxi(y0 - y, 0),
                                             mini(y1 - y, LMB_TILE - 1)));
             }
         }
@@ -427,6 +434,17 @@ int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2])
 
 /* --- points ------------------------------------------------------------------------------------------------------- */
 
+/* The pixels of a tile's columns x0 .. x1 and rows y0 .. y1. */
+static uint64_t shape_rectangle(int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    const uint64_t row = (0xffu >> (7 - x1)) & (0xffu << x0);
+    uint64_t mask = 0;
+    for (int32_t y = y0; y <= y1 && x0 <= x1; ++y) {
+        mask |= row << (y * LMB_TILE);
+    }
+    return mask;
+}
+
 int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner)
 {
     const lmb_draw_plane none = {0.0, 0.0, 0.0};
@@ -447,20 +465,15 @@ int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner)
     shape.is_even = 1;
     const int32_t left = ((at.x_24_8 + pass->middle_x + half) >> 8) - px / 2;
     const int32_t top = ((at.y_24_8 + pass->middle_y + half) >> 8) - px / 2;
-    shape_run run = {pass, &shape, 0, 0, 0};
     const int32_t x0 = maxi(left, pass->x0), x1 = mini(left + px - 1, pass->x1);
     const int32_t y0 = maxi(top, pass->y0), y1 = mini(top + px - 1, pass->y1);
     for (int32_t y = y0 & ~7; y <= y1; y += LMB_TILE) {
         for (int32_t x = x0 & ~7; x <= x1; x += LMB_TILE) {
-            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-                const int32_t at_x = x + (k & 7), at_y = y + (k >> 3);
-                if (at_x >= x0 && at_x <= x1 && at_y >= y0 && at_y <= y1) {
-                    shape_put(&run, at_x, at_y);
-                }
-            }
+            lmb_draw_tile(pass, &shape, x, y,
+                          shape_rectangle(maxi(x0 - x, 0), mini(x1 - x, LMB_TILE - 1), maxi(y0 - y, 0),
+                                          mini(y1 - y, LMB_TILE - 1)));
         }
     }
-    shape_flush(&run);
     return 1;
 }
 #endif

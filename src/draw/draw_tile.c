@@ -5,6 +5,7 @@
 #include "draw_part.h"
 
 #include "../base/poly.h"
+#include "../lane/kernels.h"
 
 #if LMB_DRAW
 #define TILE_LOG2_E 1.44269504f
@@ -453,6 +454,11 @@ void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, 
     if (!shape->is_even) {
         j.q = tile_set(&shape->q, at_x, at_y);
     }
+#if LMB_DRAW_LANES
+    if (lmb_draw_lanes_paint(&j, mask)) {
+        return;
+    }
+#endif
     if (pass->paints_rows) {
         lmb_draw_rows_paint(&j, mask);
     } else {

@@ -25,6 +25,7 @@ static lmb_status draw_glass(const lmb_draw_target *target, const lmb_frame *fra
     pane.colours = lit[0];
     status = status != LMB_OK ? status : lmb_draw_state_init(&s, WIDTH, HEIGHT);
     status = status != LMB_OK ? status : lmb_draw_view(&s, &frame->view, &here);
+    s.kernels = lmb_kernels_pick();
     s.flags = LMB_DRAW_DEPTH_TEST | LMB_DRAW_BLEND;
     s.blend_source[0] = LMB_DRAW_SOURCE_ALPHA;
     s.blend_target[0] = LMB_DRAW_INVERSE_SOURCE_ALPHA;

@@ -352,6 +352,7 @@ static void fill_draw_state(void *out, int how)
     s->area_pattern = how & 64 ? pool_block(128) : NULL;
     s->flags = (uint32_t)how * 37u & LMB_DRAW_FLAGS;
     s->fog = how >> 2 & 3;
+    s->kernels = how & 4 ? lmb_kernels_pick() : NULL;
     s->planes = how & 16 ? 5 : 0;
     s->line_px = s->point_px = (uint8_t)(1 + how % 9);
     if (how & 32) {

@@ -487,7 +487,7 @@ static int drawing_make(drawing *d, report *r)
 static void drawing_begin(drawing *d, const draw_options *o)
 {
     (void)lmb_draw_state_init(&d->state, WIDE, HIGH);
-    (void)o;
+    d->state.kernels = o->kernels;
     memset(&d->vertices, 0, sizeof d->vertices);
     memset(&d->indices, 0, sizeof d->indices);
     memset(&d->texture, 0, sizeof d->texture);
@@ -520,7 +520,7 @@ static double measure(drawing *d, const draw_case *c, double seconds, double *st
 
 static void print_line(const draw_case *c, double least, double store, int frames, const draw_options *o)
 {
-    const char *backend = o->kernels != NULL ? lmb_kernels_name(o->kernels) : "none";
+    const char *backend = o->kernels != NULL ? lmb_kernels_name(o->kernels) : "plain";
     if (o->is_quiet) {
         return;
     }

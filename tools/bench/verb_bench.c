@@ -32,7 +32,7 @@ typedef struct options {
     const char *cases[CASES];
     int32_t case_count, threads;
     int32_t group; /* of hard_groups; -1: all */
-    int linear, culled, binned, json, is_quiet, is_verbose;
+    int linear, culled, binned, plain, json, is_quiet, is_verbose;
     float seconds; /* of each case */
 } options;
 
@@ -371,6 +371,7 @@ static const option_row draw_rows[] = {
      .help = "part of a case's name (default: all)"},
     ROW_FOLDER("bunny.mesh and sponza.mesh; without it cases of these are left out"),
     OPTION_BACKEND_ROW(options, kernels),
+    {.name = "--plain", .kind = OPTION_FLAG, AT(plain), .help = "without kernels, in plain C"},
     ROW_SECONDS("of each case (default 1)"),
     ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
 };
@@ -438,8 +439,8 @@ static int run_gather(const options *o, report *r)
 
 static draw_options draw_of(const options *o)
 {
-    const draw_options draw = {o->cases,   (int)o->case_count, o->folder,  o->kernels,
-                               (double)o->seconds, o->json,   o->is_quiet};
+    const draw_options draw = {o->cases, (int)o->case_count, o->folder, o->plain ? NULL : o->kernels,
+                               (double)o->seconds, o->json, o->is_quiet};
     return draw;
 }
 
@@ -532,7 +533,7 @@ static const struct workload {
      run_draw,
      0,
      1.0f,
-     0,
+     1,
      {.verb = "bench draw",
       .usage = "bench draw [CASE...] [options]",
       .about =
