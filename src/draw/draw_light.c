@@ -7,7 +7,7 @@
 
 #include "../base/poly.h"
 
-#if LMB_DRAW
+#if LMB_DRAW && !LMB_DRAW_SMALL
 /* A vertex in the eye's space. */
 typedef struct light_place {
     lmb_vec3 at, normal, to_eye;
