@@ -1,7 +1,7 @@
 /* render_vertices.c: a frame's light at vertices, for lmb_draw_list. Layer 10.
  *
- * Vertices are the pixels of a tile that lie apart, of no triangle. Without a normal a vertex takes the mean of the light on all
- * planes through it. A light gives to it a quarter of what a plane that faces the light receives: the mean of a cosine
+ * Vertices are the pixels of a tile that lie apart, of no triangle. Without a normal a vertex takes the mean of
+ * the light on all planes through it. A light gives to it a quarter of what a plane that faces the light receives: the mean of a cosine
  * over all ways, where negative ones count as 0. Of other light, it is the mean of six planes. */
 #include <string.h>
 
@@ -113,8 +113,9 @@ static lmb_status vertex_add_many_lights(const vertex_job *j, float share)
         f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, f->many_lights_error, 1, 0, &s->counts};
     memset(&s->direct, 0, sizeof s->direct);
     const lmb_status status =
-        requires_many_lights(f) ? lmb_many_lights_direct_tile(&s->direct, f->kernels, &s->many_lights, &s->sparse.together, &query)
-                                : LMB_OK;
+        requires_many_lights(f)
+            ? lmb_many_lights_direct_tile(&s->direct, f->kernels, &s->many_lights, &s->sparse.together, &query)
+            : LMB_OK;
     vertex_add(&s->radiance, &s->direct, share);
     return status;
 }

@@ -65,6 +65,7 @@ static void each_next(each_job *j)
     each_space *s = j->s;
     (void)lmb_draw_state_init(&j->state, GOLDEN_WIDTH, GOLDEN_HEIGHT);
     (void)lmb_draw_pixels(&j->state);
+    j->state.kernels = golden_kernels;
     for (int i = 0; i < EACH_CORNERS; ++i) {
         const float *first = s->corners[i & ~3];
         for (int k = 0; k < 3; ++k) {

@@ -180,7 +180,8 @@ void ref_draw_blends(void)
         }
         s.flags = LMB_DRAW_BLEND;
         s.blend_source[0] = (uint8_t)(n % 15), s.blend_source[1] = (uint8_t)(n / 15 % 15);
-        s.blend_target[0] = (uint8_t)(n / 15 % 15 == 10 ? 1 : n / 15 % 15), s.blend_target[1] = (uint8_t)(n % 15 == 10 ? 3 : n % 15);
+        s.blend_target[0] = (uint8_t)(n / 15 % 15 == 10 ? 1 : n / 15 % 15);
+        s.blend_target[1] = (uint8_t)(n % 15 == 10 ? 3 : n % 15);
         s.blend_equation[0] = (uint8_t)(test_random(&r) % 5), s.blend_equation[1] = (uint8_t)(test_random(&r) % 5);
         for (int layer = 0; layer < 3; ++layer) {
             for (int i = 0; i < 4; ++i) {
