@@ -12,7 +12,7 @@
 
 #if LMB_DRAW
 enum { QUICK_24_8 = 16 * 256 /* a side of the box of corners that are small */ };
-enum { QUICK_AHEAD = 24 /* indices */ };
+enum { QUICK_AHEAD = 24 /* indices */, QUICK_KEPT = 32 };
 #define QUICK_ABSURD 1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
@@ -25,7 +25,7 @@ typedef struct lmb_draw_late {
     lmb_draw_corner corner[3];
 } lmb_draw_late;
 
-void lmb_draw_quick_begin(lmb_draw_pass *pass, lmb_draw_kept *kept)
+void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_kept few[DRAW_FEW])
 {
     const lmb_draw_state *s = pass->state;
     const lmb_draw_vertices *v = pass->vertices;
@@ -38,10 +38,10 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, lmb_draw_kept *kept)
         return;
     }
     pass->fog_is_w = !has_axis || (axis[0] == m[3] && axis[1] == m[7] && axis[2] == m[11] && axis[3] == m[15]);
-    for (int i = 0; i < DRAW_KEPT; ++i) {
-        kept->corner[i].name = 0;
+    for (int i = 0; i < DRAW_FEW; ++i) {
+        few[i].name = 0;
     }
-    pass->kept = kept;
+    pass->few = few;
 }
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
@@ -87,7 +87,7 @@ static int32_t quick_to_24_8(float v)
     return whole - ((float)whole > v);
 }
 
-static void quick_place(struct draw_kept_corner *out, const lmb_draw_pass *pass, uint32_t i)
+static void quick_place(draw_kept *out, const lmb_draw_pass *pass, uint32_t i)
 {
     const float *m = pass->state->to_clip.m, *range = pass->state->depth_range;
     const float *from = (const float *)pass->vertices->positions + 3 * (size_t)i;
@@ -105,7 +105,7 @@ static void quick_place(struct draw_kept_corner *out, const lmb_draw_pass *pass,
     out->inverse = inverse;
 }
 
-NOINLINE void quick_renew(struct draw_kept_corner *at, const lmb_draw_pass *pass, uint32_t i)
+NOINLINE void quick_renew(draw_kept *at, const lmb_draw_pass *pass, uint32_t i)
 {
     quick_place(at, pass, i);
     for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
@@ -117,9 +117,9 @@ NOINLINE void quick_renew(struct draw_kept_corner *at, const lmb_draw_pass *pass
 }
 
 /* Vertex i, whose texture coordinates must be sane too. */
-static inline struct draw_kept_corner quick_corner(const lmb_draw_pass *pass, uint32_t i)
+static inline draw_kept quick_corner(draw_kept *kept, uint32_t count, const lmb_draw_pass *pass, uint32_t i)
 {
-    struct draw_kept_corner *at = &pass->kept->corner[i % DRAW_KEPT];
+    draw_kept *at = &kept[i & (count - 1)];
     if (at->name != i + 1) {
         quick_renew(at, pass, i);
     }
@@ -328,7 +328,7 @@ static void quick_fill(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t a
     }
 }
 
-static void quick_set_corner(lmb_draw_late *late, int i, const struct draw_kept_corner *c)
+static void quick_set_corner(lmb_draw_late *late, int i, const draw_kept *c)
 {
     late->at[i].x_24_8 = c->x;
     late->at[i].y_24_8 = c->y;
@@ -349,8 +349,8 @@ MESH_HINT void quick_ask_depth(const lmb_draw_pass *pass, int32_t x, int32_t y)
 }
 
 /* 1 or 0: something may show, or not; -1: it is to be drawn the long way. */
-static int quick_draw(const lmb_draw_pass *pass, const struct draw_kept_corner *a, const struct draw_kept_corner *b,
-                      const struct draw_kept_corner *c, uint32_t flat)
+static int quick_draw(const lmb_draw_pass *pass, const draw_kept *a, const draw_kept *b,
+                      const draw_kept *c, uint32_t flat)
 {
     const lmb_draw_state *s = pass->state;
     const int32_t x_min = mini(a->x, mini(b->x, c->x)), x_max = maxi(a->x, maxi(b->x, c->x));
@@ -395,18 +395,18 @@ MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
     }
 }
 
-int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
+/* kept: `size` corners, a power of two. */
+static inline int quick_triangle(const lmb_draw_pass *pass, draw_kept *kept, uint32_t size, const uint32_t order[3],
+                                 uint32_t flat)
 {
     const uint32_t count = pass->vertices->count;
-    const uint32_t i = draw_index(pass, a), j = draw_index(pass, b), k = draw_index(pass, c),
-                   last = flat == c ? k : draw_index(pass, flat);
+    const uint32_t i = draw_index(pass, order[0]), j = draw_index(pass, order[1]), k = draw_index(pass, order[2]),
+                   last = flat == order[2] ? k : draw_index(pass, flat);
     if (i >= count || j >= count || k >= count || last >= count) {
         return 0;
     }
-    quick_ask(pass, a + QUICK_AHEAD);
-    quick_ask(pass, b + QUICK_AHEAD);
-    quick_ask(pass, c + QUICK_AHEAD);
-    const struct draw_kept_corner p = quick_corner(pass, i), q = quick_corner(pass, j), r = quick_corner(pass, k);
+    const draw_kept p = quick_corner(kept, size, pass, i), q = quick_corner(kept, size, pass, j),
+                    r = quick_corner(kept, size, pass, k);
     int drawn = 0;
     if (((p.out | q.out | r.out) & DRAW_DROPPED) != 0) {
         return 0;
@@ -422,5 +422,29 @@ int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c
         pass->stats->triangles_drawn += (uint32_t)drawn;
     }
     return 1;
+}
+
+int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
+{
+    const uint32_t order[3] = {a, b, c};
+    return quick_triangle(pass, pass->few, DRAW_FEW, order, flat);
+}
+
+uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+{
+    draw_kept kept[QUICK_KEPT];
+    for (int k = 0; k < QUICK_KEPT; ++k) {
+        kept[k].name = 0;
+    }
+    for (; i < count; i += 3) {
+        const uint32_t order[3] = {i - 2, i - 1, i};
+        quick_ask(pass, i - 2 + QUICK_AHEAD);
+        quick_ask(pass, i - 1 + QUICK_AHEAD);
+        quick_ask(pass, i + QUICK_AHEAD);
+        if (!quick_triangle(pass, kept, QUICK_KEPT, order, i)) {
+            break;
+        }
+    }
+    return i;
 }
 #endif
