@@ -240,6 +240,7 @@ lmb_status lmb_draw_view(lmb_draw_state *inout, const lmb_view *view, const lmb_
  * d. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_draw_pixels(lmb_draw_state *inout);
 
+#if !LMB_DRAW_SMALL
 /* lmb_draw_light: light `vertices` into the colours that lmb_draw_list takes. With the library's own log2 and exp2.
  *
  *   out      colours are needed, the others may be NULL. May be vertices->colours.
@@ -248,6 +249,7 @@ lmb_status lmb_draw_pixels(lmb_draw_state *inout);
  * written. */
 lmb_status lmb_draw_light(const lmb_draw_lit *out, const lmb_draw_lighting *how, const lmb_draw_vertices *vertices,
                           const float *normals);
+#endif
 
 /* lmb_draw_list: draw primitives.
  *

@@ -7,7 +7,7 @@
 
 #include "../base/poly.h"
 
-#if LMB_DRAW
+#if LMB_DRAW && !LMB_DRAW_SMALL
 /* A vertex in the eye's space. */
 typedef struct light_place {
     lmb_vec3 at, normal, to_eye;
@@ -46,16 +46,16 @@ static light_ray light_ray_to(const lmb_draw_lamp *lamp, lmb_vec3 at)
 }
 
 /* Add one light: what is matt, and highlights. */
-static void light_add(float matt[3], float shine[3], const lmb_draw_lamp *lamp, const lmb_draw_material *m,
+static void light_add(float matt[3], float highlight[3], const lmb_draw_lamp *lamp, const lmb_draw_material *m,
                       const light_place *p)
 {
     const light_ray ray = light_ray_to(lamp, p->at);
     const float facing = maxf(dot3(p->normal, ray.to), 0.0f);
-    const float gloss =
+    const float power =
         facing > 0.0f ? light_power(dot3(p->normal, normalize3(add3(ray.to, p->to_eye))), m->shininess) : 0.0f;
     for (int c = 0; c < 3; ++c) {
         matt[c] += ray.strength * (lamp->ambient[c] * m->ambient[c] + facing * (lamp->diffuse[c] * m->diffuse[c]));
-        shine[c] += ray.strength * (gloss * (lamp->specular[c] * m->specular[c]));
+        highlight[c] += ray.strength * (power * (lamp->specular[c] * m->specular[c]));
     }
 }
 
@@ -64,21 +64,21 @@ static uint8_t light_code(float v) { return (uint8_t)(minf(maxf(v, 0.0f), 1.0f) 
 static void light_side(uint8_t *colour, uint8_t *second, const lmb_draw_lighting *how, const lmb_draw_material *m,
                        const light_place *p)
 {
-    float matt[3], shine[3] = {0.0f, 0.0f, 0.0f};
+    float matt[3], highlight[3] = {0.0f, 0.0f, 0.0f};
     for (int c = 0; c < 3; ++c) {
         matt[c] = m->emission[c] + m->ambient[c] * how->ambient[c];
     }
     for (uint32_t i = 0; i < how->count; ++i) {
-        light_add(matt, shine, &how->lamps[i], m, p);
+        light_add(matt, highlight, &how->lamps[i], m, p);
     }
     for (int c = 0; c < 3; ++c) {
-        colour[c] = light_code(second != NULL ? matt[c] : matt[c] + shine[c]);
+        colour[c] = light_code(second != NULL ? matt[c] : matt[c] + highlight[c]);
     }
     colour[3] = light_code(m->diffuse[3]);
     if (second != NULL) {
-        second[0] = light_code(shine[0]);
-        second[1] = light_code(shine[1]);
-        second[2] = light_code(shine[2]);
+        second[0] = light_code(highlight[0]);
+        second[1] = light_code(highlight[1]);
+        second[2] = light_code(highlight[2]);
         second[3] = 0;
     }
 }

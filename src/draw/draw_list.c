@@ -36,7 +36,7 @@ static int list_place(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t 
     const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
     out->v[CORNER_FOG] = v->fogs != NULL ? v->fogs[i] : has_axis ? list_plane(axis, p) : out->v[CORNER_W];
     sane &= out->v[CORNER_FOG] > -LIST_ABSURD && out->v[CORNER_FOG] < LIST_ABSURD;
-    for (int k = 0; k < LMB_DRAW_PLANES; ++k) {
+    for (int k = 0; DRAW_FULL && k < LMB_DRAW_PLANES; ++k) {
         const int on = (s->planes >> k & 1u) != 0;
         out->v[CORNER_PLANES + k] = on ? list_plane(s->plane[k], p) : 0.0f;
         sane &= out->v[CORNER_PLANES + k] > -LIST_ABSURD && out->v[CORNER_PLANES + k] < LIST_ABSURD;
@@ -117,17 +117,17 @@ typedef struct list_primitive {
 static int list_draw_corners(const lmb_draw_pass *pass, const list_primitive *p, lmb_draw_corner corner[DRAW_CORNERS])
 {
     const lmb_draw_state *s = pass->state;
-    const int has_back = pass->vertices->back_colours != NULL || pass->vertices->back_seconds != NULL;
-    const int is_plain = s->polygon_mode[0] == LMB_DRAW_FILL && s->polygon_mode[1] == LMB_DRAW_FILL;
+    const int has_back = DRAW_FULL && (pass->vertices->back_colours != NULL || pass->vertices->back_seconds != NULL);
+    const int is_plain = !DRAW_FULL || (s->polygon_mode[0] == LMB_DRAW_FILL && s->polygon_mode[1] == LMB_DRAW_FILL);
     const int back = p->n == 3 && (has_back || !is_plain) && list_is_back(pass, corner);
     for (int i = 0; i < p->n; ++i) {
         list_paint(&corner[i], pass, (s->flags & LMB_DRAW_FLAT) != 0 ? p->flat : p->at[i], back);
     }
-    if (p->n == 3 && s->polygon_mode[back] != LMB_DRAW_FILL) {
+    if (DRAW_FULL && p->n == 3 && s->polygon_mode[back] != LMB_DRAW_FILL) {
         const int culled = (s->flags & (back ? LMB_DRAW_CULL_BACK : LMB_DRAW_CULL_FRONT)) != 0;
         return culled ? 0 : list_outline(pass, corner, p->sides, s->polygon_mode[back]);
     }
-    return p->n == 3   ? lmb_draw_triangle(pass, corner)
+    return !DRAW_FULL || p->n == 3 ? lmb_draw_triangle(pass, corner)
            : p->n == 2 ? lmb_draw_line(pass, corner)
                        : lmb_draw_point(pass, corner);
 }
@@ -163,7 +163,7 @@ static void list_draw(const lmb_draw_pass *pass, const list_primitive *listed)
 static void list_triangle(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat, int sides)
 {
     const list_primitive p = {{a, b, c}, flat, 3, sides};
-    if (pass->few == NULL || !lmb_draw_quick(pass, a, b, c, flat)) {
+    if (!DRAW_FULL || pass->few == NULL || !lmb_draw_quick(pass, a, b, c, flat)) {
         list_draw(pass, &p);
     }
 }
@@ -197,7 +197,7 @@ static void list_fan(const lmb_draw_pass *pass, int32_t primitive, uint32_t coun
 static void list_triangles(const lmb_draw_pass *pass, uint32_t count)
 {
     for (uint32_t i = 2; i < count; i += 3) {
-        i = pass->few != NULL ? lmb_draw_quick_run(pass, i, count) : i;
+        i = DRAW_FULL && pass->few != NULL ? lmb_draw_quick_run(pass, i, count) : i;
         if (i < count) {
             const list_primitive p = {{i - 2, i - 1, i}, i, 3, SIDES_ALL | SIDES_CHOSEN};
             *pass->dashed = 0;
@@ -319,7 +319,7 @@ static lmb_status list_check(const lmb_draw_target *target, const lmb_draw_state
                              const lmb_draw_vertices *vertices, int32_t primitive, const lmb_draw_indices *indices)
 {
     if (target == NULL || state == NULL || vertices == NULL || primitive < LMB_DRAW_TRIANGLES ||
-        primitive > LMB_DRAW_POLYGON) {
+        primitive > LMB_DRAW_POLYGON || (!DRAW_FULL && primitive >= LMB_DRAW_LINES && primitive <= LMB_DRAW_POINTS)) {
         return LMB_ERR_ARG;
     }
     lmb_status status = lmb_draw_check_target(target);
@@ -346,14 +346,16 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
     pass.stats = stats;
     pass.dashed = &dashed;
     list_set_pass(&pass);
-    lmb_draw_rows_begin(&pass);
-    if (primitive < LMB_DRAW_LINES) {
+    if (DRAW_FULL) {
+        lmb_draw_rows_begin(&pass);
+    }
+    if (DRAW_FULL && primitive < LMB_DRAW_LINES) {
         lmb_draw_quick_begin(&pass, few);
     }
     const uint32_t count = indices != NULL ? indices->count : vertices->count;
-    if (primitive == LMB_DRAW_POINTS) {
+    if (DRAW_FULL && primitive == LMB_DRAW_POINTS) {
         list_points(&pass, count);
-    } else if (primitive >= LMB_DRAW_LINES && primitive <= LMB_DRAW_LINE_LOOP) {
+    } else if (DRAW_FULL && primitive >= LMB_DRAW_LINES && primitive <= LMB_DRAW_LINE_LOOP) {
         list_lines(&pass, primitive, count);
     } else {
         list_areas(&pass, primitive, count);

@@ -11,6 +11,8 @@
 #include "../base/vec.h"
 
 #if LMB_DRAW
+enum { DRAW_FULL = !LMB_DRAW_SMALL };
+
 /* Values of a corner: all are linear in clip space. */
 enum {
     CORNER_X = 0,

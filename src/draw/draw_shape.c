@@ -71,7 +71,7 @@ static float shape_depth_step(const lmb_draw_pass *pass, float d)
 static float shape_offset(const lmb_draw_pass *pass, const lmb_setup *e)
 {
     const lmb_draw_state *s = pass->state;
-    if (s->offset_slope == 0.0f && s->offset_units == 0.0f) {
+    if (!DRAW_FULL || (s->offset_slope == 0.0f && s->offset_units == 0.0f)) {
         return 0.0f;
     }
     const float slope = maxf(absf((float)e->d_x), absf((float)e->d_y));

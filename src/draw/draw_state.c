@@ -213,9 +213,19 @@ static int state_has_good_choices(const lmb_draw_state *s)
     return good;
 }
 
+/* What this build has. */
+static int state_is_here(const lmb_draw_state *s)
+{
+    const uint32_t flags = LMB_DRAW_STENCIL | LMB_DRAW_LOGIC;
+    return DRAW_FULL || ((s->flags & flags) == 0 && s->fog == LMB_DRAW_FOG_NONE && s->planes == 0 &&
+                         s->offset_slope == 0.0f && s->offset_units == 0.0f && s->area_pattern == NULL &&
+                         (s->polygon_mode[0] | s->polygon_mode[1]) == LMB_DRAW_FILL &&
+                         s->stage[0].mode < LMB_DRAW_COMBINE && s->stage[1].mode < LMB_DRAW_COMBINE);
+}
+
 lmb_status lmb_draw_check_state(const lmb_draw_state *s, const lmb_draw_target *t)
 {
-    if (!state_has_good_choices(s) || !state_has_good_numbers(s) || !state_has_good_places(s) ||
+    if (!state_is_here(s) || !state_has_good_choices(s) || !state_has_good_numbers(s) || !state_has_good_places(s) ||
         ((s->flags & LMB_DRAW_DEPTH_TEST) != 0 && t->depth.data == NULL) ||
         ((s->flags & LMB_DRAW_STENCIL) != 0 && t->stencil == NULL)) {
         return LMB_ERR_ARG;

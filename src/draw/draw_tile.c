@@ -105,7 +105,7 @@ static int tile_test(const tile_job *j, int k)
 {
     const lmb_draw_state *s = j->pass->state;
     const int depth = (s->flags & LMB_DRAW_DEPTH_TEST) != 0;
-    if ((s->flags & LMB_DRAW_STENCIL) == 0) {
+    if (!DRAW_FULL || (s->flags & LMB_DRAW_STENCIL) == 0) {
         return !depth || tile_depth_test(j, k);
     }
     uint8_t *at = tile_stencil_place(j, k);
@@ -246,7 +246,7 @@ static void tile_stages(uint8_t inout[4], const tile_job *j, const tile_share *s
         }
     }
     for (int i = 0; i < LMB_DRAW_STAGES; ++i) {
-        if (stage[i].texture != NULL && stage[i].mode == LMB_DRAW_COMBINE) {
+        if (DRAW_FULL && stage[i].texture != NULL && stage[i].mode == LMB_DRAW_COMBINE) {
             lmb_draw_combine_codes(inout, j->pass->state, i, first, (const uint8_t(*)[4])texel);
         } else if (stage[i].texture != NULL) {
             tile_combine(inout, &stage[i], texel[i]);
@@ -263,11 +263,11 @@ static void tile_colour(uint8_t out[4], const tile_job *j, int k)
         out[i] = tile_code(draw_value(j->shape, CORNER_RED + i, share.b1, share.b2));
     }
     tile_stages(out, j, &share);
-    for (int i = 0; i < 3 && adds; ++i) {
+    for (int i = 0; DRAW_FULL && i < 3 && adds; ++i) {
         const uint8_t second = tile_code(draw_value(j->shape, CORNER_SECOND + i, share.b1, share.b2));
         out[i] = (uint8_t)mini(out[i] + second, 255);
     }
-    if (s->fog != LMB_DRAW_FOG_NONE) {
+    if (DRAW_FULL && s->fog != LMB_DRAW_FOG_NONE) {
         const uint8_t left = tile_fog(s, draw_value(j->shape, CORNER_FOG, share.b1, share.b2));
         for (int i = 0; i < 3; ++i) {
             out[i] = (uint8_t)draw_between(out[i], s->fog_colour[i], left);
@@ -356,7 +356,7 @@ static void tile_store(const tile_job *j, int k, const uint8_t colour[4])
     const int32_t x = j->x + (k & 7), y = j->y + (k >> 3), format = t->colour.format;
     uint8_t *at = (uint8_t *)t->colour.data + (ptrdiff_t)(y - t->y0) * t->colour.stride_bytes +
                   (ptrdiff_t)(x - t->x0) * lmb_pixel_bytes(format);
-    const int dithers = (s->flags & LMB_DRAW_DITHER) != 0, logic = (s->flags & LMB_DRAW_LOGIC) != 0;
+    const int dithers = (s->flags & LMB_DRAW_DITHER) != 0, logic = DRAW_FULL && (s->flags & LMB_DRAW_LOGIC) != 0;
     uint32_t channels = s->colour_mask, bits;
     const uint32_t was = lmb_draw_pixel_bits(format, at);
     if ((s->flags & LMB_DRAW_BLEND) != 0 && !logic) {
@@ -427,7 +427,7 @@ void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, 
     if (x < pass->x0 || y < pass->y0 || x + LMB_TILE - 1 > pass->x1 || y + LMB_TILE - 1 > pass->y1) {
         mask &= tile_inside(pass, x, y);
     }
-    if (shape->corners == 3 && pass->state->area_pattern != NULL) {
+    if (DRAW_FULL && shape->corners == 3 && pass->state->area_pattern != NULL) {
         mask &= tile_pattern(pass->state->area_pattern, x, y);
     }
     if (mask == 0) {
@@ -441,12 +441,12 @@ void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, 
         j.d = tile_set(&shape->d, at_x, at_y);
     }
     if (!alpha) {
-        mask = pass->tests_rows ? lmb_draw_rows_test(&j, mask) : tile_tests(&j, mask);
+        mask = DRAW_FULL && pass->tests_rows ? lmb_draw_rows_test(&j, mask) : tile_tests(&j, mask);
     }
     if (mask == 0 || (!pass->shows && !alpha)) {
         return;
     }
-    if (shape->late != NULL) {
+    if (DRAW_FULL && shape->late != NULL) {
         lmb_draw_finish(pass, shape);
     }
     j.n1 = tile_set(&shape->n1, at_x, at_y);
@@ -459,7 +459,7 @@ void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, 
         return;
     }
 #endif
-    if (pass->paints_rows) {
+    if (DRAW_FULL && pass->paints_rows) {
         lmb_draw_rows_paint(&j, mask);
     } else {
         tile_draw_tested(&j, mask);

@@ -39,6 +39,9 @@ lmb_status lmb_draw_check_vertices(const lmb_draw_vertices *v)
     if (v->position_format > LMB_DRAW_FIXED || v->uv_format > LMB_DRAW_FIXED) {
         return LMB_ERR_FORMAT;
     }
+    if (!DRAW_FULL && (v->seconds != NULL || v->back_colours != NULL || v->back_seconds != NULL || v->fogs != NULL)) {
+        return LMB_ERR_ARG;
+    }
     if ((v->positions == NULL && v->count > 0) || v->count > UINT32_MAX - 4) {
         return LMB_ERR_ARG;
     }
