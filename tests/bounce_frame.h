@@ -8,7 +8,7 @@
 
 static uint32_t map_memory[FACES * MAP * MAP * 2], depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
 static uint32_t tree_memory[FACES * (MAP * MAP * 19 + 64)], bvh_memory[BVH * 29 + 2048];
-static uint32_t element_memory[ELEMENTS * 44 + 64];
+static uint32_t element_memory[ELEMENTS * 45 + 64];
 static lmb_band_scratch scratch;
 static lmb_render render;
 static float picture[FRAME * FRAME * 3];

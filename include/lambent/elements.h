@@ -17,12 +17,13 @@
 #ifndef LMB_ELEMENTS_H
 #define LMB_ELEMENTS_H
 
+#include "live.h"
 #include "many_lights.h"
 #include "tree.h"
 
 enum { LMB_MAX_BOUNCES = 64 };
 
-/* One side of a piece of a triangle, or of several small triangles that lie together. 96 bytes. */
+/* One side of a piece of a triangle, or of several small triangles that lie together. 100 bytes. */
 typedef struct lmb_element {
     lmb_vec3 corner[3];           /* of the piece, m; of several, of the largest */
     float albedo[3], emission[3]; /* means over it; emission: radiance, W/(sr m2) */
@@ -30,6 +31,7 @@ typedef struct lmb_element {
     float area;                   /* m2; of several, their sum */
     float reach2;                 /* its farthest corner from its middle, squared, m2; 0: several */
     uint32_t key;                 /* side of space it faces, then the place of its middle along a Z curve */
+    uint32_t id;                  /* its triangle; of several, the largest */
 } lmb_element;
 
 /* The elements, in the caller's memory. */
@@ -54,7 +56,7 @@ extern "C" {
 #endif
 
 /* lmb_elements_bytes: memory of n elements and their tree; n: a power of 4, 64 .. 2^24. 0 where that cannot be.
- * 168 bytes each. */
+ * 172 bytes each. */
 size_t lmb_elements_bytes(uint32_t n);
 
 /* lmb_elements_init: lay the elements out in `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
@@ -103,6 +105,19 @@ lmb_status lmb_many_lights_elements_done(lmb_elements *inout);
  * before times r: then the estimate is exact. It is exact from the start where all walls are lit and reflect alike.
  * LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_rest(lmb_elements *inout, const lmb_tree *lights, int32_t bounces);
+
+/* With lambent/live.h, elements light each other, and pixels, as single points:
+ *
+ * lmb_elements_live: the elements' flux, as lmb_elements_build or lmb_elements_send left it, becomes the points of
+ * live->element; lmb_live_build then puts them into the tree. LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY.
+ * lmb_elements_receive_live: as lmb_elements_receive, from all that is in the tree. `scratch`: one a thread.
+ * lmb_elements_rest_live: as lmb_elements_rest; `live`: the tree that the last bounce received light from; if it holds
+ * first points of maps, these sent light too. */
+lmb_status lmb_elements_live(lmb_live *inout, const lmb_elements *elements);
+lmb_status lmb_elements_receive_live(const lmb_elements *elements, const lmb_kernels *kernels,
+                                     lmb_live_scratch *scratch, const lmb_live *live, const lmb_bvh *bvh,
+                                     int32_t first, int32_t past);
+lmb_status lmb_elements_rest_live(lmb_elements *inout, const lmb_live *live, int32_t bounces);
 
 /* lmb_elements_send: albedo x `fresh` becomes the tree's flux; with `last`, that of all bounces together, and once more
  * the flux of surfaces that emit light. LMB_OK or LMB_ERR_ARG. */

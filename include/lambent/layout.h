@@ -37,6 +37,7 @@
 #define lmb_delta_tile              LMB_LAYOUT(lmb_delta_tile)
 #define lmb_direct_tile             LMB_LAYOUT(lmb_direct_tile)
 #define lmb_elements_receive        LMB_LAYOUT(lmb_elements_receive)
+#define lmb_elements_receive_live   LMB_LAYOUT(lmb_elements_receive_live)
 #define lmb_frame_bytes             LMB_LAYOUT(lmb_frame_bytes)
 #define lmb_frame_init              LMB_LAYOUT(lmb_frame_init)
 #define lmb_gather_cut              LMB_LAYOUT(lmb_gather_cut)

@@ -1,6 +1,6 @@
 /* live.h: bounced light at single points, at a few microseconds a point: for light that moves.                   [ours]
  *
- *     lmb_live_init(&live, faces, side, memory, lmb_live_bytes(faces, side));
+ *     lmb_live_init(&live, faces, side, elements, memory, lmb_live_bytes(faces, side, elements));
  *     lmb_live_collect(&live, ...);       each face of each light's shadow map; then live.faces is set
  *     lmb_live_build(&live, scene);
  *     lmb_live_receive(light, kernels, &scratch, &live, &bvh, &receiver);         at any points, on any threads
@@ -38,8 +38,9 @@ typedef struct lmb_live_point {
     uint32_t id;               /* the triangle */
     uint32_t key;              /* its cell of the world and its side, once the tree is built */
     uint16_t column, row;      /* the block */
-    uint16_t face, light;
+    uint16_t face, light;      /* LMB_LIVE_ELEMENT as the face: column + 65,536 row is an element */
 } lmb_live_point;
+#define LMB_LIVE_ELEMENT 0xffffu
 
 /* One face of a light's shadow map, as it was collected. */
 typedef struct lmb_live_face {
@@ -73,14 +74,17 @@ typedef struct lmb_live_chunk {
 typedef struct lmb_live {
     const lmb_scene *scene; /* that it was built from */
     lmb_live_face *face;
-    lmb_live_point *point;  /* face_cap x side x side: each block has its own place */
+    lmb_live_point *point;  /* face_cap x side x side: each block has its own place; then element_cap of elements */
+    const struct lmb_element *element; /* whose shapes they have */
     lmb_live_point *sorted; /* those that are lit, along the cells */
     lmb_live_chunk *chunk;  /* those of the top first */
     uint32_t face_cap, faces, chunk_cap, chunks, top; /* top: nodes of the first level */
+    uint32_t element_cap, elements; /* points of elements */
     uint32_t points;        /* sorted */
     uint32_t merged;        /* nodes whose parts found no room: they count whole, until a point is near */
     int32_t side;           /* blocks a side of a face, at most */
     int32_t strata;         /* 1 .. LMB_LIVE_STRATA; 64 */
+    double sent[3];         /* flux of the maps' first points, W */
     float split;            /* a node is divided at points nearer than the root of this times its radius; 16 */
 } lmb_live;
 
@@ -121,6 +125,8 @@ typedef struct lmb_live_scratch {
     uint32_t leaf[LMB_LIVE_CUT];               /* nodes that were near and have no nodes below: 16 times the chunk's */
     int32_t leaves;                            /* number in the cut, plus the lane */
     int32_t targets, is_full;
+    lmb_vec3 off;      /* m, from an inner edge that the receiver lies in, */
+    float lift;        /* and how far that is from the surface it meets there; 0: nowhere */
     lmb_live_rays rays;
     lmb_live_branch waiting[LMB_LIVE_STACK];
     uint32_t last[LMB_LIVE_LAST]; /* of the BVH, plus 1: those that blocked much lately, which are tested first */
@@ -139,11 +145,12 @@ extern "C" {
  * where that would be over 2^18 blocks in all. */
 int32_t lmb_live_side(uint32_t faces, int32_t size);
 
-/* lmb_live_bytes: memory for `faces` faces of side x side blocks; 0 where that cannot be. 232 bytes a block.
+/* lmb_live_bytes: memory for `faces` faces of side x side blocks and 0 .. 2^24 elements; 0 where that cannot be. 232
+ * bytes a block or element.
  * lmb_live_init: lay a tree out in it, aligned as for a uint64_t. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or
  * LMB_ERR_CAPACITY. */
-size_t lmb_live_bytes(uint32_t faces, int32_t side);
-lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, void *memory, size_t bytes);
+size_t lmb_live_bytes(uint32_t faces, int32_t side, uint32_t elements);
+lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, uint32_t elements, void *memory, size_t bytes);
 
 /* lmb_live_collect: the first points of the map's tile rows first .. past - 1 of one face, as face `into` of the tree:
  * those of the rows of 8 blocks that begin there. Rows may be collected in any order, at once on any threads. A block
@@ -155,7 +162,7 @@ lmb_status lmb_live_collect(const lmb_live *live, const lmb_kernels *kernels, lm
                             const lmb_scene *scene, uint32_t light, const lmb_shadow_map *map, int32_t face,
                             uint32_t into, int32_t first, int32_t past);
 
-/* lmb_live_build: the tree over the first points of faces 0 .. live->faces - 1. Where nodes run out, those that are
+/* lmb_live_build: the tree over the first points of faces 0 .. live->faces - 1 and live->elements elements. Where nodes run out, those that are
  * left undivided count whole (live->merged), and near points still see their first points. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_live_build(lmb_live *live, const lmb_scene *scene);
 

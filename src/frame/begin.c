@@ -121,8 +121,7 @@ static int is_solved(const lmb_frame *f, const lmb_render *r)
     const int same = f->occlusion == before->occlusion && f->error == before->error &&
                      f->visibility == before->visibility && f->conservative == before->conservative &&
                      f->many_lights_error == before->many_lights_error;
-    const int texels = LMB_TREES && (!requires_live(f) || requires_elements(r) ||
-                                     (r->is_glossy && f->show != LMB_SHOW_IRRADIANCE));
+    const int texels = LMB_TREES && (!requires_live(f) || (r->is_glossy && f->show != LMB_SHOW_IRRADIANCE));
     if (LMB_TREES && requires_cut(f) &&
         ((requires_live(f) && !requires_live(before)) || (texels && !requires_texels(r)))) {
         return 0; /* texels of the one or the other tree were not collected */

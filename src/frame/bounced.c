@@ -20,21 +20,12 @@ NOINLINE lmb_status gather_many_lights(lmb_irradiance *inout, const lmb_render *
 }
 
 #if LMB_LIVE
-static const lmb_bvh *bvh_of(const lmb_frame *f) { return f->occlusion == LMB_OCCLUSION_EXACT ? &f->bvh : NULL; }
-
-static void count_live(lmb_band_scratch *s)
-{
-    s->counts.segments += s->live->segments;
-    s->counts.pairs += s->live->pairs;
-    s->counts.full_cuts += s->live->full;
-    s->live->segments = s->live->pairs = s->live->full = 0;
-}
 
 lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *s, const lmb_live_receiver *at)
 {
     const lmb_frame *f = &r->frame;
-    const lmb_status status = lmb_live_receive(light, f->kernels, s->live, f->live, bvh_of(f), at);
-    count_live(s);
+    const lmb_status status = lmb_live_receive(light, f->kernels, s->live, f->live, live_bvh(f), at);
+    count_live(&s->counts, s->live);
     return status;
 }
 
@@ -91,7 +82,7 @@ static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const l
     lmb_status status = requires_live(f) && glossy == NULL
                             ? gather_live(inout, r, s, tile)
                             : lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cut_params);
-    if (status == LMB_OK && requires_elements(r)) {
+    if (status == LMB_OK && requires_elements(r) && !(requires_live(f) && glossy == NULL)) {
         cut_params.beside = inout;
         status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->elements.tree, &cut_params);
     }

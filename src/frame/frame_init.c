@@ -198,9 +198,11 @@ static lmb_status place_bvh(lmb_frame *f, block *b)
 
 static lmb_status place_elements(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
-    const uint32_t n = s->elements != 0 ? s->elements : s->bounces > 1 ? MANY_ELEMENTS : ELEMENTS;
+    const int live = LMB_LIVE && f->gather_step == LMB_GATHER_LIVE;
+    const uint32_t n = s->elements != 0 ? s->elements : s->bounces > 1 && !live ? MANY_ELEMENTS : ELEMENTS;
     const size_t bytes = lmb_elements_bytes(n);
     void *memory = take(b, bytes);
+    f->elements.cap = n;
     return bytes == 0 ? LMB_ERR_ARG : is_measured(b) ? LMB_OK : lmb_elements_init(&f->elements, n, memory, bytes);
 }
 
@@ -291,7 +293,8 @@ static lmb_status place_live(lmb_frame *f, const lmb_frame_settings *s, block *b
 {
     const uint32_t lit = map_faces(f->scene), faces = lit > 0 ? lit : 1;
     const int32_t side = lmb_live_side(faces, f->shadow_map);
-    const size_t bytes = lmb_live_bytes(faces, side);
+    const uint32_t elements = f->elements.cap;
+    const size_t bytes = lmb_live_bytes(faces, side, elements);
     if (f->gather_step != LMB_GATHER_LIVE || f->show == LMB_SHOW_DIRECT || f->transfer != NULL) {
         return LMB_OK;
     }
@@ -306,8 +309,9 @@ static lmb_status place_live(lmb_frame *f, const lmb_frame_settings *s, block *b
         memset(&scratch[i], 0, sizeof *scratch);
         f->scratch[i].live = &scratch[i];
     }
-    const lmb_status status = lmb_live_init(f->live, faces, side, memory, bytes);
-    f->live->strata = s->quality == LMB_QUALITY_DRAFT ? LMB_LIVE_STRATA / 2 : LMB_LIVE_STRATA;
+    const lmb_status status = lmb_live_init(f->live, faces, side, elements, memory, bytes);
+    const int few = s->quality == LMB_QUALITY_DRAFT && !lmb_scene_emits(f->scene); /* emitters are the brightest */
+    f->live->strata = few ? LMB_LIVE_STRATA / 2 : LMB_LIVE_STRATA;
     f->live->split = s->quality == LMB_QUALITY_DRAFT ? 8.0f : 16.0f;
     return status;
 }

@@ -116,10 +116,10 @@ static inline int requires_elements(const lmb_render *r)
            (f->bounces > 1 || r->emits || requires_many_lights_bounce(f));
 }
 
-/* Is all bounced light that of single points? */
+/* Is all bounced light that of single points? Elements are in their tree. */
 static inline int lights_points(const lmb_render *r)
 {
-    return requires_samples(r) && requires_live(&r->frame) && !requires_elements(r) && !gathers_many_lights(&r->frame);
+    return requires_samples(r) && requires_live(&r->frame) && !gathers_many_lights(&r->frame);
 }
 
 /* Do lobes count? */
@@ -128,7 +128,7 @@ static inline int requires_glossy(const lmb_render *r) { return r->is_glossy && 
 /* Does a frame take the maps' light from the tree of texels? */
 static inline int requires_texels(const lmb_render *r)
 {
-    return requires_cut(&r->frame) && (!requires_live(&r->frame) || requires_glossy(r) || requires_elements(r));
+    return requires_cut(&r->frame) && (!requires_live(&r->frame) || requires_glossy(r));
 }
 
 /* Do elements receive direct light first, of what emits light or of many lights? */
@@ -156,6 +156,22 @@ static inline int requires_bvh(const lmb_frame *f)
 {
     return (requires_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT) ||
            (f->many_lights != NULL && f->bvh.triangle != NULL);
+}
+
+/* What blocks light of single points, or NULL; and what a thread counted of them. */
+static inline const lmb_bvh *live_bvh(const lmb_frame *f)
+{
+    return f->occlusion == LMB_OCCLUSION_EXACT ? &f->bvh : NULL;
+}
+
+static inline void count_live(lmb_stats *stats, lmb_live_scratch *s)
+{
+    if (stats != NULL) {
+        stats->segments += s->segments;
+        stats->pairs += s->pairs;
+        stats->full_cuts += s->full;
+    }
+    s->segments = s->pairs = s->full = 0;
 }
 
 /* The depth map that occludes, or NULL. */

@@ -185,30 +185,58 @@ static lmb_status step_sent(lmb_render *r)
     return lmb_transfer_send(light, f->transfer);
 }
 
+/* The tree of single points over what sends the light of pass r->light, or at last of all passes: maps, elements. */
+static lmb_status build_live(lmb_render *r)
+{
+    lmb_frame *f = &r->frame;
+    const int is_last = !has_bounces(r);
+    lmb_status status = LMB_OK;
+    f->live->faces = is_last || r->light == (uint32_t)sends_direct(r) ? f->tree.faces : 0;
+    f->live->elements = 0;
+    if (requires_elements(r)) {
+        status = lmb_elements_live(f->live, &f->elements);
+    }
+    status = status != LMB_OK ? status : lmb_live_build(f->live, f->scene);
+    if (status == LMB_OK && is_last && f->stats != NULL) {
+        f->stats->first_points += f->live->points;
+        f->stats->full_cuts += f->live->merged;
+    }
+    return status;
+}
+
 static lmb_status step_groups(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
     if (requires_transfer(f)) {
         return skips(r, LMB_SKIP_BOUNCE) ? LMB_OK : step_sent(r);
     }
-    if (requires_live(f) && !skips(r, LMB_SKIP_BOUNCE) && !reuses(r, LMB_REUSE_BOUNCES)) {
-        f->live->faces = f->tree.faces;
-        const lmb_status status = lmb_live_build(f->live, f->scene);
-        if (status != LMB_OK) {
-            return status;
+    if (requires_elements(r) || (requires_live(f) && !skips(r, LMB_SKIP_BOUNCE))) {
+        lmb_status status = LMB_OK;
+        if (reuses(r, LMB_REUSE_BOUNCES)) {
+            return LMB_OK;
         }
-        if (f->stats != NULL) {
-            f->stats->first_points += f->live->points;
-            f->stats->full_cuts += f->live->merged;
+        if (requires_elements(r)) {
+            status = lmb_elements_build(&f->elements, f->scene, requires_texels(r) ? &f->tree : NULL);
         }
-    }
-    if (requires_elements(r)) {
-        return reuses(r, LMB_REUSE_BOUNCES) ? LMB_OK : lmb_elements_build(&f->elements, f->scene, &f->tree);
+        return status == LMB_OK && requires_live(f) ? build_live(r) : status;
     }
     if (!requires_groups(f) || reuses(r, LMB_REUSE_POINTS)) {
         return LMB_OK;
     }
     return lmb_group_points(f->groups, &f->points, &f->grouping, f->stats);
+}
+
+/* By single points. */
+static lmb_status receive_live(const lmb_render *r, lmb_band_scratch *scratch, int32_t first, int32_t past,
+                               lmb_stats *stats)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_live few = *f->live;
+    few.strata = (few.strata + 3) / 4; /* a pixel sees many elements, whose noise is their own */
+    const lmb_status status = lmb_elements_receive_live(&f->elements, f->kernels, scratch->live, &few, live_bvh(f),
+                                                        first, past);
+    count_live(stats, scratch->live);
+    return status;
 }
 
 /* What is there before any reflection: of what emits light, and of many lights. */
@@ -217,8 +245,9 @@ static lmb_status receive_direct(const lmb_render *r, const lmb_element_scratch 
 {
     const lmb_frame *f = &r->frame;
     const lmb_many_lights_query query = elements_query(f, cut_params->stats);
-    const lmb_status status =
-        r->emits ? lmb_elements_receive(&f->elements, own, NULL, cut_params, first, past) : LMB_OK;
+    const lmb_status status = !r->emits          ? LMB_OK
+                              : requires_live(f) ? receive_live(r, scratch, first, past, cut_params->stats)
+                                                 : lmb_elements_receive(&f->elements, own, NULL, cut_params, first, past);
     return status != LMB_OK || !requires_many_lights_bounce(f)
                ? status
                : lmb_many_lights_elements(&f->elements, own, &scratch->many_lights, &query, first, past);
@@ -241,7 +270,9 @@ static lmb_status receive(const lmb_render *r, lmb_band_scratch *scratch, int32_
     if (r->light < direct) {
         return receive_direct(r, &own, scratch, &cut_params, first, past);
     }
-    return lmb_elements_receive(&f->elements, &own, r->light == direct ? &f->tree : NULL, &cut_params, first, past);
+    return requires_live(f) ? receive_live(r, scratch, first, past, stats)
+                            : lmb_elements_receive(&f->elements, &own, r->light == direct ? &f->tree : NULL,
+                                                   &cut_params, first, past);
 }
 
 /* All elements have received. */
@@ -254,9 +285,11 @@ static lmb_status end_bounce(lmb_render *r)
     r->progress = 0;
     ++r->light;
     if (status == LMB_OK && !has_bounces(r) && f->bounces > 1 && !f->truncated) {
-        status = lmb_elements_rest(e, pass == direct ? &f->tree : NULL, LMB_MAX_BOUNCES - f->bounces);
+        status = requires_live(f) ? lmb_elements_rest_live(e, f->live, LMB_MAX_BOUNCES - f->bounces)
+                                  : lmb_elements_rest(e, pass == direct ? &f->tree : NULL, LMB_MAX_BOUNCES - f->bounces);
     }
     status = status != LMB_OK ? status : lmb_elements_send(e, !has_bounces(r));
+    status = status == LMB_OK && requires_live(f) ? build_live(r) : status;
     return status != LMB_OK ? status : has_bounces(r) ? LMB_MORE : LMB_OK;
 }
 

@@ -42,7 +42,11 @@
 #if !LMB_LIVE
 #undef lmb_live_collect
 #define lmb_live_collect(...) never(LMB_LAYOUT(lmb_live_collect)(__VA_ARGS__))
-#define lmb_live_build(...)   never(lmb_live_build(__VA_ARGS__))
+#undef lmb_elements_receive_live
+#define lmb_elements_receive_live(...) never(LMB_LAYOUT(lmb_elements_receive_live)(__VA_ARGS__))
+#define lmb_live_build(...)         never(lmb_live_build(__VA_ARGS__))
+#define lmb_elements_live(...)      never(lmb_elements_live(__VA_ARGS__))
+#define lmb_elements_rest_live(...) never(lmb_elements_rest_live(__VA_ARGS__))
 #endif
 
 #if !LMB_TRANSFER

@@ -293,6 +293,7 @@ typedef struct lmb_cross_job {
 typedef struct lmb_live_job {
     lmb_vec3 position, face, normal;
     int32_t is_bent; /* 1: the normal is not the face's */
+    int32_t can_move; /* 1: a receiver in an inner edge is to be lit beside it */
     float split;     /* as in lmb_live */
 } lmb_live_job;
 

@@ -65,21 +65,39 @@ static uint32_t key_of(const builder *b, const lmb_live_point *p)
     return (z >> TOP_SHIFT) << (TOP_SHIFT + 3) | side_of(p->normal) << TOP_SHIFT | (z & ((1u << TOP_SHIFT) - 1));
 }
 
-/* The box of what is lit. */
-static int lit_box(lmb_vec3 *low, lmb_vec3 *high, const lmb_live *live)
+/* Points of all faces, whether they are there or not: those of elements come after them. */
+static size_t blocks_in(const lmb_live *live)
 {
-    const size_t each = (size_t)live->side * (size_t)live->side;
+    return (size_t)live->face_cap * (size_t)live->side * (size_t)live->side;
+}
+
+/* Points of face `f`, or after the last face of elements; those before. */
+static size_t points_in(size_t *before, const lmb_live *live, uint32_t f)
+{
+    const size_t side = f < live->faces ? (size_t)live_blocks(&live->face[f]) : 0;
+    *before = f < live->faces ? f * (size_t)live->side * (size_t)live->side : blocks_in(live);
+    return f < live->faces ? side * side : live->elements;
+}
+
+/* The box of what is lit, and the flux of the maps' points. */
+static int lit_box(lmb_vec3 *low, lmb_vec3 *high, lmb_live *live)
+{
     int any = 0;
     *low = vec3(3e38f, 3e38f, 3e38f);
     *high = vec3(-3e38f, -3e38f, -3e38f);
-    for (uint32_t f = 0; f < live->faces; ++f) {
-        const size_t blocks = (size_t)live_blocks(&live->face[f]) * (size_t)live_blocks(&live->face[f]);
-        for (size_t i = 0; i < blocks; ++i) {
-            const lmb_live_point *p = &live->point[f * each + i];
+    live->sent[0] = live->sent[1] = live->sent[2] = 0.0;
+    for (uint32_t f = 0; f <= live->faces; ++f) {
+        size_t before;
+        const size_t count = points_in(&before, live, f);
+        for (size_t i = 0; i < count; ++i) {
+            const lmb_live_point *p = &live->point[before + i];
             if (live_power(p->flux) > 0.0f) {
                 *low = min3(*low, p->position);
                 *high = max3(*high, p->position);
                 any = 1;
+                for (int h = 0; h < 3 && f < live->faces; ++h) {
+                    live->sent[h] += (double)p->flux[h];
+                }
             }
         }
     }
@@ -128,15 +146,15 @@ static void sort_by(pair *to, const pair *from, uint32_t count, int shift)
 static void sort_points(const builder *b)
 {
     lmb_live *live = b->live;
-    const size_t each = (size_t)live->side * (size_t)live->side;
-    pair *one = (pair *)(void *)live->chunk, *other = one + (size_t)live->face_cap * each;
+    pair *one = (pair *)(void *)live->chunk, *other = one + blocks_in(live) + live->element_cap;
     uint32_t count = 0;
-    for (uint32_t f = 0; f < live->faces; ++f) {
-        const size_t blocks = (size_t)live_blocks(&live->face[f]) * (size_t)live_blocks(&live->face[f]);
-        for (size_t i = 0; i < blocks; ++i) {
-            if (live_power(live->point[f * each + i].flux) > 0.0f) {
-                one[count].key = key_of(b, &live->point[f * each + i]);
-                one[count++].point = (uint32_t)(f * each + i);
+    for (uint32_t f = 0; f <= live->faces; ++f) {
+        size_t before;
+        const size_t points = points_in(&before, live, f);
+        for (size_t i = 0; i < points; ++i) {
+            if (live_power(live->point[before + i].flux) > 0.0f) {
+                one[count].key = key_of(b, &live->point[before + i]);
+                one[count++].point = (uint32_t)(before + i);
             }
         }
     }
@@ -206,7 +224,7 @@ static uint32_t group(range out[GROUPS], const builder *b, range r)
 /* Of several lights' points: that of the one which has the largest part, as all of them may show the same place. */
 static float area_of(float *mean, const lmb_live_point *p, uint32_t count)
 {
-    float sum = 0.0f, by_light[LMB_MAX_LIGHTS], largest = 0.0f;
+    float sum = 0.0f, by_light[LMB_MAX_LIGHTS + 1], largest = 0.0f; /* elements come last */
     uint32_t others = 0;
     for (uint32_t i = 0; i < count; ++i) {
         sum += p[i].area;
@@ -218,7 +236,7 @@ static float area_of(float *mean, const lmb_live_point *p, uint32_t count)
     }
     memset(by_light, 0, sizeof by_light);
     for (uint32_t i = 0; i < count; ++i) {
-        float *own = &by_light[p[i].light % LMB_MAX_LIGHTS];
+        float *own = &by_light[p[i].light % (LMB_MAX_LIGHTS + 1)];
         *own += p[i].area;
         largest = maxf(largest, *own);
     }
@@ -233,7 +251,7 @@ static void put_node(const builder *b, uint32_t slot, range r)
     const lmb_live_point *p = b->live->sorted + r.first, *target = p;
     const uint32_t count = r.past - r.first;
     lmb_vec3 place = vec3(0, 0, 0), normal = vec3(0, 0, 0);
-    float flux[3] = {0, 0, 0}, far2 = 0.0f, near2 = 3e38f;
+    float flux[3] = {0, 0, 0}, far2 = 0.0f, near2 = 3e38f, own2 = 0.0f, soft = 0.0f;
     for (uint32_t k = 0; k < count; ++k) {
         const float w = live_power(p[k].flux);
         place = add3(place, mul3(sub3(p[k].position, p->position), w));
@@ -251,12 +269,19 @@ static void put_node(const builder *b, uint32_t slot, range r)
         target = d2 < near2 ? &p[k] : target;
         near2 = minf(near2, d2);
         far2 = maxf(far2, d2);
+        if (p[k].face == LMB_LIVE_ELEMENT) {
+            own2 = maxf(own2, lmb_live_reach2(b->live, &p[k]));
+            soft = maxf(soft, lmb_live_softness(b->live, &p[k]));
+        } else {
+            soft = 1.0f;
+        }
     }
     float spacing2;
     const float area = area_of(&spacing2, p, count);
-    live_put(c, i, place, normal, flux, maxf(LIVE_DISC * area, 1e-30f), target->position, target->normal,
+    const float disc = count == 1 && lmb_live_is_whole(b->live, p) ? area : LIVE_DISC * area;
+    live_put(c, i, place, normal, flux, maxf(disc, 1e-30f), target->position, target->normal,
              target->id);
-    c->radius2[i] = far2 + spacing2;
+    c->radius2[i] = (far2 + maxf(spacing2, own2)) * soft;
     c->first[i] = r.first;
     c->count[i] = count | LMB_LIVE_LEAF;
 }
@@ -362,7 +387,8 @@ lmb_status lmb_live_build(lmb_live *live, const lmb_scene *scene)
 {
     lmb_vec3 low, high;
     builder b;
-    if (live == NULL || live->face == NULL || scene == NULL || live->faces > live->face_cap) {
+    if (live == NULL || live->face == NULL || scene == NULL || live->faces > live->face_cap ||
+        live->elements > live->element_cap || (live->elements > 0 && live->element == NULL)) {
         return LMB_ERR_ARG;
     }
     live->chunks = live->top = live->points = live->merged = 0;

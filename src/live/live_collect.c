@@ -13,6 +13,7 @@
 
 enum { BLOCK = 4, LARGE_BLOCK = 8 };
 #define MANY_BLOCKS (1u << 18)
+#define MANY_ELEMENTS (1u << 24)
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
@@ -31,24 +32,24 @@ int32_t lmb_live_side(uint32_t faces, int32_t size)
 /* A node for each first point, a quarter more for those above them, and room to begin each level on a chunk. */
 static uint64_t chunks_of(uint64_t blocks) { return blocks / LMB_LIVE_NODES * 5 / 4 + 16; }
 
-static uint64_t bytes_of(uint32_t faces, int32_t side)
+static uint64_t bytes_of(uint32_t faces, int32_t side, uint32_t elements)
 {
-    const uint64_t blocks = blocks_of(faces, side), chunks = chunks_of(blocks) * sizeof(lmb_live_chunk);
-    return chunks + blocks * (2 * sizeof(lmb_live_point)) + faces * (uint64_t)sizeof(lmb_live_face);
+    const uint64_t points = blocks_of(faces, side) + elements, chunks = chunks_of(points) * sizeof(lmb_live_chunk);
+    return chunks + points * (2 * sizeof(lmb_live_point)) + faces * (uint64_t)sizeof(lmb_live_face);
 }
 
-size_t lmb_live_bytes(uint32_t faces, int32_t side)
+size_t lmb_live_bytes(uint32_t faces, int32_t side, uint32_t elements)
 {
     if (faces == 0 || faces > 6 * LMB_MAX_LIGHTS || side < 1 || side > LMB_MAX_SIDE / BLOCK ||
-        blocks_of(faces, side) > (1u << 28)) {
+        blocks_of(faces, side) > (1u << 28) || elements > MANY_ELEMENTS) {
         return 0;
     }
-    return size_or_none(bytes_of(faces, side));
+    return size_or_none(bytes_of(faces, side, elements));
 }
 
-lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, void *memory, size_t bytes)
+lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, uint32_t elements, void *memory, size_t bytes)
 {
-    const size_t needed = lmb_live_bytes(faces, side);
+    const size_t needed = lmb_live_bytes(faces, side, elements);
     if (out == NULL || memory == NULL || needed == 0) {
         return LMB_ERR_ARG;
     }
@@ -58,13 +59,14 @@ lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, void *memo
     if (bytes < needed) {
         return LMB_ERR_CAPACITY;
     }
-    const size_t blocks = (size_t)blocks_of(faces, side);
+    const size_t points = (size_t)blocks_of(faces, side) + elements;
     memset(out, 0, sizeof *out);
     out->face = (lmb_live_face *)memory;
     out->chunk = (lmb_live_chunk *)(void *)(out->face + faces);
-    out->chunk_cap = (uint32_t)chunks_of(blocks);
+    out->chunk_cap = (uint32_t)chunks_of(points);
     out->point = (lmb_live_point *)(void *)(out->chunk + out->chunk_cap);
-    out->sorted = out->point + blocks;
+    out->sorted = out->point + points;
+    out->element_cap = elements;
     out->face_cap = faces;
     out->side = side;
     out->strata = LMB_LIVE_STRATA;

@@ -36,6 +36,18 @@ int lmb_live_place(lmb_vec3 *out, const live_plane *plane, const lmb_view *view,
 /* Blocks of a face a side. */
 static inline int32_t live_blocks(const lmb_live_face *f) { return (f->size + f->each - 1) / f->each; }
 
+/* The number of the element that a point is. */
+static inline uint32_t live_element_of(const lmb_live_point *p) { return (uint32_t)p->row << 16 | p->column; }
+
+/* A factor of the squares of the radii by which nodes are near: under 1 for elements that emit nothing. */
+float lmb_live_softness(const lmb_live *live, const lmb_live_point *p);
+
+/* The square of a point's own radius. */
+float lmb_live_reach2(const lmb_live *live, const lmb_live_point *p);
+
+/* Has a point no parts? */
+int lmb_live_is_whole(const lmb_live *live, const lmb_live_point *p);
+
 /* What divides a node's light beside its distance, of its area: parts of it are not all as near as its middle, so where
  * parts follow it is less. */
 #define LIVE_DISC 0.25f

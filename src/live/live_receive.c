@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../lane/kernels.h"
+#include "../raster/triangle.h"
 
 #if LMB_LIVE
 
@@ -14,6 +15,7 @@ static void cut(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live 
 {
     s->count = s->done = s->near_count = s->leaves = s->is_full = 0;
     s->near_lane = LMB_LIVE_NODES;
+    s->lift = 0.0f;
     for (uint32_t at = 0; at < live->top; at += LMB_LIVE_NODES) {
         const uint32_t left = live->top - at;
         s->chunk[s->count] = &live->chunk[at / LMB_LIVE_NODES];
@@ -24,6 +26,29 @@ static void cut(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live 
     } while (lmb_live_come_near(s, live));
     s->full += (uint32_t)s->is_full;
     s->pairs += (uint64_t)s->count * LMB_LIVE_NODES;
+}
+
+static float per_of(float d) { return absf(d) > 1e-20f ? 1.0f / d : 1e20f; }
+
+/* Is the way free from the receiver to twice the way off an edge, and on its triangle? Else something as thin stands
+ * there, or its surface bends. */
+static int is_free(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live *live, const lmb_bvh *bvh,
+                   const lmb_live_receiver *at)
+{
+    lmb_live_rays *r = &s->rays;
+    const lmb_vec3 past = add3(at->position, mul3(s->off, 2.0f)),
+                   on = sub3(lmb_place_onto_triangle(live->scene, at->id, past), past);
+    if (at->id != 0 && dot3(on, on) > 0.01f * dot3(s->off, s->off)) {
+        return 0;
+    }
+    const float to[3] = {2.0f * s->off.x, 2.0f * s->off.y, 2.0f * s->off.z};
+    r->segments.at = at->position;
+    for (int h = 0; h < 3; ++h) {
+        r->to[h][0] = to[h];
+        r->segments.per[h][0] = per_of(to[h]);
+    }
+    r->id[0] = 0;
+    return lmb_live_blocked(kernels, s, bvh, at, 1) == 0;
 }
 
 /* Where little is seen, noise is a large part of it: more segments. */
@@ -40,19 +65,27 @@ lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live
     int32_t seen = 0, targets = 0;
     int packets = 1;
     lmb_live_job job;
+    lmb_live_receiver at;
     if (light == NULL || kernels == NULL || s == NULL || live == NULL || live->face == NULL || receiver == NULL ||
         live->strata < 1 || live->strata > LMB_LIVE_STRATA) {
         return LMB_ERR_ARG;
     }
+    at = *receiver;
     memset(&job, 0, sizeof job);
     job.position = receiver->position;
     job.face = receiver->face;
     job.normal = receiver->normal;
     job.split = live->split;
     job.is_bent = job.face.x != job.normal.x || job.face.y != job.normal.y || job.face.z != job.normal.z;
+    job.can_move = 1;
     cut(s, kernels, live, &job);
+    for (int wall = 0; wall < 2 && s->lift > 0.0f && is_free(s, kernels, live, bvh, &at); ++wall) { /* of a corner, two */
+        at.position = job.position = add3(job.position, s->off);
+        job.can_move = wall == 0;
+        cut(s, kernels, live, &job);
+    }
     const float sum = kernels->live_sums(light, s);
-    s->rays.segments.at = receiver->position;
+    s->rays.segments.at = job.position;
     if (!(sum > 0.0f && sum < 1e30f)) {
         light[0] = light[1] = light[2] = 0.0f;
         s->seen[0] = s->seen[1] = s->seen[2] = -1.0f;
@@ -60,8 +93,8 @@ lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live
     }
     for (int packet = 0; packet < packets; ++packet) {
         kernels->live_targets(s, live, live->strata, place[packet], sum);
-        const uint64_t asked = kernels->live_ahead(&s->rays, s->targets, receiver),
-                       clear = asked & ~lmb_live_blocked(kernels, s, bvh, receiver, asked);
+        const uint64_t asked = kernels->live_ahead(&s->rays, s->targets, &at),
+                       clear = asked & ~lmb_live_blocked(kernels, s, bvh, &at, asked);
         s->segments += (uint64_t)count_bits_64(asked);
         kernels->live_share(all, some, &s->rays, s->targets, clear);
         seen += count_bits_64(clear);

@@ -53,6 +53,25 @@ static inline int live_is_ahead(const lmb_live_chunk *c, int i, const lmb_live_j
     return there > 0.0f && there * there > 1e-6f * dot3(d, d) && (here > 0.0f || here * here < c->radius2[i]);
 }
 
+#define LIVE_OFF 1.0f /* texels that a receiver keeps off what it meets in an edge */
+
+/* Does the receiver lie in an inner edge, next to a block: less than a texel over its plane? Between the block's last
+ * texel and the edge the map knows nothing, and at the edge all of a wall's light comes from there. Then it is lit a texel
+ * further off, where its light is about the same. */
+static inline void live_keep_off(lmb_live_scratch *s, const lmb_live *live, const lmb_live_chunk *c, int i,
+                                 const lmb_live_job *job)
+{
+    const lmb_live_point *p = &live->sorted[c->first[i]];
+    const float texel = p->face == LMB_LIVE_ELEMENT ? 0.0f : LIVE_OFF * sqrtf(p->area) / (float)live->face[p->face].each;
+    const lmb_vec3 d = sub3(job->position, p->position);
+    const float height = dot3(d, p->normal), cosine = dot3(p->normal, job->face);
+    const float lift = texel - height, along2 = 1.0f - cosine * cosine;
+    if (lift > s->lift && height > -texel && along2 > 0.1f && dot3(d, d) < 2.0f * p->area) {
+        s->lift = lift;
+        s->off = mul3(sub3(p->normal, mul3(job->face, cosine)), lift / along2);
+    }
+}
+
 /* Near nodes of chunk k of the cut: their parts are asked for, and they give nothing themselves. */
 static inline void live_divide(lmb_live_scratch *s, const lmb_live *live, int32_t k, uint32_t near,
                                const lmb_live_job *job)
@@ -60,6 +79,9 @@ static inline void live_divide(lmb_live_scratch *s, const lmb_live *live, int32_
     const lmb_live_chunk *c = s->chunk[k];
     for (; near != 0; near &= near - 1) {
         const int i = lowest_bit(near);
+        if (c->count[i] == (LMB_LIVE_LEAF | 1u) && job->can_move) {
+            live_keep_off(s, live, c, i, job);
+        }
         if ((c->count[i] & LMB_LIVE_LEAF) != 0) {
             if (s->leaves < LMB_LIVE_CUT && (c->count[i] != (LMB_LIVE_LEAF | 1u) || live_is_ahead(c, i, job))) {
                 s->leaf[s->leaves++] = (uint32_t)(k * LMB_LIVE_NODES + i);

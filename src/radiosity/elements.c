@@ -133,6 +133,7 @@ static void join(lmb_element *into, const lmb_element *e)
     if (e->area > into->received[0]) {
         memcpy(into->corner, e->corner, sizeof into->corner);
         memcpy(into->fresh, e->fresh, sizeof into->fresh);
+        into->id = e->id;
         into->received[0] = e->area;
     }
     into->area = area;
@@ -169,6 +170,7 @@ static void add_piece(maker *m, const piece_source *s, const surface_piece *p, i
     e.reach2 = e.area < area ? 0.0f : e.reach2; /* with holes it has no shape */
     lmb_source_emission(e.emission, s, p);
     e.received[0] = e.area;
+    e.id = s->triangle.id;
     for (int back = 0; back <= ((material->flags & LMB_DOUBLE_SIDED) != 0); ++back) {
         const lmb_vec3 n = mul3(s->normal, back ? -1.0f : 1.0f);
         e.fresh[0] = n.x;

@@ -2,6 +2,8 @@
 #ifndef LMB_RADIOSITY_PIECE_H
 #define LMB_RADIOSITY_PIECE_H
 
+#include <lambent/elements.h>
+
 #include "../raster/triangle.h"
 
 enum { PIECE_Z_BITS = 9 };
@@ -72,6 +74,9 @@ static inline uint32_t piece_place(lmb_vec3 at, lmb_vec3 low, float per)
                    z = (uint32_t)clampf((at.z - low.z) * per, 0.0f, last);
     return piece_spread_bits(x) | piece_spread_bits(y) << 1 | piece_spread_bits(z) << 2;
 }
+
+/* As lmb_elements_rest; `sent`: flux of each channel that the last bounce received from others than elements, W. */
+lmb_status lmb_elements_rest_of(lmb_elements *inout, const double sent[3], int32_t bounces);
 
 /* 1 where the triangle has an area. */
 int lmb_source_open(piece_source *out, const lmb_scene *scene, uint32_t id);

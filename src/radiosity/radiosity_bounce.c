@@ -6,6 +6,7 @@
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../lightcut/tree.h"
+#include "piece.h"
 
 #if LMB_TREES
 
@@ -136,9 +137,8 @@ static double sent_by(const lmb_tree *lights, int channel)
  * sum of A B' B' / sum of A B' B, which counts each as much as it still has: light that leaves into the open is gone
  * and tells nothing of the rest. What maps sent has no place among the elements: then it is all that is sent on of
  * all that came. */
-static double kept_of(const lmb_elements *e, const lmb_tree *lights, int channel)
+static double kept_of(const lmb_elements *e, double by_lights, int channel)
 {
-    const double by_lights = sent_by(lights, channel);
     double kept = 0.0, before = 0.0;
     for (uint32_t i = 0; i < e->count; ++i) {
         const lmb_element *p = &e->data[i];
@@ -161,19 +161,25 @@ static float powers(double r, int32_t count)
     return (float)sum;
 }
 
-lmb_status lmb_elements_rest(lmb_elements *inout, const lmb_tree *lights, int32_t bounces)
+lmb_status lmb_elements_rest_of(lmb_elements *inout, const double sent[3], int32_t bounces)
 {
     if (inout == NULL || inout->data == NULL || inout->tree.element == NULL || bounces < 0 ||
         bounces > LMB_MAX_BOUNCES) {
         return LMB_ERR_ARG;
     }
     for (int c = 0; c < 3; ++c) {
-        const float more = powers(kept_of(inout, lights, c), bounces);
+        const float more = powers(kept_of(inout, sent[c], c), bounces);
         for (uint32_t i = 0; i < inout->count; ++i) {
             inout->data[i].fresh[c] *= 1.0f + more;
         }
     }
     return LMB_OK;
+}
+
+lmb_status lmb_elements_rest(lmb_elements *inout, const lmb_tree *lights, int32_t bounces)
+{
+    const double sent[3] = {sent_by(lights, 0), sent_by(lights, 1), sent_by(lights, 2)};
+    return lmb_elements_rest_of(inout, sent, bounces);
 }
 
 lmb_status lmb_elements_send(lmb_elements *inout, int32_t last)

@@ -45,13 +45,17 @@ status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o r
 status 0 compare proved.pfm ruled.pfm
 [ -n "$SHORT" ] || status 0 render demo --size 16x16 --shadow-map 64 --bounces 3 --elements 4096 --show occlusion -o blocked.pfm
 
-# Draft and frames of play have it, unless --gather names another way.
-drawn="--size 96x64 --exposure 0 --show indirect --shadow-map 256"
-status 0 render demo $drawn --quality draft -o implied.pfm
-status 0 render demo $drawn --quality draft --gather live -o named.pfm
+# Draft of all but small pictures and frames of play have it, unless --gather names another way.
+drawn="--exposure 0 --show indirect --shadow-map 256 --quality draft"
+status 0 render demo --size 256x256 $drawn -o implied.pfm
+status 0 render demo --size 256x256 $drawn --gather live -o named.pfm
 check "--quality draft has live light" cmp implied.pfm named.pfm
-status 0 render demo $drawn --quality draft --gather full -o named.pfm
+status 0 render demo --size 256x256 $drawn --gather full -o named.pfm
 check "--gather full holds by draft" differ implied.pfm named.pfm
+status 0 render demo --size 255x256 $drawn -o implied.pfm
+status 0 render demo --size 255x256 $drawn --gather full -o named.pfm
+check "draft gathers each pixel of small pictures" cmp implied.pfm named.pfm
+drawn="--size 96x64 --exposure 0 --show indirect --shadow-map 256"
 status 0 play demo $drawn --frames 1 -o implied%01d.pfm
 status 0 play demo $drawn --frames 1 --gather live -o named%01d.pfm
 check "play has live light" cmp implied0.pfm named0.pfm
@@ -66,6 +70,15 @@ status 0 render demo $live --threads 3 -o live3.pfm
 check "threads do not change live light" cmp live.pfm live3.pfm
 status 0 render demo $live --backend scalar -o scalar.pfm
 check "back ends do not change live light" cmp live.pfm scalar.pfm
+# Later bounces, and surfaces that emit, come by the same points.
+for of in demo emits.obj; do
+    again="--size 48x32 --exposure 0 --show indirect --bounces 3 --shadow-map 512"
+    status 0 render $of $again --quality draft --threads 1 -o again.pfm
+    status 0 render $of $again --quality draft --threads 3 --backend scalar -o again3.pfm
+    check "threads and back ends do not change live bounces of $of" cmp again.pfm again3.pfm
+    status 0 render $of $again --gather full -o full.pfm
+    status 0 compare again.pfm full.pfm --max trim=0.12,lo=0.95,hi=1.05
+done
 for i in 1 2 3; do
     status 0 render demo $live --slice $i/3 -o live.pfm
 done

@@ -681,7 +681,7 @@ static uint64_t case_live(int variant)
     f.live = &live;
     memory.scratch.live = &live_scratch;
     const lmb_status one = lmb_lattice_init(&f.lattice, WIDTH, HEIGHT, lattice, sizeof lattice);
-    const lmb_status two = lmb_live_init(&live, 1, lmb_live_side(1, TREE), live_memory, sizeof live_memory);
+    const lmb_status two = lmb_live_init(&live, 1, lmb_live_side(1, TREE), 0, live_memory, sizeof live_memory);
     return hash_frame(golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)one), (uint32_t)two), &f);
 }
 #endif

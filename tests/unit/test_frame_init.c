@@ -186,9 +186,9 @@ static uint64_t by_hand_hash(const lmb_frame *like)
         CHECK(lmb_lattice_init(&f.lattice, WIDE, HIGH, memory[5], lmb_lattice_bytes(WIDE, HIGH)) == LMB_OK);
     }
     if (f.live != NULL) {
-        const size_t bytes = lmb_live_bytes(f.live->face_cap, f.live->side);
+        const size_t bytes = lmb_live_bytes(f.live->face_cap, f.live->side, f.live->element_cap);
         memory[6] = malloc(bytes);
-        CHECK(lmb_live_init(&live, f.live->face_cap, f.live->side, memory[6], bytes) == LMB_OK);
+        CHECK(lmb_live_init(&live, f.live->face_cap, f.live->side, f.live->element_cap, memory[6], bytes) == LMB_OK);
         live.strata = f.live->strata;
         live.split = f.live->split;
         f.live = &live;

@@ -43,8 +43,8 @@ static void light_world(const lmb_light *lights, uint32_t count)
     world.scene.lights = lights;
     world.scene.light_count = count;
     memset(live_memory, 0x5a, sizeof live_memory);
-    CHECK(lmb_live_bytes(FACES, lmb_live_side(FACES, MAP)) <= sizeof live_memory);
-    CHECK(lmb_live_init(&live, FACES, lmb_live_side(FACES, MAP), live_memory, sizeof live_memory) == LMB_OK);
+    CHECK(lmb_live_bytes(FACES, lmb_live_side(FACES, MAP), 0) <= sizeof live_memory);
+    CHECK(lmb_live_init(&live, FACES, lmb_live_side(FACES, MAP), 0, live_memory, sizeof live_memory) == LMB_OK);
     for (uint32_t i = 0; i < count; ++i) {
         collect(i);
     }
@@ -379,11 +379,12 @@ static void refused(void)
     memset(&at, 0, sizeof at);
     CHECK(lmb_live_side(1, 1024) == 256 && lmb_live_side(6, 512) == 128 && lmb_live_side(6, 4096) == 512);
     CHECK(lmb_live_side(1, 0) == 0 && lmb_live_side(1, 12) == 0 && lmb_live_side(1, 16384) == 0);
-    CHECK(lmb_live_bytes(0, 64) == 0 && lmb_live_bytes(1, 0) == 0 && lmb_live_bytes(100000, 64) == 0);
-    const size_t bytes = lmb_live_bytes(1, 64);
-    CHECK(lmb_live_init(&none, 1, 64, live_memory, bytes - 1) == LMB_ERR_CAPACITY);
-    CHECK(lmb_live_init(&none, 1, 64, (uint8_t *)live_memory + 4, bytes) == LMB_ERR_ALIGN);
-    CHECK(lmb_live_init(NULL, 1, 64, live_memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_live_bytes(0, 64, 0) == 0 && lmb_live_bytes(1, 0, 0) == 0 && lmb_live_bytes(100000, 64, 0) == 0 &&
+          lmb_live_bytes(1, 64, (1u << 24) + 1) == 0);
+    const size_t bytes = lmb_live_bytes(1, 64, 0);
+    CHECK(lmb_live_init(&none, 1, 64, 0, live_memory, bytes - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_live_init(&none, 1, 64, 0, (uint8_t *)live_memory + 4, bytes) == LMB_ERR_ALIGN);
+    CHECK(lmb_live_init(NULL, 1, 64, 0, live_memory, bytes) == LMB_ERR_ARG);
     CHECK(lmb_live_receive(out, picked_kernels(), &scratch, &none, NULL, &at) == LMB_ERR_ARG);
     CHECK(lmb_live_build(&none, &world.scene) == LMB_ERR_ARG);
     room_with_table();

@@ -177,8 +177,8 @@ static void make_frame(void)
     f.groups = &g.groups;
     f.scratch = &g.scratch;
     CHECK(lmb_tree_init(&f.tree, 6, SIDE, room(tree), tree) == LMB_OK);
-    const size_t live = lmb_live_bytes(6, lmb_live_side(6, SIDE));
-    CHECK(lmb_live_init(&g.live, 6, lmb_live_side(6, SIDE), room(live), live) == LMB_OK);
+    const size_t live = lmb_live_bytes(6, lmb_live_side(6, SIDE), MIN);
+    CHECK(lmb_live_init(&g.live, 6, lmb_live_side(6, SIDE), MIN, room(live), live) == LMB_OK);
     CHECK(lmb_points_init(&f.points, MIN, SIDE / 8, room(points), points) == LMB_OK);
     CHECK(lmb_bvh_init(&f.bvh, MIN * 4, room(bvh), bvh) == LMB_OK);
     CHECK(lmb_elements_init(&f.elements, MIN, room(elements), elements) == LMB_OK);

@@ -120,7 +120,9 @@ static lmb_status do_stages(workers *c, lmb_render *r, int32_t *stage, int32_t p
     while (status == LMB_MORE && r->stage < past) {
         const double start = now(c), cpu = host_cpu_seconds();
         *stage = r->stage;
-        status = c->threads > 1 && lmb_render_has_parts(r) ? do_parts(c, r) : do_step(c, r);
+        while (status == LMB_MORE && r->stage == *stage) { /* clocks take longer than some steps */
+            status = c->threads > 1 && lmb_render_has_parts(r) ? do_parts(c, r) : do_step(c, r);
+        }
         c->stage_cpu_s[*stage] += host_cpu_seconds() - cpu;
         c->stage_s[*stage] += now(c) - start;
     }

@@ -211,7 +211,12 @@ static void tell_regroups(const render_job *j)
 /* Pixels whose cuts had no room for what was asked. */
 static void tell_full_cuts(const render_job *j)
 {
-    if (j->stats.full_cuts > 0) {
+    if (j->stats.full_cuts > 0 && j->frame.gather_step == LMB_GATHER_LIVE) {
+        report_note(j->o.view.is_quiet,
+                    "note: %.0f points are so near to lit surfaces that these count more coarsely than asked for "
+                    "(LMB_LIVE_CUT, LMB_LIVE_NEAR); --gather full does not",
+                    (double)j->stats.full_cuts);
+    } else if (j->stats.full_cuts > 0) {
         report_note(j->o.view.is_quiet,
                     "note: %.0f pixel clusters have coarser bounced light than asked for: %d nodes of the light's "
                     "tree were not enough (LMB_MAX_CUT); a smaller --tree or a larger --error asks for less",
