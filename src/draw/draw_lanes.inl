@@ -302,8 +302,8 @@ LANE_INLINE lanei draw_blend_usual(lanei bits, lanei share, lanei was, int adds)
 {
     const lanei pair = lanei_splat(0x00ff00ff);
     const lanei even = draw_pair_blend(lanei_and(bits, pair), lanei_and(was, pair), share, adds);
-    const lanei odd = draw_pair_blend(lanei_and(lanei_shift(bits, 8), pair), lanei_and(lanei_shift(was, 8), pair), share,
-                                      adds);
+    const lanei upper = lanei_and(lanei_shift(bits, 8), pair), upper_was = lanei_and(lanei_shift(was, 8), pair);
+    const lanei odd = draw_pair_blend(upper, upper_was, share, adds);
     return lanei_or(even, lanei_mul(odd, lanei_splat(1 << 8)));
 }
 
@@ -334,7 +334,9 @@ static int draw_meets(const lmb_draw_state *s)
         target != s->blend_target[1] || source != LMB_DRAW_SOURCE_ALPHA) {
         return DRAW_MEET_BLEND;
     }
-    return target == LMB_DRAW_INVERSE_SOURCE_ALPHA ? DRAW_MEET_OVER : target == LMB_DRAW_ONE ? DRAW_MEET_ADD : DRAW_MEET_BLEND;
+    return target == LMB_DRAW_INVERSE_SOURCE_ALPHA ? DRAW_MEET_OVER
+           : target == LMB_DRAW_ONE                ? DRAW_MEET_ADD
+                                                   : DRAW_MEET_BLEND;
 }
 
 LANE_INLINE lanei draw_met(const lmb_draw_state *s, const draw_codes *v, lanei was, int meets)
@@ -377,7 +379,8 @@ LANE_INLINE void draw_save(uint8_t *p, int32_t stride, lanei bits)
 #endif
 }
 
-LANE_INLINE draw_codes draw_colour_of(const lmb_draw_patch *p, const draw_share *s, const draw_codes *same, int is_white)
+LANE_INLINE draw_codes draw_colour_of(const lmb_draw_patch *p, const draw_share *s, const draw_codes *same,
+                                      int is_white)
 {
     const lmb_draw_state *state = p->state;
     draw_codes v = *same;
@@ -398,7 +401,8 @@ static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
 {
     const lmb_draw_state *s = p->state;
     const int meets = draw_meets(s), keeps = s->colour_mask != 15;
-    const int needs_share = p->varies || s->stage[0].texture != NULL || s->stage[1].texture != NULL || s->fog != LMB_DRAW_FOG_NONE;
+    const int textured = s->stage[0].texture != NULL || s->stage[1].texture != NULL;
+    const int needs_share = p->varies || textured || s->fog != LMB_DRAW_FOG_NONE;
     int is_white = !p->varies;
     uint32_t channels = 0;
     draw_codes same;

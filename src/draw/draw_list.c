@@ -118,7 +118,7 @@ static int list_draw_corners(const lmb_draw_pass *pass, const list_primitive *p,
 {
     const lmb_draw_state *s = pass->state;
     const int has_back = DRAW_FULL && (pass->vertices->back_colours != NULL || pass->vertices->back_seconds != NULL);
-    const int is_plain = !DRAW_FULL || s->polygon_mode[0] == LMB_DRAW_FILL && s->polygon_mode[1] == LMB_DRAW_FILL;
+    const int is_plain = !DRAW_FULL || (s->polygon_mode[0] == LMB_DRAW_FILL && s->polygon_mode[1] == LMB_DRAW_FILL);
     const int back = p->n == 3 && (has_back || !is_plain) && list_is_back(pass, corner);
     for (int i = 0; i < p->n; ++i) {
         list_paint(&corner[i], pass, (s->flags & LMB_DRAW_FLAT) != 0 ? p->flat : p->at[i], back);
@@ -163,7 +163,7 @@ static void list_draw(const lmb_draw_pass *pass, const list_primitive *listed)
 static void list_triangle(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat, int sides)
 {
     const list_primitive p = {{a, b, c}, flat, 3, sides};
-    if (!DRAW_FULL || pass->kept == NULL || !lmb_draw_quick(pass, a, b, c, flat)) {
+    if (!DRAW_FULL || pass->few == NULL || !lmb_draw_quick(pass, a, b, c, flat)) {
         list_draw(pass, &p);
     }
 }
@@ -194,14 +194,23 @@ static void list_fan(const lmb_draw_pass *pass, int32_t primitive, uint32_t coun
     }
 }
 
+static void list_triangles(const lmb_draw_pass *pass, uint32_t count)
+{
+    for (uint32_t i = 2; i < count; i += 3) {
+        i = DRAW_FULL && pass->few != NULL ? lmb_draw_quick_run(pass, i, count) : i;
+        if (i < count) {
+            const list_primitive p = {{i - 2, i - 1, i}, i, 3, SIDES_ALL | SIDES_CHOSEN};
+            *pass->dashed = 0;
+            list_draw(pass, &p);
+        }
+    }
+}
+
 static void list_areas(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
 {
     switch (primitive) {
     case LMB_DRAW_TRIANGLES:
-        for (uint32_t i = 2; i < count; i += 3) {
-            *pass->dashed = 0;
-            list_triangle(pass, i - 2, i - 1, i, i, SIDES_ALL | SIDES_CHOSEN);
-        }
+        list_triangles(pass, count);
         break;
     case LMB_DRAW_TRIANGLE_STRIP:
         for (uint32_t i = 2; i < count; ++i) {
@@ -325,7 +334,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
     const lmb_status status = list_check(target, state, vertices, primitive, indices);
     uint32_t dashed = 0;
     lmb_draw_pass pass;
-    lmb_draw_kept kept;
+    draw_vertex few[DRAW_FEW];
     if (status != LMB_OK) {
         return status;
     }
@@ -341,7 +350,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
         lmb_draw_rows_begin(&pass);
     }
     if (DRAW_FULL && primitive < LMB_DRAW_LINES) {
-        lmb_draw_quick_begin(&pass, &kept);
+        lmb_draw_quick_begin(&pass, few);
     }
     const uint32_t count = indices != NULL ? indices->count : vertices->count;
     if (DRAW_FULL && primitive == LMB_DRAW_POINTS) {

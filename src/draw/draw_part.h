@@ -59,7 +59,7 @@ typedef struct lmb_draw_pass {
     int32_t shows;                 /* 1: some colour may be written */
     uint32_t *dashed;              /* pixels of the lines before, which line_pattern counts on from */
     int32_t tests_rows, paints_rows, paints_lanes; /* 1: draw_rows.c can for this state, or a kernel */
-    struct lmb_draw_kept *kept;    /* corners of triangles; NULL: each is transformed as often as it comes */
+    struct draw_vertex *few;         /* DRAW_FEW corners of triangles; NULL: all go the long way */
     int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
     lmb_stats *stats;
 } lmb_draw_pass;
@@ -111,19 +111,20 @@ int lmb_draw_triangle(const lmb_draw_pass *pass, lmb_draw_corner corner[DRAW_COR
 int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2]);
 int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner);
 
-/* draw_quick.c: a triangle of vertices by their places in the list; 0: it is to be drawn the long way. begin: what a
- * pass keeps, if it can. finish: all of a late shape. */
-enum { DRAW_KEPT = 32 };
-typedef struct lmb_draw_kept {
-    struct draw_kept_corner {
-        uint32_t name, out; /* vertex + 1, 0: none; bits of the planes it is outside of, DRAW_DROPPED */
-        int32_t x, y;       /* 24.8 of the viewport's middle */
-        float d, inverse;   /* 1 / w */
-    } corner[DRAW_KEPT];
-} lmb_draw_kept;
-enum { DRAW_DROPPED = 256 };
-void lmb_draw_quick_begin(lmb_draw_pass *pass, lmb_draw_kept *kept);
+/* A corner that was transformed. */
+typedef struct draw_vertex {
+    uint32_t name, out; /* vertex + 1, 0: none; bits of the planes it is outside of, DRAW_DROPPED */
+    int32_t x, y;       /* 24.8 of the viewport's middle */
+    float d, inverse;   /* 1 / w */
+} draw_vertex;
+enum { DRAW_FEW = 4 /* for quads and strips */, DRAW_DROPPED = 256 };
+
+/* draw_quick.c. begin: sets pass->few if the state's triangles can be drawn this way. quick: a triangle of vertices by
+ * their places in the list; 0: it is to be drawn the long way. run: triangles of vertices (i - 2, i - 1, i), each three
+ * further on, until one is to be drawn the long way; returns its i. finish: all of a late shape. */
+void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW]);
 int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat);
+uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count);
 void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *shape);
 
 /* draw_rows.c: usual states, row by row. begin: which. tests: those of the mask's pixels that pass, whose depths are

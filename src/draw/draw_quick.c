@@ -1,4 +1,4 @@
-/* draw_quick.c: triangles that are neither clipped nor large: corners kept, edges in 32 bits, values when needed. Layer 4.
+/* draw_quick.c: triangles that are neither clipped nor large: corners are kept, edges fit 32 bits. Layer 4.
  *
  * Most triangles of a mesh cover a few pixels or none, and their cost is that of their corners. So a corner that comes
  * again is not transformed again, and colours and shares are not touched before a pixel has passed its tests. The
@@ -12,8 +12,8 @@
 
 #if LMB_DRAW
 enum { QUICK_24_8 = 16 * 256 /* a side of the box of corners that are small */ };
-enum { QUICK_AHEAD = 24 /* indices */ };
-#define QUICK_ABSURD 1e30f
+enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 32 };
+#define QUICK_ABSURD  1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
 /* What the rest of a shape is made of. */
@@ -25,23 +25,23 @@ typedef struct lmb_draw_late {
     lmb_draw_corner corner[3];
 } lmb_draw_late;
 
-void lmb_draw_quick_begin(lmb_draw_pass *pass, lmb_draw_kept *kept)
+void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
 {
     const lmb_draw_state *s = pass->state;
     const lmb_draw_vertices *v = pass->vertices;
     const float *axis = s->fog_axis, *m = s->to_clip.m;
     const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
-    if (v->position_format != LMB_DRAW_F32 || v->uv_format != LMB_DRAW_F32 ||
-        s->planes != 0 || s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
+    if (v->position_format != LMB_DRAW_F32 || v->uv_format != LMB_DRAW_F32 || s->planes != 0 ||
+        s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
         s->polygon_mode[1] != LMB_DRAW_FILL || v->fogs != NULL || v->seconds != NULL || v->back_colours != NULL ||
         v->back_seconds != NULL) {
         return;
     }
     pass->fog_is_w = !has_axis || (axis[0] == m[3] && axis[1] == m[7] && axis[2] == m[11] && axis[3] == m[15]);
-    for (int i = 0; i < DRAW_KEPT; ++i) {
-        kept->corner[i].name = 0;
+    for (int i = 0; i < DRAW_FEW; ++i) {
+        few[i].name = 0;
     }
-    pass->kept = kept;
+    pass->few = few;
 }
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
@@ -76,8 +76,7 @@ static int quick_is_in(const lmb_draw_pass *pass, const float p[3], const float 
 {
     const float w = clip[3];
     return pass->fog_is_w && w >= 2.0f * QUICK_LEAST_W && w < 1e20f && w >= clip[2] && clip[2] >= 0.0f &&
-           absf(clip[0]) <= pass->guard_x * w && absf(clip[1]) <= pass->guard_y * w &&
-           is_place(vec3(p[0], p[1], p[2]));
+           absf(clip[0]) <= pass->guard_x * w && absf(clip[1]) <= pass->guard_y * w && is_place(vec3(p[0], p[1], p[2]));
 }
 
 /* draw_to_24_8 of what lies in the guard band. */
@@ -87,7 +86,7 @@ static int32_t quick_to_24_8(float v)
     return whole - ((float)whole > v);
 }
 
-static void quick_place(struct draw_kept_corner *out, const lmb_draw_pass *pass, uint32_t i)
+static void quick_place(draw_vertex *out, const lmb_draw_pass *pass, uint32_t i)
 {
     const float *m = pass->state->to_clip.m, *range = pass->state->depth_range;
     const float *from = (const float *)pass->vertices->positions + 3 * (size_t)i;
@@ -105,7 +104,7 @@ static void quick_place(struct draw_kept_corner *out, const lmb_draw_pass *pass,
     out->inverse = inverse;
 }
 
-NOINLINE void quick_renew(struct draw_kept_corner *at, const lmb_draw_pass *pass, uint32_t i)
+NOINLINE void quick_renew(draw_vertex *at, const lmb_draw_pass *pass, uint32_t i)
 {
     quick_place(at, pass, i);
     for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
@@ -117,9 +116,9 @@ NOINLINE void quick_renew(struct draw_kept_corner *at, const lmb_draw_pass *pass
 }
 
 /* Vertex i, whose texture coordinates must be sane too. */
-static inline struct draw_kept_corner quick_corner(const lmb_draw_pass *pass, uint32_t i)
+static inline draw_vertex quick_corner(draw_vertex *known, uint32_t count, const lmb_draw_pass *pass, uint32_t i)
 {
-    struct draw_kept_corner *at = &pass->kept->corner[i % DRAW_KEPT];
+    draw_vertex *at = &known[i & (count - 1)];
     if (at->name != i + 1) {
         quick_renew(at, pass, i);
     }
@@ -199,8 +198,8 @@ typedef struct quick_edges {
     int32_t x0, y0, x1, y1;
 } quick_edges;
 
-static inline void quick_set_edge(quick_edges *out, int i, const lmb_screen_vertex *a, const lmb_screen_vertex *b, int32_t x,
-                                  int32_t y)
+static inline void quick_set_edge(quick_edges *out, int i, const lmb_screen_vertex *a, const lmb_screen_vertex *b,
+                                  int32_t x, int32_t y)
 {
     const int32_t ex = a->y_24_8 - b->y_24_8, ey = b->x_24_8 - a->x_24_8;
     const int32_t rule = ex > 0 || (ex == 0 && ey > 0) ? 0 : 1;
@@ -266,8 +265,8 @@ static void quick_begin_shape(lmb_draw_shape *out, lmb_draw_late *late, int64_t 
 /* Bit i of the four from `i` on: is pixel i inside? */
 #define QUICK_BIT(i) ((~(uint32_t)((a + ex0 * (i)) | (b + ex1 * (i)) | (c + ex2 * (i))) >> 31) << (i))
 
-/* The pixels of a box of at most 8 x 8, its first one bit 0. Four pixels at once: a loop as long as the box is wide ends
- * where processors do not expect it. */
+/* The pixels of a box of at most 8 x 8, its first one bit 0, four at once: a loop as long as the box is wide ends where
+ * processors do not expect it. */
 static inline uint64_t quick_covered_box(const quick_edges *s)
 {
     const int32_t wide = s->x1 - s->x0, ex0 = s->ex[0], ex1 = s->ex[1], ex2 = s->ex[2];
@@ -290,7 +289,8 @@ static void quick_fill_box(const lmb_draw_pass *pass, lmb_draw_late *late, int64
     const uint64_t mask = quick_covered_box(edges);
     const int32_t x = edges->x0 & ~7, y = edges->y0 & ~7, right = edges->x0 & 7, down = LMB_TILE * (edges->y0 & 7);
     const uint64_t near_columns = (uint64_t)(0xffu >> right) * UINT64_C(0x0101010101010101);
-    const uint64_t left = (mask & near_columns) << right, other = right != 0 ? (mask & ~near_columns) >> (8 - right) : 0;
+    const uint64_t left = (mask & near_columns) << right,
+                   other = right != 0 ? (mask & ~near_columns) >> (8 - right) : 0;
     lmb_draw_shape shape;
     if (mask == 0) {
         return;
@@ -328,7 +328,7 @@ static void quick_fill(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t a
     }
 }
 
-static void quick_set_corner(lmb_draw_late *late, int i, const struct draw_kept_corner *c)
+static void quick_set_corner(lmb_draw_late *late, int i, const draw_vertex *c)
 {
     late->at[i].x_24_8 = c->x;
     late->at[i].y_24_8 = c->y;
@@ -343,14 +343,14 @@ MESH_HINT void quick_ask_depth(const lmb_draw_pass *pass, int32_t x, int32_t y)
     const lmb_surface *s = &pass->target->depth;
     if (pass->tests_rows && s->layout == LMB_TILED) {
         const int32_t column = (x - pass->target->x0) >> 3, row = (y - pass->target->y0) >> 3;
-        MESH_SOON((const uint8_t *)s->data + (ptrdiff_t)row * s->stride_bytes + (ptrdiff_t)column * LMB_TILE_PIXELS * 4 +
-                  (y & 7) * LMB_TILE * 4);
+        MESH_SOON((const uint8_t *)s->data + (ptrdiff_t)row * s->stride_bytes +
+                  (ptrdiff_t)column * LMB_TILE_PIXELS * 4 + (y & 7) * LMB_TILE * 4);
     }
 }
 
 /* 1 or 0: something may show, or not; -1: it is to be drawn the long way. */
-static int quick_draw(const lmb_draw_pass *pass, const struct draw_kept_corner *a, const struct draw_kept_corner *b,
-                      const struct draw_kept_corner *c, uint32_t flat)
+static int quick_draw(const lmb_draw_pass *pass, const draw_vertex *a, const draw_vertex *b, const draw_vertex *c,
+                      uint32_t flat)
 {
     const lmb_draw_state *s = pass->state;
     const int32_t x_min = mini(a->x, mini(b->x, c->x)), x_max = maxi(a->x, maxi(b->x, c->x));
@@ -395,18 +395,18 @@ MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
     }
 }
 
-int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
+/* known: `size` corners, a power of two. */
+static inline int quick_triangle(const lmb_draw_pass *pass, draw_vertex *known, uint32_t size, const uint32_t order[3],
+                                 uint32_t flat)
 {
     const uint32_t count = pass->vertices->count;
-    const uint32_t i = draw_index(pass, a), j = draw_index(pass, b), k = draw_index(pass, c),
-                   last = flat == c ? k : draw_index(pass, flat);
+    const uint32_t i = draw_index(pass, order[0]), j = draw_index(pass, order[1]), k = draw_index(pass, order[2]),
+                   last = flat == order[2] ? k : draw_index(pass, flat);
     if (i >= count || j >= count || k >= count || last >= count) {
         return 0;
     }
-    quick_ask(pass, a + QUICK_AHEAD);
-    quick_ask(pass, b + QUICK_AHEAD);
-    quick_ask(pass, c + QUICK_AHEAD);
-    const struct draw_kept_corner p = quick_corner(pass, i), q = quick_corner(pass, j), r = quick_corner(pass, k);
+    const draw_vertex p = quick_corner(known, size, pass, i), q = quick_corner(known, size, pass, j),
+                    r = quick_corner(known, size, pass, k);
     int drawn = 0;
     if (((p.out | q.out | r.out) & DRAW_DROPPED) != 0) {
         return 0;
@@ -422,5 +422,29 @@ int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c
         pass->stats->triangles_drawn += (uint32_t)drawn;
     }
     return 1;
+}
+
+int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
+{
+    const uint32_t order[3] = {a, b, c};
+    return quick_triangle(pass, pass->few, DRAW_FEW, order, flat);
+}
+
+uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+{
+    draw_vertex known[QUICK_KNOWN];
+    for (int k = 0; k < QUICK_KNOWN; ++k) {
+        known[k].name = 0;
+    }
+    for (; i < count; i += 3) {
+        const uint32_t order[3] = {i - 2, i - 1, i};
+        quick_ask(pass, i - 2 + QUICK_AHEAD);
+        quick_ask(pass, i - 1 + QUICK_AHEAD);
+        quick_ask(pass, i + QUICK_AHEAD);
+        if (!quick_triangle(pass, known, QUICK_KNOWN, order, i)) {
+            break;
+        }
+    }
+    return i;
 }
 #endif

@@ -1,7 +1,8 @@
-/* draw_rows.c: the pixels of a shape in a tile for usual states: depth alone; a colour, one texture, four bytes a pixel,
- * opaque or blended by the usual factors. Layer 4.
+/* draw_rows.c: pixels of usual states by code of their own, in plain C or by lanes. Layer 4.
  *
- * Same values as draw_tile.c's, which does the rest: what stays the same over a shape is taken out of the loop. */
+ * Usual: depth of 32 bits without a stencil; colours of four bytes, opaque or blended by their alpha, one texture at
+ * most. Lanes take more. Values are draw_tile.c's, which does the rest: what a shape has in common is taken out of the
+ * loop. */
 #include "draw_part.h"
 
 #include <string.h>
@@ -74,8 +75,8 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass)
                        pass->target->depth.format == LMB_DEPTH32F;
     pass->paints_rows = paints && s->fog == LMB_DRAW_FOG_NONE && rows_sample(s) ? rows_blend(s) : ROWS_NOT;
 #if LMB_DRAW_LANES
-    pass->paints_lanes = s->kernels != NULL && paints && rows_are_little() && s->fog <= LMB_DRAW_FOG_LINEAR &&
-                         rows_lanes_sample(s);
+    pass->paints_lanes =
+        s->kernels != NULL && paints && rows_are_little() && s->fog <= LMB_DRAW_FOG_LINEAR && rows_lanes_sample(s);
 #endif
 }
 
@@ -160,7 +161,8 @@ static void rows_lanes_paint(const tile_job *j, uint64_t mask)
 
 int lmb_draw_lanes_paint(const tile_job *j, uint64_t mask)
 {
-    if (!j->pass->paints_lanes || !rows_are_whole(j) || (j->pass->paints_rows && rows_are_few(mask, ROWS_FEW_PAINTED))) {
+    if (!j->pass->paints_lanes || !rows_are_whole(j) ||
+        (j->pass->paints_rows && rows_are_few(mask, ROWS_FEW_PAINTED))) {
         return 0;
     }
     rows_lanes_paint(j, mask);
@@ -178,8 +180,9 @@ uint64_t lmb_draw_rows_test(const tile_job *j, uint64_t mask)
     const int32_t x = j->x - t->x0, y = j->y - t->y0;
     const int tiled = t->depth.layout == LMB_TILED;
     const int32_t step = tiled ? LMB_TILE * 4 : t->depth.stride_bytes;
-    uint8_t *row = (uint8_t *)t->depth.data + (tiled ? (ptrdiff_t)(y >> 3) * t->depth.stride_bytes + (ptrdiff_t)x * LMB_TILE * 4
-                                                     : (ptrdiff_t)y * t->depth.stride_bytes + (ptrdiff_t)x * 4);
+    uint8_t *row =
+        (uint8_t *)t->depth.data + (tiled ? (ptrdiff_t)(y >> 3) * t->depth.stride_bytes + (ptrdiff_t)x * LMB_TILE * 4
+                                          : (ptrdiff_t)y * t->depth.stride_bytes + (ptrdiff_t)x * 4);
 #if LMB_DRAW_LANES
     if (s->kernels != NULL && !rows_are_few(mask, ROWS_FEW_TESTED) && rows_are_whole(j)) {
         return rows_lanes_test(j, row, step, mask);
@@ -222,14 +225,17 @@ enum { ROWS_VALUES = 6 /* R G B A u v */ };
 /* Values of corner 0, and the differences of the others'. */
 typedef struct rows_values {
     float at[ROWS_VALUES], more1[ROWS_VALUES], more2[ROWS_VALUES];
-    uint32_t same;  /* its four codes if all corners have one colour */
-    uint32_t alpha; /* of the first corner */
+    uint32_t same;            /* its four codes if all corners have one colour */
+    uint32_t alpha;           /* of the first corner */
     int varies, alpha_varies; /* 1: corners differ */
 } rows_values;
 
 static inline uint32_t rows_code(float v) { return (uint32_t)(int32_t)(minf(maxf(v, 0.0f), 255.0f) + 0.5f); }
 
-static inline uint32_t rows_pack(uint32_t r, uint32_t g, uint32_t b, uint32_t a) { return r | g << 8 | b << 16 | a << 24; }
+static inline uint32_t rows_pack(uint32_t r, uint32_t g, uint32_t b, uint32_t a)
+{
+    return r | g << 8 | b << 16 | a << 24;
+}
 
 static void rows_set_values(rows_values *out, const lmb_draw_shape *s, int textured)
 {
@@ -247,10 +253,10 @@ static void rows_set_values(rows_values *out, const lmb_draw_shape *s, int textu
     const float *m1 = out->more1, *m2 = out->more2;
     out->alpha_varies = m1[3] != 0.0f || m2[3] != 0.0f;
     out->alpha = rows_code(a[CORNER_ALPHA]);
-    out->varies = out->alpha_varies || m1[0] != 0.0f || m2[0] != 0.0f || m1[1] != 0.0f || m2[1] != 0.0f || m1[2] != 0.0f ||
-                  m2[2] != 0.0f;
-    out->same = out->varies ? 0
-                            : rows_pack(rows_code(out->at[0]), rows_code(out->at[1]), rows_code(out->at[2]), out->alpha);
+    out->varies = out->alpha_varies || m1[0] != 0.0f || m2[0] != 0.0f || m1[1] != 0.0f || m2[1] != 0.0f ||
+                  m1[2] != 0.0f || m2[2] != 0.0f;
+    out->same =
+        out->varies ? 0 : rows_pack(rows_code(out->at[0]), rows_code(out->at[1]), rows_code(out->at[2]), out->alpha);
 }
 
 static inline float rows_value(const rows_values *v, int i, float b1, float b2)
@@ -346,7 +352,8 @@ static inline uint32_t rows_smooth(const rows_values *v, const float share[2])
 {
     const float b1 = share[0], b2 = share[1];
     return rows_pack(rows_code(rows_value(v, 0, b1, b2)), rows_code(rows_value(v, 1, b1, b2)),
-                     rows_code(rows_value(v, 2, b1, b2)), v->alpha_varies ? rows_code(rows_value(v, 3, b1, b2)) : v->alpha);
+                     rows_code(rows_value(v, 2, b1, b2)),
+                     v->alpha_varies ? rows_code(rows_value(v, 3, b1, b2)) : v->alpha);
 }
 
 /* The colour of pixel k. */
@@ -389,7 +396,8 @@ void lmb_draw_rows_paint(const tile_job *j, uint64_t mask)
     uint8_t *row = (uint8_t *)to->data + (ptrdiff_t)(j->y - j->pass->target->y0) * to->stride_bytes +
                    (ptrdiff_t)(j->x - j->pass->target->x0) * 4;
     rows_set_values(&v, j->shape, stage != NULL);
-    const int flat = !v.varies && (stage == NULL || !shares), is_smooth = v.varies && stage == NULL && blend == ROWS_OPAQUE;
+    const int flat = !v.varies && (stage == NULL || !shares),
+              is_smooth = v.varies && stage == NULL && blend == ROWS_OPAQUE;
     rows_line l = rows_line_of(j, 0);
     uint32_t code = flat ? rows_colour(&v, stage, &l, 0) : 0;
     code = swaps ? rows_swapped(code) : code;
@@ -409,7 +417,8 @@ void lmb_draw_rows_paint(const tile_job *j, uint64_t mask)
                 code = rows_colour(&v, stage, &l, k);
                 code = swaps ? rows_swapped(code) : code;
             }
-            rows_store(pixel + 4 * k, blend == ROWS_OPAQUE ? code : rows_blended(code, rows_load(pixel + 4 * k), blend));
+            rows_store(pixel + 4 * k,
+                       blend == ROWS_OPAQUE ? code : rows_blended(code, rows_load(pixel + 4 * k), blend));
         }
     }
 }

@@ -112,7 +112,8 @@ static uint64_t shape_covered(const lmb_draw_pass *pass, const shape_edges *s, i
         return ~(uint64_t)0;
     }
 #if LMB_DRAW_LANES
-    if (pass->state->kernels != NULL) { /* outside the box, no pixel is inside all edges, or lmb_draw_tile leaves it out */
+    if (pass->state->kernels !=
+        NULL) { /* outside the box, no pixel is inside all edges, or lmb_draw_tile leaves it out */
         return pass->state->kernels->draw_cover(s->e, s->ex, s->ey);
     }
 #endif

@@ -574,9 +574,9 @@ struct lmb_kernels {
     /* The tile's pixels where all three e + ex x + ey y >= 0. */
     uint64_t (*draw_cover)(const int32_t e[3], const int32_t ex[3], const int32_t ey[3]);
     /* Those of `mask` that pass the depth test; their depths are stored. */
-    uint64_t (*draw_test)(const lmb_draw_patch *patch, uint64_t mask);
+    uint64_t (*draw_test)(const lmb_draw_patch *pixels, uint64_t mask);
     /* Colours of `mask`. */
-    void (*draw_paint)(const lmb_draw_patch *patch, uint64_t mask);
+    void (*draw_paint)(const lmb_draw_patch *pixels, uint64_t mask);
 #endif
 };
 

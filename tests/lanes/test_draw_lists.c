@@ -60,14 +60,16 @@ static void make_vertices(lists *l, test_rng *r)
         l->colours[i / 4][i % 4] = is_solid && i % 4 == 3 ? 255 : l->colours[i / 4][i % 4];
     }
     for (int i = 0; i < CORNERS; ++i) {
-        l->indices[i] = any(r, 60) == 0 ? VERTICES + any(r, 9) : any(r, 3) == 0 ? any(r, VERTICES) : (uint32_t)(i % VERTICES);
+        l->indices[i] = any(r, 60) == 0  ? VERTICES + any(r, 9)
+                        : any(r, 3) == 0 ? any(r, VERTICES)
+                                         : (uint32_t)(i % VERTICES);
     }
 }
 
 static void make_textures(lists *l, test_rng *r)
 {
     for (int k = 0; k < 2; ++k) {
-        const lmb_texture t = {l->texels[k],          16, 8, 1, (uint8_t)any(r, 3), (uint8_t)any(r, 3), (uint8_t)any(r, 3),
+        const lmb_texture t = {l->texels[k],    16, 8, 1, (uint8_t)any(r, 3), (uint8_t)any(r, 3), (uint8_t)any(r, 3),
                                LMB_TEXELS_RGBA8};
         for (int i = 0; i < 4 * TEXELS; ++i) {
             l->texels[k][i] = (uint8_t)any(r, 256);

@@ -70,8 +70,8 @@ static void clear(drawing *d)
 static void frame_list(drawing *d)
 {
     clear(d);
-    (void)lmb_draw_list(&d->target, &d->state, &d->vertices, d->primitive,
-                        d->indices.data != NULL ? &d->indices : NULL, NULL);
+    (void)lmb_draw_list(&d->target, &d->state, &d->vertices, d->primitive, d->indices.data != NULL ? &d->indices : NULL,
+                        NULL);
 }
 
 /* Once more over what is there. */
@@ -497,39 +497,39 @@ static void drawing_begin(drawing *d, const draw_options *o)
 
 /* --- measuring ---------------------------------------------------------------------------------------------------- */
 
-/* Least processor time of a frame, s; and in the same time least time of storing each pixel once. */
+/* Least processor time of a frame, s; and in the same time shortest time of storing each pixel once. */
 static double measure(drawing *d, const draw_case *c, double seconds, double *store, int *frames)
 {
     const double end = host_seconds() + seconds;
-    double least = 1e9;
+    double shortest = 1e9;
     c->frame(d);
     *store = 1e9;
     for (*frames = 0; host_seconds() < end || *frames < FRAMES_LEAST; ++*frames) {
         const double start = host_cpu_seconds();
         c->frame(d);
         const double middle = host_cpu_seconds();
-        least = middle - start < least ? middle - start : least;
+        shortest = middle - start < shortest ? middle - start : shortest;
         if (c->make == make_fill || c->make == make_glass) {
             memset(d->colour, *frames & 255, 4 * PIXELS);
             const double took = host_cpu_seconds() - middle;
             *store = took < *store ? took : *store;
         }
     }
-    return least;
+    return shortest;
 }
 
-static void print_line(const draw_case *c, double least, double store, int frames, const draw_options *o)
+static void print_line(const draw_case *c, double shortest, double store, int frames, const draw_options *o)
 {
     const char *backend = o->kernels != NULL ? lmb_kernels_name(o->kernels) : "plain";
     if (o->is_quiet) {
         return;
     }
     printf(o->json ? "{\"case\":\"%s\",\"what\":\"%s\",\"cpu_min_ms\":%.4f,\"frames\":%d,\"backend\":\"%s\""
-                   : "%-16s %s: %.3f ms, least of %d, backend=%s",
-           c->name, c->what, least * 1e3, frames, backend);
+                   : "%-16s %s: %.3f ms, shortest of %d, backend=%s",
+           c->name, c->what, shortest * 1e3, frames, backend);
     if (store < 1e8) {
         printf(o->json ? ",\"store_ms\":%.4f,\"share\":%.3f" : ", store bound %.4f ms, share %.3f", store * 1e3,
-               store / least);
+               store / shortest);
     }
     puts(o->json ? "}" : "");
     fflush(stdout);
@@ -546,8 +546,8 @@ static int run_case(drawing *d, const draw_case *c, const draw_options *o, repor
     if (!c->make(d, o, r)) {
         return 0;
     }
-    const double least = measure(d, c, o->seconds, &store, &frames);
-    print_line(c, least, store, frames, o);
+    const double shortest = measure(d, c, o->seconds, &store, &frames);
+    print_line(c, shortest, store, frames, o);
     if (draw_needs_file(c)) {
         bench_scene_free(&d->mesh);
     }
