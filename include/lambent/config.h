@@ -76,9 +76,22 @@
 #define LMB_LIVE LMB_TREES
 #endif
 
-/* 0: this build has no fixed-function drawing (lambent/draw.h). Saves 16 KiB of ROM on a Cortex-M4F. */
+/* 0: this build has no fixed-function drawing (lambent/draw.h). Saves 30 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_DRAW
 #define LMB_DRAW LMB_TREES
+#endif
+
+/* 1: draw.h draws only triangles and polygons, with depth, alpha, two texture stages and the 2D calls; states that ask for
+ * more are refused: lines, points, polygon modes, patterns, stencil, logic op, fog, clip planes, depth offset, combined
+ * stages, second and back colours. lmb_draw_light is missing. Saves 17 KiB of ROM on a Cortex-M4F. */
+#ifndef LMB_DRAW_SMALL
+#define LMB_DRAW_SMALL 0
+#endif
+
+/* 0: draws ignore a state's kernels. Builds whose plain C has one lane (no SSE2, NEON or simd128) have none in any case.
+ * Saves 6 KiB of ROM for each backend. */
+#ifndef LMB_DRAW_KERNELS
+#define LMB_DRAW_KERNELS (LMB_DRAW && !LMB_DRAW_SMALL)
 #endif
 
 /* 0: this build has no probes (lambent/probe.h). Saves 6 KiB of ROM on a Cortex-M4F. */

@@ -32,7 +32,8 @@ typedef struct lmb_draw_target {
  * its last vertex. */
 enum { LMB_DRAW_TRIANGLES = 0, LMB_DRAW_TRIANGLE_STRIP = 1, LMB_DRAW_TRIANGLE_FAN = 2, LMB_DRAW_QUADS = 3,
        LMB_DRAW_QUAD_STRIP = 4, LMB_DRAW_LINES = 5, LMB_DRAW_LINE_STRIP = 6, LMB_DRAW_LINE_LOOP = 7,
-       LMB_DRAW_POINTS = 8 };
+       LMB_DRAW_POINTS = 8,
+       LMB_DRAW_POLYGON = 9 /* convex; drawn as a fan. Its flat colour is that of its first vertex */ };
 
 enum { LMB_DRAW_F32 = 0,  /* float */
        LMB_DRAW_I16 = 1,  /* int16; positions are x, y, z, 0 */
@@ -43,6 +44,10 @@ typedef struct lmb_draw_vertices {
     const void *positions;            /* x, y, z */
     const void *uvs[LMB_DRAW_STAGES]; /* u, v of each stage; NULL: (0, 0) */
     const uint8_t *colours;           /* R G B A; NULL: the state's */
+    const uint8_t *seconds;           /* R G B and a byte without meaning, added after the stages; NULL: 0 */
+    const uint8_t *back_colours, *back_seconds; /* of triangles that face away; NULL: as in front */
+    const float *fogs;                /* fog distances; NULL: by fog_axis */
+    const uint8_t *edges;             /* 0: the side of a polygon that begins here is none of its sides; NULL: all are */
     uint32_t count;
     lmb_vec3 position_scale, position_offset; /* LMB_DRAW_I16: scale * v + offset */
     float uv_scale;                           /* LMB_DRAW_I16: scale * v */
@@ -90,7 +95,28 @@ enum { LMB_DRAW_MODULATE = 0, /* C T, A a */
        LMB_DRAW_REPLACE = 1,  /* T, a */
        LMB_DRAW_DECAL = 2,    /* C (1 - a) + T a, A */
        LMB_DRAW_MIX = 3,      /* C (1 - T) + colour T, A a */
-       LMB_DRAW_PLUS = 4      /* C + T, A a */ };
+       LMB_DRAW_PLUS = 4,     /* C + T, A a */
+       LMB_DRAW_COMBINE = 5   /* by lmb_draw_combine */ };
+
+/* LMB_DRAW_COMBINE: functions of arguments a, b and c, each 0 .. 1; results are scaled, then clamped. SIGNED adds
+ * 1/2 of a code to be whole. DOT3 is 4 ((Ra - 1/2) (Rb - 1/2) + (G..) + (B..)) for R, G and B; DOT4 for A too. */
+enum { LMB_DRAW_ARG = 0 /* a */, LMB_DRAW_PRODUCT = 1 /* a b */, LMB_DRAW_SUM = 2 /* a + b */,
+       LMB_DRAW_SIGNED = 3 /* a + b - 1/2 */, LMB_DRAW_INTERPOLATE = 4 /* a c + b (1 - c) */,
+       LMB_DRAW_DIFFERENCE = 5 /* a - b */, LMB_DRAW_DOT3 = 6, LMB_DRAW_DOT4 = 7 };
+/* An argument is a source, of which an operand takes the channel itself or alpha; INVERSE: 1 minus. */
+enum { LMB_DRAW_FROM_TEXTURE = 0, LMB_DRAW_FROM_CONSTANT = 1 /* the stage's colour */,
+       LMB_DRAW_FROM_VERTEX = 2 /* the colour before all stages */, LMB_DRAW_FROM_PREVIOUS = 3 /* the stage before */,
+       LMB_DRAW_FROM_STAGE = 4 /* + n: the texel of stage n; 1 if it has no texture */ };
+enum { LMB_DRAW_TAKE_COLOUR = 0, LMB_DRAW_TAKE_INVERSE_COLOUR = 1, LMB_DRAW_TAKE_ALPHA = 2,
+       LMB_DRAW_TAKE_INVERSE_ALPHA = 3 };
+
+/* [0]: of R, G and B; [1]: of A. */
+typedef struct lmb_draw_combine {
+    uint8_t func[2];       /* LMB_DRAW_ARG, ...; of A at most LMB_DRAW_DIFFERENCE */
+    uint8_t source[2][3];  /* of a, b and c */
+    uint8_t operand[2][3]; /* of A, both COLOUR and ALPHA take alpha */
+    uint8_t shift[2];      /* 0 .. 2: times 1, 2 or 4 */
+} lmb_draw_combine;
 
 /* A texture stage. The texture's own filter holds: LMB_NEAREST and LMB_BILINEAR read level 0, LMB_TRILINEAR the two
  * levels around log2 of the texels per pixel. Weights are whole 1/256. Codes are mixed as they are. */
@@ -98,15 +124,21 @@ typedef struct lmb_draw_stage {
     const lmb_texture *texture; /* NULL: the colour passes */
     float level_bias;           /* added to the level, -16 .. 16 */
     uint8_t mode;               /* LMB_DRAW_MODULATE, ... */
-    uint8_t colour[3];          /* of LMB_DRAW_MIX */
+    uint8_t colour[4];          /* of LMB_DRAW_MIX and LMB_DRAW_FROM_CONSTANT */
+    lmb_draw_combine combine;
 } lmb_draw_stage;
 
 /* Fog by distance c: f = (end - c) / (end - start), 2^(-density c log2 e), or 2^(-(density c)^2 log2 e) by the
  * library's own exp2, as a code 0 .. 255. The colour becomes f C + (1 - f) fog_colour, rounded to nearest. */
 enum { LMB_DRAW_FOG_NONE = 0, LMB_DRAW_FOG_LINEAR = 1, LMB_DRAW_FOG_EXP = 2, LMB_DRAW_FOG_EXP2 = 3 };
 
+/* How polygons are drawn. Edges are lines and corners points by the rules of those, each clipped by itself, with the
+ * values of the polygon's vertices. Depth offset does not move them. */
+enum { LMB_DRAW_FILL = 0, LMB_DRAW_EDGES = 1, LMB_DRAW_CORNERS = 2 };
+
 /* All that a draw depends on. lmb_draw_state_init sets it; then change what you need. */
 typedef struct lmb_draw_state {
+    const struct lmb_kernels *kernels; /* lmb_kernels_pick(): the same pixels in less time; NULL: plain C */
     lmb_mat4 to_clip;                 /* of vertices */
     float plane[LMB_DRAW_PLANES][4];  /* plane[i] . (x, y, z, 1) >= 0 stays, in the vertices' space */
     float fog_axis[4];                /* c = fog_axis . (x, y, z, 1); all 0: the w of clip space */
@@ -115,6 +147,8 @@ typedef struct lmb_draw_state {
     float depth_range[2];             /* stored d for z / w = 0 and 1; each 0 .. 1 */
     float offset_slope, offset_units; /* triangles' d += slope x its larger change per px + units x the least step */
     lmb_draw_stage stage[LMB_DRAW_STAGES];
+    const uint8_t *area_pattern;      /* of filled polygons: a bit each for 32 x 32 px of the frame, 4 bytes a row, the
+                                         low bits to the left; 0 is left out. NULL: none */
     float fog_start, fog_end, fog_density;
     uint32_t flags;                   /* LMB_DRAW_DEPTH_TEST, ... */
     uint8_t colour[4], fog_colour[3], blend_colour[4];
@@ -127,7 +161,48 @@ typedef struct lmb_draw_state {
     uint8_t blend_source[2], blend_target[2], blend_equation[2]; /* of colour, of alpha */
     uint8_t logic_op;
     uint8_t line_px, point_px;        /* widths, 1 .. 255 */
+    uint8_t polygon_mode[2];          /* of front and of back faces: LMB_DRAW_FILL, ... */
+    uint16_t line_pattern;            /* lines' n-th pixel is left out if bit n / line_repeat % 16 is 0 */
+    uint16_t line_repeat;             /* 1 .. 256. Strips, loops and polygons count on from line to line */
 } lmb_draw_state;
+
+/* Light at vertices by the formula of OpenGL 1.x: lmb_draw_light. Lamps lie in the eye's space: the eye is at (0, 0, 0)
+ * and looks along -z. Colours are codes / 255. */
+enum { LMB_DRAW_LAMPS = 8 };
+typedef struct lmb_draw_lamp {
+    float position[4];                       /* w 0: the way to it, infinitely far */
+    float ambient[3], diffuse[3], specular[3];
+    float spot_direction[3];                 /* any length */
+    float spot_exponent;                     /* 0 .. 128 */
+    float spot_cos;                          /* of the cone's half angle; -1: no cone */
+    float attenuation[3];                    /* by 1, distance and its square, each >= 0; not of lamps with w 0 */
+} lmb_draw_lamp;
+
+typedef struct lmb_draw_material {
+    float emission[3], ambient[3], diffuse[4] /* with alpha */, specular[3];
+    float shininess; /* 0 .. 128 */
+} lmb_draw_material;
+
+/* Which numbers of the materials are the vertices' colours instead; alpha with DIFFUSE. */
+enum { LMB_DRAW_TRACK_EMISSION = 1, LMB_DRAW_TRACK_AMBIENT = 2, LMB_DRAW_TRACK_DIFFUSE = 4,
+       LMB_DRAW_TRACK_SPECULAR = 8 };
+
+typedef struct lmb_draw_lighting {
+    const lmb_draw_lamp *lamps;
+    uint32_t count;                /* of lamps, up to LMB_DRAW_LAMPS */
+    lmb_mat4 to_eye;               /* of vertices and, by its inverse transpose, of normals */
+    float ambient[3];              /* of the scene */
+    lmb_draw_material material[2]; /* of fronts and of backs */
+    uint8_t tracks;                /* LMB_DRAW_TRACK_EMISSION, ... */
+    uint8_t is_local;              /* 1: highlights by the direction to the eye; 0: by +z */
+    uint8_t is_raw;                /* 1: normals keep their length; 0: they become unit */
+} lmb_draw_lighting;
+
+/* Where colours go, 4 bytes a vertex. */
+typedef struct lmb_draw_lit {
+    uint8_t *colours, *seconds;           /* seconds: highlights apart, for after the stages; NULL: in `colours` */
+    uint8_t *back_colours, *back_seconds; /* of backs, which have the normals reversed; NULL: none */
+} lmb_draw_lit;
 
 /* A picture to copy from. */
 enum { LMB_BLIT_PALETTE8 = 64 /* beside LMB_RGB565 .. LMB_BGRA8: a byte a pixel */ };
@@ -164,6 +239,17 @@ lmb_status lmb_draw_view(lmb_draw_state *inout, const lmb_view *view, const lmb_
 /* lmb_draw_pixels: set to_clip so that vertices are pixels of the viewport, (0, 0) its upper left corner, y down; z is
  * d. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_draw_pixels(lmb_draw_state *inout);
+
+#if !LMB_DRAW_SMALL
+/* lmb_draw_light: light `vertices` into the colours that lmb_draw_list takes. With the library's own log2 and exp2.
+ *
+ *   out      colours are needed, the others may be NULL. May be vertices->colours.
+ *   normals  x, y, z a vertex; NULL: all face the eye, (0, 0, 1) in its space. Of a length near 0: no lamp shines.
+ * A vertex that is not finite gets any colour. LMB_OK, or LMB_ERR_ARG, LMB_ERR_FORMAT or LMB_ERR_ALIGN: then nothing is
+ * written. */
+lmb_status lmb_draw_light(const lmb_draw_lit *out, const lmb_draw_lighting *how, const lmb_draw_vertices *vertices,
+                          const float *normals);
+#endif
 
 /* lmb_draw_list: draw primitives.
  *

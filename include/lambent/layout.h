@@ -91,6 +91,7 @@
 #define lmb_render_parts_done       LMB_LAYOUT(lmb_render_parts_done)
 #define lmb_render_progress         LMB_LAYOUT(lmb_render_progress)
 #define lmb_render_step             LMB_LAYOUT(lmb_render_step)
+#define lmb_render_vertices         LMB_LAYOUT(lmb_render_vertices)
 #define lmb_resolve_albedo          LMB_LAYOUT(lmb_resolve_albedo)
 #define lmb_resolve_tile            LMB_LAYOUT(lmb_resolve_tile)
 #define lmb_sparse_pixels           LMB_LAYOUT(lmb_sparse_pixels)

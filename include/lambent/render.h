@@ -28,6 +28,7 @@
 
 #include "bounce.h"
 #include "compose.h"
+#include "draw.h"
 #include "elements.h"
 #include "env.h"
 #include "live.h"
@@ -344,6 +345,23 @@ lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts);
 /* lmb_render_frame: begin and all the steps. `r` is caller's memory. Returns LMB_OK when the frame is done, or an error of
  * lmb_render_begin or of a stage. */
 lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame);
+
+#if LMB_DRAW
+/* lmb_render_vertices: light vertices for lmb_draw_list by the light of a frame: the scene's lights with their shadows,
+ * many lights, and bounced light. So glass, smoke and particles lie in the room's light.
+ *
+ *   colours  R G B A a vertex, sRGB; set to what a matt surface of the vertex's own colour shows there at the frame's
+ *            exposure; alpha stays. May be vertices->colours.
+ *   r        from LMB_STAGE_BANDS on, done or not. LMB_SHOW_DIRECT has no bounced light, LMB_SHOW_INDIRECT no other.
+ *   normals  x, y, z a vertex, in the vertices' space: towards the side that is lit. NULL: light comes from all sides
+ *            alike, as in smoke: the mean of all normals.
+ * By a transfer, bounced light is that of its places in the air: none in files without objects that move. By cuts,
+ * 64 vertices in a row share a cut, and what they get changes a little with the others. Otherwise a vertex's light
+ * depends on it, the scene and the maps only. A vertex that is not finite becomes black.
+ * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_FORMAT or LMB_ERR_ALIGN, then nothing is written; or an error of the frame. */
+lmb_status lmb_render_vertices(uint8_t *colours, const lmb_render *r, lmb_band_scratch *scratch,
+                               const lmb_draw_vertices *vertices, const float *normals, const lmb_mat4 *to_world);
+#endif
 
 /* lmb_render_progress: how far the current stage is, 0 .. 1. *name is its name in words; never NULL. */
 float lmb_render_progress(const char **name, const lmb_render *r);

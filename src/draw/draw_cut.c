@@ -46,7 +46,7 @@ static uint32_t cut_code(const lmb_draw_corner *c, const lmb_draw_pass *pass)
     for (int cut = 0; cut < DRAW_CUT_OWN; ++cut) {
         code |= (uint32_t)(cut_distance(c, cut, pass) < 0.0f) << cut;
     }
-    for (int cut = DRAW_CUT_OWN; pass->state->planes >> (cut - DRAW_CUT_OWN) != 0; ++cut) {
+    for (int cut = DRAW_CUT_OWN; DRAW_FULL && pass->state->planes >> (cut - DRAW_CUT_OWN) != 0; ++cut) {
         code |= (uint32_t)(cut_is_on(cut, pass) && cut_distance(c, cut, pass) < 0.0f) << cut;
     }
     return code;

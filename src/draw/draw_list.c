@@ -11,19 +11,6 @@
 
 /* --- vertices ----------------------------------------------------------------------------------------------------- */
 
-static void list_fetch_values(float *out, const void *data, uint32_t i, int n, int format)
-{
-    const size_t at = (size_t)i * (size_t)(format == LMB_DRAW_I16 && n == 3 ? 4 : n);
-    if (format == LMB_DRAW_F32) {
-        memcpy(out, (const float *)data + at, (size_t)n * sizeof *out);
-        return;
-    }
-    for (int k = 0; k < n; ++k) {
-        out[k] = format == LMB_DRAW_I16 ? (float)((const int16_t *)data)[at + (size_t)k]
-                                        : (float)((const int32_t *)data)[at + (size_t)k] * (1.0f / 65536.0f);
-    }
-}
-
 static float list_row(const lmb_mat4 *m, int row, lmb_vec3 p)
 {
     return m->m[row] * p.x + m->m[4 + row] * p.y + m->m[8 + row] * p.z + m->m[12 + row];
@@ -39,23 +26,17 @@ static int list_place(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t 
 {
     const lmb_draw_vertices *v = pass->vertices;
     const lmb_draw_state *s = pass->state;
-    float at[3];
+    const lmb_vec3 p = lmb_draw_position(v, i);
     int sane = 1;
-    list_fetch_values(at, v->positions, i, 3, v->position_format);
-    lmb_vec3 p = vec3(at[0], at[1], at[2]);
-    if (v->position_format == LMB_DRAW_I16) {
-        p = vec3(v->position_scale.x * p.x + v->position_offset.x, v->position_scale.y * p.y + v->position_offset.y,
-                 v->position_scale.z * p.z + v->position_offset.z);
-    }
     for (int row = 0; row < 4; ++row) {
         out->v[CORNER_X + row] = list_row(&s->to_clip, row, p);
         sane &= out->v[CORNER_X + row] > -LIST_ABSURD && out->v[CORNER_X + row] < LIST_ABSURD;
     }
     const float *axis = s->fog_axis;
     const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
-    out->v[CORNER_FOG] = has_axis ? list_plane(axis, p) : out->v[CORNER_W];
+    out->v[CORNER_FOG] = v->fogs != NULL ? v->fogs[i] : has_axis ? list_plane(axis, p) : out->v[CORNER_W];
     sane &= out->v[CORNER_FOG] > -LIST_ABSURD && out->v[CORNER_FOG] < LIST_ABSURD;
-    for (int k = 0; k < LMB_DRAW_PLANES; ++k) {
+    for (int k = 0; DRAW_FULL && k < LMB_DRAW_PLANES; ++k) {
         const int on = (s->planes >> k & 1u) != 0;
         out->v[CORNER_PLANES + k] = on ? list_plane(s->plane[k], p) : 0.0f;
         sane &= out->v[CORNER_PLANES + k] > -LIST_ABSURD && out->v[CORNER_PLANES + k] < LIST_ABSURD;
@@ -63,21 +44,34 @@ static int list_place(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t 
     return sane && is_place(p);
 }
 
-/* Vertex i; 0 if it is to be dropped. */
-static int list_vertex(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t i)
+/* The colours of vertex i: those of the back if there are such. */
+static void list_paint(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t i, int back)
 {
+    static const uint8_t none[4];
     const lmb_draw_vertices *v = pass->vertices;
-    const uint8_t *colour = v->colours != NULL ? v->colours + 4 * (size_t)i : pass->state->colour;
-    int sane = list_place(out, pass, i);
+    const uint8_t *colours = back && v->back_colours != NULL ? v->back_colours : v->colours;
+    const uint8_t *seconds = back && v->back_seconds != NULL ? v->back_seconds : v->seconds;
+    const uint8_t *colour = colours != NULL ? colours + 4 * (size_t)i : pass->state->colour;
+    const uint8_t *second = seconds != NULL ? seconds + 4 * (size_t)i : none;
     for (int k = 0; k < 4; ++k) {
         out->v[CORNER_RED + k] = (float)colour[k];
     }
+    for (int k = 0; k < 3; ++k) {
+        out->v[CORNER_SECOND + k] = (float)second[k];
+    }
+}
+
+/* Vertex i, but for its colours; 0 if it is to be dropped. */
+static int list_vertex(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t i)
+{
+    const lmb_draw_vertices *v = pass->vertices;
+    int sane = list_place(out, pass, i);
     for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
         float *uv = &out->v[CORNER_UV + 2 * k];
         uv[0] = uv[1] = 0.0f;
         if (v->uvs[k] != NULL && pass->state->stage[k].texture != NULL) {
             const float scale = v->uv_format == LMB_DRAW_I16 ? v->uv_scale : 1.0f;
-            list_fetch_values(uv, v->uvs[k], i, 2, v->uv_format);
+            lmb_draw_fetch(uv, v->uvs[k], i, 2, v->uv_format);
             uv[0] *= scale;
             uv[1] *= scale;
             sane &= is_sane(uv[0]) && is_sane(uv[1]);
@@ -86,34 +80,73 @@ static int list_vertex(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t
     return sane;
 }
 
-/* Which vertex comes n-th; the vertices' count if there is no such. */
-static uint32_t list_index(const lmb_draw_pass *pass, uint32_t n)
-{
-    const lmb_draw_indices *x = pass->indices;
-    uint32_t i = n;
-    if (x != NULL && x->format == LMB_DRAW_INDEX_U8) {
-        i = ((const uint8_t *)x->data)[n];
-    } else if (x != NULL && x->format == LMB_INDEX_U16) {
-        i = ((const uint16_t *)x->data)[n];
-    } else if (x != NULL && x->format == LMB_INDEX_U32) {
-        i = ((const uint32_t *)x->data)[n];
-    }
-    return i < pass->vertices->count ? i : pass->vertices->count;
-}
-
 /* --- primitives --------------------------------------------------------------------------------------------------- */
 
-/* One with `n` corners, the last of which gives a flat colour: the `flat`-th of the list. */
-static void list_draw(const lmb_draw_pass *pass, const uint32_t *order, int n, uint32_t flat)
+/* Does it face away? By the corners before they snap. */
+static int list_is_back(const lmb_draw_pass *pass, const lmb_draw_corner c[3])
 {
-    lmb_draw_corner corner[DRAW_CORNERS];
-    int sane = 1, drawn;
-    for (int i = 0; i < n && sane; ++i) {
-        const uint32_t at = list_index(pass, order[i]);
-        sane = at < pass->vertices->count && list_vertex(&corner[i], pass, at);
+    const float *p = c[0].v, *q = c[1].v, *r = c[2].v;
+    const double x = (double)q[CORNER_Y] * (double)r[CORNER_W] - (double)q[CORNER_W] * (double)r[CORNER_Y];
+    const double y = (double)q[CORNER_W] * (double)r[CORNER_X] - (double)q[CORNER_X] * (double)r[CORNER_W];
+    const double w = (double)q[CORNER_X] * (double)r[CORNER_Y] - (double)q[CORNER_Y] * (double)r[CORNER_X];
+    const double area = (double)p[CORNER_X] * x + (double)p[CORNER_Y] * y + (double)p[CORNER_W] * w;
+    return ((pass->state->flags & LMB_DRAW_CLOCKWISE) != 0) == (area > 0.0);
+}
+
+/* A triangle's sides, or the corners where they begin: bits 0 .. 2 of `sides`, from each corner to the next one. */
+static int list_outline(const lmb_draw_pass *pass, const lmb_draw_corner corner[3], int sides, int mode)
+{
+    int drawn = 0;
+    for (int i = 0; i < 3; ++i) {
+        lmb_draw_corner line[2] = {corner[i], corner[(i + 1) % 3]};
+        if ((sides >> i & 1) != 0) {
+            drawn |= mode == LMB_DRAW_EDGES ? lmb_draw_line(pass, line) : lmb_draw_point(pass, line);
+        }
     }
-    const uint32_t at = list_index(pass, flat);
-    sane &= at < pass->vertices->count;
+    return drawn;
+}
+
+/* What a primitive is drawn of: `n` vertices; the one that gives a flat colour; the sides of a triangle that are a
+ * polygon's, as above; bit SIDES_CHOSEN if the vertices' edges count. */
+enum { SIDES_ALL = 7, SIDES_CHOSEN = 8 };
+typedef struct list_primitive {
+    uint32_t at[3], flat;
+    int n, sides;
+} list_primitive;
+
+static int list_draw_corners(const lmb_draw_pass *pass, const list_primitive *p, lmb_draw_corner corner[DRAW_CORNERS])
+{
+    const lmb_draw_state *s = pass->state;
+    const int has_back = DRAW_FULL && (pass->vertices->back_colours != NULL || pass->vertices->back_seconds != NULL);
+    const int is_plain = !DRAW_FULL || (s->polygon_mode[0] == LMB_DRAW_FILL && s->polygon_mode[1] == LMB_DRAW_FILL);
+    const int back = p->n == 3 && (has_back || !is_plain) && list_is_back(pass, corner);
+    for (int i = 0; i < p->n; ++i) {
+        list_paint(&corner[i], pass, (s->flags & LMB_DRAW_FLAT) != 0 ? p->flat : p->at[i], back);
+    }
+    if (DRAW_FULL && p->n == 3 && s->polygon_mode[back] != LMB_DRAW_FILL) {
+        const int culled = (s->flags & (back ? LMB_DRAW_CULL_BACK : LMB_DRAW_CULL_FRONT)) != 0;
+        return culled ? 0 : list_outline(pass, corner, p->sides, s->polygon_mode[back]);
+    }
+    return !DRAW_FULL || p->n == 3 ? lmb_draw_triangle(pass, corner)
+           : p->n == 2 ? lmb_draw_line(pass, corner)
+                       : lmb_draw_point(pass, corner);
+}
+
+/* One of vertices by their places in the list. */
+static void list_draw(const lmb_draw_pass *pass, const list_primitive *listed)
+{
+    const lmb_draw_vertices *v = pass->vertices;
+    lmb_draw_corner corner[DRAW_CORNERS];
+    list_primitive p = *listed;
+    p.flat = draw_index(pass, listed->flat);
+    int sane = p.flat < v->count;
+    for (int i = 0; i < p.n && sane; ++i) {
+        p.at[i] = draw_index(pass, listed->at[i]);
+        sane = p.at[i] < v->count && list_vertex(&corner[i], pass, p.at[i]);
+        if (sane && (p.sides & SIDES_CHOSEN) != 0 && v->edges != NULL && v->edges[p.at[i]] == 0) {
+            p.sides &= ~(1 << i);
+        }
+    }
     if (pass->stats != NULL) {
         ++pass->stats->triangles;
         pass->stats->triangles_dropped += !sane;
@@ -121,65 +154,82 @@ static void list_draw(const lmb_draw_pass *pass, const uint32_t *order, int n, u
     if (!sane) {
         return;
     }
-    if ((pass->state->flags & LMB_DRAW_FLAT) != 0 && pass->vertices->colours != NULL) {
-        const uint8_t *colour = pass->vertices->colours + 4 * (size_t)at;
-        for (int i = 0; i < 4 * n; ++i) {
-            corner[i / 4].v[CORNER_RED + i % 4] = (float)colour[i % 4];
-        }
-    }
-    drawn = n == 3   ? lmb_draw_triangle(pass, corner)
-            : n == 2 ? lmb_draw_line(pass, corner)
-                     : lmb_draw_point(pass, corner);
+    const int drawn = list_draw_corners(pass, &p, corner);
     if (pass->stats != NULL) {
         pass->stats->triangles_drawn += (uint32_t)drawn;
     }
 }
 
-static void list_triangle(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
+static void list_triangle(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat, int sides)
 {
-    const uint32_t order[3] = {a, b, c};
-    list_draw(pass, order, 3, flat);
+    const list_primitive p = {{a, b, c}, flat, 3, sides};
+    if (!DRAW_FULL || pass->few == NULL || !lmb_draw_quick(pass, a, b, c, flat)) {
+        list_draw(pass, &p);
+    }
 }
 
 static void list_line(const lmb_draw_pass *pass, uint32_t a, uint32_t b)
 {
-    const uint32_t order[2] = {a, b};
-    list_draw(pass, order, 2, b);
+    const list_primitive p = {{a, b, b}, b, 2, 0};
+    list_draw(pass, &p);
 }
 
-static void list_quad(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t d, uint32_t flat)
+static void list_quad(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t d, uint32_t flat,
+                      int chosen)
 {
-    list_triangle(pass, a, b, c, flat);
-    list_triangle(pass, a, c, d, flat);
+    *pass->dashed = 0;
+    list_triangle(pass, a, b, c, flat, 3 | chosen);
+    list_triangle(pass, a, c, d, flat, 6 | chosen);
+}
+
+static void list_fan(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
+{
+    const int is_polygon = primitive == LMB_DRAW_POLYGON;
+    for (uint32_t i = 2; i < count; ++i) {
+        const int sides = 2 | (i == 2) | (i + 1 == count) << 2 | SIDES_CHOSEN;
+        if (!is_polygon) {
+            *pass->dashed = 0;
+        }
+        list_triangle(pass, 0, i - 1, i, is_polygon ? 0 : i, is_polygon ? sides : SIDES_ALL);
+    }
+}
+
+static void list_triangles(const lmb_draw_pass *pass, uint32_t count)
+{
+    for (uint32_t i = 2; i < count; i += 3) {
+        i = DRAW_FULL && pass->few != NULL ? lmb_draw_quick_run(pass, i, count) : i;
+        if (i < count) {
+            const list_primitive p = {{i - 2, i - 1, i}, i, 3, SIDES_ALL | SIDES_CHOSEN};
+            *pass->dashed = 0;
+            list_draw(pass, &p);
+        }
+    }
 }
 
 static void list_areas(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
 {
     switch (primitive) {
     case LMB_DRAW_TRIANGLES:
-        for (uint32_t i = 2; i < count; i += 3) {
-            list_triangle(pass, i - 2, i - 1, i, i);
-        }
+        list_triangles(pass, count);
         break;
     case LMB_DRAW_TRIANGLE_STRIP:
         for (uint32_t i = 2; i < count; ++i) {
-            list_triangle(pass, i - 2 + (i & 1u), i - 1 - (i & 1u), i, i);
-        }
-        break;
-    case LMB_DRAW_TRIANGLE_FAN:
-        for (uint32_t i = 2; i < count; ++i) {
-            list_triangle(pass, 0, i - 1, i, i);
+            *pass->dashed = 0;
+            list_triangle(pass, i - 2 + (i & 1u), i - 1 - (i & 1u), i, i, SIDES_ALL);
         }
         break;
     case LMB_DRAW_QUADS:
         for (uint32_t i = 3; i < count; i += 4) {
-            list_quad(pass, i - 3, i - 2, i - 1, i, i);
+            list_quad(pass, i - 3, i - 2, i - 1, i, i, SIDES_CHOSEN);
         }
         break;
-    default: /* a strip of quads */
+    case LMB_DRAW_QUAD_STRIP:
         for (uint32_t i = 3; i < count; i += 2) {
-            list_quad(pass, i - 3, i - 2, i, i - 1, i);
+            list_quad(pass, i - 3, i - 2, i, i - 1, i, 0);
         }
+        break;
+    default:
+        list_fan(pass, primitive, count);
         break;
     }
 }
@@ -187,6 +237,9 @@ static void list_areas(const lmb_draw_pass *pass, int32_t primitive, uint32_t co
 static void list_lines(const lmb_draw_pass *pass, int32_t primitive, uint32_t count)
 {
     for (uint32_t i = 1; i < count; i += primitive == LMB_DRAW_LINES ? 2 : 1) {
+        if (primitive == LMB_DRAW_LINES) {
+            *pass->dashed = 0;
+        }
         list_line(pass, i - 1, i);
     }
     if (primitive == LMB_DRAW_LINE_LOOP && count >= 2) {
@@ -194,30 +247,15 @@ static void list_lines(const lmb_draw_pass *pass, int32_t primitive, uint32_t co
     }
 }
 
-/* --- the call ----------------------------------------------------------------------------------------------------- */
-
-static size_t list_value_bytes(int format) { return format == LMB_DRAW_I16 ? 2 : 4; }
-
-static int list_is_aligned(const void *p, size_t bytes) { return (uintptr_t)p % bytes == 0; }
-
-static lmb_status list_check_vertices(const lmb_draw_vertices *v)
+static void list_points(const lmb_draw_pass *pass, uint32_t count)
 {
-    int aligned = 1;
-    if (v->position_format > LMB_DRAW_FIXED || v->uv_format > LMB_DRAW_FIXED) {
-        return LMB_ERR_FORMAT;
+    for (uint32_t i = 0; i < count; ++i) {
+        const list_primitive p = {{i, i, i}, i, 1, 0};
+        list_draw(pass, &p);
     }
-    if ((v->positions == NULL && v->count > 0) || v->count > UINT32_MAX - 4) {
-        return LMB_ERR_ARG;
-    }
-    if ((v->position_format == LMB_DRAW_I16 && !(is_place(v->position_scale) && is_place(v->position_offset))) ||
-        (v->uv_format == LMB_DRAW_I16 && !is_sane(v->uv_scale))) {
-        return LMB_ERR_ARG;
-    }
-    for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
-        aligned &= list_is_aligned(v->uvs[k], list_value_bytes(v->uv_format));
-    }
-    return aligned && list_is_aligned(v->positions, list_value_bytes(v->position_format)) ? LMB_OK : LMB_ERR_ALIGN;
 }
+
+/* --- the call ----------------------------------------------------------------------------------------------------- */
 
 static lmb_status list_check_indices(const lmb_draw_indices *x)
 {
@@ -231,7 +269,7 @@ static lmb_status list_check_indices(const lmb_draw_indices *x)
         return LMB_ERR_ARG;
     }
     const size_t bytes = x->format == LMB_INDEX_U32 ? 4 : x->format == LMB_INDEX_U16 ? 2 : 1;
-    return list_is_aligned(x->data, bytes) ? LMB_OK : LMB_ERR_ALIGN;
+    return (uintptr_t)x->data % bytes == 0 ? LMB_OK : LMB_ERR_ALIGN;
 }
 
 static void list_keep(lmb_draw_pass *pass, int32_t x, int32_t y, int32_t width, int32_t height)
@@ -281,12 +319,12 @@ static lmb_status list_check(const lmb_draw_target *target, const lmb_draw_state
                              const lmb_draw_vertices *vertices, int32_t primitive, const lmb_draw_indices *indices)
 {
     if (target == NULL || state == NULL || vertices == NULL || primitive < LMB_DRAW_TRIANGLES ||
-        primitive > LMB_DRAW_POINTS) {
+        primitive > LMB_DRAW_POLYGON || (!DRAW_FULL && primitive >= LMB_DRAW_LINES && primitive <= LMB_DRAW_POINTS)) {
         return LMB_ERR_ARG;
     }
     lmb_status status = lmb_draw_check_target(target);
     status = status != LMB_OK ? status : lmb_draw_check_state(state, target);
-    status = status != LMB_OK ? status : list_check_vertices(vertices);
+    status = status != LMB_OK ? status : lmb_draw_check_vertices(vertices);
     return status != LMB_OK ? status : list_check_indices(indices);
 }
 
@@ -294,7 +332,9 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
                          int32_t primitive, const lmb_draw_indices *indices, lmb_stats *stats)
 {
     const lmb_status status = list_check(target, state, vertices, primitive, indices);
+    uint32_t dashed = 0;
     lmb_draw_pass pass;
+    draw_vertex few[DRAW_FEW];
     if (status != LMB_OK) {
         return status;
     }
@@ -304,13 +344,18 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
     pass.vertices = vertices;
     pass.indices = indices;
     pass.stats = stats;
+    pass.dashed = &dashed;
     list_set_pass(&pass);
+    if (DRAW_FULL) {
+        lmb_draw_rows_begin(&pass);
+    }
+    if (DRAW_FULL && primitive < LMB_DRAW_LINES) {
+        lmb_draw_quick_begin(&pass, few);
+    }
     const uint32_t count = indices != NULL ? indices->count : vertices->count;
-    if (primitive == LMB_DRAW_POINTS) {
-        for (uint32_t i = 0; i < count; ++i) {
-            list_draw(&pass, &i, 1, i);
-        }
-    } else if (primitive >= LMB_DRAW_LINES) {
+    if (DRAW_FULL && primitive == LMB_DRAW_POINTS) {
+        list_points(&pass, count);
+    } else if (DRAW_FULL && primitive >= LMB_DRAW_LINES && primitive <= LMB_DRAW_LINE_LOOP) {
         list_lines(&pass, primitive, count);
     } else {
         list_areas(&pass, primitive, count);

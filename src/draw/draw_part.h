@@ -11,6 +11,8 @@
 #include "../base/vec.h"
 
 #if LMB_DRAW
+enum { DRAW_FULL = !LMB_DRAW_SMALL };
+
 /* Values of a corner: all are linear in clip space. */
 enum {
     CORNER_X = 0,
@@ -21,7 +23,8 @@ enum {
     CORNER_ALPHA = 7,
     CORNER_UV = 8, /* u, v of each stage */
     CORNER_FOG = CORNER_UV + 2 * LMB_DRAW_STAGES,
-    CORNER_PLANES,
+    CORNER_SECOND, /* R, G, B */
+    CORNER_PLANES = CORNER_SECOND + 3,
     CORNER_VALUES = CORNER_PLANES + LMB_DRAW_PLANES
 };
 typedef struct lmb_draw_corner {
@@ -54,6 +57,10 @@ typedef struct lmb_draw_pass {
     float depth_scale, depth_bias; /* LMB_DEPTH16: code = d scale + bias */
     int32_t tests;                 /* 1: depth or stencil */
     int32_t shows;                 /* 1: some colour may be written */
+    uint32_t *dashed;              /* pixels of the lines before, which line_pattern counts on from */
+    int32_t tests_rows, paints_rows, paints_lanes; /* 1: draw_rows.c can for this state, or a kernel */
+    struct draw_vertex *few;         /* DRAW_FEW corners of triangles; NULL: all go the long way */
+    int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
     lmb_stats *stats;
 } lmb_draw_pass;
 
@@ -71,7 +78,27 @@ typedef struct lmb_draw_shape {
     float d_add;        /* depth offset */
     int32_t corners;    /* 1: values are corner 0's; 2: n2 is 0 */
     int32_t is_even;    /* 1: q is 1 */
+    struct lmb_draw_late *late; /* what corners, n1, n2 and q are made of at the first pixel that is seen; or NULL */
 } lmb_draw_shape;
+
+/* A linear value over a tile: at its first pixel, and per px. */
+typedef struct tile_plane {
+    float at, x, y;
+} tile_plane;
+
+/* A shape in a tile. */
+typedef struct tile_job {
+    const lmb_draw_pass *pass;
+    const lmb_draw_shape *shape;
+    int32_t x, y; /* of pixel 0, px of the frame */
+    tile_plane d, n1, n2, q;
+} tile_job;
+
+/* As in src/raster. */
+static inline float tile_at(const tile_plane *p, int k)
+{
+    return (p->at + p->y * (float)(k >> 3)) + p->x * (float)(k & 7);
+}
 
 /* lmb_draw_cut_polygon: cut a triangle; returns its corners, 0 or 3 .. DRAW_CORNERS.
  * lmb_draw_cut_line: cut a line; 0 if nothing is left. lmb_draw_is_out: is a point outside? */
@@ -84,9 +111,56 @@ int lmb_draw_triangle(const lmb_draw_pass *pass, lmb_draw_corner corner[DRAW_COR
 int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2]);
 int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner);
 
+/* A corner that was transformed. */
+typedef struct draw_vertex {
+    uint32_t name, out; /* vertex + 1, 0: none; bits of the planes it is outside of, DRAW_DROPPED */
+    int32_t x, y;       /* 24.8 of the viewport's middle */
+    float d, inverse;   /* 1 / w */
+} draw_vertex;
+enum { DRAW_FEW = 4 /* for quads and strips */, DRAW_DROPPED = 256 };
+
+/* draw_quick.c. begin: sets pass->few if the state's triangles can be drawn this way. quick: a triangle of vertices by
+ * their places in the list; 0: it is to be drawn the long way. run: triangles of vertices (i - 2, i - 1, i), each three
+ * further on, until one is to be drawn the long way; returns its i. finish: all of a late shape. */
+void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW]);
+int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat);
+uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count);
+void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *shape);
+
+/* draw_rows.c: usual states, row by row. begin: which. tests: those of the mask's pixels that pass, whose depths are
+ * stored. paints: their colours. */
+void lmb_draw_rows_begin(lmb_draw_pass *pass);
+uint64_t lmb_draw_rows_test(const tile_job *job, uint64_t mask);
+void lmb_draw_rows_paint(const tile_job *job, uint64_t mask);
+int lmb_draw_lanes_paint(const tile_job *job, uint64_t mask); /* by the state's kernels; 0: these cannot */
+
+/* Which vertex comes n-th; the vertices' count if there is no such. */
+static inline uint32_t draw_index(const lmb_draw_pass *pass, uint32_t n)
+{
+    const lmb_draw_indices *x = pass->indices;
+    uint32_t i = n;
+    if (x != NULL && x->format == LMB_DRAW_INDEX_U8) {
+        i = ((const uint8_t *)x->data)[n];
+    } else if (x != NULL && x->format == LMB_INDEX_U16) {
+        i = ((const uint16_t *)x->data)[n];
+    } else if (x != NULL && x->format == LMB_INDEX_U32) {
+        i = ((const uint32_t *)x->data)[n];
+    }
+    return i < pass->vertices->count ? i : pass->vertices->count;
+}
+
+/* 24.8 of what setup.c takes. floorf is a call where processors lack it. */
+#define DRAW_SNAP_MAX 4194304.0f
+static inline int32_t draw_to_24_8(float v)
+{
+    const float held = minf(maxf(v, -DRAW_SNAP_MAX), DRAW_SNAP_MAX);
+    const int32_t whole = (int32_t)held;
+    return whole - ((float)whole > held);
+}
+
 /* The pixels `mask` of the shape in the tile with pixel 0 at (x, y) of the frame; those outside the pass's are left
  * out. */
-void lmb_draw_tile(const lmb_draw_pass *pass, const lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask);
+void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask);
 
 /* Numbers as the state has them. */
 lmb_status lmb_draw_check_target(const lmb_draw_target *target);
@@ -101,6 +175,10 @@ static inline uint32_t draw_between(uint32_t a, uint32_t b, uint32_t share)
     return (a * share + b * (255u - share) + 127u) / 255u;
 }
 
+/* A stage's LMB_DRAW_COMBINE. first: the colour before all stages. */
+void lmb_draw_combine_codes(uint8_t inout[4], const lmb_draw_state *state, int stage, const uint8_t first[4],
+                            const uint8_t texel[LMB_DRAW_STAGES][4]);
+
 static inline float draw_value(const lmb_draw_shape *s, int i, float b1, float b2)
 {
     const float at = s->corner[0]->v[i];
@@ -109,6 +187,11 @@ static inline float draw_value(const lmb_draw_shape *s, int i, float b1, float b
 
 /* One texel's bytes R G B A. level: in 1/256 levels. */
 void lmb_draw_texel(uint8_t out[4], const lmb_texture *texture, float u, float v, int32_t level);
+
+/* Vertices: are their numbers good; `n` values of the i-th one; where it is. */
+lmb_status lmb_draw_check_vertices(const lmb_draw_vertices *vertices);
+void lmb_draw_fetch(float *out, const void *data, uint32_t i, int n, int format);
+lmb_vec3 lmb_draw_position(const lmb_draw_vertices *vertices, uint32_t i);
 
 static inline int draw_passes(int func, int32_t value, int32_t other)
 {

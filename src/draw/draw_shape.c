@@ -7,17 +7,13 @@
 #include "../raster/setup.h"
 
 #if LMB_DRAW
-#define SHAPE_SNAP_MAX 4194304.0f /* 24.8: what setup.c takes */
-
-static int32_t shape_to_24_8(float v) { return (int32_t)minf(maxf(floorf(v), -SHAPE_SNAP_MAX), SHAPE_SNAP_MAX); }
-
 /* 1 / w, and the corner in the picture. */
 static float shape_snap(lmb_screen_vertex *out, const lmb_draw_corner *c, const lmb_draw_pass *pass)
 {
     const float *range = pass->state->depth_range, inverse = 1.0f / c->v[CORNER_W];
     const float d = minf(maxf(c->v[CORNER_Z] * inverse, 0.0f), 1.0f);
-    out->x_24_8 = shape_to_24_8(c->v[CORNER_X] * inverse * pass->snap_x + 0.5f);
-    out->y_24_8 = shape_to_24_8(0.5f - c->v[CORNER_Y] * inverse * pass->snap_y);
+    out->x_24_8 = draw_to_24_8(c->v[CORNER_X] * inverse * pass->snap_x + 0.5f);
+    out->y_24_8 = draw_to_24_8(0.5f - c->v[CORNER_Y] * inverse * pass->snap_y);
     out->d = range[0] == 0.0f && range[1] == 1.0f ? d : range[0] + (range[1] - range[0]) * d;
     return inverse;
 }
@@ -75,7 +71,7 @@ static float shape_depth_step(const lmb_draw_pass *pass, float d)
 static float shape_offset(const lmb_draw_pass *pass, const lmb_setup *e)
 {
     const lmb_draw_state *s = pass->state;
-    if (s->offset_slope == 0.0f && s->offset_units == 0.0f) {
+    if (!DRAW_FULL || (s->offset_slope == 0.0f && s->offset_units == 0.0f)) {
         return 0.0f;
     }
     const float slope = maxf(absf((float)e->d_x), absf((float)e->d_y));
@@ -108,12 +104,20 @@ static int shape_enter(shape_edges *out, const lmb_setup *s, int32_t x_24_8, int
 }
 
 /* The pixels of the tile inside, a bit each, of columns x0 .. x1 and rows y0 .. y1. */
-static uint64_t shape_covered(const shape_edges *s, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+static uint64_t shape_covered(const lmb_draw_pass *pass, const shape_edges *s, int32_t x0, int32_t x1, int32_t y0,
+                              int32_t y1)
 {
     uint64_t mask = 0;
     if ((s->ex[0] | s->ey[0] | s->ex[1] | s->ey[1] | s->ex[2] | s->ey[2]) == 0) {
         return ~(uint64_t)0;
     }
+#if LMB_DRAW_LANES
+    if (pass->state->kernels !=
+        NULL) { /* outside the box, no pixel is inside all edges, or lmb_draw_tile leaves it out */
+        return pass->state->kernels->draw_cover(s->e, s->ex, s->ey);
+    }
+#endif
+    (void)pass;
     for (int32_t y = y0; y <= y1; ++y) {
         int32_t a = s->e[0] + s->ey[0] * y + s->ex[0] * x0, b = s->e[1] + s->ey[1] * y + s->ex[1] * x0,
                 c = s->e[2] + s->ey[2] * y + s->ex[2] * x0;
@@ -124,7 +128,7 @@ static uint64_t shape_covered(const shape_edges *s, int32_t x0, int32_t x1, int3
     return mask;
 }
 
-static void shape_fill(const lmb_draw_pass *pass, const lmb_draw_shape *shape, const lmb_setup *s)
+static void shape_fill(const lmb_draw_pass *pass, lmb_draw_shape *shape, const lmb_setup *s)
 {
     const int32_t origin_x = 128 - pass->middle_x, origin_y = 128 - pass->middle_y;
     const int32_t x0 = maxi((s->x_min - origin_x + 255) >> 8, pass->x0),
@@ -136,7 +140,7 @@ static void shape_fill(const lmb_draw_pass *pass, const lmb_draw_shape *shape, c
             shape_edges edges;
             if (shape_enter(&edges, s, x * 256 + origin_x, y * 256 + origin_y)) {
                 lmb_draw_tile(pass, shape, x, y,
-                              shape_covered(&edges, maxi(x0 - x, 0), mini(x1 - x, LMB_TILE - 1), maxi(y0 - y, 0),
+                              shape_covered(pass, &edges, maxi(x0 - x, 0), mini(x1 - x, LMB_TILE - 1), maxi(y0 - y, 0),
                                             mini(y1 - y, LMB_TILE - 1)));
             }
         }
@@ -188,6 +192,7 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
     shape.corner[1] = b;
     shape.corner[2] = c;
     shape.corners = 3;
+    shape.late = NULL;
     shape.d = shape_plane(s.d_origin, s.d_x, s.d_y);
     shape.d_min = s.d_min;
     shape.d_max = s.d_max;
@@ -215,7 +220,7 @@ int lmb_draw_triangle(const lmb_draw_pass *pass, lmb_draw_corner corner[DRAW_COR
 /* Pixels of a shape in one tile that wait to be drawn. */
 typedef struct shape_run {
     const lmb_draw_pass *pass;
-    const lmb_draw_shape *shape;
+    lmb_draw_shape *shape;
     int32_t x, y;
     uint64_t mask;
 } shape_run;
@@ -271,40 +276,111 @@ static int shape_leaves(const shape_way *w, int32_t pixel_along, int32_t pixel_a
     return forth ? middle >= w->from_along && middle < w->to_along : middle < w->from_along && middle >= w->to_along;
 }
 
-/* The pixels first .. last along the line, `px` wide. */
-static void shape_walk(shape_run *run, const shape_way *w, int32_t first, int32_t last, int32_t px)
+/* How far a line goes along its axis, and across it in the same direction. */
+typedef struct shape_slope {
+    int64_t length, rise;
+} shape_slope;
+
+static shape_slope shape_slope_of(const shape_way *w)
 {
     const int forth = w->to_along > w->from_along;
-    const int64_t length = forth ? (int64_t)w->to_along - w->from_along : (int64_t)w->from_along - w->to_along;
-    const int64_t rise = forth ? (int64_t)w->to_across - w->from_across : (int64_t)w->from_across - w->to_across;
-    const int64_t whole = 256 * length, step = 256 * rise;
-    const int64_t start = w->from_across * length + ((int64_t)first * 256 + 128 - w->from_along) * rise;
-    int64_t across = start / whole, rest = start % whole;
-    if (rest < 0) {
-        rest += whole;
-        --across;
+    shape_slope s;
+    s.length = forth ? (int64_t)w->to_along - w->from_along : (int64_t)w->from_along - w->to_along;
+    s.rise = forth ? (int64_t)w->to_across - w->from_across : (int64_t)w->from_across - w->to_across;
+    return s;
+}
+
+/* Where the line crosses the middle of a pixel along it: whole pixels across, and 1 / (256 length) of one. */
+typedef struct shape_cross {
+    int64_t across, rest;
+} shape_cross;
+
+static shape_cross shape_cross_at(const shape_way *w, const shape_slope *s, int32_t along)
+{
+    const int64_t whole = 256 * s->length;
+    const int64_t at = w->from_across * s->length + ((int64_t)along * 256 + 128 - w->from_along) * s->rise;
+    shape_cross c;
+    c.across = at / whole;
+    c.rest = at % whole;
+    if (c.rest < 0) {
+        c.rest += whole;
+        --c.across;
     }
+    return c;
+}
+
+/* On the border of two pixels: the one to the left, or the upper one unless the line falls to the right. */
+static int32_t shape_crossed(const shape_way *w, const shape_slope *s, const shape_cross *c)
+{
+    return (int32_t)c->across - (c->rest == 0 && (w->is_steep || s->rise <= 0));
+}
+
+/* Which pixels a line draws, by line_pattern. */
+typedef struct shape_dash {
+    int32_t from, forth; /* the first pixel along the line, and where it goes */
+    uint32_t before, repeat, pattern;
+} shape_dash;
+
+static int shape_is_dashed(const shape_dash *d, int32_t along)
+{
+    const uint32_t n = d->before + (uint32_t)(d->forth ? along - d->from : d->from - along);
+    return (d->pattern >> (n / d->repeat & 15u) & 1u) != 0;
+}
+
+/* The first pixel that the line has from `at` on, of few. */
+static int32_t shape_end(const shape_way *w, const shape_slope *s, int32_t at, int32_t step)
+{
+    for (int i = 0; i < 3; ++i, at += step) {
+        const shape_cross c = shape_cross_at(w, s, at);
+        if (shape_leaves(w, at, shape_crossed(w, s, &c))) {
+            break;
+        }
+    }
+    return at;
+}
+
+/* A line's dashes, from its end pixels first .. last; and what the next line counts on from. */
+static shape_dash shape_dash_of(const lmb_draw_pass *pass, const shape_way *w, int32_t first, int32_t last)
+{
+    const shape_slope s = shape_slope_of(w);
+    shape_dash d = {0, 1, *pass->dashed, pass->state->line_repeat, pass->state->line_pattern};
+    if (d.pattern == 0xffff) {
+        return d;
+    }
+    const int32_t low = shape_end(w, &s, first, 1), high = shape_end(w, &s, last, -1);
+    d.forth = w->to_along > w->from_along;
+    d.from = d.forth ? low : high;
+    *pass->dashed += (uint32_t)maxi(high - low + 1, 0);
+    return d;
+}
+
+/* The pixels first .. last along the line, `px` wide. */
+static void shape_walk(shape_run *run, const shape_way *w, int32_t first, int32_t last, const shape_dash *dash)
+{
+    const shape_slope s = shape_slope_of(w);
+    const int64_t whole = 256 * s.length, step = 256 * s.rise;
+    const int32_t px = run->pass->state->line_px;
+    shape_cross c = shape_cross_at(w, &s, first);
     for (int32_t along = first; along <= last; ++along) {
-        /* On the border of two pixels: the one to the left, or the upper one unless the line falls to the right. */
-        const int32_t at = (int32_t)across - (rest == 0 && (w->is_steep || rise <= 0));
-        if (shape_leaves(w, along, at)) {
+        const int32_t at = shape_crossed(w, &s, &c);
+        if (shape_leaves(w, along, at) && (dash->pattern == 0xffff || shape_is_dashed(dash, along))) {
             for (int32_t k = 0; k < px; ++k) {
                 shape_put(run, w->is_steep ? at + k : along, w->is_steep ? along : at + k);
             }
         }
-        rest += step;
-        if (rest >= whole) {
-            rest -= whole;
-            ++across;
-        } else if (rest < 0) {
-            rest += whole;
-            --across;
+        c.rest += step;
+        if (c.rest >= whole) {
+            c.rest -= whole;
+            ++c.across;
+        } else if (c.rest < 0) {
+            c.rest += whole;
+            --c.across;
         }
     }
 }
 
 /* a and b: 24.8 of the viewport's middle. */
-static void shape_trace(const lmb_draw_pass *pass, const lmb_draw_shape *shape, const lmb_screen_vertex *a,
+static void shape_trace(const lmb_draw_pass *pass, lmb_draw_shape *shape, const lmb_screen_vertex *a,
                         const lmb_screen_vertex *b)
 {
     const int32_t px = pass->state->line_px, shift = (px - 1) * 128;
@@ -320,8 +396,9 @@ static void shape_trace(const lmb_draw_pass *pass, const lmb_draw_shape *shape, 
         return;
     }
     const int32_t first = (mini(w.from_along, w.to_along) - 1) >> 8, last = maxi(w.from_along, w.to_along) >> 8;
+    const shape_dash dash = shape_dash_of(pass, &w, first, last);
     shape_walk(&run, &w, maxi(first, w.is_steep ? pass->y0 : pass->x0), mini(last, w.is_steep ? pass->y1 : pass->x1),
-               px);
+               &dash);
     shape_flush(&run);
 }
 
@@ -343,6 +420,7 @@ int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2])
     shape.corner[0] = shape.corner[2] = &corner[0];
     shape.corner[1] = &corner[1];
     shape.corners = 2;
+    shape.late = NULL;
     shape.n1 = shape_plane(-(ax * dx + ay * dy) / square, dx / square, dy / square);
     shape.n2 = shape_plane(0.0, 0.0, 0.0);
     shape.d = shape_scaled(&shape.n1, more);
@@ -357,6 +435,17 @@ int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2])
 
 /* --- points ------------------------------------------------------------------------------------------------------- */
 
+/* The pixels of a tile's columns x0 .. x1 and rows y0 .. y1. */
+static uint64_t shape_rectangle(int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    const uint64_t row = (0xffu >> (7 - x1)) & (0xffu << x0);
+    uint64_t mask = 0;
+    for (int32_t y = y0; y <= y1 && x0 <= x1; ++y) {
+        mask |= row << (y * LMB_TILE);
+    }
+    return mask;
+}
+
 int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner)
 {
     const lmb_draw_plane none = {0.0, 0.0, 0.0};
@@ -369,6 +458,7 @@ int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner)
     (void)shape_snap(&at, corner, pass);
     shape.corner[0] = shape.corner[1] = shape.corner[2] = corner;
     shape.corners = 1;
+    shape.late = NULL;
     shape.d = shape.n1 = shape.n2 = shape.q = none;
     shape.d.origin = (double)at.d;
     shape.d_min = shape.d_max = at.d;
@@ -376,20 +466,15 @@ int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner)
     shape.is_even = 1;
     const int32_t left = ((at.x_24_8 + pass->middle_x + half) >> 8) - px / 2;
     const int32_t top = ((at.y_24_8 + pass->middle_y + half) >> 8) - px / 2;
-    shape_run run = {pass, &shape, 0, 0, 0};
     const int32_t x0 = maxi(left, pass->x0), x1 = mini(left + px - 1, pass->x1);
     const int32_t y0 = maxi(top, pass->y0), y1 = mini(top + px - 1, pass->y1);
     for (int32_t y = y0 & ~7; y <= y1; y += LMB_TILE) {
         for (int32_t x = x0 & ~7; x <= x1; x += LMB_TILE) {
-            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-                const int32_t at_x = x + (k & 7), at_y = y + (k >> 3);
-                if (at_x >= x0 && at_x <= x1 && at_y >= y0 && at_y <= y1) {
-                    shape_put(&run, at_x, at_y);
-                }
-            }
+            lmb_draw_tile(pass, &shape, x, y,
+                          shape_rectangle(maxi(x0 - x, 0), mini(x1 - x, LMB_TILE - 1), maxi(y0 - y, 0),
+                                          mini(y1 - y, LMB_TILE - 1)));
         }
     }
-    shape_flush(&run);
     return 1;
 }
 #endif

@@ -46,6 +46,8 @@ lmb_status lmb_draw_state_init(lmb_draw_state *out, int32_t width, int32_t heigh
     out->logic_op = 3;
     out->line_px = out->point_px = 1;
     out->fog_end = 1.0f;
+    out->line_pattern = 0xffff;
+    out->line_repeat = 1;
     return LMB_OK;
 }
 
@@ -143,10 +145,23 @@ lmb_status lmb_draw_check_target(const lmb_draw_target *t)
     return t->stencil != NULL && t->stencil_stride < width ? LMB_ERR_ARG : LMB_OK;
 }
 
+static int state_combines(const lmb_draw_combine *c)
+{
+    int good = c->func[0] <= LMB_DRAW_DOT4 && c->func[1] <= LMB_DRAW_DIFFERENCE;
+    for (int i = 0; i < 2; ++i) {
+        good &= c->shift[i] <= 2;
+        for (int k = 0; k < 3; ++k) {
+            good &= c->source[i][k] < LMB_DRAW_FROM_STAGE + LMB_DRAW_STAGES &&
+                    c->operand[i][k] <= LMB_DRAW_TAKE_INVERSE_ALPHA;
+        }
+    }
+    return good;
+}
+
 static lmb_status state_check_stage(const lmb_draw_stage *s)
 {
     const lmb_texture *t = s->texture;
-    if (s->mode > LMB_DRAW_PLUS || !(s->level_bias >= -16.0f && s->level_bias <= 16.0f)) {
+    if (s->mode > LMB_DRAW_COMBINE || !state_combines(&s->combine) || !(s->level_bias >= -16.0f && s->level_bias <= 16.0f)) {
         return LMB_ERR_ARG;
     }
     if (t == NULL) {
@@ -168,7 +183,7 @@ static int state_has_good_places(const lmb_draw_state *s)
     return state_is_place(s->viewport[0]) && state_is_place(s->viewport[1]) &&
            state_is_size(s->viewport[2], s->viewport[3]) && state_is_place(s->scissor[0]) &&
            state_is_place(s->scissor[1]) && s->scissor[2] >= 0 && s->scissor[3] >= 0 && s->scissor[2] <= STATE_FAR &&
-           s->scissor[3] <= STATE_FAR && s->line_px >= 1 && s->point_px >= 1;
+           s->scissor[3] <= STATE_FAR && s->line_px >= 1 && s->point_px >= 1 && s->line_repeat >= 1 && s->line_repeat <= 256;
 }
 
 static int state_has_good_numbers(const lmb_draw_state *s)
@@ -185,7 +200,8 @@ static int state_has_good_choices(const lmb_draw_state *s)
 {
     int good = s->flags <= LMB_DRAW_FLAGS && s->planes < 1u << LMB_DRAW_PLANES && s->fog <= LMB_DRAW_FOG_EXP2 &&
                s->depth_func <= LMB_DRAW_ALWAYS && s->alpha_func <= LMB_DRAW_ALWAYS && s->colour_mask <= 15 &&
-               s->stencil_func <= LMB_DRAW_ALWAYS && s->logic_op <= 15;
+               s->stencil_func <= LMB_DRAW_ALWAYS && s->logic_op <= 15 &&
+               s->polygon_mode[0] <= LMB_DRAW_CORNERS && s->polygon_mode[1] <= LMB_DRAW_CORNERS;
     for (int i = 0; i < 3; ++i) {
         good &= s->stencil_op[i] <= LMB_DRAW_DECREASE_WRAP;
     }
@@ -197,9 +213,19 @@ static int state_has_good_choices(const lmb_draw_state *s)
     return good;
 }
 
+/* What this build has. */
+static int state_is_here(const lmb_draw_state *s)
+{
+    const uint32_t flags = LMB_DRAW_STENCIL | LMB_DRAW_LOGIC;
+    return DRAW_FULL || ((s->flags & flags) == 0 && s->fog == LMB_DRAW_FOG_NONE && s->planes == 0 &&
+                         s->offset_slope == 0.0f && s->offset_units == 0.0f && s->area_pattern == NULL &&
+                         (s->polygon_mode[0] | s->polygon_mode[1]) == LMB_DRAW_FILL &&
+                         s->stage[0].mode < LMB_DRAW_COMBINE && s->stage[1].mode < LMB_DRAW_COMBINE);
+}
+
 lmb_status lmb_draw_check_state(const lmb_draw_state *s, const lmb_draw_target *t)
 {
-    if (!state_has_good_choices(s) || !state_has_good_numbers(s) || !state_has_good_places(s) ||
+    if (!state_is_here(s) || !state_has_good_choices(s) || !state_has_good_numbers(s) || !state_has_good_places(s) ||
         ((s->flags & LMB_DRAW_DEPTH_TEST) != 0 && t->depth.data == NULL) ||
         ((s->flags & LMB_DRAW_STENCIL) != 0 && t->stencil == NULL)) {
         return LMB_ERR_ARG;

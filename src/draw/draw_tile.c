@@ -5,21 +5,10 @@
 #include "draw_part.h"
 
 #include "../base/poly.h"
+#include "../lane/kernels.h"
 
 #if LMB_DRAW
 #define TILE_LOG2_E 1.44269504f
-
-/* A linear value over a tile. */
-typedef struct tile_plane {
-    float at, x, y;
-} tile_plane;
-
-typedef struct tile_job {
-    const lmb_draw_pass *pass;
-    const lmb_draw_shape *shape;
-    int32_t x, y; /* of pixel 0, px of the frame */
-    tile_plane d, n1, n2, q;
-} tile_job;
 
 static tile_plane tile_set(const lmb_draw_plane *p, double x, double y)
 {
@@ -29,9 +18,6 @@ static tile_plane tile_set(const lmb_draw_plane *p, double x, double y)
     t.y = (float)p->y;
     return t;
 }
-
-/* As in src/raster. */
-static float tile_at(const tile_plane *p, int k) { return (p->at + p->y * (float)(k >> 3)) + p->x * (float)(k & 7); }
 
 /* --- tests -------------------------------------------------------------------------------------------------------- */
 
@@ -119,7 +105,7 @@ static int tile_test(const tile_job *j, int k)
 {
     const lmb_draw_state *s = j->pass->state;
     const int depth = (s->flags & LMB_DRAW_DEPTH_TEST) != 0;
-    if ((s->flags & LMB_DRAW_STENCIL) == 0) {
+    if (!DRAW_FULL || (s->flags & LMB_DRAW_STENCIL) == 0) {
         return !depth || tile_depth_test(j, k);
     }
     uint8_t *at = tile_stencil_place(j, k);
@@ -244,24 +230,44 @@ static uint8_t tile_fog(const lmb_draw_state *s, float c)
     }
 }
 
+/* A colour through all stages. */
+static void tile_stages(uint8_t inout[4], const tile_job *j, const tile_share *share)
+{
+    const lmb_draw_stage *stage = j->pass->state->stage;
+    uint8_t texel[LMB_DRAW_STAGES][4];
+    const uint8_t first[4] = {inout[0], inout[1], inout[2], inout[3]};
+    for (int i = 0; i < LMB_DRAW_STAGES; ++i) {
+        const int uv = CORNER_UV + 2 * i;
+        if (stage[i].texture != NULL) {
+            lmb_draw_texel(texel[i], stage[i].texture, draw_value(j->shape, uv, share->b1, share->b2),
+                           draw_value(j->shape, uv + 1, share->b1, share->b2), tile_level(j, &stage[i], uv, share));
+        } else {
+            texel[i][0] = texel[i][1] = texel[i][2] = texel[i][3] = 255;
+        }
+    }
+    for (int i = 0; i < LMB_DRAW_STAGES; ++i) {
+        if (DRAW_FULL && stage[i].texture != NULL && stage[i].mode == LMB_DRAW_COMBINE) {
+            lmb_draw_combine_codes(inout, j->pass->state, i, first, (const uint8_t(*)[4])texel);
+        } else if (stage[i].texture != NULL) {
+            tile_combine(inout, &stage[i], texel[i]);
+        }
+    }
+}
+
 static void tile_colour(uint8_t out[4], const tile_job *j, int k)
 {
     const lmb_draw_state *s = j->pass->state;
     const tile_share share = tile_find_share(j, k);
+    const int adds = j->pass->vertices->seconds != NULL || j->pass->vertices->back_seconds != NULL;
     for (int i = 0; i < 4; ++i) {
         out[i] = tile_code(draw_value(j->shape, CORNER_RED + i, share.b1, share.b2));
     }
-    for (int i = 0; i < LMB_DRAW_STAGES; ++i) {
-        const lmb_draw_stage *stage = &s->stage[i];
-        if (stage->texture != NULL) {
-            const int uv = CORNER_UV + 2 * i;
-            uint8_t texel[4];
-            lmb_draw_texel(texel, stage->texture, draw_value(j->shape, uv, share.b1, share.b2),
-                           draw_value(j->shape, uv + 1, share.b1, share.b2), tile_level(j, stage, uv, &share));
-            tile_combine(out, stage, texel);
-        }
+    tile_stages(out, j, &share);
+    for (int i = 0; DRAW_FULL && i < 3 && adds; ++i) {
+        const uint8_t second = tile_code(draw_value(j->shape, CORNER_SECOND + i, share.b1, share.b2));
+        out[i] = (uint8_t)mini(out[i] + second, 255);
     }
-    if (s->fog != LMB_DRAW_FOG_NONE) {
+    if (DRAW_FULL && s->fog != LMB_DRAW_FOG_NONE) {
         const uint8_t left = tile_fog(s, draw_value(j->shape, CORNER_FOG, share.b1, share.b2));
         for (int i = 0; i < 3; ++i) {
             out[i] = (uint8_t)draw_between(out[i], s->fog_colour[i], left);
@@ -350,7 +356,7 @@ static void tile_store(const tile_job *j, int k, const uint8_t colour[4])
     const int32_t x = j->x + (k & 7), y = j->y + (k >> 3), format = t->colour.format;
     uint8_t *at = (uint8_t *)t->colour.data + (ptrdiff_t)(y - t->y0) * t->colour.stride_bytes +
                   (ptrdiff_t)(x - t->x0) * lmb_pixel_bytes(format);
-    const int dithers = (s->flags & LMB_DRAW_DITHER) != 0, logic = (s->flags & LMB_DRAW_LOGIC) != 0;
+    const int dithers = (s->flags & LMB_DRAW_DITHER) != 0, logic = DRAW_FULL && (s->flags & LMB_DRAW_LOGIC) != 0;
     uint32_t channels = s->colour_mask, bits;
     const uint32_t was = lmb_draw_pixel_bits(format, at);
     if ((s->flags & LMB_DRAW_BLEND) != 0 && !logic) {
@@ -387,18 +393,24 @@ static uint64_t tile_inside(const lmb_draw_pass *p, int32_t x, int32_t y)
     return mask;
 }
 
-static void tile_draw(const tile_job *j, uint64_t mask)
+/* The pixels that a pattern of 32 x 32 px leaves. */
+static uint64_t tile_pattern(const uint8_t *pattern, int32_t x, int32_t y)
 {
-    const uint32_t flags = j->pass->state->flags;
+    const uint8_t *at = pattern + 4 * (y & 31) + (x >> 3 & 3);
+    uint64_t mask = 0;
+    for (int i = 0; i < LMB_TILE; ++i) {
+        mask |= (uint64_t)at[4 * i] << (LMB_TILE * i);
+    }
+    return mask;
+}
+
+/* Tests before colours, but for those that need colours. */
+static void tile_draw_tested(const tile_job *j, uint64_t mask)
+{
     uint8_t colour[LMB_TILE_PIXELS][4];
-    /* Tests before colours, but for those that need colours. */
-    if ((flags & LMB_DRAW_ALPHA_TEST) != 0) {
-        mask = tile_tests(j, tile_colours(colour, j, mask));
-    } else {
+    mask = tile_colours(colour, j, mask);
+    if ((j->pass->state->flags & LMB_DRAW_ALPHA_TEST) != 0) {
         mask = tile_tests(j, mask);
-        if (j->pass->shows) {
-            mask = tile_colours(colour, j, mask);
-        }
     }
     for (uint64_t bits = j->pass->shows ? mask : 0; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
@@ -406,12 +418,18 @@ static void tile_draw(const tile_job *j, uint64_t mask)
     }
 }
 
-void lmb_draw_tile(const lmb_draw_pass *pass, const lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask)
+void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask)
 {
     const double at_x = (x * 256 + 128 - pass->middle_x) * (1.0 / 256.0),
                  at_y = (y * 256 + 128 - pass->middle_y) * (1.0 / 256.0);
+    const int alpha = (pass->state->flags & LMB_DRAW_ALPHA_TEST) != 0;
     tile_job j;
-    mask &= tile_inside(pass, x, y);
+    if (x < pass->x0 || y < pass->y0 || x + LMB_TILE - 1 > pass->x1 || y + LMB_TILE - 1 > pass->y1) {
+        mask &= tile_inside(pass, x, y);
+    }
+    if (DRAW_FULL && shape->corners == 3 && pass->state->area_pattern != NULL) {
+        mask &= tile_pattern(pass->state->area_pattern, x, y);
+    }
     if (mask == 0) {
         return;
     }
@@ -419,12 +437,32 @@ void lmb_draw_tile(const lmb_draw_pass *pass, const lmb_draw_shape *shape, int32
     j.shape = shape;
     j.x = x;
     j.y = y;
-    j.d = tile_set(&shape->d, at_x, at_y);
+    if (pass->tests) {
+        j.d = tile_set(&shape->d, at_x, at_y);
+    }
+    if (!alpha) {
+        mask = DRAW_FULL && pass->tests_rows ? lmb_draw_rows_test(&j, mask) : tile_tests(&j, mask);
+    }
+    if (mask == 0 || (!pass->shows && !alpha)) {
+        return;
+    }
+    if (DRAW_FULL && shape->late != NULL) {
+        lmb_draw_finish(pass, shape);
+    }
     j.n1 = tile_set(&shape->n1, at_x, at_y);
     j.n2 = tile_set(&shape->n2, at_x, at_y);
     if (!shape->is_even) {
         j.q = tile_set(&shape->q, at_x, at_y);
     }
-    tile_draw(&j, mask);
+#if LMB_DRAW_LANES
+    if (lmb_draw_lanes_paint(&j, mask)) {
+        return;
+    }
+#endif
+    if (DRAW_FULL && pass->paints_rows) {
+        lmb_draw_rows_paint(&j, mask);
+    } else {
+        tile_draw_tested(&j, mask);
+    }
 }
 #endif

@@ -35,6 +35,9 @@
 #if LMB_TREES
 #include "../lightcut/gather_glossy.inl"
 #endif
+#if LMB_DRAW_LANES
+#include "../draw/draw_lanes.inl"
+#endif
 #if LMB_TRANSFER
 #include "../map/texel.inl"
 #include "../transfer/links.inl"
@@ -138,5 +141,10 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(live_boxes),
     KERNEL(live_crossed),
     KERNEL(live_fill),
+#endif
+#if LMB_DRAW_LANES
+    KERNEL(draw_cover),
+    KERNEL(draw_test),
+    KERNEL(draw_paint),
 #endif
 };

@@ -5,6 +5,7 @@
 #ifndef LMB_LANE_KERNELS_H
 #define LMB_LANE_KERNELS_H
 
+#include <lambent/draw.h>
 #include <lambent/bounce.h>
 #include <lambent/compose.h>
 #include <lambent/transfer.h>
@@ -119,6 +120,33 @@ typedef struct lmb_setup_job {
 #define LMB_BATCH 4
 #else
 #define LMB_BATCH 8
+#endif
+
+/* Draws by lanes. */
+#define LMB_DRAW_LANES (LMB_DRAW_KERNELS && LMB_PLAIN_LANES > 1)
+#if LMB_DRAW_LANES
+/* A linear value at a tile's first pixel, and per px. */
+typedef struct lmb_draw_slope {
+    float at, x, y;
+} lmb_draw_slope;
+
+enum { LMB_DRAW_VALUES = 9 /* R G B A, u v of two stages, fog */ };
+
+/* A shape over a tile whose 64 pixels are all in the target. Values are at + (b1 more1 + b2 more2), where b1 and b2 are
+ * n1 / q and n2 / q. */
+typedef struct lmb_draw_patch {
+    const lmb_draw_state *state;
+    lmb_draw_slope d, n1, n2, q;
+    float at[LMB_DRAW_VALUES], more1[LMB_DRAW_VALUES], more2[LMB_DRAW_VALUES];
+    float d_min, d_max, d_add;
+    int32_t is_even; /* 1: q is 1 */
+    int32_t varies;  /* 1: colours of the corners differ */
+    int32_t swaps;   /* 1: blue comes first in memory */
+    float *depth;    /* of pixel 0, rows depth_step floats apart */
+    int32_t depth_step;
+    uint8_t *colour; /* of pixel 0, rows colour_stride bytes apart */
+    int32_t colour_stride;
+} lmb_draw_patch;
 #endif
 
 enum { LMB_SMALL_24_8 = 64 * 256 /* sides of a box under which edges fit 32 bits */ };
@@ -542,6 +570,14 @@ struct lmb_kernels {
     uint64_t (*live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job);
     /* The light of a cell's pixels; no other changes. Returns those that no corner explains. */
     uint64_t (*live_fill)(lmb_irradiance *inout, const lmb_tile *tile, const lmb_live_cell *cell);
+#endif
+#if LMB_DRAW_LANES
+    /* The tile's pixels where all three e + ex x + ey y >= 0. */
+    uint64_t (*draw_cover)(const int32_t e[3], const int32_t ex[3], const int32_t ey[3]);
+    /* Those of `mask` that pass the depth test; their depths are stored. */
+    uint64_t (*draw_test)(const lmb_draw_patch *pixels, uint64_t mask);
+    /* Colours of `mask`. */
+    void (*draw_paint)(const lmb_draw_patch *pixels, uint64_t mask);
 #endif
 };
 

@@ -4,30 +4,6 @@
 #include "../base/codec.h"
 #include "texture.h"
 
-#if defined(LANE_PLAIN)
-/* Without vectors, the sampler that takes one pixel at a time: it is there anyway, for holes. Four lanes written out
- * are a tenth faster, and 4.8 KB of stack on a Cortex-M4F. */
-static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
-{
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        float texel[4];
-        if (batch->slot[k] >= 0) {
-            lmb_texture_sample(texel, t, inout->uv[0][k], inout->uv[1][k], 0.0f);
-            inout->albedo[0][k] *= texel[0];
-            inout->albedo[1][k] *= texel[1];
-            inout->albedo[2][k] *= texel[2];
-        }
-    }
-}
-#else
-
-/* A level and how its edges go on. */
-typedef struct texture_level {
-    const uint8_t *texels;
-    lanei width, height;
-    int32_t wrap_s, wrap_t;
-} texture_level;
-
 LANE_INLINE lane texture_floor(lane v)
 {
     const lane whole = lane_trunc(v);
@@ -62,6 +38,30 @@ LANE_INLINE lanei texture_wrap(lanei i, lanei size, int32_t wrap)
     }
     return lanei_pick(before, lanei_add(i, size), lanei_pick(past, lanei_sub(i, size), i));
 }
+
+#if defined(LANE_PLAIN)
+/* Without vectors, the sampler that takes one pixel at a time: it is there anyway, for holes. Four lanes written out
+ * are a tenth faster, and 4.8 KB of stack on a Cortex-M4F. */
+static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        float texel[4];
+        if (batch->slot[k] >= 0) {
+            lmb_texture_sample(texel, t, inout->uv[0][k], inout->uv[1][k], 0.0f);
+            inout->albedo[0][k] *= texel[0];
+            inout->albedo[1][k] *= texel[1];
+            inout->albedo[2][k] *= texel[2];
+        }
+    }
+}
+#else
+
+/* A level and how its edges go on. */
+typedef struct texture_level {
+    const uint8_t *texels;
+    lanei width, height;
+    int32_t wrap_s, wrap_t;
+} texture_level;
 
 enum { TEXTURE_RUN = LMB_TILE_PIXELS / 2 };
 

@@ -4,7 +4,7 @@
 
 #include <lambent/transfer.h>
 
-/* May the triangle move? */
+/* May the triangle move? LMB_TRANSFER_NONE, of no triangle, may. */
 int lmb_transfer_moves(const lmb_transfer *t, uint32_t id);
 
 /* Add the light that arrives at pixel k of a tile. */

@@ -20,7 +20,7 @@ int lmb_transfer_moves(const lmb_transfer *t, uint32_t id)
     while (i < t->count[LMB_TRANSFER_MOVING] && id >= range[2 * i + 1]) {
         ++i;
     }
-    return i < t->count[LMB_TRANSFER_MOVING] && id >= range[2 * i];
+    return id == LMB_TRANSFER_NONE || (i < t->count[LMB_TRANSFER_MOVING] && id >= range[2 * i]);
 }
 
 /* The places around a point along an axis, and how far it lies from the first to the second. */

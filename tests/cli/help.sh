@@ -8,14 +8,14 @@ for ask in --help "render --help" "compare --help" "info --help" "bench --help";
     status 0 $ask
     check "lambent $ask says something, once" test "$(grep -c '^usage:' out.txt)" -eq 1
 done
-for verb in render play capture relight relief "relief bake" "relief render" mix pack merge plan compare info bench "bench raster" "bench gather" \
+for verb in render play capture relight relief "relief bake" "relief render" mix pack merge plan compare info bench "bench raster" "bench draw" "bench gather" \
     "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix" doctor; do
     status 0 $verb -V
     check "lambent $verb -V is the version" grep -q '^lambent [0-9.]*$' out.txt
     status 0 $verb -h
     check "$verb --help has under 100 columns" awk 'length($0) > 99 { exit 1 }' out.txt
 done
-for verb in render bake play capture relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench gather" \
+for verb in render bake play capture relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench draw" "bench gather" \
     "bench threads" "bench hard" "bench --calibrate" "bench SCENE" "bench relight" "bench relief" "bench mix" doctor; do
     "$TOOL" $verb --help >help.txt
     status 0 help $verb

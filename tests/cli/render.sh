@@ -16,7 +16,7 @@ check "demo.ppm is 32x24" test "$(wc -c <demo.ppm)" -eq $((32 * 24 * 3 + 13))
 check "demo.pfm is 32x24" test "$(sed -n 2p demo.pfm)" = "32 24"
 
 # What is shown, and by which method.
-for show in direct indirect irradiance depth normal albedo; do
+for show in direct indirect irradiance depth normal albedo wireframe; do
     status 0 render demo $small --show $show -o "$show.pfm"
 done
 for show in occlusion eye-distance light-distance points groups; do
@@ -96,7 +96,7 @@ for what in first_points discs groups; do
 done
 check "two eyes: shadow map once, view twice" test $((2 * $(count both.json triangles_read))) -eq $((3 * $(count left.json triangles_read)))
 check "two eyes: two views" test "$(count both.json views)" -eq 2
-for show in depth eye-distance normal albedo occlusion direct; do
+for show in depth eye-distance normal albedo wireframe occlusion direct; do
     status 0 render demo $small --stereo 0.1 --show $show -o both.png
 done
 # Triangles that cannot be drawn count once, however many views and faces of a shadow map draw them.
@@ -117,6 +117,16 @@ said "empty.png: the file is empty (0 bytes); export or copy it again"
 : >empty.lmt
 status 1 render demo --transfer empty.lmt -o bad.png
 said "empty.lmt: the file is empty (0 bytes); export or copy it again"
+# Edges: white on black, no other colour; each of both is there.
+status 0 render demo --size 64x48 --wireframe -o wire.ppm
+status 0 render demo --size 64x48 --show wireframe -o shown.ppm
+check "--wireframe is --show wireframe" cmp wire.ppm shown.ppm
+check "edges are white, all else is black" test \
+    "$(tail -c 9216 wire.ppm | od -An -v -tu1 -w3 | sort | uniq -c | awk '{ print ($1 > 300) $2 $3 $4 }' | xargs)" = \
+    "1000 1255255255"
+status 2 render demo $small --wireframe --samples 4 -o bad.png
+check "edges have no samples" grep -q "wireframe takes one sample" err.txt
+
 check "nothing is left behind" none bad* nowhere* *tmp*
 
 finish

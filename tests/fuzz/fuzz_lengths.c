@@ -86,6 +86,11 @@ LENGTH(lmb_probe_cube_init, planes, cube_of(W(2), 256))
 LENGTH(lmb_transfer_fingerprint, moving, within(U(3), POOL_PLACES, 8))
 LENGTH(lmb_texture_mips, texels, lmb_texture_bytes(W(1), W(2), W(3)))
 LENGTH(lmb_normal_map_mips, texels, lmb_texture_bytes(W(1), W(2), W(3)))
+#if LMB_DRAW
+LENGTH(lmb_render_vertices, colours, a[3].memory ? 4 * (size_t)S(3, lmb_draw_vertices)->count : 0)
+LENGTH(lmb_render_vertices, normals, a[3].memory ? 12 * (size_t)S(3, lmb_draw_vertices)->count : 0)
+LENGTH(lmb_draw_light, normals, a[2].memory ? 12 * (size_t)S(2, lmb_draw_vertices)->count : 0)
+#endif
 static size_t any_int32_t(const argument *a) { return (void)a, sizeof(int32_t); }
 static size_t any_place(const argument *a) { return (void)a, 3 * sizeof(int32_t); }
 static size_t any_double(const argument *a) { return (void)a, sizeof(double); }
@@ -137,6 +142,11 @@ static const struct {
     IS(lmb_transfer_fingerprint, moving),
     IS(lmb_texture_mips, texels),
     IS(lmb_normal_map_mips, texels),
+#if LMB_DRAW
+    IS(lmb_render_vertices, colours),
+    IS(lmb_render_vertices, normals),
+    IS(lmb_draw_light, normals),
+#endif
     {"lmb_two_maps", "memory", two_maps},
     {"lmb_shadow_map_init", "memory", shadow_map},
     {"lmb_fixed_look_at", "eye", any_place},

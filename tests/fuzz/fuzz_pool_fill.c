@@ -344,9 +344,16 @@ static void fill_draw_state(void *out, int how)
     t->wrap_s = (uint8_t)(how / 9 % 3);
     t->texels = pool_block(lmb_texture_format_bytes(t->format, t->width, t->height, t->levels));
     s->stage[how & 1].texture = how & 2 ? t : NULL;
-    s->stage[how & 1].mode = (uint8_t)(how % 5);
+    s->stage[how & 1].mode = (uint8_t)(how % 6);
+    s->stage[how & 1].combine.func[0] = (uint8_t)(how / 2 % 8);
+    s->stage[how & 1].combine.source[0][0] = (uint8_t)(how / 3 % 6);
+    s->polygon_mode[how & 1] = (uint8_t)(how / 5 % 3);
+    s->line_pattern = (uint16_t)(how & 8 ? 0xffff : how * 1043);
+    s->line_repeat = (uint16_t)(1 + how % 256);
+    s->area_pattern = how & 64 ? pool_block(128) : NULL;
     s->flags = (uint32_t)how * 37u & LMB_DRAW_FLAGS;
     s->fog = how >> 2 & 3;
+    s->kernels = how & 4 ? lmb_kernels_pick() : NULL;
     s->planes = how & 16 ? 5 : 0;
     s->line_px = s->point_px = (uint8_t)(1 + how % 9);
     if (how & 32) {
@@ -367,6 +374,11 @@ static void fill_draw_vertices(void *out, int how)
     v->positions = positions;
     v->uvs[0] = v->uvs[1] = uvs;
     v->colours = how & 4 ? NULL : pool_block(4 * COUNT_OF);
+    v->seconds = how & 8 ? NULL : pool_block(4 * COUNT_OF);
+    v->back_colours = how & 16 ? NULL : pool_block(4 * COUNT_OF);
+    v->back_seconds = how & 32 ? NULL : pool_block(4 * COUNT_OF);
+    v->edges = how & 64 ? NULL : pool_block(COUNT_OF);
+    v->fogs = how & 128 ? NULL : positions;
     v->count = COUNT_OF;
     v->position_format = (uint8_t)(how / 8 % 3);
     v->uv_format = (uint8_t)(how / 16 % 3);
@@ -385,6 +397,39 @@ static void fill_draw_indices(void *out, int how)
     x->data = data;
     x->count = INDICES;
     x->format = (uint8_t)(how % 4);
+}
+
+static void fill_draw_lighting(void *out, int how)
+{
+    lmb_draw_lighting *l = out;
+    lmb_draw_lamp *lamps = pool_block(LMB_DRAW_LAMPS * sizeof *lamps);
+    memset(l, 0, sizeof *l);
+    for (int i = 0; i < LMB_DRAW_LAMPS; ++i) {
+        fill_floats((float *)(void *)&lamps[i], 4 + 9 + 3, how + i);
+        lamps[i].spot_exponent = how & 1 ? 20.0f : pool_float((uint8_t)(how + i));
+        lamps[i].spot_cos = (float)(i - 4) * 0.25f;
+        lamps[i].attenuation[i % 3] = how & 2 ? 0.0f : (float)i;
+    }
+    fill_floats((float *)(void *)&l->material[0], 13, how);
+    fill_floats((float *)(void *)&l->material[1], 13, how / 2);
+    fill_floats(l->ambient, 3, how);
+    fill_floats(l->to_eye.m, 16, how & 4 ? 0 : how);
+    l->material[how & 1].shininess = (float)(how / 2);
+    l->lamps = lamps;
+    l->count = (uint32_t)how % (LMB_DRAW_LAMPS + 2);
+    l->tracks = (uint8_t)(how / 8 % 17);
+    l->is_local = how & 1;
+    l->is_raw = how >> 1 & 1;
+}
+
+static void fill_draw_lit(void *out, int how)
+{
+    lmb_draw_lit *l = out;
+    enum { CODES = 4 * 24 };
+    l->colours = how == 1 ? NULL : pool_block(CODES);
+    l->seconds = how & 2 ? NULL : pool_block(CODES);
+    l->back_colours = how & 4 ? NULL : pool_block(CODES);
+    l->back_seconds = how & 8 ? NULL : pool_block(CODES);
 }
 
 static void fill_blit_image(void *out, int how)
@@ -422,6 +467,7 @@ static const struct {
     {"lmb_frame", fill_frame}, {"lmb_culling", fill_culling}, {"lmb_cluster", fill_cluster},
     {"lmb_bins", fill_bins}, {"lmb_draw_target", fill_draw_target}, {"lmb_draw_state", fill_draw_state},
     {"lmb_draw_vertices", fill_draw_vertices}, {"lmb_draw_indices", fill_draw_indices},
+    {"lmb_draw_lighting", fill_draw_lighting}, {"lmb_draw_lit", fill_draw_lit},
     {"lmb_blit_image", fill_blit_image}, {"lmb_blit_how", fill_blit_how},
 };
 

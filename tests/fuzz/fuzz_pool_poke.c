@@ -71,6 +71,8 @@ static const struct {
     REAL(lmb_draw_state, fog_density), REAL(lmb_draw_state, stage[1].level_bias), WHOLE(lmb_draw_state, flags),
     WHOLE(lmb_draw_state, viewport[0]), WHOLE(lmb_draw_state, viewport[3]), WHOLE(lmb_draw_state, scissor[1]),
     WHOLE(lmb_draw_state, scissor[2]), WHOLE(lmb_draw_target, x0), REAL(lmb_draw_target, depth_far),
+    WHOLE(lmb_draw_lighting, count), REAL(lmb_draw_lighting, to_eye.m[6]), REAL(lmb_draw_lighting, ambient[1]),
+    REAL(lmb_draw_lighting, material[0].shininess), REAL(lmb_draw_lighting, material[1].diffuse[3]),
     REAL(lmb_draw_vertices, position_scale.x), REAL(lmb_draw_vertices, uv_scale), REAL(lmb_mat4, m[5]),
     WHOLE(lmb_blit_how, scale), WHOLE(lmb_blit_how, part[0]), WHOLE(lmb_blit_how, part[3]),
 };

@@ -56,6 +56,7 @@ uint64_t case_gouraud(int variant); /* golden_gouraud.c */
 #if LMB_DRAW
 uint64_t case_draw(int variant); /* golden_draw.c */
 uint64_t case_blit(int variant);
+uint64_t case_draw_each(int variant); /* golden_draw_each.c */
 #endif
 uint64_t case_fixed(int variant); /* golden_fixed.c */
 #if LMB_RELIEF

@@ -45,6 +45,7 @@ static void set_state(lmb_draw_state *s, lmb_texture texture[2], const draw_spac
     const lmb_mat4 closer = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.5f, 1}};
     (void)lmb_draw_state_init(s, GOLDEN_WIDTH, GOLDEN_HEIGHT);
     (void)lmb_draw_view(s, &view, &closer);
+    s->kernels = golden_kernels;
     texture[0] = texture[1] = t;
     texture[1].filter = LMB_TRILINEAR;
     s->flags = LMB_DRAW_DEPTH_TEST | LMB_DRAW_DEPTH_WRITE | LMB_DRAW_DITHER;

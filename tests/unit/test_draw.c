@@ -249,6 +249,20 @@ static void soup_state(int primitive)
     state.plane[0][0] = 1, state.plane[0][1] = 0.5f, state.plane[0][3] = 2;
 }
 
+/* 1, 2: patterns, and polygons' edges or corners. */
+static void soup_mode(int mode)
+{
+    static uint8_t pattern[128];
+    for (int i = 0; i < 128; ++i) {
+        pattern[i] = (uint8_t)(i * 77 | i << 2);
+    }
+    state.polygon_mode[0] = state.polygon_mode[1] = (uint8_t)mode;
+    state.polygon_mode[1] = (uint8_t)(mode == 2 ? LMB_DRAW_FILL : mode);
+    state.line_pattern = (uint16_t)(mode == 0 ? 0xffff : 0x3717);
+    state.line_repeat = (uint16_t)(1 + mode);
+    state.area_pattern = mode == 0 ? NULL : pattern;
+}
+
 static lmb_status draw_soup(const lmb_draw_target *on, const soup *s, int primitive, lmb_stats *stats)
 {
     lmb_draw_vertices v;
@@ -265,13 +279,15 @@ static void test_windows(void)
 {
     soup s;
     make_soup(&s, 77);
-    for (int primitive = LMB_DRAW_TRIANGLES; primitive <= LMB_DRAW_POINTS; ++primitive) {
+    for (int i = 0; i < 3 * (LMB_DRAW_POLYGON + 1); ++i) {
+        const int primitive = i % (LMB_DRAW_POLYGON + 1), mode = i / (LMB_DRAW_POLYGON + 1);
         static uint8_t whole[CASE_HIGH][CASE_WIDE][4];
         static float part_depth[16 * 24];
         uint8_t part[16][24][4];
         lmb_draw_target window;
         case_begin();
         soup_state(primitive);
+        soup_mode(mode);
         CHECK(draw_soup(&drawn_on, &s, primitive, NULL) == LMB_OK);
         memcpy(whole, drawn.colour, sizeof whole);
         memset(&window, 0, sizeof window), memset(part, 0, sizeof part), memset(part_depth, 0, sizeof part_depth);
@@ -286,9 +302,11 @@ static void test_windows(void)
                 shown += part[y][x][3] != 0;
             }
         }
-        CHECK_MSG(wrong == 0 && shown > 3, "primitive %d: %d rows, %d pixels", primitive, wrong, shown);
+        CHECK_MSG(wrong == 0 && shown > 3 - 2 * mode, "primitive %d, mode %d: %d rows, %d pixels", primitive, mode, wrong,
+                  shown);
         case_begin();
         soup_state(primitive);
+        soup_mode(mode);
         state.flags |= LMB_DRAW_SCISSOR;
         for (int part_of = 0; part_of < 3; ++part_of) {
             static const int32_t boxes[3][4] = {{-5, 0, 18, 32}, {13, 0, 4, 32}, {17, 0, 100, 32}};
@@ -296,6 +314,53 @@ static void test_windows(void)
             CHECK(draw_soup(&drawn_on, &s, primitive, NULL) == LMB_OK);
         }
         CHECK(memcmp(whole, drawn.colour, sizeof whole) == 0 && case_guard_is_whole());
+    }
+}
+
+/* A list has the bytes of its primitives drawn one by one, and of an indexed one; what is drawn elsewhere does not
+ * matter. */
+static void test_parts(void)
+{
+    static const int32_t kinds[4] = {LMB_DRAW_TRIANGLES, LMB_DRAW_QUADS, LMB_DRAW_LINES, LMB_DRAW_POINTS};
+    static const uint32_t each[4] = {3, 4, 2, 1};
+    soup s;
+    make_soup(&s, 31);
+    for (int i = 0; i < 4; ++i) {
+        static uint8_t whole[CASE_HIGH][CASE_WIDE][4];
+        uint8_t order[60];
+        lmb_draw_vertices v;
+        memset(&v, 0, sizeof v);
+        v.positions = s.corners, v.colours = &s.colours[0][0], v.count = 60;
+        case_begin();
+        soup_state(i);
+        CHECK(draw_soup(&drawn_on, &s, kinds[i], NULL) == LMB_OK);
+        memcpy(whole, drawn.colour, sizeof whole);
+        case_begin();
+        soup_state(i);
+        for (uint32_t k = 0; k < 60; k += each[i]) {
+            const lmb_draw_state kept = state;
+            v.positions = s.corners[k], v.colours = s.colours[k], v.count = each[i];
+            CHECK(lmb_draw_list(&drawn_on, &state, &v, kinds[i], NULL, NULL) == LMB_OK);
+            state.flags |= LMB_DRAW_SCISSOR; /* another draw, where these are not */
+            state.scissor[0] = CASE_WIDE;
+            CHECK(draw_soup(&drawn_on, &s, kinds[3 - i], NULL) == LMB_OK);
+            state = kept;
+        }
+        CHECK_MSG(memcmp(whole, drawn.colour, sizeof whole) == 0, "primitive %d", kinds[i]);
+        for (uint32_t k = 0; k < 60; ++k) {
+            order[k] = (uint8_t)(59 - k);
+        }
+        soup turned;
+        for (int k = 0; k < 60; ++k) {
+            memcpy(turned.corners[k], s.corners[59 - k], sizeof turned.corners[k]);
+            memcpy(turned.colours[k], s.colours[59 - k], sizeof turned.colours[k]);
+        }
+        const lmb_draw_indices x = {order, 60, LMB_DRAW_INDEX_U8};
+        v.positions = turned.corners, v.colours = turned.colours[0], v.count = 60;
+        case_begin();
+        soup_state(i);
+        CHECK(lmb_draw_list(&drawn_on, &state, &v, kinds[i], &x, NULL) == LMB_OK);
+        CHECK_MSG(memcmp(whole, drawn.colour, sizeof whole) == 0, "primitive %d by indices", kinds[i]);
     }
 }
 
@@ -443,8 +508,15 @@ static void test_refused(void)
                                     &state.blend_equation[1],
                                     &state.logic_op,
                                     &state.stage[0].mode,
-                                    &state.stage[1].mode};
-    static const uint8_t past[] = {64, 4, 8, 8, 16, 8, 8, 8, 8, 15, 15, 15, 15, 5, 5, 16, 5, 5};
+                                    &state.stage[1].mode,
+                                    &state.polygon_mode[0],
+                                    &state.polygon_mode[1],
+                                    &state.stage[1].combine.func[0],
+                                    &state.stage[0].combine.func[1],
+                                    &state.stage[0].combine.source[1][2],
+                                    &state.stage[1].combine.operand[0][1],
+                                    &state.stage[1].combine.shift[1]};
+    static const uint8_t past[] = {64, 4, 8, 8, 16, 8, 8, 8, 8, 15, 15, 15, 15, 5, 5, 16, 6, 6, 3, 3, 8, 6, 6, 4, 3};
     float *const floats[] = {&state.to_clip.m[3],   &state.plane[5][2],         &state.fog_axis[1],
                              &state.depth_range[0], &state.depth_range[1],      &state.offset_slope,
                              &state.offset_units,   &state.fog_start,           &state.fog_end,
@@ -465,9 +537,9 @@ static void test_refused(void)
         *floats[i] = -(float)INFINITY;
         CHECK_MSG(refuse(LMB_DRAW_QUADS) == LMB_ERR_ARG, "number %d", i);
     }
-    for (int i = 0; i < 14; ++i) {
+    for (int i = 0; i < 17; ++i) {
         static const uint8_t texels[4];
-        const lmb_texture texture = {texels, 1, 1, (uint8_t)(i == 12 ? 2 : 1), 0, 0, (uint8_t)(i == 13 ? 3 : 0), 0};
+        const lmb_texture texture = {texels, 1, 1, (uint8_t)(i == 12 ? 2 : 1), 0, 0, (uint8_t)(i == 16 ? 3 : 0), 0};
         case_begin();
         state.flags = i == 0 ? 4096 : i == 1 ? LMB_DRAW_DEPTH_TEST : i == 2 ? LMB_DRAW_STENCIL : 0;
         drawn_on.depth.data = i == 1 || i == 3 ? NULL : drawn_on.depth.data;
@@ -479,12 +551,14 @@ static void test_refused(void)
         state.viewport[2] = i == 8 ? 0 : i == 9 ? 16385 : CASE_WIDE;
         state.line_px = i == 10 ? 0 : 1;
         state.point_px = i == 11 ? 0 : 1;
-        state.stage[1].texture = i >= 12 ? &texture : NULL;
-        CHECK_MSG(refuse(LMB_DRAW_QUADS) == (i == 13 ? LMB_ERR_FORMAT : LMB_ERR_ARG), "%d", i);
+        state.line_repeat = (uint16_t)(i == 13 ? 0 : i == 14 ? 257 : 1);
+        drawn_on.depth_far = i == 15 ? 1.0f : 0.0f;
+        state.stage[1].texture = i == 12 || i == 16 ? &texture : NULL;
+        CHECK_MSG(refuse(LMB_DRAW_QUADS) == (i == 16 ? LMB_ERR_FORMAT : LMB_ERR_ARG), "%d", i);
         CHECK(drawn.colour[3][3][0] == 0 && drawn.depth[0] == 0 && case_guard_is_whole());
     }
     case_begin();
-    CHECK(refuse(-1) == LMB_ERR_ARG && refuse(9) == LMB_ERR_ARG);
+    CHECK(refuse(-1) == LMB_ERR_ARG && refuse(10) == LMB_ERR_ARG);
     drawn_on.colour.format = LMB_RGB32F;
     CHECK(refuse(LMB_DRAW_QUADS) == LMB_ERR_FORMAT);
     CHECK(drawn.colour[3][3][0] == 0 && case_guard_is_whole());
@@ -507,7 +581,18 @@ static void test_random_states(void)
         soup_state((int)(test_random(&r) % 9));
         state.flags = test_random(&r) & LMB_DRAW_FLAGS;
         state.stage[i & 1].texture = &texture;
-        state.stage[i & 1].mode = (uint8_t)(test_random(&r) % 5);
+        state.stage[i & 1].mode = (uint8_t)(test_random(&r) % 6);
+        for (int k = 0; k < 3; ++k) {
+            lmb_draw_combine *c = &state.stage[i & 1].combine;
+            c->func[k & 1] = (uint8_t)(test_random(&r) % 6);
+            c->source[k & 1][k] = (uint8_t)(test_random(&r) % 6);
+            c->operand[k & 1][k] = (uint8_t)(test_random(&r) % 4);
+            c->shift[k & 1] = (uint8_t)(test_random(&r) % 3);
+        }
+        state.polygon_mode[i & 1] = (uint8_t)(test_random(&r) % 3);
+        state.line_pattern = (uint16_t)test_random(&r);
+        state.line_repeat = (uint16_t)(1 + test_random(&r) % 256);
+        state.area_pattern = i % 3 == 0 ? texels : NULL;
         state.viewport[0] = (int32_t)(test_random(&r) % 60) - 30;
         state.viewport[2] = 1 + (int32_t)(test_random(&r) % (i % 5 == 0 ? 16384 : 60));
         state.scissor[1] = (int32_t)(test_random(&r) % 60) - 30;
@@ -515,7 +600,7 @@ static void test_random_states(void)
         state.point_px = (uint8_t)(1 + test_random(&r) % 255);
         state.line_px = (uint8_t)(1 + test_random(&r) % 20);
         state.offset_slope = test_uniform(&r, -3, 3);
-        drawn_calls += draw_soup(&drawn_on, &s, (int)(test_random(&r) % 9), NULL) == LMB_OK;
+        drawn_calls += draw_soup(&drawn_on, &s, (int)(test_random(&r) % 10), NULL) == LMB_OK;
         if (!case_guard_is_whole()) {
             CHECK_MSG(0, "try %d", i);
             return;
@@ -533,6 +618,7 @@ void test_draw(void)
     test_diamonds();
     test_widths();
     test_windows();
+    test_parts();
     test_cuts();
     test_long_edges();
     test_culls();

@@ -1,4 +1,4 @@
-/* verb_bench.c: `lambent bench`: the raster workload, the far gather, threads, hard cases; all else is swept. */
+/* verb_bench.c: `lambent bench`: the raster workload, draws, the far gather, threads, hard cases; all else is swept. */
 #include "verb_bench.h"
 
 #include <stdio.h>
@@ -11,6 +11,7 @@
 #include "../common/options.h"
 #include "../hard/hard.h"
 #include "../render/bench_calibrate.h"
+#include "bench_draw.h"
 #include "bench_gather.h"
 #include "bench_hard.h"
 #include "bench_operations.h"
@@ -31,7 +32,7 @@ typedef struct options {
     const char *cases[CASES];
     int32_t case_count, threads;
     int32_t group; /* of hard_groups; -1: all */
-    int linear, culled, binned, json, is_quiet, is_verbose;
+    int linear, culled, binned, plain, json, is_quiet, is_verbose;
     float seconds; /* of each case */
 } options;
 
@@ -364,6 +365,16 @@ static const option_row gather_rows[] = {
     ROW_SECONDS("of each backend (default 1.5)"),
     ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
 };
+static const option_row draw_rows[] = {
+    {.name = "CASE", .kind = OPTION_TEXT, .value = "", AT(cases), .counts = offsetof(options, case_count),
+     .times = CASES, .size = sizeof(const char *),
+     .help = "part of a case's name (default: all)"},
+    ROW_FOLDER("bunny.mesh and sponza.mesh; without it cases of these are left out"),
+    OPTION_BACKEND_ROW(options, kernels),
+    {.name = "--plain", .kind = OPTION_FLAG, AT(plain), .help = "without kernels, in plain C"},
+    ROW_SECONDS("of each case (default 1)"),
+    ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
+};
 static const option_row threads_rows[] = {
     {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 2, .high = POOL_MAX,
      .help = "as many threads, and processes (default 2)"},
@@ -424,6 +435,25 @@ static int run_gather(const options *o, report *r)
 {
     const gather_options gather = {o->kernels, (double)o->seconds, o->json, o->is_quiet};
     return bench_gather(&gather, r);
+}
+
+static draw_options draw_of(const options *o)
+{
+    const draw_options draw = {o->cases, (int)o->case_count, o->folder, o->plain ? NULL : o->kernels,
+                               (double)o->seconds, o->json, o->is_quiet};
+    return draw;
+}
+
+static int check_draw(const options *o, report *r)
+{
+    const draw_options draw = draw_of(o);
+    return bench_draw_is_wanted(&draw) || report_fail(r, "no case has `%s` in its name", o->cases[0]);
+}
+
+static int run_draw(const options *o, report *r)
+{
+    const draw_options draw = draw_of(o);
+    return bench_draw(&draw, r);
 }
 
 static int run_threads(const options *o, report *r)
@@ -498,6 +528,21 @@ static const struct workload {
           "count as nothing. A cycle is that of a chain of integer operations.",
       .part = {gather_rows},
       .examples = "  lambent bench gather --seconds 0.1\n"}},
+    {"draw",
+     check_draw,
+     run_draw,
+     0,
+     1.0f,
+     1,
+     {.verb = "bench draw",
+      .usage = "bench draw [CASE...] [options]",
+      .about =
+          "Draws on one thread what lambent/draw.h is for, at 640 x 480, and prints a line a case: what it is, and the "
+          "least processor time of a frame. Frames of meshes, sprites, particles, lines and shadows begin with a clear "
+          "of colours and depth. Of `clear`, `fill` and `glass`, the line also has the time of storing each pixel once "
+          "(memset) in the same run, and that as a share of the frame's.",
+      .part = {draw_rows},
+      .examples = "  lambent bench draw fill --seconds 0.1\n"}},
     {"threads",
      NULL,
      run_threads,
@@ -546,6 +591,7 @@ static const option_table bench_table = {
     .verb = "bench",
     .usage = "bench SCENE|relight|relief|mix ...  speed against error\n"
              "bench raster [CASE...] [options]    how fast this machine draws the fixed workload\n"
+             "bench draw [CASE...] [options]      how fast this machine draws sprites, text, lines, blended scenes\n"
              "bench gather [options]              how fast groups light pixels\n"
              "bench threads [options]             what threads gain, beside processes\n"
              "bench hard [CASES] [options]        what renderers get wrong\n"
@@ -584,7 +630,7 @@ static int measure_workload(const struct workload *w, int argc, char **argv)
 /* A workload or a subject's name, where the word is like one and no file has it for its name. */
 static const char *meant_by(const char *word)
 {
-    static const char *const names[] = {"raster", "gather", "threads", "hard", "relight", "relief", "mix", NULL};
+    static const char *const names[] = {"raster", "draw", "gather", "threads", "hard", "relight", "relief", "mix", NULL};
     const char *meant = options_nearest(names, word);
     FILE *file = meant != NULL && strcmp(meant, word) != 0 ? fopen(word, "rb") : NULL;
     if (file != NULL) {
@@ -612,7 +658,7 @@ int verb_bench(int argc, char **argv)
     }
     int asked = options_parse(NULL, &bench_table, argc, argv, &r);
     if (asked == OPTIONS_RUN) {
-        asked = report_fail(&r, "what is to be measured? A scene, raster, gather, threads, hard; see --help");
+        asked = report_fail(&r, "what is to be measured? A scene, raster, draw, gather, threads, hard; see --help");
     }
     return options_answer(asked, &bench_table, &r);
 }

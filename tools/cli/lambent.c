@@ -44,7 +44,7 @@ static const struct verb {
     {"compare", verb_compare, "compare A B", "error figures of a picture against a reference"},
     {"info", verb_info, "info FILE", "what is in a scene or a picture"},
     {"bench", verb_bench, "bench SCENE", "speed against error: what each setting costs and buys"},
-    {"bench", verb_bench, "bench raster|gather|hard",
+    {"bench", verb_bench, "bench raster|draw|gather|hard",
      "how fast this machine draws and lights; what renderers get wrong"},
     {"doctor", verb_doctor, "doctor", "this build and its back ends: do they draw what they should?"},
 };
@@ -103,7 +103,7 @@ static const char *const pages[][2] = {
     {"relief", NULL},     {"relief", "bake"},    {"relief", "render"},  {"mix", NULL},
     {"plan", NULL},       {"compare", NULL},     {"info", NULL},        {"bench", NULL},
     {"bench", "SCENE"},   {"bench", "relight"},  {"bench", "relief"},   {"bench", "mix"},
-    {"bench", "raster"},  {"bench", "gather"},   {"bench", "threads"},  {"bench", "hard"},
+    {"bench", "raster"},  {"bench", "draw"},    {"bench", "gather"},   {"bench", "threads"},  {"bench", "hard"},
     {"bench", "--calibrate"}, {"doctor", NULL},
 };
 

@@ -7,6 +7,7 @@
 #include "../common/progress.h"
 #include "../picture/picture.h"
 #include "map_picture.h"
+#include "wireframe.h"
 
 /* What stopped a frame, in words. The memory is sized here, so little can. */
 static int explain(const render_job *j, lmb_status status, int stage, report *r)
@@ -115,6 +116,9 @@ static lmb_status draw_attribute(render_job *j)
     lmb_surface_clear(&f->eye.depth);
     lmb_surface_clear(&f->eye.id);
     lmb_status status = lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK | LMB_BLEND, &j->stats);
+    if (j->o.show == SHOW_WIREFRAME) {
+        return status != LMB_OK ? status : wireframe_draw(j);
+    }
     for (int32_t band = 0; status == LMB_OK && band < (f->view.frame_height + 7) / 8; ++band) {
         status =
             lmb_gbuffer_band(depth, normal, albedo, f->kernels, &f->scratch->tile, &f->view, &j->scene, &f->eye, band);

@@ -144,10 +144,11 @@ static const char *const gathers[] = {"full", "half", "quarter", "adaptive", "li
 static const int32_t gather_values[] = {1, 2, 4, LMB_GATHER_ADAPTIVE, LMB_GATHER_LIVE};
 static const char *const shows[] = {"full",           "direct", "indirect", "irradiance", "depth", "eye-distance",
                                     "normal",         "albedo", "light-distance", "points", "groups", "occlusion",
-                                    NULL};
+                                    "wireframe",      NULL};
 static const int32_t show_values[] = {LMB_SHOW_FULL, LMB_SHOW_DIRECT,     LMB_SHOW_INDIRECT,   LMB_SHOW_IRRADIANCE,
                                       SHOW_DEPTH,    SHOW_EYE_DISTANCE,   SHOW_NORMAL,         SHOW_ALBEDO,
-                                      SHOW_LIGHT_DISTANCE, SHOW_POINTS,   SHOW_GROUPS,         SHOW_OCCLUSION};
+                                      SHOW_LIGHT_DISTANCE, SHOW_POINTS,   SHOW_GROUPS,         SHOW_OCCLUSION,
+                                      SHOW_WIREFRAME};
 
 #define AT(member) .at = offsetof(render_options, member)
 
@@ -157,11 +158,20 @@ const option_row render_scene_rows[] = {
     {.kind = OPTION_END},
 };
 
+static int parse_wireframe(const char *text, void *at)
+{
+    (void)text;
+    *(int32_t *)at = SHOW_WIREFRAME;
+    return 1;
+}
+
 static const option_row output_rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP("the picture: " PICTURE_OPTION_HELP)},
     OPTION_SLICE_ROW(render_options, slice, "picture's rows, eight by eight"),
+    {.name = "--wireframe", .kind = OPTION_FLAG, AT(show), .parse = parse_wireframe,
+     .help = HELP("the edges of triangles that no surface hides, white on black; short for --show wireframe")},
     {.kind = OPTION_END},
 };
 
@@ -316,7 +326,7 @@ const option_row render_picture_rows[] = {
              "what the eye sees; metres along the view, and from the eye;\nlight-distance, points, groups: of the "
              "shadow maps, at their size, a row of faces a light: metres from the light; first points by what they "
              "send, W/m2 (discs, where --join or --thin is given); the number of the group that owns a texel, 0 "
-             "dark, -1 dropped;\nocclusion: the share of the bounced light that --occlusion blocks.\nDisplay formats "
+             "dark, -1 dropped;\nocclusion: the share of the bounced light that --occlusion blocks;\nwireframe: edges of triangles.\nDisplay formats "
              "scale distances, near is bright, and give each group a colour")},
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
      .help = HELP("a pixel, of edges and direct light; bounced light is gathered once for each surface that it shows "

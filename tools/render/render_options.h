@@ -12,7 +12,7 @@
 #define RENDER_LIGHTS 64 /* --light given at most this often */
 
 /* --show beyond LMB_SHOW_*: the view's attributes; what lives in the shadow maps; how much light is blocked. */
-enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO, SHOW_EYE_DISTANCE };
+enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO, SHOW_WIREFRAME, SHOW_EYE_DISTANCE };
 enum { SHOW_LIGHT_DISTANCE = 32, SHOW_POINTS, SHOW_GROUPS };
 enum { SHOW_OCCLUSION = 48 };
 

@@ -1,0 +1,450 @@
+/* draw_quick.c: triangles that are neither clipped nor large: corners are kept, edges fit 32 bits. Layer 4.
+ *
+ * Most triangles of a mesh cover a few pixels or none, and their cost is that of their corners. So a corner that comes
+ * again is not transformed again, and colours and shares are not touched before a pixel has passed its tests. The
+ * arithmetic is that of draw_list.c, draw_shape.c and setup.c, value by value. */
+#include "draw_part.h"
+
+#include <string.h>
+
+#include "../base/vertex.h"
+#include "../raster/setup.h"
+
+#if LMB_DRAW
+enum { QUICK_24_8 = 16 * 256 /* a side of the box of corners that are small */ };
+enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 32 };
+#define QUICK_ABSURD  1e30f
+#define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
+
+/* What the rest of a shape is made of. */
+typedef struct lmb_draw_late {
+    lmb_screen_vertex at[3]; /* the edges run round it one way */
+    float inverse[3];
+    uint32_t vertex[3], flat;
+    double by_area;
+    lmb_draw_corner corner[3];
+} lmb_draw_late;
+
+void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
+{
+    const lmb_draw_state *s = pass->state;
+    const lmb_draw_vertices *v = pass->vertices;
+    const float *axis = s->fog_axis, *m = s->to_clip.m;
+    const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
+    if (v->position_format != LMB_DRAW_F32 || v->uv_format != LMB_DRAW_F32 || s->planes != 0 ||
+        s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
+        s->polygon_mode[1] != LMB_DRAW_FILL || v->fogs != NULL || v->seconds != NULL || v->back_colours != NULL ||
+        v->back_seconds != NULL) {
+        return;
+    }
+    pass->fog_is_w = !has_axis || (axis[0] == m[3] && axis[1] == m[7] && axis[2] == m[11] && axis[3] == m[15]);
+    for (int i = 0; i < DRAW_FEW; ++i) {
+        few[i].name = 0;
+    }
+    pass->few = few;
+}
+
+/* --- corners ------------------------------------------------------------------------------------------------------ */
+
+static float quick_row(const float *m, const float p[3]) { return m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12]; }
+
+static float quick_fog(const lmb_draw_pass *pass, const float p[3], float w)
+{
+    const float *axis = pass->state->fog_axis;
+    return pass->fog_is_w ? w : axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2] + axis[3];
+}
+
+static int quick_is_absurd(float v) { return !(v > -QUICK_ABSURD && v < QUICK_ABSURD); }
+
+/* Which planes a corner is outside of, if it is finite. */
+static uint32_t quick_out(const lmb_draw_pass *pass, const float p[3], const float clip[4])
+{
+    const float x = clip[0], y = clip[1], z = clip[2], w = clip[3];
+    const float side = pass->guard_x * w, top = pass->guard_y * w;
+    if (quick_is_absurd(x) || quick_is_absurd(y) || quick_is_absurd(z) || quick_is_absurd(w) ||
+        quick_is_absurd(quick_fog(pass, p, w)) || !is_place(vec3(p[0], p[1], p[2]))) {
+        return DRAW_DROPPED;
+    }
+    return (uint32_t)(w - QUICK_LEAST_W < 0.0f) << DRAW_CUT_W | (uint32_t)(w - z < 0.0f) << DRAW_CUT_NEAR |
+           (uint32_t)(z < 0.0f) << DRAW_CUT_FAR | (uint32_t)(side + x < 0.0f) << DRAW_CUT_LEFT |
+           (uint32_t)(side - x < 0.0f) << DRAW_CUT_RIGHT | (uint32_t)(top - y < 0.0f) << DRAW_CUT_TOP |
+           (uint32_t)(top + y < 0.0f) << DRAW_CUT_BOTTOM;
+}
+
+/* 1 if quick_out is 0; the usual corner needs no more than this. */
+static int quick_is_in(const lmb_draw_pass *pass, const float p[3], const float clip[4])
+{
+    const float w = clip[3];
+    return pass->fog_is_w && w >= 2.0f * QUICK_LEAST_W && w < 1e20f && w >= clip[2] && clip[2] >= 0.0f &&
+           absf(clip[0]) <= pass->guard_x * w && absf(clip[1]) <= pass->guard_y * w && is_place(vec3(p[0], p[1], p[2]));
+}
+
+/* draw_to_24_8 of what lies in the guard band. */
+static int32_t quick_to_24_8(float v)
+{
+    const int32_t whole = (int32_t)v;
+    return whole - ((float)whole > v);
+}
+
+static void quick_place(draw_vertex *out, const lmb_draw_pass *pass, uint32_t i)
+{
+    const float *m = pass->state->to_clip.m, *range = pass->state->depth_range;
+    const float *from = (const float *)pass->vertices->positions + 3 * (size_t)i;
+    const float p[3] = {from[0], from[1], from[2]};
+    const float clip[4] = {quick_row(m, p), quick_row(m + 1, p), quick_row(m + 2, p), quick_row(m + 3, p)};
+    out->name = i + 1;
+    out->out = quick_is_in(pass, p, clip) ? 0 : quick_out(pass, p, clip);
+    if (out->out != 0) {
+        return;
+    }
+    const float inverse = 1.0f / clip[3], d = minf(maxf(clip[2] * inverse, 0.0f), 1.0f);
+    out->x = quick_to_24_8(clip[0] * inverse * pass->snap_x + 0.5f);
+    out->y = quick_to_24_8(0.5f - clip[1] * inverse * pass->snap_y);
+    out->d = range[0] == 0.0f && range[1] == 1.0f ? d : range[0] + (range[1] - range[0]) * d;
+    out->inverse = inverse;
+}
+
+NOINLINE void quick_renew(draw_vertex *at, const lmb_draw_pass *pass, uint32_t i)
+{
+    quick_place(at, pass, i);
+    for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
+        if (pass->vertices->uvs[k] != NULL && pass->state->stage[k].texture != NULL) {
+            const float *uv = (const float *)pass->vertices->uvs[k] + 2 * (size_t)i;
+            at->out |= is_sane(uv[0]) && is_sane(uv[1]) ? 0 : DRAW_DROPPED;
+        }
+    }
+}
+
+/* Vertex i, whose texture coordinates must be sane too. */
+static inline draw_vertex quick_corner(draw_vertex *known, uint32_t count, const lmb_draw_pass *pass, uint32_t i)
+{
+    draw_vertex *at = &known[i & (count - 1)];
+    if (at->name != i + 1) {
+        quick_renew(at, pass, i);
+    }
+    return *at;
+}
+
+/* --- late --------------------------------------------------------------------------------------------------------- */
+
+static void quick_values(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t i, uint32_t flat)
+{
+    const lmb_draw_vertices *v = pass->vertices;
+    const lmb_draw_state *s = pass->state;
+    const uint32_t of = (s->flags & LMB_DRAW_FLAT) != 0 ? flat : i;
+    const uint8_t *colour = v->colours != NULL ? v->colours + 4 * (size_t)of : s->colour;
+    for (int k = 0; k < 4; ++k) {
+        out->v[CORNER_RED + k] = (float)colour[k];
+    }
+    for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
+        float *uv = &out->v[CORNER_UV + 2 * k];
+        if (s->stage[k].texture != NULL) { /* else nobody asks */
+            const float *from = v->uvs[k] != NULL ? (const float *)v->uvs[k] + 2 * (size_t)i : NULL;
+            uv[0] = from != NULL ? from[0] : 0.0f;
+            uv[1] = from != NULL ? from[1] : 0.0f;
+        }
+    }
+    if (s->fog != LMB_DRAW_FOG_NONE) {
+        float p[3];
+        memcpy(p, (const float *)v->positions + 3 * (size_t)i, sizeof p);
+        out->v[CORNER_FOG] = quick_fog(pass, p, quick_row(s->to_clip.m + 3, p));
+    }
+}
+
+/* The value of the edge from a to b, by twice the area: 0 on the edge, 1 at the opposite corner. */
+static lmb_draw_plane quick_edge(const lmb_screen_vertex *a, const lmb_screen_vertex *b, double by_area)
+{
+    const int32_t ex = a->y_24_8 - b->y_24_8, ey = b->x_24_8 - a->x_24_8;
+    lmb_draw_plane p;
+    p.origin = (double)(-(int64_t)ex * a->x_24_8 - (int64_t)ey * a->y_24_8) * by_area;
+    p.x = ex * 256.0 * by_area;
+    p.y = ey * 256.0 * by_area;
+    return p;
+}
+
+static void quick_scale(lmb_draw_plane *p, double by)
+{
+    p->origin *= by;
+    p->x *= by;
+    p->y *= by;
+}
+
+void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *s)
+{
+    lmb_draw_late *late = s->late;
+    const float *inverse = late->inverse;
+    for (int i = 0; i < 3; ++i) {
+        quick_values(&late->corner[i], pass, late->vertex[i], late->flat);
+    }
+    s->late = NULL;
+    s->n1 = quick_edge(&late->at[2], &late->at[0], late->by_area);
+    s->n2 = quick_edge(&late->at[0], &late->at[1], late->by_area);
+    s->is_even = inverse[0] == inverse[1] && inverse[0] == inverse[2];
+    if (!s->is_even) {
+        const double more1 = (double)inverse[1] - (double)inverse[0], more2 = (double)inverse[2] - (double)inverse[0];
+        s->q.origin = (double)inverse[0] + (s->n1.origin * more1 + s->n2.origin * more2);
+        s->q.x = s->n1.x * more1 + s->n2.x * more2;
+        s->q.y = s->n1.y * more1 + s->n2.y * more2;
+        quick_scale(&s->n1, (double)inverse[1]);
+        quick_scale(&s->n2, (double)inverse[2]);
+    }
+}
+
+/* --- triangles ---------------------------------------------------------------------------------------------------- */
+
+/* Edges at pixel (x0, y0) of the box, and per px: 32 bits hold them. */
+typedef struct quick_edges {
+    int32_t e[3], ex[3], ey[3];
+    int32_t x0, y0, x1, y1;
+} quick_edges;
+
+static inline void quick_set_edge(quick_edges *out, int i, const lmb_screen_vertex *a, const lmb_screen_vertex *b,
+                                  int32_t x, int32_t y)
+{
+    const int32_t ex = a->y_24_8 - b->y_24_8, ey = b->x_24_8 - a->x_24_8;
+    const int32_t rule = ex > 0 || (ex == 0 && ey > 0) ? 0 : 1;
+    out->e[i] = (ex * (x - a->x_24_8) + ey * (y - a->y_24_8) - rule) >> 8;
+    out->ex[i] = ex;
+    out->ey[i] = ey;
+}
+
+static inline void quick_set_edges(quick_edges *out, const lmb_draw_pass *pass, const lmb_screen_vertex at[3])
+{
+    const int32_t x = out->x0 * 256 + 128 - pass->middle_x, y = out->y0 * 256 + 128 - pass->middle_y;
+    quick_set_edge(out, 0, &at[0], &at[1], x, y);
+    quick_set_edge(out, 1, &at[1], &at[2], x, y);
+    quick_set_edge(out, 2, &at[2], &at[0], x, y);
+}
+
+/* The pixels of the box in the tile at (x, y) that all edges have inside. */
+static uint64_t quick_covered(const quick_edges *s, int32_t x, int32_t y)
+{
+    const int32_t x0 = maxi(s->x0, x), x1 = mini(s->x1, x + LMB_TILE - 1);
+    const int32_t y0 = maxi(s->y0, y), y1 = mini(s->y1, y + LMB_TILE - 1);
+    const int32_t right = x0 - s->x0, down = y0 - s->y0;
+    int32_t a = s->e[0] + s->ex[0] * right + s->ey[0] * down, b = s->e[1] + s->ex[1] * right + s->ey[1] * down,
+            c = s->e[2] + s->ex[2] * right + s->ey[2] * down;
+    uint64_t mask = 0;
+    for (int32_t j = y0; j <= y1; ++j, a += s->ey[0], b += s->ey[1], c += s->ey[2]) {
+        int32_t p = a, q = b, r = c;
+        uint32_t row = 0;
+        for (int32_t i = x0; i <= x1; ++i, p += s->ex[0], q += s->ex[1], r += s->ex[2]) {
+            row |= (uint32_t)((p | q | r) >= 0) << (i & 7);
+        }
+        mask |= (uint64_t)row << ((j & 7) * LMB_TILE);
+    }
+    return mask;
+}
+
+static void quick_set_depth(lmb_draw_shape *s, const lmb_screen_vertex at[3], double by_area)
+{
+    const lmb_screen_vertex *a = &at[0], *b = &at[1], *c = &at[2];
+    const double bx = b->x_24_8 - a->x_24_8, by = b->y_24_8 - a->y_24_8, cx = c->x_24_8 - a->x_24_8,
+                 cy = c->y_24_8 - a->y_24_8;
+    const double bd = (double)b->d - (double)a->d, cd = (double)c->d - (double)a->d;
+    const double per_px = 256.0 * by_area; /* exactly 256 / area, rounded */
+    s->d.x = (bd * cy - cd * by) * per_px;
+    s->d.y = (cd * bx - bd * cx) * per_px;
+    s->d.origin = (double)a->d - s->d.x * (a->x_24_8 * (1.0 / 256.0)) - s->d.y * (a->y_24_8 * (1.0 / 256.0));
+    s->d_min = minf(a->d, minf(b->d, c->d));
+    s->d_max = maxf(a->d, maxf(b->d, c->d));
+    s->d_add = 0.0f;
+}
+
+static void quick_begin_shape(lmb_draw_shape *out, lmb_draw_late *late, int64_t area)
+{
+    late->by_area = 1.0 / (double)area;
+    out->late = late;
+    out->corners = 3;
+    for (int i = 0; i < 3; ++i) {
+        out->corner[i] = &late->corner[i];
+    }
+    quick_set_depth(out, late->at, late->by_area);
+}
+
+/* Bit i of the four from `i` on: is pixel i inside? */
+#define QUICK_BIT(i) ((~(uint32_t)((a + ex0 * (i)) | (b + ex1 * (i)) | (c + ex2 * (i))) >> 31) << (i))
+
+/* The pixels of a box of at most 8 x 8, its first one bit 0, four at once: a loop as long as the box is wide ends where
+ * processors do not expect it. */
+static inline uint64_t quick_covered_box(const quick_edges *s)
+{
+    const int32_t wide = s->x1 - s->x0, ex0 = s->ex[0], ex1 = s->ex[1], ex2 = s->ex[2];
+    int32_t a = s->e[0], b = s->e[1], c = s->e[2];
+    uint64_t mask = 0;
+    for (int32_t j = 0; j <= s->y1 - s->y0; ++j) {
+        uint32_t row = QUICK_BIT(0) | QUICK_BIT(1) | QUICK_BIT(2) | QUICK_BIT(3);
+        if (wide > 3) {
+            row |= QUICK_BIT(4) | QUICK_BIT(5) | QUICK_BIT(6) | QUICK_BIT(7);
+        }
+        mask |= (uint64_t)row << (LMB_TILE * j);
+        a += s->ey[0], b += s->ey[1], c += s->ey[2];
+    }
+    return mask & (uint64_t)(0xffu >> (7 - wide)) * UINT64_C(0x0101010101010101);
+}
+
+/* A box of at most 8 x 8 pixels, in one to four tiles. */
+static void quick_fill_box(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t area, const quick_edges *edges)
+{
+    const uint64_t mask = quick_covered_box(edges);
+    const int32_t x = edges->x0 & ~7, y = edges->y0 & ~7, right = edges->x0 & 7, down = LMB_TILE * (edges->y0 & 7);
+    const uint64_t near_columns = (uint64_t)(0xffu >> right) * UINT64_C(0x0101010101010101);
+    const uint64_t left = (mask & near_columns) << right,
+                   other = right != 0 ? (mask & ~near_columns) >> (8 - right) : 0;
+    lmb_draw_shape shape;
+    if (mask == 0) {
+        return;
+    }
+    quick_begin_shape(&shape, late, area);
+    if (left << down != 0) {
+        lmb_draw_tile(pass, &shape, x, y, left << down);
+    }
+    if (other << down != 0) {
+        lmb_draw_tile(pass, &shape, x + LMB_TILE, y, other << down);
+    }
+    if (down == 0) {
+        return;
+    }
+    if (left >> (64 - down) != 0) {
+        lmb_draw_tile(pass, &shape, x, y + LMB_TILE, left >> (64 - down));
+    }
+    if (other >> (64 - down) != 0) {
+        lmb_draw_tile(pass, &shape, x + LMB_TILE, y + LMB_TILE, other >> (64 - down));
+    }
+}
+
+/* Tiles in rows, as the long way. */
+static void quick_fill(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t area, const quick_edges *edges)
+{
+    lmb_draw_shape shape;
+    quick_begin_shape(&shape, late, area);
+    for (int32_t y = edges->y0 & ~7; y <= edges->y1; y += LMB_TILE) {
+        for (int32_t x = edges->x0 & ~7; x <= edges->x1; x += LMB_TILE) {
+            const uint64_t mask = quick_covered(edges, x, y);
+            if (mask != 0) {
+                lmb_draw_tile(pass, &shape, x, y, mask);
+            }
+        }
+    }
+}
+
+static void quick_set_corner(lmb_draw_late *late, int i, const draw_vertex *c)
+{
+    late->at[i].x_24_8 = c->x;
+    late->at[i].y_24_8 = c->y;
+    late->at[i].d = c->d;
+    late->inverse[i] = c->inverse;
+    late->vertex[i] = c->name - 1;
+}
+
+/* Asks for the depths of a tile. */
+MESH_HINT void quick_ask_depth(const lmb_draw_pass *pass, int32_t x, int32_t y)
+{
+    const lmb_surface *s = &pass->target->depth;
+    if (pass->tests_rows && s->layout == LMB_TILED) {
+        const int32_t column = (x - pass->target->x0) >> 3, row = (y - pass->target->y0) >> 3;
+        MESH_SOON((const uint8_t *)s->data + (ptrdiff_t)row * s->stride_bytes +
+                  (ptrdiff_t)column * LMB_TILE_PIXELS * 4 + (y & 7) * LMB_TILE * 4);
+    }
+}
+
+/* 1 or 0: something may show, or not; -1: it is to be drawn the long way. */
+static int quick_draw(const lmb_draw_pass *pass, const draw_vertex *a, const draw_vertex *b, const draw_vertex *c,
+                      uint32_t flat)
+{
+    const lmb_draw_state *s = pass->state;
+    const int32_t x_min = mini(a->x, mini(b->x, c->x)), x_max = maxi(a->x, maxi(b->x, c->x));
+    const int32_t y_min = mini(a->y, mini(b->y, c->y)), y_max = maxi(a->y, maxi(b->y, c->y));
+    const int32_t x = 128 - pass->middle_x, y = 128 - pass->middle_y;
+    quick_edges edges;
+    lmb_draw_late late;
+    const int64_t area = (int64_t)(b->x - a->x) * (c->y - a->y) - (int64_t)(c->x - a->x) * (b->y - a->y);
+    const int back = area > 0, front = (s->flags & LMB_DRAW_CLOCKWISE) != 0 ? back : !back;
+    edges.x0 = maxi((x_min - x + 255) >> 8, pass->x0);
+    edges.x1 = mini((x_max - x) >> 8, pass->x1);
+    edges.y0 = maxi((y_min - y + 255) >> 8, pass->y0);
+    edges.y1 = mini((y_max - y) >> 8, pass->y1);
+    if (edges.x0 > edges.x1 || edges.y0 > edges.y1 || area == 0 ||
+        (s->flags & (front ? LMB_DRAW_CULL_FRONT : LMB_DRAW_CULL_BACK)) != 0) {
+        return 0;
+    }
+    if (x_max - x_min >= QUICK_24_8 || y_max - y_min >= QUICK_24_8) {
+        return -1;
+    }
+    quick_ask_depth(pass, edges.x0, edges.y0);
+    quick_set_corner(&late, 0, a);
+    quick_set_corner(&late, back ? 1 : 2, b);
+    quick_set_corner(&late, back ? 2 : 1, c);
+    late.flat = flat;
+    quick_set_edges(&edges, pass, late.at);
+    if (edges.x1 - edges.x0 < LMB_TILE && edges.y1 - edges.y0 < LMB_TILE) {
+        quick_fill_box(pass, &late, back ? area : -area, &edges);
+    } else {
+        quick_fill(pass, &late, back ? area : -area, &edges);
+    }
+    return 1;
+}
+
+/* Asks for the positions of a triangle's corners that come a little later. */
+MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
+{
+    const lmb_draw_indices *x = pass->indices;
+    if (x != NULL && x->format == LMB_INDEX_U32 && n < x->count) {
+        const uint32_t i = ((const uint32_t *)x->data)[n];
+        MESH_SOON((const void *)((uintptr_t)pass->vertices->positions + (size_t)i * 12)); /* not checked yet */
+    }
+}
+
+/* known: `size` corners, a power of two. */
+static inline int quick_triangle(const lmb_draw_pass *pass, draw_vertex *known, uint32_t size, const uint32_t order[3],
+                                 uint32_t flat)
+{
+    const uint32_t count = pass->vertices->count;
+    const uint32_t i = draw_index(pass, order[0]), j = draw_index(pass, order[1]), k = draw_index(pass, order[2]),
+                   last = flat == order[2] ? k : draw_index(pass, flat);
+    if (i >= count || j >= count || k >= count || last >= count) {
+        return 0;
+    }
+    const draw_vertex p = quick_corner(known, size, pass, i), q = quick_corner(known, size, pass, j),
+                    r = quick_corner(known, size, pass, k);
+    int drawn = 0;
+    if (((p.out | q.out | r.out) & DRAW_DROPPED) != 0) {
+        return 0;
+    }
+    if ((p.out & q.out & r.out) == 0) {
+        drawn = (p.out | q.out | r.out) == 0 ? quick_draw(pass, &p, &q, &r, last) : -1;
+    }
+    if (drawn < 0) {
+        return 0;
+    }
+    if (pass->stats != NULL) {
+        ++pass->stats->triangles;
+        pass->stats->triangles_drawn += (uint32_t)drawn;
+    }
+    return 1;
+}
+
+int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
+{
+    const uint32_t order[3] = {a, b, c};
+    return quick_triangle(pass, pass->few, DRAW_FEW, order, flat);
+}
+
+uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+{
+    draw_vertex known[QUICK_KNOWN];
+    for (int k = 0; k < QUICK_KNOWN; ++k) {
+        known[k].name = 0;
+    }
+    for (; i < count; i += 3) {
+        const uint32_t order[3] = {i - 2, i - 1, i};
+        quick_ask(pass, i - 2 + QUICK_AHEAD);
+        quick_ask(pass, i - 1 + QUICK_AHEAD);
+        quick_ask(pass, i + QUICK_AHEAD);
+        if (!quick_triangle(pass, known, QUICK_KNOWN, order, i)) {
+            break;
+        }
+    }
+    return i;
+}
+#endif

@@ -1,0 +1,212 @@
+/* test_draw_lists.c: random lists of draws by every backend that runs here, and by plain C, against the long way, which
+ * takes no state for a usual one: its corners are not kept, its pixels are tested and blended one by one. */
+#include <lambent/lambent.h>
+
+#include <string.h>
+
+#include "../../src/lane/kernels.h"
+#include "seed.h"
+
+void test_draw_lists(void);
+
+#if LMB_DRAW
+enum { ROUNDS = 400, WIDE = 61, HIGH = 45, VERTICES = 36, CORNERS = 60, TEXELS = 16 * 8 };
+
+/* What a round draws, and where. */
+typedef struct lists {
+    float positions[VERTICES][3], uvs[VERTICES][2];
+    uint8_t colours[VERTICES][4], texels[2][4 * TEXELS];
+    uint32_t indices[CORNERS];
+    lmb_texture texture[2];
+    lmb_draw_state state;
+    lmb_draw_vertices vertices;
+    int32_t primitive, format, depth_layout, is_upside_down;
+    uint32_t colour_before;
+} lists;
+
+typedef struct canvas {
+    uint32_t colour[WIDE * HIGH];
+    float depth[64 * 48];
+    uint8_t stencil[WIDE * HIGH];
+    lmb_stats stats;
+} canvas;
+
+static uint32_t any(test_rng *r, uint32_t count) { return test_random(r) % count; }
+
+/* A quarter of all triangles is large; some corners are behind the eye, far out, or no numbers. */
+static void make_vertices(lists *l, test_rng *r)
+{
+    const float size = any(r, 4) == 0 ? 3.0f : 0.25f;
+    float x = 0.0f, y = 0.0f, z = -3.0f;
+    for (int i = 0; i < VERTICES; ++i) {
+        if (i % 3 == 0) {
+            x = test_uniform(r, -1.5f, 1.5f);
+            y = test_uniform(r, -1.5f, 1.5f);
+            z = test_uniform(r, -6.0f, -1.0f);
+        }
+        l->positions[i][0] = x + test_uniform(r, -size, size);
+        l->positions[i][1] = y + test_uniform(r, -size, size);
+        l->positions[i][2] = z + (any(r, 3) == 0 ? 0.0f : test_uniform(r, -size, size));
+        l->uvs[i][0] = test_uniform(r, -1.5f, 2.5f);
+        l->uvs[i][1] = test_uniform(r, -1.5f, 2.5f);
+        if (any(r, 40) == 0) {
+            const uint32_t hard = hard_bits[any(r, HARD_COUNT)];
+            memcpy(any(r, 2) ? &l->positions[i][any(r, 3)] : &l->uvs[i][any(r, 2)], &hard, sizeof hard);
+        }
+    }
+    const int one_colour = any(r, 3) == 0, is_solid = any(r, 2) == 0;
+    for (int i = 0; i < 4 * VERTICES; ++i) {
+        l->colours[i / 4][i % 4] = (uint8_t)(one_colour && i >= 4 ? l->colours[0][i % 4] : any(r, 256));
+        l->colours[i / 4][i % 4] = is_solid && i % 4 == 3 ? 255 : l->colours[i / 4][i % 4];
+    }
+    for (int i = 0; i < CORNERS; ++i) {
+        l->indices[i] = any(r, 60) == 0  ? VERTICES + any(r, 9)
+                        : any(r, 3) == 0 ? any(r, VERTICES)
+                                         : (uint32_t)(i % VERTICES);
+    }
+}
+
+static void make_textures(lists *l, test_rng *r)
+{
+    for (int k = 0; k < 2; ++k) {
+        const lmb_texture t = {l->texels[k],    16, 8, 1, (uint8_t)any(r, 3), (uint8_t)any(r, 3), (uint8_t)any(r, 3),
+                               LMB_TEXELS_RGBA8};
+        for (int i = 0; i < 4 * TEXELS; ++i) {
+            l->texels[k][i] = (uint8_t)any(r, 256);
+        }
+        l->texture[k] = t;
+        l->state.stage[k].mode = (uint8_t)any(r, 5);
+        for (int c = 0; c < 3; ++c) {
+            l->state.stage[k].colour[c] = (uint8_t)any(r, 256);
+        }
+        l->state.stage[k].texture = any(r, 3) == 0 ? &l->texture[k] : NULL;
+    }
+}
+
+static void make_blending(lmb_draw_state *s, test_rng *r)
+{
+    static const uint8_t usual[2] = {LMB_DRAW_INVERSE_SOURCE_ALPHA, LMB_DRAW_ONE};
+    s->flags |= any(r, 2) ? LMB_DRAW_BLEND : 0;
+    s->flags |= any(r, 12) == 0 ? LMB_DRAW_LOGIC : 0;
+    s->logic_op = (uint8_t)any(r, 16);
+    s->colour_mask = (uint8_t)(any(r, 6) == 0 ? any(r, 16) : 15);
+    for (int i = 0; i < 2; ++i) {
+        s->blend_source[i] = (uint8_t)any(r, 15);
+        s->blend_target[i] = (uint8_t)any(r, 10);
+        s->blend_equation[i] = (uint8_t)any(r, 5);
+    }
+    for (int i = 0; i < 4; ++i) {
+        s->blend_colour[i] = (uint8_t)any(r, 256);
+    }
+    if (any(r, 2)) {
+        s->blend_source[0] = s->blend_source[1] = LMB_DRAW_SOURCE_ALPHA;
+        s->blend_target[0] = s->blend_target[1] = usual[any(r, 2)];
+        s->blend_equation[0] = s->blend_equation[1] = LMB_DRAW_ADD;
+    }
+}
+
+static void make_state(lists *l, test_rng *r)
+{
+    static const lmb_mat4 unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    const lmb_vec3 eye = {0, 0, 1}, target = {0.1f, 0, -3}, up = {0, 1, 0};
+    lmb_draw_state *s = &l->state;
+    lmb_view view;
+    lmb_view_look_at(&view, eye, target, up, 0.9f, WIDE, HIGH);
+    view.kind = any(r, 4) == 0 ? LMB_ORTHOGRAPHIC : LMB_PERSPECTIVE;
+    CHECK(lmb_draw_state_init(s, WIDE, HIGH) == LMB_OK && lmb_draw_view(s, &view, &unit) == LMB_OK);
+    s->flags = any(r, 4) ? LMB_DRAW_DEPTH_TEST | (any(r, 4) ? LMB_DRAW_DEPTH_WRITE : 0u) : 0u;
+    s->depth_func = (uint8_t)(any(r, 2) ? LMB_DRAW_GREATER : any(r, 8));
+    s->flags |= (any(r, 5) ? 0u : LMB_DRAW_FLAT) | (any(r, 5) ? 0u : LMB_DRAW_CULL_BACK) |
+                (any(r, 5) ? 0u : LMB_DRAW_CLOCKWISE) | (any(r, 5) ? 0u : LMB_DRAW_SCISSOR) |
+                (any(r, 9) ? 0u : LMB_DRAW_ALPHA_TEST) | (any(r, 9) ? 0u : LMB_DRAW_CULL_FRONT);
+    s->alpha_func = LMB_DRAW_GREATER, s->alpha_value = 100;
+    s->scissor[0] = 5, s->scissor[1] = 3, s->scissor[2] = 40, s->scissor[3] = 33;
+    s->fog = (uint8_t)(any(r, 3) == 0 ? any(r, 4) : 0);
+    s->fog_start = 1.0f, s->fog_end = any(r, 5) ? 6.0f : 0.5f, s->fog_density = 0.3f;
+    s->fog_colour[0] = 190;
+    s->offset_slope = any(r, 5) ? 0.0f : 1.5f;
+    s->depth_range[0] = any(r, 5) ? 0.0f : 0.2f;
+    s->line_px = (uint8_t)(1 + any(r, 3)), s->point_px = (uint8_t)(1 + any(r, 9));
+    make_blending(s, r);
+    make_textures(l, r);
+}
+
+static void make_lists(lists *l, test_rng *r)
+{
+    memset(l, 0, sizeof *l);
+    make_state(l, r);
+    make_vertices(l, r);
+    l->vertices.positions = l->positions;
+    l->vertices.uvs[0] = l->vertices.uvs[1] = any(r, 5) ? l->uvs : NULL;
+    l->vertices.colours = any(r, 5) ? &l->colours[0][0] : NULL;
+    l->vertices.count = VERTICES;
+    l->primitive = any(r, 3) ? LMB_DRAW_TRIANGLES : (int32_t)any(r, 9);
+    l->format = any(r, 6) == 0 ? LMB_RGB565 : any(r, 2) ? LMB_RGBA8 : LMB_BGRA8;
+    l->depth_layout = any(r, 2) ? LMB_TILED : LMB_LINEAR;
+    l->is_upside_down = any(r, 4) == 0;
+    l->colour_before = test_random(r);
+}
+
+/* plainly: by the generic code; a stencil that changes nothing, and no second colour, see to that. */
+static void draw_lists(canvas *out, const lists *l, const lmb_kernels *kernels, int plainly)
+{
+    static const uint8_t none[VERTICES][4];
+    const lmb_draw_indices indices = {l->indices, CORNERS, LMB_INDEX_U32};
+    lmb_draw_vertices v = l->vertices;
+    lmb_draw_state s = l->state;
+    lmb_draw_target t;
+    memset(out, 0, sizeof *out);
+    memset(&t, 0, sizeof t);
+    for (int i = 0; i < WIDE * HIGH; ++i) {
+        out->colour[i] = l->colour_before * (uint32_t)(i + 1);
+    }
+    CHECK(lmb_surface_init(&t.colour, l->format, WIDE, HIGH, out->colour, sizeof out->colour) == LMB_OK);
+    CHECK(lmb_surface_init(&t.depth, LMB_DEPTH32F, WIDE, HIGH, out->depth, sizeof out->depth) == LMB_OK);
+    if (l->depth_layout == LMB_LINEAR) {
+        t.depth.layout = LMB_LINEAR;
+        t.depth.stride_bytes = 64 * 4;
+    }
+    if (l->is_upside_down) {
+        t.colour.data = (uint8_t *)t.colour.data + (HIGH - 1) * t.colour.stride_bytes;
+        t.colour.stride_bytes = -t.colour.stride_bytes;
+    }
+    t.stencil = out->stencil;
+    t.stencil_stride = WIDE;
+    s.kernels = kernels;
+    if (plainly) {
+        v.seconds = &none[0][0];
+        s.flags |= LMB_DRAW_STENCIL;
+    }
+    CHECK(lmb_draw_list(&t, &s, &v, l->primitive, &indices, &out->stats) == LMB_OK);
+}
+
+static int same_canvas(const canvas *a, const canvas *b)
+{
+    return memcmp(a->colour, b->colour, sizeof a->colour) == 0 && memcmp(a->depth, b->depth, sizeof a->depth) == 0 &&
+           a->stats.triangles == b->stats.triangles && a->stats.triangles_drawn == b->stats.triangles_drawn &&
+           a->stats.triangles_dropped == b->stats.triangles_dropped;
+}
+
+void test_draw_lists(void)
+{
+    static canvas want, got;
+    const seed_range range = seeds(ROUNDS);
+    const lmb_kernels *backend;
+    for (uint32_t k = 0; k < range.count; ++k) {
+        test_rng r = seed_rng(range.first + k);
+        lists l;
+        make_lists(&l, &r);
+        draw_lists(&want, &l, NULL, 1);
+        draw_lists(&got, &l, NULL, 0);
+        CHECK_MSG(same_canvas(&want, &got), "a list by plain C; repeat: LANES_SEED=%u tests lanes",
+                  (unsigned)(range.first + k));
+        for (int32_t i = 0; (backend = lmb_kernels_at(i)) != NULL; ++i) {
+            draw_lists(&got, &l, backend, 0);
+            CHECK_MSG(same_canvas(&want, &got), "a list by %s; repeat: LANES_SEED=%u tests lanes",
+                      lmb_kernels_name(backend), (unsigned)(range.first + k));
+        }
+    }
+}
+#else
+void test_draw_lists(void) {}
+#endif
