@@ -8,12 +8,12 @@ mkdir -p "$work"
 # truth_scenes [SET]: those of tests/truth/truth_scenes.inc.
 truth_scenes() { sed -n "s/^TRUTH_SCENE(\([a-z_]*\),.* ${1:-[a-z]*})/\1/p" tests/truth/truth_scenes.inc; }
 
-# draw SCENE QUALITY THREADS WxH SHOW: fails where the tool does. Leaves drawn.pfm, stats.json, user, and in `said` what
+# draw SCENE QUALITY THREADS WxH SHOW: light gathered as GATHER says (default full: at each pixel). Fails where the tool does. Leaves drawn.pfm, stats.json, user, and in `said` what
 # went wrong.
 draw() {
     (
         "$TOOL" render "$truth/$1/scene.gltf" -o "$work/drawn.pfm" --quality "$2" --threads "$3" --size "$4" \
-            --show "$5" --stats "$work/stats.json" >"$work/said" 2>&1 || exit
+            --show "$5" --gather "${GATHER:-full}" --stats "$work/stats.json" >"$work/said" 2>&1 || exit
         times >"$work/times" # what this shell's children took; into a pipe it would be another shell's
     ) && awk 'NR == 2 { split($1, t, "m"); printf "%.2f\n", 60 * t[1] + t[2] }' "$work/times" >"$work/user"
 }
