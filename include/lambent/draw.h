@@ -47,7 +47,7 @@ typedef struct lmb_draw_vertices {
     const uint8_t *seconds;           /* R G B and a byte without meaning, added after the stages; NULL: 0 */
     const uint8_t *back_colours, *back_seconds; /* of triangles that face away; NULL: as in front */
     const float *fogs;                /* fog distances; NULL: by fog_axis */
-    const uint8_t *edges;             /* 0: the side of a polygon that begins here is none of its sides; NULL: all are */
+    const uint8_t *edges;             /* 0: the side that begins here is none of the polygon's; NULL: all are */
     uint32_t count;
     lmb_vec3 position_scale, position_offset; /* LMB_DRAW_I16: scale * v + offset */
     float uv_scale;                           /* LMB_DRAW_I16: scale * v */

@@ -161,7 +161,8 @@ static int state_combines(const lmb_draw_combine *c)
 static lmb_status state_check_stage(const lmb_draw_stage *s)
 {
     const lmb_texture *t = s->texture;
-    if (s->mode > LMB_DRAW_COMBINE || !state_combines(&s->combine) || !(s->level_bias >= -16.0f && s->level_bias <= 16.0f)) {
+    if (s->mode > LMB_DRAW_COMBINE || !state_combines(&s->combine) ||
+        !(s->level_bias >= -16.0f && s->level_bias <= 16.0f)) {
         return LMB_ERR_ARG;
     }
     if (t == NULL) {
@@ -183,7 +184,8 @@ static int state_has_good_places(const lmb_draw_state *s)
     return state_is_place(s->viewport[0]) && state_is_place(s->viewport[1]) &&
            state_is_size(s->viewport[2], s->viewport[3]) && state_is_place(s->scissor[0]) &&
            state_is_place(s->scissor[1]) && s->scissor[2] >= 0 && s->scissor[3] >= 0 && s->scissor[2] <= STATE_FAR &&
-           s->scissor[3] <= STATE_FAR && s->line_px >= 1 && s->point_px >= 1 && s->line_repeat >= 1 && s->line_repeat <= 256;
+           s->scissor[3] <= STATE_FAR && s->line_px >= 1 && s->point_px >= 1 && s->line_repeat >= 1 &&
+           s->line_repeat <= 256;
 }
 
 static int state_has_good_numbers(const lmb_draw_state *s)

@@ -1,8 +1,8 @@
 /* render_vertices.c: a frame's light at vertices, for lmb_draw_list. Layer 10.
  *
  * Vertices are the pixels of a tile that lie apart, of no triangle. Without a normal a vertex takes the mean of
- * the light on all planes through it. A light gives to it a quarter of what a plane that faces the light receives: the mean of a cosine
- * over all ways, where negative ones count as 0. Of other light, it is the mean of six planes. */
+ * the light on all planes through it. A light gives to it a quarter of what a plane that faces the light receives: the mean of
+ * a cosine over all ways, where negative ones count as 0. Of other light, it is the mean of six planes. */
 #include <string.h>
 
 #include "../base/codec.h"

@@ -181,7 +181,8 @@ static void test_formula(void)
 /* Without normals all vertices face the eye. Normals keep their length if they are raw. */
 static void test_normals(void)
 {
-    const lmb_draw_lamp lamp = {.position = {0, 0, 1, 0}, .diffuse = {1, 1, 1}, .spot_cos = -1, .attenuation = {1, 0, 0}};
+    const lmb_draw_lamp lamp = {
+        .position = {0, 0, 1, 0}, .diffuse = {1, 1, 1}, .spot_cos = -1, .attenuation = {1, 0, 0}};
     static const float at[3], half[3] = {0, 0, 0.5f}, none[3];
     lmb_draw_lighting how;
     uint8_t c[4];

@@ -217,7 +217,8 @@ static double argument(const combined *c, const lmb_draw_combine *how, int stage
 static double result(const combined *c, const lmb_draw_combine *how, int stage, int i)
 {
     const int func = how->func[0] == LMB_DRAW_DOT4 ? LMB_DRAW_DOT4 : how->func[i == 3];
-    const double a = argument(c, how, stage, i, 0), b = argument(c, how, stage, i, 1), d = argument(c, how, stage, i, 2);
+    const double a = argument(c, how, stage, i, 0), b = argument(c, how, stage, i, 1),
+                 d = argument(c, how, stage, i, 2);
     double dot = 0;
     for (int k = 0; k < 3; ++k) {
         dot += 4 * (argument(c, how, stage, k, 0) - 0.5) * (argument(c, how, stage, k, 1) - 0.5);
