@@ -206,7 +206,7 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
     return 1;
 }
 
-/* One that is cut. All corners and a kernel's vectors take too much stack together, so that its colours go by plain C. */
+/* One that is cut. All corners and a kernel's vectors take too much stack together: its colours go by plain C. */
 NOINLINE int shape_cut_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3])
 {
     lmb_draw_corner all[DRAW_CORNERS];
