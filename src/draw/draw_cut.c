@@ -54,12 +54,12 @@ static uint32_t cut_code(const lmb_draw_corner *c, const lmb_draw_pass *pass)
 
 static int cut_comes_first(const lmb_draw_corner *a, const lmb_draw_corner *b)
 {
-    uint32_t p[CORNER_VALUES], q[CORNER_VALUES];
-    memcpy(p, a->v, sizeof p);
-    memcpy(q, b->v, sizeof q);
     for (int i = 0; i < CORNER_VALUES; ++i) {
-        if (p[i] != q[i]) {
-            return p[i] < q[i];
+        uint32_t p, q;
+        memcpy(&p, &a->v[i], sizeof p);
+        memcpy(&q, &b->v[i], sizeof q);
+        if (p != q) {
+            return p < q;
         }
     }
     return 1;

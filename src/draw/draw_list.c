@@ -94,7 +94,7 @@ static int list_is_back(const lmb_draw_pass *pass, const lmb_draw_corner c[3])
 }
 
 /* A triangle's sides, or the corners where they begin: bits 0 .. 2 of `sides`, from each corner to the next one. */
-static int list_outline(const lmb_draw_pass *pass, const lmb_draw_corner corner[3], int sides, int mode)
+NOINLINE int list_outline(const lmb_draw_pass *pass, const lmb_draw_corner corner[3], int sides, int mode)
 {
     int drawn = 0;
     for (int i = 0; i < 3; ++i) {
@@ -114,7 +114,7 @@ typedef struct list_primitive {
     int n, sides;
 } list_primitive;
 
-static int list_draw_corners(const lmb_draw_pass *pass, const list_primitive *p, lmb_draw_corner corner[DRAW_CORNERS])
+static int list_draw_corners(const lmb_draw_pass *pass, const list_primitive *p, lmb_draw_corner corner[3])
 {
     const lmb_draw_state *s = pass->state;
     const int has_back = DRAW_FULL && (pass->vertices->back_colours != NULL || pass->vertices->back_seconds != NULL);
@@ -136,7 +136,7 @@ static int list_draw_corners(const lmb_draw_pass *pass, const list_primitive *p,
 static void list_draw(const lmb_draw_pass *pass, const list_primitive *listed)
 {
     const lmb_draw_vertices *v = pass->vertices;
-    lmb_draw_corner corner[DRAW_CORNERS];
+    lmb_draw_corner corner[3];
     list_primitive p = *listed;
     p.flat = draw_index(pass, listed->flat);
     int sane = p.flat < v->count;

@@ -78,6 +78,7 @@ typedef struct lmb_draw_shape {
     float d_add;        /* depth offset */
     int32_t corners;    /* 1: values are corner 0's; 2: n2 is 0 */
     int32_t is_even;    /* 1: q is 1 */
+    int32_t is_cut;     /* 1: its colours go by plain C */
     struct lmb_draw_late *late; /* what corners, n1, n2 and q are made of at the first pixel that is seen; or NULL */
 } lmb_draw_shape;
 
@@ -107,7 +108,7 @@ int lmb_draw_cut_line(lmb_draw_corner corner[2], const lmb_draw_pass *pass);
 int lmb_draw_is_out(const lmb_draw_corner *corner, const lmb_draw_pass *pass);
 
 /* Primitives whose corners are sane; 1 if something of it may show. The corners are changed. */
-int lmb_draw_triangle(const lmb_draw_pass *pass, lmb_draw_corner corner[DRAW_CORNERS]);
+int lmb_draw_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3]);
 int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2]);
 int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner);
 

@@ -12,7 +12,7 @@
 
 #if LMB_DRAW
 enum { QUICK_24_8 = 16 * 256 /* a side of the box of corners that are small */ };
-enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 32 };
+enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much stack with a kernel's vectors */ };
 #define QUICK_ABSURD  1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
@@ -256,6 +256,7 @@ static void quick_begin_shape(lmb_draw_shape *out, lmb_draw_late *late, int64_t 
     late->by_area = 1.0 / (double)area;
     out->late = late;
     out->corners = 3;
+    out->is_cut = 0;
     for (int i = 0; i < 3; ++i) {
         out->corner[i] = &late->corner[i];
     }
@@ -406,7 +407,7 @@ static inline int quick_triangle(const lmb_draw_pass *pass, draw_vertex *known, 
         return 0;
     }
     const draw_vertex p = quick_corner(known, size, pass, i), q = quick_corner(known, size, pass, j),
-                    r = quick_corner(known, size, pass, k);
+                      r = quick_corner(known, size, pass, k);
     int drawn = 0;
     if (((p.out | q.out | r.out) & DRAW_DROPPED) != 0) {
         return 0;

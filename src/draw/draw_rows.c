@@ -161,7 +161,7 @@ static void rows_lanes_paint(const tile_job *j, uint64_t mask)
 
 int lmb_draw_lanes_paint(const tile_job *j, uint64_t mask)
 {
-    if (!j->pass->paints_lanes || !rows_are_whole(j) ||
+    if (!j->pass->paints_lanes || j->shape->is_cut || !rows_are_whole(j) ||
         (j->pass->paints_rows && rows_are_few(mask, ROWS_FEW_PAINTED))) {
         return 0;
     }

@@ -166,7 +166,7 @@ static int shape_holds_pixel(const lmb_draw_pass *pass, const lmb_screen_vertex 
 }
 
 static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, const lmb_draw_corner *b,
-                          const lmb_draw_corner *c)
+                          const lmb_draw_corner *c, int is_cut)
 {
     lmb_draw_shape shape;
     lmb_screen_vertex at[3];
@@ -193,6 +193,7 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
     shape.corner[2] = c;
     shape.corners = 3;
     shape.late = NULL;
+    shape.is_cut = is_cut;
     shape.d = shape_plane(s.d_origin, s.d_x, s.d_y);
     shape.d_min = s.d_min;
     shape.d_max = s.d_max;
@@ -205,14 +206,29 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
     return 1;
 }
 
-int lmb_draw_triangle(const lmb_draw_pass *pass, lmb_draw_corner corner[DRAW_CORNERS])
+/* One that is cut. All corners and a kernel's vectors take too much stack together: its colours go by plain C. */
+NOINLINE int shape_cut_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3])
 {
-    const int n = lmb_draw_cut_polygon(corner, pass);
+    lmb_draw_corner all[DRAW_CORNERS];
     int drawn = 0;
+    for (int i = 0; i < 3; ++i) {
+        all[i] = corner[i];
+    }
+    const int n = lmb_draw_cut_polygon(all, pass);
     for (int i = 2; i < n; ++i) {
-        drawn |= shape_triangle(pass, &corner[0], &corner[i - 1], &corner[i]);
+        drawn |= shape_triangle(pass, &all[0], &all[i - 1], &all[i], 1);
     }
     return drawn;
+}
+
+int lmb_draw_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        if (lmb_draw_is_out(&corner[i], pass)) {
+            return shape_cut_triangle(pass, corner);
+        }
+    }
+    return shape_triangle(pass, &corner[0], &corner[1], &corner[2], 0);
 }
 
 /* --- lines -------------------------------------------------------------------------------------------------------- */
@@ -421,6 +437,7 @@ int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2])
     shape.corner[1] = &corner[1];
     shape.corners = 2;
     shape.late = NULL;
+    shape.is_cut = 0;
     shape.n1 = shape_plane(-(ax * dx + ay * dy) / square, dx / square, dy / square);
     shape.n2 = shape_plane(0.0, 0.0, 0.0);
     shape.d = shape_scaled(&shape.n1, more);
@@ -459,6 +476,7 @@ int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner)
     shape.corner[0] = shape.corner[1] = shape.corner[2] = corner;
     shape.corners = 1;
     shape.late = NULL;
+    shape.is_cut = 0;
     shape.d = shape.n1 = shape.n2 = shape.q = none;
     shape.d.origin = (double)at.d;
     shape.d_min = shape.d_max = at.d;

@@ -405,7 +405,7 @@ static uint64_t tile_pattern(const uint8_t *pattern, int32_t x, int32_t y)
 }
 
 /* Tests before colours, but for those that need colours. */
-static void tile_draw_tested(const tile_job *j, uint64_t mask)
+NOINLINE void tile_draw_tested(const tile_job *j, uint64_t mask)
 {
     uint8_t colour[LMB_TILE_PIXELS][4];
     mask = tile_colours(colour, j, mask);
