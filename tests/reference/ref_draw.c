@@ -225,8 +225,8 @@ static int shares_at(double out[3], const facing *f, double x, double y)
     double at[3][3], sum = 0;
     for (int i = 0; i < 3; ++i) {
         const double w = -(double)f->corner[i][2];
-        at[i][0] = floor((f->corner[i][0] / w + 1) * SIDE / 2 * 256 + 0.5) / 256;
-        at[i][1] = floor((1 - f->corner[i][1] / w) * SIDE / 2 * 256 + 0.5) / 256;
+        at[i][0] = floor(((double)f->corner[i][0] / w + 1) * SIDE / 2 * 256 + 0.5) / 256;
+        at[i][1] = floor((1 - (double)f->corner[i][1] / w) * SIDE / 2 * 256 + 0.5) / 256;
         at[i][2] = 1 / w;
     }
     const double area = (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) - (at[2][0] - at[0][0]) * (at[1][1] - at[0][1]);
@@ -243,8 +243,8 @@ static int shares_at(double out[3], const facing *f, double x, double y)
 
 static double fog_left(const lmb_draw_state *s, double c)
 {
-    const double thick = s->fog_density * c;
-    const double f = s->fog == LMB_DRAW_FOG_LINEAR ? (s->fog_end - c) / ((double)s->fog_end - s->fog_start)
+    const double thick = (double)s->fog_density * c;
+    const double f = s->fog == LMB_DRAW_FOG_LINEAR ? ((double)s->fog_end - c) / ((double)s->fog_end - (double)s->fog_start)
                      : s->fog == LMB_DRAW_FOG_EXP  ? exp(-thick)
                                                    : exp(-thick * thick);
     return fmin(fmax(f, 0), 1);

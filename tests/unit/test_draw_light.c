@@ -62,12 +62,12 @@ static int add_lamp(double matt[3], double shine[3], const lmb_draw_lamp *l, con
 {
     double to[3], half[3], axis[3], by = 1, sure = 1;
     for (int i = 0; i < 3; ++i) {
-        to[i] = l->position[3] == 0 ? l->position[i] : l->position[i] / l->position[3] - at[i];
-        axis[i] = l->spot_direction[i];
+        to[i] = (double)l->position[3] == 0 ? (double)l->position[i] : (double)l->position[i] / (double)l->position[3] - at[i];
+        axis[i] = (double)l->spot_direction[i];
     }
-    if (l->position[3] != 0) {
+    if ((double)l->position[3] != 0) {
         const double d = sqrt(dot(to, to));
-        by = 1 / (l->attenuation[0] + l->attenuation[1] * d + l->attenuation[2] * d * d);
+        by = 1 / ((double)l->attenuation[0] + (double)l->attenuation[1] * d + (double)l->attenuation[2] * d * d);
     }
     unit(to);
     unit(axis);
@@ -75,16 +75,16 @@ static int add_lamp(double matt[3], double shine[3], const lmb_draw_lamp *l, con
         half[i] = to[i] + eye[i];
     }
     unit(half);
-    if (l->spot_cos > -1) {
+    if ((double)l->spot_cos > -1) {
         const double cosine = -dot(to, axis);
-        sure = fabs(cosine - l->spot_cos) > 1e-5;
-        by *= cosine >= l->spot_cos ? pow(fmax(cosine, 0), l->spot_exponent) : 0;
+        sure = fabs(cosine - (double)l->spot_cos) > 1e-5;
+        by *= cosine >= (double)l->spot_cos ? pow(fmax(cosine, 0), (double)l->spot_exponent) : 0;
     }
     const double facing = dot(normal, to);
-    const double gloss = facing > 0 ? pow(fmax(dot(normal, half), 0), m->shininess) : 0;
+    const double gloss = facing > 0 ? pow(fmax(dot(normal, half), 0), (double)m->shininess) : 0;
     for (int i = 0; i < 3; ++i) {
-        matt[i] += by * (l->ambient[i] * m->ambient[i] + fmax(facing, 0) * l->diffuse[i] * m->diffuse[i]);
-        shine[i] += by * gloss * l->specular[i] * m->specular[i];
+        matt[i] += by * ((double)l->ambient[i] * (double)m->ambient[i] + fmax(facing, 0) * (double)l->diffuse[i] * (double)m->diffuse[i]);
+        shine[i] += by * gloss * (double)l->specular[i] * (double)m->specular[i];
     }
     return sure && (fabs(facing) > 1e-5);
 }
@@ -123,16 +123,16 @@ static double try_formula(test_rng *r)
     double place[3], turned[3], eye[3] = {0, 0, 1}, worst = 0;
     for (int i = 0; i < 3; ++i) {
         const int a = (i + 1) % 3, b = (i + 2) % 3;
-        place[i] = (double)m[i] * at[0] + (double)m[4 + i] * at[1] + (double)m[8 + i] * at[2] + (double)m[12 + i];
+        place[i] = (double)m[i] * (double)at[0] + (double)m[4 + i] * (double)at[1] + (double)m[8 + i] * (double)at[2] + (double)m[12 + i];
         turned[i] = 0;
         for (int k = 0; k < 3; ++k) { /* cofactors: the inverse transpose times the determinant */
             const int c = (k + 1) % 3, d = (k + 2) % 3;
-            turned[i] += ((double)m[4 * c + a] * m[4 * d + b] - (double)m[4 * c + b] * m[4 * d + a]) * normal[k];
+            turned[i] += ((double)m[4 * c + a] * (double)m[4 * d + b] - (double)m[4 * c + b] * (double)m[4 * d + a]) * (double)normal[k];
         }
     }
-    const double volume = m[0] * ((double)m[5] * m[10] - (double)m[9] * m[6]) -
-                          m[4] * ((double)m[1] * m[10] - (double)m[9] * m[2]) +
-                          m[8] * ((double)m[1] * m[6] - (double)m[5] * m[2]);
+    const double volume = (double)m[0] * ((double)m[5] * (double)m[10] - (double)m[9] * (double)m[6]) -
+                          (double)m[4] * ((double)m[1] * (double)m[10] - (double)m[9] * (double)m[2]) +
+                          (double)m[8] * ((double)m[1] * (double)m[6] - (double)m[5] * (double)m[2]);
     unit(turned);
     if (fabs(volume) < 0.05) {
         return 0;
@@ -151,7 +151,7 @@ static double try_formula(test_rng *r)
             mine.ambient[i] = how.tracks & LMB_DRAW_TRACK_AMBIENT ? own_colour : mine.ambient[i];
             mine.diffuse[i] = how.tracks & LMB_DRAW_TRACK_DIFFUSE ? own_colour : mine.diffuse[i];
             mine.specular[i] = how.tracks & LMB_DRAW_TRACK_SPECULAR ? own_colour : mine.specular[i];
-            matt[i] = mine.emission[i] + (double)mine.ambient[i] * how.ambient[i];
+            matt[i] = (double)mine.emission[i] + (double)mine.ambient[i] * (double)how.ambient[i];
             n[i] = (back ? -1 : 1) * (volume < 0 ? -1 : 1) * turned[i];
         }
         for (uint32_t i = 0; i < how.count; ++i) {
