@@ -84,7 +84,7 @@ static void test_sides(void)
     }
     for (int clockwise = 0; clockwise < 2; ++clockwise) {
         for (int back = 0; back < 2; ++back) {
-            const lmb_draw_vertices v = {.positions = back != clockwise ? turned : square,
+            const lmb_draw_vertices v = {.positions = back != clockwise ? (const void *)turned : (const void *)square,
                                          .colours = red[0],
                                          .back_colours = dim[0],
                                          .back_seconds = more[0],
