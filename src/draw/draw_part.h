@@ -8,6 +8,7 @@
 
 #include <lambent/draw.h>
 
+#include "../raster/setup.h"
 #include "../base/vec.h"
 
 #if LMB_DRAW
@@ -120,9 +121,26 @@ typedef struct draw_vertex {
 } draw_vertex;
 enum { DRAW_FEW = 4 /* for quads and strips */, DRAW_DROPPED = 256 };
 
+/* What the rest of a shape is made of. */
+typedef struct lmb_draw_late {
+    lmb_screen_vertex at[3]; /* the edges run round it one way */
+    float inverse[3];
+    uint32_t vertex[3], flat;
+    double by_area;
+    lmb_draw_corner corner[3];
+} lmb_draw_late;
+
+static inline float quick_row(const float *m, const float p[3]) { return m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12]; }
+
+static inline float quick_fog(const lmb_draw_pass *pass, const float p[3], float w)
+{
+    const float *axis = pass->state->fog_axis;
+    return pass->fog_is_w ? w : axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2] + axis[3];
+}
+
 /* draw_quick.c. begin: sets pass->few if the state's triangles can be drawn this way. quick: a triangle of vertices by
  * their places in the list; 0: it is to be drawn the long way. run: triangles of vertices (i - 2, i - 1, i), each three
- * further on, until one is to be drawn the long way; returns its i. finish: all of a late shape. */
+ * further on, until one is to be drawn the long way; returns its i. draw_late.c: finish: all of a late shape. */
 void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW]);
 int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat);
 uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count);

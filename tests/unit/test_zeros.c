@@ -127,6 +127,8 @@ static struct {
     lmb_draw_state draw_state;
     lmb_draw_vertices draw_vertices;
     lmb_draw_indices draw_indices;
+    lmb_draw_lit draw_lit;
+    lmb_draw_lighting draw_lighting;
     lmb_blit_image blit_image;
     lmb_blit_how blit_how;
     uint32_t *transfer_file;
@@ -457,6 +459,8 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_draw_state", &g.draw_state, sizeof g.draw_state},
         {"lmb_draw_vertices", &g.draw_vertices, sizeof g.draw_vertices},
         {"lmb_draw_indices", &g.draw_indices, sizeof g.draw_indices},
+        {"lmb_draw_lit", &g.draw_lit, sizeof g.draw_lit},
+        {"lmb_draw_lighting", &g.draw_lighting, sizeof g.draw_lighting},
         {"lmb_blit_image", &g.blit_image, sizeof g.blit_image},
         {"lmb_blit_how", &g.blit_how, sizeof g.blit_how},
         {"lmb_view", &f->view, sizeof f->view},
@@ -637,6 +641,7 @@ static void make_drawing(void)
     static float depth[WIDE * HIGH];
     static const float corners[4][3] = {{0, 0, 0.5f}, {0, 8, 0.5f}, {8, 8, 0.5f}, {8, 0, 0.5f}};
     static const uint8_t order[4] = {0, 1, 2, 3};
+    static uint8_t lit[4][4];
     CHECK(lmb_surface_init(&g.draw_target.colour, LMB_RGBA8, WIDE, HIGH, colours, sizeof colours) == LMB_OK);
     CHECK(lmb_surface_init(&g.draw_target.depth, LMB_DEPTH32F, WIDE, HIGH, depth, sizeof depth) == LMB_OK);
     CHECK(lmb_draw_state_init(&g.draw_state, WIDE, HIGH) == LMB_OK && lmb_draw_pixels(&g.draw_state) == LMB_OK);
@@ -644,6 +649,10 @@ static void make_drawing(void)
     g.draw_vertices.positions = corners;
     g.draw_vertices.count = 4;
     g.draw_indices = (lmb_draw_indices){order, 4, LMB_DRAW_INDEX_U8};
+    for (int i = 0; i < 16; i += 5) {
+        g.draw_lighting.to_eye.m[i] = 1.0f;
+    }
+    g.draw_lit.colours = lit[0];
     g.blit_image = (lmb_blit_image){texels, NULL, 2, 2, 8, LMB_RGBA8};
     g.blit_how = (lmb_blit_how){{0, 0, 2, 2}, 1, 0, 0, 255};
 }

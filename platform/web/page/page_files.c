@@ -11,6 +11,7 @@
 #include "../../../tools/mix/mix_front.h"
 #include "../../../tools/mix/mix_again.h"
 #include "../../../tools/mix/mix_carry.h"
+#include "../../../tools/mix/mix_labels.h"
 #include "../../../tools/mix/mix_near.h"
 #include "../../../tools/mix/mix_run.h"
 #include "../../../tools/mix/mix_world.h"
@@ -29,6 +30,7 @@
 #include "../../../tools/relight/relight_way.h"
 #include "../../../tools/render/budget.h"
 #include "../../../tools/render/render_slice.h"
+#include "../../../tools/render/wireframe.h"
 
 enum { FILES = 256, NAME_BYTES = 256 };
 
@@ -349,16 +351,40 @@ void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, mix_direct *
 }
 float mix_guess_sun(lmb_light *out, const mix_job *j) { return *out = j->o.lights[0], 0.0f; }
 
+/* --- mix_labels.h: pictures beside the picture ------------------------------------------------------------------- */
+
+int mix_labels_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
+int mix_labels_write(const mix_job *j, report *r) { return (void)j, (void)r, 1; }
+void mix_labels_sample(const mix_job *j, const lmb_tile *real, const lmb_tile *object, uint64_t shown)
+{
+    (void)j, (void)real, (void)object, (void)shown;
+}
+void mix_labels_cover(const mix_job *j, const lmb_tile *real, const float covered[LMB_TILE_PIXELS])
+{
+    (void)j, (void)real, (void)covered;
+}
+
+/* --- wireframe.h: without draw.h --------------------------------------------------------------------------------- */
+
+lmb_status wireframe_draw(render_job *j) { return (void)j, LMB_ERR_ARG; }
+
 /* --- mix_lobes.h, mix_mirror.h, mix_sources.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
 
 void mix_lobes_read(mix_job *j) { (void)j; }
 void mix_mirror_planes(mix_job *j) { (void)j; }
 int mix_around(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 int32_t mix_sources_find(lmb_light out[MIX_WAYS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
-void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int32_t i,
-                      int photo)
+void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, int32_t i, int photo)
 {
-    (void)inout, (void)j, (void)view, (void)tile, (void)i, (void)photo;
+    (void)inout, (void)j, (void)tile, (void)i, (void)photo;
+}
+int mix_white_env(lmb_env *out, int32_t side, void *memory, size_t bytes)
+{
+    return (void)out, (void)side, (void)memory, (void)bytes, 0;
+}
+void mix_sources_points(lmb_texel *inout, const lmb_texel *white, size_t count, double arrives[3], const mix_job *j)
+{
+    (void)inout, (void)white, (void)count, (void)arrives, (void)j;
 }
 void mix_sources_texels(lmb_texel *inout, int32_t size, double elsewhere[3], const mix_job *j, int32_t i, int32_t face)
 {
