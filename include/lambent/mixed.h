@@ -190,10 +190,6 @@ lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes
  * LMB_ERR_ARG. */
 lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height, const lmb_axes *axes);
 
-/* lmb_env_brightest: unit, where the most light comes from, over the plane that faces `up`, at least 30 degrees
- * high. */
-lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up);
-
 /* lmb_env_irradiance: W/m2 that a surface facing `normal` gets, nothing being in the way: pi times the mean of a
  * cone. */
 void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal);

@@ -6,10 +6,9 @@
 
 #if LMB_MIXED
 
-#define MIN_HEIGHT 0.5f /* sine of 30 degrees */
 #define INNER 0.16666667f /* of the picture, from its middle to the middle third's edge */
 
-enum { SUB = 4, BRIGHT_SIDE = 8 }; /* samples of a texel each way; texels a side that are compared */
+enum { SUB = 4 }; /* samples of a texel each way */
 
 /* Where in the picture, 0 .. 1 each way, a direction of the camera's space lies: on the cube, the half width of what is
  * seen grows from a sixth at the front edge of a side to a half at its back edge. */
@@ -77,46 +76,6 @@ lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int
 }
 
 /* --- coarse questions --------------------------------------------------------------------------------------------- */
-
-static float brightness(const lmb_env *env, lmb_vec3 d)
-{
-    float rgb[3];
-    lmb_env_sample(rgb, env, d, 1.0f / (float)BRIGHT_SIDE);
-    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
-}
-
-static lmb_vec3 direction_of(int32_t i)
-{
-    const int32_t n = BRIGHT_SIDE;
-    return cube_direction(i / (n * n), i % n, i / n % n, n);
-}
-
-/* The mean direction, weighted by the square of the brightness above the mean: of one light it is that light, of
- * several it lies between them, near the brightest. It is raised where a light so low would shadow nothing but the
- * horizon. */
-lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up)
-{
-    float mean = 0.0f;
-    lmb_vec3 sum = vec3(0, 0, 0);
-    for (int32_t i = 0; i < 6 * BRIGHT_SIDE * BRIGHT_SIDE; ++i) {
-        mean += brightness(env, direction_of(i)) * (1.0f / (6 * BRIGHT_SIDE * BRIGHT_SIDE));
-    }
-    for (int32_t i = 0; i < 6 * BRIGHT_SIDE * BRIGHT_SIDE; ++i) {
-        const lmb_vec3 d = direction_of(i);
-        const float more = maxf(brightness(env, d) - mean, 0.0f);
-        sum = dot3(d, up) > 0.0f ? add3(sum, mul3(d, more * more)) : sum;
-    }
-    if (!(dot3(sum, sum) > 1e-12f)) {
-        return up;
-    }
-    sum = normalize3(sum);
-    const float height = dot3(sum, up);
-    if (height >= MIN_HEIGHT) {
-        return sum;
-    }
-    const lmb_vec3 level = normalize3(sub3(sum, mul3(up, height)));
-    return add3(mul3(level, 0.8660254f), mul3(up, MIN_HEIGHT));
-}
 
 void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal)
 {

@@ -82,5 +82,5 @@ int mix_has_shape(const mix_frame *f, const image *in)
     const double wide = (double)in->width * (double)f->light.height, high = (double)in->height * (double)f->light.width,
                  max = (double)(f->light.height > f->light.width ? f->light.height : f->light.width);
     return fabs(wide - high) <= 0.5 * max && /* half a sample, of sizes that are rounded */
-           in->width >= f->light.width / COARSEST && in->height >= f->light.height / COARSEST;
+           COARSEST * in->width >= f->light.width && COARSEST * in->height >= f->light.height;
 }
