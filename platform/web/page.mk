@@ -14,7 +14,7 @@ PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_rel
              tools/relight/relight_hidden.c tools/relight/relight_lobes.c tools/render/wireframe.c tools/render/budget.c tools/render/scene_sample.c tools/render/bench_calibrate.c \
              %/gen_demo.c %/gen_srgb.c %/demo_scene.c tools/picture/io_png_write.c tools/picture/io_deflate.c tools/picture/io_pam.c \
              tools/common/slice.c tools/common/slice_items.c tools/common/byte_buffer.c tools/render/render_slice.c tools/common/area_light.c \
-             tools/mix/mix_sun.c tools/mix/mix_cast.c tools/mix/mix_labels.c tools/mix/mix_front.c tools/mix/mix_list.c tools/mix/mix_frames.c tools/mix/mix_again.c tools/mix/mix_lobes.c tools/mix/mix_sources.c tools/mix/mix_mirror.c tools/mix/mix_contact.c tools/mix/mix_inside.c tools/mix/mix_around.c tools/mix/mix_carry.c tools/mix/mix_near.c tools/mix/mix_lights.c tools/mix/mix_next.c tools/mix/mix_aside.c tools/mix/mix_stays.c tools/mix/mix_world.c tools/mix/mix_sequence.c tools/model/glb_write.c tools/relight/relight_worlds.c tools/relight/relight_path.c tools/relight/relight_contact.c tools/relight/relight_region.c tools/relight/relight_ground.c tools/relight/relight_samples.c tools/relight/relight_shade.c tools/relight/relight_export.c tools/relight/relight_way.c tools/relight/relight_many.c, \
+             tools/mix/mix_sun.c tools/mix/mix_cast.c tools/mix/mix_labels.c tools/mix/mix_resample.c tools/mix/mix_islands.c tools/mix/mix_front.c tools/mix/mix_list.c tools/mix/mix_frames.c tools/mix/mix_again.c tools/mix/mix_lobes.c tools/mix/mix_sources.c tools/mix/mix_mirror.c tools/mix/mix_contact.c tools/mix/mix_inside.c tools/mix/mix_around.c tools/mix/mix_carry.c tools/mix/mix_near.c tools/mix/mix_lights.c tools/mix/mix_next.c tools/mix/mix_aside.c tools/mix/mix_stays.c tools/mix/mix_world.c tools/mix/mix_sequence.c tools/model/glb_write.c tools/relight/relight_worlds.c tools/relight/relight_path.c tools/relight/relight_contact.c tools/relight/relight_region.c tools/relight/relight_ground.c tools/relight/relight_samples.c tools/relight/relight_shade.c tools/relight/relight_export.c tools/relight/relight_way.c tools/relight/relight_many.c, \
              $(sort $(wildcard src/*/*.c $(foreach d,common picture mesh model demo render relight relief mix,tools/$(d)/*.c) \
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
@@ -25,11 +25,11 @@ PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99
 # of the demo, and stacks that nobody uses.
 PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features \
              --max-memory=2147483648 --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
-PAGE_MAIN := -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
+PAGE_MAIN := -mllvm -inline-threshold=-20 -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
 PAGE_SIDE := -z stack-size=16 --global-base
 # What frames of the page run most is for speed; the rest, and what runs once a scene or for few pixels, for size.
 PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
-PAGE_ONCE := src/occlusion/build.c src/occlusion/occluded.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c src/light/light_tile.c src/light/direct.c \
+PAGE_ONCE := src/occlusion/build.c src/occlusion/occlude.c src/raster/texture.c src/raster/bins.c src/raster/cluster.c src/occlusion/occluded.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c src/light/light_tile.c src/light/direct.c \
              $(patsubst %,src/raster/%.c,clip draw draw_one fill paint plane resolve setup target triangle) \
              $(patsubst %,src/lightcut/%.c,crease cut pixel_cluster tree) src/transfer/transfer.c \
              $(patsubst %,src/transfer/transfer_%.c,air collect light many_lights materials send)

@@ -59,6 +59,7 @@ static const option_row photo_rows[] = {
     {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(source.frame),
      .help = HELP("PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
              "camera_to_world (4 x 4, rows) where it is known")},
+#if !defined(OPTIONS_WITHOUT_HELP) /* a page mixes one photo */
     {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),
      .help = HELP("many frames, in order. LIST or DIR/frames.txt has one PREFIX per line, relative to the list. A "
              "line that begins with # is a comment; if the list has zero bytes, these separate the PREFIXes, and none is a comment. "
@@ -66,6 +67,7 @@ static const option_row photo_rows[] = {
              "depth.txt and groundtruth.txt (with --intrinsics; --depth-scale is 0.0002 then). The object stays where "
              "it stands in the first, and voxels are built again only when a twentieth of what is about it is new or gone, or the photo is that much brighter or darker; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
              "out, and the exit status is 1 then")},
+#endif
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = HELP(".png .jpg .pfm")},
     {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth), .file = OPTION_READS,
@@ -137,15 +139,18 @@ static const option_row output_rows[] = {
              "round middle grey;\nplanes: each in its colour;\nvoxels: the light in them as the camera sees "
              "it;\nenv: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\nobject: alone, before "
              "black")},
+#if !defined(OPTIONS_WITHOUT_HELP) /* a page writes no files */
     {.name = "--labels", .value = "PREFIX", .kind = OPTION_TEXT, AT(labels),
      .help = HELP("also PREFIX.mask.png: white where the object is seen; PREFIX.depth.pfm: its depth, m; PREFIX.normal.pfm: its "
              "normals, x right, y up, z towards the camera; PREFIX.pose.json: from the mesh to the camera, as camera_to_world, and "
              "to the world")},
+#endif
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
      .help = HELP("a pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
      .help = HELP("stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits; of --frames the first of these)")},
+#if !defined(OPTIONS_WITHOUT_HELP)
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
      .help = HELP("planes, voxels, seconds by stage")},
     OPTION_BACKEND_ROW(mix_options, kernels),
@@ -153,6 +158,7 @@ static const option_row output_rows[] = {
     OPTION_ONLY_HERE,
     OPTION_LOUDNESS(mix_options, is_quiet, is_verbose, "say how long each stage took"),
     OPTION_ASK,
+#endif
     {.kind = OPTION_END},
 };
 
@@ -161,9 +167,8 @@ const option_table mix_table = {
     .usage = HELP("mix --frame PREFIX --object MESH -o OUT [options]\n"
              "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]\n"
              "mix --frames DIR|LIST --object MESH -o frame_%04d.png [options]"),
-    .about =
-        "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is "
-        "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres.",
+    .about = HELP("Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is "
+        "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres."),
     .part = {photo_rows, object_rows, light_rows, output_rows},
     .examples = HELP("  a photo with depth of the built-in room, and a tent put into it:\n"
                 "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"

@@ -79,9 +79,8 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "relief render",
     .usage = HELP("relief render FILE.lmr [--path FILE] -o OUT [options]"),
-    .about =
-        "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
-        "it.",
+    .about = HELP("A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
+        "it."),
     .part = {rows, relief_path_rows},
     .examples = HELP("  a tent, its relief and a picture of that:\n" TENT
                 "    lambent relief render tent.lmr --size 160x120 -o tent.png\n"),
@@ -92,9 +91,8 @@ static const option_row ask_rows[] = {OPTION_ASK, {.kind = OPTION_END}};
 static const option_table both_table = {
     .verb = "relief",
     .usage = HELP("relief bake MODEL -o OUT.lmr [options]\nrelief render FILE.lmr [--path FILE] -o OUT [options]"),
-    .about =
-        "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
-        "it: `bake` makes these and the simple model, `render` draws it. Each has its own --help.",
+    .about = HELP("A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
+        "it: `bake` makes these and the simple model, `render` draws it. Each has its own --help."),
     .part = {ask_rows},
     .examples = HELP("  a tent, its relief and a picture of that:\n" TENT
                 "    lambent relief render tent.lmr --size 160x120 -o tent.png\n"),

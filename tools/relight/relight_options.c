@@ -184,6 +184,7 @@ static const option_row object_rows[] = {
              "in its light: it darkens the ground where objects block it")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
      .help = HELP("all light, that by normals alone, or what is mirrored alone (default both)")},
+#if !defined(OPTIONS_WITHOUT_HELP) /* a page draws one picture */
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
      .help = HELP("places of the object, X,Y,Z a line: a picture each, its number in place of OUT's %0Nd, as frame_%04d.png, or "
              "else as -0000, -0001, ...")},
@@ -195,6 +196,7 @@ static const option_row object_rows[] = {
     {.name = "--keep", .value = "X,Y,Z", .kind = OPTION_OWN, AT(keep), COUNTS(keep_count), .times = RELIGHT_PLACES,
      .size = sizeof(lmb_vec3), .parse = parse_place, .expects = "X,Y,Z within 1,000,000 m",
      .help = HELP("a named place: objects that stand within --reuse of it use its light")},
+#endif
     {.kind = OPTION_END},
 };
 
@@ -223,10 +225,9 @@ const option_table relight_table = {
     .verb = "relight",
     .usage = HELP("relight --world WORLD [--at X,Y,Z] --cube OUT [options]\n"
              "relight --world WORLD --object FILE [--at X,Y,Z ...] -o OUT [options]"),
-    .about =
-        "What a place in a world receives, from pictures of the world that were taken elsewhere: irradiance by "
+    .about = HELP("What a place in a world receives, from pictures of the world that were taken elsewhere: irradiance by "
         "normal, as a small cube map; and objects drawn in that light, over the world as background. Metres, +Y up, "
-        "linear light.",
+        "linear light."),
     .part = {world_rows, light_rows, file_rows, object_rows, picture_rows},
     .examples = HELP("  lambent relight --world demo --at 4,1,-2 --cube light.pfm\n"
                 "  lambent relight --world demo --object demo -o field.png\n"),

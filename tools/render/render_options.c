@@ -158,20 +158,24 @@ const option_row render_scene_rows[] = {
     {.kind = OPTION_END},
 };
 
+#if !defined(OPTIONS_WITHOUT_HELP)
 static int parse_wireframe(const char *text, void *at)
 {
     (void)text;
     *(int32_t *)at = SHOW_WIREFRAME;
     return 1;
 }
+#endif
 
 static const option_row output_rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP("the picture: " PICTURE_OPTION_HELP)},
+#if !defined(OPTIONS_WITHOUT_HELP) /* a page has neither slices nor draw.h */
     OPTION_SLICE_ROW(render_options, slice, "picture's rows, eight by eight"),
     {.name = "--wireframe", .kind = OPTION_FLAG, AT(show), .parse = parse_wireframe,
      .help = HELP("the edges of triangles that no surface hides, white on black; short for --show wireframe")},
+#endif
     {.kind = OPTION_END},
 };
 
@@ -366,8 +370,10 @@ const option_row render_other_rows[] = {
      .help = HELP("the only one: the same bytes on every machine")},
     OPTION_BACKEND_ROW(render_options, kernels),
     OPTION_THREADS_ROW(render_options, threads, "draw the picture"),
+#if !defined(OPTIONS_WITHOUT_HELP) /* a page writes no files */
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
      .help = HELP("time by stage, counts, bytes")},
+#endif
     OPTION_ONLY_HERE,
     OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose,
                     "say what it draws with, and how long each stage took"),
@@ -396,8 +402,7 @@ const option_table render_table = {
 const option_table plan_table = {
     .verb = "plan",
     .usage = HELP("plan SCENE [options]"),
-    .about =
-        "What `lambent render` with the same options would do (by --world none), and draws nothing: the stages it runs, with counted "
+    .about = HELP("What `lambent render` with the same options would do (by --world none), and draws nothing: the stages it runs, with counted "
         "operations, units of work and memory; those it leaves out, and why. `exact`: the picture has the same "
         "bytes as with it; that is proved, and tested. Without a budget nothing else is left out:\n"
         "a light of 0 W (no map, no light); a light that faces past (the faces of its map that see nothing of the "
@@ -405,7 +410,7 @@ const option_table plan_table = {
         "in a convex, empty room, where nothing stands between two points of it, every segment.\n"
         "Pairs and segments of bounced light are told by a look at up to 192 tiles of the picture itself. So is the "
         "error of what is chosen for a budget, against a finer setting. No look costs over a quarter of the picture. "
-        "Work is counted in units: one is a pixel lit by one node.",
+        "Work is counted in units: one is a pixel lit by one node."),
     .part = {render_scene_rows, json_rows, budget_rows, render_view_rows, stereo_rows, render_light_rows,
              render_bounce_rows, render_picture_rows, render_other_rows},
     .examples = HELP("  lambent plan demo --size 32x24\n"

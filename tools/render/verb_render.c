@@ -211,7 +211,7 @@ static void tell_regroups(const render_job *j)
 /* Pixels whose cuts had no room for what was asked. */
 static void tell_full_cuts(const render_job *j)
 {
-    if (j->stats.full_cuts > 0 && j->frame.gather_step == LMB_GATHER_LIVE) {
+    if (LMB_LIVE && j->stats.full_cuts > 0 && j->frame.gather_step == LMB_GATHER_LIVE) {
         report_note(j->o.view.is_quiet,
                     "note: %.0f points are so near to lit surfaces that these count more coarsely than asked for "
                     "(LMB_LIVE_CUT, LMB_LIVE_NEAR); --gather full does not",

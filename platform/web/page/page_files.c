@@ -364,6 +364,13 @@ void mix_labels_cover(const mix_job *j, const lmb_tile *real, const float covere
     (void)j, (void)real, (void)covered;
 }
 
+/* --- mix_frame.h, mix_job.h: depth is as large as the photo, and planes are as they were found --------------------- */
+
+int mix_drop_islands(mix_job *j, report *r) { return (void)j, (void)r, 1; }
+
+int mix_has_shape(const mix_frame *f, const image *in) { return (void)f, (void)in, 0; }
+int mix_resample(mix_frame *f, const image *in, float scale) { return (void)f, (void)in, (void)scale, 0; }
+
 /* --- wireframe.h: without draw.h --------------------------------------------------------------------------------- */
 
 lmb_status wireframe_draw(render_job *j) { return (void)j, LMB_ERR_ARG; }
