@@ -82,7 +82,7 @@ static look look_of(const mix_job *j, int32_t p)
             n += 1.0 / 3.0;
         }
     }
-    double best = -INFINITY;
+    double best = -(double)INFINITY;
     for (int c = 0; c < 3; ++c) {
         const double value = sum[c] - (white[c] > WHITE * n ? 4.0 * n + 2.0 * sum[c] : 0.0); /* of white ones the darkest */
         if (value > best) {

@@ -393,10 +393,6 @@ void mix_sources_points(lmb_texel *inout, const lmb_texel *white, size_t count, 
 {
     (void)inout, (void)white, (void)count, (void)arrives, (void)j;
 }
-void mix_sources_texels(lmb_texel *inout, int32_t size, double elsewhere[3], const mix_job *j, int32_t i, int32_t face)
-{
-    (void)inout, (void)size, (void)elsewhere, (void)j, (void)i, (void)face;
-}
 int mix_lobes_bounces(mix_job *j, report *r) { return (void)r, j->bounces = &j->scene, 1; }
 void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
                       const lmb_tile *object, int32_t sample, int32_t samples)
