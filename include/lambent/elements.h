@@ -106,7 +106,7 @@ lmb_status lmb_many_lights_elements_done(lmb_elements *inout);
  * LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_rest(lmb_elements *inout, const lmb_tree *lights, int32_t bounces);
 
-/* With lambent/live.h, elements light each other, and pixels, as single points:
+/* With lambent/live.h, elements light each other, and pixels, as single points. Missing with LMB_LIVE 0:
  *
  * lmb_elements_live: the elements' flux, as lmb_elements_build or lmb_elements_send left it, becomes the points of
  * live->element; lmb_live_build then puts them into the tree. LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY.

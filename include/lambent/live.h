@@ -16,7 +16,13 @@
  *
  * A point's light depends on that point, the scene and the maps alone: not on other points, order, threads or lanes.
  *
- * Missing in builds without trees. Stability: experimental. */
+ * A point in an inner edge, next to lit blocks, is lit a texel of the map off it, if that is on its triangle and the
+ * way is free: between a wall's last texel and the edge the map shows the other wall.
+ *
+ * Elements (lambent/elements.h) may be points of the tree too. Those that emit nothing are divided at half the
+ * distance.
+ *
+ * Missing in builds without trees, and with LMB_LIVE 0. Stability: experimental. */
 #ifndef LMB_LIVE_H
 #define LMB_LIVE_H
 
@@ -111,7 +117,7 @@ typedef struct lmb_live_branch {
     uint32_t node;
 } lmb_live_branch;
 
-/* One a thread: 190 KiB. Its contents mean nothing between calls, but for `full`, `segments` and `pairs`, which are
+/* One a thread: 199 KiB. Its contents mean nothing between calls, but for `full`, `segments` and `pairs`, which are
  * added to, and `whole` and `seen`, which are those of the last point. */
 typedef struct lmb_live_scratch {
     float value[LMB_LIVE_CUT][LMB_LIVE_NODES]; /* light of each node without shadows; 0 where its parts give it */
@@ -162,7 +168,8 @@ lmb_status lmb_live_collect(const lmb_live *live, const lmb_kernels *kernels, lm
                             const lmb_scene *scene, uint32_t light, const lmb_shadow_map *map, int32_t face,
                             uint32_t into, int32_t first, int32_t past);
 
-/* lmb_live_build: the tree over the first points of faces 0 .. live->faces - 1 and live->elements elements. Where nodes run out, those that are
+/* lmb_live_build: the tree over the first points of faces 0 .. live->faces - 1 and live->elements elements. Where nodes
+ * run out, those that are
  * left undivided count whole (live->merged), and near points still see their first points. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_live_build(lmb_live *live, const lmb_scene *scene);
 

@@ -134,7 +134,7 @@ typedef struct lmb_frame {
     lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows of many_lights; triangle NULL: these cast none */
     lmb_elements elements; /* for bounces > 1, bounced many_lights, and materials that emit; data NULL: none of these */
     lmb_lattice lattice; /* LMB_GATHER_ADAPTIVE and _LIVE: of the view's size; tile NULL: none */
-    lmb_live *live; /* LMB_GATHER_LIVE, with LMB_GROUP_CUT: for all faces of the maps; NULL: none */
+    lmb_live *live; /* LMB_GATHER_LIVE, with LMB_GROUP_CUT: for all faces of the maps and all elements; NULL: none */
     lmb_target eye;     /* depth and id of the whole frame; when memory is short, of a strip of some bands of 8 rows:
                            the scene is drawn again for each strip */
     lmb_surface eye_depth; /* with such an `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
@@ -186,8 +186,8 @@ typedef struct lmb_frame_settings {
     int32_t tree;           /* texels a side, a power of two; the quality's where 0 (tiny configuration: an eighth);
                                from 1/8 of shadow_map to shadow_map */
     float error, visibility;   /* lmb_frame's; the quality's where 0 */
-    uint32_t elements;      /* a power of 4, 64 .. 2^24. 0: 65,536 for more than one bounce, else 16,384 (tiny: 1,024
-                               and 256). None where bounces, many_lights and materials need none */
+    uint32_t elements;      /* a power of 4, 64 .. 2^24. 0: 65,536 for more than one bounce but by LMB_GATHER_LIVE, else
+                               16,384 (tiny: 1,024 and 256). None where bounces, many_lights and materials need none */
     lmb_grouping grouping;  /* LMB_QUALITY_FIXED: method is not LMB_GROUP_CUT */
     int32_t gather_step;    /* lmb_frame's, 1 where 0 (2 by LMB_MANY_LIGHTS_EVEN lights) */
     int32_t samples;        /* lmb_frame's, 1 where 0 */

@@ -104,7 +104,8 @@ typedef struct lmb_stats {
     uint32_t regroups; /* times grouping restarted because LMB_MAX_GROUPS was reached */
     uint32_t bands;
     uint64_t pairs, segments; /* LMB_GROUP_CUT: pixels x nodes that light them; segments tested for visibility */
-    uint64_t full_cuts;       /* pixel clusters lit by fewer nodes than asked for: LMB_MAX_CUT was reached */
+    uint64_t full_cuts;       /* pixel clusters lit by fewer nodes than asked for: LMB_MAX_CUT was reached; or so many
+                                 points of lmb_live: LMB_LIVE_CUT or _NEAR was */
     uint32_t tiles;           /* tiles lit by cuts of many lights or of trees, once for each */
     uint32_t coarse_tiles;    /* of these, with coarser visibility: tests ran out, see lmb_occluded_tile */
     double flux_lit;          /* W: outgoing power of all first points, sum of R, G, B */

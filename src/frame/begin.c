@@ -126,6 +126,9 @@ static int is_solved(const lmb_frame *f, const lmb_render *r)
         ((requires_live(f) && !requires_live(before)) || (texels && !requires_texels(r)))) {
         return 0; /* texels of the one or the other tree were not collected */
     }
+    if (LMB_TREES && requires_cut(f) && requires_elements(r) && requires_live(f) != requires_live(before)) {
+        return 0; /* elements were lit the other way */
+    }
     return (!requires_bounce(f) || requires_bounce(before)) && (same || !requires_bounce(f) || !requires_elements(r)) &&
            (!exact || before->occlusion == LMB_OCCLUSION_EXACT || before->bvh.node_count > 0);
 }

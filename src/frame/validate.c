@@ -64,6 +64,7 @@ static int has_live(const lmb_frame *f)
 {
     return f->gather_step != LMB_GATHER_LIVE ||
            (requires_live(f) && f->live->face != NULL && f->live->strata >= 1 && f->live->strata <= LMB_LIVE_STRATA &&
+            f->live->element_cap >= f->elements.cap &&
             f->scratch->live != NULL);
 }
 

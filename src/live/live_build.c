@@ -319,7 +319,7 @@ static void divide(builder *b, uint32_t slot, int shift)
     lmb_live_chunk *c = &b->live->chunk[slot / LMB_LIVE_NODES];
     const int i = (int)(slot % LMB_LIVE_NODES);
     const uint32_t past = c->first[i] + (c->count[i] & ~LMB_LIVE_LEAF);
-    range part[PARTS];
+    range part[PARTS + 1]; /* the last cell's planes may fill it, and the rest comes after them */
     uint32_t parts = 0;
     for (range r = {c->first[i], 0}; r.first < past; r.first = r.past) {
         r.past = parts + GROUPS > PARTS ? past : run_past(b->live->sorted, r.first, past, shift);

@@ -24,11 +24,11 @@ static void cut(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live 
     do {
         kernels->live_values(s, live, job);
     } while (lmb_live_come_near(s, live));
-    s->full += (uint32_t)s->is_full;
     s->pairs += (uint64_t)s->count * LMB_LIVE_NODES;
 }
 
-static float per_of(float d) { return absf(d) > 1e-20f ? 1.0f / d : 1e20f; }
+/* As crossed_per. */
+static float per_of(float d) { return absf(d) > 1e-20f ? 1.0f / d : d < 0.0f ? -1e20f : 1e20f; }
 
 /* Is the way free from the receiver to twice the way off an edge, and on its triangle? Else something as thin stands
  * there, or its surface bends. */
@@ -79,15 +79,17 @@ lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live
     job.is_bent = job.face.x != job.normal.x || job.face.y != job.normal.y || job.face.z != job.normal.z;
     job.can_move = 1;
     cut(s, kernels, live, &job);
-    for (int wall = 0; wall < 2 && s->lift > 0.0f && is_free(s, kernels, live, bvh, &at); ++wall) { /* of a corner, two */
+    /* A corner has two walls. */
+    for (int wall = 0; wall < 2 && s->lift > 0.0f && is_free(s, kernels, live, bvh, &at); ++wall) {
         at.position = job.position = add3(job.position, s->off);
         job.can_move = wall == 0;
         cut(s, kernels, live, &job);
     }
+    s->full += (uint32_t)s->is_full;
     const float sum = kernels->live_sums(light, s);
     s->rays.segments.at = job.position;
     if (!(sum > 0.0f && sum < 1e30f)) {
-        light[0] = light[1] = light[2] = 0.0f;
+        light[0] = light[1] = light[2] = s->whole[0] = s->whole[1] = s->whole[2] = 0.0f;
         s->seen[0] = s->seen[1] = s->seen[2] = -1.0f;
         return LMB_OK;
     }

@@ -402,7 +402,8 @@ static int32_t gather_of(const render_job *j)
     const int is_cut = o->grouping.method == LMB_GROUP_CUT && j->transfer_file.data == NULL && !o->conservative;
     const int is_small = o->view.width * o->view.height < FEW_SAMPLES;
     const int is_soft = j->gathers_sky && o->quality != LMB_QUALITY_BEST && is_cut && !is_small;
-    const int is_live = LMB_LIVE && !j->gathers_sky && is_cut && !has_budget(&o->budget, o->budget_ms) &&
+    const int is_asked = o->error > 0.0f || o->visibility > 0.0f || o->tree > 0; /* single points know none of these */
+    const int is_live = LMB_LIVE && !j->gathers_sky && is_cut && !is_asked && !has_budget(&o->budget, o->budget_ms) &&
                         ((o->quality == LMB_QUALITY_DRAFT && !is_small) ||
                          (o->is_moving && o->quality != LMB_QUALITY_BEST));
     return o->gather_step != 0 ? o->gather_step : is_soft ? LMB_GATHER_ADAPTIVE : is_live ? LMB_GATHER_LIVE : 0;
