@@ -84,20 +84,20 @@ typedef struct lmb_draw_shape {
 } lmb_draw_shape;
 
 /* A linear value over a tile: at its first pixel, and per px. */
-typedef struct tile_plane {
+typedef struct tile_slope {
     float at, x, y;
-} tile_plane;
+} tile_slope;
 
 /* A shape in a tile. */
 typedef struct tile_job {
     const lmb_draw_pass *pass;
     const lmb_draw_shape *shape;
     int32_t x, y; /* of pixel 0, px of the frame */
-    tile_plane d, n1, n2, q;
+    tile_slope d, n1, n2, q;
 } tile_job;
 
 /* As in src/raster. */
-static inline float tile_at(const tile_plane *p, int k)
+static inline float tile_at(const tile_slope *p, int k)
 {
     return (p->at + p->y * (float)(k >> 3)) + p->x * (float)(k & 7);
 }

@@ -101,7 +101,7 @@ static int rows_are_few(uint64_t mask, int few)
     return mask == 0;
 }
 
-static lmb_draw_slope rows_slope(const tile_plane *p)
+static lmb_draw_slope rows_slope(const tile_slope *p)
 {
     const lmb_draw_slope s = {p->at, p->x, p->y};
     return s;

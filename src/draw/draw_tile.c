@@ -10,9 +10,9 @@
 #if LMB_DRAW
 #define TILE_LOG2_E 1.44269504f
 
-static tile_plane tile_set(const lmb_draw_plane *p, double x, double y)
+static tile_slope tile_set(const lmb_draw_plane *p, double x, double y)
 {
-    tile_plane t;
+    tile_slope t;
     t.at = (float)(p->origin + p->x * x + p->y * y);
     t.x = (float)p->x;
     t.y = (float)p->y;
