@@ -47,7 +47,7 @@ static int list_place(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t 
 /* The colours of vertex i: those of the back if there are such. */
 static void list_paint(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t i, int back)
 {
-    static const uint8_t none[4];
+    static const uint8_t none[4] = {0, 0, 0, 0};
     const lmb_draw_vertices *v = pass->vertices;
     const uint8_t *colours = back && v->back_colours != NULL ? v->back_colours : v->colours;
     const uint8_t *seconds = back && v->back_seconds != NULL ? v->back_seconds : v->seconds;
