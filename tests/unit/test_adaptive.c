@@ -490,6 +490,19 @@ static void test_lobes(void)
         }
     }
     CHECK_MSG(polished > 300 && other > 300 && off == 0, "%d, %d, %d are off", polished, other, off);
+    /* Elements that one kernel has lit are not what the other would have made of them. */
+    for (int live = 0; live < 2; ++live) {
+        s.gather_step = LMB_GATHER_LIVE;
+        s.bounces = 2;
+        s.elements = 64;
+        lay_out(&s);
+        frame.gather_step = live ? LMB_GATHER_LIVE : 1;
+        CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+        frame.gather_step = live ? 1 : LMB_GATHER_LIVE;
+        CHECK(lmb_render_again(&render, &frame) == LMB_ERR_ARG);
+        frame.gather_step = live ? LMB_GATHER_LIVE : 1;
+        CHECK(lmb_render_again(&render, &frame) == LMB_OK);
+    }
 }
 
 /* The camera moves by parts of a step: the lattice lies elsewhere, the error stays what it is. */

@@ -377,6 +377,50 @@ static void few_chunks(void)
     CHECK(live.chunks <= 3);
 }
 
+/* Points below a node, those that are counted twice or more as often. */
+static uint32_t points_below(const lmb_live *l, uint32_t first, uint32_t count)
+{
+    uint32_t sum = 0;
+    for (uint32_t k = first; k < first + count; ++k) {
+        const lmb_live_chunk *c = &l->chunk[k / LMB_LIVE_NODES];
+        const uint32_t own = c->count[k % LMB_LIVE_NODES], from = c->first[k % LMB_LIVE_NODES];
+        sum += (own & LMB_LIVE_LEAF) != 0 ? own & ~LMB_LIVE_LEAF : points_below(l, from, own);
+    }
+    return sum;
+}
+
+/* A cell whose finer cells have four planes each: the last of a node's parts takes what is left. */
+static void many_planes(void)
+{
+    const float cell = 1.0f / 64.0f, along[4] = {0.1f, 0.35f, 0.6f, 0.85f};
+    lmb_scene scene = world.scene;
+    lmb_live l;
+    scene.bounds_min = vec3(0, 0, 0);
+    scene.bounds_max = vec3(1, 1, 1);
+    memset(live_memory, 0, sizeof live_memory);
+    CHECK(lmb_live_init(&l, 1, 64, 0, live_memory, sizeof live_memory) == LMB_OK);
+    l.face[0].size = 256;
+    l.face[0].each = 4;
+    l.faces = 1;
+    for (int cells = 1; cells <= 32; ++cells) {
+        memset(l.point, 0, 64 * 64 * sizeof *l.point);
+        for (int i = 0; i < 4 * cells + 1; ++i) {
+            lmb_live_point *p = &l.point[i];
+            const int n = i / 4;
+            const float x = (float)(n & 1), y = (float)(n >> 1 & 3), z = (float)(n >> 3), off = along[i % 4];
+            p->position = vec3((x + off) * cell, (y + (off > 0.8f ? 0.05f : 0.7f)) * cell, (z + 0.05f) * cell);
+            p->normal = vec3(1, 0, 0);
+            p->flux[0] = p->flux[1] = p->flux[2] = 1.0f;
+            p->area = 0.25f * (0.22f * cell / 0.375f) * (0.22f * cell / 0.375f);
+            p->id = 1;
+        }
+        l.point[4 * cells].position = vec3(0.99f, 0.99f, 0.99f); /* so that cells keep their size */
+        CHECK(lmb_live_build(&l, &scene) == LMB_OK);
+        CHECK_MSG(points_below(&l, 0, l.top) == l.points && l.points == 4 * (uint32_t)cells + 1, "%d cells: %u of %u",
+                  cells, (unsigned)points_below(&l, 0, l.top), (unsigned)l.points);
+    }
+}
+
 /* The parts of a block lie one behind the other, and the last one ends within lmb_live_bytes. */
 static void parts_fit(void)
 {
@@ -433,6 +477,7 @@ void test_live(void)
     behind_a_thin_wall_is_dark();
     same_bytes();
     few_chunks();
+    many_planes();
     parts_fit();
     refused();
 }
