@@ -21,3 +21,4 @@ PORT_CFLAGS  := $(isa_$(XLEN)) -mcmodel=medany -ffreestanding -fbuiltin $(BARE_C
 
 # The demo must do with 256 KiB; the golden suite, built like the host's, takes what it takes.
 $(B)/demo: RAM_BYTES = 262144
+$(B)/golden: ROM_BYTES = 1048576

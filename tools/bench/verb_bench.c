@@ -591,7 +591,7 @@ static const option_table bench_table = {
     .verb = "bench",
     .usage = "bench SCENE|relight|relief|mix ...  speed against error\n"
              "bench raster [CASE...] [options]    how fast this machine draws the fixed workload\n"
-             "bench draw [CASE...] [options]      how fast this machine draws sprites, text, lines, blended scenes\n"
+             "bench draw [CASE...] [options]      how fast this machine draws 2D, lines, blends\n"
              "bench gather [options]              how fast groups light pixels\n"
              "bench threads [options]             what threads gain, beside processes\n"
              "bench hard [CASES] [options]        what renderers get wrong\n"
