@@ -835,6 +835,7 @@ run: $(ROOM_IMAGE) ## that program in the port's emulator: hashes, costs
 	@$(ROOM_RUN) $<
 
 # CROSS_TARGETS, MORE_CROSS_TARGETS, and for each needs_NAME and how_NAME.
+include platform/gl/gl.mk
 include tests/scripts/targets.mk
 
 # build_NAME: a folder of another job's build with the same flags.

@@ -37,11 +37,12 @@ enum { LMB_DRAW_TRIANGLES = 0, LMB_DRAW_TRIANGLE_STRIP = 1, LMB_DRAW_TRIANGLE_FA
 
 enum { LMB_DRAW_F32 = 0,  /* float */
        LMB_DRAW_I16 = 1,  /* int16; positions are x, y, z, 0 */
-       LMB_DRAW_FIXED = 2 /* int32, 16.16 fixed point */ };
+       LMB_DRAW_FIXED = 2, /* int32, 16.16 fixed point */
+       LMB_DRAW_F32X4 = 3 /* float x, y, z, w of positions; each of any size that clip space holds */ };
 
 /* Vertex streams, each tightly packed and aligned to its values. */
 typedef struct lmb_draw_vertices {
-    const void *positions;            /* x, y, z */
+    const void *positions;            /* x, y, z; w is 1 */
     const void *uvs[LMB_DRAW_STAGES]; /* u, v of each stage; NULL: (0, 0) */
     const uint8_t *colours;           /* R G B A; NULL: the state's */
     const uint8_t *seconds;           /* R G B and a byte without meaning, added after the stages; NULL: 0 */
@@ -67,7 +68,9 @@ enum { LMB_DRAW_DEPTH_TEST = 1, LMB_DRAW_DEPTH_WRITE = 2 /* only with the test *
        LMB_DRAW_LOGIC = 64 /* instead of blending */,
        LMB_DRAW_DITHER = 128 /* 16-bit colours: lmb_store_tile's pattern */, LMB_DRAW_FLAT = 256,
        LMB_DRAW_CLOCKWISE = 512 /* front faces are clockwise in the picture */, LMB_DRAW_CULL_FRONT = 1024,
-       LMB_DRAW_CULL_BACK = 2048, LMB_DRAW_FLAGS = 4095 };
+       LMB_DRAW_CULL_BACK = 2048,
+       LMB_DRAW_DISCARDS = 4096 /* the shader may leave pixels out: it runs before the tests */,
+       LMB_DRAW_FLAGS = 8191 };
 
 /* Tests pass if VALUE FUNC OTHER: a pixel's d and the stored one; its alpha and alpha_value; stencil_value and the
  * stencil, both and-ed with stencil_mask. */
@@ -136,6 +139,24 @@ enum { LMB_DRAW_FOG_NONE = 0, LMB_DRAW_FOG_LINEAR = 1, LMB_DRAW_FOG_EXP = 2, LMB
  * values of the polygon's vertices. Depth offset does not move them. */
 enum { LMB_DRAW_FILL = 0, LMB_DRAW_EDGES = 1, LMB_DRAW_CORNERS = 2 };
 
+/* A primitive's pixels in a tile of 8x8, for a shader. Pixel k is (x + k % 8, y + k / 8) of the frame. */
+typedef struct lmb_draw_pixels_of {
+    const void *job;    /* lmb_draw_fragment reads it */
+    uint32_t vertex[3]; /* of the primitive, in the streams; a line: the third is the first; a point: all are one */
+    int32_t x, y;
+    int32_t is_back;    /* 1: of a triangle that shows its back, also its edges and corners */
+    uint64_t mask;      /* pixels to be coloured, a bit each */
+} lmb_draw_pixels_of;
+
+/* Where a pixel lies in its primitive. A value that the vertices have is v0 + share[0] (v1 - v0) + share[1] (v2 - v0),
+ * perspective-correct. by_x, by_y: the shares' changes per px. */
+typedef struct lmb_draw_fragment_at {
+    float share[2], by_x[2], by_y[2];
+} lmb_draw_fragment_at;
+
+/* A caller's own colours: write R G B A of the pixels that are in the mask, and return those that are to be drawn. */
+typedef uint64_t (*lmb_draw_shader)(void *user, const lmb_draw_pixels_of *pixels, uint8_t colour[64][4]);
+
 /* All that a draw depends on. lmb_draw_state_init sets it; then change what you need. */
 typedef struct lmb_draw_state {
     const struct lmb_kernels *kernels; /* lmb_kernels_pick(): the same pixels in less time; NULL: plain C */
@@ -150,6 +171,9 @@ typedef struct lmb_draw_state {
     const uint8_t *area_pattern;      /* of filled polygons: a bit each for 32 x 32 px of the frame, 4 bytes a row, the
                                          low bits to the left; 0 is left out. NULL: none */
     float fog_start, fog_end, fog_density;
+    lmb_draw_shader shader;           /* instead of colours, stages, second colours and fog; NULL: none */
+    void *shader_user;
+    uint64_t *passed;                 /* plus the number of pixels that pass all tests; NULL: none */
     uint32_t flags;                   /* LMB_DRAW_DEPTH_TEST, ... */
     uint8_t colour[4], fog_colour[3], blend_colour[4];
     uint8_t planes;                   /* which planes clip, a bit each */
@@ -245,8 +269,8 @@ lmb_status lmb_draw_pixels(lmb_draw_state *inout);
  *
  *   out      colours are needed, the others may be NULL. May be vertices->colours.
  *   normals  x, y, z a vertex; NULL: all face the eye, (0, 0, 1) in its space. Of a length near 0: no lamp shines.
- * A vertex that is not finite gets any colour. LMB_OK, or LMB_ERR_ARG, LMB_ERR_FORMAT or LMB_ERR_ALIGN: then nothing is
- * written. */
+ * LMB_DRAW_F32X4: at (x, y, z) / w, or at (x, y, z) if w is 0. A vertex that is not finite gets any colour.
+ * LMB_OK, or LMB_ERR_ARG, LMB_ERR_FORMAT or LMB_ERR_ALIGN: then nothing is written. */
 lmb_status lmb_draw_light(const lmb_draw_lit *out, const lmb_draw_lighting *how, const lmb_draw_vertices *vertices,
                           const float *normals);
 #endif
@@ -268,6 +292,12 @@ lmb_status lmb_draw_light(const lmb_draw_lit *out, const lmb_draw_lighting *how,
  * out of range, or if a test has no surface: then nothing is written. Stack: under 4 KiB. */
 lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *state, const lmb_draw_vertices *vertices,
                          int32_t primitive, const lmb_draw_indices *indices, lmb_stats *stats);
+
+#if !LMB_DRAW_SMALL
+/* lmb_draw_fragment: where pixel `k`, 0 .. 63, of a shader's pixels lies in its primitive. Only inside the shader;
+ * zeros if `pixels` has no job or `k` is outside. */
+void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixels, int32_t k);
+#endif
 
 /* lmb_blit: copy an image to (x, y) of a surface; what lies outside is left out.
  *

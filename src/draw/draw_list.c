@@ -11,14 +11,14 @@
 
 /* --- vertices ----------------------------------------------------------------------------------------------------- */
 
-static float list_row(const lmb_mat4 *m, int row, lmb_vec3 p)
+static float list_row(const lmb_mat4 *m, int row, lmb_vec3 p, float w)
 {
-    return m->m[row] * p.x + m->m[4 + row] * p.y + m->m[8 + row] * p.z + m->m[12 + row];
+    return m->m[row] * p.x + m->m[4 + row] * p.y + m->m[8 + row] * p.z + m->m[12 + row] * w;
 }
 
-static float list_plane(const float plane[4], lmb_vec3 p)
+static float list_plane(const float plane[4], lmb_vec3 p, float w)
 {
-    return plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3];
+    return plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] * w;
 }
 
 /* Its position in clip space, and what depends on it; 0 if it is not finite or absurd. */
@@ -26,22 +26,23 @@ static int list_place(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t 
 {
     const lmb_draw_vertices *v = pass->vertices;
     const lmb_draw_state *s = pass->state;
-    const lmb_vec3 p = lmb_draw_position(v, i);
+    float w;
+    const lmb_vec3 p = lmb_draw_position_w(&w, v, i);
     int sane = 1;
     for (int row = 0; row < 4; ++row) {
-        out->v[CORNER_X + row] = list_row(&s->to_clip, row, p);
+        out->v[CORNER_X + row] = list_row(&s->to_clip, row, p, w);
         sane &= out->v[CORNER_X + row] > -LIST_ABSURD && out->v[CORNER_X + row] < LIST_ABSURD;
     }
     const float *axis = s->fog_axis;
     const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
-    out->v[CORNER_FOG] = v->fogs != NULL ? v->fogs[i] : has_axis ? list_plane(axis, p) : out->v[CORNER_W];
+    out->v[CORNER_FOG] = v->fogs != NULL ? v->fogs[i] : has_axis ? list_plane(axis, p, w) : out->v[CORNER_W];
     sane &= out->v[CORNER_FOG] > -LIST_ABSURD && out->v[CORNER_FOG] < LIST_ABSURD;
     for (int k = 0; DRAW_FULL && k < LMB_DRAW_PLANES; ++k) {
         const int on = (s->planes >> k & 1u) != 0;
-        out->v[CORNER_PLANES + k] = on ? list_plane(s->plane[k], p) : 0.0f;
+        out->v[CORNER_PLANES + k] = on ? list_plane(s->plane[k], p, w) : 0.0f;
         sane &= out->v[CORNER_PLANES + k] > -LIST_ABSURD && out->v[CORNER_PLANES + k] < LIST_ABSURD;
     }
-    return sane && is_place(p);
+    return sane && (v->position_format == LMB_DRAW_F32X4 || is_place(p));
 }
 
 /* The colours of vertex i: those of the back if there are such. */
@@ -82,6 +83,14 @@ static int list_vertex(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t
 
 /* --- primitives --------------------------------------------------------------------------------------------------- */
 
+/* What a primitive is drawn of: `n` vertices; the one that gives a flat colour; the sides of a triangle that are a
+ * polygon's, bits 0 .. 2, from each corner to the next one; bit SIDES_CHOSEN if the vertices' edges count. */
+enum { SIDES_ALL = 7, SIDES_CHOSEN = 8 };
+typedef struct list_primitive {
+    uint32_t at[3], flat;
+    int n, sides;
+} list_primitive;
+
 /* Does it face away? By the corners before they snap. */
 static int list_is_back(const lmb_draw_pass *pass, const lmb_draw_corner c[3])
 {
@@ -91,6 +100,25 @@ static int list_is_back(const lmb_draw_pass *pass, const lmb_draw_corner c[3])
     const double w = (double)q[CORNER_X] * (double)r[CORNER_Y] - (double)q[CORNER_Y] * (double)r[CORNER_X];
     const double area = (double)p[CORNER_X] * x + (double)p[CORNER_Y] * y + (double)p[CORNER_W] * w;
     return ((pass->state->flags & LMB_DRAW_CLOCKWISE) != 0) == (area > 0.0);
+}
+
+/* For a shader: shares of the primitive's vertices, in the place of colours. */
+static void list_share(lmb_draw_corner corner[3], const lmb_draw_pass *pass, const list_primitive *p)
+{
+    for (int i = 0; i < 3; ++i) {
+        pass->now->vertex[i] = p->at[i < p->n ? i : 0];
+    }
+    for (int i = 0; i < p->n; ++i) {
+        for (int k = CORNER_RED; k < CORNER_UV; ++k) {
+            corner[i].v[k] = 0.0f;
+        }
+        for (int k = 0; k < 3; ++k) {
+            corner[i].v[CORNER_SECOND + k] = 0.0f;
+        }
+        if (i > 0) {
+            corner[i].v[CORNER_SHARE + i - 1] = 1.0f;
+        }
+    }
 }
 
 /* A triangle's sides, or the corners where they begin: bits 0 .. 2 of `sides`, from each corner to the next one. */
@@ -106,25 +134,21 @@ NOINLINE int list_outline(const lmb_draw_pass *pass, const lmb_draw_corner corne
     return drawn;
 }
 
-/* What a primitive is drawn of: `n` vertices; the one that gives a flat colour; the sides of a triangle that are a
- * polygon's, as above; bit SIDES_CHOSEN if the vertices' edges count. */
-enum { SIDES_ALL = 7, SIDES_CHOSEN = 8 };
-typedef struct list_primitive {
-    uint32_t at[3], flat;
-    int n, sides;
-} list_primitive;
-
 static int list_draw_corners(const lmb_draw_pass *pass, const list_primitive *p, lmb_draw_corner corner[3])
 {
     const lmb_draw_state *s = pass->state;
     const int has_back = DRAW_FULL && (pass->vertices->back_colours != NULL || pass->vertices->back_seconds != NULL);
     const int is_plain = !DRAW_FULL || (s->polygon_mode[0] == LMB_DRAW_FILL && s->polygon_mode[1] == LMB_DRAW_FILL);
     const int back = p->n == 3 && (has_back || !is_plain) && list_is_back(pass, corner);
-    for (int i = 0; i < p->n; ++i) {
+    if (DRAW_FULL && s->shader != NULL) {
+        list_share(corner, pass, p);
+    }
+    for (int i = 0; i < p->n && (!DRAW_FULL || s->shader == NULL); ++i) {
         list_paint(&corner[i], pass, (s->flags & LMB_DRAW_FLAT) != 0 ? p->flat : p->at[i], back);
     }
     if (DRAW_FULL && p->n == 3 && s->polygon_mode[back] != LMB_DRAW_FILL) {
         const int culled = (s->flags & (back ? LMB_DRAW_CULL_BACK : LMB_DRAW_CULL_FRONT)) != 0;
+        pass->now->is_back = back;
         return culled ? 0 : list_outline(pass, corner, p->sides, s->polygon_mode[back]);
     }
     return !DRAW_FULL || p->n == 3 ? lmb_draw_triangle(pass, corner)
@@ -311,6 +335,8 @@ static void list_set_pass(lmb_draw_pass *pass)
         pass->depth_scale = 65534.0f / (1.0f - t->depth_far);
         pass->depth_bias = 1.0f - t->depth_far * pass->depth_scale;
     }
+    pass->paints_first = (s->flags & LMB_DRAW_ALPHA_TEST) != 0 ||
+                         (DRAW_FULL && s->shader != NULL && (s->flags & LMB_DRAW_DISCARDS) != 0);
     pass->tests = (s->flags & (LMB_DRAW_DEPTH_TEST | LMB_DRAW_STENCIL)) != 0;
     pass->shows = t->colour.data != NULL && s->colour_mask != 0;
 }
@@ -333,6 +359,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
 {
     const lmb_status status = list_check(target, state, vertices, primitive, indices);
     uint32_t dashed = 0;
+    draw_primitive now = {{0, 0, 0}, 0};
     lmb_draw_pass pass;
     draw_vertex few[DRAW_FEW];
     if (status != LMB_OK) {
@@ -345,6 +372,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
     pass.indices = indices;
     pass.stats = stats;
     pass.dashed = &dashed;
+    pass.now = &now;
     list_set_pass(&pass);
     if (DRAW_FULL) {
         lmb_draw_rows_begin(&pass);

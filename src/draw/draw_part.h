@@ -22,6 +22,7 @@ enum {
     CORNER_W = 3,
     CORNER_RED = 4,
     CORNER_ALPHA = 7,
+    CORNER_SHARE = CORNER_RED, /* with a shader: of the primitive's vertices 1 and 2 */
     CORNER_UV = 8, /* u, v of each stage */
     CORNER_FOG = CORNER_UV + 2 * LMB_DRAW_STAGES,
     CORNER_SECOND, /* R, G, B */
@@ -46,6 +47,12 @@ enum {
 };
 enum { DRAW_CORNERS = 3 + DRAW_CUTS }; /* of a triangle cut by all of them */
 
+/* For a shader: the primitive that is drawn. */
+typedef struct draw_primitive {
+    uint32_t vertex[3];
+    int32_t is_back;
+} draw_primitive;
+
 /* What stays the same over a call. */
 typedef struct lmb_draw_pass {
     const lmb_draw_target *target;
@@ -58,10 +65,12 @@ typedef struct lmb_draw_pass {
     float depth_scale, depth_bias; /* LMB_DEPTH16: code = d scale + bias */
     int32_t tests;                 /* 1: depth or stencil */
     int32_t shows;                 /* 1: some colour may be written */
+    int32_t paints_first;          /* 1: tests need colours */
     uint32_t *dashed;              /* pixels of the lines before, which line_pattern counts on from */
     int32_t tests_rows, paints_rows, paints_lanes; /* 1: draw_rows.c can for this state, or a kernel */
     struct draw_vertex *few;         /* DRAW_FEW corners of triangles; NULL: all go the long way */
     int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
+    draw_primitive *now;
     lmb_stats *stats;
 } lmb_draw_pass;
 
@@ -207,9 +216,11 @@ static inline float draw_value(const lmb_draw_shape *s, int i, float b1, float b
 /* One texel's bytes R G B A. level: in 1/256 levels. */
 void lmb_draw_texel(uint8_t out[4], const lmb_texture *texture, float u, float v, int32_t level);
 
-/* Vertices: are their numbers good; `n` values of the i-th one; where it is. */
+/* Vertices: are their numbers good; `n` values of the i-th one; x, y, z and w;
+ * where that is: (x, y, z) / w, or (x, y, z) if w is 0. */
 lmb_status lmb_draw_check_vertices(const lmb_draw_vertices *vertices);
 void lmb_draw_fetch(float *out, const void *data, uint32_t i, int n, int format);
+lmb_vec3 lmb_draw_position_w(float *w, const lmb_draw_vertices *vertices, uint32_t i);
 lmb_vec3 lmb_draw_position(const lmb_draw_vertices *vertices, uint32_t i);
 
 static inline int draw_passes(int func, int32_t value, int32_t other)

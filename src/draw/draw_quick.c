@@ -25,7 +25,7 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
     if (v->position_format != LMB_DRAW_F32 || v->uv_format != LMB_DRAW_F32 || s->planes != 0 ||
         s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
         s->polygon_mode[1] != LMB_DRAW_FILL || v->fogs != NULL || v->seconds != NULL || v->back_colours != NULL ||
-        v->back_seconds != NULL) {
+        v->back_seconds != NULL || s->shader != NULL || s->passed != NULL) {
         return;
     }
     pass->fog_is_w = !has_axis || (axis[0] == m[3] && axis[1] == m[7] && axis[2] == m[11] && axis[3] == m[15]);

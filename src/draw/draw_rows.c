@@ -70,7 +70,8 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass)
 {
     const lmb_draw_state *s = pass->state;
     const int seconds = pass->vertices->seconds != NULL || pass->vertices->back_seconds != NULL;
-    const int paints = pass->shows && !seconds && (s->flags & LMB_DRAW_ALPHA_TEST) == 0 && rows_are_wide(pass->target);
+    const int paints = pass->shows && !pass->paints_first && !seconds && s->shader == NULL && s->passed == NULL &&
+                       rows_are_wide(pass->target);
     pass->tests_rows = (s->flags & LMB_DRAW_DEPTH_TEST) != 0 && (s->flags & LMB_DRAW_STENCIL) == 0 &&
                        pass->target->depth.format == LMB_DEPTH32F;
     pass->paints_rows = paints && s->fog == LMB_DRAW_FOG_NONE && rows_sample(s) ? rows_blend(s) : ROWS_NOT;

@@ -147,11 +147,15 @@ static void shape_fill(const lmb_draw_pass *pass, lmb_draw_shape *shape, const l
     }
 }
 
-/* 1 if it is front- or back-facing as the state culls. */
-static int shape_is_culled(const lmb_draw_state *s, int back)
+static int shape_is_back(const lmb_draw_state *s, int clockwise)
 {
-    const int front = (s->flags & LMB_DRAW_CLOCKWISE) != 0 ? back : !back;
-    return (s->flags & (front ? LMB_DRAW_CULL_FRONT : LMB_DRAW_CULL_BACK)) != 0;
+    return clockwise != ((s->flags & LMB_DRAW_CLOCKWISE) != 0);
+}
+
+/* 1 if it is front- or back-facing as the state culls. */
+static int shape_is_culled(const lmb_draw_state *s, int clockwise)
+{
+    return (s->flags & (shape_is_back(s, clockwise) ? LMB_DRAW_CULL_BACK : LMB_DRAW_CULL_FRONT)) != 0;
 }
 
 /* Is there the centre of a pixel to be drawn in the corners' box? Of small triangles, most have none. */
@@ -194,6 +198,9 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
     shape.corners = 3;
     shape.late = NULL;
     shape.is_cut = is_cut;
+    if (DRAW_FULL) {
+        pass->now->is_back = shape_is_back(pass->state, area > 0);
+    }
     shape.d = shape_plane(s.d_origin, s.d_x, s.d_y);
     shape.d_min = s.d_min;
     shape.d_max = s.d_max;

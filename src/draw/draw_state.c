@@ -218,9 +218,10 @@ static int state_has_good_choices(const lmb_draw_state *s)
 /* What this build has. */
 static int state_is_here(const lmb_draw_state *s)
 {
-    const uint32_t flags = LMB_DRAW_STENCIL | LMB_DRAW_LOGIC;
+    const uint32_t flags = LMB_DRAW_STENCIL | LMB_DRAW_LOGIC | LMB_DRAW_DISCARDS;
     return DRAW_FULL || ((s->flags & flags) == 0 && s->fog == LMB_DRAW_FOG_NONE && s->planes == 0 &&
                          s->offset_slope == 0.0f && s->offset_units == 0.0f && s->area_pattern == NULL &&
+                         s->shader == NULL && s->passed == NULL &&
                          (s->polygon_mode[0] | s->polygon_mode[1]) == LMB_DRAW_FILL &&
                          s->stage[0].mode < LMB_DRAW_COMBINE && s->stage[1].mode < LMB_DRAW_COMBINE);
 }

@@ -275,14 +275,77 @@ static void tile_colour(uint8_t out[4], const tile_job *j, int k)
     }
 }
 
+#if !LMB_DRAW_SMALL
+/* Shares of the primitive's vertices, of shares of the shape's corners. */
+static void tile_find_shares(float out[2], const lmb_draw_shape *s, float b1, float b2)
+{
+    const lmb_draw_corner *const *c = s->corner;
+    for (int i = 0; i < 2; ++i) {
+        const int v = CORNER_SHARE + i;
+        out[i] = b1 * (c[1]->v[v] - c[0]->v[v]) + b2 * (c[2]->v[v] - c[0]->v[v]);
+    }
+}
+
+static void tile_no_fragment(lmb_draw_fragment_at *out)
+{
+    static const lmb_draw_fragment_at none;
+    if (out != NULL) {
+        *out = none;
+    }
+}
+
+void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixels, int32_t k)
+{
+    const tile_job *j = pixels != NULL && k >= 0 && k < LMB_TILE_PIXELS ? pixels->job : NULL;
+    if (j == NULL || out == NULL) {
+        tile_no_fragment(out);
+        return;
+    }
+    const tile_share s = tile_find_share(j, k);
+    float x1 = j->n1.x, x2 = j->n2.x, y1 = j->n1.y, y2 = j->n2.y;
+    if (!j->shape->is_even) {
+        x1 = (x1 - s.b1 * j->q.x) * s.inverse;
+        x2 = (x2 - s.b2 * j->q.x) * s.inverse;
+        y1 = (y1 - s.b1 * j->q.y) * s.inverse;
+        y2 = (y2 - s.b2 * j->q.y) * s.inverse;
+    }
+    tile_find_shares(out->share, j->shape, s.b1, s.b2);
+    out->share[0] += j->shape->corner[0]->v[CORNER_SHARE];
+    out->share[1] += j->shape->corner[0]->v[CORNER_SHARE + 1];
+    tile_find_shares(out->by_x, j->shape, x1, x2);
+    tile_find_shares(out->by_y, j->shape, y1, y2);
+}
+
+/* The same pixels, coloured by the caller. */
+static uint64_t tile_shade(uint8_t colour[LMB_TILE_PIXELS][4], const tile_job *j, uint64_t mask)
+{
+    const lmb_draw_state *s = j->pass->state;
+    lmb_draw_pixels_of p;
+    p.job = j;
+    for (int i = 0; i < 3; ++i) {
+        p.vertex[i] = j->pass->now->vertex[i];
+    }
+    p.x = j->x;
+    p.y = j->y;
+    p.is_back = j->pass->now->is_back;
+    p.mask = mask;
+    return s->shader(s->shader_user, &p, colour) & mask;
+}
+#endif
+
 /* Colours of the mask's pixels; those that the alpha test lets through. */
 static uint64_t tile_colours(uint8_t colour[LMB_TILE_PIXELS][4], const tile_job *j, uint64_t mask)
 {
     const lmb_draw_state *s = j->pass->state;
     const int tests = (s->flags & LMB_DRAW_ALPHA_TEST) != 0;
+#if !LMB_DRAW_SMALL
+    mask = s->shader != NULL && mask != 0 ? tile_shade(colour, j, mask) : mask;
+#endif
     for (uint64_t bits = mask; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
-        tile_colour(colour[k], j, k);
+        if (!DRAW_FULL || s->shader == NULL) {
+            tile_colour(colour[k], j, k);
+        }
         if (tests && !draw_passes(s->alpha_func, colour[k][3], s->alpha_value)) {
             mask &= ~((uint64_t)1 << k);
         }
@@ -404,14 +467,22 @@ static uint64_t tile_pattern(const uint8_t *pattern, int32_t x, int32_t y)
     return mask;
 }
 
+static void tile_count(const lmb_draw_pass *pass, uint64_t mask)
+{
+    for (uint64_t bits = DRAW_FULL && pass->state->passed != NULL ? mask : 0; bits != 0; bits &= bits - 1) {
+        ++*pass->state->passed;
+    }
+}
+
 /* Tests before colours, but for those that need colours. */
 NOINLINE void tile_draw_tested(const tile_job *j, uint64_t mask)
 {
     uint8_t colour[LMB_TILE_PIXELS][4];
     mask = tile_colours(colour, j, mask);
-    if ((j->pass->state->flags & LMB_DRAW_ALPHA_TEST) != 0) {
+    if (j->pass->paints_first) {
         mask = tile_tests(j, mask);
     }
+    tile_count(j->pass, mask);
     for (uint64_t bits = j->pass->shows ? mask : 0; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         tile_store(j, k, colour[k]);
@@ -422,7 +493,6 @@ void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, 
 {
     const double at_x = (x * 256 + 128 - pass->middle_x) * (1.0 / 256.0),
                  at_y = (y * 256 + 128 - pass->middle_y) * (1.0 / 256.0);
-    const int alpha = (pass->state->flags & LMB_DRAW_ALPHA_TEST) != 0;
     tile_job j;
     if (x < pass->x0 || y < pass->y0 || x + LMB_TILE - 1 > pass->x1 || y + LMB_TILE - 1 > pass->y1) {
         mask &= tile_inside(pass, x, y);
@@ -440,10 +510,11 @@ void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, 
     if (pass->tests) {
         j.d = tile_set(&shape->d, at_x, at_y);
     }
-    if (!alpha) {
+    if (!pass->paints_first) {
         mask = DRAW_FULL && pass->tests_rows ? lmb_draw_rows_test(&j, mask) : tile_tests(&j, mask);
     }
-    if (mask == 0 || (!pass->shows && !alpha)) {
+    if (mask == 0 || (!pass->shows && !pass->paints_first)) {
+        tile_count(pass, mask);
         return;
     }
     if (DRAW_FULL && shape->late != NULL) {

@@ -332,6 +332,18 @@ static void fill_draw_target(void *out, int how)
     t->x0 = how & 64 ? LMB_TILE : 0;
 }
 
+static uint64_t fill_shade(void *user, const lmb_draw_pixels_of *pixels, uint8_t colour[64][4])
+{
+    (void)user;
+    for (int k = 0; k < 64; ++k) {
+        lmb_draw_fragment_at at;
+        lmb_draw_fragment(&at, pixels, k);
+        colour[k][0] = colour[k][3] = (uint8_t)(at.share[0] > 0.5f ? k : 255);
+        colour[k][1] = colour[k][2] = (uint8_t)pixels->vertex[1];
+    }
+    return pixels->mask & UINT64_C(0xff7fffffffffff5f);
+}
+
 static void fill_draw_state(void *out, int how)
 {
     lmb_draw_state *s = out;
@@ -353,6 +365,8 @@ static void fill_draw_state(void *out, int how)
     s->area_pattern = how & 64 ? pool_block(128) : NULL;
     s->flags = (uint32_t)how * 37u & LMB_DRAW_FLAGS;
     s->fog = how >> 2 & 3;
+    s->shader = how & 128 && how & 1 ? fill_shade : NULL;
+    s->passed = how & 128 && how & 2 ? pool_block(sizeof *s->passed) : NULL;
     s->kernels = how & 4 ? lmb_kernels_pick() : NULL;
     s->planes = how & 16 ? 5 : 0;
     s->line_px = s->point_px = (uint8_t)(1 + how % 9);
@@ -380,7 +394,7 @@ static void fill_draw_vertices(void *out, int how)
     v->edges = how & 64 ? NULL : pool_block(COUNT_OF);
     v->fogs = how & 128 ? NULL : positions;
     v->count = COUNT_OF;
-    v->position_format = (uint8_t)(how / 8 % 3);
+    v->position_format = (uint8_t)(how / 8 % 4);
     v->uv_format = (uint8_t)(how / 16 % 3);
     v->position_scale = v->position_offset = (lmb_vec3){0.01f, 0.01f, 0.01f};
     v->uv_scale = 0.1f;

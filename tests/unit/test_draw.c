@@ -541,7 +541,7 @@ static void test_refused(void)
         static const uint8_t texels[4];
         const lmb_texture texture = {texels, 1, 1, (uint8_t)(i == 12 ? 2 : 1), 0, 0, (uint8_t)(i == 16 ? 3 : 0), 0};
         case_begin();
-        state.flags = i == 0 ? 4096 : i == 1 ? LMB_DRAW_DEPTH_TEST : i == 2 ? LMB_DRAW_STENCIL : 0;
+        state.flags = i == 0 ? LMB_DRAW_FLAGS + 1 : i == 1 ? LMB_DRAW_DEPTH_TEST : i == 2 ? LMB_DRAW_STENCIL : 0;
         drawn_on.depth.data = i == 1 || i == 3 ? NULL : drawn_on.depth.data;
         drawn_on.colour.data = i == 3 ? NULL : drawn_on.colour.data;
         drawn_on.stencil = i == 2 ? NULL : drawn_on.stencil;

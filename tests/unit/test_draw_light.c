@@ -375,7 +375,7 @@ static void test_vertices_refused(void)
     lit_state.stage = LMB_STAGE_VIEW;
     CHECK(lmb_render_vertices(c[0], &lit_state, scratch, &v, NULL, &here) == LMB_ERR_ARG);
     lit_state.stage = LMB_STAGE_DONE;
-    v.position_format = 3;
+    v.position_format = LMB_DRAW_F32X4 + 1;
     CHECK(lmb_render_vertices(c[0], &lit_state, scratch, &v, NULL, &here) == LMB_ERR_FORMAT);
     v.position_format = LMB_DRAW_F32;
     CHECK(lmb_render_vertices(c[0], &lit_state, scratch, &v, (const float *)(const void *)((const char *)at + 2),

@@ -1,0 +1,164 @@
+/* own.c: pictures of our own by OpenGL 1.x, and their hashes: one line each. The same on every machine.
+ *
+ * Also what glGetError has to return, contexts that are destroyed while they are current, and calls out of order. */
+#include <GL/osmesa.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 96, HEIGHT = 64 };
+static unsigned char pixels[HEIGHT][WIDTH][4];
+static int wrong;
+
+static void expect(GLenum error, const char *what)
+{
+    const GLenum was = glGetError();
+    if (was != error) {
+        fprintf(stderr, "own: %s: error 0x%x, not 0x%x\n", what, was, error);
+        wrong = 1;
+    }
+}
+
+static void finish(const char *name)
+{
+    uint64_t hash = 14695981039346656037u;
+    glFinish();
+    expect(GL_NO_ERROR, name);
+    for (size_t i = 0; i < sizeof pixels; ++i) {
+        hash = (hash ^ ((const unsigned char *)pixels)[i]) * 1099511628211u;
+    }
+    printf("%-10s %08lx%08lx\n", name, (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffffu));
+}
+
+static void look(void)
+{
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glFrustum(-0.6, 0.6, -0.4, 0.4, 1, 20);
+    glMatrixMode(GL_MODELVIEW);
+    glLoadIdentity();
+    glTranslatef(0, 0, -5);
+    glRotatef(30, 1, 0, 0);
+    glRotatef(40, 0, 1, 0);
+}
+
+static void box(void)
+{
+    static const float normal[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (int f = 0; f < 6; ++f) {
+        const float *n = normal[f];
+        const float s[3] = {n[1], n[2], n[0]}, t[3] = {n[2], n[0], n[1]};
+        const float turn = n[0] + n[1] + n[2];
+        glNormal3fv(n);
+        glBegin(GL_QUADS);
+        for (int k = 0; k < 4; ++k) {
+            const float u = k == 1 || k == 2 ? 1.0f : -1.0f, v = (k >= 2 ? 1.0f : -1.0f) * turn;
+            glTexCoord2f(u, v);
+            glVertex3f(n[0] + u * s[0] * turn + v * t[0] * turn, n[1] + u * s[1] * turn + v * t[1] * turn,
+                n[2] + u * s[2] * turn + v * t[2] * turn);
+        }
+        glEnd();
+    }
+}
+
+static void texture(GLenum min, GLenum mag)
+{
+    unsigned char texels[16][16][3];
+    GLuint name;
+    for (int i = 0; i < 16 * 16; ++i) {
+        const int x = i % 16, y = i / 16;
+        texels[y][x][0] = (unsigned char)(16 * x);
+        texels[y][x][1] = (unsigned char)(16 * y);
+        texels[y][x][2] = (unsigned char)((x ^ y) & 4 ? 220 : 40);
+    }
+    glGenTextures(1, &name);
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexParameteri(GL_TEXTURE_2D, GL_GENERATE_MIPMAP, 1);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, (GLint)min);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, (GLint)mag);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 16, 16, 0, GL_RGB, GL_UNSIGNED_BYTE, texels);
+    glEnable(GL_TEXTURE_2D);
+}
+
+static void light(void)
+{
+    static const float at[4] = {2, 3, 4, 1}, highlight[4] = {0.7f, 0.7f, 0.7f, 1}, paint[4] = {0.8f, 0.3f, 0.2f, 1};
+    glEnable(GL_LIGHTING);
+    glEnable(GL_LIGHT0);
+    glEnable(GL_NORMALIZE);
+    glLightfv(GL_LIGHT0, GL_POSITION, at);
+    glMaterialfv(GL_FRONT_AND_BACK, GL_SPECULAR, highlight);
+    glMaterialfv(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE, paint);
+    glMaterialf(GL_FRONT_AND_BACK, GL_SHININESS, 24);
+}
+
+static void draw(int which)
+{
+    static const float fog[4] = {0.6f, 0.7f, 0.8f, 1};
+    look();
+    switch (which) {
+    case 0: light(); box(); break;
+    case 1: texture(GL_NEAREST, GL_NEAREST); box(); break;
+    case 2: texture(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR); glMatrixMode(GL_TEXTURE); glLoadIdentity();
+        glScalef(5, 5, 1); box(); glLoadIdentity(); break;
+    case 3: light(); glEnable(GL_FOG); glFogfv(GL_FOG_COLOR, fog); glFogi(GL_FOG_MODE, GL_EXP2);
+        glFogf(GL_FOG_DENSITY, 0.2f); box(); break;
+    case 4: glPolygonMode(GL_FRONT_AND_BACK, GL_LINE); glLineWidth(2); glEnable(GL_LINE_STIPPLE);
+        glLineStipple(2, 0x6f5a); box(); break;
+    case 5: light(); glShadeModel(GL_FLAT); glNewList(7, GL_COMPILE); box(); glEndList();
+        glScalef(0.5f, 0.5f, 0.5f); glCallList(7); glTranslatef(1, 2, 0); glCallList(7); break;
+    case 6: texture(GL_LINEAR, GL_LINEAR); glEnable(GL_TEXTURE_GEN_S); glEnable(GL_TEXTURE_GEN_T);
+        glTexGeni(GL_S, GL_TEXTURE_GEN_MODE, GL_SPHERE_MAP); glTexGeni(GL_T, GL_TEXTURE_GEN_MODE, GL_SPHERE_MAP); box();
+        break;
+    default: glEnable(GL_BLEND); glBlendFunc(GL_SRC_ALPHA, GL_ONE); glDisable(GL_DEPTH_TEST);
+        glColor4f(0.9f, 0.5f, 0.2f, 0.4f); glPointSize(5); glPolygonMode(GL_BACK, GL_POINT); box(); break;
+    }
+}
+
+static void errors(void)
+{
+    glBegin(99);
+    expect(GL_INVALID_ENUM, "glBegin(99)");
+    glBegin(GL_LINES);
+    glEnable(GL_FOG);
+    glEnd();
+    expect(GL_INVALID_OPERATION, "glEnable inside");
+    glEnd();
+    expect(GL_INVALID_OPERATION, "glEnd outside");
+    glViewport(0, 0, -1, 1);
+    expect(GL_INVALID_VALUE, "glViewport");
+    glPopMatrix();
+    glMatrixMode(GL_TEXTURE);
+    for (int i = 0; i < 100; ++i) {
+        glPopMatrix();
+    }
+    expect(GL_STACK_UNDERFLOW, "glPopMatrix");
+    for (int i = 0; i < 100; ++i) {
+        glPushMatrix();
+    }
+    expect(GL_STACK_OVERFLOW, "glPushMatrix");
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB, 1 << 20, 1, 0, GL_RGB, GL_UNSIGNED_BYTE, NULL);
+    expect(GL_INVALID_VALUE, "glTexImage2D");
+    glCallList(12345);
+    expect(GL_NO_ERROR, "glCallList of no list");
+}
+
+int main(void)
+{
+    static const char *const names[8] = {"lights", "nearest", "mips", "fog", "stipple", "lists", "sphere", "points"};
+    for (int i = 0; i < 8; ++i) {
+        OSMesaContext c = OSMesaCreateContextExt(i % 2 ? OSMESA_RGBA : OSMESA_BGRA, 24, 8, 0, NULL);
+        if (c == NULL || !OSMesaMakeCurrent(c, pixels, GL_UNSIGNED_BYTE, WIDTH, HEIGHT)) {
+            return 1;
+        }
+        glClearColor(0.1f, 0.2f, 0.3f, 1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        glEnable(GL_DEPTH_TEST);
+        draw(i);
+        finish(names[i]);
+        errors();
+        OSMesaDestroyContext(c); /* while it is current */
+    }
+    return wrong;
+}

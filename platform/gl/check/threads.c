@@ -1,0 +1,45 @@
+/* threads.c: two contexts in two threads draw the same picture at once; under the race detector, too. */
+#include <GL/osmesa.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { SIDE = 64 };
+static unsigned char pixels[2][SIDE * SIDE * 4];
+
+static void *draw(void *at)
+{
+    for (int round = 0; round < 20; ++round) {
+        OSMesaContext c = OSMesaCreateContext(OSMESA_RGBA, NULL);
+        if (c == NULL || !OSMesaMakeCurrent(c, at, GL_UNSIGNED_BYTE, SIDE, SIDE)) {
+            return NULL;
+        }
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        glEnable(GL_DEPTH_TEST);
+        glEnable(GL_FOG);
+        glNewList(1, GL_COMPILE);
+        glBegin(GL_TRIANGLES);
+        for (int i = 0; i < 90; ++i) {
+            glColor3f((float)(i % 7) / 7.0f, (float)(i % 5) / 5.0f, 1);
+            glVertex3f((float)(i * 37 % 41) / 20.0f - 1.0f, (float)(i * 29 % 43) / 21.0f - 1.0f,
+                       (float)(i % 11) / 11.0f);
+        }
+        glEnd();
+        glEndList();
+        glCallList(1);
+        glFinish();
+        OSMesaDestroyContext(c);
+    }
+    return at;
+}
+
+int main(void)
+{
+    pthread_t thread;
+    void *other = NULL;
+    if (pthread_create(&thread, NULL, draw, pixels[1]) != 0 || draw(pixels[0]) == NULL ||
+        pthread_join(thread, &other) != 0 || other == NULL) {
+        return 1;
+    }
+    return memcmp(pixels[0], pixels[1], sizeof pixels[0]) != 0;
+}

@@ -1,0 +1,35 @@
+# The library for programs that were written for OpenGL 1.x: make gl, make gl-check.
+
+GL_OUT     := $(BUILD)/gl
+GL_SRC     := $(sort $(wildcard platform/gl/gl_*.c))
+# Of the library, what draw.h needs.
+GL_LIB     := $(wildcard src/base/*.c src/draw/*.c) src/raster/setup.c src/raster/target.c
+GL_OBJ     := $(patsubst %.c,$(GL_OUT)/obj/%.o,$(GL_SRC) $(GL_LIB))
+GL_NAMES   := $(addprefix $(GL_OUT)/,libOSMesa.so.8 libOSMesa.so libOpenGL.so.0 libGL.so.1)
+GL_COMPILE  = $(CC) -std=c99 $(CFLAGS) -fPIC $(WARNINGS) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp -Iinclude \
+    -Iplatform/gl/include -MMD -MP
+
+gl: $(GL_NAMES) $(GL_OUT)/libGL.a ## OpenGL 1.x in memory: build/gl/libOSMesa.so.8, libOpenGL.so.0, libGL.so.1, libGL.a (platform/gl)
+
+$(GL_OUT)/obj/%.o: %.c platform/gl/gl.mk
+	@mkdir -p $(@D)
+	@$(GL_COMPILE) -c $< -o $@
+
+$(GL_OUT)/liblambentgl.so: $(GL_OBJ) platform/gl/gl_aliases.ld
+	@echo "LD $@"
+	@$(CC) -shared $(LDFLAGS) -o $@ $^ -Wl,-soname,libOSMesa.so.8 -Wl,-Bsymbolic -lm -lpthread
+
+# The four names are one file: a program that loads two of them has one current context.
+$(GL_NAMES): $(GL_OUT)/liblambentgl.so
+	@ln -sf liblambentgl.so $@
+
+$(GL_OUT)/libGL.a: $(GL_OBJ)
+	@echo "AR $@"
+	@rm -f $@
+	@$(AR) rcs $@ $^
+
+.PHONY: gl gl-check
+gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips those whose packages are missing
+	@GL_CLIENTS='$(GL_CLIENTS)' CC='$(CC)' sh platform/gl/check/check.sh $(GL_OUT)
+
+-include $(GL_OBJ:.o=.d)

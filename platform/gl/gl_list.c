@@ -1,0 +1,190 @@
+/* gl_list.c: operations run now or are recorded; display lists. */
+#include "gl_context.h"
+
+#define LIST_ROW(name) gl_op_##name,
+static void (*const list_ops[OPS])(gl_context *, const gl_word *) = {GL_OPERATIONS(LIST_ROW)};
+
+enum { LIST_FIRST_WORDS = 128, LIST_NEXT_WORDS = 16384 };
+enum { LIST_POINTER = 1 << 30 /* of an operation's head: its last words are a pointer to data of the list's own */ };
+
+static void list_run(gl_context *c, int op, const gl_word *w)
+{
+    if (op >= OP_FIRST_STATE) {
+        if (c->is_inside) {
+            gl_error(c, GL_INVALID_OPERATION);
+            return;
+        }
+        gl_flush_vertices(c);
+        c->dirty = 1;
+    }
+    list_ops[op](c, w);
+}
+
+/* Room for words in the list that is compiled; NULL: the memory is full. */
+static gl_word *list_room(gl_context *c, int32_t words)
+{
+    gl_chunk *k = c->list_chunk;
+    if (k == NULL || k->used + words > k->cap) {
+        const int32_t cap = k == NULL ? LIST_FIRST_WORDS : LIST_NEXT_WORDS;
+        gl_chunk *more = gl_alloc(c, sizeof *more + (size_t)cap * sizeof more->word[0]);
+        if (more == NULL) {
+            return NULL;
+        }
+        more->cap = cap;
+        more->next = NULL;
+        more->used = 0;
+        if (k == NULL) {
+            c->list->first = more;
+        } else {
+            k->next = more;
+        }
+        c->list_chunk = k = more;
+    }
+    k->used += words;
+    return &k->word[k->used - words];
+}
+
+static void list_record(gl_context *c, int op, const gl_word *w, int32_t words, uint32_t flags)
+{
+    gl_word *to = list_room(c, words + 1);
+    if (to != NULL) {
+        to[0].u = (uint32_t)op | (uint32_t)words << 16 | flags;
+        if (words > 0) {
+            memcpy(to + 1, w, (size_t)words * sizeof *w);
+        }
+    }
+}
+
+void gl_do(gl_context *c, int op, const gl_word *w, int32_t words)
+{
+    if (c->list_mode != 0) {
+        list_record(c, op, w, words, 0);
+    }
+    if (c->list_mode != GL_COMPILE) {
+        list_run(c, op, w);
+    }
+}
+
+const void *gl_data_of(const gl_word *w)
+{
+    uint64_t at;
+    memcpy(&at, w, sizeof at);
+    return (const void *)(uintptr_t)at;
+}
+
+static void list_set_data(gl_word *w, const void *data)
+{
+    const uint64_t at = (uintptr_t)data;
+    memcpy(w, &at, sizeof at);
+}
+
+void gl_do_data(gl_context *c, int op, gl_word *w, int32_t words, const void *data, size_t bytes)
+{
+    if (c->list_mode != 0) {
+        void *copy = data != NULL ? gl_alloc(c, bytes) : NULL;
+        if (data != NULL && copy == NULL) {
+            return;
+        }
+        if (copy != NULL) {
+            memcpy(copy, data, bytes);
+        }
+        list_set_data(&w[words - 2], copy);
+        list_record(c, op, w, words, LIST_POINTER);
+    }
+    if (c->list_mode != GL_COMPILE) {
+        list_set_data(&w[words - 2], data);
+        list_run(c, op, w);
+    }
+}
+
+void gl_list_free(gl_context *c, gl_list *list)
+{
+    gl_chunk *k = list->first;
+    while (k != NULL) {
+        gl_chunk *next = k->next;
+        for (int32_t i = 0; i < k->used; i += 1 + (int32_t)(k->word[i].u >> 16 & 0x3fffu)) {
+            if ((k->word[i].u & LIST_POINTER) != 0) {
+                gl_free(c, (void *)(uintptr_t)gl_data_of(&k->word[i + (int32_t)(k->word[i].u >> 16 & 0x3fffu) - 1]));
+            }
+        }
+        gl_free(c, k);
+        k = next;
+    }
+    gl_free(c, list);
+}
+
+void gl_run_list(gl_context *c, GLuint name)
+{
+    const gl_list *list = gl_find(&c->group->lists, name);
+    if (list == NULL || c->list_depth >= GL_LIST_DEPTH) {
+        return;
+    }
+    ++c->list_depth;
+    for (const gl_chunk *k = list->first; k != NULL; k = k->next) {
+        for (int32_t i = 0; i < k->used;) {
+            const uint32_t head = k->word[i].u;
+            list_run(c, (int)(head & 0xffffu), &k->word[i + 1]);
+            i += 1 + (int32_t)(head >> 16 & 0x3fffu);
+        }
+    }
+    --c->list_depth;
+}
+
+void gl_op_call_list(gl_context *c, const gl_word *w) { gl_run_list(c, w[0].u); }
+void gl_op_call_lists(gl_context *c, const gl_word *w) { gl_run_list(c, c->s.list.base + w[0].u); }
+void gl_op_list_base(gl_context *c, const gl_word *w) { c->s.list.base = w[0].u; }
+
+void glNewList(GLuint name, GLenum mode)
+{
+    GL_ENTER()
+    GL_FAIL(name == 0, GL_INVALID_VALUE, )
+    GL_FAIL(mode != GL_COMPILE && mode != GL_COMPILE_AND_EXECUTE, GL_INVALID_ENUM, )
+    GL_FAIL(c->list_mode != 0, GL_INVALID_OPERATION, )
+    gl_list *list = gl_alloc(c, sizeof *list);
+    if (list != NULL) {
+        list->name = name;
+        list->first = NULL;
+        c->list = list;
+        c->list_chunk = NULL;
+        c->list_name = name;
+        c->list_mode = mode;
+    }
+}
+
+void glEndList(void)
+{
+    GL_ENTER()
+    GL_FAIL(c->list_mode == 0, GL_INVALID_OPERATION, )
+    gl_list *old = gl_find(&c->group->lists, c->list_name);
+    c->list_mode = 0;
+    if (old != NULL) {
+        gl_list_free(c, old);
+    }
+    gl_put(c, &c->group->lists, c->list_name, c->list);
+}
+
+GLuint glGenLists(GLsizei n)
+{
+    GL_ENTER(0)
+    GL_FAIL(n < 0, GL_INVALID_VALUE, 0)
+    return gl_new_names(c, &c->group->lists, n);
+}
+
+void glDeleteLists(GLuint first, GLsizei n)
+{
+    GL_ENTER()
+    GL_FAIL(n < 0, GL_INVALID_VALUE, )
+    for (GLsizei i = 0; i < n; ++i) {
+        gl_list *list = gl_find(&c->group->lists, first + (GLuint)i);
+        if (list != NULL) {
+            gl_list_free(c, list);
+        }
+        gl_remove(&c->group->lists, first + (GLuint)i);
+    }
+}
+
+GLboolean glIsList(GLuint name)
+{
+    GL_ENTER(0)
+    return (GLboolean)gl_has(&c->group->lists, name);
+}

@@ -1,0 +1,684 @@
+/* gl_vertex.c: vertices from glBegin to draw.h: they wait, are transformed and lit, and become primitives.
+ *
+ * Independent primitives of several glBegin wait together until a state changes. */
+#include "gl_context.h"
+
+#define OP(name) void gl_op_##name(gl_context *c, const gl_word *w)
+
+/* --- attributes --------------------------------------------------------------------------------------------------- */
+
+OP(colour) { memcpy(c->s.current.v.colour, w, 4 * sizeof *w); }
+OP(normal) { memcpy(c->s.current.v.normal, w, 3 * sizeof *w); }
+OP(second) { memcpy(c->s.current.v.second, w, 3 * sizeof *w); }
+OP(fog_coord) { c->s.current.v.fog = w[0].f; }
+OP(edge) { c->s.current.v.edge = w[0].f; }
+OP(tex_coord)
+{
+    const uint32_t unit = w[0].u - GL_TEXTURE0;
+    if (unit < GL_UNITS) {
+        memcpy(c->s.current.v.tex[unit], w + 1, 4 * sizeof *w);
+    } else if (unit >= 32) {
+        gl_error(c, GL_INVALID_ENUM);
+    }
+}
+OP(vertex)
+{
+    const float at[4] = {w[0].f, w[1].f, w[2].f, w[3].f};
+    gl_vertex_at(c, at);
+}
+
+/* --- waiting ------------------------------------------------------------------------------------------------------ */
+
+static int vertex_is_apart(GLenum p) { return p == GL_POINTS || p == GL_LINES || p == GL_TRIANGLES || p == GL_QUADS; }
+
+static int vertex_each(GLenum p) { return p == GL_POINTS ? 1 : p == GL_LINES ? 2 : p == GL_TRIANGLES ? 3 : 4; }
+
+OP(begin)
+{
+    if (c->is_inside) { /* arrays that come inside draw nothing */
+        gl_error(c, GL_INVALID_OPERATION);
+        c->skips = w[1].u != 0;
+        return;
+    }
+    GL_FAIL(w[0].u > GL_POLYGON, GL_INVALID_ENUM, )
+    if (c->count > 0 && !(c->primitive == w[0].u && vertex_is_apart(w[0].u))) {
+        gl_flush_vertices(c);
+    }
+    if (!gl_surface_ready(c, c->framebuffer)) {
+        return;
+    }
+    c->is_inside = 1;
+    c->primitive = w[0].u;
+    c->is_continued = 0;
+    c->stipple_at = 0;
+    c->begin_at = c->count;
+}
+
+/* Draw the full buffer, and keep those vertices that later ones join. */
+static void vertex_turn_over(gl_context *c)
+{
+    const GLenum p = c->primitive;
+    const int n = c->count;
+    gl_vertex keep[2] = {c->wait[p == GL_TRIANGLE_FAN || p == GL_POLYGON ? 0 : n - 2], c->wait[n - 1]};
+    gl_made made[2] = {c->made[p == GL_TRIANGLE_FAN || p == GL_POLYGON ? 0 : n - 2], c->made[n - 1]};
+    gl_make_vertices(c);
+    made[0] = c->made[p == GL_TRIANGLE_FAN || p == GL_POLYGON ? 0 : n - 2];
+    made[1] = c->made[n - 1];
+    if (p == GL_LINE_LOOP && !c->is_continued) {
+        c->loop_first = c->wait[0];
+    }
+    gl_flush_vertices(c);
+    c->is_continued = 1;
+    c->begin_at = 0;
+    if (vertex_is_apart(p)) {
+        return;
+    }
+    const int one = p == GL_LINE_STRIP || p == GL_LINE_LOOP;
+    c->wait[0] = keep[one];
+    c->made[0] = made[one];
+    c->wait[1] = keep[1];
+    c->made[1] = made[1];
+    c->count = c->made_count = one ? 1 : 2;
+}
+
+void gl_vertex_at(gl_context *c, const float at[4])
+{
+    if (!c->is_inside || c->skips) {
+        return;
+    }
+    gl_vertex *v = &c->wait[c->count];
+    *v = c->s.current.v;
+    memcpy(v->at, at, sizeof v->at);
+    if (++c->count == GL_BATCH) {
+        vertex_turn_over(c);
+    }
+}
+
+OP(end)
+{
+    if (w != NULL && w[0].u != 0 && c->skips) {
+        c->skips = 0;
+        return;
+    }
+    GL_FAIL(!c->is_inside, GL_INVALID_OPERATION, )
+    c->is_inside = 0;
+    if (vertex_is_apart(c->primitive)) {
+        c->count -= (c->count - c->begin_at) % vertex_each(c->primitive);
+        c->made_count = mini(c->made_count, c->count);
+        if (c->render_mode == GL_RENDER && c->query == NULL) {
+            return;
+        }
+    } else if (c->primitive == GL_LINE_LOOP && c->is_continued) {
+        c->wait[c->count++] = c->loop_first;
+        c->primitive = GL_LINE_STRIP;
+    }
+    gl_flush_vertices(c);
+}
+
+/* --- transforming ------------------------------------------------------------------------------------------------- */
+
+static float vertex_point_size(const gl_context *c, const float eye[4])
+{
+    const float *a = c->s.point.attenuation;
+    float size = c->s.point.size;
+    if (a[0] != 1.0f || a[1] != 0.0f || a[2] != 0.0f) {
+        const float d = lmb_sqrt(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]);
+        const float by = a[0] + d * (a[1] + d * a[2]);
+        size = by > 0.0f ? size / lmb_sqrt(by) : c->s.point.max;
+    }
+    size = maxf(minf(size, c->s.point.max), c->s.point.min);
+    return clampf(size, 1.0f, 255.0f);
+}
+
+static void vertex_make(gl_context *c, const gl_vertex *v, gl_made *m)
+{
+    gl_matrix_point(m->eye, c->modelview.m[c->modelview.top], v->at);
+    gl_matrix_point(m->clip, c->projection.m[c->projection.top], m->eye);
+    if (gl_is_on(c, CAP_LIGHTING)) {
+        gl_light_vertex(c, v, m);
+    } else {
+        for (int i = 0; i < 4; ++i) {
+            m->colour[0][i] = gl_unit_range(v->colour[i]);
+        }
+        for (int i = 0; i < 3; ++i) {
+            m->second[0][i] = gl_is_on(c, CAP_COLOR_SUM) ? gl_unit_range(v->second[i]) : 0.0f;
+        }
+    }
+    m->fog = c->s.fog.source == GL_FOG_COORD ? v->fog : absf(m->eye[2]);
+    m->size = c->primitive == GL_POINTS || c->s.polygon.front == GL_POINT || c->s.polygon.back == GL_POINT
+                  ? vertex_point_size(c, m->eye) : 1.0f;
+    m->edge = v->edge;
+    gl_gen_vertex(c, v, m);
+}
+
+void gl_make_vertices(gl_context *c)
+{
+    gl_update_matrices(c);
+    for (int i = c->made_count; i < c->count; ++i) {
+        vertex_make(c, &c->wait[i], &c->made[i]);
+    }
+    c->made_count = c->count;
+}
+
+/* --- primitives --------------------------------------------------------------------------------------------------- */
+
+/* What is drawn of vertices i .. : order, and whether each edge is the polygon's own. */
+typedef void (*vertex_sink)(gl_context *c, const uint32_t *at, int n, const int *edges);
+
+static void vertex_draw_list(gl_context *c, const uint32_t *index, uint32_t count, int primitive)
+{
+    const lmb_draw_indices indices = {index, count, LMB_INDEX_U32};
+    lmb_draw_vertices v;
+    memset(&v, 0, sizeof v);
+    v.positions = c->eye_of;
+    v.position_format = LMB_DRAW_F32X4;
+    v.count = (uint32_t)c->count;
+    if (!c->shades) {
+        v.colours = c->colour_of[0];
+        v.uvs[0] = c->draw.stage[0].texture != NULL ? c->uv_of : NULL;
+    }
+    if (c->window.is_complete && c->drawn.is_complete && c->draws) {
+        (void)lmb_draw_list(&c->target, &c->draw, &v, primitive, &indices, NULL);
+    }
+}
+
+/* A line, with its stipple going on from the line before if it joins. */
+static void vertex_line(gl_context *c, uint32_t a, uint32_t b)
+{
+    const uint32_t at[2] = {a, b};
+    if (c->render_mode != GL_RENDER) {
+        gl_select_primitive(c, at, 2, c->stipple_at == 0);
+        c->stipple_at = 1;
+        return;
+    }
+    c->draw.line_px = (uint8_t)clampf(floorf(c->s.line.width + 0.5f), 1.0f, 255.0f);
+    if (gl_is_on(c, CAP_LINE_STIPPLE)) {
+        float from[3], to[3];
+        gl_window_place(c, c->made[a].clip, from);
+        gl_window_place(c, c->made[b].clip, to);
+        for (int i = 0; i < 2; ++i) { /* as draw.h snaps */
+            c->line_from[i] = floorf(from[i] * 256.0f + 0.5f) * (1.0f / 256.0f);
+        }
+        c->line_steep = absf(to[1] - from[1]) > absf(to[0] - from[0]);
+        vertex_draw_list(c, at, 2, LMB_DRAW_LINES);
+        const float length = maxf(absf(to[0] - from[0]), absf(to[1] - from[1]));
+        c->stipple_at += length < 1e6f ? (int32_t)(length + 0.5f) : 0;
+        return;
+    }
+    vertex_draw_list(c, at, 2, LMB_DRAW_LINES);
+}
+
+static void vertex_point(gl_context *c, uint32_t at)
+{
+    if (c->render_mode != GL_RENDER) {
+        gl_select_primitive(c, &at, 1, 0);
+        return;
+    }
+    c->draw.point_px = (uint8_t)(c->made[at].size + 0.5f);
+    vertex_draw_list(c, &at, 1, LMB_DRAW_POINTS);
+}
+
+/* Twice the area of a polygon in the window, by homogeneous coordinates: its sign holds if some w are negative. */
+static double vertex_area(const gl_context *c, const uint32_t *at, int n)
+{
+    double area = 0.0;
+    for (int i = 2; i < n; ++i) {
+        const float *p = c->made[at[0]].clip, *q = c->made[at[i - 1]].clip, *r = c->made[at[i]].clip;
+        area += (double)p[0] * ((double)q[1] * (double)r[3] - (double)q[3] * (double)r[1]) -
+                (double)p[1] * ((double)q[0] * (double)r[3] - (double)q[3] * (double)r[0]) +
+                (double)p[3] * ((double)q[0] * (double)r[1] - (double)q[1] * (double)r[0]);
+    }
+    return area;
+}
+
+/* A polygon whose sides may be drawn as lines or points. */
+static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *edges)
+{
+    const double area = vertex_area(c, at, n);
+    const int back = (area < 0.0) == (c->s.polygon.front_face == GL_CCW);
+    const GLenum mode = back ? c->s.polygon.back : c->s.polygon.front;
+    if (gl_is_on(c, CAP_CULL) && (c->s.polygon.cull == GL_FRONT_AND_BACK || (c->s.polygon.cull == GL_BACK) == back)) {
+        return;
+    }
+    c->side = back;
+    if (c->render_mode != GL_RENDER && (mode == GL_FILL || c->render_mode == GL_SELECT)) {
+        gl_select_primitive(c, at, n, 0);
+        return;
+    }
+    if (mode == GL_FILL) {
+        for (int i = 2; i < n; ++i) {
+            const uint32_t t[3] = {at[0], at[i - 1], at[i]};
+            vertex_draw_list(c, t, 3, LMB_DRAW_TRIANGLES);
+        }
+        return;
+    }
+    const lmb_draw_state kept = c->draw;
+    const int offset = gl_is_on(c, mode == GL_LINE ? CAP_OFFSET_LINE : CAP_OFFSET_POINT);
+    if (offset) {
+        float p[3][3];
+        for (int i = 0; i < 3; ++i) {
+            gl_window_place(c, c->made[at[i % n]].clip, p[i]);
+        }
+        const float ax = p[1][0] - p[0][0], ay = p[1][1] - p[0][1], az = p[1][2] - p[0][2], bx = p[2][0] - p[0][0],
+                    by = p[2][1] - p[0][1], bz = p[2][2] - p[0][2], d = ax * by - ay * bx;
+        const float slope = d != 0.0f ? maxf(absf((az * by - ay * bz) / d), absf((ax * bz - az * bx) / d)) : 0.0f;
+        const float d_add = c->s.polygon.factor * slope + c->s.polygon.units * (1.0f / 16777216.0f);
+        const float range = (float)(c->s.viewport.range[1] - c->s.viewport.range[0]);
+        for (int k = 0; k < 4 && range != 0.0f; ++k) {
+            c->draw.to_clip.m[4 * k + 2] += d_add / range * c->draw.to_clip.m[4 * k + 3];
+        }
+    }
+    c->is_side = 1;
+    c->stipple_at = 0;
+    for (int i = 0; i < n; ++i) {
+        if (edges[i] && c->made[at[i]].edge != 0.0f) {
+            if (mode == GL_LINE) {
+                vertex_line(c, at[i], at[(i + 1) % n]);
+            } else {
+                vertex_point(c, at[i]);
+            }
+        }
+    }
+    c->is_side = 0;
+    c->draw = kept;
+}
+
+/* With GL_FLAT the colour is one vertex's: it is written to all, or named to the shader. */
+static void vertex_set_flat(gl_context *c, uint32_t provoking) { c->flat = provoking; }
+
+static void vertex_polygon_flat(gl_context *c, const uint32_t *at, int n, uint32_t flat)
+{
+    static const int all[4] = {1, 1, 1, 1};
+    gl_made kept[4];
+    vertex_set_flat(c, flat);
+    const int flattens = c->s.lighting.shade == GL_FLAT;
+    for (int i = 0; i < n && flattens; ++i) {
+        kept[i] = c->made[at[i]];
+    }
+    const gl_made from = c->made[flat];
+    for (int i = 0; i < n && flattens; ++i) {
+        memcpy(c->made[at[i]].colour, from.colour, sizeof from.colour);
+        memcpy(c->made[at[i]].second, from.second, sizeof from.second);
+        for (int k = 0; k < 4; ++k) {
+            c->colour_of[at[i]][k] = gl_code(from.colour[0][k]);
+        }
+    }
+    vertex_polygon(c, at, n, all);
+    for (int i = 0; i < n && flattens; ++i) {
+        c->made[at[i]] = kept[i];
+        for (int k = 0; k < 4; ++k) {
+            c->colour_of[at[i]][k] = gl_code(kept[i].colour[0][k]);
+        }
+    }
+}
+
+static void vertex_line_flat(gl_context *c, uint32_t a, uint32_t b)
+{
+    const gl_made kept = c->made[a];
+    if (c->s.lighting.shade == GL_FLAT) {
+        memcpy(c->made[a].colour, c->made[b].colour, sizeof kept.colour);
+        memcpy(c->made[a].second, c->made[b].second, sizeof kept.second);
+        memcpy(c->colour_of[a], c->colour_of[b], 4);
+    }
+    vertex_line(c, a, b);
+    c->made[a] = kept;
+    for (int k = 0; k < 4; ++k) {
+        c->colour_of[a][k] = gl_code(kept.colour[0][k]);
+    }
+}
+
+static void vertex_whole_polygon(gl_context *c, uint32_t n)
+{
+    uint32_t *at = c->index_of;
+    if (n < 3) {
+        return;
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        at[i] = i;
+        c->edges[i] = !(c->is_continued && i == 0);
+        if (c->s.lighting.shade == GL_FLAT && i > 0) {
+            memcpy(c->made[i].colour, c->made[0].colour, sizeof c->made[0].colour);
+            memcpy(c->made[i].second, c->made[0].second, sizeof c->made[0].second);
+            memcpy(c->colour_of[i], c->colour_of[0], 4);
+        }
+    }
+    vertex_polygon(c, at, (int)n, c->edges);
+}
+
+/* One by one: modes other than fill, lines, points, selection, feedback. */
+static void vertex_each_primitive(gl_context *c)
+{
+    const uint32_t n = (uint32_t)c->count;
+    switch (c->primitive) {
+    case GL_POINTS:
+        for (uint32_t i = 0; i < n; ++i) {
+            vertex_point(c, i);
+        }
+        break;
+    case GL_LINES:
+        for (uint32_t i = 0; i + 1 < n; i += 2) {
+            c->stipple_at = 0;
+            vertex_line_flat(c, i, i + 1);
+        }
+        break;
+    case GL_LINE_STRIP: case GL_LINE_LOOP:
+        for (uint32_t i = 1; i < n; ++i) {
+            vertex_line_flat(c, i - 1, i);
+        }
+        if (c->primitive == GL_LINE_LOOP && n >= 2 && !c->is_continued && !c->is_inside) {
+            vertex_line_flat(c, n - 1, 0);
+        }
+        break;
+    case GL_TRIANGLES:
+        for (uint32_t i = 0; i + 2 < n; i += 3) {
+            const uint32_t at[3] = {i, i + 1, i + 2};
+            vertex_polygon_flat(c, at, 3, i + 2);
+        }
+        break;
+    case GL_TRIANGLE_STRIP:
+        for (uint32_t i = 2; i < n; ++i) {
+            const uint32_t at[3] = {i - 2 + (i & 1u), i - 1 - (i & 1u), i};
+            vertex_polygon_flat(c, at, 3, i);
+        }
+        break;
+    case GL_TRIANGLE_FAN:
+        for (uint32_t i = 2; i < n; ++i) {
+            const uint32_t at[3] = {0, i - 1, i};
+            vertex_polygon_flat(c, at, 3, i);
+        }
+        break;
+    case GL_QUADS:
+        for (uint32_t i = 0; i + 3 < n; i += 4) {
+            const uint32_t at[4] = {i, i + 1, i + 2, i + 3};
+            vertex_polygon_flat(c, at, 4, i + 3);
+        }
+        break;
+    case GL_QUAD_STRIP:
+        for (uint32_t i = 0; i + 3 < n; i += 2) {
+            const uint32_t at[4] = {i, i + 1, i + 3, i + 2};
+            vertex_polygon_flat(c, at, 4, i + 3);
+        }
+        break;
+    default: vertex_whole_polygon(c, n); break;
+    }
+}
+
+/* Filled ones in one call. */
+static int vertex_areas(gl_context *c)
+{
+    static const int modes[10] = {-1, -1, -1, -1, LMB_DRAW_TRIANGLES, LMB_DRAW_TRIANGLE_STRIP, LMB_DRAW_TRIANGLE_FAN,
+                                  LMB_DRAW_QUADS, LMB_DRAW_QUAD_STRIP, -1};
+    const int mode = modes[c->primitive];
+    if (mode < 0 || c->s.polygon.front != GL_FILL || c->s.polygon.back != GL_FILL || c->render_mode != GL_RENDER ||
+        (c->s.lighting.shade == GL_FLAT && c->shades) ||
+        (gl_is_on(c, CAP_CULL) && c->s.polygon.cull == GL_FRONT_AND_BACK)) {
+        return 0;
+    }
+    for (int i = 0; i < c->count; ++i) {
+        c->index_of[i] = (uint32_t)i;
+    }
+    vertex_draw_list(c, c->index_of, (uint32_t)c->count, mode);
+    return 1;
+}
+
+void gl_flush_vertices(gl_context *c)
+{
+    if (c->count == 0) {
+        return;
+    }
+    gl_make_vertices(c);
+    gl_set_draw(c);
+    for (int i = 0; i < c->count; ++i) {
+        const gl_made *m = &c->made[i];
+        memcpy(c->eye_of[i], m->eye, sizeof m->eye);
+        for (int k = 0; k < 4 && !c->shades; ++k) {
+            c->colour_of[i][k] = gl_code(m->colour[0][k]);
+        }
+        c->uv_of[i][0] = m->tex[0][0];
+        c->uv_of[i][1] = m->tex[0][1];
+        if (m->tex[0][3] != 1.0f && c->draw.stage[0].texture != NULL && !c->shades) {
+            c->draw.shader = gl_shade_pixels;
+            c->shades = 1;
+            c->dirty = 1;
+        }
+    }
+    if (!vertex_areas(c)) {
+        vertex_each_primitive(c);
+    }
+    c->count = c->made_count = 0;
+}
+
+OP(rect)
+{
+    static const uint8_t corner[4][2] = {{0, 1}, {2, 1}, {2, 3}, {0, 3}};
+    const gl_word mode[2] = {{.u = GL_POLYGON}, {.u = 0}};
+    gl_op_begin(c, mode);
+    for (int i = 0; i < 4 && c->is_inside; ++i) {
+        const float at[4] = {w[corner[i][0]].f, w[corner[i][1]].f, 0.0f, 1.0f};
+        gl_vertex_at(c, at);
+    }
+    if (c->is_inside) {
+        gl_op_end(c, NULL);
+    }
+}
+
+/* --- draw.h's state ----------------------------------------------------------------------------------------------- */
+
+void gl_window_place(const gl_context *c, const float clip[4], float out[3])
+{
+    const int32_t *b = c->s.viewport.box;
+    const float by = clip[3] != 0.0f ? 1.0f / clip[3] : 0.0f;
+    const float near = (float)c->s.viewport.range[0], far = (float)c->s.viewport.range[1];
+    out[0] = (float)b[0] + ((clip[0] * by) * 0.5f + 0.5f) * (float)b[2];
+    out[1] = (float)b[1] + ((clip[1] * by) * 0.5f + 0.5f) * (float)b[3];
+    out[2] = near + (far - near) * ((clip[2] * by) * 0.5f + 0.5f);
+}
+
+static uint8_t vertex_factor(GLenum f)
+{
+    return (uint8_t)(f == GL_ZERO   ? LMB_DRAW_ZERO
+                     : f == GL_ONE  ? LMB_DRAW_ONE
+                     : f >= GL_CONSTANT_COLOR ? (GLenum)LMB_DRAW_CONSTANT_COLOUR + f - GL_CONSTANT_COLOR
+                     : f == GL_SRC_ALPHA_SATURATE ? (GLenum)LMB_DRAW_SATURATE
+                     : f <= GL_ONE_MINUS_DST_ALPHA ? (GLenum)LMB_DRAW_SOURCE_COLOUR + f - GL_SRC_COLOR
+                                              : (GLenum)LMB_DRAW_TARGET_COLOUR + f - GL_DST_COLOR);
+}
+
+static uint8_t vertex_stencil_op(GLenum o)
+{
+    return (uint8_t)(o == GL_ZERO        ? LMB_DRAW_CLEAR
+                     : o == GL_REPLACE   ? LMB_DRAW_PUT
+                     : o == GL_INCR      ? LMB_DRAW_INCREASE
+                     : o == GL_DECR      ? LMB_DRAW_DECREASE
+                     : o == GL_INVERT    ? LMB_DRAW_INVERT
+                     : o == GL_INCR_WRAP ? LMB_DRAW_INCREASE_WRAP
+                     : o == GL_DECR_WRAP ? LMB_DRAW_DECREASE_WRAP
+                                         : LMB_DRAW_KEEP);
+}
+
+static uint8_t vertex_equation(GLenum e)
+{
+    return (uint8_t)(e == GL_MIN ? LMB_DRAW_MIN : e == GL_MAX ? LMB_DRAW_MAX : e == GL_FUNC_SUBTRACT ? LMB_DRAW_SUBTRACT
+                     : e == GL_FUNC_REVERSE_SUBTRACT ? LMB_DRAW_REVERSE_SUBTRACT : LMB_DRAW_ADD);
+}
+
+/* A truth table: bit 0 for source and target 1, bit 1 for source 1 only, bit 2 for target 1 only, bit 3 for none. */
+static uint8_t vertex_logic(GLenum op)
+{
+    static const uint8_t table[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return table[op - GL_CLEAR];
+}
+
+static void vertex_set_target(gl_context *c)
+{
+    lmb_draw_target *t = &c->target;
+    const gl_surface *s = &c->drawn;
+    memset(t, 0, sizeof *t);
+    if (s->colour != NULL) {
+        t->colour.data = s->colour;
+        t->colour.width = s->width;
+        t->colour.height = s->height;
+        t->colour.stride_bytes = s->stride * 4;
+        t->colour.format = s->swaps ? LMB_BGRA8 : LMB_RGBA8;
+        t->colour.layout = LMB_LINEAR;
+    }
+    if (s->depth != NULL) {
+        t->depth.data = s->depth;
+        t->depth.width = s->width;
+        t->depth.height = s->height;
+        t->depth.stride_bytes = s->depth_stride * 4;
+        t->depth.format = LMB_DEPTH32F;
+        t->depth.layout = LMB_LINEAR;
+    }
+    t->stencil = s->stencil;
+    t->stencil_stride = s->stencil_stride;
+}
+
+static void vertex_set_to_clip(gl_context *c)
+{
+    const float *p = c->projection.m[c->projection.top];
+    for (int k = 0; k < 4; ++k) { /* rows of memory go up; z from -w .. w to 0 .. w */
+        c->draw.to_clip.m[4 * k] = p[4 * k];
+        c->draw.to_clip.m[4 * k + 1] = -p[4 * k + 1];
+        c->draw.to_clip.m[4 * k + 2] = 0.5f * (p[4 * k + 2] + p[4 * k + 3]);
+        c->draw.to_clip.m[4 * k + 3] = p[4 * k + 3];
+    }
+}
+
+static void vertex_set_tests(gl_context *c, lmb_draw_state *d)
+{
+    const gl_state *s = &c->s;
+    d->flags = s->polygon.front_face == GL_CCW ? LMB_DRAW_CLOCKWISE : 0;
+    if (gl_is_on(c, CAP_DEPTH) && c->drawn.depth != NULL) {
+        d->flags |= LMB_DRAW_DEPTH_TEST | (s->depth.mask ? (uint32_t)LMB_DRAW_DEPTH_WRITE : 0);
+    }
+    if (gl_is_on(c, CAP_STENCIL) && c->drawn.stencil != NULL) {
+        d->flags |= LMB_DRAW_STENCIL;
+    }
+    d->flags |= s->lighting.shade == GL_FLAT ? LMB_DRAW_FLAT : 0;
+    d->flags |= gl_is_on(c, CAP_SCISSOR) ? LMB_DRAW_SCISSOR : 0;
+    d->flags |= gl_is_on(c, CAP_ALPHA_TEST) ? LMB_DRAW_ALPHA_TEST : 0;
+    d->flags |= gl_is_on(c, CAP_BLEND) ? LMB_DRAW_BLEND : 0;
+    d->flags |= gl_is_on(c, CAP_LOGIC) ? LMB_DRAW_LOGIC : 0;
+    if (gl_is_on(c, CAP_CULL)) {
+        d->flags |= s->polygon.cull != GL_BACK ? LMB_DRAW_CULL_FRONT : 0;
+        d->flags |= s->polygon.cull != GL_FRONT ? LMB_DRAW_CULL_BACK : 0;
+    }
+    d->depth_func = (uint8_t)gl_draw_func(s->depth.func);
+    d->alpha_func = (uint8_t)gl_draw_func(s->colour.alpha_func);
+    d->alpha_value = gl_code(s->colour.alpha_ref);
+    d->stencil_func = (uint8_t)gl_draw_func(s->stencil.func);
+    d->stencil_value = (uint8_t)s->stencil.ref;
+    d->stencil_mask = (uint8_t)s->stencil.mask;
+    d->stencil_write = (uint8_t)s->stencil.write;
+    d->stencil_op[0] = vertex_stencil_op(s->stencil.fail);
+    d->stencil_op[1] = vertex_stencil_op(s->stencil.zfail);
+    d->stencil_op[2] = vertex_stencil_op(s->stencil.zpass);
+    for (int i = 0; i < 2; ++i) {
+        d->blend_source[i] = vertex_factor(s->colour.blend[2 * i]);
+        d->blend_target[i] = vertex_factor(s->colour.blend[2 * i + 1]);
+        d->blend_equation[i] = vertex_equation(s->colour.equation[i]);
+    }
+    for (int i = 0; i < 4; ++i) {
+        d->blend_colour[i] = gl_code(s->colour.blend_colour[i]);
+        d->scissor[i] = clampi(s->scissor.box[i], i < 2 ? -2 * LMB_MAX_FRAME : 0, 2 * LMB_MAX_FRAME);
+    }
+    d->logic_op = vertex_logic(s->colour.logic);
+    d->colour_mask = (uint8_t)(s->colour.draw == GL_NONE ? 0 : s->colour.mask & (c->drawn.has_alpha ? 15u : 7u));
+}
+
+int gl_draw_func(GLenum f) { return (int)(f - GL_NEVER); }
+
+/* draw.h's own stage does: no shader. */
+static int vertex_is_plain(gl_context *c)
+{
+    const gl_state *s = &c->s;
+    const gl_unit *u = &s->texture.unit[0];
+    if (s->lighting.two || gl_is_on(c, CAP_POLYGON_STIPPLE) || gl_is_on(c, CAP_LINE_STIPPLE) ||
+        gl_is_on(c, CAP_COLOR_SUM) || (gl_is_on(c, CAP_LIGHTING) && s->lighting.separate) ||
+        (gl_is_on(c, CAP_FOG)) || gl_is_on(c, CAP_POINT_SPRITE)) {
+        return 0;
+    }
+    for (int i = 1; i < GL_UNITS; ++i) {
+        if (gl_unit_is_on(c, i)) {
+            return 0;
+        }
+    }
+    memset(&c->draw.stage[0], 0, sizeof c->draw.stage[0]);
+    if (!gl_unit_is_on(c, 0)) {
+        return 1;
+    }
+    const gl_texture *t = gl_unit_texture(c, 0);
+    const gl_image *image = t->target == TARGET_2D ? &t->image[0][t->base_level] : NULL;
+    if (image == NULL || image->border != 0 || (t->min_filter != GL_NEAREST && t->min_filter != GL_LINEAR) ||
+        t->min_filter != t->mag_filter || u->mode != GL_MODULATE || image->base == GL_DEPTH_COMPONENT) {
+        return 0;
+    }
+    for (int i = 0; i < 2; ++i) {
+        if (t->wrap[i] != GL_REPEAT && t->wrap[i] != GL_CLAMP_TO_EDGE && t->wrap[i] != GL_MIRRORED_REPEAT) {
+            return 0;
+        }
+    }
+    lmb_texture *d = &c->draw_texture;
+    memset(d, 0, sizeof *d);
+    d->texels = image->texels;
+    d->width = (uint16_t)image->width;
+    d->height = (uint16_t)image->height;
+    d->levels = 1;
+    d->filter = (uint8_t)(t->mag_filter == GL_NEAREST ? LMB_NEAREST : LMB_BILINEAR);
+    d->wrap_s = (uint8_t)(t->wrap[0] == GL_REPEAT          ? LMB_WRAP_REPEAT
+                          : t->wrap[0] == GL_CLAMP_TO_EDGE ? LMB_WRAP_CLAMP
+                                                           : LMB_WRAP_MIRROR);
+    d->wrap_t = (uint8_t)(t->wrap[1] == GL_REPEAT          ? LMB_WRAP_REPEAT
+                          : t->wrap[1] == GL_CLAMP_TO_EDGE ? LMB_WRAP_CLAMP
+                                                           : LMB_WRAP_MIRROR);
+    c->draw.stage[0].texture = d;
+    c->draw.stage[0].mode = LMB_DRAW_MODULATE;
+    return 1;
+}
+
+void gl_set_draw(gl_context *c)
+{
+    lmb_draw_state *d = &c->draw;
+    if (!c->dirty) {
+        return;
+    }
+    c->dirty = 0;
+    gl_find_surface(c, &c->drawn, c->framebuffer);
+    gl_find_textures(c);
+    vertex_set_target(c);
+    c->draws = c->s.viewport.box[2] > 0 && c->s.viewport.box[3] > 0 &&
+               (c->target.colour.data != NULL || c->target.depth.data != NULL);
+    if (!c->draws) {
+        return;
+    }
+    (void)lmb_draw_state_init(d, 1, 1);
+    vertex_set_to_clip(c);
+    for (int i = 0; i < 4; ++i) {
+        d->viewport[i] =
+            i < 2 ? clampi(c->s.viewport.box[i], -2 * LMB_MAX_FRAME, 2 * LMB_MAX_FRAME) : c->s.viewport.box[i];
+    }
+    d->depth_range[0] = (float)c->s.viewport.range[0];
+    d->depth_range[1] = (float)c->s.viewport.range[1];
+    for (int i = 0; i < GL_CLIP_PLANES; ++i) {
+        if (gl_is_on(c, CAP_CLIP + i)) {
+            d->planes |= (uint8_t)(1u << i);
+            for (int k = 0; k < 4; ++k) {
+                d->plane[i][k] = c->s.transform.plane[i][k];
+            }
+        }
+    }
+    vertex_set_tests(c, d);
+    if (gl_is_on(c, CAP_OFFSET_FILL)) {
+        d->offset_slope = c->s.polygon.factor;
+        d->offset_units = c->s.polygon.units;
+    }
+    c->shades = !vertex_is_plain(c);
+    if (c->shades) {
+        memset(&d->stage[0], 0, sizeof d->stage[0]);
+        d->shader = gl_shade_pixels;
+        d->flags |= gl_is_on(c, CAP_POLYGON_STIPPLE) || gl_is_on(c, CAP_LINE_STIPPLE) ? LMB_DRAW_DISCARDS : 0;
+    }
+    d->shader_user = c;
+    d->passed = c->query != NULL ? &c->query->passed : NULL;
+}
