@@ -25,15 +25,26 @@ void lmb_resolve_alpha_of(lmb_resolve_alpha *out, const lmb_triangle *t)
     out->texture = t->material->texture;
 }
 
+/* Alpha of level 0. Small builds share the code that samples colours. */
+static float alpha_of(const lmb_texture *t, float u, float v)
+{
+#if LMB_TREES
+    return lmb_texture_alpha(t, u, v);
+#else
+    float texel[4];
+    lmb_texture_sample(texel, t, u, v, 0.0f);
+    return texel[3];
+#endif
+}
+
 int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2)
 {
     b1 = clampf(b1, 0.0f, 1.0f);
     b2 = clampf(b2, 0.0f, 1.0f - b1);
-    float a = resolve_mix3(alpha->corner, b1, b2), texel[4];
+    float a = resolve_mix3(alpha->corner, b1, b2);
     if (alpha->texture >= 0) {
-        lmb_texture_sample(texel, &scene->textures[alpha->texture], resolve_mix3(alpha->u, b1, b2),
-                           resolve_mix3(alpha->v, b1, b2), 0.0f);
-        a *= texel[3];
+        a *= alpha_of(&scene->textures[alpha->texture], resolve_mix3(alpha->u, b1, b2),
+                      resolve_mix3(alpha->v, b1, b2));
     }
     return a >= alpha->cutoff;
 }

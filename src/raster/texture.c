@@ -82,8 +82,8 @@ static void add_texels(float out[4], const lmb_texture *t, const footprint *f, i
     }
 }
 
-/* One loop for both levels of a trilinear sample, with everything inlined: for masked triangles it runs at a deep level
- * of the stack. */
+/* One loop for both levels of a trilinear sample, with everything inlined: in small builds masked triangles call it at a
+ * deep level of the stack. */
 static void sample(float out[4], const lmb_texture *t, int32_t codes, float u, float v, float lod)
 {
     int32_t n = 0;
@@ -140,6 +140,16 @@ static int32_t alpha_at(const lmb_texture *t, const texel_level *from, int32_t x
 #else
     return from->texels[4 * at + 3];
 #endif
+}
+
+float lmb_texture_alpha(const lmb_texture *t, float u, float v)
+{
+    const footprint f = find_texels(t, 0, u, v, 1.0f);
+    float out = 0.0f;
+    for (int k = 0; k < f.count; ++k) {
+        out += f.share[k] * ((float)alpha_at(t, &f.from, f.x + (k & 1), f.y + (k >> 1)) * (1.0f / 255.0f));
+    }
+    return out;
 }
 
 int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float high[2], float cutoff, uint32_t *texels)

@@ -9,6 +9,9 @@
 /* Linear R G B and alpha at (u, v), lod in levels (0: base; trilinear only). A non-finite coordinate reads (0, 0). */
 void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, float lod);
 
+/* Alpha of level 0: the bytes of lmb_texture_sample, without the colours. */
+float lmb_texture_alpha(const lmb_texture *t, float u, float v);
+
 /* 1 if every sample of level 0 from low to high, (u, v) each, has less alpha than `cutoff`. 0 also if the answer needs
  * more than *texels texels. *texels is reduced by the texels that were read. */
 int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float high[2], float cutoff, uint32_t *texels);

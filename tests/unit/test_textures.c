@@ -164,17 +164,21 @@ static void test_against_double(void)
         const int *side = sides[variant / 27];
         int filter = variant / 9 % 3, levels = filter == LMB_TRILINEAR ? lmb_texture_level_count(side[0], side[1]) : 1;
         double worst = 0;
+        int same = 0;
         set_texture(side[0], side[1], levels, variant % 3, variant / 3 % 3, filter);
         for (int n = 0; n < tries(40, 200); ++n) {
             float u = random_coordinate(&r, filter == LMB_NEAREST, side[0]);
             float v = random_coordinate(&r, filter == LMB_NEAREST, side[1]);
             float lod = test_uniform(&r, -1.0f, 7.0f), out[4];
+            lmb_texture_sample(out, &texture, u, v, 0.0f);
+            same += lmb_texture_alpha(&texture, u, v) == out[3];
             lmb_texture_sample(out, &texture, u, v, lod);
             for (int c = 0; c < 4; ++c) {
                 worst = fmax(worst, fabs((double)out[c] - sample_value((double)u, (double)v, (double)lod, c)));
             }
         }
         CHECK_MSG(worst < 1e-5, "variant %d: %g", variant, worst);
+        CHECK_MSG(same == tries(40, 200), "variant %d: %d alphas are those of samples with colours", variant, same);
     }
 }
 
