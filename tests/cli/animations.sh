@@ -9,7 +9,7 @@ for move in light camera object all; do
     check "an animation moves --move $move, the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' \
         sh play alone
 done
-status 0 render moving.gltf --size 32x24 --quality draft --gather live --light point:0.5,2,0.4:0,0,-1:4,4,4 -o rendered.pfm
+status 0 render moving.gltf --size 32x24 --quality draft --light point:0.5,2,0.4:0,0,-1:4,4,4 -o rendered.pfm
 status 0 play moving.gltf --size 32x24 --quality draft --move light --fps 1 --from 1 --frames 1 -o alone_%02d.pfm
 check "an animated light lights as one that was put there" cmp -s rendered.pfm alone_01.pfm
 status 0 bake moving.gltf -o moving.lmt --elements 64 --receivers 64

@@ -58,7 +58,6 @@ typedef struct render_options {
     int32_t many_lights_cells; /* 0: only where the scene has too many lights for maps */
     float light_error;
     int32_t gather_step; /* LMB_GATHER_*; 0: default */
-    int32_t is_moving;   /* many frames of one scene: set by `play` */
     int32_t samples;     /* a pixel; 0: by the output's format */
     int glossy;          /* materials get their lobe */
     int32_t exposure_auto;
