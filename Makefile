@@ -63,7 +63,8 @@ HEADERS  := $(sort $(wildcard include/lambent/*.h))
 HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c limit.c)
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c),$(wildcard tools/*/*.c))) $(HOST_SRC)
 # Unit tests that take over a second each are a group of their own, which `make check` leaves out.
-SLOW_TESTS := adaptive gltf mix mix_cones mix_front mix_sources mix_stays relief_light relief_ornate transfer
+SLOW_TESTS := adaptive bounce cut frame_init frames glossy gltf mix mix_cones mix_front mix_sources mix_stays multisample \
+              occlusion relief_light relief_ornate room_edges transfer tree zeros
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))
@@ -239,7 +240,7 @@ $(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0 $(if $(findstring -fsani
 
 # The code of most tests is compiled at -O0, in a third of the time of -O2, because it has few loops; CFLAGS hold for the
 # code under test. TEST_CFLAGS= compiles all as CFLAGS say.
-LOOPING := $(SLOW_TESTS) bounce cut frames glossy live map_picture multisample occlusion tree
+LOOPING := $(SLOW_TESTS) live map_picture
 ifeq ($(PORT),host)
 TEST_CFLAGS ?= -O0
 $(call object,$(filter-out $(LOOPING:%=tests/unit/test_%.c),$(wildcard tests/unit/*.c)) $(wildcard tests/fuzz/*.c)): \
@@ -333,8 +334,8 @@ FORCE:
 # The checks of `make check`, and those that only `make check-all` adds; the longest first, because the checks that run
 # beside them fill the second core.
 QUICK_CHECKS := unit lanes golden analytic truth-small hostile layers words headers contracts slivers tables symbols \
-                replay stack own
-SLOW_CHECKS  := cli truth hard one-command links page-links golden-orders slow tiny guard package audit examples-tiny \
+                replay stack
+SLOW_CHECKS  := cli truth hard own one-command links page-links golden-orders slow tiny guard package audit examples-tiny \
                 statue live hostile-cli layout examples no-float readme tool-setup
 CHECKS ?= $(QUICK_CHECKS)
 NEEDS  :=
