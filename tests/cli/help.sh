@@ -8,7 +8,7 @@ for ask in --help "render --help" "compare --help" "info --help" "bench --help";
     status 0 $ask
     check "lambent $ask says something, once" test "$(grep -c '^usage:' out.txt)" -eq 1
 done
-for verb in render play capture relight relief "relief bake" "relief render" mix pack merge plan compare info bench "bench raster" "bench draw" "bench gather" \
+for verb in render play capture explain relight relief "relief bake" "relief render" mix pack merge plan compare info bench "bench raster" "bench draw" "bench gather" \
     "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix" doctor; do
     status 0 $verb -V
     check "lambent $verb -V is the version" grep -q '^lambent [0-9.]*$' out.txt

@@ -17,6 +17,7 @@
 #include "verb_doctor.h"
 #include "verb_info.h"
 #include "verb_merge.h"
+#include "../explain/verb_explain.h"
 #include "../mix/verb_mix.h"
 #include "../pack/verb_pack.h"
 #include "verb_plan.h"
@@ -40,6 +41,8 @@ static const struct verb {
     {"relight", verb_relight, "relight --world WORLD", "light at a place of a world seen from another, as a cube map"},
     {"relief", verb_relief, "relief bake|render", "a complex model as a simple one that carries its surface"},
     {"mix", verb_mix, "mix --frame PREFIX", "a virtual object in one photo with depth"},
+    {"explain", verb_explain, "explain SCENE --pixel X,Y",
+     "why a pixel is as bright as it is: surface, lights, what blocks them, bounced light"},
     {"plan", verb_plan, "plan SCENE", "what a picture takes and does without, why, work and memory"},
     {"compare", verb_compare, "compare A B", "error figures of a picture against a reference"},
     {"info", verb_info, "info FILE", "what is in a scene or a picture"},

@@ -1,0 +1,91 @@
+# explain.sh: explain: the surface of a pixel, what blocks its lights, and light that rays find against the picture's.
+. tests/cli/common.sh
+
+# The demo: a spot, and one bounce. The rays know nothing of the picture's method, so both agree only if both are right.
+# agrees WHAT PERCENT: the third and fifth colours of out.txt, traced and in the picture, differ by at most so much.
+agrees() {
+    awk -v most="$2" '
+        /before the albedo/ { for (i = 1; i <= 3; ++i) picture[i] = $i }
+        /^lights/ { light = 1 }
+        /^light of one bounce/ { light = 0 }
+        / sky: / { sky = 1 }
+        / traced / && light { for (i = 1; i <= 3; ++i) at_once[i] = $(i + 1) }
+        /^  0 sun/ { split($0, part, ": "); split(part[2], sun, "[ ,]") }
+        / traced / && !light { for (i = 1; i <= 3; ++i) traced[i] = $(i + 1) }
+        END {
+            for (i = 1; i <= 3; ++i) {
+                want = traced[i] + (sky ? at_once[i] - (lit ? sun[i] : 0) : 0)
+                if (picture[i] == "" || !(want > 0)) bad = 1
+                off = picture[i] - want
+                if (off < 0) off = -off
+                if (off > most / 100 * want) { print picture[i], want; bad = 1 }
+            }
+            exit bad
+        }' "$1"
+}
+for pixel in 80,90 20,60 100,30 140,100; do
+    status 0 explain demo --size 160x120 --pixel $pixel
+    check "demo $pixel: a picture's bounced light is what rays find" agrees out.txt 6
+done
+status 0 explain demo --size 160x120 --pixel 80,90
+check "its surface" holds "triangle 1 of instance 12, material 4" out.txt
+check "its light is seen" lacks ', blocked' out.txt
+
+# A floor of 2 x 2 m below a shelf, which keeps the light from the floor's middle.
+cat >shelf.obj <<'OBJ'
+mtllib shelf.mtl
+v -1 0 -1
+v -1 0 1
+v 1 0 1
+v 1 0 -1
+v -0.2 0.5 -0.2
+v -0.2 0.5 0.2
+v 0.2 0.5 0.2
+v 0.2 0.5 -0.2
+usemtl floor
+f 1 2 3 4
+usemtl shelf
+f 5 6 7 8
+OBJ
+printf 'newmtl floor\nKd 0.5 0.5 0.5\nnewmtl shelf\nKd 0.2 0.6 0.2\n' >shelf.mtl
+above="--eye 0,0.4,1.5 --target 0,0,0 --size 64x64 --light point:0,1,0:0,-1,0:3,3,3"
+status 0 explain shelf.obj $above --pixel 32,32
+check "the floor" holds 'of instance 0, material "floor"' out.txt
+check "is named, and so is what blocks its light" holds 'blocked 0.5' out.txt
+check "by its material" holds 'of instance 1, material "shelf"' out.txt
+check "no light comes at once" holds "direct       0 0 0" out.txt
+status 0 explain shelf.obj $above --pixel 32,50
+check "light beside the shelf" lacks ', blocked' out.txt
+# 3 W/sr, the cosine, and the squared distance.
+check "is the cosine over the squared distance" awk '
+    / position / { d = $2 * $2 + ($3 - 1) * ($3 - 1) + $4 * $4; want = 3 * (1 - $3) / (d * sqrt(d)) }
+    /^  0 point/ { n = split($0, part, " "); got = part[n]; ok = got > 0.998 * want && got < 1.002 * want }
+    END { exit !ok }' out.txt
+status 0 explain shelf.obj $above --pixel 0,0
+check "a pixel without a surface" holds "none: the pixel shows the background" out.txt
+
+# A sky: what the lights' pieces bring, past what blocks them, with one bounce more.
+status 0 explain shelf.obj --eye 0,0.4,1.5 --target 0,0,0 --size 64x64 --world sky --quality best --pixel 32,50
+check "a sky's light" holds "sky: " out.txt
+
+# Names with control characters reach no terminal.
+cat >named.gltf <<'GLTF'
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":"a\u001b[31mred"}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"materials":[{"name":"stone","doubleSided":true}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,0,1]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIA/"}]}
+GLTF
+status 0 explain named.gltf --size 32x32 --eye 0.3,1,0.3 --target 0.3,0,0.29 --light point:0.3,1,0.3:0,-1,0:1,1,1 --pixel 16,16
+check "names of nodes and materials" holds 'material "stone"' out.txt
+check "without control characters" sh -c '! grep -q "$(printf "\\033")" out.txt'
+
+status 2 explain demo
+said "no pixel given; add --pixel X,Y"
+status 2 explain demo --pixel 1
+said "--pixel: \`1\` is not two numbers from 0"
+status 2 explain demo --pixel -1,2
+status 2 explain demo --size 32x24 --pixel 32,0
+said "--pixel 32,0: the picture has 32 x 24 pixels"
+status 1 explain nowhere.obj --pixel 0,0
+finish

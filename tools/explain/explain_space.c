@@ -1,0 +1,111 @@
+/* explain_space.c: the nearest triangle on a ray, by the library's BVH. */
+#include "explain.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+int explain_space_make(explain_space *s, const lmb_scene *scene, const lmb_kernels *kernels, report *r)
+{
+    const uint32_t triangles = lmb_scene_triangles(scene);
+    const size_t bytes = lmb_bvh_bytes(triangles > 0 ? triangles : 1);
+    memset(s, 0, sizeof *s);
+    s->scene = scene;
+    s->kernels = kernels;
+    s->tile = calloc(1, sizeof *s->tile);
+    s->memory = malloc(bytes > 0 ? bytes : 1);
+    const int fits = s->tile != NULL && s->memory != NULL && bytes > 0 &&
+                     lmb_bvh_init(&s->bvh, triangles > 0 ? triangles : 1, s->memory, bytes) == LMB_OK &&
+                     lmb_bvh_build(&s->bvh, scene) == LMB_OK;
+    s->stack = fits ? malloc((s->bvh.node_count + 1) * sizeof *s->stack) : NULL;
+    if (s->stack == NULL) {
+        explain_space_free(s);
+        return report_fail(r, "not enough memory to trace the scene");
+    }
+    return 1;
+}
+
+void explain_space_free(explain_space *s)
+{
+    free(s->tile);
+    free(s->memory);
+    free(s->stack);
+    memset(s, 0, sizeof *s);
+}
+
+/* Distance of a crossing, or 0. Doubles, because the exactness rules of the library do not apply to this report. */
+static double crossing(const lmb_bvh_triangle *t, const double from[3], const double along[3], double noise)
+{
+    double edge[2][3], to[3], p[3], q[3];
+    const double corner[3][3] = {{(double)t->corner[0].x, (double)t->corner[0].y, (double)t->corner[0].z},
+                                 {(double)t->corner[1].x, (double)t->corner[1].y, (double)t->corner[1].z},
+                                 {(double)t->corner[2].x, (double)t->corner[2].y, (double)t->corner[2].z}};
+    const double normal[3] = {(double)t->normal.x, (double)t->normal.y, (double)t->normal.z};
+    for (int c = 0; c < 3; ++c) {
+        edge[0][c] = corner[1][c] - corner[0][c];
+        edge[1][c] = corner[2][c] - corner[0][c];
+        to[c] = from[c] - corner[0][c];
+    }
+    if (fabs(to[0] * normal[0] + to[1] * normal[1] + to[2] * normal[2]) <= noise) {
+        return 0.0;
+    }
+    for (int c = 0; c < 3; ++c) {
+        const int a = (c + 1) % 3, b = (c + 2) % 3;
+        p[c] = along[a] * edge[1][b] - along[b] * edge[1][a];
+        q[c] = to[a] * edge[0][b] - to[b] * edge[0][a];
+    }
+    const double det = edge[0][0] * p[0] + edge[0][1] * p[1] + edge[0][2] * p[2];
+    const double u = to[0] * p[0] + to[1] * p[1] + to[2] * p[2];
+    const double v = along[0] * q[0] + along[1] * q[1] + along[2] * q[2];
+    const double far_m = edge[1][0] * q[0] + edge[1][1] * q[1] + edge[1][2] * q[2];
+    const double sign = det < 0.0 ? -1.0 : 1.0;
+    const int is_inside = det != 0.0 && sign * u >= 0.0 && sign * v >= 0.0 && sign * (u + v) <= sign * det;
+    return is_inside && far_m / det > 0.0 ? far_m / det : 0.0;
+}
+
+static int meets_box(const lmb_boxes *b, int k, const double from[3], const double along[3], double reach)
+{
+    double low = 0.0, high = reach;
+    for (int c = 0; c < 3; ++c) {
+        const double l = (double)b->low[c][k] - from[c], h = (double)b->high[c][k] - from[c];
+        if (along[c] == 0.0) {
+            if (l > 0.0 || h < 0.0) {
+                return 0;
+            }
+            continue;
+        }
+        const double a = l / along[c], z = h / along[c];
+        low = fmax(low, fmin(a, z));
+        high = fmin(high, fmax(a, z));
+    }
+    return low <= high;
+}
+
+uint32_t explain_nearest(float *far_m, explain_space *s, lmb_vec3 origin, lmb_vec3 way, float noise, float reach_m)
+{
+    const double from[3] = {(double)origin.x, (double)origin.y, (double)origin.z};
+    const double along[3] = {(double)way.x, (double)way.y, (double)way.z};
+    double reach = (double)reach_m;
+    uint32_t found = 0, count = s->bvh.node_count > 0;
+    s->stack[0] = 0;
+    while (count > 0) {
+        const lmb_boxes *b = &s->bvh.node[s->stack[--count]];
+        for (int k = 0; k < LMB_BOXES; ++k) {
+            if (b->low[0][k] > b->high[0][k] || !meets_box(b, k, from, along, reach)) {
+                continue;
+            }
+            if (b->count[k] == 0) {
+                s->stack[count++] = b->first[k];
+            }
+            for (uint32_t i = 0; i < b->count[k]; ++i) {
+                const double at = crossing(&s->bvh.triangle[b->first[k] + i], from, along, (double)noise);
+                if (at > 0.0 && at < reach) {
+                    reach = at;
+                    found = b->first[k] + i + 1;
+                }
+            }
+        }
+    }
+    *far_m = (float)reach;
+    return found;
+}
