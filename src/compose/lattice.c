@@ -560,7 +560,7 @@ void lmb_lattice_fill(const lmb_lattice *l, int32_t window)
     }
 }
 
-/* --- what no corner explains -------------------------------------------------------------------------------------- */
+/* --- pixels that no corner explains ------------------------------------------------------------------------------- */
 
 /* Tile columns and rows of a window. */
 typedef struct window {

@@ -82,7 +82,7 @@ void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes)
     }
 }
 
-/* --- samples that are asked for ----------------------------------------------------------------------------------- */
+/* --- requested samples -------------------------------------------------------------------------------------------- */
 
 /* Samples that a tile's own cell requests: a mask of 5 x 5 samples, including the right and lower edges. */
 static uint32_t asks_of(const live_grid_tile *t, int32_t level)

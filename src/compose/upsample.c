@@ -20,7 +20,7 @@ static const grid quarter = {2, {0, 7, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
 
 static const grid *grid_of(int32_t step) { return step == 2 ? &half : step == 4 ? &quarter : NULL; }
 
-/* --- a pixel between its samples ---------------------------------------------------------------------------------- */
+/* --- a pixel between samples -------------------------------------------------------------------------------------- */
 
 #define ALIKE    0.90f /* min cosine between the normals of a pixel and a sample */
 #define FLAT     0.3f  /* max height over the other's plane, as a share of the distance */

@@ -41,7 +41,7 @@ static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, int32_
     return status;
 }
 
-/* --- packs: wanted pixels of one surface, gathered as a tile ------------------------------------------------------- */
+/* --- packs: wanted pixels of one surface, gathered as a tile ------------------------------------------------------ */
 
 /* Tile i of a window in Morton order, in which consecutive tiles are near each other. */
 static lmb_lattice_tile *tile_along(const lmb_lattice *l, const int32_t column[2], const int32_t row[2], int32_t i)

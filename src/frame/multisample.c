@@ -48,7 +48,7 @@ lmb_status lmb_multisample_draw(const lmb_render *r, lmb_band_scratch *s, int32_
     return status;
 }
 
-/* --- bounced light of a sample: that of its surface where it is known nearby --------------------------------------- */
+/* --- bounced light of a sample, taken from the same surface nearby ------------------------------------------------ */
 
 /* Does pixel j of tile b continue the surface at pixel i of tile a? */
 static int is_same_surface(const lmb_tile *a, int i, const lmb_tile *b, int j)
@@ -142,7 +142,7 @@ static lmb_status find_light(const lmb_render *r, lmb_band_scratch *s)
     return left != 0 ? gather_left(r, s, left) : LMB_OK;
 }
 
-/* --- a tile --------------------------------------------------------------------------------------------------------- */
+/* --- a tile ------------------------------------------------------------------------------------------------------- */
 
 /* Adds the bounced light that lobes reflect, if a pixel's middle shows the sample's surface. */
 static void add_lobes(lmb_glossy *inout, const lmb_multisample *m)

@@ -70,7 +70,7 @@
 
 static inline int32_t band_count(const lmb_view *v) { return (v->frame_height + LMB_TILE - 1) / LMB_TILE; }
 
-/* --- is it valid? ------------------------------------------------------------------------------------------------- */
+/* --- checks ------------------------------------------------------------------------------------------------------- */
 
 lmb_status lmb_render_check(const lmb_frame *frame);
 
@@ -80,7 +80,7 @@ void lmb_render_defaults(lmb_frame *frame);
 /* lmb_render_check_out: checks the picture's surface, which you may set to the whole frame or to one band. */
 lmb_status lmb_render_check_out(const lmb_surface *out, const lmb_view *view);
 
-/* --- what is left out, what is kept ------------------------------------------------------------------------------ */
+/* --- skipping ---------------------------------------------------------------------------------------------------- */
 
 /* lmb_render_skip: at the start of a frame, sets r->skips, light_state and the revisions. Clears the faces in
  * r->maps.drawn that the scene's box does not meet, and is_glossy and emits if no drawn material is. */
@@ -130,7 +130,7 @@ lmb_status lmb_render_live_tile(lmb_irradiance *out, const lmb_render *r, lmb_ba
 /* LMB_STAGE_BANDS. */
 lmb_status lmb_render_bands(lmb_render *r, int32_t units);
 
-/* --- of a band ---------------------------------------------------------------------------------------------------- */
+/* --- parts of a band ---------------------------------------------------------------------------------------------- */
 
 /* Finds the depth and ids of a band: in the whole frame's eye, or drawn now into the first rows of a smaller one.
  * lmb_render_view_strip: the same for frame.eye if you take the bands in order; the first band of a strip draws the
@@ -149,7 +149,7 @@ lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_s
 lmb_status lmb_render_radiance(const lmb_render *r, const lmb_glossy *glossy, lmb_band_scratch *scratch,
                                const lmb_tile *tile, const lmb_view *view, const lmb_irradiance *indirect);
 
-/* --- several samples a pixel --------------------------------------------------------------------------------------- */
+/* --- several samples a pixel -------------------------------------------------------------------------------------- */
 
 /* Do frame and scratch have the memory that frame.samples needs? LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_multisample_check(const lmb_frame *f, const lmb_band_scratch *scratch);

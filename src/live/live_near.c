@@ -63,7 +63,7 @@ int lmb_live_place(lmb_vec3 *out, const live_plane *p, const lmb_view *view, flo
     return 1;
 }
 
-/* --- chunks of what is near --------------------------------------------------------------------------------------- */
+/* --- near chunks -------------------------------------------------------------------------------------------------- */
 
 /* Number of nodes that can still be stored. */
 static int32_t room(const lmb_live_scratch *s)

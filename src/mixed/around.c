@@ -127,7 +127,7 @@ size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uin
     return n;
 }
 
-/* --- light that comes again --------------------------------------------------------------------------------------- */
+/* --- reflected light ---------------------------------------------------------------------------------------------- */
 
 static void put_point(lmb_tile *tile, int32_t k, const lmb_texel *from)
 {

@@ -75,7 +75,7 @@ lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int
     return LMB_OK;
 }
 
-/* --- coarse questions --------------------------------------------------------------------------------------------- */
+/* --- irradiance --------------------------------------------------------------------------------------------------- */
 
 void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal)
 {

@@ -10,7 +10,7 @@ enum { NEAR_PX = 8, SPECK = 12 };
 
 static const int32_t step_x[4] = {-1, 1, 0, 0}, step_y[4] = {0, 0, -1, 1};
 
-/* --- whose pixel -------------------------------------------------------------------------------------------------- */
+/* --- the plane of each pixel -------------------------------------------------------------------------------------- */
 
 /* Of a pixel's plane and the planes a few pixels away, returns the one with the best fit. Regions grow across edges as
  * far as noise allows. */

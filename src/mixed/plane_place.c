@@ -77,7 +77,7 @@ int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole
     return 1;
 }
 
-/* --- a place to stand --------------------------------------------------------------------------------------------- */
+/* --- the position ------------------------------------------------------------------------------------------------- */
 
 /* An upright object to be placed. */
 typedef struct standing {

@@ -182,7 +182,7 @@ static void spread(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pixels)
     }
 }
 
-/* --- what is mirrored, and what is behind ------------------------------------------------------------------------- */
+/* --- reflections and background ----------------------------------------------------------------------------------- */
 
 lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, const lmb_kernels *kernels, lmb_probe_rays *scratch,
                                  const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,

@@ -77,7 +77,7 @@ lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, const lmb_kernels *
     return LMB_OK;
 }
 
-/* --- what is lit -------------------------------------------------------------------------------------------------- */
+/* --- the shadow test ---------------------------------------------------------------------------------------------- */
 
 /* A point in one face of a map. */
 typedef struct receiver {

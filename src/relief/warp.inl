@@ -294,7 +294,7 @@ static inline void relief_lookup_at(relief_lookup *out, const lmb_relief_job *jo
     }
 }
 
-/* --- which views -------------------------------------------------------------------------------------------------- */
+/* --- choice of views ---------------------------------------------------------------------------------------------- */
 
 /* The three best values so far. */
 typedef struct relief_best {
@@ -376,7 +376,7 @@ static void KERNEL(relief_rank)(uint8_t votes[LMB_RELIEF_VIEWS], const lmb_tile 
     }
 }
 
-/* --- the way along the ray ---------------------------------------------------------------------------------------- */
+/* --- advancing along the ray -------------------------------------------------------------------------------------- */
 
 /* The result of a ray's last lookup. */
 typedef struct relief_found {

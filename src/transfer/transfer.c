@@ -26,7 +26,7 @@ static float as_float(uint32_t word)
 
 static int is_scale(uint32_t word) { return as_float(word) >= 0.0f && as_float(word) < 1e30f; }
 
-/* --- what words may say ------------------------------------------------------------------------------------------- */
+/* --- checks of words ---------------------------------------------------------------------------------------------- */
 
 /* Children lie behind their parent, two in a row, so every descent ends. Leaves name one of `places`. */
 static int are_halvings(const lmb_transfer *t, int section, uint32_t places)

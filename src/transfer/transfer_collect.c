@@ -155,7 +155,7 @@ static uint32_t cell_id(const collection *c, int32_t x, int32_t y, int32_t colum
     return id_in(c, ids_at(c, at, texel_of(c, (c->first[1] + y) * c->cells + row)), at % LMB_TILE);
 }
 
-/* --- a triangle's light down its halvings ------------------------------------------------------------------------- */
+/* --- a triangle's light on the way down the halvings -------------------------------------------------------------- */
 
 static void add_light(const collection *c, uint32_t element, int32_t sum)
 {

@@ -11,7 +11,7 @@
 enum { LEVELS = 8 }; /* 4^7 elements */
 enum { SEND_ALL = LMB_TRANSFER_SEND_RECEIVED + 1 };
 
-/* --- what an element sends ---------------------------------------------------------------------------------------- */
+/* --- light that an element sends ---------------------------------------------------------------------------------- */
 
 /* Iterates over elements and the coarse element that contains each. */
 typedef struct cursor {
