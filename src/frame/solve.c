@@ -340,7 +340,7 @@ lmb_status lmb_render_solve(lmb_render *r, int32_t units)
 
 /* --- in parts ----------------------------------------------------------------------------------------------------- */
 
-/* Tile rows of a light's map that must be drawn. */
+/* Tile rows of a light's shadow map that must be drawn. */
 static int64_t rows_of(const lmb_render *r, uint32_t light)
 {
     const int64_t rows = r->frame.shadow_map / LMB_TILE;

@@ -15,7 +15,7 @@
 
 #define FEW 4             /* up to this many segments are tested against boxes one by one */
 #define MUCH 2            /* a triangle that blocks this many segments is remembered */
-#define END 1.00001000f   /* 1 / .99999: blockers beyond .99999 of a segment do not count */
+#define END 1.00001000f   /* 1 / .99999: triangles beyond .99999 of a segment do not block it */
 
 typedef struct traversal {
     const lmb_kernels *kernels;

@@ -1,5 +1,4 @@
-/* halvings.h: a triangle halved repeatedly: from a point on the triangle to the piece that contains the point. Layer
- * 9. */
+/* halvings.h: a triangle halved repeatedly: from a point on the triangle to the piece that contains it. Layer 9. */
 #ifndef LMB_TRANSFER_HALVINGS_H
 #define LMB_TRANSFER_HALVINGS_H
 
