@@ -206,7 +206,7 @@ static lmb_status place_elements(lmb_frame *f, const lmb_frame_settings *s, bloc
     return bytes == 0 ? LMB_ERR_ARG : is_measured(b) ? LMB_OK : lmb_elements_init(&f->elements, n, memory, bytes);
 }
 
-/* Places a tree as fine as the settings request. One node texel covers 1 x 1 to 8 x 8 texels of the maps. */
+/* Places a tree as fine as the settings request. A texel of the tree covers 1 x 1 to 8 x 8 texels of the maps. */
 static lmb_status place_tree(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const uint32_t lit = map_faces(f->scene), faces = lit > 0 ? lit : 1;

@@ -68,7 +68,7 @@ static lmb_live_sample sample_of(const lmb_tile *tile, int k)
     return s;
 }
 
-/* Lights the samples `asked` of the current tile. */
+/* Lights the requested samples of the current tile. */
 NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, uint32_t asked)
 {
     live_grid_tile *t = grid_tile(g, s->tile.x / LMB_TILE, s->tile.y / LMB_TILE);

@@ -69,7 +69,7 @@ static void take_light(lmb_irradiance *out, int to, const lmb_irradiance *in, in
     }
 }
 
-/* The pixel whose middle shows the surface of the sample in pixel k: k, a neighbour, or -1. */
+/* The pixel with the surface of the sample in pixel k at its middle: k, a neighbour, or -1. */
 static int find_middle(const lmb_tile *middle, const lmb_tile *sample, int k)
 {
     static const int8_t near[9][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};

@@ -251,7 +251,7 @@ static void into_quarter(lmb_vec3 corner[3], uint32_t quarter)
 
 /* Stores the sixteen parts of an element's part: a quarter's quarters. Each two bits of `part` select a quarter, the
  * last ones first. Returns 0 if the element has no shape. Segments go to the element's middle, where it receives light,
- * because the shape may continue behind a wall that stands on it. */
+ * because the shape may continue behind a wall on the element. */
 static int put_quarters(lmb_live_scratch *s, const lmb_live *live, uint32_t point, uint32_t part,
                         const lmb_live_chunk *whole, uint32_t lane)
 {

@@ -10,7 +10,7 @@
 #include "../map/footprint.h"
 #include "../map/texel.h"
 
-/* Returns the rays `asked` of scratch->rays that something blocks. */
+/* Returns the mask of requested rays in scratch->rays that something blocks. */
 uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_bvh *bvh,
                           const lmb_live_receiver *receiver, uint64_t asked);
 
@@ -50,8 +50,8 @@ float lmb_live_reach2(const lmb_live *live, const lmb_live_point *p);
 /* Is a point indivisible? */
 int lmb_live_is_whole(const lmb_live *live, const lmb_live_point *p);
 
-/* Share of a node's area that is added to the squared distance. Parts of a node are not all as near as the middle, so
- * the share is smaller if parts follow. */
+/* Share of a node's area in A, which damps near light (see live_nodes). Parts of a node are not all as near as the
+ * middle, so a node with parts has this smaller share. */
 #define LIVE_DISC 0.25f
 
 static inline float live_power(const float flux[3]) { return (flux[0] + flux[1] + flux[2]) * (1.0f / 3.0f); }

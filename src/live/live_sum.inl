@@ -274,7 +274,7 @@ static void KERNEL(live_share)(float all[3], float some[3], const lmb_live_rays 
     }
 }
 
-/* Of the rays `asked`, sets those that meet each of a node's boxes. */
+/* Sets the requested rays that meet each of a node's boxes. */
 static void KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *s, uint64_t asked, const lmb_boxes *boxes)
 {
     float low[3][LMB_BOXES], high[3][LMB_BOXES];
@@ -303,7 +303,7 @@ static void KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *s, u
     }
 }
 
-/* Of the rays `asked`, returns those that cross a triangle. */
+/* Returns the requested rays that cross a triangle. */
 static uint64_t KERNEL(live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job)
 {
     const lane3 n = lane3_of(job->normal);

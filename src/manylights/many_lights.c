@@ -45,7 +45,7 @@ static int is_box(lmb_vec3 low, lmb_vec3 high)
            is_sane(high.z) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
 }
 
-/* The smallest power of two from max / 2^60 up: intensities may exceed `max` four times before they exceed 2^62. */
+/* The smallest power of two from max / 2^60 up: a sum may reach 4 max before it exceeds 2^62 quanta. */
 static float quantum_of(float max)
 {
     float q = 0x1p-120f;

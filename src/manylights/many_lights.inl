@@ -13,7 +13,7 @@ static inline lane3 many_load3(const lmb_many_lights *many_lights, uint32_t plan
 /* Cosines under a millionth count as 0. Since lights have at least 2^-60 W/sr, products are then never denormal. */
 static inline lane many_cosine(lane c) { return lane_keep(lane_lt(lane_splat(0x1p-20f), c), c); }
 
-#define MANY_SOME 0x1p-60f /* factors whose product would not be a normal number count as 0 */
+#define MANY_SOME 0x1p-60f /* factors with a product below normal numbers count as 0 */
 
 /* Cosine of the sum of two angles, each given as cosine and sine; -1 if the sum exceeds half a turn. */
 static inline lane many_sum_cosine(lane c1, lane s1, lane c2, lane s2)

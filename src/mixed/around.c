@@ -64,7 +64,7 @@ static void albedo_at(float out[3], const lmb_triangle *t, const lmb_scene *scen
     }
 }
 
-/* A triangle in n x n congruent parts: part (i, j) stands upright if i + j < n, otherwise upside down. */
+/* A triangle in n x n congruent parts: part (i, j) is upright if i + j < n, otherwise upside down. */
 typedef struct parts {
     const lmb_triangle *triangle;
     const lmb_scene *scene;

@@ -143,7 +143,7 @@ static void add_change(float facets[LMB_TILE_PIXELS], float all[LMB_TILE_PIXELS]
 }
 
 /* A pixel with several facets shows only one of them. The reflection of all is estimated as the mean over surrounding
- * pixels, whose normals are samples of the facets. The mean counts to the extent that normals jump between facets
+ * pixels: their normals are samples of the facets. The mean counts to the extent that normals jump between facets
  * instead of bending smoothly. */
 static void spread(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pixels)
 {

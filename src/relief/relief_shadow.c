@@ -14,7 +14,7 @@
 
 #if LMB_RELIEF
 
-#define SLACK   1.0f  /* texels that a lit receiver may lie behind the surface in the map */
+#define SLACK   1.0f  /* max texels of a lit receiver behind the surface in the map */
 #define STEEP   4.0f  /* max texels by which a receiver's plane is extrapolated */
 #define EDGE_ON 1e-3f
 

@@ -550,7 +550,7 @@ static inline void relief_clear(relief_found *f)
     f->candidate = f->codes = f->normal = lane3_splat(0.0f, 0.0f, 0.0f);
 }
 
-/* Adds to `f` the pixels `asked` of view i; `look` is the view's lookup at the points that the rays have reached. */
+/* Adds to `f` the requested pixels of view i; `look` is the view's lookup at the points that the rays have reached. */
 NOINLINE void relief_hear(relief_found *f, const relief_way *w, const lmb_relief_job *job, int32_t i,
                             const relief_lookup *look, lane_mask asked)
 {

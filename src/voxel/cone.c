@@ -1,5 +1,4 @@
-/* cone.c: cones over the hemisphere and along the mirrored view, through voxels and to what lies beyond. Layer 5.
- *                                                                                                          [M20-M22] */
+/* cone.c: cones over the hemisphere and along the mirrored view, through voxels to the sky. Layer 5.      [M20-M22] */
 #include <string.h>
 
 #include "../base/poly.h"
@@ -10,11 +9,12 @@
 
 /* --- steps -------------------------------------------------------------------------------------------------------- */
 
-/* A cone is 2 t tan wide at distance t. It reads voxels WIDTH as wide, but at least leaves; interpolation blurs by as
- * much again. Steps are as long as these voxels are wide: the longest without gaps, because the weights between middles
- * add up to 1. COVER: inside a wall a cone keeps widening, so the wall's coverage adds up to 0.75 .. 1.3, depending on
- * the wall's position in its voxels. Coverage over 1 is lost, so a factor of 1.15 comes nearest to 1 in the mean. A
- * closed room then leaves 11 % open (18 % with 1, 10 % with 1.2), but a sphere's shadow grows with the factor. */
+/* A cone is 2 t tan wide at distance t. It reads voxels width_share as wide, but at least leaves; interpolation blurs
+ * by as much again. Steps are as long as these voxels are wide: the longest without gaps, because the weights between
+ * middles add up to 1. cover_share: inside a wall a cone keeps widening, so the wall's coverage adds up to 0.75 .. 1.3,
+ * depending on the wall's position in its voxels. Coverage over 1 is lost, so a factor of 1.15 comes nearest to 1 in
+ * the mean. A closed room then leaves 11 % open (18 % with 1, 10 % with 1.2), but a sphere's shadow grows with the
+ * factor. */
 static const float step_share = 1.0f, width_share = 0.5f, cover_share = 1.15f;
 
 static int set_steps(lmb_cone_width *out, const lmb_voxels *v)
