@@ -5,7 +5,7 @@
 #include <lambent/compose.h>
 
 enum {
-    LATTICE_STEP = 8,   /* px between the first samples: a window's fill one pack. With 16, packs were no faster */
+    LATTICE_STEP = 8,   /* px between the first samples, which fill one pack per window. 16 made packs no faster */
     LATTICE_LEVELS = 4, /* steps of 8, 4, 2 and 1 px */
     LATTICE_WINDOW = 8  /* side in tiles of the unit that is packed, searched and filled at once. 16 doubles the time of
                          * a scene of many parts, 4 that of the Cornell box */
@@ -33,10 +33,10 @@ float lmb_lattice_mean(const lmb_lattice *l);
 /* Requests pixels in a window that no sample explains, so that each of them has one nearby. */
 void lmb_lattice_rest(const lmb_lattice *l, int32_t window);
 
-/* Requests more of them if the light varies. Call this after you gathered the former. */
+/* Requests more of these pixels if the light varies. Call this after you gathered the first ones. */
 void lmb_lattice_closer(const lmb_lattice *l, int32_t window);
 
-/* Lights the pixels of a window that no corner explains. Call this after you gathered both. */
+/* Lights the pixels of a window that no corner explains. Call this after you gathered all of these. */
 void lmb_lattice_late(const lmb_lattice *l, int32_t window);
 
 /* Lights the pixels of a window between the samples, and requests those that no corner explains. */

@@ -1,7 +1,7 @@
 /* live_fill.inl: light of a cell's pixels, from the samples at its corners. Layer 9.                            [ours]
  *
- * Corners that agree have bilinear weights. Each is extrapolated by half of the slopes, which is exact for quadratics.
- * If a corner is missing, full slopes are used, which is exact for linear light. */
+ * Corners on a pixel's surface count with bilinear weights. Each is extrapolated by half of the slopes, which is exact
+ * for quadratics. If a corner is missing, full slopes are used, which is exact for linear light. */
 
 #define FILL_ENOUGH 0.5f /* min share of the bilinear weights of the corners that agree, ... */
 #define FILL_NEAR   1.01f  /* ... unless the squared distance to one of them, px, is below this */

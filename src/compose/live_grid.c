@@ -1,7 +1,7 @@
 /* live_grid.c: chooses the pixels to light, and interpolates the light between them. Layer 9.                    [ours]
  *
- * A cell is divided if the parent cell predicted the samples badly, by more than their noise. The noise is that of
- * shadowed shares; it is removed from the shares, not from the light. */
+ * A cell is divided if the parent cell predicted the samples badly, by more than their noise. Only the visible shares
+ * of shadows are noisy. The noise is removed from these, not from the light. */
 #include "live_grid.h"
 
 #include <string.h>

@@ -67,7 +67,7 @@ static lmb_status add_probes(const lmb_relight *r, lmb_relight_scratch *s, int i
     return status;
 }
 
-/* Adds the scene's own lights. The part that is not shown is subtracted again; the rest is exact to the bit. */
+/* Adds the scene's own lights, then clears the part that is not shown. So the shown part is exact to the bit. */
 static lmb_status add_lights(const lmb_relight *r, lmb_relight_scratch *s, lmb_glossy *glossy)
 {
     const light_tile lit = {r->kernels, r->scene, &r->view, &s->tile};

@@ -88,7 +88,7 @@ void lmb_render_skip(lmb_render *r);
 
 /* --- stages ------------------------------------------------------------------------------------------------------- */
 
-/* A step does up to `units` of the current stage and advances r->light, face and progress. It returns LMB_MORE, LMB_OK
+/* A step runs up to `units` of the current stage and advances r->light, face and progress. It returns LMB_MORE, LMB_OK
  * if the stage is complete, or an error. A part is a part of the current stage, as in lmb_render_part. */
 
 /* LMB_STAGE_SHADOW_MAP .. LMB_STAGE_BOUNCES. */

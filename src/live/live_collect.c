@@ -1,8 +1,8 @@
 /* live_collect.c: a shadow map -> the first points of the live tree: one for each block of texels. Layer 6.     [ours]
  *
  * A hash selects one texel of each block as the block's point. So points do not line up along the map, and surfaces
- * that share a block are selected in proportion to their area. The point gets all the light through the block. It lies
- * at the texel's middle, where the map was sampled, so never behind an edge. */
+ * that share a block are selected in proportion to their visible area. The point gets all the light through the block.
+ * It lies at the texel's middle, where the map was sampled, so never behind an edge. */
 #include "live_part.h"
 
 #include <string.h>

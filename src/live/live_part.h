@@ -50,8 +50,8 @@ float lmb_live_reach2(const lmb_live *live, const lmb_live_point *p);
 /* Is a point indivisible? */
 int lmb_live_is_whole(const lmb_live *live, const lmb_live_point *p);
 
-/* Share of a node's area in A, which damps near light (see live_nodes). Parts of a node are not all as near as the
- * middle, so a node with parts has this smaller share. */
+/* Share of a node's area that counts as A in live_nodes if the node has parts, because these are not all as near as the
+ * middle. */
 #define LIVE_DISC 0.25f
 
 static inline float live_power(const float flux[3]) { return (flux[0] + flux[1] + flux[2]) * (1.0f / 3.0f); }

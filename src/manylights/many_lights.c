@@ -2,8 +2,8 @@
  *
  * A cell holds sums, minima, maxima or best members of its lights, all in exact arithmetic. Merging is associative and
  * commutative, so a cell depends only on the set of lights in it. The side of cells is the smallest at which they fit.
- * It doubles only if the lights so far need more cells, and then any order of all lights needs them. So the result does
- * not depend on the order. */
+ * It doubles only if the lights so far need more cells, and then all lights need them too, in any order. So the result
+ * does not depend on the order. */
 #include <lambent/many_lights.h>
 
 #include <string.h>

@@ -153,7 +153,7 @@ static void add_irradiance(lmb_irradiance *inout, lmb_many_lights_scratch *scrat
     }
 }
 
-#define LITTLE 0.2f    /* of the light arrives or less: second cut, as windows lie between nodes */
+#define LITTLE 0.2f    /* if less of the light arrives, a second cut is made: windows lie between nodes */
 #define FINEST 0.0625f /* min error of a second cut, as a share of the requested error */
 
 /* Share of the cut's light that arrived, averaged over the surface's pixels. */

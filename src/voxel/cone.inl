@@ -7,13 +7,14 @@
  * - coverage C = sum |d_a| cover_a of the side that faces the viewer: the mean number of surfaces that a ray meets
  *   (cone_crossed)
  * - light E = sum |d_a| light_a of that side: radiance times that number
+ *
  * A cone's rays diverge. With the axis direction for all of them, the cone would pass between walls narrower than
  * itself. A grazed wall would also count more than once, because rays that arrive later run more along the wall than
  * the axis does. If voxels are wider than the cone, their middles give no direction and d is the axis.
  *
- * Coverage adds up to 1; then all is hidden. Surfaces that follow each other in a sample or along the cone are assumed
- * to lie side by side. So a wall is opaque on every level, and half a wall covers half. Exponential falloff would need
- * walls several times thicker.
+ * Coverage is summed up to 1, which hides all that lies behind. Surfaces that follow each other in a sample or along
+ * the cone are assumed to lie side by side. So a wall is opaque on every level, and half a wall covers half.
+ * Exponential falloff would need walls several times thicker.
  *
  * The surfaces' radiance is E / V. V is the coverage that belongs to E: C minus the coverage of double-sided surfaces
  * along axes on which they face away. This is exact for one flat, evenly lit surface.
