@@ -38,7 +38,7 @@ typedef struct grower {
 
 static int is_free(uint8_t label) { return label == 0 || label == LABEL_TRIED; }
 
-/* Do a point's nearest neighbours have the same normal? */
+/* Do a point's nearest neighbours have about the same normal? */
 static int is_seed(const lmb_cloud *cloud, int32_t x, int32_t y)
 {
     int32_t near[SEED_NEAREST];

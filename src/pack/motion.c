@@ -17,7 +17,7 @@ enum { N_TRANSLATION = 4, N_ROTATION = 7, N_SCALE = 11 }; /* words of a node's r
 
 /* --- between keys ------------------------------------------------------------------------------------------------- */
 
-/* A track of a record. */
+/* A decoded track record. */
 typedef struct track {
     const uint32_t *time, *value;
     uint32_t keys;

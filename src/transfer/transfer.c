@@ -220,7 +220,7 @@ static int are_moving(const lmb_transfer *t)
     return 1;
 }
 
-/* The receivers of a place lie in a row, or none. */
+/* Each place has all receivers in a row, or none at all. */
 static int is_air(const lmb_transfer *t)
 {
     const uint32_t *grid = t->section[LMB_TRANSFER_GRID], *air = t->section[LMB_TRANSFER_AIR];
