@@ -7,7 +7,7 @@
 
 #include "srgb_table.inc"
 
-/* Eight halvings find the largest code whose threshold is reached. NaN reaches none. */
+/* Eight halvings find the largest code with a threshold that is reached. NaN reaches none. */
 uint8_t lmb_srgb_encode(float linear)
 {
     int32_t code = 0, step;
@@ -16,8 +16,8 @@ uint8_t lmb_srgb_encode(float linear)
     return (uint8_t)code;
 }
 
-/* The sphere is projected to the octahedron |x| + |y| + |z| = 1, whose lower half folds outwards over the diagonals
- * of the unit square (Meyer, Suessmuth, Sussner, Stamminger 2010). In integers the fold is exact. */
+/* The sphere is projected to the octahedron |x| + |y| + |z| = 1. Its lower half folds outwards over the diagonals of
+ * the unit square (Meyer, Suessmuth, Sussner, Stamminger 2010). In integers the fold is exact. */
 lmb_vec3 lmb_octahedral_decode(const int16_t code[2])
 {
     if (!code)

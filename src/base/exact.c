@@ -1,6 +1,6 @@
-/* exact.c: tests the running target for what exact.h cannot ask the compiler. Layer 1.
+/* exact.c: tests at run time the properties of the target that exact.h cannot check. Layer 1.
  *
- * Operands are volatile, so that the answers come from the code the compiler made and not from its own arithmetic. */
+ * Operands are volatile, so that the results come from compiled code and not from the compiler's arithmetic. */
 #include "exact.h"
 
 #include <stdint.h>
@@ -26,7 +26,7 @@ static int float_is_plain(void)
     return are_same(got, zeros, 3);
 }
 
-/* In and out: a denormal operand must not count as 0, nor a denormal result become 0. */
+/* As operands and as results: denormals must not be flushed to 0. */
 static int denormals_are_kept(void)
 {
     static const float right[3] = {0x1p-127f, 0x1p-40f, 0x1p-141f};
@@ -51,7 +51,7 @@ static int integers_are_usual(void)
     return a >> 1 == -3 && b >> 32 == -6 && (int32_t)up == 2 && (int32_t)down == -2;
 }
 
-/* An edge function: clang 14 on 32-bit MIPS turns its sign round. */
+/* An edge function: clang 14 on 32-bit MIPS inverts the sign. */
 static int edges_have_their_sign(void)
 {
     volatile int32_t v = 300000;
@@ -60,7 +60,7 @@ static int edges_have_their_sign(void)
     return area == 300000;
 }
 
-/* Roots that lie just beside the middle of two floats, where an estimate rounds wrong; and floors. */
+/* Roots close to the middle of two floats, where an estimate rounds wrong; and floors. */
 static int roots_and_floors_are_exact(void)
 {
     static const float of[8] = {2.0f,     0x1.fffffep-1f, 0x1.000002p+0f, 0x1.fffffep+1f,
@@ -75,7 +75,7 @@ static int roots_and_floors_are_exact(void)
     return are_same(got, right, 8);
 }
 
-/* By a constant, too: x / 3 is not x * (1 / 3), -0 + 0 is not -0, and (x + 2^24) - 2^24 is not x. */
+/* Constant operands too: x / 3 is not x * (1 / 3), -0 + 0 is not -0, and (x + 2^24) - 2^24 is not x. */
 static int constants_are_not_folded(void)
 {
     volatile float v_five = 5.0f, v_minus = -0.0f, v_one = 1.0f;
@@ -86,8 +86,8 @@ static int constants_are_not_folded(void)
 
 static lmb_vec3 returned(lmb_vec3 v) { return v; }
 
-/* Three floats come back in two registers of two: tcc 0.9.27 on x86-64 stores both whole, the fourth over the local
- * beside the struct. Whether one is there depends on where the stack is aligned: beside one of these two. */
+/* Three floats are returned in two registers of two: tcc 0.9.27 on x86-64 stores both whole, and the fourth float
+ * overwrites the local beside the struct. Stack alignment decides which of these two locals is beside it. */
 static int neighbours_are_kept(void)
 {
     volatile float v_one = 1.0f;

@@ -14,13 +14,13 @@
 #error "lambent: float is not IEEE-754 binary32"
 #endif
 
-/* The part of lmb_build_check that needs no kernel: 1 where this target's plain C computes as everybody else's. */
+/* The part of lmb_build_check that needs no kernel: 1 if this target's plain C computes the same as all others. */
 int lmb_base_is_exact(void);
 
-/* No fused multiply-adds, also where -ffp-contract=off was forgotten: in its own dialects, -std=gnu17 by default, gcc
- * fuses on each processor that can, as a Cortex-M4F. With -std=c99 it does so only where it is told to
- * (-ffp-contract=fast), which no macro says and lmb_build_check finds. gcc ignores the standard's pragma; clang honours
- * it, but with -ffp-contract=fast. */
+/* No fused multiply-adds, even if you forget -ffp-contract=off. In its own dialects (-std=gnu17 by default) gcc fuses
+ * on each processor that can, such as a Cortex-M4F. With -std=c99 it fuses only with -ffp-contract=fast. No macro shows
+ * this option, but lmb_build_check detects it. gcc ignores the standard's pragma; clang honours it, except with
+ * -ffp-contract=fast. */
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #elif defined(__GNUC__) && !defined(__STRICT_ANSI__)

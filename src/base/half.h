@@ -1,4 +1,4 @@
-/* half.h: binary16 codes of numbers that are not negative. Layer 1. */
+/* half.h: binary16 codes of non-negative numbers. Layer 1. */
 #ifndef LMB_BASE_HALF_H
 #define LMB_BASE_HALF_H
 
@@ -11,7 +11,7 @@
 #define HALF_MAX 65504.0f
 #define HALF_ONE 0x3c00u
 
-/* The nearest code, of ties the even one. Negative values and NaN give 0, what is over 65504 gives 65504. */
+/* The nearest code; ties go to the even one. Negative values and NaN give 0, values over 65504 give 65504. */
 static inline uint16_t half_encode(float v)
 {
     uint32_t bits;
@@ -21,7 +21,7 @@ static inline uint16_t half_encode(float v)
     if (v >= HALF_MAX) {
         return 0x7bff;
     }
-    if (v < 6.103515625e-05f) { /* 2^-14: codes are steps of 2^-24; adding 0.5 rounds them, as its steps are those */
+    if (v < 6.103515625e-05f) { /* 2^-14: codes are multiples of 2^-24, the step of floats at 0.5 */
         v += 0.5f;
         memcpy(&bits, &v, sizeof bits);
         return (uint16_t)(bits - 0x3f000000u);

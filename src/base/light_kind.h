@@ -1,4 +1,4 @@
-/* light_kind.h: kinds of light that have a place, a direction or a cone; ranges of lights. Layer 1. */
+/* light_kind.h: kinds of light with a position, a direction or a cone; ranges of lights. Layer 1. */
 #ifndef LMB_BASE_LIGHT_KIND_H
 #define LMB_BASE_LIGHT_KIND_H
 
@@ -15,13 +15,13 @@ enum {
     LIGHT_CONED = 1 << LMB_LIGHT_SPOT
 };
 
-/* 0 for kinds that nobody knows. */
+/* Returns 0 for unknown kinds. */
 static inline int light_kind_is(int32_t kind, uint32_t which)
 {
     return (uint32_t)kind < 32u && (which >> kind & 1u) != 0;
 }
 
-/* Of a known kind: a direction of unit length, a cone that opens outwards. NaN fails. */
+/* Checks a known kind: a direction of unit length, a cone that opens outwards. NaN fails. */
 static inline int light_shape_is_valid(const lmb_light *l)
 {
     if (light_kind_is(l->kind, LIGHT_AIMED) && !(absf(dot3(l->direction, l->direction) - 1.0f) <= 1e-3f)) {

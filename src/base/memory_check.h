@@ -1,4 +1,4 @@
-/* memory_check.h: checks the memory that a caller gave for arrays. Layer 1. */
+/* memory_check.h: checks the memory that a caller provides for arrays. Layer 1. */
 #ifndef LMB_BASE_MEMORY_CHECK_H
 #define LMB_BASE_MEMORY_CHECK_H
 
@@ -7,7 +7,7 @@
 /* A 64-bit sum of bytes as a size_t; 0 if this target cannot address so many. */
 static inline size_t size_or_none(uint64_t bytes) { return bytes <= SIZE_MAX ? (size_t)bytes : 0; }
 
-/* For arrays of 32-bit numbers. needed 0: more than this target can address. */
+/* For arrays of 32-bit numbers. Pass needed = 0 if the size exceeds this target's address space. */
 static inline lmb_status check_memory(const void *memory, size_t bytes, size_t needed)
 {
     if (memory == NULL) {

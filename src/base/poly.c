@@ -1,15 +1,15 @@
 /* poly.c: sine, cosine, tangent, arc cosine, arc tangent, log2 and exp2 from polynomials. Layer 1.
  *
  * Each polynomial is a minimax fit (Remez; Lawson for exp2) of the relative error of the whole function. Coefficients
- * were rounded to float from the lowest order up, refitting the rest after each, so that rounding them costs nothing
- * that shows. They stand in hexadecimal because that is exact. */
+ * were rounded to float from the lowest order up, and the rest was refitted after each, so that rounding costs no
+ * visible accuracy. They are written in hexadecimal because that is exact. */
 #include "poly.h"
 
 #include "vec.h"
 
-/* x = k pi/2 + r with |r| <= pi/4 and a bit; returns k modulo 4. pi/2 is split into 17 + 14 + 24 bits: |k| <= 41 has
- * six, so k * first and k * second are exact, x - k * first is exact by cancellation, and what the split leaves out
- * is 2^-60. The two subtractions after that round |r| < 0.8, 2^-25 each. */
+/* x = k pi/2 + r with |r| <= pi/4 and a bit; returns k modulo 4. pi/2 is split into 17 + 14 + 24 bits. |k| <= 41 has
+ * six bits, so k * first and k * second are exact, x - k * first is exact by cancellation, and the error of the split
+ * is 2^-60. The two later subtractions round |r| < 0.8, 2^-25 each. */
 static int32_t reduce_quarter(float *r, float x)
 {
     float k;
@@ -52,7 +52,7 @@ float lmb_cos(float x)
     return k == 1 || k == 2 ? -v : v;
 }
 
-/* -0 is 0, too. */
+/* -0 gives 0 too. */
 float lmb_sqrt(float x) { return x > 0.0f ? sqrtf(x) : 0.0f; }
 
 float lmb_tan(float x) { return lmb_sin(x) / lmb_cos(x); }
@@ -65,8 +65,8 @@ static float asin_rest(float s, float z)
     return (s * z) * a;
 }
 
-/* Beyond 1/2 the half angle keeps the argument small: acos x = 2 asin sqrt((1 - x) / 2); 1 - |x| is exact there.
- * Pi comes in two floats: the rest is added to the small term, before the sum rounds. */
+/* Beyond 1/2 the half angle keeps the argument small: acos x = 2 asin sqrt((1 - x) / 2); 1 - |x| is exact there. Pi is
+ * a sum of two floats: the rest is added to the small term, before the sum rounds. */
 float lmb_acos(float x)
 {
     float a = absf(x), z, s, p;
@@ -91,8 +91,8 @@ static float atan_near(float t)
     return t + (t * z) * p;
 }
 
-/* The angle is octant * pi/4 plus or minus a small one: folding across the diagonal and the y axis moves the octant
- * and turns the sign, so that only one sum rounds at the size of the result. */
+/* The angle is octant * pi/4 plus or minus a small one. Folding across the diagonal and the y axis changes the octant
+ * and the sign, so that only one sum rounds at the size of the result. */
 float lmb_atan2(float y, float x)
 {
     static const float octant_hi[5] = {0.0f, 0x1.921fb6p-1f, 0x1.921fb6p+0f, 0x1.2d97c8p+1f, 0x1.921fb6p+1f};
@@ -138,8 +138,9 @@ float lmb_log2(float x)
     return (float)e + (f + (0x1.c551dap-2f * (f - q) - q));
 }
 
-/* 2^x = 2^k 2^f, |f| <= 1/2: f is exact, the polynomial's error 3.0e-9. The power of two goes into the exponent field,
- * which neither overflows (k = 128 comes only with f < 0, whose exponent is one lower) nor leaves the normals. */
+/* 2^x = 2^k 2^f, |f| <= 1/2: f is exact, the polynomial's error 3.0e-9. The power of two is added to the exponent
+ * field. The result neither overflows (k = 128 occurs only with f < 0, so the exponent is one lower) nor becomes
+ * denormal. */
 float lmb_exp2(float x)
 {
     float k, f, p;

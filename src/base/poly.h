@@ -1,9 +1,9 @@
 /* poly.h: the elementary functions, each one fixed sequence of binary32 operations. Layer 1.
  *
- * libm's own differ from system to system in the last bit, and that bit moves pixels. These take + - * /, sqrtf and
- * floorf, all correctly rounded everywhere, and minimax polynomials of our own fit. The errors stated are the largest
- * found against double over every fifth to seventh float of the domain (log2, tan: every one where it matters),
- * rounded up; tests/unit/test_base.c sweeps some millions. No argument gives NaN or infinity. */
+ * libm differs from system to system in the last bit, and that bit moves pixels. These functions use + - * /, sqrtf and
+ * floorf, all correctly rounded everywhere, and our own minimax polynomials. The stated errors are the largest found
+ * against double over every fifth to seventh float of the domain (log2, tan: every one if it matters), rounded up;
+ * tests/unit/test_base.c sweeps some millions. No argument gives NaN or infinity. */
 #ifndef LMB_BASE_POLY_H
 #define LMB_BASE_POLY_H
 
@@ -14,7 +14,7 @@
 #include "exact.h"
 
 #define LMB_PI 3.14159274f          /* the float nearest to pi, and */
-#define LMB_PI_REST -8.74227766e-8f /* what it leaves out */
+#define LMB_PI_REST -8.74227766e-8f /* the rest of pi */
 
 static inline uint32_t float_bits(float v)
 {
@@ -30,7 +30,8 @@ static inline float bits_float(uint32_t u)
     return v;
 }
 
-/* lmb_tan: lmb_sin(x) / lmb_cos(x), the same domain. Relative error < 2.5e-7, near the poles too: no float is one. */
+/* lmb_tan: lmb_sin(x) / lmb_cos(x), the same domain. Relative error < 2.5e-7, near the poles too: no float is a
+ * pole. */
 float lmb_tan(float x);
 
 /* lmb_acos: 0 .. pi, for x clamped to -1 .. 1; NaN counts as 1. Absolute error < 2.6e-7; at -1, 0 and 1 the nearest
@@ -38,7 +39,8 @@ float lmb_tan(float x);
 float lmb_acos(float x);
 
 /* lmb_atan2: the angle of the point (x, y), -pi .. pi. Absolute error < 2e-7; on the axes and diagonals the nearest
- * float. Zeros carry no sign: (0, -1) gives +pi, (0, 0) gives 0. A NaN gives 0; two infinities count as equal. */
+ * float. The signs of zeros are ignored: (0, -1) gives +pi, (0, 0) gives 0. A NaN gives 0; two infinities count as
+ * equal. */
 float lmb_atan2(float y, float x);
 
 /* lmb_log2: for normal x > 0, relative error < 1.4e-7. Zero, denormals, negatives and NaN count as 2^-126: -126;

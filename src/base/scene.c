@@ -11,7 +11,7 @@
 /* 3 * triangle + k must fit 32 bits. */
 #define MAX_MESH_TRIANGLES 0x55555555u
 
-/* NaN is not. */
+/* False for NaN. */
 static int are_within(const float *v, int32_t count, float low, float high)
 {
     int32_t i;
@@ -88,7 +88,7 @@ lmb_status lmb_check_light(const lmb_light *l)
     return light_shape_is_valid(l) ? LMB_OK : LMB_ERR_ARG;
 }
 
-/* Ids run without a gap from 1 on, so that an id finds its instance by bisection. */
+/* Ids are contiguous from 1, so that bisection finds the instance of an id. */
 static lmb_status check_instances(const lmb_scene *scene)
 {
     uint32_t i, next_id = 1, triangles;
@@ -114,7 +114,7 @@ static int has_arrays(const lmb_scene *s)
            (s->lights || !s->light_count);
 }
 
-/* Builds without trees do not read it. */
+/* Builds without trees do not read the core. */
 static int is_core(const lmb_core *c)
 {
     return !LMB_TREES || c->faces == 0 ||
@@ -158,7 +158,7 @@ uint32_t lmb_scene_triangles(const lmb_scene *scene)
     return last->first_id - 1 + scene->meshes[last->mesh].triangle_count;
 }
 
-/* Is the colour that lies `at` bytes into materials anything but black in one of them? */
+/* Is the colour at byte offset `at` not black in at least one material? */
 static int any_coloured(const lmb_scene *scene, size_t at)
 {
     int any = 0;
@@ -173,7 +173,7 @@ int lmb_scene_emits(const lmb_scene *scene) { return any_coloured(scene, offseto
 
 int lmb_scene_is_glossy(const lmb_scene *scene) { return any_coloured(scene, offsetof(lmb_material, specular)); }
 
-/* World positions that are not finite or beyond 2^20 m do not count: draws drop their triangles. */
+/* World positions that are not finite or beyond 2^20 m are ignored: draws drop such triangles. */
 void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *scene)
 {
     lmb_vec3 lo = vec3(FLT_MAX, FLT_MAX, FLT_MAX), hi = vec3(-FLT_MAX, -FLT_MAX, -FLT_MAX);

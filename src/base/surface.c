@@ -1,7 +1,7 @@
-/* surface.c: sizes, clearing, linearising, hashing and comparing a caller's pixels. Layer 1.
+/* surface.c: sizes, clearing, linearizing, hashing and comparing a caller's pixels. Layer 1.
  *
  * In both layouts the eight pixels that start at a multiple of 8 are contiguous in memory (fewer at the end of a row).
- * Every loop here works on such runs, so tiled surfaces need no code of their own. */
+ * All loops here work on such runs, so tiled surfaces need no separate code. */
 #include <string.h>
 
 #include "surface_check.h"
@@ -29,7 +29,7 @@ int32_t lmb_pixel_bytes(int32_t format)
     }
 }
 
-/* Depth and id formats: whole tiles. */
+/* Depth and id formats, which have whole tiles. */
 static int is_tile_format(int32_t format) { return format >= LMB_DEPTH32F && format <= LMB_ID32; }
 
 static int is_size(int32_t width, int32_t height)
@@ -39,7 +39,7 @@ static int is_size(int32_t width, int32_t height)
 
 static int32_t round_up(int32_t v, int32_t step) { return (v + step - 1) / step * step; }
 
-/* Bytes from one row to the next: of tiles for depth and id, else of pixels. */
+/* Bytes from one row to the next: rows of tiles for depth and id, otherwise rows of pixels. */
 static int32_t packed_stride(int32_t format, int32_t width)
 {
     int32_t pixel = lmb_pixel_bytes(format);
@@ -77,7 +77,7 @@ lmb_status lmb_surface_init(lmb_surface *out, int32_t format, int32_t width, int
     return LMB_OK;
 }
 
-/* Tiles only for depth and id, rows that do not overlap, pixels where their type may lie. */
+/* Checks that only depth and id are tiled, rows do not overlap, and pixels are aligned. */
 int lmb_surface_is_valid(const lmb_surface *s)
 {
     int32_t tile, min;
@@ -91,7 +91,7 @@ int lmb_surface_is_valid(const lmb_surface *s)
         return s->layout == LMB_LINEAR && (s->stride_bytes >= s->width * lmb_pixel_bytes(s->format) ||
                                            s->stride_bytes <= -s->width * lmb_pixel_bytes(s->format));
     min = packed_stride(s->format, s->width);
-    /* Draws count in rows of tiles, eight of pixels: those must fit 32 bits too. */
+    /* Draws compute offsets in rows of tiles, eight rows of pixels, which must fit 32 bits too. */
     return s->stride_bytes >= (s->layout == LMB_TILED ? min : min / LMB_TILE) &&
            s->stride_bytes <= INT32_MAX / LMB_TILE;
 }
@@ -108,7 +108,7 @@ static unsigned char *run_at(const lmb_surface *s, int32_t x, int32_t y)
 
 static int32_t run_length(const lmb_surface *s, int32_t x) { return mini(s->width - x, LMB_TILE); }
 
-/* Colour rows keep what stands in their padding; it may be a neighbour's pixels. */
+/* The padding of colour rows stays unchanged, because it may belong to another surface. */
 lmb_status lmb_surface_clear(const lmb_surface *surface)
 {
     int32_t y, rows, width, row_bytes;
@@ -148,7 +148,7 @@ lmb_status lmb_depth_linearize(void *out, size_t bytes, const lmb_surface *surfa
     return LMB_OK;
 }
 
-/* Perspective: d = near / w. Orthographic: d = (far - w) / (far - near). Where nothing was drawn, 0. */
+/* Perspective: d = near / w. Orthographic: d = (far - w) / (far - near). 0 if nothing was drawn. */
 float lmb_depth_view_z(const lmb_view *view, float d)
 {
     if (!view || !(d > 0.0f))
@@ -160,7 +160,7 @@ float lmb_depth_view_z(const lmb_view *view, float d)
 
 static uint64_t hash_byte(uint64_t hash, uint32_t byte) { return (hash ^ (byte & 255u)) * HASH_PRIME; }
 
-/* Values of 2 or 4 bytes, read in the target's own order, enter low byte first. */
+/* Values of 2 or 4 bytes are read in the target's byte order and hashed low byte first. */
 static uint64_t hash_values(uint64_t hash, const unsigned char *at, int32_t count, int32_t value_bytes)
 {
     int32_t i;
@@ -180,7 +180,7 @@ static uint64_t hash_values(uint64_t hash, const unsigned char *at, int32_t coun
     return hash;
 }
 
-/* Bytes of one value of a pixel: 1 where the format says the order of bytes. */
+/* Bytes of one value of a pixel: 1 if the format defines the order of bytes. */
 static int32_t value_bytes_of(int32_t format)
 {
     return format >= LMB_RGB565_BE && format <= LMB_BGRA8 ? 1 : mini(lmb_pixel_bytes(format), 4);

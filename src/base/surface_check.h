@@ -4,10 +4,11 @@
 
 #include <lambent/surface.h>
 
-/* 1 for a surface with data, a known format, a size, a stride that holds its rows, and both aligned to its values. */
+/* 1 if the surface has data, a known format, a valid size, a stride of at least a row, and data and stride aligned to
+ * the values. */
 int lmb_surface_is_valid(const lmb_surface *surface);
 
-/* 1 for the formats that hold a finished picture's colours. */
+/* 1 for formats of a finished picture's colours. */
 static inline int is_colour_format(int32_t format)
 {
     return format >= LMB_RGB565 && format <= LMB_RGB32F && format != LMB_R32F;

@@ -12,7 +12,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-float sqrtf(float);  /* the two that src/ takes from libm: both correctly rounded everywhere */
+float sqrtf(float);  /* the only two libm functions in src/: both correctly rounded everywhere */
 float floorf(float);
 #ifdef __cplusplus
 }
@@ -39,7 +39,7 @@ static inline lmb_vec3 cross3(lmb_vec3 a, lmb_vec3 b)
 
 static inline float length3(lmb_vec3 a) { return sqrtf(dot3(a, a)); }
 
-/* Unit vector along a; a itself when it has no usable length. */
+/* Unit vector along a; a itself if the length is too small. */
 static inline lmb_vec3 normalize3(lmb_vec3 a)
 {
     float d2 = dot3(a, a);
@@ -49,7 +49,7 @@ static inline lmb_vec3 normalize3(lmb_vec3 a)
 static inline float minf(float a, float b) { return a < b ? a : b; }
 static inline float maxf(float a, float b) { return a > b ? a : b; }
 static inline float clampf(float v, float lo, float hi) { return v < lo ? lo : v > hi ? hi : v; }
-/* One instruction where the compiler is told; 0 of -0 by both. */
+/* A single instruction on compilers with the builtin; both versions give 0 for -0. */
 #if defined(__GNUC__)
 static inline float absf(float a) { return __builtin_fabsf(a); }
 #else
@@ -60,11 +60,11 @@ static inline lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x)
 static inline float largest3(lmb_vec3 v) { return maxf(maxf(absf(v.x), absf(v.y)), absf(v.z)); }
 static inline int32_t clampi(int32_t v, int32_t lo, int32_t hi) { return v < lo ? lo : v > hi ? hi : v; }
 
-/* Finite and within the door's range of 2^20 m; false for NaN. */
+/* Finite and within the scene limit of 2^20 m; false for NaN. */
 static inline int is_sane(float v) { return v > -1048576.0f && v < 1048576.0f; }
 static inline int is_place(lmb_vec3 at) { return is_sane(at.x) && is_sane(at.y) && is_sane(at.z); }
 
-/* Number of the lowest bit that is set, of bits that are not 0. */
+/* Index of the lowest set bit; bits must not be 0. */
 static inline int lowest_bit(uint32_t bits)
 {
 #if defined(__GNUC__)
@@ -84,7 +84,7 @@ static inline int lowest_bit_64(uint64_t bits)
     return low != 0 ? lowest_bit(low) : 32 + lowest_bit((uint32_t)(bits >> 32));
 }
 
-/* Bits that are set, of 16. */
+/* Counts the set bits of 16. */
 static inline uint32_t count_bits_16(uint32_t bits)
 {
     bits -= (bits >> 1) & 0x5555u;
@@ -110,22 +110,22 @@ static inline lmb_vec3 transform_point(const lmb_mat4 *t, lmb_vec3 p)
                 m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]);
 }
 
-/* Does the transform turn left into right, and so the front of a triangle into its back? */
+/* Does the transform mirror, and so turn the front of a triangle into the back? */
 static inline int is_mirrored(const lmb_mat4 *t)
 {
     const float *m = t->m;
     return dot3(cross3(vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6])), vec3(m[8], m[9], m[10])) < 0.0f;
 }
 
-/* From a position towards who sees it; of any length. */
+/* Direction from a position towards the viewer, of any length. */
 static inline lmb_vec3 view_to_eye(const lmb_view *v, lmb_vec3 at)
 {
     return v->kind == LMB_PERSPECTIVE ? sub3(v->eye, at) : v->back;
 }
 
 /* A position that a view sees. If it is within `noise` (m) of a plane, the position is moved to the eye's side of the
- * plane, because otherwise the eye could not see it. So a pixel on the edge of a room has the light of the other wall's
- * inner side, and none of its outer side. */
+ * plane, because otherwise the eye could not see it. So a pixel on the edge of a room gets the light of the other
+ * wall's inner side, not of the outer side. */
 static inline lmb_vec3 before_plane(lmb_vec3 at, float noise, lmb_vec3 on_plane, lmb_vec3 axis, lmb_vec3 to_eye)
 {
     const float height = dot3(axis, sub3(at, on_plane)), eye = dot3(axis, to_eye);

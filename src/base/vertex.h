@@ -1,7 +1,7 @@
-/* vertex.h: reads one vertex or index of a mesh, whatever its stream's format. Layer 1.
+/* vertex.h: reads one vertex or index of a mesh in any stream format. Layer 1.
  *
- * Streams are 4-byte aligned and tightly packed (lmb_scene_check), so plain typed reads will do. Indices are returned
- * as stored: whoever draws compares them with vertex_count before decoding. */
+ * Streams are 4-byte aligned and tightly packed (lmb_scene_check), so plain typed reads suffice. Indices are returned
+ * as stored: compare them with vertex_count before you decode a vertex. */
 #ifndef LMB_BASE_VERTEX_H
 #define LMB_BASE_VERTEX_H
 
@@ -22,7 +22,7 @@ static inline lmb_vec3 mesh_position(const lmb_mesh *m, uint32_t vertex)
     }
 }
 
-/* Texture coordinates; (0, 0) without a stream. The quotient first: code 65535 is exactly uv_scale. */
+/* Texture coordinates; (0, 0) without a stream. Divides first, so that code 65535 is exactly uv_scale. */
 static inline void mesh_uv(const lmb_mesh *m, uint32_t vertex, float out[2])
 {
     const float *f = (const float *)m->uvs;
@@ -39,13 +39,13 @@ static inline void mesh_uv(const lmb_mesh *m, uint32_t vertex, float out[2])
     }
 }
 
-/* Unit normal, model space; (0, 0, 0) without a stream: the triangle's own is wanted. */
+/* Unit normal, model space; (0, 0, 0) without a stream: use the triangle's normal. */
 static inline lmb_vec3 mesh_normal(const lmb_mesh *m, uint32_t vertex)
 {
     return m->normals ? lmb_octahedral_decode(m->normals + (size_t)vertex * 2) : vec3(0.0f, 0.0f, 0.0f);
 }
 
-/* Unit vector towards larger u, model space, of a mesh that has the stream. */
+/* Unit vector towards larger u, model space, of a mesh with this stream. */
 static inline lmb_vec3 mesh_tangent(const lmb_mesh *m, uint32_t vertex)
 {
     return lmb_octahedral_decode(m->tangents + (size_t)vertex * 2);
@@ -65,7 +65,7 @@ static inline void mesh_colour(const lmb_mesh *m, uint32_t vertex, float out[4])
         out[k] = m->colours ? (float)m->colours[(size_t)vertex * 4 + (size_t)k] / 255.0f : 1.0f;
 }
 
-/* Vertex number of corner 3 * triangle + k; the corner itself without indices. */
+/* Vertex index of corner 3 * triangle + k; the corner itself if the mesh has no indices. */
 static inline uint32_t mesh_index(const lmb_mesh *m, uint32_t corner)
 {
     if (m->index_format == LMB_INDEX_U16)
@@ -75,7 +75,7 @@ static inline uint32_t mesh_index(const lmb_mesh *m, uint32_t corner)
     return corner;
 }
 
-/* Those of a triangle. */
+/* Vertex indices of a triangle. */
 static inline void mesh_triangle(const lmb_mesh *m, uint32_t triangle, uint32_t vertex[3])
 {
     const size_t first = (size_t)triangle * 3;
@@ -91,9 +91,9 @@ static inline void mesh_triangle(const lmb_mesh *m, uint32_t triangle, uint32_t 
     }
 }
 
-/* Prefetch hints: the vertices of several triangles lie far apart in memory, and each would cause a cache miss. They are
- * always inlined: gcc takes a function that only prefetches for one without effects, and leaves calls to it out. Code
- * that is to be small goes without. */
+/* Prefetch hints: the vertices of several triangles lie far apart in memory, and each would cause a cache miss. They
+ * are always inlined: gcc treats a function that only prefetches as free of effects and drops calls to it. Builds for
+ * size have no hints. */
 #if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
 #define MESH_SOON(p) __builtin_prefetch(p)
 #define MESH_HINT    static inline __attribute__((always_inline))

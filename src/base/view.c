@@ -1,10 +1,10 @@
-/* view.c: a camera from its position and its target, and where in a pixel its samples lie. Layer 1. */
+/* view.c: a camera from position and target, and the sample positions in a pixel. Layer 1. */
 #include "poly.h"
 #include "vec.h"
 
 #define DEFAULT_NEAR_M 0.01f
 #define DEFAULT_FAR_M 1000.0f
-#define MIN_HALF 1e-30f /* lmb_view's */
+#define MIN_HALF 1e-30f /* limit of lmb_view */
 
 /* The cross product of nearly parallel vectors has few significant bits, so its remaining component along `back` is
  * removed. */
@@ -35,7 +35,7 @@ lmb_status lmb_view_look_at(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_ve
     v.eye = eye;
     v.half_height = lmb_tan(0.5f * vfov_rad);
     v.half_width = v.half_height * ((float)width / (float)height);
-    if (!(minf(v.half_width, v.half_height) > MIN_HALF)) /* a tangent next to pi / 2 may come out below 0, too */
+    if (!(minf(v.half_width, v.half_height) > MIN_HALF)) /* the tangent near pi / 2 may even be negative */
         return LMB_ERR_ARG;
     v.near_m = DEFAULT_NEAR_M;
     v.far_m = DEFAULT_FAR_M;
@@ -51,7 +51,7 @@ lmb_status lmb_view_look_at(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_ve
 
 lmb_status lmb_view_sample(lmb_view *inout, int32_t samples, int32_t i)
 {
-    /* From the middle to the right and down, 1/16 px. */
+    /* Offsets from the middle, right and down, in 1/16 px. */
     static const int8_t by_4[][2] = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
     static const int8_t by_8[][2] = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
     static const int8_t by_16[][2] = {{1, 1},  {-1, -3}, {-3, 2},  {4, -1}, {-5, -2}, {2, 5},  {5, 3}, {3, -5},

@@ -1,11 +1,11 @@
-/* whole.h: what all sources share that needs no float: whole numbers, and what is not inlined. Layer 1. */
+/* whole.h: integer helpers and inlining macros, without floats, for all sources. Layer 1. */
 #ifndef LMB_BASE_WHOLE_H
 #define LMB_BASE_WHOLE_H
 
 #include <stdint.h>
 
-/* For what is rarely or slowly done, so that its frame is not part of its caller's; and for what is made once for each of
- * its callers. */
+/* NOINLINE: for rare or slow code, so that its stack frame is not part of the caller's. ALWAYS_INLINE: for code that
+ * you want compiled separately for each caller. */
 #if defined(__GNUC__)
 #define NOINLINE static __attribute__((noinline))
 #define ALWAYS_INLINE static inline __attribute__((always_inline))

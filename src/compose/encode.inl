@@ -1,10 +1,10 @@
 /* encode.inl: linear values -> sRGB codes, the same as lmb_srgb_encode, LANES at a time. Layer 9.
  *
- * A guess of the curve (in codes, not rounded) that is off by less than half leaves two codes, the guess rounded down
- * and the next; the threshold between them decides, exactly. */
+ * A guess of the unrounded code with an error below one half leaves two candidates: the guess rounded down, and the
+ * next code. The exact threshold between them decides. */
 #include "../base/codec.h"
 
-/* 0 .. 254. The curve is 255 (1.055 x^(1/2.4) - 0.055): in sqrt(x) a polynomial of degree 4 comes within 0.19 codes. */
+/* 0 .. 254. The curve is 255 (1.055 x^(1/2.4) - 0.055); a polynomial of degree 4 in sqrt(x) is within 0.19 codes. */
 LANE_INLINE lanei encode_guess(lane x)
 {
     const lane root = lane_sqrt(x);

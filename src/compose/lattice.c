@@ -1,7 +1,7 @@
-/* lattice.c: which pixels of a frame are gathered, and the light of those between them. Layer 9.              [ours]
+/* lattice.c: chooses the pixels of a frame to gather, and interpolates the light between them. Layer 9.       [ours]
  *
- * Samples lie at the corners of square cells. A cell is divided where the cell that it came from predicted its corners
- * badly (the surplus). Between corners, light goes on by their slopes; corners on other surfaces do not count. */
+ * Samples lie at the corners of square cells. A cell is divided if the parent cell predicted the corners badly (the
+ * surplus). Light is extrapolated from the corners by their slopes; corners on other surfaces do not count. */
 #include "lattice.h"
 
 #include <string.h>
@@ -11,13 +11,13 @@
 
 #if LMB_TREES
 
-#define ALIKE  0.95f /* least cosine between the normals of pixels that share light */
-#define OVER   1e-3f /* most that either lies over the other's plane, of their distance, squared: where both are flat */
-#define ENOUGH 0.9f  /* least share of the bilinear weights that a pixel's corners must have, */
-#define NEAR   1     /* but for pixels that lie within so many px of one */
-#define REACH  6     /* px each way from a pixel that no corner explains to a sample, */
-#define CLOSE  1     /* or so many, where the samples within */
-#define FAR    14    /* px differ */
+#define ALIKE  0.95f /* min cosine between the normals of pixels that share light */
+#define OVER   1e-3f /* max squared height over the other's plane / squared distance, at equal normals */
+#define ENOUGH 0.9f  /* min share of the bilinear weights of the corners that agree, ... */
+#define NEAR   1     /* ... unless one of them is within this many px */
+#define REACH  6     /* px each way within which a pixel that no corner explains needs a sample, */
+#define CLOSE  1     /* or this many, if the samples within */
+#define FAR    14    /* this many px differ */
 #define UNEVEN 0.3f  /* by more than this share of the mean light */
 
 /* --- layout ------------------------------------------------------------------------------------------------------- */
@@ -108,11 +108,11 @@ static pixel pixel_at(const lmb_lattice *l, int32_t x, int32_t y)
 
 static int is_known(pixel p) { return (int)(p.tile->known >> p.k & 1u); }
 
-/* Columns or rows, of `size`, that hold samples of a lattice: multiples of the step, and the last. */
+/* Does column or row x, of `size`, hold samples of a lattice? Multiples of the step do, and the last one. */
 static int is_on(int32_t x, int32_t step, int32_t size) { return x % step == 0 || x == size - 1; }
 
-/* 0 .. 1: how far two pixels are on one surface. Over a smooth one, the height over the other's plane grows with the
- * angle between the normals. */
+/* 0 .. 1: how well two pixels agree in their surface. On a smooth surface the height over the other pixel's plane grows
+ * with the angle between the normals. */
 static float agreement(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b, int k)
 {
     const float bend = 1.0f - dot3(tile_vec(a->normal, i), tile_vec(b->normal, k));
@@ -187,7 +187,7 @@ float lmb_lattice_mean(const lmb_lattice *l)
 
 typedef struct patch_corner {
     pixel at;
-    float light[3], slope[2][3]; /* W/m2; and a pixel, by columns and by rows */
+    float light[3], slope[2][3]; /* W/m2; and W/m2 per pixel, along columns and rows */
 } patch_corner;
 
 typedef struct cell {
@@ -196,14 +196,14 @@ typedef struct cell {
     float width, height; /* as divisors: at least 1 */
 } cell;
 
-/* The sample of the lattice before or after a pixel in a row or column, or the one beyond; -1: none. */
+/* Position of the sample before or after a pixel in a row or column; -1 if there is none. */
 static int32_t before(int32_t x, int32_t step) { return x > 0 ? (x - 1) / step * step : -1; }
 static int32_t after(int32_t x, int32_t step, int32_t size)
 {
     return x < size - 1 ? mini((x / step + 1) * step, size - 1) : -1;
 }
 
-/* Find the neighbour on the way by columns or rows. Returns its distance in px, 0: none. */
+/* Finds the neighbour along columns or rows. Returns the distance in px; 0 if there is none. */
 static float neighbour(pixel *out, const lmb_lattice *l, const patch_corner *c, int32_t x, int32_t y, int way, int ahead,
                        int32_t step)
 {
@@ -232,7 +232,7 @@ static void set_slope(patch_corner *c, const lmb_lattice *l, int32_t x, int32_t 
     }
 }
 
-/* Its corners' places; they may be gathered later. */
+/* Sets the positions of the cell's corners, which may be gathered later. */
 static void place_cell(cell *out, const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
 {
     out->x[0] = x;
@@ -271,8 +271,8 @@ static void set_agreements(float out[4], const cell *c, const lmb_lattice_tile *
     }
 }
 
-/* Light at (x, y) by the corners that agree: their means by bilinear weights, each gone on by half its slopes, which is
- * right for quadratics; or, where a corner is missing, by all of them, which is right for what is linear. */
+/* Light at (x, y) from the corners that agree: a bilinear mean, with each corner extrapolated by half of the slopes,
+ * which is exact for quadratics. If a corner is missing, full slopes are used, which is exact for linear light. */
 static void mix(float out[3], const cell *c, const float agree[4], int32_t x, int32_t y)
 {
     const float u = (float)(x - c->x[0]) / c->width, v = (float)(y - c->y[0]) / c->height;
@@ -309,7 +309,7 @@ static float surplus_at(const lmb_lattice *l, const cell *c, int32_t x, int32_t 
     }
     set_agreements(agree, c, p.tile, p.k);
     if (!(agree[0] + agree[1] + agree[2] + agree[3] > 0.0f)) {
-        return 0.0f; /* nothing predicts the first sample of a surface */
+        return 0.0f; /* the first sample of a surface has no prediction */
     }
     mix(by, c, agree, x, y);
     for (int k = 0; k < 3; ++k) {
@@ -324,7 +324,7 @@ static void ask(const lmb_lattice *l, int32_t x, int32_t y)
     p.tile->wanted |= p.tile->shown & ~p.tile->known & (uint64_t)1 << p.k;
 }
 
-/* Ask for the middles of a cell's sides and of the cell. */
+/* Requests the middles of a cell's sides and of the cell. */
 static void ask_between(const lmb_lattice *l, int32_t x, int32_t y, int32_t step)
 {
     const int32_t half = step / 2;
@@ -334,7 +334,7 @@ static void ask_between(const lmb_lattice *l, int32_t x, int32_t y, int32_t step
     }
 }
 
-/* Divide which of the four cells that a cell is made of? */
+/* Decides which of a cell's four parts to divide. */
 static void divide_parts(const lmb_lattice *l, int32_t level, int32_t x, int32_t y)
 {
     const int32_t step = step_of(level);
@@ -384,7 +384,7 @@ static void set_light(lmb_lattice_tile *tile, int k, const float light[3])
     }
 }
 
-/* Is a pixel on the plane of the one before it? */
+/* Does a pixel lie on the plane of the previous one? */
 static int goes_on(const lmb_lattice_tile *tile, int was, int k)
 {
     const lmb_vec3 n = tile_vec(tile->face, was);
@@ -396,7 +396,7 @@ static int goes_on(const lmb_lattice_tile *tile, int was, int k)
            lift * lift <= 1e-5f * dot3(d, d);
 }
 
-/* Do the corners that agree explain a pixel? Not from far beyond the last of them. */
+/* Do the corners that agree explain a pixel? Not if it lies far beyond the last of them. */
 static int is_explained(const cell *c, const float agree[4], int32_t x, int32_t y)
 {
     const float u = (float)(x - c->x[0]) / c->width, v = (float)(y - c->y[0]) / c->height;
@@ -412,13 +412,13 @@ static int is_explained(const cell *c, const float agree[4], int32_t x, int32_t 
     return sum >= ENOUGH || near;
 }
 
-/* Do all four corners count in full? */
+/* Do all four corners have full weight? */
 static int is_whole(const float agree[4])
 {
     return agree[0] == 1.0f && agree[1] == 1.0f && agree[2] == 1.0f && agree[3] == 1.0f;
 }
 
-/* No other pixel is written: a sample may be read by another window at the same time. */
+/* Writes only the pixels of `own`: another window may be reading the samples. */
 static void put_row(float *to, const float light[LMB_TILE], uint64_t own)
 {
     if (own == 0xff) {
@@ -432,8 +432,8 @@ static void put_row(float *to, const float light[LMB_TILE], uint64_t own)
     }
 }
 
-/* What `mix` gives where all corners count in full, for pixels of a tile: row by row, from the left side of the cell to
- * the right. Equal corners give exactly their light. */
+/* Same result as `mix` if all corners have full weight, for pixels of a tile: row by row, from the left side of the
+ * cell to the right. Equal corners give exactly their light. */
 static void mix_whole(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t y, uint64_t pixels)
 {
     const patch_corner *at = c->corner;
@@ -462,7 +462,7 @@ static void mix_whole(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t 
     }
 }
 
-/* Light some pixels of a tile that lie in the cell; those that no corner explains go to `wanted`. */
+/* Lights some pixels of a tile that lie in the cell; pixels that no corner explains are added to `wanted`. */
 static void fill_pixels(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t y, uint64_t pixels)
 {
     float agree[4] = {0, 0, 0, 0};
@@ -490,7 +490,7 @@ static void fill_pixels(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_
     }
 }
 
-/* Pixels of a tile in columns x[0] .. x[1] - 1 and rows y[0] .. y[1] - 1 of it. */
+/* Mask of a tile's pixels in columns x[0] .. x[1] - 1 and rows y[0] .. y[1] - 1. */
 static uint64_t within(const int32_t x[2], const int32_t y[2])
 {
     const uint64_t row = (((uint64_t)1 << (x[1] - x[0])) - 1) << x[0];
@@ -522,8 +522,8 @@ static void fill_cell(const lmb_lattice *l, int32_t left, int32_t top, int32_t s
     }
 }
 
-/* The cells that the one at (x, y) is divided into, along a curve on which those of each size follow each other
- * (Morton). */
+/* Fills the cells into which the cell at (x, y) is divided, in Morton order, in which cells of each size are
+ * contiguous. */
 static void fill_divided(const lmb_lattice *l, int32_t x, int32_t y)
 {
     for (int32_t i = 0; i < LATTICE_STEP * LATTICE_STEP;) {
@@ -560,9 +560,9 @@ void lmb_lattice_fill(const lmb_lattice *l, int32_t window)
     }
 }
 
-/* --- what no corner explains -------------------------------------------------------------------------------------- */
+/* --- pixels that no corner explains ------------------------------------------------------------------------------- */
 
-/* Columns and rows of tiles of a window. */
+/* Tile columns and rows of a window. */
 typedef struct window {
     int32_t column[2], row[2];
 } window;
@@ -574,9 +574,9 @@ static window window_of(const lmb_lattice *l, int32_t i)
     return w;
 }
 
-/* What lies on the surface of a pixel, not far from it. */
+/* Samples near a pixel and on the same surface. */
 typedef struct around {
-    float sum, light[3]; /* weights, and light by them */
+    float sum, light[3]; /* sums of weights and of weighted light */
     float low, high;     /* R + G + B */
 } around;
 
@@ -592,8 +592,8 @@ static void add_around(around *out, const lmb_lattice_tile *tile, int k, float w
     out->sum += weight;
 }
 
-/* The pixels of a tile that are read from within the window: beyond it those that no other window changes meanwhile.
- * `wanted`: also those to be, and none beyond it. */
+/* Pixels of a tile that may be read from this window. Outside the window: pixels that no other window changes at the
+ * same time. `wanted`: includes pixels to be gathered, and none outside the window. */
 static uint64_t samples_of(const lmb_lattice *l, const window *w, int32_t tx, int32_t ty, int wanted)
 {
     const lmb_lattice_tile *tile = lattice_tile(l, tx, ty);
@@ -603,7 +603,7 @@ static uint64_t samples_of(const lmb_lattice *l, const window *w, int32_t tx, in
     return wanted ? tile->known | tile->wanted : tile->known;
 }
 
-/* Of the samples, with `wanted` also those to be, all that are within `reach` px of pixel (x, y) each way. */
+/* Collects all samples within `reach` px of pixel (x, y) each way; with `wanted` also those to be gathered. */
 static around around_of(const lmb_lattice *l, const window *w, int32_t x, int32_t y, int32_t reach, int wanted)
 {
     const pixel own = pixel_at(l, x, y);
@@ -626,7 +626,7 @@ static around around_of(const lmb_lattice *l, const window *w, int32_t x, int32_
                     add_around(&out, tile, k, weight);
                 }
                 if (weight > 0.0f && wanted) {
-                    return out; /* there is one */
+                    return out; /* one is enough */
                 }
             }
         }
@@ -634,14 +634,14 @@ static around around_of(const lmb_lattice *l, const window *w, int32_t x, int32_
     return out;
 }
 
-/* Does light change by much around a pixel? */
+/* Does the light vary strongly around a pixel? */
 static int is_uneven(const lmb_lattice *l, const window *w, int32_t x, int32_t y)
 {
     const around a = around_of(l, w, x, y, FAR, 0);
     return a.high - a.low > UNEVEN * l->mean;
 }
 
-/* Ask for those of the late pixels that have no sample within `reach`; with `uneven` only where light changes. */
+/* Requests the late pixels without a sample within `reach`; with `uneven` only if the light varies there. */
 static void ask_around(const lmb_lattice *l, const window *w, int32_t reach, int uneven)
 {
     for (int32_t ty = w->row[0]; ty < w->row[1]; ++ty) {

@@ -1,17 +1,17 @@
-/* live_fill.inl: light of a cell's pixels, by the samples at its corners. Layer 9.                              [ours]
+/* live_fill.inl: light of a cell's pixels, from the samples at its corners. Layer 9.                            [ours]
  *
- * Corners that agree count by their bilinear weights; each goes on by half its slopes, which is right for quadratics,
- * or, where a corner is missing, by all of them, which is right for what is linear. */
+ * Corners on a pixel's surface count with bilinear weights. Each is extrapolated by half of the slopes, which is exact
+ * for quadratics. If a corner is missing, full slopes are used, which is exact for linear light. */
 
-#define FILL_ENOUGH 0.5f /* least share of the bilinear weights that the corners must have, */
-#define FILL_NEAR   1.01f  /* but for pixels that lie within so many px of one, squared */
+#define FILL_ENOUGH 0.5f /* min share of the bilinear weights of the corners that agree, ... */
+#define FILL_NEAR   1.01f  /* ... unless the squared distance to one of them, px, is below this */
 
 typedef struct corners_sum {
-    lane weight, enough, near; /* near: 1 where a corner is */
+    lane weight, enough, near; /* near: 1 if a corner is */
     lane light[3], low[3], high[3];
 } corners_sum;
 
-/* How far pixels are on a sample's surface, 0 .. 1: as live_agree has it. */
+/* 0 .. 1: how well pixels agree with a sample's surface, like live_agree. */
 LANE_INLINE lane corners_agree(const lmb_live_sample *s, const lmb_tile *tile, int k)
 {
     lane3 normal, face, d;
@@ -33,7 +33,7 @@ LANE_INLINE lane corners_agree(const lmb_live_sample *s, const lmb_tile *tile, i
     return lane_keep(same, lane_pick(lane_lt(lane_splat(1e-4f), bend), part, lane_splat(1.0f)));
 }
 
-/* Corner i, with a share `part` of its slopes. */
+/* Adds corner i, with a share `part` of the slopes. */
 LANE_INLINE void corners_add(corners_sum *sum, const lmb_live_cell *p, int i, lane agree, lane part, lane x, lane y)
 {
     const lmb_live_sample *s = p->corner[i];
@@ -60,7 +60,7 @@ LANE_INLINE void corners_add(corners_sum *sum, const lmb_live_cell *p, int i, la
     }
 }
 
-/* Corners' agreements, and whether all four agree. */
+/* Sets the corners' agreements. Returns the lanes in which all four agree. */
 LANE_INLINE lane_mask corners_agreements(lane agree[4], const lmb_live_cell *p, const lmb_tile *tile, int k)
 {
     lane_mask all = lane_lt(lane_splat(0.0f), lane_splat(1.0f));
@@ -72,7 +72,7 @@ LANE_INLINE lane_mask corners_agreements(lane agree[4], const lmb_live_cell *p, 
     return all;
 }
 
-/* Light of pixels k, k + 1, ...; bits of those that are explained. */
+/* Lights pixels k, k + 1, ...; returns the mask of those that are explained. */
 LANE_INLINE uint32_t corners_light(lmb_irradiance *inout, const lmb_tile *tile, const lmb_live_cell *p, int k,
                                  uint32_t asked)
 {

@@ -1,7 +1,7 @@
-/* live_grid.c: which pixels are lit by themselves, and what the light of those between them is made of. Layer 9. [ours]
+/* live_grid.c: chooses the pixels to light, and interpolates the light between them. Layer 9.                    [ours]
  *
- * A cell is divided where the cell that it came from predicted its samples badly, by more than their noise. Noise is
- * that of the shares that shadows leave; it is taken out of these, not of the light. */
+ * A cell is divided if the parent cell predicted the samples badly, by more than their noise. Only the visible shares
+ * of shadows are noisy. The noise is removed from these, not from the light. */
 #include "live_grid.h"
 
 #include <string.h>
@@ -10,11 +10,11 @@
 
 #if LMB_LIVE
 
-#define STRAY     1.6f  /* standard deviations by which shares that are one may differ */
-#define EDGE      1.0f  /* of what light changes by over a cell with several surfaces: as if it were off by so much */
-#define LEAST     0.02f /* of p (1 - p): shares of 0 and 1 are uncertain too */
-#define WHOLE     254.0f /* of `seen` */
-#define SPLIT     800.0f /* over the square of the strata: what shadows are off by is not to be divided for */
+#define STRAY     1.6f  /* max standard deviations between two shares that count as equal */
+#define EDGE      1.0f  /* error, as a share of the light's change over a cell with several surfaces */
+#define LEAST     0.02f /* min of p (1 - p): shares of 0 and 1 are uncertain too */
+#define WHOLE     254.0f /* full value of `seen` */
+#define SPLIT     800.0f /* over strata^2: sampling errors of shadows should not cause divisions */
 
 typedef char grid_fits_lattice[sizeof(live_grid_tile) + GRID_SAMPLES * sizeof(lmb_live_sample) <=
                                        sizeof(lmb_lattice_tile)
@@ -51,10 +51,10 @@ static int is_known(const live_grid *g, int32_t x, int32_t y)
                (y % LMB_TILE / GRID_STEP * GRID_SIDE + x % LMB_TILE / GRID_STEP) & 1;
 }
 
-/* The last column or row that may have a sample. */
+/* Last column or row that may have a sample. */
 static int32_t last_of(int32_t size) { return (size - 1) / GRID_STEP * GRID_STEP; }
 
-/* Do all pixels show one triangle by one normal? */
+/* Do all pixels show one triangle with its face normal? */
 static int is_flat(const lmb_tile *tile)
 {
     uint32_t other = 0;
@@ -82,9 +82,9 @@ void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes)
     }
 }
 
-/* --- samples that are asked for ----------------------------------------------------------------------------------- */
+/* --- requested samples -------------------------------------------------------------------------------------------- */
 
-/* Samples that a tile's own cell asks for: of its square of 5 x 5, a bit each, with its right and lower edges. */
+/* Samples that a tile's own cell requests: a mask of 5 x 5 samples, including the right and lower edges. */
 static uint32_t asks_of(const live_grid_tile *t, int32_t level)
 {
     uint32_t out = 0;
@@ -101,7 +101,7 @@ static uint32_t asks_of(const live_grid_tile *t, int32_t level)
     return out;
 }
 
-/* Columns and rows `x` and `y` of the square of 5 x 5 that lie in the tile at (column, row), whose first is there. */
+/* Mask of the 5 x 5 samples that lie in the neighbour tile `right` columns and `down` rows on. */
 static uint32_t in_tile(uint32_t square, int32_t right, int32_t down)
 {
     uint32_t out = 0;
@@ -114,7 +114,7 @@ static uint32_t in_tile(uint32_t square, int32_t right, int32_t down)
     return out;
 }
 
-/* Cells at the right and lower edge of the frame end in its last samples. */
+/* Cells at the right and lower edge of the frame end at the last samples. */
 static uint32_t at_edge(const live_grid *g, uint32_t square, int32_t column, int32_t row)
 {
     const int32_t right = (last_of(g->width) - column * LMB_TILE) / GRID_STEP,
@@ -129,7 +129,7 @@ static uint32_t at_edge(const live_grid *g, uint32_t square, int32_t column, int
     return out;
 }
 
-/* At level 0: the first sample, and at the right and lower edge of the frame the last. */
+/* Level 0 has the first sample, and the last one at the right and lower edge of the frame. */
 static uint32_t first_of(const live_grid *g, int32_t column, int32_t row)
 {
     const int32_t right = column == g->columns - 1 ? (last_of(g->width) - column * LMB_TILE) / GRID_STEP : 0,
@@ -153,14 +153,14 @@ uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int
 
 /* --- between samples ---------------------------------------------------------------------------------------------- */
 
-/* The sample of a grid before or after one in a row or column, or the one beyond; -1: none. */
+/* Position of the grid sample before or after one in a row or column; -1 if there is none. */
 static int32_t before(int32_t x, int32_t step) { return x > 0 ? (x - 1) / step * step : -1; }
 static int32_t after(int32_t x, int32_t step, int32_t size)
 {
     return x < last_of(size) ? mini((x / step + 1) * step, last_of(size)) : -1;
 }
 
-/* The neighbour of a sample by columns (way 0) or rows. Returns its distance in px, 0: none. */
+/* Finds the neighbour of a sample along columns (way 0) or rows. Returns the distance in px; 0 if there is none. */
 static float neighbour(const lmb_live_sample **out, const live_grid *g, int32_t x, int32_t y, int way, int ahead,
                        int32_t step)
 {
@@ -191,7 +191,7 @@ static void set_slope(float slope[3], const live_grid *g, int32_t x, int32_t y, 
     }
 }
 
-/* A cell by its corners; NULL: not known. */
+/* A cell's position and corners; NULL if a corner is not known. */
 typedef struct cell {
     int32_t x[2], y[2];
     const lmb_live_sample *corner[4];
@@ -218,14 +218,14 @@ static float share_of(const lmb_live_sample *s)
     return (float)(s->seen[0] + s->seen[1] + s->seen[2]) / (3.0f * WHOLE);
 }
 
-/* Half the standard deviation of a sample's light, R + G + B, where its share is that of a single segment. */
+/* Half the standard deviation of a sample's light, R + G + B, for a share from a single segment. */
 static float spread_of(const lmb_live_sample *s)
 {
     const float share = share_of(s);
     return s->is_lit && share > 0.0f && share < 1.0f ? 0.5f * all_of(s->light) * sqrtf((1.0f - share) / share) : 0.0f;
 }
 
-/* How far a cell's corners, with the slopes between them, are off at a sample: R + G + B, beyond its noise. */
+/* Prediction error of a cell's corners and slopes at a sample: R + G + B, beyond the sample's noise. */
 static float surplus_at(const live_grid *g, const cell *c, float slope[4][2][3], int32_t x, int32_t y)
 {
     const lmb_live_sample *s = sample_at(g, x, y);
@@ -243,7 +243,7 @@ static float surplus_at(const live_grid *g, const cell *c, float slope[4][2][3],
         sum += weight[i];
     }
     if (agree == 0) {
-        return 0.0f; /* nothing predicts the first sample of a surface */
+        return 0.0f; /* the first sample of a surface has no prediction */
     }
     for (int i = 0; i < 4; ++i) {
         const float w = weight[i] / sum, part = agree == 4 ? 0.5f : 1.0f;
@@ -258,8 +258,8 @@ static float surplus_at(const live_grid *g, const cell *c, float slope[4][2][3],
     return maxf(off - g->noise * spread_of(s), 0.0f);
 }
 
-/* What light changes by over a cell whose corners lie on several surfaces: R + G + B; 0: over others. Nothing shows how
- * it goes on to the edge between them. */
+/* Change of light over a cell with corners on several surfaces: R + G + B; 0 for other cells. No sample shows how the
+ * light continues to the edge between them. */
 static float change_at_edge(const live_grid *g, int32_t x, int32_t y, int32_t step)
 {
     float change = 0.0f;
@@ -284,7 +284,7 @@ static float change_at_edge(const live_grid *g, int32_t x, int32_t y, int32_t st
     return change;
 }
 
-/* Which of the four cells that one of 2 x step px is made of are to be divided? A bit each. */
+/* Mask of the four parts of a cell of 2 x step px that are to be divided. */
 static uint32_t divide_parts(const live_grid *g, int32_t x, int32_t y, int32_t step)
 {
     float surplus[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, slope[4][2][3];
@@ -350,7 +350,7 @@ float lmb_live_grid_mean(const live_grid *g)
 
 static int is_on(int32_t x, int32_t step, int32_t size) { return x % step == 0 || x == last_of(size); }
 
-/* The step of the first grid that a sample lies on. */
+/* Step of the coarsest grid that contains a sample. */
 static int32_t own_step(const live_grid *g, int32_t x, int32_t y)
 {
     int32_t step = LMB_TILE;
@@ -368,8 +368,8 @@ static void add_share(float sum[4], const lmb_live_sample *from, float weight)
     sum[3] += weight;
 }
 
-/* Light by the mean share of those around it, of its own step, on its surface and within its noise. What others may read
- * of it meanwhile stays. */
+/* Replaces the sample's share by the mean of surrounding samples of the same step, on the same surface and within the
+ * noise. Fields that other threads may read meanwhile stay unchanged. */
 static void smooth(const live_grid *g, int32_t x, int32_t y)
 {
     lmb_live_sample *own = sample_at(g, x, y);
@@ -419,7 +419,7 @@ void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row)
 
 /* --- pixels ------------------------------------------------------------------------------------------------------- */
 
-/* Do all corners count in full at a flat tile's first pixel? */
+/* Do all corners have full weight at a flat tile's first pixel? */
 static int is_even(const cell *c, const live_grid *g, const live_grid_tile *t)
 {
     for (int i = 0; i < 4; ++i) {
@@ -430,7 +430,7 @@ static int is_even(const cell *c, const live_grid *g, const live_grid_tile *t)
     return 1;
 }
 
-/* Pixels x .. x + step - 1 of rows y .. y + step - 1. */
+/* Mask of pixels x .. x + step - 1 in rows y .. y + step - 1. */
 static uint64_t square(int32_t x, int32_t y, int32_t step)
 {
     const uint64_t rows = step == LMB_TILE ? ~(uint64_t)0 : (((uint64_t)1 << LMB_TILE * step) - 1) << LMB_TILE * y;

@@ -1,8 +1,8 @@
-/* live_grid.h: samples of a frame whose bounced light is that of single points: what src/frame does with them. Layer 9.
+/* live_grid.h: samples of a frame with bounced light at single points, as src/frame uses them. Layer 9.
  *
- * Samples lie on a grid of 8 px, at the first pixel of each tile. Where light changes, the cell between four of them is
- * divided into cells of 4 px, and these into cells of 2 px. Only a sample that is lit keeps its surface. The grid lies
- * in the memory of lmb_lattice. */
+ * Samples lie on a grid of 8 px, at the first pixel of each tile. If the light varies between four of them, the cell is
+ * divided into cells of 4 px, and these into cells of 2 px. Only lit samples store their surface. The grid uses the
+ * memory of lmb_lattice. */
 #ifndef LMB_COMPOSE_LIVE_GRID_H
 #define LMB_COMPOSE_LIVE_GRID_H
 
@@ -13,57 +13,58 @@
 #include "../lane/kernels.h"
 
 enum {
-    GRID_STEP = 2,  /* px between samples that are closest */
-    GRID_SIDE = LMB_TILE / GRID_STEP, /* of a tile, samples */
+    GRID_STEP = 2,  /* px between the closest samples */
+    GRID_SIDE = LMB_TILE / GRID_STEP, /* samples along a tile's side */
     GRID_SAMPLES = GRID_SIDE * GRID_SIDE,
     GRID_LEVELS = 3 /* steps of 8, 4 and 2 px */
 };
 
-/* Sample k of a tile is at column k % 4 * 2 and row k / 4 * 2. */
+/* Sample k of a tile lies at column k % 4 * 2 and row k / 4 * 2. */
 typedef struct live_grid_tile {
-    uint16_t shown, known; /* samples with a surface; those that are lit */
-    uint8_t divided;       /* is the cell of 8 px? */
-    uint8_t parts;         /* which of its cells of 4 px are, a bit each */
-    uint8_t flat;          /* all its pixels show one triangle, by one normal */
-    uint8_t lobes;         /* gathered whole: it has no samples */
+    uint16_t shown, known; /* samples with a surface; lit samples */
+    uint8_t divided;       /* the cell of 8 px is divided */
+    uint8_t parts;         /* mask of the tile's cells of 4 px that are divided */
+    uint8_t flat;          /* all pixels show one triangle with its face normal */
+    uint8_t lobes;         /* gathered whole: no samples */
 } live_grid_tile;
 
 typedef struct live_grid {
     live_grid_tile *tile;
-    lmb_live_sample *first, *other; /* of each tile sample 0, and samples 1 .. 15: most tiles have only the first */
+    lmb_live_sample *first, *other; /* sample 0 of each tile; samples 1 .. 15, which most tiles lack */
     int32_t width, height, columns, rows; /* px; tiles */
-    float mean;  /* light of the first samples, R + G + B, W/m2 */
-    float split; /* a cell is divided where (surplus / 3)^2 x its area is over split x mean^2 */
-    float noise; /* of a share, where it is 1/2: one by the root of the segments */
+    float mean;  /* mean light of the first samples, R + G + B, W/m2 */
+    float split; /* divide a cell if (surplus / 3)^2 x area > split x mean^2 */
+    float noise; /* deviation of a share of 1/2: 1 / sqrt(segments) */
 } live_grid;
 
-/* The grid of a lattice. `strata`: segments of a sample. */
+/* Returns the grid in a lattice's memory. `strata`: segments of a sample. */
 live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata);
 
-/* Keep which samples of a tile have a surface. `lobes`: it is gathered whole. */
+/* Stores which samples of a tile have a surface. If you pass `lobes`, the tile is gathered whole. */
 void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes);
 
-/* The pixel of a tile at which sample k lies. */
+/* Pixel of a tile at sample k. */
 static inline int grid_pixel(int k) { return k / GRID_SIDE * GRID_STEP * LMB_TILE + k % GRID_SIDE * GRID_STEP; }
 
-/* The samples of a tile that level 0 .. GRID_LEVELS - 1 asks for and that are not known, a bit each. */
+/* Mask of a tile's samples that level 0 .. GRID_LEVELS - 1 requests and that are not known. */
 uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int32_t level);
 
-/* The mean light of the samples of level 0. */
+/* Mean light of the samples of level 0. */
 float lmb_live_grid_mean(const live_grid *g);
 
-/* Divide the cells of level 0 or 1, in two rows of tiles from an even one on, that predict their samples badly. */
+/* Divides the cells of level 0 or 1 that predict their samples badly, in two rows of tiles; `row` is even. */
 void lmb_live_grid_divide(const live_grid *g, int32_t row, int32_t level);
 
-/* Take noise out of the shares of a tile's samples: their light follows. Then set their slopes. */
+/* Removes noise from the shares of a tile's samples and updates their light. Call lmb_live_grid_slopes next: it sets
+ * the slopes. */
 void lmb_live_grid_smooth(const live_grid *g, int32_t column, int32_t row);
 void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row);
 
-/* Light a tile's pixels between the samples. Returns those that no sample explains, a bit each. */
+/* Lights a tile's pixels between the samples. Returns the mask of pixels that no sample explains. */
 uint64_t lmb_live_grid_fill(lmb_irradiance *out, const lmb_kernels *kernels, const live_grid *g, const lmb_tile *tile);
 
-/* 0 .. 1: how far two places are on one surface. Over a smooth one, the height over the other's plane grows with the
- * angle between the normals. */
+/* 0 .. 1: how well two samples agree in their surface. On a smooth surface the height over the other sample's plane
+ * grows with the angle between the normals. */
 static inline float live_agree(const lmb_live_sample *a, const lmb_live_sample *b)
 {
     const float bend = 1.0f - dot3(a->normal, b->normal);

@@ -1,4 +1,4 @@
-/* tone.c: radiance -> the pixels of a display. Layer 9. */
+/* tone.c: radiance -> display pixels. Layer 9. */
 #include <lambent/compose.h>
 
 #include <string.h>
@@ -8,23 +8,23 @@
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 
-/* Bayer's 8x8 index matrix (1973): 0 .. 63, each once. */
+/* Bayer's 8x8 index matrix (1973): a permutation of 0 .. 63. */
 static const uint8_t bayer[LMB_TILE_PIXELS] = {
     0,  32, 8,  40, 2,  34, 10, 42, 48, 16, 56, 24, 50, 18, 58, 26, 12, 44, 4,  36, 14, 46, 6,  38, 60, 28, 52, 20,
     62, 30, 54, 22, 3,  35, 11, 43, 1,  33, 9,  41, 51, 19, 59, 27, 49, 17, 57, 25, 15, 47, 7,  39, 13, 45, 5,  37,
     63, 31, 55, 23, 61, 29, 53, 21};
 
-/* An 8-bit code to `levels` + 1 steps; the dither decides what lies between. k is the pixel's place in its tile. */
+/* Quantizes an 8-bit code to `levels` + 1 steps with ordered dither. k: index of the pixel in the tile. */
 static uint32_t dither(uint8_t code, uint32_t levels, int k)
 {
-    /* floor(code / 255 * levels + (bayer + 1/2) / 64) in whole numbers. */
+    /* floor(code / 255 * levels + (bayer + 1/2) / 64) in integers. */
     return ((uint32_t)code * levels * 128u + (2u * bayer[k] + 1u) * 255u) / (255u * 128u);
 }
 
-/* Pixels of a tile that a surface holds, and where the first of them goes. */
+/* The pixels of a tile inside a surface, and the position of the first. */
 typedef struct tile_part {
     int32_t first_x, last_x, first_y, last_y; /* in the tile */
-    int32_t x, y;                             /* of the tile's pixel 0, in the surface */
+    int32_t x, y;                             /* position of the tile's pixel 0 in the surface */
 } tile_part;
 
 static uint8_t *row_of(const lmb_surface *out, const tile_part *p, int32_t y)
@@ -44,7 +44,7 @@ static void store_linear(const lmb_surface *out, const tile_part *p, const lmb_r
     }
 }
 
-/* Of colours as the kernel makes them: red in the low bits, then green, blue, 255. */
+/* Shifts in the kernel's colours: red in the low bits, then green, blue, 255. */
 enum { GREEN = 8, BLUE = 16 };
 
 static uint32_t swap_red(uint32_t colour)
@@ -52,14 +52,14 @@ static uint32_t swap_red(uint32_t colour)
     return (colour & 0xff00ff00u) | (colour & 255u) << BLUE | (colour >> BLUE & 255u);
 }
 
-/* Where red comes first in memory as it is; compilers know which machine that is. */
+/* Does red come first in memory? Compilers resolve this at compile time. */
 static int is_little_endian(void)
 {
     const uint32_t one = 1;
     return *(const uint8_t *)&one == 1;
 }
 
-/* Bytes of `count` pixels. */
+/* Stores `count` pixels. */
 static void put_row(uint8_t *to, const uint32_t *colour, int32_t count)
 {
     if (is_little_endian() && count == LMB_TILE) {
@@ -105,7 +105,7 @@ static void store_dithered(const lmb_surface *out, const tile_part *p, const uin
     }
 }
 
-/* Within a frame's size of it: differences do not overflow. */
+/* Within a frame's size, so differences do not overflow. */
 static int is_near(int32_t v) { return v >= -LMB_MAX_FRAME && v <= 2 * LMB_MAX_FRAME; }
 
 lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, int32_t x0, int32_t y0,

@@ -1,10 +1,11 @@
-/* upsample.c: a tile's light from that of some of its pixels, by the surfaces they lie on. Layer 9.       [ours] */
+/* upsample.c: a tile's light from some of its pixels, weighted by surface. Layer 9.                       [ours] */
 #include <lambent/compose.h>
 
 #include "../raster/tile.h"
 
-/* Of 8 rows or columns those that are sampled; for each, the sampled one before it and its share of the way to the
- * next. Both ends are among them: so no tile asks another, and where tiles meet, two sampled rows do: no seam. */
+/* The sampled rows or columns of 8. For each of the 8: the sampled one before it, and the fraction of the distance to
+ * the next. Both ends are sampled, so tiles need no neighbours; where tiles meet, two sampled rows meet, so there is no
+ * seam. */
 typedef struct grid {
     int32_t n, at[4];
     int32_t before[LMB_TILE];
@@ -19,14 +20,14 @@ static const grid quarter = {2, {0, 7, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
 
 static const grid *grid_of(int32_t step) { return step == 2 ? &half : step == 4 ? &quarter : NULL; }
 
-/* --- a pixel between its samples ---------------------------------------------------------------------------------- */
+/* --- a pixel between samples -------------------------------------------------------------------------------------- */
 
-#define ALIKE    0.90f /* least cosine between the normals of a pixel and a sample */
-#define FLAT     0.3f  /* most that either lies over the other's plane, of the distance between them */
-#define ENOUGH   0.25f /* least weight, of 1, that a pixel's samples must have */
-#define CONTRAST 0.4f  /* most that their light may differ by, of the brightest */
+#define ALIKE    0.90f /* min cosine between the normals of a pixel and a sample */
+#define FLAT     0.3f  /* max height over the other's plane, as a share of the distance */
+#define ENOUGH   0.25f /* min total weight, of 1, of a pixel's samples */
+#define CONTRAST 0.4f  /* max difference of their light, as a share of the brightest */
 
-/* 0 .. 1: how far pixel s is on the surface of pixel k. */
+/* 0 .. 1: how well pixel s agrees with the surface of pixel k. */
 static float agreement(const lmb_tile *tile, int k, int s)
 {
     const lmb_vec3 d = sub3(tile_vec(tile->position, s), tile_vec(tile->position, k));
@@ -88,7 +89,7 @@ static float brightness(const lmb_irradiance *light, int s)
     return light->rgb[0][s] + light->rgb[1][s] + light->rgb[2][s];
 }
 
-/* Does the light go on evenly? */
+/* Does the light vary little? */
 static int is_even(const between *b, const lmb_irradiance *light)
 {
     float low = 3e38f, high = 0.0f;
@@ -101,7 +102,7 @@ static int is_even(const between *b, const lmb_irradiance *light)
     return high - low <= CONTRAST * high;
 }
 
-/* The heaviest sample's light and the mean of what the others differ from it: exact where they are equal. */
+/* The heaviest sample's light plus the mean difference of the others: exact if all are equal. */
 static void mix(lmb_irradiance *inout, int k, const between *b)
 {
     int max = 0;

@@ -1,7 +1,7 @@
-/* adaptive.c: bounced light at samples of a lattice and between them; runs the phases of live_phases.c too. Layer 10.
+/* adaptive.c: bounced light at samples of a lattice and between them; also runs the phases of live_phases.c. Layer 10.
  *
- * r->light is the phase, r->progress the band or window at hand. In a phase a window writes its own pixels alone and
- * reads of others what the phases before wrote: so any order and number of threads gives the same bytes. */
+ * r->light is the phase, r->progress the next band or window. In a phase a window writes only its own pixels, and reads
+ * from others only results of earlier phases. So any order and number of threads gives the same bytes. */
 #include <string.h>
 
 #include "../base/vec.h"
@@ -14,16 +14,16 @@
 #if LMB_TREES
 
 enum {
-    SURFACES = 0, /* bands: what their pixels show */
+    SURFACES = 0, /* bands: stores the surfaces of the pixels */
     LEVELS = 1,   /* windows: samples of the first level, the second, ... */
     FILL = LEVELS + LATTICE_LEVELS,
-    REST, /* what no sample explains */
+    REST, /* pixels that no sample explains */
     PHASES
 };
 enum { WINDOW_UNITS = 64 };
 
-#define SPLIT 28.0f /* of the allowed error, squared: lmb_lattice.split */
-#define LIVE_SPLIT 290.0f /* over the square of the strata: what shadows are off by is not to be divided for */
+#define SPLIT 28.0f /* times the squared error limit: lmb_lattice.split */
+#define LIVE_SPLIT 290.0f /* over strata^2: sampling errors of shadows should not cause divisions */
 
 static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, int32_t band)
 {
@@ -41,9 +41,9 @@ static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, int32_
     return status;
 }
 
-/* --- packs: wanted pixels of one surface, gathered as a tile ------------------------------------------------------- */
+/* --- packs: wanted pixels of one surface, gathered as a tile ------------------------------------------------------ */
 
-/* Tile i of a window along a curve that stays near where it was (Morton). */
+/* Tile i of a window in Morton order, in which consecutive tiles are near each other. */
 static lmb_lattice_tile *tile_along(const lmb_lattice *l, const int32_t column[2], const int32_t row[2], int32_t i)
 {
     int32_t x = 0, y = 0;
@@ -54,7 +54,7 @@ static lmb_lattice_tile *tile_along(const lmb_lattice *l, const int32_t column[2
     return column[0] + x < column[1] && row[0] + y < row[1] ? lattice_tile(l, column[0] + x, row[0] + y) : NULL;
 }
 
-/* As tile_plane. */
+/* Like tile_plane. */
 static int on_plane(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b, int k)
 {
     const lmb_vec3 n = tile_vec(a->face, i), d = sub3(tile_vec(b->position, k), tile_vec(a->position, i));
@@ -62,7 +62,7 @@ static int on_plane(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b,
     return dot3(n, tile_vec(b->face, k)) >= TILE_COS_25 && height * height <= TILE_FLAT * TILE_FLAT * dot3(d, d);
 }
 
-/* Its depth says how far rounding may have left it off its surface. */
+/* The depth bounds the rounding error of the position. */
 static void put_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int from, const lmb_frame *f)
 {
     for (int c = 0; c < 3; ++c) {
@@ -74,7 +74,7 @@ static void put_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int fro
     out->id[to] = requires_live(f) ? in->id[from] : 1;
 }
 
-/* A pack under way: its pixels lie in s->sparse.together, and where they come from in its light. */
+/* A pack being filled: the pixels are in s->sparse.together, with their origins in `pixel` and `tile`. */
 typedef struct pack {
     const lmb_render *r;
     lmb_band_scratch *s;
@@ -82,7 +82,7 @@ typedef struct pack {
     lmb_lattice_tile *seed;
     int seed_pixel;
     int32_t count;
-    uint16_t tile[LMB_TILE_PIXELS]; /* along the curve */
+    uint16_t tile[LMB_TILE_PIXELS]; /* index in Morton order */
 } pack;
 
 static void put_alike(pack *p, lmb_lattice_tile *tile, int32_t i)
@@ -110,7 +110,7 @@ static lmb_status gather_pack(const pack *p)
     for (int32_t i = 0; i < p->count; ++i) {
         lmb_lattice_tile *tile = tile_along(&p->r->frame.lattice, p->column, p->row, p->tile[i]);
         if (tile == NULL) {
-            continue; /* no pack has such a one */
+            continue; /* a pack never contains such a tile */
         }
         for (int c = 0; c < 3; ++c) {
             tile->light.rgb[c][sparse->pixel[i]] = p->s->indirect.rgb[c][i];
@@ -120,7 +120,7 @@ static lmb_status gather_pack(const pack *p)
     return status;
 }
 
-/* Gather the wanted pixels of a window. */
+/* Gathers the wanted pixels of a window. */
 static lmb_status gather_window(const lmb_render *r, lmb_band_scratch *s, int32_t window)
 {
     const lmb_lattice *l = &r->frame.lattice;
@@ -187,7 +187,7 @@ static float split_of(const lmb_frame *f)
     return requires_live(f) ? LIVE_SPLIT / (strata * strata) : SPLIT * f->error * f->error;
 }
 
-/* The next phase. */
+/* Advances to the next phase. */
 lmb_status lmb_render_samples_on(lmb_render *r)
 {
     r->progress = 0;

@@ -10,14 +10,14 @@
 
 #define BAND_UNITS 8
 
-/* Of several samples a pixel, light of a display is white before the mean is taken. */
+/* With several samples per pixel, a display clips each sample at white before the mean. */
 static float white_of(const lmb_frame *f, const lmb_surface *out)
 {
     return out->format == LMB_RGB32F ? FLT_MAX : lmb_exp2(-f->exposure_ev);
 }
 
-/* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here,
- * always where there are lobes. */
+/* Direct and bounced light of the current tile. `indirect` is the bounced light, or NULL if it is gathered here. Tiles
+ * with lobes always gather it. */
 NOINLINE lmb_status light_pixels(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect,
                                  const lmb_surface *out, int32_t band)
 {
@@ -42,7 +42,8 @@ NOINLINE lmb_status light_pixels(const lmb_render *r, lmb_band_scratch *s, const
     return status == LMB_OK ? lmb_render_radiance(r, glossy, s, &s->tile, &f->view, indirect) : status;
 }
 
-/* The bounced light of the tile at column x where blocks are gathered: all of one with its first tile. Else NULL. */
+/* The bounced light of the tile at column x if blocks are gathered; the first tile of a block gathers the whole block.
+ * Otherwise NULL. */
 static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, lmb_band_scratch *s,
                               const lmb_target *window, int32_t x, int32_t band)
 {
@@ -50,7 +51,7 @@ static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, l
     const int32_t part = x / LMB_TILE % LMB_SPARSE_TILES;
     const int sparse = f->gather_step > 1 && !skips(r, LMB_SKIP_BOUNCE);
     if (lights_points(r)) {
-        *out = &s->sparse.light[0]; /* once the tile is resolved */
+        *out = &s->sparse.light[0]; /* filled after the tile is resolved */
         return LMB_OK;
     }
     if (requires_samples(r)) {
@@ -65,7 +66,7 @@ static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, l
     return lmb_render_block(r, s, window, x, band * LMB_TILE, mini(LMB_SPARSE_TILES, ahead));
 }
 
-/* Of depth and ids in `window`. */
+/* Lights a band from the depth and ids in `window`. */
 static lmb_status light_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *window,
                              const lmb_surface *out, int32_t band)
 {
@@ -116,7 +117,7 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
     return status == LMB_OK ? light_band(r, scratch, &window, out, band) : status;
 }
 
-/* 1 to go on. */
+/* Returns 1 to continue. */
 NOINLINE int hand_over(const lmb_frame *f, int32_t band)
 {
     lmb_surface rows = f->out;

@@ -1,16 +1,16 @@
-/* begin.c: starts a frame, or another picture by the same light. Layer 10. [V31 V33] */
+/* begin.c: starts a frame, or another picture with the same light. Layer 10. [V31 V33] */
 #include <string.h>
 
 #include "stages.h"
 #include "requires.h"
 
 #define STEPS 12
-#define ERROR   0.02f  /* the tool's presets' `default` */
+#define ERROR   0.02f  /* the `default` of the tool's presets */
 #define VISIBILITY 0.015f
-#define EVEN_ERROR   0.1f /* where light comes from all sides */
+#define EVEN_ERROR   0.1f /* for light from all sides */
 #define EVEN_VISIBLE 0.2f
 
-/* Share the map memory out: one shadow map after another. */
+/* Divides the map memory: one shadow map after another. */
 static lmb_status place_maps(lmb_render *r)
 {
     const lmb_frame *f = &r->frame;
@@ -29,7 +29,7 @@ static lmb_status place_maps(lmb_render *r)
     return LMB_OK;
 }
 
-/* Where a picture's numbers are 0. */
+/* Replaces a picture's zeros by defaults. */
 void lmb_render_defaults(lmb_frame *f)
 {
     const int even = (f->error == 0.0f || f->visibility == 0.0f) && wants_even_light(f);
@@ -40,7 +40,7 @@ void lmb_render_defaults(lmb_frame *f)
     f->visibility = f->visibility != 0.0f ? f->visibility : even ? EVEN_VISIBLE : VISIBILITY;
     f->gather_step = f->gather_step != 0 && requires_bounce(f) ? f->gather_step : 1;
     if (takes_lattice(f->gather_step) && requires_transfer(f)) {
-        f->gather_step = 1; /* what was baked costs a pixel less than a sample */
+        f->gather_step = 1; /* baked light costs less per pixel than a sample */
     }
 }
 
@@ -85,7 +85,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     return status;
 }
 
-/* What belongs to the picture, not to the light. */
+/* Copies the settings of the picture, not those of the light. */
 static void set_picture(lmb_frame *f, const lmb_frame *from)
 {
     f->kernels = from->kernels;
@@ -112,8 +112,8 @@ static void set_picture(lmb_frame *f, const lmb_frame *from)
     f->stats = from->stats;
 }
 
-/* Was what the picture asks for solved with the light? Groups or a tree; the BVH; and bounces between
- * elements, by the same rules. */
+/* Did the old frame solve all that the new picture needs? That is groups or a tree, the BVH, and bounces between
+ * elements with the same settings. */
 static int is_solved(const lmb_frame *f, const lmb_render *r)
 {
     const lmb_frame *before = &r->frame;
@@ -124,10 +124,10 @@ static int is_solved(const lmb_frame *f, const lmb_render *r)
     const int texels = LMB_TREES && (!requires_live(f) || (r->is_glossy && f->show != LMB_SHOW_IRRADIANCE));
     if (LMB_TREES && requires_cut(f) &&
         ((requires_live(f) && !requires_live(before)) || (texels && !requires_texels(r)))) {
-        return 0; /* texels of the one or the other tree were not collected */
+        return 0; /* texels of the required tree were not collected */
     }
     if (LMB_TREES && requires_cut(f) && requires_elements(r) && requires_live(f) != requires_live(before)) {
-        return 0; /* elements were lit the other way */
+        return 0; /* elements were lit by the other tree */
     }
     return (!requires_bounce(f) || requires_bounce(before)) && (same || !requires_bounce(f) || !requires_elements(r)) &&
            (!exact || before->occlusion == LMB_OCCLUSION_EXACT || before->bvh.node_count > 0);

@@ -5,11 +5,11 @@
 #include "stages.h"
 #include "requires.h"
 
-/* A pack of samples lies apart, so that its cut goes by its nearest sample and is too fine for the others; what a sample
- * is off by is smaller than what the light between samples is. */
-#define SPREAD_VISIBILITY 1.5f /* of what is allowed to pixels side by side */
+/* The samples of a pack are spread out, so a cut that fits the nearest sample is too fine for the others. The errors of
+ * samples are smaller than those of the interpolation between them. */
+#define SPREAD_VISIBILITY 1.5f /* times the limit for adjacent pixels */
 
-/* Light that many lights send straight. Samples of a pack lie apart: each tests every shadow for itself. */
+/* Direct light of many lights. Samples of a pack are spread out, so each tests every shadow separately. */
 NOINLINE lmb_status gather_many_lights(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s,
                                      const lmb_tile *tile)
 {
@@ -29,7 +29,7 @@ lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch
     return status;
 }
 
-/* Each pixel for itself. */
+/* Lights each pixel separately. */
 NOINLINE lmb_status gather_live(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, const lmb_tile *tile)
 {
     lmb_status status = LMB_OK;
@@ -50,7 +50,7 @@ NOINLINE lmb_status gather_live(lmb_irradiance *inout, const lmb_render *r, lmb_
 }
 
 #else
-#define gather_live(...) LMB_ERR_ARG /* no frame asks for it */
+#define gather_live(...) LMB_ERR_ARG /* never requested in this build */
 #endif
 
 void lmb_render_onto_triangles(lmb_tile *inout, const lmb_frame *f)
@@ -65,7 +65,7 @@ void lmb_render_onto_triangles(lmb_tile *inout, const lmb_frame *f)
 #endif
 }
 
-/* What the light's shadow maps bounce, and what elements send. */
+/* Gathers light that the shadow maps reflect and that elements send. */
 static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,
                               const lmb_tile *tile, const lmb_irradiance *direct)
 {

@@ -7,7 +7,7 @@
 #include "stages.h"
 #include "requires.h"
 
-/* The whole frame's depth: with ids where the eye holds them all, else depth alone for the occlusion. */
+/* The target for the whole frame: with ids if the eye holds all of them, otherwise only the depth, for occlusion. */
 static int view_target(lmb_target *out, const lmb_frame *f)
 {
     *out = f->eye;
@@ -61,7 +61,7 @@ lmb_status lmb_render_view_part(const lmb_render *r, int32_t part, int32_t parts
                     first == 0 ? stats : NULL);
 }
 
-/* `bands` of them from `first` on into the first rows of an eye that is smaller than the frame. */
+/* Draws `bands` bands from `first` into the first rows of an eye that is smaller than the frame. */
 static lmb_status draw_bands(const lmb_render *r, lmb_target *out, const lmb_target *eye, int32_t first, int32_t bands)
 {
     lmb_target_rows(out, eye, 0, bands);
@@ -83,7 +83,7 @@ lmb_status lmb_render_view_strip(const lmb_render *r, lmb_target *out, int32_t b
         *out = *eye;
         return LMB_OK;
     }
-    const int32_t bands = eye->depth.height / LMB_TILE, first = band - band % bands; /* not whole: some of 8 rows */
+    const int32_t bands = eye->depth.height / LMB_TILE, first = band - band % bands; /* a smaller eye: some rows of 8 */
     lmb_status status = LMB_OK;
     if (band == first) {
         status = draw_bands(r, out, eye, first, mini(bands, band_count(&r->frame.view) - first));

@@ -1,4 +1,4 @@
-/* frame_init.c: a frame's memory: how much it takes, and its layout in one block. Layer 10. */
+/* frame_init.c: the size of a frame's memory, and the layout in one block. Layer 10. */
 #include <lambent/render.h>
 
 #include <string.h>
@@ -6,23 +6,23 @@
 #include "requires.h"
 #include "stages.h"
 
-#define LINE 64u /* bytes: parts begin at multiples of this */
+#define LINE 64u /* bytes: parts start at multiples of this */
 
 #ifdef LMB_CONFIG_TINY
-#define MAP_TEXELS    (1u << 14) /* over all shadow maps: 96 KiB with 16-bit ids */
-#define TREE_SHARE    8          /* a quality's tree is so much smaller: 60 to 80 bytes a texel */
+#define MAP_TEXELS    (1u << 14) /* for all shadow maps: 96 KiB with 16-bit ids */
+#define TREE_SHARE    8          /* divides the tree size of a quality: 60 to 80 bytes a texel */
 #define ELEMENTS      256u
 #define MANY_ELEMENTS 1024u
 #else
 #define MAP_TEXELS    (1u << 21)
 #define TREE_SHARE    1
-#define ELEMENTS      16384u /* for what emits light, and many lights */
-#define MANY_ELEMENTS 65536u /* for one bounce after another: by fewer, rooms lose a tenth of their later light */
+#define ELEMENTS      16384u /* for emissive surfaces and many lights */
+#define MANY_ELEMENTS 65536u /* for repeated bounces: with fewer, rooms lose a tenth of the later light */
 #endif
 
 enum { FINEST_MAP = 1024, COARSEST_MAP = 64, MAX_THREADS = 1024, FINEST_TREE = 4096 };
 
-/* The block: measured while `memory` is NULL, then shared out in the same order. */
+/* The block: only measured if `memory` is NULL, otherwise allocated in the same order. */
 typedef struct block {
     uint8_t *memory;
     uint64_t used;
@@ -39,12 +39,12 @@ static int is_measured(const block *b) { return b->memory == NULL; }
 
 /* --- settings ----------------------------------------------------------------------------------------------------- */
 
-/* Error and time of the presets: tests/results/README.md. */
+/* Errors and times of the presets: tests/results/README.md. */
 static const struct preset {
     int32_t tree;
     float error, visibility;
 } presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.002f}, {256, 0.02f, 0.015f}},
-  /* by light from all sides, gathered at every second pixel each way */
+  /* for light from all sides, gathered at every second pixel each way */
   even_presets[] = {{256, 0.1f, 0.2f}, {128, 0.2f, 0.3f}, {1024, 0.01f, 0.005f}, {256, 0.1f, 0.2f}};
 
 static int is_fixed(const lmb_frame_settings *s) { return !LMB_TREES || s->quality == LMB_QUALITY_FIXED; }
@@ -95,7 +95,7 @@ static int32_t chosen_map(const lmb_frame_settings *s)
     return s->shadow_map != 0 ? s->shadow_map : size;
 }
 
-/* All that is no memory. */
+/* Sets all fields except memory. */
 static void set_numbers(lmb_frame *f, const lmb_frame_settings *s)
 {
     memset(f, 0, sizeof *f);
@@ -147,7 +147,7 @@ static lmb_status place_surface(lmb_surface *out, int32_t format, const lmb_view
     return is_measured(b) ? LMB_OK : lmb_surface_init(out, format, v->frame_width, height, memory, bytes);
 }
 
-/* The viewer's depth and ids, and the picture. */
+/* Places the viewer's depth and ids, and the picture. */
 static lmb_status place_surfaces(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const int32_t rows = s->by_bands ? LMB_TILE : f->view.frame_height;
@@ -164,7 +164,7 @@ static lmb_status place_surfaces(lmb_frame *f, const lmb_frame_settings *s, bloc
     return status == LMB_OK && !is_measured(b) ? lmb_surface_clear(&f->out) : status;
 }
 
-/* First points, groups, and, where the eye sees bands alone, the depth of all that it sees. */
+/* Places first points, groups, and the whole view's depth if the eye holds only bands. */
 static lmb_status place_groups(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const int32_t block_side = f->grouping.block != 0 ? f->grouping.block : LMB_TILE;
@@ -206,7 +206,7 @@ static lmb_status place_elements(lmb_frame *f, const lmb_frame_settings *s, bloc
     return bytes == 0 ? LMB_ERR_ARG : is_measured(b) ? LMB_OK : lmb_elements_init(&f->elements, n, memory, bytes);
 }
 
-/* As fine as the settings say, as far as the maps' texels can be taken 1 x 1 to 8 x 8 together. */
+/* Places a tree as fine as the settings request. A texel of the tree covers 1 x 1 to 8 x 8 texels of the maps. */
 static lmb_status place_tree(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const uint32_t lit = map_faces(f->scene), faces = lit > 0 ? lit : 1;
@@ -239,7 +239,7 @@ static lmb_status place_transfer(lmb_frame *f, block *b)
 }
 #endif
 
-/* What holds the light that bounces, and what stands in its way. Nothing lights the scene: nothing. */
+/* Places the memory for bounced light and occlusion. Nothing is needed if nothing lights the scene. */
 static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const int emits = lmb_scene_emits(f->scene) && !is_fixed(s);
@@ -273,7 +273,7 @@ static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block
     return status;
 }
 
-/* Of frames that bounce light. */
+/* Places the lattice of frames that bounce light. */
 static lmb_status place_lattice(lmb_frame *f, block *b)
 {
     const lmb_view *v = &f->view;
@@ -288,7 +288,7 @@ static lmb_status place_lattice(lmb_frame *f, block *b)
 }
 
 #if LMB_LIVE
-/* The tree of single points, and a scratch for each thread. */
+/* Places the tree of single points, and a scratch for each thread. */
 static lmb_status place_live(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const uint32_t lit = map_faces(f->scene), faces = lit > 0 ? lit : 1;
@@ -317,7 +317,7 @@ static lmb_status place_live(lmb_frame *f, const lmb_frame_settings *s, block *b
 }
 #endif
 
-/* One for each thread. */
+/* Places one multisample scratch for each thread. */
 static lmb_status place_multisample(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     lmb_status status = LMB_OK;

@@ -1,8 +1,8 @@
 /* live_phases.c: light of single points at the samples of a grid, and between them: phases of adaptive.c. Layer 10.
  *
- * r->light is the phase, r->progress the piece: two rows of tiles. In a phase a piece writes its own samples alone and
- * reads of others what the phases before wrote: so any order and number of threads gives the same bytes. Pixels between
- * samples are lit as the bands are drawn. */
+ * r->light is the phase, r->progress the next piece: two rows of tiles. In a phase a piece writes only its own samples,
+ * and reads from others only results of earlier phases. So any order and number of threads gives the same bytes. Pixels
+ * between samples are lit as the bands are drawn. */
 #include <string.h>
 
 #include "../base/vec.h"
@@ -15,18 +15,18 @@
 #if LMB_LIVE
 
 enum {
-    SURFACES = 0, /* what the samples show; those of level 0 are lit */
-    CELLS_8,      /* divide */
-    SAMPLES_4,    /* light */
+    SURFACES = 0, /* stores the surfaces of samples; lights those of level 0 */
+    CELLS_8,      /* divides */
+    SAMPLES_4,    /* lights */
     CELLS_4,
     SAMPLES_2,
-    SHADOWS, /* take their noise away */
+    SHADOWS, /* removes their noise */
     SLOPES,
     PHASES
 };
 enum { ROWS = 2 };
 
-#define REACH 3 /* px each way from a pixel that no sample explains to one that is lit by itself */
+#define REACH 3 /* px each way within which a pixel that no sample explains needs a lit pixel */
 
 static live_grid grid_of(const lmb_render *r) { return lmb_live_grid_of(&r->frame.lattice, r->frame.live->strata); }
 
@@ -68,7 +68,7 @@ static lmb_live_sample sample_of(const lmb_tile *tile, int k)
     return s;
 }
 
-/* The samples `asked` of the tile at hand. */
+/* Lights the requested samples of the current tile. */
 NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, uint32_t asked)
 {
     live_grid_tile *t = grid_tile(g, s->tile.x / LMB_TILE, s->tile.y / LMB_TILE);
@@ -100,7 +100,7 @@ static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const 
     return status;
 }
 
-/* The samples of a row of tiles that level 1 or 2 asks for. */
+/* Lights the samples of a row of tiles that level 1 or 2 requests. */
 static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row, int32_t level)
 {
     const lmb_frame *f = &r->frame;
@@ -165,7 +165,7 @@ NOINLINE void set_mean(lmb_render *r)
     r->frame.lattice.mean = lmb_live_grid_mean(&g);
 }
 
-/* The next phase. */
+/* Advances to the next phase. */
 lmb_status lmb_render_live_on(lmb_render *r)
 {
     if (r->light == SURFACES) {
@@ -176,8 +176,7 @@ lmb_status lmb_render_live_on(lmb_render *r)
 
 /* --- pixels that no sample explains ------------------------------------------------------------------------------- */
 
-/* What a pixel may take its light from: pixels of the tile that are lit by themselves, a bit each, and samples of the
- * tile and of its cell. */
+/* Sources of light for a pixel: a mask of individually lit pixels of the tile, and samples of the tile and the cell. */
 typedef struct sources {
     const lmb_tile *tile;
     const lmb_irradiance *light;
@@ -187,9 +186,9 @@ typedef struct sources {
     int8_t x[GRID_SAMPLES + 3], y[GRID_SAMPLES + 3];
 } sources;
 
-/* Light at a pixel by its sources. */
+/* Light at a pixel, averaged over the sources. */
 typedef struct around {
-    float sum, light[3]; /* weights, and light by them */
+    float sum, light[3]; /* sums of weights and of weighted light */
 } around;
 
 static void add_around(around *a, const float light[3], float weight)
@@ -202,14 +201,14 @@ static void add_around(around *a, const float light[3], float weight)
 
 static int is_within(int dx, int dy) { return dx >= -REACH && dx <= REACH && dy >= -REACH && dy <= REACH; }
 
-/* The weight of what lies dx, dy px away. */
+/* Weight of a source at an offset of dx, dy px. */
 static float nearness(int dx, int dy)
 {
     const float d2 = 0.5f + (float)(dx * dx + dy * dy);
     return 1.0f / (d2 * d2);
 }
 
-/* By those within REACH. */
+/* Averages the sources within REACH. */
 static around around_of(const sources *s, int k)
 {
     const lmb_live_sample own = sample_of(s->tile, k);
@@ -256,7 +255,7 @@ static void set_sources(sources *out, const live_grid *g, const lmb_tile *tile, 
     }
 }
 
-/* Light some of the pixels left by themselves, so that each has a source within REACH. */
+/* Lights some of the remaining pixels individually, so that each pixel has a source within REACH. */
 static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, const live_grid *g,
                              uint64_t left)
 {

@@ -1,4 +1,4 @@
-/* multisample.c: several samples of coverage and direct light a pixel, with bounced light once a surface. Layer 10. */
+/* multisample.c: several samples of coverage and direct light per pixel, bounced light once per surface. Layer 10. */
 #include <string.h>
 
 #include "../base/vec.h"
@@ -9,7 +9,7 @@
 
 #if LMB_MULTISAMPLE
 
-/* The view of one sample, and its rows in the memory of all: in scratch, as stack is short. */
+/* Sets the view of one sample, and the rows for it in the shared memory. Both are in scratch, to save stack. */
 static void set_sample(lmb_multisample *m, const lmb_frame *f, int32_t sample, int32_t band)
 {
     m->view = f->view;
@@ -48,9 +48,9 @@ lmb_status lmb_multisample_draw(const lmb_render *r, lmb_band_scratch *s, int32_
     return status;
 }
 
-/* --- bounced light of a sample: that of its surface where it is known nearby --------------------------------------- */
+/* --- bounced light of a sample, taken from the same surface nearby ------------------------------------------------ */
 
-/* Pixel j of tile b goes on where pixel i of tile a lies. */
+/* Does pixel j of tile b continue the surface at pixel i of tile a? */
 static int is_same_surface(const lmb_tile *a, int i, const lmb_tile *b, int j)
 {
     if (a->id[i] == b->id[j]) {
@@ -69,7 +69,7 @@ static void take_light(lmb_irradiance *out, int to, const lmb_irradiance *in, in
     }
 }
 
-/* The pixel whose middle shows the surface of the sample in pixel k: k, or a neighbour, or -1. */
+/* The pixel with the surface of the sample in pixel k at its middle: k, a neighbour, or -1. */
 static int find_middle(const lmb_tile *middle, const lmb_tile *sample, int k)
 {
     static const int8_t near[9][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
@@ -82,7 +82,7 @@ static int find_middle(const lmb_tile *middle, const lmb_tile *sample, int k)
     return -1;
 }
 
-/* One of the surfaces that no pixel's middle shows, gathered for an earlier sample of pixel k or a neighbour; or -1. */
+/* A surface that no pixel's middle shows, gathered for an earlier sample of pixel k or of a neighbour; or -1. */
 static int find_extra(const lmb_multisample *m, int k)
 {
     for (int i = 0; i < m->extras; ++i) {
@@ -94,7 +94,7 @@ static int find_extra(const lmb_multisample *m, int k)
     return -1;
 }
 
-/* Gather what is left of the sample's pixels, and keep it for later samples as long as there is room. */
+/* Gathers the rest of the sample's pixels, and stores them for later samples while there is room. */
 NOINLINE lmb_status gather_left(const lmb_render *r, lmb_band_scratch *s, uint64_t left)
 {
     lmb_multisample *m = s->multisample;
@@ -142,9 +142,9 @@ static lmb_status find_light(const lmb_render *r, lmb_band_scratch *s)
     return left != 0 ? gather_left(r, s, left) : LMB_OK;
 }
 
-/* --- a tile --------------------------------------------------------------------------------------------------------- */
+/* --- a tile ------------------------------------------------------------------------------------------------------- */
 
-/* What lobes make of bounced light, where a pixel's middle shows the sample's surface. */
+/* Adds the bounced light that lobes reflect, if a pixel's middle shows the sample's surface. */
 static void add_lobes(lmb_glossy *inout, const lmb_multisample *m)
 {
     for (uint64_t bits = inout->pixels; bits != 0; bits &= bits - 1) {

@@ -20,7 +20,7 @@ static lmb_world_query look_of(const lmb_relight *r)
     return query;
 }
 
-/* Pixels of the tile that have the probe of the first that is left. */
+/* Mask of the remaining pixels that share the first one's probe. */
 static uint64_t with_same_probe(uint16_t *probe, const lmb_relight *r, const lmb_tile *tile, uint64_t left)
 {
     uint64_t same = 0;
@@ -38,7 +38,7 @@ static uint64_t with_same_probe(uint16_t *probe, const lmb_relight *r, const lmb
     return same;
 }
 
-/* A probe's light on its pixels. A mirror of a world that is not there is dark. */
+/* Adds a probe's light to the probe's pixels. A mirror without a world is dark. */
 static lmb_status add_probe(const lmb_relight *r, lmb_relight_scratch *s, uint64_t pixels, const lmb_probe *probe,
                             int is_glossy)
 {
@@ -67,7 +67,7 @@ static lmb_status add_probes(const lmb_relight *r, lmb_relight_scratch *s, int i
     return status;
 }
 
-/* The scene's own lights. What is not shown of them is taken out again: what remains is the other part, to the bit. */
+/* Adds the scene's own lights, then clears the part that is not shown. So the shown part is exact to the bit. */
 static lmb_status add_lights(const lmb_relight *r, lmb_relight_scratch *s, lmb_glossy *glossy)
 {
     const light_tile lit = {r->kernels, r->scene, &r->view, &s->tile};
@@ -84,7 +84,7 @@ static lmb_status add_lights(const lmb_relight *r, lmb_relight_scratch *s, lmb_g
     return status;
 }
 
-/* Has every instance a probe with light? */
+/* Does every instance have a probe with light? */
 static int has_probes(const lmb_relight *r)
 {
     int valid = 1;

@@ -48,7 +48,7 @@ lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32
                                            : lmb_render_solve_part(r, scratch, part, parts, stats);
 }
 
-/* The stage is complete, or has failed. */
+/* Ends the stage, after success or failure. */
 static lmb_status end_stage(lmb_render *r, lmb_status status)
 {
     if (status < 0) {

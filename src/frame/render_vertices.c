@@ -1,8 +1,8 @@
 /* render_vertices.c: a frame's light at vertices, for lmb_draw_list. Layer 10.
  *
- * Vertices are the pixels of a tile that lie apart, of no triangle. Without a normal a vertex takes the mean of
- * the light on all planes through it. A light gives to it a quarter of what a plane that faces the light receives: the mean of
- * a cosine over all ways, where negative ones count as 0. Of other light, it is the mean of six planes. */
+ * Vertices are the pixels of a scattered tile, without a triangle. A vertex without a normal gets the mean of the light
+ * on all planes through it. A light contributes a quarter of the irradiance of a plane that faces the light: the mean
+ * of a clamped cosine over all directions. Other light is averaged over six planes. */
 #include <string.h>
 
 #include "../base/codec.h"
@@ -15,7 +15,7 @@
 #include "stages.h"
 
 #if LMB_DRAW
-#define VERTEX_ID 0xffffffffu /* of no triangle: nothing that a vertex lies on */
+#define VERTEX_ID 0xffffffffu /* no triangle: the vertex lies on none */
 
 typedef struct vertex_job {
     const lmb_render *r;
@@ -23,7 +23,7 @@ typedef struct vertex_job {
     const lmb_draw_vertices *vertices;
     const float *normals;
     const lmb_mat4 *to_world;
-    lmb_vec3 turn[3]; /* of normals */
+    lmb_vec3 turn[3]; /* rotates normals */
 } vertex_job;
 
 static void vertex_face(lmb_tile *tile, int k, lmb_vec3 n)
@@ -38,7 +38,7 @@ static lmb_vec3 vertex_at(const lmb_tile *tile, int k)
     return vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
 }
 
-/* Vertices first .. first + n - 1 are the tile's pixels. */
+/* Sets the tile's pixels to vertices first .. first + n - 1. */
 static void vertex_take(const vertex_job *j, uint32_t first, int n)
 {
     const lmb_view *view = &j->r->frame.view;
@@ -81,7 +81,7 @@ static lmb_status vertex_add_bounced(const vertex_job *j, float share)
     return status;
 }
 
-/* Lamps with shadow maps; without normals, each on planes that face it. */
+/* Adds lights with shadow maps. Vertices without normals face each light. */
 static lmb_status vertex_add_lamps(const vertex_job *j)
 {
     const lmb_frame *f = &j->r->frame;
@@ -120,7 +120,7 @@ static lmb_status vertex_add_many_lights(const vertex_job *j, float share)
     return status;
 }
 
-/* Set s->radiance to the irradiance of the tile's pixels. */
+/* Sets s->radiance to the irradiance of the tile's pixels. */
 static lmb_status vertex_light(const vertex_job *j)
 {
     lmb_band_scratch *s = j->s;

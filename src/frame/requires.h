@@ -1,4 +1,4 @@
-/* requires.h: which stages and memory a frame requires. Layer 10. */
+/* requires.h: the stages and memory that a frame requires. Layer 10. */
 #ifndef LMB_FRAME_REQUIRES_H
 #define LMB_FRAME_REQUIRES_H
 
@@ -20,7 +20,7 @@ static inline int requires_many_lights(const lmb_frame *f)
 
 static inline int requires_multisample(const lmb_frame *f) { return LMB_MULTISAMPLE && f->samples > 1; }
 
-/* Does bounced light come by what was baked? */
+/* Is bounced light baked? */
 static inline int requires_transfer(const lmb_frame *f)
 {
     return LMB_TRANSFER && f->show != LMB_SHOW_DIRECT && f->transfer != NULL;
@@ -43,28 +43,28 @@ static inline int requires_bounce(const lmb_frame *f)
     return requires_cut(f) || requires_groups(f) || requires_transfer(f);
 }
 
-/* Is bounced light of the maps that of single points? */
+/* Does bounced light of the maps come from the tree of single points? */
 static inline int requires_live(const lmb_frame *f)
 {
     return LMB_LIVE && f->gather_step == LMB_GATHER_LIVE && f->live != NULL && requires_cut(f);
 }
 
-/* Has a thread's scratch no memory for single points that the frame lights? */
+/* Does a thread's scratch lack the memory for single points that the frame needs? */
 static inline int lacks_live(const lmb_frame *f, const lmb_band_scratch *s) { return requires_live(f) && s->live == NULL; }
 
-/* Does a gather_step take a lattice? */
+/* Does a gather_step use a lattice? */
 static inline int takes_lattice(int32_t gather_step)
 {
     return (LMB_TREES && gather_step == LMB_GATHER_ADAPTIVE) || (LMB_LIVE && gather_step == LMB_GATHER_LIVE);
 }
 
-/* Is bounced light gathered at a lattice's samples? */
+/* Is bounced light gathered at the samples of a lattice? */
 static inline int requires_samples(const lmb_render *r)
 {
     return takes_lattice(r->frame.gather_step) && !(LMB_PLAN && (r->skips & LMB_SKIP_BOUNCE) != 0);
 }
 
-/* What is left out and what is kept; nothing in builds without plan. */
+/* Flags for skipped and reused work; always 0 if you build without plan. */
 static inline int skips(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->skips & what) != 0; }
 static inline int reuses(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->reuses & what) != 0; }
 static inline int light_is(const lmb_render *r, uint32_t light, uint32_t what)
@@ -72,7 +72,7 @@ static inline int light_is(const lmb_render *r, uint32_t light, uint32_t what)
     return LMB_PLAN && (r->light_state[light] & what) != 0;
 }
 
-/* How many of a light's faces have first points. */
+/* Number of a light's faces with first points. */
 static inline uint32_t faces_that_bounce(const lmb_render *r, uint32_t light)
 {
     uint32_t n = 0;
@@ -82,33 +82,33 @@ static inline uint32_t faces_that_bounce(const lmb_render *r, uint32_t light)
     return n;
 }
 
-/* Is all light that of many lights, which comes from all sides? */
+/* Do only many lights light the scene? Their light comes from all sides. */
 static inline int wants_even_light(const lmb_frame *f)
 {
     return LMB_TREES && f->many_lights != NULL && f->many_lights->lights >= LMB_MANY_LIGHTS_EVEN && f->scene != NULL &&
            f->scene->light_count == 0 && !lmb_scene_emits(f->scene);
 }
 
-/* Do many lights bounce? */
+/* Does the light of many lights bounce? */
 static inline int requires_many_lights_bounce(const lmb_frame *f)
 {
     return LMB_TREES && f->many_lights != NULL && f->many_lights->lights > 0 && requires_cut(f) &&
            f->elements.data != NULL;
 }
 
-/* Do many lights light the elements of what was baked? */
+/* Do many lights light the elements of baked light? */
 static inline int requires_many_lights_transfer(const lmb_frame *f)
 {
     return LMB_TREES && requires_transfer(f) && f->many_lights != NULL && f->many_lights->lights > 0;
 }
 
-/* Do many lights light pixels where bounced light is gathered? */
+/* Does the gather of bounced light also add the light of many lights? */
 static inline int gathers_many_lights(const lmb_frame *f)
 {
     return LMB_TREES && f->many_lights != NULL && f->gather_many_lights != 0 && f->show != LMB_SHOW_DIRECT;
 }
 
-/* Does light come from elements too? */
+/* Does light also come from elements? */
 static inline int requires_elements(const lmb_render *r)
 {
     const lmb_frame *f = &r->frame;
@@ -116,13 +116,13 @@ static inline int requires_elements(const lmb_render *r)
            (f->bounces > 1 || r->emits || requires_many_lights_bounce(f));
 }
 
-/* Is all bounced light that of single points? Elements are in their tree. */
+/* Does all bounced light come from single points? Their tree contains the elements. */
 static inline int lights_points(const lmb_render *r)
 {
     return requires_samples(r) && requires_live(&r->frame) && !gathers_many_lights(&r->frame);
 }
 
-/* Do lobes count? */
+/* Do lobes contribute? */
 static inline int requires_glossy(const lmb_render *r) { return r->is_glossy && r->frame.show != LMB_SHOW_IRRADIANCE; }
 
 /* Does a frame take the maps' light from the tree of texels? */
@@ -131,34 +131,35 @@ static inline int requires_texels(const lmb_render *r)
     return requires_cut(&r->frame) && (!requires_live(&r->frame) || requires_glossy(r));
 }
 
-/* Do elements receive direct light first, of what emits light or of many lights? */
+/* Do elements first receive direct light, from emissive surfaces or many lights? */
 static inline int sends_direct(const lmb_render *r)
 {
     return LMB_TREES && (r->emits || requires_many_lights_bounce(&r->frame));
 }
 
-/* The number of passes in which elements receive light. The first reflection of a light with a shadow map comes from
- * the map's texels. Light from emissive surfaces and from many lights is reflected by elements only, which takes one
- * more pass. */
+/* Number of passes in which elements receive light. The first reflection of a light with a shadow map comes from the
+ * map's texels. Light from emissive surfaces and from many lights is reflected only by elements, which takes one more
+ * pass. */
 static inline uint32_t radiosity_bounces(const lmb_render *r)
 {
     return (uint32_t)r->frame.bounces - (sends_direct(r) ? 0u : 1u);
 }
 
-/* Is there another pass of elements to go? */
+/* Is another pass of elements left? */
 static inline int has_bounces(const lmb_render *r)
 {
     return requires_elements(r) && !reuses(r, LMB_REUSE_BOUNCES) && r->light < radiosity_bounces(r);
 }
 
-/* Many lights require the BVH whatever is shown, because another view that reuses this solution may show more. */
+/* Many lights require the BVH even if this picture does not show them, because you may reuse the solution for a view
+ * that does. */
 static inline int requires_bvh(const lmb_frame *f)
 {
     return (requires_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT) ||
            (f->many_lights != NULL && f->bvh.triangle != NULL);
 }
 
-/* What blocks light of single points, or NULL; and what a thread counted of them. */
+/* The BVH that occludes light of single points, or NULL; and the counts of a thread. */
 static inline const lmb_bvh *live_bvh(const lmb_frame *f)
 {
     return f->occlusion == LMB_OCCLUSION_EXACT ? &f->bvh : NULL;
@@ -191,13 +192,13 @@ static inline lmb_cut_params cut_params_of(const lmb_frame *f, lmb_stats *stats)
     c.visibility = f->visibility;
     c.conservative = f->conservative;
     c.floor =
-        f->error_floor * 9.42477796f; /* 3 channels x pi: the irradiance that a white surface shows as that radiance */
+        f->error_floor * 9.42477796f; /* 3 channels x pi: irradiance at which a white surface shows this radiance */
     c.bvh = f->occlusion == LMB_OCCLUSION_EXACT ? &f->bvh : NULL;
     c.stats = stats;
     return c;
 }
 
-/* What cuts count in a scratch; other builds count none of it. */
+/* Adds the cut counts of a scratch; builds without trees have none. */
 static inline void add_counts(lmb_stats *stats, const lmb_stats *counts)
 {
     if (LMB_TREES && stats != NULL) {

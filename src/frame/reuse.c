@@ -1,8 +1,9 @@
-/* reuse.c: begins the next frame of an animation, reusing what did not change. Layer 10. [V33 V34]
+/* reuse.c: starts the next frame of an animation and reuses unchanged results. Layer 10. [V33 V34]
  *
- * Who changes a scene raises its revisions; who changes a setting shows it in the frame; memory is what it was where
- * the pointers are. Each thing is kept where all that it was made of stands: shadow maps of triangles and a light;
- * first points of a map and the look; the BVH of triangles; groups of all first points; bounces of all of that. */
+ * A caller who changes the scene raises the scene's revisions. Changed settings show in the frame, and memory is the
+ * same if the pointers are. A result is reused if all its inputs are unchanged: shadow maps depend on triangles and a
+ * light; first points on a map and the materials; the BVH on triangles; groups on all first points; bounces on all of
+ * these. */
 #include <string.h>
 
 #include "../base/vec.h"
@@ -11,7 +12,7 @@
 
 #if LMB_PLAN
 
-/* What is taken over from the last frame, whose state is begun anew. */
+/* State taken over from the last frame before r is reset. */
 typedef struct old_frame {
     lmb_frame frame;
     uint32_t reuses;
@@ -31,7 +32,7 @@ static int same_appearance(const lmb_render *r, const lmb_frame *f)
     return r->appearance_revision == f->scene->appearance_revision;
 }
 
-/* Are there maps for the same lights at the same places? A light may have changed. */
+/* Do maps exist for the same lights at the same addresses? A light may have changed. */
 static int same_maps(const lmb_render *r, const lmb_frame *f)
 {
     const lmb_frame *old = &r->frame;
@@ -65,7 +66,7 @@ static int same_tree(const lmb_frame *a, const lmb_frame *b)
     const int live = requires_live(a) || requires_live(b);
     if (live && (a->live != b->live || a->gather_step != b->gather_step || a->show != b->show ||
                  a->bounces != b->bounces || a->many_lights != b->many_lights)) {
-        return 0; /* texels of the one or the other tree may not have been collected */
+        return 0; /* texels of the required tree may not have been collected */
     }
     return requires_cut(a) && requires_cut(b) && a->tree.texel == b->tree.texel && a->tree.node == b->tree.node &&
            a->tree.view == b->tree.view && a->tree.size == b->tree.size && a->tree.face_cap == b->tree.face_cap;
@@ -79,7 +80,7 @@ static int same_points(const lmb_frame *a, const lmb_frame *b)
            a->groups == b->groups && memcmp(&a->grouping, &b->grouping, sizeof a->grouping) == 0;
 }
 
-/* The elements' memory, and the rules by which they lit one another. */
+/* Same memory of elements, and same settings of the light between them? */
 static int same_elements(const lmb_frame *a, const lmb_frame *b)
 {
     return a->elements.data == b->elements.data && a->elements.cap == b->elements.cap &&
@@ -89,7 +90,7 @@ static int same_elements(const lmb_frame *a, const lmb_frame *b)
            b->many_lights == NULL;
 }
 
-/* Which of the shadow maps and of their first points stand. 1 where all do. */
+/* Finds the reusable shadow maps and first points. Returns 1 if all are. */
 static int reuse_lights(old_frame *old, const lmb_render *r, const lmb_frame *f)
 {
     const int solved =
@@ -107,7 +108,7 @@ static int reuse_lights(old_frame *old, const lmb_render *r, const lmb_frame *f)
     return all;
 }
 
-/* Read from r before it begins anew. */
+/* Reads from r before r is reset. */
 static void find_reused(old_frame *old, const lmb_render *r, const lmb_frame *f)
 {
     const lmb_frame *was = &r->frame;
@@ -124,8 +125,8 @@ static void find_reused(old_frame *old, const lmb_render *r, const lmb_frame *f)
     old->reuses |= r->stage >= LMB_STAGE_BANDS && same_view(was, f) ? LMB_REUSE_VIEW : 0;
 }
 
-/* A shadow map, and its faces of the tree, stand where those of it and of the lights before it are as many as they
- * were. */
+/* A shadow map and the tree faces for it stay in place if the counts of their faces, and of those of all earlier
+ * lights, are unchanged. */
 static void keep_places(lmb_render *r, const old_frame *old)
 {
     int maps = 1, texels = 1;

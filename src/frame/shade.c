@@ -1,4 +1,4 @@
-/* shade.c: direct light of a tile, and what its pixels send to the viewer. Layer 10. */
+/* shade.c: direct light of a tile, and the radiance of the pixels towards the viewer. Layer 10. */
 #include <string.h>
 
 #include "../base/vec.h"
@@ -9,7 +9,7 @@
 #include "stages.h"
 #include "requires.h"
 
-/* SHOW_IRRADIANCE is what arrives before the albedo. */
+/* SHOW_IRRADIANCE shows the irradiance, without albedo. */
 static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
 
 lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_scratch *s, const lmb_tile *tile,
@@ -54,7 +54,7 @@ static void show_unlit(lmb_radiance *inout, const lmb_scene *scene, const lmb_ti
 
 #if LMB_TREES
 
-/* What lies behind all surfaces, where a tile's pixels show none. */
+/* Adds the background to pixels without a surface. */
 static void show_background(lmb_radiance *inout, const lmb_frame *f, const lmb_view *view, const lmb_tile *tile)
 {
     lmb_rays rays;

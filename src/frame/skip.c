@@ -1,13 +1,13 @@
-/* skip.c: finds what a frame can skip because it changes no byte of the picture. Layer 10.
+/* skip.c: finds work that a frame can skip because it changes no byte of the picture. Layer 10.
  *
- *   no lobe, no emission   of materials that no triangle has
- *   a light of 0 W         lights nothing: every product with its intensity is 0; adding 0 changes no sum
- *   a light out of reach   likewise: its range ends before the box of the scene
- *   a face of a map        whose pyramid the scene's box does not meet: no triangle would be drawn into it, so it has
- *                          no first points, and no shadow falls where a map names no triangle
- *   bounced light          where no light meets a triangle, or all reflect 0: the first points' flux is 0
+ *   lobes, emission        if only unused materials have them
+ *   a light of 0 W         all products with the intensity are 0; adding 0 changes no sum
+ *   a light out of reach   the light's range ends before the scene's box
+ *   a face of a map        if the scene's box is outside the face's pyramid: no triangle would be drawn into the face,
+ *                          so it has no first points, and a map without triangles casts no shadow
+ *   bounced light          if no light reaches a triangle, or all reflect 0: the flux of first points is 0
  *
- * And, where the frame allows it, lights whose bounce no pixel can show: by a conservative bound. */
+ * If the frame allows it, also skips lights whose bounce no pixel can show, according to a conservative bound. */
 #include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../raster/triangle.h"
@@ -16,16 +16,15 @@
 
 #if LMB_PLAN
 
-#define CLEAR 0.015625f /* margin, in half widths of a face, of the test whether a box is outside: 1/16 px of the
-                           smallest map, over 16 times the distance that snapping to 1/256 px and rounding move a vertex
-                           */
+#define CLEAR 0.015625f /* margin of the test whether a box is outside, in half widths of a face: 1/16 px of the
+                         * smallest map, over 16 times the distance that rounding and snapping to 1/256 px move a
+                         * vertex */
 
-#define DISCS 1.25f /* what a disc in the place of a surface may give too much: 16 % at 2 to 3 radii, nearer its shape
-                       counts */
+#define DISCS 1.25f /* max excess of a disc in place of a surface: 16 % at 2 to 3 radii; nearer, the shape is used */
 
 static int any3(const float *c) { return c[0] > 0.0f || c[1] > 0.0f || c[2] > 0.0f; }
 
-/* Of the materials of what is drawn: does one reflect, emit, have a lobe? */
+/* Properties of the drawn materials: does one reflect, emit, or have a lobe? */
 typedef struct material_summary {
     int reflects, emits, is_glossy;
     float albedo; /* the largest */
@@ -46,11 +45,11 @@ static material_summary summary_of(const lmb_scene *s)
     return l;
 }
 
-/* Is all of the box on the outer side of a plane of the pyramid? `middle` and `half` are the box's along the plane's
- * normal. */
+/* Is the whole box on the outer side of a plane of the pyramid? `middle` and `half` are the box's extent along the
+ * plane's normal. */
 static int is_outside(float middle, float half, float margin) { return middle - half > margin; }
 
-/* May a perspective face see something of the scene? Axes of the view; w is along its way. */
+/* Can a perspective face see a part of the scene? Uses the axes of the view; w is along the view direction. */
 static int face_meets(const lmb_view *v, const lmb_scene *s)
 {
     const lmb_vec3 half = mul3(sub3(s->bounds_max, s->bounds_min), 0.5f);
@@ -60,7 +59,7 @@ static int face_meets(const lmb_view *v, const lmb_scene *s)
     const lmb_vec3 side[4] = {v->right, mul3(v->right, -1.0f), v->up, mul3(v->up, -1.0f)};
     for (int i = 0; i < 4; ++i) {
         const float tangent = i < 2 ? v->half_width : v->half_height;
-        const lmb_vec3 out = sub3(side[i], mul3(ahead, tangent)); /* a point p is outside where out . p > 0 */
+        const lmb_vec3 out = sub3(side[i], mul3(ahead, tangent)); /* point p is outside if out . p > 0 */
         const float reach = absf(out.x) * half.x + absf(out.y) * half.y + absf(out.z) * half.z;
         if (is_outside(dot3(out, to), reach, CLEAR * scale * tangent)) {
             return 0;
@@ -91,8 +90,8 @@ static int ends_before(const lmb_light *l, const lmb_scene *s)
 
 /* --- lights that are too dim to bounce ---------------------------------------------------------------------------- */
 
-/* How near a triangle comes to a point, squared, at least: the distance of its box. Triangles that no draw takes count,
- * which only makes the bound larger. */
+/* Lower bound of the squared distance from a point to any triangle, from the triangles' boxes. Triangles that are never
+ * drawn count too, which only raises the bound on light. */
 static float nearest2(const lmb_scene *s, uint32_t triangles, lmb_vec3 at)
 {
     lmb_triangle t;
@@ -112,10 +111,10 @@ static float nearest2(const lmb_scene *s, uint32_t triangles, lmb_vec3 at)
     return nearest;
 }
 
-/* The most that a light's bounced light can be of what a pixel shows, radiance: no surface receives more than
- * E = I / d^2 (a sun: E), so none sends more than albedo E; who is surrounded by that receives as much, and so on for
- * each further bounce, estimated ones too; and it shows albedo / pi of what it receives. Albedo: 1 at most; textures
- * and colours only darken. */
+/* Upper bound of the radiance that a light's bounced light adds to a pixel. No surface receives more than E = I / d^2
+ * (a sun: E), so none sends more than albedo E. A surface surrounded by this light receives as much, and so on for each
+ * further bounce, including estimated ones; it shows albedo / pi of the light it receives. Albedo is at most 1;
+ * textures and colours only darken. */
 static float upper_bounced(const lmb_render *r, const lmb_light *l, float albedo)
 {
     const lmb_scene *s = r->frame.scene;
@@ -130,7 +129,7 @@ static float upper_bounced(const lmb_render *r, const lmb_light *l, float albedo
     return largest <= d2 * 1e30f && d2 > 0.0f ? largest / d2 * sum * albedo * 0.3183099f : 3e38f;
 }
 
-/* One after another, while they stay under `dim` together. */
+/* Skips lights one after another while the sum of their bounds stays under `dim`. */
 static void skip_dim(lmb_render *r, float albedo)
 {
     for (uint32_t i = 0; i < r->frame.scene->light_count; ++i) {
@@ -174,7 +173,7 @@ void lmb_render_skip(lmb_render *r)
             skip_faces(&r->maps[i], s);
         }
     }
-    /* The bound is of what surfaces without lobes show. */
+    /* The bound holds for surfaces without lobes. */
     if (r->frame.dim > 0.0f && !r->is_glossy && r->frame.show != LMB_SHOW_IRRADIANCE) {
         skip_dim(r, minf(l.albedo, 1.0f));
     }

@@ -1,15 +1,15 @@
-/* solve.c: runs the stages that light goes through, by steps and in parts. Layer 10. [V33 V34] */
+/* solve.c: runs the stages of the light solution, by steps and in parts. Layer 10.   [V33 V34] */
 
 #include "../base/vec.h"
 #include "../bounce/points.h"
 #include "stages.h"
 #include "requires.h"
 
-/* Texels of a map, each way, that are collected into a transfer's elements: so many of one face, half of six. By 128
- * small elements get none or one: rmse of the Cornell box .113, by 256 .08, by 512 .075. */
+/* Texels along each side of a map face that are collected into a transfer's elements: this many for one face, half for
+ * six. With 128, small elements get no texel or one: rmse of the Cornell box .113; with 256, .08; with 512, .075. */
 enum { COLLECTED = 256 };
 #define UNIT_RECEIVERS 64u
-#define ELEMENT_ERROR 2.0f /* times a pixel's: a pixel sees the mean of many elements. At 4 spots lose 1 % of light */
+#define ELEMENT_ERROR 2.0f /* times a pixel's: a pixel sees the mean of many. With 4, spots lose 1 % of the light */
 
 /* --- by steps ----------------------------------------------------------------------------------------------------- */
 
@@ -75,7 +75,7 @@ static int32_t collected_each(const lmb_shadow_map *map)
     return each;
 }
 
-/* Rows of the face at hand into the transfer's elements. */
+/* Collects rows of the current face into the transfer's elements. */
 static lmb_status collect_rows(const lmb_render *r, int32_t first, int32_t past)
 {
     const lmb_frame *f = &r->frame;
@@ -94,7 +94,7 @@ static lmb_many_lights_query elements_query(const lmb_frame *f, lmb_stats *stats
     return query;
 }
 
-/* Lights without maps into the transfer's elements; a unit is a tile of these. */
+/* Adds lights without maps to the transfer's elements; a unit is a tile of elements. */
 NOINLINE lmb_status step_many_lights(lmb_render *r, int32_t units)
 {
     const lmb_frame *f = &r->frame;
@@ -108,7 +108,8 @@ NOINLINE lmb_status step_many_lights(lmb_render *r, int32_t units)
     return status != LMB_OK ? status : past < tiles ? LMB_MORE : LMB_OK;
 }
 
-/* First points of the tile rows first .. past - 1 of the face at hand: of single points' tree, of the tiles', or both. */
+/* Collects first points of the current face's tile rows first .. past - 1, into the tree of single points, that of
+ * tiles, or both. */
 static lmb_status collect_points(const lmb_render *r, lmb_tile *tile, int32_t first, int32_t past)
 {
     const lmb_frame *f = &r->frame;
@@ -165,7 +166,8 @@ static lmb_status step_points(lmb_render *r, int32_t units)
     return LMB_MORE;
 }
 
-/* What elements of a transfer send: reflection after reflection, then all of it. r->progress counts them. */
+/* Sets the light that elements of a transfer send: one reflection after another, then the total. r->progress counts
+ * them. */
 static lmb_status step_sent(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
@@ -185,7 +187,7 @@ static lmb_status step_sent(lmb_render *r)
     return lmb_transfer_send(light, f->transfer);
 }
 
-/* The tree of single points over what sends the light of pass r->light, or at last of all passes: maps, elements. */
+/* Builds the tree of single points over the senders of pass r->light (maps, elements), or at last of all passes. */
 static lmb_status build_live(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
@@ -226,20 +228,20 @@ static lmb_status step_groups(lmb_render *r)
     return lmb_group_points(f->groups, &f->points, &f->grouping, f->stats);
 }
 
-/* By single points. */
+/* Receives light from single points. */
 static lmb_status receive_live(const lmb_render *r, lmb_band_scratch *scratch, int32_t first, int32_t past,
                                lmb_stats *stats)
 {
     const lmb_frame *f = &r->frame;
     lmb_live few = *f->live;
-    few.strata = (few.strata + 3) / 4; /* a pixel sees many elements, whose noise is their own */
+    few.strata = (few.strata + 3) / 4; /* a pixel sees many elements with independent noise */
     const lmb_status status = lmb_elements_receive_live(&f->elements, f->kernels, scratch->live, &few, live_bvh(f),
                                                         first, past);
     count_live(stats, scratch->live);
     return status;
 }
 
-/* What is there before any reflection: of what emits light, and of many lights. */
+/* Receives direct light of emissive surfaces and of many lights. */
 static lmb_status receive_direct(const lmb_render *r, const lmb_element_scratch *own, lmb_band_scratch *scratch,
                                  const lmb_cut_params *cut_params, int32_t first, int32_t past)
 {
@@ -253,9 +255,9 @@ static lmb_status receive_direct(const lmb_render *r, const lmb_element_scratch 
                : lmb_many_lights_elements(&f->elements, own, &scratch->many_lights, &query, first, past);
 }
 
-/* Elements first .. past - 1 receive, for the r->light'th time. First, where something emits light or many lights
- * do, what these send; next the first reflection of that, and of lights, which the light's shadow maps hold; then one
- * reflection after another. */
+/* Elements first .. past - 1 receive light in pass r->light. If there are emissive surfaces or many lights, the first
+ * pass receives their light. The next pass receives the first reflection of this light, and of the lights in shadow
+ * maps. Each further pass adds one reflection. */
 static lmb_status receive(const lmb_render *r, lmb_band_scratch *scratch, int32_t first, int32_t past, lmb_stats *stats)
 {
     const lmb_frame *f = &r->frame;
@@ -275,7 +277,7 @@ static lmb_status receive(const lmb_render *r, lmb_band_scratch *scratch, int32_
                                                    &cut_params, first, past);
 }
 
-/* All elements have received. */
+/* Ends a pass after all elements have received light. */
 static lmb_status end_bounce(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
@@ -293,7 +295,7 @@ static lmb_status end_bounce(lmb_render *r)
     return status != LMB_OK ? status : has_bounces(r) ? LMB_MORE : LMB_OK;
 }
 
-/* Receivers of what was baked; a unit is UNIT_RECEIVERS of them. */
+/* Computes receivers of baked light; a unit is UNIT_RECEIVERS of them. */
 static lmb_status step_receivers(lmb_render *r, int32_t units)
 {
     const lmb_frame *f = &r->frame;
@@ -338,14 +340,14 @@ lmb_status lmb_render_solve(lmb_render *r, int32_t units)
 
 /* --- in parts ----------------------------------------------------------------------------------------------------- */
 
-/* Of a light whose map is drawn. */
+/* Tile rows of a light's shadow map that must be drawn. */
 static int64_t rows_of(const lmb_render *r, uint32_t light)
 {
     const int64_t rows = r->frame.shadow_map / LMB_TILE;
     return light_is(r, light, LMB_SHADOW_MAP_REUSED) ? 0 : r->maps[light].faces * rows;
 }
 
-/* Tile rows counted through all faces of all shadow maps, so that many lights are shared out whole. */
+/* Tile rows are counted through all faces of all shadow maps, so that parts stay balanced with many lights. */
 static lmb_status part_shadow_map(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats)
 {
     const lmb_frame *f = &r->frame;
@@ -366,7 +368,7 @@ static lmb_status part_shadow_map(const lmb_render *r, int32_t part, int32_t par
     return status;
 }
 
-/* A row of blocks of the face at hand. Faces that are no part of the map have no points. */
+/* Collects a row of blocks of the current face. Faces outside the map have no points. */
 static lmb_status part_points(const lmb_render *r, lmb_tile *tile, int32_t part, int32_t parts)
 {
     const lmb_frame *f = &r->frame;
@@ -404,7 +406,7 @@ lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch,
     }
 }
 
-/* The face's parts are done: LMB_MORE where another face waits. */
+/* Ends the face's parts; LMB_MORE if another face is left. */
 static lmb_status end_parts_of_face(lmb_render *r, int32_t parts)
 {
     lmb_frame *f = &r->frame;

@@ -1,7 +1,7 @@
-/* sparse.c: bounced light of every second or fourth pixel, and of those that it cannot stand for. Layer 10.
+/* sparse.c: bounced light of every second or fourth pixel, and of pixels that these cannot represent. Layer 10.
  *
- * Most of a gather's cost is per tile: choosing its nodes and testing what they see. So the sparse pixels of several
- * tiles are gathered as one tile. Tiles are resolved again for each pass: keeping one takes 4 KiB, making one
+ * Most of a gather's cost is per tile: selecting nodes and testing their visibility. So the sparse pixels of several
+ * tiles are gathered as one tile. Tiles are resolved again for each pass: storing one takes 4 KiB, resolving one takes
  * microseconds. */
 #include <string.h>
 
@@ -9,7 +9,8 @@
 #include "stages.h"
 #include "requires.h"
 
-/* Gather the pixels put together, and hand out their light. Their tile has no corners to ask first: its `hits` is 0. */
+/* Gathers the collected pixels, and distributes their light. Their tile has no corner pixels to test first, so `hits`
+ * is 0. */
 static lmb_status gather_together(const lmb_render *r, lmb_band_scratch *s)
 {
     lmb_sparse *sparse = &s->sparse;
@@ -27,7 +28,7 @@ static lmb_status gather_together(const lmb_render *r, lmb_band_scratch *s)
     return status;
 }
 
-/* Those of one tile stay together. */
+/* Adds pixels of one tile, which stay together. */
 static lmb_status put_together(const lmb_render *r, lmb_band_scratch *s, int32_t part, uint64_t pixels)
 {
     lmb_sparse *sparse = &s->sparse;

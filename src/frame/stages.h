@@ -1,4 +1,4 @@
-/* stages.h: what the files of src/frame call of each other. Layer 10. */
+/* stages.h: functions shared by the files of src/frame. Layer 10. */
 #ifndef LMB_FRAME_STAGES_H
 #define LMB_FRAME_STAGES_H
 
@@ -6,10 +6,10 @@
 
 #include "../base/exact.h"
 
-/* A call that no build makes: for what it lacks. */
+/* Replaces a call that a build lacks and never makes. */
 #define never(call) ((void)sizeof(call), LMB_ERR_ARG)
 
-/* A build without trees refuses frames that ask for them (lmb_render_check), so none of these is ever called. */
+/* A build without trees refuses frames that need them (lmb_render_check), so none of these is ever called. */
 #if !LMB_TREES
 #undef lmb_glossy_tile
 #undef lmb_gather_cut
@@ -66,51 +66,51 @@
 #define lmb_transfer_many_lights(...) never(LMB_LAYOUT(lmb_transfer_many_lights)(__VA_ARGS__))
 #endif
 
-#define UNIT_TRIANGLES 1024u /* of a draw, for one unit of a step's work */
+#define UNIT_TRIANGLES 1024u /* of a draw, in one unit of a step */
 
 static inline int32_t band_count(const lmb_view *v) { return (v->frame_height + LMB_TILE - 1) / LMB_TILE; }
 
-/* --- is it valid? ------------------------------------------------------------------------------------------------- */
+/* --- checks ------------------------------------------------------------------------------------------------------- */
 
 lmb_status lmb_render_check(const lmb_frame *frame);
 
-/* Set the numbers that are 0 to what 0 stands for. */
+/* lmb_render_defaults: replaces the numbers that are 0 by their defaults. */
 void lmb_render_defaults(lmb_frame *frame);
 
-/* The picture's surface: of the whole frame, or of one band. */
+/* lmb_render_check_out: checks the picture's surface, which you may set to the whole frame or to one band. */
 lmb_status lmb_render_check_out(const lmb_surface *out, const lmb_view *view);
 
-/* --- what is left out, what is kept ------------------------------------------------------------------------------ */
+/* --- skipping ---------------------------------------------------------------------------------------------------- */
 
-/* Of a frame that begins: set r->skips, light_state and the revisions; clear what no scene's box lies in of
- * r->maps.drawn, and is_glossy and emits where nothing drawn is. */
+/* lmb_render_skip: at the start of a frame, sets r->skips, light_state and the revisions. Clears the faces in
+ * r->maps.drawn that the scene's box does not meet, and is_glossy and emits if no drawn material is. */
 void lmb_render_skip(lmb_render *r);
 
 /* --- stages ------------------------------------------------------------------------------------------------------- */
 
-/* A step does up to `units` of the stage at hand, moves r->light, face and progress on, and returns LMB_MORE, LMB_OK
- * when the stage is complete, or an error. A part is what lmb_render_part says, of the stage at hand. */
+/* A step runs up to `units` of the current stage and advances r->light, face and progress. It returns LMB_MORE, LMB_OK
+ * if the stage is complete, or an error. A part is a part of the current stage, as in lmb_render_part. */
 
 /* LMB_STAGE_SHADOW_MAP .. LMB_STAGE_BOUNCES. */
 lmb_status lmb_render_solve(lmb_render *r, int32_t units);
 lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
                                  lmb_stats *stats);
 
-/* All parts at hand are done: LMB_MORE where the stage has another face or bounce. */
+/* Call this after all parts of the current face or bounce. Returns LMB_MORE if the stage has another one. */
 lmb_status lmb_render_solve_on(lmb_render *r, int32_t parts);
 
 /* LMB_STAGE_VIEW. */
 lmb_status lmb_render_view(lmb_render *r, int32_t units);
 lmb_status lmb_render_view_part(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats);
 
-/* LMB_STAGE_SAMPLES. on: the next phase. */
+/* LMB_STAGE_SAMPLES. lmb_render_samples_on: advances to the next phase. */
 lmb_status lmb_render_samples(lmb_render *r, int32_t units);
 lmb_status lmb_render_samples_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
                                    lmb_stats *stats);
 lmb_status lmb_render_samples_on(lmb_render *r);
 
-/* Where all bounced light is that of single points: how many pieces the phase at hand has; one of them; the next phase.
- * tile: the light of the tile's pixels with a surface, once all phases are done. */
+/* For frames with bounced light of single points only: the number of pieces in the current phase; one piece; the next
+ * phase. lmb_render_live_tile: light of the tile's pixels with a surface; call it after all phases. */
 int32_t lmb_render_live_pieces(const lmb_render *r);
 lmb_status lmb_render_live_piece(const lmb_render *r, lmb_band_scratch *scratch, int32_t i);
 lmb_status lmb_render_live_on(lmb_render *r);
@@ -130,35 +130,38 @@ lmb_status lmb_render_live_tile(lmb_irradiance *out, const lmb_render *r, lmb_ba
 /* LMB_STAGE_BANDS. */
 lmb_status lmb_render_bands(lmb_render *r, int32_t units);
 
-/* --- of a band ---------------------------------------------------------------------------------------------------- */
+/* --- parts of a band ---------------------------------------------------------------------------------------------- */
 
-/* Where the depth and ids of the band are: in the whole frame's eye, or drawn now into the first rows of a smaller one.
- * lmb_render_view_strip: of frame.eye, where bands come in order: into a strip of several when its first one comes. */
+/* Finds the depth and ids of a band: in the whole frame's eye, or drawn now into the first rows of a smaller one.
+ * lmb_render_view_strip: the same for frame.eye if you take the bands in order; the first band of a strip draws the
+ * strip. */
 lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *out, const lmb_target *eye, int32_t band);
 lmb_status lmb_render_view_strip(const lmb_render *r, lmb_target *out, int32_t band);
 
-/* Set scratch->direct: that of the tile, resolved for `view`, where it is shown, else 0; and add what the lobes make of
- * it, NULL: without. scratch->indirect is written. */
+/* lmb_render_direct: sets scratch->direct to the direct light of the tile, which you resolved for `view`, or to 0 if
+ * the picture does not show it. Adds the light that lobes reflect, unless `glossy` is NULL. Overwrites
+ * scratch->indirect. */
 lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_scratch *scratch, const lmb_tile *tile,
                              const lmb_view *view);
 
-/* Set scratch->radiance: what the tile's pixels send to the viewer by scratch->direct, `indirect`, their lobes (NULL:
- * none) and what they emit. */
+/* lmb_render_radiance: sets scratch->radiance to the light from the tile's pixels to the viewer: scratch->direct,
+ * `indirect`, lobes (NULL: none) and emission. */
 lmb_status lmb_render_radiance(const lmb_render *r, const lmb_glossy *glossy, lmb_band_scratch *scratch,
                                const lmb_tile *tile, const lmb_view *view, const lmb_irradiance *indirect);
 
-/* --- several samples a pixel --------------------------------------------------------------------------------------- */
+/* --- several samples a pixel -------------------------------------------------------------------------------------- */
 
-/* Do frame and scratch have what frame.samples asks for? LMB_OK or LMB_ERR_ARG. */
+/* Do frame and scratch have the memory that frame.samples needs? LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_multisample_check(const lmb_frame *f, const lmb_band_scratch *scratch);
 
-/* Draw depth and ids of a band for each sample. */
+/* Draws depth and ids of a band for each sample. */
 lmb_status lmb_multisample_draw(const lmb_render *r, lmb_band_scratch *scratch, int32_t band);
 
-/* Set scratch->radiance of scratch->tile's pixels to the mean of their samples, each of them `white` at most.
+/* lmb_multisample_light: sets scratch->radiance of scratch->tile's pixels to the mean of their samples, each clamped to
+ * `white`.
  *
  *   middle  bounced light at the pixels' middles.
- *   lobes   what lobes make of it there, NULL: none. May be scratch->glossy, which is written. */
+ *   lobes   bounced light that lobes reflect there, or NULL. You may pass scratch->glossy, which is overwritten. */
 lmb_status lmb_multisample_light(const lmb_render *r, lmb_band_scratch *scratch, const lmb_irradiance *middle,
                                  const lmb_glossy *lobes, int32_t band, float white);
 #if !LMB_MULTISAMPLE
@@ -168,23 +171,25 @@ lmb_status lmb_multisample_light(const lmb_render *r, lmb_band_scratch *scratch,
 #define lmb_multisample_light(...) never(lmb_multisample_light(__VA_ARGS__))
 #endif
 
-/* Add the bounced light of a tile's pixels, and what its lobes make of it, NULL: without. direct: what is shown with
- * it, so that errors are told of both; or NULL. LMB_OK, or what the gather returns. */
+/* lmb_render_gather: adds the bounced light of a tile's pixels, and the part that lobes reflect, unless `glossy` is
+ * NULL. direct: light shown together with it, so that error limits apply to the sum; or NULL. Returns LMB_OK or the
+ * gather's error. */
 lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *scratch,
                              const lmb_tile *tile, const lmb_irradiance *direct);
 
-/* Where cuts light it, move a tile's pixels on to the triangles that they show: a cut asks what stands between a pixel
- * and its light, and a pixel past a fold is on the fold's other side. Direct light is that of the resolved places. */
+/* lmb_render_onto_triangles: if cuts light the frame, moves a tile's pixels onto the triangles that they show. Shadow
+ * tests start at the pixels, and a pixel past a fold lies on the other side of the fold. Direct light uses the resolved
+ * positions. */
 void lmb_render_onto_triangles(lmb_tile *inout, const lmb_frame *f);
 
-/* Set the light of a receiver, of a frame that requires_live. */
+/* lmb_render_live: sets the light of a receiver. Call this only if requires_live. */
 lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *scratch, const lmb_live_receiver *at);
 #if !LMB_LIVE
 #define lmb_render_live(...) never(lmb_render_live(__VA_ARGS__))
 #endif
 
-/* Set scratch->sparse.light[0 .. tiles - 1]: that of the tiles from frame pixel (x, y) on which show no lobe.
- * r->frame.gather_step is 2 or 4. scratch->tile and scratch->glossy are written. */
+/* lmb_render_block: sets scratch->sparse.light[0 .. tiles - 1] of those tiles from frame pixel (x, y) on that show no
+ * lobe. r->frame.gather_step is 2 or 4. Overwrites scratch->tile and scratch->glossy. */
 lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *target, int32_t x,
                             int32_t y, int32_t tiles);
 

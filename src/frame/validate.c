@@ -1,4 +1,4 @@
-/* validate.c: checks whether a frame can be drawn: its numbers, its surfaces, its settings. Layer 10. */
+/* validate.c: checks whether a frame can be drawn: numbers, surfaces, settings. Layer 10. */
 #include <string.h>
 
 #include "../base/surface_check.h"
@@ -39,14 +39,14 @@ lmb_status lmb_render_check_out(const lmb_surface *out, const lmb_view *v)
     return lmb_surface_is_valid(out) ? LMB_OK : LMB_ERR_ARG;
 }
 
-/* A tree takes one texel in 1 x 1, 2 x 2, 4 x 4 or 8 x 8 of its shadow maps. */
+/* A tree takes one texel out of 1 x 1, 2 x 2, 4 x 4 or 8 x 8 texels of the shadow maps. */
 static int fits_tree(const lmb_frame *f)
 {
     const int32_t each = f->shadow_map / f->tree.size;
     return each * f->tree.size == f->shadow_map && (each == 1 || each == 2 || each == 4 || each == 8);
 }
 
-/* Is there what further reflections take? */
+/* Does the frame have the memory for further reflections? */
 static int reflects_again(const lmb_frame *f)
 {
     return requires_transfer(f) ? f->transfer->count[LMB_TRANSFER_COARSE] > 0
@@ -59,7 +59,7 @@ static int has_lattice(const lmb_frame *f)
            f->lattice.height == f->view.frame_height;
 }
 
-/* Is there what single points are lit by? */
+/* Does the frame have the memory for light of single points? */
 static int has_live(const lmb_frame *f)
 {
     return f->gather_step != LMB_GATHER_LIVE ||

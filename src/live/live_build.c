@@ -1,8 +1,8 @@
-/* live_build.c: first points sorted by cells of the world -> a tree of chunks of sixteen nodes. Layer 6.        [ours]
+/* live_build.c: first points sorted by world cell -> a tree of chunks of sixteen nodes. Layer 6.                [ours]
  *
- * A key is a cell of 1/16 of the world, one of six sides, then the way down to a cell of 1/512 along a Z curve. What
- * shares a cell of some level and a plane is a node, and lies side by side. Levels are made one after another, so where
- * chunks run out, it is the finest nodes that are missing. */
+ * A key is a cell of 1/16 of the world, one of six sides, then the path down to a cell of 1/512 along a Z curve. Points
+ * that share a cell of some level and a plane form a node and are adjacent. Levels are built one after another, so if
+ * chunks run out, only the finest nodes are missing. */
 #include "live_part.h"
 
 #include <string.h>
@@ -10,17 +10,17 @@
 #if LMB_LIVE
 
 enum {
-    CELLS = 512,     /* of the world a side, by nine bits an axis */
-    TOP_SHIFT = 15,  /* of a key: what is left is the cell of 1/16 and the side */
-    GROUPS = 4,      /* planes of a cell; more join the one that is closest to them */
-    GROUP_SHIFT = 30, /* of a key, while points are put by planes */
-    PARTS = 64,      /* of a node; the last one takes the rest */
+    CELLS = 512,     /* cells along a side of the world: nine bits an axis */
+    TOP_SHIFT = 15,  /* of a key: the bits above are the cell of 1/16 and the side */
+    GROUPS = 4,      /* planes per cell; further ones join the closest */
+    GROUP_SHIFT = 30, /* of a key, while points are grouped by plane */
+    PARTS = 64,      /* max parts of a node; the last takes the rest */
     TOP = LMB_LIVE_CUT / 2 * LMB_LIVE_NODES, /* nodes of the first level: half of a cut */
     DIGIT = 256      /* four passes sort 30 bits */
 };
-#define ALIKE  0.9f  /* least cosine between the normals of a plane's points, */
-#define LIFT   0.25f /* and the height that they may lie over it, of their extent */
-#define GROUND 1e-4f /* or of the world's */
+#define ALIKE  0.9f  /* min cosine between the normals of a plane's points, */
+#define LIFT   0.25f /* max height of a point over the plane, as a share of their extent, */
+#define GROUND 1e-4f /* or of the world's, if larger */
 #define NOBODY 0xffffffffu
 
 typedef struct pair {
@@ -40,7 +40,7 @@ typedef struct range {
 
 /* --- keys --------------------------------------------------------------------------------------------------------- */
 
-/* Every third bit of nine. */
+/* Spreads nine bits to every third bit. */
 static uint32_t spread(uint32_t v)
 {
     v = (v | v << 16) & 0x030000ffu;
@@ -51,7 +51,7 @@ static uint32_t spread(uint32_t v)
 
 static uint32_t cell_of(float v) { return (uint32_t)clampi((int32_t)clampf(v, 0.0f, CELLS - 1), 0, CELLS - 1); }
 
-/* 0 .. 5: the axis along which the normal is longest, and its sign. */
+/* 0 .. 5: the dominant axis of the normal, and the sign. */
 static uint32_t side_of(lmb_vec3 n)
 {
     const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
@@ -65,13 +65,13 @@ static uint32_t key_of(const builder *b, const lmb_live_point *p)
     return (z >> TOP_SHIFT) << (TOP_SHIFT + 3) | side_of(p->normal) << TOP_SHIFT | (z & ((1u << TOP_SHIFT) - 1));
 }
 
-/* Points of all faces, whether they are there or not: those of elements come after them. */
+/* Point slots of all faces, used or not; points of elements come after them. */
 static size_t blocks_in(const lmb_live *live)
 {
     return (size_t)live->face_cap * (size_t)live->side * (size_t)live->side;
 }
 
-/* Points of face `f`, or after the last face of elements; those before. */
+/* Number of points of face `f`, or of elements if `f` is past the last face; sets the number of points before them. */
 static size_t points_in(size_t *before, const lmb_live *live, uint32_t f)
 {
     const size_t side = f < live->faces ? (size_t)live_blocks(&live->face[f]) : 0;
@@ -79,7 +79,7 @@ static size_t points_in(size_t *before, const lmb_live *live, uint32_t f)
     return f < live->faces ? side * side : live->elements;
 }
 
-/* The box of what is lit, and the flux of the maps' points. */
+/* Computes the bounding box of lit points, and the flux of the maps' points. */
 static int lit_box(lmb_vec3 *low, lmb_vec3 *high, lmb_live *live)
 {
     int any = 0;
@@ -104,8 +104,8 @@ static int lit_box(lmb_vec3 *low, lmb_vec3 *high, lmb_live *live)
     return any;
 }
 
-/* Cells are those of the scene's box, halved as long as all that is lit lies in fewer than 480 of them: with a corner
- * on a cell of 1/16, so that cells stay where they are while light moves a little. */
+/* The cell grid is the scene's box, halved as long as all lit points fit in fewer than 480 cells. Its corner is aligned
+ * to cells of 1/16, so that small movements of light do not shift the cells. */
 static void set_cells(builder *b, const lmb_scene *scene, lmb_vec3 low, lmb_vec3 high)
 {
     const lmb_vec3 size = sub3(scene->bounds_max, scene->bounds_min);
@@ -124,7 +124,7 @@ static void set_cells(builder *b, const lmb_scene *scene, lmb_vec3 low, lmb_vec3
 
 /* --- sorting ------------------------------------------------------------------------------------------------------ */
 
-/* By one digit of the keys; equal ones stay in order. */
+/* One stable pass of a radix sort, by one digit of the keys. */
 static void sort_by(pair *to, const pair *from, uint32_t count, int shift)
 {
     uint32_t at[DIGIT], sum = 0;
@@ -142,7 +142,7 @@ static void sort_by(pair *to, const pair *from, uint32_t count, int shift)
     }
 }
 
-/* The lit points along the cells. Pairs lie where chunks will. */
+/* Sorts the lit points by cell. The pairs use the memory of the chunks. */
 static void sort_points(const builder *b)
 {
     lmb_live *live = b->live;
@@ -171,7 +171,7 @@ static void sort_points(const builder *b)
 
 /* --- planes ------------------------------------------------------------------------------------------------------- */
 
-/* Put a cell's points by planes. Returns how many there are, with where they lie. */
+/* Groups a cell's points by plane. Returns the number of groups and sets their ranges. */
 static uint32_t group(range out[GROUPS], const builder *b, range r)
 {
     lmb_live_point *p = b->live->sorted;
@@ -221,7 +221,7 @@ static uint32_t group(range out[GROUPS], const builder *b, range r)
 
 /* --- nodes -------------------------------------------------------------------------------------------------------- */
 
-/* Of several lights' points: that of the one which has the largest part, as all of them may show the same place. */
+/* Several lights may light the same surface, so the area of mixed points is that of the light with the largest part. */
 static float area_of(float *mean, const lmb_live_point *p, uint32_t count)
 {
     float sum = 0.0f, by_light[LMB_MAX_LIGHTS + 1], largest = 0.0f; /* elements come last */
@@ -243,7 +243,7 @@ static float area_of(float *mean, const lmb_live_point *p, uint32_t count)
     return largest;
 }
 
-/* Points of one plane as a node. */
+/* Stores points of one plane as a node. */
 static void put_node(const builder *b, uint32_t slot, range r)
 {
     lmb_live_chunk *c = &b->live->chunk[slot / LMB_LIVE_NODES];
@@ -286,7 +286,7 @@ static void put_node(const builder *b, uint32_t slot, range r)
     c->count[i] = count | LMB_LIVE_LEAF;
 }
 
-/* Room for a node's parts, which begin a chunk where they would straddle two. NOBODY: there is none. */
+/* Allocates a node's parts, in a new chunk if they would straddle two. Returns NOBODY if none is left. */
 static uint32_t reserve(builder *b, uint32_t count)
 {
     const uint32_t in = b->slots % LMB_LIVE_NODES;
@@ -303,7 +303,7 @@ static uint32_t reserve(builder *b, uint32_t count)
     return first;
 }
 
-/* The end of a run of points of one cell. */
+/* End of a run of points in one cell. */
 static uint32_t run_past(const lmb_live_point *p, uint32_t first, uint32_t past, int shift)
 {
     uint32_t i = first + 1;
@@ -313,13 +313,13 @@ static uint32_t run_past(const lmb_live_point *p, uint32_t first, uint32_t past,
     return i;
 }
 
-/* Divide a node by cells and planes. Where that gives one part alone, a finer level does it. */
+/* Divides a node by cell and plane. If that gives a single part, a finer level divides it. */
 static void divide(builder *b, uint32_t slot, int shift)
 {
     lmb_live_chunk *c = &b->live->chunk[slot / LMB_LIVE_NODES];
     const int i = (int)(slot % LMB_LIVE_NODES);
     const uint32_t past = c->first[i] + (c->count[i] & ~LMB_LIVE_LEAF);
-    range part[PARTS + 1]; /* the last cell's planes may fill it, and the rest comes after them */
+    range part[PARTS + 1]; /* the last cell's planes may fill the array, and the rest follows */
     uint32_t parts = 0;
     for (range r = {c->first[i], 0}; r.first < past; r.first = r.past) {
         r.past = parts + GROUPS > PARTS ? past : run_past(b->live->sorted, r.first, past, shift);
@@ -355,7 +355,8 @@ static void divide_level(builder *b, int shift)
     }
 }
 
-/* Cells of 1/16 of the world, or larger ones, of which there are not too many; by planes as far as there is room. */
+/* Creates the first level: cells of 1/16 of the world, or larger ones if there are too many; split by plane while
+ * memory lasts. */
 static void put_top(builder *b)
 {
     const lmb_live *live = b->live;

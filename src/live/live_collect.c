@@ -1,8 +1,8 @@
-/* live_collect.c: a shadow map -> the first points of the live tree: one of each block of texels. Layer 6.      [ours]
+/* live_collect.c: a shadow map -> the first points of the live tree: one for each block of texels. Layer 6.     [ours]
  *
- * A block's point is what one of its texels shows, which a hash names: so points do not line up along the map, and of
- * surfaces that share a block each is taken as often as it shows. All the light through the block is its own. It lies
- * over the texel's middle, where the map has it: so never behind an edge. */
+ * A hash selects one texel of each block as the block's point. So points do not line up along the map, and surfaces
+ * that share a block are selected in proportion to their visible area. The point gets all the light through the block.
+ * It lies at the texel's middle, where the map was sampled, so never behind an edge. */
 #include "live_part.h"
 
 #include <string.h>
@@ -29,7 +29,7 @@ int32_t lmb_live_side(uint32_t faces, int32_t size)
     return side_by(size, blocks_of(faces, size / BLOCK) > MANY_BLOCKS ? LARGE_BLOCK : BLOCK);
 }
 
-/* A node for each first point, a quarter more for those above them, and room to begin each level on a chunk. */
+/* One node for each first point, a quarter more for inner nodes, and padding to start each level on a chunk. */
 static uint64_t chunks_of(uint64_t blocks) { return blocks / LMB_LIVE_NODES * 5 / 4 + 16; }
 
 static uint64_t bytes_of(uint32_t faces, int32_t side, uint32_t elements)
@@ -91,7 +91,7 @@ static lmb_status set_face(lmb_live_face *out, const lmb_live *live, const lmb_s
 
 /* --- a tile of blocks --------------------------------------------------------------------------------------------- */
 
-/* One face, while its tiles are taken. */
+/* State of one face, while the tiles are collected. */
 typedef struct collector {
     const lmb_live *live;
     const lmb_kernels *kernels;
@@ -105,7 +105,7 @@ typedef struct collector {
     live_plane known[LIVE_PLANES];
 } collector;
 
-/* What goes through eight blocks of a row, at 1 W/sr. Whether a sun's finer face has them is told by their middle. */
+/* Light through eight blocks of a row, at 1 W/sr. A block's middle decides whether a sun's finer face contains it. */
 static void set_powers(float out[16], const collector *c, int32_t column, int32_t row)
 {
 #if LMB_TRANSFER
@@ -135,7 +135,7 @@ static void set_powers(float out[16], const collector *c, int32_t column, int32_
 #endif
 }
 
-/* The texel of a block that it is taken at. */
+/* The texel that represents a block. */
 static void texel_of(int32_t *x, int32_t *y, const collector *c, int32_t column, int32_t row)
 {
     const int32_t each = c->face->each;
@@ -144,8 +144,8 @@ static void texel_of(int32_t *x, int32_t *y, const collector *c, int32_t column,
     *y = mini(row * each + (int32_t)(h >> 16 & (uint32_t)(each - 1)), c->face->size - 1);
 }
 
-/* Of a block on the plane through `at`: a cross-section of its pencil is z^2 times the block at distance 1, and lies
- * across the view's axis. */
+/* Area of a block projected to the plane through `at`. A cross-section of the block's frustum is z^2 times the block at
+ * distance 1, perpendicular to the view's axis. */
 static float area_of(const collector *c, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_view *v = &c->face->view;
@@ -188,7 +188,7 @@ static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t
     out->light = (uint16_t)c->face->light;
 }
 
-/* The ids of 8 x 8 blocks as a window of the map of blocks, whose albedo is resolved. */
+/* Resolves the albedo of 8 x 8 blocks: their ids form a window of a map with one texel per block. */
 static lmb_status resolve_blocks(collector *c, int32_t column, int32_t row)
 {
     uint32_t id[LMB_TILE_PIXELS];
@@ -232,7 +232,7 @@ static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
     return status;
 }
 
-/* Tile row `row` of a map has the blocks of tile row row / each, where it is the first of these. */
+/* Tile row `row` of a map contains the blocks of tile row row / each if it is the first of these rows. */
 lmb_status lmb_live_collect(const lmb_live *live, const lmb_kernels *kernels, lmb_tile *scratch,
                             const lmb_scene *scene, uint32_t light, const lmb_shadow_map *map, int32_t face,
                             uint32_t into, int32_t first, int32_t past)
@@ -248,7 +248,7 @@ lmb_status lmb_live_collect(const lmb_live *live, const lmb_kernels *kernels, lm
     if (status != LMB_OK) {
         return status;
     }
-    if (first == 0 && past > 0) { /* by one part alone */
+    if (first == 0 && past > 0) { /* one part only */
         live->face[into] = own;
     }
     memset(&c, 0, sizeof c);

@@ -1,8 +1,8 @@
-/* live_near.c: what is near a receiver: first points of a leaf, texels of a point, parts of a texel. Layer 6.   [ours]
+/* live_near.c: refines near nodes: a leaf's first points, a point's texels, parts of a texel. Layer 6.          [ours]
  *
- * A first point stands for a block of texels. Near by, the block's own texels count, each where the map has it; nearer,
- * each texel's parts. A part of a texel lies off the texel's middle, where the map was not asked: so it stays on the
- * triangle, and does not move towards a neighbour that shows another one. */
+ * A first point represents a block of texels. Near a receiver the block's texels are used, each where the map sampled
+ * it; still nearer, parts of each texel. A part lies off the texel's middle, where the map has no sample, so it stays
+ * on the triangle and does not move towards a neighbour with another triangle. */
 #include "live_part.h"
 
 #include <lambent/elements.h>
@@ -11,10 +11,10 @@
 
 #if LMB_LIVE
 
-#define INSIDE (1.0f / 512.0f) /* least barycentric of a place that was moved on to its triangle */
+#define INSIDE (1.0f / 512.0f) /* min barycentric of a point that was moved onto a triangle */
 
 enum {
-    DEEPEST = 3, /* quarters of a block's side, of those, and of those: of a texel's side a sixteenth */
+    DEEPEST = 3, /* divisions by 4 of a block's side, down to 1/16 of a texel */
     PART_BITS = 10
 };
 
@@ -63,16 +63,16 @@ int lmb_live_place(lmb_vec3 *out, const live_plane *p, const lmb_view *view, flo
     return 1;
 }
 
-/* --- chunks of what is near --------------------------------------------------------------------------------------- */
+/* --- near chunks -------------------------------------------------------------------------------------------------- */
 
-/* How many nodes may still be put. */
+/* Number of nodes that can still be stored. */
 static int32_t room(const lmb_live_scratch *s)
 {
     const int32_t cut = LMB_LIVE_CUT - s->count, near = LMB_LIVE_NEAR - s->near_count;
     return (cut < near ? cut : near) * LMB_LIVE_NODES + LMB_LIVE_NODES - s->near_lane;
 }
 
-/* The next node, where there is room. */
+/* Allocates the next node; call it only if `room` allows. */
 static lmb_live_chunk *take(lmb_live_scratch *s, int *lane)
 {
     if (s->near_lane == LMB_LIVE_NODES) {
@@ -89,8 +89,8 @@ static lmb_live_chunk *take(lmb_live_scratch *s, int *lane)
 
 static uint32_t part_of(uint32_t level, uint32_t x, uint32_t y) { return (level << PART_BITS | x) << PART_BITS | y; }
 
-/* Light of later bounces is smooth, and a small part of all of it: by half the spacing, Cornell's and the corridor's
- * errors change by .003 and .001, and samples take a third of the time. */
+/* Light of later bounces is smooth and a small part of the total: with half the spacing, the errors of Cornell and the
+ * corridor change by .003 and .001, and samples take a third of the time. */
 #define SOFT 0.25f
 
 float lmb_live_softness(const lmb_live *live, const lmb_live_point *p)
@@ -109,7 +109,7 @@ int lmb_live_is_whole(const lmb_live *live, const lmb_live_point *p)
     return p->face == LMB_LIVE_ELEMENT && !(live->element[live_element_of(p)].reach2 > 0.0f);
 }
 
-/* Points of a leaf. */
+/* Stores the points of a leaf. */
 static void put_points(lmb_live_scratch *s, const lmb_live *live, uint32_t first, uint32_t count)
 {
     for (uint32_t k = first; k < first + count; ++k) {
@@ -128,17 +128,17 @@ static void put_points(lmb_live_scratch *s, const lmb_live *live, uint32_t first
 
 /* --- parts of a point --------------------------------------------------------------------------------------------- */
 
-/* A face, and planes that it shows. */
+/* A face, and cached planes of its triangles. */
 typedef struct live_look {
     const lmb_live *live;
     const lmb_live_face *face;
     live_plane known[LIVE_PLANES];
 } live_look;
 
-/* A part of a point's block: where it lies in the map, and what the map shows there. */
+/* A part of a point's block: position in the map, and id there. */
 typedef struct live_spot {
     float u, v; /* texels */
-    float over; /* how many parts lie there, if they do not move towards a neighbour */
+    float over; /* number of parts at this position, unless they move towards a neighbour */
     uint32_t id;
 } live_spot;
 
@@ -158,7 +158,7 @@ static int goes_on(live_look *l, uint32_t id, uint32_t other)
     return dot3(own.normal, b->normal) > 0.99999f && lift * lift <= flat;
 }
 
-/* Off a texel's middle, if the neighbour on that side shows the same plane; else on its middle line. */
+/* Offset from a texel's middle: `off` if the neighbour on that side shows the same plane, else 0. */
 static float towards(live_look *l, int32_t x, int32_t y, uint32_t id, float off)
 {
     const lmb_live_face *f = l->face;
@@ -166,7 +166,7 @@ static float towards(live_look *l, int32_t x, int32_t y, uint32_t id, float off)
     return other == id || goes_on(l, id, other) ? off : 0.0f;
 }
 
-/* Part (x, y) of 4^level a side. `wide`: its side, texels. */
+/* Part (x, y) of a grid of 4^level a side. `wide`: the part's side, texels. */
 static live_spot spot_of(live_look *l, const lmb_live_point *p, uint32_t x, uint32_t y, float wide)
 {
     const lmb_live_face *f = l->face;
@@ -191,7 +191,7 @@ static live_spot spot_of(live_look *l, const lmb_live_point *p, uint32_t x, uint
     return s;
 }
 
-/* The sixteen parts of a point's part. 0 where nothing of it is there. */
+/* Stores the sixteen parts of a point's part. Returns 0 if none of them shows a surface. */
 static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t part, const lmb_live_chunk *whole,
                      uint32_t lane)
 {
@@ -215,7 +215,7 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
         }
     }
     const float share = count > 0 ? 1.0f / (float)count : 0.0f, power = whole->power[lane] * share,
-                area = whole->radius2[lane] * share; /* a point's: its area */
+                area = whole->radius2[lane] * share; /* of a point: area */
     const float flux[3] = {whole->colour[0][lane] * power, whole->colour[1][lane] * power,
                            whole->colour[2][lane] * power};
     if (!(live_power(flux) > 0.0f)) {
@@ -236,7 +236,7 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
 
 /* --- parts of an element ------------------------------------------------------------------------------------------ */
 
-/* One of the four like triangles that a triangle is made of: at a corner, or the middle one. */
+/* Replaces a triangle by one of the four similar triangles in it: at a corner, or the middle one. */
 static void into_quarter(lmb_vec3 corner[3], uint32_t quarter)
 {
     const lmb_vec3 m[3] = {mul3(add3(corner[1], corner[2]), 0.5f), mul3(add3(corner[2], corner[0]), 0.5f),
@@ -249,9 +249,9 @@ static void into_quarter(lmb_vec3 corner[3], uint32_t quarter)
     corner[(quarter + 2) % 3] = m[(quarter + 1) % 3];
 }
 
-/* The sixteen parts of an element's part: a quarter's quarters. Two bits of `part` name a quarter, the last ones first.
- * 0: the element has no shape of its own. Segments go to the element's middle, where it receives: its shape may go on
- * behind a wall that stands on it. */
+/* Stores the sixteen parts of an element's part: a quarter's quarters. Each two bits of `part` select a quarter, the
+ * last ones first. Returns 0 if the element has no shape. Segments go to the element's middle, where it receives light,
+ * because the shape may continue behind a wall on the element. */
 static int put_quarters(lmb_live_scratch *s, const lmb_live *live, uint32_t point, uint32_t part,
                         const lmb_live_chunk *whole, uint32_t lane)
 {
@@ -294,7 +294,7 @@ static void look_along(live_look *l, const lmb_live_face *face)
     }
 }
 
-/* Planes are turned to the face's light: those of another face are not kept. Returns 1. */
+/* Selects a face. Planes are oriented to the face's light, so a new face clears the cache. Returns 1. */
 static int look_at(live_look *l, uint32_t face)
 {
     if (l->face != &l->live->face[face]) {
@@ -303,13 +303,13 @@ static int look_at(live_look *l, uint32_t face)
     return 1;
 }
 
-/* Is a chunk of the cut one of what is near? */
+/* Is a chunk of the cut one of the near chunks? */
 static int is_near(const lmb_live_scratch *s, const lmb_live_chunk *c)
 {
     return c >= s->near && c < s->near + LMB_LIVE_NEAR;
 }
 
-/* Of a block, or of an element. */
+/* Stores the parts of a block or of an element. */
 static int put_parts_of(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t part, const lmb_live_chunk *whole,
                         uint32_t lane)
 {

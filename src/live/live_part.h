@@ -1,4 +1,4 @@
-/* live_part.h: what the files of src/live call of each other. Layer 6. */
+/* live_part.h: functions shared by the files of src/live. Layer 6. */
 #ifndef LMB_LIVE_PART_H
 #define LMB_LIVE_PART_H
 
@@ -10,14 +10,14 @@
 #include "../map/footprint.h"
 #include "../map/texel.h"
 
-/* Of scratch->rays, those `asked` that something blocks. */
+/* Returns the mask of requested rays in scratch->rays that something blocks. */
 uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_bvh *bvh,
                           const lmb_live_receiver *receiver, uint64_t asked);
 
-/* Add what stands for the near nodes without nodes below, scratch->leaf, to the cut. 1 where there is any. */
+/* Adds refined nodes to the cut for the near leaves in scratch->leaf. Returns 1 if it added any. */
 int lmb_live_come_near(lmb_live_scratch *scratch, const lmb_live *live);
 
-/* A triangle that a map shows, with its unit normal on the side that is lit; and what barycentrics are made by. */
+/* A triangle in a map, with a unit normal on the lit side, and the vectors that give barycentrics. */
 typedef struct live_plane {
     uint32_t id;
     lmb_vec3 corner, normal, side[2], along[2];
@@ -25,36 +25,38 @@ typedef struct live_plane {
 
 enum { LIVE_PLANES = 8 };
 
-/* That of an id, by those known: all 0 to begin with. NULL where it names no triangle with an area. */
+/* Returns the plane of an id, from the cache `known`; zero the cache before you use it. NULL if the id names no
+ * triangle with an area. */
 const live_plane *lmb_live_plane(live_plane known[LIVE_PLANES], const lmb_scene *scene, const lmb_view *view,
                                  uint32_t id);
 
-/* The place of a plane over (sx, sy) of a view, moved on to the triangle where it lies outside: rasters snap corners,
- * so a texel's middle may be beside the triangle that it shows, and behind another one. 0 where that is nowhere. */
+/* Sets the point of a plane at (sx, sy) of a view, moved onto the triangle if it lies outside. Rasterizers snap
+ * corners, so a texel's middle may lie beside the triangle that the texel shows, and behind another one. Returns 0 if
+ * there is no such point. */
 int lmb_live_place(lmb_vec3 *out, const live_plane *plane, const lmb_view *view, float sx, float sy);
 
-/* Blocks of a face a side. */
+/* Blocks along a face's side. */
 static inline int32_t live_blocks(const lmb_live_face *f) { return (f->size + f->each - 1) / f->each; }
 
-/* The number of the element that a point is. */
+/* Number of the element that a point represents. */
 static inline uint32_t live_element_of(const lmb_live_point *p) { return (uint32_t)p->row << 16 | p->column; }
 
-/* A factor of the squares of the radii by which nodes are near: under 1 for elements that emit nothing. */
+/* Factor on the squared radius within which a node counts as near: under 1 for elements that emit nothing. */
 float lmb_live_softness(const lmb_live *live, const lmb_live_point *p);
 
-/* The square of a point's own radius. */
+/* Squared radius of a single point. */
 float lmb_live_reach2(const lmb_live *live, const lmb_live_point *p);
 
-/* Has a point no parts? */
+/* Is a point indivisible? */
 int lmb_live_is_whole(const lmb_live *live, const lmb_live_point *p);
 
-/* What divides a node's light beside its distance, of its area: parts of it are not all as near as its middle, so where
- * parts follow it is less. */
+/* Share of a node's area that counts as A in live_nodes if the node has parts, because these are not all as near as the
+ * middle. */
 #define LIVE_DISC 0.25f
 
 static inline float live_power(const float flux[3]) { return (flux[0] + flux[1] + flux[2]) * (1.0f / 3.0f); }
 
-/* Nodes that hold nothing, and are near nothing. */
+/* Clears nodes: no light, and near nothing. */
 static inline void live_blank(lmb_live_chunk *c)
 {
     memset(c, 0, sizeof *c);
@@ -63,7 +65,7 @@ static inline void live_blank(lmb_live_chunk *c)
     }
 }
 
-/* All of a node but its radius and parts. */
+/* Stores a node, except the radius and parts. */
 static inline void live_put(lmb_live_chunk *c, int i, lmb_vec3 place, lmb_vec3 normal, const float flux[3], float area,
                             lmb_vec3 to, lmb_vec3 facet, uint32_t id)
 {
@@ -83,7 +85,7 @@ static inline void live_put(lmb_live_chunk *c, int i, lmb_vec3 place, lmb_vec3 n
     c->target[i].id = id;
 }
 
-/* The id that a map shows at a texel. */
+/* Id that a map shows at a texel. */
 static inline uint32_t live_id(const lmb_surface *s, int32_t x, int32_t y)
 {
     const uint8_t *data = (const uint8_t *)s->data;
@@ -96,7 +98,7 @@ static inline uint32_t live_id(const lmb_surface *s, int32_t x, int32_t y)
                       : ((const uint32_t *)(const void *)row)[x % LMB_TILE];
 }
 
-/* Even over three numbers. */
+/* Uniform hash of three numbers. */
 static inline uint32_t live_hash(uint32_t a, uint32_t b, uint32_t c)
 {
     uint32_t h = a * 0x9e3779b1u ^ b * 0x85ebca77u ^ c * 0xc2b2ae3du;

@@ -1,7 +1,7 @@
-/* live_ray.c: which segments of a receiver something blocks: all in one packet, from one origin. Layer 6.       [ours]
+/* live_ray.c: which segments of a receiver are blocked: one packet from one origin. Layer 6.                    [ours]
  *
- * Whether a triangle blocks a segment depends on these two alone, and so does whether the segment meets a box. So the
- * order of the traversal and the other segments change nothing. */
+ * Whether a triangle blocks a segment depends only on these two, and so does whether the segment meets a box. So the
+ * order of the traversal and the other segments do not change the result. */
 #include "live_part.h"
 
 #include <stddef.h>
@@ -13,23 +13,24 @@
 
 #if LMB_LIVE
 
-#define FEW 4             /* so many segments meet boxes one by one */
-#define MUCH 2            /* segments that a triangle blocks, to be remembered */
-#define END 1.00001000f   /* 1 / .99999: a segment's end, before which it is blocked */
+#define FEW 4             /* up to this many segments are tested against boxes one by one */
+#define MUCH 2            /* a triangle that blocks this many segments is remembered */
+#define END 1.00001000f   /* 1 / .99999: triangles beyond .99999 of a segment do not block it */
 
 typedef struct traversal {
     const lmb_kernels *kernels;
     const lmb_bvh *bvh;
     lmb_live_scratch *scratch;
     const lmb_live_receiver *receiver;
-    uint64_t left; /* segments that nothing blocked yet */
+    uint64_t left; /* segments not blocked so far */
     int32_t waiting;
 } traversal;
 
-/* As occluded.c has it: swapping the corners negates the result exactly. */
+/* As in occluded.c: swapping the corners negates the result exactly. */
 static inline lmb_vec3 edge_plane(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge) { return cross3(add3(b, c), edge); }
 
-/* The planes through the receiver and the edges, so that what crosses along the normal, or against it, is inside. */
+/* Planes through the receiver and the edges. They face inwards whether segments cross along the normal or against
+ * it. */
 static void set_edges(lmb_cross_job *out, const lmb_bvh_triangle *t, const lmb_vec3 to[3], int against)
 {
     const lmb_vec3 *p = t->corner;
@@ -46,8 +47,8 @@ static void set_edges(lmb_cross_job *out, const lmb_bvh_triangle *t, const lmb_v
     }
 }
 
-/* A triangle as seen from the receiver. 0: it blocks nothing. If the receiver lies in its plane, it counts as on the
- * eye's side, and the triangle is widened by rounding, within its boxes. */
+/* Sets up a triangle as seen from the receiver. Returns 0 if the triangle blocks nothing. If the receiver lies in the
+ * triangle's plane, the triangle counts as in front and is widened by the rounding error, within its boxes. */
 static int job_of(lmb_cross_job *out, const traversal *w, const lmb_bvh_triangle *t)
 {
     const lmb_vec3 *p = t->corner, at = w->receiver->position;
@@ -74,7 +75,7 @@ static int job_of(lmb_cross_job *out, const traversal *w, const lmb_bvh_triangle
     return 1;
 }
 
-/* Of the segments that cross a triangle with holes, those that do so where it stands. */
+/* Of the segments that cross a triangle with holes, returns those that hit an opaque part. */
 NOINLINE uint64_t standing(const traversal *w, uint32_t id, const lmb_cross_job *job, uint64_t crossed)
 {
     const lmb_live_rays *r = &w->scratch->rays;
@@ -113,7 +114,7 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? standing(w, id, &job, crossed) : crossed);
 }
 
-/* Those that block at least MUCH are tested first from then on, which changes no result. */
+/* Triangles that block at least MUCH segments are tested first from then on, which changes no result. */
 static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t met)
 {
     for (uint32_t k = 0; k < node->count[i] && (w->left & met) != 0; ++k) {
@@ -140,7 +141,7 @@ static lmb_segment segment_of(const lmb_live_rays *r, int k)
     return s;
 }
 
-/* The segments that meet each box of a node. Returns the boxes that some meet. */
+/* Sets the segments that meet each box of a node. Returns the boxes that at least one meets. */
 static uint32_t meet(uint64_t met[LMB_BOXES], const traversal *w, const lmb_boxes *node, uint64_t asked)
 {
     const lmb_live_rays *r = &w->scratch->rays;

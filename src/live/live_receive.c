@@ -10,7 +10,7 @@
 
 /* --- the light ---------------------------------------------------------------------------------------------------- */
 
-/* The nodes of the first level; then what near ones are made of. */
+/* Starts with the nodes of the first level and replaces near ones by their parts. */
 static void cut(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live *live, const lmb_live_job *job)
 {
     s->count = s->done = s->near_count = s->leaves = s->is_full = 0;
@@ -27,11 +27,11 @@ static void cut(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live 
     s->pairs += (uint64_t)s->count * LMB_LIVE_NODES;
 }
 
-/* As crossed_per. */
+/* Like crossed_per. */
 static float per_of(float d) { return absf(d) > 1e-20f ? 1.0f / d : d < 0.0f ? -1e20f : 1e20f; }
 
-/* Is the way free from the receiver to twice the way off an edge, and on its triangle? Else something as thin stands
- * there, or its surface bends. */
+/* Is the segment from the receiver to twice the offset free, and does it stay on the receiver's triangle? If not,
+ * another thin object is there, or the surface bends. */
 static int is_free(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live *live, const lmb_bvh *bvh,
                    const lmb_live_receiver *at)
 {
@@ -51,7 +51,7 @@ static int is_free(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_li
     return lmb_live_blocked(kernels, s, bvh, at, 1) == 0;
 }
 
-/* Where little is seen, noise is a large part of it: more segments. */
+/* If little light is visible, noise is a large part of it, so more segments are used. */
 static int packets_of(int32_t seen, int32_t targets)
 {
     return seen * 5 >= targets * 2 ? 1 : seen * 5 >= targets || seen == 0 ? 2 : 3;
@@ -60,7 +60,7 @@ static int packets_of(int32_t seen, int32_t targets)
 lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
                             const lmb_bvh *bvh, const lmb_live_receiver *receiver)
 {
-    static const float place[3] = {0.5f, 0.16666667f, 0.83333333f}; /* of the strata; all three are as far apart */
+    static const float place[3] = {0.5f, 0.16666667f, 0.83333333f}; /* within the strata; all have equal spacing */
     float all[3] = {0, 0, 0}, some[3] = {0, 0, 0};
     int32_t seen = 0, targets = 0;
     int packets = 1;

@@ -1,9 +1,9 @@
-/* live_sum.inl: a receiver's cut of the live tree, and the targets of its segments. Layer 6.                    [ours]
+/* live_sum.inl: a receiver's cut of the live tree, and the targets of the segments. Layer 6.                    [ours]
  *
- * Lanes are the nodes of a chunk, sixteen whatever the backend: sums of them go by one fixed tree. */
+ * Lanes are the nodes of a chunk, sixteen on every backend; sums over them use one fixed tree. */
 
-/* Light of nodes i .. i + LANES - 1, and bits of those that are near. A disc of area A that faces the receiver from
- * distance d gives what d^2 pi + A divides; chunks have less for A where parts follow. */
+/* Light of nodes i .. i + LANES - 1, and the mask of near ones. A disc of area A that faces the receiver at distance d
+ * gives light proportional to 1 / (d^2 pi + A). Chunks store a smaller A if parts follow. */
 LANE_INLINE lane live_nodes(uint32_t *near, const lmb_live_chunk *c, int i, const lmb_live_job *job)
 {
     const lane zero = lane_splat(0.0f);
@@ -27,7 +27,7 @@ LANE_INLINE lane live_nodes(uint32_t *near, const lmb_live_chunk *c, int i, cons
     return lane_keep(mask_and(lit, lane_lt(light, lane_splat(1e30f))), light);
 }
 
-/* Ask for the nodes first .. first + count - 1. 0 where there is no room. */
+/* Requests the nodes first .. first + count - 1. Returns 0 if the cut is full. */
 static inline int live_ask(lmb_live_scratch *s, const lmb_live *live, uint32_t first, uint32_t count)
 {
     const uint32_t past = first + count, from = first / LMB_LIVE_NODES, to = (past - 1) / LMB_LIVE_NODES;
@@ -43,8 +43,8 @@ static inline int live_ask(lmb_live_scratch *s, const lmb_live *live, uint32_t f
     return 1;
 }
 
-/* Can some of a first point's block light the receiver? It is flat: so not where the receiver is behind its plane, or
- * next to it, nor where all of it is under the receiver's horizon. */
+/* Can a first point's block light the receiver? The block is flat: no, if the receiver lies behind or almost in the
+ * block's plane, or if the whole block lies below the receiver's horizon. */
 static inline int live_is_ahead(const lmb_live_chunk *c, int i, const lmb_live_job *job)
 {
     const lmb_vec3 d = sub3(vec3(c->place[0][i], c->place[1][i], c->place[2][i]), job->position);
@@ -53,11 +53,11 @@ static inline int live_is_ahead(const lmb_live_chunk *c, int i, const lmb_live_j
     return there > 0.0f && there * there > 1e-6f * dot3(d, d) && (here > 0.0f || here * here < c->radius2[i]);
 }
 
-#define LIVE_OFF 1.0f /* texels that a receiver keeps off what it meets in an edge */
+#define LIVE_OFF 1.0f /* texels between a receiver and an inner edge */
 
-/* Does the receiver lie in an inner edge, next to a block: less than a texel over its plane? Between the block's last
- * texel and the edge the map knows nothing, and at the edge all of a wall's light comes from there. Then it is lit a texel
- * further off, where its light is about the same. */
+/* Does the receiver lie in an inner edge, less than a texel above a block's plane? The map has no sample between the
+ * block's last texel and the edge, and at the edge all of a wall's light comes from there. Such a receiver is lit one
+ * texel farther off, where the light is about the same. */
 static inline void live_keep_off(lmb_live_scratch *s, const lmb_live *live, const lmb_live_chunk *c, int i,
                                  const lmb_live_job *job)
 {
@@ -72,7 +72,7 @@ static inline void live_keep_off(lmb_live_scratch *s, const lmb_live *live, cons
     }
 }
 
-/* Near nodes of chunk k of the cut: their parts are asked for, and they give nothing themselves. */
+/* Requests the parts of near nodes in chunk k of the cut; the nodes themselves then give no light. */
 static inline void live_divide(lmb_live_scratch *s, const lmb_live *live, int32_t k, uint32_t near,
                                const lmb_live_job *job)
 {
@@ -96,7 +96,7 @@ static inline void live_divide(lmb_live_scratch *s, const lmb_live *live, int32_
     }
 }
 
-/* Values of the chunks of the cut from s->done on, with those that they ask for. */
+/* Computes the values of the cut's chunks from s->done on, including chunks that these request. */
 static void KERNEL(live_values)(lmb_live_scratch *s, const lmb_live *live, const lmb_live_job *job)
 {
     for (; s->done < s->count; ++s->done) {
@@ -116,7 +116,7 @@ static void KERNEL(live_values)(lmb_live_scratch *s, const lmb_live *live, const
     }
 }
 
-/* Sums of the cut's chunks, and of each channel. Returns all of it. */
+/* Sums the cut's chunks, and each channel. Returns the total. */
 static float KERNEL(live_sums)(float light[3], lmb_live_scratch *s)
 {
     float all = 0.0f, sums[LMB_LIVE_NODES];
@@ -160,7 +160,7 @@ static inline void live_put_target(lmb_live_rays *r, int32_t to, const lmb_live_
     r->id[to] = t->id;
 }
 
-/* Of a node that has more than a stratum, the part at a fraction of its power. */
+/* For a node with more than one stratum, stores the part at a fraction of the node's power as the target. */
 static inline void live_put_part(lmb_live_rays *r, int32_t to, const lmb_live *live, const lmb_live_chunk *c, int i,
                                  float fraction)
 {
@@ -180,7 +180,7 @@ static inline void live_put_part(lmb_live_rays *r, int32_t to, const lmb_live *l
     }
 }
 
-/* Targets from `strata` strata of `all` light, each at `place` of it, 0 .. 1. */
+/* Selects targets: one for each of `strata` strata of `all` light, each at `place` in the stratum, 0 .. 1. */
 static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int32_t strata, float place, float all)
 {
     lmb_live_rays *r = &s->rays;
@@ -204,7 +204,7 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
                 after |= mask_bits(lane_lt(lane_splat(at), lane_load(sums + i))) << i;
             }
             after &= some;
-            for (; after == 0 && (some & (some - 1)) != 0; some &= some - 1) { /* the last: rounding went past it */
+            for (; after == 0 && (some & (some - 1)) != 0; some &= some - 1) { /* the last one, if rounding overshot */
             }
             const int i = lowest_bit(after != 0 ? after : some);
             if (s->value[e][i] > step) {
@@ -217,7 +217,7 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
         so_far = next;
     }
     s->targets = k;
-    for (; k % LMB_LIVE_NODES != 0; ++k) { /* what the sums go over */
+    for (; k % LMB_LIVE_NODES != 0; ++k) { /* padding that the sums include */
         for (int h = 0; h < 3; ++h) {
             r->to[h][k] = r->facet[h][k] = r->colour[h][k] = 0.0f;
         }
@@ -230,8 +230,8 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
     }
 }
 
-/* Targets that count: over the receiver's horizon, and with the receiver in front of their own facet by more than
- * rounding. A node's target may be neither, though its middle is. */
+/* Targets that count: above the receiver's horizon, and with the receiver in front of the target's facet by more than
+ * rounding. A node's target may fail both tests although the node's middle passes. */
 static uint64_t KERNEL(live_ahead)(const lmb_live_rays *r, int32_t targets, const lmb_live_receiver *at)
 {
     const lane3 face = lane3_of(at->face);
@@ -254,7 +254,7 @@ static uint64_t KERNEL(live_ahead)(const lmb_live_rays *r, int32_t targets, cons
     return targets < LMB_TILE_PIXELS ? out & (((uint64_t)1 << targets) - 1) : out;
 }
 
-/* Add the colours of all targets, and of those that are seen. */
+/* Adds the colours of all targets, and of the visible ones. */
 static void KERNEL(live_share)(float all[3], float some[3], const lmb_live_rays *r, int32_t targets, uint64_t seen)
 {
     for (int h = 0; h < 3; ++h) {
@@ -274,7 +274,7 @@ static void KERNEL(live_share)(float all[3], float some[3], const lmb_live_rays 
     }
 }
 
-/* Of the rays `asked`, those that meet each of a node's boxes. */
+/* Sets the requested rays that meet each of a node's boxes. */
 static void KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *s, uint64_t asked, const lmb_boxes *boxes)
 {
     float low[3][LMB_BOXES], high[3][LMB_BOXES];
@@ -303,7 +303,7 @@ static void KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *s, u
     }
 }
 
-/* Of the rays `asked`, those that cross a triangle. */
+/* Returns the requested rays that cross a triangle. */
 static uint64_t KERNEL(live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job)
 {
     const lane3 n = lane3_of(job->normal);

@@ -1,8 +1,9 @@
-/* many_lights.c: a stream of lights into cells of the world: a fixed number of cells, integer sums. Layer 6. [V3]
+/* many_lights.c: sorts a stream of lights into a fixed number of world cells, with integer sums. Layer 6.    [V3]
  *
- * What a cell holds is a sum, a least, a greatest or a best of its lights, all in exact arithmetic: merging is
- * associative and commutative, so a cell depends on the set of its lights alone. And the cell's side is the least whose
- * cells fit: it doubles only where the lights so far need more, and then all lights do. The result knows no order. */
+ * A cell holds sums, minima, maxima or best members of its lights, all in exact arithmetic. Merging is associative and
+ * commutative, so a cell depends only on the set of lights in it. The side of cells is the smallest at which they fit.
+ * It doubles only if the lights so far need more cells, and then all lights need them too, in any order. So the result
+ * does not depend on the order. */
 #include <lambent/many_lights.h>
 
 #include <string.h>
@@ -13,9 +14,9 @@
 #include "many_lights_cell.h"
 
 #define MAX_CELLS (1u << 22)
-#define AXIS_BITS 21 /* three fill a key */
+#define AXIS_BITS 21 /* three axes fill a key */
 
-/* A power of two at least as large as the cells' number twice: probes stay short. */
+/* Slots of the hash table: a power of two of at least twice the cells, so that probes stay short. */
 static uint32_t slots_of(uint32_t cells)
 {
     uint32_t n = 2;
@@ -25,7 +26,7 @@ static uint32_t slots_of(uint32_t cells)
     return n;
 }
 
-/* A tree of n cells with no node of one child has at most 2 n - 1 nodes. Kernels read up to 16 past the last. */
+/* A tree of n cells without single-child nodes has at most 2 n - 1 nodes. Kernels read up to 16 past the last. */
 static uint32_t nodes_of(uint32_t cells) { return 2 * cells; }
 static uint32_t plane_of(uint32_t cells) { return 2 * cells + 16; }
 
@@ -44,7 +45,7 @@ static int is_box(lmb_vec3 low, lmb_vec3 high)
            is_sane(high.z) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
 }
 
-/* The power of two from most / 2^60 up: a sum may pass `most` four times before it passes 2^62. */
+/* The smallest power of two from max / 2^60 up: a sum may reach 4 max before it exceeds 2^62 quanta. */
 static float quantum_of(float max)
 {
     float q = 0x1p-120f;
@@ -54,7 +55,7 @@ static float quantum_of(float max)
     return q;
 }
 
-/* Where a 64-bit number may stand: every 4 bytes on some targets, every 8 on others. */
+/* Alignment of a 64-bit number: 4 bytes on some targets, 8 on others. */
 struct aligned {
     char before;
     uint64_t value;
@@ -93,7 +94,7 @@ lmb_status lmb_many_lights_init(lmb_many_lights *out, uint32_t cells, lmb_vec3 l
 
 /* --- one light as a cell ------------------------------------------------------------------------------------------ */
 
-/* Bit i of v to bit 3 i. */
+/* Moves bit i of v to bit 3 i. */
 static uint64_t spread_bits(uint32_t v)
 {
     uint64_t x = v;
@@ -124,8 +125,8 @@ static uint32_t hash_of(const lmb_light *l)
     return (uint32_t)(range2 > 0.0f ? hash_more(h, range2) : h);
 }
 
-/* A weighted random choice: of scores log2(u) / w with u from the hash, even in 0 .. 1, the largest is light i's with
- * the chance w_i / sum w (Efraimidis and Spirakis 2006), whichever comes first. */
+/* Weighted random choice. Of scores log2(u) / w, with u uniform in 0 .. 1 from the hash, light i has the largest with
+ * probability w_i / sum w (Efraimidis and Spirakis 2006), in any order. */
 static float lot_of(uint32_t hash, float weight)
 {
     const float u = ((float)(hash >> 8) + 0.5f) * 0x1p-24f;
@@ -152,7 +153,8 @@ static int is_inside(const lmb_many_lights *m, lmb_vec3 p)
            p.z <= m->high.z;
 }
 
-/* Is it a light that gives any, and inside the box? Comparisons fail for NaN. Under 2^-60 W/sr is nothing. */
+/* Does the light emit anything, and is it inside the box? Comparisons fail for NaN. Intensities under 2^-60 W/sr count
+ * as 0. */
 static int is_taken(const lmb_many_lights *m, const lmb_light *l)
 {
     int dark = 1;
@@ -166,7 +168,7 @@ static int is_taken(const lmb_many_lights *m, const lmb_light *l)
            (light_kind_is(l->kind, LIGHT_FAR) || is_inside(m, l->position));
 }
 
-/* Under a micrometre is 0, and that without a sign: of two zeros the least would be the first to come. */
+/* Rounds values under a micrometre to +0: with both zeros the minimum would depend on the order. */
 static float plain(float p) { return absf(p) < 0x1p-20f ? 0.0f : p; }
 
 static lmb_vec3 plain3(lmb_vec3 p) { return vec3(plain(p.x), plain(p.y), plain(p.z)); }
@@ -185,7 +187,7 @@ static lmb_many_lights_source source_of(const lmb_light *l)
     return s;
 }
 
-/* Which side of space a spot points to, 0 .. 5. */
+/* 0 .. 5: dominant axis and sign of a spot's direction. */
 static uint32_t side_of(lmb_vec3 d)
 {
     const float x = absf(d.x), y = absf(d.y), z = absf(d.z);
@@ -202,7 +204,7 @@ static uint32_t kind_of(const lmb_light *l)
                                        : LMB_MANY_LIGHTS_SUNS;
 }
 
-/* What a cell knows of a spot's shape. */
+/* Sets a cell's fields for the shape of a spot. */
 static void set_shape(lmb_many_lights_cell *out, const lmb_many_lights_source *s)
 {
     const float axis[3] = {s->direction.x, s->direction.y, s->direction.z};
@@ -247,7 +249,7 @@ static void cell_of(lmb_many_lights_cell *out, const lmb_many_lights *m, const l
     out->lights = 1;
 }
 
-/* Would the sums pass what 64 bits hold? Three channels of 2^61 quanta are less than 2^63. */
+/* Could the sums overflow 64 bits? Three channels of 2^61 quanta are less than 2^63. */
 static int is_too_much(const lmb_many_lights *m, const lmb_light *l)
 {
     const float limit = m->quantum * 0x1p+61f;
@@ -306,7 +308,7 @@ static int is_cell(const lmb_many_lights_cell *a, const lmb_many_lights_cell *b)
     return a->key == b->key && a->turn == b->turn && a->kind == b->kind;
 }
 
-/* The slot of a cell like c, or the empty one where it belongs. Slots hold the cell's number + 1. */
+/* The slot of a cell equal to c, or the empty slot for it. Slots hold the cell's index + 1. */
 static uint32_t *slot_of(const lmb_many_lights *m, const lmb_many_lights_cell *c)
 {
     const uint32_t mask = m->slot_count - 1;
@@ -324,7 +326,7 @@ static void widen(lmb_many_lights_cell *c)
     c->turn >>= 3;
 }
 
-/* Cells of twice the side. In place: the cells kept so far are never more than those seen. */
+/* Doubles the side of cells, in place: merged cells never outnumber the cells read. */
 static void double_cells(lmb_many_lights *m)
 {
     const uint32_t count = m->cell_count;
@@ -343,7 +345,7 @@ static void double_cells(lmb_many_lights *m)
     }
 }
 
-/* 0 where not even a cell for each kind has room. */
+/* Returns 0 if not even one cell for each kind fits. */
 static int put_cell(lmb_many_lights *m, lmb_many_lights_cell *c)
 {
     uint32_t *slot = slot_of(m, c);

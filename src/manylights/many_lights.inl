@@ -10,12 +10,12 @@ static inline lane3 many_load3(const lmb_many_lights *many_lights, uint32_t plan
     return r;
 }
 
-/* Cosines under a millionth count as 0: with that, and lights of at least 2^-60 W/sr, products are never denormal. */
+/* Cosines under a millionth count as 0. Since lights have at least 2^-60 W/sr, products are then never denormal. */
 static inline lane many_cosine(lane c) { return lane_keep(lane_lt(lane_splat(0x1p-20f), c), c); }
 
-#define MANY_SOME 0x1p-60f /* what multiplies to less than a normal number is none */
+#define MANY_SOME 0x1p-60f /* factors with a product below normal numbers count as 0 */
 
-/* The sum of angles of which one has these cosines and sines: its cosine; -1 over half a turn. */
+/* Cosine of the sum of two angles, each given as cosine and sine; -1 if the sum exceeds half a turn. */
 static inline lane many_sum_cosine(lane c1, lane s1, lane c2, lane s2)
 {
     const lane turned = lane_add(lane_mul(s1, c2), lane_mul(c1, s2));
@@ -23,8 +23,8 @@ static inline lane many_sum_cosine(lane c1, lane s1, lane c2, lane s2)
                      lane_splat(-1.0f));
 }
 
-/* Of spots, that share of the light which the pixels may get: 0 where no cone reaches them, else what the widest one's
- * solid angle is of that of all of them together, as seen with the sizes of both boxes. */
+/* The share of spots' light that can reach the pixels: 0 if no cone reaches them, else the ratio of the widest cone's
+ * solid angle to that of all cones together, as seen with the sizes of both boxes. */
 static inline lane many_cone_share(const lmb_many_lights *many_lights, uint32_t at, lane3 between, lane3 halves)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), some = lane_splat(1e-4f);
@@ -34,7 +34,7 @@ static inline lane many_cone_share(const lmb_many_lights *many_lights, uint32_t 
     const lane sine = lane_sqrt(size2), cosine = lane_sqrt(lane_sub(one, size2));
     const lane wide = many_sum_cosine(lane_load(plane + LMB_MANY_LIGHTS_COSINE * many_lights->plane_step),
                                       lane_load(plane + LMB_MANY_LIGHTS_SINE * many_lights->plane_step), cosine, sine);
-    /* `between` leads from the pixels to the lights */
+    /* `between` points from the pixels to the lights */
     const lane along = lane_div(lane_sub(zero, lane3_dot(many_load3(many_lights, LMB_MANY_LIGHTS_AXIS, at), between)),
                                 lane_sqrt(d2));
     const lane own = lane_sub(one, lane_load(plane + LMB_MANY_LIGHTS_OUTER * many_lights->plane_step));
@@ -60,8 +60,8 @@ static inline lane many_range_share(lane *min_left, const lmb_many_lights *many_
     return direct_within(gap2, lane_max(lane_load(plane + many_lights->plane_step), lane_splat(0x1p-80f)));
 }
 
-/* Lanes are nodes here: none of them meets another. The upper bound of a node's light is I cos / d^2 with d the boxes'
- * distance and the cosine from the highest that a corner of one box rises over the plane of one of the other. */
+/* Lanes are nodes here and do not interact. The upper bound of a node's light is I cos / d^2: d is the distance of the
+ * boxes, and the cosine comes from the highest rise of a corner of one box over the plane of a corner of the other. */
 static void KERNEL(many_places)(float error[16], float light[16], float inside[16], const lmb_many_lights *many_lights,
                                 uint32_t first, uint32_t count, const lmb_many_lights_job *job, int have_cones)
 {
@@ -106,7 +106,7 @@ static void KERNEL(many_places)(float error[16], float light[16], float inside[1
     }
 }
 
-/* The same a metre off, wherever the pixels are. */
+/* The same for lights at infinity, computed at a distance of a metre, wherever the pixels are. */
 static void KERNEL(many_suns)(float error[16], float light[16], float inside[16], const lmb_many_lights *many_lights,
                               uint32_t first, uint32_t count, const lmb_many_lights_job *job)
 {
@@ -187,7 +187,7 @@ static inline lane many_in_range(lane3 at, const lmb_active_light *active, float
     return lane_keep(lane_lt(lane_splat(0x1p-20f), left), left);
 }
 
-/* What comes with one of its two lights, for the pixels from k on. */
+/* Factor of one of the two representative lights, for the pixels from k on. */
 static inline lane many_share(lane3 at, const lmb_active_light *active, int i, int k)
 {
     lane seen = lane_keep(mask_of_bits((uint32_t)(active->seen[i] >> k)), lane_splat(active->share[i]));

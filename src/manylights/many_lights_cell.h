@@ -1,4 +1,4 @@
-/* many_lights_cell.h: what the stream of many lights, their tree and the cut have in common. Layer 6. */
+/* many_lights_cell.h: definitions shared by the stream of many lights, their tree and the cut. Layer 6. */
 #ifndef LMB_MANYLIGHTS_MANY_LIGHTS_CELL_H
 #define LMB_MANYLIGHTS_MANY_LIGHTS_CELL_H
 
@@ -7,7 +7,7 @@
 #define LMB_MANY_LIGHTS_ENDLESS2 0x1p+60f /* m2: squared range of lights that have none */
 #define LMB_MANY_LIGHTS_SUNS (LMB_MANY_LIGHTS_KINDS - 1u) /* lmb_many_lights_cell.kind */
 
-/* What positions of a kind are counted in: suns' are directions, -1 .. 1. */
+/* Quantization of a kind's positions; suns have directions, -1 .. 1. */
 typedef struct lmb_many_lights_scale {
     float low[3], step;
 } lmb_many_lights_scale;
@@ -19,7 +19,8 @@ static inline lmb_many_lights_scale lmb_many_lights_scale_of(const lmb_many_ligh
     return kind == LMB_MANY_LIGHTS_SUNS ? sky : world;
 }
 
-/* Put the lights of `from` to those of `into`; its key stays. Merging is exact, so order and grouping do not matter. */
+/* Merges the lights of `from` into `into`; the key of `into` stays. Merging is exact, so order and grouping do not
+ * matter. */
 void lmb_many_lights_merge(lmb_many_lights_cell *into, const lmb_many_lights_cell *from);
 
 #endif

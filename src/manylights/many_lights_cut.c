@@ -1,14 +1,15 @@
 /* many_lights_cut.c: a surface's own cut through the tree of many lights. Layer 6.                              [V3]
  *
- * A node stands for its lights in two ways, and each sets how far the tree is parted. As a place: I cos / d^2 from the
- * mean of its lights errs by about its bound x R^2 / d^2, the first order being gone; I cos / d^2 is harmonic, so
- * lights spread evenly to all sides err by less yet. As a shadow: two tests speak for all of its lights, so what one
- * node gives is what may be wrong at once. Measured on 100, 1,000 and 10,000 lights in a room with boxes, the second
- * matters more: with it a quarter of the shadow tests give the same error. The nodes lie in a heap, the worst on top:
- * first by the bounds, until their sum is small; then by light, until none gives much. Both by the tests' front of
- * speed and error. Spots are parted by what a node gives if the one cone that speaks for it holds the pixels.
+ * A node represents its lights in two ways, and each limits how far the tree is refined. As a position: I cos / d^2
+ * from the mean of the lights errs by about the node's bound x R^2 / d^2, because the first-order terms cancel. I cos /
+ * d^2 is harmonic, so lights spread evenly to all sides err even less. As a shadow: two tests decide for all lights of
+ * a node, so a node's light is the error of one wrong test. On 100, 1,000 and 10,000 lights in a room with boxes the
+ * second limit mattered more: with it, a quarter of the shadow tests give the same error. The nodes are in a heap with
+ * the worst on top. The key is first the bound, until the sum of bounds is small, then the light, until no node
+ * contributes much. Both limits lie on the measured front of speed and error. Spots are refined by the light that a
+ * node gives if its representative cone contains the pixels.
  *
- * Entries that may yet be parted lie in the heap from the front of `entry`, cells from its back. */
+ * Entries that can still be refined are in a heap at the front of `entry`, cells at the back. */
 #include "many_lights_cut.h"
 
 #if LMB_TREES
@@ -50,7 +51,7 @@ static lmb_many_lights_entry pop(lmb_many_lights_scratch *s)
     return top;
 }
 
-/* What is too near for a bound is parted anyway, and would only blur the sums. */
+/* Nodes too near for a bound are refined anyway, and would only make the sums inaccurate. */
 static void count_in(lmb_many_lights_scratch *s, const lmb_many_lights_entry *e, float sign)
 {
     if (e->error < LMB_MANY_LIGHTS_NEAR) {
@@ -89,7 +90,7 @@ static void add_nodes(lmb_many_lights_scratch *s, const lmb_kernels *kernels, co
     }
 }
 
-/* One for each kind of light. */
+/* Adds one root for each kind of light. */
 static void add_roots(lmb_many_lights_scratch *s, const lmb_kernels *kernels, const lmb_many_lights *many_lights,
                       const lmb_many_lights_job *job)
 {
@@ -122,7 +123,7 @@ static void part(lmb_many_lights_scratch *s, const lmb_kernels *kernels, const l
     }
 }
 
-/* The heap again, by another key. */
+/* Rebuilds the heap with another key. */
 static void order_by_light(lmb_many_lights_scratch *s)
 {
     const int32_t count = s->open;

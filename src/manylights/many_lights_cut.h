@@ -1,4 +1,4 @@
-/* many_lights_cut.h: which nodes of the tree of many lights stand for all of them on one surface of a tile. Layer 6. */
+/* many_lights_cut.h: nodes of the tree of many lights that represent all lights on a surface of a tile. Layer 6. */
 #ifndef LMB_MANYLIGHTS_MANY_LIGHTS_CUT_H
 #define LMB_MANYLIGHTS_MANY_LIGHTS_CUT_H
 

@@ -1,5 +1,4 @@
-/* many_lights_direct.c: a tile's surfaces, lit by their cuts of many lights: shadow tests, then light. Layer 6. [V3
- * V29] */
+/* many_lights_direct.c: a tile's surfaces, lit by cuts of many lights: shadow tests, then light. Layer 6. [V3 V29] */
 #include <string.h>
 
 #include "../base/light_kind.h"
@@ -9,7 +8,7 @@
 
 #if LMB_TREES
 
-#define SURFACES 4 /* of a tile that take a cut of their own; the last takes what is left */
+#define SURFACES 4 /* max surfaces of a tile with a cut of their own; the last takes the rest */
 
 /* --- the tile's surfaces ------------------------------------------------------------------------------------------ */
 
@@ -70,7 +69,7 @@ static uint64_t occluded_from(const lit_surface *s, uint64_t pixels, uint32_t ki
                : lmb_occluded_tile(s->kernels, s->traversal, s->query->bvh, s->tile, pixels, at, s->noise);
 }
 
-/* The pixels from which a point is visible: where the four corners of the tile agree, all pixels share their answer.
+/* The pixels from which a point is visible. If the four corners of the tile agree, all pixels share their result.
  * Points that contribute much are tested from each pixel. */
 static uint64_t seen_from(const lit_surface *s, uint32_t *tests, uint32_t kind, lmb_vec3 at, int is_strong)
 {
@@ -94,7 +93,7 @@ static uint64_t seen_from(const lit_surface *s, uint32_t *tests, uint32_t kind, 
 
 static int is_same_place(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/* Does one test speak for all? Where they lie within a 64th of their distance (R^2 is 3 x spread). */
+/* Does one test decide for all lights? Yes, if they lie within 1/64 of their distance (R^2 is 3 x spread). */
 static int is_one_place(const lmb_many_lights_node *node, const lmb_many_lights_job *job)
 {
     const lmb_vec3 to = sub3(node->position, job->middle);
@@ -102,8 +101,8 @@ static int is_one_place(const lmb_many_lights_node *node, const lmb_many_lights_
     return is_same_place(node->strongest.position, node->median.position) || 12288.0f * node->spread < d2;
 }
 
-/* Two shadow tests; only one of them, chosen at random, where the node contributes less than a quarter of the possible
- * error: that saves a third of the tests and adds 3 % to the error. */
+/* Runs two shadow tests, or only one of them, chosen at random, if the node contributes less than a quarter of the
+ * possible error: that saves a third of the tests and adds 3 % to the error. */
 static void test_active(lmb_active_light *active, const lit_surface *s, const lmb_many_lights_node *node, float share,
                         uint32_t *tests)
 {
@@ -117,7 +116,7 @@ static void test_active(lmb_active_light *active, const lit_surface *s, const lm
     }
 }
 
-/* A hard edge is a step over a millionth. */
+/* A hard edge becomes a ramp of one millionth. */
 static void set_cones(lmb_active_light *active, const lmb_many_lights_node *node)
 {
     active->source[0] = node->strongest;
@@ -154,10 +153,10 @@ static void add_irradiance(lmb_irradiance *inout, lmb_many_lights_scratch *scrat
     }
 }
 
-#define LITTLE 0.2f    /* of the light arrives: windows lie between the nodes of the first cut */
-#define FINEST 0.0625f /* of the error that was asked for: the least share that a second cut takes */
+#define LITTLE 0.2f    /* if less of the light arrives, a second cut is made: windows lie between nodes */
+#define FINEST 0.0625f /* min error of a second cut, as a share of the requested error */
 
-/* The share of the cut's light that arrived, in the mean over the surface's pixels. */
+/* Share of the cut's light that arrived, averaged over the surface's pixels. */
 static float seen_share(const lmb_irradiance *arrived, float light, const lit_surface *s)
 {
     float sum = 0.0f;
@@ -178,7 +177,8 @@ static void light_part(lmb_irradiance *out, lmb_many_lights_scratch *scratch, co
     add_irradiance(out, scratch, s);
 }
 
-/* By one cut; by a second one where most of its light is blocked: few of its nodes are then all there is. */
+/* Lights the surface with one cut. If most of that light is blocked, only a few nodes contribute, and a second, finer
+ * cut replaces it. */
 NOINLINE void light_by_seen(lmb_irradiance *inout, lmb_many_lights_scratch *scratch, const lit_surface *s)
 {
     lmb_many_lights_query finer = *s->query;

@@ -1,8 +1,8 @@
 /* many_lights_tree.c: the tree over the stream's cells, eight children a node where the octree has them. Layer 6. [V3]
  *
- * Keys hold x, y and z in turn, so cells in the order of their keys lie in the order of an octree: a node is a range of
- * them. Levels that would have one child are left out. Every node is summed from its own cells, in integers. Lights of
- * several kinds have a tree for each, under one root. */
+ * Keys interleave x, y and z, so cells sorted by key are in octree order: a node is a range of cells. Levels with a
+ * single child are skipped. Each node is summed directly from the cells, in integers. Lights of several kinds have a
+ * tree for each kind, below one root. */
 #include <string.h>
 
 #include "../base/light_kind.h"
@@ -11,14 +11,13 @@
 
 enum { CELL_BYTES = 17 };
 
-/* Byte i, from the lowest, of what cells are ordered by. */
+/* Byte i, from the lowest, of the sort key of cells. */
 static uint32_t byte_of(const lmb_many_lights_cell *c, int i)
 {
     return i < 8 ? (uint32_t)(c->turn >> 8 * i) & 255u : i < 16 ? (uint32_t)(c->key >> 8 * (i - 8)) & 255u : c->kind;
 }
 
-/* The cells' numbers in the order of their kinds, keys and turns, into `slot`: a byte at a time. The table has room for
- * two such lists. */
+/* Sorts the cells' indices by kind, key and turn into `slot`, one byte per pass. The table holds two such lists. */
 static void sort_cells(lmb_many_lights *m)
 {
     const uint32_t n = m->cell_count;
@@ -32,7 +31,7 @@ static void sort_cells(lmb_many_lights *m)
         for (uint32_t i = 0; i < n; ++i) {
             ++at[byte_of(&m->cell[i], byte)];
         }
-        if (at[byte_of(&m->cell[0], byte)] == n) { /* all have the same */
+        if (at[byte_of(&m->cell[0], byte)] == n) { /* all are equal */
             continue;
         }
         for (int b = 0; b < 256; ++b) {
@@ -55,19 +54,20 @@ static const lmb_many_lights_cell *cell_at(const lmb_many_lights *m, uint32_t i)
 static float watts(const lmb_many_lights *m, int64_t quanta)
 {
     const float w = (float)quanta * m->quantum;
-    return w < 0x1p-60f ? 0.0f : w; /* a kernel meets no denormal */
+    return w < 0x1p-60f ? 0.0f : w; /* kernels must not meet denormals */
 }
 
-/* The mean by weight, in the middle of its step, never outside the lights' own box: of one light it is its place. */
+/* Weighted mean, at the middle of a quantization step, clamped to the lights' box: a single light keeps its
+ * position. */
 static float mean_of(const lmb_many_lights_cell *c, int axis, float low, float step)
 {
     const float at = low + ((float)(c->moment[axis] / c->weight) + 0.5f) * step;
     return clampf(at, c->low[axis], c->high[axis]);
 }
 
-/* A cone that holds the cones of all directions in the box, as wide as the widest. A unit vector within r of the box's
- * middle, m from 0, is at the angle of cosine (1 + m^2 - r^2) / 2 m or less from it; to that the own half angle is
- * added, which is under 90 degrees. */
+/* Sets a cone that contains the cones of all directions in the box, each as wide as the widest. A unit vector within r
+ * of the box's middle, which lies at distance m from 0, deviates from the middle's direction by at most an angle of
+ * cosine (1 + m^2 - r^2) / 2 m. The cones' half angle, under 90 degrees, is added. */
 static void set_cone(lmb_many_lights *m, uint32_t i, const lmb_many_lights_cell *c)
 {
     const lmb_vec3 low = vec3(c->axis_low[0], c->axis_low[1], c->axis_low[2]);
@@ -76,7 +76,7 @@ static void set_cone(lmb_many_lights *m, uint32_t i, const lmb_many_lights_cell 
     const float m2 = dot3(middle, middle), length = sqrtf(maxf(m2, 1e-12f)), own = c->cos_outer;
     const float bend = clampf((1.0f + m2 - dot3(half, half)) / (2.0f * length) - 1e-6f, -1.0f, 1.0f);
     const float sine = sqrtf(1.0f - bend * bend), own_sine = sqrtf(maxf(1.0f - own * own, 0.0f));
-    const float turned = sine * own + bend * own_sine; /* of the sum; under 0: more than half a turn */
+    const float turned = sine * own + bend * own_sine; /* sine of the sum; negative if it exceeds half a turn */
     const float values[6] = {middle.x / length, middle.y / length,
                              middle.z / length, turned > 0.0f ? bend * own - sine * own_sine : -1.0f,
                              maxf(turned, 0.0f), own};
@@ -119,7 +119,7 @@ static void set_position(lmb_many_lights *m, lmb_many_lights_node *node, const l
     }
 }
 
-/* Node i stands for the cells from .. past - 1. */
+/* Sets node i to the cells from .. past - 1. */
 static void set_node(lmb_many_lights *m, uint32_t i, uint32_t from, uint32_t past)
 {
     lmb_many_lights_cell sum = m->cell[m->slot[from]];
@@ -135,7 +135,7 @@ static void set_node(lmb_many_lights *m, uint32_t i, uint32_t from, uint32_t pas
     }
     node->kind = sum.kind == cell_at(m, past - 1)->kind ? light_kind(sum.kind) : LMB_MANY_LIGHTS_MIXED;
     set_position(m, node, &sum);
-    node->spread = size2 * (1.0f / 12.0f); /* a side s, filled evenly: s^2 / 12 */
+    node->spread = size2 * (1.0f / 12.0f); /* a uniformly filled side s: s^2 / 12 */
     node->strongest = sum.strongest.source;
     node->median = sum.median.source;
     node->share = sum.strongest.score / maxf(node->intensity[0] + node->intensity[1] + node->intensity[2], 1e-30f);
@@ -145,9 +145,9 @@ static void set_node(lmb_many_lights *m, uint32_t i, uint32_t from, uint32_t pas
     set_planes(m, i, &sum);
 }
 
-enum { BY_KEY = 64, BY_KIND = 128 }; /* a parting: a shift of the turn; of the key, from BY_KEY; the kind */
+enum { BY_KEY = 64, BY_KIND = 128 }; /* a split: shift of the turn; of the key, from BY_KEY on; or the kind */
 
-/* Which child of a node holds cell i: three bits of its key or turn, or its kind. */
+/* The child of a node that holds cell i: three bits of the key or turn, or the kind. */
 static uint32_t octant(const lmb_many_lights *m, uint32_t i, int parting)
 {
     const lmb_many_lights_cell *c = cell_at(m, i);
@@ -155,7 +155,7 @@ static uint32_t octant(const lmb_many_lights *m, uint32_t i, int parting)
                               : (uint32_t)((parting >= BY_KEY ? c->key : c->turn) >> (parting & 63)) & 7u;
 }
 
-/* The highest three bits in which the range's first and last cells differ: there the tree parts. */
+/* The highest three bits in which the first and last cells of a range differ: the tree splits there. */
 static int parting_of(const lmb_many_lights *m, uint32_t from, uint32_t past)
 {
     const lmb_many_lights_cell *a = cell_at(m, from), *b = cell_at(m, past - 1);
@@ -195,7 +195,7 @@ lmb_status lmb_many_lights_build(lmb_many_lights *inout)
     memset(inout->plane, 0, (size_t)inout->plane_step * LMB_MANY_LIGHTS_PLANES * sizeof *inout->plane);
     sort_cells(inout);
     set_node(inout, inout->node_count++, 0, inout->cell_count);
-    for (uint32_t i = 0; i < inout->node_count; ++i) { /* the list of nodes is the queue of those to part */
+    for (uint32_t i = 0; i < inout->node_count; ++i) { /* the node list doubles as the queue */
         if (inout->node[i].past - inout->node[i].from > 1) {
             add_children(inout, i);
         }

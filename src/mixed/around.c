@@ -9,14 +9,14 @@
 
 #if LMB_MIXED
 
-#define MAX_RATIO 4.0f /* by which light may grow at a point: cones are coarse where almost no light came before */
+#define MAX_RATIO 4.0f /* max growth of the light at a point: cones are coarse if almost no light came before */
 
-#define FAR_SHARE 0.15f   /* of the distance from the object: closer points share one answer */
-#define SAME_WAY 0.98f    /* cosine between normals from which on points share one answer */
+#define FAR_SHARE 0.15f   /* of the distance from the object: points this close share one result */
+#define SAME_WAY 0.98f    /* min cosine between the normals of points that share one result */
 
-enum { MAX_PARTS = 64 }; /* parts of a triangle's side at most */
+enum { MAX_PARTS = 64 }; /* max parts along a triangle's side */
 
-/* Of three corners' values, the one at barycentrics (b1, b2). */
+/* Interpolates the values of three corners at barycentrics (b1, b2). */
 static float mix(float a, float b, float c, float b1, float b2) { return a + (b - a) * b1 + (c - a) * b2; }
 
 static void corner_uv(float out[2], const lmb_mesh *m, uint32_t vertex)
@@ -28,7 +28,7 @@ static void corner_uv(float out[2], const lmb_mesh *m, uint32_t vertex)
     }
 }
 
-/* The level of which one texel is about a part: of a side's texels, so many lie in one of n parts. */
+/* Mip level with texels about the size of a part: a side of the triangle, in texels, divided by n. */
 static float level_of(const lmb_texture *texture, float uv[3][2], int32_t n)
 {
     float texels = 0.0f;
@@ -64,12 +64,12 @@ static void albedo_at(float out[3], const lmb_triangle *t, const lmb_scene *scen
     }
 }
 
-/* A triangle in n x n alike parts: part (i, j) stands upright where i + j < n, upside down else. */
+/* A triangle in n x n congruent parts: part (i, j) is upright if i + j < n, otherwise upside down. */
 typedef struct parts {
     const lmb_triangle *triangle;
     const lmb_scene *scene;
     lmb_vec3 normal;
-    float area, light[3]; /* of a part, m2; W/m2 that reaches it */
+    float area, light[3]; /* of a part, m2; irradiance of a part, W/m2 */
     int32_t n;
 } parts;
 
@@ -89,7 +89,7 @@ static void part_at(lmb_texel *out, const parts *p, int32_t i, int32_t j)
     }
 }
 
-/* Returns how many parts there are; those that fit are written. */
+/* Writes as many parts as fit; returns the number of all. */
 static size_t put_triangle(lmb_texel *out, size_t cap, const lmb_triangle *t, const lmb_scene *scene, float leaf,
                            const lmb_env *env)
 {
@@ -127,7 +127,7 @@ size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uin
     return n;
 }
 
-/* --- light that comes again --------------------------------------------------------------------------------------- */
+/* --- reflected light ---------------------------------------------------------------------------------------------- */
 
 static void put_point(lmb_tile *tile, int32_t k, const lmb_texel *from)
 {
@@ -141,7 +141,7 @@ static void put_point(lmb_tile *tile, int32_t k, const lmb_texel *from)
     tile->id[k] = 1;
 }
 
-/* Consecutive points that face one way and lie close together take the answer of the first one. */
+/* Consecutive points with similar normals that lie close together share the result of the first. */
 static size_t run_end(const lmb_texel *all, size_t first, size_t count, float near)
 {
     size_t i = first + 1;

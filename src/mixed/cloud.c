@@ -1,4 +1,4 @@
-/* cloud.c: a picture of distances as points, and how far they can be trusted. Layer 6.                         [M1] */
+/* cloud.c: a depth picture as points, and their noise. Layer 6.                                                [M1] */
 #include <string.h>
 
 #include "../base/memory_check.h"
@@ -11,7 +11,7 @@
 #define FARTHEST_M 1000.0f
 #define MIN_NOISE 2e-5f    /* 1/m */
 #define MAX_NOISE 0.02f
-#define DEPTH_STEP_M 0.001f  /* the step in which files store distances, and the best that sensors do */
+#define DEPTH_STEP_M 0.001f  /* resolution of distances in files, and the best accuracy of sensors */
 
 enum { REACH = 4, BINS = 512 }; /* px between the points of a second difference */
 
@@ -23,7 +23,7 @@ size_t lmb_cloud_bytes(int32_t width, int32_t height)
     return (size_t)width * (size_t)height * (sizeof(float) + sizeof(lmb_vec3));
 }
 
-/* The scene's x is the camera's x made level; where that is upright, the direction straight back. */
+/* Axes with +y along `up`. x is the camera's x, made level; if that is vertical, it is the direction straight back. */
 lmb_axes lmb_axes_upright(lmb_vec3 up)
 {
     const lmb_vec3 side = absf(up.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, 1);
@@ -60,13 +60,13 @@ lmb_vec3 lmb_cloud_point(const lmb_cloud *cloud, int32_t x, int32_t y)
     return mul3(lmb_cloud_ray(&cloud->camera, (float)x, (float)y), 1.0f / inverse);
 }
 
-/* A step of distance s is s / z^2 of its inverse. */
+/* A step s in distance z is a step s / z^2 in the inverse. */
 float lmb_cloud_sigma(const lmb_cloud *cloud, float inverse)
 {
     return (cloud != NULL ? cloud->noise : 0.0f) + DEPTH_STEP_M * inverse * inverse;
 }
 
-/* The second difference of three inverses in line; negative where one is missing. */
+/* Second difference of three inverses in a line; negative if one is missing. */
 static float bend(const float *at, ptrdiff_t step)
 {
     const float a = at[-step], b = at[0], c = at[step];
@@ -81,8 +81,9 @@ static void count_bend(uint32_t *bins, uint32_t *count, float v)
     }
 }
 
-/* Over planes second differences are nothing but noise, of sqrt(1 + 4 + 1) its deviation; most of most pictures is flat
- * over 8 px, and edges are few enough not to move the median. Half of what is normally distributed is within 0.6745. */
+/* On a plane second differences contain only noise, with sqrt(1 + 4 + 1) times its deviation. Most of most pictures is
+ * flat over 8 px, and edges are too few to move the median. Half of a normal distribution lies within 0.6745
+ * deviations. */
 static float find_noise(const lmb_cloud *cloud)
 {
     uint32_t bins[BINS] = {0}, count = 0, sum = 0;

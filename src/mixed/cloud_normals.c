@@ -1,4 +1,4 @@
-/* cloud_normals.c: normals of a cloud's points, in spite of holes and noise. Layer 6. [M2] */
+/* cloud_normals.c: normals of a cloud's points, robust to holes and noise. Layer 6.   [M2] */
 #include "plane_fit.h"
 
 #include <string.h>
@@ -6,29 +6,28 @@
 #if LMB_MIXED
 
 #define LARGEST 1e30f /* 1/m */
-#define STEEPEST 3.7320508f /* tangent of 75 degrees: what a surface may be turned from the ray */
+#define STEEPEST 3.7320508f /* tangent of 75 degrees: max angle between a surface's normal and the ray */
 
 enum { MIN_POINTS = 6, MOST = 6 /* px to each side */, SPAN = 16 /* px */ };
 
-/* plane_fit of each, whose weights are 1 or 0. */
+/* Sums of plane_fit for each pixel, with weights of 1 or 0. */
 typedef struct sums {
     float w[SPAN], x[SPAN], y[SPAN], xx[SPAN], xy[SPAN], yy[SPAN], q[SPAN], xq[SPAN], yq[SPAN];
 } sums;
 
-/* The squares of points around pixels side by side: arrays of one struct, of which a compiler sees that they are apart, and
- * makes vectors. */
+/* The square neighbourhoods of adjacent pixels. Arrays in one struct cannot overlap, so compilers can vectorize. */
 typedef struct around {
     const lmb_cloud *cloud;
     int32_t x, y, reach, step; /* px */
-    float q[SPAN], sigma[SPAN], tilt[SPAN]; /* tilt: of the inverse a pixel, for the steepest surface */
+    float q[SPAN], sigma[SPAN], tilt[SPAN]; /* tilt: change of the inverse per pixel on the steepest surface */
     float ray_x[SPAN], ray_y;
     float slope[3][SPAN];
     float near[SPAN + 2 * MOST]; /* inverses of a row; 0 beyond the picture */
-    float is_in[SPAN];           /* points of it that count, 1 or 0 */
+    float is_in[SPAN];           /* 1 if a point of the row counts, else 0 */
     sums s;
 } around;
 
-/* What is no number would spoil the sums of points beside it, whose weight for it is 0. */
+/* Replaces values that are not finite by 0: even with weight 0 they would spoil the sums. */
 static void read_row(around *a, int32_t y)
 {
     const int32_t width = a->cloud->camera.width, from = maxi(a->x - MOST, 0), to = mini(a->x + SPAN + MOST, width);
@@ -40,7 +39,7 @@ static void read_row(around *a, int32_t y)
     }
 }
 
-/* Add the points i to the right of each: those that are in. */
+/* Adds the point i columns to the right of each pixel, if it counts. */
 static void add_points(around *a, int32_t i, float right, float ray_y)
 {
     for (int k = 0; k < SPAN; ++k) {
@@ -58,7 +57,7 @@ static void add_points(around *a, int32_t i, float right, float ray_y)
     }
 }
 
-/* What a surface can reach that is `far` pixels away. */
+/* Selects points within reach of a surface `far` pixels away. */
 static void can_reach(around *a, int32_t i, float far)
 {
     for (int k = 0; k < SPAN; ++k) {
@@ -67,7 +66,7 @@ static void can_reach(around *a, int32_t i, float far)
     }
 }
 
-/* What lies on the plane that was found first. */
+/* Selects points on the plane of the first fit. */
 static void lies_on(around *a, int32_t i, float right, float ray_y)
 {
     for (int k = 0; k < SPAN; ++k) {
@@ -130,7 +129,7 @@ static void begin(around *a, const lmb_cloud *cloud, int32_t x, int32_t y)
     }
 }
 
-/* Normals of pixels side by side: of a first fit, and of a second one that leaves out what the first does not explain. */
+/* Normals of adjacent pixels: from a first fit, then from a second without the outliers of the first. */
 static void find_span(lmb_vec3 *out, const lmb_cloud *cloud, int32_t x, int32_t y, int32_t count)
 {
     around a;

@@ -1,5 +1,4 @@
-/* delta.c: what an object changes: shadow maps without and with it, and the photo by their difference. Layer 6. [M9 M23
- * M24] */
+/* delta.c: shadow maps without and with an object, and the photo changed by their difference. Layer 6. [M9 M23 M24] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include <lambent/mixed.h>
@@ -41,7 +40,7 @@ lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_i
         for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
             const float delta = with->rgb[c][k] - without->rgb[c][k], photo = inout->rgb[c][k];
             if (real->id[k] != 0 && delta < 0.0f) {
-                /* Light that the object takes away is taken as a share of what the photo shows: it needs no albedo. */
+                /* Light that the object blocks scales the photo, so it needs no albedo. */
                 inout->rgb[c][k] = photo * maxf(with->rgb[c][k] / without->rgb[c][k], 0.0f);
             } else if (real->id[k] != 0 && delta > 0.0f) {
                 inout->rgb[c][k] = photo + lmb_real_albedo(photo, without->rgb[c][k]) * (1.0f / LMB_PI) * delta;
@@ -61,8 +60,8 @@ static float schlick(const lmb_tile *real, int32_t k, float specular)
     return specular + (1.0f - specular) * (m2 * m2 * m);
 }
 
-/* What a pixel of the photo shows is mirrored light over the colour of the surface itself, so at most MIRRORED of it
- * can go. Without this limit dark or colourful floors turn black or garish where the object hides a bright wall. */
+/* A pixel of the photo shows mirrored light plus the colour of the surface, so at most the share MIRRORED of it can be
+ * removed. Without this limit dark or colourful floors turn black or garish if the object hides a bright wall. */
 static float mirrored(float photo, float share, float delta)
 {
     return photo + maxf(share * delta, -MIRRORED * photo);

@@ -1,4 +1,4 @@
-/* envfold.c: folds light from unseen directions from the one picture there is. Layer 6. [M14-M19] */
+/* envfold.c: folds the picture outwards, as light from unseen directions. Layer 6.      [M14-M19] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../map/cube.h"
@@ -6,12 +6,12 @@
 
 #if LMB_MIXED
 
-#define INNER 0.16666667f /* of the picture, from its middle to the middle third's edge */
+#define INNER 0.16666667f /* of the picture, from the middle to the edge of the middle third */
 
-enum { SUB = 4 }; /* samples of a texel each way */
+enum { SUB = 4 }; /* samples along each side of a texel */
 
-/* Where in the picture, 0 .. 1 each way, a direction of the camera's space lies: on the cube, the half width of what is
- * seen grows from a sixth at the front edge of a side to a half at its back edge. */
+/* Maps a direction in camera space to the picture, 0 .. 1 each way. The half width of the visible part grows from a
+ * sixth at the front edge of a cube side to a half at the back edge. */
 static void fold(float *u, float *v, lmb_vec3 d)
 {
     const float x = absf(d.x), y = absf(d.y), z = absf(d.z), far = maxf(maxf(x, y), z);
@@ -27,7 +27,7 @@ static const float *pixel_at(const float *rgb, int32_t width, int32_t height, fl
     return rgb + 3 * ((size_t)y * (size_t)width + (size_t)x);
 }
 
-/* A picture, and the rows of lmb_axes: what turns the scene's space into the camera's. */
+/* A picture, and the rows of lmb_axes, which rotate scene space into camera space. */
 typedef struct picture {
     const float *rgb;
     int32_t width, height;
@@ -50,7 +50,7 @@ static void fold_texel(float out[3], const lmb_env *env, const picture *from, cu
     }
 }
 
-/* Any turn of the camera, mirrored or not; no zeros, and no NaN. */
+/* Accepts any rotation of the camera, mirrored or not, but no zeros and no NaN. */
 static int are_axes(const lmb_axes *a)
 {
     const float right = dot3(a->right, a->right), up = dot3(a->up, a->up), back = dot3(a->back, a->back);
@@ -75,7 +75,7 @@ lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int
     return LMB_OK;
 }
 
-/* --- coarse questions --------------------------------------------------------------------------------------------- */
+/* --- irradiance --------------------------------------------------------------------------------------------------- */
 
 void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal)
 {

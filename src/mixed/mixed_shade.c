@@ -1,11 +1,11 @@
-/* mixed_shade.c: the object over the photo, behind what is in front of it. Layer 6.                           [M24] */
+/* mixed_shade.c: the object over the photo, behind surfaces in front of it. Layer 6.                          [M24] */
 #include "../base/vec.h"
 #include <lambent/mixed.h>
 
 #if LMB_MIXED
 
-/* The photo hides the object where its measured depth is nearer by two standard deviations: with less, noise would hide
- * parts of the object where it stands. */
+/* The photo hides the object if the measured depth is nearer by two standard deviations; with less, noise would hide
+ * parts of the object near the ground. */
 static int is_hidden(const lmb_tile *object, const lmb_tile *real, const lmb_cloud *cloud, int32_t k)
 {
     if (real->id[k] == 0) {

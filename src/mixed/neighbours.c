@@ -1,10 +1,10 @@
-/* neighbours.c: the points nearest to one of a picture. Layer 6.                                              [M3] */
+/* neighbours.c: the points of a picture nearest to one of them. Layer 6.                                      [M3] */
 #include "../base/vec.h"
 #include "cloud.h"
 
 #if LMB_MIXED
 
-/* The k nearest so far, the nearest first, of equals the lower number. */
+/* The k nearest so far, nearest first; ties go to the lower index. */
 typedef struct nearest {
     float d2[NEAREST_CAP];
     uint32_t which[NEAREST_CAP];

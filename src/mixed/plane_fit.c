@@ -1,7 +1,8 @@
 /* plane_fit.c: least squares of inverse distances over a picture. Layer 6.                                  [M2 M4]
  *
- * A plane n . p = d seen along (x, y, -1) is at inverse distance (n.x x + n.y y - n.z) / d: affine in the ray, so a fit
- * of three unknowns by two equations and a mean, without eigenvectors, and with even noise (lmb_cloud). */
+ * A plane n . p = d seen along (x, y, -1) is at inverse distance (n.x x + n.y y - n.z) / d, which is affine in the ray.
+ * So the fit has three unknowns and solves two equations and a mean. It needs no eigenvectors, and the noise is uniform
+ * (lmb_cloud). */
 #include "plane_fit.h"
 
 #if LMB_MIXED
@@ -28,7 +29,7 @@ int lmb_plane_fit_solve(float slope[3], const plane_fit *f)
     const float xx = f->xx * i - x * x, yy = f->yy * i - y * y, xy = f->xy * i - x * y;
     const float xq = f->xq * i - x * q, yq = f->yq * i - y * q, det = xx * yy - xy * xy;
     if (!(det > 1e-4f * (xx + yy) * (xx + yy)) || !(xx + yy > 1e-12f)) {
-        return 0; /* the points form a strip narrower than a hundredth of its length */
+        return 0; /* the points form a strip a hundred times as long as wide */
     }
     slope[0] = (xq * yy - yq * xy) / det;
     slope[1] = (yq * xx - xq * xy) / det;

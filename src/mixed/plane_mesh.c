@@ -1,4 +1,4 @@
-/* plane_mesh.c: the real scene as squares of its planes and of what else was measured. Layer 6.               [M4] */
+/* plane_mesh.c: the real scene as square cells of planes and of other measured points. Layer 6.               [M4] */
 #include <string.h>
 
 #include "../base/memory_check.h"
@@ -6,8 +6,8 @@
 
 #if LMB_MIXED
 
-#define EDGE_ON 0.25f    /* cosine under which a cell's mean normal is not believed */
-#define UNEVEN 0.15f     /* of its distance that a cell's corner may lie nearer or farther than its middle */
+#define EDGE_ON 0.25f    /* min cosine at which a cell's mean normal is used */
+#define UNEVEN 0.15f     /* max depth difference between a cell's corner and middle, as a share of the distance */
 
 enum { CELL_FLOATS = 12, CELL_COLOURS = 16, CELL_INDICES = 6 };
 
@@ -37,7 +37,7 @@ static cell_box box_of(const lmb_pinhole *c, int32_t step, int32_t i, int32_t j)
     return b;
 }
 
-/* The label that most of its pixels have, where that is a plane and half of them; else 0. */
+/* The most common label of the cell, if it is a plane and covers half of the pixels; else 0. */
 static uint8_t plane_of(const lmb_planes *planes, const lmb_pinhole *c, cell_box b)
 {
     int32_t count[LMB_MAX_PLANES + 1] = {0}, best = 0;
@@ -51,7 +51,7 @@ static uint8_t plane_of(const lmb_planes *planes, const lmb_pinhole *c, cell_box
     return 2 * count[best] >= (b.x1 - b.x0) * (b.y1 - b.y0) ? (uint8_t)best : 0;
 }
 
-/* Points of no plane: the one nearest to the middle, and those about as far away. */
+/* Mean of points without a plane: the one nearest to the middle, and those at about the same distance. */
 typedef struct mean {
     float q;
     lmb_vec3 normal;
@@ -102,7 +102,7 @@ static mean mean_of(const lmb_planes *planes, const lmb_cloud *cloud, cell_box b
     return m;
 }
 
-/* The plane through a mean point: along its normal, or, where that is not known or edge-on, facing the camera. */
+/* Plane through a mean point, with the mean normal. If the normal is unknown or edge-on, the plane faces the camera. */
 static void mean_slope(float slope[3], const mean *m, const lmb_pinhole *c, cell_box b)
 {
     const lmb_vec3 ray = lmb_cloud_ray(c, 0.5f * (float)(b.x0 + b.x1 - 1), 0.5f * (float)(b.y0 + b.y1 - 1));
@@ -120,14 +120,14 @@ static void mean_slope(float slope[3], const mean *m, const lmb_pinhole *c, cell
 
 /* --- the mesh ----------------------------------------------------------------------------------------------------- */
 
-/* What cells are made of. */
+/* Inputs of the mesh. */
 typedef struct maker {
     const lmb_cloud *cloud;
     const lmb_planes *planes;
     const lmb_axes *axes;
 } maker;
 
-/* Inverse distances of a label's pixels. */
+/* Range of inverse distances of a label's pixels. */
 typedef struct span {
     float low, high;
 } span;
@@ -146,8 +146,8 @@ static void add_span(span *s, const maker *m, cell_box b, uint8_t label)
     }
 }
 
-/* Seen at a grazing angle, a plane runs away between its last pixel and the corner of its cell. The corner stays by the
- * pixels of all cells that meet there, which are the same for each of those cells, so that no gap opens. */
+/* At a grazing angle a plane's depth changes fast between its last pixel and the corner of a cell. The corner is
+ * clamped to the pixels of all cells that meet there. All these cells use the same pixels, so no gap opens. */
 static float near_pixels(float inverse, const maker *m, int32_t step, int32_t x, int32_t y, uint8_t label)
 {
     const lmb_pinhole *c = &m->cloud->camera;
@@ -159,7 +159,7 @@ static float near_pixels(float inverse, const maker *m, int32_t step, int32_t x,
     return s.high > 0.0f ? clampf(inverse, (1.0f - UNEVEN) * s.low, (1.0f + UNEVEN) * s.high) : inverse;
 }
 
-/* Its corners lie at the corners of its pixels: counter-clockwise as the camera sees them. */
+/* Writes a cell with corners at pixel corners, counter-clockwise as seen by the camera. */
 static void put_cell(lmb_real_mesh *out, const maker *m, const float slope[3], cell_box b, uint8_t label)
 {
     const int32_t xs[4] = {b.x0, b.x0, b.x1, b.x1}, ys[4] = {b.y0, b.y1, b.y1, b.y0};

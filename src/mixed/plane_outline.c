@@ -1,19 +1,19 @@
-/* plane_outline.c: the pixels of a plane, with holes among them, and the plane's size. Layer 6. [M4 M5] */
+/* plane_outline.c: the pixels of a plane, including holes, and the plane's size. Layer 6.       [M4 M5] */
 #include "planes.h"
 
 #if LMB_MIXED
 
 #define BELONGS_OFF 4.5f
-#define TURNED 0.7071068f /* cosine of 45 degrees: a point that faces elsewhere is another surface's */
+#define TURNED 0.7071068f /* cosine of 45 degrees: points turned farther belong to another surface */
 
 enum { NEAR_PX = 8, SPECK = 12 };
 
 static const int32_t step_x[4] = {-1, 1, 0, 0}, step_y[4] = {0, 0, -1, 1};
 
-/* --- whose pixel -------------------------------------------------------------------------------------------------- */
+/* --- the plane of each pixel -------------------------------------------------------------------------------------- */
 
-/* Of its own plane and those a few pixels away the one that the point lies on best: growth runs over edges by as much
- * as noise allows. */
+/* Of a pixel's plane and the planes a few pixels away, returns the one with the best fit. Regions grow across edges as
+ * far as noise allows. */
 static uint8_t best_of_near(const lmb_planes *p, const lmb_cloud *cloud, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &cloud->camera;
@@ -55,7 +55,7 @@ static int may_join(const lmb_planes *p, const lmb_cloud *cloud, int32_t at, uin
            plane_off(cloud, plane->slope, cloud->inverse[at], ray) <= BELONGS_OFF;
 }
 
-/* Points at edges, whose normals are means of two surfaces, join the planes beside them. */
+/* Assigns points at edges to adjacent planes: their normals are means of two surfaces. */
 static void spread(lmb_planes *p, const lmb_cloud *cloud)
 {
     const int32_t w = cloud->camera.width, h = cloud->camera.height;
@@ -79,9 +79,9 @@ static void spread(lmb_planes *p, const lmb_cloud *cloud)
 
 /* --- holes -------------------------------------------------------------------------------------------------------- */
 
-/* Pixels of no plane that hang together, all measured or all not; how many of their neighbours each plane has. */
+/* Connected pixels without a plane, all measured or all not; beside: neighbours in each plane. */
 typedef struct gap {
-    int32_t first, count;       /* in the queue */
+    int32_t first, count;       /* range in the queue */
     int32_t beside[LMB_MAX_PLANES + 1];
     int measured;
 } gap;
@@ -106,7 +106,7 @@ static void trace_hole(lmb_planes *p, const lmb_cloud *cloud, gap *hole)
     }
 }
 
-/* The plane that a hole is inside of, or 0: nine in ten of what is around it; of specks, most of it. */
+/* The plane around a hole, or 0. It must own nine in ten of the surrounding pixels, around specks more than half. */
 static uint8_t around(const gap *hole)
 {
     int32_t best = 0, all = hole->beside[0];
@@ -162,7 +162,7 @@ void lmb_planes_farthest(float min[LMB_MAX_PLANES], const lmb_planes *planes, co
     }
 }
 
-/* `across` is the direction in the plane that is nearest to the camera's x. */
+/* Sets `across` to the direction in the plane nearest to the camera's x. */
 static void set_axes(lmb_flat *p)
 {
     const lmb_vec3 side = absf(p->normal.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, -1);
@@ -170,9 +170,8 @@ static void set_axes(lmb_flat *p)
     p->along = cross3(p->normal, p->across);
 }
 
-/* The weighted sum of a plane's pixels. A pixel's weight is its area on the plane but for a factor that all pixels of
- * the plane share, and goes with the cube of the distance (z^2 of the pixel, z more for the slant n . ray = -distance /
- * z). */
+/* Weighted sum of a plane's pixels. The weight is a pixel's area on the plane, up to a factor common to the plane:
+ * proportional to the cube of the distance (z^2 of the pixel, and z for the slant n . ray = -distance / z). */
 typedef struct middle {
     float x, y, z, weight;
 } middle;
@@ -185,8 +184,8 @@ static void add_middle(middle *m, lmb_vec3 p, float weight)
     m->weight += weight;
 }
 
-/* Where a pixel's ray meets a plane. Holes towards its horizon count as no farther than what was measured: `min`, an
- * inverse distance. Returns the point's inverse distance. */
+/* Intersects a pixel's ray with a plane. Holes towards the horizon are clamped to the farthest measured point: `min`,
+ * an inverse distance. Returns the inverse distance of the intersection. */
 static float meet(lmb_vec3 *out, const lmb_flat *p, const lmb_pinhole *c, int32_t x, int32_t y, float min)
 {
     const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);

@@ -1,17 +1,17 @@
-/* plane_place.c: finds the plane that an object stands on, and where on it. Layer 6. [M5] */
+/* plane_place.c: chooses the plane below an object, and the position. Layer 6.           [M5] */
 #include "planes.h"
 
 #if LMB_MIXED
 
-#define MIN_UP 0.34202014f /* cosine of 70 degrees: what a floor may be turned from the camera's up */
-#define LEVEL 0.90630779f    /* of 25: from what is up in the picture */
-#define UPRIGHT 0.17364818f  /* of 80: what is a wall by it */
+#define MIN_UP 0.34202014f /* cosine of 70 degrees: max tilt of a floor from the camera's up */
+#define LEVEL 0.90630779f    /* of 25 degrees: max tilt of level planes */
+#define UPRIGHT 0.17364818f  /* of 80 degrees: min tilt of walls */
 
 enum { CLEAR_STEP = 4 /* px */, RIM = 8 /* points of a circle */ };
 
-/* How much the planes speak for a direction as up: level ones all they have, upright ones half, for there is more wall
- * than floor in most pictures; and the more, the nearer it is to the camera's up: of a camera that is turned by less than
- * 45 degrees floors are then before walls. */
+/* Score of a direction as up: level planes count in full, walls half, because most pictures show more wall than floor.
+ * Directions nearer to the camera's up score more: if the camera is tilted by less than 45 degrees, floors then win
+ * over walls. */
 static float says_up(const lmb_planes *planes, lmb_vec3 up)
 {
     const float tall = maxf(up.y - MIN_UP, 0.0f);
@@ -26,8 +26,9 @@ static float says_up(const lmb_planes *planes, lmb_vec3 up)
 
 static lmb_vec3 towards_up(lmb_vec3 v) { return v.y < 0.0f ? mul3(v, -1.0f) : v; }
 
-/* What all planes speak for most: across a floor or ceiling, or along two walls, where neither is seen. Walls tell the less
- * the smaller their angle is, as what noise turns along both grows with 1 / its sine: by its square. */
+/* The direction with the best score: the normal of a floor or ceiling, or the common direction of two walls if neither
+ * is visible. Noise along two walls grows with 1 / sine of the angle between them, so such pairs are weighted with the
+ * squared sine. */
 lmb_vec3 lmb_planes_up(const lmb_planes *planes)
 {
     lmb_vec3 up = vec3(0, 1, 0);
@@ -76,9 +77,9 @@ int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole
     return 1;
 }
 
-/* --- a place to stand --------------------------------------------------------------------------------------------- */
+/* --- the position ------------------------------------------------------------------------------------------------- */
 
-/* An upright object that is to be placed. */
+/* An upright object to be placed. */
 typedef struct standing {
     const lmb_planes *planes;
     const lmb_cloud *cloud;
@@ -86,7 +87,7 @@ typedef struct standing {
     float radius, height; /* m */
 } standing;
 
-/* The pixel that shows a point, or -1. */
+/* Pixel that shows a point, or -1. */
 static int32_t pixel_of(const lmb_pinhole *c, lmb_vec3 at)
 {
     if (!(at.z < -1e-3f)) {
@@ -98,7 +99,7 @@ static int32_t pixel_of(const lmb_pinhole *c, lmb_vec3 at)
                : -1;
 }
 
-/* The rim's k-th point, `radius` out and `height` over a place on the plane. */
+/* Point k of the rim, `radius` from a position on the plane and `height` above it. */
 static lmb_vec3 rim_point(const standing *s, lmb_vec3 at, int32_t k, float radius, float height)
 {
     static const float turn[RIM][2] = {{1, 0}, {0.7071f, 0.7071f}, {0, 1}, {-0.7071f, 0.7071f},
@@ -108,7 +109,7 @@ static lmb_vec3 rim_point(const standing *s, lmb_vec3 at, int32_t k, float radiu
     return add3(add3(at, out), mul3(plane->normal, height));
 }
 
-/* Is the plane to be seen on the circle and on one half as wide? */
+/* Is the plane visible on the circle and on one of half the radius? */
 static int foot_is_clear(const standing *s, lmb_vec3 at)
 {
     for (int32_t k = 0; k < 2 * RIM; ++k) {
@@ -121,7 +122,7 @@ static int foot_is_clear(const standing *s, lmb_vec3 at)
     return 1;
 }
 
-/* Is what stands there in the picture, half way up and at its top, and nothing measured in front of it? */
+/* Does the body lie in the picture, half way up and at the top, with nothing measured in front of it? */
 static int body_is_clear(const standing *s, lmb_vec3 at)
 {
     for (int32_t k = 0; k < 2 * RIM && s->height > 0.0f; ++k) {

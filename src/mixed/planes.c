@@ -1,4 +1,4 @@
-/* planes.c: planes in a cloud: grown from where neighbours face one way, fitted, joined. Layer 6.         [M3 M4] */
+/* planes.c: planes in a cloud: grown from seeds with parallel neighbours, fitted, joined. Layer 6.        [M3 M4] */
 #include "cloud.h"
 #include "planes.h"
 
@@ -8,10 +8,10 @@
 
 #if LMB_MIXED
 
-#define SAME_WAY 0.9781476f   /* cosine of 12 degrees, within which the neighbours of a seed face as it does */
-#define GROWS_OVER 0.9063078f /* of 25 degrees, by which noise may turn a point's normal */
-#define ONE_PLANE 0.9975641f  /* of 4 degrees, within which two planes may be one */
-#define REACH_OFF 4.5f        /* standard deviations from pixel to pixel; over more pixels sensors err by more */
+#define SAME_WAY 0.9781476f   /* cosine of 12 degrees, max angle between a seed's normal and its neighbours' */
+#define GROWS_OVER 0.9063078f /* of 25 degrees, max error of a point's normal from noise */
+#define ONE_PLANE 0.9975641f  /* of 4 degrees, max angle between planes that may be joined */
+#define REACH_OFF 4.5f        /* standard deviations between adjacent pixels; sensors err by more over more pixels */
 #define JOIN_OFF 7.0f
 #define APART_OFF 3.5f
 #define FIT_OFF 4.0f
@@ -32,13 +32,13 @@ typedef struct grower {
     plane_fit sums;
     float slope[3];
     lmb_vec3 normal;
-    int32_t count; /* pixels in the queue: all of the region */
+    int32_t count; /* pixels in the queue: the whole region */
     uint8_t label;
 } grower;
 
 static int is_free(uint8_t label) { return label == 0 || label == LABEL_TRIED; }
 
-/* Do the nearest of a point all face as it does? */
+/* Do a point's nearest neighbours have about the same normal? */
 static int is_seed(const lmb_cloud *cloud, int32_t x, int32_t y)
 {
     int32_t near[SEED_NEAREST];
@@ -78,7 +78,7 @@ static void test_pixel(grower *g, int32_t x, int32_t y)
     }
 }
 
-/* The plane through one point. */
+/* Starts with the plane through one point. */
 static void begin(grower *g, int32_t x, int32_t y)
 {
     const int32_t at = y * g->cloud->camera.width + x;
@@ -93,7 +93,7 @@ static void begin(grower *g, int32_t x, int32_t y)
     add_pixel(g, at, ray);
 }
 
-/* Grows the region from its first pixel. The plane is fitted anew each time the region has doubled. */
+/* Grows the region from the first pixel. The plane is refitted each time the region has doubled. */
 static void grow(grower *g, int32_t x, int32_t y)
 {
     int32_t next_fit = FIRST_FIT;
@@ -123,7 +123,7 @@ static void relabel(lmb_planes *planes, const lmb_cloud *cloud, uint8_t from, ui
     }
 }
 
-/* A region that is large enough becomes a plane; where there is no room, in place of the smallest. */
+/* Makes a plane of a region that is large enough. If the array is full, the plane replaces the smallest. */
 static void keep(grower *g, int32_t min)
 {
     lmb_planes *p = g->planes;
@@ -175,7 +175,7 @@ static void add_near(plane_fit *sums, const lmb_flat *p, const lmb_cloud *cloud,
     }
 }
 
-/* Sums of rows first: 8192 terms at most go into one float before they meet the rest. */
+/* Sums rows separately, so that at most 8192 terms are added to one float. */
 int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off)
 {
     const lmb_flat *p = &planes->plane[label - 1];
@@ -208,7 +208,7 @@ static void fit_all(lmb_planes *planes, const lmb_cloud *cloud)
     }
 }
 
-/* How many pairs of pixels a few apart are of planes i and k, i < k; 255: as many or more. */
+/* Number of close pixel pairs that lie on planes i and k, i < k; saturates at 255. */
 typedef struct touching {
     uint8_t pairs[LMB_MAX_PLANES][LMB_MAX_PLANES];
 } touching;
@@ -233,8 +233,9 @@ static void find_touching(touching *t, const lmb_planes *planes, const lmb_pinho
     }
 }
 
-/* Are they parts of one surface? Both face one way, and each lies on the other's continuation. Either a sensor has bent
- * the surface, or something stands in front of it: then the planes must agree better. */
+/* Are both planes parts of one surface? They have similar normals, and each lies on the other's continuation. The limit
+ * `off` is smaller if they do not touch: then they are parts of a surface behind another object, otherwise a surface
+ * bent by the sensor. */
 static int are_one(const lmb_cloud *cloud, const lmb_flat *a, const lmb_flat *b, float off)
 {
     const lmb_vec3 at = mul3(b->centre, -1.0f / b->centre.z);
@@ -251,7 +252,7 @@ static void remove_plane(lmb_planes *planes, const lmb_cloud *cloud, int32_t i, 
     }
 }
 
-/* The first two planes that are one. */
+/* Joins the first two planes that are parts of one surface. */
 static int join_two(lmb_planes *planes, const lmb_cloud *cloud)
 {
     touching t;
@@ -280,7 +281,7 @@ static void drop_small(lmb_planes *planes, const lmb_cloud *cloud, int32_t min)
     }
 }
 
-/* The largest first; of equals the one found first. Labels follow. */
+/* Sorts planes and labels by size, the largest first; ties keep the order of discovery. */
 static void sort_planes(lmb_planes *planes, const lmb_cloud *cloud)
 {
     for (int32_t i = 0; i < planes->count; ++i) {
@@ -329,8 +330,8 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
     return LMB_OK;
 }
 
-/* Where a plane has a pixel that was measured at `inverse` (0: was not): near that, and in holes no farther than the
- * plane was measured, for towards its horizon it is as far away as one likes. */
+/* Moves a measured pixel onto the plane, but not far from `inverse` (0: not measured). In holes the plane counts as no
+ * farther than `min`, because towards the horizon the distance is unbounded. */
 static float moved_to(float plane, float inverse, float min)
 {
     return inverse > 0.0f ? clampf(plane, inverse * (1.0f - PLANE_MOVES), inverse * (1.0f + PLANE_MOVES))

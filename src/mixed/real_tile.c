@@ -1,4 +1,4 @@
-/* real_tile.c: the photo's own surfaces as tiles that can be lit. Layer 6. [M4] */
+/* real_tile.c: the photo's surfaces as tiles that can be lit. Layer 6.     [M4] */
 #include <string.h>
 
 #include "planes.h"
@@ -14,16 +14,17 @@ void lmb_pinhole_round(lmb_pinhole *camera)
     camera->cy = floorf(2.0f * camera->cy + 0.5f) * 0.5f;
 }
 
-/* A side of the frame: the photo's pixels from *at on, whole tiles of them, the axis in the middle. */
+/* A side of the frame, in pixels, with the optical axis in the middle. The photo starts at *at; both are whole
+ * tiles. */
 static int32_t frame_side(int32_t *at, float centre, int32_t pixels)
 {
     const int32_t size = (pixels + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
-    const int32_t twice = (int32_t)floorf(2.0f * centre + 1.5f); /* 2 (centre + 0.5), which is whole */
+    const int32_t twice = (int32_t)floorf(2.0f * centre + 1.5f); /* 2 (centre + 0.5), an integer */
     *at = size > twice ? (size - twice + LMB_TILE - 1) / LMB_TILE * LMB_TILE : 0;
     return 2 * *at + twice;
 }
 
-/* Half of a picture at 1 m: a focal length near the ends of binary32 leaves none. */
+/* Half of the picture's width at 1 m. Extreme focal lengths overflow or underflow binary32. */
 static int is_field(float half) { return half > 1e-30f && half < 1e30f; }
 
 lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera, const lmb_axes *axes)
@@ -50,7 +51,7 @@ lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pin
                : LMB_ERR_ARG;
 }
 
-/* The corners of a cell are on its plane. */
+/* Corner k of cell c, which lies on the cell's plane. */
 static lmb_vec3 cell_corner(const lmb_real_mesh *mesh, int32_t c, int32_t k)
 {
     const float *at = mesh->positions + 12 * (size_t)c + 3 * (size_t)k;
@@ -58,12 +59,12 @@ static lmb_vec3 cell_corner(const lmb_real_mesh *mesh, int32_t c, int32_t k)
 }
 
 typedef struct surface {
-    lmb_vec3 position, face, normal; /* in the scene's space */
+    lmb_vec3 position, face, normal; /* in scene space */
     float depth;
     uint32_t id;
 } surface;
 
-/* What tiles are made of. */
+/* Inputs of a tile. */
 typedef struct maker {
     const lmb_cloud *cloud;
     const lmb_planes *planes;
@@ -71,8 +72,8 @@ typedef struct maker {
     const lmb_axes *axes;
 } maker;
 
-/* Pixels of no plane lie on their cell, so that it does not shadow them where noise has put them behind it; those far
- * from it, beyond an edge, stay where they were measured. */
+/* Pixels without a plane are moved onto their cell, so that the cell does not shadow those that noise put behind it.
+ * Pixels far from the cell, beyond an edge, stay at the measured point. */
 static void put_on_cell(surface *s, const maker *m, int32_t c, lmb_vec3 ray, float q)
 {
     const lmb_vec3 a = cell_corner(m->mesh, c, 0);

@@ -1,4 +1,4 @@
-/* motion.c: where a .lmp's animations put things at a time: keys, what lies between them, the way to the world. Layer 2. */
+/* motion.c: transforms of a .lmp's animations at a time: keys, interpolation, the path to the world. Layer 2. */
 #include "motion.h"
 
 #include <string.h>
@@ -13,11 +13,11 @@ enum { TRANSLATION, ROTATION, SCALE };
 enum { STEP, LINEAR, CUBIC };
 enum { N_TRANSLATION = 4, N_ROTATION = 7, N_SCALE = 11 }; /* words of a node's record */
 
-#define STRAIGHT 0.9995f /* cosine of half the turn over which it is as good as a straight line */
+#define STRAIGHT 0.9995f /* cosine of half the rotation; above it, linear interpolation is as good */
 
 /* --- between keys ------------------------------------------------------------------------------------------------- */
 
-/* A track as its record has it. */
+/* A decoded track record. */
 typedef struct track {
     const uint32_t *time, *value;
     uint32_t keys;
@@ -42,7 +42,7 @@ static void key_at(float *out, const track *t, uint32_t key)
     memcpy(out, t->value + at * (size_t)t->size, (size_t)t->size * sizeof *out);
 }
 
-/* By glTF's cubic, whose tangents are by the second. */
+/* glTF's cubic spline; the tangents are per second. */
 static void cubic(float *out, const track *t, uint32_t key, float u, float span)
 {
     float a[4], b[4], from[4], to[4];
@@ -57,7 +57,7 @@ static void cubic(float *out, const track *t, uint32_t key, float u, float span)
     }
 }
 
-/* Straight; rotations by the shorter way round, evenly. */
+/* Linear interpolation; rotations take the shorter way at constant speed. */
 static void linear(float *out, const track *t, uint32_t key, float u)
 {
     float a[4], b[4], from = 1.0f - u, to = u, dot = 0.0f;
@@ -79,7 +79,7 @@ static void linear(float *out, const track *t, uint32_t key, float u)
 
 static void evaluate(float *out, const track *t, float time_s)
 {
-    uint32_t low = 0, past = t->keys; /* the last key at or before the time is in low .. past - 1, or there is none */
+    uint32_t low = 0, past = t->keys; /* the last key at or before the time is in low .. past - 1, if there is one */
     while (past - low > 1) {
         const uint32_t middle = low + (past - low) / 2;
         if (lmb_pack_float(t->time + middle) <= time_s) {
@@ -103,7 +103,7 @@ static void evaluate(float *out, const track *t, float time_s)
 
 /* --- nodes -------------------------------------------------------------------------------------------------------- */
 
-/* 0 where the rotation has no length. */
+/* Returns 0 if the rotation has no length. */
 static int compose(lmb_mat4 *out, const float t[3], const float q[4], const float s[3])
 {
     const float d = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -125,7 +125,7 @@ static int compose(lmb_mat4 *out, const float t[3], const float q[4], const floa
 
 static lmb_vec3 column(const lmb_mat4 *m, int c) { return vec3(m->m[4 * c], m->m[4 * c + 1], m->m[4 * c + 2]); }
 
-/* To unit length; returns 0 if the vector has none. */
+/* Normalizes; returns 0 if the vector has no length. */
 static int to_unit(lmb_vec3 *v)
 {
     const float longest = largest3(*v);
@@ -138,7 +138,7 @@ static int to_unit(lmb_vec3 *v)
 
 #define FLAT 1e-6f /* of the longest column: a shorter column is a scale of 0 after rounding */
 
-/* Column c to unit length; returns 0 if the column has none. */
+/* Normalizes column c; returns 0 if the column has no length. */
 static int direction_of(lmb_vec3 *out, const lmb_mat4 *m, int c)
 {
     float longest = 0.0f, own = 0.0f;
@@ -150,7 +150,7 @@ static int direction_of(lmb_vec3 *out, const lmb_mat4 *m, int c)
     return own > FLAT * longest && to_unit(out);
 }
 
-/* Columns to unit length. A column without length becomes perpendicular to the others, or an axis. */
+/* Normalizes the columns. A column without length becomes perpendicular to the others, or an axis. */
 static void unscale(lmb_mat4 *inout)
 {
     lmb_vec3 own[3];
@@ -207,7 +207,8 @@ static void put_above(lmb_mat4 *inout, const lmb_mat4 *a)
     }
 }
 
-/* A node's transform to the world, or only its rotations if `turns`. Returns 0 if that leads nowhere. */
+/* A node's transform to the world, or only its rotations if `turns`. Returns 0 if a transform on the path is
+ * invalid. */
 static int way_of(lmb_mat4 *out, const lmb_pack *p, uint32_t node, float time_s, int turns)
 {
     const uint32_t *w = lmb_pack_record(p, LMB_PACK_NODES, node);
@@ -226,7 +227,7 @@ static int way_of(lmb_mat4 *out, const lmb_pack *p, uint32_t node, float time_s,
     return all;
 }
 
-/* --- what they move ----------------------------------------------------------------------------------------------- */
+/* --- instances, lights, cameras ----------------------------------------------------------------------------------- */
 
 uint32_t lmb_pack_node_of(const lmb_pack *p, int kind, uint32_t i)
 {
@@ -278,7 +279,7 @@ static int axes_of(lmb_vec3 *right, lmb_vec3 *up, lmb_vec3 *back, const lmb_mat4
     return 1;
 }
 
-/* Back along the node's Z, up as near its Y as that allows; scale and mirroring drop out. */
+/* Back points along the node's Z, and up as close to Y as possible; scale and mirroring are dropped. */
 int lmb_pack_place_camera(lmb_view *inout, const lmb_pack *p, uint32_t i, float time_s)
 {
     const uint32_t node = lmb_pack_node_of(p, LMB_PACK_CAMERAS, i);

@@ -1,4 +1,4 @@
-/* pack.c: opens a .lmp in place: checks all of it once, then trusts it; its scene in the caller's memory. Layer 2. */
+/* pack.c: opens a .lmp in place, checked once as a whole; the scene is in the caller's memory. Layer 2. */
 #include <lambent/pack.h>
 
 #include <string.h>
@@ -11,26 +11,26 @@
 
 #if LMB_PACK
 
-enum { ORDER = 1, SIZE, PARTS, RESERVED }; /* words of the header */
+enum { ORDER = 1, SIZE, PARTS, RESERVED }; /* header words */
 
 #define OWN_ORDER 0x01020304u
-#define MAX_COUNT 0x0fffffffu /* of vertices and triangles: products with them fit 64 bits */
-#define MAX_VALUE 1e30f       /* of a key */
+#define MAX_COUNT 0x0fffffffu /* limit of vertices and triangles: products with them fit 64 bits */
+#define MAX_VALUE 1e30f       /* limit of a key */
 
-/* A file while it is checked. */
+/* A file that is being checked. */
 typedef struct source {
     lmb_pack *pack;
     uint32_t bytes;
-    uint64_t indices, keys; /* words of file that indices and keys may still take: what shared ones cost is bounded */
+    uint64_t indices, keys; /* words that indices and keys may still read: bounds the cost of shared ranges */
 } source;
 
-/* May `size` bytes lie there? */
+/* Do `size` bytes at offset `at` lie inside the file? */
 static int holds(const source *s, uint32_t at, uint64_t size)
 {
     return at % 4 == 0 && at >= 4 * LMB_PACK_HEADER_WORDS && at <= s->bytes && size <= s->bytes - at;
 }
 
-/* The same, or nothing where nothing is needed. */
+/* The same, but offset 0 means no data. */
 static int may_hold(const source *s, uint32_t at, uint64_t size) { return at == 0 || holds(s, at, size); }
 
 static int is_finite(float v) { return v >= -FLT_MAX && v <= FLT_MAX; }
@@ -46,7 +46,7 @@ static int are_finite(const uint32_t *word, int count)
 
 /* --- meshes ------------------------------------------------------------------------------------------------------- */
 
-/* Does every corner have a vertex? */
+/* Is every index in range? */
 static int are_indices(const lmb_mesh *m)
 {
     const size_t corners = 3 * (size_t)m->triangle_count;
@@ -87,7 +87,7 @@ static int is_mesh(source *s, uint32_t i)
     return lmb_check_mesh(&m) == LMB_OK && are_indices(&m);
 }
 
-/* --- what is drawn with them -------------------------------------------------------------------------------------- */
+/* --- materials, textures, instances ------------------------------------------------------------------------------- */
 
 static int is_texture(const source *s, uint32_t i)
 {
@@ -138,9 +138,9 @@ static int is_camera(const lmb_pack *p, uint32_t i)
            lmb_pack_float(w + 13) > 0.0f && lmb_pack_float(w + 14) > 0.0f && is_node(p, w[PACK_CAMERA_NODE]);
 }
 
-/* --- what moves them ---------------------------------------------------------------------------------------------- */
+/* --- nodes and tracks --------------------------------------------------------------------------------------------- */
 
-/* Times that rise from 0 on, and values that are numbers. */
+/* Checks that times rise from 0 on and values are finite. */
 static int is_track(source *s, uint32_t i)
 {
     const uint32_t *w = lmb_pack_record(s->pack, LMB_PACK_TRACKS, i), *data = s->pack->data;
@@ -216,7 +216,7 @@ static int is_header(const uint32_t *word, size_t bytes)
     return rest == 0 && table_end(word) <= word[SIZE];
 }
 
-/* Is part i apart from the table of parts and from the parts before it? All of them lie in the file. */
+/* Is part i disjoint from the table of parts and all earlier parts? All of them lie in the file. */
 static int is_apart(const uint32_t *data, uint32_t i)
 {
     const uint32_t *part = data + LMB_PACK_HEADER_WORDS, *own = part + LMB_PACK_PART_WORDS * (size_t)i;
@@ -407,7 +407,7 @@ lmb_status lmb_pack_scene(lmb_scene *out, const lmb_pack *pack, void *memory, si
     return lmb_scene_check(out);
 }
 
-/* --- at a time ---------------------------------------------------------------------------------------------------- */
+/* --- animation ---------------------------------------------------------------------------------------------------- */
 
 lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
 {
@@ -415,7 +415,7 @@ lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
         inout->light_count != pack->count[LMB_PACK_LIGHTS] || inout->mesh_count != pack->count[LMB_PACK_MESHES]) {
         return LMB_ERR_ARG;
     }
-    lmb_instance *instances = (lmb_instance *)(uintptr_t)inout->instances; /* const is the scene's view of them alone */
+    lmb_instance *instances = (lmb_instance *)(uintptr_t)inout->instances; /* only the scene's view of them is const */
     lmb_light *lights = (lmb_light *)(uintptr_t)inout->lights;
     int moved = 0;
     for (uint32_t i = 0; i < inout->instance_count; ++i) {
@@ -446,7 +446,7 @@ lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
     return LMB_OK;
 }
 
-/* How far the scene's box reaches from a point. */
+/* Distance from a point to the farthest corner of the scene's box. */
 static float reach_of(const lmb_scene *s, lmb_vec3 eye)
 {
     const lmb_vec3 low = sub3(s->bounds_min, eye), high = sub3(s->bounds_max, eye);

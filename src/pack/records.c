@@ -32,7 +32,7 @@ lmb_vec3 lmb_pack_vec(const uint32_t *word)
 
 static void take_floats(float *out, const uint32_t *word, size_t count) { memcpy(out, word, count * sizeof *out); }
 
-/* Offset 0: nothing. */
+/* Offset 0 means no data. */
 static const void *place_of(const lmb_pack *p, uint32_t offset) { return offset != 0 ? p->data + offset / 4 : NULL; }
 
 void lmb_pack_take_mesh(lmb_mesh *out, const lmb_pack *p, uint32_t i)

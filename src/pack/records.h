@@ -7,14 +7,14 @@
 /* Record i of a part that has records. */
 const uint32_t *lmb_pack_record(const lmb_pack *pack, int kind, uint32_t i);
 
-/* Floats of words. */
+/* Reads words as floats. */
 float lmb_pack_float(const uint32_t *word);
 lmb_vec3 lmb_pack_vec(const uint32_t *word);
 
-/* Words that an entry of each kind has; 0: it has no records. */
+/* Words per entry of each kind; 0: the kind has no records. */
 extern const uint8_t lmb_pack_words_each[LMB_PACK_KINDS];
 
-/* One struct each; pointers lie in the file. */
+/* Convert one record to a struct; pointers refer to the file. */
 void lmb_pack_take_mesh(lmb_mesh *out, const lmb_pack *pack, uint32_t i);
 void lmb_pack_take_material(lmb_material *out, const lmb_pack *pack, uint32_t i);
 void lmb_pack_take_texture(lmb_texture *out, const lmb_pack *pack, uint32_t i);
@@ -22,7 +22,7 @@ void lmb_pack_take_matrix(lmb_mat4 *out, const uint32_t *word);
 void lmb_pack_take_light(lmb_light *out, const lmb_pack *pack, uint32_t i);
 void lmb_pack_take_bounds(lmb_scene *out, const lmb_pack *pack);
 
-/* Nodes of instances, lights and cameras: words of their records. */
+/* Node words in the records of instances, lights and cameras. */
 enum { PACK_INSTANCE_NODE = 14, PACK_LIGHT_NODE = 12, PACK_CAMERA_NODE = 19 };
 
 #endif

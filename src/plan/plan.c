@@ -1,4 +1,4 @@
-/* plan.c: plans a frame that began: operations, work, bytes; what it skips, and why. Layer 11. */
+/* plan.c: plans a started frame: operations, work, bytes; skipped stages, and the reasons. Layer 11. */
 #include <lambent/plan.h>
 
 #include <string.h>
@@ -68,7 +68,7 @@ static void plan_maps(planner *p)
 
 /* --- bounced light ------------------------------------------------------------------------------------------------ */
 
-/* Why there is none at all; LMB_WHY_RUNS where there is. */
+/* The reason why nothing bounces, or LMB_WHY_RUNS. */
 static lmb_why why_no_bounce(const lmb_render *r)
 {
     const lmb_frame *f = &r->frame;
@@ -105,7 +105,7 @@ static void plan_bvh(planner *p)
     }
 }
 
-/* Faces whose first points are made in this frame. */
+/* Faces with first points that must be collected in this frame. */
 static double fresh_faces(const lmb_render *r)
 {
     uint32_t n = 0;
@@ -136,7 +136,7 @@ static void plan_points(planner *p, lmb_why none)
     }
 }
 
-/* Elements are counted as if their memory were full. */
+/* Assumes that the memory of elements is full. */
 static void plan_bounces(planner *p, lmb_why none)
 {
     const lmb_render *r = p->r;
@@ -155,7 +155,7 @@ static void plan_bounces(planner *p, lmb_why none)
     row->op[LMB_OP_CUTS] = (double)f->elements.cap / LMB_TILE_PIXELS * (double)radiosity_bounces(r);
 }
 
-/* The tiles' gathers, and what they ask the BVH. */
+/* The tiles' gathers, and their BVH traversals. */
 static void plan_gather(planner *p, lmb_why none)
 {
     const lmb_frame *f = &p->r->frame;

@@ -1,6 +1,6 @@
-/* plan_choose.c: a ladder of settings, what each takes, and which of them meets a budget. Layer 11.
+/* plan_choose.c: a ladder of settings, the cost of each, and the choice for a budget. Layer 11.
  *
- * What a rung takes and how far it is from the next was looked at; nothing is known of errors beside that. */
+ * The cost of a rung and the difference to the next are sampled; errors are not known beyond this. */
 #include <lambent/plan.h>
 
 #include <string.h>
@@ -13,9 +13,9 @@
 
 #if LMB_PLAN && LMB_TREES
 
-#define GROWTH 2.2 /* pairs and segments of a rung, over those of the one before: 1.3 to 3 */
+#define GROWTH 2.2 /* ratio of pairs and segments between consecutive rungs: 1.3 to 3 */
 
-/* From draft on the presets of the tool, and one finer than `best`. */
+/* From draft on these are the tool's presets, plus one finer than `best`. */
 static const struct rung {
     int32_t tree;
     float error, visibility;
@@ -26,7 +26,7 @@ static const struct rung {
     {1024, 0.005f, 0.0005f, 1},
 };
 
-/* A tree's map: as fine as the picture, where the tree and `most` let it be. */
+/* A tree's shadow map: as fine as the picture, within the limits of the tree and facts->max. */
 static int32_t map_for(int32_t tree, const lmb_facts *f)
 {
     int32_t map = tree;
@@ -50,10 +50,10 @@ void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung)
     }
 }
 
-/* Facts are the caller's: they may be absurd. 0 for what is negative or no number. */
+/* The caller's facts may be absurd: negative numbers and NaN become 0. */
 static uint64_t count_of(double n, uint64_t max) { return n >= (double)max ? max : n > 0.0 ? (uint64_t)n : 0; }
 
-/* The light of elements takes a cut of its own, thought to be as large. */
+/* The light of elements takes a second cut, assumed to be as large. */
 void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, double pairs, double segments,
                     uint64_t fixed)
 {
@@ -114,7 +114,7 @@ void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, co
     *segments = counted ? facts->segments : 0.0;
 }
 
-/* By how much the budget is not met: 1 or less where it is. */
+/* Factor by which the budget is exceeded: 1 or less if it is met. */
 static double over(const lmb_choice *c, const lmb_budget *b)
 {
     const double work = b->work > 0.0 ? c->work / b->work : 0.0;
@@ -122,8 +122,8 @@ static double over(const lmb_choice *c, const lmb_budget *b)
     return work > bytes ? work : bytes;
 }
 
-/* Finer rungs have smaller errors, checked or not: the first that keeps the error is the cheapest, and where none does,
- * the last that work and bytes allow is the nearest. */
+/* Finer rungs have smaller errors, sampled or not. So the first rung that meets the error is the cheapest. If none
+ * does, the last that work and bytes allow is the closest. */
 lmb_status lmb_plan_choose(lmb_choice *out, const lmb_facts *facts, const lmb_budget *budget, uint64_t fixed)
 {
     if (out == NULL || facts == NULL || budget == NULL || facts->max < LMB_TILE) {

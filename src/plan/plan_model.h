@@ -1,4 +1,4 @@
-/* plan_model.h: work of operations, by fitted numbers. Layer 11. */
+/* plan_model.h: work of operations, from fitted numbers. Layer 11. */
 #ifndef LMB_PLAN_MODEL_H
 #define LMB_PLAN_MODEL_H
 
@@ -10,10 +10,11 @@ typedef struct plan_model {
     float units[LMB_OPS]; /* work of each operation */
 } plan_model;
 
-/* The repository's own: plan_model.inc. */
+/* The model in plan_model.inc. */
 extern const plan_model lmb_model;
 
-/* Sets all of a choice but rung, settings, error and `meets`, from the settings and all tiles' pairs and segments. */
+/* Sets all of a choice except rung, settings, error and `meets`, from the settings and the pairs and segments of all
+ * tiles. */
 void lmb_model_cost(lmb_choice *inout, const plan_model *m, const lmb_facts *f, double pairs, double segments,
                     uint64_t fixed);
 

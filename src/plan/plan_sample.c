@@ -1,4 +1,4 @@
-/* plan_sample.c: samples tiles of a solved frame: a setting's work, and its difference from another. Layer 11. */
+/* plan_sample.c: samples tiles of a solved frame: the work of settings, and differences between them. Layer 11. */
 #include "plan_sample.h"
 
 #include <string.h>
@@ -10,7 +10,7 @@
 
 #if LMB_PLAN && LMB_TREES
 
-enum { BINS = 128, MIN = 40 /* octaves: from 2^-87 on */, MIN_PLACES = 4 };
+enum { BINS = 128, MIN = 40 /* exponent of the first bin: 2^-87 */, MIN_PLACES = 4 };
 
 int lmb_can_sample(const lmb_render *r)
 {
@@ -52,7 +52,7 @@ lmb_status lmb_render_tiles(uint64_t *shown, const lmb_render *r, lmb_band_scrat
     return status;
 }
 
-/* One tile's light. */
+/* Stores one tile's light. */
 static void put_tile(float (*out)[3], const lmb_irradiance *light, uint64_t shown)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -76,7 +76,7 @@ static lmb_status take_place(lmb_tile_sample *out, const lmb_render *r, lmb_band
     return status;
 }
 
-/* What has been looked at and one place more, thought to be as large as the mean, in units of work. */
+/* Work of the samples so far plus one more place of mean cost. */
 static double next_work(const lmb_tile_sample *out)
 {
     const double work = out->pairs * (double)lmb_model.units[LMB_OP_PAIRS] +
@@ -104,17 +104,17 @@ lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band
 
 /* --- errors ------------------------------------------------------------------------------------------------------- */
 
-/* Square errors by size: a bin an octave. */
+/* Histogram of squared errors, a bin per octave. */
 typedef struct bins {
     double sum[BINS], count[BINS];
 } bins;
 
-/* Of the places that two looks have. */
+/* Compares the places that two samples share. */
 typedef struct difference {
     const lmb_tile_sample *a, *b;
     int32_t places;
-    double mean, count, square; /* of b's channels: sum; pixels; of the differences without the worst: sum */
-    double max;                 /* a pixel's square is under this, but for the worst */
+    double mean, count, square; /* of b's channels: sum; pixels; differences without the worst: sum of squares */
+    double max;                 /* limit of a pixel's square, except the worst */
 } difference;
 
 static int bin_of(float v)
@@ -124,7 +124,7 @@ static int bin_of(float v)
     return clampi((int)(bits >> 23 & 0xffu) - MIN, 0, BINS - 1);
 }
 
-/* A pixel's square error; below 0: no surface. */
+/* A pixel's squared error; negative: no surface. */
 static float square_at(const difference *d, int32_t i)
 {
     const float *p = d->a->light[i], *q = d->b->light[i];
@@ -146,7 +146,7 @@ static void bin_pixels(bins *all, difference *d)
     }
 }
 
-/* 0: dark, or nothing is seen. */
+/* Returns 0 if the places are dark or empty. */
 static int compare(difference *d, const lmb_tile_sample *a, const lmb_tile_sample *b)
 {
     bins all;
@@ -173,7 +173,7 @@ static float share_of(const difference *d, double square)
     return (float)((double)sqrtf((float)(square / (0.99 * 3.0 * d->count))) / (d->mean / (3.0 * d->count)));
 }
 
-/* Of a place: the sum of its pixels' squares. */
+/* Sum of the squared errors of a place's pixels. */
 static double place_square(const difference *d, int32_t place)
 {
     const int32_t each = d->a->tiles * LMB_TILE_PIXELS;

@@ -1,4 +1,4 @@
-/* plan_sample.h: tiles of a frame that are sampled together. Layer 11. */
+/* plan_sample.h: samples of a frame's tiles, taken in groups. Layer 11. */
 #ifndef LMB_PLAN_SAMPLE_H
 #define LMB_PLAN_SAMPLE_H
 
@@ -8,22 +8,22 @@
 
 #include "../frame/stages.h"
 
-/* Pairs and segments of all the frame's pixels by `facts`, for a frame's settings. */
+/* Estimates pairs and segments of the whole frame from `facts`, for a frame's settings. */
 void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *frame);
 
-/* May a frame be looked at? NULL: no. */
+/* Can you sample this frame? Not if r is NULL. */
 int lmb_can_sample(const lmb_render *r);
 
-/* Of a tile's pixels, those with a surface. */
+/* Mask of a tile's pixels with a surface. */
 uint64_t lmb_shown(const lmb_tile *tile);
 
-/* Of tiles side by side from frame pixel (x, y) on: which of their pixels have a surface; where every pixel is
- * gathered, their light to scratch->sparse.light, and added to scratch->counts what that took. */
+/* Resolves adjacent tiles from frame pixel (x, y) on and sets masks of their pixels with a surface. If every pixel is
+ * gathered, also sets scratch->sparse.light, and adds the work to scratch->counts. */
 lmb_status lmb_render_tiles(uint64_t *shown, const lmb_render *r, lmb_band_scratch *scratch, int32_t x, int32_t y,
                             int32_t tiles);
 
-/* The same by any gather_step, of up to LMB_SPARSE_TILES tiles: 0 are shown past the frame's right end. In the caller's
- * own frame: what gathers blocks is deep. */
+/* The same for any gather_step and up to LMB_SPARSE_TILES tiles; tiles past the frame's right end have empty masks.
+ * Inline, because the gather of blocks already uses much stack. */
 static inline lmb_status place_light(uint64_t *shown, const lmb_render *r, lmb_band_scratch *scratch, int32_t x,
                                      int32_t y, int32_t tiles)
 {

@@ -19,7 +19,7 @@ static uint32_t even_bits(uint32_t v)
     return out;
 }
 
-/* Of `all` places along the curve, the i-th that is met: any number of first ones lie evenly. */
+/* The i-th position to visit, of `all` along the curve: any number of first positions is evenly spread. */
 static uint32_t spread(uint32_t i, uint32_t all)
 {
     uint64_t reversed = 0;
@@ -41,7 +41,7 @@ lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t tiles, 
                    all = across * down;
     memset(out, 0, sizeof *out);
     out->tiles = tiles;
-    out->count = (uint32_t)wanted < all / 2 ? wanted : (int32_t)((all + 1) / 2); /* so that no two are the same */
+    out->count = (uint32_t)wanted < all / 2 ? wanted : (int32_t)((all + 1) / 2); /* so that no two are equal */
     uint32_t met = 0;
     for (uint32_t code = 0; met < all; ++code) {
         const uint32_t x = even_bits(code), y = even_bits(code >> 1);

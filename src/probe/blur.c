@@ -1,9 +1,9 @@
 /* blur.c: irradiance by blurring a map's columns, then its rows. Layer 6. [S11-S13]
  *
- * The paper blurs by cos of the angle in latitude, then in longitude, alike everywhere. But the light that a normal at
- * one latitude gets from another goes by max(0, n . d), which is such a product at the equator only. Fitted kernels are
- * the one or two products nearest to that, by least squares over the sphere, for each row of the result. They are found
- * by turns: the best weights of the columns for those of the rows, and back. */
+ * The paper blurs by cos of the angle in latitude, then in longitude, with the same kernel everywhere. The exact weight
+ * between a normal and a direction is max(0, n . d), which is such a product only at the equator. Fitted kernels are
+ * the best approximation by one or two products, in least squares over the sphere, for each row of the result. The fit
+ * alternates between the column weights and the row weights. */
 #include <string.h>
 
 #include "../base/memory_check.h"
@@ -48,10 +48,10 @@ static float sum_of(const float *v, int32_t n)
     return sum;
 }
 
-/* The cosine of a lag of i steps, n to the full turn; 0 from a quarter turn on. */
+/* Cosine of a lag of i steps, n to the full turn; 0 beyond a quarter turn. */
 static float lag_cos(int32_t i, int32_t n) { return 4 * i < n ? lmb_cos(2.0f * LMB_PI * ((float)i / (float)n)) : 0.0f; }
 
-/* The kernels of the paper [S11]: rows past a pole are those before it, half a turn on. */
+/* Sets the paper's kernels [S11]: rows past a pole are those before it, rotated by half a turn. */
 static void set_source(lmb_probe_blur *b, int32_t row)
 {
     const int32_t h = b->height, w = b->width;
@@ -70,7 +70,7 @@ static void set_source(lmb_probe_blur *b, int32_t row)
     }
 }
 
-/* Fitting one row's kernels. */
+/* State of the fit of one row's kernels. */
 typedef struct fit {
     const lmb_probe_blur *blur;
     const lmb_probe_table *table;
@@ -82,7 +82,7 @@ static float latitude_cos(const lmb_probe_table *t, int32_t row)
     return lmb_cos(LMB_PI * ((float)(2 * row + 1) / (float)(2 * t->height)));
 }
 
-/* What the terms before leave of max(0, n . d) sqrt(area) at row y and lag x. */
+/* The rest of max(0, n . d) sqrt(area) at row y and lag x after the earlier terms. */
 static float wanted(const fit *f, int32_t y, float lag, int32_t x)
 {
     const float up = latitude_cos(f->table, f->row), at = latitude_cos(f->table, y);
@@ -94,7 +94,7 @@ static float wanted(const fit *f, int32_t y, float lag, int32_t x)
     return v;
 }
 
-/* The best weights of the columns for given weights of the row, or the other way round. */
+/* Sets the best weights of the columns for given row weights, or the reverse. */
 static void fit_turn(const fit *f, int of_columns)
 {
     const int32_t w = f->blur->width, h = f->blur->height;
@@ -168,7 +168,7 @@ lmb_status lmb_probe_blur_init(lmb_probe_blur *out, const lmb_probe_table *table
 
 /* --- maps --------------------------------------------------------------------------------------------------------- */
 
-/* One plane, from a copy of itself where it is blurred in place: each row of the result needs all rows. [S13] */
+/* Blurs one plane. Each row of the result needs all rows, so a blur in place reads from a copy. [S13] */
 static void blur_plane(float *out, float *line, const lmb_kernels *kernels, const float *map,
                        const lmb_probe_blur *blur)
 {
@@ -221,7 +221,7 @@ lmb_status lmb_probe_halve(float *out, const float *map, const lmb_probe_table *
     return LMB_OK;
 }
 
-/* Column x of row y of a map, past a pole by half a turn, round the seam. */
+/* Value at column x of row y of a map: rows past a pole are rotated by half a turn, columns wrap. */
 static float map_at(const float *plane, const lmb_probe_table *t, int32_t x, int32_t y)
 {
     const int32_t w = t->width, h = t->height, real = y < 0 ? -1 - y : y >= h ? 2 * h - 1 - y : y;

@@ -1,8 +1,8 @@
 /* blur.inl: one row of a map's blur: down the columns, then along the row. Layer 6.                               [S11]
  *
- * Four sums run side by side, as one alone would wait for its own last addition. Lanes are columns. */
+ * Four independent sums hide the latency of additions. Lanes are columns. */
 
-/* Rows of `map` times their weights. */
+/* Sums rows of `map` times weights. */
 LANE_INLINE lane blur_column(const float *map, const float *weight, int32_t height, size_t step)
 {
     lane sum[4] = {lane_splat(0.0f), lane_splat(0.0f), lane_splat(0.0f), lane_splat(0.0f)};
@@ -15,7 +15,7 @@ LANE_INLINE lane blur_column(const float *map, const float *weight, int32_t heig
     return lane_add(lane_add(sum[0], sum[1]), lane_add(sum[2], sum[3]));
 }
 
-/* The row lies there twice, so that reading past its end goes on from its beginning. [S12] */
+/* Stores the row twice, so that reads past the end wrap to the start. [S12] */
 LANE_INLINE void blur_twice(float *line, int32_t width, int32_t x, lane v)
 {
     lane_store(line + x, v);

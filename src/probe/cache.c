@@ -1,4 +1,4 @@
-/* cache.c: which objects can still use their cubes, and which slot takes the next ones. Layer 6. [S18-S20] */
+/* cache.c: finds objects with valid cubes, and slots for new ones. Layer 6.                      [S18-S20] */
 #include <string.h>
 
 #include "../base/vec.h"
@@ -25,14 +25,14 @@ int32_t lmb_probe_cache_name(lmb_probe_cache *inout, lmb_vec3 place)
     if (inout == NULL || !is_place(place) || named + 1 >= inout->count) {
         return -1;
     }
-    /* An object whose cubes lay here gets another slot, and they are computed again. */
+    /* The previous object of this slot gets another slot and new cubes. */
     memset(&inout->slot[named], 0, sizeof *inout->slot);
     inout->slot[named].kind = LMB_PROBE_NAMED;
     inout->slot[named].place = place;
     return named;
 }
 
-/* The nearest named place within reach; -1: none. */
+/* Nearest named place within reach; -1 if none. */
 static int32_t find_named(const lmb_probe_cache *c, lmb_vec3 at)
 {
     float nearest = c->policy.radius_m;
@@ -47,7 +47,7 @@ static int32_t find_named(const lmb_probe_cache *c, lmb_vec3 at)
     return found;
 }
 
-/* The owner's slot, or the one to take: a free one, or the one used longest ago. Frame numbers may wrap. */
+/* The owner's slot; else a free slot, or the least recently used. Frame numbers may wrap. */
 static int32_t find_owned(const lmb_probe_cache *c, uint32_t owner, uint32_t frame)
 {
     int32_t best = -1;

@@ -1,6 +1,7 @@
-/* cosine.inl: irradiance of normals from lights all around. Layer 6.                                              [S14]
+/* cosine.inl: irradiance of normals from lights in all directions. Layer 6.                                       [S14]
  *
- * Pi times their mean by max(0, n . d), and peaks by their own directions. Lanes are normals. */
+ * Pi times the mean of the lights weighted by max(0, n . d), plus peaks along their own directions. Lanes are
+ * normals. */
 
 static void KERNEL(cosine)(float out[3][LMB_TILE_PIXELS], float normal[3][LMB_TILE_PIXELS],
                            const lmb_probe_lights *lights, const float *direction)

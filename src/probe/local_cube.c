@@ -6,7 +6,7 @@
 
 #if LMB_PROBES
 
-/* A border's share goes to the texel that its direction meets. */
+/* Adds the share of each border texel to the interior texel in the same direction. */
 static void fold(lmb_probe_lights *inout, const lmb_probe_table *table)
 {
     memset(inout->rgbw, 0, sizeof inout->rgbw);
@@ -19,16 +19,16 @@ static void fold(lmb_probe_lights *inout, const lmb_probe_table *table)
 
 /* --- peaks -------------------------------------------------------------------------------------------------------- */
 
-/* Two by two texels with so many times the mean's light are a light of their own. */
+/* Two by two texels with this many times the mean light become a separate light. */
 static const float stands_out = 4.0f;
 
-/* The strongest, in no order. */
+/* The strongest peaks, unsorted. */
 typedef struct strongest {
     int32_t x[LMB_PROBE_PEAKS], y[LMB_PROBE_PEAKS], count;
     float light[LMB_PROBE_PEAKS]; /* red + green + blue, W/m2 */
 } strongest;
 
-/* The weakest of too many falls out. */
+/* Keeps a peak; if the list is full, the weakest is dropped. */
 static void keep(strongest *inout, int32_t x, int32_t y, float light)
 {
     int32_t at = 0;
@@ -65,7 +65,7 @@ static void find_strongest(strongest *out, const float *map, const lmb_probe_tab
     }
 }
 
-/* The light of two by two texels, and where it comes from. */
+/* Sets a peak to the light and direction of two by two texels. */
 static void set_peak(lmb_probe_lights *out, int32_t peak, const float *map, const lmb_probe_table *t, int32_t x,
                      int32_t y)
 {
@@ -90,7 +90,7 @@ static void set_peak(lmb_probe_lights *out, int32_t peak, const float *map, cons
     }
 }
 
-/* Its light leaves the nine that `share` gave it to. */
+/* Removes a peak's light from the nine texels to which `share` added it. */
 static void take_back(lmb_probe_lights *inout, const lmb_probe_share *at, int32_t peak)
 {
     enum { SIDE = LMB_PROBE_SIDE + 2 };
@@ -138,7 +138,7 @@ lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, c
     return LMB_OK;
 }
 
-/* The normals first .. first + LMB_TILE_PIXELS - 1 of a cube; those past its end are its last. */
+/* Normals first .. first + LMB_TILE_PIXELS - 1 of a cube; indices past the end repeat the last normal. */
 static void set_normals(float normal[3][LMB_TILE_PIXELS], int32_t first, int32_t n)
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {

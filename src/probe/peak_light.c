@@ -1,11 +1,12 @@
-/* peak_light.c: what a place sees of a world's peaks, and their light in a map. Layer 6.                        [S5-S8] */
+/* peak_light.c: visibility of a world's peaks from a point, and their light in a map. Layer 6.                 
+ * [S5-S8] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "world.h"
 
 #if LMB_PROBES
 
-/* Places outside are pulled in, as the kernels do. */
+/* Clamps points outside the world to the inside, like the kernels. */
 static lmb_vec3 stand_at(const lmb_world_job *job, lmb_vec3 at)
 {
     if (job->shape == LMB_WORLD_BOX) {
@@ -44,7 +45,8 @@ static lmb_vec3 shape_from_centre(lmb_vec3 *normal, const lmb_world_job *job, lm
     return met;
 }
 
-/* Where the far world lies from the cube's centre along `to`, and its normal there, either way. */
+/* Point of the far world along `to` from the cube's centre, relative to the centre, and the normal there, of either
+ * sign. */
 static lmb_vec3 far_from_centre(lmb_vec3 *normal, const lmb_world_job *job, lmb_vec3 to)
 {
     const lmb_vec3 far = shape_from_centre(normal, job, to);
@@ -56,7 +58,7 @@ static lmb_vec3 far_from_centre(lmb_vec3 *normal, const lmb_world_job *job, lmb_
     return mul3(to, high / -to.y);
 }
 
-/* What the ground's picture leaves of light that comes from `far` away along `to`: by its nearest texel. */
+/* Share of light from distance `far` along `to` that the ground's picture lets through, at the nearest texel. */
 static float past_ground(const lmb_world_job *job, const lmb_world *world, lmb_vec3 at, lmb_vec3 to, float far)
 {
     const lmb_vec3 from = sub3(at, job->ground);
@@ -74,7 +76,8 @@ static float past_ground(const lmb_world_job *job, const lmb_world *world, lmb_v
     return 1.0f - (job->blend ? 0.5f : 1.0f) * rgba[3];
 }
 
-/* A patch of the far world keeps its radiance: its solid angle goes by the cosine over the squared distance. */
+/* A patch of the far world has constant radiance, so the flux changes with the solid angle: cosine over squared
+ * distance. */
 float lmb_world_see_peak(lmb_vec3 *to, const lmb_world_job *job, const lmb_world *world, const lmb_world_peak *peak,
                          lmb_vec3 at)
 {

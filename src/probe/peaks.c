@@ -1,8 +1,8 @@
-/* peaks.c: small lights in a world's cube, which sampling would miss or count twice, as lights of their own. Layer 6.
- *                                                                                                             [S8 S14]
- * Within a quarter by a quarter of a face, light over four times the mean stands out; the mean is then that of what
- * does not, until it settles: the sun is found whatever it shines, and the half of a wide window is not. What stands
- * out is summed in 32nds by 32nds of a face, by its own texels. */
+/* peaks.c: finds small lights in a world's cube, which sampling would miss or count twice. Layer 6.         [S8 S14]
+ *
+ * Within each quarter by quarter of a face, light over four times the mean is a peak. The mean is then recomputed with
+ * light clamped to this limit, TURNS times. So the sun is found at any brightness, and half of a wide window is not.
+ * Peaks are summed in 32nds by 32nds of a face, from the texels of each. */
 #include "world.h"
 
 #include "../base/poly.h"
@@ -10,8 +10,8 @@
 
 enum { WIDE = 4, NARROW = LMB_WORLD_NARROW, TURNS = 3 };
 
-static const float stands_out = 4.0f;  /* times the mean around */
-static const float least_part = 1e-4f; /* of all light: what shines less is no peak */
+static const float stands_out = 4.0f;  /* times the mean of the surroundings */
+static const float least_part = 1e-4f; /* of all light: dimmer lights are not peaks */
 
 static float solid_angle(int32_t x, int32_t y, int32_t n)
 {
@@ -26,12 +26,12 @@ static void texel_at(float out[4], const lmb_world *w, int32_t face, int32_t x, 
     lmb_world_texel(out, w, lmb_world_face_texel(&w->cube[0], face, x, y));
 }
 
-/* The first texel of part i of `parts` of a row of n. */
+/* First texel of part i of `parts` in a row of n. */
 static int32_t part_from(int32_t i, int32_t parts, int32_t n) { return i * n / parts; }
 
 static int32_t part_of(int32_t x, int32_t parts, int32_t n) { return (parts * x + parts - 1) / n; }
 
-/* The mean of a part's texels, of none more than `limit`. */
+/* Mean of a part's texels, each clamped to `limit`. */
 static float mean_under(const lmb_world *w, const cube_place *part, float limit)
 {
     const int32_t n = w->cube[0].width, x0 = part_from(part->x, WIDE, n), x1 = part_from(part->x + 1, WIDE, n),
@@ -47,7 +47,7 @@ static float mean_under(const lmb_world *w, const cube_place *part, float limit)
     return sum / (float)((x1 - x0) * (y1 - y0));
 }
 
-/* What stands out in a part is over this. */
+/* Light over this limit is a peak. */
 static float limit_of(const lmb_world *w, const cube_place *part)
 {
     float limit = 1e30f;
@@ -57,14 +57,14 @@ static float limit_of(const lmb_world *w, const cube_place *part)
     return limit;
 }
 
-/* The part of a texel's light that is over the limit. */
+/* Share of a texel's light over the limit. */
 static float part_over(const float rgba[4], float limit)
 {
     const float light = brightest(rgba);
     return light > limit ? 1.0f - limit / light : 0.0f;
 }
 
-/* Of the texels of one 32nd by 32nd. */
+/* Sums the peak in one 32nd by 32nd. */
 static void sum_peak(lmb_world_peak *inout, const lmb_world *w)
 {
     const int32_t n = w->cube[0].width;
@@ -87,7 +87,7 @@ static void sum_peak(lmb_world_peak *inout, const lmb_world *w)
 
 static float flux_of(const lmb_world_peak *p) { return p->flux[0] + p->flux[1] + p->flux[2]; }
 
-/* The strongest first; the weakest of too many falls out. */
+/* Inserts a peak, strongest first; if the list is full, the weakest is dropped. */
 static void keep(lmb_world *inout, const lmb_world_peak *peak)
 {
     int32_t i = inout->peaks;
@@ -102,7 +102,7 @@ static void keep(lmb_world *inout, const lmb_world_peak *peak)
     inout->peak[i] = *peak;
 }
 
-/* Those of one quarter by quarter. Returns the mean of its light. */
+/* Finds the peaks of one quarter by quarter. Returns the mean light of the part. */
 static float find_in_part(lmb_world *inout, const cube_place *part)
 {
     const float limit = limit_of(inout, part);

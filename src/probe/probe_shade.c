@@ -1,4 +1,4 @@
-/* probe_shade.c: small cubes with borders, and light from them for the pixels of a tile. Layer 6. [S17 S21 S22] */
+/* probe_shade.c: small cubes with borders, and their light on the pixels of a tile. Layer 6.      [S17 S21 S22] */
 #include <string.h>
 
 #include "../base/memory_check.h"
@@ -22,8 +22,8 @@ static size_t texel_at(int32_t face, int32_t x, int32_t y, int32_t n)
     return (size_t)((face * (n + 2) + y + 1) * (n + 2) + x + 1);
 }
 
-/* A border's texel is the one that its own place meets; a corner's the mean of the three that meet there, so that the
- * three faces agree at it. */
+/* Copies each border texel from the interior texel in the same direction. A corner is the mean of the three texels that
+ * meet there, so the three faces agree. */
 static void set_border(float (*texel)[4], int32_t n)
 {
     const int32_t side = n + 2, around = 4 * (n + 1);
@@ -93,13 +93,13 @@ lmb_status lmb_probe_light_tile(lmb_irradiance *inout, const lmb_kernels *kernel
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {
-            inout->rgb[c][k] += maxf(scratch->seen[c][k], 0.0f); /* filters may overshoot beside sharp lights */
+            inout->rgb[c][k] += maxf(scratch->seen[c][k], 0.0f); /* filters may be negative beside sharp lights */
         }
     }
     return LMB_OK;
 }
 
-/* The way on of what comes from the viewer. Pixels without a lobe get any direction. */
+/* Sets the mirrored view directions. Pixels without a lobe get a dummy direction. */
 static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_glossy *glossy, const lmb_tile *tile)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -114,10 +114,10 @@ static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_glossy *glossy, con
 
 /* --- facets smaller than pixels ----------------------------------------------------------------------------------- */
 
-#define FACETS (4.0f / 3.0f) /* so many times the facets' part of a change is taken for all of it */
+#define FACETS (4.0f / 3.0f) /* ratio of the whole change to the facets' part */
 
-/* Pixels whose triangle none of the four beside them in the tile shows: several triangles lie in each, but for some at
- * the tile's edge. */
+/* Pixels with a triangle that none of the four neighbours in the tile shows. Several triangles lie in each, except in
+ * some at the tile's edge. */
 static uint64_t crowded(const lmb_tile *t, uint64_t pixels)
 {
     for (int step = 1; step <= LMB_TILE; step += LMB_TILE - 1) {
@@ -131,7 +131,7 @@ static uint64_t crowded(const lmb_tile *t, uint64_t pixels)
     return pixels;
 }
 
-/* Of three pixels in a row, `step` apart: the change of normals that is from facet to facet, and all of it. */
+/* For three pixels in a row, `step` apart, adds the change of normals between facets, and the whole change. */
 static void add_change(float facets[LMB_TILE_PIXELS], float all[LMB_TILE_PIXELS], const lmb_tile *t, int k, int step)
 {
     const lmb_vec3 before = tile_vec(t->normal, k - step), after = tile_vec(t->normal, k + step);
@@ -142,11 +142,12 @@ static void add_change(float facets[LMB_TILE_PIXELS], float all[LMB_TILE_PIXELS]
     }
 }
 
-/* A pixel of several facets shows one of them: what all of them mirror is the mean of what those around it do, whose
- * normals are as many samples of them. It counts as far as normals change from facet to facet, and do not just bend. */
+/* A pixel with several facets shows only one of them. The reflection of all is estimated as the mean over surrounding
+ * pixels: their normals are samples of the facets. The mean counts to the extent that normals jump between facets
+ * instead of bending smoothly. */
 static void spread(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pixels)
 {
-    float *facets = rays->origin[0], *all = rays->origin[1]; /* and `direction`: not wanted any more */
+    float *facets = rays->origin[0], *all = rays->origin[1]; /* reuses memory; so does `direction` */
     const uint64_t several = crowded(t, pixels);
     if (several == 0) {
         return;
@@ -181,7 +182,7 @@ static void spread(lmb_probe_rays *rays, const lmb_tile *t, uint64_t pixels)
     }
 }
 
-/* --- what is mirrored, and what is behind ------------------------------------------------------------------------- */
+/* --- reflections and background ----------------------------------------------------------------------------------- */
 
 lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, const lmb_kernels *kernels, lmb_probe_rays *scratch,
                                  const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
@@ -210,7 +211,7 @@ lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, const lmb_kernels *kernels, 
     return LMB_OK;
 }
 
-/* The rays of a tile's pixels from the eye: unit directions. */
+/* Sets the view rays of a tile's pixels: unit directions. */
 static void view_rays(lmb_probe_rays *out, const lmb_view *view, int32_t x, int32_t y)
 {
     lmb_rays rays;

@@ -1,9 +1,9 @@
-/* reflect.c: what a rough surface reflects of the world, by reflected direction, as a cube. Layer 6. [S16 S17 S22]
+/* reflect.c: reflection of the world on a rough surface, by reflected direction, as a cube. Layer 6. [S16 S17 S22]
  *
- * The lobe of lmb_glossy for a viewer straight above, about a direction: D(h) G(l) / 4, that is rays in proportion to
- * D / 4, weighted by Smith's G (Walter et al. 2007, Heitz 2014). Each ray is as wide as its share of the lobe (filtered
- * importance sampling, Krivanek and Colbert 2008). That viewers who look along the surface see a longer lobe is left
- * out, as in all such cubes. */
+ * The lobe of lmb_glossy for a viewer straight above: D(h) G(l) / 4 around a direction. Rays are distributed in
+ * proportion to D / 4 and weighted by Smith's G (Walter et al. 2007, Heitz 2014). Each ray is as wide as its share of
+ * the lobe (filtered importance sampling, Krivanek and Colbert 2008). The longer lobe at grazing angles is neglected,
+ * as in all such cubes. */
 #include <string.h>
 
 #include "../base/poly.h"
@@ -13,24 +13,24 @@
 #if LMB_PROBES
 
 enum { RINGS = 8, AROUND = 8, CALM_AROUND = 5, RAYS = RINGS * AROUND };
-enum { FINE = 6 }; /* rays of a mirror's texel each way: its value is the mean over the texel, as in pictures */
+enum { FINE = 6 }; /* rays along each side of a mirror's texel: the value is the mean over the texel, as in pictures */
 
-/* Without peaks a world is smooth, and fewer rays do. Lobes narrower than this would see a peak, which is light of a
- * 32nd of a face, as a speck. */
+/* Without peaks a world is smooth and needs fewer rays. A narrower lobe would show a peak, which is the light of a 32nd
+ * of a face, as a speck. */
 static const float least_calm = 0.03f;
 
-/* A ray about +z: one of AROUND in its ring. */
+/* A ray around +z: one of AROUND in a ring. */
 typedef struct lobe_ray {
     lmb_vec3 to;
     float weight, width; /* rad */
 } lobe_ray;
 
-/* The width that is asked for is the root of half of a ray's share: texels are 1 to 2 times as wide as that, and a
- * bilinear read spreads them over twice their width. */
+/* Requested width: the root of half of a ray's share. Texels are 1 to 2 times as wide, and bilinear reads spread them
+ * over twice their width. */
 static const float share_read = 0.7f;
 
-/* Ring i stands for the i-th 1 / RINGS of D down to the horizon, and lies at its middle: tan^2 of the half vector's
- * angle is a2 u / (1 - u), and 1 at the horizon. Its rays lie half a step round from the next ring's. */
+/* Ring i represents the i-th 1 / RINGS of D down to the horizon and lies at the middle: tan^2 of the half vector's
+ * angle is a2 u / (1 - u), and 1 at the horizon. Consecutive rings are rotated by half a step. */
 static float set_rays(lobe_ray out[RAYS], float alpha, int around)
 {
     const float a2 = alpha * alpha, horizon = 1.0f / (1.0f + a2);
@@ -50,7 +50,7 @@ static float set_rays(lobe_ray out[RAYS], float alpha, int around)
     return sum;
 }
 
-/* Two directions at right angles to n and each other. */
+/* Two directions perpendicular to n and to each other. */
 static void frame_of(lmb_vec3 *across, lmb_vec3 *along, lmb_vec3 n)
 {
     const lmb_vec3 up = absf(n.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
@@ -82,7 +82,7 @@ static void set_tile(lmb_probe_rays *t, int32_t first, int32_t n, lmb_vec3 at)
     memset(t->sum, 0, sizeof t->sum);
 }
 
-/* Planes, so that compilers take several pixels at once. */
+/* Loops over planes, so that compilers vectorize over pixels. */
 static void point_ray(lmb_probe_rays *t, const lobe_ray *ray)
 {
     const lmb_vec3 to = ray->to;
@@ -115,14 +115,15 @@ static void add_seen(lmb_probe_rays *t, float weight, const lmb_kernels *kernels
     }
 }
 
-/* What the lobe about r makes of light from d, per W/m2: D(h) G / 4 of the whole lobe. */
+/* Response of the lobe around r to light from d, per W/m2: D(h) G / 4 of the whole lobe. */
 static float lobe_at(lmb_vec3 r, lmb_vec3 d, float a2)
 {
     const float z = dot3(r, d), t = 0.5f * (1.0f + z) * (a2 - 1.0f) + 1.0f;
     return z > 0.0f ? a2 / (4.0f * LMB_PI * (t * t)) * (2.0f * z / (z + sqrtf(a2 + (1.0f - a2) * (z * z)))) : 0.0f;
 }
 
-/* Lamps as they are, which few rays would miss or count several times. `lobe`: what the rays' weights stand for. */
+/* Adds peaks exactly, because a few rays would miss them or count them several times. `lobe`: sum that the rays'
+ * weights represent. */
 static void add_peaks(lmb_probe_rays *t, const lmb_world_job *job, const lmb_world *world, lmb_vec3 at, float alpha,
                       float lobe)
 {

@@ -1,4 +1,5 @@
-/* remap.c: the world as seen from a point, or along rays: its numbers, then the kernels. Layer 6. [S5-S8, S17] */
+/* remap.c: sets up the job, then runs the kernels that see the world from a point or along rays. Layer 6. [S5-S8,
+ * S17] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../lane/kernels.h"
@@ -6,15 +7,15 @@
 
 #if LMB_PROBES
 
-#define INSIDE 0.999f /* of the far world's size: places outside are pulled in to there, or to the centre's distance */
+#define INSIDE 0.999f /* of the far world's size: points outside are clamped to it, or to the centre's distance */
 
 static void set_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
 {
     const lmb_world_pictures *p = &w->pictures;
     const lmb_world_level *levels = is_calm ? w->calm : w->cube;
     const lmb_vec3 middle = mul3(add3(p->low, p->high), 0.5f), half = mul3(sub3(p->high, p->low), 0.5f * INSIDE);
-    const float max = 0.5001f * LMB_PI; /* a face, rad: levels with texels narrower than the ray are passed over */
-    int32_t level = is_calm && w->cube_levels > 1; /* the first holds all light */
+    const float max = 0.5001f * LMB_PI; /* a face, rad: levels with texels narrower than the ray are skipped */
+    int32_t level = is_calm && w->cube_levels > 1; /* level 0 contains all light */
     while (level + 1 < w->cube_levels && (float)levels[level].width * job->ray_width > max) {
         ++level;
     }
@@ -32,7 +33,7 @@ static void set_cube(lmb_world_job *job, const lmb_world *w, int is_calm)
     job->reach_high = max3(add3(middle, half), p->centre);
 }
 
-/* A level serves rays up to a texel and a half of its own: the next level's texels are nearer in size to wider ones. */
+/* A level serves rays up to one and a half texels wide; for wider ones the next level's texels are closer in size. */
 static void set_ground(lmb_world_job *job, const lmb_world *w)
 {
     const lmb_world_pictures *p = &w->pictures;
@@ -69,7 +70,7 @@ void lmb_world_ask(lmb_world_job *out, const lmb_world *world, int32_t of, float
     set_ground(out, world);
 }
 
-/* Nothing is nearer to 0 than a millionth of a micrometre: kernels meet no denormals. */
+/* Flushes values under a millionth of a micrometre to 0: kernels must not meet denormals. */
 static float no_speck(float v) { return absf(v) < 1e-12f ? 0.0f : v; }
 
 lmb_status lmb_probe_remap(float *map, const lmb_kernels *kernels, const lmb_world *world, const lmb_probe_table *table,

@@ -1,14 +1,15 @@
-/* remap.inl: radiance that rays see of the world: by direction from a point, or a ray a pixel. Layer 6. [S5-S8, S17]
+/* remap.inl: radiance that rays see: by direction from a point, or one ray per pixel. Layer 6. [S5-S8, S17]
  *
- * Lanes are rays. A ray meets the far world at q, which the cube shows along q - centre; and the ground, if it
- * goes down to it within the picture. Both are read bilinearly, from a level whose texels are about as wide as it. */
+ * Lanes are rays. A ray meets the far world at q, which the cube shows along q - centre. It also meets the ground if it
+ * descends to the ground inside the picture. Both are read bilinearly, from a level with texels about as wide as the
+ * ray. */
 
 typedef struct remap_colour {
     lane3 rgb; /* times alpha */
     lane alpha;
 } remap_colour;
 
-/* Texel `at` of the world, weighted. */
+/* Adds texel `at` of the world, weighted. */
 LANE_PART void remap_add(remap_colour *sum, const lmb_world_job *job, lanei at, lane weight)
 {
     const lanei byte = lanei_splat(255), four = lanei_mul(at, lanei_splat(4));
@@ -39,7 +40,7 @@ LANE_PART void remap_add(remap_colour *sum, const lmb_world_job *job, lanei at, 
     sum->alpha = lane_add(sum->alpha, weight);
 }
 
-/* Four texels: at, to its right, under it, under that one. fx, fy: where between them. */
+/* Interpolates four texels: at, to the right, below, and below right. fx, fy: position between them. */
 LANE_PART remap_colour remap_four(const lmb_world_job *job, const lanei at[4], lane fx, lane fy)
 {
     const lane one = lane_splat(1.0f), zero = lane_splat(0.0f), gx = lane_sub(one, fx), gy = lane_sub(one, fy);
@@ -51,14 +52,14 @@ LANE_PART remap_colour remap_four(const lmb_world_job *job, const lanei at[4], l
     return sum;
 }
 
-/* Where a ray meets the cube: its face, and its place there in texels of the bordered face, less one half: 0.5 ..
- * n + 0.5. */
+/* The intersection of a ray with the cube: the face, and the position in texels of the bordered face, minus one half:
+ * 0.5 .. n + 0.5. */
 typedef struct remap_spot {
     lanei face;
     lane x, y;
 } remap_spot;
 
-/* The place that a ray along d meets, d of any length but 0; faces as in cube_face. */
+/* Intersects a ray along d, of any length but 0; faces as in cube_face. */
 LANE_PART void remap_meet(remap_spot *out, const lmb_world_job *job, lane3 d)
 {
     const lane zero = lane_splat(0.0f), half_n = lane_splat(0.5f * (float)job->side);
@@ -79,7 +80,7 @@ LANE_PART void remap_meet(remap_spot *out, const lmb_world_job *job, lane3 d)
     out->y = lane_add(lane_mul(t, scale), middle);
 }
 
-/* Texel (x, y) of the spot's bordered face. */
+/* Index of texel (x, y) of the bordered face. */
 LANE_PART lanei remap_texel(const lmb_world_job *job, const remap_spot *spot, lane x, lane y)
 {
     const lanei row = lanei_splat(job->side + 2);
@@ -87,8 +88,8 @@ LANE_PART lanei remap_texel(const lmb_world_job *job, const remap_spot *spot, la
                      lanei_add(lane_to_int(x), lanei_splat(job->cube_at)));
 }
 
-/* Weights of three texels in a row, at t -0.5 .. 0.5 from the middle one: the value of the parabola whose means over
- * the texels are theirs. */
+/* Weights of three texels in a row, at t -0.5 .. 0.5 from the middle one: the value of the parabola with the texels as
+ * means. */
 LANE_INLINE void remap_parabola(lane weight[3], lane t)
 {
     const lane half = lane_splat(0.5f), odd = lane_mul(half, t);
@@ -98,7 +99,7 @@ LANE_INLINE void remap_parabola(lane weight[3], lane t)
     weight[2] = lane_add(even, odd);
 }
 
-/* The filter that blurs least, for rays whose mean over a texel or more is wanted. Never negative. */
+/* The sharpest filter, for rays that need the mean over a texel or more. The result is never negative. */
 LANE_PART remap_colour remap_nine(const lmb_world_job *job, const remap_spot *spot)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f),
@@ -121,7 +122,7 @@ LANE_PART remap_colour remap_nine(const lmb_world_job *job, const remap_spot *sp
     return sum;
 }
 
-/* What the cube shows along d. */
+/* Radiance of the cube along d. */
 LANE_PART remap_colour remap_cube(const lmb_world_job *job, lane3 d)
 {
     const lanei row = lanei_splat(job->side + 2), one = lanei_splat(1);
@@ -131,7 +132,7 @@ LANE_PART remap_colour remap_cube(const lmb_world_job *job, lane3 d)
     if (job->means) {
         return remap_nine(job, &spot);
     }
-    const lane zero = lane_splat(0.0f), last = lane_splat((float)job->side); /* for NaN too */
+    const lane zero = lane_splat(0.0f), last = lane_splat((float)job->side); /* also clamps NaN */
     const lane x0 = lane_trunc(lane_min(lane_max(spot.x, zero), last)),
                y0 = lane_trunc(lane_min(lane_max(spot.y, zero), last));
     at[0] = remap_texel(job, &spot, x0, y0);
@@ -141,15 +142,15 @@ LANE_PART remap_colour remap_cube(const lmb_world_job *job, lane3 d)
     return remap_four(job, at, lane_sub(spot.x, x0), lane_sub(spot.y, y0));
 }
 
-/* Where rays begin, as the formulas want it. */
+/* Ray origins in the forms that the formulas need. */
 typedef struct remap_place {
-    lane3 from_centre, from_middle; /* of the cube, of the sphere, m */
+    lane3 from_centre, from_middle; /* relative to the cube's centre, the sphere's middle, m */
     lane outside2;                  /* |from_middle|^2 - radius^2: < 0 */
-    lane3 to_low, to_high;          /* the box's walls */
-    lane3 from_ground;              /* its corner */
+    lane3 to_low, to_high;          /* to the walls of the box */
+    lane3 from_ground;              /* relative to the ground's corner */
 } remap_place;
 
-/* Places outside the far world are pulled in to the nearest inside. */
+/* Clamps points outside the far world to the nearest inside. */
 LANE_PART void remap_stand(remap_place *out, const lmb_world_job *job, lane3 at)
 {
     if (job->shape == LMB_WORLD_SPHERE) {
@@ -172,7 +173,7 @@ LANE_PART void remap_stand(remap_place *out, const lmb_world_job *job, lane3 at)
     out->from_ground = lane3_sub(at, lane3_of(job->ground));
 }
 
-/* How far the sphere or the box is along d. */
+/* Distance to the sphere or the box along d. */
 LANE_PART lane remap_shape(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
     const lane zero = lane_splat(0.0f);
@@ -192,7 +193,7 @@ LANE_PART lane remap_shape(const lmb_world_job *job, const remap_place *from, la
     return t;
 }
 
-/* How far the far world is along d. A floor is a little farther than the ground's picture on it. */
+/* Distance to the far world along d. A floor lies slightly beyond the ground's picture on it. */
 LANE_PART lane remap_far(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
     const lane far = remap_shape(job, from, d);
@@ -205,7 +206,7 @@ LANE_PART lane remap_far(const lmb_world_job *job, const remap_place *from, lane
     return lane_pick(falls, lane_min(floor, far), far);
 }
 
-/* The ground's picture at metres x, z from its corner; `wide`: the ray's width there, m. */
+/* The ground's picture at x, z metres from the corner; `wide`: the ray's width there, m. */
 LANE_PART remap_colour remap_ground(const lmb_world_job *job, lane x, lane z, lane wide)
 {
     const lane half = lane_splat(0.5f), zero = lane_splat(0.0f);
@@ -231,18 +232,18 @@ LANE_PART remap_colour remap_ground(const lmb_world_job *job, lane x, lane z, la
     return remap_four(job, at, lane_sub(x, x0), lane_sub(z, y0));
 }
 
-/* `near` over `far`. */
+/* Composites `near` over `far`. */
 LANE_PART lane3 remap_over(remap_colour near, remap_colour far)
 {
     return lane3_add(near.rgb, lane3_scale(far.rgb, lane_sub(lane_splat(1.0f), near.alpha)));
 }
 
 typedef struct remap_hit {
-    remap_colour colour; /* 0 where rays meet none */
+    remap_colour colour; /* 0 for rays that miss */
     lane distance;       /* along d */
 } remap_hit;
 
-/* The ground as far as rays meet its picture. */
+/* Intersects rays with the ground's picture. */
 LANE_PART remap_hit remap_fall(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), down = lane_sub(zero, d.y);
@@ -261,8 +262,8 @@ LANE_PART remap_hit remap_fall(const lmb_world_job *job, const remap_place *from
     if (mask_bits(met) == 0) {
         return hit;
     }
-    /* On the ground a ray covers an ellipse that is longer than wide by per_down: the level is chosen by the geometric
-     * mean of both. */
+    /* The ray's footprint on the ground is an ellipse, longer than wide by the factor per_down. The geometric mean
+     * selects the level. */
     const lane wide = lane_mul(lane_mul(hit.distance, lane_splat(job->ray_width)), lane_sqrt(per_down));
     const remap_colour colour = remap_ground(job, lane_keep(met, x), lane_keep(met, z), wide);
     hit.colour.rgb.x = lane_keep(met, colour.rgb.x);
@@ -272,7 +273,7 @@ LANE_PART remap_hit remap_fall(const lmb_world_job *job, const remap_place *from
     return hit;
 }
 
-/* The nearer one over the other, or their mean where a ray meets both. */
+/* Composites the nearer of two hits over the other, or averages them if the job blends. */
 LANE_PART lane3 remap_mix(const lmb_world_job *job, const remap_hit *ground, remap_colour cube, lane far)
 {
     const lane one = lane_splat(1.0f), ground_alpha = ground->colour.alpha;
@@ -285,8 +286,7 @@ LANE_PART lane3 remap_mix(const lmb_world_job *job, const remap_hit *ground, rem
                       remap_over(cube, ground->colour));
 }
 
-/* The radiance that a vector of rays meets. Where the ground is the nearer one and opaque, the cube is neither read nor
- * blended in. */
+/* Radiance along a vector of rays. If the ground is nearer and opaque in all of them, the cube is not read. */
 LANE_PART lane3 remap_see(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
     const lane far = remap_far(job, from, d), whole = lane_splat(0.99999f);
@@ -303,7 +303,7 @@ LANE_PART lane3 remap_see(const lmb_world_job *job, const remap_place *from, lan
     return job->blend ? seen : lane3_pick(hides, ground.colour.rgb, seen);
 }
 
-/* 16-bit codes of a direction's parts. Their step is 1.5e-5 of a radius. */
+/* Decodes 16-bit codes of a direction's components. The step is 1.5e-5 of a radius. */
 LANE_INLINE lane remap_code(const uint16_t *p)
 {
     return lane_sub(lane_mul(lane_load_u16(p, LMB_TILE), lane_splat(2.0f / 65535.0f)), lane_splat(1.0f));

@@ -1,7 +1,7 @@
 /* sh.c: a map's spherical harmonics, and irradiance from them. Layer 6.                                          [S25]
  *
- * A harmonic is its latitude's part times cos m a or sin m a: each row is first summed against the nine waves, then the
- * waves against the latitudes' parts: width x 9 products a row instead of width x 25. */
+ * A harmonic is a function of latitude times cos m a or sin m a. Each row is first summed against the nine waves, then
+ * the waves against the latitude functions: width x 9 products per row instead of width x 25. */
 #include <string.h>
 
 #include "../base/vec.h"
@@ -10,14 +10,14 @@
 
 enum { WAVES = 9, BANDS = 5 };
 
-/* Of harmonic l, m >= 0. */
+/* Index of harmonic l, m >= 0. */
 static int32_t part_of(int32_t l, int32_t m) { return l * (l + 1) / 2 + m; }
 
 static void row_waves(float out[WAVES], const float *row, const lmb_probe_table *t)
 {
     for (int32_t w = 0; w < WAVES; ++w) {
         const float *wave = t->wave + w * t->width;
-        float sum[8] = {0}; /* eight sums side by side, which compilers keep in registers */
+        float sum[8] = {0}; /* eight independent sums, which compilers keep in registers */
         for (int32_t x = 0; x < t->width; x += 8) {
             for (int32_t i = 0; i < 8; ++i) {
                 sum[i] += row[x + i] * wave[x + i];
@@ -56,7 +56,7 @@ lmb_status lmb_probe_sh(float coefficient[3][LMB_SH_25], const float *map, const
     return LMB_OK;
 }
 
-/* The harmonics at d, by polynomials: their axis is +y, their longitude atan2(x, -z); e is -z. */
+/* Evaluates the harmonics at d as polynomials. The axis is +y, longitude is atan2(x, -z); e is -z. */
 static void harmonics(float out[LMB_SH_25], lmb_vec3 d)
 {
     const float y = d.y, e = -d.z, x = d.x, y2 = y * y;
@@ -79,7 +79,7 @@ static void harmonics(float out[LMB_SH_25], lmb_vec3 d)
 
 lmb_status lmb_probe_sh_cube(float *cube, int32_t n, const float coefficient[3][LMB_SH_25], int32_t terms)
 {
-    /* The clamped cosine's own harmonics: pi, 2 pi / 3, pi / 4, 0, -pi / 24. [Ramamoorthi and Hanrahan 2001] */
+    /* Harmonics of the clamped cosine: pi, 2 pi / 3, pi / 4, 0, -pi / 24. [Ramamoorthi and Hanrahan 2001] */
     static const float band[BANDS] = {3.14159265f, 2.09439510f, 0.785398163f, 0.0f, -0.130899694f};
     if (cube == NULL || coefficient == NULL || n < 1 || n > 64 ||
         (terms != LMB_SH_9 && terms != LMB_SH_16 && terms != LMB_SH_25)) {

@@ -1,21 +1,23 @@
-/* share.inl: a map's light, two by two texels, among the nine nearest of 6 x 8 x 8 directions. Layer 6.           [S14]
+/* share.inl: adds a map's light, two by two texels, to the nine nearest of 6 x 8 x 8 directions. Layer 6. [S14]
  *
- * So that the lights' sum, mean place and spread are their own: whatever is smooth over three texels comes out right.
- * With four, whose extent is larger, the error is half as large again; with one it is two to three times as large.
+ * The weights preserve the sum, mean position and spread of the lights, so light that is smooth over three texels comes
+ * out right. With four texels, which spread more, the error is half as large again; with one it is two to three times
+ * as large.
  *
- * Three texels in a row are twelve numbers side by side, and with a fourth of weight 0 whole vectors of any backend.
- * Lanes are those numbers. */
+ * Three texels in a row are twelve adjacent numbers; a fourth with weight 0 makes whole vectors on any backend. Lanes
+ * are these numbers. */
 
 enum { SHARE_LANES = 16, SHARE_SIDE = LMB_PROBE_SIDE + 2 };
 
-/* Of the parabola through the middles of three texels, at t -0.5 .. 0.5 from the second: square t^2 + line t + flat. */
+/* Coefficients of the parabola through the middles of three texels, at t -0.5 .. 0.5 from the second: square t^2 + line
+ * t + flat. */
 static const float share_square[SHARE_LANES] = {0.5f, 0.5f, 0.5f, 0.5f, -1, -1, -1, -1, 0.5f, 0.5f, 0.5f, 0.5f},
                    share_line[SHARE_LANES] = {-0.5f, -0.5f, -0.5f, -0.5f, 0, 0, 0, 0, 0.5f, 0.5f, 0.5f, 0.5f},
                    share_flat[SHARE_LANES] = {0, 0, 0, 0, 1, 1, 1, 1};
 
 LANE_INLINE float share_place(uint8_t code) { return (float)code * (1.0f / 255.0f) - 0.5f; }
 
-/* Of four texels, red, green, blue and their solid angle, four times over. */
+/* Sums red, green, blue and solid angle of four texels, repeated four times. */
 LANE_INLINE void share_light(float light[SHARE_LANES], const float *at, size_t plane, int32_t width,
                              const float area[2])
 {
@@ -44,7 +46,7 @@ LANE_INLINE void share_add(float *to, const lmb_probe_share *at, const float lig
     }
 }
 
-/* Eight at a time: a vector that is read as soon as its numbers were written waits for them. */
+/* Processes eight at a time, because a vector load right after the scalar stores would stall. */
 static void KERNEL(share)(float (*shared)[4], const float *map, const lmb_probe_table *table)
 {
     const int32_t width = table->width, count = width * table->height;

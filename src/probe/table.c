@@ -1,4 +1,4 @@
-/* table.c: directions of a latitude-longitude map's texels, and tables of them for the filters. Layer 6. [S9 S10] */
+/* table.c: directions of the texels in a latitude-longitude map, and tables for the filters. Layer 6.    [S9 S10] */
 #include <string.h>
 
 #include "../base/memory_check.h"
@@ -13,7 +13,7 @@ static int is_size(int32_t width, int32_t height)
     return height >= 8 && height <= 512 && height % 8 == 0 && width == 2 * height;
 }
 
-/* In 32-bit words. */
+/* Size in 32-bit words. */
 static size_t table_words(int32_t width, int32_t height)
 {
     const size_t w = (size_t)width, h = (size_t)height;
@@ -44,7 +44,7 @@ static void set_directions(lmb_probe_table *t, const float *longitude_cos, const
     }
 }
 
-/* A row between latitudes a and b is cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2) high. */
+/* The height of a row between latitudes a and b is cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2). */
 static void set_areas(lmb_probe_table *t)
 {
     const float half = lmb_sin(0.5f * LMB_PI / (float)t->height), per_column = 2.0f * LMB_PI / (float)t->width;
@@ -66,8 +66,8 @@ static void set_waves(lmb_probe_table *t, float start)
     }
 }
 
-/* Normalised, without (-1)^m, of y = cos of the angle from the north: sqrt((2l+1)/4pi (l-m)!/(l+m)!) P_lm, times sqrt 2
- * for m > 0. */
+/* Normalized Legendre functions without (-1)^m, of y = cos of the angle from north: sqrt((2l+1)/4pi (l-m)!/(l+m)!)
+ * P_lm, times sqrt 2 for m > 0. */
 static void legendre(float out[LEGENDRE], float y)
 {
     const float y2 = y * y, s2 = maxf(1.0f - y2, 0.0f), s = sqrtf(s2);
@@ -82,7 +82,8 @@ static void legendre(float out[LEGENDRE], float y)
     memcpy(out, p, sizeof p);
 }
 
-/* Means over a row, by Gauss' three points: exact for m = 0, so that a constant world has one harmonic. */
+/* Averages over each row with three-point Gauss quadrature: exact for m = 0, so a constant world has a single
+ * harmonic. */
 static void set_legendre(lmb_probe_table *t)
 {
     for (int32_t row = 0; row < t->height; ++row) {
@@ -110,7 +111,7 @@ static void set_lights(lmb_probe_table *t)
     }
 }
 
-/* The direction of four texels is that of the corner where they meet. */
+/* Four texels share the direction of their common corner. */
 static void set_shares(lmb_probe_table *t, float start)
 {
     enum { SIDE = LMB_PROBE_SIDE + 2 };

@@ -1,4 +1,4 @@
-/* world.c: the world's pictures -> coded texels and their levels, in the caller's memory. Layer 6.          [S1-S4] */
+/* world.c: the world's pictures -> coded texels and mip levels, in the caller's memory. Layer 6.            [S1-S4] */
 #include <string.h>
 
 #include "../base/halve.h"
@@ -19,7 +19,7 @@ static int is_valid(const lmb_world_pictures *p, int32_t format)
                                   p->ground_height <= 8192));
 }
 
-/* The faces' levels from texel *end on, which moves behind them; returns how many. */
+/* Sets the levels of the faces from texel *end on and advances *end; returns their number. */
 static int32_t set_cube(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
 {
     int32_t count = 0;
@@ -31,7 +31,7 @@ static int32_t set_cube(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, cons
     return count;
 }
 
-/* The same of the ground's; 0 without one. */
+/* The same for the ground; 0 without a ground. */
 static int32_t set_ground(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
 {
     int32_t count = 0;
@@ -48,7 +48,7 @@ static int32_t set_ground(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, co
     return count;
 }
 
-/* The calm levels: the first is the cube's own. */
+/* Sets the calm levels; the first is shared with the cube. */
 static void set_calm(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
 {
     const size_t whole = 6 * (size_t)(p->face_size + 2) * (size_t)(p->face_size + 2);
@@ -76,12 +76,12 @@ size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format)
 
 /* --- texels ------------------------------------------------------------------------------------------------------- */
 
-/* What is darker than any light's reflection is dark: its products stay far from denormals. */
+/* Rounds radiance too dark for any reflection to 0, so products stay far from denormals. */
 static float sane_radiance(float c) { return c > 1e-12f && c < 1e30f ? c : 0.0f; }
 
 static float sane_alpha(float a) { return a > 1e-5f ? minf(a, 1.0f) : 0.0f; }
 
-/* The texels of a level that one texel of the next level covers, in a cube's face or in the ground. */
+/* The texels of a level that one texel of the next level covers, in a cube face or in the ground. */
 typedef struct {
     halve_taps x, y;
 } box;
@@ -96,7 +96,7 @@ static box box_of(const lmb_world_level *from, int32_t x, int32_t y)
 typedef void (*read_texel)(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x,
                            int32_t y);
 
-/* The mean of the texels of a box, weighted by alpha. */
+/* Mean of the texels of a box, weighted by alpha. */
 static void mean_of_box(float out[4], const lmb_world *w, const lmb_world_level *from, int32_t face, box b, read_texel read)
 {
     const float whole = (float)b.x.whole * (float)b.y.whole;
@@ -150,7 +150,7 @@ static void halve_faces(lmb_world *w, const lmb_world_level *to, const lmb_world
     }
 }
 
-/* A border's texel is the one that its own direction meets. */
+/* Copies each border texel from the interior texel in the same direction. */
 static void set_border(lmb_world *w, const lmb_world_level *l)
 {
     const int32_t n = l->width;
@@ -171,8 +171,8 @@ static void read_calm(float rgba[4], const lmb_world *w, const lmb_world_level *
     lmb_world_calm_texel(rgba, w, face, x, y);
 }
 
-/* Sets each texel of the first calm level that covers part of a peak to the mean of the peak's rest. If the side is
- * odd, texel i ends inside texel 2 i + 2. */
+/* Updates each texel of the first calm level that covers part of a peak: sets it to the mean without the peak's light.
+ * If the side is odd, texel i ends inside texel 2 i + 2. */
 static void calm_part(lmb_world *w, const lmb_world_peak *peak)
 {
     const int32_t last = w->calm[1].width - 1, odd = w->calm[0].width % 2;

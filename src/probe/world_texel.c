@@ -1,8 +1,8 @@
-/* world_texel.c: one texel of a world, coded and back. Layer 6.                                                     [S4] */
+/* world_texel.c: one texel of a world, coded and back. Layer 6.                                             [S4] */
 #include "../base/poly.h"
 #include "world.h"
 
-/* Radiance that is coded as 0 or 1. */
+/* e = (log10(c + LOG_SHIFT) + 1) / 3; LOG_MAX has code 1. */
 #define LOG_SHIFT 0.101f
 #define LOG_MAX 99.899f
 

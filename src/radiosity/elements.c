@@ -1,4 +1,4 @@
-/* elements.c: a scene's triangles -> elements of about one size, neighbours beside each other. Layer 8. */
+/* elements.c: a scene's triangles -> elements of about one size, with neighbours adjacent in memory. Layer 8. */
 #include <lambent/elements.h>
 
 #include <string.h>
@@ -11,14 +11,14 @@
 #if LMB_TREES
 
 enum {
-    HALVINGS = 32, /* of a triangle, the longest edge each time: 2^31 pieces of about one size, and 2^24 are the most */
+    HALVINGS = 32, /* max halvings of a triangle at the longest edge: 2^31 pieces; 2^24 is the limit */
     CELLS = 1 << 20,
-    MAX_PIECES = 64 /* an element: so that pieces too thin to have an area, or all hole, come to an end too */
+    MAX_PIECES = 64 /* per element: also ends the division of pieces without area, or all hole */
 };
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-/* Texels a side; 0 where n is no power of 4 within bounds. */
+/* Texels along a side; 0 if n is not a power of 4 within bounds. */
 static int32_t side_of(uint32_t n)
 {
     int32_t side = LMB_TILE;
@@ -57,14 +57,14 @@ lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t
 typedef struct maker {
     lmb_elements *out;
     const lmb_scene *scene;
-    uint32_t *slot; /* number of an element + 1, or 0 */
+    uint32_t *slot; /* index of an element + 1, or 0 */
     uint32_t mask;
-    uint32_t pieces; /* of triangles that were cut */
+    uint32_t pieces; /* of divided triangles */
     float side2;
     int full;
 } maker;
 
-/* The six sides' elements lie one behind the other: key / 2^27 is the side. */
+/* Elements are sorted by facing side: key / 2^27 is the side. */
 static uint32_t element_facing(const lmb_element *e) { return e->key >> (3 * PIECE_Z_BITS); }
 
 static int32_t cell_of(float at, float low, float per_cell)
@@ -76,8 +76,8 @@ typedef struct cell {
     int32_t x, y, z;
 } cell;
 
-/* The box that contains nearly all of the scene. What lies outside is clamped to its sides, so that outliers do not
- * take cells from the rest. */
+/* The box that contains nearly all of the scene. Outliers are clamped to the box, so that they do not take cells from
+ * the rest. */
 static lmb_vec3 low_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_low : s->bounds_min; }
 static lmb_vec3 high_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_high : s->bounds_max; }
 
@@ -92,7 +92,7 @@ static cell cell_at(const maker *m, lmb_vec3 p)
     return c;
 }
 
-/* The slot of the element of e's cell and side, or the empty one where it belongs. */
+/* The slot of the element with e's cell and side, or the empty slot for it. */
 static uint32_t *find_slot(const maker *m, const lmb_element *e)
 {
     const cell c = cell_at(m, piece_middle(e->corner));
@@ -122,7 +122,7 @@ static lmb_element *append(maker *m, const lmb_element *e)
     return &m->out->data[m->out->count++];
 }
 
-/* received[0] holds the area of the largest triangle meanwhile. */
+/* received[0] temporarily holds the area of the largest triangle. */
 static void join(lmb_element *into, const lmb_element *e)
 {
     const float area = into->area + e->area, share = e->area / area;
@@ -150,7 +150,7 @@ static void add_element(maker *m, const lmb_element *e, int small)
     }
 }
 
-/* Both sides of a piece. `fresh` holds the normal meanwhile. */
+/* Adds both sides of a piece. `fresh` temporarily holds the normal. */
 static void add_piece(maker *m, const piece_source *s, const surface_piece *p, int small)
 {
     const lmb_material *material = s->triangle.material;
@@ -167,7 +167,7 @@ static void add_piece(maker *m, const piece_source *s, const surface_piece *p, i
         const lmb_vec3 d = sub3(p->corner[k], at);
         e.reach2 = maxf(e.reach2, dot3(d, d));
     }
-    e.reach2 = e.area < area ? 0.0f : e.reach2; /* with holes it has no shape */
+    e.reach2 = e.area < area ? 0.0f : e.reach2; /* an element with holes has no shape */
     lmb_source_emission(e.emission, s, p);
     e.received[0] = e.area;
     e.id = s->triangle.id;
@@ -183,7 +183,7 @@ static void add_piece(maker *m, const piece_source *s, const surface_piece *p, i
 
 /* --- cutting ------------------------------------------------------------------------------------------------------ */
 
-/* The longest edge's square; it runs from corner *from to the next. */
+/* Squared length of the longest edge, which runs from corner *from to the next. */
 static float longest_edge(int *from, const surface_piece *p)
 {
     float longest = -1.0f;
@@ -197,14 +197,14 @@ static float longest_edge(int *from, const surface_piece *p)
     return longest;
 }
 
-/* A halving on the way down to a piece: the edge's corner that is not the piece's, and which half the piece lies in. */
+/* A halving on the path to a piece: the edge's corner outside the piece, and the half that contains the piece. */
 typedef struct turn {
     lmb_vec3 corner;
     float b1, b2;
     int from, first;
 } turn;
 
-/* Corner k of the piece becomes what the turn keeps, and the other way round. */
+/* Exchanges corner k of the piece with the stored corner. */
 static void swap_corner(surface_piece *p, turn *t, int k)
 {
     const turn kept = *t;
@@ -216,7 +216,7 @@ static void swap_corner(surface_piece *p, turn *t, int k)
     p->b2[k] = kept.b2;
 }
 
-/* Into the half behind the middle of the edge from `from`. */
+/* Enters the half after the middle of the edge from `from`. */
 static void enter_second(surface_piece *p, turn *t, int from)
 {
     const int to = (from + 1) % 3;
@@ -228,19 +228,19 @@ static void enter_second(surface_piece *p, turn *t, int from)
     swap_corner(p, t, from);
 }
 
-/* From the second half into the first; 0 where that is done too: the piece is whole again. */
+/* Moves from the second half to the first. Returns 0 if the first is done too, and the piece is whole again. */
 static int enter_first(surface_piece *p, turn *t)
 {
     const int done = t->first, to = (t->from + 1) % 3;
     if (!done) {
-        swap_corner(p, t, t->from); /* t: the middle */
+        swap_corner(p, t, t->from); /* t now holds the middle */
     }
     swap_corner(p, t, to);
     t->first = 1;
     return !done;
 }
 
-/* Turns instead of pieces that wait: 28 bytes of stack a halving, not 60. */
+/* Stores turns instead of pending pieces: 28 bytes of stack per halving instead of 60. */
 static void add_source(maker *m, const piece_source *s)
 {
     turn turns[HALVINGS];
@@ -263,7 +263,7 @@ static void add_source(maker *m, const piece_source *s)
     } while (depth > 0 && !m->full);
 }
 
-/* 1 where all fits. */
+/* Returns 1 if everything fits. */
 static int make(maker *m)
 {
     const uint32_t all = lmb_scene_triangles(m->scene);
@@ -314,7 +314,7 @@ static void sift(lmb_element *data, uint32_t at, uint32_t count)
     data[at] = e;
 }
 
-/* A heap, so that no more memory is needed. */
+/* Heapsort, which needs no extra memory. */
 static void sort(lmb_element *data, uint32_t count)
 {
     for (uint32_t i = count / 2; i > 0; --i) {

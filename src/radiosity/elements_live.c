@@ -1,7 +1,8 @@
 /* elements_live.c: elements as senders and receivers of single points' light. Layer 8.                          [ours]
  *
- * An element's flux is spread over its shape: near it, the tree divides the triangle into sixteen, and these again. So
- * later bounces and what emits light reach pixels and elements by one kernel, with one set of segments for all light. */
+ * An element's flux is spread over the triangle: nearby, the tree divides the triangle into sixteen parts, and these
+ * again. So later bounces and emitted light reach pixels and elements through one kernel, with one set of segments for
+ * all light. */
 #include <lambent/elements.h>
 
 #include <string.h>

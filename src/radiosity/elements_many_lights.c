@@ -1,4 +1,4 @@
-/* elements_many_lights.c: many lights light the elements, which then send the first bounce. Layer 8. [V3] */
+/* elements_many_lights.c: light of many lights on elements, which then send the first bounce. Layer 8. [V3] */
 #include <lambent/elements.h>
 
 #include <string.h>
@@ -34,7 +34,7 @@ lmb_status lmb_many_lights_elements(const lmb_elements *elements, const lmb_elem
         return LMB_ERR_ARG;
     }
     own = *query;
-    own.each = 1; /* elements along a curve have no corners */
+    own.each = 1; /* elements along a curve have no corner pixels */
     for (int32_t i = first; i < past && status == LMB_OK; ++i) {
         status = light_tile(elements, own_scratch, scratch, &own, (uint32_t)i * LMB_TILE_PIXELS);
     }

@@ -1,4 +1,4 @@
-/* piece.c: what a piece of a triangle reflects, by four points of its textures, and what it emits. Layer 8. */
+/* piece.c: a piece's albedo, from four points of the triangle's textures, and emission. Layer 8. */
 #include "piece.h"
 
 #include <string.h>
@@ -12,7 +12,7 @@
 
 enum { SAMPLES = 4 };
 
-/* Of the base colour's; where there is none, of the map of metal. */
+/* Texels of the base colour texture; if there is none, of the metal map. */
 static void set_texels(piece_source *s)
 {
     const lmb_material *m = s->triangle.material;
@@ -84,9 +84,9 @@ float lmb_source_albedo(float albedo[3], const piece_source *s, const surface_pi
     return (float)standing / SAMPLES;
 }
 
-/* --- what it emits ------------------------------------------------------------------------------------------------ */
+/* --- emission ----------------------------------------------------------------------------------------------------- */
 
-enum { MAX_ROWS = 4, MAX_ROWS_BARE = 32 /* of a piece; of one whose map has no levels */ };
+enum { MAX_ROWS = 4, MAX_ROWS_BARE = 32 /* of a piece; of a piece with a map without mip levels */ };
 
 /* Texels along the longest edge of a piece, in a map. */
 static float texels_along(const piece_source *s, const surface_piece *p, const lmb_texture *map)
@@ -103,7 +103,8 @@ static float texels_along(const piece_source *s, const surface_piece *p, const l
     return longest < 1e30f ? sqrtf(longest) : 0.0f;
 }
 
-/* Add the map at a place of the piece, x and y of the way to its second and third corner, where it stands. */
+/* Adds the map at a point of the piece, if the point is opaque. at: shares of the second and third corner, and the mip
+ * level. */
 static int add_glow(float sum[3], const piece_source *s, const surface_piece *p, const lmb_texture *map,
                     const float at[3])
 {
@@ -120,8 +121,8 @@ static int add_glow(float sum[3], const piece_source *s, const surface_piece *p,
     return 1;
 }
 
-/* The mean over a piece: at the middles of rows x rows alike triangles, so many that a texel of the level is not
- * stepped over. A map may glow in few texels of thousands, and the light of a whole element comes from here. */
+/* Mean over a piece: sampled at the middles of rows x rows congruent triangles, enough to visit each texel of the
+ * level. Only a few texels of a map may glow, and they provide all light of an element. */
 void lmb_source_emission(float out[3], const piece_source *s, const surface_piece *p)
 {
     const lmb_material *m = s->triangle.material;
@@ -137,7 +138,7 @@ void lmb_source_emission(float out[3], const piece_source *s, const surface_piec
     float sum[3] = {0.0f, 0.0f, 0.0f};
     int standing = 0;
     for (int i = 0; i < rows * rows; ++i) {
-        const int row = i / rows, column = i % rows, down = row + column >= rows; /* the far half, turned over */
+        const int row = i / rows, column = i % rows, down = row + column >= rows; /* the far half, mirrored */
         const float x = (float)(down ? rows - 1 - column : column), y = (float)(down ? rows - 1 - row : row);
         const float third = down ? 2.0f / 3.0f : 1.0f / 3.0f;
         const float at[3] = {(x + third) * step, (y + third) * step, lod};

@@ -1,4 +1,4 @@
-/* piece.h: a piece of a triangle: its place among others, its mean albedo and emission. Layer 8. */
+/* piece.h: a piece of a triangle: place in the order of elements, mean albedo and emission. Layer 8. */
 #ifndef LMB_RADIOSITY_PIECE_H
 #define LMB_RADIOSITY_PIECE_H
 
@@ -8,17 +8,17 @@
 
 enum { PIECE_Z_BITS = 9 };
 
-/* A triangle with what its pieces share. */
+/* A triangle with the data that all pieces share. */
 typedef struct piece_source {
     lmb_triangle triangle;
     const lmb_scene *scene;
     lmb_vec3 normal; /* of the front, unit */
     float area;
     float uv[3][2], colour[3][4];
-    float texels; /* of the image of its colour, on all of it; 0: none */
+    float texels; /* of the colour texture, over the whole triangle; 0: none */
 } piece_source;
 
-/* Part of a triangle: corners, and their barycentrics in it. */
+/* Part of a triangle: corners, and their barycentrics in the triangle. */
 typedef struct surface_piece {
     lmb_vec3 corner[3];
     float b1[3], b2[3];
@@ -45,7 +45,7 @@ static inline float piece_uv_at(const piece_source *s, int c, float b1, float b2
     return piece_mix(s->uv[0][c], s->uv[1][c], s->uv[2][c], b1, b2);
 }
 
-/* Which of six sides of space a normal looks to. */
+/* 0 .. 5: dominant axis and sign of a normal. */
 static inline uint32_t piece_facing(lmb_vec3 n)
 {
     const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
@@ -55,7 +55,7 @@ static inline uint32_t piece_facing(lmb_vec3 n)
     return y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
 }
 
-/* Bits 0, 1, 2, .. to 0, 3, 6, .. */
+/* Moves bits 0, 1, 2, .. to 0, 3, 6, .. */
 static inline uint32_t piece_spread_bits(uint32_t v)
 {
     uint32_t out = 0;
@@ -65,7 +65,7 @@ static inline uint32_t piece_spread_bits(uint32_t v)
     return out;
 }
 
-/* The place along a Z curve of 2^PIECE_Z_BITS steps an axis from `low`, `per` of them a metre. */
+/* Index along a Z curve of 2^PIECE_Z_BITS steps per axis, which start at `low`; `per` steps per metre. */
 static inline uint32_t piece_place(lmb_vec3 at, lmb_vec3 low, float per)
 {
     const float last = (float)((1 << PIECE_Z_BITS) - 1);
@@ -75,17 +75,19 @@ static inline uint32_t piece_place(lmb_vec3 at, lmb_vec3 low, float per)
     return piece_spread_bits(x) | piece_spread_bits(y) << 1 | piece_spread_bits(z) << 2;
 }
 
-/* As lmb_elements_rest; `sent`: flux of each channel that the last bounce received from others than elements, W. */
+/* Like lmb_elements_rest; `sent`: flux of each channel that the last bounce received from senders other than elements,
+ * W. */
 lmb_status lmb_elements_rest_of(lmb_elements *inout, const double sent[3], int32_t bounces);
 
-/* 1 where the triangle has an area. */
+/* Returns 1 if the triangle has an area. */
 int lmb_source_open(piece_source *out, const lmb_scene *scene, uint32_t id);
 
-/* The mean albedo of a piece, and the share of it that stands, by four points. `share`: its area's, of its triangle. */
+/* Sets the mean albedo of a piece and returns its opaque share, both from four points. `share`: of the triangle's
+ * area. */
 float lmb_source_albedo(float albedo[3], const piece_source *s, const surface_piece *p, float share);
 
-/* The mean radiance that a piece emits, W/(sr m2): at the middles of up to 32 x 32 alike triangles, of those that
- * stand. */
+/* Mean radiance that a piece emits, W/(sr m2): sampled at the middles of up to 32 x 32 congruent triangles, over the
+ * opaque ones. */
 void lmb_source_emission(float out[3], const piece_source *s, const surface_piece *p);
 
 #endif

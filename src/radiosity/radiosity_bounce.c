@@ -1,4 +1,4 @@
-/* radiosity_bounce.c: elements receive light by the same cuts as pixels, and send it on. Layer 8. */
+/* radiosity_bounce.c: elements receive light through the same cuts as pixels, and reflect it. Layer 8. */
 #include <lambent/elements.h>
 
 #include <string.h>
@@ -17,15 +17,15 @@ int32_t lmb_elements_tiles(const lmb_elements *elements)
     return elements == NULL ? 0 : (int32_t)((elements->count + LMB_TILE_PIXELS - 1) / LMB_TILE_PIXELS);
 }
 
-/* --- who receives together ------------------------------------------------------------------------------------------
+/* --- groups of receivers --------------------------------------------------------------------------------------------
  *
  * Elements that share a cut should lie close together: the cut is refined for the nearest of them, and segments to
- * distant ones traverse everything between. Cornell, seconds a bounce by 4, 16, 64 at once: 0.5, 0.32, 0.36;
- * bunny_room, where the curve jumps from walls to the bunny: 1.1, 2.9, 6.6. So 16 where they are a compact piece of
- * surface, else 4. */
+ * distant ones traverse everything between. Seconds per bounce with groups of 4, 16, 64: Cornell 0.5, 0.32, 0.36;
+ * bunny_room, where the curve jumps from walls to the bunny, 1.1, 2.9, 6.6. So a group has 16 elements if these are a
+ * compact piece of surface, otherwise 4. */
 
 enum { TOGETHER = 16, FEW = 4 };
-#define COMPACT 8.0f /* squared diagonal of their box, of their area: a square has 2, one of 4 x 1 4.25 */
+#define COMPACT 8.0f /* max squared diagonal of their box / area: 2 for a square, 4.25 for 4 x 1 */
 
 static int are_compact(const lmb_elements *e, uint32_t first, uint32_t count)
 {
@@ -121,7 +121,7 @@ lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_element_
     return status;
 }
 
-/* --- what would follow -------------------------------------------------------------------------------------------- */
+/* --- the bounces that would follow -------------------------------------------------------------------------------- */
 
 /* Flux of a channel that the shadow maps send, W. */
 static double sent_by(const lmb_tree *lights, int channel)
@@ -133,10 +133,10 @@ static double sent_by(const lmb_tree *lights, int channel)
     return sum;
 }
 
-/* Share of a channel's light that the last bounce kept. Of elements alone: of B before and B' after it,
- * sum of A B' B' / sum of A B' B, which counts each as much as it still has: light that leaves into the open is gone
- * and tells nothing of the rest. What maps sent has no place among the elements: then it is all that is sent on of
- * all that came. */
+/* Share of a channel's light that survived the last bounce. With B before and B' after the bounce, light between
+ * elements gives sum of A B' B' / sum of A B' B. It weights each element by the light still there, because light that
+ * left into the open does not represent the rest. Light from maps has no position among the elements; then the ratio is
+ * the total reflected over the total received. */
 static double kept_of(const lmb_elements *e, double by_lights, int channel)
 {
     double kept = 0.0, before = 0.0;

@@ -1,9 +1,9 @@
-/* mend.c: pixels of a warped tile that nothing around them explains. Layer 6.                                     [P12]
+/* mend.c: corrects single pixels of a warped tile that disagree with their neighbours. Layer 6.                   [P12]
  *
- * Where a surface has a jump of depth that no view shows well, single rays slip between the texels of two views, or end
- * on what another view shows elsewhere; a simple model has gaps of a pixel, too. A speck of one pixel is seen at once,
- * though it is less wrong than an edge that lies a pixel off. So what all pixels around it show is believed more than
- * the ray itself: its surface is that on which most of them would lie at this ray. */
+ * Near a depth discontinuity that no view captures well, single rays slip between the texels of two views or hit a
+ * surface that another view shows elsewhere. Simple models also have gaps of one pixel. A one-pixel speck is
+ * conspicuous, although an edge that is a pixel off is the larger error. So the neighbours count more than the pixel's
+ * own ray: the pixel gets the surface that most neighbours agree on, intersected with its ray. */
 #include "mend.h"
 
 #include "../base/vec.h"
@@ -11,18 +11,18 @@
 
 #if LMB_RELIEF
 
-#define NEAR_BY 4.0f  /* pixels' sides of depth within which two pixels show one surface */
-#define EDGE_ON 0.05f /* cosine to the ray under which a plane tells no depth */
+#define NEAR_BY 4.0f  /* max depth difference of two pixels on one surface, in pixel sides */
+#define EDGE_ON 0.05f /* cosine to the ray below which a plane gives no depth */
 
-enum { PASSES = 3 }; /* a pixel that was mended explains the next one */
+enum { PASSES = 3 }; /* a corrected pixel can correct the next one */
 
-/* What the pixels around one show, as many as lie in the tile. */
+/* The neighbours of a pixel that lie in the tile. */
 typedef struct around {
-    lmb_vec3 origin, along; /* the ray of the one in the middle, from the eye; `along` goes 1 m along the axis */
+    lmb_vec3 origin, along; /* ray of the middle pixel, from the eye; `along` goes 1 m along the axis */
     float same;             /* m of depth */
-    float depth[8];         /* m, of each one's plane at that ray */
+    float depth[8];         /* m, of the neighbour's plane at that ray */
     int at[8];
-    int hits;               /* those that show something; they come first */
+    int hits;               /* neighbours with a surface; they come first */
 } around;
 
 typedef struct mender {
@@ -51,7 +51,8 @@ uint64_t lmb_relief_beside(int k)
     return (y == 0 ? rows >> 8 : rows << 8 * (y - 1)) & ~((uint64_t)1 << k);
 }
 
-/* How deep the plane of pixel k is at the ray; of one that is nearly along it, how deep the pixel is. */
+/* Depth at which the plane of pixel k meets the ray. If the plane is nearly parallel to the ray: the depth of pixel
+ * k. */
 static float depth_at(const mender *m, const around *a, int k)
 {
     const lmb_vec3 to = sub3(sub3(get(m->tile->position, k), m->job->eye), a->origin), n = get(m->tile->normal, k);
@@ -74,7 +75,7 @@ static void look_around(around *out, const mender *m, uint64_t shown, int k)
     }
 }
 
-/* How many of them have a surface at a depth. */
+/* Counts the neighbours with a surface at a depth. */
 static int agree(const around *a, float depth)
 {
     int n = 0;
@@ -84,7 +85,7 @@ static int agree(const around *a, float depth)
     return n;
 }
 
-/* Of the surfaces around the one that most show. */
+/* Counts the neighbours that share the most common surface. */
 static int most_agree(const around *a)
 {
     int max = 0;
@@ -94,7 +95,7 @@ static int most_agree(const around *a)
     return max;
 }
 
-/* The mean of those that most of the others agree with. */
+/* Sets pixel k to the mean of the largest group of neighbours that agree. */
 static void take_surface(const mender *m, const around *a, int k)
 {
     lmb_tile *t = m->tile;
@@ -122,7 +123,7 @@ static void take_surface(const mender *m, const around *a, int k)
     t->id[k] = t->id[a->at[best]];
 }
 
-/* Are there two pixels of about the same depth beside it? One may be a speck as well. */
+/* Do at least two neighbours have about the same depth? One of them may be a speck too. */
 static int has_equals(const mender *m, uint64_t beside, int k)
 {
     const float own = m->tile->depth[k], same = NEAR_BY * m->job->pixel * (m->job->perspective ? own : 1.0f);
@@ -133,7 +134,7 @@ static int has_equals(const mender *m, uint64_t beside, int k)
     return found > 1;
 }
 
-/* Pixels of the tile that lie in the picture. */
+/* Mask of the tile's pixels that lie in the picture. */
 static uint64_t in_picture(const lmb_tile *t, const lmb_view *view)
 {
     uint64_t out = 0;
@@ -143,7 +144,7 @@ static uint64_t in_picture(const lmb_tile *t, const lmb_view *view)
     return out;
 }
 
-/* Pixels with a surface, and those that stay as the simple model is. */
+/* Mask of the pixels that show a surface and were not left to the simple model. */
 static uint64_t showing(const lmb_tile *t, uint64_t missed)
 {
     uint64_t out = 0;
@@ -153,8 +154,8 @@ static uint64_t showing(const lmb_tile *t, uint64_t missed)
     return out & ~missed;
 }
 
-/* One look at all pixels, by what the last one left. Returns whether one more shows something now. A pixel that shows the
- * simple model is mended by surfaces alone, one that shows nothing by whatever is around it. */
+/* Runs one pass over all pixels, reading the result of the previous pass. Returns 1 if a pixel became a hit. A pixel of
+ * the simple model is corrected only from surfaces, an empty pixel from any neighbour. */
 static int mend_all(mender *m, lmb_relief_found *found, uint64_t inside)
 {
     const uint64_t hit = found->hit, all = showing(m->tile, found->missed);

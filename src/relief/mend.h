@@ -1,4 +1,4 @@
-/* mend.h: pixels of a warped tile that nothing around them explains. Layer 6. */
+/* mend.h: corrects single pixels of a warped tile that disagree with their neighbours. Layer 6. */
 #ifndef MEND_H
 #define MEND_H
 
@@ -6,11 +6,11 @@
 
 #include "../lane/kernels.h"
 
-/* lmb_relief_mend: after the kernel, before pixels that missed are cleared. `found` says afterwards what became of
- * each; a pixel that the simple model left out may be among those that hit. */
+/* lmb_relief_mend: call this after the kernel and before you clear the pixels that missed. Updates `found`; a pixel
+ * that the simple model left empty may become a hit. */
 void lmb_relief_mend(lmb_tile *inout, lmb_relief_found *found, const lmb_relief_job *job, const lmb_view *view);
 
-/* lmb_relief_beside: bits of the up to eight pixels of a tile around pixel k. */
+/* lmb_relief_beside: mask of the up to eight tile pixels around pixel k. */
 uint64_t lmb_relief_beside(int k);
 
 #endif

@@ -1,4 +1,4 @@
-/* relief.c: opens a .lmr in place: checks all of it once, then trusts it. Layer 6. [P10] */
+/* relief.c: opens a .lmr in place: checks the whole file once, then trusts it. Layer 6. [P10] */
 #include <lambent/relief.h>
 
 #include <string.h>
@@ -9,19 +9,19 @@
 #if LMB_RELIEF
 
 enum { MAGIC, ORDER, SIZE, FORMAT, VIEWS, RECORDS, VERTICES, TRIANGLES, POSITIONS, NORMALS, COLOURS, INDICES,
-       INDEX_FORMAT, NONE }; /* words of the header; the last one is the tool's checksum */
+       INDEX_FORMAT, NONE }; /* header words; the last one is the tool's checksum */
 enum { V_KIND = 16, V_WIDTH, V_HEIGHT, V_TEXELS }; /* words of a view's record, after its 16 floats */
 enum { HEADER_BYTES = 4 * LMB_RELIEF_HEADER_WORDS, VIEW_BYTES = 4 * LMB_RELIEF_VIEW_WORDS, MAX_SIDE = 4096 };
 
 #define OWN_ORDER   0x01020304u
 #define OTHER_ORDER 0x04030201u
-#define MAX_COUNT   0x0fffffffu /* limit of vertices and of triangles: products with them fit 64 bits */
+#define MAX_COUNT   0x0fffffffu /* limit of vertices and triangles: products with them fit 64 bits */
 
-/* A file while it is checked. */
+/* A file that is being checked. */
 typedef struct source {
     const uint8_t *data;
     uint64_t bytes;
-    int swapped; /* its numbers are in the other byte order */
+    int swapped; /* the numbers are in the other byte order */
 } source;
 
 static uint32_t turned(uint32_t v) { return v >> 24 | (v >> 8 & 0xff00u) | (v << 8 & 0xff0000u) | v << 24; }
@@ -43,7 +43,7 @@ static float float_at(const source *s, uint64_t at)
 
 static uint32_t header(const source *s, int word) { return word_at(s, 4u * (uint64_t)word); }
 
-/* May `size` bytes lie there? */
+/* Do `size` bytes at offset `at` lie inside the file? */
 static int holds(const source *s, uint64_t at, uint64_t size)
 {
     return at % 4 == 0 && at >= HEADER_BYTES && at <= s->bytes && size <= s->bytes - at;
@@ -84,7 +84,7 @@ static lmb_view view_at(const source *s, uint64_t at)
     return v;
 }
 
-/* Within these limits products of a view's lengths neither overflow nor vanish. */
+/* Within these limits, products of a view's lengths neither overflow nor underflow. */
 static int is_length(float v) { return v > 1e-9f && v < 1048576.0f; }
 
 static int is_view(const source *s, const lmb_view *v, uint64_t at)
@@ -99,7 +99,7 @@ static int is_view(const source *s, const lmb_view *v, uint64_t at)
                  texel_bytes(header(s, FORMAT), (uint64_t)v->frame_width * (uint64_t)v->frame_height));
 }
 
-/* Row of a matrix that gives scale * axis . (p - eye) + rest * w. */
+/* Sets the row of a matrix that computes scale * axis . (p - eye) + rest * w. */
 static void set_row(float row[4], lmb_vec3 axis, float scale, lmb_vec3 eye)
 {
     const lmb_vec3 a = mul3(axis, scale);
@@ -182,9 +182,9 @@ typedef struct range {
     uint64_t at, bytes;
 } range;
 
-enum { ARRAYS = 5 }; /* besides the views' texels */
+enum { ARRAYS = 5 }; /* besides the texels of the views */
 
-/* The bytes of array i, or of the texels of view i - ARRAYS. */
+/* Byte range of array i, or of the texels of view i - ARRAYS. */
 static range range_of(const source *s, uint32_t i)
 {
     const uint64_t vertices = header(s, VERTICES), corners = 3 * (uint64_t)header(s, TRIANGLES);
@@ -210,8 +210,8 @@ static int overlaps(range a, range b)
     return a.bytes > 0 && b.bytes > 0 && a.at < b.at + b.bytes && b.at < a.at + a.bytes;
 }
 
-/* Do no two arrays share a byte? Views are compared with each other only if lmb_relief_open accepts so many, so that
- * the time grows no faster than the file. */
+/* Are all arrays disjoint? Views are compared with each other only if lmb_relief_open accepts that many, so that the
+ * time stays linear in the file size. */
 static int are_apart(const source *s)
 {
     const uint32_t views = header(s, VIEWS), all = ARRAYS + views;
@@ -227,7 +227,7 @@ static int are_apart(const source *s)
     return 1;
 }
 
-/* Every offset and every number, in either byte order. */
+/* Checks each offset and each number, in either byte order. */
 static lmb_status check_file(source *s, const void *data, size_t bytes)
 {
     if (data == NULL) {
@@ -348,7 +348,7 @@ static void turn(uint8_t *p, uint64_t count, int size)
     }
 }
 
-/* Sections do not overlap, so no byte is swapped twice. */
+/* Sections do not overlap, so each byte is swapped once. */
 lmb_status lmb_relief_swap(void *data, size_t bytes)
 {
     source s;

@@ -1,9 +1,9 @@
 /* relief_shadow.c: the complex surface in its shadow map, and the shadow test. Layer 6. [P7 P8 P9]
  *
- * Williams (1978): the shadow map holds the complex surface's own depths, warped like the eye's picture; a point is in
- * shadow where the map has something nearer. The point is the chosen one (P8), so that its place in the map is where
- * the map's own texels show it. Its plane says how deep it would be at the middle of each of the four texels around
- * that place, so a slope needs no bias; what is left over is curvature, and the warp's own error. */
+ * Williams (1978): the shadow map holds depths of the complex surface, warped like the eye's picture. A point is in
+ * shadow if the map has a nearer surface. The point is the candidate of the chosen view (P8), so it projects to the map
+ * texels that show it. The point's plane is evaluated at the middles of the four texels around the projection, so
+ * slopes need no bias. The remaining error is curvature and the warp's own error. */
 #include <lambent/relief.h>
 
 #include "../base/light_kind.h"
@@ -14,8 +14,8 @@
 
 #if LMB_RELIEF
 
-#define SLACK   1.0f  /* texels a receiver may lie behind what the map shows and still be lit */
-#define STEEP   4.0f  /* a receiver's plane is extrapolated by this many texels at most */
+#define SLACK   1.0f  /* max texels of a lit receiver behind the surface in the map */
+#define STEEP   4.0f  /* max texels by which a receiver's plane is extrapolated */
 #define EDGE_ON 1e-3f
 
 /* --- the map ------------------------------------------------------------------------------------------------------ */
@@ -77,7 +77,7 @@ lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, const lmb_kernels *
     return LMB_OK;
 }
 
-/* --- what is lit -------------------------------------------------------------------------------------------------- */
+/* --- the shadow test ---------------------------------------------------------------------------------------------- */
 
 /* A point in one face of a map. */
 typedef struct receiver {
@@ -85,7 +85,7 @@ typedef struct receiver {
     const lmb_target *face;
     int32_t size;       /* texels a side */
     float x, y, w;      /* texels; m along the face's axis */
-    float texel;        /* m of a texel's side there */
+    float texel;        /* m, side of a texel at that depth */
     lmb_vec3 at, plane; /* m; unit */
 } receiver;
 
@@ -101,7 +101,7 @@ static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
     return a.y >= a.z ? 2 + (d.y < 0.0f) : 4 + (d.z < 0.0f);
 }
 
-/* 0 where the receiver lies outside the map. */
+/* Returns 0 if the receiver lies outside the map. */
 static int find_receiver(receiver *r, const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile, int k)
 {
     r->at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
@@ -124,7 +124,7 @@ static int find_receiver(receiver *r, const lmb_shadow_map *map, const lmb_light
     return r->x >= 0.0f && r->y >= 0.0f && r->x <= size && r->y <= size;
 }
 
-/* How deep the receiver's plane is at the middle of texel x, y. */
+/* Depth of the receiver's plane at the middle of texel x, y. */
 static float plane_depth(const receiver *r, int32_t x, int32_t y)
 {
     const lmb_view *v = r->view;
@@ -162,8 +162,8 @@ static int is_lit(const receiver *r)
     return lit >= 0.5f;
 }
 
-/* A pixel alone among three or more others, all lit or all not, is as they are: such a speck is a texel's edge, not an
- * object's. */
+/* If a pixel differs from three or more neighbours that all agree (lit or unlit), it becomes like them: such a speck is
+ * the edge of a texel, not of an object. */
 static uint64_t without_specks(uint64_t lit, uint64_t shown)
 {
     uint64_t out = lit;

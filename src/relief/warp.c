@@ -21,7 +21,7 @@ static int is_how(const lmb_relief_how *h)
            in_range(h->views, LMB_RELIEF_TILE_VIEWS) && in_range(h->keep, KEEP);
 }
 
-/* Everything but the views. One view is kept where texels are drawn as they are. */
+/* Sets all fields except the views. If texels are drawn as they are, only one view is kept. */
 static void set_job(lmb_relief_job *job, const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how)
 {
     const float wide = 2.0f * view->half_width / (float)view->frame_width,
@@ -39,7 +39,7 @@ static void set_job(lmb_relief_job *job, const lmb_relief *relief, const lmb_vie
     job->pixel = maxf(wide, high);
 }
 
-/* The views whose directions are nearest to the eye's: they see past the same edges as the eye. */
+/* Adds the views with directions nearest to the eye's: they see past the same edges as the eye. */
 static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_relief *relief, int32_t max)
 {
     int k = 0;
@@ -58,7 +58,7 @@ static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_rel
             for (int32_t c = 0; c < job->count; ++c) {
                 known |= job->view[c] == v;
             }
-            if (!known && (which == NULL || d > best)) { /* where the position is NaN there are views, too */
+            if (!known && (which == NULL || d > best)) { /* a NaN position needs views too */
                 best = d;
                 which = v;
             }
@@ -67,7 +67,7 @@ static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_rel
     }
 }
 
-/* The views that suit the most pixels; of equals the first. */
+/* Adds the views that suit the most pixels; ties go to the first. */
 static void choose_views(lmb_relief_job *job, const lmb_tile *tile, const lmb_kernels *kernels,
                          const lmb_relief *relief, int32_t max)
 {

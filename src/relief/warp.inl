@@ -1,44 +1,45 @@
-/* warp.inl: the complex surface along the eye's rays, by what reference views show of it. Layer 6.          [P3-P6 P12]
+/* warp.inl: intersects the eye's rays with the complex surface, using the reference views. Layer 6.         [P3-P6 P12]
  *
- * Lanes are pixels. With q on a pixel's ray, a view has q at texel (u, v) with depth d, and shows depth s there: a
- * candidate. f = d - s is over 0 where q is before what the view shows, under 0 where it is behind. Between texels s is
- * bilinear, so f changes along the ray at a known rate: the ray meets the view's surface about -f / rate further on. */
-#define RELIEF_JUMP   4.0f  /* texels: neighbours farther apart in depth are two surfaces */
-#define RELIEF_TURNED 0.02f /* a surface that rises along the ray by less is turned away from the eye */
-#define RELIEF_BEFORE 0.1f   /* pixels that a point may be before the surface, and ... */
-#define RELIEF_BEHIND 0.5f  /* ... behind it, to be on it */
-#define RELIEF_ROUNDS 3     /* surfaces on a ray: those that it passes closely, and the one that it meets */
-#define RELIEF_AS_EYE 0.5f  /* cosine to the eye's ray from which on a view shows what comes behind */
-#define RELIEF_SAME   0.99999f /* the same, from which on both count as one direction */
-#define RELIEF_EQUAL  0.01f /* texels within which candidates are equally near: the first view's wins */
-#define RELIEF_RIM    0.01f /* texels that a point may be outside the outermost texels' middles, by rounding */
-#define RELIEF_NEAR   1.0f  /* a view is dropped where its candidate is more texels worse than the best ... */
+ * Lanes are pixels. Let q be a point on a pixel's ray. A view has q at texel (u, v) with depth d and shows a surface of
+ * depth s there: a candidate. f = d - s is positive if q is in front of the surface, negative if q is behind. Between
+ * texels s is bilinear, so f changes along the ray at a known rate: the ray meets the view's surface about -f / rate
+ * farther on. */
+#define RELIEF_JUMP   4.0f  /* texels: neighbours with a larger depth difference are two surfaces */
+#define RELIEF_TURNED 0.02f /* a surface that rises along the ray by less faces away from the eye */
+#define RELIEF_BEFORE 0.1f   /* max pixels of a point in front of its surface, and ... */
+#define RELIEF_BEHIND 0.5f  /* ... behind it */
+#define RELIEF_ROUNDS 3     /* surfaces on a ray: grazed ones, and the one that is hit */
+#define RELIEF_AS_EYE 0.5f  /* min cosine to the eye's ray of views that can show the next surface */
+#define RELIEF_SAME   0.99999f /* min cosine of directions that count as equal */
+#define RELIEF_EQUAL  0.01f /* texels: candidates this close count as equally near; the first view wins */
+#define RELIEF_RIM    0.01f /* texels a point may lie outside the outer texel middles (rounding) */
+#define RELIEF_NEAR   1.0f  /* a view is dropped if its candidate is this many texels worse than the best ... */
 #define RELIEF_FAR    4.0f  /* ... unless the best is farther off than this */
-#define RELIEF_SETTLED 0.3f /* a step of fewer pixels than this is the last */
+#define RELIEF_SETTLED 0.3f /* pixels; a smaller step is the last */
 #define RELIEF_WORST  1e30f
 
 typedef struct relief_ray {
-    lane3 from, along; /* the simple surface's point; unit */
+    lane3 from, along; /* point on the simple surface; unit direction */
     lane3 normal;      /* of the simple surface */
-    lane pixel;        /* m of a pixel's side there */
+    lane pixel;        /* m, side of a pixel at that depth */
 } relief_ray;
 
-/* What a view shows at a point. */
+/* A view's surface near a point. */
 typedef struct relief_lookup {
-    lane u, v, d;     /* the point's place */
-    lane gap;         /* m, along the view's axis, from the point on to what is shown there */
-    lane on;          /* the same where the point is past that surface's edge: to what is shown behind it */
-    lane step;        /* m, along the eye's ray, to it */
-    lane off;         /* m, from the point (or the ray) to the candidate */
-    lane s;           /* its depth */
-    lanei at;         /* the texel, or the upper left of four, and ... */
-    lane fu, fv;      /* ... where between them */
-    lane_mask of[4];  /* which of them are on the candidate's surface */
-    lane_mask some;   /* the view shows something there */
-    lane_mask shown;  /* a candidate: that, turned to the eye */
-    lane_mask whole;  /* all four texels show its surface */
-    lane_mask free;   /* the view sees through the point, in all four texels */
-    lane_mask empty;  /* in one of them it shows nothing at all */
+    lane u, v, d;     /* the point, projected */
+    lane gap;         /* m along the view's axis from the point to the surface */
+    lane on;          /* m to the surface behind, if the point is past the edge of the nearer one */
+    lane step;        /* m along the eye's ray to the surface */
+    lane off;         /* m from the point (or the ray) to the candidate */
+    lane s;           /* depth of the candidate */
+    lanei at;         /* the nearest texel, or the upper left of four, and ... */
+    lane fu, fv;      /* ... the position between the four */
+    lane_mask of[4];  /* texels on the candidate's surface */
+    lane_mask some;   /* the view has a surface there */
+    lane_mask shown;  /* the view has a candidate: a surface that faces the eye */
+    lane_mask whole;  /* all four texels are on the candidate's surface */
+    lane_mask free;   /* the view sees through the point in all four texels */
+    lane_mask empty;  /* at least one texel is empty */
 } relief_lookup;
 
 static inline lane relief_row(const float row[4], lane3 q)
@@ -47,13 +48,13 @@ static inline lane relief_row(const float row[4], lane3 q)
     return lane_add(lane3_dot(a, q), lane_splat(row[3]));
 }
 
-/* How fast a view's numbers change along a direction. */
+/* Rate of change of a view coordinate along a direction. */
 static inline lane relief_rate(const float row[4], lane3 along)
 {
     return lane3_dot(lane3_splat(row[0], row[1], row[2]), along);
 }
 
-/* The view's depth codes at texels. */
+/* Depth codes of texels of a view. */
 static inline lanei relief_code(const lmb_relief_job *job, const lmb_relief_view *view, lanei at)
 {
     return lanei_and(lanei_gather_rgba(view->texels, at),
@@ -65,7 +66,7 @@ static inline lane relief_depth(const lmb_relief_view *view, lanei code)
     return lane_add(lane_splat(view->min), lane_mul(lane_from_int(code), lane_splat(view->per_code)));
 }
 
-/* m along the axis a unit of depth. */
+/* m along the view's axis for each unit of depth. */
 static inline lane relief_metres(const lmb_relief_view *view, lane d)
 {
     if (!view->perspective) {
@@ -74,7 +75,7 @@ static inline lane relief_metres(const lmb_relief_view *view, lane d)
     return lane_div(lane_splat(view->near_m), lane_max(lane_mul(d, d), lane_splat(1e-12f)));
 }
 
-/* How wide a texel of the view is at q, m. */
+/* Width of a texel of the view at q, m. */
 static inline lane relief_texel_at(const lmb_relief_view *view, lane3 q)
 {
     if (!view->perspective) {
@@ -84,7 +85,7 @@ static inline lane relief_texel_at(const lmb_relief_view *view, lane3 q)
     return lane_mul(lane_splat(view->texel), lane_max(ahead, lane_splat(view->near_m)));
 }
 
-/* The depth that RELIEF_JUMP texels are. */
+/* Depth difference of RELIEF_JUMP texels. */
 static inline lane relief_jump(const lmb_relief_view *view, lane d)
 {
     const float texels = RELIEF_JUMP * view->texel;
@@ -100,7 +101,8 @@ static inline lane3 relief_towards(const lmb_relief_view *view, lane3 q)
     return lane3_scale(to, lane_div(lane_splat(1.0f), lane_sqrt(lane_max(lane3_dot(to, to), lane_splat(1e-20f)))));
 }
 
-/* Where q is in the view; 0 < w keeps quotients finite. Returns where that is inside the picture. */
+/* Projects q into the view. w is clamped above 0, which keeps quotients finite. Returns the lanes inside the
+ * picture. */
 LANE_PART lane_mask relief_project(relief_lookup *out, lane *per_w, const lmb_relief_view *view, lane3 q)
 {
     const lane zero = lane_splat(0.0f), rim = lane_splat(-RELIEF_RIM);
@@ -125,7 +127,7 @@ LANE_PART lane_mask relief_project(relief_lookup *out, lane *per_w, const lmb_re
     return view->perspective ? mask_and(inside, lane_lt(zero, out->d)) : inside;
 }
 
-/* The texel to the upper left, and where between it and the next q is. */
+/* The texel to the upper left of u, v, and the fractions between it and the next. */
 static inline lanei relief_texel(lane *fu, lane *fv, const lmb_relief_view *view, lane u, lane v)
 {
     const lane u0 = lane_min(lane_trunc(u), lane_splat((float)(view->width - 2))),
@@ -135,7 +137,7 @@ static inline lanei relief_texel(lane *fu, lane *fv, const lmb_relief_view *view
     return lanei_add(lanei_mul(lane_to_int(v0), lanei_splat(view->width)), lane_to_int(u0));
 }
 
-/* Where the texels at u, v show the surface: at d = s. */
+/* Point of the surface that the view shows at u, v: the point with d = s. */
 static inline lane3 relief_place(const lmb_relief_view *view, lane u, lane v, lane s)
 {
     const lane3 across = lane3_add(lane3_of(view->corner), lane3_add(lane3_scale(lane3_of(view->per_u), u),
@@ -148,13 +150,13 @@ static inline lane3 relief_place(const lmb_relief_view *view, lane u, lane v, la
     return lane3_sub(across, lane3_scale(lane3_of(view->back), z));
 }
 
-/* Four texels' depths, of those of the surface nearest to d; of others: of the nearest texel. out->on: the nearest
- * depth behind that surface, under 0 for none. Returns where there is a surface. */
+/* Depths of four texels on the surface nearest to d. Texels on other surfaces get the depth of the nearest texel.
+ * out->on: the nearest depth behind that surface, negative if none. Returns the lanes with a surface. */
 LANE_PART lane_mask relief_gather(lane s[4], relief_lookup *out, const lmb_relief_job *job, const lmb_relief_view *view)
 {
     const lane d = out->d;
     const lanei below = lanei_add(out->at, lanei_splat(view->width)), one = lanei_splat(1);
-    /* All four are on their way before the first is wanted. */
+    /* Starts all four loads before the first is used. */
     const lanei code[4] = {relief_code(job, view, out->at), relief_code(job, view, lanei_add(out->at, one)),
                            relief_code(job, view, below), relief_code(job, view, lanei_add(below, one))};
     const lane jump = relief_jump(view, d);
@@ -183,12 +185,12 @@ LANE_PART lane_mask relief_gather(lane s[4], relief_lookup *out, const lmb_relie
     return some;
 }
 
-/* A vector of pixels, and how far their rays have advanced. */
+/* A vector of pixels, and the distance their rays have advanced. */
 typedef struct relief_way {
     relief_ray ray;
     lane t;          /* m from the simple surface */
-    uint32_t ask[LMB_RELIEF_TILE_VIEWS];  /* pixels that each view is asked for, a bit each ... */
-    uint32_t kept[LMB_RELIEF_TILE_VIEWS]; /* ... and those for which it was among the best */
+    uint32_t ask[LMB_RELIEF_TILE_VIEWS];  /* pixels, one bit each, that test each view ... */
+    uint32_t kept[LMB_RELIEF_TILE_VIEWS]; /* ... and those for which the view was among the best */
     lane_mask live, moving;
 } relief_way;
 
@@ -197,7 +199,7 @@ static inline lane3 relief_here(const relief_way *w)
     return lane3_add(w->ray.from, lane3_scale(w->ray.along, w->t));
 }
 
-/* The candidate's distance from q; or from the eye's ray. */
+/* Distance of the candidate from q, or from the eye's ray. */
 static inline lane relief_off(const lmb_relief_job *job, const relief_ray *ray, lane3 to)
 {
     if (job->pick == LMB_RELIEF_EYE_RAY) {
@@ -206,14 +208,14 @@ static inline lane relief_off(const lmb_relief_job *job, const relief_ray *ray, 
     return lane_sqrt(lane3_dot(to, to));
 }
 
-/* Orthographic views show all of the model, so there is nothing beside their pictures. */
+/* Orthographic views show the whole model, so space outside their pictures is empty. */
 static inline lane_mask relief_free(const lmb_relief_view *view, lane_mask inside, lane_mask free)
 {
     return view->perspective ? mask_and(inside, free) : mask_or(mask_not(inside), free);
 }
 
-/* The four texels' shares, of those that show the candidate's surface. Half of all: its edge, on average, as texels
- * show what is in their middle. */
+/* Bilinear coverage by the texels of the candidate's surface. Texels show the surface at their middle, so the edge lies
+ * at one half on average. */
 static inline lane relief_cover(const relief_lookup *look)
 {
     const lane one = lane_splat(1.0f), gu = lane_sub(one, look->fu), gv = lane_sub(one, look->fv);
@@ -222,7 +224,7 @@ static inline lane relief_cover(const relief_lookup *look)
     return lane_add(lane_mul(upper, gv), lane_mul(lower, look->fv));
 }
 
-/* Between texels. */
+/* Looks up a view, interpolating between texels. */
 NOINLINE void relief_lookup_between(relief_lookup *out, const lmb_relief_job *job, const lmb_relief_view *view,
                                     const relief_way *w)
 {
@@ -256,7 +258,7 @@ NOINLINE void relief_lookup_between(relief_lookup *out, const lmb_relief_job *jo
     out->off = relief_off(job, ray, lane3_scale(relief_towards(view, q), out->gap));
 }
 
-/* The nearest texel as it is. */
+/* Looks up a view at the nearest texel. */
 NOINLINE void relief_lookup_nearest(relief_lookup *out, const lmb_relief_job *job, const lmb_relief_view *view,
                                     const relief_way *w)
 {
@@ -281,7 +283,7 @@ NOINLINE void relief_lookup_nearest(relief_lookup *out, const lmb_relief_job *jo
     out->empty = relief_free(view, inside, mask_not(some));
 }
 
-/* At the place that the ray has reached. */
+/* Looks up a view at the point that the ray has reached. */
 static inline void relief_lookup_at(relief_lookup *out, const lmb_relief_job *job, const lmb_relief_view *view,
                                     const relief_way *w)
 {
@@ -292,11 +294,11 @@ static inline void relief_lookup_at(relief_lookup *out, const lmb_relief_job *jo
     }
 }
 
-/* --- which views -------------------------------------------------------------------------------------------------- */
+/* --- choice of views ---------------------------------------------------------------------------------------------- */
 
-/* The three best so far. */
+/* The three best values so far. */
 typedef struct relief_best {
-    lane value[3]; /* falling */
+    lane value[3]; /* descending */
     lanei view[3];
 } relief_best;
 
@@ -338,8 +340,8 @@ LANE_PART void relief_ray_of(relief_ray *r, const lmb_tile *tile, const lmb_reli
     }
 }
 
-/* How well a view suits a pixel: by how directly it faces the surface, and by how similar its direction is to the
- * eye's. With `pick` by the ray the second criterion comes first. */
+/* Score of a view for a pixel: how directly the view faces the surface, and how similar its direction is to the eye's.
+ * If `pick` selects by ray, the second criterion dominates. */
 LANE_PART lane relief_suits(const lmb_relief_job *job, const lmb_relief_view *view, const relief_ray *ray)
 {
     const lane3 towards = relief_towards(view, ray->from);
@@ -374,21 +376,21 @@ static void KERNEL(relief_rank)(uint8_t votes[LMB_RELIEF_VIEWS], const lmb_tile 
     }
 }
 
-/* --- the way along the ray ---------------------------------------------------------------------------------------- */
+/* --- advancing along the ray -------------------------------------------------------------------------------------- */
 
-/* What the last lookup of a ray shows of the surface. */
+/* The result of a ray's last lookup. */
 typedef struct relief_found {
-    lane worth;      /* of the best candidate in the end ... */
-    lane3 candidate; /* ... its place ... */
-    lane_mask met;   /* ... and whether it is where the ray is */
+    lane worth;      /* score of the best candidate ... */
+    lane3 candidate; /* ... its position ... */
+    lane_mask met;   /* ... and whether it lies on the ray */
     lane_mask seen_through;
-    lane_mask passed;  /* the point lies in front of what some view shows */
-    lane as_eye, onward; /* m to what the view with the direction nearest to the eye's shows; as_eye: their cosine */
-    lane weight, step; /* sums over the views that agree */
+    lane_mask passed;  /* the point lies in front of a surface of some view */
+    lane as_eye, onward; /* cosine of the view nearest to the eye's direction; m to the surface in that view */
+    lane weight, step; /* sums over the agreeing views */
     lane3 codes, normal;
 } relief_found;
 
-/* What counts against a candidate, m: its distance, a slanted view, a jump beside it. */
+/* Penalty of a candidate, m: its distance, an oblique view, a depth discontinuity beside it. */
 static inline lane relief_against(const lmb_relief_job *job, lane texel, const relief_lookup *look, lane faces)
 {
     const lane one = lane_splat(1.0f);
@@ -399,7 +401,7 @@ static inline lane relief_against(const lmb_relief_job *job, lane texel, const r
                     lane_pick(look->whole, lane_splat(0.0f), texel));
 }
 
-/* The views of the best candidates, for the pixels whose rays advance. */
+/* Keeps the views of the best candidates for the pixels whose rays still advance. */
 NOINLINE void relief_keep(relief_way *w, const lmb_relief_job *job, const relief_best *best)
 {
     const uint32_t moving = mask_bits(w->moving);
@@ -412,9 +414,9 @@ NOINLINE void relief_keep(relief_way *w, const lmb_relief_job *job, const relief
     }
 }
 
-/* One lookup for the pixels whose rays still advance: how far to advance. A view without a surface near the best
- * candidate so far is dropped, unless the final distance is large. Three times the gap is enough for any surface that
- * both the view and the eye see well. */
+/* Runs one lookup for the pixels whose rays still advance and returns their steps. A view without a surface near the
+ * best candidate so far is dropped, unless the best candidate is far off. The step is limited to three times the gap
+ * plus a texel, which suffices for any surface that both the view and the eye see well. */
 NOINLINE lane relief_advance(relief_way *w, const lmb_relief_job *job)
 {
     const lane3 q = relief_here(w);
@@ -451,7 +453,7 @@ NOINLINE lane relief_advance(relief_way *w, const lmb_relief_job *job)
 
 /* --- the surface -------------------------------------------------------------------------------------------------- */
 
-/* A signed number of `bits` bits at bit `from`. */
+/* A signed field of `bits` bits at bit `from`. */
 static inline lane relief_signed(lanei word, int from, int bits)
 {
     return lane_from_int(lanei_shift(lanei_mul(word, lanei_splat((int32_t)(1u << (32 - from - bits)))), 32 - bits));
@@ -480,7 +482,7 @@ static inline lane3 relief_codes(const lmb_relief_job *job, const lmb_relief_vie
     return c;
 }
 
-/* On the octahedron |x| + |y| + |z| = 1: as lmb_octahedral_decode, not yet of unit length. */
+/* Point on the octahedron |x| + |y| + |z| = 1: like lmb_octahedral_decode, but not normalized. */
 static inline lane3 relief_normal(const lmb_relief_job *job, const lmb_relief_view *view, lanei at)
 {
     const size_t texels = (size_t)view->width * (size_t)view->height;
@@ -506,7 +508,7 @@ static inline lane3 relief_normal(const lmb_relief_job *job, const lmb_relief_vi
     return lane3_scale(n, lane_splat(full ? 1.0f / 32767.0f : 1.0f / 127.0f));
 }
 
-/* Weighted colour and normal of the texels that show the candidate's surface. */
+/* Adds the weighted colour and normal of the texels on the candidate's surface. */
 NOINLINE void relief_paint(relief_found *f, const lmb_relief_job *job, const lmb_relief_view *view,
                             const relief_lookup *look, lane weight)
 {
@@ -525,8 +527,8 @@ NOINLINE void relief_paint(relief_found *f, const lmb_relief_job *job, const lmb
     }
 }
 
-/* The weight of a view: by the angle at which it sees the surface, by the distance of its candidate, and by how many of
- * the four texels show it. */
+/* Weight of a view: depends on the angle to the surface, the distance of the candidate, and the number of texels (of
+ * four) on its surface. */
 static inline lane relief_weight(const lmb_relief_job *job, lane texel, const relief_lookup *look, lane faces)
 {
     const lane one = lane_splat(1.0f), f = lane_max(faces, lane_splat(0.05f));
@@ -548,7 +550,7 @@ static inline void relief_clear(relief_found *f)
     f->candidate = f->codes = f->normal = lane3_splat(0.0f, 0.0f, 0.0f);
 }
 
-/* Adds to `f` what view i shows of the pixels `asked`; `look` is its lookup at the place that the rays have reached. */
+/* Adds to `f` the requested pixels of view i; `look` is the view's lookup at the points that the rays have reached. */
 NOINLINE void relief_hear(relief_found *f, const relief_way *w, const lmb_relief_job *job, int32_t i,
                             const relief_lookup *look, lane_mask asked)
 {
@@ -581,7 +583,7 @@ NOINLINE void relief_hear(relief_found *f, const relief_way *w, const lmb_relief
     relief_paint(f, job, view, look, lane_keep(says, relief_weight(job, texel, look, faces)));
 }
 
-/* The last lookup: the views that were kept show what the surface is, the others whether a surface can be there. */
+/* Last lookup: the kept views define the surface; the other views decide whether a surface can exist there. */
 NOINLINE void relief_arrive(relief_found *f, const relief_way *w, const lmb_relief_job *job)
 {
     relief_clear(f);
@@ -609,7 +611,7 @@ NOINLINE void relief_set_out(relief_way *w, const lmb_tile *tile, const lmb_reli
     }
 }
 
-/* Colour between two codes: a quarter of a code off at most, exact at codes. */
+/* Interpolates between two sRGB codes: at most a quarter of a code off, exact at codes. */
 static inline lane relief_linear(lane code)
 {
     const lane whole = lane_min(lane_max(lane_trunc(code), lane_splat(0.0f)), lane_splat(254.0f));
@@ -646,7 +648,7 @@ NOINLINE void relief_store(lmb_tile *out, const relief_way *w, const relief_foun
     lane_store(out->depth + k, lane_pick(hit, depth, lane_load(out->depth + k)));
 }
 
-/* Advances each pixel's ray until its step is short. */
+/* Advances each ray until its step is short. */
 NOINLINE void relief_travel(relief_way *w, const lmb_relief_job *job)
 {
     const lane near = lane_mul(lane_splat(RELIEF_SETTLED), w->ray.pixel);
@@ -665,7 +667,7 @@ NOINLINE void relief_travel(relief_way *w, const lmb_relief_job *job)
     }
 }
 
-/* The pixels whose rays end over open background: a view with about the eye's direction shows nothing there. */
+/* Pixels with rays that end in open background: a view with about the eye's direction is empty there. */
 NOINLINE lane_mask relief_open(const relief_way *w, const lmb_relief_job *job, lane_mask of)
 {
     lane_mask open = mask_and(of, mask_not(of));
@@ -679,9 +681,9 @@ NOINLINE lane_mask relief_open(const relief_way *w, const lmb_relief_job *job, l
     return open;
 }
 
-/* Sorts rays into those that hit the surface, those that have passed all surfaces, and those that go on; returns 0
- * where none goes on. A ray that ends where no view with a direction similar to the eye's has a surface takes the
- * nearest candidate, unless those views show open background: what another view sees past may still be hidden from the
+/* Sorts rays into three groups: hits, rays past all surfaces, and rays that go on. Returns 0 if none goes on. If no
+ * view with a direction similar to the eye's has a surface at the end of a ray, the ray takes the nearest candidate.
+ * The exception is open background in such a view: a surface seen only by a different view may be hidden from the
  * eye. */
 NOINLINE int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job, int k,
                           int last)
@@ -693,7 +695,7 @@ NOINLINE int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, c
     const lane_mask clear = mask_and(here, mask_not(f.seen_through));
     const lane_mask passed = mask_and(mask_and(w->live, f.passed), mask_not(clear));
     const lane_mask on = mask_and(passed, lane_lt(lane_splat(RELIEF_AS_EYE), f.as_eye));
-    const int away = last && job->outside; /* where a model has an outside, nothing comes behind it */
+    const int away = last && job->outside; /* behind a model's outside there is no further surface */
     const lane_mask ends = last && !away ? passed : mask_and(passed, mask_not(on));
     const lane_mask open = relief_open(w, job, ends);
     const lane_mask hit = mask_or(clear, mask_and(mask_and(ends, some), mask_not(open)));
@@ -706,7 +708,7 @@ NOINLINE int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, c
     return mask_bits(on) != 0;
 }
 
-/* A ray that passes a surface goes on to what the view with the direction nearest to the eye's shows there. */
+/* A ray that passes a surface goes on to the next surface in the view nearest to the eye's direction. */
 static void KERNEL(relief_warp)(lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job)
 {
     const int rounds = job->as_is ? 1 : RELIEF_ROUNDS;

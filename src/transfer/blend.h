@@ -1,4 +1,4 @@
-/* blend.h: light as a blend of up to four clusters'. Layer 9. */
+/* blend.h: light blended from up to four clusters. Layer 9. */
 #ifndef LMB_TRANSFER_BLEND_H
 #define LMB_TRANSFER_BLEND_H
 
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Two words of two clusters each, then a word of weights, in 255ths. */
+/* Words 0 and 1 hold two cluster indices each, word 2 the weights in 255ths. */
 static inline void transfer_blend(float out[9], const lmb_transfer_light *light, const uint32_t *b)
 {
     memset(out, 0, 9 * sizeof *out);

@@ -1,12 +1,12 @@
-/* coverage.inl: how triangles share the cells of a block of a shadow map. Layer 9. */
+/* coverage.inl: divides the cells of a shadow map block among triangles. Layer 9. */
 #ifndef LMB_TRANSFER_COVERAGE_INL
 #define LMB_TRANSFER_COVERAGE_INL
 
 static const float share_column[LMB_TRANSFER_BLOCK_CELLS] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 static const float share_row[LMB_TRANSFER_BLOCK_CELLS] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
-#define SHARE_REACH 0.01f  /* of what comes near a cell that no outline has */
-#define SHARE_LEAST 1e-12f /* so that no product is denormal */
+#define SHARE_REACH 0.01f  /* weight of a triangle near a cell that no outline covers */
+#define SHARE_LEAST 1e-12f /* keeps products from being denormal */
 
 LANE_INLINE lane share_value(const float f[3], lane x, lane y)
 {
@@ -15,8 +15,8 @@ LANE_INLINE lane share_value(const float f[3], lane x, lane y)
 
 LANE_INLINE lane share_clamp(lane v) { return lane_min(lane_max(v, lane_splat(0.0f)), lane_splat(1.0f)); }
 
-/* The part of a cell that two edges leave of it, which leave `a` and `b`: what edges at right angles do, and those that
- * lie against each other, or alike, mixed by the cosine of their angle. */
+/* The part of a cell inside two edges that keep `a` and `b` of it. Perpendicular edges keep a b; opposite or equal
+ * edges keep max(a + b - 1, 0) or min(a, b). Other angles mix both by the cosine. */
 LANE_INLINE lane share_both(lane a, lane b, float cosine)
 {
     const lane one = lane_splat(1.0f), zero = lane_splat(0.0f);
@@ -25,7 +25,7 @@ LANE_INLINE lane share_both(lane a, lane b, float cosine)
     return lane_add(lane_mul(lane_splat(1.0f - by), lane_mul(a, b)), lane_mul(lane_splat(by), alike));
 }
 
-/* How much of a cell lies within a triangle's outline, and how near it comes. */
+/* The part of a cell inside a triangle's outline, and how close the outline comes. */
 LANE_INLINE void share_cover(lane *cover, lane *reach, const lmb_transfer_shown *s, lane x, lane y)
 {
     lane in[3], part[3];
@@ -38,7 +38,7 @@ LANE_INLINE void share_cover(lane *cover, lane *reach, const lmb_transfer_shown 
     *reach = share_clamp(lane_add(lane_min(in[0], lane_min(in[1], in[2])), lane_splat(1.0f)));
 }
 
-/* In how much of a cell is a nearer than b? */
+/* The part of a cell in which a is nearer than b. */
 LANE_INLINE lane share_nearer(const lmb_transfer_shown *a, const lmb_transfer_shown *b, lane x, lane y)
 {
     float gap[3];
@@ -55,7 +55,8 @@ LANE_INLINE lane share_less(lane part, lane covered)
     return lane_max(lane_mul(part, lane_sub(lane_splat(1.0f), covered)), lane_splat(SHARE_LEAST));
 }
 
-/* Each has what it covers, but for what nearer ones cover; all of them together have the cell. */
+/* Each triangle gets the cell area that it covers minus the coverage of nearer triangles; the shares of a cell add up
+ * to 1. */
 static void KERNEL(transfer_share)(float out[LMB_TRANSFER_SHARING][LMB_TRANSFER_BLOCK_CELLS],
                                    const lmb_transfer_shown *shown, int32_t count, const float at[2], int32_t cells)
 {
@@ -75,7 +76,7 @@ static void KERNEL(transfer_share)(float out[LMB_TRANSFER_SHARING][LMB_TRANSFER_
                 share_cover(&cover[i], &reach, &shown[i], x, y);
             }
             part[i] = cover[i];
-            lane_store(out[i] + k, reach); /* kept here: a third array of 512-bit lanes exceeds the stack budget */
+            lane_store(out[i] + k, reach); /* stored here: a third array of 512-bit lanes exceeds the stack budget */
         }
         for (int32_t i = 0; i < count; ++i) {
             for (int32_t j = 0; j < i; ++j) {

@@ -1,8 +1,8 @@
-/* halve.inl: light of 8 x 8 blocks, parted by the line between two halves of a triangle. Layer 9. */
+/* halve.inl: splits the light of 8 x 8 blocks along the line between two halves of a triangle. Layer 9. */
 #ifndef LMB_TRANSFER_HALVE_INL
 #define LMB_TRANSFER_HALVE_INL
 
-/* The rows from that of block k on in which a vector has some. */
+/* Mask of the rows, from the row of block k, in which a vector has a lane set. */
 LANE_INLINE uint32_t halve_rows(lane_mask some, int k)
 {
     const uint32_t bits = mask_bits(some), over = LANES > LMB_TILE ? bits >> LMB_TILE : 0u;
@@ -10,9 +10,9 @@ LANE_INLINE uint32_t halve_rows(lane_mask some, int k)
     return ((first != 0 ? 1u : 0u) | (over != 0 ? 2u : 0u)) << k / LMB_TILE;
 }
 
-/* The line's function is 0 on it, over 0 on the first half's side, and changes by 1 over a block: so a block's part is
- * 1/2 more than it is at the middle. For lines along the blocks' sides that is the area, and for others near it. Both
- * parts are whole numbers whose sum is what there was. */
+/* The line's function is 0 on the line, positive on the side of the first half, and changes by 1 over a block. So the
+ * first half gets 1/2 plus the function at the block's middle: the exact area for lines parallel to the blocks' sides,
+ * close for others. Both parts are whole numbers and add up to the block's light. */
 static uint32_t KERNEL(transfer_halve)(float first[LMB_TILE_PIXELS], float light[LMB_TILE_PIXELS], const float line[3],
                                        uint32_t rows)
 {

@@ -1,4 +1,4 @@
-/* halvings.h: a triangle halved again and again: from a place on it to the piece that holds the place. Layer 9. */
+/* halvings.h: a triangle halved repeatedly: from a point on the triangle to the piece that contains it. Layer 9. */
 #ifndef LMB_TRANSFER_HALVINGS_H
 #define LMB_TRANSFER_HALVINGS_H
 
@@ -9,7 +9,7 @@
 #include "../base/vec.h"
 #include "../raster/triangle.h"
 
-/* 0 where the id names no triangle with an area. */
+/* Returns 0 if the id names no triangle with an area. */
 static inline int transfer_triangle_of(lmb_transfer_triangle *out, const lmb_scene *scene, uint32_t id)
 {
     lmb_triangle t;
@@ -25,7 +25,8 @@ static inline int transfer_triangle_of(lmb_transfer_triangle *out, const lmb_sce
     return 1;
 }
 
-/* The same, kept by the low bits of its id: walls and floors come back in every row. NULL where there is none. */
+/* The same through a cache, indexed by the low bits of the id, because walls and floors recur in every row. NULL if
+ * there is no triangle. */
 static inline const lmb_transfer_triangle *transfer_triangle_kept(lmb_transfer_kept *kept, const lmb_scene *scene,
                                                                   uint32_t id)
 {
@@ -36,12 +37,12 @@ static inline const lmb_transfer_triangle *transfer_triangle_kept(lmb_transfer_k
     return kept->id[at] == id ? &kept->triangle[at] : NULL;
 }
 
-/* One halving of edge `from`: from corner `from` to the next, `to`. Its middle becomes a corner of both halves: of the
- * first in place of the edge's end, of the second in place of its beginning. A cut has another place on the edge: `part`
- * of it from its beginning. */
+/* Halves edge `from`, which runs from corner `from` to the next corner, `to`. The middle of the edge replaces the
+ * edge's end in the first half and the edge's start in the second. A cut divides the edge elsewhere: at `part` of the
+ * length. */
 typedef struct transfer_halving {
     int from, is_wall;
-    uint32_t first; /* of two halves, which lie side by side */
+    uint32_t first; /* of two halves, which are adjacent */
     float part, ratio; /* ratio: (1 - part) / part */
 } transfer_halving;
 
@@ -62,8 +63,8 @@ static inline transfer_halving halving_of(const lmb_transfer *t, uint32_t node)
     return h;
 }
 
-/* Weights of a place: the corner that a half keeps loses `less` times that of the one which goes; the new corner has
- * `more` times that. */
+/* Weights of a point. A half keeps one corner, which loses `less` times the weight of the corner that moves. The new
+ * corner gets `more` times the weight of the one that moves. */
 typedef struct transfer_half {
     int keeps, moves; /* corners */
     float less, more;

@@ -1,4 +1,4 @@
-/* links.h: a link's weight, a list's unit of weight, and whether light is laid out. Layer 9. */
+/* links.h: a link's weight, a list's unit of weight, and a check that light is initialized. Layer 9. */
 #ifndef LMB_TRANSFER_LINKS_H
 #define LMB_TRANSFER_LINKS_H
 
@@ -18,7 +18,7 @@ static inline float link_scale(uint32_t word, float step)
     return scale * step;
 }
 
-/* Of a link's 16 bits. */
+/* Weight in the low 16 bits of a link. */
 static inline int32_t link_weight(uint32_t code)
 {
     return (int32_t)(code & 0xffffu) - (int32_t)((code & 0x8000u) << 1);

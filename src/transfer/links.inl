@@ -1,10 +1,11 @@
-/* links.inl: what arrives by links: sums of what nodes send times weights. Layer 9.
+/* links.inl: light that arrives through links: sums of node light times weights. Layer 9.
  *
- * Four links at a time, the rest one by one beside a weight of 0. Sums of integers: exact in any order. */
+ * Four links at a time; the rest are padded with a weight of 0. The sums are of integers, so they are exact in any
+ * order. */
 #ifndef LMB_TRANSFER_LINKS_INL
 #define LMB_TRANSFER_LINKS_INL
 
-/* Receivers' links follow one another: megabytes, each read once a frame. */
+/* The links of all receivers are contiguous: megabytes, each read once per frame. */
 #define LINKS_AHEAD 512
 #if defined(__GNUC__)
 #define LINKS_SOON(p) __builtin_prefetch(p)

@@ -1,8 +1,8 @@
-/* tile.inl: a tile's pixels on a triangle, and their light on one of its leaves. Layer 9. */
+/* tile.inl: the pixels of a tile that lie on a triangle, and their light from one leaf. Layer 9. */
 #ifndef LMB_TRANSFER_TILE_INL
 #define LMB_TRANSFER_TILE_INL
 
-#define WEIGHT_FLOOR 1e-12f /* weights below it are 0, so that no product of theirs is denormal */
+#define WEIGHT_FLOOR 1e-12f /* smaller weights become 0, so that their products are not denormal */
 
 LANE_INLINE lane tile_weight(lane3 to, lmb_vec3 along, lane limit)
 {
@@ -33,7 +33,7 @@ static uint64_t KERNEL(transfer_side)(float weight[2][LMB_TILE_PIXELS], const lm
     return out;
 }
 
-/* The weight of a leaf's corner at pixels of the triangle. */
+/* Weight of a leaf's corner at pixels of the triangle. */
 LANE_INLINE lane leaf_weight(const lmb_transfer_leaf *leaf, int corner, lane b1, lane b2)
 {
     const float(*by)[3] = leaf->weight;
@@ -41,7 +41,7 @@ LANE_INLINE lane leaf_weight(const lmb_transfer_leaf *leaf, int corner, lane b1,
                     lane_mul(lane_splat(by[2][corner]), b2));
 }
 
-/* Number c of each corner, by their weights. */
+/* Interpolates number c of the corners. */
 LANE_INLINE lane leaf_mix(const lmb_transfer_leaf *leaf, const lane w[3], int c)
 {
     return lane_add(lane_add(lane_mul(lane_splat(leaf->corner[0][c]), w[0]),
@@ -49,7 +49,7 @@ LANE_INLINE lane leaf_mix(const lmb_transfer_leaf *leaf, const lane w[3], int c)
                     lane_mul(lane_splat(leaf->corner[2][c]), w[2]));
 }
 
-/* Channel c along x, y and z. Where the corners keep no direction light comes straight from above. */
+/* Channel c of the light along x, y and z. If the corners have no direction, light arrives along the face normal. */
 LANE_INLINE lane3 leaf_arrives(const lmb_transfer_leaf *leaf, const lane w[3], int c, lane3 face)
 {
     lane3 v;
@@ -62,8 +62,8 @@ LANE_INLINE lane3 leaf_arrives(const lmb_transfer_leaf *leaf, const lane w[3], i
     return v;
 }
 
-/* Of light by direction what arrives along the pixel's normal: as if none of it came from behind the normal, and half
- * of what a turned normal takes too little of light that comes evenly from before the face. */
+/* Light that arrives along the pixel's normal. Directional light counts as if none came from behind the normal. Half of
+ * the loss that a tilted normal causes under uniform light above the face is added. */
 LANE_INLINE lane leaf_light(const lmb_transfer_leaf *leaf, const lmb_tile *tile, int k, const lane w[3], int c)
 {
     if (!leaf->is_directed) {
@@ -76,9 +76,9 @@ LANE_INLINE lane leaf_light(const lmb_transfer_leaf *leaf, const lmb_tile *tile,
 }
 
 #if LMB_LOBES
-#define ARRIVES_WIDE 1.0f /* sr: reflected light comes from wide around; of 0.5 to 3 the one with the least error */
+#define ARRIVES_WIDE 1.0f /* sr, solid angle of reflected light: the value from 0.5 to 3 with the least error */
 
-/* What the lobes of pixels make of it: all of it as a disc in its mean direction. */
+/* Adds the light that the pixels' lobes reflect: all of it as a disc in the mean direction. */
 LANE_INLINE void leaf_lobes(lmb_glossy *inout, const lmb_tile *tile, int k, uint32_t own, const lmb_transfer_leaf *leaf,
                             const lane w[3])
 {

@@ -1,4 +1,4 @@
-/* transfer.c: opens a .lmt in place: checks all of it once, then trusts it. Layer 9. */
+/* transfer.c: opens a .lmt in place: checks the whole file once, then trusts it. Layer 9. */
 #include <lambent/transfer.h>
 
 #include <string.h>
@@ -10,12 +10,12 @@
 
 #if LMB_TRANSFER
 
-/* Words of the header. */
+/* Header words. */
 enum { MAGIC, ORDER, SIZE, SCENE, LEAVES = 5, COUNTS, RESERVED = COUNTS + LMB_TRANSFER_SECTIONS };
 
 #define OWN_ORDER 0x01020304u
 #define LOW_BITS  ((1u << LMB_TRANSFER_EDGE_BIT) - 1u)
-#define MAX_COUNT 0x10000000u /* entries of a section: no product of theirs leaves 64 bits, no place a halving's bits */
+#define MAX_COUNT 0x10000000u /* entries of a section: products fit 64 bits, indices fit the bits of a halving */
 
 static float as_float(uint32_t word)
 {
@@ -26,9 +26,9 @@ static float as_float(uint32_t word)
 
 static int is_scale(uint32_t word) { return as_float(word) >= 0.0f && as_float(word) < 1e30f; }
 
-/* --- what words may say ------------------------------------------------------------------------------------------- */
+/* --- checks of words ---------------------------------------------------------------------------------------------- */
 
-/* Children lie behind their parent, two side by side, so that every way down ends. Leaves name one of `places`. */
+/* Children lie behind their parent, two in a row, so every descent ends. Leaves name one of `places`. */
 static int are_halvings(const lmb_transfer *t, int section, uint32_t places)
 {
     const uint32_t *node = t->section[section], count = t->count[section];
@@ -82,7 +82,7 @@ static int are_areas(const lmb_transfer *t)
     return 1;
 }
 
-/* Three words a place: of leaves receivers, behind them blends. */
+/* Three words per place: receivers for leaves, blends for the places after them. */
 static int are_corners(const lmb_transfer *t)
 {
     const uint32_t *corner = t->section[LMB_TRANSFER_CORNERS];
@@ -95,7 +95,7 @@ static int are_corners(const lmb_transfer *t)
     return t->leaves <= t->count[LMB_TRANSFER_CORNERS];
 }
 
-/* A range of links. `left`: those that no one has yet, as shared ones would make a short file take long. */
+/* Takes a range of links. `left`: links not taken so far; shared ranges would make a short file slow. */
 static int take_range(uint32_t *left, uint32_t first, uint32_t count, uint32_t all)
 {
     const int is_range = first <= all && count <= all - first && count <= *left;
@@ -118,7 +118,7 @@ static int are_links(const lmb_transfer *t, int section, uint32_t first, uint32_
     return 1;
 }
 
-/* Parents lie before their child: one pass in order finds all light. */
+/* Parents lie before their child, so one pass in order computes all light. */
 static int are_receivers(const lmb_transfer *t)
 {
     uint32_t left = t->count[LMB_TRANSFER_LINKS];
@@ -149,8 +149,8 @@ static int are_cluster_links(const lmb_transfer *t, uint32_t first, uint32_t cou
     return 1;
 }
 
-/* Up to four clusters, 16 bits each, of the first `clusters`, and four weights of 8 bits: 255 in all, at most. A weight
- * of 0 says that there is none. */
+/* Up to four clusters, 16 bits each, out of the first `clusters`, and four weights of 8 bits that sum to at most 255. A
+ * weight of 0 marks an unused cluster. */
 static int is_blend(const uint32_t *b, uint32_t clusters)
 {
     uint32_t sum = 0;
@@ -164,7 +164,7 @@ static int is_blend(const uint32_t *b, uint32_t clusters)
     return sum <= 255;
 }
 
-/* Those that a cluster is a blend of lie before it. */
+/* A cluster blends only clusters before it. */
 static int are_clusters(const lmb_transfer *t)
 {
     uint32_t left = t->count[LMB_TRANSFER_CLUSTER_LINKS];
@@ -190,7 +190,7 @@ static int are_blends(const lmb_transfer *t)
     return 1;
 }
 
-/* Runs of elements, from the first on. */
+/* Runs of elements, starting at element 0. */
 static int are_coarse(const lmb_transfer *t)
 {
     const uint32_t count = t->count[LMB_TRANSFER_COARSE];
@@ -206,7 +206,7 @@ static int are_coarse(const lmb_transfer *t)
     return count <= LMB_TRANSFER_MAX_COARSE;
 }
 
-/* Ranges of ids, none empty, in order and apart. */
+/* Ranges of ids: not empty, sorted, disjoint. */
 static int are_moving(const lmb_transfer *t)
 {
     const uint32_t *range = t->section[LMB_TRANSFER_MOVING];
@@ -220,7 +220,7 @@ static int are_moving(const lmb_transfer *t)
     return 1;
 }
 
-/* Each place has its receivers, all in a row, or none. */
+/* Each place has all receivers in a row, or none at all. */
 static int is_air(const lmb_transfer *t)
 {
     const uint32_t *grid = t->section[LMB_TRANSFER_GRID], *air = t->section[LMB_TRANSFER_AIR];
@@ -244,7 +244,7 @@ static int is_air(const lmb_transfer *t)
 
 /* --- the file ----------------------------------------------------------------------------------------------------- */
 
-/* Elements and their means by fours, up to one; 0 where the number is no power of 4. */
+/* Counts elements and their means by fours, up to the root; 0 if `elements` is not a power of 4. */
 static uint32_t nodes_of(uint32_t elements)
 {
     uint32_t nodes = 1, level = 1;
@@ -264,7 +264,7 @@ static int are_zeros(const uint32_t *word, int count)
     return all == 0;
 }
 
-/* Where sections lie. 0: the words do not add up. */
+/* Sets the positions of sections. Returns 0 if the word count does not match. */
 static int lay_out(lmb_transfer *out, const uint32_t *word, uint64_t words)
 {
     uint64_t at = LMB_TRANSFER_HEADER_WORDS;
@@ -313,7 +313,7 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
 
 /* --- the scene ---------------------------------------------------------------------------------------------------- */
 
-/* FNV-1a of a word's four bytes, lowest first. */
+/* FNV-1a over a word's four bytes, lowest first. */
 static uint64_t hash_word(uint64_t hash, uint32_t word)
 {
     for (int i = 0; i < 4; ++i) {
@@ -325,7 +325,7 @@ static uint64_t hash_word(uint64_t hash, uint32_t word)
 static uint64_t hash_float(uint64_t hash, float v)
 {
     uint32_t word;
-    v = v == 0.0f ? 0.0f : v; /* both zeros are the same place */
+    v = v == 0.0f ? 0.0f : v; /* +0 and -0 hash alike */
     memcpy(&word, &v, sizeof word);
     return hash_word(hash, word);
 }

@@ -1,8 +1,8 @@
-/* transfer_air.c: light on what moves, from places in the air around it. Layer 9.
+/* transfer_air.c: light on moving objects, from points in the air around them. Layer 9.
  *
- * Of the eight places around a pixel each counts by its nearness along the axes, and by how much it lies before the
- * pixel's face: behind that may be a wall, and another room. Light comes from six sides; a normal takes of each as much
- * as the square of its part along that axis (McTaggart 2004, ambient cube). */
+ * The eight grid points around a pixel have trilinear weights. Points behind the pixel's face have a small weight,
+ * because a wall and another room may lie there. Light comes from six sides; a normal takes a share of each equal to
+ * the normal's squared component along that axis (McTaggart 2004, ambient cube). */
 #include "air.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@
 
 #if LMB_TRANSFER
 
-#define BEHIND 0.02f /* weight of a place that lies straight behind the face: where there is none before it */
+#define BEHIND 0.02f /* weight of a point straight behind the face, used if no point is in front */
 
 int lmb_transfer_moves(const lmb_transfer *t, uint32_t id)
 {
@@ -23,7 +23,7 @@ int lmb_transfer_moves(const lmb_transfer *t, uint32_t id)
     return id == LMB_TRANSFER_NONE || (i < t->count[LMB_TRANSFER_MOVING] && id >= range[2 * i]);
 }
 
-/* The places around a point along an axis, and how far it lies from the first to the second. */
+/* Grid points around a position along an axis, and the fraction from the first to the second. */
 typedef struct along {
     uint32_t low, high;
     float share;
@@ -56,7 +56,7 @@ static float weight_before(const uint32_t *grid, const uint32_t place[3], lmb_ve
     return before * before + BEHIND;
 }
 
-/* By the normal, of the six receivers from `first` on. */
+/* Adds the light for a normal, from the six receivers starting at `first`. */
 static void add_place(float sum[3], const lmb_transfer_light *light, uint32_t first, const float normal[3], float weight)
 {
     for (uint32_t axis = 0; axis < 3; ++axis) {

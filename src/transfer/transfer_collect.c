@@ -1,9 +1,9 @@
 /* transfer_collect.c: light from shadow maps to elements. Layer 9.
  *
- * A face of a map is taken by blocks of texels, 8 x 8 of them at once. First each block's light is shared by the
- * triangles that it shows: its cells, at most 4 x 4, look at the ids around them, and a triangle has the part of a cell
- * that its outline has. Then the light of each triangle goes down its halvings: a line parts it between the halves.
- * All of these parts change little by little as the light moves. */
+ * A face of a map is read in blocks of texels, 8 x 8 blocks at once. First each block's light is divided among the
+ * triangles that the block shows: each of at most 4 x 4 cells reads the surrounding ids, and a triangle gets the part
+ * of a cell inside the outline. Then the light of each triangle descends its halvings; at each one a line divides the
+ * light between the halves. All shares change continuously as the light moves. */
 #include <lambent/transfer.h>
 
 #include <string.h>
@@ -16,31 +16,31 @@
 
 #if LMB_TRANSFER
 
-#define WHOLE 16777216.0f /* 2^24: what no block's light is over, and binary32 counts to */
+#define WHOLE 16777216.0f /* 2^24: max light of a block, and the limit of exact integers in binary32 */
 
-enum { VISITS = 8192 }; /* halvings of a tile's triangle; what is left goes down whole */
-#define WALL_REACH 2.5f /* blocks from a wall within which light goes to what cells show */
+enum { VISITS = 8192 }; /* halvings per triangle of a tile; beyond, light descends undivided */
+#define WALL_REACH 2.5f /* blocks from a wall within which light goes to the sides that cells show */
 
-/* What a collection is about. */
+/* State of a collection. */
 typedef struct collection {
     const lmb_transfer_light *light;
     const lmb_kernels *kernels;
     const lmb_transfer *transfer;
     const lmb_scene *scene;
     const lmb_light *from;
-    const lmb_shadow_map *blocks; /* the map, were its texels the blocks */
+    const lmb_shadow_map *blocks; /* the map with one texel per block */
     const lmb_target *face;
     const lmb_view *view;
     lmb_fill_window ids;
     lmb_transfer_collecting *work;
     int32_t size, cells, step; /* texels of the map each way; cells of a block; texels of a cell */
-    float scale;               /* of whole numbers, per W */
-    int32_t first[2];          /* the tile's first block: column, row */
+    float scale;               /* whole-number steps per W */
+    int32_t first[2];          /* column and row of the tile's first block */
 } collection;
 
 /* --- triangles on the face ---------------------------------------------------------------------------------------- */
 
-/* An affine function of the place in the view's plane, as one of a cell's column and row. */
+/* Converts an affine function of the position in the view's plane to one of a cell's column and row. */
 static void by_cells(float out[3], const collection *c, float at, float by_x, float by_y)
 {
     const lmb_view *v = c->view;
@@ -51,16 +51,16 @@ static void by_cells(float out[3], const collection *c, float at, float by_x, fl
     out[2] = -by_y * step * v->half_height;
 }
 
-/* a . p over a place in the view's plane, where p begins at `from` and goes on by the place, and by `back` against the
- * view. */
+/* Sets out to a . p as a function of the position in the view's plane. p starts at `from` and moves with the position,
+ * and by `back` against the view direction. */
 static void set_function(float out[3], const collection *c, lmb_vec3 a, lmb_vec3 from, float back)
 {
     const lmb_view *v = c->view;
     by_cells(out, c, dot3(a, from) - back * dot3(a, v->back), dot3(a, v->right), dot3(a, v->up));
 }
 
-/* In perspective the ray at (sx, sy) meets the triangle's plane at 1 / near, near = n.ray / n.(corner - eye); weights
- * are along.(eye - corner) + along.ray / near. A sun's ray meets it at n.(start - corner) / n.back, and weights are
+/* Perspective: the ray at (sx, sy) meets the triangle's plane at 1 / near, near = n.ray / n.(corner - eye); weights are
+ * along.(eye - corner) + along.ray / near. Sun: the ray meets the plane at n.(start - corner) / n.back, and weights are
  * linear. */
 static int set_outline(lmb_transfer_shown *s, const collection *c, const lmb_transfer_triangle *t)
 {
@@ -112,7 +112,7 @@ static void set_shown(lmb_transfer_shown *s, const collection *c, uint32_t id)
     s->has_outline = set_outline(s, c, &t) && (of.material->flags & LMB_ALPHA_MASK) == 0;
 }
 
-/* NULL where nothing is shown. */
+/* Returns NULL if id is 0. */
 static const lmb_transfer_shown *shown(const collection *c, uint32_t id)
 {
     lmb_transfer_shown *s = &c->work->shown[id % LMB_TRANSFER_SHOWN];
@@ -126,7 +126,7 @@ static float value(const float f[3], float x, float y) { return f[0] + f[1] * x 
 
 /* --- ids of cells ------------------------------------------------------------------------------------------------- */
 
-/* Eight ids beside each other, of which x is one. */
+/* Address of the eight adjacent ids that contain x. */
 static const uint8_t *ids_at(const collection *c, int32_t x, int32_t y)
 {
     const lmb_fill_window *w = &c->ids;
@@ -135,27 +135,27 @@ static const uint8_t *ids_at(const collection *c, int32_t x, int32_t y)
            (ptrdiff_t)(x / LMB_TILE) * w->id_tile + (ptrdiff_t)(y % LMB_TILE) * w->first.id_step * bytes;
 }
 
-/* A texel of a cell's row or column; beyond the face, of its last one. */
+/* A texel in a cell's row or column; clamped to the face. */
 static int32_t texel_of(const collection *c, int32_t cell)
 {
     return maxi(mini(cell, c->size / c->step - 1), 0) * c->step + c->step / 2;
 }
 
-/* One of eight ids beside each other. */
+/* One of eight adjacent ids. */
 static uint32_t id_in(const collection *c, const uint8_t *eight, int32_t i)
 {
     return c->ids.first.id_format == LMB_ID16 ? ((const uint16_t *)(const void *)eight)[i]
                                               : ((const uint32_t *)(const void *)eight)[i];
 }
 
-/* What the middle of a block's cell shows. */
+/* Id at the middle of a block's cell. */
 static uint32_t cell_id(const collection *c, int32_t x, int32_t y, int32_t column, int32_t row)
 {
     const int32_t at = texel_of(c, (c->first[0] + x) * c->cells + column);
     return id_in(c, ids_at(c, at, texel_of(c, (c->first[1] + y) * c->cells + row)), at % LMB_TILE);
 }
 
-/* --- a triangle's light down its halvings ------------------------------------------------------------------------- */
+/* --- a triangle's light on the way down the halvings -------------------------------------------------------------- */
 
 static void add_light(const collection *c, uint32_t element, int32_t sum)
 {
@@ -165,7 +165,7 @@ static void add_light(const collection *c, uint32_t element, int32_t sum)
     }
 }
 
-/* Into a half: the corner that it keeps loses what the other one weighs, which counts twice. */
+/* Enters a half. The kept corner's function loses the moved corner's; the moved corner's is doubled. */
 static void enter_half(lmb_transfer_part *p, const transfer_halving *h, int second)
 {
     const transfer_half half = half_of(h, second);
@@ -179,7 +179,8 @@ static void enter_half(lmb_transfer_part *p, const transfer_halving *h, int seco
 
 /* --- walls -------------------------------------------------------------------------------------------------------- */
 
-/* Of a block and those around it: which sides of a line the cells' middles show that show the triangle, a bit each. */
+/* Which sides of a line does the triangle appear on, at cell middles of a block and the blocks around it? One bit for
+ * each side. */
 static uint32_t sides_shown(const collection *c, uint32_t id, const float line[3], int32_t x, int32_t y)
 {
     const float per = 1.0f / (float)c->cells;
@@ -196,8 +197,8 @@ static uint32_t sides_shown(const collection *c, uint32_t id, const float line[3
     return sides;
 }
 
-/* A block's light near a wall goes to the one side that the light sees there, if it sees one. By area a part would go
- * through. Both parts stay whole numbers. */
+/* Near a wall a block's light goes to the one side that the light sees there, if it sees only one. A division by area
+ * would leak through the wall. Both parts stay whole numbers. */
 static void part_at_wall(const collection *c, lmb_transfer_part *p, uint32_t id, const float line[3])
 {
     uint32_t rows[2] = {0, 0};
@@ -224,7 +225,7 @@ static void part_at_wall(const collection *c, lmb_transfer_part *p, uint32_t id,
     p->rows = rows[1];
 }
 
-/* Goes on with one half, or with both: then the second waits. Returns how many parts there are. */
+/* Continues with one half, or with both, and then the second waits. Returns the number of parts. */
 static int32_t halve(const collection *c, int32_t parts, uint32_t id, uint32_t node, int can_part)
 {
     lmb_transfer_part *p = &c->light->part[parts - 1];
@@ -278,7 +279,7 @@ static int32_t sum_of(const lmb_transfer_part *p)
     return sum;
 }
 
-/* From the first of the parts, with its light. */
+/* Starts with the light of the first part. */
 static void collect_parts(const collection *c, uint32_t id)
 {
     const uint32_t *node = c->transfer->section[LMB_TRANSFER_PIECES];
@@ -296,11 +297,11 @@ static void collect_parts(const collection *c, uint32_t id)
     }
 }
 
-/* A triangle's functions by blocks of the tile at hand. */
+/* A triangle's functions in blocks of the current tile. */
 static void set_corners(float corner[3][3], const collection *c, const lmb_transfer_shown *s)
 {
     const float cells = (float)c->cells;
-    /* The middle of the first block, in cells. */
+    /* Middle of the first block, in cells. */
     const float in = 0.5f * (cells - 1.0f) + ((float)(c->step % 2 - 1) * 0.5f) / (float)c->step;
     for (int k = 0; k < 3; ++k) {
         const float *f = s->corner[k];
@@ -310,8 +311,8 @@ static void set_corners(float corner[3][3], const collection *c, const lmb_trans
     }
 }
 
-/* Factor of the light's range in the middle of block k. The corners' functions add up to 1 / depth there. The sum is 0
- * or less if the block does not see the triangle's plane. */
+/* Range factor of the light at the middle of block k. The corner functions add up to 1 / depth there. The sum is 0 or
+ * less if the block does not see the triangle's plane. */
 static float left_by_range(const collection *c, const lmb_transfer_sharer *from, int k, float range2)
 {
     const float x = (float)(k % LMB_TILE), y = (float)(k / LMB_TILE);
@@ -348,7 +349,7 @@ static void collect_sharers(const collection *c)
     c->work->sharers = 0;
 }
 
-/* Its place among the sharers, which are collected where there are too many; or NULL, where it has no elements. */
+/* Index among the sharers, which are flushed if there are too many; NULL if the triangle has no elements. */
 static lmb_transfer_sharer *sharer_of(const collection *c, uint32_t id)
 {
     lmb_transfer_collecting *w = c->work;
@@ -385,7 +386,7 @@ static void add_share(const collection *c, uint32_t id, int block, float share)
 
 /* --- ids of blocks ------------------------------------------------------------------------------------------------ */
 
-/* One more id, unless it is among them. */
+/* Adds an id unless it is present. */
 static void add_id(lmb_transfer_several *to, uint32_t id)
 {
     int32_t i = 0;
@@ -408,7 +409,8 @@ static lmb_transfer_several *several_of(const collection *c, int32_t x, int32_t 
 
 static uint32_t *block_id(const collection *c, int32_t x, int32_t y) { return &c->work->block_id[y + 1][x + 1]; }
 
-/* Of a block in an eight of texels whose rows are at hand, from texel `in` of it; or of any, where `row` is NULL. */
+/* Reads the ids of a block. `row` points to the rows of eight texels that contain the block, which starts at texel
+ * `in`; if `row` is NULL, any block is read. */
 static void read_block(const collection *c, int32_t x, int32_t y, const uint8_t *const *row, ptrdiff_t at, int32_t in)
 {
     lmb_transfer_several *to = several_of(c, x, y);
@@ -427,7 +429,7 @@ static void read_block(const collection *c, int32_t x, int32_t y, const uint8_t 
     *block_id(c, x, y) = to->count == 1 ? to->id[0] : LMB_TRANSFER_NONE;
 }
 
-/* The id of all of an eight of texels, in `rows` rows; or LMB_TRANSFER_NONE, where there are others. */
+/* The common id of eight texels in `rows` rows; LMB_TRANSFER_NONE if the ids differ. */
 static uint32_t only_of(const uint8_t *const row[LMB_TRANSFER_CELLS], int32_t rows, ptrdiff_t at, int is_16)
 {
     if (is_16) {
@@ -452,7 +454,7 @@ static uint32_t only_of(const uint8_t *const row[LMB_TRANSFER_CELLS], int32_t ro
     return other == 0 ? id : LMB_TRANSFER_NONE;
 }
 
-/* The blocks of an eight of texels, as far as they lie in the tile or beside it: together, where it has one id. */
+/* Reads the blocks of eight texels that lie in the tile or beside it, all at once if they share one id. */
 static void read_eight(const collection *c, int32_t first, int32_t y, const uint8_t *const row[LMB_TRANSFER_CELLS],
                        ptrdiff_t at)
 {
@@ -467,7 +469,7 @@ static void read_eight(const collection *c, int32_t first, int32_t y, const uint
     }
 }
 
-/* A row of the tile's blocks, or one beside it. */
+/* Reads a row of the tile's blocks, or a row beside the tile. */
 NOINLINE void read_row(const collection *c, int32_t y)
 {
     const int32_t each = c->cells * c->step, blocks = LMB_TILE % each == 0 ? LMB_TILE / each : 1;
@@ -487,7 +489,7 @@ NOINLINE void read_row(const collection *c, int32_t y)
     }
 }
 
-/* Does all of a row of blocks show this one id? */
+/* Do all blocks of a row show this one id? */
 static int is_row_of(const collection *c, int32_t y, uint32_t id)
 {
     const uint32_t *own = block_id(c, -1, y);
@@ -500,7 +502,7 @@ static int is_row_of(const collection *c, int32_t y, uint32_t id)
 
 /* --- shares of blocks --------------------------------------------------------------------------------------------- */
 
-/* Each cell to what its middle shows. */
+/* Gives each cell to the triangle that the cell's middle shows. */
 static void share_by_ids(const collection *c, int32_t x, int32_t y)
 {
     const float each = 1.0f / (float)(c->cells * c->cells);
@@ -511,7 +513,7 @@ static void share_by_ids(const collection *c, int32_t x, int32_t y)
     }
 }
 
-/* The triangles that a block and those around it show: one may reach into it in a tip that no middle shows. */
+/* Triangles in a block and the blocks around it: a tip may reach into the block without covering a cell's middle. */
 static void block_shows(lmb_transfer_several *out, const collection *c, int32_t x, int32_t y)
 {
     out->count = 0;
@@ -530,7 +532,7 @@ static void block_shows(lmb_transfer_several *out, const collection *c, int32_t 
     }
 }
 
-/* Their outlines; most are those of the block before. Returns 0 where one has none. */
+/* Finds the triangles' outlines; most are in use from the previous block. Returns 0 if a triangle has none. */
 static int find_outlines(const collection *c, const lmb_transfer_several *of)
 {
     lmb_transfer_shown *outline = c->work->outline;
@@ -570,7 +572,7 @@ static void share_by_outlines(const collection *c, int32_t x, int32_t y, const l
     }
 }
 
-/* Do a block and those around it show one triangle? */
+/* Do a block and the blocks around it show one triangle? */
 static int is_of_one(const collection *c, int32_t x, int32_t y)
 {
     const uint32_t id = *block_id(c, x, y);
@@ -608,7 +610,7 @@ static void share_row(const collection *c, int32_t y)
 
 /* --- tiles of blocks ---------------------------------------------------------------------------------------------- */
 
-/* What goes through each block, in whole numbers' steps; 0 where it is none. */
+/* Reads the light through each block, in whole-number steps. Returns 0 if there is none. */
 NOINLINE int read_powers(const collection *c)
 {
     const int32_t columns = mini(c->blocks->size - c->first[0], LMB_TILE);
@@ -634,7 +636,7 @@ NOINLINE int read_powers(const collection *c)
     return is_any;
 }
 
-/* All blocks to one triangle. */
+/* Gives all blocks to one triangle. */
 static void share_all(const collection *c, uint32_t id)
 {
     lmb_transfer_sharer *to = sharer_of(c, id);
@@ -644,7 +646,8 @@ static void share_all(const collection *c, uint32_t id)
     }
 }
 
-/* Rows of blocks are shared when the one below is known; those of one triangle at the end, as all may be of it. */
+/* Shares a row of blocks when the row below is known. Rows with a single triangle wait to the end, because the triangle
+ * may own the whole tile. */
 static void collect_tile(const collection *c)
 {
     int is_one = 1;
@@ -664,7 +667,7 @@ static void collect_tile(const collection *c)
     collect_sharers(c);
 }
 
-/* Cells of a block, each way. */
+/* Cells of a block along each axis. */
 static int32_t cells_of(int32_t each)
 {
     int32_t cells = LMB_TRANSFER_CELLS;

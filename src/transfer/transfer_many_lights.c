@@ -1,4 +1,4 @@
-/* transfer_many_lights.c: many lights light elements, by the same cuts as pixels. Layer 9. [V3] */
+/* transfer_many_lights.c: light of many lights on elements, with the same cuts as pixels. Layer 9. [V3] */
 #include <lambent/transfer.h>
 
 #include <string.h>
@@ -8,7 +8,7 @@
 
 #if LMB_TRANSFER && LMB_TREES
 
-/* Those of up to a tile's elements that have a place, as its pixels; number[k]: which one pixel k is. */
+/* Fills a tile with the elements, up to a tile's worth, that have a place. number[k]: the element of pixel k. */
 static void set_tile(lmb_tile *tile, uint32_t number[LMB_TILE_PIXELS], const lmb_transfer_light *light, uint32_t first,
                      uint32_t past)
 {
@@ -64,7 +64,7 @@ lmb_status lmb_transfer_many_lights(const lmb_transfer_light *light, const lmb_e
         return LMB_ERR_ARG;
     }
     lmb_many_lights_query own = *query;
-    own.each = 1; /* elements along a curve have no corners */
+    own.each = 1; /* elements along a curve have no corner pixels */
     for (int32_t i = first; i < past && status == LMB_OK; ++i) {
         status = light_tile(light, t, own_scratch, scratch, &own, (uint32_t)i * LMB_TILE_PIXELS);
     }

@@ -1,4 +1,4 @@
-/* transfer_materials.c: the mean albedos and emission of elements, from the scene's materials. Layer 9. */
+/* transfer_materials.c: mean albedo and emission of elements, from the scene's materials. Layer 9. */
 #include <lambent/transfer.h>
 
 #include <string.h>
@@ -9,15 +9,15 @@
 
 #if LMB_TRANSFER
 
-enum { WAITING = LMB_TRANSFER_MAX_HALVINGS + 1 }; /* second halves on the way down */
+enum { WAITING = LMB_TRANSFER_MAX_HALVINGS + 1 }; /* pending second halves */
 
-/* A part of a triangle: its corners' barycentrics, and its share of the area. */
+/* A part of a triangle: barycentrics of the corners, and share of the area. */
 typedef struct part {
     float b1[3], b2[3], share;
     uint32_t node;
 } part;
 
-/* Corner k of the half goes to where the edge is halved. */
+/* Corner k of the half moves to the point that divides the edge. */
 static void enter_half(part *p, const transfer_halving *h, int second)
 {
     const int from = h->from, to = halving_to(from), k = second ? from : to;
@@ -29,7 +29,7 @@ static void enter_half(part *p, const transfer_halving *h, int second)
     p->node = h->first + (uint32_t)second;
 }
 
-/* Sums by area, in light->albedo and emission; areas in light->power[..][0]. */
+/* Adds area-weighted sums to light->albedo and emission, and areas to light->power[..][0]. */
 static void add_part(const lmb_transfer_light *light, const piece_source *s, const part *p, uint32_t element)
 {
     surface_piece piece;
@@ -46,7 +46,7 @@ static void add_part(const lmb_transfer_light *light, const piece_source *s, con
     light->power[element][0] += standing;
 }
 
-/* Of an element's parts the largest says where it is; of equal ones the first. */
+/* The largest part sets an element's position; ties go to the first. */
 static void set_place(lmb_transfer_place *out, const piece_source *s, const part *p, float side)
 {
     const lmb_vec3 *corner = s->triangle.corner;
@@ -60,8 +60,8 @@ static void set_place(lmb_transfer_place *out, const piece_source *s, const part
     out->position = add3(corner[0], add3(mul3(sub3(corner[1], corner[0]), b1), mul3(sub3(corner[2], corner[0]), b2)));
 }
 
-/* All parts below a root; the halves that wait lie in `stack`. `left`: how many there may be yet, over all roots: in
- * damaged files halves may share theirs, and ways down be more than anyone can go. */
+/* Adds all parts below a root; pending halves lie in `stack`. `left`: remaining visits over all roots. In damaged files
+ * halves may share children, and then the number of paths explodes. */
 static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, int back,
                       uint32_t root, uint32_t *left)
 {
@@ -97,7 +97,7 @@ static float area_of(const lmb_transfer *t, uint32_t element)
     return area;
 }
 
-/* Sums by area become means. */
+/* Converts area-weighted sums to means. */
 static void end_means(const lmb_transfer_light *light, const lmb_transfer *t)
 {
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {

@@ -1,4 +1,4 @@
-/* transfer_send.c: what elements send: light that they reflect, further reflections, and emission. Layer 9. */
+/* transfer_send.c: light that elements send: reflected, reflected again, and emitted. Layer 9. */
 #include <lambent/transfer.h>
 
 #include <string.h>
@@ -11,17 +11,17 @@
 enum { LEVELS = 8 }; /* 4^7 elements */
 enum { SEND_ALL = LMB_TRANSFER_SEND_RECEIVED + 1 };
 
-/* --- what an element sends ---------------------------------------------------------------------------------------- */
+/* --- light that an element sends ---------------------------------------------------------------------------------- */
 
-/* Elements from the first to the last, with the coarse element that each is part of. */
+/* Iterates over elements and the coarse element that contains each. */
 typedef struct cursor {
     const lmb_transfer_light *light;
     const lmb_transfer *t;
     int what;
-    uint32_t coarse, past; /* the first element of the next coarse one */
+    uint32_t coarse, past; /* first element of the next coarse element */
 } cursor;
 
-/* The first element of a coarse one; of the one past the last: all elements. */
+/* First element of a coarse element; past the last: the number of elements. */
 static uint32_t first_of(const lmb_transfer *t, uint32_t coarse)
 {
     return coarse < t->count[LMB_TRANSFER_COARSE]
@@ -37,7 +37,7 @@ static cursor cursor_at(const lmb_transfer_light *light, const lmb_transfer *t, 
 
 static float no_infinity(float v) { return v < 1e30f ? v : 0.0f; }
 
-/* W/m2, of the next element; returns its area, m2. */
+/* Light that the next element sends, W/m2; returns the element's area, m2. */
 static float element_sent(float sent[3], cursor *w, uint32_t i)
 {
     const lmb_transfer_light *light = w->light;
@@ -63,7 +63,7 @@ static float element_sent(float sent[3], cursor *w, uint32_t i)
 
 /* --- nodes -------------------------------------------------------------------------------------------------------- */
 
-/* Means of areas near 1e30 m2, in a damaged file, may have left binary32. */
+/* In a damaged file, means of areas near 1e30 m2 may overflow binary32. */
 static void put_node(lmb_transfer_light *light, uint32_t node, const float sent[3], float per)
 {
     for (int c = 0; c < 3; ++c) {
@@ -71,13 +71,13 @@ static void put_node(lmb_transfer_light *light, uint32_t node, const float sent[
     }
 }
 
-/* Means by area over 4, 16, .. elements; light that waits on the way up lies in a sum a level. */
+/* Area-weighted means over 4, 16, .. elements; each level has one pending sum. */
 typedef struct level_sum {
     float sent[3], area;
     int count;
 } level_sum;
 
-/* Nodes lie level by level: the elements, then fours of them. */
+/* Nodes are stored level by level: first the elements, then groups of four. */
 static void put_nodes(lmb_transfer_light *light, const lmb_transfer *t, int what, float per)
 {
     level_sum level[LEVELS];
@@ -111,7 +111,7 @@ static void put_nodes(lmb_transfer_light *light, const lmb_transfer *t, int what
     }
 }
 
-/* All nodes, in steps of a 65,535th of the largest. */
+/* Sets all nodes, in units of 1/65,535 of the largest. */
 static void send(lmb_transfer_light *light, const lmb_transfer *t, int what)
 {
     float max = 0.0f, sent[3] = {0.0f, 0.0f, 0.0f};
@@ -135,7 +135,7 @@ lmb_status lmb_transfer_send(lmb_transfer_light *light, const lmb_transfer *t)
 
 /* --- between elements, and coarse ones ---------------------------------------------------------------------------- */
 
-/* The mean by area of what a coarse element's elements send. */
+/* Area-weighted mean of the light that the elements of a coarse element send. */
 static void set_sent(lmb_transfer_light *light, const lmb_transfer *t, uint32_t i, int what)
 {
     float sum[3] = {0.0f, 0.0f, 0.0f}, sent[3] = {0.0f, 0.0f, 0.0f};
@@ -187,9 +187,10 @@ lmb_status lmb_transfer_bounce(lmb_transfer_light *light, const lmb_transfer *t,
     return LMB_OK;
 }
 
-/* Share of a channel's light that the last reflection kept. Of B sent and B' reflected next: sum of A B' B' / sum of
- * A B' B, which counts each place as much as it still has: light that leaves into the open is gone and tells nothing of
- * the rest. Where lights send to few places, B' lies elsewhere than B: then it is all of B' by all of B. */
+/* Share of a channel's light that survived the last reflection. With B sent and B' reflected next this is sum of A B'
+ * B' / sum of A B' B. It weights each place by the light still there, because light that left into the open does not
+ * represent the rest. If lights send to few places, B' lies elsewhere than B; then the ratio is the sum of all B' over
+ * the sum of all B. */
 static float kept_of(const lmb_transfer_light *light, uint32_t count, int what, int channel)
 {
     float kept = 0.0f, before = 0.0f;

@@ -1,4 +1,4 @@
-/* transfer_tile.c: the light of a tile's pixels, from the receivers around them. Layer 9. */
+/* transfer_tile.c: light of a tile's pixels, from the receivers around them. Layer 9. */
 #include <lambent/transfer.h>
 
 #include <string.h>
@@ -31,8 +31,8 @@ static void set_corners(lmb_transfer_leaf *leaf, const lmb_transfer_light *light
 
 static float weight_at(const float w[3], float b1, float b2) { return w[0] + w[1] * b1 + w[2] * b2; }
 
-/* Into the half that holds a place. Its corner on the edge that is halved loses what the other one weighs, which counts
- * twice: it is the middle of the edge now. All these numbers are whole, but for those of cuts. */
+/* Enters the half that contains a point. The kept corner on the halved edge loses the other corner's weight, which is
+ * doubled because that corner is now the middle of the edge. All these numbers are whole, except in cuts. */
 static void enter_half(lmb_transfer_step *s, const transfer_halving *h, float b1, float b2)
 {
     const int from = h->from, to = halving_to(from), other = 3 - from - to;
@@ -51,7 +51,7 @@ static void enter_half(lmb_transfer_step *s, const transfer_halving *h, float b1
     s[1].at = h->first + (uint32_t)s->second;
 }
 
-/* 0 where cuts of a damaged file have made them too large. */
+/* Returns 0 if cuts in a damaged file have made the weights too large. */
 static int are_weights(const lmb_transfer_step *s)
 {
     float sum = 0.0f;
@@ -61,7 +61,7 @@ static int are_weights(const lmb_transfer_step *s)
     return sum < 1e18f;
 }
 
-/* How many steps of the last way down a place shares. */
+/* Counts the steps of the previous descent that a point shares. */
 static uint32_t shared_steps(const lmb_transfer_met *s, float b1, float b2)
 {
     uint32_t i = 0;
@@ -74,8 +74,8 @@ static uint32_t shared_steps(const lmb_transfer_met *s, float b1, float b2)
     return i;
 }
 
-/* Down to the leaf that holds a place of the triangle: the last of the steps. Returns what it says, or
- * LMB_TRANSFER_NONE where it lies too deep. */
+/* Descends to the leaf that contains a point of the triangle, the last of the steps. Returns the leaf's place, or
+ * LMB_TRANSFER_NONE if it lies too deep. */
 static uint32_t enter_leaf(lmb_transfer_met *s, const lmb_transfer *t, uint32_t root, float b1, float b2)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_DIVISIONS];
@@ -103,7 +103,7 @@ static uint32_t enter_leaf(lmb_transfer_met *s, const lmb_transfer *t, uint32_t 
 
 /* --- pixels ------------------------------------------------------------------------------------------------------- */
 
-/* What a call is about. */
+/* Arguments of a call. */
 typedef struct job {
     const lmb_kernels *kernels;
     lmb_glossy *glossy; /* or NULL */
@@ -113,7 +113,7 @@ typedef struct job {
     const lmb_tile *tile;
 } job;
 
-/* Of one side of a triangle, leaf by leaf: that of the first pixel left lights all pixels on it. */
+/* Lights one side of a triangle leaf by leaf: the leaf of the first remaining pixel lights all pixels on it. */
 static void light_side(lmb_irradiance *inout, const job *j, uint32_t root, uint64_t pixels)
 {
     lmb_transfer_met *s = j->met;
@@ -132,7 +132,7 @@ static void light_side(lmb_irradiance *inout, const job *j, uint32_t root, uint6
     }
 }
 
-/* Of `left` the pixels on the first one's side of its triangle, lit where it receives light. */
+/* Returns the pixels of `left` on the first pixel's side of a triangle, lit if that side receives light. */
 static uint64_t light_first(lmb_irradiance *inout, const job *j, const lmb_scene *scene, uint64_t left)
 {
     const int first = lowest_bit_64(left);

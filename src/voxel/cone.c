@@ -1,5 +1,4 @@
-/* cone.c: cones over the hemisphere and along the mirrored view, through voxels and to what lies beyond. Layer 5.
- *                                                                                                          [M20-M22] */
+/* cone.c: cones over the hemisphere and along the mirrored view, through voxels to the sky. Layer 5.      [M20-M22] */
 #include <string.h>
 
 #include "../base/poly.h"
@@ -10,11 +9,12 @@
 
 /* --- steps -------------------------------------------------------------------------------------------------------- */
 
-/* A cone t away is 2 t tan wide. It is read from voxels WIDTH as wide, at least leaves, which blur by as much again;
- * steps are as long as these voxels are wide: longest without gaps, since weights between middles add up to 1.
- * COVER: on its way through a wall a cone goes on widening, so that what it reads of it adds up to 0.75 .. 1.3, by
- * where the wall lies in its voxels; over 1 is lost, and so 1.15 times it comes nearest to whole in the mean (a closed
- * room leaves 18 % open by 1, 11 % by 1.15, 10 % by 1.2; a sphere's shadow grows with it). */
+/* A cone is 2 t tan wide at distance t. It reads voxels width_share as wide, but at least leaves; interpolation blurs
+ * by as much again. Steps are as long as these voxels are wide: the longest without gaps, because the weights between
+ * middles add up to 1. cover_share: inside a wall a cone keeps widening, so the wall's coverage adds up to 0.75 .. 1.3,
+ * depending on the wall's position in its voxels. Coverage over 1 is lost, so a factor of 1.15 comes nearest to 1 in
+ * the mean. A closed room then leaves 11 % open (18 % with 1, 10 % with 1.2), but a sphere's shadow grows with the
+ * factor. */
 static const float step_share = 1.0f, width_share = 0.5f, cover_share = 1.15f;
 
 static int set_steps(lmb_cone_width *out, const lmb_voxels *v)
@@ -59,11 +59,12 @@ float lmb_cone_tangent(float roughness)
 
 /* --- the hemisphere ----------------------------------------------------------------------------------------------- */
 
-/* Irradiance is pi times the mean of radiance over the unit disc under the hemisphere. The disc is cut into rings of 1,
- * 6, 12, 18 cells of equal area: n cones, each pi / n of the whole. Ring i lies between radii a and b with a^2, b^2 the
- * shares of cells inside it and with it; on the hemisphere cosines sqrt(1 - a^2) and sqrt(1 - b^2), so one of its m
- * cells has 2 pi (cos_a - cos_b) / m of solid angle; a cone of half angle w has 2 pi (1 - cos w). The axis is over the
- * middle of the cell's area, 2/3 (b^3 - a^3) / (b^2 - a^2) from the disc's. */
+/* Irradiance is pi times the mean of radiance over the unit disc below the hemisphere. The disc is cut into rings of 1,
+ * 6, 12, 18 cells of equal area: n cones, each pi / n of the whole. Ring i lies between radii a and b; a^2 and b^2 are
+ * the shares of cells inside it, without and with the ring. On the hemisphere these radii have cosines sqrt(1 - a^2)
+ * and sqrt(1 - b^2), so each of the ring's m cells has a solid angle of 2 pi (cos_a - cos_b) / m. A cone of half angle
+ * w has 2 pi (1 - cos w). The axis goes through the centroid of the cell's area, 2/3 (b^3 - a^3) / (b^2 - a^2) from the
+ * disc's middle. */
 static void set_ring(lmb_cones *out, const lmb_voxels *v, int32_t ring, int32_t *first)
 {
     const int32_t cells = ring == 0 ? 1 : 6 * ring;
@@ -124,7 +125,8 @@ static void follow(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_co
     trace->kernels->cone(out, &job, tile, direction);
 }
 
-/* What the cone leaves open shows the environment, as wide as the cone is.                                     [M22] */
+/* The open part of the cone sees the environment, filtered to the cone's width.                                 
+ * [M22] */
 static void finish(lmb_cone_seen *inout, const lmb_cone_trace *trace, float tangent, const lmb_tile *tile,
                    float direction[3][LMB_TILE_PIXELS])
 {
@@ -164,7 +166,7 @@ static void set_pixel(float plane[3][LMB_TILE_PIXELS], int k, lmb_vec3 v)
     plane[2][k] = v.z;
 }
 
-/* A tangent: at a right angle to the normal and to the axis that is farthest from it. */
+/* Sets tangents: perpendicular to the normal and to the axis least aligned with it. */
 static void set_tangents(float out[3][LMB_TILE_PIXELS], const lmb_tile *tile)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {

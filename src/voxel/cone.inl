@@ -1,39 +1,45 @@
 /* cone.inl: radiance that cones gather from voxels. Layer 5. [M20-M22]
  *
- * Lanes are pixels; a cone's samples lie at the same distances for all of them, so all lanes read the same levels.
+ * Lanes are pixels. A cone's samples lie at the same distances for all pixels, so all lanes read the same levels.
  *
- * A sample is read between eight voxels' middles of two levels. With d the ray to a voxel's middle, which is as long as
- * the axis is by then, per leaf of way along the axis:
- *   coverage  C = sum |d_a| cover_a of the side that faces the viewer: how often a ray meets a surface (cone_crossed)
- *   light     E = sum |d_a| light_a of that side: radiance x how often
- * A cone's rays go apart: by its axis alone it would pass between walls that it is wider than, and a wall that it
- * grazes would count more often than once, for the rays that come to it late go along it more than the axis does.
- * Where voxels are wider than the cone, their middles say nothing and d is the axis.
- * What rays meet adds up to 1, then all is hidden: surfaces that follow each other in a sample or on the way are taken
- * to lie side by side. So a wall is whole whatever level it is read from, and half a wall is half: exponentials would
- * need a wall to be several times as thick as it is.
- *   The surfaces' radiance is E / V, V the coverage that belongs to E: C, less what double-sided surfaces have along
- * axes on which they turn away. For one flat, evenly lit surface it is exact.
- *   The pixel's own plane is known: voxels behind it are left out, those that it goes through lose what it alone has
- * there, and what is left is divided by the sample's share in front of it. What is double-sided and faces the other way
- * may be the same surface from behind, or another one that the pixel's touches: a floor under what stands on it. */
+ * A sample is interpolated between the middles of eight voxels on two levels. Let d be the ray to a voxel's middle, as
+ * long as the axis at that point, per leaf along the axis:
+ * - coverage C = sum |d_a| cover_a of the side that faces the viewer: the mean number of surfaces that a ray meets
+ *   (cone_crossed)
+ * - light E = sum |d_a| light_a of that side: radiance times that number
+ *
+ * A cone's rays diverge. With the axis direction for all of them, the cone would pass between walls narrower than
+ * itself. A grazed wall would also count more than once, because rays that arrive later run more along the wall than
+ * the axis does. If voxels are wider than the cone, their middles give no direction and d is the axis.
+ *
+ * Coverage is summed up to 1, which hides all that lies behind. Surfaces that follow each other in a sample or along
+ * the cone are assumed to lie side by side. So a wall is opaque on every level, and half a wall covers half.
+ * Exponential falloff would need walls several times thicker.
+ *
+ * The surfaces' radiance is E / V. V is the coverage that belongs to E: C minus the coverage of double-sided surfaces
+ * along axes on which they face away. This is exact for one flat, evenly lit surface.
+ *
+ * The pixel's own plane is known. Voxels behind the plane are skipped; voxels that it cuts lose the coverage of the
+ * plane itself, and the rest is divided by the share of the sample in front of the plane. A double-sided surface that
+ * faces the other way may be the same surface from behind, or another one that touches the pixel's: a floor under an
+ * object. */
 
 typedef struct cone_rays {
-    lane3 origin, towards; /* leaves from the cube's corner; the pixels' faces' normals */
-    lane3 d, axis;         /* the axis; and without parts that are next to none */
+    lane3 origin, towards; /* leaves from the cube's corner; face normals of the pixels */
+    lane3 d, axis;         /* the axis, and the axis without tiny components */
     float apart;           /* of the step */
 } cone_rays;
 
 typedef struct cone_sum {
     lane3 met;    /* |d_a| x coverage against the rays, by axis */
-    lane3 flat;   /* d_a x the surfaces' normal */
-    lane3 sheets; /* of that, what is double-sided */
+    lane3 flat;   /* d_a x normal of the surfaces */
+    lane3 sheets; /* the double-sided part of `flat` */
     lane3 light;
-    lane space; /* how much of the sample is in front of the pixel's plane */
+    lane space; /* share of the sample in front of the pixel's plane */
 } cone_sum;
 
-/* The first of the two cells beside a place along an axis, from -1 on, and how near the second is: in 256 steps, so
- * that products of weights are no denormals. */
+/* The first of the two cells around a position on an axis, from -1, and the weight of the second, in steps of 1/256 so
+ * that products of weights are not denormal. */
 typedef struct cone_axis {
     lanei cell;
     lane second;
@@ -43,7 +49,7 @@ LANE_INLINE cone_axis cone_axis_of(lane at, int32_t level, int32_t depth)
 {
     const float side = (float)(1 << (depth - level));
     const lane scaled = lane_mul(at, lane_splat(1.0f / (float)(1 << level)));
-    /* One more, so that trunc is floor. */
+    /* Adds 1, so that trunc works as floor. */
     const lane from = lane_min(lane_max(lane_add(scaled, lane_splat(0.5f)), lane_splat(0.0f)), lane_splat(side + 1.0f));
     const lane first = lane_trunc(from);
     cone_axis r;
@@ -57,7 +63,7 @@ LANE_INLINE lane cone_weight(const cone_axis *a, int i)
     return i ? a->second : lane_sub(lane_splat(1.0f), a->second);
 }
 
-/* The voxels of cells; under 8 where there is none. */
+/* Voxel indices of cells; under 8 if there is no voxel. */
 LANE_INLINE lanei cone_voxel(const lmb_cone_job *job, int32_t levels, lanei x, lanei y, lanei z)
 {
     static const int32_t base[5] = {8, 9, 17, 81, 593};
@@ -81,15 +87,15 @@ LANE_INLINE lanei cone_voxel(const lmb_cone_job *job, int32_t levels, lanei x, l
     return lanei_pick(inside, at, lanei_splat(0));
 }
 
-/* The part of double-sided coverage along an axis that may be the pixel's own plane: all of it, or what its front
- * faces. */
+/* The double-sided coverage along an axis that may be the pixel's own plane: all of it, or the part that the plane's
+ * front faces. */
 LANE_INLINE lane cone_own(lane sheet, lane towards, int32_t faced)
 {
     const lane zero = lane_splat(0.0f);
     return faced ? lane_max(lane_pick(lane_lt(towards, zero), lane_sub(zero, sheet), sheet), zero) : lane_abs(sheet);
 }
 
-/* Adds coverage along one axis. mine: the part of it that is the pixel's own plane; d: how far the ray goes. */
+/* Adds coverage along one axis. mine: the part that is the pixel's own plane; d: length of the ray along the axis. */
 LANE_INLINE void cone_add_axis(lane *met, lane *flat, lane *sheets, const lane pair[2], lane sheet, lane d,
                                lane weight, lane mine)
 {
@@ -114,7 +120,7 @@ LANE_INLINE void cone_add_light(lane3 *sum, const lmb_cone_job *job, lanei at, l
     sum->z = lane_add(sum->z, lane_mul(light[2], share));
 }
 
-/* One voxel's part. own: what a plane across the voxel has of coverage; 0 for voxels without the pixel's own. */
+/* Adds one voxel. own: coverage of a plane through the voxel; 0 if the pixel's plane does not cut it. */
 LANE_PART void cone_add(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, const lane3 *ray, lanei at,
                         lane weight, lane own)
 {
@@ -136,7 +142,7 @@ LANE_PART void cone_add(cone_sum *sum, const lmb_cone_job *job, const cone_rays 
     cone_add_light(&sum->light, job, six, ray->z, 2, weight);
 }
 
-/* Parts under 2^-12 are none: what they are multiplied with stays a normal number. */
+/* Flushes components under 2^-12 to zero, so that products with them stay normal numbers. */
 LANE_INLINE lane cone_part(lane part)
 {
     return lane_keep(lane_lt(lane_splat(1.0f / 4096.0f), lane_abs(part)), part);
@@ -148,7 +154,7 @@ LANE_INLINE lane3 cone_parts(lane3 d)
     return r;
 }
 
-/* A level at `at`, leaves from the corner. */
+/* Reads one level at `at`, in leaves from the corner. */
 NOINLINE void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, const lane3 *at,
                            int32_t level, float share)
 {
@@ -180,11 +186,11 @@ NOINLINE void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays
     }
 }
 
-/* The expected number of surfaces that a ray meets in a leaf. `met` is |d_a| cover_a; its sum is right for a corner
- * of walls, and too much for all else. Flat surfaces count |N . d|, and nothing where the ray leaves what is
- * single-sided: on a ball's far side the normal's parts face the ray along some axes. Round ones count the projection
- * of an ellipsoid with these areas, which is the root of the squares' sum. What is both counts by parts: the root of
- * the squares' sum with N's own part taken out and (N . d)^2 put in. */
+/* Expected number of surfaces that a ray meets in a leaf. `met` is |d_a| cover_a; the sum of `met` is right for a
+ * corner of walls and too large otherwise. Flat surfaces count |N . d|; a single-sided one counts 0 if the ray leaves
+ * it, because on the far side of a ball some components of the normal still face the ray. Round surfaces count the
+ * projection of an ellipsoid with these areas, the root of the sum of squares. Mixtures take the root of the sum of
+ * squares with N's part replaced by (N . d)^2. */
 LANE_INLINE lane cone_crossed(lane cover, const cone_sum *sum)
 {
     const lane zero = lane_splat(0.0f);
@@ -195,7 +201,7 @@ LANE_INLINE lane cone_crossed(lane cover, const cone_sum *sum)
     return lane_min(cover, lane_sqrt(lane_add(lane_mul(through, through), lane_max(round, zero))));
 }
 
-/* V of the head of this file: the part of C whose light shows. */
+/* V in the comment at the top: the part of C with visible light. */
 LANE_INLINE lane cone_shown(lane cover, const cone_sum *sum)
 {
     const lane zero = lane_splat(0.0f), part[3] = {sum->sheets.x, sum->sheets.y, sum->sheets.z};
@@ -208,8 +214,8 @@ LANE_INLINE lane cone_shown(lane cover, const cone_sum *sum)
     return lane_max(shown, lane_add(lane_mul(cover, lane_splat(0.1f)), lane_splat(1e-12f)));
 }
 
-/* Adds the light of a step, and returns what the step leaves open. Under 1/1024 counts as closed, for each lane by
- * itself: so a lane does not depend on when others are done. */
+/* Adds the light of a step and returns the share that stays open. A share under 1/1024 counts as closed, separately for
+ * each lane, so that a lane does not depend on when the others end. */
 NOINLINE lane cone_scale(lmb_cone_seen *out, int k, const cone_sum *sum, float length, lane open)
 {
     const lane cover = lane_add(lane_add(sum->met.x, sum->met.y), sum->met.z),
@@ -238,7 +244,7 @@ NOINLINE lane cone_step(lmb_cone_seen *out, int k, const lmb_cone_job *job, cons
     return cone_scale(out, k, &sum, step->length, open);
 }
 
-/* Is one of the samples in the cube, or up to half a voxel of the coarser level beside it, which it still reads? */
+/* Does a sample lie in the cube, or within half a voxel of the coarser level beside it, which still contributes? */
 NOINLINE int cone_is_inside(const lmb_cone_job *job, const cone_rays *rays, const lmb_cone_step *step)
 {
     const float margin = (float)(1 << step->level), side = (float)(1 << job->depth) + margin;
@@ -247,7 +253,7 @@ NOINLINE int cone_is_inside(const lmb_cone_job *job, const cone_rays *rays, cons
     return mask_bits(mask_and(lane_lt(lane_splat(-margin), low), lane_lt(high, lane_splat(side)))) != 0;
 }
 
-/* Pixels without a surface are closed from the start: lanes that have no other end at once. */
+/* Pixels without a surface start closed, so that a vector of them ends at once. */
 LANE_PART lane cone_follow(lmb_cone_seen *out, int k, const lmb_cone_job *job, cone_rays *rays, lane depth)
 {
     lane open = lane_keep(lane_lt(lane_splat(0.0f), depth), lane_splat(1.0f));
@@ -265,7 +271,7 @@ LANE_PART lane cone_follow(lmb_cone_seen *out, int k, const lmb_cone_job *job, c
     return open;
 }
 
-/* Positions that are not finite, or so far that squared distances overflow, are moved to the corner: inactive lanes
+/* Moves positions that are not finite, or so far off that squared distances overflow, to the corner: inactive lanes
  * must stay finite, because wider back ends compute more of them. */
 LANE_INLINE lane cone_finite(lane v) { return lane_keep(lane_lt(lane_abs(v), lane_splat(1.0995116e12f)), v); }
 

@@ -1,10 +1,10 @@
-/* filter.c: light from the leaves upward, and the difference of two worlds' light. Layer 5.            [M11 M12 M13] */
+/* filter.c: averages light from the leaves upward, and subtracts the light of two worlds. Layer 5.     [M11 M12 M13] */
 #include "../base/poly.h"
 #include "octree.h"
 
 #if LMB_VOXELS
 
-/* Less is none: a cone's weights may take 2^-50 of it, and kernels meet no denormal. */
+/* Smaller light becomes 0: a cone's weights may scale it by 2^-50, and kernels must not meet denormals. */
 static const float min = 5.421011e-20f; /* 2^-64 */
 
 lmb_status lmb_voxels_filter(lmb_voxels *v, int32_t field)

@@ -1,4 +1,4 @@
-/* inject.c: first points of the shadow maps -> light of leaves, by the directions it leaves in. Layer 5.    [M7 M10] */
+/* inject.c: first points of the shadow maps -> light of leaves, by outgoing direction. Layer 5.             [M7 M10] */
 #include <string.h>
 
 #include "../base/poly.h"
@@ -29,9 +29,8 @@ static int is_covered(const lmb_voxels *v, int32_t world, uint32_t at)
     return at >= 8 && c[0] + c[1] + c[2] + c[3] + c[4] + c[5] > 0.0f;
 }
 
-/* A leaf that surfaces cover: the first point's own, or one beside it along its normal. A texel's place and a
- * triangle's part may be rounded to two sides of a leaf's face, and a texel at an edge may hang over it. 0: there is
- * none. */
+/* A covered leaf: the first point's own, or one beside it along its normal. A texel's position and a triangle's part
+ * may be rounded to two sides of a leaf face, and a texel at an edge may overhang. Returns 0 if there is none. */
 static uint32_t leaf_of(const lmb_voxels *v, int32_t world, const lmb_texel *t)
 {
     static const float beside[] = {0.0f, -1.0f / 64.0f, 1.0f / 64.0f, -0.25f, 0.25f, -0.5f, 0.5f};

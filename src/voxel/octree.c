@@ -62,7 +62,7 @@ uint32_t lmb_octree_find(const lmb_voxels *v, octree_cell c, int32_t levels)
     return at;
 }
 
-/* Eight empty voxels; 0: there are no more. */
+/* Takes eight empty voxels; returns 0 if none are left. */
 static uint32_t take_eight(lmb_voxels *v)
 {
     const uint32_t first = v->count;
@@ -113,7 +113,7 @@ uint32_t lmb_voxels_at(const lmb_voxels *v, lmb_vec3 at, int32_t level)
 
 /* --- means -------------------------------------------------------------------------------------------------------- */
 
-/* In the order of their octants. */
+/* Averages the children in the order of their octants. */
 static void set_mean(float *data, int floats, uint32_t to, const uint32_t from[8])
 {
     for (int i = 0; i < floats; ++i) {
@@ -135,8 +135,8 @@ static void mean_of_full(float *data, int floats, octree_cell c, int32_t level)
     set_mean(data, floats, octree_full(c, level), from);
 }
 
-/* A child is always made after its parent, so from the last to the first every voxel's children are done before it: the
- * n - 1 steps of n levels in one pass. */
+/* A child is always created after its parent, so a pass from the last voxel to the first finishes all children before
+ * each parent: the n - 1 steps of n levels in one pass. */
 void lmb_octree_mean(const lmb_voxels *v, float *data, int floats)
 {
     for (uint32_t at = v->count; at-- > octree_base(OCTREE_FULL);) {

@@ -1,4 +1,4 @@
-/* voxelize.c: triangles -> how much of a leaf they cover, as seen along each axis. Layer 5. [M6] */
+/* voxelize.c: triangles -> the share of a leaf that they cover, seen along each axis. Layer 5. [M6] */
 #include <string.h>
 
 #include "../raster/resolve.h"
@@ -6,9 +6,9 @@
 
 #if LMB_VOXELS
 
-enum { CORNERS = 12 /* a triangle cut by six planes has nine */, SAMPLES = 4, MAX = 32 /* leaf faces in a leaf */ };
+enum { CORNERS = 12 /* a triangle cut by six planes has nine */, SAMPLES = 4, MAX = 32 /* leaf faces */ };
 
-/* Areas are whole numbers of these, and their sums up to MAX exact: no order of triangles changes them. */
+/* Areas are multiples of this, so sums up to MAX are exact and do not depend on the order of triangles. */
 static const float unit_area = 1.0f / 262144.0f;
 
 /* A convex polygon, in leaves. */
@@ -19,9 +19,9 @@ typedef struct polygon {
 
 typedef struct builder {
     lmb_voxels *v;
-    const int32_t *in; /* which worlds */
-    float share;       /* of the triangle that stands */
-    float front;       /* 1; -1 where the instance mirrors */
+    const int32_t *in; /* the worlds of the part */
+    float share;       /* opaque share of the triangle */
+    float front;       /* 1; -1 if the instance is mirrored */
     int twice;         /* double-sided */
     int full;
 } builder;
@@ -35,8 +35,8 @@ static void put(polygon *p, const float at[3])
     }
 }
 
-/* Both sides of the plane where the axis is `cut`. Edges are cut from their lower end, so that two polygons that share
- * one get the same corner. */
+/* Splits the polygon at the plane axis = `cut`. Edges are cut from their lower end, so that two polygons that share an
+ * edge get the same corner. */
 static void split(polygon *below, polygon *above, const polygon *p, int axis, float cut)
 {
     below->count = above->count = 0;
@@ -65,7 +65,7 @@ typedef struct span {
     int32_t first, last; /* cells */
 } span;
 
-/* Cuts off what of the polygon lies outside the cube along an axis; returns the cells of the rest. */
+/* Clips the polygon to the cube along an axis; returns the range of cells of the rest. */
 static span span_of(polygon *p, int axis, int32_t side)
 {
     polygon whole, rest;
@@ -88,7 +88,7 @@ static span span_of(polygon *p, int axis, int32_t side)
     return s;
 }
 
-/* Takes the part under cell + 1 off `rest`. */
+/* Takes the part below cell + 1 off `rest`. */
 static void take(polygon *out, polygon *rest, int axis, int32_t cell, int32_t last)
 {
     if (cell == last) {
@@ -101,7 +101,7 @@ static void take(polygon *out, polygon *rest, int axis, int32_t cell, int32_t la
 
 /* --- adding up ---------------------------------------------------------------------------------------------------- */
 
-/* Half the sum of the fan's cross products: the area seen along each axis, with its sign. */
+/* Half the sum of the fan's cross products: the signed area seen along each axis. */
 static lmb_vec3 area_of(const polygon *p)
 {
     lmb_vec3 sum = vec3(0.0f, 0.0f, 0.0f);
@@ -120,8 +120,8 @@ static void add_area(float *to, float area)
     *to = minf(*to + floorf(area * (1.0f / unit_area) + 0.5f) * unit_area, (float)MAX);
 }
 
-/* While all is built a voxel's geometry is area by the direction that its front faces, +x -x +y -y +z -z: of what is
- * single-sided, then of what is double-sided. */
+/* During the build a voxel stores area by the direction of the front, +x -x +y -y +z -z: first single-sided surfaces,
+ * then double-sided ones. */
 static void add_leaf(builder *b, const polygon *p, octree_cell c)
 {
     if (p->count < 3) {
@@ -180,7 +180,7 @@ static void add_polygon(builder *b, polygon *rest)
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
-/* The opaque share of a masked triangle, by four points: its middle, and half way from there to each corner. */
+/* Opaque share of a masked triangle, from four points: the centroid, and half way from there to each corner. */
 static float standing(const lmb_triangle *t, const lmb_scene *scene)
 {
     static const float at[SAMPLES][2] = {{1.0f / 3.0f, 1.0f / 3.0f}, {2.0f / 3.0f, 1.0f / 6.0f},
@@ -227,7 +227,7 @@ static void begin(lmb_voxels *v, int32_t depth)
     }
 }
 
-/* 1 where all fits. */
+/* Returns 1 if everything fits. */
 static int add_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
 {
     builder b = {v, NULL, 1.0f, 1.0f, 0, 0};
@@ -242,8 +242,8 @@ static int add_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
     return !b.full;
 }
 
-/* Areas become coverage. Of a double-sided thing thinner than a voxel one side is seen at a time: the larger of both
- * areas counts. The loop begins at the last axis, because the normal is written where areas of later axes were. */
+/* Converts areas to coverage. A double-sided object thinner than a voxel shows one side at a time, so the larger of
+ * both areas counts. The loop starts at the last axis, because the normal overwrites the areas of later axes. */
 static void finish(float *cover, uint32_t count)
 {
     for (int k = 2; k >= 0; --k) {
@@ -267,9 +267,10 @@ static int parts_are_valid(const lmb_voxel_part *parts, int32_t count)
     return valid;
 }
 
-/* The box begins a twelfth of the cube's side from its corner, and along its longest axis ends as far from the other:
- * so walls on it are 1/3 or 2/3 into their voxels on every level but the coarsest three. There no rounding puts their
- * light into others; and walls at the outer ends of voxels would be read too late on every level (see cone.c). */
+/* The box starts a twelfth of the cube's side from the cube's corner; along the longest axis it ends at the same
+ * distance from the other face. So walls on the box lie 1/3 or 2/3 into their voxels on every level except the coarsest
+ * three. There rounding cannot move their light into other voxels. Walls at the outer faces of voxels would be read too
+ * late on every level (see cone.c). */
 static void set_cube(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth)
 {
     const float side = maxf(largest3(sub3(*high, *low)), 1e-6f) * 1.2f, margin = side / 12.0f;
