@@ -1,6 +1,7 @@
 /* main.c: runs the tests: tests [GROUP | NAME | -NAME]... [K/N]   no arguments: all tests; -NAME: except this one; K/N:
- * every N-th of the selected tests, from the K-th on.  The Makefile lists the tests in tests.inc, a line TEST(group,
- * name) for each tests/GROUP/test_NAME.c. */
+ * every N-th of the selected tests, from the K-th on.
+ *
+ * The Makefile lists the tests in tests.inc, a line TEST(group, name) for each tests/GROUP/test_NAME.c. */
 #include "../test.h"
 
 #include <string.h>

@@ -131,7 +131,7 @@ static void texts(void)
     lmb_light light;
     float size;
     CHECK(option_light(texts[2].text, &light, NULL) != NULL && option_light(texts[3].text, &light, NULL) == NULL);
-    /* A size without angles keeps the default cone, which narrows to the axis. */
+    /* A size without angles keeps the default cone, with an inner angle of 0. */
     CHECK(option_light("spot:0,0,0:0,-1,0:1,1,1:0.5", &light, &size) == NULL && light.cos_inner == 1.0f);
 }
 

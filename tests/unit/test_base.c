@@ -1,5 +1,6 @@
-/* test_base.c: layer 1: elementary functions, codecs, surfaces, scene checks, mips.  Accuracy is measured against libm
- *in double; one hash over all outputs of a fixed sweep compares machines. */
+/* test_base.c: layer 1: elementary functions, codecs, surfaces, scene checks, mips.
+ *
+ * Accuracy is measured against libm in double; one hash over all outputs of a fixed sweep compares machines. */
 #include <math.h>
 #include <string.h>
 

@@ -48,7 +48,7 @@ static void check_front(void)
     CHECK(bench_front(&b) == 3);
     CHECK(bench_front_order(order, &b) == 3);
     CHECK(order[0] == 2 && order[1] == 3 && order[2] == 0);
-    /* A third of the way in time (1 of 3 decades) and nearly at the lowest error: 1 - 1/3 - log(10)/log(500) below the
+    /* A third of the way in time (1 of 3 decades) and lower in error: 1 - 1/3 - log(10)/log(500) below the
      * line. */
     CHECK(b.point[3].is_knee && !b.point[0].is_knee && !b.point[2].is_knee);
     bench_results_free(&b);

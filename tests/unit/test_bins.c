@@ -1,6 +1,7 @@
 /* test_bins.c: layer 3: bins draw the same bytes as lmb_draw into any window, however little memory they have, however
- * ranges and windows are divided, and in any order.  Scenes are random, with holes and blending, on every backend and
- * in every format. */
+ * ranges and windows are divided, and in any order.
+ *
+ * Scenes are random, with holes and blending, on every backend and in every format. */
 #include <stdlib.h>
 #include <string.h>
 

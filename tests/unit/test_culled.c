@@ -1,5 +1,7 @@
 /* test_culled.c: layer 3: lmb_draw_culled leaves the same bytes as lmb_draw, whatever is hidden, and no bound is too
- * near.  Scenes are random: on every backend, in every format, in windows that end within a tile. */
+ * near.
+ *
+ * Scenes are random: on every backend, in every format, in windows that end within a tile. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <string.h>
 #ifdef __linux__

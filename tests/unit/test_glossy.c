@@ -77,7 +77,7 @@ static double left_over(double theta)
 }
 
 /* White light from everywhere. A metal with F0 = 1 reflects at most 1: nearly 1 if smooth, except at grazing angles,
- * and at roughness 1 the rest of single scattering. A white dielectric (F0 = 0.04), lobe and diffuse: 0.84 to 1.02. */
+ * and at roughness 1 the single-scattering part. A white dielectric (F0 = 0.04), lobe and diffuse: 0.84 to 1.02. */
 static void white_furnace(void)
 {
     static const double roughness[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0}, degrees[] = {0, 30, 60, 75, 80, 85};

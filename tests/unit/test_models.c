@@ -286,7 +286,7 @@ static void gltf_lights(void)
     if (loaded.scene.light_count != 4)
         return;
     CHECK(l[0].kind == LMB_LIGHT_POINT && is_vec(l[0].position, 1, 3, 3));
-    CHECK(l[0].range == 3.0f && l[1].range == 0.0f && l[2].range == 0.0f && l[3].range == 0.0f); /* not scaled by nodes */
+    CHECK(l[0].range == 3.0f && l[1].range == 0.0f && l[2].range == 0.0f && l[3].range == 0.0f); /* node scale unused */
     CHECK(l[0].intensity[0] == 8 && l[0].intensity[1] == 4 && l[0].intensity[2] == 2);
     CHECK(l[1].kind == LMB_LIGHT_SPOT && is_vec(l[1].direction, 0, 0, 1) && is_vec(l[1].position, 0, 0, 0));
     CHECK(near(l[1].cos_inner, cos(0.5), 1e-7) && near(l[1].cos_outer, cos(1.0), 1e-7));

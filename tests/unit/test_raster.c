@@ -1,7 +1,8 @@
-/* test_raster.c: layer 3: coverage against exact integers, meshes without cracks, depth, windows, culling, holes. The
- *coverage reference is separate integer code. Views are chosen so that the snapped vertices are known: an orthographic
- *frame of 64 px at 1 m per pixel, in which every step of the transform is exact, and perspective views with the
- *documented rounding to 1/256 px. */
+/* test_raster.c: layer 3: coverage against exact integers, meshes without cracks, depth, windows, culling, holes.
+ *
+ * The coverage reference is separate integer code. Views are chosen so that the snapped vertices are known: an
+ * orthographic frame of 64 px at 1 m per pixel, in which every step of the transform is exact, and perspective views
+ * with the documented rounding to 1/256 px. */
 #include <math.h>
 #include <string.h>
 
