@@ -159,7 +159,7 @@ static void test_flux(void)
     make_floor();
     check_flux("sun overhead", sun(vec3(0, -1, 0)), 4.0, 2e-3);
     check_flux("sun at 60 degrees", sun(vec3(0.8660254f, -0.5f, 0)), 2.0, 2e-3);
-    lmb_light ends = point_light(vec3(0, 0.3f, 0)); /* on the floor 0.85 m from the centre */
+    lmb_light ends = point_light(vec3(0, 0.3f, 0)); /* the range ends 0.85 m from the floor's centre */
     ends.range = 0.9f;
     check_flux("point, range 0.9", ends, range_power(0.3, 0.9, 0.0), 2e-3);
 }

@@ -182,7 +182,7 @@ static int has_lobe(double albedo, double f0, double roughness)
 }
 
 /* Without lobes first; then base x (1 - metallic) below mix(0.04, base, metallic). A textured metal uses the image's
- *  mean. */
+ * mean. */
 static void lobes(void)
 {
     static const struct {

@@ -104,7 +104,7 @@ static void spoil(pair *p, int i, int way)
     p->was[i].is_known = way == UNKNOWN ? 0 : 1;
 }
 
-/* If one column shows something else, it gets the light of the nearest other column; five such columns leave their
+/* If one column shows something else, its light is that of the nearest other column; five such columns leave their
  * middle without light. */
 static void beside_pixels(pair *p)
 {
