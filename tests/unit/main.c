@@ -1,7 +1,7 @@
-/* main.c: runs the tests: tests [GROUP | NAME | -NAME]... [K/N]   without words, all of them; -NAME: but that one; K/N: of
- * these each N-th, from the K-th on.
+/* main.c: runs the tests: tests [GROUP | NAME | -NAME]... [K/N]   no arguments: all tests; -NAME: except this one; K/N:
+ * every N-th of the selected tests, from the K-th on.
  *
- * The Makefile lists them in tests.inc, a line TEST(group, name) for each tests/GROUP/test_NAME.c. */
+ * The Makefile lists the tests in tests.inc, a line TEST(group, name) for each tests/GROUP/test_NAME.c. */
 #include "../test.h"
 
 #include <string.h>
@@ -34,7 +34,8 @@ static int is_wanted(const struct test *t, int argc, char **argv)
     return wanted;
 }
 
-/* One line a test, so that a crash shows where it happened; then its counts and its seconds of processor time. */
+/* Prints a line per test first, so that a crash shows which test it was in, then the counts and the seconds of
+ * processor time. */
 static void run(const struct test *t)
 {
     int passed = test_passed, failed = test_failed, skipped = test_skipped;
@@ -50,7 +51,7 @@ static void run(const struct test *t)
     printf(", %.2f s\n", (double)(clock() - begun) / CLOCKS_PER_SEC);
 }
 
-/* How many tests have that name or are of that group. */
+/* Number of tests with this name or in this group. */
 static int count_of(const char *word)
 {
     int count = 0;

@@ -1,5 +1,5 @@
-/* test_adaptive.c: LMB_GATHER_ADAPTIVE: few samples where light is smooth, more where it is not, and always the same
- * bytes: in any order, by any band, thread and back end. */
+/* test_adaptive.c: LMB_GATHER_ADAPTIVE: few samples if the light is smooth, otherwise more, and the same bytes in any
+ * order, with any bands, threads and backends. */
 #include <lambent/lambent.h>
 
 #include <stdlib.h>
@@ -25,8 +25,8 @@ static float even(float x, float y) { return 0.3f + 0.0f * (x + y); }
 static float curved(float x, float y) { return 2.0f + 0.01f * x - 0.02f * y + 1e-4f * (x * x - x * y); }
 static float stepped(float x, float y) { return x + 0.3f * y > 61.0f ? 1.0f : 3.0f; }
 
-/* A wall of a centimetre a pixel; in columns from `bent` on it is another one, across it. With `deep`, four columns
- * from there on are a groove in it, so many metres deep, instead. */
+/* A wall with 1 cm per pixel. Columns from `bent` on belong to a second wall across it; with `deep`, four columns from
+ * there on are instead a groove of this depth in m. */
 static lmb_lattice wall_with(int32_t bent, float deep)
 {
     lmb_lattice l;
@@ -56,7 +56,7 @@ static lmb_lattice wall_with(int32_t bent, float deep)
 
 static lmb_lattice wall(int32_t bent) { return wall_with(bent, 0.0f); }
 
-/* What is asked for, asked. Returns how many. */
+/* Evaluates all wanted pixels. Returns their number. */
 static int gather(const lmb_lattice *l, light_at light)
 {
     int count = 0;
@@ -75,7 +75,7 @@ static int gather(const lmb_lattice *l, light_at light)
     return count;
 }
 
-/* All that a frame does. Returns how many samples it took. */
+/* All stages of a frame. Returns the number of samples. */
 static int solve(lmb_lattice *l, light_at light)
 {
     int count = gather(l, light);
@@ -98,7 +98,7 @@ static int solve(lmb_lattice *l, light_at light)
     return count;
 }
 
-/* The largest error of a pixel; `off`: how many are off by over a tenth. */
+/* The largest error of a pixel; `off`: pixels with an error of over a tenth. */
 static float worst(const lmb_lattice *l, light_at light, int *off)
 {
     float out = 0.0f;
@@ -134,7 +134,7 @@ static void test_lattice(void)
     CHECK(count > FIRST + 100 && count < WIDE * HIGH / 5 && off < WIDE * HIGH / 100);
 }
 
-/* Two walls with different light meet within cells: neither takes the other's. */
+/* Two walls with different light meet within cells: neither may take light from the other. */
 static float either(float x, float y) { return x >= 45.0f ? 10.0f + 0.0f * y : 1.0f; }
 
 static void test_two_walls(void)
@@ -146,7 +146,7 @@ static void test_two_walls(void)
     CHECK_MSG(count < WIDE * HIGH / 8, "%d", count);
 }
 
-/* A groove between samples, whose bottom is parallel to the wall: it does not take the wall's light. */
+/* A groove between samples with a bottom parallel to the wall: it must not take the wall's light. */
 static float grooved(float x, float y) { return x >= 42.0f && x < 46.0f ? 10.0f + 0.0f * y : 1.0f; }
 
 static void test_groove(void)
@@ -158,7 +158,7 @@ static void test_groove(void)
     CHECK_MSG(count < WIDE * HIGH / 8, "%d", count);
 }
 
-/* Where no sample is known, the mean is 0, and what waits for a sample near by is dark. */
+/* Without known samples the mean is 0, and pixels that wait for a nearby sample are dark. */
 static void test_no_samples(void)
 {
     lmb_lattice l = wall(WIDE);
@@ -180,7 +180,8 @@ static void test_no_samples(void)
     CHECK_MSG(off == 0, "%d pixels", off);
 }
 
-/* A corner in the dark, six pixels before the next window: light grows beyond it too, and does not jump there. */
+/* A corner in the dark, six pixels before the next window: the light also grows beyond it, without a jump at the
+ * border. */
 static float rising(float x, float y) { return x >= 58.0f ? minf(0.3f + 0.04f * (x - 58.0f), 1.0f) : 2.0f + 0.0f * y; }
 
 static void test_window_side(void)
@@ -254,7 +255,7 @@ static uint64_t drawn(const lmb_frame_settings *s)
     return hash_of();
 }
 
-/* In parts from the last to the first, by noisy scratch. */
+/* In parts from last to first, with noise in the scratch. */
 static uint64_t drawn_in_parts(const lmb_frame_settings *s, int32_t parts)
 {
     lmb_status status;
@@ -302,7 +303,7 @@ static uint64_t drawn_by_bands(lmb_frame_settings s)
     return rows_hash;
 }
 
-/* The middle of a view, as large as in one of three times its size: small frames of all that is there are all edges. */
+/* The centre of a view at three times the size: small frames of the whole scene consist only of edges. */
 static lmb_view near_view(int32_t width, int32_t height)
 {
     lmb_view v = demo_view(width, height);
@@ -311,7 +312,7 @@ static lmb_view near_view(int32_t width, int32_t height)
     return v;
 }
 
-/* Of the whole gallery, where light has edges of all kinds. */
+/* The whole gallery, with all kinds of light edges. */
 static void test_whole_gallery(void)
 {
     const lmb_frame_settings s = settings_of(demo_scene(), demo_view(83, 61), LMB_GATHER_ADAPTIVE);
@@ -355,7 +356,8 @@ static void make_corner(void)
     CHECK(world_end() == LMB_OK);
 }
 
-/* Each bit of `k` changes something: the light; the viewer; both the block. What does not change keeps its revision. */
+/* Each bit of `k` changes something: the light, the viewer; both bits the block. Unchanged parts keep their
+ * revision. */
 static void set_moment(int k)
 {
     const lmb_vec3 at = k & 1 ? vec3(0.7f, 1.2f, 0.1f) : vec3(0, 1.5f, 0);
@@ -380,8 +382,8 @@ static void is_as_cold(const uint64_t cold[MOMENTS], int k, const reuse_way *by,
     CHECK_MSG(hash_of() == cold[k], "moment %d after %d by %d rows, %d threads", k, before, (int)by->rows, by->threads);
 }
 
-/* A frame has the same bytes whichever came before it in its memory: each after each, and again by strips of some
- * heights and by threads, backwards, with noise in the scratches. */
+/* A frame has the same bytes whatever frame came before it in the same memory: each after each, also in strips of
+ * several heights and with threads, in reverse, with noise in the scratch. */
 static void test_history(void)
 {
     static const reuse_way ways[] = {REUSED_WAYS(HEIGHT)}, whole = {HEIGHT, 0};
@@ -415,7 +417,7 @@ static void test_history(void)
 enum { PICTURE = 160 * 120 * 3 };
 static float full[PICTURE], adaptive[PICTURE];
 
-/* RMSE of the adaptive picture against the full one, over its mean; *share: of the pixels that were gathered. */
+/* RMSE of the adaptive picture against the full one, over the mean; *share: share of pixels gathered. */
 static float error_of(const lmb_scene *scene, lmb_view view, float *share)
 {
     lmb_frame_settings s = settings_of(scene, view, 1);
@@ -458,7 +460,7 @@ static void test_flat_wall(void)
     CHECK(share < 0.06f && error < 0.02f);
 }
 
-/* Tiles with a polished surface are gathered whole: they show what every pixel's own light does, to the bit. */
+/* Tiles with a polished surface are fully gathered: each pixel equals a separate gather bit for bit. */
 static void test_lobes(void)
 {
     world_begin(0.7f, 0.6f, 0.5f);
@@ -490,7 +492,7 @@ static void test_lobes(void)
         }
     }
     CHECK_MSG(polished > 300 && other > 300 && off == 0, "%d, %d, %d are off", polished, other, off);
-    /* Elements that one kernel has lit are not what the other would have made of them. */
+    /* Elements lit by one kernel differ from those lit by the other. */
     for (int live = 0; live < 2; ++live) {
         s.gather_step = LMB_GATHER_LIVE;
         s.bounces = 2;
@@ -505,7 +507,7 @@ static void test_lobes(void)
     }
 }
 
-/* The camera moves by parts of a step: the lattice lies elsewhere, the error stays what it is. */
+/* The camera moves by fractions of a step: the lattice shifts, the error stays the same. */
 static void test_shift(void)
 {
     float least = 1.0f, most = 0.0f;
@@ -548,7 +550,7 @@ static void test_refused(void)
     static lmb_band_scratch bare; /* without memory for single points */
     CHECK(lmb_render_band(&render, frame.scratch, &frame.eye, &frame.out, 0) == LMB_OK);
     CHECK(lmb_render_band(&render, &bare, &frame.eye, &frame.out, 0) == LMB_ERR_ARG);
-    frame.gather_step = 1; /* whose tree of texels was not needed */
+    frame.gather_step = 1; /* the tree of texels was not needed */
     CHECK(lmb_render_again(&render, &frame) == LMB_ERR_ARG);
     frame.gather_step = LMB_GATHER_LIVE;
     CHECK(lmb_render_again(&render, &frame) == LMB_OK);

@@ -1,4 +1,5 @@
-/* test_area_light.c: lights with a size: their sum, their places, and the penumbra of a straight edge in closed form. */
+/* test_area_light.c: lights with a size: their sum and positions, and the penumbra of a straight edge in closed
+ * form. */
 #include <math.h>
 #include <string.h>
 
@@ -15,7 +16,7 @@ static double dot(lmb_vec3 a, const double b[3])
     return (double)a.x * b[0] + (double)a.y * b[1] + (double)a.z * b[2];
 }
 
-/* The part of a disc on one side of a chord `x` radii from its middle. */
+/* The part of a disc on one side of a chord `x` radii from the centre. */
 static double disc_below(double x)
 {
     x = fmin(fmax(x, -1.0), 1.0);
@@ -28,7 +29,7 @@ static lmb_light light_of(int32_t kind)
     return l;
 }
 
-/* The relative RMS of the penumbra that an edge makes: over places across it, and edges that turn. */
+/* Relative RMS error of an edge's penumbra over positions across the edge and orientations of it. */
 static double penumbra_error(int32_t kind, int32_t count, double *worst)
 {
     lmb_light all[64];
@@ -61,7 +62,7 @@ static double penumbra_error(int32_t kind, int32_t count, double *worst)
     return sqrt(sum / n);
 }
 
-/* Kinds are judged at the counts that `mix` (32) and `render` (64) use. */
+/* Kinds are tested with the light counts of `mix` (32) and `render` (64). */
 static void penumbras(void)
 {
     static const struct bar {
@@ -78,7 +79,8 @@ static void penumbras(void)
     }
 }
 
-/* Together they give what the one gives, from about its place; spots and suns lie across their axis. */
+/* Together the lights give the light of the original from about the same position; for spots and suns they lie across
+ * the axis. */
 static void sums(void)
 {
     for (int32_t kind = 0; kind < 3; ++kind) {
@@ -129,11 +131,11 @@ static void texts(void)
     lmb_light light;
     float size;
     CHECK(option_light(texts[2].text, &light, NULL) != NULL && option_light(texts[3].text, &light, NULL) == NULL);
-    /* A size alone leaves the cone as it is by default: to its axis. */
+    /* A size without angles keeps the default cone, with an inner angle of 0. */
     CHECK(option_light("spot:0,0,0:0,-1,0:1,1,1:0.5", &light, &size) == NULL && light.cos_inner == 1.0f);
 }
 
-/* Which part is wrong. */
+/* Messages name the wrong part. */
 static void parts(void)
 {
     static const struct part {

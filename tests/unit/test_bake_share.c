@@ -1,4 +1,4 @@
-/* test_bake_share.c: steps of a bake that slices share by files: what counts as another's, and what does not. */
+/* test_bake_share.c: steps of a bake that slices share through files: accepted and rejected files of other slices. */
 #include "../folder.h"
 
 #include <string.h>
@@ -10,10 +10,10 @@ void test_bake_share(void);
 
 enum { BATCHES = 6 };
 
-/* A step whose batches are numbers from `first` on. */
+/* A step with batches that are numbers from `first` on. */
 typedef struct numbers {
     int32_t first, value[BATCHES], made;
-    double heavy; /* the weight of the first batch and the last; others have 1 */
+    double heavy; /* weight of the first and the last batch; others have 1 */
 } numbers;
 
 static double weight_of(const void *user, int32_t batch)
@@ -63,7 +63,7 @@ static int is_from(const numbers *n, int32_t first)
     return same == BATCHES;
 }
 
-/* Files are taken of the same job, step and deal alone, though those of others are as long. */
+/* Files count only from the same job, step and deal, even if others have the same size. */
 void test_bake_share(void)
 {
     folder f;
@@ -72,7 +72,7 @@ void test_bake_share(void)
     snprintf(in, sizeof in, "%s/", f.path);
     numbers first = {.first = 100, .heavy = 1.0}, other = {.first = 200, .heavy = 1.0}, job = {.first = 300, .heavy = 1.0},
             deal = {.first = 400, .heavy = 2.0};
-    run(&first, in, 1, 7); /* the second slice never comes: the first one makes its part, too */
+    run(&first, in, 1, 7); /* the second slice never comes: the first makes that part too */
     CHECK(first.made == BATCHES && is_from(&first, 100));
     run(&other, in, 2, 7);
     CHECK_MSG(other.made == 0 && is_from(&other, 100), "%d made by the second slice", (int)other.made);

@@ -1,6 +1,6 @@
 /* test_base.c: layer 1: elementary functions, codecs, surfaces, scene checks, mips.
  *
- * Accuracy is measured against libm in double; equality of machines by one hash over all outputs of a fixed sweep. */
+ * Accuracy is measured against libm in double; one hash over all outputs of a fixed sweep compares machines. */
 #include <math.h>
 #include <string.h>
 
@@ -16,12 +16,12 @@
 
 void test_base(void);
 
-/* Of every function's bits over sweep_hash's inputs; the same on every compiler, machine and byte order. */
+/* Hash of all functions' bits over the inputs of sweep_hash; the same on every compiler, machine and byte order. */
 #define SWEEP_HASH UINT64_C(0x7516e50e8a1c5dd6)
 
 /* ---- elementary functions ---- */
 
-/* The worst error so far, and where. */
+/* The largest error so far and the input. */
 typedef struct worst {
     double error;
     float at;
@@ -173,7 +173,7 @@ static void srgb_codes(void)
     CHECK(lmb_srgb_encode(1.0f) == 255 && lmb_srgb_encode(7.0f) == 255 && lmb_srgb_encode(INFINITY) == 255);
 }
 
-/* Steps on both sides of each threshold: the curve's rounding moves there and nowhere else. */
+/* Tests both sides of each threshold: the rounding of the curve changes only there. */
 static void srgb_thresholds(void)
 {
     int c;
@@ -190,7 +190,7 @@ static void srgb_thresholds(void)
     }
 }
 
-/* A point of the cube -side .. side. One coordinate after another: C leaves the order of arguments open. */
+/* A point of the cube -side .. side, one coordinate per statement: C leaves the evaluation order of arguments open. */
 static lmb_vec3 random_point(test_rng *rng, float side)
 {
     lmb_vec3 p;
@@ -200,7 +200,7 @@ static lmb_vec3 random_point(test_rng *rng, float side)
     return p;
 }
 
-/* Angle between a and the float vector b, by the cross product in double: an arc cosine could not resolve it. */
+/* Angle between a and the float vector b, from the cross product in double: an arc cosine is too imprecise. */
 static double angle_between(const double a[3], lmb_vec3 b)
 {
     double x = a[1] * (double)b.z - a[2] * (double)b.y, y = a[2] * (double)b.x - a[0] * (double)b.z;
@@ -222,7 +222,7 @@ static void octahedral_normals(void)
     for (i = 0; i < 1000000; ++i) {
         lmb_vec3 n = random_point(&rng, 1.0f);
         double d[3];
-        if (i % 5 == 0) /* a face's centre is the worst place */
+        if (i % 5 == 0) /* a face's centre is the worst case */
             n = vec3(n.x < 0 ? -1 : 1, n.y < 0 ? -1.001f : 1, n.z < 0 ? -0.999f : 1.002f + 0.001f * n.z);
         if (i < 12)
             n = hard[i];
@@ -241,7 +241,7 @@ static void octahedral_normals(void)
         CHECK(code[0] == 0 && code[1] == 0);
     }
     CHECK(lmb_octahedral_decode(min).z == -1.0f);
-    for (i = 0; i < 1000; ++i) { /* axes: no rounding may leave the square */
+    for (i = 0; i < 1000; ++i) { /* axes: rounding must not leave the square */
         float length = test_uniform(&rng, 0.1f, 9.0f);
         lmb_octahedral_encode(code, vec3(-length, 0.0f, 0.0f));
         wide += code[0] != -32767 || code[1] != 0;
@@ -251,7 +251,8 @@ static void octahedral_normals(void)
     CHECK(wide == 0);
 }
 
-/* Every code comes back, but for the square's rim, whose points are two each, and is a unit vector. */
+/* Every code is reproduced, except on the rim of the square, where two codes share a point, and decodes to a unit
+ * vector. */
 static void octahedral_codes(void)
 {
     int x, y, wrong = 0, lengths = 0;
@@ -366,7 +367,7 @@ static void surface_sizes(void)
     CHECK(s.layout == LMB_LINEAR && s.stride_bytes == 8);
 }
 
-/* Where the layout of types.h puts pixel (x, y) of a tiled surface of 4-byte values. */
+/* Offset of pixel (x, y) in a tiled surface of 4-byte values according to types.h. */
 static size_t tiled_place(int32_t x, int32_t y, int32_t width)
 {
     int32_t tiles = (width + 7) / 8;
@@ -403,7 +404,7 @@ static void depth_layouts(void)
     CHECK(wrong == 0);
     CHECK(lmb_surface_hash(&tiled) == lmb_surface_hash(&linear) && lmb_surface_hash(&tiled) != 0);
     CHECK(lmb_surface_diff(&x, &y, &tiled, &linear) == 0);
-    room_a[tiled_place(21, 3, 21)] = 5; /* padding is no pixel */
+    room_a[tiled_place(21, 3, 21)] = 5; /* padding is ignored */
     CHECK(lmb_surface_diff(&x, &y, &tiled, &linear) == 0 && lmb_surface_hash(&tiled) == lmb_surface_hash(&linear));
     room_a[tiled_place(20, 9, 21)] ^= 1;
     room_a[tiled_place(3, 10, 21)] ^= 1;
@@ -411,7 +412,7 @@ static void depth_layouts(void)
     CHECK(lmb_surface_hash(&tiled) != lmb_surface_hash(&linear));
 }
 
-/* Colour rows keep their padding, upside-down ones too. */
+/* Colour rows keep their padding, also if upside down. */
 static void colour_rows(void)
 {
     lmb_surface s, flipped;
@@ -437,8 +438,8 @@ static void colour_rows(void)
     CHECK(lmb_surface_clear(&flipped) == LMB_OK && lmb_surface_diff(&x, &y, &s, &flipped) == 1 && x == 0 && y == 0);
 }
 
-/* FNV-1a of the four little-endian values 1, 0x01020304, 0, 0xffffffff, worked out from its definition beside it; the
- * byte order of the machine must not show. */
+/* FNV-1a of the little-endian values 1, 0x01020304, 0, 0xffffffff, computed here from the definition; the machine's
+ * byte order must not matter. */
 static void hash_is_portable(void)
 {
     static const unsigned char bytes[16] = {1, 0, 0, 0, 4, 3, 2, 1, 0, 0, 0, 0, 255, 255, 255, 255};
@@ -458,7 +459,7 @@ static void hash_is_portable(void)
     CHECK(lmb_surface_hash(&s) == UINT64_C(0x089c4407b545986a)); /* FNV-1a's published value for "ab" */
     memcpy(room_b, "ab", 2);
     CHECK(lmb_surface_init(&s, LMB_RGB565_BE, 1, 1, room_b, 4) == LMB_OK);
-    CHECK(lmb_surface_hash(&s) == UINT64_C(0x089c4407b545986a)); /* bytes as they lie */
+    CHECK(lmb_surface_hash(&s) == UINT64_C(0x089c4407b545986a)); /* bytes in memory order */
 }
 
 static void surfaces_refused(void)
@@ -515,7 +516,7 @@ static void views(void)
     CHECK(lmb_view_look_at(&v, eye, origin, up, 1.0f, 640, LMB_MAX_FRAME + 1) == LMB_ERR_ARG);
     CHECK(lmb_view_look_at(NULL, eye, origin, up, 1.0f, 640, 480) == LMB_ERR_ARG && v.frame_width == -1);
     CHECK(lmb_view_look_at(&v, eye, origin, up, 1.0f, LMB_MAX_FRAME, LMB_MAX_FRAME) == LMB_OK && lmb_view_is_valid(&v));
-    for (i = 0; i < 1000; ++i) { /* orthonormal and right-handed, with `up` almost along the view too */
+    for (i = 0; i < 1000; ++i) { /* orthonormal and right-handed, even with `up` almost along the view */
         lmb_vec3 to = random_point(&rng, 9.0f), tilt = random_point(&rng, 1e-3f);
         if (lmb_view_look_at(&v, eye, to, i & 1 ? up : add3(sub3(to, eye), tilt), 1.0f, 64, 64) != LMB_OK)
             continue;
@@ -526,7 +527,7 @@ static void views(void)
     CHECK_MSG(looks > 990, "%d views", looks);
 }
 
-/* Every entry of a matrix has its place and sign. */
+/* Every matrix entry has the right place and sign. */
 static void points_are_transformed(void)
 {
     const lmb_mat4 t = {{1, 2, 4, 0, 8, 16, 32, 0, 64, 128, 256, 0, 512, 1024, 2048, 1}};
@@ -578,7 +579,7 @@ static void make_scene(small_scene *s)
     s->scene.material_count = s->scene.texture_count = s->scene.light_count = 1;
 }
 
-/* A good scene with one thing changed is refused for the right reason. */
+/* A valid scene with one change is refused for the right reason. */
 #define BAD(change, status) \
     do { \
         small_scene s; \
@@ -665,7 +666,7 @@ static void scene_that_emits(void)
     CHECK(!lmb_scene_emits(&s.scene) && !lmb_scene_is_glossy(&s.scene));
 }
 
-/* Streams stand in arrays of 32-bit words so that they are aligned; their halves are written as such. */
+/* Streams are arrays of 32-bit words for alignment; the halves are written separately. */
 static void vertex_streams(void)
 {
     static union {
@@ -720,7 +721,7 @@ static void mip_sizes(void)
     CHECK(lmb_texture_mips(texel, 1, 1, 1) == LMB_OK && texel[3] == 4);
 }
 
-/* A constant image stays it on every level, whatever its colour and size. */
+/* A constant image is constant on every level, for any colour and size. */
 static void mips_of_constants(void)
 {
     static const int32_t sizes[6][2] = {{1, 1}, {7, 1}, {1, 6}, {5, 3}, {16, 16}, {13, 11}};
@@ -751,20 +752,20 @@ static void mips_of_checkers(void)
     }
     CHECK(lmb_texture_mips(t, 4, 4, 3) == LMB_OK);
     CHECK(t[64] == 188 && t[67] == 255 && t[64 + 4 * 3] == 188 && t[64 + 16] == 188 && t[64 + 19] == 255);
-    for (i = 0; i < 4; ++i) { /* invisible white beside red: the colour stays red */
+    for (i = 0; i < 4; ++i) { /* invisible white next to red: the colour stays red */
         t[i * 4] = 255;
         t[i * 4 + 1] = t[i * 4 + 2] = i % 2 ? 255 : 0;
         t[i * 4 + 3] = i % 2 ? 0 : 255;
     }
     CHECK(lmb_texture_mips(t, 2, 2, 2) == LMB_OK);
     CHECK(t[16] == 255 && t[17] == 0 && t[18] == 0 && t[19] == 128);
-    for (i = 0; i < 3; ++i) /* 3 x 1: each texel has a third of level 1 */
+    for (i = 0; i < 3; ++i) /* 3 x 1: each texel is a third of level 1 */
         memset(t + i * 4, i == 2 ? 0 : 255, 3), t[i * 4 + 3] = (uint8_t)(i == 2 ? 51 : 255);
     CHECK(lmb_texture_mips(t, 3, 1, 2) == LMB_OK && t[12] == lmb_srgb_encode(510.0f / 561.0f) && t[15] == 187);
-    memset(t, 0, 8); /* 1 x 4: the neighbour of a row's only texel is itself, not the next row's */
+    memset(t, 0, 8); /* 1 x 4: the neighbour of a row's only texel is the texel itself, not the next row's */
     memset(t + 8, 255, 8);
     CHECK(lmb_texture_mips(t, 1, 4, 2) == LMB_OK && t[16] == 0 && t[19] == 0 && t[20] == 255 && t[23] == 255);
-    for (i = 0; i < 4; ++i) /* all invisible: the colour still is the mean */
+    for (i = 0; i < 4; ++i) /* all invisible: the colour is still the mean */
         memset(t + i * 4, 200, 3), t[i * 4 + 3] = 0;
     CHECK(lmb_texture_mips(t, 2, 2, 2) == LMB_OK && t[16] == 200 && t[18] == 200 && t[19] == 0);
 }
@@ -792,7 +793,7 @@ static void mips_of_odd_sides(void)
         }
     }
     memset(t, 0, 16 * 9);
-    for (int32_t i = 0; i < 9; ++i) /* a normal map's codes: plain means, here of a ramp */
+    for (int32_t i = 0; i < 9; ++i) /* a normal map's codes: unweighted means, here of a ramp */
         t[4 * i] = (uint8_t)(100 + 9 * (i % 3) + 3 * (i / 3)), t[4 * i + 1] = (uint8_t)(i == 8 ? 90 : 0);
     CHECK(lmb_normal_map_mips(t, 3, 3, 2) == LMB_OK && t[36] == 112 && t[37] == 10);
 }

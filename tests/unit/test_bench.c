@@ -1,4 +1,4 @@
-/* test_bench.c: the arithmetic of a sweep's report: front, knee, breakdown; its files' texts; its command line. */
+/* test_bench.c: the numbers of a sweep's report: front, knee, breakdown; the texts of its files; the command line. */
 #include "../folder.h"
 
 #include <math.h>
@@ -48,7 +48,8 @@ static void check_front(void)
     CHECK(bench_front(&b) == 3);
     CHECK(bench_front_order(order, &b) == 3);
     CHECK(order[0] == 2 && order[1] == 3 && order[2] == 0);
-    /* Halfway in time (1 of 3 decades), and nearly down: 1 - 1/3 - log(10)/log(500) under the line. */
+    /* A third of the way in time (1 of 3 decades) and lower in error: 1 - 1/3 - log(10)/log(500) below the
+     * line. */
     CHECK(b.point[3].is_knee && !b.point[0].is_knee && !b.point[2].is_knee);
     bench_results_free(&b);
 }
@@ -65,7 +66,7 @@ static void check_knee(void)
     CHECK(bench_front(&b) == 3);
     CHECK(!b.point[2].is_knee);
     add(&b, "under it", 20.0, 0.04);       /* the line is at 0.05 */
-    add(&b, "farther under it", 3.0, 0.1); /* at 0.33; beats the one above the line */
+    add(&b, "farther under it", 3.0, 0.1); /* at 0.33; dominates the one above the line */
     CHECK(bench_front(&b) == 4);
     CHECK(!b.point[2].on_front && !b.point[3].is_knee && b.point[4].is_knee);
     add(&b, "exact", 200.0, 0.0);
@@ -75,7 +76,8 @@ static void check_knee(void)
 
 /* --- the breakdown ------------------------------------------------------------------------------------------------ */
 
-/* Two pixels that count and one that does not. Steps that do not overlap add up; equal ones count twice twice. */
+/* Two pixels that count and one that does not. Errors of different steps in different pixels add up; equal errors count
+ * double. */
 static void check_breakdown(void)
 {
     static const float a[9] = {1.5f, 1.5f, 1.5f, 1.0f, 1.0f, 1.0f, 9.0f, 9.0f, 9.0f};
@@ -88,7 +90,7 @@ static void check_breakdown(void)
     memset(&l, 0, sizeof l);
     l.rows = 2;
     CHECK(bench_breakdown_sum(&l, apart, counts, 3));
-    const double mean2 = 0.75 * 0.75; /* of the truth, c */
+    const double mean2 = 0.75 * 0.75; /* mean square of the truth, c */
     CHECK_MSG(fabs(l.row[0].square - 0.125 / mean2) < 1e-12, "%.9g", l.row[0].square);
     CHECK_MSG(fabs(l.row[1].square - 0.125 / mean2) < 1e-12, "%.9g", l.row[1].square);
     CHECK_MSG(fabs(l.total - l.sum) < 1e-12, "%.9g %.9g", l.total, l.sum);
@@ -97,7 +99,7 @@ static void check_breakdown(void)
     CHECK(!bench_breakdown_sum(&l, apart, none, 3));
 }
 
-/* Of 200 pixels the two worst of each picture are left out, from all steps. */
+/* The two worst of 200 pixels in each picture are left out of all steps. */
 static void check_trim(void)
 {
     static float a[600], b[600], truth[600];
@@ -170,7 +172,7 @@ static void check_says(void)
     CHECK_MSG(strcmp(text, "tree 64, gather half") == 0, "%s", text);
 }
 
-/* Every text comes out whole whatever a file or a scene is called. */
+/* Every text is complete, whatever the names of files and scenes. */
 static void check_files(void)
 {
     bench_results b;
@@ -188,7 +190,7 @@ static void check_files(void)
     CHECK_MSG(strstr(p.data, "\n--tree 64,,front,0.5,0.5,0.7,0,0,,1,,,\n") != NULL, "%s", p.data);
     text_buffer_free(&p);
     bench_html(&p, &b);
-    CHECK(p.is_short); /* pictures that found no memory: it is not written without them */
+    CHECK(p.is_short); /* no memory for the pictures: the text is not written without them */
     text_buffer_free(&p);
     for (int i = 0; i < 2 * b.count + 1; ++i) {
         bench_picture *to = i == 2 * b.count ? &b.truth_picture : i % 2 == 0 ? &b.point[i / 2].picture : &b.point[i / 2].heat;
@@ -202,7 +204,7 @@ static void check_files(void)
     bench_results_free(&b);
 }
 
-/* One setting of two, as a machine of this name measures it. */
+/* One of two settings, measured on a machine with this name. */
 static void put_slice(const char *out, int32_t number, const char *computer, report *r)
 {
     static bench_options o;
@@ -223,7 +225,7 @@ static void put_slice(const char *out, int32_t number, const char *computer, rep
     bench_results_free(&b);
 }
 
-/* Slices of unlike machines are joined, and the report says so. */
+/* Slices of different machines are joined, and the report mentions it. */
 static void check_computers(void)
 {
     static slice_set set; /* large */
@@ -257,9 +259,9 @@ static void check_computers(void)
     folder_close(&f);
 }
 
-/* --- what the truth is kept by ------------------------------------------------------------------------------------ */
+/* --- the key of a stored truth ------------------------------------------------------------------------------------ */
 
-/* Copies are one scene; any number that draws makes another. */
+/* Copies are the same scene; a change of any number that affects the picture makes another. */
 static void check_hash(void)
 {
     const lmb_scene *scene = demo_scene();

@@ -1,7 +1,7 @@
-/* test_bins.c: layer 3: what bins draw into any window has the bytes that lmb_draw leaves there, however little memory they
- * have, however ranges and windows are shared out, and in whatever order these are done.
+/* test_bins.c: layer 3: bins draw the same bytes as lmb_draw into any window, however little memory they have, however
+ * ranges and windows are divided, and in any order.
  *
- * Scenes are random, with holes and blending; by every backend, in every format. */
+ * Scenes are random, with holes and blending, on every backend and in every format. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,15 +14,15 @@ void test_bins(void);
 
 #if LMB_CULLING
 enum { WIDE = 136, HIGH = 420, TILES = (WIDE / 8 + 1) * (HIGH / 8 + 1) + 15, RANGES = 3, SCENES = 4 };
-enum { WHOLE = 1 << 20 }; /* bytes in which all of a stage fits */
-enum { PAST = 7 };        /* pixels of a window beyond the frame, in its last tile */
+enum { WHOLE = 1 << 20 }; /* enough bytes for the whole stage */
+enum { PAST = 7 };        /* pixels of a window beyond the frame, in the last tile */
 
 static uint32_t depth_memory[2][WIDE * (HIGH + 8)], id_memory[2][WIDE * (HIGH + 8)];
 static float bound[TILES];
 static uint8_t colours[4 * 3 * CROWD];
 static uint8_t memory[RANGES][WHOLE];
 
-/* The stage, tall enough for several bins, with a third material that has holes or blends. */
+/* The stage, tall enough for several bins, with a third material with holes or blending. */
 static void make_tall_stage(test_rng *r, int32_t kind)
 {
     make_stage(r, kind);
@@ -40,7 +40,7 @@ static void make_tall_stage(test_rng *r, int32_t kind)
     CHECK(lmb_clusters_build(st.cluster, CLUSTERS, &st.scene) == LMB_OK);
 }
 
-/* A window of the frame in memory 0 or 1, whose pixels are dirty or cleared. */
+/* A window of the frame in memory 0 or 1, with dirty or cleared pixels. */
 static lmb_target window_of(int which, int32_t depth_format, int32_t id_format, int32_t layout, const int32_t box[4],
                             int is_dirty)
 {
@@ -67,7 +67,7 @@ static void random_box(test_rng *r, int32_t box[4])
     box[3] = is_whole ? high : 1 + (int32_t)(test_random(r) % (uint32_t)(high - box[1]));
 }
 
-/* Sets of what is culled: nothing, by bounds, by clusters, by both. */
+/* Kinds of culling: none, by bounds, by clusters, by both. */
 static lmb_culling culling_of(const lmb_target *t, int how)
 {
     lmb_culling c;
@@ -83,7 +83,7 @@ static lmb_culling culling_of(const lmb_target *t, int how)
     return c;
 }
 
-/* So many ranges, the last first, each with so many bytes; returns those that did not fit. */
+/* Builds ranges, last first, each with the given bytes; returns the number that did not fit. */
 static int build(lmb_bins *bins, int ranges, size_t bytes, const lmb_kernels *kernels, uint32_t flags,
                  const lmb_culling *culling, lmb_stats *stats)
 {
@@ -92,7 +92,7 @@ static int build(lmb_bins *bins, int ranges, size_t bytes, const lmb_kernels *ke
     for (int i = ranges - 1; i >= 0; --i) {
         const uint32_t first = 1 + each * (uint32_t)i;
         memset(&bins[i], 0, sizeof bins[i]);
-        bins[i].memory = memory[i] + i; /* of any alignment */
+        bins[i].memory = memory[i] + i; /* any alignment */
         bins[i].bytes = bytes;
         CHECK(lmb_bins_build(&bins[i], kernels, &st.view, &st.scene, first, i == ranges - 1 ? UINT32_MAX : each, flags,
                              culling, stats) == LMB_OK);
@@ -106,7 +106,7 @@ typedef struct formats {
     int32_t depth, id, layout;
 } formats;
 
-/* Both ways into one window; by bins in so many ranges and bytes. */
+/* Draws one window both ways, with bins of the given ranges and bytes. */
 static int draw_both(test_rng *r, const lmb_kernels *kernels, const formats *f, int ranges, size_t bytes, int how)
 {
     const uint32_t flags = (test_random(r) % 2 ? LMB_CULL_BACK : 0) | (test_random(r) % 2 ? LMB_BLEND : 0);
@@ -133,7 +133,7 @@ static int draw_both(test_rng *r, const lmb_kernels *kernels, const formats *f, 
     return full;
 }
 
-/* In as many bytes as the stage takes, in fewer, in none. */
+/* With all the bytes that the stage needs, with fewer, with none. */
 static void same_bytes(test_rng *r, const lmb_kernels *kernels)
 {
     static const int32_t depths[] = {LMB_DEPTH32F, LMB_DEPTH16}, ids[] = {LMB_FORMAT_NONE, LMB_ID32, LMB_ID16};
@@ -159,7 +159,7 @@ static void test_same_bytes(void)
     }
 }
 
-/* Windows of a frame, the last first, as threads may come to them: the whole's bytes. */
+/* Windows of a frame, last first, as threads may reach them: the bytes of the whole. */
 static void test_windows(void)
 {
     test_rng r = {24};
@@ -192,7 +192,7 @@ static int32_t pixels_shown(const lmb_target *t)
     return n;
 }
 
-/* Behind bounds nearer than all of it, most small triangles are left out - their bounds tell what is not so. */
+/* With nearer bounds everywhere, most small triangles are left out, because their bounds show that they are hidden. */
 static void test_hidden(void)
 {
     test_rng r = {24};
@@ -200,7 +200,7 @@ static void test_hidden(void)
     lmb_bins bins;
     make_tall_stage(&r, LMB_ORTHOGRAPHIC);
     st.material[0].flags = LMB_DOUBLE_SIDED;
-    st.instance[1].first_id = 1; /* no walls, which are drawn whatever the bounds by backends of four lanes */
+    st.instance[1].first_id = 1; /* no walls: backends of four lanes draw them whatever the bounds */
     st.scene.instances = st.instance + 1;
     st.scene.instance_count = 1;
     for (int32_t m = 0; lmb_kernels_at(m) != NULL; ++m) {
@@ -223,7 +223,7 @@ static void test_hidden(void)
     }
 }
 
-/* Bytes are found by lmb_bins_bytes; the next less hold fewer, and one triangle of many bins. */
+/* lmb_bins_rows and lmb_bins_bytes at their limits; with fewer bytes fewer triangles fit. */
 static void test_memory(void)
 {
     test_rng r = {24};
@@ -250,7 +250,7 @@ static void test_memory(void)
     CHECK(build(&bins, 1, WHOLE, picked_kernels(), 0, NULL, NULL) == 0 && bins.past_id == UINT32_MAX);
 }
 
-/* Bytes of memory in which the first `count` triangles just do not fit. */
+/* The largest size in bytes in which the first `count` triangles do not fit. */
 static size_t just_short(lmb_bins *bins, uint32_t count)
 {
     size_t low = 0, high = WHOLE;
@@ -266,7 +266,7 @@ static size_t just_short(lmb_bins *bins, uint32_t count)
     return low;
 }
 
-/* Where all but a few triangles fit, of which some draws leave out one alone, that one is drawn, too. */
+/* If all but the last few triangles fit, and sometimes all but one, the rest is drawn too. */
 static void test_last_one(void)
 {
     test_rng r = {24};
@@ -326,7 +326,7 @@ static void test_refused(void)
     bins[1].past_id = bins[1].first_id;
     CHECK(lmb_bins_draw(&t, k, bins, RANGES, 0, &short_of_clusters) == LMB_ERR_CAPACITY);
     bins[1].view.frame_height -= 8;
-    CHECK(lmb_bins_draw(&t, k, bins, RANGES, 0, NULL) == LMB_ERR_ARG); /* of two frames */
+    CHECK(lmb_bins_draw(&t, k, bins, RANGES, 0, NULL) == LMB_ERR_ARG); /* from two frames */
 }
 
 void test_bins(void)

@@ -1,4 +1,4 @@
-/* test_blend.c: surfaces that blend show in alpha's share of the samples, one behind the other too. */
+/* test_blend.c: blended surfaces cover a share alpha of the samples, also one behind another. */
 #include "../world.h"
 
 void test_blend(void);
@@ -11,7 +11,7 @@ static struct {
     uint32_t depth[SIDE * SIDE], id[SIDE * SIDE];
 } blend;
 
-/* How often each triangle's id shows, of all pixels and `samples`. */
+/* Counts the samples that show each triangle's id, over all pixels and `samples`. */
 static void count_ids(uint32_t counts[8], int32_t samples, uint32_t flags)
 {
     lmb_view v;
@@ -34,7 +34,7 @@ static void count_ids(uint32_t counts[8], int32_t samples, uint32_t flags)
     }
 }
 
-/* Walls that fill the picture, the nearest one first; only the last one has the second material. */
+/* Walls that fill the picture, nearest first; only the last has the second material. */
 static void walls(int count, float near_alpha, float last_alpha)
 {
     const float alpha[2] = {near_alpha, last_alpha};
@@ -65,7 +65,7 @@ static void check_shares(float near_alpha, float far_alpha, int32_t samples)
     CHECK_MSG(fabs(far_share - want) <= within, "%d samples: %g instead of %g", (int)samples, far_share, want);
 }
 
-/* Three walls of one alpha in front of nothing: each covers its share of what the others leave. */
+/* Three walls with the same alpha in front of nothing: each covers a share alpha of the rest. */
 static void check_layers(float alpha, int32_t samples)
 {
     uint32_t n[8];
@@ -75,7 +75,7 @@ static void check_layers(float alpha, int32_t samples)
     CHECK_MSG(fabs(left - open * open * open) <= 0.02, "%d samples of %g: %g is left", (int)samples, (double)alpha, left);
 }
 
-/* Of four samples of a pixel, a half shows twice. */
+/* At alpha 1/2, two of a pixel's four samples show the surface. */
 static void check_strips(void)
 {
     static uint8_t shows[SIDE * SIDE];
@@ -102,7 +102,7 @@ static void check_strips(void)
     for (int k = 0; k < SIDE * SIDE; ++k) {
         wrong += shows[k] != 2;
     }
-    CHECK_MSG(wrong <= SIDE, "%d", wrong); /* but where two triangles meet within a pixel */
+    CHECK_MSG(wrong <= SIDE, "%d", wrong); /* except pixels in which two triangles meet */
 }
 
 void test_blend(void)
@@ -119,7 +119,7 @@ void test_blend(void)
         check_layers(0.6f, samples);
     }
     check_strips();
-    walls(2, 0.6f, 1.0f); /* lights go by the cutoff */
+    walls(2, 0.6f, 1.0f); /* lights use the cutoff */
     count_ids(n, 1, 0);
     CHECK(n[1] + n[2] == SIDE * SIDE);
 }

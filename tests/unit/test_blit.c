@@ -1,4 +1,4 @@
-/* test_blit.c: pictures copied by each rule, onto themselves too; text. */
+/* test_blit.c: pictures copied with each rule, also onto themselves; text. */
 #include "../draw_case.h"
 
 void test_blit(void);
@@ -41,7 +41,7 @@ static void fill(uint32_t seed)
     }
 }
 
-/* Copies at every place, also outside, and scaled. */
+/* Copies to every place, also outside, and with scaling. */
 static void test_places(void)
 {
     const lmb_blit_image from = image_of(pixels, LMB_RGBA8, 12, 9, CASE_WIDE * 4);
@@ -63,7 +63,7 @@ static void test_places(void)
     CHECK(lmb_blit(&drawn_on.colour, INT32_MAX, INT32_MIN, &from, NULL) == LMB_OK && case_guard_is_whole());
 }
 
-/* A part of a picture onto itself is as if it was read first, in all directions and with blending. */
+/* Copying part of a picture onto itself gives the result of reading it first, in all directions and with blending. */
 static void test_overlaps(void)
 {
     for (int32_t n = 0; n < 50; ++n) {
@@ -132,7 +132,7 @@ static void test_rules(void)
     CHECK(lmb_blit(&drawn_on.colour, 0, 0, &from, &how) == LMB_OK && lmb_surface_hash(&drawn_on.colour) == hash);
 }
 
-/* From each format to each: white stays white, and what 16 bits hold comes back. */
+/* Between all formats: white stays white, and 16-bit values survive a round trip. */
 static void test_conversions(void)
 {
     for (int a = LMB_RGB565; a <= LMB_BGRA8; ++a) {
@@ -238,7 +238,7 @@ static void test_text_cells(void)
         wrong += (drawn.colour[8 + k / 12][6 + k % 12][0] == 255) != (bar[k / 24][k % 12 / 2] == '#');
     }
     CHECK(wrong == 0 && lmb_text_width("ab\nabc") == 18 && lmb_text_width("") == 0 && lmb_text_width(NULL) == 0);
-    for (int c = 33; c < 127; ++c) { /* no character looks like another, or like the box */
+    for (int c = 33; c < 127; ++c) { /* no character looks like another or like the box */
         for (int d = c + 1; d <= 127; ++d) {
             const char text[4] = {(char)c, '\n', (char)d, 0};
             int same = 1;

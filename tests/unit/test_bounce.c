@@ -1,4 +1,4 @@
-/* test_bounce.c: first points, discs, groups and their gather, against formulas, integrals and exact rays. [V1-V28] */
+/* test_bounce.c: first points, discs, groups and gathering, against formulas, integrals and exact rays. [V1-V28] */
 #include <stdlib.h>
 
 #include "../world.h"
@@ -11,7 +11,7 @@ enum { SIDE = 256, POINTS = 120000, FRAME = 128 };
 
 static uint8_t colours[WORLD_TRIANGLES][3][4];
 
-/* With a colour at every vertex, white at first. */
+/* Starts a mesh with vertex colours, all white. */
 static void begin_coloured(float red, float green, float blue)
 {
     memset(colours, 255, sizeof colours);
@@ -27,7 +27,7 @@ static void make_box(void)
     CHECK(world_end() == LMB_OK);
 }
 
-/* The box with a ball and a crate in it: curved, near and far, six directions. */
+/* The box with a ball and a crate: curved and flat surfaces, near and far, in six directions. */
 static void make_room(void)
 {
     begin_coloured(0.6f, 0.4f, 0.2f);
@@ -37,7 +37,7 @@ static void make_room(void)
     CHECK(world_end() == LMB_OK);
 }
 
-/* A floor of 4 m2 turned out of the map's grid: its edges do not all fall on one side of the texels' middles. */
+/* A 4 m2 floor rotated against the texel grid, so that texel centres are not all on one side of an edge. */
 static void make_floor(void)
 {
     float c = 0.8829476f, s = 0.4694716f; /* 28 degrees */
@@ -52,7 +52,7 @@ static lmb_point point_data[POINTS];
 static uint32_t point_cells[SIDE * SIDE + 1];
 static lmb_points points;
 static uint32_t map_memory[6 * SIDE * SIDE * 2];
-static lmb_shadow_map map; /* of the light that add_points saw last */
+static lmb_shadow_map map; /* of the last add_points */
 static lmb_tile tile;
 static lmb_groups groups;
 static lmb_stats stats;
@@ -122,7 +122,7 @@ static double total_area(void)
     return sum;
 }
 
-/* V4, V28: outgoing power of all points = albedo x intensity x power, whatever the block. */
+/* V4, V28: the power that all points emit = albedo x intensity x power, for every block size. */
 static void check_flux(const char *name, lmb_light light, double power, double bound)
 {
     static const int32_t blocks[] = {8, 4, 2, 1};
@@ -159,12 +159,12 @@ static void test_flux(void)
     make_floor();
     check_flux("sun overhead", sun(vec3(0, -1, 0)), 4.0, 2e-3);
     check_flux("sun at 60 degrees", sun(vec3(0.8660254f, -0.5f, 0)), 2.0, 2e-3);
-    lmb_light ends = point_light(vec3(0, 0.3f, 0)); /* on the floor where it is 0.85 m away from the middle */
+    lmb_light ends = point_light(vec3(0, 0.3f, 0)); /* the range ends 0.85 m from the floor's centre */
     ends.range = 0.9f;
     check_flux("point, range 0.9", ends, range_power(0.3, 0.9, 0.0), 2e-3);
 }
 
-/* V5, V6, V7: on the walls of the box, normals inwards, facing the light, in its cone, each in its own cell. */
+/* V5, V6, V7: points lie on the walls, face the light, lie in the cone, and each is in the right cell. */
 static void check_places(lmb_light light, int32_t block)
 {
     uint32_t off = 0, turned = 0, away = 0, outside = 0, misplaced = 0;
@@ -174,7 +174,7 @@ static void check_places(lmb_light light, int32_t block)
         const lmb_point *p = &points.data[i];
         lmb_vec3 d = sub3(p->position, light.position), n = p->normal, q = p->position;
         float max = maxf(absf(q.x), maxf(absf(q.y), absf(q.z))), w = -dot3(map.view[0].back, d);
-        off += absf(dot3(n, q) + 1.0f) > 1e-5f || max > 1.0f + texel / 128.0f; /* vertices stand on 1/256 texel */
+        off += absf(dot3(n, q) + 1.0f) > 1e-5f || max > 1.0f + texel / 128.0f; /* vertices snap to 1/256 texel */
         turned += maxf(absf(n.x), maxf(absf(n.y), absf(n.z))) < 0.999999f || absf(length3(n) - 1.0f) > 1e-5f;
         away += !(dot3(n, d) < 0.0f);
         outside += light.kind == LMB_LIGHT_SPOT &&
@@ -194,7 +194,7 @@ static void check_places(lmb_light light, int32_t block)
     CHECK_MSG(misplaced == 0, "%u not in their cell", (unsigned)misplaced);
 }
 
-/* V7: what lies behind a plate of 0.6 m is not lit, its upper side is. */
+/* V7: the floor behind a 0.6 m plate is unlit, the top of the plate is lit. */
 static void check_shadowed(void)
 {
     lmb_light light = spot(vec3(0, 0.9f, 0), vec3(0, -1, 0), 30, 40);
@@ -206,7 +206,7 @@ static void check_shadowed(void)
     only_points(&light, SIDE, 1);
     for (uint32_t i = 0; i < points.count; ++i) {
         lmb_vec3 p = points.data[i].position;
-        float t = 0.9f / (0.9f - p.y); /* where the ray passes y = 0 */
+        float t = 0.9f / (0.9f - p.y); /* the ray's crossing of y = 0 */
         int inside = absf(p.x * t - 0.1f) < 0.295f && absf(p.z * t) < 0.295f;
         behind += p.y < -0.5f && inside;
         on_plate += absf(p.y) < 1e-4f;
@@ -216,7 +216,7 @@ static void check_shadowed(void)
     CHECK(on_plate > 100 && under == 0);
 }
 
-/* 4 |u x v| summed: the lit area. */
+/* The sum of 4 |u x v| is the lit area. */
 static void check_areas(void)
 {
     static const int32_t blocks[] = {1, 8};
@@ -241,7 +241,7 @@ static void check_areas(void)
     }
 }
 
-/* V2: reflectance follows vertex colours, and textures. */
+/* V2: reflectance follows vertex colours and textures. */
 static void check_albedo(void)
 {
     static const uint8_t texels[2][4] = {{0, 0, 0, 255}, {255, 255, 255, 255}};
@@ -305,7 +305,7 @@ static void check_collect_limits(void)
     CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 0, 0, SIDE / 16, &g) == LMB_ERR_ARG);
     CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 6, 0, SIDE / 16, NULL) == LMB_ERR_ARG);
     CHECK(points.count == 0 && lmb_discs_join(&points, &map, NULL) == LMB_ERR_ARG);
-    /* A face begins at its first row; its discs join by the blocks that it was collected by. */
+    /* A face must start at its first row, and discs can only join with the block size of the collection. */
     CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 0, 1, SIDE / 16, NULL) == LMB_ERR_ARG);
     clear_points();
     points.cell_cap = (SIDE / 16) * (SIDE / 16) + 1;
@@ -336,7 +336,7 @@ static int is_inner(const lmb_point *p, int32_t side)
     return p->cell_x > 1 && p->cell_y > 1 && p->cell_x < side - 2 && p->cell_y < side - 2;
 }
 
-/* Largest distance of the inner points' mean distance from `want`, as a share of it. */
+/* Largest relative error of the inner points' mean distance against `want`. */
 static double distance_error(double want)
 {
     double worst = 0.0;
@@ -348,7 +348,7 @@ static double distance_error(double want)
     return worst;
 }
 
-/* V8, V9: on a plane facing the light the points stand in a grid: four neighbours a step away, four a diagonal. */
+/* V8, V9: on a plane that faces the light, points form a grid with four direct and four diagonal neighbours. */
 static void check_distances(void)
 {
     lmb_light l = sun(vec3(0, -1, 0));
@@ -362,17 +362,17 @@ static void check_distances(void)
     CHECK_MSG(points.count == (SIDE / 8) * (SIDE / 8), "%u", (unsigned)points.count);
     CHECK_MSG(distance_error(step * 0.5 * (1.0 + sqrt(2.0))) < 1e-3, "%g",
               distance_error(step * 0.5 * (1.0 + sqrt(2.0))));
-    g.neighbour_m = (float)(1.2 * step); /* leaves the diagonals out */
+    g.neighbour_m = (float)(1.2 * step); /* excludes the diagonals */
     clear_points();
     add_points(&l, SIDE, &g, 1);
     CHECK_MSG(distance_error(step) < 1e-3, "%g", distance_error(step));
-    g.neighbour_m = (float)(0.5 * step); /* leaves all out: the disc's own size */
+    g.neighbour_m = (float)(0.5 * step); /* excludes all: the disc's size is used */
     clear_points();
     add_points(&l, SIDE, &g, 1);
     CHECK_MSG(distance_error(step) < 1e-3, "%g", distance_error(step));
 }
 
-/* V11: the larger k, the fewer discs; V12: nothing is lost. */
+/* V11: a larger k gives fewer discs. V12: no flux is lost. */
 static void check_joining(void)
 {
     static const float k[] = {0.05f, 0.5f, 0.75f, 1.0f};
@@ -399,7 +399,7 @@ static void check_joining(void)
     CHECK(before < first);
 }
 
-/* Five points in 2x2 cells by hand: two of the first cell are 1 cm apart, the rest 1 m. */
+/* Five points in 2x2 cells: two in the first cell, 1 cm apart; the others are 1 m away. */
 static void hand_points(void)
 {
     static const float at[5][3] = {{0, 0, 0}, {0.01f, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}};
@@ -433,10 +433,10 @@ static void check_hand_joining(void)
     CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 4);
     p = points.data;
     CHECK_MSG(absf(p->position.x - 0.02f / 3.0f) < 1e-6f, "%g", (double)p->position.x); /* weighted by flux 1 and 2 */
-    CHECK_MSG(absf(p->albedo[0] - 0.5f / 3.0f) < 1e-6f, "%g", (double)p->albedo[0]);    /* members' mean [V12] */
+    CHECK_MSG(absf(p->albedo[0] - 0.5f / 3.0f) < 1e-6f, "%g", (double)p->albedo[0]);    /* mean of the members [V12] */
     CHECK(fabs((double)p->flux[0] - 3.0) < 1e-6 && fabs(flux_of(0) - flux) < 1e-5);
     CHECK(fabs(total_area() - area) < 1e-6);
-    hand_points(); /* mean distance of the first: (0.01 + 1 + 1 + 1.414) / 4 = 0.856 */
+    hand_points(); /* mean distance of point 0: (0.01 + 1 + 1 + 1.414) / 4 = 0.856 */
     g.join = 0.01f;
     CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5);
     CHECK_MSG(absf(p->distance - 0.856053f) < 1e-5f, "%g", (double)p->distance);
@@ -446,12 +446,12 @@ static void check_hand_joining(void)
     CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5);
     CHECK_MSG(absf(p->distance - 1.138071f) < 1e-5f, "%g", (double)p->distance);
     hand_points();
-    g.neighbour_m = 0.5f; /* V9: now the mean is 0.01, and half of that joins nothing */
+    g.neighbour_m = 0.5f; /* V9: the mean becomes 0.01; half of it joins nothing */
     CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5 && absf(p->distance - 0.01f) < 1e-6f);
 }
 
-/* V9: 25 cm, 50 cm, 70 cm and 1 m over points 40 cm apart reach none, the four beside, the diagonals, and the twelve
- * beyond those that a metre reaches. */
+/* V9: points are 40 cm apart. A radius of 25 cm reaches none, 50 cm the four beside, 70 cm also the diagonals, and 1 m
+ * twelve more. */
 static void check_thresholds(void)
 {
     static const struct {
@@ -459,7 +459,7 @@ static void check_thresholds(void)
         double mean;
     } want[] = {{0.25f, 0.4}, {0.5f, 0.4}, {0.7f, 0.2 * (1.0 + 1.4142135623730951)},
                 {1.0f, 0.4 * (4.0 + 4.0 * 1.4142135623730951 + 8.0 + 8.0 * 2.2360679774997896) / 20.0}};
-    const double half = 0.2 * SIDE / 8; /* of a plane whose blocks are 40 cm */
+    const double half = 0.2 * SIDE / 8; /* of a plane with 40 cm blocks */
     lmb_light l = sun(vec3(0, -1, 0));
     begin_coloured(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, (float)half), mul3(X, (float)half));
@@ -470,13 +470,13 @@ static void check_thresholds(void)
         clear_points();
         add_points(&l, SIDE, &g, 1);
         double step = 16.0 * (double)map.view[0].half_width / SIDE;
-        CHECK_MSG(fabs(step - 0.4) < 0.01, "blocks of %g m", step); /* the map reaches a little beyond the plane */
+        CHECK_MSG(fabs(step - 0.4) < 0.01, "blocks of %g m", step); /* the map is slightly larger than the plane */
         CHECK_MSG(distance_error(want[i].mean * step / 0.4) < 1e-3, "within %g m: %g", (double)want[i].neighbour_m,
                   distance_error(want[i].mean * step / 0.4));
     }
 }
 
-/* --- neighbours by radius, against all points asked one by one --- */
+/* ---- neighbours within a radius, against a test of all points ---- */
 
 static int is_met(const lmb_point *p, const lmb_point *q, const lmb_grouping *g)
 {
@@ -489,7 +489,7 @@ static int is_met(const lmb_point *p, const lmb_point *q, const lmb_grouping *g)
            (cells == 0 || (abs(p->cell_x - q->cell_x) <= cells && abs(p->cell_y - q->cell_y) <= cells));
 }
 
-/* Of the face collected last; 0: no neighbour. */
+/* Over the face collected last; 0 if there is no neighbour. */
 static double mean_of_all(const lmb_point *p, const lmb_grouping *g)
 {
     double sum = 0.0;
@@ -504,9 +504,9 @@ static double mean_of_all(const lmb_point *p, const lmb_grouping *g)
     return met > 0 ? sum / met : 0.0;
 }
 
-/* Distances of a map's points, each as a share of what all points of its face say. */
+/* Distances of a map's points, relative to the mean over all points of the face. */
 typedef struct distances {
-    double worst, off, mean; /* the farthest off; mean of how far; of the distances themselves, m */
+    double worst, off, mean; /* largest error; mean error; mean distance, m */
 } distances;
 
 static distances distances_of(const lmb_light *l, const lmb_grouping *g)
@@ -550,8 +550,8 @@ static lmb_grouping neighbours_within(float metres, int32_t cells, uint32_t flag
     return g;
 }
 
-/* V8 V9 V10: any point within the radius, in space or in the map, however a shadow map foreshortens it. Of
- * 64 x 64 cells every second one each way stands for all where the radius spans more than half of them. */
+/* V8 V9 V10: all points within the radius count, in space or in the map, even if the map foreshortens it. If the radius
+ * spans more than half of 64 x 64 cells, every second cell each way is sampled. */
 static void check_radii(void)
 {
     static const float radius[] = {0.05f, 0.25f, 0.5f, 1.0f, 3.0f};
@@ -586,7 +586,7 @@ static void check_radii(void)
     }
 }
 
-/* V12: discs as wide as they are asked to be; no light is lost. */
+/* V12: discs have the radius that the grouping sets, and no light is lost. */
 static void check_disc_radius(void)
 {
     lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));
@@ -608,8 +608,9 @@ static void check_disc_radius(void)
     CHECK_MSG(worst < 1e-5, "%g", worst);
 }
 
-/* V10: over the first point's surface lie, at its rim, the points of its plane, and one on a wall that faces another
- * way; one below the plane does not count though it faces the same way, nor one beyond the threshold. */
+/* V10: points of the same plane (on the rim) and a point on a wall that faces elsewhere are in the hemisphere over the
+ * first point. A point below the plane does not count even if it faces the same way, nor does one beyond the
+ * threshold. */
 static void check_hemisphere(void)
 {
     lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
@@ -626,7 +627,7 @@ static void check_hemisphere(void)
     points.data[2].normal = mul3(X, -1.0f);
     points.data[2].position.y = 0.75f;
     points.data[3].position.y = -0.1f;
-    g.neighbour_m = 1.3f; /* leaves out the one across, at 1.414 */
+    g.neighbour_m = 1.3f; /* excludes the opposite point, at 1.414 */
     CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5);
     CHECK_MSG(absf(p->distance - (0.01f + 1.25f) / 2.0f) < 1e-6f, "%g", (double)p->distance);
 }
@@ -644,7 +645,7 @@ static void test_discs(void)
 
 /* --- groups ------------------------------------------------------------------------------------------------------- */
 
-/* The same for the same points in any order. */
+/* Independent of the order of the points. */
 static uint64_t hash_points(void)
 {
     uint64_t sum = 0;
@@ -664,7 +665,7 @@ static lmb_vec3 group_vec(float planes[3][LMB_MAX_GROUPS], int32_t k)
     return vec3(planes[0][k], planes[1][k], planes[2][k]);
 }
 
-/* V12, V13, V18, V19: everything about group k again, in double, from its members. */
+/* V12, V13, V18, V19: recomputes group k from the members in double. */
 static int group_is_its_members(int32_t k)
 {
     const lmb_point *m = points.data + groups.first[k];
@@ -689,7 +690,7 @@ static int group_is_its_members(int32_t k)
     }
     double sum = (double)groups.flux[0][k] + (double)groups.flux[1][k] + (double)groups.flux[2][k];
     double turn = sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
-    for (int c = 0; c < 3; ++c) { /* opposed members cancel: then any way will do */
+    for (int c = 0; c < 3; ++c) { /* opposed members cancel: any direction is valid */
         inside *= turn < 1e-3 * flux || fabs(way[c] / turn - (double)groups.normal[c][k]) < 1e-3;
     }
     double off = fabs(bary[0] / flux - (double)centre.x) + fabs(bary[1] / flux - (double)centre.y) +
@@ -699,7 +700,7 @@ static int group_is_its_members(int32_t k)
            off < 1e-4 && absf(length3(group_vec(groups.normal, k)) - 1.0f) < 1e-5f;
 }
 
-/* Every point is a member of exactly one group, none is lost or changed, and groups are what their members are. */
+/* Every point is a member of exactly one group, none is lost or changed, and groups match their members. */
 static void check_groups(const char *name, uint64_t hash, uint32_t count, double flux)
 {
     uint32_t next = 0, gaps = 0, wrong = 0;
@@ -739,8 +740,8 @@ static void room_points(int32_t size, int32_t block)
     add_points(&l, size, &g, 1);
 }
 
-/* V17, V18: members lie within reach, and when a group was closed no disc that came later would still have fit.
- * The barycentre moves while members join, so the first of them may end beyond the reach: within three is asked. */
+/* V17, V18: members lie within reach, and no later disc would have fitted a group that was already closed. The
+ * barycentre moves as members join, so the first members may end up outside: the test allows three times the reach. */
 static void check_greedy(float reach, float cosine)
 {
     lmb_grouping g = grouping_of(LMB_GROUP_GREEDY, LMB_MAX_GROUPS, 8);
@@ -772,7 +773,7 @@ static void check_greedy(float reach, float cosine)
     CHECK_MSG(missed == 0, "%u discs fit an earlier group", (unsigned)missed);
 }
 
-/* V21: never more than asked for; V20, V18: and nothing lost on the way. */
+/* V21: never more groups than requested. V20, V18: no light is lost. */
 static void check_counts(int32_t method)
 {
     static const int32_t wanted[] = {1, 2, 3, 5, 6, 7, 16, 33, 64, 200, 256, 1000, LMB_MAX_GROUPS};
@@ -791,7 +792,7 @@ static void check_counts(int32_t method)
     printf(" groups of %u discs\n", (unsigned)points.count);
 }
 
-/* More faces of maps than groups wanted. */
+/* More map faces than requested groups. */
 static void check_many_faces(void)
 {
     static const int32_t methods[] = {LMB_GROUP_ZONES, LMB_GROUP_GREEDY};
@@ -810,7 +811,7 @@ static void check_many_faces(void)
     }
 }
 
-/* V20: as many zones as are asked for, however many groups there may be. */
+/* V20: the number of zones follows g.zones, whatever the limit of groups. */
 static void check_zone_count(void)
 {
     lmb_light l = sun(vec3(0, -1, 0));
@@ -828,7 +829,8 @@ static void check_zone_count(void)
     }
 }
 
-/* V20: a plate 1 m over a floor; zones of 4x4 discs. What misfits opens a second group; strict drops it and says so. */
+/* V20: a plate 1 m above a floor, in zones of 4x4 discs. Discs that do not fit open a second group; strict mode drops
+ * and counts them. */
 static void check_zones(void)
 {
     lmb_light l = sun(vec3(0, -1, 0));
@@ -839,11 +841,11 @@ static void check_zones(void)
     world_quad(vec3(0, 0, 0), Z, X);
     world_quad(vec3(0.13f, 1, 0.07f), mul3(Z, 0.41f), mul3(X, 0.41f));
     CHECK(world_end() == LMB_OK);
-    g.neighbour_m = 0.3f; /* V9: the plate is no neighbour of the floor, so neither stretches the other's reach; */
-    g.neighbour_cells = 1; /* V8: and of the floor's points only those around */
+    g.neighbour_m = 0.3f; /* V9: plate and floor are no neighbours, so neither extends the other's reach */
+    g.neighbour_cells = 1; /* V8: on the floor, adjacent cells only */
     clear_points();
     add_points(&l, SIDE, &g, 1);
-    g.groups = (int32_t)(points.count / 10); /* 4x4 are the smallest zones of which that many hold all */
+    g.groups = (int32_t)(points.count / 10); /* 4x4 are the smallest zones that fit in this number of groups */
     run_grouping("zones", &g);
     CHECK(stats.regroups == 0);
     for (int32_t k = 0; k < groups.count; ++k) {
@@ -879,7 +881,7 @@ static void check_zones(void)
               stats.flux_lit - stats.flux_grouped, dropped);
 }
 
-/* V22: a group stands at its first disc. */
+/* V22: a group's position is the first disc. */
 static void check_point_centre(void)
 {
     static const int32_t methods[] = {LMB_GROUP_ZONES, LMB_GROUP_GREEDY};
@@ -903,7 +905,7 @@ static void check_point_centre(void)
     }
 }
 
-/* V14: one group a disc where they fit, an error where they do not; bad arguments. */
+/* V14: one group per disc if they fit, otherwise an error; bad arguments. */
 static void check_group_limits(void)
 {
     lmb_grouping g = grouping_of(LMB_GROUP_NONE, 0, 8);
@@ -927,7 +929,7 @@ static void check_group_limits(void)
     CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK && groups.count == 0);
 }
 
-/* The same again, and whatever the scratch member held. */
+/* Grouping is repeatable, whatever the scratch member held. */
 static void check_repeats(void)
 {
     static const int32_t methods[] = {LMB_GROUP_ZONES, LMB_GROUP_GREEDY};
@@ -947,14 +949,14 @@ static void check_repeats(void)
         }
         CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK);
         CHECK(hash_points() == hash && memcmp(&before, &groups, sizeof groups) == 0);
-        g.groups = 10; /* again, on discs that were grouped before */
+        g.groups = 10; /* discs that were already grouped */
         run_grouping("again", &g);
     }
 }
 
 /* --- fewer discs than points -------------------------------------------------------------------------------------- */
 
-/* In cells, squared: from each disc to the next of its face. */
+/* Squared distance in cells from each disc to the nearest of the same face. */
 static int32_t least_step(void)
 {
     int32_t min = 1 << 20;
@@ -968,8 +970,8 @@ static int32_t least_step(void)
     return min;
 }
 
-/* V14, V15: over a plane of 32 x 32 points: a disc of each `thin`, none much nearer to another than an even spread has
- * it, each in the map's order and cells, and with the light of about as many points; nothing is lost. */
+/* V14, V15: a plane of 32 x 32 points thinned to one disc per `thin` points. The spacing is nearly even, discs keep the
+ * map's order and cells, each has the light of about the same number of points, and no light is lost. */
 static void check_thinned_plane(int32_t thin)
 {
     const int32_t side = SIDE / 8, all = side * side;
@@ -1003,7 +1005,7 @@ static void check_thinned_plane(int32_t thin)
               (double)max * all / flux);
 }
 
-/* In a room: each surface keeps a disc, normals stay within what counts as one surface, nothing is lost. */
+/* In a room: each surface keeps a disc, normals stay within the limit for one surface, and no light is lost. */
 static void check_thinned_room(void)
 {
     lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));
@@ -1091,7 +1093,7 @@ static void basis(lmb_vec3 *u, lmb_vec3 *v, lmb_vec3 n)
     *v = cross3(n, *u);
 }
 
-/* cosP cosG / (pi r^2), 0 where either faces away. */
+/* cosP cosG / (pi r^2), 0 if either faces away. */
 static double point_factor(lmb_vec3 at, lmb_vec3 n, const double q[3], lmb_vec3 axis)
 {
     double x = q[0] - (double)at.x, y = q[1] - (double)at.y, z = q[2] - (double)at.z, r2 = x * x + y * y + z * z;
@@ -1100,7 +1102,7 @@ static double point_factor(lmb_vec3 at, lmb_vec3 n, const double q[3], lmb_vec3 
     return a > 0 && b > 0 ? a * b / (PI * r2 * r2) : 0.0;
 }
 
-/* The mean over a disc of radius 1: Gauss in the squared radius, equal steps around. */
+/* Mean over a disc of radius 1: Gauss quadrature in the squared radius, equal steps in angle. */
 static double disc_truth(lmb_vec3 at, lmb_vec3 n, lmb_vec3 centre, lmb_vec3 axis)
 {
     static const double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
@@ -1121,8 +1123,8 @@ static double disc_truth(lmb_vec3 at, lmb_vec3 n, lmb_vec3 centre, lmb_vec3 axis
     return sum;
 }
 
-/* A receiver at the origin and a disc of radius 1 at distance r, all of it over the receiver's horizon and the receiver
- * before it. */
+/* A receiver at the origin and a disc of radius 1 at distance r. The disc is entirely above the receiver's horizon and
+ * faces the receiver. */
 typedef struct pair {
     lmb_vec3 normal, centre, axis;
 } pair;
@@ -1147,7 +1149,7 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The formula's own error, measured when it was chosen: 1.6 / 0.4 / 0.05 / 0.01 % at 2-3 / 3-5 / 5-8 / 8-12 radii. */
+/* Error of the formula as measured when it was chosen: 1.6 / 0.4 / 0.05 / 0.01 % at 2-3 / 3-5 / 5-8 / 8-12 radii. */
 static void check_disc_error(float near_r, float far_r, double bound)
 {
     enum { TRIES = 1000 };
@@ -1167,7 +1169,7 @@ static void check_disc_error(float near_r, float far_r, double bound)
     CHECK_MSG(mean < 3.0 * bound, "%g", mean);
 }
 
-/* The error is of second order in s = A / (pi r^2): twice as far, 16 times less. */
+/* The error is of second order in s = A / (pi r^2): 16 times smaller at twice the distance. */
 static void check_disc_order(void)
 {
     enum { TRIES = 400 };
@@ -1233,7 +1235,7 @@ static float quad_from(lmb_vec3 at, lmb_vec3 n, lmb_vec3 axis)
     return lmb_quad_factor(at, n, n, vec3(0, 0, 0), axis, X, Y);
 }
 
-/* Any orientation, the horizon often through the quad; parallelograms too. */
+/* Random orientations, including parallelograms; the horizon often cuts the quad. */
 static void check_quads(void)
 {
     enum { QUADS = 50 };
@@ -1261,8 +1263,8 @@ static void check_quads(void)
     CHECK(clipped > QUADS / 10);
     CHECK(quad_from(vec3(0, 0, 1), vec3(0, 0, -1), vec3(0, 0, -1)) == 0.0f);                 /* emitter turned away */
     CHECK(quad_from(vec3(0, 0, 1), Z, Z) == 0.0f);                                           /* receiver */
-    CHECK(quad_from(vec3(0, 0, 0), Z, Z) == 0.0f && quad_from(vec3(3, 0, 0), X, Z) == 0.0f); /* its own plane */
-    /* Touching: it fills the hemisphere. */
+    CHECK(quad_from(vec3(0, 0, 0), Z, Z) == 0.0f && quad_from(vec3(3, 0, 0), X, Z) == 0.0f); /* the quad's own plane */
+    /* When it touches the quad, the quad fills the hemisphere. */
     CHECK(absf(4.0f * quad_from(vec3(0, 0, 0.004f), vec3(0, 0, -1), Z) - 1.0f) < 1e-3f);
 }
 
@@ -1281,7 +1283,7 @@ static void test_factors(void)
 
 static lmb_gather_scratch gather_scratch;
 
-/* 64 unrelated surface points around the origin; the last two without a surface. */
+/* 64 random surface points around the origin; the last two have no surface. */
 static void random_tile(test_rng *rng)
 {
     memset(&tile, 0, sizeof tile);
@@ -1296,7 +1298,7 @@ static void random_tile(test_rng *rng)
     }
 }
 
-/* Of another flux in each channel. */
+/* The flux differs per channel. */
 static void emit(int32_t k, lmb_vec3 at, lmb_vec3 axis, float area, float radius, float flux)
 {
     set_group(&groups, k, at, axis, area, radius);
@@ -1311,7 +1313,7 @@ static void gather(lmb_irradiance *out, const lmb_points *p, const lmb_occluder 
     CHECK(lmb_gather_tile(out, picked_kernels(), &gather_scratch, &tile, &groups, p, o) == LMB_OK);
 }
 
-/* V27, V28: far groups, one after another. */
+/* V27, V28: far groups in sequence. */
 static void check_far(void)
 {
     test_rng rng = {11};
@@ -1335,7 +1337,7 @@ static void check_far(void)
     gather(&got, NULL, NULL);
     CHECK(memcmp(&got, &want, sizeof got) == 0);
     CHECK(got.rgb[0][LMB_TILE_PIXELS - 1] == 0.0f && got.rgb[0][0] > 0.0f);
-    /* A face that looks away takes nothing, whatever its shading normal. */
+    /* A back-facing face receives nothing, whatever the shading normal. */
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         set_plane(tile.face, k, mul3(plane_vec(tile.normal, k), -1.0f));
     }
@@ -1361,7 +1363,7 @@ static void plate_points(float y)
     }
 }
 
-/* V27: the sum over the discs: within LMB_NEAR half-diagonals as quads. */
+/* V27: the sum over the discs; within LMB_NEAR half-diagonals they count as quads. */
 static double sum_discs(int *quads, lmb_vec3 at, lmb_vec3 n)
 {
     double sum = 0.0;
@@ -1401,10 +1403,10 @@ static void check_near(void)
     }
     printf("  near: tile within %.1e of its discs' factors, %d of them quads\n", worst, quads);
     CHECK_MSG(worst < 1e-5, "%g", worst);
-    CHECK(quads > 1000 && alone == 0.0f); /* no discs handed in: near groups give nothing */
+    CHECK(quads > 1000 && alone == 0.0f); /* without discs, near groups add nothing */
 }
 
-/* Pixels under the box's ceiling that look down, from height y up. */
+/* Pixels that face down below the ceiling of the box, from height `low` up. */
 static void ceiling_tile(float low)
 {
     test_rng rng = {15};
@@ -1418,7 +1420,7 @@ static void ceiling_tile(float low)
     }
 }
 
-/* The light of a lit patch of floor in groups by method and k; p: the discs, or NULL. */
+/* The light of a lit patch of floor, grouped by method and k, with or without discs. */
 static void gather_level(lmb_irradiance *out, int32_t method, float join, int discs, float low)
 {
     lmb_light l = spot(vec3(0, 0.9f, 0), vec3(0, -1, 0), 20, 25);
@@ -1440,8 +1442,8 @@ static double largest_difference(const lmb_irradiance *a, const lmb_irradiance *
     return worst;
 }
 
-/* V27: a pixel may be lit by first points, by discs, by groups, or by a mix: groups afar, their discs near by. From
- * afar all are alike; near by, groups without their discs give nothing. */
+/* V27: first points, discs, groups, or a mix (far groups, near discs) may light a pixel. From afar all agree; near by,
+ * groups without discs add nothing. */
 static void check_levels(void)
 {
     lmb_irradiance by_points, by_discs, by_groups, mixed;
@@ -1462,7 +1464,7 @@ static void check_levels(void)
     CHECK_MSG(largest_difference(&by_groups, &by_points) > 0.5, "%g", largest_difference(&by_groups, &by_points));
 }
 
-/* V16: a square, a long rectangle and an oval's quad of one area: from afar the same bytes, near by each its own. */
+/* V16: a square, a long rectangle and an oval's quad of equal area give the same bytes from afar and differ near by. */
 static void check_shapes(void)
 {
     static const float sides[3][2] = {{0.125f, 0.125f}, {0.5f, 0.03125f}, {0.25f, 0.0625f}};
@@ -1571,7 +1573,7 @@ static void draw_view(const lmb_view *v, int32_t format)
     world_draw(&eye, v, 0);
 }
 
-/* Red irradiance of every pixel, by kind of occlusion. */
+/* Red irradiance of every pixel for a kind of occlusion. */
 static void gather_view(float *out, const lmb_view *v, int32_t kind, int32_t steps)
 {
     lmb_occluder o;
@@ -1594,7 +1596,7 @@ static void gather_view(float *out, const lmb_view *v, int32_t kind, int32_t ste
     }
 }
 
-/* One emitter that is never near. */
+/* One emitter, small enough to count as far everywhere. */
 static void one_emitter(lmb_vec3 at, lmb_vec3 axis)
 {
     clear_points();
@@ -1602,7 +1604,7 @@ static void one_emitter(lmb_vec3 at, lmb_vec3 axis)
     emit(0, at, normalize3(axis), 1e-4f, 1e-3f, 1.0f);
 }
 
-/* V25, V26: a wall at x = 0, seen from its lit side, between floor pixels at x > 0 and an emitter at x < 0. */
+/* V25, V26: a wall at x = 0, seen from the lit side, between floor pixels at x > 0 and an emitter at x < 0. */
 static void check_wall(int32_t kind, int32_t format, int32_t steps)
 {
     const lmb_vec3 from = {-1, 0.6f, 0};
@@ -1621,7 +1623,7 @@ static void check_wall(int32_t kind, int32_t format, int32_t steps)
         if (seen_id[i] == 0 || seen_id[i] > 2 || p.x < 0.1f || picture[0][i] == 0.0f) {
             continue;
         }
-        lmb_vec3 at = add3(from, mul3(sub3(p, from), 1.0f / (p.x + 1.0f))); /* where the segment passes x = 0 */
+        lmb_vec3 at = add3(from, mul3(sub3(p, from), 1.0f / (p.x + 1.0f))); /* the segment's crossing of x = 0 */
         int inside = at.y < 0.75f && absf(at.z)<0.75f, past = at.y> 0.85f || absf(at.z) > 0.85f;
         hidden += inside;
         leaks += inside && picture[1][i] != 0.0f;
@@ -1637,14 +1639,14 @@ static void check_wall(int32_t kind, int32_t format, int32_t steps)
     if (kind == LMB_OCCLUSION_NONE) {
         CHECK(leaks == hidden && lost == 0);
     } else {
-        /* The wall has no depth, but is taken to have some: of what passes close behind it most is lost. check_screen
-         * holds what must stay open. */
+        /* The wall is thin but is assumed to have thickness, so most segments that pass close behind it are lost.
+         * check_screen tests that distant ones stay open. */
         CHECK_MSG(leaks * 100 <= hidden, "%d of %d", leaks, hidden);
         CHECK_MSG(lost < open, "%d of %d", lost, open);
     }
 }
 
-/* A small plate close to the viewer hides parts of segments far behind it: none of them is blocked. */
+/* A small plate close to the viewer covers parts of segments far behind it but must block none. */
 static void check_screen(int32_t kind)
 {
     const lmb_vec3 eye_at = {2.5f, 1.8f, 1.5f}, plate_at = {1.95f, 1.5f, 1.125f};
@@ -1665,12 +1667,12 @@ static void check_screen(int32_t kind)
             lost += picture[1][i] != picture[0][i];
         }
     }
-    /* Segments that leave the floor right at the plate's rim in the picture may be cut off by its last sample. */
+    /* If a segment leaves the floor right at the plate's rim in the picture, its last sample may block it. */
     CHECK_MSG(seen > 1000 && hidden > 50 && lost * 500 < seen, "%d of %d dark behind a plate of %d pixels", lost, seen,
               hidden);
 }
 
-/* A floor seen at 1 to 5 degrees under an emitter: nothing is between. */
+/* A floor seen at 1 to 5 degrees under an emitter, with nothing in between. */
 static void check_grazing(int32_t kind, int32_t format, int orthographic)
 {
     static const double degrees[] = {1, 2, 3, 5, 20};
@@ -1700,7 +1702,7 @@ static void check_grazing(int32_t kind, int32_t format, int orthographic)
               (int)format, orthographic ? "orthographic" : "perspective", dark, seen);
 }
 
-/* 16-bit depth says the same as 32-bit depth; the emitters' pairs are taken one by one. */
+/* 16-bit depth agrees with 32-bit depth, compared for each pixel and emitter. */
 static void check_depth_formats(int32_t kind)
 {
     test_rng rng = {21};
@@ -1728,7 +1730,7 @@ static void check_depth_formats(int32_t kind)
     CHECK_MSG(differ * 100 <= pairs && hidden > 1000, "%d of %d", differ, pairs);
 }
 
-/* Rows and tiles of depth are read alike. */
+/* Linear and tiled depth give the same result. */
 static void check_depth_layouts(void)
 {
     static float rows[FRAME * FRAME];
@@ -1745,7 +1747,7 @@ static void check_depth_layouts(void)
     CHECK(memcmp(picture[0], picture[1], sizeof picture[0]) == 0);
 }
 
-/* Doubled light is doubled behind an occluder too, near and far. */
+/* Twice the light gives twice the result behind an occluder too, near and far. */
 static void check_linear_occluded(void)
 {
     lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));

@@ -89,7 +89,7 @@ static void test_probes(void)
     table.width = 1024;
     table.height = 512;
     check_sum("blur", lmb_probe_blur_bytes(&table, 2), 4 * 2 * 512 * 2048);
-    table.width = 40000; /* no real table: the sum is over 2^32 */
+    table.width = 40000; /* no real table: the sum exceeds 2^32 */
     table.height = 20000;
     check_sum("blur", lmb_probe_blur_bytes(&table, 2), 0);
     table.width = table.height = -40000;
@@ -156,7 +156,7 @@ static void test_files(void)
               most * (36 + 8 + 12 + 36 + sizeof(lmb_transfer_coarse)) + LMB_TRANSFER_PARTS * sizeof(lmb_transfer_part));
     p.data = words;
     check_sum("pack", lmb_pack_bytes(&p), 0);
-    for (int i = 0; i < 5; ++i) { /* a sum of 32 bits would be some hundred bytes */
+    for (int i = 0; i < 5; ++i) { /* a 32-bit sum would be a few hundred bytes */
         static const int kind[5] = {LMB_PACK_MESHES, LMB_PACK_TEXTURES, LMB_PACK_MATERIALS, LMB_PACK_INSTANCES,
                                     LMB_PACK_LIGHTS};
         p.count[kind[i]] = (1u << 31) + 1;
@@ -169,7 +169,7 @@ static void test_files(void)
 
 /* --- a frame ------------------------------------------------------------------------------------------------------ */
 
-/* With maps of 3 GiB a light: the frame takes at least these. */
+/* With maps of 3 GiB per light, the minimum for the frame. */
 static void test_frame(void)
 {
     static lmb_light light[LMB_MAX_LIGHTS];

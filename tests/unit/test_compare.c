@@ -1,4 +1,4 @@
-/* test_compare.c: the error figures against values worked out by hand, and the verb's exit statuses. */
+/* test_compare.c: error figures against values computed by hand, and the exit statuses of the verb. */
 #include "../test.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ void test_compare(void);
 
 enum { SIDE = 10, COUNT = SIDE * SIDE };
 
-/* Two pictures of 10 x 10 with a mask and classes, all of which a test may change before it measures. */
+/* Two pictures of 10 x 10 with a mask and classes, which a test can change before measuring. */
 typedef struct pair {
     float test[3 * COUNT], truth[3 * COUNT], surface[3 * COUNT], classes[COUNT];
 } pair;
@@ -24,7 +24,7 @@ static void set_pixel(float *picture, int i, float grey)
         picture[3 * i + k] = grey;
 }
 
-/* Both pictures filled, everything a surface, everything open. */
+/* Fills both pictures; all pixels are surface and open. */
 static void fill(pair *p, float test, float truth)
 {
     for (int i = 0; i < COUNT; ++i) {
@@ -60,7 +60,7 @@ static double worst_of(pair *p)
     return metrics_worst(&m, &in);
 }
 
-/* Without a mask: the worst pixel is at (x, y), by that error. */
+/* Without a mask: returns whether the worst pixel is at (x, y) with this error. */
 static int worst_is(const pair *p, double error, int x, int y)
 {
     const metrics m = measured(p, 0, 0);
@@ -102,7 +102,7 @@ static void test_offset(pair *p)
     CHECK(near(compared(p, 255.0).psnr_db, 10.0 * log10(65025.0 / 0.25)));
 }
 
-/* One pixel 10 too bright in one channel: squared error 100 / 3, all of it in the trimmed hundredth; grey 10 / 3. */
+/* One pixel is 10 too bright in one channel: squared error 100 / 3, entirely in the trimmed hundredth; grey 10 / 3. */
 static void test_outlier(pair *p)
 {
     fill(p, 1.0f, 1.0f);
@@ -112,7 +112,7 @@ static void test_outlier(pair *p)
     CHECK(near(m.rmse, sqrt(1.0 / 3.0)) && m.trim == 0.0 && m.n90 == 1);
     CHECK(m.e50 == 0.0 && m.e95 == 0.0 && near(m.e99, 10.0 / 3.0 / 1.01));
     CHECK(near(worst_of(p), 10.0 / 3.0 / 1.01));
-    set_pixel(p->truth, 58, 6.0f); /* the mean of the truth is 1.2 over the 25 pixels around it, and 1.05 over all */
+    set_pixel(p->truth, 58, 6.0f); /* mean of the truth: 1.2 over the 25 pixels around, 1.05 over all */
     set_pixel(p->test, 58, 6.0f);
     CHECK(near(worst_of(p), 10.0 / 3.0 / (1.2 + 0.0105)) && worst_is(p, 10.0 / 3.0 / (1.2 + 0.0105), 7, 5));
     set_pixel(p->truth, 58, 1.0f);
@@ -120,12 +120,12 @@ static void test_outlier(pair *p)
     CHECK(near(m.mean, 1.0 + 1.0 / 30.0));
     CHECK(e.max_abs == 10.0 && e.max_x == 7 && e.max_y == 5 && e.first_x == 7 && e.first_y == 5);
     CHECK(e.exact == COUNT - 1 && near(e.psnr_db, 10.0 * log10(3.0)));
-    p->surface[2] = 0.0f; /* of 99 pixels a hundredth is none */
+    p->surface[2] = 0.0f; /* a hundredth of 99 pixels is none */
     m = measured(p, 1, 0);
     CHECK(near(m.trim, m.rmse) && m.n90 == 1);
 }
 
-/* Errors 1 .. 100 hundredths on a truth of 1: which element each percentile takes, of 100 and of 50. */
+/* Errors of 1 .. 100 hundredths on a truth of 1: the element of each percentile, of 100 and of 50. */
 static void test_percentiles(pair *p)
 {
     fill(p, 1.0f, 1.0f);
@@ -141,7 +141,7 @@ static void test_percentiles(pair *p)
           near(m.e99, 50 * 0.015625 / 1.01));
 }
 
-/* The mask's third channel decides, and 0.5 is outside: what is outside may be anything. */
+/* The mask's third channel decides, and 0.5 is outside; pixels outside can have any value. */
 static void test_masked(pair *p)
 {
     fill(p, 3.0f, 2.0f);
@@ -187,7 +187,7 @@ static void test_leak(pair *p)
     CHECK(m.dark == 20 && !m.has_leak);
 }
 
-/* A NaN in one channel makes its whole pixel black; a truth that is not finite is refused with its place. */
+/* A NaN in one channel makes the pixel black; a truth that is not finite is refused with the position. */
 static void test_not_finite(pair *p)
 {
     fill(p, 1.0f, 1.0f);
@@ -204,7 +204,7 @@ static void test_not_finite(pair *p)
     CHECK_MSG(strstr(r.text, "3,2") != NULL, "%s", r.text);
 }
 
-/* A black truth has no mean to be relative to; nothing may divide by 0, nor where b + 0.01 mean is 0. */
+/* A black truth has no mean for relative errors; nothing may divide by 0, even if b + 0.01 mean is 0. */
 static void test_degenerate(pair *p)
 {
     fill(p, 0.0f, 0.0f);
@@ -223,7 +223,7 @@ static void test_degenerate(pair *p)
     CHECK(m.e50 == 0.0 && near(m.e99, 10001.0 / 10002.0));
 }
 
-/* The worst pixel is worst relative to what lies around it, and the first of equal ones; 99.9 % may hide it. */
+/* The worst pixel is relative to its surroundings, and the first of equals; 99.9 % may hide it. */
 static void test_worst_pixel(pair *p)
 {
     fill(p, 1.0f, 1.0f);
@@ -277,7 +277,7 @@ typedef struct scratch {
     char a[300], b[300], text[2048];
 } scratch;
 
-/* Names beside which no other run writes; 0 where the folder cannot be written to. */
+/* Names that no other run uses; 0 if the folder is not writable. */
 static int scratch_init(scratch *s)
 {
     const char *folder = getenv("TMPDIR");
@@ -290,7 +290,7 @@ static int scratch_init(scratch *s)
     return f && fclose(f) == 0;
 }
 
-/* A PPM of width x 1 with every byte `code`, but the last byte `last`. */
+/* A PPM of width x 1 with all bytes `code`, except that the last one is `last`. */
 static void write_ppm(const char *path, int width, int code, int last)
 {
     FILE *f = fopen(path, "wb");
@@ -302,7 +302,7 @@ static void write_ppm(const char *path, int width, int code, int last)
     fclose(f);
 }
 
-/* Runs `compare A B [one option and its value]`; what it said is in s->text. */
+/* Runs `compare A B [OPTION VALUE]`; s->text is the output. */
 static int compare_status(scratch *s, const char *option, const char *value)
 {
     char verb[] = "compare", first[64], second[64], *argv[5];

@@ -1,4 +1,4 @@
-/* test_contracts.c: what calls refuse, what a failed frame does, what must end: promises of the headers, one by one. */
+/* test_contracts.c: refused arguments, failed frames, guaranteed termination: each promise of the headers. */
 #include <lambent/lambent.h>
 
 #include <string.h>
@@ -40,7 +40,7 @@ static lmb_frame demo_frame(const lmb_scene *scene)
     return f;
 }
 
-/* A frame that failed stays failed, and draws no band. */
+/* A failed frame stays failed and draws no band. */
 static void test_failed_frame(void)
 {
     lmb_frame f = demo_frame(demo_scene());
@@ -59,7 +59,7 @@ static void test_failed_frame(void)
     CHECK(lmb_render_step(&render, 1) == LMB_ERR_CAPACITY);
 }
 
-/* lmb_render_begin refuses what a stage would only meet later. */
+/* lmb_render_begin refuses errors that a stage would otherwise meet later. */
 static void test_begin_refuses(void)
 {
     lmb_frame good = demo_frame(demo_scene()), f;
@@ -108,7 +108,7 @@ static void test_raster_refuses(void)
     }
 }
 
-/* Two normals exactly opposed may have a cosine below -1: grouping to one group must still end. */
+/* Exactly opposed normals may have a cosine below -1: grouping into one group must still terminate. */
 static void test_grouping_ends(void)
 {
     test_rng r = {5};
@@ -137,24 +137,25 @@ static void test_grouping_ends(void)
     }
 }
 
-/* A point in the plane of a near quad, lifted by a rounding, sees its edge: no light, no bright specks. A point that
- * truly stands over it sees half the sky full of it. */
+/* A point in the plane of a near quad, lifted by rounding, sees the quad edge-on: no light, no bright specks. A point
+ * really above the quad sees it fill half the sky. */
 static void test_flat_quads(void)
 {
     const lmb_vec3 up = {0, 1, 0}, u = {0.01f, 0, 0}, v = {0, 0, 0.01f}, centre = {3, 1, -2};
-    const lmb_vec3 tilted = {0.0998334f, 0.9950042f, 0}; /* 0.1 rad off the quad's: the next facet of a curve */
+    const lmb_vec3 tilted = {0.0998334f, 0.9950042f, 0}; /* 0.1 rad off the quad: the next facet of a curve */
     for (int i = -3; i <= 3; ++i) {
         lmb_vec3 at = {3.002f, 1.0f + (float)i * 1e-6f, -2.003f};
         CHECK(lmb_quad_factor(at, up, up, centre, up, u, v) == 0.0f);
         CHECK(lmb_quad_factor(at, up, up, centre, up, v, u) == 0.0f);
-        /* Above the plane by rounding, under a face whose horizon dips below it: the whole quad would count. */
+        /* Above the plane by rounding, below a face with a horizon that dips under the plane: the whole quad would
+         * count. */
         CHECK(lmb_quad_factor(at, tilted, tilted, centre, up, u, v) == 0.0f);
         CHECK(lmb_quad_factor(at, tilted, tilted, centre, up, v, u) == 0.0f);
     }
     lmb_vec3 over = {3, 1.001f, -2}, down = {0, -1, 0};
     float full = lmb_quad_factor(over, down, down, centre, up, u, v) * 4.0f * 1e-4f;
     CHECK_MSG(full > 0.95f && full <= 1.0f, "%g", (double)full);
-    /* On an edge of the quad and of the room: the light does not end within rounding error of the plane of the quad. */
+    /* On an edge of the quad and of the room: the light does not stop within rounding of the quad's plane. */
     const lmb_vec3 wall = {1, 0, 0}, beyond = {-1, 0, 0}, corner[4] = {{2.99f, 1, -2.01f}, {2.99f, 1, -1.99f}, {3.01f, 1, -1.99f},
                                                                      {3.01f, 1, -2.01f}};
     const lmb_vec3 high = {2.99f, 1.0f + 3e-5f, -2.001f};
@@ -172,7 +173,7 @@ static void test_flat_quads(void)
     }
 }
 
-/* Doubling the light doubles every gathered pixel, however dim it is, black walls and all. */
+/* Doubling the light doubles every gathered pixel, however dim it is, also between black walls. */
 static void test_doubling(float watts, int method)
 {
     lmb_scene scene = *demo_scene();
@@ -212,6 +213,6 @@ void test_contracts(void)
         test_doubling(1000.0f, method);
         test_doubling(1.0f, method);
         test_doubling(1e-12f, method);
-        test_doubling(1e-14f, method); /* dimmer, and texels at the cone's edge cross the floor of 2^-80 W */
+        test_doubling(1e-14f, method); /* dimmer light puts texels at the cone's edge below the limit of 2^-80 W */
     }
 }

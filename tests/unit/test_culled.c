@@ -1,7 +1,7 @@
-/* test_culled.c: layer 3: lmb_draw_culled leaves the bytes that lmb_draw does, whatever is hidden, and its bounds are
- * none too near.
+/* test_culled.c: layer 3: lmb_draw_culled leaves the same bytes as lmb_draw, whatever is hidden, and no bound is too
+ * near.
  *
- * Scenes are random: by every backend, in every format, by windows that end within a tile. */
+ * Scenes are random: on every backend, in every format, in windows that end within a tile. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <string.h>
 #ifdef __linux__
@@ -21,7 +21,7 @@ enum { TILES = 18 * 18 + 15, SCENES = 6 };
 static uint32_t depth_memory[2][SIDE * SIDE], id_memory[2][SIDE * SIDE];
 static float bound[TILES];
 
-/* A window that is cleared, in memory 0 or 1. */
+/* A cleared window in memory 0 or 1. */
 static lmb_target window_of(int which, int32_t depth_format, int32_t id_format, int32_t layout, int32_t side, int32_t x0)
 {
     lmb_target t;
@@ -44,7 +44,7 @@ static float depth_at(const lmb_surface *s, int32_t x, int32_t y)
     return s->format == LMB_DEPTH16 ? (float)((const uint16_t *)s->data)[at] : ((const float *)s->data)[at];
 }
 
-/* Of the pixels, those that are farther than their tile's bound. */
+/* Number of pixels farther than the bound of their tile. */
 static int32_t too_far(const lmb_surface *s)
 {
     const int32_t across = (s->width + 7) / 8;
@@ -71,7 +71,7 @@ typedef struct totals {
     int32_t raised;
 } totals;
 
-/* Both ways into one window, in two calls; with bounds, clusters or both. */
+/* Draws one window both ways, in two calls; with bounds, clusters or both. */
 static void draw_both(const lmb_kernels *kernels, const lmb_target t[2], uint32_t flags, int how, totals *sum)
 {
     const uint32_t all = lmb_scene_triangles(&st.scene), half = all / 2;
@@ -134,7 +134,7 @@ static void test_same_bytes(void)
     }
 }
 
-/* Behind depths that are nearer than all of them, clusters that the window shows are left out. */
+/* If all depths are nearer, clusters in the window are left out. */
 static void test_hidden(void)
 {
     test_rng r = {24};
@@ -161,7 +161,7 @@ static void test_hidden(void)
     }
 }
 
-/* What would be dropped is counted whatever hides it. */
+/* Invalid triangles are counted even if hidden. */
 static void test_dropped(void)
 {
     test_rng r = {24};
@@ -175,7 +175,7 @@ static void test_dropped(void)
     const lmb_culling culling = {bound, st.cluster, TILES, CLUSTERS};
     memset(bound, 0, sizeof bound);
     CHECK(lmb_draw_culled(&t, picked_kernels(), &st.view, &st.scene, 1, 5000, 0, &culling, &stats) == LMB_OK);
-    CHECK(stats.triangles_dropped == 2); /* by both instances */
+    CHECK(stats.triangles_dropped == 2); /* once per instance */
 }
 
 static void test_refused(void)
@@ -199,12 +199,13 @@ static void test_refused(void)
     CHECK(lmb_draw_culled(&t, k, &st.view, &st.scene, 1, 9, 0, &none, NULL) == LMB_OK);
 }
 
-/* Half of a batch lies off the frame: set-up stores nothing of it, and what a draw before left there names tiles of another
- * window. Bounds are not asked for those. They lie behind pages that may not be read: a gather is no read for sanitizers. */
+/* Half of a batch lies outside the frame. Setup stores nothing for it, so leftovers of an earlier draw name tiles of
+ * another window, and the bounds of those must not be read. They would lie in protected pages, because sanitizers do
+ * not check gathers. */
 #ifdef __linux__
 enum { FAR_FRAME = 1024, FAR_WINDOW = 64, GUARD = 1 << 18 };
 
-/* 16 triangles at a pixel of the frame's diagonal, the first 8 of them off the frame or not. */
+/* 16 triangles at a pixel of the frame's diagonal; if is_half, the first 8 lie outside the frame. */
 static void draw_at(const lmb_kernels *k, float pixel, int32_t x0, int is_half, float *farthest)
 {
     test_rng r = {24};

@@ -1,4 +1,4 @@
-/* test_cut.c: each tile's cut of the light tree, against every texel one by one. [V25 V27 V28] */
+/* test_cut.c: each tile's cut of the light tree, against a sum over all texels. [V25 V27 V28] */
 #include <stdlib.h>
 
 #include "../every_texel.h"
@@ -14,7 +14,7 @@ static lmb_tile tile;
 
 static lmb_stats stats;
 
-/* With a canary behind. */
+/* Followed by a canary. */
 static struct {
     lmb_cut it;
     uint8_t after[64];
@@ -60,7 +60,7 @@ static lmb_vec3 random_point(test_rng *r, float half)
     return vec3(x, y, test_uniform(r, -half, half));
 }
 
-/* A closed room of 2 m a side with boxes, a ball, and plates that stand or float anywhere. */
+/* A closed room of 2 m a side with boxes, a ball, and plates anywhere. */
 static void make_room(test_rng *r)
 {
     world_begin(0.6f, 0.4f, 0.2f);
@@ -105,7 +105,7 @@ static void take_quads(void)
     quad_count = quads != NULL ? every_texel(quads, &lit) : 0;
 }
 
-/* Red light of all texels that `sees` lets through, or NULL for all. */
+/* Red light of all texels that pass `sees`, or of all if it is NULL. */
 static double sum_quads(int k, int (*sees)(lmb_vec3 from, lmb_vec3 to))
 {
     const lmb_vec3 at = plane_vec(tile.position, k);
@@ -139,8 +139,8 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Of the pixels from `first` on: |got - want| / (want + rest x mean), so that light out of rounding alone, a millionth
- * of the mean in a plane that is lit, does not count. All of them are sorted. */
+/* |got - want| / (want + rest x mean) of the pixels from `first` on, so that rounding in a lit plane, a millionth of
+ * the mean, does not count. Sorts all of them. */
 static void sort_errors(int first, double rest)
 {
     double mean = 0.0;
@@ -153,16 +153,16 @@ static void sort_errors(int first, double rest)
     qsort(errors, (size_t)error_count, sizeof *errors, by_size);
 }
 
-/* The error that this share of the pixels stays under. */
+/* The error that this share of the pixels does not exceed. */
 static double error_at(double share)
 {
     return error_count > 0 ? (double)errors[(int)(share * (error_count - 1))] : 0.0;
 }
 
-/* W/m2 that is rounding, where light is some tenths: of texels in the pixel's own plane, which cuts leave out. */
+/* W/m2 that count as rounding, against some tenths of light: from texels in the pixel's plane, which cuts omit. */
 #define NOTHING 1e-5
 
-/* Without the BVH: a view's pixels in tiles from its first corner to its last; of proofs in each second one. */
+/* Without a BVH: the tiles on a view's diagonal, every second one if the cut is conservative. */
 static double compare_view(const lmb_view *v, const lmb_cut_params *how)
 {
     double pairs = 0.0;
@@ -184,13 +184,14 @@ static double compare_view(const lmb_view *v, const lmb_cut_params *how)
     return pairs;
 }
 
-/* V27: within `error` of all texels one by one, by a small share of them: 999 pixels of 1,000; conservative: all. */
+/* V27: with a small share of the texels, 999 of 1,000 pixels are within `error` of the sum over all texels; if
+ * conservative, all are. */
 static void check_error(float error, int conservative, double bound, double most_share)
 {
     double pairs = 0.0;
     error_count = 0;
     begin_cut();
-    for (int room = 0; room < (conservative ? 2 : 3); ++room) { /* proofs take ten times as long */
+    for (int room = 0; room < (conservative ? 2 : 3); ++room) { /* conservative cuts take ten times as long */
         test_rng r = {(uint64_t)(90 + room)};
         lmb_cut_params how = cut_params_of(error, NULL);
         how.conservative = conservative;
@@ -215,7 +216,7 @@ static void check_error(float error, int conservative, double bound, double most
 
 /* --- a tile by hand ----------------------------------------------------------------------------------------------- */
 
-/* A floor of 8 x 8 pixels, `step` apart from (x, y, z). */
+/* A floor of 8 x 8 pixels, `step` apart, from `at`. */
 static void floor_tile(lmb_vec3 at, float step)
 {
     memset(&tile, 0, sizeof tile);
@@ -228,7 +229,7 @@ static void floor_tile(lmb_vec3 at, float step)
     }
 }
 
-/* The box of 2 m a side, lit on its walls and ceiling from its middle. */
+/* The box of 2 m a side, with walls and ceiling lit from near the centre. */
 static void lit_box(void)
 {
     const lmb_light light = point_light(vec3(0.1f, 0.2f, 0.3f));
@@ -238,7 +239,7 @@ static void lit_box(void)
     lit_by(&light);
 }
 
-/* The tile's first 2 x 2 pixels: finite, not negative, and within `bound` of all texels. */
+/* The tile's first 2 x 2 pixels are finite, not negative, and within `bound` of the sum over all texels. */
 static void check_sane(const char *what, const lmb_irradiance *got, double bound)
 {
     double worst = 0.0;
@@ -251,8 +252,8 @@ static void check_sane(const char *what, const lmb_irradiance *got, double bound
     CHECK_MSG(good && worst <= bound, "%s: %g with %d nodes", what, worst, (int)cut.it.count);
 }
 
-/* More nodes than there is room for: halves of the pixels, of which there are four, have cuts of their own while that
- * helps; then they are lit by the nodes they have, and counted. */
+/* If the nodes exceed the capacity, the pixels (here four) are halved with separate cuts while that helps. Pixels that
+ * still do not fit are lit with the nodes they have and counted. */
 static void check_full(void)
 {
     lmb_cut_params how = cut_params_of(1e-9f, NULL);
@@ -278,7 +279,7 @@ static void check_full(void)
     }
 }
 
-/* A small error takes as many nodes as it needs, up to what there is room for. */
+/* A small error uses as many nodes as needed, up to the capacity. */
 static void check_many_nodes(void)
 {
     const lmb_cut_params how = cut_params_of(1e-4f, NULL);
@@ -291,9 +292,8 @@ static void check_many_nodes(void)
               "%d nodes", (int)cut.it.count);
 }
 
-/* The promise at the end of a cut: either no node can be divided, or none has room, or the root of the errors' squares'
- * sum is under `error` of what the nodes give. Right on a lit wall too, where nodes that hold the tile may give any
- * amount. */
+/* At the end of a cut no node can be divided, or there is no room, or the root of the summed squared errors is below
+ * `error` of the nodes' light. This holds on a lit wall too, where nodes that contain the tile can give any amount. */
 static void check_promise(void)
 {
     static const float places[][3] = {{-0.3f, -1, -0.3f}, {-0.999f, -0.999f, -0.999f}, {0.5f, 0.99f, 0.5f}};
@@ -319,7 +319,7 @@ static void check_promise(void)
     }
 }
 
-/* Doubled light is doubled, to the bit. */
+/* Twice the light gives exactly twice the result. */
 static void check_linear(void)
 {
     const lmb_cut_params how = cut_params_of(0.02f, NULL);
@@ -352,7 +352,7 @@ static int is_dark(const lmb_irradiance *e)
     return dark;
 }
 
-/* No face, a face without light, one lit texel; no surface under the tile. What is there is added to. */
+/* No face, a face without light, one lit texel, and a tile without a surface. The result is added to the output. */
 static void check_small(void)
 {
     const lmb_cut_params how = cut_params_of(0.02f, NULL);
@@ -413,7 +413,7 @@ static void check_refused(void)
 
 /* --- a wall with a door ------------------------------------------------------------------------------------------- */
 
-/* At x = 0, into the walls around it, open for z in DOOR_LOW .. DOOR_HIGH. */
+/* At x = 0, between the walls, open for z in DOOR_LOW .. DOOR_HIGH. */
 #define DOOR_LOW  -0.1f
 #define DOOR_HIGH 0.3f
 
@@ -426,7 +426,7 @@ static void make_rooms(void)
     CHECK(world_end() == LMB_OK);
 }
 
-/* Where a segment from x > 0 to x < 0 passes the wall. */
+/* z at which a segment from x > 0 to x < 0 crosses the wall. */
 static float passes(lmb_vec3 from, lmb_vec3 to) { return from.z + (to.z - from.z) * from.x / (from.x - to.x); }
 
 static float door_wider; /* m, on both sides */
@@ -461,8 +461,8 @@ static void compare_door(door_figures *d, const lmb_irradiance *got)
     }
 }
 
-/* V25, V26: light in the room at x < 0 alone, and a view of the other. Where no lit texel is seen it is exactly dark;
- * where some are, it is what they give, but for nodes that are seen or not as one. */
+/* V25, V26: light only in the room at x < 0, viewed from the other room. Pixels that see no lit texel are exactly dark;
+ * the others have the light of the texels they see, except that a node is visible or not as a whole. */
 static void check_door(float visibility, double p95)
 {
     const lmb_light light = spot(vec3(-0.3f, 0.2f, 0.1f), vec3(-1, -0.5f, 0.1f), 20, 45);

@@ -1,4 +1,5 @@
-/* test_demo.c: the built-in scene: valid data, closed objects wound outwards, a room that faces inwards, its camera. */
+/* test_demo.c: the built-in scene: valid data, closed objects with outward winding, an inward-facing room, the
+ * camera. */
 #include <math.h>
 #include <string.h>
 
@@ -14,7 +15,7 @@ void test_demo(void);
 
 enum { WALLS = 6, MAX_VERTICES = 1536, FLASH_BYTES = 100 * 1024 };
 
-/* A triangle of an instance in the world. */
+/* World-space triangle of an instance. */
 static void corners(lmb_vec3 p[3], const lmb_scene *s, const lmb_instance *in, uint32_t triangle)
 {
     const lmb_mesh *m = s->meshes + in->mesh;
@@ -29,7 +30,7 @@ static lmb_vec3 face_normal(const lmb_vec3 p[3])
     return normalize3(cross3(sub3(p[1], p[0]), sub3(p[2], p[0])));
 }
 
-/* Closed and consistently wound: each edge is walked once each way. */
+/* Closed and consistently wound: each edge occurs once in each direction. */
 static int is_closed(const lmb_mesh *m)
 {
     static uint8_t walked[MAX_VERTICES][MAX_VERTICES];
@@ -54,7 +55,7 @@ static int is_closed(const lmb_mesh *m)
     return 1;
 }
 
-/* Positive where the faces look outwards (divergence theorem). */
+/* Positive if the faces point outwards (divergence theorem). */
 static float volume(const lmb_scene *s, const lmb_instance *in)
 {
     lmb_vec3 p[3], origin = vec3(in->to_world.m[12], in->to_world.m[13], in->to_world.m[14]);
@@ -74,17 +75,17 @@ static void test_data(const lmb_scene *s)
     CHECK(lmb_scene_check(s) == LMB_OK);
     lmb_scene_bounds(&low, &high, s);
     CHECK(!memcmp(&low, &s->bounds_min, sizeof low) && !memcmp(&high, &s->bounds_max, sizeof high));
-    CHECK(low.x == -2.0f && low.y == 0.0f && low.z == -2.0f); /* the room's own box: nothing sticks out */
+    CHECK(low.x == -2.0f && low.y == 0.0f && low.z == -2.0f); /* the box of the room: nothing extends beyond it */
     CHECK(high.x == 2.0f && high.y == 2.75f && high.z == 2.75f);
     CHECK_MSG(triangles >= 1000 && triangles <= 6000, "%u", (unsigned)triangles);
     for (i = 0; i < s->instance_count; ++i) {
         CHECK(s->instances[i].first_id == last + 1);
         last += s->meshes[s->instances[i].mesh].triangle_count;
     }
-    CHECK(last == triangles && triangles < 65536); /* 16-bit ids will do */
+    CHECK(last == triangles && triangles < 65536); /* 16-bit ids suffice */
 }
 
-/* What a mesh takes of flash; its indices are inside on the way. */
+/* Flash size of a mesh; also checks that all indices are in range. */
 static uint32_t mesh_bytes(const lmb_mesh *m)
 {
     uint32_t k, bad = 0, bytes = m->position_format == LMB_POSITION_I16 ? 8 : 12;
@@ -98,7 +99,7 @@ static uint32_t mesh_bytes(const lmb_mesh *m)
     return bytes * m->vertex_count + 6 * m->triangle_count;
 }
 
-/* The scene shows every stream format that a device would use, and stays small. */
+/* The scene contains every stream format that a device would use, and stays small. */
 static void test_formats(const lmb_scene *s)
 {
     uint32_t i, bytes = 0, packed = 0, floats = 0, smooth = 0, coloured = 0, textured = 0;
@@ -116,7 +117,7 @@ static void test_formats(const lmb_scene *s)
     CHECK_MSG(bytes <= FLASH_BYTES, "%u bytes", (unsigned)bytes);
 }
 
-/* Vertex normals of a closed smooth mesh: unit, and on the side of every face around them. */
+/* Vertex normals of a closed smooth mesh have unit length and lie on the front of every adjacent face. */
 static void check_smooth(const lmb_scene *s, const lmb_instance *in)
 {
     const lmb_mesh *m = s->meshes + in->mesh;
@@ -135,7 +136,7 @@ static void check_smooth(const lmb_scene *s, const lmb_instance *in)
     CHECK_MSG(bad == 0, "%u of %u corners", (unsigned)bad, (unsigned)(3 * m->triangle_count));
 }
 
-/* The faces of a convex object look away from its middle. */
+/* The faces of a convex object point away from its centre. */
 static void check_convex(const lmb_scene *s, const lmb_instance *in)
 {
     lmb_vec3 p[3], middle = vec3(0.0f, 0.0f, 0.0f);
@@ -169,10 +170,10 @@ static void test_objects(const lmb_scene *s)
         }
     }
     CHECK(smooth == 2);
-    CHECK(closed == s->instance_count - WALLS - 1); /* all but the room and the painting */
+    CHECK(closed == s->instance_count - WALLS - 1); /* all except the room and the painting */
 }
 
-/* Walls come first and look at the middle of the room. */
+/* Walls come first and face the centre of the room. */
 static void test_room(const lmb_scene *s)
 {
     lmb_vec3 p[3], middle = mul3(add3(s->bounds_min, s->bounds_max), 0.5f);
@@ -221,8 +222,8 @@ static void test_view(const lmb_scene *s)
 
 /* --- the field ---------------------------------------------------------------------------------------------------- */
 
-/* The cube's faces and the ground's picture are of one world: a texel that looks down on the field has the colour of
- * the ground there, but for texels across its lines. Four lamps are above, as far to the left as to the right. */
+/* The cube's faces and the ground's picture show one world: a texel facing the field has the ground's colour there,
+ * except at the field's lines. Four lamps are above, symmetric to the left and right. */
 static void test_field(void)
 {
     lmb_world_pictures p;
@@ -230,7 +231,7 @@ static void test_field(void)
     report r = {""};
     float size[2];
     double lamp[2] = {0.0, 0.0};
-    int down = 0, same = 0, lamps = 0, whole = 1; /* texels: the field's; of its colour; bright ones */
+    int down = 0, same = 0, lamps = 0, whole = 1; /* texels: on the field; of the field's colour; bright */
     memset(&own, 0, sizeof own);
     demo_field_place(&p, size);
     CHECK_MSG(demo_field_pictures(&p, &own, &r), "%s", r.text);

@@ -1,4 +1,4 @@
-/* test_draw.c: what fixed-function drawing covers: triangles, lines, points; clipping; bad input. */
+/* test_draw.c: coverage of fixed-function drawing: triangles, lines, points; clipping; bad input. */
 #include "../draw_case.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@ void test_draw(void);
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
-/* A polygon's fan covers each pixel once, whatever its corners; two triangles that share an edge, too. */
+/* A polygon's fan covers each pixel once for any corners, as do two triangles that share an edge. */
 static void test_once(void)
 {
     test_rng r = {11};
@@ -32,7 +32,7 @@ static void test_once(void)
     }
 }
 
-/* Top and left edges belong to a rectangle, the others do not; all ways to draw it have the same pixels. */
+/* Top and left edges belong to a rectangle, the others do not; all ways of drawing it give the same pixels. */
 static void test_edges(void)
 {
     static const float list[6][3] = {{3.5f, 2.5f, 0}, {3.5f, 9.5f, 0},  {20.5f, 9.5f, 0},
@@ -59,7 +59,7 @@ static void test_edges(void)
     }
 }
 
-/* A scene's triangles have lmb_draw's pixels and depth where the camera's half angles are 45 degrees, which need no
+/* A scene's triangles have the pixels and depth of lmb_draw if the camera's half angles are 45 degrees, which need no
  * rounding. */
 static void test_same_depth(void)
 {
@@ -105,7 +105,7 @@ static void test_same_depth(void)
     CHECK(n > 300);
 }
 
-/* A colour and texture coordinates across a plane that recedes, against binary64. */
+/* A colour and texture coordinates on a receding plane, against binary64. */
 static void test_perspective(void)
 {
     static const float c[4][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -9}, {-1, 1, -9}};
@@ -133,7 +133,7 @@ static void test_perspective(void)
 
 /* --- lines -------------------------------------------------------------------------------------------------------- */
 
-/* Least |x - cx| + |y - cy| over a segment; all in 1/256 px. */
+/* Smallest |x - cx| + |y - cy| over a segment, in 1/256 px. */
 static double least_sum(const double p[4], double cx, double cy)
 {
     const double dx = p[2] - p[0], dy = p[3] - p[1];
@@ -147,7 +147,7 @@ static double least_sum(const double p[4], double cx, double cy)
     return least;
 }
 
-/* Against the definition, in binary64, with the shift by e and e^2 as numbers. */
+/* Against the definition in binary64, with numeric values for the shifts e and e^2. */
 static void test_diamonds(void)
 {
     test_rng r = {3};
@@ -181,7 +181,7 @@ static void test_diamonds(void)
     CHECK_MSG(wrong == 0 && pixels > 2000, "%d of %d pixels", wrong, pixels);
 }
 
-/* A loop around pixels' middles has each pixel once; wide lines and points have their sizes. */
+/* A loop through pixel centres has each pixel once; wide lines and points have the right size. */
 static void test_widths(void)
 {
     static const float loop[4][3] = {{2.5f, 2.5f, 0}, {12.5f, 2.5f, 0}, {12.5f, 9.5f, 0}, {2.5f, 9.5f, 0}};
@@ -249,7 +249,7 @@ static void soup_state(int primitive)
     state.plane[0][0] = 1, state.plane[0][1] = 0.5f, state.plane[0][3] = 2;
 }
 
-/* 1, 2: patterns, and polygons' edges or corners. */
+/* 1, 2: patterns, and edges or corners of polygons. */
 static void soup_mode(int mode)
 {
     static uint8_t pattern[128];
@@ -274,7 +274,7 @@ static lmb_status draw_soup(const lmb_draw_target *on, const soup *s, int primit
     return lmb_draw_list(on, &state, &v, primitive, NULL, stats);
 }
 
-/* Windows of the frame, and scissors, have the whole picture's bytes. */
+/* Windows of the frame and scissors have the bytes of the whole picture. */
 static void test_windows(void)
 {
     soup s;
@@ -317,8 +317,7 @@ static void test_windows(void)
     }
 }
 
-/* A list has the bytes of its primitives drawn one by one, and of an indexed one; what is drawn elsewhere does not
- * matter. */
+/* A list has the bytes of primitives drawn one by one, and of an indexed list, whatever is drawn elsewhere. */
 static void test_parts(void)
 {
     static const int32_t kinds[4] = {LMB_DRAW_TRIANGLES, LMB_DRAW_QUADS, LMB_DRAW_LINES, LMB_DRAW_POINTS};
@@ -341,7 +340,7 @@ static void test_parts(void)
             const lmb_draw_state kept = state;
             v.positions = s.corners[k], v.colours = s.colours[k], v.count = each[i];
             CHECK(lmb_draw_list(&drawn_on, &state, &v, kinds[i], NULL, NULL) == LMB_OK);
-            state.flags |= LMB_DRAW_SCISSOR; /* another draw, where these are not */
+            state.flags |= LMB_DRAW_SCISSOR; /* another draw, away from these */
             state.scissor[0] = CASE_WIDE;
             CHECK(draw_soup(&drawn_on, &s, kinds[3 - i], NULL) == LMB_OK);
             state = kept;
@@ -364,7 +363,7 @@ static void test_parts(void)
     }
 }
 
-/* A plane of the state cuts where it says; so do near and far. */
+/* A plane of the state clips at the right position; so do near and far. */
 static void test_cuts(void)
 {
     case_begin();
@@ -384,7 +383,7 @@ static void test_cuts(void)
           drawn.colour[4][21][0] == 0);
 }
 
-/* Roads from before the near plane to 1,000 km away keep their sides: an edge is cut from the end that is near. */
+/* Roads from in front of the near plane to 1,000 km away keep their sides: an edge is clipped from the near end. */
 static void test_long_edges(void)
 {
     int wrong = 0, shown = 0;
@@ -488,7 +487,7 @@ static lmb_status refuse(int32_t primitive)
     return case_draw(primitive, c, NULL, 4);
 }
 
-/* Each value out of range is refused, and nothing is written. */
+/* Each out-of-range value is refused and nothing is written. */
 static void test_refused(void)
 {
     uint8_t *const state_bytes[] = {&state.planes,
@@ -564,7 +563,7 @@ static void test_refused(void)
     CHECK(drawn.colour[3][3][0] == 0 && case_guard_is_whole());
 }
 
-/* Random states and vertices: nothing is written outside. */
+/* Random states and vertices: nothing is written out of bounds. */
 static void test_random_states(void)
 {
     test_rng r = {19};

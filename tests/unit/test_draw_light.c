@@ -1,4 +1,4 @@
-/* test_draw_light.c: light at vertices: OpenGL's formula against binary64; a frame's light against its own picture. */
+/* test_draw_light.c: light at vertices: OpenGL's formula against binary64; a frame's light against the picture. */
 #include <lambent/lambent.h>
 
 #include "../examples/room.h"
@@ -56,7 +56,7 @@ static void unit(double v[3])
     }
 }
 
-/* Add a lamp as OpenGL 1.5's section 2.14.1 has it; 0 if a step of the formula is too near to tell. */
+/* Adds a lamp as in OpenGL 1.5, section 2.14.1. Returns 0 if a step of the formula is too close to decide. */
 static int add_lamp(double matt[3], double shine[3], const lmb_draw_lamp *l, const lmb_draw_material *m,
                     const double at[3], const double normal[3], const double eye[3])
 {
@@ -91,7 +91,7 @@ static int add_lamp(double matt[3], double shine[3], const lmb_draw_lamp *l, con
 
 static double off_code(double v, uint8_t code) { return fabs(255 * fmin(fmax(v, 0), 1) - code); }
 
-/* One vertex against the formula: the worst difference in codes; 0 where a step is near. */
+/* One vertex against the formula: the largest difference in codes; 0 if a step is close. */
 static double try_formula(test_rng *r)
 {
     lmb_draw_lamp lamps[LMB_DRAW_LAMPS];
@@ -200,7 +200,7 @@ static void test_normals(void)
     CHECK(lmb_draw_light(&out, &how, &v, none) == LMB_OK && c[0] == 0);
 }
 
-/* Each number out of range is refused, and nothing is written. */
+/* Each out-of-range number is refused and nothing is written. */
 static void test_lighting_refused(void)
 {
     lmb_draw_lamp lamp;
@@ -257,7 +257,7 @@ typedef struct lit_room {
 } lit_room;
 static lmb_render lit_state;
 
-/* A frame of the examples' room, drawn. */
+/* Draws a frame of the examples' room. */
 static lmb_status light_room(lit_room *room, lmb_frame_settings *s)
 {
     room->scene = room_scene(room->mesh, room->material, room->place, &room->light);
@@ -269,7 +269,7 @@ static lmb_status light_room(lit_room *room, lmb_frame_settings *s)
     return status != LMB_OK ? status : lmb_render_frame(&lit_state, &room->frame);
 }
 
-/* The picture's code where a place of the world is seen. */
+/* The picture's code at the projection of a world position. */
 static int seen_at(const lit_room *room, const float at[3], int channel)
 {
     lmb_draw_state s;
@@ -283,8 +283,8 @@ static int seen_at(const lit_room *room, const float at[3], int channel)
     return ((const uint8_t *)room->frame.out.data)[(y * WIDE + x) * 4 + channel];
 }
 
-/* Places on the room's surfaces, in light, at its border, and in the block's shadow: vertices show what the picture
- * shows there. */
+/* Points of the room's surfaces, in light, at its border, and in the block's shadow: vertices match the picture
+ * there. */
 static void test_surfaces(int32_t gather_step, int32_t show)
 {
     static const float at[6][3] = {{-0.5f, 0, 0.3f},    {-0.3f, 0, 0.6f},   {0.4f, 0.7f, -0.2f},
@@ -312,7 +312,7 @@ static void test_surfaces(int32_t gather_step, int32_t show)
     CHECK_MSG(worst <= 6 && (least > 5 || show == LMB_SHOW_DIRECT), "gather_step %d, show %d: %d codes off", gather_step,
               show, worst);
     CHECK(lit[0][3] == 9 && lit[0][0] > 60);
-    if (show == LMB_SHOW_DIRECT) { /* each for itself, and in place */
+    if (show == LMB_SHOW_DIRECT) { /* each independently, and in place */
         const lmb_draw_vertices last = {.positions = at[5], .colours = colours[5], .count = 1};
         CHECK(lmb_render_vertices(colours[5], &lit_state, room.frame.scratch, &last, normals[5], &here) == LMB_OK);
         CHECK(memcmp(colours[5], lit[5], 4) == 0);

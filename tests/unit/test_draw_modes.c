@@ -1,4 +1,4 @@
-/* test_draw_modes.c: edges, corners and sides of polygons; patterns; combined stages; further colours of vertices. */
+/* test_draw_modes.c: edges, corners and sides of polygons; patterns; combined stages; more vertex colours. */
 #include "../draw_case.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ static int shown(void)
 
 /* --- sides of polygons -------------------------------------------------------------------------------------------- */
 
-/* A polygon's edges are those of a loop; its corners are points; a quad has no diagonal, nor has a polygon. */
+/* A polygon's edges equal those of a loop, and its corners equal points; neither quads nor polygons have diagonals. */
 static void test_outlines(void)
 {
     static const int32_t all[] = {LMB_DRAW_QUADS, LMB_DRAW_POLYGON};
@@ -54,7 +54,7 @@ static void test_outlines(void)
     }
 }
 
-/* Which sides show is the vertices' choice; not in strips and fans. */
+/* The vertices select visible edges, except in strips and fans. */
 static void test_edges_chosen(void)
 {
     static const uint8_t edges[4] = {1, 0, 1, 0};
@@ -72,7 +72,7 @@ static void test_edges_chosen(void)
     CHECK(red_at(17, 20) == 255 && red_at(17, 4) == 255);
 }
 
-/* Fronts and backs have modes and colours of their own, and are culled in each mode. */
+/* Front and back have separate modes and colours, and are culled in each mode. */
 static void test_sides(void)
 {
     static const uint8_t red[4][4] = {{200, 0, 0, 255}, {200, 0, 0, 255}, {200, 0, 0, 255}, {200, 0, 0, 255}};
@@ -110,7 +110,7 @@ static void test_sides(void)
     }
 }
 
-/* A flat polygon has its first vertex' colour. */
+/* A flat polygon has the colour of the first vertex. */
 static void test_flat_polygon(void)
 {
     static const uint8_t colours[4][4] = {{10, 0, 0, 255}, {20, 0, 0, 255}, {30, 0, 0, 255}, {40, 0, 0, 255}};
@@ -122,7 +122,7 @@ static void test_flat_polygon(void)
 
 /* --- patterns ----------------------------------------------------------------------------------------------------- */
 
-/* The n-th pixel of a line, whichever way it goes, has bit n / repeat of the pattern. Strips count on. */
+/* The n-th pixel of a line, in either direction, has bit n / repeat of the pattern. Strips continue the count. */
 static void test_dashes(void)
 {
     static const float to[4][2] = {{35, 9.25f}, {9, 6}, {4.75f, 27}, {30, 30.5f}};
@@ -171,7 +171,7 @@ static void test_dashes(void)
     CHECK(red_at(12, 9) != 0 && red_at(2, 3) != 0 && red_at(21, 9) == 0);
 }
 
-/* The pattern lies on the frame; lines and points ignore it. */
+/* The pattern is fixed to the frame; lines and points ignore it. */
 static void test_area_pattern(void)
 {
     uint8_t pattern[32][4];
@@ -228,7 +228,7 @@ static double result(const combined *c, const lmb_draw_combine *how, int stage, 
     return fmin(fmax(all[func] * (1 << shift), 0), 1);
 }
 
-/* Every function, source, operand and scale, of both stages, against the formulas in binary64. */
+/* Every function, source, operand and scale of both stages, against the formulas in binary64. */
 static void test_combines(void)
 {
     test_rng r = {23};
@@ -283,7 +283,7 @@ static void test_combines(void)
     CHECK_MSG(worst < 1e-6 && funcs == 255, "%g %d", worst, funcs);
 }
 
-/* A stage without a texture passes the colour; as a source it is 1. */
+/* A stage without a texture passes the colour through; as a source it is 1. */
 static void test_missing_stage(void)
 {
     static const uint8_t texel[4] = {50, 60, 70, 80};
@@ -302,7 +302,7 @@ static void test_missing_stage(void)
 
 /* --- streams ------------------------------------------------------------------------------------------------------ */
 
-/* Second colours are added after the stages, and before fog, whose distance may come with the vertices. */
+/* Second colours are added after the stages and before fog; the fog distance may be a vertex attribute. */
 static void test_streams(void)
 {
     static const uint8_t texel[4] = {100, 100, 100, 255};

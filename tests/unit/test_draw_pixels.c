@@ -1,4 +1,4 @@
-/* test_draw_pixels.c: what becomes of a pixel that is drawn: tests, textures, fog, blending, formats. */
+/* test_draw_pixels.c: the operations on a drawn pixel: tests, textures, fog, blending, formats. */
 #include "../draw_case.h"
 
 #include <math.h>
@@ -58,7 +58,7 @@ static double blended(const lmb_draw_state *st, const uint8_t s[4], const uint8_
     }
 }
 
-/* All factors and equations, of colour and of alpha: the exact quotient to nearest. */
+/* All factors and equations for colour and alpha: the exact quotient, rounded to nearest. */
 static void test_blends(void)
 {
     test_rng r = {9};
@@ -88,7 +88,7 @@ static void test_blends(void)
     CHECK_MSG(wrong == 0, "%d channels", wrong);
 }
 
-/* Order does not matter with ONE and ONE (up to 255), MIN and MAX. */
+/* The order does not matter for ONE and ONE (up to 255), MIN and MAX. */
 static void test_commutes(void)
 {
     for (int kind = 0; kind < 3; ++kind) {
@@ -218,7 +218,7 @@ static void test_stencil(void)
     }
 }
 
-/* Depth range, 16 bits, offsets. An alpha test that fails leaves depth and stencil alone. */
+/* Depth range, 16 bits, offsets. A failed alpha test leaves depth and stencil alone. */
 static void test_depths(void)
 {
     static uint16_t codes[CASE_TILED];
@@ -233,7 +233,7 @@ static void test_depths(void)
     state.offset_units = 3;
     CHECK(case_rectangle(0, 0, 8, 8, 0.875f) == LMB_OK && drawn.depth[0] == 0.875f + 3 * 0x1p-24f);
     state.offset_units = 0, state.offset_slope = 2;
-    const float slope[4][3] = {{8, 0, 0.5f}, {8, 8, 0.5f}, {16, 8, 0.75f}, {16, 0, 0.75f}}; /* 1/32 a px */
+    const float slope[4][3] = {{8, 0, 0.5f}, {8, 8, 0.5f}, {16, 8, 0.75f}, {16, 0, 0.75f}}; /* 1/32 per px */
     CHECK(case_draw(LMB_DRAW_QUADS, slope, NULL, 4) == LMB_OK && drawn.depth[64] == 0.5f + 0.5f / 32 + 2.0f / 32);
     case_begin();
     memset(codes, 0, sizeof codes);
@@ -266,7 +266,7 @@ static lmb_texture make_texture(int filter, int wrap)
     return t;
 }
 
-/* A square of 16 x 16 px, whose texture goes from u0 to u1 and from v0 to v1. */
+/* A square of 16 x 16 px with texture coordinates from u0 to u1 and from v0 to v1. */
 static lmb_status textured(float u0, float u1, float size)
 {
     const float c[4][3] = {{0, 0, 0}, {0, size, 0}, {size, size, 0}, {size, 0, 0}},
@@ -289,7 +289,7 @@ static int wrapped(int i, int wrap)
                                      : m % 8;
 }
 
-/* Texel by texel, three periods wide, by each wrap; bilinear at texels' corners. */
+/* Texel by texel, three periods wide, with each wrap mode; bilinear at texel corners. */
 static void test_wraps(void)
 {
     for (int wrap = 0; wrap < 3; ++wrap) {
@@ -359,7 +359,7 @@ static void test_texels(void)
     CHECK(memcmp(drawn.colour[0][0], right[0], 8) == 0 && memcmp(drawn.colour[1][0], right[2], 8) == 0);
 }
 
-/* Both stages by each mode, against the formulas in binary64. */
+/* Both stages in each mode, against the formulas in binary64. */
 static void test_modes(void)
 {
     test_rng r = {8};
@@ -424,14 +424,14 @@ static void test_fog(void)
     CHECK_MSG(worst < 1.01, "%g", worst);
 }
 
-/* Flat shading has the last vertex' colour; both halves of a quad have one colour. Equal colours stay what they are. */
+/* Flat shading uses the last vertex's colour; both halves of a quad have one colour. Equal colours stay unchanged. */
 static void test_shades(void)
 {
     static const float c[4][3] = {{0.3f, 0.2f, 0}, {1.1f, 19, 0}, {23, 22, 0}, {27, 1, 0}};
     static const uint8_t colours[4][4] = {{10, 0, 0, 255}, {20, 0, 0, 255}, {30, 0, 0, 255}, {40, 0, 0, 255}};
     static const struct {
         int32_t primitive;
-        int right[2]; /* left below, right above */
+        int right[2]; /* lower left, upper right */
     } all[] = {{LMB_DRAW_QUADS, {40, 40}}, {LMB_DRAW_TRIANGLE_FAN, {30, 40}}};
     for (int i = 0; i < 2; ++i) {
         case_begin();
@@ -448,7 +448,7 @@ static void test_shades(void)
     }
 }
 
-/* Each format holds what was drawn; with dither its mean does. Blending with alpha 0 changes no bit. */
+/* Each format stores the drawn values; with dither, their mean. Blending with alpha 0 changes no bit. */
 static void test_targets(void)
 {
     for (int format = LMB_RGB565; format <= LMB_BGRA8; ++format) {

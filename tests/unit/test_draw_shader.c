@@ -1,4 +1,4 @@
-/* test_draw_shader.c: a caller's colours, counts of passed pixels, and positions with w, on all ways of drawing. */
+/* test_draw_shader.c: shader colours, counts of passed pixels, and positions with w, in every way of drawing. */
 #include "../draw_case.h"
 
 #include <stdlib.h>
@@ -7,12 +7,12 @@ void test_draw_shader(void);
 
 #if LMB_DRAW && !LMB_DRAW_SMALL
 
-/* What a shader sees, and does. */
+/* Inputs of the shader, and its behaviour. */
 static struct {
-    const uint8_t (*colours)[4]; /* of vertices: mixed by shares */
+    const uint8_t (*colours)[4]; /* per vertex; mixed by shares */
     int calls, backs, strange;
     uint32_t vertex[3];
-    int leaves_even; /* 1: pixels of even x are left out */
+    int leaves_even; /* 1: discards pixels with even x */
 } seen;
 
 static float mixed(const lmb_draw_pixels_of *p, const lmb_draw_fragment_at *at, int i)
@@ -54,7 +54,7 @@ static void shader_begin(void)
     state.kernels = lmb_kernels_pick();
 }
 
-/* Pixels in which the two pictures differ by more than a code. */
+/* Number of pixels that differ by more than a code. */
 static int differing(uint8_t was[CASE_HIGH][CASE_WIDE][4])
 {
     int n = 0;
@@ -77,7 +77,7 @@ static int shown(void)
     return n;
 }
 
-/* Shares mix what the vertices have as the library mixes colours: of each primitive, cut ones, and outlines. */
+/* Shares mix vertex values as the library mixes colours: for each primitive, clipped ones, and outlines. */
 static void test_shares(void)
 {
     static uint8_t was[CASE_HIGH][CASE_WIDE][4];
@@ -104,7 +104,7 @@ static void test_shares(void)
     }
 }
 
-/* The primitive's vertices, and its back, which its edges share. */
+/* The primitive's vertices and back side, which edges share. */
 static void test_primitive(void)
 {
     shader_begin();
@@ -124,7 +124,7 @@ static void test_primitive(void)
     }
 }
 
-/* Pixels left out before the tests keep their depth; what passes is counted, with and without a shader. */
+/* Discarded pixels keep their depth; passed pixels are counted, with and without a shader. */
 static void test_counted(void)
 {
     for (int how = 0; how < 8; ++how) {
@@ -149,7 +149,7 @@ static void test_counted(void)
     }
 }
 
-/* x, y, z, w is drawn as (x, y, z) / w of that depth is; w of any sign; absurd ones are dropped. */
+/* Positions x, y, z, w equal (x, y, z) / w of the same depth, for w of any sign; absurd ones are dropped. */
 static void test_with_w(void)
 {
     static uint8_t was[CASE_HIGH][CASE_WIDE][4];
@@ -214,7 +214,7 @@ static void test_lit_with_w(void)
     CHECK(lit[0][0][0] > 10 && lit[0][0][0] != lit[0][1][0] && memcmp(lit[0], lit[1], sizeof lit[0]) == 0);
 }
 
-/* Outside of a shader there is no pixel. */
+/* There is no pixel outside a shader. */
 static void test_no_pixel(void)
 {
     lmb_draw_pixels_of none;

@@ -1,5 +1,5 @@
-/* test_elements.c: a scene as elements: all of its area, in any capacity; light from them the same in any steps, parts
- * and on any machine; what is refused. */
+/* test_elements.c: a scene as elements: the whole area in any capacity; the same light in any steps, parts and on any
+ * machine; refused input. */
 enum { ELEMENTS = 1024, MAP = 32, FRAME = 24, FACES = 1, BVH = 64 };
 
 #include "../bounce_frame.h"
@@ -77,7 +77,7 @@ static lmb_vec3 random_point(test_rng *r, float half)
     return vec3(x, y, test_uniform(r, -half, half));
 }
 
-/* Large and small, thin, crossing each other. */
+/* Large, small and thin triangles that intersect. */
 static void make_soup(uint32_t count, float span)
 {
     test_rng r = {5};
@@ -131,7 +131,7 @@ static void test_area(void)
     CHECK_MSG(build(ELEMENTS).count > ELEMENTS / 3, "capacity is used");
 }
 
-/* Cut as fine as the box, 1000 km would be two million pieces, none of which has an area that binary32 can hold. */
+/* Divided as finely as the box, 1000 km would give two million pieces, each with an area too small for binary32. */
 static void test_sliver(void)
 {
     world_begin(0.5f, 0.5f, 0.5f);
@@ -142,7 +142,7 @@ static void test_sliver(void)
     CHECK_MSG(e.side > 1e6f / (64 * 64), "%g m", (double)e.side);
 }
 
-/* What lmb_draw drops, and what has no area, is left out; an empty scene is dark. */
+/* Triangles that lmb_draw drops, and those without area, are left out; an empty scene is dark. */
 static void test_dropped(void)
 {
     world_begin(0.5f, 0.5f, 0.5f);
@@ -178,7 +178,7 @@ static void test_sides(void)
     }
     CHECK_MSG(fabs(flux / (PI * 2.0 * 4.0) - 1.0) < 1e-5, "%g W", flux);
     CHECK_MSG(fabs((double)e.level - PI * 2.0) < 1e-4, "%g W/m2", (double)e.level);
-    world.instance[0].to_world.m[0] = -1.0f; /* a mirror keeps the front in front */
+    world.instance[0].to_world.m[0] = -1.0f; /* mirroring keeps the front side */
     CHECK(lmb_elements_build(&e, &world.scene, NULL) == LMB_OK);
     CHECK(fabs(lit_above(&e, 1) - 4.0) < 1e-5 && lit_above(&e, -1) == 0.0);
     world.instance[0].to_world.m[0] = 1.0f;
@@ -187,7 +187,7 @@ static void test_sides(void)
     CHECK(fabs(lit_above(&e, 1) - 4.0) < 1e-5 && fabs(lit_above(&e, -1) - 4.0) < 1e-5);
 }
 
-/* Left half white and solid, right half black and not there. */
+/* Left half white and opaque, right half black and transparent. */
 static void test_texture(void)
 {
     static uint32_t texels[64];
@@ -262,7 +262,7 @@ static void render_parts(lmb_frame *f, int32_t parts)
     CHECK(status == LMB_OK);
 }
 
-/* In one go, in small steps, in parts, by every backend, and as another view of what was solved. */
+/* In one go, in small steps, in parts, on every backend, and as another view of the solved light. */
 static void test_ways(void)
 {
     lmb_frame f;
@@ -286,7 +286,7 @@ static void test_ways(void)
     while (lmb_render_step(&render, 100) == LMB_MORE) {
     }
     check_same("again");
-    f.visibility = 0.3f; /* what elements sent was solved by the other */
+    f.visibility = 0.3f; /* the other settings solved the elements' light */
     CHECK(lmb_render_again(&render, &f) == LMB_ERR_ARG);
     f = make_frame(3);
     f.occlusion = LMB_OCCLUSION_NONE;
@@ -308,7 +308,7 @@ static double mean_of_picture(void)
     return sum;
 }
 
-/* One bounce is what it is without elements; each more adds light, less and less. */
+/* One bounce is the same as without elements; each further bounce adds less light. */
 static void test_counts(void)
 {
     double mean[5];
@@ -343,7 +343,7 @@ static void test_refusals(void)
     f = make_frame(2);
     memset(&f.elements, 0, sizeof f.elements);
     CHECK(lmb_render_begin(&render, &f) == LMB_ERR_ARG);
-    f.show = LMB_SHOW_DIRECT; /* nothing bounces */
+    f.show = LMB_SHOW_DIRECT; /* no bounced light */
     CHECK(lmb_render_begin(&render, &f) == LMB_OK);
     world.material[1].emission[0] = -1.0f;
     CHECK(lmb_scene_check(&world.scene) == LMB_ERR_ARG);
@@ -364,8 +364,7 @@ static void test_refusals(void)
     CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cut_params, 0, tiles) == LMB_OK);
 }
 
-/* A wall beside a floor that emits light: two of its rows lie under the floor's plane and are not asked what they
- * see. */
+/* A wall beside an emissive floor: two rows lie below the floor's plane and are not tested for visibility. */
 static void test_asked(void)
 {
     lmb_bvh bvh;
@@ -392,7 +391,7 @@ static void test_asked(void)
     memset(&stats, 0, sizeof stats);
     memset(&cut_params, 0, sizeof cut_params);
     memset(&scratch.indirect, 0, sizeof scratch.indirect);
-    cut_params.error = cut_params.visibility = 100.0f; /* all of it as one node */
+    cut_params.error = cut_params.visibility = 100.0f; /* one node for everything */
     cut_params.bvh = &bvh;
     cut_params.stats = &stats;
     CHECK(lmb_gather_cut(&scratch.indirect, picked_kernels(), &scratch.gather.cut, wall, &e.tree, &cut_params) ==
@@ -401,7 +400,7 @@ static void test_asked(void)
               (unsigned)stats.segments, (unsigned)stats.pairs);
 }
 
-/* A surface that emits light shows its radiance, with every way of grouping. */
+/* An emissive surface shows its radiance, with every way of grouping. */
 static void test_emission(void)
 {
     lmb_frame f;

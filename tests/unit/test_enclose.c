@@ -1,4 +1,4 @@
-/* test_enclose.c: the nearest point of a mesh and its side; simple meshes that have the original inside. */
+/* test_enclose.c: the nearest point of a mesh and the side of it; simple meshes that contain the original. */
 #include "../../tools/mesh/enclose.h"
 #include "../../tools/mesh/triangle_tree.h"
 #include "../mesh_shapes.h"
@@ -9,7 +9,7 @@ static simplify_facts facts; /* of the last mesh */
 
 /* --- the nearest point --- */
 
-/* The nearest point, from all triangles one by one: by weights of a fine lattice, so that it shares no formula. */
+/* The nearest point by a search over all triangles with weights on a fine lattice, so no formula is shared. */
 static double distance_by_hand(const triangle_mesh *m, dvec p)
 {
     double best = HUGE_VAL;
@@ -51,7 +51,7 @@ static void check_nearest(void)
     triangle_mesh_free(&in);
 }
 
-/* Beyond a sharp corner some planes have the point in front and some behind: the side is still told right. */
+/* Beyond a sharp corner some planes face the point and some do not: the side is still correct. */
 static void check_sharp(void)
 {
     triangle_mesh in = room_for(4, 4);
@@ -89,7 +89,7 @@ static void check_sharp(void)
 
 /* --- enclosing --- */
 
-/* Along a ray from the middle the surface of m, which is star-shaped: how far a vertex is beyond it. */
+/* Distance of a vertex beyond the surface of m, which is star-shaped, along a ray from the centre. */
 static double sticks_out(const triangle_mesh *m, dvec p)
 {
     uint32_t t;
@@ -128,7 +128,7 @@ static void check_around(triangle_mesh in, uint32_t triangles)
     triangle_mesh_free(&out);
 }
 
-/* A flat sheet has no outside to move to, but a border: a smaller sheet grows to the larger one. */
+/* A flat sheet has no outside to move to, only a border: a smaller sheet grows to the larger one. */
 static void check_enclose_border(void)
 {
     triangle_mesh in = field(8, 0), sheet = placed(field(2, 0), 0.9f, 0.05f, 0.05f, -0.01f);
@@ -147,7 +147,7 @@ static void check_enclose_border(void)
     triangle_mesh_free(&sheet);
 }
 
-/* A plate within a thicker one: each of its sides is nearer to the other's wrong side, and nothing moves for that. */
+/* A plate within a thicker one: each side is nearer to the wrong side of the other, which must not move anything. */
 static void check_thin(void)
 {
     triangle_mesh in = cube(4), plate = cube(2), before = cube(2);
@@ -167,7 +167,7 @@ static void check_thin(void)
     triangle_mesh_free(&before);
 }
 
-/* Something that faces a ball from without is not of its surface, and moves nothing. */
+/* A patch that faces a ball from outside does not belong to the ball's surface and moves nothing. */
 static void check_facing_back(void)
 {
     triangle_mesh ball = sphere(4), in = room_for(3, 1);
@@ -185,11 +185,11 @@ static void check_facing_back(void)
     triangle_mesh_free(&ball);
 }
 
-/* A third as large: moves as long as the mesh, and what is said to be left is what is left. */
+/* A ball a third as large moves by about the size of the mesh, and the reported remaining distance is correct. */
 static void check_far(void)
 {
     triangle_mesh in = potato(8), parts = placed(sphere(3), 0.3f, 0.1f, 0, 0);
-    triangle_mesh ball = simple(&parts, parts.triangle_count, SIMPLIFY_NEAR, &facts); /* its sides hang together */
+    triangle_mesh ball = simple(&parts, parts.triangle_count, SIMPLIFY_NEAR, &facts); /* with connected sides */
     counted_heap t = {0, 0};
     double outside;
     CHECK(mesh_enclose(&ball, &in, &outside, &t));

@@ -1,5 +1,4 @@
-/* test_far.c: large, small and distant worlds: what rounding may do, where a scene is fine, the faces of a sun's
- * map. */
+/* test_far.c: large, small and distant worlds: rounding limits, the fine core of a scene, the faces of a sun's map. */
 #include "../world.h"
 
 #include <stdlib.h>
@@ -33,7 +32,7 @@ static uint64_t occluded(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels
 
 /* --- convex rooms: hull.c's proof --------------------------------------------------------------------------------- */
 
-/* A box cut into 2 x n x n triangles a side. */
+/* A box with 2 x n x n triangles per side. */
 static void put_box(lmb_vec3 middle, lmb_vec3 half, int n)
 {
     const lmb_vec3 axis[3] = {vec3(half.x, 0, 0), vec3(0, half.y, 0), vec3(0, 0, half.z)};
@@ -48,7 +47,7 @@ static void put_box(lmb_vec3 middle, lmb_vec3 half, int n)
     }
 }
 
-/* On a wall, as far off it as rounding may lift a point, or anywhere. */
+/* A point on a wall, off it by the largest rounding, or anywhere. */
 static lmb_vec3 near_wall(test_rng *r, const lmb_hull *h, lmb_vec3 middle, lmb_vec3 half)
 {
     lmb_vec3 p = somewhere(r, middle, half);
@@ -62,7 +61,7 @@ static lmb_vec3 near_wall(test_rng *r, const lmb_hull *h, lmb_vec3 middle, lmb_v
     return p;
 }
 
-/* Between places that a hull holds nothing blocks, were there no other noise; and it holds places on its walls. */
+/* Nothing blocks between points inside a hull, if there is no other noise, and points on the walls count as inside. */
 static void test_hull(void)
 {
     test_rng r = {81};
@@ -97,8 +96,8 @@ static void test_hull(void)
 
 /* --- noise -------------------------------------------------------------------------------------------------------- */
 
-/* A board a hand's breadth over a floor, asked from close by: a triangle 100 km off must not make it leak, nor make the
- * traversal miss its box. */
+/* A board a hand's breadth above a floor, tested from close by: a triangle 100 km away must not make the board leak or
+ * the traversal miss its box. */
 static void test_stray_blocks_nothing(void)
 {
     test_rng r = {82};
@@ -136,13 +135,13 @@ static void test_noise(void)
     CHECK(lmb_place_noise(vec3(-16, 3, 4), 0.0f) == ldexpf(1.0f, -18));
     CHECK(lmb_place_noise(vec3(0, 0, 0), 4.0f) == ldexpf(1.0f, -18));
     tile.position[0][9] = -16.0f;
-    tile.depth[8] = -8.0f; /* before the eye of a sun's face */
+    tile.depth[8] = -8.0f; /* in front of the eye of a sun's face */
     CHECK(lmb_tile_noise(&tile, UINT64_C(1) << 9) == ldexpf(1.0f, -18));
     CHECK(lmb_tile_noise(&tile, ~UINT64_C(0)) == ldexpf(1.0f, -17));
     CHECK(lmb_tile_noise(&tile, 0) == 0.0f);
 }
 
-/* --- where a scene is fine ---------------------------------------------------------------------------------------- */
+/* --- the fine core of a scene ------------------------------------------------------------------------------------- */
 
 static lmb_core core_of_world(void)
 {
@@ -162,7 +161,7 @@ static void put_room(lmb_vec3 at, float size)
     put_box(add3(at, mul3(vec3(0.5f, -1, 0), size)), mul3(vec3(0.25f, 0.5f, 0.25f), size), 1);
 }
 
-/* Even ground of n x n squares, `half` m to each side. */
+/* Flat ground of n x n squares, `half` m to each side. */
 static void put_ground(float half, int n)
 {
     const float side = half / (float)n;
@@ -182,7 +181,7 @@ static void test_rooms_have_none(void)
     CHECK(core_of_world().faces == 0);
     world_begin(1, 1, 1);
     put_room(vec3(0, 0, 0), 1.0f);
-    world_sphere(vec3(-1, -1, 1), 0.125f, 24, 48); /* something fine that a map of the room still shows well */
+    world_sphere(vec3(-1, -1, 1), 0.125f, 24, 48); /* a fine object that a map of the room still resolves well */
     CHECK(core_of_world().faces == 0);
     world_begin(1, 1, 1);
     put_ground(500.0f, 40);
@@ -210,7 +209,7 @@ static void test_strays(void)
     }
 }
 
-/* A house on a terrain, also with a stray; scaled by a power of two all is scaled. */
+/* A house on a terrain, also with a stray; scaling by a power of two scales everything. */
 static void test_house(void)
 {
     for (int i = 0; i < 4; ++i) {
@@ -253,8 +252,8 @@ static void test_bad_cores(void)
 
 static double area_of(const lmb_view *v) { return 4.0 * (double)v->half_width * (double)v->half_height; }
 
-/* Each place of the sun's plane is in one face: of a face's power what a finer one has is missing, and no more. And
- * each is as deep as the scene, so that nothing that casts shadows is left out. */
+/* Each point of the sun's plane belongs to one face: a face's power excludes exactly the area of the finer face. Each
+ * face is as deep as the scene, so that it contains all blockers. */
 static void check_faces(const lmb_light *sun, int32_t size)
 {
     lmb_shadow_map map;
@@ -301,7 +300,7 @@ static void test_faces(void)
     }
 }
 
-/* A box of any sides along any axes, its sides in one piece. */
+/* A box with any dimensions along any axes, one piece per side. */
 static void put_turned_room(test_rng *r)
 {
     const lmb_vec3 a = normalize3(somewhere(r, X, vec3(0.9f, 0.9f, 0.9f))),
@@ -313,7 +312,7 @@ static void put_turned_room(test_rng *r)
     }
 }
 
-/* How far places reach along a map's right, up and back; they lie in the map. */
+/* Extent of points along a map's right, up and back axes; all must lie in the map. */
 typedef struct reach {
     lmb_vec3 low, high;
 } reach;
@@ -326,8 +325,8 @@ static void take_place(reach *inout, const lmb_view *v, lmb_vec3 p)
     inout->high = max3(inout->high, at);
 }
 
-/* A map of one face is as wide as what is there, however the world is turned, and holds wider bounds where it is told
- * of them. */
+/* A map with one face is as wide as the geometry, however the world is rotated, and covers wider bounds if they are
+ * given. */
 static void test_turned_rooms(void)
 {
     test_rng r = {85};
@@ -361,7 +360,7 @@ static void test_turned_rooms(void)
 
 /* --- later bounces ------------------------------------------------------------------------------------------------ */
 
-/* How many places along the curve that sorts them a scene's elements have. */
+/* Number of distinct positions of a scene's elements on the sorting curve. */
 static int places_of_elements(void)
 {
     lmb_elements e;
@@ -374,7 +373,7 @@ static int places_of_elements(void)
     return places;
 }
 
-/* A stray must not put all of a room into one cell: its elements would have no order, and their tree no nodes. */
+/* A stray must not put a whole room into one cell: the elements would have no order, and the tree no nodes. */
 static void test_stray_elements(void)
 {
     world_begin(1, 1, 1);

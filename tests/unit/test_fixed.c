@@ -1,4 +1,4 @@
-/* test_fixed.c: frames by integers: the numbers behind them, coverage, clipping, bands, light, and damaged blobs. */
+/* test_fixed.c: integer frames: number formats, coverage, clipping, bands, light, and damaged blobs. */
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -78,7 +78,7 @@ static void fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixe
     }
 }
 
-/* Which pixels a triangle covers: of one depth, so that all are drawn. */
+/* Counts the pixels that a triangle covers, at constant depth, so that all are drawn. */
 static void cover(uint8_t *count, lmb_fixed_vertex a, lmb_fixed_vertex b, lmb_fixed_vertex c)
 {
     const fixed_band band = {pixel, depth, SIDE, 0, SIDE, LMB_FIXED_RGB888};
@@ -90,7 +90,7 @@ static void cover(uint8_t *count, lmb_fixed_vertex a, lmb_fixed_vertex b, lmb_fi
     }
 }
 
-/* Corners around a middle: no pixel twice, and none left out between those that lie well inside. */
+/* Corners around a centre: no pixel is drawn twice, and none well inside is left out. */
 static void test_fans(void)
 {
     enum { AROUND = 7 };
@@ -120,7 +120,7 @@ static void test_fans(void)
     CHECK_MSG(twice == 0 && gaps == 0, "%d pixels twice, %d left out", twice, gaps);
 }
 
-/* Colours and depths against the plane through the corners, and slivers within their corners' range. */
+/* Colours and depths against the plane through the corners; slivers stay within the range of the corners. */
 static void test_planes(void)
 {
     test_rng rng = {9};
@@ -181,8 +181,8 @@ static void make_frame(lmb_fixed *s, lmb_fixed_frame *f, int which)
 
 static lmb_fixed_ready ready[256];
 
-/* From within a closed room no pixel is left, near planes and guards or not; bands of any height are the picture's, by as
- * many prepared triangles as there is memory for. */
+/* From inside a closed room every pixel is drawn, whatever the near plane and guard band. Bands of any height match the
+ * picture, with any memory for prepared triangles. */
 static void test_frames(void)
 {
     static const int32_t rows[4] = {1, 7, 16, 33};
@@ -219,14 +219,14 @@ static void test_frames(void)
     }
 }
 
-/* A code with its dither in 5 bits. */
+/* A code with dither in 5 bits. */
 static uint32_t level(uint32_t code, int x, int y)
 {
     static const uint32_t bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
     return (code + bayer[y & 3][x & 3] / 2) / 8;
 }
 
-/* Formats of 16 bits are the 32-bit picture's codes, dithered, in bands of any height. */
+/* 16-bit formats are the codes of the 32-bit picture, dithered, in bands of any height. */
 static void test_formats(void)
 {
     static uint16_t small[WIDTH * HEIGHT];
@@ -264,7 +264,7 @@ static void test_formats(void)
     }
 }
 
-/* The hull without depths is the hull with depths, but where its edges meet what stands on it. */
+/* Drawing the hull without depth equals drawing it with depth, except at its edges with the objects on it. */
 static void test_hull(void)
 {
     lmb_fixed s;
@@ -286,7 +286,7 @@ static void test_hull(void)
     }
 }
 
-/* Cameras everywhere in the room, right at its walls and edges, too: closed, whatever is cut. */
+/* Cameras everywhere in the room, also at walls and edges: no gaps, whatever is clipped. */
 static void test_views(void)
 {
     test_rng rng = {3};
@@ -303,7 +303,7 @@ static void test_views(void)
         f.view.focal = 200 + (int32_t)(test_random(&rng) % 3000);
         f.view.near_units = 16;
         if (eye[0] > -250 && eye[0] < 700 && eye[1] > -800 && eye[1] < 200 && eye[2] > -800 && eye[2] < 200) {
-            continue; /* within the small cube */
+            continue; /* inside the small cube */
         }
         if (lmb_fixed_look_at(&f.view, eye, to) != LMB_OK) {
             continue;
@@ -316,7 +316,7 @@ static void test_views(void)
     CHECK_MSG(left == 0, "%d pixels of a closed room left", left);
 }
 
-/* One wall that sees all of a lamp, against the formula. */
+/* One wall that sees the whole lamp, against the formula. */
 static void test_light(void)
 {
     lmb_fixed s;
@@ -367,7 +367,8 @@ static void make_open(lmb_fixed *s, lmb_fixed_frame *f, int which, uint32_t unit
     f->lamp.intensity[0] = f->lamp.intensity[1] = f->lamp.intensity[2] = intensity;
 }
 
-/* If a unit is a metre, the light of most lamps is below the smallest step, by up to more bits than a word has. */
+/* If a unit is a metre, the light of most lamps is below the smallest step, by more bits than a word has in some
+ * cases. */
 static void test_dim(void)
 {
     lmb_fixed s;
@@ -419,7 +420,7 @@ static void test_dazzling(void)
     CHECK_MSG(wrong == 0 && lit > 1000, "%d of %d", wrong, lit);
 }
 
-/* Links: a bounce more is never darker, and light scales with its lamp. */
+/* Links: an additional bounce is never darker, and light scales with the lamp. */
 static void test_bounces(void)
 {
     lmb_fixed s;
@@ -437,7 +438,7 @@ static void test_bounces(void)
               (unsigned)sum[1], (unsigned)sum[2], (unsigned)sum[3]);
 }
 
-/* A row that sees one element alone shows what that sends, by the closed form. */
+/* A row that sees only one element shows the light of the element in closed form. */
 static void test_one_link(void)
 {
     lmb_fixed s;
@@ -452,7 +453,7 @@ static void test_one_link(void)
     link[0] = 100u << 8 | 3u | 3u << 16;
     CHECK(lmb_fixed_open(&s, words, sizeof words) == LMB_OK);
     f.bounces = 1;
-    /* a lamp right before face 3, behind all others' view of it: they see it by the link alone */
+    /* a lamp directly in front of face 3, hidden from all others: they see it only through the link */
     CHECK(lmb_fixed_transform(&f) == LMB_OK && lmb_fixed_light(&f) == LMB_OK);
     fixed_receiver three;
     fixed_receiver_at(&three, &s, s.vertices + 3);
@@ -478,7 +479,7 @@ static void test_one_link(void)
     CHECK_MSG(dark > 10 && most_off < 1.2, "%d vertices, off by %g codes", dark, most_off);
 }
 
-/* --- what is refused ---------------------------------------------------------------------------------------------- */
+/* --- refused input ------------------------------------------------------------------------------------------------ */
 
 static lmb_status open_with(size_t at, uint32_t word)
 {
@@ -509,13 +510,13 @@ static void test_refused(void)
     CHECK(open_with(10, 8192) == LMB_ERR_FORMAT && open_with(13, 15) == LMB_ERR_FORMAT);
     CHECK(open_with(18, 1) == LMB_ERR_FORMAT && open_with(19, 1) == LMB_ERR_FORMAT);
     CHECK(open_with(13, 8192) == LMB_ERR_FORMAT && open_with(17, SMALL_FIXED_TRIANGLES + 1) == LMB_ERR_FORMAT);
-    CHECK(open_with(20, 0x2000) == LMB_ERR_FORMAT);                 /* a place beyond 8191 */
+    CHECK(open_with(20, 0x2000) == LMB_ERR_FORMAT);                 /* a position beyond 8191 */
     CHECK(open_with(21, 0x7f7f0000u) == LMB_ERR_FORMAT);            /* a normal that is too long */
     CHECK(open_with(rows - 1, SMALL_FIXED_VERTICES) == LMB_ERR_FORMAT);
     CHECK(open_with(rows - 2, SMALL_FIXED_VERTICES << 16) == LMB_ERR_FORMAT);
-    CHECK(open_with(rows, 0x06ffffffu) == LMB_ERR_FORMAT);          /* links outside */
+    CHECK(open_with(rows, 0x06ffffffu) == LMB_ERR_FORMAT);          /* links out of range */
     CHECK(open_with(rows, 0x05000000u) == LMB_ERR_FORMAT);          /* an odd number */
-    CHECK(open_with(rows + 1, 0xffffffffu) == LMB_ERR_FORMAT);      /* more light than there is */
+    CHECK(open_with(rows + 1, 0xffffffffu) == LMB_ERR_FORMAT);      /* more light than exists */
     CHECK(open_with(links, SMALL_FIXED_FACES) == LMB_ERR_FORMAT);   /* no such element */
 }
 

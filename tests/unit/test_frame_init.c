@@ -1,5 +1,5 @@
-/* test_frame_init.c: layer 8: frames laid out in one block: exactly what lmb_frame_bytes says between pages that nobody
- * may touch, one byte less refused, and the bytes of frames whose memory was shared out by hand. */
+/* test_frame_init.c: layer 8: frames in one block: exactly lmb_frame_bytes between protected pages; one byte less is
+ * refused; the same bytes as frames with separately allocated memory. */
 #if !defined(_WIN32)
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <sys/mman.h>
@@ -19,15 +19,15 @@ enum { WIDE = 24, HIGH = 13, MAP = 64, ODD_CELLS = 16 };
 static lmb_render render;
 static uint32_t own_picture[WIDE * HIGH * 3];
 static lmb_light lights[3];
-static lmb_scene lit;     /* the demo by one light */
-static lmb_scene emitting; /* a room without lights, one wall of which emits light */
-static lmb_scene empty;    /* no triangles, lights or anything */
+static lmb_scene lit;     /* the demo with one light */
+static lmb_scene emitting; /* a room without lights and with one emissive wall */
+static lmb_scene empty;    /* no triangles, no lights */
 static lmb_many_lights many_lights;
 
-/* --- a block whose neighbours nobody may touch -------------------------------------------------------------------- */
+/* --- a block between protected pages ------------------------------------------------------------------------------ */
 
 typedef struct fenced {
-    uint8_t *whole, *block; /* block: starts, or ends, where its page does */
+    uint8_t *whole, *block; /* block: starts or ends at a page border */
     size_t bytes, text_buffer;
 } fenced;
 
@@ -92,7 +92,7 @@ static void make_scenes(void)
           lmb_many_lights_build(&many_lights) == LMB_OK);
 }
 
-/* Every part that a block may have, and not have. */
+/* Every optional part of a block, present or not. */
 static int make_kinds(kind *out)
 {
     int n = 0;
@@ -130,7 +130,7 @@ static int add_rows(void *user, const lmb_surface *rows, int32_t y)
     return 0;
 }
 
-/* By its rows of 8, whether or not they come one by one. */
+/* Hashes bands of 8 rows, whether or not a callback receives them. */
 static uint64_t drawn_hash(lmb_frame *f)
 {
     picture_hash = 0;
@@ -145,14 +145,14 @@ static uint64_t drawn_hash(lmb_frame *f)
     return picture_hash;
 }
 
-/* A part's memory: what comes next may not be touched. */
+/* A part's memory, followed by a protected page. */
 static void *part(fenced *f, size_t bytes)
 {
     fence(f, (bytes + 15) / 16 * 16, 1);
     return f->block;
 }
 
-/* The same frame, each part in memory of its own. */
+/* The same frame with separate memory for each part. */
 static uint64_t by_hand_hash(const lmb_frame *like)
 {
     static uint32_t depth[WIDE * (HIGH + 8)], id[WIDE * (HIGH + 8)], picture[WIDE * HIGH * 3], whole[WIDE * (HIGH + 8)];
@@ -235,7 +235,7 @@ static void test_block(const kind *k)
     CHECK_MSG(hash[0] == hash[1] && hash[0] != 0, "%s", k->name);
 }
 
-/* Threads' scratches lie side by side, all theirs, and are 0. */
+/* Each thread's scratch is adjacent, complete, and zero. */
 static void test_threads(void)
 {
     lmb_frame_settings s = plain(&lit), one = s;
@@ -258,7 +258,7 @@ static void test_threads(void)
     free(memory);
 }
 
-/* Zeros are the tool's defaults. */
+/* Zeros select the tool's defaults. */
 static void test_defaults(void)
 {
     lmb_frame_settings s = plain(&lit);
@@ -276,7 +276,7 @@ static void test_defaults(void)
     CHECK(lmb_frame_bytes(&s) == 0 || lmb_frame_init(&f, &s, memory, 0) == LMB_ERR_CAPACITY);
     free(memory);
     lit.lights = lights;
-    lit.light_count = 3; /* eighteen faces: a map's share of 2^21 texels is under 512 x 512 */
+    lit.light_count = 3; /* eighteen faces: the share of 2^21 texels per map is under 512 x 512 */
     s = plain(&lit);
     s.shadow_map = 0;
     memory = malloc(lmb_frame_bytes(&s));
@@ -311,7 +311,7 @@ static void test_refused(void)
     REFUSED(s.threads = 1025, LMB_ERR_ARG);
     REFUSED((s.threads = 2, s.by_bands = 1), LMB_ERR_ARG);
     REFUSED(s.shadow_map = 60, LMB_ERR_ARG);
-    REFUSED(s.shadow_map = 96, LMB_ERR_ARG); /* by no tree */
+    REFUSED(s.shadow_map = 96, LMB_ERR_ARG); /* without a tree */
     REFUSED(s.tree = 24, LMB_ERR_ARG);
     REFUSED((s.bounces = 2, s.elements = 100), LMB_ERR_ARG);
     REFUSED(s.error = -1.0f, LMB_ERR_ARG);

@@ -1,4 +1,4 @@
-/* test_frames.c: floors 4 and 8: one frame, however it is cut into work and memory, has one set of bytes. */
+/* test_frames.c: layers 4 and 8: a frame has the same bytes however its work and memory are divided. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 void test_frames(void);
 
-/* Sanitizers slow frames down twentyfold. */
+/* Sanitizers make frames about 20 times slower. */
 #if defined(__SANITIZE_ADDRESS__)
 #define SLOW 1
 #elif defined(__has_feature)
@@ -27,10 +27,10 @@ enum { MAP = 32, BLOCK = 4, GROUPS = 60, POINTS = 8192, CANARY = 64 };
 enum { FLOATS = WIDTH * HEIGHT * 3, TARGET = WIDTH * HEIGHT, MAP_WORDS = 8 * MAP * MAP * 2 };
 #define PATTERN 0xa5a5a5a5u
 
-/* Of the room's three; the small configuration takes the first, whose map has one face. */
+/* Of the room's three lights, the small configuration uses the first, whose map has one face. */
 enum { ALL_LIGHTS = 3, LIGHTS = LMB_MAX_LIGHTS < ALL_LIGHTS ? 1 : ALL_LIGHTS, FACES = LIGHTS == 1 ? 1 : 8 };
 
-/* Everything a frame needs, between canaries where a size may be wrong. */
+/* All memory of a frame, with canaries where a size could be wrong. */
 static struct memory {
     uint32_t depth[TARGET + 2 * CANARY], id[TARGET + 2 * CANARY], whole_depth[TARGET];
     uint32_t map[MAP_WORDS + 2 * CANARY];
@@ -43,7 +43,7 @@ static struct memory {
     uint32_t band_rows[WIDTH * 8 * 3];
 } m;
 
-/* Pictures, and canaries behind them. */
+/* Pictures, followed by canaries. */
 typedef struct picture {
     uint32_t data[FLOATS + CANARY];
     lmb_surface surface;
@@ -53,7 +53,7 @@ static picture reference, other, third;
 
 /* ---- scenes ---- */
 
-/* A box open to the viewer, a block in it, three lights. Each side is a grid, so that a draw takes several units. */
+/* A box open to the viewer, with a block and three lights. Each side is a grid, so that a draw takes several units. */
 enum { SIDES = 7, GRID = 13, SIDE_VERTICES = (GRID + 1) * (GRID + 1), SIDE_TRIANGLES = 2 * GRID * GRID };
 static float room_positions[SIDES][SIDE_VERTICES * 3];
 static uint16_t room_indices[SIDES][SIDE_TRIANGLES * 3];
@@ -63,7 +63,7 @@ static lmb_instance room_instances[SIDES];
 static lmb_light room_lights[ALL_LIGHTS];
 static lmb_scene room;
 
-/* Corners in order around; bilinear between them. */
+/* Four corners in order, bilinear in between. */
 static void put_grid(int n, const float p[12])
 {
     float *at = room_positions[n];
@@ -155,7 +155,7 @@ static size_t picture_bytes(const picture *p)
     return lmb_surface_bytes(p->surface.format, p->surface.width, p->surface.height);
 }
 
-/* Equal bytes over all of the memory: pixels and the untouched rest. */
+/* Compares all memory: pixels and the untouched rest. */
 static int same_picture(const picture *a, const picture *b) { return memcmp(a->data, b->data, sizeof a->data) == 0; }
 
 static int picture_keeps_rest(const picture *p)
@@ -210,7 +210,7 @@ static lmb_frame plain_frame(const lmb_scene *scene, lmb_view view, picture *out
     set_picture(out, LMB_RGB32F, view.frame_width, view.frame_height);
     f.out = out->surface;
     set_eye(&f, view.frame_height, LMB_TILED, LMB_DEPTH32F, LMB_ID32);
-    /* What an earlier frame left must not matter. */
+    /* Leftovers of an earlier frame must not matter. */
     memset(&m.scratch, 0x3c, sizeof m.scratch);
     memset(&m.groups, 0x3c, sizeof m.groups);
     memset(m.points, 0x3c, sizeof m.points);
@@ -257,7 +257,7 @@ static int lit_pixels(const picture *p)
 
 /* ---- slicing ---- */
 
-/* Every `stride`th size of step, from `first` on. */
+/* Every `stride`th step size from `first` on. */
 static void check_steps(const lmb_scene *scene, lmb_view view, const lmb_frame *how, size_t first, size_t stride)
 {
     static const int32_t units[] = {1, 3, 8, 17, 1000, 1 << 30};
@@ -311,8 +311,8 @@ static lmb_status run_to_bands(const lmb_frame *f)
     return status;
 }
 
-/* Bands in random order, by two scratches in turn, whole eyes or those of 8 or 16 rows, into the frame or 8 rows of
- * their own. */
+/* Bands in random order with two scratches in turn, whole eye buffers or ones of 8 or 16 rows, into the frame or 8
+ * separate rows. */
 static void check_bands(const lmb_scene *scene, lmb_view view, int small_eye, int small_out)
 {
     test_rng r = {31u + (uint64_t)small_eye + 2u * (uint64_t)small_out};
@@ -343,7 +343,7 @@ static void check_bands(const lmb_scene *scene, lmb_view view, int small_eye, in
     CHECK_MSG(same_picture(&reference, &other), "small eye %d, small out %d", small_eye, small_out);
 }
 
-/* Memory of other shapes: eyes of a band or two, rows instead of tiles, 16-bit ids. */
+/* Other memory layouts: eye buffers of one or two bands, rows instead of tiles, 16-bit ids. */
 static void check_memory(const lmb_scene *scene, lmb_view view, const lmb_frame *how, int first, int stride)
 {
     for (int i = first; i < 16; i += stride) {
@@ -383,7 +383,7 @@ static int take_rows(void *user, const lmb_surface *rows, int32_t y)
     return h->calls == h->stop_at;
 }
 
-/* 8 rows handed over band by band; the dither and the exposure go by the frame, not by the rows. */
+/* 8 rows per callback; dither and exposure follow the frame, not the rows. */
 static void check_callback(const lmb_scene *scene, lmb_view view, int32_t format)
 {
     static const lmb_surface none;
@@ -413,10 +413,10 @@ static void test_callback_stops(void)
     f.user = &h;
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && h.calls == 3);
     CHECK(memcmp(third.data, other.data, 24 * WIDTH * 12) == 0);
-    CHECK(other.data[24 * WIDTH * 3] == PATTERN); /* the whole frame, up to the band that was refused */
+    CHECK(other.data[24 * WIDTH * 3] == PATTERN); /* the whole frame, up to the refused band */
 }
 
-/* stride 1: every size of step, and every third shape of memory, under each way to occlude and to group. */
+/* stride 1: every step size and every third memory layout, for each kind of occlusion and grouping. */
 static void check_scene(const lmb_scene *scene, lmb_view view, size_t stride)
 {
     static const int32_t formats[] = {LMB_RGB32F, LMB_RGBA8, LMB_BGRA8, LMB_RGB565, LMB_RGB555, LMB_RGB565_BE};
@@ -449,7 +449,7 @@ static void test_slicing(void)
 
 /* ---- light is linear ---- */
 
-/* By fmax gcc 12.2 for AArch64 ends in an error of its own. */
+/* gcc 12.2 for AArch64 fails with an internal error on fmax. */
 static double larger(double worst, double v) { return v <= worst ? worst : v; }
 
 static void render_show(picture *out, int show, int occlusion, int method)
@@ -522,7 +522,7 @@ static void draw_maps(lmb_shadow_map maps[ALL_LIGHTS])
     }
 }
 
-/* V3, V29: each light's irradiance alone, summed in the lights' order, is what the frame's direct light is made of. */
+/* V3, V29: a frame's direct light is the sum of each light's irradiance, in the order of the lights. */
 static void test_sum_of_lights(void)
 {
     static lmb_irradiance sum, one;
@@ -530,7 +530,7 @@ static void test_sum_of_lights(void)
     const lmb_kernels *k = picked_kernels();
     picture *built = &third;
     render_show(&reference, LMB_SHOW_DIRECT, LMB_OCCLUSION_NONE, 0);
-    lmb_render *r = &m.render; /* its eye is still there */
+    lmb_render *r = &m.render; /* the eye buffer is still valid */
     lmb_shadow_map maps[ALL_LIGHTS];
     draw_maps(maps);
     for (int i = 0; i < LIGHTS; ++i) {
@@ -563,10 +563,10 @@ static void test_sum_of_lights(void)
     CHECK(same_picture(&reference, built));
 }
 
-/* LMB_RGB565_BE: LMB_RGB565's values, dithered alike, the high byte first whatever the machine's order. */
+/* LMB_RGB565_BE: the values and dither of LMB_RGB565, high byte first on every machine. */
 static void test_high_byte_first(void)
 {
-    enum { SIDE = 12, TOP = 3 }; /* tiles that the surface holds in part */
+    enum { SIDE = 12, TOP = 3 }; /* some tiles are only partly in the surface */
     static uint32_t values[SIDE * SIDE / 2], sent[SIDE * SIDE / 2];
     lmb_surface native, display;
     lmb_radiance in;
@@ -603,7 +603,7 @@ static void set_gbuffer(lmb_surface s[3], float *at, const lmb_view *v)
     lmb_surface_init(&s[2], LMB_RGB32F, v->frame_width, v->frame_height, at + 4 * pixels, pixels * 12);
 }
 
-/* V28, V30: what goes to the viewer is what arrives times the reflectance, over pi. */
+/* V28, V30: the radiance towards the viewer is irradiance x reflectance / pi. */
 static void test_reflected(void)
 {
     float *albedo = gbuffer[0] + 4 * TARGET;
@@ -623,7 +623,7 @@ static void test_reflected(void)
     CHECK_MSG(worst < 1e-6 && lit_pixels(&other) > FLOATS / 2, "%g", worst);
 }
 
-/* V29: direct light needs no points and no groups; full is direct and indirect. */
+/* V29: direct light needs no points and no groups; full is direct plus indirect. */
 static void test_shows(void)
 {
     double worst = 0;
@@ -634,7 +634,7 @@ static void test_shows(void)
     memset(&f.points, 0, sizeof f.points);
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && same_picture(&reference, &other));
     f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
-    f.groups = NULL; /* full, without what bounces: the same */
+    f.groups = NULL; /* full, without bounced light: the same */
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && same_picture(&reference, &other));
     f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
     f.stats = NULL;
@@ -670,7 +670,7 @@ static int canaries_live(void)
     return good;
 }
 
-/* Refused at once: the status, and no pixel, map or point written. */
+/* Refused at once: returns the status and writes no pixel, map or point. */
 static void check_refused(const lmb_frame *f, lmb_status expected, const char *what)
 {
     static uint32_t map_before[MAP_WORDS];
@@ -741,7 +741,7 @@ static void test_refused(void)
 #undef REFUSED
 }
 
-/* Exactly enough map memory is enough, at the end of what there is. */
+/* Exactly enough map memory suffices, at the end of the array. */
 static void test_exact_memory(void)
 {
     lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
@@ -751,7 +751,7 @@ static void test_exact_memory(void)
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && canaries_live() && picture_keeps_rest(&other));
 }
 
-/* Full points end the frame with a status; nothing past the caller's arrays is written. */
+/* Full points end the frame with a status and nothing is written past the caller's arrays. */
 static void test_few_points(void)
 {
     for (uint32_t cap = 1; cap < 60; cap = cap * 3 + 1) {
@@ -781,7 +781,7 @@ static void test_band_arguments(void)
     CHECK(other.data[0] == PATTERN && picture_keeps_rest(&other));
 }
 
-/* V34: maps, points, groups, view, bands, each once, in that order. */
+/* V34: maps, points, groups, view, bands, each once, in this order. */
 static void test_progress(void)
 {
     lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
@@ -793,7 +793,7 @@ static void test_progress(void)
         float now = lmb_render_progress(&name, &m.render);
         wrong += name == NULL || !(now >= 0.0f && now <= 1.0f) || m.render.stage < stage;
         wrong += m.render.stage == stage && now < before;
-        wrong += m.render.stage > stage + 1 + (m.render.stage == LMB_STAGE_BANDS); /* it has no samples */
+        wrong += m.render.stage > stage + 1 + (m.render.stage == LMB_STAGE_BANDS); /* the frame has no samples */
         stages += m.render.stage != stage;
         stage = m.render.stage;
         before = now;
@@ -806,10 +806,10 @@ static void test_progress(void)
 
 enum { WIDE = 2 * WIDTH * HEIGHT * 3 };
 
-/* Side by side, and the second eye's frame. */
+/* Stereo picture, and the second eye's buffers. */
 static uint32_t wide[WIDE], right_depth[TARGET], right_id[TARGET];
 
-/* The light as a tree, of which tiles take their cut, and every triangle may block. */
+/* Uses a tree of lights with a cut per tile, and exact occlusion. */
 static void use_cut(lmb_frame *f)
 {
     enum { FACE_BYTES = MAP * MAP * (sizeof(lmb_texel) + sizeof(lmb_node) / 3) + 64 * sizeof(lmb_view) };
@@ -820,7 +820,7 @@ static void use_cut(lmb_frame *f)
     CHECK(lmb_bvh_init(&f->bvh, lmb_scene_triangles(f->scene), bvh, sizeof bvh) == LMB_OK);
 }
 
-/* Refused before anything is drawn: maps that the tree cannot take, as its own call would say in the middle. */
+/* Map sizes that the tree cannot use are refused before drawing, not halfway by the tree's own call. */
 static void test_odd_trees(void)
 {
     lmb_frame f = refused_frame();
@@ -862,7 +862,7 @@ static void finish(lmb_render *r, int32_t units)
     CHECK_MSG(status == LMB_OK, "%s", lmb_status_name(status));
 }
 
-/* A frame of zones, or of a cut. */
+/* A frame with zones or with a cut. */
 static lmb_frame stereo_frame(int eye, int occlusion, picture *out)
 {
     lmb_frame f = plain_frame(&room, eye_view(eye), out);
@@ -873,7 +873,7 @@ static lmb_frame stereo_frame(int eye, int occlusion, picture *out)
     return f;
 }
 
-/* Both halves against frames of their own, byte for byte. */
+/* Both halves equal separate frames byte for byte. */
 static void check_halves(int occlusion)
 {
     for (int eye = 0; eye < 2; ++eye) {
@@ -885,10 +885,10 @@ static void check_halves(int occlusion)
         }
         CHECK_MSG(wrong == 0, "eye %d: %d rows differ", eye, wrong);
     }
-    CHECK(memcmp(wide, wide + WIDTH * 3, WIDTH * 12) != 0); /* the eyes do not see the same */
+    CHECK(memcmp(wide, wide + WIDTH * 3, WIDTH * 12) != 0); /* the eyes see different pictures */
 }
 
-/* V31: left, then right by what the left has solved; the light's stages are done, and counted, once. */
+/* V31: the left eye, then the right with the solved light of the left; the light's stages run and count once. */
 static void check_stereo(int occlusion, int32_t units)
 {
     lmb_stats left;
@@ -911,7 +911,7 @@ static void check_stereo(int occlusion, int32_t units)
     check_halves(occlusion);
 }
 
-/* Both eyes by turns: a copy, with depth and scratch of its own. */
+/* Both eyes alternately: a copy of the render with separate depth and scratch. */
 static void check_stereo_at_once(void)
 {
     memset(wide, 0xa5, sizeof wide);
@@ -936,7 +936,7 @@ static void check_stereo_at_once(void)
     check_halves(LMB_OCCLUSION_VIEW);
 }
 
-/* Another thing shown by the same light; what was not solved cannot be. */
+/* Another `show` with the same light; light that was not solved is refused. */
 static void check_other_shows(void)
 {
     lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
@@ -953,7 +953,7 @@ static void check_other_shows(void)
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
     f.show = LMB_SHOW_FULL;
     CHECK(lmb_render_again(&m.render, &f) == LMB_ERR_ARG && m.render.stage == LMB_STAGE_DONE);
-    /* The BVH that were built may be asked again; others cannot be. */
+    /* A BVH that was built can be used again; one that was not cannot. */
     for (int built = 0; built < 2; ++built) {
         f = stereo_frame(0, LMB_OCCLUSION_EXACT, &other);
         f.show = LMB_SHOW_INDIRECT;
@@ -964,13 +964,13 @@ static void check_other_shows(void)
         finish(&m.render, 64);
         f.occlusion = LMB_OCCLUSION_EXACT;
         CHECK(lmb_render_again(&m.render, &f) == (built ? LMB_OK : LMB_ERR_ARG));
-        f.show = LMB_SHOW_DIRECT; /* asks for neither */
+        f.show = LMB_SHOW_DIRECT; /* needs neither */
         CHECK(lmb_render_again(&m.render, &f) == LMB_OK);
         finish(&m.render, 64);
     }
 }
 
-/* Refused: the render stays as it was. */
+/* Refused: the render stays unchanged. */
 static void check_again_refused(void)
 {
     lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other), bad;
@@ -1011,12 +1011,12 @@ static void test_again(void)
     check_again_refused();
 }
 
-/* ---- what a frame keeps ---- */
+/* ---- data that a frame keeps ---- */
 
 static float kept[MAP * MAP];
 
-/* V33: the distances of one face of a shadow map, by the G-buffer of its view: where each texel's ray then ends lies
- * on the room's bounds or within. */
+/* V33: distances of one face of a shadow map from the G-buffer of its view: each texel's ray ends on the room's bounds
+ * or inside. */
 static int light_distances(const lmb_shadow_map *map, int32_t face)
 {
     const lmb_view *v = &map->view[face];
@@ -1043,8 +1043,8 @@ static int light_distances(const lmb_shadow_map *map, int32_t face)
     return found;
 }
 
-/* The discs and groups that the frame leaves: every disc in one group, in the map of its face; what goes out is what
- * came in times the reflectance, and adds up to what the groups send. */
+/* The discs and groups of a finished frame: each disc is in one group and in the map of its face. Its flux is incoming
+ * flux x reflectance, and the groups emit the sum of the discs. */
 static void check_kept_groups(const lmb_points *p, const lmb_groups *g)
 {
     uint32_t members = 0, wrong = 0;
@@ -1064,7 +1064,7 @@ static void check_kept_groups(const lmb_points *p, const lmb_groups *g)
     CHECK(fabs(sent / flux - 1.0) < 1e-5 && came > flux);
 }
 
-/* The viewer's depth, kept whole, says the same as the G-buffer. */
+/* The kept depth of the whole view agrees with the G-buffer. */
 static void check_kept_depth(const lmb_frame *f)
 {
     static uint32_t rows[TARGET];
@@ -1102,7 +1102,7 @@ static void test_buffers(void)
 
 /* ---- the G-buffer ---- */
 
-/* Bands from one whole target; then, last band first, each from a target of its own eight rows. */
+/* Bands from one whole target; then, last band first, each from a separate target of eight rows. */
 static void check_gbuffer(const lmb_scene *scene, lmb_view view)
 {
     lmb_frame f = plain_frame(scene, view, &other);
@@ -1164,7 +1164,7 @@ static void draw_shadow_map(lmb_shadow_map *map)
     CHECK(lmb_shadow_map_draw(map, picked_kernels(), &room, 556, UINT32_MAX, NULL) == LMB_OK);
 }
 
-/* Texels with a surface; each face holds what lmb_draw gives in its view. */
+/* Returns the texels with a surface; each face equals lmb_draw in its view. */
 static int check_faces(const lmb_shadow_map *map)
 {
     int found = 0;
@@ -1186,8 +1186,8 @@ static int check_faces(const lmb_shadow_map *map)
     return found;
 }
 
-/* Single-sided walls, then the same turned inside out: lights see both sides, so the ids stay. (Corners come in
- * another order, which rounds the depth of cut triangles otherwise.) */
+/* Single-sided walls, then the same walls reversed: lights see both sides, so the ids are equal. (The corner order
+ * differs, which changes the rounding of the depth of clipped triangles.) */
 static void test_shadow_map(void)
 {
     static uint32_t before[6][MAP * MAP];

@@ -1,4 +1,4 @@
-/* test_glossy.c: the glossy lobe: its energy, its disc against integrals, and frames with and without it. */
+/* test_glossy.c: the glossy lobe: energy, the disc factor against integrals, and frames with and without it. */
 #include "../../src/light/glossy.h"
 
 #include "../world.h"
@@ -18,7 +18,7 @@ static double least_alpha2(double roughness)
     return alpha * alpha;
 }
 
-/* One pixel at the origin under +Z with a lobe. */
+/* One pixel at the origin facing +Z with a lobe. */
 static void set_lobe(double roughness, float f0, lmb_vec3 towards)
 {
     memset(&glossy, 0, sizeof glossy);
@@ -42,8 +42,8 @@ static lmb_vec3 at_angle(double theta, double phi)
 
 /* --- the lobe itself ---------------------------------------------------------------------------------------------- */
 
-/* What of light from everywhere the lobe sends to a viewer at this angle: half vectors by GGX's own density D n.h, over
- * which f n.l becomes f n.l 4 l.h / (D n.h). */
+/* Share of uniform light that the lobe reflects to a viewer at this angle: half vectors sampled with GGX's density D
+ * n.h, so f n.l becomes f n.l 4 l.h / (D n.h). */
 static double reflected(double roughness, double theta, float f0)
 {
     enum { STEPS = 40 };
@@ -64,7 +64,7 @@ static double reflected(double roughness, double theta, float f0)
     return sum / (STEPS * STEPS);
 }
 
-/* What is left of diffuse light beside a white dielectric's lobe. */
+/* Diffuse light that remains beside a white dielectric's lobe. */
 static double left_over(double theta)
 {
     lmb_radiance one;
@@ -76,9 +76,8 @@ static double left_over(double theta)
     return (double)one.rgb[0][0];
 }
 
-/* White light from everywhere. A metal that reflects all (F0 = 1): at most 1; smooth nearly that, except where it
- * grazes; at roughness 1 what single scattering leaves. A white dielectric (F0 = 0.04), lobe and diffuse: 0.84 to
- * 1.02. */
+/* White light from everywhere. A metal with F0 = 1 reflects at most 1: nearly 1 if smooth, except at grazing angles,
+ * and at roughness 1 the single-scattering part. A white dielectric (F0 = 0.04), lobe and diffuse: 0.84 to 1.02. */
 static void white_furnace(void)
 {
     static const double roughness[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0}, degrees[] = {0, 30, 60, 75, 80, 85};
@@ -98,7 +97,7 @@ static void white_furnace(void)
     CHECK(most_both < 1.02 && least_both > 0.84);
 }
 
-/* Light and viewer changed places: the same. */
+/* Swapping light and viewer gives the same. */
 static void reciprocity(void)
 {
     test_rng rng = {11};
@@ -127,8 +126,8 @@ static double lobe_exact(double a2, lmb_vec3 l, lmb_vec3 v)
     return d * 0.5 / (nl * sqrt(a2 + (1.0 - a2) * nv * nv) + nv * sqrt(a2 + (1.0 - a2) * nl * nl));
 }
 
-/* A disc of radius r at distance 1 in direction l, facing the pixel: the lobe's mean over it, by as many rings as the lobe
- * is narrower than the disc. */
+/* The lobe's mean over a disc of radius r at distance 1 in direction l that faces the pixel; more rings if the lobe is
+ * narrower than the disc. */
 static double disc_exact(double a2, lmb_vec3 l, lmb_vec3 v, double r)
 {
     const int rings = (int)fmin(200.0, 10.0 + 8.0 * r / sqrt(a2));
@@ -144,8 +143,7 @@ static double disc_exact(double a2, lmb_vec3 l, lmb_vec3 v, double r)
     return sum / all;
 }
 
-/* The worst of discs all around the mirror's direction, as a share of what a disc there gives; the viewer at `theta`.
- *  */
+/* Largest error of discs around the mirror direction, relative to a disc there, for a viewer at `theta`. */
 static double disc_error(double *middle, double roughness, double r, double theta)
 {
     const double w = 2.0 * PI * (1.0 - 1.0 / sqrt(1.0 + r * r)), a2 = least_alpha2(roughness);
@@ -167,17 +165,17 @@ static double disc_error(double *middle, double roughness, double r, double thet
     return worst;
 }
 
-/* Percent. Rows: roughness; columns: radii of discs at distance 1. Sharp lobes and large discs are blurred on purpose
- * (lobe.inl: WIDEN), by up to a third in the middle, and their edges lie elsewhere, by which the worst is large. */
+/* Percent. Rows: roughness; columns: radii of discs at distance 1. Sharp lobes with large discs are blurred on purpose
+ * (lobe.inl: WIDEN), by up to a third in the middle. This moves their edges, so the largest errors are high. */
 static const double disc_roughness[] = {0.1, 0.2, 0.3, 0.5, 0.7, 1.0}, disc_radius[] = {0.01, 0.03, 0.1, 0.3};
 static const double disc_low[2][6][4] = {
-    /* too little at the mirror's direction; seen at 20 degrees from the normal, then at 60 */
+    /* deficit in the mirror direction; viewed at 20 degrees from the normal, then at 60 */
     {{9.5, 26.1, 32.7, 34.7}, {0.8, 6.1, 24.0, 33.4}, {0.1, 1.4, 11.3, 28.8},
      {0.0, 0.1, 2.5, 14.9}, {0.0, 0.1, 1.0, 7.7}, {0.0, 0.0, 0.4, 4.2}},
     {{9.7, 26.5, 32.8, 34.7}, {0.8, 6.2, 24.4, 33.5}, {0.2, 1.4, 11.6, 29.1},
      {0.0, 0.1, 2.6, 15.1}, {0.0, 0.1, 1.1, 7.8}, {0.0, 0.1, 0.7, 5.3}}};
 static const double disc_worst[2][6][4] = {
-    /* off around it, of what a disc there gives */
+    /* error around it, relative to a disc there */
     {{9.1, 25.8, 42.0, 53.5}, {0.8, 5.9, 23.5, 40.9}, {0.1, 1.4, 10.8, 28.7},
      {0.0, 0.1, 2.3, 13.9}, {0.0, 0.1, 1.0, 7.3}, {0.0, 0.2, 1.3, 4.1}},
     {{12.4, 31.5, 60.8, 61.9}, {1.1, 8.1, 30.3, 50.6}, {0.2, 1.9, 14.6, 42.5},
@@ -199,7 +197,7 @@ static void disc_against_integral(void)
 
 /* --- frames ------------------------------------------------------------------------------------------------------- */
 
-/* A floor and a wall, and on it a box of the second material. */
+/* A floor and a wall, and a box of the second material. */
 static lmb_frame room(float specular, float roughness)
 {
     static lmb_light light;
@@ -238,7 +236,7 @@ static double mean_of(const float *p)
     return sum / (FRAME * FRAME * 3);
 }
 
-/* Roughness alone is no lobe; a lobe shows, in direct light, in bounced light, and not in irradiance. */
+/* Roughness without specular is no lobe. A lobe shows in direct and in bounced light, but not in irradiance. */
 static void lobe_or_none(void)
 {
     for (int32_t show = LMB_SHOW_FULL; show <= LMB_SHOW_IRRADIANCE; ++show) {
@@ -259,8 +257,8 @@ static void lobe_or_none(void)
     }
 }
 
-/* All of the picture has a lobe: whatever the step, every pixel is gathered. And a second picture by the same light
- * is as one that was drawn afresh. */
+/* If every pixel has a lobe, all are gathered whatever the step. A second picture with the same light equals a new
+ * frame. */
 static void steps_and_again(void)
 {
     lmb_frame f = room(0.5f, 0.4f);
@@ -278,7 +276,8 @@ static void steps_and_again(void)
     CHECK(memcmp(plain, other, sizeof plain) == 0);
 }
 
-/* What a lobe with F = 1 shows of a wall of radiance 1, z = -2, |x| < 2, 0 < y < 4: half vectors as in reflected(). */
+/* Radiance that a lobe with F = 1 reflects from a wall of radiance 1, z = -2, |x| < 2, 0 < y < 4: half vectors as in
+ * reflected(). */
 static double shown(double roughness, lmb_vec3 at, lmb_vec3 towards)
 {
     enum { STEPS = 64 };
@@ -300,10 +299,10 @@ static double shown(double roughness, lmb_vec3 at, lmb_vec3 towards)
     return sum / (STEPS * STEPS);
 }
 
-/* A floor that reflects everything, before a white wall in the sun, or one that emits light, of so many elements at
- * most: wherever the reflected ray meets the wall well inside, the floor is as bright as the integral, whatever the
- * nodes, texels and elements in between. At its foot, where they are near, in the mean at most a fifth brighter; few
- * large elements have their parts' middles too high there. */
+/* A perfectly reflecting floor in front of a white wall, either sunlit or emissive with at most `elements` elements. If
+ * the reflected ray meets the wall well inside, the floor is as bright as the integral, whatever the nodes, texels and
+ * elements in between. At the wall's foot, close to them, it is on average at most a fifth brighter; with few large
+ * elements, the centres of the parts are too high there. */
 static void mirrored_wall(float roughness, uint32_t elements, double low, double high, double foot_low)
 {
     static lmb_light light;
@@ -327,7 +326,7 @@ static void mirrored_wall(float roughness, uint32_t elements, double low, double
     world.material[1].emission[1] = elements > 0 ? 1.0f : 0.0f;
     const float wall = elements > 0 ? 1.0f : 0.5f / (float)PI * -light.direction.z * light.intensity[1];
     lmb_frame f = bounce_frame(&v, 1);
-    f.error = 0.0005f; /* what is shown is compared with an integral, not with a cut */
+    f.error = 0.0005f; /* compared with an integral, not with a cut */
     CHECK(elements == 0 || lmb_elements_init(&f.elements, elements, element_memory, sizeof element_memory) == LMB_OK);
     f.show = LMB_SHOW_INDIRECT;
     f.occlusion = LMB_OCCLUSION_NONE;
@@ -357,8 +356,8 @@ static void mirrored_wall(float roughness, uint32_t elements, double low, double
     CHECK(feet > 10 && foot > foot_low * feet && foot < 1.2 * feet);
 }
 
-/* One light by hand: light 1, 2, 3 W/m2 from above, by every backend: what the factor says. Pixels that are dark, or
- * without a lobe, get nothing. */
+/* One handmade light of 1, 2, 3 W/m2 from above on every backend: equals the factor. Dark pixels and pixels without a
+ * lobe get nothing. */
 static void one_light(void)
 {
     const lmb_light light = point_light(vec3(0.3f, 0.2f, 2.0f));
@@ -374,7 +373,7 @@ static void one_light(void)
             set_plane(tile.position, k, vec3(0.1f * (float)(k % 8), 0.1f * (float)(k / 8), 0));
             set_plane(tile.face, k, Z);
             set_plane(tile.normal, k, Z);
-            tile.id[k] = k % 3 ? 1 : world.instance[1].first_id; /* of the second material, without a lobe */
+            tile.id[k] = k % 3 ? 1 : world.instance[1].first_id; /* the second material, without a lobe */
             for (int c = 0; c < 3; ++c) {
                 lit.rgb[c][k] = k % 5 ? (float)(c + 1) : 0.0f;
             }
@@ -395,7 +394,7 @@ static void one_light(void)
     CHECK(lmb_glossy_tile(&glossy, &tile, &v, &world.scene) == 1 && glossy.towards[1][1] == 1.0f);
 }
 
-/* Black things with a lobe show the light source, and each other's light. */
+/* Black objects with a lobe reflect the light source and each other. */
 static void black_lobes(void)
 {
     double mean[2];

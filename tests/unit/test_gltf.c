@@ -1,5 +1,5 @@
-/* test_gltf.c: glTF's several scenes, normal maps and tangents, emission, skins; what says what to convert with; and
- * that a small file stays small. */
+/* test_gltf.c: glTF's multiple scenes, normal maps and tangents, emission, skins; the converter named in errors; and
+ * limits that keep a small file cheap. */
 #include "../folder.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 void test_gltf(void);
 
 static char text[1 << 16];
-static const char *wanted; /* scene of the next load; NULL: the file's own choice */
+static const char *wanted; /* scene of the next load; NULL: as the file says */
 
 static int load(const char *format, ...)
 {
@@ -112,7 +112,7 @@ static void normal_maps(void)
     CHECK(m->normal_scale == 0.5f && m->texture >= 0 && (int32_t)m->normal_map != m->texture &&
           loaded.scene.texture_count == 2);
     if (loaded.scene.texture_count == 2) {
-        /* One image, two sets of levels: codes' means for normals, light's means for colours. */
+        /* One image gives two sets of mip levels: means of codes for normals, of linear light for colours. */
         const uint8_t *normal = t[m->normal_map].texels, *colour = t[m->texture].texels;
         CHECK(memcmp(normal, colour, 8) == 0 && normal[8] == 192 && normal[9] == 64 && normal[10] == 128);
         CHECK(colour[8] == 205 && t[m->normal_map].wrap_s == LMB_WRAP_CLAMP && t[m->normal_map].levels == 2);
@@ -133,7 +133,7 @@ static void normal_maps(void)
     CHECK(loaded.scene.materials[0].normal_scale == 0 && noted("normal maps left out"));
     CHECK_MSG(load_look("\"normalTexture\":{\"index\":0,\"extensions\":{\"KHR_texture_transform\":{\"rotation\":1}}}"),
               "%s", problem.text);
-    CHECK(loaded.scene.materials[0].normal_scale == 1 && loaded.scene.meshes[0].tangents); /* only the lookup turns */
+    CHECK(loaded.scene.materials[0].normal_scale == 1 && loaded.scene.meshes[0].tangents); /* only the lookup rotates */
     check_fails(load_look("\"normalTexture\":{\"index\":1}"), "materials[0].normalTexture.index: index 1");
     check_fails(load_look("\"normalTexture\":{}"), "materials[0].normalTexture: index is missing");
     CHECK_MSG(load_look("\"occlusionTexture\":{\"index\":0}"), "%s", problem.text);
@@ -159,8 +159,8 @@ static void emission(void)
     CHECK_MSG(load_look(material), "%s", problem.text);
     CHECK(emits_light(4, 2, 8) && loaded.scene.materials[0].emission_map == 1 && loaded.scene.meshes[0].uvs &&
           !noted("emissive maps"));
-    /* Other texture coordinates than the base colour's: means in linear light, (0.21586 + 1) / 2, (0.21586 + 0) / 2,
-     * (1 + 0) / 2. */
+    /* Other texture coordinates than the base colour: means in linear light, (0.21586 + 1) / 2, (0.21586 + 0) / 2, (1 +
+     * 0) / 2. */
     snprintf(material, sizeof material, strong,
              ",\"emissiveTexture\":{\"index\":0,\"texCoord\":1},"
              "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}");
@@ -181,8 +181,8 @@ static int has_lobe(double albedo, double f0, double roughness)
            fabs((double)m->roughness - roughness) < 1e-6;
 }
 
-/* No lobe at first; then base x (1 - metallic) below mix(0.04, base, metallic), of a textured metal the image's mean.
- *  */
+/* Without lobes first; then base x (1 - metallic) below mix(0.04, base, metallic). A textured metal uses the image's
+ * mean. */
 static void lobes(void)
 {
     static const struct {
@@ -211,8 +211,8 @@ static void lobes(void)
     CHECK(!model_make_glossy(&loaded));
 }
 
-/* A map of metal is kept by texel for the lobe, with the factors; without a lobe its mean darkens the albedo. One with
- * other texture coordinates counts as its mean in the lobe too: blue (1 + 0) / 2, green (128 / 255 + 0) / 2. */
+/* A metallic map stays per texel for the lobe, with the factors; without a lobe, its mean darkens the albedo. With
+ * other texture coordinates the lobe uses the mean too: blue (1 + 0) / 2, green (128 / 255 + 0) / 2. */
 static void metal_maps(void)
 {
     const lmb_material *m;
@@ -222,7 +222,7 @@ static void metal_maps(void)
     CHECK(has_lobe(0.375, 0, 0) && m->metal_map == 0 && m->metallic == 0.0f);
     CHECK(model_make_glossy(&loaded) && lmb_scene_check(&loaded.scene) == LMB_OK);
     CHECK(has_lobe(0.5, 0.04, 0.25) && m->metal_map == 1 && m->metallic == 0.5f);
-    if (loaded.scene.texture_count == 1) /* codes' means, not light's */
+    if (loaded.scene.texture_count == 1) /* means of codes, not of linear light */
         CHECK(loaded.scene.textures[0].texels[8] == 192 && loaded.scene.textures[0].texels[10] == 128);
     CHECK_MSG(load_look("\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"roughnessFactor\":0.5,"
                         "\"metallicRoughnessTexture\":{\"index\":0,\"texCoord\":1}}"), "%s", problem.text);
@@ -232,7 +232,7 @@ static void metal_maps(void)
 
 /* --- skins --- */
 
-/* Two joints, each with its inverse bind matrix; three vertices: on the first, on the second, half on each. */
+/* Two joints with inverse bind matrices; three vertices: on the first, on the second, half on each. */
 static void put_skinned(blob *b)
 {
     static const float triangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0.70710678f, 0.70710678f, 0, 1, 0, 0};
@@ -249,7 +249,8 @@ static void put_skinned(blob *b)
         put_u8(b, joints[i]);
 }
 
-/* Node 0 shows the mesh, somewhere that must not count; joint 1 (node 2) is turned a quarter round z and moved. */
+/* Node 0 places the mesh, with a transform that must not count; joint 1 (node 2) is rotated by a quarter turn about z
+ * and moved. */
 #define SKINNED(SKIN, JOINT_1) SKINNED_BY("", SKIN, JOINT_1)
 #define SKINNED_BY(MORE, SKIN, JOINT_1) \
     ASSET "\"scenes\":[{\"nodes\":[0,1,2,3]}],\"nodes\":[{\"mesh\":0,\"skin\":0,\"translation\":[100,0,0]}," \
@@ -294,16 +295,16 @@ static void skins(void)
         CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals), 1, 0, 0));
         CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals + 2), -sqrt(0.5), sqrt(0.5), 0));
         CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals + 4), sqrt(0.5), sqrt(0.5), 0));
-        CHECK(is_vec(position(in + 1, 1), 1, 0, 0)); /* the same mesh without a skin stays */
+        CHECK(is_vec(position(in + 1, 1), 1, 0, 0)); /* the same mesh without a skin is unchanged */
     }
     CHECK(noted("skinned nodes posed") && loaded.facts.skins == 1);
     LOADS(SKINNED("{\"joints\":[1,2]}", "\"translation\":[0,0,7]"), base64(b.bytes, b.size));
-    CHECK(is_vec(position(loaded.scene.instances, 1), 1, 0, 7)); /* no matrices: as if all were the identity */
-    /* Uneven scale: normals go by the inverse, transposed. */
+    CHECK(is_vec(position(loaded.scene.instances, 1), 1, 0, 7)); /* no matrices: the identity is used */
+    /* Non-uniform scale: normals use the inverse transpose. */
     LOADS(SKINNED("{\"joints\":[1,2]}", "\"scale\":[2,1,1]"), base64(b.bytes, b.size));
     in = loaded.scene.instances;
     CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals + 2), 0.4472136, 0.8944272, 0));
-    /* Two sets of the same weights: vertex 0 half on each joint, vertex 1 wholly on the second. */
+    /* Two sets with the same weights: vertex 0 half on each joint, vertex 1 only on the second. */
     LOADS(SKINNED_BY(",\"JOINTS_1\":5,\"WEIGHTS_1\":3", "{\"joints\":[1,2]}", "\"translation\":[8,0,0]"),
           base64(b.bytes, b.size));
     in = loaded.scene.instances;
@@ -322,7 +323,7 @@ static void skins(void)
     check_fails(load(SKINNED("", QUARTER), base64(b.bytes, b.size)), "nodes[0].skin: index 0, but there are 0");
 }
 
-/* --- what to convert with --- */
+/* --- the converter in messages --- */
 
 static void conversions(void)
 {
@@ -341,7 +342,7 @@ static void conversions(void)
 
 /* --- a small file stays small --- */
 
-/* However often and by whatever name a file beside the model is asked for, it is read once and pays once. */
+/* A file beside the model is read and charged once, however often and under whatever names it is used. */
 static void neighbours(void)
 {
     folder place;
@@ -366,7 +367,7 @@ static void neighbours(void)
     folder_close(&place);
 }
 
-/* Accessors without bytes are zeros: of so many that memory runs away they are refused. */
+/* Accessors without bytes are zeros: counts that would exhaust memory are refused. */
 static void counts(void)
 {
     check_fails(load(ASSET "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
@@ -374,7 +375,7 @@ static void counts(void)
             "more than 96 bytes of memory a byte of file");
 }
 
-/* No picture of a small file may have over 2^26 pixels; a header alone asks for more. */
+/* No picture of a small file may exceed 2^26 pixels; a header alone could claim more. */
 static void pixels(void)
 {
     static const uint8_t png[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D', 'R',
@@ -384,7 +385,7 @@ static void pixels(void)
     CHECK(noted("images[0]: 68161536 pixels are more than the model's pictures may still have"));
 }
 
-/* A picture that cannot be read is named by its file. */
+/* The message for an unreadable picture contains the file name. */
 static void names_pictures(void)
 {
     static const char document[] = ASSET "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
@@ -397,7 +398,7 @@ static void names_pictures(void)
     folder_close(&place);
 }
 
-/* A PNG of one pixel with a long chunk that nobody asks for, which its checksum takes time to walk. */
+/* A PNG of one pixel with a long unused chunk, so that its checksum takes time. */
 static void put_long_png(blob *b, uint8_t *chunk, size_t size)
 {
     static const uint8_t rgb[3] = {9, 9, 9};
@@ -413,7 +414,7 @@ static void put_long_png(blob *b, uint8_t *chunk, size_t size)
     file_free(&png);
 }
 
-/* A document of IMAGES pictures of `size` bytes and more; `cut`: each of them one byte shorter than the one before. */
+/* A document with IMAGES pictures of `size` bytes and more; `cut`: each is one byte shorter than the one before. */
 static size_t put_images(char *document, size_t cap, size_t size, int images, int cut)
 {
     static const char *const ends[] = {"],\"textures\":[", "],\"materials\":[", "]}"};
@@ -438,8 +439,8 @@ static size_t put_images(char *document, size_t cap, size_t size, int images, in
     return n;
 }
 
-/* What pictures may have is counted to the pixel: 2^24 are free, 64 more for each byte of the files, and one picture
- * may have more than is left. Each decoding pays for its pixels and its bytes, and each name an eighth of its bytes. */
+/* The pixel budget is exact: 2^24 plus 64 per byte of the files, and one picture may exceed the rest. Each decoding
+ * costs its pixels and bytes, each name an eighth of its bytes. */
 static void pixels_left(void)
 {
     enum { WIDTH = 4096, HEIGHT = 2048, IMAGES = 3, CAP = 4096 };
@@ -457,7 +458,8 @@ static void pixels_left(void)
         folder_put(&place, "long.png", file, size);
         CHECK_LOADS(load_file(folder_put(&place, "a.gltf", document, n)));
         folder_close(&place);
-        /* The first is decoded as colour and as the map of metal, and the second is the one that has more. */
+        /* The first picture is decoded as colour and as metallic map, and the second is the one that exceeds the
+         * rest. */
         const size_t decoded = size + size + (size - 1),
                      named = 2 * (size / 8 + 1) + ((size - 1) / 8 + 1) + ((size - 2) / 8 + 1);
         snprintf(said, sizeof said,
@@ -470,9 +472,9 @@ static void pixels_left(void)
     file_free(&png);
 }
 
-/* One picture under many names is decoded once a use, as colour or not. Where the names' bytes differ behind the
- * picture's end each pays for its bytes: the budget of 2^24 and 64 for each byte of the files ends before the last,
- * without which time would go with bytes times names. */
+/* One picture under many names is decoded once per use, as colour or not. If the names differ in the bytes after the
+ * picture's end, each costs its bytes. The budget of 2^24 plus 64 per byte of the files ends before the last picture;
+ * without it, time would grow with bytes times names. */
 static void decoded_often(void)
 {
     enum { SIZE = 1 << 19, HEADER = 33, IMAGES = 208, MORE = 256, CAP = 1 << 16 };
@@ -493,7 +495,7 @@ static void decoded_often(void)
     CHECK_LOADS(load_file(folder_put(&place, "a.gltf", document, put_images(document, CAP, SIZE + b.size, IMAGES, 0))));
     CHECK_MSG(loaded.scene.texture_count == IMAGES + 1, "%u textures", (unsigned)loaded.scene.texture_count);
     CHECK(loaded.facts.texel_bytes == 8 && !noted("textures left out"));
-    for (uint32_t i = 2; i < loaded.scene.texture_count; ++i) /* the second is the map of metal, the first one's picture */
+    for (uint32_t i = 2; i < loaded.scene.texture_count; ++i) /* the second: the first picture as metallic map */
         CHECK(loaded.scene.textures[i].texels == loaded.scene.textures[0].texels);
     CHECK_LOADS(load_file(folder_put(&place, "a.gltf", document, put_images(document, CAP, SIZE + b.size + MORE, IMAGES, 1))));
     CHECK_MSG(loaded.scene.texture_count > 75 && loaded.scene.texture_count < 100, "%u decoded",
@@ -504,7 +506,7 @@ static void decoded_often(void)
     free(file);
 }
 
-/* A mesh of 5,000 vertices placed 5,000 times: its box counts, not 25 million vertices. */
+/* A mesh of 5,000 vertices placed 5,000 times: only its box is transformed, not 25 million vertices. */
 static void many_places(void)
 {
     enum { PLACES = 5000, VERTICES = 5000 };
@@ -526,8 +528,8 @@ static void many_places(void)
     free(document);
 }
 
-/* A stream of a million vertices in many meshes, and a mesh of them in many places: refused before anybody goes over
- * them so often. */
+/* A million shared vertices in many meshes, or a mesh with them in many places, is refused before they are processed so
+ * often. */
 static void shared_vertices(void)
 {
     enum { CAP = 1 << 16 };
@@ -557,7 +559,7 @@ static void shared_vertices(void)
 
 /* --- light that `lambent bake --to lightmap` stored --- */
 
-/* The triangle of TRIANGLE with extras, names of the two images, and its material. */
+/* The triangle of TRIANGLE with extras, the names of the two images, and a material. */
 static int load_baked(const char *extras, const char *first, const char *second, const char *material)
 {
     static const char form[] =
@@ -576,7 +578,7 @@ static int load_baked(const char *extras, const char *first, const char *second,
     return load(form, extras, (unsigned)png, first, second, (unsigned)b.size, base64(b.bytes, b.size), material);
 }
 
-/* Checks that there is a lightmap, with the texture coordinates (u, v) at the second corner. */
+/* Checks that there is a lightmap, with texture coordinates (u, v) at the second corner. */
 static int is_lit(float u, float v)
 {
     const model_light *l = &loaded.light;
@@ -604,7 +606,7 @@ static void baked_light(void)
     CHECK(is_gone() && !noted("occlusion"));
     CHECK_LOADS(load_baked(now, "a", "b", "\"occlusionTexture\":{\"index\":1}"));
     CHECK(is_gone() && noted("occlusion maps ignored"));
-    /* As older versions wrote the file. */
+    /* As older versions wrote files. */
     CHECK_LOADS(load_baked(then, "a", "b", "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}"));
     CHECK(is_lit(0, 1));
     CHECK_LOADS(load_baked(past, "a", "b", "\"doubleSided\":true"));

@@ -18,8 +18,8 @@ static int is_vec(lmb_vec3 v, double x, double y, double z)
     return near((double)v.x, x) && near((double)v.y, y) && near((double)v.z, z);
 }
 
-/* Vectors of floats from byte 0, as accessors of three each: 0 positions, 1 normals, 2 more positions, 3 more normals,
- * 4 tangents of four, 5 texture coordinates, 6 offsets of tangents, 7 offsets of the second target, sparse. */
+/* Float vectors from byte 0, as accessors with three each: 0 positions, 1 normals, 2 more positions, 3 more normals, 4
+ * tangents of four, 5 texture coordinates, 6 tangent offsets, 7 offsets of the second target, sparse. */
 static const float numbers[] = {
     0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, -1, 1, 0, -1, 1, 0, -1,
     1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, -1, 1, 0, -1, 1, 0, -1, 1, 0};
@@ -38,7 +38,7 @@ enum { NUMBERS = sizeof numbers / sizeof *numbers };
     "{\"buffer\":0,\"byteOffset\":256,\"byteLength\":12,\"byteStride\":4}],"                                          \
     "\"buffers\":[{\"byteLength\":268,\"uri\":\"data:;base64,%s\"}]}"
 
-/* Two bytes of index 2, then the offsets of a target as bytes: (127, 0, 0) at each vertex. */
+/* Index 2 in two bytes, then the offsets of a target as bytes: (127, 0, 0) at each vertex. */
 static const char *data_with(int at, float instead)
 {
     static char coded[2048];
@@ -178,7 +178,7 @@ static void shapes_by_weights(void)
     CHECK(is_vec(normal(0, 0), sqrt(0.5), 0, sqrt(0.5)) && is_vec(tangent(0, 2), sqrt(0.5), sqrt(0.5), 0));
     CHECK(model_side_of(loaded.scene.meshes[0].tangents) && !model_side_of(loaded.scene.meshes[0].tangents + 4));
     CHECK(!noted("morph"));
-    /* The weights of a node override those of the mesh, for that node only. Weights missing in the node are 0. */
+    /* A node's weights override those of the mesh, for this node only. Weights missing in the node are 0. */
     CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,1],", "{\"mesh\":0,\"weights\":[1]},{\"mesh\":0}", ALL), flat_map(), data()));
     CHECK(loaded.scene.instance_count == 2 && loaded.scene.mesh_count == 2);
     CHECK(is_vec(position(loaded.scene.instances[0].mesh, 1), 1, 0, 0));
@@ -187,7 +187,7 @@ static void shapes_by_weights(void)
     CHECK_LOADS(load_gltf(SHAPED("", "{\"mesh\":0,\"weights\":[0,-2]},{\"mesh\":0}", ALL), flat_map(), data()));
     CHECK(is_vec(position(loaded.scene.instances[0].mesh, 0), -2, 0, 0) && loaded.scene.instances[0].to_world.m[0] == 1);
     CHECK(is_vec(position(loaded.scene.instances[1].mesh, 0), 0, 0, 0));
-    /* Sparse, without a view; and bytes. */
+    /* Sparse, without a buffer view; and as bytes. */
     CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,1],", TWO, "\"POSITION\":7"), flat_map(), data()));
     CHECK(is_vec(position(0, 1), 1, 0, 0) && is_vec(position(0, 2), 1, 1, 0) && is_vec(normal(0, 2), 0, 0, 1));
     CHECK_LOADS(load_gltf(SHAPED("\"weights\":[0,0.25],", TWO, "\"POSITION\":8"), flat_map(), data()));
@@ -226,7 +226,7 @@ static void hides(void)
     check_fails(load_gltf(ASSET "\"nodes\":[{\"extensions\":{\"KHR_node_visibility\":{\"visible\":0}}}]}"), "visible");
 }
 
-/* A quarter turn about Y, below scales that leave less than one axis. */
+/* A quarter turn about Y, below scales that leave only one axis or none. */
 static void keeps_directions(void)
 {
     static const char *const above[] = {
@@ -267,8 +267,8 @@ static void reads_other_materials(void)
     m = loaded.scene.materials;
     CHECK(near((double)m[0].specular[0], 0.2) && m[0].specular[2] == 0 && m[0].roughness == 0.25f);
     CHECK(near((double)m[0].albedo[0], 0.4) && m[2].specular[0] == 0);
-    /* Means of the map: specular as linear light, glossiness in alpha, which is 1. A metal is not black without its
-     * lobe, and its diffuse texture does not darken what stands for the lobe. */
+    /* Means of the map: specular in linear light, glossiness in alpha, which is 1. A metal without a lobe is not black,
+     * and its diffuse texture does not darken the colour that replaces the lobe. */
     CHECK_LOADS(load_gltf(ASSET "\"materials\":[{\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":"
                            "[0,0,0,1],\"specularGlossinessTexture\":{\"index\":0},\"diffuseTexture\":{\"index\":0}}}}],"
                            "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", flat_map()));

@@ -1,4 +1,4 @@
-/* test_gouraud.c: light at corners: coverage, the shadow map, what pixels show, pieces, and what is refused. */
+/* test_gouraud.c: light at corners: coverage, the shadow map, shown pixels, division into pieces, refused input. */
 #include "../world.h"
 
 #include <stdlib.h>
@@ -42,7 +42,7 @@ static gouraud_target id_target(void)
     return t;
 }
 
-/* How often triangles around a point cover each pixel of the square that they fill. */
+/* Counts how often triangles around a point cover each pixel of their square. */
 static void cover(uint8_t times[SIDE * SIDE], const int32_t square[4][2], int32_t x, int32_t y, int how)
 {
     const gouraud_target t = id_target();
@@ -62,7 +62,7 @@ static void cover(uint8_t times[SIDE * SIDE], const int32_t square[4][2], int32_
     }
 }
 
-/* Neighbours share every pixel's middle, and leave none out: also where corners lie far outside. */
+/* Adjacent triangles share every pixel centre and leave none out, even if corners lie far outside. */
 static void covers_once(void)
 {
     static uint8_t times[SIDE * SIDE], grown[SIDE * SIDE];
@@ -90,13 +90,13 @@ static void covers_once(void)
 
 /* --- depth -------------------------------------------------------------------------------------------------------- */
 
-/* Of a depth: at[0], and by at[1] more from left to right, by at[2] from top to bottom. */
+/* Depth at[0] plus at[1] from left to right and at[2] from top to bottom. */
 static float plane_depth(const float at[3], int32_t x, int32_t y)
 {
     return at[0] + (at[1] * (float)x + at[2] * (float)y) / (16.0f * SIDE);
 }
 
-/* In 16 bits: 4096 codes from each power of two to the next, from 2^-16 on; 1 has the last. */
+/* In 16 bits: 4096 codes per power of two, from 2^-16 on; 1 has the last code. */
 static int code_of_depth(float d)
 {
     int power = 0;
@@ -104,7 +104,7 @@ static int code_of_depth(float d)
     return d >= 1.0f ? 65535 : (power + 15) * 4096 + (int)(4096.0f * fraction);
 }
 
-/* All of the picture, by one triangle. */
+/* Fills the picture with one triangle. */
 static void fill_all(const gouraud_target *t, const float at[3], int channel, int how)
 {
     static const int32_t corner[3][2] = {{-800, -800}, {3200, -800}, {-800, 3200}};
@@ -118,9 +118,8 @@ static void fill_all(const gouraud_target *t, const float at[3], int channel, in
     lmb_gouraud_fill(t, c, 1, how);
 }
 
-/* Of two planes through each other the nearer one shows at each pixel, whichever is drawn first, and its depth is kept,
- * within two codes: also where the last pixel of a row lies a little over 1. Rows of depths are shorter than those of
- * pixels. */
+/* Of two intersecting planes, the nearer one shows at each pixel in either drawing order, and the stored depth is
+ * within two codes, even if the last pixel of a row is slightly over 1. Depth rows are shorter than pixel rows. */
 static void shows_the_nearer(void)
 {
     enum { WIDE = SIDE - 5 };
@@ -186,7 +185,7 @@ static void draw(const lmb_gouraud *g)
 static int red_of(int k) { return pixels()[k] >> 11; }
 static int green_of(int k) { return pixels()[k] >> 5 & 63; }
 
-/* From above, the floor alone. Even light gives even pixels; light that grows along x grows. */
+/* Only the floor, from above. Even light gives even pixels; light that grows along x grows in the picture. */
 static void shows_receivers(void)
 {
     const lmb_gouraud g = frame_of(vec3(0, 0.9f, 0), vec3(0, 0, 0));
@@ -202,7 +201,7 @@ static void shows_receivers(void)
                fabsf((float)green_of(k) - code * 63.0f / 255.0f) > 1.0f;
     }
     CHECK_MSG(empty == 0 && off == 0, "%d empty, %d off", empty, off);
-    /* Corners 0 and 1 are at x -1, 2 and 3 at x 1; 4 between 0 and 1. The picture's right is -x. */
+    /* Corners 0 and 1 are at x -1, 2 and 3 at x 1; 4 is between 0 and 1. The picture's right is -x. */
     const float at[SMALL_RECEIVERS] = {0.0f, 0.0f, 4.0f, 4.0f, 0.0f};
     for (int i = 0; i < SMALL_RECEIVERS; ++i) {
         light.receiver[i][0] = light.receiver[i][1] = light.receiver[i][2] = at[i];
@@ -219,8 +218,8 @@ static void shows_receivers(void)
     CHECK_MSG(left > right || falls == 0, "%d fall", falls);
 }
 
-/* Does a ray through the middle of a pixel meet the floor's front, further away than the near plane? `slack`: what is
- * added to the floor's half sides. */
+/* Returns whether the ray through a pixel's centre meets the front of the floor beyond the near plane. `slack` is added
+ * to the floor's half sides. */
 static int meets_floor(const lmb_view *v, int k, float slack)
 {
     const float x = ((float)(k % SIDE) + 0.5f) * (2.0f / SIDE) - 1.0f,
@@ -232,8 +231,8 @@ static int meets_floor(const lmb_view *v, int k, float slack)
     return along > v->near_m && maxf(absf(at.x), absf(at.z)) < 1.0f + slack;
 }
 
-/* A floor that goes on behind the eye or far beside the picture is seen from above, where a ray to it says so, and not
- * from below. */
+/* A floor that extends behind the eye or far beyond the picture is visible from above exactly at the pixels with a ray
+ * to it, and not from below. */
 static void cuts_the_floor(void)
 {
     test_rng r = {9};
@@ -254,7 +253,7 @@ static void cuts_the_floor(void)
     CHECK(seen > 10 * SIDE * SIDE);
 }
 
-/* Ids as the rasterizer's, but for what faces away from the light. */
+/* The ids match the rasterizer's, except for triangles that face away from the light. */
 static void draws_maps(void)
 {
     lmb_shadow_map other;
@@ -282,7 +281,7 @@ static void draws_maps(void)
     CHECK(lmb_gouraud_map(&map, NULL, &room.scene) == LMB_ERR_ARG);
 }
 
-/* Direct light reaches corners inside the cone; something over them takes it away. */
+/* Direct light reaches corners inside the cone; a blocker above them removes it. */
 static void casts_shadows(void)
 {
     lmb_gouraud g = frame_of(vec3(0, 0.9f, 0), vec3(0, 0, 0));
@@ -303,10 +302,10 @@ static void casts_shadows(void)
         lit += direct[i][0] > 0.0f;
     }
     CHECK(lit > 0);
-    /* All but triangle 3's id hidden by the ceiling, which is brought under the light. */
+    /* The ceiling, moved below the light, hides all ids except triangle 3's. */
     for (int k = 0; k < 3; ++k) {
         room.corners[2][k][1] = room.corners[3][k][1] = 0.5f;
-        room.corners[2][k][0] *= -1.0f, room.corners[3][k][0] *= -1.0f; /* it faces up */
+        room.corners[2][k][0] *= -1.0f, room.corners[3][k][0] *= -1.0f; /* facing up */
     }
     CHECK(lmb_gouraud_map(&map, &scratch, &room.scene) == LMB_OK);
     CHECK(lmb_gouraud_begin(&g) == LMB_OK && lmb_gouraud_draw(&g, 1, 2) == LMB_OK);
@@ -315,7 +314,7 @@ static void casts_shadows(void)
     }
 }
 
-/* A square around `middle`, along two axes, under its own light. */
+/* A square around `middle` along two axes, with one light. */
 static struct {
     float corner[4][3];
     lmb_mesh mesh;
@@ -373,7 +372,7 @@ static void light_alone(int32_t kind, lmb_vec3 direction)
     alone.light.intensity[0] = 1.0f;
 }
 
-/* A point light in the middle: the part behind the square is dark, on only one of the six sides. */
+/* A point light in the centre: only the part behind the square is dark, on one of the six sides. */
 static void shadows_by_face(void)
 {
     light_alone(LMB_LIGHT_POINT, vec3(0, 0, 0));
@@ -395,7 +394,7 @@ static void shadows_by_face(void)
     }
 }
 
-/* A light range, as for pixels. */
+/* A light's range, as for pixels. */
 static void ends_by_range(void)
 {
     for (int kind = 0; kind < 2; ++kind) {
@@ -440,7 +439,7 @@ static void lights_slopes(void)
     }
 }
 
-/* A mesh by 16-bit positions is where the same by binary32 is; a triangle that names no vertex is none. */
+/* A mesh with 16-bit positions matches the one in binary32; a triangle with invalid vertices is dropped. */
 static void reads_positions(void)
 {
     static int16_t stored[8][4];
@@ -528,7 +527,7 @@ static void refuses(void)
     REFUSED(g.out.format = LMB_RGB555, LMB_ERR_FORMAT);
     REFUSED(g.out.width = g.view.frame_width = 1024; g.out.stride_bytes = 2048, LMB_ERR_CAPACITY);
     CHECK(lmb_shadow_map_init(&map, &room.light, &room.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
-    REFUSED(g.maps = &map, LMB_ERR_ARG); /* in tiles */
+    REFUSED(g.maps = &map, LMB_ERR_ARG); /* tiled */
     CHECK(lmb_gouraud_begin(NULL) == LMB_ERR_ARG && lmb_gouraud_draw(NULL, 1, 1) == LMB_ERR_ARG);
     CHECK(lmb_gouraud_draw(&whole, 0, 1) == LMB_ERR_ARG);
 }

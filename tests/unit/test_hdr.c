@@ -1,4 +1,4 @@
-/* test_hdr.c: Radiance pictures: what is written reads back, every coding and orientation, and what damaged ones do. */
+/* test_hdr.c: Radiance pictures: written files read back, every coding and orientation, and damaged files. */
 #include "../test.h"
 
 #include <math.h>
@@ -44,9 +44,9 @@ static int is_pixel(int32_t x, int32_t y, float r, float g, float b)
     return p && p[0] == r && p[1] == g && p[2] == b;
 }
 
-/* --- what is written --- */
+/* --- writing --- */
 
-/* Half a step of the largest component's 8 bits, at most 1/256 of it; 1/255.5 where that one rounds up to 256 steps
+/* Half a step of the largest component's 8 bits, at most 1/256 of it; 1/255.5 if the component rounds up to 256 steps
  * and the step doubles. */
 static int is_near(const float *a, const float *b)
 {
@@ -98,7 +98,7 @@ static void flat_pixels(void)
     static const uint8_t one[4] = {200, 100, 50, 137};
     CHECK_DECODES(decode(HEAD "-Y 1 +X 2\n", two, 8));
     CHECK(is_pixel(0, 0, 1.0f, 0.5f, 0.0f) && is_pixel(1, 0, 255.0f, 1.0f, 2.0f));
-    CHECK_DECODES(decode(HEAD "-Y 2 +X 1\n", ends, 8)); /* exponent 0 is black whatever the mantissas */
+    CHECK_DECODES(decode(HEAD "-Y 2 +X 1\n", ends, 8)); /* exponent 0 is black, whatever the mantissas */
     CHECK(is_pixel(0, 0, 255 * 0x1p119f, 0x1p126f, 0.0f) && is_pixel(0, 1, 0.0f, 0.0f, 0.0f));
     CHECK_DECODES(decode("#?RGBE\r\n# made by hand\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n-Y 1 +X 1\r\n", one, 4));
     CHECK(is_pixel(0, 0, 400.0f, 200.0f, 100.0f));
@@ -138,7 +138,7 @@ static void new_runs(void)
     }
 }
 
-/* A file of 3 x 2 pixels, numbered in the picture's reading order: what the file's order makes of them. */
+/* A file of 3 x 2 pixels numbered in reading order: the expected order for each orientation. */
 static void orientations(void)
 {
     static const struct {
@@ -175,7 +175,7 @@ static void exposures(void)
     CHECK_DECODES(decode("#?RADIANCE\nEXPOSURE=0.001\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n", bright, 4));
     CHECK(loaded.pixels && isfinite(loaded.pixels[0]));
     CHECK_DECODES(decode("#?RADIANCE\n\tEXPOSURE=9\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n", one, 4));
-    CHECK(is_pixel(0, 0, 1, 1, 1)); /* an indented line belongs to a picture that this one was made of */
+    CHECK(is_pixel(0, 0, 1, 1, 1)); /* an indented line describes a source picture */
 }
 
 /* --- damage --- */
@@ -216,7 +216,7 @@ static void refuses(void)
     for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) check_fails(decode(bad[i].head, NULL, 0), bad[i].says);
 }
 
-/* Every prefix is refused; every flipped bit gives a picture or a message. */
+/* Every prefix is refused; a flipped bit gives a picture or a message. */
 static void damage(void)
 {
     static const uint8_t lines[] = {2,   2, 0, 8, 136, 128, 136, 3, 4, 1, 2, 3, 4, 132, 9, 136, 130,
@@ -229,7 +229,7 @@ static void damage(void)
     memcpy(file + sizeof head - 1, lines, sizeof lines);
     CHECK_DECODES(decode(head, lines, sizeof lines));
     for (n = 0; n < SIZE; ++n) {
-        uint8_t *exact = malloc(n + 1); /* so that a sanitizer sees one byte too many */
+        uint8_t *exact = malloc(n + 1); /* so that a sanitizer detects one byte too many */
         if (!exact) return;
         memcpy(exact + 1, file, n);
         image_free(&loaded);

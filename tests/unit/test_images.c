@@ -1,6 +1,6 @@
-/* test_images.c: the picture files: what is written reads back, every kind of PNG, and what damaged files do. */
+/* test_images.c: picture files: written files read back, every kind of PNG, and damaged files. */
 #if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
-#define _XOPEN_SOURCE 700 /* directories and links */
+#define _XOPEN_SOURCE 700 /* directory and link functions */
 #endif
 #include "../test.h"
 
@@ -25,7 +25,7 @@ void test_images(void);
 
 /* --- deflate and inflate --- */
 
-/* What random files are made of; each kind drives the packer into another corner. */
+/* Kinds of random data; each exercises another part of the packer. */
 enum { NOISE, ZEROS, TWO_BYTES, SMOOTH, FEW_BITS, REPEATS, KINDS };
 
 static void fill_kind(uint8_t *out, size_t n, int kind, test_rng *rng)
@@ -55,7 +55,7 @@ static int survives_deflate(const uint8_t *in, size_t n)
         same = inflate_zlib(back, n, packed, size) && memcmp(back, in, n) == 0;
         same = same && !inflate_zlib(back, n + 1, packed, size) && !inflate_zlib(back, n, packed, size - 1);
         same = same && (n == 0 || !inflate_zlib(back, n - 1, packed, size));
-        same = same && size <= n + n / 1000 + 64; /* noise is stored, not blown up */
+        same = same && size <= n + n / 1000 + 64; /* noise is stored with little overhead */
         free(packed);
     }
     free(back);
@@ -89,8 +89,8 @@ static uint32_t adler_bytewise(const uint8_t *p, size_t n)
     return b << 16 | a;
 }
 
-/* A damaged stream is refused, unless its bytes have the checksum that it carries: Adler-32 is weak enough for one
- * flipped bit to get through now and then. */
+/* A damaged stream is refused unless the checksum matches: Adler-32 is weak enough to miss a flipped bit now and
+ * then. */
 static void check_deflate_damage(test_rng *rng)
 {
     uint8_t data[3000], back[3000], *packed;
@@ -137,7 +137,7 @@ static void check_inflate_known(void)
     for (i = 0; i < (int)sizeof dynamic; ++i) CHECK(!inflate_zlib(got, 300, dynamic, (size_t)i));
 }
 
-/* A zlib stream put together bit by bit. */
+/* A zlib stream assembled bit by bit. */
 typedef struct bit_stream {
     uint8_t data[512];
     size_t bits;
@@ -148,7 +148,7 @@ static void add_bits(bit_stream *s, uint32_t value, int n)
     for (; n > 0; --n, value >>= 1, ++s->bits) s->data[s->bits / 8] |= (uint8_t)((value & 1u) << s->bits % 8);
 }
 
-/* A code word, written from its top bit. */
+/* A code word, top bit first. */
 static void add_word(bit_stream *s, uint32_t word, int n)
 {
     while (n-- > 0) add_bits(s, word >> n, 1);
@@ -162,7 +162,7 @@ static void start(bit_stream *s, int type)
     add_bits(s, (uint32_t)type, 2);
 }
 
-/* The checksum of `text`, then: does the stream give just it? */
+/* Adds the checksum of `text` and returns whether the stream decodes to `text`. */
 static int gives(bit_stream *s, const char *text)
 {
     static uint8_t out[40000];
@@ -173,8 +173,8 @@ static int gives(bit_stream *s, const char *text)
     return inflate_zlib(out, n, s->data, s->bits / 8) && memcmp(out, text, n) == 0;
 }
 
-/* A dynamic block's head in which 'a' and symbol `second` have `bits` bits each, 1 or 2. Of the meta code, `bits` and
- * 18 (a run of 11 zeros or more) have one bit each; their words are 0 and 1. */
+/* The header of a dynamic block in which 'a' and symbol `second` have `bits` bits each, 1 or 2. In the meta code,
+ * `bits` and 18 (a run of 11 zeros or more) have one bit each, with the words 0 and 1. */
 static void start_tiny(bit_stream *s, int bits, uint32_t second, uint32_t dists)
 {
     int i;
@@ -195,10 +195,10 @@ static void check_inflate_crafted(void)
     bit_stream s;
 
     start_tiny(&s, 1, 256, 1);
-    add_word(&s, 0, 1);  /* a lone distance code of one bit is allowed */
+    add_word(&s, 0, 1);  /* a single distance code of one bit is valid */
     add_word(&s, 1, 3);  /* a, a, end */
     CHECK(gives(&s, "aa"));
-    start_tiny(&s, 1, 255, 10); /* the end has no code */
+    start_tiny(&s, 1, 255, 10); /* no code for the end */
     add_word(&s, 1, 1), add_bits(&s, 0, 7);
     add_word(&s, 3, 3);
     CHECK(!gives(&s, "aa"));
@@ -206,11 +206,11 @@ static void check_inflate_crafted(void)
     add_word(&s, 0, 2);
     add_word(&s, 1, 3);
     CHECK(gives(&s, "aa"));
-    start_tiny(&s, 1, 256, 3); /* three distances of one bit are one too many */
+    start_tiny(&s, 1, 256, 3); /* three distances of one bit: one too many */
     add_word(&s, 0, 3);
     add_word(&s, 1, 3);
     CHECK(!gives(&s, "aa"));
-    start_tiny(&s, 1, 256, 1); /* the last run reaches past the lists */
+    start_tiny(&s, 1, 256, 1); /* the last run exceeds the lists */
     add_word(&s, 1, 1), add_bits(&s, 0, 7);
     add_word(&s, 1, 3);
     CHECK(!gives(&s, "aa"));
@@ -218,7 +218,7 @@ static void check_inflate_crafted(void)
     add_word(&s, 1, 1), add_bits(&s, 0, 7);
     add_word(&s, 1, 3);
     CHECK(gives(&s, "aa"));
-    start_tiny(&s, 2, 256, 11); /* two codes of two bits leave half the space empty */
+    start_tiny(&s, 2, 256, 11); /* two codes of two bits leave half the space unused */
     add_word(&s, 1, 1), add_bits(&s, 0, 7);
     add_word(&s, 1, 6);
     CHECK(!gives(&s, "aa"));
@@ -235,7 +235,7 @@ static void check_inflate_fixed(void)
     add_word(&s, 1, 7), add_word(&s, 0, 5); /* length 3, distance 1 */
     add_word(&s, 0, 7);
     CHECK(gives(&s, "aaaa"));
-    start(&s, 1); /* back beyond the start */
+    start(&s, 1); /* reaches back before the start */
     add_word(&s, 0x30 + 'a', 8);
     add_word(&s, 1, 7), add_word(&s, 1, 5);
     add_word(&s, 0, 7);
@@ -243,7 +243,7 @@ static void check_inflate_fixed(void)
     start(&s, 0);
     add_bits(&s, 0, 5), add_bits(&s, 1, 16), add_bits(&s, 0xfffe, 16), add_bits(&s, 'a', 8);
     CHECK(gives(&s, "a"));
-    start(&s, 0); /* the length's complement is wrong */
+    start(&s, 0); /* wrong complement of the length */
     add_bits(&s, 0, 5), add_bits(&s, 1, 16), add_bits(&s, 0xffff, 16), add_bits(&s, 'a', 8);
     CHECK(!gives(&s, "a"));
     start(&s, 0); /* longer than the stream */
@@ -251,7 +251,7 @@ static void check_inflate_fixed(void)
     CHECK(!gives(&s, "a"));
 }
 
-/* Length symbol 286 and distance symbol 30 do not exist; carried on, their formulas would mean 323 and 32769. */
+/* Length symbol 286 and distance symbol 30 do not exist; their formulas, continued, would give 323 and 32769. */
 static void check_inflate_beyond(void)
 {
     static char text[33100];
@@ -343,7 +343,7 @@ static void add_palette(png_file *f, const picture *p)
         alphas[i] = p->palette[i][3];
     }
     for (i = 0; i < 3; ++i) {
-        uint32_t v = p->key[i] | (p->width % 2 ? 0xffffu << p->depth : 0); /* bits above the depth mean nothing */
+        uint32_t v = p->key[i] | (p->width % 2 ? 0xffffu << p->depth : 0); /* bits above the depth are ignored */
         key[2 * i] = (uint8_t)(v >> 8);
         key[2 * i + 1] = (uint8_t)v;
     }
@@ -357,7 +357,7 @@ static const uint16_t *pixel(const picture *p, uint32_t x, uint32_t y)
     return p->samples + (y * p->width + x) * p->channels;
 }
 
-/* The pass in which a pixel of an interlaced picture comes: the specification's 8 x 8 pattern. */
+/* The interlace pass of a pixel: the specification's 8 x 8 pattern. */
 static int pass_of(const picture *p, uint32_t x, uint32_t y)
 {
     static const char pattern[8][9] = {"16462646", "77777777", "56565656", "77777777",
@@ -365,7 +365,7 @@ static int pass_of(const picture *p, uint32_t x, uint32_t y)
     return p->interlaced ? pattern[y % 8][x % 8] - '0' : 1;
 }
 
-/* The row's pixels of one pass, bits packed from the top. Returns its bytes. */
+/* Packs the row's pixels of one pass from the top bit. Returns the number of bytes. */
 static size_t pack_row(uint8_t *row, const picture *p, int pass, uint32_t y)
 {
     size_t bits = 0;
@@ -394,7 +394,7 @@ static int predict(int filter, int left, int above, int corner)
     }
 }
 
-/* All rows of all passes, each with a filter by chance. Returns their bytes. */
+/* Packs all rows of all passes with random filters. Returns the number of bytes. */
 static size_t pack_rows(uint8_t *out, const picture *p, test_rng *rng)
 {
     uint8_t rows[2][8 * MAX_SIDE];
@@ -418,7 +418,7 @@ static size_t pack_rows(uint8_t *out, const picture *p, test_rng *rng)
     return size;
 }
 
-/* Image data in up to three pieces, one of which may be empty. */
+/* Image data in up to three chunks, one of which can be empty. */
 static void add_data(png_file *f, const uint8_t *rows, size_t n, test_rng *rng)
 {
     uint8_t *packed;
@@ -527,7 +527,7 @@ static void check_png_kinds(test_rng *rng)
     }
 }
 
-/* In a block of just its size, so that a sanitizer sees a read behind the end. */
+/* Decodes a copy in an exactly sized block, so that a sanitizer detects reads past the end. */
 static int decode_copy(const uint8_t *data, size_t size, report *r)
 {
     bitmap got;
@@ -556,7 +556,7 @@ static void check_png_prefixes(test_rng *rng)
     CHECK(decode_copy(f.data, f.size, &r));
 }
 
-/* Give each chunk that is still whole its right checksum again, so that damage gets past it. */
+/* Recomputes the checksum of each intact chunk, so that damage passes the check. */
 static void repair_checksums(uint8_t *data, size_t size)
 {
     size_t at = 8;
@@ -588,7 +588,7 @@ static void check_png_damage(test_rng *rng)
             damaged.data[at] ^= (uint8_t)(1u << test_random(rng) % 8);
         }
         if (turn % 4) repair_checksums(damaged.data, damaged.size);
-        if (decode_copy(damaged.data, damaged.size, &r)) ++test_passed; /* either way: it came back */
+        if (decode_copy(damaged.data, damaged.size, &r)) ++test_passed; /* passes either way if it returns */
     }
 }
 
@@ -601,7 +601,7 @@ static void add_tiny_data(png_file *f)
     free(packed);
 }
 
-/* A 1 x 2 picture whose chunks are named by `plan`, a letter each. */
+/* A 1 x 2 picture with chunks named by the letters of `plan`. */
 static void build_plan(png_file *f, const char *plan, uint32_t colour)
 {
     picture p;
@@ -626,7 +626,7 @@ static void build_plan(png_file *f, const char *plan, uint32_t colour)
         case 'd': add_chunk(f, "IDAT", "abcdefghijk", 11); break;
         case 'E': add_chunk(f, "IEND", "", 0); break;
         case 'e': add_chunk(f, "IEND", "a", 1); break;
-        case '1': f->data[24] = 1; repair_checksums(f->data, f->size); break; /* one bit a sample */
+        case '1': f->data[24] = 1; repair_checksums(f->data, f->size); break; /* one bit per sample */
         default: f->data[f->size++] = '?'; break;
         }
     }
@@ -665,7 +665,7 @@ static void check_png_order(void)
     }
 }
 
-/* A header field set to v, its checksum right. */
+/* A header field set to v, with a correct checksum. */
 static void check_png_header(size_t at, uint32_t v, int bytes, const char *says)
 {
     static png_file f;
@@ -683,7 +683,7 @@ static void check_png_headers(void)
     check_png_header(16, 0, 4, "0 x 2 pixels");
     check_png_header(20, 0, 4, "1 x 0 pixels");
     check_png_header(16, 0xffffffffu, 4, "4294967295 x 2 pixels");
-    check_png_header(16, 1u << 25, 4, "cannot fill 33554432 x 2 pixels"); /* no memory is taken for it */
+    check_png_header(16, 1u << 25, 4, "cannot fill 33554432 x 2 pixels"); /* refused before allocation */
     check_png_header(20, 1u << 26, 4, "cannot fill");
     check_png_header(16, 1u << 27, 4, "134217728 x 2 pixels");
     check_png_header(24, 3, 1, "with 3 bits");
@@ -698,7 +698,7 @@ static void check_png_messages(void)
     report r;
     build_plan(&f, "aDE", 0);
     CHECK(!decode_copy((const uint8_t *)"GIF89a, surely", 14, &r) && strstr(r.text, "not a PNG file"));
-    f.data[35] = 9; /* of the chunk at 33: its length */
+    f.data[35] = 9; /* length of the chunk at 33 */
     CHECK(!decode_copy(f.data, f.size, &r) && strstr(r.text, "chunk teSt at byte 33 runs past the end of the file"));
     build_plan(&f, "aDE", 0);
     f.data[42] ^= 1;
@@ -763,7 +763,7 @@ typedef int (*text_reader)(bitmap *out, const uint8_t *data, size_t size, const 
 static int read_text(bitmap *out, text_reader read, const char *text, size_t size)
 {
     report r = {""};
-    uint8_t *copy = malloc(size); /* of just its size, so that a sanitizer sees a read behind the end */
+    uint8_t *copy = malloc(size); /* exactly sized, so that a sanitizer detects reads past the end */
     int ok = 0;
     memset(out, 0, sizeof *out);
     if (copy) {
@@ -775,7 +775,8 @@ static int read_text(bitmap *out, text_reader read, const char *text, size_t siz
     return ok;
 }
 
-/* Does the text give a picture of `width` pixels in a row whose first `n` texels' red, green and blue are `codes`? */
+/* Returns whether the text gives a picture with `width` pixels per row and `codes` as red, green and blue of the first
+ * `n` texels. */
 static int gives_codes(const char *text, size_t size, int32_t width, const char *codes, size_t n)
 {
     bitmap map;
@@ -807,7 +808,7 @@ static void check_ppm_kinds(void)
     CHECK(PPM_GIVES("P2 3 1 15 0 7 15", 3, "\0\0\0\x77\x77\x77\xFF\xFF\xFF"));
     CHECK(PPM_GIVES("P3 1 1 7 3 0 7", 1, "\x6D\0\xFF") && PPM_GIVES("P2 1 1 2 1", 1, "\x80\x80\x80"));
     CHECK(PPM_GIVES("P6 1 1 1000 \x01\x2C\x03\xE8\0\0", 1, "\x4D\xFF\0"));
-    /* of 65535 the high byte, where the nearest of 0x12FF would be 0x13 */
+    /* 65535 uses the high byte, although 0x13 would be nearest to 0x12FF */
     CHECK(PPM_GIVES("P6 1 1 65535 \x12\xFF\xFF\xFF\0\xFF", 1, "\x12\xFF\0"));
     CHECK(PPM_GIVES("P5 1 1 256 \x01\0", 1, "\xFF\xFF\xFF") && PPM_GIVES("P2 1 1 65535 65279", 1, "\xFE\xFE\xFE"));
 }
@@ -819,11 +820,11 @@ static void check_ppm_refusals(void)
     CHECK(PPM_REFUSED("P6 0 1 255\n") && PPM_REFUSED("P6 -1 1 255\nabc") && PPM_REFUSED("P6 1 1 0\nabc"));
     CHECK(PPM_REFUSED("P6 1 1 65536\nabcabc") && PPM_REFUSED("P6 99999999999 99999999999 255\nabc"));
     CHECK(PPM_REFUSED("P6 1048576 1048576 255\nabc") && PPM_REFUSED("P6 # 1 1 255"));
-    CHECK(PPM_REFUSED("P6 1 1 254\nab\xFF") && PPM_REFUSED("P5 1 1 1000 \x03\xE9")); /* over the largest value */
+    CHECK(PPM_REFUSED("P6 1 1 254\nab\xFF") && PPM_REFUSED("P5 1 1 1000 \x03\xE9")); /* above the maximum value */
     CHECK(PPM_REFUSED("P5 1 1 65535 a") && PPM_REFUSED("P5 1 1 65535 abc"));
     CHECK(PPM_REFUSED("P3 1 1 255 97 98") && PPM_REFUSED("P3 1 1 255 97 98 99 100") && PPM_REFUSED("P2 1 1 9 10"));
     CHECK(PPM_REFUSED("P2 1 1 255 x") && PPM_REFUSED("P2 1 1 255 -1") && PPM_REFUSED("P2 1 1 255 1.0"));
-    CHECK(PPM_REFUSED("P2 16384 16384 255 1 2 3")); /* no memory is taken for it */
+    CHECK(PPM_REFUSED("P2 16384 16384 255 1 2 3")); /* refused before allocation */
 }
 
 /* --- reading PAM --- */
@@ -857,11 +858,11 @@ static void check_pam_kinds(void)
     CHECK(PAM_GIVES(PAM_HEAD("1", "2", "255", "GRAYSCALE_ALPHA") "ab", 1, "aaab"));
     CHECK(PAM_GIVES(PAM_HEAD("2", "3", "255", "RGB") "abcdef", 2, "abc\xFF" "def\xFF"));
     CHECK(PAM_GIVES(PAM_HEAD("2", "4", "255", "RGB_ALPHA") "abcdefgh", 2, "abcdefgh"));
-    /* from 65535 the high byte; 3 of 7 is 109.3; 300 of 1000 is 76.5, halves are rounded up */
+    /* 65535 uses the high byte; 3 of 7 is 109.3; 300 of 1000 is 76.5, halves are rounded up */
     CHECK(PAM_GIVES(PAM_HEAD("1", "2", "65535", "GRAYSCALE_ALPHA") "\x12\xFF\xFE\0", 1, "\x12\x12\x12\xFE"));
     CHECK(PAM_GIVES(PAM_HEAD("1", "3", "7", "RGB") "\3\0\7", 1, "\x6D\0\xFF\xFF"));
     CHECK(PAM_GIVES(PAM_HEAD("1", "1", "1000", "GRAYSCALE") "\x01\x2C", 1, "\x4D\x4D\x4D\xFF"));
-    /* words in any order, comments, empty lines, CR; no type: DEPTH determines it */
+    /* header words in any order, comments, empty lines, CR; without a type, DEPTH determines it */
     CHECK(PAM_GIVES("P7\n# c\n\nMAXVAL 255\nDEPTH 4\r\n  HEIGHT\t1 \nWIDTH 1\nENDHDR\nabcd", 1, "abcd"));
     CHECK(PAM_GIVES("P7\r\nWIDTH 1\r\nHEIGHT 1\r\nDEPTH 1\r\nMAXVAL 255\r\nENDHDR\r\na", 1, "aaa\xFF"));
     CHECK(gives_texels(pam_decode_16, PAM_HEAD("1", "1", "65535", "GRAYSCALE") "ab", 69, 1, "ab", 2));
@@ -938,7 +939,7 @@ static void check_stored(void)
 
 /* --- PFM --- */
 
-/* Random bits: infinities, NaN and denormals among them. */
+/* Random bits, including infinities, NaN and denormals. */
 static int make_image(image *out, int32_t width, int32_t height, int32_t channels, test_rng *rng)
 {
     size_t n = (size_t)(width * height * channels), i;
@@ -1035,7 +1036,7 @@ static void check_pfm_text(void)
 
 /* --- HDR --- */
 
-/* One component of a coded row. Returns the offset behind it, 0 for a stream that does not fit. */
+/* Reads one component of a coded row. Returns the offset after it, or 0 if the stream does not fit. */
 static size_t read_runs(uint8_t *out, int32_t width, const file_bytes *file, size_t at)
 {
     int32_t x = 0;
@@ -1057,7 +1058,7 @@ static size_t read_runs(uint8_t *out, int32_t width, const file_bytes *file, siz
     return at;
 }
 
-/* All rows into planes of mantissas and exponents; 1 if they fill the file exactly. */
+/* Reads all rows into planes of mantissas and exponents. Returns 1 if they fill the file exactly. */
 static int read_hdr(uint8_t *planes, const image *in, const file_bytes *file)
 {
     char header[80];
@@ -1082,7 +1083,7 @@ static int read_hdr(uint8_t *planes, const image *in, const file_bytes *file)
     return at == file->size;
 }
 
-/* A pixel's largest component keeps 8 bits: all three are within half a step of 2^(e - 8). */
+/* The largest component of a pixel keeps 8 bits: all three are within half a step of 2^(e - 8). */
 static int hdr_near(const image *in, const uint8_t *planes)
 {
     int32_t x, y;
@@ -1113,7 +1114,7 @@ static void check_hdr(test_rng *rng)
         int32_t w = (int32_t)(1 + test_random(rng) % (turn % 3 ? 20 : 700)), h = (int32_t)(1 + test_random(rng) % 5), i;
         uint8_t *planes = malloc((size_t)(4 * w * h));
         if (!planes || !make_image(&in, w, h, turn % 2 ? 1 : 3, rng)) continue;
-        for (i = 0; turn % 4 && i < w * h * in.channels; ++i) /* steps make runs */
+        for (i = 0; turn % 4 && i < w * h * in.channels; ++i) /* steps create runs */
             in.pixels[i] = i % 970 < 600 ? 0.7f : turn % 4 == 2 ? 0.999f : test_uniform(rng, 0.0f, 4.0f);
         CHECK(hdr_encode(&file, &in, &r));
         CHECK_MSG(file.data && read_hdr(planes, &in, &file) && hdr_near(&in, planes), "turn %d: %d x %d", turn, (int)w,
@@ -1137,7 +1138,7 @@ static int holds(const char *path, const char *text)
 
 #ifndef _WIN32
 
-/* Entries of a directory, without itself and its parent; -1 if there is no such directory. */
+/* Returns the number of entries without . and .., or -1 if there is no such directory. */
 static int count_entries(const char *path)
 {
     DIR *d = opendir(path);
@@ -1168,12 +1169,12 @@ static void check_permissions(const char *file)
     struct stat s;
     CHECK(chmod(file, 0666) == 0 && file_write(file, "mode", 4, &r));
     CHECK(stat(file, &s) == 0 && (s.st_mode & 0777) == 0666);
-    if (geteuid() == 0) return; /* who may write anything */
+    if (geteuid() == 0) return; /* root may write to any file */
     CHECK(chmod(file, 0444) == 0 && !file_write(file, "x", 1, &r) && holds(file, "mode"));
     CHECK(chmod(file, 0644) == 0);
 }
 
-/* A write that fails half way leaves the old file, and nothing else. */
+/* A write that fails halfway leaves the old file and no other. */
 static void check_full_disk(const char *file)
 {
     static const char big[100000] = "big";
@@ -1194,7 +1195,7 @@ static void check_files_in(const char *directory)
     char file[600], link[600], beyond[600];
     report r = {""};
     file_bytes got;
-    file_keep_end(); /* of commands that ran before */
+    file_keep_end(); /* from earlier commands */
     snprintf(file, sizeof file, "%s/a", directory);
     snprintf(link, sizeof link, "%s/b", directory);
     snprintf(beyond, sizeof beyond, "%s/none/a", directory);
@@ -1252,7 +1253,7 @@ static void check_shared_png(const char *path, const char *shown)
     file_free(&file);
 }
 
-/* All PNG files of a directory, and of those in it down to `depth`. Returns how many. */
+/* All PNG files of a directory and subdirectories down to `depth`. Returns the number of files. */
 static int check_shared_in(const char *directory, int depth)
 {
     DIR *d = opendir(directory);
@@ -1312,7 +1313,7 @@ static void check_report(void)
     CHECK(report_fail(&r, "%s", many) == 0 && strlen(r.text) == sizeof r.text - 2);
 }
 
-/* Work in pixels, by headers alone. */
+/* Work in pixels, estimated from headers only. */
 static void work(void)
 {
     static const uint8_t plain[] = {0xFF, 0xD8, 0xFF, 0xC0, 0, 11, 8, 0, 16, 0, 10, 1, 1, 0x11, 0, 0xFF, 0xDA, 0, 8, 1},

@@ -1,4 +1,4 @@
-/* test_info.c: `lambent info`: facts of own small files, exact; its text, JSON and errors; counts of known scenes. */
+/* test_info.c: `lambent info`: exact facts of small files; text, JSON and errors; counts of known scenes. */
 #include "../folder.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ void test_info(void);
 enum { TEXT_MAX = 1 << 14 };
 
 static folder place;
-static char said[TEXT_MAX], complained[TEXT_MAX]; /* by the last run of info */
+static char said[TEXT_MAX], complained[TEXT_MAX]; /* of the last run of info */
 
 /* --- files and runs --- */
 
@@ -34,7 +34,7 @@ static void take_back(char *text, FILE *f)
     fclose(f);
 }
 
-/* The exit status of `info FIRST SECOND`; what it printed is in said and complained. */
+/* Returns the exit status of `info FIRST SECOND`; said and complained receive the output. */
 static int info(const char *first, const char *second)
 {
     char verb[] = "info", words[2][FOLDER_PATH], *argv[3];
@@ -113,7 +113,7 @@ static void facts_of_gltf(const char *path, size_t png_size)
     CHECK(m.facts.format == NULL && m.facts.nodes == 0);
 }
 
-/* In order, each after the one before: 1, or 0 and the first that is missing is printed. */
+/* Returns 1 if the output contains the parts in order, otherwise prints the first missing one and returns 0. */
 static int says(const char *const *parts, int count)
 {
     const char *at = said;
@@ -154,7 +154,7 @@ static void text_of_gltf(const char *path)
 static json doc;
 static report problem;
 
-/* `info PATH --json` is one line that a strict reader takes. */
+/* `info PATH --json` prints one line that a strict reader accepts. */
 static int read_json(const char *path)
 {
     const int status = info(path, "--json");
@@ -168,7 +168,7 @@ static int read_json(const char *path)
     return 0;
 }
 
-/* The value at a path of keys, "" being the first element of an array. */
+/* The value at a path of keys; "" is the first element of an array. */
 static uint32_t find(const char *a, const char *b, const char *c, const char *d)
 {
     const char *const keys[] = {a, b, c, d};
@@ -220,7 +220,7 @@ static void json_of_gltf(const char *path, size_t png_size)
     json_free(&doc);
 }
 
-/* Bytes of a file's name that are no UTF-8 (a lone lead byte, an overlong one) still make valid JSON. */
+/* Bytes of a file name that are not UTF-8 (a single lead byte, an overlong one) still give valid JSON. */
 static void names_of_any_bytes(void)
 {
     const char *path = put_text("n\xC3 \xC0\xAF\xE2\x82\xAC.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -232,7 +232,7 @@ static void names_of_any_bytes(void)
     json_free(&doc);
 }
 
-/* More extensions than there is room for are counted. */
+/* Extensions that exceed the capacity are counted. */
 static void many_extensions(void)
 {
     static char text[4096];
@@ -281,7 +281,7 @@ static void ply_file(void)
     SAYS(parts);
 }
 
-/* A 2x1 PPM, a PFM with values that are not finite, grey PNG in other channels than colour ones. */
+/* A 2x1 PPM, a PFM with values that are not finite, grey PNG in different channels than colour ones. */
 static void pictures(void)
 {
     static const char pfm[] = "Pf\n2 2\n-1.0\n\0\0\x80\x7F\0\0\x80\xBF\0\0\0\x40\0\0\x20\x40"; /* inf -1 2 2.5 */
@@ -339,7 +339,7 @@ static void png_picture(void)
 
 /* --- errors --- */
 
-/* One line on the error stream, nothing on the other. */
+/* One line on stderr, nothing on stdout. */
 static void check_status(int wanted, const char *first, const char *second, const char *part)
 {
     const int status = info(first, second);
@@ -365,7 +365,7 @@ static void errors(void)
 
 /* --- known scenes --- */
 
-/* data/MANIFEST.md's counts; `unique` where a mesh is placed more than once and the list counts it once. */
+/* Counts from data/MANIFEST.md; `unique` if a mesh is placed several times and the list counts it once. */
 static const struct {
     const char *path;
     uint32_t triangles, vertices, meshes, nodes, materials, images, cameras, animations;

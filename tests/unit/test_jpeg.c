@@ -1,4 +1,4 @@
-/* test_jpeg.c: JPEG pictures: every kind against another decoder's pixels, refusals, and what damaged files do. */
+/* test_jpeg.c: JPEG pictures: every kind against another decoder's pixels, refusals, and damaged files. */
 #include "../test.h"
 
 #include <stdlib.h>
@@ -46,7 +46,7 @@ enum { SAMPLES = sizeof samples / sizeof samples[0], SAMPLE_MAX = 2048 };
 
 /* --- one file --- */
 
-/* From a block of exactly that size, so that a sanitizer sees the first byte read behind it. */
+/* Decodes an exactly sized copy, so that a sanitizer detects the first byte read past the end. */
 static int decode_copy(bitmap *map, const uint8_t *data, size_t size, report *r)
 {
     uint8_t *copy = malloc(size > 0 ? size : 1);
@@ -61,7 +61,7 @@ static int decode_copy(bitmap *map, const uint8_t *data, size_t size, report *r)
     return ok;
 }
 
-/* A picture, or a reason and nothing else. Returns whether it was a picture; 2 where it was neither. */
+/* Returns 1 for a picture, 0 for a message without a picture, 2 for anything else. */
 static int ends_cleanly(const uint8_t *data, size_t size)
 {
     bitmap map;
@@ -103,8 +103,8 @@ static void check_pixels(const sample *s)
     bitmap_free(&map);
 }
 
-/* Four components are CMYK by Adobe's transform 0 and without Adobe's marker, and YCCK by any other: 1 as 2. In both 255
- * is no ink. */
+/* Four components are CMYK with Adobe's transform 0 or without Adobe's marker, otherwise YCCK: 1 acts as 2. In both,
+ * 255 is no ink. */
 static void check_inks(const sample *s)
 {
     enum { MARKER = 2, TRANSFORM = 17, AFTER = 18 };
@@ -139,7 +139,7 @@ static void check_prefixes(const sample *s)
     CHECK_MSG(wrong == 0, "%s: %d prefixes", s->name, wrong);
 }
 
-/* Each byte: all bits turned over, and one. */
+/* For each byte: flips all bits, and one bit. */
 static void check_flips(const sample *s)
 {
     uint8_t copy[SAMPLE_MAX];
@@ -158,7 +158,7 @@ static void check_flips(const sample *s)
 
 /* --- not as it should be, though it can be read --- */
 
-/* A grey block whose details end in a run of two or three empty blocks, of which there is one. */
+/* A grey block with details that end in a run of two or three empty blocks, although there is only one block. */
 static void check_long_run(void)
 {
     static const uint8_t head[] = {0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0},
@@ -186,7 +186,7 @@ static void check_long_run(void)
 
 /* --- refusals --- */
 
-/* Offset of the first marker of that kind. */
+/* Offset of the first marker of this kind. */
 static size_t find(const sample *s, int marker)
 {
     size_t i = 0;
@@ -194,7 +194,7 @@ static size_t find(const sample *s, int marker)
     return i;
 }
 
-/* With the byte at `at` behind a marker replaced, s is refused with these words. */
+/* If the byte at `at` behind a marker is replaced, s is refused with these words. */
 static void refuses(const sample *s, int marker, size_t at, int value, const char *words)
 {
     uint8_t copy[SAMPLE_MAX];
@@ -256,7 +256,7 @@ static void check_made(void)
     CHECK(!decode_copy(&map, crowded, 2, &r) && strstr(r.text, "ends at byte 2, before EOI"));
 }
 
-/* Fill bytes before a marker, a comment, and bytes behind the end are all as if they were not there. */
+/* Fill bytes before a marker, a comment, and bytes after the end are ignored. */
 static void check_extras(void)
 {
     static const uint8_t extra[] = {0xFF, 0xD8, 0xFF, 0xFF, 0xFF, 0xFE, 0, 5, 'a', 0xFF, 0xD9, 0xFF};

@@ -1,11 +1,11 @@
-/* test_kept_files.c: files that a command reads, so that it writes over none of them. */
+/* test_kept_files.c: files that a command reads, so that it does not overwrite any of them. */
 #include "../folder.h"
 
 #include "../../tools/common/io_file.h"
 
 void test_kept_files(void);
 
-/* More than the first room for them. */
+/* More than the initial capacity. */
 enum { KEPT = 50, OTHERS = 10 };
 
 static const char *put(folder *f, int i)
@@ -19,7 +19,7 @@ void test_kept_files(void)
 {
     static folder f;
     const char *path[KEPT + OTHERS];
-    file_keep_end(); /* earlier tests kept files that are gone; a file here may get the number of one */
+    file_keep_end(); /* files kept by earlier tests are gone, and a new file may reuse an inode */
     folder_open(&f);
     for (int i = 0; i < KEPT + OTHERS; ++i) {
         path[i] = put(&f, i);

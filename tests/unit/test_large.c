@@ -1,8 +1,8 @@
-/* test_large.c: layer 3: large triangles in long rows of tiles have the bytes that they have where each window is one
- * tile wide, whose rows know no next tile; with bounds of farthest depths, too.
+/* test_large.c: layer 3: large triangles in long rows of tiles have the same bytes as in windows one tile wide, in
+ * which rows have no next tile; also with bounds of farthest depths.
  *
- * Triangles are random ones of every size up to far beyond the guard band, slivers lower than a tile, rectangles on
- * borders of tiles, copies of the one before (equal depths keep the earlier id), and NaN. */
+ * Triangles are random, of every size up to far beyond the guard band: slivers lower than a tile, rectangles on tile
+ * borders, copies of the previous one (at equal depths the earlier id stays), and NaN. */
 #include <string.h>
 
 #include <lambent/raster.h>
@@ -12,7 +12,7 @@
 
 void test_large(void);
 
-/* Not a number of vectors, nor of a count's first step. */
+/* No multiple of the vector width, nor of a counter's first step. */
 enum { ACROSS = 261, DOWN = 3, TILES = ACROSS * DOWN, WIDTH = ACROSS * LMB_TILE, HEIGHT = DOWN * LMB_TILE };
 enum { TRIANGLES = 36, SCENES = 4 };
 enum { SMALL = 128, SMALL_TILES = SMALL / LMB_TILE * (SMALL / LMB_TILE) };
@@ -23,7 +23,7 @@ static uint32_t wide_depth[WIDTH * HEIGHT], wide_id[WIDTH * HEIGHT], one_depth[L
 static lmb_view view;
 static lmb_scene scene;
 
-/* At px of the frame, from its middle, and at a distance. */
+/* At px of the frame from the centre, and at a distance. */
 static void put_corner(float *out, float x, float y, float z)
 {
     const float m = view.kind == LMB_PERSPECTIVE ? z : 1.0f;
@@ -34,7 +34,7 @@ static void put_triangle(test_rng *r, float *out, int i)
 {
     static const float sizes[] = {60.0f, 400.0f, 1100.0f, 5000.0f, 1e6f};
     const float size = sizes[test_random(r) % 5u], z = test_uniform(r, 2, 30);
-    /* Two of a few roundings, that leave the corners' range, and one of a few codes of 16 bits. */
+    /* Two slopes of a few roundings, which leave the corners' range, and one of a few 16-bit codes. */
     static const float tilts[] = {0.0f, 2e-5f, 1.5e-4f, 4e-3f, 1.0f};
     const float tilt = tilts[test_random(r) % 5u];
     const float high = i % 4 == 0 ? 5.0f : size, x = test_uniform(r, -900, 900), y = test_uniform(r, -9, 9);
@@ -42,7 +42,7 @@ static void put_triangle(test_rng *r, float *out, int i)
         put_corner(out + 3 * k, x + test_uniform(r, -size, size), y + test_uniform(r, -high, high),
                    z + tilt * test_uniform(r, -1, 1));
     }
-    if (i % 6 == 1 || i % 6 == 2) { /* half a rectangle, on borders of tiles, nearest at its right angle */
+    if (i % 6 == 1 || i % 6 == 2) { /* half a rectangle on tile borders, nearest at the right angle */
         const float left = 8.0f * (float)(test_random(r) % 160u) - 1044.0f, top = test_random(r) % 2u ? 12.0f : 4.0f;
         const float x0 = test_random(r) % 2u ? left : left + 704.0f, y0 = test_random(r) % 2u ? top : top - 16.0f;
         put_corner(out, x0, y0, z);
@@ -101,7 +101,7 @@ static lmb_target target_of(int32_t depth_format, int32_t id_format, int32_t wid
     return t;
 }
 
-/* Tiles of column x that differ. */
+/* Number of differing tiles in column x. */
 static int32_t differ(const lmb_surface *wide, const lmb_surface *one, int32_t x)
 {
     const size_t tile = (size_t)(LMB_TILE_PIXELS * lmb_pixel_bytes(wide->format));
@@ -146,8 +146,8 @@ static uint64_t judge(const lmb_kernels *kernels, int32_t depth_format, int32_t 
     return depth;
 }
 
-/* Found by search: depths of a few steps of binary32 from corner to corner, which planes leave by a rounding in tiles that
- * lie wholly inside. In a frame of 128 px, half a width of 1 at 1 m. */
+/* Found by search: depths that differ by a few steps of binary32 between corners; by rounding, the plane leaves this
+ * range in tiles entirely inside. In a frame of 128 px with a half width of 1 at 1 m. */
 static const float nearly_flat[][9] = {
     {-0x1.c29406p-1f, 0x1.5da61p-1f, -0x1.cd646p-1f, -0x1.c293f2p-1f, -0x1.a5bdaep-1f, -0x1.cd644cp-1f,
      0x1.a5bdaep-1f, 0x1.5da602p-1f, -0x1.cd644cp-1f},
@@ -180,7 +180,7 @@ static void make_nearly_flat(const float *triangle)
     view.frame_width = view.frame_height = SMALL;
 }
 
-/* Of the tiles, those that are not the same in a window of their own. */
+/* Number of tiles that differ from a separate window. */
 static int32_t tiles_differ(const lmb_kernels *kernels, const float *whole)
 {
     static float one[LMB_TILE_PIXELS];
@@ -228,7 +228,7 @@ static void test_nearly_flat(void)
     }
 }
 
-/* Depths are the same without ids, whose code is another. */
+/* Depths are the same without ids, which use another code path. */
 void test_large(void)
 {
     static const int32_t formats[][2] = {{LMB_DEPTH32F, LMB_FORMAT_NONE}, {LMB_DEPTH32F, LMB_ID32},

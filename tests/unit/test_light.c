@@ -12,7 +12,7 @@ static uint32_t map_memory[6 * SIDE * SIDE * 2], depth_memory[PIXELS], id_memory
 static lmb_shadow_map map;
 static lmb_target eye;
 
-/* What was seen, and the irradiance there without shadows [0] and with [1]. */
+/* Visible points, and their irradiance without shadows [0] and with [1]. */
 static struct {
     lmb_vec3 at, normal;
     uint32_t id;
@@ -67,7 +67,7 @@ static void shade(const lmb_view *v, const lmb_light *light, int32_t size)
 
 /* --- irradiance --------------------------------------------------------------------------------------------------- */
 
-/* V3: intensity x cosine / distance2, smoothstep of the angle's cosine between the cones; in double. */
+/* V3: intensity x cosine / distance2, smoothstep of the angle's cosine between the cones, in double. */
 static double irradiance(const lmb_light *l, lmb_vec3 p, lmb_vec3 n)
 {
     double d[3] = {(double)l->position.x - (double)p.x, (double)l->position.y - (double)p.y,
@@ -89,7 +89,7 @@ static double irradiance(const lmb_light *l, lmb_vec3 p, lmb_vec3 n)
     return share * fmax(0.0, (d[0] * (double)n.x + d[1] * (double)n.y + d[2] * (double)n.z) / (r * r2));
 }
 
-/* Open floor and a tilted plate: formula and picture agree; the whole cone is passed through. */
+/* Open floor and a tilted plate: picture and formula agree across the whole cone. */
 static void check_irradiance(const char *name, lmb_light light)
 {
     lmb_view v = look(vec3(0.5f, 3, 3), vec3(0, 0, 0), 60, FRAME);
@@ -118,12 +118,12 @@ static void check_irradiance(const char *name, lmb_light light)
            (unsigned)pixels);
     CHECK_MSG(pixels > PIXELS / 4 && worst < 1e-5 * peak, "%s: %g of %g", name, worst, peak);
     if (light.kind == LMB_LIGHT_SPOT) {
-        CHECK(min == 0.0); /* outside the cone, too */
+        CHECK(min == 0.0); /* outside the cone too */
     }
     CHECK_MSG(dark * 1000 <= pixels, "%u", (unsigned)dark);
 }
 
-/* Inner cone: everything; outer: nothing; half way between, of the cosine: half. A hard cone has no between. */
+/* Inner cone: full light; outer: none; at the mean of the cosines: half. A hard cone has no transition. */
 static void check_cone(void)
 {
     static lmb_tile tile;
@@ -153,7 +153,7 @@ static void check_cone(void)
     }
     l = spot(vec3(0, 1, 0), vec3(0, -1, 0), 30, 30);
     CHECK(lmb_direct_tile(&e, picked_kernels(), &tile, &v, &world.scene, &l, NULL) ==
-          LMB_OK); /* added to what is there */
+          LMB_OK); /* added to the output */
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         double cosine = 1.0 - 0.3 * k / (LMB_TILE_PIXELS - 1),
                t = (cosine - cos(PI * 40 / 180)) / (cos(PI * 20 / 180) - cos(PI * 40 / 180));
@@ -162,7 +162,7 @@ static void check_cone(void)
         CHECK_MSG(fabs((double)e.rgb[0][k] - want) < 1e-5, "hard, cosine %g: %g", cosine, (double)e.rgb[0][k]);
     }
     for (int k = 0; k < LMB_TILE_PIXELS;
-         ++k) { /* the surface itself turned away: smooth normals let no light through */
+         ++k) { /* back-facing surface: smooth normals do not leak light */
         tile.face[0][k] = -tile.face[0][k];
         tile.face[1][k] = -tile.face[1][k];
     }
@@ -195,7 +195,7 @@ static void check_range(void)
     world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
     CHECK(world_end() == LMB_OK);
     memset(&tile, 0, sizeof tile);
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* 1/16 to 4 m under the light */
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* 1/16 to 4 m below the light */
         tile.position[1][k] = -0.0625f * (float)(k + 1);
         tile.normal[1][k] = tile.face[1][k] = 1.0f;
         tile.id[k] = 1;
@@ -253,7 +253,7 @@ static void test_irradiance(void)
 
 /* --- shadows ------------------------------------------------------------------------------------------------------ */
 
-/* The plate: half sides of 0.5 m, turned, 1 m over the floor. */
+/* The plate: half sides of 0.5 m, rotated, 1 m above the floor. */
 static const lmb_vec3 plate_at = {0.1f, 1, -0.05f}, plate_u = {0.46f, 0, 0.2f}, plate_v = {-0.2f, 0, 0.46f};
 
 static void make_plate(void)
@@ -265,7 +265,8 @@ static void make_plate(void)
     CHECK(world_end() == LMB_OK);
 }
 
-/* Where the way from p to the light passes the plate, in its half sides; 0 where it does not pass its height. */
+/* Intersection of the segment from p to the light with the plate, in half sides; 0 if it does not cross the plate's
+ * height. */
 static int cross_plate(double uv[2], const lmb_light *l, lmb_vec3 p)
 {
     double up[3] = {-(double)l->direction.x, -(double)l->direction.y, -(double)l->direction.z};
@@ -281,7 +282,7 @@ static int cross_plate(double uv[2], const lmb_light *l, lmb_vec3 p)
     return t > 0.0;
 }
 
-/* A place in the map's face that looks down (point lights), or its only one: texels. */
+/* Texel position of a point in the downward face of a map (point lights), or in the only one. */
 static void place_in_map(double xy[2], lmb_vec3 p)
 {
     const lmb_view *v = &map.view[map.faces == 1 ? 0 : 3];
@@ -291,7 +292,7 @@ static void place_in_map(double xy[2], lmb_vec3 p)
     xy[1] = (0.5 - (double)dot3(v->up, d) / (w * (double)v->half_height) * 0.5) * map.size;
 }
 
-/* Texels between a floor point and the plate's outline in the map. */
+/* Distance in texels between a floor point and the plate's outline in the map. */
 static double texels_to_edge(lmb_vec3 p)
 {
     static const float sign[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
@@ -309,7 +310,7 @@ static double texels_to_edge(lmb_vec3 p)
     return nearest;
 }
 
-/* V7: lit or dark as the exact ray says, up to a texel from the shadow's edge. */
+/* V7: lit or dark as the exact ray, up to a texel from the shadow's edge. */
 static void check_shadow(const char *name, lmb_light light, int32_t size)
 {
     lmb_view v = look(vec3(1.2f, 2.6f, 2.4f), vec3(0, 0, 0), 60, FRAME);
@@ -339,7 +340,7 @@ static void check_shadow(const char *name, lmb_light light, int32_t size)
     CHECK_MSG(close * 25 <= near_edge, "%s, map %d: %d of %d within a texel", name, (int)size, close, near_edge);
 }
 
-/* A texture of holes: every second texel of 8x8 is missing. */
+/* A texture with holes: every second texel of 8x8 is transparent. */
 static void check_mask(lmb_light light, int32_t size)
 {
     static uint8_t texels[64][4];
@@ -370,7 +371,7 @@ static void check_mask(lmb_light light, int32_t size)
         int hole = ((int)s + (int)t) % 2 == 0, differs = (seen[i].shadowed[0] > 0.0f) != hole;
         through += hole;
         stopped += !hole;
-        if (fmax(side, other) < 0.3) { /* where four holes meet, no texel's middle need lie in the right one */
+        if (fmax(side, other) < 0.3) { /* at the corners of four holes no texel centre need be in the right one */
             corner += differs;
         } else {
             wrong += differs && fmin(side, other) > 0.005;
@@ -381,7 +382,7 @@ static void check_mask(lmb_light light, int32_t size)
     CHECK_MSG(corner * 50 <= through + stopped, "%d of %d", corner, through + stopped);
 }
 
-/* A plate 4 mm over a floor shadows it: the slack for rounding is far smaller. Seen through the gap. */
+/* A plate 4 mm above a floor shadows it: the tolerance for rounding is far smaller. Viewed through the gap. */
 static void check_low_plate(lmb_light light)
 {
     lmb_view v = look(vec3(0.3f, 0.003f, 1.5f), vec3(0, 0.001f, 0), 3, FRAME);
@@ -422,7 +423,7 @@ static void test_shadows(void)
 
 /* --- no acne ------------------------------------------------------------------------------------------------------ */
 
-/* Pixels that face the light and are dark: on a convex body there must be none. */
+/* Dark pixels that face the light: a convex body must have none. */
 static int dark_pixels(int *facing, const lmb_view *v, const lmb_light *light, int32_t size)
 {
     int dark = 0;
@@ -457,7 +458,7 @@ static void check_convex(const char *name, int32_t size)
               dark, facing);
 }
 
-/* Triangles of one plane, side by side and one over the other, at all turns. */
+/* Coplanar triangles, adjacent and overlapping, at all rotations. */
 static void check_coplanar(void)
 {
     int dark = 0, facing = 0;
@@ -482,7 +483,7 @@ static void check_coplanar(void)
     CHECK_MSG(facing > 10000 && dark == 0, "%d of %d pixels of a plane shadow themselves", dark, facing);
 }
 
-/* A light 1 mm above a floor of 4 m: all of it is lit, by the formula. */
+/* A light 1 mm above a 4 m floor: the whole floor is lit according to the formula. */
 static void check_low_light(void)
 {
     lmb_light l = point_light(vec3(0.1f, 0.001f, 0.2f));
@@ -539,7 +540,7 @@ static void set_ids(uint32_t id)
     }
 }
 
-/* A floor, a roof 2 m over all of it, and a triangle without area. */
+/* A floor, a roof 2 m above all of it, and a triangle without area. */
 static void floor_and_roof(void)
 {
     world_begin(0.5f, 0.5f, 0.5f);
@@ -549,8 +550,8 @@ static void floor_and_roof(void)
     CHECK(world_end() == LMB_OK);
 }
 
-/* The roof shadows what is in the map of a spot; outside the cone, behind the lamp and where no map was drawn nothing
- * does. Where the map names a triangle that is not there or has no area, its depth decides. */
+/* The roof shadows points inside a spot's map. Outside the cone, behind the lamp and in parts without a drawn map there
+ * is no shadow. If the map has the id of a missing triangle or one without area, its depth decides. */
 static void test_spot_map(void)
 {
     const lmb_light lamp = spot(vec3(0, 3, 0), vec3(0, -1, 0), 20, 25);
@@ -568,7 +569,7 @@ static void test_spot_map(void)
     CHECK(lights(&lamp, vec3(0, 0, 0)));
 }
 
-/* The sun is never nearer than what shadows: not by a roof farther away than the length of its direction. */
+/* A sun is never nearer than a blocker: a roof farther away than the length of the sun's direction still shadows. */
 static void test_sun_map(void)
 {
     const lmb_light light = sun(vec3(0, -1, 0));

@@ -1,5 +1,5 @@
-/* test_live.c: light at single points, against sums over all first points; what must stay dark; the same bytes by every
- * back end. */
+/* test_live.c: light at single points, against sums over all first points; points that must be dark; the same bytes on
+ * every backend. */
 #include "../world.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ static void collect(uint32_t light)
     }
 }
 
-/* The world by these lights, which share one map's memory: each is collected before the next one is drawn. */
+/* Lights the world with lights that share a map's memory: each is collected before the next is drawn. */
 static void light_world(const lmb_light *lights, uint32_t count)
 {
     CHECK(world_end() == LMB_OK);
@@ -60,7 +60,7 @@ static lmb_vec3 corner(uint32_t triangle, int k)
     return vec3(p[0], p[1], p[2]);
 }
 
-/* A random place on a triangle, seen from the side where `eye` is. */
+/* A random point on a triangle, on the side of `eye`. */
 static lmb_live_receiver place_on(uint32_t triangle, lmb_vec3 eye, test_rng *r)
 {
     lmb_live_receiver at;
@@ -85,7 +85,7 @@ static void receive(float light[3], const lmb_kernels *kernels, const lmb_live_r
 
 /* --- all first points, one by one --------------------------------------------------------------------------------- */
 
-/* Does any triangle stand between, but the two ends' own? In binary64. */
+/* Returns whether any triangle is in between, except those at the two ends. In binary64. */
 static int is_hidden(lmb_vec3 from, lmb_vec3 to, uint32_t own, uint32_t other)
 {
     for (uint32_t i = 0; i < world.count; ++i) {
@@ -114,7 +114,7 @@ static int is_hidden(lmb_vec3 from, lmb_vec3 to, uint32_t own, uint32_t other)
     return 0;
 }
 
-/* Light of all first points by the formula of nodes. */
+/* Light of all first points by the node formula. */
 static double sum_of_all(const lmb_live_receiver *at, int channel, int shadows)
 {
     double sum = 0.0;
@@ -129,7 +129,7 @@ static double sum_of_all(const lmb_live_receiver *at, int channel, int shadows)
     return sum;
 }
 
-/* Is a first point so near that parts of it count? */
+/* Returns whether a first point is so near that parts of it count. */
 static int is_near(const lmb_live_receiver *at)
 {
     for (uint32_t i = 0; i < live.points; ++i) {
@@ -141,7 +141,7 @@ static int is_near(const lmb_live_receiver *at)
     return 0;
 }
 
-/* A random place that no first point is near: on small triangles there may be none. */
+/* A random point without a near first point: small triangles may have none. */
 static lmb_live_receiver far_place(lmb_vec3 eye, test_rng *r)
 {
     lmb_live_receiver at = place_on(test_random(r) % world.count, eye, r);
@@ -155,7 +155,7 @@ typedef struct errors {
     double rms, worst, bias;
 } errors;
 
-/* Of `count` receivers of the world that are near no first point, relative to their mean. */
+/* For `count` receivers without near first points, relative to their mean. */
 static errors errors_of(int count, lmb_vec3 eye, int shadows, test_rng *r)
 {
     errors e = {0, 0, 0};
@@ -178,7 +178,7 @@ static errors errors_of(int count, lmb_vec3 eye, int shadows, test_rng *r)
     return e;
 }
 
-/* A room with a table in it, whose first points fall on all of that. */
+/* A room with a table; first points cover both. */
 static void room_with_table(void)
 {
     world_begin(0.7f, 0.5f, 0.3f);
@@ -209,7 +209,7 @@ static void sums_and_shares(void)
     CHECK_MSG(scratch.full == 0, "%u full", (unsigned)scratch.full);
 }
 
-/* Eight equal lights of an eighth each give what one gives: a place's area counts once. */
+/* Eight equal lights of an eighth each give the light of one: the area of a point counts once. */
 static void area_counts_once(void)
 {
     test_rng r = {9};
@@ -241,8 +241,8 @@ static void area_counts_once(void)
     CHECK_MSG(fabs(off / sum) < 0.01, "eight lights are %.4f of one", 1.0 + off / sum);
 }
 
-/* Close over a wide floor that is lit evenly from straight above: at any height a wall gets half of what the floor
- * sends, though the points lie far apart there. */
+/* Close above a wide floor, evenly lit from above: at any height a wall receives half of the floor's light, although
+ * the points are far apart. */
 static void near_field(void)
 {
     const lmb_light light = sun(vec3(0, -1, 0));
@@ -259,7 +259,7 @@ static void near_field(void)
         at.position = vec3(0.013f * (float)(i % 7) - 0.05f, 0.02f + 0.004f * (float)i, 0.017f * (float)(i % 5));
         receive(here, picked_kernels(), &at, 1);
         const double y = (double)at.position.y, x = 4.0 - (double)at.position.x;
-        const double truth = 0.5 * (1.0 - y / sqrt(x * x + y * y)); /* of a floor that is endless along z */
+        const double truth = 0.5 * (1.0 - y / sqrt(x * x + y * y)); /* for a floor infinite along z */
         const double off = (double)here[0] / truth - 1.0;
         sum += off / 40.0;
         worst = fmax(worst, fabs(off));
@@ -269,7 +269,7 @@ static void near_field(void)
 
 static float height_of(int x, int z) { return 0.08f * sinf(0.9f * (float)x) * cosf(0.7f * (float)z); }
 
-/* A bent sheet, lit from above: a segment from its underside to its upper side crosses it. */
+/* A bent sheet, lit from above: segments from the underside to the upper side cross it. */
 static void under_a_sheet_is_dark(void)
 {
     enum { CELLS = 24 };
@@ -300,7 +300,7 @@ static void under_a_sheet_is_dark(void)
     CHECK_MSG(lit == 0 && over > 100, "%d of its underside are lit; %d of its upper side", lit, over);
 }
 
-/* Behind a wall of a millimetre, and of none, in a room whose other half is lit. */
+/* Behind a wall of 1 mm, and of no thickness, in a room with the other half lit. */
 static void behind_a_thin_wall_is_dark(void)
 {
     test_rng r = {4};
@@ -330,7 +330,7 @@ static void behind_a_thin_wall_is_dark(void)
 
 #define KERNELS_OF_THIS(upper, lower) lmb_kernels_named(#lower),
 
-/* Every back end, every number of strata. */
+/* On every backend, with every number of strata. */
 static void same_bytes(void)
 {
     const lmb_light lights[2] = {spot(vec3(0.6f, 1.8f, 0.5f), vec3(-0.5f, -1, -0.4f), 20, 35),
@@ -377,7 +377,7 @@ static void few_chunks(void)
     CHECK(live.chunks <= 3);
 }
 
-/* Points below a node, those that are counted twice or more as often. */
+/* Points below a node; points that are counted several times. */
 static uint32_t points_below(const lmb_live *l, uint32_t first, uint32_t count)
 {
     uint32_t sum = 0;
@@ -389,7 +389,7 @@ static uint32_t points_below(const lmb_live *l, uint32_t first, uint32_t count)
     return sum;
 }
 
-/* A cell whose finer cells have four planes each: the last of a node's parts takes what is left. */
+/* A cell with four planes in each finer cell: the last part of a node takes the rest. */
 static void many_planes(void)
 {
     const float cell = 1.0f / 64.0f, along[4] = {0.1f, 0.35f, 0.6f, 0.85f};
@@ -421,7 +421,7 @@ static void many_planes(void)
     }
 }
 
-/* The parts of a block lie one behind the other, and the last one ends within lmb_live_bytes. */
+/* The parts of a block are consecutive, and the last one ends within lmb_live_bytes. */
 static void parts_fit(void)
 {
     static const int32_t sides[] = {1, 7, 64};

@@ -1,5 +1,5 @@
-/* test_live_grid.c: samples of single points' light on a wall: how many there are, what lies between them, what noise is
- * taken away; all of it by every back end. */
+/* test_live_grid.c: samples of the light at single points of a wall: their number, the pixels in between, the noise
+ * filter; on every backend. */
 #include <lambent/lambent.h>
 
 #include <stdlib.h>
@@ -23,7 +23,7 @@ static lmb_tile tile[TILES];
 static lmb_irradiance light[TILES];
 static live_grid grid;
 
-/* A wall of a centimetre a pixel; from column `bent` on it turns to the viewer. */
+/* A wall with 1 cm per pixel that turns towards the viewer from column `bent` on. */
 static void put_wall(int32_t bent)
 {
     lmb_lattice l;
@@ -51,7 +51,7 @@ static void put_wall(int32_t bent)
     }
 }
 
-/* Light what a level asks for. Returns how many samples that is. */
+/* Evaluates the samples of a level. Returns their number. */
 static int light_level(int32_t level, light_at at)
 {
     int count = 0;
@@ -79,7 +79,7 @@ static int light_level(int32_t level, light_at at)
     return count;
 }
 
-/* All that a frame does. Returns how many samples it took; *left: pixels that none explains. */
+/* All stages of a frame. Returns the number of samples; *left: pixels that no sample explains. */
 static int solve(const lmb_kernels *kernels, light_at at, int *left)
 {
     int count = light_level(0, at);
@@ -103,7 +103,7 @@ static int solve(const lmb_kernels *kernels, light_at at, int *left)
     return count;
 }
 
-/* The largest error of a pixel; `off`: how many are off by over a tenth. */
+/* The largest error of a pixel; `off`: pixels with an error of over a tenth. */
 static float worst(light_at at, int *off)
 {
     float out = 0.0f;
@@ -144,7 +144,7 @@ static void test_walls(const lmb_kernels *kernels)
     CHECK_MSG(count < FIRST + 40 && left > 0 && left < 4 * HIGH, "%d, %d", count, left);
 }
 
-/* A wall that turns: light of one side does not go on over the edge. */
+/* A wall that bends: the light of one side does not continue past the edge. */
 static float by_side(float x, float y) { return x >= 50.0f ? 5.0f : 1.0f + 0.0f * y; }
 
 static void test_edge(const lmb_kernels *kernels)
@@ -161,7 +161,7 @@ static void test_edge(const lmb_kernels *kernels)
     CHECK_MSG(wrong == 0, "%d pixels", wrong);
 }
 
-/* Shares that are off by noise become one; a shadow's edge stays. */
+/* Shares that differ by noise become equal; a shadow's edge stays. */
 static void test_noise(void)
 {
     float before = 0.0f, after = 0.0f, lit = 0.0f, dark = 0.0f;
@@ -190,7 +190,7 @@ static void test_noise(void)
     CHECK(count == 6 * ROWS);
 }
 
-/* The same light by all back ends. */
+/* The same light on all backends. */
 static void test_backends(void)
 {
     static lmb_irradiance first[TILES];

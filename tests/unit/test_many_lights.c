@@ -1,4 +1,4 @@
-/* test_many_lights.c: many lights: the stream's cells, their tree, a tile's cut, its shadows. [V3 V29] */
+/* test_many_lights.c: many lights: the cells of a stream, the tree over them, a tile's cut, shadows. [V3 V29] */
 #include <stdlib.h>
 
 #include "../world.h"
@@ -12,7 +12,7 @@ static const lmb_vec3 box_low = {-2, -1, -3}, box_high = {2, 3, 1};
 
 /* --- making them -------------------------------------------------------------------------------------------------- */
 
-/* A tree in memory of its own. */
+/* A tree with separate memory. */
 typedef struct grove {
     lmb_many_lights many_lights;
     void *memory;
@@ -31,7 +31,7 @@ static void grove_make(grove *g, uint32_t cells, float max, const lmb_light *l, 
 {
     grove_begin(g, cells, max);
     CHECK(lmb_many_lights_add(&g->many_lights, l, count) == LMB_OK && lmb_many_lights_build(&g->many_lights) == LMB_OK);
-    uint32_t unset = 0; /* what grove_begin left; lanes read past the last node */
+    uint32_t unset = 0; /* as grove_begin left it; lanes read past the last node */
     for (size_t i = 0; i < (size_t)g->many_lights.plane_step * LMB_MANY_LIGHTS_PLANES; ++i) {
         uint32_t word;
         memcpy(&word, &g->many_lights.plane[i], sizeof word);
@@ -43,13 +43,13 @@ static void grove_make(grove *g, uint32_t cells, float max, const lmb_light *l, 
 
 static void grove_free(grove *g) { free(g->memory); }
 
-/* Anywhere, in clusters of millimetres, in one place, on the box's sides, at zeros of both signs, the same twice, and
- * equally strong ones in different places. */
+/* Lights anywhere, in clusters of millimetres, at one point, on the box's sides, at zeros of both signs, duplicated,
+ * and of equal power at different points. */
 static void make_lights(uint32_t count, test_rng *r)
 {
     for (uint32_t i = 0; i < count; ++i) {
         lmb_light *l = &lights[i];
-        /* One after the other: which argument comes first is the compiler's choice. */
+        /* Separate statements: the compiler chooses the evaluation order of arguments. */
         const float z = test_uniform(r, -3, 1), y = test_uniform(r, -1, 3), x = test_uniform(r, -2, 2);
         *l = point_light(vec3(x, y, z));
         const uint32_t kind = test_random(r) % 8u;
@@ -69,7 +69,7 @@ static void make_lights(uint32_t count, test_rng *r)
     }
 }
 
-/* Spots of all widths and ways, some with hard edges, and suns, some of them close together, among the points. */
+/* Spots of all widths and directions, some with hard edges, and suns, some in similar directions, among the points. */
 static void make_kinds(uint32_t count, test_rng *r)
 {
     make_lights(count, r);
@@ -115,7 +115,7 @@ static int is_same_tree(const lmb_many_lights *a, const lmb_many_lights *b)
            memcmp(a->plane, b->plane, a->plane_step * LMB_MANY_LIGHTS_PLANES * sizeof *a->plane) == 0;
 }
 
-/* Any order, any slices: the same bytes, over little room (one cell) and much (every light its own). */
+/* Any order and slices give the same bytes, with few cells (one) and many (one per light). */
 static void check_order(test_rng *r)
 {
     static const uint32_t cells[] = {1, 7, CELLS, 2 * LIGHTS, 8, CELLS, 2 * LIGHTS};
@@ -144,7 +144,7 @@ static void check_order(test_rng *r)
     }
 }
 
-/* In quanta nothing is lost, whatever merges. */
+/* Quanta lose nothing when cells merge. */
 static void check_sums(test_rng *r)
 {
     grove g;
@@ -174,7 +174,7 @@ static void check_sums(test_rng *r)
     grove_free(&g);
 }
 
-/* The side is the least whose cells fit: with room for just these cells it is the same, with one less it is larger. */
+/* The cell side is the smallest that fits: the same with room for exactly these cells, larger with one cell less. */
 static void check_side(test_rng *r)
 {
     grove a, b, c;
@@ -192,7 +192,7 @@ static void check_side(test_rng *r)
     grove_free(&c);
 }
 
-/* The one drawn by lot is light i in a share of cases that is its share of the intensity: 1 to 3, over 4,000 pairs. */
+/* The random choice picks light i with a probability proportional to its intensity: 1 to 3, over 4,000 pairs. */
 static void check_lots(test_rng *r)
 {
     int strong = 0;
@@ -233,7 +233,7 @@ static void check_refusals(void)
           LMB_ERR_ALIGN);
     CHECK(lmb_many_lights_init(&g.many_lights, 4, box_low, box_high, 1, g.memory, bytes - 1) == LMB_ERR_CAPACITY);
     CHECK(memcmp(&before, &g.many_lights, sizeof before) == 0);
-    for (int i = 0; i < 3; ++i) { /* bad numbers, and a place outside */
+    for (int i = 0; i < 3; ++i) { /* invalid numbers, and a place out of bounds */
         l[i] = point_light(vec3(0, 0, 0));
         l[i].intensity[i] = bad[i];
     }
@@ -250,7 +250,7 @@ static void check_refusals(void)
     l[3] = sun(vec3((float)NAN, 0, 0));
     CHECK(lmb_many_lights_add(&g.many_lights, l, 4) == LMB_OK && g.many_lights.dropped == 10 &&
           g.many_lights.lights == 0);
-    l[0] = l[1] = sun(vec3(0, -1, 0)); /* kinds that are none */
+    l[0] = l[1] = sun(vec3(0, -1, 0)); /* invalid kinds */
     l[0].kind = LMB_LIGHT_DIRECTIONAL + 1;
     l[1].kind = -1;
     CHECK(lmb_many_lights_add(&g.many_lights, l, 2) == LMB_OK && g.many_lights.dropped == 12 &&
@@ -279,7 +279,7 @@ static float plane_at(const lmb_many_lights *m, int plane, uint32_t i)
     return m->plane[(uint32_t)plane * m->plane_step + i];
 }
 
-/* Children share out their parent's cells, in order, lie in its box, and give its light. */
+/* Children divide their parent's cells in order, lie in the parent's box, and sum to the parent's light. */
 static void check_parts(const lmb_many_lights *m, uint32_t i)
 {
     const lmb_many_lights_node *node = &m->node[i];
@@ -328,7 +328,7 @@ static void check_tree(test_rng *r)
 
 static lmb_many_lights_scratch scratch;
 
-/* A flat tile of 0.3 m, facing up. */
+/* A flat tile 0.3 m wide, facing up. */
 static void make_floor_tile(lmb_tile *t, lmb_vec3 at)
 {
     memset(t, 0, sizeof *t);
@@ -341,7 +341,7 @@ static void make_floor_tile(lmb_tile *t, lmb_vec3 at)
     }
 }
 
-/* The same by one light after the other. */
+/* The same with a loop over all lights. */
 static void sum_lights(double out[LMB_TILE_PIXELS], const lmb_tile *tile, uint32_t count, const lmb_bvh *bvh)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -366,7 +366,7 @@ static void sum_lights(double out[LMB_TILE_PIXELS], const lmb_tile *tile, uint32
     }
 }
 
-/* Root of the mean squared error over the mean, of green. */
+/* Root mean squared error over the mean, green channel. */
 static double off(const lmb_irradiance *e, const double want[LMB_TILE_PIXELS])
 {
     double sum = 0.0, mean = 0.0;
@@ -382,7 +382,7 @@ static double light_tile(lmb_irradiance *e, const lmb_tile *tile, const lmb_many
 {
     const lmb_many_lights_query how = {many_lights, bvh, error, 0, 0, NULL};
     memset(e, 0, sizeof *e);
-    memset(&scratch, 0x5a, sizeof scratch); /* what is in it means nothing */
+    memset(&scratch, 0x5a, sizeof scratch); /* the contents do not matter */
     scratch.nodes = scratch.tests = 0;
     CHECK(lmb_many_lights_direct_tile(e, picked_kernels(), &scratch, tile, &how) == LMB_OK);
     return off(e, want);
@@ -398,7 +398,8 @@ static int32_t check_heap(void)
     return scratch.open;
 }
 
-/* What the last tile's cut keeps of its sums, and where it stops: both rules hold, and nothing was parted in vain. */
+/* Checks the sums that the last tile's cut keeps and the stopping criteria: both limits hold, and no node was split
+ * needlessly. */
 static void check_stop(float asked)
 {
     double error = 0.0, light = 0.0;
@@ -416,8 +417,8 @@ static void check_stop(float asked)
     check_heap();
 }
 
-/* Without shadows: lights in cells of their own, all taken, are the sum of lmb_direct_tile; cuts err by less than
- * what they are asked for, and take the fewer nodes the more that is. */
+/* Without shadows: lights in separate cells, all selected, give the sum of lmb_direct_tile. Cuts stay within the
+ * requested error, and a larger error needs fewer nodes. */
 static void check_light(test_rng *r)
 {
     static const float asked[] = {0.003f, 0.02f, 0.1f, 0.5f}, max[] = {0.93f, 0.4f, 0.2f, 0.17f}; /* of all nodes */
@@ -442,7 +443,7 @@ static void check_light(test_rng *r)
         check_stop(asked[i]);
         nodes = scratch.nodes;
     }
-    for (int i = 0; i < 300; ++i) { /* twice the light: twice the sum, to the bit */
+    for (int i = 0; i < 300; ++i) { /* twice the light gives exactly twice the sum */
         for (int c = 0; c < 3; ++c) {
             lights[i].intensity[c] *= 2.0f;
         }
@@ -453,11 +454,11 @@ static void check_light(test_rng *r)
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         CHECK(e.rgb[1][k] == 2.0f * again.rgb[1][k] && again.rgb[1][k] > 0.0f);
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* the surface turned away: smooth normals let no light through */
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* back-facing surface: smooth normals do not leak light */
         set_plane(tile.face, k, k % 2 ? vec3(0, -1, 0) : Y);
     }
     light_tile(&again, &tile, &twice.many_lights, NULL, 0.02f, want);
-    for (int k = 1; k < LMB_TILE_PIXELS; k += 2) { /* and takes nothing from what is beside it */
+    for (int k = 1; k < LMB_TILE_PIXELS; k += 2) { /* and adjacent pixels do not matter */
         tile.id[k] = 0;
     }
     light_tile(&e, &tile, &twice.many_lights, NULL, 0.02f, want);
@@ -475,8 +476,8 @@ static void set_ranges(uint32_t count, test_rng *r)
     }
 }
 
-/* Ranges: any order, all nodes used, cuts within their error, no light used that ends before the tile. A single light
- * gives the result of lmb_direct_tile. */
+/* Ranges: any order, all nodes used, cuts within the error, and no light that ends before the tile. A single light
+ * equals lmb_direct_tile. */
 static void check_ranges(void)
 {
     test_rng own = {23}, *const r = &own;
@@ -500,7 +501,7 @@ static void check_ranges(void)
         } else {
             make_lights(300, r);
         }
-        for (int i = 0; i < 300; ++i) { /* no two at the same position, so that each has a cell */
+        for (int i = 0; i < 300; ++i) { /* all positions differ, so each light has a cell */
             lights[i].position = vec3(test_uniform(r, -2, 2), lights[i].position.y, lights[i].position.z);
         }
         set_ranges(300, r);
@@ -508,7 +509,7 @@ static void check_ranges(void)
         grove_make(&g, 400, 900.0f, lights, 300);
         CHECK_MSG(light_tile(&e, &tile, &g.many_lights, NULL, 1e-7f, want) < 1e-5, "%g", off(&e, want));
         const uint32_t all = scratch.nodes;
-        CHECK(all < 200); /* only the lights that reach so far */
+        CHECK(all < 200); /* only the lights in range */
         for (int i = 0; i < COUNT(asked); ++i) {
             const double error = light_tile(&e, &tile, &g.many_lights, NULL, asked[i], want);
             printf("  ranges, error %.3f: %3u nodes of %u, off by %.4f\n", (double)asked[i], (unsigned)scratch.nodes,
@@ -534,7 +535,7 @@ static void check_ranges(void)
     }
 }
 
-/* A room full of lights, far more than a cut holds, asked for too much: the cut stops at its capacity. */
+/* Far more lights in a room than a cut can hold, and too small an error: the cut stops at its capacity. */
 static void check_full_cut(test_rng *r)
 {
     static lmb_tile tile;
@@ -568,7 +569,7 @@ static void table_over_floor(lmb_bvh *out)
     CHECK(lmb_bvh_build(out, &world.scene) == LMB_OK);
 }
 
-/* A plate over a floor, lights above and below it. */
+/* A plate above a floor, with lights above and below the plate. */
 static void check_shadows(test_rng *r)
 {
     static lmb_tile tile;
@@ -588,7 +589,7 @@ static void check_shadows(test_rng *r)
     printf("  1000 lights, a plate: worst of 64 tiles off by %.4f\n", worst);
     CHECK_MSG(worst < 0.06, "%g", worst);
     grove_free(&g);
-    /* Closed in: dark to the last bit. */
+    /* Enclosed: exactly dark. */
     world_begin(0.5f, 0.5f, 0.5f);
     world_box(vec3(0, 1, -1), 0.3f);
     CHECK(world_end() == LMB_OK);
@@ -605,7 +606,7 @@ static void check_shadows(test_rng *r)
     grove_free(&g);
 }
 
-/* One sun among weak lights, over a tile whose four corners alone are in shadow: each pixel asks for what is strong. */
+/* One sun among weak lights, over a tile with only the four corners in shadow: every pixel tests the strong light. */
 static void check_corners(void)
 {
     static uint64_t memory[2000];
@@ -635,8 +636,8 @@ static void check_corners(void)
     grove_free(&g);
 }
 
-/* 300 spots, then a mixture, then suns alone: each light in a cell of its own and all taken give their sum; cuts err by
- * less than they are asked to. Over a floor with a plate, so that cones and shadows meet. */
+/* 300 spots, then a mixture, then only suns: with one cell per light and all selected, the result is their sum; cuts
+ * stay within the requested error. A plate above the floor combines cones and shadows. */
 static void check_kinds(test_rng *r)
 {
     static const float asked[] = {0.01f, 0.04f};
@@ -651,14 +652,14 @@ static void check_kinds(test_rng *r)
         uint32_t all = 0, taken[2] = {0, 0};
         double exact = 0.0, worst[2] = {0.0, 0.0}, sum[2] = {0.0, 0.0};
         make_kinds(300, r);
-        for (int i = 0; i < 300; ++i) { /* no two in one place and way, so that each has a cell */
+        for (int i = 0; i < 300; ++i) { /* all differ in position and direction, so each light has a cell */
             lights[i].position = vec3(test_uniform(r, -2, 2), lights[i].position.y, lights[i].position.z);
             const int turned = absf(length3(lights[i].direction) - 1.0f) < 1e-3f;
             lights[i].kind = set == 1 || !turned ? lights[i].kind : set == 0 ? LMB_LIGHT_SPOT : LMB_LIGHT_DIRECTIONAL;
         }
         grove_make(&g, 400, 900.0f, lights, 300);
         CHECK(g.many_lights.lights == 300 && g.many_lights.node[0].lights == 300);
-        for (uint32_t i = 0; i < g.many_lights.node_count; ++i) { /* of suns the mean is a direction, too */
+        for (uint32_t i = 0; i < g.many_lights.node_count; ++i) { /* for suns the mean is a direction too */
             const lmb_many_lights_node *n = &g.many_lights.node[i];
             CHECK(n->kind != LMB_LIGHT_DIRECTIONAL || absf(length3(n->position) - 1.0f) < 1e-4f);
         }
@@ -687,7 +688,7 @@ static void check_kinds(test_rng *r)
     }
 }
 
-/* --- what bounces ------------------------------------------------------------------------------------------------- */
+/* --- bounced light ------------------------------------------------------------------------------------------------ */
 
 enum { ELEMENTS = 4096, BOUNCING = 100 };
 
@@ -719,7 +720,7 @@ static void *make_elements(lmb_elements *e)
     return memory;
 }
 
-/* Every light at every element, green alone. */
+/* Every light at every element, green channel only. */
 static void light_elements(const lmb_elements *e, const lmb_bvh *b)
 {
     static lmb_tile tile;
@@ -731,7 +732,7 @@ static void light_elements(const lmb_elements *e, const lmb_bvh *b)
             const lmb_vec3 *c = x->corner;
             const lmb_vec3 middle = mul3(add3(c[0], add3(c[1], c[2])), 1.0f / 3.0f);
             lmb_vec3 across = cross3(sub3(c[1], c[0]), sub3(c[2], c[0]));
-            /* the key's first bits are the side that it faces */
+            /* the first bits of the key are the side that the element faces */
             const float along[3] = {across.x, across.y, across.z}, side = (x->key >> 27) & 1u ? -1.0f : 1.0f;
             across = mul3(across, side * along[x->key >> 28] < 0.0f ? -1.0f : 1.0f);
             set_plane(tile.position, (int)k, middle);
@@ -747,7 +748,8 @@ static void light_elements(const lmb_elements *e, const lmb_bvh *b)
     }
 }
 
-/* The tree of lights gives elements what all lights one by one do, and a floor in the room what those reflect. */
+/* Elements receive the same from the tree of lights as from all lights, and a floor in the room receives the light that
+ * they reflect. */
 static void check_bounce(test_rng *r)
 {
     static lmb_tile tile, own;
@@ -772,7 +774,7 @@ static void check_bounce(test_rng *r)
     CHECK_MSG(off_sum < 0.02 * sum && sum > 0.0, "%g of %g", off_sum, sum);
     CHECK(lmb_many_lights_elements_done(&e) == LMB_OK && lmb_many_lights_elements_done(&brute) == LMB_OK);
     CHECK(lmb_elements_send(&e, 1) == LMB_OK && lmb_elements_send(&brute, 1) == LMB_OK);
-    CHECK(e.level > brute.level && brute.level > 0.0f); /* of three channels, and of green alone */
+    CHECK(e.level > brute.level && brute.level > 0.0f); /* of three channels, and of green only */
     const lmb_cut_params cut_params = {.error = 0.01f, .visibility = 0.01f, .bvh = &b};
     double mean = 0.0, wrong = 0.0;
     for (int i = 0; i < 16; ++i) {

@@ -1,4 +1,4 @@
-/* test_map_picture.c: what `lambent render --show` writes of a shadow map: each texel against its own ray and flux. */
+/* test_map_picture.c: pictures of a shadow map by `lambent render --show`: each texel against its ray and flux. */
 #include <math.h>
 #include <string.h>
 
@@ -32,7 +32,7 @@ static struct memory {
 static lmb_light lights[2];
 static lmb_scene lit;
 
-/* A point light of six faces, then the demo's spot; the spot alone where there is room for one. */
+/* A point light with six faces, then the demo's spot; only the spot if there is room for one. */
 static void set_scene(void)
 {
     lit = *demo_scene();
@@ -88,14 +88,14 @@ static void solve(const lmb_frame *f, int32_t past)
     CHECK(workers_light(&c, &stage, &m.render, f, past) == LMB_OK && m.render.stage == past);
 }
 
-/* Every texel of every face, with its surface and the power that goes through it, to `see`. */
+/* Calls `see` for every texel of every face, with the surface and the power through the texel. */
 typedef struct seen {
     const image *picture;
     const float *pixel;
     uint32_t light;
     int32_t face, k; /* of m.tile */
     float power[3];
-    int lit; /* any of it, and a surface to meet it */
+    int lit; /* some power, and a surface that it meets */
 } seen;
 
 static void see_tile(const image *p, uint32_t light, int32_t face, void (*see)(const seen *s))
@@ -143,7 +143,7 @@ static void see_distance(const seen *s)
     wrong += !(absf(s->pixel[0] - want) <= 1e-4f * want);
 }
 
-/* V6, V33: metres from the light, in its cone. */
+/* V6, V33: metres from the light, inside the cone. */
 static void test_distances(void)
 {
     image p;
@@ -160,7 +160,7 @@ static void test_distances(void)
 /* --- groups ------------------------------------------------------------------------------------------------------- */
 
 static double owned[LMB_MAX_GROUPS + 2]; /* W by number: [0] dropped, [k + 1] group k */
-static double lost;                      /* W of texels that are lit, yet belong to nobody */
+static double lost;                      /* W of lit texels without an owner */
 
 static void see_owner(const seen *s)
 {
@@ -175,7 +175,7 @@ static void see_owner(const seen *s)
     }
 }
 
-/* The share of the flux that is not where its group has it. */
+/* The share of the flux in texels of the wrong group. */
 static double misplaced(const lmb_frame *f)
 {
     image p;
@@ -197,8 +197,8 @@ static double misplaced(const lmb_frame *f)
     return off / all;
 }
 
-/* V33: the light of the texels of one number is what its group sends, whether points have joined, were thinned out, or
- * neither; dropped discs' texels hold what strict zones lose [V20]. */
+/* V33: the light of all texels with one number equals the light that the group sends, whether points were joined,
+ * thinned out, or neither; texels of dropped discs have the light that strict zones lose [V20]. */
 static void test_owners(void)
 {
     lmb_frame f = make_frame();
@@ -224,7 +224,7 @@ static void test_owners(void)
     CHECK_MSG(dropped > 0.0 && fabs(owned[0] / dropped - 1.0) < 1e-4, "%g W dropped, %g W seen", dropped, owned[0]);
 }
 
-/* As many colours as groups are seen, and the same one for the same number. */
+/* As many colours as visible groups, and one colour per number. */
 static void test_colours(void)
 {
     static float colour[LMB_MAX_GROUPS + 1][3];
@@ -257,7 +257,7 @@ static void test_colours(void)
 
 /* --- first points ------------------------------------------------------------------------------------------------- */
 
-/* The exitance of some point of the texel's cell. */
+/* The exitance of a point in the texel's cell. */
 static void see_point(const seen *s)
 {
     const int32_t x = m.tile.x + s->k % LMB_TILE, y = m.tile.y + s->k / LMB_TILE;
@@ -296,7 +296,7 @@ static void test_first_points(void)
     image_free(&p);
 }
 
-/* Near is bright, nothing is black; shares and normals keep their ends. */
+/* Near is bright, nothing is black; shares and normals keep their extremes. */
 static void test_greys(void)
 {
     float far[5] = {2.0f, 0.0f, 1.0f, 1.5f, 3.0f}, share[3] = {0.0f, 1.0f, 0.5f}, normal[3] = {-1.0f, 0.0f, 1.0f};
@@ -311,7 +311,7 @@ static void test_greys(void)
     CHECK(normal[0] == 0.0f && normal[1] == 0.5f && normal[2] == 1.0f);
 }
 
-/* No picture that the writers take. */
+/* A picture too large for the writers. */
 static void test_too_large(void)
 {
     image p;

@@ -1,4 +1,4 @@
-/* test_mend.c: what the pixels around one show, against what it shows itself. Requirement P12. */
+/* test_mend.c: a pixel against the pixels around it. Requirement P12. */
 #include <string.h>
 
 #include "../../src/base/vec.h"
@@ -9,7 +9,7 @@ void test_mend(void);
 
 #if LMB_RELIEF
 
-#define AWAY 10.0f /* m: a wall before the eye, a pixel of 1 m on it */
+#define AWAY 10.0f /* m: a wall in front of the eye, 1 m per pixel */
 
 typedef struct wall {
     lmb_tile tile;
@@ -31,7 +31,7 @@ static void set_depth(wall *w, int k, float depth)
     put(w->tile.position, k, vec3((float)(k % LMB_TILE) - 3.5f, 3.5f - (float)(k / LMB_TILE), -depth));
 }
 
-/* A tile is the whole picture, seen along -z. */
+/* A tile that is the whole picture, viewed along -z. */
 static void build(wall *w, lmb_vec3 normal)
 {
     memset(w, 0, sizeof *w);
@@ -54,7 +54,7 @@ static void build(wall *w, lmb_vec3 normal)
 
 static void mend(wall *w) { lmb_relief_mend(&w->tile, &w->found, &w->job, &w->view); }
 
-/* Within four pixels' sides of depth two pixels show one surface. */
+/* Pixels within four pixel sides of depth show one surface. */
 static void test_near_by(void)
 {
     static const float off[] = {3.5f, 4.5f, -3.5f, -4.5f};
@@ -68,7 +68,7 @@ static void test_near_by(void)
     }
 }
 
-/* A hole in a corner, beside planes that nearly lie along its ray: under a cosine of 0.05 they tell no depth. */
+/* A hole in a corner, beside planes nearly along its ray: below a cosine of 0.05 they give no depth. */
 static void test_edge_on(void)
 {
     static const float cosine[] = {0.04f, 0.06f, -0.06f};
@@ -82,7 +82,7 @@ static void test_edge_on(void)
     }
 }
 
-/* A row of holes is mended from both ends, a pixel in each of three looks. */
+/* A row of holes is mended from both ends, one pixel per pass in three passes. */
 static void test_passes(void)
 {
     wall w;

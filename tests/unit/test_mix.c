@@ -1,5 +1,5 @@
-/* test_mix.c: the steps of `lambent mix` on a photo of a floor and a wall that is known: where the object stands, what
- * the surfaces reflect, and what happens where there is nothing to stand on. [M4 M5 M7 M24] */
+/* test_mix.c: the steps of `lambent mix` on a photo of a known floor and wall: placement of the object, reflectance of
+ * the surfaces, and photos without a surface to place it on. [M4 M5 M7 M24] */
 #include "../folder.h"
 
 #include <math.h>
@@ -15,12 +15,12 @@ enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT };
 
 static const float GREY = 0.3f;
 static const lmb_pinhole camera = {WIDTH, HEIGHT, 80.0f, 80.0f, 47.5f, 35.5f};
-static char square[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, a unit wide and high */
+static char square[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, one unit wide and high */
 
 #define RED  "point:-0.6,0.5,-1.2:0,-1,0:2,0,0"
 #define BLUE "point:0.6,0.5,-1.2:0,-1,0:0,0,2"
 
-/* A job with a grey photo, and what more its command line says. */
+/* A job with a grey photo and `more` options. */
 static mix_job *begin(char *const *more, int count)
 {
     char *argv[24] = {"mix", "--frame", "known", "--voxels", "4", "--shadow-map", "64", "-o", "known.pfm"};
@@ -32,7 +32,7 @@ static mix_job *begin(char *const *more, int count)
     return j;
 }
 
-/* A wall `far` ahead; a floor half a metre under the camera, unless it is to be left out. */
+/* A wall at `far`, and optionally a floor half a metre below the camera. */
 static void set_depth(mix_job *j, float far, int has_floor)
 {
     for (int i = 0; i < PIXELS; ++i) {
@@ -48,7 +48,7 @@ static int place(mix_job *j)
     return mix_find_planes(j, &r) && mix_place(j, &r);
 }
 
-/* --- where it stands ---------------------------------------------------------------------------------------------- */
+/* --- placement ---------------------------------------------------------------------------------------------------- */
 
 static void stands_on_floor(void)
 {
@@ -58,13 +58,13 @@ static void stands_on_floor(void)
     CHECK(place(j) && j->faces_up && j->inside && j->floor >= 0);
     CHECK_MSG(fabsf(j->anchor.y + 0.5f) < 1e-3f && fabsf(j->gap_m) < 1e-3f, "%g %g", (double)j->anchor.y,
               (double)j->gap_m);
-    /* In units of the floor's shorter side, a sixth; less where the picture has no room. */
+    /* One sixth of the floor's shorter side, or less if the picture has no room. */
     CHECK_MSG(j->scale > 0.05f && j->scale < 0.4f, "%g", (double)j->scale);
     mix_job_free(j);
 }
 
-/* The measured floor is so much lower than the plane is by then: the object goes there, with its plane; a step of more
- * than sensors bend a plane by stays, and is said. */
+/* The measured floor is `step` below the plane: the object and the plane move there. A step larger than sensors distort
+ * a plane is kept and reported. */
 static void touches(float step, int goes)
 {
     char *object[] = {"--object", square};
@@ -86,7 +86,7 @@ static void touches(float step, int goes)
     mix_job_free(j);
 }
 
-/* A size that was asked for is kept, and said to be too large. */
+/* An explicit size is kept and reported as too large. */
 static void size_is_kept(void)
 {
     char *object[] = {"--object", square, "--scale", "1.5"};
@@ -96,10 +96,10 @@ static void size_is_kept(void)
     mix_job_free(j);
 }
 
-/* A room: a floor, a table on it, a wall behind; its camera looks down a little. */
+/* A room with a floor, a table on it and a wall behind. The camera is pitched down a little. */
 typedef struct room {
-    float height, pitch, table, wall; /* m, m, m: of the camera, of the table's top; along the floor */
-    float low[2], high[2];            /* of the table: to the right, and away */
+    float height, pitch, table, wall; /* m: of the camera, of the table top, distance to the wall */
+    float low[2], high[2];            /* of the table: x and distance */
 } room;
 
 static room random_room(test_rng *rng)
@@ -110,7 +110,7 @@ static room random_room(test_rng *rng)
     return r;
 }
 
-/* A ray of the room: down by the pitch. Its floor is y = -height. */
+/* A ray rotated by the pitch into the room, in which the floor is y = -height. */
 static lmb_vec3 room_ray(const room *r, lmb_vec3 ray)
 {
     const float c = cosf(r->pitch), s = sinf(r->pitch);
@@ -132,7 +132,7 @@ static void set_room(mix_job *j, const room *r)
     }
 }
 
-/* How high over the floor the object stands, and how far before the wall. */
+/* The object's height over the floor and distance to the wall. */
 static void stands_at(float *high, float *before, const mix_job *j, const room *r)
 {
     const lmb_vec3 at = room_ray(r, j->anchor);
@@ -140,7 +140,7 @@ static void stands_at(float *high, float *before, const mix_job *j, const room *
     *before = r->wall + at.z;
 }
 
-/* In rooms of their own: seeds under 100 are what the code was written with, the others are not. */
+/* Random rooms: seeds under 100 were used for development, the others were held out. */
 static void stands_on_what_is_asked(void)
 {
     static const char *const ons[] = {"floor", "table", "wall"};
@@ -164,8 +164,8 @@ static void stands_on_what_is_asked(void)
     }
 }
 
-/* A steep floor below a panel that stands out of the wall stays where it was measured: the mean of the pixels below would
- * lie before what stands there. */
+/* A steep floor below a panel that protrudes from the wall stays as measured: the mean of the pixels below would lie in
+ * front of the panel. */
 static void floor_stays(void)
 {
     static float front[PIXELS];
@@ -195,7 +195,8 @@ static void floor_stays(void)
     mix_job_free(j);
 }
 
-/* A table on a floor, and no wall: its edge is upright, and too thin for one; a chest's front is none too thin. */
+/* A table on a floor, no wall. The table's edge is vertical but too thin to be a wall; a chest's front is thick
+ * enough. */
 static void edge_is_no_wall(float thick, int is_wall)
 {
     static const room looks_down = {.pitch = 0.5f};
@@ -214,7 +215,7 @@ static void edge_is_no_wall(float thick, int is_wall)
     mix_job_free(j);
 }
 
-/* There is nothing of that kind: it is said which. */
+/* If there is no such surface, the error names the missing kind. */
 static void asked_for_nothing(void)
 {
     char *table[] = {"--object", square, "--on", "table"};
@@ -225,7 +226,7 @@ static void asked_for_nothing(void)
     mix_job_free(j);
 }
 
-/* Without --fit and --scale a unit is a metre, also where that is absurd; where the object may be seen as a whole, it
+/* Without --fit and --scale one unit is a metre, even if that is absurd. If the object can be entirely visible, it
  * is. */
 static void metres_are_its_own(void)
 {
@@ -247,7 +248,7 @@ static void metres_are_its_own(void)
     }
 }
 
-/* A needle that lies from corner to corner of its box: by the box it would be far wider than it is in the picture. */
+/* A needle along the diagonal of its bounding box: the box would appear far wider than the needle. */
 static void size_by_its_own(void)
 {
     static const char needle[] = "v -1 0 -1\nv 1 2 1\nv 1 2.01 1\nv -1 0.01 -1\nf 1 2 3 4\nf 4 3 2 1\n";
@@ -268,8 +269,8 @@ static void size_by_its_own(void)
     folder_close(&f);
 }
 
-/* One wall, no floor: it hangs there upright, and it is known to be none that faces up. So it does where the wall is
- * asked for by a pixel. What lay on the wall, as on a floor, would stand out of it sideways. */
+/* One wall, no floor: the object hangs upright, and faces_up is 0. The same holds if --at selects the wall. If it lay
+ * on the wall as on a floor, it would stick out sideways. */
 static void no_floor(void)
 {
     char *object[] = {"--object", square, "--at", "48,10"};
@@ -287,10 +288,10 @@ static void no_floor(void)
     mix_job_free(j);
 }
 
-/* --- what the photo says ------------------------------------------------------------------------------------------ */
+/* --- surfaces and light from the photo ---------------------------------------------------------------------------- */
 
-/* Surroundings of GREY give pi GREY, and a light from above gives the floor alone 0.7 of that more: there the photo's
- * GREY is that of an albedo of 1 / 1.7, and 1, which nothing has, on the wall. */
+/* Surroundings of GREY give an irradiance of pi GREY, and a light from above adds 0.7 of this to the floor only. On the
+ * floor GREY then means an albedo of 1 / 1.7; on the wall 1, which no surface has. */
 static void albedo_is_told(void)
 {
     char light[80];
@@ -308,13 +309,13 @@ static void albedo_is_told(void)
         cells[is_floor]++;
         wrong[is_floor] += colour[0] < want - 2 || colour[0] > want + 2 || colour[1] != colour[0];
     }
-    /* A row of cells goes over the edge between both. */
+    /* One row of cells crosses the edge between floor and wall. */
     CHECK_MSG(cells[0] > 100 && cells[1] > 50 && wrong[0] + wrong[1] <= WIDTH / 4, "%d of %d, %d of %d", wrong[0],
               cells[0], wrong[1], cells[1]);
     mix_job_free(j);
 }
 
-/* Nothing is put in: not a bit changes, whatever lights there are. */
+/* Without an object no bit changes, whatever the lights. */
 static void nothing_changes(void)
 {
     char *more[] = {"--light", "sun:0,0,0:0.1,-1,0:2,2,2"};
@@ -330,10 +331,10 @@ static void nothing_changes(void)
     mix_job_free(j);
 }
 
-/* --- what lamps send ---------------------------------------------------------------------------------------------- */
+/* --- light from lamps --------------------------------------------------------------------------------------------- */
 
-/* W that voxels without the object hold of a spot over the floor, by maps of that many texels a side; *around: of what
- * is around, the share that is left with the object. */
+/* Flux in W that the voxels without the object receive from a spot over the floor, for a shadow map of `texels` a side;
+ * *around: share of the surroundings that remains with the object. */
 static double lamp_flux(float *around, int32_t texels, const char *light, char *scale)
 {
     char spot[100];
@@ -354,7 +355,7 @@ static double lamp_flux(float *around, int32_t texels, const char *light, char *
     return flux;
 }
 
-/* All of a light's map counts, also where several of its texels are one first point. */
+/* The whole shadow map counts, even if several texels form one first point. */
 static void maps_count_whole(void)
 {
     static const char spot[] = "spot:0,1,-1.6:0,-1,0:9,9,9:30,40";
@@ -363,8 +364,8 @@ static void maps_count_whole(void)
     CHECK_MSG(fabs(fine - coarse) < 0.02 * coarse, "%g W, %g W", fine, coarse);
 }
 
-/* What is around darkens by what the object takes of a lamp's light: nothing where it stands beside that, the more the
- * larger it is, and of a sun nothing. */
+/* The surroundings darken by the lamp light that the object takes: a larger object takes more. One beside the cone
+ * takes nothing, and a sun has no effect. */
 static void around_darkens(void)
 {
     float small, large, beside, sunny;
@@ -382,7 +383,7 @@ static void around_darkens(void)
 #define BLOCK_LOW  ((lmb_vec3){-0.75f, -0.5f, -1.75f})
 #define BLOCK_HIGH ((lmb_vec3){-0.45f, -0.15f, -1.45f})
 
-/* Where a ray of the camera's space enters the block; infinite where it does not. */
+/* Distance at which a ray in camera space enters the block; infinite if it misses. */
 static float block_at(lmb_vec3 from, lmb_vec3 along)
 {
     const float p[3] = {from.x, from.y, from.z}, d[3] = {along.x, along.y, along.z},
@@ -396,7 +397,7 @@ static float block_at(lmb_vec3 from, lmb_vec3 along)
     return first <= last ? first : INFINITY;
 }
 
-/* A block on the floor, and its shadow by a sun from there, with `dark` of the light beside it. */
+/* A block on the floor. Its sun shadow has `dark` times the light of the lit floor. */
 static void set_block(mix_job *j, lmb_vec3 to_sun, float dark)
 {
     const lmb_vec3 eye = {0, 0, 0};
@@ -412,8 +413,8 @@ static void set_block(mix_job *j, lmb_vec3 to_sun, float dark)
     }
 }
 
-/* A block's shadow tells where the sun is, how strong and that it is hard. Without the shadow, or where half of the floor is
- * dark and nothing stands there, a weak and wide one is overhead: the guess was 50 degrees off and from a side. */
+/* A block's shadow gives the sun's direction, strength and hardness. If the shadow is missing, or half of the floor is
+ * dark without a blocker, the guess must be a weak, wide sun overhead: it was 50 degrees off, from the side. */
 static void sun_is_by_shadows(void)
 {
     static const float ways[4][3] = {{-0.6f, 0.7f, 0.2f}, {0.5f, 0.8f, 0.5f}, {-0.3f, 0.6f, -0.7f}, {0.8f, 0.6f, -0.1f}};
@@ -442,7 +443,7 @@ static void sun_is_by_shadows(void)
     }
 }
 
-/* On a wall it is in front of that. */
+/* If the object hangs on a wall, the sun is in front of the wall. */
 static void sun_is_before_walls(void)
 {
     char *object[] = {"--object", square, "--quiet", "--at", "50,36"};
@@ -456,7 +457,7 @@ static void sun_is_before_walls(void)
     mix_job_free(j);
 }
 
-/* Without a light in it the photo changes by what the object hides of what is around, and no sun is guessed. */
+/* Without lights, the photo changes only because the object blocks its surroundings, and no sun is guessed. */
 static void no_light_is_none(void)
 {
     char *more[] = {"--object", square, "--at", "47,64", "--scale", "0.3", "--light", "none", "--quiet"};
@@ -468,8 +469,8 @@ static void no_light_is_none(void)
     mix_job_free(j);
 }
 
-/* Specks of the floor that were measured where the wall's plane goes on below it are not the wall's, and those within noise are
- * the floor's. */
+/* Specks of the floor measured on the extension of the wall's plane do not belong to the wall; specks within noise
+ * belong to the floor. */
 static void specks_are_no_plane(void)
 {
     char *more[] = {"--quiet"};
@@ -491,8 +492,8 @@ static void specks_are_no_plane(void)
     mix_job_free(j);
 }
 
-/* A guessed sun's width in degrees for a floor half of which has `dark` of the light of the other half, and *up: what comes
- * down on the floor of all light, over what the photo's floor shows. */
+/* Angular size in degrees of a guessed sun when half of the floor has `dark` of the other half's light; *up: irradiance
+ * on the floor from all lights, relative to the photo's floor. */
 static float guessed_size(float *up, float dark, float wall)
 {
     char *object[] = {"--object", square, "--scale", "0.3", "--quiet"};
@@ -518,8 +519,9 @@ static float guessed_size(float *up, float dark, float wall)
     return size;
 }
 
-/* Without a shadow in the photo the sun is wide, also where half of the floor is dark and nothing explains that. A floor that is as bright as what is around is taken
- * for grey; one that is three times as bright, for white: no surface reflects more light than there is. */
+/* If the photo shows no shadow, the sun is wide, even when half of the floor is dark for no visible reason. A floor as
+ * bright as its surroundings counts as grey; one three times as bright counts as white, because no surface reflects
+ * more light than it receives. */
 static void sun_fits_the_photo(void)
 {
     float plain, shadowed, bright;
@@ -530,7 +532,7 @@ static void sun_fits_the_photo(void)
     CHECK_MSG(bright > 1.2f && bright < 1.5f, "%g", (double)bright);
 }
 
-/* A photo of a floor that is brighter than what is around makes of white, with an object that has its place. */
+/* A photo with a floor brighter than a white one would be in its surroundings, and a placed object. */
 static mix_job *bright_floor(char **more, int count)
 {
     mix_job *j = begin(more, count);
@@ -543,7 +545,7 @@ static mix_job *bright_floor(char **more, int count)
     return j;
 }
 
-/* Pixels that hold no number say nothing of how bright the photo is, wherever they are. */
+/* Pixels that are not numbers do not affect the photo's brightness, wherever they are. */
 static void no_number_says_nothing(void)
 {
     char *more[] = {"--object", square, "--at", "47.5,60", "--scale", "0.3", "--quiet"};
@@ -561,7 +563,7 @@ static void no_number_says_nothing(void)
         for (int k = 0; k < 3 * PIXELS && i == 1; ++k) { /* the right half */
             j->frame.light.pixels[k] = k / 3 % WIDTH >= WIDTH / 2 ? NAN : j->frame.light.pixels[k];
         }
-        lmb_env_dim(&j->env[0], &j->env[0], half); /* the guess made it as bright as the photo wants */
+        lmb_env_dim(&j->env[0], &j->env[0], half); /* the guess matched the photo's brightness */
         mix_guess_sun(&sun, j);
         lmb_env_irradiance(rgb[i], &j->env[0], (lmb_vec3){0, 1, 0});
         mix_job_free(j);
@@ -570,7 +572,8 @@ static void no_number_says_nothing(void)
               (double)rgb[1][1]);
 }
 
-/* An object that its file has in the world has the light of one that is put there: neither is by the camera. */
+/* An object with world coordinates in its file gets the same light as one placed there; neither depends on the
+ * camera. */
 static void world_has_the_same_light(void)
 {
     static folder f;
@@ -600,7 +603,7 @@ static void world_has_the_same_light(void)
     folder_close(&f);
 }
 
-/* A job's lights and the view of its photo. */
+/* Finds a job's lights and the view of the photo. */
 static void find_lights(mix_job *j, lmb_view *view)
 {
     report r = {""};
@@ -617,9 +620,9 @@ static void get_tile(lmb_tile *out, const mix_job *j, int t)
                   t / (WIDTH / LMB_TILE) * LMB_TILE);
 }
 
-/* Tiles that no shadow of the object reaches are the photo's bit for bit, and the others are as if all lights had been
- * asked for each of them: by a sun from a side, whose shadow is in the picture, and by a lamp. Where what is around differs
- * with the object each light is asked, too, also behind one that has a size. */
+/* Tiles outside the object's shadows keep the photo's bits, and the others equal a test of all lights for each tile:
+ * for a sun from the side with a visible shadow, and for a lamp. If the object changes the surroundings, every light is
+ * tested, even behind one with a size. */
 static void lights_are_asked_where_they_change(void)
 {
     static const char *const lights[3][3] = {{"sun:0,0,0:1,-0.5,0.2:2,2,2:30"},
@@ -656,11 +659,11 @@ static void lights_are_asked_where_they_change(void)
                 CHECK(memcmp(&some[0], &some[1], sizeof some[0]) == 0);
                 same += some[0].rgb[0][0] == 0.0f && all[0].rgb[0][0] > 0.0f;
             }
-            other[1].rgb[2][0] = 1e-30f; /* too little to show in a sum */
+            other[1].rgb[2][0] = 1e-30f; /* too small to change a sum */
             memset(&direct, 0, sizeof direct);
             mix_lights_tile(&other[0], &other[1], &direct, j, &view, &tile);
             CHECK_MSG(memcmp(&all[0], &other[0], sizeof all[0]) == 0, "light %d, tile %d: not all are asked", i, t);
-            /* What the frame before knows is taken, where no shadow of the object can fall; the rest is asked. */
+            /* Light known from the previous frame is reused outside the object's shadows; the rest is recomputed. */
             again = direct;
             again.known &= 0x00ff00ff00ff00ffu;
             for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -684,8 +687,8 @@ static void lights_are_asked_where_they_change(void)
     }
 }
 
-/* Suns from all sides, and from behind the camera, by which the object's box is no larger than its shadow: a tile that an
- * edge of that alone touches is asked with the object, too. */
+/* Suns from all sides. For those behind the camera, the object's box is no larger than the shadow: a tile that only the
+ * shadow's edge touches is also computed with the object. */
 static void shadows_that_touch_a_tile(void)
 {
     test_rng rng = {77};
@@ -724,8 +727,8 @@ static void shadows_that_touch_a_tile(void)
     CHECK_MSG(changed > 100, "%d tiles change", changed);
 }
 
-/* A mirror that faces the camera shows the wall behind that, which no photo does: where a lamp lights it, as bright as that
- * makes it; a sun makes no room. The room has the camera and the lamp, and is as wide as what is measured. */
+/* A mirror facing the camera reflects the wall behind it, which no photo shows: as bright as the lamp makes it. A sun
+ * creates no room. The room contains the camera and the lamp and is as wide as the measured scene. */
 static void metal_mirrors_the_room(void)
 {
     static const char *const lights[3] = {"point:0.4,0.3,0.3:0,-1,0:0.4,0.4,0.4", "point:0.4,0.3,0.3:0,-1,0:4,4,4",
@@ -756,7 +759,7 @@ static void metal_mirrors_the_room(void)
               (double)shown[1]);
 }
 
-/* By a sun that has a size and two lamps of other colours. */
+/* Lit by a sun with a size and two lamps of other colours. */
 static mix_job *lit_by(const char *first, const char *second)
 {
     char sun[] = "sun:0,0,0:1,-0.5,0.2:1,1,1:5", light[2][40];
@@ -771,7 +774,7 @@ static mix_job *lit_by(const char *first, const char *second)
     return j;
 }
 
-/* Which lamp is told first says nothing: each of them counts once. */
+/* The order of the lamps does not matter: each counts once. */
 static void order_of_lights_says_nothing(void)
 {
     mix_job *a = lit_by(RED, BLUE), *b = lit_by(BLUE, RED);
@@ -789,7 +792,7 @@ static void order_of_lights_says_nothing(void)
     mix_job_free(b);
 }
 
-/* A sun of 16 degrees lights the floor beside the shadow's middle in part, and one without a size does not. */
+/* A sun of 16 degrees partly lights the floor next to the umbra; one without a size does not. */
 static void size_softens(void)
 {
     static const char *const lights[2] = {"sun:0,0,0:1,-1,0:2,2,2", "sun:0,0,0:1,-1,0:2,2,2:16"};
@@ -829,8 +832,8 @@ static mix_job *draw_with(const lmb_material *look)
     return j;
 }
 
-/* A metal shows the grey that is around it, a lamp what it emits; and it lights the floor before it. Neither was so: a
- * metal has no albedo. */
+/* A metal reflects the grey around it, a lamp shows its emission, and both light the floor in front. Neither did once,
+ * because a metal has no albedo. */
 static void objects_show_light(void)
 {
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.4f, .flags = LMB_DOUBLE_SIDED};
@@ -852,7 +855,7 @@ static void objects_show_light(void)
     mix_job_free(j);
 }
 
-/* Beside what stands on the floor the nearest of the floor's pixels is named. */
+/* For a pixel beside the floor, the message names the nearest floor pixel. */
 static void place_is_named(void)
 {
     char *object[] = {"--object", square, "--at", "10,5"};
@@ -867,8 +870,8 @@ static void place_is_named(void)
     mix_job_free(j);
 }
 
-/* Of a pixel that shows nothing at the picture's edge, the line names one where the object has room: half a metre wide it
- * has none at the nearest pixel of the floor. */
+/* For a pixel without a surface at the picture's edge, the message names one with room for the object: half a metre
+ * wide, it does not fit at the nearest floor pixel. */
 static void place_has_room(void)
 {
     char *object[] = {"--object", square, "--at", "0,70", "--scale", "0.5"};
@@ -877,7 +880,7 @@ static void place_has_room(void)
     mix_job *j = begin(object, 6);
     report r = {""};
     set_depth(j, 2.5f, 1);
-    for (int i = 0; i < 3; ++i) { /* so many pixels at the left show nothing */
+    for (int i = 0; i < 3; ++i) { /* width of the left part without a surface */
         for (int y = 0; y < HEIGHT; ++y) {
             j->frame.depth[y * WIDTH + i] = 0.0f;
         }

@@ -1,5 +1,5 @@
-/* test_mix_carry.c: light that a frame takes from the one before it: of the same surface alone, between its pixels or from
- * beside where noise hides them. */
+/* test_mix_carry.c: light reused from the previous frame: only of the same surface, interpolated between its pixels or
+ * taken from beside if noise hides them. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@ enum { WIDTH = 24, HEIGHT = 16, PIXELS = WIDTH * HEIGHT };
 
 static const lmb_pinhole camera = {WIDTH, HEIGHT, 20.0f, 20.0f, 11.5f, 7.5f};
 
-/* A wall 1 m ahead that the frame before saw, whose light is the number of the column; and a tile of it now. */
+/* A wall 1 m ahead in the previous frame, lit with the number of the column; and a tile of it in the current frame. */
 typedef struct pair {
     mix_job now, last;
     mix_kept kept;
@@ -33,7 +33,7 @@ static void set_axes(mix_job *j)
     j->axes.back = (lmb_vec3){0, 0, 1};
 }
 
-/* The tile at (8, 0), whose pixels see what the frame before saw `right` px to the right of them. */
+/* The tile at (8, 0), with pixels that see the points `right` px to the right in the previous frame. */
 static void begin(pair *p, float right)
 {
     memset(p, 0, sizeof *p);
@@ -89,7 +89,7 @@ static void between_pixels(pair *p)
                       is_near(p->direct.light.rgb[1][k], 10.0f + x),
                   "pixel %d: %g", k, (double)p->without.rgb[1][k]);
     }
-    for (int i = 0; i < PIXELS; ++i) { /* lights of one of the four were not kept: they are asked again */
+    for (int i = 0; i < PIXELS; ++i) { /* lights of one of the four were not stored: traced again */
         p->was[i].direct[0] = i % WIDTH == 11 ? -1.0f : 0.0f;
     }
     CHECK(get(p) == ~(uint64_t)0 && p->direct.known == ~(uint64_t)0x0c0c0c0c0c0c0c0cu);
@@ -104,12 +104,13 @@ static void spoil(pair *p, int i, int way)
     p->was[i].is_known = way == UNKNOWN ? 0 : 1;
 }
 
-/* Of one column that shows something else the light is the nearest other one's; five of them hide their middle. */
+/* If one column shows something else, its light is that of the nearest other column; five such columns leave their
+ * middle without light. */
 static void beside_pixels(pair *p)
 {
     for (int way = 0; way < WAYS; ++way) {
         begin(p, 0.0f);
-        p->tile.position[0][3] += 0.125f / camera.fx; /* of its four the left ones have most weight */
+        p->tile.position[0][3] += 0.125f / camera.fx; /* the left ones of the four have most weight */
         for (int i = 11; i < PIXELS; i += WIDTH) {
             spoil(p, i, way);
         }
@@ -127,7 +128,7 @@ static void beside_pixels(pair *p)
     }
 }
 
-/* Beyond the last picture nothing is known, nothing of what stands behind its camera, of other light or another world. */
+/* Nothing is known beyond the previous picture, behind its camera, of other light or of another world. */
 static void out_of_sight(pair *p)
 {
     begin(p, 12.0f);
@@ -139,7 +140,7 @@ static void out_of_sight(pair *p)
     p->kept.is_other_light = 1;
     CHECK(get(p) == 0);
     begin(p, 0.0f);
-    p->now.world = &p->now; /* made anew */
+    p->now.world = &p->now; /* rebuilt */
     CHECK(get(p) == 0);
 }
 

@@ -1,4 +1,5 @@
-/* test_mix_cones.c: light from around, which is traced at some pixels and taken between them, against all pixels traced. [M21] */
+/* test_mix_cones.c: surrounding light, traced at some pixels and interpolated between them, against tracing all pixels.
+ * [M21] */
 #include "../folder.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@ enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT };
 
 static const lmb_pinhole camera = {WIDTH, HEIGHT, 131.25f, 131.25f, 79.5f, 59.5f};
 
-/* A ball on the origin, or a box. */
+/* A ball at the origin, or a box. */
 static size_t put_mesh(char *out, size_t size, int is_box)
 {
     enum { RINGS = 10, TURNS = 20 };
@@ -34,7 +35,7 @@ static size_t put_mesh(char *out, size_t size, int is_box)
     return n;
 }
 
-/* A floor and a wall that is turned; the photo brighter to one side. */
+/* A floor and a rotated wall; the photo is brighter on one side. */
 static mix_job *begin(char *object, const char *at, const char *light, float turn)
 {
     static char place[20], sun[60];
@@ -56,7 +57,7 @@ static mix_job *begin(char *object, const char *at, const char *light, float tur
     return j;
 }
 
-/* What the object leaves of a pixel's light. */
+/* The share of a pixel's light that remains with the object. */
 static double left_of(const lmb_irradiance light[2], int k)
 {
     double sum[2] = {0.0, 0.0};
@@ -66,8 +67,8 @@ static double left_of(const lmb_irradiance light[2], int k)
     return sum[0] > 0.0 ? sum[1] / sum[0] : 1.0;
 }
 
-/* Of a job's real pixels: how far off what is left of the light is, r.m.s. and at most, where the object takes some; and how
- * many are traced. */
+/* For a job's real pixels: RMS and largest error of the remaining light, if the object takes some; and the number of
+ * traced pixels. */
 typedef struct figures {
     double square, worst, near;
     int traced, all;
@@ -111,7 +112,7 @@ static figures measure(char *object, const char *at, const char *light, float tu
     return f;
 }
 
-/* A pixel that the frame before does not know takes the nearest one's light of its own surface, and of no other. */
+/* A pixel unknown from the previous frame takes the light of the nearest pixel on the same surface, and of no other. */
 static void spreads_on_its_own_surface(void)
 {
     static lmb_tile t;
@@ -119,7 +120,7 @@ static void spreads_on_its_own_surface(void)
     memset(&t, 0, sizeof t);
     memset(&without, 0, sizeof without);
     memset(&with, 0, sizeof with);
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* columns 0 to 3 face the camera, the others to its left; row 7 is nothing */
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* columns 0 to 3 face the camera, the others left; row 7 is empty */
         t.id[k] = k / LMB_TILE < 7;
         t.position[0][k] = 0.01f * (float)(k % LMB_TILE);
         t.position[1][k] = -0.01f * (float)(k / LMB_TILE);
@@ -131,12 +132,13 @@ static void spreads_on_its_own_surface(void)
     without.rgb[1][8 + 7] = 5.0f;
     const uint64_t carried = (uint64_t)1 << (8 + 1) | (uint64_t)1 << (8 + 7),
                    found = mix_carry_spread(&without, &with, &t, carried, ~carried);
-    CHECK(found == 0x8f8f0d8fu); /* two rows and columns around (1, 1); of (7, 1) its column alone lies on its plane */
+    CHECK(found == 0x8f8f0d8fu); /* two rows and columns around (1, 1); only the column of (7, 1) lies on its plane */
     CHECK(without.rgb[1][0] == 3.0f && with.rgb[2][3 * LMB_TILE + 3] == 4.0f && without.rgb[1][8 + 6] == 0.0f);
     CHECK(mix_carry_spread(&without, &with, &t, 0, ~carried) == 0);
 }
 
-/* Tiles that are traced whole from where light differs by half as much are 8,812 pixels, and by twice as much are 0.03 off. */
+/* With half of the difference limit for tracing whole tiles 8,812 pixels are traced; with twice the limit the error is
+ * 0.03. */
 void test_mix_cones(void)
 {
     spreads_on_its_own_surface();

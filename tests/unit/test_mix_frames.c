@@ -1,4 +1,4 @@
-/* test_mix_frames.c: sequences: what is kept of depth, which poses are any, and that the object stays where it stands. */
+/* test_mix_frames.c: sequences: depth kept between frames, valid poses, and an object that stays in place. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,8 +40,8 @@ static void fill(mix_frame *f, float depth)
     }
 }
 
-/* A static camera: noise changes nothing, a hole is filled by what was measured before, and what differs is believed the
- * second time. */
+/* A static camera: noise changes nothing, earlier measurements fill a hole, and a changed depth is accepted the second
+ * time. */
 static void depth_stays(void)
 {
     mix_depth d;
@@ -66,8 +66,8 @@ static void depth_stays(void)
     mix_depth_free(&d);
 }
 
-/* A camera that moves to the right by eight pixels of a wall: what it does not measure now is what was seen there, and
- * beyond its old picture it knows nothing. Another size begins anew. */
+/* A camera that moves right by eight pixels of a wall: gaps are filled with the depth seen there before; beyond the old
+ * picture there is none. Another picture size starts over. */
 static void depth_moves(void)
 {
     mix_depth d;
@@ -129,7 +129,7 @@ static mix_job *job_at(double x, const mix_kept *k)
     return j;
 }
 
-/* The camera moves 0.1 m to the right, and the object 0.1 m to the left in its space; plane and sun stay. */
+/* The camera moves 0.1 m to the right, so the object moves 0.1 m to the left in camera space; plane and sun stay. */
 static void object_stays(void)
 {
     mix_kept k;
@@ -151,8 +151,8 @@ static void object_stays(void)
 
 enum { SEEN = 16 /* planes of a frame */ };
 
-/* A frame of planes that are `from`, from + 1 ... metres away; the object stands on plane `floor`. The first ones go on
- * with tracks 0, 1 ... */
+/* A frame with planes at distances `from`, from + 1 ... m; the object is on plane `floor`. The first ones continue
+ * tracks 0, 1 ... */
 static void keep_frame(mix_kept *k, mix_job *j, int from, int go_on, int32_t floor)
 {
     memset(j, 0, sizeof *j);
@@ -178,8 +178,8 @@ static int32_t track_at(const mix_kept *k, int far)
     return -1;
 }
 
-/* More planes than there are tracks: the floor keeps its own, new ones get one each, and what was seen long ago gives way
- * however often that was. */
+/* More planes than tracks: the floor keeps its track, new planes get one each, and a plane not seen for long loses its
+ * track, however often it was seen. */
 static void tracks_are_few(void)
 {
     static mix_job j;
@@ -204,7 +204,7 @@ static void tracks_are_few(void)
     CHECK_MSG(k.floor == 0 && track_at(&k, 1) == 0 && left == LMB_MAX_PLANES - 1 - SEEN, "%d left", (int)left);
 }
 
-/* What has the number of the floor and lies elsewhere is not what the object stands on. */
+/* A plane with the floor's number at another position is not the object's floor. */
 static void floor_is_below(void)
 {
     mix_kept k;
@@ -221,7 +221,7 @@ static void floor_is_below(void)
     mix_kept_free(&k);
 }
 
-/* A guessed sun is kept where the object's lamps shine beside it, too; lights that were given are not. */
+/* A guessed sun is kept, even next to the object's lamps; explicit lights are not. */
 static void sun_stays(void)
 {
     mix_kept k;
@@ -256,7 +256,7 @@ static int draw(mix_job *j)
     return ok;
 }
 
-/* How far light around differs, r.m.s. over the mean, and how many pixels both have. */
+/* RMS difference of the surrounding light over the mean, and the number of pixels in both. */
 static double apart(const mix_job *a, const mix_job *b, int *both)
 {
     double sum = 0.0, mean = 0.0;
@@ -272,7 +272,8 @@ static double apart(const mix_job *a, const mix_job *b, int *both)
     return sqrt(sum * *both) / mean;
 }
 
-/* By a sun without a size, whose shadow has an edge: a light that is soft everywhere would be carried well by chance. */
+/* With a sun without size, so that the shadow has an edge: light that is smooth everywhere could be reprojected well by
+ * chance. */
 static mix_job *sunny_at(double x, const mix_kept *k)
 {
     mix_job *j = job_at(x, k);
@@ -286,8 +287,8 @@ static mix_job *sunny_at(double x, const mix_kept *k)
     return j;
 }
 
-/* Frame c takes all light from frame a, whose is 7 everywhere: within 72 frames each pixel that others lie between is traced
- * anew, and so is each that edges and bent surfaces set apart from them; in one frame few are. */
+/* Frame c takes all light from frame a, which is 7 everywhere. Within 72 frames each pixel between others is traced
+ * again, and so is each that edges and curved surfaces separate from them; in a single frame few are. */
 static void all_is_traced_again(mix_job *c, mix_job *a, mix_kept *k)
 {
     enum { TURNS = 72, STEP = 4, TILES = PIXELS / LMB_TILE_PIXELS };
@@ -328,8 +329,8 @@ static void all_is_traced_again(mix_job *c, mix_job *a, mix_kept *k)
     CHECK_MSG(10 * most < all, "%d of %d pixels in one frame", most, all);
 }
 
-/* The camera moves: the first frame's voxels are traced on, with the cells that are out of the picture now, and light is
- * carried to where it would be traced. A wall that comes near the object, and a lamp that is switched, end that. */
+/* The camera moves: the first frame's voxels continue to be traced, including cells now out of the picture, and
+ * reprojected light equals traced light. A wall that comes near the object ends this, as does a switched lamp. */
 static void one_world(void)
 {
     mix_kept k;
@@ -361,18 +362,19 @@ static void one_world(void)
     mix_job_free(d);
     mix_job_free(c);
     mix_job_free(b);
-    k.world = NULL; /* it is k.last, too */
+    k.world = NULL; /* k.last too */
     mix_kept_free(&k);
 }
 
-/* Memory of a job that is over is the next one's where it is as large, and at most twice as large; it is as if new. */
+/* A finished job's memory is reused if it is at least as large as needed and at most twice as large; it is as if
+ * new. */
 static void memory_is_used_again(void)
 {
     static mix_spare spare;
     report r = {""};
     void *at[3] = {NULL, NULL, NULL};
     for (int i = 0; i < 3; ++i) {
-        static const size_t bytes[3] = {1000, 600, 400}; /* of one piece: it is 1000, and too large for the last */
+        static const size_t bytes[3] = {1000, 600, 400}; /* one piece: it is 1000, and too large for the last */
         mix_job *j = calloc(1, sizeof *j);
         if (j == NULL) {
             abort();
@@ -387,7 +389,7 @@ static void memory_is_used_again(void)
         mix_job_free(j);
     }
     CHECK(at[1] == at[0] && at[2] != at[0] && spare.count == 2);
-    for (int i = 0; i < 2 * MIX_IDLE + 1; ++i) { /* jobs that need none, and jobs that need others */
+    for (int i = 0; i < 2 * MIX_IDLE + 1; ++i) { /* jobs that need none, and jobs with other sizes */
         mix_job *j = calloc(1, sizeof *j);
         if (j == NULL) {
             abort();
@@ -397,7 +399,7 @@ static void memory_is_used_again(void)
         mix_job_free(j);
         CHECK(i >= MIX_IDLE || spare.count == 2);
     }
-    CHECK_MSG(spare.count == 1, "%d pieces are kept", spare.count); /* that of ten bytes */
+    CHECK_MSG(spare.count == 1, "%d pieces are kept", spare.count); /* the one of ten bytes */
     mix_spare_free(&spare);
     CHECK(spare.count == 0);
 }

@@ -1,5 +1,5 @@
-/* test_mix_front.c: real things in front of the object, where the measured depth is as ragged as a Kinect's: random rooms
- * of boxes, discs and poles, of which the truth is known. [M24] */
+/* test_mix_front.c: real things in front of the object, with measured depth as ragged as a Kinect's: random rooms of
+ * boxes, discs and poles with known truth. [M24] */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +14,7 @@ enum { WIDTH = 320, HEIGHT = 240, PIXELS = WIDTH * HEIGHT, THINGS = 9, FINE = 4 
 
 static const lmb_pinhole camera = {WIDTH, HEIGHT, 262.5f, 262.5f, 159.5f, 119.5f};
 
-/* Upright before the wall, facing the camera. */
+/* Upright in front of the wall, facing the camera. */
 typedef struct thing {
     float x, y, z, half_width, half_height; /* m; y up */
     int is_round;
@@ -23,8 +23,8 @@ typedef struct thing {
 
 typedef struct room {
     thing things[THINGS];
-    float wall, height, object;              /* m: away, of the camera, of the object's card */
-    float x, y, radius;                      /* of the card, in the picture, px */
+    float wall, height, object;              /* m: to the wall, of the camera, to the object's card */
+    float x, y, radius;                      /* of the card in the picture, px */
     float colours[2][3];
 } room;
 
@@ -60,7 +60,7 @@ static void make_room(room *r, uint32_t seed)
     }
 }
 
-/* What a place in the picture shows: its distance along the axis; its colour. */
+/* Returns the distance along the axis at a picture position, and the colour. */
 static float look(float rgb[3], const room *r, float x, float y)
 {
     const lmb_vec3 ray = lmb_cloud_ray(&camera, x, y);
@@ -109,8 +109,8 @@ static void take_photo(float *out, const room *r, test_rng *rng)
     }
 }
 
-/* As a Kinect has it: what its projector, 75 mm to one side, does not reach is not measured; edges are off by a pixel or
- * two, a few of them together; distances come in eighths of a pixel of disparity; spots are missing. */
+/* Like a Kinect: areas that the projector, 75 mm to one side, does not reach are not measured; edges are off by a pixel
+ * or two, several of them together; distances are quantized to eighths of a pixel of disparity; spots are missing. */
 static void measure_depth(float *out, const room *r, test_rng *rng)
 {
     static float shift[2][PIXELS / 4], lit[2 * WIDTH];
@@ -162,8 +162,8 @@ static int is_card(const room *r, float x, float y)
     return (x - r->x) * (x - r->x) + (y - r->y) * (y - r->y) < r->radius * r->radius;
 }
 
-/* Of one tile and sample: pixels of the object that are wrongly in front or behind, by what is measured [0] and by the
- * edges that follow the photo [1]. */
+/* For one tile and sample: pixels of the object that are wrongly in front or behind, with the measured depth [0] and
+ * with the edges that follow the photo [1]. */
 static void judge_tile(int wrong[2], const mix_job *j, const room *r, const float *front, lmb_tile *real, const float at[2])
 {
     static lmb_tile object, before;
@@ -211,8 +211,8 @@ static void judge(int wrong[2], uint32_t seed)
     mix_job_free(j);
 }
 
-/* Of the samples that a depth map alone puts wrong two in five stay wrong at most, 0.27 to 0.39 of them here. The last group
- * has been used for nothing else; in the one before it things have the colour of what is behind them. */
+/* At most two in five of the samples that are wrong with only the depth map stay wrong, here 0.27 to 0.39 of them. The
+ * last group has been used for nothing else; in the group before it things have the colour of their background. */
 static void few_stay_wrong(void)
 {
     static const uint32_t first[4] = {1, 300, 903, 2500};

@@ -1,5 +1,5 @@
-/* test_mix_sources.c: what an object sends on, against closed forms: a square that emits, a square of metal under a lamp; and
- * what a texel's emission and a metal's beam do to a photo. [M20 M25] */
+/* test_mix_sources.c: light that an object emits or reflects, against closed forms: an emissive square, a metal square
+ * under a lamp; and the effect of a texel's emission and a metal's reflected beam on a photo. [M20 M25] */
 #include "../folder.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ enum { SIDE = 16 };
 static mix_patch pieces[SIDE * SIDE];
 static mix_sources square = {.piece = pieces, .first = {0, SIDE * SIDE}};
 
-/* A unit square at height 1 that faces down, and sends `flux` W in all, or reflects it. */
+/* A unit square at height 1 that faces down and emits or reflects `flux` W. */
 static void set_square(float flux, float alpha2, lmb_vec3 from)
 {
     for (int i = 0; i < SIDE * SIDE; ++i) {
@@ -37,7 +37,7 @@ static void set_square(float flux, float alpha2, lmb_vec3 from)
     }
 }
 
-/* Of a place right under a corner of a rectangle a x b at height c, parallel to it: Howell's B-3. */
+/* For a point directly below a corner of a parallel rectangle a x b at height c: Howell's B-3. */
 static double corner_factor(double a, double b, double c)
 {
     const double x = a / c, y = b / c, p = sqrt(1.0 + x * x), q = sqrt(1.0 + y * y);
@@ -49,11 +49,11 @@ static void emits_by_form_factors(void)
     const float flux = 3.0f;
     set_square(flux, 0.0f, (lmb_vec3){0, 0, 0});
     for (int i = 0; i < 5; ++i) {
-        const double far = 0.25 + 0.3 * i; /* under the square's middle, at this distance */
+        const double far = 0.25 + 0.3 * i; /* below the square's centre, at this distance */
         const lmb_vec3 at = {0.0f, (float)(1.0 - far), 0.0f}, up = {0, 1, 0};
         float rgb[3];
         mix_sources_at(rgb, &square, 0, at, up);
-        const double want = (double)flux * 4.0 * corner_factor(0.5, 0.5, far); /* its exitance is the flux, of 1 m2 */
+        const double want = (double)flux * 4.0 * corner_factor(0.5, 0.5, far); /* the exitance is the flux over 1 m2 */
         CHECK_MSG(fabs((double)rgb[1] - want) < 0.02 * want, "%g m: %g, not %g", far, (double)rgb[1], want);
     }
     float behind[3];
@@ -61,8 +61,8 @@ static void emits_by_form_factors(void)
     CHECK(behind[0] == 0.0f);
 }
 
-/* What metal that reflects all sends arrives on the half sphere around it, but what its lobe loses between facets; and most
- * of it about the mirror direction. */
+/* The light of a perfectly reflecting metal arrives on the hemisphere around it, except for the lobe's loss between
+ * facets, and mostly near the mirror direction. */
 static void reflects_what_arrives(void)
 {
     enum { RINGS = 64, TURNS = 128 };
@@ -91,10 +91,10 @@ static void reflects_what_arrives(void)
 enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT };
 
 static const lmb_pinhole camera = {WIDTH, HEIGHT, 80.0f, 80.0f, 47.5f, 35.5f};
-static char quads[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, a unit wide and high */
+static char quads[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, one unit wide and high */
 
-/* A floor half a metre under the camera and a wall before it, grey, lit by a lamp; the object is a square a third of a metre
- * wide before the wall. */
+/* A grey floor half a metre below the camera and a grey wall in front, lit by a lamp; the object is a square a third of
+ * a metre wide in front of the wall. */
 static mix_job *draw_square(const lmb_material *look, const char *at, const char *turn, const char *lamp)
 {
     char place[20], turned[20], light[60];
@@ -116,8 +116,8 @@ static mix_job *draw_square(const lmb_material *look, const char *at, const char
     return j;
 }
 
-/* A lamp before a metal square throws its light back over the lamp's side of the floor, and matt black none: the square was
- * as if matt, and its own foot black. */
+/* A metal square reflects a lamp's light onto the floor on the lamp's side; a matt black one does not. The metal once
+ * acted as matt, with a black foot. */
 static void beam_lights_floor(void)
 {
     static const char lamp[] = "point:0,0.5,-0.6:0,-1,0:3,3,3";
@@ -133,8 +133,8 @@ static void beam_lights_floor(void)
     mix_job_free(j);
 }
 
-/* Smooth metal shows the floor before it down to its foot; by cones through voxels that was black there. Its mean is that of
- * the floor, which the lamp's beam brightens. */
+/* Smooth metal reflects the floor in front down to the foot; cones through voxels gave black there. The mean equals
+ * that of the floor, which the reflected beam brightens. */
 static void foot_mirrors_floor(void)
 {
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.2f, .flags = LMB_DOUBLE_SIDED};
@@ -145,8 +145,8 @@ static void foot_mirrors_floor(void)
     mix_job_free(j);
 }
 
-/* What emits has patches a twentieth of the object's width at most: larger ones are nearer to the foot that they stand on
- * than they are wide. */
+/* An emissive object has pieces of at most a twentieth of its width: larger ones would be nearer to the foot than they
+ * are wide. */
 static void patches_are_small(void)
 {
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 1.0f, .flags = LMB_DOUBLE_SIDED};
@@ -157,9 +157,9 @@ static void patches_are_small(void)
     mix_job_free(j);
 }
 
-/* --- what glows and stands on the floor --------------------------------------------------------------------------- */
+/* --- glowing objects on the floor --------------------------------------------------------------------------------- */
 
-/* A ball as .obj, its fronts outside. */
+/* A ball as .obj, front sides outwards. */
 static int ball_text(char *out, size_t size, double radius)
 {
     enum { RINGS = 16, TURNS = 32 };
@@ -180,15 +180,15 @@ static int ball_text(char *out, size_t size, double radius)
     return n;
 }
 
-/* W/m2 of a ball of radius r that stands on a floor, so far from its foot, for 1 W/(m2 sr). */
+/* W/m2 from a ball of radius r on a floor at distance `far` from the foot, for 1 W/(m2 sr). */
 static double ball_light(double r, double far)
 {
     const double d = sqrt(far * far + r * r);
     return PI * r * r * r / (d * d * d);
 }
 
-/* What a ball that glows sends to the floor about it, under it too, by distance: under it nothing came, for the light that
- * stood for its lower side lay in the floor, and it hid itself. */
+/* Light of a glowing ball on the floor around and below it, by distance. Below it nothing arrived once, because the
+ * light source for the lower side lay in the floor and the ball blocked it. */
 static void ball_lights_its_foot(double radius)
 {
     static folder f;

@@ -1,5 +1,5 @@
-/* test_mix_stays.c: a sequence by a moving camera with a Kinect's noise against the same without: where the object stands
- * in the picture, what stands below it, its light and its shadow do not step from frame to frame. */
+/* test_mix_stays.c: a sequence with a moving camera and a Kinect's noise against the same without noise: the object's
+ * position in the picture, the surface below it, its light and its shadow do not jump between frames. */
 #include "../folder.h"
 
 #include <math.h>
@@ -16,20 +16,20 @@ enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, FRAMES = 8 };
 static const lmb_pinhole camera = {WIDTH, HEIGHT, 131.25f, 131.25f, 79.5f, 59.5f};
 static const char *mesh, *picture;
 
-/* Of one frame. */
+/* Measurements of one frame. */
 typedef struct look {
-    double foot[2];   /* of the object in the picture, px */
-    double above;     /* m: what it stands on, over its foot */
+    double foot[2];   /* the object's foot in the picture, px */
+    double above;     /* m: the supporting plane over the foot */
     double light;     /* the object's mean brightness */
-    double dark;      /* what its shadow takes of the photo, in pixels as black */
-    double middle[2]; /* of that, px */
-    int32_t track;    /* of what it stands on */
-    double walls;     /* m: of how far off planes of the frame before are in this one, the mean over their pixels */
+    double dark;      /* light that the shadow removes from the photo, in black pixels */
+    double middle[2]; /* of the shadow, px */
+    int32_t track;    /* of the supporting plane */
+    double walls;     /* m: mean movement of the planes since the previous frame */
 } look;
 
 /* --- the room ----------------------------------------------------------------------------------------------------- */
 
-/* Along x to the right, y down, z ahead. */
+/* x to the right, y down, z ahead. */
 typedef struct seen {
     double far, shade;
     int what; /* floor, wall, side, box */
@@ -44,7 +44,7 @@ static void meet(seen *s, double far, double shade, int what)
     }
 }
 
-/* A box on the floor, of three sides that can be seen. */
+/* A box on the floor with three visible sides. */
 static void meet_box(seen *s, const double from[3], const double ray[3])
 {
     static const double low[3] = {0.55, 0.5, 2.0}, high[3] = {1.0, 0.9, 2.4};
@@ -68,7 +68,7 @@ static seen look_along(const double from[3], const double ray[3])
     return s;
 }
 
-/* A hand's way to the right and a little down, turning back to what it looks at. */
+/* A hand-held path to the right and a little down, turning back towards the scene. */
 static void set_pose(double pose[16], int frame)
 {
     test_rng rng = {(uint32_t)frame + 40};
@@ -87,7 +87,7 @@ static double gauss(test_rng *rng)
     return sum;
 }
 
-/* Disparity over a base of 75 mm by a sensor of 525 px focal length: in eighths of a pixel, spots missing. */
+/* Disparity over a base of 75 mm with a sensor of 525 px focal length: in eighths of a pixel, with missing spots. */
 static float measured(double far, double noise, test_rng *rng)
 {
     const double base = 0.075 * 525.0, shift = base / far + 0.1 * noise * gauss(rng);
@@ -115,7 +115,7 @@ static void take_frame(mix_job *j, int frame, double noise)
 
 /* --- one sequence ------------------------------------------------------------------------------------------------- */
 
-/* By a small sun, or by the one that is guessed, which is wide. */
+/* With a small sun, or with the guessed one, which is wide. */
 static mix_job *begin(const mix_kept *k, int is_guessed)
 {
     static char path[FOLDER_PATH], to[FOLDER_PATH];
@@ -128,7 +128,7 @@ static mix_job *begin(const mix_kept *k, int is_guessed)
     return j;
 }
 
-/* Two of a floor's pixels that the object does not cover. */
+/* Adds a floor pixel that the object does not cover to the shadow's sums. */
 static void add_shadow(look *out, const mix_job *j, int i)
 {
     double photo = 0.0, now = 0.0;
@@ -169,7 +169,7 @@ static look look_at(const mix_kept *k)
     return out;
 }
 
-/* How far planes have moved since `was`, at what is 1.5 m to either side, up and down of the middle of the room. */
+/* Mean movement of the planes since `was` at points 1.5 m to either side, up and down from the room's centre. */
 static double moved(const mix_kept *k, const mix_track was[LMB_MAX_PLANES])
 {
     double sum = 0.0, weight = 0.0;
@@ -209,7 +209,7 @@ static void run(look out[FRAMES], int frames, double noise, int is_guessed)
     mix_kept_free(&k);
 }
 
-/* By how much noise takes a number of one frame farther off, or less, than it did that of the frame before. */
+/* Change of the error due to noise between two frames. */
 static double step(double clean0, double clean1, double noisy0, double noisy1) { return fabs(noisy1 - clean1 - (noisy0 - clean0)); }
 
 static void nothing_steps(void)
@@ -231,13 +231,13 @@ static void nothing_steps(void)
         CHECK_MSG(dark < 0.05, "frame %d: its shadow's depth by %g", i, dark);
         CHECK_MSG(fabs(b->above) < 1e-4 && fabs(d->above) < 1e-4, "frame %d: the floor is %g, %g m over its foot", i, b->above,
                   d->above);
-        CHECK_MSG(d->walls < 2.5e-3, "frame %d: walls by %g m", i, d->walls); /* 2.1 mm at most; 4.3 as each frame finds them */
+        CHECK_MSG(d->walls < 2.5e-3, "frame %d: walls by %g m", i, d->walls); /* 2.1 mm at most; 4.3 without tracks */
         CHECK_MSG(b->track == a->track && d->track == c->track, "frame %d: another floor", i);
     }
 }
 
-/* Places that a wide sun is asked at stay in the world while the camera turns: light steps by 0.3 % at most, and by 0.7 where
- * they are chosen by the camera. */
+/* A wide sun's sample positions stay fixed in the world while the camera turns: the light changes by at most 0.3 % per
+ * frame, or by 0.7 % if the camera determines them. */
 static void places_of_a_sun_stay(void)
 {
     look of[FRAMES];
@@ -252,7 +252,7 @@ static void places_of_a_sun_stay(void)
 
 enum { LISTED = 6, NO_POSE = -1 };
 
-/* One cannot be used, and by one the camera stands where it stood. */
+/* One frame is unusable, and one has the camera of the frame before. */
 static const int listed[LISTED] = {0, NO_POSE, 1, 1, 2, 3};
 
 typedef struct ahead {
@@ -267,7 +267,7 @@ static void read_listed(ahead *a)
 {
     memset(&a->next, 0, sizeof a->next);
     a->next.job = begin(&a->kept, 0);
-    a->next.job->spare = a->is_ahead ? &a->spare : NULL; /* else all memory is new */
+    a->next.job->spare = a->is_ahead ? &a->spare : NULL; /* otherwise all memory is new */
     a->next.job->aside = &a->aside;
     take_frame(a->next.job, listed[a->at] < 0 ? 0 : listed[a->at], 1.0);
     a->next.job->frame.has_pose = listed[a->at] >= 0;
@@ -287,7 +287,7 @@ static void read_next(void *user, int index, int thread)
     }
 }
 
-/* The pictures of the list, one after the other; how many there are. */
+/* Draws the pictures of the list in turn and returns their number. */
 static int draw_list(float *pictures, int is_ahead, int *made_ready)
 {
     static ahead a;
@@ -320,7 +320,8 @@ static int draw_list(float *pictures, int is_ahead, int *made_ready)
     return drawn;
 }
 
-/* The same pictures as by frames that are read when it is their turn: of what is known by then, and no more. */
+/* Reading frames ahead gives the same pictures as reading them in turn: each uses only the knowledge of earlier
+ * frames. */
 static void ahead_is_the_same(void)
 {
     const size_t bytes = (size_t)LISTED * 3 * PIXELS * sizeof(float);
@@ -346,7 +347,7 @@ void test_mix_stays(void)
     static folder f;
     folder_open(&f);
     mesh = folder_put(&f, "box.obj", box, sizeof box - 1);
-    picture = folder_file(&f, "known.png"); /* never written, but asked for whether it can be */
+    picture = folder_file(&f, "known.png"); /* never written, but checked for being writable */
     nothing_steps();
     places_of_a_sun_stay();
     ahead_is_the_same();

@@ -1,4 +1,5 @@
-/* test_mixed.c: points, planes, the real scene's mesh, the folded environment, and what an object changes. M1-M24. */
+/* test_mixed.c: points, planes, the mesh of the real scene, the folded environment, and the effect of an object.
+ * M1-M24. */
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -44,13 +45,13 @@ static void test_points(stage *s)
     CHECK(s->cloud.normal[PIXELS / 2].z > 0.99999f && s->cloud.normal[0].z == 0.0f);
 }
 
-/* A normal is of the pixels around it: two to each side in a small picture, three, or every other one of six where a
- * degree is as many pixels as in a large one. Some are farther away by 1 / 1000, one after the other. */
+/* A normal uses the pixels around it: the two or three nearest on each side for short focal lengths, every second of
+ * four or six for long ones. The test moves one pixel after the other by 1 / 1000. */
 static void test_reach(stage *s)
 {
     static const struct {
         float fx;
-        uint32_t sees; /* bits 1 .. 7: the pixel so far to the right counts */
+        uint32_t sees; /* bits 1 .. 7: the pixel at this offset to the right counts */
     } pictures[] = {{80.0f, 0x06}, {290.0f, 0x0e}, {400.0f, 0x14}, {470.0f, 0x14}, {600.0f, 0x54}};
     enum { AT = 60 + 35 * WIDTH };
     for (int i = 0; i < (int)(sizeof pictures / sizeof *pictures); ++i) {
@@ -108,7 +109,7 @@ static void test_picture_neighbours(stage *s)
     CHECK(found[0] == 9 * WIDTH + 10 || found[0] == 10 * WIDTH + 11 || found[0] == 11 * WIDTH + 10);
     CHECK(lmb_cloud_nearest(found, 8, &s->cloud, 9, 10) == 0);
     CHECK(lmb_cloud_nearest(found, 4, &s->cloud, 50, 30) == 4);
-    for (int i = 0; i < 4; ++i) { /* the metre between both is farther than any of the same side */
+    for (int i = 0; i < 4; ++i) { /* the metre between both exceeds any distance on the same side */
         CHECK(found[i] % WIDTH <= 50);
     }
     CHECK(lmb_cloud_nearest(found, 8, &s->cloud, 0, 0) == 8);
@@ -116,8 +117,7 @@ static void test_picture_neighbours(stage *s)
 
 /* --- planes ------------------------------------------------------------------------------------------------------- */
 
-/* A floor half a metre under the camera and a wall 2.5 m ahead, with noise in 1 / distance, one pixel of twenty
- * missing. */
+/* A floor 0.5 m below the camera and a wall 2.5 m ahead, with noise in 1 / distance; one pixel in twenty is missing. */
 static void draw_corner(stage *s, float noise)
 {
     test_rng rng = {3};
@@ -160,12 +160,12 @@ static void test_corner(stage *s)
     CHECK_MSG(fabsf(moved.y + 0.5f) < 0.005f, "%g", (double)moved.y);
     lmb_vec3 at;
     CHECK(lmb_planes_anchor(&at, &s->planes, &camera, p, 48.0f, 70.0f) && fabsf(at.y - moved.y) < 1e-5f);
-    CHECK(!lmb_planes_anchor(&at, &s->planes, &camera, p, 48.0f, 0.0f)); /* over the horizon */
+    CHECK(!lmb_planes_anchor(&at, &s->planes, &camera, p, 48.0f, 0.0f)); /* above the horizon */
     CHECK(!lmb_planes_anchor(&at, &s->planes, &camera, 2, 48.0f, 70.0f));
 }
 
-/* The floor's middle where that is free; else the nearest place that is: beside what stands there, in front of what
- * hides it, and where there is room up to the picture's edge. */
+/* The floor's centre if it is free, otherwise the nearest free place: beside an object on it, in front of one that
+ * hides it, and with room up to the picture's edge. */
 static void test_place(stage *s)
 {
     lmb_vec3 at;
@@ -178,10 +178,10 @@ static void test_place(stage *s)
     CHECK(!lmb_planes_clear(&at, &s->planes, &s->cloud, p, 9.0f, 0.0f));
     CHECK(!lmb_planes_clear(&at, &s->planes, &s->cloud, 2, 0.2f, 0.0f));
     CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.2f, 0.6f) && far2(at, centre) == 0.0f);
-    /* 80 px for a metre a metre away: 35 over the axis are 0.44 m, and the floor is half a metre under it. */
+    /* 80 px per metre at 1 m: 35 px above the axis are 0.44 m, and the floor is 0.5 m below the axis. */
     CHECK(!lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 2.0f));
     CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 1.2f) && -at.z > 0.7f * 80.0f / 36.0f + 0.05f);
-    /* Something before the middle, from the camera a third of the way there: it hides what stands behind it. */
+    /* An obstacle in front of the centre, a third of the way from the camera, hides an object behind it. */
     for (int i = 0; i < PIXELS; ++i) {
         if (abs(i % WIDTH - 48) < 5 && i / WIDTH < 46) {
             s->cloud.inverse[i] = 3.0f;
@@ -189,7 +189,7 @@ static void test_place(stage *s)
     }
     CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 0.6f) && fabsf(at.x) > 0.1f);
     CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 0.0f) && far2(at, centre) == 0.0f);
-    /* A strip in the plane's middle that is none of it: all of the foot stands beside. */
+    /* A strip through the plane's centre does not belong to the plane: the whole footprint is beside it. */
     for (int i = 0; i < PIXELS; ++i) {
         s->planes.label[i] = abs(i % WIDTH - 48) < 12 ? 0 : s->planes.label[i];
     }
@@ -197,7 +197,7 @@ static void test_place(stage *s)
     CHECK_MSG((fabsf(at.x) - 0.1f) * 80.0f / -at.z > 11.0f, "%g %g", (double)at.x, (double)at.z);
 }
 
-/* A plane that faces the camera's way up is a floor; with a ceiling in the picture walls that lean are none. */
+/* A plane that faces the camera's up direction is a floor; if a ceiling is visible, leaning walls are not. */
 static void test_up(void)
 {
     static const float wall[3] = {0.0f, 0.45f, 0.89302855f}, down[3] = {0.0f, -0.89302855f, 0.45f};
@@ -220,8 +220,8 @@ static void test_up(void)
     CHECK(lmb_planes_floor(&planes) == -1);
 }
 
-/* Two walls of a room that a camera sees which is rolled by 20 degrees: along both is up, also against a little plane that
- * leans; one wall alone says nothing. */
+/* A camera rolled by 20 degrees sees two walls of a room: up is along both, even with a small sloping plane. One wall
+ * does not determine it. */
 static void test_up_by_walls(void)
 {
     const float s = 0.34202014f, c = 0.93969262f;
@@ -229,7 +229,7 @@ static void test_up_by_walls(void)
     memset(&planes, 0, sizeof planes);
     planes.count = 1;
     planes.plane[0].pixels = 5000;
-    planes.plane[0].normal = (lmb_vec3){0.8f * c, 0.8f * s, 0.6f}; /* 0.27 up: the wall leans by the camera's roll alone */
+    planes.plane[0].normal = (lmb_vec3){0.8f * c, 0.8f * s, 0.6f}; /* 0.27 up: it leans only by the camera's roll */
     CHECK(lmb_planes_up(&planes).y == 1.0f);
     planes.count = 3;
     planes.plane[1].pixels = 3000;
@@ -250,7 +250,7 @@ static lmb_vec3 turned(lmb_vec3 v, float x, float z)
     return (lmb_vec3){p.x * cosf(z) - p.y * sinf(z), p.x * sinf(z) + p.y * cosf(z), p.z};
 }
 
-/* A plane of e^low to e^high pixels, whose normal is off by some `noise`. */
+/* Adds a plane of e^low to e^high pixels, with a normal error of about `noise`. */
 static void put_plane(lmb_planes *planes, lmb_vec3 n, float low, float high, float noise, test_rng *rng)
 {
     lmb_flat *p = &planes->plane[planes->count++];
@@ -264,8 +264,8 @@ static void put_plane(lmb_planes *planes, lmb_vec3 n, float low, float high, flo
     p->pixels = (int32_t)expf(test_uniform(rng, low, high));
 }
 
-/* A floor, a ceiling, a table, walls, and things that slope; what is up in it. Odd ones have corners of any angle, more that
- * slopes, and cameras that are rolled by up to 40 degrees. */
+/* A room with floor, ceiling, table, walls, and sloping planes; returns its up direction. Odd rooms have corners of any
+ * angle, more slopes, and cameras rolled by up to 40 degrees. */
 static lmb_vec3 put_room(lmb_planes *planes, int is_odd, test_rng *rng)
 {
     const lmb_vec3 up = {0, 1, 0}, down = {0, -1, 0};
@@ -297,7 +297,8 @@ static lmb_vec3 put_room(lmb_planes *planes, int is_odd, test_rng *rng)
     return turned(up, nod, roll);
 }
 
-/* In how many of so many rooms what is up is found within five degrees. Twice and half of UPRIGHT are worse in both kinds. */
+/* Counts the rooms in which up is found within five degrees. Twice UPRIGHT and half of it are worse for both kinds of
+ * room. */
 static void test_up_in_rooms(void)
 {
     enum { ROOMS = 20000 };
@@ -315,7 +316,7 @@ static void test_up_in_rooms(void)
     }
 }
 
-/* Nothing measured, one pixel, all at one distance, and nothing flat. */
+/* No measurements, one pixel, a constant distance, and no flat surface. */
 static void test_no_planes(stage *s)
 {
     static const lmb_pinhole one = {1, 1, 80.0f, 80.0f, 0.0f, 0.0f};
@@ -332,7 +333,7 @@ static void test_no_planes(stage *s)
     }
     CHECK(find_planes(s) && s->planes.count == 1 && s->planes.plane[0].pixels == PIXELS);
     CHECK(fabsf(s->planes.plane[0].distance - 3.0f) < 1e-4f && s->planes.plane[0].normal.z > 0.999999f);
-    for (int i = 0; i < PIXELS; i += 7) { /* by a caller's own hand */
+    for (int i = 0; i < PIXELS; i += 7) { /* as a caller might set it */
         s->cloud.inverse[i] = i % 2 == 0 ? NAN : INFINITY;
     }
     CHECK(lmb_cloud_normals(&s->cloud, 0, LMB_MAX_SIDE) == LMB_OK);
@@ -342,10 +343,10 @@ static void test_no_planes(stage *s)
     for (int i = 0; i < PIXELS; ++i) {
         s->depth[i] = test_uniform(&rng, 0.5f, 5.0f);
     }
-    CHECK(find_planes(s) && s->planes.count <= 1); /* no crash, next to nothing found */
+    CHECK(find_planes(s) && s->planes.count <= 1); /* no crash, hardly any plane found */
 }
 
-/* More planes than there is room for: the largest stay. */
+/* More planes than fit: the largest are kept. */
 static void test_many_planes(stage *s)
 {
     enum { ACROSS = 6, DOWN = 5 };
@@ -386,7 +387,7 @@ static void test_mesh(stage *s)
             const float *v = a + 3 * k;
             off += fabsf(v[0] * p->normal.x + v[1] * p->normal.y + v[2] * p->normal.z + p->distance) > 1e-4f;
         }
-        /* Cells of one plane side by side share two corners, bit for bit. */
+        /* Adjacent cells of one plane share two corners, bit for bit. */
         if ((c + 1) % s->mesh.columns != 0 && s->mesh.label[c] == s->mesh.label[c + 1]) {
             gaps += memcmp(a + 9, a + 12, 12) != 0 || memcmp(a + 6, a + 15, 12) != 0;
         }
@@ -395,7 +396,7 @@ static void test_mesh(stage *s)
     CHECK(lmb_real_tile(&s->tile, &s->cloud, &s->planes, &s->mesh, &axes, 40, 64) == LMB_OK && s->tile.hits == 64);
     CHECK(fabsf(s->tile.position[1][20] + 0.5f) < 1e-3f && s->tile.face[1][20] > 0.9999f && s->tile.id[20] > 0);
     CHECK(lmb_real_tile(&s->tile, &s->cloud, &s->planes, &s->mesh, &axes, 41, 64) == LMB_ERR_ARG);
-    /* Of no plane, and no way known that they face, or edge-on: they face the camera, and so do their pixels. */
+    /* Cells of no plane, without a known direction or edge-on, face the camera, and so do their pixels. */
     for (int edge_on = 0; edge_on < 2; ++edge_on) {
         memset(s->planes.label, 0, PIXELS);
         for (int i = 0; i < PIXELS; ++i) {
@@ -421,8 +422,8 @@ static void test_mesh(stage *s)
 
 /* --- grazing photos ------------------------------------------------------------------------------------------------ */
 
-/* A floor out to the horizon, measured as far as `far`, noise in 1 / distance, one pixel of ten missing. What is beyond
- * was not measured but for specks, which sensors report at any distance that they know. */
+/* A floor up to the horizon, measured up to `far`, with noise in 1 / distance; one pixel in ten is missing. Beyond
+ * `far` only specks are measured, which sensors report at any distance in their range. */
 static void draw_grazing(stage *s, test_rng *rng)
 {
     const float height = test_uniform(rng, 0.04f, 1.5f), far = test_uniform(rng, 0.8f, 4.5f),
@@ -439,7 +440,7 @@ static void draw_grazing(stage *s, test_rng *rng)
     }
 }
 
-/* Nearest [0] and farthest [1] of what was measured in the cells around the corner of cells (i, j), m. */
+/* Nearest [0] and farthest [1] measurement in the cells around cell corner (i, j), m. */
 static void measured_near(float range[2], const stage *s, int32_t i, int32_t j)
 {
     range[0] = 1e9f;
@@ -453,7 +454,7 @@ static void measured_near(float range[2], const stage *s, int32_t i, int32_t j)
     }
 }
 
-/* A plane is no larger than what was measured of it reaches, `far` at most. */
+/* A plane is no larger than its measured part, which reaches `far` at most. */
 static int is_wide(const lmb_planes *planes, float far)
 {
     for (int32_t i = 0; i < planes->count; ++i) {
@@ -474,8 +475,8 @@ static float farthest(const stage *s)
     return far;
 }
 
-/* No corner of a cell lies farther from what was measured around it than a cell's corner may from its middle, noise
- * and steps of a millimetre beside; so no bounds are wider than the photo is deep. */
+/* Up to noise and steps of a millimetre, no cell corner is farther from the measurements around it than a corner can be
+ * from its cell's centre, so no bounds are wider than the photo is deep. */
 static void test_grazing(stage *s)
 {
     static const int32_t corner[4][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
@@ -506,11 +507,11 @@ static void test_grazing(stage *s)
               (double)worst);
 }
 
-/* A photo's pixel and the frame's show the same ray, wherever the axis is. */
+/* A photo pixel and the frame's pixel show the same ray, wherever the axis is. */
 static void test_view(void)
 {
     static const float centres[3] = {47.5f, 30.0f, 61.5f};
-    static const int32_t before[3] = {0, 40, 0}, sides[3] = {96, 141, 124}; /* whole tiles, and no more */
+    static const int32_t before[3] = {0, 40, 0}, sides[3] = {96, 141, 124}; /* whole tiles only */
     const lmb_axes axes = lmb_axes_upright((lmb_vec3){0, 1, 0});
     for (int i = 0; i < 3; ++i) {
         lmb_pinhole c = camera;
@@ -526,7 +527,7 @@ static void test_view(void)
     }
 }
 
-/* Focal lengths that leave no field of view, or one without end. */
+/* Focal lengths that give no field of view, or an infinite one. */
 static void test_no_view(void)
 {
     static const float focal[4] = {3e33f, INFINITY, 1e-31f, 1e-42f};
@@ -550,7 +551,7 @@ static void test_half(void)
     }
     CHECK(wrong == 0);
     wrong = 0;
-    for (uint32_t steps = 0; steps <= 4096; ++steps) { /* quarters of the smallest step: of ties the even code */
+    for (uint32_t steps = 0; steps <= 4096; ++steps) { /* quarters of the smallest step: ties round to the even code */
         const uint32_t whole = steps / 4, rest = steps % 4, up = rest > 2 || (rest == 2 && whole % 2 == 1);
         wrong += half_encode((float)steps / 67108864.0f) != whole + up;
     }
@@ -560,7 +561,7 @@ static void test_half(void)
     CHECK(half_encode(1.0f + 1.0f / 2048.0f) == HALF_ONE && half_encode(1.0f + 3.0f / 2048.0f) == HALF_ONE + 2);
 }
 
-/* Left, right, top and bottom of a picture go to their sides, its middle ahead and behind. */
+/* Left, right, top and bottom of a picture map to the cube's sides, the centre to front and back. */
 static void test_fold(void)
 {
     enum { SIZE = 16, SIDE = 90 };
@@ -583,7 +584,7 @@ static void test_fold(void)
         float seen[3];
         lmb_env_sample(seen, &env, to[i], 0.0f);
         CHECK_MSG(seen[0] == want[i] && seen[2] == want[i], "side %d: %g", i, (double)seen[0]);
-        lmb_env_sample(seen, &env, to[i], 1.0f); /* the level of one texel a face, a face's own mean there */
+        lmb_env_sample(seen, &env, to[i], 1.0f); /* the level with one texel per face: the mean of the face */
         CHECK_MSG(fabsf(seen[1] - want[i]) < 0.05f, "side %d: %g", i, (double)seen[1]);
     }
 }
@@ -600,7 +601,7 @@ static void test_dimmed(void)
     lmb_env_set(&env, 0, 4, 3, light);
     lmb_env_mips(&env);
     lmb_env_dim(&env, &env, up_share);
-    /* What is no direction is one all the same. */
+    /* Invalid directions give the value straight ahead. */
     const lmb_vec3 odd[] = {{0, 0, 0}, {NAN, 0, 0}, {0, INFINITY, 1}, {1e-30f, 0, 0}};
     float ahead[3];
     lmb_env_sample(ahead, &env, (lmb_vec3){0, 0, -1}, 0.0f);
@@ -613,7 +614,7 @@ static void test_dimmed(void)
     CHECK(seen[0] > 0.0f && seen[0] == 0.5f * seen[1] && seen[1] == seen[2]);
 }
 
-/* --- what changes ------------------------------------------------------------------------------------------------- */
+/* --- changes ------------------------------------------------------------------------------------------------------ */
 
 static void test_delta(stage *s)
 {
@@ -629,7 +630,7 @@ static void test_delta(stage *s)
     photo = before;
     with = without;
     CHECK(lmb_delta_tile(&photo, &s->tile, &without, &with) == LMB_OK && memcmp(&photo, &before, sizeof photo) == 0);
-    with.rgb[0][3] = 1.0f; /* half the light: half the picture */
+    with.rgb[0][3] = 1.0f; /* half the light gives half the picture */
     with.rgb[0][4] = 0.0f;
     with.rgb[0][5] = 4.0f;
     with.rgb[0][7] = 0.0f;
@@ -641,8 +642,8 @@ static void test_delta(stage *s)
     CHECK(fabsf(lmb_real_albedo(0.25f, 3.14159265f) - 0.25f) < 1e-6f);
 }
 
-/* A varnish straight under the camera shows its share of what changes in the mirror, at a flat angle nearly all; other
- * planes and what is none show nothing, and what does not change leaves the bits alone. */
+/* A varnish straight below the camera reflects its share of the change, at a grazing angle nearly all. Other planes and
+ * pixels without a plane reflect nothing, and unchanged pixels keep their bits. */
 static void test_mirror_tile(stage *s)
 {
     static lmb_cone_seen without, with;
@@ -675,14 +676,14 @@ static void test_mirror_tile(stage *s)
     CHECK_MSG(fabsf(got[0] - 0.04f) < 1e-6f && fabsf(got[1] - 0.07f) < 1e-5f, "%g %g", (double)got[0], (double)got[1]);
     CHECK(photo.rgb[0][2] == before.rgb[0][2] && photo.rgb[0][3] == before.rgb[0][3] &&
           photo.rgb[0][4] == before.rgb[0][4] && photo.rgb[1][5] == before.rgb[1][5] &&
-          photo.rgb[2][6] == 0.5f * before.rgb[2][6]); /* half of the photo may be mirrored, no more */
+          photo.rgb[2][6] == 0.5f * before.rgb[2][6]); /* at most half of the photo counts as reflection */
     photo = before;
     CHECK(lmb_mirror_tile(&photo, &s->tile, &planes, &tile, -1, &without, &with, 1.0f) == LMB_OK);
     CHECK(fabsf(photo.rgb[0][3] - before.rgb[0][3] - 1.0f) < 1e-6f && photo.rgb[0][4] == before.rgb[0][4]);
     CHECK(lmb_mirror_tile(&photo, &s->tile, &planes, &tile, 1, NULL, &with, 0.04f) == LMB_ERR_ARG);
 }
 
-/* What the headers say that things take. */
+/* Sizes that the headers document. */
 static void test_sizes(void)
 {
     CHECK_MSG(sizeof(lmb_flat) == 100, "%d", (int)sizeof(lmb_flat));
@@ -694,7 +695,7 @@ static void test_sizes(void)
     CHECK(lmb_cloud_bytes(10, 10) == 1600 && lmb_planes_bytes(10, 10) == 500 && lmb_real_mesh_bytes(8, 8, 4) == 4 * 96);
 }
 
-/* What is nearer hides the object, what is as near as noise can tell does not. */
+/* A nearer surface hides the object; one within the depth noise does not. */
 static void test_hidden(stage *s)
 {
     static lmb_tile object;
@@ -716,7 +717,7 @@ static void test_hidden(stage *s)
 
 static const lmb_vec3 box[4] = {{-1, 0, -3}, {1, 0, -3}, {0, 1, -3}, {0, 0, -5}};
 
-/* Both maps of each kind of light have the same views: so a texel's power is the same number. */
+/* Both maps of each kind of light have the same views, so a texel's power is the same number. */
 static void test_two_maps(void)
 {
     enum { SIZE = 16 };
@@ -741,7 +742,7 @@ static void test_two_maps(void)
 
 static lmb_texel around_points[4096];
 
-/* Each part has the colour at its own middle: vertex colours, and a texture from black to white, by both uvs. */
+/* Each part has the colour at its centre: vertex colours, and a black-to-white texture with both kinds of uvs. */
 static void check_coloured(lmb_scene *scene, lmb_mesh *mesh, lmb_material *material, const lmb_env *env)
 {
     static const uint8_t colours[16] = {255, 0, 51, 255, 0, 204, 102, 255, 51, 255, 255, 255};
@@ -773,7 +774,7 @@ static void check_coloured(lmb_scene *scene, lmb_mesh *mesh, lmb_material *mater
     }
 }
 
-/* Of a texture with levels parts get the texels that lie in them: as a mean of all, each would be grey. */
+/* A part samples the texels inside it from the texture levels: a mean of all texels would make each part grey. */
 static void check_levels(lmb_scene *scene, lmb_mesh *mesh, lmb_material *material, const lmb_env *env)
 {
     static uint8_t texels[4 * (64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1)];
@@ -804,7 +805,7 @@ static void check_levels(lmb_scene *scene, lmb_mesh *mesh, lmb_material *materia
               (double)dark, (double)light);
 }
 
-/* A triangle throws back albedo x light x area, in however many parts. */
+/* A triangle reflects albedo x light x area, for any number of parts. */
 static void test_around(void)
 {
     static uint32_t env_memory[8 * 8 * 6 * 3], triangle[3] = {0, 1, 2};
@@ -841,7 +842,7 @@ static void test_around(void)
         double sum = 0.0;
         const size_t n = lmb_around_points(points, 4096, &scene, 1, 1, leaf, &env);
         CHECK(n == lmb_around_points(NULL, 0, &scene, 1, 1, leaf, &env));
-        double middle = 0.0; /* of all parts is the triangle's */
+        double middle = 0.0; /* of all parts, equals the triangle's */
         for (size_t i = 0; i < n; ++i) {
             sum += (double)points[i].flux[0];
             middle += (double)points[i].position.y / (double)n;
@@ -854,7 +855,7 @@ static void test_around(void)
     check_levels(&scene, &mesh, &material, &env);
 }
 
-/* Points close together have one answer, that scales all of them; as much light as before leaves the bits alone. */
+/* Close points share one result, which scales all of them; an unchanged light leaves the bits alone. */
 static void test_again(void)
 {
     enum { COUNT = 100 };
@@ -875,7 +876,7 @@ static void test_again(void)
         scratch.before.rgb[0][k] = scratch.now.rgb[0][k] = 0.7f;
         scratch.before.rgb[1][k] = 2.0f;
         scratch.now.rgb[1][k] = 1.0f;
-        scratch.now.rgb[2][k] = 1.0f; /* of nothing before */
+        scratch.now.rgb[2][k] = 1.0f; /* no light before */
     }
     CHECK(lmb_around_scale(points, &scratch, NULL) == LMB_OK);
     for (int i = 0; i < COUNT; ++i) {

@@ -1,4 +1,4 @@
-/* test_models.c: the model readers: every feature with exact values, hostile files, truncated files, known counts. */
+/* test_models.c: the model readers: every feature with exact values, hostile and truncated files, known counts. */
 #include "../folder.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ void test_models(void);
 
 enum { TEXT_MAX = 1 << 16 };
 
-/* One run's folder, what was written there, and the model that was loaded last. */
+/* The run's folder, the text written last, and the model loaded last. */
 static folder place;
 static char text[TEXT_MAX];
 
@@ -23,7 +23,7 @@ static char text[TEXT_MAX];
 
 static void put_file(const char *name, const void *data, size_t size) { folder_put(&place, name, data, size); }
 
-/* A path in the folder, whether a file is there or not. */
+/* A path in the folder, whether or not the file exists. */
 static void path_of(char path[FOLDER_PATH], const char *name)
 {
     snprintf(path, FOLDER_PATH, "%.440s/%.60s", place.path, name);
@@ -286,7 +286,7 @@ static void gltf_lights(void)
     if (loaded.scene.light_count != 4)
         return;
     CHECK(l[0].kind == LMB_LIGHT_POINT && is_vec(l[0].position, 1, 3, 3));
-    CHECK(l[0].range == 3.0f && l[1].range == 0.0f && l[2].range == 0.0f && l[3].range == 0.0f); /* no scale of nodes */
+    CHECK(l[0].range == 3.0f && l[1].range == 0.0f && l[2].range == 0.0f && l[3].range == 0.0f); /* node scale unused */
     CHECK(l[0].intensity[0] == 8 && l[0].intensity[1] == 4 && l[0].intensity[2] == 2);
     CHECK(l[1].kind == LMB_LIGHT_SPOT && is_vec(l[1].direction, 0, 0, 1) && is_vec(l[1].position, 0, 0, 0));
     CHECK(near(l[1].cos_inner, cos(0.5), 1e-7) && near(l[1].cos_outer, cos(1.0), 1e-7));
@@ -317,7 +317,7 @@ static void gltf_cameras(void)
 #define POSITIONS_AT_0 "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}]"
 #define MESH_OF_0      "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"
 
-/* Interleaved: position f32 x 3, normal i8 x 3 + 1, uv u16 x 2, colour u8 x 4: 24 bytes a vertex. */
+/* Interleaved: position f32 x 3, normal i8 x 3 + 1, uv u16 x 2, colour u8 x 4: 24 bytes per vertex. */
 static void gltf_interleaved(void)
 {
     static const int8_t normals[3][3] = {{0, 0, 127}, {127, 0, 0}, {0, -128, 0}};
@@ -365,7 +365,7 @@ static void gltf_interleaved(void)
     }
 }
 
-/* Quantised positions, and colours of three floats. */
+/* Quantised positions and float colours. */
 static void gltf_integers(void)
 {
     blob b = {{0}, 0};
@@ -376,7 +376,7 @@ static void gltf_integers(void)
         put_u16(&b, i == 2 ? 0x8000 : 0);
         put_u16(&b, 0);
     }
-    for (i = 0; i < 3; ++i) { /* u8, as they are */
+    for (i = 0; i < 3; ++i) { /* u8, not normalized */
         put_u8(&b, (uint32_t)(i == 1 ? 200 : 0));
         put_u8(&b, (uint32_t)(i == 2 ? 100 : 0));
         put_u16(&b, 0);
@@ -432,7 +432,7 @@ static void gltf_sparse(void)
     CHECK(loaded.scene.meshes[1].triangle_count == 1 && noted("vertices left over"));
 }
 
-/* Sparse indices must rise: neither twice the same nor back, of values as of vertex numbers. */
+/* Sparse indices must increase strictly, both for values and for vertex numbers. */
 static void gltf_sparse_order(void)
 {
     static const uint32_t twice[2] = {1, 1}, back[2] = {2, 1}, beyond[2] = {0, 3};
@@ -454,7 +454,7 @@ static void gltf_sparse_order(void)
     }
 }
 
-/* One vertex array under every mode and index type; streams are shared. */
+/* One vertex array in every mode and with every index type; streams are shared. */
 static void gltf_modes(void)
 {
     static const uint32_t strip[9] = {0, 1, 2, 1, 3, 2, 2, 3, 4}, fan[9] = {1, 2, 0, 2, 3, 0, 3, 4, 0},
@@ -492,7 +492,7 @@ static void gltf_modes(void)
     CHECK(noted("points or lines skipped: 3") && noted("without POSITION skipped: 1"));
 }
 
-/* More than 65536 vertices take 32-bit indices; not-a-number positions pass and do not spread into the bounds. */
+/* More than 65536 vertices need 32-bit indices; NaN positions are accepted and do not affect the bounds. */
 static void gltf_large(void)
 {
     enum { N = 65537 };
@@ -557,7 +557,7 @@ static void gltf_materials(void)
     CHECK(!noted("emissive materials") && loaded.scene.instances[0].material == 4);
 }
 
-/* A PNG from a file with a space in its name, from a data URI and from a bufferView, each with its sampler. */
+/* A PNG from a file with a space in the name, from a data URI and from a bufferView, each with a sampler. */
 static void gltf_textures(void)
 {
     file_bytes png = {NULL, 0};
@@ -590,7 +590,7 @@ static void gltf_textures(void)
         data_uri, (unsigned)png.size, TAIL(b)));
     file_free(&png);
     t = loaded.scene.textures;
-    CHECK(loaded.scene.texture_count == 4); /* one as a colour and as a map of metal */
+    CHECK(loaded.scene.texture_count == 4); /* one both as colour and as metallic map */
     CHECK(noted("left out, plain colour instead: 2 (first: images[3]: marker E0 at byte 2 runs"));
     if (loaded.scene.texture_count != 4)
         return;
@@ -603,7 +603,7 @@ static void gltf_textures(void)
     CHECK(loaded.scene.materials[3].texture == -1 && loaded.scene.materials[5].texture == -1);
 }
 
-/* A JPEG of 2 x 2 texels of 200, 100, 50; as a metallic map its mean counts, and its texels are there for lobes. */
+/* A JPEG of 2 x 2 texels of 200, 100, 50. A metallic map uses the mean, and the texels are there for lobes. */
 static void gltf_jpeg_texture(void)
 {
     blob b = {{0}, 0};
@@ -627,7 +627,7 @@ static void gltf_jpeg_texture(void)
     CHECK(near(loaded.scene.materials[0].albedo[0], 1 - 50.0 / 255, 1e-6));
 }
 
-/* offset + rotation (counter-clockwise, v downwards) * scale, and its own texCoord. */
+/* offset + rotation (counter-clockwise, v down) * scale, and a separate texCoord. */
 static void gltf_texture_transform(void)
 {
     static const float uv[6] = {0, 0, 1, 0, 0, 1};
@@ -659,7 +659,8 @@ static void gltf_texture_transform(void)
     CHECK(near(out[4], 0.5 + 3, 1e-6) && near(out[5], 0.25, 1e-6));
 }
 
-/* What a scene names though it is another's child is drawn once: below that where that is drawn, else by itself. */
+/* A node that a scene lists although it is another node's child is drawn once: below the parent if the parent is drawn,
+ * otherwise by itself. */
 static void gltf_named_children(void)
 {
     blob b = {{0}, 0};
@@ -680,7 +681,7 @@ static void gltf_named_children(void)
         CHECK(loaded.scene.instances[0].to_world.m[12] == 4 && loaded.scene.instances[1].to_world.m[12] == 2);
     CHECK_LOADS(load_text("named.gltf", NAMED("0,1,0,1", MOVED("1", "") "," MOVED("2", "")), TAIL(b)));
     CHECK(noted("drawn once: 2") && loaded.scene.instance_count == 2);
-    /* below what is named, with one between that is not */
+    /* a listed descendant with an unlisted node in between */
     CHECK_LOADS(load_text("named.gltf", NAMED("0,2", MOVED("1", ",\"children\":[1]") "," MOVED("2", ",\"children\":[2]") "," MOVED("4", "")),
                           TAIL(b)));
     CHECK(noted("drawn once: 1") && loaded.scene.instance_count == 3);
@@ -690,7 +691,7 @@ static void gltf_named_children(void)
 
 /* --- glTF: damage --- */
 
-/* Each body stands between the head and a good buffer of one triangle. */
+/* Each body is placed between the head and a valid buffer of one triangle. */
 static void gltf_refuses(void)
 {
     static const struct {
@@ -822,7 +823,7 @@ static void glb_prefixes(void)
         check_fails(load("part.glb"), "part.glb: ");
         if (n < 12)
             continue;
-        broken = b; /* and with a header that agrees with the cut */
+        broken = b; /* and with a header that matches the cut */
         broken.size = 8;
         put_u32(&broken, (uint32_t)n);
         put_file("part.glb", broken.bytes, n);
@@ -834,7 +835,7 @@ static void glb_prefixes(void)
     check_fails(load("part.glb"), "GLB version 1");
 }
 
-/* Damage of every byte, one at a time: loads or fails, and nothing else. */
+/* Damages every byte, one at a time: the file loads or fails. */
 static void glb_damage(void)
 {
     blob b, broken;
@@ -876,7 +877,7 @@ static void obj_plain(void)
     CHECK(loaded.scene.instances[0].first_id == 1 && loaded.scene.instances[0].to_world.m[5] == 1);
 }
 
-/* Two triangles share an edge with the same corners, a third has another vt there: 4 + 2 vertices. */
+/* Two triangles share an edge with equal corners, a third has another vt there: 4 + 2 vertices. */
 static void obj_corners(void)
 {
     static const char library[] = "newmtl a\nKd 1 1 1\nmap_Kd -s 1 1 1 -clamp on one white.png\n";
@@ -900,7 +901,7 @@ static void obj_corners(void)
     CHECK(loaded.scene.textures[0].filter == LMB_TRILINEAR && loaded.scene.textures[0].levels == 2);
 }
 
-/* A triangle of three lines `v`. */
+/* A triangle with the three given `v` lines. */
 static int load_painted(const char *v, const char *more, int32_t colours)
 {
     const model_choice choice = {NULL, colours, 0};
@@ -979,8 +980,8 @@ static void obj_smoothing(void)
     CHECK(has_normal(0, -1, 1, 0, 0, 1));
 }
 
-/* Vertices that are written twice, or with different texture coordinates; a face before its vertices; normals of the
- * file, which are kept. */
+/* Duplicate vertices, vertices with different texture coordinates, a face before its vertices, and normals of the file,
+ * which are kept. */
 static void obj_smoothing_corners(void)
 {
     CHECK_LOADS(load_text("s.obj", ROOF "v -0.0 -1 1\nv 0 1 1\ns 1\nf 1 2 3 4\nf 7 5 6 8\n"));
@@ -1019,7 +1020,7 @@ static void obj_smoothing_odd(void)
     CHECK(has_normal(0, -1, 1, 0, 0, 1) && has_normal(0, 1, 1, 0, 0, 1));
     CHECK_LOADS(load_text("s.obj", ROOF "s 1\nf 1 2 3 4\nf 4 3 2 1\n"));
     CHECK(has_normal(0, -1, 1, -slope, 0, slope));
-    CHECK_LOADS(load_text("s.obj", ROOF "v 0.00001 0 1\ns 1\nf 2 7 3\n")); /* only a needle */
+    CHECK_LOADS(load_text("s.obj", ROOF "v 0.00001 0 1\ns 1\nf 2 7 3\n")); /* only a sliver */
     CHECK(has_normal(0, -1, 1, 0, 0, 1));
     CHECK(is_flat(ROOF "s on\nf 1 2 3 4\n") && noted("smoothing groups that are no number, taken as off: 1"));
     CHECK(is_flat(ROOF "s\ns -1\ns 2147483647\nf 1 2 3 4\n") && noted("taken as off: 3"));
@@ -1027,8 +1028,8 @@ static void obj_smoothing_odd(void)
     CHECK(has_normal(0, -1, 1, 0, 0, 1));
 }
 
-/* Normals without length are replaced by those of the faces at the vertex, or +Y if the faces have no area. So are
- * infinite ones. */
+/* Normals without length are replaced by those of the faces at the vertex, or +Y if the faces have no area. Infinite
+ * normals too. */
 static void obj_odd_normals(void)
 {
     CHECK_LOADS(load_text("n.obj", ROOF "vn 0 0 0\nvn 0 0 inf\nvn 0 3 0\nf 1//1 2//1 3//1 4//2\nf 2//1 5//3 6//2 3//1\n"));
@@ -1047,7 +1048,7 @@ static void gltf_odd_normals(void)
     static const uint16_t indices[6] = {0, 1, 2, 3, 4, 5};
     uint8_t bytes[sizeof data + sizeof indices];
     memcpy(data, places, sizeof places);
-    data[18 + 14] = 2; /* of vertex 4: z */
+    data[18 + 14] = 2; /* z of vertex 4 */
     memcpy(bytes, data, sizeof data);
     memcpy(bytes + sizeof data, indices, sizeof indices);
     put_file("n.bin", bytes, sizeof bytes);
@@ -1118,10 +1119,10 @@ static void obj_refuses(void)
     CHECK_LOADS(load_text("nan.obj", "v nan 0 0\nv inf 0 0\nv 1e300 1 0\nv 1 1 1\nf 1 2 3 4\nf 4 4 4\n"));
     CHECK(lmb_scene_triangles(&loaded.scene) == 3 && isnan(position(0, 0)[0]) && isinf(position(0, 2)[0]));
     CHECK_LOADS(load_text("go.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\\\nf 1 2 3\nf 1 2 3\nmtllib b\\\r\nf 1 2 3"));
-    CHECK(lmb_scene_triangles(&loaded.scene) == 1); /* a backslash continues usemtl's line, too */
+    CHECK(lmb_scene_triangles(&loaded.scene) == 1); /* a backslash also continues the line of usemtl */
 }
 
-/* Damage of every byte, as for GLB. */
+/* Damages every byte, as for GLB. */
 static void obj_damage(void)
 {
     static const char model_text[] =
@@ -1147,7 +1148,7 @@ static double area_of(const double *p, const uint32_t *t)
     return ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
 }
 
-/* Positive areas that sum to the polygon's: a cut without overlap, the way round kept. */
+/* Positive areas that sum to the polygon's: no overlap, and the winding is kept. */
 static void check_cut(const double *points, uint32_t n, double area)
 {
     uint32_t cut[3 * 64], links[2 * 64], i;
@@ -1182,7 +1183,7 @@ static void polygons(void)
 
 /* --- real files --- */
 
-/* Triangles placed in the default scene; GlassVaseFlowers shows one of its meshes (of 3,818) twice. */
+/* Triangles placed in the default scene; GlassVaseFlowers shows one mesh (of 3,818) twice. */
 static const struct {
     const char *path;
     uint32_t triangles, lights, cameras;

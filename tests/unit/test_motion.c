@@ -1,4 +1,4 @@
-/* test_motion.c: glTF's animations of nodes: keys, what lies between them, and files that are refused. */
+/* test_motion.c: glTF's node animations: keys, interpolation, and refused files. */
 #include <math.h>
 
 #include "../../tools/model/model_motion.h"
@@ -12,7 +12,7 @@ static int is_vec(lmb_vec3 v, double x, double y, double z)
     return fabs((double)v.x - x) < 1e-5 && fabs((double)v.y - y) < 1e-5 && fabs((double)v.z - z) < 1e-5;
 }
 
-/* Times 0, 1 and 3; places; turns by 0, 90 and 180 degrees about Y; cubic keys; a triangle. */
+/* Times 0, 1 and 3; positions; rotations by 0, 90 and 180 degrees about Y; cubic keys; a triangle. */
 static const float numbers[] = {0, 1, 3,
                                 0, 0, 0, 2, 0, 0, 2, 4, 0,
                                 0, 0, 0, 1, 0, 0.70710678f, 0, 0.70710678f, 0, 1, 0, 0,
@@ -85,9 +85,9 @@ static void moves_by_keys(void)
     CHECK_LOADS(load_gltf(SCENE(ALL, ""), coded()));
     CHECK_MSG(loaded.motion != NULL, "%s", loaded.motion_problem.text);
     CHECK(loaded.motion->tracks == 4 && loaded.motion->end_s == 3.0);
-    CHECK(is_vec(loaded.scene.lights[0].position, 5, 6, 5)); /* at rest as the file has it */
+    CHECK(is_vec(loaded.scene.lights[0].position, 5, 6, 5)); /* at rest as in the file */
     pose p = at(0.5);
-    CHECK(is_vec(p.light.position, 1, 1, 0) && is_vec(p.light.direction, -half, 0, -half)); /* the first one's, LINEAR */
+    CHECK(is_vec(p.light.position, 1, 1, 0) && is_vec(p.light.direction, -half, 0, -half)); /* first one's, LINEAR */
     CHECK(is_vec(p.camera.eye, 0.5, 0, 0) && is_vec(p.camera.back, 0, 0, 1) && is_vec(place_of(p.instance), 0, 0, 0));
     p = at(2.0);
     CHECK(is_vec(p.light.position, 2, 3, 0) && is_vec(p.light.direction, -half, 0, half));
@@ -103,7 +103,7 @@ static void moves_by_keys(void)
     CHECK(loaded.motion->of_light[0] == 1 && loaded.motion->of_instance[1] != MODEL_NONE);
 }
 
-/* The scene is read all the same; what is wrong is kept for who wants to see it move. */
+/* The scene still loads; the problem is stored for callers that need the motion. */
 #define REFUSED(animation, node, part)                                                                       \
     do {                                                                                                     \
         CHECK_LOADS(load_gltf(SCENE(animation, node), coded()));                                                  \
@@ -135,7 +135,7 @@ static void stands_still(void)
     CHECK(loaded.motion == NULL && loaded.motion_problem.text[0] == '\0');
 }
 
-/* With a scale of 0 in a parent, a light and a camera keep the directions of their rotations. */
+/* With a scale of 0 in a parent, lights and cameras keep the directions of their rotations. */
 static void keeps_its_way(void)
 {
     CHECK_LOADS(load_gltf(SCENE(ONE(CHANNEL(0, 1, "scale") "," CHANNEL(1, 0, "rotation") "," CHANNEL(0, 2, "scale"),

@@ -1,4 +1,4 @@
-/* test_mtl.c: OBJ's material libraries: where they are found, what each statement does, what is noted as left out. */
+/* test_mtl.c: OBJ's material libraries: search paths, the effect of each statement, notes about ignored ones. */
 #include "../folder.h"
 
 #include <math.h>
@@ -12,12 +12,12 @@ enum { TEXT_MAX = 1 << 16, MANY = 2000 };
 
 #define FACE "f 1/1 2/2 3/3\n"
 
-/* One run's folder, and the model that was loaded last. */
+/* The run's folder, and the model loaded last. */
 static folder place;
 
 static void put(const char *name, const char *text) { folder_put(&place, name, text, strlen(text)); }
 
-/* A triangle for each of the lines `uses`, which may name libraries and materials. */
+/* A triangle for each of the lines `uses`, which can name libraries and materials. */
 static int load(const char *uses)
 {
     static char text[TEXT_MAX];
@@ -27,14 +27,14 @@ static int load(const char *uses)
     return model_load(&loaded, folder_put(&place, "m.obj", text, (size_t)n), NULL, &notes, &problem);
 }
 
-/* A model whose materials a and b are what the library says. */
+/* A model with the materials a and b of the library. */
 static int load_library(const char *library)
 {
     put("m.mtl", library);
     return load("mtllib m.mtl\nusemtl a\n" FACE "usemtl b\n" FACE);
 }
 
-/* A triangle of so many metres a side. */
+/* A triangle with sides of this many metres. */
 static void tiny(void)
 {
     CHECK_LOADS(load("v 0 0 0.00001\nv 0.00002 0 0.00001\nv 0 0.00002 0.00001\nf 4 5 6\n"));
@@ -112,10 +112,10 @@ static void emission_refuses(void)
     CHECK(!load_library("newmtl a\nKd 1\nKe\n") && strstr(problem.text, "m.mtl: line 3: Ke needs three numbers"));
     CHECK(!load_library("newmtl b\nKe 1 bright 1\n") && strstr(problem.text, "m.mtl: line 2: Ke takes numbers"));
     CHECK(loaded.block_count == 0 && !loaded.blocks);
-    CHECK_LOADS(load_library("newmtl other\nKe\nKe bright\n")); /* of a material that is not used */
+    CHECK_LOADS(load_library("newmtl other\nKe\nKe bright\n")); /* of an unused material */
 }
 
-/* --- what is left out --- */
+/* --- ignored statements --- */
 
 static void opacity(void)
 {
@@ -165,7 +165,7 @@ static int is_uv(uint32_t mesh, uint32_t vertex, float u, float v)
     return uv && uv[2 * vertex] == u && uv[2 * vertex + 1] == v;
 }
 
-/* By hand: (1, 0.25) times (2, 3), moved by (0.25, 0.5), is (2.25, 1.25), which lies at 1 - 1.25 downwards. */
+/* By hand: (1, 0.25) times (2, 3), moved by (0.25, 0.5), is (2.25, 1.25), which is at 1 - 1.25 with v down. */
 static void scaled_and_moved(void)
 {
     CHECK_LOADS(load_library("newmtl a\nmap_Kd -s 2 3 -o 0.25 0.5 0 x.png\nnewmtl b\nmap_Kd x.png\n"));
@@ -175,10 +175,10 @@ static void scaled_and_moved(void)
     CHECK_LOADS(load_library("newmtl a\nmap_Kd -s 2 x.png\nnewmtl b\nmap_Kd -o -0.5 x.png\n"));
     CHECK(is_uv(0, 1, 2, 0.75f) && is_uv(1, 1, 0.5f, 0.75f));
     CHECK_LOADS(load_library("newmtl a\nmap_Kd -s 1e39 nan -o 0 0 x.png\nnewmtl b\nmap_Kd -o 1e7 -1e300 x.png\n"));
-    CHECK(is_uv(0, 1, 0, 0) && is_uv(1, 1, 0, 0)); /* nowhere: the corner */
+    CHECK(is_uv(0, 1, 0, 0) && is_uv(1, 1, 0, 0)); /* out of range: the corner */
 }
 
-/* The last statement with a name holds, with its own options only. */
+/* The last statement with a file name counts, with only the options of this statement. */
 static void statement_again(void)
 {
     CHECK_LOADS(load_library("newmtl a\nmap_Kd -clamp on -s 2 x.png\nmap_Kd\nmap_Kd -s 4\nnewmtl b\n"
@@ -212,7 +212,7 @@ static void libraries(void)
     put("1.mtl 2.mtl 3", "newmtl a\nKd 0.75\n");
     CHECK_LOADS(load("mtllib 1.mtl \t2.mtl\nusemtl a\n" FACE "usemtl b\n" FACE));
     CHECK(grey(1) == 0.25f && grey(2) == 0.5f && notes.count == 0);
-    CHECK_LOADS(load("mtllib 1.mtl 2.mtl 3\nusemtl a\n" FACE "usemtl b\n" FACE)); /* as a whole, where that is a file */
+    CHECK_LOADS(load("mtllib 1.mtl 2.mtl 3\nusemtl a\n" FACE "usemtl b\n" FACE)); /* as one name, if it exists */
     CHECK(grey(1) == 0.75f && grey(2) == 0.8f && noted("no library describes, drawn grey: 1"));
     CHECK_LOADS(load("mtllib 1.mtl # of one\nmtllib # none\nusemtl a\n" FACE));
     CHECK(grey(1) == 0.25f && noted("materials are grey: 1 (first: ") && notes.count == 1);
@@ -234,7 +234,7 @@ static void libraries_missing(void)
     CHECK(noted("a name of 1193 bytes"));
 }
 
-/* A line of more names than libraries may be. */
+/* A line with more names than the maximum of libraries. */
 static void libraries_many(void)
 {
     static char uses[TEXT_MAX / 2];
@@ -249,7 +249,7 @@ static void libraries_many(void)
 
 /* --- names --- */
 
-/* Short ones as another program has them; longer ones differ by the machine's order of bytes. */
+/* Short names as hashed by another program; longer ones depend on the byte order. */
 static void hash(void)
 {
     static const char text[] = "a name of some length";
@@ -266,7 +266,7 @@ static void hash(void)
     CHECK(obj_hash(2, text, sizeof text) != whole && obj_hash(UINT64_C(1) << 63 | 1, text, sizeof text) != whole);
 }
 
-/* Where a name goes hangs on the key: of 64 names few go to the same of 1024 slots. */
+/* The key determines a name's slot: few of 64 names share one of 1024 slots. */
 static void names_are_keyed(void)
 {
     obj_material items[1];

@@ -1,5 +1,5 @@
-/* test_multisample.c: frame.samples: edges by the share of a pixel that they cover, bounced light once a surface, and
- * always the same bytes. */
+/* test_multisample.c: frame.samples: edges weighted by pixel coverage, bounced light once per surface, and always the
+ * same bytes. */
 #include <lambent/lambent.h>
 
 #include <stdio.h>
@@ -24,7 +24,7 @@ static lmb_frame_settings settings_of(const lmb_scene *scene, lmb_view view, int
     return s;
 }
 
-/* With its own counts. */
+/* With separate counts. */
 static void lay_out_counting(const lmb_frame_settings *s)
 {
     lay_out(s);
@@ -41,7 +41,7 @@ static float pixel(int32_t x, int32_t y, int c)
 
 enum { SIDE = 64 };
 
-/* Pixels of a centimetre, seen along -Z. */
+/* Pixels of a centimetre, viewed along -Z. */
 static lmb_view flat_view(void)
 {
     lmb_view v;
@@ -58,12 +58,12 @@ static lmb_view flat_view(void)
     return v;
 }
 
-/* What lies on the far side of a line through the middle, of the pixel's square: by 64 x 64 points where it is near. */
+/* Share of the pixel's square on the far side of a line through the centre, from 64 x 64 points if the line is near. */
 static double covered(int32_t x, int32_t y, double angle)
 {
     const double s = sin(angle), c = cos(angle), far = (x + 0.5 - SIDE / 2) * s - (SIDE / 2 - y - 0.5) * c;
     int inside = 0;
-    if (fabs(far) > 0.75) { /* half a diagonal is less */
+    if (fabs(far) > 0.75) { /* more than half a diagonal */
         return far > 0.0 ? 1.0 : 0.0;
     }
     for (int k = 0; k < 64 * 64; ++k) {
@@ -73,7 +73,7 @@ static double covered(int32_t x, int32_t y, double angle)
     return inside / 4096.0;
 }
 
-/* RMS error of the coverage of pixels that an edge cuts, over angles. A surface emits 1 W/(sr m2) there. */
+/* RMS error of the coverage of pixels on an edge, over angles. The surface emits 1 W/(sr m2). */
 static double edge_error(int32_t samples)
 {
     double sum = 0.0;
@@ -110,7 +110,7 @@ static void test_edges(void)
     CHECK(e1 > 0.2 && e4 < 0.12 && e8 < 0.07 && e16 < 0.05);
 }
 
-/* A view that samples lie aside in sees what an eye sees that stands so far aside. */
+/* A view with shifted samples equals one from an eye shifted by the same amount. */
 static void test_aside(void)
 {
     lmb_view there = flat_view(), aside = there;
@@ -144,7 +144,7 @@ static void test_aside(void)
 
 /* --- bounced light ------------------------------------------------------------------------------------------------ */
 
-/* Only edges that no neighbour explains are gathered again; far from edges pictures agree. */
+/* Light is gathered again only at edges that no neighbour explains; far from edges the pictures agree. */
 static void test_gathers_once(void)
 {
     static float one[80 * 60];
@@ -170,9 +170,9 @@ static void test_gathers_once(void)
 
 enum { FLOOR_ALONE, STEPS, GROOVES, BOARDS };
 
-/* Pairs of pixels and lights that `samples` of a floor take, which a lit wall behind the eye lights. Every column of
- * pixels has its middles on a strip of its own; between two of them lies nothing, a board over the floor, or the two
- * sides of a groove; or a board over the first column of each tile, and a little of the tile before. */
+/* Pairs of pixels and lights for `samples` of a floor, lit by a lit wall behind the eye. Each pixel column has its
+ * centres on a separate strip. Between two strips is nothing, a board above the floor, or the two sides of a groove; or
+ * a board covers the first column of each tile and a bit of the tile before. */
 static double floor_pairs(int between, int32_t samples)
 {
     const float px = 0.01f, half_gap = between == FLOOR_ALONE || between == BOARDS ? 0.0f : 0.2f * px;
@@ -203,15 +203,16 @@ static double floor_pairs(int between, int32_t samples)
     s.show = LMB_SHOW_INDIRECT;
     lay_out_counting(&s);
     CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
-    for (int32_t k = 0; k < SIDE * SIDE; ++k) { /* all is grey, so its light is */
+    for (int32_t k = 0; k < SIDE * SIDE; ++k) { /* everything is grey, so the light is too */
         const int32_t x = k % SIDE, y = k / SIDE;
         CHECK(pixel(x, y, 0) > 0.0f && pixel(x, y, 0) == pixel(x, y, 1) && pixel(x, y, 1) == pixel(x, y, 2));
     }
     return (double)stats.pairs;
 }
 
-/* Samples take the light of a middle near them where its surface goes on, whatever its triangles. Where it steps or
- * turns light is gathered for what no middle shows, and kept: four times as many samples ask for no more. */
+/* A sample takes the light of a nearby pixel centre if the surface continues, whatever its triangles. If the surface
+ * steps or turns, light is gathered for parts that no centre shows, and kept: four times as many samples need no
+ * more. */
 static void test_goes_on(void)
 {
     CHECK(floor_pairs(FLOOR_ALONE, 1) > 1000 && floor_pairs(FLOOR_ALONE, 16) == floor_pairs(FLOOR_ALONE, 1));
@@ -219,13 +220,13 @@ static void test_goes_on(void)
     CHECK_MSG(four > 1.3 * one && more < 1.02 * four, "steps: %g pairs, by 4 samples %g, by 16 %g", one, four, more);
     const double flat = floor_pairs(GROOVES, 1), sides = floor_pairs(GROOVES, 4);
     CHECK_MSG(sides > 2 * flat, "grooves: %g pairs, by 4 samples %g", flat, sides);
-    /* No tile knows the next one's middles, nor takes those of its own first column for them. */
+    /* A tile has no access to the next tile's centres and must not use those of the first column instead. */
     const double boards = floor_pairs(BOARDS, 1), edges = floor_pairs(BOARDS, 4);
     CHECK_MSG(edges > 1.05 * boards && edges < 1.5 * boards, "boards: %g pairs, by 4 samples %g", boards, edges);
 }
 
-/* Metal has no diffuse part: what it shows of a lit wall behind the eye is its lobe's. At its edge that counts by the
- * share of a pixel that it covers, whatever the pixel's middle shows. */
+/* Metal has no diffuse part: only its lobe shows the lit wall behind the eye. At the metal's edge the lobe counts by
+ * pixel coverage, whatever the pixel's centre shows. */
 static void test_metal_edge(void)
 {
     const double angle = 0.4;
@@ -296,7 +297,7 @@ static uint64_t drawn(const lmb_frame_settings *s)
     return hash_of();
 }
 
-/* Bands from the last to the first, in scratch of noise, with the second thread's samples. */
+/* Bands from last to first, with noise in the scratch, using the second thread's samples. */
 static uint64_t drawn_backwards(lmb_frame_settings s)
 {
     s.threads = 2;
@@ -326,7 +327,7 @@ static uint64_t drawn_by_bands(lmb_frame_settings s)
     return rows_hash;
 }
 
-/* The middle of a view, as large as in one of three times its size: small frames of all that is there are all edges. */
+/* The centre of a view at three times the size: small frames of the whole scene consist only of edges. */
 static lmb_view near_view(int32_t width, int32_t height)
 {
     lmb_view v = demo_view(width, height);
@@ -359,12 +360,12 @@ static void test_refused(void)
     s.samples = 1;
     lay_out(&s);
     frame.samples = 4;
-    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* no room for samples */
+    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* no memory for samples */
     s.samples = 4;
     lay_out(&s);
     CHECK(lmb_render_begin(&render, &frame) == LMB_OK);
     frame.samples = 8;
-    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* room for 4 */
+    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* memory for 4 */
     for (int i = 0; i < 5; ++i) {
         lay_out(&s);
         lmb_multisample *m = frame.scratch[0].multisample;

@@ -1,5 +1,5 @@
-/* test_normal_map.c: normals bent by a normal map: axes, back faces, mirrors, tangents given and not, and a random soup
- * against the formula in binary64. */
+/* test_normal_map.c: normals bent by a normal map: axes, back faces, mirrors, given and missing tangents, and random
+ * triangles against the formula in binary64. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@ void test_normal_map(void);
 
 enum { SIDE = 16 };
 
-/* One triangle before the camera, and one texel of normal map all over it. */
+/* One triangle in front of the camera, covered by one texel of a normal map. */
 typedef struct stage {
     float positions[9], uvs[6];
     int16_t normals[6], tangents[6];
@@ -35,14 +35,14 @@ static lmb_vec3 vec(float x, float y, float z)
     return v;
 }
 
-/* A map of the code (r, g, b). */
+/* A map with the constant code (r, g, b). */
 static void set_map(uint8_t r, uint8_t g, uint8_t b)
 {
     const uint8_t rgba[4] = {r, g, b, 255};
     memcpy(&st.texel, rgba, 4);
 }
 
-/* A right triangle that fills the view; u along +x, v along -y, as an image lies; flat normals. */
+/* A right triangle that fills the view; u along +x, v along -y, as in an image; flat normals. */
 static void set_stage(void)
 {
     static const float positions[9] = {-4, -4, 0, 8, -4, 0, -4, 8, 0}, uvs[6] = {0, 1, 1, 1, 0, 0};
@@ -73,7 +73,7 @@ static void set_stage(void)
     set_map(128, 128, 255);
 }
 
-/* The normal and face at the picture's middle, seen from `eye` towards the origin. */
+/* The normal and face at the picture's centre, viewed from `eye` towards the origin. */
 static lmb_vec3 look(lmb_vec3 *face, lmb_vec3 eye)
 {
     const lmb_kernels *kernels = picked_kernels();
@@ -131,7 +131,7 @@ static void test_axes(void)
 static void test_transforms(void)
 {
     const lmb_mat4 mirror = {{-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
-    const lmb_mat4 quarter = {{0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}; /* x to y, uneven */
+    const lmb_mat4 quarter = {{0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}; /* x to y, non-uniform */
     set_stage();
     set_map(219, 128, 219);
     st.positions[0] = st.positions[6] = -8;
@@ -144,7 +144,7 @@ static void test_transforms(void)
     check_normal(vec(0, 0, 5), -1, half / 0.7176, 1, "a turned node turns both");
 }
 
-/* Tangents of the mesh go before the triangle's own direction. */
+/* Mesh tangents take precedence over the triangle's direction. */
 static void test_tangents(void)
 {
     set_stage();
@@ -158,7 +158,7 @@ static void test_tangents(void)
     check_normal(vec(0, 0, 5), -0.7071 + half * 0.985, 0.7071 + half * 0.985, 1, "and what is square to it");
 }
 
-/* A tangent along x at each corner, with its side from a sign. */
+/* A tangent along x at each corner, with the side given by a sign. */
 static void set_sides(int a, int b, int c)
 {
     const int odd[3] = {a > 0, b > 0, c > 0};
@@ -247,7 +247,7 @@ static vector position_of(int k)
     return v;
 }
 
-/* The texture's own directions, solved from P = P0 + u dP/du + v dP/dv. */
+/* The texture directions, solved from P = P0 + u dP/du + v dP/dv. */
 static vector expected(vector n, const double code[3])
 {
     double du1 = (double)st.uvs[2] - (double)st.uvs[0], dv1 = (double)st.uvs[3] - (double)st.uvs[1];

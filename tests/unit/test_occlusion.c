@@ -1,4 +1,4 @@
-/* test_occlusion.c: what stands between a tile and a point, against all triangles in binary64; what must not leak. */
+/* test_occlusion.c: occlusion between a tile and a point, against all triangles in binary64; light must not leak. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@ void test_occlusion(void);
 
 static uint32_t memory[1 << 19];
 
-/* The world's triangles as the BVH. */
+/* Builds the BVH of the world's triangles. */
 static lmb_bvh bvh_of_world(void)
 {
     lmb_bvh b;
@@ -26,7 +26,7 @@ static void minus(double out[3], const float a[3], lmb_vec3 b)
     out[2] = (double)a[2] - (double)b.z;
 }
 
-/* How surely a segment crosses a triangle: > 0 crosses, < 0 does not; near 0 either answer will do. Relative. */
+/* Relative certainty that a segment crosses a triangle: > 0 crosses, < 0 does not; near 0 either result is right. */
 static double crosses(float tri[3][3], lmb_vec3 from, lmb_vec3 to)
 {
     const float end[3] = {to.x, to.y, to.z};
@@ -69,7 +69,7 @@ static void fill_tile(lmb_tile *tile, lmb_vec3 middle, float half, test_rng *r)
     }
 }
 
-/* Of a traversal that knows nothing yet. */
+/* For a traversal without history. */
 static float noise_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
 {
     return lmb_tile_noise(tile, pixels) + lmb_place_noise(at, 0.0f);
@@ -82,7 +82,7 @@ static uint64_t occluded_anew(const lmb_bvh *b, const lmb_tile *tile, uint64_t p
     return lmb_occluded_tile(picked_kernels(), &traversal, b, tile, pixels, at, noise_of(tile, pixels, at));
 }
 
-/* A few large triangles, or many smaller ones, or many small ones. */
+/* A few large triangles, many smaller ones, or many small ones. */
 static lmb_bvh random_triangles(test_rng *r, int scene)
 {
     const float size = scene % 3 == 0 ? 2.0f : scene % 3 == 1 ? 0.3f : 0.05f;
@@ -95,7 +95,7 @@ static lmb_bvh random_triangles(test_rng *r, int scene)
     return bvh_of_world();
 }
 
-/* Random triangles of all sizes, tiles of all sizes: each pixel's answer is that of all triangles one by one. */
+/* Random triangles and tiles of all sizes: each pixel's result equals a test of every triangle. */
 static void every_triangle(void)
 {
     test_rng r = {77};
@@ -135,7 +135,7 @@ static uint64_t occluded_sun_anew(const lmb_bvh *b, const lmb_tile *tile, uint64
     return lmb_occluded_sun(picked_kernels(), &traversal, b, tile, pixels, to);
 }
 
-/* The same for light from infinity; some of it along an axis. */
+/* The same for directional light, sometimes along an axis. */
 static void every_triangle_of_suns(void)
 {
     test_rng r = {78};
@@ -168,7 +168,8 @@ static void every_triangle_of_suns(void)
     CHECK_MSG(occluded > 2000 && open > 2000, "%d blocked, %d open", occluded, open);
 }
 
-/* A sphere of many triangles has no gap: from outside nothing inside is seen; and its own points see what is above. */
+/* A finely tessellated sphere has no gaps: no point inside is visible from outside, and points on it see the light
+ * above. */
 static void no_gap_no_acne(void)
 {
     test_rng r = {5};
@@ -185,7 +186,7 @@ static void no_gap_no_acne(void)
         const lmb_vec3 a = vec3(t[0][0], t[0][1], t[0][2]), u = sub3(vec3(t[1][0], t[1][1], t[1][2]), a),
                        v = sub3(vec3(t[2][0], t[2][1], t[2][2]), a);
         const lmb_vec3 n = normalize3(sub3(add3(a, mul3(add3(u, v), 0.33f)), vec3(0.3f, 0.1f, -0.2f)));
-        for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* to the very edges */
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* up to the edges */
             const float s = (float)(k % 8) / 7.0f, q = (float)(k / 8) / 7.0f * (1.0f - s);
             set_plane(tile.position, k, add3(a, add3(mul3(u, s), mul3(v, q))));
         }
@@ -195,7 +196,7 @@ static void no_gap_no_acne(void)
     CHECK(acne == 0);
 }
 
-/* Nothing, a full house, too little room; all triangles in one place, where no cut helps. */
+/* An empty tree, a full one, too little memory, and triangles that no cut can separate. */
 static void capacities(void)
 {
     lmb_bvh b;
@@ -229,8 +230,8 @@ static void capacities(void)
     CHECK(lmb_bvh_build(NULL, &world.scene) == LMB_ERR_ARG);
 }
 
-/* Fives of triangles far apart take more nodes than there are: the rest lies in large boxes, with the same answers. And
- * these do not depend on what blocked before, be it right or wrong. */
+/* Groups of five triangles far apart need more nodes than there are: the rest lies in large boxes, with the same
+ * results. The results do not depend on the blockers found before, right or wrong. */
 static void few_nodes(void)
 {
     test_rng r = {31};
@@ -238,7 +239,7 @@ static void few_nodes(void)
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
     world_begin(1, 1, 1);
-    for (int i = 0; i < 256; ++i) { /* a grid: sixteen in each box of the root, one in each of theirs */
+    for (int i = 0; i < 256; ++i) { /* a grid: 16 in each box of the root, one in each of theirs */
         const lmb_vec3 at = vec3((float)(i % 16) / 8.0f - 1.0f, (float)(i / 16) / 8.0f - 1.0f, 0.0f);
         for (int k = 0; k < 5; ++k) {
             world_triangle(add3(at, random_point(&r, 0.05f)), add3(at, random_point(&r, 0.05f)),
@@ -247,7 +248,7 @@ static void few_nodes(void)
     }
     lmb_bvh b = bvh_of_world(), all = b;
     CHECK_MSG(b.node_count == b.node_cap, "%u of %u nodes", (unsigned)b.node_count, (unsigned)b.node_cap);
-    static lmb_boxes one; /* everything in one box */
+    static lmb_boxes one; /* one box around all triangles */
     all.node = &one;
     memset(&one, 0, sizeof one);
     for (int i = 0; i < LMB_BOXES; ++i) {
@@ -272,7 +273,7 @@ static void few_nodes(void)
     CHECK(traversal.last[0] != 0);
 }
 
-/* What one triangle hides from all pixels at a box's corners it hides at each place in the box. */
+/* If one triangle hides all pixels from a box's corners, it hides them from every point in the box. */
 static void from_corners(void)
 {
     test_rng r = {37};
@@ -304,7 +305,7 @@ static void from_corners(void)
     CHECK_MSG(wrong == 0 && hidden > 20 && hidden < 180, "%d wrong, %d of 200 hidden", wrong, hidden);
 }
 
-/* A masked triangle blocks where it stands. */
+/* A masked triangle blocks only where it is opaque. */
 static void holes(void)
 {
     static const uint8_t half_open[8] = {255, 255, 255, 255, 255, 255, 255, 0};
@@ -324,15 +325,14 @@ static void holes(void)
         set_plane(tile.position, k,
                   vec3(0.5f * ((float)(k % 8) - 3.5f) / 4.0f, 0, 0.9f * ((float)(k / 8) - 3.5f) / 4.0f));
     }
-    /* From straight above the plane's points lie over the pixels; u grows with z. */
+    /* From above, points of the plane are over the pixels; u increases with z. */
     const uint64_t occluded = occluded_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1000, 0));
     CHECK_MSG(occluded == UINT64_C(0xffffffff), "%08x%08x", (unsigned)(occluded >> 32), (unsigned)occluded);
     CHECK(occluded_sun_anew(&b, &tile, ~UINT64_C(0), Y) == occluded);
     CHECK(occluded_sun_anew(&b, &tile, ~UINT64_C(0), mul3(Y, -1)) == 0);
 }
 
-/* Two triangles that are fully transparent are left out: by the texture, by the visible part of it, or by their own
- * alpha. */
+/* Fully transparent triangles are left out, whether by the texture, the visible part of it, or their vertex alpha. */
 static void all_hole(void)
 {
     static const uint8_t half_clear[8 * 4 * 4] = {
@@ -365,7 +365,7 @@ static void all_hole(void)
     }
 }
 
-/* A star of needles; and one in a room. */
+/* A star of slivers; and one in a room. */
 static void open_star(test_rng *r, int needles)
 {
     world_begin(1, 1, 1);
@@ -385,7 +385,7 @@ static void star(test_rng *r, int needles)
     }
 }
 
-/* Points on needles in a closed room: walls block them all, and are found before all needles have been tested. */
+/* Points on slivers in a closed room: walls block them all and are found before all slivers have been tested. */
 static void walls_before_needles(void)
 {
     test_rng r = {91};
@@ -404,8 +404,7 @@ static void walls_before_needles(void)
     CHECK_MSG(traversal.asked < 20 * 200, "%u boxes", (unsigned)traversal.asked);
 }
 
-/* Few pixels far apart among leaves: no more boxes are asked for all together than for each alone, and the answers are
- * the same. */
+/* A few pixels far apart among leaves: together they test no more boxes than one by one, with the same results. */
 static void far_apart_among_leaves(void)
 {
     test_rng r = {81};
@@ -440,8 +439,8 @@ static void far_apart_among_leaves(void)
     CHECK_MSG(together <= alone, "%u boxes together, %u alone", (unsigned)together, (unsigned)alone);
 }
 
-/* A whole tile among leaves: its pyramid is given up, and the next points' segments are traced one by one, with the same
- * answers. */
+/* A whole tile among leaves: its pyramid is abandoned, and later points trace one segment per pixel, with the same
+ * results. */
 static void wide_among_leaves(void)
 {
     test_rng r = {82};
@@ -473,7 +472,7 @@ static void wide_among_leaves(void)
     CHECK_MSG(alone > 20, "%d points traced alone at once", alone);
 }
 
-/* From a point that lies near the tile; or along the way to it from the origin, to infinity. */
+/* From a point near the tile, or towards infinity along the direction from the origin to the point. */
 static uint64_t trace(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, int is_sun,
                       lmb_traversal *kept)
 {
@@ -481,8 +480,8 @@ static uint64_t trace(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, l
                   : lmb_occluded_tile(picked_kernels(), kept, b, tile, pixels, at, noise_of(tile, pixels, at));
 }
 
-/* Far from the origin boxes lie over one another, and a pixel alone would meet nearly all of them: so the pixels
- * are traced as one after the first that does. Boxes asked for stay near those of one pixel, the answers as they are. */
+/* Far from the origin boxes overlap, and a single pixel would meet nearly all of them. After the first such pixel all
+ * are therefore traced together: the box tests stay near those of one pixel, with the same results. */
 static void overlapping_boxes(void)
 {
     test_rng r = {83};
@@ -513,13 +512,13 @@ static void overlapping_boxes(void)
             other += count_bits_64(all ^ each);
             open += count_bits_64(~each);
         }
-        /* A sun's rays allow for the rounding of all pixels that are asked for, so some lie otherwise alone. */
+        /* A sun's rays allow for the rounding of all requested pixels, so single pixels can differ. */
         CHECK_MSG(other <= is_sun * open / 16 && open > 200, "%d others, %d open", other, open);
         CHECK_MSG(together < alone / 8, "%u boxes together, %u alone", (unsigned)together, (unsigned)alone);
     }
 }
 
-/* Is a pixel `below` under a square that lies `away` along an axis, with light from straight above, found in shadow? */
+/* Returns whether a pixel `below` a square that is `away` along an axis is shadowed by light from above. */
 static int is_under(int axis, float away, float depth, float below)
 {
     const lmb_vec3 axes[3] = {X, Y, Z}, at = mul3(axes[axis], away), up = axes[(axis + 1) % 3];
@@ -527,15 +526,15 @@ static int is_under(int axis, float away, float depth, float below)
     world_begin(1, 1, 1);
     world_quad(at, mul3(axes[axis], 0.5f), mul3(axes[(axis + 2) % 3], 0.5f));
     lmb_bvh b = bvh_of_world();
-    b.noise = 0.0f; /* of a room that is convex */
+    b.noise = 0.0f; /* as in a convex room */
     memset(&tile, 0, sizeof tile);
     set_plane(tile.position, 5, sub3(at, mul3(up, below)));
     tile.depth[5] = depth;
     return occluded_sun_anew(&b, &tile, 1u << 5, up) != 0;
 }
 
-/* A surface does not shade itself where rounding left its pixel below it: by up to 2^-22 of its largest coordinate and
- * 2^-20 of its distance from the eye. What is further below lies in its shadow. */
+/* A surface does not shadow a pixel that rounding put below it: up to 2^-22 of the largest coordinate plus 2^-20 of the
+ * distance from the eye. Pixels further below are shadowed. */
 static void rounding_of_suns(void)
 {
     for (int axis = 0; axis < 3; ++axis) {
@@ -549,7 +548,7 @@ static void rounding_of_suns(void)
     }
 }
 
-/* Boxes reach past what they hold on each side: a segment along a face of one must not miss it by rounding. */
+/* Boxes extend beyond their contents on each side, so that rounding does not make a segment along a face miss. */
 static void boxes_are_wider(void)
 {
     test_rng r = {5};
@@ -558,13 +557,14 @@ static void boxes_are_wider(void)
     CHECK(b.node_count > 0);
     lmb_vec3 low = vec3(1e9f, 1e9f, 1e9f), high = vec3(-1e9f, -1e9f, -1e9f);
     for (int i = 0; i < LMB_BOXES; ++i) {
-        if (b.node[0].low[0][i] <= b.node[0].high[0][i]) { /* not one that is free */
+        if (b.node[0].low[0][i] <= b.node[0].high[0][i]) { /* not a free one */
             low = min3(low, vec3(b.node[0].low[0][i], b.node[0].low[1][i], b.node[0].low[2][i]));
             high = max3(high, vec3(b.node[0].high[0][i], b.node[0].high[1][i], b.node[0].high[2][i]));
         }
     }
     const lmb_vec3 below = sub3(world.scene.bounds_min, low), past = sub3(high, world.scene.bounds_max);
-    /* boxes of a part of the scene, so by a part of its size: at least an eighth of it here, and 2^-20 of their place */
+    /* A box of a part of the scene grows by a share of the part's size: here at least an eighth of it, and 2^-20 of the
+     * coordinates. */
     CHECK_MSG(minf(below.x, minf(below.y, below.z)) > least / 8 && minf(past.x, minf(past.y, past.z)) > least / 8,
               "%g %g %g, %g %g %g", (double)below.x, (double)below.y, (double)below.z, (double)past.x, (double)past.y,
               (double)past.z);
@@ -572,13 +572,13 @@ static void boxes_are_wider(void)
 
 /* --- the tree ----------------------------------------------------------------------------------------------------- */
 
-/* What is found out about a tree: the levels below a node, how often each triangle lies in a leaf, the largest leaf. */
+/* Facts about a tree: nodes, leaves that hold each triangle, the largest leaf, triangles outside their boxes. */
 typedef struct tree_facts {
     uint8_t in_leaves[WORLD_TRIANGLES];
     uint32_t nodes, largest, outside;
 } tree_facts;
 
-/* Are a triangle's corners in a box? */
+/* Returns whether a triangle's corners are in a box. */
 static int is_in(const lmb_boxes *node, int i, const lmb_bvh_triangle *t)
 {
     int in = 1;
@@ -591,7 +591,7 @@ static int is_in(const lmb_boxes *node, int i, const lmb_bvh_triangle *t)
     return in;
 }
 
-/* The levels from a node down; all that lies below one of its boxes must be in it. */
+/* Returns the levels from a node down and checks that each box above a triangle contains it. */
 static uint32_t walk_tree(tree_facts *f, const lmb_bvh *b, uint32_t at, const lmb_boxes *above[], const int in[],
                           int deep)
 {
@@ -625,7 +625,7 @@ static uint32_t walk_tree(tree_facts *f, const lmb_bvh *b, uint32_t at, const lm
     return levels + 1;
 }
 
-/* The world's tree has every triangle once, in each box above it, in leaves of four unless nodes ran out. */
+/* The tree holds every triangle once, in each box above it, in leaves of up to four unless the nodes ran out. */
 static uint32_t check_tree(const char *name, uint32_t dropped)
 {
     static tree_facts f;
@@ -656,13 +656,13 @@ static void small_triangle(lmb_vec3 at, float size, test_rng *r)
     world_triangle(at, add3(at, random_point(r, size)), add3(at, random_point(r, size)));
 }
 
-/* All in one place, one after the other, one far away, needles, and as far out as scenes reach. */
+/* All in one place, in a row, one far away, slivers, and at the limit of coordinates. */
 static void hostile_trees(void)
 {
     test_rng r = {101};
     uint32_t levels;
     world_begin(1, 1, 1);
-    for (int i = 1; i <= 9000; ++i) { /* one middle, sizes apart: no bin parts them */
+    for (int i = 1; i <= 9000; ++i) { /* one centre, different sizes: no bin separates them */
         const float s = (float)i;
         world_triangle(vec3(-s, -s, 0), vec3(s, -s, 0), vec3(0, s, 0));
     }
@@ -673,13 +673,13 @@ static void hostile_trees(void)
     }
     CHECK_MSG((levels = check_tree("one triangle", 0)) <= 4, "%u levels", (unsigned)levels);
     world_begin(1, 1, 1);
-    for (int i = 0; i < 9000; ++i) { /* a speck of many, and few at the ends of the world */
+    for (int i = 0; i < 9000; ++i) { /* a dense speck, and a few at the limits of the world */
         const float far = i % 3000 == 1 ? 1e6f : 0.0f;
         small_triangle(add3(vec3(i & 1 ? far : -far, far, 0), random_point(&r, 1e-3f)), far > 0.0f ? 9.0f : 1e-3f, &r);
     }
     CHECK_MSG((levels = check_tree("a speck", 0)) <= 8, "%u levels", (unsigned)levels);
     world_begin(1, 1, 1);
-    for (int i = 0; i < 9000; ++i) { /* clumps, each a quarter of the one before: the largest box is cut first */
+    for (int i = 0; i < 9000; ++i) { /* clusters, each a quarter of the one before: the largest box is cut first */
         float s = 5e5f;
         for (int k = 0; k < i % 30; ++k) {
             s *= 0.25f;
@@ -694,7 +694,7 @@ static void hostile_trees(void)
     }
     CHECK_MSG((levels = check_tree("needles", 0)) <= 8, "%u levels", (unsigned)levels);
     world_begin(1, 1, 1);
-    for (int i = 0; i < 64; ++i) { /* a third has no area, a third lies out of the world */
+    for (int i = 0; i < 64; ++i) { /* a third has no area, a third lies out of bounds */
         const lmb_vec3 at = random_point(&r, 1.0f), far = vec3(2e6f, 0, 0);
         world_triangle(at, add3(at, X), i % 3 == 0 ? add3(at, mul3(X, 2)) : i % 3 == 1 ? far : add3(at, Y));
     }
@@ -705,7 +705,8 @@ static void hostile_trees(void)
     CHECK(check_tree("one", 0) == 1);
 }
 
-/* Every machine builds this tree, bit for bit: boxes and ids as words. A wider cut or another order shows here. */
+/* Every machine builds this tree bit for bit: a hash of boxes and ids. A wider cut or another order changes the
+ * hash. */
 static void one_tree_everywhere(void)
 {
     test_rng r = {103};
@@ -728,7 +729,7 @@ static void one_tree_everywhere(void)
     CHECK_MSG(hash == 0x3be78654u, "%08x", (unsigned)hash);
 }
 
-/* More triangles than 16 bits count: eight stacks in a row keep their ids, each where its instance stands. */
+/* More triangles than 16 bits count: eight stacks in a row keep their ids, each at the position of its instance. */
 static void many_ids(void)
 {
     enum { EACH = 9000, STACKS = 8, ALL = EACH * STACKS };
@@ -767,11 +768,11 @@ static void many_ids(void)
     free(room);
 }
 
-/* Five triangles whose best cut no plane across an axis makes: two crossing pairs. The tree's boxes are the pairs'. */
+/* Five triangles in two crossing pairs: no axis plane gives the best cut. The tree's boxes are those of the pairs. */
 static void few_by_every_cut(void)
 {
     world_begin(1, 1, 1);
-    for (int i = 0; i < 6; ++i) { /* three thin, long ones along x at y = 0, three along y at x = 0, middles mixed */
+    for (int i = 0; i < 6; ++i) { /* three long, thin ones along x at y = 0 and three along y at x = 0, centres mixed */
         const float at = 0.01f * (float)(i / 2);
         if (i & 1) {
             world_triangle(vec3(at, -5, at), vec3(at, 5, at), vec3(at + 0.001f, 5, at));
@@ -794,7 +795,7 @@ static void few_by_every_cut(void)
     CHECK_MSG(boxes >= 2, "%d boxes", boxes);
 }
 
-/* A room's planes take points as far behind them as rounding may put them, a quarter of what hull.c calls N, no more. */
+/* A room's planes accept points behind them up to the rounding bound, a quarter of N in hull.c, and no more. */
 static void hull_is_tight(void)
 {
     lmb_hull hull;
@@ -808,7 +809,7 @@ static void hull_is_tight(void)
     CHECK(!lmb_hull_holds(&hull, vec3(1.0f + 0.5f * n, 0, 0)) && lmb_hull_holds(&hull, vec3(1, 1, 1)));
 }
 
-/* Many points by one traversal, from a first budget: what is blocked, as a hash. */
+/* Traces many points in one traversal from an initial budget and returns a hash of the blocked pixels. */
 static uint64_t by_points(const lmb_kernels *kernels, lmb_traversal *t, const lmb_bvh *b, int is_sun, int is_bounded)
 {
     enum { CALLS = 200 };
@@ -831,8 +832,8 @@ static uint64_t by_points(const lmb_kernels *kernels, lmb_traversal *t, const lm
     return hash;
 }
 
-/* A bounded traversal ends within its tests, counts the coarse calls, and answers the same by every back end. With few
- * triangles it is as any other. */
+/* A bounded traversal stays within its tests, counts the coarse calls, and gives the same result on every backend. With
+ * few triangles it equals an unbounded one. */
 static void bounded_tests(void)
 {
     for (int is_sun = 0; is_sun < 2; ++is_sun) {

@@ -1,5 +1,5 @@
-/* test_pack.c: packed scenes: a file made by hand, damage to it, what moves, texture formats; what `lambent pack` makes of
- * a model, and of its options. */
+/* test_pack.c: packed scenes: a handmade file, damage to it, motion, texture formats; the result of `lambent pack` for
+ * a model, and the options of the verb. */
 #include "../folder.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ void test_pack(void);
 enum { WIDE = 40, HIGH = 32 };
 
 static uint32_t words[SMALL_PACK_WORDS];
-static void *memory[512]; /* of its scene */
+static void *memory[512]; /* of the scene */
 static lmb_pack opened;
 static lmb_scene scene;
 
@@ -34,7 +34,7 @@ static size_t make_small(void)
     return bytes;
 }
 
-/* The hash of a picture; 0: it could not be drawn. */
+/* The hash of a picture, or 0 if it could not be drawn. */
 static uint64_t draw(const lmb_scene *s, const lmb_view *view)
 {
     static lmb_frame frame;
@@ -114,7 +114,7 @@ static lmb_status open_with(uint32_t at, uint32_t word, size_t bytes)
     return status;
 }
 
-/* The word of a part at hand. */
+/* The index of a word in a part of the open file. */
 static uint32_t at_part(int kind, uint32_t word) { return (uint32_t)(opened.part[kind] - words) + word; }
 
 static void test_refused(void)
@@ -127,8 +127,8 @@ static void test_refused(void)
     CHECK(open_with(1, 0x04030201u, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(4, 1, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(LMB_PACK_HEADER_WORDS, LMB_PACK_MESHES, bytes) == LMB_ERR_FORMAT); /* twice, and no SCENE */
-    CHECK(open_with(LMB_PACK_HEADER_WORDS + 4 * 10, 9999, bytes) == LMB_OK); /* an unknown kind is passed over, ... */
-    CHECK(open_with(LMB_PACK_HEADER_WORDS + 4 * 11, 9999, bytes) == LMB_ERR_FORMAT); /* ... but nodes want tracks */
+    CHECK(open_with(LMB_PACK_HEADER_WORDS + 4 * 10, 9999, bytes) == LMB_OK); /* an unknown kind is skipped, ... */
+    CHECK(open_with(LMB_PACK_HEADER_WORDS + 4 * 11, 9999, bytes) == LMB_ERR_FORMAT); /* ... but nodes need tracks */
     CHECK(open_with(at_part(LMB_PACK_INDICES, 1), 0x00040004u, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_MESHES, 0), 3, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_MESHES, 1), 0x00ffffffu, bytes) == LMB_ERR_FORMAT);
@@ -144,15 +144,15 @@ static void test_refused(void)
     CHECK(open_with(at_part(LMB_PACK_INSTANCES, 14), 3, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_LIGHTS, 11), 7, bytes) == LMB_ERR_FORMAT);
     CHECK(open_with(at_part(LMB_PACK_CAMERAS, 14), 0, bytes) == LMB_ERR_FORMAT);
-    CHECK(open_with(at_part(LMB_PACK_NODES, 16), 1, bytes) == LMB_ERR_FORMAT); /* its own parent */
+    CHECK(open_with(at_part(LMB_PACK_NODES, 16), 1, bytes) == LMB_ERR_FORMAT); /* a node that is its parent */
     CHECK(open_with(at_part(LMB_PACK_NODES, 2), 2, bytes) == LMB_OK);
     CHECK(open_with(at_part(LMB_PACK_NODES, 2), 3, bytes) == LMB_ERR_FORMAT); /* two translations */
-    CHECK(open_with(at_part(LMB_PACK_KEYS, 1), 0, bytes) == LMB_ERR_FORMAT);  /* times that do not rise */
+    CHECK(open_with(at_part(LMB_PACK_KEYS, 1), 0, bytes) == LMB_ERR_FORMAT);  /* times that do not increase */
     CHECK(open_with(at_part(LMB_PACK_TRACKS, 1), 200, bytes) == LMB_ERR_FORMAT);
 }
 
-/* Parts that share a byte with another part or with the table. The part that is moved has an unknown kind, so the file
- * is valid otherwise. */
+/* Parts that share a byte with another part or with the table. The moved part has an unknown kind, so the file is
+ * otherwise valid. */
 static void test_overlaps(void)
 {
     const uint32_t bytes = (uint32_t)make_small(), parts = words[3], last = parts - 3; /* KEYS, after most of them */
@@ -176,7 +176,7 @@ static void test_overlaps(void)
     CHECK_MSG(refused == 2 * (parts - 1), "%u of %u", (unsigned)refused, (unsigned)(2 * (parts - 1)));
     own[1] = at;
     own[2] = size + 4;
-    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT); /* into the part after it */
+    CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT); /* into the following part */
     own[1] = at - 4;
     CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT);
     own[1] = 4 * LMB_PACK_HEADER_WORDS; /* the table */
@@ -186,7 +186,7 @@ static void test_overlaps(void)
     CHECK(lmb_pack_open(&p, words, bytes) == LMB_ERR_FORMAT);
 }
 
-/* Each word as something else: what opens can be drawn. */
+/* Replaces each word: any file that opens can be drawn. */
 static void test_damaged(void)
 {
     static const uint32_t odd[] = {0, 1, 0xffffffffu, 0x7fc00000u, 0x40000000u, 0x00010001u, 0x80000000u};
@@ -234,7 +234,7 @@ static void test_moves(void)
     CHECK(is_near(scene.lights[0].position, 0.5f, 1.8f, 0.5f) && scene.lights[0].revision == 1);
     CHECK(fabsf(scene.bounds_max.y - 1.0f) < 1e-5f);
     CHECK(lmb_pack_pose(&scene, &opened, 0.25f) == LMB_OK);
-    CHECK(is_near(scene.lights[0].position, 0.25f, 1.8f, 0.5f)); /* by the cubic, whose tangents are 1 */
+    CHECK(is_near(scene.lights[0].position, 0.25f, 1.8f, 0.5f)); /* the cubic has tangents of 1 */
     CHECK(lmb_pack_pose(&scene, &opened, 2.0f) == LMB_OK);
     CHECK(is_near(column(m, 0), 0, 0, -0.5f) && is_near(column(m, 3), 0, 1.5f, 0));
     CHECK(lmb_pack_pose(&scene, &opened, -1.0f) == LMB_OK && is_near(column(m, 0), 0.5f, 0, 0));
@@ -243,8 +243,8 @@ static void test_moves(void)
     CHECK(lmb_pack_pose(&scene, &opened, 0.0f) == LMB_ERR_ARG);
 }
 
-/* A sun and a camera on the node of the panel, turned by 45 degrees about Y, with a scale of 0 in the node or in a
- * matrix above it. */
+/* A sun and a camera on the panel's node, rotated by 45 degrees about Y, with a scale of 0 in the node or in a matrix
+ * above it. */
 static void test_no_scale(void)
 {
     static const float nothing[12] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0};
@@ -269,8 +269,8 @@ static void test_no_scale(void)
     }
 }
 
-/* Spans of two seconds: tangents of cubic keys are per second. Rotations turn at constant speed and take the shorter
- * way, also if the quaternions of the keys have opposite signs. */
+/* Spans of two seconds: tangents of cubic keys are per second. Rotations have constant speed and take the shorter way,
+ * even if the quaternions of the keys have opposite signs. */
 static void test_spans(void)
 {
     const float pi_8 = 0.39269908f;
@@ -291,7 +291,7 @@ static void test_spans(void)
             key[i] ^= 0x80000000u;
         }
     }
-    key[22] = float_bits(2.0f); /* out of the first key twice as fast; into the second at rest */
+    key[22] = float_bits(2.0f); /* leaves the first key twice as fast and rests at the second */
     key[25] = 0;
     lmb_pack_pose(&scene, &opened, 0.5f);
     CHECK_MSG(fabsf(scene.lights[0].position.x - (0.15625f + 0.1875f * 2.0f * 0.75f * 2.0f)) < 1e-5f, "%g",
@@ -300,13 +300,13 @@ static void test_spans(void)
 
 /* --- textures ----------------------------------------------------------------------------------------------------- */
 
-/* The small file's textures, and the same as RGBA8. */
+/* The small file's textures, and the same textures as RGBA8. */
 static void test_formats(void)
 {
     uint8_t rgba[2][4 * (16 + 4 + 1)];
     lmb_texture same;
     make_small();
-    for (uint32_t i = 0; i < 21; ++i) { /* as small_pack has them */
+    for (uint32_t i = 0; i < 21; ++i) { /* as in small_pack */
         static const uint8_t index[21] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 3, 5, 9, 11, 7};
         memcpy(rgba[0] + 4 * i, scene.textures[0].texels + 4 * index[i], 4);
     }
@@ -330,7 +330,7 @@ static void test_formats(void)
     CHECK(lmb_texture_format_bytes(3, 5, 3, 2) == 0 && lmb_texture_format_bytes(LMB_TEXELS_PALETTE4, 5, 3, 9) == 0);
 }
 
-/* A picture by formats is that of the RGBA8 codes that they stand for: through kernels, levels and holes. */
+/* A picture with packed formats equals that with the decoded RGBA8 codes: through kernels, levels and holes. */
 static void test_formats_drawn(void)
 {
     enum { SIDE = 32, LEVELS = 6, TEXELS = 1365 };
@@ -380,9 +380,9 @@ static void test_formats_drawn(void)
     }
 }
 
-/* --- what `lambent pack` makes ------------------------------------------------------------------------------------ */
+/* --- the result of `lambent pack` --------------------------------------------------------------------------------- */
 
-/* A model as a packed one: `out` is then read from memory, as any verb reads it. */
+/* Packs a model; `out` is then read from memory, as verbs read it. */
 static int repack(pack *parts, const model *m, const pack_settings *set)
 {
     file_bytes file = {NULL, 0};
@@ -415,8 +415,8 @@ static model demo_model(model_camera *camera)
     return m;
 }
 
-/* The same picture from the packed file by the library, from the model that verbs read, and, where nothing is moved, from
- * the source. */
+/* The picture is the same from the packed file through the library and from the model that verbs read, and, if nothing
+ * is moved, from the source. */
 static void test_demo(void)
 {
     model_camera camera;
@@ -444,7 +444,7 @@ static void test_demo(void)
     forget();
 }
 
-/* Two meshes that share an edge share it still: places on one grid are exact. */
+/* Two meshes that share an edge still share it: positions on one grid are exact. */
 static void test_no_cracks(void)
 {
     enum { POINTS = 60 };
@@ -508,7 +508,7 @@ static void test_no_cracks(void)
     forget();
 }
 
-/* An order is the same triangles, with fewer vertices fetched. */
+/* Reordering keeps the triangles and fetches fewer vertices. */
 static void test_order(void)
 {
     enum { SIDE = 24, TRIANGLES = 2 * SIDE * SIDE, VERTICES = (SIDE + 1) * (SIDE + 1) };
@@ -541,7 +541,7 @@ static void test_order(void)
     CHECK(pack_order(index, 0, 0));
 }
 
-/* Materials use one picture in several ways. For each way it is packed once, in a format that keeps the channels
+/* Materials use one picture in several ways. It is packed once for each way, in a format that keeps the channels
  * used. */
 static void test_shared_picture(void)
 {
@@ -585,7 +585,7 @@ static void test_shared_picture(void)
     }
     pack_free(&out);
     memset(&out, 0, sizeof out);
-    material[4] = material[0]; /* a texture for both kinds of material keeps its alpha */
+    material[4] = material[0]; /* a texture for both kinds of material keeps alpha */
     material[4].flags = LMB_ALPHA_MASK;
     material[5] = material[1]; /* in either order */
     material[5].flags = 0;
@@ -598,7 +598,7 @@ static void test_shared_picture(void)
     pack_free(&out);
 }
 
-/* Errors are what they are said to be; sixteen colours are kept. */
+/* Errors are as reported; sixteen colours are exact. */
 static void test_encode(void)
 {
     enum { SIDE = 8 };
@@ -640,7 +640,7 @@ static void test_encode(void)
     free(out.data);
 }
 
-/* The other byte order and back. */
+/* To the other byte order and back. */
 static void test_swapped(void)
 {
     static uint32_t other[SMALL_PACK_WORDS];
@@ -666,7 +666,7 @@ static void test_swapped(void)
     pack_free(&parts);
 }
 
-/* Any byte of a file that has a checksum, in either byte order. */
+/* Damages any byte of a file with a checksum, in either byte order. */
 static void test_checksum(void)
 {
     static uint32_t file_words[SMALL_PACK_WORDS];
@@ -687,10 +687,10 @@ static void test_checksum(void)
             file.data[at] ^= 0x10;
         }
     }
-    CHECK(checksum_fits((const uint8_t *)words, bytes, LMB_PACK_HEADER_WORDS)); /* has none */
+    CHECK(checksum_fits((const uint8_t *)words, bytes, LMB_PACK_HEADER_WORDS)); /* it has none */
 }
 
-/* The verb, of a scene, by --position-error `error`; NULL: by default. Its file, to be freed. */
+/* Runs the verb on a scene with --position-error `error`, or NULL for the default. The caller frees the file. */
 static file_bytes packed_by_verb(folder *f, const char *from, const char *error)
 {
     char in[FOLDER_PATH], out[FOLDER_PATH], value[40];
@@ -706,8 +706,8 @@ static file_bytes packed_by_verb(folder *f, const char *from, const char *error)
     return file;
 }
 
-/* By default a vertex of a scene that is long along any axis moves by a 32768th of its diagonal, which 16 bits hold.
- * They do not hold half as much. */
+/* By default a vertex of a scene that is long along any axis moves by at most a 32768th of the diagonal, for which 16
+ * bits suffice. For half of that they do not. */
 static void test_default_error(void)
 {
     folder f;

@@ -1,5 +1,4 @@
-/* test_photos.c: posed photos with depth as a relief's views: which are refused, and blocks around what they show.
- * [P11] */
+/* test_photos.c: posed photos with depth as views of a relief: refused photos, and blocks around their points. [P11] */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,7 +47,7 @@ static int is_taken(const mix_frame *f)
     return taken;
 }
 
-/* Each number of a pose, out of all bounds. The second column follows from the first and the third. */
+/* Sets each number of a pose to an extreme value. The second column follows from the first and the third. */
 static void test_poses(void)
 {
     static const double wild[] = {1e300, -1e300, (double)NAN, (double)INFINITY};
@@ -64,10 +63,10 @@ static void test_poses(void)
         }
     }
     f = wall();
-    f.pose[3] = 5e6; /* farther than positions may be */
+    f.pose[3] = 5e6; /* beyond the limit of positions */
     CHECK(!is_taken(&f));
     f = wall();
-    f.pose[2] = 1.0; /* no right angle */
+    f.pose[2] = 1.0; /* not orthogonal */
     CHECK(!is_taken(&f));
 }
 
@@ -85,7 +84,7 @@ static void test_pictures(void)
     CHECK(!is_taken(&f));
 }
 
-/* The wall's points lie inside the blocks, whatever stands beside them. */
+/* The wall's points lie inside the blocks, whatever is beside them. */
 static void test_blocks(void)
 {
     relief_photo p[2];

@@ -1,5 +1,5 @@
-/* test_plan.c: layer 8: what a frame does without: the same bytes as with it, seen to be left out, and not on a near
- * miss. */
+/* test_plan.c: layer 8: work that a frame skips: the same bytes as with it, counted as skipped, and not skipped on a
+ * near miss. */
 #include <lambent/lambent.h>
 
 #include "../world.h"
@@ -14,7 +14,7 @@ void test_plan(void);
 static float whole[FRAME * FRAME * 3];
 static lmb_light lights[2];
 
-/* A closed room of 2 m around the origin, and the viewer in it; the others stand in its middle. */
+/* A closed room of 2 m around the origin. */
 static void set_room(void)
 {
     world_begin(0.7f, 0.6f, 0.5f);
@@ -37,7 +37,7 @@ static lmb_frame frame_of(uint32_t light_count)
     return f;
 }
 
-/* As planned, in `render` and `picture`; 1 where everything gives the same bytes. */
+/* Draws as planned into `render` and `picture`; returns 1 if run_all gives the same bytes. */
 static int same_as_everything(const lmb_frame *frame)
 {
     lmb_frame f = *frame;
@@ -65,7 +65,7 @@ static void test_convex(void)
     lmb_frame f = frame_of(1);
     CHECK(same_as_everything(&f) && planes_of() == 6 && render.frame.bvh.hull.count == 6);
     CHECK(render.skips == 0 && picture[0] > 0.0f);
-    /* Turned, its triangles' normals are rounded: each quad has two planes. */
+    /* When rotated, the triangles' normals are rounded: each quad has two planes. */
     world.instance[0].to_world.m[0] = world.instance[0].to_world.m[10] = 0.8f;
     world.instance[0].to_world.m[2] = -0.6f;
     world.instance[0].to_world.m[8] = 0.6f;
@@ -74,7 +74,7 @@ static void test_convex(void)
     CHECK_MSG(planes_of() >= 6 && planes_of() <= 12, "%d", planes_of());
 }
 
-/* No traversal: the tree of boxes may hold a wall right through the room. */
+/* No traversal: the BVH may contain a wall right through the room. */
 static void test_no_traversal(void)
 {
     lmb_tile tile;
@@ -88,7 +88,7 @@ static void test_no_traversal(void)
     CHECK(lmb_hull_pixels(&f.bvh.hull, &tile, ~UINT64_C(0)) == ~UINT64_C(0));
     CHECK(lmb_hull_pixels(&f.bvh.hull, &tile, UINT64_C(0x50)) == UINT64_C(0x50));
     CHECK(lmb_hull_holds(&f.bvh.hull, vec3(1, 1, 1)) && lmb_hull_holds(&f.bvh.hull, vec3(0, -1, 0)));
-    /* Behind a wall by more than rounding, each axis. */
+    /* Beyond a wall by more than rounding, for each axis. */
     CHECK(!lmb_hull_holds(&f.bvh.hull, vec3(1.00001f, 0, 0)));
     CHECK(!lmb_hull_holds(&f.bvh.hull, vec3(0, 0, -1.1f)));
     tile.position[1][5] = -1.00001f;
@@ -101,15 +101,15 @@ static void test_not_convex(void)
     set_room();
     world_box(vec3(0, 0, 0), 1e-3f);
     frame_of(1);
-    CHECK(planes_of() == 0); /* a speck in the middle */
+    CHECK(planes_of() == 0); /* a speck in the centre */
     set_room();
     world.corners[0][0][1] += 1e-4f;
     frame_of(1);
-    CHECK(planes_of() == 0); /* a corner of the floor lifted: its other half goes on below */
+    CHECK(planes_of() == 0); /* a lifted corner of the floor: the other half continues below */
     set_room();
     world.corners[2][1][0] = 1.0001f;
     frame_of(1);
-    CHECK(planes_of() == 0); /* the ceiling goes on behind a wall */
+    CHECK(planes_of() == 0); /* the ceiling continues behind a wall */
     set_room();
     world_quad(vec3(0, -0.9999f, 0), mul3(Z, 0.1f), mul3(X, 0.1f));
     frame_of(1);
@@ -117,7 +117,7 @@ static void test_not_convex(void)
     world_begin(0.5f, 0.5f, 0.5f);
     world_sphere(vec3(0, 0, 0), 1.0f, 8, 8);
     frame_of(1);
-    CHECK(planes_of() == 0); /* convex, with more planes than are kept */
+    CHECK(planes_of() == 0); /* convex, with more planes than the capacity */
     world_begin(0.5f, 0.5f, 0.5f);
     frame_of(1);
     CHECK(planes_of() == 0);
@@ -143,11 +143,11 @@ static void test_lights(void)
     lmb_frame f = frame_of(LMB_MAX_LIGHTS > 1 ? 2 : 1);
     CHECK(same_as_everything(&f) && faces_drawn(0) == 6);
     CHECK(LMB_MAX_LIGHTS == 1 || (render.light_state[1] == LMB_LIGHT_DARK && faces_drawn(1) == 0));
-    lights[1].intensity[2] = 1e-6f; /* little is not nothing */
+    lights[1].intensity[2] = 1e-6f; /* a little is not zero */
     CHECK(same_as_everything(&f) && (LMB_MAX_LIGHTS == 1 || (render.light_state[1] == 0 && faces_drawn(1) == 6)));
 }
 
-/* A light over a floor and before a wall: some of its faces look past both. */
+/* A light above a floor and in front of a wall: some of the map's faces see neither. */
 static void test_faces(void)
 {
     world_begin(0.7f, 0.6f, 0.5f);
@@ -156,11 +156,11 @@ static void test_faces(void)
     lights[0] = point_light(vec3(0, 3, 0));
     lmb_frame f = frame_of(1);
     CHECK(same_as_everything(&f) && render.maps[0].drawn == 1u << 3);
-    lights[0].position.y = 2.1f; /* the wall is 1 m high, 1 m away: its top is just under the pyramid's side */
+    lights[0].position.y = 2.1f; /* the wall is 1 m high at 1 m: the top is just below the pyramid's side */
     CHECK(same_as_everything(&f) && render.maps[0].drawn == 1u << 3);
-    lights[0].position.y = 1.98f; /* and just in it */
+    lights[0].position.y = 1.98f; /* and just inside */
     CHECK(same_as_everything(&f) && (render.maps[0].drawn >> 5 & 1u) == 1u);
-    lights[0] = spot(vec3(0, 3, 0), vec3(0, 1, 0), 10, 30); /* away from all */
+    lights[0] = spot(vec3(0, 3, 0), vec3(0, 1, 0), 10, 30); /* away from everything */
     CHECK(same_as_everything(&f) && render.maps[0].drawn == 0 && render.skips == LMB_SKIP_BOUNCE);
     lights[0] = spot(vec3(0, 3, 0), vec3(1, -1, 0), 10, 40);
     CHECK(same_as_everything(&f) && render.maps[0].drawn == 1 && render.skips == 0);

@@ -1,4 +1,4 @@
-/* test_plan_frame.c: layer 8: what a plan tells of a frame against what the frame then does; budgets. */
+/* test_plan_frame.c: layer 8: a plan's predictions against the frame's actual work; budgets. */
 #include <lambent/lambent.h>
 
 #include "../world.h"
@@ -15,7 +15,7 @@ static lmb_stats stats;
 static lmb_light lights[2];
 static float other[FRAME * FRAME * 3];
 
-/* A floor, a wall and a block; a light over them and one that looks away. */
+/* A floor, a wall and a block; one light above them and one that points away. */
 static lmb_frame set_frame(void)
 {
     const lmb_view v = look(vec3(1.2f, 0.9f, 2.2f), vec3(-0.1f, -0.4f, 0), 60, FRAME);
@@ -54,7 +54,7 @@ static int why_of(lmb_plan_stage stage) { return plan.row[stage].why; }
 
 static lmb_survey places;
 
-/* A look at all tiles of a small frame knows all of its pairs and segments. */
+/* Sampling all tiles of a small frame gives the exact pairs and segments. */
 static void look_at(lmb_facts *out, const lmb_frame *f, lmb_tile_sample *at)
 {
     lmb_frame quiet = *f;
@@ -88,8 +88,8 @@ static void test_counts(void)
     CHECK_MSG(fabs(pairs / (double)stats.pairs - 1.0) < 1e-5, "%.0f of %.0f", pairs, (double)stats.pairs);
     CHECK_MSG(fabs(segments / (double)stats.segments - 1.0) < 1e-5, "%.0f of %.0f", segments, (double)stats.segments);
     CHECK(plan.row[LMB_PLAN_BVH].op[LMB_OP_BVH] == 16.0 && plan.work > 0.0 && plan.bytes > sizeof scratch);
-    CHECK(lmb_plan_frame(&plan, &render, NULL) == LMB_ERR_ARG); /* it has gone on */
-    /* Errors of looks: none against itself; a tenth of each pixel is a tenth, or more where light is uneven. */
+    CHECK(lmb_plan_frame(&plan, &render, NULL) == LMB_ERR_ARG); /* it has progressed */
+    /* Errors of samples: zero against the same; a tenth of each pixel gives a tenth, or more if the light is uneven. */
     twice = at;
     CHECK(lmb_tile_sample_error(&twice, &at, 0.0f) == 0.0f);
     for (int i = 0; i < at.places * LMB_TILE_PIXELS; ++i) {
@@ -99,7 +99,7 @@ static void test_counts(void)
     }
     const float error = lmb_tile_sample_error(&twice, &at, 0.0f);
     CHECK(error > 0.08f && error < 0.2f);
-    /* A bound is over it, by how places differ; of few places, or of dark ones, there is none. */
+    /* The bound exceeds the error, depending on the spread of places; with few places, or dark ones, there is none. */
     CHECK(lmb_tile_sample_error(&twice, &at, 0.0f) == error && lmb_tile_sample_error(&twice, &at, 2.0f) > 1.02f * error);
     twice.places = 3;
     CHECK(lmb_tile_sample_error(&twice, &at, 1.0f) < 0.0f);
@@ -110,7 +110,7 @@ static void test_counts(void)
     CHECK(lmb_render_sample(&twice, &render, &scratch, &places, 1.0) == LMB_OK && twice.places < at.places);
 }
 
-/* The same pixels by a picture that is gathered at every other one: as much light within a fiftieth. */
+/* The same pixels in a picture gathered at every other one: equal light within a fiftieth. */
 static void test_sparse_sample(void)
 {
     static lmb_tile_sample each, other_one;
@@ -131,8 +131,8 @@ static void test_sparse_sample(void)
               (double)lmb_tile_sample_error(&other_one, &each, 0.0f));
 }
 
-/* Later bounces, of what emits light the first too, lobes and what emits light: their operations and bytes; after the
- * frame, what is kept. */
+/* Later bounces (with emission the first too), lobes and emission: their operations and bytes; after the frame, the
+ * kept data. */
 static void test_rows(void)
 {
     lmb_frame f = set_frame();
@@ -157,7 +157,7 @@ static void test_rows(void)
     CHECK(why_of(LMB_PLAN_DIRECT) == LMB_WHY_NO_LIGHT);
 }
 
-/* Groups in place of a tree: the points' bytes are theirs. */
+/* Groups instead of a tree: the points' bytes belong to the groups. */
 static void test_groups(void)
 {
     static uint32_t memory[4096 * 32];
@@ -180,11 +180,11 @@ static void test_groups(void)
 
 /* --- surveys ------------------------------------------------------------------------------------------------------ */
 
-enum { LARGE = 368 /* 2,116 tiles, of which 192, or 80 blocks of four, are looked at */ };
+enum { LARGE = 368 /* 2,116 tiles; 192, or 80 blocks of four, are sampled */ };
 static uint32_t large_depth[LARGE * LARGE], large_id[LARGE * LARGE];
 static float large_picture[LARGE * LARGE * 3];
 
-/* The first sixteen places of any survey lie in all sixteen parts of the frame, but for some at its uneven ends. */
+/* The first sixteen places of any survey cover all sixteen parts of the frame, except for some at uneven borders. */
 static void check_spread(void)
 {
     int parts = 0;
@@ -199,7 +199,7 @@ static void check_spread(void)
     }
 }
 
-/* Drawn whole, and its operations told by a look, by one step. */
+/* Draws the whole frame, and predicts its operations from samples, for one step. */
 static void survey_at(int32_t step)
 {
     static lmb_tile_sample at;
@@ -219,7 +219,7 @@ static void survey_at(int32_t step)
     const double segments = at.segments * of_all / (double)stats.segments;
     CHECK_MSG(fabs(pairs - 1.0) < 0.1 && fabs(segments - 1.0) < 0.2, "step %d: pairs %.3f, segments %.3f", (int)step,
               pairs, segments);
-    render.frame.gather_step = 2; /* of single tiles there is no block */
+    render.frame.gather_step = 2; /* single tiles contain no block */
     CHECK(lmb_render_sample(&at, &render, &scratch, &places, 0.0) == (step > 1 ? LMB_OK : LMB_ERR_ARG));
     CHECK(lmb_render_sample(&at, &render, &scratch, NULL, 0.0) == LMB_ERR_ARG);
     CHECK(lmb_survey_even(NULL, &render, tiles, wanted) == LMB_ERR_ARG);
@@ -291,7 +291,7 @@ static void test_kept(void)
     CHECK(why_of(LMB_PLAN_GATHER) == LMB_WHY_RUNS && plan.row[LMB_PLAN_MAPS].work == 0.0);
 }
 
-/* Two quads at a right angle have two planes with all on their fronts; the block takes that away. */
+/* Two quads at a right angle have two planes with everything in front; the block changes that. */
 static void test_convex(void)
 {
     lmb_frame f = set_frame();
@@ -319,7 +319,7 @@ static double largest_change(void)
     return max;
 }
 
-/* The light is 2.4 m over the floor, nothing is nearer than 1.2 m: E = 5 / d^2. */
+/* The light is 2.4 m above the floor and at least 1.2 m from everything: E = 5 / d^2. */
 static void test_dim(void)
 {
     lmb_frame f = set_frame();
@@ -338,7 +338,7 @@ static void test_dim(void)
     CHECK(plan.light[0] == LMB_WHY_DIM && plan.row[LMB_PLAN_GATHER].why == LMB_WHY_DIM);
     CHECK(plan.row[LMB_PLAN_GATHER].proof == LMB_PROOF_BOUND && plan.row[LMB_PLAN_GATHER].bound == bound);
     CHECK(plan.row[LMB_PLAN_MAPS].why == LMB_WHY_RUNS);
-    world.material[0].specular[1] = 0.5f; /* lobes reflect more than the bound knows */
+    world.material[0].specular[1] = 0.5f; /* lobes reflect more than the bound includes */
     ++world.scene.appearance_revision;
     CHECK(lmb_render_frame(&render, &f) == LMB_OK && render.is_glossy && render.light_state[0] == 0 && render.dimmed == 0.0f);
     world.material[0].specular[1] = 0.0f;
@@ -350,7 +350,7 @@ static void test_dim(void)
 
 /* --- budgets ------------------------------------------------------------------------------------------------------ */
 
-/* Errors fall to a third by each rung; the finest was not checked. */
+/* Errors fall to a third per rung; the finest was not checked. */
 static lmb_facts some_facts(void)
 {
     lmb_facts f;
@@ -381,14 +381,14 @@ static void test_budgets(void)
         CHECK(lmb_plan_choose(&c, &facts, &work, 0) == LMB_OK && c.meets && c.rung == i);
         CHECK(lmb_plan_choose(&c, &facts, &both, 0) == LMB_OK && !c.meets && (i == 0 || c.rung < i));
     }
-    /* What was not checked is chosen where nothing else may do, and does not meet. */
+    /* An unchecked rung is chosen only if no other is left, and does not meet the budget. */
     const lmb_budget fine = {0.0, 0.001f, 0}, few = {0.0, 0.0f, 1u << 20}, none = {1.0, 0.0f, 0};
     CHECK(lmb_plan_choose(&c, &facts, &fine, 0) == LMB_OK && !c.meets && c.rung == LMB_PLAN_RUNGS - 2 &&
           c.error < 0.0f);
     CHECK(lmb_plan_choose(&c, &facts, &few, 0) == LMB_OK && c.meets && c.bytes <= few.bytes);
     CHECK(lmb_plan_choose(&c, &facts, &few, 2u << 20) == LMB_OK && !c.meets && c.bytes > 2u << 20);
     CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_OK && !c.meets && c.rung == 0 && c.work > 1.0);
-    facts.rung[4].places = 0; /* taken for more than the rung before */
+    facts.rung[4].places = 0; /* counts as more than the rung before */
     lmb_choice before;
     lmb_plan_cost(&before, &facts, 3, 0);
     lmb_plan_cost(&c, &facts, 4, 0);

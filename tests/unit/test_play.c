@@ -1,4 +1,4 @@
-/* test_play.c: keys of a path, between them, motion without a path, and figures of times. */
+/* test_play.c: keys of a path, interpolation, motion without a path, and timing figures. */
 #include "../folder.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static int is_at(lmb_vec3 v, double x, double y, double z)
     return fabs((double)v.x - x) < 1e-6 && fabs((double)v.y - y) < 1e-6 && fabs((double)v.z - z) < 1e-6;
 }
 
-/* Keys of two things between one another; evenly along a line the speed is even, so the curve is the line. */
+/* Interleaved keys of two things. Along a line with even keys the speed is constant, so the curve is the line. */
 static void goes_through_keys(void)
 {
     key_path p;
@@ -41,7 +41,7 @@ static void goes_through_keys(void)
     key_path_free(&p);
 }
 
-/* Through each key, and as fast before it as behind it, whatever the times between them. */
+/* Passes through each key with the same speed before and after it, for any times. */
 static void is_smooth(void)
 {
     static const double at[] = {0, 0.5, 2, 2.25, 5};
@@ -169,7 +169,7 @@ static play_options options;
 static render_job job;
 static play_motion motion;
 
-/* The demo as `play` with these words begins it; the transfer's ranges of moving ids, if any. */
+/* The demo at the start of `play` with this option; the transfer's ranges of moving ids, if any. */
 static int begin_demo(const char *what, const char *path, uint32_t *ranges, uint32_t range_count)
 {
     const char *line[] = {"play", "demo", "-o", "none_%02d.pfm", "--size", "32x24", "-q", "--fps", "2", "--move", what,
@@ -203,8 +203,8 @@ static void end_demo(void)
 
 static int near_vec(lmb_vec3 a, lmb_vec3 b) { return length3(sub3(a, b)) < 1e-4f; }
 
-/* Lights move on figures of eight within the room, and the camera on an arc around what it sees. Both return after
- * 10 s, and each frame is the same whichever was set before. */
+/* Lights move on figures of eight within the room, and the camera on an arc around its target. Both return after 10 s,
+ * and each frame is the same whichever frame was set before. */
 static void moves_by_itself(void)
 {
     report r = {""};
@@ -243,7 +243,7 @@ static void moves_by_itself(void)
     end_demo();
 }
 
-/* With baked light a path moves those objects only that were baked to move. */
+/* With baked light, a path moves only objects that were baked as movable. */
 static void moves_baked_objects(void)
 {
     const char *const path = keys("0 object:2 0,0,0\n1 object:2 0.1,0,0\n");

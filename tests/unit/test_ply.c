@@ -103,7 +103,7 @@ static void put_face(writer *w, int count_type, int type, int n, const int *corn
         put(w, type, corners[i]);
 }
 
-/* --- what was loaded --- */
+/* --- loaded values --- */
 
 static const lmb_mesh *mesh(void) { return &loaded.scene.meshes[0]; }
 
@@ -136,7 +136,7 @@ static int is_normal(uint32_t v, double x, double y, double z)
 
 /* --- every encoding and type --- */
 
-/* A quad with positions, corner counts and corner numbers of the given types. */
+/* A quad with the given types of positions, corner counts and corner numbers. */
 static void check_types(int encoding, int position, int count, int index, int alias)
 {
     static const int corners[4] = {0, 1, 2, 3};
@@ -175,11 +175,11 @@ static void all_types(void)
                 check_types(encoding, a, b, (a + b) % TYPES, a & 1);
 }
 
-/* Numbers at the ends of their types. */
+/* Numbers at the limits of their types. */
 static void extremes(void)
 {
     static const double min[] = {-128, 0, -32768, 0, -2147483648.0, 0};
-    static const double max[] = {127, 255, 32767, 65535, 2147483520.0, 4294967040.0}; /* that a float holds, too */
+    static const double max[] = {127, 255, 32767, 65535, 2147483520.0, 4294967040.0}; /* also exact in float */
     static const int corners[3] = {0, 1, 2};
     int encoding, type, i;
     writer w;
@@ -199,7 +199,7 @@ static void extremes(void)
         }
 }
 
-/* Everything at once: faces before vertices, properties in odd order, elements and lists of no interest between. */
+/* Everything at once: faces before vertices, properties in unusual order, ignored elements and lists in between. */
 static size_t put_all(writer *w, int encoding)
 {
     static const int dart[4] = {0, 1, 2, 4}, two[2] = {0, 1}, three[3] = {0, 2, 1};
@@ -255,8 +255,8 @@ static void run_all(int encoding)
     at = (const uint16_t *)mesh()->indices;
     uvs = (const float *)mesh()->uvs;
     CHECK(mesh()->vertex_count == 4 && mesh()->triangle_count == 3 && memcmp(at + 6, plain, sizeof plain) == 0);
-    CHECK(!(at[0] == 0 && at[1] == 1 && at[2] == 2)); /* the dart is cut at its dent */
-    CHECK(is_position(0, 2, 0, 0) && is_position(2, 0, 2, 0) && is_position(3, 0, 0, 0)); /* 3 and 5 are not used */
+    CHECK(!(at[0] == 0 && at[1] == 1 && at[2] == 2)); /* the dart is cut at the reflex corner */
+    CHECK(is_position(0, 2, 0, 0) && is_position(2, 0, 2, 0) && is_position(3, 0, 0, 0)); /* 3 and 5 are unused */
     CHECK((double)loaded.scene.bounds_max.x == 2);
     CHECK(is_normal(0, 0, 0.6, 0.8) && is_normal(1, 0, 0, 1) && noted("without length, made from the faces there: 1"));
     CHECK(is_colour(0, 0, 0, 0, 200) && is_colour(1, 1, 55, 0, 201) && is_colour(3, 5, 255, 0, 204));
@@ -292,10 +292,10 @@ static void text_forms(void)
     CHECK(loaded.blocks && isinf(((const float *)mesh()->positions)[3]));
     CHECK_LOADS(load_text(HEAD "element vertex 3\n" XYZ "property float red\nelement face 1\n" FACES
                                "end_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n"));
-    CHECK(loaded.blocks && !mesh()->colours); /* one channel alone is no colour */
+    CHECK(loaded.blocks && !mesh()->colours); /* a single channel is no colour */
 }
 
-/* Loads three vertices of one grey in `type`, written as `code`. */
+/* Loads three vertices with one grey in `type`, written as `code`. */
 static int load_grey(const char *type, const char *code, const model_choice *choice)
 {
     char text[700];
@@ -308,7 +308,7 @@ static int load_grey(const char *type, const char *code, const model_choice *cho
 }
 
 /* Codes are sRGB by default: 188 is half the light of 255, which is white and not a grey of 0.8. Floats are decoded
- * without rounding: 0.98235 lies between the codes 250 and 251, and so does its light. */
+ * without rounding: 0.98235 lies between the codes 250 and 251, and so does the light. */
 static void scan_colours(void)
 {
     static const struct {
@@ -572,7 +572,7 @@ static void many_vertices(void)
 
 /* --- headers as programs write them --- */
 
-/* Remarks anywhere, blank lines, the format last, lines that mean nothing, and either kind of line end. */
+/* Comments anywhere, blank lines, the format last, meaningless lines, and both kinds of line end. */
 static void loose_headers(void)
 {
     static const char loose[] =
@@ -608,7 +608,7 @@ static void loose_headers(void)
     CHECK(loaded.blocks && are_indices(all, 1) && is_position(1, 1, 0, 0) && notes.count == 0);
 }
 
-/* --- what is refused --- */
+/* --- refused input --- */
 
 static const struct {
     const char *text, *says;
@@ -715,14 +715,14 @@ static void prefixes(int encoding)
     size_t n;
     put_all(&w, encoding);
     while (encoding == TEXT && (w.bytes[w.size - 1] == '\n' || w.bytes[w.size - 1] == ' '))
-        --w.size; /* a text is whole without its last line's end */
+        --w.size; /* the last line needs no line end */
     CHECK_LOADS(load(w.bytes, w.size));
     for (n = 0; n < w.size; ++n)
         CHECK_MSG(!load(w.bytes, n) && problem.text[0] && !loaded.blocks, "%s: %d of %d bytes", encodings[encoding],
                   (int)n, (int)w.size);
 }
 
-/* A byte changed gives another valid scene, or a message. */
+/* A changed byte gives another valid scene or a message. */
 static void damage(int encoding)
 {
     static const uint8_t flips[] = {1, 16, 128, 255};

@@ -1,4 +1,4 @@
-/* test_probe.c: worlds seen from elsewhere, and what their light comes to. Requirements S1-S14, S25. */
+/* test_probe.c: worlds seen from other places, and their irradiance. Requirements S1-S14, S25. */
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -26,7 +26,7 @@ typedef struct stage {
     void *world_memory, *table_memory;
 } stage;
 
-/* Smooth, and different all around. */
+/* Smooth, and different in each direction. */
 static float sky(int c, lmb_vec3 d)
 {
     const float x = d.x, y = d.y, z = d.z;
@@ -95,7 +95,7 @@ static void see_from(stage *s, lmb_vec3 at, int32_t blend)
 
 /* --- codes -------------------------------------------------------------------------------------------------------- */
 
-/* S4: back within a step of the code, over [0, 99]. */
+/* S4: decoding is within a step of the code over [0, 99]. */
 static void log_codes(void)
 {
     const float step[2] = {1.0f / 65535.0f, 1.0f / 255.0f};
@@ -117,7 +117,7 @@ static void log_codes(void)
     CHECK(lmb_world_decode(NAN) < 1e-6f);
 }
 
-/* As they are stored: each within a step, 0 .. 99. */
+/* Stored codes: each within a step over 0 .. 99. */
 static void stored_codes(stage *s)
 {
     const float step[2] = {1.0f / 65535.0f, 1.0f / 255.0f};
@@ -138,7 +138,7 @@ static void stored_codes(stage *s)
     paint_sky(s);
 }
 
-/* Sixteen harmonics are nine for irradiance: the clamped cosine has no third band; 25 add its fourth, -1 / 48. */
+/* For irradiance 16 harmonics equal 9, because the clamped cosine has no third band; 25 add the fourth, -1 / 48. */
 static void bands(void)
 {
     double third = 0.0, fourth = 0.0;
@@ -152,7 +152,7 @@ static void bands(void)
 
 /* --- one place ---------------------------------------------------------------------------------------------------- */
 
-/* S6: from the centre, each direction sees what the cube shows along it. */
+/* S6: from the centre, each direction shows the cube in this direction. */
 static void identity(stage *s, int32_t format, float max)
 {
     float worst = 0.0f;
@@ -166,7 +166,7 @@ static void identity(stage *s, int32_t format, float max)
     CHECK_MSG(worst < max, "%g", (double)worst);
 }
 
-/* A centre by the wall is a place like others: nothing is pulled in. */
+/* A centre close to the wall is valid and is not moved inwards. */
 static void centre_by_the_wall(stage *s)
 {
     const lmb_vec3 low = s->pictures.low, high = s->pictures.high, centre = s->pictures.centre;
@@ -193,7 +193,7 @@ static exact exact_of(lmb_vec3 p)
 
 static double exact_dot(exact a, exact b) { return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2]; }
 
-/* How far along r the sphere or the box is from o. */
+/* Distance from o along r to the sphere or the box. */
 static double shape_distance(const lmb_world_pictures *p, exact o, exact r)
 {
     double t = 1e30;
@@ -212,14 +212,14 @@ static double shape_distance(const lmb_world_pictures *p, exact o, exact r)
     return t;
 }
 
-/* The same, or the floor, if that is nearer. */
+/* The same, or the distance to the floor if the floor is nearer. */
 static double far_distance(const lmb_world_pictures *p, exact o, exact r)
 {
     const double far = shape_distance(p, o, r), floor = ((double)p->ground_y - o.v[1]) / r.v[1];
     return p->has_floor && r.v[1] < 0.0 && floor < far ? floor : far;
 }
 
-/* The far world's point by double arithmetic. */
+/* The far world's point in double precision. */
 static lmb_vec3 far_point(const lmb_world_pictures *p, lmb_vec3 at, lmb_vec3 d)
 {
     const exact o = exact_of(at), r = exact_of(d);
@@ -227,7 +227,7 @@ static lmb_vec3 far_point(const lmb_world_pictures *p, lmb_vec3 at, lmb_vec3 d)
     return vec3((float)(o.v[0] + t * r.v[0]), (float)(o.v[1] + t * r.v[1]), (float)(o.v[2] + t * r.v[2]));
 }
 
-/* S5 S6: from elsewhere, the pixel cluster's direction from the centre. */
+/* S5 S6: from another place, a direction shows the far point that it meets, as the centre sees it. */
 static void elsewhere(stage *s, lmb_vec3 at)
 {
     float worst = 0.0f;
@@ -242,7 +242,7 @@ static void elsewhere(stage *s, lmb_vec3 at)
     CHECK_MSG(worst < 0.006f, "%g", (double)worst);
 }
 
-/* A lamp below the horizon lies on the floor: from the centre it is where it was, and the nearer the larger. */
+/* A lamp below the horizon lies on the floor: unchanged from the centre, larger from nearby. */
 static void lamp_on_floor(stage *s)
 {
     const lmb_vec3 centre = s->pictures.centre, down = vec3(0.6f, -0.8f, 0.0f);
@@ -259,7 +259,7 @@ static void lamp_on_floor(stage *s)
     CHECK_MSG(fabsf(near - 6.25f / 0.8f) < 0.01f && to.y < -0.9999f, "%g", (double)near);
 }
 
-/* The lower half of the world lies on a floor, from anywhere; its centre is above it. */
+/* The lower half of the world lies on a floor from any place; the world's centre is above the floor. */
 static void floor_below(stage *s)
 {
     s->pictures.ground_y = -1.25f;
@@ -295,7 +295,8 @@ static void paint_ground(stage *s, float alpha)
     s->pictures.ground_y = 0.0f;
 }
 
-/* S7: straight down lies the ground under the object, upwards there is none; where it is blank the far world shows. */
+/* S7: straight down shows the ground below the object, straight up does not; if the ground is blank, the far world
+ * shows. */
 static void ground_and_sky(stage *s)
 {
     const lmb_vec3 at = vec3(5.0f, 1.0f, -3.0f);
@@ -310,7 +311,7 @@ static void ground_and_sky(stage *s)
     const lmb_vec3 q = far_point(&s->pictures, at, direction_of(s, down));
     const float far = sky(2, normalize3(sub3(q, s->pictures.centre)));
     CHECK(fabsf(s->map[2 * COUNT + down] - 0.5f * (1.0f + far)) < 0.01f);
-    see_from(s, vec3(5.0f, 0.0f, -3.0f), 0); /* on it: none is seen */
+    see_from(s, vec3(5.0f, 0.0f, -3.0f), 0); /* on the ground: it is invisible */
     CHECK(fabsf(s->map[2 * COUNT + down] - 1.0f) > 0.05f);
     paint_ground(s, 0.0f);
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
@@ -324,9 +325,9 @@ static void ground_and_sky(stage *s)
     see_from(s, at, 0);
     CHECK(fabsf(s->map[2 * COUNT + down] - 1.0f) < 1e-5f);
     s->pictures.has_floor = 0;
-    /* S2: the ground fills what the cube lacks, and beyond it is nothing. */
+    /* S2: the ground fills missing faces of the cube; beyond the ground there is nothing. */
     paint_ground(s, 1.0f);
-    s->pictures.ground_y = -60.0f; /* under the far world */
+    s->pictures.ground_y = -60.0f; /* below the far world */
     s->pictures.face[3] = NULL;
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
     see_from(s, vec3(0.0f, 1.5f, 0.0f), 0);
@@ -340,20 +341,20 @@ static void ground_and_sky(stage *s)
 
 /* --- blank parts -------------------------------------------------------------------------------------------------- */
 
-/* S1, the source's second figure: faces that are blank below the horizon, whatever lies under the alpha, are filled from
- * the ground: as if they showed the ground there; and without one they shine nothing. */
+/* S1, the source's second figure: faces that are blank below the horizon are filled from the ground, whatever the
+ * colour under the alpha, as if they showed the ground. Without a ground they are black. */
 static void blank_in_part(stage *s)
 {
     static float alpha[6][FACE * FACE], whole[3 * COUNT];
     float worst = 0.0f, mean = 0.0f;
     paint_ground(s, 1.0f);
-    s->pictures.ground_y = -60.0f; /* under the far world, so that it is the farther one of both */
+    s->pictures.ground_y = -60.0f; /* below the far world, so the ground is the farther of the two */
     s->pictures.ground_width_m = s->pictures.ground_depth_m = 4000.0f;
     s->pictures.ground_x = s->pictures.ground_z = -2000.0f;
     for (int i = 0; i < GROUND * GROUND * 4; ++i) {
         s->ground[i] = i % 4 < 3 ? 0.5f : 1.0f;
     }
-    for (int k = 0; k < 2; ++k) { /* what they would be filled with, then blank */
+    for (int k = 0; k < 2; ++k) { /* filled first, then blank */
         for (int i = 0; i < 6 * FACE * FACE; ++i) {
             const int face = i / (FACE * FACE), at = i % (FACE * FACE);
             const int below = cube_direction(face, at % FACE, at / FACE, FACE).y < 0.0f;
@@ -384,7 +385,7 @@ static void blank_in_part(stage *s)
 
 /* --- lamps -------------------------------------------------------------------------------------------------------- */
 
-/* Light and its direction of one texel `radiance` bright among dark ones. */
+/* Irradiance and direction of one texel of `radiance` among dark ones. */
 static void lamp(stage *s, int face, int at, float radiance, lmb_vec3 place, float tolerance)
 {
     const int32_t x = at % FACE, y = at / FACE;
@@ -408,7 +409,7 @@ static void lamp(stage *s, int face, int at, float radiance, lmb_vec3 place, flo
     CHECK_MSG(worst < tolerance * flux, "face %d, texel %d: %g of %g", face, at, (double)worst, (double)flux);
 }
 
-/* A lamp of one texel lights each normal by its cosine, wherever it is and from wherever it is seen. */
+/* A lamp of one texel lights each normal by the cosine, for any texel and any place. */
 static void lamps(stage *s)
 {
     s->pictures.ground = NULL;
@@ -419,7 +420,7 @@ static void lamps(stage *s)
     paint_sky(s);
 }
 
-/* More lamps than peaks: the strongest are, and no light is lost with the others. */
+/* More lamps than peaks: the strongest become peaks, and no light of the others is lost. */
 static void many_lamps(stage *s)
 {
     double whole = 0.0, got = 0.0;
@@ -463,7 +464,7 @@ static float farthest(const float *v, int n, float from)
     return worst;
 }
 
-/* A world of one radiance gives pi times that, to 1e-6, by each filter and from any place. */
+/* A world of constant radiance gives pi times the radiance to 1e-6, with each filter and from any place. */
 static void one_radiance(stage *s)
 {
     const float pi = 3.14159265f;
@@ -487,7 +488,7 @@ static void one_radiance(stage *s)
 
 static const double half_turn = 3.14159265358979323846;
 
-/* Legendre's function, without (-1)^m, by its recurrence in l; normalised with its wave over the sphere. */
+/* Legendre's function without (-1)^m, by the recurrence in l, normalised over the sphere with its wave. */
 static double harmonic(int l, int m, double y, double angle)
 {
     double a = 1.0, b = 0.0, scale = (2 * l + 1) / (4.0 * half_turn);
@@ -506,7 +507,7 @@ static double harmonic(int l, int m, double y, double angle)
     return sqrt(k > 0 ? 2.0 * scale : scale) * a * (m < 0 ? sin(k * angle) : cos(k * angle));
 }
 
-/* A map of one harmonic has that one, and no other. */
+/* A map of one harmonic has this coefficient and no other. */
 static void each_harmonic(stage *s)
 {
     float got[3][LMB_SH_25];
@@ -525,7 +526,7 @@ static void each_harmonic(stage *s)
     }
 }
 
-/* The same of blurs, at a quarter of the map's size; the sky comes out as well as they can. */
+/* The same for blurs, at a quarter of the map's size; the sky is as accurate as a blur can be. */
 static void blurred(stage *s)
 {
     static const float max[3] = {0.03f, 0.055f, 0.006f}; /* of the mean */
@@ -563,7 +564,7 @@ static void blurred(stage *s)
     free(table_memory);
 }
 
-/* Half the size, the same light. */
+/* Half the size gives the same light. */
 static void halved(const stage *s)
 {
     static float half[3 * COUNT / 4];
@@ -579,7 +580,7 @@ static void halved(const stage *s)
     CHECK(fabs(whole - after) < 1e-5 * whole);
 }
 
-/* Bands 0 to 2 are all that the sky has: harmonics are exact and show each band's factor; sixteen terms are nine. */
+/* The sky has only bands 0 to 2: harmonics are exact and show each band's factor; 16 terms equal 9. */
 static void known_irradiance(stage *s)
 {
     float harmonics[3][LMB_SH_25], nine[3 * CUBE_TEXELS], worst_sh = 0.0f, worst_cosine = 0.0f;
@@ -605,7 +606,7 @@ static void known_irradiance(stage *s)
     CHECK_MSG(worst_sh < 0.002f && worst_cosine < 0.008f, "%g %g", (double)worst_sh, (double)worst_cosine);
 }
 
-/* No step across the seam at 180 degrees, the poles, or the world's own edges, larger than inside a face. */
+/* No step across the seam at 180 degrees, the poles, or the cube's edges exceeds the steps inside a face. */
 static void no_seams(stage *s)
 {
     float inside = 0.0f, seam = 0.0f, pole = 0.0f;
@@ -640,7 +641,7 @@ static void refusals(stage *s)
     p->radius = 0.0f;
     CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
     p->radius = 50.0f;
-    p->centre.x = 51.0f; /* outside what it is the picture of */
+    p->centre.x = 51.0f; /* outside the pictured world */
     CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
     p->centre.x = NAN;
     CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
@@ -669,14 +670,14 @@ static void refusals(stage *s)
     CHECK(lmb_probe_remap(s->map, picked_kernels(), &s->world, &s->table, vec3(NAN, 0, 0), 0) == LMB_ERR_ARG);
     CHECK(lmb_probe_remap(NULL, picked_kernels(), &s->world, &s->table, vec3(0, 0, 0), 0) == LMB_ERR_ARG);
     CHECK(lmb_probe_cosine(s->cube, 65, picked_kernels(), &s->lights, &s->table) == LMB_ERR_ARG);
-    /* A place outside the far world counts as the nearest one inside. */
+    /* A place outside the far world counts as the nearest place inside. */
     see_from(s, vec3(400.0f, 1.5f, 0.0f), 0);
     const float outside = s->map[COUNT / 2];
     see_from(s, vec3(0.999f * 50.0f, 1.5f, 0.0f), 0);
     CHECK(fabsf(outside - s->map[COUNT / 2]) < 1e-4f);
 }
 
-/* The last mip level of a face or a ground of any size is the mean of all texels, weighted by alpha. */
+/* The last mip level of a face or ground of any size is the alpha-weighted mean of all texels. */
 static void means_of_levels(stage *s, int32_t face, int32_t width, int32_t height)
 {
     double want[2][4] = {{0}};

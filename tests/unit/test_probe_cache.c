@@ -1,4 +1,4 @@
-/* test_probe_cache.c: when objects' cubes are computed anew, and who makes room. Requirements S18-S20. */
+/* test_probe_cache.c: when objects' cubes are recomputed, and which slots are reused. Requirements S18-S20. */
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -24,7 +24,7 @@ static lmb_probe_answer ask(lmb_probe_cache *c, uint32_t owner, float x, uint32_
     return a;
 }
 
-/* S18: an object that creeps is computed again each time it is over the radius from where it last was. */
+/* S18: a slowly moving object is recomputed each time it is farther than the radius from the last place. */
 static void by_radius(void)
 {
     lmb_probe_cache c = make(4, 0.15f, 0);
@@ -34,19 +34,19 @@ static void by_radius(void)
         CHECK(a.slot == 0 && fabsf(a.place.x - 0.01f * (float)i) <= 0.15f);
         computed += a.compute;
     }
-    CHECK_MSG(computed == 7, "%d", computed); /* at 0, then each sixteenth: 0.16 .. 0.96 */
+    CHECK_MSG(computed == 7, "%d", computed); /* at 0, then every sixteenth: 0.16 .. 0.96 */
     CHECK(c.computed == 7 && c.kept == 94);
 }
 
-/* Every n frames while it moves; each frame until it rests. */
+/* Every n frames while the object moves; if n is 0, each frame until it rests. */
 static void by_time(void)
 {
     lmb_probe_cache c = make(4, 100.0f, 5);
     int computed = 0;
     for (uint32_t i = 0; i < 20; ++i) {
-        computed += ask(&c, 1, 0.01f * (float)(i < 10 ? i : 10), i + 0xfffffff8u).compute; /* frames count round */
+        computed += ask(&c, 1, 0.01f * (float)(i < 10 ? i : 10), i + 0xfffffff8u).compute; /* the frame number wraps */
     }
-    CHECK_MSG(computed == 3, "%d", computed); /* 0, 5, 10; at rest since then: nowhere new */
+    CHECK_MSG(computed == 3, "%d", computed); /* 0, 5, 10; at rest from then on */
     c = make(4, 0.0f, 0);
     computed = 0;
     for (uint32_t i = 0; i < 20; ++i) {
@@ -55,7 +55,8 @@ static void by_time(void)
     CHECK_MSG(computed == 11, "%d", computed);
 }
 
-/* S19: named places serve whoever is near, the nearest of them, and are computed once. S20: until the world changes. */
+/* S19: a named place serves all objects near it, the nearest place first, and is computed once. S20: until the world
+ * changes. */
 static void named(void)
 {
     lmb_probe_cache c = make(4, 1.0f, 1);
@@ -66,17 +67,17 @@ static void named(void)
     CHECK(a.slot == 0 && !a.compute && a.place.x == 10.0f);
     a = ask(&c, 2, 10.6f, 2);
     CHECK(a.slot == 1 && a.compute && a.place.x == 11.0f);
-    a = ask(&c, 2, 13.0f, 3); /* out of reach: its own */
+    a = ask(&c, 2, 13.0f, 3); /* out of range: a separate slot */
     CHECK(a.slot == 2 && a.compute && a.place.x == 13.0f);
     CHECK(lmb_probe_cache_ask(&a, &c, 1, vec3(10.0f, 0.0f, 0.0f), 8u, 4) == LMB_OK && a.slot == 0 && a.compute);
     CHECK(lmb_probe_cache_ask(&a, &c, 2, vec3(13.0f, 0.0f, 0.0f), 8u, 4) == LMB_OK && a.slot == 2 && a.compute);
     CHECK(lmb_probe_cache_ask(&a, &c, 2, vec3(13.0f, 0.0f, 0.0f), 8u, 5) == LMB_OK && !a.compute);
     CHECK(lmb_probe_cache_name(&c, vec3(0, 0, 0)) == 2 && lmb_probe_cache_name(&c, vec3(1, 1, 1)) == -1);
-    a = ask(&c, 2, 13.0f, 6); /* its slot was taken: it has another */
+    a = ask(&c, 2, 13.0f, 6); /* the slot was reused: another one */
     CHECK(a.slot == 3 && a.compute);
 }
 
-/* Full: the one that was asked for longest ago goes. */
+/* If the cache is full, the slot used longest ago is replaced. */
 static void full(void)
 {
     lmb_probe_cache c = make(3, 1.0f, 0);

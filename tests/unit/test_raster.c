@@ -1,8 +1,8 @@
-/* test_raster.c: layer 3: coverage against exact integers, meshes without a crack, depth, windows, culling, holes.
+/* test_raster.c: layer 3: coverage against exact integers, meshes without cracks, depth, windows, culling, holes.
  *
- * The coverage oracle is its own code over whole numbers. Views are chosen so that it knows the snapped vertices: an
- * orthographic frame of 64 px at 1 m a pixel, where every step of the transform is exact, and perspective ones by the
- * documented rounding to 1/256 px. */
+ * The coverage reference is separate integer code. Views are chosen so that the snapped vertices are known: an
+ * orthographic frame of 64 px at 1 m per pixel, in which every step of the transform is exact, and perspective views
+ * with the documented rounding to 1/256 px. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ enum { FRAME = 64, WINDOW = 32, CAP = 96, PIXELS = 128 * 128 };
 #define CUTS             tries(300, 5000)
 #define DEPTHS           tries(400, 5000)
 
-/* One mesh in one instance, and where it is drawn. */
+/* One mesh in one instance, with scene and view. */
 typedef struct stage {
     float positions[9 * CAP];
     lmb_mesh mesh;
@@ -52,7 +52,7 @@ static void set_stage(uint32_t triangles)
     memset(&st.stats, 0, sizeof st.stats);
 }
 
-/* Eye at the origin along -Z; every number a power of two. Orthographic: 1 m a pixel. */
+/* Eye at the origin along -Z; all numbers are powers of two. Orthographic: 1 m per pixel. */
 static lmb_view axis_view(int32_t kind, int32_t side)
 {
     lmb_view v = {.sample_x = 0};
@@ -66,7 +66,7 @@ static lmb_view axis_view(int32_t kind, int32_t side)
     return v;
 }
 
-/* A cleared window in memory 0 or 1; id_format LMB_FORMAT_NONE: depth only. */
+/* A cleared window in memory 0 or 1; depth only if id_format is LMB_FORMAT_NONE. */
 static lmb_target window_of(int which, int32_t depth_format, int32_t id_format, int32_t layout, const int32_t box[4])
 {
     lmb_target t;
@@ -112,9 +112,9 @@ static int32_t random_between(test_rng *r, int32_t lo, int32_t hi)
     return lo + (int32_t)(test_random(r) % (uint32_t)(hi - lo + 1));
 }
 
-/* ---- coverage: a triangle alone, against whole numbers ---- */
+/* ---- coverage: single triangles, against integers ---- */
 
-/* 1/256 px from the frame's middle, y down. */
+/* In 1/256 px from the frame's centre, y down. */
 typedef struct grid_point {
     int64_t x, y;
 } grid_point;
@@ -124,8 +124,8 @@ static int64_t cross_at(const grid_point *a, const grid_point *b, int64_t x, int
     return (b->x - a->x) * (y - a->y) - (b->y - a->y) * (x - a->x);
 }
 
-/* With positive area in y-down coordinates the inside lies to the right of each edge. A left edge then goes up, a top
- * edge goes right; centres on those two are inside. */
+/* With positive area in y-down coordinates, the inside is to the right of each edge. A left edge then goes up and a top
+ * edge goes right; pixel centres on these two are inside. */
 static int edge_takes(const grid_point *a, const grid_point *b, int64_t x, int64_t y)
 {
     int64_t e = cross_at(a, b, x, y);
@@ -143,7 +143,7 @@ static void orient(grid_point p[3])
 
 static int64_t centre(int32_t pixel) { return (int64_t)(pixel - FRAME / 2) * 256 + 128; }
 
-/* First and last pixel of a span that may hold centres, within the window. */
+/* First and last pixel of a span that may contain centres, within the window. */
 static void pixel_span(int32_t *first, int32_t *last, int64_t a, int64_t b, int64_t c, int32_t from)
 {
     int64_t lo = a < b ? a : b, hi = a > b ? a : b;
@@ -159,7 +159,7 @@ static void pixel_span(int32_t *first, int32_t *last, int64_t a, int64_t b, int6
     }
 }
 
-/* Rows of the window: 1 where the triangle covers. */
+/* One row per window row: 1 if the triangle covers the pixel. */
 static void cover_exactly(uint32_t out[WINDOW * WINDOW], const grid_point corner[3], int32_t x0, int32_t y0)
 {
     grid_point p[3] = {corner[0], corner[1], corner[2]};
@@ -187,7 +187,7 @@ static void put_corner(int k, float x, float y, float z)
     st.positions[3 * k + 2] = z;
 }
 
-/* Metres are pixels: 24.8 has an exact float up to 2^16 px. */
+/* One metre is one pixel: 24.8 is exact in float up to 2^16 px. */
 static void put_grid_point(int k, grid_point p, float z)
 {
     put_corner(k, (float)p.x / 256.0f, (float)-p.y / 256.0f, z);
@@ -202,7 +202,7 @@ static grid_point random_point(test_rng *r, int32_t reach_px, int32_t step)
     return p;
 }
 
-/* On the line between two corners, give or take two steps. */
+/* On the line between two corners, or up to two steps off. */
 static grid_point near_line(test_rng *r, const grid_point *a, const grid_point *b)
 {
     int64_t t = random_between(r, -64, 128);
@@ -228,7 +228,7 @@ static void random_triangle(grid_point p[3], test_rng *r, int kind)
         p[k].x += at.x;
         p[k].y += at.y;
     }
-    if (kind == HUGE_SLIVER || kind == HUGE_SPAN) { /* through the window, or nobody sees it */
+    if (kind == HUGE_SLIVER || kind == HUGE_SPAN) { /* must cross the window to be visible */
         p[1] = random_point(r, 30, 1);
     }
     if (kind == SLIVER || kind == HUGE_SLIVER) {
@@ -238,7 +238,7 @@ static void random_triangle(grid_point p[3], test_rng *r, int kind)
     }
 }
 
-/* Perspective: what the header says of snapping, in the same binary32 operations. */
+/* Perspective: snaps as the header documents, with the same binary32 operations. */
 static grid_point random_projected(test_rng *r, int k)
 {
     float w = test_uniform(r, 0.0f, 1.0f) < 0.5f ? test_uniform(r, 0.6f, 4.0f) : test_uniform(r, 1.0f, 100.0f);
@@ -299,13 +299,13 @@ static void test_coverage(void)
     CHECK(covered > RANDOM_TRIANGLES * 9 / 10);
 }
 
-/* ---- coverage of clipped triangles: away from the edges by what clipping may round ---- */
+/* ---- coverage of clipped triangles, except within the rounding of clipping from an edge ---- */
 
 typedef struct plane_point {
-    double x, y, w; /* px from the middle times w, y down; w in m */
+    double x, y, w; /* px from the centre times w, y down; w in m */
 } plane_point;
 
-/* Where a pixel stands to a triangle that may reach behind the eye. */
+/* Position of a pixel relative to a triangle that may extend behind the eye. */
 enum { OUTSIDE, INSIDE, TOO_CLOSE };
 
 static void cross_lines(double l[3], const plane_point *a, const plane_point *b)
@@ -315,7 +315,8 @@ static void cross_lines(double l[3], const plane_point *a, const plane_point *b)
     l[2] = a->x * b->y - a->y * b->x;
 }
 
-/* Homogeneous edge functions l_i . c over the determinant are barycentrics; their sum is 1 / w at the pixel. */
+/* Homogeneous edge functions l_i . c over the determinant are barycentrics; the sum of all three is 1 / w at the
+ * pixel. */
 static int where_is(const plane_point v[3], double x, double y, double slack_px)
 {
     double near_line_px = -1.0 / (double)st.view.near_m, gx = 0, gy = 0;
@@ -352,7 +353,7 @@ static void project(plane_point v[3])
     }
 }
 
-/* Pixels that are clearly in or out, and how many of them are drawn otherwise. */
+/* Counts the pixels that are clearly inside or outside, and those of them drawn wrongly. */
 static void judge_clipped(int32_t *clear, int32_t *wrong, double slack_px)
 {
     const int32_t box[4] = {16, 16, WINDOW, WINDOW};
@@ -369,7 +370,7 @@ static void judge_clipped(int32_t *clear, int32_t *wrong, double slack_px)
     }
 }
 
-/* Vertices within 8 m and 0.25 m of near plane: a cut is off by under 2^-24 x 16 / 0.25 of 16384 px. */
+/* Vertices within 8 m and a near plane of 0.25 m: a cut is off by under 2^-24 x 16 / 0.25 of 16384 px. */
 static void test_near_plane(void)
 {
     test_rng r = {5};
@@ -387,7 +388,7 @@ static void test_near_plane(void)
     CHECK(clear > CUTS * WINDOW * WINDOW * 9 / 10);
 }
 
-/* Up to 2^18 px away at 1 m a pixel: two cuts, each rounded to 2^-24 of 2^19, then the snap. */
+/* Up to 2^18 px away at 1 m per pixel: two cuts, each rounded to 2^-24 of 2^19, then the snap. */
 static void test_guard_band(void)
 {
     test_rng r = {6};
@@ -410,7 +411,7 @@ static void test_guard_band(void)
 
 static uint8_t hits[FRAME * FRAME];
 
-/* Each triangle alone into a cleared target. */
+/* Draws each triangle by itself into a cleared target. */
 static void count_hits(uint32_t triangles)
 {
     const int32_t box[4] = {0, 0, FRAME, FRAME};
@@ -430,7 +431,7 @@ typedef struct grid_triangle {
 
 static grid_triangle grid_mesh[CAP];
 
-/* A point strictly inside, or 0. */
+/* Returns a point strictly inside, or 0 if there is none. */
 static int point_inside(grid_point *out, test_rng *r, const grid_triangle *t, int64_t step)
 {
     int64_t a = random_between(r, 1, 98), b = random_between(r, 1, 99 - (int32_t)a), c = 100 - a - b;
@@ -442,7 +443,7 @@ static int point_inside(grid_point *out, test_rng *r, const grid_triangle *t, in
            cross_at(&p[2], &p[0], out->x, out->y) > 0;
 }
 
-/* A rectangle of two triangles; then some triangle is split in three at a point of its inside, again and again. */
+/* Two triangles form a rectangle; then random triangles are repeatedly split in three at an inner point. */
 static int split_rectangle(test_rng *r, const int64_t box[4], int64_t step)
 {
     grid_point a = {box[0], box[1]}, b = {box[2], box[1]}, c = {box[2], box[3]}, d = {box[0], box[3]};
@@ -480,7 +481,7 @@ static int wrong_hits(const int64_t box[4])
     return wrong;
 }
 
-/* Sides on, between and off pixel centres; steps of 1/256 px, half pixels, pixel centres only. */
+/* Edges on, between and off pixel centres, in steps of 1/256 px, half pixels, and whole pixels. */
 static void test_split_meshes(void)
 {
     static const int64_t steps[3] = {1, 128, 256};
@@ -500,7 +501,7 @@ static void test_split_meshes(void)
     CHECK_MSG(wrong == 0, "%d pixels not hit once", wrong);
 }
 
-/* The rectangle reaches past the guard band, splits do too: neighbours must be cut alike. */
+/* The rectangle and the splits extend past the guard band: neighbours must be clipped alike. */
 static void test_split_afar(void)
 {
     test_rng r = {8};
@@ -518,7 +519,7 @@ static void test_split_afar(void)
 enum { CELLS = 6, SPOKES = 12 };
 #define GROUND_HALF 15.0f
 
-/* A jittered grid on the ground, 1 m under the eye, before and behind it. */
+/* A jittered grid on the ground, 1 m below the eye, in front of and behind it. */
 static void put_ground(test_rng *r)
 {
     static float at[CELLS + 1][CELLS + 1][2];
@@ -539,7 +540,7 @@ static void put_ground(test_rng *r)
     }
 }
 
-/* Where the pixel's ray meets the ground: -1 nowhere near it, 1 well inside the mesh, 0 close to a limit. */
+/* Intersection of the pixel's ray with the ground: -1 far from the mesh, 1 well inside, 0 close to a border. */
 static int ground_at(int32_t x, int32_t y)
 {
     const lmb_view *v = &st.view;
@@ -576,8 +577,8 @@ static void test_ground(void)
     CHECK(seen > 30 * FRAME * FRAME / 4);
 }
 
-/* A fan about a corner that is seen; its rim is `radius` away all around, in the plane of the first two axes. Each
- * spoke belongs to two triangles that walk it in opposite directions. */
+/* A fan around a visible corner, with a rim about `radius` away in the plane of the first two axes. Two triangles share
+ * each spoke in opposite directions. */
 static void put_fan(test_rng *r, float x, float y, float radius, int on_ground)
 {
     float rim[SPOKES][2];
@@ -597,7 +598,8 @@ static void put_fan(test_rng *r, float x, float y, float radius, int on_ground)
     set_stage(SPOKES);
 }
 
-/* Every spoke is cut far outside: with other bits on its two sides a centre beside it is missed or hit twice. */
+/* Every spoke is clipped far outside: if the two sides were rounded differently, a pixel centre would be missed or hit
+ * twice. */
 static void test_fans(void)
 {
     test_rng r = {17};
@@ -613,7 +615,7 @@ static void test_fans(void)
     CHECK_MSG(wrong == 0, "%d pixels not hit once", wrong);
 }
 
-/* The same on the ground, where the near plane cuts the spokes that run behind the eye. */
+/* The same on the ground; the near plane clips the spokes that extend behind the eye. */
 static void test_ground_fans(void)
 {
     test_rng r = {18};
@@ -636,7 +638,7 @@ static void test_ground_fans(void)
 
 /* ---- depth ---- */
 
-/* Snapped corners, px from the middle, with the depth that the header's formula gives in binary32. */
+/* Snapped corners, px from the centre, with the depth of the header's formula in binary32. */
 typedef struct depth_plane {
     double x[3], y[3], d[3], dx, dy, lo, hi;
 } depth_plane;
@@ -652,7 +654,7 @@ static double solve_plane(depth_plane *p)
     return det;
 }
 
-/* Every other one has its corners on pixel centres, where rounding could leave the corners' range. */
+/* Half of them have corners on pixel centres, so that rounding could leave the corners' depth range. */
 static void random_depth_triangle(depth_plane *p, test_rng *r, int perspective)
 {
     int32_t step = test_random(r) & 1 ? 256 : 1;
@@ -672,8 +674,9 @@ static void random_depth_triangle(depth_plane *p, test_rng *r, int perspective)
     }
 }
 
-/* The plane steps in binary32 from its value at a tile's first pixel, up to 7 px away either way. With s the slopes'
- * sum, that value and the two sums round numbers under hi + 7 s, slopes and products round 7 s: 3 hi + 35 s halves. */
+/* The plane steps in binary32 from the value at a tile's first pixel, up to 7 px either way. With s the sum of the
+ * slopes, this value and the two sums round numbers under hi + 7 s, slopes and products round 7 s: 3 hi + 35 s half
+ * ulps. */
 static double depth_slack(const depth_plane *p)
 {
     return ldexp(3.0 * p->hi + 35.0 * (fabs(p->dx) + fabs(p->dy)), -24);
@@ -758,13 +761,13 @@ static void test_depth_order(void)
         st.view = axis_view(variant & 2 ? LMB_PERSPECTIVE : LMB_ORTHOGRAPHIC, FRAME);
         lmb_target t = window_of(0, format, LMB_ID32, LMB_TILED, box);
         draw(&t, 1, 6, 0);
-        CHECK(all_ids(&t, 3, 4)); /* nearer wins, the later equal one loses */
+        CHECK(all_ids(&t, 3, 4)); /* nearer wins; at equal depth the first stays */
         draw(&t, 1, 2, 0);
-        CHECK(all_ids(&t, 3, 4)); /* farther comes late */
+        CHECK(all_ids(&t, 3, 4)); /* the farther one comes last */
         t = window_of(0, format, LMB_ID32, LMB_TILED, box);
         draw(&t, 5, 2, 0);
         draw(&t, 3, 2, 0);
-        CHECK(all_ids(&t, 5, 6)); /* earlier is what was drawn earlier, not the lower id */
+        CHECK(all_ids(&t, 5, 6)); /* the first drawn stays, not the lower id */
     }
 }
 
@@ -776,7 +779,7 @@ static void random_soup(test_rng *r, uint32_t triangles, float span, float far_w
     set_stage(triangles);
 }
 
-/* 16-bit codes are the header's formula of the float depth, so their order is the same up to equal codes. */
+/* 16-bit codes follow the header's formula of the float depth, so the order is the same except for equal codes. */
 static void test_depth16(void)
 {
     const int32_t box[4] = {0, 0, FRAME, FRAME};
@@ -816,7 +819,7 @@ static void test_view_z(void)
     CHECK(lmb_depth_view_z(&p, 0.0f) == 0.0f && lmb_depth_view_z(NULL, 0.5f) == 0.0f);
 }
 
-/* A drawn pixel read back through lmb_depth_view_z is the wall's distance. */
+/* lmb_depth_view_z of a drawn pixel is the distance of the wall. */
 static void test_wall_z(void)
 {
     const int32_t box[4] = {0, 0, FRAME, FRAME};
@@ -846,7 +849,7 @@ static void set_wide_view(int perspective)
         st.view.half_width = 14.0f;
         st.view.half_height = 10.0f;
     }
-    st.view.near_m = 1.8f; /* some are cut by it */
+    st.view.near_m = 1.8f; /* the near plane cuts some */
     st.view.far_m = 80.0f;
 }
 
@@ -866,7 +869,7 @@ static int window_differs(const lmb_target *whole, const lmb_target *t)
     return wrong;
 }
 
-/* All windows of one size, side by side over the frame. */
+/* Tiles the frame with windows of one size. */
 static int tiling_differs(const lmb_target *whole, int32_t id_format, int32_t layout, int32_t width, int32_t height)
 {
     int wrong = 0;
@@ -904,7 +907,7 @@ static void test_windows(void)
     }
 }
 
-/* Half of the triangles reach a few pixels, so that they are filled in batches. */
+/* Half of the triangles cover a few pixels, so they are filled in batches. */
 static void mixed_soup(test_rng *r, uint32_t triangles, float far_w)
 {
     random_soup(r, triangles, 9.0f, far_w);
@@ -916,7 +919,7 @@ static void mixed_soup(test_rng *r, uint32_t triangles, float far_w)
     }
 }
 
-/* Tiled codes without ids, which have code of their own, against linear ones with ids; seen: pixels that show. */
+/* Tiled codes without ids, which have a separate code path, against linear codes with ids; *seen: visible pixels. */
 static int codes_differ(const lmb_kernels *kernels, const lmb_kernels *plain, int32_t x, int32_t *seen)
 {
     const int32_t box[4] = {x, 8, WIDE - x - 3, TALL - 8};
@@ -932,7 +935,7 @@ static int codes_differ(const lmb_kernels *kernels, const lmb_kernels *plain, in
     return wrong;
 }
 
-/* A wall on the near plane, whose depth is 1: its code is 65535 also where scale and bias round up to 65536. */
+/* A wall on the near plane has depth 1, so its code must be 65535 even if scale and bias round up to 65536. */
 static void test_code_of_one(const lmb_kernels *kernels, const lmb_kernels *plain, float far_m)
 {
     static const float wall[] = {-90, -90, -1.8f, 90, -90, -1.8f, 0, 180, -1.8f};
@@ -948,7 +951,7 @@ static void test_code_of_one(const lmb_kernels *kernels, const lmb_kernels *plai
     CHECK_MSG(seen == (WIDE - 3) * (TALL - 8), "%s, far %g: %d", lmb_kernels_name(kernels), (double)far_m, (int)seen);
 }
 
-/* Where no depth lies between near and far, scale and bias are no numbers, and all codes are 0. */
+/* If no depth lies between near and far, scale and bias are not numbers, and all codes must be 0. */
 static void test_codes_of_nothing(const lmb_kernels *kernels, const lmb_kernels *plain)
 {
     const float far_m[] = {INFINITY, nextafterf(1.1e-30f, 1.0f)};
@@ -961,8 +964,8 @@ static void test_codes_of_nothing(const lmb_kernels *kernels, const lmb_kernels 
     }
 }
 
-/* Where far is hardly more than near, codes of 1 round up to 65536. In an orthographic view what lies beyond far has codes
- * under 0. */
+/* If far is barely beyond near, codes of 1 round up to 65536. In orthographic views, surfaces beyond far have negative
+ * codes. */
 static void test_codes(void)
 {
     static const float far_m[] = {1.8000002f, 1.800002f, 1.80003f, 1.801f, 1.9f, 3.5999f, 3.6f, 3.7f, 11.0f, 80.0f, 1e6f, 3e38f};
@@ -985,7 +988,7 @@ static void test_codes(void)
     }
 }
 
-/* Ids in order, in pieces of any size, past the end too. */
+/* Ids in order, in ranges of any size, also past the end. */
 static void test_ranges(void)
 {
     const int32_t all[4] = {0, 0, WIDE, TALL};
@@ -994,7 +997,7 @@ static void test_ranges(void)
         static lmb_instance parts[4];
         random_soup(&r, 60, 9.0f, 12.0f);
         set_wide_view(n & 1);
-        for (uint32_t i = 0; i < 4; ++i) { /* the mesh four times, turned by mirroring */
+        for (uint32_t i = 0; i < 4; ++i) { /* four copies of the mesh, some mirrored */
             parts[i] = plain_instance;
             parts[i].to_world.m[0] = i & 1 ? -1.0f : 1.0f;
             parts[i].to_world.m[5] = i & 2 ? -1.0f : 1.0f;
@@ -1020,7 +1023,7 @@ static void test_ranges(void)
 
 /* ---- culling ---- */
 
-/* A counter-clockwise triangle over the middle, behind it or not, mirrored or not. */
+/* A counter-clockwise triangle over the centre; turned: seen from behind. */
 static uint32_t seen_with(uint32_t material_flags, uint32_t draw_flags, int turned, int mirrored)
 {
     const int32_t box[4] = {0, 0, FRAME, FRAME};
@@ -1036,8 +1039,8 @@ static uint32_t seen_with(uint32_t material_flags, uint32_t draw_flags, int turn
     return id_at(&t.id, FRAME / 2, FRAME / 2);
 }
 
-/* A mirror in the placement turns the winding, not which side is the front: glTF 2.0, 3.7.4. So a mirrored front face
- * stays a front face, seen from its front. */
+/* A mirroring transform flips the winding, not the front side (glTF 2.0, 3.7.4). A mirrored front face seen from the
+ * front therefore stays a front face. */
 static void test_culling(void)
 {
     for (int i = 0; i < 12; ++i) {
@@ -1064,7 +1067,7 @@ static void put_neighbours(void)
     st.view = axis_view(LMB_ORTHOGRAPHIC, FRAME);
 }
 
-/* Bad triangles vanish and are counted; the others' pixels are what they were. */
+/* Bad triangles are dropped and counted; the pixels of the others do not change. */
 static void check_bad(uint32_t dropped, const char *what)
 {
     const int32_t box[4] = {0, 0, FRAME, FRAME};
@@ -1084,7 +1087,7 @@ static void check_bad(uint32_t dropped, const char *what)
 static void test_bad_vertices(void)
 {
     const int32_t box[4] = {0, 0, FRAME, FRAME};
-    const struct { /* not static: to tcc, NAN is no constant */
+    const struct { /* not static: tcc rejects NAN as a constant */
         float value;
         const char *name;
     } bad[] = {{NAN, "nan"},    {INFINITY, "infinity"}, {-INFINITY, "-infinity"},
@@ -1136,7 +1139,7 @@ static void test_bad_arguments(void)
     CHECK(lmb_draw(&t, k, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_OK); /* no stats */
 }
 
-/* The memory around and in the target holds a pattern; a refused draw leaves all of it. */
+/* Memory around and in the target holds a pattern; a refused draw changes none of it. */
 static void check_refused(lmb_target *t, lmb_status expected, const char *what)
 {
     memset(depth_memory[0], 0xa5, sizeof depth_memory[0]);
@@ -1176,11 +1179,11 @@ static void test_bad_targets(void)
     REFUSED(t.id.height = 40, LMB_ERR_ARG);
     REFUSED(t.depth.width = t.id.width = 2147483647, LMB_ERR_ARG);
     REFUSED(t.x0 = 2147483640, LMB_ERR_ARG);
-    REFUSED(t.depth.stride_bytes = 1 << 29, LMB_ERR_ARG); /* eight such rows are more than 32 bits hold */
+    REFUSED(t.depth.stride_bytes = 1 << 29, LMB_ERR_ARG); /* eight of these rows overflow 32 bits */
     REFUSED(t.id.stride_bytes = 1 << 29, LMB_ERR_ARG);
     REFUSED(t.id.format = LMB_ID16; st.mesh.triangle_count = 65536, LMB_ERR_CAPACITY);
     st.mesh.triangle_count = 8;
-    REFUSED(t.depth.format = LMB_DEPTH16; st.view.far_m = 0.1f, LMB_ERR_ARG); /* an orthographic view needs far too */
+    REFUSED(t.depth.format = LMB_DEPTH16; st.view.far_m = 0.1f, LMB_ERR_ARG); /* orthographic views also need far */
     st.view = axis_view(LMB_PERSPECTIVE, FRAME);
     REFUSED(t.depth.format = LMB_DEPTH16; st.view.far_m = 0.1f, LMB_ERR_FORMAT);
     REFUSED(t.depth.format = LMB_DEPTH16; st.view.far_m = NAN, LMB_ERR_FORMAT);
@@ -1202,7 +1205,7 @@ static void test_bad_views(void)
     REFUSED(st.view.half_width = 0.0f);
     REFUSED(st.view.half_height = -1.0f);
     REFUSED(st.view.half_width = NAN);
-    REFUSED(st.view.half_width = 1e-39f); /* 1 / it is infinite */
+    REFUSED(st.view.half_width = 1e-39f); /* 1 / half_width is infinite */
     REFUSED(st.view.near_m = 1e-39f);
     REFUSED(st.view.near_m = 0.0f);
     REFUSED(st.view.near_m = NAN);
@@ -1213,7 +1216,7 @@ static void test_bad_views(void)
 #undef REFUSED
 }
 
-/* A window that ends inside a tile keeps to its surface's memory. */
+/* A window that ends inside a tile stays within its surface's memory. */
 static void test_canaries(void)
 {
     test_rng r = {14};
@@ -1244,8 +1247,9 @@ static void test_canaries(void)
     }
 }
 
-/* Each row was, or could have been, a bug. A triangle is cut by the near plane far from its corners: what is left of
- * w there is rounding, and must still land on the guard band. The drawn id stands at most where the exact one does. */
+/* Each row was or could have been a bug. The near plane cuts a triangle far from its corners: the remaining w is only
+ * rounding, and the vertex must still land on the guard band. Pixels off the edges carry the id exactly if the exact
+ * triangle covers them. */
 static void test_hard_cuts(void)
 {
     static const struct {
@@ -1254,7 +1258,7 @@ static void test_hard_cuts(void)
     } rows[] = {
         {0.01f, {0, 0, -1e5f, 0.1f, 0.1f, -0.005f, 0.2f, -0.1f, -0.005f}},
         {0.01f, {50, 0, -1e5f, 0.5f, 0.5f, -0.002f, -0.5f, 0.5f, -0.002f}},
-        {0.01f, {0, 0, -1e6f, 0.1f, 0.1f, -0.005f, 0.2f, -0.1f, -0.005f}}, /* rounding leaves w = 0: no guard flagged */
+        {0.01f, {0, 0, -1e6f, 0.1f, 0.1f, -0.005f, 0.2f, -0.1f, -0.005f}}, /* rounding gives w = 0: no guard flag */
         {0.01f, {3e5f, 1e5f, -1e6f, 0.01f, 0.003f, -0.005f, -0.02f, 0.01f, -0.005f}}, /* loses x instead */
         {0.01f, {0, 0, -1e6f, 0.3f, 0.1f, -0.005f, 3.0f, -1.0f, -0.005f}},
         {1e-5f, {0, 0, -1000, 0, 0, 1000, 5, 5, -10}}, /* an edge through the eye: w = x = y = 0 */
@@ -1313,7 +1317,7 @@ static void set_mask(test_rng *r, uint32_t triangles)
     st.material.alpha_cutoff = 0.5f;
 }
 
-/* 1 opaque, 0 a hole, -1 within rounding of a texel's border. */
+/* 1 opaque, 0 a hole, -1 within rounding of a texel border. */
 static int texel_at(double u, double v)
 {
     double x = (u - floor(u)) * 4.0, y = (v - floor(v)) * 4.0;
@@ -1327,7 +1331,7 @@ typedef struct mask_count {
     int wrong, holes, solid;
 } mask_count;
 
-/* uvs come from the unmasked draw's own attributes, which test_textures holds against rays in double. */
+/* The uvs are attributes of the unmasked draw, which test_textures checks against rays in double. */
 static void judge_mask(mask_count *n, const lmb_target *unmasked, const lmb_target *masked)
 {
     static lmb_tile tile;
@@ -1369,8 +1373,8 @@ static void test_masks(void)
     CHECK(n.holes > 2000 && n.solid > 2000);
 }
 
-/* Masked and in layers: windows, formats and splits are all the same picture; an all-opaque mask changes nothing. Every
- * triangle comes twice: where depths are equal the first one stays. Samples lie aside in most. */
+/* Masked, in layers: windows, formats and splits give the same picture, and an opaque mask changes nothing. Every
+ * triangle is drawn twice: at equal depths the first stays. Samples are off the pixel centre in most cases. */
 static void test_mask_layers(void)
 {
     const int32_t box[4] = {0, 0, WIDE, TALL};

@@ -44,7 +44,7 @@ static void set_directions(pair *p)
     p->lights.count = T;
 }
 
-/* The lower one faces up and sees the other along x > 0; that faces down and sees it along x < 0. */
+/* The lower one faces up and sees the upper along x > 0; the upper faces down and sees the lower along x < 0. */
 static void build(pair *p)
 {
     static const float x[6] = {0, 0, 1, 0, 1, 0}, z[6] = {0, 1, 0, 0, 0, 1};
@@ -80,7 +80,7 @@ static void build(pair *p)
     p->h.instances = &p->instance;
 }
 
-/* Each triangle covers half of it: white and black in one diagonal each. */
+/* Each triangle covers half of the texture: white and black on one diagonal each. */
 static void add_pattern(pair *p)
 {
     for (int i = 0; i < 6; ++i) {
@@ -106,7 +106,7 @@ static void no_ground(float left[3], const void *user, lmb_vec3 at, lmb_vec3 to)
     left[0] = left[1] = left[2] = 0.0f;
 }
 
-/* A region's reflectance: the texel that covers its triangle, then also its corners' colours. */
+/* A region's reflectance: the texel over the triangle, then also the colours of the corners. */
 static void look_at_colours(pair *p)
 {
     static const uint8_t red[6] = {255, 0, 51, 102, 102, 102};
@@ -130,7 +130,7 @@ static void look_at_colours(pair *p)
     }
 }
 
-/* Half of what each would reflect comes from the other: by three rounds 1/2 + 1/4 + 1/8. */
+/* Half of the light that each could reflect comes from the other: 1/2 + 1/4 + 1/8 after three rounds. */
 void test_region(void)
 {
     pair *p = malloc(sizeof *p);

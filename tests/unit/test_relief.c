@@ -1,4 +1,4 @@
-/* test_relief.c: a sphere carried by a cube, against the sphere itself. Requirements P1-P12. */
+/* test_relief.c: a sphere represented by a cube, against the real sphere. Requirements P1-P12. */
 #include "../sphere_relief.h"
 
 #include "../../src/base/codec.h"
@@ -7,7 +7,7 @@ void test_relief(void);
 
 /* --- surface ------------------------------------------------------------------------------------------------------ */
 
-/* m along the view's axis to the sphere through the middle of a pixel; 0: the ray passes it by `by` m. */
+/* m along the view's axis to the sphere at a pixel's centre; 0 if the ray misses it by `by` m. */
 static float sphere_depth(float *by, lmb_vec3 *normal, const lmb_view *v, int32_t x, int32_t y)
 {
     const float sx = ((float)(2 * x + 1) / (float)v->frame_width - 1.0f) * v->half_width,
@@ -23,8 +23,8 @@ static float sphere_depth(float *by, lmb_vec3 *normal, const lmb_view *v, int32_
 }
 
 typedef struct errors {
-    int wrong, pixels; /* covered and should not be, or the other way, beyond `edge` */
-    double depth, normal, colour; /* worst off the edge; normal: 1 - cosine */
+    int wrong, pixels; /* wrongly covered or uncovered, beyond `edge` */
+    double depth, normal, colour; /* worst away from the edge; normal: 1 - cosine */
 } errors;
 
 static errors against_sphere(const relief_frame *f, const lmb_view *v, float edge)
@@ -51,7 +51,8 @@ static errors against_sphere(const relief_frame *f, const lmb_view *v, float edg
     return e;
 }
 
-/* P2-P6 P12: the cube's pixels show the sphere, and nothing past its edge. Texels are 0.033 m wide, pixels 0.026. */
+/* P2-P6 P12: the cube's pixels show the sphere and nothing beyond the silhouette. Texels are 0.033 m wide, pixels
+ * 0.026. */
 static void carries_a_sphere(const stage *s, double depth, double normal, double colour)
 {
     const lmb_vec3 eyes[3] = {{1.9f, 1.1f, 2.6f}, {-2.2f, 0.3f, 2.4f}, {0.4f, -3.1f, 1.1f}};
@@ -68,7 +69,7 @@ static void carries_a_sphere(const stage *s, double depth, double normal, double
     }
 }
 
-/* P5: one look from the cube is far from the sphere, which is what going on is for. */
+/* P5: a single step from the cube is far from the sphere, so more steps are needed. */
 static void once_is_worse(const stage *s)
 {
     const lmb_view v = look(vec3(1.9f, 1.1f, 2.6f), vec3(0, 0, 0), 45.0, FRAME);
@@ -80,11 +81,11 @@ static void once_is_worse(const stage *s)
     relief_frame_free(&f);
 }
 
-/* A reference view from its own place: the picture that is stored. */
+/* A reference view from the same position gives the stored picture. */
 static void is_its_own_view(const stage *s, int32_t which)
 {
     lmb_view v = s->bake.picture[which].view;
-    v.eye = add3(v.eye, v.back); /* so that all of the cube lies before it */
+    v.eye = add3(v.eye, v.back); /* puts the whole cube in front of the eye */
     v.far_m += 2.0f;
     relief_shot shot = shot_of(s, &v), plain = shot;
     shot.how.pick = LMB_RELIEF_EYE_RAY;
@@ -113,7 +114,7 @@ static void is_its_own_view(const stage *s, int32_t which)
 
 /* --- the file ----------------------------------------------------------------------------------------------------- */
 
-/* What a machine of the other byte order would have written. */
+/* As written by a machine of the other byte order. */
 static void turn_words(uint8_t *p, size_t count, size_t size)
 {
     for (size_t i = 0; i < count; ++i) {
@@ -172,7 +173,7 @@ static void overlaps(const stage *s)
     free(copy);
 }
 
-/* Cut anywhere, or with any word of its head or of a view's record out of range, a file is refused. */
+/* A file cut anywhere, or with any header or view word out of range, is refused. */
 static void bad_files(const stage *s)
 {
     static const struct { int word; uint32_t value; } bad[] = {
@@ -202,7 +203,7 @@ static void bad_files(const stage *s)
     CHECK(lmb_relief_open(&r, (const uint8_t *)copy + 1, s->file.size - 1) == LMB_ERR_ALIGN);
     CHECK(lmb_relief_open(NULL, copy, s->file.size) == LMB_ERR_ARG && lmb_relief_open(&r, NULL, 4) == LMB_ERR_ARG);
     CHECK(memcmp(&r, &none, sizeof r) == 0);
-    for (int word = 33; word <= 34; ++word) { /* the least side */
+    for (int word = 33; word <= 34; ++word) { /* the minimum side */
         memcpy(copy, s->file.data, s->file.size);
         copy[word] = 2;
         CHECK(lmb_relief_open(&r, copy, s->file.size) == LMB_OK);

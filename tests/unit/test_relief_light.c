@@ -1,9 +1,10 @@
-/* test_relief_light.c: a relief of a sphere in a scene: shadows both ways, light that bounces. Requirements P7-P11. */
+/* test_relief_light.c: a relief of a sphere in a scene: shadows in both directions, bounced light. Requirements
+ * P7-P11. */
 #include "../sphere_relief.h"
 
 void test_relief_light(void);
 
-/* P7-P9 P11: over a floor, both ways: what the sphere shadows, what shadows it, and which hides which. */
+/* P7-P9 P11: above a floor: the sphere's shadows, shadows on the sphere, and visibility in both directions. */
 static void shadows(const stage *s, lmb_light light)
 {
     const lmb_view v = look(vec3(0.0f, 2.0f, 5.0f), vec3(0, 0, 0), 60.0, FRAME);
@@ -33,7 +34,7 @@ static void shadows(const stage *s, lmb_light light)
     relief_frame_free(&want);
 }
 
-/* Light that a floor sends up arrives on a relief as on the sphere. */
+/* Light that a floor reflects up arrives on a relief as on the sphere. */
 static void receives_bounce(const stage *s)
 {
     static uint32_t depth[FRAME * FRAME], id[FRAME * FRAME];
@@ -74,7 +75,7 @@ static void receives_bounce(const stage *s)
 
 /* --- a room ------------------------------------------------------------------------------------------------------- */
 
-/* Mean irradiance where the light does not arrive, and by how much the frames' differ there in the mean. */
+/* Mean irradiance in shadow, and the mean difference between the frames there. */
 typedef struct indirect {
     int pixels;
     double mean, off;
@@ -89,8 +90,8 @@ static void add_pixel(indirect *sum, const relief_frame *got, const relief_frame
     sum->off += fabs(a - b);
 }
 
-/* The sphere stands on a floor beside a wall, under a sun: what both send up and sideways lights it from below, and its
- * own light falls on them, as it does with the sphere's triangles in its place. */
+/* The sphere is on a floor beside a wall, under a sun: both reflect light to it from below and the side, and it
+ * reflects light to both, as with the sphere's triangles. */
 static void stands_in_a_room(const stage *s)
 {
     const lmb_view v = look(vec3(1.5f, 0.8f, 4.5f), vec3(-0.4f, -0.2f, 0), 50.0, FRAME);
@@ -127,8 +128,8 @@ static void stands_in_a_room(const stage *s)
     relief_frame_free(&want);
 }
 
-/* A map of 8 x 8 texels where only the last shows something, near the light: it shadows what stands within it up to the
- * map's edge, and nothing of the other corners. */
+/* A map of 8 x 8 texels in which only the last one has depth, near the light: it shadows points below it up to the
+ * map's edge, and none at the other corners. */
 static void last_texel(void)
 {
     static uint32_t memory[8 * 8 * 4];

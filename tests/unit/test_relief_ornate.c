@@ -1,4 +1,4 @@
-/* test_relief_ornate.c: an ornate shape's relief has no specks, of surface or of shadow. Requirements P7 P9 P12. */
+/* test_relief_ornate.c: a relief of an ornate shape has no specks, of surface or of shadow. Requirements P7 P9 P12. */
 #include "../test.h"
 
 #include <stdlib.h>
@@ -71,7 +71,7 @@ static void ornate_free(ornate *o)
     free(o);
 }
 
-/* Means of some pictures from all around. */
+/* Means over pictures from all sides. */
 static relief_figures compared(const ornate *o)
 {
     static const lmb_light sun = {.direction = {-0.45f, -0.8f, -0.3968627f}, .intensity = {3.0f, 2.9f, 2.7f},

@@ -1,4 +1,4 @@
-/* test_relit.c: cubes as they are looked up, and objects drawn in the light of their places. Requirements S15-S24. */
+/* test_relit.c: cubes as the lookups use them, and objects lit at their places. Requirements S15-S24. */
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -12,7 +12,7 @@ void test_relit(void);
 
 enum { FACE = 16, SIDE = 8, TEXELS = 6 * SIDE * SIDE, PIXELS = 64 };
 
-/* Two probes over one world: of a place each. */
+/* Two probes in one world, at one place each. */
 typedef struct stage {
     float face[6][FACE * FACE * 3], planes[3 * TEXELS];
     lmb_world_pictures pictures;
@@ -27,7 +27,7 @@ typedef struct stage {
     lmb_shadow_map shadow_map;
     uint32_t light_memory[6 * 64 * 64 * 2];
     uint32_t depth[PIXELS * PIXELS], id[PIXELS * PIXELS];
-    float out[3][PIXELS * PIXELS * 3]; /* by LMB_RELIGHT_ */
+    float out[3][PIXELS * PIXELS * 3]; /* indexed by LMB_RELIGHT_ */
     lmb_relight relight;
     lmb_relight_scratch scratch;
 } stage;
@@ -62,7 +62,7 @@ static void make_probe(stage *s, int i, lmb_vec3 at, float roughness)
     }
 }
 
-/* Two balls at x -1.2 and 1.2, an instance each, white, from 5 m in front. */
+/* Two white balls at x -1.2 and 1.2, an instance each, from 5 m in front. */
 static void make_balls(stage *s, float f0, float roughness)
 {
     world_begin(1.0f, 1.0f, 1.0f);
@@ -115,7 +115,7 @@ static float white(int c, lmb_vec3 d)
     return 1.0f;
 }
 
-/* White things in a white world cannot be seen, smooth or rough, by cube or by the world itself. */
+/* White objects in a white world are invisible, smooth or rough, with cubes or with the world. */
 static void furnace(stage *s)
 {
     static const float roughness[] = {0.0f, 0.3f, 1.0f};
@@ -137,8 +137,7 @@ static void furnace(stage *s)
 
 static float colours(int c, lmb_vec3 d) { return 1.0f + 0.8f * (c == 0 ? d.x : c == 1 ? d.y : d.z); }
 
-/* S24: normal and glossy reflection are the two parts of both; S22: glossy reflection is stronger where the surface
- * grazes. */
+/* S24: diffuse and glossy reflection add up to both; S22: glossy reflection is stronger at grazing angles. */
 static void parts(stage *s)
 {
     float worst = 0.0f, middle, rim;
@@ -160,7 +159,7 @@ static void parts(stage *s)
     CHECK_MSG(rim > 2.0f * middle && middle > 0.01f, "%g %g", (double)rim, (double)middle);
 }
 
-/* S17: a flat mirror shows what lies along the reflected ray from where the view meets it, by Schlick's share. */
+/* S17: a flat mirror shows the world along the reflected ray from the visible point, weighted by Schlick's term. */
 static void mirror(stage *s)
 {
     const lmb_vec3 u = vec3(2.0f, 0.0f, 0.0f), v = vec3(0.0f, 1.2f, -0.9f), n = normalize3(cross3(u, v));
@@ -170,7 +169,7 @@ static void mirror(stage *s)
     world.material[0].specular[0] = world.material[0].specular[1] = world.material[0].specular[2] = 0.04f;
     world_quad(vec3(0.0f, 0.0f, 0.0f), u, v);
     CHECK(world_end() == LMB_OK);
-    s->probe_of[0] = 1; /* looks at the world itself */
+    s->probe_of[0] = 1; /* uses the world directly */
     world_draw(&s->relight.eye, view, 0);
     CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
     for (int y = 20; y < 50; y += 7) {
@@ -189,7 +188,7 @@ static void mirror(stage *s)
     }
 }
 
-/* S21: a ball's top is lit from above: pi (1 + 0.8 x 2/3 n.y) / pi there. S15: each by its own probe. */
+/* S21: a ball's top is lit from above: pi (1 + 0.8 x 2/3 n.y) / pi there. S15: each ball uses its probe. */
 static void normals(stage *s)
 {
     make_balls(s, 0.0f, 0.5f);
@@ -199,16 +198,16 @@ static void normals(stage *s)
     const float front = pixel(s, 0, 48, 32)[2];
     CHECK_MSG(fabsf(front - (1.0f + 0.8f * 2.0f / 3.0f)) < 0.02f, "%g", (double)front);
     s->probe_of[1] = 0;
-    memset(s->cube[0][0], 0, sizeof s->cube[0][0]); /* the first one's probe goes dark: both are */
+    memset(s->cube[0][0], 0, sizeof s->cube[0][0]); /* the first probe goes dark: both balls are */
     CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
     CHECK(pixel(s, 0, 48, 32)[2] == 0.0f && pixel(s, 0, 16, 32)[2] == 0.0f);
 }
 
-/* Behind, the view's rays see the world: at its centre along them. */
+/* In the background, the view's rays see the world from its centre. */
 static void background(stage *s)
 {
     const lmb_view *v = &s->relight.view;
-    s->relight.view.eye = vec3(0.0f, 0.0f, 0.0f); /* nothing else of it matters to the sky */
+    s->relight.view.eye = vec3(0.0f, 0.0f, 0.0f); /* the sky uses nothing else of the view */
     CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
     const float x = (2.0f * 2.5f / PIXELS - 1.0f) * v->half_width, y = (1.0f - 2.0f * 3.5f / PIXELS) * v->half_height;
     const lmb_vec3 d = normalize3(vec3(x, y, -1.0f));
@@ -239,17 +238,17 @@ static void one_light(stage *s)
     CHECK(lmb_shadow_map_draw(&s->shadow_map, k, &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
     s->relight.maps = &s->shadow_map;
     CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
-    const float shaded = pixel(s, 0, 40, 32)[0], left = pixel(s, 0, 6, 32)[0]; /* the left one shades the right one */
+    const float shaded = pixel(s, 0, 40, 32)[0], left = pixel(s, 0, 6, 32)[0]; /* the left one shadows the right one */
     CHECK_MSG(shaded == 0.0f && left > 0.1f, "%g %g", (double)shaded, (double)left);
 }
 
 /* --- facets smaller than pixels ----------------------------------------------------------------------------------- */
 
-enum { CELLS = 60, GRID = 15 /* pixels from the middle that it covers each way, and one more */ };
+enum { CELLS = 60, GRID = 15 /* covered pixels from the centre each way, plus one */ };
 
 static float half_lit(int c, lmb_vec3 d) { return c >= 0 && d.x > 0.0f ? 1.0f : 0.0f; }
 
-/* A grid's corner: the same height at each look, up to `rough` m. */
+/* A grid corner, with a reproducible height of up to `rough` m. */
 static lmb_vec3 corner_of(int x, int y, float rough)
 {
     const uint32_t hash = ((uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u) * 2654435761u;
@@ -257,7 +256,7 @@ static lmb_vec3 corner_of(int x, int y, float rough)
     return vec3(0.04f * (float)(x - CELLS / 2), 0.04f * (float)(y - CELLS / 2), high);
 }
 
-/* A mirror across the view of `cells` squares each way: of CELLS several triangles lie in each pixel. */
+/* A mirror across the view with `cells` squares each way: with CELLS, several triangles share each pixel. */
 static void draw_grid(stage *s, int cells, float rough)
 {
     const int wide = CELLS / cells;
@@ -271,14 +270,14 @@ static void draw_grid(stage *s, int cells, float rough)
         world_triangle(a, c, corner_of(x, y + wide, rough));
     }
     CHECK(world_end() == LMB_OK);
-    s->probe_of[0] = 1; /* looks at the world itself */
+    s->probe_of[0] = 1; /* uses the world directly */
     world_draw(&s->relight.eye, &s->relight.view, 0);
     CHECK(draw(s, LMB_RELIGHT_GLOSSY) == LMB_OK);
 }
 
 static float red(const stage *s, int x, int y) { return pixel(s, LMB_RELIGHT_GLOSSY, x, y)[0]; }
 
-/* Is the pixel's red more or less by a third than that of all eight around? */
+/* Returns whether the pixel's red differs by a third from all eight neighbours in the same direction. */
 static int is_speck(const stage *s, int x, int y)
 {
     int above = 1, below = 1;
@@ -290,8 +289,8 @@ static int is_speck(const stage *s, int x, int y)
     return above | below;
 }
 
-/* A rough mirror has no specks, and is as bright as its facets are in the mean; a flat one of as many triangles shows
- * what one of two shows. */
+/* A rough mirror has no specks and the mean brightness of the facets; a flat one with as many triangles equals one of
+ * two. */
 static void small_facets(stage *s)
 {
     static float whole[PIXELS * PIXELS];
@@ -320,7 +319,7 @@ static void small_facets(stage *s)
 
 /* --- cubes -------------------------------------------------------------------------------------------------------- */
 
-/* The red that a direction finds. */
+/* The red value of a lookup. */
 static float found(const lmb_probe_cube *cube, lmb_vec3 d)
 {
     static lmb_probe_rays rays;
@@ -335,10 +334,10 @@ static float found(const lmb_probe_cube *cube, lmb_vec3 d)
     return e.rgb[0][9];
 }
 
-/* No step across a cube's edges and corners is larger than inside a face: rings over faces of noise. */
+/* No step across a cube's edges and corners exceeds the steps inside a face: rings over faces of noise. */
 static void no_edges(stage *s)
 {
-    static const lmb_vec3 axis[3] = {{0, 0, 1}, {0.3f, 1, 0.2f}, {1, -1, 0}}; /* the last rings through two corners */
+    static const lmb_vec3 axis[3] = {{0, 0, 1}, {0.3f, 1, 0.2f}, {1, -1, 0}}; /* the last ring crosses two corners */
     lmb_probe_cube cube;
     uint32_t random = 77u;
     for (int i = 0; i < 3 * TEXELS; ++i) {
@@ -355,7 +354,7 @@ static void no_edges(stage *s)
             worst = maxf(worst, fabsf(here - last));
             last = here;
         }
-        CHECK_MSG(worst < 0.045f, "%d: %g", ring, (double)worst); /* 2000 steps of texels 32 a turn: 1/62 of a texel */
+        CHECK_MSG(worst < 0.045f, "%d: %g", ring, (double)worst); /* 2000 steps, 32 texels per turn: 1/62 of a texel */
     }
     const lmb_vec3 corner = vec3(1.0f, 1.0f, 1.0f);
     const float a = found(&cube, add3(corner, vec3(1e-4f, 0, 0))), b = found(&cube, add3(corner, vec3(0, 1e-4f, 0))),

@@ -1,4 +1,4 @@
-/* test_resolve.c: tiles of many triangles and meshes, resolved in any window, are those of the frame resolved whole. */
+/* test_resolve.c: tiles with many triangles and meshes, resolved in any window, equal those of the whole frame. */
 #include <lambent/lambent.h>
 
 #include <math.h>
@@ -12,12 +12,12 @@ void test_resolve(void);
 
 enum { FRAME = 48, MESHES = 4, TRIANGLES = 40, CORNERS = 3 * TRIANGLES, PIXELS = FRAME * FRAME, TEXELS = 16 };
 
-/* Meshes with every choice of streams, so that a tile's next batch has others than the last. */
+/* Meshes with every choice of streams, so that batches in a tile have different streams. */
 typedef struct world {
     lmb_mesh mesh[MESHES];
     lmb_material material[MESHES];
     lmb_instance instance[MESHES];
-    lmb_texture texture[2]; /* with levels, and without */
+    lmb_texture texture[2]; /* with and without levels */
     lmb_scene scene;
     lmb_view view;
     float positions[MESHES][CORNERS * 3], uvs[MESHES][CORNERS * 2];
@@ -75,7 +75,7 @@ static void make_world(test_rng *r)
     for (int m = 0; m < MESHES; ++m) {
         make_mesh(r, m);
         w.material[m].albedo[0] = w.material[m].albedo[1] = w.material[m].albedo[2] = w.material[m].alpha = 0.9f;
-        w.material[m].texture = m == 3 ? 1 : 0; /* of a mesh without coordinates: its first texel */
+        w.material[m].texture = m == 3 ? 1 : 0; /* of a mesh without coordinates: the first texel */
         w.material[m].flags = LMB_DOUBLE_SIDED;
         w.instance[m].to_world = unit;
         w.instance[m].mesh = w.instance[m].material = (uint32_t)m;
@@ -109,7 +109,7 @@ static lmb_target draw(const lmb_kernels *k, int32_t x0, int32_t y0, int32_t wid
     return t;
 }
 
-/* Planes of pixel k of two tiles. */
+/* Compares all planes of pixel k in two tiles. */
 static int same_pixel(const lmb_tile *a, const lmb_tile *b, int k)
 {
     int same =
@@ -132,7 +132,7 @@ static void resolve_whole(const lmb_kernels *k)
     }
 }
 
-/* A tile's pixels inside a window are the frame's, those outside are nothing; the same of the colours alone. */
+/* A tile's pixels inside a window equal the frame's, those outside are empty; likewise for resolving only colours. */
 static void check_tile(const lmb_kernels *k, const lmb_target *t, int32_t x, int32_t y)
 {
     static lmb_tile tile, only;
@@ -169,7 +169,7 @@ static void test_windows(const lmb_kernels *k, test_rng *r)
     }
 }
 
-/* Ids whose triangle is none (any more), and ids past the scene: nothing, and their neighbours stay what they are. */
+/* Ids of triangles that no longer exist, and ids past the scene, give nothing and leave their neighbours unchanged. */
 static void test_bad_ids(const lmb_kernels *k)
 {
     static lmb_tile tile;
@@ -197,7 +197,7 @@ static void test_bad_ids(const lmb_kernels *k)
     }
 }
 
-/* Coordinates that are no numbers: every backend's tile is the same. */
+/* NaN and infinite coordinates: the tile is the same on every backend. */
 static void test_wild_coordinates(const lmb_kernels *k)
 {
     const float wild[4] = {NAN, INFINITY, -INFINITY, 3e38f};
@@ -213,8 +213,8 @@ static void test_wild_coordinates(const lmb_kernels *k)
     }
 }
 
-/* One corner has some of a colour, the others none, and the edge between these goes through pixels' middles: no
- * rounding takes a pixel under 0 or over 1. */
+/* One corner has a colour, the others none, and the edge between the others passes through pixel centres: rounding
+ * takes no pixel below 0 or above 1. */
 static void test_colours(const lmb_kernels *k, test_rng *r)
 {
     uint8_t colours[12] = {77, 0, 255, 255, 0, 0, 255, 255, 0, 0, 255, 255};
@@ -242,7 +242,7 @@ static void test_colours(const lmb_kernels *k, test_rng *r)
     CHECK(on_edge > 100);
 }
 
-/* Three corners of one code give a quotient by 255, rounded once, whatever it is computed by. */
+/* Three corners with one code give code / 255, rounded once, whatever the backend. */
 static void test_codes(const lmb_kernels *k, test_rng *r)
 {
     int seen = 0, wrong = 0;
@@ -266,8 +266,8 @@ static void test_codes(const lmb_kernels *k, test_rng *r)
     CHECK(seen > 256 && wrong == 0);
 }
 
-/* Where a ray lies in a triangle's plane, edge-on, it meets the plane no farther than the triangle's last corner. It
- * meets it also where the eye lies in that plane. A ray through the triangle meets it where it is. */
+/* If a ray lies in a triangle's plane, edge-on, it meets the plane no farther than the triangle's last corner, even if
+ * the eye lies in this plane. A ray through the triangle meets it at the exact distance. */
 static void test_edge_on(void)
 {
     const lmb_vec3 back = {0, 0, 1}, floor[3] = {{0, -1, -2}, {1, -1, -2}, {0, -1, -3}},

@@ -1,4 +1,4 @@
-/* test_reuse.c: layer 8: frames that keep what did not change, against fresh ones: random edits, the same bytes. */
+/* test_reuse.c: layer 8: frames that keep unchanged data, against new ones: random edits, the same bytes. */
 #include <lambent/lambent.h>
 
 #include "../world.h"
@@ -7,7 +7,7 @@ void test_reuse(void);
 
 #if LMB_PLAN && LMB_TREES
 
-/* Sanitizers slow frames down twentyfold. */
+/* Sanitizers make frames about 20 times slower. */
 #if defined(__SANITIZE_ADDRESS__)
 enum { EDITS = 30 };
 #elif defined(__has_feature)
@@ -23,7 +23,7 @@ enum { EDITS = 400 };
 enum { FRAME = 24, MAP = 16, LIGHTS = LMB_MAX_LIGHTS < 3 ? 1 : 3, FACES = 6 * LIGHTS, ELEMENTS = 64 };
 enum { POINTS = 4 * MAP * MAP / 64 * FACES, TRIANGLES = 64 };
 
-/* All that a frame is drawn in. */
+/* All memory of a frame. */
 typedef struct state {
     uint32_t map[FACES * MAP * MAP * 2], depth[FRAME * FRAME], id[FRAME * FRAME];
     uint32_t tree[FACES * (MAP * MAP * 19 + 64)], bvh[TRIANGLES * 29 + 2048], elements[ELEMENTS * 44 + 64];
@@ -37,7 +37,7 @@ typedef struct state {
 
 static state kept, fresh;
 static lmb_light lights[LIGHTS];
-static lmb_frame how; /* the settings of the moment */
+static lmb_frame how; /* the current settings */
 static test_rng rng;
 
 static void give_memory(lmb_frame *f, state *s)
@@ -103,7 +103,7 @@ static void change_light(void)
     ++l->revision;
 }
 
-/* From one face to six and back: other shadow maps lie elsewhere then. */
+/* From one face to six and back: this moves the other shadow maps in memory. */
 static void change_kind(void)
 {
     const lmb_light was = lights[0];
@@ -254,7 +254,7 @@ static void test_edits(void)
     }
 }
 
-/* What nothing tells of is not seen: the maps are the last frame's, not made again. */
+/* A change without a new revision is not noticed: the maps are those of the last frame. */
 static void test_is_reused(void)
 {
     rng.state = 3;
@@ -275,7 +275,7 @@ static void test_is_reused(void)
     CHECK((kept.render.reuses & LMB_REUSE_BOUNCES) == 0);
 }
 
-/* A frame that was given up, wherever it was, leaves nothing that is not whole. */
+/* An abandoned frame, stopped anywhere, leaves no partial data behind. */
 static void test_given_up(void)
 {
     int reused_some = 0;

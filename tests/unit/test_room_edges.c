@@ -13,12 +13,12 @@
 
 void test_room_edges(void);
 
-enum { SIDE = 64, CORNERS = 8, MARGIN = 6 /* px at corners and the middle, where light changes quickly */ };
+enum { SIDE = 64, CORNERS = 8, MARGIN = 6 /* px at corners and the centre, with steep light changes */ };
 
-/* make check-all tries all places by all methods, with the verb's own shadow map. */
+/* make check-all tries all positions with all methods, and the verb's default shadow map. */
 static int is_long(void) { return tries(0, 1); }
 
-/* A room with its camera and lamp, rotated about the middle of the room, then scaled and moved. */
+/* A room with camera and lamp, rotated about the room's centre, then scaled and moved. */
 typedef struct room {
     double axis[3][3], scale, at[3];
 } room;
@@ -62,7 +62,7 @@ static int box_write(char *text, size_t size, const room *r, const double low[3]
     return end;
 }
 
-/* Writes the room that is drawn, a cube of 4 m. `other`: another box that contains the lamp, or NULL. */
+/* Writes the drawn room, a cube of 4 m. `other`: another box that contains the lamp, or NULL. */
 static int room_write(char *path, size_t size, folder *f, const room *r, const double other[2][3])
 {
     static const double low[3] = {-2, -2, -2}, high[3] = {2, 2, 2};

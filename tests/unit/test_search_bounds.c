@@ -1,4 +1,5 @@
-/* test_search_bounds.c: searches for room and sights of a bake spend a bounded number of tests, whatever the scene. */
+/* test_search_bounds.c: searches for free space and lines of sight in a bake have a bounded number of tests in any
+ * scene. */
 #include "../test.h"
 
 #include <string.h>
@@ -11,7 +12,7 @@ void test_search_bounds(void);
 
 enum { FEW = 30, MANY = 9000, CALLS = 500, PLACES = 16 };
 
-/* Needles through the origin. */
+/* Slivers through the origin. */
 typedef struct star {
     float corner[9 * MANY];
     lmb_mesh mesh;
@@ -68,7 +69,7 @@ static void holds_bound(const char *what, const lmb_traversal *t, uint32_t calls
               (unsigned)t->coarse);
 }
 
-/* A search by play: ways from a point between the needles to places around it, and how far one sees from there. */
+/* A search by play: paths from a point between the slivers to places around it, and visible distances from there. */
 static void space_is_bounded(star *s, uint32_t needles, test_rng *r)
 {
     play_space space;
@@ -85,7 +86,7 @@ static void space_is_bounded(star *s, uint32_t needles, test_rng *r)
     play_space_free(&space);
 }
 
-/* The sights of one step of a bake, which counts them as it ends. */
+/* The lines of sight of one bake step, which counts them at its end. */
 static void sights_are_bounded(star *s, uint32_t needles, test_rng *r)
 {
     play_space space;

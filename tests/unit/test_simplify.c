@@ -1,4 +1,4 @@
-/* test_simplify.c: simpler meshes: their count, shape, borders, parts, looks and joins. */
+/* test_simplify.c: simplified meshes: triangle count, shape, borders, parts, appearance and seams. */
 #include "../../tools/mesh/corner_mesh.h"
 #include "../../tools/mesh/quadric.h"
 #include "../mesh_shapes.h"
@@ -9,7 +9,7 @@ static simplify_facts facts; /* of the last mesh */
 
 /* --- shapes --- */
 
-/* Three planes meet in a point, where the error is nothing, also in its sign. */
+/* Three planes meet in a point with an error of exactly zero, also in sign. */
 static void check_quadric(void)
 {
     test_rng rng = {1};
@@ -63,7 +63,7 @@ static void check_torus(void)
     triangle_mesh_free(&out);
 }
 
-/* Down to its eight corners, which stay where they are; far away as well, in what binary32 leaves there. */
+/* Down to the eight corners, which stay in place; also far away, up to the precision of binary32. */
 static void check_cube(float x, float slack)
 {
     triangle_mesh in = placed(cube(8), 1.0f, x, 0, 0), out = simple(&in, 12, SIMPLIFY_NEAR, &facts);
@@ -84,7 +84,7 @@ static void check_cube(float x, float slack)
     triangle_mesh_free(&out);
 }
 
-/* As few triangles as are wanted: nothing moves, down to the bits. */
+/* If the mesh is already small enough, nothing moves, bit for bit. */
 static void check_untouched(void)
 {
     triangle_mesh in = potato(3), out = simple(&in, in.triangle_count, SIMPLIFY_AROUND, &facts);
@@ -97,7 +97,7 @@ static void check_untouched(void)
     triangle_mesh_free(&out);
 }
 
-/* The outline of the field is the same square: its border edges lie on it, and are four long together. */
+/* The outline of the field is the same square: its border edges lie on it with a total length of four. */
 static void check_border(float steep, uint32_t triangles, double slack)
 {
     triangle_mesh in = field(24, steep), out = simple(&in, triangles, SIMPLIFY_NEAR, &facts);
@@ -120,7 +120,7 @@ static void check_border(float steep, uint32_t triangles, double slack)
     triangle_mesh_free(&out);
 }
 
-/* A rough field seen from above: whatever is left faces upwards, and is no needle. */
+/* A rough field seen from above: the remaining triangles face upwards and are no slivers. */
 static void check_folds(void)
 {
     triangle_mesh in = field(40, 0), out;
@@ -148,7 +148,7 @@ static void check_folds(void)
     triangle_mesh_free(&out);
 }
 
-/* Border edges that leave a vertex: more than one is two borders that touch. */
+/* Most border edges that leave one vertex: more than one means that two borders touch. */
 static uint32_t most_borders(const triangle_mesh *m)
 {
     uint32_t *count = calloc(m->vertex_count + 1, sizeof *count), i, k, max = 0;
@@ -164,7 +164,7 @@ static uint32_t most_borders(const triangle_mesh *m)
     return max;
 }
 
-/* A field with windows: what is between two of them stays wider than a point. */
+/* A field with windows: the part between two of them stays wider than a point. */
 static void check_windows(void)
 {
     triangle_mesh in = field(24, 1), out;
@@ -183,7 +183,7 @@ static void check_windows(void)
     triangle_mesh_free(&out);
 }
 
-/* Every seventh triangle of a sphere is missing: the holes close, instead of keeping what is between them. */
+/* Every seventh triangle of a sphere is missing: the holes close instead of keeping the parts between them. */
 static void check_holes(void)
 {
     triangle_mesh in = sphere(16), out;
@@ -213,7 +213,7 @@ static void check_looks(void)
     for (v = 0; v < in.vertex_count; ++v)
         for (c = 0; c < 3; ++c) {
             in.colours[3 * v + c] = 0.5f + 0.4f * in.positions[3 * v + c];
-            in.normals[3 * v + c] = -in.positions[3 * v + c]; /* not the faces' */
+            in.normals[3 * v + c] = -in.positions[3 * v + c]; /* differ from the faces' normals */
         }
     out = simple(&in, 300, SIMPLIFY_NEAR, &facts);
     CHECK(out.colours != NULL);
@@ -228,7 +228,7 @@ static void check_looks(void)
     triangle_mesh_free(&out);
 }
 
-/* Specks beside a ball are the first to go; around, they stay. */
+/* Specks beside a ball are removed first; with SIMPLIFY_AROUND they stay. */
 static void check_parts(void)
 {
     triangle_mesh in = sphere(10), out;
@@ -249,8 +249,8 @@ static void check_parts(void)
     triangle_mesh_free(&out);
 }
 
-/* A triangle with two sides lies flat, so that no collapse of it would cost anything, but none is allowed: as large as
- * the ball, it costs more to lose than the ball's finer triangles. */
+/* A flat two-sided triangle: collapses of it would cost nothing but are not allowed. Because it is as large as the
+ * ball, removing it costs more than the ball's finer triangles. */
 static void check_large_part(void)
 {
     triangle_mesh leaf = room_for(3, 2), in, out;
@@ -282,7 +282,7 @@ static uint32_t folded(const triangle_mesh *m)
     return h;
 }
 
-/* The third has nothing but ties. */
+/* The third case has only ties. */
 static void check_same(void)
 {
     static const uint32_t known[3] = {0x33D4E0C0u, 0xC3F85E45u, 0x47CDCECDu};
@@ -296,18 +296,18 @@ static void check_same(void)
     }
 }
 
-/* --- what may become one vertex --- */
+/* --- allowed edge collapses --- */
 
-/* Vertex 12 in the middle of a flat field, 13 to its right; the sheet's other end is over there. */
+/* Vertex 12 in the centre of a flat field, 13 to the right of it; the end of the sheet is on that side. */
 static void check_turning(corner_mesh *m)
 {
     CHECK(corner_mesh_can_join(m, 12, 13, dvec_of(0.6, 0.5, 0)));
-    CHECK(!corner_mesh_can_join(m, 12, 13, dvec_of(0.5, 0.1, 0)));   /* turns triangles over */
-    CHECK(!corner_mesh_can_join(m, 12, 13, dvec_of(0.6, 0.5, 2)));   /* sets them on edge */
-    CHECK(!corner_mesh_can_join(m, 12, 13, dvec_of(0.6, 0.254, 0))); /* makes needles */
+    CHECK(!corner_mesh_can_join(m, 12, 13, dvec_of(0.5, 0.1, 0)));   /* flips triangles */
+    CHECK(!corner_mesh_can_join(m, 12, 13, dvec_of(0.6, 0.5, 2)));   /* sets triangles on edge */
+    CHECK(!corner_mesh_can_join(m, 12, 13, dvec_of(0.6, 0.254, 0))); /* creates slivers */
 }
 
-/* Without two squares that have a corner each at the ends of edge 12 - 13, that edge is all there is between them. */
+/* Two squares with a corner at an end of edge 12 - 13 each are removed, so only this edge is left between them. */
 static void check_pinching(void)
 {
     triangle_mesh in = field(4, 0);
@@ -332,7 +332,7 @@ static void check_pinching(void)
     triangle_mesh_free(&in);
 }
 
-/* A ball with one triangle missing: a join closes it, and no border is left. */
+/* A ball with one triangle missing: a collapse closes it, and no border is left. */
 static void check_closing(void)
 {
     triangle_mesh in = sphere(4);
@@ -368,7 +368,7 @@ void test_simplify(void)
     check_cube(3000, 3e-4f);
     check_untouched();
     check_border(0, 2, 1e-5);
-    check_border(4, 150, 1e-3); /* a thousandth of the side, where the hill pulls */
+    check_border(4, 150, 1e-3); /* a thousandth of the side, because the hill pulls */
     check_folds();
     check_windows();
     check_holes();

@@ -1,4 +1,4 @@
-/* test_simplify_odd.c: the simplifier's answers to meshes that are none, or not much of one. */
+/* test_simplify_odd.c: the simplifier with invalid and degenerate meshes. */
 #include "../../tools/mesh/corner_mesh.h"
 #include "../mesh_shapes.h"
 
@@ -44,7 +44,7 @@ static void check_few(void)
     triangle_mesh_free(&in);
 }
 
-/* Corners that are none: dropped, and the rest is done. */
+/* Triangles with corners that are not finite are dropped, and the rest is simplified. */
 static void check_not_finite(void)
 {
     triangle_mesh in = sphere(8);
@@ -56,7 +56,7 @@ static void check_not_finite(void)
     triangle_mesh_free(&in);
 }
 
-/* Nothing but lines and points, sheets of one edge, both sides of a sheet, a wheel, any three corners, extremes. */
+/* Only lines and points, sheets of one edge, both sides of a sheet, a wheel, random corners, extremes. */
 static void check_odd(void)
 {
     triangle_mesh in = field(6, 0);
@@ -115,7 +115,7 @@ static void check_wheel(void)
     triangle_mesh_free(&in);
 }
 
-/* Two poles of 600 triangles each, which have to lose most of them before an edge there may go. */
+/* Two poles of 600 triangles each, most of which must go before an edge there can collapse. */
 static void check_globe(void)
 {
     enum { AROUND = 600, RINGS = 5 };

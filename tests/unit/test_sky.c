@@ -1,4 +1,4 @@
-/* test_sky.c: a clear sky against its published formula, far light as lights, a frame's background, and sky light on
+/* test_sky.c: a clear sky against the published formula, far light as lights, a frame's background, and sky light on
  * surfaces against closed forms: an open plane, a wall, a room with a window. */
 #include "../folder.h"
 
@@ -39,7 +39,7 @@ static double perez(const double k[5], double height, double turn)
     return (1 + k[0] * exp(k[1] / height)) * (1 + k[2] * exp(k[3] * angle) + k[4] * turn * turn);
 }
 
-/* Luminance by the paper, kcd/m2. */
+/* Luminance from the paper, kcd/m2. */
 static double luminance(lmb_vec3 d, lmb_vec3 sun, double t)
 {
     const double k[5] = {0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
@@ -57,7 +57,7 @@ static void check_sky(float turbidity)
     float rgb[3];
     CHECK(lmb_env_sky(&env, sun, turbidity, 1.0f, ground) == LMB_OK);
     for (int i = 0; i < 40; ++i) {
-        /* Middles of texels, as between them light is interpolated. */
+        /* Texel centres, because light is interpolated in between. */
         const float s = (float)(2 * (i * 7 % SIDE) + 1 - SIDE) / SIDE, u = (float)(2 * (i * 5 % SIDE) + 1 - SIDE) / SIDE;
         const lmb_vec3 d = normalize3(i % 2 ? vec3(s, 1.0f, u) : vec3(1.0f, (float)(i / 2 % 4 * 2 + 1) / SIDE, u));
         lmb_env_sample(rgb, &env, d, 0.0f);
@@ -82,7 +82,7 @@ static void check_refusals(void)
     CHECK(lmb_env_sky(&env, Y, 3, -1, ground) == LMB_ERR_ARG && lmb_env_sky(&env, Y, 3, NAN, ground) == LMB_ERR_ARG);
     CHECK(lmb_env_sky(&env, Y, NAN, 1, ground) == LMB_OK);
     CHECK(lmb_env_sky(&env, vec3(NAN, 1, 0), 3, 1, ground) == LMB_ERR_ARG);
-    /* A sun below the horizon counts as one just above it: no negative light. */
+    /* A sun below the horizon counts as one just above it, so there is no negative light. */
     CHECK(lmb_env_sky(&env, vec3(1, -1, 0), 3, 1, ground) == LMB_OK);
     for (size_t i = 0; i < 4 * LIGHTS; ++i) {
         CHECK(env_memory[i] < 0x7c00);
@@ -141,7 +141,7 @@ static void check_sun(void)
 
 enum { ACROSS = 128, DOWN = 64 };
 
-/* W/m2, over the cube. */
+/* W/m2 over the whole cube. */
 static double light_of(const lmb_world_pictures *w)
 {
     const int n = w->face_size;
@@ -153,7 +153,7 @@ static double light_of(const lmb_world_pictures *w)
     return sum;
 }
 
-/* A sun of one pixel keeps its light, wherever it stands. */
+/* A sun of one pixel keeps its light at any position. */
 static void check_picture_sun(const char *path, int x, int y)
 {
     static float pixels[3 * ACROSS * DOWN];
@@ -176,7 +176,7 @@ static void check_picture_sun(const char *path, int x, int y)
 
 static void *tree_memory;
 
-/* The tree of a white sky of 1 W/(m2 sr) above, a light a texel. */
+/* The tree of a white sky of 1 W/(m2 sr) in the upper half, one light per texel. */
 static lmb_many_lights white_sky(void)
 {
     const lmb_env env = cube();
@@ -195,7 +195,7 @@ static lmb_many_lights white_sky(void)
     return tree;
 }
 
-/* A frame of the light that arrives from a sky. */
+/* A frame that shows the irradiance from a sky. */
 static void draw_sky_light(lmb_frame_settings *s, const lmb_many_lights *sky)
 {
     static lmb_render r;
@@ -208,7 +208,7 @@ static void draw_sky_light(lmb_frame_settings *s, const lmb_many_lights *sky)
     CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
 }
 
-/* The middle pixel's irradiance, looked down at from above `at`. */
+/* The centre pixel's irradiance, viewed from above `at`. */
 static float irradiance_at(const lmb_many_lights *sky, lmb_vec3 at, float from, int32_t samples)
 {
     lmb_view view;
@@ -217,7 +217,7 @@ static float irradiance_at(const lmb_many_lights *sky, lmb_vec3 at, float from, 
     s.samples = samples;
     draw_sky_light(&s, sky);
     const float *p = (const float *)frame.out.data + 3 * (4 * 8 + 4);
-    return p[1] * (float)PI / 0.01f; /* the albedo: next to nothing bounces */
+    return p[1] * (float)PI / 0.01f; /* the albedo: almost no bounced light */
 }
 
 static void check_at(const lmb_many_lights *sky, const char *what, lmb_vec3 at, float from, double want, double bar)
@@ -235,7 +235,7 @@ static void check_open(const lmb_many_lights *sky)
     check_at(sky, "an open plane", vec3(0, 0, 0), 2, PI, 0.02);
 }
 
-/* Close to a wall without end half of the sky is gone. */
+/* Close to an infinite wall, half of the sky is hidden. */
 static void check_wall(const lmb_many_lights *sky)
 {
     world_begin(0.01f, 0.01f, 0.01f);
@@ -245,7 +245,7 @@ static void check_wall(const lmb_many_lights *sky)
     check_at(sky, "beside a wall", vec3(0.25f, 0, 0), 2, PI / 2, 0.03);
 }
 
-/* A room of 4 x 3 x 4 m with a hole of `half` x 2 in its ceiling: form factors by the library's own polygons. */
+/* A room of 4 x 3 x 4 m with a hole of `half` x 2 in the ceiling: form factors from the library's polygons. */
 static void check_window(const lmb_many_lights *sky, const char *what, float half, double bar)
 {
     const float rest = 0.5f * (2 - half);
@@ -265,7 +265,7 @@ static void check_window(const lmb_many_lights *sky, const char *what, float hal
     check_at(sky, what, at, 1, PI * (double)absf(factor), bar);
 }
 
-/* A torus under the sky, by few samples; all lengths times `scale`. */
+/* A torus under the sky with few samples; all lengths times `scale`. */
 static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
 {
     static torus t;
@@ -293,7 +293,7 @@ static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
     return hash;
 }
 
-/* Nothing is measured in metres: powers of two change no bit. */
+/* Nothing depends on the metre: scaling by powers of two changes no bit. */
 static void check_scales(const lmb_many_lights *sky)
 {
     static const float scales[] = {1.0f / 256, 65536};

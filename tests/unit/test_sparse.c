@@ -1,4 +1,5 @@
-/* test_sparse.c: light gathered at some pixels: even light stays, surfaces do not mix, lone pixels are asked. */
+/* test_sparse.c: light gathered at some pixels: even light stays even, surfaces do not mix, isolated pixels are
+ * gathered. */
 #include "../world.h"
 
 void test_sparse(void);
@@ -8,7 +9,7 @@ enum { SIDE = 64, MAP = 32, POINTS = 4096 };
 static lmb_tile tile;
 static lmb_irradiance light;
 
-/* A tile of the plane z = 0, a pixel a centimetre, seen from above. */
+/* A tile of the plane z = 0 with 1 cm per pixel, viewed from above. */
 static void flat_tile(void)
 {
     memset(&tile, 0, sizeof tile);
@@ -28,7 +29,7 @@ static void set_light(int k, float v)
     }
 }
 
-/* What is not known is far off, so that taking it shows. */
+/* Sets unknown pixels to an extreme value, so that using one shows. */
 static void forget(uint64_t known)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -47,7 +48,7 @@ static int count(uint64_t bits)
     return n;
 }
 
-/* One value everywhere: exactly that; on a slope, the slope. */
+/* A constant gives exactly this value; a slope gives the slope. */
 static void even_light(int32_t step)
 {
     flat_tile();
@@ -75,14 +76,14 @@ static void even_light(int32_t step)
     CHECK_MSG(worst < 1e-6f, "%g", (double)worst);
 }
 
-/* Each brighter downward; the second far brighter. */
+/* Both lights increase downwards; the second is far brighter. */
 static float two_lights(int k, int border)
 {
     return (k % 8 >= border ? 50.0f : 0.5f) * (1.0f + 0.03f * (float)(k / 8));
 }
 
-/* Two surfaces, the border in each column in turn: what lies on one takes nothing of the other's light. `wall`: they
- * meet in a corner; else the second lies 10 cm under the first. */
+/* Two surfaces, with the border at each column in turn: neither takes light from the other. `wall`: they meet in a
+ * corner; otherwise the second lies 10 cm below the first. */
 static void two_surfaces(int32_t step, int wall)
 {
     int wrong = 0, asked = 0;
@@ -110,10 +111,10 @@ static void two_surfaces(int32_t step, int wall)
         asked += count(known);
     }
     CHECK_MSG(wrong == 0, "%d pixels", wrong);
-    CHECK_MSG(asked < 7 * 64, "all pixels gathered"); /* the samples do explain some */
+    CHECK_MSG(asked < 7 * 64, "all pixels gathered"); /* the samples explain some pixels */
 }
 
-/* One pixel in the middle of nothing alike, or turned away: it alone is asked beside the samples. */
+/* A single pixel unlike its surroundings, or turned away: only this one is gathered besides the samples. */
 static void lone_pixel(int32_t step)
 {
     const int lone = 3 + 8 * 4;
@@ -129,7 +130,7 @@ static void lone_pixel(int32_t step)
     CHECK(lmb_sparse_pixels(&tile, step) == samples);
 }
 
-/* Light that ends between two samples: those in between are handed back, those before and behind are not. */
+/* Light that ends between two samples: the pixels in between are returned for gathering, the others are not. */
 static void uneven_light(int32_t step)
 {
     flat_tile();
@@ -173,7 +174,7 @@ static lmb_frame frame_of(float *out, int32_t step)
     return f;
 }
 
-/* Bands from the last to the first, with noise in the scratch. */
+/* Bands from last to first, with noise in the scratch. */
 static void render_backward(const lmb_frame *f)
 {
     CHECK(lmb_render_begin(&render, f) == LMB_OK);
@@ -186,7 +187,8 @@ static void render_backward(const lmb_frame *f)
     }
 }
 
-/* What was asked has the full picture's bytes, the rest is near it. Without occlusion a pixel's light is its own. */
+/* Gathered pixels equal the full picture, the rest is near it. Without occlusion a pixel's light does not depend on
+ * others. */
 static void compare_frames(int32_t step)
 {
     lmb_frame f = frame_of(full, 1);

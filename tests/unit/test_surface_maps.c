@@ -1,5 +1,5 @@
-/* test_surface_maps.c: maps of emission, and of metal and roughness, by texel where they are seen; what a map lets each
- * element emit. */
+/* test_surface_maps.c: emission and metallic-roughness maps, per texel for visible pixels; the emission of elements
+ * with a map. */
 enum { FRAME = 64, MAP = 64, FACES = 1, ELEMENTS = 1024, BVH = 16, SIDE = 32 };
 
 #include "../bounce_frame.h"
@@ -10,7 +10,7 @@ void test_surface_maps(void);
 
 static uint32_t texels[SIDE * SIDE * 2];
 
-/* Codes `left` where u < 1/2, `right` elsewhere; mips of colours or of plain codes. */
+/* Codes `left` for u < 1/2, otherwise `right`; mips of colours or of plain codes. */
 static void set_halves(const uint8_t left[4], const uint8_t right[4], int filter, int is_colour)
 {
     for (int i = 0; i < SIDE * SIDE; ++i) {
@@ -29,7 +29,7 @@ static const uint8_t black[4] = {0, 0, 0, 255}, white[4] = {255, 255, 255, 255},
 
 /* --- emission ----------------------------------------------------------------------------------------------------- */
 
-/* A black wall of 2 x 2 m at z = 0 whose right half glows. */
+/* A black wall of 2 x 2 m at z = 0 with a glowing right half. */
 static void make_glow(int filter)
 {
     world_begin(0, 0, 0);
@@ -42,7 +42,7 @@ static void make_glow(int filter)
     CHECK(world_end() == LMB_OK);
 }
 
-/* From so far away that it fills the picture, or a `share` of it. */
+/* From a distance at which the wall fills the picture, or a `share` of it. */
 static void draw_front(float share, int32_t show)
 {
     const lmb_view v = look(vec3(0, 0, 1.0f / share), vec3(0, 0, 0), 90, FRAME);
@@ -67,7 +67,7 @@ static void test_seen(void)
     }
 }
 
-/* Stripes of one texel, from so far that a pixel has four of them: their mean, by levels. */
+/* Stripes of one texel, from a distance with four per pixel: levels give the mean. */
 static void test_far(void)
 {
     int good = 0, all = 0;
@@ -86,9 +86,9 @@ static void test_far(void)
     CHECK_MSG(all == 16 && good == all, "%d of %d pixels", good, all);
 }
 
-/* --- what elements emit --------------------------------------------------------------------------------------- */
+/* --- emission of elements ------------------------------------------------------------------------------------- */
 
-/* All of it comes from the half that glows: pi L 2 m2, where pieces that lie across its edge take their share. */
+/* All light comes from the glowing half: pi L 2 m2; pieces across the edge have their share. */
 static void check_elements(int filter, double bar)
 {
     lmb_elements e;
@@ -109,7 +109,7 @@ static void check_elements(int filter, double bar)
               left, right);
 }
 
-/* One texel of 1,024 glows: a two-triangle wall of 64 elements does not miss it. */
+/* If one texel of 1,024 glows, the 64 elements of a two-triangle wall include it. */
 static void test_small(void)
 {
     lmb_elements e;
@@ -134,7 +134,7 @@ static void test_small(void)
 
 static lmb_glossy glossy;
 
-/* A wall whose left half is metal of G = 0.4, and whose right half is none, of G = 1. */
+/* A wall with a metal left half of G = 0.4 and a non-metal right half of G = 1. */
 static void make_metal(float metallic)
 {
     static const uint8_t metal[4] = {255, 102, 255, 255}, plain[4] = {255, 255, 0, 255};
@@ -149,7 +149,7 @@ static void make_metal(float metallic)
     CHECK(world_end() == LMB_OK);
 }
 
-/* Pixels of two tiles, left and right of the middle. */
+/* Pixels of two tiles, left and right of the centre. */
 static void check_metal(int32_t x, double albedo, double f0, double roughness)
 {
     const lmb_view v = look(vec3(0, 0, 1), vec3(0, 0, 0), 90, FRAME);
@@ -175,7 +175,7 @@ static void test_metal(void)
     check_metal(40, 0.8, 0.04, 0.5);
     make_metal(0.5f);
     check_metal(16, 0.4, 0.04 + 0.76 * 0.5, 0.2);
-    /* By vertex colour and base colour too: here both say half, as codes 188 and 128. */
+    /* With vertex and base colours too: here both are half, as codes 188 and 128. */
     static uint8_t colours[6 * 4];
     memset(colours, 128, sizeof colours);
     make_metal(1.0f);
@@ -186,7 +186,7 @@ static void test_metal(void)
     check_metal(16, base * (1.0 - metallic), 0.04 + (base - 0.04) * metallic, 0.5 * metallic);
 }
 
-/* Elements reflect what is no metal: the right half. */
+/* Elements reflect only with the non-metal part: the right half. */
 static void test_metal_elements(void)
 {
     lmb_elements e;
@@ -200,7 +200,7 @@ static void test_metal_elements(void)
     CHECK_MSG(fabs(sum / 1.6 - 1.0) < 0.02, "%g m2", sum);
 }
 
-/* --- what is refused; what lights a scene ------------------------------------------------------------------------- */
+/* --- refused input; the light of a scene -------------------------------------------------------------------------- */
 
 static void test_checked(void)
 {
@@ -219,7 +219,7 @@ static void test_checked(void)
     CHECK(lmb_scene_check(&world.scene) == LMB_OK);
 }
 
-/* A lamp at the ceiling of a room is its light; the same lamp on the outside of a box is not, however bright it looks:
+/* A lamp at the ceiling of a room lights it; the same lamp outside a box does not, however bright it looks, because
  * nothing receives it. */
 static void test_own_light(void)
 {
@@ -231,7 +231,7 @@ static void test_own_light(void)
     world.material[1].flags = 0;
     world.material[1].emission[0] = world.material[1].emission[1] = world.material[1].emission[2] = 2.0f;
     CHECK(world_end() == LMB_OK);
-    /* pi L A over the walls' 24 m2 of either side, but where it is brighter than what counts. */
+    /* pi L A over 24 m2 of walls with two sides, except where the brightness exceeds the limit that counts. */
     const double room = (double)own_light(&world.scene, &r), all = PI * 2.0 * 0.16 / 48.16;
     CHECK_MSG(room > 2.0 * (double)OWN_LIGHT && room < all, "%g of %g W/m2", room, all);
     for (int i = 0; i < 6; ++i) {

@@ -30,7 +30,7 @@ static void characters(void)
         text_clean(copy);
         CHECK_MSG((copy[0] == '?') == (c < 32 || c > 126 || c == '?'), "byte %d", c);
     }
-    /* C1, a soft hyphen, marks, overrides, isolates, separators, a byte order mark, tags, no characters */
+    /* C1, a soft hyphen, marks, overrides, isolates, separators, a byte order mark, tags, noncharacters */
     CHECK(cleans("\xC2\x80\xC2\x9B\xC2\x9F\xC2\xA0", "???\xC2\xA0") && cleans("\xC2\xAD\xD8\x9C", "??"));
     CHECK(cleans("\xE2\x80\x8E\xE2\x80\x8F\xE2\x80\xA8\xE2\x80\xA9\xE2\x80\xAA\xE2\x80\xAE\xE2\x80\xAF",
                  "??????\xE2\x80\xAF"));

@@ -1,4 +1,5 @@
-/* test_textures.c: layer 3: texture lookups by hand and against double; a tile's attributes against exact rays. */
+/* test_textures.c: layer 3: texture lookups against handmade values and double; a tile's attributes against exact
+ * rays. */
 #include <math.h>
 #include <string.h>
 
@@ -50,10 +51,10 @@ static double alpha_at(float u, float v, float lod)
     return (double)out[3];
 }
 
-/* A row of four texels whose alphas are 0, 51, 102, 255: 0, 0.2, 0.4, 1. */
+/* A row of four texels with the alphas 0, 51, 102, 255: 0, 0.2, 0.4, 1. */
 static void test_by_hand(void)
 {
-    const struct { /* not static: to tcc, NAN is no constant */
+    const struct { /* not static: tcc rejects NAN as a constant */
         int wrap, filter;
         float u;
         double expected;
@@ -91,7 +92,7 @@ static void test_by_hand(void)
     }
 }
 
-/* Mathematical remainders, by another road than the code's. */
+/* Mathematical remainder, in another way than the library. */
 static int wrapped(long long i, int size, int wrap)
 {
     long long m = ((i % size) + size) % size;
@@ -143,7 +144,7 @@ static double sample_value(double u, double v, double lod, int channel)
     return level_value(n, u, v, channel) * (1 - part) + (part > 0 ? level_value(n + 1, u, v, channel) * part : 0);
 }
 
-/* Coordinates are multiples of 2^-10, off texel borders: exact in both. */
+/* Coordinates are multiples of 2^-10 off texel borders: exact in float and double. */
 static float random_coordinate(test_rng *r, int nearest, int size)
 {
     float u;
@@ -263,7 +264,7 @@ static point3 column(int c)
     return (point3){{(double)m[0], (double)m[1], (double)m[2]}};
 }
 
-/* The exact truth of one pixel. */
+/* The exact values of one pixel. */
 typedef struct truth {
     point3 corner[3], plane, face, position, normal;
     double b[3], w, facing;
@@ -302,7 +303,7 @@ static void cast_ray(truth *t, int32_t x, int32_t y)
     }
 }
 
-/* Inverse transpose by cofactors; the side is the face's. */
+/* Inverse transpose by cofactors, on the side of the face. */
 static void mix_normals(truth *t)
 {
     point3 sum = {{0, 0, 0}}, a = column(0), b = column(1), c = column(2);
@@ -351,7 +352,7 @@ static void judge_pixel(resolve_worst *worst, truth *t, int k)
     ++worst->pixels;
 }
 
-/* Pixels inside the exact triangle; snapping may add others at its rim, whose attributes are clamped. */
+/* Pixels inside the exact triangle; snapping may add others at the rim, with clamped attributes. */
 static void judge_frame(resolve_worst *worst)
 {
     truth t;
@@ -368,7 +369,7 @@ static void judge_frame(resolve_worst *worst)
     }
 }
 
-/* No sliver: the smallest height is a third of the longest side at least. */
+/* No sliver: the smallest height is at least a third of the longest side. */
 static int is_stout(void)
 {
     truth t;
@@ -395,7 +396,7 @@ static void random_scene(test_rng *r, int variant)
 {
     lmb_vec3 eye = random_vec(r, 1), target = random_vec(r, 0.3f), up = {0, 1, 0};
     set_scene();
-    for (int i = 0; i < 12; ++i) { /* uneven scales, shears, mirrors */
+    for (int i = 0; i < 12; ++i) { /* non-uniform scales, shears, mirrors */
         if (i % 4 == 3) {
             continue;
         }
@@ -454,7 +455,7 @@ static void test_attributes(void)
     CHECK(worst.pixels > 15000 && worst.failed == 0);
 }
 
-/* Without streams: flat, white, (0, 0). Nothing where nothing is. */
+/* Without streams: flat, white, (0, 0). Pixels without a surface stay empty. */
 static void test_plain_attributes(void)
 {
     test_rng r = {23};
@@ -532,7 +533,7 @@ static void test_resolve_arguments(void)
 
 /* ---- levels of detail ---- */
 
-/* Level n of a 64 x 64 image is all one grey; alpha is not read. */
+/* Level n of a 64 x 64 image is one constant grey; alpha is not read. */
 static const int level_code[7] = {0, 40, 80, 120, 160, 200, 240};
 
 static void set_levels(void)
@@ -546,7 +547,7 @@ static void set_levels(void)
     set_texture(64, 64, 7, LMB_WRAP_REPEAT, LMB_WRAP_REPEAT, LMB_TRILINEAR);
 }
 
-/* A triangle over the frame at 1 pixel a metre, with `sx`, `sy` texels a pixel. */
+/* A triangle over the frame at 1 pixel per metre with `sx`, `sy` texels per pixel. */
 static float grey_at(float sx, float sy)
 {
     set_scene();
@@ -570,7 +571,7 @@ static float grey_at(float sx, float sy)
     return tile.albedo[1][27];
 }
 
-/* Level = log2 of texels a pixel, the longer of the two steps. */
+/* Level = log2 of texels per pixel, for the longer of the two steps. */
 static double grey_of_level(double lod)
 {
     lod = fmin(fmax(lod, 0), 6);
@@ -591,7 +592,7 @@ static void test_levels(void)
     }
 }
 
-/* A floor that runs away from the eye: levels only rise with distance. */
+/* A receding floor: levels only increase with distance. */
 static void test_levels_recede(void)
 {
     static const float p[9] = {-300, -1, 0, 300, -1, 0, 0, -1, -300};
@@ -606,7 +607,7 @@ static void test_levels_recede(void)
     st.view.kind = LMB_PERSPECTIVE;
     st.view.half_width = st.view.half_height = 1.0f;
     draw_scene();
-    for (int32_t y = 0; y < FRAME; ++y) { /* from the horizon down */
+    for (int32_t y = 0; y < FRAME; ++y) { /* from the horizon downwards */
         resolve(32, y / 8 * 8);
         int k = y % 8 * 8 + 2;
         if (tile.id[k] && tile.depth[k] < 200.0f) {

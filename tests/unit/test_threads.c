@@ -1,4 +1,4 @@
-/* test_threads.c: who does what of a frame shared out: the pool's pieces, a stage's parts, a map's rows, counts. */
+/* test_threads.c: work of a frame divided among threads: the pool's pieces, a stage's parts, a map's rows, counts. */
 #include <string.h>
 
 #include <lambent/lambent.h>
@@ -14,7 +14,7 @@ enum { W = 40, H = 36, MAP = 64, SIDE = MAP / 8, POINTS = 4 * SIDE * SIDE, FACES
 /* --- the pool ----------------------------------------------------------------------------------------------------- */
 
 typedef struct counted_heap {
-    unsigned char times[THREADS][PIECES]; /* by worker: no two threads write one */
+    unsigned char times[THREADS][PIECES]; /* per worker: no two threads write the same */
     int out_of_range[THREADS];
     int count, threads;
 } counted_heap;
@@ -32,7 +32,7 @@ static void note_piece(void *user, int index, int worker)
     }
 }
 
-/* Every piece once, by a worker that there is. */
+/* Every piece runs once, on an existing worker. */
 static void check_pool(int threads, int count)
 {
     int wrong = 0;
@@ -53,9 +53,9 @@ static void check_pool(int threads, int count)
     CHECK_MSG(wrong == 0, "%d threads, %d pieces: %d wrong", threads, count, wrong);
 }
 
-/* Stages: pieces of the second see all of the first done, whatever the first's take. */
+/* Stages: pieces of the second start after all of the first, however long those take. */
 typedef struct staged {
-    int first, done[64], early[THREADS]; /* done: by piece; early: by worker, pieces that began too soon */
+    int first, done[64], early[THREADS]; /* done: per piece; early: per worker, pieces started too soon */
     int times[64];
 } staged;
 
@@ -127,7 +127,8 @@ static struct memory {
 static lmb_light lights[2];
 static lmb_scene lit;
 
-/* Which: of two places for pictures and points. The small configuration has one light: the point's, of six faces. */
+/* which: one of two sets of memory for pictures and points. The small configuration has one light: the point light,
+ * with six faces. */
 static lmb_frame make_frame(int which, lmb_stats *stats)
 {
     lmb_frame f;
@@ -164,12 +165,12 @@ static lmb_frame make_frame(int which, lmb_stats *stats)
     memset(m.cells[which], 0x3c, sizeof m.cells[which]);
     memset(m.owner[which], 0, sizeof m.owner[which]);
     memset(m.map, 0x3c, sizeof m.map);
-    memset(m.depth, 0x3c, sizeof m.depth); /* what an earlier frame left must not matter */
+    memset(m.depth, 0x3c, sizeof m.depth); /* leftovers of an earlier frame must not matter */
     memset(m.id, 0x3c, sizeof m.id);
     return f;
 }
 
-/* Two frames: the same picture, discs, texels' owners, cells of the last face, and counts. */
+/* Two frames have the same picture, discs, owners of texels, cells of the last face, and counts. */
 static int is_same(const lmb_stats *a, const lmb_stats *b)
 {
     return memcmp(m.out[0], m.out[1], sizeof m.out[0]) == 0 && memcmp(m.cells[0], m.cells[1], sizeof m.cells[0]) == 0 &&
@@ -213,7 +214,7 @@ static void check_refusals(lmb_render *r)
     CHECK(lmb_render_parts_done(r, 0) == LMB_ERR_ARG);
 }
 
-/* A stage that steps have begun, or that is short, has no parts; first points need room for four a block. */
+/* A stage already begun with steps, or too short, has no parts; first points need memory for four per block. */
 static void test_stages_with_parts(void)
 {
     lmb_frame f = make_frame(0, NULL);

@@ -1,4 +1,4 @@
-/* test_tone.c: how display formats take light over white: the curve, what exposes a picture, alpha in a PNG. */
+/* test_tone.c: display formats and light over white: the curve, automatic exposure, alpha in a PNG. */
 #include "../test.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ static void check_curve(void)
                   (double)rgb[0]);
         last = rgb[0];
     }
-    /* Khronos PBR Neutral of (4, 2, 1), without its toe: bent peak 1 - 0.0576 / 3.48, faded by 0.31. */
+    /* Khronos PBR Neutral of (4, 2, 1), without the toe: compressed peak 1 - 0.0576 / 3.48, desaturated by 0.31. */
     expose(rgb, 4, 2, 1, PICTURE_CURVED);
     const double bent = 1 - 0.24 * 0.24 / (4 + 0.24 - 0.76), faded = 1 - 1 / (0.15 * (4 - bent) + 1);
     CHECK(fabs((double)rgb[0] - bent) < 1e-6);
@@ -51,19 +51,19 @@ static void check_exposure(void)
     }
     const float before = picture_auto_exposure(&p, PICTURE_CLIPPED);
     CHECK_MSG(before == 1.875f, "%g", (double)before);
-    CHECK(picture_auto_exposure(&p, PICTURE_CURVED) == 0.625f); /* by half of the pixels */
+    CHECK(picture_auto_exposure(&p, PICTURE_CURVED) == 0.625f); /* from half of the pixels */
     for (int i = 0; i < 453; ++i) {
         pixels[i] = 0.01f;
     }
     CHECK(picture_auto_exposure(&p, PICTURE_CLIPPED) == before);
-    CHECK(picture_auto_exposure(&p, PICTURE_CURVED) == 2.25f); /* by the brightest hundredth */
+    CHECK(picture_auto_exposure(&p, PICTURE_CURVED) == 2.25f); /* from the brightest hundredth */
     pixels[0] = pixels[1] = pixels[2] = 1e8f; /* a speck */
     CHECK(picture_auto_exposure(&p, PICTURE_CLIPPED) == before);
     uint8_t *codes = picture_codes(&p, 0.0f, PICTURE_CURVED);
     CHECK(codes != NULL && codes[0] == 255 && codes[897] == 137);
     free(codes);
     for (int i = 0; i < 900; ++i) {
-        pixels[i] = i < 12 ? 4.0f : 0.25f; /* a 75th of the pixels is no speck, and keeps its tones */
+        pixels[i] = i < 12 ? 4.0f : 0.25f; /* a 75th of the pixels is no speck and keeps its tones */
     }
     CHECK(picture_auto_exposure(&p, PICTURE_CLIPPED) == -2.125f && picture_auto_exposure(&p, PICTURE_CURVED) == -1.75f);
     for (int i = 0; i < 900; ++i) {

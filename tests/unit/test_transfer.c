@@ -1,4 +1,4 @@
-/* test_transfer.c: baked light: a file made by hand, each kind of damage to it, and a box that is baked here. */
+/* test_transfer.c: baked light: a handmade file, each kind of damage to it, and a box baked by the test. */
 #include "../world.h"
 
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static lmb_transfer_scratch scratch;
 
 static int is_near(float a, float b, float by) { return absf(a - b) <= by; }
 
-/* --- light in memory of its own ----------------------------------------------------------------------------------- */
+/* --- light in separate memory ------------------------------------------------------------------------------------- */
 
 typedef struct lit {
     const lmb_transfer *t;
@@ -57,7 +57,7 @@ static uint32_t places(const lmb_transfer *t)
     return t->count[LMB_TRANSFER_RECEIVERS] + t->count[LMB_TRANSFER_CLUSTERS];
 }
 
-/* All light, `piece` receivers at once. */
+/* Sends all light, `piece` receivers per call. */
 static void receive(lit *l, uint32_t piece)
 {
     const uint32_t all = places(l->t);
@@ -77,7 +77,7 @@ static lmb_shadow_map draw_map(const lmb_scene *scene)
     return map;
 }
 
-/* The map's only face, by one in each x each texels, `rows` blocks of rows at once. */
+/* Collects face 0 with one sample per `each` x `each` texels, `rows` block rows per call. */
 static void collect(lit *l, const lmb_shadow_map *map, int32_t each, int32_t rows)
 {
     const int32_t all = MAP / each;
@@ -112,7 +112,7 @@ static void by_hand(void)
 {
     static lmb_tile tile;
     static const float power[SMALL_ELEMENTS] = {8, 4, 12, 16};
-    static const float sent[SMALL_ELEMENTS] = {4, 2, 3, 2}; /* half of it by area; in all 18 W of 8 m2 */
+    static const float sent[SMALL_ELEMENTS] = {4, 2, 3, 2}; /* half of the power per area; 18 W on 8 m2 in all */
     const lmb_vec3 down = vec3(0, -1, 0);
     const lmb_transfer t = open_small();
     lit l = lit_by(&t, &room.scene);
@@ -153,15 +153,15 @@ static void by_hand(void)
     pixel(&tile, 2, 1, vec3(-1, 0, 1), Y);
     pixel(&tile, 3, 2, vec3(1, 0, -1), Y);
     pixel(&tile, 4, 1, vec3(-1, 0, 0.5f), Y);
-    pixel(&tile, 5, 1, vec3(-1, 0, -1), down);      /* its back receives nothing */
+    pixel(&tile, 5, 1, vec3(-1, 0, -1), down);      /* the back receives nothing */
     pixel(&tile, 6, 3, vec3(-1, 1, -1), down);      /* blend 0 */
     pixel(&tile, 7, 3, vec3(1, 1, 1), down);        /* blend 1 */
     pixel(&tile, 8, 3, vec3(-1, 1, -1), X);         /* by direction */
-    pixel(&tile, 9, 3, vec3(-1, 1, -1), Y);         /* from above: less than none, so none */
+    pixel(&tile, 9, 3, vec3(-1, 1, -1), Y);         /* from above: negative, so clamped to 0 */
     pixel(&tile, 10, 5, vec3(-1, 1, -1), Y);        /* no such triangle */
     set_plane(tile.face, 8, down);
     set_plane(tile.face, 9, down);
-    out.rgb[0][0] = 7.0f; /* it adds */
+    out.rgb[0][0] = 7.0f; /* the call adds to the output */
     memset(&scratch, 0, sizeof scratch);
     CHECK(lmb_transfer_tile(&out, NULL, picked_kernels(), &scratch, &l.light, &t, &room.scene, &tile) == LMB_OK);
     const float pixels[12] = {7.0f + want[0],
@@ -192,7 +192,8 @@ static void are_near(const lit *l, const char *what, const float *got, const flo
     }
 }
 
-/* The floor hears a quarter of the ceiling; this hears a 16th of one half, of the other, and an eighth of the rest. */
+/* The floor receives a quarter from the ceiling. The ceiling receives a 16th from each half of the floor and an eighth
+ * from the rest. */
 static void again_by_hand(void)
 {
     static const float power[SMALL_ELEMENTS] = {8, 4, 12, 16};
@@ -226,7 +227,7 @@ static void again_by_hand(void)
     free(l.memory);
 }
 
-/* 1 W/m2 everywhere: what comes of it is reflected with what was collected. */
+/* 1 W/m2 everywhere: the light that this sends is reflected together with the collected light. */
 static void emits_by_hand(void)
 {
     const lmb_transfer t = open_small();
@@ -247,7 +248,7 @@ static void emits_by_hand(void)
 
 /* --- cuts --------------------------------------------------------------------------------------------------------- */
 
-/* The floor's first triangle is cut at `part` of its edge, as elements and as divisions. */
+/* Cuts the floor's first triangle at `part` of an edge, for elements and for divisions. */
 enum { CUT_FILE_WORDS = SMALL_WORDS + LMB_TRANSFER_CUT_WORDS };
 static uint32_t cut_file[CUT_FILE_WORDS];
 
@@ -274,7 +275,7 @@ static void cuts_of_files(void)
         CHECK_MSG(open_cut(&t, bad[i], 0) == LMB_ERR_FORMAT, "%g", (double)bad[i]);
     }
     CHECK(open_cut(&t, 0.25f, 3u << LMB_TRANSFER_EDGE_BIT) == LMB_ERR_FORMAT);
-    CHECK(open_cut(&t, 0.25f, 1) == LMB_ERR_FORMAT); /* its halves: from 5 on, of 6 */
+    CHECK(open_cut(&t, 0.25f, 1) == LMB_ERR_FORMAT); /* halves from 5 on, of 6 */
     CHECK(open_cut(&t, 0.25f, 0) == LMB_OK);
     cut_file[SMALL_WORDS + 1] = 0x7fc00000u;
     CHECK(lmb_transfer_open(&t, cut_file, sizeof cut_file) == LMB_ERR_FORMAT);
@@ -283,11 +284,11 @@ static void cuts_of_files(void)
     CHECK(lmb_transfer_open(&t, cut_file, sizeof cut_file) == LMB_ERR_FORMAT);
 }
 
-/* Light is linear on both parts, and elements have theirs. */
+/* Light is linear on both parts, and each part has an element. */
 static void lit_by_cuts(float part)
 {
     static lmb_tile tile;
-    static const float along[] = {0.0f, 0.5f, 0.999f, 1.001f, 1.5f, 2.0f}; /* of the first part, then of the second */
+    static const float along[] = {0.0f, 0.5f, 0.999f, 1.001f, 1.5f, 2.0f}; /* on the first part, then on the second */
     lmb_transfer t;
     lmb_irradiance out;
     CHECK(open_cut(&t, part, 0) == LMB_OK);
@@ -311,7 +312,7 @@ static void lit_by_cuts(float part)
     free(l.memory);
 }
 
-/* Of the light on the triangle both elements get as much as they are large, if it is even. */
+/* Even light on the triangle is split between both elements by area. */
 static void collected_by_cuts(float part)
 {
     lmb_transfer t, halved = open_small();
@@ -331,7 +332,8 @@ static void collected_by_cuts(float part)
 
 /* --- damage ------------------------------------------------------------------------------------------------------- */
 
-/* An element of half of triangle 1, dark, and all of triangle 2, bright: colours count by area, whatever the depth. */
+/* An element with half of triangle 1, dark, and all of triangle 2, bright: albedos are weighted by area, at any
+ * depth. */
 static void parts_by_area(void)
 {
     static uint8_t colours[4 * 3 * ROOM_TRIANGLES];
@@ -368,14 +370,14 @@ static void bad_header(void)
         copy[word] ^= turned[i % COUNT(turned)];
         const lmb_status status = lmb_transfer_open(&t, copy, sizeof copy);
         if (word == LMB_TRANSFER_HEADER_WORDS - 1) {
-            CHECK(status == LMB_OK); /* a checksum for who reads all of it */
+            CHECK(status == LMB_OK); /* a checksum, for readers of the whole file */
         } else if (word == 3 || word == 4) {
             CHECK(status == LMB_OK && lmb_transfer_fits(&t, &room.scene) == LMB_ERR_SCENE);
         } else {
             CHECK_MSG(status == LMB_ERR_FORMAT, "word %d by %x", word, (unsigned)turned[i % COUNT(turned)]);
         }
     }
-    for (int i = 0; i < SMALL_WORDS; ++i) { /* as a machine of the other byte order writes it */
+    for (int i = 0; i < SMALL_WORDS; ++i) { /* the other byte order */
         const uint32_t w = file[i];
         copy[i] = i == 0 ? w : w >> 24 | (w >> 8 & 0xff00u) | (w & 0xff00u) << 8 | w << 24;
     }
@@ -451,12 +453,12 @@ static void bad_words(void)
                   bad[i].section, bad[i].word, bad[i].what);
         CHECK(t.section[0] == NULL && lmb_transfer_light_bytes(&t) == 0);
     }
-    memcpy(copy, file, sizeof file); /* the most that is allowed */
+    memcpy(copy, file, sizeof file); /* the maximum that is allowed */
     copy[good.section[LMB_TRANSFER_LINKS] - file + 1] = SMALL_LINK(2, -16383);
     CHECK(lmb_transfer_open(&t, copy, sizeof copy) == LMB_OK);
 }
 
-/* Triangle 2 moves, between two places in the air, of which the second has no light. */
+/* Triangle 2 moves between two places in the air, the second of which has no light. */
 enum { AIR_WORDS = 11, AIRY_WORDS = SMALL_WORDS + AIR_WORDS };
 static uint32_t airy[AIRY_WORDS];
 
@@ -517,7 +519,7 @@ static void bad_air(void)
     }
 }
 
-/* Halves that two share: no more ways are gone than there are pieces. */
+/* Pieces that share halves: no more paths are followed than there are pieces. */
 static void shared_halves(void)
 {
     enum { LINES = 200, WORDS = SMALL_WORDS + LINES - 6 };
@@ -619,7 +621,7 @@ static void bad_arguments(void)
     free(l.memory);
 }
 
-/* Where triangles are decides, not their colours or lights. */
+/* The positions of the triangles decide, not their colours or the lights. */
 static void fits(void)
 {
     const lmb_transfer t = open_small();
@@ -628,7 +630,7 @@ static void fits(void)
     room.light.position.x = 0.5f;
     room.scene.light_count = 0;
     CHECK(lmb_transfer_fits(&t, &room.scene) == LMB_OK);
-    room.instance.to_world.m[0] = -0.0f; /* no place changes by a zero's sign */
+    room.instance.to_world.m[0] = -0.0f; /* the sign of a zero does not move anything */
     room.instance.to_world.m[0] = 1.0f;
     room.instance.to_world.m[1] = -0.0f;
     CHECK(lmb_transfer_fits(&t, &room.scene) == LMB_OK);
@@ -650,7 +652,7 @@ static void fits(void)
 
 static lmb_light box_light;
 
-/* A room with a block at a height. */
+/* A room with a block at height y. */
 static void make_box(float y)
 {
     world_begin(0.7f, 0.5f, 0.3f);
@@ -663,7 +665,7 @@ static void make_box(float y)
     CHECK(world_end() == LMB_OK);
 }
 
-/* All steps of `lambent bake`. moves: the object that does, or NULL. */
+/* All steps of `lambent bake`; moves: the moving object, or NULL. */
 static file_bytes bake_whole(const lmb_scene *scene, const bake_settings *set, const uint32_t *moves)
 {
     bake_still_scene still = {*scene, NULL};
@@ -681,7 +683,7 @@ static file_bytes bake_whole(const lmb_scene *scene, const bake_settings *set, c
     return out;
 }
 
-/* So few that a file takes no second. */
+/* Few enough for a bake of under a second per file. */
 static bake_settings few(float error, float division, int receivers)
 {
     bake_settings set;
@@ -695,7 +697,7 @@ static bake_settings few(float error, float division, int receivers)
     return set;
 }
 
-/* moves: the block does. */
+/* moves: whether the block moves. */
 static file_bytes bake_box(int threads, int moves)
 {
     static const uint32_t block[1] = {1};
@@ -704,8 +706,8 @@ static file_bytes bake_box(int threads, int moves)
     return bake_whole(&world.scene, &set, moves ? block : NULL);
 }
 
-/* Light stays nearly the same with one link fewer, or with one piece that is looked at from elsewhere: only the numbers
- * themselves show that. They are the same on all machines. */
+/* The light barely changes with one link fewer or one piece sampled from another point, so only hashes of the file show
+ * such changes. They are equal on all machines. */
 static uint64_t hash_words(uint64_t hash, const void *words, size_t count)
 {
     for (size_t i = 0; i < count; ++i) {
@@ -716,7 +718,7 @@ static uint64_t hash_words(uint64_t hash, const void *words, size_t count)
     return hash;
 }
 
-/* A file's words, in either order of their bytes; 0 in place of the checksum, which is of bytes. */
+/* Hashes a file's words, independent of byte order, with 0 for the checksum, which is over bytes. */
 static void is_pinned(const char *name, const file_bytes *baked, uint64_t wanted)
 {
     static const uint32_t none;
@@ -729,8 +731,8 @@ static void is_pinned(const char *name, const file_bytes *baked, uint64_t wanted
     CHECK_MSG(hash == wanted, "what was baked of %s is 0x%016llx", name, (unsigned long long)hash);
 }
 
-/* A panel whose corners, and the middle of its longest edge, lie in blocks; places in the air do, too, where a small
- * block moves. */
+/* A panel with corners and the middle of the longest edge inside blocks. Some places in the air are inside too, because
+ * a small block moves. */
 static void bytes_of_buried(void)
 {
     static const uint32_t small[1] = {1};
@@ -787,7 +789,7 @@ static void is_same_by(const lmb_transfer *t, const lmb_scene *scene)
     free(l.memory);
 }
 
-/* What texels that show a surface say in all, W. */
+/* W: sum over the texels that show a surface. */
 static double power_of(const lmb_shadow_map *map, const lmb_light *light, int c)
 {
     double sum = 0.0;
@@ -821,12 +823,12 @@ static void keeps_power(const lmb_transfer *t, const lmb_scene *scene)
     }
     const double all = sum_of(&l, 0);
     CHECK(lmb_transfer_clear(&l.light, t) == LMB_OK && sum_of(&l, 0) == 0.0);
-    collect(&l, &map, 4, MAP); /* by a 16th of the texels: near it */
+    collect(&l, &map, 4, MAP); /* a 16th of the texels: nearly the same */
     CHECK_MSG(fabs(sum_of(&l, 0) / all - 1.0) < 0.01, "%g W of %g", sum_of(&l, 0), all);
     free(l.memory);
 }
 
-/* A range scales the light on each triangle by distance: tested with a hard cone, 0.75 m above the floor. */
+/* A range scales the light on each triangle by distance: tested with a hard cone 0.75 m above the floor. */
 static void keeps_to_range(const lmb_transfer *t)
 {
     static const float ranges[] = {3.0f, 1.2f, 0.9f, 0.7f};
@@ -851,7 +853,7 @@ static void keeps_to_range(const lmb_transfer *t)
     room.light = before;
 }
 
-/* Light goes through the holes of a masked floor and belongs to nothing: its outline says nothing of them. */
+/* Light passes the holes of a masked floor and belongs to no element: the outline does not include the holes. */
 static void keeps_masked_power(const lmb_transfer *t)
 {
     static uint8_t texels[64][4];
@@ -875,8 +877,8 @@ static void keeps_masked_power(const lmb_transfer *t)
     room = whole;
 }
 
-/* In a closed room elements collect what a spot sends by closed form, 2 pi (1 - the mean of its cones' cosines) of its
- * intensity, to 0.1 %: also where it lights parts of a few elements alone. */
+/* In a closed room, elements collect the closed-form power of a spot, 2 pi (1 - mean of the cones' cosines) times the
+ * intensity, to 0.1 %, even if the spot lights only parts of a few elements. */
 static void collects_all(const lmb_transfer *t)
 {
     static const float cone[][2] = {{25.0f, 40.0f}, {44.0f, 45.0f}, {2.0f, 4.0f}, {1.0f, 1.5f}};
@@ -902,8 +904,8 @@ static void collects_all(const lmb_transfer *t)
     box_light = before;
 }
 
-/* Points between the walls and over the block, without maps: elements collect what they send, 4 pi of the sum of their
- * intensities, by one place an element; in other pieces the same bytes. */
+/* Points between the walls and above the block, without maps: at one place per element, the elements collect 4 pi of
+ * the summed intensities. Other pieces give the same bytes. */
 static void takes_many_lights(const lmb_transfer *t)
 {
     enum { LIGHTS = 40, CELLS = 64 };
@@ -961,7 +963,7 @@ static void takes_many_lights(const lmb_transfer *t)
 
 enum { STEPS = 64 };
 
-/* The largest change of what comes to an element between lights `steps` apart, of all that comes. */
+/* Largest change of an element's light between lights `steps` apart, relative to the total. */
 static double largest_change(float (*power)[3], size_t elements, int steps, double all)
 {
     double largest = 0.0;
@@ -971,8 +973,8 @@ static double largest_change(float (*power)[3], size_t elements, int steps, doub
     return largest / all;
 }
 
-/* A spot that moves by 6 mm in 64 steps: an element's light changes by little in little steps. Half the step makes the
- * largest change 0.6 of what it was, and less. */
+/* A spot moves 6 mm in 64 steps: small steps change an element's light little. Half the step reduces the largest change
+ * to 0.6 or less. */
 static void moves_steadily(const lmb_transfer *t)
 {
     const lmb_light before = box_light;
@@ -1002,7 +1004,7 @@ static void moves_steadily(const lmb_transfer *t)
     box_light = before;
 }
 
-/* `times` as strong a light gives so much more everywhere, but for the steps in which nodes send. */
+/* A light `times` as strong gives `times` the result everywhere, up to the step in which nodes send. */
 static void is_linear(const lmb_transfer *t, const lmb_scene *scene, float times)
 {
     const lmb_light before = scene->lights[0];
@@ -1033,7 +1035,7 @@ enum { PASSES = 5, ALL = 64 };
 
 static const double FURNACE = 2.0 / 0.3; /* e / (1 - albedo), W/m2 */
 
-/* All surfaces of a closed room emit and reflect alike, and there is no light: so much arrives everywhere. */
+/* All surfaces of a closed room have equal emission and albedo, without lights: the same amount arrives everywhere. */
 static lit furnace_of(const lmb_transfer *t)
 {
     for (int k = 0; k < 2; ++k) {
@@ -1077,7 +1079,7 @@ static void furnace(void)
 
 enum { WALLS = 12 }; /* triangles of the room */
 
-/* Normals turned from a wall by up to 45 degrees, to all sides. */
+/* Normals tilted from a wall by up to 45 degrees, in all directions. */
 static void make_turned(lmb_tile *tile, uint32_t id, lmb_vec3 at, lmb_vec3 wall)
 {
     const lmb_vec3 right = cross3(wall, absf(wall.y) < 0.5f ? Y : X), up = cross3(right, wall);
@@ -1090,8 +1092,8 @@ static void make_turned(lmb_tile *tile, uint32_t id, lmb_vec3 at, lmb_vec3 wall)
     }
 }
 
-/* In the furnace half of the hemisphere that a normal loses by its turn is light: (1 + cosine) / 2 of all of it, by
- * closed form. Blind to direction it would be all, and by light's sum alone the cosine. */
+/* In the furnace, half of the hemisphere that a tilted normal loses is lit: the closed form is (1 + cosine) / 2 of the
+ * light. Without directions the result would be 1, with the light's sum only the cosine. */
 static void turned_in_furnace(const lmb_transfer *t, const lmb_tile *tile)
 {
     lmb_irradiance out;
@@ -1107,8 +1109,8 @@ static void turned_in_furnace(const lmb_transfer *t, const lmb_tile *tile)
     free(l.memory);
 }
 
-/* The form factors of a triangle along three axes at once equal those along both directions of each axis, also if the
- * triangle crosses the horizon. */
+/* The form factors of a triangle along three axes, computed together, equal those along both directions of each axis,
+ * even if the triangle crosses the horizon. */
 static void factors_at_once(void)
 {
     static const lmb_vec3 corner[3] = {{0.5f, 0.25f, 2.0f}, {-1.0f, 1.5f, 1.0f}, {0.25f, -1.0f, 1.5f}};
@@ -1129,10 +1131,10 @@ static void factors_at_once(void)
         }
     }
     CHECK(lmb_polygon_factor(at, faces[0], faces[0], round, 3, mul3(axis, -1.0f)) == 0.0f &&
-          polygon_vector(at, faces[0], round, mul3(axis, -1.0f)).z == 0.0f); /* its back */
+          polygon_vector(at, faces[0], round, mul3(axis, -1.0f)).z == 0.0f); /* the back */
 }
 
-/* Form factor of the block to a plane of the normal, and of the triangles that face the place alone. */
+/* Form factor of the block's triangles that face the place, to a plane with this normal. */
 static float block_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 middle)
 {
     float sum = 0.0f;
@@ -1151,8 +1153,8 @@ static float block_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 
     return sum;
 }
 
-/* The block alone emits: what comes from it to normals that turn to it and away, by closed form. Lobes take all of that
- * from one direction. */
+/* Only the block emits: its light on normals that tilt towards it and away, in closed form. Lobes receive all of the
+ * light from one direction. */
 static void turned_to_block(const lmb_transfer *t, const lmb_tile *tile, lmb_vec3 middle)
 {
     static lmb_glossy glossy, one;
@@ -1185,7 +1187,7 @@ static void turned_to_block(const lmb_transfer *t, const lmb_tile *tile, lmb_vec
     free(l.memory);
 }
 
-/* Walls with a lobe, and a block without one. */
+/* Walls with a lobe and a block without. */
 static void directed_box(void)
 {
     static lmb_tile tile;
@@ -1204,7 +1206,7 @@ static void directed_box(void)
     CHECK(t.count[LMB_TRANSFER_RECEIVERS] + t.count[LMB_TRANSFER_CLUSTERS] == receivers);
     CHECK(t.count[LMB_TRANSFER_CORNERS] == corners && t.leaves < corners);
     uint32_t id = 1;
-    for (; id < WALLS; ++id) { /* the first whose corners' box holds the place: half of a wall */
+    for (; id < WALLS; ++id) { /* the first wall half whose bounding box contains the place */
         lmb_triangle own;
         CHECK(lmb_triangle_fetch(&own, &world.scene, id));
         const lmb_vec3 a = sub3(own.corner[1], own.corner[0]), b = sub3(own.corner[2], own.corner[0]),
@@ -1223,7 +1225,7 @@ static void directed_box(void)
     file_free(&baked);
 }
 
-/* At a place of the grid each normal along an axis takes the receiver that faces its way. */
+/* At a grid place, each normal along an axis uses the receiver of that side. */
 static void by_side(lit *l)
 {
     static lmb_tile tile;
@@ -1252,7 +1254,7 @@ static void by_side(lit *l)
     }
 }
 
-/* The block moves: the file fits wherever it is, and it is lit wherever it is, on all sides. */
+/* The file fits the scene wherever the block is, and the block is lit on all sides. */
 static void moving_block(const file_bytes *baked)
 {
     static lmb_tile tile;
@@ -1273,7 +1275,7 @@ static void moving_block(const file_bytes *baked)
     memset(&tile, 0, sizeof tile);
     memset(&out, 0, sizeof out);
     memset(&scratch, 0, sizeof scratch);
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* spread over the room, and past it */
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* across the room and beyond */
         const lmb_vec3 n = normalize3(vec3((float)(k % 7) - 3.0f, (float)(k % 5) - 2.0f, (float)(k % 3) - 0.9f));
         pixel(&tile, k, 13 + (uint32_t)k % 12,
               vec3(0.5f * (float)(k % 4) - 0.8f, 0.5f * (float)(k / 4 % 4) - 0.8f, (float)(k / 16) - 1.7f), n);
@@ -1351,7 +1353,7 @@ static void draws_frames(const lmb_transfer *t, const lmb_scene *scene)
     free(f.memory);
 }
 
-/* Numbers of a picture whose light is reflected three times, and of the elements' light by blocks of texels. */
+/* Hashes of a picture with three reflections, and of the elements' light for blocks of texels. */
 static void draws_pinned(const char *name, const lmb_transfer *t, const lmb_scene *scene, uint64_t frame,
                          uint64_t light)
 {
@@ -1374,8 +1376,8 @@ static void draws_pinned(const char *name, const lmb_transfer *t, const lmb_scen
     free(l.memory);
 }
 
-/* What lmb_transfer_tile keeps from tile to tile changes nothing: a picture's tiles with one scratch and with new ones,
- * by each backend. */
+/* The state that lmb_transfer_tile keeps between tiles changes nothing: a picture's tiles with one scratch and with new
+ * ones, on each backend. */
 static void draws_tiles(const lmb_transfer *t, const lmb_scene *scene)
 {
     enum { TILES = FRAME / LMB_TILE };
@@ -1415,7 +1417,7 @@ enum { MOMENTS = 8, NOISE = 0x3c };
 static float cold[MOMENTS][FRAME * FRAME * 3];
 static lmb_band_scratch scratches[MOST_THREADS];
 
-/* What a frame of another scene may have left there: ids of this one's triangles, at other places. */
+/* Leftovers of a frame of another scene: ids of this scene's triangles at other places. */
 static void spoil_scratches(void)
 {
     memset(scratches, NOISE, sizeof scratches);
@@ -1426,8 +1428,8 @@ static void spoil_scratches(void)
     }
 }
 
-/* Each bit of `k` changes something: the light; the viewer; where the block is and how often light is reflected. What
- * does not change keeps its revision. */
+/* Each bit of `k` changes something: bit 0 the light, bit 1 the viewer, bit 2 the block's place and the number of
+ * reflections. Unchanged parts keep their revision. */
 static void set_moment(lmb_frame *f, int k)
 {
     const lmb_vec3 lamp = k & 1 ? vec3(0.6f, 0.9f, -0.4f) : vec3(-0.5f, 1.2f, 0.3f);
@@ -1468,7 +1470,7 @@ static void draw_cold(const lmb_transfer *t)
     }
 }
 
-/* By each way, backwards. */
+/* In each way, in reverse order. */
 static void any_way(framed *f)
 {
     static const reuse_way ways[] = {REUSED_WAYS(FRAME)};
@@ -1481,7 +1483,7 @@ static void any_way(framed *f)
     }
 }
 
-/* A frame has the same bytes whichever came before it in its memory. */
+/* A frame has the same bytes whatever frame came before it in the same memory. */
 static void any_history(const file_bytes *baked)
 {
     static const reuse_way whole = {FRAME, 0};
@@ -1491,7 +1493,7 @@ static void any_history(const file_bytes *baked)
     draws_pinned("a block that moves", &t, &world.scene, 0x1ef85db8cbe617bdu, 0xb0bdbacff342fd01u);
     draw_cold(&t);
     framed f = frame_of(&t, &world.scene, 0);
-    f.frame.scratch = scratches; /* each frame finds there what the one before left */
+    f.frame.scratch = scratches; /* each frame finds the leftovers of the one before */
     memset(&render, 0, sizeof render);
     for (int i = 0; i < MOMENTS * MOMENTS; ++i) {
         is_as_cold(&f, i / MOMENTS, &whole, i % MOMENTS);
@@ -1501,7 +1503,7 @@ static void any_history(const file_bytes *baked)
     free(f.memory);
 }
 
-/* Of one file, since that takes longer than all that is asked of it. */
+/* One file for all tests, because baking takes longer than they do. */
 static void block_that_moves(void)
 {
     make_box(-0.6f);
@@ -1511,7 +1513,7 @@ static void block_that_moves(void)
     file_free(&baked);
 }
 
-/* Walls with a lobe keep light by direction. */
+/* Walls with a lobe store light by direction. */
 static void draws_directed(void)
 {
     lmb_transfer t;
@@ -1525,7 +1527,7 @@ static void draws_directed(void)
 
 /* --- the box ------------------------------------------------------------------------------------------------------ */
 
-/* Other colours without another file. */
+/* New materials need no new file. */
 static void takes_materials(const lmb_transfer *t)
 {
     lit l = lit_by(t, &world.scene);
@@ -1541,7 +1543,7 @@ static void takes_materials(const lmb_transfer *t)
 static void test_box(void)
 {
     lmb_transfer t;
-    make_box(-1.2f); /* it stands on the floor */
+    make_box(-1.2f); /* the block stands on the floor */
     file_bytes one = bake_box(1, 0), two = bake_box(2, 0);
     CHECK(one.size == two.size && one.size > 0 && memcmp(one.data, two.data, one.size) == 0);
     is_pinned("a box with a block on its floor", &one, 0xd2b1074cf6bad39bu);

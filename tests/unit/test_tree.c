@@ -1,4 +1,4 @@
-/* test_tree.c: the tree over a shadow map: energy, bounds, where texels end, what is refused.        [V5 V6 V7 V15] */
+/* test_tree.c: the tree over a shadow map: energy, bounds, the ends of texels, refused input.        [V5 V6 V7 V15] */
 #include "../lit_tree.h"
 
 void test_tree(void);
@@ -7,7 +7,7 @@ enum { NOISE = 0x3c };
 
 /* --- scenes ------------------------------------------------------------------------------------------------------- */
 
-/* A closed box of 2 m a side; furnished: with a ball and a crate in it. */
+/* A closed box of 2 m a side; furnished: with a ball and a crate. */
 static void make_room(int furnished)
 {
     world_begin(0.6f, 0.4f, 0.2f);
@@ -19,7 +19,7 @@ static void make_room(int furnished)
     CHECK(world_end() == LMB_OK);
 }
 
-/* A floor of 4 m2, turned out of the map's grid. */
+/* A 4 m2 floor, rotated against the texel grid. */
 static void make_floor(void)
 {
     const float c = 0.8829476f, s = 0.4694716f; /* 28 degrees */
@@ -31,7 +31,7 @@ static void make_floor(void)
 /* --- energy ------------------------------------------------------------------------------------------------------- */
 
 typedef struct sums {
-    double texels[3], moved[3], roots[3]; /* W: as collected, once edges are moved, and at the top */
+    double texels[3], moved[3], roots[3]; /* W: as collected, after edges moved, and at the roots */
     double moved_m2, roots_m2;
 } sums;
 
@@ -57,7 +57,8 @@ static sums sum_all(void)
     return s;
 }
 
-/* V28: albedo x intensity x power, as collected; what one texel loses at an edge the other gains; sums lose nothing. */
+/* V28: albedo x intensity x power, as collected. At an edge one texel gains the amount that another loses, and sums
+ * lose nothing. */
 static void check_flux(const char *name, lmb_light light, double power)
 {
     double worst = 0.0, lost = 0.0, summed = 0.0;
@@ -91,14 +92,14 @@ static void check_energy(void)
     make_floor();
     check_flux("sun overhead", sun(vec3(0, -1, 0)), 4.0);
     check_flux("sun at 60 degrees", sun(vec3(0.8660254f, -0.5f, 0)), 2.0);
-    lmb_light ends = point_light(vec3(0, 0.3f, 0)); /* on the floor where it is 0.85 m away from the middle */
+    lmb_light ends = point_light(vec3(0, 0.3f, 0)); /* the range ends 0.85 m from the floor's centre */
     ends.range = 0.9f;
     check_flux("point, range 0.9", ends, range_power(0.3, 0.9, 0.0));
 }
 
 /* --- bounds ------------------------------------------------------------------------------------------------------- */
 
-/* A quarter of the texels that lit_by takes. */
+/* A quarter of the texels of lit_by. */
 static void lit_small(const lmb_light *light)
 {
     const int32_t faces = lmb_shadow_map_faces(light, &world.scene);
@@ -110,7 +111,7 @@ typedef struct faults {
     uint32_t nodes, outside, bent, strange, sums, empty;
 } faults;
 
-/* In the node's box and sphere, but for rounding. */
+/* In the node's box and sphere, up to rounding. */
 static int is_in(const lmb_node *n, lmb_vec3 p)
 {
     const lmb_vec3 axis[3] = {n->normal, n->across, cross3(n->normal, n->across)}, d = sub3(p, n->middle);
@@ -126,7 +127,8 @@ static lmb_vec3 stands_at(uint32_t face, const lmb_node *n)
     return tree_texel(&lit, face, (int32_t)n->texel % lit.size, (int32_t)n->texel / lit.size)->position;
 }
 
-/* The texel that stands for a node: lit, one of its own, and of those of its parts the nearest to its centre. */
+/* A node's representative texel is lit, lies under the node, and is nearer to the node's centre than those of the
+ * children. */
 static int is_well_stood_for(const lmb_node *n, uint32_t face, int32_t x, int32_t y, int level)
 {
     const int32_t tx = (int32_t)n->texel % lit.size, ty = (int32_t)n->texel / lit.size;
@@ -139,7 +141,7 @@ static int is_well_stood_for(const lmb_node *n, uint32_t face, int32_t x, int32_
     return good;
 }
 
-/* One node against every texel under it. */
+/* Compares a node with every texel under it. */
 static void check_node(faults *f, uint32_t face, int32_t x, int32_t y, int level)
 {
     const lmb_node n = lit_node(face, x, y, level);
@@ -165,7 +167,7 @@ static void check_node(faults *f, uint32_t face, int32_t x, int32_t y, int level
     }
 }
 
-/* V15: boxes, cones, sums and the texel that stands for the others, of every node. */
+/* V15: boxes, cones, sums and the representative texel of every node. */
 static void check_bounds(const char *name, lmb_light light)
 {
     faults f;
@@ -187,9 +189,9 @@ static void check_bounds(const char *name, lmb_light light)
     CHECK_MSG(f.empty == 0, "%s: %u nodes empty with light or lit without", name, (unsigned)f.empty);
 }
 
-/* --- order, and what is refused ----------------------------------------------------------------------------------- */
+/* --- order, and refused input ------------------------------------------------------------------------------------- */
 
-/* Rows in any order, in any pieces, over any noise: the same bytes. */
+/* Rows in any order and pieces, over any previous contents: the same bytes. */
 static void check_order(lmb_light light)
 {
     static uint32_t first_memory[sizeof lit_memory / sizeof *lit_memory];
@@ -200,7 +202,7 @@ static void check_order(lmb_light light)
     const uint32_t faces = lit.faces;
     memcpy(first_memory, lit_memory, sizeof lit_memory);
     lit_begin(6, LIT_SMALL / 2, NOISE);
-    for (lit.faces = 0; lit.faces < faces; ++lit.faces) { /* a point light's faces are all drawn */
+    for (lit.faces = 0; lit.faces < faces; ++lit.faces) { /* all faces of a point light must be drawn */
         const int32_t rows = lit.size / LMB_TILE, face = (int32_t)lit.faces;
         CHECK(lit_rows(&light, face, rows - 3, rows) == LMB_OK && lit_rows(&light, face, 1, 2) == LMB_OK);
         CHECK(lit_rows(&light, face, 2, rows - 3) == LMB_OK && lit_rows(&light, face, 4, 4) == LMB_OK);
@@ -251,9 +253,9 @@ static void check_refused(void)
     CHECK(kept == sizeof lit_memory); /* nothing was written */
 }
 
-/* --- where texels end --------------------------------------------------------------------------------------------- */
+/* --- the ends of texels ------------------------------------------------------------------------------------------- */
 
-/* Two plates of 4 x 2 m with normals a and b: both begin at the line `along` through the origin. */
+/* Two plates of 4 x 2 m with normals a and b that both start at the line `along` through the origin. */
 static void make_fold(lmb_vec3 along, lmb_vec3 a, lmb_vec3 b)
 {
     const lmb_vec3 u = normalize3(cross3(along, a)), v = normalize3(cross3(b, along));
@@ -265,10 +267,10 @@ static void make_fold(lmb_vec3 along, lmb_vec3 a, lmb_vec3 b)
 
 typedef struct ends {
     uint32_t count, stray;
-    double worst; /* texels from the line */
+    double worst; /* distance in texels from the line */
 } ends;
 
-/* Lines that texels should end on: through `at`, along `along`. */
+/* Lines on which texels should end: through `at`, along `along`. */
 typedef struct lines {
     int32_t count;
     lmb_vec3 at[4], along[4];
@@ -283,7 +285,7 @@ static float off_lines(const lines *l, lmb_vec3 p)
     return min;
 }
 
-/* A whole texel of the surface to the left, right, up and down. */
+/* Steps of a whole texel of the surface to the left, right, up and down. */
 static void whole_sides(lmb_vec3 step[4], int32_t x, int32_t y)
 {
     const lmb_texel *t = tree_texel(&lit, 0, x, y);
@@ -296,8 +298,8 @@ static void whole_sides(lmb_vec3 step[4], int32_t x, int32_t y)
     step[3] = mul3(step[2], -1.0f);
 }
 
-/* Texels on one side of the plane y = height, the map's rim left out: are their moved ends on the lines? Those that are
- * moved without a line near are strays. */
+/* For texels on one side of the plane y = height, except at the map's rim: measures whether their moved ends lie on the
+ * lines. Ends moved without a line nearby are strays. */
 static ends measure_ends(const lines *l, float height, int over)
 {
     ends e = {0, 0, 0.0};
@@ -331,9 +333,9 @@ static void check_ends(const char *name, const ends *e, double bound)
     CHECK_MSG(lost < 5e-4, "%s: %g", name, lost);
 }
 
-/* --- what shape they have there ----------------------------------------------------------------------------------- */
+/* --- the shape of texels at their ends ---------------------------------------------------------------------------- */
 
-/* Where a point is in the map, in texels from its middle. */
+/* Position of a point in the map, in texels from the centre. */
 static void in_map(double out[2], const lmb_view *v, lmb_vec3 p)
 {
     const lmb_vec3 d = sub3(p, v->eye);
@@ -342,7 +344,7 @@ static void in_map(double out[2], const lmb_view *v, lmb_vec3 p)
     out[1] = (double)dot3(d, v->up) / w / (double)v->half_height * lit.size / 2;
 }
 
-/* In texels; over 0 counter-clockwise. */
+/* In texels; positive if counter-clockwise. */
 static double area_in_map(const lmb_vec3 *corner, int corners)
 {
     double sum = 0.0;
@@ -355,7 +357,7 @@ static double area_in_map(const lmb_vec3 *corner, int corners)
     return sum;
 }
 
-static double taken[LIT_SIDE * LIT_SIDE]; /* of each cell, by all texels' parts */
+static double taken[LIT_SIDE * LIT_SIDE]; /* share of each cell covered by all texels */
 
 static void take_parts(lmb_node_ref at)
 {
@@ -370,14 +372,14 @@ static void take_parts(lmb_node_ref at)
         const double area = area_in_map(corner, corners);
         CHECK_MSG(area > -1e-3, "part %d of %d %d: %g", part, at.x, at.y, area);
         const int32_t to = i + step[part];
-        if (to >= 0 && to < LIT_SIDE * LIT_SIDE) { /* a part past the map's rim is of no cell */
+        if (to >= 0 && to < LIT_SIDE * LIT_SIDE) { /* a part beyond the map's rim belongs to no cell */
             taken[to] += area;
         }
     }
 }
 
-/* All of every cell is some texel's and none of it two texels'; where three planes meet, almost. The map's rim and that
- * of what is lit left out. */
+/* Texels cover every cell fully and without overlap, nearly so at the meeting of three planes. The rims of the map and
+ * of the lit area are excluded. */
 static void check_parts(const char *name, double bound)
 {
     double worst = 0.0;
@@ -405,8 +407,8 @@ static void check_parts(const char *name, double bound)
     CHECK_MSG(edges > 100 && worst < bound, "%s: %d, %g", name, edges, worst);
 }
 
-/* A corner lit by a sun reflects evenly: from the floor beside it, what the wall's texels give by their exact shapes
- * against the wall as one square; and by rectangles, for what that would be. */
+/* A sunlit corner reflects evenly: compares, at the floor beside the wall, the light of the wall's texels by exact
+ * shapes with that of the wall as one square; also by rectangles, for reference. */
 static void check_beside(lmb_vec3 along, lmb_vec3 floor, lmb_vec3 wall)
 {
     const lmb_vec3 out = normalize3(cross3(along, floor)), up = normalize3(cross3(wall, along));
@@ -443,7 +445,7 @@ static void check_beside(lmb_vec3 along, lmb_vec3 floor, lmb_vec3 wall)
     CHECK(rectangles > 5.0 * worst);
 }
 
-/* V16: at the line where two planes meet, their texels end; nowhere else. */
+/* V16: texels end at the line in which two planes meet, and nowhere else. */
 static void check_fold(const char *name, lmb_light light, lmb_vec3 along)
 {
     lines l;
@@ -474,7 +476,7 @@ static void check_folds(void)
 
 /* --- coarser than the map ----------------------------------------------------------------------------------------- */
 
-/* A tree of one face from a map of `side` texels a side, `each` times its own. */
+/* A tree of one face with 1 / `each` of the map's `side` texels a side. */
 static void lit_coarse(const lmb_light *light, int32_t side, int32_t each)
 {
     const int32_t size = side / each;
@@ -489,7 +491,7 @@ static void lit_coarse(const lmb_light *light, int32_t side, int32_t each)
     lit.faces = 1;
 }
 
-/* Lit texels in front of the light, within `reach` of the world's middle and in the plane they are on. */
+/* Lit texels are in front of the light, within `reach` of the world's centre, and in the plane of their surface. */
 static void check_coarse(const char *name, lmb_light light, float reach)
 {
     for (int32_t each = 1; each <= 8; each *= 2) {
@@ -508,8 +510,8 @@ static void check_coarse(const char *name, lmb_light light, float reach)
     }
 }
 
-/* No texel of a convex room lies behind a wall of it, which would hide what it lights from everyone: by the planes of
- * 256 other texels, each of which is a wall's. */
+/* In a convex room no texel lies behind a wall, which would hide it from all receivers: tested with the planes of 256
+ * other texels. */
 static void check_behind(const char *name, lmb_light light)
 {
     for (int32_t each = 2; each <= 8; each *= 2) {
@@ -546,8 +548,8 @@ static void check_all_behind(void)
     check_behind("ball from within", spot(vec3(0.1f, 0.2f, -0.2f), vec3(0.2f, -1, 0.3f), 30, 48));
 }
 
-/* A plate about a texel wide before a wall, at 16 places: where its edges go along the map's axes it has the light of
- * its area but for a pixel of the map, at any angle in the mean. */
+/* A plate about a texel wide in front of a wall, at 16 places. If its edges follow the map's axes, its light is that of
+ * its area to within one map pixel; at any angle, on average. */
 static void check_plate(float degrees, int32_t each)
 {
     const float c = cosf(degrees * (float)PI / 180.0f), s = sinf(degrees * (float)PI / 180.0f);
@@ -589,7 +591,7 @@ static void check_plates(void)
     }
 }
 
-/* Planes that the light sees to the horizon, or edge-on: texels moved to their middles stay before it. */
+/* Planes that the light sees up to the horizon or edge-on: texels moved to their centres stay in front of it. */
 static void check_horizons(void)
 {
     world_begin(0.5f, 0.5f, 0.5f);
@@ -608,7 +610,7 @@ static void check_horizons(void)
     }
 }
 
-/* What is all but black is black: sums of it would be 0 / 0. */
+/* A nearly black surface counts as black: its sums would give 0 / 0. */
 static void check_dim(void)
 {
     static const float albedo[] = {1e-10f, 1e-20f, 1e-30f, 1e-38f, 1e-42f};

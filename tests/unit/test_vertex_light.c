@@ -1,4 +1,4 @@
-/* test_vertex_light.c: blobs of lambent/fixed.h out of scenes: a room whose walls are slabs with two sides. */
+/* test_vertex_light.c: lambent/fixed.h blobs made from scenes: a room with walls that are two-sided slabs. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +37,7 @@ static void put_slab(int which, const float low[3], const float high[3])
     instance[which].first_id = (uint32_t)(1 + 12 * which);
 }
 
-/* 4 m wide and deep and 2.4 m high within, of slabs that are 0.3 m thick. */
+/* 4 m wide and deep and 2.4 m high inside, made of slabs 0.3 m thick. */
 static void make_room(void)
 {
     static const float inside[3] = {4.0f, 2.4f, 4.0f}, thick = 0.3f;
@@ -64,7 +64,7 @@ static void make_room(void)
     lmb_scene_bounds(&scene.bounds_min, &scene.bounds_max, &scene);
 }
 
-/* The least and the most of what elements of the floor get, as parts of what a lamp without walls around it would bring. */
+/* Smallest and largest share that elements of the floor receive of a lamp's unobstructed light. */
 static void light_floor(double part[2], const lmb_fixed *blob)
 {
     lmb_fixed_frame f;
@@ -107,7 +107,7 @@ static void test_slabs(void)
     double part[2] = {0.0, 0.0};
     make_room();
     CHECK_MSG(vertex_light_make(&words, &count, &facts, &scene, &asked, &r), "%s", r.text);
-    /* what a wall has inside of it is none of the room, nor are its outer sides */
+    /* the inside of a wall does not belong to the room, nor do the outer sides */
     CHECK_MSG(facts.hidden >= SLABS * 12, "%u", (unsigned)facts.hidden);
     CHECK_MSG(facts.valid < facts.places && 4 * facts.valid > facts.places, "%u of %u", (unsigned)facts.valid,
               (unsigned)facts.places);

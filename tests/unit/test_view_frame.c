@@ -1,4 +1,4 @@
-/* test_view_frame.c: a scene without a camera fills the frame and touches no border, whatever its shape and size. */
+/* test_view_frame.c: a scene without a camera fills the frame and touches no border, for any shape and size. */
 #include "../../tools/common/view_frame.h"
 #include "../world.h"
 
@@ -20,7 +20,7 @@ static view_options options_of(int32_t width, int32_t height)
     return o;
 }
 
-/* A box with half sides x, y, z around a place. */
+/* A box with half sides x, y, z around `at`. */
 static void box_at(lmb_vec3 at, float x, float y, float z)
 {
     const lmb_vec3 half[3] = {mul3(X, x), mul3(Y, y), mul3(Z, z)};
@@ -30,7 +30,7 @@ static void box_at(lmb_vec3 at, float x, float y, float z)
     }
 }
 
-/* The five walls of a box that are left without one. */
+/* The five walls of a box without one. */
 static void room_without(int wall)
 {
     const lmb_vec3 half[3] = {mul3(X, 2), mul3(Y, 1.5f), mul3(Z, 2)};
@@ -44,13 +44,13 @@ static void room_without(int wall)
     CHECK(world_end() == LMB_OK);
 }
 
-/* The share of a 160 x 120 frame that shows the scene; -1 where it touches the frame's border. */
+/* Share of a 160 x 120 frame that the scene covers; -1 if it touches the frame's border. */
 static double covered(const lmb_view *framed)
 {
     lmb_view open = *framed, v;
     lmb_target t;
     int count = 0, border = 0;
-    open.near_m = 0.0f; /* by the scene's size, as where none is asked for */
+    open.near_m = 0.0f; /* from the scene's size, as by default */
     v = view_from(&open, 0.0f, &world.scene);
     memset(&t, 0, sizeof t);
     lmb_surface_init(&t.depth, LMB_DEPTH32F, WIDTH, HEIGHT, drawn.depth, sizeof drawn.depth);
@@ -69,7 +69,8 @@ static double covered(const lmb_view *framed)
     return border ? -1.0 : count / (double)(WIDTH * HEIGHT);
 }
 
-/* The largest of all corners' distances from the middle of the frame, as a share of half of it: across, and up. */
+/* Largest distance of all corners from the frame's centre, relative to half of the frame: horizontally and
+ * vertically. */
 static void reach_in(double out[2], const lmb_view *v)
 {
     out[0] = out[1] = 0.0;
@@ -83,7 +84,7 @@ static void reach_in(double out[2], const lmb_view *v)
     }
 }
 
-/* The scene at hand fills one direction of the frame to 0.94, the other not over that, and at least `share` of it. */
+/* The scene fills one direction of the frame to 0.94, and the other to between `share` and that. */
 static void check_framed(const char *what, double share)
 {
     view_options o = options_of(WIDTH, HEIGHT);
@@ -118,12 +119,12 @@ static void check_shapes(void)
     check_box("tower", vec3(0, 10, 0), 1, 10, 1, 0.06);
     world_begin(0.5f, 0.5f, 0.5f);
     box_at(vec3(-3, 0, 0), 1, 1, 1);
-    box_at(vec3(9, 4, 2), 0.5f, 2, 0.5f); /* all to one side of the bounds' middle */
+    box_at(vec3(9, 4, 2), 0.5f, 2, 0.5f); /* all on one side of the centre of the bounds */
     CHECK(world_end() == LMB_OK);
     check_framed("two boxes", 0.05);
 }
 
-/* Where no size is given, the frame is as tall or as wide as the scene. */
+/* If no size is given, the frame is as tall or as wide as the scene. */
 static void check_size(float x, float y, float z, int32_t width)
 {
     view_options o = options_of(0, 0);
@@ -137,7 +138,7 @@ static void check_size(float x, float y, float z, int32_t width)
     CHECK_MSG(o.width == width && o.height == 480 && v.frame_width == width, "%d x %d", (int)o.width, (int)o.height);
 }
 
-/* A room is seen through its one open wall, or from above, but not from below. */
+/* A room is viewed through the one open wall, or from above, but not from below. */
 static void check_rooms(void)
 {
     static const float open[6][3] = {{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0.7f, 0}, {0, 0, -1}, {0, 0, 1}};
@@ -165,7 +166,7 @@ static lmb_vec3 seen_from(void)
     return v.back;
 }
 
-/* What is a little deeper than wide is seen from the front; what is long, from its right side. */
+/* A thing a little deeper than wide is viewed from the front; a long one from the right side. */
 static void check_sides(void)
 {
     static const float deep[2] = {1.3f, 1.7f};
@@ -178,7 +179,7 @@ static void check_sides(void)
     }
 }
 
-/* Five boards with gaps between them are no room: they are seen as other things are, not through the open side. */
+/* Five boards with gaps between them are no room: they are viewed like other things, not through the open side. */
 static void check_boards(void)
 {
     const lmb_vec3 half[3] = {mul3(X, 2), mul3(Y, 1.5f), mul3(Z, 2)};
@@ -191,8 +192,8 @@ static void check_boards(void)
     CHECK_MSG(back.x > 0.4f, "boards: from %g, %g, %g", (double)back.x, (double)back.y, (double)back.z);
 }
 
-/* A wall closes a side of the bounds that it stands within a fiftieth of their size from. Behind one that stands deeper
- * the room is open there, and is seen through that side. */
+/* A wall closes a side of the bounds if it is within a fiftieth of their size from this side. If it is farther in, the
+ * room counts as open there and is viewed through this side. */
 static void check_niche(void)
 {
     static const float deep[2] = {0.015f, 0.025f};
@@ -205,7 +206,7 @@ static void check_niche(void)
     }
 }
 
-/* A corner far outside, or none at all, takes its triangles out of the picture: the others are framed as without it. */
+/* If a corner is far outside or not finite, its triangles are not visible: the rest is framed as without them. */
 static void check_strays(void)
 {
     static const float strays[3] = {1e10f, -INFINITY, NAN};
@@ -218,7 +219,7 @@ static void check_strays(void)
         box_at(vec3(0, 0, 0), 1, 1, 1);
         world_quad(vec3(0, strays[i], 0), X, Z);
         CHECK(world_end() == LMB_OK);
-        world.count -= 2; /* which reach_in and check_framed measure */
+        world.count -= 2; /* excluded from reach_in and check_framed */
         check_framed("a cube and strays", 0.3);
         world_begin(0.5f, 0.5f, 0.5f);
         world_quad(vec3(strays[i], 0, 0), X, Z);

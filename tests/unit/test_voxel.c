@@ -1,4 +1,4 @@
-/* test_voxel.c: what voxels keep of surfaces and light, and what cones may not do. [M6-M8 M11-M13 M20-M22] */
+/* test_voxel.c: surfaces and light stored in voxels, and limits of cones. [M6-M8 M11-M13 M20-M22] */
 #include "../lit_tree.h"
 #include "../voxel_sum.h"
 
@@ -52,7 +52,7 @@ static double scene_area(double along[6])
     return area;
 }
 
-/* M6: areas are exact, seen from each direction, on the leaves and as the root's mean. */
+/* M6: areas are exact for each direction, on the leaves and as the root's mean. */
 static void surfaces_are_whole(int32_t depth)
 {
     double along[6];
@@ -71,7 +71,7 @@ static void surfaces_are_whole(int32_t depth)
     }
 }
 
-/* A triangle with a corner at no place, or too far away to be one, is left out; what else there is stays. */
+/* A triangle with a non-finite corner, or one too far away, is left out; the rest stays. */
 static void no_place(void)
 {
     static const float bad[] = {NAN, INFINITY, 1e30f, -1e30f};
@@ -80,13 +80,13 @@ static void no_place(void)
         world_box(vec3(-1.0f, 0.2f, 0.1f), 0.3f);
         CHECK(world_end() == LMB_OK);
         world.corners[5][i % 3][i / 4] = bad[i % 4];
-        const lmb_voxel_part part = {&world.scene, 1, world.count + 9, {1, 1}}; /* nine that are not there */
+        const lmb_voxel_part part = {&world.scene, 1, world.count + 9, {1, 1}}; /* nine that do not exist */
         CHECK(build(CAP, LMB_VOXELS_ONE, 4, &part, 1) == LMB_OK);
         CHECK_MSG(within(v.area, 11.0 * 0.18, 1e-4), "%d: %g", i, v.area);
     }
 }
 
-/* Each place's leaf, whatever number it has. */
+/* Hashes each place's leaf, independent of its number. */
 static uint64_t hash_places(void)
 {
     uint64_t h = UINT64_C(0xcbf29ce484222325);
@@ -121,7 +121,7 @@ static void order_does_not_matter(void)
     CHECK(hash_places() != before);
 }
 
-/* M8: empty space takes nothing, and a full pool makes larger leaves of all that is there. */
+/* M8: empty space uses no nodes, and a full pool merges its contents into larger leaves. */
 static void small_pools(void)
 {
     double along[6];
@@ -142,7 +142,7 @@ static void small_pools(void)
 
 static size_t lit_count(void) { return (size_t)lit.faces * (size_t)(lit.size * lit.size); }
 
-/* M7, M13: all of the map's light, by direction, on the leaves and as the root's mean. */
+/* M7, M13: all the map's light, per direction, on the leaves and as the root's mean. */
 static void light_is_whole(void)
 {
     const lmb_light light = spot(vec3(0.2f, 2.5f, 1.0f), vec3(0, -1, -0.4f), 30, 40);
@@ -193,7 +193,7 @@ static lmb_irradiance see(int32_t field, int32_t in_world, const lmb_env *env, f
     return light;
 }
 
-/* A room of a floor and two walls; a box stands in it where asked, in one of the worlds. */
+/* A room of a floor and two walls, with an optional box in one of the worlds. */
 static void make_worlds(int object)
 {
     const lmb_light light = spot(vec3(0.4f, 1.8f, 0.4f), vec3(-0.2f, -1, -0.2f), 40, 50);
@@ -214,7 +214,7 @@ static void make_worlds(int object)
     parts[1].count = object ? world.count - world.first : 0;
     CHECK(build(CAP, LMB_VOXELS_THREE, 5, parts, 2) == LMB_OK);
     for (int32_t w = 0; w < 2; ++w) {
-        world.instance[1].to_world.m[13] = w == 0 || !object ? 100.0f : 0.0f; /* out of the light's sight */
+        world.instance[1].to_world.m[13] = w == 0 || !object ? 100.0f : 0.0f; /* outside the light's cone */
         lit_by(&light);
         CHECK(lmb_voxels_inject(&v, w, lit.texel, lit_count()) == LMB_OK && v.lost[w] == 0.0);
         CHECK(lmb_voxels_filter(&v, w) == LMB_OK);
@@ -223,7 +223,7 @@ static void make_worlds(int object)
     set_floor_tile(0.0f);
 }
 
-/* M11, M12: no object, no difference: not one bit. An object takes light away and gives some. */
+/* M11, M12: without an object the difference is zero to the bit. An object removes light and adds some. */
 static void difference_of_worlds(void)
 {
     float min = 0.0f, max = 0.0f, traced = 0.0f, open[2][LMB_TILE_PIXELS];
@@ -254,7 +254,7 @@ static void difference_of_worlds(void)
     CHECK(min < 0.0f && max > 0.0f);
 }
 
-/* Twice the light is twice the light, to the bit. */
+/* Twice the light gives exactly twice the result. */
 static void twice_the_light(void)
 {
     static lmb_texel twice[LIT_SIDE * LIT_SIDE];
@@ -279,7 +279,8 @@ static void twice_the_light(void)
 
 /* --- cones -------------------------------------------------------------------------------------------------------- */
 
-/* M21, M22: under an open sky of one radiance a floor gets pi times that; each cone has its share of the hemisphere. */
+/* M21, M22: under an open sky of constant radiance a floor receives pi times the radiance; each cone has its share of
+ * the hemisphere. */
 static void open_sky(void)
 {
     static uint32_t texels[6 * (64 + 16 + 4 + 1) * 2];
@@ -313,13 +314,13 @@ static void open_sky(void)
             CHECK(fabs((double)(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - 1.0) < 1e-6 && d[2] > 0.2f);
         }
         CHECK_MSG(off < 1e-4f && open[9] == 0.0f, "%d cones: %g", (int)count, (double)off);
-        /* The mean cosine over the cosine-weighted hemisphere is 2/3; axes are the middles of wide cones. */
+        /* The mean cosine over the cosine-weighted hemisphere is 2/3; axes are the centres of wide cones. */
         CHECK_MSG(fabs((double)sum.z / count - 2.0 / 3.0) < 0.06 && fabs((double)sum.x) + fabs((double)sum.y) < 1e-4,
                   "%g", (double)sum.z / count);
     }
 }
 
-/* A wall that is lit from one side is dark from the other, and hides what is behind it. */
+/* A wall lit from one side is dark on the other and occludes everything behind it. */
 static void walls_are_tight(void)
 {
     const lmb_light above = spot(vec3(0.9f, 1.0f, 0), vec3(-1, -0.2f, 0), 30, 40);
@@ -344,7 +345,7 @@ static void walls_are_tight(void)
     CHECK_MSG(front > 0.0f && max < 0.02f * front, "%g behind, %g in front", (double)max, (double)front);
 }
 
-/* M20: a narrow cone along the mirrored view sees what a mirror shows. */
+/* M20: a narrow cone along the mirrored view gives the mirror's picture. */
 static void mirror(void)
 {
     lmb_cone_width width;
@@ -352,12 +353,12 @@ static void mirror(void)
     make_worlds(0);
     CHECK(lmb_cone_width_init(&width, &v, lmb_cone_tangent(0.15f)) == LMB_OK && width.tangent < 0.06f);
     const lmb_cone_trace trace = {picked_kernels(), &v, 0, 0, NULL, &scratch, 0};
-    /* From over the floor's middle towards the wall at x = -1, and towards the open side. */
+    /* From above the floor's centre towards the wall at x = -1, and towards the open side. */
     CHECK(lmb_cones_glossy(&seen, &trace, &width, &tile, vec3(3.0f, 1.0f, 0.0f)) == LMB_OK);
     CHECK(seen.rgb[1][4 * 8 + 3] > 0.0f && seen.open[4 * 8 + 3] < 0.1f);
     CHECK(lmb_cones_glossy(&seen, &trace, &width, &tile, vec3(-3.0f, 1.0f, 0.0f)) == LMB_OK);
     CHECK(seen.rgb[1][4 * 8 + 3] == 0.0f && seen.open[4 * 8 + 3] > 0.99f);
-    /* The same cone along the mirror's own directions; straight up there is nothing. */
+    /* The same cone along explicit mirror directions; straight up there is nothing. */
     static float direction[3][LMB_TILE_PIXELS];
     static lmb_cone_seen along;
     CHECK(lmb_cones_glossy(&seen, &trace, &width, &tile, vec3(3.0f, 1.0f, 0.0f)) == LMB_OK);
@@ -373,7 +374,7 @@ static void mirror(void)
     CHECK(lmb_cones_trace(&along, &trace, &width, &tile, direction) == LMB_OK);
     CHECK(along.rgb[1][27] == 0.0f && along.open[27] == 1.0f);
     CHECK(lmb_cones_trace(&along, &trace, NULL, &tile, direction) == LMB_ERR_ARG);
-    /* Narrow cones take too many steps in the finest trees: they are widened until they fit. */
+    /* Narrow cones need too many steps in the finest trees and are widened until the steps fit. */
     lmb_voxels fine = v;
     for (fine.depth = 4; fine.depth <= 12; ++fine.depth) {
         CHECK(lmb_cone_width_init(&width, &fine, 0.01f) == LMB_OK && width.count <= LMB_CONE_STEPS);
@@ -385,7 +386,7 @@ static void mirror(void)
     CHECK(lmb_cone_tangent(0.0f) < lmb_cone_tangent(0.5f) && lmb_cone_tangent(1.0f) == 1.0f);
 }
 
-/* --- what is refused ---------------------------------------------------------------------------------------------- */
+/* --- refused input ------------------------------------------------------------------------------------------------ */
 
 static void refusals(void)
 {

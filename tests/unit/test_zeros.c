@@ -1,7 +1,7 @@
-/* test_zeros.c: every public call with structs of zeros, null pointers and absurd numbers: it returns, and says so.
+/* test_zeros.c: every public call with zeroed structs, null pointers and absurd numbers: it returns a status.
  *
- * The table of calls is made from the headers (tests/scripts/zeros.awk), so none can be forgotten. Under the sanitizers
- * (make asan) this is also a test that none of it reads or writes what it must not, or computes what C leaves open. */
+ * tests/scripts/zeros.awk generates the table of calls from the headers, so none is missing. With the sanitizers (make
+ * asan), this also checks for out-of-bounds access and undefined behaviour. */
 #include <lambent/lambent.h>
 
 #include "../../tools/demo/demo_scene.h"
@@ -15,14 +15,14 @@ void test_zeros(void);
 
 /* --- arguments ---------------------------------------------------------------------------------------------------- */
 
-enum { ZERO, NOTHING, GOOD }; /* what a pointer points to; NOTHING: it is NULL */
+enum { ZERO, NOTHING, GOOD }; /* the target of a pointer; NOTHING: the pointer is NULL */
 
 typedef struct argument {
     const char *type, *name;
     int kind;     /* of a pointer */
     void *memory; /* to be freed */
     int64_t whole;
-    double value; /* of a number, and of a vector's parts */
+    double value; /* of a number, and of the components of a vector */
 } argument;
 
 typedef struct parameter {
@@ -37,15 +37,15 @@ typedef struct call {
     parameter parameter[12];
 } call;
 
-enum { ARRAY = 1 << 22 }; /* bytes of an array whose length the type does not tell */
+enum { ARRAY = 1 << 22 }; /* bytes of an array of unknown length */
 
-static const char *at_call = ""; /* the call that is made */
+static const char *at_call = ""; /* the current call */
 
 static int calls_for(const char *name) { return strcmp(at_call, name) == 0; }
 
 static const void *good_one(const argument *a, size_t *bytes);
 
-/* A copy of its own, so that a sanitizer sees its end. */
+/* A separate copy, so that a sanitizer detects its end. */
 static void *pointer(argument *a, size_t bytes)
 {
     size_t size;
@@ -56,7 +56,7 @@ static void *pointer(argument *a, size_t bytes)
     if (strcmp(a->type, "lmb_kernels") == 0) {
         return (void *)(uintptr_t)picked_kernels();
     }
-    bytes = bytes > 0 && strcmp(a->type, "lmb_cluster") != 0 ? bytes : ARRAY; /* of clusters there are `count` */
+    bytes = bytes > 0 && strcmp(a->type, "lmb_cluster") != 0 ? bytes : ARRAY; /* there are `count` clusters */
     a->memory = calloc(1, bytes);
     if (a->memory == NULL) {
         abort();
@@ -87,7 +87,7 @@ static struct {
     lmb_points points;        /* of a face, not yet joined */
     lmb_surface metres;
     lmb_tile tile;
-    lmb_many_lights many_lights, stream; /* built; not yet */
+    lmb_many_lights many_lights, stream; /* built; not yet built */
     lmb_cloud cloud;
     lmb_planes planes;
     lmb_real_mesh mesh;
@@ -141,13 +141,13 @@ static struct {
     lmb_fixed_frame fixed_frame;
 } g;
 
-/* The room that ports show. */
+/* The room that the ports show. */
 static const uint32_t fixed_file[] = {
 #include "../../platform/demo/room_data.inc"
 };
 static const int32_t fixed_places[2][3] = {{0, 400, 700}, {0, 300, -300}};
 
-/* Memory for a good one; 0: frees all. */
+/* Memory for a valid argument; 0 frees all. */
 static void *room(size_t bytes)
 {
     static void *all[64];
@@ -214,7 +214,7 @@ static void make_frame(void)
     g.settings.scene = f.scene;
     g.settings.view = f.view;
     g.settings.shadow_map = SIDE;
-    g.settings.show = LMB_SHOW_DIRECT; /* else it takes more than ARRAY bytes */
+    g.settings.show = LMB_SHOW_DIRECT; /* otherwise it needs more than ARRAY bytes */
     g.cut_params = cut_params;
     g.receiver = receiver;
     g.occluder = occluder;
@@ -352,7 +352,7 @@ typedef struct known {
     size_t bytes;
 } known;
 
-/* What one call wants otherwise than the others. */
+/* Arguments that one call needs different from the others. */
 static int good_for_call(known *out, const argument *a)
 {
     if (calls_for("lmb_plan_frame") || calls_for("lmb_render_part") || calls_for("lmb_render_parts_done")) {
@@ -476,12 +476,12 @@ static const void *good_one(const argument *a, size_t *bytes)
             return all[i].data;
         }
     }
-    return NULL; /* scratch, or written: zeros will do */
+    return NULL; /* scratch or output: zeros are fine */
 }
 
 /* --- calls -------------------------------------------------------------------------------------------------------- */
 
-/* A number that the call takes, by its name. */
+/* A valid number for an argument, chosen by name. */
 static void set_number(argument *a)
 {
     static const struct {
@@ -515,7 +515,7 @@ static void set_number(argument *a)
         a->whole = calls_for(own[i].call) && strcmp(a->name, own[i].name) == 0 ? own[i].value : a->whole;
     }
     if (calls_for("lmb_transfer_open") && strcmp(a->name, "bytes") == 0) {
-        a->whole = (int64_t)g.transfer_bytes; /* whole, not a byte more */
+        a->whole = (int64_t)g.transfer_bytes; /* exact, without a spare byte */
     }
     if (calls_for("lmb_fixed_open") && strcmp(a->name, "bytes") == 0) {
         a->whole = (int64_t)sizeof fixed_file;
@@ -525,15 +525,15 @@ static void set_number(argument *a)
     }
 }
 
-/* How much memory there is, which only the caller knows. */
+/* Sizes of memory, which only the caller can guarantee. */
 static int is_vouched_for(const char *name)
 {
     return strcmp(name, "bytes") == 0 || strcmp(name, "count") == 0 || strcmp(name, "cap") == 0 ||
            strcmp(name, "from") == 0;
 }
 
-/* The call with its pointers of a kind and, where they are GOOD, numbers too; but one argument, `odd`, of another kind,
- * or the number `absurd`. */
+/* Makes the call with pointers of `kind` and, if they are GOOD, valid numbers, but with argument `odd` of kind
+ * `odd_kind` or with the absurd number. */
 static int make_call(const call *c, int kind, int odd, int odd_kind, int64_t whole_absurd, double absurd)
 {
     argument a[12];
@@ -581,7 +581,7 @@ static int pointers_of(const call *c)
     return n;
 }
 
-/* Zeros that are no fault: no pixel, no face or nothing in the scene, and so nothing to do. */
+/* Zeros that are no error: no pixel, no face or an empty scene, so there is nothing to do. */
 static int may_be_empty(const char *name)
 {
     static const char *const all[] = {
@@ -616,7 +616,7 @@ static void test_call(const call *c)
     }
 }
 
-/* Absurd in more than one argument, or within a struct. */
+/* Absurd values in more than one argument, or inside a struct. */
 static void test_named(void)
 {
     const float min = LMB_ALBEDO_MIN, max = LMB_ALBEDO_MAX;
