@@ -1,5 +1,6 @@
 # words.sh: no name, option, file or phrase of words.txt in src, include, tools and documents; documents' links exist;
-# README.md and src/README.md within their bounds; and that a made-up leftover of each kind is found.
+# README.md and src/README.md within their bounds; the files and names that src/EXACT.md and src/RECIPES.md mention
+# exist; and that a made-up leftover of each kind is found.
 #
 # words.txt has a line for each: `name WORD` (a whole identifier), `code WORD` (the same, but not in comments and strings,
 # as it is a word of English too), `option --WORD`, `file BASENAME`, `phrase WORDS`
@@ -76,6 +77,22 @@ while read -r f; do
 done < "$tmp/documents" > "$tmp/links"
 check "links of documents exist: $(tr '\n' ' ' < "$tmp/links")" test ! -s "$tmp/links"
 
+# Files and names of the code in EXACT.md and RECIPES.md; a path is relative to the root or to src/. NAME is a
+# placeholder.
+find src include tools platform tests Makefile -type f \( -name '*.[ch]' -o -name '*.inl' -o -name '*.sh' -o -name Makefile \) \
+    2>/dev/null > "$tmp/sources"
+for f in src/EXACT.md src/RECIPES.md; do
+    [ -f "$f" ] || continue
+    grep -oE '`[A-Za-z0-9_./]+`' "$f" | tr -d '`' | grep -v NAME | sort -u > "$tmp/mentioned"
+    grep / "$tmp/mentioned" | while read -r path; do
+        [ -e "$path" ] || [ -e "src/$path" ] || echo "$f: $path"
+    done
+    grep -E '^[A-Za-z0-9]*_[A-Za-z0-9_]*$' "$tmp/mentioned" > "$tmp/mentioned-names"
+    tr '\n' '\0' < "$tmp/sources" | xargs -0 grep -ohwFf "$tmp/mentioned-names" | sort -u > "$tmp/found-names"
+    comm -23 "$tmp/mentioned-names" "$tmp/found-names" | sed "s,^,$f: ,"
+done > "$tmp/stale"
+check "files and names in EXACT.md and RECIPES.md exist: $(tr '\n' ' ' < "$tmp/stale")" test ! -s "$tmp/stale"
+
 # README.md: 150 lines, and 60 numbers outside of code.
 lines=$(wc -l < README.md)
 numbers=$(awk '/^```/ { code = !code } !code' README.md | sed 's/`[^`]*`//g; s/([^)]*)//g' \
@@ -117,6 +134,7 @@ leftover src/gloss.c 'int x;'
 leftover src/three.c '/* what a surface gives
  * off by itself */'
 leftover docs/one.md 'See [nothing](nowhere.md).'
+leftover src/EXACT.md 'See `one.c`, `src/one.c`, `base/gone.c`, `lmb_gone`, `isa/isa_NAME.c`.'
 said=$(cd "$made" && MADE=1 B=out LIST="$list" sh "$dir/words.sh")
 for kind in name code option file phrase; do
     case $said in
@@ -127,6 +145,10 @@ done
 case $said in
 *"links of documents exist: docs/one.md: nowhere.md"*) pass ;;
 *) fail "a made-up dead link is not found: $said" ;;
+esac
+case $said in
+*"EXACT.md and RECIPES.md exist: src/EXACT.md: base/gone.c src/EXACT.md: lmb_gone "*) pass ;;
+*) fail "a made-up stale file and name are not found once each: $said" ;;
 esac
 rm -r "$made/src" "$made/tools" "$made/docs"
 mkdir "$made/src" "$made/tools"
