@@ -13,10 +13,10 @@ typedef struct light_tile {
     const lmb_tile *tile; /* resolved */
 } light_tile;
 
-/* Add light i to `sum`, and what lobes make of it to `glossy` (NULL: no lobes).
+/* Adds light i to `sum`, and the reflection by lobes to `glossy` (NULL: no lobes).
  *
- *   one  scratch: a lobe requires each light's irradiance separately; added to the others' it is the same sum.
- *   map  the light's; NULL: no shadows. */
+ *   one  scratch: a lobe needs the irradiance of each light separately; the total is the same.
+ *   map  of the light; NULL: no shadows. */
 lmb_status lmb_light_tile_add(lmb_irradiance *sum, lmb_glossy *glossy, lmb_irradiance *one, const light_tile *to,
                               uint32_t i, const lmb_shadow_map *map);
 
