@@ -232,9 +232,8 @@ static void thin_out(const neighbourhood *n, uint32_t first, int32_t thin)
     }
 }
 
-/* Closes the gaps left by joined points and updates the owners of texels. The link of a disc is its own index. The link
- * of a joined point is the index of the disc, or of a point that joined one in turn (thinned out first, then near
- * another disc). */
+/* Closes the gaps left by joined points and updates the owners of texels. A disc links to itself. The link of a joined
+ * point is the index of the disc, or of a point that joined one in turn (thinned out first, then near another disc). */
 static void close_gaps(lmb_points *points, uint32_t first, const lmb_shadow_map *map)
 {
     lmb_point *data = points->data;

@@ -65,9 +65,8 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
 #include "../occlusion/march.inl"
 #include "../raster/tile.h"
 
-/* A group is near if it is closer than this many of its radii. Its discs are then added one by one. Trim on cornell,
- * two_lights, bunny_room at 1.2 / 1.5 / 2: 0.053 0.144 0.092 / 0.050 0.133 0.080 / 0.049 0.125 0.075; time 1 / 1.3 /
- * 2. */
+/* A group closer than this many group radii is near: the discs are then added one by one. Trim on cornell, two_lights,
+ * bunny_room at 1.2 / 1.5 / 2: 0.053 0.144 0.092 / 0.050 0.133 0.080 / 0.049 0.125 0.075; time 1 / 1.3 / 2. */
 #define GROUP_NEAR 1.5f
 /* Discs that share one segment if none of them is near. 1 takes three times the segments for 0.001 of trim. */
 #define SHARED 4u
@@ -319,7 +318,7 @@ LANE_INLINE uint32_t gather_face(gather_pairs *out, uint32_t *near_bits, const g
     return mask_bits(lit);
 }
 
-/* Flags near pixels. (NOINLINE: at -O3 its frame would lie under the march's.) */
+/* Flags near pixels. (NOINLINE: at -O3 the frame would lie under that of the march.) */
 LANE_NOINLINE void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_tile *tile, int k,
                                const gather_group *groups, int32_t group_count)
 {
@@ -487,7 +486,7 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
 
 /* --- near groups, disc by disc ------------------------------------------------------------------------------------ */
 
-/* The exact form factor, for the few lanes so close to a disc that its shape matters. */
+/* The exact form factor, for the few lanes so close to a disc that the shape matters. */
 static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *tile, int k, const lmb_point *disc)
 {
     float w[LANES];

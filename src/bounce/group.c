@@ -53,7 +53,7 @@ static float corner_distance(const lmb_point *d, lmb_vec3 from)
     return sqrtf(far2);
 }
 
-/* Computes group k from its members. */
+/* Computes group k from the members. */
 static void close_group(lmb_groups *out, int32_t k, const lmb_points *points, uint32_t flags)
 {
     lmb_group_sum g;

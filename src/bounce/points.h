@@ -1,10 +1,10 @@
-/* points.h: a face's first points collected in parts, each on its own thread. Layer 6. */
+/* points.h: a face's first points collected in parts, each on a thread. Layer 6. */
 #ifndef LMB_BOUNCE_POINTS_H
 #define LMB_BOUNCE_POINTS_H
 
 #include <lambent/bounce.h>
 
-/* 1 if there is room for the parts of one more face, each with the maximum points of its blocks. */
+/* 1 if there is room for the parts of one more face, each with the maximum number of points. */
 int lmb_points_have_room(const lmb_points *points, const lmb_shadow_map *map, const lmb_grouping *grouping);
 
 /* lmb_points_part: runs lmb_points_collect for part `part` of `parts` of a face's rows, into the place of that part

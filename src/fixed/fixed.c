@@ -17,7 +17,7 @@ typedef struct seen_from {
     int32_t v[3], colour[3];
 } seen_from;
 
-/* Shared by all vertices of a view: the guard band in 1/16 px, and its limits of x / z and y / z in 2^-16. */
+/* Shared by all vertices of a view: the guard band in 1/16 px, and the limits of x / z and y / z in 2^-16. */
 typedef struct looking {
     const lmb_fixed_view *view;
     int32_t guard_x, guard_y, most_x, most_y;
@@ -350,7 +350,7 @@ lmb_status lmb_fixed_prepare(lmb_fixed_frame *f)
     return LMB_OK;
 }
 
-/* Draws an entry that is not in `ready`. A cut triangle has several entries; the first one draws all its parts. */
+/* Draws an entry that is not in `ready`. A cut triangle has several entries; the first one draws all parts. */
 static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t i)
 {
     const uint32_t triangle = f->seen[i].triangle;

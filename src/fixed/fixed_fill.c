@@ -25,10 +25,10 @@ static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
     return e;
 }
 
-/* In 2^-14 px, for a row with its centre between the edge's ends. */
+/* In 2^-14 px, for a row with the centre between the edge's ends. */
 static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
 
-/* The first pixel with its centre not left of x. */
+/* The first pixel with a centre not left of x. */
 static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
 
 /* A linear value on the triangle: at the first corner, and per 1/16 px. */
@@ -67,7 +67,7 @@ static int is_gentle(const plane *p, uint32_t most_of)
 
 static uint32_t mean_of(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
 
-/* Returns 1 if the plane is gentle. A triangle so steep that the whole change is within 1/16 px gets the mean of its
+/* Returns 1 if the plane is gentle. A triangle so steep that the whole change is within 1/16 px gets the mean of the
  * corners. Depth differences are below 65,504, and coordinates below 15,361 because of the guard band: the two products
  * together fit 31 bits. */
 static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
@@ -232,7 +232,7 @@ typedef uint32_t __attribute__((may_alias)) two_pixels;
 LOOPS(555, PACK_555)
 LOOPS(5551, PACK_5551)
 
-/* 8-bit colours: red lies above blue in one word, because no sum of blue leaves its 16 bits. */
+/* 8-bit colours: red lies above blue in one word, because sums of blue stay within 16 bits. */
 static void fill_hull_888(void *pixels, uint16_t *to_depth, int32_t count, const span *s)
 {
     uint32_t *to = (uint32_t *)pixels, red_blue = (s->red << 16) + s->blue, green = s->green;

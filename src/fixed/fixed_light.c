@@ -109,7 +109,7 @@ static void set_lamp(lamp_now *out, const lmb_fixed *s, const lmb_fixed_lamp *la
     }
 }
 
-/* The lamp's cone fall-off by the cosine to its axis: smoothstep, 0 .. FULL - 1. */
+/* The lamp's cone fall-off by the cosine to the axis: smoothstep, 0 .. FULL - 1. */
 static uint32_t cone_of(const lamp_now *l, int32_t cosine)
 {
     const int32_t over = cosine - l->lamp->cos_outer;
@@ -162,7 +162,7 @@ static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *
 /* --- reflected light
  * -------------------------------------------------------------------------------------------------- */
 
-/* v times an albedo, by its square root in 1/255. */
+/* v times an albedo, given as a square root in 1/255. */
 static uint32_t reflected(uint32_t v, uint32_t root)
 {
     const uint32_t albedo = root * root;

@@ -129,8 +129,8 @@ static int shows_back(const drawing *d, const kept_corner *a, const kept_corner 
     return (volume < 0.0f) != d->is_mirrored;
 }
 
-/* A corner that is not in the cache: goes into its slot, or into `spare` if another corner of the same triangle has the
- * slot. NULL: no such vertex. */
+/* A corner that is not in the cache: goes into the cache, or into `spare` if another corner of the same triangle has
+ * the slot. NULL: no such vertex. */
 static kept_corner *new_corner(const drawing *d, uint32_t vertex, const kept_corner *other, const kept_corner *another,
                                kept_corner *spare)
 {

@@ -178,13 +178,13 @@ static edge edge_of(const gouraud_corner *from, const gouraud_corner *to)
     return e;
 }
 
-/* In 2^-14 px, for a row with its centre between the edge's ends. */
+/* In 2^-14 px, for a row with the centre between the edge's ends. */
 static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
 
 /* Shift across of an edge that moves outwards by a sixteenth of a pixel, down or across. */
 static int32_t edge_growth(const edge *e) { return ((e->slope < 0 ? -e->slope : e->slope) >> 4) + 1024; }
 
-/* The first pixel with its centre not left of x. */
+/* The first pixel with a centre not left of x. */
 static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
 
 /* A linear value on the triangle, in 0 .. max. Integers if it is gentle. */
@@ -254,8 +254,8 @@ static inline ramp ramp_of(const plane *p, const gouraud_corner *c, int32_t x, i
     return r;
 }
 
-/* Colours: 5, 6 and 5 bits, with 11 fraction bits. Red lies above blue in one word, because no sum of blue leaves its
- * 16 bits. */
+/* Colours: 5, 6 and 5 bits, with 11 fraction bits. Red lies above blue in one word, because sums of blue stay within 16
+ * bits. */
 enum { FRACTION = 11 };
 
 static uint32_t red_and_blue(int32_t red, int32_t blue) { return ((uint32_t)red << 16) + (uint32_t)blue; }

@@ -353,7 +353,7 @@ typedef struct lmb_world_job {
     int32_t format, blend, shape;
     int32_t has_floor;          /* at ground.y */
     int32_t means;              /* 1: average rays over texels; 0: interpolate each ray */
-    int32_t side, cube_at;      /* the level of the cube, and its first texel */
+    int32_t side, cube_at;      /* level and first texel of the cube */
     lmb_vec3 centre, middle;    /* of the cube; of the sphere */
     float radius2, reach;       /* of the sphere, squared; limit of places inside, from the sphere's centre */
     lmb_vec3 low, high;         /* the box */
@@ -491,9 +491,9 @@ struct lmb_kernels {
     /* `crossed` and `meets` for a light at infinity. */
     uint64_t (*sun_crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_sun_job *job);
     uint32_t (*sun_meets)(const lmb_sun_sweep *sweep, const lmb_boxes *boxes);
-    /* For `count` <= 8 nodes of one kind from `first`: error is an upper bound of the error of one light that stands
-     * for the node (< 0: no pixel is lit; or LMB_MANY_LIGHTS_NEAR). light is the estimate. inside is the estimate
-     * without cone fall-off. All are unshadowed, W/m2. Writes up to 16 values each. */
+    /* For `count` <= 8 nodes of one kind from `first`: error is an upper bound of the error of one light in place of
+     * the node (< 0: no pixel is lit; or LMB_MANY_LIGHTS_NEAR). light is the estimate. inside is the estimate without
+     * cone fall-off. All are unshadowed, W/m2. Writes up to 16 values each. */
     void (*many_lights_bounds)(float error[16], float light[16], float inside[16], const lmb_many_lights *many_lights,
                                uint32_t first, uint32_t count, const lmb_many_lights_job *job);
     /* Adds what lobes reflect of emitters that some pixels see. */

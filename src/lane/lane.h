@@ -50,7 +50,7 @@ static inline lanei lanei_affine(int32_t at, int32_t per_x, int32_t per_y, int k
     return lanei_add(r, lanei_splat(at + per_y * (k / LMB_TILE)));
 }
 
-/* Four bytes each, at 4 * `at`: the first byte in the low bits, on every target. A backend may define its own. */
+/* Four bytes each, at 4 * `at`: the first byte in the low bits, on every target. Backends may override this. */
 #ifndef LANE_GATHERS_RGBA
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 {
@@ -64,12 +64,12 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 }
 #endif
 
-/* Clamps to at least `low`, then to at most `high`. A backend may define its own. */
+/* Clamps to at least `low`, then to at most `high`. Backends may override this. */
 #ifndef LANE_HAS_HOLD
 static inline lane lane_hold(lane a, lane low, lane high) { return lane_min(lane_max(a, low), high); }
 #endif
 
-/* The smallest value of a vector. A backend may define its own. */
+/* The smallest value of a vector. Backends may override this. */
 #ifndef LANE_HAS_LOWEST
 static inline float lane_lowest(lane a)
 {
@@ -83,8 +83,8 @@ static inline float lane_lowest(lane a)
 }
 #endif
 
-/* The sum of sixteen values in one order on every backend: first pairs eight apart, then four, two, one. A backend may
- * define its own. */
+/* The sum of sixteen values in one order on every backend: first pairs eight apart, then four, two, one. Backends may
+ * override this. */
 #ifndef LANE_HAS_SUM16
 static inline float lane_sum16(const float v[16])
 {
@@ -101,7 +101,7 @@ static inline float lane_sum16(const float v[16])
 #endif
 
 /* Prefix sums of sixteen values, plus `base`. Each value adds the one before it, then the results 2, 4 and 8 before it.
- * A backend may define its own. */
+ * Backends may override this. */
 #ifndef LANE_HAS_SCAN16
 static inline void lane_scan16(float out[16], const float v[16], float base)
 {
@@ -128,7 +128,7 @@ static inline void lane_scan16(float out[16], const float v[16], float base)
 }
 #endif
 
-/* A word each. A backend may define its own. */
+/* A word each. Backends may override this. */
 #ifndef LANE_GATHERS_I32
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at)
 {
@@ -141,7 +141,7 @@ static inline lanei lanei_gather_i32(const int32_t *p, lanei at)
 }
 #endif
 
-/* Four floats each, at 4 * `at`. A backend may define its own. */
+/* Four floats each, at 4 * `at`. Backends may override this. */
 #ifndef LANE_GATHERS_RGBA_F32
 static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
 {
@@ -153,7 +153,7 @@ static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
 #endif
 
 /* Adds four links to sums. The low half of a link is the row number, the high half the weight. A directed link has
- * three weights in two words: x above the row number, y below z. A backend may define its own. */
+ * three weights in two words: x above the row number, y below z. Backends may override this. */
 #ifndef LANE_ADDS_LINKS
 static inline lane_sums sums_add_links(lane_sums s, uint16_t (*row)[4], const uint32_t *link)
 {

@@ -143,7 +143,7 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     vst1q_u32(p, vbslq_u32(m, vdupq_n_u32(id), vld1q_u32(p)));
 }
 
-/* Products are signed, so rows are stored 32768 lower. The fourth value, which is 0, is shifted too; its sum gives the
+/* Products are signed, so rows are stored 32768 lower. The fourth value, which is 0, is shifted too and so sums to the
  * correction for the others. */
 typedef struct lane_pair {
     int16x4_t first, second;

@@ -205,7 +205,7 @@ static inline lane lane_load_u16(const uint16_t *p, int32_t step)
     return r;
 }
 static inline void lane_store_u16(uint16_t *p, int32_t step, lane a) { (void)step; EACH(p[i] = (uint16_t)a.v[i]); }
-/* Writes `id` if the mask is set. Other memory keeps its value but may be rewritten. */
+/* Writes `id` if the mask is set. Other memory keeps the old value but may be rewritten. */
 static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
 {
     (void)step;

@@ -142,7 +142,7 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     wasm_v128_store(p, wasm_v128_bitselect(wasm_i32x4_splat((int32_t)id), wasm_v128_load(p), m));
 }
 
-/* Products are signed, so rows are stored 32768 lower. The fourth value, which is 0, is shifted too; its sum gives the
+/* Products are signed, so rows are stored 32768 lower. The fourth value, which is 0, is shifted too and so sums to the
  * correction for the others. */
 typedef v128_t lane_pair;
 typedef v128_t lane_sums;

@@ -1,6 +1,6 @@
 /* sums_sse2.h: sums of 16-bit values times weights by SSE2. lane_scalar.h defines each verb. Layer 2.
  *
- * Products are signed, so rows are stored 32768 lower. The fourth value, which is 0, is shifted too; its sum gives the
+ * Products are signed, so rows are stored 32768 lower. The fourth value, which is 0, is shifted too and so sums to the
  * correction for the others. */
 #ifndef LMB_SUMS_SSE2_H
 #define LMB_SUMS_SSE2_H

@@ -1,4 +1,4 @@
-/* light_tile.h: adds one of the scene's lights to a tile, with its lobes. Layer 5. */
+/* light_tile.h: adds one of the scene's lights to a tile, with lobes. Layer 5. */
 #ifndef LMB_LIGHT_LIGHT_TILE_H
 #define LMB_LIGHT_LIGHT_TILE_H
 

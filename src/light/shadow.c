@@ -88,8 +88,8 @@ static float noise_of(const lmb_shadow_query *query, const lmb_receiver *r)
  * the place. */
 enum { BESIDE = 0, OVER = 1, SHADOWS = 2, THROUGH = 4 };
 
-/* Does a triangle lie over a place in the map, and is the place behind its plane? n: normal of the triangle, of any
- * length. noise: m, of the place. */
+/* Tests whether a triangle lies over a place in the map, with the place behind the triangle's plane. n: normal of the
+ * triangle, of any length. noise: m, of the place. */
 static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triangle *t, lmb_vec3 p, const place *at,
                     float noise)
 {
@@ -118,10 +118,9 @@ static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triang
     return lmb_triangle_opaque(t, query->scene, e1 / sum, e2 / sum) ? SHADOWS : BESIDE;
 }
 
-/* A receiver on the line where its triangle meets another one, as on a floor at the foot of a wall. Rounding alone
- * would decide which side of the wall it is on, and a wall lit from behind would have bright specks along its foot. The
- * eye sees the receiver, so a place a little nearer to the eye, by at most 64 times the noise, is on the receiver's
- * side and is tested too. */
+/* For a receiver on the line of two triangles, as on a floor at the foot of a wall, only rounding would decide which
+ * side of the wall it is on. A wall lit from behind would have bright specks along the foot. The eye sees the receiver,
+ * so a place a little nearer to the eye, by at most 64 times the noise, is on the receiver's side and is tested too. */
 static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_receiver *r, const place *at, float noise)
 {
     lmb_triangle t;

@@ -2,7 +2,7 @@
  *
  * A texel's centre selects one surface, but near an edge the texel shows two. Along the line through two texel centres,
  * a plane's 1 / w (positional lights) or w (suns) is linear, so two planes meet at a difference of 0. If that is
- * between the centres, the edge is there. One texel loses what the other gains, so light through the map is conserved.
+ * between the centres, the edge is there. What one texel loses the other gains, so light through the map is conserved.
  * Distant receivers use a rectangle with these sides. For near ones, the shape is the part of the texel's own cell and
  * of neighbouring cells that shows its plane, each cut along the lines where planes meet, in any direction. */
 #include "tree.h"
@@ -16,7 +16,7 @@
 
 #define STEEP 0.25f /* share of 1 / w at the centre: if a corner has less, the plane runs away from the light */
 
-/* A point of the map, in its plane at distance 1 (m for suns). */
+/* A point of the map, in the plane at distance 1 (m for suns). */
 typedef struct place {
     float x, y;
 } place;
@@ -114,7 +114,7 @@ void lmb_crease_find(const lmb_tree *tree, uint32_t face)
 
 /* --- shapes ------------------------------------------------------------------------------------------------------- */
 
-/* The planes in one texel's cell: its own, then those of neighbours that meet it, each once. */
+/* The planes in one texel's cell: the texel's own, then each neighbour's that meets it, once. */
 typedef struct cell {
     const lmb_texel *plane[CREASE_PARTS];
     int planes;

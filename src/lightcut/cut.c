@@ -26,8 +26,8 @@
 #define WIDER              1.001f /* enlarges a box against rounding */
 #define STAND_OFF          4.0f  /* times the noise: offset of a texel's point towards the light */
 #define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
-#define SPENT              8.0 /* factor on the allowed light and error in a tile that has used up its tests */
-#define CLOSER             0.7 /* a split of the pixels must reduce the error to this share to be worth its cuts */
+#define SPENT              8.0 /* factor on the allowed light and error in a tile that has used up the tests */
+#define CLOSER             0.7 /* a split of the pixels must reduce the error to this share to be worth the cuts */
 enum { SIDE = 4 /* for a lobe, a near leaf is SIDE x SIDE parts */ };
 enum { NONE = -1, GONE = 0xffff /* level of a slot without a node */ };
 enum { AHEAD = LMB_BOUNDS_NODES / 4 /* nodes with children bounded together */ };
@@ -109,7 +109,7 @@ static lmb_vec3 bounds_vector(const lmb_node_bounds *w, int plane, int k)
 
 /* A node's value includes the response of the glossy lobe, relative to a white Lambertian surface: pi D V F, averaged
  * over the extents of node and pixel cluster. The error of that part is the difference between the lobe's central value
- * and its mean over the node. This is an estimate; only the bound of the irradiance is conservative. */
+ * and mean over the node. This is an estimate; only the bound of the irradiance is conservative. */
 static void bound_lobe(cutter *c, int k)
 {
     lmb_node_bounds *w = bounds_of(c->cut);
@@ -192,7 +192,7 @@ static double counted_error(const cutter *c, int32_t i)
     return c->cut_params->conservative ? e : e * e;
 }
 
-/* 1 if the tile has used up its visibility tests. Tested nodes are then no longer split, nodes may carry more light and
+/* 1 if the tile has used up the visibility tests. Tested nodes are then no longer split, nodes may carry more light and
  * error, and pixels that share a cut stay together. Anything else needs more tests, and light that triangles chop up
  * would need many nodes even without tests. A conservative bound holds in every tile. */
 static int is_spent(const cutter *c) { return !c->cut_params->conservative && c->cut->use.traversal.left < 0; }
@@ -294,8 +294,8 @@ static const lmb_texel *own_point(const lmb_tree *tree, lmb_node_ref at)
                         : tree_texel(tree, at.face, at.x, at.y);
 }
 
-/* Returns the child that sends most light to the pixel cluster, as a disc. If no child sends any, returns the level of
- * the node itself. */
+/* Returns the child that, taken as a disc, sends most light to the pixel cluster. If no child sends any, returns the
+ * node itself. */
 static lmb_node_ref brightest_part(const cutter *c, lmb_node_ref from)
 {
     lmb_node_ref best = from;
@@ -335,7 +335,7 @@ static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
     return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
 }
 
-/* A texel's point, moved towards its light out of planes that it lies in because of rounding: it belongs on the light's
+/* A texel's point, moved towards the light out of planes that it lies in because of rounding: it belongs on the light's
  * side of them. An element's point lies inside its own triangle and is not moved. */
 static lmb_vec3 before_walls(const cutter *c, uint32_t face, lmb_vec3 at, float noise)
 {
@@ -416,7 +416,7 @@ static int parts_of(cutter *c, int32_t i)
     return 4 * k;
 }
 
-/* Replaces the node in slot i by its four children: the first in this slot, the others at the end. */
+/* Replaces the node in slot i by the four children: the first in this slot, the others at the end. */
 static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 {
     const lmb_node_ref from = c->cut->ref[i];
@@ -629,7 +629,7 @@ static void add_flux(lmb_irradiance *inout, int k, float factor, const float flu
     }
 }
 
-/* Adds a texel in which planes meet, clipped to the part that shows its plane. */
+/* Adds a texel in which planes meet, clipped to the part that shows the texel's plane. */
 static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, uint64_t pixels)
 {
     const lmb_texel *t = tree_texel(c->tree, at.face, at.x, at.y);
@@ -666,7 +666,7 @@ static lmb_vec3 leaf_part(const leaf *l, int i)
     return add3(corner[0], add3(mul3(sub3(corner[1], corner[0]), down), mul3(sub3(corner[2], corner[1]), across)));
 }
 
-/* Adds the lobe's response to a near leaf, as the sum over discs for its parts: a single disc would show as a bright
+/* Adds the lobe's response to a near leaf, as the sum over discs for the parts: a single disc would show as a bright
  * spot at the leaf's centre. Closer to the leaf's plane than the width of a part, the reflection is too dark. */
 static void add_glossy(const cutter *c, int k, const leaf *l)
 {
@@ -710,7 +710,7 @@ static uint64_t before_point(const cutter *c, uint64_t pixels, const lmb_texel *
     return out;
 }
 
-/* Adds a leaf so near that its shape matters, pixel by pixel. */
+/* Adds, pixel by pixel, a leaf so near that the shape matters. */
 NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t visible)
 {
     const lmb_tile *tile = c->tile;

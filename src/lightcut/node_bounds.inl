@@ -87,15 +87,15 @@ LANE_INLINE bounds_pair bounds_begin(const lmb_node_bounds *w, int k, const lmb_
     return r;
 }
 
-/* Heuristic bound. A node gives at most U, from its largest cosines and least distance. As one disc it has a
- * second-order error: U min(1, R^2 / 2 d^2 + sin^2 a), with R the radius of its box and a the widest angle of its
- * normals. If a horizon, the pixel cluster's or its own, passes through the node, the error is first order: a quarter
- * of U if its centre lies on the horizon and counts as 0. This holds for all but a few in thousands of nodes, but is
- * not proven. (The node's radiosity is not a bound: it is a mean, and the brightest part may fill the sky. With it,
- * rooms lost a tenth of their later bounces.) Returns the nodes that do not face away by more than rounding: nodes in
- * the pixel cluster's own plane give no light, and are not split to find that out. The exact shapes of near leaves are
- * consistent: clipped to the horizon, they give at most the share of the sky below the angle noise / d, with d the
- * distance. */
+/* Heuristic bound. A node gives at most U, from the largest cosines and the least distance. As one disc it has a
+ * second-order error: U min(1, R^2 / 2 d^2 + sin^2 a), with R the radius of the node's box and a the widest angle of
+ * the normals. If a horizon, the pixel cluster's or the node's own, passes through the node, the error is first order:
+ * a quarter of U if the node's centre lies on the horizon and counts as 0. This holds for all but a few in thousands of
+ * nodes, but is not proven. (The node's radiosity is not a bound: it is a mean, and the brightest part may fill the
+ * sky. With it, rooms lost a tenth of their later bounces.) Returns the nodes that do not face away by more than
+ * rounding: nodes in the pixel cluster's own plane give no light, and are not split to find that out. The exact shapes
+ * of near leaves are consistent: clipped to the horizon, they give at most the share of the sky below the angle noise /
+ * d, with d the distance. */
 LANE_INLINE lane_mask bounds_rule(lmb_node_bounds *w, int k, const lmb_pixel_cluster *p, const bounds_pair *n)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), two = lane_splat(2.0f), bent = lane_splat(p->sine);
@@ -133,7 +133,7 @@ LANE_INLINE lane_mask bounds_rule(lmb_node_bounds *w, int k, const lmb_pixel_clu
 }
 
 /* Bounds for every pixel and every texel in the node: value is the minimum light of any pixel, error the largest
- * difference between the node's disc and the sum of its texels. With least and largest cosines and distances and s = A
+ * difference between the node's disc and the sum of the texels. With least and largest cosines and distances and s = A
  * / (pi d^2), the disc formula (gather.inl) lies between M / (pi D^2) (c (1 - 2 s) - s) and M / (pi d^2) (c (1 + s) +
  * cosG^2 s), since -(c + cosG^2) <= t <= 2 c + 1. So do exact shapes of near leaves. */
 LANE_INLINE lane_mask bounds_conservative(lmb_node_bounds *w, int k, const lmb_pixel_cluster *p, const bounds_pair *n)

@@ -48,8 +48,8 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
 
 /* --- texels ------------------------------------------------------------------------------------------------------- */
 
-/* 1 if a point moved along its plane by no more than a footprint may stretch. Near the plane's horizon it moves away
- * from the light or behind it; in a plane that a sun sees edge-on it moves along the rays. 0 for NaN. */
+/* 1 if a point moved along a plane by no more than a footprint may stretch. Near the plane's horizon it moves away from
+ * the light or behind it; in a plane that a sun sees edge-on it moves along the rays. 0 for NaN. */
 static int is_near_by(const lmb_view *v, lmb_vec3 from, lmb_vec3 to, int32_t size)
 {
     const int is_cone = v->kind == LMB_PERSPECTIVE;
@@ -64,9 +64,9 @@ static lmb_vec3 at_middle(const lmb_tile *t, int k, const lmb_view *v, float sx,
     return footprint_over(v, tile_vec(t->position, k), tile_vec(t->face, k), sx, sy);
 }
 
-/* 1 if the surface of pixel k ends at that of another pixel before a point in its plane. That is so if the way to the
- * point crosses the other plane: in a corner the point is behind a wall, and on a ridge it is in the air. Crossings
- * below rounding do not count, because they block nothing. */
+/* 1 if the surface of pixel k ends at that of another pixel before a point in that surface's plane. That is so if the
+ * way to the point crosses the other plane: in a corner the point is behind a wall, and on a ridge it is in the air.
+ * Crossings below rounding do not count, because they block nothing. */
 static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, lmb_vec3 place)
 {
     const lmb_vec3 normal = tile_vec(t->face, other), on = tile_vec(t->position, other);
@@ -133,8 +133,8 @@ static int pixel_in_turn(const lmb_tile *t, int own, int k, int32_t each, const 
     return apart != 0 ? lowest_bit_64(apart) : own;
 }
 
-/* The pixel for a texel, and whether its plane extends to the texel's centre. k: the last of the four around the
- * centre. */
+/* The pixel for a texel, and whether that pixel's plane extends to the texel's centre. k: the last of the four around
+ * the centre. */
 static int choose_pixel(int *goes, const lmb_tile *t, uint64_t at_end, int k, const lmb_shadow_map *coarse,
                         int32_t face, int32_t x, int32_t y, float sx, float sy)
 {
@@ -366,7 +366,7 @@ static lmb_vec3 way_of(const lmb_node child[4], const lmb_node *first)
     return longer3(way[0], way[1]);
 }
 
-/* Extent of a part along a direction from its centre. */
+/* Extent of a part along a direction from the centre. */
 static float reach_of(const lmb_node *n, lmb_vec3 along)
 {
     const float box = absf(dot3(n->normal, along)) * n->half[0] + absf(dot3(n->across, along)) * n->half[1] +

@@ -84,7 +84,7 @@ float lmb_crease_share(const lmb_tree *tree, lmb_node_ref at);
 int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part);
 
 /* A texel as a node, and the half sides of its quad around the node's centre. If planes meet in the texel, the flux is
- * that of its exact shape, which is not a quad: returns 1. */
+ * that of the exact shape, which is not a quad: returns 1. */
 int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
                         int32_t y);
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y);

@@ -21,7 +21,7 @@
 #define FAR     3.0   /* times the mean distance from the centre: limit of members */
 #define TOUCHES 4.0f  /* times the box's size: limit for geometry that touches it and joins it */
 #define SPARE   0.015625f /* share of the area that `wide` may leave out */
-#define FINER   0.0125f   /* of a face's width: a place with fewer than 13 of 1,024 texels gets its own face */
+#define FINER   0.0125f   /* of a face's width: a place with fewer than 13 of 1,024 texels gets a separate face */
 enum { ROUNDS = 8, LIMITS = 5, DEEPER = 3, SAMPLES = 8192, RATIO = 16, FEW = 2 };
 
 typedef struct box {

@@ -18,7 +18,7 @@
 #include "texel.inl"
 
 #define COS_50 0.64278761f   /* half angle up to which a spot has a single perspective face */
-#define COS_CORNER 0.57735027f /* of the angle between a cube face's axis and its corner */
+#define COS_CORNER 0.57735027f /* of the angle between axis and corner of a cube face */
 #define SIN_CORNER 0.81649658f
 
 int32_t lmb_shadow_map_faces(const lmb_light *light, const lmb_scene *scene)

@@ -2,7 +2,7 @@
 #ifndef LMB_MAP_TEXEL_INL
 #define LMB_MAP_TEXEL_INL
 
-/* Solid angle of a texel of side p at distance 1, its centre l away: p^2 / l^3 times the second-order term of the
+/* Solid angle of a texel of side p at distance 1, with the centre l away: p^2 / l^3 times the second-order term of the
  * integral of 1 / |x|^3 over the square. Differences of corner formulas cancel in binary32; this does not. */
 LANE_INLINE lane texel_solid_angle(float p, lane x, float y)
 {

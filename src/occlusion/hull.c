@@ -1,16 +1,16 @@
 /* hull.c: convex rooms, in which every point sees every other. Layer 4.
  *
- * A triangle blocks a segment only if both ends are farther than some noise from its plane, on different sides
- * (occluded.c). So none blocks if both ends are in front of every plane, or slightly behind. Let R be the largest
+ * A triangle blocks a segment only if both ends are farther than some noise from the triangle's plane, on different
+ * sides (occluded.c). So none blocks if both ends are in front of every plane, or slightly behind. Let R be the largest
  * distance along an axis from the centre of the room's box, and L the largest coordinate. The noise is at least N =
- * 2^-18 R + 2^-21 L: build.c ensures this for convex rooms only, in which nothing that blocks could be missed. A plane
- * stands for triangles with the same normal, bit by bit or negated, and corners within N / 4 of the plane. Points are
- * tested against planes in binary64 and may be N / 4 behind; 2^-23 L of that allows for the rounding of coordinates. So
- * an accepted point is at most N / 2 behind the plane of a triangle. The blocking test is in binary32: two dot products
- * of a unit normal with differences of points, which are within R (1 + 2^-10) of the centre along each axis. A
- * difference is wrong by 2^-24 of itself, and a product and its sums by 3 x 2^-24 more, for terms that sum up to at
- * most 2 sqrt(3) R (1 + 2^-10). Both together are below 1.74 x 2^-20 R, which is less than the rest of N, at least
- * 2^-19 R: no triangle blocks. A room far from the origin has the same R; only L grows. */
+ * 2^-18 R + 2^-21 L: build.c ensures this for convex rooms only, in which no occluder could be missed. A plane stands
+ * for triangles with the same normal, bit by bit or negated, and corners within N / 4 of the plane. Points are tested
+ * against planes in binary64 and may be N / 4 behind; 2^-23 L of that allows for the rounding of coordinates. So an
+ * accepted point is at most N / 2 behind the plane of a triangle. The blocking test is in binary32: two dot products of
+ * a unit normal with differences of points, which are within R (1 + 2^-10) of the centre along each axis. A difference
+ * is wrong by 2^-24 of itself, and a product and its sums by 3 x 2^-24 more, for terms that sum up to at most 2 sqrt(3)
+ * R (1 + 2^-10). Both together are below 1.74 x 2^-20 R, which is less than the rest of N, at least 2^-19 R: no
+ * triangle blocks. A room far from the origin has the same R; only L grows. */
 #include <lambent/occlusion.h>
 
 #include "../base/vec.h"
@@ -20,7 +20,7 @@
 
 #if LMB_TREES
 
-#define ROOM 1.0009765625f /* 1 + 2^-10: how far rounding may move a point out of its box */
+#define ROOM 1.0009765625f /* 1 + 2^-10: how far rounding may move a point out of the box */
 #define FAR  0.125f        /* weight of a coordinate relative to a distance in the room */
 
 static double above(lmb_vec3 normal, lmb_vec3 at, lmb_vec3 p)

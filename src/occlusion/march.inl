@@ -7,7 +7,7 @@
 #define JUMP 0.02f
 #define SLOPE 2.0f
 /* Square of the assumed depth of an object behind its front, in lengths of the segment that it hides: a segment through
- * the centre of a ball is half its hidden length behind the front. Trim at 0 / 1/2 / 1 length: corner_contact 0.190
+ * the centre of a ball is half the hidden length behind the front. Trim at 0 / 1/2 / 1 length: corner_contact 0.190
  * 0.073 0.088, bunny_room 0.081 0.076 0.112, cornell 0.051 0.036 0.030, grazing_sun 0.059 0.065 0.083. */
 #define DEPTH_2 0.25f
 
@@ -156,10 +156,10 @@ static inline void march_towards(march_run *out, const lmb_march_job *m, const s
     *out = r;
 }
 
-/* Stored d at share t of the segments. Returns its height above the segments: if positive, the viewer's surface hides
+/* Stored d at share t of the segments. Returns the height above the segments: if positive, the viewer's surface hides
  * the point.
  *
- * Both heights are relative to the pixel's surface plane, the stored one at the centre of its texel. So a flat receiver
+ * Both heights are relative to the pixel's surface plane, the stored one at the centre of the texel. So a flat receiver
  * never shadows itself at any viewing angle, and no bias needs tuning. */
 NOINLINE lane march_height(lane *stored, const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
 {
@@ -237,9 +237,9 @@ static inline lane3 march_point(const lmb_march_job *m, const seen_from *s, cons
     return p;
 }
 
-/* A segment is hidden from share `in` to `out`, by at least `gap` at the smallest depth behind the front. Returns
- * whether it passes through the object rather than behind it. The far side is unknown. Objects are assumed about as
- * deep as wide: blocked if the segment comes closer to the front than half the hidden length. */
+/* A segment is hidden from share `in` to `out`. `gap`: smallest depth of the segment behind the front, m. Returns
+ * whether the segment passes through the object rather than behind it. The far side is unknown. Objects are assumed
+ * about as deep as wide: blocked if the segment comes closer to the front than half the hidden length. */
 LANE_NOINLINE lane_mask march_through(const lmb_march_job *m, const seen_from *s, const march_run *r, lane in, lane out,
                                       lane gap)
 {

@@ -21,8 +21,7 @@
 #endif
 #define ALONE      15u   /* number of following points traced pixel by pixel after an abandoned pyramid */
 #define MUCH       16     /* a triangle that blocks this many pixels is tested first for the next segments */
-#define MISSES     2      /* after this many triangles that block only one pixel, blockers are not retried for the
-                             others */
+#define MISSES     2      /* after this many triangles that block only one pixel, none is retried for the others */
 #define THIN       1e-20f /* m: minimum width of a pyramid */
 
 static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
@@ -157,7 +156,7 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     }
 }
 
-/* Tests the last blockers. Returns 1 if they block all pixels. */
+/* Tests the last occluders. Returns 1 if they block all pixels. */
 static int test_last(traversal *w)
 {
     for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0; ++i) {

@@ -13,11 +13,10 @@
 #define FEW   7              /* up to this many pixels are traced one by one, as in occluded.c */
 #define WIDE  8u             /* boxes per pixel after which a sweep is abandoned: single pixels meet fewer */
 #define ALONE 15u            /* number of following directions traced pixel by pixel after an abandoned sweep */
-#define MISSES 2             /* after this many triangles that block only one pixel, blockers are not retried for the
-                                others */
+#define MISSES 2             /* after this many triangles that block only one pixel, none is retried for the others */
 #define ALONG 9.5367432e-7f  /* 2^-20: below this cosine rays are parallel to a triangle, which then blocks none */
 #define THIN  1e-20f
-#define TRIANGLE_NOISE 0x1p-21f /* of the distance to its corners */
+#define TRIANGLE_NOISE 0x1p-21f /* of the distance to the corners */
 
 typedef struct sun_traversal {
     const lmb_bvh *b;
@@ -234,7 +233,7 @@ static uint64_t without_blocked(sun_traversal *w, uint64_t bits)
     return w->left;
 }
 
-/* Rays that fill a wide sweep, such as those of scattered pixels, meet most of its boxes one by one. */
+/* Rays that fill a wide sweep, such as those of scattered pixels, meet most of the sweep's boxes one by one. */
 static void sun_trace(sun_traversal *w)
 {
     const uint64_t pixels = w->left;

@@ -53,7 +53,7 @@ static inline uint64_t traversal_begin(lmb_traversal *t, uint64_t pixels)
     return asked;
 }
 
-/* 1 if this call has used up its tests. */
+/* 1 if this call has used up the tests. */
 static inline int traversal_is_over(const lmb_traversal *t) { return (int32_t)(t->spent - t->end) >= 0; }
 
 /* Ends a call; before: `spent` at the start. Returns the occluded ones of all pixels. */
@@ -67,7 +67,7 @@ static inline uint64_t traversal_end(lmb_traversal *t, uint32_t before, uint64_t
     return asked == pixels ? occluded : occluded != 0 ? pixels : 0;
 }
 
-/* Starts a tile: with a new budget of tests, and without blockers of another tile, which would change the number of
+/* Starts a tile: with a new budget of tests, and without occluders of another tile, which would change the number of
  * tests. */
 static inline void traversal_bound(lmb_traversal *t)
 {
@@ -108,7 +108,7 @@ static inline int eye_is_across(const lmb_traversal *t, lmb_vec3 normal, lmb_vec
     return ahead > 0.0f ? eye < 0.0f : eye > 0.0f;
 }
 
-/* Distance (m) by which a triangle may be widened: half of the margin of its boxes, so that none is missed. */
+/* Distance (m) by which a triangle may be widened: half of the margin of boxes, so that none is missed. */
 static inline float triangle_margin(const lmb_bvh_triangle *t)
 {
     const lmb_vec3 low = min3(min3(t->corner[0], t->corner[1]), t->corner[2]),
