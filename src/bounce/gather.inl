@@ -92,7 +92,7 @@ static inline lane_mask gather_hits(const lmb_tile *tile, int k)
  * Neighbouring pixels of one surface nearly always see the same. The four corners of such a tile are tested first, and
  * each pixel only if the corners differ. Occluders that fit between the corners are lost. */
 
-/* From pixels with `plane` floats between the planes of position and of face. */
+/* Aims from pixels with `plane` floats between the planes of position and of face. */
 LANE_NOINLINE void gather_aim(seen_from *from, march_run *run, const lmb_march_job *m, const float *position,
                               const float *face, size_t plane, const lmb_vec3 *at, const lmb_vec3 *axis)
 {

@@ -2,7 +2,7 @@
  *
  * A primitive becomes corners, which are clipped, and then shapes: triangles, lines, points. A shape visits the frame's
  * tiles of 8x8 pixels and finds the pixels that it covers in each. lmb_draw_tile does the rest for these pixels: tests,
- * colours, the target. Specialised code would replace it for the states it supports. */
+ * colours, the target. A specialised kernel would replace lmb_draw_tile for the states that it supports. */
 #ifndef LMB_DRAW_PART_H
 #define LMB_DRAW_PART_H
 

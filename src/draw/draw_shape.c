@@ -315,7 +315,8 @@ static shape_slope shape_slope_of(const shape_way *w)
     return s;
 }
 
-/* Where the line crosses the centre line of a pixel: whole pixels across, and the rest in 1 / (256 length) of one. */
+/* Intersection of the line with the centre line of a pixel: whole pixels across, and the rest in 1 / (256 length) of
+ * one. */
 typedef struct shape_cross {
     int64_t across, rest;
 } shape_cross;

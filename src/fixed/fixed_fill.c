@@ -25,7 +25,7 @@ static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
     return e;
 }
 
-/* In 2^-14 px, for a row with the centre between the edge's ends. */
+/* x in 2^-14 px, for a row with the centre between the edge's ends. */
 static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
 
 /* The first pixel with a centre not left of x. */
@@ -318,7 +318,7 @@ static ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
     return r;
 }
 
-/* In 1/256 of a code. */
+/* The step in 1/256 of a code. */
 static int32_t colour_step(uint32_t to_x) { return (int32_t)(to_x + 128u) >> 8; }
 
 static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t count)

@@ -199,7 +199,7 @@ static void set_sent(uint16_t out[4], const uint32_t light[3], const fixed_recei
     out[3] = 0;
 }
 
-/* Total light that elements send. Returns the right shift. */
+/* Computes the total light that each element sends. Returns the right shift. */
 static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_now *l)
 {
     const lmb_fixed *s = f->scene;

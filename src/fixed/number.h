@@ -7,15 +7,15 @@
 #include "../base/exact.h"
 #include "../base/whole.h"
 
-/* For loops that need all registers of a small register file. */
+/* For loops that need all registers, on processors with few. */
 #if defined(__GNUC__) && (defined(__arm__) || defined(__i386__))
 #define LOOP_APART static __attribute__((noinline))
 #else
 #define LOOP_APART static
 #endif
 
-/* Keeps two loop-carried sums separate. Otherwise compilers compute later iterations' sums from the first one's, in so
- * many registers that short loops take longer. */
+/* Keeps two loop-carried sums sequential. Otherwise compilers compute later iterations' sums from the first one's, in
+ * so many registers that short loops take longer. */
 #if defined(__GNUC__)
 #define ONE_BY_ONE(a, b) __asm__ volatile("" : "+r"(a), "+r"(b) : : "memory")
 #else

@@ -178,7 +178,7 @@ static edge edge_of(const gouraud_corner *from, const gouraud_corner *to)
     return e;
 }
 
-/* In 2^-14 px, for a row with the centre between the edge's ends. */
+/* x in 2^-14 px, for a row with the centre between the edge's ends. */
 static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
 
 /* Shift across of an edge that moves outwards by a sixteenth of a pixel, down or across. */

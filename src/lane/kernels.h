@@ -156,7 +156,7 @@ enum { LMB_SMALL_24_8 = 64 * 256 /* box sides below this let edges fit 32 bits *
 typedef struct lmb_batch_corner {
     int32_t x, y; /* 24.8 */
     float d;
-    uint32_t vertex, is_out; /* vertex + 1, or 0: none; bits of why setup cannot use it */
+    uint32_t vertex, is_out; /* vertex + 1, or 0: none; nonzero: unusable as it is, with a bit per reason */
 } lmb_batch_corner;
 enum { LMB_BATCH_CORNERS = 32 };
 #endif
@@ -192,8 +192,8 @@ typedef struct lmb_bin_block {
     uint32_t id[LMB_BATCH];
 } lmb_bin_block;
 
-/* A batch on the way into bins. `block` holds the `small` triangles, without ids. For triangles in `whole`, which are
- * not small and which no plane cuts, block.x, y and d and b and c hold the corners. */
+/* A batch on the way into bins. `block` holds the `small` triangles, without ids. For the other triangles in `whole`,
+ * which no plane cuts, x, y and d of the block, and b and c, hold the corners. */
 typedef struct lmb_bin_batch {
     lmb_bin_block block;
     int32_t b[2][LMB_BATCH], c[2][LMB_BATCH]; /* x, y, 24.8 */
@@ -304,8 +304,8 @@ typedef struct lmb_live_job {
 typedef struct lmb_live_sample {
     lmb_vec3 position, face, normal; /* as in lmb_tile */
     float light[3];                  /* irradiance, W/m2 */
-    float slope[2][3];               /* gradient of light along columns and rows, W/m2 per px; first [0] holds the
-                                        unshadowed light */
+    float slope[2][3];               /* gradient of light along columns and rows, W/m2 per px; before that, [0] holds
+                                        the unshadowed light */
     uint32_t id;                     /* the triangle */
     uint8_t seen[3], is_lit;         /* unshadowed share of each channel, 0 .. 254; 0: no light to shade */
 } lmb_live_sample;
@@ -479,10 +479,10 @@ struct lmb_kernels {
      * Writes whole vectors. */
     uint32_t (*node_bounds)(lmb_node_bounds *inout, int32_t count, const lmb_pixel_cluster *cluster,
                             int32_t conservative);
-    /* Of `pixels`, one bit each, returns those with a segment to the point that crosses the triangle. */
+    /* Returns those of `pixels`, one bit each, with a segment to the point that crosses the triangle. */
     uint64_t (*crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_cross_job *job);
     void (*segments)(lmb_segments *out, const lmb_tile *tile, lmb_vec3 at);
-    /* Of `pixels`, returns those with a segment that meets box i. */
+    /* Returns those of `pixels` with a segment that meets box i. */
     uint64_t (*through)(const lmb_segments *segments, uint64_t pixels, const lmb_boxes *boxes, int i);
     /* Returns the boxes that the pyramid may meet, one bit each. */
     uint32_t (*meets)(const lmb_pyramid *pyramid, const lmb_boxes *boxes);
@@ -523,12 +523,12 @@ struct lmb_kernels {
      * light in the first half, and from bit 8 on, in the second half. Light: whole numbers up to 2^24. */
     uint32_t (*transfer_halve)(float first[LMB_TILE_PIXELS], float light[LMB_TILE_PIXELS], const float line[3],
                                uint32_t rows);
-    /* Of the tile's pixels `left`, at least one, returns those that show the first one's triangle from the same side,
+    /* Returns those of the tile's pixels `left`, at least one, that show the first one's triangle from the same side,
      * one bit each. Sets b1 and b2 for these pixels, and may set them for others. */
     uint64_t (*transfer_side)(float weight[2][LMB_TILE_PIXELS], const lmb_tile *tile, uint64_t left,
                               const lmb_transfer_triangle *triangle);
-    /* Of such pixels, returns those on the leaf; the first always counts as on it. Adds the leaf's light, clamped to 0
-     * from below. If `glossy` is not NULL, adds what lobes reflect of it. */
+    /* Returns those of such pixels that are on the leaf; the first always counts as on it. Adds the leaf's light,
+     * clamped to 0 from below. If `glossy` is not NULL, adds what lobes reflect of it. */
     uint64_t (*transfer_leaf)(lmb_irradiance *inout, lmb_glossy *glossy, float weight[2][LMB_TILE_PIXELS],
                               const lmb_tile *tile, uint64_t left, const lmb_transfer_leaf *leaf);
 #endif
@@ -574,7 +574,7 @@ struct lmb_kernels {
      * and of those `seen` to `some`. */
     uint64_t (*live_ahead)(const lmb_live_rays *rays, int32_t targets, const lmb_live_receiver *at);
     void (*live_share)(float all[3], float some[3], const lmb_live_rays *rays, int32_t targets, uint64_t seen);
-    /* Of the segments `asked`: those that meet each box of a node, and those that cross a triangle. */
+    /* Find the segments of `asked` that meet each box of a node, and those that cross a triangle. */
     void (*live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *segments, uint64_t asked, const lmb_boxes *boxes);
     uint64_t (*live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job);
     /* Lights the pixels of a cell and no others. Returns the pixels that no corner explains. */

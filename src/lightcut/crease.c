@@ -65,7 +65,7 @@ typedef struct pair {
     place from, to;
 } pair;
 
-/* Where the two planes meet, as a share of the way from a to b; 0: not between the centres. */
+/* Line where the two planes meet, as a share of the way from a to b; 0: not between the centres. */
 static float planes_meet(const lmb_view *v, const pair *p)
 {
     const float here = before_at(v, p->a, p->b, p->from), there = before_at(v, p->a, p->b, p->to);

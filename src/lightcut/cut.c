@@ -267,7 +267,7 @@ NOINLINE uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel 
     return out;
 }
 
-/* Of `pixels`, those with all of a node behind them. */
+/* Returns those of `pixels` with all of a node behind them. */
 static uint64_t before_all_of(const cutter *c, uint64_t pixels, lmb_node_ref at)
 {
     lmb_node texel;
@@ -697,8 +697,8 @@ static void add_near_glossy(const cutter *c, const leaf *l, uint64_t pixels)
     }
 }
 
-/* Of `pixels`, those in front of the plane of a texel's own point. If light grazes a texel, the texel's shape leaves
- * that plane and may be in front of pixels that are behind the surface. */
+/* Returns those of `pixels` in front of the plane of a texel's own point. If light grazes a texel, the texel's shape
+ * leaves that plane and may be in front of pixels that are behind the surface. */
 static uint64_t before_point(const cutter *c, uint64_t pixels, const lmb_texel *t)
 {
     uint64_t out = 0;

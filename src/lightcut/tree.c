@@ -74,9 +74,9 @@ static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, l
     return here * there < 0.0f && absf(there) > lmb_place_noise(place, length3(sub3(place, v->eye)));
 }
 
-/* Of the four pixels around a texel's centre, with k the last, one with a surface that shows there; NOBODY if unknown.
- * If surfaces lie in front of each other and do not meet, any will do. at_end: pixels at the end of their surface, from
- * lmb_tile_onto_triangles. */
+/* Returns one of the four pixels around a texel's centre, with k the last, that shows its surface there; NOBODY if
+ * unknown. If surfaces lie in front of each other and do not meet, any will do. at_end: pixels at the end of their
+ * surface, from lmb_tile_onto_triangles. */
 static int pixel_of_middle(const lmb_tile *t, uint64_t at_end, int k, const lmb_view *v, float sx, float sy)
 {
     const int around[4] = {k, k - 1, k - LMB_TILE, k - LMB_TILE - 1};

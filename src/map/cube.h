@@ -26,7 +26,7 @@ static inline lmb_vec3 cube_direction(int32_t face, int32_t x, int32_t y, int32_
     return normalize3(cube_point(face, cube_coordinate(x, n), cube_coordinate(y, n)));
 }
 
-/* Where a direction meets the cube: s and t in -1 .. 1. If axes are equal, x goes before y before z. */
+/* The point of the cube in a direction: s and t in -1 .. 1. If axes are equal, x goes before y before z. */
 static inline int32_t cube_face(float *s, float *t, lmb_vec3 d)
 {
     const float x = absf(d.x), y = absf(d.y), z = absf(d.z);
@@ -60,7 +60,7 @@ static inline cube_place cube_texel_of(lmb_vec3 d, int32_t n)
     return p;
 }
 
-/* The texel that a border texel stands for: the one at the same direction. */
+/* The texel that replaces a border texel: the one in the same direction. */
 static inline cube_place cube_border(int32_t face, int32_t x, int32_t y, int32_t n)
 {
     return cube_texel_of(cube_point(face, cube_coordinate(x, n), cube_coordinate(y, n)), n);

@@ -111,7 +111,7 @@ NOINLINE int alpha_of(lmb_resolve_alpha *out, const lmb_bvh *b, uint32_t id)
     return 1;
 }
 
-/* Of the pixels with segments that cross a triangle with holes, those that hit an opaque part. */
+/* Returns those pixels with segments across a triangle with holes that hit an opaque part. */
 static uint64_t standing(const lmb_bvh *b, const lmb_bvh_triangle *t, const lmb_cross_job *job, const lmb_tile *tile,
                          uint64_t crossed)
 {

@@ -72,7 +72,7 @@ static int sun_job(lmb_sun_job *out, const sun_traversal *w, const lmb_bvh_trian
     return 1;
 }
 
-/* Of the pixels with rays that cross a triangle with holes, those that hit an opaque part. */
+/* Returns those pixels with rays across a triangle with holes that hit an opaque part. */
 static uint64_t sun_standing(const sun_traversal *w, const lmb_bvh_triangle *t, const lmb_sun_job *job,
                              uint64_t crossed)
 {

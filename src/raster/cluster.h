@@ -5,7 +5,7 @@
 #include "../lane/kernels.h"
 
 #if LMB_CULLING
-/* Where the clusters of a mesh begin. */
+/* The place of a mesh's clusters. */
 typedef struct lmb_cluster_place {
     const lmb_cluster *clusters; /* NULL: not searched yet */
     uint32_t mesh;

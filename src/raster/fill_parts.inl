@@ -120,7 +120,7 @@ LANE_INLINE void parts_draw(const lmb_fill_window *w, const lmb_batch *b, int k,
 #endif
 }
 
-/* Of `bits`, triangles of at most `tiles` tiles in each direction. */
+/* Triangles among `bits` of at most `tiles` tiles in each direction. */
 LANE_INLINE uint32_t parts_narrow(const lmb_batch *b, uint32_t bits, int32_t tiles)
 {
     uint32_t narrow = 0;
@@ -540,7 +540,7 @@ LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, 
     }
 }
 
-/* In order, because ids depend on it. */
+/* Draws in order, because ids depend on the order. */
 LANE_INLINE void parts_fill_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int bounded)
 {
     uint32_t narrow = parts_narrow(b, bits, 2);

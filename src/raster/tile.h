@@ -46,7 +46,7 @@ static inline void tile_box(lmb_vec3 *low, lmb_vec3 *high, const lmb_tile *tile,
     }
 }
 
-/* Of the pixels left, those on the plane of the first: normals within 25 degrees. */
+/* The pixels of `left` on the plane of the first one: normals within 25 degrees. */
 static inline uint64_t tile_plane(const lmb_tile *tile, uint64_t left)
 {
     const int first = lowest_bit_64(left);
@@ -63,7 +63,7 @@ static inline uint64_t tile_plane(const lmb_tile *tile, uint64_t left)
     return out;
 }
 
-/* Of some pixels, those nearer to the first than to the one farthest from it. */
+/* The pixels nearer to the first one than to the one farthest from it. */
 static inline uint64_t tile_near_half(const lmb_tile *tile, uint64_t pixels)
 {
     const lmb_vec3 first = tile_vec(tile->position, lowest_bit_64(pixels));
@@ -88,7 +88,7 @@ static inline float tile_extent(const lmb_tile *tile, uint64_t pixels)
     return pixels != 0 ? length3(sub3(high, low)) : 0.0f;
 }
 
-/* Of the pixels left, those on one surface with the first: on the same plane, with no wide gap between. A surface is
+/* The pixels of `left` on one surface with the first one: on the same plane, with no wide gap between. A surface is
  * bounded by a box: without that rule, the box of a floor before and behind a table would contain the table too. */
 static inline uint64_t tile_surface(const lmb_tile *tile, uint64_t left)
 {
