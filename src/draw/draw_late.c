@@ -1,5 +1,4 @@
-/* draw_late.c: colours, shares and 1 / w of a shape of draw_quick.c, once one of its pixels passes the tests. Layer
- * 4. */
+/* draw_late.c: colours, shares and 1 / w of a shape of draw_quick.c, once a pixel passes the tests. Layer 4. */
 #include "draw_part.h"
 
 #include <string.h>
