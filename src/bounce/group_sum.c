@@ -18,7 +18,8 @@ void lmb_group_add(lmb_group_sum *g, const lmb_point *d)
         g->centre = d->position;
         g->axis = d->normal;
     }
-    /* Black discs move nothing, so that dimming the light does not either; a black group stands at its first disc. */
+    /* Discs without flux do not move the centre, so dimming the light does not either. A group without flux keeps the
+     * position of its first disc. */
     if (g->weight > 0.0f) {
         g->centre = mul3(g->position, 1.0f / g->weight);
         g->axis = normalize3(mul3(g->normal, 1.0f / g->weight));

@@ -1,6 +1,6 @@
 /* all_kernels.inl: every kernel by one backend's verbs, and their table. Layer 12.
  *
- * The including file defines KERNEL(name), and BACKEND: the name that lmb_kernels_named knows. */
+ * The including file defines KERNEL(name), and BACKEND: the name for lmb_kernels_named. */
 #include "../lane/kernels.h"
 #include "../lane/lane.h"
 
