@@ -61,7 +61,14 @@ check "play has the live light of render" cmp implied.pfm named0.pfm
 drawn="--size 96x64 --exposure 0 --show indirect --shadow-map 256"
 status 0 play demo $drawn --frames 1 -o implied%01d.pfm
 status 0 render demo $drawn -o named.pfm
-check "play gathers as render does where no quality is named" cmp implied0.pfm named.pfm
+check "play gathers as render does in small pictures" cmp implied0.pfm named.pfm
+drawn="--size 256x256 --exposure 0 --show indirect --shadow-map 256"
+status 0 play demo $drawn --frames 1 -o implied%01d.pfm
+status 0 play demo $drawn --frames 1 --gather live -o named%01d.pfm
+check "play has live light" cmp implied0.pfm named0.pfm
+status 0 play demo $drawn --frames 1 --quality best -o implied%01d.pfm
+status 0 play demo $drawn --frames 1 --quality best --gather full -o named%01d.pfm
+check "--quality best gathers each pixel in play" cmp implied0.pfm named0.pfm
 
 # --gather live: bytes by threads, back ends and slices; errors; a view frame by frame.
 live="--size 96x64 --exposure 0 --quality draft --show indirect --gather live"

@@ -81,6 +81,7 @@ int play_options_parse(play_options *o, int argc, char **argv, report *r)
     memset(o, 0, sizeof *o);
     render_options_begin(&o->render);
     o->render.has_sky = 1;
+    o->render.is_moving = 1;
     o->move = KEY_LIGHT | KEY_CAMERA | KEY_OBJECT;
     o->frames = 60;
     o->fps = 30.0f;

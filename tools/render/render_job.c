@@ -394,8 +394,8 @@ static int32_t samples_of(const render_options *o)
 }
 
 /* If no --gather is given: a sky lights from all sides and softly, so few samples are enough: half the time, for .004 to
- * .008 of trim. In small pictures it gains no time and loses .01. Draft has light of single points: a tenth of the time; small
- * pictures of 64x48 lose up to .11 of trim by it. A budget chooses for itself. */
+ * .008 of trim. In small pictures it gains no time and loses .01. Draft, and `play` by default, have light of single points: a
+ * tenth of the time; small pictures of 64x48 lose up to .11 of trim by it. A budget chooses for itself. */
 static int32_t gather_of(const render_job *j)
 {
     const render_options *o = &j->o;
@@ -403,8 +403,9 @@ static int32_t gather_of(const render_job *j)
     const int is_small = o->view.width * o->view.height < FEW_SAMPLES;
     const int is_soft = j->gathers_sky && o->quality != LMB_QUALITY_BEST && is_cut && !is_small;
     const int is_asked = o->error > 0.0f || o->visibility > 0.0f || o->tree > 0; /* single points know none of these */
+    const int is_quick = o->quality == LMB_QUALITY_DRAFT || (o->is_moving && o->quality == LMB_QUALITY_DEFAULT);
     const int is_live = LMB_LIVE && !j->gathers_sky && is_cut && !is_asked && !has_budget(&o->budget, o->budget_ms) &&
-                        o->quality == LMB_QUALITY_DRAFT && !is_small;
+                        is_quick && !is_small;
     return o->gather_step != 0 ? o->gather_step : is_soft ? LMB_GATHER_ADAPTIVE : is_live ? LMB_GATHER_LIVE : 0;
 }
 

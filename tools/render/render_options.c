@@ -311,8 +311,8 @@ const option_row render_bounce_rows[] = {
     {.name = "--steps", .value = "N", .kind = OPTION_INT, AT(steps), .low = 1, .high = 64,
      .help = HELP("samples of a view march (default 12)")},
     {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
-     .help = HELP("at every pixel (default; half with many lights; adaptive under a sky; live if --quality draft draws "
-             "65,536 pixels or more and no --error, --visibility, --tree or budget is given), or at "
+     .help = HELP("at every pixel (default; half with many lights; adaptive under a sky; live if --quality draft, or `play` "
+             "without --quality, draws 65,536 pixels or more and no --error, --visibility, --tree or budget is given), or at "
              "every second or fourth each way and between them where surface and light go on; pixels that have no such "
              "neighbours are gathered too. adaptive: at every eighth, and closer where light asks for it, by a smaller "
              "--error closer. live: there, each by 64 segments (draft: 32): the fastest, for light that moves")},

@@ -63,6 +63,7 @@ typedef struct render_options {
     int32_t exposure_auto;
     float exposure_ev;
     int32_t tone; /* PICTURE_ */
+    int32_t is_moving;   /* many frames of one scene: set by `play` */
     const lmb_kernels *kernels;
     int32_t threads; /* 0: as many as there are processors */
     lmb_budget budget; /* zeros: none */
