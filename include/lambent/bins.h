@@ -1,7 +1,7 @@
 /* bins.h: triangles that are set up once for a frame, sorted into bins by rows of pixels, and drawn from the bins.
  *
  * Several threads set up ranges of a scene's triangles side by side; then each draws windows of its own, and no
- * triangle is fetched or set up again. One thread gains if a surface is larger than its second-level cache, because
+ * triangle is fetched or set up again. One thread gains if a surface is larger than the second-level cache, because
  * each bin's rows stay in the cache while they are cleared and drawn. One thread also gains if many back faces are
  * culled, because the remaining triangles are drawn in full vectors.
  *
@@ -12,7 +12,7 @@
 #include "raster.h"
 
 #if LMB_CULLING
-/* A range of a scene's triangles in a view. It refers to the scene: do not change the scene meanwhile. */
+/* A range of a scene's triangles in a view. It refers to the scene: do not change the scene while you use the bins. */
 typedef struct lmb_bins {
     void *memory; /* yours; of any alignment */
     size_t bytes; /* any number: triangles that do not fit are set up again by each draw */

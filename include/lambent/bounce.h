@@ -63,7 +63,7 @@ typedef struct lmb_grouping {
                                [V14] */
     int32_t neighbour_cells; /* neighbours lie within this many blocks of the map, across and down; default 1, but any
                                 number with neighbour_m [V8] */
-    float radius;           /* a disc's radius is this x its mean distance; default: its area is the sum of its points'
+    float radius;           /* a disc's radius is this x the mean distance; default: the area is the sum of its points'
                                [V12] */
     int32_t zones;          /* zones that the discs' map is first divided into; default `groups` [V20] */
 } lmb_grouping;
@@ -143,7 +143,7 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
  * Far pair, with c = cosP cosG, g = nP.nG, s = A / (pi r^2), t = c (3 cos^2 G - 1) + g cos^2 G:
  *   E = M / (pi r^2) * min(t >= 0 ? c^2 / (c + t s) : c - t s, cosG / s)
  * the disc's form factor to second order in its size; exact on the axis of a facing disc, never over M / A.
- * Near pair: each disc by the same formula, or its quad by Lambert's polygon formula clipped to the horizon.
+ * Near pair: each disc by the same formula, or the quad by Lambert's polygon formula clipped to the horizon.
  * Doubling every flux exactly doubles the added light. Returns LMB_OK or LMB_ERR_ARG.
  * Stack: 1.25 KiB in the tiny configuration, under 4 KiB elsewhere. */
 lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_gather_scratch *scratch,
@@ -151,7 +151,7 @@ lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lm
                            const lmb_occluder *occluder);
 
 /* lmb_disc_factor: the far formula for one pair, per unit flux (1/m2); 0 if either faces away.
- * lmb_quad_factor: the near formula: the exact form factor of a quad, corners centre +- u +- v, over its area. `face`
+ * lmb_quad_factor: the near formula: the exact form factor of a quad, corners centre +- u +- v, over the area. `face`
  * is the normal of the receiver's horizon, `normal` the shading normal (the same on flat surfaces); `axis` is the side
  * that emits light. 0 from behind, and 0 in the quad's plane if the receiver is parallel to the quad. A receiver closer
  * to the plane than a thousandth of the quad's size and bent by over 26 degrees, as on the edge of a room, gets the

@@ -11,7 +11,7 @@ typedef struct lmb_radiance {
     float rgb[3][LMB_TILE_PIXELS];
 } lmb_radiance;
 
-/* State of LMB_GATHER_ADAPTIVE for a tile of the frame: input of the gather at its pixels, and their light. */
+/* State of LMB_GATHER_ADAPTIVE for a tile of the frame: input of the gather at the pixels, and their light. */
 typedef struct lmb_lattice_tile {
     float position[3][LMB_TILE_PIXELS], face[3][LMB_TILE_PIXELS], normal[3][LMB_TILE_PIXELS];
     lmb_irradiance light;
@@ -69,7 +69,7 @@ lmb_status lmb_compose_emission(lmb_radiance *inout, const lmb_scene *scene, con
  * and add the lobe's radiance. Returns LMB_OK or LMB_ERR_ARG. Missing in builds without trees and probes. */
 lmb_status lmb_compose_glossy(lmb_radiance *inout, const lmb_glossy *glossy);
 
-/* lmb_store_tile: write a tile into a surface with its pixel (0, 0) at frame pixel (x0, y0).
+/* lmb_store_tile: write a tile into a surface with pixel (0, 0) at frame pixel (x0, y0).
  *
  *   out       LMB_RGB32F: radiance without change. Others: x 2^exposure_ev, clipped to 0..1, sRGB-coded; 16-bit formats
  *             with an 8x8 ordered dither (Bayer 1973) fixed to the frame, so that bands meet without a seam.

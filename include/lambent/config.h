@@ -1,4 +1,4 @@
-/* config.h: every capacity and switch of lambent, with its unit, its cost and the effect when it is full.
+/* config.h: every capacity and switch of lambent, with unit, cost and the effect when it is full.
  *
  * You may change each value inside #ifndef: define it on the compiler's command line, for both the library and the
  * application. The other values follow from these, or from LMB_CONFIG_TINY, or are part of the arithmetic.
@@ -182,7 +182,7 @@
 
 /* Limits of the arithmetic, not of memory: src/raster/setup.c shows what depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; draw larger frames in windows */
-#define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */
+#define LMB_MAX_FRAME 16384     /* px of a frame's side, over all windows */
 #define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together if bounced light is upsampled */

@@ -40,7 +40,7 @@ enum { LMB_DRAW_F32 = 0,  /* float */
        LMB_DRAW_FIXED = 2, /* int32, 16.16 fixed point */
        LMB_DRAW_F32X4 = 3 /* float x, y, z, w of positions; each of any size that clip space holds */ };
 
-/* Vertex streams, each tightly packed and aligned to its values. */
+/* Vertex streams, each tightly packed and aligned to the values. */
 typedef struct lmb_draw_vertices {
     const void *positions;            /* x, y, z; w is 1 */
     const void *uvs[LMB_DRAW_STAGES]; /* u, v of each stage; NULL: (0, 0) */
@@ -72,7 +72,7 @@ enum { LMB_DRAW_DEPTH_TEST = 1, LMB_DRAW_DEPTH_WRITE = 2 /* only with the test *
        LMB_DRAW_DISCARDS = 4096 /* the shader may leave pixels out: it runs before the tests */,
        LMB_DRAW_FLAGS = 8191 };
 
-/* Tests pass if VALUE FUNC OTHER: a pixel's d and the stored d; its alpha and alpha_value; stencil_value and the
+/* Tests pass if VALUE FUNC OTHER: a pixel's d and the stored d; alpha and alpha_value; stencil_value and the
  * stencil, both and-ed with stencil_mask. */
 enum { LMB_DRAW_NEVER = 0, LMB_DRAW_LESS = 1, LMB_DRAW_EQUAL = 2, LMB_DRAW_LEQUAL = 3, LMB_DRAW_GREATER = 4,
        LMB_DRAW_NOTEQUAL = 5, LMB_DRAW_GEQUAL = 6, LMB_DRAW_ALWAYS = 7 };
@@ -146,7 +146,7 @@ typedef struct lmb_draw_pixels_of {
     uint32_t vertex[3]; /* the primitive's vertices in the streams; of a line the third is the first; of a point all are
                            equal */
     int32_t x, y;
-    int32_t is_back;    /* 1: the triangle shows its back; also set for its edges and corners */
+    int32_t is_back;    /* 1: the triangle shows its back; also set for the edges and corners */
     uint64_t mask;      /* pixels to colour, a bit each */
 } lmb_draw_pixels_of;
 
@@ -168,7 +168,7 @@ typedef struct lmb_draw_state {
     int32_t viewport[4];              /* x, y, width, height: px of the frame; nothing is drawn outside */
     int32_t scissor[4];               /* as viewport, with LMB_DRAW_SCISSOR; width and height from 0 */
     float depth_range[2];             /* stored d for z / w = 0 and 1; each 0 .. 1 */
-    float offset_slope, offset_units; /* added to triangles' d: slope x its larger change per px + units x the smallest
+    float offset_slope, offset_units; /* added to triangles' d: slope x the larger change per px + units x the smallest
                                          step */
     lmb_draw_stage stage[LMB_DRAW_STAGES];
     const uint8_t *area_pattern;      /* of filled polygons: a bit each for 32 x 32 px of the frame, 4 bytes a row, low
@@ -235,7 +235,7 @@ typedef struct lmb_draw_lit {
 /* A picture to copy from. */
 enum { LMB_BLIT_PALETTE8 = 64 /* in addition to LMB_RGB565 .. LMB_BGRA8: a byte a pixel */ };
 typedef struct lmb_blit_image {
-    const void *data; /* first row, aligned for its pixels */
+    const void *data; /* first row, aligned for the pixels */
     const uint8_t *palette; /* 256 colours R G B A, for LMB_BLIT_PALETTE8 */
     int32_t width, height, stride_bytes;
     uint8_t format;
@@ -265,7 +265,7 @@ lmb_status lmb_draw_state_init(lmb_draw_state *out, int32_t width, int32_t heigh
  * transforms. The view's samples are ignored. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_draw_view(lmb_draw_state *inout, const lmb_view *view, const lmb_mat4 *to_world);
 
-/* lmb_draw_pixels: set to_clip so that vertices are pixels of the viewport, (0, 0) its upper left corner, y down; z is
+/* lmb_draw_pixels: set to_clip so that vertices are pixels of the viewport, (0, 0) the upper left corner, y down; z is
  * d. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_draw_pixels(lmb_draw_state *inout);
 
@@ -300,7 +300,7 @@ lmb_status lmb_draw_list(const lmb_draw_target *target, const lmb_draw_state *st
                          int32_t primitive, const lmb_draw_indices *indices, lmb_stats *stats);
 
 #if !LMB_DRAW_SMALL
-/* lmb_draw_fragment: the position of pixel `k`, 0 .. 63, in its primitive. Call it only inside the shader; gives zeros
+/* lmb_draw_fragment: the position of pixel `k`, 0 .. 63, in the primitive. Call it only inside the shader; gives zeros
  * if `pixels` has no job or `k` is outside. */
 void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixels, int32_t k);
 #endif
@@ -314,7 +314,7 @@ void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixe
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_FORMAT; nothing is written unless LMB_OK. */
 lmb_status lmb_blit(const lmb_surface *to, int32_t x, int32_t y, const lmb_blit_image *from, const lmb_blit_how *how);
 
-/* lmb_text: write text at (x, y), its upper left corner, in cells of 6 x 8 px times `scale`, 1 .. 64. '\n' begins a
+/* lmb_text: write text at (x, y), the upper left corner, in cells of 6 x 8 px times `scale`, 1 .. 64. '\n' begins a
  * line. Bytes outside ASCII 32 .. 126 are drawn as a box.
  *
  *   colour  R G B A; alpha blends.

@@ -2,7 +2,7 @@
  * surfaces.
  *
  * A shadow map holds only surfaces that the light sees. Here each triangle is cut into pieces, and each side of a piece
- * that may be lit is an element: it receives light at its centre and sends light from its exact shape. Elements are
+ * that may be lit is an element: it receives light at the centre and sends light from the exact shape. Elements are
  * summed into a tree like the texels of a map, so the same cuts, with the same exact visibility, light pixels and
  * elements:
  *
@@ -92,8 +92,9 @@ lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_element_
  * after lmb_elements_build, or holds light of emissive surfaces after lmb_elements_receive. Tiles may run in any order,
  * on any threads, each with its own scratches (own_scratch: kernels, tile and fresh are used). Returns LMB_OK or
  * LMB_ERR_ARG.
- * lmb_many_lights_elements_done: call it when all tiles are lit: adds their light to `level`. lmb_elements_send then
- * sends the first reflection. Returns LMB_OK or LMB_ERR_ARG.                                                    [V3] */
+ * lmb_many_lights_elements_done: call it when you have lit all tiles: adds their light to `level`. lmb_elements_send
+ * then sends the first reflection. Returns LMB_OK or LMB_ERR_ARG.                                                   
+ * [V3] */
 lmb_status lmb_many_lights_elements(const lmb_elements *elements, const lmb_element_scratch *own_scratch,
                                     lmb_many_lights_scratch *scratch, const lmb_many_lights_query *query, int32_t first,
                                     int32_t past);
@@ -101,7 +102,7 @@ lmb_status lmb_many_lights_elements_done(lmb_elements *inout);
 
 /* lmb_elements_rest: estimate `bounces` further bounces and add them to `fresh`: the last bounce times r + r^2 + ... +
  * r^bounces. r, one a channel and at most 1, is the share of light that the last bounce kept. Call it once, after all
- * tiles have received and before lmb_elements_send.
+ * tiles have received and before you call lmb_elements_send.
  *
  *   lights  further sources of the last bounce's light besides the elements; or NULL.
  * After some bounces light is distributed as the first eigenvector of the radiosity matrix, and each bounce is the one

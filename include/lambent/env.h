@@ -40,7 +40,7 @@ void lmb_env_mips(const lmb_env *env);
  * bits. */
 void lmb_env_dim(const lmb_env *out, const lmb_env *from, const float share[3]);
 
-/* lmb_env_sample: radiance from `direction` (any length; 0 counts as -z) within a cone; tan_half is the tangent of its
+/* lmb_env_sample: radiance from `direction` (any length; 0 counts as -z) within a cone; tan_half is the tangent of the
  * half angle. Interpolates the two levels with texels nearest to that width, bilinearly across the faces' edges. */
 void lmb_env_sample(float out[3], const lmb_env *env, lmb_vec3 direction, float tan_half);
 

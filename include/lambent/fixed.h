@@ -140,8 +140,8 @@ typedef struct lmb_fixed_frame {
 extern "C" {
 #endif
 
-/* lmb_fixed_open: use a blob in place. `data` is 4-byte aligned; do not move it. The call checks all of it in one pass:
- * afterwards no number in it can lead outside the blob or overflow a sum.
+/* lmb_fixed_open: use a blob in place. `data` is 4-byte aligned; do not move it while you use `out`. The call checks
+ * all of it in one pass: afterwards no number in it can lead outside the blob or overflow a sum.
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_FORMAT (no blob, cut off, damaged), or LMB_ERR_BUILD: it has the
  * other byte order. */
 lmb_status lmb_fixed_open(lmb_fixed *out, const void *data, size_t bytes);
@@ -166,7 +166,7 @@ lmb_status lmb_fixed_light(lmb_fixed_frame *frame);
  * Returns LMB_OK, also if `ready` is null, or LMB_ERR_ARG. */
 lmb_status lmb_fixed_prepare(lmb_fixed_frame *frame);
 
-/* lmb_fixed_band: draw rows `first` .. `past` - 1 of the picture into the band's memory, from its first row on. Returns
+/* lmb_fixed_band: draw rows `first` .. `past` - 1 of the picture into the band's memory, from the first row on. Returns
  * LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_fixed_band(const lmb_fixed_frame *frame, int32_t first, int32_t past);
 

@@ -20,13 +20,13 @@ enum {
     LMB_GOURAUD_KEPT = 64       /* cached corners of a mesh that are not transformed again */
 };
 
-/* Scratch: 7 KiB. Its contents are private to the library. */
+/* Scratch: 7 KiB. The contents are private to the library. */
 typedef struct lmb_gouraud_scratch {
     uint32_t part[LMB_TRANSFER_MAX_HALVINGS + 1][17];
     uint32_t corner[LMB_GOURAUD_KEPT][16];
 } lmb_gouraud_scratch;
 
-/* A frame, and your memory for it. Set unused members to 0. */
+/* A frame, and your memory for it. Set members that you do not use to 0. */
 typedef struct lmb_gouraud {
     const lmb_scene *scene;          /* checked */
     const lmb_transfer *transfer;    /* opened, and baked from the scene */
@@ -34,7 +34,7 @@ typedef struct lmb_gouraud {
     const lmb_shadow_map *maps;      /* one a light, from lmb_gouraud_map; NULL: no direct light */
     float (*direct)[3];              /* per receiver: direct light */
     lmb_gouraud_scratch *scratch;
-    lmb_view view;                   /* its frame is the picture */
+    lmb_view view;                   /* the frame is the picture */
     lmb_surface out;                 /* LMB_RGB565 */
     uint16_t *depth;                 /* per pixel, row by row: larger is nearer, 0 is nothing */
     float exposure_ev;

@@ -38,7 +38,7 @@ extern "C" {
 /* lmb_direct_tile: add one light's direct irradiance to a tile's pixels.                              [V7 V29]
  *
  *   inout   added to, so that several lights sum up in order.
- *   tile    resolved for `view`; its face normal guards the shading normal against light from behind.
+ *   tile    resolved for `view`; the face normal guards the shading normal against light from behind.
  *   map     the shadow map, drawn; NULL: the light casts no shadow.
  *
  * The shadow test does not compare depths. The four texels around the pixel's exact position in the map name triangles

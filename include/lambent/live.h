@@ -11,7 +11,7 @@
  * noise, and only shadows are sampled.
  *
  * The tree is built over cells of the world: first points of all lights that share a cell and a plane are one node, in
- * which shared area counts once. If a node is near, its parts are used: down to first points, then to texels of the
+ * which shared area counts once. If a node is near, the parts are used: down to first points, then to texels of the
  * map, then to parts of a texel, until their spacing is a quarter of their distance.
  *
  * A point's light depends only on that point, the scene and the maps: not on other points, order, threads or lanes.
@@ -42,7 +42,7 @@ typedef struct lmb_live_point {
     float flux[3];             /* outgoing Lambertian power of the block, W; all 0: no first point */
     float area;                /* of the block on the surface, m2 */
     uint32_t id;               /* the triangle */
-    uint32_t key;              /* its cell of the world and its side, once the tree is built */
+    uint32_t key;              /* cell of the world and side, once the tree is built */
     uint16_t column, row;      /* the block */
     uint16_t face, light;      /* if face is LMB_LIVE_ELEMENT, column + 65,536 row is an element */
 } lmb_live_point;
@@ -51,16 +51,16 @@ typedef struct lmb_live_point {
 /* One face of a light's shadow map, as it was collected. */
 typedef struct lmb_live_face {
     lmb_view view;
-    lmb_surface id;   /* of the map; do not move it while points are lit */
+    lmb_surface id;   /* of the map; do not move it while you light points */
     int32_t size, each; /* texels of the map a side, and of a block */
     uint32_t light;
 } lmb_live_face;
 
 /* The end of a segment: a first point. */
 typedef struct lmb_live_target {
-    float at[3], facet[3]; /* m; the normal of its triangle, on the lit side */
+    float at[3], facet[3]; /* m; the normal of the triangle, on the lit side */
     float colour[3];       /* flux by power */
-    uint32_t id;           /* its triangle */
+    uint32_t id;           /* the triangle */
 } lmb_live_target;
 
 /* Sixteen nodes side by side. 1,536 bytes. A node with `count` 0 has no parts. The parts of a node with LMB_LIVE_LEAF
@@ -92,14 +92,14 @@ typedef struct lmb_live {
     int32_t side;           /* blocks a side of a face, at most */
     int32_t strata;         /* 1 .. LMB_LIVE_STRATA; default 64 */
     double sent[3];         /* flux of the maps' first points, W */
-    float split;            /* a node is divided at points nearer than sqrt(split) times its radius; default 16 */
+    float split;            /* a node is divided at points nearer than sqrt(split) times the radius; default 16 */
 } lmb_live;
 
 /* The point to light. */
 typedef struct lmb_live_receiver {
     lmb_vec3 position, face, normal; /* unit: of the triangle, and the shading normal; both towards the viewer */
-    uint32_t id;  /* its triangle, which does not shadow it; 0: none */
-    float noise;  /* m: largest distance from its surface that rounding may cause: lmb_place_noise */
+    uint32_t id;  /* the triangle, which does not shadow it; 0: none */
+    float noise;  /* m: largest distance from the surface that rounding may cause: lmb_place_noise */
     lmb_vec3 to_eye; /* towards the viewer, any length: decides the side of a plane that the point lies in; 0: no
                         viewer */
 } lmb_live_receiver;
@@ -119,10 +119,10 @@ typedef struct lmb_live_branch {
     uint32_t node;
 } lmb_live_branch;
 
-/* Scratch, one a thread: 199 KiB. Its contents are undefined between calls, except `full`, `segments` and `pairs`,
- * which are added to, and `whole` and `seen`, which are those of the last point. */
+/* Scratch, one a thread: 199 KiB. The contents are undefined between calls, except `full`, `segments` and `pairs`,
+ * which are added to until you zero them, and `whole` and `seen`, which are those of the last point. */
 typedef struct lmb_live_scratch {
-    float value[LMB_LIVE_CUT][LMB_LIVE_NODES]; /* unoccluded light of each node; 0 if its parts are used */
+    float value[LMB_LIVE_CUT][LMB_LIVE_NODES]; /* unoccluded light of each node; 0 if the parts are used */
     float sum[LMB_LIVE_CUT];
     const lmb_live_chunk *chunk[LMB_LIVE_CUT];
     uint16_t asked[LMB_LIVE_CUT];              /* used nodes of the chunk, a bit each */

@@ -48,7 +48,7 @@ typedef struct lmb_many_lights_cell {
     int64_t intensity[3]; /* quanta */
     int64_t weight;       /* R + G + B in 2^24 quanta, at least 1 a light */
     int64_t moment[3];    /* sums of weight x position, in steps of the box's longest side / 2^24 */
-    float low[3], high[3]; /* m: the bounding box of its lights */
+    float low[3], high[3]; /* m: the bounding box of the lights */
     float axis_low[3], axis_high[3]; /* bounds of spots' directions */
     float cos_outer;                 /* of the widest spot */
     float range2_low, range2_high;   /* m2: smallest and largest squared range; 2^60: no range */
@@ -58,7 +58,7 @@ typedef struct lmb_many_lights_cell {
 } lmb_many_lights_cell;
 
 /* A cell, or several, that may represent all their lights. 128 bytes.
- * A sun's position is a point on the unit sphere around the pixel that it lights, so its W/sr equal its W/m2. In a root
+ * A sun's position is a point on the unit sphere around the pixel that it lights, so W/sr equal W/m2. In a root
  * over lights of several kinds, only intensity, lights and children have a meaning. */
 typedef struct lmb_many_lights_node {
     float intensity[3]; /* W/sr */
@@ -67,7 +67,7 @@ typedef struct lmb_many_lights_node {
     float share;        /* the strongest light's share of the intensity */
     lmb_many_lights_source strongest, median;
     uint32_t first, children;   /* nodes first .. first + children - 1, at most 8; none: a cell */
-    uint32_t lights, from, past; /* number of lights; its cells from .. past - 1 in their order */
+    uint32_t lights, from, past; /* number of lights; the cells from .. past - 1 in their order */
     uint32_t kind;               /* LMB_LIGHT_*, or LMB_MANY_LIGHTS_MIXED: the root over one node for each kind */
 } lmb_many_lights_node;
 #define LMB_MANY_LIGHTS_MIXED 3u
@@ -117,8 +117,8 @@ typedef struct lmb_many_lights_query {
 
 /* One node of a tile's cut. */
 typedef struct lmb_many_lights_entry {
-    float error, light; /* unoccluded, R + G + B, W/m2: a bound of its error; its approximate irradiance */
-    float inside;       /* its irradiance if one of its cones represents all and holds the pixels */
+    float error, light; /* unoccluded, R + G + B, W/m2: a bound of the error; approximate irradiance */
+    float inside;       /* irradiance if one of the cones represents all and holds the pixels */
     float key;          /* of the heap: error, or inside */
     uint32_t node;
 } lmb_many_lights_entry;
@@ -143,7 +143,7 @@ typedef struct lmb_many_lights_scratch {
     float allowed;      /* from query->error, or the default */
     lmb_active_light active[LMB_ACTIVE_LIGHTS];
     lmb_traversal traversal;
-    uint32_t nodes, tests; /* counted up: nodes taken over all cuts, shadow tests made. Zero them yourself */
+    uint32_t nodes, tests; /* counted up: nodes taken over all cuts, shadow tests made. You zero them */
 } lmb_many_lights_scratch;
 
 #ifdef __cplusplus
@@ -155,7 +155,7 @@ size_t lmb_many_lights_bytes(uint32_t cells);
 
 /* lmb_many_lights_init: lay out the builder in `memory` and begin an empty stream.
  *
- *   low, high  a box that holds all points and spots, m. The finest cell is its longest side / 2^21; of suns 2^-20.
+ *   low, high  a box that holds all points and spots, m. The finest cell is the longest side / 2^21; of suns 2^-20.
  *   max        the sum of all lights' intensities, R + G + B, W/sr (suns: W/m2), or more: sets the quantum, 2^-60 to
  *              2^-59 of it. A bound 1,000 times too large still resolves a millionth of the light to 9 digits.
  * Returns LMB_OK, LMB_ERR_ARG (null, the number of cells, a box that is reversed or reaches past +-2^20 m, `max`
@@ -179,14 +179,14 @@ lmb_status lmb_many_lights_build(lmb_many_lights *inout);
  *
  *   inout    added to. Pixels without a surface are unchanged.
  *   scratch  yours; only the two counters are kept.
- *   query    a built tree; its error sets how many nodes a tile takes, up to LMB_MANY_LIGHTS_CUT.
+ *   query    a built tree; the error sets how many nodes a tile takes, up to LMB_MANY_LIGHTS_CUT.
  *
  * The tile's pixels are split by surface, and each surface takes a cut of its own. Nodes are split until the sum of
  * their error bounds I cos / d^2 x min(1, R^2 / d^2) is within 16 x query->error of all light, and until no node with
  * children contributes more than query->error of it. R is a node's half diagonal, d its minimum distance; real errors
- * are far below their bounds. A node lights each pixel by I cos / d^2 from the mean position of its lights. Its
+ * are far below their bounds. A node lights each pixel by I cos / d^2 from the mean position of the lights. The
  * strongest light and one drawn by intensity are tested for visibility from the pixel and for a spot's cone. Nodes with
- * cones that miss the tile are left out. If the four corners of a tile's surface agree, all its pixels use their
+ * cones that miss the tile are left out. If the four corners of a tile's surface agree, all pixels use their
  * answer; a light that contributes more than query->error of all is tested at each pixel.
  * Measured in rooms with 100 to 1,000,000 lights (truth/many_lights_*): at 0.02 the picture's relative RMSE is 0.012 to
  * 0.014, at 0.01 0.007 to 0.010.

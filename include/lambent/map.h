@@ -46,7 +46,7 @@ size_t lmb_shadow_map_bytes(int32_t faces, int32_t size, int32_t id_format);
 /* lmb_shadow_map_init: place a shadow map into `memory` and fit the views.
  *
  *   size    texels a side: a multiple of 8, 8 .. LMB_MAX_SIDE.
- *   scene   directional maps are fitted to its bounds and core, and every map's near plane is set by its bounds. If
+ *   scene   directional maps are fitted to the bounds and core, and every map's near plane is set by the bounds. If
  *           there is no core, and bounds are those of lmb_scene_bounds, a directional map is fitted to the vertices
  *           themselves, along the light's own axes, in one pass. Builds without trees use the bounds.
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes): then `out` is unchanged. */

@@ -46,10 +46,10 @@ typedef struct lmb_flat {
     lmb_vec3 normal;              /* unit, towards the camera */
     float distance;               /* of the camera from the plane, m, over 0 */
     float slope[3];               /* 1 / distance of pixel (x, y) is slope . (x', y', 1): see lmb_cloud_ray */
-    lmb_vec3 centre;              /* the mean of its surface                                                  [M5] */
+    lmb_vec3 centre;              /* the mean of the surface                                                  [M5] */
     lmb_vec3 across, along;       /* unit, in the plane: `across` is level with the camera's x; along = normal x
                                      across */
-    float low[2], high[2];        /* m from the centre, across and along: the box of its pixels */
+    float low[2], high[2];        /* m from the centre, across and along: the box of the pixels */
     int32_t pixels;
     int32_t x0, y0, x1, y1;       /* px: their box, x1 and y1 one past the last */
 } lmb_flat;
@@ -141,7 +141,7 @@ int32_t lmb_planes_floor(const lmb_planes *planes);
 /* lmb_planes_anchor: the point at which the ray of pixel (x, y) hits plane p. Returns 0 if it does not. */
 int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float x, float y);
 
-/* lmb_planes_clear: a place on plane p for a cylinder: the picture shows only the plane at its foot, has room for all
+/* lmb_planes_clear: a place on plane p for a cylinder: the picture shows only the plane at the foot, has room for all
  * of it, and nothing measured is in front of it. The result is the plane's centre if it is clear, else the clear place
  * nearest to it, by pixels in steps of four. The source does not use the centre, but objects often stand there. Returns
  * 0 if there is no clear place.                                                                                        
@@ -159,7 +159,7 @@ size_t lmb_real_mesh_bytes(int32_t width, int32_t height, int32_t step);
 
 /* lmb_real_mesh_build: a square for each cell in which most pixels have a surface.                             [M4]
  *
- *   cloud   with normals, moved onto its planes
+ *   cloud   with normals, moved onto the planes
  *   step    px, 1 .. 64
  * Cells of one plane share exact corners and meet without a gap; other squares go through their mean point along their
  * mean normal, and leave cracks. Colours are white: set them with lmb_real_mesh_colour. Returns LMB_OK, LMB_ERR_ARG,

@@ -96,7 +96,7 @@ typedef struct lmb_traversal {
     lmb_segments segments;
 } lmb_traversal;
 /* If the eye is known, a pixel within rounding of a triangle's plane counts as on the eye's side of the plane. The
- * triangle is widened by rounding, within its boxes. So no light from behind a wall reaches pixels on its edge. */
+ * triangle is widened by rounding, within the boxes. So no light from behind a wall reaches pixels on its edge. */
 enum { LMB_EYE_NONE = 0, LMB_EYE_PLACE = 1, LMB_EYE_FAR = 2 };
 
 #ifdef __cplusplus

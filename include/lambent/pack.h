@@ -23,7 +23,7 @@
  *   MATERIALS  albedo, alpha, alpha_cutoff, texture, flags, normal_map, normal_scale, emission, specular, roughness,
  *              emission_map, metal_map, metallic, as in lmb_material; then 0
  *   TEXTURES   offset, width | height << 16, levels | format << 8 | wrap_s << 16 | wrap_t << 24, filter
- *   INSTANCES  to_world without its last row, by columns; mesh, material, node, 0
+ *   INSTANCES  to_world without the last row, by columns; mesh, material, node, 0
  *   LIGHTS     position, direction, intensity, cos_inner, cos_outer, kind, node, range (0: none); then 0
  *   CAMERAS    eye, right, up, back, kind, half_width, half_height, aspect, near_m, far_m, vfov_rad, node, as in
  *              lmb_view; aspect, near_m and far_m 0: not given; vfov_rad 0: orthographic
@@ -32,7 +32,7 @@
  *   TRACKS     target (0 translation, 1 rotation, 2 scale) | interpolation (0 step, 1 linear, 2 cubic) << 8; keys;
  *              offsets of times, s, ascending, and of values: 3 or 4 a key; cubic: three of them, in-tangent, value,
  *              out-tangent
- *   NAMES      of cameras, one after the other, each with its 0
+ *   NAMES      of cameras, one after the other, each with a final 0
  *
  * Stability: stable. */
 #ifndef LMB_PACK_H
@@ -91,7 +91,8 @@ typedef struct lmb_pack {
 extern "C" {
 #endif
 
-/* lmb_pack_open: check a .lmp and find the parts. Nothing is copied: keep `data` as long as `out` and its scenes.
+/* lmb_pack_open: check a .lmp and find the parts. Nothing is copied: keep `data` as long as you use `out` and its
+ * scenes.
  *
  * Returns LMB_OK, LMB_ERR_ARG (null), LMB_ERR_ALIGN (data not on 4 bytes), LMB_ERR_FORMAT (no .lmp of version 1, the
  * other byte order, cut off, parts that overlap, an invalid offset, index or number): then `out` is all 0. In an

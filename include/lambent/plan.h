@@ -14,8 +14,8 @@
  *     lmb_plan_choose(&choice, &facts, &budget, fixed);
  *
  * All results are functions of scene, view and numbers: no clock, the same on every target. Work is counted in units:
- * one is the time of a pixel gathering a node's light. Measure the units per second of your computer with `lambent
- * bench --calibrate`.
+ * one is the time of a pixel gathering a node's light. To convert units to seconds, you can measure your computer with
+ * `lambent bench --calibrate`.
  *
  * Stability: experimental. */
 #ifndef LMB_PLAN_H
@@ -69,7 +69,7 @@ typedef enum lmb_why {
     LMB_WHY_NO_EMISSION, /* no surface in the frame emits light */
     LMB_WHY_REUSED,      /* the last frame's result is reused */
     LMB_WHY_CONVEX,      /* a convex, empty room: no triangle in it blocks */
-    LMB_WHY_PAST,        /* a light: all of the scene lies past its faces */
+    LMB_WHY_PAST,        /* a light: all of the scene lies past the faces */
     LMB_WHY_DIM,         /* a light: its bounced light is provably under half a display step everywhere */
     LMB_WHY_BUDGET,      /* left out to meet a budget; the error is an estimate */
     LMB_WHYS
@@ -185,7 +185,7 @@ lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t tiles, 
  *   r       see lmb_survey_even; read.
  *   places  of LMB_SPARSE_TILES tiles each if gather_step is over 1; else of either size.
  *   max     units of work after which no further place is sampled; 0: no limit. out->places is the number sampled.
- * Returns LMB_OK or LMB_ERR_ARG. LMB_GATHER_ADAPTIVE is also refused: its samples depend on those of the whole frame,
+ * Returns LMB_OK or LMB_ERR_ARG. LMB_GATHER_ADAPTIVE is also refused: the samples depend on those of the whole frame,
  * so some places do not show the cost. Cost: that of the places. */
 lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band_scratch *scratch,
                              const lmb_survey *places, double max);

@@ -31,14 +31,14 @@ typedef struct lmb_world_pictures {
     int32_t face_size;
     const float *ground;  /* ground_width x ground_height x RGB + alpha 0 .. 1; rows grow with z; NULL: none */
     int32_t ground_width, ground_height;
-    float ground_x, ground_z, ground_width_m, ground_depth_m; /* the ground's corner of lowest x and z, and its sides */
+    float ground_x, ground_z, ground_width_m, ground_depth_m; /* corner of lowest x and z, and the sides */
     float ground_y;       /* the ground's height, m */
     lmb_vec3 centre;      /* the position from which the cube was taken, m */
     int32_t shape;        /* LMB_WORLD_SPHERE or LMB_WORLD_BOX */
     lmb_vec3 middle;      /* of the sphere */
     float radius;         /* m */
     lmb_vec3 low, high;   /* of the box */
-    uint32_t revision;    /* raise it when the world changes: older cubes then become stale [S20] */
+    uint32_t revision;    /* raise it when you change the world: older cubes become stale [S20] */
     int32_t has_floor;    /* 1: the far world has a flat lower half at ground_y, which rays that go down hit */
 } lmb_world_pictures;
 

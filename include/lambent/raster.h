@@ -81,7 +81,7 @@ const char *lmb_kernels_name(const lmb_kernels *kernels);
  *
  *   target   cleared or drawn before; depth keeps the nearer surface, equal depth keeps the earlier draw.
  *   view     the frame's camera or light face.
- *   scene    checked by lmb_scene_check. ids past its end are ignored.
+ *   scene    checked by lmb_scene_check. ids past the end are ignored.
  *   first_id at least 1: id 0 means no triangle.
  *   flags    LMB_CULL_BACK, LMB_BLEND, both or 0.
  *   stats    counts triangles; may be NULL.

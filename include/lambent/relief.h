@@ -17,7 +17,7 @@
  *         6  vertices of the simple model      14  0
  *         7  triangles                         15  FNV-1a, 32 bits, of all other bytes; 0: none
  * A view's record, 20 words: eye, right, up, back (3 floats each), half_width, half_height, near_m, far_m, as in
- * lmb_view; LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC; width, height, texels, 2 .. 4096; offset of its texels.
+ * lmb_view; LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC; width, height, texels, 2 .. 4096; offset of the texels.
  * An orthographic view shows all of the model. Texels, row by row from the top, the low byte first on every target:
  *   FULL    three planes: depth code 1 .. 2^24 - 1, 0 nothing; R G B (sRGB) and 255; normal, two int16
  *   PACKED  two planes: 16 bits of depth, then B5 G6 R5 above them; normal, two int8, in a plane of 16-bit words that
@@ -81,7 +81,7 @@ typedef struct lmb_relief_stats {
 extern "C" {
 #endif
 
-/* lmb_relief_open: check a .lmr and find the parts. Nothing is copied: keep `data` as long as `out`.
+/* lmb_relief_open: check a .lmr and find the parts. Nothing is copied: keep `data` as long as you use `out`.
  *
  * Returns LMB_OK, LMB_ERR_ARG (null), LMB_ERR_ALIGN (data not on 4 bytes), LMB_ERR_FORMAT (no .lmr of version 1, cut
  * off, the other byte order: lmb_relief_swap; an invalid view or offset, arrays that overlap), LMB_ERR_CAPACITY (more
@@ -102,7 +102,7 @@ void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief);
  *          become the complex surface's; pixels with rays that miss it are cleared.
  *   stats  added to; may be NULL.
  *   how    NULL: the default.
- * A tile reads the views that see its simple surface best. At a point of the eye's ray each view gives the surface that
+ * A tile reads the views that see the simple surface best. At a point of the eye's ray each view gives the surface that
  * it shows there; the nearest of these surfaces gives the step along the ray to the next lookup [P5]; texels beyond a
  * jump of depth do not count [P12]. When the point no longer moves, the best three views are blended. A point that some
  * view sees through is no surface. Rays can slip between two views' texels: a pixel that differs from its neighbours in

@@ -40,7 +40,7 @@ typedef struct lmb_relight {
     const lmb_world *world;    /* NULL: black behind the objects, and in lobes without a `glossy` cube */
     int32_t blend;             /* see lmb_probe_remap */
     const lmb_probe *probes;
-    const uint16_t *probe_of;  /* by instance: index of its probe */
+    const uint16_t *probe_of;  /* by instance: index of the probe */
     uint32_t probe_count;
     lmb_view view;
     lmb_target eye;            /* depth and ids, drawn: the whole frame, or the band's rows */

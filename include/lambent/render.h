@@ -169,7 +169,7 @@ enum {
  * afterwards. */
 typedef struct lmb_frame_settings {
     const lmb_kernels *kernels; /* lmb_kernels_pick(), or one backend's own on small targets */
-    const lmb_scene *scene; /* checked, with its lights; do not move it */
+    const lmb_scene *scene; /* checked, with lights; do not move it while you use the frame */
     const lmb_many_lights *many_lights;   /* built, in memory of your own; NULL: none */
     const lmb_transfer *transfer;         /* opened, in memory of your own; NULL: none. It must be baked from the scene:
                                              lmb_transfer_fits checks that, a frame does not */
@@ -214,8 +214,8 @@ enum {
 /* The state of one light of a frame. */
 enum {
     LMB_LIGHT_DARK = 1,          /* emits no light: has no map, and is skipped */
-    LMB_SHADOW_MAP_REUSED = 2,   /* its shadow map is from the last frame */
-    LMB_LIGHT_TEXELS_REUSED = 4, /* so are its faces of the tree */
+    LMB_SHADOW_MAP_REUSED = 2,   /* the shadow map is from the last frame */
+    LMB_LIGHT_TEXELS_REUSED = 4, /* so are the faces of the tree */
     LMB_LIGHT_DIM = 8            /* does not bounce: lmb_frame.dim */
 };
 
@@ -272,7 +272,7 @@ size_t lmb_frame_bytes(const lmb_frame_settings *settings);
  *
  * You may use the frame as long as the scene has no more triangles, lights and map faces (lmb_shadow_map_faces) than
  * now; lights, objects and viewer may move. To end it, free the block; there is nothing else to undo.
- * Returns LMB_OK; LMB_ERR_ARG (null, no scene, a number outside its range), LMB_ERR_FORMAT (of picture or ids),
+ * Returns LMB_OK; LMB_ERR_ARG (null, no scene, a number out of range), LMB_ERR_FORMAT (of picture or ids),
  * LMB_ERR_SCENE (ids do not fit), LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes; more lights than LMB_MAX_LIGHTS): then
  * nothing was written. */
 lmb_status lmb_frame_init(lmb_frame *out, const lmb_frame_settings *settings, void *memory, size_t bytes);
@@ -317,8 +317,8 @@ lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
  * since r's last frame. The scene's revisions and the frame's settings decide. The bytes are those of lmb_render_begin.
  *
  *   r      of the last frame, done or not; all 0 for the first frame.
- *   frame  whole, as for lmb_render_begin. Reused results lie in its memory: pass the same memory each frame, and do
- *          not write to it in between. If memory, a size or the scene differs, that part is made again.
+ *   frame  whole, as for lmb_render_begin. Reused results lie in the frame's memory: pass the same memory each frame,
+ *          and do not write to it in between. If memory, a size or the scene differs, that part is made again.
  * Reused are: a shadow map, if no object moved and the light's own revision and lights_revision are unchanged; its
  * first points, if appearance_revision is unchanged too; groups, if that holds for all lights; the BVH, if no object
  * moved; bounces, if everything is unchanged; the viewer's depth and ids (of a whole frame), if neither objects nor the
@@ -336,7 +336,7 @@ int32_t lmb_render_has_parts(const lmb_render *r);
  * lmb_render_parts_done. The bytes are those of lmb_render_step.
  *
  *   scratch  one for each thread.
- *   parts    1 .. 65,535. Each share of a map sets up all its triangles: one share a thread is best.
+ *   parts    1 .. 65,535. Each share of a map sets up all triangles: one share a thread is best.
  *   stats    added to; one for each thread, or NULL. lmb_render_parts_done writes frame.stats.
  * Returns LMB_OK; LMB_ERR_ARG (null, part outside, a stage without parts); or an error of the stage. */
 lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
@@ -346,7 +346,7 @@ lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32
  * as lmb_render_step does, an error of the stage, or LMB_ERR_ARG for a stage without parts. */
 lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts);
 
-/* lmb_render_frame: begin a frame and do all its steps. `r` is your memory. Returns LMB_OK when the frame is done, or
+/* lmb_render_frame: begin a frame and do all steps. `r` is your memory. Returns LMB_OK when the frame is done, or
  * an error of lmb_render_begin or of a stage. */
 lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame);
 
@@ -360,7 +360,7 @@ lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame);
  *            LMB_SHOW_INDIRECT only bounced light.
  *   normals  x, y, z a vertex, in the vertices' space: towards the lit side. NULL: light from all
  *            sides counts alike, as in smoke (the mean over all directions of the normal).
- * With a transfer, bounced light is read from its points in the air; a file without moving objects has none. With cuts,
+ * With a transfer, bounced light is read from points in the air; a file without moving objects has none. With cuts,
  * 64 consecutive vertices share a cut, so a vertex's light changes a little with the others. Otherwise a vertex's light
  * depends only on the vertex, the scene and the maps. A vertex that is not finite becomes black.
  * Returns LMB_OK; LMB_ERR_ARG, LMB_ERR_FORMAT or LMB_ERR_ALIGN, then nothing is written; or an error of the frame. */

@@ -102,14 +102,14 @@ typedef struct lmb_instance {
     lmb_mat4 to_world; /* affine; may mirror or scale unevenly */
     uint32_t mesh, material;
     uint32_t first_id;
-    uint32_t revision; /* raise it when to_world or the mesh's data change */
+    uint32_t revision; /* raise it when you change to_world or the mesh's data */
 } lmb_instance;
 
 enum { LMB_LIGHT_POINT = 0, LMB_LIGHT_SPOT = 1, LMB_LIGHT_DIRECTIONAL = 2 };
 
 /* A light without area. Spot: full inside the inner cone, zero outside the outer one, smoothstep of the cosine between.
  * `direction` is the direction in which the light travels, unit length.
- * If a point or spot light has a range, its light at the distance d is multiplied by max(1 - (d / range)^4, 0), as
+ * If a point or spot light has a range, the light at the distance d is multiplied by max(1 - (d / range)^4, 0), as
  * viewers draw KHR_lights_punctual. Directional lights have no range. */
 typedef struct lmb_light {
     lmb_vec3 position;
@@ -117,7 +117,7 @@ typedef struct lmb_light {
     float intensity[3]; /* W/sr; directional: W/m2 on a plane facing the light */
     float cos_inner, cos_outer;
     int32_t kind;
-    uint32_t revision; /* raise it when the light at this index of scene->lights changes */
+    uint32_t revision; /* raise it when you change the light at this index of scene->lights */
     float range;       /* m; 0, or 2^30 and more: unlimited */
 } lmb_light;
 
@@ -138,11 +138,11 @@ typedef struct lmb_scene {
     const lmb_light *lights;
     uint32_t mesh_count, material_count, texture_count, instance_count, light_count;
     lmb_vec3 bounds_min, bounds_max; /* of all placed vertices, world metres: lmb_scene_bounds */
-    uint32_t revision;        /* raise it after any change that the next two do not cover */
-    uint32_t lights_revision; /* raise it when lights were added, removed or changed; if one changed, its own revision
+    uint32_t revision;        /* raise it when you change anything that the next two do not cover */
+    uint32_t lights_revision; /* raise it when you add, remove or change lights; if you change one, its own revision
                                  is enough */
-    uint32_t appearance_revision; /* raise it when only colours changed: albedo, emission, specular, roughness, texels
-                                     but not their holes; visibility and occlusion are unchanged */
+    uint32_t appearance_revision; /* raise it when you change only colours: albedo, emission, specular, roughness,
+                                     texels but not their holes; visibility and occlusion are unchanged */
     lmb_core core;            /* lmb_scene_core; all 0: suns' maps have one face */
 } lmb_scene;
 
@@ -155,8 +155,8 @@ extern "C" {
  * Returns LMB_OK, LMB_ERR_ARG (null pointer, non-finite number, too many triangles, negative albedo, emission or
  * intensity, specular, roughness or metallic outside 0 .. 1, direction not of unit length, cones not 0 < cos_outer <=
  * cos_inner <= 1, bounds or core reversed), LMB_ERR_ALIGN (a stream not 4-byte aligned), LMB_ERR_FORMAT (unknown
- * format, wrap, filter, light kind), LMB_ERR_SCENE (index outside, ids not numbered in order). Call it once after
- * loading; all other functions assume a checked scene. */
+ * format, wrap, filter, light kind), LMB_ERR_SCENE (index outside, ids not numbered in order). Call it once after you
+ * load a scene; all other functions assume a checked scene. */
 lmb_status lmb_scene_check(const lmb_scene *scene);
 
 /* lmb_scene_triangles: the number of triangles over all instances of a checked scene, which is the highest id. Cost:
@@ -173,8 +173,8 @@ int lmb_scene_is_glossy(const lmb_scene *scene);
 void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *scene);
 
 /* lmb_scene_core: find the core of a checked scene from the sizes of the triangles. All of `out` is 0 if one face is
- * enough, as in most scenes. Call it after lmb_scene_bounds, and again when objects have moved far. Missing in builds
- * without trees. Cost: up to 250 passes over 8,192 of the triangles, and a few over all. */
+ * enough, as in most scenes. Call it after lmb_scene_bounds, and again when you have moved objects far. Missing in
+ * builds without trees. Cost: up to 250 passes over 8,192 of the triangles, and a few over all. */
 void lmb_scene_core(lmb_core *out, const lmb_scene *scene);
 
 /* lmb_texture_bytes: memory of `levels` levels of a width x height image, 4 bytes a texel; 0 for a bad size. */

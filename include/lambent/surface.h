@@ -40,7 +40,7 @@ float lmb_depth_view_z(const lmb_view *view, float d);
  * and for every layout, so that equal pictures have equal hashes everywhere. 0 for a null surface. */
 uint64_t lmb_surface_hash(const lmb_surface *surface);
 
-/* lmb_surface_diff: find the first pixel, in row order, that differs in its bytes.
+/* lmb_surface_diff: find the first pixel, in row order, with different bytes.
  *
  * Returns 1 and writes the position to x, y; 0 if all are equal; LMB_ERR_ARG / LMB_ERR_FORMAT if the two cannot be
  * compared (null, sizes or formats differ; layouts may). */

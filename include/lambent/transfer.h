@@ -35,7 +35,7 @@
 
 /* Sections of a file, in this order. Each is an array of 32-bit words. */
 enum {
-    LMB_TRANSFER_SURFACES, /* per triangle: roots among pieces, of its front and its back; likewise among divisions */
+    LMB_TRANSFER_SURFACES, /* per triangle: roots among pieces, of front and back; likewise among divisions */
     LMB_TRANSFER_PIECES,   /* halvings down to elements */
     LMB_TRANSFER_AREAS,    /* of elements, m2, binary32 */
     LMB_TRANSFER_DIVISIONS, /* halvings down to corners */
@@ -119,7 +119,7 @@ enum {
     LMB_TRANSFER_SEND_RECEIVED  /* light of the last reflection that surfaces reflect */
 };
 
-/* An element's largest piece: its centre, m, unit normal, and area, m2; 0: there is none. */
+/* An element's largest piece: the centre, m, unit normal, and area, m2; 0: there is none. */
 typedef struct lmb_transfer_place {
     lmb_vec3 position, normal;
     float area;
@@ -157,7 +157,7 @@ typedef struct lmb_transfer_step {
     float weight[3][3];
     float side[3];      /* over 0 at points of the next step; or 0, in a first half */
     uint32_t at;        /* index of the halving */
-    int32_t second;     /* 1: the next step is its second half */
+    int32_t second;     /* 1: the next step is the second half */
 } lmb_transfer_step;
 
 /* A triangle as a face of a shadow map shows it. Its functions are linear in a cell's column and row: the value in the
@@ -166,7 +166,7 @@ typedef struct lmb_transfer_shown {
     uint32_t id;         /* 0: free */
     uint32_t root;       /* among pieces, of the side that faces the light; or LMB_TRANSFER_NONE */
     int32_t has_outline; /* 0: cut out by a mask, or seen edge on: it covers the cells that show it at their centre */
-    float corner[3][3];  /* weights of its corners; in perspective times `near` */
+    float corner[3][3];  /* weights of the corners; in perspective times `near` */
     float per[3];        /* 1 / their change over a cell */
     float cosine[3];     /* of the angle between the edges that meet at a corner */
     float near[3];       /* 1 / distance along the view; of suns, minus the distance */
@@ -210,12 +210,12 @@ typedef struct lmb_transfer_met {
     lmb_transfer_kept kept;
     lmb_transfer_step step[LMB_TRANSFER_MAX_HALVINGS + 1]; /* the last way down: the next one shares most of it */
     uint32_t root;                                         /* start of that way, plus 1; 0: there is none */
-    uint32_t depth;                                        /* number of its steps */
+    uint32_t depth;                                        /* number of steps */
     float weight[2][LMB_TILE_PIXELS];                      /* of the pixels of one step */
 } lmb_transfer_met;
 
-/* Scratch of lmb_transfer_collect and lmb_transfer_tile, one for each thread; its contents change no byte. Zero it
- * before the first call of lmb_transfer_tile, and when the scene has changed. lmb_transfer_collect accepts any
+/* Scratch of lmb_transfer_collect and lmb_transfer_tile, one for each thread; the contents change no byte. Zero it
+ * before you first call lmb_transfer_tile, and when you have changed the scene. lmb_transfer_collect accepts any
  * contents, and leaves nothing useful for lmb_transfer_tile. */
 typedef union lmb_transfer_scratch {
     lmb_transfer_met met;
@@ -226,8 +226,8 @@ typedef union lmb_transfer_scratch {
 extern "C" {
 #endif
 
-/* lmb_transfer_open: use a .lmt in place. `data` is 4-byte aligned; do not move it. The call checks the whole file in
- * one pass: afterwards no number in it can lead outside its memory or overflow a sum.
+/* lmb_transfer_open: use a .lmt in place. `data` is 4-byte aligned; do not move it while you use `out`. The call checks
+ * the whole file in one pass: afterwards no number in it can lead outside its memory or overflow a sum.
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, or LMB_ERR_FORMAT (not a .lmt, of the other byte order, cut off, or
  * damaged). */
 lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes);
@@ -246,7 +246,7 @@ size_t lmb_transfer_light_bytes(const lmb_transfer *transfer);
 lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *transfer, void *memory, size_t bytes);
 
 /* lmb_transfer_materials: set the elements' mean albedos and emission from the scene's materials. Call it once, and
- * when materials change. Cost: about 0.5 us an element. Returns LMB_OK or LMB_ERR_ARG. */
+ * when you change materials. Cost: about 0.5 us an element. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_transfer *transfer,
                                   const lmb_scene *scene);
 
@@ -294,7 +294,7 @@ lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_ker
 /* lmb_transfer_tile: add the bounced light at a tile's pixels. Returns LMB_OK or LMB_ERR_ARG.
  *
  *   glossy  the tile's lobes, to which the reflection of that light is added; NULL: none. For a lobe all light is one
- *           disc: in its mean direction if the file stores directions, else along the normal. That is right for rough
+ *           disc: in the mean direction if the file stores directions, else along the normal. That is right for rough
  *           surfaces; smooth ones do not reflect an image of the room. Lobes of moving objects get none. */
 lmb_status lmb_transfer_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_kernels *kernels,
                              lmb_transfer_scratch *scratch, const lmb_transfer_light *light,

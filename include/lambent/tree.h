@@ -24,7 +24,7 @@ typedef struct lmb_texel {
 
 /* The first points of a square of texels. 96 bytes.
  *
- * The box has sides along the normal, along `across`, and along normal x across, so its bounds do not depend on the
+ * The box has sides along the normal, along `across`, and along normal x across, so the bounds do not depend on the
  * world's rotation. */
 typedef struct lmb_node {
     lmb_vec3 centre, normal; /* means, weighted by flux; normal of unit length */
@@ -97,7 +97,7 @@ typedef struct lmb_cut_params {
     float error;          /* allowed error of bounced light, ignoring occlusion, as a share of the pixel's light: the
                              root of the sum of the nodes' squared errors; conservative: the sum of the errors */
     float visibility;     /* largest share of a pixel's light tested by one visibility ray */
-    float floor;          /* W/m2, R + G + B: an error below this is accepted, whatever its share; ignored with
+    float floor;          /* W/m2, R + G + B: an error below this is accepted, whatever the share; ignored with
                              `conservative` */
     int32_t conservative; /* 1: `error` is a bound that no pixel exceeds, ignoring occlusion, however many nodes that
                              takes; 0: a rule that holds for all but a few pixels, with a tenth of the nodes */
@@ -142,7 +142,7 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
 /* lmb_gather_cut: add the light of the tree's first points to a tile's pixels.                        [V25 V27 V28]
  *
  * The tile's pixels are split by surface, and each cluster takes a cut of its own: the node with the largest error is
- * replaced by its four children until the root of the sum of squared errors is at most cut_params->error times the
+ * replaced by the four children until the root of the sum of squared errors is at most cut_params->error times the
  * light of all nodes. A node's error is the upper bound U of the node's light times the second order of size and bend:
  * U min(1, R^2 / 2 d^2 + sin^2 a), and at least a quarter of U if a horizon goes through the node. If LMB_MAX_CUT nodes
  * are not enough, each half of the pixels takes a cut of its own, as long as that reduces the error; else the pixels

@@ -9,7 +9,7 @@
  *
  * A voxel holds no colour and alpha, but sums over the surfaces in it, by the six directions that they face. So a
  * parent is exactly the mean of the children, and no light is lost on the way up. A thin wall lets no light through
- * from its back, and covers the same share of wide and narrow cones.
+ * from the back, and covers the same share of wide and narrow cones.
  *
  * Stability: experimental. Tags like [M6] are requirements in src/SOURCES.md. */
 #ifndef LMB_VOXEL_H
@@ -138,7 +138,7 @@ lmb_status lmb_voxels_dark(lmb_voxels *inout, int32_t field);
  * without a leaf uses a neighbouring leaf; if there is none, the flux counts as lost. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_voxels_inject(lmb_voxels *inout, int32_t field, const lmb_texel *texels, size_t count);
 
-/* lmb_voxels_filter: sum a field's light from the leaves upward: each voxel is the mean of its eight children. Returns
+/* lmb_voxels_filter: sum a field's light from the leaves upward: each voxel is the mean of the eight children. Returns
  * LMB_OK or LMB_ERR_ARG. [M13] */
 lmb_status lmb_voxels_filter(lmb_voxels *inout, int32_t field);
 
