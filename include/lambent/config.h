@@ -48,7 +48,7 @@
 #endif
 #endif
 
-/* Nodes of such a cut that are tested for shadows, and light the pixels, at a time. 136 bytes each, in
+/* Nodes of such a cut that are tested for shadows, and light the pixels, at a time. 144 bytes each, in
  * lmb_many_lights_scratch. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_ACTIVE_LIGHTS 8
@@ -161,7 +161,7 @@
 #define LMB_CULLING LMB_TREES
 #endif
 
-/* Reference views of one relief. 224 bytes each, in lmb_relief. A file with more is refused. */
+/* Reference views of one relief. 168 bytes each, in lmb_relief. A file with more is refused. */
 #ifndef LMB_RELIEF_VIEWS
 #ifdef LMB_CONFIG_TINY
 #define LMB_RELIEF_VIEWS 16
@@ -187,7 +187,7 @@
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together if bounced light is upsampled */
 #define LMB_CUT_BLOCK 64        /* nodes of a cut that are prepared for the gather together */
-/* Nodes of a cut whose bounds are computed side by side, 96 bytes of lmb_cut each: as many as the widest backend has
+/* Nodes of a cut whose bounds are computed side by side, 92 bytes of lmb_cut each: as many as the widest backend has
  * lanes, and at least four, the children of one node. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_BOUNDS_NODES 4

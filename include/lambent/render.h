@@ -52,7 +52,7 @@ typedef struct lmb_sparse {
     lmb_irradiance light[LMB_SPARSE_TILES]; /* of the block's pixels */
 } lmb_sparse;
 
-/* Scratch for frame.samples > 1: the samples of one band. 20 KiB, and the memory of `eye`. */
+/* Scratch for frame.samples > 1: the samples of one band. 19 KiB, and the memory of `eye`. */
 typedef struct lmb_multisample {
     lmb_target eye;    /* depth and ids: as wide as the frame, 8 rows a sample, one sample below the other */
     lmb_view view;     /* of one sample */

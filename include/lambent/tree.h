@@ -22,7 +22,7 @@ typedef struct lmb_texel {
                                   sides */
 } lmb_texel;
 
-/* The first points of a square of texels. 96 bytes.
+/* The first points of a square of texels. 92 bytes.
  *
  * The box has sides along the normal, along `across`, and along normal x across, so the bounds do not depend on the
  * world's rotation. */
