@@ -56,7 +56,7 @@ typedef struct lmb_element_scratch {
 extern "C" {
 #endif
 
-/* lmb_elements_bytes: memory of n elements and their tree; n: a power of 4, 64 .. 2^24. 0 if that is impossible. 172
+/* lmb_elements_bytes: memory of n elements and their tree; n: a power of 4, 64 .. 2^24. 0 if that is impossible. 175
  * bytes each. */
 size_t lmb_elements_bytes(uint32_t n);
 
