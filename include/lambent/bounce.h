@@ -104,7 +104,7 @@ size_t lmb_points_bytes(uint32_t n, uint32_t side);
 lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *memory, size_t bytes);
 
 /* lmb_points_collect: append the first points of the map's tile rows tile_y0 .. tile_y1 - 1 of one face.
- *                                                                                             [V1 V2 V4 V5 V6 V7]
+ *                                                                                                   [V1 V2 V4 V5 V6 V7]
  * No texel's flux is lost: the texels of a block that share a surface (normals within 25 degrees, planes within a
  * texel) make one first point, at most four a block; a texel that fits none joins the most similar one.
  * Begin a face at tile_y0 = 0 and go on in order. Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY when data, cells or
@@ -121,7 +121,7 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
  * points within their mean distance, up to 32 cells away. Thinned discs lie one in `thin` cells of the map, on the
  * lattice with the largest cell distance.
  * Returns LMB_OK or LMB_ERR_ARG. Cost: points x cells that the radius spans; over 65 x 65 of these, only every second,
- * third .. each way is read.             [V8 V9 V10 V11 V12 V14 V15] */
+ * third .. each way is read.                                                             [V8 V9 V10 V11 V12 V14 V15] */
 lmb_status lmb_discs_join(lmb_points *points, const lmb_shadow_map *map, const lmb_grouping *grouping);
 
 /* lmb_group_points: groups of all discs by grouping->method; reorders the discs so that members lie together.
@@ -133,7 +133,7 @@ lmb_status lmb_discs_join(lmb_points *points, const lmb_shadow_map *map, const l
  * LMB_ERR_CAPACITY. */
 lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_grouping *grouping, lmb_stats *stats);
 
-/* lmb_gather_tile: add the groups' irradiance to a tile's pixels.                             [V25 V27 V28]
+/* lmb_gather_tile: add the groups' irradiance to a tile's pixels.                                         [V25 V27 V28]
  *
  *   inout     added to. Pixels without a surface are unchanged.
  *   scratch   yours; contents before and after are undefined.

@@ -170,7 +170,7 @@
 #endif
 #endif
 
-#define LMB_RELIEF_TILE_VIEWS 8 /* maximum of reference views that one tile reads */
+#define LMB_RELIEF_TILE_VIEWS 8 /* maximum number of reference views that one tile reads */
 
 /* Planes of a convex room, 24 bytes each in lmb_bvh. A room with more planes is not recognised: its BVH is traversed
  * although nothing in it blocks. */

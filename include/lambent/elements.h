@@ -93,8 +93,7 @@ lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_element_
  * on any threads, each with its own scratches (own_scratch: kernels, tile and fresh are used). Returns LMB_OK or
  * LMB_ERR_ARG.
  * lmb_many_lights_elements_done: call it when you have lit all tiles: adds their light to `level`. lmb_elements_send
- * then sends the first reflection. Returns LMB_OK or LMB_ERR_ARG.                                                   
- * [V3] */
+ * then sends the first reflection. Returns LMB_OK or LMB_ERR_ARG. [V3] */
 lmb_status lmb_many_lights_elements(const lmb_elements *elements, const lmb_element_scratch *own_scratch,
                                     lmb_many_lights_scratch *scratch, const lmb_many_lights_query *query, int32_t first,
                                     int32_t past);

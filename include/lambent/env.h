@@ -1,5 +1,5 @@
-/* env.h: an environment cube with mip levels: RGBA half floats in your memory; a clear sky; the cube as lights. [M14
- * M19 M22]
+/* env.h: an environment cube with mip levels: RGBA half floats in your memory; a clear sky; the cube as lights.
+ *                                                                                                         [M14 M19 M22]
  *
  * Six faces of n x n texels in GL order (+x -x +y -y +z -z), rows from the top: with s, t in -1 .. 1 the direction is
  * (1,-t,-s) (-1,-t,s) (s,1,t) (s,-1,-t) (s,-t,1) (-s,-t,-1). Each level has half the side of the one before, down to
@@ -32,8 +32,7 @@ lmb_status lmb_env_init(lmb_env *out, int32_t size, void *memory, size_t bytes);
 /* lmb_env_set: set a texel of level 0. Values are clamped to 0 .. 65504; NaN becomes 0. */
 void lmb_env_set(const lmb_env *env, int32_t face, int32_t x, int32_t y, const float rgb[3]);
 
-/* lmb_env_mips: compute the other levels, each texel the mean of four.                                               
- * [M19] */
+/* lmb_env_mips: compute the other levels, each texel the mean of four. [M19] */
 void lmb_env_mips(const lmb_env *env);
 
 /* lmb_env_dim: set `out`, of the same size, to `from` times a share by channel, all levels; a share of 1 keeps the

@@ -35,7 +35,7 @@ typedef struct lmb_glossy {
 extern "C" {
 #endif
 
-/* lmb_direct_tile: add one light's direct irradiance to a tile's pixels.                              [V7 V29]
+/* lmb_direct_tile: add one light's direct irradiance to a tile's pixels.                                       [V7 V29]
  *
  *   inout   added to, so that several lights sum up in order.
  *   tile    resolved for `view`; the face normal guards the shading normal against light from behind.

@@ -32,7 +32,7 @@
 #define LMB_LIVE_NODES  16   /* of a chunk: logical lanes of every backend */
 #define LMB_LIVE_CUT    512  /* chunks of a point's cut */
 #define LMB_LIVE_NEAR   96   /* of these, chunks made for one point, of parts near it */
-#define LMB_LIVE_STRATA 64   /* maximum of segments of a point */
+#define LMB_LIVE_STRATA 64   /* maximum number of segments of a point */
 #define LMB_LIVE_STACK  256  /* BVH nodes on the stack */
 #define LMB_LIVE_LAST   4    /* triangles that blocked many segments recently */
 
@@ -70,7 +70,8 @@ typedef struct lmb_live_chunk {
     float place[3][LMB_LIVE_NODES], normal[3][LMB_LIVE_NODES]; /* means by power */
     float area[LMB_LIVE_NODES];    /* m2; of all lights' first points, each place once */
     float power[LMB_LIVE_NODES];   /* W, mean of R, G, B; 0: nothing */
-    float radius2[LMB_LIVE_NODES]; /* m2: of `place` to its farthest first point, plus the square of their spacing */
+    float radius2[LMB_LIVE_NODES]; /* m2: squared distance from `place` to the farthest first point, plus the squared
+                                      spacing */
     float colour[3][LMB_LIVE_NODES]; /* flux by power */
     uint32_t first[LMB_LIVE_NODES], count[LMB_LIVE_NODES];
     lmb_live_target target[LMB_LIVE_NODES]; /* the first point nearest to `place`, with the node's colour */

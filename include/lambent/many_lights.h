@@ -175,7 +175,7 @@ lmb_status lmb_many_lights_add(lmb_many_lights *inout, const lmb_light *lights, 
  * LMB_ERR_ARG. Cost: under 1 us a cell. */
 lmb_status lmb_many_lights_build(lmb_many_lights *inout);
 
-/* lmb_many_lights_direct_tile: add the direct irradiance of all lights to a tile's pixels.                 [V3 V29]
+/* lmb_many_lights_direct_tile: add the direct irradiance of all lights to a tile's pixels.                     [V3 V29]
  *
  *   inout    added to. Pixels without a surface are unchanged.
  *   scratch  yours; only the two counters are kept.

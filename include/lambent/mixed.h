@@ -87,7 +87,7 @@ extern "C" {
 /* lmb_cloud_bytes: memory of a cloud; 0 for a bad size. */
 size_t lmb_cloud_bytes(int32_t width, int32_t height);
 
-/* lmb_cloud_init: points from distances.                                                                        [M1]
+/* lmb_cloud_init: points from distances.                                                                           [M1]
  *
  *   depth_m  width x height along the camera's axis, rows from the top; values outside 0.01 .. 1000 m count as not
  *            measured
@@ -110,8 +110,7 @@ lmb_vec3 lmb_cloud_point(const lmb_cloud *cloud, int32_t x, int32_t y);
 float lmb_cloud_sigma(const lmb_cloud *cloud, float inverse);
 
 /* lmb_cloud_normals: fit a plane through each point and its neighbours, in two rounds: first those that a surface
- * tilted by 75 degrees or less can reach, then those on the first round's plane. Fewer than 6 points: unknown.         
- *              [M2]
+ * tilted by 75 degrees or less can reach, then those on the first round's plane. Fewer than 6 points: unknown. [M2]
  *
  *   y0, y1  rows y0 .. y1 - 1, clipped to the picture: any rows on any threads at once
  * Returns LMB_OK or LMB_ERR_ARG. Cost: 2 x 49 points a pixel. */
@@ -120,8 +119,7 @@ lmb_status lmb_cloud_normals(const lmb_cloud *cloud, int32_t y0, int32_t y1);
 /* lmb_planes_bytes: memory of lmb_planes_find, 5 bytes a pixel; 0 for a bad size. */
 size_t lmb_planes_bytes(int32_t width, int32_t height);
 
-/* lmb_planes_find: find the planes of a cloud with normals.                                                      [M3 M4
- * M5]
+/* lmb_planes_find: find the planes of a cloud with normals. [M3 M4 M5]
  *
  * A plane grows from points whose nearest neighbours all face the same way, over points within 4.5 standard deviations,
  * and is fitted again each time they double. Planes that match are joined; the remaining points within 4 deviations are
@@ -144,8 +142,7 @@ int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole
 /* lmb_planes_clear: a place on plane p for a cylinder: the picture shows only the plane at the foot, has room for all
  * of it, and nothing measured is in front of it. The result is the plane's centre if it is clear, else the clear place
  * nearest to it, by pixels in steps of four. The source does not use the centre, but objects often stand there. Returns
- * 0 if there is no clear place.                                                                                        
- *        [M5]
+ * 0 if there is no clear place. [M5]
  *
  *   radius_m, height_m   of the cylinder; height 0 tests only the foot */
 int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_cloud *cloud, int32_t p, float radius_m,
@@ -157,7 +154,7 @@ void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes);
 /* lmb_real_mesh_bytes: memory of the real scene's mesh, 96 bytes a cell of step x step pixels; 0 for a bad size. */
 size_t lmb_real_mesh_bytes(int32_t width, int32_t height, int32_t step);
 
-/* lmb_real_mesh_build: a square for each cell in which most pixels have a surface.                             [M4]
+/* lmb_real_mesh_build: a square for each cell in which most pixels have a surface.                                 [M4]
  *
  *   cloud   with normals, moved onto the planes
  *   step    px, 1 .. 64
@@ -186,7 +183,7 @@ void lmb_pinhole_round(lmb_pinhole *camera);
 lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes *planes, const lmb_real_mesh *mesh,
                          const lmb_axes *axes, int32_t x, int32_t y);
 
-/* lmb_env_fold: an environment cube from one picture.                                                      [M14-M19]
+/* lmb_env_fold: an environment cube from one picture.                                                         [M14-M19]
  *
  *   rgb  width x height x 3, linear, rows from the top
  * The picture is cut into thirds. The middle third is the front face (-z) and, mirrored, the back face (+z); the parts
@@ -209,7 +206,7 @@ lmb_status lmb_two_maps(lmb_shadow_map maps[2], const lmb_light *light, const lm
                         void *memory, size_t bytes);
 
 /* lmb_around_points: unoccluded light of `env` that triangles reflect, as first points for lmb_voxels_inject in
- * addition to those of the shadow maps.                                                      [M7]
+ * addition to those of the shadow maps.                                                                            [M7]
  *
  *   leaf  m: triangles are divided until their parts are no longer than that, or 64 to a side
  * With these points and the lights' first points, real surfaces emit about as much light as the photo shows. Returns
@@ -234,7 +231,7 @@ lmb_status lmb_around_scale(lmb_texel *inout, const lmb_around_scratch *scratch,
 #define LMB_ALBEDO_MAX 0.95f
 float lmb_real_albedo(float radiance, float irradiance);
 
-/* lmb_delta_tile: add the object's effect on real surfaces to the photo.                              [M23 M24]
+/* lmb_delta_tile: add the object's effect on real surfaces to the photo.                                      [M23 M24]
  *
  *   inout    the photo's radiance; unchanged, bit for bit, if without and with are equal
  *   without, with   irradiance
@@ -244,8 +241,7 @@ lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_i
                           const lmb_irradiance *with);
 
 /* lmb_mirror_tile: add the object's reflection in a varnish on plane p (-1: on every plane), and remove the reflections
- * that it hides: Schlick's share of with - without. At most half of the photo is removed.                          [M20
- * M24]
+ * that it hides: Schlick's share of with - without. At most half of the photo is removed. [M20 M24]
  *
  *   without, with  the light in narrow cones along the mirrored view: lmb_cones_glossy
  *   specular       reflectance if the surface faces the camera. Returns LMB_OK or LMB_ERR_ARG */
@@ -253,7 +249,7 @@ lmb_status lmb_mirror_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_
                            const lmb_pinhole *camera, int32_t p, const lmb_cone_seen *without,
                            const lmb_cone_seen *with, float specular);
 
-/* lmb_object_tile: put the object's pixels over the photo's if nothing real is in front of them.          [M24]
+/* lmb_object_tile: put the object's pixels over the photo's if nothing real is in front of them.                  [M24]
  *
  *   object, real  tiles of the same pixels
  *   cloud         for the noise: a real point hides the object only if it is nearer by two deviations

@@ -131,7 +131,7 @@ lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene);
  * A triangle blocks if the segment crosses it with both ends farther from its plane than `noise` and than a millionth
  * of the corners' distance from `at`. So no triangle blocks its own points, there is no bias to tune, and distant
  * triangles do not change results here. Triangles that share an edge leave no gap. The segments' own tests decide; the
- * traversal only skips boxes that no segment can hit. NULL: nothing blocks. Cost: 0.1 to 1 us.                [V25]
+ * traversal only skips boxes that no segment can hit. NULL: nothing blocks. Cost: 0.1 to 1 us.                    [V25]
  *
  * If the traversal is bounded and no tests are left, the answer is coarser, to the end of the tile: the middle one of
  * `pixels` answers for all, after at most LMB_TRAVERSAL_COARSE tests. A call that begins with tests left ends at most
@@ -142,8 +142,8 @@ uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *traversal,
                            const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise);
 
 /* lmb_place_noise: how far, m, rounding may have moved a point off its surface, if a ray from `distance` m away found
- * it: a millionth of the distance and a quarter of that of its coordinates. distance 0: the mean of a triangle's
- * corners.
+ * it: a millionth of the distance plus a quarter of a millionth of the largest coordinate. distance 0: the mean of a
+ * triangle's corners.
  * lmb_tile_noise: the maximum over a tile's `pixels`, by their depth. */
 float lmb_place_noise(lmb_vec3 at, float distance);
 float lmb_tile_noise(const lmb_tile *tile, uint64_t pixels);

@@ -264,7 +264,7 @@ lmb_status lmb_probe_halve(float *out, const float *map, const lmb_probe_table *
  * LMB_ERR_ARG. [S14] */
 lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lmb_probe_table *table);
 
-/* lmb_probe_reflect: the radiance that a surface reflects, indexed by the mirror direction.     [S16 S22]
+/* lmb_probe_reflect: the radiance that a surface reflects, indexed by the mirror direction.                   [S16 S22]
  *
  *   cube       3 planes of 6 n x n texels; n: 1 .. 256. With n from lmb_probe_glossy_side the error in a world of small
  *              lights is 2 to 4 % rmse from roughness 0.2 on, 12 % at 0.1

@@ -96,7 +96,7 @@ lmb_status lmb_relief_swap(void *data, size_t bytes);
 /* lmb_relief_scene: the simple model as a scene without lights. Points into `relief`. */
 void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief);
 
-/* lmb_relief_tile: replace the simple surface by the complex one.                              [P2 P3 P4 P5 P6 P12]
+/* lmb_relief_tile: replace the simple surface by the complex one.                                  [P2 P3 P4 P5 P6 P12]
  *
  *   inout  resolved for `view` from a target that holds only the simple model. Position, face, normal, albedo and depth
  *          become the complex surface's; pixels with rays that miss it are cleared.
@@ -111,8 +111,7 @@ void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief);
 lmb_status lmb_relief_tile(lmb_tile *inout, const lmb_kernels *kernels, const lmb_relief *relief,
                            const lmb_view *view, const lmb_relief_how *how, lmb_relief_stats *stats);
 
-/* lmb_relief_nearer: write the nearer surface of each pixel of two tiles at one place into `inout`.                 
- * [P11]
+/* lmb_relief_nearer: write the nearer surface of each pixel of two tiles at one place into `inout`. [P11]
  * Ids of `other` become LMB_MAX_TRIANGLES, so that they match no scene's triangles. */
 void lmb_relief_nearer(lmb_tile *inout, const lmb_tile *other);
 
@@ -126,7 +125,7 @@ lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, const lmb_kernels *
                                   const lmb_relief *relief, const lmb_relief_how *how, int32_t first, int32_t past);
 
 /* lmb_relief_lit: the pixels of a tile, a bit each, that nothing in such a map shadows: pixels of the relief and of
- * other surfaces.                                                                               [P8 P9]
+ * other surfaces.                                                                                               [P8 P9]
  * A pixel is tested against the four texels around its position in the map: each against the pixel's own plane there,
  * with a margin of a texel for the plane's error. The weighted majority of the four decides. A pixel that differs from
  * all of three or more neighbours in the tile takes their result. */

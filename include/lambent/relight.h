@@ -1,5 +1,4 @@
-/* relight.h: objects drawn in the light of the world around them, with the world as background.         [S15-S17,
- * S21-S24]
+/* relight.h: objects drawn in the light of the world around them, with the world as background. [S15-S17, S21-S24]
  *
  *     lmb_draw(&relight.eye, ...);                    the objects, depth and ids
  *     for each band: lmb_relight_band(&relight, scratch, out, band);

@@ -268,7 +268,7 @@ lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kerne
  * lmb_transfer_many_lights: add the light of a tree of lights to elements of the tiles first .. past - 1. Tiles may run
  * in any order, on any threads, each with its own scratches (own_scratch: kernels, tile and fresh are used).
  * light->place gives each element's position. Cost: a tile's cut and its shadows, as for 64 pixels. Returns LMB_OK or
- * LMB_ERR_ARG.                                                    [V3] */
+ * LMB_ERR_ARG.                                                                                                  [V3] */
 int32_t lmb_transfer_tiles(const lmb_transfer *transfer);
 lmb_status lmb_transfer_many_lights(const lmb_transfer_light *light, const lmb_element_scratch *own_scratch,
                                     lmb_many_lights_scratch *scratch, const lmb_transfer *transfer,

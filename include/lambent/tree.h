@@ -139,7 +139,7 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
  * LMB_ERR_ARG. */
 lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
 
-/* lmb_gather_cut: add the light of the tree's first points to a tile's pixels.                        [V25 V27 V28]
+/* lmb_gather_cut: add the light of the tree's first points to a tile's pixels.                            [V25 V27 V28]
  *
  * The tile's pixels are split by surface, and each cluster takes a cut of its own: the node with the largest error is
  * replaced by the four children until the root of the sum of squared errors is at most cut_params->error times the

@@ -1,5 +1,5 @@
 /* voxel.h: a scene's surfaces and their light as a sparse octree, and cones that are traced through it.
- *                                                                                        [M6-M8 M11-M13 M20-M22]
+ *                                                                                               [M6-M8 M11-M13 M20-M22]
  *     lmb_voxels_init(&v, cap, LMB_VOXELS_THREE, memory, bytes);    once
  *     lmb_voxels_build(&v, &low, &high, depth, parts, count);       when geometry changes
  *     lmb_voxels_inject(&v, field, texels, count);                 when light changes: first points of the shadow maps
@@ -129,7 +129,7 @@ lmb_status lmb_voxels_build(lmb_voxels *inout, const lmb_vec3 *low, const lmb_ve
 /* lmb_voxels_dark: set a field's light to 0, to inject other lights. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_voxels_dark(lmb_voxels *inout, int32_t field);
 
-/* lmb_voxels_inject: add first points' flux to the leaves that they lie in.                              [M7 M10]
+/* lmb_voxels_inject: add first points' flux to the leaves that they lie in.                                    [M7 M10]
  *
  *   field   LMB_VOXEL_WITHOUT or LMB_VOXEL_WITH
  *   texels  of a tree (lmb_tree_texels), one face after the other, or filled in by you; flux 0 is no first point
@@ -143,12 +143,10 @@ lmb_status lmb_voxels_inject(lmb_voxels *inout, int32_t field, const lmb_texel *
 lmb_status lmb_voxels_filter(lmb_voxels *inout, int32_t field);
 
 /* lmb_voxels_delta: with - without, of both filtered fields, exactly 0 if they are equal. Returns LMB_OK or
- * LMB_ERR_ARG.
- *                                                                                                         [M11 M12] */
+ * LMB_ERR_ARG. [M11 M12] */
 lmb_status lmb_voxels_delta(lmb_voxels *inout);
 
-/* lmb_cones_init: cones for one build's leaves; count: 7, 19 or 37. Returns LMB_OK or LMB_ERR_ARG.                  
- * [M21]
+/* lmb_cones_init: cones for one build's leaves; count: 7, 19 or 37. Returns LMB_OK or LMB_ERR_ARG. [M21]
  * lmb_cone_width_init: the steps of cones by the tangent of their half opening, 0.01 .. 2. Returns LMB_OK or
  * LMB_ERR_ARG. */
 lmb_status lmb_cones_init(lmb_cones *out, const lmb_voxels *voxels, int32_t count);
@@ -164,14 +162,14 @@ float lmb_cone_tangent(float roughness);
 lmb_status lmb_cones_trace(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width,
                            const lmb_tile *tile, float direction[3][LMB_TILE_PIXELS]);
 
-/* lmb_cones_diffuse: add the light of all cones to a tile: irradiance, W/m2, by shading normals.           [M21 M22]
+/* lmb_cones_diffuse: add the light of all cones to a tile: irradiance, W/m2, by shading normals.              [M21 M22]
  *
  *   open  NULL, or set to the uncovered share of the cosine-weighted hemisphere, for each pixel
  * Pixels without a surface are unchanged. Doubling all light doubles the result. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS], const lmb_cone_trace *trace,
                              const lmb_cones *cones, const lmb_tile *tile);
 
-/* lmb_cones_glossy: the radiance in one narrow cone along the mirrored view.                      [M20 M22]
+/* lmb_cones_glossy: the radiance in one narrow cone along the mirrored view.                                  [M20 M22]
  *
  *   eye    position that the tile is seen from, m
  *   width  with lmb_cone_tangent of the roughness
