@@ -136,7 +136,7 @@ void glEnd(void) { DO(end, U(0)); }
 
 /* --- parameters with one or more values --------------------------------------------------------------------------- */
 
-/* As many values as a parameter has. */
+/* Number of values of a parameter. */
 static int call_values(GLenum name)
 {
     switch (name) {
