@@ -1,5 +1,5 @@
-/* room.h: the demo of every port: a baked room with a lamp and a camera that move along a fixed path of ROOM_FRAMES
- * frames. It uses only integers, so machines without an FPU draw it, and all machines draw the same.
+/* room.h: the demo of every port: a baked room. Lamp and camera move along a fixed path of ROOM_FRAMES frames. The code
+ * uses only integers, so machines without an FPU draw the room, and all machines draw the same.
  *
  *     room_open(..)       memory for one size of picture
  *     room_path(..)       lamp and camera of a frame;  room_steer(..): moved by buttons
