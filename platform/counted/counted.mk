@@ -1,4 +1,4 @@
-# counted.mk: counts the room's cost on a console whose processor qemu supports: make PORT=... count.
+# counted.mk: counts the room's cost on a console with a processor that qemu supports: make PORT=... count.
 #
 # The port sets COUNTED (its name in port_counted.c), COUNTED_ROWS (of a band), COUNTED_AT (address of code: equal to
 # the console's modulo the cache size), COUNTED_SRC (the port's rows), COUNTED_QEMU and COUNTED_MODEL.

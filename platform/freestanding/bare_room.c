@@ -2,7 +2,7 @@
  * files of the debugger, or qemu, are accessed by semihosting.
  *
  * The program's command line, if there is one, is `room COUNTS PICTURE [all]`: qemu_count.c puts its counts into
- * COUNTS; PICTURE gets the last picture as PPM, or with `all` each picture behind the other. `-` stands for no file. */
+ * COUNTS; PICTURE gets the last picture as PPM, or with `all` each picture behind the other. `-` means no file. */
 #include "../demo/room_port.h"
 
 #include <string.h>

@@ -144,7 +144,7 @@ uint32_t port_buttons(void)
     static const uint32_t bits[ROOM_BUTTONS] = {0x80, 0x20, 0x10, 0x40, 0x8000, 0x2000, 0x4000, 0x1000};
     PAD_CONTROL = 0x40;
     PAD_RATE = 0x88, PAD_MODE = 0x0d;
-    PAD_CONTROL = 0x1003; /* enables both directions, which wait for a sent byte: receiving alone would run ahead */
+    PAD_CONTROL = 0x1003; /* enables both directions, which wait for a sent byte: receiving only would run ahead */
     (void)PAD_DATA;       /* discards old bytes; from here on bytes are received */
     pause(400);
     exchange(0x01);

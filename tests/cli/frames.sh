@@ -183,8 +183,8 @@ said "lists no frame: photos without a depth within 0.02 s: 4; without a pose: 0
 printf '1.01 f0.depth.pfm\n1.04 f4.depth.pfm\n' >frames/depth.txt
 status 1 mix --frames frames $tent -q -o frames/bad_%02d.pfm
 said "2 of 2 frames are left out, the first because no camera given"
-# Frames whose depth has no valid pixel or no numbers, whose photo is truncated, or that differ in size from their depth
-# are each reported once. Later frames are the same as in a list without them.
+# Frames with a depth that has no valid pixel or no numbers, with a truncated photo, or with photo and depth of
+# different sizes are each reported once. Later frames are the same as in a list without them.
 { printf 'Pf\n24 24\n-1.0\n'; repeated 576 '\000\000\300\177'; } >frames/x0.depth.pfm
 for i in 0 1 2 3; do cp frames/f0.json "frames/x$i.json" && cp photo.pfm "frames/x$i.color.pfm"; done
 head -c 500 photo.pfm >frames/x1.color.pfm && cp wall.pfm frames/x1.depth.pfm

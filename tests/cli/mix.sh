@@ -124,7 +124,7 @@ check "depth of another size is resampled" "$TOOL" compare half_mixed.pfm mixed.
 { printf 'Pf\n12 6\n-1.0\n'; repeated 72 "$two"; } >flat.pfm
 status 1 mix --photo photo.pfm --depth flat.pfm --intrinsics 30,30,11.5,11.5 -o bad.png
 said "12 x 6 pixels, the photo has 24 x 24"
-# --labels writes what each pixel shows of the object: on the wall, its depth is the plane's, and
+# --labels writes what each pixel shows of the object: on the wall, the object's depth is that of the plane, and
 # the mask is white there.
 status 0 mix $seen --object tent.obj --scale 0.3 --labels lab --light none -o mixed.png
 for file in lab.mask.png lab.depth.pfm lab.normal.pfm lab.pose.json; do

@@ -11,7 +11,7 @@ enum { WIDTH = 96, HEIGHT = 64 };
 static uint64_t block[(200 * 1024 + sizeof(lmb_band_scratch) + sizeof(lmb_groups)) / 8];
 static lmb_render state;
 
-/* Stands for the bus to a display: a running sum over the sent rows. */
+/* In place of the bus to a display: a running sum over the sent rows. */
 typedef struct display {
     uint64_t sum;
     int32_t rows;

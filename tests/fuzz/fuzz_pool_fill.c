@@ -306,7 +306,7 @@ static void fill_transfer_light(void *out, int how)
     l->place = how & 1 ? NULL : pool_block((elements + 8) * sizeof *l->place);
 }
 
-/* Sets those parts of a frame that lmb_frame_init leaves alone; the frame itself comes from that call. */
+/* Sets those parts of a frame that lmb_frame_init does not set; the frame itself comes from that call. */
 static void fill_frame(void *out, int how)
 {
     lmb_frame *f = out;

@@ -10,7 +10,7 @@ mkdir -p "$work" "$B/rooms" "$B/suns"
 columns="$1 $2 $3 $4"
 shift 4
 
-# linked OUT SOURCE VALUE OBJECTS...: links a measure whose constant $name is VALUE.
+# linked OUT SOURCE VALUE OBJECTS...: links a measure with VALUE for the constant $name.
 linked() {
     out=$1 file=$2 changed=$3
     shift 3

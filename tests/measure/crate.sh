@@ -1,6 +1,6 @@
 # crate.sh: measures how baked light misses the shadow and reflection of a moving object: a crate in a closed room.
 #
-# The crate stands at three places, and finally outside the room, which shows the error of the room's own light. A
+# The crate is put at three places, and finally outside the room, which shows the error of the room's own light. A
 # row has the whole picture's trim and RMSE, bounced light against the best settings with the crate in place.
 # FRAME (default 160x120).
 . tests/scripts/checks.sh

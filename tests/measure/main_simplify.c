@@ -152,7 +152,7 @@ static double side_of(const double p[2], const double q[2], double x, double y)
     return (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
 }
 
-/* Marks the pixels whose middle lies in the triangle or on an edge, whichever way the triangle faces. */
+/* Marks the pixels with their middle in the triangle or on an edge. The triangle may face either way. */
 static void cover(uint8_t *mask, double c[3][2])
 {
     const double way = side_of(c[0], c[1], c[2][0], c[2][1]) > 0 ? 1 : -1;

@@ -14,8 +14,8 @@ typedef struct error_count {
 typedef struct accuracy {
     error_count alone;   /* each triangle drawn separately: every pixel that it covers, hidden or not */
     error_count frame;   /* the picture of all triangles */
-    uint64_t outside;    /* in `alone`: depth outside the range of the triangle's corner depths */
-    uint64_t past_bound; /* in `alone`: depth error beyond the bound of binary32 rounding */
+    uint64_t outside;    /* single triangles: depth outside the range of the triangle's corner depths */
+    uint64_t past_bound; /* single triangles: depth error beyond the bound of binary32 rounding */
     uint64_t unlike;     /* pixels that differ from the first backend, or in the picture from the merged triangles */
     uint64_t fights;     /* of frame.pixels: another triangle in front */
     double fight_gap;    /* maximum distance, in ulps, by which it lies behind the reference's */
