@@ -523,7 +523,7 @@ static int call_map_values(GLenum target)
     }
 MAPS(f, GLfloat) MAPS(d, GLdouble)
 
-/* --- colour indices: set, but nothing is drawn by them ------------------------------------------------------------ */
+/* --- colour indices: stored, but never drawn ---------------------------------------------------------------------- */
 
 #define INDEX(t, T) \
     void glIndex##t(T v) { (void)v; } \

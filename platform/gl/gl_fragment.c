@@ -38,7 +38,7 @@ static void fragment_fetch(float out[4], const gl_texture *t, const gl_image *m,
     }
 }
 
-/* A coordinate to texels of a side, before the floor. */
+/* Converts a coordinate to texels of a side, before rounding down. */
 static float fragment_place(float s, int32_t size, GLenum wrap)
 {
     const float n = (float)size;

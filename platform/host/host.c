@@ -1,4 +1,4 @@
-/* host.c: the clock, the terminal and the file limit of a desktop: POSIX, Windows, or plain C. */
+/* host.c: clock, terminal and file limit of a desktop: POSIX, Windows, or plain C. */
 #if !defined(_WIN32)
 #define _XOPEN_SOURCE 600 /* clock_gettime, isatty, mkdir, SIGXFSZ, sigaction */
 #endif

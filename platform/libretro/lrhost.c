@@ -390,7 +390,7 @@ static int search_core(struct dl_phdr_info *library, size_t bytes, void *found)
     return 1;
 }
 
-/* Once found, the block never moves, because the search is slow. */
+/* Caches the address, because the search is slow. */
 static const text_block *find_block(void)
 {
     enum { SYSTEM_RAM = 2, SELDOM = 10 };

@@ -1,4 +1,4 @@
-# bounce.sh: light that bounces: --bounces, --elements, surfaces that emit, error bounds.
+# bounce.sh: bounced light: --bounces, --elements, surfaces that emit, error bounds.
 . tests/cli/common.sh
 
 # More bounces add light, and the default is one; a surface that emits lights a scene without lamps.

@@ -57,7 +57,7 @@ for option in "--zones 20" "--neighbour 0.6" "--neighbour-blocks 3" "--disc-radi
     status 0 render demo $small --groups 400 $option -o other.pfm
     check "$option changes nothing" differ other.pfm plain.pfm
 done
-# First points: fewer discs, another neighbourhood, thresholds.
+# Options of first points: fewer discs, another neighbourhood, thresholds.
 for option in "--thin 10" "--neighbourhood hemisphere" "--neighbour 0.25" "--neighbour 0.5" "--neighbour 1" "--centre disc"; do
     status 0 render demo $small $option -o option.pfm --stats option.json
     check "$option changes the picture" differ demo.pfm option.pfm

@@ -1,7 +1,7 @@
 # same.sh: checks that `play` at time 0 and `render` write the same bytes for the same file and options.
 . tests/cli/common.sh
 
-# same EXTENSION ARGUMENT...: runs both verbs with this ending and compares the files.
+# same EXTENSION ARGUMENT...: runs both verbs with this extension and compares the files.
 same() {
     end=$1
     shift

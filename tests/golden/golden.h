@@ -6,7 +6,7 @@
 
 enum { GOLDEN_POINTS = 400 }; /* of frames that do not request fewer */
 enum { GOLDEN_WIDTH = 80, GOLDEN_HEIGHT = 60 };
-enum { GOLDEN_WORKERS = 8 };  /* that may draw bands of one frame */
+enum { GOLDEN_WORKERS = 8 };  /* workers that may draw bands of one frame */
 
 /* A way to draw cases. All ways have the same hashes. */
 typedef struct golden_way {

@@ -13,11 +13,11 @@ typedef struct verb_input {
     float a[VERB_LANES], b[VERB_LANES], c[VERB_LANES]; /* any bits */
     float whole[VERB_LANES];                           /* in the range of int32 */
     float code[VERB_LANES];                            /* 0 .. 65535, whole */
-    int32_t i[VERB_LANES], j[VERB_LANES];              /* |i|, |j| < 2^30, and often equal */
+    int32_t i[VERB_LANES], j[VERB_LANES];              /* i|, |j| < 2^30, with many equal pairs */
     int32_t m[VERB_LANES], n[VERB_LANES];              /* |m n| < 2^31 */
     int32_t at[VERB_LANES];                            /* 0 .. VERB_TABLE - 1 */
     int32_t shift;                                     /* 0 .. 31 */
-    int32_t step;                                      /* from row to row: 8 or 11 */
+    int32_t step;                                      /* distance of rows: 8 or 11 */
     float table_f32[VERB_TABLE], surface_f32[VERB_SURFACE];
     uint16_t table_u16[VERB_TABLE], surface_u16[VERB_SURFACE];
     uint32_t surface_u32[VERB_SURFACE];

@@ -94,7 +94,8 @@ double plan_seconds(const plan_run *r)
     return sum;
 }
 
-/* Sizes of trees, error limits and steps, in nested order; heavy scenes use every second one. */
+/* Setting i of the combinations of tree size, error and step. Returns 0 past the last, and for settings
+ * that a heavy scene skips. */
 static int setting(lmb_settings *s, int i, int heavy)
 {
     static const int32_t trees[] = {64, 128, 256, 512}, steps[] = {1, 2, 4};

@@ -144,7 +144,8 @@ void subject_free(subject *s)
     free(s);
 }
 
-/* Directions on a golden-angle spiral, turned so that they avoid the cameras of the bake. */
+/* Directions on a golden-angle spiral, turned, so that they lie between the lattice
+ * directions of the relief's views. */
 lmb_view subject_camera(const subject *s, int i, int32_t side, lmb_light *sun)
 {
     const double y = 1.0 - (2.0 * i + 1.0) / CAMERAS, a = 2.39996322972865332 * i + 0.3, ring = sqrt(1.0 - y * y);

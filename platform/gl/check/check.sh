@@ -59,7 +59,7 @@ pyopengl() {
     if $python $here/scenes.py --compare "$out/ours.rgba" "$out/theirs.rgba"; then good; else bad "pyopengl"; fi
 }
 
-# piglit, with the stand-ins for a window system that lie beside the repository.
+# piglit, with stand-ins for a window system that are beside the repository.
 piglit() {
     [ -f ../shared/gl/piglit.py ] || { skip "piglit: ../shared/gl is missing"; return; }
     [ -d /usr/lib/x86_64-linux-gnu/piglit ] || { skip "piglit: the package is missing"; return; }

@@ -87,8 +87,8 @@ PAGE_CALL(page_show_width) int32_t page_show_width(void);
 PAGE_CALL(page_show_height) int32_t page_show_height(void);
 
 /* page_cut: returns the nodes of the finished frame that light the surface at a pixel, PAGE_NODE floats each: position,
- * radius, light, share of the pixels that see it, level, number of the light, face and texel of the shadow map.
- * page_cut_count: the number of nodes; 0 if the frame uses no cuts. */
+ * radius, light, share of the pixels that see it, level, the light's face, and the texel in the face. page_cut_count:
+ * the number of nodes; 0 if the frame uses no cuts. */
 enum { PAGE_NODE = 10 };
 PAGE_CALL(page_cut) const float *page_cut(int32_t x, int32_t y);
 PAGE_CALL(page_cut_count) int32_t page_cut_count(void);
