@@ -145,7 +145,7 @@ pasted() {
     done
 }
 
-# --- shared scenes and pictures --- --------------
+# --- shared scenes and pictures ---
 
 one='\000\000\200\077'  # 1, 0.5 and 2 as binary32
 half='\000\000\000\077'

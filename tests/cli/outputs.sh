@@ -55,7 +55,7 @@ check "left behind: $left" test -z "$left"
 box
 photo
 
-# --- unwritable outputs are refused before the work --- ---
+# --- unwritable outputs are refused before the work ---
 
 # alone: one line on stderr, and nothing on stdout. refused WORD ARGUMENT...: one line with the word, although the scene
 # is missing too. misused: one file for two purposes, which is bad usage.
@@ -106,7 +106,7 @@ else
     skip "files that may not be written: root may write all"
 fi
 
-# --- inputs are not overwritten, whatever their name --- ---
+# --- inputs are not overwritten, whatever their name ---
 
 status 0 render demo $few -o demo.png
 status 0 render demo $few -o demo.pfm
@@ -141,7 +141,7 @@ misused "cloth01.png: cannot be written: it is read" play cloth.obj --size 16x16
 absent cloth00.png
 check "what is read stays as it was" test "$(sum)" = "$kept"
 
-# --- no file in a format of lambent under the name of another kind --- ---
+# --- no file in a format of lambent under the name of another kind ---
 
 for out in x.png X.PPM x.pfm x.hdr x.jpg x.jpeg x.gltf x.GLB x.obj x.mtl x.ply x.lmp x.lmr; do
     misused "$out: a .lmt file would be written, under the name of a" bake box.obj --elements 64 --receivers 64 -o "$out"

@@ -1,7 +1,7 @@
 # plan.sh: plan: stages that are left out, with reasons; budgets.
 . tests/cli/common.sh
 
-# --- stages that are left out, with reasons; budgets --- ---
+# --- stages that are left out, with reasons; budgets ---
 
 plan="--size 32x24 --shadow-map 64 --threads 1"
 status 0 plan demo $plan

@@ -113,7 +113,7 @@ check "of a dim picture the cause is named" holds 'EV (auto): hardly any light' 
 status 0 render $sealed point:0,0.5,0:0,-1,0:1,1,1 -o dim.png
 check "not of another" grep -q 'EV (auto)$' err.txt
 
-# --- baked light --- ---
+# --- baked light ---
 
 status 0 bake floor.obj --elements 256 --receivers 200 -o floor.lmt
 status 0 render floor.obj $look --transfer floor.lmt -o baked.pfm

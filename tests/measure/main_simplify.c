@@ -64,7 +64,7 @@ static void put_middle(float *to, const float *p, const float *q)
         to[k] = 0.5f * p[k] + 0.5f * q[k];
 }
 
-/* Splits each triangle into four that share no vertex with other triangles. */
+/* Splits each triangle into four, with six new vertices for each original triangle. */
 static triangle_mesh in_four(const triangle_mesh *m)
 {
     static const uint32_t parts[12] = {0, 3, 5, 3, 1, 4, 5, 4, 2, 3, 4, 5};
@@ -207,7 +207,7 @@ static void compare_views(const triangle_mesh *in, const triangle_mesh *out, dou
     *extra /= covered;
 }
 
-/* --- figures --- ------- */
+/* --- figures --- */
 
 static double seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 

@@ -2,14 +2,19 @@
  * [options of `lambent play`]
  *
  * Measures grey irradiance of bounced light at points that are tracked from frame to frame. Except for shifts, a value
- * is divided by the best settings' light at the point plus 1 % of its mean. `residual`: r = frame - best, at twenty
- * times along the paths: the 99.9th percentiles of |r(t) - r(t-1)| and of
- * r(t+1) - 2 r(t) + r(t-1)|, and beside them those of the best light's own steps.
- * `halving`: only the light moves, over one frame's time at four times: the largest change of any pixel between frames
- * 1, 1/2 .. 1/64 of it apart. A change that does not shrink to 0.6 with each step is a pop; the place of the largest is
- * printed. `shift`: the camera moves sideways by 1/4 .. 16 px at the distance of the surface ahead: RMSE of the change
- * at a point beyond that of the best light, without the worst 1 %, relative to the mean. The bar is 2 %. Ends with `N
- * passed, N failed, N skipped`. */
+ * is divided by the best settings' light at the point plus 1 % of its mean.
+ *
+ * `residual`: r = frame - best, at twenty times along the paths: the 99.9th percentiles of |r(t) - r(t-1)| and of
+ * |r(t+1) - 2 r(t) + r(t-1)|, and beside them those of the best light's own steps.
+ *
+ * `halving`: only the light moves, over one frame's time at four times: the largest change of any pixel
+ * between frames 1, 1/2 .. 1/64 of it apart. A change that does not shrink to 0.6 with each step is a pop; the
+ * place of the largest is printed.
+ *
+ * `shift`: the camera moves sideways by 1/4 .. 16 px at the distance of the surface ahead: RMSE of the change at a
+ * point beyond that of the best light, without the worst 1 %, relative to the mean. The bar is 2 %.
+ *
+ * Ends with `N passed, N failed, N skipped`. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -131,9 +131,9 @@ static const char *count_of(char out[32], const char *counts, int filter)
     return out;
 }
 
-/* --- in a frame, by the fastest filter ---------------------------------------------------------------------------- */
+/* --- tables ------------------------------------------------------------------------------------------------------- */
 
-enum { OBJECTS = 200 }; /* in a frame, by the quickest filter */
+enum { OBJECTS = 200 }; /* in a frame, by the fastest filter */
 static const double frame_s = 1.0 / 60.0;
 
 static void print_errors(const char *name, const summary *alone, const summary *remap)
