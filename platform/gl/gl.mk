@@ -29,7 +29,7 @@ $(GL_OUT)/libGL.a: $(GL_OBJ)
 	@$(AR) rcs $@ $^
 
 .PHONY: gl gl-check
-gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips clients if packages are missing
+gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips those whose packages are missing
 	@GL_CLIENTS='$(GL_CLIENTS)' CC='$(CC)' sh platform/gl/check/check.sh $(GL_OUT)
 
 -include $(GL_OBJ:.o=.d)
