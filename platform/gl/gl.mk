@@ -2,7 +2,7 @@
 
 GL_OUT     := $(BUILD)/gl
 GL_SRC     := $(sort $(wildcard platform/gl/gl_*.c))
-# Of the library, what draw.h needs.
+# The part of the library that draw.h needs.
 GL_LIB     := $(wildcard src/base/*.c src/draw/*.c) src/raster/setup.c src/raster/target.c
 GL_OBJ     := $(patsubst %.c,$(GL_OUT)/obj/%.o,$(GL_SRC) $(GL_LIB))
 GL_NAMES   := $(addprefix $(GL_OUT)/,libOSMesa.so.8 libOSMesa.so libOpenGL.so.0 libGL.so.1)
