@@ -105,7 +105,7 @@ static int setting(lmb_settings *s, int i, int heavy)
     s->visibility = 0.75f * s->error;
     s->gather_step = steps[i / 12 % 3];
     s->occlusion = LMB_OCCLUSION_EXACT;
-    return i < 36 && (!heavy || s->error > 0.1f);
+    return i < 36 && (!heavy || s->error >= 0.1f);
 }
 
 int plan_measure(plan_scene *out, const plan_place *at)
