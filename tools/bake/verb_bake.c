@@ -1,4 +1,4 @@
-/* verb_bake.c: `lambent bake`: a scene that does not move -> its light transfer, in a file. */
+/* verb_bake.c: `lambent bake`: a static scene -> a file with light transfer. */
 #include "verb_bake.h"
 
 #include <limits.h>
@@ -18,8 +18,8 @@
 #include "bake_slice.h"
 #include "light_export.h"
 
-enum { MOVING = 256 }; /* objects, at most */
-enum { EYES = 64 };    /* that are given, and cameras of the scene */
+enum { MOVING = 256 }; /* objects */
+enum { EYES = 64 };    /* given by the user and cameras of the scene */
 
 typedef struct options {
     const char *scene, *out, *moving;
@@ -43,7 +43,7 @@ static const char *const orders[] = {"little", "big", NULL};
 static const char *const forms[] = {"transfer", "vertex-colours", "lightmap", "probes", NULL};
 static const char *const endings[] = {".lmt", ".glb", ".glb", ".json"};
 
-/* Settings of --quality: elements, and receivers in addition to those at the corners of triangles. */
+/* Settings of --quality: elements, and receivers in addition to those at triangle corners. */
 enum { QUALITY_DRAFT, QUALITY_DEFAULT, QUALITY_BEST };
 static const char *const qualities[] = {"draft", "default", "best", NULL};
 static const struct {
@@ -136,7 +136,7 @@ static const option_table table = {
                 "  lambent bake demo -o demo.glb --to vertex-colours --elements 1024 --receivers 2000\n",
 };
 
-/* `0,3,4`: numbers of the scene's objects, none twice. */
+/* Parses `0,3,4`: object numbers of the scene, without duplicates. */
 static int parse_moving(uint32_t out[MOVING], uint32_t *count, const char *text, const lmb_scene *scene, report *r)
 {
     const char *at = text;
@@ -187,7 +187,7 @@ static int is_own_big(void)
     return *(const uint8_t *)(const void *)&one == 0;
 }
 
-/* The file; as long as it is too large with a larger error. */
+/* Writes the file; repeats with a larger error while it is too large. */
 static int make_file(file_bytes *file, const options *o, bake *b, report *r)
 {
     int ok = bake_code_all(b, r) && bake_file(file, b, r);
@@ -202,7 +202,7 @@ static int make_file(file_bytes *file, const options *o, bake *b, report *r)
                               (int)o->budget, (double)file->size));
 }
 
-/* The light that what was baked makes of the scene's lights, in another form. */
+/* Computes the light of the scene's lights from the bake, and writes it in another format. */
 static int export(const options *o, const char *path, const lmb_scene *scene, const model *loaded, bake *b,
                   file_bytes *lmt, report *r)
 {
@@ -230,7 +230,7 @@ static int export(const options *o, const char *path, const lmb_scene *scene, co
     return ok;
 }
 
-/* Other forms are written to the folder that slices share, read and removed. */
+/* Other formats are written to the folder that slices share, read back and removed. */
 static int export_slice(file_bytes file[BAKE_FILES], const options *o, const lmb_scene *scene, const model *loaded,
                         bake *b, report *r)
 {
@@ -275,14 +275,14 @@ static int write_slice(const options *o, const lmb_scene *scene, const model *lo
     return ok;
 }
 
-/* Files of slices are read and written again: from now on none is kept from that. */
+/* Ends file_keep_all: slice files are read and written again, so they may be overwritten. */
 static int begin_slice(bake_share *s, char folder[SLICE_NAME], const options *o, const lmb_scene *scene, report *r)
 {
     char name[SLICE_NAME];
-    const uint64_t own = scene_hash(scene); /* with what its file has beside it */
+    const uint64_t own = scene_hash(scene); /* includes the files beside the scene file */
     s->slice = o->slice;
     s->job = slice_hash(o->slice_job, &own, sizeof own);
-    s->job = slice_hash(s->job, o->is_big ? "big" : "little", 3); /* by default it is the machine's */
+    s->job = slice_hash(s->job, o->is_big ? "big" : "little", 3); /* the default is the byte order of the machine */
     s->folder = folder;
     if (!slice_name(name, o->out, o->slice, r) || !file_can_write(name, r) || !bake_slice_folder(folder, o->out, r)) {
         return 0;
@@ -294,7 +294,7 @@ static int begin_slice(bake_share *s, char folder[SLICE_NAME], const options *o,
 static int bake_scene(const options *o, const lmb_scene *whole, const model *loaded, const lmb_vec3 *eyes,
                       uint32_t eye_count, report *r)
 {
-    static bake_share share; /* large, as its folder's name is */
+    static bake_share share; /* large: it contains a folder name */
     static char folder[SLICE_NAME];
     bake b;
     bake_settings set;
