@@ -1,4 +1,5 @@
-/* render_options.c: the command lines of `lambent render` and `lambent plan`; `lambent play` has most of the rows. */
+/* render_options.c: the command lines of `lambent render` and `lambent plan`; `lambent play` shares most of the
+ * rows. */
 #include "render_options.h"
 
 #include <math.h>
@@ -9,18 +10,18 @@
 #include "../picture/picture.h"
 #include "light_stream.h"
 
-enum { CHOSEN = -1 }; /* by the other options */
+enum { CHOSEN = -1 }; /* from other options */
 
 /* --- values of their own kinds ------------------------------------------------------------------------------------ */
 
-/* For command lines that name it. */
+/* Only for command lines that use it. */
 static int parse_profile(const char *text, void *at)
 {
     (void)at;
     return strcmp(text, "exact") == 0;
 }
 
-/* Rounded up to what the library takes: a power of 4. */
+/* Rounds up to a power of 4, as the library requires. */
 static int parse_elements(const char *text, void *at)
 {
     int32_t wanted, *elements = at;
@@ -32,7 +33,7 @@ static int parse_elements(const char *text, void *at)
     return 1;
 }
 
-/* 0 means the default to the library, so the least there is stands for it. */
+/* 0 selects the default in the library, so the smallest positive number replaces it. */
 static int parse_or_zero(const char *text, float low, float *at)
 {
     const int ok = option_number(text, low, 1.0f, at);
@@ -171,7 +172,7 @@ static const option_row output_rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP("the picture: " PICTURE_OPTION_HELP)},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page has neither slices nor draw.h */
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page has neither slices nor draw.h */
     OPTION_SLICE_ROW(render_options, slice, "picture's rows, eight by eight"),
     {.name = "--wireframe", .kind = OPTION_FLAG, AT(show), .parse = parse_wireframe,
      .help = HELP("the edges of triangles that no surface hides, white on black; short for --show wireframe")},
@@ -371,7 +372,7 @@ const option_row render_other_rows[] = {
      .help = HELP("the only one: the same bytes on every machine")},
     OPTION_BACKEND_ROW(render_options, kernels),
     OPTION_THREADS_ROW(render_options, threads, "draw the picture"),
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page writes no files */
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page writes no files */
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
      .help = HELP("time by stage, counts, bytes")},
 #endif
@@ -436,7 +437,7 @@ static void choose(render_options *o)
 {
     const int viewed = o->occlusion == LMB_OCCLUSION_VIEW || o->occlusion == LMB_OCCLUSION_VIEW_WORLD;
     if (o->grouping.method == CHOSEN) {
-        lmb_grouping plain; /* an option that fixed groups alone have asks for them */
+        lmb_grouping plain; /* an option that only fixed groups use selects them */
         memset(&plain, 0, sizeof plain);
         plain.method = CHOSEN;
         const int grouped = viewed || o->steps != 0 || o->show == SHOW_POINTS || o->show == SHOW_GROUPS ||
@@ -538,7 +539,7 @@ static int check_verb(const render_options *o, int plans, report *r)
     return o->out != NULL || plans || report_fail(r, "no output given; add -o FILE.png (or .ppm .pfm .hdr)");
 }
 
-/* Machines choose alike, so no setting may be chosen by how fast one is. */
+/* All machines must choose alike, so the speed of a machine must not affect any setting. */
 static int check_slice(const render_options *o, report *r)
 {
     char name[SLICE_NAME];
