@@ -9,8 +9,8 @@
 /* The frame must have run the light stages that each call needs. They allocate `out` and return 1, or 0 with `r` set.
  *   map_distances distance from the light to the first surface in each texel of the light's cone, metres, one channel;
  *                 0 if there is none. For a directional light the distance is measured from the plane of the map.
- *   map_points    after LMB_STAGE_POINTS, with owners: each lit texel has the exitance of the first point or disc in it,
- *                 W/m2. `display`: mapped to 0 .. 1, with disc outlines and a dot at each point
+ *   map_points    after LMB_STAGE_POINTS, with owners: each lit texel has the exitance of the first point or disc that
+ *                 owns it, W/m2. `display`: mapped to 0 .. 1, with disc outlines and a dot at each point
  *   map_groups    after LMB_STAGE_GROUPS, with owners: the number of the group that owns the texel, from 1; 0 if dark,
  *                 -1 if the disc was dropped. One channel. `display`: one colour per group, grey for dropped */
 int map_distances(image *out, const lmb_render *render, report *r);
