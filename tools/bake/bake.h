@@ -237,6 +237,7 @@ static inline int bake_is_near(const bake_nearest *n, float far2)
 void bake_nearest_put(bake_nearest *n, lmb_vec3 at, float far2);
 
 /* bake_rows: computes the light that arrives from each element at up to 64 points: form factor times visible share.
+ *
  *   row   axes x count rows of set.elements
  *   axes  1: on a plane with the normal; 3: along x, y and z, from elements in front of the plane
  *   times NULL, or receives a factor for the entries of each element: elements far from all points are subsampled; the
@@ -252,6 +253,7 @@ int bake_rows_part(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, in
 int bake_rows_has(const bake *b, uint32_t element, int own, int parts);
 
 /* bake_links: chooses the nodes whose means approximate a row of elements; with 3 axes, all rows share the nodes.
+ *
  *   row            becomes the row that the links reproduce
  *   normal         3 axes: errors across the normal count less
  *   price          squared error that a link must save

@@ -20,9 +20,11 @@ struct bake_share {
 };
 
 /* A step of a bake: independent batches.
+ *
  *   make  computes a batch on this machine
  *   put   writes the results of a batch that other batches need
  *   get   reads results that another slice wrote with put. Returns 0 if they are invalid; make may be called after it
+ *
  * make returns 1, or 0 with `r` set. */
 typedef struct bake_step {
     int32_t batches;

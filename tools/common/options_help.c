@@ -72,7 +72,7 @@ static void fold(FILE *out, const char *text, int at, int column)
 {
     while (*text != '\0') {
         int n = (int)strcspn(text, " \n");
-        n += text[n] == ' ' && text[n + 1] == '%' ? 1 + (int)strcspn(text + n + 1, " \n") : 0; /* keeps "5 %" together */
+        n += text[n] == ' ' && text[n + 1] == '%' ? 1 + (int)strcspn(text + n + 1, " \n") : 0; /* keeps "5 %" whole */
         if (at > column && at + n + 1 > WIDTH) {
             at = column;
             fprintf(out, "\n%*s", column, "");

@@ -7,6 +7,7 @@
 #include "../picture/image.h"
 
 /* The frame must have run the light stages that each call needs. They allocate `out` and return 1, or 0 with `r` set.
+ *
  *   map_distances distance from the light to the first surface in each texel of the light's cone, metres, one channel;
  *                 0 if there is none. For a directional light the distance is measured from the plane of the map.
  *   map_points    after LMB_STAGE_POINTS, with owners: each lit texel has the exitance of the first point or disc that

@@ -40,6 +40,7 @@ typedef struct render_job {
 } render_job;
 
 /* Call these in order, on a job that is zero except for the options. Each returns 1, or 0 with `r` set.
+ *
  *   render_job_load loads the scene
  *   render_job_set  sets lights and view, and allocates all memory: ready to draw */
 int render_job_load(render_job *j, report *r);
