@@ -1,4 +1,4 @@
-/* lambent.c: the command line: finds the verb. */
+/* lambent.c: the command line: selects the verb. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,7 +28,7 @@
 static const struct verb {
     const char *name;
     int (*run)(int argc, char **argv);
-    const char *usage, *help; /* lines, as many of each */
+    const char *usage, *help; /* same number of lines in each */
 } verbs[] = {
     {"render", verb_render, "render SCENE -o OUT",
      "draw a scene (.gltf .glb .obj .ply, or `demo`) with bounced light"},
@@ -95,7 +95,7 @@ static int run(int argc, char **argv)
 
 /* --- help --------------------------------------------------------------------------------------------------------- */
 
-/* All that has a help of its own. */
+/* All commands with a help text. */
 static const char *const pages[][2] = {
     {"render", NULL},     {"bake", NULL},        {"pack", NULL},        {"play", NULL},
     {"merge", NULL},       {"capture", NULL},
@@ -109,7 +109,7 @@ static const char *const pages[][2] = {
 
 enum { HELP_WORDS = 4 };
 
-/* The words, as VERB ... --help. */
+/* Prints help for these words, like VERB ... --help. */
 static int help(int count, char **words)
 {
     static char name[] = "lambent", ask[] = "--help";
@@ -209,7 +209,7 @@ static int start(int argc, char **argv)
     return run(argc, argv);
 }
 
-/* What was printed may still wait, and find the disk full. */
+/* Buffered output may still meet a full disk. */
 int main(int argc, char **argv)
 {
     report r = {""};

@@ -1,4 +1,4 @@
-/* verb_compare.c: `lambent compare`: how far one picture is from another. */
+/* verb_compare.c: `lambent compare`: error of one picture against another. */
 #include "verb_compare.h"
 
 #include <inttypes.h>
@@ -25,11 +25,11 @@ typedef struct options {
 /* A picture to compare. picture_free releases it; a zeroed one is empty. */
 typedef struct picture {
     int32_t width, height;
-    float *linear; /* 3 a pixel */
-    float *codes;  /* 4 a pixel, RGBA as stored in an 8-bit file; NULL for a file of floats */
+    float *linear; /* 3 per pixel */
+    float *codes;  /* 4 per pixel, RGBA as stored in an 8-bit file; NULL for a file of floats */
 } picture;
 
-/* All that one run reads. */
+/* All inputs of a run. */
 typedef struct loaded {
     picture test, truth;
     image mask, classes; /* pixels NULL: not given */
@@ -38,10 +38,10 @@ typedef struct loaded {
 typedef struct results {
     metrics figures;
     metrics_equality equality;
-    double worst;             /* metrics_worst_pixel, and its place */
+    double worst;             /* metrics_worst_pixel */
     int32_t worst_x, worst_y;
     int in_codes;          /* equality is in sRGB codes */
-    int passed[KEY_COUNT]; /* 1 where a bound is passed */
+    int passed[KEY_COUNT]; /* 1 if a limit is exceeded */
     int ok;
 } results;
 
@@ -99,8 +99,8 @@ static const option_table table = {
               "2 bad usage, 3 sizes differ",
 };
 
-/* The bound of the first `length` characters of `item`, which end at a comma or the text's end. A key that comes
- * twice keeps its tighter bound. */
+/* Parses a limit from the first `length` characters of `item`, up to a comma or the end of the text. Of two limits
+ * for a key the stricter counts. */
 static int parse_bound(options *o, const char *item, size_t length)
 {
     for (int k = 0; k < KEY_COUNT; ++k) {
@@ -163,7 +163,7 @@ static void loaded_free(loaded *l)
     image_free(&l->classes);
 }
 
-/* Room for `channels` floats a pixel, or NULL. */
+/* Allocates `channels` floats per pixel, or NULL. */
 static float *float_pixels(int32_t width, int32_t height, size_t channels)
 {
     size_t count = (size_t)width * (size_t)height, bytes = channels * sizeof(float);
@@ -270,7 +270,7 @@ static metrics_input linear_input(const loaded *l)
     return in;
 }
 
-/* Written so that a figure that is not a number passes its bound. */
+/* Written so that NaN exceeds every limit. */
 static int is_passed(const results *res, int key, double bound)
 {
     const metrics *m = &res->figures;
@@ -310,7 +310,7 @@ static int measure(results *out, const loaded *l, const options *o, report *r)
 
 /* -- output ------------------------------------------------------------------------------------------------------- */
 
-/* What is relative to a black truth has no number. */
+/* Values relative to a black truth are infinite. */
 static double shown(double v) { return fabs(v) >= 1e20 ? copysign((double)INFINITY, v) : v; }
 
 static void text_number(FILE *out, const char *name, double v)
@@ -426,7 +426,7 @@ static int write_heat(const loaded *l, const metrics *m, const char *path, repor
     return ok;
 }
 
-/* --verbose: how the pictures were taken. */
+/* --verbose: prints how the pictures were read. */
 static void tell_taken(FILE *err, const loaded *l, const options *o, const metrics *m)
 {
     const picture *const both[] = {&l->test, &l->truth};
@@ -438,7 +438,7 @@ static void tell_taken(FILE *err, const loaded *l, const options *o, const metri
         fprintf(err, "lambent: %" PRIu64 " pixels count\n", m->pixels);
 }
 
-/* Figures go out before the heat picture is tried, so that a full disk does not take them along. */
+/* Prints the metrics before it writes the heat picture, so that a full disk does not lose them. */
 static int deliver(FILE *out, FILE *err, const results *res, const loaded *l, const options *o, report *r)
 {
     out = o->heat && file_is_stdout(o->heat) ? err : out;
@@ -450,7 +450,7 @@ static int deliver(FILE *out, FILE *err, const results *res, const loaded *l, co
     return !o->heat || write_heat(l, &res->figures, o->heat, r);
 }
 
-/* The exit status. */
+/* Returns the exit status. */
 static int run(FILE *out, FILE *err, loaded *l, const options *o, report *r)
 {
     results res;

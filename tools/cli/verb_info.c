@@ -1,4 +1,4 @@
-/* verb_info.c: `lambent info`: what is in a scene or picture, and what becomes of it here. */
+/* verb_info.c: `lambent info`: the contents of a scene or picture, and how lambent uses them. */
 #include "verb_info.h"
 
 #include <inttypes.h>
@@ -76,7 +76,7 @@ static const option_table table = {
     .status = "exit status: 0 done, 1 a file that cannot be read, 2 bad usage",
 };
 
-/* Figures that neither the file nor the scene states. */
+/* Counts that are not in the file or the scene. */
 typedef struct summary {
     uint64_t unique_triangles;
     uint32_t drawn, double_sided, masked, textured, normal_mapped, emissive; /* materials */
@@ -84,7 +84,7 @@ typedef struct summary {
     uint32_t orthographic;
 } summary;
 
-/* One channel's finite values. */
+/* The finite values of a channel. */
 typedef struct channel {
     double min, largest, sum;
     uint64_t count;
@@ -103,7 +103,7 @@ typedef struct picture_facts {
 
 /* --- scenes ------------------------------------------------------------------------------------------------------- */
 
-/* Materials count where an instance shows them. 0: memory is short. */
+/* Counts materials that an instance shows. Returns 0: memory is short. */
 static int count_materials(summary *s, const lmb_scene *scene)
 {
     uint8_t *seen = calloc((size_t)scene->material_count + 1, 1);
@@ -410,7 +410,7 @@ static void demo_model(model *out, model_camera *camera)
         f->texel_bytes += texture_bytes(&out->scene.textures[i]);
 }
 
-/* `file`: NULL of the built-in scene. */
+/* `file` NULL: the built-in scene. */
 static int scene_info(FILE *out, const options *o, const file_bytes *file, report *r)
 {
     model_notes notes;
@@ -445,7 +445,7 @@ static void add_value(picture_facts *p, int k, double v)
     ++c->count;
 }
 
-/* Of the four stored codes a pixel, those of its channels: grey stands in the first three, alpha last. */
+/* Measures the channels of four stored codes per pixel: grey is in the first three, alpha last. */
 static void measure_codes(picture_facts *p, const bitmap *map)
 {
     const size_t pixels = (size_t)map->width * (size_t)map->height;
@@ -548,7 +548,7 @@ static int picture_info(FILE *out, const options *o, const file_bytes *file, rep
     return 1;
 }
 
-/* A file that is read once, so that a pipe will do. What does not show its kind is what its name says. */
+/* Reads a file once, so that a pipe works. If the content does not show the kind, the name decides. */
 static int file_info(FILE *out, const options *o, report *r)
 {
     file_bytes file = {NULL, 0};

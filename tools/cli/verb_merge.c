@@ -1,4 +1,4 @@
-/* verb_merge.c: `lambent merge`: the slices of one job, checked and joined to the bytes of one machine. */
+/* verb_merge.c: `lambent merge`: checks the slices of a job and joins them to the bytes of one machine. */
 #include "verb_merge.h"
 
 #include <string.h>
@@ -56,7 +56,7 @@ static int is_complete(const options *o, report *r)
     return o->out != NULL || report_fail(r, "no output given; add -o OUT");
 }
 
-/* A file that is read may not be written over. */
+/* Inputs must not be overwritten. */
 static int keep_all(const options *o, report *r)
 {
     for (int32_t i = 0; i < o->slices; ++i) {
