@@ -32,21 +32,21 @@ static const struct verb {
 } verbs[] = {
     {"render", verb_render, "render SCENE -o OUT",
      "draw a scene (.gltf .glb .obj .ply, or `demo`) with bounced light"},
-    {"bake", verb_bake, "bake SCENE -o OUT.lmt", "how light goes between a scene's surfaces, for lights that move"},
-    {"pack", verb_pack, "pack SCENE -o OUT.lmp|.c", "a scene as one file, or C array, that programs use in place"},
-    {"play", verb_play, "play SCENE --frames N", "frames with moving light, camera or objects, and what they take"},
-    {"merge", verb_merge, "merge SLICE... -o OUT", "slices of a picture, frames, a bake or a sweep, joined"},
-    {"capture", verb_capture, "capture SCENE --at X,Y,Z", "a place of a scene as the world of `relight`"},
-    {"relight", verb_relight, "relight --world WORLD", "light at a place of a world seen from another, as a cube map"},
-    {"relief", verb_relief, "relief bake|render", "a complex model as a simple one that carries its surface"},
-    {"mix", verb_mix, "mix --frame PREFIX", "a virtual object in one photo with depth"},
-    {"plan", verb_plan, "plan SCENE", "what a picture takes and does without, why, work and memory"},
-    {"compare", verb_compare, "compare A B", "error figures of a picture against a reference"},
-    {"info", verb_info, "info FILE", "what is in a scene or a picture"},
-    {"bench", verb_bench, "bench SCENE", "speed against error: what each setting costs and buys"},
+    {"bake", verb_bake, "bake SCENE -o OUT.lmt", "precompute light transport of a static scene, for moving lights"},
+    {"pack", verb_pack, "pack SCENE -o OUT.lmp|.c", "convert a scene to one file, or C array, for use in place"},
+    {"play", verb_play, "play SCENE --frames N", "render an animation of lights, camera or objects, and its cost"},
+    {"merge", verb_merge, "merge SLICE... -o OUT", "join slices of a picture, frames, a bake or a sweep"},
+    {"capture", verb_capture, "capture SCENE --at X,Y,Z", "capture a place of a scene as a world for `relight`"},
+    {"relight", verb_relight, "relight --world WORLD", "compute light at a place of a world from a cube map taken elsewhere"},
+    {"relief", verb_relief, "relief bake|render", "draw a complex model as a simple one with the detailed surface"},
+    {"mix", verb_mix, "mix --frame PREFIX", "put a virtual object into a photo with depth"},
+    {"plan", verb_plan, "plan SCENE", "list the stages of a render, with estimated work and memory"},
+    {"compare", verb_compare, "compare A B", "measure the error of a picture against a reference"},
+    {"info", verb_info, "info FILE", "list the contents of a scene or a picture"},
+    {"bench", verb_bench, "bench SCENE", "measure speed against error for each setting"},
     {"bench", verb_bench, "bench raster|draw|gather|hard",
-     "how fast this machine draws and lights; what renderers get wrong"},
-    {"doctor", verb_doctor, "doctor", "this build and its back ends: do they draw what they should?"},
+     "measure speed of drawing and lighting; test hard cases"},
+    {"doctor", verb_doctor, "doctor", "check that this build and its back ends draw correctly"},
 };
 enum { VERBS = sizeof verbs / sizeof *verbs };
 
@@ -57,8 +57,8 @@ static void print_usage(void)
         printf("  %-25s %s\n", verbs[i].usage, verbs[i].help);
     }
     fputs("\n"
-          "  lambent help VERB         what a verb takes; the same as lambent VERB --help\n"
-          "  lambent help --man        all of it as a man page\n"
+          "  lambent help VERB         options of a verb, same as lambent VERB --help\n"
+          "  lambent help --man        all help as a man page\n"
           "  lambent --version\n\n"
           "examples\n"
           "  lambent render demo -o demo.png\n", stdout);

@@ -59,13 +59,14 @@ static const option_row rows[] = {
     {.name = "--max", .value = "KEY=V,...", .kind = OPTION_TEXT, AT(max),
      .help = "upper bounds for trim, rmse, e50, e95, e99, worst; lo and hi bound mean; leak bounds |leak - 1|"},
     {.name = "--json", .kind = OPTION_FLAG, AT(json),
-     .help = "one object on one line; what is infinite or was not measured is null"},
+     .help = "one object on one line; infinite or unmeasured values are null"},
     {.name = "--heat", .value = "OUT.png", .kind = OPTION_TEXT, AT(heat), .file = OPTION_WRITES,
      .help = "|a - b| / (b + 0.01 mean of B), grey: 0 black, 0.2 blue, 0.4 purple, 0.6 orange, 0.8 yellow, 1 and "
              "over white, in equal steps of lightness; dark grey: masked; green: not finite"},
-    {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no figures: the exit status alone"},
+    {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet),
+     .help = "print no figures, only set the exit status"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
-     .help = "say how each picture was taken, and how many pixels count"},
+     .help = "print how each picture was read, and how many pixels count"},
     OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_END},
@@ -74,28 +75,28 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "compare",
     .usage = "compare A B [options]",
-    .about = "How far picture A is from the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, known by its content; "
-             "8-bit files are sRGB and are decoded to linear light for the error figures. A pixel of A that is not "
-             "finite counts as black. The figures:\n"
+    .about = "Measures the error of picture A against the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, by "
+             "content; 8-bit files are sRGB and are decoded to linear light for the error figures. A pixel of A that is "
+             "not finite counts as black. The figures:\n"
              "trim (trimmed error): relative RMSE (rmse / mean of B) without the worst 1 % of pixels;\n"
-             "rmse: relative RMSE; n90: how many pixels carry 90 % of the squared error;\n"
+             "rmse: relative RMSE; n90: number of pixels with 90 % of the squared error;\n"
              "e50 (median relative error), e95, e99: percentiles of |a - b| / (b + 0.01 mean of B), grey (mean of the "
              "channels);\n"
-             "worst: largest |a - b| / (mean of B over the 5x5 pixels around + 0.01 mean of B), grey, and its first "
+             "worst: largest |a - b| / (mean of B over the 5x5 pixels around + 0.01 mean of B), grey, and the first "
              "pixel x,y (from the top left);\n"
              "mean: mean of A / mean of B;\n"
-             "leak: the same over dark pixels: class 3, or B < 1 % of its mean without --classes (21 or more);\n"
+             "leak: the same over dark pixels: class 3, or B < 1 % of mean of B without --classes (21 or more);\n"
              "NONFINITE: pixels of A that are not finite, if there are any;\n"
-             "psnr: dB, over red, green and blue; full scale is 255 where both files are 8-bit (then psnr and max are "
-             "in sRGB codes), the largest value of B elsewhere (then they are in linear light);\n"
-             "max: largest difference of a channel, and its first pixel x,y (from the top left);\n"
-             "exact: pixels whose bits are equal (alpha included); first: the first pixel that differs.",
+             "psnr: dB, over red, green and blue; full scale is 255 if both files are 8-bit (then psnr and max are "
+             "in sRGB codes), otherwise the largest value of B (then they are in linear light);\n"
+             "max: largest difference of a channel, and the first pixel x,y (from the top left);\n"
+             "exact: pixels with equal bits (alpha included); first: the first pixel that differs.",
     .part = {rows},
-    .examples = "  how far a draft is from the best settings:\n"
+    .examples = "  error of a draft against the default settings:\n"
                 "    lambent render demo --size 80x60 --quality draft -o draft.pfm\n"
                 "    lambent render demo --size 80x60 -o default.pfm\n"
                 "    lambent compare draft.pfm default.pfm --max trim=0.2 --heat error.png\n",
-    .status = "exit status: 0 within the bounds, 1 a bound passed, pixels not finite or a file that cannot be used, "
+    .status = "exit status: 0 within the bounds, 1 a bound exceeded, pixels not finite or a file that cannot be used, "
               "2 bad usage, 3 sizes differ",
 };
 

@@ -26,7 +26,7 @@ typedef struct options {
 } options;
 
 static const option_row rows[] = {
-    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say the flags that it was built with"),
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the flags that it was built with"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -34,9 +34,9 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "doctor",
     .usage = "doctor [-q|-v]",
-    .about = "Says which version and build this is, which back ends it has, and which of them draws here. Then draws a "
-             "small picture by each: all have to have the bytes that every machine has. Send what it says with a "
-             "report of a fault.",
+    .about = "Prints the version, the build and its back ends, and which of these draws here. Then draws a small "
+             "picture with each, and checks that all have the same bytes as on every machine. If you report a bug, "
+             "include this output.",
     .part = {rows},
     .examples = "  lambent doctor\n",
     .status = "exit status: 0 all is well, 1 something is not, 2 bad usage",

@@ -30,12 +30,13 @@ static const option_row info_rows[] = {
     {.name = "FILE", .kind = OPTION_TEXT, .value = "", AT(path),
      .help = "a scene, a picture, baked light (.lmt), a relief (.lmr), or demo, the built-in scene"},
     {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(choice.scene),
-     .help = "of a file with several scenes, by name or number from 0 (default: its own choice)"},
+     .help = "scene to show of a file with several, by name or number from 0 (default: the file's default scene)"},
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object on one line"},
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet),
-     .help = "no figures: the exit status alone, whether the file can be read"},
-    {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose), .help = "say how long reading took"},
+     .help = "print no figures, only set the exit status: whether the file can be read"},
+    {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
+     .help = "print how long reading took"},
     OPTION_ONLY_HERE,
     OPTION_TIME_LIMIT,
     OPTION_ASK,
@@ -46,30 +47,30 @@ static const option_table table = {
     .verb = "info",
     .usage = "info FILE [options]",
     .about =
-        "What is in a scene that `lambent render` reads, in a picture (PNG, JPEG, PPM, PGM, PAM, PFM or Radiance HDR), "
-        "in baked light or in a relief; each is known by its content. Of a scene:\n"
-        "scenes: of a glTF file; read: the one that counts below (--scene chooses);\n"
-        "nodes meshes: as the file has them, with the meshes' primitives;\n"
+        "Lists the contents of a scene that `lambent render` reads, a picture (PNG, JPEG, PPM, PGM, PAM, PFM or HDR), "
+        "baked light or a relief, recognized by content. For a scene:\n"
+        "scenes: of a glTF file; read: the one described below (you choose it with --scene);\n"
+        "nodes meshes: in the file, with the number of primitives;\n"
         "instances: primitives placed in the world;\n"
         "triangles: placed: over all instances; unique: each mesh once;\n"
         "vertices: as stored, of the meshes that are placed;\n"
-        "materials: in the file; drawn: those that an instance shows, and what they are;\n"
+        "materials: in the file; drawn: those of instances, by kind;\n"
         "emissive: materials that emit light: radiance, W/(sr m2); `render --grouping cut` lights the scene with "
         "it;\n"
         "images textures: in the file; read: with size, mip levels and bytes in memory, shared by equal images;\n"
         "lights cameras: in the file; placed: by nodes; the number before a camera is for `render --camera`;\n"
-        "extensions: read, folded into what is read anyhow, or ignored; a scene that requires one that is unknown "
-        "here is refused with a line that names it;\n"
+        "extensions: read, converted on load, or ignored; if a scene requires an unknown one, it is "
+        "refused with a message that names it;\n"
         "bounds: world metres;\n"
         "bytes: the file, others read for it, and memory when loaded;\n"
-        "notes: what the reader left out or replaced.\n"
-        "Of a picture: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high "
-        "byte; palettes resolved), or linear light; values that are not finite are counted and left out. Of a PFM the "
-        "scale, which values here are multiplied by, and the byte order.\n"
-        "Of baked light: elements, which reflect it; receivers and clusters, which pixels take it from; links, each of "
-        "which carries light from one to the other; of what moves, the ranges of triangles and the places in the air; "
-        "and the fingerprint of the scene that it was baked from.\n"
-        "Of a relief: the simple model's triangles, and its reference views.",
+        "notes: features that the reader left out or replaced.\n"
+        "For a picture: smallest, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the "
+        "high byte; palettes resolved), or linear light; values that are not finite are counted and left out. For a PFM "
+        "the scale, by which these values are multiplied, and the byte order.\n"
+        "For baked light: elements, which reflect light; receivers and clusters, from which pixels take it; links, "
+        "which carry light from one to the other; for moving objects, ranges of triangles and places in the air; "
+        "and the fingerprint of the scene that was baked.\n"
+        "For a relief: the triangles of the simple model, and the reference views.",
     .part = {info_rows},
     .examples = "  lambent render demo --size 80x60 -o demo.pfm\n"
                 "  lambent info demo.pfm\n",

@@ -136,24 +136,24 @@ int options_only_here(const char *text, void *at);
      .help = HELP("a file may only refer to files in or below its own folder, not by an absolute path, by .. or "   \
                   "by a link that leaves it; other files count as missing. Use it for files from strangers")}
 #define OPTION_ASK                                                                                          \
-    {.name = "--help", .brief = "-h", .kind = OPTION_HELP, .help = HELP("this text")},                            \
-    {.name = "--version", .brief = "-V", .kind = OPTION_VERSION, .help = HELP("the version of lambent")}
+    {.name = "--help", .brief = "-h", .kind = OPTION_HELP, .help = HELP("print this text")},                      \
+    {.name = "--version", .brief = "-V", .kind = OPTION_VERSION, .help = HELP("print the version of lambent")}
 #define OPTION_LOUDNESS(type, quiet, verbose, more)                                                         \
     OPTION_TIME_LIMIT,                                                                                      \
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, .at = offsetof(type, quiet),                   \
-     .help = HELP("say nothing but errors")},                                                                     \
+     .help = HELP("print only errors")},                                                                   \
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, .at = offsetof(type, verbose), .help = HELP(more)}
 #define OPTION_THREADS_ROW(type, threads, what)                                                             \
     {.name = "--threads", .value = "N", .kind = OPTION_INT, .at = offsetof(type, threads), .low = 1, .high = POOL_MAX, \
-     .help = HELP(what " at once; it has the same bytes by any number (default: the processors)")}
+     .help = HELP("threads that " what "; the bytes are the same with any number (default: one per processor)")}
 #define OPTION_TONE_ROW(type, tone)                                                                         \
     {.name = "--tone", .kind = OPTION_WORD, .at = offsetof(type, tone), .words = option_tones,              \
-     .help = HELP("how display formats show light over white: by a curve that keeps it apart (default), or clipped")}
+     .help = HELP("light over white in display formats: compressed by a curve (default), or clipped")}
 #define OPTION_VERTEX_COLOURS_ROW(type, colours)                                                            \
     {.name = "--vertex-colours", .kind = OPTION_WORD, .at = offsetof(type, colours), .words = option_vertex_colours, \
      .help = HELP("vertex colours of OBJ and PLY: sRGB codes, as most programs write (default), or linear light")}
 #define OPTION_BACKEND_ROW(type, kernels)                                                                   \
     {.name = "--backend", .value = "NAME", .kind = OPTION_BACKEND, .at = offsetof(type, kernels),           \
-     .help = HELP("whose instructions draw: the same bytes by any (default: the fastest that this processor has)")}
+     .help = HELP("instruction set to draw with; all give the same bytes (default: the fastest of this processor)")}
 
 #endif

@@ -20,8 +20,8 @@ int slice_option(const char *text, void *at);
 #define OPTION_SLICE_ROW(type, member, what)                                                                   \
     {.name = "--slice", .value = "I/N", .kind = OPTION_OWN, .at = offsetof(type, member), .parse = slice_option, \
      .expects = "I/N, the Ith of N slices: 1/4 .. 4/4",                                                        \
-     .help = "the Ith of N slices of the " what ", for a machine of its own: written to OUT.IofN. `lambent merge` " \
-             "joins all N to the bytes of one machine"}
+     .help = "compute slice I of N of the " what ", on one of several machines, into OUT.IofN. `lambent merge` " \
+             "joins all N to the same bytes as one machine"}
 
 /* slice_job: a hash of the result of a command line, in any order of options: all options except those that change
  * no byte, the contents of input files, and the version. slice_hash_file: adds the contents of another file. Return

@@ -27,12 +27,13 @@ int view_option_size(const char *text, void *at);
     {.name = "--eye", .kind = OPTION_POINT, .at = offsetof(type, view.eye), .counts = offsetof(type, view.has_eye), \
      .help = HELP(text)},                                                                                          \
     {.name = "--target", .kind = OPTION_POINT, .at = offsetof(type, view.target),                            \
-     .counts = offsetof(type, view.has_target), .help = HELP("what it looks at")},                                 \
-    {.name = "--up", .kind = OPTION_POINT, .at = offsetof(type, view.up), .help = HELP("what is up (default 0,1,0)")}, \
+     .counts = offsetof(type, view.has_target), .help = HELP("point to look at")},                                 \
+    {.name = "--up", .kind = OPTION_POINT, .at = offsetof(type, view.up), \
+     .help = HELP("up direction (default 0,1,0)")},                                                                \
     {.name = "--fov", .value = "DEG", .kind = OPTION_ABOVE, .at = offsetof(type, view.fov_deg), .low = 0.0,  \
-     .high = 178.999, .help = HELP("its vertical angle, degrees (default 45)")},                              \
+     .high = 178.999, .help = HELP("vertical angle of view, degrees (default 45)")},                              \
     {.name = "--near", .value = "METRES", .kind = OPTION_NUMBER, .at = offsetof(type, view.near_m), .low = 1e-6, \
-     .high = 1e6, .help = HELP("near plane: nearer surfaces are cut away (default: from the file's camera, else "     \
+     .high = 1e6, .help = HELP("near plane: nearer surfaces are clipped (default: from the file's camera, else "      \
                                "0.1 mm or less)")}
 
 /* view_options_check: whether the options fit together. Returns 1, or 0 with `r` set. */

@@ -68,7 +68,7 @@ typedef struct render_options {
     int32_t threads; /* 0: one per processor */
     lmb_budget budget; /* zeros: none */
     float budget_ms;   /* 0: none */
-    float rate;        /* units of work per second and thread; 0: measured if needed */
+    float rate;        /* units of work per second; 0: measured if needed */
     int json;          /* of `plan` */
     slice slice;       /* of the picture's rows, or of the frames of a sequence */
     uint64_t slice_job; /* with a slice: hash of the command line and of the files in it */
