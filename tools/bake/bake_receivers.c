@@ -298,7 +298,7 @@ typedef struct queue_step {
 
 static int count_of(const queue_step *q, int32_t i) { return (int)(q->first[i + 1] - q->first[i]); }
 
-/* Removes parents in other zones: their light does not help to predict this receiver. */
+/* Drops the parents if one is in another zone: light of another zone does not help to predict this receiver. */
 static void part_zones(const bake *b, bake_target *t)
 {
     t->zone = bake_zone_of(b, t->row, 1);

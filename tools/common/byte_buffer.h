@@ -5,7 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Zeroed: empty; release it with free(data). If memory runs out, it stays unchanged and sets `is_short`. */
+/* Zeroed: empty; release it with free(data). If memory runs out, it stays unchanged and sets `is_short`, which you
+ * can check at the end. */
 typedef struct byte_buffer {
     uint8_t *data;
     size_t size, cap;

@@ -55,8 +55,8 @@ int file_write(const char *path, const void *data, size_t size, report *r);
 /* file_can_write: checks whether file_write could start. Call it before long work. Leaves no file behind. */
 int file_can_write(const char *path, report *r);
 
-/* file_may_replace: checks that file_write may replace an existing file, if there is one. For many files in one
- * folder, call file_can_write once and this for each. */
+/* file_may_replace: checks that file_write may replace an existing file, if there is one. If you write many files to
+ * one folder, call file_can_write once and this for each. */
 int file_may_replace(const char *path, report *r);
 
 /* file_is_same_place: whether file_write would write both names to the same file. Follows links. */

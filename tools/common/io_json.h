@@ -24,7 +24,7 @@ typedef struct json_node {
     uint32_t kind;
 } json_node;
 
-/* The root is nodes[0] and always an object. json_free releases the nodes; the text belongs to the caller. */
+/* The root is nodes[0] and always an object. json_free releases the nodes; you keep the text. */
 typedef struct json {
     const char *text;
     const char *name; /* the file, for messages */

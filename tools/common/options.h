@@ -1,5 +1,5 @@
-/* options.h: table-driven command lines. The table of a verb lists each option's name, value kind, range, destination
- * and purpose; it drives both the parser and the help. */
+/* options.h: table-driven command lines. You list each option's name, value kind, range, destination and purpose in a
+ * table of the verb; the table drives both the parser and the help. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 

@@ -7,7 +7,8 @@
 
 #include "report.h"
 
-/* Zeroed: empty; text_buffer_free releases it. If memory runs out, it stays unchanged and sets `is_short`. */
+/* Zeroed: empty; text_buffer_free releases it. If memory runs out, it stays unchanged and sets `is_short`, which you
+ * can check at the end. */
 typedef struct text_buffer {
     char *data; /* ends with 0 */
     size_t size, cap;

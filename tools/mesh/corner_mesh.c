@@ -123,7 +123,7 @@ static uint32_t faces_of(const corner_mesh *m, uint32_t a, uint32_t b)
     return n;
 }
 
-/* A hub of many triangles keeps its flag, because visiting all its triangles would be too slow here too. */
+/* A hub of many triangles keeps its flag, because nothing visits all of its triangles. */
 static uint8_t has_border(const corner_mesh *m, uint32_t v)
 {
     uint32_t c;
@@ -198,9 +198,8 @@ static int strands(const corner_mesh *m, uint32_t c, uint32_t a)
     return m->valence[v] <= (m->border[v] ? 1u : 3u);
 }
 
-/* Returns whether v is a neighbour of a and b but in none of the triangles at their edge, and joining a and b closes
- * the three-sided hole a b v. If their edges have more faces, joining would pinch off the surface inside the ring a
- * b v. */
+/* v is a neighbour of a and b, but in none of the triangles at their edge. Returns whether joining a and b closes
+ * the three-sided hole a b v. If their edges have more faces, it would pinch off the surface inside the ring a b v. */
 static int is_hole(const corner_mesh *m, uint32_t a, uint32_t b, uint32_t v)
 {
     return faces_of(m, a, b) == 1 && faces_of(m, a, v) == 1 && faces_of(m, b, v) == 1;

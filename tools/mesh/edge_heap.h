@@ -11,7 +11,7 @@ typedef struct heap_edge {
     uint32_t a, b, stamp;
 } heap_edge;
 
-/* The caller's array. */
+/* An array that you provide. */
 typedef struct edge_heap {
     heap_edge *edges;
     uint32_t count, cap;
@@ -25,7 +25,7 @@ void edge_heap_push(edge_heap *h, heap_edge e);
 /* edge_heap_pop: count > 0. */
 heap_edge edge_heap_pop(edge_heap *h);
 
-/* edge_heap_order: makes a heap after the caller filled `edges` and `count`. */
+/* edge_heap_order: makes a heap after you filled `edges` and `count`. */
 void edge_heap_order(edge_heap *h);
 
 #endif

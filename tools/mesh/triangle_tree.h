@@ -12,7 +12,7 @@ typedef struct tree_box {
 
 /* A complete binary tree over `order`, halved along each box's longest side; box i's halves are 2 i + 1 and 2 i + 2. */
 typedef struct triangle_tree {
-    const triangle_mesh *mesh; /* not owned; call triangle_tree_fit after positions change */
+    const triangle_mesh *mesh; /* not owned; if you move positions, call triangle_tree_fit */
     uint32_t *order;           /* triangles */
     tree_box *boxes;
     uint32_t levels, box_count;

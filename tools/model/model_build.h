@@ -16,7 +16,7 @@
 #define MODEL_FREE_CORNERS   (UINT64_C(1) << 24) /* ... and this */
 #define MODEL_PATH_MAX       4096                /* bytes of a composed path */
 
-/* A file beside the model, with a path without doubled slashes and /./. */
+/* A file beside the model; the path has no doubled slashes or /./. */
 typedef struct build_neighbour {
     char *path;
     file_bytes file;

@@ -48,7 +48,7 @@ int render_job_set(render_job *j, report *r);
 void render_job_free(render_job *j);
 
 /* render_job_take: allocates the picture, the frame and the frame's block for a job that has scene, view, eyes and
- * threads. Part of render_job_set; call it for jobs that are not a run. Returns 1, or 0 with `r` set. */
+ * threads. Part of render_job_set; you only call it for jobs that are not a run. Returns 1, or 0 with `r` set. */
 int render_job_take(render_job *j, report *r);
 
 /* render_job_refit: sets up the frame and the block again after the options changed. Returns 1, or 0 with `r` set. */
