@@ -37,7 +37,7 @@ static const struct verb {
     {"play", verb_play, "play SCENE --frames N", "render an animation of lights, camera or objects, and its cost"},
     {"merge", verb_merge, "merge SLICE... -o OUT", "join slices of a picture, frames, a bake or a sweep"},
     {"capture", verb_capture, "capture SCENE --at X,Y,Z", "capture a place of a scene as a world for `relight`"},
-    {"relight", verb_relight, "relight --world WORLD", "compute light at a place of a world from a cube map taken elsewhere"},
+    {"relight", verb_relight, "relight --world WORLD", "light at a place of a world, from a cube map taken elsewhere"},
     {"relief", verb_relief, "relief bake|render", "draw a complex model as a simple one with the detailed surface"},
     {"mix", verb_mix, "mix --frame PREFIX", "put a virtual object into a photo with depth"},
     {"plan", verb_plan, "plan SCENE", "list the stages of a render, with estimated work and memory"},

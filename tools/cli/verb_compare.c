@@ -76,8 +76,8 @@ static const option_table table = {
     .verb = "compare",
     .usage = "compare A B [options]",
     .about = "Measures the error of picture A against the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, by "
-             "content; 8-bit files are sRGB and are decoded to linear light for the error figures. A pixel of A that is "
-             "not finite counts as black. The figures:\n"
+             "content; 8-bit files are sRGB and are decoded to linear light for the error figures. A pixel of A that "
+             "is not finite counts as black. The figures:\n"
              "trim (trimmed error): relative RMSE (rmse / mean of B) without the worst 1 % of pixels;\n"
              "rmse: relative RMSE; n90: number of pixels with 90 % of the squared error;\n"
              "e50 (median relative error), e95, e99: percentiles of |a - b| / (b + 0.01 mean of B), grey (mean of the "
