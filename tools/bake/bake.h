@@ -284,8 +284,8 @@ static inline float bake_long(uint16_t v)
     return out;
 }
 
-/* bake_surplus: returns how much light a row receives at two scales, of a 256th of the elements and of four
- * elements. */
+/* bake_surplus: returns the size of a difference of rows: the root of squared sums over groups of a 256th of the
+ * elements and of four. */
 float bake_surplus(const bake *b, const float *row);
 
 /* Receivers on large triangles, clusters on small ones. */

@@ -1,7 +1,8 @@
 /* bake_directed.c: receivers of surfaces with a normal map or a lobe -> clusters, which keep light by direction.
  *
- * They are halved as others are. Then each receiver that is a corner of such a leaf becomes a cluster, and the two
- * receivers that it is coded against become the parents. A receiver that nothing else needs is removed. */
+ * These receivers are first divided like all others. Then each receiver that is a corner of such a leaf becomes a
+ * cluster, and the two receivers that it is coded against become the parents. A receiver that nothing else needs is
+ * removed. */
 #include "bake.h"
 
 #include <stdlib.h>

@@ -536,7 +536,7 @@ static int write_aside(const char *path, int mode, const void *data, size_t size
 
 /* --- where it goes --- */
 
-/* Writes a file beside `over` to replace it. If `over` is NULL, writes directly to the name. */
+/* If `over` is not NULL, a file beside it is written and replaces it. Otherwise writes directly to the name. */
 typedef struct place {
     char *over;
     int mode; /* permissions of the existing file; -1: none */

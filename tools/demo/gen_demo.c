@@ -651,9 +651,9 @@ static void print_instances(void)
     printf("};\n\n");
 }
 
-/* The spot hangs under the ceiling, right of the middle: both coloured walls, the floor and half of the back wall are
- * lit; the rest lives on bounced light. 98 degrees across, full within 68: its shadow map has one face (half angle
- * up to 50). 30 W/sr on a light tile 2.8 m away at 45 degrees: 0.6 / pi * 30 * 0.7 / 2.8^2 = 0.5 W/(m2 sr). */
+/* The spot hangs under the ceiling, right of the middle. It lights both coloured walls, the floor and half of the
+ * back wall; the rest only gets bounced light. 98 degrees across, full within 68: the shadow map has one face (half
+ * angle up to 50). 30 W/sr on a light tile 2.8 m away at 45 degrees: 0.6 / pi * 30 * 0.7 / 2.8^2 = 0.5 W/(m2 sr). */
 static lmb_light aim_light(void)
 {
     static const double from[3] = {0.80, 2.70, 0.75}, to[3] = {-0.42, 0.42, -0.75};

@@ -10,9 +10,9 @@
  * both are drawn) and channels, each clamped to 0.05; W/m2. Returns -1 with `r` set if memory is short. */
 float own_light(const lmb_scene *scene, report *r);
 
-/* From this mean irradiance on, W/m2, emissive surfaces are the light of the scene. A ceiling light gives 0.015
- * (Cornell box, 17, 12, 4 W/(sr m2)) to 0.009 (with 1, 1, 1), a street light on 40 x 40 m 0.004; the eyes of a robot
- * 0.0003, BoomBox's lights 0.00008, because most of their light leaves the scene. */
+/* From this mean irradiance on, W/m2, emissive surfaces light the scene. A ceiling light gives 0.015 (Cornell box,
+ * 17, 12, 4 W/(sr m2)) to 0.009 (with 1, 1, 1), a street light on 40 x 40 m 0.004. The eyes of a robot give 0.0003,
+ * BoomBox's lights 0.00008, because most of that light leaves the scene. */
 #define OWN_LIGHT 0.003f
 
 #endif

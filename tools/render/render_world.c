@@ -17,8 +17,8 @@ enum { RIM = 64 /* corners of the ground */ };
 #define MAX_TEXEL   65504.0f       /* of a half float */
 #define REFLECTS    0.5f           /* albedo of the ground */
 #define SKY_REACH   10.0f          /* radius of the ground over that of the scene: the rim is far away */
-#define BELOW       5e-5f          /* of the radius: floors that are not recognised still lie on top */
-#define WORLD_REACH 4.0f           /* with an environment map the ground is only a stand */
+#define BELOW       5e-5f          /* of the radius: floors that has_floor misses still lie on top */
+#define WORLD_REACH 4.0f           /* with an environment map the ground is only a small disc */
 
 void world_free(world *w)
 {
