@@ -336,7 +336,7 @@ FORCE:
 QUICK_CHECKS := unit lanes golden analytic truth-small hostile layers words headers contracts slivers tables symbols \
                 replay stack
 SLOW_CHECKS  := cli truth hard own one-command links page-links golden-orders slow tiny guard package audit examples-tiny \
-                statue live hostile-cli layout examples no-float readme tool-setup
+                statue live hostile-cli layout direct-only examples no-float readme tool-setup
 CHECKS ?= $(QUICK_CHECKS)
 NEEDS  :=
 RUN_PART = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
@@ -453,6 +453,9 @@ contracts: ## each public call: described, with its statuses, as stable as its h
 layout: $(LIB) ## a program with other capacities than the library must not link
 	@$(IN_SH) tests/scripts/layout.sh
 
+direct-only: $(LIB) ## a build with only direct light (LMB_BOUNCE 0) draws the direct light of the usual one
+	@$(IN_SH) tests/scripts/direct_only.sh
+
 guard: $(B)/golden $(LIB) ## -ffast-math, contraction, x87: such builds are refused
 	@$(IN_SH) tests/scripts/guard.sh
 
@@ -532,16 +535,17 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages (PART="render mix":
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: asan-programs pointers pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+.PHONY: asan-programs pointers pictures faults paths amalgam-check amalgam-cost size module-sizes rom rom-direct asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-edges measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-capture measure-contact measure-export measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sun measure-constants measure-sequence \
     measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
-size: module-sizes ## code and data by module, here and on a Cortex-M4F, and of its 48 KiB; PORT=...: of the port's room
+size: module-sizes ## code and data by module, here and on a Cortex-M4F, its 48 KiB, and 40 KiB of direct light; PORT=...: of the port's room
 	+@sh tests/scripts/tools.sh need arm-none-eabi-gcc \
-	    && $(MAKE) module-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)'
+	    && $(MAKE) module-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)' \
+	    && $(MAKE) rom-direct PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size-direct LDFLAGS= CFLAGS='-Os -DLMB_BOUNCE=0 $(WITHOUT)'
 else
 size: $(ROOM_IMAGE)
 	@$(SIZE) $(B)/room | awk 'NR == 2 { print "rom " $$1 + $$2 " bytes, ram " $$2 + $$3 " bytes" }'
@@ -552,6 +556,9 @@ module-sizes: $(LIB)
 
 rom: module-sizes
 	@$(IN_SH) tests/scripts/rom.sh 49152
+
+rom-direct: $(LIB)
+	@$(IN_SH) tests/scripts/rom_direct.sh 40960
 
 COV_PROGRAMS_src   := $(addprefix default/,tests replay golden golden-orders reference hard hostile)
 COV_PROGRAMS_tools := default/tests default/replay lambent

@@ -63,11 +63,20 @@
 #define LMB_GATHER_PAIRS 256
 #endif
 
+/* 0: this build has no fixed groups (lambent/bounce.h): frames show only direct light, unless a baked transfer adds
+ * bounced light. Saves 15 KiB of ROM on a Cortex-M4F. A build without groups has no trees and no plan.h either. */
+#ifndef LMB_BOUNCE
+#define LMB_BOUNCE 1
+#endif
+
 /* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or emissive surfaces; a
  * material's glossy lobe is ignored. Their functions are missing, and frames that need them are refused. Saves 30 KiB
  * of ROM on a Cortex-M4F. */
 #ifndef LMB_TREES
-#define LMB_TREES 1
+#define LMB_TREES LMB_BOUNCE
+#endif
+#if LMB_TREES && !LMB_BOUNCE
+#error "lambent: LMB_TREES needs LMB_BOUNCE"
 #endif
 
 /* 0: this build has no light at single points (lambent/live.h); frames with LMB_GATHER_LIVE are refused. Saves 12 KiB
@@ -132,7 +141,10 @@
 /* 0: this build draws every frame whole: it skips no stage and reuses nothing of the last frame. It has no
  * lmb_render_reuse and no lambent/plan.h. */
 #ifndef LMB_PLAN
-#define LMB_PLAN 1
+#define LMB_PLAN LMB_BOUNCE
+#endif
+#if LMB_PLAN && !LMB_BOUNCE
+#error "lambent: LMB_PLAN needs LMB_BOUNCE"
 #endif
 
 /* 0: this build has no baked light transfer (lambent/transfer.h). Saves about 6 KiB of ROM on a Cortex-M4F. With 1, a

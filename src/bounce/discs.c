@@ -7,6 +7,8 @@
 #include "../base/poly.h"
 #include "group.h"
 
+#if LMB_BOUNCE
+
 #define COS_25 0.90630779f
 #define SIN_25 0.42261826f
 #define RIM 1e-3f          /* sine: a point this far below the plane still counts as on it */
@@ -313,3 +315,5 @@ lmb_status lmb_discs_join(lmb_points *points, const lmb_shadow_map *map, const l
     set_radius(points, first, g.radius);
     return LMB_OK;
 }
+
+#endif

@@ -123,7 +123,6 @@ static inline lane_mask tile_march(const lmb_march_job *m, const lmb_tile *tile,
     return gather_march(m, tile->position[0] + k, tile->face[0] + k, LMB_TILE_PIXELS, at, axis, wanted);
 }
 
-#define ALL_LANES (~0u >> (32 - LANES))
 enum { CORNERS = LANES < 4 ? 4 : LANES };
 enum { SEES_NOTHING, SEES_ALL, SEES_SOME, SEES_UNKNOWN };
 

@@ -6,6 +6,8 @@
 
 #include <string.h>
 
+#if LMB_BOUNCE
+
 /* Sorts discs so that the members of a group are contiguous, in order; discs without a group go last. Works in place:
  * links become target indices, then cycles are followed. out->members counts through each group's range. */
 static void sort_members(lmb_groups *out, lmb_points *points)
@@ -187,3 +189,5 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
     }
     return LMB_OK;
 }
+
+#endif

@@ -4,6 +4,8 @@
  * Each round of joining moves the barycentre, so rounds continue until one adds nothing. */
 #include "group.h"
 
+#if LMB_BOUNCE
+
 #define EVERYTHING 1e4f /* a reach this wide takes all remaining discs, regardless of direction */
 #define ANYWHERE 1e18f  /* m */
 #define ROUNDS 64 /* a group that still changes after this many is accepted */
@@ -57,3 +59,5 @@ uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, floa
     }
     return groups;
 }
+
+#endif

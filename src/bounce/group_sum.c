@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#if LMB_BOUNCE
+
 float lmb_disc_power(const lmb_point *d) { return d->flux[0] + d->flux[1] + d->flux[2]; }
 float lmb_disc_area(const lmb_point *d) { return 4.0f * length3(cross3(d->axis_u, d->axis_v)); }
 
@@ -25,3 +27,5 @@ void lmb_group_add(lmb_group_sum *g, const lmb_point *d)
         g->axis = normalize3(mul3(g->normal, 1.0f / g->weight));
     }
 }
+
+#endif

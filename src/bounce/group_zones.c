@@ -5,6 +5,8 @@
  * zone's first group open a second, and so on. LMB_ZONES_STRICT drops them instead. */
 #include "group.h"
 
+#if LMB_BOUNCE
+
 /* 1 if both lie in one row of zones, or, with `across`, in one zone. */
 static int is_same_zone(const lmb_point *a, const lmb_point *b, int32_t zone, int across)
 {
@@ -82,3 +84,5 @@ uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32
     }
     return groups;
 }
+
+#endif

@@ -14,6 +14,8 @@
 #include "../map/texel.h"
 #include "points.h"
 
+#if LMB_BOUNCE
+
 #define ELEMENTS 4       /* surfaces per block; more join the most similar */
 #define COS_25 0.90630779f
 
@@ -340,3 +342,5 @@ void lmb_points_put_together(lmb_points *points, const lmb_shadow_map *map, int3
     points->owner_count += points->owner != NULL ? (uint32_t)map->size * (uint32_t)map->size : 0;
     ++points->faces;
 }
+
+#endif

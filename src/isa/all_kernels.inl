@@ -15,7 +15,9 @@
 #include "../raster/resolve.inl"
 #include "../raster/texture.inl"
 #include "../light/direct.inl"
+#if LMB_BOUNCE
 #include "../bounce/gather.inl"
+#endif
 #include "../compose/blend.inl"
 #include "../compose/encode.inl"
 #if LMB_TREES
@@ -78,8 +80,10 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(resolve),
     KERNEL(texture),
     KERNEL(direct),
+#if LMB_BOUNCE
     KERNEL(gather),
     KERNEL(gather_near),
+#endif
     KERNEL(blend),
     KERNEL(encode),
     KERNEL(probe),

@@ -443,12 +443,14 @@ struct lmb_kernels {
     void (*texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *texture);
     /* Unshadowed irradiance of each pixel, W/m2. */
     void (*direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_direct_job *job);
+#if LMB_BOUNCE
     /* Adds far pairs. Flags near pairs in scratch->near_pixels, one bit a pixel. */
     void (*gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, const lmb_tile *tile, const lmb_groups *groups,
                    const lmb_march_job *march);
     /* Adds the discs of one near group to the flagged pixels. */
     void (*gather_near)(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
                         uint32_t count, const lmb_march_job *march);
+#endif
     void (*blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
                   const lmb_irradiance *indirect);
     /* sRGB codes 0 .. 255 of radiance x gain: red in the low bits, then green, blue, and 255. */

@@ -23,6 +23,8 @@
 #define LANE_PART LANE_INLINE
 #endif
 
+#define ALL_LANES (~0u >> (32 - LANES)) /* bits of mask_bits */
+
 /* Column and row of a tile's pixels k, k + 1, ...: k is a multiple of LANES, and 16 lanes cover two rows. */
 static inline lane lane_column(int k)
 {
