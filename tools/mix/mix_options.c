@@ -9,7 +9,7 @@
 #include "../common/options.h"
 #include "../picture/picture.h"
 
-/* --- values of their own kinds ------------------------------------------------------------------------------------ */
+/* --- parsers for single options ----------------------------------------------------------------------------------- */
 
 static int all_floats(const char *text, float *out, int count)
 {
@@ -59,7 +59,7 @@ static const option_row photo_rows[] = {
     {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(source.frame),
      .help = HELP("PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
              "camera_to_world (4 x 4, rows) where it is known")},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page mixes one photo */
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page mixes one photo */
     {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),
      .help = HELP("many frames, in order. LIST or DIR/frames.txt has one PREFIX per line, relative to the list. A "
              "line that begins with # is a comment; if the list has zero bytes, these separate the PREFIXes, and none is a comment. "
@@ -139,7 +139,7 @@ static const option_row output_rows[] = {
              "round middle grey;\nplanes: each in its colour;\nvoxels: the light in them as the camera sees "
              "it;\nenv: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\nobject: alone, before "
              "black")},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page writes no files */
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page writes no files */
     {.name = "--labels", .value = "PREFIX", .kind = OPTION_TEXT, AT(labels),
      .help = HELP("also PREFIX.mask.png: white where the object is seen; PREFIX.depth.pfm: its depth, m; PREFIX.normal.pfm: its "
              "normals, x right, y up, z towards the camera; PREFIX.pose.json: from the mesh to the camera, as camera_to_world, and "
