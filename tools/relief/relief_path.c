@@ -10,7 +10,7 @@
 
 enum { MOST = 1000000, NAME = 4096 };
 #define FPS 30.0f
-#define LEAST_M 1e-6f /* between what moves and its target */
+#define LEAST_M 1e-6f /* between a moving thing and the target */
 
 #define AT(member) .at = offsetof(relief_options, member)
 
@@ -58,7 +58,7 @@ static lmb_vec3 towards(const path_key *key)
     return (lmb_vec3){d.x * per, d.y * per, d.z * per};
 }
 
-/* Without a target it looks the way it did. */
+/* Without a target the direction of view stays. */
 static int put_camera(tour *w, const path_key *key, int32_t k, report *r)
 {
     lmb_view v = w->view_at_rest;
@@ -107,7 +107,7 @@ static int put(tour *w, int32_t k, report *r)
     return ok;
 }
 
-/* --- before the first --------------------------------------------------------------------------------------------- */
+/* --- before the first picture ------------------------------------------------------------------------------------- */
 
 int relief_path_open(key_path *out, const relief_options *o, const lmb_light *light, report *r)
 {
@@ -141,7 +141,7 @@ int relief_path_leads(const key_path *path)
     return leads;
 }
 
-/* So that what cannot be written or drawn is told before anything is drawn. */
+/* Tests all names and views first, so that errors are reported before anything is drawn. */
 static int can_draw(tour *w, int32_t frames, report *r)
 {
     int ok = frames_can_write(w->o->out, frames, r);

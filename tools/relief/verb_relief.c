@@ -1,4 +1,4 @@
-/* verb_relief.c: `lambent relief`: a complex model drawn as a simple one that carries its surface. */
+/* verb_relief.c: `lambent relief`: draws a complex model as a simple one that carries its surface. */
 #include "verb_relief.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 #include "relief_options.h"
 #include "relief_path.h"
 
-enum { BOUNCE_MAP = 256 }; /* texels a side */
+enum { BOUNCE_MAP = 256 }; /* texels per side */
 enum { SHOW_FULL, SHOW_DEPTH, SHOW_NORMAL, SHOW_ALBEDO, SHOW_LIT };
 
 /* --- command line ------------------------------------------------------------------------------------------------- */
@@ -127,8 +127,8 @@ typedef struct work {
     file_bytes file;
     lmb_relief relief;
     lmb_scene simple;
-    model with, complex; /* complex: what --compare names */
-    lmb_light light; /* the sun that shines where none is asked for, or what is */
+    model with, complex; /* complex: the model of --compare */
+    lmb_light light; /* the given light, or the default sun */
     key_path path;
 } work;
 
@@ -171,7 +171,7 @@ static int choose_view(lmb_view *out, const work *w, relief_options *o, report *
 {
     lmb_view middle;
     const int is_quiet = o->view.is_quiet;
-    o->view.is_quiet |= relief_path_leads(&w->path); /* what it frames is not shown */
+    o->view.is_quiet |= relief_path_leads(&w->path); /* hides the note about the default camera, which is not used */
     if (o->view.has_eye ? !view_look(&middle, &o->view, r) : !view_frame(&middle, &o->view, &w->simple, o->file, r)) {
         return 0;
     }
@@ -183,7 +183,7 @@ static int choose_view(lmb_view *out, const work *w, relief_options *o, report *
 
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
 
-/* What is shown, three floats a pixel, in place of the frame's light. */
+/* Replaces the frame's light by the plane to show, three floats per pixel. */
 static void show(relief_frame *f, int32_t what)
 {
     const size_t pixels = (size_t)f->width * (size_t)f->height;
@@ -198,14 +198,14 @@ static void show(relief_frame *f, int32_t what)
     }
 }
 
-/* What is no light has no mean over a pixel, and the complex model is drawn by one sample. */
+/* Only light is averaged over samples. The complex model is drawn with one sample. */
 static int32_t samples_of(const relief_options *o)
 {
     const int is_linear = picture_is_linear(picture_format(o->out));
     return o->show != SHOW_FULL || o->compare != NULL ? 1 : o->samples != 0 ? o->samples : is_linear ? 1 : 4;
 }
 
-/* The first picture's exposure is that of all. */
+/* All pictures use the exposure of the first. */
 static int write_frame(relief_options *o, relief_frame *f, const char *path, report *r)
 {
     show(f, o->show);

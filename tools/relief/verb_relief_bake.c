@@ -1,4 +1,4 @@
-/* verb_relief_bake.c: `lambent relief bake`: a complex model -> views of it and a simple model, in one file. */
+/* verb_relief_bake.c: `lambent relief bake`: a complex model -> views and a simple model, in one file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +19,7 @@ typedef struct options {
     model_choice choice;
     int32_t views, size, triangles, greedy, is_packed;
     int as_is, is_quiet, is_verbose;
-    const char *frame[LMB_RELIEF_VIEWS]; /* photos' */
+    const char *frame[LMB_RELIEF_VIEWS]; /* of photos */
     int32_t frames;
     float block;
     int32_t threads;
@@ -145,7 +145,7 @@ static void tell_outside(double outside, const options *o)
                 outside);
 }
 
-/* The user's own; moved outwards, its vertices at one place become one. */
+/* Loads the user's simple model and moves it outwards; vertices at one position are merged. */
 static int load_simple(work *w, const options *o, report *r)
 {
     triangle_mesh own;
@@ -184,7 +184,7 @@ static int make_simple(work *w, const options *o, report *r)
     return 1;
 }
 
-/* A line of a file of cameras: 1, 0 where it is none, -1 where it is empty. */
+/* Reads a line of a file of cameras. Returns 1, 0 if it is malformed, -1 if it is empty. */
 static int read_camera(lmb_view *v, const char *line, const work *w, int32_t size)
 {
     double f[7];
@@ -262,7 +262,8 @@ static void tell(const work *w, const options *o, const relief_coverage *c)
            100.0 * c->slanted);
 }
 
-/* The shortest processor time of a few pictures, s; the last of them stays. < 0: `r` is set. */
+/* Draws a picture a few times. Returns the shortest processor time, s; `out` holds the last picture. < 0: `r` is
+ * set. */
 static double shoot(relief_frame *out, const relief_shot *shot, report *r)
 {
     double shortest = 1e30;
@@ -281,7 +282,8 @@ static double shoot(relief_frame *out, const relief_shot *shot, report *r)
 
 static double mesh_bytes(const triangle_mesh *m) { return 20.0 * m->vertex_count + 12.0 * m->triangle_count; }
 
-/* Is the relief worth it? One picture between its views, beside its model's own triangles. */
+/* Reports whether the relief is worthwhile: draws a picture from between the views, and one with the model's
+ * triangles. */
 static int tell_worth(const work *w, report *r)
 {
     enum { SIDE = 512 };
@@ -291,7 +293,7 @@ static int tell_worth(const work *w, report *r)
     relief_frame by_relief, by_mesh;
     memset(&shot, 0, sizeof shot);
     if (lmb_relief_open(&relief, w->file.data, w->file.size) != LMB_OK) {
-        return 1; /* it has more views than this build draws */
+        return 1; /* more views than this build draws */
     }
     shot.kernels = lmb_kernels_pick();
     shot.view = relief_fit(&w->mesh, (lmb_vec3){0.53f, 0.37f, 0.7628236f}, SIDE);
@@ -337,7 +339,7 @@ static int bake(work *w, const options *o, report *r)
     if (!o->is_quiet) {
         tell(w, o, &coverage);
     }
-    report unmeasured = {""}; /* the file is written: what follows only informs */
+    report unmeasured = {""}; /* the file is written; errors from here on are ignored */
     return o->is_quiet || tell_worth(w, &unmeasured) || 1;
 }
 

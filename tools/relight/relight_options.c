@@ -11,12 +11,12 @@
 #include "../picture/picture.h"
 #include "relight_export.h"
 
-#define PLAIN_GROUND 100.0f /* m, its sides where nothing is said */
-#define EYE_HEIGHT   1.6f   /* m: of who took a world's picture over its floor */
+#define PLAIN_GROUND 100.0f /* m, default side */
+#define EYE_HEIGHT   1.6f   /* m: default camera height over a world's floor */
 
 const char *const relight_filters[FILTERS + 1] = {"cosine", "sh9", "sh16", "sh25", "blur", "blur1", "blur2", NULL};
 
-/* --- values of their own kinds ------------------------------------------------------------------------------------ */
+/* --- parsers for single options ----------------------------------------------------------------------------------- */
 
 static int all_floats(const char *text, float *out, int count)
 {
@@ -123,7 +123,7 @@ static const option_row light_rows[] = {
     {.name = "--map", .value = "OUT", .kind = OPTION_OWN, AT(map), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP("what the place sees, longitude by latitude, north on top; W/(sr m2); files as --cube")},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page has no other programs */
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page has no other programs */
     {.name = "--map-height", .value = "H", .kind = OPTION_MULTIPLE_OF_8, AT(map_height), .low = 8, .high = 512,
      .help = HELP("its rows; it is twice as wide (default 64)")},
     {.name = "--azimuth", .value = "DEG", .kind = OPTION_NUMBER, AT(azimuth), .low = -360, .high = 360,
@@ -184,7 +184,7 @@ static const option_row object_rows[] = {
              "in its light: it darkens the ground where objects block it")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
      .help = HELP("all light, that by normals alone, or what is mirrored alone (default both)")},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page draws one picture */
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page draws one picture */
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
      .help = HELP("places of the object, X,Y,Z a line: a picture each, its number in place of OUT's %0Nd, as frame_%04d.png, or "
              "else as -0000, -0001, ...")},
@@ -235,9 +235,9 @@ const option_table relight_table = {
 
 int relight_has_ground(const relight_options *o) { return o->place.ground != NULL || o->place.has_floor; }
 
-/* --- all of it ---------------------------------------------------------------------------------------------------- */
+/* --- the whole command line --------------------------------------------------------------------------------------- */
 
-/* Several objects have a place each, and one size or one each. */
+/* Several objects need a place each, and one size or one each. */
 static int check_objects(const relight_options *o, report *r)
 {
     if (o->scales > 1 && o->scales != o->objects) {
@@ -289,7 +289,7 @@ static int check_together(const relight_options *o, report *r)
     return relight_export_check(o, r) && view_options_check(&o->view, r);
 }
 
-/* What follows from what was given. */
+/* Sets the options that follow from others. */
 static void complete(relight_options *o)
 {
     lmb_world_pictures *p = &o->place;
@@ -299,7 +299,7 @@ static void complete(relight_options *o)
         p->centre.y = p->ground_y + EYE_HEIGHT;
     }
     o->contact = (o->contact || p->has_floor) && !o->no_contact;
-    o->centre[0] = p->centre; /* the built-in world has its own */
+    o->centre[0] = p->centre; /* the built-in world has a fixed centre */
     if (!o->has_far) {
         p->middle = p->centre;
         p->radius = 100.0f;
@@ -319,7 +319,7 @@ static void complete(relight_options *o)
     }
 }
 
-/* Where the world's pictures belong, and what was left open: figures here and there, a camera. */
+/* Sets the places of the built-in world's pictures, and the defaults: several figures and a camera. */
 static int demo_options(relight_options *o, report *r)
 {
     static const lmb_vec3 places[] = {{-9.8f, 0, -2.5f}, {-8.4f, 0, -0.2f}, {-3.7f, 0, 2.4f}, {-0.9f, 0, -4.5f},
