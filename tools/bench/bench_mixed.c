@@ -77,7 +77,7 @@ static int mix_once(void *user, double stage_s[BENCH_STAGES], report *r)
     return ok;
 }
 
-/* Where the object changes something. */
+/* Marks the pixels that the object changes. */
 static void mark_changed(float *surface, const image *picture, const image *photo)
 {
     const size_t n = (size_t)picture->width * (size_t)picture->height;

@@ -1,4 +1,4 @@
-/* bench_options.c: the command line of a sweep: its own options; what it does not know is the subject's. */
+/* bench_options.c: the command line of a sweep: options of the sweep, and others for the subject. */
 #include "bench_options.h"
 
 #include <stdio.h>
@@ -65,7 +65,7 @@ static const option_row sweep_rows[] = {
     {.kind = OPTION_END},
 };
 
-/* Of a subject whose stages can be made exact. */
+/* Of a subject with stages that can be made exact. */
 static const option_row truth_rows[] = {
     {.kind = OPTION_TITLE, .help = "truth"},
     {.name = "--cache", .value = "FOLDER", .kind = OPTION_TEXT, AT(cache),
@@ -116,7 +116,7 @@ void bench_options_table(option_table *out, const bench_subject *subject)
     out->part[n] = output_rows;
 }
 
-/* Does `list` have the word, with spaces around? */
+/* Does `list` contain the word, with spaces around it? */
 static int is_listed(const char *list, const char *word)
 {
     const size_t n = strlen(word);
@@ -128,13 +128,13 @@ static int is_listed(const char *list, const char *word)
     return 0;
 }
 
-/* Words of the command line: the sweep's own, and the verb's. */
+/* Words of the command line: the sweep's, and the verb's. */
 typedef struct halves {
     char *own[BENCH_ARGS];
     int own_count;
 } halves;
 
-/* The option at hand goes to the half that knows it, with its value; words that are none are the verb's. */
+/* Assigns an option with its value to the sweep or the verb, whichever has it; other words go to the verb. */
 static int take(halves *h, bench_options *o, const option_table *own, int *at, int argc, char **argv, report *r)
 {
     const option_table *const both[] = {own, o->subject->table};
@@ -166,7 +166,7 @@ static int take(halves *h, bench_options *o, const option_table *own, int *at, i
     return 1;
 }
 
-/* The verb's options are given once, like all others: a line of them is not asked, as it lets the last one count. */
+/* Checks that options of the verb are given only once. A bench_line would use the last one. */
 static int once(const bench_options *o, report *r)
 {
     for (int i = 0; i < o->given_count; ++i) {
@@ -182,7 +182,7 @@ static int once(const bench_options *o, report *r)
     return 1;
 }
 
-/* A slice is one file, by -o, without breakdowns: these want the front of all settings. */
+/* A slice needs -o and no other output, and has no breakdowns, because these need the front of all settings. */
 static int check_slice(bench_options *o, report *r)
 {
     if (o->slice.count == 0) {

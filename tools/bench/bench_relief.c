@@ -48,7 +48,7 @@ typedef struct statue {
     int32_t views, greedy, size, triangles, is_packed, shadow_map;
     view_options view;
     lmb_relief_how how;
-    /* made of it */
+    /* derived from it */
     struct model loaded;
     triangle_mesh mesh, simple;
     relief_bake bake;
@@ -68,7 +68,7 @@ static int parse_views(const char *text, void *at)
     return relief_option_views(text, &s->views, &s->greedy);
 }
 
-/* Of relief bake, and of relief render. */
+/* Options of relief bake, and of relief render. */
 static const option_row bake_rows[] = {
     {.name = "MODEL", .kind = OPTION_TEXT, .value = "", .at = offsetof(statue, model), .help = "the complex one"},
     {.name = "--views", .value = "N|greedy:N", .kind = OPTION_OWN, .parse = parse_views,
@@ -112,7 +112,7 @@ static int draws(const option_row *row)
     return of == row;
 }
 
-/* Two commands: one bakes, one draws. */
+/* Two commands: bake and draw. */
 static void say(char *out, size_t size, const bench_line *l)
 {
     bench_line both[2];
@@ -134,7 +134,7 @@ static void say(char *out, size_t size, const bench_line *l)
     bench_line_say(out + n + join, size - n - join, &both[1]);
 }
 
-/* --- a statue and its relief -------------------------------------------------------------------------------------- */
+/* --- a model and the relief of it --------------------------------------------------------------------------------- */
 
 static int load(statue *s, report *r)
 {
@@ -169,7 +169,7 @@ static int bake(statue *s, report *r)
            report_fail(r, "%s: its relief cannot be opened", s->model);
 }
 
-/* The same for relief and truth: of the model's own box. */
+/* The same view and light for relief and truth, from the model's box. */
 static int aim(statue *s, report *r)
 {
     static const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
@@ -203,7 +203,7 @@ static int shoot_once(void *user, double stage_s[BENCH_STAGES], report *r)
     return 1;
 }
 
-/* Where it shows something: what backgrounds have in common is nobody's merit. */
+/* Marks covered pixels, so that equal backgrounds do not improve the figures. */
 static int keep(bench_shot *out, statue *s, report *r)
 {
     const relief_frame *f = &s->frame;

@@ -97,21 +97,21 @@ static int draw(bench_shot *out, const bench_line *line, const bench_way *way, r
     return run(out, line, way, NULL, r);
 }
 
-/* The direction of texel x, y of a cube's face, as lambent/probe.h has it, not of unit length. */
+/* The direction of texel x, y of a cube's face, as in lambent/probe.h, not normalized. */
 static void texel_direction(double d[3], int face, double s, double t)
 {
     const double all[6][3] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
     memcpy(d, all[face], sizeof all[face]);
 }
 
-/* Each direction of the map by its cosine and solid angle; pi for a world of one radiance. */
+/* Sums all directions of the map, weighted by cosine and solid angle; pi for a world of uniform radiance. */
 static void add_all(double sum[3], const relight_light *l, const double d[3])
 {
     const lmb_probe_table *t = &l->table[0];
     const size_t n = (size_t)t->width * (size_t)t->height;
     double whole = 0.0, light[3] = {0, 0, 0};
     for (size_t i = 0; i < n; ++i) {
-        double cosine = 0.0; /* times the length of d, which the whole has too */
+        double cosine = 0.0; /* times the length of d, as in the sum of weights */
         for (size_t c = 0; c < 3; ++c) {
             cosine += ((double)t->direction[c * n + i] * (2.0 / 65535.0) - 1.0) * d[c];
         }

@@ -1,4 +1,4 @@
-/* verb_bench.c: `lambent bench`: the raster workload, draws, the far gather, threads, hard cases; all else is swept. */
+/* verb_bench.c: `lambent bench`: the raster workload, draws, the far gather, threads, hard cases, and sweeps. */
 #include "verb_bench.h"
 
 #include <stdio.h>
@@ -33,7 +33,7 @@ typedef struct options {
     int32_t case_count, threads;
     int32_t group; /* of hard_groups; -1: all */
     int linear, culled, binned, plain, json, is_quiet, is_verbose;
-    float seconds; /* of each case */
+    float seconds; /* per case */
 } options;
 
 /* One case's memory. */
@@ -41,25 +41,25 @@ typedef struct canvas {
     lmb_target target;
     lmb_surface out; /* data NULL: depth only */
     void *depth, *id, *rgba, *linear;
-    void *own_depth, *own_id; /* what depth and id lie in */
+    void *own_depth, *own_id; /* allocations of depth and id */
     size_t linear_bytes;
     lmb_culling culling; /* clusters NULL: lmb_draw */
-    lmb_bins bins;       /* memory NULL: straight from the mesh */
+    lmb_bins bins;       /* memory NULL: draw the mesh without bins */
     void *farthest, *clusters;
 } canvas;
 
-/* Times of frames, s. */
+/* Frame times, s. */
 typedef struct timing {
     double cpu[FRAMES_MAX], wall[FRAMES_MAX];
     int count;
-    double peak;    /* depths that the back end reads, tests and writes in a second, in cache */
-    double bound;   /* least time of a frame, s; 0: the back end's rates are not known */
-    const char *by; /* what takes it */
+    double peak;    /* depths per second that the backend reads, tests and writes in cache */
+    double bound;   /* minimum time of a frame, s; 0: the backend's rates are unknown */
+    const char *by; /* the limiting unit */
 } timing;
 
 /* --- one frame ---------------------------------------------------------------------------------------------------- */
 
-/* The colours go out as radiance does: sRGB-coded, tile by tile. */
+/* Stores the colours like radiance: sRGB-coded, tile by tile. */
 static void store_colours(const canvas *c, const bench_scene *s, const lmb_kernels *kernels)
 {
     static lmb_tile tile;
@@ -75,7 +75,7 @@ static void store_colours(const canvas *c, const bench_scene *s, const lmb_kerne
     }
 }
 
-/* Bins clear what they draw into. */
+/* Bins clear the target themselves. */
 static void draw_ids(canvas *c, const bench_scene *s, const lmb_kernels *kernels, uint32_t flags)
 {
     const uint32_t count = s->mesh.triangle_count;
@@ -112,7 +112,8 @@ static void draw_frame(canvas *c, const bench_scene *s, const lmb_kernels *kerne
 
 /* --- one case ----------------------------------------------------------------------------------------------------- */
 
-/* Surfaces lie on cache lines: vectors as wide as those would else lie in two each, which took a fifth longer. */
+/* Surfaces are aligned to cache lines. Otherwise vectors as wide as a line would straddle two, which took a fifth
+ * longer. */
 enum { LINE = 64 };
 
 static void *on_line(void *own)
@@ -131,7 +132,7 @@ static void canvas_free(canvas *c)
     free(c->bins.memory);
 }
 
-/* Clusters are made on load, and in no frame's time. */
+/* Makes the clusters when the case is loaded, outside the frame time. */
 static int canvas_cull(canvas *c, const bench_scene *s)
 {
     lmb_culling *culling = &c->culling;
@@ -184,10 +185,10 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Nothing but depths: the processor's loads and stores are the bound. */
+/* Depth-only cases, bounded by the processor's loads and stores. */
 static int is_depth_fill(const bench_case *k) { return k->scene >= BENCH_FILL_PASS && k->look == BENCH_DEPTH; }
 
-/* The longest of what one frame keeps a unit, or loads and stores, busy with. */
+/* Sets the bound: the longest time that a frame keeps a unit, or loads and stores, busy. */
 static void set_bound(timing *t, canvas *c, const bench_scene *s, const bench_rates *r, int cull)
 {
     double counts[BENCH_OPS];
@@ -197,15 +198,15 @@ static void set_bound(timing *t, canvas *c, const bench_scene *s, const bench_ra
     t->bound = depths;
     t->by = "depth";
     const double busy = bench_rates_bound(&unit, r, counts) / r->backend->lanes * r->cycle;
-    /* Plain C's lanes are what a compiler makes of them, here less and there more: its operations bound nothing. */
+    /* Compilers may or may not vectorize plain C lanes, so operations of plain C give no bound. */
     if (busy > depths && strcmp(r->backend->name, "scalar") != 0) {
         t->bound = busy;
         t->by = bench_op_names[unit];
     }
 }
 
-/* Two frames to warm up, then frames for the time asked for, each by itself, and the processor's loops between them:
- * both meet the same clock rate and the same neighbours. */
+/* Draws two frames to warm up, then frames for the requested time, each timed separately. The processor's loops run
+ * between them, so both see the same clock rate and load. */
 static void measure(timing *t, canvas *c, const bench_scene *s, const options *o, int cull)
 {
     bench_rates rates;
@@ -237,7 +238,7 @@ static void print_case(const bench_case *k, const bench_scene *s, const timing *
     const unsigned triangles = s->mesh.triangle_count;
     const double min = t->cpu[0] * 1e3, middle = t->cpu[t->count / 2] * 1e3;
     const double wall = t->wall[0] * 1e3, wall_middle = t->wall[t->count / 2] * 1e3, each = min * 1e6 / triangles;
-    const double pixels = (double)k->width * k->height * (triangles / 2) / t->cpu[0]; /* two triangles a layer */
+    const double pixels = (double)k->width * k->height * (triangles / 2) / t->cpu[0]; /* two triangles per layer */
     printf(o->json ? "{\"case\":\"%s\",\"triangles\":%u,\"cpu_min_ms\":%.4f,\"wall_min_ms\":%.4f,\"cpu_med_ms\":%.4f,"
                      "\"wall_med_ms\":%.4f,\"frames\":%d,\"ns_per_triangle\":%.2f,\"backend\":\"%s\""
                    : "lambent,%s,tris=%u,cpu_min_ms=%.4f,wall_min_ms=%.4f,cpu_med_ms=%.4f,wall_med_ms=%.4f,n=%d,"
@@ -254,7 +255,7 @@ static void print_case(const bench_case *k, const bench_scene *s, const timing *
     fflush(stdout);
 }
 
-/* The peers' lines, and how often our time theirs is. */
+/* Runs the peers, and prints their times relative to ours. */
 static int run_peers(const bench_peers *p, const bench_case *k, const timing *t, const options *o, report *r)
 {
     for (int i = 0; i < p->found.count; ++i) {
@@ -479,14 +480,14 @@ static int run_calibrate(const options *o, report *r)
     return 1;
 }
 
-/* What is measured by itself, and what holds where an option is not given. */
+/* The workloads with separate command lines, and their defaults. */
 static const struct workload {
     const char *name;
-    int (*check)(const options *o, report *r); /* 0 with `r` set: bad usage; NULL: nothing to check */
+    int (*check)(const options *o, report *r); /* returns 0 with `r` set for bad usage; NULL: nothing to check */
     int (*run)(const options *o, report *r);
     int32_t threads;
     float seconds;
-    int picks; /* a backend, where none is given; else all in turn */
+    int picks; /* use one backend by default; else all in turn */
     option_table table;
 } workloads[] = {
     {"raster",
@@ -627,7 +628,7 @@ static int measure_workload(const struct workload *w, int argc, char **argv)
     return ok ? 0 : report_end(&r, w->table.verb, 1);
 }
 
-/* A workload or a subject's name, where the word is like one and no file has it for its name. */
+/* The name of a workload or subject that is similar to the word, unless the word is a file. */
 static const char *meant_by(const char *word)
 {
     static const char *const names[] = {"raster", "draw", "gather", "threads", "hard", "relight", "relief", "mix", NULL};
