@@ -146,7 +146,7 @@ static int is_own_big(void)
     return *(const uint8_t *)(const void *)&one == 0;
 }
 
-/* The baked light into its part, where it fits the scene that was packed. */
+/* Adds the baked light to the file, if it fits the packed scene. */
 static int put_transfer(pack *p, const options *o, report *r)
 {
     file_bytes file = {NULL, 0}, packed = {NULL, 0};
@@ -236,7 +236,7 @@ static int write_out(const options *o, const pack *p, int is_new, report *r)
     ok = ok && (is_code(o->out) ? pack_code(o->out, name, &file, o->is_big, r)
                                 : file_write(o->out, file.data, file.size, r));
     if (ok && o->is_big != is_own_big()) {
-        file_free(&file); /* opened points into what is turned round now */
+        file_free(&file); /* `opened` points into the file that is swapped now */
         ok = pack_file(&file, p, r) && lmb_pack_open(&opened, file.data, file.size) == LMB_OK;
     }
     if (ok) {
@@ -253,7 +253,7 @@ static float diagonal_of(const lmb_scene *s)
     return (float)lmb_sqrt((float)(x * x + y * y + z * z));
 }
 
-/* What is packed once is not packed again: its errors would add up. */
+/* A packed scene is not packed again, because errors would add up. */
 static int may_take(const options *o, report *r)
 {
     return (o->position_given + o->texture_given + o->order_given + o->textures_given == 0 && !o->is_glossy) ||
@@ -276,7 +276,7 @@ static int pack_scene(const options *o, const model *m, report *r)
     return ok;
 }
 
-/* The built-in scene, with the camera that `render demo` has. */
+/* The built-in scene, with the camera of `render demo`. */
 static void make_demo(model *out, model_camera *camera)
 {
     const lmb_view v = demo_view(640, 480);

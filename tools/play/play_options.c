@@ -1,4 +1,4 @@
-/* play_options.c: the command line of `lambent play`: most of `render`'s, and what moves. */
+/* play_options.c: the command line of `lambent play`: most of `render`'s options, and motion. */
 #include "play_options.h"
 
 #include <string.h>
