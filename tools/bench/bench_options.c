@@ -55,12 +55,13 @@ static const option_row sweep_rows[] = {
     {.kind = OPTION_TITLE, .help = "sweep"},
     {.name = "--sweep", .value = "NAME=V,V,...", .kind = OPTION_OWN, .times = BENCH_SWEEPS, .parse = parse_sweep,
      .expects = "NAME=V,V,... with up to 63 values",
-     .help = "instead of the usual settings: this option of the verb with each value; several: each with each"},
+     .help = "instead of the usual settings: this option of the verb with each value; if you give several, all "
+             "combinations"},
     {.name = "--runs", .value = "N", .kind = OPTION_INT, AT(runs), .low = 1, .high = 1000,
-     .help = "runs of a setting, of which the least time counts, stage by stage (default 3, after one that warms up; "
-             "no further one once 3 s have passed)"},
+     .help = "runs of a setting, of which the shortest time counts, stage by stage (default 3, after one that warms "
+             "up; no further one once 3 s have passed)"},
     {.name = "--truth", .value = "FILE.pfm", .kind = OPTION_TEXT, AT(truth), .file = OPTION_READS,
-     .help = "errors against this picture (default: against its own most exact settings)"},
+     .help = "errors against this picture (default: against the most exact settings)"},
     OPTION_SLICE_ROW(bench_options, slice, "settings"),
     {.kind = OPTION_END},
 };
@@ -69,12 +70,12 @@ static const option_row sweep_rows[] = {
 static const option_row truth_rows[] = {
     {.kind = OPTION_TITLE, .help = "truth"},
     {.name = "--cache", .value = "FOLDER", .kind = OPTION_TEXT, AT(cache),
-     .help = "where a scene's own truth is kept, by the scene's content and the settings, because it takes minutes "
+     .help = "folder for a scene's own truth, by the scene's content and the settings, because it takes minutes "
              "(default: $XDG_CACHE_HOME/lambent or ~/.cache/lambent)"},
     {.name = "--breakdown", .value = "N", .kind = OPTION_INT, AT(breakdown), .low = 0, .high = 64,
-     .help = "the error breakdown, which draws what is nearly brute force, looks at one band of 8 rows in N (default "
-             "4); 0: no breakdown. It makes one stage after another exact: its step's squared error is what the "
-             "stage adds; the interaction is what stages hide or add to each other's"},
+     .help = "the error breakdown, which is nearly brute force, uses one band of 8 rows in N (default 4); 0: no "
+             "breakdown. It makes one stage after another exact: the squared error of that step is the stage's "
+             "share; the interaction is the error that stages hide or add to each other's"},
     {.kind = OPTION_END},
 };
 
@@ -84,20 +85,22 @@ static const option_row output_rows[] = {
      .expects = "a name that .html, .csv and .json are put behind",
      .help = "NAME.html, NAME.csv and NAME.json"},
     {.name = "--html", .value = "FILE.html", .kind = OPTION_TEXT, AT(html), .file = OPTION_WRITES,
-     .help = "needs nothing else: the front of speed against error with its knee, what each option costs and buys, "
+     .help = "self-contained: the front of speed against error with its knee, cost and gain of each option, "
              "pictures and heat maps, memory, and the command line of each setting"},
-    {.name = "--csv", .value = "FILE.csv", .kind = OPTION_TEXT, AT(csv), .file = OPTION_WRITES, .help = "a line a setting"},
+    {.name = "--csv", .value = "FILE.csv", .kind = OPTION_TEXT, AT(csv), .file = OPTION_WRITES, .help = "one line "
+             "per setting"},
     {.name = "--json", .value = "FILE.json", .kind = OPTION_TEXT, AT(json), .file = OPTION_WRITES, .help = "all figures"},
-    {.name = "--svg", .value = "FILE.svg", .kind = OPTION_TEXT, AT(svg), .file = OPTION_WRITES, .help = "the front alone"},
+    {.name = "--svg", .value = "FILE.svg", .kind = OPTION_TEXT, AT(svg), .file = OPTION_WRITES, .help = "only the "
+             "front"},
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no table and no progress"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
-     .help = "say each setting's command before it is measured"},
+     .help = "print each setting's command before it is measured"},
     OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_TITLE,
-     .help = "A setting is on the front where no other is both faster and nearer to the truth. At the knee more time "
-             "stops to pay. Time is the processor's on one thread; a setting with more threads is timed by what "
-             "passes. Everything else on the command line goes to the verb, as it is."},
+     .help = "A setting is on the front if no other is both faster and nearer to the truth. Beyond the knee, more time "
+             "hardly pays. Time is the processor's on one thread; a setting with more threads is timed by the clock. "
+             "Everything else on the command line goes to the verb unchanged."},
     {.kind = OPTION_END},
 };
 

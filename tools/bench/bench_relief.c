@@ -80,8 +80,8 @@ static const option_row bake_rows[] = {
 static const option_row render_rows[] = {
     RELIEF_OPTIONS_LOOK(statue),
     {.name = "--shadow-map", .kind = OPTION_MULTIPLE_OF_8, .value = "N", .at = offsetof(statue, shadow_map), .low = 0,
-     .high = LMB_MAX_SIDE, .help = HELP("texels of its side at most (default 1024); 0: no shadow")},
-    VIEW_OPTIONS_CAMERA(statue, view, "where the camera stands (default: the whole model from a little above)"),
+     .high = LMB_MAX_SIDE, .help = HELP("texels per side at most (default 1024); 0: no shadow")},
+    VIEW_OPTIONS_CAMERA(statue, view, "the camera's position (default: the whole model from slightly above)"),
     {.kind = OPTION_END},
 };
 static const option_table table = {.verb = "relief", .part = {bake_rows, render_rows}};
@@ -285,12 +285,11 @@ const bench_subject bench_relief = {
     .try_count = sizeof tries / sizeof *tries,
     .truth_is = "the model itself, drawn by its triangles",
     .usage = "bench relief MODEL [options of lambent relief bake and render] [options]",
-    .about =
-        "Speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole from a little "
-        "above: bakes it by so many views of such a size and draws it in so many steps. The truth is the model "
-        "itself, drawn by its triangles. Of the options of lambent relief it takes --views, --size, --packed, "
-        "--triangles, --steps, --pixel-views, --keep, --shadow-map, --eye, --target, --up and --fov; time is that of the "
-        "picture, memory the relief's.",
+    .about = "Measures speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole "
+             "from slightly above: bakes it with several numbers and sizes of views and draws it with several "
+             "numbers of steps. The truth is the model itself, drawn by its triangles. You may give --views, "
+             "--size, --packed, --triangles, --steps, --pixel-views, --keep, --shadow-map, --eye, --target, --up "
+             "and --fov of lambent relief. Time is that of the picture, memory that of the relief.",
     .examples = "  a tent by two numbers of views:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"

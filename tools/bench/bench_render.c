@@ -194,13 +194,13 @@ const bench_subject bench_render = {
     .hurry = "--threads %d",
     .usage = "bench SCENE [options of lambent render] [options]\n"
              "bench relight|relief|mix --help     the same for these verbs\n"
-             "bench --help                        how fast kernels are",
-    .about =
-        "Speed against error of one picture: draws it by some thirty settings, one option at a time around --quality "
-        "draft, default and best, and prints what each costs (time by stage, memory, instructions where the system "
-        "counts them) and how far its picture is from the truth: `trim`, relative RMSE without the worst 1 % of "
-        "pixels, and the other figures of lambent compare. What is shown is bounced light alone (--show indirect), on "
-        "one thread, at the truth's size or 160x120: options of render say otherwise.",
+             "bench --help                        speed of kernels",
+    .about = "Measures speed against error of one picture: draws it with some thirty settings, one option at a time "
+             "around --quality draft, default and best. Prints the cost of each (time by stage, memory, "
+             "instructions if the system counts them) and the error against the truth: `trim`, relative RMSE "
+             "without the worst 1 % of pixels, and the other figures of lambent compare. Pictures show only bounced "
+             "light (--show indirect), on one thread, at the truth's size or 160x120; options of render change "
+             "that.",
     .examples = "  three settings, as a table:\n"
                 "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --breakdown 0\n"
                 "  the same, as pages.html, pages.csv, pages.json:\n"

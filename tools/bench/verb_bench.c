@@ -337,8 +337,8 @@ static int wanted_count(const options *o)
      .help = "of " what " (default: the environment's BENCH_DATA)"}
 #define ROW_SECONDS(text)                                                                                     \
     {.name = "--seconds", .value = "S", .kind = OPTION_ABOVE, AT(seconds), .low = 0, .high = 9999, .help = text}
-#define ROW_JSON {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object a line"}
-#define ROW_LOUDNESS OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took")
+#define ROW_JSON {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object per line"}
+#define ROW_LOUDNESS OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the time it took")
 #define END {.kind = OPTION_END}
 
 static const option_row raster_rows[] = {
@@ -349,14 +349,15 @@ static const option_row raster_rows[] = {
     OPTION_BACKEND_ROW(options, kernels),
     ROW_SECONDS("of each case (default 1.5)"),
     {.name = "--linear", .kind = OPTION_FLAG, AT(linear),
-     .help = "with depth copied into plain rows, which other programs read"},
+     .help = "also copies depth into plain rows, which other programs read"},
     {.name = "--culled", .kind = OPTION_FLAG, AT(culled),
-     .help = "by lmb_draw_culled: without what is hidden, by clusters and by bounds that each frame sets back"},
+     .help = "by lmb_draw_culled: without hidden surfaces, by clusters and by bounds that each frame resets"},
     {.name = "--binned", .kind = OPTION_FLAG, AT(binned),
-     .help = "by lmb_bins_draw: set up into bins, and drawn from there; with --culled by clusters and bounds, too"},
+     .help = "by lmb_bins_draw: triangles are set up into bins and drawn from there; with --culled also by clusters "
+             "and bounds"},
     {.name = "--peers", .value = "DIR", .kind = OPTION_TEXT, AT(peers),
-     .help = "after each case let every program of this folder draw it, and print how long it takes, and how many times "
-             "our time that is; tools/README.md says what such a program prints"},
+     .help = "after each case runs every program of this folder on it, and prints the time and how many times our "
+             "time that is; tools/README.md describes the output that such a program must print"},
     {.name = "--html", .value = "FILE.html", .kind = OPTION_TEXT, AT(html), .file = OPTION_WRITES,
      .help = "a page with each case's share of its bound as a bar"},
     ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
@@ -498,17 +499,16 @@ static const struct workload {
      1,
      {.verb = "bench raster",
       .usage = "bench raster [CASE...] [options]",
-      .about =
-          "Draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a "
-          "frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = bound / least time. "
-          "The bound is what the same run finds the machine can do at most with the frame's own work, which is "
-          "counted by drawing it once over verbs that count: the longest (`by`) of the time that reading, testing and "
-          "writing the frame's depths takes in 16 KiB of cache (`depth`), and the times that its multiplications, "
-          "additions, maxima, divisions, comparisons and picks keep one unit busy (`mul`, `add`, `max`, `div`; as for "
-          "gather). All of it as if every lane were of use; integers, doubles, loads, masks, branches, clearing, and "
-          "reading the mesh and textures count as nothing; of plain C, whose lanes compilers join as they like, only "
-          "depths count. fill-depth cases also tell pixels a second and `peak`, the depths a second that the bound is "
-          "of.",
+      .about = "Draws the fixed raster workload on one thread and prints one line per case: the minimum and the "
+             "median time of a frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = "
+             "bound / minimum time. The bound is the best that the same run finds the machine can do with the "
+             "frame's own work, which is counted by drawing it once with verbs that count: the longest (`by`) of "
+             "the time for reading, testing and writing the frame's depths in 16 KiB of cache (`depth`), and the "
+             "times for which its multiplications, additions, maxima, divisions, comparisons and picks keep one "
+             "unit busy (`mul`, `add`, `max`, `div`; as for gather). All of it as if every lane were used; "
+             "integers, doubles, loads, masks, branches, clearing, and reading the mesh and textures count as "
+             "nothing. In plain C, whose lanes compilers join as they like, only depths count. fill-depth cases "
+             "also print pixels per second and `peak`, the depths per second of the bound.",
       .part = {raster_rows},
       .examples = "  lambent bench raster fill-depth --seconds 0.1\n"}},
     {"gather",
@@ -519,14 +519,14 @@ static const struct workload {
      0,
      {.verb = "bench gather",
       .usage = "bench gather [options]",
-      .about =
-          "The far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. "
-          "Prints a line a backend: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what "
-          "the same run finds the machine can do with the kernel's own operations (`ops_per_vector`, counted by "
-          "running it over verbs that count): each operation is timed in registers alone (`cycles_per_op`), and for "
-          "what it adds to a unit that multiplications, additions, maxima or divisions keep busy. The most loaded "
-          "unit's time is the bound (`unit`, `load_per_op`). Loads, stores, masks, branches and waiting for results "
-          "count as nothing. A cycle is that of a chain of integer operations.",
+      .about = "Times the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with "
+             "one group. Prints one line per backend: pairs per second, cycles per pair, and `share` = bound / "
+             "cycles. The bound is the best that the same run finds the machine can do with the kernel's own "
+             "operations (`ops_per_vector`, counted by running it with verbs that count): each operation is timed "
+             "by itself in registers (`cycles_per_op`), and for its load on a unit that multiplications, additions, "
+             "maxima or divisions keep busy. The most loaded unit's time is the bound (`unit`, `load_per_op`). "
+             "Loads, stores, masks, branches and waiting for results count as nothing. A cycle is that of a chain "
+             "of integer operations.",
       .part = {gather_rows},
       .examples = "  lambent bench gather --seconds 0.1\n"}},
     {"draw",
@@ -537,11 +537,11 @@ static const struct workload {
      1,
      {.verb = "bench draw",
       .usage = "bench draw [CASE...] [options]",
-      .about =
-          "Draws on one thread what lambent/draw.h is for, at 640 x 480, and prints a line a case: what it is, and the "
-          "least processor time of a frame. Frames of meshes, sprites, particles, lines and shadows begin with a clear "
-          "of colours and depth. Of `clear`, `fill` and `glass`, the line also has the time of storing each pixel once "
-          "(memset) in the same run, and that as a share of the frame's.",
+      .about = "Draws cases of lambent/draw.h on one thread, at 640 x 480, and prints one line per case: its name, "
+             "a description, and the shortest processor time of a frame. Frames of meshes, sprites, particles, "
+             "lines and shadows begin with a clear of colours and depth. For `clear`, `fill` and `glass`, the line "
+             "also has the time of storing each pixel once (memset) in the same run, and that as a share of the "
+             "frame's.",
       .part = {draw_rows},
       .examples = "  lambent bench draw fill --seconds 0.1\n"}},
     {"threads",
@@ -552,10 +552,10 @@ static const struct workload {
      1,
      {.verb = "bench threads",
       .usage = "bench threads [options]",
-      .about =
-          "The gather of the built-in scene, and 2048 x 2048 depths and ids of the workload's meshes by strips of rows "
-          "and by bins, on one thread, on N threads, and in N processes at once, in turn. `of processes` is what the "
-          "threads gain over what the processes do: 100 % is all that this machine gives.",
+      .about = "Times the gather of the built-in scene, and 2048 x 2048 depths and ids of the workload's meshes by "
+             "strips of rows and by bins, on one thread, on N threads, and in N processes at once, in turn. `of "
+             "processes` is the speed-up of threads relative to that of processes: 100 % is all that this machine "
+             "gives.",
       .part = {threads_rows},
       .examples = "  with a folder that holds bunny.mesh and sponza.mesh:\n"
                   "    [ ! -e data/sponza.mesh ] || lambent bench threads --data data --seconds 1\n",
@@ -568,10 +568,9 @@ static const struct workload {
      1,
      {.verb = "bench hard",
       .usage = "bench hard [CASES] [options]",
-      .about =
-          "What renderers get wrong, tried here: a line a case, with its figure and what that may be at most. `exact` "
-          "is 0 by design, `bounded` by arithmetic or a formula, `measured` against rays, sums and closed forms in "
-          "double, whose bound lies a little over what was found. A few seconds.",
+      .about = "Tests cases that renderers get wrong: prints one line per case, with a figure and its upper bound. "
+             "`exact` is 0 by design, `bounded` is limited by arithmetic or a formula, `measured` is compared with "
+             "rays, sums and closed forms in double, with a bound slightly above the figure found. A few seconds.",
       .part = {hard_rows},
       .examples = "  lambent bench hard raster\n",
       .status = "exit status: 0 done, 1 a figure past its bound, 2 bad usage"}},
@@ -583,7 +582,7 @@ static const struct workload {
      0,
      {.verb = "bench --calibrate",
       .usage = "bench --calibrate [--threads N]",
-      .about = "Units of work a second, by which --budget-ms reckons: the built-in room, drawn a few times.",
+      .about = "Measures units of work per second, which --budget-ms needs: draws the built-in room a few times.",
       .part = {calibrate_rows},
       .examples = "  lambent bench --calibrate --threads 1\n"}},
 };
@@ -591,14 +590,15 @@ static const struct workload {
 static const option_table bench_table = {
     .verb = "bench",
     .usage = "bench SCENE|relight|relief|mix ...  speed against error\n"
-             "bench raster [CASE...] [options]    how fast this machine draws the fixed workload\n"
-             "bench draw [CASE...] [options]      how fast this machine draws 2D, lines, blends\n"
-             "bench gather [options]              how fast groups light pixels\n"
-             "bench threads [options]             what threads gain, beside processes\n"
-             "bench hard [CASES] [options]        what renderers get wrong\n"
-             "bench --calibrate [--threads N]     units of work a second",
+             "bench raster [CASE...] [options]    speed of drawing the fixed workload\n"
+             "bench draw [CASE...] [options]      speed of drawing 2D, lines, blends\n"
+             "bench gather [options]              speed of lighting pixels by groups\n"
+             "bench threads [options]             speed-up of threads, compared with processes\n"
+             "bench hard [CASES] [options]        cases that renderers get wrong\n"
+             "bench --calibrate [--threads N]     units of work per second",
     .about =
-        "Measures. Each has its own --help: lambent bench raster --help; lambent bench demo --help is that of SCENE.",
+        "Measures speed and errors. Each has its own --help: lambent bench raster --help; lambent bench demo --help is "
+        "that of SCENE.",
     .part = {bench_rows},
     .examples = "  lambent bench raster fill-depth --seconds 0.1\n"
                 "  lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32 --breakdown 0\n",

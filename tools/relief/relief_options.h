@@ -13,22 +13,22 @@
 #define RELIEF_OPTIONS_BAKE(type)                                                                            \
     OPTION_VERTEX_COLOURS_ROW(type, choice.vertex_colours),                                                  \
     {.name = "--size", .value = "PX", .kind = OPTION_INT, .at = offsetof(type, size), .low = 8, .high = 4096, \
-     .help = HELP("texels of a view's side (default 256)")},                                                       \
+     .help = HELP("texels per side of a view (default 256)")},                                                       \
     {.name = "--packed", .kind = OPTION_FLAG, .at = offsetof(type, is_packed),                               \
-     .help = HELP("6 bytes a texel instead of 12: 16 bits of depth, 5 6 5 of colour, 2 x 8 of normal")},           \
+     .help = HELP("6 bytes per texel instead of 12: 16 bits of depth, 5 6 5 of colour, 2 x 8 of normal")},           \
     {.name = "--triangles", .value = "N", .kind = OPTION_INT, .at = offsetof(type, triangles), .low = 4,     \
      .high = 10000000,                                                                                       \
-     .help = HELP("of the simple model (default 3000), made by edge collapse so that it encloses the complex one; what " \
-             "sticks out of it is cut off")}
+     .help = HELP("of the simple model (default 3000), made by edge collapse so that it encloses the complex one; " \
+             "parts that stick out are cut off")}
 
 /* How pixels search the surface: lmb_relief_how `how`. */
 #define RELIEF_OPTIONS_LOOK(type)                                                                            \
     {.name = "--steps", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.steps), .low = 1, .high = 32, \
-     .help = HELP("looks a pixel takes (default 6); 1: once, from the simple surface")},                           \
+     .help = HELP("search steps per pixel (default 6); 1: one, from the simple surface")},                           \
     {.name = "--pixel-views", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.views), .low = 1,         \
-     .high = LMB_RELIEF_TILE_VIEWS, .help = HELP("views a pixel looks at (default 6)")},                                \
+     .high = LMB_RELIEF_TILE_VIEWS, .help = HELP("views searched per pixel (default 6)")},                      \
     {.name = "--keep", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.keep), .low = 1, .high = 3, \
-     .help = HELP("of which the best are blended (default 3)")}
+     .help = HELP("number of the best of these that are blended (default 3)")}
 
 /* The command line of `lambent relief render`. */
 typedef struct relief_options {

@@ -17,12 +17,12 @@ enum { MOST = 1000000, NAME = 4096 };
 const option_row relief_path_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("motion")},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
-     .help = HELP("where camera and light are, by keys: lines of TIME camera|light X,Y,Z [X,Y,Z], as in `lambent play`: a "
-             "picture a frame, its number in place of OUT's %0Nd, as frame_%04d.png, or else as -0000, -0001, ...")},
+     .help = HELP("motion of camera and light by keys: lines of TIME camera|light X,Y,Z [X,Y,Z], as in `lambent play`: "
+             "one picture per frame, numbered by OUT's %0Nd, as frame_%04d.png, or else by -0000, -0001, ...")},
     {.name = "--frames", .value = "N", .kind = OPTION_INT, AT(frames), .low = 1, .high = MOST,
      .help = HELP("how many (default: to the path's last key)")},
     {.name = "--fps", .value = "F", .kind = OPTION_ABOVE, AT(fps), .low = 0.0, .high = 1e5,
-     .help = HELP("frames a second of the path: frame k is at k / F seconds (default 30)")},
+     .help = HELP("frames per second of the path: frame k is at k / F seconds (default 30)")},
     {.kind = OPTION_END},
 };
 

@@ -42,27 +42,28 @@ static const option_row rows[] = {
     {.name = "MODEL", .kind = OPTION_TEXT, .value = "", AT(model), .file = OPTION_READS,
      .help = ".gltf .glb .obj .ply"},
     {.name = "-o", .value = "OUT.lmr", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
-     .help = "what `lambent relief render` draws, in place from flash too"},
+     .help = "file for `lambent relief render`, which draws it in place, from flash too"},
     {.name = "--views", .value = "N|greedy:N|FILE", .kind = OPTION_OWN, .parse = parse_views,
      .expects = "1 .. 64, greedy:N, or a file of cameras",
      .help = "N: from N sides; 6, 14, 18, 26 are a cube's faces, edges and corners (default 26), to 64;\ngreedy:N: "
-             "of 98 sides the N that see most;\nFILE: cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, "
+             "the N of 98 sides that see most;\nFILE: your cameras, one per line: EX EY EZ TX TY TZ FOV (eye, "
              "target, degrees)"},
     RELIEF_OPTIONS_BAKE(options),
     {.name = "--simple", .value = "FILE", .kind = OPTION_TEXT, AT(simple), .file = OPTION_READS,
-     .help = "a simple model of your own, near to the complex one; moved out where that sticks out"},
-    {.name = "--as-is", .kind = OPTION_FLAG, AT(as_is), .help = "leaves it as it is"},
+     .help = "your simple model, close to the complex one; it is moved out where the complex one sticks out"},
+    {.name = "--as-is", .kind = OPTION_FLAG, AT(as_is), .help = "leaves it unchanged"},
     {.kind = OPTION_TITLE, .help = "photos"},
     {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(frame), .counts = offsetof(options, frames),
      .times = LMB_RELIEF_VIEWS, .size = sizeof(const char *),
-     .help = "a photo as a view: PREFIX.color.png, .depth.png, .json, as `lambent mix --help` tells, with "
-             "camera_to_world where there are several (y down). `render --show albedo` shows it"},
+     .help = "a photo as a view: PREFIX.color.png, .depth.png, .json, as in `lambent mix --help`; with "
+             "camera_to_world if you give several (y down). `render --show albedo` shows it"},
     {.name = "--block", .value = "M", .kind = OPTION_NUMBER, AT(block), .low = 1e-4, .high = 1e4,
-     .help = "its simple model: cubes of this size that hold a point of a photo (default 1/24 of all)"},
+     .help = "the simple model of photos: cubes of this size that hold a point of a photo (default 1/24 of the "
+             "longest side)"},
     {.kind = OPTION_TITLE, .help = "other"},
     OPTION_THREADS_ROW(options, threads, "draw the views"),
     OPTION_ONLY_HERE,
-    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long what took"),
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the time of each stage"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -71,10 +72,9 @@ static const option_table table = {
     .verb = "relief bake",
     .usage = "relief bake MODEL -o OUT.lmr [options]\n"
              "relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]",
-    .about =
-        "Views of a complex model, for drawing it as a simple one that carries its surface. Meshes without normals "
-        "are flat, as `lambent render` draws them. Says how much of the surface no view sees: that will be filled "
-        "with the simple model's.",
+    .about = "Makes views of a complex model, for drawing it as a simple one that carries its surface. Meshes "
+             "without normals are flat-shaded, as in `lambent render`. Prints how much of the surface no view sees: "
+             "the simple model's surface fills that part.",
     .part = {rows},
     .examples = "  a tent and its relief:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
