@@ -37,7 +37,8 @@ typedef struct bench_backend {
 #define BENCH_BESIDE(op) (BENCH_IS_SLOW(op) ? 4 : 2)
 enum { BENCH_ROWS = 18 };
 
-/* The shortest times of a backend so far, s. Call bench_rates_begin first; each bench_rates_step improves them. */
+/* The shortest times of a backend so far, s. Call bench_rates_begin first. You may repeat bench_rates_step: each call
+ * improves them. */
 typedef struct bench_rates {
     const bench_backend *backend;
     double cycle;                                            /* a cycle */

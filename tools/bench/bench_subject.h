@@ -28,7 +28,7 @@ int bench_line_with(bench_line *out, const bench_line *line, const char *text, r
 /* bench_line_say: writes the command for a shell, starting with `lambent`. */
 void bench_line_say(char *out, size_t size, const bench_line *line);
 
-/* A setting, drawn and timed. Release it with bench_shot_free. */
+/* A setting, drawn and timed. Release it with bench_shot_free; you may take the picture first. */
 typedef struct bench_shot {
     image picture;  /* linear light, 3 channels */
     float *surface; /* 3 floats per pixel; errors count if the third is over 0.5; NULL: everywhere */

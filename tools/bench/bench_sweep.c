@@ -106,8 +106,7 @@ static int measure(sweep *s, const bench_task *t, int is_own, report *r)
         snprintf(p->failure, sizeof p->failure, "%.150s", own.text);
         return (number > 0 && !report_is_system(&own)) || report_fail(r, "%s", own.text);
     }
-    if (number == 0 && s->truth.surface == NULL) { /* for a truth from a file, errors count on surfaces of the first
-                                                    * picture */
+    if (number == 0 && s->truth.surface == NULL) { /* a truth from a file: use the first picture's surface */
         s->truth.surface = shot.surface;
         shot.surface = NULL;
     }

@@ -138,8 +138,7 @@ static double bright_patch(hard_stage *s, double texels)
                            {x + half, 0.001, z + half},
                            {x - half, 0.001, z + half}};
         hard_begin(s, 0.5);
-        hard_quad(s, dvec_of(-1, 1, 0), dvec_of(0.9, 0, 0), dvec_of(0, 0, 1)); /* the ceiling, beside the path of the
-                                                                                * sunlight */
+        hard_quad(s, dvec_of(-1, 1, 0), dvec_of(0.9, 0, 0), dvec_of(0, 0, 1)); /* the ceiling, not in the sun's way */
         hard_part(s, 0.9);
         hard_quad(s, dvec_of(x, 0.001, z), dvec_of(half, 0, 0), dvec_of(0, 0, -half));
         hard_part(s, 0.0);

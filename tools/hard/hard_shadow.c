@@ -10,8 +10,7 @@ enum { SIDE = HARD_SIDE };
 
 /* Pixels that face a light: lit or dark by rays; of these, dark or lit by the library. */
 typedef struct shadow_count {
-    double lit, dark, acne, leaks, not_finite, strays; /* strays: maximum false light, relative to the unshadowed
-                                                        * light */
+    double lit, dark, acne, leaks, not_finite, strays; /* strays: maximum false light / unshadowed light */
 } shadow_count;
 
 /* Does the light reach a point by rays? Scenes with masks need a separate function. */

@@ -77,7 +77,7 @@ size_t hard_at(const hard_stage *s, int32_t x, int32_t y);
 float hard_depth(const hard_stage *s, int32_t x, int32_t y);
 /* Draws the shadow map, size texels per side. */
 void hard_map(hard_stage *s, int32_t size);
-/* Resolves and lights the tile at (x, y); call it after hard_draw and hard_map. */
+/* Resolves and lights the tile at (x, y), after you have called hard_draw and hard_map. */
 void hard_direct(hard_stage *s, int32_t x, int32_t y);
 /* Draws a whole frame into s->out: cuts of a tree of `map` texels, occlusion by all triangles. Returns the library's
  * status. */

@@ -4,7 +4,8 @@
 
 #include "mix_cones.h"
 
-/* mix_carry_take: takes memory for a frame of a sequence. Returns 1, or 0 with `r` set. */
+/* mix_carry_take: takes memory for a frame of a sequence. Call it before you use the others. Returns 1, or 0 with `r`
+ * set. */
 int mix_carry_take(mix_job *j, report *r);
 
 /* mix_carry_get: reads the light of a real tile's pixels without and with the object from the previous frame,

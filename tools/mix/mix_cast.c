@@ -10,13 +10,11 @@
 enum { COLUMNS = 80 /* of places, about */, WAYS = 240, TURNS = 8, RAYS = 16, TERMS = 6, FEW = 24 /* places */ };
 
 #define LOWEST  0.2f   /* sine of the minimum sun elevation */
-#define CLEAR   0.005f /* m: geometry nearer to a place belongs to the same plane. A larger value makes shadows shorter
-                        * and the sun lower */
+#define CLEAR   0.005f /* m: nearer geometry is the same plane. A larger value shortens shadows and lowers the sun */
 #define CLIPPED 0.98f
 #define DARKEST 1e-4f
 #define WHITE   0.05   /* of a plane's pixels */
-#define RED_STOPS  0.5f /* from the plane's mean colour; beyond this, a place has another colour. Sun and sky differ in
-                         * blue */
+#define RED_STOPS  0.5f /* maximum difference from the plane's mean colour: sun and sky differ in blue */
 #define BLUE_STOPS 0.9f
 #define DARKER  3.0    /* stops: a larger step is a picture or a rug, not a shadow */
 #define STOPS   1.5f   /* limit of a place's deviation: pictures on a wall are not shadows */
@@ -87,8 +85,7 @@ static look look_of(const mix_job *j, int32_t p)
     }
     double best = -(double)INFINITY;
     for (int c = 0; c < 3; ++c) {
-        const double value = sum[c] - (white[c] > WHITE * n ? 4.0 * n + 2.0 * sum[c] : 0.0); /* if all are clipped, take
-                                                                                              * the darkest */
+        const double value = sum[c] - (white[c] > WHITE * n ? 4.0 * n + 2.0 * sum[c] : 0.0); /* all clipped: darkest */
         if (value > best) {
             best = value;
             out.channel = c;

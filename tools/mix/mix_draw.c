@@ -88,8 +88,7 @@ static int draw_object(drawing *d, mix_job *j, report *r)
     binned bins;
     memset(&bins, 0, sizeof bins);
     int32_t i = d->samples;
-    while (i > 0 && draw_sample(d, j, &bins, i - 1, r)) { /* the first one last, because the other views are derived
-                                                           * from it */
+    while (i > 0 && draw_sample(d, j, &bins, i - 1, r)) { /* the first one last: the others' views derive from it */
         --i;
     }
     binned_free(&bins);

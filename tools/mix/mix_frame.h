@@ -9,8 +9,7 @@
 typedef struct mix_source {
     const char *frame; /* PREFIX of .color.(png|jpg|pfm), .depth.(png|pfm) and .json */
     const char *photo, *depth;
-    const char *folder;  /* folder of the list that names the files, for file_is_below; NULL: names are from the command
-                          * line */
+    const char *folder;  /* the list's folder, for file_is_below; NULL: names are from the command line */
     float depth_scale; /* metres per unit; 0: 0.001 for PNG, 1 for PFM, or the JSON's value */
     float intrinsics[4];
     int32_t has_intrinsics;

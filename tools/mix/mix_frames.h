@@ -63,8 +63,7 @@ typedef struct mix_list {
     mix_entry *entry;
     int32_t count, cap;
     char *folder; /* folder of the list, prefixed to all names; "" or ending with a slash */
-    int32_t no_depth, no_pose, unread; /* of TUM's lists: photos without a depth or a pose of their time; malformed
-                                        * lines */
+    int32_t no_depth, no_pose, unread; /* of TUM's lists: photos without depth or pose; malformed lines */
 } mix_list;
 
 /* mix_list_read: reads a folder with TUM's rgb.txt, depth.txt and groundtruth.txt or with frames.txt, or a file with
@@ -79,7 +78,7 @@ void mix_list_free(mix_list *l);
  * or 0 with `r` set. */
 int mix_keep_depth(mix_depth *d, mix_frame *frame, report *r);
 
-/* mix_depth_seen: call it when the known depth has been drawn; it marks all pixels as not new. mix_is_little_new: are
+/* mix_depth_seen: marks all pixels as not new; call it when you have drawn the known depth. mix_is_little_new: are
  * under one pixel in 500 new? */
 void mix_depth_seen(mix_depth *d);
 int mix_is_little_new(const mix_depth *d);

@@ -13,10 +13,8 @@ enum { EDGE = 4, HOLES = 14 /* px in a window: fewer are specks, more may be hid
 
 /* Cost of a path from a surface, in differences of display values. */
 #define A_PIXEL 0.005f /* per pixel of length */
-#define A_HOLE  0.15f  /* per unmeasured pixel with a farther surface beside it: close objects are measured up to the
-                        * rim */
-#define DOUBT   0.5f   /* of a measured pixel near an edge: a neighbour's surface replaces it only if the colour
-                        * difference is smaller */
+#define A_HOLE  0.15f  /* per unmeasured pixel, if a farther surface is beside it: close objects are measured fully */
+#define DOUBT   0.5f   /* of a measured pixel near an edge, against a neighbour's surface with a similar colour */
 
 /* Pixels of a picture, bounds inclusive. */
 typedef struct window {

@@ -107,8 +107,7 @@ typedef struct mix_job {
     lmb_cones cones;
     lmb_cone_width glossy;
     lmb_cone_scratch *scratch;
-    struct mix_job *world; /* the job that owns the traced voxels, cones and environment: this one, or an earlier frame
-                            * of the sequence */
+    struct mix_job *world; /* owns the traced voxels, cones and environment: this job, or an earlier frame's */
     lmb_mat4 to_voxels;  /* from scene space to that job's */
     uint8_t *seen;       /* occupancy grid of the world's surfaces: mix_world.h */
     int32_t old_cells, gone; /* cells of the world outside the frame's view, after real.count; cells no longer there */
@@ -125,14 +124,13 @@ typedef struct mix_job {
     mix_spare *spare; /* pool for the memory; or NULL */
 } mix_job;
 
-/* mix_take: zeroed memory that lives as long as the job; NULL with `r` set on failure. */
+/* mix_take: zeroed memory that lives as long as the job, so you do not free it; NULL with `r` set on failure. */
 void *mix_take(mix_job *j, size_t bytes, report *r);
 
 /* The steps, in order. Each returns 1, or 0 with `r` set. */
 int mix_find_planes(mix_job *j, report *r); /* cloud and planes */
 int mix_place(mix_job *j, report *r);       /* the object, the real scene's mesh, and the scene of both */
-int mix_stand(mix_job *j, report *r);       /* part of mix_place: plane (at the centre there is one), size and
-                                             * position */
+int mix_stand(mix_job *j, report *r);       /* part of mix_place: plane (at the centre there is one), size, position */
 int mix_light(mix_job *j, report *r);       /* environment, lights and shadow maps */
 int mix_voxels(mix_job *j, report *r);      /* albedo of real surfaces, and bounced light around the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */

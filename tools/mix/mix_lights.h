@@ -11,7 +11,7 @@ static inline int32_t mix_lights_step(const mix_job *j, int32_t few)
     return j->o.light_count == 0 && j->light_count - j->lamp_count == MIX_SUN_SAMPLES ? MIX_SUN_SAMPLES / few : 1;
 }
 
-/* mix_lights_begin: computes the object's box; call it before the first tile. */
+/* mix_lights_begin: computes the object's box; call it before you light the first tile. */
 void mix_lights_begin(mix_job *j);
 
 /* mix_lights_tile: adds direct light to the light from the cones. Only lights that the object can shadow on this tile

@@ -9,8 +9,7 @@
 
 enum { PARTS = 4 /* of a guessed sun's samples, one for each sample of the picture */ };
 
-#define THROWN 0.75f /* share of the light reflected by a metal that is treated as diffuse: the rest has one
-                      * direction */
+#define THROWN 0.75f /* share of light reflected by metal that is treated as diffuse: the rest is directional */
 #define MATT 0.08f /* maximum reflectance of a non-metal */
 
 /* --- metals ------------------------------------------------------------------------------------------------------- */

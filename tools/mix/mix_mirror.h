@@ -13,7 +13,7 @@ typedef struct mix_mirror {
 } mix_mirror;
 
 /* mix_mirror_planes: sets j->plane_albedo, the mean colour of each plane, and the ball that approximates the object.
- * The real mesh must be coloured. */
+ * Colour the real mesh before you call it. */
 void mix_mirror_planes(mix_job *j);
 
 /* mix_mirror_tile: computes the radiance that each pixel's lobe reflects, by rays about the mirror direction. The

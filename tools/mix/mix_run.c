@@ -96,8 +96,7 @@ int mix_make_picture(mix_job *j, double *from, report *r)
     if (j->o.show == MIX_PLANES) {
         return mix_show_planes(j, r);
     }
-    int ok = mix_place(j, r) && options_files(&j->o, &mix_table, r); /* also checks the files that the object's file
-                                                                      * refers to */
+    int ok = mix_place(j, r) && options_files(&j->o, &mix_table, r); /* with files that the object refers to */
     j->place_s = mix_lap(from);
     ok = ok && mix_light(j, r);
     j->light_s = mix_lap(from);

@@ -17,8 +17,7 @@
 #define ROUNDED 1e-4f
 
 enum { TREE_SIZE = 512, CELLS = 32 /* maximum cells per side of the object */, PATCHES = 768 /* maximum */,
-       GLOWING = 4096 /* likewise, without metal: near the foot of a glowing object, patches must be narrower than the
-                       * distance */,
+       GLOWING = 4096 /* likewise, without metal: near its foot, patches must be narrower than the distance */,
        MERGED = 6 /* patches merged for distant receivers */,
        BUNDLES = 48 /* of emitting patches; a new way, or a new light that metal reflects, starts another */ };
 

@@ -30,8 +30,7 @@ typedef struct mix_bundle {
  * floor. */
 typedef struct mix_sources {
     mix_patch *piece;
-    int32_t first[MIX_WAYS + 1]; /* by light: patches first[i] .. first[i + 1] - 1; merged ones follow the last of
-                                  * these */
+    int32_t first[MIX_WAYS + 1]; /* by light: patches first[i] .. first[i + 1] - 1; the merged ones come last */
     mix_bundle *bundle;
     int32_t bundles[MIX_WAYS + 1]; /* by light, likewise */
     lmb_bvh bvh; /* of the scene */

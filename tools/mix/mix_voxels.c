@@ -39,8 +39,7 @@ static void light_tile(lmb_irradiance *out, mix_job *j, const lmb_tile *tile, co
         lmb_direct_tile(out, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][0]);
     }
     for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
-        out->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= (float)step; /* the samples of a sun represent all of
-                                                                            * it */
+        out->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= (float)step; /* they represent the whole sun */
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         float rgb[3];

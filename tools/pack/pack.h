@@ -17,7 +17,8 @@ typedef struct pack_settings {
     int order, textures;
 } pack_settings;
 
-/* A growing byte array, in multiples of 4. If memory is short, the contents stay and `is_short` is set. */
+/* A growing byte array, in multiples of 4. If memory is short, the contents stay and `is_short` is set, so you may
+ * check it once at the end. */
 typedef struct pack_buffer {
     uint8_t *data;
     size_t size, cap;

@@ -482,7 +482,7 @@ static void factors(double *out, baking *b, const receiver *v)
     }
 }
 
-/* Cost of replacing element `from` by `to`: carried light times squared distance. */
+/* Cost of replacing element `from` by `to`: carried light times squared distance of positions and normals. */
 static double cost_of(const baking *b, uint32_t from, uint32_t to, double carried)
 {
     const receiver *x = &b->receiver[b->vertices + from], *y = &b->receiver[b->vertices + to];

@@ -11,8 +11,8 @@ typedef struct play_check {
     int is_made;
 } play_check;
 
-/* play_check_frame: the errors of j->linear, for the job's present scene and view. The first call allocates memory.
- * Returns 1, or 0 with `r` set. */
+/* play_check_frame: the errors of j->linear, for the job's present scene and view. Draw the frame before you call it.
+ * The first call allocates memory. Returns 1, or 0 with `r` set. */
 int play_check_frame(metrics *out, play_check *c, const render_job *j, report *r);
 void play_check_free(play_check *c);
 

@@ -27,9 +27,9 @@ typedef struct play_motion {
 } play_motion;
 
 /* Call these in order. play_motion_read: reads the path. play_motion_find: finds out, for a loaded job, whether the
- * file's animations move anything that may move. play_motion_make: call it once the job is set; from then on the motion
- * owns the scene's lights and objects. play_motion_set: sets the job's scene and view to frame k, whatever the previous
- * frame. They return 1, or 0 with `r` set. Release it with play_motion_free; zeroed: empty. */
+ * file's animations move anything that may move. play_motion_make: call it once you have set the job; from then on the
+ * motion owns the scene's lights and objects. play_motion_set: sets the job's scene and view to frame k; you may draw
+ * frames in any order. They return 1, or 0 with `r` set. Release it with play_motion_free; zeroed: empty. */
 int play_motion_read(play_motion *out, const play_options *o, report *r);
 int play_motion_find(play_motion *inout, render_job *j, report *r);
 int play_motion_make(play_motion *inout, report *r);

@@ -14,7 +14,7 @@ typedef struct relief_picture {
     size_t bytes;
 } relief_picture;
 
-/* A .lmr in the making. Zeroed: empty. Release it with relief_bake_free. */
+/* A .lmr in the making. Zeroed: empty. Release it with relief_bake_free when you have encoded it. */
 typedef struct relief_bake {
     relief_picture picture[LMB_RELIEF_VIEWS];
     int32_t views;

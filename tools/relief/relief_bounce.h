@@ -22,7 +22,7 @@ typedef struct relief_bounce {
 
 /* relief_bounce_make: computes the first points of one light.
  *
- *   plain, simple  ordinary geometry, and a relief's simple model; either may be NULL. Keep them alive.
+ *   plain, simple  ordinary geometry, and a relief's simple model; either may be NULL. Keep both while you use `out`.
  *   size           texels per side of the shadow map: a power of two
  * Returns 1, or 0 with `r` set and nothing allocated. */
 int relief_bounce_make(relief_bounce *out, const lmb_kernels *kernels, const lmb_scene *plain, const lmb_scene *simple,

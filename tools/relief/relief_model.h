@@ -22,8 +22,8 @@ typedef struct relief_scene {
  * Release it with triangle_mesh_free. Returns 1, or 0 with `r` set. */
 int relief_flatten(triangle_mesh *out, const lmb_scene *scene, report *r);
 
-/* relief_scene_of: makes a mesh drawable. Keep `mesh` as long as `out`, and do not move `out`. Returns 1, or 0 with `r`
- * set. */
+/* relief_scene_of: makes a mesh drawable. Keep `mesh` as long as you use `out`, and do not move `out`. Returns 1, or 0
+ * with `r` set. */
 int relief_scene_of(relief_scene *out, const triangle_mesh *mesh, report *r);
 void relief_scene_free(relief_scene *s);
 

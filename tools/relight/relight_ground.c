@@ -45,8 +45,7 @@ int ground_throw(peak_runs *p, int map, hidden *h, const far_lights *f, const re
     p->runs.count = 0;
     for (int32_t i = LMB_PROBE_TEXELS; i < f->count; ++i) {
         p->first[i - LMB_PROBE_TEXELS] = p->runs.count;
-        for (int ray = 0; ray < HIDDEN_RAYS && f->light[i].to.y >= HIDDEN_LOWEST; ray += HIDDEN_RAYS - 1) { /* 0 and
-                                                                                                             * 3 */
+        for (int ray = 0; ray < HIDDEN_RAYS && f->light[i].to.y >= HIDDEN_LOWEST; ray += HIDDEN_RAYS - 1) { /* 0, 3 */
             if (!hidden_shadow(h, map, &p->runs, o, f->light[i].to, ray)) {
                 return 0;
             }

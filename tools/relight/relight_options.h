@@ -10,9 +10,8 @@
 #include "../picture/image.h"
 
 enum { RELIGHT_WIDTH = 128, RELIGHT_HEIGHT = 64, RELIGHT_MAX_FACES = 64 };
-enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8, RELIGHT_OBJECTS = 16 }; /* maximum number of --at,
-                                                                                              * --keep; --light;
-                                                                                              * --world; --object */
+/* Maximum number of --at and of --keep, of --light, of --world, of --object. */
+enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16, RELIGHT_WORLDS = 8, RELIGHT_OBJECTS = 16 };
 
 enum { FILTER_COSINE, FILTER_SH9, FILTER_SH16, FILTER_SH25, FILTER_BLUR, FILTER_BLUR1, FILTER_BLUR2, FILTERS };
 extern const char *const relight_filters[FILTERS + 1];
