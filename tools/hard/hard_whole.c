@@ -1,9 +1,8 @@
-/* hard_whole.c: hard cases of the whole: one room under every hard condition, with bounced light against rays in
- * double.
+/* hard_whole.c: hard cases of the whole: one room under every hard condition; bounced light against rays.
  *
  * The room has a floor, two walls, a ceiling and a crate under a spot. The reference divides triangles into cells and
- * sums the light that they reflect. Cells are coarse near a corner, so receivers keep a distance from other
- * surfaces. */
+ * sums the light that they reflect, in double. Cells are coarse near a corner, so receivers keep a distance from
+ * others. */
 #include <math.h>
 #include <string.h>
 

@@ -11,7 +11,7 @@ typedef struct mix_ready {
     int has_depth;
 } mix_ready;
 
-/* mix_make_ready: computes the depth that `k` will know after the current frame and this one and, if much of it is new,
+/* mix_make_ready: computes the depth that `k` will have after the current frame and this one and, if much of it is new,
  * the planes. It reads only k->frames, k->depth and the frame, so you may call it while a picture is drawn. */
 void mix_make_ready(mix_ready *n, const mix_kept *k);
 

@@ -4,7 +4,7 @@
 
 #include "mix_job.h"
 
-enum { MIX_WAYS = 6 /* direction that a surface faces: +x -x +y -y +z -z */ };
+enum { MIX_WAYS = 6 /* ways, directions that a surface can face: +x -x +y -y +z -z */ };
 
 /* A patch of the object's surface. Emission is Lambertian; metal reflects by a lobe about the mirror direction. */
 typedef struct mix_patch {
