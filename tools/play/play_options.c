@@ -57,7 +57,7 @@ const option_table play_table = {
     .part = {render_scene_rows, play_rows, render_view_rows, render_world_rows, render_light_rows,
              render_bounce_rows, render_picture_rows, render_other_rows},
     .examples = "  lambent play demo --size 64x48 --quality draft --frames 4 --check 2\n"
-                "  with bounced light by what was baked once:\n"
+                "  with bounced light that was baked once:\n"
                 "    lambent bake demo -o demo.lmt --elements 1024 --receivers 2000\n"
                 "    lambent play demo --size 64x48 --transfer demo.lmt --frames 4 -o frame_%02d.png\n",
 };
