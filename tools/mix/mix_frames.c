@@ -9,7 +9,7 @@
 
 enum {
     TWICE = 2, /* frames that must differ before a static camera accepts a change */
-    FEW = 500, /* if at most one pixel in FEW is new, the last result is reused */
+    FEW = 500, /* if under one pixel in FEW is new, the last result is reused */
     SOME = 20  /* if at least one in SOME is new, all pixels are redrawn */
 };
 

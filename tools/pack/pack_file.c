@@ -135,7 +135,7 @@ void pack_swap(file_bytes *inout, const lmb_pack *p)
             swap_at(file, p->part[kind], p->bytes[kind] / 4, 4);
         }
     }
-    for (int kind = LMB_PACK_TRANSFER; kind <= LMB_PACK_VERTEX_LIGHT; ++kind) { /* words after three letters */
+    for (int kind = LMB_PACK_TRANSFER; kind <= LMB_PACK_VERTEX_LIGHT; ++kind) { /* word 0 holds letters */
         if (p->bytes[kind] > 4) {
             swap_at(file, p->part[kind] + 1, p->bytes[kind] / 4 - 1, 4);
         }
