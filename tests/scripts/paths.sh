@@ -1,6 +1,6 @@
 # paths.sh: checks that the command blocks in the documents work in a clean copy, one by one; B in the environment.
 #
-# A block stands between ``` after a line `<!-- run: TEXT -->`, or `<!-- run: TEXT; needs COMMAND... -->`. Each block
+# A block is between ``` after a line `<!-- run: TEXT -->`, or `<!-- run: TEXT; needs COMMAND... -->`. Each block
 # runs with `sh -e`; every file that it names after -o must exist afterwards.
 . tests/scripts/checks.sh
 
