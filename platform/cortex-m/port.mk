@@ -47,7 +47,7 @@ include platform/freestanding/bare.mk
 PORT_SRC     := platform/cortex-m/start.c $(BARE_SRC) $(if $(filter m0plus,$(CORE)),platform/freestanding/sqrtf.c)
 PORT_CFLAGS  := $(core_$(CORE)) -mthumb $(BARE_CFLAGS)
 
-# Limits: 256 KiB for the demo, 160 for live programs; the golden suite, built like the host's, may use more.
+# Limits: 256 KiB for the demo, 160 for live programs; the golden suite, built with the host's settings, may use more.
 $(B)/demo: RAM_BYTES = 262144
 $(addprefix $(B)/,live baked gouraud): RAM_BYTES = 163840
 $(B)/baked $(B)/gouraud: ROM_BYTES = 1048576

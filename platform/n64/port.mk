@@ -6,7 +6,7 @@ include platform/freestanding/tools.mk
 
 PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
 # Light by pixel uses registers of 32 bits: with 64, mupen64plus' recompiler (but not qemu) reads past an array in the
-# kernels. Its interpreters (ROOM_MODE=0, 1) flush denormals to 0, which lmb_build_check refuses.
+# kernels. The interpreters (ROOM_MODE=0, 1) flush denormals to 0, which lmb_build_check refuses.
 N64_ABI      := $(if $(filter pixel,$(ROOM)),-mabi=32 -mfp32,-mabi=n32)
 PORT_CFLAGS  := -march=vr4300 $(N64_ABI) -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
                 -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
