@@ -288,15 +288,14 @@ static void tile_find_shares(float out[2], const lmb_draw_shape *s, float b1, fl
 
 static void tile_no_fragment(lmb_draw_fragment_at *out)
 {
-    static const lmb_draw_fragment_at none;
     if (out != NULL) {
-        *out = none;
+        memset(out, 0, sizeof *out);
     }
 }
 
 void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixels, int32_t k)
 {
-    const tile_job *j = pixels != NULL && k >= 0 && k < LMB_TILE_PIXELS ? pixels->job : NULL;
+    const tile_job *j = pixels != NULL && k >= 0 && k < LMB_TILE_PIXELS ? (const tile_job *)pixels->job : NULL;
     if (j == NULL || out == NULL) {
         tile_no_fragment(out);
         return;

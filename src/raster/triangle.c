@@ -34,7 +34,7 @@ int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id)
     return instance != NULL && triangle_of(out, scene, instance, id);
 }
 
-#if LMB_TREES || LMB_TRANSFER
+#if LMB_TREES || LMB_TRANSFER || LMB_MIXED
 int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
 {
     lmb_vec3 n;
