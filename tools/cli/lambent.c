@@ -42,7 +42,7 @@ static const struct verb {
     {"relief", verb_relief, "relief bake|render", "draw a complex model as a simple one with the detailed surface"},
     {"mix", verb_mix, "mix --frame PREFIX", "put a virtual object into a photo with depth"},
     {"explain", verb_explain, "explain SCENE --pixel X,Y",
-     "print why a pixel has its light: surface, lights, blockers, senders"},
+     "print why a pixel has its light: surface, lights, occluders, senders"},
     {"plan", verb_plan, "plan SCENE", "list the stages of a render, with estimated work and memory"},
     {"compare", verb_compare, "compare A B", "measure the error of a picture against a reference"},
     {"info", verb_info, "info FILE", "list the contents of a scene or a picture"},
