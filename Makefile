@@ -1,8 +1,8 @@
-# lambent: library, tool, checks and instruments. `make help` lists the targets; nothing is configured beforehand.
+# lambent: library, tool, checks and measurements. `make help` lists the targets; there is no configure step.
 #
 #   make [TARGET] [CONFIG=default|tiny] [PORT=host|cortex-m|riscv|cortex-a|aarch64|web] [CC=...] [CFLAGS=...] [BUILD=...] [V=1]
 #
-# Everything a build makes lies in $(BUILD)/$(CONFIG). CFLAGS and LDFLAGS are yours: what exactness needs comes after.
+# Build outputs go to $(BUILD)/$(CONFIG). You may set CFLAGS and LDFLAGS; the flags for exact results come after them.
 
 .DEFAULT_GOAL := all
 .SUFFIXES:
@@ -15,18 +15,18 @@ BUILD  ?= build$(if $(filter-out host,$(PORT)),/$(PORT))
 ifneq ($(words $(BUILD))$(findstring ',$(BUILD))$(findstring :,$(BUILD)),1)
 $(error BUILD=$(BUILD): make takes one folder, without blanks, quotes and colons in its name)
 endif
-# Where builds for other machines have the tool that runs on this one.
+# The host's tool, if this is a build for another machine.
 HOST_BUILD ?= $(if $(filter file,$(origin BUILD)),build,$(BUILD)/host)
-# ROOM=pixel: the room with light by pixel, in the tiny configuration and without what it does not draw by; built apart.
+# ROOM=pixel: the room with light by pixel, tiny and without the unused parts of the library, in a separate folder.
 ifeq ($(ROOM),pixel)
 override CONFIG := tiny
 endif
 B      := $(BUILD)/$(CONFIG)$(if $(filter pixel,$(ROOM)),-pixel)
 
-# Programs of small machines, which say how many instructions a frame takes.
+# Programs for small machines; they print the instructions of a frame.
 LIVE := live baked gouraud torus
 
-# A port names its compiler, start-up sources, libraries, and what runs its programs (RUN).
+# A port sets the compiler, start-up sources, libraries and the command that runs programs (RUN).
 include platform/$(PORT)/port.mk
 
 CFLAGS ?= -O2
@@ -48,7 +48,7 @@ WARNINGS := -Wall -Wextra -pedantic -Wshadow -Wvla -Wmissing-prototypes -Wdouble
 STD      ?= c99
 EXACT     = -std=$(STD) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp
 FLAGS     = $(CFLAGS) $(PORT_CFLAGS) $(WARNINGS) $(EXACT) $(config_$(CONFIG)) -Iinclude
-# Who calls whom, and with how much stack: gcc tells since its version 10.
+# The call graph with stack sizes, if the compiler can write it (gcc 10 and later).
 CALLS    := $(shell $(CC) -fcallgraph-info=su -E -x c /dev/null >/dev/null 2>&1 && echo -fcallgraph-info=su)
 DEPS     ?= -fstack-usage $(CALLS) -MMD -MP
 COMPILE   = $(CC) $(FLAGS) $(DEPS)
@@ -62,7 +62,7 @@ LIB_PARTS := $(wildcard src/*/*.h src/*/*.inl src/*/*.inc)
 HEADERS  := $(sort $(wildcard include/lambent/*.h))
 HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c limit.c)
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c),$(wildcard tools/*/*.c))) $(HOST_SRC)
-# Unit tests that take over a second each are a group of their own, which `make check` leaves out.
+# Unit tests that take over a second each; `make check` leaves them out.
 SLOW_TESTS := adaptive bounce cut frame_init frames glossy gltf mix mix_cones mix_front mix_sources mix_stays multisample \
               occlusion relief_light relief_ornate room_edges transfer tree zeros
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
@@ -91,7 +91,7 @@ measure_fixed := platform/demo/room.c
 measure_rooms := tests/truth/path.c $(SCENES_SRC)
 measure_sun := tests/truth/path.c $(SCENES_SRC)
 measure_contact := tests/truth/path.c $(SCENES_SRC)
-# tests/measure/main_NAME.c and what is named NAME_*.c beside it: the program measure-NAME.
+# The program measure-NAME is built from tests/measure/main_NAME.c and the files NAME_*.c beside it.
 MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
 measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c) $(measure_$(1))) \
     $(filter-out %/lambent.o,$(TOOL_OBJ))
@@ -100,8 +100,8 @@ PICTURE_OBJ := $(call object,tools/cli/main_demo.c $(filter-out %/main_demo.c,$(
               $(filter $(TOOL_SRC),$(wildcard tools/$(d)/*.c)))) $(HOST_SRC))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
-# The room: the port's ROOM_SRC, or its start-up sources, and what all ports share. A port.mk may name what its emulator
-# takes, ROOM_IMAGE, with a rule that makes it of $(B)/room, and how that runs, ROOM_RUN.
+# The room: the port's ROOM_SRC (default: the start-up sources) and the sources that all ports share. If the emulator
+# needs another format, port.mk sets ROOM_IMAGE, with a rule that makes it from $(B)/room, and ROOM_RUN, which runs it.
 ROOM_IMAGE ?= $(B)/room
 ROOM_RUN   ?= $(RUN)
 ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),main_pixel.c room_pixel.c,main_room.c)) \
@@ -121,11 +121,11 @@ LIB  := $(B)/liblambent.a
 TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
 PACKAGE_FILES := $(addprefix $(B)/,lambent.pc lambent-config.cmake lambent-config-version.cmake)
 
-# --- what people want ------------------------------------------------------------------------------------------------
+# --- targets for users -----------------------------------------------------------------------------------------------
 
 ##@ While you work
 .PHONY: try
-try: ## one test by its name, after a build of what changed: make try T=cut (unit, golden, hard, cli, or a check)
+try: ## builds the changed files and runs one test by name: make try T=cut (unit, golden, hard, cli, or a check)
 	+@MAKE='$(MAKE)' B='$(B)' CHECK_NAMES='$(sort $(QUICK_CHECKS) $(SLOW_CHECKS))' sh tests/scripts/try.sh
 
 ##@ Build
@@ -137,10 +137,10 @@ lib: $(LIB)
 demo: $(B)/demo-picture ## the library, and a picture of the built-in scene in build/demo.png
 	@$< $(BUILD)/demo.png
 
-pictures: $(TOOL) ## the README's pictures of relight, relief and mix, drawn anew into build/default/pictures
+pictures: $(TOOL) ## draws the README's pictures of relight, relief and mix into build/default/pictures
 	@$(IN_SH) tests/scripts/pictures.sh
 
-man: $(TOOL) ## the man page, build/lambent.1, from the verbs' tables
+man: $(TOOL) ## the man page build/lambent.1, from the option tables
 	@$(TOOL) help --man > $(BUILD)/lambent.1
 
 amalgam: $(AMALGAM) ## the library as two files: build/amalgam/lambent.h and lambent.c
@@ -148,11 +148,11 @@ $(AMALGAM): $(BUILD)/amalgam/lambent.%: platform/amalgam/amalgam.awk LICENSE $(L
 	@mkdir -p $(@D)
 	@awk -v PART=$* -v VERSION=$(VERSION) -f platform/amalgam/amalgam.awk $(LIB_SRC) > $@
 
-dist: ## the last commit as build/lambent-VERSION.tar.gz, the same bytes each time
+dist: ## the last commit as build/lambent-VERSION.tar.gz, with the same bytes each time
 	@mkdir -p $(BUILD)
 	@git archive --format=tar --prefix=lambent-$(VERSION)/ HEAD | gzip -n -9 > $(BUILD)/lambent-$(VERSION).tar.gz
 
-install: lib $(if $(filter host,$(PORT)),$(TOOL) man) $(PACKAGE_FILES) ## library, headers, tool, man page, for pkg-config and CMake (PREFIX=/usr/local DESTDIR=)
+install: lib $(if $(filter host,$(PORT)),$(TOOL) man) $(PACKAGE_FILES) ## library, headers, tool, man page, pkg-config and CMake files (PREFIX=/usr/local DESTDIR=)
 	@echo "INSTALL $(DESTDIR)$(PREFIX)"
 	@install -d '$(DESTDIR)$(PREFIX)/include/lambent' '$(AT_LIB)/pkgconfig' '$(AT_LIB)/cmake/lambent'
 	@install -m 644 $(HEADERS) '$(DESTDIR)$(PREFIX)/include/lambent'
@@ -165,7 +165,7 @@ ifeq ($(PORT),host)
 	@install -m 644 $(BUILD)/lambent.1 '$(AT_MAN)'
 endif
 
-uninstall: ## removes what install put there
+uninstall: ## removes the files that install put there
 	@rm -f '$(DESTDIR)$(PREFIX)/bin/lambent' '$(AT_MAN)/lambent.1' '$(AT_LIB)/liblambent.a' '$(AT_LIB)/pkgconfig/lambent.pc'
 	@rm -rf '$(DESTDIR)$(PREFIX)/include/lambent' '$(AT_LIB)/cmake/lambent'
 
@@ -178,16 +178,16 @@ docs: ## the reference, build/docs/html/index.html: headers, documents, the syst
 	@DOCS_TOP="$$PWD" DOCS_OUT='$(BUILD)/docs' doxygen tools/docs/Doxyfile
 	@echo "$(BUILD)/docs/html/index.html"
 
-help: ## this list
+help: ## prints this list
 	@awk -F ':.*## ' '/^##@ / { printf "\n%s\n", substr($$0, 5) } \
 	    /^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' Makefile
 
-clean: ## remove everything that was built
+clean: ## removes all build outputs
 	@rm -rf $(BUILD)
 
 # --- rules -----------------------------------------------------------------------------------------------------------
 
-# One line per module; V=1 prints every file. Make prints it, because a shell per object costs 3 % of a whole build.
+# Prints one line per module; V=1 prints every file. Uses make's info, because a shell per object takes 3 % of a build.
 say_module = $(if $(said_$(1)),,$(eval said_$(1) := 1)$(info CC $(1)))
 
 $(B)/obj/%.o: %.c $(B)/flags
@@ -207,7 +207,7 @@ $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
 $(B)/room: $(ROOM_OBJ)
-# A packed scene as C: PACKED=scene.c.
+# A packed scene as C code: PACKED=scene.c.
 PACKED ?= $(B)/scene.c
 $(B)/packed: $(call object,platform/cortex-m/main_packed.c $(PORT_SRC)) $(LIB_OBJ) $(PACKED)
 $(B)/page-hash: $(PAGE_OBJ) $(LIB)
@@ -227,19 +227,19 @@ $(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/demo-pi
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
-# Rewritten only when it changes, so that another compiler or flag rebuilds and nothing else does. All folders of objects
-# are made here, by one command.
+# Written only if the flags changed: another compiler or flag rebuilds everything, but an unchanged one nothing. One
+# command makes all folders of objects.
 OBJ_DIRS := $(addprefix $(B)/obj/,$(sort $(dir $(wildcard src/*/*.c tools/*/*.c tests/*/*.c platform/*/*.c platform/*/*/*.c))))
 export FLAGS_LINE := $(COMPILE) $(LINK) $(PORT_LDLIBS) $(LDLIBS)
 $(B)/flags: FORCE
 	@mkdir -p $(OBJ_DIRS)
 	@printf '%s\n' "$$FLAGS_LINE" | cmp -s - $@ || printf '%s\n' "$$FLAGS_LINE" > $@
 
-# It counts operations, which no optimiser changes, of all kernels: a fifth of the build otherwise.
+# Counts operations of all kernels. Optimisation does not change the counts, and would take a fifth of the build.
 $(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0 $(if $(findstring -fsanitize,$(CFLAGS)),-fno-sanitize=all)
 
-# The code of most tests is compiled at -O0, in a third of the time of -O2, because it has few loops; CFLAGS hold for the
-# code under test. TEST_CFLAGS= compiles all as CFLAGS say.
+# Most tests have few loops, so they are compiled at -O0, in a third of the time of -O2. CFLAGS apply to the code under
+# test. Set TEST_CFLAGS= to compile the tests with CFLAGS too.
 LOOPING := $(SLOW_TESTS) live map_picture
 ifeq ($(PORT),host)
 TEST_CFLAGS ?= -O0
@@ -249,24 +249,24 @@ $(call object,$(LOOPING:%=tests/unit/test_%.c) $(wildcard tests/analytic/*.c) te
     tests/lanes/test_draws.c): COMPILE += $(TEST_CFLAGS:-O0=-O1)
 endif
 
-# GOLDENS: which of the golden pictures; a change of it compiles only their table again.
+# GOLDENS selects golden pictures. A change recompiles only their table.
 $(B)/goldens: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' '$(GOLDENS)' | cmp -s - $@ || printf '%s\n' '$(GOLDENS)' > $@
 $(B)/obj/tests/golden/golden.o: $(B)/goldens
 $(B)/obj/tests/golden/golden.o: COMPILE += $(GOLDENS)
 
-# What kernels are built without, because a sanitizer takes three times as long over them.
+# Flags for kernels only, because they take three times as long to compile under some sanitizers.
 $(call object,$(wildcard src/isa/isa_*.c)): COMPILE += $(KERNEL_CFLAGS)
 
-# What `lambent doctor -v` says it was built with.
+# The compiler and flags that `lambent doctor -v` prints.
 export BUILD_FLAGS := $(CC) $(FLAGS)
 $(B)/build_flags.inc: $(B)/flags
 	@printf '%s\n' "$$BUILD_FLAGS" | sed 's/["\\]/\\&/g; s/.*/#define BUILD_FLAGS "&"/' > $@
 $(B)/obj/tools/cli/verb_doctor.o: $(B)/build_flags.inc
 $(B)/obj/tools/cli/verb_doctor.o: COMPILE += -I$(B)
 
-# The table of tests: tests/GROUP/test_NAME.c defines `void test_NAME(void)`; nobody registers anything by hand.
+# The table of tests. A test is a function `void test_NAME(void)` in tests/GROUP/test_NAME.c; there is no list to edit.
 group_of    = $(if $(filter $(SLOW_TESTS),$(name_of)),slow,$(word 2,$(subst /, ,$(1))))
 name_of     = $(patsubst test_%.c,%,$(notdir $(1)))
 TEST_LINES := $(foreach f,$(TEST_SRC),'TEST($(call group_of,$(f)),$(call name_of,$(f)))')
@@ -283,7 +283,7 @@ $(B)/calls.inc: $(HEADERS) tests/scripts/prototypes.awk tests/scripts/zeros.awk
 $(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: $(B)/calls.inc
 $(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: COMPILE += -I$(B)
 
-# What tells pkg-config and CMake where `make install` puts the library, and with which switches it was built.
+# Files that give pkg-config and CMake the library's folder and switches after `make install`.
 PREFIX ?= /usr/local
 LIBDIR ?= lib
 AT_LIB  = $(DESTDIR)$(PREFIX)/$(LIBDIR)
@@ -301,16 +301,16 @@ $(PACKAGE_FILES): $(B)/%: platform/cmake/%.in include/lambent/types.h $(B)/flags
 	    -e 's,@USE_FLAGS@,$(if $(filter %.cmake,$@),$(subst $(space),;,$(USE_FLAGS)),$(USE_FLAGS)),' \
 	    -e 's,@USE_LIBS@,$(filter -lm,$(PORT_LDLIBS)),' -e 's/ *$$//' $< > $@
 
-# A relief's words, which tests/scripts/statue.sh puts there.
+# The packed relief, written by tests/scripts/statue.sh.
 $(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
 $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
 
-# The words of baked light, which tests/scripts/live.sh puts there.
+# Baked light, written by tests/scripts/live.sh.
 $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: $(wildcard $(B)/baked.inc)
 $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: COMPILE += -I$(B)
 
-# The words of baked light for the room by pixel, by this machine's tool. Of a port.mk: PIXEL_FRAMES, 1 without an FPU;
-# ENDIAN, big or little.
+# Baked light for the room by pixel, made by the host's tool. A port.mk may set PIXEL_FRAMES (1 without an FPU) and
+# ENDIAN (big or little).
 HOST_CC ?= cc
 $(B)/room_pixel.inc: $(sort $(wildcard tools/bake/*.c tools/demo/*.c src/transfer/*.c))
 	@mkdir -p $(@D)
@@ -329,14 +329,14 @@ FORCE:
     $(REPLAY_OBJ) $(HOSTILE_OBJ) $(PAGE_OBJ) \
     $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(SCENES_OBJ) $(PATH_OBJ) $(foreach f,$(MEASURES),$(call measure_of,$(f))) $(AUDITED)))
 
-# --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
+# --- checks: each is a target, ends with `N passed, N failed, N skipped`, and fails if one failed ---------------------
 
-# The checks of `make check`, and those that only `make check-all` adds; the longest first, because the checks that run
-# beside them fill the second core.
+# The checks of `make check`, and those that `make check-all` adds. The longest come first, so that shorter ones fill
+# the second core.
 QUICK_CHECKS := unit lanes golden analytic truth-small hostile layers words headers contracts slivers tables symbols \
                 replay stack
 SLOW_CHECKS  := cli truth hard own one-command links page-links golden-orders slow tiny guard package audit examples-tiny \
-                statue live hostile-cli layout examples no-float readme tool-setup
+                statue live hostile-cli layout direct-only examples no-float readme tool-setup
 CHECKS ?= $(QUICK_CHECKS)
 NEEDS  :=
 RUN_PART = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
@@ -345,7 +345,7 @@ IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(C
 
 ##@ Checks
 .PHONY: check check-all nightly programs $(sort $(CHECKS) $(QUICK_CHECKS) $(SLOW_CHECKS)) $(CHECKS:%=check-%)
-check: $(CHECKS:%=check-%) ## the quick checks, one line each, and their sum; V=1 prints their output; CHECKS="unit golden" picks
+check: $(CHECKS:%=check-%) ## the quick checks, one line each, and the sum; V=1 prints their output; CHECKS="unit golden" selects some
 	@sh tests/scripts/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
 MANY       := PREFIXES=20 MUTATIONS=200
@@ -353,10 +353,10 @@ LONG       := LMB_LONG=1
 ALL_CHECKS := $(filter-out truth-small $(SKIP_CHECKS),$(SLOW_CHECKS) $(QUICK_CHECKS))
 check-all: ## the quick and the slow checks; links every program and the page (SKIP_CHECKS="cli hard" leaves some out)
 	+@$(MAKE) check CHECKS="$(ALL_CHECKS)" $(MANY) $(LONG)
-nightly: ## all jobs of .ci/jobs with all their parts; installs what it needs; prints the total time
+nightly: ## all jobs of .ci/jobs with all their parts; installs missing packages; prints the total time
 	@bash .ci/run nightly
 
-# The programs that some checks run; all are built before the first check, so that no two build one.
+# Programs that checks run. All are built before the first check, so that no two checks build the same one.
 programs_unit := tests
 programs_unit-1 := tests
 programs_unit-2 := tests
@@ -373,26 +373,26 @@ programs_hard := hard
 programs_replay := replay
 programs_hostile := hostile
 
-# All programs, those of tests/measure in $(B)/links.
+# All programs; those of tests/measure are in $(B)/links.
 LINKED := $(addprefix $(B)/,$(MEASURES:%=links/measure-%) $(PROGRAMS) decodes scenes path page-hash faults demo-picture demo torus live room)
 
-# CHECKS="..." of the command line: those of these checks; all of them otherwise.
+# The checks that CHECKS="..." selects; by default all of this target.
 programs: $(LIB) $(TOOL) $(if $(filter command line,$(origin CHECKS)),$(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%))),\
     $(filter-out $(B)/links/%,$(LINKED)) $(B)/fault.so) ## the programs that the checks run
 
 $(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%)))
 	+@$(RUN_PART) $* $(MAKE) $*
 
-# They make the library in the same place.
+# Both build the library in the same folder.
 check-statue: $(filter check-tiny,$(CHECKS:%=check-%))
 check-live: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 check-examples-tiny: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 
-unit: ## values of functions, alone and together
+unit: ## values and behaviour of functions
 slow: ## the unit tests that take seconds each
 analytic: ## light against closed forms
 truth: ## light against path-traced pictures: small ones, and those of ../shared (LMB_SHARED)
-lanes: ## each kernel by each backend against plain C; LANES_SEED=7 repeats a run
+lanes: ## each kernel of each backend against plain C; LANES_SEED=7 repeats a run
 
 unit slow analytic truth lanes: $(B)/tests
 	@$(RUN) $(B)/tests $@
@@ -400,67 +400,70 @@ unit slow analytic truth lanes: $(B)/tests
 truth-small: $(B)/tests ## light against the small path-traced pictures of tests/truth/small
 	@$(RUN) $(B)/tests small_truth relight
 
-# The quick unit tests in two halves for two cores.
+# The quick unit tests in two halves, for two cores.
 unit-1 unit-2: $(B)/tests
 	@$(RUN) $(B)/tests unit $(@:unit-%=%)/2
 
-golden: $(B)/golden ## small scenes' hashes against the committed ones
+golden: $(B)/golden ## hashes of small scenes against the committed hashes
 	@$(RUN) $(B)/golden$(EXE)
 
 slivers: $(B)/reference ## random slivers, specks, huge and cut triangles against a slow rasterizer
 	@$(RUN) $(B)/reference hard
 
-hard: $(B)/hard ## the gallery of hard cases, and what must not matter (CASES="raster ...")
+hard: $(B)/hard ## the gallery of hard cases, and changes that must not change the picture (CASES="raster ...")
 	@$(RUN) $(B)/hard $(CASES)
 
-golden-orders: $(B)/golden-orders ## the golden pictures in pieces, in any order, on 1 .. 8 threads (BACKENDS=all)
+golden-orders: $(B)/golden-orders ## the golden pictures in pieces, in any order, on 1 to 8 threads (BACKENDS=all)
 	@$(RUN) $(B)/golden-orders$(EXE) $(if $(filter all,$(BACKENDS)),all)
 
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
 
-# These have coordinates and matrices of 1e-40, whose products are what they are.
+# These inputs have coordinates and matrices of 1e-40, so their products are denormal.
 AUDIT_CORPUS = $(filter-out $(addprefix tests/fuzz/corpus/,api/% calls/% stages/%),$(wildcard tests/fuzz/corpus/*/*))
-audit: $(B)/audit-golden $(B)/audit-replay ## do kernels meet denormals, or numbers that int32 does not hold?
+audit: $(B)/audit-golden $(B)/audit-replay ## checks that kernels meet no denormals and no numbers outside int32
 	@$(RUN) $(B)/audit-golden && $(RUN) $(B)/audit-replay $(AUDIT_CORPUS)
 
 PREFIXES  ?= 5
 MUTATIONS ?= 40
-hostile: $(B)/hostile ## cut and changed samples through each parser (PREFIXES=5 MUTATIONS=40; check-all and asan take 20 and 200)
+hostile: $(B)/hostile ## damaged samples through each parser (PREFIXES=5 MUTATIONS=40; check-all and asan use 20 and 200)
 	@sh tests/scripts/hostile.sh $< $(PREFIXES) $(MUTATIONS)
 
 hostile-cli: $(TOOL) ## absurd files through the whole tool
 	@$(IN_SH) tests/scripts/hostile_cli.sh
 
-layers: $(LIB) $(TOOL) ## includes and calls only go down, without circles (layers.txt)
+layers: $(LIB) $(TOOL) ## includes and calls go only to lower layers, without cycles (layers.txt)
 	@$(IN_SH) tests/scripts/layers.sh
 
-no-float: ## frames by integers alone ask a Cortex-M0+ for no float; their ROM
+no-float: ## frames in integers use no float functions on a Cortex-M0+; prints their ROM
 	@$(IN_SH) tests/scripts/no_float.sh
 
-symbols: $(LIB) ## what the library calls (mem*, sqrtf, floorf) and exports (lmb_*)
+symbols: $(LIB) ## functions that the library calls (mem*, sqrtf, floorf) and exports (lmb_*)
 	@$(IN_SH) tests/scripts/symbols.sh
 
-stack: $(LIB) ## stack of the hungriest functions and calls; the budget is 4096 bytes each
+stack: $(LIB) ## the largest stack frames and calls; the limit is 4096 bytes each
 	@$(IN_SH) tests/scripts/stack.sh 4096
 
-headers: ## each public header alone, as C99 and as C++
+headers: ## each public header compiles on its own, as C99 and as C++
 	@$(IN_SH) tests/scripts/headers.sh
 
-contracts: ## each public call: described, with its statuses, as stable as its header says, and used
+contracts: ## each public call is documented with its statuses and stability, and is used
 	@$(IN_SH) tests/scripts/contracts.sh
 
 layout: $(LIB) ## a program with other capacities than the library must not link
 	@$(IN_SH) tests/scripts/layout.sh
 
-guard: $(B)/golden $(LIB) ## -ffast-math, contraction, x87: such builds are refused
+direct-only: $(LIB) ## a build with only direct light (LMB_BOUNCE 0) draws the direct light of the usual build
+	@$(IN_SH) tests/scripts/direct_only.sh
+
+guard: $(B)/golden $(LIB) ## builds with -ffast-math, contraction or x87 are refused
 	@$(IN_SH) tests/scripts/guard.sh
 
 one-command: ## a bare compiler command with all of src gives the same pictures
 	@$(IN_SH) tests/scripts/one_command.sh
 
-# The measure programs, linked once more: their own sources at -O0, in a folder of their own, because measurements
-# need optimised code.
+# Links the measure programs once more, with their own sources at -O0, in a separate folder, because measurements need
+# optimised code.
 linked_of = $(patsubst %.c,$(B)/links/%.o,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c)) \
     $(call object,$(measure_$(1))) $(filter-out %/lambent.o,$(TOOL_OBJ)) $(LIB)
 $(B)/links/%.o: %.c $(B)/flags
@@ -482,15 +485,15 @@ page-links: ## the page of platform/web links at -O0
 	    rm -f '$(BUILD)'/web/default/page-work-O0/*.wasm; \
 	    $(MAKE) PORT=web PAGE_OPT=-O0 BUILD='$(BUILD)/web' page-modules && echo "1 passed, 0 failed, 0 skipped"
 
-tables: $(LIB) ## generated tables are what their generators print
+tables: $(LIB) ## generated tables equal the output of their generators
 	@$(IN_SH) tests/scripts/tables.sh
 
-words: ## no old name or private phrase, no dead link, README within its bounds
+words: ## no old name or private phrase, no dead link; sizes of the READMEs; rates of some words
 	@$(IN_SH) tests/scripts/words.sh
 
 FAULTS_OBJ := $(call object,tests/faults/main_faults.c)
 $(B)/faults: $(FAULTS_OBJ)
-# Plain, whatever CFLAGS ask for: it stands before the C library.
+# Without CFLAGS such as sanitizers, because it is loaded before the C library.
 $(B)/fault.so: tests/faults/fault.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
@@ -502,17 +505,17 @@ faults: $(TOOL) $(B)/faults $(B)/fault.so ## each verb with its nth allocation, 
 readme: $(LIB) $(TOOL) ## the README's examples compile and run
 	@$(IN_SH) tests/scripts/readme.sh
 
-package: $(TOOL) $(LIB) man $(PACKAGE_FILES) ## a program outside the tree, by pkg-config, CMake's find_package and add_subdirectory
+package: $(TOOL) $(LIB) man $(PACKAGE_FILES) ## a program outside the tree, with pkg-config, CMake's find_package and add_subdirectory
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' $(IN_SH) tests/scripts/package.sh
 
-amalgam-check: amalgam $(LIB) $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) ## the two files by gcc, clang, g++, clang for Windows and tcc: golden pictures
+amalgam-check: amalgam $(LIB) $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) ## the two files compiled by gcc, clang, g++, clang for Windows and tcc: golden pictures
 	+@AMALGAM=$(BUILD)/amalgam OBJ='$(filter-out $(LIB_OBJ),$(GOLDEN_OBJ))' GOLDEN_SRC='$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)' \
 	    $(IN_SH) tests/scripts/amalgam.sh
 
-amalgam-cost: amalgam $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) ## what the two files take beside the tree: ROM, instructions, seconds
+amalgam-cost: amalgam $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) ## ROM, instructions and seconds of the two files, compared with the tree
 	@AMALGAM=$(BUILD)/amalgam OBJ='$(filter-out $(LIB_OBJ),$(GOLDEN_OBJ))' $(IN_SH) tests/scripts/amalgam_cost.sh
 
-examples: $(LIB) ## the programs of tests/examples compile, run and print what they should
+examples: $(LIB) ## the programs of tests/examples compile, run and print the expected lines
 	@$(IN_SH) tests/scripts/examples.sh
 
 examples-tiny: ## the same in the tiny configuration
@@ -521,27 +524,28 @@ examples-tiny: ## the same in the tiny configuration
 own: $(LIB) $(TOOL) ## make run-NAME with your own programs, its error message, and main_scene.c on this machine
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' B='$(B)' TOOL='$(TOOL)' sh tests/scripts/own.sh
 
-tool-setup: ## that check-tools removes nothing and says what it does
+tool-setup: ## check-tools removes no package and reports each step
 	@$(IN_SH) tests/scripts/tool_setup.sh
 
-cli: $(TOOL) ## the tool's files, exit statuses and messages (PART="render mix": these parts; JOBS=2: two at once)
+cli: $(TOOL) ## files, exit statuses and messages of the tool (PART="render mix" selects parts; JOBS=2: two at once)
 	@JOBS='$(JOBS)' $(IN_SH) tests/scripts/cli.sh $(if $(findstring command,$(origin PART)),$(PART))
 
-# --- instruments, and other processors -------------------------------------------------------------------------------
+# --- measurements, and other processors ------------------------------------------------------------------------------
 
-# What bounced light does without.
+# Modules that bounced light does not need.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: asan-programs pointers pictures faults paths amalgam-check amalgam-cost size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+.PHONY: asan-programs pointers pictures faults paths amalgam-check amalgam-cost size module-sizes rom rom-direct asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-edges measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-capture measure-contact measure-export measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms measure-sun measure-constants measure-sequence \
     measure-voxels measure-fixed large tiny run-demo run-statue run-packed $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
-size: module-sizes ## code and data by module, here and on a Cortex-M4F, and of its 48 KiB; PORT=...: of the port's room
+size: module-sizes ## code and data by module, here and in the 48 KiB of a Cortex-M4F (40 KiB for direct light); with PORT=...: of the port's room
 	+@sh tests/scripts/tools.sh need arm-none-eabi-gcc \
-	    && $(MAKE) module-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)'
+	    && $(MAKE) module-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)' \
+	    && $(MAKE) rom-direct PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size-direct LDFLAGS= CFLAGS='-Os -DLMB_BOUNCE=0 $(WITHOUT)'
 else
 size: $(ROOM_IMAGE)
 	@$(SIZE) $(B)/room | awk 'NR == 2 { print "rom " $$1 + $$2 " bytes, ram " $$2 + $$3 " bytes" }'
@@ -553,11 +557,14 @@ module-sizes: $(LIB)
 rom: module-sizes
 	@$(IN_SH) tests/scripts/rom.sh 49152
 
+rom-direct: $(LIB)
+	@$(IN_SH) tests/scripts/rom_direct.sh 40960
+
 COV_PROGRAMS_src   := $(addprefix default/,tests replay golden golden-orders reference hard hostile)
 COV_PROGRAMS_tools := default/tests default/replay lambent
 
-# One build serves the checks under sanitizers and the fuzzer. Kernels go without the fuzzer's counters and without the
-# checks of pointers' sums, with which clang takes three times as long over each: `make pointers` has those.
+# One build serves the sanitized checks and the fuzzer. Kernels have no fuzzer counters and no pointer-overflow checks,
+# with which clang takes three times as long; `make pointers` has these checks.
 ASAN_CC     ?= clang
 PLAIN_KERNELS := -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0
 FUZZER      := $(BUILD)/asan/default/fuzzer
@@ -568,7 +575,7 @@ SANITIZED    = BUILD=$(BUILD)/asan CC=$(ASAN_CC) CASES=-baked \
 asan: ## the checks under address and undefined-behaviour sanitizers
 	+@SHORT=1 $(MAKE) check CHECKS="$(ASAN_WANTED)" $(SANITIZED) $(MANY)
 
-pointers: ## pictures and parsers with a check of each sum of pointers, in plain C
+pointers: ## pictures and parsers with pointer-overflow checks, in plain C
 	+@$(MAKE) check CHECKS="golden replay hostile" BUILD=$(BUILD)/pointers CC=clang \
 	    CFLAGS="-O1 -g1 -fsanitize=pointer-overflow,object-size -fno-sanitize-recover=all $(PLAIN_KERNELS)"
 
@@ -576,7 +583,7 @@ asan-programs: ## the programs of asan and fuzz
 	+@$(MAKE) programs $(FUZZER) CHECKS="$(ASAN_WANTED)" $(SANITIZED)
 
 # TEST_CFLAGS=: at -O0 clang marks struct padding as uninitialized, and tests compare structs with memcmp.
-# In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
+# Plain C: the sanitizer assumes that AVX2 and AVX-512 permutations read all lanes, and reports unused ones.
 MSAN_CHECKS ?= golden hard replay hostile
 msan: ## pictures, hard cases and the corpus under the memory sanitizer
 	+@$(MAKE) check CHECKS="$(MSAN_CHECKS)" $(MANY) BUILD=$(BUILD)/msan CC=clang TEST_CFLAGS= \
@@ -595,47 +602,47 @@ $(B)/fuzzer: $(FUZZ_OBJ) $(LIB)
 
 N    ?= 60
 SEED ?= 1
-mutants: ## src/ and tools/ with one change at a time: do tests notice? (N=60 SEED=1 IN="raster tools/model")
+mutants: ## changes src/ and tools/ in one place at a time and checks that a test fails (N=60 SEED=1 IN="raster tools/model")
 	@sh tests/scripts/mutate.sh $(BUILD)/mutants $(N) $(SEED) $(IN)
 
 COV    ?= src
-cov: ## lines and branches of src/ that the checks run, by gcov; what they miss (COV=tools: of tools/)
+cov: ## lines and branches of src/ that the checks run, and those that they miss, with gcov (COV=tools: of tools/)
 	+@sh tests/scripts/tools.sh need gcov && $(MAKE) $(COV_PROGRAMS_$(COV):%=$(BUILD)/cov/%) BUILD=$(BUILD)/cov \
 	    CFLAGS="-O1 -g --coverage -fprofile-update=atomic" LDFLAGS=--coverage \
 	    && CC='$(CC)' FLAGS='$(FLAGS) --coverage' LDLIBS='$(LDLIBS)' sh tests/scripts/cov.sh $(BUILD)/cov $(COV)
 
-static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/ (PART=2/3: over each third file)
+static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/ (PART=2/3: a third of the files)
 	@sh tests/scripts/static.sh $(BUILD)/static
 
-prove: ## Frama-C and Gappa: no integer of the raster overflows in any frame
+prove: ## Frama-C and Gappa: no integer of the rasterizer overflows in any frame
 	@sh tests/scripts/prove.sh $(BUILD)/prove
 
 decodes: $(B)/decodes ## the picture decoders against netpbm, libjpeg-turbo and libvips
 	@$(IN_SH) tests/scripts/decodes.sh $(B)/decodes
 
-##@ Measure, against truth in ../shared where that is there (LMB_SHARED names it)
+##@ Measure, against truth in ../shared if that folder exists (LMB_SHARED sets another)
 reference: $(B)/reference ## coverage and depth of the raster workload against a slow rasterizer
 	@$(RUN) $(B)/reference
 
-measure-moving: $(B)/measure-moving ## a light and a crate that move: how much cuts add from frame to frame
+measure-moving: $(B)/measure-moving ## a moving light and crate: change of the light from frame to frame that cuts add
 	@$(RUN) $(B)/measure-moving
 
 measure-pack: $(TOOL) $(B)/measure-pack ## packed scenes: bytes by part beside the gzipped source, load time (SCENES)
 	@$(IN_SH) tests/measure/pack.sh
 
-measure-baked: $(TOOL) ## baked light against truth, its files and frames (SCENES, TURN=37, FILES=folder)
+measure-baked: $(TOOL) ## baked light against truth; files and frames (SCENES, TURN=37, FILES=folder)
 	@$(IN_SH) tests/measure/baked.sh
 
 measure-edges: $(TOOL) $(B)/scenes ## baked light on stairs, shelves and in attics beside gathered light (TUNED, HELD_OUT)
 	@$(IN_SH) tests/measure/baked_edges.sh
 
-measure-crate: $(TOOL) ## an object that moves in baked light, which it neither blocks nor reflects: its error (FRAME)
+measure-crate: $(TOOL) ## error of an object that moves in baked light, which it neither blocks nor reflects (FRAME)
 	@$(IN_SH) tests/measure/crate.sh
 
-measure-front: $(TOOL) ## one front of speed against error: gathering, baked, path tracing (SCENES, SETTINGS, LMT=folder)
+measure-front: $(TOOL) ## speed against error of gathered light, baked light and path tracing (SCENES, SETTINGS, LMT=folder)
 	@$(IN_SH) tests/measure/front.sh
 
-measure-lights: $(TOOL) $(B)/measure-lights ## baked light by twenty lights that baking did not know (SCENES, LMT=folder)
+measure-lights: $(TOOL) $(B)/measure-lights ## baked light with twenty lights that were not there during baking (SCENES, LMT=folder)
 	@$(IN_SH) tests/measure/lights.sh
 
 measure-steady: $(TOOL) $(B)/measure-steady ## baked light that moves: steps, pops, shifts (SCENES, ONLY=halving)
@@ -643,19 +650,19 @@ measure-steady: $(TOOL) $(B)/measure-steady ## baked light that moves: steps, po
 
 scenes: $(B)/scenes ## a program that makes scenes from a name and a seed (scenes --list)
 
-small-truth: $(B)/path ## tests/truth/small by our own path tracer, made again (NAMES): ten minutes
+small-truth: $(B)/path ## makes tests/truth/small again with our own path tracer (NAMES): ten minutes
 	@$(RUN) $(B)/path -o tests/truth/small $(NAMES)
 
 measure-truth: $(TOOL) ## bounced light against truth: errors, work, time (SCENES, QUALITIES)
 	@$(IN_SH) tests/measure/truth.sh
 
-measure-own: $(TOOL) $(B)/scenes ## the same, and on our own scenes, fitted and held out (LMB_OWN_TRUTH=DIR)
+measure-own: $(TOOL) $(B)/scenes ## the same, and on our own scenes, tuned and held out (LMB_OWN_TRUTH=DIR)
 	@$(IN_SH) tests/measure/own.sh
 
-measure-defaults: $(TOOL) ## models without camera and light: do they fill the frame, and have they tones? (MODELS)
+measure-defaults: $(TOOL) ## models without camera and light: whether they fill the frame, and their range of tones (MODELS)
 	@python3 tests/measure/defaults.py $(TOOL) $(BUILD)/defaults $(MODELS)
 
-measure-turned: $(TOOL) $(B)/scenes ## work and error of those scenes turned at random (TURNS="1 2 ...")
+measure-turned: $(TOOL) $(B)/scenes ## work and error of those scenes in random rotations (TURNS="1 2 ...")
 	@$(IN_SH) tests/measure/turned.sh
 
 measure-full: $(TOOL) ## six bounces against truth (SCENES, QUALITY=best, BOUNCES=20)
@@ -664,20 +671,20 @@ measure-full: $(TOOL) ## six bounces against truth (SCENES, QUALITY=best, BOUNCE
 measure-times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS, FRAME)
 	@$(IN_SH) tests/measure/times.sh
 
-measure-direct: $(TOOL) $(B)/scenes ## what bounced light adds to the time of direct light
+measure-direct: $(TOOL) $(B)/scenes ## time of bounced light beside the time of direct light
 	@$(IN_SH) tests/measure/direct.sh
 
 report: $(TOOL) ## speed against error: pages in build/report, the README's table and picture
 	@$(IN_SH) tests/measure/report.sh
 
 STEP ?= 17
-measure-cuts: $(B)/measure-cuts ## what cuts save against all texels of a 1024 map (STEP=17th tile, SCENES)
+measure-cuts: $(B)/measure-cuts ## work saved by cuts, against all texels of a 1024 map (STEP=17th tile, SCENES)
 	@$(RUN) $(B)/measure-cuts $(STEP) $(SCENES)
 
 measure-relight: $(B)/measure-relight ## objects lit by their world: errors and time of filters and glossy lobes
 	@$(IN_SH) tests/measure/relight.sh
 
-measure-capture: $(TOOL) ## an object carried through Sponza by captured cubes against drawing it there (FRAME, FACES)
+measure-capture: $(TOOL) ## an object carried through Sponza, lit by captured cubes, against drawing it there (FRAME, FACES)
 	@$(IN_SH) tests/measure/capture.sh
 
 MAPS ?= $(addprefix ../shared/data/env/,forest_slope_512x256.hdr potsdamer_platz_512x256.hdr)
@@ -687,29 +694,29 @@ measure-contact: $(B)/measure-contact ## objects on a ground under maps, against
 measure-export: $(B)/measure-export ## relight's files for other programs against plain sums over the map (MAPS)
 	@mkdir -p $(B)/export && for map in $(MAPS); do $(RUN) $(B)/measure-export $(B)/export $$map || exit 1; done
 
-measure-simplify: $(B)/measure-simplify ## what simpler meshes lose and add: distances, silhouettes, time
+measure-simplify: $(B)/measure-simplify ## errors of simplified meshes: distances, silhouettes, time
 	@$(RUN) $(B)/measure-simplify
 
-measure-planes: $(B)/measure-planes ## planes found in noisy depth against known ones, and across frames
+measure-planes: $(B)/measure-planes ## planes found in noisy depth against known ones, and from frame to frame
 	@$(RUN) $(B)/measure-planes
 
-measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is known, against truth
+measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of a known scene, against truth
 	@$(RUN) $(B)/measure-mixed
 
 measure-rooms: $(B)/measure-rooms ## objects put into rooms of our own, against path-traced pictures (ROOMS="window ...")
 	@mkdir -p $(B)/rooms && $(RUN) $(B)/measure-rooms $(B)/rooms $(ROOMS)
 
-measure-sun: $(B)/measure-sun ## the light that mix guesses, against the light of path-traced photos (SUNS="1 16 100 16")
+measure-sun: $(B)/measure-sun ## the light that mix estimates, against the light of path-traced photos (SUNS="1 16 100 16")
 	@mkdir -p $(B)/suns && $(RUN) $(B)/measure-sun $(B)/suns $(SUNS)
 
 CONSTANTS ?= 610 4 710 4
-measure-constants: $(B)/measure-rooms $(B)/measure-sun ## constants of mix by half and twice, in rooms that chose none (CONSTANTS)
+measure-constants: $(B)/measure-rooms $(B)/measure-sun ## constants of mix halved and doubled, in rooms that they were not tuned on (CONSTANTS)
 	@ROOMS_OBJ='$(call measure_of,rooms) $(LIB)' SUN_OBJ='$(call measure_of,sun) $(LIB)' $(IN_SH) tests/measure/constants.sh $(CONSTANTS)
 
 measure-sequence: $(TOOL) $(B)/measure-sequence $(B)/scenes ## sequences of noisy photos: flicker, frames a second (FRAME, COUNT, OBJECT)
 	@$(IN_SH) tests/measure/sequence.sh
 
-measure-voxels: $(B)/measure-voxels ## one bounce by cones through voxels: errors, time, memory (SCENES)
+measure-voxels: $(B)/measure-voxels ## one bounce with cones through voxels: errors, time, memory (SCENES)
 	@$(RUN) $(B)/measure-voxels $(SCENES)
 
 measure-fixed: $(TOOL) $(B)/measure-fixed ## light by vertex in integers against lmb_render: errors (SCENES)
@@ -719,21 +726,21 @@ ROWS ?= $(BUILD)/plan-rows.bin
 measure-plan: $(TOOL) $(B)/scenes ## settings chosen for budgets of error (BUDGETS, LMB_OWN_TRUTH)
 	@$(IN_SH) tests/measure/plan.sh
 
-plan-model: $(B)/measure-plan ## src/plan/plan_model.inc again, from five scenes by many settings
+plan-model: $(B)/measure-plan ## makes src/plan/plan_model.inc again, from five scenes with many settings
 	@rm -f $(ROWS); $(RUN) $(B)/measure-plan measure $(ROWS) demo cornell corridor point_room Duck; $(RUN) $(B)/measure-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/plan/plan_model.inc
 
 RELIEFS ?= quality own rooms causes speed
 measure-relief: $(B)/measure-relief ## reliefs against their complex models: errors, speed (RELIEFS="own ...")
 	@$(RUN) $(B)/measure-relief $(RELIEFS)
 
-paths: $(TOOL) $(LIB) ## the commands that the documents tell new users to type, in a clean copy
+paths: $(TOOL) $(LIB) ## the commands in the documents for new users, in a clean copy
 	@CFLAGS='$(CFLAGS)' $(IN_SH) tests/scripts/paths.sh
 
 .PHONY: places
 places: ## make, make demo and make check without root, in a path with spaces, with umask 077, from a read-only clone (PLACES=umask)
 	+@MAKE='$(MAKE)' $(IN_SH) tests/scripts/places.sh $(PLACES)
 
-docs-check: $(TOOL) $(LIB) ## code and commands of the documents; the reference's links and widths
+docs-check: $(TOOL) $(LIB) ## code and commands of the documents; links and widths of the reference
 	+@BUILD='$(BUILD)' MAKE='$(MAKE)' $(IN_SH) tests/scripts/docs_check.sh
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
@@ -743,30 +750,30 @@ large: $(TOOL) ## ten million triangles from a file to a picture; time and memor
 tiny: $(TOOL) ## the demo in 256 KiB and a packed scene on a Cortex-M4F (qemu): the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/tiny.sh
 
-statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pixels as here
+statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu): the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/statue.sh
 
-live: $(TOOL) ## light that moves in 160 KiB on a Cortex-M4F (qemu): pictures as here, instructions a frame
+live: $(TOOL) ## moving light in 160 KiB on a Cortex-M4F (qemu): the same pictures as here, instructions a frame
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/live.sh
 
 .PHONY: ports screens console-abis
-ports: ## the room on every port, in its emulator, against this machine's: one table (PORTS="gba nds", ROOM=pixel)
+ports: ## the room on every port, in an emulator, against this machine: one table (PORTS="gba nds", ROOM=pixel)
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' PORTS='$(PORTS)' ROOM='$(ROOM)' sh tests/scripts/ports.sh
 
-screens: ## consoles' screens after the path and as buttons steer, against this machine's pictures (PORTS="gba nds")
+screens: ## consoles' screens after the path and with buttons, against this machine's pictures (PORTS="gba nds")
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' PORTS='$(PORTS)' sh tests/scripts/screens.sh
 
 console-abis: ## the library for Microsoft's and System V's x86-64 with AVX2 and for AArch64, from C and from C++
 	@$(IN_SH) tests/scripts/console_abis.sh
 
 .PHONY: linux-fb null-port
-null-port: ## a port that begins as a copy of platform/null, in a tree of its own
+null-port: ## a port that starts as a copy of platform/null, in a separate tree
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/null_port.sh
 
-linux-fb: ## the room on a file that stands for Linux's framebuffer device
+linux-fb: ## the room on a file in place of Linux's framebuffer device
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/linux_fb.sh
 .PHONY: page-size web-check
-page-size: ## the page of platform/web compiles, and has room in what a browser loads
+page-size: ## the page of platform/web compiles and is small enough to load
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/page_size.sh
 
 web-check: $(TOOL) $(B)/page-hash ## the page of platform/web in headless Chromium: clicks, drags, keys, files, hashes
@@ -780,7 +787,7 @@ three-check: $(TOOL) ## baked light for other engines, drawn by three.js in head
 godot-check: $(TOOL) ## a baked lightmap, drawn by Godot 3 in software beside our picture
 	+@BUILD='$(BUILD)' $(IN_SH) tests/scripts/godot_check.sh
 
-# For compilers whose programs nothing here can run.
+# For compilers of programs that cannot run here.
 .PHONY: compiles
 compiles: $(LIB_OBJ)
 	@echo "$(words $(LIB_OBJ)) passed, 0 failed, 0 skipped"
@@ -831,15 +838,15 @@ $(foreach n,$(filter $(RUN_NAMES:%=run-%),$(MAKECMDGOALS)),$(error $(n): lambent
 endif
 
 .PHONY: room run
-room: $(ROOM_IMAGE) ## the port's program that all ports show (PORT=...)
-run: $(ROOM_IMAGE) ## that program in the port's emulator: hashes, costs
+room: $(ROOM_IMAGE) ## the program that all ports share (PORT=...)
+run: $(ROOM_IMAGE) ## runs the room in the port's emulator: hashes, costs
 	@$(ROOM_RUN) $<
 
-# CROSS_TARGETS, MORE_CROSS_TARGETS, and for each needs_NAME and how_NAME.
+# Sets CROSS_TARGETS and MORE_CROSS_TARGETS, and for each target needs_NAME and how_NAME.
 include platform/gl/gl.mk
 include tests/scripts/targets.mk
 
-# build_NAME: a folder of another job's build with the same flags.
+# build_NAME: the folder of another job that was built with the same flags.
 cross_build = $(or $(build_$(1)),$(BUILD)/cross/$(1))
 define cross_sum
 	@LOGS=$(B)/check sh tests/scripts/part.sh same sh tests/scripts/same.sh $(1:%=$(B)/check/cross-%.log)
@@ -848,10 +855,10 @@ define cross_sum
 endef
 
 .PHONY: cross-all more-tools $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%)
-cross: $(CROSS_TARGETS:%=cross-%) ## golden pictures by other compilers and processors; gets what it needs (EACH=3: by emulators a third)
+cross: $(CROSS_TARGETS:%=cross-%) ## golden pictures with other compilers and processors; installs missing packages (EACH=3: a third of them in emulators)
 	$(call cross_sum,$(CROSS_TARGETS))
 
-cross-all: $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%) ## the same on all of tests/scripts/targets.mk
+cross-all: $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%) ## the same for all targets of tests/scripts/targets.mk
 	$(call cross_sum,$(CROSS_TARGETS) $(MORE_CROSS_TARGETS))
 
 $(CROSS_TARGETS:%=cross-%): check-tools
@@ -860,9 +867,9 @@ $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%): NEEDS = $(needs_$(@:
 $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%): cross-%:
 	+@$(RUN_PART) cross-$* $(MAKE) $(or $(goal_$*),golden) BUILD=$(call cross_build,$*) $(how_$*)
 
-# One installer at a time: all that the machines of cross-all need.
+# One installer at a time, with all packages that cross-all needs.
 more-tools: check-tools
 	@sh tests/scripts/tools.sh get $(sort $(foreach m,$(MORE_CROSS_TARGETS),$(needs_$(m))))
 
-check-tools: ## the outside tools of the checks: what is missing, and apt-get for it
+check-tools: ## installs missing tools of the checks with apt-get, and lists those that stay missing
 	@sh tests/scripts/tools.sh get

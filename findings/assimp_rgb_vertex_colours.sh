@@ -3,8 +3,8 @@
 #
 # glTF 2.0, section 3.7.2.1: COLOR_0 may be VEC3, and alpha is then 1. The script writes one triangle with COLOR_0 as
 # VEC3 and as VEC4 and converts both to PLY. It exits with 1 if Assimp's alpha of the VEC3 colours is no longer 0, or
-# if the script cannot show it. It needs apt-get, root, python3 and network access, and installs nothing outside its
-# folder.
+# if the script cannot show it. You need apt-get, root, python3 and network access. Nothing is installed outside the
+# script's folder.
 set -eu
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT

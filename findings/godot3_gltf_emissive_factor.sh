@@ -3,9 +3,9 @@
 #
 # glTF 2.0, section 3.9.3: emitted light is emissiveFactor times emissiveTexture. Godot's importer sets the emission to
 # black and adds the texture in full. The script imports two materials with the factor (1, 0, 0), one of them with a
-# white texture, and prints what Godot made of them. It exits with 1 if Godot's emission with the texture is no longer
-# black, or if the script cannot show it. It needs apt-get, root, python3 and network access, and installs nothing
-# outside its folder.
+# white texture, and prints Godot's materials. It exits with 1 if Godot's emission with the texture is no longer black,
+# or if the script cannot show it. You need apt-get, root, python3 and network access. Nothing is installed outside the
+# script's folder.
 set -eu
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT

@@ -1,11 +1,11 @@
 #!/bin/sh
 # Godot 3.2.3 (Debian 12) does not normalize integer vertex colours of glTF files, so nearly all of them become white.
 #
-# glTF 2.0, section 3.7.2.1: COLOR_0 may be normalized bytes or shorts; 64 of 255 is 0.25. Godot's importer takes such
-# integers as they are, and a mesh keeps colours up to 1. The script imports a triangle with the colour
+# glTF 2.0, section 3.7.2.1: COLOR_0 may be normalized bytes or shorts; 64 of 255 is 0.25. Godot's importer does not
+# divide such integers, and a mesh clamps colours to 1. The script imports a triangle with the colour
 # (0.25, 0.5, 0.75) as floats, bytes and shorts, and prints the colours of Godot's mesh. It exits with 1 if the integers
-# no longer become (1, 1, 1), or if the script cannot show it. It needs apt-get, root, python3 and network access, and
-# installs nothing outside its folder.
+# no longer become (1, 1, 1), or if the script cannot show it. You need apt-get, root, python3 and network access.
+# Nothing is installed outside the script's folder.
 set -eu
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT

@@ -1,4 +1,4 @@
-/* port_say.h: numbers, and the RAM that a program took, by port_put. */
+/* port_say.h: prints numbers and a program's use of RAM by port_put. */
 #ifndef PORT_SAY_H
 #define PORT_SAY_H
 
@@ -13,7 +13,7 @@ static inline void say_hex(uint64_t v)
     port_put(text);
 }
 
-/* 32 bits, eight digits. */
+/* Prints 32 bits as eight digits. */
 static inline void say_word(uint32_t v)
 {
     char text[9];
@@ -40,7 +40,7 @@ static inline void say_count(const char *name, uint32_t v)
     say_number(v);
 }
 
-/* A line that names an error; the program's status. */
+/* Prints a line with the name of an error; returns the program's status. */
 static inline int say_error(const char *name)
 {
     port_put(name);
@@ -48,7 +48,7 @@ static inline int say_error(const char *name)
     return 1;
 }
 
-/* A line where the port can tell. 1: more than there is. */
+/* Prints a line if the port can measure RAM. Returns 1 if more is used than exists. */
 static inline int say_ram(void)
 {
     port_ram ram;

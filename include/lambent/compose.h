@@ -11,68 +11,69 @@ typedef struct lmb_radiance {
     float rgb[3][LMB_TILE_PIXELS];
 } lmb_radiance;
 
-/* What LMB_GATHER_ADAPTIVE keeps of a tile of the frame: what a gather reads of its pixels, and their light. */
+/* State of LMB_GATHER_ADAPTIVE for a tile of the frame: input of the gather at the pixels, and their light. */
 typedef struct lmb_lattice_tile {
     float position[3][LMB_TILE_PIXELS], face[3][LMB_TILE_PIXELS], normal[3][LMB_TILE_PIXELS];
     lmb_irradiance light;
     uint32_t id[LMB_TILE_PIXELS];
-    uint64_t shown, known, wanted, late; /* pixels with a surface; those gathered; to gather next; to light by those */
-    uint64_t early; /* known before the last phase: what other windows may read of this one in it */
-    int32_t flat;                  /* 1: all that are shown lie on one plane and are shaded as such */
+    uint64_t shown, known, wanted, late; /* pixels with a surface; those gathered; to gather next; to interpolate */
+    uint64_t early; /* known before the last phase: the pixels that other windows may read in that phase */
+    int32_t flat;                  /* 1: all shown pixels lie on one plane and are shaded with its normal */
 } lmb_lattice_tile;
 
-/* The pixels of a frame at which bounced light is gathered: first every 8th each way, then in cells of 4, 2 and 1 px
- * where the light asks for it. Laid out by lmb_lattice_init. */
+/* The pixels of a frame at which bounced light is gathered: first every 8th each way, then in cells of 4, 2 and 1 px if
+ * the light varies. Laid out by lmb_lattice_init. */
 typedef struct lmb_lattice {
     lmb_lattice_tile *tile; /* by rows of the frame's tiles */
-    uint8_t *divided;       /* of each cell of 8, 4 and 2 px: 1 where it is divided */
+    uint8_t *divided;       /* of each cell of 8, 4 and 2 px: 1 if it is divided */
     int32_t width, height;  /* of the frame, px */
     float mean;             /* light of the first samples, W/m2, R + G + B */
-    float split;            /* cells are divided where (surplus / 3 of the mean)^2 x px^2 is over this */
+    float split;            /* cells are divided if (surplus / 3 of the mean)^2 x px^2 is over this */
 } lmb_lattice;
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* lmb_lattice_bytes: memory for a lattice of a frame of so many pixels; 0 where a side is under 1 or over
- * LMB_MAX_SIDE. lmb_lattice_init: lay one out in it. `memory` is aligned as for a uint64_t. LMB_OK, LMB_ERR_ARG,
+/* lmb_lattice_bytes: memory for a lattice of a frame of width x height pixels; 0 if a side is under 1 or over
+ * LMB_MAX_SIDE.
+ * lmb_lattice_init: lay out a lattice in `memory`, which is aligned as for a uint64_t. Returns LMB_OK, LMB_ERR_ARG,
  * LMB_ERR_ALIGN or LMB_ERR_CAPACITY. Both are missing in builds without trees. */
 size_t lmb_lattice_bytes(int32_t width, int32_t height);
 lmb_status lmb_lattice_init(lmb_lattice *out, int32_t width, int32_t height, void *memory, size_t bytes);
 
-/* Light gathered at every second or fourth pixel each way (step 2 or 4), for all of them.
+/* Upsampling of light that was gathered at every second or fourth pixel each way (step 2 or 4).
  *
- * lmb_sparse_pixels: the pixels of a tile to gather, a bit each. Of its rows and columns 0, 2, 5, 7 or 0, 7: 16 or 4
- * samples; and those pixels for which the four samples around them do not serve, because they lie on other surfaces. A
- * tile uses its own pixels alone, and its samples reach to its edges: no seams. Any other step: all pixels.
- * lmb_upsample_tile: set the others to the mean of the samples around them, by distance and by how far they are on the
- * pixel's surface. Equal samples give exactly their value.
+ * lmb_sparse_pixels: the pixels of a tile to gather, a bit each. These are rows and columns 0, 2, 5, 7 or 0, 7, so 16
+ * or 4 samples, and pixels whose four surrounding samples lie on other surfaces. A tile uses only its own pixels, and
+ * the samples reach to its edges, so there are no seams. Any other step: all pixels.
+ * lmb_upsample_tile: set the other pixels to the mean of the samples around them, weighted by distance and by how well
+ * a sample fits the pixel's surface. Equal samples give exactly their value.
  *
- *   inout  the light at the pixels of `known`, which lmb_sparse_pixels gave.
- * Returns the pixels, a bit each, whose samples differ by more than 40 %: these are not set, and must be gathered. Both
- * calls return no pixels where a pointer is NULL. */
+ *   inout  the light at the pixels of `known`, the result of lmb_sparse_pixels.
+ * Returns the pixels, a bit each, with samples that differ by more than 40 %: these are not set; gather them. Both
+ * calls return no pixels if a pointer is NULL. */
 uint64_t lmb_sparse_pixels(const lmb_tile *tile, int32_t step);
 uint64_t lmb_upsample_tile(lmb_irradiance *inout, const lmb_tile *tile, uint64_t known, int32_t step);
 
-/* lmb_compose_tile: albedo / pi x (direct + indirect). Either irradiance may be NULL. LMB_OK or LMB_ERR_ARG. */
+/* lmb_compose_tile: albedo / pi x (direct + indirect). Either irradiance may be NULL. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
                             const lmb_irradiance *direct, const lmb_irradiance *indirect);
 
-/* lmb_compose_emission: add what surfaces emit towards the viewer, by texel; the tile was resolved for `view`. LMB_OK
- * or LMB_ERR_ARG. */
+/* lmb_compose_emission: add the light that surfaces emit towards the viewer, by texel; the tile was resolved for
+ * `view`. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_compose_emission(lmb_radiance *inout, const lmb_scene *scene, const lmb_view *view,
                                 const lmb_tile *tile);
 
-/* lmb_compose_glossy: of the pixels with a lobe, scale what is there by what the lobe leaves (lmb_glossy), and add the
- * lobe's radiance. LMB_OK or LMB_ERR_ARG. Not there in builds without trees and probes. */
+/* lmb_compose_glossy: at pixels with a lobe, scale the diffuse light by the share that the lobe leaves (lmb_glossy),
+ * and add the lobe's radiance. Returns LMB_OK or LMB_ERR_ARG. Missing in builds without trees and probes. */
 lmb_status lmb_compose_glossy(lmb_radiance *inout, const lmb_glossy *glossy);
 
-/* lmb_store_tile: write a tile into a surface whose pixel (0, 0) is frame pixel (x0, y0).
+/* lmb_store_tile: write a tile into a surface with pixel (0, 0) at frame pixel (x0, y0).
  *
- *   out       LMB_RGB32F: radiance as it is. Others: x 2^exposure_ev, clipped to 0..1, sRGB-coded; those of 16 bits
+ *   out       LMB_RGB32F: radiance without change. Others: x 2^exposure_ev, clipped to 0..1, sRGB-coded; 16-bit formats
  *             with an 8x8 ordered dither (Bayer 1973) fixed to the frame, so that bands meet without a seam.
- *   x, y      px in the frame of the tile's pixel 0; what lies outside the surface is not written.
+ *   x, y      position of the tile's pixel 0 in the frame, px; pixels outside the surface are not written.
  * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
 lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, int32_t x0, int32_t y0,
                           const lmb_radiance *in, int32_t x, int32_t y, float exposure_ev);

@@ -1,8 +1,8 @@
-/* config.h: every capacity and switch of lambent, with its unit, its cost and what happens when it is full.
+/* config.h: every capacity and switch of lambent, with unit, cost and the effect when it is full.
  *
- * What stands in #ifndef is yours: define it on the compiler's command line (for the library and the application
- * alike). The others follow from it, or from LMB_CONFIG_TINY, or are part of the arithmetic.
- * LMB_CONFIG_TINY picks the small set in one word. Capacities are not sizes: a run may use any size up to them.
+ * You may change each value inside #ifndef: define it on the compiler's command line, for both the library and the
+ * application. The other values follow from these, or from LMB_CONFIG_TINY, or are part of the arithmetic.
+ * LMB_CONFIG_TINY picks the small set. Capacities are not sizes: a run may use any size up to them.
  *
  * Stability: stable. Tags like [V19] are requirements in src/SOURCES.md. */
 #ifndef LMB_CONFIG_H
@@ -27,9 +27,9 @@
 #endif
 #endif
 
-/* Nodes of one tile's cut through the light tree (lmb_cut). 32 bytes each. Full: halves of the pixels take cuts of
- * their own; where that does not help they are lit by the nodes there are, coarser than asked for, and
- * lmb_stats.full_cuts counts them. At least 6 x LMB_MAX_LIGHTS: every face of every map has its root in it. */
+/* Nodes of one tile's cut through the light tree (lmb_cut). 32 bytes each. When full, each half of the pixels gets a
+ * cut of its own; if that does not help, the pixels are lit by the nodes there are, coarser than the error limit, and
+ * lmb_stats.full_cuts counts them. At least 6 x LMB_MAX_LIGHTS: the cut holds the root of every face of every map. */
 #ifndef LMB_MAX_CUT
 #ifdef LMB_CONFIG_TINY
 #define LMB_MAX_CUT 64
@@ -38,8 +38,8 @@
 #endif
 #endif
 
-/* Nodes of the tree of many lights that one surface of a tile takes at most. 20 bytes each, in lmb_many_lights_scratch.
- * Full: nodes are not split further, and the error grows. */
+/* Nodes of the tree of many lights that one surface of a tile uses at most. 20 bytes each, in lmb_many_lights_scratch.
+ * When full, nodes are not split further, and the error grows. */
 #ifndef LMB_MANY_LIGHTS_CUT
 #ifdef LMB_CONFIG_TINY
 #define LMB_MANY_LIGHTS_CUT 32
@@ -48,7 +48,7 @@
 #endif
 #endif
 
-/* Nodes of such a cut that are tested for shadows, and light the pixels, at a time. 136 bytes each, in
+/* Nodes of such a cut that are tested for shadows, and light the pixels, at a time. 144 bytes each, in
  * lmb_many_lights_scratch. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_ACTIVE_LIGHTS 8
@@ -63,15 +63,24 @@
 #define LMB_GATHER_PAIRS 256
 #endif
 
-/* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or surfaces that emit
- * light; a material's glossy lobe is ignored. Their functions are missing, and frames that ask for them are refused.
- * Saves 30 KiB of ROM on a Cortex-M4F. */
-#ifndef LMB_TREES
-#define LMB_TREES 1
+/* 0: this build has no fixed groups (lambent/bounce.h): frames show only direct light, unless a baked transfer adds
+ * bounced light. Saves 15 KiB of ROM on a Cortex-M4F. A build without groups has no trees and no plan.h either. */
+#ifndef LMB_BOUNCE
+#define LMB_BOUNCE 1
 #endif
 
-/* 0: this build has no light of single points (lambent/live.h); frames with LMB_GATHER_LIVE are refused. Saves 12 KiB of
- * ROM on a Cortex-M4F. 0 in a build without trees. */
+/* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or emissive surfaces; a
+ * material's glossy lobe is ignored. Their functions are missing, and frames that need them are refused. Saves 30 KiB
+ * of ROM on a Cortex-M4F. */
+#ifndef LMB_TREES
+#define LMB_TREES LMB_BOUNCE
+#endif
+#if LMB_TREES && !LMB_BOUNCE
+#error "lambent: LMB_TREES needs LMB_BOUNCE"
+#endif
+
+/* 0: this build has no light at single points (lambent/live.h); frames with LMB_GATHER_LIVE are refused. Saves 12 KiB
+ * of ROM on a Cortex-M4F. 0 in a build without trees. */
 #ifndef LMB_LIVE
 #define LMB_LIVE LMB_TREES
 #endif
@@ -81,7 +90,7 @@
 #define LMB_DRAW LMB_TREES
 #endif
 
-/* 1: draw.h draws only triangles and polygons, with depth, alpha, two texture stages and the 2D calls; states that ask for
+/* 1: draw.h draws only triangles and polygons, with depth, alpha, two texture stages and the 2D calls; states that use
  * more are refused: lines, points, polygon modes, patterns, stencil, logic op, fog, clip planes, depth offset, combined
  * stages, second and back colours, shaders, counts of passed pixels, positions with w. lmb_draw_light and
  * lmb_draw_fragment are missing. Saves 17 KiB of ROM on a Cortex-M4F. */
@@ -89,7 +98,7 @@
 #define LMB_DRAW_SMALL 0
 #endif
 
-/* 0: draws ignore a state's kernels. Builds whose plain C has one lane (no SSE2, NEON or simd128) have none in any case.
+/* 0: draws ignore a state's kernels. Builds whose plain C has one lane (no SSE2, NEON or simd128) never have them.
  * Saves 6 KiB of ROM for each backend. */
 #ifndef LMB_DRAW_KERNELS
 #define LMB_DRAW_KERNELS (LMB_DRAW && !LMB_DRAW_SMALL)
@@ -103,7 +112,7 @@
 /* Builds that evaluate materials' glossy lobes. */
 #define LMB_LOBES (LMB_TREES || LMB_PROBES)
 
-/* Positions whose cubes an lmb_probe_cache keeps: 36 bytes each. When full, the one used longest ago makes room. */
+/* Positions whose cubes an lmb_probe_cache holds: 36 bytes each. When full, the least recently used one is replaced. */
 #ifndef LMB_MAX_PROBES
 #define LMB_MAX_PROBES 64
 #endif
@@ -118,7 +127,8 @@
 #define LMB_MIXED 1
 #endif
 
-/* Planes that are found in one picture. 100 bytes each, in lmb_planes. Full: the smaller ones stay ordinary surface. */
+/* Planes that are found in one picture. 100 bytes each, in lmb_planes. When full, the smaller planes stay ordinary
+ * surface. */
 #ifndef LMB_MAX_PLANES
 #define LMB_MAX_PLANES 24
 #endif
@@ -128,19 +138,22 @@
 #define LMB_RELIEF 1
 #endif
 
-/* 0: this build draws every frame whole: it skips no stage and reuses nothing of the frame before. There is no
+/* 0: this build draws every frame whole: it skips no stage and reuses nothing of the last frame. It has no
  * lmb_render_reuse and no lambent/plan.h. */
 #ifndef LMB_PLAN
-#define LMB_PLAN 1
+#define LMB_PLAN LMB_BOUNCE
+#endif
+#if LMB_PLAN && !LMB_BOUNCE
+#error "lambent: LMB_PLAN needs LMB_BOUNCE"
 #endif
 
-/* 0: this build has no baked light transfer (lambent/transfer.h). Saves about 6 KiB of ROM on a Cortex-M4F. 1 in a build
- * without trees: it has transfer alone. */
+/* 0: this build has no baked light transfer (lambent/transfer.h). Saves about 6 KiB of ROM on a Cortex-M4F. With 1, a
+ * build without trees gets bounced light only from a transfer. */
 #ifndef LMB_TRANSFER
 #define LMB_TRANSFER LMB_TREES
 #endif
 
-/* 0: textures are RGBA8 alone; scenes with others are refused. Saves 0.3 KiB of ROM on a Cortex-M4F. */
+/* 0: textures must be RGBA8; scenes with other formats are refused. Saves 0.3 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_TEXTURE_FORMATS
 #define LMB_TEXTURE_FORMATS LMB_TREES
 #endif
@@ -155,12 +168,12 @@
 #define LMB_MULTISAMPLE LMB_TREES
 #endif
 
-/* 0: this build has no lmb_draw_culled and no bins, and fills 16-bit depth by its slower code: the same bytes. */
+/* 0: this build has no lmb_draw_culled and no bins, and fills 16-bit depth by slower code with the same bytes. */
 #ifndef LMB_CULLING
 #define LMB_CULLING LMB_TREES
 #endif
 
-/* Reference views of one relief. 224 bytes each, in lmb_relief. More: the file is refused. */
+/* Reference views of one relief. 168 bytes each, in lmb_relief. A file with more is refused. */
 #ifndef LMB_RELIEF_VIEWS
 #ifdef LMB_CONFIG_TINY
 #define LMB_RELIEF_VIEWS 16
@@ -169,24 +182,24 @@
 #endif
 #endif
 
-#define LMB_RELIEF_TILE_VIEWS 8 /* reference views that one tile reads, at most */
+#define LMB_RELIEF_TILE_VIEWS 8 /* maximum number of reference views that one tile reads */
 
 /* Planes of a convex room, 24 bytes each in lmb_bvh. A room with more planes is not recognised: its BVH is traversed
- * though nothing blocks. */
+ * although nothing in it blocks. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_HULL_PLANES 6
 #else
 #define LMB_HULL_PLANES 16
 #endif
 
-/* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
-#define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
-#define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */
+/* Limits of the arithmetic, not of memory: src/raster/setup.c shows what depends on them. */
+#define LMB_MAX_SIDE 8192       /* px of a surface's side; draw larger frames in windows */
+#define LMB_MAX_FRAME 16384     /* px of a frame's side, over all windows */
 #define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
-#define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together where bounced light is upsampled */
+#define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together if bounced light is upsampled */
 #define LMB_CUT_BLOCK 64        /* nodes of a cut that are prepared for the gather together */
-/* Nodes of a cut whose bounds are computed side by side, 96 bytes of lmb_cut each: as many as the widest backend has
+/* Nodes of a cut whose bounds are computed side by side, 92 bytes of lmb_cut each: as many as the widest backend has
  * lanes, and at least four, the children of one node. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_BOUNDS_NODES 4
@@ -200,13 +213,13 @@
 #else
 #define LMB_SLOTS 16
 #endif
-#define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
+#define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. LMB_MAX_TRIANGLES */
 
 #if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_MAX_CUT < 6 * LMB_MAX_LIGHTS || LMB_MANY_LIGHTS_CUT < 16
 #error "lambent: a capacity in config.h is too small"
 #endif
 
-/* A program and a library that were built with different capacities do not link. */
+/* A program and a library built with different capacities do not link. */
 #include "layout.h"
 
 #endif

@@ -1,4 +1,4 @@
-/* lambent.h: the whole public face. Read types.h first, then render.h for one call that does everything. */
+/* lambent.h: the whole public API. Read types.h first, then render.h for one call that does everything. */
 #ifndef LMB_LAMBENT_H
 #define LMB_LAMBENT_H
 

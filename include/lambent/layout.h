@@ -1,10 +1,11 @@
-/* layout.h: a program and a library with other capacities do not link: calls that take a struct whose size is one of
- * config.h's capacities, in it or behind its pointers, carry all of these in their names.
+/* layout.h: makes a program and a library with different capacities fail to link. If the size of a struct depends on a
+ * capacity of config.h, calls that take the struct, directly or behind its pointers, carry all capacities in their
+ * names.
  *
- * So lmb_draw is lmb_draw wherever you build, and lmb_render_begin becomes lmb_render_begin_g2048_l128_c16384_...: what
- * the linker cannot find is what the two builds do not agree on. Compilers and linkers of today tell names of thousands
- * of characters apart (C99 asks for 31). Capacities are plain numbers for this, not expressions.
- * `make layout` takes the capacities from config.h and the calls from the headers: none can be forgotten.
+ * So lmb_draw is lmb_draw in every build, and lmb_render_begin becomes lmb_render_begin_g2048_l128_c65536_...: a name
+ * that the linker cannot find shows the difference between the two builds. Today's compilers and linkers distinguish
+ * names of thousands of characters (C99 requires 31). Capacities must therefore be plain numbers, not expressions.
+ * `make layout` reads the capacities from config.h and the calls from the headers: none can be forgotten.
  *
  * Stability: stable. */
 #ifndef LMB_LAYOUT_H

@@ -1,8 +1,8 @@
-/* tree.h: the shadow map as a tree, of which each tile of pixels takes its own cut. [V3 V6 V15 V27]
+/* tree.h: the shadow map as a tree; each tile of pixels takes a cut of its own. [V3 V6 V15 V27]
  *
  * Every lit texel of a map is a first point; four make a node, four nodes the next, up to one node a face. Sums go
- * upward from the finest texels, so no flux is lost, and a fine map costs only the pixels near its texels. A tile
- * starts at the roots and splits nodes until their estimated error is under `error` times the light that they give.
+ * upward from the finest texels, so no flux is lost, and a fine map costs more only at the pixels near its texels. A
+ * tile starts at the roots and splits nodes until their estimated error is under `error` times their light.
  *
  * Stability: experimental. Tags like [V3] are requirements in src/SOURCES.md. */
 #ifndef LMB_TREE_H
@@ -15,52 +15,54 @@
 typedef struct lmb_texel {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power, W; all 0: no first point */
-    uint8_t side[4];           /* how far its surface extends from its middle, left, right, up and down, in 1/256
-                                  texel: 128 to the texel's edge, else to where its plane meets the neighbour's */
-    float share;               /* where a side is not 128: of its flux, what its exact shape has; under 0: its sides' */
+    uint8_t side[4];           /* extent of the surface from the texel's middle, left, right, up and down, in 1/256
+                                  texel: 128 reaches the texel's edge; else the line where the plane meets the
+                                  neighbour's plane */
+    float share;               /* if a side is not 128: share of the flux that the exact shape has; under 0: use the
+                                  sides */
 } lmb_texel;
 
-/* The first points of a square of texels. 96 bytes.
+/* The first points of a square of texels. 92 bytes.
  *
- * Its box has sides along the normal, along `across`, and along normal x across, so its bounds do not depend on how the
- * world is turned. */
+ * The box has sides along the normal, along `across`, and along normal x across, so the bounds do not depend on the
+ * world's rotation. */
 typedef struct lmb_node {
     lmb_vec3 centre, normal; /* means, weighted by flux; normal of unit length */
-    float flux[3], area;     /* sums, W and m2; flux 0: nothing */
-    lmb_vec3 middle, across; /* of the box of their quads; across: unit, at right angles to the normal */
-    float half[3];           /* half the box's sides, m */
-    float radius;            /* m: all first points lie within it of `middle` */
-    float cosine;            /* of the widest angle between their normals and the mean; -1: any */
-    float agreement;         /* length of the normals' mean, weighted by flux: 1 where all are the same, else less */
+    float flux[3], area;     /* sums, W and m2; flux 0: empty */
+    lmb_vec3 middle, across; /* of the box of their quads; across: unit, perpendicular to the normal */
+    float half[3];           /* half sides of the box, m */
+    float radius;            /* m: all first points lie within this distance of `middle` */
+    float cosine;            /* of the largest angle between their normals and the mean; -1: any */
+    float agreement;         /* length of the normals' mean, weighted by flux: 1 if all are equal, else less */
     uint32_t texel;          /* one first point, near the centre: visibility is tested towards it */
 } lmb_node;
 
-/* The tree, in the caller's memory. Its faces are those of all shadow maps, in order. */
+/* The tree, in your memory. The faces are those of all shadow maps, in order. */
 typedef struct lmb_tree {
     lmb_texel *texel; /* face_cap x size x size, row by row */
-    lmb_node *node;   /* face_cap x (size^2 - 1) / 3: of each face the level of size / 2 first, its root last */
+    lmb_node *node;   /* face_cap x (size^2 - 1) / 3: of each face the level of size / 2 first, the root last */
     lmb_view *view;   /* face_cap */
-    const struct lmb_element *element; /* NULL; or the elements that are its texels instead, along a Z curve */
+    const struct lmb_element *element; /* NULL; or the elements that replace the texels, along a Z curve */
     int32_t size;     /* texels a side: a power of two */
     uint32_t face_cap, faces;
 } lmb_tree;
 
 /* A node of a tile's cut, prepared for the gather. */
 typedef struct lmb_emitter {
-    lmb_vec3 position, back; /* back: against its normal */
+    lmb_vec3 position, back; /* back: the reversed normal */
     float area_pi;           /* area / pi */
     float flux[3];
-    uint64_t visible; /* the pixels that see it, a bit each */
+    uint64_t visible; /* the pixels that see the node, a bit each */
 } lmb_emitter;
 
-/* A node of the tree; level 0 are texels. */
+/* A node of the tree; level 0: texels. */
 typedef struct lmb_node_ref {
     uint16_t face, x, y, level;
 } lmb_node_ref;
 
 enum { LMB_CUT_BUCKETS = 512 };
 
-/* The number of a node in a cut, or -1. */
+/* The index of a node in a cut, or -1. */
 #if LMB_MAX_CUT < 32768
 typedef int16_t lmb_cut_slot;
 #else
@@ -69,20 +71,20 @@ typedef int32_t lmb_cut_slot;
 
 /* One tile's cut; one a thread. */
 typedef struct lmb_cut {
-    int32_t count;                     /* nodes, with those that were split since */
-    int32_t tests_left;                /* tests of visibility that the tile may still spend: as in lmb_traversal */
-    uint32_t coarse;                   /* calls that were answered coarsely: as in lmb_traversal */
-    uint64_t visible[LMB_MAX_CUT];     /* the pixels that see it, a bit each */
+    int32_t count;                     /* nodes, including those that were split */
+    int32_t tests_left;                /* visibility tests left to the tile: see lmb_traversal */
+    uint32_t coarse;                   /* calls with a coarse answer: see lmb_traversal */
+    uint64_t visible[LMB_MAX_CUT];     /* the pixels that see the node, a bit each */
     lmb_node_ref ref[LMB_MAX_CUT];
-    float value[LMB_MAX_CUT];          /* irradiance that it gives where it is seen, W/m2, R + G + B */
-    float upper[LMB_MAX_CUT];          /* upper bound of that */
+    float value[LMB_MAX_CUT];          /* irradiance of the pixels that see the node, W/m2, R + G + B */
+    float upper[LMB_MAX_CUT];          /* upper bound of `value` */
     union {
-        float error[LMB_MAX_CUT];      /* of a node that a pixel sees: estimated error of taking it as one disc */
-        uint32_t blocker[LMB_MAX_CUT]; /* of one that none sees: a triangle that blocked one, + 1; 0: unknown */
+        float error[LMB_MAX_CUT];      /* of a node that a pixel sees: estimated error of using it as one disc */
+        uint32_t blocker[LMB_MAX_CUT]; /* of a node that no pixel sees: a triangle that blocked one, + 1; 0: unknown */
     } of;
     lmb_cut_slot next[LMB_MAX_CUT];    /* the next node in its bucket */
     lmb_cut_slot bucket[LMB_CUT_BUCKETS]; /* the first node of each; buckets are sorted by exponent and first bit */
-    float bounds_of_nodes[23][LMB_BOUNDS_NODES]; /* nodes side by side; src/lightcut says what each plane holds */
+    float bounds_of_nodes[23][LMB_BOUNDS_NODES]; /* nodes side by side; src/lightcut lists the planes */
     lmb_emitter emitter[LMB_CUT_BLOCK];
     union {
         float pairs[3][LMB_GATHER_PAIRS]; /* while the cut lights pixels */
@@ -90,26 +92,26 @@ typedef struct lmb_cut {
     } use;
 } lmb_cut;
 
-/* How tiles take their cut. */
+/* Parameters of a tile's cut. */
 typedef struct lmb_cut_params {
-    float error;          /* error allowed to bounced light where nothing blocks, as a share of the pixel's light: of
-                             the root of the nodes' squared errors; conservative: of the errors' sum */
-    float visibility;     /* largest share of a pixel's light from a node whose visibility is tested as one */
-    float floor;          /* W/m2, R + G + B: an error below this is accepted, whatever its share; conservative: not
-                             used */
-    int32_t conservative; /* 1: `error` is a bound that no pixel exceeds where nothing blocks, however many nodes that
+    float error;          /* allowed error of bounced light, ignoring occlusion, as a share of the pixel's light: the
+                             root of the sum of the nodes' squared errors; conservative: the sum of the errors */
+    float visibility;     /* largest share of a pixel's light tested by one visibility ray */
+    float floor;          /* W/m2, R + G + B: an error below this is accepted, whatever the share; ignored with
+                             `conservative` */
+    int32_t conservative; /* 1: `error` is a bound that no pixel exceeds, ignoring occlusion, however many nodes that
                              takes; 0: a rule that holds for all but a few pixels, with a tenth of the nodes */
     const lmb_bvh *bvh;           /* NULL: nothing blocks */
     lmb_stats *stats;             /* counts pairs and segments; may be NULL */
-    const lmb_irradiance *direct; /* or NULL: direct light that is shown together with the bounced: counts as a pixel's
-                                     light, by the minimum over the pixels that share a cut */
+    const lmb_irradiance *direct; /* or NULL: direct light that is shown with the bounced light: counts as a pixel's
+                                     light, with the minimum over the pixels that share a cut */
     const lmb_irradiance *beside; /* or NULL: further light of the pixels, for `error` and `visibility`; may be the
                                      irradiance that is added to */
-    float lower;                  /* light that every pixel has besides, W/m2, R + G + B */
-    int32_t spread;               /* 1: the pixels lie apart: what is all behind a pixel is not tested, and what one
-                                     triangle hides from all of them is not divided. It changes what is divided */
-    lmb_glossy *glossy;           /* the tile's lobes, to which their reflection of the nodes is added; NULL: none */
-    const lmb_view *view;         /* sees the pixels; a pixel within rounding of a wall's plane counts as on the eye's
+    float lower;                  /* light that every pixel has in addition, W/m2, R + G + B */
+    int32_t spread;               /* 1: the pixels lie apart: nodes entirely behind a pixel are not tested, and nodes
+                                     that one triangle hides from all pixels are not divided, which changes the cut */
+    lmb_glossy *glossy;           /* the tile's lobes, to which the reflection of the nodes is added; NULL: none */
+    const lmb_view *view;         /* the pixels' view: a pixel within rounding of a wall's plane counts as on the eye's
                                      side. NULL: such a pixel gets no light from that wall */
 } lmb_cut_params;
 
@@ -117,34 +119,35 @@ typedef struct lmb_cut_params {
 extern "C" {
 #endif
 
-/* lmb_tree_bytes: memory of a tree of `faces` faces of size x size texels; 0 where that cannot be. */
+/* lmb_tree_bytes: memory of a tree of `faces` faces of size x size texels; 0 if that is impossible. */
 size_t lmb_tree_bytes(uint32_t faces, int32_t size);
 
-/* lmb_tree_init: lay a tree out in `memory`; size: a power of two, 8 .. 4096. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN,
- * LMB_ERR_CAPACITY. */
+/* lmb_tree_init: lay out a tree in `memory`; size: a power of two, 8 .. 4096. Returns LMB_OK, LMB_ERR_ARG,
+ * LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memory, size_t bytes);
 
-/* lmb_tree_texels: the first points of the tile rows first .. past - 1 of one face of a shadow map, into face `into`
- * of the tree. A map of 2, 4 or 8 times the tree's size gives one texel for each 2 x 2, 4 x 4 or 8 x 8 of its own: a
- * point of the surface that shows in their middle. Where surfaces hide each other there, such texels take one or the
- * other in turns, each as often as it shows. So maps may be fine, for sharp shadows, without as many first points.
- * Rows may be done in any order, at once on any threads. LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY. */
+/* lmb_tree_texels: write the first points of the tile rows first .. past - 1 of one face of a shadow map into face
+ * `into` of the tree. A map of 2, 4 or 8 times the tree's size gives one texel for each 2 x 2, 4 x 4 or 8 x 8 of the
+ * map: a point of the surface that shows in their middle. If surfaces hide each other there, texels alternate between
+ * them in proportion to their visible area. So you can use fine maps, for sharp shadows, without as many first points.
+ * Rows may be done in any order, on any threads. Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY. */
 lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
                            const lmb_light *light, const lmb_shadow_map *map, int32_t face, uint32_t into,
                            int32_t first, int32_t past);
 
-/* lmb_tree_sum: the nodes of one face, from its first points, once all its rows are there. LMB_OK or LMB_ERR_ARG. */
+/* lmb_tree_sum: sum the nodes of one face from the first points, once all rows are there. Returns LMB_OK or
+ * LMB_ERR_ARG. */
 lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
 
-/* lmb_gather_cut: add the light of the tree's first points to a tile's pixels.                        [V25 V27 V28]
+/* lmb_gather_cut: add the light of the tree's first points to a tile's pixels.                            [V25 V27 V28]
  *
- * The tile's pixels are split by surface, and each cluster takes its own cut: the node with the largest error is
- * replaced by its four children until the root of the sum of squared errors is at most cut_params->error times the
- * light of all nodes. A node's error is the upper bound U of its light times the second order of its size and bend:
- * U min(1, R^2 / 2 d^2 + sin^2 a), and at least a quarter of U where a horizon goes through the node. Where LMB_MAX_CUT
- * nodes are not enough, each half of the pixels takes a cut of its own, as long as that reduces the error; else the
- * pixels are lit by the nodes there are, and stats->full_cuts counts such clusters. Visibility is tested from every pixel
- * towards one texel of each node, which faces the pixels. Texels near a pixel count as their exact quads.
+ * The tile's pixels are split by surface, and each cluster takes a cut of its own: the node with the largest error is
+ * replaced by the four children until the root of the sum of squared errors is at most cut_params->error times the
+ * light of all nodes. A node's error is the upper bound U of the node's light times the second order of size and bend:
+ * U min(1, R^2 / 2 d^2 + sin^2 a), and at least a quarter of U if a horizon goes through the node. If LMB_MAX_CUT nodes
+ * are not enough, each half of the pixels takes a cut of its own, as long as that reduces the error; else the pixels
+ * are lit by the nodes there are, and stats->full_cuts counts such clusters. Visibility is tested from every pixel
+ * towards one texel of each node, which faces the pixels. Texels near a pixel count as exact quads.
  * Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
                           const lmb_tree *tree, const lmb_cut_params *cut_params);

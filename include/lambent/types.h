@@ -1,11 +1,11 @@
 /* types.h: the common types: status, vectors, views, surfaces, statistics.
  *
- * Conventions (glTF 2.0's): metres, right-handed, +Y up, a camera looks down -Z, counter-clockwise front faces,
- * linear RGB, column-major matrices. Pixel (x, y) has its centre at (x + 0.5, y + 0.5); y = 0 is the top row.
+ * Conventions (glTF 2.0's): metres, right-handed, +Y up, a camera looks down -Z, counter-clockwise front faces, linear
+ * RGB, column-major matrices. Pixel (x, y) has its centre at (x + 0.5, y + 0.5); y = 0 is the top row.
  *
  * Glossary
- *   first point  a lit surface element seen by a light: a texel of the shadow map, or several       [V4]
- *   disc         a first point with the neighbours that joined it                                   [V12]
+ *   first point  a lit surface element of the shadow map: one texel, or several                     [V4]
+ *   disc         a first point joined with its neighbours                                           [V12]
  *   group        discs gathered into one emitter                                                    [V19]
  *   flux         outgoing Lambertian power of an emitter, W: reflectance x incident power
  *   tile, band   8x8 pixels; 8 rows of the frame. The band is the unit of work
@@ -21,19 +21,19 @@
 
 #include "config.h"
 
-/* 0 is fine, positive is fine and says more, negative is an error.
+/* 0 is success, a positive status is success with more to do, a negative one is an error.
  *
- * Every call may be given NULL, structs of zeros and numbers out of range. Those that return a status then say
- * LMB_ERR_ARG or what else is wrong, or LMB_OK where zeros mean that there is nothing to do; the others return 0 or
- * NULL, set what they can to 0, and write nothing else. What no call can know is whether arrays are as long, and
- * memory is as large, as it is told. */
+ * You may pass any call NULL, structs of zeros and numbers out of range. Calls that return a status then return
+ * LMB_ERR_ARG or another error, or LMB_OK if zeros mean that there is nothing to do. All others return 0 or NULL, set
+ * their outputs to 0 if they can, and write nothing else. No call can check that your arrays and memory are as large as
+ * the sizes that you pass. */
 typedef enum lmb_status {
     LMB_OK = 0,
     LMB_MORE = 1,          /* lmb_render_step: call again */
     LMB_ERR_ARG = -1,      /* a null pointer, a size, a range */
     LMB_ERR_CAPACITY = -2, /* a caller's array or a configured capacity is too small */
     LMB_ERR_ALIGN = -3,    /* scene data not 4-byte aligned */
-    LMB_ERR_FORMAT = -4,   /* a surface's or stream's format that this call does not take */
+    LMB_ERR_FORMAT = -4,   /* the call does not take this format of surface or stream */
     LMB_ERR_SCENE = -5,    /* an index that points outside the scene */
     LMB_ERR_BUILD = -6     /* compiled so that bytes would differ: see lmb_build_check */
 } lmb_status;
@@ -46,7 +46,7 @@ typedef struct lmb_mat4 {
     float m[16]; /* column-major: m[4 * column + row] */
 } lmb_mat4;
 
-/* What a camera, or one face of a shadow map, sees. The axes are orthonormal: right x up = back.
+/* The view of a camera, or of one face of a shadow map. The axes are orthonormal: right x up = back.
  * Depth is d = z_clip / w_clip of a reversed projection: larger is nearer, 0 is nothing, affine in screen space.
  *   perspective   d = near_m / w, no far plane          orthographic   d = (far_m - w) / (far_m - near_m)
  * with w the distance along -back, in metres. */
@@ -55,20 +55,20 @@ typedef struct lmb_view {
     lmb_vec3 eye;
     lmb_vec3 right, up, back;
     float half_width, half_height;     /* perspective: tangents of the half angles; orthographic: metres */
-    float near_m, far_m;               /* near_m > 1e-30, as are the half sizes; orthographic: near_m < far_m, and
-                                      < -1e-30 where it is behind the eye. far_m: orthographic views, 16-bit depth */
+    float near_m, far_m;               /* near_m and the half sizes > 1e-30; orthographic: near_m < far_m, and near_m <
+                                          -1e-30 if it is behind the eye. far_m: orthographic views, 16-bit depth */
     int32_t kind;                      /* LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC */
     int32_t frame_width, frame_height; /* px of the whole frame, <= LMB_MAX_FRAME */
-    int32_t sample_x, sample_y; /* where in each pixel it is seen, from the middle to the right and down, 1/256 px:
-                                      -128 .. 127; 0 in builds without LMB_MULTISAMPLE */
+    int32_t sample_x, sample_y; /* the sample's position in each pixel, from the centre to the right and down, 1/256 px:
+                                   -128 .. 127; 0 in builds without LMB_MULTISAMPLE */
 } lmb_view;
 
-/* Pixel formats. Depth and id surfaces hold whole tiles: their memory is what lmb_surface_bytes says. */
+/* Pixel formats. Depth and id surfaces hold whole tiles: lmb_surface_bytes gives their size. */
 typedef enum lmb_format {
     LMB_FORMAT_NONE = 0,
-    LMB_RGB565,    /* 16 bit in the machine's byte order, red in the high bits */
+    LMB_RGB565,    /* 16 bit in native byte order, red in the high bits */
     LMB_RGB555,    /* the same, top bit 0 */
-    LMB_RGB565_BE, /* bytes RRRRRGGG GGGBBBBB on every machine: as SPI displays take them */
+    LMB_RGB565_BE, /* bytes RRRRRGGG GGGBBBBB on every processor: as SPI displays take them */
     LMB_RGBA8,     /* bytes R G B A */
     LMB_BGRA8,     /* bytes B G R A */
     LMB_R32F,
@@ -79,11 +79,11 @@ typedef enum lmb_format {
     LMB_ID32
 } lmb_format;
 
-/* LINEAR: rows. TILED: 8x8 tiles of 64 values, tile rows from the top (depth and id only); stride_bytes is then
- * the step from one row of tiles to the next. */
+/* LINEAR: rows. TILED: 8x8 tiles of 64 values, tile rows from the top (depth and id only); stride_bytes is then the
+ * step from one row of tiles to the next. */
 enum { LMB_LINEAR = 0, LMB_TILED = 1 };
 
-/* A caller's pixels. The library owns no memory: lmb_frame and lmb_render keep the caller's pointers. */
+/* Your pixels. The library owns no memory: lmb_frame and lmb_render hold your pointers. */
 typedef struct lmb_surface {
     void *data;            /* first row (LINEAR), first tile (TILED); NULL: no surface */
     int32_t width, height; /* px, <= LMB_MAX_SIDE */
@@ -93,38 +93,39 @@ typedef struct lmb_surface {
     uint16_t reserved;     /* 0 */
 } lmb_surface;
 
-/* What calls did and what they dropped: bad data is counted, never an error. Counters only grow; zero them yourself. */
+/* Counts of work done and input dropped: bad data is counted, never an error. Counters only grow: zero them
+ * yourself. */
 typedef struct lmb_stats {
     uint32_t triangles;         /* read */
     uint32_t triangles_drawn;   /* reached the fill */
-    uint32_t triangles_dropped; /* non-finite or absurd vertex, index outside the mesh */
+    uint32_t triangles_dropped; /* a vertex not finite or too far away, or an index outside the mesh */
     uint32_t first_points;
     uint32_t discs;
     uint32_t groups;
     uint32_t regroups; /* times grouping restarted because LMB_MAX_GROUPS was reached */
     uint32_t bands;
     uint64_t pairs, segments; /* LMB_GROUP_CUT: pixels x nodes that light them; segments tested for visibility */
-    uint64_t full_cuts;       /* pixel clusters lit by fewer nodes than asked for: LMB_MAX_CUT was reached; or so many
-                                 points of lmb_live: LMB_LIVE_CUT or _NEAR was */
+    uint64_t full_cuts;       /* pixel clusters lit by too few nodes because LMB_MAX_CUT was reached; and points of
+                                 lmb_live for which LMB_LIVE_CUT or LMB_LIVE_NEAR was reached */
     uint32_t tiles;           /* tiles lit by cuts of many lights or of trees, once for each */
-    uint32_t coarse_tiles;    /* of these, with coarser visibility: tests ran out, see lmb_occluded_tile */
+    uint32_t coarse_tiles;    /* of these, tiles with coarser visibility because tests ran out: see lmb_occluded_tile */
     double flux_lit;          /* W: outgoing power of all first points, sum of R, G, B */
-    double flux_grouped;      /* W: the same over the groups; less only where strict zones drop some [V20] */
+    double flux_grouped;      /* W: the same over the groups; less only if strict zones drop some [V20] */
 } lmb_stats;
 
-/* What a new version may change. The first comment of each header says how stable it is:
+/* What a new version may change. The first comment of each header states its stability:
  *
  *                     patch   minor                                       major
- *   stable, before 1.0  no    may change or go; NEWS.md says what          -
- *   stable, from 1.0    no    more may come; what is there stays           may change or go
- *   experimental        no    may change or go; NEWS.md says what          may change or go
- *   pixels              no    may change; NEWS.md says which, and why      may change
- *   .lmp files          no    those of older versions stay readable       may be refused
+ *   stable, before 1.0  no    may change or go; listed in NEWS.md         -
+ *   stable, from 1.0    no    additions only                            may change or go
+ *   experimental        no    may change or go; listed in NEWS.md         may change or go
+ *   pixels              no    may change; NEWS.md lists which, and why    may change
+ *   .lmp files          no    files of older versions stay readable       may be refused
  *   .lmt, .lmr files    no    may be refused, with LMB_ERR_FORMAT         may be refused
  *
- * Members of structs that their header does not describe, and structs of experimental headers inside of stable ones, are
- * experimental. Of two builds of one version, pixels are the same: on every compiler, processor, back end and number of
- * threads, by one configuration. */
+ * Members of structs that their header does not describe are experimental, and so are structs of experimental headers
+ * inside stable ones. All builds of one version and configuration draw the same pixels: with every compiler, processor,
+ * back end and number of threads. */
 #define LMB_VERSION_MAJOR 0
 #define LMB_VERSION_MINOR 1
 #define LMB_VERSION_PATCH 0
@@ -138,22 +139,22 @@ extern "C" {
 /* lmb_status_name: "LMB_OK", "LMB_ERR_ARG", ...; "?" for any other number. Never NULL. */
 const char *lmb_status_name(lmb_status status);
 
-/* lmb_build_check: was this library compiled so that its bytes equal everybody else's?
+/* lmb_build_check: check that this build draws the same bytes as all other builds.
  *
  * Tests at run time that floats are IEEE binary32 without excess precision, that no backend's kernels contract a
- * multiply and an add, that denormals are not flushed, that shifts are arithmetic, and that none of the compiler faults
- * met so far is there (clang 14 for 32-bit MIPS, tcc 0.9.27). LMB_OK or LMB_ERR_BUILD. Call it once at start. */
+ * multiply and an add, that denormals are not flushed, that shifts are arithmetic, and that none of the known compiler
+ * faults is present (clang 14 for 32-bit MIPS, tcc 0.9.27). Returns LMB_OK or LMB_ERR_BUILD. Call it once at start. */
 lmb_status lmb_build_check(void);
 
-/* lmb_view_sample: sample i of `samples` (1, 4, 8 or 16) a pixel: sets sample_x and sample_y. The patterns are those that
- * Direct3D 11 and Vulkan call standard: nearly horizontal and nearly vertical edges meet each sample of 4 or 8 at another
- * place. LMB_OK or LMB_ERR_ARG. Missing in builds without LMB_MULTISAMPLE. */
+/* lmb_view_sample: set sample_x and sample_y to sample i of `samples` (1, 4, 8 or 16) a pixel. The patterns are the
+ * standard ones of Direct3D 11 and Vulkan: nearly horizontal and nearly vertical edges meet each sample of 4 or 8 at
+ * another place. Returns LMB_OK or LMB_ERR_ARG. Missing in builds without LMB_MULTISAMPLE. */
 lmb_status lmb_view_sample(lmb_view *inout, int32_t samples, int32_t i);
 
 /* lmb_view_look_at: a perspective view from `eye` towards `target`.
  *
  *   vfov_rad  vertical angle of view, 1e-29 < vfov_rad < pi.   width, height  the frame, px; pixels are square.
- * Returns LMB_OK, or LMB_ERR_ARG (target at eye, up along the view, sizes outside) and leaves `out` alone. */
+ * Returns LMB_OK, or LMB_ERR_ARG (target at eye, up along the view, sizes outside): then `out` is unchanged. */
 lmb_status lmb_view_look_at(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_vec3 up, float vfov_rad, int32_t width,
                             int32_t height);
 

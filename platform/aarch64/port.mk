@@ -1,5 +1,5 @@
-# aarch64: a Cortex-A53 without operating system or libc, under qemu's `virt`; output by semihosting. Memory is as after
-# reset, without MMU: unaligned access would be a fault. Debian's compiler for Linux will do: nothing of it is linked.
+# aarch64: a Cortex-A53 without operating system or libc, under qemu's `virt`; output by semihosting. The MMU is off, as
+# after reset, so unaligned access faults. Debian's compiler for Linux works, because none of its libraries are linked.
 AARCH64     ?= aarch64-linux-gnu-
 CROSS_PREFIX := $(AARCH64)
 include platform/freestanding/tools.mk

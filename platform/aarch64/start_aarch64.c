@@ -1,8 +1,8 @@
 /* start_aarch64.c: an AArch64 processor in EL1: vectors, reset, semihosting. Caches and MMU stay off. */
 #include "../freestanding/bare.h"
 
-/* NEON first (CPACR_EL1.FPEN): a compiler may clear memory by its registers. Every vector, sixteen of 128 bytes, is a
- * fault's. */
+/* Enables NEON first (CPACR_EL1.FPEN), because a compiler may clear memory with NEON registers. All sixteen vectors, of
+ * 128 bytes each, are fault handlers. */
 __asm__(".section .vectors, \"ax\"\n"
         ".globl reset\n"
         "reset:\n"

@@ -1,11 +1,13 @@
-# amalgam.awk: the library as two files: lambent.h (PART=h) or lambent.c (PART=c), from the tree's top folder.
+# amalgam.awk: writes the library as two files, lambent.h (PART=h) and lambent.c (PART=c). Run it
+# from the root of the tree.
 #
 #   awk -v PART=c -v VERSION=0.1.0 -f platform/amalgam/amalgam.awk src/*/*.c
 #
-# The headers of src come first, each once. Then each .c file, and with it what it includes alone: verbs and formulas of a
-# backend (lane_*.h, sums_*.h, target*.h, *.inl, *.inc) and what hides calls that a build lacks, afresh in each. What such a unit defines at file scope and
-# another one, too, gets the file's name as its ending (walk in clip.c: walk_clip); its macros end with it.
-# Kernels have their comments in plain C's, and not again in each backend's.
+# The headers of src come first, each once. Then comes each .c file with the files that only a unit may include,
+# copied for each unit: verbs and formulas of a backend (lane_*.h, sums_*.h, target*.h, *.inl, *.inc), and headers
+# that hide calls missing in a build. If two units define the same name at file scope, the name gets the file's name
+# as a suffix (walk in clip.c: walk_clip). Macros of a unit are undefined at its end. Comments of kernels are printed
+# only in the plain C backend.
 function fold(path,    part, n, i, kept, out) {
     n = split(path, part, "/")
     kept = 0
@@ -18,7 +20,7 @@ function fold(path,    part, n, i, kept, out) {
     return out
 }
 
-# The file of src that a line includes; "" if it includes none.
+# The file of src that a line includes; "" if there is none.
 function included(line, from,    name) {
     if (line !~ /^ *# *include +"/) return ""
     name = line
@@ -28,7 +30,7 @@ function included(line, from,    name) {
     return fold(from name)
 }
 
-# Is a file included by units alone? So is a header that includes such a one.
+# Returns whether a file is copied into each unit. A header that includes such a file is copied too.
 function is_own(path,    i, to, found) {
     if (path ~ /\.(inl|inc)$/ || path ~ /frame\/(requires|stages)\.h$/ || path ~ /src\/lane\/(lane|sums|target)[^\/]*\.h$/) return 1
     if (path in owned) return owned[path]
@@ -48,7 +50,7 @@ function load(path,    line) {
     if (lines[path] == 0) { print "amalgam.awk: no file " path > "/dev/stderr"; failed = 1; exit 1 }
 }
 
-# A line without strings and comments; `inside` says whether a comment goes on.
+# A line without strings and comments; `inside` is set if a comment continues.
 function bare(line,    out, at, rest) {
     out = ""
     while (line != "") {
@@ -72,7 +74,7 @@ function bare(line,    out, at, rest) {
     return out
 }
 
-# --- names that a unit defines at file scope -------------------------------------------------------------------------
+# --- names defined at file scope of a unit ---------------------------------------------------------------------------
 
 function add_name(name) {
     if (name ~ /^(lmb_|LMB_)/ || name in keyword || name !~ /^[A-Za-z_]/ || (unit, name) in defines) return
@@ -85,7 +87,7 @@ function end_statement() {
     previous = before = ""
 }
 
-# One token of a unit's code; braces, parens: how deep it lies.
+# One token of a unit's code; braces, parens: nesting depth.
 function scan(token,    word) {
     word = token ~ /^[A-Za-z_]/
     if (token == "{") {
@@ -115,7 +117,7 @@ function scan(token,    word) {
     } else if (token == ")") {
         --parens
     } else if (parens > 0) {
-        # parameters; of a pointer to a function, `(*name)`
+        # parameters; for a pointer to a function, `(*name)`
         if (word && parens == 1 && previous == "*" && before == "(") add_name(token)
     } else if (token == ";" || token == "," || token == "[" || token == "=") {
         if (previous ~ /^[A-Za-z_]/ && !function_seen && !after_equals) add_name(previous)
@@ -139,7 +141,7 @@ function tokens_of(line) {
     }
 }
 
-# The lines of a unit's own content, with what it includes alone; others' headers are noted in order.
+# The lines of a unit, with the files copied into it; records shared headers in order.
 function gather(path,    i, line, to) {
     load(path)
     for (i = 1; i <= lines[path]; ++i) {
@@ -178,7 +180,7 @@ function names_of_own(    i, line, goes_on, name) {
     if (braces != 0) { print "amalgam.awk: " unit ": braces " braces > "/dev/stderr"; failed = 1; exit 1 }
 }
 
-# A header of src, after those that it includes. Its names count as a unit's, and stay.
+# A header of src, after the headers that it includes. Its names are never renamed.
 function share(path,    i, to, kept_unit) {
     if (path in shared) return
     shared[path] = 1
@@ -199,10 +201,10 @@ function count_shared(    h, i) {
     }
 }
 
-# --- what is written -------------------------------------------------------------------------------------------------
+# --- output ----------------------------------------------------------------------------------------------------------
 
-# Tokens that get the unit's ending. Members of structs keep their names: after a dot or an arrow, and where a struct of
-# the unit declares them.
+# Renames tokens with the unit's suffix. Members of structs keep their names, after a dot or an arrow and in
+# declarations of structs in the unit.
 function renamed(line,    out, token, rest, before, was_inside) {
     out = ""
     while (line != "") {
@@ -288,7 +290,7 @@ function print_header(path,    i, line) {
     }
 }
 
-# A public header with those that it includes, each once.
+# A public header with the headers that it includes, each once.
 function print_public(path,    i, line, to) {
     if (path in shared) return
     shared[path] = 1
@@ -321,7 +323,7 @@ function print_top(what,    i) {
     print " */"
 }
 
-# config.h's switches: `0: this build has no ...` over its #ifndef.
+# Finds switches of config.h: `0: this build has no ...` above an #ifndef.
 function find_switches(    path, i, says) {
     path = "include/lambent/config.h"
     load(path)
@@ -370,7 +372,7 @@ BEGIN {
     print "#include \"lambent.h\"\n"
     print "#if defined(__clang__)\n#pragma clang diagnostic ignored \"-Wunused-function\" /* verbs that some kernels lack */\n#endif"
     print "#include <float.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <string.h>"
-    # As C++: names as in C; what has templates stands before that.
+    # For C++, names are as in C; headers with templates come first.
     print "#ifdef __cplusplus\n#if defined(__SSE2__)\n#include <cpuid.h>\n#include <immintrin.h>"
     print "#elif defined(__ARM_NEON)\n#include <arm_neon.h>\n#endif\nextern \"C\" {\n#endif"
     for (h = 1; h <= headers; ++h) print_header(header_order[h])

@@ -1,13 +1,13 @@
 #!/bin/sh
-# parallel.sh: one picture, sequence, bake or sweep on many machines, by GNU parallel over ssh.
+# parallel.sh: computes one picture, sequence, bake or sweep on many machines, with GNU parallel over ssh.
 #
 #   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play, bake, bench
 #
-# N: slices; two or more a machine let fast ones do more. HOSTS: as parallel's --sshlogin: host1,host2, where `:` is this
-# machine and 2/host1 runs two at once. LAMBENT: the command on all of them (default lambent). SEND: files to send there
-# first, by relative names: the scene and what lies beside it; without it the machines share this folder, by one path.
-# Slices of a bake share it or gain nothing. A slice that fails is tried three times, on other machines where there are
-# any; what is there already is made again.
+# N: number of slices; choose two or more a machine, so that fast machines do more. HOSTS: as for parallel's --sshlogin:
+# host1,host2; `:` is this machine, and 2/host1 runs two at once. LAMBENT: the command on all machines (default
+# lambent). SEND: files to copy to the machines first, by relative names: the scene and its neighbours. If you leave
+# SEND out, the machines must share this folder at the same path. Slices of a bake must share the folder to save any
+# work. A slice that fails is tried three times, if possible on other machines; existing slices are computed again.
 set -eu
 [ $# -ge 5 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0"; exit 2; }
 count=$1 hosts=$2

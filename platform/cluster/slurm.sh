@@ -1,11 +1,12 @@
 #!/bin/sh
-# slurm.sh: one picture, sequence, bake or sweep as a Slurm job array, and the job that joins it.
+# slurm.sh: computes one picture, sequence, bake or sweep as a Slurm job array, and joins it in a last job.
 #
 #   sh slurm.sh N render SCENE -o OUT [options]     or play, bake, bench
 #
-# N: slices, which Slurm runs as machines are free. The machines share this folder. LAMBENT: the command on all of them
-# (default lambent). SBATCH: options for each job, as "--partition=long --cpus-per-task=8". A slice that fails is
-# tried three times, one whose machine is lost is made again; the command waits for the end and has the merge's status.
+# N: number of slices; Slurm runs them as machines become free. The machines must share this folder. LAMBENT: the
+# command on all of them (default lambent). SBATCH: options for each job, such as "--partition=long --cpus-per-task=8".
+# A slice that fails is tried three times; if its machine is lost, it runs again. The command waits for the end and
+# returns the status of the merge.
 set -eu
 lambent=${LAMBENT:-lambent}
 if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then # a slice

@@ -1,5 +1,5 @@
-/* begin_mips.S: for start-ups of MIPS consoles to include: clears .bss, sets the stack up, and paints it, so that its
- * depth can be told. Without reordering. */
+/* begin_mips.S: included by start-ups of MIPS consoles: clears .bss, sets the stack up, and paints the stack to measure
+ * its depth. Needs .set noreorder. */
     lui   $8, %hi(bss_begin)
     addiu $8, $8, %lo(bss_begin)
     lui   $9, %hi(bss_end)

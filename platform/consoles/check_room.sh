@@ -1,5 +1,5 @@
-# check_room.sh: is the room on a console the host's, by hashes, by what the screen shows, and as buttons steer it?
-# check_room.sh PORT WIDTH HEIGHT. MAKE, BUILD in the environment. Ends with `N passed, N failed, N skipped`.
+# check_room.sh: compares the room on a console with the host's, by hashes, by the screen, and when buttons steer.
+# check_room.sh PORT WIDTH HEIGHT. Needs MAKE and BUILD in the environment. Ends with `N passed, N failed, N skipped`.
 . tests/scripts/checks.sh
 port=$1 width=$2 height=$3
 folder=$BUILD/screens/$port
@@ -15,7 +15,7 @@ host=$BUILD/screens/host-$width-$height
 mkdir -p "$folder" "$host"
 check "the host's room" $MAKE room BUILD="$host" PORT=host ROOM_SIZE="$width $height 8"
 
-# host FOLDER [HELD]: frames as a screen of 5 bits a colour shows them, or of 8.
+# host FOLDER [HELD]: draws frames for a screen of 5 bits a colour, or of 8.
 host() {
     rm -rf "$1"
     mkdir -p "$1"
@@ -25,7 +25,7 @@ host() {
         "$host/default/room" >"$1/said.txt"
     )
 }
-# as_screen PICTURE: its bytes as the console's screen has them. The GameCube's: see gamecube/row_gamecube.c.
+# as_screen PICTURE: prints the picture's bytes in the console's format. GameCube: see gamecube/row_gamecube.c.
 as_screen() {
     case $port in
     gamecube)
@@ -50,14 +50,14 @@ same_hashes() {
     [ "$(wc -l <"$folder/hashes")" = 3 ] && grep '^frame' "$host/path/said.txt" | diff - "$folder/hashes"
 }
 
-rm -f "$out/room.txt" "$screen" # of another run
+rm -f "$out/room.txt" "$screen" # of an earlier run
 host "$host/path"
 check "it runs" $MAKE run BUILD="$folder" PORT="$port"
 check "hashes of frames 0, 30 and 59" same_hashes
 check "the screen after the path is frame 59" is_shown "$host/path/frame_59.ppm"
 
 rm -f "$out/room.txt" "$screen"
-# What was held, frame by frame, is what the console says; then the last picture is the host's.
+# The console prints the held buttons frame by frame; with the same buttons, the host must draw the same last picture.
 check "it runs with buttons" $MAKE run BUILD="$folder" PORT="$port" PRESS="$press"
 held=$(sed -n 's/^held //p' "$out/room.txt" | tr '\n' ' ')
 host "$host/steered" "$held"

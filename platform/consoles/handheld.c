@@ -1,10 +1,10 @@
-/* handheld.c: clock, keys and the stack's depth on a Game Boy Advance and on a Nintendo DS. */
+/* handheld.c: clock, keys and stack depth on a Game Boy Advance and on a Nintendo DS. */
 #include "handheld.h"
 
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 
-/* Timer 1 counts what timer 0 wraps. */
+/* Timer 1 counts the overflows of timer 0. */
 void handheld_start_clock(void)
 {
     REGISTER_16(TIMER_1) = 0;

@@ -1,4 +1,4 @@
-/* handheld.h: what the Game Boy Advance and the Nintendo DS have alike: timers, keys, and a start-up's loops. */
+/* handheld.h: shared by the Game Boy Advance and the Nintendo DS: timers, keys, and loops of the start-up. */
 #ifndef HANDHELD_H
 #define HANDHELD_H
 
@@ -9,19 +9,19 @@
 #define REGISTER_32(address) (*(volatile uint32_t *)(address))
 
 enum {
-    TIMER_0 = 0x04000100, /* its count, and its control 2 bytes on */
+    TIMER_0 = 0x04000100, /* counter; control is 2 bytes on */
     TIMER_1 = 0x04000104,
-    KEYS = 0x04000130,    /* 0 where held */
+    KEYS = 0x04000130,    /* 0 if held */
     STACK_PAINT = 0x5a5aa5a5
 };
 
-/* port_clock counts from here on. */
+/* Starts port_clock. */
 void handheld_start_clock(void);
 
 /* From the linker script. */
 extern uint32_t stack_bottom[], stack_top[];
 
-/* The deepest so far, bytes. */
+/* Deepest stack so far, bytes. */
 uint32_t handheld_stack(void);
 
 static inline void copy_words(uint32_t *to, const uint32_t *end, const uint32_t *from)
@@ -36,7 +36,7 @@ static inline void fill_words(uint32_t *to, const uint32_t *end, uint32_t value)
         *to++ = value;
 }
 
-/* From the deepest place up to the stack at hand. */
+/* Paints from the lower end up to the current stack pointer. */
 static inline void paint_stack(void)
 {
     uint32_t *stack;

@@ -1,10 +1,10 @@
-/* ram_program.c: memory and end of a program that lies in a console's RAM, with its stack at the end of it. */
+/* ram_program.c: memory and exit of a program in a console's RAM, with the stack at the end of RAM. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../port.h"
 #include "consoles.h"
 
-/* What neither the program nor the stack has. */
+/* All memory between the program and the stack. */
 void *port_memory(size_t *bytes)
 {
     *bytes = (size_t)((uintptr_t)stack_end - (uintptr_t)bss_end);

@@ -1,5 +1,5 @@
-# cortex-a: a Cortex-A9 without operating system or libc, under qemu's `vexpress-a9`; output by semihosting. Memory is
-# as after reset, without MMU: unaligned access would be a fault.
+# cortex-a: a Cortex-A9 without operating system or libc, under qemu's `vexpress-a9`; output by semihosting. The MMU is
+# off, as after reset, so unaligned access faults.
 ARM         ?= arm-none-eabi-
 CROSS_PREFIX := $(ARM)
 include platform/freestanding/tools.mk

@@ -1,8 +1,8 @@
 /* start_cortex_a.c: a Cortex-A of 32 bits: vectors, reset, semihosting. Caches and MMU stay off. */
 #include "../freestanding/bare.h"
 
-/* Eight vectors; the first is reset. NEON and VFP first (CPACR, FPEXC.EN, no flush to zero): a compiler may clear
- * memory by their registers. Then the vectors' own address (VBAR). */
+/* Eight vectors; the first is reset. Enables NEON and VFP first (CPACR, FPEXC.EN, no flush to zero), because a compiler
+ * may clear memory with their registers. Then sets the address of the vectors (VBAR). */
 __asm__(".section .vectors, \"ax\"\n"
         ".arm\n"
         ".fpu neon\n"
@@ -39,7 +39,7 @@ __asm__(".section .vectors, \"ax\"\n"
         "\t.ltorg\n"
         ".text\n");
 
-/* In ARM state; in Thumb state the number would be another one. */
+/* In ARM state; Thumb state has another number. */
 __attribute__((target("arm"))) uintptr_t semihost(uint32_t operation, const void *argument)
 {
     register uintptr_t r0 __asm__("r0") = operation;

@@ -1,5 +1,5 @@
-/* count.h: instructions by the system timer of a Cortex-M under qemu -icount shift=0, where each takes 1 ns and the timer
- * of the mps2 boards ticks every 40. Elsewhere 0. */
+/* count.h: counts instructions by the system timer of a Cortex-M under qemu -icount shift=0: an instruction takes 1 ns,
+ * and the timer of the mps2 boards ticks every 40. Elsewhere 0. */
 #ifndef CORTEX_M_COUNT_H
 #define CORTEX_M_COUNT_H
 
@@ -13,10 +13,10 @@ static inline void count_start(void)
 {
     count_timer[1] = COUNT_MASK;
     count_timer[2] = 0;
-    count_timer[0] = 5; /* on, by the processor's clock */
+    count_timer[0] = 5; /* on, with the processor's clock */
 }
 
-/* Since count_start, up to 671 million. */
+/* Instructions since count_start, up to 671 million. */
 static inline uint32_t count_taken(void) { return (COUNT_MASK - count_timer[2]) * COUNT_PER_TICK; }
 #else
 static inline void count_start(void) {}

@@ -1,3 +1,3 @@
-/* main_baked.c: main_live.c with light that surfaces throw back. */
+/* main_baked.c: main_live.c with bounced light. */
 #define BAKED 1
 #include "main_live.c"

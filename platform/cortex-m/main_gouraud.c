@@ -1,8 +1,8 @@
-/* main_gouraud.c: the demo scene by light at corners, 160x120 in RGB565, in less than 160 KiB of RAM: the shadow map,
- * what surfaces throw back by the transfer that tests/scripts/live.sh bakes, and the picture.
+/* main_gouraud.c: the demo scene with light at vertices, 160x120 in RGB565, in less than 160 KiB of RAM: the shadow
+ * map, bounced light by the transfer that tests/scripts/live.sh bakes, and the picture.
  *
- * Prints the picture's hash, the instructions that the frame took (0: unknown), and those of a frame whose light stands
- * still, and the RAM. Runs on a host too: the hash must be the same. */
+ * Prints the picture's hash, the instructions for the frame (0: unknown) and for a frame with unchanged light, and the
+ * RAM. The hash must be the same on a host. */
 #include <lambent/lambent.h>
 
 #include "../../tools/demo/demo_scene.h"
@@ -15,7 +15,7 @@ static const uint32_t baked[] = {
 #include "baked.inc"
 };
 
-/* Words, so that everything is aligned to 4. */
+/* Words, for alignment to 4. */
 static uint32_t picture[WIDTH * HEIGHT / 2];
 static uint16_t depth[WIDTH * HEIGHT];
 static uint32_t map_memory[MAP_SIZE * MAP_SIZE * 6 / 4];
@@ -28,7 +28,7 @@ static lmb_gouraud_scratch scratch;
 static lmb_transfer_scratch collecting;
 static lmb_gouraud frame;
 
-/* Instructions up to the end of a stage. */
+/* Instructions until the end of a stage. */
 enum { MAP, ELEMENTS, RECEIVERS_LIT, DRAWN, STAGES };
 static uint32_t taken[STAGES];
 
@@ -59,7 +59,7 @@ static lmb_status place(void)
     return s;
 }
 
-/* What changes with the light alone: its map, and what the receivers get. */
+/* Updates the parts that depend only on the light: the shadow map, and the light of receivers. */
 static lmb_status light_up(void)
 {
     const lmb_scene *scene = frame.scene;

@@ -1,8 +1,8 @@
-/* main_live.c: a frame of the demo scene, 160x120 in RGB565, in less than 160 KiB of RAM: light straight from the lamp,
- * and with BAKED 1 (main_baked.c) what it throws back, by the transfer that tests/scripts/live.sh bakes.
+/* main_live.c: a frame of the demo scene, 160x120 in RGB565, in less than 160 KiB of RAM: direct light of the lamp, and
+ * with BAKED 1 (main_baked.c) bounced light, by the transfer that tests/scripts/live.sh bakes.
  *
- * Prints the picture's hash, the instructions that the frame took (0: unknown), and the RAM. Runs on a host too: the
- * hash must be the same. */
+ * Prints the picture's hash, the instructions for the frame (0: unknown), and the RAM. The hash
+ * must be the same on a host. */
 #include <lambent/lambent.h>
 
 #include "../../tools/demo/demo_scene.h"
@@ -26,7 +26,7 @@ static const char name[] = "demo-baked";
 static const char name[] = "demo-direct";
 #endif
 
-/* Words, so that everything is aligned to 4. Depth and id have whole tiles: sides are multiples of 8. */
+/* Words, for alignment to 4. Depth and id consist of whole tiles: sides are multiples of 8. */
 static uint32_t picture[WIDTH * HEIGHT / 2];
 static uint32_t strip_depth[WIDTH * STRIP];
 static uint32_t strip_id[WIDTH * STRIP / 2];

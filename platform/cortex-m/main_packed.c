@@ -1,5 +1,5 @@
-/* main_packed.c: a scene that `lambent pack OUT.c --name scene_words` wrote, in place in ROM, 96x64 in RGB565 by direct
- * light; no heap. Prints the picture's hash, which is the same on a host, then the RAM it took. */
+/* main_packed.c: draws a scene from `lambent pack OUT.c --name scene_words`, in place in ROM, 96x64 in RGB565 with
+ * direct light; no heap. Prints the picture's hash, which is the same on a host, and the RAM. */
 #include <lambent/lambent.h>
 
 #include "../port_say.h"

@@ -1,7 +1,7 @@
-/* main_statue.c: a relief that lies in ROM, 128x128 in RGB565 with its own shadow, in less than 256 KiB of RAM.
+/* main_statue.c: draws a relief from ROM, 128x128 in RGB565 with self-shadowing, in less than 256 KiB of RAM.
  *
- * statue.inc holds the words of its .lmr (tests/scripts/statue.sh bakes it). Prints the picture's hash, then the RAM it
- * took. Runs on a host too: the hash must be the same. */
+ * statue.inc holds the words of the .lmr (tests/scripts/statue.sh bakes it). Prints the picture's hash and the RAM. The
+ * hash must be the same on a host. */
 #include <lambent/lambent.h>
 
 #include <string.h>
@@ -14,7 +14,7 @@ static const uint32_t statue[] = {
 #include "statue.inc"
 };
 
-/* Words, so that everything is aligned to 4. Sides are whole tiles. */
+/* Words, for alignment to 4. Sides are whole tiles. */
 static uint32_t picture[SIDE * SIDE / 2], eye_depth[SIDE * SIDE], eye_id[SIDE * SIDE / 2];
 LMB_SHADOW_MAP_ARRAY(map_memory, MAP_SIZE);
 static lmb_relief relief;

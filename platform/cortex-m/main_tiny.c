@@ -1,6 +1,6 @@
 /* main_tiny.c: the demo scene with bounced light, 160x120 in RGB565, in less than 256 KiB of RAM and without a heap.
  *
- * Prints the picture's hash, then the RAM it took. Runs on a host too: the hash must be the same. */
+ * Prints the picture's hash and the RAM. The hash must be the same on a host. */
 #include <lambent/lambent.h>
 
 #include "../../tools/demo/demo_scene.h"
@@ -8,7 +8,7 @@
 
 enum { WIDTH = 160, HEIGHT = 120, MAP_SIZE = 128, MAP_BLOCKS = MAP_SIZE / 8, POINTS = 400 };
 
-/* Words, so that everything is aligned to 4. Depth and id have whole tiles: both sizes are multiples of 8. */
+/* Words, for alignment to 4. Depth and id consist of whole tiles: both sizes are multiples of 8. */
 static uint32_t picture[WIDTH * HEIGHT / 2];
 static uint32_t band_depth[WIDTH * LMB_TILE];
 static uint32_t band_id[WIDTH * LMB_TILE / 2];

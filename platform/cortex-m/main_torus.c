@@ -1,5 +1,5 @@
-/* main_torus.c: frames of a torus of 578 triangles on a floor by what they show and their size: RAM of all that a frame has
- * (lmb_frame_bytes), and instructions where it is drawn; the table of platform/README.md. */
+/* main_torus.c: frames of a torus of 578 triangles on a floor, by content and size: RAM of the whole frame
+ * (lmb_frame_bytes), and instructions if it is drawn; for the table of platform/README.md. */
 #include <lambent/lambent.h>
 
 #include "../../tests/torus.h"

@@ -2,7 +2,7 @@
 # (on the Cortex-M3 of mps2-an385, which runs its instructions), m4f (mps2-an386), m7 (mps2-an500), m33 (mps2-an505),
 # m55 with Helium (mps3-an547).
 CORE        ?= m4f
-# Of `make ports`.
+# Cores for `make ports`.
 ROOMS       := CORE=m0plus CORE=m4f CORE=m7 CORE=m33 CORE=m55
 ARM         ?= arm-none-eabi-
 CROSS_PREFIX := $(ARM)
@@ -30,12 +30,12 @@ else ifeq ($(CORE),m55)
 RAM_ORIGIN := 0x21000000
 endif
 
-# The room on an M0+: the picture, and 32 KiB for all else. Light by pixel takes what it takes there, for one frame.
+# The room on an M0+: the picture, and 32 KiB for the rest. Light by pixel needs more, and draws one frame.
 ifeq ($(CORE),m0plus)
 ROOM_RAM     ?= $(if $(filter pixel,$(ROOM)),163840,71168)
 PIXEL_FRAMES := 1
 endif
-# mps3-an547 has half a MiB of ROM; light by pixel lies in its DRAM.
+# mps3-an547 has half a MiB of ROM, so light by pixel runs from DRAM.
 ifeq ($(CORE)-$(ROOM),m55-pixel)
 ROM_ORIGIN := 0x60000000
 endif
@@ -47,7 +47,7 @@ include platform/freestanding/bare.mk
 PORT_SRC     := platform/cortex-m/start.c $(BARE_SRC) $(if $(filter m0plus,$(CORE)),platform/freestanding/sqrtf.c)
 PORT_CFLAGS  := $(core_$(CORE)) -mthumb $(BARE_CFLAGS)
 
-# The demo must do with 256 KiB, what is live with 160; the golden suite, built like the host's, takes what it takes.
+# Limits: 256 KiB for the demo, 160 for live programs; the golden suite, built with the host's settings, may use more.
 $(B)/demo: RAM_BYTES = 262144
 $(addprefix $(B)/,live baked gouraud): RAM_BYTES = 163840
 $(B)/baked $(B)/gouraud: ROM_BYTES = 1048576

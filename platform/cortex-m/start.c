@@ -11,7 +11,7 @@ uintptr_t semihost(uint32_t operation, const void *argument)
     return r0;
 }
 
-/* The FPU comes first: a compiler may clear .bss with its registers. */
+/* Enables the FPU first, because a compiler may clear .bss with FPU registers. */
 void reset(void)
 {
 #if defined(__ARM_FP)
@@ -20,7 +20,7 @@ void reset(void)
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 #endif
 #if defined(__ARM_FEATURE_MVE)
-    /* Helium: no loop's tail is predicated (FPSCR.LTPSIZE = 4), or its instructions would skip lanes. */
+    /* Helium: turns tail predication off (FPSCR.LTPSIZE = 4); otherwise instructions would skip lanes. */
     uint32_t fpscr;
     __asm__ volatile("vmrs %0, fpscr" : "=r"(fpscr));
     fpscr = (fpscr & ~(7u << 16)) | 4u << 16;

@@ -1,7 +1,7 @@
-# counted.mk: the room's cost on a console that qemu has the processor of: make PORT=... count.
+# counted.mk: counts the room's cost on a console with a processor that qemu supports: make PORT=... count.
 #
-# Wants of the port: COUNTED (its name in port_counted.c), COUNTED_ROWS (of a band), COUNTED_AT (where code lies:
-# the same as on the console by the cache's size), COUNTED_SRC (the port's rows), COUNTED_QEMU and COUNTED_MODEL.
+# The port sets COUNTED (its name in port_counted.c), COUNTED_ROWS (of a band), COUNTED_AT (address of code: equal to
+# the console's modulo the cache size), COUNTED_SRC (the port's rows), COUNTED_QEMU and COUNTED_MODEL.
 HOST_CC     ?= cc
 COUNTED_OBJ := $(call object,$(ROOM_DEMO) platform/counted/port_counted.c $(COUNTED_SRC) $(PORT_SRC) $(ROOM_LIB))
 $(B)/obj/platform/counted/port_counted.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns \

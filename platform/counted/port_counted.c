@@ -1,6 +1,6 @@
-/* port_counted.c: a console's frames as a Linux program without libc, for qemu's user mode and its plugin
- * qemu_caches.c:
- * the same object files as on the console, but for the port's own. Says the hashes; the plugin counts. */
+/* port_counted.c: a console's frames as a Linux program without libc, for qemu's user mode and the plugin
+ * qemu_caches.c. It uses the same object files as the console, except for the port's own. Prints the
+ * hashes; the plugin counts. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../port.h"
@@ -104,7 +104,7 @@ void port_show_frame(void)
 #endif
 }
 
-/* --- calibration: what the model must say of loops whose cost is known -------------------------------------------- */
+/* --- calibration: checks the model on loops of known cost --------------------------------------------------------- */
 
 void counted_turns(uint32_t n);
 uint32_t counted_loads(const uint32_t *from, uint32_t n, uint32_t step);
@@ -136,11 +136,12 @@ __attribute__((noinline)) uint32_t counted_products(uint32_t n)
 __attribute__((noinline)) void counted_end(void) { __asm__ volatile(""); }
 
 #if defined(COUNTED_PS1)
-/* Where the console has it: see scratchpad_ps1.c. */
+/* At the console's address: see scratchpad_ps1.c. */
 uint8_t counted_scratchpad[1024] __attribute__((section(".scratchpad,\"aw\",@nobits#"), used));
 #endif
 
-/* The stack ends where 64 KiB do, as on the console: so its lines of the cache do not hang on the system's environment. */
+/* The stack ends at a multiple of 64 KiB, as on the console, so cache lines do not depend on
+ * the system's environment. */
 uint8_t counted_stack[65536] __attribute__((aligned(65536)));
 
 #if defined(__mips__)

@@ -1,19 +1,19 @@
-/* qemu_caches.c: a plugin for qemu's user mode: what the room costs by stage on consoles with MIPS and PowerPC
+/* qemu_caches.c: a plugin for qemu's user mode that measures the room's cost by stage on consoles with MIPS and PowerPC
  * processors: `-plugin FILE.so,model=vr4300|r3000|ppc750[,functions=on]`, with a program of port_counted.c.
  *
- * Instructions, loads and stores are exact. Cycles are a model of a pipeline in order, whose instructions wait for what
- * they use, with the processor's caches as they are:
+ * Counts of instructions, loads and stores are exact. Cycles come from a model of an in-order pipeline that stalls
+ * until operands are ready, with the processor's real caches:
  *
- *   vr4300  one instruction a cycle; a value that is loaded can be used after 2 cycles; products 5, divisions 37, and all
- *           waits for them; 16 KiB of code by 32 bytes, a miss 46; 8 KiB of data by 16 bytes, written back, a miss 42,
- *           and 20 more where the line that goes was written. Lines of the screen are made without being fetched: 20
- *           each.
+ *   vr4300  one instruction a cycle; a loaded value is ready after 2 cycles; products 5, divisions 37, and both stall
+ *           everything; 16 KiB of code in lines of 32 bytes, a miss 46; 8 KiB of data in lines of 16 bytes, written
+ *           back, a miss 42, and 20 more if the evicted line was modified. Lines of the screen are allocated without
+ *           being fetched: 20 each.
  *   r3000   one instruction a cycle; data is in RAM, without cache: a load takes 5, a store goes through a buffer of
- *           four that empties by one in 5; in the 1 KiB at 1f800000 both take 1; products 10 and divisions 36, which only their result waits for; 4 KiB of
- *           code by 16 bytes, a miss 7.
+ *           four entries that drains one in 5; in the 1 KiB at 1f800000 both take 1; products 10 and divisions 36,
+ *           which only stall users of the result; 4 KiB of code in lines of 16 bytes, a miss 7.
  *   ppc750  two instructions a cycle, of them one load or store and one product; loads 2, products 4, divisions 19,
- *           floats 3; jumps are guessed by 512 two-bit counters, 5 where wrong; 32 KiB of code and of data by 32 bytes,
- *           8 ways; behind them 256 KiB, two ways, 10; main memory 60. Lines of the screen take 10 each. */
+ *           floats 3; jumps are predicted by 512 two-bit counters, 5 if wrong; 32 KiB of code and of data in lines of
+ *           32 bytes, 8 ways; behind them 256 KiB, two ways, 10; main memory 60. Lines of the screen take 10 each. */
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@
 
 #include "../freestanding/qemu_interface.h"
 
-/* --- what is counted ---------------------------------------------------------------------------------------------- */
+/* --- counters ----------------------------------------------------------------------------------------------------- */
 
 enum { TRANSFORM, LIGHT, FILL, SHOW, STAGES, BESIDE = STAGES };
 static const char *const stage_names[] = {"transform", "light", "fill", "show"};
@@ -62,7 +62,7 @@ static int function_of(const char *name, uint64_t at)
         if (function_count == FUNCTIONS)
             return 0;
         functions[function_count].name = strdup(name);
-        functions[function_count++].entry = at; /* what runs first of it is its beginning */
+        functions[function_count++].entry = at; /* the first instruction executed is the entry */
     }
     return i;
 }
@@ -131,12 +131,12 @@ static void begin(int which)
 
 typedef struct cache {
     uint32_t line_log2, ways, sets;
-    uint32_t line[4096]; /* number of the line * 4, + 2: written, + 1: there is one; in a set the last used first */
+    uint32_t line[4096]; /* number of the line * 4, + 2: modified, + 1: valid; most recently used first in a set */
 } cache;
 
 static cache code, data, behind;
 
-/* 1: a hit. *lost: a written line had to go. */
+/* Returns 1 for a hit. *lost: a modified line was evicted. */
 static bool touch(cache *c, uint64_t at, bool writes, bool *lost)
 {
     const uint32_t number = (uint32_t)(at >> c->line_log2);
@@ -163,7 +163,7 @@ enum { OTHER, LOAD, STORE, PRODUCT, QUOTIENT, FLOAT, JUMP, CLEAR_LINE, FLUSH_LIN
 typedef struct meaning {
     uint64_t at;
     uint8_t used[3], made, kind, cycles; /* registers; 255: none */
-    int function, beginning;             /* -1: no stage begins here */
+    int function, beginning;             /* -1: does not begin a stage */
 } meaning;
 
 enum { NONE = 255 };
@@ -252,9 +252,9 @@ static void ppc_meaning(meaning *m, uint32_t w)
 /* --- the pipeline ------------------------------------------------------------------------------------------------- */
 
 static uint64_t now, ready[REGISTERS], emptied[4];
-static uint32_t slots, moves, products; /* of this cycle, ppc750 */
+static uint32_t slots, moves, products; /* used in this cycle, ppc750 */
 static uint64_t screen_from, screen_past;
-static const meaning *jump;             /* the last instruction, if that was one */
+static const meaning *jump;             /* the last instruction, if it was a jump */
 static uint8_t guesses[512];
 
 static void pay(const meaning *m, uint64_t before)
@@ -270,7 +270,7 @@ static void next_cycle(uint64_t at_least)
     slots = moves = products = 0;
 }
 
-/* Whether the last jump was taken, and guessed. */
+/* Checks whether the last jump was taken, and predicted. */
 static void look_back(uint64_t at)
 {
     if (jump == NULL)
@@ -279,7 +279,7 @@ static void look_back(uint64_t at)
     const bool went = at != jump->at + 4;
     if (went != (*g >= 2))
         next_cycle(now + 5);
-    else if (went) /* what follows comes with the next cycle */
+    else if (went) /* the target starts with the next cycle */
         next_cycle(now + 1);
     if (went)
         *g = (uint8_t)(*g < 3 ? *g + 1 : 3);
@@ -292,7 +292,7 @@ static void issue_two(const meaning *m, uint64_t when)
 {
     if (when > now)
         next_cycle(when);
-    if (m->kind == JUMP) { /* beside the two */
+    if (m->kind == JUMP) { /* in addition to the two */
         jump = m;
         return;
     }
@@ -304,7 +304,7 @@ static void issue_two(const meaning *m, uint64_t when)
     moves += moves_data, products += multiplies;
     if (m->made != NONE)
         ready[m->made] = now + m->cycles;
-    if (multiplies) /* the unit is busy */
+    if (multiplies) /* occupies the unit */
         now += m->kind == QUOTIENT ? 18 : 1;
 }
 
@@ -320,7 +320,7 @@ static void issue_one(const meaning *m, uint64_t when)
         ready[m->made] = now - 1 + m->cycles;
 }
 
-static bool has_moved; /* qemu makes single bytes of MIPS' stores that are not aligned */
+static bool has_moved; /* qemu splits unaligned stores of MIPS into bytes */
 
 static void execute(unsigned cpu, void *user)
 {

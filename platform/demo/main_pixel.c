@@ -1,5 +1,5 @@
-/* main_pixel.c: the room with light by pixel, 160 x 120 on any machine: frame 0 of its path, and where PIXEL_FRAMES is
- * 3 frames 30 and 59, with hashes and costs. */
+/* main_pixel.c: the room with light at each pixel, 160 x 120, on any machine: frame 0 of the path, and also frames 30
+ * and 59 if PIXEL_FRAMES is 3, with hashes and costs. */
 #include "../port.h"
 #include "../port_say.h"
 #include "room_pixel.h"

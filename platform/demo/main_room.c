@@ -1,4 +1,4 @@
-/* main_room.c: the room on any machine: its path once, with hashes and costs, then as buttons steer. */
+/* main_room.c: the room on any machine: the whole path once, with hashes and costs; then buttons steer. */
 #include "../port.h"
 #include "../port_say.h"
 #include "room.h"
@@ -47,7 +47,7 @@ int main(void)
         return 1;
     port_put("end of path\n");
     for (uint32_t held; (held = port_buttons()) != PORT_NO_BUTTONS;) {
-        if (held) { /* so that who reads it can draw the same frames elsewhere */
+        if (held) { /* so that you can draw the same frames elsewhere */
             say_count("held ", held);
             port_put("\n");
         }

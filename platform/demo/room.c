@@ -1,4 +1,4 @@
-/* room.c: the demo that every port shows, by integers alone: lmb_fixed with a path for lamp and camera. */
+/* room.c: the demo of every port, with integers only: lmb_fixed with a path for lamp and camera. */
 #include "room.h"
 
 static const uint32_t baked[] = {
@@ -6,20 +6,20 @@ static const uint32_t baked[] = {
 };
 
 enum {
-    STEP = 512,         /* of a held button: 1/65536 of a turn */
+    STEP = 512,         /* step of a held button: 1/65536 of a turn */
     LAMP_STEP = 32,     /* 1/1024 m */
-    STEEPEST = 8192,    /* of pitch */
+    STEEPEST = 8192,    /* limit of pitch */
     LAMP = 2 * LMB_FIXED_WHITE
 };
 
-/* The room's own walls are at x = -2 .. 2 m, y = 0 .. 2.75, z = -2 .. 2.75. */
+/* The walls of the room are at x = -2 .. 2 m, y = 0 .. 2.75, z = -2 .. 2.75. */
 static const int32_t lamp_low[3] = {-1900, 200, -1900}, lamp_high[3] = {1900, 2700, 2700};
 
-/* A sixteenth of a quarter of a wave each, in 1/16384. */
+/* A quarter wave in sixteen steps, in 1/16384. */
 static const int16_t quarter[17] = {0,     1606,  3196,  4756,  6270,  7723,  9102,  10394, 11585,
                                     12665, 13623, 14449, 15137, 15679, 16069, 16305, 16384};
 
-/* Of an angle in 1/65536 of a turn. */
+/* Sine of an angle in 1/65536 of a turn. */
 static int32_t sine(int32_t angle)
 {
     const int32_t at = angle & 0x3fff, is_second = angle >> 14 & 1, x = is_second ? 0x4000 - at : at, i = x >> 10;
@@ -90,7 +90,7 @@ void room_path(room_pose *out, int32_t frame)
 
 static int32_t within(int32_t v, int32_t low, int32_t high) { return v < low ? low : v > high ? high : v; }
 
-/* To the blob's units. */
+/* Converts to the blob's units. */
 static void units_of(int32_t out[3], const lmb_fixed *s, const int32_t at[3])
 {
     for (int i = 0; i < 3; ++i) {
@@ -110,7 +110,7 @@ void room_steer(room_pose *inout, uint32_t buttons)
         inout->lamp[i] = within(inout->lamp[i] + way[i] * LAMP_STEP, lamp_low[i], lamp_high[i]);
 }
 
-/* Turned about y by yaw, then about its own x by pitch. */
+/* Turns about y by yaw, then about the camera's x by pitch. */
 static void set_view(lmb_fixed_view *v, const lmb_fixed *s, const room_pose *pose)
 {
     const int32_t sy = sine(pose->yaw), cy = cosine(pose->yaw), sp = sine(pose->pitch), cp = cosine(pose->pitch);
@@ -213,7 +213,7 @@ void room_rgb555(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y)
     }
 }
 
-/* All three colours at once: c - c / 32 + t / 2, and c - c / 64 + t / 4 of green, are at most 255. */
+/* All three colours at once: c - c / 32 + t / 2, and for green c - c / 64 + t / 4, are at most 255. */
 static inline uint16_t pixel_565(uint32_t rgb, uint32_t steps)
 {
     const uint32_t v = rgb - ((rgb >> 5 & 0x070007u) | (rgb >> 6 & 0x000300u)) + steps;

@@ -1,9 +1,9 @@
-/* room_pixel.c: the built-in scene with its baked light, drawn by lmb_render at the place of a pose. */
+/* room_pixel.c: the built-in scene with its baked light, drawn by lmb_render from a pose. */
 #include "room_pixel.h"
 
 #include "../../tools/demo/demo_scene.h"
 
-/* The words of the file that `lambent bake` makes of the demo. */
+/* The words of the file from `lambent bake demo`. */
 static const uint32_t baked[] = {
 #include "room_pixel.inc"
 };
@@ -53,7 +53,7 @@ lmb_status room_pixel_open(room_pixel *out, int32_t width, int32_t height, uint3
     out->scene = *demo_scene();
     out->lamp.kind = LMB_LIGHT_POINT;
     for (int i = 0; i < 3; ++i)
-        out->lamp.intensity[i] = 9.424778f; /* a white surface 1 m away is shown three times as bright as white */
+        out->lamp.intensity[i] = 9.424778f; /* a white surface at 1 m is three times as bright as white */
     out->scene.lights = &out->lamp;
     lmb_status s = width % 8 == 0 && height % 8 == 0 ? lmb_build_check() : LMB_ERR_ARG;
     if (s == LMB_OK)
@@ -75,11 +75,11 @@ lmb_status room_pixel_open(room_pixel *out, int32_t width, int32_t height, uint3
     return s;
 }
 
-/* Sine of an angle in 1/65536 of a turn: the Taylor series to x^9, whose error is under 4e-6. */
+/* Sine of an angle in 1/65536 of a turn: the Taylor series to x^9, with an error under 4e-6. */
 static float sine(int32_t angle)
 {
     int32_t a = (int32_t)((uint32_t)angle & 65535u);
-    a = a < 16384 ? a : a < 49152 ? 32768 - a : a - 65536; /* a quarter turn each way */
+    a = a < 16384 ? a : a < 49152 ? 32768 - a : a - 65536; /* to a quarter turn each way */
     const float x = (float)a * 9.58737992e-5f, square = x * x;
     float s = square * 2.7557319e-6f - 1.9841270e-4f;
     s = s * square + 8.3333333e-3f;

@@ -1,4 +1,4 @@
-/* room_say.h: a frame's hash and what it cost by stage, as both of the room's programs say it. */
+/* room_say.h: prints a frame's hash and the cost by stage, for both room programs. */
 #ifndef ROOM_SAY_H
 #define ROOM_SAY_H
 

@@ -1,8 +1,8 @@
-/* arm_calibrate.h: loops of known cost, by which counts and models of cycles are checked: CALIBRATE_TURNS turns of a
- * subtraction and a jump, then CALIBRATE_LOADS of a load, a line of 32 bytes further each time, and these two.
+/* arm_calibrate.h: loops of known cost, to check counts and models of cycles: CALIBRATE_TURNS turns of a subtraction
+ * and a jump, then CALIBRATE_LOADS turns that also load, each from the next line of 32 bytes.
  *
- * On an ARM7TDMI and an ARM946E-S from the fastest memory a turn of the first takes 4 cycles. One of the second takes 7
- * on the first, and the memory's wait states; 5 on the second, and what a miss takes. */
+ * From the fastest memory, a turn of the first loop takes 4 cycles on an ARM7TDMI and an ARM946E-S. A turn of the
+ * second takes 7 plus the memory's wait states on the former, and 5 plus the cost of a miss on the latter. */
 #ifndef ARM_CALIBRATE_H
 #define ARM_CALIBRATE_H
 
@@ -22,7 +22,7 @@ void port_calibrated(void);
                          :                                                                                         \
                          : "cc", "memory");                                                                        \
     }                                                                                                              \
-    /* Where the count ends: it has a place, and no work. */                                                       \
+    /* Marks the end of the count by an address; does nothing. */                                                  \
     __attribute__((noinline, target("arm"), section(".fast"))) void port_calibrated(void) { __asm__ volatile(""); }
 
 #endif

@@ -1,4 +1,4 @@
-/* bare.c: a program without operating system: RAM as C wants it, main, how much RAM it took, and the way out. */
+/* bare.c: a program without operating system: initialises RAM for C, runs main, measures the used RAM, and exits. */
 #include "bare.h"
 
 #include "../port.h"
@@ -51,7 +51,7 @@ void port_ram_used(port_ram *out)
     out->size = bytes_between(ram_begin, ram_end);
 }
 
-/* The stack is painted up to where it stands now, so that port_ram_used can find how deep it went. */
+/* Paints the stack up to the current stack pointer, so that port_ram_used can measure the depth. */
 void bare_run(void)
 {
     const uint32_t *image = data_image;

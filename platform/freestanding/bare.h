@@ -1,4 +1,4 @@
-/* bare.h: what a port without operating system shares with bare.c. Addresses come from its linker script. */
+/* bare.h: shared by bare.c and a port without operating system. Addresses come from the port's linker script. */
 #ifndef BARE_H
 #define BARE_H
 
@@ -6,13 +6,14 @@
 
 extern uint32_t data_image[], data_begin[], data_end[], bss_begin[], bss_end[], ram_begin[], ram_end[];
 
-/* The port's: a trap that the debugger, or qemu, answers, with its answer. `argument` as the operation has it. */
+/* Your port defines it: a trap that the debugger, or qemu, answers; returns the answer. The
+ * operation defines `argument`. */
 uintptr_t semihost(uint32_t operation, const void *argument);
 
-/* From a working stack and FPU: fills RAM, runs main, leaves with its status. Never returns. */
+/* Call it with a working stack and FPU: fills RAM, runs main, and exits with main's status. Never returns. */
 void bare_run(void);
 
-/* For every vector of a fault: says so and leaves with 99. */
+/* For every vector of a fault: prints a line and exits with 99. */
 void bare_fault(void);
 
 #endif

@@ -1,5 +1,5 @@
-# bare.mk: what ports without operating system under qemu share. Before it a port.mk sets QEMU, the emulator with its
-# machine; ROM_ORIGIN, RAM_ORIGIN; ROM_BYTES and RAM_BYTES where they are not these.
+# bare.mk: shared by ports without operating system under qemu. Before you include it, set QEMU, the emulator with its
+# machine; ROM_ORIGIN, RAM_ORIGIN; and ROM_BYTES and RAM_BYTES if they differ from these defaults.
 BARE_SRC     := $(addprefix platform/freestanding/,bare.c floorf.c memory.c)
 BARE_CFLAGS  := -ffunction-sections -fdata-sections -isystem platform/freestanding
 ROM_BYTES    ?= 524288
@@ -9,16 +9,16 @@ PORT_LDFLAGS  = -nostdlib -static -Wl,--gc-sections -Wl,--build-id=none -T platf
                 -Wl,--defsym,ram_origin=$(RAM_ORIGIN) -Wl,--defsym,ram_bytes=$(RAM_BYTES)
 PORT_LDLIBS  := -lgcc
 
-# Output and the way out by semihosting. MORE: further words for qemu.
+# Output and exit by semihosting. MORE: further options for qemu.
 SEMIHOSTING   = enable=on,target=native,chardev=console
 RUN           = $(QEMU) -display none -monitor none -serial none -chardev stdio,id=console $(MORE) \
                 -semihosting-config $(SEMIHOSTING) -kernel
 
-# A loop in memset that the compiler turns into a call of memset would never end.
+# Without these flags the compiler would turn a loop in memset into a call of memset, which would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
-# The room, counted exactly by a plugin of this machine's qemu: COUNTED=instructions, loads or stores. Its screen is
-# read back to room.ppm; FRAMES=all puts all frames there, one behind the other. ROOM_RAM: what there is of RAM.
+# The room, counted exactly by a plugin of the host's qemu: COUNTED=instructions, loads or stores. The screen is read
+# back to room.ppm; FRAMES=all writes all frames there, one behind the other. ROOM_RAM: size of RAM.
 ROOM_SRC      = $(PORT_SRC) platform/freestanding/bare_room.c
 ROOM_RAM     ?= 163840
 ROOM_ROM     ?= 1048576

@@ -1,9 +1,8 @@
-/* bare_room.c: room_port.h on a machine without operating system: 160 x 120 in RGB565 in memory, as a display would
- * fetch it; what a debugger, or qemu, stores for the program is reached by semihosting.
+/* bare_room.c: room_port.h on a machine without operating system: 160 x 120 in RGB565 in memory, as for a display;
+ * files of the debugger, or qemu, are accessed by semihosting.
  *
- * The words of the program's command line, as far as there are any, are `room COUNTS PICTURE [all]`: COUNTS is where
- * qemu_count.c puts its counts, PICTURE gets the last picture as PPM, or with `all` each picture behind the other. `-`
- * stands for none. */
+ * The program's command line, if there is one, is `room COUNTS PICTURE [all]`: qemu_count.c puts its counts into
+ * COUNTS; PICTURE gets the last picture as PPM, or with `all` each picture behind the other. `-` means no file. */
 #include "../demo/room_port.h"
 
 #include <string.h>
@@ -28,7 +27,7 @@ static uint16_t screen[HEIGHT][WIDTH];
 void *port_memory(size_t *bytes) { return *bytes = sizeof memory, memory; }
 void *port_band_memory(size_t *bytes) { return *bytes = sizeof band, band; }
 
-/* --- files of the machine behind the debugger ---------------------------------------------------------------------- */
+/* --- files of the host -------------------------------------------------------------------------------------------- */
 
 enum { SYS_OPEN = 0x01, SYS_WRITE = 0x05, SYS_READ = 0x06, SYS_SEEK = 0x0a, SYS_GET_CMDLINE = 0x15 };
 enum { READ_BYTES = 1, WRITE_BYTES = 5 }; /* "rb", "wb" */
@@ -45,7 +44,7 @@ static char line[LINE];
 static uintptr_t counts = NO_FILE, picture = NO_FILE;
 static int is_all;
 
-/* The next word of the line, with a 0 behind it, and its length. */
+/* The next word of the line, terminated by 0, and its length. */
 static char *next_word(char **at, uint32_t *length)
 {
     char *word = *at, *past;
@@ -86,12 +85,12 @@ static void open_files(void)
     is_all = length != 0;
 }
 
-/* --- the clock: what the plugin of qemu counted -------------------------------------------------------------------- */
+/* --- the clock: the counter of qemu's plugin ---------------------------------------------------------------------- */
 
 static char unit[16] = "of no clock";
 const char *const port_clock_unit = unit;
 
-/* The plugin looks for calls of it. */
+/* The plugin detects calls of this function. */
 void bare_mark(void);
 __attribute__((noinline)) void bare_mark(void) { __asm__ volatile("" ::: "memory"); }
 
@@ -118,7 +117,7 @@ void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, i
         room_rgb565(screen[y + i], rgb + i * width, width, y + i);
 }
 
-uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* of a format of 16 bits alone */
+uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* only for a format of 16 bits */
 
 void port_show_frame(void)
 {

@@ -1,7 +1,7 @@
-/* floorf.c: for processors whose FPU has a square root but no rounding to integers. */
+/* floorf.c: for processors with an FPU that has a square root but no rounding to integers. */
 float floorf(float x);
 
-/* From 2^23 on a float is whole; NaN goes through. */
+/* From 2^23 on every float is whole; NaN is returned unchanged. */
 float floorf(float x)
 {
     float whole;

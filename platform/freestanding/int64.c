@@ -1,5 +1,5 @@
-/* int64.c: what compilers call for integers of 64 bits and for counting zeros, where their own library is made for another
- * processor of the family: MIPS I and III. */
+/* int64.c: functions that compilers call for 64-bit integers and for counting zeros, if their own library was built for
+ * another processor of the family: MIPS I and III. */
 #include <stdint.h>
 
 typedef union pair {
@@ -76,7 +76,7 @@ int64_t __muldi3(int64_t a, int64_t b)
     return (int64_t)to.all;
 }
 
-/* Bit by bit, from where the dividend begins; the processor's own division where both have 32 bits. */
+/* Bit by bit, from the dividend's highest bit; uses the processor's division if both have 32 bits. */
 static uint64_t divide(uint64_t a, uint64_t b, uint64_t *rest)
 {
     uint64_t quotient = 0, left = 0;
@@ -159,7 +159,7 @@ uint32_t __bswapsi2(uint32_t a) { return a << 24 | (a & 0xff00u) << 8 | (a >> 8 
 #if defined(__mips_hard_float)
 double __floatdidf(int64_t a);
 
-/* Both halves are exact, so that the sum alone is rounded. */
+/* Both halves are exact, so only the sum is rounded. */
 double __floatdidf(int64_t a)
 {
     const uint32_t low = (uint32_t)a;

@@ -1,19 +1,19 @@
-/* memory.c: the four memory functions, where there is no libc. Aligned memory goes by words: a frame clears its depth,
- * ids and tiles. The rest goes byte by byte, which is small.
+/* memory.c: the four memory functions, for systems without a libc. Aligned memory is processed by words, because a
+ * frame clears depth, ids and tiles; other memory byte by byte, which keeps the code small.
  *
- * Compile with -fno-builtin, or a loop in here becomes a call of the function that it stands in. */
+ * Compile with -fno-builtin, or the compiler turns a loop into a call of the same function. */
 #include <stdint.h>
 #include <string.h>
 
 #if defined(__GNUC__)
 typedef uint32_t __attribute__((may_alias)) word;
 #else
-typedef unsigned char word; /* the only type that may stand for all */
+typedef unsigned char word; /* the only type that may alias all others */
 #endif
 
 enum { WORD = sizeof(word), BLOCK = 4 * WORD };
 
-/* From the first byte on: right for overlapping memory too where it goes down. */
+/* From the first byte on: also right for overlapping memory if it moves down. */
 static void copy_up(unsigned char *t, const unsigned char *f, size_t n)
 {
     if (((uintptr_t)t | (uintptr_t)f) % WORD == 0)
@@ -46,7 +46,7 @@ void *memmove(void *to, const void *from, size_t n)
     return to;
 }
 
-/* Aligned memory by 32 bytes, where an instruction stores many registers: half of the time. */
+/* Aligned memory by 32 bytes, if one instruction stores many registers: takes half the time. */
 #if defined(__arm__) && !defined(__thumb__)
 static size_t fill_lines(unsigned char *to, uint32_t all, size_t n)
 {

@@ -1,9 +1,9 @@
-/* qemu_count.c: a plugin for qemu's emulator of processors, which counts what a program without operating system does:
- * `-plugin FILE.so,counts=COUNTS,what=instructions|loads|stores`.
+/* qemu_count.c: a plugin for qemu's system emulation that counts events of a program without operating system: `-plugin
+ * FILE.so,counts=COUNTS,what=instructions|loads|stores`.
  *
- * Whenever the program calls bare_mark (bare_room.c), the count goes into COUNTS, where the program reads it: its lower
- * 32 bits, least byte first, then the word of what was counted. A load or store of several registers counts each of them.
- * The counts are exact, and equal in every run. Built for the machine that emulates. */
+ * On each call of bare_mark (bare_room.c), the plugin writes the count to COUNTS for the program to read: the lower 32
+ * bits, little-endian, then the name of the counted event. A load or store of several registers counts each register.
+ * Counts are exact, and equal in every run. Build the plugin for the host. */
 #include <stdio.h>
 #include <string.h>
 
@@ -23,7 +23,8 @@ static void mark(unsigned cpu, void *user)
     fflush(file);
 }
 
-/* Asked here, as qemu 7.2 takes reads for writes where it is told to call for one of them. */
+/* Checks the kind of access here, because qemu 7.2 confuses reads and writes if a callback is
+ * registered for only one. */
 static void count_access(unsigned cpu, uint32_t about, uint64_t at, void *user)
 {
     (void)cpu, (void)at, (void)user;

@@ -1,4 +1,5 @@
-/* qemu_interface.h: what plugins use of qemu's interface, as distributions package qemu without its header. */
+/* qemu_interface.h: the part of qemu's plugin interface that the plugins use; distributions package
+ * qemu without the header. */
 #ifndef QEMU_INTERFACE_H
 #define QEMU_INTERFACE_H
 
@@ -31,7 +32,7 @@ extern void qemu_plugin_register_vcpu_mem_cb(instruction *i,
 extern bool qemu_plugin_mem_is_store(uint32_t info);
 extern unsigned qemu_plugin_mem_size_shift(uint32_t info);
 
-/* A plugin's own. */
+/* Defined by a plugin. */
 #define QEMU_EXPORTED __attribute__((visibility("default")))
 extern int qemu_plugin_version;
 int qemu_plugin_install(plugin_id id, const void *info, int count, char **word);

@@ -1,30 +1,31 @@
-/* qemu_stages.c: a plugin for qemu's emulator of ARM processors: what the room costs by stage on consoles that qemu
- * does not have: `-plugin FILE.so,model=arm7|arm9[,frames=N][,functions=on]`.
+/* qemu_stages.c: a plugin for qemu's emulation of ARM processors that measures the room's cost by stage on consoles
+ * that qemu does not support: `-plugin FILE.so,model=arm7|arm9[,frames=N][,functions=on]`.
  *
- * The console's own program runs where all of its addresses are RAM; nothing answers there, and the frames are the
- * same. Instructions, loads and stores are exact. Cycles are a model, by the processors' manuals:
+ * The console's own program runs on a board where all of its addresses are RAM. No device answers there, and the frames
+ * are the same. Counts of instructions, loads and stores are exact. Cycles come from a model after the manuals:
  *
  *   arm9  ARM946E-S: an instruction takes 1; multiplies 2, long ones 3; jumps 3; loads of n registers n, at least 2;
- *         one more where the next instruction needs what is loaded. Main memory, 0x02000000 on, has caches of four ways
+ *         one more if the next instruction needs the loaded value. Main memory, 0x02000000 on, has caches of four ways
  *         and 32 bytes a line, 8 KiB for instructions and 4 KiB for data: a miss takes 46, a write that misses 18.
- *         All else is beside the processor, or written through its buffer, and takes none.
+ *         All other memory is beside the processor, or written through its buffer, and takes none.
  *   arm7  ARM7TDMI: loads 3 and one more for each register, stores 2 likewise; jumps 3; multiplies 3, long ones 5; and
  *         the Game Boy Advance's wait states of data, by address. Instructions in ROM take 3 (narrow) or 6.
  *
- * It prints lines as the room does, and ends the emulator after the last frame. Built for the machine that emulates. */
+ * It prints the same lines as the room, and ends the emulator after the last frame. Build the plugin for the host. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "qemu_interface.h"
 
-/* --- what is counted ---------------------------------------------------------------------------------------------- */
+/* --- counters ----------------------------------------------------------------------------------------------------- */
 
-enum { TRANSFORM, LIGHT, FILL, SHOW, STAGES, BESIDE = STAGES }; /* BESIDE: the path, hashes and words are no stage's */
+enum { TRANSFORM, LIGHT, FILL, SHOW, STAGES, BESIDE = STAGES }; /* BESIDE: the path, hashes
+                                                                 * and text belong to no stage */
 
 static const char *const stage_names[] = {"transform", "light", "fill", "show"};
 
-/* A stage begins where its function does. */
+/* A stage begins when its function is called. */
 static const struct {
     const char *function;
     int stage;
@@ -61,7 +62,7 @@ static int function_of(const char *name, uint64_t at)
         if (function_count == FUNCTIONS)
             return 0;
         functions[function_count].name = strdup(name);
-        functions[function_count++].entry = at; /* what runs first of it is its beginning */
+        functions[function_count++].entry = at; /* the first instruction executed is the entry */
     }
     return i;
 }
@@ -137,7 +138,7 @@ static void begin(int which)
 enum { LINE = 32, WAYS = 4, MOST_SETS = 64, MISS = 46, WRITE_MISS = 18 };
 
 typedef struct cache {
-    uint32_t line[MOST_SETS][WAYS]; /* and 1, where there is one; the last used first */
+    uint32_t line[MOST_SETS][WAYS]; /* + 1 if valid; most recently used first */
     uint32_t sets;
 } cache;
 
@@ -145,7 +146,7 @@ static cache code = {{{0}}, 64}, data = {{{0}}, 32};
 
 static bool is_cached(uint64_t at) { return at >> 22 == 0x02000000u >> 22; }
 
-/* 1: a hit. A write that misses takes no line. */
+/* Returns 1 for a hit. A write that misses allocates no line. */
 static bool touch(cache *c, uint32_t at, bool takes_line)
 {
     uint32_t *way = c->line[at / LINE % c->sets];
@@ -177,7 +178,7 @@ static uint32_t bits_of(uint32_t v)
     return n;
 }
 
-/* With one that is not taken: jumps and loads are refined when they happen. */
+/* Cost of an instruction that is not taken: jumps and loads are refined at run time. */
 static meaning wide_meaning(uint32_t w)
 {
     meaning m = {1, 0, 0, 0};
@@ -233,13 +234,13 @@ static meaning narrow_meaning(uint32_t h)
     return m;
 }
 
-/* What runs without a jump in between. */
+/* Instructions without a jump in between. */
 typedef struct stretch {
     uint32_t from, past, instructions, cycles;
-    int function, beginning; /* -1: no stage begins here */
+    int function, beginning; /* -1: does not begin a stage */
 } stretch;
 
-static uint32_t expected; /* where the last stretch goes on without a jump */
+static uint32_t expected; /* address at which the last stretch continues without a jump */
 
 static void execute(unsigned cpu, void *user)
 {

@@ -1,4 +1,5 @@
-/* sqrtf.c: the root, rounded to nearest and ties to even, for processors whose FPU has none: digit by digit. */
+/* sqrtf.c: the square root, rounded to nearest and ties to even, digit by digit, for processors
+ * with an FPU that has none. */
 #include <stdint.h>
 #include <string.h>
 
@@ -11,7 +12,7 @@ float sqrtf(float x)
     if (bits << 1 == 0 || bits == 0x7f800000u)
         return x; /* -0, 0, infinity */
     if (bits > 0x7f800000u) {
-        bits = 0x7fc00000u; /* less than 0, or no number */
+        bits = 0x7fc00000u; /* negative, or NaN */
         memcpy(&x, &bits, sizeof x);
         return x;
     }
@@ -23,7 +24,7 @@ float sqrtf(float x)
     digits |= 0x800000u;
     if (exponent & 1)
         digits <<= 1, --exponent;
-    /* 25 digits of the root of digits * 2^25: one more than fits, which rounds. */
+    /* 25 digits of the root of digits * 2^25: one more than needed, for rounding. */
     uint64_t left = (uint64_t)digits << 25;
     for (int i = 0; i < 25; ++i) {
         rest = rest << 2 | (uint32_t)(left >> 48 & 3u);
@@ -33,7 +34,7 @@ float sqrtf(float x)
         if (rest >= trial)
             rest -= trial, root |= 1u;
     }
-    /* It is never a tie: the square of such a number has 50 digits, the last of them not 0. */
+    /* A tie is impossible: the square of such a number has 50 digits, and the last is not 0. */
     root = (root + 1) >> 1;
     bits = (uint32_t)((exponent / 2 + 127) << 23) + (root - 0x800000u);
     memcpy(&x, &bits, sizeof x);

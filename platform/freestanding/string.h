@@ -1,4 +1,4 @@
-/* string.h: the four memory functions, for compilers that come without libc; the port defines them. */
+/* string.h: the four memory functions, for compilers without a libc; the port defines them. */
 #ifndef FREESTANDING_STRING_H
 #define FREESTANDING_STRING_H
 

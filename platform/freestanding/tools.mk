@@ -1,4 +1,4 @@
-# tools.mk: the programs of a cross toolchain, CROSS_PREFIX and their names, and code for size.
+# tools.mk: programs of a cross toolchain, named by CROSS_PREFIX, and optimisation for size.
 override CC := $(CROSS_PREFIX)gcc
 override AR := $(CROSS_PREFIX)ar
 override NM := $(CROSS_PREFIX)nm

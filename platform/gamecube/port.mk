@@ -1,7 +1,7 @@
 # gamecube: GameCube (PowerPC 750), without SDK; in dolphin-emu without a window.
 POWERPC      ?= powerpc-linux-gnu-
 CROSS_PREFIX := $(POWERPC)
-# -O3 takes 0.2 million cycles off a frame, most of them of showing it.
+# -O3 saves 0.2 million cycles a frame, most of them in showing the frame.
 CFLAGS       ?= -O3
 include platform/freestanding/tools.mk
 
@@ -18,14 +18,14 @@ ROOM_SRC     := $(addprefix platform/gamecube/,port_gamecube.c row_gamecube.c) p
 ROOM_IMAGE    = $(B)/room.dol
 ROOM_RUN      = PRESS='$(PRESS)' NM=$(CROSS_PREFIX)nm sh platform/gamecube/run.sh $(B)
 
-# Buttons as run.sh takes them.
+# Buttons, in the form of run.sh.
 PRESS        ?=
 
 $(B)/room.dol: $(B)/room
 	@$(CROSS_PREFIX)objcopy -O binary -j .header -j .text $< $@
 
 $(B)/room: platform/gamecube/start_gamecube.S
-# A loop in memset that the compiler turns into a call of memset would never end.
+# Without these flags the compiler would turn a loop in memset into a call of memset, which would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := GAMECUBE

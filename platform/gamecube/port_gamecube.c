@@ -1,7 +1,6 @@
-/* port_gamecube.c: what the room needs from a GameCube: memory, picture by the video interface, controller, clock,
- * text.
+/* port_gamecube.c: the room's port to the GameCube: memory, picture by the video interface, controller, clock, text.
  *
- * Own start-up code, no SDK. The picture is made by the processor alone, as YCbCr in RAM. */
+ * Own start-up code, no SDK. The processor draws the picture, as YCbCr in RAM. */
 #include "port_gamecube.h"
 
 #include "../consoles/consoles.h"
@@ -31,7 +30,7 @@ static void exi_write(uint32_t data, uint32_t how)
     while (EXI_CONTROL & 1u) {}
 }
 
-/* The serial line of development consoles, behind the chip with the clock: a line ends with a carriage return. */
+/* The serial line of development consoles, behind the clock chip: a line ends with a carriage return. */
 void port_put(const char *text)
 {
     for (; *text; ++text) {
@@ -100,7 +99,7 @@ void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, i
         gamecube_row(screens[hidden][y + row], rgb + row * width, width);
 }
 
-uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* of a format of 16 bits alone */
+uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* only for a format of 16 bits */
 
 /* Addresses in units of 32 bytes; they take effect with the next field. */
 void port_show_frame(void)
@@ -119,7 +118,7 @@ void port_show_frame(void)
 #define SI(n) (*reg(0xcc006400u + (n)))
 enum { SI_OUT = 0, SI_IN = 4, SI_POLL = 0x30, SI_STATUS = 0x38 };
 
-/* The serial interface asks the controller by itself, twice a field. */
+/* The serial interface polls the controller by itself, twice a field. */
 uint32_t port_buttons(void)
 {
     static const uint32_t bits[ROOM_BUTTONS] = {0x00010000, 0x00020000, 0x00080000, 0x00040000,

@@ -1,17 +1,17 @@
-/* row_gamecube.c: a row of the picture as the GameCube's video interface takes it, YCbCr 4:2:2 of 8 bits, by integers.
+/* row_gamecube.c: converts a row of the picture for the GameCube's video interface: YCbCr 4:2:2 of 8 bits, in integers.
  *
  *     Y  = ( 66 R + 129 G +  25 B +  16 * 256 + 128) / 256        of each pixel
  *     Cb = (-38 R -  74 G + 112 B + 128 * 256 + 128) / 256        of the mean of two pixels' R, G, B, each rounded down
  *     Cr = (112 R -  94 G -  18 B + 128 * 256 + 128) / 256        likewise
  *
- * which is ITU-R BT.601 with Y of 16 to 235. Y is made by products, of two pixels at once where a word holds both; Cb
- * and Cr come from tables, so that loads and products share the work. */
+ * This is ITU-R BT.601 with Y of 16 to 235. Y is computed by multiplication, for two pixels at once if a word holds
+ * both; Cb and Cr come from tables, which balances loads and products. */
 #include "port_gamecube.h"
 
 enum { LINE = 32 /* bytes of a line of the data cache */ };
 
 static struct {
-    uint32_t chroma[3][256]; /* Cb * 65536 + Cr: of the sum both are positive */
+    uint32_t chroma[3][256]; /* Cb * 65536 + Cr: both are positive in the sum */
     uint32_t is_made;
 } table;
 
@@ -24,14 +24,14 @@ static void make_tables(void)
     table.is_made = 1;
 }
 
-/* Addresses and masks in registers, which the compiler would else make anew each time. */
+/* Keeps addresses and masks in registers; the compiler would otherwise reload them each time. */
 typedef struct kept {
     const uint32_t *red, *green, *blue;
     uint32_t luma_half, luma_mask, chroma_mask, mean_mask;
 } kept;
 
-/* 256 Y of both, one in each half. Red times 66 and blue times 25 meet in a product's high half; below it there is blue
- * times 66 alone, which carries nothing. */
+/* 256 Y of both pixels, one in each half. Red times 66 and blue times 25 add up in a product's high half; the low half
+ * has only blue times 66, which never carries. */
 static inline uint32_t lumas(const kept *k, uint32_t a, uint32_t b)
 {
     const uint32_t red_blue = 25u << 16 | 66u, green = (a << 8 & 0xff0000u) | (b >> 8 & 255u);
@@ -59,12 +59,12 @@ void gamecube_row(uint32_t *out, const uint32_t *rgb, int32_t width)
     __asm__("" : "+r"(k.luma_half), "+r"(k.luma_mask), "+r"(k.chroma_mask), "+r"(k.mean_mask));
     for (const uint32_t *end = rgb + width; rgb < end;) {
         uint32_t *const line = out;
-        __asm__ volatile("dcbz 0, %0" : : "r"(line) : "memory"); /* the line is ours without being fetched */
-        /* Two words at a time: while one waits for its products the other goes on. */
+        __asm__ volatile("dcbz 0, %0" : : "r"(line) : "memory"); /* allocates the line without fetching it */
+        /* Two words at a time: one continues while the other waits for its products. */
         for (; out < line + LINE / 4; rgb += 4, out += 2) {
             const uint32_t first = two(&k, rgb[0], rgb[1]), second = two(&k, rgb[2], rgb[3]);
             out[0] = first, out[1] = second;
         }
-        __asm__ volatile("dcbf 0, %0" : : "r"(line) : "memory"); /* and goes to RAM, where it is shown from */
+        __asm__ volatile("dcbf 0, %0" : : "r"(line) : "memory"); /* writes the line to RAM, from which it is shown */
     }
 }

@@ -1,8 +1,8 @@
-# run.sh: the room's program in dolphin-emu without a window: run.sh BUILD_FOLDER IMAGE
+# run.sh: runs the room's program in dolphin-emu without a window: run.sh BUILD_FOLDER IMAGE
 #
-# Prints what the program says on its serial line, and writes it to room.txt. PRESS are buttons of dolphin's pipes for
-# after the path, such as "D_LEFT A": each is held in turn, then Start ends the program. room.ycbcr gets the screen, as it
-# lies in the console's RAM then: rows of Y, Cb, Y, Cr.
+# Prints the program's serial output, and writes it to room.txt. PRESS: buttons of dolphin's pipes for after the path,
+# such as "D_LEFT A": each is held in turn, then Start ends the program. room.ycbcr gets the screen as stored in the
+# console's RAM: rows of Y, Cb, Y, Cr.
 set -u
 here=$(cd "$1" && pwd)
 image=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")
@@ -58,14 +58,14 @@ log=$user/Logs/dolphin.log
 process=$!
 exec 3<>"$user/Pipes/pad"
 left=${ROOM_SECONDS:-600}
-# wait_for TEXT: in what the program says.
+# wait_for TEXT: waits until the program prints TEXT.
 wait_for() {
     until grep -qa "$1" "$log" 2>/dev/null || [ "$left" = 0 ]; do
         sleep 1
         left=$((left - 1))
     done
 }
-# count: lines of held buttons
+# count: number of lines about held buttons
 count() { grep -ca 'OSREPORT.*: held ' "$log"; }
 
 wait_for 'end of path'
@@ -81,7 +81,8 @@ done
 echo 'PRESS START' >&3
 wait_for 'left: '
 
-# The emulator's shared memory is the console's RAM, from its first byte on. What was shown last is not `hidden`.
+# The emulator's shared memory is the console's RAM, from the first byte on. The screen shown last is the
+# one that is not `hidden`.
 symbol() { "${NM:-nm}" "$here/room" | sed -n "s/^[89]\([0-9a-f]*\) . $1\$/0x\1/p"; }
 word() { tail -c +$(($1 + 1)) "$ram" | head -c 4 | od -An -v -tu1 | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'; }
 for ram in /proc/"$process"/fd/*; do

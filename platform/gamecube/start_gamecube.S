@@ -1,4 +1,4 @@
-/* start_gamecube.S: the way into main of a GameCube program. Its loader has set memory and address translation up. */
+/* start_gamecube.S: entry of a GameCube program. The loader has set memory and address translation up. */
     .section .start, "ax"
     .globl start
 start:
@@ -22,7 +22,7 @@ start:
     blt     1b
     lis     1, stack_top@ha
     addi    1, 1, stack_top@l
-    lis     3, stack_end@ha     /* the stack is painted, so that its depth can be told */
+    lis     3, stack_end@ha     /* paints the stack, to measure its depth */
     addi    3, 3, stack_end@l
     lis     4, 0x5a5a
     ori     4, 4, 0xa5a5

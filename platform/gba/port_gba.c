@@ -21,10 +21,10 @@ void port_put(const char *words) { text_block_put(&text, words); }
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-static uint32_t band[ROOM_DEPTH_BYTES(WIDTH, ROWS) / 4]; /* fast, as all that is not said to be elsewhere */
+static uint32_t band[ROOM_DEPTH_BYTES(WIDTH, ROWS) / 4]; /* in fast RAM, the default */
 static size_t taken;
 
-/* What the screen does not show yet lies in front of the room's memory. */
+/* The hidden screen is in front of the room's memory. */
 static uint16_t *hidden(void) { return (uint16_t *)(void *)ewram_end; }
 
 void *port_memory(size_t *bytes)

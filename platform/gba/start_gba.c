@@ -1,11 +1,12 @@
-/* start_gba.c: a Game Boy Advance cartridge: header, stacks, RAM as C wants it, main; then it stands still. */
+/* start_gba.c: a Game Boy Advance cartridge: header, stacks, initialisation of RAM for C,
+ * main; then an endless loop. */
 #include "gba.h"
 
 int main(void);
 void start(void);
 
-/* The header has no logo, which the machine's own ROM asks for: emulators and development cartridges start without it.
- * The byte at 0xbd makes the sum of 0xa0 .. 0xbd, with 0x19, a multiple of 256. */
+/* The header lacks the logo that the BIOS checks; emulators and development cartridges start without it. The byte at
+ * 0xbd makes the sum of 0xa0 .. 0xbd, plus 0x19, a multiple of 256. */
 __asm__(".section .vectors, \"ax\"\n"
         ".arm\n"
         ".globl reset\n"

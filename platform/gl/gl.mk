@@ -1,8 +1,8 @@
-# The library for programs that were written for OpenGL 1.x: make gl, make gl-check.
+# Builds the library for OpenGL 1.x programs: make gl, make gl-check.
 
 GL_OUT     := $(BUILD)/gl
 GL_SRC     := $(sort $(wildcard platform/gl/gl_*.c))
-# Of the library, what draw.h needs.
+# The modules that draw.h needs.
 GL_LIB     := $(wildcard src/base/*.c src/draw/*.c) src/raster/setup.c src/raster/target.c
 GL_OBJ     := $(patsubst %.c,$(GL_OUT)/obj/%.o,$(GL_SRC) $(GL_LIB))
 GL_NAMES   := $(addprefix $(GL_OUT)/,libOSMesa.so.8 libOSMesa.so libOpenGL.so.0 libGL.so.1)
@@ -29,7 +29,7 @@ $(GL_OUT)/libGL.a: $(GL_OBJ)
 	@$(AR) rcs $@ $^
 
 .PHONY: gl gl-check
-gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips those whose packages are missing
+gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips clients if packages are missing
 	@GL_CLIENTS='$(GL_CLIENTS)' CC='$(CC)' sh platform/gl/check/check.sh $(GL_OUT)
 
 -include $(GL_OBJ:.o=.d)

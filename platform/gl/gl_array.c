@@ -153,7 +153,7 @@ static float array_value(const uint8_t *p, GLenum type, int norm)
     }
 }
 
-/* Values of element i; those that an array lacks stay. */
+/* Reads the values of element i; values that an array lacks stay unchanged. */
 static void array_fetch(const gl_array *a, uint32_t i, int norm, float *out)
 {
     const size_t bytes = (size_t)array_bytes(a->type), each = bytes * (size_t)a->size;

@@ -136,7 +136,7 @@ void glEnd(void) { DO(end, U(0)); }
 
 /* --- parameters with one or more values --------------------------------------------------------------------------- */
 
-/* As many values as a parameter has. */
+/* Number of values of a parameter. */
 static int call_values(GLenum name)
 {
     switch (name) {
@@ -523,7 +523,7 @@ static int call_map_values(GLenum target)
     }
 MAPS(f, GLfloat) MAPS(d, GLdouble)
 
-/* --- colour indices: set, but nothing is drawn by them ------------------------------------------------------------ */
+/* --- colour indices: stored, but never drawn ---------------------------------------------------------------------- */
 
 #define INDEX(t, T) \
     void glIndex##t(T v) { (void)v; } \

@@ -18,21 +18,21 @@ enum {
     GL_UNITS = 4,
     GL_LIGHTS = 8,
     GL_CLIP_PLANES = LMB_DRAW_PLANES,
-    GL_BATCH = 4096, /* vertices that wait to be drawn; a multiple of 12 and 4 below it */
+    GL_BATCH = 4096, /* vertices in the batch; a multiple of 12, and 4 below it */
     GL_STACK = 32,   /* matrices of a stack */
     GL_ATTRIB_STACK = 16,
     GL_LEVELS = 13,
     GL_SIDE = 4096, /* px of a texture's side */
     GL_SIDE_3D = 512,
     GL_LIST_DEPTH = 64,
-    GL_MISSING = 64, /* looked-up names of calls that are not offered */
+    GL_MISSING = 64, /* names of missing calls that were looked up */
     GL_MAP_ORDER = 30,
     GL_NAMES = 64, /* of the selection stack */
     GL_PIXEL_MAP = 256,
     GL_TABLE = 1 << 14 /* objects of a kind */
 };
 #ifndef GL_HEAP_BYTES
-#define GL_HEAP_BYTES (sizeof(void *) > 4 ? (size_t)1 << 30 : (size_t)1 << 26) /* textures, lists and buffers */
+#define GL_HEAP_BYTES (sizeof(void *) > 4 ? (size_t)1 << 30 : (size_t)1 << 26) /* for textures, lists and buffers */
 #endif
 
 typedef union gl_word {
@@ -138,7 +138,7 @@ typedef struct gl_group {
     gl_table textures, lists, buffers, renderbuffers;
 } gl_group;
 
-/* --- attributes: what glPushAttrib saves, a struct for each of its bits ------------------------------------------- */
+/* --- attributes of glPushAttrib, one struct for each bit ---------------------------------------------------------- */
 
 typedef struct gl_vertex {
     float at[4], normal[3], fog, colour[4], second[3], edge, tex[GL_UNITS][4];
@@ -230,7 +230,7 @@ typedef struct gl_map {
     float *points;
 } gl_map;
 
-/* Where draws go. */
+/* The target of draws. */
 typedef struct gl_surface {
     int32_t width, height, stride; /* px */
     uint8_t *colour;               /* 4 bytes, R G B A or B G R A */
@@ -253,16 +253,16 @@ typedef struct gl_context {
     int32_t client_count;
     gl_group *group;
     int32_t owns_group, is_destroyed;
-    struct gl_context *owner; /* whose block has the group */
+    struct gl_context *owner; /* the context with the group in its block */
 
     GLenum error;
-    int32_t dirty; /* 1: draw.h's state has to be made again */
+    int32_t dirty; /* 1: draw.h's state is out of date */
     gl_matrices modelview, projection, texture[GL_UNITS];
     float normal_matrix[9], eye_scale;
     float mvp[16];
     int32_t matrices_dirty;
 
-    /* vertices that wait */
+    /* batched vertices */
     int32_t is_inside;  /* between glBegin and glEnd */
     GLenum primitive;
     int32_t count, made_count, first_kept, is_continued;
@@ -280,12 +280,12 @@ typedef struct gl_context {
     lmb_texture draw_texture;
     struct gl_shade *shade;
     int32_t shades;      /* 1: the shader colours */
-    int32_t draws;       /* 0: there is nothing to draw to */
-    int32_t is_side, side; /* lines and points of a polygon: which side of it shows */
+    int32_t draws;       /* 0: there is no target */
+    int32_t is_side, side; /* lines and points of a polygon: the visible side */
     uint32_t flat;
     float line_from[2];
     int32_t line_steep, begin_at, skips;
-    gl_texture *unit_texture[GL_UNITS]; /* that is sampled: enabled and complete; or NULL */
+    gl_texture *unit_texture[GL_UNITS]; /* the sampled texture: enabled and complete; or NULL */
     gl_image proxy[TARGETS];
     struct { const uint8_t *codes; int32_t width, height, kind; float x, y, zoom[2]; uint8_t colour[4]; } drawing;
     float row[GL_SIDE + 8][4];
@@ -327,11 +327,11 @@ typedef struct gl_context {
     GLenum format;
     int32_t depth_bits, stencil_bits, accum_bits, y_up, row_length;
     void *user;
-    uint8_t *own; /* where pixels of other formats are drawn */
+    uint8_t *own; /* buffer for pixels of other formats */
     void *depth_codes;
 } gl_context;
 
-/* The current context, or NULL. C99 has no word for threads' own objects; GCC and Clang have. */
+/* The current context, or NULL. C99 has no keyword for thread-local objects; GCC and Clang have one. */
 #ifndef GL_THREAD
 #define GL_THREAD __thread
 #endif
@@ -360,13 +360,13 @@ GL_OPERATIONS(GL_DECLARE_OP)
 
 /* Record, run or both; words: the operation's arguments. */
 void gl_do(gl_context *c, int op, const gl_word *w, int32_t words);
-/* The same with bytes that go with it: `data` is copied if it is recorded. The last two words are its pointer. */
+/* The same with bytes: `data` is copied if it is recorded. The last two words are the pointer. */
 void gl_do_data(gl_context *c, int op, gl_word *w, int32_t words, const void *data, size_t bytes);
 const void *gl_data_of(const gl_word *w);
 void gl_run_list(gl_context *c, GLuint name);
 void gl_list_free(gl_context *c, gl_list *list);
 
-/* --- what the parts share ----------------------------------------------------------------------------------------- */
+/* --- functions shared by the files -------------------------------------------------------------------------------- */
 
 void gl_error(gl_context *c, GLenum error);
 void gl_refuse(const char *name); /* a call that is not offered */
@@ -380,11 +380,11 @@ int gl_put(gl_context *c, gl_table *t, GLuint name, void *object);
 void gl_remove(gl_table *t, GLuint name);
 GLuint gl_new_names(gl_context *c, gl_table *t, int32_t count); /* the first of consecutive names; 0: none left */
 
-void gl_flush_vertices(gl_context *c); /* draw what waits */
-void gl_make_vertices(gl_context *c);  /* transform and light what waits, before a state changes */
+void gl_flush_vertices(gl_context *c); /* draws the batch */
+void gl_make_vertices(gl_context *c);  /* transforms and lights the batch, before a state changes */
 void gl_vertex_at(gl_context *c, const float at[4]);
 void gl_update_matrices(gl_context *c);
-void gl_set_draw(gl_context *c); /* draw.h's state of the context's */
+void gl_set_draw(gl_context *c); /* derives draw.h's state from the context's */
 int gl_draw_func(GLenum func);
 void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made);
 void gl_gen_vertex(gl_context *c, const gl_vertex *v, gl_made *made);
@@ -415,19 +415,19 @@ int gl_format_values(GLenum format);
 int gl_type_bytes(GLenum type);
 int gl_type_is_packed(GLenum type);
 GLenum gl_check_image(GLenum format, GLenum type); /* GL_NO_ERROR or the error */
-size_t gl_image_bytes(const gl_store *s, int w, int h, int d, GLenum format, GLenum type); /* that are read */
+size_t gl_image_bytes(const gl_store *s, int w, int h, int d, GLenum format, GLenum type); /* bytes read */
 /* 4 floats a pixel: R G B A; or depth, or stencil, in the first. */
 void gl_unpack(float *out, const gl_store *s, int w, int h, int d, int dims, GLenum format, GLenum type,
                const void *data);
 void gl_pack(void *data, const gl_store *s, int w, int h, int d, int dims, GLenum format, GLenum type,
              const float *from);
-/* Pixels of a program, or of what is read, after the transfer: 4 bytes each: R G B A, a float depth, or a stencil code
- * as float. In the heap; NULL and an error if there is no room. */
+/* Pixels from a program, or from the read buffer, after the transfer: 4 bytes each: R G B A, a float depth, or a
+ * stencil code as float. Allocated in the heap; NULL and an error if there is no room. */
 uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum format, GLenum type, const void *data);
 uint8_t *gl_copy_codes(gl_context *c, int32_t x, int32_t y, int32_t w, int32_t h, GLenum format);
 GLenum gl_base_format(GLenum internal);
 
-/* Rows of depths are whole tiles, as draw.h wants them. */
+/* Rows of depths are whole tiles, as draw.h requires. */
 static inline int32_t gl_depth_stride(int32_t width) { return (width + LMB_TILE - 1) / LMB_TILE * LMB_TILE; }
 static inline int gl_is_on(const gl_context *c, int cap) { return (int)(c->s.caps >> cap & 1u); }
 static inline uint8_t gl_code(float v)
@@ -444,7 +444,7 @@ static inline int32_t gl_int(float v)
 static inline int gl_unit_is_on(const gl_context *c, int unit) { return c->unit_texture[unit] != NULL; }
 static inline gl_texture *gl_unit_texture(const gl_context *c, int unit) { return c->unit_texture[unit]; }
 
-/* For calls that may not come between glBegin and glEnd: the context, or return. */
+/* For calls that are not allowed between glBegin and glEnd: defines the context, or returns. */
 #define GL_ENTER(result) \
     gl_context *c = gl_now; \
     if (c == NULL) return result; \

@@ -46,7 +46,7 @@ OP(map_grid)
     }
 }
 
-/* The point at t of a curve of n points, `stride` floats apart; its derivative if `by` is not NULL. */
+/* The point at t of a curve of n points, `stride` floats apart; also the derivative if `by` is not NULL. */
 static void eval_curve(float *out, float *by, const float *p, int n, int stride, int values, float t)
 {
     float q[GL_MAP_ORDER][4];

@@ -1,4 +1,4 @@
-/* gl_fragment.c: a pixel's colour where draw.h's own stages do not do: textures of all kinds, their environments,
+/* gl_fragment.c: a pixel's colour if draw.h's own stages are not enough: textures of all kinds, texture environments,
  * two sides, colour sums, fog and stipples. Values are 0 .. 1 until the end. */
 #include "gl_context.h"
 
@@ -38,7 +38,7 @@ static void fragment_fetch(float out[4], const gl_texture *t, const gl_image *m,
     }
 }
 
-/* A coordinate to texels of a side, before the floor. */
+/* Converts a coordinate to texels of a side, before rounding down. */
 static float fragment_place(float s, int32_t size, GLenum wrap)
 {
     const float n = (float)size;
@@ -128,7 +128,7 @@ static void fragment_level(float out[4], const gl_texture *t, const gl_image *m,
 
 /* --- which texels ------------------------------------------------------------------------------------------------- */
 
-/* The face that a direction meets, and the coordinates in that face. */
+/* The face that a direction hits, and the coordinates in that face. */
 static int fragment_cube_face(const float d[3])
 {
     const float x = absf(d[0]), y = absf(d[1]), z = absf(d[2]);
@@ -149,7 +149,7 @@ static void fragment_cube_place(float out[3], int face, const float d[3])
 /* A unit's coordinates at a pixel, and one pixel further in x and y. */
 typedef struct fragment_coords {
     float at[3], x[3], y[3];
-    float r; /* of shadows */
+    float r; /* for shadows */
     int face;
 } fragment_coords;
 
@@ -219,7 +219,7 @@ static void fragment_sample(float out[4], const gl_context *c, const gl_texture 
 
 /* --- environments ------------------------------------------------------------------------------------------------- */
 
-/* A unit's texel as its base format has it. */
+/* Adapts a unit's texel to the base format. */
 static GLenum fragment_base(const gl_texture *t)
 {
     const gl_image *m = &t->image[0][t->base_level];
@@ -294,7 +294,7 @@ static void fragment_combine(float c[4], const gl_unit *u, const float primary[4
     memcpy(c, out, sizeof out);
 }
 
-/* All units on a colour. */
+/* Applies all units to a colour. */
 static void fragment_texture(float colour[4], const gl_context *c, const fragment_coords u[GL_UNITS])
 {
     float texels[GL_UNITS][4], primary[4];
@@ -393,7 +393,7 @@ static void fragment_sprite(fragment_coords *u, const gl_context *c, const gl_ma
     u->face = 0;
 }
 
-/* Does a stipple leave the pixel out? */
+/* Returns whether a stipple leaves the pixel out. */
 static int fragment_is_out(const gl_context *c, int is_line, int is_area, int32_t x, int32_t y)
 {
     if (is_area && gl_is_on(c, CAP_POLYGON_STIPPLE)) {

@@ -1,7 +1,7 @@
-/* gl_get.c: what a context answers: glGet*, strings, parameters of lights, materials and textures. */
+/* gl_get.c: queries of a context: glGet*, strings, parameters of lights, materials and textures. */
 #include "gl_context.h"
 
-/* How a value becomes an integer: as it is, rounded, or from -1 .. 1 to all integers. */
+/* Conversion of a value to an integer: unchanged, rounded, or from -1 .. 1 to all integers. */
 enum { GET_WHOLE, GET_FLOAT, GET_COLOUR };
 typedef struct get_value {
     double v[16];

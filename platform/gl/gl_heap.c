@@ -1,10 +1,10 @@
 /* gl_heap.c: memory of textures, lists and buffers inside the context's block, and tables of names. */
 #include "gl_context.h"
 
-/* A block: its size, whether it is used, and the neighbour before it. Free blocks form a list. */
+/* A block: size, used or free, and the block before it. Free blocks form a list. */
 typedef struct gl_block {
-    size_t bytes, before; /* with this head; of the block before it, 0: it is the first */
-    struct gl_block *next, **link; /* link: what points to it; NULL: it is used */
+    size_t bytes, before; /* with this head; of the block before it, 0: first block */
+    struct gl_block *next, **link; /* link: the pointer to this block; NULL: used */
 } gl_block;
 enum { HEAP_ALIGN = 32, HEAP_HEAD = (sizeof(gl_block) + 31) / 32 * 32 };
 
@@ -44,7 +44,7 @@ static gl_block *heap_after(const gl_heap *h, gl_block *b)
     return at < h->top ? heap_block(h, at) : NULL;
 }
 
-/* Cut what is not needed off a block. */
+/* Splits the unused rest off a block. */
 static void heap_split(gl_heap *h, gl_block *b, size_t bytes)
 {
     gl_block *after = heap_after(h, b);
@@ -108,7 +108,7 @@ void gl_free(gl_context *c, void *p)
         }
     }
     after = heap_after(h, b);
-    if (after == NULL) { /* the last: the heap ends before it */
+    if (after == NULL) { /* the last block: the heap now ends before it */
         h->top = (size_t)((uint8_t *)b - h->start);
         c->group->heap_last = b->before;
         return;
@@ -161,7 +161,7 @@ void gl_remove(gl_table *t, GLuint name)
     }
     e->name = 0;
     --t->used;
-    /* Those behind it that were moved on come back. */
+    /* Moves back entries behind it that collided. */
     for (size_t at = (size_t)(e - t->entry + 1) % GL_TABLE; t->entry[at].name != 0; at = (at + 1) % GL_TABLE) {
         const gl_entry moved = t->entry[at];
         t->entry[at].name = 0;
@@ -175,7 +175,7 @@ GLuint gl_new_names(gl_context *c, gl_table *t, int32_t count)
     if (count <= 0) {
         return 0;
     }
-    if (t->last > 0xffffffffu - (GLuint)count) { /* names of programs' own choice reach the end: search */
+    if (t->last > 0xffffffffu - (GLuint)count) { /* names chosen by the program reach the end: search for a gap */
         first = 1;
         for (GLuint n = 0; n < (GLuint)count && first < 0xf0000000u; ++n) {
             if (gl_has(t, first + n)) {

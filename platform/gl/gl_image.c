@@ -71,7 +71,7 @@ GLenum gl_check_image(GLenum format, GLenum type)
     return format == GL_DEPTH_STENCIL_EXT ? GL_INVALID_OPERATION : GL_NO_ERROR;
 }
 
-/* Where rows and slices begin. */
+/* Start of rows and slices. */
 typedef struct image_layout {
     size_t row, slice, skip, pixel;
 } image_layout;

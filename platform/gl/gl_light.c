@@ -63,7 +63,7 @@ OP(light_model)
     }
 }
 
-/* The colours that a name changes. */
+/* The colours that the parameter name sets. */
 static void light_set_material(gl_material *m, GLenum name, const float v[4])
 {
     float *all[4] = {m->ambient, m->diffuse, m->specular, m->emission};
@@ -80,7 +80,7 @@ static void light_set_material(gl_material *m, GLenum name, const float v[4])
     }
 }
 
-/* It may come between glBegin and glEnd: what waits is lit before. */
+/* glMaterial may come between glBegin and glEnd, so the batch is lit first. */
 OP(material)
 {
     const GLenum face = w[0].u;
@@ -107,7 +107,7 @@ OP(material)
     }
 }
 
-/* The tracked colours of both sides become the current colour. */
+/* Tracked colours of both sides take the current colour. */
 static void light_track(gl_context *c, const float colour[4])
 {
     for (int i = 0; i < 2; ++i) {
@@ -158,7 +158,7 @@ static void light_normal(const gl_context *c, const float in[3], float out[3])
     }
 }
 
-/* What is the same for both sides of a vertex: the way to the light and how much of it arrives. */
+/* Shared by both sides of a vertex: direction to the light, and attenuation. */
 static float light_way(const gl_light *l, const float eye[4], float to[3])
 {
     float share = 1.0f;

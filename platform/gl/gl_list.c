@@ -1,11 +1,11 @@
-/* gl_list.c: operations run now or are recorded; display lists. */
+/* gl_list.c: runs or records operations; display lists. */
 #include "gl_context.h"
 
 #define LIST_ROW(name) gl_op_##name,
 static void (*const list_ops[OPS])(gl_context *, const gl_word *) = {GL_OPERATIONS(LIST_ROW)};
 
 enum { LIST_FIRST_WORDS = 128, LIST_NEXT_WORDS = 16384 };
-enum { LIST_POINTER = 1 << 30 /* of an operation's head: its last words are a pointer to data of the list's own */ };
+enum { LIST_POINTER = 1 << 30 /* flag of an operation: the last words are a pointer to data owned by the list */ };
 
 static void list_run(gl_context *c, int op, const gl_word *w)
 {
@@ -20,7 +20,7 @@ static void list_run(gl_context *c, int op, const gl_word *w)
     list_ops[op](c, w);
 }
 
-/* Room for words in the list that is compiled; NULL: the memory is full. */
+/* Returns room for words in the list being compiled; NULL: out of memory. */
 static gl_word *list_room(gl_context *c, int32_t words)
 {
     gl_chunk *k = c->list_chunk;

@@ -1,4 +1,4 @@
-/* gl_matrix.c: stacks of matrices, and the matrices that follow from them. */
+/* gl_matrix.c: stacks of matrices, and derived matrices. */
 #include "gl_context.h"
 
 void gl_matrix_times(float out[16], const float a[16], const float b[16])
@@ -18,7 +18,7 @@ void gl_matrix_point(float out[4], const float m[16], const float v[4])
     }
 }
 
-/* By elimination with the largest pivots; 0 if it has no inverse. */
+/* Gaussian elimination with pivoting; returns 0 if there is no inverse. */
 int gl_matrix_invert(float out[16], const float m[16])
 {
     double a[4][8];
@@ -104,7 +104,7 @@ void gl_op_pop_matrix(gl_context *c, const gl_word *w)
     c->matrices_dirty = 1;
 }
 
-/* The inverse transpose of the upper left 3x3, and 1 / the length of its third row's like. */
+/* The inverse transpose of the upper left 3x3, and 1 / length of the inverse's third row. */
 void gl_update_matrices(gl_context *c)
 {
     float inverse[16];
@@ -127,7 +127,7 @@ void gl_update_matrices(gl_context *c)
     c->eye_scale = square > 0.0f ? 1.0f / lmb_sqrt(square) : 1.0f;
 }
 
-/* The equation goes to eye space: times the inverse of the model-view matrix. */
+/* Transforms the equation to eye space by the inverse of the model-view matrix. */
 void gl_op_clip_plane(gl_context *c, const gl_word *w)
 {
     float inverse[16];

@@ -43,7 +43,7 @@ static const names_row names_rows[] = {OSMESA(OFFERED) {"OSMesaGetProcAddress", 
 #include "gl_names.inc"
 };
 
-/* Stand-ins for names that are not known: each prints the name that was looked up. */
+/* Stand-ins for unknown names: each prints the name that was looked up. */
 static void names_missing(int slot)
 {
     const char *name = gl_missing_name(slot);

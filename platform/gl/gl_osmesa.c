@@ -1,5 +1,5 @@
-/* gl_osmesa.c: contexts that draw into a program's memory. RGBA and BGRA in rows from the bottom are drawn there at
- * once; other formats are drawn into memory of the context, and copied when the program finishes or flushes. */
+/* gl_osmesa.c: contexts that draw into a program's memory. RGBA and BGRA with rows from the bottom are drawn there
+ * directly. Other formats are drawn into the context's memory, and copied when the program calls finish or flush. */
 #include <stdlib.h>
 
 #include "gl_context.h"
@@ -23,7 +23,7 @@ static int osmesa_format_is_known(GLenum f)
 
 static int osmesa_bytes(GLenum f) { return f == OSMESA_RGB || f == OSMESA_BGR ? 3 : f == OSMESA_RGB_565 ? 2 : 4; }
 
-/* One block: the context, its group unless another context shares one, and the heap. */
+/* One block: the context, the group unless another context shares one, and the heap. */
 static gl_context *osmesa_create(GLenum format, int depth, int stencil, int accum, gl_context *share)
 {
     const size_t head = (sizeof(gl_context) + OSMESA_ALIGN - 1) / OSMESA_ALIGN * OSMESA_ALIGN;
@@ -123,7 +123,7 @@ static void osmesa_free_window(gl_context *c)
 
 static int32_t osmesa_row(const gl_context *c) { return c->row_length > 0 ? c->row_length : c->window.width; }
 
-/* A place in the program's memory, of the window's row y. */
+/* Address of the window's row y in the program's memory. */
 static uint8_t *osmesa_user_row(const gl_context *c, int32_t y)
 {
     const int32_t row = c->y_up ? y : c->window.height - 1 - y;
@@ -177,7 +177,7 @@ static void osmesa_copy(gl_context *c, int out)
 
 void gl_window_out(gl_context *c) { osmesa_copy(c, 1); }
 
-/* Where the window's rows lie. */
+/* Sets the addresses of the window's rows. */
 void gl_set_window(gl_context *c)
 {
     gl_surface *s = &c->window;
@@ -327,7 +327,7 @@ void OSMesaGetIntegerv(GLint name, GLint *out)
     }
 }
 
-/* Whole numbers of 4 bytes, of 24 bits in the lower ones of 32, or 2 bytes for 16 bits; a copy. */
+/* Integers of 4 bytes, with 24-bit depth in the low bits of 32, or of 2 bytes for 16 bits; a copy. */
 GLboolean OSMesaGetDepthBuffer(OSMesaContext context, GLint *width, GLint *height, GLint *bytes, void **out)
 {
     gl_context *c = osmesa_of(context);

@@ -50,7 +50,7 @@ static void pixels_codes(gl_context *c, uint8_t *out, float (*row)[4], int n, GL
     }
 }
 
-/* Does the transfer leave colours as they are? */
+/* Returns whether the transfer leaves colours unchanged. */
 static int pixels_is_plain(const gl_context *c)
 {
     int plain = !c->s.pixel.map_colour;
@@ -60,7 +60,7 @@ static int pixels_is_plain(const gl_context *c)
     return plain;
 }
 
-/* A row of bytes R G B, R G B A or B G R A without going through floats. */
+/* Copies a row of bytes R G B, R G B A or B G R A without conversion to floats. */
 static void pixels_copy_bytes(uint8_t *to, const uint8_t *from, int n, GLenum format)
 {
     const int each = format == GL_RGB ? 3 : 4, red = format == GL_BGRA ? 2 : 0;
@@ -115,7 +115,7 @@ uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum form
     return out;
 }
 
-/* Row y of what is read, n pixels from x on; zeros outside. */
+/* Reads row y, n pixels from x on; zeros outside. */
 static void pixels_fetch(const gl_surface *s, float (*row)[4], int32_t x, int32_t y, int32_t n, int kind)
 {
     for (int32_t i = 0; i < n; ++i) {
@@ -519,7 +519,7 @@ static void pixels_set_drawing(gl_context *c, const uint8_t *codes, int32_t w, i
     c->drawing.zoom[1] = kind == PIXELS_BITS ? 1.0f : c->s.pixel.zoom[1];
 }
 
-/* Stencil codes go into the stencil, whole pixels of the zoomed image. */
+/* Stencil codes set whole pixels of the zoomed image. */
 static void pixels_draw_stencil(gl_context *c)
 {
     const gl_surface *s = &c->drawn;

@@ -1,4 +1,4 @@
-/* gl_select.c: selection and feedback: what primitives hit, instead of pixels. */
+/* gl_select.c: selection and feedback: records of primitives instead of pixels. */
 #include "gl_context.h"
 
 #define OP(name) void gl_op_##name(gl_context *c, const gl_word *w)
@@ -13,7 +13,7 @@ static void select_put(gl_context *c, GLuint v)
 
 static GLuint select_depth(float z) { return (GLuint)((double)gl_unit_range(z) * 4294967295.0); }
 
-/* A record of the names so far, if something was hit. */
+/* Writes a record of the current names if there was a hit. */
 static void select_record(gl_context *c)
 {
     if (!c->hit) {

@@ -1,4 +1,4 @@
-/* gl_state.c: plain state: what is enabled, functions, masks, and the stacks of attributes. */
+/* gl_state.c: plain state: capabilities, functions, masks, and the stacks of attributes. */
 #include "gl_context.h"
 
 #include <stddef.h>
@@ -56,7 +56,7 @@ static int state_cap(GLenum name)
                                                                          : -1;
 }
 
-/* A capability of the active texture unit: its bits and the bit; or NULL. */
+/* A capability of the active texture unit: a pointer to the bits, and the bit; or NULL. */
 static uint32_t *state_unit_cap(gl_context *c, GLenum name, uint32_t *bit)
 {
     gl_unit *u = &c->s.texture.unit[c->s.texture.active];
@@ -209,7 +209,8 @@ static GLenum state_check_buffer(const gl_context *c, GLenum b, int reads, const
     (void)c;
     switch (b) {
     case GL_FRONT: case GL_FRONT_LEFT: case GL_LEFT: return GL_NO_ERROR;
-    case GL_BACK: case GL_BACK_LEFT: return GL_NO_ERROR; /* programs made for windows name it: the one buffer */
+    case GL_BACK: case GL_BACK_LEFT: return GL_NO_ERROR; /* programs made for windows name the
+                                                          * back buffer: the one buffer */
     case GL_FRONT_AND_BACK: return reads ? GL_INVALID_ENUM : GL_NO_ERROR;
     case GL_NONE: return GL_NO_ERROR;
     case GL_RIGHT: case GL_FRONT_RIGHT: case GL_BACK_RIGHT: case GL_AUX0: case GL_AUX1: case GL_AUX2: case GL_AUX3:
@@ -441,7 +442,7 @@ static void state_pop_textures(gl_context *c, const gl_state *old, GLbitfield bi
         const gl_unit *from = &old->texture.unit[i];
         if ((bits & GL_TEXTURE_BIT) != 0) {
             gl_texture *bound[TARGETS];
-            for (int t = 0; t < TARGETS; ++t) { /* one may be deleted since */
+            for (int t = 0; t < TARGETS; ++t) { /* a texture may have been deleted since */
                 const gl_texture *was = from->bound[t];
                 bound[t] = was == &c->default_texture[t] ||
                                    gl_find(&c->group->textures, c->saved_names[c->saved_count][i][t]) == was

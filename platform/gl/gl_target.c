@@ -1,11 +1,11 @@
-/* gl_target.c: where draws go: the window's memory, or framebuffer objects; occlusion queries. */
+/* gl_target.c: targets of draws: the window's memory, or framebuffer objects; occlusion queries. */
 #include "gl_context.h"
 
 #define OP(name) void gl_op_##name(gl_context *c, const gl_word *w)
 
 /* --- surfaces ----------------------------------------------------------------------------------------------------- */
 
-/* The image of an attachment that is a texture, or NULL. */
+/* The image of a texture attachment, or NULL. */
 static gl_image *target_image(gl_context *c, const gl_attachment *a)
 {
     gl_texture *t = a->type == GL_TEXTURE ? gl_find(&c->group->textures, a->name) : NULL;
@@ -147,7 +147,7 @@ GENERATE(glGenFramebuffersEXT, &c->framebuffers)
 GENERATE(glGenRenderbuffersEXT, &c->group->renderbuffers)
 GENERATE(glGenQueries, &c->queries)
 
-/* The object of a name, made if it is new. */
+/* The object of a name, created if new. */
 static void *target_object(gl_context *c, gl_table *t, GLuint name, size_t bytes)
 {
     void *o = gl_find(t, name);

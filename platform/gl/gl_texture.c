@@ -228,7 +228,7 @@ GLenum gl_base_format(GLenum f)
                                                                         : 0;
 }
 
-/* A code as the base format keeps it. */
+/* Reduces a code to the base format. */
 static void texture_keep(uint8_t out[4], const uint8_t in[4], GLenum base)
 {
     const uint8_t r = in[0], a = in[3];
@@ -780,7 +780,7 @@ void glGetTexImage(GLenum target, GLint level, GLenum format, GLenum type, void 
                 }
                 if (m->base == GL_LUMINANCE || m->base == GL_LUMINANCE_ALPHA || m->base == GL_INTENSITY ||
                     m->base == GL_ALPHA) {
-                    v[1] = v[2] = 0.0f; /* they are read as red */
+                    v[1] = v[2] = 0.0f; /* read as red */
                     v[0] = m->base == GL_ALPHA ? 0.0f : v[0];
                     v[3] = m->base == GL_INTENSITY ? 1.0f : v[3];
                 }

@@ -1,6 +1,6 @@
-/* gl_vertex.c: vertices from glBegin to draw.h: they wait, are transformed and lit, and become primitives.
+/* gl_vertex.c: vertices from glBegin to draw.h: they are batched, transformed, lit and assembled into primitives.
  *
- * Independent primitives of several glBegin wait together until a state changes. */
+ * A batch may hold independent primitives of several glBegin, until a state changes. */
 #include "gl_context.h"
 
 #define OP(name) void gl_op_##name(gl_context *c, const gl_word *w)
@@ -27,7 +27,7 @@ OP(vertex)
     gl_vertex_at(c, at);
 }
 
-/* --- waiting ------------------------------------------------------------------------------------------------------ */
+/* --- batching ----------------------------------------------------------------------------------------------------- */
 
 static int vertex_is_apart(GLenum p) { return p == GL_POINTS || p == GL_LINES || p == GL_TRIANGLES || p == GL_QUADS; }
 
@@ -35,7 +35,7 @@ static int vertex_each(GLenum p) { return p == GL_POINTS ? 1 : p == GL_LINES ? 2
 
 OP(begin)
 {
-    if (c->is_inside) { /* arrays that come inside draw nothing */
+    if (c->is_inside) { /* arrays drawn between glBegin and glEnd draw nothing */
         gl_error(c, GL_INVALID_OPERATION);
         c->skips = w[1].u != 0;
         return;
@@ -54,7 +54,7 @@ OP(begin)
     c->begin_at = c->count;
 }
 
-/* Draw the full buffer, and keep those vertices that later ones join. */
+/* Draws the full batch, and keeps the vertices that later primitives share. */
 static void vertex_turn_over(gl_context *c)
 {
     const GLenum p = c->primitive;
@@ -162,7 +162,7 @@ void gl_make_vertices(gl_context *c)
 
 /* --- primitives --------------------------------------------------------------------------------------------------- */
 
-/* What is drawn of vertices i .. : order, and whether each edge is the polygon's own. */
+/* Draws vertices i ..: their order, and whether each edge is an edge of the polygon. */
 typedef void (*vertex_sink)(gl_context *c, const uint32_t *at, int n, const int *edges);
 
 static void vertex_draw_list(gl_context *c, const uint32_t *index, uint32_t count, int primitive)
@@ -182,7 +182,7 @@ static void vertex_draw_list(gl_context *c, const uint32_t *index, uint32_t coun
     }
 }
 
-/* A line, with its stipple going on from the line before if it joins. */
+/* Draws a line; if it continues the line before, so does the stipple. */
 static void vertex_line(gl_context *c, uint32_t a, uint32_t b)
 {
     const uint32_t at[2] = {a, b};
@@ -218,7 +218,8 @@ static void vertex_point(gl_context *c, uint32_t at)
     vertex_draw_list(c, &at, 1, LMB_DRAW_POINTS);
 }
 
-/* Twice the area of a polygon in the window, by homogeneous coordinates: its sign holds if some w are negative. */
+/* Twice the area of a polygon in the window, in homogeneous coordinates: the sign is right
+ * even if some w are negative. */
 static double vertex_area(const gl_context *c, const uint32_t *at, int n)
 {
     double area = 0.0;
@@ -231,7 +232,7 @@ static double vertex_area(const gl_context *c, const uint32_t *at, int n)
     return area;
 }
 
-/* A polygon whose sides may be drawn as lines or points. */
+/* A polygon, drawn filled, or as lines or points. */
 static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *edges)
 {
     const double area = vertex_area(c, at, n);
@@ -283,7 +284,7 @@ static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *
     c->draw = kept;
 }
 
-/* With GL_FLAT the colour is one vertex's: it is written to all, or named to the shader. */
+/* With GL_FLAT all vertices get the colour of one: by copying, or as an index for the shader. */
 static void vertex_set_flat(gl_context *c, uint32_t provoking) { c->flat = provoking; }
 
 static void vertex_polygon_flat(gl_context *c, const uint32_t *at, int n, uint32_t flat)
@@ -345,7 +346,7 @@ static void vertex_whole_polygon(gl_context *c, uint32_t n)
     vertex_polygon(c, at, (int)n, c->edges);
 }
 
-/* One by one: modes other than fill, lines, points, selection, feedback. */
+/* Draws one by one: modes other than fill, lines, points, selection, feedback. */
 static void vertex_each_primitive(gl_context *c)
 {
     const uint32_t n = (uint32_t)c->count;
@@ -403,7 +404,7 @@ static void vertex_each_primitive(gl_context *c)
     }
 }
 
-/* Filled ones in one call. */
+/* Draws filled primitives in one call. */
 static int vertex_areas(gl_context *c)
 {
     static const int modes[10] = {-1, -1, -1, -1, LMB_DRAW_TRIANGLES, LMB_DRAW_TRIANGLE_STRIP, LMB_DRAW_TRIANGLE_FAN,
@@ -537,7 +538,7 @@ static void vertex_set_target(gl_context *c)
 static void vertex_set_to_clip(gl_context *c)
 {
     const float *p = c->projection.m[c->projection.top];
-    for (int k = 0; k < 4; ++k) { /* rows of memory go up; z from -w .. w to 0 .. w */
+    for (int k = 0; k < 4; ++k) { /* memory rows go up; z from -w .. w to 0 .. w */
         c->draw.to_clip.m[4 * k] = p[4 * k];
         c->draw.to_clip.m[4 * k + 1] = -p[4 * k + 1];
         c->draw.to_clip.m[4 * k + 2] = 0.5f * (p[4 * k + 2] + p[4 * k + 3]);
@@ -589,7 +590,7 @@ static void vertex_set_tests(gl_context *c, lmb_draw_state *d)
 
 int gl_draw_func(GLenum f) { return (int)(f - GL_NEVER); }
 
-/* draw.h's own stage does: no shader. */
+/* Returns whether draw.h's own stage is enough, without a shader. */
 static int vertex_is_plain(gl_context *c)
 {
     const gl_state *s = &c->s;

@@ -1,4 +1,4 @@
-/* count.c: instructions by Linux's performance events; elsewhere there are none. */
+/* count.c: counts instructions by Linux's performance events; elsewhere returns 0. */
 #ifdef __linux__
 #define _GNU_SOURCE /* syscall */
 #endif
@@ -20,7 +20,7 @@ double count_stop(void) { return 0.0; }
 
 static int counter = -1;
 
-/* Threads that begin later are counted too, once they have ended. */
+/* Threads that begin later are counted too, but only after they ended. */
 static int open_counter(void)
 {
     struct perf_event_attr what;

@@ -1,10 +1,10 @@
-/* count.h: instructions that this program takes, where the system counts them for programs: Linux, if it is allowed
- * (kernel.perf_event_paranoid under 3) and the processor, or what plays it, has counters. */
+/* count.h: counts the instructions of this program if the system can: on Linux, if it is allowed
+ * (kernel.perf_event_paranoid under 3) and the processor, or its emulator, has counters. */
 #ifndef COUNT_H
 #define COUNT_H
 
-/* count_start: 1, or 0 where nothing is counted. count_stop: instructions of all threads since then outside the
- * system; 0 where nothing was. */
+/* count_start: returns 1, or 0 if counting is not possible. count_stop: returns instructions of all threads since then
+ * in user mode; 0 if nothing was counted. */
 int count_start(void);
 double count_stop(void);
 

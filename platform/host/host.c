@@ -1,4 +1,4 @@
-/* host.c: the clock, the terminal and the file limit of a desktop: POSIX, Windows, or plain C. */
+/* host.c: clock, terminal and file limit of a desktop: POSIX, Windows, or plain C. */
 #if !defined(_WIN32)
 #define _XOPEN_SOURCE 600 /* clock_gettime, isatty, mkdir, SIGXFSZ, sigaction */
 #endif
@@ -19,7 +19,7 @@ static int make_folder(const char *path) { return _mkdir(path); }
 static int is_separator(char c) { return c == '/' || c == '\\'; }
 double host_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 static double seconds_of(FILETIME t) { return 1e-7 * ((double)t.dwHighDateTime * 4294967296.0 + (double)t.dwLowDateTime); }
-double host_cpu_seconds(void) /* clock() is the time of day there */
+double host_cpu_seconds(void) /* clock() returns the time of day there */
 {
     FILETIME from, to, system, user;
     return GetProcessTimes(GetCurrentProcess(), &from, &to, &system, &user) ? seconds_of(system) + seconds_of(user)
@@ -50,7 +50,7 @@ void host_sleep(double seconds)
     struct timespec t;
     t.tv_sec = (time_t)seconds;
     t.tv_nsec = (long)(1e9 * (seconds - (double)t.tv_sec));
-    nanosleep(&t, NULL); /* a signal may end it sooner */
+    nanosleep(&t, NULL); /* a signal may end the sleep early */
 }
 int host_watched(void) { return isatty(STDERR_FILENO); }
 #endif
@@ -76,13 +76,13 @@ static void (*clean_up)(void);
 void host_take_streams(void)
 {
     for (int i = 0; i < 3; ++i) {
-        if (fcntl(i, F_GETFD) == -1 && errno == EBADF) { /* the lowest number that is free is this one */
+        if (fcntl(i, F_GETFD) == -1 && errno == EBADF) { /* open returns the lowest free number, this one */
             (void)!open("/dev/null", i == 0 ? O_WRONLY : O_RDONLY);
         }
     }
 }
 
-/* The signal waits until its handler has returned; then it ends the program, as none handles it any more. */
+/* The signal is pending until the handler returns; then it ends the program, because it has no handler any more. */
 static void end(int number)
 {
     clean_up();
@@ -117,7 +117,7 @@ void host_hold_signals(int is_held)
 void host_wipe_line(void) { (void)!write(STDERR_FILENO, blank_line, sizeof blank_line - 1); }
 #endif
 
-/* Linux's list of processors: `model name : NAME` once for each. */
+/* Reads Linux's list of processors: `model name : NAME` once for each. */
 void host_processor(char *out, int size)
 {
     char line[256];

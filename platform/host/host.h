@@ -1,40 +1,40 @@
-/* host.h: what the tool asks of a desktop's operating system beyond C99: a clock, whether someone is watching, to be
- * told of a full disk instead of being ended by it, and to clean up where a signal ends it. */
+/* host.h: services of a desktop's operating system that the tool needs beyond C99: a clock, terminal detection, an
+ * error instead of a signal if a file grows too large, and clean-up when a signal ends the tool. */
 #ifndef HOST_H
 #define HOST_H
 
-/* Seconds since some start, steadily rising. */
+/* Seconds from some start, never decreasing. */
 double host_seconds(void);
 
-/* Seconds of processor time that the whole program took. */
+/* Seconds of processor time of the whole program. */
 double host_cpu_seconds(void);
 
-/* host_sleep: let others run for about so long, s. */
+/* host_sleep: yields to other programs for about this time, s. */
 void host_sleep(double seconds);
 
-/* Is stderr a terminal? */
+/* Returns whether stderr is a terminal. */
 int host_watched(void);
 
-/* The processor's name, as the system tells it; "" where it does not. */
+/* The processor's name from the system, or "". */
 void host_processor(char *out, int size);
 
-/* host_make_folders: the folders of a path, up to its last separator, as far as they are not there. What fails shows
- * when a file is to be written there. */
+/* host_make_folders: creates the missing folders of a path, up to the last separator. It reports no errors:
+ * writing the file will fail. */
 void host_make_folders(const char *path);
 
-/* host_take_streams: standard streams that are closed get a file that can be neither read nor written, so that no file
- * takes their number and gets what is printed. */
+/* host_take_streams: opens closed standard streams on a file that can be neither read nor written, so that no other
+ * file gets their numbers and receives printed text. */
 void host_take_streams(void);
 
-/* host_end_cleanly: INT, TERM and HUP, where they are not ignored, call `clean` first, which may do no more than a
- * signal handler may; then they end the program as they always do. host_hold_signals: they wait while it is held. */
+/* host_end_cleanly: INT, TERM and HUP, unless ignored, first call `clean`, which may only do what a signal handler may;
+ * then they end the program as usual. host_hold_signals: delays these signals while held. */
 void host_end_cleanly(void (*clean)(void));
 void host_hold_signals(int is_held);
 
-/* host_wipe_line: blanks over the line that stderr's terminal stands at; in a signal handler, too. */
+/* host_wipe_line: overwrites the current line of stderr's terminal with blanks; safe in a signal handler. */
 void host_wipe_line(void);
 
-/* From now on a file that grows beyond the user's limit is a failed write, no longer the program's end. */
+/* From now on, exceeding the user's limit on file sizes is a failed write and does not end the program. */
 void host_outlive_file_limit(void);
 
 #endif

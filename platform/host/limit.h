@@ -10,7 +10,7 @@ int limit_time(double seconds, void (*over)(void));
  * interrupted, such as creating, writing and renaming a file. Do not nest holds. */
 void limit_hold(int is_held);
 
-/* limit_end: the program has done its work; from here on the limit no longer ends it. */
+/* limit_end: the program has finished; from now on the limit no longer ends it. */
 void limit_end(void);
 
 /* limit_tell: writes a line to stderr without the buffers that other threads may hold. */

@@ -1,4 +1,4 @@
-/* pool.c: threads that live as long as one pool_run: POSIX's or Windows's. */
+/* pool.c: threads that live during one pool_run: POSIX's or Windows's. */
 #if defined(_WIN32)
 #undef _WIN32_WINNT
 #define _WIN32_WINNT 0x0600 /* SRWLOCK: Windows Vista */
@@ -13,7 +13,7 @@
 typedef struct worker worker;
 static void work(worker *w);
 
-/* --- what the systems call it: a lock, a thread, how many processors ---------------------------------------------- */
+/* --- names of the systems: a lock, a thread, number of processors ------------------------------------------------- */
 
 #if defined(_WIN32)
 
@@ -33,7 +33,7 @@ static unsigned __stdcall begin(void *argument)
     return 0;
 }
 
-/* The C library's, which gives the thread its own errno. */
+/* Uses the C library's call, which gives the thread its own errno. */
 static int start(thread *out, worker *w)
 {
     *out = (HANDLE)_beginthreadex(NULL, 0, begin, w, 0, NULL);
@@ -92,15 +92,16 @@ static long processors(void)
 
 typedef struct pool {
     lock next_lock;
-    int next, count; /* parts that nobody has taken: next .. count - 1 */
-    int first, done; /* parts of the first stage; those of them that are done */
+    int next, count; /* next .. count - 1 are the free parts */
+    int first, done; /* parts of the first stage; number of those done */
     pool_job job;
     void *user;
 } pool;
 
 struct worker {
     pool *shared;
-    int number; /* and its first part: by no lock, which would hide from a race detector what two parts both touch */
+    int number; /* and the first part: without a lock, which would hide shared accesses of two
+                 * parts from a race detector */
     thread own;
 };
 
@@ -127,7 +128,8 @@ static void note_done(pool *p)
     let_go(&p->next_lock);
 }
 
-/* Until others have done what they took of the first stage: a part each, or more where threads could not be started. */
+/* Waits until other threads finished their parts of the first stage: one part each, or more if
+ * threads could not be started. */
 static void await_first(pool *p)
 {
     for (int done = 0; !done;) {

@@ -1,6 +1,6 @@
-/* port_room.c: room_port.h on a machine with libc: frames of any size, as ROOM_SIZE of the build says. The folder
- * ROOM_PICTURES gets them as pictures, with ROOM_COLOURS=555 as a screen of 5 bits a colour shows them. After the path
- * it draws a frame for each number of ROOM_HELD, the buttons that are held. */
+/* port_room.c: room_port.h on a machine with libc: frames of any size, set by the build's ROOM_SIZE. If you set
+ * ROOM_PICTURES, the folder gets the frames as pictures, with ROOM_COLOURS=555 in 5 bits a colour. After the path it
+ * draws a frame for each number of ROOM_HELD, which are held buttons. */
 #include "../demo/room_port.h"
 
 #include <stdio.h>
@@ -59,12 +59,12 @@ void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, i
     }
 }
 
-uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* of a format of 16 bits alone */
+uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* only for a format of 16 bits */
 
 void port_show_frame(void)
 {
     static int frame;
-    const char *folder = getenv("ROOM_PICTURES"); /* gets frame_00.ppm and on */
+    const char *folder = getenv("ROOM_PICTURES"); /* for frame_00.ppm and on */
     char name[512];
     if (folder == NULL || snprintf(name, sizeof name, "%s/frame_%02d.ppm", folder, frame++) >= (int)sizeof name)
         return;

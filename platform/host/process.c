@@ -1,4 +1,4 @@
-/* process.c: copies of this program by fork, told and heard through pipes; elsewhere there are none. */
+/* process.c: copies of this program by fork, controlled through pipes; not available elsewhere. */
 #if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
 #define _XOPEN_SOURCE 700 /* fork, pipe */
 #endif
@@ -27,7 +27,7 @@ void process_end(const process *p) { (void)p; }
 
 enum { STOP = 0, GO = 1 };
 
-/* The copy's life. A word ends it: its pipe may live on in a later copy. */
+/* Main loop of the copy. A word ends it, because a later copy may keep the pipe open. */
 static void serve(int go, int done, process_job job, void *user)
 {
     char word = GO;

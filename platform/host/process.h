@@ -1,8 +1,8 @@
-/* process.h: other processes that do the same job again and again, to compare threads with. */
+/* process.h: other processes that repeat the same job, for comparison with threads. */
 #ifndef PROCESS_H
 #define PROCESS_H
 
-/* A copy of this program as it was at process_start, with memory of its own; it waits to be told. */
+/* A copy of this program at process_start, with its own memory; it waits for process_go. */
 typedef struct process {
     int go, done; /* ends of pipes */
     int id;
@@ -10,15 +10,15 @@ typedef struct process {
 
 typedef void (*process_job)(void *user);
 
-/* process_start: 1, or 0 where the system has no copies of programs or refuses one. `job` has run once when it
- * returns, so that the copy's memory is its own. */
+/* process_start: returns 1, or 0 if the system cannot copy programs or refuses to. The copy has run `job` once before
+ * the call returns, so that its memory is its own. */
 int process_start(process *out, process_job job, void *user);
 
-/* process_go: let it do its job once; process_wait: until it has. 1, or 0 where it is no longer there. */
+/* process_go: starts the job once; process_wait: waits for the end. Return 1, or 0 if the copy no longer exists. */
 int process_go(const process *p);
 int process_wait(const process *p);
 
-/* process_end: it goes away. */
+/* process_end: ends the copy. */
 void process_end(const process *p);
 
 #endif

@@ -1,4 +1,4 @@
-/* programs.c: a folder's programs by fork and exec, heard through a pipe; elsewhere none are found. */
+/* programs.c: runs a folder's programs by fork and exec and reads their output through a pipe; elsewhere finds none. */
 #if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
 #define _XOPEN_SOURCE 700 /* fork, pipe, opendir, setenv */
 #endif
@@ -41,7 +41,7 @@ void program_tell(const char *name, const char *value)
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { NOT_FOUND = 127 }; /* what a copy ends with that could not become the program */
+enum { NOT_FOUND = 127 }; /* exit status of a copy that could not run the program */
 
 static int may_run(const char *folder, const char *name)
 {
@@ -51,7 +51,7 @@ static int may_run(const char *folder, const char *name)
     return n > 0 && (size_t)n < sizeof path && stat(path, &s) == 0 && S_ISREG(s.st_mode) && access(path, X_OK) == 0;
 }
 
-/* Names that need no quotes anywhere. */
+/* Names that never need quotes. */
 static int is_plain(const char *name)
 {
     const size_t n = strlen(name);
@@ -59,7 +59,7 @@ static int is_plain(const char *name)
            strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.+-_") == n;
 }
 
-/* In its place; one too many pushes the last out. */
+/* Inserts in order; if the list is full, drops the last. */
 static void insert(programs *p, const char *name)
 {
     int at = p->count;
@@ -90,7 +90,7 @@ int programs_find(programs *out, const char *folder)
     return 1;
 }
 
-/* What does not fit is read all the same, so that the program is not ended by a full pipe. */
+/* Also reads output that does not fit, so that a full pipe does not block the program. */
 static void hear(int from, char *printed, size_t size)
 {
     char rest[256];

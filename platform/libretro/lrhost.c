@@ -1,4 +1,4 @@
-/* lrhost.c: runs a program in a libretro core without a window: presses buttons, prints what the program says
+/* lrhost.c: runs a program in a libretro core without a window: presses buttons, prints the program's text
  * (text_block.h) and writes the screen as a picture. Struct layouts and numbers are libretro's ABI, version 1. */
 #define _GNU_SOURCE /* dl_iterate_phdr */
 #include <dlfcn.h>
@@ -23,7 +23,7 @@ static const char usage[] =
     "--bits N keeps the upper N bits of each colour and repeats them below. --option sets a variable of the core.\n"
     "--log prints the core's log to stderr. Exit: 0 done, 1 failed, 2 bad usage.\n";
 
-/* --- what is asked for -------------------------------------------------------------------------------------------- */
+/* --- options ------------------------------------------------------------------------------------------------------ */
 
 enum { PRESSES = 64, OPTIONS = 32 };
 
@@ -206,7 +206,7 @@ static struct {
 static struct {
     const void *data;
     size_t bytes;
-} writable[32]; /* memory that the core tells by itself */
+} writable[32]; /* memory reported by the core */
 static int writable_count;
 
 static void keep_pieces(const memory_map *map)
@@ -221,9 +221,9 @@ static void keep_pieces(const memory_map *map)
     }
 }
 
-static FILE *words_out; /* the program's words; standard output is the core's, as its log */
+static FILE *words_out; /* the program's text; the core's log uses standard output */
 
-static long frame = -1; /* -1: --until's text was not said yet */
+static long frame = -1; /* -1: the text of --until was not printed yet */
 
 static void on_log(int level, const char *format, ...)
 {
@@ -340,7 +340,7 @@ static int open_core(void)
 
 static int open_rom(void)
 {
-    static game_info game; /* cores may keep its memory */
+    static game_info game; /* cores may keep a pointer to it */
     static double timing[16];
     FILE *file = fopen(asked.rom, "rb");
     long size = -1;
@@ -358,11 +358,11 @@ static int open_rom(void)
     if (!core.retro_load_game(&game))
         return failed(asked.rom, "the core refuses it; --log may say why");
     core.retro_get_system_av_info(timing);
-    core.retro_set_controller_port_device(0, JOYPAD); /* else some cores have nothing plugged in */
+    core.retro_set_controller_port_device(0, JOYPAD); /* otherwise some cores have no controller */
     return 0;
 }
 
-/* --- what the program says ---------------------------------------------------------------------------------------- */
+/* --- the program's text ------------------------------------------------------------------------------------------- */
 
 static const text_block *block_within(const char *memory, size_t bytes)
 {
@@ -375,7 +375,7 @@ static const text_block *block_within(const char *memory, size_t bytes)
 }
 
 
-/* The writable data of the core, where one that shows no memory has it. */
+/* Searches the writable data of the core, if the core exposes no memory. */
 static int search_core(struct dl_phdr_info *library, size_t bytes, void *found)
 {
     (void)bytes;
@@ -390,7 +390,7 @@ static int search_core(struct dl_phdr_info *library, size_t bytes, void *found)
     return 1;
 }
 
-/* Stays where it is once it is found; looking for it takes a while. */
+/* Caches the address, because the search is slow. */
 static const text_block *find_block(void)
 {
     enum { SYSTEM_RAM = 2, SELDOM = 10 };
@@ -407,7 +407,7 @@ static const text_block *find_block(void)
     return found;
 }
 
-/* Prints what is new. 1: --until's text is among all that was said. */
+/* Prints new text. Returns 1 if the whole text contains that of --until. */
 static bool listen(void)
 {
     static char said[TEXT_BYTES + 1];
@@ -496,7 +496,7 @@ static int run(void)
     return asked.picture ? write_picture() : 0;
 }
 
-/* Cores write to standard output: that goes to stderr with --log, and nowhere without. */
+/* Cores write to standard output: redirects that to stderr with --log, and discards it otherwise. */
 static int keep_output(void)
 {
     const int own = dup(STDOUT_FILENO);

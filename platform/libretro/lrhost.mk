@@ -1,6 +1,6 @@
-# lrhost.mk: the program that runs libretro cores without a window, for ports whose emulator is one.
-#   LRHOST         made for the machine that builds
-#   $(call core_of,NAME)  where Debian keeps the core NAME
+# lrhost.mk: the program that runs libretro cores without a window, for ports that use such an emulator.
+#   LRHOST         built for the host
+#   $(call core_of,NAME)  Debian's path of the core NAME
 LRHOST  := $(BUILD)/lrhost
 HOST_CC ?= cc
 core_of  = $(firstword $(wildcard /usr/lib/*/libretro/$(1)_libretro.so) $(1)_libretro.so)

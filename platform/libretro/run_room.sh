@@ -1,8 +1,8 @@
-# run_room.sh: the room on a console of lrhost, then what it costs by qemu_stages.c: run_room.sh IMAGE
+# run_room.sh: runs the room on a console in lrhost, then measures the cost by qemu_stages.c: run_room.sh IMAGE
 #
-# LRHOST, CORE, SCREEN: lrhost's options for the core; B: where room and room.ppm are; PRESS: buttons as lrhost takes
-# them; PLUGIN, MODEL: of qemu_stages.c; BEGIN: the symbol where qemu begins; CROSS: the toolchain's prefix; WITHOUT:
-# lines that are left out of what the console says.
+# LRHOST, CORE, SCREEN: lrhost's options for the core; B: folder of room and room.ppm; PRESS: buttons in lrhost's form;
+# PLUGIN, MODEL: of qemu_stages.c; BEGIN: the symbol at which qemu starts; CROSS: the toolchain's prefix; WITHOUT: lines
+# to remove from the console's output.
 image=$1
 set --
 for press in $PRESS; do
@@ -11,7 +11,7 @@ done
 "$LRHOST" "$CORE" "$image" $SCREEN --system "$B" --until 'end of path' -o "$B/room.ppm" "$@" > "$B/room.txt" || exit 1
 grep -v "$WITHOUT" "$B/room.txt"
 
-# Where all addresses are RAM: the first 256 MiB of this board.
+# A board with RAM at all addresses: the first 256 MiB.
 sh tests/scripts/tools.sh need qemu-system-arm || exit 0
 at=$("${CROSS}nm" "$B/room" | sed -n "s/ . $BEGIN\$//p")
 "${CROSS}objcopy" --set-start="0x$at" "$B/room" "$B/room.elf" &&

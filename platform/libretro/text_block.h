@@ -1,5 +1,5 @@
-/* text_block.h: how a program on a console says something to lrhost: a block in its main memory that begins with eight
- * marks, then the number of bytes, then these. lrhost looks for the marks; all words are little-endian. */
+/* text_block.h: how a program on a console sends text to lrhost: a block in main memory that begins with eight marks,
+ * followed by the number of bytes and the bytes. lrhost searches for the marks; all words are little-endian. */
 #ifndef TEXT_BLOCK_H
 #define TEXT_BLOCK_H
 
@@ -15,7 +15,7 @@ typedef struct text_block {
     volatile char text[TEXT_BYTES];
 } text_block;
 
-/* In RAM, not in ROM: the marks are there once. */
+/* In RAM, not in ROM, so that the marks occur once. */
 #define TEXT_BLOCK                                                                                              \
     {                                                                                                           \
         {TEXT_MARK(0), TEXT_MARK(1), TEXT_MARK(2), TEXT_MARK(3), TEXT_MARK(4), TEXT_MARK(5), TEXT_MARK(6),      \
@@ -23,7 +23,7 @@ typedef struct text_block {
             0, { 0 }                                                                                            \
     }
 
-/* What does not fit is left out. */
+/* Drops text that does not fit. */
 static inline void text_block_put(text_block *block, const char *text)
 {
     for (uint32_t at = block->bytes; *text && at < TEXT_BYTES; block->bytes = ++at)

@@ -1,4 +1,4 @@
-# linux-fb: the room on /dev/fb0 of a Linux without a window system. Its test draws into a file in the device's place.
+# linux-fb: the room on /dev/fb0 of a Linux without a window system. The test draws into a file instead of the device.
 PORT_SRC    := platform/host/port_host.c
 PORT_LDLIBS := -lm
 RUN         :=

@@ -1,8 +1,8 @@
-/* port_linux_fb.c: the room on Linux's framebuffer device, without a window system: 16 or 32 bits a pixel, in the
- * middle of the screen.
+/* port_linux_fb.c: the room on Linux's framebuffer device, without a window system: 16 or 32 bits a pixel, in
+ * the middle of the screen.
  *
- * Environment: FB_DEVICE, /dev/fb0 where it is not set; FB_FILE in its place: a plain file of FB_SIZE, "320x240x16" (or
- * x32), that stands for the screen's memory; FB_SECONDS: how long the last picture stays after the path. */
+ * Environment: FB_DEVICE (default /dev/fb0); FB_FILE replaces it by a plain file of FB_SIZE, "320x240x16" (or x32), for
+ * the screen's memory; FB_SECONDS: how long the last picture stays after the path. */
 #define _XOPEN_SOURCE 700 /* clock_gettime, ftruncate */
 #include <fcntl.h>
 #include <linux/fb.h>
@@ -99,7 +99,7 @@ uint32_t port_clock(void)
     return (uint32_t)((uint64_t)t.tv_sec * 1000000u + (uint64_t)t.tv_nsec / 1000u);
 }
 
-/* 16 bits: by room_rgb565 where the screen has that format. Else each colour's upper bits. */
+/* 16 bits: room_rgb565 if the screen has that format. Otherwise the upper bits of each colour. */
 static void put_row(unsigned char *to, const uint32_t *rgb, int32_t width, int32_t y)
 {
     if (screen.bits == 16 && screen.red.offset == 11 && screen.green.offset == 5 && screen.green.length == 6) {
@@ -126,11 +126,11 @@ void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, i
                 width, y + i);
 }
 
-uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* of a format of 16 bits alone */
+uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* only for a format of 16 bits */
 
 void port_show_frame(void) {}
 
-/* No keyboard is read. Nobody holds anything while FB_SECONDS last. */
+/* No keyboard is read, so no button is held during FB_SECONDS. */
 uint32_t port_buttons(void)
 {
     static time_t end;

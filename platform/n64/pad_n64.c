@@ -1,9 +1,7 @@
-/* pad_n64.c: an input plugin of mupen64plus: one controller, whose buttons are those of a list. Built as a shared
- * library
- * for the emulator's machine.
+/* pad_n64.c: an input plugin of mupen64plus: one controller with buttons from a list. Built as a
+ * shared library for the host.
  *
- * ROOM_PADS holds hexadecimal numbers as the controller sends them, one each time that it is asked; Start (10)
- * follows. */
+ * ROOM_PADS holds hexadecimal numbers in the controller's format, one for each poll; Start (10) follows. */
 #include <stdint.h>
 #include <stdlib.h>
 

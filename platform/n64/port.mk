@@ -1,12 +1,12 @@
-# n64: Nintendo 64 (VR4300), without SDK; in mupen64plus, with plugins of our own for screen and controller.
+# n64: Nintendo 64 (VR4300), without SDK; in mupen64plus, with our own plugins for screen and controller.
 MIPS         ?= mips-linux-gnu-
 CROSS_PREFIX := $(MIPS)
 CFLAGS       ?= -O2
 include platform/freestanding/tools.mk
 
 PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
-# By pixel with registers of 32 bits: with those of 64 mupen64plus' recompiler reads past an array in the kernels,
-# though qemu does not. Its interpreters (ROOM_MODE=0, 1) make denormals 0, which lmb_build_check refuses.
+# Light by pixel uses registers of 32 bits: with 64, mupen64plus' recompiler (but not qemu) reads past an array in the
+# kernels. The interpreters (ROOM_MODE=0, 1) flush denormals to 0, which lmb_build_check refuses.
 N64_ABI      := $(if $(filter pixel,$(ROOM)),-mabi=32 -mfp32,-mabi=n32)
 PORT_CFLAGS  := -march=vr4300 $(N64_ABI) -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
                 -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
@@ -20,10 +20,10 @@ ROOM_SRC     := platform/n64/port_n64.c $(addprefix platform/consoles/,ram_progr
 ROOM_IMAGE    = $(B)/room.z64
 ROOM_RUN      = ROOM_PADS='$(PRESS)' ROOM_PICTURE=$(B)/room.ppm sh platform/n64/run.sh $(B)
 
-# Buttons as pad_n64.c takes them.
+# Buttons, in the form of pad_n64.c.
 PRESS        ?=
 
-# The cartridge takes whole MiB, as mupen64plus wants at least one.
+# Pads the cartridge to whole MiB, because mupen64plus needs at least one.
 $(B)/room.z64: $(B)/room $(B)/screen_n64.so $(B)/pad_n64.so
 	@$(CROSS_PREFIX)objcopy -O binary -j .header -j .text $< $@
 	@truncate -s %1M $@
@@ -35,7 +35,7 @@ $(B)/%_n64.so: platform/n64/%_n64.c
 	@$(HOST_CC) -std=c99 -O2 $(WARNINGS) -D_GNU_SOURCE -fPIC -shared -o $@ $< -ldl
 
 $(B)/room: platform/n64/start_n64.S platform/consoles/begin_mips.S
-# A loop in memset that the compiler turns into a call of memset would never end.
+# Without these flags the compiler would turn a loop in memset into a call of memset, which would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := N64

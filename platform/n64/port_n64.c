@@ -1,7 +1,7 @@
-/* port_n64.c: what the room needs from a Nintendo 64: memory, picture by the video interface, controller, clock, text.
+/* port_n64.c: the room's port to the Nintendo 64: memory, picture by the video interface, controller, clock, text.
  *
- * Own start-up code (start_n64.S), no SDK. Pictures lie in RDRAM as RGBA5551; a band's lines of 16 bytes are made in the
- * data cache without being fetched. */
+ * Own start-up code (start_n64.S), no SDK. Pictures are in RDRAM as RGBA5551; a band's lines of 16 bytes are allocated
+ * in the data cache without being fetched. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../consoles/consoles.h"
@@ -15,7 +15,7 @@ enum { WIDTH = 320, HEIGHT = 240, ROWS = 12 };
 const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS,
               port_format = LMB_FIXED_RGBA5551;
 
-/* --- registers and RDRAM past the cache --------------------------------------------------------------------------- */
+/* --- registers and uncached RDRAM --------------------------------------------------------------------------------- */
 
 static volatile uint32_t *reg(uint32_t address) { return (volatile uint32_t *)(uintptr_t)address; }
 static uint32_t physical(const volatile void *p) { return (uint32_t)(uintptr_t)p & 0x1fffffffu; }
@@ -28,7 +28,7 @@ enum { SI_RAM, SI_READ, SI_WRITE = 4, SI_STATUS = 6 };
 
 /* --- video interface ------------------------------------------------------------------------------------------- */
 
-static uint32_t lit; /* whether the video interface shows anything yet */
+static uint32_t lit; /* whether the video interface is on */
 
 /* NTSC, 320 x 240 of 16 bits: no anti-aliasing, each pixel on two dots. */
 static void light_up(void)
@@ -44,10 +44,10 @@ static void light_up(void)
 
 /* --- text and end ------------------------------------------------------------------------------------------------- */
 
-/* In lines of the cache of its own, as all of it goes past the cache. */
+/* In separate cache lines, because it is written uncached. */
 static text_block said __attribute__((aligned(64), section(".data.said"))) = TEXT_BLOCK;
 
-/* The text port of a development cartridge, which emulators have too; others ignore it. */
+/* The text port of a development cartridge, which emulators support too; others ignore it. */
 static void viewer_put(const char *text)
 {
     uint32_t n = 0, word = 0;
@@ -61,7 +61,7 @@ static void viewer_put(const char *text)
     *reg(0xb3ff0014u) = n;
 }
 
-/* Emulators look at text once a field, and there are none before the video interface is on. */
+/* Emulators read text once a field, and there are no fields before the video interface is on. */
 void port_put(const char *text)
 {
     if (!lit)
@@ -70,7 +70,7 @@ void port_put(const char *text)
     viewer_put(text);
 }
 
-/* Called by the start-up where an instruction cannot go on. */
+/* Called by the start-up on an exception. */
 void n64_fault(uint32_t cause, uint32_t at, uint32_t wanted);
 
 void n64_fault(uint32_t cause, uint32_t at, uint32_t wanted)
@@ -89,7 +89,7 @@ const uint32_t console_ram_bytes = 4u << 20;
 
 static uint32_t band[ROOM_DEPTH_BYTES(WIDTH, ROWS) / 4] __attribute__((aligned(16)));
 static uint16_t screens[2][HEIGHT][WIDTH] __attribute__((aligned(64)));
-static uint32_t hidden; /* the screen that is not shown */
+static uint32_t hidden; /* the hidden screen */
 
 void *port_band_memory(size_t *bytes)
 {
@@ -101,7 +101,7 @@ void *port_band_memory(size_t *bytes)
 
 const char *const port_clock_unit = "cycles";
 
-/* Count steps with every second cycle of the processor. */
+/* Count is incremented every second cycle of the processor. */
 uint32_t port_clock(void)
 {
     uint32_t count;
@@ -117,7 +117,7 @@ uint16_t *port_screen_rows(int32_t y)
     return screens[hidden][y];
 }
 
-/* The field that is under way still reads the other screen: the change is seen with the next. */
+/* The current field still reads the other screen; the change takes effect with the next. */
 void port_show_frame(void)
 {
     n64_write_back();
@@ -129,7 +129,7 @@ void port_show_frame(void)
 
 /* --- controller --------------------------------------------------------------------------------------------------- */
 
-/* What the joybus processor is told: controller 0: send 1 byte (1: state), take 4; end of commands; go. */
+/* Commands for the joybus processor: controller 0: send 1 byte (1: state), receive 4; end of commands; go. */
 static uint32_t pif[16] __attribute__((aligned(16)));
 
 static void pif_transfer(uint32_t direction)
@@ -150,7 +150,7 @@ uint32_t port_buttons(void)
     block[0] = 0xff010401u, block[1] = 0xffffffffu, block[2] = 0xfe000000u, block[15] = 1;
     pif_transfer(SI_WRITE);
     pif_transfer(SI_READ);
-    if (block[0] >> 8 & 0x80u) /* no answer: nothing is plugged in */
+    if (block[0] >> 8 & 0x80u) /* no answer: no controller */
         return PORT_NO_BUTTONS;
     return block[1] & 0x10000000u ? PORT_NO_BUTTONS : room_held(block[1], bits); /* Start: the end */
 }

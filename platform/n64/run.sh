@@ -1,7 +1,7 @@
-# run.sh: the room's cartridge in mupen64plus without window and sound: run.sh BUILD_FOLDER IMAGE
+# run.sh: runs the room's cartridge in mupen64plus without window and sound: run.sh BUILD_FOLDER IMAGE
 #
-# Prints what the program says, which is in room.txt too; ROOM_PICTURE gets the screen, ROOM_PADS are its controller's
-# buttons (pad_n64.c).
+# Prints the program's text, and writes it to room.txt; ROOM_PICTURE gets the screen, ROOM_PADS are buttons of
+# the controller (pad_n64.c).
 set -u
 here=$(cd "$1" && pwd)
 image=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")

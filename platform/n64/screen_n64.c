@@ -1,7 +1,7 @@
-/* screen_n64.c: a video plugin of mupen64plus without a window: it shows the picture that the video interface reads, as
- * a file, and the program's text. Built as a shared library for the emulator's video.
+/* screen_n64.c: a video plugin of mupen64plus without a window: writes the picture of the video interface to a file,
+ * and prints the program's text. Built as a shared library for the host.
  *
- * ROOM_PICTURE names the file. It is written when the program ends, of what the interface's registers point at. */
+ * ROOM_PICTURE names the file. When the program ends, it is written from the memory at the interface's registers. */
 #include <dlfcn.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 
 #include "../libretro/text_block.h"
 
-/* --- the emulator's interface, as far as it is used --------------------------------------------------------------- */
+/* --- the used part of the emulator's interface -------------------------------------------------------------------- */
 
 typedef struct video_info {
     uint8_t *header, *rdram, *dmem, *imem;
@@ -97,7 +97,7 @@ void FBGetFrameBufferInfo(void *info) { memset(info, 0, 6 * 20); }
 
 enum { RDRAM_BYTES = 4 << 20, MOST = 640 };
 
-/* RDRAM lies in words of the emulator's machine. */
+/* RDRAM is stored in words of the host. */
 static uint32_t word_at(uint32_t address)
 {
     uint32_t word;
@@ -109,7 +109,7 @@ static uint32_t half_at(uint32_t address) { return word_at(address & ~3u) >> (ad
 
 static uint8_t full(uint32_t five) { return (uint8_t)(five << 3 | five >> 2); }
 
-/* As many pixels as the registers' ranges and scales show, taken at whole places. */
+/* As many pixels as the registers' ranges and scales show, sampled at whole positions. */
 static int write_picture(const char *path)
 {
     const uint32_t dots = (*video.across & 0x3ff) - (*video.across >> 16 & 0x3ff);
@@ -136,7 +136,7 @@ static int write_picture(const char *path)
 
 /* --- text --------------------------------------------------------------------------------------------------------- */
 
-/* Where the program's text_block lies; 0: nowhere yet. */
+/* Address of the program's text_block; 0: not found yet. */
 static uint32_t find_text(void)
 {
     static const uint32_t marks[TEXT_MARKS] = {TEXT_MARK(0), TEXT_MARK(1), TEXT_MARK(2), TEXT_MARK(3),
@@ -147,7 +147,7 @@ static uint32_t find_text(void)
     return 0;
 }
 
-/* Once a field: the program's new text; when it has left, the picture, and the emulator stops. */
+/* Once a field: prints new text; when the program has ended, writes the picture and stops the emulator. */
 void UpdateScreen(void)
 {
     static char said[TEXT_BYTES + 1];

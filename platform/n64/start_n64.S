@@ -1,22 +1,21 @@
-/* start_n64.S: cartridge header, boot code, and the way into main of a Nintendo 64 program.
+/* start_n64.S: cartridge header, boot code, and entry of a Nintendo 64 program.
  *
- * The boot code stands where a cartridge has its IPL3 and runs in the signal processor's data memory. It copies the
- * program to RDRAM. A real console needs an IPL3 that its lock-out chip knows and that sets RDRAM up: emulators do
- * not ask. */
+ * The boot code replaces a cartridge's IPL3 and runs in the signal processor's data memory. It copies the program to
+ * RDRAM. A real console needs an IPL3 that its lock-out chip accepts and that sets RDRAM up; emulators need neither. */
     .set noreorder
     .set noat
 
     .section .header, "ax"
     .word 0x80371240            /* timing of the cartridge bus */
     .word 0x0000000f            /* clock rate: the standard one */
-    .word 0x80000400            /* where the program begins */
+    .word 0x80000400            /* entry of the program */
     .word 0x00001444            /* release */
-    .word 0, 0, 0, 0            /* checksums: of commercial boot code only */
+    .word 0, 0, 0, 0            /* checksums: only commercial boot code checks them */
     .ascii "LAMBENT ROOM        "
     .word 0, 0
     .ascii "NLRE"               /* cartridge, two letters, North America */
 
-/* --- boot code, at 0xa4000040: by position alone ------------------------------------------------------------------ */
+/* --- boot code, at 0xa4000040: position-independent --------------------------------------------------------------- */
     lui   $8, 0xa460            /* peripheral interface: one transfer from the cartridge to RDRAM */
     li    $9, 0x400
     sw    $9, 0($8)
@@ -31,7 +30,7 @@
     bnez  $9, 1b
     nop
 
-/* Caches come up with anything in them: all lines become invalid. 16 KiB by 32 bytes, 8 KiB by 16 bytes. */
+/* Caches have random contents after power-on: invalidates all lines. 16 KiB by 32 bytes, 8 KiB by 16 bytes. */
     mtc0  $0, $28
     mtc0  $0, $29
     lui   $8, 0x8000
@@ -71,8 +70,8 @@ start:
     mtc0  $8, $12
     nop
     nop
-    ctc1  $0, $31               /* to nearest, no traps, denormals are kept */
-    lui   $8, 0xa000            /* what stops the processor is told: a jump at its vector, past the cache */
+    ctc1  $0, $31               /* to nearest, no traps, no flush of denormals */
+    lui   $8, 0xa000            /* installs the exception handler: a jump at the vector, written uncached */
     lui   $9, %hi(fault_jump)
     addiu $9, $9, %lo(fault_jump)
     lw    $10, 0($9)
@@ -94,7 +93,7 @@ fault_jump:
     addiu $26, $26, %lo(fault)
     jr    $26
 fault:
-    mfc0  $4, $13               /* Cause, the instruction, the address that it wanted */
+    mfc0  $4, $13               /* Cause, address of the instruction, bad address */
     mfc0  $5, $14
     mfc0  $6, $8
     jal   n64_fault

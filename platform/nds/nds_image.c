@@ -11,7 +11,7 @@ enum {
     SECOND = 0x023f0000,
     SECTOR = 512,
     MOST = 0x3f0000, /* of a program, bytes */
-    LEAST_SHIFT = 17 /* images are 2^17 bytes or a larger power of two */
+    LEAST_SHIFT = 17 /* images have 2^17 bytes or a larger power of two */
 };
 
 static void put(uint8_t *to, uint32_t value, int bytes)
@@ -62,12 +62,12 @@ int main(int count, char **words)
     image[0x14] = (uint8_t)(shift - LEAST_SHIFT);
     const uint32_t main_part[4] = {HEADER, MAIN, MAIN, size}, second_part[4] = {second, SECOND, SECOND, 4};
     for (int i = 0; i < 4; ++i) {
-        put(image + 0x20 + 4 * i, main_part[i], 4); /* where in the image, entry, where in memory, bytes */
+        put(image + 0x20 + 4 * i, main_part[i], 4); /* offset in the image, entry, address in memory, bytes */
         put(image + 0x30 + 4 * i, second_part[i], 4);
     }
-    put(image + 0x80, second + 4, 4); /* used */
+    put(image + 0x80, second + 4, 4); /* used size */
     put(image + 0x84, HEADER, 4);
-    put(image + 0x15c, crc16(image + 0xc0, 0x9c), 2); /* the logo's */
+    put(image + 0x15c, crc16(image + 0xc0, 0x9c), 2); /* of the logo */
     put(image + 0x15e, crc16(image, 0x15e), 2);
 
     FILE *out = fopen(words[2], "wb");

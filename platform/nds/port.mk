@@ -1,5 +1,5 @@
-# nds: a Nintendo DS (ARM946E-S, no FPU, 4 MiB, caches, 32 + 16 KiB beside the processor), without SDK, under DeSmuME by
-# lrhost.
+# nds: a Nintendo DS (ARM946E-S, no FPU, 4 MiB, caches, 32 + 16 KiB beside the processor), without
+# SDK, in DeSmuME by lrhost.
 ARM         ?= arm-none-eabi-
 CROSS_PREFIX := $(ARM)
 include platform/freestanding/tools.mk
@@ -12,15 +12,16 @@ PORT_CFLAGS  := -mcpu=arm946e-s -marm -ffreestanding -fbuiltin -ffunction-sectio
 PORT_LDFLAGS := -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--no-warn-rwx-segments -T platform/nds/nds.ld
 PORT_LDLIBS  := -lgcc
 
-# Hot code is for speed.
+# Optimises hot code for speed.
 HOT_OBJ := $(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/fixed/$(f).o)
 $(HOT_OBJ): COMPILE += -O2
 
-# A loop in memset that the compiler turns into a call of memset would never end; at the start memset is not there yet.
+# Without these flags the compiler would turn a loop in memset into a call of memset, which would never end; and at the
+# start, memset is not in RAM yet.
 $(B)/obj/platform/freestanding/memory.o $(B)/obj/platform/nds/start_nds.o: COMPILE += \
     -fno-builtin -fno-tree-loop-distribute-patterns
 
-# The linker script is a part of the program.
+# The program depends on the linker script.
 $(B)/obj/platform/nds/start_nds.o: platform/nds/nds.ld
 
 ROOM_IMAGE   := $(B)/room.nds
@@ -36,5 +37,5 @@ ROOM_RUN      = B=$(B) LRHOST=$(LRHOST) CORE=$(call core_of,desmume) SCREEN='$(S
                 PLUGIN=$(STAGES) MODEL=arm9 BEGIN=without_protection CROSS=$(CROSS_PREFIX) WITHOUT='^cost' \
                 sh platform/libretro/run_room.sh
 
-# As lrhost's --press takes them.
+# Buttons, in the form of lrhost's --press.
 PRESS        ?=

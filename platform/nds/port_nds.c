@@ -22,7 +22,7 @@ void port_put(const char *words) { text_block_put(&text, words); }
 
 __attribute__((section(".near"))) static uint32_t band[ROOM_DEPTH_BYTES(WIDTH, ROWS) / 4];
 
-/* What the code leaves of the memory that it lies in. */
+/* The rest of the memory that holds the code. */
 void *port_memory(size_t *bytes)
 {
     *bytes = (size_t)(fast_top - fast_end) * 4;
@@ -37,7 +37,8 @@ void *port_band_memory(size_t *bytes)
 
 void port_ram_used(port_ram *out)
 {
-    out->data = (uint32_t)((data_end - image_begin) + (fast_top - fast_begin)) * 4; /* the program itself is in RAM */
+    out->data = (uint32_t)((data_end - image_begin) + (fast_top - fast_begin)) * 4; /* includes the program, which is in
+                                                                                     * RAM */
     out->bss = (uint32_t)((bss_end - bss_begin) + (near_end - near_begin)) * 4;
     out->stack = handheld_stack();
     out->size = (4096u + 32u + 16u) << 10;
@@ -49,7 +50,7 @@ ARM_CALIBRATE
 
 /* --- screen ------------------------------------------------------------------------------------------------------- */
 
-static uint32_t hidden; /* the bank that is not shown */
+static uint32_t hidden; /* the hidden bank */
 
 void nds_begin(void)
 {
@@ -57,11 +58,11 @@ void nds_begin(void)
     port_calibrate((const uint32_t *)0x02000000);
     port_calibrated();
     REGISTER_16(POWER) = 0x8203;        /* both screens, the main one above */
-    REGISTER_8(BANK_A) = 0x80;          /* banks A and B are the processor's, and shown as they are */
+    REGISTER_8(BANK_A) = 0x80;          /* banks A and B are mapped to the processor and shown unchanged */
     REGISTER_8(BANK_A + 1) = 0x80;
 }
 
-/* The bank takes no bytes, but halfwords and words. */
+/* The bank ignores writes of bytes, but takes halfwords and words. */
 uint16_t *port_screen_rows(int32_t y) { return (uint16_t *)(VIDEO_RAM + hidden * BANK_BYTES) + y * WIDTH; }
 
 void port_show_frame(void)

@@ -1,11 +1,12 @@
-/* start_nds.c: a Nintendo DS's main processor: memory protection, caches, the memories beside it, RAM as C wants it. */
+/* start_nds.c: a Nintendo DS's main processor: memory protection, caches, the memories beside it,
+ * initialisation of RAM for C. */
 #include "nds.h"
 
 int main(void);
 void start(void);
 
-/* Regions of memory protection: base | (bits - 1) << 1 | 1, 2^bits bytes. Main memory is cached and its writes are
- * buffered; video memory's writes are buffered. */
+/* Regions of memory protection: base | (bits - 1) << 1 | 1, 2^bits bytes. Main memory is cached with buffered writes;
+ * video memory has only buffered writes. */
 __asm__(".section .vectors, \"ax\"\n"
         ".arm\n"
         ".globl reset\n"
@@ -14,10 +15,10 @@ __asm__(".section .vectors, \"ax\"\n"
         "\tbic r0, r0, #0x1f\n"
         "\torr r0, r0, #0xdf\n"
         "\tmsr cpsr_c, r0\n"
-        "\tldr r0, =0x2078\n" /* vectors above, all else off */
+        "\tldr r0, =0x2078\n" /* high vectors, everything else off */
         "\tmcr p15, 0, r0, c1, c0, 0\n"
         "\tmov r0, #0\n"
-        "\tmcr p15, 0, r0, c7, c5, 0\n" /* caches are empty */
+        "\tmcr p15, 0, r0, c7, c5, 0\n" /* invalidates the caches */
         "\tmcr p15, 0, r0, c7, c6, 0\n"
         "\tmcr p15, 0, r0, c7, c10, 4\n"
         "\tldr r0, =0x04000033\n" /* 0: registers and video memory, 64 MiB */
@@ -28,7 +29,7 @@ __asm__(".section .vectors, \"ax\"\n"
         "\tmcr p15, 0, r0, c6, c2, 0\n"
         "\tldr r0, =0x0100001d\n" /* 3: instructions beside it, 32 KiB */
         "\tmcr p15, 0, r0, c6, c3, 0\n"
-        "\tldr r0, =0xffff001f\n" /* 4: the machine's own ROM, 64 KiB */
+        "\tldr r0, =0xffff001f\n" /* 4: the BIOS, 64 KiB */
         "\tmcr p15, 0, r0, c6, c4, 0\n"
         "\tmov r0, #0\n"
         "\tmcr p15, 0, r0, c6, c5, 0\n"
@@ -43,12 +44,12 @@ __asm__(".section .vectors, \"ax\"\n"
         "\tmcr p15, 0, r0, c2, c0, 1\n"
         "\tmov r0, #0x03\n" /* writes are buffered: 0 and 1 */
         "\tmcr p15, 0, r0, c3, c0, 0\n"
-        "\tldr r0, =0x33333\n" /* all may be read and written */
+        "\tldr r0, =0x33333\n" /* read and write access for all */
         "\tmcr p15, 0, r0, c5, c0, 2\n"
         "\tmcr p15, 0, r0, c5, c0, 3\n"
         "\tldr r0, =0x5307d\n" /* protection, both caches, both memories on */
         "\tmcr p15, 0, r0, c1, c0, 0\n"
-        "without_protection:\n" /* where qemu begins, which has no such memories */
+        "without_protection:\n" /* qemu starts here, because it has no such memories */
         "\tldr sp, =stack_top\n"
         "\tldr r0, =start\n"
         "\tbx r0\n"

@@ -1,16 +1,15 @@
-/* bios_ps1.S: what an emulator of the PlayStation starts instead of the console's BIOS, of our own: it sets up the
- * bus and
- * the instruction cache, and goes to where the emulator puts its loader of programs.
+/* bios_ps1.S: our own replacement for the console's BIOS in an emulator of the PlayStation: sets up the bus and the
+ * instruction cache, and jumps to the address of the emulator's loader.
  *
- * The loader is beetle-psx's: it stands in for the BIOS' shell at 0xbfc06990, copies a program (PS-X EXE) to RAM and
- * jumps to its first instruction. */
+ * The loader is beetle-psx's. It replaces the BIOS' shell at 0xbfc06990, copies a program (PS-X EXE) to RAM and jumps
+ * to its first instruction. */
     .set noreorder
     .set noat
 
     .section .text, "ax"
     .global bios
 bios:
-    lui   $8, 0x1f80            /* wait states as the console's ROM sets them: expansion, ROM, RAM */
+    lui   $8, 0x1f80            /* wait states as set by the console's ROM: expansion, ROM, RAM */
     li    $9, 0x1325
     sw    $9, 0x100c($8)
     lui   $9, 0x0013
@@ -19,7 +18,8 @@ bios:
     li    $9, 0xb88
     sw    $9, 0x1060($8)
 
-/* Invalidate the instruction cache: with the cache isolated, stores go to its tags, one for each line of 16 bytes. */
+/* Invalidates the instruction cache: while the cache is isolated, stores go to its tags, one
+ * for each line of 16 bytes. */
     lui   $10, 0xfffe
     li    $9, 0x804
     sw    $9, 0x130($10)
@@ -43,7 +43,7 @@ bios:
     jr    $8
     nop
 
-    .org 0x6990                 /* overwritten by the emulator; without it the console stands still */
+    .org 0x6990                 /* overwritten by the emulator; otherwise an endless loop */
 2:  b     2b
     nop
     .org 0x7ffff

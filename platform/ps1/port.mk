@@ -1,4 +1,4 @@
-# ps1: PlayStation (R3000A, no FPU), without SDK and BIOS; in beetle-psx, by the libretro host of our own.
+# ps1: PlayStation (R3000A, no FPU), without SDK and BIOS; in beetle-psx, by our own libretro host.
 MIPSEL       ?= mipsel-linux-gnu-
 CROSS_PREFIX := $(MIPSEL)
 CFLAGS       ?= -O2
@@ -10,7 +10,7 @@ PORT_CFLAGS  := -march=r3000 -mabi=32 -msoft-float -mno-abicalls -fno-pic -G0 -m
 PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
                 -Wl,--no-warn-rwx-segments -T platform/ps1/ps1.ld
 PORT_LDLIBS  :=
-# Calls whose stack scratchpad_ps1.c has elsewhere.
+# Calls that scratchpad_ps1.c runs on another stack.
 ON_SCRATCHPAD := $(foreach f,band prepare transform,-Wl,--wrap=lmb_fixed_$(f))
 RUN          := false
 
@@ -22,7 +22,7 @@ $(B)/room: LDFLAGS += $(ON_SCRATCHPAD)
 
 include platform/libretro/lrhost.mk
 
-# As lrhost's --press takes them.
+# Buttons, in the form of lrhost's --press.
 PRESS        ?=
 
 $(B)/room.exe: $(B)/room $(B)/bios.bin $(LRHOST)
@@ -37,7 +37,7 @@ $(B)/bios.bin: platform/ps1/bios_ps1.S
 	@truncate -s 512K $@
 
 $(B)/room: platform/ps1/start_ps1.S platform/consoles/begin_mips.S
-# A loop in memset that the compiler turns into a call of memset would never end.
+# Without these flags the compiler would turn a loop in memset into a call of memset, which would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := PS1

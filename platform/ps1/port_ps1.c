@@ -1,13 +1,14 @@
-/* port_ps1.c: what the room needs from a PlayStation: memory, picture, controller, clock, text.
+/* port_ps1.c: the room's port to the PlayStation: memory, picture, controller, clock, text.
  *
- * No BIOS call and no SDK. The picture is drawn in RAM; the graphics processor only takes it over into its memory, by DMA. */
+ * No BIOS call and no SDK. The program draws the picture in RAM; the graphics processor only copies
+ * it to its memory, by DMA. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../consoles/consoles.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
 
-/* One band, as there is no data cache that a smaller one could live in. */
+/* One band, because there is no data cache that a smaller one would fit. */
 enum { WIDTH = 320, HEIGHT = 240, ROWS = HEIGHT };
 
 const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS, port_format = LMB_FIXED_BGR555;
@@ -42,7 +43,8 @@ const char *const port_clock_unit = "cycles";
 #define COUNT_MODE(n) (*reg(0x1f801104u + 16u * (n)))
 enum { LINE_CYCLES = 2153, WRAP = 8 * 65536 };
 
-/* Counter 2 steps every 8 cycles and wraps after 15 ms, counter 1 with each line of the picture, to tell how often. */
+/* Counter 2 steps every 8 cycles and wraps after 15 ms; counter 1 steps with each line, and
+ * gives the number of wraps. */
 uint32_t port_clock(void)
 {
     static uint32_t cycles, eights, lines, begun;
@@ -75,7 +77,7 @@ static void wait_for_dma(void)
     while (DMA_MODE & BUSY) {}
 }
 
-/* NTSC, 320 x 240 of 15 bits; the picture is still dark. */
+/* NTSC, 320 x 240 of 15 bits; the display is still off. */
 static void light_up(void)
 {
     static const uint32_t commands[] = {0x00000000, 0x08000001, 0x05000000, 0x06c58258, 0x07040010, 0x04000002};
@@ -124,7 +126,7 @@ static void pause(uint32_t turns)
         __asm__ volatile("");
 }
 
-/* One byte each way; 0xff where nobody answers. */
+/* One byte each way; 0xff if there is no answer. */
 static uint32_t exchange(uint32_t byte)
 {
     PAD_DATA = (uint8_t)byte;
@@ -142,8 +144,8 @@ uint32_t port_buttons(void)
     static const uint32_t bits[ROOM_BUTTONS] = {0x80, 0x20, 0x10, 0x40, 0x8000, 0x2000, 0x4000, 0x1000};
     PAD_CONTROL = 0x40;
     PAD_RATE = 0x88, PAD_MODE = 0x0d;
-    PAD_CONTROL = 0x1003; /* both ways begin with a byte that is sent: were receiving asked for alone, it would run ahead */
-    (void)PAD_DATA;       /* what is left from before; from here on bytes are taken */
+    PAD_CONTROL = 0x1003; /* enables both directions, which wait for a sent byte: receiving only would run ahead */
+    (void)PAD_DATA;       /* discards old bytes; from here on bytes are received */
     pause(400);
     exchange(0x01);
     const uint32_t kind = exchange(0x42), mark = exchange(0);

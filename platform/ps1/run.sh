@@ -1,7 +1,7 @@
-# run.sh: the room's program in beetle-psx without a window: run.sh BUILD_FOLDER LRHOST CORE IMAGE
+# run.sh: runs the room's program in beetle-psx without a window: run.sh BUILD_FOLDER LRHOST CORE IMAGE
 #
-# The core's BIOS is bios.bin (bios_ps1.S). Prints what the program says, which is in room.txt too; ROOM_PICTURE gets the
-# screen, PRESS are buttons for after the path as lrhost takes them; the program runs until Start.
+# The core's BIOS is bios.bin (bios_ps1.S). Prints the program's text, and writes it to room.txt; ROOM_PICTURE gets the
+# screen, PRESS are buttons for after the path in lrhost's form; the program runs until Start.
 set -u
 mkdir -p "$1/system"
 for name in scph5500 scph5501 scph5502; do

@@ -1,6 +1,6 @@
-/* scratchpad_ps1.c: the calls that draw have their stack in the 1 KiB of memory that is beside the processor, which takes
- * one cycle where RAM takes five. The linker puts these in their place (--wrap). They take at most 888 bytes; none of
- * them calls another. */
+/* scratchpad_ps1.c: the calls that draw have their stack in the 1 KiB of memory beside the processor, which
+ * takes one cycle while RAM takes five. The linker replaces the calls (--wrap). They need at most 888 bytes;
+ * none of them calls another. */
 #if defined(__mips__)
 #define ON_SCRATCHPAD(name)                      \
     ".globl __wrap_" name "\n"                   \

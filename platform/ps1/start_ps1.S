@@ -1,4 +1,4 @@
-/* start_ps1.S: the way into main of a PlayStation program; no BIOS call is made. */
+/* start_ps1.S: entry of a PlayStation program; makes no BIOS call. */
     .set noreorder
     .set noat
 

@@ -19,6 +19,6 @@ include platform/freestanding/bare.mk
 PORT_SRC     := platform/riscv/start_riscv.c $(BARE_SRC)
 PORT_CFLAGS  := $(isa_$(XLEN)) -mcmodel=medany -ffreestanding -fbuiltin $(BARE_CFLAGS)
 
-# The demo must do with 256 KiB; the golden suite, built like the host's, takes what it takes.
+# Limits: 256 KiB for the demo; the golden suite, built with the host's settings, may use more.
 $(B)/demo: RAM_BYTES = 262144
 $(B)/golden: ROM_BYTES = 1048576

@@ -3,7 +3,7 @@
 
 void fault(void);
 
-/* mstatus.FS = 3: the float registers are there. */
+/* mstatus.FS = 3: enables the float registers. */
 __asm__(".section .vectors, \"ax\"\n"
         ".globl reset\n"
         "reset:\n"
@@ -16,10 +16,10 @@ __asm__(".section .vectors, \"ax\"\n"
         "\tj bare_run\n"
         ".text\n");
 
-/* The address in mtvec is one of words. */
+/* mtvec holds an address aligned to 4. */
 __attribute__((aligned(4), used)) void fault(void) { bare_fault(); }
 
-/* Three instructions of four bytes each, in one page, are the call. */
+/* The call must be three instructions of four bytes each, in one page. */
 uintptr_t semihost(uint32_t operation, const void *argument)
 {
     register uintptr_t a0 __asm__("a0") = operation;

@@ -1,11 +1,11 @@
-# page.mk: `make PORT=web page`: the page in $(B)/page, of Debian's wasi-libc; its light is baked by the host's tool.
+# page.mk: `make PORT=web page`: builds the page in $(B)/page with Debian's wasi-libc; the host's tool bakes the light.
 #
-# One module has all but the kernels, and two have those, scalar and simd128, for fixed places in the memory that all
-# import; lambent.js joins one to the first. The memory is shared, though only page_pool.c has atomics: only the worker
-# that draws ever calls the C library.
+# One module has everything except the kernels. Two others have the kernels, scalar and simd128, linked for fixed
+# addresses in the memory that all import; lambent.js joins one of them to the first. The memory is shared, but only
+# page_pool.c uses atomics: only the worker that draws calls the C library.
 
 PAGE      := $(B)/page
-# PAGE_OPT=-O0: only to see that it links, in a folder of its own.
+# PAGE_OPT=-O0: only checks that it links, in a separate folder.
 PAGE_WORK := $(B)/page-work$(PAGE_OPT)
 WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
@@ -21,13 +21,13 @@ PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster
 PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
               -fno-builtin-bcmp -flto -mbulk-memory -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL -DOPTIONS_WITHOUT_HELP -DLMB_CULLING=0 -DLMB_LIVE=0 -DLMB_DRAW=0 \
               -mnontrapping-fptoint -msign-ext -MMD -MP
-# Below the module's data and its 1 MiB of stack: 128 KiB each for the data of the kernels and
-# of the demo, and stacks that nobody uses.
+# Below the module's data and 1 MiB of stack: 128 KiB each for the data of the kernels and of the
+# demo, and unused stacks.
 PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features \
              --max-memory=2147483648 --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
 PAGE_MAIN := -mllvm -inline-threshold=-20 -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
 PAGE_SIDE := -z stack-size=16 --global-base
-# What frames of the page run most is for speed; the rest, and what runs once a scene or for few pixels, for size.
+# Optimises hot code of frames for speed; the rest, and code that runs once a scene or for few pixels, for size.
 PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
 PAGE_ONCE := src/occlusion/build.c src/occlusion/occlude.c src/raster/texture.c src/raster/bins.c src/raster/cluster.c src/occlusion/occluded.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c src/light/light_tile.c src/light/direct.c \
              $(patsubst %,src/raster/%.c,clip draw draw_one fill paint plane resolve setup target triangle) \
@@ -43,7 +43,7 @@ $(PAGE_WORK)/$(1)/%.o: %.c $(PAGE_WORK)/flags
 endef
 $(eval $(call page_objects,main,,$$(call page_opt,$$<)))
 $(eval $(call page_objects,scalar,,$(or $(PAGE_OPT),-Oz)))
-# Plain C's lanes set the layout of what modules hand each other: one, as without simd128.
+# The lanes of plain C determine the layout of structs shared by modules: one lane, as without simd128.
 $(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,$(or $(PAGE_OPT),-O2)))
 -include $(patsubst %.c,$(PAGE_WORK)/main/%.d,$(PAGE_SRC)) \
          $(wildcard $(PAGE_WORK)/scalar/*/*/*.d $(PAGE_WORK)/simd/*/*/*.d)
@@ -70,7 +70,7 @@ $(PAGE)/%.wasm.lzma: $(PAGE_WORK)/%.wasm
 	@mkdir -p $(@D)
 	@xz --format=lzma --lzma1=preset=9e,pb=0,lc=$(if $(filter lambent,$*),4,3) -c $< > $@
 
-# Without comments and indentation.
+# Removes comments and indentation.
 PAGE_BARE := sed -e 's/^ *//' -e '/^\/\/ /d' -e 's|\([;{},)]\)  *// .*|\1|' -e '/^$$/d'
 $(PAGE)/%: platform/web/page/%
 	@mkdir -p $(@D)
@@ -86,7 +86,7 @@ page: page-loads
 	+@$(MAKE) PORT=host BUILD=$(HOST_BUILD) all $(HOST_BUILD)/default/scenes
 	@sh platform/web/page_scenes.sh $(HOST_BUILD)/lambent $(HOST_BUILD)/default/scenes $(PAGE)
 
-# All but the scenes, which need the host's tool.
+# Everything except the scenes, which need the host's tool.
 page-loads: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html \
             $(PAGE)/lambent.js $(PAGE)/page.js.lzma $(PAGE)/body.html.lzma
 	@cd $(PAGE) && cat index.html lambent.js page.js.lzma body.html.lzma lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c \

@@ -1,5 +1,5 @@
-# page_scenes.sh: page_scenes.sh TOOL SCENES FOLDER: what the page offers beside itself: scenes with baked light, a
-# relief, a photo with depth for `lambent mix`, and scenes.json, which names the scenes. What is there already stays.
+# page_scenes.sh: page_scenes.sh TOOL SCENES FOLDER: makes the page's extra files: scenes with baked light, a relief, a
+# photo with depth for `lambent mix`, and scenes.json, a list of the scenes. Existing files are kept.
 set -e
 tool=$1 scenes=$2 to=$3
 

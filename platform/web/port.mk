@@ -8,6 +8,6 @@ PORT_LDFLAGS := -nostdlib -Wl,--no-entry -Wl,-z,stack-size=262144
 PORT_LDLIBS  :=
 RUN          := node platform/web/run.mjs
 
-# A loop in memset that the compiler turns into a call of memset would never end.
+# Without this flag the compiler would turn a loop in memset into a call of memset, which would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin
 include platform/web/page.mk

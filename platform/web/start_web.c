@@ -1,4 +1,4 @@
-/* start_web.c: a WebAssembly program's way in (run) and out (put), and its two functions of libm. */
+/* start_web.c: entry (run) and output (put) of a WebAssembly program, and two functions of libm. */
 #include "../port.h"
 
 __attribute__((import_module("env"), import_name("put"))) void host_put(const char *text);

@@ -1,40 +1,42 @@
 /* discs.c: first points -> discs: mean neighbour distances, and points much closer than that join. Layer 6.
  *                                                                                      [V8 V9 V10 V11 V12 V14 V15]
- * Neighbours are looked up in the map: in the cells around that are as many as was asked for, or as a radius in space
- * can span. */
+ * Neighbours are found through the map's cells. The search covers the requested number of cells, or as many as a radius
+ * in space can span. */
 #include <string.h>
 
 #include "../base/poly.h"
 #include "group.h"
 
+#if LMB_BOUNCE
+
 #define COS_25 0.90630779f
 #define SIN_25 0.42261826f
-#define RIM 1e-3f          /* sine of the angle under the plane at which a point still counts as on it */
-#define KEPT 0x80000000u   /* in a link: what stands beside is the disc's next place */
+#define RIM 1e-3f          /* sine: a point this far below the plane still counts as on it */
+#define KEPT 0x80000000u   /* flag in a link: the other bits are the disc's new index */
 
-enum { REACH = 32 }; /* cells each way that are looked at */
+enum { REACH = 32 }; /* cells visited in each direction */
 
 typedef struct neighbourhood {
     lmb_points *points;
     uint32_t side;
     float threshold, join;
-    int32_t cells;        /* that neighbours may be away; 0: as many as `threshold` and `view` say */
-    const lmb_view *view; /* of the face, or of another of the same map */
-    int32_t hemisphere;   /* 1: what counts as a neighbour lies over the point's surface [V10] */
+    int32_t cells;        /* search radius in cells; 0: derived from `threshold` and `view` */
+    const lmb_view *view; /* the view of the face, or of another face of the map */
+    int32_t hemisphere;   /* 1: neighbours lie above the point's surface [V10] */
 } neighbourhood;
 
-/* The points of the cells around one, in the map's order. */
+/* The points in the cells around a point, in the map's order. */
 typedef struct around {
     const neighbourhood *n;
-    lmb_vec3 from; /* where the one is, or was when its neighbours were first asked for */
-    int32_t x0, x1, x, y, y1, step; /* the cell at hand, and the last ones */
-    uint32_t at, end;               /* the next point of that cell */
-    lmb_point *q;                   /* the point at hand: the one before `at` */
+    lmb_vec3 from; /* position of the point when the search began */
+    int32_t x0, x1, x, y, y1, step; /* the current cell, and the last ones */
+    uint32_t at, end;               /* next point of the current cell */
+    lmb_point *q;                   /* current point: the one before `at` */
     lmb_vec3 away;                  /* from `from` to it, */
     float d;                        /* m */
 } around;
 
-/* 1: a->q is the next of them; 0: there is none. */
+/* Advances a->q to the next point. Returns 0 after the last one. */
 static int next_around(around *a)
 {
     const uint32_t side = a->n->side;
@@ -59,9 +61,9 @@ static int next_around(around *a)
     return 1;
 }
 
-/* Is a->q one of p's neighbours? Those face the same way [V9], or are met in one of the
- * directions of the hemisphere over p's surface, whichever way they face [V10]: the surface's own points lie on the
- * hemisphere's rim, give or take the rounding. Either way within the threshold. */
+/* 1 if a->q is a neighbour of p. Neighbours face the same way [V9], or lie in the hemisphere above p's surface and may
+ * face any way [V10]. Points of the surface itself lie on the rim of the hemisphere, within rounding. In both cases the
+ * distance is within the threshold. */
 static int is_neighbour(const neighbourhood *n, const lmb_point *p, const around *a)
 {
     const int meets = n->hemisphere ? dot3(p->normal, a->away) >= -RIM * a->d
@@ -69,12 +71,12 @@ static int is_neighbour(const neighbourhood *n, const lmb_point *p, const around
     return meets && (n->threshold <= 0.0f || a->d <= n->threshold);
 }
 
-/* The cells that points within `radius` m of p may be in, or those that n->cells says; at most `most` away. Where these
- * are more than REACH each way, every second, third .. of them.
+/* Sets up a search over the cells that can hold points within `radius` m of p, or over n->cells; at most `max` cells
+ * away. If that is more than REACH each way, it visits every second, third .. cell.
  *
- * What moves e m, |e| <= radius, from where w m along the axis a map's tangent is t, moves the tangent by
- * |e_x - t e_w| / (w + e_w), which is at most radius sqrt(1 + t^2) / (w - radius). t is taken at the corner of a square
- * through the cell's far side, so that it is the most, and w the least, that they may be. */
+ * A point at depth w m and tangent t on the map that moves by e m, |e| <= radius, changes its tangent by |e_x - t e_w|
+ * / (w + e_w), which is at most radius sqrt(1 + t^2) / (w - radius). t is an upper and w a lower bound: both are taken
+ * at the corner of a square through the far side of the cell. */
 static void around_point(around *a, const neighbourhood *n, const lmb_point *p, float radius, int32_t max)
 {
     const int32_t side = (int32_t)n->side, x = p->cell_x, y = p->cell_y;
@@ -85,7 +87,7 @@ static void around_point(around *a, const neighbourhood *n, const lmb_point *p, 
                     beyond = length3(sub3(p->position, n->view->eye)) / stretch - radius;
         cells = beyond > 0.0f ? cells * stretch / beyond : (float)side;
     }
-    /* Both may be anywhere in their cells; and rounding. */
+    /* Both points may lie anywhere in their cells; and rounding. */
     int32_t reach = n->cells > 0 ? n->cells : cells < (float)side ? (int32_t)cells + 2 : side;
     reach = mini(reach, max);
     a->n = n;
@@ -99,7 +101,7 @@ static void around_point(around *a, const neighbourhood *n, const lmb_point *p, 
     a->at = a->end = 0;
 }
 
-/* [V8]: the mean over the neighbours; without any, the quad's own size. */
+/* [V8]: the mean over the neighbours. If there are none, the size of the quad. */
 static float mean_distance(const neighbourhood *n, const lmb_point *p)
 {
     around a;
@@ -120,7 +122,7 @@ static void widen(lmb_point *p, float times)
     p->axis_v = mul3(p->axis_v, times);
 }
 
-/* Sum q into p: flux and area add up, the rest is their mean. */
+/* Merges q into p: flux and area add up, the rest is averaged. */
 static void join_point(lmb_point *p, const lmb_point *q)
 {
     float a = lmb_disc_power(p), b = lmb_disc_power(q), whole = a + b, share = whole > 0.0f ? b / whole : 0.5f;
@@ -138,7 +140,7 @@ static void join_point(lmb_point *p, const lmb_point *q)
 static void join_neighbours(const neighbourhood *n, uint32_t i)
 {
     lmb_point *p = &n->points->data[i];
-    const lmb_vec3 normal = p->normal; /* it and distances are from the disc's first point [V12] */
+    const lmb_vec3 normal = p->normal; /* as distances, of the disc's first point [V12] */
     const float within = n->join * p->distance;
     around a;
     around_point(&a, n, p, within, REACH);
@@ -152,12 +154,12 @@ static void join_neighbours(const neighbourhood *n, uint32_t i)
 
 /* --- fewer discs than points [V14] -----------------------------------------------------------------------------------
  *
- * Of `thin` points one becomes a disc: those of the cells with x + a y = 0 (mod thin). That is a lattice with one cell
- * in `thin`, and `a` is the one that puts its cells farthest apart, so they spread evenly: thin = 10 gives the squares
- * of side sqrt 10 along (3, -1) and (1, 3). The other points join the nearest disc of their surface, so nothing is
- * lost; where a surface has none in reach, its point becomes one. */
+ * One of `thin` points becomes a disc: those in cells with x + a y = 0 (mod thin). That is a lattice with one cell in
+ * `thin`. `a` puts the lattice cells farthest apart, so they spread evenly: thin = 10 gives squares of side sqrt 10
+ * along (3, -1) and (1, 3). Each other point joins the nearest disc of its surface, so no flux is lost. If the surface
+ * has no disc in reach, the point becomes one. */
 
-/* Squared length of the lattice's shortest step; after `thin` rows the lattice repeats. */
+/* Squared length of the shortest step of the lattice, which repeats after `thin` rows. */
 static int32_t shortest_step(int32_t a, int32_t thin)
 {
     int32_t shortest = thin * thin;
@@ -178,8 +180,9 @@ static int32_t lattice_of(int32_t thin)
     return best;
 }
 
-/* How far the lattice's nearest cell may be, in cells along x or y. Counted for each thin up to LMB_MAX_THIN: steps are
- * 0.81 sqrt thin or longer, and no cell is farther than 0.71 sqrt thin from one; this is sqrt thin, rounded up. */
+/* Upper bound of the distance to the nearest lattice cell, in cells along x or y. Counted for each thin up to
+ * LMB_MAX_THIN: steps are at least 0.81 sqrt thin long, and no cell is farther than 0.71 sqrt thin from one. This
+ * returns sqrt thin, rounded up. */
 static int32_t lattice_reach(int32_t thin)
 {
     int32_t reach = 1;
@@ -189,14 +192,14 @@ static int32_t lattice_reach(int32_t thin)
     return reach;
 }
 
-/* Is a->q on p's surface? The normals agree, and a chord of a surface that turns by 25 degrees leaves
- * its plane by no more. */
+/* 1 if a->q is on p's surface: the normals agree, and the chord leaves the plane by no more than on a surface that
+ * turns by 25 degrees. */
 static int is_same_surface(const lmb_point *p, const around *a)
 {
     return dot3(p->normal, a->q->normal) >= COS_25 && absf(dot3(p->normal, a->away)) <= SIN_25 * a->d;
 }
 
-/* The nearest disc (a point that links to itself) of point i's surface, or i. */
+/* The nearest disc (a point that links to itself) on the surface of point i, or i. */
 static uint32_t nearest_disc(const neighbourhood *n, uint32_t i)
 {
     const lmb_point *p = &n->points->data[i];
@@ -213,8 +216,8 @@ static uint32_t nearest_disc(const neighbourhood *n, uint32_t i)
     return nearest;
 }
 
-/* The points that become no disc have the link LMB_NOBODY. Each first chooses a disc from the points' initial
- * positions; then all are joined. */
+/* Points that do not become discs have the link LMB_NOBODY. All of them choose a disc by the initial positions before
+ * any point joins. */
 static void thin_out(const neighbourhood *n, uint32_t first, int32_t thin)
 {
     lmb_point *data = n->points->data;
@@ -231,8 +234,8 @@ static void thin_out(const neighbourhood *n, uint32_t first, int32_t thin)
     }
 }
 
-/* Close the gaps that joined points leave, and tell their texels. Links: a disc's is its own number, a joined point's
- * that of the disc, or of a point that has joined one in turn (thinned out first, then near another disc). */
+/* Closes the gaps left by joined points and updates the owners of texels. A disc links to itself. The link of a joined
+ * point is the index of the disc, or of a point that joined one in turn (thinned out first, then near another disc). */
 static void close_gaps(lmb_points *points, uint32_t first, const lmb_shadow_map *map)
 {
     lmb_point *data = points->data;
@@ -260,7 +263,7 @@ static void close_gaps(lmb_points *points, uint32_t first, const lmb_shadow_map 
     points->count = kept;
 }
 
-/* [V12]: discs of a radius that is so many times their mean distance. */
+/* [V12]: scales discs to a radius of `radius` times their mean distance. */
 static void set_radius(lmb_points *points, uint32_t first, float radius)
 {
     for (uint32_t i = first; radius > 0.0f && i < points->count; ++i) {
@@ -270,7 +273,7 @@ static void set_radius(lmb_points *points, uint32_t first, float radius)
     }
 }
 
-/* Were the points collected by blocks of this size? Their cells say where the last one ends. */
+/* 1 if the points were collected in blocks of this size: the last cell then ends at the last point. */
 static int has_cells(const lmb_points *points, const lmb_shadow_map *map, int32_t block)
 {
     const uint32_t side = block > 0 && block <= LMB_TILE ? (uint32_t)(map->size / block) : 0;
@@ -290,7 +293,7 @@ lmb_status lmb_discs_join(lmb_points *points, const lmb_shadow_map *map, const l
     }
     n.points = points;
     n.side = (uint32_t)(map->size / g.block);
-    n.view = &map->view[0]; /* the faces of a map differ in their axes alone */
+    n.view = &map->view[0]; /* faces of a map differ only in their axes */
     n.threshold = g.neighbour_m;
     n.cells = g.neighbour_cells > 0 || g.neighbour_m > 0.0f ? g.neighbour_cells : 1;
     n.join = g.join > 0.0f ? g.join : 0.5f;
@@ -312,3 +315,5 @@ lmb_status lmb_discs_join(lmb_points *points, const lmb_shadow_map *map, const l
     set_radius(points, first, g.radius);
     return LMB_OK;
 }
+
+#endif

@@ -6,6 +6,8 @@
 #include "gather.inl"
 #include "../occlusion/occlude.h"
 
+#if LMB_BOUNCE
+
 float lmb_disc_factor(lmb_vec3 at, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, float area)
 {
     lane3 to = lane3_sub(lane3_splat(centre.x, centre.y, centre.z), lane3_splat(at.x, at.y, at.z));
@@ -38,3 +40,5 @@ lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lm
     }
     return LMB_OK;
 }
+
+#endif

@@ -1,31 +1,32 @@
 /* gather.inl: groups of emitters -> irradiance of a tile's pixels, occluded by the viewer's depth. Layer 6.  [V25-V28]
  *
- * Lanes are pixels; groups are added one after another: the order is the contract. */
+ * Lanes are pixels. Groups are added one after another: this order is part of the contract. */
 #ifndef LMB_GATHER_FORMULA
 #define LMB_GATHER_FORMULA
 
 #define INVERSE_PI 0.31830989f
 
-/* Under this, 2^-40, a squared cosine counts as 0, as of a point in a plane: a light that grazes so gives nothing, but
- * its c^2 s would be a denormal, which some targets flush. Of cosines and no lengths: worlds may have any size. */
+/* Squared cosines below 2^-40 count as 0, as for a point in the plane. Light at such a grazing angle adds nothing, but
+ * c^2 s would be a denormal, which some targets flush. The limit is on cosines, not lengths: scenes may have any
+ * scale. */
 #define GRAZING2 9.0949470e-13f
 
-/* Are a = nP.to and b = -nG.to over the horizons, where r2 = to.to? */
+/* Lanes in which a = nP.to and b = -nG.to are above the horizons. r2 = to.to. */
 static inline lane_mask disc_faces(lane a, lane b, lane r2)
 {
     const lane min = lane_min(b, a);
     return lane_lt(lane_mul(lane_splat(GRAZING2), r2), lane_mul(min, lane_max(min, lane_splat(0.0f))));
 }
 
-/* One emitter, one vector of pixels. M = 1: W/m2 a watt.
+/* One emitter at one vector of pixels, in W/m2 per watt of flux M.
  *
  * A disc of area A seen from r away, to second order in s = A / (pi r^2) (integrate cosP cosG / r^2 over the disc):
  *   E = (c - t s) / (pi r^2),  c = cosP cosG,  t = c (3 cos^2 G - 1) + g cos^2 G,  g = nP.nG.
- * c^2 / (c + t s) has the same expansion, stays positive for t >= 0 and equals 1 / (pi r^2 + A) on the axis of a
- * facing disc (t = c = 1), which is exact. For t < 0 the sum itself is kept. Both stay under cosG / s: nothing receives
- * more than the disc's own radiosity M / A times cosG.
+ * c^2 / (c + t s) has the same expansion, stays positive for t >= 0, and equals 1 / (pi r^2 + A) on the axis of a
+ * facing disc (t = c = 1), which is exact. If t < 0, the sum itself is used. Both stay under cosG / s: no point
+ * receives more than the disc's radiosity M / A times cosG.
  *
- * a = nP.to, b = -nG.to, i = 1 / r^2, against = -nP.nG, area_pi = A / pi; only where disc_faces. */
+ * a = nP.to, b = -nG.to, i = 1 / r^2, against = -nP.nG, area_pi = A / pi. Valid only if disc_faces. */
 static inline void disc_fraction(lane *top, lane *bottom, lane a, lane b, lane i, lane against, lane area_pi)
 {
     const lane one = lane_splat(1.0f);
@@ -39,7 +40,7 @@ static inline void disc_fraction(lane *top, lane *bottom, lane a, lane b, lane i
     *bottom = lane_mul(base, s);
 }
 
-/* 0 or NaN where i is 0. */
+/* 0 or NaN if i is 0. */
 static inline lane disc_value(lane top, lane bottom, lane i)
 {
     return lane_mul(lane_mul(lane_splat(INVERSE_PI), i), lane_div(top, bottom));
@@ -64,14 +65,14 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
 #include "../occlusion/march.inl"
 #include "../raster/tile.h"
 
-/* A group is near within this many of its radii: then its discs are read one by one. Trim on cornell, two_lights,
+/* A group closer than this many group radii is near: the discs are then added one by one. Trim on cornell, two_lights,
  * bunny_room at 1.2 / 1.5 / 2: 0.053 0.144 0.092 / 0.050 0.133 0.080 / 0.049 0.125 0.075; time 1 / 1.3 / 2. */
 #define GROUP_NEAR 1.5f
-/* Discs that share one segment while none of them is near: 1 costs three times the segments for 0.001 of trim. */
+/* Discs that share one segment if none of them is near. 1 takes three times the segments for 0.001 of trim. */
 #define SHARED 4u
 #define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
 
-/* Picked, not added as zeros: -0 + 0 is 0, so a lane's bytes would tell what its neighbours met. */
+/* Picks instead of adding zeros: -0 + 0 is 0, so the bytes of a lane would depend on its neighbours. */
 static inline void gather_add(lmb_irradiance *inout, int k, lane_mask lit, lane weight, const float flux[3])
 {
     for (int c = 0; c < 3; ++c) {
@@ -80,7 +81,7 @@ static inline void gather_add(lmb_irradiance *inout, int k, lane_mask lit, lane 
     }
 }
 
-/* Lanes that carry a surface. */
+/* Lanes with a surface. */
 static inline lane_mask gather_hits(const lmb_tile *tile, int k)
 {
     return mask_not(lanei_equal(lanei_load((const int32_t *)tile->id + k), lanei_splat(0)));
@@ -88,10 +89,10 @@ static inline lane_mask gather_hits(const lmb_tile *tile, int k)
 
 /* --- visibility shared by a tile -------------------------------------------------------------------------------------
  *
- * Neighbouring pixels of one surface nearly always agree on what they see: the four corners of such a tile are asked
- * first, and only where they differ is each pixel asked. Lost is what fits between the corners. */
+ * Neighbouring pixels of one surface nearly always see the same. The four corners of such a tile are tested first, and
+ * each pixel only if the corners differ. Occluders that fit between the corners are lost. */
 
-/* From pixels whose planes of position and of face lie `plane` floats apart. */
+/* Aims from pixels with `plane` floats between the planes of position and of face. */
 LANE_NOINLINE void gather_aim(seen_from *from, march_run *run, const lmb_march_job *m, const float *position,
                               const float *face, size_t plane, const lmb_vec3 *at, const lmb_vec3 *axis)
 {
@@ -106,7 +107,7 @@ LANE_NOINLINE void gather_aim(seen_from *from, march_run *run, const lmb_march_j
     march_towards(run, m, from, start, lane3_of(*at), lane3_of(*axis));
 }
 
-/* march() from there. */
+/* march() from these pixels. */
 NOINLINE lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face, size_t plane,
                                 const lmb_vec3 *at, const lmb_vec3 *axis, lane_mask wanted)
 {
@@ -122,13 +123,12 @@ static inline lane_mask tile_march(const lmb_march_job *m, const lmb_tile *tile,
     return gather_march(m, tile->position[0] + k, tile->face[0] + k, LMB_TILE_PIXELS, at, axis, wanted);
 }
 
-#define ALL_LANES (~0u >> (32 - LANES))
 enum { CORNERS = LANES < 4 ? 4 : LANES };
 enum { SEES_NOTHING, SEES_ALL, SEES_SOME, SEES_UNKNOWN };
 
 typedef struct gather_corners {
     float position[3][CORNERS], face[3][CORNERS];
-    int usable; /* the tile is one surface, and something may occlude */
+    int usable; /* 1: the tile is one surface, and occlusion is on */
 } gather_corners;
 
 static inline int tile_is_one_surface(const lmb_tile *tile)
@@ -169,7 +169,7 @@ static inline lane3 corner_load(const float (*p)[CORNERS], int i)
     return r;
 }
 
-/* What the tile's corners see of one emitter. */
+/* SEES_*: visibility of one emitter from the tile's corners. */
 NOINLINE int corners_see(const gather_corners *c, const lmb_march_job *m, const lmb_vec3 *at, const lmb_vec3 *axis)
 {
     const uint32_t full = ALL_LANES;
@@ -189,10 +189,10 @@ NOINLINE int corners_see(const gather_corners *c, const lmb_march_job *m, const 
 
 /* --- far pairs ---------------------------------------------------------------------------------------------------- */
 
-/* Groups that are taken together. A pair is a chain of some thirty operations, each waiting for the last: done one
- * after another, every processor waits most of the time, whatever its width. So each step is done for all groups of a
- * block before the next: chains are short and many run side by side. The pairs lie in the caller's scratch. Narrow
- * backends take two vectors of pixels at a time: what a group brings is read once for both. */
+/* Groups processed together. A pair is a chain of some thirty operations, each waiting for the last. One pair after
+ * another leaves any processor idle most of the time. So each step runs for all groups of a block before the next step:
+ * chains are short and many run side by side. The pairs lie in the caller's scratch. Narrow backends take two vectors
+ * of pixels at a time, so that a group is read once for both. */
 #if defined(LANE_PLAIN)
 enum { VECTORS = 1, WIDE = LANES, BLOCK = LANES > 1 ? 8 : 4 };
 #else
@@ -200,10 +200,10 @@ enum { VECTORS = LANES > 8 ? 1 : 2, WIDE = VECTORS * LANES };
 enum { BLOCK = LMB_GATHER_PAIRS < 16 * WIDE || LANES > 8 ? 8 : 16 };
 #endif
 
-/* A block's groups, one beside the other: in lmb_groups a group's numbers lie LMB_MAX_GROUPS apart, a power of two, and
- * so fall into one set of a cache, which holds fewer. */
+/* The groups of a block, packed. In lmb_groups the values of a group lie LMB_MAX_GROUPS apart, a power of two, and so
+ * map to one cache set, which holds fewer. */
 typedef struct gather_group {
-    lmb_vec3 at, back; /* back: against its normal */
+    lmb_vec3 at, back; /* back: opposite to the group's normal */
     float near2, area_pi;
     float flux[3];
     int32_t number; /* in lmb_groups */
@@ -222,7 +222,7 @@ static void gather_fetch(gather_group *out, const lmb_groups *groups, int32_t j)
     out->number = j;
 }
 
-/* Where a tile's surfaces are. */
+/* Bounding sphere of a tile's surfaces. */
 typedef struct gather_ball {
     lmb_vec3 centre;
     float radius;
@@ -242,14 +242,15 @@ static gather_ball gather_ball_of(const lmb_tile *tile)
     ball.centre = mul3(add3(low, high), 0.5f);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const lmb_vec3 d = sub3(tile_vec(tile->position, k), ball.centre);
-        r2 = tile->id[k] != 0 && !(dot3(d, d) < r2) ? dot3(d, d) : r2; /* a NaN stays, and nothing is dark then */
+        r2 = tile->id[k] != 0 && !(dot3(d, d) < r2) ? dot3(d, d) : r2; /* keeps a NaN: then no group is dark */
     }
     ball.radius = sqrtf(r2);
     return ball;
 }
 
-/* Of the groups j .. j + LANES - 1 those that may light a pixel of the tile, or be near one, a bit each. The others
- * turn their back to the whole ball: their pairs are exactly 0. A hundred-thousandth is far more than all rounding. */
+/* Returns those of the groups j .. j + LANES - 1 that may light a pixel of the tile, or be near one, one bit each. The
+ * others face away from the whole sphere: their pairs are exactly 0. A hundred-thousandth is far more than all
+ * rounding. */
 static uint32_t gather_awake(const gather_ball *ball, const lmb_groups *groups, int32_t j, int32_t count)
 {
     const uint32_t here = count < LANES ? (1u << count) - 1 : ALL_LANES;
@@ -273,17 +274,17 @@ static uint32_t gather_awake(const gather_ball *ball, const lmb_groups *groups, 
 
 enum { PAIR_A, PAIR_B, PAIR_I }; /* as in disc_fraction */
 typedef struct gather_pairs {
-    float (*of)[LMB_GATHER_PAIRS]; /* [PAIR_..]: WIDE of each group; i is 0 where a pixel gets nothing */
+    float (*of)[LMB_GATHER_PAIRS]; /* [PAIR_..]: WIDE values per group; i is 0 if the pixel gets nothing */
     int32_t lit[BLOCK], count;
 } gather_pairs;
 
-/* A vector of pixels that look at a block of groups. */
+/* A vector of pixels, for a block of groups. */
 typedef struct gather_pixels {
     lane3 p, n, face;
     uint32_t hit_bits;
 } gather_pixels;
 
-/* Pixels without a surface have no normal, and so face nothing. */
+/* Pixels without a surface get a zero normal, so they face nothing. */
 LANE_INLINE gather_pixels gather_load_pixels(const lmb_tile *tile, int k)
 {
     const lane_mask hits = gather_hits(tile, k);
@@ -298,8 +299,8 @@ LANE_INLINE gather_pixels gather_load_pixels(const lmb_tile *tile, int k)
     return out;
 }
 
-/* Of one group the pairs that face each other, over the horizon and not near, stored at pair `at`; their bits returned,
- * and the near ones' in near_bits. min(b, a) is a where a is NaN; a pair with such a b comes to nothing by itself. */
+/* Pairs of one group: stores those that face each other, above the horizon and not near, at pair `at`. Returns their
+ * bits, and the bits of near pairs in near_bits. min(b, a) is a if a is NaN; a pair with a NaN in b adds nothing. */
 LANE_INLINE uint32_t gather_face(gather_pairs *out, uint32_t *near_bits, const gather_pixels *px,
                                  const gather_group *g, int at)
 {
@@ -316,7 +317,7 @@ LANE_INLINE uint32_t gather_face(gather_pairs *out, uint32_t *near_bits, const g
     return mask_bits(lit);
 }
 
-/* Near pixels are flagged. (NOINLINE: at -O3 its frame would lie under the march's.) */
+/* Flags near pixels. (NOINLINE: at -O3 the frame would lie under that of the march.) */
 LANE_NOINLINE void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_tile *tile, int k,
                                const gather_group *groups, int32_t group_count)
 {
@@ -348,7 +349,7 @@ LANE_INLINE void gather_estimate_one(gather_pairs *inout, int at, lane3 n, const
     lane_store(inout->of[PAIR_B] + at, bottom);
 }
 
-/* Their fractions: top in place of a, bottom in place of b. */
+/* Computes the fractions: top replaces a, bottom replaces b. */
 static inline void gather_estimate(gather_pairs *inout, const lmb_tile *tile, int k, const gather_group *groups)
 {
     const lane3 first = lane3_load(tile->normal, k), second = lane3_load(tile->normal, k + WIDE - LANES);
@@ -367,7 +368,7 @@ static inline lane gather_weight(const gather_pairs *pairs, int at)
                       lane_load(pairs->of[PAIR_I] + at));
 }
 
-/* sum + weight * flux where a pixel gets some; picked as in gather_add, over sums that stay in registers. */
+/* sum + weight * flux for lit pixels; picks as gather_add does, but with sums in registers. */
 LANE_INLINE lane3 gather_sum_one(lane3 sum, lane weight, const float flux[3])
 {
     const lane_mask lit = lane_lt(lane_splat(0.0f), weight);
@@ -410,14 +411,14 @@ static inline void gather_sum(lmb_irradiance *inout, int k, const gather_pairs *
     }
 }
 
-/* What may stand between, for one tile and one block. */
+/* Possible occluders, for one tile and one block. */
 typedef struct gather_occluders {
     const lmb_march_job *m;
     const gather_corners *corners;
-    uint8_t sees[BLOCK]; /* what the tile's corners see of each group, once asked */
+    uint8_t sees[BLOCK]; /* SEES_* per group; SEES_UNKNOWN until tested */
 } gather_occluders;
 
-/* What is hidden gets nothing. */
+/* Zeroes the weights of hidden pairs. */
 NOINLINE void gather_hide(gather_pairs *inout, gather_occluders *occluders, const lmb_tile *tile, int k,
                           const gather_group *groups)
 {
@@ -484,7 +485,7 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
 
 /* --- near groups, disc by disc ------------------------------------------------------------------------------------ */
 
-/* The exact form factor for the few lanes so close to a disc that its shape matters. */
+/* The exact form factor, for the few lanes so close to a disc that the shape matters. */
 static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *tile, int k, const lmb_point *disc)
 {
     float w[LANES];
@@ -500,7 +501,7 @@ static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *ti
     return lane_load(w);
 }
 
-/* A vector of pixels against one disc; `shared` is what they see of it while it is not near. */
+/* A vector of pixels and one disc. `shared`: the pixels that see the disc, if it is not near. */
 static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int k, lane_mask hits, const lmb_point *d,
                                const lmb_march_job *m, lane_mask shared)
 {
@@ -526,7 +527,7 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
     }
 }
 
-/* Up to SHARED discs that follow one another along the shadow map, and so share the segment to one of them. */
+/* Up to SHARED discs. They are consecutive in the shadow map, so they share the segment to one of them. */
 static inline void gather_chunk(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
                                 uint32_t count, const lmb_march_job *m, const gather_corners *corners)
 {

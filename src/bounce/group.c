@@ -1,12 +1,15 @@
-/* group.c: all discs into a fixed-size array of groups, by the method asked for. Layer 6.           [V13 V19 V20 V22]
+/* group.c: all discs into a fixed-size array of groups, by the chosen method. Layer 6.                   [V13 V19 V20
+ * V22]
  *
- * Too many groups: the zone or the reach doubles and grouping starts again, so everything always fits. */
+ * If there are too many groups, the zone or the reach grows and grouping restarts, so the discs always fit. */
 #include "group.h"
 
 #include <string.h>
 
-/* Move discs so that groups' members lie together, in order; discs of no group go last. In place: the links become
- * target places, then cycles are followed. `next` counts through each group's range. */
+#if LMB_BOUNCE
+
+/* Sorts discs so that the members of a group are contiguous, in order; discs without a group go last. Works in place:
+ * links become target indices, then cycles are followed. out->members counts through each group's range. */
 static void sort_members(lmb_groups *out, lmb_points *points)
 {
     uint32_t total = 0;
@@ -39,7 +42,7 @@ static void set_vec(float planes[3][LMB_MAX_GROUPS], int32_t k, lmb_vec3 v)
     planes[2][k] = v.z;
 }
 
-/* The disc's farthest corner from a point. */
+/* Distance from a point to the farthest corner of the disc. */
 static float corner_distance(const lmb_point *d, lmb_vec3 from)
 {
     lmb_vec3 sum = add3(d->axis_u, d->axis_v), difference = sub3(d->axis_u, d->axis_v);
@@ -52,7 +55,7 @@ static float corner_distance(const lmb_point *d, lmb_vec3 from)
     return sqrtf(far2);
 }
 
-/* Everything about group k from its members. */
+/* Computes group k from the members. */
 static void close_group(lmb_groups *out, int32_t k, const lmb_points *points, uint32_t flags)
 {
     lmb_group_sum g;
@@ -82,7 +85,7 @@ static void close_group(lmb_groups *out, int32_t k, const lmb_points *points, ui
     }
 }
 
-/* LMB_UNGROUPED discs of strict zones stay outside every member range. */
+/* LMB_UNGROUPED discs of strict zones stay outside all member ranges. */
 static void close_groups(lmb_groups *out, lmb_points *points, uint32_t count, uint32_t flags)
 {
     out->count = (int32_t)count;
@@ -119,7 +122,8 @@ static void count_stats(lmb_stats *stats, const lmb_groups *groups, const lmb_po
     }
 }
 
-/* Zones a side so that about `zones` of them, or `groups`, cover the map: the first try; misfits make it more. */
+/* Zone size for the first try, so that about `zones` zones, or `groups`, cover the map. Discs that do not fit increase
+ * the count. */
 static int32_t first_zone(const lmb_points *points, const lmb_grouping *g)
 {
     const uint64_t cells = (uint64_t)points->count * (uint64_t)maxi(g->thin, 1);
@@ -131,8 +135,8 @@ static int32_t first_zone(const lmb_points *points, const lmb_grouping *g)
     return (int32_t)zone;
 }
 
-/* Wider first; when that is not enough the normals must give way too, and at last (more faces than groups) zones give
- * way to reach alone, until anything joins anything. */
+/* Widens the limits: first zone and reach; if that is not enough, the normals too. At last, if there are more faces
+ * than groups, the greedy method replaces zones, until any disc joins any group. */
 static void widen(lmb_grouping *g, float *reach, int32_t *zone, uint32_t tries)
 {
     *reach *= 1.5f;
@@ -185,3 +189,5 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
     }
     return LMB_OK;
 }
+
+#endif

@@ -1,4 +1,4 @@
-/* group.h: what the grouping methods have in common: sums of discs, and each way to group them. Layer 6. */
+/* group.h: shared by the grouping methods: sums of discs, and one function per method. Layer 6. */
 #ifndef LMB_BOUNCE_GROUP_H
 #define LMB_BOUNCE_GROUP_H
 
@@ -19,7 +19,7 @@ typedef struct lmb_group_sum {
 float lmb_disc_power(const lmb_point *disc);
 float lmb_disc_area(const lmb_point *disc);
 
-/* Do the normals agree? A cosine of -1 takes any: rounding may put opposed ones below it. */
+/* 1 if the normals agree. A cosine of -1 accepts any normal, because rounding may put opposed ones below -1. */
 static inline int lmb_group_agrees(const lmb_group_sum *sum, const lmb_point *disc, float cosine)
 {
     return cosine <= -1.0f || dot3(disc->normal, sum->axis) >= cosine;
@@ -28,8 +28,8 @@ static inline int lmb_group_agrees(const lmb_group_sum *sum, const lmb_point *di
 void lmb_group_open(lmb_group_sum *sum);
 void lmb_group_add(lmb_group_sum *sum, const lmb_point *disc);
 
-/* Groups of the discs by method, each disc's link set from LMB_UNGROUPED to its group (strict zones: or kept).
- * They return the number of groups, which may exceed `most`: then the links mean nothing. */
+/* Group the discs. The link of each disc changes from LMB_UNGROUPED to its group; strict zones may leave it. Returns
+ * the number of groups. If that exceeds `max`, the links are undefined. */
 uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, float reach, uint32_t max);
 uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32_t zone, uint32_t max);
 

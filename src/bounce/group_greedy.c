@@ -1,12 +1,14 @@
 /* group_greedy.c: discs -> groups around a chosen disc, until none fits. Layer 6.                        [V17 V18]
  *
- * A disc joins when its centre is within reach x the first disc's radius of the group's barycentre and its normal
- * agrees; after each round of joining the barycentre has moved, so the rounds go on until one adds nothing. */
+ * A disc joins if its centre is within reach x the first disc's radius of the group's barycentre and the normals agree.
+ * Each round of joining moves the barycentre, so rounds continue until one adds nothing. */
 #include "group.h"
 
-#define EVERYTHING 1e4f /* a reach this wide takes all that is left, whichever way it faces */
+#if LMB_BOUNCE
+
+#define EVERYTHING 1e4f /* a reach this wide takes all remaining discs, regardless of direction */
 #define ANYWHERE 1e18f  /* m */
-#define ROUNDS 64 /* a group that still creeps after this many is taken as it is */
+#define ROUNDS 64 /* a group that still changes after this many is accepted */
 
 static int fits(const lmb_group_sum *g, const lmb_point *d, float reach_m, float cosine)
 {
@@ -17,7 +19,7 @@ static int fits(const lmb_group_sum *g, const lmb_point *d, float reach_m, float
     return dot3(away, away) <= reach_m * reach_m && lmb_group_agrees(g, d, cosine);
 }
 
-/* One pass over the discs still free; returns how many joined. */
+/* One pass over the free discs. Returns how many joined. */
 static uint32_t join_round(lmb_group_sum *g, lmb_points *points, uint32_t from, uint32_t group, float reach_m,
                            float cosine)
 {
@@ -57,3 +59,5 @@ uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, floa
     }
     return groups;
 }
+
+#endif

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#if LMB_BOUNCE
+
 float lmb_disc_power(const lmb_point *d) { return d->flux[0] + d->flux[1] + d->flux[2]; }
 float lmb_disc_area(const lmb_point *d) { return 4.0f * length3(cross3(d->axis_u, d->axis_v)); }
 
@@ -18,9 +20,12 @@ void lmb_group_add(lmb_group_sum *g, const lmb_point *d)
         g->centre = d->position;
         g->axis = d->normal;
     }
-    /* Black discs move nothing, so that dimming the light does not either; a black group stands at its first disc. */
+    /* Discs without flux do not move the centre, so dimming the light does not either. A group without flux keeps the
+     * position of its first disc. */
     if (g->weight > 0.0f) {
         g->centre = mul3(g->position, 1.0f / g->weight);
         g->axis = normalize3(mul3(g->normal, 1.0f / g->weight));
     }
 }
+
+#endif

@@ -1,18 +1,20 @@
 /* group_zones.c: the disc map cut into square zones, one group each; misfits open further groups. Layer 6. [V20 V21]
  *
- * Discs of one zone: the zone's first disc leads; one joins when its normal agrees with the group's and it lies within
- * the zone's own size of the barycentre (so that a foreground edge and the wall behind it part). What does not fit the
- * zone's first group opens the zone's second, and so on; LMB_ZONES_STRICT drops it instead. */
+ * The first disc of a zone leads. Another disc joins if its normal agrees with the group's and it lies within the size
+ * of the zone from the barycentre; this separates a foreground edge from the wall behind it. Discs that do not fit the
+ * zone's first group open a second, and so on. LMB_ZONES_STRICT drops them instead. */
 #include "group.h"
 
-/* Are both in one row of zones, or with `across` in one zone? */
+#if LMB_BOUNCE
+
+/* 1 if both lie in one row of zones, or, with `across`, in one zone. */
 static int is_same_zone(const lmb_point *a, const lmb_point *b, int32_t zone, int across)
 {
     return a->face == b->face && a->cell_y / zone == b->cell_y / zone &&
            (!across || a->cell_x / zone == b->cell_x / zone);
 }
 
-/* Past the last disc that may share a zone with disc i: faces follow one another, rows of zones too. */
+/* Past the last disc that may share a zone with disc i: faces follow one another, and so do rows of zones. */
 static uint32_t zone_row_end(const lmb_points *points, uint32_t i, int32_t zone)
 {
     const lmb_point *d = &points->data[i];
@@ -23,14 +25,14 @@ static uint32_t zone_row_end(const lmb_points *points, uint32_t i, int32_t zone)
     return end;
 }
 
-/* The reach of a zone, m: its side in discs times their distance, and half as much again for its diagonal. */
+/* The reach of a zone, m: the side in discs times their distance, plus half for the diagonal. */
 static float zone_reach(const lmb_point *first, int32_t zone, float reach)
 {
     float disc = maxf(first->distance, sqrtf(lmb_disc_area(first)));
     return disc * (float)zone * maxf(reach * 0.5f, 1.0f);
 }
 
-/* One group from disc i over the free discs of its zone. */
+/* Makes one group of the free discs in the zone of disc i. */
 static void fill_group(lmb_points *points, uint32_t i, uint32_t end, int32_t zone, const lmb_grouping *grouping,
                        uint32_t group)
 {
@@ -49,7 +51,7 @@ static void fill_group(lmb_points *points, uint32_t i, uint32_t end, int32_t zon
     }
 }
 
-/* Strict: whatever of the zone did not fit is dropped, so its zone must not lead again. */
+/* Strict zones: drops the zone's remaining discs, so that none of them leads again. */
 static void drop_rest(lmb_points *points, uint32_t i, uint32_t end, int32_t zone)
 {
     for (uint32_t j = i + 1; j < end; ++j) {
@@ -82,3 +84,5 @@ uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32
     }
     return groups;
 }
+
+#endif

@@ -1,8 +1,9 @@
 /* points.c: a shadow map -> first points: lit surface elements with their flux. Layer 6.      [V1 V2 V4 V5 V6 V7]
  *
- * A block of b x b texels is one element a surface: texels whose normals and planes agree are summed, so a fine map
- * costs points only where surfaces meet. Each element becomes a quad of equal area whose sides follow the texels'
- * footprint on the surface and their spread inside the block (second moments), so that a strip stays a strip. */
+ * A block of b x b texels gives one element per surface. Texels with the same normal and plane are summed, so a fine
+ * map costs more points only at the borders of surfaces. Each element becomes a quad of equal area. The sides of the
+ * quad follow the texels' footprint on the surface and their spread in the block (second moments), so a strip stays a
+ * strip. */
 #include <lambent/bounce.h>
 
 #include <string.h>
@@ -13,7 +14,9 @@
 #include "../map/texel.h"
 #include "points.h"
 
-#define ELEMENTS 4       /* a block's surfaces at most; more join the most similar */
+#if LMB_BOUNCE
+
+#define ELEMENTS 4       /* surfaces per block; more join the most similar */
 #define COS_25 0.90630779f
 
 size_t lmb_points_bytes(uint32_t n, uint32_t side)
@@ -45,15 +48,15 @@ lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *mem
 /* Sums over the texels of one surface in a block. */
 typedef struct element {
     lmb_vec3 position, normal; /* weighted by power */
-    lmb_vec3 first, face;      /* the first texel's, to compare with */
+    lmb_vec3 first, face;      /* of the first texel, for comparison */
     float power[3], flux[3], weight;
-    float x, y, xx, yy; /* texels from the block's middle */
+    float x, y, xx, yy; /* texels from the centre of the block */
     int32_t count;
 } element;
 
 static float plane_gap(const element *e, lmb_vec3 p) { return absf(dot3(e->face, sub3(p, e->first))); }
 
-/* The element a texel belongs to: the same surface, a new one, or the most similar one when all are taken. */
+/* The element of a texel: the same surface, a new element, or, if all are in use, the most similar one. */
 static element *find_element(element *e, int32_t *count, lmb_vec3 p, lmb_vec3 n, float texel_m)
 {
     int32_t best = 0;
@@ -95,7 +98,7 @@ static void add_texel(element *e, const lmb_tile *t, int k, const float power[3]
     ++e->count;
 }
 
-/* Side of the quad, in texels, from the spread of the texels along one axis: exact for a full block. */
+/* Side of the quad in texels, from the spread of the texels along one axis. Exact for a full block. */
 static float spread(float sum, float sum2, float count)
 {
     float mean = sum / count, variance = maxf(sum2 / count - mean * mean, 0.0f) + 1.0f / 12.0f;
@@ -134,7 +137,7 @@ typedef struct collector {
     int32_t face, block;
 } collector;
 
-/* The texel's owner, or a place nobody reads. */
+/* The texel's owner, or a dummy. */
 static uint32_t *owner_of(const collector *c, uint32_t *nowhere, int32_t x, int32_t y)
 {
     const uint32_t size = (uint32_t)c->map->size;
@@ -142,7 +145,7 @@ static uint32_t *owner_of(const collector *c, uint32_t *nowhere, int32_t x, int3
     return p->owner != NULL ? &p->owner[p->owner_count - size * size + (uint32_t)y * size + (uint32_t)x] : nowhere;
 }
 
-/* The block whose first texel is (bx, by) of the tile. */
+/* Collects the block with (bx, by) of the tile as first texel. */
 static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_t bx, int32_t by)
 {
     const lmb_view *v = &c->map->view[c->face];
@@ -250,7 +253,7 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
 
 /* --- in parts ----------------------------------------------------------------------------------------------------- */
 
-/* Where a part's rows and cells lie. */
+/* The rows and cells of a part. */
 typedef struct part_place {
     int32_t first_row, past_row;    /* of tiles */
     uint32_t first_cell, past_cell; /* of blocks */
@@ -293,7 +296,7 @@ lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels,
     own.data += points->count + ELEMENTS * p.first_cell;
     own.cap = ELEMENTS * (p.past_cell - p.first_cell);
     own.count = 0;
-    if (p.first_row > 0) { /* collecting row 0 counts the face itself */
+    if (p.first_row > 0) { /* row 0 counts the face */
         ++own.faces;
         own.owner_count += (uint32_t)map->size * (uint32_t)map->size;
     }
@@ -301,12 +304,12 @@ lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels,
         lmb_points_collect(&own, kernels, scratch, scene, light, map, face, p.first_row, p.past_row, grouping);
     if (status == LMB_OK) {
         own.cells[p.first_cell] =
-            own.count; /* it begins at the part's own 0: until the end its place holds the count */
+            own.count; /* starts at the part's own 0; holds the count until the end */
     }
     return status;
 }
 
-/* Owners of a part's texels: from the part's own numbers to those of all. */
+/* Converts the owners of a part's texels from indices of the part to global ones. */
 static void move_owners(const lmb_points *points, const lmb_shadow_map *map, const part_place *p)
 {
     const uint32_t row = (uint32_t)(map->size * LMB_TILE);
@@ -339,3 +342,5 @@ void lmb_points_put_together(lmb_points *points, const lmb_shadow_map *map, int3
     points->owner_count += points->owner != NULL ? (uint32_t)map->size * (uint32_t)map->size : 0;
     ++points->faces;
 }
+
+#endif

@@ -1,12 +1,12 @@
 /* polygon.c: the exact form factor from a point to a quad or triangle, clipped to the point's horizon. Layer 6.
  *
- * Lambert (1760): E = B / 2 sum over edges of angle x (n . edge normal), the edge's plane through the point. Divided by
- * pi B here, and by the polygon's area: W/m2 a watt of flux. */
+ * Lambert (1760): E = B / 2 sum over edges of angle x (n . edge normal), with the plane of an edge through the point.
+ * Here divided by pi B and by the polygon's area: W/m2 per watt of flux. */
 #include <lambent/bounce.h>
 
 #include "polygon.h"
 
-/* 2 pi x the form factor of a convex polygon, corners relative to the point; negative one way round. */
+/* 2 pi x the form factor of a convex polygon, corners relative to the point; negative for one winding. */
 static float edges_sum(const lmb_vec3 *polygon, int corners, lmb_vec3 face, lmb_vec3 normal)
 {
     lmb_vec3 corner[POLYGON_CORNERS + 1];
@@ -39,7 +39,7 @@ float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 cent
     quad[2] = add3(add3(c, u), v);
     quad[3] = add3(sub3(c, u), v);
     float sum = edges_sum(quad, 4, face, normal);
-    sum = dot3(side, axis) < 0.0f ? sum : -sum; /* the way round that the corners go, seen from the point */
+    sum = dot3(side, axis) < 0.0f ? sum : -sum; /* winding as seen from the point */
     return maxf(sum, 0.0f) * 0.15915494f / area;
 }
 

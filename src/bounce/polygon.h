@@ -12,7 +12,7 @@ enum { POLYGON_CORNERS = LMB_TREES ? 8 : 4 };
 /* Distance (m) by which a polygon is moved back from a point closer to its plane than `min_height`; below 0: no light.
  *
  * A surface that is parallel to the polygon lies in the polygon's plane. Rounding must not lift it out on either side,
- * because the form factor would jump to 1. The same holds if the polygon's middle is below the point's horizon, as
+ * because the form factor would jump to 1. The same holds if the polygon's centre is below the point's horizon, as
  * beyond a convex edge. A point on a concave edge gets the light of a point `min_height` above the plane. Small builds
  * give it no light, to save code. */
 static inline float polygon_back(float height, float min_height, lmb_vec3 face, lmb_vec3 axis, lmb_vec3 middle)

@@ -12,14 +12,14 @@ static const uint8_t glyphs[GLYPHS + 1][GLYPH_WIDE] = {
 #include "font.inc"
 };
 
-/* Pixels of the surface to write, and the image's pixel behind each. */
+/* Pixels of the surface to write, and the image pixel behind each. */
 typedef struct blit_job {
     const lmb_surface *to;
     const lmb_blit_image *from;
     lmb_blit_how how;
     int64_t x, y;           /* of the part's corner on the surface */
-    int32_t x0, x1, y0, y1; /* that are written: x0 .. x1 - 1 */
-    int32_t bytes;          /* of a pixel of the image */
+    int32_t x0, x1, y0, y1; /* columns and rows to write: x0 .. x1 - 1 */
+    int32_t bytes;          /* per pixel of the image */
 } blit_job;
 
 static uint8_t *blit_place(const lmb_surface *to, int32_t x, int32_t y)
@@ -37,7 +37,7 @@ static const uint8_t *blit_source(const blit_job *j, int32_t x, int32_t y)
 
 static int blit_is_target(const lmb_surface *to) { return is_colour_format(to->format) && to->format != LMB_RGB32F; }
 
-/* Codes onto a pixel, in share `alpha`. */
+/* Blends codes onto a pixel, in share `alpha`. */
 static void blit_mix(const lmb_surface *to, int32_t x, int32_t y, const uint8_t codes[4], uint32_t alpha, int dithers)
 {
     uint8_t *at = blit_place(to, x, y), target[4], made[4];
@@ -101,7 +101,7 @@ static int blit_how_is_good(const lmb_blit_how *how, const lmb_blit_image *from)
            p[1] <= from->height - p[3];
 }
 
-/* first .. past - 1 of a surface's side that `size` pixels from `at` on take. */
+/* Range first .. past - 1 of a surface's side, covered by `size` pixels from `at`. */
 static void blit_span(int32_t *first, int32_t *past, int64_t at, int64_t size, int32_t side)
 {
     const int64_t end = at + size;
@@ -109,14 +109,14 @@ static void blit_span(int32_t *first, int32_t *past, int64_t at, int64_t size, i
     *past = end < 0 ? 0 : end > side ? side : (int32_t)end;
 }
 
-/* The bytes from the first to behind the last of a rectangle with the corners a and b, which both belong to it. */
+/* Byte range of a rectangle, from the first byte to behind the last. The corners a and b are inside. */
 static void blit_bytes(uintptr_t *low, uintptr_t *high, const uint8_t *a, const uint8_t *b, int32_t stride, size_t row)
 {
     *low = (uintptr_t)(stride < 0 ? b : a);
     *high = (uintptr_t)(stride < 0 ? a : b) + row;
 }
 
-/* Does the job write bytes among those that it reads? */
+/* 1 if the job writes bytes that it reads. */
 static int blit_overlaps(const blit_job *j)
 {
     const int32_t wide = j->x1 - j->x0, source_wide = (int32_t)((j->x1 - 1 - j->x) / j->how.scale) -
@@ -129,7 +129,7 @@ static int blit_overlaps(const blit_job *j)
     return a < d && c < b;
 }
 
-/* In the order that reads each pixel before it is written. */
+/* Copies in the order that reads each pixel before it is overwritten. */
 static void blit_run(const blit_job *j)
 {
     const int back = (uintptr_t)blit_place(j->to, j->x0, j->y0) > (uintptr_t)blit_source(j, j->x0, j->y0);
@@ -205,7 +205,7 @@ static const uint8_t *text_glyph(char c)
     return glyphs[code >= 32 && code < 32 + GLYPHS ? code - 32 : GLYPHS];
 }
 
-/* A square of a glyph's pixel. */
+/* The square for one pixel of a glyph. */
 static void text_square(const lmb_surface *to, int64_t x, int64_t y, int32_t scale, const uint8_t colour[4])
 {
     int32_t x0, x1, y0, y1;

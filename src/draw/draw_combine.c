@@ -1,4 +1,4 @@
-/* draw_combine.c: a texture stage by functions of three arguments. Layer 4. */
+/* draw_combine.c: texture stages with functions of three arguments. Layer 4. */
 #include "draw_part.h"
 
 #if LMB_DRAW
@@ -36,7 +36,7 @@ static int32_t combine_argument(const combine_job *j, int i, int k)
     return operand == LMB_DRAW_TAKE_INVERSE_COLOUR || operand == LMB_DRAW_TAKE_INVERSE_ALPHA ? 255 - code : code;
 }
 
-/* v / 255, not negative, to nearest: no tie can be. */
+/* v / 255, clamped to 0 from below, to nearest; ties cannot occur. */
 static int32_t combine_quotient(int32_t v) { return (maxi(v, 0) + 127) / 255; }
 
 static int32_t combine_dot(const combine_job *j, int32_t scale)

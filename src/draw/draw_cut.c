@@ -1,14 +1,14 @@
 /* draw_cut.c: corners in clip space against the frustum, the guard band and the state's planes. Layer 4.
  *
- * As in src/raster/clip.c: two primitives that share an edge cut it at the same bits, because the intersection is
- * computed from the endpoint nearer to the plane, then the smaller bit pattern. The picture's sides do not cut, only a
- * guard band far outside does. */
+ * As in src/raster/clip.c, two primitives that share an edge cut it at the same bits, because the intersection is
+ * computed from the endpoint nearer to the plane, then from the smaller bit pattern. The picture's sides do not cut;
+ * only a guard band far outside does. */
 #include "draw_part.h"
 
 #include <string.h>
 
 #if LMB_DRAW
-#define CUT_LEAST_W 1e-12f /* so that 1 / w and its products are numbers */
+#define CUT_LEAST_W 1e-12f /* so that 1 / w and products with it are finite */
 
 static float cut_distance(const lmb_draw_corner *c, int cut, const lmb_draw_pass *pass)
 {
@@ -33,13 +33,13 @@ static float cut_distance(const lmb_draw_corner *c, int cut, const lmb_draw_pass
     }
 }
 
-/* Does the state have this plane of its own? */
+/* 1 if the state has this user plane. */
 static int cut_is_on(int cut, const lmb_draw_pass *pass)
 {
     return (pass->state->planes >> (cut - DRAW_CUT_OWN) & 1u) != 0;
 }
 
-/* A bit for each that the corner is outside of. */
+/* One bit for each plane that the corner is outside of. */
 static uint32_t cut_code(const lmb_draw_corner *c, const lmb_draw_pass *pass)
 {
     uint32_t code = 0;
@@ -65,7 +65,7 @@ static int cut_comes_first(const lmb_draw_corner *a, const lmb_draw_corner *b)
     return 1;
 }
 
-/* Where the plane cuts an edge; one end is inside. */
+/* Intersection of an edge with the plane; one end is inside. */
 static void cut_edge(lmb_draw_corner *out, const lmb_draw_corner *a, const lmb_draw_corner *b, int cut,
                      const lmb_draw_pass *pass)
 {

@@ -1,9 +1,9 @@
 /* draw_lanes.inl: coverage, depth and colours of draws, LANES pixels of a tile at a time. Layer 4.
  *
- * Values of draw_tile.c and draw_texel.c, one by one. What a state does not use is a branch a tile, or a vector. */
+ * Values equal those of draw_tile.c and draw_texel.c. Unused parts of a state cost a branch per tile, or per vector. */
 #include <string.h>
 
-/* Where the three edges have a pixel inside. */
+/* Pixels inside all three edges. */
 static uint64_t KERNEL(draw_cover)(const int32_t e[3], const int32_t ex[3], const int32_t ey[3])
 {
     uint64_t mask = 0;
@@ -78,7 +78,7 @@ LANE_INLINE lanei draw_code(lane v)
     return lane_to_int(lane_add(lane_hold(v, lane_splat(0.0f), lane_splat(255.0f)), lane_splat(0.5f)));
 }
 
-/* v / 255, to nearest, of 0 .. 255 x 255. */
+/* v / 255, to nearest, for 0 .. 255 x 255. */
 LANE_INLINE lanei draw_255th(lanei v)
 {
     v = lanei_add(v, lanei_splat(128));
@@ -87,7 +87,7 @@ LANE_INLINE lanei draw_255th(lanei v)
 
 LANE_INLINE lanei draw_lane_times(lanei a, lanei b) { return draw_255th(lanei_mul(a, b)); }
 
-/* a where share is 255, b where it is 0. */
+/* a if share is 255, b if it is 0. */
 LANE_INLINE lanei draw_lane_between(lanei a, lanei b, lanei share)
 {
     return draw_255th(lanei_add(lanei_mul(a, share), lanei_mul(b, lanei_sub(lanei_splat(255), share))));
@@ -111,7 +111,7 @@ LANE_INLINE lanei draw_join(const draw_codes *v)
     return lanei_or(even, lanei_mul(odd, lanei_splat(1 << 8)));
 }
 
-/* R and B changed places. */
+/* Swaps R and B. */
 LANE_INLINE lanei draw_swap(lanei bits)
 {
     const lanei byte = lanei_splat(255), first = lanei_and(bits, byte), third = lanei_and(lanei_shift(bits, 16), byte);
@@ -119,7 +119,7 @@ LANE_INLINE lanei draw_swap(lanei bits)
     return lanei_or(lanei_or(others, third), lanei_mul(first, lanei_splat(1 << 16)));
 }
 
-/* Shares of corners 1 and 2. */
+/* Weights of corners 1 and 2. */
 typedef struct draw_share {
     lane b1, b2;
 } draw_share;
@@ -161,7 +161,7 @@ LANE_INLINE void draw_add_texel(draw_codes *sum, lanei texel, lanei weight)
     }
 }
 
-/* Four weights that sum up to 2^16. */
+/* The four weights sum to 2^16. */
 LANE_PART draw_codes draw_bilinear(const lmb_texture *t, lane u, lane v)
 {
     const lanei half = lanei_splat(128), byte = lanei_splat(255), all = lanei_splat(256), one = lanei_splat(1);
@@ -194,7 +194,7 @@ LANE_INLINE draw_codes draw_sample(const lmb_texture *t, lane u, lane v)
                                     lane_to_int(lane_mul(v, lane_splat((float)t->height)))));
 }
 
-/* A stage's texels change the colour. */
+/* Applies a stage's texture to the colour. */
 LANE_PART draw_codes draw_stage_lanes(draw_codes v, const lmb_draw_patch *p, int n, const draw_share *s, int is_white)
 {
     const lmb_draw_stage *stage = &p->state->stage[n];
@@ -287,7 +287,7 @@ LANE_INLINE lanei draw_pair_255th(lanei v)
     return lanei_and(lanei_shift(lanei_add(v, lanei_and(lanei_shift(v, 8), pair)), 8), pair);
 }
 
-/* By the source's alpha: over the target, or added to it. */
+/* Blends by the source's alpha: over the target, or added to it. */
 LANE_INLINE lanei draw_pair_blend(lanei a, lanei b, lanei share, int adds)
 {
     if (!adds) {
@@ -318,7 +318,7 @@ LANE_PART lanei draw_logic_lanes(uint32_t op, lanei source, lanei was)
     return lanei_or(lanei_or(a, b), lanei_or(c, d));
 }
 
-/* How a state's colours meet the target. */
+/* How a state combines colours with the target. */
 enum { DRAW_MEET_NOT = 0, DRAW_MEET_OVER = 1, DRAW_MEET_ADD = 2, DRAW_MEET_BLEND = 3, DRAW_MEET_LOGIC = 4 };
 
 static int draw_meets(const lmb_draw_state *s)
@@ -352,7 +352,7 @@ LANE_INLINE lanei draw_met(const lmb_draw_state *s, const draw_codes *v, lanei w
 
 /* --- the target --------------------------------------------------------------------------------------------------- */
 
-/* Of rows `stride` bytes apart; sixteen lanes are two rows. */
+/* Rows are `stride` bytes apart; sixteen lanes are two rows. */
 LANE_INLINE lanei draw_load(const uint8_t *p, int32_t stride)
 {
     int32_t v[LANES];

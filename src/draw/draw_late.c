@@ -1,4 +1,4 @@
-/* draw_late.c: colours, shares and 1 / w of a shape of draw_quick.c, once a pixel of it has passed its tests. Layer 4. */
+/* draw_late.c: colours, shares and 1 / w of a shape of draw_quick.c, once a pixel passes the tests. Layer 4. */
 #include "draw_part.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@ static void quick_values(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32
     }
     for (int k = 0; k < LMB_DRAW_STAGES; ++k) {
         float *uv = &out->v[CORNER_UV + 2 * k];
-        if (s->stage[k].texture != NULL) { /* else nobody asks */
+        if (s->stage[k].texture != NULL) { /* otherwise not read */
             const float *from = v->uvs[k] != NULL ? (const float *)v->uvs[k] + 2 * (size_t)i : NULL;
             uv[0] = from != NULL ? from[0] : 0.0f;
             uv[1] = from != NULL ? from[1] : 0.0f;
@@ -29,7 +29,7 @@ static void quick_values(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32
     }
 }
 
-/* The value of the edge from a to b, by twice the area: 0 on the edge, 1 at the opposite corner. */
+/* The value of the edge from a to b, over twice the area: 0 on the edge, 1 at the opposite corner. */
 static lmb_draw_plane quick_edge(const lmb_screen_vertex *a, const lmb_screen_vertex *b, double by_area)
 {
     const int32_t ex = a->y_24_8 - b->y_24_8, ey = b->x_24_8 - a->x_24_8;

@@ -1,6 +1,6 @@
 /* draw_light.c: light at vertices by the formula of OpenGL 1.x. Layer 4.
  *
- * All in binary32, in one order, with powers by the library's own log2 and exp2: the same codes everywhere. */
+ * All in binary32, in one order, with powers from the library's own log2 and exp2: the same codes on every target. */
 #include "draw_part.h"
 
 #include <string.h>
@@ -8,15 +8,15 @@
 #include "../base/poly.h"
 
 #if LMB_DRAW && !LMB_DRAW_SMALL
-/* A vertex in the eye's space. */
+/* A vertex in eye space. */
 typedef struct light_place {
     lmb_vec3 at, normal, to_eye;
 } light_place;
 
-/* What one of the lights does to a vertex. */
+/* Light of one lamp at a vertex. */
 typedef struct light_ray {
-    lmb_vec3 to;    /* the lamp, unit */
-    float strength; /* by distance and cone */
+    lmb_vec3 to;    /* to the lamp, unit */
+    float strength; /* attenuation by distance and cone */
 } light_ray;
 
 static float light_power(float base, float exponent)
@@ -45,7 +45,7 @@ static light_ray light_ray_to(const lmb_draw_lamp *lamp, lmb_vec3 at)
     return ray;
 }
 
-/* Add one light: what is matt, and highlights. */
+/* Adds one light: diffuse part and highlights. */
 static void light_add(float matt[3], float highlight[3], const lmb_draw_lamp *lamp, const lmb_draw_material *m,
                       const light_place *p)
 {
@@ -83,7 +83,7 @@ static void light_side(uint8_t *colour, uint8_t *second, const lmb_draw_lighting
     }
 }
 
-/* A side's material at a vertex of the colour. */
+/* Sets a side's material from the vertex colour. */
 static void light_track(lmb_draw_material *inout, uint32_t tracks, const uint8_t colour[4])
 {
     for (int c = 0; c < 3; ++c) {

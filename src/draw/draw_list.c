@@ -1,4 +1,4 @@
-/* draw_list.c: a list's vertices and primitives, checked and drawn in order. Layer 4. */
+/* draw_list.c: checks a list's vertices and primitives and draws them in order. Layer 4. */
 #include "draw_part.h"
 
 #include <string.h>
@@ -6,8 +6,8 @@
 #include "../base/surface_check.h"
 
 #if LMB_DRAW
-#define LIST_GUARD_PX 16383.0f /* from the viewport's middle; one px of rounding short of what setup.c can take */
-#define LIST_ABSURD   1e30f    /* of clip space */
+#define LIST_GUARD_PX 16383.0f /* from the viewport's centre; one px of rounding below the limit of setup.c */
+#define LIST_ABSURD   1e30f    /* in clip space */
 
 /* --- vertices ----------------------------------------------------------------------------------------------------- */
 
@@ -21,7 +21,7 @@ static float list_plane(const float plane[4], lmb_vec3 p, float w)
     return plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] * w;
 }
 
-/* Its position in clip space, and what depends on it; 0 if it is not finite or absurd. */
+/* Position of a vertex in clip space, and values that depend on it. Returns 0 if it is not finite or absurd. */
 static int list_place(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t i)
 {
     const lmb_draw_vertices *v = pass->vertices;
@@ -45,7 +45,7 @@ static int list_place(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t 
     return sane && (v->position_format == LMB_DRAW_F32X4 || is_place(p));
 }
 
-/* The colours of vertex i: those of the back if there are such. */
+/* The colours of vertex i; those of the back if there are such. */
 static void list_paint(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t i, int back)
 {
     static const uint8_t none[4] = {0, 0, 0, 0};
@@ -62,7 +62,7 @@ static void list_paint(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t
     }
 }
 
-/* Vertex i, but for its colours; 0 if it is to be dropped. */
+/* Vertex i without colours. Returns 0 if it is to be dropped. */
 static int list_vertex(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t i)
 {
     const lmb_draw_vertices *v = pass->vertices;
@@ -83,15 +83,15 @@ static int list_vertex(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t
 
 /* --- primitives --------------------------------------------------------------------------------------------------- */
 
-/* What a primitive is drawn of: `n` vertices; the one that gives a flat colour; the sides of a triangle that are a
- * polygon's, bits 0 .. 2, from each corner to the next one; bit SIDES_CHOSEN if the vertices' edges count. */
+/* A primitive: `n` vertices; the vertex for a flat colour; bits 0 .. 2 of the sides of a triangle that are sides of the
+ * polygon, from each corner to the next one; bit SIDES_CHOSEN if the vertices' edge flags count. */
 enum { SIDES_ALL = 7, SIDES_CHOSEN = 8 };
 typedef struct list_primitive {
     uint32_t at[3], flat;
     int n, sides;
 } list_primitive;
 
-/* Does it face away? By the corners before they snap. */
+/* 1 if it faces away, by the corners before they snap. */
 static int list_is_back(const lmb_draw_pass *pass, const lmb_draw_corner c[3])
 {
     const float *p = c[0].v, *q = c[1].v, *r = c[2].v;
@@ -102,7 +102,7 @@ static int list_is_back(const lmb_draw_pass *pass, const lmb_draw_corner c[3])
     return ((pass->state->flags & LMB_DRAW_CLOCKWISE) != 0) == (area > 0.0);
 }
 
-/* For a shader: shares of the primitive's vertices, in the place of colours. */
+/* For a shader: puts the shares of the primitive's vertices in place of colours. */
 static void list_share(lmb_draw_corner corner[3], const lmb_draw_pass *pass, const list_primitive *p)
 {
     for (int i = 0; i < 3; ++i) {
@@ -121,7 +121,8 @@ static void list_share(lmb_draw_corner corner[3], const lmb_draw_pass *pass, con
     }
 }
 
-/* A triangle's sides, or the corners where they begin: bits 0 .. 2 of `sides`, from each corner to the next one. */
+/* Draws the sides of a triangle, or the corners at their start: bits 0 .. 2 of `sides`, from each corner to the next
+ * one. */
 NOINLINE int list_outline(const lmb_draw_pass *pass, const lmb_draw_corner corner[3], int sides, int mode)
 {
     int drawn = 0;
@@ -156,7 +157,7 @@ static int list_draw_corners(const lmb_draw_pass *pass, const list_primitive *p,
                        : lmb_draw_point(pass, corner);
 }
 
-/* One of vertices by their places in the list. */
+/* Draws a primitive from indices into the list. */
 static void list_draw(const lmb_draw_pass *pass, const list_primitive *listed)
 {
     const lmb_draw_vertices *v = pass->vertices;

@@ -1,8 +1,8 @@
-/* draw_part.h: what the parts of a draw share: corners, shapes, and the pixels of a shape in a tile. Layer 4.
+/* draw_part.h: shared by the parts of a draw: corners, shapes, and the pixels of a shape in a tile. Layer 4.
  *
- * A primitive becomes corners, which are clipped, and then shapes: triangles, lines, points. A shape goes through the
- * frame's tiles of 8x8 pixels. For each it says which pixels it covers, and draw_pixels does the rest for these: tests,
- * colours, the target. A specialised kernel would take draw_pixels' place for the states it is made for. */
+ * A primitive becomes corners, which are clipped, and then shapes: triangles, lines, points. A shape visits the frame's
+ * tiles of 8x8 pixels and finds the pixels that it covers in each. lmb_draw_tile does the rest for these pixels: tests,
+ * colours, the target. A specialised kernel would replace lmb_draw_tile for the states that it supports. */
 #ifndef LMB_DRAW_PART_H
 #define LMB_DRAW_PART_H
 
@@ -14,7 +14,7 @@
 #if LMB_DRAW
 enum { DRAW_FULL = !LMB_DRAW_SMALL };
 
-/* Values of a corner: all are linear in clip space. */
+/* Values of a corner; all are linear in clip space. */
 enum {
     CORNER_X = 0,
     CORNER_Y = 1,
@@ -22,7 +22,7 @@ enum {
     CORNER_W = 3,
     CORNER_RED = 4,
     CORNER_ALPHA = 7,
-    CORNER_SHARE = CORNER_RED, /* with a shader: of the primitive's vertices 1 and 2 */
+    CORNER_SHARE = CORNER_RED, /* with a shader: shares of the primitive's vertices 1 and 2 */
     CORNER_UV = 8, /* u, v of each stage */
     CORNER_FOG = CORNER_UV + 2 * LMB_DRAW_STAGES,
     CORNER_SECOND, /* R, G, B */
@@ -33,7 +33,7 @@ typedef struct lmb_draw_corner {
     float v[CORNER_VALUES];
 } lmb_draw_corner;
 
-/* Planes of clip space, in the order of cutting: w > 0, near, far, the guard band, and the state's own ones. */
+/* Planes of clip space, in cutting order: w > 0, near, far, the guard band, and the state's own ones. */
 enum {
     DRAW_CUT_W = 0,
     DRAW_CUT_NEAR = 1,
@@ -45,54 +45,54 @@ enum {
     DRAW_CUT_OWN = 7,
     DRAW_CUTS = DRAW_CUT_OWN + LMB_DRAW_PLANES
 };
-enum { DRAW_CORNERS = 3 + DRAW_CUTS }; /* of a triangle cut by all of them */
+enum { DRAW_CORNERS = 3 + DRAW_CUTS }; /* of a triangle cut by all planes */
 
-/* For a shader: the primitive that is drawn. */
+/* For a shader: the current primitive. */
 typedef struct draw_primitive {
     uint32_t vertex[3];
     int32_t is_back;
 } draw_primitive;
 
-/* What stays the same over a call. */
+/* Constant over a call. */
 typedef struct lmb_draw_pass {
     const lmb_draw_target *target;
     const lmb_draw_state *state;
     const lmb_draw_vertices *vertices;
     const lmb_draw_indices *indices;
     int32_t x0, y0, x1, y1;     /* pixels of the frame that may be drawn */
-    int32_t middle_x, middle_y; /* of the viewport, 24.8 in the frame */
+    int32_t middle_x, middle_y; /* viewport's centre, 24.8 in the frame */
     float snap_x, snap_y, guard_x, guard_y;
     float depth_scale, depth_bias; /* LMB_DEPTH16: code = d scale + bias */
-    int32_t tests;                 /* 1: depth or stencil */
-    int32_t shows;                 /* 1: some colour may be written */
+    int32_t tests;                 /* 1: depth or stencil test */
+    int32_t shows;                 /* 1: colours may be written */
     int32_t paints_first;          /* 1: tests need colours */
-    uint32_t *dashed;              /* pixels of the lines before, which line_pattern counts on from */
-    int32_t tests_rows, paints_rows, paints_lanes; /* 1: draw_rows.c can for this state, or a kernel */
-    struct draw_vertex *few;         /* DRAW_FEW corners of triangles; NULL: all go the long way */
+    uint32_t *dashed;              /* pixels of earlier lines: line_pattern continues from this count */
+    int32_t tests_rows, paints_rows, paints_lanes; /* 1: draw_rows.c, or a kernel, supports this state */
+    struct draw_vertex *few;         /* DRAW_FEW corners of triangles; NULL: all take the general path */
     int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
     draw_primitive *now;
     lmb_stats *stats;
 } lmb_draw_pass;
 
-/* A value that is linear in the picture: at the viewport's middle, and per px. */
+/* A value that is linear in the picture: at the viewport's centre, and per px. */
 typedef struct lmb_draw_plane {
     double origin, x, y;
 } lmb_draw_plane;
 
-/* A set-up primitive. A value at a pixel is that of corner 0, plus n1 / q and n2 / q times the differences of the other
- * corners' values from it. */
+/* A primitive after setup. A value at a pixel is that of corner 0, plus n1 / q and n2 / q times the differences of
+ * corners 1 and 2 from it. */
 typedef struct lmb_draw_shape {
     const lmb_draw_corner *corner[3];
     lmb_draw_plane d, n1, n2, q;
-    float d_min, d_max; /* of the corners */
+    float d_min, d_max; /* range of the corners */
     float d_add;        /* depth offset */
-    int32_t corners;    /* 1: values are corner 0's; 2: n2 is 0 */
+    int32_t corners;    /* 1: all values are corner 0's; 2: n2 is 0 */
     int32_t is_even;    /* 1: q is 1 */
-    int32_t is_cut;     /* 1: its colours go by plain C */
-    struct lmb_draw_late *late; /* what corners, n1, n2 and q are made of at the first pixel that is seen; or NULL */
+    int32_t is_cut;     /* 1: from a cut triangle; coloured in plain C */
+    struct lmb_draw_late *late; /* inputs from which corner, n1, n2 and q are computed once a pixel passes; or NULL */
 } lmb_draw_shape;
 
-/* A linear value over a tile: at its first pixel, and per px. */
+/* A linear value over a tile: at the first pixel, and per px. */
 typedef struct tile_slope {
     float at, x, y;
 } tile_slope;
@@ -101,7 +101,7 @@ typedef struct tile_slope {
 typedef struct tile_job {
     const lmb_draw_pass *pass;
     const lmb_draw_shape *shape;
-    int32_t x, y; /* of pixel 0, px of the frame */
+    int32_t x, y; /* pixel 0, px of the frame */
     tile_slope d, n1, n2, q;
 } tile_job;
 
@@ -111,28 +111,28 @@ static inline float tile_at(const tile_slope *p, int k)
     return (p->at + p->y * (float)(k >> 3)) + p->x * (float)(k & 7);
 }
 
-/* lmb_draw_cut_polygon: cut a triangle; returns its corners, 0 or 3 .. DRAW_CORNERS.
- * lmb_draw_cut_line: cut a line; 0 if nothing is left. lmb_draw_is_out: is a point outside? */
+/* lmb_draw_cut_polygon: cuts a triangle. Returns the number of corners, 0 or 3 .. DRAW_CORNERS. lmb_draw_cut_line: cuts
+ * a line. Returns 0 if nothing is left. lmb_draw_is_out: 1 if a point is outside. */
 int lmb_draw_cut_polygon(lmb_draw_corner corner[DRAW_CORNERS], const lmb_draw_pass *pass);
 int lmb_draw_cut_line(lmb_draw_corner corner[2], const lmb_draw_pass *pass);
 int lmb_draw_is_out(const lmb_draw_corner *corner, const lmb_draw_pass *pass);
 
-/* Primitives whose corners are sane; 1 if something of it may show. The corners are changed. */
+/* Draw a primitive with finite corners. Return 1 if part of it may show. The corners are changed. */
 int lmb_draw_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3]);
 int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2]);
 int lmb_draw_point(const lmb_draw_pass *pass, const lmb_draw_corner *corner);
 
-/* A corner that was transformed. */
+/* A transformed corner. */
 typedef struct draw_vertex {
-    uint32_t name, out; /* vertex + 1, 0: none; bits of the planes it is outside of, DRAW_DROPPED */
-    int32_t x, y;       /* 24.8 of the viewport's middle */
+    uint32_t name, out; /* vertex + 1, or 0: none; bits of the planes it is outside of, or DRAW_DROPPED */
+    int32_t x, y;       /* 24.8 from the viewport's centre */
     float d, inverse;   /* 1 / w */
 } draw_vertex;
 enum { DRAW_FEW = 4 /* for quads and strips */, DRAW_DROPPED = 256 };
 
-/* What the rest of a shape is made of. */
+/* Inputs for the rest of a shape. */
 typedef struct lmb_draw_late {
-    lmb_screen_vertex at[3]; /* the edges run round it one way */
+    lmb_screen_vertex at[3]; /* the winding is always the same */
     float inverse[3];
     uint32_t vertex[3], flat;
     double by_area;
@@ -147,22 +147,23 @@ static inline float quick_fog(const lmb_draw_pass *pass, const float p[3], float
     return pass->fog_is_w ? w : axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2] + axis[3];
 }
 
-/* draw_quick.c. begin: sets pass->few if the state's triangles can be drawn this way. quick: a triangle of vertices by
- * their places in the list; 0: it is to be drawn the long way. run: triangles of vertices (i - 2, i - 1, i), each three
- * further on, until one is to be drawn the long way; returns its i. draw_late.c: finish: all of a late shape. */
+/* draw_quick.c. begin: sets pass->few if the fast path supports the state's triangles. quick: draws a triangle from
+ * places in the list; returns 0 if it needs the general path. run: draws triangles of vertices (i - 2, i - 1, i), three
+ * further on each, until one needs the general path; returns its i. draw_late.c: finish: computes the rest of a late
+ * shape. */
 void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW]);
 int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat);
 uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count);
 void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *shape);
 
-/* draw_rows.c: usual states, row by row. begin: which. tests: those of the mask's pixels that pass, whose depths are
- * stored. paints: their colours. */
+/* draw_rows.c: common states, row by row. begin: selects them. tests: returns the pixels of the mask that pass, and
+ * stores their depths. paints: colours pixels. */
 void lmb_draw_rows_begin(lmb_draw_pass *pass);
 uint64_t lmb_draw_rows_test(const tile_job *job, uint64_t mask);
 void lmb_draw_rows_paint(const tile_job *job, uint64_t mask);
-int lmb_draw_lanes_paint(const tile_job *job, uint64_t mask); /* by the state's kernels; 0: these cannot */
+int lmb_draw_lanes_paint(const tile_job *job, uint64_t mask); /* with the state's kernels; 0: they cannot */
 
-/* Which vertex comes n-th; the vertices' count if there is no such. */
+/* The n-th vertex index; the vertex count if it is out of range. */
 static inline uint32_t draw_index(const lmb_draw_pass *pass, uint32_t n)
 {
     const lmb_draw_indices *x = pass->indices;
@@ -177,7 +178,7 @@ static inline uint32_t draw_index(const lmb_draw_pass *pass, uint32_t n)
     return i < pass->vertices->count ? i : pass->vertices->count;
 }
 
-/* 24.8 of what setup.c takes. floorf is a call where processors lack it. */
+/* 24.8 within the range of setup.c. floorf is a call if the processor lacks the instruction. */
 #define DRAW_SNAP_MAX 4194304.0f
 static inline int32_t draw_to_24_8(float v)
 {
@@ -186,24 +187,24 @@ static inline int32_t draw_to_24_8(float v)
     return whole - ((float)whole > held);
 }
 
-/* The pixels `mask` of the shape in the tile with pixel 0 at (x, y) of the frame; those outside the pass's are left
- * out. */
+/* Draws the pixels `mask` of the shape in the tile with pixel 0 at (x, y) of the frame. Skips pixels outside the
+ * pass. */
 void lmb_draw_tile(const lmb_draw_pass *pass, lmb_draw_shape *shape, int32_t x, int32_t y, uint64_t mask);
 
-/* Numbers as the state has them. */
+/* Check the values of targets and states. */
 lmb_status lmb_draw_check_target(const lmb_draw_target *target);
 lmb_status lmb_draw_check_state(const lmb_draw_state *state, const lmb_draw_target *target);
 
-/* 255 a b of two codes, to nearest: no tie can be. */
+/* a b / 255 of two codes, to nearest; ties cannot occur. */
 static inline uint32_t draw_times(uint32_t a, uint32_t b) { return (a * b + 127u) / 255u; }
 
-/* a where share is 255, b where it is 0. */
+/* a if share is 255, b if it is 0. */
 static inline uint32_t draw_between(uint32_t a, uint32_t b, uint32_t share)
 {
     return (a * share + b * (255u - share) + 127u) / 255u;
 }
 
-/* A stage's LMB_DRAW_COMBINE. first: the colour before all stages. */
+/* Applies a stage's LMB_DRAW_COMBINE. first: the colour before all stages. */
 void lmb_draw_combine_codes(uint8_t inout[4], const lmb_draw_state *state, int stage, const uint8_t first[4],
                             const uint8_t texel[LMB_DRAW_STAGES][4]);
 
@@ -216,8 +217,8 @@ static inline float draw_value(const lmb_draw_shape *s, int i, float b1, float b
 /* One texel's bytes R G B A. level: in 1/256 levels. */
 void lmb_draw_texel(uint8_t out[4], const lmb_texture *texture, float u, float v, int32_t level);
 
-/* Vertices: are their numbers good; `n` values of the i-th one; x, y, z and w;
- * where that is: (x, y, z) / w, or (x, y, z) if w is 0. */
+/* Vertices: check: are the values valid; fetch: `n` values of vertex i; position_w: x, y, z and w; position: (x, y, z)
+ * / w, or (x, y, z) if w is 0. */
 lmb_status lmb_draw_check_vertices(const lmb_draw_vertices *vertices);
 void lmb_draw_fetch(float *out, const void *data, uint32_t i, int n, int format);
 lmb_vec3 lmb_draw_position_w(float *w, const lmb_draw_vertices *vertices, uint32_t i);
@@ -228,7 +229,7 @@ static inline int draw_passes(int func, int32_t value, int32_t other)
     return (func & (value < other ? LMB_DRAW_LESS : value == other ? LMB_DRAW_EQUAL : LMB_DRAW_GREATER)) != 0;
 }
 
-/* Codes of a picture's pixel in memory, R G B A; and back. Dithered at (x, y) of the frame. */
+/* Reads the codes R G B A of a pixel in memory, and writes them. Dithered at (x, y) of the frame. */
 void lmb_draw_read_pixel(uint8_t out[4], int32_t format, const uint8_t *at);
 uint32_t lmb_draw_pixel_bits(int32_t format, const uint8_t *at);
 uint32_t lmb_draw_pixel_of(int32_t format, const uint8_t codes[4], int dithers, int32_t x, int32_t y);

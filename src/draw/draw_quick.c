@@ -1,8 +1,8 @@
-/* draw_quick.c: triangles that are neither clipped nor large: corners are kept, edges fit 32 bits. Layer 4.
+/* draw_quick.c: triangles that are neither clipped nor large: corners are cached, edges fit 32 bits. Layer 4.
  *
- * Most triangles of a mesh cover a few pixels or none, and their cost is that of their corners. So a corner that comes
- * again is not transformed again, and colours and shares are not touched before a pixel has passed its tests. The
- * arithmetic is that of draw_list.c, draw_shape.c and setup.c, value by value. */
+ * Most triangles of a mesh cover a few pixels or none, so corners dominate the cost. A repeated corner is not
+ * transformed again, and colours and shares are not read before a pixel passes the tests. The arithmetic is that of
+ * draw_list.c, draw_shape.c and setup.c, value by value. */
 #include "draw_part.h"
 
 #include <string.h>
@@ -11,8 +11,8 @@
 #include "../raster/setup.h"
 
 #if LMB_DRAW
-enum { QUICK_24_8 = 16 * 256 /* a side of the box of corners that are small */ };
-enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much stack with a kernel's vectors */ };
+enum { QUICK_24_8 = 16 * 256 /* largest side of the box of small triangles */ };
+enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* with more, a kernel's vectors take too much stack */ };
 #define QUICK_ABSURD  1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
@@ -39,7 +39,7 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
 
 static int quick_is_absurd(float v) { return !(v > -QUICK_ABSURD && v < QUICK_ABSURD); }
 
-/* Which planes a corner is outside of, if it is finite. */
+/* Bits of the planes that a corner is outside of; DRAW_DROPPED if it is not finite. */
 static uint32_t quick_out(const lmb_draw_pass *pass, const float p[3], const float clip[4])
 {
     const float x = clip[0], y = clip[1], z = clip[2], w = clip[3];
@@ -54,7 +54,7 @@ static uint32_t quick_out(const lmb_draw_pass *pass, const float p[3], const flo
            (uint32_t)(top + y < 0.0f) << DRAW_CUT_BOTTOM;
 }
 
-/* 1 if quick_out is 0; the usual corner needs no more than this. */
+/* 1 if quick_out would return 0: enough for the usual corner. */
 static int quick_is_in(const lmb_draw_pass *pass, const float p[3], const float clip[4])
 {
     const float w = clip[3];
@@ -62,7 +62,7 @@ static int quick_is_in(const lmb_draw_pass *pass, const float p[3], const float 
            absf(clip[0]) <= pass->guard_x * w && absf(clip[1]) <= pass->guard_y * w && is_place(vec3(p[0], p[1], p[2]));
 }
 
-/* draw_to_24_8 of what lies in the guard band. */
+/* draw_to_24_8 for values in the guard band. */
 static int32_t quick_to_24_8(float v)
 {
     const int32_t whole = (int32_t)v;
@@ -98,7 +98,7 @@ NOINLINE void quick_renew(draw_vertex *at, const lmb_draw_pass *pass, uint32_t i
     }
 }
 
-/* Vertex i, whose texture coordinates must be sane too. */
+/* Vertex i, from the cache if possible. Texture coordinates must be valid too. */
 static inline draw_vertex quick_corner(draw_vertex *known, uint32_t count, const lmb_draw_pass *pass, uint32_t i)
 {
     draw_vertex *at = &known[i & (count - 1)];
@@ -110,7 +110,7 @@ static inline draw_vertex quick_corner(draw_vertex *known, uint32_t count, const
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
-/* Edges at pixel (x0, y0) of the box, and per px: 32 bits hold them. */
+/* Edges at pixel (x0, y0) of the box, and per px, in 32 bits. */
 typedef struct quick_edges {
     int32_t e[3], ex[3], ey[3];
     int32_t x0, y0, x1, y1;
@@ -134,7 +134,7 @@ static inline void quick_set_edges(quick_edges *out, const lmb_draw_pass *pass, 
     quick_set_edge(out, 2, &at[2], &at[0], x, y);
 }
 
-/* The pixels of the box in the tile at (x, y) that all edges have inside. */
+/* The pixels of the box in the tile at (x, y) that are inside all edges. */
 static uint64_t quick_covered(const quick_edges *s, int32_t x, int32_t y)
 {
     const int32_t x0 = maxi(s->x0, x), x1 = mini(s->x1, x + LMB_TILE - 1);
@@ -181,11 +181,11 @@ static void quick_begin_shape(lmb_draw_shape *out, lmb_draw_late *late, int64_t 
     quick_set_depth(out, late->at, late->by_area);
 }
 
-/* Bit i of the four from `i` on: is pixel i inside? */
+/* Bit i of four, from `i` on: pixel i is inside. */
 #define QUICK_BIT(i) ((~(uint32_t)((a + ex0 * (i)) | (b + ex1 * (i)) | (c + ex2 * (i))) >> 31) << (i))
 
-/* The pixels of a box of at most 8 x 8, its first one bit 0, four at once: a loop as long as the box is wide ends where
- * processors do not expect it. */
+/* The pixels of a box of at most 8 x 8, with bit 0 as the first one. Four at a time, because processors mispredict the
+ * end of a loop over the width of the box. */
 static inline uint64_t quick_covered_box(const quick_edges *s)
 {
     const int32_t wide = s->x1 - s->x0, ex0 = s->ex[0], ex1 = s->ex[1], ex2 = s->ex[2];
@@ -202,7 +202,7 @@ static inline uint64_t quick_covered_box(const quick_edges *s)
     return mask & (uint64_t)(0xffu >> (7 - wide)) * UINT64_C(0x0101010101010101);
 }
 
-/* A box of at most 8 x 8 pixels, in one to four tiles. */
+/* Fills a box of at most 8 x 8 pixels, in one to four tiles. */
 static void quick_fill_box(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t area, const quick_edges *edges)
 {
     const uint64_t mask = quick_covered_box(edges);
@@ -232,7 +232,7 @@ static void quick_fill_box(const lmb_draw_pass *pass, lmb_draw_late *late, int64
     }
 }
 
-/* Tiles in rows, as the long way. */
+/* Fills tiles in rows, as the general path does. */
 static void quick_fill(const lmb_draw_pass *pass, lmb_draw_late *late, int64_t area, const quick_edges *edges)
 {
     lmb_draw_shape shape;
@@ -256,7 +256,7 @@ static void quick_set_corner(lmb_draw_late *late, int i, const draw_vertex *c)
     late->vertex[i] = c->name - 1;
 }
 
-/* Asks for the depths of a tile. */
+/* Prefetches the depths of a tile. */
 MESH_HINT void quick_ask_depth(const lmb_draw_pass *pass, int32_t x, int32_t y)
 {
     const lmb_surface *s = &pass->target->depth;
@@ -267,7 +267,7 @@ MESH_HINT void quick_ask_depth(const lmb_draw_pass *pass, int32_t x, int32_t y)
     }
 }
 
-/* 1 or 0: something may show, or not; -1: it is to be drawn the long way. */
+/* Returns 1 if something may show, 0 if not, and -1 if it needs the general path. */
 static int quick_draw(const lmb_draw_pass *pass, const draw_vertex *a, const draw_vertex *b, const draw_vertex *c,
                       uint32_t flat)
 {
@@ -304,7 +304,7 @@ static int quick_draw(const lmb_draw_pass *pass, const draw_vertex *a, const dra
     return 1;
 }
 
-/* Asks for the positions of a triangle's corners that come a little later. */
+/* Prefetches the positions of corners of a later triangle. */
 MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
 {
     const lmb_draw_indices *x = pass->indices;
@@ -314,7 +314,7 @@ MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
     }
 }
 
-/* known: `size` corners, a power of two. */
+/* known: a cache of `size` corners, a power of two. */
 static inline int quick_triangle(const lmb_draw_pass *pass, draw_vertex *known, uint32_t size, const uint32_t order[3],
                                  uint32_t flat)
 {

@@ -1,8 +1,8 @@
-/* draw_rows.c: pixels of usual states by code of their own, in plain C or by lanes. Layer 4.
+/* draw_rows.c: pixels of common states with specialised code, in plain C or by lanes. Layer 4.
  *
- * Usual: depth of 32 bits without a stencil; colours of four bytes, opaque or blended by their alpha, one texture at
- * most. Lanes take more. Values are draw_tile.c's, which does the rest: what a shape has in common is taken out of the
- * loop. */
+ * Common: 32-bit depth without a stencil; four-byte colours, opaque or blended by their alpha, with at most one
+ * texture. Lanes support more. Values are those of draw_tile.c, which handles all other states. Values that a shape
+ * shares are computed outside the loop. */
 #include "draw_part.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "../raster/texels.h"
 
 #if LMB_DRAW
-/* How colours go to the target. */
+/* How colours are written to the target. */
 enum { ROWS_NOT = 0, ROWS_OPAQUE = 1, ROWS_ALPHA = 2, ROWS_ADD = 3 };
 
 static int rows_blend(const lmb_draw_state *s)
@@ -35,7 +35,7 @@ static int rows_are_wide(const lmb_draw_target *t)
     return t->colour.format == LMB_RGBA8 || t->colour.format == LMB_BGRA8;
 }
 
-/* One texture at most, nearest, by the usual modes. */
+/* At most one texture, nearest, in the usual modes. */
 static int rows_sample(const lmb_draw_state *s)
 {
     const lmb_draw_stage *stage = &s->stage[0];
@@ -45,7 +45,7 @@ static int rows_sample(const lmb_draw_state *s)
 }
 
 #if LMB_DRAW_LANES
-/* Colours in memory are read as numbers of 32 bits, red the lowest. */
+/* 1 if 32-bit reads of colours have red in the low bits. */
 static int rows_are_little(void)
 {
     const uint32_t one = 1;
@@ -84,7 +84,7 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass)
 /* --- by lanes ----------------------------------------------------------------------------------------------------- */
 
 #if LMB_DRAW_LANES
-/* Kernels write whole rows of a tile: the target must have them. And of few pixels a row at a time is as fast. */
+/* Kernels write whole rows of a tile, so the target must have them. For few pixels, a row at a time is as fast. */
 enum { ROWS_FEW_TESTED = 6, ROWS_FEW_PAINTED = 3 };
 
 static int rows_are_whole(const tile_job *j)
@@ -121,7 +121,7 @@ static uint64_t rows_lanes_test(const tile_job *j, uint8_t *depth, int32_t step,
     return p.state->kernels->draw_test(&p, mask);
 }
 
-/* Value i of the kernel's is the corners' value `from`. */
+/* Sets value i of the kernel from value `from` of the corners. */
 static void rows_lanes_value(lmb_draw_patch *p, const lmb_draw_shape *s, int i, int from)
 {
     p->at[i] = s->corner[0]->v[from];
@@ -223,11 +223,11 @@ uint64_t lmb_draw_rows_test(const tile_job *j, uint64_t mask)
 
 enum { ROWS_VALUES = 6 /* R G B A u v */ };
 
-/* Values of corner 0, and the differences of the others'. */
+/* Values of corner 0, and the differences of the other corners. */
 typedef struct rows_values {
     float at[ROWS_VALUES], more1[ROWS_VALUES], more2[ROWS_VALUES];
-    uint32_t same;            /* its four codes if all corners have one colour */
-    uint32_t alpha;           /* of the first corner */
+    uint32_t same;            /* the packed colour, if all corners have the same one */
+    uint32_t alpha;           /* of corner 0 */
     int varies, alpha_varies; /* 1: corners differ */
 } rows_values;
 
@@ -265,7 +265,7 @@ static inline float rows_value(const rows_values *v, int i, float b1, float b2)
     return v->at[i] + (b1 * v->more1[i] + b2 * v->more2[i]);
 }
 
-/* Where a texture's nearest texel is. */
+/* Address of a texture's nearest texel. */
 static const uint8_t *rows_texel(const lmb_texture *t, float u, float v)
 {
     const int32_t x = texel_wrap((int32_t)(texel_reduce(u, t->wrap_s) * (float)t->width), t->width, t->wrap_s);
@@ -273,7 +273,7 @@ static const uint8_t *rows_texel(const lmb_texture *t, float u, float v)
     return t->texels + 4 * ((size_t)y * t->width + (size_t)x);
 }
 
-/* Two codes at once, in the low and the high half: (a b + 127) / 255 of each, and so exact. */
+/* Two codes at once, in the low and the high half: (a b + 127) / 255 of each, exact. */
 static uint32_t rows_between(uint32_t a, uint32_t b, uint32_t share)
 {
     const uint32_t v = a * share + b * (255u - share) + 0x00800080u;
@@ -301,7 +301,7 @@ static void rows_store(uint8_t *p, uint32_t v)
     p[3] = (uint8_t)(v >> 24);
 }
 
-/* R and B changed places. */
+/* Swaps R and B. */
 static uint32_t rows_swapped(uint32_t v) { return (v & 0xff00ff00u) | (v >> 16 & 0xffu) | (v & 0xffu) << 16; }
 
 static uint32_t rows_blended(uint32_t v, uint32_t was, int blend)
@@ -315,7 +315,7 @@ static uint32_t rows_blended(uint32_t v, uint32_t was, int blend)
            rows_add(v >> 8 & 0x00ff00ffu, was >> 8 & 0x00ff00ffu, share) << 8;
 }
 
-/* What the pixels of one row share. */
+/* Constant along the pixels of one row. */
 typedef struct rows_line {
     float at1, at2, at_q, x1, x2, x_q;
     int is_even;
@@ -348,7 +348,7 @@ static inline void rows_share(float share[2], const rows_line *l, int k)
     share[1] = minf(maxf(b2, 0.0f), 1.0f);
 }
 
-/* Four codes of values 0 .. 255 that may be a little outside. */
+/* Four codes of values 0 .. 255, which may be slightly out of range. */
 static inline uint32_t rows_smooth(const rows_values *v, const float share[2])
 {
     const float b1 = share[0], b2 = share[1];

@@ -1,13 +1,13 @@
 /* draw_shape.c: sets up triangles, lines and points, and finds the pixels that they cover. Layer 4.
  *
- * Corners snap to 24.8 from the viewport's middle as in src/raster, and setup.c there makes the edges: a triangle
- * covers the same pixels, with the same depth, as lmb_draw's. */
+ * Corners snap to 24.8 from the viewport's centre as in src/raster, and setup.c there makes the edges. So a triangle
+ * covers the same pixels, with the same depth, as in lmb_draw. */
 #include "draw_part.h"
 
 #include "../raster/setup.h"
 
 #if LMB_DRAW
-/* 1 / w, and the corner in the picture. */
+/* Snaps the corner to the picture. Returns 1 / w. */
 static float shape_snap(lmb_screen_vertex *out, const lmb_draw_corner *c, const lmb_draw_pass *pass)
 {
     const float *range = pass->state->depth_range, inverse = 1.0f / c->v[CORNER_W];
@@ -32,7 +32,7 @@ static lmb_draw_plane shape_scaled(const lmb_draw_plane *p, double by)
     return shape_plane(p->origin * by, p->x * by, p->y * by);
 }
 
-/* n1, n2 and q. n1 and n2 are the corners' shares in the picture at first. inverse: 1 / w of the corners. */
+/* Sets n1, n2 and q. On entry n1 and n2 are the corners' shares in the picture. inverse: 1 / w of the corners. */
 static void shape_set_shares(lmb_draw_shape *s, const float inverse[3])
 {
     const double more1 = (double)inverse[1] - (double)inverse[0], more2 = (double)inverse[2] - (double)inverse[0];
@@ -47,7 +47,7 @@ static void shape_set_shares(lmb_draw_shape *s, const float inverse[3])
     s->n2 = shape_scaled(&s->n2, (double)inverse[2]);
 }
 
-/* The value of edge i, by twice the area: 0 on the edge from vertex `from`, 1 at the opposite corner. */
+/* The value of edge i, over twice the area: 0 on the edge from vertex `from`, 1 at the opposite corner. */
 static lmb_draw_plane shape_edge(const lmb_setup *e, int i, const lmb_screen_vertex *from, double by_area)
 {
     const double ex = e->ex[i], ey = e->ey[i];
@@ -55,7 +55,7 @@ static lmb_draw_plane shape_edge(const lmb_setup *e, int i, const lmb_screen_ver
     return shape_plane((double)origin * by_area, ex * 256.0 * by_area, ey * 256.0 * by_area);
 }
 
-/* The least step of depths as large as d. */
+/* The smallest step between depths near d. */
 static float shape_depth_step(const lmb_draw_pass *pass, float d)
 {
     float step = 1.1920929e-7f; /* of 1 .. 2 */
@@ -84,8 +84,8 @@ typedef struct shape_edges {
     int32_t e[3], ex[3], ey[3];
 } shape_edges;
 
-/* 1 and the edges at the tile's first pixel, or 0 where the tile lies outside one. An edge that the whole tile lies
- * inside of is 0: sums fit 32 bits. */
+/* Returns 1 and the edges at the tile's first pixel, or 0 if the tile lies outside one. If the whole tile lies inside
+ * an edge, the edge is set to 0: sums fit 32 bits. */
 static int shape_enter(shape_edges *out, const lmb_setup *s, int32_t x_24_8, int32_t y_24_8)
 {
     const int64_t reach = LMB_TILE - 1;
@@ -103,7 +103,7 @@ static int shape_enter(shape_edges *out, const lmb_setup *s, int32_t x_24_8, int
     return 1;
 }
 
-/* The pixels of the tile inside, a bit each, of columns x0 .. x1 and rows y0 .. y1. */
+/* The pixels of the tile that are inside, one bit each, in columns x0 .. x1 and rows y0 .. y1. */
 static uint64_t shape_covered(const lmb_draw_pass *pass, const shape_edges *s, int32_t x0, int32_t x1, int32_t y0,
                               int32_t y1)
 {
@@ -113,7 +113,7 @@ static uint64_t shape_covered(const lmb_draw_pass *pass, const shape_edges *s, i
     }
 #if LMB_DRAW_LANES
     if (pass->state->kernels !=
-        NULL) { /* outside the box, no pixel is inside all edges, or lmb_draw_tile leaves it out */
+        NULL) { /* outside the box, no pixel is inside all edges, or lmb_draw_tile drops it */
         return pass->state->kernels->draw_cover(s->e, s->ex, s->ey);
     }
 #endif
@@ -152,13 +152,13 @@ static int shape_is_back(const lmb_draw_state *s, int clockwise)
     return clockwise != ((s->flags & LMB_DRAW_CLOCKWISE) != 0);
 }
 
-/* 1 if it is front- or back-facing as the state culls. */
+/* 1 if the state culls this facing. */
 static int shape_is_culled(const lmb_draw_state *s, int clockwise)
 {
     return (s->flags & (shape_is_back(s, clockwise) ? LMB_DRAW_CULL_BACK : LMB_DRAW_CULL_FRONT)) != 0;
 }
 
-/* Is there the centre of a pixel to be drawn in the corners' box? Of small triangles, most have none. */
+/* 1 if the box of the corners holds the centre of a pixel to be drawn. Most small triangles' boxes hold none. */
 static int shape_holds_pixel(const lmb_draw_pass *pass, const lmb_screen_vertex at[3])
 {
     const int32_t x = 128 - pass->middle_x, y = 128 - pass->middle_y;
@@ -180,7 +180,7 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
     if (area == 0 || shape_is_culled(pass->state, area > 0) || !shape_holds_pixel(pass, at)) {
         return 0;
     }
-    if (area < 0) { /* the edges run round it one way */
+    if (area < 0) { /* the winding is always the same */
         const lmb_screen_vertex vertex = at[1];
         const lmb_draw_corner *corner = b;
         const float w = inverse[1];
@@ -213,7 +213,8 @@ static int shape_triangle(const lmb_draw_pass *pass, const lmb_draw_corner *a, c
     return 1;
 }
 
-/* One that is cut. All corners and a kernel's vectors take too much stack together: its colours go by plain C. */
+/* A triangle that needs cutting. All corners and a kernel's vectors take too much stack together, so it is coloured in
+ * plain C. */
 NOINLINE int shape_cut_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3])
 {
     lmb_draw_corner all[DRAW_CORNERS];
@@ -240,7 +241,7 @@ int lmb_draw_triangle(const lmb_draw_pass *pass, const lmb_draw_corner corner[3]
 
 /* --- lines -------------------------------------------------------------------------------------------------------- */
 
-/* Pixels of a shape in one tile that wait to be drawn. */
+/* Pixels of a shape in one tile, not drawn yet. */
 typedef struct shape_run {
     const lmb_draw_pass *pass;
     lmb_draw_shape *shape;
@@ -270,13 +271,14 @@ static void shape_put(shape_run *r, int32_t x, int32_t y)
     r->mask |= (uint64_t)1 << ((y & 7) * LMB_TILE + (x & 7));
 }
 
-/* A line along its longer axis, `along`; `across` is the other one. 24.8 of the frame; pixels are numbered likewise. */
+/* A line along its longer axis, `along`; `across` is the other axis. 24.8 of the frame; pixel indices use the same
+ * axes. */
 typedef struct shape_way {
     int32_t from_along, from_across, to_along, to_across;
     int is_steep; /* along is y */
 } shape_way;
 
-/* Is the point, a little to the left and less of it up, in the open diamond of the pixel? */
+/* 1 if the point, shifted a little to the left and less upwards, is in the open diamond of the pixel. */
 static int shape_in_diamond(const shape_way *w, int32_t along, int32_t across, int32_t pixel_along,
                             int32_t pixel_across)
 {
@@ -285,7 +287,7 @@ static int shape_in_diamond(const shape_way *w, int32_t along, int32_t across, i
     return sum < 128 || (sum == 128 && (w->is_steep ? b : a) > 0);
 }
 
-/* Does the line leave the diamond of this pixel, which it crosses where its middle is? */
+/* 1 if the line leaves the diamond of the pixel in which it crosses this column or row. */
 static int shape_leaves(const shape_way *w, int32_t pixel_along, int32_t pixel_across)
 {
     const int32_t middle = pixel_along * 256 + 128;
@@ -299,7 +301,7 @@ static int shape_leaves(const shape_way *w, int32_t pixel_along, int32_t pixel_a
     return forth ? middle >= w->from_along && middle < w->to_along : middle < w->from_along && middle >= w->to_along;
 }
 
-/* How far a line goes along its axis, and across it in the same direction. */
+/* Length of a line along its axis, and rise across it in the same direction. */
 typedef struct shape_slope {
     int64_t length, rise;
 } shape_slope;
@@ -313,7 +315,8 @@ static shape_slope shape_slope_of(const shape_way *w)
     return s;
 }
 
-/* Where the line crosses the middle of a pixel along it: whole pixels across, and 1 / (256 length) of one. */
+/* Intersection of the line with the centre line of a pixel: whole pixels across, and the rest in 1 / (256 length) of
+ * one. */
 typedef struct shape_cross {
     int64_t across, rest;
 } shape_cross;
@@ -332,15 +335,15 @@ static shape_cross shape_cross_at(const shape_way *w, const shape_slope *s, int3
     return c;
 }
 
-/* On the border of two pixels: the one to the left, or the upper one unless the line falls to the right. */
+/* On the border of two pixels: the left one, or the upper one unless the line falls to the right. */
 static int32_t shape_crossed(const shape_way *w, const shape_slope *s, const shape_cross *c)
 {
     return (int32_t)c->across - (c->rest == 0 && (w->is_steep || s->rise <= 0));
 }
 
-/* Which pixels a line draws, by line_pattern. */
+/* The pixels that line_pattern draws. */
 typedef struct shape_dash {
-    int32_t from, forth; /* the first pixel along the line, and where it goes */
+    int32_t from, forth; /* first pixel along the line, and the direction */
     uint32_t before, repeat, pattern;
 } shape_dash;
 
@@ -350,7 +353,7 @@ static int shape_is_dashed(const shape_dash *d, int32_t along)
     return (d->pattern >> (n / d->repeat & 15u) & 1u) != 0;
 }
 
-/* The first pixel that the line has from `at` on, of few. */
+/* The first pixel of the line from `at` on, within three. */
 static int32_t shape_end(const shape_way *w, const shape_slope *s, int32_t at, int32_t step)
 {
     for (int i = 0; i < 3; ++i, at += step) {
@@ -362,7 +365,7 @@ static int32_t shape_end(const shape_way *w, const shape_slope *s, int32_t at, i
     return at;
 }
 
-/* A line's dashes, from its end pixels first .. last; and what the next line counts on from. */
+/* A line's dashes, from the end pixels first .. last. Updates the count for the next line. */
 static shape_dash shape_dash_of(const lmb_draw_pass *pass, const shape_way *w, int32_t first, int32_t last)
 {
     const shape_slope s = shape_slope_of(w);
@@ -377,7 +380,7 @@ static shape_dash shape_dash_of(const lmb_draw_pass *pass, const shape_way *w, i
     return d;
 }
 
-/* The pixels first .. last along the line, `px` wide. */
+/* Draws the pixels first .. last along the line, line_px wide. */
 static void shape_walk(shape_run *run, const shape_way *w, int32_t first, int32_t last, const shape_dash *dash)
 {
     const shape_slope s = shape_slope_of(w);
@@ -402,7 +405,7 @@ static void shape_walk(shape_run *run, const shape_way *w, int32_t first, int32_
     }
 }
 
-/* a and b: 24.8 of the viewport's middle. */
+/* a and b: 24.8 from the viewport's centre. */
 static void shape_trace(const lmb_draw_pass *pass, lmb_draw_shape *shape, const lmb_screen_vertex *a,
                         const lmb_screen_vertex *b)
 {
@@ -459,7 +462,7 @@ int lmb_draw_line(const lmb_draw_pass *pass, lmb_draw_corner corner[2])
 
 /* --- points ------------------------------------------------------------------------------------------------------- */
 
-/* The pixels of a tile's columns x0 .. x1 and rows y0 .. y1. */
+/* The pixels in columns x0 .. x1 and rows y0 .. y1 of a tile. */
 static uint64_t shape_rectangle(int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
     const uint64_t row = (0xffu >> (7 - x1)) & (0xffu << x0);

@@ -7,7 +7,7 @@
 #include "../raster/target.h"
 
 #if LMB_DRAW
-enum { STATE_FAR = 2 * LMB_MAX_FRAME }; /* px: what rectangles may be away */
+enum { STATE_FAR = 2 * LMB_MAX_FRAME }; /* px: largest offset of rectangles */
 
 static int state_is_finite(float v) { return v > -1e30f && v < 1e30f; }
 
@@ -51,7 +51,7 @@ lmb_status lmb_draw_state_init(lmb_draw_state *out, int32_t width, int32_t heigh
     return LMB_OK;
 }
 
-/* A row of to_clip: axis . (to_world . p - eye), scaled. */
+/* Sets a row of to_clip: axis . (to_world . p - eye), scaled. */
 static void state_set_row(lmb_mat4 *to_clip, int row, lmb_vec3 axis, const lmb_mat4 *t, lmb_vec3 eye)
 {
     const float *m = t->m;
@@ -107,7 +107,7 @@ lmb_status lmb_draw_pixels(lmb_draw_state *inout)
 
 static int state_is_place(int32_t v) { return v >= -STATE_FAR && v <= STATE_FAR; }
 
-/* Sizes equal those that are known so far, or become known. */
+/* Checks the size against the one so far, or sets it. */
 static int state_has_size(const lmb_surface *s, int32_t *width, int32_t *height)
 {
     if (*width == 0) {
@@ -215,7 +215,7 @@ static int state_has_good_choices(const lmb_draw_state *s)
     return good;
 }
 
-/* What this build has. */
+/* 1 if this build supports the state. */
 static int state_is_here(const lmb_draw_state *s)
 {
     const uint32_t flags = LMB_DRAW_STENCIL | LMB_DRAW_LOGIC | LMB_DRAW_DISCARDS;

@@ -1,4 +1,4 @@
-/* draw_texel.c: a texture's codes at a point, mixed in whole numbers. Layer 4. */
+/* draw_texel.c: a texture's codes at a point, filtered in integers. Layer 4. */
 #include "draw_part.h"
 
 #include "../raster/texels.h"
@@ -24,7 +24,7 @@ static void texel_add(uint32_t sum[4], const lmb_texture *t, const texel_level *
     }
 }
 
-/* Adds share x the level's bilinear sample; the four weights sum up to 2^16. */
+/* Adds share x the level's bilinear sample; the four weights sum to 2^16. */
 static void texel_add_level(uint32_t sum[4], const lmb_texture *t, int32_t n, float u, float v, uint32_t share)
 {
     const texel_level l = texel_find_level(t, n);

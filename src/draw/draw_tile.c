@@ -1,7 +1,7 @@
 /* draw_tile.c: the pixels of a shape in a tile: tests, colours, blending. Layer 4.
  *
- * Linear values are taken at the tile's first pixel in binary64 and go on in binary32 from there, so that windows and
- * the order of tiles change nothing. The stages are loops over the pixels of a mask. */
+ * Linear values are computed in binary64 at the tile's first pixel and continue in binary32 from there, so results do
+ * not depend on windows or the order of tiles. The stages are loops over the pixels of a mask. */
 #include "draw_part.h"
 
 #include "../base/poly.h"
@@ -46,7 +46,7 @@ static float tile_depth(const tile_job *j, int k)
     return s->d_add == 0.0f ? d : minf(maxf(d + s->d_add, 0.0f), 1.0f);
 }
 
-/* 1 if pixel k passes; then it is stored. */
+/* Returns 1 if pixel k passes, and stores its depth. */
 static int tile_depth_test(const tile_job *j, int k)
 {
     const lmb_draw_state *s = j->pass->state;
@@ -156,10 +156,10 @@ static tile_share tile_find_share(const tile_job *j, int k)
     return s;
 }
 
-/* A code of a value 0 .. 255. */
+/* Code of a value 0 .. 255. */
 static uint8_t tile_code(float v) { return (uint8_t)(minf(maxf(v, 0.0f), 255.0f) + 0.5f); }
 
-/* The squared change of texel coordinates where the shares change by d1 and d2. */
+/* The squared change of texel coordinates if the shares change by d1 and d2. */
 static float tile_texels(const tile_job *j, const lmb_texture *t, int uv, float d1, float d2)
 {
     const lmb_draw_corner *const *c = j->shape->corner;
@@ -169,7 +169,7 @@ static float tile_texels(const tile_job *j, const lmb_texture *t, int uv, float 
     return x * x + y * y;
 }
 
-/* Level of a trilinear sample, in 1/256: log2 of the larger change of texel coordinates per px. */
+/* Level of a trilinear sample, in 1/256 levels: log2 of the larger change of texel coordinates per px. */
 static int32_t tile_level(const tile_job *j, const lmb_draw_stage *stage, int uv, const tile_share *s)
 {
     const lmb_texture *t = stage->texture;
@@ -216,7 +216,7 @@ static void tile_combine(uint8_t c[4], const lmb_draw_stage *stage, const uint8_
     }
 }
 
-/* How much of the colour fog leaves, 0 .. 255. */
+/* Share of the colour that fog leaves, 0 .. 255. */
 static uint8_t tile_fog(const lmb_draw_state *s, float c)
 {
     const float thick = s->fog_density * c;
@@ -230,7 +230,7 @@ static uint8_t tile_fog(const lmb_draw_state *s, float c)
     }
 }
 
-/* A colour through all stages. */
+/* Applies all stages to a colour. */
 static void tile_stages(uint8_t inout[4], const tile_job *j, const tile_share *share)
 {
     const lmb_draw_stage *stage = j->pass->state->stage;
@@ -276,7 +276,7 @@ static void tile_colour(uint8_t out[4], const tile_job *j, int k)
 }
 
 #if !LMB_DRAW_SMALL
-/* Shares of the primitive's vertices, of shares of the shape's corners. */
+/* Converts shares of the shape's corners to shares of the primitive's vertices. */
 static void tile_find_shares(float out[2], const lmb_draw_shape *s, float b1, float b2)
 {
     const lmb_draw_corner *const *c = s->corner;
@@ -288,15 +288,14 @@ static void tile_find_shares(float out[2], const lmb_draw_shape *s, float b1, fl
 
 static void tile_no_fragment(lmb_draw_fragment_at *out)
 {
-    static const lmb_draw_fragment_at none;
     if (out != NULL) {
-        *out = none;
+        memset(out, 0, sizeof *out);
     }
 }
 
 void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixels, int32_t k)
 {
-    const tile_job *j = pixels != NULL && k >= 0 && k < LMB_TILE_PIXELS ? pixels->job : NULL;
+    const tile_job *j = pixels != NULL && k >= 0 && k < LMB_TILE_PIXELS ? (const tile_job *)pixels->job : NULL;
     if (j == NULL || out == NULL) {
         tile_no_fragment(out);
         return;
@@ -316,7 +315,7 @@ void lmb_draw_fragment(lmb_draw_fragment_at *out, const lmb_draw_pixels_of *pixe
     tile_find_shares(out->by_y, j->shape, y1, y2);
 }
 
-/* The same pixels, coloured by the caller. */
+/* The same for pixels that the caller's shader colours. */
 static uint64_t tile_shade(uint8_t colour[LMB_TILE_PIXELS][4], const tile_job *j, uint64_t mask)
 {
     const lmb_draw_state *s = j->pass->state;
@@ -333,7 +332,7 @@ static uint64_t tile_shade(uint8_t colour[LMB_TILE_PIXELS][4], const tile_job *j
 }
 #endif
 
-/* Colours of the mask's pixels; those that the alpha test lets through. */
+/* Colours the mask's pixels. Returns those that pass the alpha test. */
 static uint64_t tile_colours(uint8_t colour[LMB_TILE_PIXELS][4], const tile_job *j, uint64_t mask)
 {
     const lmb_draw_state *s = j->pass->state;
@@ -405,7 +404,7 @@ static uint8_t tile_blend(const lmb_draw_state *s, const uint8_t source[4], cons
     return (uint8_t)((clampi(sum, 0, 255 * 255) + 127) / 255);
 }
 
-/* The bits that the source's and the target's give. */
+/* Combines the source's and the target's bits. */
 static uint32_t tile_logic(uint32_t op, uint32_t source, uint32_t target)
 {
     return ((op & 1u) != 0 ? source & target : 0) | ((op & 2u) != 0 ? source & ~target : 0) |
@@ -440,7 +439,7 @@ static void tile_store(const tile_job *j, int k, const uint8_t colour[4])
 
 /* --- a tile ------------------------------------------------------------------------------------------------------- */
 
-/* Those of a tile's pixels that may be drawn. */
+/* The pixels of a tile that may be drawn. */
 static uint64_t tile_inside(const lmb_draw_pass *p, int32_t x, int32_t y)
 {
     const int32_t x0 = maxi(p->x0 - x, 0), x1 = mini(p->x1 - x, LMB_TILE - 1);
@@ -456,7 +455,7 @@ static uint64_t tile_inside(const lmb_draw_pass *p, int32_t x, int32_t y)
     return mask;
 }
 
-/* The pixels that a pattern of 32 x 32 px leaves. */
+/* The pixels that a pattern of 32 x 32 px keeps. */
 static uint64_t tile_pattern(const uint8_t *pattern, int32_t x, int32_t y)
 {
     const uint8_t *at = pattern + 4 * (y & 31) + (x >> 3 & 3);
@@ -474,7 +473,7 @@ static void tile_count(const lmb_draw_pass *pass, uint64_t mask)
     }
 }
 
-/* Tests before colours, but for those that need colours. */
+/* Tests first, unless the tests need colours. */
 NOINLINE void tile_draw_tested(const tile_job *j, uint64_t mask)
 {
     uint8_t colour[LMB_TILE_PIXELS][4];

@@ -1,4 +1,4 @@
-/* draw_vertex.c: numbers of vertex streams, and their checks. Layer 4. */
+/* draw_vertex.c: values of vertex streams, and checks of them. Layer 4. */
 #include "draw_part.h"
 
 #include <string.h>

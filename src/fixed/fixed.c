@@ -1,8 +1,8 @@
-/* fixed.c: a frame by integers: vertices to the screen, what is seen, and the bands. Layer 10.
+/* fixed.c: a frame by integers: vertices to the screen, visible triangles, and bands. Layer 10.
  *
- * Coordinates are of 14 bits, the camera's of 16, and axes of 15, so that a turned vertex fits 31 bits; it is kept in
- * 1/16 unit, 21 bits, below 2^31 / 2048. On
- * the screen a guard of 12 times the sides, in 1/16 px, keeps differences below 2^14 and areas below 2^29. */
+ * Coordinates have 14 bits, the camera's 16, and axes 15, so that a rotated vertex fits 31 bits. It is stored in 1/16
+ * unit, 21 bits, below 2^31 / 2048. On the screen a guard band of 12 times the sides, in 1/16 px, keeps differences
+ * below 2^14 and areas below 2^29. */
 #include <lambent/fixed.h>
 
 #include <string.h>
@@ -12,12 +12,12 @@
 
 enum { GUARD = 12, MIN_FOCAL = 16, MAX_FOCAL = 16383, MIN_NEAR = 16, MAX_NEAR = 4095 };
 
-/* A vertex as the camera sees it: right, up, ahead; 1/16 unit. */
+/* A vertex in camera space: right, up, ahead; 1/16 unit. */
 typedef struct seen_from {
     int32_t v[3], colour[3];
 } seen_from;
 
-/* What a view's vertices share: in 1/16 px the guard, in 2^-16 what of x / z and y / z it allows. */
+/* Shared by all vertices of a view: the guard band in 1/16 px, and the limits of x / z and y / z in 2^-16. */
 typedef struct looking {
     const lmb_fixed_view *view;
     int32_t guard_x, guard_y, most_x, most_y;
@@ -42,7 +42,7 @@ static void turn(int32_t v[3], const lmb_fixed_view *view, const int32_t at[3])
     v[2] = -((back[0] * x + back[1] * y + back[2] * z) >> 10);
 }
 
-/* How far inside of a plane; the near one, then left, right, below, above; fits 31 bits. */
+/* Distance inside of a plane, in 31 bits: near, left, right, below, above. */
 static int32_t inside(const int32_t v[3], const lmb_fixed_view *view, int plane)
 {
     const int64_t to = plane < 3 ? (int64_t)GUARD * view->width * v[2] : (int64_t)GUARD * view->height * v[2],
@@ -50,7 +50,7 @@ static int32_t inside(const int32_t v[3], const lmb_fixed_view *view, int plane)
     return plane == 0 ? v[2] - 16 * view->near_units : (int32_t)((plane & 1 ? to + own : to - own) >> 5);
 }
 
-/* To the screen; 0 where the guard cuts it off, to which it is taken then. */
+/* Projects to the screen. Returns 0 if the guard band clamps the point. */
 static int project(int32_t out[3], const int32_t v[3], const looking *l)
 {
     const lmb_fixed_view *view = l->view;
@@ -94,9 +94,10 @@ static void place_vertex(lmb_fixed_vertex *out, const looking *l, const uint32_t
     out->depth = (uint16_t)p[2];
 }
 
-/* --- what planes cut ---------------------------------------------------------------------------------------------- */
+/* --- clipping
+ * --------------------------------------------------------------------------------------------------------- */
 
-/* From a, inside, to b, outside. */
+/* Cuts from a, inside, to b, outside. */
 static void cut(seen_from *out, const seen_from *a, const seen_from *b, int32_t in, int32_t beyond)
 {
     const uint32_t whole = (uint32_t)in + (uint32_t)-beyond;
@@ -108,8 +109,8 @@ static void cut(seen_from *out, const seen_from *a, const seen_from *b, int32_t 
     }
 }
 
-/* Always from the inside to the outside, so that neighbours cut a shared edge at one place. Rounding may leave a shape
- * that is not quite convex: corners beyond the last are left out. */
+/* Always cuts from the inside to the outside, so that neighbours cut a shared edge at one place. Rounding may leave a
+ * shape that is not quite convex: excess corners are dropped. */
 static int cut_plane(seen_from *out, const seen_from *p, int count, const lmb_fixed_view *view, int plane)
 {
     int n = 0;
@@ -128,7 +129,7 @@ static int cut_plane(seen_from *out, const seen_from *p, int count, const lmb_fi
     return n;
 }
 
-/* 0 where all of it is inside, which mostly it is. */
+/* 1 if a corner is outside the plane; usually all are inside. */
 static int is_cut(const seen_from *p, int count, const lmb_fixed_view *view, int plane)
 {
     int32_t any = 0;
@@ -177,14 +178,15 @@ int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f
     return count;
 }
 
-/* --- what is seen ------------------------------------------------------------------------------------------------- */
+/* --- visible triangles
+ * ------------------------------------------------------------------------------------------------ */
 
 static int32_t area_of(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t x2, int32_t y2)
 {
     return (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
 }
 
-/* Rows whose middles lie between; 1 where there are any, and pixels across. */
+/* Sets the rows with centres in between. Returns 1 if there are any, and pixels across. */
 static int set_rows(lmb_fixed_seen *out, const lmb_fixed_view *view, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
     const int32_t first = maxi((y0 + 7) >> 4, 0), past = mini((y1 + 7) >> 4, view->height);
@@ -193,7 +195,7 @@ static int set_rows(lmb_fixed_seen *out, const lmb_fixed_view *view, int32_t x0,
     return first < past && x1 > 0 && x0 < 16 * view->width && (x0 + 7) >> 4 < (x1 + 8) >> 4;
 }
 
-/* How many triangles are left of it. */
+/* Number of triangles left of a cut one. */
 static uint32_t see_cut(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
 {
     lmb_fixed_vertex c[FIXED_CORNERS];
@@ -348,7 +350,7 @@ lmb_status lmb_fixed_prepare(lmb_fixed_frame *f)
     return LMB_OK;
 }
 
-/* What is not prepared: of one that is cut all at its first place. */
+/* Draws an entry that is not in `ready`. A cut triangle has several entries; the first one draws all parts. */
 static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t i)
 {
     const uint32_t triangle = f->seen[i].triangle;
@@ -392,7 +394,7 @@ lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
         if (s->first >= past || s->past <= first) {
             continue;
         }
-        if (b.depth == NULL && !is_hull(f, s->triangle)) { /* the hull's triangles are the first */
+        if (b.depth == NULL && !is_hull(f, s->triangle)) { /* the hull's triangles come first */
             b.depth = f->depth;
             memset(b.depth, 0, (size_t)b.width * (size_t)(past - first) * sizeof *b.depth);
         }

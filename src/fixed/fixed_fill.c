@@ -1,8 +1,8 @@
 /* fixed_fill.c: fills a triangle's rows in a band: edges, depth and colour in integers. Layer 10.
  *
- * An edge's place in a row depends on its two ends alone, taken from top to bottom: neighbours share it, and a pixel whose
- * middle lies on it belongs to one of them. A number that is linear on the triangle is taken modulo 2^32: only where it
- * ends up must fit. So a row of any band has the same pixels. */
+ * The position of an edge in a row depends only on the two ends, taken from top to bottom. So neighbours share it, and
+ * a pixel with its centre on the edge belongs to one of them. Linear values are computed modulo 2^32: only the result
+ * must fit. So a row has the same pixels in any band. */
 #include <string.h>
 
 #include "fixed_part.h"
@@ -19,41 +19,41 @@ static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
     if (down > 0) {
         const int32_t free = zeros_above((uint32_t)down);
         const uint32_t per = reciprocal((uint32_t)down << free);
-        /* the difference is of 15 bits, `free` of 18 to 31 */
+        /* the difference has 15 bits, `free` is 18 to 31 */
         e.slope = signed_high_of((to->x - from->x) * 32768, (int32_t)per) >> (31 - free);
     }
     return e;
 }
 
-/* In 2^-14 px, in a row whose middle lies between the edge's ends. */
+/* x in 2^-14 px, for a row with the centre between the edge's ends. */
 static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
 
-/* The first pixel whose middle is not left of x. */
+/* The first pixel with a centre not left of x. */
 static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
 
-/* A number that is linear on the triangle: at the first corner, and in 1/16 px from there. */
+/* A linear value on the triangle: at the first corner, and per 1/16 px. */
 typedef struct plane {
     uint32_t at, per_x, per_y;
 } plane;
 
-/* A triangle's numbers that all planes need. */
+/* Values of a triangle that all planes need. */
 typedef struct slant {
     int32_t x1, y1, x2, y2; /* from the first corner */
     int32_t area, per, free; /* twice the area, 1/256 px2; 2^62 / (area << free) */
-    int32_t size;            /* bits of what the corners are apart at most, 1/16 px */
+    int32_t size;            /* bits of the largest distance between corners, 1/16 px */
 } slant;
 
 enum {
-    DEPTH_BITS = 14, DEPTH_STEEP = 12, /* bits below 1; 2^steep a 1/16 px is the most that is told apart */
+    DEPTH_BITS = 14, DEPTH_STEEP = 12, /* fraction bits; a change over 2^STEEP per 1/16 px is too steep */
     COLOUR_BITS = 16, COLOUR_STEEP = 4,
-    /* A plane that changes by at most so much, 2^bits, along and down a triangle, and over so many px: what lies between
-     * FIXED_LEAST and FIXED_MOST at the corners then stays within its bits in all pixels, as edges are off by 2^-13 of
-     * the triangle's size, and a colour's step by 1/512 of a code. */
+    /* A gentle plane changes by at most 2^GENTLE along and down a triangle at most GENTLE_ACROSS px wide. If the
+     * corners lie between FIXED_LEAST and FIXED_MOST, the value then stays within range in all pixels, because edges
+     * are off by at most 2^-13 of the triangle's size, and colour steps by 1/512 of a code. */
     DEPTH_GENTLE = 17, COLOUR_GENTLE = 10, GENTLE_ACROSS = 256
 };
 
-/* n / area in 2^-bits: what is shifted fits 31 bits, as n is at most 2^DEPTH_STEEP or 2^COLOUR_STEEP times the area, whose
- * `free` is at least 3. */
+/* n / area in 2^-bits. The shifted value fits 31 bits, because n is at most 2^DEPTH_STEEP or 2^COLOUR_STEEP times the
+ * area, and `free` of the area is at least 3. */
 static uint32_t share(const slant *s, int32_t n, int32_t bits)
 {
     const int32_t left = s->free + bits - 30;
@@ -67,8 +67,9 @@ static int is_gentle(const plane *p, uint32_t most_of)
 
 static uint32_t mean_of(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
 
-/* A triangle so steep that all of the change is within 1/16 px has its corners' mean. 1 where it is gentle. Differences of
- * depths are below 65,504 and of places below 15,361, as the guard has it: both products together fit 31 bits. */
+/* Returns 1 if the plane is gentle. A triangle so steep that the whole change is within 1/16 px gets the mean of the
+ * corners. Depth differences are below 65,504, and coordinates below 15,361 because of the guard band: the two products
+ * together fit 31 bits. */
 static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
@@ -83,7 +84,7 @@ static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t
     return is_gentle(out, 1u << (DEPTH_GENTLE + DEPTH_BITS - 1 - s->size));
 }
 
-/* Likewise, half of a code more, to be rounded. */
+/* The same, plus half a code for rounding. */
 static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
@@ -98,19 +99,19 @@ static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_
     return is_gentle(out, 1u << (COLOUR_GENTLE + COLOUR_BITS - s->size));
 }
 
-/* A row's first pixel, and what each next one adds: depth; colours in 1/256 of a code, 16 bits each. `dither`: what is
- * added to a colour of each pixel from the first one on. */
+/* The first pixel of a row, and the step to the next: depth; colours in 1/256 of a code, 16 bits each. `dither`: added
+ * to the colours of each pixel from the first one on. */
 typedef struct span {
     uint32_t depth, depth_step, red, green, blue, red_step, green_step, blue_step;
     const uint16_t *dither;
 } span;
 
-/* Bayer's 4 x 4 matrix of 0 .. 15, halved, over a row and on, so that a row may begin at any of the first four. */
+/* Bayer's 4 x 4 matrix of 0 .. 15, halved. Each row is repeated, so that a span may begin at any of the first four. */
 #define D(t) ((t) / 2u * 256u)
 #define ROW(a, b, c, d) {D(a), D(b), D(c), D(d), D(a), D(b), D(c), D(d)}
 static const uint16_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(3, 11, 1, 9), ROW(15, 7, 13, 5)};
 
-/* Colours with their dither -> a pixel of 16 bits; or several at once, each in 16 bits of a word of `type`. */
+/* Dithered colours -> a 16-bit pixel; or several at once, each in 16 bits of a word of `type`. */
 #define EACH(type, v) ((type)-1 / 0xffffu * (v))
 #define PACK_555(high, one, r, g, b) (((((r) & (high)) >> 5 | ((g) & (high))) >> 5 | ((b) & (high))) >> 1)
 #define PACK_5551(high, one, r, g, b) (((r) & (high)) | (((g) & (high)) | ((b) & (high)) >> 5) >> 5 | (one))
@@ -122,11 +123,11 @@ static const uint16_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(
         red += s->red_step, green += s->green_step, blue += s->blue_step;  \
     }
 
-/* Two pixels go beside each other into a word, so that a colour's sums and masks are made for both at once. */
+/* Two pixels share a word, so that sums and masks of a colour are computed for both at once. */
 #if defined(__GNUC__)
 typedef uint32_t __attribute__((may_alias)) two_pixels;
 
-/* Two at once lie on 4 bytes, the first one low; two words of them, as a row's dither has four numbers. */
+/* Stores two pixels on a 4-byte boundary, the first one low. Two such words, because a row's dither has four values. */
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 #define IN_MEMORY(two) ((two) << 16 | (two) >> 16)
 #else
@@ -188,7 +189,7 @@ typedef uint32_t __attribute__((may_alias)) two_pixels;
         to[which] = (uint16_t)(colour);            \
     }
 
-/* A format's two loops: before what was drawn, two by two; and of the hull, which nothing lies behind. */
+/* The two loops of a format: with a depth test, two by two; and for the hull, which is behind all else. */
 #define LOOPS(name, pack)                                                                                          \
     static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                   \
     {                                                                                                              \
@@ -231,7 +232,7 @@ typedef uint32_t __attribute__((may_alias)) two_pixels;
 LOOPS(555, PACK_555)
 LOOPS(5551, PACK_5551)
 
-/* Of 8 bits red lies over blue in one word: no sum of blue leaves its 16 bits. */
+/* 8-bit colours: red lies above blue in one word, because sums of blue stay within 16 bits. */
 static void fill_hull_888(void *pixels, uint16_t *to_depth, int32_t count, const span *s)
 {
     uint32_t *to = (uint32_t *)pixels, red_blue = (s->red << 16) + s->blue, green = s->green;
@@ -277,7 +278,7 @@ static fill_loop *loop_of(const fixed_band *b)
     return loops[b->format][b->depth != NULL];
 }
 
-/* How far pixels are apart: a shift. */
+/* log2 of the bytes per pixel. */
 static int32_t bytes_log2(const fixed_band *b) { return b->format == LMB_FIXED_RGB888 ? 2 : 1; }
 
 void lmb_fixed_clear(const fixed_band *b, uint32_t colour)
@@ -291,13 +292,13 @@ void lmb_fixed_clear(const fixed_band *b, uint32_t colour)
     }
 }
 
-/* A number along a row. */
+/* A value along a row. */
 typedef struct ramp {
     uint32_t at;
     int32_t step;
 } ramp;
 
-/* Pixels' middles beside an edge may lie a little outside of the triangle: both ends within 0 .. max. */
+/* Pixel centres beside an edge may lie slightly outside the triangle: clamps both ends to 0 .. max. */
 static ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
 {
     ramp r = {from, step};
@@ -317,7 +318,7 @@ static ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
     return r;
 }
 
-/* In 1/256 of a code. */
+/* The step in 1/256 of a code. */
 static int32_t colour_step(uint32_t to_x) { return (int32_t)(to_x + 128u) >> 8; }
 
 static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t count)
@@ -325,7 +326,7 @@ static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t count)
     return ramp_within((uint32_t)((int32_t)from >> 8), colour_step(to_x), count, FIXED_TOP);
 }
 
-/* Of a triangle that is not gentle, which few are. */
+/* For triangles that are not gentle; they are rare. */
 NOINLINE void set_steep(span *s, const uint32_t at[4], const uint32_t per_x[4], int32_t count)
 {
     const ramp d = ramp_within(at[0], (int32_t)per_x[0], count, 0x3fffffff), r = colour_ramp(at[1], per_x[1], count),
@@ -335,11 +336,12 @@ NOINLINE void set_steep(span *s, const uint32_t at[4], const uint32_t per_x[4], 
     s->red_step = (uint32_t)r.step, s->green_step = (uint32_t)g.step, s->blue_step = (uint32_t)b.step;
 }
 
-/* To another pixel of the row; mostly it is beside. */
+/* Moves to another pixel of the row, usually the next. */
 #define MOVE(way, by) \
     (depth way (by)*depth_x, red way (by)*red_x, green way (by)*green_x, blue way (by)*blue_x)
 
-/* Rows first .. past - 1. What it reads in each row is copied first, as the stack mostly is the fastest memory. */
+/* Fills rows first .. past - 1. Values read in each row are copied first, because the stack is usually the fastest
+ * memory. */
 ALWAYS_INLINE void fill_rows(const fixed_band *b, const lmb_fixed_ready *r, int32_t first, int32_t past, int is_deep)
 {
     const int32_t middle = within(r->middle, first, past), log2 = bytes_log2(b), above = b->width * (first - b->first),
@@ -353,7 +355,7 @@ ALWAYS_INLINE void fill_rows(const fixed_band *b, const lmb_fixed_ready *r, int3
     unsigned char *to = (unsigned char *)b->pixel + (above << log2);
     uint16_t *to_depth = is_deep ? b->depth + above : NULL;
     fill_loop *const loop = loop_of(b);
-    int32_t at = 0; /* the pixel that the numbers are of */
+    int32_t at = 0; /* the pixel of the current values */
     span s;
     s.depth_step = depth_x, s.red_step = (uint32_t)colour_step(red_x), s.green_step = (uint32_t)colour_step(green_x);
     s.blue_step = (uint32_t)colour_step(blue_x);
@@ -420,7 +422,7 @@ void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r)
     }
 }
 
-/* In the middle of a row. */
+/* Sets an edge at the centre of a row. */
 static void set_edge(lmb_fixed_edge *out, const lmb_fixed_vertex *from, const lmb_fixed_vertex *to, int32_t row)
 {
     const edge e = edge_of(from, to);

@@ -1,6 +1,6 @@
-/* fixed_light.c: light at the vertices that are seen: the lamp's, and what is thrown back, by links. Layer 10.
+/* fixed_light.c: light at the visible vertices: the lamp's, and reflected light by links. Layer 10.
  *
- * Light is what a white surface shows, in 1/65536 of the picture's white: at most LIGHT_MOST. */
+ * Light is given as the radiosity of a white surface, in 1/65536 of the picture's white: at most LIGHT_MOST. */
 #include <lambent/fixed.h>
 
 #include "fixed_part.h"
@@ -8,13 +8,13 @@
 
 enum { LIGHT_MOST = 1 << 26, FULL = 32768, AROUND = 8 };
 
-/* Which places are around the lamp, and what of each counts; all of them less than FULL together. */
+/* The places around the lamp, with weights that sum to less than FULL. */
 typedef struct around {
     uint32_t word[AROUND], bit[AROUND], weight[AROUND];
     int count;
 } around;
 
-/* What is the same for all receivers. */
+/* The same for all receivers. */
 typedef struct lamp_now {
     const lmb_fixed *s;
     const lmb_fixed_lamp *lamp;
@@ -26,14 +26,14 @@ typedef struct lamp_now {
 
 /* --- places ------------------------------------------------------------------------------------------------------- */
 
-/* The cell that holds a coordinate, and where in it, 0 .. 256. */
+/* The cell that holds a coordinate, and the position in it, 0 .. 256. */
 static int32_t cell_of(uint32_t *part, int32_t at, int32_t places, int32_t spacing)
 {
     const int32_t free = zeros_above((uint32_t)spacing);
     const uint32_t per = reciprocal((uint32_t)spacing << free); /* 2^(62 - free) / spacing */
     int32_t off = within(at, 0, (places - 1) * spacing);
     int32_t cell = (int32_t)(high_of((uint32_t)off << 16, per) >> (30 - free)) >> 16;
-    /* `off` has 15 bits: one more at most */
+    /* `off` has 15 bits: off by one at most */
     cell += (cell + 1) * spacing <= off;
     cell = maxi(mini(cell, places - 2), 0);
     off -= cell * spacing;
@@ -109,7 +109,7 @@ static void set_lamp(lamp_now *out, const lmb_fixed *s, const lmb_fixed_lamp *la
     }
 }
 
-/* Of the lamp's light towards a place, by the cosine to its direction, FULL being all: smoothstep. */
+/* The lamp's cone fall-off by the cosine to the axis: smoothstep, 0 .. FULL - 1. */
 static uint32_t cone_of(const lamp_now *l, int32_t cosine)
 {
     const int32_t over = cosine - l->lamp->cos_outer;
@@ -159,9 +159,10 @@ static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *
     }
 }
 
-/* --- light thrown back -------------------------------------------------------------------------------------------- */
+/* --- reflected light
+ * -------------------------------------------------------------------------------------------------- */
 
-/* v times an albedo, by its square root in 1/255. */
+/* v times an albedo, given as a square root in 1/255. */
 static uint32_t reflected(uint32_t v, uint32_t root)
 {
     const uint32_t albedo = root * root;
@@ -169,7 +170,7 @@ static uint32_t reflected(uint32_t v, uint32_t root)
     return high_of(v << 4, (albedo + (albedo >> 7)) << 12);
 }
 
-/* What elements send, 1/65536 of white >> down. */
+/* Light that elements send to a receiver, 1/65536 of white >> down. */
 LOOP_APART void links_at(uint32_t out[3], const lmb_fixed *s, const uint16_t (*element)[4], uint32_t receiver,
                        int32_t down)
 {
@@ -198,7 +199,7 @@ static void set_sent(uint16_t out[4], const uint32_t light[3], const fixed_recei
     out[3] = 0;
 }
 
-/* What elements send in all; by how much it is shifted down. */
+/* Computes the total light that each element sends. Returns the right shift. */
 static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_now *l)
 {
     const lmb_fixed *s = f->scene;
@@ -209,7 +210,7 @@ static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_n
         direct_at(f->direct[i], l, &r, s->seen + (size_t)s->place_words * (s->vertices + i));
         any |= f->direct[i][0] | f->direct[i][1] | f->direct[i][2];
     }
-    /* a factor of 2 for what comes by further bounces */
+    /* headroom of a factor of 2 for further bounces */
     const int32_t down = maxi(17 - zeros_above(any), 0);
     for (int32_t bounce = 0; bounce < f->bounces; ++bounce) {
         for (uint32_t i = 0; i < s->elements; ++i) {
@@ -259,7 +260,7 @@ static int is_lamp(const lmb_fixed_lamp *l)
 
 lmb_status lmb_fixed_light(lmb_fixed_frame *f)
 {
-    uint16_t sent[LMB_FIXED_MAX_ELEMENTS][4]; /* on the stack, which mostly is the fastest memory */
+    uint16_t sent[LMB_FIXED_MAX_ELEMENTS][4]; /* on the stack, which is usually the fastest memory */
     lamp_now l;
     if (f == NULL || f->scene == NULL || f->scene->receiver == NULL || f->vertex == NULL || f->direct == NULL ||
         f->bounces < 0 || f->bounces > 3 || !is_lamp(&f->lamp)) {

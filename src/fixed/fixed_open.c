@@ -1,4 +1,4 @@
-/* fixed_open.c: a blob in place: checked once, so that nothing later leads outside of it or overflows. Layer 10. */
+/* fixed_open.c: a blob in place: checked once, so that no later access leaves it and nothing overflows. Layer 10. */
 #include <lambent/fixed.h>
 
 #include "fixed_part.h"
@@ -12,7 +12,7 @@ enum { MAGIC_AT, WORDS_AT, UNITS_AT, VERTICES_AT, TRIANGLES_AT, ELEMENTS_AT, LIN
 
 static int is_place(int32_t v) { return v >= -LMB_FIXED_REACH && v <= LMB_FIXED_REACH; }
 
-/* The header's numbers alone. */
+/* Reads only the numbers of the header. */
 static int take_header(lmb_fixed *s, const uint32_t *word, size_t words)
 {
     uint32_t places = 1;
@@ -67,7 +67,7 @@ static int check_receivers(const lmb_fixed *s)
     return 1;
 }
 
-/* A row's weights times its scale are at most 1: so no bounce is brighter than the brightest of what sends it. */
+/* A row's weights times its scale are at most 1, so no bounce is brighter than the brightest sender. */
 static int check_rows(const lmb_fixed *s, uint32_t link_words)
 {
     for (uint32_t i = 0; i < s->vertices + s->elements; ++i) {

@@ -1,4 +1,4 @@
-/* fixed_part.h: what the parts of a frame by integers share. Layer 10. */
+/* fixed_part.h: shared by the parts of a frame by integers. Layer 10. */
 #ifndef LMB_FIXED_PART_H
 #define LMB_FIXED_PART_H
 
@@ -37,29 +37,31 @@ static inline void fixed_receiver_at(fixed_receiver *out, const lmb_fixed *s, ui
     }
 }
 
-/* Of colours and depths: what filling rounds then stays within FIXED_TOP, to which a dither adds 7 codes, and 16 bits. */
+/* Limits of colours and depths. With rounding, filled values then stay within FIXED_TOP, to which a dither adds 7
+ * codes, and within 16 bits. */
 enum { FIXED_LEAST = 1, FIXED_MOST = 247, FIXED_TOP = 0xf8ff, FIXED_LEAST_DEPTH = 16, FIXED_MOST_DEPTH = 65519 };
 
 /* A band: rows first .. past - 1 of a picture. */
 typedef struct fixed_band {
-    void *pixel;     /* of a format's 4 or 2 bytes */
-    uint16_t *depth; /* null: of the hull alone */
+    void *pixel;     /* 4 or 2 bytes a pixel, by format */
+    uint16_t *depth; /* null: only the hull */
     int32_t width, first, past, format;
 } fixed_band;
 
-/* lmb_fixed_clip: a triangle that is partly outside -> corners of what is inside, up to FIXED_CORNERS; their number. */
+/* lmb_fixed_clip: clips a triangle that is partly outside to up to FIXED_CORNERS corners. Returns their number. */
 enum { FIXED_CORNERS = 9 };
 int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle);
 
-/* lmb_fixed_set_up: corners clockwise or not, within a guard of 12 times the sides in 1/16 px; of a picture so wide, the
- * rows first .. past - 1; without depth where it is filled by a band without. 0, and no rows, where it covers none. */
+/* lmb_fixed_set_up: corners in either winding, within a guard band of 12 times the sides in 1/16 px. Sets up rows first
+ * .. past - 1 of a picture of this width. Without depth if a band without depth fills it. Returns 0, and no rows, if it
+ * covers none. */
 int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
                      const lmb_fixed_vertex *c2, int32_t width, int32_t first, int32_t past, int has_depth);
 
-/* lmb_fixed_fill: the rows of it that the band has; all of its pixels where the band has no depth. */
+/* lmb_fixed_fill: fills the triangle's rows in the band. If the band has no depth, all pixels are drawn. */
 void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r);
 
-/* lmb_fixed_clear: all of the band's pixels, 0x00RRGGBB. */
+/* lmb_fixed_clear: sets all pixels of the band to 0x00RRGGBB. */
 void lmb_fixed_clear(const fixed_band *b, uint32_t colour);
 
 #endif

@@ -9,7 +9,7 @@ static uint32_t far2_of(const int32_t v[3])
     return (uint32_t)(v[0] * v[0]) + (uint32_t)(v[1] * v[1]) + (uint32_t)(v[2] * v[2]);
 }
 
-/* To the length LMB_FIXED_ONE, within 2^-12 of it; its parts are below 2^15. 0: it has no length. */
+/* Scales to the length LMB_FIXED_ONE, within 2^-12; components are below 2^15. Returns 0 if the length is 0. */
 static int make_one(int32_t v[3])
 {
     uint32_t far2 = far2_of(v);

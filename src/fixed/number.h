@@ -7,22 +7,22 @@
 #include "../base/exact.h"
 #include "../base/whole.h"
 
-/* For loops that want all registers, where there are few. */
+/* For loops that need all registers, on processors with few. */
 #if defined(__GNUC__) && (defined(__arm__) || defined(__i386__))
 #define LOOP_APART static __attribute__((noinline))
 #else
 #define LOOP_APART static
 #endif
 
-/* Two sums that go on from turn to turn. Compilers would begin later turns' beside them, from the first one's, in so many
- * registers that short loops take longer. */
+/* Keeps two loop-carried sums sequential. Otherwise compilers compute later iterations' sums from the first one's, in
+ * so many registers that short loops take longer. */
 #if defined(__GNUC__)
 #define ONE_BY_ONE(a, b) __asm__ volatile("" : "+r"(a), "+r"(b) : : "memory")
 #else
 #define ONE_BY_ONE(a, b) ((void)0)
 #endif
 
-/* A number that compilers do not make again from others, but keep. */
+/* Keeps a number in a register, so that compilers do not recompute it. */
 #if defined(__GNUC__)
 #define KEEP(a) __asm__("" : "+r"(a))
 #else
@@ -35,7 +35,7 @@ static inline int32_t signed_high_of(int32_t a, int32_t b) { return (int32_t)(((
 
 static inline int32_t within(int32_t v, int32_t low, int32_t high) { return v < low ? low : v > high ? high : v; }
 
-/* Zeros above the highest 1 of a number that is not 0. By an instruction where the processor has one. */
+/* Leading zeros of a nonzero number. Uses an instruction if the processor has one. */
 static inline int32_t zeros_above(uint32_t v)
 {
 #if defined(__GNUC__) && !(defined(__arm__) && (!defined(__ARM_ARCH) || __ARM_ARCH < 5)) && \
@@ -63,21 +63,21 @@ extern const uint16_t lmb_fixed_reciprocals[256];
 extern const uint16_t lmb_fixed_cubes[194];
 extern const uint16_t lmb_fixed_srgb[2][65];
 
-/* 2^62 / v of a v from 2^31 on, within 2^-17 below it and 2^-29 above it; less than 2^31. */
+/* 2^62 / v for v >= 2^31: at most 2^-17 below and 2^-29 above it; less than 2^31. */
 static inline uint32_t reciprocal(uint32_t v)
 {
     const uint32_t r = (uint32_t)lmb_fixed_reciprocals[(v >> 23) & 255u] << 15;
     return high_of(r, 0x80000000u - high_of(v, r)) << 2;
 }
 
-/* (v / 2^28)^-1.5 of a v from 2^28 to before 2^30, in 1/65536, within 2^-12 of it. */
+/* (v / 2^28)^-1.5 for 2^28 <= v < 2^30, in 1/65536, within 2^-12. */
 static inline uint32_t inverse_cube(uint32_t v)
 {
     const uint32_t at = (v >> 22) - 64u, low = lmb_fixed_cubes[at];
     return low - (((low - lmb_fixed_cubes[at + 1]) * ((v >> 10) & 4095u)) >> 12);
 }
 
-/* A linear number of 14 bits -> an sRGB code in 1/256. */
+/* A linear 14-bit number -> an sRGB code in 1/256. */
 static inline uint32_t srgb_of(uint32_t v)
 {
     const uint16_t *t;

@@ -164,6 +164,7 @@ static lmb_status place_surfaces(lmb_frame *f, const lmb_frame_settings *s, bloc
     return status == LMB_OK && !is_measured(b) ? lmb_surface_clear(&f->out) : status;
 }
 
+#if LMB_BOUNCE
 /* Places first points, groups, and the whole view's depth if the eye holds only bands. */
 static lmb_status place_groups(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
@@ -186,6 +187,7 @@ static lmb_status place_groups(lmb_frame *f, const lmb_frame_settings *s, block 
     }
     return status;
 }
+#endif
 
 #if LMB_TREES
 static lmb_status place_bvh(lmb_frame *f, block *b)
@@ -255,7 +257,12 @@ static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block
 #endif
     }
 #endif
+#if LMB_BOUNCE
     lmb_status status = bounces && is_fixed(s) ? place_groups(f, s, b) : LMB_OK;
+#else
+    lmb_status status = LMB_OK;
+    (void)b, (void)bounces;
+#endif
 #if LMB_TREES
     if (status == LMB_OK && (by_tree || f->many_lights != NULL)) {
         status = place_bvh(f, b);

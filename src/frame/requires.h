@@ -28,13 +28,13 @@ static inline int requires_transfer(const lmb_frame *f)
 
 static inline int requires_cut(const lmb_frame *f)
 {
-    return f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT &&
+    return LMB_TREES && f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT &&
            f->tree.texel != NULL;
 }
 
 static inline int requires_groups(const lmb_frame *f)
 {
-    return f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT &&
+    return LMB_BOUNCE && f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT &&
            f->points.data != NULL && f->groups != NULL;
 }
 

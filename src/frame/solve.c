@@ -55,7 +55,7 @@ static lmb_status end_face(lmb_render *r)
     if (requires_cut(&r->frame)) {
         status = drawn && requires_texels(r) ? lmb_tree_sum(&r->frame.tree, r->frame.tree.faces) : LMB_OK;
         r->frame.tree.faces += drawn ? 1 : 0;
-    } else if (drawn) {
+    } else if (drawn && requires_groups(&r->frame)) {
         status = lmb_discs_join(&r->frame.points, map, &r->frame.grouping);
     }
     r->progress = 0;

@@ -34,6 +34,19 @@
 #define lmb_elements_tiles(...)   never(lmb_elements_tiles(__VA_ARGS__))
 #endif
 
+#if !LMB_BOUNCE
+#undef lmb_gather_tile
+#undef lmb_group_points
+#undef lmb_points_collect
+#define lmb_gather_tile(...)      never(LMB_LAYOUT(lmb_gather_tile)(__VA_ARGS__))
+#define lmb_group_points(...)     never(LMB_LAYOUT(lmb_group_points)(__VA_ARGS__))
+#define lmb_points_collect(...)   never(LMB_LAYOUT(lmb_points_collect)(__VA_ARGS__))
+#define lmb_discs_join(...)       never(lmb_discs_join(__VA_ARGS__))
+#define lmb_points_part(...)      never(lmb_points_part(__VA_ARGS__))
+#define lmb_points_put_together(...) ((void)sizeof(lmb_points_put_together(__VA_ARGS__), 0))
+#define lmb_points_have_room(...) ((void)sizeof(lmb_points_have_room(__VA_ARGS__)), 0)
+#endif
+
 #if !LMB_TREES
 #define lmb_lattice_bytes(...)        ((void)sizeof(lmb_lattice_bytes(__VA_ARGS__)), (size_t)0)
 #define lmb_lattice_init(...)         never(lmb_lattice_init(__VA_ARGS__))

@@ -14,21 +14,21 @@
 
 #if LMB_TRANSFER
 
-/* 1/16 px, each way: triangles so small have the colour of their first corner, or are asked whether they cover a
- * pixel before they are lit. */
+/* Box sides in 1/16 px. TINY triangles take the colour of their first corner. SMALL ones are lit only after a test that
+ * they cover a pixel. */
 enum { TINY = 2 * 16, SMALL = 4 * 16 };
 
-/* A corner of a mesh, kept by the low bits of its number: its next triangles come soon. */
+/* A cached corner of a mesh, indexed by the low bits of the vertex: other triangles use it soon. */
 typedef struct kept_corner {
     uint32_t vertex, outside;
     float x, y, z, w;
-    int32_t px, py; /* gouraud_corner's, where it is outside of nothing */
+    int32_t px, py; /* as in gouraud_corner; valid if `outside` is 0 */
     float d;
-    uint32_t lit; /* which side the colour is of, 1 or 2; 0: none yet */
+    uint32_t lit; /* side of the colour, 1 or 2; 0: no colour yet */
     float colour[3], spare[3];
 } kept_corner;
 
-/* A part of a triangle: where its corners are, their colours, and where it is among divisions. */
+/* A part of a triangle: positions and colours of the corners, and the place in the tree of divisions. */
 typedef struct part {
     lmb_vec3 at[3];
     float b1[3], b2[3];
@@ -40,13 +40,13 @@ typedef char scratch_fits[sizeof(kept_corner) == sizeof(((lmb_gouraud_scratch *)
                               ? 1
                               : -1];
 
-/* What is the same for an instance's triangles. */
+/* The same for all triangles of an instance. */
 typedef struct drawing {
     const lmb_gouraud *g; /* NULL: a map */
     const lmb_scene *scene;
     gouraud_target target;
-    gouraud_view of_world, of_mesh; /* of_mesh and place: of positions as they are stored */
-    float place[3][4];              /* in the world */
+    gouraud_view of_world, of_mesh; /* of_mesh and place: for positions as stored */
+    float place[3][4];              /* to world space */
     kept_corner *kept;
     part *parts;
     const lmb_instance *instance;
@@ -57,7 +57,7 @@ typedef struct drawing {
     int is_mirrored, shows_backs;
 } drawing;
 
-/* A triangle of it. */
+/* A triangle of the instance. */
 typedef struct triangle {
     uint32_t id;
     kept_corner *corner[3];
@@ -89,11 +89,11 @@ static void set_instance(drawing *d, const lmb_view *v, const lmb_instance *inst
         lmb_gouraud_albedo(d->albedo, d->scene, d->material);
     }
     for (uint32_t i = 0; i < LMB_GOURAUD_KEPT; ++i) {
-        d->kept[i].vertex = i + 1; /* whose place is another */
+        d->kept[i].vertex = i + 1; /* invalid: this vertex belongs in another slot */
     }
 }
 
-/* In the numbers that of_mesh and place take. */
+/* The position as of_mesh and place expect it. */
 static lmb_vec3 stored_position(const lmb_mesh *m, uint32_t vertex)
 {
     if (m->position_format == LMB_POSITION_F32) {
@@ -115,8 +115,8 @@ static void keep(kept_corner *out, const drawing *d, uint32_t vertex)
     }
 }
 
-/* Which side is seen of a triangle that is outside of something, by the volume that its corners span with the eye; 0 is
- * the front. */
+/* The visible side of a triangle that is not inside all planes, from the sign of the volume of its corners and the eye;
+ * 0: front. */
 static int shows_back(const drawing *d, const kept_corner *a, const kept_corner *b, const kept_corner *c)
 {
     float volume;
@@ -129,8 +129,8 @@ static int shows_back(const drawing *d, const kept_corner *a, const kept_corner 
     return (volume < 0.0f) != d->is_mirrored;
 }
 
-/* A corner that is not kept yet: in its place, or in `spare` where another corner of the same triangle has that. NULL:
- * there is no such vertex. */
+/* A corner that is not in the cache: goes into the cache, or into `spare` if another corner of the same triangle has
+ * the slot. NULL: no such vertex. */
 static kept_corner *new_corner(const drawing *d, uint32_t vertex, const kept_corner *other, const kept_corner *another,
                                kept_corner *spare)
 {
@@ -150,13 +150,12 @@ static inline kept_corner *find_corner(const drawing *d, uint32_t vertex, const 
     return own->vertex == vertex ? own : new_corner(d, vertex, other, another, spare);
 }
 
-/* How far a place, x and y, lies inside of an edge, times its length, in 1/256 px2, and that plus by how much a pixel
- * further along x and y. */
+/* Distance of (x, y) inside an edge, times the edge's length, in 1/256 px2; and the steps per pixel along x and y. */
 typedef struct side {
     int32_t at, per_x, per_y;
 } side;
 
-enum { SLACK = 8 }; /* edges are rounded along rows: by less */
+enum { SLACK = 8 }; /* rounding of edges along rows is less */
 
 static side side_of(const kept_corner *from, const kept_corner *to, int32_t x, int32_t y, int32_t turn)
 {
@@ -165,7 +164,7 @@ static side side_of(const kept_corner *from, const kept_corner *to, int32_t x, i
     return s;
 }
 
-/* Does a small triangle cover the middle of one of the pixels from x, y to before past_x, past_y? */
+/* 1 if a small triangle covers the centre of a pixel from x, y to before past_x, past_y. */
 static int covers(const triangle *t, int32_t turn, int32_t x, int32_t y, int32_t past_x, int32_t past_y)
 {
     const kept_corner *a = t->corner[0], *b = t->corner[1], *c = t->corner[2];
@@ -184,8 +183,8 @@ static int covers(const triangle *t, int32_t turn, int32_t x, int32_t y, int32_t
     return 0;
 }
 
-/* Is a triangle that is outside of nothing seen, and may it cover the middle of a pixel? Sides are those of the corners
- * as they were placed, so that neighbours agree, and a closed mesh's are half as many by few products. */
+/* 1 if a triangle inside all planes is visible and may cover the centre of a pixel. Facing is computed from the rounded
+ * corners, so neighbours agree; a few products drop half the triangles of a closed mesh. */
 static int may_cover(triangle *t, const drawing *d, const kept_corner *a, const kept_corner *b, const kept_corner *c)
 {
     const int32_t area = (b->px - a->px) * (c->py - a->py) - (c->px - a->px) * (b->py - a->py);
@@ -204,7 +203,7 @@ static int may_cover(triangle *t, const drawing *d, const kept_corner *a, const 
     return x1 - x0 >= SMALL || y1 - y0 >= SMALL || covers(t, area < 0 ? -1 : 1, first_x, first_y, past_x, past_y);
 }
 
-/* 1 where triangle n of the mesh may be seen. */
+/* 1 if triangle n of the mesh may be visible. */
 static int find_triangle(triangle *out, kept_corner spare[2], const drawing *d, uint32_t n)
 {
     uint32_t vertex[3];
@@ -231,7 +230,7 @@ static int find_triangle(triangle *out, kept_corner spare[2], const drawing *d, 
 
 /* --- a whole triangle --------------------------------------------------------------------------------------------- */
 
-/* By the colours that its corners keep. */
+/* Fills with the cached colours of the corners. */
 static void fill_whole(const drawing *d, const triangle *t)
 {
     gouraud_corner c[3];
@@ -261,7 +260,7 @@ static lmb_vec3 world_of(const drawing *d, uint32_t vertex)
     return vec3(gouraud_along(d->place[0], at), gouraud_along(d->place[1], at), gouraud_along(d->place[2], at));
 }
 
-/* The triangle's unit normal, on the side that is seen. */
+/* The triangle's unit normal, on the visible side. */
 static lmb_vec3 face_of(const drawing *d, const triangle *t)
 {
     const lmb_vec3 a = world_of(d, t->corner[0]->vertex),
@@ -269,7 +268,7 @@ static lmb_vec3 face_of(const drawing *d, const triangle *t)
     return mul3(normalize3(n), t->back != d->is_mirrored ? -1.0f : 1.0f);
 }
 
-/* The corner's own, on the side that is seen. */
+/* The vertex normal, on the visible side. */
 static lmb_vec3 normal_of(const drawing *d, const triangle *t, int i)
 {
     const lmb_vec3 own = mesh_normal(d->mesh, t->corner[i]->vertex);
@@ -293,8 +292,8 @@ static void albedo_at(float out[3], const drawing *d, const triangle *t, float b
     }
 }
 
-/* The colour of a mesh's corner; where the mesh has normals, one for all of its triangles on this side, by the blend of
- * the first that is seen: clusters are far larger than triangles. `blend` NULL: nothing is thrown back to it. */
+/* Colours a corner. If the mesh has normals, all triangles on this side share the colour, with the blend of the first
+ * visible one: clusters are far larger than triangles. `blend` NULL: no reflected light. */
 static void light_corner(const drawing *d, const triangle *t, int i, const uint32_t *blend)
 {
     const int is_smooth = d->mesh->normals != NULL;
@@ -316,7 +315,7 @@ static void light_corner(const drawing *d, const triangle *t, int i, const uint3
     lmb_gouraud_colour(k->colour, e, albedo, d->gain);
 }
 
-/* Small triangles of a mesh. */
+/* Draws a small triangle of a mesh. */
 static void draw_small(const drawing *d, const triangle *t, const uint32_t *blend)
 {
     for (int i = 0; i < (t->is_tiny ? 1 : 3); ++i) {
@@ -327,7 +326,7 @@ static void draw_small(const drawing *d, const triangle *t, const uint32_t *blen
 
 /* --- a divided triangle ------------------------------------------------------------------------------------------- */
 
-/* Light at a corner of a leaf: straight from the lights, once for all that share its receiver, and thrown back. */
+/* Light at a corner of a leaf: direct light, once for all corners with the same receiver, plus reflected light. */
 static void light_at(float e[3], const drawing *d, const triangle *t, lmb_vec3 at, uint32_t receiver, lmb_vec3 face)
 {
     float *direct = d->g->direct[receiver];
@@ -340,7 +339,7 @@ static void light_at(float e[3], const drawing *d, const triangle *t, lmb_vec3 a
     }
 }
 
-/* `corner`: receivers, or, where light is kept by direction, blends. */
+/* `corner`: receivers, or blends if light is stored by direction. */
 static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, const uint32_t *corner, int is_directed,
                       lmb_vec3 face)
 {
@@ -374,8 +373,8 @@ static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, con
     }
 }
 
-/* Corner k of the half goes to where the edge is halved; of halvings exactly the same place for both triangles that share
- * the edge. */
+/* Moves corner k to the split point of the edge. It is exactly the same point for both triangles that share the
+ * edge. */
 static void enter_half(part *p, const transfer_halving *h, int second)
 {
     const int from = h->from, to = halving_to(from), k = second ? from : to;
@@ -388,7 +387,7 @@ static void enter_half(part *p, const transfer_halving *h, int second)
     p->node = h->first + (uint32_t)second;
 }
 
-/* All leaves below a root. `left`: how many there may be, for damaged files. */
+/* Draws all leaves below a root. `left`: limits their number in damaged files. */
 static void draw_divided(const drawing *d, const triangle *t, uint32_t root)
 {
     const lmb_transfer *file = d->g->transfer;
@@ -499,7 +498,7 @@ lmb_status lmb_gouraud_map(lmb_shadow_map *map, lmb_gouraud_scratch *scratch, co
     return LMB_OK;
 }
 
-/* Row by row, as lmb_gouraud_map leaves them. */
+/* 1 if the maps are linear, as lmb_gouraud_map leaves them. */
 static int are_maps(const lmb_shadow_map *maps, uint32_t count)
 {
     int all = 1;

@@ -1,8 +1,9 @@
 /* gouraud_fill.c: clips, and fills row by row: edges and colours in integers. Layer 10.
  *
- * Corners lie within GOURAUD_GUARD times the target, of LMB_GOURAUD_MAX_SIDE px: differences are at most 16,384 in 1/16
- * px, so that an area, and 2^14 times a difference, fit 32 bits. An edge's place in a row depends on its two ends alone,
- * taken from top to bottom: neighbours share it, and a pixel whose middle lies on it belongs to one of them. */
+ * Corners lie within GOURAUD_GUARD times the target, of LMB_GOURAUD_MAX_SIDE px. Differences are at most 16,384 in 1/16
+ * px, so an area, and 2^14 times a difference, fit 32 bits. The position of an edge in a row depends only on the two
+ * ends, taken from top to bottom. So neighbours share it, and a pixel with its centre on the edge belongs to one of
+ * them. */
 #include "gouraud_fill.h"
 
 #include <string.h>
@@ -11,7 +12,7 @@
 
 #if LMB_TRANSFER
 
-enum { CORNERS = 8 }; /* of a triangle that five planes have cut */
+enum { CORNERS = 8 }; /* of a triangle cut by five planes */
 
 /* --- before the division ------------------------------------------------------------------------------------------ */
 
@@ -44,7 +45,7 @@ void lmb_gouraud_scale(float rows[3][4], lmb_vec3 scale, lmb_vec3 offset)
     }
 }
 
-/* Beyond 1,000 km, or no number: outside of all. */
+/* Points beyond 1,000 km, and non-numbers, are outside all planes. */
 uint32_t lmb_gouraud_outside(const gouraud_point *p)
 {
     const float guard = (float)GOURAUD_GUARD * p->w;
@@ -65,7 +66,7 @@ void lmb_gouraud_size(gouraud_target *t, int32_t width, int32_t height)
     t->middle[1] = t->half[1] + 0.5f + (float)GOURAUD_BIAS;
 }
 
-/* How far inside a plane a point is. */
+/* Distance of a point inside a plane. */
 static float inside(const gouraud_point *p, int plane)
 {
     const float guard = (float)GOURAUD_GUARD * p->w;
@@ -83,7 +84,7 @@ static float inside(const gouraud_point *p, int plane)
     }
 }
 
-/* Where the way from a, inside, to b, outside, meets the plane. */
+/* Intersection of the segment from a, inside, to b, outside, with the plane. */
 static gouraud_point cut(const gouraud_point *a, const gouraud_point *b, float in, float out)
 {
     const float t = in / (in - out);
@@ -98,7 +99,7 @@ static gouraud_point cut(const gouraud_point *a, const gouraud_point *b, float i
     return p;
 }
 
-/* Always from the inside to the outside, so that neighbours cut a shared edge at one place. */
+/* Always cuts from the inside to the outside, so that neighbours cut a shared edge at one place. */
 static int cut_plane(gouraud_point *out, const gouraud_point *p, int count, int plane)
 {
     int n = 0;
@@ -123,7 +124,7 @@ gouraud_corner lmb_gouraud_place(const gouraud_target *t, const gouraud_point *p
     return c;
 }
 
-/* A corner cut where x or y was huge beside w lies on the guard only as well as binary32 puts it there. */
+/* If x or y was huge compared with w, a cut corner lies on the guard band only within binary32 precision. */
 static gouraud_corner place_cut(const gouraud_target *t, gouraud_point p)
 {
     const float guard = (float)GOURAUD_GUARD * p.w;
@@ -177,26 +178,27 @@ static edge edge_of(const gouraud_corner *from, const gouraud_corner *to)
     return e;
 }
 
-/* In 2^-14 px, in a row whose middle lies between the edge's ends. */
+/* x in 2^-14 px, for a row with the centre between the edge's ends. */
 static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e->slope * (middle - e->y)) >> 4); }
 
-/* By how much an edge that is a sixteenth of a pixel farther out, down or across, lies to the side. */
+/* Shift across of an edge that moves outwards by a sixteenth of a pixel, down or across. */
 static int32_t edge_growth(const edge *e) { return ((e->slope < 0 ? -e->slope : e->slope) >> 4) + 1024; }
 
-/* The first pixel whose middle is not left of x. */
+/* The first pixel with a centre not left of x. */
 static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
 
-/* A number that is linear on the triangle, within 0 .. max; whole numbers where it is gentle. */
+/* A linear value on the triangle, in 0 .. max. Integers if it is gentle. */
 typedef struct plane {
     float at, per_x, per_y, max;   /* at the first corner; per px */
-    int32_t first, step_x, step_y; /* in the middle of the target's first pixel; to the next one, and to the next row */
+    int32_t first, step_x, step_y; /* at the centre of the target's first pixel; step to the next pixel, and to the next
+                                      row */
     int is_gentle;
 } plane;
 
-/* Per px: by so much 31 bits hold the number wherever a pixel and a corner may lie. */
+/* Per px: up to this, values fit 31 bits at any distance between a pixel and a corner. */
 #define GENTLE 262144.0f
 
-/* All but the whole numbers. */
+/* All but the integers. */
 static void set_plane(plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area, float max)
 {
     const float a = f1 - f0, b = f2 - f0;
@@ -206,7 +208,7 @@ static void set_plane(plane *out, const gouraud_corner c[3], float f0, float f1,
     out->max = max;
 }
 
-/* Whole numbers beside it, where they will do. */
+/* Adds the integers if they suffice. */
 static void set_whole_plane(plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area,
                             float max)
 {
@@ -225,7 +227,7 @@ static float plane_at(const plane *p, float x, float y)
     return clampf(p->at + p->per_y * y + p->per_x * x, 0.0f, p->max);
 }
 
-/* A number along a row: at its first pixel, and from pixel to pixel, both ends within the plane's range. */
+/* A value along a row: at the first pixel, and per pixel, with both ends in the plane's range. */
 typedef struct ramp {
     int32_t at, step;
 } ramp;
@@ -239,7 +241,7 @@ static ramp ramp_between(const plane *p, const gouraud_corner *c, int32_t x, int
     return r;
 }
 
-/* Middles of pixels beside an edge may lie a little outside of the triangle. */
+/* Pixel centres beside an edge may lie slightly outside the triangle. */
 static inline ramp ramp_of(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
 {
     const uint32_t max = (uint32_t)(int32_t)p->max;
@@ -252,7 +254,8 @@ static inline ramp ramp_of(const plane *p, const gouraud_corner *c, int32_t x, i
     return r;
 }
 
-/* Colours: 5, 6 and 5 bits, and 11 below them. Red lies over blue in one word: no sum of blue leaves its 16 bits. */
+/* Colours: 5, 6 and 5 bits, with 11 fraction bits. Red lies above blue in one word, because sums of blue stay within 16
+ * bits. */
 enum { FRACTION = 11 };
 
 static uint32_t red_and_blue(int32_t red, int32_t blue) { return ((uint32_t)red << 16) + (uint32_t)blue; }
@@ -263,17 +266,17 @@ static uint16_t pixel_of(uint32_t red_blue, uint32_t green)
                       (red_blue & 0xffffu) >> FRACTION);
 }
 
-/* Bayer's matrix (1973) of 4 x 4 in sixteenths, less half of one: of red and of blue. */
+/* Bayer's 4 x 4 matrix (1973) in sixteenths, less half of one: for red and for blue. */
 #define BOTH(a) ((uint32_t)(a) << 16 | (uint32_t)(a))
 static const uint32_t dither[4][4] = {{BOTH(64), BOTH(1088), BOTH(320), BOTH(1344)},
                                       {BOTH(1600), BOTH(576), BOTH(1856), BOTH(832)},
                                       {BOTH(448), BOTH(1472), BOTH(192), BOTH(1216)},
                                       {BOTH(1984), BOTH(960), BOTH(1728), BOTH(704)}};
 
-/* A depth in 16 bits: the four lowest of its exponent and twelve of its fraction, so that far surfaces are told apart
- * like near ones. */
-#define LEAST_DEPTH 1.5262604e-5f /* 2^-16 and a step: code 1 */
-#define MOST_DEPTH  0.9998779f    /* 1 less a step: code 65535 */
+/* A 16-bit depth: the four lowest bits of the exponent and twelve of the fraction, so that relative precision is the
+ * same near and far. */
+#define LEAST_DEPTH 1.5262604e-5f /* 2^-16 plus a step: code 1 */
+#define MOST_DEPTH  0.9998779f    /* 1 minus a step: code 65535 */
 
 static uint16_t depth_code(float depth)
 {
@@ -304,8 +307,8 @@ typedef struct filler {
     plane depth, colour[3];
     uint32_t id;
     int how;
-    uint32_t red_blue, green; /* the colour of GOURAUD_FLAT */
-    int32_t first, past;      /* pixels across that it may cover */
+    uint32_t red_blue, green; /* the colour for GOURAUD_FLAT */
+    int32_t first, past;      /* range of pixels across */
 } filler;
 
 static void fill_row(const filler *f, int32_t x, int32_t y, int32_t count)
@@ -365,7 +368,7 @@ static void fill_row_ids(const filler *f, int32_t x, int32_t y, int32_t count)
     }
 }
 
-/* Rows whose middles lie on both edges. */
+/* Fills the rows with their centres on both edges. */
 static void fill_between(const filler *f, const edge *a, const edge *b, int32_t top, int32_t past)
 {
     const gouraud_target *t = f->t;

@@ -1,4 +1,4 @@
-/* gouraud_light.c: the light at a triangle's corner, and its colour. Layer 10. */
+/* gouraud_light.c: the light at a triangle's corner, and the colour. Layer 10. */
 #include "gouraud_light.h"
 
 #include "../base/codec.h"
@@ -9,7 +9,7 @@
 
 #if LMB_TRANSFER
 
-/* Irradiance of one light on a plane of the normal, per intensity, as light/direct.inl. */
+/* Irradiance of one light on a plane with this normal, per intensity, as in light/direct.inl. */
 static float arriving(const lmb_light *light, lmb_vec3 at, lmb_vec3 normal)
 {
     lmb_vec3 to = mul3(light->direction, -1.0f);
@@ -44,8 +44,9 @@ static int32_t face_towards(const lmb_shadow_map *map, const lmb_light *light, l
     return a.y >= a.z ? 2 + (d.y < 0.0f) : 4 + (d.z < 0.0f);
 }
 
-/* The surface in the middle of the place's texel against the receiver's own plane there, as light/shadow.c's last
- * resort: off by up to a texel, which corners closer than texels hide. 1 outside of the map. */
+/* Tests the surface at the centre of the texel against the receiver's plane there, like the last resort of
+ * light/shadow.c. It is off by up to a texel, which does not show if corners are closer together than texels. 1 outside
+ * the map. */
 static int is_lit(const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 at, lmb_vec3 normal)
 {
     const int32_t face = face_towards(map, light, at);
@@ -74,7 +75,7 @@ static int is_lit(const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 at
     return lmb_depth_view_z(v, depth) >= minf(own, w + 16.0f * texel) - texel;
 }
 
-/* By the triangles that the map names. */
+/* Tests with the triangles that the map names. */
 static int is_lit_exactly(const lmb_gouraud *g, uint32_t i, lmb_vec3 at, lmb_vec3 normal, uint32_t id)
 {
     const lmb_receiver r = {at, normal, id};
@@ -126,7 +127,7 @@ void lmb_gouraud_albedo(float out[3], const lmb_scene *scene, const lmb_material
     }
 }
 
-/* The curve of compose/encode.inl, not rounded: codes are mixed. */
+/* The curve of compose/encode.inl without rounding, because codes are interpolated. */
 static float code_of(float linear)
 {
     const float x = clampf(linear, 0.0f, 1.0f), root = sqrtf(x);

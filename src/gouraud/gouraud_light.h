@@ -1,4 +1,4 @@
-/* gouraud_light.h: the light at a triangle's corner, and its colour. Layer 10. */
+/* gouraud_light.h: the light at a triangle's corner, and the colour. Layer 10. */
 #ifndef LMB_GOURAUD_LIGHT_H
 #define LMB_GOURAUD_LIGHT_H
 
@@ -6,14 +6,14 @@
 
 #include "../raster/triangle.h"
 
-/* Add what arrives straight from the lights on a plane of the normal. is_exact: shadows by the triangles that the map
- * names; else by its depth, off by a texel. */
+/* Adds direct light on a plane with this normal. is_exact: shadows from the triangles that the map names; otherwise
+ * from the map's depth, off by up to a texel. */
 void lmb_gouraud_direct(float inout[3], const lmb_gouraud *g, lmb_vec3 at, lmb_vec3 normal, uint32_t id, int is_exact);
 
-/* Add what a blend of clusters throws back along a normal. */
+/* Adds the light that a blend of clusters reflects, on a plane with this normal. */
 void lmb_gouraud_blend(float inout[3], const lmb_gouraud *g, uint32_t blend, lmb_vec3 normal);
 
-/* The base colour of a triangle, of its material and its texture's mean; without colours of its own. */
+/* The base colour of a triangle: material times the mean of the texture, without vertex colours. */
 void lmb_gouraud_albedo(float out[3], const lmb_scene *scene, const lmb_material *material);
 
 /* sRGB codes of `albedo` lit by `e`, W/m2; gain: 2^exposure / pi. */

@@ -1,6 +1,6 @@
 /* all_kernels.inl: every kernel by one backend's verbs, and their table. Layer 12.
  *
- * The including file defines KERNEL(name), and BACKEND: the name that lmb_kernels_named knows. */
+ * The including file defines KERNEL(name), and BACKEND: the name for lmb_kernels_named. */
 #include "../lane/kernels.h"
 #include "../lane/lane.h"
 
@@ -15,7 +15,9 @@
 #include "../raster/resolve.inl"
 #include "../raster/texture.inl"
 #include "../light/direct.inl"
+#if LMB_BOUNCE
 #include "../bounce/gather.inl"
+#endif
 #include "../compose/blend.inl"
 #include "../compose/encode.inl"
 #if LMB_TREES
@@ -78,8 +80,10 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(resolve),
     KERNEL(texture),
     KERNEL(direct),
+#if LMB_BOUNCE
     KERNEL(gather),
     KERNEL(gather_near),
+#endif
     KERNEL(blend),
     KERNEL(encode),
     KERNEL(probe),

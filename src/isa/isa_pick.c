@@ -1,8 +1,8 @@
-/* isa_pick.c: picks a backend's kernels, and tests that they compute what they should. Layer 12.
+/* isa_pick.c: picks a backend's kernels, and tests that they compute exact results. Layer 12.
  *
- * On x86 the processor is asked, and the system: registers that it does not save across threads are not there. Asked
- * each time: a remembered answer would be data that changes. A call costs a few hundred cycles, in a virtual machine,
- * which the question leaves, over ten thousand: ask once a frame, not once a tile. */
+ * On x86 this queries the processor and the system: registers that the system does not save across threads are
+ * unusable. Each call queries again, because a cached answer would be writable data. A call costs a few hundred cycles,
+ * but over ten thousand in a virtual machine, where the query traps. Call it once a frame, not once a tile. */
 #include "../base/exact.h"
 #include "../lane/kernels.h"
 
@@ -17,7 +17,7 @@ static uint32_t saved_registers(void)
     return low;
 }
 
-/* Feature bits of leaf 7 and, by `saved`, their registers: 2 SSE, 4 AVX, 0xe0 AVX-512. */
+/* Feature bits of leaf 7, and in `saved` the registers they need: 2 SSE, 4 AVX, 0xe0 AVX-512. */
 static int processor_has(uint32_t leaf_7, uint32_t saved)
 {
     const uint32_t osxsave_avx = 1u << 27 | 1u << 28;

@@ -2,26 +2,28 @@
 #ifndef LMB_LANE_H
 #define LMB_LANE_H
 
-/* For what only pays where the compiler sees its caller: constants for arguments, structs that stay in registers. */
+/* For functions that pay off only if inlined: constant arguments, structs that stay in registers. */
 #if defined(__GNUC__)
 #define LANE_INLINE static inline __attribute__((always_inline))
 #else
 #define LANE_INLINE static inline
 #endif
 
-/* NOINLINE where lanes are wide. The frame of one is small, and a call takes ROM. */
+/* NOINLINE if lanes are wide. With one lane the frame is small, and a call takes ROM. */
 #if LANES > 1
 #define LANE_NOINLINE NOINLINE
 #else
 #define LANE_NOINLINE static inline
 #endif
 
-/* A part of a long formula. Without vectors each of four lanes of every step has its own place on the stack frame. */
+/* A part of a long formula. Without vectors, each step's four lanes take separate places on the stack frame. */
 #if defined(LANE_PLAIN) && LANES > 1
 #define LANE_PART NOINLINE
 #else
 #define LANE_PART LANE_INLINE
 #endif
+
+#define ALL_LANES (~0u >> (32 - LANES)) /* bits of mask_bits */
 
 /* Column and row of a tile's pixels k, k + 1, ...: k is a multiple of LANES, and 16 lanes cover two rows. */
 static inline lane lane_column(int k)
@@ -50,7 +52,7 @@ static inline lanei lanei_affine(int32_t at, int32_t per_x, int32_t per_y, int k
     return lanei_add(r, lanei_splat(at + per_y * (k / LMB_TILE)));
 }
 
-/* Four bytes each, at 4 * `at`: the first in the low bits, on every target. A backend's header may have its own. */
+/* Four bytes each, at 4 * `at`: the first byte in the low bits, on every target. Backends may override this. */
 #ifndef LANE_GATHERS_RGBA
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 {
@@ -64,12 +66,12 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 }
 #endif
 
-/* At least `low`, then at most `high`. A backend's header may have its own. */
+/* Clamps to at least `low`, then to at most `high`. Backends may override this. */
 #ifndef LANE_HAS_HOLD
 static inline lane lane_hold(lane a, lane low, lane high) { return lane_min(lane_max(a, low), high); }
 #endif
 
-/* The lowest of a vector's values. A backend's header may have its own. */
+/* The smallest value of a vector. Backends may override this. */
 #ifndef LANE_HAS_LOWEST
 static inline float lane_lowest(lane a)
 {
@@ -83,8 +85,8 @@ static inline float lane_lowest(lane a)
 }
 #endif
 
-/* The sum of sixteen values: those eight apart first, then four, two, and the last two: the same by every backend. A
- * backend's header may have its own. */
+/* The sum of sixteen values in one order on every backend: first pairs eight apart, then four, two, one. Backends may
+ * override this. */
 #ifndef LANE_HAS_SUM16
 static inline float lane_sum16(const float v[16])
 {
@@ -100,8 +102,8 @@ static inline float lane_sum16(const float v[16])
 }
 #endif
 
-/* Sums of sixteen values up to each, added to `base`: each takes the one before it, then what that 2, 4, 8 before it
- * has. A backend's header may have its own. */
+/* Prefix sums of sixteen values, plus `base`. Each value adds the one before it, then the results 2, 4 and 8 before it.
+ * Backends may override this. */
 #ifndef LANE_HAS_SCAN16
 static inline void lane_scan16(float out[16], const float v[16], float base)
 {
@@ -128,7 +130,7 @@ static inline void lane_scan16(float out[16], const float v[16], float base)
 }
 #endif
 
-/* A word each. A backend's header may have its own. */
+/* A word each. Backends may override this. */
 #ifndef LANE_GATHERS_I32
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at)
 {
@@ -141,7 +143,7 @@ static inline lanei lanei_gather_i32(const int32_t *p, lanei at)
 }
 #endif
 
-/* Four floats each, at 4 * `at`. A backend's header may have its own. */
+/* Four floats each, at 4 * `at`. Backends may override this. */
 #ifndef LANE_GATHERS_RGBA_F32
 static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
 {
@@ -152,8 +154,8 @@ static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
 }
 #endif
 
-/* Four links onto sums: a link's low half is the number of its row, the high half its weight. And four links of three
- * weights and two words each: x over the row's number, y under z. A backend's header may have its own. */
+/* Adds four links to sums. The low half of a link is the row number, the high half the weight. A directed link has
+ * three weights in two words: x above the row number, y below z. Backends may override this. */
 #ifndef LANE_ADDS_LINKS
 static inline lane_sums sums_add_links(lane_sums s, uint16_t (*row)[4], const uint32_t *link)
 {
@@ -255,8 +257,8 @@ static inline lane3 lane3_abs(lane3 a)
     return a;
 }
 
-/* Between two boxes: how far along each axis one ends before the other begins. `to`: from one's middle to the other's;
- * halves: the sum of both's. */
+/* The gap between two boxes along each axis, or 0 if they overlap there. `to`: from centre to centre; halves: the sum
+ * of both half sizes. */
 static inline lane3 lane3_gap(lane3 to, lane3 halves)
 {
     const lane zero = lane_splat(0.0f);

@@ -1,7 +1,7 @@
-/* lane_avx2.h: the lane verbs by AVX2, eight wide: a row of a tile. lane_scalar.h says what each must do. Layer 2.
+/* lane_avx2.h: the lane verbs by AVX2, eight wide: a row of a tile. lane_scalar.h defines each verb. Layer 2.
  *
- * After target_avx2.h. Gathers are loads one by one: AVX2's own has no 16-bit form, and its 32-bit form measured no
- * faster. */
+ * Include after target_avx2.h. Gathers are single loads: AVX2's gather has no 16-bit form, and the 32-bit form measured
+ * no faster. */
 #ifndef LMB_LANE_AVX2_H
 #define LMB_LANE_AVX2_H
 
@@ -127,7 +127,7 @@ static inline lanei lanei_gather_i32(const int32_t *p, lanei at)
 {
     return _mm256_i32gather_epi32((const int *)p, at, 4);
 }
-/* Eight rows of four, turned. */
+/* Eight rows of four, transposed. */
 #define LANE_GATHERS_RGBA_F32 1
 static inline __m256 lane_two_rows(const float *low, const float *high)
 {
@@ -146,7 +146,7 @@ static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
     out[2] = _mm256_shuffle_ps(ab_high, cd_high, 0x44);
     out[3] = _mm256_shuffle_ps(ab_high, cd_high, 0xee);
 }
-/* Rows of three, each read with the number after it. */
+/* Rows of three, each read with the following number. */
 #define LANE_GATHERS_CORNERS 1
 static inline __m256 lane_two_corners(const float *p, const uint32_t *vertex)
 {
@@ -161,7 +161,7 @@ static inline void lane_gather_corners(lane out[3], const float *p, const uint32
     out[1] = _mm256_shuffle_ps(ab, cd, 0xee);
     out[2] = _mm256_shuffle_ps(_mm256_unpackhi_ps(a, b), _mm256_unpackhi_ps(c, d), 0x44);
 }
-/* The halves of the table, and bit 3 of `at` says which. */
+/* Looks up both halves of the table; bit 3 of `at` selects one. */
 static inline lane lane_table(const float *p, lanei at)
 {
     return _mm256_blendv_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(p), at),
@@ -192,7 +192,7 @@ static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
     __m256i *at = (__m256i *)(void *)p;
     _mm256_storeu_si256(at, _mm256_max_epu16(_mm256_loadu_si256(at), code));
 }
-/* The same of left halves of rows and right ones, which narrowing puts side by side. */
+/* The same for left halves of rows and right ones, which narrowing puts side by side. */
 static inline void lane_raise_u16_halves(uint16_t *p, lane left, lane right)
 {
     const __m256i code = _mm256_packus_epi32(_mm256_cvttps_epi32(left), _mm256_cvttps_epi32(right));

@@ -1,7 +1,7 @@
 /* lane_avx512.h: the lane verbs by AVX-512, sixteen wide: two rows of a tile; see lane_scalar.h. Layer 2.
  *
- * Include it after target_avx512.h. Masks are bits. The verbs that load and store surfaces take a row's eight values at
- * a time, so that linear targets, whose rows lie apart, need no case of their own. */
+ * Include after target_avx512.h. Masks are bits. Verbs that load and store surfaces process eight values of a row at a
+ * time, so that linear targets, with rows far apart, need no special case. */
 #ifndef LMB_LANE_AVX512_H
 #define LMB_LANE_AVX512_H
 
@@ -129,7 +129,7 @@ static inline void lane_scan16(float out[16], const float v[16], float base)
 #define LANE_GATHERS_I32 1
 static inline lanei lanei_gather_i32(const int32_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
 static inline lane lane_gather_f32(const float *p, lanei at) { return _mm512_i32gather_ps(at, p, 4); }
-/* One by one: the processor gathers 32 bits at least, and would read past the end. */
+/* One by one: the instruction gathers at least 32 bits and would read past the end. */
 static inline lane lane_gather_u16(const uint16_t *p, lanei at)
 {
     int32_t i[16];
@@ -141,7 +141,7 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
 }
 #define LANE_GATHERS_RGBA 1
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
-/* Sixteen rows of four, turned. */
+/* Sixteen rows of four, transposed. */
 #define LANE_GATHERS_RGBA_F32 1
 static inline __m512 lane_four_rows(const float *p, const int32_t *at)
 {
@@ -162,7 +162,7 @@ static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
     out[2] = _mm512_shuffle_ps(ab_high, cd_high, 0x44);
     out[3] = _mm512_shuffle_ps(ab_high, cd_high, 0xee);
 }
-/* Rows of three, each read with the number after it. */
+/* Rows of three, each read with the following number. */
 #define LANE_GATHERS_CORNERS 1
 static inline __m128 lane_row_of_three(const float *p, const uint32_t *vertex, int k)
 {
@@ -186,7 +186,7 @@ static inline void lane_gather_corners(lane out[3], const float *p, const uint32
 }
 static inline lane lane_table(const float *p, lanei at) { return _mm512_permutexvar_ps(at, _mm512_loadu_ps(p)); }
 
-/* Rows of a tiled surface follow each other: one piece. Where `step` is a constant, so is the choice. */
+/* Rows of a tiled surface are contiguous: one access. If `step` is a constant, the branch is too. */
 static inline lane lane_load_rows(const float *p, int32_t step)
 {
     if (step == 8) {
@@ -228,7 +228,7 @@ static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
     const __m512i code = _mm512_permutexvar_epi64(_mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7), mixed);
     _mm512_storeu_si512(p, _mm512_max_epu16(_mm512_loadu_si512(p), code));
 }
-/* The same of left halves of rows and right ones, which narrowing puts side by side. */
+/* The same for left halves of rows and right ones, which narrowing puts side by side. */
 static inline void lane_raise_u16_halves(uint16_t *p, lane left, lane right)
 {
     const __m512i code = _mm512_packus_epi32(_mm512_cvttps_epi32(left), _mm512_cvttps_epi32(right));
@@ -238,7 +238,7 @@ static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mas
 {
     avx512_put_rows_u16(p, step, _mm256_mask_blend_epi16(m, avx512_rows_u16(p, step), _mm256_set1_epi16((short)id)));
 }
-/* Blended in one piece: clang 14 takes the upper half of a mask apart through memory. */
+/* One blend of all 16: clang 14 splits off the upper half of a mask through memory. */
 static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mask m)
 {
     if (step == 8) {

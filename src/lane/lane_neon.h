@@ -1,6 +1,6 @@
-/* lane_neon.h: the lane verbs by AArch64's NEON, four wide. lane_scalar.h says what each must do. Layer 2.
+/* lane_neon.h: the lane verbs by AArch64's NEON, four wide. lane_scalar.h defines each verb. Layer 2.
  *
- * NEON's own min and max make a NaN of any NaN: compare and pick instead. */
+ * NEON's min and max return a NaN if either operand is a NaN, so these compare and pick instead. */
 #ifndef LMB_LANE_NEON_H
 #define LMB_LANE_NEON_H
 
@@ -143,8 +143,8 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     vst1q_u32(p, vbslq_u32(m, vdupq_n_u32(id), vld1q_u32(p)));
 }
 
-/* Products are of signed values: those of a row lie 32768 lower, the fourth too, which is 0 and so says by how much the
- * sums of the others lie too low. */
+/* Products are signed, so rows are stored 32768 lower. The fourth value, which is 0, is shifted too and so sums to the
+ * correction for the others. */
 typedef struct lane_pair {
     int16x4_t first, second;
 } lane_pair;

@@ -10,13 +10,13 @@
 
 #include "backends.h"
 
-/* One where a file defines LANE_ONE, to ask a kernel's formula for a single thing. */
+/* 1 if a file defines LANE_ONE, to run a kernel's formula for a single value. */
 #if defined(LANE_ONE)
 #define LANES 1
 #else
 #define LANES LMB_PLAIN_LANES
 #endif
-/* Masks are no instructions here: work that no lane wants is better branched around. */
+/* Masks are not instructions here: if no lane needs the work, a branch around it is faster. */
 #define LANE_PLAIN 1
 
 #if LANES == 1
@@ -26,7 +26,7 @@
         __VA_ARGS__; \
     } while (0)
 #else
-/* Written out, not looped: gcc keeps a struct in registers only if its members have constant places. */
+/* Unrolled: gcc keeps a struct in registers only if it accesses the members with constant indices. */
 #define EACH(...) \
     do { \
         { enum { i = 0 }; __VA_ARGS__; } \
@@ -59,8 +59,8 @@ static inline lane lane_div(lane a, lane b) { EACH(a.v[i] = a.v[i] / b.v[i]); re
 static inline lane lane_sqrt(lane a) { EACH(a.v[i] = sqrtf(a.v[i])); return a; }
 static inline lane lane_min(lane a, lane b) { EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
 static inline lane lane_max(lane a, lane b) { EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
-/* lane_min(lane_max(a, low), high), but written out: gcc calls those where a function has grown large, and fills with ids
- * took up to 1.8 times as long. */
+/* lane_min(lane_max(a, low), high), but in full: gcc stops inlining those in large functions, and fills with ids took
+ * up to 1.8 times as long. */
 #if defined(__GNUC__) && !defined(__clang__) && LANES > 1
 #define LANE_HAS_HOLD
 static inline __attribute__((always_inline)) lane lane_hold(lane a, lane low, lane high)
@@ -83,7 +83,7 @@ static inline lane_mask mask_of_bits(uint32_t b) { lane_mask r; EACH(r.v[i] = (b
 
 static inline lanei lanei_splat(int32_t a) { lanei r; EACH(r.v[i] = a); return r; }
 static inline lanei lanei_load(const int32_t *p) { lanei r; EACH(r.v[i] = p[i]); return r; }
-/* Sums and products go round, as in registers. */
+/* Sums and products wrap around, as in registers. */
 static inline lanei lanei_add(lanei a, lanei b)
 {
     EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] + (uint32_t)b.v[i]));
@@ -121,7 +121,7 @@ static inline lane lane_from_int(lanei a) { lane r; EACH(r.v[i] = (float)a.v[i])
 static inline lane lane_trunc(lane a) { EACH(a.v[i] = (float)(int32_t)a.v[i]); return a; }
 static inline void lanei_store(int32_t *p, lanei a) { EACH(p[i] = a.v[i]); }
 
-/* binary64, for what a triangle's depth plane needs. */
+/* binary64, for the depth plane of a triangle. */
 static inline laned laned_splat(double a) { laned r; EACH(r.v[i] = a); return r; }
 static inline laned laned_from(lane a) { laned r; EACH(r.v[i] = (double)a.v[i]); return r; }
 static inline laned laned_from_int(lanei a) { laned r; EACH(r.v[i] = (double)a.v[i]); return r; }
@@ -136,12 +136,12 @@ static inline laned laned_div(laned a, laned b) { EACH(a.v[i] = a.v[i] / b.v[i])
 
 static inline lane lane_gather_f32(const float *p, lanei at) { lane r; EACH(r.v[i] = p[at.v[i]]); return r; }
 static inline lane lane_gather_u16(const uint16_t *p, lanei at) { lane r; EACH(r.v[i] = (float)p[at.v[i]]); return r; }
-/* Of a table of 16 values in memory; `at` is 0 .. 15. */
+/* Lookup in a table of 16 values in memory; `at` is 0 .. 15. */
 static inline lane lane_table(const float *p, lanei at) { return lane_gather_f32(p, at); }
 
-/* Sums of 16-bit values times weights, modulo 2^32: exact in any order. A pair is two rows of four values; `weights` has
- * the first one's weight in the low half, the second's in the high half, both signed. The fourth value of each row is
- * 0: the totals are of the other three. */
+/* Sums of 16-bit values times weights, modulo 2^32: exact in any order. A pair is two rows of four values. `weights`
+ * has the weight of the first row in the low half and of the second in the high half, both signed. The fourth value of
+ * each row is 0, so there are three totals. */
 typedef struct lane_pair {
     const uint16_t *first, *second;
 } lane_pair;
@@ -156,7 +156,7 @@ static inline lane_pair pair_load(const uint16_t *first, const uint16_t *second)
     return r;
 }
 static inline lane_sums sums_zero(void) { lane_sums r = {{0, 0, 0}}; return r; }
-/* Written out, as EACH. Of `weight` the high half counts. */
+/* Unrolled, as EACH. Only the high half of `weight` counts. */
 static inline lane_sums sums_add_row(lane_sums s, const uint16_t *row, uint32_t weight)
 {
     const uint32_t w = (uint32_t)((int32_t)weight >> 16);
@@ -193,8 +193,8 @@ static inline void sums_store(int32_t out[3], lane_sums s)
     }
 }
 
-/* Surfaces' memory. A backend wider than a tile's row covers the next row too: it lies `step` values further. 16-bit
- * values are 0 .. 65535, whole. */
+/* Memory of surfaces. If a backend is wider than a tile's row, it also covers the next row, `step` values further on.
+ * 16-bit values are integers 0 .. 65535. */
 static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
 static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }
 static inline lane lane_load_u16(const uint16_t *p, int32_t step)
@@ -205,7 +205,7 @@ static inline lane lane_load_u16(const uint16_t *p, int32_t step)
     return r;
 }
 static inline void lane_store_u16(uint16_t *p, int32_t step, lane a) { (void)step; EACH(p[i] = (uint16_t)a.v[i]); }
-/* Write `id` where the mask is set; elsewhere memory keeps its value, though it may be written again. */
+/* Writes `id` if the mask is set. Other memory keeps the old value but may be rewritten. */
 static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
 {
     (void)step;
@@ -216,8 +216,8 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     (void)step;
     EACH(if (m.v[i]) p[i] = id);
 }
-/* 2 LANES codes from p on: those of a, then of b, take the place of smaller ones. They are numbers under 65536, which are
- * truncated; negative ones count as 0. Loops: gcc makes vectors of 16-bit values of these, not of EACH. */
+/* Raises 2 LANES codes from p on to those of a, then of b. The codes are below 65536 and are truncated; negative ones
+ * count as 0. Loops, because gcc vectorizes 16-bit values in loops but not in EACH. */
 static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
 {
     float code[2 * LANES];
@@ -228,8 +228,8 @@ static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
         p[i] = p[i] > c ? p[i] : c;
     }
 }
-/* Depths that are larger than what is there take its place, and `id` the place of their ids. Of this backend alone: a
- * mask that two stores share keeps gcc from joining lanes into vectors, so each store compares by itself. */
+/* Replaces smaller depths by d, and their ids by `id`. Only in this backend: if two stores share a mask, gcc does not
+ * merge the lanes into vectors, so each store compares again. */
 static inline void lane_put_larger_u32(float *p, uint32_t *ids, uint32_t id, lane d)
 {
     const lane was = lane_load(p);

@@ -1,7 +1,7 @@
-/* lane_simd128.h: the lane verbs by WebAssembly's simd128, four wide. lane_scalar.h says what each must do. Layer 2.
+/* lane_simd128.h: the lane verbs by WebAssembly's simd128, four wide. lane_scalar.h defines each verb. Layer 2.
  *
- * pmin(x, y) is y < x ? y : x, so SSE's rule is pmin with its operands changed; min and max proper make a NaN of any
- * NaN. */
+ * pmin(x, y) is y < x ? y : x, so SSE's rule is pmin with swapped operands. min and max return a NaN if either operand
+ * is a NaN. */
 #ifndef LMB_LANE_SIMD128_H
 #define LMB_LANE_SIMD128_H
 
@@ -142,8 +142,8 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     wasm_v128_store(p, wasm_v128_bitselect(wasm_i32x4_splat((int32_t)id), wasm_v128_load(p), m));
 }
 
-/* Products are of signed values: those of a row lie 32768 lower, the fourth too, which is 0 and so says by how much the
- * sums of the others lie too low. */
+/* Products are signed, so rows are stored 32768 lower. The fourth value, which is 0, is shifted too and so sums to the
+ * correction for the others. */
 typedef v128_t lane_pair;
 typedef v128_t lane_sums;
 static inline lane_pair pair_load(const uint16_t *first, const uint16_t *second)

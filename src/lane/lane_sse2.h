@@ -1,4 +1,4 @@
-/* lane_sse2.h: the lane verbs by SSE2, four wide. lane_scalar.h says what each must do. Layer 2. */
+/* lane_sse2.h: the lane verbs by SSE2, four wide. lane_scalar.h defines each verb. Layer 2. */
 #ifndef LMB_LANE_SSE2_H
 #define LMB_LANE_SSE2_H
 
@@ -46,7 +46,7 @@ static inline void lanei_store(int32_t *p, lanei a) { _mm_storeu_si128((__m128i 
 static inline lanei lanei_add(lanei a, lanei b) { return _mm_add_epi32(a, b); }
 static inline lanei lanei_or(lanei a, lanei b) { return _mm_or_si128(a, b); }
 static inline lanei lanei_and(lanei a, lanei b) { return _mm_and_si128(a, b); }
-/* The low halves of the even and the odd lanes' products. */
+/* Interleaves the low halves of the products of even and of odd lanes. */
 static inline lanei lanei_mul(lanei a, lanei b)
 {
     __m128i even = _mm_mul_epu32(a, b), odd = _mm_mul_epu32(_mm_srli_epi64(a, 32), _mm_srli_epi64(b, 32));
@@ -126,14 +126,14 @@ static inline lane lane_load_u16(const uint16_t *p, int32_t step)
     (void)step;
     return _mm_cvtepi32_ps(_mm_unpacklo_epi16(code, _mm_setzero_si128()));
 }
-/* SSE2 packs with signed saturation only: around the middle and back. */
+/* SSE2 packs with signed saturation only: shift down by 32768 and back. */
 static inline void lane_store_u16(uint16_t *p, int32_t step, lane a)
 {
     __m128i code = _mm_sub_epi32(_mm_cvttps_epi32(a), _mm_set1_epi32(32768));
     (void)step;
     _mm_storel_epi64((__m128i *)(void *)p, _mm_xor_si128(_mm_packs_epi32(code, code), _mm_set1_epi16(-32768)));
 }
-/* Subtracted with saturation and added again: the larger of both. */
+/* Maximum: subtract with saturation, then add again. */
 static inline void lane_raise_u16(uint16_t *p, lane a, lane b)
 {
     const __m128 zero = _mm_setzero_ps();

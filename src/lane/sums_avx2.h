@@ -1,6 +1,6 @@
 /* sums_avx2.h: sums of 16-bit values times weights by AVX2, four rows at a time; see sums_sse2.h. Layer 2.
  *
- * A pair lies in each half of the sums. */
+ * Each half of the sums holds a pair. */
 #ifndef LMB_SUMS_AVX2_H
 #define LMB_SUMS_AVX2_H
 
@@ -38,7 +38,7 @@ static inline __m256i avx2_four_rows(const uint16_t *a, const uint16_t *b, const
     return _mm256_xor_si256(_mm256_inserti128_si256(_mm256_castsi128_si256(avx2_rows(a, b)), avx2_rows(c, d), 1),
                             _mm256_set1_epi16(-32768));
 }
-/* The sums of the rows by two bytes at `low` and two at `high` of each half of the words. */
+/* Adds the rows times weights: two bytes at `low` and two at `high` of each half of the words. */
 static inline __m256i avx2_weigh(__m256i s, __m256i rows, __m256i words, int low, int high)
 {
     const int pair = low | (low + 1) << 8 | high << 16 | (high + 1) << 24;

@@ -1,7 +1,7 @@
-/* sums_sse2.h: sums of 16-bit values times weights by SSE2. lane_scalar.h says what each must do. Layer 2.
+/* sums_sse2.h: sums of 16-bit values times weights by SSE2. lane_scalar.h defines each verb. Layer 2.
  *
- * Its products are of signed values: those of a row lie 32768 lower, the fourth too, which is 0 and so says by how much
- * the sums of the others lie too low. */
+ * Products are signed, so rows are stored 32768 lower. The fourth value, which is 0, is shifted too and so sums to the
+ * correction for the others. */
 #ifndef LMB_SUMS_SSE2_H
 #define LMB_SUMS_SSE2_H
 

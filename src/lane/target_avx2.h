@@ -1,6 +1,6 @@
-/* target_avx2.h: from here to target_end.h functions are compiled for AVX2, whatever the command line says. Layer 2.
+/* target_avx2.h: from here to target_end.h functions are compiled for AVX2, regardless of the command line. Layer 2.
  *
- * System headers come before the pragma: their functions stay what they are everywhere else. */
+ * System headers come before the pragma, so their functions are compiled as everywhere else. */
 #include <immintrin.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* target_avx512.h: from here to target_end.h functions are compiled for AVX-512 F, BW, DQ and VL. Layer 2.
  *
- * AVX-512 brings fused multiply-adds along, and gcc's default is to use them: it is told so even in a build without the
- * Makefile's -ffp-contract=off. System headers come before the pragma. */
+ * AVX-512 has fused multiply-adds, and gcc uses them by default. The pragma turns contraction off even in builds
+ * without the Makefile's -ffp-contract=off. System headers come before the pragma. */
 #include <immintrin.h>
 #include <stddef.h>
 #include <stdint.h>

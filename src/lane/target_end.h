@@ -1,4 +1,4 @@
-/* target_end.h: ends what target_avx2.h or target_avx512.h began. Layer 2. */
+/* target_end.h: ends the region that target_avx2.h or target_avx512.h began. Layer 2. */
 #if defined(__clang__)
 #pragma clang attribute pop
 #else

@@ -1,4 +1,4 @@
-/* direct.c: direct light on a tile: the kernel's irradiance where the shadow map says lit. Layer 5. */
+/* direct.c: direct light on a tile: the kernel's irradiance for pixels that pass the shadow test. Layer 5. */
 #include <lambent/light.h>
 
 #include "../base/light_kind.h"
@@ -17,7 +17,7 @@ static lmb_direct_job make_job(const lmb_light *light)
     job.range2 = light_range2(light);
     job.kind = light->kind;
     for (int c = 0; c < 3; ++c) {
-        /* Under 2^-80 it is nothing, as in the maps: a kernel meets no denormal. */
+        /* Below 2^-80 it counts as 0, as in the maps, so that kernels meet no denormals. */
         job.intensity[c] = light->intensity[c] < 8.2718061e-25f ? 0.0f : light->intensity[c];
     }
     return job;

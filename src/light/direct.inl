@@ -40,7 +40,7 @@ static void KERNEL(direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_
                 e = lane_mul(e, direct_falloff(job, lane_sub(zero, lane3_dot(to, travel))));
             }
         }
-        /* The face normal keeps smooth normals from taking light through the surface. */
+        /* The face normal keeps light from the back off pixels with smooth normals. */
         lane cosine = lane_keep(lane_lt(zero, lane3_dot(face, to)), lane_max(lane3_dot(n, to), zero));
         e = lane_mul(e, cosine);
         for (int c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-/* glossy.c: finds the pixels of a tile with a glossy lobe, and what the lobes make of lights. Layer 5. */
+/* glossy.c: finds the pixels of a tile with a glossy lobe, and adds what the lobes reflect of lights. Layer 5. */
 #include <string.h>
 
 #include "../lane/kernels.h"
@@ -13,7 +13,7 @@
 #include "../lane/lane.h"
 #include "lobe.inl"
 
-/* No lobes: numbers that formulas can take. */
+/* No lobes: values that are safe in the formulas. */
 static void clear(lmb_glossy *out)
 {
     memset(out, 0, sizeof *out);
@@ -22,7 +22,7 @@ static void clear(lmb_glossy *out)
     }
 }
 
-/* F0 and roughness of pixel k: the material's, by texel where a map tells metal from what is none. */
+/* F0 and roughness of pixel k: from the material, or per texel if there is a metal map. */
 static void set_look(lmb_glossy *out, float *roughness, int k, const lmb_material *m, lmb_painter *painter)
 {
     float metallic = 0.0f, base[3] = {0.0f, 0.0f, 0.0f};

@@ -1,4 +1,4 @@
-/* light_tile.h: adds one of the scene's lights to a tile, with its lobes. Layer 5. */
+/* light_tile.h: adds one of the scene's lights to a tile, with lobes. Layer 5. */
 #ifndef LMB_LIGHT_LIGHT_TILE_H
 #define LMB_LIGHT_LIGHT_TILE_H
 
@@ -13,10 +13,10 @@ typedef struct light_tile {
     const lmb_tile *tile; /* resolved */
 } light_tile;
 
-/* Add light i to `sum`, and what lobes make of it to `glossy` (NULL: no lobes).
+/* Adds light i to `sum`, and the reflection by lobes to `glossy` (NULL: no lobes).
  *
- *   one  scratch: a lobe requires each light's irradiance separately; added to the others' it is the same sum.
- *   map  the light's; NULL: no shadows. */
+ *   one  scratch: a lobe needs the irradiance of each light separately; the total is the same.
+ *   map  of the light; NULL: no shadows. */
 lmb_status lmb_light_tile_add(lmb_irradiance *sum, lmb_glossy *glossy, lmb_irradiance *one, const light_tile *to,
                               uint32_t i, const lmb_shadow_map *map);
 

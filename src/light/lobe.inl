@@ -1,29 +1,29 @@
 /* lobe.inl: the glossy lobe: GGX, height-correlated Smith, Schlick; of a light without area and of a disc. Layer 5.
  *
- * A disc is asked for its mean. Let s be the slope (tangent of the angle to n) of the half vector h = (l + v) / |l +
- * v|. GGX's density of slopes, a2 / (pi (a2 + s^2)^2), is what a sphere's surface becomes by stereographic
- * projection, with s = alpha tan(angle / 2): and this takes circles to circles. So the share of all slopes that lies
- * in a circle of radius t around s is that of a cap of the sphere, exactly:
+ * For a disc, the lobe's mean is needed. Let s be the slope (tangent of the angle to n) of the half vector h = (l + v)
+ * / |l + v|. GGX's density of slopes, a2 / (pi (a2 + s^2)^2), is the stereographic projection of a sphere's surface,
+ * with s = alpha tan(angle / 2), and this projection maps circles to circles. So the share of all slopes in a circle of
+ * radius t around s is exactly that of a cap of the sphere:
  *   share = (1 - q / root) / 2,  q = a2 + s^2 - t^2,  root = sqrt(q^2 + 4 a2 t^2),
- * and the mean density in it is share / (pi t^2): the density itself for t = 0, at most 1 / (pi t^2). For q >= 0 the
- * same is 2 a2 / (pi root (root + q)), without a difference of near numbers.
- * The directions to a disc of solid angle w are as many half vectors as w / (4 l.h) (Walter et al. 2007, equation 14),
- * and as many slopes as that over (n.h)^3: they are taken as a circle of this area, t^2 = w / (4 pi l.h (n.h)^3).
- * Wrong is only the shape: seen at an angle the disc's circle of slopes is an ellipse. A disc that fills much of the
- * sky is no circle at all: as nothing reflects more than the disc's own radiance, D V is at most 1 / (n.l w).
+ * and the mean density in the circle is share / (pi t^2): the density itself for t = 0, at most 1 / (pi t^2). For q >=
+ * 0 the same is 2 a2 / (pi root (root + q)), without cancellation. The directions to a disc of solid angle w cover w /
+ * (4 l.h) of half vectors (Walter et al. 2007, equation 14), and that over (n.h)^3 of slopes. They are approximated by
+ * a circle of this area, t^2 = w / (4 pi l.h (n.h)^3). Only the shape is wrong: at an angle, the disc's slopes form an
+ * ellipse. If a disc fills much of the sky, they are not a circle at all. So D V is limited to 1 / (n.l w), because no
+ * reflection is brighter than the disc itself.
  *
- * Discs stand for surfaces that go on beside them. Where the lobe is sharper than a disc, discs side by side would
- * show, with gaps and overlaps: so alpha^2 grows by a part of t^2. An even wall of 64 texels in a floor of roughness
- * 0.1 | 0.2 (unit/test_glossy) is off by 20 | 8 % at its worst by 1/4, by 14 | 1 % by 1/2, by 8 | 2 % by 1. */
+ * Discs stand for surfaces that continue beside them. If the lobe is sharper than a disc, adjacent discs would show as
+ * gaps and overlaps, so alpha^2 grows by a part of t^2. A uniform wall of 64 texels in a floor of roughness 0.1 | 0.2
+ * (unit/test_glossy) has a worst error of 20 | 8 % with 1/4, 14 | 1 % with 1/2, 8 | 2 % with 1. */
 #ifndef LMB_LOBE_FORMULA
 #define LMB_LOBE_FORMULA
 
-#define LOBE_WIDEN  0.5f   /* of t^2: added to alpha^2 */
-#define LOBE_MIN    1e-3f  /* of cosines: lights and viewers that graze more count as if they did not */
-#define LOBE_MIN2   1e-12f /* of t^2: far under any alpha^2 */
-#define LOBE_RISE   1e-2f  /* 1 - v.h is at least this: its fifth power stays a number far from the least ones */
-#define LOBE_DARK   1e-6f  /* of D V: what is under it is 0 */
-#define LOBE_E_DARK 1e-20f /* W/m2: the same of light */
+#define LOBE_WIDEN  0.5f   /* share of t^2 added to alpha^2 */
+#define LOBE_MIN    1e-3f  /* minimum cosine to a light or viewer; smaller ones are clamped */
+#define LOBE_MIN2   1e-12f /* minimum of t^2: far below any alpha^2 */
+#define LOBE_RISE   1e-2f  /* minimum of 1 - v.h: the fifth power stays far from denormals */
+#define LOBE_DARK   1e-6f  /* D V below this counts as 0 */
+#define LOBE_E_DARK 1e-20f /* W/m2: irradiance below this counts as 0 */
 
 /* A vector of pixels. */
 typedef struct lobe_pixels {
@@ -42,7 +42,7 @@ static inline lobe_pixels lobe_load(const lmb_glossy *glossy, const lmb_tile *ti
     return p;
 }
 
-/* D V, 1/sr: of a light in direction `to`, unit, that takes solid angle `w`. *rise becomes (1 - v.h)^5. */
+/* D V, 1/sr, for a light in the unit direction `to` that covers solid angle `w`. Sets *rise to (1 - v.h)^5. */
 static inline lane lobe_value(lane *rise, const lobe_pixels *p, lane3 to, lane w)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
@@ -60,11 +60,11 @@ static inline lane lobe_value(lane *rise, const lobe_pixels *p, lane3 to, lane w
     const lane_mask outside = lane_le(zero, q);
     const lane top = lane_pick(outside, twice, lane_sub(root, q));
     const lane bottom = lane_mul(root, lane_pick(outside, lane_add(root, q), lane_add(t2, t2)));
-    /* V = 1 / 2 (n.l sqrt(a2 + (1 - a2) n.v^2) + n.v sqrt(a2 + (1 - a2) n.l^2)), of the surface's own alpha. */
+    /* V = 1 / 2 (n.l sqrt(a2 + (1 - a2) n.v^2) + n.v sqrt(a2 + (1 - a2) n.l^2)), with the surface's alpha. */
     const lane rest = lane_sub(one, p->a2);
     const lane by_l = lane_mul(nl, lane_sqrt(lane_add(p->a2, lane_mul(rest, lane_mul(nv, nv)))));
     const lane by_v = lane_mul(nv, lane_sqrt(lane_add(p->a2, lane_mul(rest, lane_mul(nl, nl)))));
-    const lane v = lane_div(lane_splat(0.15915494f), lane_add(by_l, by_v)); /* / pi, of the density */
+    const lane v = lane_div(lane_splat(0.15915494f), lane_add(by_l, by_v)); /* / pi, for the density */
     const lane mean = lane_mul(lane_mul(lane_div(top, bottom), lane_mul(hc, hc)), v);
     const lane max = lane_div(one, lane_mul(nl, lane_max(w, lane_splat(LOBE_MIN2))));
     const lane value = lane_min(mean, max);
@@ -81,7 +81,7 @@ static inline lane lobe_light(lane e, lane value, lane specular, lane rise)
     return lane_mul(lane_keep(lane_lt(lane_splat(LOBE_E_DARK), e), e), lane_mul(value, f));
 }
 
-/* sum + what light e of solid angle w, from direction `to`, becomes on its way to the viewer. */
+/* sum + the reflection towards the viewer of light e with solid angle w from direction `to`. */
 static inline lane3 lobe_add(lane3 sum, const lobe_pixels *p, lane3 to, lane w, lane3 e)
 {
     lane rise;
@@ -105,7 +105,7 @@ static inline void lobe_store(lmb_glossy *out, int k, lane3 sum)
 
 #ifdef KERNEL
 
-/* Pixels without a lobe stay as they are. */
+/* Pixels without a lobe do not change. */
 static void KERNEL(glossy_direct)(lmb_glossy *inout, const lmb_tile *tile, const lmb_irradiance *lit,
                                   const lmb_light *light)
 {

@@ -1,13 +1,13 @@
 /* shadow.c: tests by the shadow map whether a point of a surface is lit. Layer 5. [V7]
  *
- * A map's depth answers for the middle of a texel only: elsewhere it needs a bias, which leaks or freckles. Its ids
- * answer everywhere: the triangles named by the four texels around the point are looked up at the point's own place
- * in the map. One that lies over that place, with the point behind its plane, shadows it.
+ * The depth in a map is valid only at the centre of a texel. Elsewhere it needs a bias, which leaks light or causes
+ * acne. Ids are valid everywhere: the triangles named by the four texels around the point are tested at the point's own
+ * position in the map. A triangle that lies over this position, with the point behind its plane, shadows the point.
  *
- * The four middles surround the point, so a straight shadow edge that covers the point covers one of them: edges come
- * out to a fraction of a texel. Where none of the four lies over the point (triangles smaller than texels), the
- * nearest texel's depth is held against the receiver's own plane at the texel's middle, which needs no slope bias;
- * half a texel's width along the light is allowed for the curvature of finely cut surfaces.
+ * The four centres surround the point, so a straight shadow edge that covers the point covers one of them: edges are
+ * correct to a fraction of a texel. If none of the four triangles lies over the point (triangles smaller than texels),
+ * the nearest texel's depth is compared with the receiver's plane at the centre of the texel, which needs no slope
+ * bias. Half a texel's width along the light is allowed for the curvature of finely tessellated surfaces.
  *
  * Rejected: depth with a slope-scaled bias (bunny_room: acne or 2 cm of detachment, nothing between). */
 #include "shadow.h"
@@ -19,7 +19,7 @@
 #include "../raster/resolve.h"
 #include "../raster/target.h"
 
-/* Where the receiver lies in a face. */
+/* Position of the receiver in a face. */
 typedef struct place {
     const lmb_view *view;
     int32_t face;
@@ -40,7 +40,7 @@ static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
     return a.y >= a.z ? 2 + (d.y < 0.0f) : 4 + (d.z < 0.0f);
 }
 
-/* 0 where the receiver is outside the map: then nothing can shadow it (spots: it is outside the cone). */
+/* Returns 0 if the receiver is outside the map: nothing can shadow it there (spots: it is outside the cone). */
 static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 p)
 {
     const int directional = light_kind_is(light->kind, LIGHT_FAR);
@@ -61,7 +61,7 @@ static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *li
     return out->x >= 0.0f && out->y >= 0.0f && out->x <= size && out->y <= size;
 }
 
-/* x, y: not under 0. */
+/* x, y: not negative. */
 static uint32_t texel_id(const lmb_fill_window *map, uint32_t x, uint32_t y)
 {
     const uint8_t *tile = (const uint8_t *)map->first.id + (ptrdiff_t)(y / LMB_TILE) * map->id_row +
@@ -77,18 +77,19 @@ static float texel_depth(const lmb_target *face, int32_t x, int32_t y)
     return ((const float *)t.depth)[(y % LMB_TILE) * t.depth_step + x % LMB_TILE];
 }
 
-/* m: what rounding may have moved the position by. 2^-15 of the pixel's distance: of its place in its triangle's plane,
- * whose edges are snapped to parts of a pixel; 2^-22 of its coordinates: a few roundings of the resolve. */
+/* Possible rounding of the position, m: 2^-15 of the pixel's distance for the position in the triangle's plane, because
+ * edges are snapped to fractions of a pixel; 2^-22 of the coordinates for a few roundings of the resolve. */
 static float noise_of(const lmb_shadow_query *query, const lmb_receiver *r)
 {
     return 3.0517578e-5f * length3(sub3(r->position, query->view->eye)) + 2.3841858e-7f * length3(r->position);
 }
 
-/* What a ray from a place to the light says of a triangle; THROUGH, besides: its plane goes through the place. */
+/* Results of a ray from a place to the light against a triangle. THROUGH is an extra bit: the triangle's plane contains
+ * the place. */
 enum { BESIDE = 0, OVER = 1, SHADOWS = 2, THROUGH = 4 };
 
-/* Does a triangle lie over a place in the map, and is the place behind its plane? n: the triangle's normal, of any
- * length. noise: m, of the place. */
+/* Tests whether a triangle lies over a place in the map, with the place behind the triangle's plane. n: normal of the
+ * triangle, of any length. noise: m, of the place. */
 static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triangle *t, lmb_vec3 p, const place *at,
                     float noise)
 {
@@ -100,16 +101,16 @@ static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triang
     }
     float height = dot3(*n, a) / sqrtf(nn); /* of the plane over the place, m, signed */
     const int through = absf(height) <= noise ? THROUGH : 0;
-    /* The ray to the light in the triangle's edges: all of one sign when it passes inside. */
+    /* Signs of the ray to the light against the edges: all equal if it passes inside. */
     float e0 = dot3(at->towards, cross3(b, c)), e1 = dot3(at->towards, cross3(c, a)),
           e2 = dot3(at->towards, cross3(a, b));
     if (!((e0 >= 0.0f && e1 >= 0.0f && e2 >= 0.0f) || (e0 <= 0.0f && e1 <= 0.0f && e2 <= 0.0f))) {
         return BESIDE | through;
     }
-    float rise = dot3(*n, at->towards) / sqrtf(nn); /* towards the light on the same scale */
+    float rise = dot3(*n, at->towards) / sqrtf(nn); /* slope towards the light, on the same scale */
     float sum = e0 + e1 + e2;
     if (height * rise <= 0.0f || through || sum == 0.0f) {
-        return OVER | through; /* the plane is behind the place, or through it */
+        return OVER | through; /* the plane is behind the place, or contains it */
     }
     if (absf(height) >= absf(rise) && at->view->kind == LMB_PERSPECTIVE) {
         return OVER; /* beyond the light */
@@ -117,10 +118,9 @@ static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triang
     return lmb_triangle_opaque(t, query->scene, e1 / sum, e2 / sum) ? SHADOWS : BESIDE;
 }
 
-/* A receiver on the line where its triangle meets another one, as a floor's at the foot of a wall: rounding alone would
- * say on which side of the wall it lies, and a wall whose back is lit would have bright specks along its foot. The eye
- * tells: it sees the receiver, so a place a little nearer to it, at most 64 times the noise, is on the receiver's side
- * and answers too. */
+/* For a receiver on the line of two triangles, as on a floor at the foot of a wall, only rounding would decide which
+ * side of the wall it is on. A wall lit from behind would have bright specks along the foot. The eye sees the receiver,
+ * so a place a little nearer to the eye, by at most 64 times the noise, is on the receiver's side and is tested too. */
 static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_receiver *r, const place *at, float noise)
 {
     lmb_triangle t;
@@ -141,8 +141,8 @@ static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_re
     return answer & (OVER | SHADOWS);
 }
 
-/* The nearest texel's surface against the receiver's own plane at that texel's middle. noise: m, of the receiver's
- * position. */
+/* Compares the nearest texel's surface with the receiver's plane at the centre of the texel. noise: m, of the
+ * receiver's position. */
 static int lit_by_depth(const lmb_shadow_query *query, const place *at, const lmb_receiver *r, float noise)
 {
     const int32_t last = query->map->size - 1, x = mini((int32_t)at->x, last), y = mini((int32_t)at->y, last);
@@ -177,10 +177,10 @@ void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_
     out->face = -1;
 }
 
-/* The ids of the four texels around the place; 1 where all are the receiver's own. */
+/* The ids of the four texels around the place. Returns 1 if all are the receiver's own. */
 static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const place *at, uint32_t own)
 {
-    const float left = at->x - 0.5f, top = at->y - 0.5f; /* over -1 */
+    const float left = at->x - 0.5f, top = at->y - 0.5f; /* at least -1 */
     const int32_t x0 = (int32_t)left - (left < 0.0f), y0 = (int32_t)top - (top < 0.0f), last = query->map->size - 1;
     int same = 1;
     if (at->face != query->face) {

@@ -18,7 +18,7 @@ typedef struct lmb_shadow_query {
     const lmb_light *light;
     const lmb_scene *scene;
     const lmb_view *view;
-    lmb_fill_window window; /* of the face that was last looked at */
+    lmb_fill_window window; /* of the last face used */
     int32_t face;           /* -1: none */
 } lmb_shadow_query;
 

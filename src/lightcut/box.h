@@ -1,13 +1,14 @@
-/* box.h: oriented boxes, whose bounds do not depend on how the world is turned. Layer 7. */
+/* box.h: oriented boxes with bounds that do not depend on the orientation of the world. Layer 7. */
 #ifndef LMB_LIGHTCUT_BOX_H
 #define LMB_LIGHTCUT_BOX_H
 
 #include "../base/vec.h"
 
-/* A part of `towards` across the normal under this share of its length is rounding. */
+/* If the part of `towards` across the normal is below this share of the whole, it is rounding. */
 #define BOX_ACROSS 1e-3f
 
-/* A unit vector across a unit normal: of `towards` the part across it, or of the world's axis least along it. */
+/* A unit vector perpendicular to a unit normal: along the part of `towards` across it, or across the world axis least
+ * along it. */
 static inline lmb_vec3 box_across(lmb_vec3 normal, lmb_vec3 towards)
 {
     const lmb_vec3 part = sub3(towards, mul3(normal, dot3(normal, towards)));
@@ -21,7 +22,7 @@ static inline lmb_vec3 box_across(lmb_vec3 normal, lmb_vec3 towards)
 
 static inline lmb_vec3 longer3(lmb_vec3 a, lmb_vec3 b) { return dot3(a, a) >= dot3(b, b) ? a : b; }
 
-/* Grows along three axes from one point; as wide as nothing to begin with. */
+/* A box that grows along three axes from one point; empty at first. */
 typedef struct box_span {
     lmb_vec3 from, axis[3];
     float low[3], high[3];

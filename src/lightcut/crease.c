@@ -1,10 +1,10 @@
-/* crease.c: where two planes show in one texel of a shadow map: its sides, and its exact shape. Layer 7.        [V15]
+/* crease.c: the sides and the exact shape of a shadow map texel in which two planes show. Layer 7.        [V15]
  *
- * A texel's middle says which surface it shows; near an edge it shows two. Along the line through two texels' middles a
- * plane's 1 / w (from a light's place) or w (of a sun) is linear, so two planes meet where the difference is 0: there
- * the edge is, if it is between the middles. What one texel gains the other loses: light through the map is conserved.
- * From afar a texel is a rectangle with sides there. From near it is what its plane shows of its own cell of the map
- * and of its neighbours', each cut along the lines where planes meet, however they run. */
+ * A texel's centre selects one surface, but near an edge the texel shows two. Along the line through two texel centres,
+ * a plane's 1 / w (positional lights) or w (suns) is linear, so two planes meet at a difference of 0. If that is
+ * between the centres, the edge is there. What one texel loses the other gains, so light through the map is conserved.
+ * Distant receivers use a rectangle with these sides. For near ones, the shape is the part of the texel's own cell and
+ * of neighbouring cells that shows its plane, each cut along the lines where planes meet, in any direction. */
 #include "tree.h"
 
 #include <string.h>
@@ -14,9 +14,9 @@
 
 #if LMB_TREES
 
-#define STEEP 0.25f /* of the middle's 1 / w: at corners of less the plane runs away from the light */
+#define STEEP 0.25f /* share of 1 / w at the centre: if a corner has less, the plane runs away from the light */
 
-/* A place of the map, in its plane at distance 1 (m for suns). */
+/* A point of the map, in the plane at distance 1 (m for suns). */
 typedef struct place {
     float x, y;
 } place;
@@ -29,7 +29,7 @@ static place middle_of(const lmb_view *v, int32_t size, int32_t x, int32_t y)
     return out;
 }
 
-/* What the slopes of all planes over one place have in common: a ray of the map, or a sun's place across it. */
+/* Shared by the slopes of all planes over one point: a ray of the map, or for suns the offset across it. */
 static inline lmb_vec3 ray_at(const lmb_view *v, place s)
 {
     const lmb_vec3 across = add3(mul3(v->right, s.x), mul3(v->up, s.y));
@@ -44,7 +44,7 @@ static inline float slope_along(const lmb_view *v, const lmb_texel *t, lmb_vec3 
                                       : dot3(t->normal, sub3(p, ray)) / -dot3(t->normal, v->back);
 }
 
-/* Over a place of the map: how far plane a is before plane b, in those. */
+/* Difference of these between planes a and b: how far a is in front of b, over a point of the map. */
 static inline float before_at(const lmb_view *v, const lmb_texel *a, const lmb_texel *b, place s)
 {
     const lmb_vec3 ray = ray_at(v, s);
@@ -59,13 +59,13 @@ static int same_plane(const lmb_texel *a, const lmb_texel *b)
 
 /* --- sides -------------------------------------------------------------------------------------------------------- */
 
-/* Two neighbours and their middles. */
+/* Two neighbours and their centres. */
 typedef struct pair {
     lmb_texel *a, *b;
     place from, to;
 } pair;
 
-/* Where the two planes meet, as a share of the way from a to b; 0: nowhere between. */
+/* Line where the two planes meet, as a share of the way from a to b; 0: not between the centres. */
 static float planes_meet(const lmb_view *v, const pair *p)
 {
     const float here = before_at(v, p->a, p->b, p->from), there = before_at(v, p->a, p->b, p->to);
@@ -73,8 +73,8 @@ static float planes_meet(const lmb_view *v, const pair *p)
     return here * there < 0.0f && share > 0.0f && share < 1.0f ? share : 0.0f;
 }
 
-/* Extend texel a towards b up to their common edge, and b towards a. The extents are rounded so that no gap remains
- * between the two, and so that neither is mistaken for a whole texel. */
+/* Extends texel a towards b up to their common edge, and b towards a. Extents are rounded so that no gap remains
+ * between the two, and so that neither looks like a whole texel. */
 static void set_edge(const lmb_view *v, const pair *p, int a_side, int b_side)
 {
     const float share = same_plane(p->a, p->b) ? 0.0f : planes_meet(v, p);
@@ -114,7 +114,7 @@ void lmb_crease_find(const lmb_tree *tree, uint32_t face)
 
 /* --- shapes ------------------------------------------------------------------------------------------------------- */
 
-/* What shows in one texel's cell: its own plane, then those of neighbours that meet it, each once. */
+/* The planes in one texel's cell: the texel's own, then each neighbour's that meets it, once. */
 typedef struct cell {
     const lmb_texel *plane[CREASE_PARTS];
     int planes;
@@ -144,8 +144,8 @@ static void cell_at(cell *out, const lmb_tree *tree, lmb_node_ref at)
     }
 }
 
-/* Of a polygon in the map, where plane a shows before plane b: on the side of the line where they meet that a's middle
- * is on. Returns its corners. */
+/* Clips a polygon of the map to the part where plane a shows in front of plane b: the side of their common line with
+ * a's centre. Returns the number of corners. */
 static int clip_to(place *inout, int corners, const lmb_view *v, const lmb_texel *a, const lmb_texel *b, place middle)
 {
     place out[CREASE_CORNERS];
@@ -173,15 +173,14 @@ static int clip_to(place *inout, int corners, const lmb_view *v, const lmb_texel
     return count;
 }
 
-/* Texel a's part of a cell of which all planes are known. Its own middle says which side of each line it is on. */
+/* Texel a's part of a cell with all planes known. The centre of a selects the side of each line. */
 static int shape_in(place *out, const cell *c, const lmb_view *v, int32_t size, lmb_node_ref at, place middle,
                     const lmb_texel *a)
 {
     const place m = middle_of(v, size, at.x, at.y);
     const float px = v->half_width / (float)size, py = v->half_height / (float)size;
     int corners = 4;
-    /* Written out instead of a loop: gcc 12.2 for Helium miscompiles the condition i == 1 || i == 2 in a loop, and
-     * selects 1, 2 and 3. */
+    /* Unrolled: gcc 12.2 for Helium miscompiles the condition i == 1 || i == 2 in a loop, and selects 1, 2 and 3. */
     out[0].x = out[3].x = m.x - px;
     out[1].x = out[2].x = m.x + px;
     out[0].y = out[1].y = m.y - py;
@@ -203,7 +202,7 @@ static int represents(const cell *c, const lmb_texel *a)
     return found;
 }
 
-/* Part 0: of the texel's own cell; 1 .. 4: of its neighbours'. */
+/* Part 0: in the texel's own cell; 1 .. 4: in the neighbours' cells. */
 static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part)
 {
     const lmb_view *v = &tree->view[at.face];
@@ -222,7 +221,7 @@ static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref
     return represents(&c, own) ? shape_in(out, &c, v, tree->size, where, middle_of(v, tree->size, at.x, at.y), own) : 0;
 }
 
-/* Does the plane run away from the light, at the texel's middle or from there to one of the corners? */
+/* 1 if the plane runs away from the light at the texel's centre, or between the centre and a corner. */
 NOINLINE int is_steep(const lmb_view *v, const lmb_texel *own, place middle, const place *corner, int corners)
 {
     if (v->kind != LMB_PERSPECTIVE) {

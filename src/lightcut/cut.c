@@ -1,7 +1,7 @@
 /* cut.c: each tile of pixels takes its own cut through the light tree, and is lit by it. Layer 7.      [V25 V27 V28]
  *
- * node_bounds.inl computes the nodes' errors. The node with the largest error is split first: buckets by the error's
- * exponent and first bit find it without sorting, in the same order everywhere. */
+ * node_bounds.inl computes the nodes' errors. The node with the largest error is split first. Buckets by exponent and
+ * first bit of the error find it without sorting, in the same order on every target. */
 #include <lambent/tree.h>
 
 #include <string.h>
@@ -20,16 +20,17 @@
 #define INVERSE_PI         0.31830989f
 #define PI                 3.14159265f
 #define MIN_SEEN_SHARE     0.03  /* pixels that see less than this share of their unblocked light count as dark */
-#define MIN_FLAT_AGREEMENT 0.98f /* agreement of normals under which it is tested which children face the pixels */
-#define MAX_ERROR_EXCESS   100.0 /* times the allowed error: if it is over, nodes hold pixels, and fewer pixels help */
-#define WIDER              1.001f /* of a box against what lies in it, for rounding */
-#define STAND_OFF          4.0f  /* times the noise: by so much a texel's point is moved towards its light */
+#define MIN_FLAT_AGREEMENT 0.98f /* nodes with a lower agreement of normals are tested for children that face away */
+#define MAX_ERROR_EXCESS   100.0 /* times the allowed error: if exceeded, nodes contain pixels, and splitting the pixel
+                                    cluster helps */
+#define WIDER              1.001f /* enlarges a box against rounding */
+#define STAND_OFF          4.0f  /* times the noise: offset of a texel's point towards the light */
 #define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
-#define SPENT              8.0 /* times as large a share of light and error is allowed in a tile that has spent its tests */
-#define CLOSER             0.7 /* a half that reduces the error to this share is worth its cut */
-enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
-enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
-enum { AHEAD = LMB_BOUNDS_NODES / 4 /* nodes whose parts are bounded together */ };
+#define SPENT              8.0 /* factor on the allowed light and error in a tile that has used up the tests */
+#define CLOSER             0.7 /* a split of the pixels must reduce the error to this share to be worth the cuts */
+enum { SIDE = 4 /* for a lobe, a near leaf is SIDE x SIDE parts */ };
+enum { NONE = -1, GONE = 0xffff /* level of a slot without a node */ };
+enum { AHEAD = LMB_BOUNDS_NODES / 4 /* nodes with children bounded together */ };
 
 /* --- the cut ------------------------------------------------------------------------------------------------------ */
 
@@ -42,16 +43,16 @@ typedef struct cutter {
     const lmb_pixel_cluster *p;
     float noise;         /* m: lmb_tile_noise of the pixel cluster */
     const lmb_view *view; /* decides sides of planes within the noise; NULL: unknown, or the noise is too large */
-    uint64_t in_hull;    /* pixels of the cluster in a convex room: nothing stands between them and others in it */
+    uint64_t in_hull;    /* pixels of the cluster in a convex room: nothing can occlude between points in it */
     float per_pixel;     /* 1 / pixels of the cluster */
-    int lobe;            /* a pixel whose lobe stands for the pixel cluster's; NONE: they have none */
-    double beside;       /* what the pixels have beside the tree, in the mean */
-    int32_t ahead[AHEAD]; /* slots whose parts are bounded, four each, and not yet put; or NONE */
-    uint32_t faces;      /* of the bounded nodes, those that do not face away */
-    const float *key;    /* what the buckets go by: cut->error or cut->upper */
-    int highest;         /* no bucket over this has any */
-    double error, value; /* sums; of value, what is seen */
-    double floor;        /* W/m2, R + G + B: errors under this are no errors */
+    int lobe;            /* a pixel with a lobe that represents the cluster; NONE: no lobes */
+    double beside;       /* mean light of the pixels from other sources */
+    int32_t ahead[AHEAD]; /* slots with bounded children that are not placed yet, four each; or NONE */
+    uint32_t faces;      /* bounded nodes that do not face away */
+    const float *key;    /* bucket keys: cut->error or cut->upper */
+    int highest;         /* no higher bucket is in use */
+    double error, value; /* sums; value: visible light only */
+    double floor;        /* W/m2, R + G + B: smaller errors are ignored */
 } cutter;
 
 static double maxd(double a, double b) { return a > b ? a : b; }
@@ -65,7 +66,7 @@ static void set_vector(lmb_node_bounds *out, int plane, int k, lmb_vec3 v)
     out->node[plane + 2][k] = v.z;
 }
 
-/* A node of any level; `texel` holds one of level 0. */
+/* A node of any level; `texel` is storage for one of level 0. */
 static const lmb_node *node_at(lmb_node *texel, const lmb_tree *tree, lmb_node_ref at)
 {
     if (at.level > 0) {
@@ -75,7 +76,7 @@ static const lmb_node *node_at(lmb_node *texel, const lmb_tree *tree, lmb_node_r
     return texel;
 }
 
-/* Node k of those whose bounds are computed together. */
+/* Sets node k of those bounded together. */
 static void set_bounded_node(lmb_node_bounds *out, int k, const lmb_tree *tree, lmb_node_ref at)
 {
     lmb_node texel;
@@ -108,7 +109,7 @@ static lmb_vec3 bounds_vector(const lmb_node_bounds *w, int plane, int k)
 
 /* A node's value includes the response of the glossy lobe, relative to a white Lambertian surface: pi D V F, averaged
  * over the extents of node and pixel cluster. The error of that part is the difference between the lobe's central value
- * and its mean over the node. This is an estimate; only the bound of the irradiance is conservative. */
+ * and mean over the node. This is an estimate; only the bound of the irradiance is conservative. */
 static void bound_lobe(cutter *c, int k)
 {
     lmb_node_bounds *w = bounds_of(c->cut);
@@ -126,7 +127,7 @@ static void bound_lobe(cutter *c, int k)
     w->value[k] *= 1.0f + gain;
 }
 
-/* Bounds of `count` nodes; the rest of the last vector is filled with zeros. */
+/* Bounds `count` nodes; the rest of the last vector is filled with zeros. */
 static void node_bounds(cutter *c, int count)
 {
     lmb_node_bounds *w = bounds_of(c->cut);
@@ -183,7 +184,7 @@ static double seen_value(const cutter *c, int32_t i)
     return (double)(c->cut->value[i] * ((float)count_bits_64(c->cut->visible[i]) * c->per_pixel));
 }
 
-/* The errors of many nodes have either sign, so their squares are added. The conservative bound adds their absolute
+/* The errors of many nodes have either sign, so their squares are added. The conservative bound adds absolute
  * values. */
 static double counted_error(const cutter *c, int32_t i)
 {
@@ -191,9 +192,9 @@ static double counted_error(const cutter *c, int32_t i)
     return c->cut_params->conservative ? e : e * e;
 }
 
-/* Has the tile spent its tests of visibility? Then nodes are no longer divided once they are tested, they may give more
- * light and a larger error, and pixels that share a cut stay together: all else would ask for more tests, and light that
- * triangles chop up for many nodes without any. A conservative bound holds in every tile. */
+/* 1 if the tile has used up the visibility tests. Tested nodes are then no longer split, nodes may carry more light and
+ * error, and pixels that share a cut stay together. Anything else needs more tests, and light that triangles chop up
+ * would need many nodes even without tests. A conservative bound holds in every tile. */
 static int is_spent(const cutter *c) { return !c->cut_params->conservative && c->cut->use.traversal.left < 0; }
 
 static double allowed_error(const cutter *c)
@@ -203,7 +204,7 @@ static double allowed_error(const cutter *c)
     return c->cut_params->conservative ? upper : maxd(upper * upper, c->floor * c->floor);
 }
 
-/* What no pixel sees gives no light, and so no error. */
+/* Nodes that no pixel sees add neither light nor error. */
 static void count_in(cutter *c, int32_t i, double sign)
 {
     if (c->cut->visible[i] != 0) {
@@ -212,7 +213,7 @@ static void count_in(cutter *c, int32_t i, double sign)
     }
 }
 
-/* Node k of the bounded nodes into slot i. */
+/* Puts bounded node k into slot i. */
 static void put(cutter *c, int32_t i, lmb_node_ref at, int k, uint64_t visible)
 {
     const lmb_node_bounds *w = bounds_of(c->cut);
@@ -224,9 +225,9 @@ static void put(cutter *c, int32_t i, lmb_node_ref at, int k, uint64_t visible)
     count_in(c, i, 1.0);
 }
 
-/* Is the point in front of all pixels of the cluster, and are they all in front of it? Decided by the cluster's box, so
- * never 1 where one is not: most nodes then need no test pixel by pixel. A unit vector at an angle of sine s, under 90
- * degrees, is within 1.5 s. */
+/* 1 if the point is in front of all pixels of the cluster and they are all in front of it. Uses the cluster's box, so
+ * it never returns 1 wrongly, and most nodes need no test pixel by pixel. A unit vector at an angle of sine s, under 90
+ * degrees, differs by at most 1.5 s. */
 static int all_before(const cutter *c, const lmb_texel *seen, float ends)
 {
     const lmb_pixel_cluster *p = c->p;
@@ -242,14 +243,14 @@ static lmb_vec3 to_eye(const lmb_view *v, lmb_vec3 at)
     return v->kind == LMB_PERSPECTIVE ? sub3(v->eye, at) : v->back;
 }
 
-/* Would before_plane move the pixels that lie in the plane? */
+/* 1 if before_plane would move pixels that lie in the plane. */
 static int eye_is_before(const cutter *c, lmb_vec3 at, lmb_vec3 normal)
 {
     return c->view != NULL && dot3(normal, to_eye(c->view, at)) > 0.0f;
 }
 
 /* Returns those of `pixels` for which the point is not in front of the pixel, or the pixel not in front of the point,
- * by more than the offset within which a wall never occludes. A wall does not occlude what lies on it, so segments from
+ * by more than the offset within which a wall never occludes. A wall does not occlude points on it, so segments from
  * pixels behind it must not be tested. */
 NOINLINE uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen, float ends)
 {
@@ -266,7 +267,7 @@ NOINLINE uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel 
     return out;
 }
 
-/* Of `pixels`, those that all of a node is behind. */
+/* Returns those of `pixels` with all of a node behind them. */
 static uint64_t before_all_of(const cutter *c, uint64_t pixels, lmb_node_ref at)
 {
     lmb_node texel;
@@ -280,7 +281,7 @@ static uint64_t before_all_of(const cutter *c, uint64_t pixels, lmb_node_ref at)
     return out;
 }
 
-/* Are a first point and the pixel cluster's middle in front of each other? */
+/* 1 if a first point and the centre of the pixel cluster are in front of each other. */
 static int is_before(const lmb_pixel_cluster *p, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_vec3 d = sub3(at, p->centre);
@@ -293,8 +294,8 @@ static const lmb_texel *own_point(const lmb_tree *tree, lmb_node_ref at)
                         : tree_texel(tree, at.face, at.x, at.y);
 }
 
-/* Returns the child that sends most light to the pixel cluster, taken as a disc. Where no child sends any, the level
- * returned is the node's own. */
+/* Returns the child that, taken as a disc, sends most light to the pixel cluster. If no child sends any, returns the
+ * node itself. */
 static lmb_node_ref brightest_part(const cutter *c, lmb_node_ref from)
 {
     lmb_node_ref best = from;
@@ -313,7 +314,7 @@ static lmb_node_ref brightest_part(const cutter *c, lmb_node_ref from)
     return best;
 }
 
-/* Where a node's visibility is tested: at its own first point, or at another one where that faces away. */
+/* The point at which a node's visibility is tested: its own first point, or another one if that faces away. */
 static const lmb_texel *visibility_point(const cutter *c, lmb_node_ref at)
 {
     const lmb_texel *own = own_point(c->tree, at), *seen = own;
@@ -328,13 +329,13 @@ static const lmb_texel *visibility_point(const cutter *c, lmb_node_ref at)
     return seen;
 }
 
-/* Rounding of a texel's position: a light's ray found it, or it is the mean of an element's corners. */
+/* Rounding of a texel's position, which is either on a light ray or the mean of an element's corners. */
 static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
 {
     return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
 }
 
-/* A texel's point, moved towards its light, out of all planes that it lies in by rounding; it belongs on the light's
+/* A texel's point, moved towards the light out of planes that it lies in because of rounding: it belongs on the light's
  * side of them. An element's point lies inside its own triangle and is not moved. */
 static lmb_vec3 before_walls(const cutter *c, uint32_t face, lmb_vec3 at, float noise)
 {
@@ -345,12 +346,12 @@ static lmb_vec3 before_walls(const cutter *c, uint32_t face, lmb_vec3 at, float 
     return add3(at, mul3(to_light, STAND_OFF * noise / maxf(length3(to_light), 1e-18f)));
 }
 
-/* The triangle that hid a node which no pixel sees, + 1; else 0. */
+/* The triangle that hides a node from all pixels, + 1; otherwise 0. */
 static uint32_t blocker_of(const lmb_cut *cut, int32_t i) { return cut->visible[i] == 0 ? cut->of.blocker[i] : 0; }
 
-/* Elements lie on both sides of walls, so pixels behind them are left out; a light's texels are all on the side that it
- * lights. Pixels that lie apart leave out what is behind them: to find their own surface there takes many boxes.
- * blocker: is tested first, where not 0. */
+/* Elements lie on both sides of walls, so pixels behind an element are excluded; a light's texels are all on the lit
+ * side. If the pixels are spread out, pixels with the whole node behind them are excluded too: finding their own
+ * surface as the occluder would take many boxes. blocker: tested first, if not 0. */
 static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
 {
     const lmb_node_ref at = c->cut->ref[i];
@@ -378,7 +379,8 @@ static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
     count_in(c, i, 1.0);
 }
 
-/* Bounds of the children of the node in slot i, and of the nodes next in line: nine of ten of these are split next. */
+/* Bounds the children of the node in slot i and of the next nodes in the buckets: nine of ten of these are split
+ * next. */
 static void bound_parts(cutter *c, int32_t i)
 {
     const int upper = maxi(c->kernels->lanes / 4, 1);
@@ -399,7 +401,7 @@ static void bound_parts(cutter *c, int32_t i)
     node_bounds(c, 4 * count);
 }
 
-/* Which of the bounded nodes is the first of the four children of the node in slot i. */
+/* Index of the first child of the node in slot i among the bounded nodes. */
 static int parts_of(cutter *c, int32_t i)
 {
     int k = 0;
@@ -414,7 +416,7 @@ static int parts_of(cutter *c, int32_t i)
     return 4 * k;
 }
 
-/* Replace the node in slot i by its four children: the first in its slot, the others at the end. */
+/* Replaces the node in slot i by the four children: the first in this slot, the others at the end. */
 static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 {
     const lmb_node_ref from = c->cut->ref[i];
@@ -438,15 +440,15 @@ static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 
 static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; }
 
-/* How much light a node may give whose visibility is tested as one. */
+/* Largest light of a node with a single visibility test. */
 static double allowed_upper(const cutter *c, double lower)
 {
     const double share = (double)c->cut_params->visibility * (is_spent(c) ? SPENT : 1.0);
     return maxd(share * (c->beside + maxd(c->value, lower)), c->floor);
 }
 
-/* Does one triangle stand between all of the pixels and all of the node in slot i? By the corners of the node's box:
- * then no part of it is seen, and it need not be divided to find that out. */
+/* 1 if one triangle lies between all pixels and the whole node in slot i, tested at the corners of the node's box. Then
+ * no part of the node is visible, and it need not be split to find that out. */
 static int is_dark(const cutter *c, int32_t i)
 {
     const lmb_node_ref at = c->cut->ref[i];
@@ -465,8 +467,8 @@ static int is_dark(const cutter *c, int32_t i)
                              2.0f * (c->noise + texel_noise(c, at.face, n->middle)), blocker_of(c->cut, i));
 }
 
-/* Subdivide the node with the largest upper bound until no node exceeds the allowed bound. Returns 0, or, where the cut
- * is full, by what factor the largest exceeds it. */
+/* Splits the node with the largest upper bound until no node exceeds the allowed bound. Returns 0, or, if the cut is
+ * full, the factor by which the largest exceeds it. */
 static double divide_by_upper(cutter *c, double lower, int asks)
 {
     int32_t i = largest(c);
@@ -495,7 +497,7 @@ static double divide_by_error(cutter *c)
     return i != NONE && !has_room(c) ? c->error / maxd(allowed_error(c), 1e-30) : 0.0;
 }
 
-/* Large errors that were added and removed leave their rounding in the sum, so it is added up anew. */
+/* Large errors that were added and removed leave their rounding in the sum, so this adds it up again. */
 static int is_right(cutter *c)
 {
     c->error = 0.0;
@@ -507,7 +509,7 @@ static int is_right(cutter *c)
     return c->error <= allowed_error(c);
 }
 
-/* Begin the cut with the faces' roots. */
+/* Starts the cut with the roots of the faces. */
 NOINLINE void begin(cutter *c)
 {
     c->cut->count = 0;
@@ -535,7 +537,7 @@ NOINLINE void begin(cutter *c)
     }
 }
 
-/* Put the visible nodes into buckets, to be split for their shape. */
+/* Puts the visible nodes into buckets, to be split by error. */
 static void wait_by_error(cutter *c)
 {
     empty_buckets(c, c->cut->of.error);
@@ -548,9 +550,9 @@ static void wait_by_error(cutter *c)
     }
 }
 
-/* First subdivide until each node is small enough for one visibility test, which also leaves a cut that errors are
- * told by: from the roots, the largest error first divided 13 times as many nodes. Then subdivide the visible ones.
- * Returns by what factor the worst node exceeds the allowed error where the cut is full; else 0. */
+/* First splits until each node is small enough for one visibility test. That cut also gives usable errors: splitting by
+ * error from the roots divided 13 times as many nodes. Then splits the visible nodes. Returns 0, or, if the cut is
+ * full, the factor by which the worst node exceeds the allowed error. */
 static double take_cut(cutter *c)
 {
     double over = 0.0;
@@ -574,13 +576,13 @@ static double take_cut(cutter *c)
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
-/* A texel's or an element's shape. */
+/* The shape of a texel or an element. */
 typedef struct leaf {
     lmb_node node;
     lmb_vec3 u, v;              /* half sides of a texel's quad */
     const lmb_element *element; /* NULL: a texel */
-    float half2;                /* its farthest corner from its middle, squared */
-    int is_crease;              /* planes meet in it: its shape is no quad */
+    float half2;                /* distance from centre to farthest corner, squared */
+    int is_crease;              /* 1: planes meet in the texel, so it is not a quad */
 } leaf;
 
 static void leaf_at(leaf *out, const lmb_tree *tree, lmb_node_ref at)
@@ -627,7 +629,7 @@ static void add_flux(lmb_irradiance *inout, int k, float factor, const float flu
     }
 }
 
-/* A texel where planes meet, cut to the part that shows its plane. */
+/* Adds a texel in which planes meet, clipped to the part that shows the texel's plane. */
 static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, uint64_t pixels)
 {
     const lmb_texel *t = tree_texel(c->tree, at.face, at.x, at.y);
@@ -645,7 +647,7 @@ static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, 
     }
 }
 
-/* The middle of part i of a leaf's SIDE^2 equal parts. Those of a triangle lie in SIDE rows of 1, 3, 5, ... */
+/* Centre of part i of a leaf's SIDE^2 equal parts. Those of a triangle lie in SIDE rows of 1, 3, 5, ... */
 static lmb_vec3 leaf_part(const leaf *l, int i)
 {
     if (l->element == NULL) {
@@ -664,8 +666,8 @@ static lmb_vec3 leaf_part(const leaf *l, int i)
     return add3(corner[0], add3(mul3(sub3(corner[1], corner[0]), down), mul3(sub3(corner[2], corner[1]), across)));
 }
 
-/* The glossy lobe's response to a near leaf, as the sum over discs for its parts: a single disc would show as a bright
- * spot at the leaf's centre. Nearer to the leaf's plane than a part is wide, the reflection is too dark. */
+/* Adds the lobe's response to a near leaf, as the sum over discs for the parts: a single disc would show as a bright
+ * spot at the leaf's centre. Closer to the leaf's plane than the width of a part, the reflection is too dark. */
 static void add_glossy(const cutter *c, int k, const leaf *l)
 {
     const lmb_vec3 at = tile_vec(c->tile->position, k), face = tile_vec(c->tile->face, k),
@@ -673,7 +675,7 @@ static void add_glossy(const cutter *c, int k, const leaf *l)
     const lmb_node *n = &l->node;
     const float share = 1.0f / (float)(SIDE * SIDE), area = n->area * share;
     if (dot3(n->normal, sub3(n->centre, at)) >= 0.0f) {
-        return; /* on its plane or behind it: most of a surface's near leaves are its own */
+        return; /* on the plane of the leaf or behind it: most near leaves of a surface are its own */
     }
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const lmb_vec3 part = leaf_part(l, i), to = sub3(part, at);
@@ -686,7 +688,7 @@ static void add_glossy(const cutter *c, int k, const leaf *l)
     }
 }
 
-/* Which of some pixels have a lobe. */
+/* Adds the leaf to those of the pixels that have a lobe. */
 static void add_near_glossy(const cutter *c, const leaf *l, uint64_t pixels)
 {
     const uint64_t own = c->cut_params->glossy != NULL ? c->cut_params->glossy->pixels & pixels : 0;
@@ -695,8 +697,8 @@ static void add_near_glossy(const cutter *c, const leaf *l, uint64_t pixels)
     }
 }
 
-/* Of `pixels`, those before the plane of a texel's own point. If light grazes a texel, its shape leaves that plane, and
- * so may be before pixels that are behind the surface. */
+/* Returns those of `pixels` in front of the plane of a texel's own point. If light grazes a texel, the texel's shape
+ * leaves that plane and may be in front of pixels that are behind the surface. */
 static uint64_t before_point(const cutter *c, uint64_t pixels, const lmb_texel *t)
 {
     uint64_t out = 0;
@@ -708,7 +710,7 @@ static uint64_t before_point(const cutter *c, uint64_t pixels, const lmb_texel *
     return out;
 }
 
-/* Add a leaf that is so near that its shape counts, pixel by pixel. */
+/* Adds, pixel by pixel, a leaf so near that the shape matters. */
 NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t visible)
 {
     const lmb_tile *tile = c->tile;
@@ -736,7 +738,7 @@ NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, 
     }
 }
 
-/* Is some of the pixel cluster near the leaf? */
+/* 1 if a pixel of the cluster may be near the leaf. */
 static int is_near(const lmb_pixel_cluster *p, const leaf *l)
 {
     return lmb_pixel_cluster_distance2(p, l->node.centre) < LMB_NEAR * LMB_NEAR * l->half2;
@@ -753,7 +755,7 @@ static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
     out->visible = visible;
 }
 
-/* Emitters on their way to the gather, a block at a time. */
+/* Emitters queued for the gather, a block at a time. */
 typedef struct stream {
     lmb_irradiance *inout;
     const cutter *c;
@@ -771,8 +773,8 @@ static void flush(stream *s)
     s->filled = 0;
 }
 
-/* A node some of whose children may face away from the whole cluster is replaced by the children that do not: in the
- * node's mean the others would count as negative light. */
+/* If some children of a node may face away from the whole cluster, replaces the node by the sum of the others: in the
+ * node's mean they would count as negative light. */
 static void face_on(lmb_node *out, const cutter *c, lmb_node_ref from, const lmb_node *whole)
 {
     lmb_vec3 normal = vec3(0, 0, 0), centre = vec3(0, 0, 0);
@@ -827,8 +829,7 @@ static void light_by(stream *s, lmb_node_ref at, uint64_t visible)
     }
 }
 
-/* Light the pixels by every texel: for a conservative bound that no cut meets in the room there is, where nothing
- * blocks. */
+/* Lights the pixels by every texel: for a conservative bound that a full cut does not meet, without occlusion. */
 static void light_by_all(stream *s)
 {
     const int32_t size = s->c->tree->size;
@@ -867,7 +868,7 @@ NOINLINE void light_cluster(lmb_irradiance *inout, cutter *c)
     }
 }
 
-/* Of the cluster's pixels that have a lobe, the one in the middle. */
+/* The middle one of the cluster's pixels with a lobe. */
 static int lobe_of(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p)
 {
     uint64_t own = cut_params->glossy != NULL && !cut_params->conservative ? cut_params->glossy->pixels & p->pixels : 0;
@@ -877,7 +878,7 @@ static int lobe_of(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p)
     return own != 0 ? lowest_bit_64(own) : NONE;
 }
 
-/* The minimum over the pixels: 0 at a shadow's edge. */
+/* The minimum over the pixels: 0 at the edge of a shadow. */
 static double lower_direct(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p)
 {
     float lower = cut_params->direct != NULL ? 3e38f : 0.0f;
@@ -889,7 +890,7 @@ static double lower_direct(const lmb_cut_params *cut_params, const lmb_pixel_clu
     return (double)lower;
 }
 
-/* The mean over the pixel cluster, which is no bound for its pixels. */
+/* The mean over the pixel cluster; not a bound for single pixels. */
 static double beside(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p, float per_pixel)
 {
     double sum = 0.0;
@@ -904,7 +905,7 @@ static double beside(const lmb_cut_params *cut_params, const lmb_pixel_cluster *
            (cut_params->conservative ? 0.0 : (double)cut_params->lower + lower_direct(cut_params, p));
 }
 
-/* Half of some pixels: the first ones along the longer side of their cluster's box. */
+/* Half of the pixels: the first ones along the longer side of the cluster's box. */
 NOINLINE uint64_t half_of(const lmb_pixel_cluster *p, const lmb_tile *tile)
 {
     const lmb_vec3 along = p->half[2] > p->half[1] ? p->axis[2] : p->axis[1];
@@ -926,8 +927,9 @@ NOINLINE uint64_t half_of(const lmb_pixel_cluster *p, const lmb_tile *tile)
     return out;
 }
 
-/* Light some pixels of one surface by one cut. Where the cut is full and cuts of half the pixels come closer to the
- * allowed error, the pixels are left unlit and returned. over: by what factor the cut of twice as many exceeded it. */
+/* Lights some pixels of one surface with one cut. If the cut is full, and cuts of half the pixels come closer to the
+ * allowed error, leaves the pixels unlit and returns 0. over: the factor by which the cut of twice as many pixels
+ * exceeded the error; updated. */
 static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p, double *over)
 {
     const lmb_cut_params *cut_params = c->cut_params;
@@ -968,14 +970,14 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     return 1;
 }
 
-/* Pixels that wait for a cut, and by what factor the cut of twice as many exceeded the allowed error. */
+/* Pixels without a cut so far, and the factor by which the cut of twice as many exceeded the allowed error. */
 typedef struct waiting {
     uint64_t pixels;
     double over;
 } waiting;
 enum { HALVES = 7 /* 64 pixels, 32, ... 1 */ };
 
-/* Cost: a full cut is wasted, at most as often as its halves are found. */
+/* Cost: each split into halves wastes one full cut. */
 static void light_surface(lmb_irradiance *inout, cutter *c, uint64_t pixels)
 {
     waiting wait[HALVES + 1];

@@ -2,7 +2,7 @@
  *
  * Lanes are pixels.
  *
- * The steps are gather.inl's: include it first. */
+ * The steps are in gather.inl: include it first. */
 static void KERNEL(gather_cut)(lmb_irradiance *inout, float (*memory)[LMB_GATHER_PAIRS], const lmb_tile *tile,
                                const lmb_emitter *emitters, int32_t count)
 {

@@ -2,9 +2,9 @@
  *
  * Lanes are pixels.
  *
- * The disc is gather.inl's, the lobe lobe.inl's: include both first. */
+ * Include gather.inl, for the disc, and lobe.inl first. */
 
-/* Solid angle of a disc: facing and on the axis it is what disc_fraction sees of it, pi s / (1 + s), s = A / (pi
+/* Solid angle of a disc. On the axis of a facing disc it is consistent with disc_fraction: pi s / (1 + s), s = A / (pi
  * r^2). */
 static inline lane glossy_angle(lane b, lane i, lane area_pi)
 {

@@ -1,25 +1,25 @@
 /* node_bounds.inl: light of tree nodes at a pixel cluster: estimate, upper bound and error. Layer 7.              [V27]
  *
- * Lanes are nodes, each computed for itself.
+ * Lanes are nodes, computed independently.
  *
- * A node gives at most U = M cosP cosG / (pi d^2), with the largest cosines and the least distance d between its box
- * and the pixel cluster's. Include gather.inl first: the disc formula is its. */
+ * A node gives at most U = M cosP cosG / (pi d^2), with the largest cosines, and the least distance d between the boxes
+ * of node and pixel cluster. Include gather.inl first, for the disc formula. */
 
-#define BOUNDS_SECOND  0.5f  /* of R^2 / d^2: boxes hold whole texels, of which discs are right to second order */
-#define BOUNDS_NOISE   9.5367432e-7f /* 2^-20: of the distance; what rounding takes of heights over planes */
-#define BOUNDS_ROUNDED 1e-4f /* more than rounding takes of a bound, of its own size and of the distance */
+#define BOUNDS_SECOND  0.5f  /* of R^2 / d^2: boxes hold whole texels, and discs are correct to second order */
+#define BOUNDS_NOISE   9.5367432e-7f /* 2^-20 of the distance: rounding of heights over planes */
+#define BOUNDS_ROUNDED 1e-4f /* above the rounding of a bound, relative to the bound and to the distance */
 
-/* What both bounds begin with. */
+/* Shared by both bounds. */
 typedef struct bounds_pair {
-    lane3 normal;        /* the node's */
-    lane3 to;            /* from the pixel cluster's middle to that of the node's box */
+    lane3 normal;        /* of the node */
+    lane3 to;            /* from the centre of the pixel cluster to that of the node's box */
     lane m, half2;       /* flux; half the box's diagonal, squared */
-    lane reach;          /* no two points of both are farther apart */
+    lane reach;          /* no two points of both boxes are farther apart */
     lane sine;           /* of the widest angle of the node's normals; 1 over 90 degrees */
     lane apart2;         /* squared least distance of the boxes */
     lane own_p,
-        cluster_p; /* how far the node's box and the pixel cluster reach along the cluster's normal */
-    lane own_g, cluster_g; /* and along the node's */
+        cluster_p; /* extent of the node's box and of the pixel cluster along the cluster's normal */
+    lane own_g, cluster_g; /* the same along the node's normal */
 } bounds_pair;
 
 static inline lane3 bounds_load3(const lmb_node_bounds *w, int plane, int k)
@@ -40,7 +40,7 @@ static inline lane bounds_sine(lane cosine)
     return lane_pick(lane_lt(zero, cosine), sine, one);
 }
 
-/* A vector along three axes. */
+/* Components of a vector along three axes. */
 static inline lane3 lane3_along(lane3 v, const lane3 axis[3])
 {
     lane3 r;
@@ -63,7 +63,7 @@ LANE_INLINE bounds_pair bounds_begin(const lmb_node_bounds *w, int k, const lmb_
     r.reach = lane_add(lane_add(bounds_length(r.to), radius), bounds_length(other));
     r.sine = bounds_sine(lane_load(w->node[LMB_BOUNDS_COSINE] + k));
     const lane3 axis[3] = {r.normal, across, lane3_cross(r.normal, across)};
-    lane3 turn[3]; /* the pixel cluster's axes along the node's, all as positive */
+    lane3 turn[3]; /* absolute components of the pixel cluster's axes along the node's */
     lane3 to;      /* along the pixel cluster's axes */
     for (int i = 0; i < 3; ++i) {
         turn[i] = lane3_abs(lane3_along(lane3_of(p->axis[i]), axis));
@@ -71,7 +71,7 @@ LANE_INLINE bounds_pair bounds_begin(const lmb_node_bounds *w, int k, const lmb_
     to.x = lane3_dot(lane3_of(p->axis[0]), r.to);
     to.y = lane3_dot(lane3_of(p->axis[1]), r.to);
     to.z = lane3_dot(lane3_of(p->axis[2]), r.to);
-    lane3 own, cluster; /* how far the node reaches along the pixel cluster's axes, and the cluster along the node's */
+    lane3 own, cluster; /* extent of the node along the pixel cluster's axes, and of the cluster along the node's */
     own.x = lane_min(lane3_dot(turn[0], half), radius);
     own.y = lane_min(lane3_dot(turn[1], half), radius);
     own.z = lane_min(lane3_dot(turn[2], half), radius);
@@ -87,14 +87,15 @@ LANE_INLINE bounds_pair bounds_begin(const lmb_node_bounds *w, int k, const lmb_
     return r;
 }
 
-/* A node gives at most U, by its largest cosines and least distance. Seen as one disc it is wrong by second order:
- * U min(1, R^2 / 2 d^2 + sin^2 a), R the radius of its box, a the widest angle of its normals. Where a horizon goes
- * through it, the pixel cluster's or its own, it is wrong by first order: by a quarter of U where its middle is on it
- * and counts for nothing. Right for all but a few of thousands of nodes: a rule, no proof. (No bound: the node's own
- * radiosity. It is a mean, and its brightest part may fill the sky: rooms lost a tenth of their later bounces by it.)
- * Returns the nodes that do not face away by more than rounding: what lies in the pixel cluster's own plane lights
- * nothing, and is not divided to find that out. The exact shapes of near leaves agree: clipped to the horizon they give
- * at most the share of the sky under the angle noise / d, d the distance. */
+/* Heuristic bound. A node gives at most U, from the largest cosines and the least distance. As one disc it has a
+ * second-order error: U min(1, R^2 / 2 d^2 + sin^2 a), with R the radius of the node's box and a the widest angle of
+ * the normals. If a horizon, the pixel cluster's or the node's own, passes through the node, the error is first order:
+ * a quarter of U if the node's centre lies on the horizon and counts as 0. This holds for all but a few in thousands of
+ * nodes, but is not proven. (The node's radiosity is not a bound: it is a mean, and the brightest part may fill the
+ * sky. With it, rooms lost a tenth of their later bounces.) Returns the nodes that do not face away by more than
+ * rounding: nodes in the pixel cluster's own plane give no light, and are not split to find that out. The exact shapes
+ * of near leaves are consistent: clipped to the horizon, they give at most the share of the sky below the angle noise /
+ * d, with d the distance. */
 LANE_INLINE lane_mask bounds_rule(lmb_node_bounds *w, int k, const lmb_pixel_cluster *p, const bounds_pair *n)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), two = lane_splat(2.0f), bent = lane_splat(p->sine);
@@ -108,8 +109,8 @@ LANE_INLINE lane_mask bounds_rule(lmb_node_bounds *w, int k, const lmb_pixel_clu
         lane_store(w->upper + k, zero);
         return faces;
     }
-    /* A node that holds the pixel cluster may give any amount: so much that it is divided first, but not so much that
-     * the sum of errors keeps the rounding of it when it is gone. */
+    /* A node that contains the pixel cluster may give any amount. It gets a value large enough to be split first, but
+     * small enough that no rounding of it remains in the sum of errors afterwards. */
     const lane lower = lane_max(lane_mul(lane_splat(1e-6f), n->half2), lane_splat(1e-24f));
     const lane d2 = lane_max(n->apart2, lower), d = lane_sqrt(d2);
     const lane upper = lane_mul(lane_mul(lane_div(lane_mul(n->m, lane_splat(INVERSE_PI)), d2),
@@ -131,10 +132,10 @@ LANE_INLINE lane_mask bounds_rule(lmb_node_bounds *w, int k, const lmb_pixel_clu
     return faces;
 }
 
-/* What holds for every pixel and every texel in the node: value is the least that any pixel gets, error the most that
- * the node's disc and the sum of its texels may differ by. With least and largest cosines and distances and
- * s = A / (pi d^2), the disc formula (gather.inl) lies between M / (pi D^2) (c (1 - 2 s) - s) and
- * M / (pi d^2) (c (1 + s) + cosG^2 s), since -(c + cosG^2) <= t <= 2 c + 1; exact shapes near by do, too. */
+/* Bounds for every pixel and every texel in the node: value is the minimum light of any pixel, error the largest
+ * difference between the node's disc and the sum of the texels. With least and largest cosines and distances and s = A
+ * / (pi d^2), the disc formula (gather.inl) lies between M / (pi D^2) (c (1 - 2 s) - s) and M / (pi d^2) (c (1 + s) +
+ * cosG^2 s), since -(c + cosG^2) <= t <= 2 c + 1. So do exact shapes of near leaves. */
 LANE_INLINE lane_mask bounds_conservative(lmb_node_bounds *w, int k, const lmb_pixel_cluster *p, const bounds_pair *n)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), rounded = lane_splat(BOUNDS_ROUNDED);

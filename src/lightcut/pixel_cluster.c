@@ -7,12 +7,12 @@
 
 #if LMB_TREES
 
-#define NOISE 2.3841858e-7f /* 2^-22: of the largest coordinate; a place's rounding, four times */
+#define NOISE 2.3841858e-7f /* 2^-22 of the largest coordinate: four times the rounding of a position */
 
-/* Of an angle under 90 degrees; 1 over. */
+/* Sine of an angle under 90 degrees; otherwise 1. */
 static float sine_of(float cosine) { return cosine > 0.0f ? sqrtf(maxf(1.0f - cosine * cosine, 0.0f)) : 1.0f; }
 
-/* The way that places go on by columns or by rows of the tile, the longer one. */
+/* The direction of positions along columns or rows of the tile, whichever is longer. */
 static lmb_vec3 way_of(const lmb_tile *tile, uint64_t pixels)
 {
     const lmb_vec3 first = tile_vec(tile->position, lowest_bit_64(pixels));
@@ -31,7 +31,7 @@ static lmb_vec3 way_of(const lmb_tile *tile, uint64_t pixels)
     return longer3(sub3(by_column, mul3(mean, column)), sub3(by_row, mul3(mean, row)));
 }
 
-/* face: their faces' mean normal. */
+/* face: mean of the face normals. */
 static void set_box(lmb_pixel_cluster *out, const lmb_tile *tile, uint64_t pixels, lmb_vec3 face)
 {
     box_span box = box_begin(tile_vec(tile->position, lowest_bit_64(pixels)), face,

@@ -6,7 +6,7 @@
 
 void lmb_pixel_cluster_of(lmb_pixel_cluster *out, const lmb_tile *tile, uint64_t pixels);
 
-/* How far the pixel cluster's box reaches along a direction from its centre, m. */
+/* Extent of the pixel cluster's box along a direction from the centre, m. */
 float lmb_pixel_cluster_reach(const lmb_pixel_cluster *p, lmb_vec3 along);
 
 /* Squared distance of a point from the pixel cluster's box, m2. */

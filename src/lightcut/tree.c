@@ -48,8 +48,8 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
 
 /* --- texels ------------------------------------------------------------------------------------------------------- */
 
-/* Did a place move along its plane by no more than a footprint may be stretched? Near the plane's horizon it runs away
- * from the light or comes out behind it; in a sun's plane seen edge-on it runs along the rays. False for NaN. */
+/* 1 if a point moved along a plane by no more than a footprint may stretch. Near the plane's horizon it moves away from
+ * the light or behind it; in a plane that a sun sees edge-on it moves along the rays. 0 for NaN. */
 static int is_near_by(const lmb_view *v, lmb_vec3 from, lmb_vec3 to, int32_t size)
 {
     const int is_cone = v->kind == LMB_PERSPECTIVE;
@@ -58,15 +58,15 @@ static int is_near_by(const lmb_view *v, lmb_vec3 from, lmb_vec3 to, int32_t siz
     return moved > 0.5f * w && length3(sub3(to, from)) * GRAZE < 2.0f * v->half_width / (float)size * w;
 }
 
-/* The place over the middle of a texel of the map in the plane of pixel k. */
+/* The point in the plane of pixel k over the centre of a texel of the map. */
 static lmb_vec3 at_middle(const lmb_tile *t, int k, const lmb_view *v, float sx, float sy)
 {
     return footprint_over(v, tile_vec(t->position, k), tile_vec(t->face, k), sx, sy);
 }
 
-/* Does pixel k's surface end where another's begins, before a place in its plane? It does where the way there crosses
- * the other's plane: in a corner the place is behind a wall, where nothing sees it, on a ridge it is in the air. Not by
- * less than rounding, which blocks nothing. */
+/* 1 if the surface of pixel k ends at that of another pixel before a point in that surface's plane. That is so if the
+ * way to the point crosses the other plane: in a corner the point is behind a wall, and on a ridge it is in the air.
+ * Crossings below rounding do not count, because they block nothing. */
 static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, lmb_vec3 place)
 {
     const lmb_vec3 normal = tile_vec(t->face, other), on = tile_vec(t->position, other);
@@ -74,9 +74,9 @@ static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, l
     return here * there < 0.0f && absf(there) > lmb_place_noise(place, length3(sub3(place, v->eye)));
 }
 
-/* Of the four pixels around a texel's middle, of which k is the last, one whose surface shows there; NOBODY where that
- * is not known. Of surfaces that lie one before the other and do not meet either will do. at_end: pixels at the end of
- * their surface, as lmb_tile_onto_triangles has them. */
+/* Returns one of the four pixels around a texel's centre, with k the last, that shows its surface there; NOBODY if
+ * unknown. If surfaces lie in front of each other and do not meet, any will do. at_end: pixels at the end of their
+ * surface, from lmb_tile_onto_triangles. */
 static int pixel_of_middle(const lmb_tile *t, uint64_t at_end, int k, const lmb_view *v, float sx, float sy)
 {
     const int around[4] = {k, k - 1, k - LMB_TILE, k - LMB_TILE - 1};
@@ -93,7 +93,7 @@ static int pixel_of_middle(const lmb_tile *t, uint64_t at_end, int k, const lmb_
     return NOBODY;
 }
 
-/* Does what pixel a shows go on to what pixel b shows, bent or not? */
+/* 1 if the surfaces of pixels a and b are connected, flat or bent. */
 static int goes_on(const lmb_tile *t, int a, int b, const lmb_view *v, float sx, float sy)
 {
     if (t->id[a] == t->id[b] || t->id[a] == 0 || t->id[b] == 0) {
@@ -105,8 +105,8 @@ static int goes_on(const lmb_tile *t, int a, int b, const lmb_view *v, float sx,
            ends_before(t, a, b, v, at_middle(t, a, v, sx, sy));
 }
 
-/* 0 .. 2^16 - 1: even along each row and each column, by bits reversed along columns: along no slanted line do they go
- * as the line does, as multiples alone would. */
+/* 0 .. 2^16 - 1, uniform along each row and each column. Bits are reversed along columns, so that values do not alias
+ * along a slanted line as plain multiples do. */
 static uint32_t turn_of(int32_t x, int32_t y)
 {
     static const uint8_t reversed[8] = {0, 4, 2, 6, 1, 5, 3, 7};
@@ -114,9 +114,9 @@ static uint32_t turn_of(int32_t x, int32_t y)
     return (down + (uint32_t)x * GOLDEN) & 0xffffu;
 }
 
-/* A texel is of the surface in its middle, pixel own, or of one that hides it or is hidden by it, as often as that has
- * texel's pixels: else an edge along the map's axes is off along all its length, a pillar of three texels by a sixth of
- * its light. */
+/* A texel takes the surface at its centre, pixel own, or a surface in front of or behind it, in proportion to its
+ * pixels. Otherwise an edge along the map's axes is off along the whole length, and a pillar of three texels loses a
+ * sixth of its light. */
 static int pixel_in_turn(const lmb_tile *t, int own, int k, int32_t each, const lmb_view *v, int32_t x, int32_t y,
                          float sx, float sy)
 {
@@ -133,8 +133,8 @@ static int pixel_in_turn(const lmb_tile *t, int own, int k, int32_t each, const 
     return apart != 0 ? lowest_bit_64(apart) : own;
 }
 
-/* Which pixel a texel is of, and whether its plane goes on to the texel's middle. k: the last of the four around
- * that. */
+/* The pixel for a texel, and whether that pixel's plane extends to the texel's centre. k: the last of the four around
+ * the centre. */
 static int choose_pixel(int *goes, const lmb_tile *t, uint64_t at_end, int k, const lmb_shadow_map *coarse,
                         int32_t face, int32_t x, int32_t y, float sx, float sy)
 {
@@ -150,7 +150,8 @@ static int choose_pixel(int *goes, const lmb_tile *t, uint64_t at_end, int k, co
     return turn;
 }
 
-/* A texel of the tree: at its middle, or at a pixel, where that pixel's plane is edge-on or does not go on so far. */
+/* Sets a texel of the tree: at the centre, or at a pixel if the plane of the pixel is edge-on or ends before the
+ * centre. */
 static void set_texel(lmb_texel *out, const lmb_tile *t, uint64_t at_end, int k, const lmb_light *light,
                       const lmb_shadow_map *coarse, int32_t face, int32_t x, int32_t y)
 {
@@ -199,7 +200,7 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
     const int32_t size = tree->size, each = map->size / size;
     lmb_shadow_map coarse = *map;
     coarse.size = size;
-    if (first == 0 && past > 0) { /* by one part alone: of a few rows many parts are of none */
+    if (first == 0 && past > 0) { /* by one part only: with few rows, many parts have none */
         tree->view[into] = map->view[face];
     }
     for (int32_t i = first * map->size; i < past * map->size && status == LMB_OK; i += LMB_TILE) {
@@ -220,7 +221,7 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
 
 /* --- a texel's quad ----------------------------------------------------------------------------------------------- */
 
-/* Of its own cell and of those neighbours' of which it may have a part. u, v: whole sides. */
+/* Box of the texel's cell, and of cells of neighbours that it may have a part in. u, v: whole sides. */
 static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
 {
     float reach[4];
@@ -240,7 +241,7 @@ static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
     out->radius = sqrtf(dot3(u, u) + dot3(v, v) + 2.0f * absf(dot3(u, v)));
 }
 
-/* Of several joined specks the largest one's: what is left out are specks beside it. */
+/* For several joined specks, the box of the largest one; only specks beside it are left out. */
 static void set_element_box(lmb_node *out, const lmb_texel *t, const lmb_element *e)
 {
     const lmb_vec3 a = sub3(e->corner[1], e->corner[0]), b = sub3(e->corner[2], e->corner[0]);
@@ -258,7 +259,7 @@ static void set_element_box(lmb_node *out, const lmb_texel *t, const lmb_element
     }
 }
 
-/* The box of a whole texel's light only where it is asked for. */
+/* boxed: also computes the box of a whole texel's light. */
 static int texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
                       int32_t y, int boxed)
 {
@@ -318,7 +319,7 @@ void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int
 
 /* --- sums --------------------------------------------------------------------------------------------------------- */
 
-/* cos(a + b) or less; -1 where a + b is over 180 degrees. */
+/* cos(a + b), rounded down; -1 if a + b is over 180 degrees. */
 static float cosine_of_sum(float a, float b)
 {
     a -= ROUNDING;
@@ -327,7 +328,7 @@ static float cosine_of_sum(float a, float b)
     return a + b <= 0.0f ? -1.0f : clampf(a * b - sines, -1.0f, 1.0f);
 }
 
-/* Are all normals the one of the first, to the bit? */
+/* 1 if all normals equal the first one bit by bit. */
 static int is_flat(const lmb_node child[4], const lmb_node *first)
 {
     int flat = 1;
@@ -339,7 +340,7 @@ static int is_flat(const lmb_node child[4], const lmb_node *first)
     return flat;
 }
 
-/* Which way a node's parts lie apart: from left to right or from top to bottom, as is longer; 0: it has one part. */
+/* Direction in which the node's parts lie apart: left to right or top to bottom, whichever is longer; 0: one part. */
 static lmb_vec3 way_of(const lmb_node child[4], const lmb_node *first)
 {
     lmb_vec3 sum[4]; /* left, right, top, bottom */
@@ -365,7 +366,7 @@ static lmb_vec3 way_of(const lmb_node child[4], const lmb_node *first)
     return longer3(way[0], way[1]);
 }
 
-/* How far a part reaches along a direction from its middle. */
+/* Extent of a part along a direction from the centre. */
 static float reach_of(const lmb_node *n, lmb_vec3 along)
 {
     const float box = absf(dot3(n->normal, along)) * n->half[0] + absf(dot3(n->across, along)) * n->half[1] +
@@ -407,7 +408,7 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
         const float w = flux_sum(n->flux);
         if (w > 0.0f) {
             first = first != NULL ? first : n;
-            origin = first->centre; /* differences, so that far from the world's middle nothing is lost */
+            origin = first->centre; /* differences, so that no precision is lost far from the origin */
             centre = add3(centre, mul3(sub3(n->centre, origin), w));
             normal = add3(normal, mul3(n->normal, w * n->agreement));
             weight += w;
@@ -441,7 +442,7 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
     }
 }
 
-/* How much of the light of texels where planes meet is their own: each node and pack that holds one asks for it. */
+/* Stores how much light of texels in which planes meet is their own. Each node and pack with such a texel reads it. */
 static void set_shares(const lmb_tree *tree, uint32_t face)
 {
     lmb_texel *all = tree->texel + (size_t)face * (size_t)tree->size * (size_t)tree->size;

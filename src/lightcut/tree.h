@@ -1,4 +1,4 @@
-/* tree.h: where a tree's nodes lie. Layer 7. */
+/* tree.h: the layout of a tree's nodes. Layer 7. */
 #ifndef LMB_LIGHTCUT_TREE_H
 #define LMB_LIGHTCUT_TREE_H
 
@@ -13,7 +13,7 @@ static inline const lmb_texel *tree_texel(const lmb_tree *t, uint32_t face, int3
     return &t->texel[(face * size + (size_t)y) * size + (size_t)x];
 }
 
-/* The face's level 1, 2, ...: nodes of 2, 4, ... texels a side. Levels before it have size^2 / 4, / 16, ... nodes. */
+/* Level 1, 2, ... of the face: nodes of 2, 4, ... texels a side. Lower levels have size^2 / 4, / 16, ... nodes. */
 static inline lmb_node *tree_level(const lmb_tree *t, uint32_t face, int level)
 {
     const size_t all = (size_t)t->size * (size_t)t->size, side = (size_t)t->size >> (level - 1);
@@ -52,19 +52,19 @@ static inline uint32_t tree_spread_bits(uint32_t v)
     return (v | v << 1) & 0x55555555u;
 }
 
-/* The texel, counted row by row, that is number i along the Z curve: 4^l neighbours there are a node of level l. */
+/* Row-major index of the texel with number i along the Z curve: 4^l neighbours there are a node of level l. */
 static inline size_t tree_along_z(const lmb_tree *t, uint32_t i)
 {
     return (size_t)tree_even_bits(i >> 1) * (size_t)t->size + tree_even_bits(i);
 }
 
-/* The element that texel (x, y) is; NULL where it is a map's. */
+/* The element at texel (x, y); NULL if the tree is of a map. */
 static inline const lmb_element *tree_element(const lmb_tree *t, int32_t x, int32_t y)
 {
     return t->element == NULL ? NULL : &t->element[tree_spread_bits((uint32_t)x) | tree_spread_bits((uint32_t)y) << 1];
 }
 
-/* lmb_texel.side: towards which neighbour; and its value where no edge is. */
+/* Neighbours in lmb_texel.side, and the value if there is no edge. */
 enum { SIDE_LEFT, SIDE_RIGHT, SIDE_UP, SIDE_DOWN, SIDE_WHOLE = 128 };
 
 static inline int tree_is_whole(const lmb_texel *t)
@@ -72,31 +72,31 @@ static inline int tree_is_whole(const lmb_texel *t)
     return t->side[0] == SIDE_WHOLE && t->side[1] == SIDE_WHOLE && t->side[2] == SIDE_WHOLE && t->side[3] == SIDE_WHOLE;
 }
 
-/* Find the edges between a face's texels: sets their sides. */
+/* Finds the edges between a face's texels and sets their sides. */
 void lmb_crease_find(const lmb_tree *tree, uint32_t face);
 
-/* The exact shape of a texel which is not whole: lmb_crease_share is its area in the map, in texels; under 0: its plane
- * runs away from the light too steeply, it has none. lmb_crease_part is part 0 .. CREASE_PARTS - 1 of it: corners,
- * counter-clockwise seen from the light; returns their number, 0: nothing. The first lies in its own cell, the others
- * in its neighbours'. */
+/* The exact shape of a texel that is not whole. lmb_crease_share: the area in the map, in texels; < 0 if the plane runs
+ * away from the light too steeply and there is no shape. lmb_crease_part: part 0 .. CREASE_PARTS - 1 as corners,
+ * counter-clockwise seen from the light; returns their number, or 0 for none. Part 0 lies in the texel's own cell, the
+ * others in neighbouring cells. */
 enum { CREASE_PARTS = 5, CREASE_CORNERS = 8 };
 float lmb_crease_share(const lmb_tree *tree, lmb_node_ref at);
 int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part);
 
-/* A texel as a node of its own; and the half sides of its quad, whose middle is the node's centre. Where planes meet in
- * it the flux is that of its exact shape, which is no quad: returns 1. */
+/* A texel as a node, and the half sides of its quad around the node's centre. If planes meet in the texel, the flux is
+ * that of the exact shape, which is not a quad: returns 1. */
 int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
                         int32_t y);
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y);
 
-/* Under 2^-80 W is nothing, as in a shadow map: what flux divides stays finite, and kernels meet no denormal. */
+/* Flux below 2^-80 W counts as 0, as in a shadow map: quotients by flux stay finite, and kernels meet no denormals. */
 static inline float flux_or_none(float w) { return w < 8.2718061e-25f ? 0.0f : w; }
 
 static inline float flux_sum(const float flux[3]) { return flux[0] + flux[1] + flux[2]; }
 
 struct lmb_elements;
 
-/* Elements first .. first + count - 1, as far as there are any, as if they were a tile's pixels. */
+/* Presents elements first .. first + count - 1, as far as they exist, as pixels of a tile. */
 void lmb_elements_as_tile(lmb_tile *tile, const struct lmb_elements *elements, uint32_t first, uint32_t count);
 
 #endif

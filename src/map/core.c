@@ -1,13 +1,14 @@
 /* core.c: finds a scene's fine detail: the boxes for which a sun's map gets faces of their own. Layer 4.
  *
- * Triangles that are small against the scene have a middle, weighted by area, and a mean distance from it. Those three
- * times as far do not belong to it; without them both are found anew, until none is left out: a stray triangle weighs
- * nothing, however far it is. With limits of 1/2, 1/8, .. 1/512 of the scene the first makes what nearly everything is
- * in stand out (`wide`), the others a house on a terrain, in which there may be a finer place again. What touches such
- * a box and is no more than four times as large belongs to it: floors, walls, the ground before the door.
+ * The triangles that are small against the scene have a centre, weighted by area, and a mean distance from it.
+ * Triangles over three times as far are dropped and both values recomputed, until none is dropped: a stray triangle has
+ * no effect, however far it is. The size limits are 1/2, 1/8, .. 1/512 of the scene. The first limit finds the part
+ * that contains nearly everything (`wide`). The others find a house on a terrain, which may contain a finer place
+ * again. Geometry that touches such a box and is at most four times as large joins it: floors, walls, the ground before
+ * the door.
  *
- * By the scene alone and not by the view: the maps stay while the viewer walks, and two eyes see the same light.
- * Rejected: medians of counts, which a far bird of 200 triangles wins against a room of 30. */
+ * The boxes depend only on the scene, not on the view: the maps stay while the viewer moves, and two eyes see the same
+ * light. Rejected: medians of counts, in which a far bird of 200 triangles wins against a room of 30. */
 #include <lambent/map.h>
 
 #include <string.h>
@@ -17,10 +18,10 @@
 
 #if LMB_TREES
 
-#define FAR     3.0   /* mean distances from the middle that belong to it */
-#define TOUCHES 4.0f  /* times the box's size: what touches it and belongs to it */
-#define SPARE   0.015625f /* of the area may be left out of `wide` */
-#define FINER   0.0125f   /* of a face's width: a place that has less of its texels than 13 of 1,024 wants its own */
+#define FAR     3.0   /* times the mean distance from the centre: limit of members */
+#define TOUCHES 4.0f  /* times the box's size: limit for geometry that touches it and joins it */
+#define SPARE   0.015625f /* share of the area that `wide` may leave out */
+#define FINER   0.0125f   /* of a face's width: a place with fewer than 13 of 1,024 texels gets a separate face */
 enum { ROUNDS = 8, LIMITS = 5, DEEPER = 3, SAMPLES = 8192, RATIO = 16, FEW = 2 };
 
 typedef struct box {
@@ -53,7 +54,7 @@ static int take(box *b, float *area, const lmb_scene *scene, uint32_t id)
     return 1;
 }
 
-/* Triangles under a size, in a box, near a middle. */
+/* Triangles below a size, in a box, near a centre. */
 typedef struct clump {
     box in;
     float under;
@@ -75,7 +76,7 @@ static int belongs(const clump *c, const box *b)
     return size_of(b) < c->under && overlap(b, &c->in) && distance_from(c, b) <= c->reach;
 }
 
-/* What is summed over those that belong: area, and of areas times the middle; or, in sum[1], times the distance. */
+/* Sums over the members: area, and area times centre; or, in sum[1], area times distance. */
 static uint32_t sums(double sum[4], const clump *c, const lmb_scene *scene, uint32_t step, int distances)
 {
     const uint32_t all = lmb_scene_triangles(scene);
@@ -100,7 +101,7 @@ static uint32_t sums(double sum[4], const clump *c, const lmb_scene *scene, uint
     return count;
 }
 
-/* The middle of what is under a size; 0 where there is next to nothing. */
+/* Finds the centre of the triangles below a size. Returns 0 if there are almost none. */
 static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
 {
     double sum[4];
@@ -125,7 +126,8 @@ static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
     return 1;
 }
 
-/* The clump's own box, then with what touches it; in and out: area of what does, and of the rest of c->in. */
+/* The clump's own box, then joined with geometry that touches it. in, rest: area in c->in that is inside `out`, and
+ * outside. */
 static void box_of(box *out, float *in, float *rest, const clump *c, const lmb_scene *scene)
 {
     const uint32_t all = lmb_scene_triangles(scene);
@@ -157,7 +159,7 @@ static void box_of(box *out, float *in, float *rest, const clump *c, const lmb_s
 
 static uint32_t step_of(const lmb_scene *scene) { return lmb_scene_triangles(scene) / SAMPLES + 1; }
 
-/* What nearly everything is in: half the scene's size at most, or the scene. */
+/* The box that contains nearly everything: at most half the scene's size, or the scene itself. */
 static void find_wide(box *inout, const lmb_scene *scene)
 {
     clump c;
@@ -171,7 +173,7 @@ static void find_wide(box *inout, const lmb_scene *scene)
     }
 }
 
-/* A place in a box that is no wider than an eightieth of it. 0: none. */
+/* A place in a box, no wider than an eightieth of the box. Returns 0 if there is none. */
 static int find_finer(box *inout, const lmb_scene *scene)
 {
     clump c;
@@ -194,7 +196,7 @@ static int find_finer(box *inout, const lmb_scene *scene)
     return 0;
 }
 
-/* Steps of RATIO, rounded up, that lead from one size to another. */
+/* Number of steps by RATIO, rounded up, from one size to another. */
 static int steps_between(float small, float large)
 {
     int n = 0;

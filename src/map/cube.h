@@ -4,10 +4,10 @@
 
 #include "../base/vec.h"
 
-/* -1 .. 1 of the middle of texel i of n. */
+/* -1 .. 1: centre of texel i of n. */
 static inline float cube_coordinate(int32_t i, int32_t n) { return (float)(2 * i + 1 - n) / (float)n; }
 
-/* On the cube whose faces lie 1 from its middle, or on the plane of one. */
+/* On the cube with faces at distance 1 from the centre, or on the plane of a face. */
 static inline lmb_vec3 cube_point(int32_t face, float s, float t)
 {
     switch (face) {
@@ -20,13 +20,13 @@ static inline lmb_vec3 cube_point(int32_t face, float s, float t)
     }
 }
 
-/* Unit: of texel (x, y) of faces with n x n. */
+/* Unit vector to texel (x, y) of faces with n x n. */
 static inline lmb_vec3 cube_direction(int32_t face, int32_t x, int32_t y, int32_t n)
 {
     return normalize3(cube_point(face, cube_coordinate(x, n), cube_coordinate(y, n)));
 }
 
-/* Where a direction meets the cube: s and t in -1 .. 1. Of equal axes x goes before y before z. */
+/* The point of the cube in a direction: s and t in -1 .. 1. If axes are equal, x goes before y before z. */
 static inline int32_t cube_face(float *s, float *t, lmb_vec3 d)
 {
     const float x = absf(d.x), y = absf(d.y), z = absf(d.z);
@@ -49,7 +49,7 @@ typedef struct cube_place {
     int32_t face, x, y;
 } cube_place;
 
-/* The texel that a direction meets, of faces with n x n. */
+/* The texel that a direction meets, for faces with n x n. */
 static inline cube_place cube_texel_of(lmb_vec3 d, int32_t n)
 {
     float s, t;
@@ -60,7 +60,7 @@ static inline cube_place cube_texel_of(lmb_vec3 d, int32_t n)
     return p;
 }
 
-/* The texel that a border's texel stands for: the one that its own place meets. */
+/* The texel that replaces a border texel: the one in the same direction. */
 static inline cube_place cube_border(int32_t face, int32_t x, int32_t y, int32_t n)
 {
     return cube_texel_of(cube_point(face, cube_coordinate(x, n), cube_coordinate(y, n)), n);

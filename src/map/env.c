@@ -110,7 +110,7 @@ void lmb_env_dim(const lmb_env *out, const lmb_env *from, const float share[3])
     }
 }
 
-/* --- what a cone sees --------------------------------------------------------------------------------------------- */
+/* --- cone lookups ------------------------------------------------------------------------------------------------- */
 
 static void add_texel(float out[3], const lmb_env *env, int32_t level, cube_place p, float weight)
 {
@@ -128,7 +128,7 @@ static void sample_level(float out[3], const lmb_env *env, int32_t level, lmb_ve
     const int32_t n = env->size >> level;
     const float length2 = dot3(d, d);
     if (!(length2 > 0.0f && length2 < 1e30f)) {
-        d = vec3(0.0f, 0.0f, -1.0f); /* nowhere, or no number: ahead */
+        d = vec3(0.0f, 0.0f, -1.0f); /* zero or not a number: ahead */
     }
     const int32_t face = cube_face(&s, &t, d);
     const float x = (s + 1.0f) * 0.5f * (float)n - 0.5f, y = (t + 1.0f) * 0.5f * (float)n - 0.5f;
@@ -141,8 +141,8 @@ static void sample_level(float out[3], const lmb_env *env, int32_t level, lmb_ve
     }
 }
 
-/* A face is 2 wide where the cone is 2 tan_half: the level with n texels a side of which one is that wide has
- * n tan_half = 1. Between two levels by the width, which needs no logarithm. */
+/* A face is 2 wide and the cone 2 tan_half, so a level with n texels a side fits if n tan_half = 1. Between two levels,
+ * interpolates by the width, which needs no logarithm. */
 void lmb_env_sample(float out[3], const lmb_env *env, lmb_vec3 direction, float tan_half)
 {
     int32_t level = 0;

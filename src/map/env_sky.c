@@ -27,7 +27,7 @@ static cube_place place_of(uint32_t i, int32_t n)
 
 static lmb_vec3 direction_of(cube_place p, int32_t n) { return cube_direction(p.face, p.x, p.y, n); }
 
-/* sr, of a texel of faces with n x n: its area on the cube by the cube of its distance. */
+/* sr, of a texel of faces with n x n: area on the cube over the cube of the distance. */
 static float solid_angle(cube_place p, int32_t n)
 {
     const float s = cube_coordinate(p.x, n), t = cube_coordinate(p.y, n), d2 = 1.0f + s * s + t * t;
@@ -44,10 +44,11 @@ static void read_texel(float rgb[3], const lmb_env *env, int32_t level, uint32_t
 
 /* --- a clear sky -------------------------------------------------------------------------------------------------- */
 
-/* Luminance, or a chromaticity, over the sky: value at the zenith, and how it changes from there and from the sun. */
+/* Luminance or a chromaticity over the sky: value at the zenith, and change with the angles from the zenith and the
+ * sun. */
 typedef struct perez {
-    float a, b, c, d, e; /* the model's */
-    float zenith;        /* over the formula there */
+    float a, b, c, d, e; /* of the model */
+    float zenith;        /* value there / formula there */
 } perez;
 
 static float exp_of(float x) { return lmb_exp2(x * 1.44269504f); }
@@ -175,14 +176,14 @@ static uint32_t brightest(float *all, const lmb_env *env)
     return best;
 }
 
-/* What a texel has over the limit, all channels alike: a share of it. */
+/* Share of a texel's radiance above the limit, the same for all channels. */
 static float share_over(const float rgb[3], float limit)
 {
     const float all = sum3(rgb);
     return all > limit ? (all - limit) / all : 0.0f;
 }
 
-/* The texels around `middle` over the limit: their light into *out, or out of the cube. */
+/* Adds the light above the limit of the texels around `middle` to *out, or removes it from the cube. */
 static void gather_sun(lmb_light *out, const lmb_env *env, lmb_vec3 middle, float limit, int take)
 {
     for (uint32_t i = 0; i < texels_of(env, 0); ++i) {

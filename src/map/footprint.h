@@ -1,12 +1,12 @@
-/* footprint.h: a position or a step on a shadow map, on the surface that it shows. Layer 4. */
+/* footprint.h: a position or a step on a shadow map, on the surface shown there. Layer 4. */
 #ifndef LMB_MAP_FOOTPRINT_H
 #define LMB_MAP_FOOTPRINT_H
 
 #include "../base/vec.h"
 
-#define GRAZE 0.02f /* cosine under which a texel's footprint is not stretched further */
+#define GRAZE 0.02f /* a texel's footprint stretches no further below this cosine */
 
-/* The point of a plane (any point of it, normal) over the map's (sx, sy) in its plane at distance 1 (m for suns). */
+/* The point of a plane (given by a point on it and the normal) over (sx, sy) of the map, at distance 1 (m for suns). */
 static inline lmb_vec3 footprint_over(const lmb_view *v, lmb_vec3 on, lmb_vec3 normal, float sx, float sy)
 {
     const lmb_vec3 across = add3(mul3(v->right, sx), mul3(v->up, sy)), p = sub3(on, v->eye);
@@ -18,7 +18,7 @@ static inline lmb_vec3 footprint_over(const lmb_view *v, lmb_vec3 on, lmb_vec3 n
     return add3(v->eye, sub3(across, mul3(v->back, w)));
 }
 
-/* How the surface moves when the map moves by one texel along (sx, sy): the ray's plane slid along the ray. */
+/* The step on the surface for a step by one texel of the map along (sx, sy): along the surface's plane. */
 static inline lmb_vec3 footprint(const lmb_view *v, lmb_vec3 p, lmb_vec3 n, lmb_vec3 step)
 {
     lmb_vec3 ray = v->kind == LMB_PERSPECTIVE ? sub3(p, v->eye) : mul3(v->back, -1.0f);

@@ -11,7 +11,7 @@ static int is_surface(const lmb_surface *s, int32_t format, const lmb_view *view
                          s->height == view->frame_height);
 }
 
-/* A tile's values into the pixels of `s`, as many of each as it has channels. */
+/* Stores a tile's values in the pixels of `s`, as many for each as it has channels. */
 static void store(const lmb_surface *s, const float (*values)[LMB_TILE_PIXELS], int32_t channels, const lmb_tile *t)
 {
     for (int32_t k = 0; s != NULL && k < LMB_TILE_PIXELS; ++k) {

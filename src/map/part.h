@@ -4,7 +4,7 @@
 
 #include <lambent/map.h>
 
-/* The finest face of a directional light's shadow map that has a place, and two texels around it. */
+/* The finest face of a directional light's shadow map that contains a point and two texels around it. */
 int32_t lmb_shadow_map_part(const lmb_shadow_map *map, lmb_vec3 at);
 
 #endif

@@ -1,4 +1,4 @@
-/* shadow_map.c: a shadow map: its views fitted, its faces drawn, the power that goes through a texel. Layer 4. */
+/* shadow_map.c: a shadow map: fits its views, draws its faces, and computes the power through a texel. Layer 4. */
 #include <lambent/map.h>
 
 #include <string.h>
@@ -17,8 +17,8 @@
 #include "../lane/lane.h"
 #include "texel.inl"
 
-#define COS_50 0.64278761f   /* half angle up to which one perspective face serves a spot */
-#define COS_CORNER 0.57735027f /* of the angle between a cube face's axis and its corner */
+#define COS_50 0.64278761f   /* half angle up to which a spot has a single perspective face */
+#define COS_CORNER 0.57735027f /* of the angle between axis and corner of a cube face */
 #define SIN_CORNER 0.81649658f
 
 int32_t lmb_shadow_map_faces(const lmb_light *light, const lmb_scene *scene)
@@ -47,7 +47,7 @@ size_t lmb_shadow_map_bytes(int32_t faces, int32_t size, int32_t id_format)
     return (size_t)faces * (lmb_surface_bytes(LMB_DEPTH32F, size, size) + lmb_surface_bytes(id_format, size, size));
 }
 
-/* Axes for looking along `forward`: up from the world axis that is least along it. */
+/* Axes of a view along `forward`: up is the world axis least along it. */
 static void set_axes(lmb_view *v, lmb_vec3 forward)
 {
     lmb_vec3 a = vec3(absf(forward.x), absf(forward.y), absf(forward.z));
@@ -71,8 +71,8 @@ static box box_mix(lmb_vec3 low, lmb_vec3 high, lmb_vec3 wide_low, lmb_vec3 wide
     return b;
 }
 
-/* What face f of a sun's map is to hold: the core, boxes of a sixteenth of a sixteenth .. of the wide one's size, the
- * wide one, and all. */
+/* Contents of face f of a sun's map: the core; boxes of a sixteenth of a sixteenth .. of the wide one's size; the wide
+ * one; the whole scene. */
 static box box_of_face(const lmb_scene *scene, int32_t f, int32_t faces)
 {
     const box all = {scene->bounds_min, scene->bounds_max};
@@ -81,7 +81,7 @@ static box box_of_face(const lmb_scene *scene, int32_t f, int32_t faces)
     }
     const lmb_core *c = &scene->core;
     const lmb_vec3 more = add3(sub3(c->wide_low, all.low), sub3(all.high, c->wide_high));
-    const int32_t last = faces - 1 - (largest3(more) > 0.0f); /* the wide one's */
+    const int32_t last = faces - 1 - (largest3(more) > 0.0f); /* index of the wide one */
     const float core = largest3(sub3(c->high, c->low)), wide = largest3(sub3(c->wide_high, c->wide_low));
     float size = wide;
     for (int32_t i = f; i < last; ++i) {
@@ -99,7 +99,7 @@ static float reach_along(lmb_vec3 axis, lmb_vec3 half)
     return absf(axis.x) * half.x + absf(axis.y) * half.y + absf(axis.z) * half.z;
 }
 
-/* A box along the light's axes: an orthographic view that holds all of it. */
+/* An orthographic view along the light's axes that contains the whole box. */
 static void fit_directional(lmb_view *v, const lmb_light *light, const box *b)
 {
     const lmb_vec3 half = half_of(b);
@@ -115,7 +115,7 @@ static void fit_directional(lmb_view *v, const lmb_light *light, const box *b)
 }
 
 #if LMB_TREES
-/* The same for one of several boxes. Its view is as deep as the scene, to contain casters above and receivers below.
+/* The same for one of several boxes. The view is as deep as the scene, to contain casters above and receivers below.
  * The eye is at the box's centre, which keeps coordinates small. */
 static void fit_part(lmb_view *v, const lmb_light *light, const box *b, const lmb_scene *scene)
 {
@@ -130,7 +130,7 @@ static void fit_part(lmb_view *v, const lmb_light *light, const box *b, const lm
 
 static int is_same(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/* Extents along a view's right, up and back, from its eye. */
+/* Extends the extents along a view's right, up and back, from the eye. */
 static void widen_by(lmb_vec3 *low, lmb_vec3 *high, const lmb_view *v, lmb_vec3 p)
 {
     const lmb_vec3 to = sub3(p, v->eye), at = vec3(dot3(v->right, to), dot3(v->up, to), dot3(v->back, to));
@@ -138,9 +138,9 @@ static void widen_by(lmb_vec3 *low, lmb_vec3 *high, const lmb_view *v, lmb_vec3 
     *high = max3(*high, at);
 }
 
-/* The one face of a sun's map, fitted to the vertices along its own axes: a box along the world's would make texels as
- * much wider as the scene is turned. Where bounds are wider than the vertices', for what moves or a relief's surface,
- * the map holds the bounds. */
+/* The single face of a sun's map, fitted to the vertices along the face's axes: with a box along world axes, texels
+ * would be as much wider as the scene is rotated. If bounds are wider than the vertices, for moving objects or a
+ * relief's surface, the map covers the bounds. */
 static void fit_vertices(lmb_view *v, const lmb_scene *scene)
 {
     const lmb_vec3 max = vec3(FLT_MAX, FLT_MAX, FLT_MAX), min = mul3(max, -1.0f);
@@ -170,9 +170,10 @@ static void fit_vertices(lmb_view *v, const lmb_scene *scene)
 #endif
 
 #if LMB_TREES
-#define WIDER 1.25f /* as wide as a face may become to end where texels of the next do */
+#define WIDER 1.25f /* limit for widening a face to end at a texel border of the next */
 
-/* Along one axis: the middle and half width of a face, from the middle of the next, of which cells are `cell` wide. */
+/* Along one axis: centre and half width of a face, relative to the centre of the next face with cells of width
+ * `cell`. */
 static int align_axis(float *middle, float *half, float whole, float cell)
 {
     const float first = floorf((*middle - *half + whole) / cell),
@@ -185,8 +186,8 @@ static int align_axis(float *middle, float *half, float whole, float cell)
     return 1;
 }
 
-/* The border of a face lies between texels of the next coarser face, for trees down to an eighth of the map's
- * resolution, or as far as that widens it only a little. */
+/* Aligns the border of a face to texel borders of the next coarser face, for trees down to an eighth of the map's
+ * resolution, or as far as the face widens only a little. */
 static void align(lmb_view *inner, const lmb_view *outer, int32_t size)
 {
     const lmb_vec3 to = sub3(inner->eye, outer->eye);
@@ -212,8 +213,8 @@ static void fit_spot(lmb_view *v, const lmb_light *light)
     v->half_width = v->half_height = sqrtf(maxf(1.0f - c * c, 1e-8f)) / c;
 }
 
-/* Tolerance by which a light in a ceiling may be behind it through rounding: relative to the room's size and to its
- * distance from the origin. */
+/* Tolerance for a light in a ceiling that rounding puts behind it: relative to the room's size and to the distance from
+ * the origin. */
 static float nearest_shown(const lmb_light *light, const lmb_scene *scene)
 {
     const lmb_core *c = &scene->core;
@@ -228,8 +229,8 @@ static lmb_vec3 cube_axis(int32_t face)
     return vec3(face / 2 == 0 ? sign : 0.0f, face / 2 == 1 ? sign : 0.0f, face / 2 == 2 ? sign : 0.0f);
 }
 
-/* Does a spot's cone meet a cube's face? Where their axes are no farther apart than the cone's half angle and
- * the angle of the face's corner together, which is under 180 degrees: by the cosine of that sum. */
+/* 1 if a spot's cone meets a face of a cube. That is so if the angle between the axes is at most the cone's half angle
+ * plus the angle of the face's corner, a sum under 180 degrees; tested by the cosine of the sum. */
 static int meets_face(const lmb_light *light, int32_t face)
 {
     const float c = light->cos_outer, s = sqrtf(1.0f - c * c);
@@ -341,7 +342,7 @@ lmb_status lmb_shadow_map_draw(const lmb_shadow_map *map, const lmb_kernels *ker
     return status;
 }
 
-/* The tile rows from .. to - 1 of one face. */
+/* Draws the tile rows from .. to - 1 of one face. */
 static lmb_status draw_rows(const lmb_shadow_map *map, int32_t face, const lmb_kernels *kernels, const lmb_scene *scene,
                             int32_t from, int32_t to, lmb_stats *stats)
 {
@@ -389,9 +390,9 @@ void lmb_texel_row_of(lmb_texel_row *out, const lmb_light *light, const lmb_shad
     out->is_far = light_kind_is(light->kind, LIGHT_FAR);
     out->is_coned = light_kind_is(light->kind, LIGHT_CONED);
 #if LMB_TREES
-    /* Which middles of a sun's map lie in a finer face, which shows what they do? By the middle alone: mostly faces end
-     * between texels (align), and where they do not, what neighbours overlap a face by is in the mean what is left out
-     * so. By areas, a ring around the face would be dark. */
+    /* Texels of a sun's map with their centre in a finer face are left to that face. The test uses only the centre:
+     * faces usually end between texels (align), and otherwise the overlap with neighbours and the omitted light cancel
+     * on average. A test by area would leave a dark ring around the face. */
     if (face > 0 && v->kind == LMB_ORTHOGRAPHIC) {
         const lmb_view *finer = v - 1;
         const lmb_vec3 to = sub3(finer->eye, v->eye);

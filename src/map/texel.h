@@ -1,16 +1,16 @@
-/* texel.h: a row of a shadow map's texels, as src/map/texel.inl takes it. Layer 4. */
+/* texel.h: a row of a shadow map's texels, for src/map/texel.inl. Layer 4. */
 #ifndef LMB_MAP_TEXEL_H
 #define LMB_MAP_TEXEL_H
 
 #include "../base/light_kind.h"
 #include "../lane/kernels.h"
 
-#define FLUX_FLOOR 8.2718061e-25f /* 2^-80 W: less is nothing, so that kernels meet no denormal */
+#define FLUX_FLOOR 8.2718061e-25f /* 2^-80 W: less counts as 0, so that kernels meet no denormals */
 
 /* Row y of a face, with the light's cone. */
 void lmb_texel_row_of(lmb_texel_row *out, const lmb_light *light, const lmb_shadow_map *map, int32_t face, int32_t y);
 
-/* Where the middle of texel x of `size` lies in the view's plane at distance 1 (m for suns). */
+/* Centre of texel x of `size` in the view's plane at distance 1 (m for suns). */
 static inline float texel_sx(const lmb_view *v, int32_t size, int32_t x)
 {
     return ((float)(2 * x + 1 - size) * 0.5f) * (2.0f * v->half_width / (float)size);
@@ -21,7 +21,7 @@ static inline float texel_sy(const lmb_view *v, int32_t size, int32_t y)
     return ((float)(size - 2 * y - 1) * 0.5f) * (2.0f * v->half_height / (float)size);
 }
 
-/* What one channel of the light sends through a texel of that power, W. */
+/* Flux of one channel of the light through a texel of this power, W. */
 static inline float texel_flux(float intensity, float power)
 {
     const float w = intensity * power;

@@ -2,7 +2,7 @@
 #ifndef LMB_MAP_TEXEL_INL
 #define LMB_MAP_TEXEL_INL
 
-/* Solid angle of a texel of side p at distance 1, its centre l away: p^2 / l^3 times the second-order term of the
+/* Solid angle of a texel of side p at distance 1, with the centre l away: p^2 / l^3 times the second-order term of the
  * integral of 1 / |x|^3 over the square. Differences of corner formulas cancel in binary32; this does not. */
 LANE_INLINE lane texel_solid_angle(float p, lane x, float y)
 {
@@ -12,7 +12,7 @@ LANE_INLINE lane texel_solid_angle(float p, lane x, float y)
     return lane_mul(lane_div(lane_splat(p * p), lane_mul(l2, lane_sqrt(l2))), lane_add(one, more));
 }
 
-/* Fall-off of a spot towards the place (x, y) at distance 1. */
+/* Fall-off of a spot towards the point (x, y) at distance 1. */
 LANE_INLINE lane texel_spot(const lmb_texel_row *row, lane x, float y)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), outer = lane_splat(row->cos_outer);

@@ -1,12 +1,12 @@
 /* build.c: builds the BVH of a scene's triangles, sixteen boxes a node, in the caller's arrays. Layer 4.
  *
- * Top down, in place: a node's triangles are cut in two where the surface-area heuristic says (Wald 2007), then the
- * part with the largest surface again, until there are sixteen. Many triangles are cut between bins of their middles
- * along the three axes, which one pass fills; of up to five triangles every cut is tried. A node is cut by halves where
- * all middles are in one place, or where it has more triangles than the levels below it hold: so the depth is bounded.
+ * Top down, in place. A node's triangles are split by the surface-area heuristic (Wald 2007), then the part with the
+ * largest surface again, until there are sixteen parts. Many triangles are split between bins of their centres along
+ * the three axes, which one pass fills. For up to five triangles every split is tried. A node is split into halves if
+ * all centres coincide, or if it has more triangles than the levels below can hold: this bounds the depth.
  *
- * While the tree grows, only boxes and ids are there, as items in the triangles' place: 32 bytes instead of 52. Boxes
- * are minima and maxima, which no order of joining changes, so every machine builds the same tree. */
+ * While the tree grows, only boxes and ids exist, as items in the place of triangles: 32 bytes instead of 52. Boxes are
+ * minima and maxima, which do not depend on the order of joining, so every target builds the same tree. */
 #include <lambent/occlusion.h>
 
 #include <string.h>
@@ -21,9 +21,9 @@
 
 enum {
     BINS = 16,  /* along each axis */
-    LESS = 16,  /* up to so many items go into half as many bins: most cuts are small ones */
-    FEW = 5,    /* of up to so many items all cuts are tried */
-    LEAF = 4    /* triangles of a leaf, at most, while there are nodes */
+    LESS = 16,  /* up to this many items use half the bins: most splits are small */
+    FEW = 5,    /* up to this many items try all splits */
+    LEAF = 4    /* maximum triangles of a leaf while nodes are available */
 };
 
 size_t lmb_bvh_bytes(uint32_t n)
@@ -52,8 +52,8 @@ lmb_status lmb_bvh_init(lmb_bvh *out, uint32_t n, void *memory, size_t bytes)
 
 /* --- boxes -------------------------------------------------------------------------------------------------------- */
 
-/* A box; an item is that of a triangle. Four numbers each, which compilers take as vectors: the fourth ones of an item
- * are the two halves of its id, and mean nothing elsewhere. */
+/* A box; an item is the box of a triangle. Four values each, because compilers vectorize these. The fourth values of an
+ * item are the two halves of the id; they are unused elsewhere. */
 typedef struct span {
     float low[4], high[4];
 } span;
@@ -64,7 +64,7 @@ static span span_none(void)
     return s;
 }
 
-/* In loops of their own, or gcc makes no vectors of them. */
+/* Two loops: gcc does not vectorize one. */
 static inline void span_join(span *inout, span with)
 {
     for (int c = 0; c < 4; ++c) {
@@ -108,7 +108,7 @@ static void set_item(span *out, const lmb_triangle *t)
 
 static uint32_t item_id(const span *s) { return (uint32_t)s->low[3] | (uint32_t)s->high[3] << 16; }
 
-/* As lmb_triangle_fetch; *instance is where the last triangle was found, and most often this one too. */
+/* As lmb_triangle_fetch. *instance caches the instance of the last triangle, which usually has this one too. */
 static int fetch(lmb_triangle *out, const lmb_instance **instance, const lmb_scene *scene, uint32_t id)
 {
     if (*instance == NULL || id - (*instance)->first_id >= scene->meshes[(*instance)->mesh].triangle_count) {
@@ -117,11 +117,11 @@ static int fetch(lmb_triangle *out, const lmb_instance **instance, const lmb_sce
     return *instance != NULL && triangle_of(out, scene, *instance, id);
 }
 
-/* Most texels read to find out whether triangles are entirely holes: for one triangle, and for all of them together. */
+/* Limits on texels read to find triangles that are entirely transparent: for one triangle, and in total. */
 #define TEXELS     65536u
 #define ALL_TEXELS (1u << 26)
 
-/* Is the triangle entirely a hole? Then it blocks nothing. */
+/* 1 if the triangle is entirely transparent and blocks nothing. */
 NOINLINE int is_hole(const lmb_triangle *t, const lmb_scene *scene, uint32_t *texels)
 {
     lmb_resolve_alpha alpha;
@@ -133,7 +133,7 @@ NOINLINE int is_hole(const lmb_triangle *t, const lmb_scene *scene, uint32_t *te
     return hole;
 }
 
-/* The items of all triangles that can block; how many. */
+/* Stores the items of all triangles that can block. Returns their number. */
 static uint32_t take_items(span *out, const lmb_scene *scene)
 {
     uint32_t texels = ALL_TEXELS;
@@ -152,8 +152,8 @@ static uint32_t take_items(span *out, const lmb_scene *scene)
     return count;
 }
 
-/* Triangles in the order of the items that lie in their place: first all ids go to the end of it, where each is read
- * before a triangle covers it. */
+/* Replaces items by triangles in the same order, in the same memory. First all ids move to the end, where each is read
+ * before a triangle overwrites it. */
 static void place_triangles(lmb_bvh_triangle *t, uint32_t count, const lmb_scene *scene)
 {
     const span *item = (const span *)(const void *)t;
@@ -175,22 +175,22 @@ static void place_triangles(lmb_bvh_triangle *t, uint32_t count, const lmb_scene
     }
 }
 
-/* Both lie in the triangles' place. */
+/* Both lie in the memory of triangles. */
 typedef char items_fit[sizeof(span) + sizeof(uint32_t) <= sizeof(lmb_bvh_triangle) ? 1 : -1];
 
-/* --- cuts --------------------------------------------------------------------------------------------------------- */
+/* --- splits ------------------------------------------------------------------------------------------------------- */
 
-/* The best cut of some items in two. Cost: areas x triangles; 3e38: there is none. */
+/* The best split of some items in two. Cost: areas x triangles; 3e38: none found. */
 typedef struct cut {
     float cost;
     span left, right;
     uint32_t below;           /* items on the left */
-    uint8_t order[FEW];       /* few items: those on the left, then the others */
-    int axis, bin;            /* many: those on the left are in bins below this */
-    float low[4], per_bin[4]; /* bins a metre of twice the middle; 0: all in one place */
+    uint8_t order[FEW];       /* few items: the left ones, then the others */
+    int axis, bin;            /* many: the left ones are in bins below this */
+    float low[4], per_bin[4]; /* twice the centre -> bin; per_bin 0: all in one place */
 } cut;
 
-/* Where twice the middles fall into bins along each axis. */
+/* Maps twice the centres to bins along each axis. */
 static void set_bins(cut *out, int bins, const span *item, uint32_t count)
 {
     span middles = span_none();
@@ -214,7 +214,7 @@ static void set_bins(cut *out, int bins, const span *item, uint32_t count)
     }
 }
 
-/* An item's bins along the three axes. */
+/* The bins of an item along the three axes. */
 static inline void bins_of(int32_t out[4], const cut *c, const span *item)
 {
     for (int k = 0; k < 4; ++k) {
@@ -222,7 +222,7 @@ static inline void bins_of(int32_t out[4], const cut *c, const span *item)
     }
 }
 
-/* What is in the bins of an axis. */
+/* Contents of the bins of an axis. */
 typedef struct bins {
     span box[BINS];
     uint32_t count[BINS];
@@ -249,7 +249,7 @@ static void fill_bins(bins out[3], int many, const cut *c, const span *item, uin
     }
 }
 
-/* The cheapest cut between the bins of an axis; 1 where it is cheaper than *best was. */
+/* The cheapest split between the bins of an axis. Returns 1 if it is cheaper than *best was. */
 static int sweep(cut *best, const bins *b, int many, uint32_t count)
 {
     float right[BINS];
@@ -277,7 +277,7 @@ static int sweep(cut *best, const bins *b, int many, uint32_t count)
     return found;
 }
 
-/* Many items: the best cut between bins. */
+/* Many items: the best split between bins. */
 static void cut_bins(cut *best, const span *item, uint32_t count)
 {
     bins b[3];
@@ -295,13 +295,13 @@ static void cut_bins(cut *best, const span *item, uint32_t count)
     }
 }
 
-/* Of all axes. */
+/* Over all axes. */
 static float middle_sum(const span *s)
 {
     return (s->low[0] + s->high[0]) + (s->low[1] + s->high[1]) + (s->low[2] + s->high[2]);
 }
 
-/* Few items: the best of all cuts, the lower part on the left as with bins. A set of items is a number, a bit each. */
+/* Few items: the best of all splits, with the lower part on the left as with bins. A set of items is a bit mask. */
 static void cut_few(cut *best, const span *item, uint32_t count)
 {
     span box[1 << FEW];
@@ -346,7 +346,7 @@ static void part_few(cut *c, span *item, uint32_t count)
     }
 }
 
-/* Items below the cut first. */
+/* Moves items below the split to the front. */
 static void part_bins(const cut *c, span *item, uint32_t count)
 {
     const int axis = c->axis, bin = c->bin;
@@ -362,12 +362,12 @@ static void part_bins(const cut *c, span *item, uint32_t count)
 
 /* --- nodes -------------------------------------------------------------------------------------------------------- */
 
-/* Triangles that lie together. */
+/* A contiguous run of triangles. */
 typedef struct run {
     span box;
     float area;
     uint32_t first, count;
-    int whole; /* no cut of it pays */
+    int whole; /* 1: no split pays off */
 } run;
 
 static void set_run(run *out, const span *box, uint32_t first, uint32_t count)
@@ -379,7 +379,8 @@ static void set_run(run *out, const span *box, uint32_t first, uint32_t count)
     out->whole = count == 1;
 }
 
-/* Cut a run in two, the second into *more; 0 where that does not pay. *halves: by halves; set where that alone cuts. */
+/* Splits a run in two, the second into *more. Returns 0 if that does not pay off. *halves: split into halves; set if
+ * only that is possible. */
 static int cut_run(span *items, run *r, run *more, int *halves)
 {
     span *item = items + r->first;
@@ -391,7 +392,7 @@ static int cut_run(span *items, run *r, run *more, int *halves)
     } else if (!*halves) {
         cut_bins(&best, item, count);
     }
-    /* Testing a box costs about what testing a triangle does. */
+    /* Testing a box costs about as much as testing a triangle. */
     if (count <= LEAF && !(best.cost + r->area < r->area * (float)count)) {
         r->whole = 1;
         return 0;
@@ -411,7 +412,7 @@ static int cut_run(span *items, run *r, run *more, int *halves)
     return 1;
 }
 
-/* The run to cut next: the largest box, or by halves the one of most triangles; or -1. */
+/* The run to split next: the largest box, or for halves the one with most triangles; or -1. */
 static int next_run(const run *r, int count, int halves)
 {
     int best = -1;
@@ -437,7 +438,7 @@ static void set_box(lmb_boxes *node, int i, const run *r)
     node->count[i] = r->count;
 }
 
-/* One that holds nothing. */
+/* A box that contains nothing. */
 static void set_no_box(lmb_boxes *node, int i)
 {
     for (int c = 0; c < 3; ++c) {
@@ -447,7 +448,7 @@ static void set_no_box(lmb_boxes *node, int i)
     node->first[i] = node->count[i] = 0;
 }
 
-/* Fill a node with the triangles first .. first + count - 1 as up to sixteen leaves. */
+/* Fills a node with the triangles first .. first + count - 1 as up to sixteen leaves. */
 static void fill_node(lmb_boxes *node, span *items, uint32_t first, uint32_t count, int depth)
 {
     const int too_many = count > (uint64_t)LEAF << 4 * (LMB_TRAVERSAL_LEVELS - 1 - depth);
@@ -470,13 +471,12 @@ static void fill_node(lmb_boxes *node, span *items, uint32_t first, uint32_t cou
     }
 }
 
-/* A node on the traversal stack, with the set of its inner children that are still to be visited: box i is bit
- * LMB_BOXES - 1 - i. */
+/* A node on the traversal stack, with the set of inner children still to be visited: box i is bit LMB_BOXES - 1 - i. */
 typedef struct branch {
     uint32_t node, children;
 } branch;
 
-/* Leaves of a node that are too large become nodes, on level `deep`. */
+/* Turns leaves of a node that are too large into nodes, on level `deep`. */
 static branch branch_at(lmb_bvh *b, span *items, uint32_t at, int deep)
 {
     lmb_boxes *node = &b->node[at];

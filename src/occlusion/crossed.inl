@@ -2,8 +2,8 @@
  *
  * Lanes are pixels.
  *
- * The edges' planes go through the point, so a segment crosses inside all three where its direction has the same side
- * of each; two triangles' planes through a shared edge are exactly opposite, so there is no gap between them. */
+ * The planes of the edges contain the point, so a segment crosses inside all three if its direction is on the same side
+ * of each. The planes of two triangles through a shared edge are exactly opposite, so there is no gap between them. */
 static uint64_t KERNEL(crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_cross_job *job)
 {
     const lane3 at = lane3_of(job->at), n = lane3_of(job->normal);
@@ -22,7 +22,7 @@ static uint64_t KERNEL(crossed)(const lmb_tile *tile, uint64_t pixels, const lmb
     return out;
 }
 
-/* 1 / d, as large as it may be. */
+/* 1 / d, clamped to a finite value. */
 static inline lane crossed_per(lane d)
 {
     const lane thin = lane_splat(1e-20f), zero = lane_splat(0.0f);
@@ -44,7 +44,7 @@ static void KERNEL(segments)(lmb_segments *out, const lmb_tile *tile, lmb_vec3 a
 }
 
 /* Parameters along a segment are quotients of differences, each exact to 4 roundings. With this margin no box is
- * missed, however far the point is. */
+ * missed, at any distance of the point. */
 static inline lane_mask crossed_some(lane from, lane to)
 {
     return lane_le(from, lane_mul(to, lane_splat(1.0000010f)));
@@ -57,9 +57,9 @@ static inline void crossed_slab(lane *from, lane *to, lane per, float low, float
     *to = lane_min(*to, lane_max(a, b));
 }
 
-/* Along an axis a segment at parameter t is at t d with d in [d0, d1]; it may meet [low, high] where t d1 >= low and t
- * d0 <= high. Each condition bounds t from below or from above according to the sign of d1 or d0, which is the same for
- * all boxes. */
+/* Along an axis, a segment at parameter t is at t d with d in [d0, d1]. It may meet [low, high] if t d1 >= low and t d0
+ * <= high. Each condition bounds t from below or above, depending on the sign of d1 or d0, which is the same for all
+ * boxes. */
 static inline void crossed_narrow(lane *from, lane *to, float per, lane side)
 {
     const lane t = lane_mul(side, lane_splat(per));
@@ -85,8 +85,8 @@ static uint32_t KERNEL(meets)(const lmb_pyramid *p, const lmb_boxes *boxes)
     return out;
 }
 
-/* Each axis has a side of the boxes where the segment enters, and one where it leaves. Written out by axis, so that all
- * six numbers stay in registers. */
+/* On each axis the segment enters the boxes at one side and leaves at the other. Unrolled by axis, so that all six
+ * values stay in registers. */
 static uint32_t KERNEL(meets_one)(const lmb_segment *s, const lmb_boxes *boxes)
 {
     const float *side = (const float *)(const void *)boxes;

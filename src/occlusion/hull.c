@@ -1,16 +1,16 @@
 /* hull.c: convex rooms, in which every point sees every other. Layer 4.
  *
- * A triangle blocks where both ends of a segment are farther than some noise from its plane, on two sides (occluded.c).
- * So none does where both are on the front of every plane, or not far behind. With R the largest step from the middle
- * of the room's box along an axis, and L its largest coordinate, that noise is at least N = 2^-18 R + 2^-21 L: build.c
- * sees to it, for convex rooms alone; nothing blocks there that could be missed. A plane stands for triangles whose
- * normal is its own, bit by bit or turned, and whose corners are within N / 4 of it; points are held against planes in
- * binary64, and may be N / 4 behind, for which 2^-23 L leaves room for the rounding of their coordinates. So a point
- * that is held is at most N / 2 behind the plane of a triangle. What blocks a segment is asked in binary32: two dot
- * products of a unit normal with differences of points, which are within R (1 + 2^-10) of the middle along each axis.
- * A difference is wrong by 2^-24 of itself and a product and its sums by 3 x 2^-24 more, of terms whose sizes sum up to
- * 2 sqrt(3) R (1 + 2^-10) at most: for both together under 1.74 x 2^-20 R, which is less than what is left of N, at
- * least 2^-19 R: no triangle blocks. Moved far off a room has the same R; only L grows. */
+ * A triangle blocks a segment only if both ends are farther than some noise from the triangle's plane, on different
+ * sides (occluded.c). So none blocks if both ends are in front of every plane, or slightly behind. Let R be the largest
+ * distance along an axis from the centre of the room's box, and L the largest coordinate. The noise is at least N =
+ * 2^-18 R + 2^-21 L: build.c ensures this for convex rooms only, in which no occluder could be missed. A plane stands
+ * for triangles with the same normal, bit by bit or negated, and corners within N / 4 of the plane. Points are tested
+ * against planes in binary64 and may be N / 4 behind; 2^-23 L of that allows for the rounding of coordinates. So an
+ * accepted point is at most N / 2 behind the plane of a triangle. The blocking test is in binary32: two dot products of
+ * a unit normal with differences of points, which are within R (1 + 2^-10) of the centre along each axis. A difference
+ * is wrong by 2^-24 of itself, and a product and its sums by 3 x 2^-24 more, for terms that sum up to at most 2 sqrt(3)
+ * R (1 + 2^-10). Both together are below 1.74 x 2^-20 R, which is less than the rest of N, at least 2^-19 R: no
+ * triangle blocks. A room far from the origin has the same R; only L grows. */
 #include <lambent/occlusion.h>
 
 #include "../base/vec.h"
@@ -20,8 +20,8 @@
 
 #if LMB_TREES
 
-#define ROOM 1.0009765625f /* 1 + 2^-10: how far out of its box rounding may lift a point */
-#define FAR  0.125f        /* of a coordinate against a step */
+#define ROOM 1.0009765625f /* 1 + 2^-10: how far rounding may move a point out of the box */
+#define FAR  0.125f        /* weight of a coordinate relative to a distance in the room */
 
 static double above(lmb_vec3 normal, lmb_vec3 at, lmb_vec3 p)
 {
@@ -34,14 +34,14 @@ static int is_same(lmb_vec3 a, lmb_vec3 b, float sign)
     return a.x == sign * b.x && a.y == sign * b.y && a.z == sign * b.z;
 }
 
-/* Triangle `id` and its normal; 0 where it blocks nothing. */
+/* Triangle `id` and its normal. Returns 0 if it blocks nothing. */
 static int take(lmb_triangle *t, lmb_vec3 *normal, const lmb_scene *scene, uint32_t id)
 {
     float area;
     return lmb_triangle_fetch(t, scene, id) && lmb_triangle_shape(normal, &area, t);
 }
 
-/* Do a triangle's normal and corners lie in plane k? */
+/* 1 if the normal and the corners of a triangle match plane k. */
 static int lies_in(const lmb_hull *h, int k, const lmb_triangle *t, lmb_vec3 normal)
 {
     int in = is_same(normal, h->normal[k], 1.0f) || is_same(normal, h->normal[k], -1.0f);
@@ -52,7 +52,7 @@ static int lies_in(const lmb_hull *h, int k, const lmb_triangle *t, lmb_vec3 nor
     return in;
 }
 
-/* Sets middle, reach, and slack by it. */
+/* Sets middle, reach and slack. */
 static void measure(lmb_hull *out, const lmb_scene *scene, uint32_t triangles)
 {
     lmb_triangle t;
@@ -70,7 +70,7 @@ static void measure(lmb_hull *out, const lmb_scene *scene, uint32_t triangles)
     out->slack = (step + FAR * maxf(largest3(low), largest3(high))) * (LMB_NOISE_HULL * 0.25f);
 }
 
-/* Are there more normals than a hull may have planes? Told after a few triangles of most scenes. */
+/* 1 if there are more normals than planes in a hull. In most scenes a few triangles decide this. */
 static int has_many_normals(lmb_hull *scratch, const lmb_scene *scene, uint32_t triangles)
 {
     lmb_triangle t;
@@ -93,7 +93,7 @@ static int has_many_normals(lmb_hull *scratch, const lmb_scene *scene, uint32_t 
     return 0;
 }
 
-/* Every plane once. 0 where there are too many. */
+/* Stores every plane once. Returns 0 if there are too many. */
 static int find_planes(lmb_hull *out, const lmb_scene *scene, uint32_t triangles)
 {
     lmb_triangle t;
@@ -118,7 +118,7 @@ static int find_planes(lmb_hull *out, const lmb_scene *scene, uint32_t triangles
     return 1;
 }
 
-/* Turn plane k's front to the scene; 0 where that lies on both its sides. */
+/* Turns the front of plane k towards the scene. Returns 0 if the scene lies on both sides. */
 static int turn_plane(lmb_hull *h, int k, const lmb_scene *scene, uint32_t triangles)
 {
     lmb_triangle t;

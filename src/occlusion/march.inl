@@ -1,21 +1,21 @@
 /* march.inl: does the segment from a pixel to an emitter cross the surface that the viewer sees? Layer 4. [V24 V25 V26]
  *
- * All in the viewer's depth map, where a plane is affine in d and a segment is straight. */
+ * All computed in the viewer's depth map, in which planes are affine in d and segments are straight. */
 
-/* Two stored depths a pixel apart are one surface when they differ by no more than this share, or by this many times
- * the step beside them: d is affine over a plane, so an edge-on wall steps evenly and a silhouette does not. */
+/* Two stored depths a pixel apart are one surface if they differ by at most this share, or by this many times the step
+ * beside them: d is affine over a plane, so an edge-on wall has even steps and a silhouette does not. */
 #define JUMP 0.02f
 #define SLOPE 2.0f
-/* Square of how deep behind its front a thing is taken to reach, in lengths of the segment that it hides: through the
- * middle of a ball a segment is half its hidden length behind the front. Trim at 0 / 1/2 / 1 length: corner_contact
- * 0.190 0.073 0.088, bunny_room 0.081 0.076 0.112, cornell 0.051 0.036 0.030, grazing_sun 0.059 0.065 0.083. */
+/* Square of the assumed depth of an object behind its front, in lengths of the segment that it hides: a segment through
+ * the centre of a ball is half the hidden length behind the front. Trim at 0 / 1/2 / 1 length: corner_contact 0.190
+ * 0.073 0.088, bunny_room 0.081 0.076 0.112, cornell 0.051 0.036 0.030, grazing_sun 0.059 0.065 0.083. */
 #define DEPTH_2 0.25f
 
-/* A vector of pixels in the viewer's frame, and the depth plane of each one's surface. */
+/* A vector of pixels in the viewer's frame, and the depth plane of each pixel's surface. */
 typedef struct seen_from {
     lane w;           /* m along the axis */
-    lane px, py, d;   /* place in the map */
-    lane dx, dy;      /* the surface's own plane: d per px */
+    lane px, py, d;   /* position in the map */
+    lane dx, dy;      /* plane of the surface: d per px */
 } seen_from;
 
 static inline lane3 march_view(const lmb_march_job *m, lane3 p)
@@ -38,7 +38,7 @@ static inline void march_place(lane *px, lane *py, lane *d, const lmb_march_job 
                         : lane_mul(lane_sub(lane_splat(m->far_m), v.z), lane_splat(1.0f / (m->far_m - m->near_m)));
 }
 
-/* d of the plane through v with normal n, per px: d is affine in the map, and so are the rays' dot products with n. */
+/* d of the plane through v with normal n, per px: d is affine in the map, as are the dot products of rays with n. */
 static inline lane_mask march_plane(lane *dx, lane *dy, const lmb_march_job *m, lane3 v, lane3 n)
 {
     lane nx = lane3_dot(n, lane3_splat(m->right.x, m->right.y, m->right.z));
@@ -81,7 +81,7 @@ static inline lane march_inside(lane from, lane to, float size)
     return lane_pick(leaves, lane_min(lane_max(share, zero), one), one);
 }
 
-/* Stored depth at whole pixels inside the map. */
+/* Stored depth at integer pixels inside the map. */
 static inline lane march_read(const lmb_march_job *m, lane x, lane y)
 {
     const lanei seven = lanei_splat(7), ix = lane_to_int(x), iy = lane_to_int(y);
@@ -101,17 +101,17 @@ static inline lane march_read(const lmb_march_job *m, lane x, lane y)
     return lane_keep(lane_lt(lane_splat(0.0f), code), d);
 }
 
-/* A run of segments in the map: from each pixel of a vector towards one emitter. */
+/* Segments in the map, from each pixel of a vector towards one emitter. */
 typedef struct march_run {
-    lane rise;     /* d of the segment's end over the pixel's own surface plane */
-    lane end_x, end_y, end_d;       /* the emitter's place */
-    lane end_dx, end_dy, end_rise;  /* its plane: d per px; d of the segment's start over it */
+    lane rise;     /* d of the segment's end above the pixel's surface plane */
+    lane end_x, end_y, end_d;       /* position of the emitter */
+    lane end_dx, end_dy, end_rise;  /* plane of the emitter: d per px; d of the segment's start above it */
     lane w_end;    /* m along the view's axis */
     lane end;      /* share of the segment that lies inside the frame */
-    lane samples;  /* one a px of it, at most m->steps */
+    lane samples;  /* one per px of that part, at most m->steps */
 } march_run;
 
-/* Over the whole segments, px. */
+/* Extent of the whole segments, px. */
 static inline lane march_x(const seen_from *s, const march_run *r) { return lane_sub(r->end_x, s->px); }
 static inline lane march_y(const seen_from *s, const march_run *r) { return lane_sub(r->end_y, s->py); }
 
@@ -122,14 +122,14 @@ static inline lane march_length(const seen_from *s, const march_run *r)
     return lane_max(lane_max(x, lane_sub(zero, x)), lane_max(y, lane_sub(zero, y)));
 }
 
-/* From `start`, in the viewer's axes. */
+/* Segments from `start`, in the viewer's axes. */
 static inline void march_towards(march_run *out, const lmb_march_job *m, const seen_from *s, lane3 start, lane3 at,
                                  lane3 axis)
 {
     march_run r;
     lane3 v = march_view(m, at);
     lane_mask level = march_plane(&r.end_dx, &r.end_dy, m, v, axis);
-    if (m->perspective) { /* cut where the segment passes the near plane */
+    if (m->perspective) { /* clip at the near plane */
         lane near_m = lane_splat(m->near_m);
         lane_mask behind = lane_lt(v.z, near_m);
         lane run = lane_pick(behind, lane_sub(start.z, v.z), lane_splat(1.0f));
@@ -146,7 +146,7 @@ static inline void march_towards(march_run *out, const lmb_march_job *m, const s
     r.end_d = d;
     const lane x = march_x(s, &r), y = march_y(s, &r);
     r.rise = lane_sub(lane_sub(d, s->d), lane_add(lane_mul(x, s->dx), lane_mul(y, s->dy)));
-    /* An emitter turned away from the viewer is not in the map: no surface of its own to step over. */
+    /* An emitter turned away from the viewer is not in the map, so it has no surface to step over. */
     r.end_rise = lane_sub(lane_sub(s->d, d),
                           lane_sub(lane_splat(0.0f), lane_add(lane_mul(x, r.end_dx), lane_mul(y, r.end_dy))));
     r.end_rise = lane_pick(level, r.end_rise, lane_splat(-1e30f));
@@ -156,11 +156,11 @@ static inline void march_towards(march_run *out, const lmb_march_job *m, const s
     *out = r;
 }
 
-/* The stored d at share t of the segments, and how far it stands over them: positive, and the viewer's surface hides
- * that place.
+/* Stored d at share t of the segments. Returns the height above the segments: if positive, the viewer's surface hides
+ * the point.
  *
- * Both heights are taken over the pixel's own surface plane, the stored one at its texel's middle. So a flat receiver
- * never shadows itself, however grazing the view, and no bias needs tuning. */
+ * Both heights are relative to the pixel's surface plane, the stored one at the centre of the texel. So a flat receiver
+ * never shadows itself at any viewing angle, and no bias needs tuning. */
 NOINLINE lane march_height(lane *stored, const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
 {
     const lane zero = lane_splat(0.0f), half = lane_splat(0.5f);
@@ -179,7 +179,7 @@ NOINLINE lane march_height(lane *stored, const lmb_march_job *m, const seen_from
     return lane_sub(*stored, lane_add(ray, slack));
 }
 
-/* Where along the segments sample i lies: equal steps of the map, or of the world seen in the map. */
+/* Position of sample i along the segments: equal steps of the map, or of the world as seen in the map. */
 static inline lane march_share(const lmb_march_job *m, const seen_from *s, const march_run *r, int i)
 {
     lane t = lane_div(lane_splat((float)i + 0.5f), r->samples);
@@ -200,8 +200,8 @@ static inline lane march_w(const lmb_march_job *m, lane d)
 
 static inline lane march_gap(lane a, lane b) { return lane_max(lane_sub(a, b), lane_sub(b, a)); }
 
-/* Between two samples on different sides of the viewer's surface: does the segment cross it there, or only pass
- * behind a silhouette? Halve the gap to about a pixel; a surface that then still jumps is two surfaces. */
+/* Between two samples on different sides of the viewer's surface: does the segment cross the surface, or pass behind a
+ * silhouette? Halves the gap to about a pixel; if the surface still jumps there, it is two surfaces. */
 LANE_NOINLINE lane_mask march_crosses(const lmb_march_job *m, const seen_from *s, const march_run *r, lane from,
                                       lane to, lane from_d, lane to_d, lane_mask from_hidden)
 {
@@ -237,9 +237,9 @@ static inline lane3 march_point(const lmb_march_job *m, const seen_from *s, cons
     return p;
 }
 
-/* A segment that was hidden from share `in` to `out`, never deeper than `gap` behind what hid it at its nearest:
- * through it, or behind it? Nobody has seen the far side. Things are taken to be about as deep as they are wide:
- * blocked where the segment comes nearer to the front than half its own hidden length. */
+/* A segment is hidden from share `in` to `out`. `gap`: smallest depth of the segment behind the front, m. Returns
+ * whether the segment passes through the object rather than behind it. The far side is unknown. Objects are assumed
+ * about as deep as wide: blocked if the segment comes closer to the front than half the hidden length. */
 LANE_NOINLINE lane_mask march_through(const lmb_march_job *m, const seen_from *s, const march_run *r, lane in, lane out,
                                       lane gap)
 {
@@ -247,10 +247,10 @@ LANE_NOINLINE lane_mask march_through(const lmb_march_job *m, const seen_from *s
     return lane_lt(lane_mul(gap, gap), lane_mul(lane_splat(DEPTH_2), lane3_dot(chord, chord)));
 }
 
-/* Which of the wanted segments from the pixels to one emitter cross nothing that the viewer sees.            [V25]
+/* Returns the wanted segments from the pixels to one emitter that cross nothing the viewer sees.            [V25]
  *
- * In the map a segment is straight and d is affine along it. A change of side across a surface that goes on blocks.
- * Where it passes behind a silhouette and comes out again, march_through decides; an end that stays hidden is taken as
+ * In the map a segment is straight and d is affine along it. A change of side across a continuous surface blocks. If
+ * the segment passes behind a silhouette and comes out again, march_through decides. An end that stays hidden counts as
  * open. */
 static inline lane_mask march(const lmb_march_job *m, const seen_from *s, const march_run *r, lane_mask wanted)
 {

@@ -41,7 +41,7 @@ int32_t lmb_march_setup(lmb_march_job *m, const lmb_occluder *o)
     if (d->format == LMB_DEPTH16) {
         float scale, bias;
         lmb_depth16_coding(&scale, &bias, v);
-        m->d16_scale = 1.0f / scale; /* codes are cut off, so this is the farther end: it occludes less, not more */
+        m->d16_scale = 1.0f / scale; /* codes are truncated, so this is the far end: it occludes less, not more */
         m->d16_bias = -bias / scale;
         m->slack = 1e-3f;
     }

@@ -4,7 +4,7 @@
 
 #include "../lane/kernels.h"
 
-/* 1 and the job, 0 where nothing occludes (NULL or LMB_OCCLUSION_NONE), or a negative lmb_status. */
+/* Returns 1 and sets the job, 0 if nothing occludes (NULL or LMB_OCCLUSION_NONE), or a negative lmb_status. */
 int32_t lmb_march_setup(lmb_march_job *job, const lmb_occluder *occluder);
 
 #endif

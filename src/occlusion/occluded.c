@@ -11,17 +11,18 @@
 
 #if LMB_TREES
 
-/* The number of leaves that are tested against the pyramid of all segments. Further leaves are tested against each
- * segment, because in a fine mesh most segments pass between triangles. */
+/* Number of leaves tested against the pyramid of all segments. Further leaves are tested against each segment, because
+ * in a fine mesh most segments pass between triangles. */
 #define BY_PYRAMID 4
-#define FEW        7      /* up to so many pixels are traced alone: in foliage they lie far apart, in a wide pyramid */
+#define FEW        7      /* up to this many pixels are traced one by one: in foliage they lie far apart, in a wide
+                             pyramid */
 #ifndef WIDE
-#define WIDE       8u    /* boxes a pixel over which a pyramid is given up: each pixel alone meets fewer */
+#define WIDE       8u    /* boxes per pixel at which a pyramid is abandoned: single pixels meet fewer */
 #endif
-#define ALONE      15u   /* points after such a one whose segments are traced alone at once */
-#define MUCH       16     /* a triangle that blocks so many pixels is tested first for the next segments */
-#define MISSES     2      /* after so many triangles that blocked only one pixel, none is tested for the others */
-#define THIN       1e-20f /* m: a pyramid is never thinner */
+#define ALONE      15u   /* number of following points traced pixel by pixel after an abandoned pyramid */
+#define MUCH       16     /* a triangle that blocks this many pixels is tested first for the next segments */
+#define MISSES     2      /* after this many triangles that block only one pixel, none is retried for the others */
+#define THIN       1e-20f /* m: minimum width of a pyramid */
 
 static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
 {
@@ -99,7 +100,7 @@ static int cross_job(lmb_cross_job *out, const lmb_bvh_triangle *t, lmb_vec3 at,
     return 1;
 }
 
-/* 0 where there is no such triangle. */
+/* Returns 0 if there is no such triangle. */
 NOINLINE int alpha_of(lmb_resolve_alpha *out, const lmb_bvh *b, uint32_t id)
 {
     lmb_triangle triangle;
@@ -110,7 +111,7 @@ NOINLINE int alpha_of(lmb_resolve_alpha *out, const lmb_bvh *b, uint32_t id)
     return 1;
 }
 
-/* Of the pixels whose segments cross a triangle with holes, those that do so where it stands. */
+/* Returns those pixels with segments across a triangle with holes that hit an opaque part. */
 static uint64_t standing(const lmb_bvh *b, const lmb_bvh_triangle *t, const lmb_cross_job *job, const lmb_tile *tile,
                          uint64_t crossed)
 {
@@ -139,10 +140,10 @@ typedef struct traversal {
     lmb_vec3 at;
     float noise; /* of both ends */
     lmb_traversal *kept;
-    uint64_t left; /* pixels that nothing blocked yet */
+    uint64_t left; /* pixels not blocked so far */
 } traversal;
 
-/* Remove the pixels of `asked` that one triangle blocks from those left. */
+/* Clears the pixels of `asked` that one triangle blocks. */
 static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
@@ -155,7 +156,7 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     }
 }
 
-/* 1 where they alone block all. */
+/* Tests the last occluders. Returns 1 if they block all pixels. */
 static int test_last(traversal *w)
 {
     for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0; ++i) {
@@ -181,13 +182,13 @@ static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t asked
     }
 }
 
-/* The tile's segments to one point as a whole. */
+/* All segments of the tile to one point. */
 typedef struct rays {
     lmb_pyramid pyramid;
-    int leaves; /* tested so far; from BY_PYRAMID + 1 on by the segments themselves */
+    int leaves; /* leaves tested so far; above BY_PYRAMID each segment is tested */
 } rays;
 
-/* A node whose leaves are tested, and which of its children wait: box i as bit LMB_BOXES - 1 - i. */
+/* A node with tested leaves, and the children still to visit: box i is bit LMB_BOXES - 1 - i. */
 typedef struct branch {
     uint32_t node, children;
 } branch;
@@ -217,7 +218,8 @@ static uint32_t test_node(traversal *w, rays *r, const lmb_boxes *node)
     return children;
 }
 
-/* The pixels left together, by one pyramid. 0 where that takes over `limit` boxes: some may still be blocked. */
+/* Traces the remaining pixels with one pyramid. Returns 0 if that takes over `limit` boxes: some may still be
+ * blocked. */
 static int trace_together(traversal *w, uint32_t limit)
 {
     const lmb_bvh *bvh = w->b;
@@ -278,8 +280,8 @@ static int crosses(const lmb_cross_job *job, lmb_vec3 d)
     return 0.0f - job->slack <= min && job->beyond < dot3(job->normal, d);
 }
 
-/* Does a triangle block this one pixel? The same as `crossed` says, to the bit, by the cheapest test first: turned
- * round, an edge's plane is exactly negated. */
+/* 1 if a triangle blocks this one pixel. Bit by bit the result of `crossed`, with the cheapest test first: the plane of
+ * a reversed edge is exactly negated. */
 static int blocks_one(traversal *w, uint32_t triangle, const ray *r)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
@@ -299,7 +301,7 @@ static int blocks_one(traversal *w, uint32_t triangle, const ray *r)
            (!(t->id & LMB_BVH_MASKED) || standing(w->b, t, &job, w->tile, w->left) != 0);
 }
 
-/* Of a node's boxes that the segment meets, the leaves: 1 where one blocks. *children: those that are nodes. */
+/* Tests the leaves of a node that the segment meets. Returns 1 if one blocks. *children: boxes that are nodes. */
 static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *node, const ray *r)
 {
     *children = 0;

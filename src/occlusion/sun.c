@@ -9,27 +9,27 @@
 
 #if LMB_TREES
 
-#define MUCH  16             /* a triangle that blocks so many pixels is tested first for the next rays */
-#define FEW   7              /* up to so many pixels are traced alone, as in occluded.c */
-#define WIDE  8u             /* boxes a pixel after which a sweep is given up: each pixel alone meets fewer */
-#define ALONE 15u            /* directions after such a one in which pixels are traced alone at once */
-#define MISSES 2             /* after so many triangles that blocked only one pixel, none is tested for the others */
-#define ALONG 9.5367432e-7f  /* 2^-20: cosine under which rays run along a triangle, and it blocks none */
+#define MUCH  16             /* a triangle that blocks this many pixels is tested first for the next rays */
+#define FEW   7              /* up to this many pixels are traced one by one, as in occluded.c */
+#define WIDE  8u             /* boxes per pixel after which a sweep is abandoned: single pixels meet fewer */
+#define ALONE 15u            /* number of following directions traced pixel by pixel after an abandoned sweep */
+#define MISSES 2             /* after this many triangles that block only one pixel, none is retried for the others */
+#define ALONG 9.5367432e-7f  /* 2^-20: below this cosine rays are parallel to a triangle, which then blocks none */
 #define THIN  1e-20f
-#define TRIANGLE_NOISE 0x1p-21f /* of how far its corners are */
+#define TRIANGLE_NOISE 0x1p-21f /* of the distance to the corners */
 
 typedef struct sun_traversal {
     const lmb_bvh *b;
     const lmb_kernels *kernels;
     const lmb_tile *tile;
-    lmb_vec3 at, to; /* a pixel of the tile, that numbers are small there; unit, towards the light */
+    lmb_vec3 at, to; /* at: a pixel of the tile, to keep differences small; to: unit, towards the light */
     lmb_traversal *kept;
-    float noise;   /* m: how far rounding may have left the pixels off their surfaces */
-    uint64_t left;    /* pixels that nothing blocked yet */
-    uint32_t blocker; /* number of the last triangle that blocked a pixel, + 1 */
+    float noise;   /* m: possible distance of pixels from their surfaces by rounding */
+    uint64_t left;    /* pixels not blocked so far */
+    uint32_t blocker; /* the last triangle that blocked a pixel, + 1 */
 } sun_traversal;
 
-/* 2^-22 of their coordinates and 2^-20 of how far the ray that found them came. */
+/* 2^-22 of the coordinates and 2^-20 of the length of the ray that found them. */
 static float noise_of(const lmb_tile *tile, uint64_t pixels)
 {
     float noise = 0.0f;
@@ -42,8 +42,8 @@ static float noise_of(const lmb_tile *tile, uint64_t pixels)
     return noise;
 }
 
-/* The planes that two triangles have through a shared edge are exact negatives of each other, so no ray passes between
- * them. Returns 0 where rays are parallel to the triangle. */
+/* The planes of two triangles through a shared edge are exact negatives of each other, so no ray passes between them.
+ * Returns 0 if rays are parallel to the triangle. */
 static int sun_job(lmb_sun_job *out, const sun_traversal *w, const lmb_bvh_triangle *t)
 {
     const lmb_vec3 a = sub3(t->corner[0], w->at), b = sub3(t->corner[1], w->at), c = sub3(t->corner[2], w->at);
@@ -72,7 +72,7 @@ static int sun_job(lmb_sun_job *out, const sun_traversal *w, const lmb_bvh_trian
     return 1;
 }
 
-/* Of the pixels whose rays cross a triangle with holes, those that do so where it stands. */
+/* Returns those pixels with rays across a triangle with holes that hit an opaque part. */
 static uint64_t sun_standing(const sun_traversal *w, const lmb_bvh_triangle *t, const lmb_sun_job *job,
                              uint64_t crossed)
 {
@@ -96,7 +96,7 @@ static uint64_t sun_standing(const sun_traversal *w, const lmb_bvh_triangle *t, 
     return out;
 }
 
-/* Does a triangle block this one pixel? The same as `sun_crossed` says, to the bit, by the cheapest test first. */
+/* 1 if a triangle blocks this one pixel. Bit by bit the result of `sun_crossed`, with the cheapest test first. */
 static int sun_blocks_one(const sun_traversal *w, const lmb_bvh_triangle *t, uint64_t pixel)
 {
     const lmb_vec3 d = sub3(tile_vec(w->tile->position, lowest_bit_64(pixel)), w->at);
@@ -130,7 +130,7 @@ static void test_triangle(sun_traversal *w, uint32_t triangle)
     }
 }
 
-/* Test the triangles that blocked many pixels lately. */
+/* Tests the triangles that recently blocked many pixels. */
 static void test_kept(sun_traversal *w)
 {
     for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0 && w->left != 0; ++i) {
@@ -172,7 +172,7 @@ static lmb_sun_sweep sweep_of(const sun_traversal *w)
     return s;
 }
 
-/* A node, and those of its boxes that wait, a bit each. */
+/* A node, and the boxes still to visit, one bit each. */
 typedef struct sun_branch {
     uint32_t node, boxes;
 } sun_branch;
@@ -188,14 +188,14 @@ static uint32_t sun_node(sun_traversal *w, const lmb_sun_sweep *sweep, const lmb
             ++w->kept->asked;
             ++w->kept->spent;
             test_box(w, node, i);
-        } else if (node->first[i] != 0) { /* the root is nobody's child: an empty box, met by a sweep of NaN */
+        } else if (node->first[i] != 0) { /* the root is no child: an empty box, met by a sweep of NaN */
             children |= 1u << i;
         }
     }
     return children;
 }
 
-/* The pixels left, as one sweep. 0 where that takes over `limit` boxes: some may still be blocked. */
+/* Traces the remaining pixels with one sweep. Returns 0 if that takes over `limit` boxes: some may still be blocked. */
 static int sun_descend(sun_traversal *w, uint32_t limit)
 {
     const lmb_sun_sweep sweep = sweep_of(w);
@@ -233,7 +233,7 @@ static uint64_t without_blocked(sun_traversal *w, uint64_t bits)
     return w->left;
 }
 
-/* Rays that fill a wide sweep, as from pixels that lie apart, meet most of its boxes one by one. */
+/* Rays that fill a wide sweep, such as those of scattered pixels, meet most of the sweep's boxes one by one. */
 static void sun_trace(sun_traversal *w)
 {
     const uint64_t pixels = w->left;

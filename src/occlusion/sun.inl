@@ -2,7 +2,7 @@
  *
  * Lanes are pixels, then boxes.
  *
- * The edges' planes lie along the rays: crossed.inl's with the point far away, to the order that is left. */
+ * The planes of the edges are parallel to the rays: the limit of crossed.inl for a distant point. */
 static uint64_t KERNEL(sun_crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_sun_job *job)
 {
     const lane3 at = lane3_of(job->at), n = lane3_of(job->normal);
@@ -23,8 +23,8 @@ static uint64_t KERNEL(sun_crossed)(const lmb_tile *tile, uint64_t pixels, const
     return out;
 }
 
-/* At share t the pixels' box is low + t d .. high + t d: it meets another from when the fronts touch until the backs
- * part. Each is wrong by some 2^-23 of itself. */
+/* At share t the pixels' box is low + t d .. high + t d. It meets another box from the time the fronts touch until the
+ * backs separate. Each time is wrong by about 2^-23 of itself. */
 static uint32_t KERNEL(sun_meets)(const lmb_sun_sweep *s, const lmb_boxes *boxes)
 {
     uint32_t out = 0;

@@ -1,6 +1,6 @@
-/* traversal.h: limits of a traversal: how deep the BVH may be, and how much rounding is allowed for. Layer 4.
+/* traversal.h: limits of a traversal: the depth of the BVH, and the allowance for rounding. Layer 4.
  *
- * Nothing here goes by the size of the scene: a triangle far away must not make walls leak. */
+ * Nothing here depends on the size of the scene: a distant triangle must not make walls leak. */
 #ifndef LMB_OCCLUSION_TRAVERSAL_H
 #define LMB_OCCLUSION_TRAVERSAL_H
 
@@ -8,33 +8,34 @@
 
 #include "../base/vec.h"
 
-/* Levels: eight for 2^31 triangles cut into sixteen by halves, and as many above for cuts that are not even. */
+/* Levels: eight for 2^31 triangles split evenly into sixteen, and as many again for uneven splits. */
 #define LMB_TRAVERSAL_LEVELS 16
 
-/* A place on a surface is a ray's length along it, added to the eye: of the distance, 8 roundings of the plane's
- * numbers and of rays up to twice as long as their way along the axis; of the coordinates, 4 of the sum's. */
+/* A position on a surface is the ray's length along it, added to the eye. Relative to the distance: 8 roundings, of the
+ * plane's values and of rays up to twice as long as their extent along the axis. Relative to the coordinates: 4
+ * roundings of the sum. */
 #define LMB_NOISE_DISTANCE 9.5367432e-7f /* 2^-20 */
 #define LMB_NOISE_PLACE    2.3841858e-7f /* 2^-22 */
 
-/* Of how far a segment's end is from a triangle's corners: 4 roundings of its height over the plane, and 4 of the
- * normal, which is not worked out as that by which the end was placed. */
+/* Relative to the distance of a segment's end from a triangle's corners: 4 roundings of the height above the plane, and
+ * 4 of the normal, which is computed differently from the one that positioned the end. */
 #define LMB_NOISE_TRIANGLE 4.7683716e-7f /* 2^-21 */
 
-/* Of the size of a convex room, where nothing can block: hull.c. */
+/* Relative to the size of a convex room, in which nothing can block: hull.c. */
 #define LMB_NOISE_HULL 3.8146973e-6f /* 2^-18 */
 
-/* 1 where one triangle (number + 1, as in lmb_traversal; 0: none) blocks all of the pixels from each of `count` points:
- * then from all that lies between these, too. 0 where it may have holes. Otherwise as lmb_occluded_tile. */
+/* Returns 1 if one triangle (number + 1, as in lmb_traversal; 0: none) blocks all pixels from each of `count` points,
+ * and so from all points between these. Returns 0 if the triangle may have holes. Otherwise as lmb_occluded_tile. */
 int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
                       const lmb_vec3 *at, int count, float noise, uint32_t triangle);
 
-/* Boxes that one pixel alone meets only where most of them lie over one another, as those of long needles do, or of a
- * mesh far from the origin. The pixels after it then go together, that each triangle is tested once for all of them. */
+/* A single pixel meets this many boxes only if most of them overlap, as for long slivers or for a mesh far from the
+ * origin. The pixels after it are then traced together, so that each triangle is tested once for all of them. */
 #define LMB_MANY_BOXES 256u
 
-#define LMB_TRAVERSAL_MOST 0x10000000 /* left at most, that no sum leaves its type */
+#define LMB_TRAVERSAL_MOST 0x10000000 /* maximum of `left`, so that no sum overflows */
 
-/* Begin a call: the pixels to test. */
+/* Begins a call. Returns the pixels to test. */
 static inline uint64_t traversal_begin(lmb_traversal *t, uint64_t pixels)
 {
     uint64_t asked = pixels;
@@ -52,10 +53,10 @@ static inline uint64_t traversal_begin(lmb_traversal *t, uint64_t pixels)
     return asked;
 }
 
-/* Has this call spent what it may? */
+/* 1 if this call has used up the tests. */
 static inline int traversal_is_over(const lmb_traversal *t) { return (int32_t)(t->spent - t->end) >= 0; }
 
-/* End it; before: `spent` at its begin. Returns what is occluded of all pixels. */
+/* Ends a call; before: `spent` at the start. Returns the occluded ones of all pixels. */
 static inline uint64_t traversal_end(lmb_traversal *t, uint32_t before, uint64_t pixels, uint64_t asked,
                                      uint64_t occluded)
 {
@@ -66,7 +67,8 @@ static inline uint64_t traversal_end(lmb_traversal *t, uint32_t before, uint64_t
     return asked == pixels ? occluded : occluded != 0 ? pixels : 0;
 }
 
-/* A tile begins: with tests of its own, and with nothing kept of another tile, which would change the count of tests. */
+/* Starts a tile: with a new budget of tests, and without occluders of another tile, which would change the number of
+ * tests. */
 static inline void traversal_bound(lmb_traversal *t)
 {
     for (int i = 0; i < LMB_LAST_OCCLUDERS; ++i) {
@@ -78,7 +80,7 @@ static inline void traversal_bound(lmb_traversal *t)
     t->spent = t->end = t->coarse = 0;
 }
 
-/* Put a triangle to the front of `count` numbers + 1; the last falls off where it is not among them. */
+/* Moves a triangle to the front of `count` numbers + 1. If it is not among them, the last one is dropped. */
 static inline void traversal_remember(uint32_t *last, int count, uint32_t triangle)
 {
     uint32_t moved = triangle + 1;
@@ -92,12 +94,12 @@ static inline void traversal_remember(uint32_t *last, int count, uint32_t triang
     }
 }
 
-/* How far boxes reach past what they hold: of their size and of their coordinates. */
+/* How far boxes extend beyond their contents, relative to size and coordinates. */
 #define LMB_BOX_SIZE  3.8146973e-6f /* 2^-18 */
 #define LMB_BOX_PLACE 9.5367432e-7f /* 2^-20 */
 
-/* Are the eye and a point on different sides of a plane? `ahead`: height of the point over the plane along the normal,
- * m. */
+/* 1 if the eye and a point are on different sides of a plane. `ahead`: height of the point over the plane along the
+ * normal, m. */
 static inline int eye_is_across(const lmb_traversal *t, lmb_vec3 normal, lmb_vec3 on_plane, float ahead)
 {
     const float eye = t->eye_kind == LMB_EYE_PLACE ? dot3(normal, sub3(t->eye, on_plane))
@@ -106,7 +108,7 @@ static inline int eye_is_across(const lmb_traversal *t, lmb_vec3 normal, lmb_vec
     return ahead > 0.0f ? eye < 0.0f : eye > 0.0f;
 }
 
-/* Distance (m) by which a triangle may be widened: half of the margin of its boxes, so that none is missed. */
+/* Distance (m) by which a triangle may be widened: half of the margin of boxes, so that none is missed. */
 static inline float triangle_margin(const lmb_bvh_triangle *t)
 {
     const lmb_vec3 low = min3(min3(t->corner[0], t->corner[1]), t->corner[2]),

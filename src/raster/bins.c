@@ -1,8 +1,8 @@
 /* bins.c: triangles set up once, into bins by rows of the frame, and drawn from there into windows. Layer 3.
  *
- * A bin has two lists of blocks, both in the triangles' order: of small triangles, LMB_BATCH side by side, and of large
- * ones, which know how many small ones come before them. A triangle lies in each bin that its box meets, and a bin is
- * drawn into its own rows alone: so each pixel meets its triangles once and in order, whatever the windows. */
+ * A bin has two lists of blocks, both in triangle order: small triangles, LMB_BATCH side by side, and large ones, which
+ * store how many small ones precede them. A triangle is in each bin that its box meets, and a bin draws only into its
+ * own rows. So each pixel meets its triangles once and in order, for any windows. */
 #include <lambent/bins.h>
 
 #if LMB_CULLING
@@ -16,7 +16,7 @@ enum { SMALL, LARGE, KINDS };
 enum { LINE = 64, ROWS_SHIFT = 7, BIN_BYTES = 1 << 20 };
 
 typedef struct bin {
-    uint32_t first[KINDS], last[KINDS]; /* blocks, where there are any */
+    uint32_t first[KINDS], last[KINDS]; /* blocks, if there are any */
     uint32_t count[KINDS];              /* triangles */
 } bin;
 
@@ -26,26 +26,26 @@ enum { MASKED = 1, BLENDS = 2 };
 typedef struct bin_large {
     lmb_screen_vertex corner[3];
     uint32_t id, flags;
-    uint32_t before; /* small ones of its bin */
+    uint32_t before; /* small triangles of the bin before it */
 } bin_large;
 
 enum { BLOCK_BYTES = sizeof(lmb_bin_block), LARGE_BYTES = sizeof(bin_large) };
-enum { LARGES = BLOCK_BYTES / LARGE_BYTES }; /* of a block */
+enum { LARGES = BLOCK_BYTES / LARGE_BYTES }; /* per block */
 
-/* What lies in the caller's memory. */
+/* Layout of the caller's memory. */
 typedef struct bin_pool {
     bin *bins;
-    uint32_t *next; /* of each block: the one behind it */
+    uint32_t *next; /* of each block: the following one */
     lmb_bin_block *block;
     uint32_t blocks, used;
-    int shift;             /* rows of a bin, a power of two */
-    int32_t width, height; /* that windows may reach */
-    int is_full;           /* nothing goes in any more */
+    int shift;             /* log2 of the rows of a bin */
+    int32_t width, height; /* limits of windows */
+    int is_full;           /* 1: no more triangles are added */
 } bin_pool;
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-/* 128 rows, or fewer where these are over a MiB of float depth. */
+/* log2 of 128 rows, or of fewer if these exceed a MiB of float depth. */
 static int rows_shift(const lmb_view *view)
 {
     int shift = ROWS_SHIFT;
@@ -55,7 +55,7 @@ static int rows_shift(const lmb_view *view)
     return shift;
 }
 
-/* Pixels of the frame and of its last tile, which windows may have, too. */
+/* Pixels of the frame and the rest of the last tile, which windows may include. */
 static int32_t with_last_tile(int32_t frame_px) { return frame_px + LMB_TILE - 1; }
 
 static uint32_t bin_count(const lmb_view *view)
@@ -83,7 +83,7 @@ size_t lmb_bins_bytes(const lmb_view *view, uint32_t triangles)
     return bytes <= SIZE_MAX ? (size_t)bytes : 0;
 }
 
-/* 0 where not even the bins fit. */
+/* Returns 0 if not even the bins fit. */
 static int pool_find(bin_pool *p, const lmb_bins *bins)
 {
     const size_t table = table_bytes(&bins->view), skip = (LINE - (uintptr_t)bins->memory % LINE) % LINE;
@@ -113,7 +113,7 @@ static void block_soon(const bin_pool *p, uint32_t i)
 
 /* --- into bins ---------------------------------------------------------------------------------------------------- */
 
-/* The block where the next triangle of a kind goes, and its place there; NULL where memory ends. */
+/* The block and place for the next triangle of a kind; NULL if memory is exhausted. */
 static inline lmb_bin_block *pool_place(bin_pool *p, bin *b, int kind, uint32_t per_block, uint32_t *place)
 {
     *place = b->count[kind] % per_block;
@@ -168,14 +168,14 @@ static int put_large(bin_pool *p, bin *b, const bin_large *large)
     return 1;
 }
 
-/* First and last pixels of 0 .. size - 1 whose samples lie between two places in 24.8. */
+/* First and last pixels in 0 .. size - 1 with a sample between two 24.8 positions. */
 static void span(int32_t *first, int32_t *last, int32_t low, int32_t high, int32_t origin, int32_t size)
 {
     *first = maxi((low + 255 - origin) >> 8, 0);
     *last = mini((high - origin) >> 8, size - 1);
 }
 
-/* 1, and *seen, where it has area and is not culled; 0 where memory ends. */
+/* Returns 0 if memory is exhausted. Sets *seen if the triangle has area and is not culled. */
 static int put_triangle(bin_pool *p, const lmb_draw_instance *d, const bin_large *large, int *seen)
 {
     const lmb_screen_vertex *a = &large->corner[0], *b = &large->corner[1], *c = &large->corner[2];
@@ -200,7 +200,7 @@ static int put_triangle(bin_pool *p, const lmb_draw_instance *d, const bin_large
     return 1;
 }
 
-/* Triangle k of a batch, whose id it is, in as many as a plane cuts it into. */
+/* Adds triangle k of a batch, with this id, as the triangles that clipping leaves. */
 static int put_other(bin_pool *p, const lmb_draw_instance *d, const lmb_bin_batch *from, int k, uint32_t id, int *seen)
 {
     const uint32_t whole = from->whole & ~from->sets.small;
@@ -226,7 +226,7 @@ static int put_other(bin_pool *p, const lmb_draw_instance *d, const lmb_bin_batc
     return 1;
 }
 
-/* One that is small goes to each bin of its rows. */
+/* Adds a small triangle to each bin of its rows. */
 static inline int put_rows(bin_pool *p, const lmb_bin_batch *from, int k, uint32_t id)
 {
     for (int32_t i = from->y0[k] >> p->shift; i <= from->y1[k] >> p->shift; ++i) {
@@ -237,7 +237,7 @@ static inline int put_rows(bin_pool *p, const lmb_bin_batch *from, int k, uint32
     return 1;
 }
 
-/* What is being built. */
+/* State of a build. */
 typedef struct bin_builder {
     bin_pool pool;
     lmb_bins *bins;
@@ -248,7 +248,7 @@ typedef struct bin_builder {
     lmb_bin_batch batch;
 } bin_builder;
 
-/* The triangle's place in bins, if there is memory. */
+/* Adds the triangle to bins, if there is memory. */
 static void put(bin_builder *b, const lmb_draw_instance *d, int k, uint32_t id, int is_other, uint32_t *drawn)
 {
     bin_pool *p = &b->pool;
@@ -265,7 +265,7 @@ static void put(bin_builder *b, const lmb_draw_instance *d, int k, uint32_t id, 
     }
 }
 
-/* Bits of a set. */
+/* Number of bits in a set. */
 static uint32_t set_size(uint32_t bits) { return (uint32_t)count_bits_16(bits); }
 
 static void build_batch(bin_builder *b, const lmb_draw_instance *d, uint32_t id, uint32_t count)
@@ -285,7 +285,7 @@ static void build_batch(bin_builder *b, const lmb_draw_instance *d, uint32_t id,
     }
 }
 
-/* Triangles first .. past - 1 of an instance: batches, but for clusters outside the frame. */
+/* Triangles first .. past - 1 of an instance, in batches; skips clusters outside the frame. */
 static void build_instance(bin_builder *b, const lmb_draw_instance *d, uint32_t first, uint32_t past)
 {
     while (first < past && !(b->pool.is_full && b->stats == NULL)) {
@@ -309,7 +309,7 @@ static void build_instance(bin_builder *b, const lmb_draw_instance *d, uint32_t 
     }
 }
 
-/* An instance in a window without memory, as far as windows may reach. */
+/* An instance in a window without memory, as large as windows may be. */
 NOINLINE void set_instance(lmb_draw_instance *out, const lmb_bins *bins, const lmb_instance *instance)
 {
     lmb_target frame;
@@ -323,7 +323,7 @@ NOINLINE void set_instance(lmb_draw_instance *out, const lmb_bins *bins, const l
     lmb_draw_instance_set(out, &c, instance, bins->flags);
 }
 
-/* What clusters are asked for in. */
+/* The frame in which clusters are tested. */
 static void set_frame(bin_builder *b, const lmb_view *view)
 {
     memset(&b->frame, 0, sizeof b->frame);
@@ -359,7 +359,7 @@ static void build_all(bin_builder *b, const lmb_culling *culling)
     }
 }
 
-/* Empty places of each bin's last block hold numbers. */
+/* Fills empty places in each bin's last block with valid numbers. */
 static void fill_up(const bin_pool *p, uint32_t bins)
 {
     for (uint32_t n = 0; n < bins; ++n) {
@@ -397,7 +397,7 @@ lmb_status lmb_bins_build(lmb_bins *bins, const lmb_kernels *kernels, const lmb_
     if (pool_find(&b.pool, bins)) {
         memset(b.pool.bins, 0, bin_count(view) * sizeof(bin));
     } else {
-        b.pool.is_full = 1; /* triangles are counted and nothing else */
+        b.pool.is_full = 1; /* triangles are only counted */
         bins->past_id = first_id;
     }
     build_all(&b, culling);
@@ -409,14 +409,14 @@ lmb_status lmb_bins_build(lmb_bins *bins, const lmb_kernels *kernels, const lmb_
 
 /* --- out of bins -------------------------------------------------------------------------------------------------- */
 
-/* What one bin is drawn with. */
+/* State for drawing one bin. */
 typedef struct bin_drawing {
     lmb_fill_context context;
     lmb_setup_job job;
     const bin_pool *pool;
     const bin *bin;
-    uint32_t large, large_block; /* the next large one: how many came before, and its block */
-    uint32_t asked, asks;        /* blocks that were asked for; that are to be */
+    uint32_t large, large_block; /* the next large one: index and block */
+    uint32_t asked, asks;        /* tested blocks; blocks still to be tested */
 } bin_drawing;
 
 static void draw_large(const lmb_fill_context *c, const bin_large *l)
@@ -432,7 +432,7 @@ static void draw_large(const lmb_fill_context *c, const bin_large *l)
     }
 }
 
-/* The next large one, if it comes before the bin's small one number `past`; else NULL. */
+/* The next large triangle if it precedes the bin's small one number `past`; otherwise NULL. */
 static const bin_large *next_large(bin_drawing *d, uint32_t past)
 {
     const uint32_t i = d->large % LARGES;
@@ -448,8 +448,8 @@ static const bin_large *next_large(bin_drawing *d, uint32_t past)
     return large;
 }
 
-/* A block of `count` small triangles, of which `first` came before, and the large ones between them: without ids these
- * come first, as the nearest depth is the same in any order. */
+/* A block of `count` small triangles after `first` earlier ones, and the large ones between them. Without ids the large
+ * ones come first, because the nearest depth is the same in any order. */
 static void draw_block(bin_drawing *d, lmb_batch *batch, const lmb_bin_block *block, uint32_t first, uint32_t count,
                        int hidden)
 {
@@ -472,7 +472,7 @@ static void draw_block(bin_drawing *d, lmb_batch *batch, const lmb_bin_block *bl
     }
 }
 
-/* Does what is drawn hide all of a full block? Each fourth is asked for, and those after one that was hidden. */
+/* 1 if drawn surfaces hide all of a full block. Tests each fourth block, and blocks that follow a hidden one. */
 static int is_hidden(bin_drawing *d, const lmb_bin_block *block)
 {
     enum { EACH = 4, AFTER = 16 };
@@ -538,7 +538,8 @@ static void clear_rows(const bin_drawing *d)
     }
 }
 
-/* What is set up of `count` bins, one's rows after the other's. Apart, as what did not fit needs the stack, too. */
+/* Draws the binned triangles of `count` bins, row by row of bins. A separate function, because draw_rest needs the
+ * stack, too. */
 NOINLINE void draw_rows(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
                       int32_t clear, const lmb_culling *culling)
 {
@@ -565,7 +566,7 @@ NOINLINE void draw_rows(const lmb_target *target, const lmb_kernels *kernels, co
     }
 }
 
-/* What did not fit. */
+/* Draws the triangles that did not fit into bins. */
 static lmb_status draw_rest(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *b,
                             const lmb_culling *culling)
 {

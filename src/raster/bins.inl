@@ -1,8 +1,8 @@
-/* bins.inl: a batch's set-up in two halves: corners on the screen, which bins keep, then edges and planes. Layer 3.
+/* bins.inl: a batch's set-up in two halves: corners on the screen, which bins store, then edges and planes. Layer 3.
  *
- * The sums are setup.inl's, value by value. */
+ * The sums are those of setup.inl, value by value. */
 
-/* Both are under 2^15. */
+/* Both are below 2^15. */
 LANE_INLINE lanei bin_pair(lanei x, lanei y) { return lanei_add(x, lanei_mul(y, lanei_splat(65536))); }
 
 /* Triangles k .. k + LANES - 1, from their corners. */
@@ -105,7 +105,7 @@ static void KERNEL(bin_setup)(lmb_batch *out, const lmb_setup_job *job, const lm
     }
 }
 
-/* Tiles of a window between the lowest of `low` and the highest of what `minus_high` is the negative of, 24.8. */
+/* Range of a window's tiles from the lowest of `low` to the highest of -minus_high, 24.8. */
 LANE_INLINE void bin_tiles(int32_t *first, int32_t *last, lane low, lane minus_high, int32_t origin, int32_t min,
                            int32_t max)
 {
@@ -115,7 +115,7 @@ LANE_INLINE void bin_tiles(int32_t *first, int32_t *last, lane low, lane minus_h
     *last = ((last_px < max ? last_px : max) - min) / LMB_TILE;
 }
 
-/* Numbers of 24.8 are exact in binary32. */
+/* 24.8 numbers are exact in binary32. */
 static float KERNEL(bin_box)(lmb_tile_box *out, const lmb_setup_job *job, const lmb_bin_block *block)
 {
     const lane zero = lane_splat(0.0f);

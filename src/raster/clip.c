@@ -1,8 +1,8 @@
 /* clip.c: a triangle in clip space against the near plane and the guard band. Layer 3.
  *
- * Sutherland-Hodgman. Two triangles that share an edge must cut it at the same bits, whichever way they walk it: the
- * intersection is always computed from the endpoint nearer to the plane, then the smaller bit pattern. (From the one
- * with the smaller outcode an edge from 0.005 m to 10^6 m lost all of its w at the near plane.) */
+ * Sutherland-Hodgman. Two triangles that share an edge must cut it at the same bits in either direction, so the
+ * intersection is always computed from the endpoint nearer to the plane, then from the smaller bit pattern. (From the
+ * endpoint with the smaller outcode, an edge from 0.005 m to 10^6 m lost all precision of w at the near plane.) */
 #include "clip.h"
 
 #include <string.h>

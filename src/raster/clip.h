@@ -10,7 +10,7 @@ typedef struct lmb_clip_vertex {
     uint32_t code;
 } lmb_clip_vertex;
 
-/* Guard band in units of w: how far past the frame's edge coordinates still fit 24.8 (set by the frame's size). */
+/* Guard band in units of w: how far past the frame's edge coordinates still fit 24.8 (depends on the frame's size). */
 typedef struct lmb_clip_guard {
     float x, y;
 } lmb_clip_guard;
@@ -20,7 +20,8 @@ enum { CLIP_NEAR = 1, CLIP_LEFT = 2, CLIP_RIGHT = 4, CLIP_TOP = 8, CLIP_BOTTOM =
 
 uint32_t lmb_clip_code(const lmb_clip_vertex *v, const lmb_clip_guard *guard);
 
-/* Cut the triangle in polygon[0..2] by the planes in `planes`; returns its corner count, 0 or 3 .. LMB_CLIP_MAX. */
+/* Clips the triangle in polygon[0..2] by the planes in `planes`. Returns the number of corners, 0 or 3 ..
+ * LMB_CLIP_MAX. */
 int lmb_clip_polygon(lmb_clip_vertex polygon[LMB_CLIP_MAX], uint32_t planes, const lmb_clip_guard *guard);
 
 #endif

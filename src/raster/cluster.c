@@ -1,15 +1,15 @@
 /* cluster.c: boxes around runs of a mesh's triangles, and whether a window shows any of one. Layer 3.
  *
  * A corner goes from model space to the window by sums, products and quotients that each round monotonically. So the
- * same operations on the ends of intervals bound what they give for every corner in the box, and nothing needs a
- * margin. A cluster that is clipped in part is never hidden: cut corners come from other operations. */
+ * same operations on the ends of intervals bound the results for every corner in the box, without a margin. A cluster
+ * that is partly clipped is never hidden, because cut corners come from other operations. */
 #include "cluster.h"
 
 #if LMB_CULLING
 #include "../base/vec.h"
 #include "../base/vertex.h"
 
-/* Kernels read as many bounds as they have lanes, past the last tile too. */
+/* Kernels read as many bounds as they have lanes, also past the last tile. */
 enum { BESIDE = 15 };
 
 uint32_t lmb_culling_tiles(const lmb_target *target)
@@ -50,8 +50,8 @@ const lmb_cluster *lmb_cluster_find(lmb_cluster_place *place, const lmb_culling 
     return place->clusters;
 }
 
-/* Of triangles first .. past - 1. Where one of them is dropped when it is drawn, the box is so large that it is never
- * left out: such triangles are counted. */
+/* Box of triangles first .. past - 1. If drawing would drop one of them, the box is so large that it is never skipped:
+ * such triangles are counted. */
 static lmb_cluster cluster_of(const lmb_mesh *mesh, uint32_t first, uint32_t past)
 {
     const lmb_cluster unbounded = {{-3e38f, -3e38f, -3e38f}, {3e38f, 3e38f, 3e38f}};
@@ -106,7 +106,7 @@ static interval interval_add(interval a, interval b)
     return r;
 }
 
-/* A row of the instance over the box, in setup.inl's order of sums. */
+/* A row of the instance over the box, with the order of sums of setup.inl. */
 static interval row_over(const float row[4], const lmb_cluster *c)
 {
     const interval x = interval_times(row[0], c->low.x, c->high.x), y = interval_times(row[1], c->low.y, c->high.y),
@@ -116,12 +116,12 @@ static interval row_over(const float row[4], const lmb_cluster *c)
 
 static int interval_is_sane(interval a) { return a.low > -1048576.0f && a.high < 1048576.0f; }
 
-/* Corners before the division, as setup_point. */
+/* Corners before the division, as in setup_point. */
 typedef struct cluster_points {
     interval x, y, z, w;
 } cluster_points;
 
-/* 0 where a corner may be absurd. */
+/* Returns 0 if a corner may be absurd. */
 static int cluster_project(cluster_points *out, const lmb_cluster *c, const lmb_setup_job *job)
 {
     const interval x = row_over(job->row[0], c), y = row_over(job->row[1], c), along = row_over(job->row[2], c);
@@ -137,7 +137,7 @@ static int cluster_project(cluster_points *out, const lmb_cluster *c, const lmb_
     return interval_is_sane(x) && interval_is_sane(y) && interval_is_sane(along);
 }
 
-/* Is all of it outside one plane? */
+/* 1 if all of it is outside one plane. */
 static int cluster_is_outside(const cluster_points *p, const lmb_setup_job *job)
 {
     const float wide = job->guard_x * p->w.high, high = job->guard_y * p->w.high;
@@ -145,7 +145,7 @@ static int cluster_is_outside(const cluster_points *p, const lmb_setup_job *job)
            high - p->y.low < 0.0f || high + p->y.high < 0.0f;
 }
 
-/* Is all of it inside all planes? */
+/* 1 if all of it is inside all planes. */
 static int cluster_is_inside(const cluster_points *p, const lmb_setup_job *job)
 {
     const float wide = job->guard_x * p->w.low, high = job->guard_y * p->w.low;
@@ -160,7 +160,7 @@ static interval interval_product(interval a, interval positive)
     return r;
 }
 
-/* First and last tile of the window with a pixel centre between two places in 24.8; 0 where there is none. */
+/* First and last tile of the window with a pixel centre between two 24.8 positions. Returns 0 if there is none. */
 static int cluster_tiles(int32_t *first, int32_t *last, float low, float high, int32_t origin, int32_t window,
                          int32_t tiles)
 {

@@ -5,24 +5,25 @@
 #include "../lane/kernels.h"
 
 #if LMB_CULLING
-/* Where the clusters of a mesh begin. */
+/* The place of a mesh's clusters. */
 typedef struct lmb_cluster_place {
-    const lmb_cluster *clusters; /* NULL: none was looked for yet */
+    const lmb_cluster *clusters; /* NULL: not searched yet */
     uint32_t mesh;
-    uint32_t asked, asks; /* clusters whose small triangles read bounds: so far; to come */
+    uint32_t asked, asks; /* clusters with small triangles that read bounds: so far; still to come */
 } lmb_cluster_place;
 
-/* The clusters of a mesh, looked for from the place that was found before. */
+/* The clusters of a mesh; the search starts at the place found last. */
 const lmb_cluster *lmb_cluster_find(lmb_cluster_place *place, const lmb_culling *culling, const lmb_scene *scene,
                                     uint32_t mesh);
 
-/* A depth as the window holds it. */
+/* A depth in the window's format. */
 float lmb_depth_as_held(const lmb_fill_window *window, float d);
 
-/* Shown or not known; outside the window; hidden by what is drawn. */
+/* Shown or unknown; outside the window; hidden by drawn surfaces. */
 enum { LMB_CLUSTER_SHOWN, LMB_CLUSTER_OUTSIDE, LMB_CLUSTER_HIDDEN };
 
-/* Not LMB_CLUSTER_SHOWN where no triangle of the cluster can change a pixel of the window. The job is the instance's. */
+/* Returns LMB_CLUSTER_OUTSIDE or LMB_CLUSTER_HIDDEN only if no triangle of the cluster can change a pixel of the
+ * window. job: of the instance. */
 int lmb_cluster_is_hidden(const lmb_cluster *cluster, const lmb_setup_job *job, const lmb_fill_window *window,
                           const lmb_kernels *kernels);
 #endif

@@ -1,10 +1,10 @@
-/* culled.inl: the fill kernels where each tile of a window has a bound of its farthest depth. Layer 3.
+/* culled.inl: the fill kernels for windows with a bound of the farthest depth in each tile. Layer 3.
  *
- * What a triangle hides behind a whole tile is left out. The bound is at most every depth of the tile; against it
- * stands the nearest depth that the triangle's plane takes over its part of the tile: at one corner, by the operations
- * that each pixel goes through. These round monotonically, so no pixel lies nearer, and the comparison needs no margin.
- * Equal depths are left out, too, as the earlier draw stays. Else pixels are fill_small.inl's and fill_large.inl's,
- * value by value. */
+ * Triangles behind a whole tile are skipped. The bound is at most every depth of the tile. It is compared with the
+ * nearest depth of the triangle's plane over the covered part of the tile, at one corner, by the same operations as for
+ * each pixel. These round monotonically, so no pixel is nearer, and the comparison needs no margin. Equal depths are
+ * skipped, too, because the earlier draw stays. All other pixels are those of fill_small.inl and fill_large.inl, value
+ * by value. */
 
 /* The farthest depth of a tile. */
 LANE_INLINE float culled_look(const lmb_fill_tile *tile)
@@ -54,7 +54,7 @@ LANE_INLINE float *culled_bound(const lmb_fill_window *w, ptrdiff_t across, ptrd
     return w->farthest + down * w->tiles_x + across;
 }
 
-/* e: the edges at the tile's pixel (0, box->first_row) - but for tiled ones, which all is drawn of, (0, 0). */
+/* e: the edges at the tile's pixel (0, box->first_row), or for tiled kinds, which draw the whole tile, at (0, 0). */
 LANE_INLINE void culled_cross(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t,
                               const int32_t e[3], const fill_box *box, float *bound, int kind)
 {
@@ -71,32 +71,33 @@ LANE_INLINE void culled_cross(const lmb_fill_tile *tile, const lmb_fill_job *job
 
 /* --- rows of tiles ------------------------------------------------------------------------------------------------ */
 
-/* A plane over tiles: (near_x, near_y) and (far_x, far_y) are its nearest and farthest places in each. */
+/* A plane over tiles. In each tile it is nearest at (near_x, near_y) and farthest at (far_x, far_y). */
 typedef struct culled_plane {
     double d_origin, d_x;
     float dx, dy, d_min, d_max, near_x, near_y, far_x, far_y;
 } culled_plane;
 
-/* Depths as the target holds them. */
+/* Depths in the target's format. */
 LANE_INLINE lane culled_codes(lane d, const lmb_fill_tile *tile, const lmb_fill_job *job)
 {
     return tile->depth_format == LMB_DEPTH32F ? d : fill_depth_16(d, job);
 }
 
-/* The depth at (x, y) of tiles whose first pixels have depths `first`, before it is held in the triangle's range. */
+/* The depth at (x, y) of tiles with the depths `first` at their first pixels, before clamping to the triangle's
+ * range. */
 LANE_INLINE lane culled_at(lane first, const culled_plane *plane, float x, float y)
 {
     return lane_add(lane_add(first, lane_splat(plane->dy * y)), lane_splat(plane->dx * x));
 }
 
-/* A plane over LANES tiles beside each other. */
+/* A plane over LANES adjacent tiles. */
 typedef struct culled_tiles {
-    lane first, far; /* depths: at first pixels; the farthest, as pixels take it */
-    uint32_t seen;   /* those that it may show in */
-    uint32_t leaves; /* those where it may leave the triangle's range */
+    lane first, far; /* depths: at first pixels; the farthest, as for pixels */
+    uint32_t seen;   /* tiles it may show in */
+    uint32_t leaves; /* tiles in which it may leave the triangle's range */
 } culled_tiles;
 
-/* Of tiles from `bound` on. */
+/* Compares with the bounds from `bound` on. */
 LANE_INLINE void culled_ask(culled_tiles *out, lane first, const culled_plane *plane, const lmb_fill_tile *tile,
                             const lmb_fill_job *job, const float *bound)
 {
@@ -140,7 +141,7 @@ static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, u
 
 #define ALL_TILES ((1u << LANES) - 1)
 
-/* What a row of tiles is drawn by. */
+/* State for drawing a row of tiles. */
 typedef struct culled_row {
     const lmb_fill_window *w;
     const lmb_setup *s;
@@ -160,7 +161,7 @@ LANE_INLINE void culled_large_crossed(const culled_row *r, large3 at, float *bou
     culled_cross(r->tile, r->job, r->t, e, &all, bound, kind);
 }
 
-/* The tile below is likely to be drawn soon, and lies far off in memory; there may be none. */
+/* Prefetches the tile below, which is likely to be drawn soon and is far away in memory. It may not exist. */
 LANE_INLINE void culled_soon(const culled_row *r)
 {
     const uintptr_t below = (uintptr_t)r->tile->depth + (uintptr_t)(intptr_t)r->w->depth_row;
@@ -170,14 +171,15 @@ LANE_INLINE void culled_soon(const culled_row *r)
     MESH_SOON((const void *)(below + 192));
 }
 
-/* Tiles `some` of those from tx on, all inside all edges: no pixel of them stays farther than the plane's farthest. */
+/* Tiles `some` of those from tx on, all inside all edges: no pixel stays farther than the plane's farthest depth. */
 LANE_INLINE void culled_large_run(const culled_row *r, const culled_tiles *tiles, const float *d, int32_t tx,
                                   uint32_t some, int kind)
 {
     float *bound = culled_bound(r->w, tx, r->ty);
     const lane old = lane_load(bound);
     lane_store(bound, lane_pick(mask_of_bits(some), lane_max(old, tiles->far), old));
-    if (some == ALL_TILES && (tiles->leaves & ALL_TILES) == 0) { /* places that wait for no mask: more runs ahead */
+    if (some == ALL_TILES && (tiles->leaves & ALL_TILES) == 0) { /* addresses do not depend on a mask: more runs
+                                                                    ahead */
         culled_set_tile(r->tile, r->w, tx, r->ty);
         large_run(r->w, r->tile, r->job, r->t, r->whole, d, LANES, 0, kind);
         return;
@@ -197,14 +199,14 @@ LANE_INLINE void culled_large_run(const culled_row *r, const culled_tiles *tiles
     }
 }
 
-/* Do LANES tiles lie inside all edges? */
+/* 1 if LANES tiles lie inside all edges. */
 LANE_INLINE int culled_all_inside(const large_edges *edges, large3 at)
 {
     const large3 low = large_add(at, edges->low);
     return !large_negative(low) && !large_negative(large_add(low, large_times(edges->step_x, LANES - 1)));
 }
 
-/* The first `count` tiles, at most LANES, from tx on, where edges are `at`. */
+/* The first `count` tiles, at most LANES, from tx on, with edges `at`. */
 LANE_INLINE void culled_large_tiles(const culled_row *r, const culled_tiles *tiles, large3 at, int32_t tx,
                                     int32_t count, int kind)
 {
@@ -290,7 +292,7 @@ LANE_INLINE void culled_large_fill(const lmb_fill_window *w, const lmb_setup *s,
     }
 }
 
-/* Apart, as each has its own stack. */
+/* Separate functions, each with a separate stack frame. */
 NOINLINE void culled_large_plain(const lmb_fill_window *w, const lmb_setup *s)
 {
     culled_large_fill(w, s, 0, FILL_PLAIN);
@@ -321,7 +323,7 @@ static void KERNEL(culled_large)(const lmb_fill_window *w, const lmb_setup *s, u
     }
 }
 #else
-/* Where lanes are fewer, asking costs as much as it saves, and bounds stay as they are. */
+/* With fewer lanes, the test costs as much as it saves, and bounds do not change. */
 static void KERNEL(culled_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits)
 {
     KERNEL(fill_small)(w, b, bits);

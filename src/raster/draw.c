@@ -1,10 +1,9 @@
 /* draw.c: a range of the scene's triangles into a window. Layer 3.
  *
  * Batches of LMB_BATCH triangles are transformed and set up side by side (setup.inl); small ones are filled in runs
- * (fill_small.inl). What is clipped, large or full of holes goes one by one through draw_one.c, in its place in the
- * order. Corners are transformed anew for each triangle: looking shared ones up costs as much as it saves once eight
- * are transformed at a time (bunny, AVX2: 4.2 ms with a cache, 4.4 without), and takes memory. Backends of one lane keep
- * a few. */
+ * (fill_small.inl). Triangles that are clipped, large or have holes go one by one through draw_one.c, in order. Corners
+ * are transformed again for each triangle: if eight are transformed at a time, a cache costs as much as it saves
+ * (bunny, AVX2: 4.2 ms with a cache, 4.4 without), and takes memory. Backends with one lane have a small cache. */
 #include <lambent/raster.h>
 
 #include <string.h>
@@ -13,7 +12,7 @@
 #include "target.h"
 #include "triangle.h"
 
-#define GUARD_PX 16383.0f /* from the frame's middle; one px of rounding short of what setup.c can take */
+#define GUARD_PX 16383.0f /* from the frame's centre; one px of rounding below the limit of setup.c */
 
 static void set_row(float row[4], lmb_vec3 axis, float sign, const lmb_mat4 *t, lmb_vec3 eye)
 {
@@ -22,7 +21,7 @@ static void set_row(float row[4], lmb_vec3 axis, float sign, const lmb_mat4 *t, 
     for (int c = 0; c < 3; ++c) {
         row[c] = dot3(a, vec3(m[4 * c], m[4 * c + 1], m[4 * c + 2]));
     }
-    /* Subtract before rotating: a world far from its origin keeps its millimetres. */
+    /* Subtract before rotating: a world far from its origin keeps millimetre precision. */
     row[3] = dot3(a, sub3(vec3(m[12], m[13], m[14]), eye));
 }
 
@@ -60,7 +59,7 @@ void lmb_draw_instance_set(lmb_draw_instance *d, const lmb_fill_context *c, cons
     d->first_id = instance->first_id;
 }
 
-/* In order: runs of small triangles by the kernels, the others one by one between them. */
+/* Draws in order: runs of small triangles with the kernels, the others one by one between them. */
 static void draw_batch(const lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch, uint32_t count,
                        uint32_t id, lmb_stats *stats)
 {
@@ -101,8 +100,8 @@ static void draw_triangles(const lmb_fill_context *c, const lmb_draw_instance *d
 #if LMB_CULLING
 enum { CLUSTERS_ASK = 16 };
 
-/* Reading bounds takes small triangles longer than drawing does where nothing is hidden, so they do so only for some
- * clusters after one that was hidden as a whole. Raising them takes longer still: each fourth cluster's do. */
+/* If nothing is hidden, reading bounds takes small triangles longer than drawing does, so only some clusters after an
+ * entirely hidden one read them. Raising bounds takes even longer: one cluster in four does. */
 static int32_t cluster_bounds(lmb_cluster_place *place)
 {
     if (place->asks == 0) {
@@ -112,7 +111,7 @@ static int32_t cluster_bounds(lmb_cluster_place *place)
     return place->asked++ % 4 == 0 ? LMB_BOUNDS_RAISED : LMB_BOUNDS_READ;
 }
 
-/* The same, but for clusters that the window shows nothing of. */
+/* The same, but skips clusters that do not show in the window. */
 static void draw_clusters(lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch,
                           const lmb_cluster *clusters, uint32_t first, uint32_t past, lmb_stats *stats)
 {
@@ -150,7 +149,7 @@ static void draw_instance_range(lmb_fill_context *c, lmb_batch *batch, const lmb
     draw_triangles(c, &d, batch, first, past, stats);
 }
 
-/* All of a context but how it culls. */
+/* Sets the context except for culling. */
 static lmb_status set_context(lmb_fill_context *out, const lmb_target *target, const lmb_kernels *kernels,
                               const lmb_view *view, const lmb_scene *scene, uint32_t first_id)
 {

@@ -1,11 +1,11 @@
 /* draw_one.c: draws one triangle that is clipped, large or has holes into a window. Layer 3.
  *
- * Its corners are read and transformed once more: few triangles come here, and a batch need not keep them. */
+ * The corners are read and transformed again: few triangles come here, so a batch need not store them. */
 #include "draw_one.h"
 
 #include "../base/vertex.h"
 
-#define SNAP_MAX 4194304.0f /* 24.8: LMB_MAX_FRAME px from the middle, which is what setup.c takes */
+#define SNAP_MAX 4194304.0f /* 24.8: LMB_MAX_FRAME px from the centre, the limit of setup.c */
 
 static float row_point(const float row[4], lmb_vec3 p) { return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]; }
 
@@ -22,7 +22,7 @@ static lmb_clip_vertex transform(const lmb_draw_instance *d, lmb_vec3 p)
     return v;
 }
 
-/* A corner cut where x or y was huge beside w lies on the guard band only as well as binary32 puts it there. */
+/* If x or y was huge compared with w, a cut corner lies on the guard band only within binary32 precision. */
 static int32_t to_24_8(float v) { return (int32_t)minf(maxf(floorf(v), -SNAP_MAX), SNAP_MAX); }
 
 static lmb_screen_vertex snap(const lmb_draw_instance *d, const lmb_clip_vertex *v)

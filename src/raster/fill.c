@@ -1,25 +1,27 @@
 /* fill.c: fills the tiles of a window with a set-up triangle that has holes. Layer 3.
  *
- * Tiles are out, partly covered or wholly inside each edge by the edge's value at the tile's corners. An edge that
- * the whole tile lies inside of is left out (its sums become 0), which also keeps the sums over the tile in 32 bits.
- * Depth is taken at each tile's first pixel in binary64, so windows and tile order change nothing. */
+ * The value of an edge at the corners of a tile shows whether the tile is outside, partly covered or inside. If the
+ * whole tile is inside an edge, the edge is dropped (its sums become 0), which also keeps the sums over the tile in 32
+ * bits. Depth is computed in binary64 at each tile's first pixel, so results do not depend on windows or the order of
+ * tiles. */
 #include "fill.h"
 
 #include "plane.h"
 #include "resolve.h"
 #include "target.h"
 
-#define TEXELS 8u             /* most texels read per pixel of a triangle's tiles to find out whether it is all hole */
+#define TEXELS 8u             /* maximum of texels read per pixel of a triangle's tiles, to find out whether it is all
+                                 hole */
 #define LEAST  (1.0f / 512.0f) /* least threshold of a surface that blends */
 
-/* The triangle's own surface, and the rays of the tile at hand. */
+/* The triangle's surface, and the rays of the current tile. */
 typedef struct masked_surface {
     lmb_rays rays;
     lmb_plane plane;
     lmb_resolve_alpha alpha;
     int blends;
     uint32_t id;
-    int32_t x, y; /* of the tile at hand, px */
+    int32_t x, y; /* of the current tile, px */
 } masked_surface;
 
 /* A 32-bit hash of a surface and a square of pixels. */
@@ -32,9 +34,9 @@ static uint32_t hash_square(uint32_t own, uint32_t x, uint32_t y)
 }
 
 /* The rank of a pixel among 64, from the ranks of its quarters in the squares of 8 x 8, 4 x 4 and 2 x 2. The smallest
- * square counts most, as in Bayer's matrix. Each surface has its own order of the quarters of each square. So each
- * surface fills every square evenly, and surfaces in front of each other are independent. With the same or shifted
- * ranks, three layers of 0.25 would cover 0.25 to 0.75 instead of 0.58. */
+ * square counts most, as in Bayer's matrix. Each surface has its own order of the quarters of each square, so each
+ * surface fills every square evenly, and surfaces in front of each other are independent. With equal or shifted ranks,
+ * three layers of 0.25 would cover 0.25 to 0.75 instead of 0.58. */
 static uint32_t rank_of(uint32_t own, uint32_t x, uint32_t y)
 {
     uint32_t rank = 0;
@@ -59,7 +61,7 @@ static float threshold(const masked_surface *s, const lmb_view *v, int32_t x, in
     return ((float)(at & 255u) + 0.5f) * (1.0f / 256.0f);
 }
 
-/* At pixel (x, y) of the tile: surface, or a hole? */
+/* 1 if the surface is opaque at pixel (x, y) of the tile. */
 static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, int32_t y)
 {
     float b1, b2;
@@ -70,7 +72,7 @@ static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, in
     return lmb_resolve_opaque(&s->alpha, c->scene, b1, b2);
 }
 
-/* Value by value as fill.inl. */
+/* Same values as fill.inl. */
 static float depth_at(const lmb_fill_job *job, int32_t x, int32_t y)
 {
     const float d = (job->d + job->dy * (float)y) + job->dx * (float)x;
@@ -91,7 +93,7 @@ static void put_id(const lmb_fill_tile *tile, int32_t at, uint32_t id)
     }
 }
 
-/* The triangle covers pixel (x, y): where it is nearer and no hole, it shows. */
+/* The triangle covers pixel (x, y): draws it if it is nearer and opaque. */
 static void fill_pixel(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job,
                        masked_surface *s, int32_t x, int32_t y)
 {
@@ -114,7 +116,7 @@ static void fill_pixel(const lmb_fill_context *c, const lmb_fill_tile *tile, con
     put_id(tile, y * tile->id_step + x, job->id);
 }
 
-/* Pixels one by one: asking for alpha costs more than vectors would save, and opaque scenes never come here. */
+/* Pixels one by one: the alpha test costs more than vectors would save, and opaque scenes never come here. */
 static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job,
                              masked_surface *s)
 {
@@ -129,7 +131,7 @@ static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *til
     }
 }
 
-/* 1 and the job's edges, or 0 where the tile lies outside one. (x, y): the tile's first pixel, 24.8. */
+/* Returns 1 and sets the job's edges, or 0 if the tile lies outside one. (x, y): the tile's first pixel, 24.8. */
 static int enter_tile(lmb_fill_job *job, const lmb_setup *s, int32_t x_24_8, int32_t y_24_8)
 {
     const int32_t reach = LMB_TILE - 1;
@@ -147,8 +149,8 @@ static int enter_tile(lmb_fill_job *job, const lmb_setup *s, int32_t x_24_8, int
     return 1;
 }
 
-/* First and last tile, inside the window, of a box in 24.8 from the frame's middle. origin: where the frame's pixel 0 is
- * seen, 24.8. */
+/* First and last tile, inside the window, of a box in 24.8 from the frame's centre. origin: position of the frame's
+ * pixel 0, 24.8. */
 static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t high_24_8, int32_t origin, int32_t window,
                       int32_t size)
 {
@@ -157,7 +159,7 @@ static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t h
     *last = mini(high_px, size - 1) >> 3; /* -1 >> 3 is -1: nothing */
 }
 
-/* All but the rays of a tile; 0 where there is no such triangle. */
+/* Sets all but the rays of a tile. Returns 0 if there is no such triangle. */
 NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_t id)
 {
     lmb_triangle triangle;
@@ -171,8 +173,8 @@ NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_
 }
 
 #if LMB_TREES
-/* Is the surface entirely a hole? Reading a texel costs about a fiftieth of drawing a pixel, so many more texels than
- * pixels may be read. A surface that blends is solid from the least threshold on. */
+/* 1 if the surface is entirely a hole. Reading a texel costs about a fiftieth of drawing a pixel, so many more texels
+ * than pixels may be read. A surface that blends is solid from the least threshold on. */
 NOINLINE int is_hole(const masked_surface *s, const lmb_fill_context *c, int32_t tiles)
 {
     uint32_t texels = tiles > 0 ? (uint32_t)mini(tiles, 1 << 20) * (LMB_TILE_PIXELS * TEXELS) : 0;

@@ -6,7 +6,7 @@
 #include "cluster.h"
 #include "setup.h"
 
-/* What stays the same over the triangles of a draw. */
+/* The same for all triangles of a draw. */
 typedef struct lmb_fill_context {
     const lmb_target *target;
     const lmb_kernels *kernels;
@@ -41,8 +41,8 @@ static inline void fill_one(const lmb_fill_context *c, const lmb_setup *setup, u
     c->kernels->fill_large(&c->window, setup, id);
 }
 
-/* A triangle whose material has holes: every pixel that passes the depth test also tests its alpha. blends: by the
- * sample's threshold instead of the material's. */
+/* Fills a triangle with holes in its material: every pixel that passes the depth test also tests alpha. blends: with
+ * the sample's threshold instead of the material's. */
 void lmb_fill_masked(const lmb_fill_context *context, const lmb_setup *setup, uint32_t id, int blends);
 
 #endif

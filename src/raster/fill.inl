@@ -1,9 +1,9 @@
 /* fill.inl: one triangle into one tile: coverage, depth test, id. Layer 3.
  *
- * Per pixel: three edge sums, the depth plane clamped to the triangle's own range, a strict "nearer than" test. The
- * order (d + dy y) + dx x is the contract; a vector only changes how many x run at once. */
+ * Per pixel: three edge sums, the depth plane clamped to the triangle's range, a strict "nearer than" test. The order
+ * (d + dy y) + dx x is the contract; a vector only changes how many x run at once. */
 
-/* What is no number, as where far is no farther than near, is 0. */
+/* NaN becomes 0, for example if far is no farther than near. */
 static inline lane fill_depth_16(lane d, const lmb_fill_job *job)
 {
     lane code = lane_add(lane_mul(d, lane_splat(job->d_scale)), lane_splat(job->d_bias));
@@ -36,7 +36,7 @@ static inline lane_mask fill_depth(const lmb_fill_tile *tile, const lmb_fill_job
     return pass;
 }
 
-/* Plain C has code of its own for float depth with 32-bit ids: gcc joins its lanes into vectors. */
+/* Plain C has separate code for float depth with 32-bit ids, in which gcc merges the lanes into vectors. */
 LANE_INLINE int fill_joins(const lmb_fill_tile *tile)
 {
 #if defined(LANE_PLAIN) && LANES > 1
@@ -47,7 +47,7 @@ LANE_INLINE int fill_joins(const lmb_fill_tile *tile)
 #endif
 }
 
-/* A vector of pixels from (column, y) of the tile on: those that are nearer, and their ids. in: NULL for all. */
+/* A vector of pixels from (column, y) of the tile on: stores nearer depths, and their ids. in: NULL for all. */
 LANE_INLINE void fill_pixels(const lmb_fill_tile *tile, const lmb_fill_job *job, int column, int y, uint32_t id, lane d,
                              const lane_mask *in)
 {
@@ -64,11 +64,11 @@ LANE_INLINE void fill_pixels(const lmb_fill_tile *tile, const lmb_fill_job *job,
     fill_id(tile, id_at, id, pass);
 }
 
-/* Vectors beside each other in a row of tiles' pixels, and rows that one covers. */
+/* Vectors per row of a tile, and rows per vector. */
 enum { FILL_ACROSS = LANES < LMB_TILE ? LMB_TILE / LANES : 1, FILL_ROWS = LANES < LMB_TILE ? 1 : LANES / LMB_TILE };
 
-/* Tiled depth has code of its own: floats without ids and with 32-bit ones, and 16-bit codes without; but not in a
- * backend of one lane, where size counts. */
+/* Tiled depth has specialised code: floats without ids and with 32-bit ones, and 16-bit codes without. Backends with
+ * one lane do not, because code size matters there. */
 enum { FILL_ANY, FILL_PLAIN, FILL_ID32, FILL_CODES };
 
 LANE_INLINE int fill_kind(const lmb_fill_window *w)
@@ -78,7 +78,7 @@ LANE_INLINE int fill_kind(const lmb_fill_window *w)
         return FILL_ANY;
     }
     if (tile->depth_format != LMB_DEPTH32F) {
-        /* No depth is above 1, and products and sums round monotonically: so no code is above the one of 1. */
+        /* No depth is above 1, and products and sums round monotonically, so no code is above that of 1. */
         const int is_held = LMB_CULLING && w->d_scale + w->d_bias < 65536.0f;
         return is_held && tile->id_format == LMB_FORMAT_NONE ? FILL_CODES : FILL_ANY;
     }
@@ -88,14 +88,14 @@ LANE_INLINE int fill_kind(const lmb_fill_window *w)
     return tile->id_format == LMB_ID32 && tile->id_step == LMB_TILE ? FILL_ID32 : FILL_ANY;
 }
 
-/* What the kind says, as constants for the compiler. */
+/* The tile's formats as constants, for the compiler. */
 LANE_INLINE lmb_fill_tile fill_first(const lmb_fill_window *w, int kind)
 {
     lmb_fill_tile tile = w->first;
     if (kind != FILL_ANY) {
         tile.depth_format = kind == FILL_CODES ? LMB_DEPTH16 : LMB_DEPTH32F;
         tile.id_format = kind == FILL_ID32 ? LMB_ID32 : LMB_FORMAT_NONE;
-/* gcc -O2 would join four plain stores, and wait for them at the next load: 1.8 times slower. */
+/* gcc -O2 would merge four plain stores, and the next load would wait for them: 1.8 times slower. */
 #if !defined(LANE_PLAIN)
         tile.depth_step = LMB_TILE;
         tile.id_step = LMB_TILE;
@@ -106,13 +106,13 @@ LANE_INLINE lmb_fill_tile fill_first(const lmb_fill_window *w, int kind)
 
 /* A triangle in registers. */
 typedef struct fill_triangle {
-    lanei step[3][FILL_ACROSS]; /* ex times the column, and ey times the second row of a vector that covers two */
+    lanei step[3][FILL_ACROSS]; /* ex times the column, plus ey times the second row of a vector that covers two */
     lane step_d[FILL_ACROSS];
     lane d_min, d_max;
     float per_row;
     int32_t ex[3], ey[3];
     uint32_t id;
-    int codes; /* is the target's kind FILL_CODES? */
+    int codes; /* 1: the target's kind is FILL_CODES */
 } fill_triangle;
 
 /* Rows and vectors of a tile that the triangle's box covers. */
@@ -120,8 +120,8 @@ typedef struct fill_box {
     int32_t first_row, last_row, first, last;
 } fill_box;
 
-/* d + dy y at the rows of a vector that starts in row y. `row` is y, for backends of less than a row: where all rows
- * are drawn it is counted in float, as a conversion waits for whatever was in its register before. */
+/* d + dy y at the rows of a vector that starts in row y. `row` is y, for backends narrower than a row. If all rows are
+ * drawn, it is counted in float, because a conversion depends on the old value of the register. */
 LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y, float row)
 {
 #if LANES >= LMB_TILE
@@ -133,8 +133,8 @@ LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y, float row)
 #endif
 }
 
-/* Whether to branch around vectors without a covered pixel. Where masks are predicates in hardware, the branch costs
- * more than it saves. */
+/* 1: branch around vectors without a covered pixel. If masks are hardware predicates, the branch costs more than it
+ * saves. */
 LANE_INLINE int fill_skips(lane_mask in)
 {
 #if defined(LANE_PLAIN)
@@ -174,7 +174,7 @@ LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *codi
 enum { FILL_PAIR = LANES > 1 ? 2 * LANES / LMB_TILE : 1 };
 
 #if LANES > 1
-/* Codes of depths of the triangle, before they are held to 16 bits. */
+/* Codes of depths of the triangle, before clamping to 16 bits. */
 LANE_INLINE lane fill_code(lane d, const fill_triangle *t, const lmb_fill_job *job, int clamped)
 {
     if (clamped) {
@@ -186,7 +186,8 @@ LANE_INLINE lane fill_code(lane d, const fill_triangle *t, const lmb_fill_job *j
 /* Column and row of the second vector of a pair. */
 enum { FILL_NEXT_COLUMN = FILL_ACROSS - 1, FILL_NEXT_ROW = FILL_ACROSS > 1 ? 0 : FILL_ROWS };
 
-/* Rows first .. last of a tile of codes. e: the edges at the tile's pixel (0, first), which is a multiple of FILL_PAIR. */
+/* Rows first .. last of a tile of codes. e: the edges at the tile's pixel (0, first); first is a multiple of
+ * FILL_PAIR. */
 LANE_INLINE void fill_codes_rows(uint16_t *p, const lmb_fill_job *job, const fill_triangle *t, const int32_t e[3],
                                  float d, int32_t first, int32_t last)
 {
@@ -214,7 +215,7 @@ LANE_INLINE void fill_codes_rows(uint16_t *p, const lmb_fill_job *job, const fil
     }
 }
 
-/* All of a tile of codes. */
+/* A whole tile of codes. */
 LANE_INLINE void fill_codes_inside(uint16_t *p, const lmb_fill_job *job, const fill_triangle *t, int clamped)
 {
     for (int32_t y = 0; y < LMB_TILE; y += FILL_PAIR) {
@@ -253,7 +254,7 @@ LANE_INLINE void fill_inside(const lmb_fill_tile *tile, const lmb_fill_job *job,
     }
 }
 
-/* Are the plane's values at the tile's corners, and so (sums round monotonically) all between, within the range? */
+/* 1 if the plane is within the range at the tile's corners, and so at all pixels (sums round monotonically). */
 LANE_INLINE int fill_in_range(const lmb_fill_job *job)
 {
     const float right = job->dx * (float)(LMB_TILE - 1), bottom = job->d + job->dy * (float)(LMB_TILE - 1),

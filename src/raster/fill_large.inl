@@ -1,14 +1,15 @@
 /* fill_large.inl: a triangle of any size into a window: tiles are outside, crossed by edges or wholly inside. Layer 3.
  *
- * Edges are 64-bit sums from tile to tile. Over a tile that edges cross they fit 32 bits, and one that is far from the
- * tile is held at FAR_INSIDE, which no step within a tile (under 2^27) can turn negative. */
+ * Edges are 64-bit sums from tile to tile. Over a tile that edges cross they fit 32 bits. An edge far from the tile is
+ * clamped to FAR_INSIDE, which no step within a tile (under 2^27) can turn negative. */
 
 enum { FAR_INSIDE = 1 << 29 };
 
-/* Tiles of a row: the first step when those of a kind are counted. By one lane, where size counts, they go one by one. */
+/* Tiles of a row: the first step of the search for the end of a run. With one lane, code size matters, so tiles go one
+ * by one. */
 enum { LARGE_LEAP = LANES > 1 ? 64 : 0 };
 
-/* One value an edge. Written out: gcc -O2 keeps a loop of three, and arrays in memory. */
+/* One value per edge. Not a loop: gcc -O2 keeps a loop of three, and arrays in memory. */
 typedef struct large3 {
     int64_t a, b, c;
 } large3;
@@ -27,7 +28,7 @@ LANE_INLINE large3 large_add(large3 p, large3 q) { return large_make(p.a + q.a, 
 LANE_INLINE int large_negative(large3 p) { return (p.a | p.b | p.c) < 0; }
 
 typedef struct large_edges {
-    large3 at, step_x, step_y; /* at a tile's first pixel; a tile on */
+    large3 at, step_x, step_y; /* at a tile's first pixel; per tile */
     large3 low, high;          /* least and greatest change within a tile */
 } large_edges;
 
@@ -105,8 +106,9 @@ LANE_INLINE void large_crossed(const lmb_fill_tile *tile, const lmb_fill_job *jo
 
 LANE_INLINE large3 large_times(large3 p, int64_t n) { return large_make(p.a * n, p.b * n, p.c * n); }
 
-/* How many of `count` tiles, from `at` on, lie inside all edges: less than twice `leap`, a power of two. Edges are linear:
- * where two tiles lie inside, so do all between. Steps are halved, without a branch: the number is as good as random. */
+/* Number of the `count` tiles from `at` on that lie inside all edges: less than twice `leap`, a power of two. Edges are
+ * linear, so all tiles between two inside ones are inside. Halves the step, without a branch, because the number is as
+ * good as random. */
 LANE_INLINE int32_t large_inside(const large_edges *edges, large3 at, int32_t count, int32_t leap)
 {
     large3 low = large_add(at, edges->low);
@@ -123,7 +125,8 @@ LANE_INLINE int32_t large_inside(const large_edges *edges, large3 at, int32_t co
     return n + 1;
 }
 
-/* How many, less than twice LARGE_LEAP, lie outside of an edge that the first one lies outside of; 0 if of none. */
+/* Number of tiles, less than twice LARGE_LEAP, outside an edge that the first one is outside of; 0 if it is outside
+ * none. */
 LANE_INLINE int32_t large_outside(const large_edges *edges, large3 at, int32_t count)
 {
     const large3 first = large_add(at, edges->high);
@@ -148,7 +151,7 @@ LANE_INLINE float large_depth(const lmb_setup *s, int32_t x_24_8, double d_row)
     return (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + d_row);
 }
 
-/* The same for LANES tiles beside each other, the first one's at x_24_8. */
+/* The same for LANES adjacent tiles, the first at x_24_8. */
 LANE_INLINE lane large_depths(double d_origin, double d_x, int32_t x_24_8, double d_row)
 {
     static const int32_t steps[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -157,8 +160,8 @@ LANE_INLINE lane large_depths(double d_origin, double d_x, int32_t x_24_8, doubl
     return lane_from_double(laned_add(laned_add(laned_splat(d_origin), at), laned_splat(d_row)));
 }
 
-/* Are the plane's values in all of `count` tiles of a row, from x_24_8 on, within the range? Depths are monotone from
- * tile to tile, too: the first and the last tell. */
+/* 1 if the plane is within the range in all of `count` tiles of a row from x_24_8 on. Depths are monotone from tile to
+ * tile, so this tests only the first and the last. */
 LANE_INLINE int large_in_range(const lmb_setup *s, lmb_fill_job *job, int32_t x_24_8, int32_t count, double d_row)
 {
     job->d = large_depth(s, x_24_8, d_row);
@@ -175,8 +178,8 @@ LANE_INLINE void large_next(const lmb_fill_window *w, lmb_fill_tile *tile, int32
     tile->id = tile->id_format != LMB_FORMAT_NONE ? (uint8_t *)tile->id + (ptrdiff_t)n * w->id_tile : NULL;
 }
 
-/* What a plane gains from a tile's first pixel to each of its vectors: dy y of the rows in these, and dx x. Named one by
- * one: gcc -O2 keeps a loop over them, and arrays in memory. */
+/* Change of a plane from a tile's first pixel to each vector of the tile: dy y of the vector's rows, and dx x. Not
+ * arrays: gcc -O2 keeps a loop over them, and arrays in memory. */
 typedef struct large_plane {
     uint32_t id;
 #if LANES >= LMB_TILE
@@ -187,7 +190,7 @@ typedef struct large_plane {
 #endif
 } large_plane;
 
-/* A row's lanes are all alike, which gcc would see: it would add d to one and spread each sum, eight times a tile. */
+/* All lanes of a row are equal. If gcc saw that, it would add d to one and broadcast each sum, eight times a tile. */
 #if LANES == LMB_TILE && defined(__GNUC__)
 #define LARGE_VECTOR(v) __asm__("" : "+x"(v))
 #else
@@ -230,7 +233,7 @@ LANE_INLINE void large_put(const lmb_fill_tile *tile, const large_plane *p, int 
     lane_put_u32((uint32_t *)tile->id + at, LMB_TILE, p->id, pass);
 }
 
-/* A tile inside all edges whose depths are all in the triangle's range: fill_inside's sums, value by value. */
+/* A tile inside all edges, with all depths in the triangle's range. Same sums as fill_inside. */
 LANE_INLINE void large_whole(const lmb_fill_tile *tile, const large_plane *p, float first, int kind)
 {
     const lane d = lane_splat(first);
@@ -246,8 +249,8 @@ LANE_INLINE void large_whole(const lmb_fill_tile *tile, const large_plane *p, fl
 #endif
 }
 
-/* LANES / 4 rows of codes, from pixel `at` of a tile on: left halves of rows and right ones, which narrowing leaves in
- * their order. row: d + dy y. */
+/* LANES / 4 rows of codes, from pixel `at` of a tile on. Left and right halves of rows, because narrowing then leaves
+ * them in order. row: d + dy y. */
 LANE_INLINE void large_put_codes(const lmb_fill_tile *tile, const lmb_fill_job *job, int at, lane row, lane left,
                                  lane right)
 {
@@ -256,7 +259,7 @@ LANE_INLINE void large_put_codes(const lmb_fill_tile *tile, const lmb_fill_job *
                           lane_add(lane_mul(lane_add(row, right), scale), bias));
 }
 
-/* `count` tiles of codes inside all edges whose depths are all in the triangle's range. */
+/* `count` tiles of codes inside all edges, with all depths in the triangle's range. */
 LANE_INLINE void large_codes(const lmb_fill_window *w, lmb_fill_tile *tile, const lmb_fill_job *job, const float *d,
                              int32_t count)
 {
@@ -281,7 +284,7 @@ LANE_INLINE void large_codes(const lmb_fill_window *w, lmb_fill_tile *tile, cons
 }
 #endif
 
-/* `count` tiles inside all edges, which `tile` moves past; d: the depths at their first pixels. */
+/* `count` tiles inside all edges; advances `tile`. d: the depths at their first pixels. */
 LANE_INLINE void large_run(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fill_job *job, const fill_triangle *t,
                            const large_plane *plane, const float *d, int32_t count, int clamped, int kind)
 {
@@ -301,7 +304,7 @@ LANE_INLINE void large_run(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fi
     (void)plane, (void)kind;
     for (int32_t i = 0; i < count; ++i) {
         job->d = d[i];
-        if (LANES == 1 || clamped) { /* the same bytes where depths are in range anyway */
+        if (LANES == 1 || clamped) { /* the same bytes if depths are in range anyway */
             fill_inside(tile, job, t, 1);
         } else {
             fill_inside(tile, job, t, 0);
@@ -311,14 +314,14 @@ LANE_INLINE void large_run(const lmb_fill_window *w, lmb_fill_tile *tile, lmb_fi
 }
 
 #if LANES > 1
-/* The code of a depth of the triangle, in which codes are held. */
+/* The code of a depth, clamped to the triangle's range. */
 LANE_INLINE int32_t large_code(const lmb_fill_job *job, float d)
 {
     d = minf(maxf(d, job->d_min), job->d_max);
     return (int32_t)maxf(d * job->d_scale + job->d_bias, 0.0f);
 }
 
-/* The code that all corners of a tile take, and so (all is monotone) all of its pixels; -1 where there is none. */
+/* The code at all corners of a tile, and so (all is monotone) at all pixels; -1 if they differ. */
 LANE_INLINE int32_t large_tile_code(const lmb_fill_job *job, float d)
 {
     const float right = job->dx * (float)(LMB_TILE - 1), below = d + job->dy * (float)(LMB_TILE - 1);
@@ -329,8 +332,8 @@ LANE_INLINE int32_t large_tile_code(const lmb_fill_job *job, float d)
                : -1;
 }
 
-/* `count` tiles inside all edges, from x_24_8 on, whose first and last, and so all, take one code, as surfaces do that
- * face the viewer. 0, and nothing drawn, where they do not. */
+/* `count` tiles inside all edges, from x_24_8 on, if the first and last, and so all, have one code, as on surfaces that
+ * face the viewer. Otherwise draws nothing and returns 0. */
 LANE_INLINE int large_run_code(const lmb_fill_window *w, const lmb_setup *s, lmb_fill_tile *tile,
                                const lmb_fill_job *job, int32_t x_24_8, int32_t count, double d_row)
 {
@@ -349,7 +352,7 @@ LANE_INLINE int large_run_code(const lmb_fill_window *w, const lmb_setup *s, lmb
 }
 #endif
 
-/* `count` tiles inside all edges, from x_24_8 on, which `tile` moves past. */
+/* `count` tiles inside all edges, from x_24_8 on; advances `tile`. */
 LANE_INLINE void large_inside_tiles(const lmb_fill_window *w, const lmb_setup *s, const fill_triangle *t,
                                     const large_plane *plane, lmb_fill_tile *tile, lmb_fill_job *job, int32_t x_24_8,
                                     int32_t count, double d_row, int kind)
@@ -398,7 +401,7 @@ LANE_INLINE void large_row(const lmb_fill_window *w, const lmb_setup *s, const f
     }
 }
 
-/* First tile and count, inside the window, of a box's side in 24.8 from the frame's middle. */
+/* First tile and count, inside the window, of one side of a box in 24.8 from the frame's centre. */
 LANE_INLINE int32_t large_span(int32_t *first, int32_t low, int32_t high, int32_t origin, int32_t window, int32_t tiles)
 {
     const int32_t low_px = ((low - origin + 255) >> 8) - window, high_px = ((high - origin) >> 8) - window;

@@ -1,38 +1,39 @@
 /* fill_parts.inl: a batch's small triangles into tiled tiles, for backends of a row's lanes or more. Layer 3.
  *
- * Most triangles touch at most two or three tiles each way. In which of them they have pixels, and the edges and depth at
- * a tile's first pixel, are found for LANES triangles at a time; what remains is a loop that draws them. A loop over the
- * tiles of each triangle would be guessed wrong once a triangle, which costs about as much as a tile.
+ * Most triangles touch at most two or three tiles in each direction. The tiles in which they have pixels, and the edges
+ * and depth at the first pixel of a tile, are computed for LANES triangles at a time. The rest is a loop that draws
+ * these tiles. A loop over the tiles of each triangle would be mispredicted once per triangle, which costs about as
+ * much as a tile.
  *
- * Where tiles have bounds of their farthest depth (culled.inl), those that hide their part of a triangle are left out. */
+ * If tiles have bounds of their farthest depth (culled.inl), tiles that hide their part of a triangle are skipped. */
 
-/* Tile p of a triangle lies p % PARTS_SIDE to the right of its first one, and p / PARTS_SIDE below. */
+/* Tile p of a triangle lies p % PARTS_SIDE to the right of the first one, and p / PARTS_SIDE below. */
 enum { PARTS_SIDE = 3, PARTS_TILES = PARTS_SIDE * PARTS_SIDE };
 
-/* Where ids tell who came first, so many triangles of three tiles each way are worth looking at nine instead of four;
- * fewer of two go one by one. */
+/* For ids, order matters: with at least PARTS_MORE triangles of three tiles in a direction, nine tiles are tested
+ * instead of four; with fewer than PARTS_LESS of two, triangles go one by one. */
 enum { PARTS_MORE = 3, PARTS_LESS = 3 };
 
 typedef struct fill_slopes {
     float dx[LMB_BATCH], dy[LMB_BATCH];
 } fill_slopes;
 
-/* The nearest depth of planes whose nearest place in a tile is (x, y), px, as each pixel's is made. Where the plane has no
- * value there, pixels may take any. */
+/* The nearest depth of planes in a tile with the nearest point (x, y), px, computed as for pixels. If the plane has no
+ * value there, pixels may get any. */
 LANE_INLINE lane parts_nearest(lane d, lane dx, lane dy, lane x, lane y, lane d_min, lane d_max)
 {
     const lane at = lane_add(lane_add(d, lane_mul(dy, y)), lane_mul(dx, x));
     return lane_pick(lane_lt(at, d_max), lane_max(at, d_min), d_max);
 }
 
-/* What an edge gains at most from a box's first pixel to another. */
+/* The largest gain of an edge from a box's first pixel to another. */
 LANE_INLINE lanei parts_gain(lanei ex, lanei ey, lanei width, lanei height)
 {
     const lanei zero = lanei_splat(0);
     return lanei_add(lanei_max(lanei_mul(ex, width), zero), lanei_max(lanei_mul(ey, height), zero));
 }
 
-/* (x, y): px of the frame, of the tiles' first pixels. */
+/* (x, y): px of the frame, first pixels of the tiles. */
 LANE_INLINE lane parts_depth(const lmb_fill_window *w, const lmb_batch *b, int k, lanei x, lanei y)
 {
     const lanei to_24_8 = lanei_splat(256);
@@ -43,8 +44,8 @@ LANE_INLINE lane parts_depth(const lmb_fill_window *w, const lmb_batch *b, int k
     return lane_from_double(laned_add(d, laned_mul(laned_load(b->dy + k), laned_mul(down, to_px))));
 }
 
-/* Tile (px, py) of triangles k .. k + LANES - 1: where it has pixels that may show, and in which half; sets the
- * depth at its first pixel. */
+/* Tile (px, py) of triangles k .. k + LANES - 1: returns the triangles with pixels that may show in it, and sets the
+ * halves they are in. Sets the depth at the first pixel. */
 LANE_INLINE lane_mask parts_set(float *depth, lane_mask halves[2], const fill_slopes *slopes, const lmb_fill_window *w,
                                 const lmb_batch *b, int k, lanei px, lanei py, int bounded)
 {
@@ -86,7 +87,7 @@ LANE_INLINE lane_mask parts_set(float *depth, lane_mask halves[2], const fill_sl
     return seen;
 }
 
-/* Triangle k in its tile (px, py); e0 .. e2, d: edges and depth at the tile's first pixel. */
+/* Draws triangle k in its tile (px, py). e0 .. e2, d: edges and depth at the tile's first pixel. */
 LANE_INLINE void parts_draw(const lmb_fill_window *w, const lmb_batch *b, int k, int32_t px, int32_t py, int32_t e0,
                             int32_t e1, int32_t e2, float d, float dx, float dy, uint32_t id, int kind, int bounded)
 {
@@ -119,7 +120,7 @@ LANE_INLINE void parts_draw(const lmb_fill_window *w, const lmb_batch *b, int k,
 #endif
 }
 
-/* Of `bits`, triangles of at most so many tiles each way. */
+/* Triangles among `bits` of at most `tiles` tiles in each direction. */
 LANE_INLINE uint32_t parts_narrow(const lmb_batch *b, uint32_t bits, int32_t tiles)
 {
     uint32_t narrow = 0;
@@ -139,19 +140,21 @@ LANE_INLINE void parts_slopes(fill_slopes *out, const lmb_batch *b, uint32_t bit
     }
 }
 
-/* So many tiles of each triangle are found before any is drawn: what is drawn is then one long loop, whose end is guessed
- * wrong once. In surfaces of more bytes than caches hold, each tile is read so many before its turn. */
+/* PARTS_TOGETHER tiles of each triangle are found before any is drawn. Drawing is then one long loop, with one
+ * misprediction at the end. In surfaces over PARTS_CACHED bytes, tiles are prefetched PARTS_AHEAD tiles before they are
+ * drawn. */
 enum { PARTS_TOGETHER = 4, PARTS_AHEAD = 6, PARTS_CACHED = 6 << 20 };
 
-/* Four tiles of each triangle: the depth at their first pixels, and where they lie in the depth surface, bytes. Of tile i
- * of triangle k bit i LMB_BATCH + k tells whether it has pixels that may show: in all rows, the upper half, the lower. */
+/* Four tiles of each triangle: the depth at the first pixels, and byte offsets in the depth surface. Bit i LMB_BATCH +
+ * k of rows is set if triangle k has pixels that may show in its tile i: in all rows, the upper half, the lower
+ * half. */
 typedef struct fill_places {
     float d[PARTS_TOGETHER][LMB_BATCH];
     int32_t at[PARTS_TOGETHER][LMB_BATCH];
     uint64_t rows[3];
 } fill_places;
 
-/* Which tiles go together: the first four, as most triangles have no others; then what lies beside these. */
+/* Order of tiles: the first four go together, because most triangles have no others; then the tiles beside these. */
 static const uint8_t parts_order[PARTS_TILES] = {0, 1, 3, 4, 2, 5, 6, 7, 8};
 
 LANE_INLINE lanei parts_address(const lmb_fill_window *w, const lmb_batch *b, int k, int p)
@@ -162,11 +165,11 @@ LANE_INLINE lanei parts_address(const lmb_fill_window *w, const lmb_batch *b, in
     return lanei_add(lanei_mul(across, lanei_splat(w->depth_tile)), lanei_mul(down, lanei_splat(w->depth_row)));
 }
 
-/* Is one of the triangles from k on, a vector of them, to be drawn? Else set-up stored nothing of them, and what is left
- * there may name tiles anywhere. */
+/* 1 if one of the vector of triangles from k on is to be drawn. Otherwise set-up stored nothing for them, and old
+ * values may address tiles anywhere. */
 static inline int parts_any(uint32_t bits, int k) { return (bits >> k & ((1u << LANES) - 1u)) != 0; }
 
-/* Tile i of those that go together, which is the triangles' tile p. */
+/* Finds tile i of a group, which is tile p of the triangles. */
 LANE_INLINE void parts_place(fill_places *out, const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b,
                              uint32_t bits, int i, int p, int bounded)
 {
@@ -204,7 +207,7 @@ LANE_INLINE lanei parts_edge(const lmb_batch *b, int i, int k, int p, int rows)
                      lanei_add(lanei_mul(lanei_splat(b->ex[i][k]), x), lanei_mul(lanei_splat(b->ey[i][k]), y)));
 }
 
-/* Tile i of those that go together, which is tile p of triangle k. */
+/* Draws tile i of a group, which is tile p of triangle k. */
 LANE_INLINE void parts_put(const fill_places *places, const fill_slopes *slopes, const lmb_fill_window *w,
                            const lmb_batch *b, int k, int i, int p, int rows, int kind,
                             int bounded)
@@ -237,7 +240,7 @@ LANE_INLINE void parts_put(const fill_places *places, const fill_slopes *slopes,
 #endif
 }
 
-/* As lowest_bit_64, in one instruction where there is one. */
+/* As lowest_bit_64, in one instruction if there is one. */
 LANE_INLINE int parts_lowest(uint64_t bits)
 {
 #if defined(__GNUC__)
@@ -247,7 +250,7 @@ LANE_INLINE int parts_lowest(uint64_t bits)
 #endif
 }
 
-/* Reads a tile, or half of one, that will be drawn to soon. */
+/* Prefetches a tile, or half of one, that will be drawn to soon. */
 LANE_INLINE void parts_soon(const fill_places *places, const lmb_fill_window *w, int bit, int rows, int kind)
 {
     const uint8_t *depth = (const uint8_t *)w->first.depth + places->at[bit / LMB_BATCH][bit % LMB_BATCH];
@@ -263,7 +266,7 @@ LANE_INLINE void parts_soon(const fill_places *places, const lmb_fill_window *w,
     }
 }
 
-/* Of tiles `rows`, those after the first PARTS_AHEAD, which are read; none where all stay in the cache. */
+/* Prefetches the first PARTS_AHEAD of the tiles `rows`. Returns the others, or none if the surface fits the cache. */
 LANE_INLINE uint64_t parts_begin(const fill_places *places, const lmb_fill_window *w, int rows, int kind)
 {
     uint64_t left = (int64_t)w->depth_row * w->tiles_y > PARTS_CACHED ? places->rows[rows] : 0;
@@ -273,7 +276,7 @@ LANE_INLINE uint64_t parts_begin(const fill_places *places, const lmb_fill_windo
     return left;
 }
 
-/* ahead: what parts_begin left. */
+/* ahead: the result of parts_begin. */
 LANE_INLINE void parts_put_all(const fill_places *places, const fill_slopes *slopes, const lmb_fill_window *w,
                                const lmb_batch *b, uint64_t ahead, int first, int rows, int kind, int bounded)
 {
@@ -287,7 +290,7 @@ LANE_INLINE void parts_put_all(const fill_places *places, const fill_slopes *slo
     }
 }
 
-/* Tiles `first` and on, in parts_order, of triangles `bits`. */
+/* Draws tiles `first` and on, in parts_order, of triangles `bits`. */
 LANE_INLINE void parts_together(const fill_slopes *slopes, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits,
                                 int first, int kind, int bounded)
 {
@@ -310,14 +313,14 @@ LANE_INLINE void parts_together(const fill_slopes *slopes, const lmb_fill_window
     parts_put_all(&places, slopes, w, b, ahead_lower, first, ROWS_LOWER, kind, 0);
 }
 
-/* Tiles of triangles that are drawn with ids, in the triangles' order, as ids tell who came first. Tile i of parts_order of
- * triangle k is bit 4 k + i, where none has more than four tiles: of left[0] if it has pixels that may show in the upper
- * half, of left[1] in the lower. Halves never meet, so each is one loop. With more tiles it is bit 16 (k % 4) + i of
- * left[k / 4]. */
+/* Tiles of triangles with ids, in triangle order, because ids depend on the order. If no triangle has more than four
+ * tiles, tile i of parts_order of triangle k is bit 4 k + i: in left[0] if it has pixels that may show in the upper
+ * half, in left[1] for the lower. Halves are independent, so each is one loop. With more tiles it is bit 16 (k % 4) + i
+ * of left[k / 4]. */
 typedef struct fill_found {
     fill_slopes slopes;
     float d[PARTS_TILES][LMB_BATCH];
-    int32_t at[LMB_BATCH];     /* of a triangle's first tile, bytes */
+    int32_t at[LMB_BATCH];     /* byte offset of a triangle's first tile */
     int32_t step[PARTS_TILES]; /* from there to tile i */
     uint64_t left[4];
 } fill_found;
@@ -370,7 +373,7 @@ LANE_INLINE void parts_find(fill_found *out, const lmb_fill_window *w, const lmb
     }
 }
 
-/* The same, where the edges are not made yet. */
+/* The same, if the edges are not computed yet. */
 LANE_INLINE void parts_draw_from(const lmb_fill_window *w, const lmb_batch *b, int k, int32_t px, int32_t py, float d,
                                  float dx, float dy, uint32_t id, int kind, int bounded)
 {
@@ -380,7 +383,7 @@ LANE_INLINE void parts_draw_from(const lmb_fill_window *w, const lmb_batch *b, i
                dy, id, kind, bounded);
 }
 
-/* Tile i of triangle k. */
+/* Draws tile i of triangle k. */
 LANE_INLINE void parts_put_id(const fill_found *f, const lmb_fill_window *w, const lmb_batch *b, int k, int i, int rows,
                               int bounded)
 {
@@ -411,7 +414,7 @@ LANE_INLINE void parts_put_id(const fill_found *f, const lmb_fill_window *w, con
 #endif
 }
 
-/* Reads half of a tile that will be drawn to soon. */
+/* Prefetches half of a tile that will be drawn to soon. */
 LANE_INLINE void parts_soon_id(const fill_found *f, const lmb_fill_window *w, int bit, int rows)
 {
     const ptrdiff_t at = (ptrdiff_t)f->at[bit >> 2] + f->step[bit & 3] + (rows == ROWS_LOWER ? 128 : 0);
@@ -419,7 +422,7 @@ LANE_INLINE void parts_soon_id(const fill_found *f, const lmb_fill_window *w, in
     MESH_SOON(depth), MESH_SOON(depth + 64), MESH_SOON(id), MESH_SOON(id + 64);
 }
 
-/* Tiles `left`, four a triangle: `rows` of them. Depth and ids are twice the bytes of depth. */
+/* Draws `rows` of tiles `left`, four a triangle. Depth and ids are twice the bytes of depth. */
 LANE_INLINE void parts_put_fours(const fill_found *f, const lmb_fill_window *w, const lmb_batch *b, uint64_t left,
                                  int rows, int bounded)
 {
@@ -437,7 +440,7 @@ LANE_INLINE void parts_put_fours(const fill_found *f, const lmb_fill_window *w, 
     }
 }
 
-/* All tiles of triangles `bits`. A tile's bound is raised by all of its rows. */
+/* Draws all tiles of triangles `bits`. A tile's bound is raised with all rows. */
 LANE_INLINE void parts_run(const fill_found *f, const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int more,
                            int bounded)
 {
@@ -463,8 +466,8 @@ LANE_INLINE void parts_run(const fill_found *f, const lmb_fill_window *w, const 
 
 /* --- more tiles --------------------------------------------------------------------------------------------------- */
 
-/* LANES tiles of triangle k from tile (px, py) of it on: those that it has pixels in that may show, a bit each; d: the
- * depth at their first pixels. */
+/* Tests LANES tiles of triangle k from its tile (px, py) on. Returns those with pixels that may show, one bit each. d:
+ * the depth at the first pixels. */
 LANE_INLINE uint32_t parts_row(float *d, const lmb_fill_window *w, const lmb_batch *b, int k, int32_t px, int32_t py,
                                int bounded)
 {
@@ -515,7 +518,7 @@ LANE_INLINE void parts_wide(const lmb_fill_window *w, const lmb_batch *b, int k,
     }
 }
 
-/* Without ids, triangles may come in any order: what is left is each pixel's nearest depth. So may their tiles. */
+/* Without ids, triangles and tiles may be drawn in any order, because each pixel keeps the nearest depth. */
 LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int kind, int bounded)
 {
     const uint32_t wider = parts_narrow(b, bits, PARTS_SIDE), beside = wider & ~parts_narrow(b, bits, 2);
@@ -528,7 +531,7 @@ LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, 
         }
     }
     for (bits &= ~wider; bits != 0; bits &= bits - 1) {
-        /* Sixteen lanes take wider triangles one by one where none is asked for: most of their rows are left out then. */
+        /* Without bounds, sixteen lanes draw wider triangles one by one: most rows are skipped then. */
         if (LANES > LMB_TILE && !bounded) {
             small_alone(w, b, lowest_bit(bits), 0, kind);
         } else {
@@ -537,7 +540,7 @@ LANE_INLINE void parts_fill_plain(const lmb_fill_window *w, const lmb_batch *b, 
     }
 }
 
-/* In order, as ids tell who came first. */
+/* Draws in order, because ids depend on the order. */
 LANE_INLINE void parts_fill_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int bounded)
 {
     uint32_t narrow = parts_narrow(b, bits, 2);

@@ -1,8 +1,8 @@
 /* fill_rows.inl: one triangle into one tiled tile, for backends of a row's lanes or more. Layer 3.
  *
- * All rows are written, without a branch: which of them a triangle meets is as good as random, and a branch that is
- * guessed wrong costs as much as the rows of a tile. The steps are fill.inl's value by value; written out, as compilers
- * keep a loop. */
+ * All rows are written, without a branch: the rows that a triangle meets are as good as random, and a mispredicted
+ * branch costs as much as the rows of a tile. The steps are those of fill.inl, value by value; unrolled, because
+ * compilers keep a loop. */
 
 typedef struct fill_rows {
     lanei e0, e1, e2; /* edges at the next rows */
@@ -30,7 +30,7 @@ LANE_INLINE void rows_put(fill_rows *r, lane depth, lane_mask in, int y, int kin
     r->lowest = lane_min(r->lowest, depth);
 }
 
-/* The edges at the next rows; returns where these ones lie inside. */
+/* Advances the edges to the next rows. Returns the pixels of the current rows that are inside. */
 LANE_INLINE lane_mask rows_inside(fill_rows *r)
 {
     const lane_mask in = lanei_not_negative(lanei_or(lanei_or(r->e0, r->e1), r->e2));
@@ -47,7 +47,7 @@ LANE_INLINE void rows_cross(fill_rows *r, lane at, int y, int kind)
     rows_put(r, lane_min(lane_max(lane_add(at, r->step_d), r->d_min), r->d_max), in, y, kind);
 }
 
-/* Codes of FILL_ROWS rows, before they are held to 16 bits; 0 outside. at: d + dy y of the first. */
+/* Codes of FILL_ROWS rows, before clamping to 16 bits; 0 outside. at: d + dy y of the first. */
 LANE_INLINE lane rows_code(fill_rows *r, lane at)
 {
     const lane_mask in = rows_inside(r);
@@ -58,7 +58,7 @@ LANE_INLINE lane rows_code(fill_rows *r, lane at)
 /* Rows of a tile: all, the upper four, the lower four. */
 enum { ROWS_ALL, ROWS_UPPER, ROWS_LOWER };
 
-/* FILL_ROWS rows from row y on; at: d + dy y of eight rows, which is used where a vector is one row. */
+/* FILL_ROWS rows from row y on. at: d + dy y of eight rows, used if a vector is one row. */
 LANE_INLINE void rows_at(fill_rows *r, float d, float dy, const float *at, int y, int kind)
 {
 #if LANES > LMB_TILE
@@ -102,8 +102,8 @@ LANE_INLINE void rows_draw_codes(fill_rows *r, float d, float dy, const float *a
     }
 }
 
-/* All but `lowest` is set, the edges at the first of `rows`; d: the depth at the tile's first pixel. Leaves the farthest
- * depth of these rows in `lowest`. */
+/* On entry all but `lowest` is set, with the edges at the first of `rows`. d: the depth at the tile's first pixel. Sets
+ * `lowest` to the farthest depth of these rows. */
 LANE_INLINE void rows_draw(fill_rows *r, float d, float dy, int rows, int kind)
 {
     float at[LMB_TILE];
@@ -141,7 +141,7 @@ LANE_INLINE void rows_draw(fill_rows *r, float d, float dy, int rows, int kind)
 }
 
 #if LMB_CULLING
-/* Most triangles leave a pixel that is as far as any was. */
+/* Raises a bound if all depths exceed it. Most triangles leave a pixel as far as before. */
 LANE_INLINE void rows_raise(float *bound, lane lowest)
 {
     if (mask_bits(lane_le(lowest, lane_splat(*bound))) == 0) {

@@ -1,10 +1,10 @@
 /* fill_small.inl: a batch's small triangles into the tiles of a window, all in the backend's own code. Layer 3.
  *
- * The same sums as fill.inl, value by value. Only the rows of a triangle's box are visited, only tiles that no edge
- * leaves outside; for a float target without ids, which shadow maps are, every row is one load and one store without a
+ * Same sums as fill.inl, value by value. Visits only the rows of a triangle's box, and only tiles that are not outside
+ * an edge. For a float target without ids, such as a shadow map, each row is one load and one store without a
  * branch. */
 
-/* The part of the box inside a tile that starts at (x, y); it begins at a multiple of `rows`. */
+/* The part of the box inside a tile that starts at (x, y), rounded to begin at a multiple of `rows`. */
 LANE_INLINE fill_box small_cut(const lmb_batch *b, int k, int32_t x, int32_t y, int32_t rows)
 {
     fill_box box;
@@ -15,7 +15,7 @@ LANE_INLINE fill_box small_cut(const lmb_batch *b, int k, int32_t x, int32_t y, 
     return box;
 }
 
-/* What an edge can gain within a tile; where even that leaves it negative, the tile is outside. */
+/* The largest gain of an edge within a tile. If even that leaves the edge negative, the tile is outside. */
 LANE_INLINE int32_t small_reach(int32_t ex, int32_t ey)
 {
     return (LMB_TILE - 1) * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
@@ -38,7 +38,7 @@ LANE_INLINE void small_tile(const lmb_fill_tile *tile, const lmb_fill_job *job, 
     }
 }
 
-/* A triangle whose box lies in one tile, as most do. */
+/* A triangle with a box in one tile, the most common case. */
 LANE_INLINE void small_one(const lmb_fill_window *w, lmb_fill_job *job, const lmb_batch *b, int k,
                            const fill_triangle *t, int kind)
 {
@@ -55,7 +55,7 @@ LANE_INLINE void small_one(const lmb_fill_window *w, lmb_fill_job *job, const lm
     small_tile(&tile, job, t, b->e[0][k], b->e[1][k], b->e[2][k], &box);
 }
 
-/* The three edges are written out: gcc -O2 keeps a loop of three, and arrays in memory. */
+/* The three edges are unrolled: gcc -O2 keeps a loop of three, and arrays in memory. */
 LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const lmb_batch *b, int k,
                             const fill_triangle *t, int kind)
 {
@@ -100,7 +100,7 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
     }
 }
 
-/* Triangle k of a batch by itself. */
+/* Draws triangle k of a batch by itself. */
 LANE_INLINE void small_alone(const lmb_fill_window *w, const lmb_batch *b, int k, uint32_t id, int kind)
 {
     const int32_t ex[3] = {b->ex[0][k], b->ex[1][k], b->ex[2][k]}, ey[3] = {b->ey[0][k], b->ey[1][k], b->ey[2][k]};
@@ -167,7 +167,8 @@ void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int
     }
 }
 
-/* Tiles are found by 32-bit distances from the first one, bytes, and ids where depths are: other surfaces go one by one. */
+/* Tiles are addressed by 32-bit byte offsets from the first one, with ids at the offsets of depths. Triangles go one by
+ * one on other surfaces. */
 LANE_INLINE int small_kind(const lmb_fill_window *w)
 {
     const int kind = fill_kind(w);

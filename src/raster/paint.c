@@ -11,7 +11,7 @@ static lmb_vec3 vector_of(const float (*v)[LMB_SLOTS], int32_t slot)
     return vec3(v[0][slot], v[1][slot], v[2][slot]);
 }
 
-/* A slot's numbers, taken out of the batch. */
+/* Copies the values of a slot out of the batch. */
 static void take_slot(lmb_painted *p, const lmb_resolve_batch *b, int32_t slot)
 {
     p->slot = slot;
@@ -77,7 +77,7 @@ static void paint_levels(lmb_tile *out, const lmb_resolve_batch *b, const lmb_te
 }
 
 #if LMB_TEXTURE_FORMATS
-/* The kernel knows RGBA8 alone. */
+/* The kernel supports only RGBA8. */
 static void paint_coded(lmb_tile *out, const lmb_resolve_batch *b, const lmb_texture *t)
 {
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -97,10 +97,10 @@ static void paint_coded(lmb_tile *out, const lmb_resolve_batch *b, const lmb_tex
 typedef struct tangent_frame {
     lmb_vec3 tangent[3]; /* the first one, at the corners */
     float turn[3];       /* +1 or -1: the second one is turn * (front normal x tangent) */
-    float side;          /* -1 where the pixels show the back */
+    float side;          /* -1 if the pixels show the back */
 } tangent_frame;
 
-/* Does the mesh itself bring both axes? Small builds take the side from texture coordinates. */
+/* 1 if the mesh defines both axes. Small builds take the side from texture coordinates. */
 static int is_sided(const lmb_mesh *m) { return LMB_TREES && m->tangents != NULL && m->tangent_format == LMB_TANGENT_SIDED; }
 
 static lmb_vec3 transform_direction(const lmb_mat4 *t, lmb_vec3 d)
@@ -115,7 +115,7 @@ static lmb_vec3 tangent_in_world(const lmb_triangle *t, int corner)
     return normalize3(transform_direction(&t->instance->to_world, mesh_tangent(t->mesh, t->vertex[corner])));
 }
 
-/* The mesh's own axes. Mirroring flips a cross product. */
+/* The mesh's axes. Mirroring flips a cross product. */
 static void set_sided(tangent_frame *f, const lmb_triangle *t, float mirror)
 {
     for (int k = 0; k < 3; ++k) {
@@ -124,8 +124,8 @@ static void set_sided(tangent_frame *f, const lmb_triangle *t, float mirror)
     }
 }
 
-/* Of P(u, v): dP/du = (e1 dv2 - e2 dv1) / area and dP/dv = (e2 du1 - e1 du2) / area; only directions count. 0 where the
- * coordinates have no area. */
+/* From P(u, v): dP/du = (e1 dv2 - e2 dv1) / area and dP/dv = (e2 du1 - e1 du2) / area; only directions matter. Returns
+ * 0 if the coordinates have no area. */
 static int set_by_uv(tangent_frame *f, const lmb_painted *p, const lmb_triangle *t, lmb_vec3 front)
 {
     float du1 = p->uv[1][0], dv1 = p->uv[1][1], du2 = p->uv[2][0], dv2 = p->uv[2][1];
@@ -156,7 +156,7 @@ static int set_frame(tangent_frame *f, const lmb_painted *p, const lmb_triangle 
     return 1;
 }
 
-/* Both axes at pixel `k`. The first one is made perpendicular to the normal. If that leaves nothing, its length is
+/* Both axes at pixel `k`. The first one is made perpendicular to the normal. If that leaves nothing, the length is
  * arbitrary. */
 static void axes_at(lmb_vec3 axis[2], const tangent_frame *f, const lmb_painted *p, const lmb_rays *rays,
                     lmb_vec3 normal, int32_t k)
@@ -172,7 +172,7 @@ static void axes_at(lmb_vec3 axis[2], const tangent_frame *f, const lmb_painted 
     axis[1] = mul3(cross3(normal, axis[0]), turn[0] + ((turn[1] - turn[0]) * b1 + (turn[2] - turn[0]) * b2));
 }
 
-/* Normals stay on the viewer's side of the face, off its plane by this sine. */
+/* Normals stay on the viewer's side of the face, at least this sine above the plane. */
 #define MIN_RISE 0.01f
 
 static lmb_vec3 above_face(lmb_vec3 n, lmb_vec3 face)
@@ -181,7 +181,7 @@ static lmb_vec3 above_face(lmb_vec3 n, lmb_vec3 face)
     return rise < MIN_RISE ? normalize3(add3(n, mul3(face, MIN_RISE - rise))) : n;
 }
 
-/* The pixels of one triangle. */
+/* Bends the normals of the pixels of one triangle. */
 static void paint_normal(lmb_tile *out, const lmb_resolve_batch *b, const lmb_painted *p, const tangent_frame *f,
                          const lmb_texture *map)
 {
@@ -223,7 +223,7 @@ static void paint_normals(lmb_tile *out, const lmb_resolve_batch *b, const lmb_s
 
 /* --- metals ------------------------------------------------------------------------------------------------------- */
 
-/* Metals have no diffuse light of their own. */
+/* Metals reflect no diffuse light. */
 static void paint_metal(lmb_tile *out, const lmb_resolve_batch *b, const lmb_texture *map)
 {
     lmb_painted p;
@@ -253,7 +253,7 @@ void lmb_painter_begin(lmb_painter *out, const lmb_scene *scene, const lmb_view 
     lmb_resolve_rays(&out->rays, view, tile->x, tile->y);
 }
 
-/* The triangle of pixel k: 0 where its id names none, as no tile that was resolved has. */
+/* The triangle of pixel k. Returns 0 if the id names none, which no resolved tile has. */
 static int take_pixel(lmb_painter *at, int k)
 {
     lmb_triangle *t = &at->triangle;

@@ -1,4 +1,4 @@
-/* plane.c: the plane of one triangle, and where a tile's rays meet it. Layer 3. */
+/* plane.c: the plane of one triangle, and the intersection with a tile's rays. Layer 3. */
 #include "plane.h"
 
 #include "../base/vec.h"

@@ -1,7 +1,7 @@
-/* plane.inl: the planes of LANES triangles, and how to find a point's place on them. Layer 3.
+/* plane.inl: the planes of LANES triangles, and barycentrics of points on them. Layer 3.
  *
- * Everything is relative to the eye and scaled by each triangle's longest edge, so that squares of tiny edges stay
- * normal. */
+ * Values are relative to the eye and scaled by each triangle's longest edge, so that squares of tiny edges are not
+ * denormal. */
 
 typedef struct plane_lanes {
     lane3 corner;      /* corner 0 */

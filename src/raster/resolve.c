@@ -50,7 +50,7 @@ int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, f
 }
 
 #if LMB_TREES /* small builds draw holes pixel by pixel */
-/* Rounding of the mix and of the sample's shares. */
+/* For rounding of the interpolation and of the sample's weights. */
 #define ROUNDING 1.0001f
 #define MIDDLE   (1.0f / 3.0f)
 
@@ -82,14 +82,14 @@ int lmb_triangle_opaque(const lmb_triangle *t, const lmb_scene *scene, float b1,
     return lmb_resolve_opaque(&alpha, scene, b1, b2);
 }
 
-/* Kernels that are as wide as a tile write every pixel of its first batch: nothing is cleared before them. */
+/* Kernels as wide as a tile write every pixel in a tile's first batch, so nothing is cleared before them. */
 enum { HAVE_WIDE = LMB_HAVE_AVX2 || LMB_HAVE_AVX512 };
 
 static int writes_all(const lmb_kernels *kernels) { return HAVE_WIDE && kernels->lanes >= LMB_TILE; }
 
 /* --- a tile ------------------------------------------------------------------------------------------------------- */
 
-/* Ids of the tile's pixels inside window and frame; the others' are 0, where they were not cleared before. */
+/* Ids of the tile's pixels inside window and frame. Other ids are set to 0 if they were not cleared before. */
 static void read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, const lmb_view *v, int32_t x, int32_t y)
 {
     const lmb_fill_tile t = lmb_target_tile(target, (x - target->x0) / LMB_TILE, (y - target->y0) / LMB_TILE);
@@ -114,7 +114,7 @@ static void read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, con
 /* Vertex numbers of a batch, [slot][corner]. */
 typedef uint32_t corner_vertices[LMB_SLOTS][3];
 
-/* Written out: gcc -O2 keeps loops of three. */
+/* Unrolled: gcc -O2 keeps loops of three. */
 static void fetch_float(float to[3][LMB_SLOTS], int k, const float *p)
 {
     to[0][k] = p[0];
@@ -182,7 +182,7 @@ static void fetch_uvs(lmb_resolve_batch *b, corner_vertices vertex)
     }
 }
 
-/* Vertex 0 stands for those that are not there; returns their slots, a bit each. */
+/* Replaces missing vertices by vertex 0. Returns their slots, one bit each. */
 static uint32_t fetch_indices(corner_vertices vertex, const lmb_resolve_batch *b)
 {
     const lmb_mesh *m = b->mesh;
@@ -201,7 +201,7 @@ static uint32_t fetch_indices(corner_vertices vertex, const lmb_resolve_batch *b
     return bad;
 }
 
-/* The three vertices of each slot. */
+/* Prefetches the three vertices of each slot. */
 MESH_HINT void fetch_soon(const void *stream, size_t bytes, corner_vertices vertex, int count)
 {
     for (int k = 0; k < count; ++k) {
@@ -211,14 +211,14 @@ MESH_HINT void fetch_soon(const void *stream, size_t bytes, corner_vertices vert
     }
 }
 
-/* Slots that are not used hold numbers: from corners to uvs. Wide kernels do not ask them. */
+/* Unused slots must hold valid numbers, from corners to uvs. Wide kernels do not read them. */
 static void fetch_nothing(lmb_resolve_batch *b)
 {
     const size_t from = offsetof(lmb_resolve_batch, corner), past = offsetof(lmb_resolve_batch, plane);
     memset((uint8_t *)b + from, 0, past - from);
 }
 
-/* All slots' triangles from the mesh; returns the slots of those that are none, a bit each. */
+/* Fetches all slots' triangles from the mesh. Returns the invalid ones, one bit each. */
 static uint32_t fetch(lmb_resolve_batch *b, int is_wide)
 {
     const lmb_mesh *m = b->mesh;
@@ -257,7 +257,7 @@ static uint32_t fetch(lmb_resolve_batch *b, int is_wide)
 
 static lmb_resolve_batch *batch_of(lmb_tile *t) { return (lmb_resolve_batch *)(void *)t->work.bytes; }
 
-/* Pixels of slot k become nothing: their id comes from another scene. */
+/* Clears the pixels of slot k: their id comes from another scene. */
 static void drop_slot(lmb_tile *out, int k)
 {
     int32_t *slot = batch_of(out)->slot;
@@ -269,7 +269,7 @@ static void drop_slot(lmb_tile *out, int k)
     }
 }
 
-/* As many of the triangles of the pixels `left` as go side by side; returns the pixels that are done. */
+/* Resolves as many triangles of the pixels `left` as fit a batch. Returns the pixels that are done. */
 static uint64_t resolve_some(lmb_tile *out, const lmb_kernels *kernels, const lmb_scene *scene, uint64_t left)
 {
     lmb_resolve_batch *b = batch_of(out);
@@ -294,7 +294,7 @@ static uint64_t resolve_some(lmb_tile *out, const lmb_kernels *kernels, const lm
     return done;
 }
 
-/* From the first plane, or from albedo on, to `past`. */
+/* Clears from the first plane, or from albedo, to `past`. */
 static void clear_to(lmb_tile *out, int albedo_only, size_t past)
 {
     const size_t from = albedo_only ? offsetof(lmb_tile, albedo) : 0;

@@ -1,4 +1,4 @@
-/* resolve.h: finds where a triangle has holes, for masked filling, shadows and occlusion. Layer 3. */
+/* resolve.h: tests a triangle for holes, for masked filling, shadows and occlusion. Layer 3. */
 #ifndef LMB_RASTER_RESOLVE_H
 #define LMB_RASTER_RESOLVE_H
 
@@ -11,7 +11,7 @@ typedef struct lmb_resolve_alpha {
     int32_t texture;
 } lmb_resolve_alpha;
 
-/* A value given at the corners. */
+/* Interpolates a value given at the corners. */
 static inline float resolve_mix3(const float corner[3], float b1, float b2)
 {
     return corner[0] + ((corner[1] - corner[0]) * b1 + (corner[2] - corner[0]) * b2);
@@ -19,10 +19,10 @@ static inline float resolve_mix3(const float corner[3], float b1, float b2)
 
 void lmb_resolve_alpha_of(lmb_resolve_alpha *out, const lmb_triangle *triangle);
 
-/* Does the surface stand at barycentrics (b1, b2), or is there a hole? They are clamped into the triangle. */
+/* 1 if the surface is opaque at barycentrics (b1, b2), which are clamped to the triangle; 0 in a hole. */
 int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2);
 
-/* 1 if the whole triangle is a hole. 0 also if the answer needs more than *texels texels of its texture. *texels is
+/* 1 if the whole triangle is a hole. 0 also if the answer needs more than *texels texels of the texture. *texels is
  * reduced by the texels that were read. */
 int lmb_resolve_is_hole(const lmb_resolve_alpha *alpha, const lmb_scene *scene, uint32_t *texels);
 

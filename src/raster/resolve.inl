@@ -1,15 +1,15 @@
 /* resolve.inl: the attributes of a tile's pixels, from the triangles that they show. Layer 3.
  *
- * First the different triangles get slots; then up to LMB_SLOTS of them are set up side by side; then each vector of
- * pixels looks its triangles' numbers up by slot. The position is where the pixel's ray meets the triangle's own plane:
- * no depth read back, no snapping error off the plane. On a plane seen edge-on the quotient is clamped to the
- * triangle's own range of w. */
+ * First the different triangles get slots. Then up to LMB_SLOTS of them are set up side by side. Then each vector of
+ * pixels looks up the values of its triangles by slot. The position is the intersection of the pixel's ray with the
+ * triangle's plane: depth is not read back, and snapping moves nothing off the plane. On a plane seen edge-on, the
+ * quotient is clamped to the triangle's range of w. */
 #include "plane.inl"
 #include "plane.h"
 
 /* --- slots -------------------------------------------------------------------------------------------------------- */
 
-/* Pixels whose id is not 0, a bit each. */
+/* Pixels with an id other than 0, one bit each. */
 static uint64_t KERNEL(resolve_shown)(const uint32_t id[LMB_TILE_PIXELS])
 {
     uint64_t none = 0;
@@ -33,7 +33,7 @@ LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id,
 }
 
 #if LANES < LMB_TILE
-/* Pixels k .. k + LANES - 1 with `id` take the slot; returns them. */
+/* Assigns the slot to the pixels of k .. k + LANES - 1 that have the id. Returns them. */
 LANE_INLINE uint32_t resolve_take(int32_t *slot, const uint32_t *id, int k, lanei wanted, lanei number)
 {
     const lane_mask mine = lanei_equal(lanei_load((const int32_t *)id + k), wanted);
@@ -65,10 +65,10 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
     return taken;
 }
 #else
-/* Pixels k whose id pixel k - `back` has as well, a bit each. */
+/* Pixels k with the same id as pixel k - `back`, one bit each. */
 LANE_INLINE uint64_t resolve_repeated(const uint32_t *id, int back)
 {
-    const int last = LMB_TILE_PIXELS - LANES - back; /* vectors may overlap: none leaves the tile */
+    const int last = LMB_TILE_PIXELS - LANES - back; /* vectors may overlap, so none leaves the tile */
     uint64_t same = 0;
     for (int from = 0; from < LMB_TILE_PIXELS - back; from += LANES) {
         const int k = from < last ? from : last;
@@ -84,7 +84,7 @@ typedef struct resolve_quarter {
     lanei slot[LMB_TILE_PIXELS / 4 / LANES];
 } resolve_quarter;
 
-/* Pixels k .. k + 15 with the id `wanted` take the slot; returns them. */
+/* Assigns the slot to the pixels of k .. k + 15 that have the id `wanted`. Returns them. */
 LANE_INLINE uint64_t resolve_take(resolve_quarter *q, const uint32_t *id, int k, lanei wanted, lanei number)
 {
     uint64_t mine = 0;
@@ -112,8 +112,8 @@ LANE_INLINE resolve_quarter resolve_no_slots(void)
     return q;
 }
 
-/* The same slots in the same order. The first pixel of an id is among those whose id no neighbour before them has, and
- * these are known at once: a processor looks for the next while the last one's pixels are still compared. */
+/* The same slots in the same order. The first pixel of an id is one of those with a different id than all earlier
+ * neighbours. These are known at once, so the search for the next id overlaps the comparisons of the last one. */
 static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left)
 {
     uint64_t taken = 0;
@@ -144,7 +144,7 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
-/* Slots from k on. Of those that are not used wide backends take 0; for others there is 0. */
+/* Loads slots from k on. Wide backends set unused slots to 0; for others they are 0 in memory. */
 LANE_INLINE lane resolve_load1(const lmb_resolve_batch *b, const float *p, int k)
 {
 #if LANES < LMB_TILE
@@ -171,15 +171,15 @@ LANE_INLINE void resolve_store(float (*p)[LMB_SLOTS], int k, lane3 v)
     lane_store(p[2] + k, v.z);
 }
 
-/* Three columns times three coordinates, summed in their order. */
+/* Three columns times three coordinates, summed in this order. */
 LANE_INLINE lane3 resolve_columns(const lmb_vec3 column[3], lane3 p)
 {
     return lane3_add(lane3_add(lane3_scale(lane3_of(column[0]), p.x), lane3_scale(lane3_of(column[1]), p.y)),
                      lane3_scale(lane3_of(column[2]), p.z));
 }
 
-/* Is only colour asked for, of rays from one point? Then what all pixels of a triangle share is in its slot. The origin of
- * rays from the eye is 0, and adding it changes nothing but a zero's sign, which no colour shows. */
+/* 1 if only colour is needed, for rays from one point. Then the slot holds the values shared by all pixels of a
+ * triangle. The origin of rays from the eye is 0; adding 0 changes only the sign of zeros, which no colour shows. */
 LANE_INLINE int resolve_from_eye(const lmb_resolve_batch *b)
 {
     return LANES >= LMB_TILE && b->albedo_only && b->rays.perspective;
@@ -193,7 +193,7 @@ static void resolve_put_vec(float (*p)[LMB_SLOTS], int k, lmb_vec3 v)
     p[2][k] = v.z;
 }
 
-/* Without vectors one after the other, by the code that masked triangles need anyway. */
+/* Without vectors one after the other, with the code for masked triangles. */
 LANE_INLINE void resolve_planes(lmb_resolve_batch *b, const lmb_vec3 column[4], int k)
 {
     (void)column;
@@ -260,7 +260,7 @@ LANE_INLINE lane3 resolve_octahedral(lane code_x, lane code_y)
     return resolve_unit(n);
 }
 
-/* Normals go by the cofactors of the transform: right for uneven scales, and mirrors only flip them. */
+/* Normals are transformed by the cofactors of the matrix: correct for uneven scales, and mirrors only flip them. */
 LANE_INLINE void resolve_normals(lmb_resolve_batch *b, const lmb_vec3 column[3], int k)
 {
     const lmb_vec3 cofactor[3] = {cross3(column[1], column[2]), cross3(column[2], column[0]),
@@ -273,7 +273,7 @@ LANE_INLINE void resolve_normals(lmb_resolve_batch *b, const lmb_vec3 column[3],
     }
 }
 
-/* Of a code 0 .. 255, as a 255th: for all of them the sum rounds to what a division gives, which takes longer. */
+/* A code 0 .. 255 / 255: for all codes the sum rounds like the division, which takes longer. */
 LANE_INLINE lane resolve_share(lanei code)
 {
     const lane c = lane_from_int(code);
@@ -361,8 +361,8 @@ LANE_INLINE void resolve_put(float *p, const resolve_pixels *which, lane value)
     lane_store(p, lane_pick(which->mine, value, lane_load(p)));
 }
 #else
-/* Pixels of a vector: those that a batch sets, and those whose old values stay; the others become 0, which spares a tile
- * being cleared. */
+/* Pixels of a vector: those that a batch sets, and those that keep old values. The others become 0, so tiles need not
+ * be cleared. */
 typedef struct resolve_pixels {
     lane_mask mine, stay;
 } resolve_pixels;
@@ -395,7 +395,7 @@ LANE_INLINE lane3 resolve_lookup(const float (*p)[LMB_SLOTS], lanei slot)
     return r;
 }
 
-/* Where in its triangle each pixel is. */
+/* Position of each pixel in its triangle. */
 typedef struct resolve_place {
     lanei slot;
     lane b1, b2;
@@ -407,7 +407,7 @@ LANE_INLINE lane resolve_mix(const float *first, const float *second, const floa
                                                           lane_mul(at->b2, lane_table(third, at->slot))));
 }
 
-/* The interpolated normal, unit length, on the face normal's side; the face normal where it vanishes. */
+/* The interpolated normal, unit length, on the face normal's side; the face normal if the interpolation vanishes. */
 LANE_PART lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place *at, lane3 face)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), tiny = lane_splat(1e-12f);
@@ -422,14 +422,14 @@ LANE_PART lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place *
     return lane3_pick(fine, lane3_scale(n, scale), face);
 }
 
-/* What the triangle's colour is made of. */
+/* Inputs of the triangle's colour. */
 LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k, const resolve_place *at,
                                 const resolve_pixels *which)
 {
     for (int c = 0; c < 3; ++c) {
         lane albedo = lane_splat(b->material->albedo[c]);
         if (b->mesh->colours != NULL) {
-            /* A mix of nothing and something may be rounded under nothing. */
+            /* Rounding may make a mix of zero and a positive value negative. */
             albedo = lane_max(lane_splat(0.0f), resolve_mix(b->albedo[0][c], b->albedo[1][c], b->albedo[2][c], at));
         }
         resolve_put(out->albedo[c] + k, which, albedo);
@@ -445,7 +445,7 @@ LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k
     }
 }
 
-/* `from_eye`: all rays start at the eye, so each plane has one height over it. */
+/* `from_eye`: all rays start at the eye, so each plane has one height above it. */
 LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k, lanei slot,
                                 const resolve_pixels *which, int from_eye)
 {

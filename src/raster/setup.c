@@ -1,17 +1,17 @@
 /* setup.c: three screen vertices -> edge functions and a depth plane. Layer 3.
  *
- * Ranges: the guard band keeps |x|, |y| < 2^22 (24.8 from the frame's middle, LMB_MAX_FRAME = 2^14 px), differences
- * < 2^23, products < 2^46: int64. Pixel centres all have the same fraction, so floor(E / 256) loses nothing and steps
- * by exactly ex a pixel. Over a tile that an edge crosses it stays under 2^27: int32.
+ * Ranges: the guard band keeps |x|, |y| < 2^22 (24.8 from the frame's centre, LMB_MAX_FRAME = 2^14 px), differences <
+ * 2^23, products < 2^46: int64. Pixel centres all have the same fraction, so floor(E / 256) is exact and changes by
+ * exactly ex per pixel. Over a tile that an edge crosses it stays under 2^27: int32.
  *
- * The depth plane is solved in binary64: the cross products of a 24-bit depth difference and a 23-bit distance are
- * exact there, so slivers keep their slope. (In binary32 a 300:1 sliver's slope lost 9 bits.) No corner's depth is
- * above 1: the near plane leaves z <= w, and w times the rounded 1 / w rounds to 1 or less. */
+ * The depth plane is solved in binary64, in which the cross products of a 24-bit depth difference and a 23-bit distance
+ * are exact, so slivers keep their slope. (In binary32 a 300:1 sliver's slope lost 9 bits.) No corner's depth is above
+ * 1: the near plane leaves z <= w, and w times the rounded 1 / w rounds to 1 or less. */
 #include "setup.h"
 
 #include "../base/vec.h"
 
-/* Inside on the line itself for top and left edges only: others lose 1 in E. */
+/* Points on the line are inside only for top and left edges: others subtract 1 from E. */
 static int64_t fill_rule(int32_t ex, int32_t ey) { return ex > 0 || (ex == 0 && ey > 0) ? 0 : -1; }
 
 static void set_edge(lmb_setup *s, int i, const lmb_screen_vertex *from, const lmb_screen_vertex *to)

@@ -4,20 +4,20 @@
 
 #include "../lane/kernels.h"
 
-/* 24.8 fixed point, from the middle of the frame, y down. */
+/* 24.8 fixed point, from the centre of the frame, y down. */
 typedef struct lmb_screen_vertex {
     int32_t x_24_8, y_24_8;
     float d;
 } lmb_screen_vertex;
 
-/* Twice its area, 24.8 squared: over 0 where it is clockwise in the picture, as y points down. */
+/* Twice the area, 24.8 squared: positive if clockwise in the picture, because y points down. */
 static inline int64_t setup_area(const lmb_screen_vertex *a, const lmb_screen_vertex *b, const lmb_screen_vertex *c)
 {
     return (int64_t)(b->x_24_8 - a->x_24_8) * (c->y_24_8 - a->y_24_8) -
            (int64_t)(c->x_24_8 - a->x_24_8) * (b->y_24_8 - a->y_24_8);
 }
 
-/* 1, or 0 for a triangle without area. */
+/* Returns 1, or 0 for a triangle without area. */
 int lmb_setup_triangle(lmb_setup *out, const lmb_screen_vertex *a, const lmb_screen_vertex *b,
                        const lmb_screen_vertex *c);
 

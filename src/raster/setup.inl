@@ -1,27 +1,28 @@
 /* setup.inl: a batch of triangles from positions to edges, box and depth plane, LANES triangles at a time. Layer 3.
  *
- * The arithmetic is draw_one.c's and setup.c's, value by value; here small triangles only, whose edges fit 32 bits: a
- * box under 64 px a side (2^14 in 24.8) keeps products of differences under 2^29 up to the far corner of its tiles. */
+ * The arithmetic is that of draw_one.c and setup.c, value by value, but only for small triangles with edges that fit 32
+ * bits: a box under 64 px a side (2^14 in 24.8) keeps products of differences under 2^29 up to the far corner of the
+ * tiles. */
 
 #include <string.h>
 
 #include "../base/vertex.h"
 
 #if LANES > 1
-/* Corners of a batch, m in model space. All are fetched before the first are used: a vector is loaded late from what
- * was just stored number by number. */
+/* Corners of a batch, m in model space. All are fetched before the first are used, because a vector load stalls after
+ * scalar stores to the same bytes. */
 typedef struct setup_corners {
     float position[3][3][LMB_BATCH]; /* [corner][axis] */
 } setup_corners;
 
-/* Without vectors a call is cheaper than three corners' lanes at once. */
+/* Without vectors a call is cheaper than the lanes of three corners at once. */
 #if defined(LANE_PLAIN)
 #define SETUP_CORNER static
 #else
 #define SETUP_CORNER LANE_INLINE
 #endif
 
-/* Corner i of triangle k; 1 where the mesh has such a vertex. */
+/* Fetches corner i of triangle k. Returns 1 if the mesh has this vertex. */
 SETUP_CORNER uint32_t setup_fetch_corner(setup_corners *out, int i, uint32_t k, const lmb_mesh *mesh, uint32_t vertex)
 {
     if (vertex >= mesh->vertex_count) {
@@ -35,7 +36,7 @@ SETUP_CORNER uint32_t setup_fetch_corner(setup_corners *out, int i, uint32_t k, 
     return 1;
 }
 
-/* `count` triangles from `first` on; returns those whose every index is inside the mesh, a bit each. */
+/* Fetches `count` triangles from `first` on. Returns those with all indices inside the mesh, one bit each. */
 LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
     uint32_t in = 0;
@@ -51,8 +52,9 @@ LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, u
 }
 
 #if defined(LANE_GATHERS_CORNERS)
-/* A whole batch of a usual mesh that reads neither past the mesh nor its last vertex, as a corner is read with the number
- * after it; 0 where it is none. First corners of the next batch, and indices of the one three further on, are asked for. */
+/* Fetches a whole batch of a common mesh, if it reads neither past the mesh nor the last vertex; a corner is read with
+ * the following number. Otherwise returns 0. Prefetches the first corners of the next batch, and indices of the batch
+ * three further on. */
 LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
     if (count != LMB_BATCH || mesh->vertex_count == 0 || mesh->index_format != LMB_INDEX_U32 ||
@@ -68,7 +70,7 @@ LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint
     if (mask_bits(mask_not(in)) != 0) {
         return 0;
     }
-    if (mesh->triangle_count - first >= 5 * LMB_BATCH) { /* else indices end before those that are asked for */
+    if (mesh->triangle_count - first >= 5 * LMB_BATCH) { /* otherwise the indices end before the prefetched ones */
         for (int k = 0; k < LMB_BATCH; ++k) {
             MESH_SOON((const void *)((uintptr_t)mesh->positions + (size_t)vertex[3 * (LMB_BATCH + k)] * 12)); /* not checked yet */
         }
@@ -87,7 +89,7 @@ LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint
 }
 #endif
 
-/* The same, with code of its own for usual meshes. */
+/* The same, with specialised code for common meshes. */
 static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
 #if defined(LANE_GATHERS_CORNERS)
@@ -96,7 +98,7 @@ static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uin
     }
 #endif
     if (count < LMB_BATCH) {
-        memset(out, 0, sizeof *out); /* empty places hold numbers */
+        memset(out, 0, sizeof *out); /* unused places hold valid numbers */
     }
     return setup_fetch_all(out, mesh, first, count);
 }
@@ -107,8 +109,8 @@ typedef struct setup_corner {
     lane d;
 } setup_corner;
 
-/* What holds for the corners so far: all are sane; one is outside a plane; all are outside the near plane, left, right,
- * top, bottom. */
+/* State of the corners so far: all are sane; one is outside a plane; all are outside the near plane, left, right, top,
+ * bottom. */
 typedef struct setup_sides {
     lane_mask sane, any, all[5];
 } setup_sides;
@@ -135,7 +137,7 @@ typedef struct setup_point {
     lane x, y, z, w;
 } setup_point;
 
-/* `out`: is it outside the near plane, left, right, top, bottom? Returns whether it is sane. */
+/* `out`: outside the near plane, left, right, top, bottom. Returns whether the corner is sane. */
 LANE_INLINE lane_mask setup_project(setup_point *to, lane_mask out[5], const lmb_setup_job *job, lane3 p)
 {
     const lane zero = lane_splat(0.0f);
@@ -159,7 +161,7 @@ LANE_INLINE lane_mask setup_project(setup_point *to, lane_mask out[5], const lmb
     return mask_and(mask_and(setup_sane(along_x), setup_sane(along_y)), setup_sane(along));
 }
 
-/* What is clipped or insane, and so not good, is not used, and must not reach the conversion to int. */
+/* Corners that are clipped or insane (not `good`) are not used, and must not reach the conversion to int. */
 LANE_INLINE setup_corner setup_snap(const lmb_setup_job *job, const setup_point *p, lane_mask good)
 {
     const lane one = lane_splat(1.0f), inverse = lane_div(one, lane_pick(good, p->w, one));
@@ -173,7 +175,7 @@ LANE_INLINE setup_corner setup_snap(const lmb_setup_job *job, const setup_point 
 }
 
 #if LANES > 1
-/* A corner that lies so; returns where it is neither outside a plane nor insane. */
+/* Adds a corner's sides. Returns the lanes that are inside all planes and sane. */
 LANE_INLINE lane_mask setup_side(setup_sides *inout, lane_mask sane, const lane_mask out[5])
 {
     const lane_mask any = mask_or(out[0], mask_or(mask_or(out[1], out[2]), mask_or(out[3], out[4])));
@@ -202,7 +204,7 @@ NOINLINE setup_corner setup_transform(setup_sides *sides, const lmb_setup_job *j
 static inline lanei setup_min3(lanei a, lanei b, lanei c) { return lanei_min(a, lanei_min(b, c)); }
 static inline lanei setup_max3(lanei a, lanei b, lanei c) { return lanei_max(a, lanei_max(b, c)); }
 
-/* First and last pixels whose centres lie in a box's side, within the window. */
+/* First and last pixels with centres in a box's side, within the window. */
 static inline lanei setup_first(lanei low, int32_t origin, int32_t min)
 {
     return lanei_max(lanei_shift(lanei_add(low, lanei_splat(255 - origin)), 8), lanei_splat(min));
@@ -213,7 +215,7 @@ static inline lanei setup_last(lanei high, int32_t origin, int32_t max)
     return lanei_min(lanei_shift(lanei_sub(high, lanei_splat(origin)), 8), lanei_splat(max));
 }
 
-/* Edge i from one corner to the next: floor(E / 256) at (x, y), where E counts the fill rule. */
+/* Edge i from one corner to the next: floor(E / 256) at (x, y), with the fill rule in E. */
 LANE_PART void setup_edge_lanes(lmb_batch *b, int i, int k, const setup_corner *from, const setup_corner *to,
                                     lanei x, lanei y)
 {
@@ -253,8 +255,8 @@ LANE_INLINE setup_corner setup_either(lane_mask m, const setup_corner *a, const 
     return c;
 }
 
-/* Triangles side by side: corners b and c from a, twice the area, the pixels of their boxes; which of them turn the other
- * way, and which are to be seen in the window. */
+/* Triangles side by side: corners b and c from a, twice the area, the pixels of their boxes; `turned`: opposite
+ * winding; `shown`: visible in the window. */
 typedef struct setup_box {
     lanei bx, by, cx, cy, area, x0, y0, x1, y1;
     lane_mask turned, shown;
@@ -266,8 +268,8 @@ LANE_INLINE void setup_begin(lmb_batch_sets *out, uint32_t in)
     out->small = out->other = out->drawn = out->dropped = 0;
 }
 
-/* Triangles k .. k + LANES - 1, from their corners; `in`: those that are there. Adds to the sets but `small`; returns
- * those that are to be seen, a bit each. */
+/* Triangles k .. k + LANES - 1, from their corners; `in`: those that exist. Adds to all sets but `small`. Returns the
+ * visible ones, one bit each. */
 LANE_INLINE uint32_t setup_find_box(setup_box *box, lmb_batch_sets *out, const lmb_setup_job *job, const setup_sides *sides,
                                     lane_mask in, const setup_corner *a, const setup_corner *b, const setup_corner *c,
                                     int k)
@@ -281,7 +283,7 @@ LANE_INLINE uint32_t setup_find_box(setup_box *box, lmb_batch_sets *out, const l
     const lanei limit = lanei_splat(LMB_SMALL_24_8);
     lane_mask small = mask_and(whole, mask_and(lanei_lt(lanei_sub(x1, x0), limit), lanei_lt(lanei_sub(y1, y0), limit)));
     lanei bx = lanei_sub(b->x, a->x), by = lanei_sub(b->y, a->y), cx = lanei_sub(c->x, a->x), cy = lanei_sub(c->y, a->y);
-    /* Of the others the products may not fit: they are given none. */
+    /* Products of other triangles may overflow, so their inputs are set to 0. */
     bx = lanei_pick(small, bx, zero), by = lanei_pick(small, by, zero);
     cx = lanei_pick(small, cx, zero), cy = lanei_pick(small, cy, zero);
     const lanei area = lanei_sub(lanei_mul(bx, cy), lanei_mul(cx, by));
@@ -303,14 +305,14 @@ LANE_INLINE uint32_t setup_find_box(setup_box *box, lmb_batch_sets *out, const l
     return mask_bits(box->shown);
 }
 
-/* Edges and planes of triangles k .. k + LANES - 1, of which some are to be seen; their corners change. */
+/* Edges and planes of triangles k .. k + LANES - 1, some of which are visible. Changes the corners. */
 LANE_INLINE void setup_edges(lmb_batch *out, const lmb_setup_job *job, const setup_box *box, setup_corner *a,
                              setup_corner *b, setup_corner *c, int k)
 {
     const lane_mask shown = box->shown;
     lanei_store(out->x1 + k, box->x1);
     lanei_store(out->y1 + k, box->y1);
-    /* What is not shown takes the place of corner a, so that no sum below leaves 32 bits. */
+    /* Triangles that are not shown use corner a, so that no sum below exceeds 32 bits. */
     b->x = lanei_add(a->x, box->bx), b->y = lanei_add(a->y, box->by);
     c->x = lanei_add(a->x, box->cx), c->y = lanei_add(a->y, box->cy);
     const lanei px0 = lanei_pick(shown, box->x0, lanei_splat(job->x0)), py0 = lanei_pick(shown, box->y0, lanei_splat(job->y0));
@@ -327,7 +329,7 @@ LANE_INLINE void setup_edges(lmb_batch *out, const lmb_setup_job *job, const set
     setup_depth(out, k, a, &second, &third, area);
 }
 
-/* Triangles k .. k + LANES - 1, from their corners, which change; `in`: those that are there. */
+/* Triangles k .. k + LANES - 1, from their corners, which change; `in`: those that exist. */
 LANE_INLINE void setup_triangles(lmb_batch *out, const lmb_setup_job *job, const setup_sides *sides, lane_mask in,
                                  setup_corner *a, setup_corner *b, setup_corner *c, int k)
 {
@@ -340,7 +342,7 @@ LANE_INLINE void setup_triangles(lmb_batch *out, const lmb_setup_job *job, const
 }
 
 #if LANES > 1
-/* In KERNEL(setup)'s loop compilers would keep what does not change, two dozen vectors, on the stack. */
+/* A separate function: in KERNEL(setup)'s loop compilers would keep the invariants, two dozen vectors, on the stack. */
 NOINLINE void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
 {
     const lane_mask in = mask_of_bits(out->sets.in >> k);
@@ -361,9 +363,9 @@ static void KERNEL(setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_me
     }
 }
 #else
-/* One at a time, triangles share two corners in three with those just before: a corner is transformed once while no
- * other one takes its place among those that are kept. */
-enum { SETUP_INSANE = 1, SETUP_OUTSIDE = 62 }; /* of is_out: bits 1 .. 5, one a plane */
+/* One at a time, triangles share two corners in three with recent ones. A corner stays transformed until another vertex
+ * takes its place in the cache. */
+enum { SETUP_INSANE = 1, SETUP_OUTSIDE = 62 }; /* bits 1 .. 5 of is_out: one a plane */
 
 static void setup_keep(lmb_batch_corner *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t vertex)
 {
@@ -382,7 +384,7 @@ static void setup_keep(lmb_batch_corner *out, const lmb_setup_job *job, const lm
     }
 }
 
-/* A corner, transformed or kept; 0 where the mesh has no such vertex. */
+/* Finds a corner in the cache or transforms it. Returns 0 if the mesh has no such vertex. */
 static int setup_find(lmb_batch_corner *out, lmb_batch_sets *b, const lmb_setup_job *job, const lmb_mesh *mesh,
                       uint32_t vertex)
 {
@@ -406,7 +408,8 @@ LANE_INLINE setup_corner setup_of(const lmb_batch_corner *c)
     return r;
 }
 
-/* Triangle k of the batch: 1, and its corners, where they are sane and no plane cuts it; else it is put into the sets. */
+/* Triangle k of the batch. Returns 1 and the corners if they are sane and no plane cuts it; otherwise updates the
+ * sets. */
 static int setup_whole(setup_corner corner[3], lmb_batch_sets *out, const lmb_setup_job *job, const lmb_mesh *mesh,
                        uint32_t triangle, uint32_t k)
 {
@@ -430,7 +433,7 @@ static int setup_whole(setup_corner corner[3], lmb_batch_sets *out, const lmb_se
     return 1;
 }
 
-/* Of a triangle that is whole. */
+/* The sides of a triangle inside all planes. */
 LANE_INLINE setup_sides setup_inside(void)
 {
     const lane_mask in = mask_of_bits(1), none = mask_of_bits(0);

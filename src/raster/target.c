@@ -1,4 +1,4 @@
-/* target.c: where a window's tiles lie in memory, and how 16 bits encode depth. Layer 3. */
+/* target.c: memory layout of a window's tiles, and 16-bit depth codes. Layer 3. */
 #include "target.h"
 
 #include "../base/surface_check.h"
@@ -87,10 +87,10 @@ NOINLINE int is_unit(lmb_vec3 v)
     return d2 > 0.99f && d2 < 1.01f;
 }
 
-/* So that 1 / a length is a number. */
+/* So that 1 / length is finite. */
 #define MIN_M 1e-30f
 
-/* -128 .. 127; in builds of one sample a pixel its middle. */
+/* -128 .. 127; in builds with one sample a pixel, 0: the centre. */
 static int is_in_pixel(int32_t sample)
 {
     return LMB_MULTISAMPLE ? (uint32_t)sample + 128u < 256u : sample == 0;
@@ -106,7 +106,7 @@ int lmb_view_is_valid(const lmb_view *v)
            (v->kind == LMB_PERSPECTIVE || (v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m));
 }
 
-/* A window on whole tiles, inside the frame but for the last tile's own edge. */
+/* 1 if the window consists of whole tiles inside the frame, except that the last tiles may extend past it. */
 static int is_window(const lmb_target *t, const lmb_view *view)
 {
     return t->x0 >= 0 && t->y0 >= 0 && t->x0 % LMB_TILE == 0 && t->y0 % LMB_TILE == 0 &&

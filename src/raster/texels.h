@@ -1,4 +1,4 @@
-/* texels.h: where a texture's texels are: levels, formats, coordinates that repeat or are mirrored. Layer 3. */
+/* texels.h: addresses of texels: levels, formats, coordinates that repeat or are mirrored. Layer 3. */
 #ifndef LMB_RASTER_TEXELS_H
 #define LMB_RASTER_TEXELS_H
 
@@ -37,14 +37,14 @@ static inline texel_level texel_find_level(const lmb_texture *t, int32_t n)
     return l;
 }
 
-/* floorf of what is sane: no call, so that less is kept for callers. */
+/* floorf for sane values: without a call, so callers save fewer registers. */
 static inline float texel_floor(float v)
 {
     const float whole = (float)(int32_t)v;
     return whole > v ? whole - 1.0f : whole;
 }
 
-/* Into one period, so that texel numbers stay small: 0 .. 1, or 0 .. 2 for mirrored ones. What is absurd is 0. */
+/* Reduces to one period, so that texel indices stay small: 0 .. 1, or 0 .. 2 if mirrored. Absurd values become 0. */
 static inline float texel_reduce(float u, int wrap)
 {
     if (!is_sane(u)) {
@@ -57,7 +57,7 @@ static inline float texel_reduce(float u, int wrap)
     }
 }
 
-/* The texel i of a side, -1 .. twice the size. */
+/* Index of texel i of a side, for -1 .. twice the size. */
 static inline int32_t texel_wrap(int32_t i, int32_t size, int wrap)
 {
     switch (wrap) {

@@ -7,7 +7,7 @@
 #include "../base/vec.h"
 #include "texels.h"
 
-/* What the codes of R G B stand for. Alpha is linear. */
+/* Meaning of the codes of R G B. Alpha is linear. */
 enum { AS_COLOUR, AS_VECTOR };
 
 static float decode(int32_t codes, uint8_t code)
@@ -15,7 +15,7 @@ static float decode(int32_t codes, uint8_t code)
     return codes == AS_COLOUR ? lmb_srgb_decode(code) : (float)code * (2.0f / 255.0f) - 1.0f;
 }
 
-/* Up to four texels of a level, and how much each counts. */
+/* Up to four texels of a level, and their weights. */
 typedef struct footprint {
     texel_level from;
     int32_t x, y, count;
@@ -47,7 +47,7 @@ static footprint find_texels(const lmb_texture *t, int32_t n, float u, float v, 
 }
 
 #if LMB_TEXTURE_FORMATS
-/* The R G B A that a texel of another format stands for. */
+/* R G B A of a texel in another format. */
 static const uint8_t *find_codes(uint8_t out[4], const lmb_texture *t, const uint8_t *texels, size_t at)
 {
     if (t->format == LMB_TEXELS_PALETTE4) {
@@ -82,7 +82,7 @@ static void add_texels(float out[4], const lmb_texture *t, const footprint *f, i
     }
 }
 
-/* One loop for both levels of a trilinear sample, with everything inlined: in small builds masked triangles call it at a
+/* One loop for both levels of a trilinear sample, with all calls inlined: in small builds masked triangles call it at a
  * deep level of the stack. */
 static void sample(float out[4], const lmb_texture *t, int32_t codes, float u, float v, float lod)
 {
@@ -109,8 +109,8 @@ void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, fl
 }
 
 #if LMB_TREES
-/* The texels that samples from low to high read along one axis, with one more on each side for rounding, as numbers for
- * wrap_texel. If the samples go all the way round, these are all texels. */
+/* The range of texels that samples from low to high read along one axis, plus one on each side for rounding, as inputs
+ * of texel_wrap. If the samples cover a whole period, these are all texels. */
 static void texels_between(int32_t *first, int32_t *last, float low, float high, int32_t size, int wrap)
 {
     const float period = wrap == LMB_WRAP_MIRROR ? 2.0f : 1.0f, at = texel_reduce(low, wrap), wide = high - low;

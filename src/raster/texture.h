@@ -16,10 +16,10 @@ float lmb_texture_alpha(const lmb_texture *t, float u, float v);
  * more than *texels texels. *texels is reduced by the texels that were read. */
 int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float high[2], float cutoff, uint32_t *texels);
 
-/* The same of a normal map: x y z, each -1 .. 1, not of unit length; out[3] means nothing. */
+/* The same for a normal map: x y z, each -1 .. 1, not of unit length; out[3] is undefined. */
 void lmb_normal_map_sample(float out[4], const lmb_texture *t, float u, float v, float lod);
 
-/* Of a metal_map's texel, which lmb_normal_map_sample reads as -1 .. 1: how much of a metal, and how rough. */
+/* Metalness and roughness from a metal_map's texel, which lmb_normal_map_sample reads as -1 .. 1. */
 static inline float metallic_of(const lmb_material *m, const float code[4])
 {
     return minf(m->metallic * maxf(0.5f + 0.5f * code[2], 0.0f), 1.0f);

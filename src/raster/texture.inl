@@ -1,6 +1,6 @@
-/* texture.inl: a tile's albedo times its base colour's finest level, nearest or bilinear. Layer 3.
+/* texture.inl: a tile's albedo times the base colour's finest level, nearest or bilinear. Layer 3.
  *
- * The same values as texture.c's. */
+ * Same values as texture.c. */
 #include "../base/codec.h"
 #include "texture.h"
 
@@ -10,7 +10,7 @@ LANE_INLINE lane texture_floor(lane v)
     return lane_pick(lane_lt(v, whole), lane_sub(whole, lane_splat(1.0f)), whole);
 }
 
-/* Into one period: [0, 1], or [0, 2] for mirrored ones. */
+/* Reduces to one period: [0, 1], or [0, 2] if mirrored. */
 LANE_INLINE lane texture_reduce(lane u, int32_t wrap)
 {
     const lane zero = lane_splat(0.0f), limit = lane_splat(1048576.0f);
@@ -40,8 +40,8 @@ LANE_INLINE lanei texture_wrap(lanei i, lanei size, int32_t wrap)
 }
 
 #if defined(LANE_PLAIN)
-/* Without vectors, the sampler that takes one pixel at a time: it is there anyway, for holes. Four lanes written out
- * are a tenth faster, and 4.8 KB of stack on a Cortex-M4F. */
+/* Without vectors, uses the sampler for single pixels, which exists for holes anyway. Four unrolled lanes are a tenth
+ * faster, but take 4.8 KB of stack on a Cortex-M4F. */
 static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -56,7 +56,7 @@ static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, con
 }
 #else
 
-/* A level and how its edges go on. */
+/* A level and how it wraps. */
 typedef struct texture_level {
     const uint8_t *texels;
     lanei width, height;
@@ -65,7 +65,7 @@ typedef struct texture_level {
 
 enum { TEXTURE_RUN = LMB_TILE_PIXELS / 2 };
 
-/* The texels of a run of pixels, and where between them each pixel is. */
+/* The texels of a run of pixels, and each pixel's position between them. */
 typedef struct texture_found {
     int32_t texel[4][TEXTURE_RUN]; /* upper left, upper right, lower left, lower right; nearest: the first */
     float fx[TEXTURE_RUN], fy[TEXTURE_RUN];
@@ -77,7 +77,7 @@ LANE_INLINE lanei texture_texel(const texture_level *l, lanei x, lanei y)
     return lanei_gather_rgba(l->texels, lanei_add(row, texture_wrap(x, l->width, l->wrap_s)));
 }
 
-/* At texel coordinates x, y, pixels k .. k + LANES - 1. */
+/* Finds the texels at texel coordinates x, y, for pixels k .. k + LANES - 1. */
 LANE_INLINE void texture_find(texture_found *out, int k, const texture_level *l, lane x, lane y)
 {
     const lane half = lane_splat(0.5f);
@@ -124,8 +124,8 @@ LANE_INLINE void texture_multiply(float (*albedo)[LMB_TILE_PIXELS], int k, lane_
     lane_store(albedo[2] + k, lane_pick(mine, lane_mul(z, texel.z), z));
 }
 
-/* Pixels first .. first + TEXTURE_RUN - 1. All their texels are asked for before one is decoded: one wait for what is
- * not in cache instead of one a vector. */
+/* Pixels first .. first + TEXTURE_RUN - 1. All texels are loaded before any is decoded: one wait for cache misses
+ * instead of one per vector. */
 NOINLINE void texture_run(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t, int first)
 {
     const lane width = lane_splat((float)t->width), height = lane_splat((float)t->height), one = lane_splat(1.0f);

@@ -1,4 +1,4 @@
-/* tile.h: what several modules do with a tile's pixels. Sets of pixels are 64 bits, one each. Layer 3. */
+/* tile.h: operations on a tile's pixels for several modules. Sets of pixels are 64 bits, one each. Layer 3. */
 #ifndef LMB_RASTER_TILE_H
 #define LMB_RASTER_TILE_H
 
@@ -7,12 +7,12 @@
 #include "../base/vec.h"
 
 #define TILE_COS_25 0.90630779f
-#define TILE_GAP    0.6f /* two parts with a gap of the rest are two surfaces */
-#define TILE_FLAT   0.5f /* height over a surface's first pixel, of the distance to it */
+#define TILE_GAP    0.6f /* two parts that span less than this share of the whole are two surfaces */
+#define TILE_FLAT   0.5f /* height over a surface's first pixel, as a share of the distance to it */
 
 static inline lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
 
-/* What a gather reads of a pixel. */
+/* Copies the pixel data that a gather reads. */
 static inline void tile_put_pixel(lmb_tile *out, int to, const lmb_tile *in, int from)
 {
     for (int c = 0; c < 3; ++c) {
@@ -24,7 +24,7 @@ static inline void tile_put_pixel(lmb_tile *out, int to, const lmb_tile *in, int
     out->id[to] = in->id[from];
 }
 
-/* Those with a surface. */
+/* The pixels with a surface. */
 static inline uint64_t tile_pixels(const lmb_tile *tile)
 {
     uint64_t out = 0;
@@ -34,7 +34,7 @@ static inline uint64_t tile_pixels(const lmb_tile *tile)
     return out;
 }
 
-/* The box of their positions; of none, one that holds nothing. */
+/* The box of the positions of the pixels; an empty one for no pixels. */
 static inline void tile_box(lmb_vec3 *low, lmb_vec3 *high, const lmb_tile *tile, uint64_t pixels)
 {
     *low = vec3(3e38f, 3e38f, 3e38f);
@@ -46,7 +46,7 @@ static inline void tile_box(lmb_vec3 *low, lmb_vec3 *high, const lmb_tile *tile,
     }
 }
 
-/* Of the pixels left, those on the plane of the first: normals within 25 degrees. */
+/* The pixels of `left` on the plane of the first one: normals within 25 degrees. */
 static inline uint64_t tile_plane(const lmb_tile *tile, uint64_t left)
 {
     const int first = lowest_bit_64(left);
@@ -63,7 +63,7 @@ static inline uint64_t tile_plane(const lmb_tile *tile, uint64_t left)
     return out;
 }
 
-/* Of some pixels, those nearer to the first than to the one farthest from it. */
+/* The pixels nearer to the first one than to the one farthest from it. */
 static inline uint64_t tile_near_half(const lmb_tile *tile, uint64_t pixels)
 {
     const lmb_vec3 first = tile_vec(tile->position, lowest_bit_64(pixels));
@@ -88,8 +88,8 @@ static inline float tile_extent(const lmb_tile *tile, uint64_t pixels)
     return pixels != 0 ? length3(sub3(high, low)) : 0.0f;
 }
 
-/* Of the pixels left, those on one surface with the first: on its plane, and no wide gap between. A surface is bounded
- * by a box: without that rule, the box of a floor before and behind a table would hold the table too. */
+/* The pixels of `left` on one surface with the first one: on the same plane, with no wide gap between. A surface is
+ * bounded by a box: without that rule, the box of a floor before and behind a table would contain the table too. */
 static inline uint64_t tile_surface(const lmb_tile *tile, uint64_t left)
 {
     uint64_t out = tile_plane(tile, left), half = tile_near_half(tile, out);

@@ -1,4 +1,4 @@
-/* triangle.c: from an id back to its triangle. Layer 3. */
+/* triangle.c: from an id back to the triangle. Layer 3. */
 #include "triangle.h"
 
 #include "tile.h"
@@ -34,7 +34,7 @@ int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id)
     return instance != NULL && triangle_of(out, scene, instance, id);
 }
 
-#if LMB_TREES || LMB_TRANSFER
+#if LMB_TREES || LMB_TRANSFER || LMB_MIXED
 int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
 {
     lmb_vec3 n;
@@ -59,10 +59,10 @@ static int is_inside(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
     return inside;
 }
 
-#define ROUNDING 2.3841858e-7f /* 2^-22 of the coordinates: what rounding may put a place off by */
+#define ROUNDING 2.3841858e-7f /* 2^-22 of the coordinates: possible rounding of a position */
 
-/* A place of a triangle's plane that lies outside of it, moved into it: past the nearest point by as much as it was
- * outside, as on an edge it would lie in its neighbour's plane too, and behind that one at a silhouette. */
+/* Moves a point of a triangle's plane from outside the triangle into it: past the nearest point by as much as it was
+ * outside. On an edge it would also lie in the neighbour's plane, and behind the neighbour at a silhouette. */
 static lmb_vec3 into_triangle(const lmb_triangle *t, lmb_vec3 normal, lmb_vec3 at)
 {
     lmb_vec3 on = at;
@@ -95,7 +95,7 @@ lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 a
                                                                                         : at;
 }
 
-/* Does one triangle hold all of a tile? It is convex, so the corner pixels tell. */
+/* 1 if one triangle contains the whole tile. It is convex, so the corner pixels decide. */
 static int is_within_one(const lmb_tile *tile, const lmb_scene *scene)
 {
     static const int corner[4] = {0, LMB_TILE - 1, LMB_TILE_PIXELS - LMB_TILE, LMB_TILE_PIXELS - 1};

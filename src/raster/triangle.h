@@ -1,4 +1,4 @@
-/* triangle.h: from an id back to its triangle. Layer 3. */
+/* triangle.h: from an id back to the triangle. Layer 3. */
 #ifndef LMB_RASTER_TRIANGLE_H
 #define LMB_RASTER_TRIANGLE_H
 
@@ -19,23 +19,23 @@ typedef struct lmb_triangle {
 /* The instance that owns an id, or NULL. Binary search: instances are numbered in order. */
 const lmb_instance *lmb_instance_of(const lmb_scene *scene, uint32_t id);
 
-/* Its material, or NULL: tiles hold ids that are none of the scene's, as lmb_relief_nearer leaves them. */
+/* The material of an id, or NULL: tiles hold ids that are none of the scene's, as lmb_relief_nearer leaves them. */
 const lmb_material *lmb_material_of(const lmb_scene *scene, uint32_t id);
 
-/* The front's unit normal and the area, m2; 0 where a corner is absurd or the triangle a speck: twice its area under
- * 1e-30 m2, where squares are no normal numbers. */
+/* Unit normal of the front, and area, m2. Returns 0 if a corner is absurd or the triangle is a speck: twice the area is
+ * under 1e-30 m2, for which squares are denormal. */
 int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *triangle);
 
-/* 1, or 0 where the id names no drawable triangle. */
+/* Returns 1, or 0 if the id names no drawable triangle. */
 int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id);
 
-/* Moves each place of a tile that lies beside the triangle that shows there into that triangle, past its nearest point
- * by as much; returns those pixels. Rasters snap corners, so near an edge a pixel may show a triangle that its ray just
- * misses. The place on that triangle's plane then lies past a fold, on the other side of the next triangle. */
+/* Moves each position of a tile that lies outside the pixel's triangle into the triangle, past the nearest point by as
+ * much. Returns those pixels. Rasterization snaps corners, so near an edge a pixel may show a triangle that its ray
+ * just misses. The position on that triangle's plane then lies past a fold, on the other side of the next triangle. */
 uint64_t lmb_tile_onto_triangles(lmb_tile *inout, const lmb_scene *scene);
 lmb_vec3 lmb_place_onto_triangle(const lmb_scene *scene, uint32_t id, lmb_vec3 at); /* the same for one place */
 
-/* lmb_triangle_fetch where its instance is known. */
+/* lmb_triangle_fetch for a known instance. */
 static inline int triangle_of(lmb_triangle *out, const lmb_scene *scene, const lmb_instance *instance, uint32_t id)
 {
     out->id = id;
@@ -53,8 +53,8 @@ static inline int triangle_of(lmb_triangle *out, const lmb_scene *scene, const l
     return 1;
 }
 
-/* The front's normal, as long as its *longest component is 1, and how long that was: about twice the area. 0 as in
- * lmb_triangle_shape. Signs are as good as random, so they are not branched on. */
+/* The front's normal, scaled so that the largest component is 1. *longest: the component before scaling, about twice
+ * the area. Returns 0 as lmb_triangle_shape does. Signs are as good as random, so there is no branch on them. */
 static inline int triangle_cross(lmb_vec3 *normal, float *longest, const lmb_triangle *t)
 {
     const lmb_vec3 n = cross3(sub3(t->corner[1], t->corner[0]), sub3(t->corner[2], t->corner[0]));

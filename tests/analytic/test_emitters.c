@@ -1,6 +1,6 @@
-/* test_emitters.c: light of surfaces that emit light, straight and once reflected: a panel of which a part glows
- * against its form factor, a Cornell box whose lamp is an emitter against brute force.  */
-enum { FRAME = 32, MAP = 64, FACES = 1, ELEMENTS = 4096, BVH = 64, SIDE = 64, LIT = 38 /* columns of it */ };
+/* test_emitters.c: light of emitting surfaces, direct and after one reflection: a partly emitting panel against a form
+ * factor, and a Cornell box with an emitting lamp against brute force. */
+enum { FRAME = 32, MAP = 64, FACES = 1, ELEMENTS = 4096, BVH = 64, SIDE = 64, LIT = 38 /* columns of the panel */ };
 
 #include <stdlib.h>
 
@@ -13,7 +13,7 @@ void test_emitters(void);
 
 static uint32_t texels[SIDE * SIDE * 2];
 
-/* A unit square at height h of which x < PART emits light down on another; no element ends there. */
+/* The part x < PART of a unit square at height h emits light down on another square; no element ends at PART. */
 #define PART (LIT / (double)SIDE)
 static void make_part_panel(double h)
 {
@@ -33,7 +33,7 @@ static void make_part_panel(double h)
     CHECK(lmb_texture_mips((uint8_t *)texels, SIDE, SIDE, world.texture.levels) == LMB_OK);
     for (int i = 0; i < 2; ++i) {
         for (int c = 0; c < 3; ++c) {
-            world.material[i].albedo[c] = 0.0f; /* what comes straight, alone */
+            world.material[i].albedo[c] = 0.0f; /* only direct light */
         }
     }
     world.material[1].flags = 0;
@@ -42,7 +42,7 @@ static void make_part_panel(double h)
     CHECK(world_end() == LMB_OK);
 }
 
-/* Of its part 0 .. PART x 0 .. 1. */
+/* Form factor of the part 0 .. PART x 0 .. 1. */
 static double part_factor(double x, double z, double h)
 {
     return parallel_corner(x, z, h) + parallel_corner(PART - x, z, h) + parallel_corner(x, 1 - z, h) +
@@ -79,7 +79,7 @@ static void check_part_panel(double h, double bar)
 enum { CORNERS = 3 * 64 };
 static uint8_t colours[CORNERS * 4];
 
-/* The next two triangles' albedo. */
+/* Sets the albedo of the next two triangles. */
 static void paint(uint8_t red, uint8_t green, uint8_t blue)
 {
     const uint8_t code[4] = {red, green, blue, 255};
@@ -103,7 +103,7 @@ static void make_cornell(void)
     world_box(vec3(-0.4f, -0.5f, -0.35f), 0.25f);
     world_box(vec3(0.45f, -0.7f, 0.25f), 0.3f);
     world_part();
-    world_quad(vec3(0, 0.98f, 0), mul3(X, 0.25f), mul3(Z, 0.25f)); /* front: down */
+    world_quad(vec3(0, 0.98f, 0), mul3(X, 0.25f), mul3(Z, 0.25f)); /* front face: down */
     world.mesh[0].colours = colours;
     world.material[1].albedo[0] = world.material[1].albedo[1] = world.material[1].albedo[2] = 0.5f;
     world.material[1].flags = 0;
@@ -118,7 +118,7 @@ static lmb_vec3 corner(uint32_t i, int k)
     return vec3(world.corners[i][k][0], world.corners[i][k][1], world.corners[i][k][2]);
 }
 
-/* Where the ray from p along d first meets a triangle: its number, or -1; *t its distance. */
+/* Returns the first triangle hit by the ray from p along d, or -1; *t is the distance. */
 static int hit(float *t, lmb_vec3 p, lmb_vec3 d)
 {
     int nearest = -1;
@@ -136,7 +136,7 @@ static int hit(float *t, lmb_vec3 p, lmb_vec3 d)
     return nearest;
 }
 
-/* What the lamp sends straight to p, by `points` x `points` of it; times the lamp's radiance. */
+/* Irradiance at p of a lamp of radiance 1, from `points` x `points` samples. */
 static double straight(lmb_vec3 p, lmb_vec3 n, int points)
 {
     double sum = 0.0;
@@ -161,8 +161,8 @@ static lmb_vec3 normal_towards(int i, lmb_vec3 d)
     return dot3(n, d) > 0.0f ? mul3(n, -1.0f) : n;
 }
 
-/* Irradiance at p: straight, and of 20 x 20 directions by cosine what the surfaces there reflect of what they get
- * straight; the lamp's own albedo too, where its face is lit: it never is. */
+/* Irradiance at p: direct light, plus 20 x 20 cosine-distributed rays to surfaces that reflect their direct light. The
+ * lamp's albedo is included, although its face is never lit. */
 static void brute(double out[3], lmb_vec3 p, lmb_vec3 n)
 {
     enum { RINGS = 20 };
@@ -193,7 +193,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Every second pixel each way, by the number of reflections that nobody asked to change. */
+/* Tests every second pixel in x and y, with the default number of reflections. */
 static void check_cornell(void)
 {
     enum { STEP = 2, COUNT = FRAME / STEP * (FRAME / STEP) };

@@ -1,9 +1,9 @@
-/* test_radiosity.c: many bounces in closed rooms, and surfaces that emit light, against what energy says.
+/* test_radiosity.c: many bounces in closed rooms, and emitting surfaces, against conservation of energy.
  *
- * In a closed room whose walls all reflect rho, light of power P makes them send P rho^k at the k-th reflection, so all
- * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls emit alike, every point sends the same: itself, what
- * others send straight to it, and that after N reflections are L (1 - rho^(N + 2)) / (1 - rho) everywhere; with the
- * rest of them, L / (1 - rho). What is sealed off stays dark. */
+ * In a closed room with reflectance rho everywhere, the walls reflect P rho^k of a light's power P at the k-th
+ * reflection; N reflections sum to P rho (1 - rho^N) / (1 - rho). If all walls emit radiance L, every point has the
+ * same radiance: with N reflections it is L (1 - rho^(N + 2)) / (1 - rho) everywhere, which includes emission and
+ * direct light; with the remaining reflections it is L / (1 - rho). Sealed parts stay dark. */
 enum { FRAME = 16, MAP = 64, FACES = 6, ELEMENTS = 4096, BVH = 64, BOUNCES = 12 };
 
 #include "../bounce_frame.h"
@@ -15,7 +15,7 @@ static const float rho = 0.5f;
 
 static int32_t truncated = 1;
 
-/* By single points, whose sums go by a coarser rule. */
+/* Light at single points uses a coarser rule for sums. */
 static int is_live;
 static double bound(double of_cuts, double of_points) { return is_live ? of_points : of_cuts; }
 
@@ -42,7 +42,7 @@ static void draw_wide(lmb_vec3 from, lmb_vec3 to, double fov_deg, int32_t show, 
     lmb_frame f = bounce_frame(&view, bounces);
     f.show = show;
     f.truncated = truncated;
-    f.error = f.visibility = 0.005f; /* held against what energy says, not against a cut */
+    f.error = f.visibility = 0.005f; /* compared with exact energy, not with a cut */
 #if LMB_LIVE
     if (is_live) {
         ask_live(&f);
@@ -63,7 +63,7 @@ static void add_irradiance(int material, float radiance)
     }
 }
 
-/* --- walls that emit light ---------------------------------------------------------------------------------------- */
+/* --- emitting walls ----------------------------------------------------------------------------------------------- */
 
 static void check_furnace(int32_t bounces)
 {
@@ -84,10 +84,10 @@ static void check_furnace(int32_t bounces)
     CHECK_MSG(max < bound(0.01, 0.005) && fabs(mean) < 0.003, "%d bounces: %g, %g", (int)bounces, mean, max);
 }
 
-/* --- a panel that emits light ------------------------------------------------------------------------------------- */
+/* --- an emitting panel -------------------------------------------------------------------------------------------- */
 
-/* A unit square that emits light down on another from height h, without lights. The view is centred, so that nothing
- * depends on which way its pictures lie: E = pi L F. */
+/* A unit square at height h emits light down on another, without lights. The view is centred, so the result does not
+ * depend on the orientation of pictures: E = pi L F. */
 static void check_panel(double h)
 {
     const double eye = 0.4 * h, half = 0.45;
@@ -110,7 +110,7 @@ static void check_panel(double h)
     }
     printf("  panel%s at height %-4g %+.3f %% in the mean, %.3f %% off at most\n", is_live ? ", live" : "", h, mean * 100,
            max * 100);
-    /* Between samples 8 px apart light is what four of them give, and of 16 px that shows. */
+    /* Light between samples 8 px apart is interpolated from four of them; with 16 px the error shows. */
     CHECK_MSG(max < bound(0.01, 0.3) && fabs(mean) < bound(0.01, 0.005), "height %g: %g, %g", h, mean, max);
 }
 
@@ -119,7 +119,7 @@ static void check_panel(double h)
 /* A point, or a panel on the ceiling; 4 pi W a channel. */
 enum { POINT, PANEL };
 
-/* With a closed block that stands through the floor and a wall, or none. */
+/* With or without a closed block that intersects the floor and a wall. */
 static void make_room(int source, int block)
 {
     static lmb_light light;
@@ -142,7 +142,7 @@ static void make_room(int source, int block)
     CHECK(world_end() == LMB_OK);
 }
 
-/* Light that all elements received; W, one channel. What comes straight from lights is not in it. */
+/* Light received by all elements; W, one channel. Excludes direct light of lights. */
 static double received(void)
 {
     const lmb_elements *e = &render.frame.elements;
@@ -164,7 +164,7 @@ static void check_room(int source, int block, int32_t bounces)
     CHECK_MSG(fabs(received() / want - 1.0) < bound(0.01, 0.03), "%d bounces: %g", (int)bounces, received() / want);
 }
 
-/* All light there is, however few bounces are followed one by one. */
+/* The total light does not depend on the number of bounces that are computed separately. */
 static void check_rest(void)
 {
     truncated = 0;
@@ -177,7 +177,7 @@ static void check_rest(void)
     truncated = 1;
 }
 
-/* White walls keep all light for ever: the rest ends with the bounces that a frame may ask for. */
+/* White walls never absorb light, so the remainder covers only the maximum number of bounces of a frame. */
 static void check_white(void)
 {
     lmb_elements *e = &render.frame.elements;
@@ -202,8 +202,9 @@ static int is_in_block(lmb_vec3 p)
     return absf(p.x - 0.7f) < 0.3501f && absf(p.y + 0.8f) < 0.3501f && absf(p.z + 0.3f) < 0.3501f;
 }
 
-/* Sides that look into the block, pieces of the room in it, and sides that look out of the room: all stay dark. Lit by
- * the panel: a light's map sees texels that snapping moves by a 256th of their size, and so under the block's edge. */
+/* Sides facing into the block, parts of the room inside the block, and sides facing out of the room all stay
+ * dark. The panel is the light, because a light's map may see a little under the block's edge: snapping moves
+ * texels by a 256th of their size. */
 static void check_sealed(void)
 {
     const lmb_elements *e = &render.frame.elements;

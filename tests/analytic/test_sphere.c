@@ -1,8 +1,8 @@
 /* test_sphere.c: the integrating sphere: inside a Lambertian sphere one bounce is the same everywhere. [V27 V28 V29]
  *
- * Radius R, reflectance rho, a point light I at the centre: direct irradiance I / R2, radiance rho I / (pi R2); one
- * bounce arrives as rho I / R2 everywhere, since the form factor of any patch to any other is its area over 4 pi R2.
- * The mesh is inscribed, which raises all of it: by the mean of 1 / r3 over a facet, about 0.1 % here. */
+ * Radius R, reflectance rho, a point light I at the centre: direct irradiance I / R2, radiance rho I / (pi R2). One
+ * bounce gives rho I / R2 everywhere, because the form factor of any patch to any other is the patch's area over 4 pi
+ * R2. The mesh is inscribed, which raises all values by the mean of 1 / r3 over a facet, about 0.1 % here. */
 #include "../world.h"
 
 void test_sphere(void);
@@ -45,7 +45,7 @@ static float picture[FRAME * FRAME * 3];
 static void draw(int view, int32_t show, int32_t method, int32_t count, int32_t occlusion)
 {
     static const float ways[VIEWS][3] = {{1, 0, 0}, {-1, 0, 0}, {0.1f, 1, 0}, {0.1f, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    /* Off the centre, so that no symmetry helps; from there 95 degrees see a third of the sphere. */
+    /* Off the centre, to avoid symmetry; from there 95 degrees see a third of the sphere. */
     const lmb_vec3 from = {0.05f, -0.03f, 0.3f};
     lmb_frame f;
     memset(&f, 0, sizeof f);
@@ -72,7 +72,7 @@ static void draw(int view, int32_t show, int32_t method, int32_t count, int32_t 
     CHECK(lmb_render_frame(&render, &f) == LMB_OK);
 }
 
-/* How far the pictures of all views are from `want`, as shares of it. */
+/* Deviation of the pictures of all views from `want`, relative to `want`. */
 typedef struct deviation {
     double mean, max, ratio; /* of absolute values; largest; mean over want */
     int pixels;
@@ -102,7 +102,8 @@ static void tell(const char *name, deviation d)
            d.mean * 100, d.max * 100);
 }
 
-/* V27, V28: rho I / R2 within 1 % everywhere, with 700 groups or more; the bar of the source's own measure. */
+/* V27, V28: rho I / R2 within 1 % everywhere, with 700 groups or more; the bar is the one of the
+ * paper's own measurement. */
 static void check_bounce(const char *name, int32_t method, int32_t count)
 {
     char line[80];
@@ -112,7 +113,7 @@ static void check_bounce(const char *name, int32_t method, int32_t count)
     CHECK_MSG(groups.count >= 700, "%s: %d groups", name, (int)groups.count);
     CHECK_MSG(d.max < 0.01, "%s: %g", name, d.max);
     CHECK_MSG(d.mean < 0.004 && fabs(d.ratio - 1.001) < 0.003, "%s: %g %g", name, d.mean, d.ratio);
-    /* All that the light gives: 4 pi I rho. */
+    /* The light's total: 4 pi I rho. */
     CHECK_MSG(fabs(stats.flux_lit / (3.0 * 4.0 * PI * (double)albedo) - 1.0) < 1e-4, "%g", stats.flux_lit);
     CHECK_MSG(stats.flux_grouped > 0.999 * stats.flux_lit, "%g of %g", stats.flux_grouped, stats.flux_lit);
 }
@@ -134,7 +135,7 @@ void test_sphere(void)
     d = measure(LMB_SHOW_FULL, LMB_GROUP_ZONES, 1024, LMB_OCCLUSION_NONE, 1.5 * (double)albedo / PI);
     tell("direct + one bounce, radiance", d);
     CHECK_MSG(d.max < 0.007, "%g", d.max);
-    /* Nothing stands in a sphere: the viewer's depth map must not shadow it. */
+    /* A sphere is convex, so the viewer's depth map must not shadow any point. */
     d = measure(LMB_SHOW_IRRADIANCE, LMB_GROUP_ZONES, 1024, LMB_OCCLUSION_VIEW, (double)albedo);
     tell("one bounce, view occlusion", d);
     CHECK_MSG(fabs(d.ratio - 1.001) < 0.02, "%g", d.ratio);

@@ -1,11 +1,10 @@
 /* test_squares.c: light between two unit squares, against Howell's closed forms. [V27]
  *
  * Form factors of a surface element (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3 and B-5):
- * over a corner of a parallel rectangle: see facing.h;
- * and at distance c from the edge of a perpendicular rectangle, b along that edge from the element on, a high, with
- * X = a/b, Y = c/b:
+ * over a corner of a parallel rectangle: see facing.h; and at distance c from the edge of a perpendicular rectangle
+ * that extends b along that edge from the element and has height a, with X = a/b, Y = c/b:
  *   F = 1/(2 pi) (atan(1/Y) - Y/sqrt(X2+Y2) atan(1/sqrt(X2+Y2)))
- * Rectangles that do not begin at the element are sums and differences of such. */
+ * Rectangles that do not begin at the element are sums and differences of such rectangles. */
 #include "facing.h"
 
 void test_squares(void);
@@ -20,7 +19,7 @@ static double upright_corner(double b, double c)
     return (atan(1 / y) - y / r * atan(1 / r)) / (2 * PI);
 }
 
-/* From a floor point (x, z), 0 <= x <= 1, to the unit square that stands on z = 0. */
+/* From a floor point (x, z), 0 <= x <= 1, to the vertical unit square on z = 0. */
 static double upright_factor(double x, double z)
 {
     return (x > 0 ? upright_corner(x, z) : 0.0) + (x < 1 ? upright_corner(1 - x, z) : 0.0);
@@ -84,7 +83,7 @@ static void judge(const char *name, double where, double worst, double mean, dou
     CHECK_MSG(worst < bound, "%s %g: %g", name, where, worst);
 }
 
-/* Irradiance of a square of radiosity 1 is the form factor itself: E = pi L F, and L = 1 / pi. */
+/* Irradiance from a square of radiosity 1 equals the form factor: E = pi L F, and L = 1 / pi. */
 static void check_facing(double height, double bound)
 {
     lmb_tile tile;
@@ -143,7 +142,7 @@ static double mean_over_floor(void)
     return sum;
 }
 
-/* The near formula alone: one whole square as a single quad. */
+/* Only the near formula: a whole square as one quad. */
 static void check_quad(void)
 {
     double worst = 0.0;
@@ -161,8 +160,8 @@ static void check_quad(void)
     CHECK_MSG(worst < 1e-5, "%g", worst);
 }
 
-/* The bounds are widest where the receivers stand 2 to 3 half-diagonals from a disc: there quads give way to the disc's
- * formula of second order, 1 to 2 % off, and the grid of receivers meets the grid of discs alike everywhere. */
+/* The bounds are widest at receivers 2 to 3 half-diagonals from a disc: at that distance quads change to the disc's
+ * second-order formula, which is 1 to 2 % off, and the grids of receivers and discs are aligned everywhere. */
 void test_squares(void)
 {
     check_quad();

@@ -1,8 +1,9 @@
 /* test_voxels.c: cones through voxels against closed forms. [M6-M8 M13 M21]
  *
- * The integrating sphere (see test_sphere.c): one bounce is albedo x I / R2 everywhere. A plane under a sphere: a
- * sphere of radius r whose centre is h over the plane, d from the pixel, covers r2 h / d3 of the cosine-weighted
- * hemisphere. A closed room of one radiance: pi times that everywhere, and nothing open. */
+ * The integrating sphere (see test_sphere.c): one bounce is albedo x I / R2 everywhere. A plane under a sphere:
+ * a sphere of radius r, with the centre at height h over the plane and at distance d from the pixel, covers r2
+ * h / d3 of the cosine-weighted hemisphere. A closed room of constant radiance: pi times that radiance
+ * everywhere, and nothing open. */
 #include "../lit_tree.h"
 
 #include <stdlib.h>
@@ -42,7 +43,7 @@ static void see(lmb_irradiance *light, float open[LMB_TILE_PIXELS])
 }
 
 typedef struct deviation {
-    double mean, max, off; /* signed mean; of absolute values, largest and mean */
+    double mean, max, off; /* signed mean; largest and mean of absolute values */
     int count;
 } deviation;
 
@@ -157,7 +158,7 @@ static void check_open(void *memory, size_t bytes, float height, int count, doub
     float open[LMB_TILE_PIXELS];
     lmb_irradiance light;
     world_begin(0.5f, 0.5f, 0.5f);
-    world.material[0].flags = 0; /* closed, and seen from outside alone */
+    world.material[0].flags = 0; /* closed, and seen only from outside */
     world_quad(vec3(0, 0, 0), vec3(0, 0, 2), vec3(2, 0, 0));
     world_sphere(vec3(0, height, 0), radius, STACKS, SLICES);
     CHECK(world_end() == LMB_OK);

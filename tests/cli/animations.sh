@@ -1,7 +1,7 @@
-# animations.sh: play: what moves by the animations of a glTF file, each frame the same alone.
+# animations.sh: play with a file's animations; a frame drawn singly equals the same frame of a sequence.
 . tests/cli/common.sh
 
-# The animations of a glTF file: light, camera and a triangle move by them, each frame the same alone.
+# Animations of a glTF file that move light, camera and a triangle; each frame drawn singly gives the same bytes.
 moving
 for move in light camera object all; do
     status 0 play moving.gltf --size 32x24 --quality draft --move $move --fps 2 --frames 3 -o play_%02d.pfm
@@ -22,7 +22,7 @@ check "no object stands still" lacks 'stand still' err.txt
 status 0 play moving.gltf --size 32x24 --transfer moves.lmt --fps 2 --from 2 --frames 1 -o alone_%02d.pfm
 check "a baked object moves, and is the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' \
     sh play alone
-# The first 64 cameras count, and that is said of more.
+# Only the first 64 cameras are used; a line reports it if there are more.
 for more in 63 64; do
     sed "s/\"camera\":0}]/\"camera\":0}$(awk -v n=$more 'BEGIN { while (n-- > 0) printf ",{\"camera\":0}" }')]/" moving.gltf >eyes.gltf
     status 0 bake eyes.gltf -o eyes.lmt --elements 64 --receivers 64

@@ -1,10 +1,10 @@
-# bake-slices.sh: a bake in slices: at once, one after the other, and what is damaged or of another job.
+# bake-slices.sh: a bake in slices: at once, one after the other, and with files that are damaged or from another job.
 . tests/cli/common.sh
 
-# A bake: slices at once, one after the other, by a folder that is half full or damaged, and without one.
+# Bakes slices at once, one after the other, with a folder that is half full or damaged, and without a folder.
 bake="bake demo --elements 256 --receivers 200 --cluster 0.6 --threads 1"
 status 0 $bake -o bake.lmt
-at_once() { # at_once COUNT NAME WORD...: all slices, each in a process of its own
+at_once() { # at_once COUNT NAME WORD...: runs each slice in its own process
     of=$1 name=$2
     shift 2
     for i in $(seq "$of"); do

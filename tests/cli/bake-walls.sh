@@ -1,5 +1,6 @@
-# bake-walls.sh: bake: no light goes through a thin wall, however it is made and turned: a room of two closed halves, a lamp
-# in one of them, twelve kinds of walls by seeds. Of the lit half's mean the dark one has at most 0.1 %, 5 % anywhere.
+# bake-walls.sh: checks that baked light does not leak through thin walls, in a room of two closed halves with a lamp in
+# one. Seeds choose among twelve kinds of walls and orientations. The dark half may have at most 0.1 % of the lit half's
+# mean, and 5 % at any pixel.
 . tests/cli/common.sh
 
 cat >walls.awk <<'AWK'
@@ -61,10 +62,10 @@ look() {
         --show irradiance --bounces 3 -o "$out" -q "$@"
 }
 
-# values FILE: its numbers, one a line.
+# values FILE: prints the numbers of FILE, one a line.
 values() { tail -c $((32 * 32 * 3 * 4)) "$1" | od -An -v -tf4 -w4; }
 
-# is_dark DARK LIT: at most 0.1 % of the lit half's mean, and 5 % of it anywhere.
+# is_dark DARK LIT: checks for at most 0.1 % of the lit half's mean, and 5 % of it at any pixel.
 is_dark() {
     values "$2" >lit.txt
     values "$1" | awk 'NR == FNR { lit += $1 / 3072; next } { sum += $1 / 3072; if ($1 > most) most = $1 }
@@ -86,8 +87,8 @@ for kind in $kinds; do
     check "a dark room behind a wall, $kind, seed $seed" is_dark dark.pfm lit.pfm
 done
 
-# At the foot of a crate in the border of a spot's light, light changes from black to bright within a centimetre. With
-# elements as large there as elsewhere the rmse was 0.078, and the worst pixel 0.18.
+# At the foot of a crate at the border of a spot, light changes from black to bright within a centimetre. Without
+# smaller elements there, the RMSE was 0.078, and the worst pixel 0.18.
 if [ -z "$SHORT" ]; then
     awk 'function v(x, y, z) { print "v " x, y, z }
         function sides(y) { v(0.13, y, 0.065); v(0.29, y, 0.114); v(0.24, y, 0.272); v(0.082, y, 0.225) }

@@ -1,10 +1,10 @@
-# bake.sh: bake: light of a box as bright as by the ordinary way, files and their refusals.
+# bake.sh: bake: checks that baked light of a box is as bright as gathered light; files and refusals.
 . tests/cli/common.sh
 
 box
 block
 
-# Baked light of the box, empty and with a block in it: as bright as by the ordinary way, and the same by any threads.
+# Baked light of the box, empty and with a block in it, is as bright as gathered light, and the same for any threads.
 for room in box:256:200 block:256:500; do
     name=${room%%:*} receivers=${room##*:} elements=${room#*:}
     elements=${elements%:*}
@@ -19,7 +19,7 @@ for room in box:256:200 block:256:500; do
     status 0 render "$name.obj" $inside --transfer "$name-1.lmt" --threads 1 -o "$name-again.pfm"
     check "baked light by any threads is equal" cmp -s "$name-baked.pfm" "$name-again.pfm"
 done
-# A closed room that no light or camera of the scene sees into is dark, but where --eye is in it.
+# If no light or camera of the scene sees into a closed room, the room is dark unless --eye is in it.
 status 0 bake box.obj -o eye.lmt --elements 256 --receivers 200 --eye 5,0,0
 status 0 render box.obj $inside --transfer eye.lmt -o dark.pfm
 check "a closed room that nothing sees into is dark" sh -c '! "$1" compare "$2" "$3" --max lo=0.01 >/dev/null' sh "$TOOL" \
@@ -32,7 +32,7 @@ status 0 render box.obj $inside --transfer box-1.lmt --bounces 4 --threads 1 -o 
 check "a transfer reflects light again" differ box-baked.pfm box-four.pfm
 status 0 render box.obj $inside --transfer box-1.lmt --bounces 4 --threads 2 -o box-again.pfm
 check "so it does by two threads" cmp -s box-four.pfm box-again.pfm
-# Forty lights go into a tree, light the elements and are thrown back.
+# Forty lights go into a tree, light the elements and are reflected.
 forty=$(awk 'BEGIN { for (i = 0; i < 40; ++i) printf " --light point:%g,%g,%g:0,-1,0:0.3,0.2,0.1", i % 5 / 4 - 0.5, i % 7 / 6 - 0.5, i % 11 / 10 - 0.5 }')
 among="--eye -0.8,0.6,-0.8 --target 0.3,-0.6,0.3 --size 32x24 --show indirect $forty"
 status 0 render box.obj $among --quality draft --gather full -o forty.pfm

@@ -1,9 +1,9 @@
-# bench-examples.sh: the examples of bench's helps work when pasted.
+# bench-examples.sh: checks that the examples in bench's help work when pasted.
 . tests/cli/common.sh
 
 pasted bench "bench raster" "bench gather" "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" \
     "bench relief" "bench mix"
-# One of them has measured a rate.
+# One of the examples needs a measured rate.
 if [ -n "$SHORT" ]; then
     status 0 bench --calibrate --threads 1
     cp out.txt paste/said---calibrate.txt

@@ -1,7 +1,7 @@
 # bench.sh: bench raster, draw, threads, gather and hard.
 . tests/cli/common.sh
 
-# The fixed workload: its own quads need no files.
+# The fixed workload generates quads, so it needs no files.
 if [ -z "$SHORT" ]; then
     status 0 bench raster fill-gouraud --seconds 0.01 --json
     check "bench raster prints JSON" grep -q "^{.case.:.fill-gouraud-1280x720.," out.txt
@@ -19,7 +19,7 @@ mkdir -p flat # one vertex at 0 and no triangle
 printf '\001\000\000\000' >flat/bunny.mesh
 head -c 36 /dev/zero >>flat/bunny.mesh
 status 1 bench raster bunny-depth-1024 --data flat --seconds 0.01
-# Draws: cases of meshes are left out where their files are.
+# Draws: cases with meshes are left out if the files are missing.
 BENCH_DATA= status 0 bench draw fill bunny --seconds 0.01
 check "bench draw says what a case is, and its store bound" grep -q "^fill .* an opaque rectangle .*: [0-9.]* ms, .*, store bound [0-9.]* ms, share [0-9.]*$" out.txt
 check "bench draw without files has no bunny" test "$(grep -c . out.txt)" = 1
@@ -27,13 +27,13 @@ status 0 bench draw glass clear --seconds 0.01 --plain --json
 check "bench draw --json prints one object a line" test "$(grep -c '^{"case":"[a-z]*","what":".*","cpu_min_ms":[0-9.]*,"frames":[0-9]*,"backend":"plain","store_ms":[0-9.]*,"share":[0-9.]*}$' out.txt)" = 2
 status 2 bench draw nonsense
 status 1 bench draw bunny-gouraud --data flat --seconds 0.01
-# Threads beside processes: wants more than one, and sponza.
+# Threads against processes: needs more than one thread, and sponza.
 status 2 bench threads --threads 1
 status 2 bench threads gather
 status 2 bench threads --threads 2x
 status 2 bench threads --json
 BENCH_DATA= status 1 bench threads --seconds 0.01
-# The gather, a line for each backend that is here; how fast is nobody's promise.
+# The gather prints a line for each available backend; the speed is not checked.
 n='[0-9.]*(e[+-][0-9]*)?' # a number
 ops="\\{(\"[a-z]+\":$n,?){7}\\}"
 line="^\\{\"case\":\"gather\",\"backend\":\"[a-z0-9]+\",\"pairs_per_s\":$n,\"cycles_per_pair\":$n,\"bound_cycles\":$n,\"share\":$n"
@@ -46,7 +46,7 @@ check "the gather's operations are counted" test "$backends" -eq "$(grep -c '"op
 status 0 bench gather --backend scalar --seconds 0.01
 check "bench gather --backend measures that one" grep -q '^lambent,gather,backend=scalar,pairs_per_s=[1-9].*,share=[0-9.]*,unit=[a-z]*,ghz=' out.txt
 check "and no other" test "$(grep -c . out.txt)" -eq 1
-# Every figure of a group of cases on a line, and within its bound.
+# Prints every figure of a group of cases on a line, and checks its bound.
 status 0 bench hard raster
 check "bench hard prints a line a case" test "$(grep -c '^raster ' out.txt)" -ge 20
 status 0 bench hard mixed --json --backend scalar

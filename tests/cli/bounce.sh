@@ -1,7 +1,7 @@
-# bounce.sh: light that bounces: --bounces, --elements, surfaces that emit, error bounds.
+# bounce.sh: bounced light: --bounces, --elements, surfaces that emit, error bounds.
 . tests/cli/common.sh
 
-# More bounces add light, one is what there is without the option; what emits lights a scene without lamps.
+# More bounces add light, and the default is one; a surface that emits lights a scene without lamps.
 cut="--grouping cut --occlusion exact --shadow-map 32"
 coarse="--size 32x24 --exposure 0 $cut"
 status 0 render demo $coarse -o bounce.pfm
@@ -21,13 +21,13 @@ status 0 render emits.obj --size 16x16 --eye 0,0.5,2 --target 0,0.4,0 $cut -o em
 check "a lamp is enough light" lacks 'no light in' err.txt
 status 0 render emits.obj --size 16x16 --eye 0,0.9,0 --target 0,0,0.1 $cut --show irradiance -o floor.pfm
 check "its light is seen" test "$(tail -c 3072 floor.pfm | tr -d '\000' | wc -c)" -gt 2000
-# What stands between a lamp that is a surface and the floor blocks it, with no other lamp too.
+# A square between an emitting surface and the floor blocks the light, also if there is no other lamp.
 printf '%s\n' 'mtllib emits.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
     'v -2 0.5 -2' 'v 2 0.5 -2' 'v 2 0.5 2' 'v -2 0.5 2' 'f 1 2 3 4' 'f 9 10 11 12' 'usemtl lamp' 'f 5 6 7 8' >shade.obj
 status 0 render shade.obj --size 16x16 --eye 0,0.45,0 --target 0,0,0.1 --shadow-map 32 --show irradiance -o shade.pfm
 check "a shade is dark below" test "$(tail -c 3072 shade.pfm | tr -d '\000' | wc -c)" -eq 0
 
-# A box with two lit eyes keeps its sun, and they do not change how it is exposed.
+# Two emitting eyes on a box do not remove the default sun and do not change the exposure.
 printf 'newmtl eye\nKe 0 3 3\nKd 0 0 0\n' >eyes.mtl
 printf 'newmtl eye\nKd 0 0 0\n' >blind.mtl
 eyes="--size 32x32 --eye 0,0.5,3 --target 0,0.5,0 --show direct"
@@ -45,7 +45,7 @@ status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o r
 status 0 compare proved.pfm ruled.pfm
 [ -n "$SHORT" ] || status 0 render demo --size 16x16 --shadow-map 64 --bounces 3 --elements 4096 --show occlusion -o blocked.pfm
 
-# Draft of all but small pictures and frames of play have it, unless --gather names another way.
+# Draft uses live light for all but small pictures and for frames of play, unless --gather names another way.
 drawn="--exposure 0 --show indirect --shadow-map 256 --quality draft"
 status 0 render demo --size 256x256 $drawn -o implied.pfm
 status 0 render demo --size 256x256 $drawn --gather live -o named.pfm
@@ -61,16 +61,23 @@ check "play has the live light of render" cmp implied.pfm named0.pfm
 drawn="--size 96x64 --exposure 0 --show indirect --shadow-map 256"
 status 0 play demo $drawn --frames 1 -o implied%01d.pfm
 status 0 render demo $drawn -o named.pfm
-check "play gathers as render does where no quality is named" cmp implied0.pfm named.pfm
+check "play gathers as render does in small pictures" cmp implied0.pfm named.pfm
+drawn="--size 256x256 --exposure 0 --show indirect --shadow-map 256"
+status 0 play demo $drawn --frames 1 -o implied%01d.pfm
+status 0 play demo $drawn --frames 1 --gather live -o named%01d.pfm
+check "play has live light" cmp implied0.pfm named0.pfm
+status 0 play demo $drawn --frames 1 --quality best -o implied%01d.pfm
+status 0 play demo $drawn --frames 1 --quality best --gather full -o named%01d.pfm
+check "--quality best gathers each pixel in play" cmp implied0.pfm named0.pfm
 
-# --gather live: bytes by threads, back ends and slices; errors; a view frame by frame.
+# --gather live: the same bytes for any threads, backends and slices; errors; a view frame by frame.
 live="--size 96x64 --exposure 0 --quality draft --show indirect --gather live"
 status 0 render demo $live --threads 1 -o live.pfm
 status 0 render demo $live --threads 3 -o live3.pfm
 check "threads do not change live light" cmp live.pfm live3.pfm
 status 0 render demo $live --backend scalar -o scalar.pfm
 check "back ends do not change live light" cmp live.pfm scalar.pfm
-# Later bounces, and surfaces that emit, come by the same points.
+# Later bounces and emitting surfaces use the same points.
 for of in demo emits.obj; do
     again="--size 48x32 --exposure 0 --show indirect --bounces 3 --shadow-map 512"
     status 0 render $of $again --quality draft --threads 1 -o again.pfm

@@ -1,14 +1,14 @@
-# capture.sh: capture: what a place of a scene sees, for relight.
+# capture.sh: capture: the surroundings of a place in a scene, for relight.
 . tests/cli/common.sh
 
-# What a place of a scene sees, for relight: in a box that shines from within alike, any place receives pi.
+# In a box with walls of radiance 1, any place receives pi.
 printf 'newmtl lamp\nKd 0 0 0\nKe 1 1 1\n' >lamp.mtl
 printf 'mtllib lamp.mtl\nusemtl lamp\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >lamp.obj
 status 0 capture lamp.obj --at 0.2,0.1,0 --faces 8 --samples 1 --world none -o lamp.pfm --ground under.pfm
 taken=$(cat out.txt)
 status 0 relight $taken --at 0.5,0,-0.5 --cube cube.pfm
 check "a shining box is pi everywhere" sh -c '"$1" info "$2" | grep -c "min 3.14159 .*max 3.14159 " | grep -qx 3' sh "$TOOL" cube.pfm
-# The eye where the cube was taken sees the scene's own picture: each face the right way round.
+# An eye at the place of the cube sees the same picture as the scene: each face has the right orientation.
 look="--size 32x32 --fov 90 --eye 0.6,1.1,0.2"
 status 0 capture demo --at 0.6,1.1,0.2 --faces 64 --samples 1 --shadow-map 128 --quality draft -o room.pfm
 taken=$(cat out.txt)

@@ -1,5 +1,6 @@
-# common.sh: what the parts of the tool's checks share. Each part sources it first, from the root of the tree, with TOOL
-# and B in the environment; from then on it is in a folder of its own, $B/cli/PART, and names files without a folder.
+# common.sh: functions shared by the tests of the tool. Each test sources common.sh first, from the root of
+# the tree, with TOOL and B in the environment. After that the test runs in the folder $B/cli/PART and
+# names files without a folder.
 #
 # SHORT=1 leaves out renders that take minutes and that other checks run; slow builds use it.
 . tests/scripts/checks.sh
@@ -18,7 +19,7 @@ cd "$B/cli/$part" || exit 1
 small="--size 32x24 --shadow-map 64 --exposure 0"
 few="--size 32x24 --shadow-map 64 --quality draft"
 
-# check WHAT COMMAND...: as in checks.sh, but without a subshell, because that takes as long as the command.
+# check NAME COMMAND...: as in checks.sh, but without a subshell, because that takes as long as the command.
 check() {
     what=$1
     shift
@@ -30,7 +31,7 @@ check() {
     fi
 }
 
-# status WANTED ARGUMENT...: the exit status; a failure says one line on stderr, and only there.
+# status WANTED ARGUMENT...: checks the exit status; a failure must print one line on stderr and nothing on stdout.
 status() {
     wanted=$1
     shift
@@ -45,9 +46,9 @@ status() {
     fi
 }
 
-# The following read line by line in the shell, which takes less than a start of grep for what the tool says.
+# The next functions read lines in the shell, because starting grep takes longer for short output.
 
-# one_line FILE: it has one line that is not empty.
+# one_line FILE: checks that exactly one line is not empty.
 one_line() {
     lines=0
     while IFS= read -r text || [ -n "$text" ]; do
@@ -56,7 +57,7 @@ one_line() {
     [ $lines -eq 1 ]
 }
 
-# holds WORDS FILE: a line of it has these words, as they are.
+# holds WORDS FILE: checks that a line contains these words, unchanged.
 holds() {
     while IFS= read -r text || [ -n "$text" ]; do
         case $text in *"$1"*) return 0 ;; esac
@@ -64,7 +65,7 @@ holds() {
     return 1
 }
 
-# said WORDS: the last command of `status` said so.
+# said WORDS: checks that the last `status` command printed these words.
 said() {
     if holds "$1" err.txt; then
         pass
@@ -74,16 +75,16 @@ said() {
     fi
 }
 
-# lacks PATTERN FILE: the file is there, and no line of it is like that.
+# lacks PATTERN FILE: checks that the file exists and no line matches.
 lacks() { [ -f "$2" ] && ! grep -q -e "$1" "$2"; }
 
-# differ FILE FILE: both are there, and their bytes differ.
+# differ FILE FILE: checks that both exist and differ.
 differ() {
     cmp -s "$1" "$2"
     [ $? -eq 1 ]
 }
 
-# empty FILE...: each is there without a byte.
+# empty FILE...: checks that each exists and is empty.
 empty() {
     for each in "$@"; do
         [ -f "$each" ] && [ ! -s "$each" ] || return 1
@@ -102,27 +103,28 @@ none() {
 
 absent() { [ ! -e "$1" ] && pass || fail "$1 should not be there"; }
 
-# count FILE NAME: a number of the statistics.
+# count FILE NAME: prints a number of the statistics.
 count() { sed -n "/seconds/!s/.*\"$2\": \([0-9]*\).*/\1/p" "$1"; }
 
-# bit FILE AT OUT: the file, its byte at AT with another lowest bit.
+# bit FILE AT OUT: copies the file and flips the lowest bit of the byte at AT.
 bit() {
     value=$(od -An -tu1 -j"$2" -N1 "$1" | tr -d ' ')
     # shellcheck disable=SC2059
     { head -c "$2" "$1"; printf "\\$(printf %03o $((value / 2 * 2 + 1 - value % 2)))"; tail -c +$(($2 + 2)) "$1"; } >"$3"
 }
 
-# repeated COUNT BYTES_IN_OCTAL: the bytes so often.
+# repeated COUNT BYTES_IN_OCTAL: prints the bytes COUNT times.
 repeated() {
     # shellcheck disable=SC2059
     printf "$2%.0s" $(seq "$1")
 }
 
-# compile ARGUMENT...: the build's compiler and flags, which name folders from the root on.
+# compile ARGUMENT...: runs the build's compiler and flags from the root, because the flags have relative folders.
 compile() { (cd "$root" && $CC $FLAGS "$@"); }
 
-# pasted VERB...: the examples of each one's help work when pasted, with smaller numbers: all lines below `examples` that
-# begin with two blanks, but those that end in a colon. What they say is in paste/said-WORD.txt, by a verb's last word.
+# pasted VERB...: checks that the examples of each verb's help work when pasted, with smaller numbers. Examples are all
+# lines below `examples` that begin with two blanks and do not end in a colon. Output goes to paste/said-WORD.txt; WORD
+# is the verb's last word.
 cheap='s/320x240/32x24/; s/160x120/32x24/; s/64x48/32x24/; s/24x16/12x8/; s/--voxels [56]/--voxels 4/
     s/80x60/40x30/; s/72.43,72.43,39.5,29.5/36.2,36.2,19.5,14.5/
     /lambent pla/s/32x24/16x12/; s/--receivers [0-9]*/--receivers 200/
@@ -143,13 +145,13 @@ pasted() {
     done
 }
 
-# --- scenes and pictures of more than one part ---
+# --- shared scenes and pictures ---
 
 one='\000\000\200\077'  # 1, 0.5 and 2 as binary32
 half='\000\000\000\077'
 two='\000\000\000\100'
 
-# white.pfm: a world of radiance 1; facepx.pfm: a pixel of it.
+# white.pfm: a world of radiance 1; facepx.pfm: one pixel of it.
 white() {
     { printf 'PF\n1 6\n-1.0\n'; repeated 18 "$one"; } >white.pfm
     { printf 'PF\n1 1\n-1.0\n'; printf "$one$one$one"; } >facepx.pfm
@@ -160,7 +162,7 @@ box() {
     printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >box.obj
 }
 
-# block.obj: the box with a block in it; and how to look into both.
+# block.obj: the box with a block in it. `inside`: a view into both.
 inside="--eye -0.8,0.6,-0.8 --target 0.3,-0.6,0.3 --size 32x24 --light point:0.2,0.5,0:0,-1,0:5,4,3 --show indirect"
 block() {
     awk '/^v/ { v[++n] = $0; print } /^f/ { f[++m] = $0; print }
@@ -168,15 +170,15 @@ block() {
               for (i = 1; i <= m; ++i) { split(f[i], p, " "); print "f", p[2] + n, p[3] + n, p[4] + n, p[5] + n } }' box.obj >block.obj
 }
 
-# pit.obj: a box with a pit, as six triangles more than a cube has.
+# pit.obj: a box with a pit, with six triangles more than a cube.
 pit() {
     printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv 0 0 0.3\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\n' >pit.obj
 }
 
-# floor.obj, below the pit.
+# floor.obj: a floor below the pit.
 floor() { printf 'v -4 -1 4\nv 4 -1 4\nv 4 -1 -4\nv -4 -1 -4\nf 1 2 3 4\n' >floor.obj; }
 
-# One photo of a wall, 24 x 24, grey, 2 m away; and what may not be there.
+# A grey photo of a wall, 24 x 24, 2 m away, and an object for it.
 seen="--photo photo.pfm --depth wall.pfm --intrinsics 30,30,11.5,11.5"
 tent="--object tent.obj --scale 0.2 --at 8,12 --shadow-map 64 --voxels 4"
 photo() {
@@ -185,7 +187,7 @@ photo() {
     printf 'v -1 0 -1\nv 1 0 -1\nv 0 0 1\nv 0 1 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n' >tent.obj
 }
 
-# moving.gltf: its animation moves light, camera and a triangle; odd.gltf: one that cannot be played.
+# moving.gltf: an animation moves light, camera and a triangle; odd.gltf: one that cannot be played.
 moving() {
 cat >moving.gltf <<'GLTF'
 {"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"nodes":[{"mesh":0},{"mesh":1},

@@ -1,7 +1,7 @@
-# engines.sh: light for other engines, read back and drawn.
+# engines.sh: exports light for other engines, reads it back and draws it.
 . tests/cli/common.sh
 
-# Light for other engines, read back and drawn, is the light it was baked from.
+# Exported light, read back and drawn, equals the baked light.
 light="--elements 256 --receivers 500 --cluster 0.6"
 trim() { sed -n 's/.* trim \([0-9.]*\),.*/\1/p' out.txt; }
 under() { awk -v is="$(trim)" -v bar="$1" 'BEGIN { exit !(is != "" && is < bar) }'; }
@@ -67,7 +67,7 @@ for to in lightmap vertex-colours; do
         '"metallicRoughnessTexture":{"index":0}' '"clearcoatFactor":0.5' '"copyright":"of ours"' '"author":"me"' \
         '"name":"room"' '"name":"grain"' '"name":"wood"' '"name":"unused"'
 done
-# Each material refers to the lightmap, in a slot that its own maps do not use.
+# Each material refers to the lightmap, in a slot that the material's own maps leave free.
 kept named-lightmap.glb '"specularTexture":{"index":1,"texCoord":1}' '"emissiveTexture":{"index":1,"texCoord":1}' \
     '"occlusionTexture":{"index":1,"texCoord":1,"strength":0}' '"name":"lambent lightmap"' '"KHR_materials_specular"'
 status 0 bake named.gltf --elements 256 --receivers 500 --light point:0,1,0:0,-1,0:9,9,9 --to vertex-colours -o lit.glb

@@ -1,4 +1,4 @@
-# examples.sh: the examples of each verb's help work when pasted; but for bench and the doctor.
+# examples.sh: checks that the examples of each verb's help work when pasted, except for bench and doctor.
 . tests/cli/common.sh
 
 pasted render play capture relight relief "relief bake" "relief render" mix pack merge plan compare info

@@ -4,8 +4,8 @@
 photo
 { printf 'Pf\n19 13\n-1.0\n'; head -c 988 /dev/zero; } >far.pfm
 
-# A sequence: frames that cannot be used are said and left out, and the others do not know of them.
-leaves_out() { # WANTED ARGUMENT...: so many frames, a line each and one of the sum
+# A sequence: unusable frames are reported and left out, and do not affect the other frames.
+leaves_out() { # WANTED ARGUMENT...: checks for WANTED such lines, and one line with the total
     wanted=$1
     shift
     "$TOOL" "$@" >out.txt 2>err.txt
@@ -33,7 +33,7 @@ said "frame 3 is left out: "
 check "frames left out are not there" sh -c '! ls "$1"/o_01* "$1"/o_02* "$1"/o_03* 2>/dev/null | grep -q .' sh frames
 check "of one place all frames are the same" cmp frames/o_00.pfm frames/o_04.pfm
 check "a frame has the object" differ photo.pfm frames/o_00.pfm
-# A camera that stands still: what is in front of the object for two frames hides it, and another photo's light is taken.
+# With a still camera, a surface in front of the object for two frames hides the object; new photos change the light.
 { printf 'Pf\n24 24\n-1.0\n'; repeated 576 "$one"; } >frames/near.depth.pfm
 { printf 'PF\n24 24\n-1.0\n'; repeated 1728 '\000\000\200\076'; } >frames/other.color.pfm
 cp photo.pfm frames/near.color.pfm && cp wall.pfm frames/other.depth.pfm
@@ -44,7 +44,7 @@ check "one frame is not believed" cmp frames/o_00.pfm frames/n_01.pfm
 check "two are" differ frames/o_00.pfm frames/n_02.pfm
 status 0 mix --frames frames/other.txt $tent -o frames/p_%02d.pfm
 check "each frame has its own photo" differ frames/o_00.pfm frames/p_01.pfm
-# The twelve bytes of a pixel in the middle of the object: a photo half as bright lights it anew.
+# The twelve bytes of a pixel in the middle of the object: a photo of half the brightness changes the light.
 on_object() { dd if="$1" bs=1 skip=3278 count=12 2>/dev/null | od -An -tx1; }
 check "a photo of another brightness has its own light" test "$(on_object frames/o_00.pfm)" != "$(on_object frames/p_01.pfm)"
 printf 'f0\nf4\n' >frames/two.txt
@@ -69,8 +69,8 @@ done
 check "the object moves in the picture" differ frames/m_00.pfm frames/m_02.pfm
 check "a frame of another size is not drawn" test ! -e frames/m_03.pfm
 check "and the next one is" test -s frames/m_04.pfm
-# A camera that trembles by a micrometre sees the same in all frames: the world gathers no cells that it has. The light is
-# given, because shadows of a guessed light from all the sky are found anew for each frame.
+# A camera that trembles by a micrometre sees the same in all frames, so the world gathers no new cells. The light is
+# given, because shadows of a guessed light from all the sky are recomputed for each frame.
 status 0 render demo --eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 40x30 --quality draft -o frames/h.color.pfm
 status 0 render demo --eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 40x30 --show depth -o frames/h.depth.pfm
 for i in 00 01 02 03 04 05 06 07; do
@@ -123,7 +123,7 @@ printf '1 two words/a  b # color\n' >"$long/rgb.txt" && printf '1 two words/a  b
 printf '1 0 0 0 0 0 0 1\n' >"$long/groundtruth.txt"
 status 0 mix --frames "$long" $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 -q -o frames/blank_%02d.pfm
 check "and TUM's lists have names with blanks" cmp frames/o_00.pfm frames/blank_00.pfm
-# No frame is written over a photo of the list, whenever it is read.
+# No frame overwrites a photo of the list, even one that was already read.
 for i in 0 1; do
     for part in color.pfm depth.pfm json; do cp "frames/f0.$part" "frames/r$i.$part"; done
 done
@@ -131,7 +131,7 @@ printf 'r1\nr0\n' >frames/own.txt
 status 2 mix --frames frames/own.txt $tent -o frames/r%01d.color.pfm
 for i in 0 1; do check "photo $i of the list stays" cmp frames/f0.color.pfm "frames/r$i.color.pfm"; done
 status 2 mix --frames frames/own.txt $tent --stats bad.json -o frames/bad_%02d.pfm
-# What the command line says wrongly of the first photo it would say of none rightly.
+# An error in the command line that shows in the first photo would show in every photo, so it is bad usage.
 status 2 mix --frames frames/begins.txt --object tent.obj --at 5000,10 -o frames/bad_%02d.pfm
 said "--at 5000,10: the photo has 24 x 24 pixels"
 : >frames/empty.txt
@@ -149,7 +149,7 @@ printf '1.01 f0.depth.pfm\n1.04 f4.depth.pfm\n' >frames/depth.txt
 printf '1.00 0 0 0 0 0 0 1\n1.03 0 0 0 0 0 0 1\n' >frames/groundtruth.txt
 status 0 mix --frames frames $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 -o frames/tum_%02d.pfm
 check "TUM's lists give the same frame" cmp frames/o_00.pfm frames/tum_01.pfm
-# Photos of no depth's time, or no pose's, are no frames; lines that are neither are passed over; both are said and counted.
+# Photos without a depth or a pose of the same time are skipped, and so are malformed lines; both are counted.
 printf '1.00 f0.color.pfm\n1.02\nlate f4.color.pfm\n1.03 f4.color.pfm\n2.00 f4.color.pfm\n3.00 f0.color.pfm\n' >frames/rgb.txt
 printf '1.01 f0.depth.pfm\n1.04 f4.depth.pfm\n3.00 f0.depth.pfm\n' >frames/depth.txt
 printf '1.00 0 0 0 0 0 0 1\n1.03 0 0 0 0 0 0\n1.03 0 0 0 0 0 0 1\n' >frames/groundtruth.txt
@@ -157,12 +157,13 @@ status 0 mix --frames frames $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 
 said "photos without a depth within 0.02 s: 1; without a pose: 1;"
 said "lines of its lists that are no time and name, or pose: 3;"
 check "they change no other frame" cmp frames/tum_01.pfm frames/tom_01.pfm
-# A turn of no length.
+# A rotation of length 0 is refused.
 printf '1.00 0 0 0 0 0 0 1\n1.03 0 0 0 0 0 0 0\n' >frames/groundtruth.txt
 leaves_out 1 mix --frames frames $tent --intrinsics 30,30,11.5,11.5 --depth-scale 1 -o frames/ter_%02d.pfm
 said "frame 1 is left out: frames/f4.color.pfm: its pose is no rotation and place"
 check "nor does a pose that is none" cmp frames/tum_00.pfm frames/ter_00.pfm
-# In any order; of two depths as near in time, or of one time, the earlier line; and of lists as long as they are.
+# Lists may be in any order and of any length. Of two depths at the same distance in time, or at the same time,
+# the earlier line is used.
 printf '1.00 0 0 0 0 0 0 1\n' >frames/groundtruth.txt
 awk 'BEGIN { for (i = 70000; i > 1; --i) print i, "f4.color.pfm"; print "1.00 f0.color.pfm"; print "nan f0.color.pfm" }' >frames/rgb.txt
 tie=0
@@ -182,8 +183,8 @@ said "lists no frame: photos without a depth within 0.02 s: 4; without a pose: 0
 printf '1.01 f0.depth.pfm\n1.04 f4.depth.pfm\n' >frames/depth.txt
 status 1 mix --frames frames $tent -q -o frames/bad_%02d.pfm
 said "2 of 2 frames are left out, the first because no camera given"
-# Frames without one measured depth, of no numbers, of a photo that ends early and of another size than their depth: each
-# is said once, and the frames after it are those of a list without it.
+# Frames with a depth that has no valid pixel or no numbers, with a truncated photo, or with photo and depth of
+# different sizes are each reported once. Later frames are the same as in a list without them.
 { printf 'Pf\n24 24\n-1.0\n'; repeated 576 '\000\000\300\177'; } >frames/x0.depth.pfm
 for i in 0 1 2 3; do cp frames/f0.json "frames/x$i.json" && cp photo.pfm "frames/x$i.color.pfm"; done
 head -c 500 photo.pfm >frames/x1.color.pfm && cp wall.pfm frames/x1.depth.pfm
@@ -199,7 +200,7 @@ printf 'x0\nf0\n' >frames/blind.txt
 leaves_out 1 mix --frames frames/blind.txt $tent -o frames/blind_%02d.pfm
 said "frame 0 is left out: "
 check "a list whose first frame is blind begins with the next" cmp frames/o_00.pfm frames/blind_01.pfm
-# A wall 1.5 m away that is not measured where the object would stand: what it measured is forgotten with it.
+# A wall at 1.5 m has a hole at the object's place, so the frame is left out, and its measurements are dropped too.
 {
     printf 'Pf\n24 24\n-1.0\n'
     i=0
@@ -213,13 +214,13 @@ printf 'hole\nf0\n' >frames/hole.txt
 leaves_out 1 mix --frames frames/hole.txt $tent -o frames/hole_%02d.pfm
 said "frame 0 is left out: --at 8,12: neither a plane nor any depth there"
 check "what a frame measured that is left out changes no other" cmp frames/o_00.pfm frames/hole_01.pfm
-# A name that cannot be read, whatever the system's reason, is of its frame alone.
+# If a name cannot be read for any reason, only that frame is affected.
 ln -s loop.color.png frames/loop.color.png && cp frames/f0.json frames/loop.json && cp wall.pfm frames/loop.depth.pfm
 printf 'f0\nloop\nf5\n' >frames/loop.txt
 leaves_out 1 mix --frames frames/loop.txt $tent -o frames/loop_%02d.pfm
 said "frame 1 is left out: "
 check "a link to itself ends no sequence" cmp frames/g_01.pfm frames/loop_02.pfm
-# Linear photos: half of this one is as the first, and half shines; that half's codes stay.
+# Linear photos: half of this one equals the first photo, and half is very bright; the codes of that half are kept.
 { printf 'PF\n24 24\n-1.0\n'; tail -c 3456 photo.pfm; repeated 864 '\000\000\000\101'; } >frames/glow.color.pfm
 cp wall.pfm frames/glow.depth.pfm && cp frames/f0.json frames/glow.json
 printf 'f0\nglow\n' >frames/glow.txt

@@ -1,4 +1,4 @@
-# full-disk.sh: a full disk, a stdout that is closed.
+# full-disk.sh: a full disk, and a closed stdout.
 . tests/cli/common.sh
 
 box

@@ -1,4 +1,4 @@
-# help.sh: help and version of each verb, the man page, the doctor; CC FLAGS LIB LDLIBS.
+# help.sh: help and version of each verb, the man page, the doctor. Needs CC FLAGS LIB LDLIBS.
 . tests/cli/common.sh
 
 # Help and version go to stdout.
@@ -42,7 +42,7 @@ for verb in render bake play capture relight "relief bake" "relief render" mix p
     check "$verb has --threads" grep -q '^  --threads N' out.txt
 done
 
-# The doctor, asked by its example.
+# Runs the example of the doctor.
 pasted doctor
 if [ -n "$SHORT" ]; then
     status 0 doctor -v
@@ -51,7 +51,7 @@ fi
 check "the doctor says what draws" sh -c 'grep -c "exact (.*), draws where none is named$" "$1" | grep -qx 1' sh paste/said-doctor.txt
 check "the doctor tries all lanes" grep -q '^scalar  *exact' paste/said-doctor.txt
 check "the doctor says the flags" grep -q '^flags .*-ffp-contract=off' paste/said-doctor.txt
-# One that expects other bytes: it says so, and its status is 1. Objects whose source is gone may lie about.
+# A doctor that expects another hash reports it and returns 1. Objects of deleted sources may exist.
 for object in "$B"/obj/tools/*/*.o "$B"/obj/platform/host/*.o; do
     source=${object#"$B"/obj/}
     case $source in *verb_doctor* | *port_* | *main_*) continue ;; esac

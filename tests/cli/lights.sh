@@ -1,7 +1,7 @@
-# lights.sh: many lights: their tree, in any order, and what they bounce.
+# lights.sh: many lights: the light tree, in any order, and bounced light.
 . tests/cli/common.sh
 
-# Many lights: a floor under 200 of them, in two orders, of a kind. Too many for maps; the picture knows no order.
+# A floor under 200 lights of one kind, too many for shadow maps; the picture does not depend on their order.
 many_lights() {
     awk -v first="$1" -v step="$2" -v kind="${4:-point}" -v all="${5:-200}" 'BEGIN {
         printf "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":"
@@ -83,7 +83,7 @@ fi
 status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 -o once.pfm
 status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 --threads 3 --backend scalar -o threads.pfm
 check "threads or lanes change what many lights bounce" cmp once.pfm threads.pfm
-few= # lights that bounce take a tree from 33 on, and less fine bounced light, which is as right as their direct light
+few= # lights that bounce use a tree from 33 on, with coarser bounced light, which is as accurate as their direct light
 for i in $(seq 33); do
     few="$few --light point:0.$((i % 10)),2,0.$((i / 4)):0,-1,0:1,1,1"
 done

@@ -35,7 +35,7 @@ status 2 mix $seen --object tent.obj --at 5000,10 -o bad.png
 said "--at 5000,10: the photo has 24 x 24 pixels"
 status 2 mix --photo photo.pfm --depth wall.pfm --intrinsics 0,0,0,0 --object tent.obj -o bad.png
 said "--intrinsics: focal lengths are over 0"
-# Stored pictures come out with the same codes; of ours, as the same file.
+# Stored pictures keep their codes; our own files keep all bytes.
 far() { printf 'Pf\n%d %d\n-1.0\n' "$1" "$2"; head -c $(($1 * $2 * 4)) /dev/zero; }
 far 32 24 >far.pfm
 status 0 mix --photo demo.png --depth far.pfm --intrinsics 30,30,9,6 -o same.png
@@ -43,7 +43,7 @@ check "a PNG comes out as it went in" cmp demo.png same.png
 far 19 13 >far.pfm
 status 0 mix --photo "$root/tests/fuzz/corpus/jpeg/baseline_420.jpg" --depth far.pfm --intrinsics 30,30,9,6 -o same.png
 check "a JPEG's pixels come out as they went in" sh -c '"$1" compare "$2" "$3" | grep -q "exact 247 of 247"' sh "$TOOL" "$root/tests/fuzz/corpus/jpeg/baseline_420.jpg" same.png
-# One pixel, of which a plane cannot be told; where it stands is asked.
+# One pixel does not define a plane, so a place is required.
 { printf 'PF\n1 1\n-1.0\n'; printf "$half$half$half"; } >photo1.pfm
 { printf 'Pf\n1 1\n-1.0\n'; printf "$two"; } >depth1.pfm
 dot="--photo photo1.pfm --depth depth1.pfm --intrinsics 30,30,0,0"
@@ -52,15 +52,15 @@ check "one pixel comes out as it went in" cmp photo1.pfm same.pfm
 status 1 mix $dot --object tent.obj -o bad.png
 said "no plane in the depth to stand on; 100 % of its pixels are measured, 2 .. 2 m away: --depth-scale sets its unit"
 status 0 mix $dot --object tent.obj --at 0,0 --scale 0.01 --shadow-map 64 --voxels 4 -o mixed.pfm
-# A wall alone: the object stands on it, and that is said.
+# If there is only a wall, the object stands on the wall, and a line reports it.
 status 0 mix $seen --object tent.obj --shadow-map 64 --voxels 4 -o mixed.pfm
 check "that no plane faces up is said" holds "no plane faces up" err.txt
-# Of planes that are shown nothing is said about a place where the object was not put.
+# --show planes prints no message about the object's place, because no object is placed.
 status 0 mix $seen --object tent.obj --show planes -o planes.png
 check "--show planes puts no object anywhere" lacks 'stands on\|no plane faces up' err.txt
 status 0 mix $seen --object tent.obj --scale 0.5 --at 2,12 --shadow-map 64 --voxels 4 -o mixed.pfm
 check "that the object is off the picture is said" holds "part of the object is off the picture" err.txt
-# A spike out of the wall: its box's near corners are off the picture, and its own are not.
+# A spike out of the wall: near corners of the bounding box are outside the picture, but the spike is inside.
 printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n' >spike.obj
 spike="--object spike.obj --scale 0.6 --shadow-map 64 --voxels 4"
 for at in 11,11 9,11 14,11 11,9 11,14; do
@@ -71,7 +71,7 @@ for at in 7,11 16,11 11,7 11,16; do
     status 0 mix $seen $spike --at $at -o mixed.pfm
     said "part of the object is off the picture"
 done
-# A size is the file's own metres, and is said where that is absurd.
+# Sizes are in metres of the file; an absurd size is reported.
 status 0 mix $seen --object tent.obj --scale 300 --shadow-map 64 --voxels 4 -o mixed.pfm
 check "an object that fills the picture is said" holds "m long and fills the picture; --fit chooses its size" err.txt
 status 0 mix $seen --object tent.obj --scale 0.0001 --shadow-map 64 --voxels 4 -o mixed.pfm
@@ -82,7 +82,7 @@ status 1 mix $seen --object tent.obj --on floor -o bad.png
 said "--on floor: no plane faces up"
 status 2 mix $seen --object tent.obj --fit --scale 2 -o bad.png
 status 2 mix $seen --object tent.obj --on wall --at 3,4 -o bad.png
-# Surroundings that shine in one colour light the object in that colour alone.
+# Surroundings in one colour light the object only in that colour.
 { printf 'PF\n1 6\n-1.0\n'; repeated 6 "$one\000\000\000\000\000\000\000\000"; } >red.pfm
 status 0 mix $seen $tent --world red.pfm --show object -o mixed.pfm
 check "--world lights the object" sh -c '"$1" info "$2" | grep -q "red   min 0 *max [0-9.]*[1-9]"' sh "$TOOL" mixed.pfm
@@ -103,7 +103,7 @@ status 2 mix $seen -o bad.png --show nonsense
 status 2 mix $seen -o bad.png --shadow-map 100
 status 2 mix $seen -o bad.png --roughness 2
 status 2 mix $seen -o bad.png --show object
-# What is up is told: a camera that looks down on a desk has the desk before it, as others have a wall.
+# --up sets the direction up: for a camera that looks down, the desk ahead is the floor.
 status 0 mix $seen $tent --up 0,0,1 -o mixed.pfm
 check "--up: what faces the camera is a floor" lacks "no plane faces up" err.txt
 said "stands on number 1"
@@ -111,12 +111,12 @@ status 0 mix $seen $tent --up camera -o mixed.pfm
 check "--up camera: that is a wall" holds "hangs on number 1" err.txt
 status 2 mix $seen $tent --up 0,0,0 -o bad.png
 status 2 mix $seen $tent --up down -o bad.png
-# No light at all, and not beside another.
+# No light at all, and not together with another light.
 status 0 mix $seen $tent --light none -o mixed.pfm
 check "--light none guesses no light" lacks "no light given" err.txt
 status 2 mix $seen $tent --light none --light sun:0,0,0:0.6,-0.2,-1:2,2,2 -o bad.png
 said "--light none leaves all lights out"
-# Depth of half the size, and of another shape.
+# Depth of half the size, and of another aspect ratio.
 { printf 'Pf\n12 12\n-1.0\n'; repeated 144 "$two"; } >half.pfm
 status 0 mix --photo photo.pfm --depth half.pfm --intrinsics 30,30,11.5,11.5 $tent --light none -o half_mixed.pfm
 status 0 mix $seen $tent --light none -o mixed.pfm
@@ -124,7 +124,8 @@ check "depth of another size is resampled" "$TOOL" compare half_mixed.pfm mixed.
 { printf 'Pf\n12 6\n-1.0\n'; repeated 72 "$two"; } >flat.pfm
 status 1 mix --photo photo.pfm --depth flat.pfm --intrinsics 30,30,11.5,11.5 -o bad.png
 said "12 x 6 pixels, the photo has 24 x 24"
-# What each pixel shows of the object, beside the picture: its depth is the plane's where it hangs on the wall, its mask white there.
+# --labels writes what each pixel shows of the object: on the wall, the object's depth is that of the plane, and
+# the mask is white there.
 status 0 mix $seen --object tent.obj --scale 0.3 --labels lab --light none -o mixed.png
 for file in lab.mask.png lab.depth.pfm lab.normal.pfm lab.pose.json; do
     check "--labels writes $file" test -s $file

@@ -1,7 +1,7 @@
-# needles.sh: triangles that all cross in one point: tests of visibility are bounded, and a note reports it.
+# needles.sh: triangles that all cross in one point: checks that visibility tests are bounded, and a note reports it.
 . tests/cli/common.sh
 
-crossing='function crossing(n,  i, a, z, s) { # a needle each, through the middle of a room, in directions that fill a sphere
+crossing='function crossing(n,  i, a, z, s) { # needles through the middle of a room, in directions that fill a sphere
          for (i = 0; i < n; ++i) {
              a = 2.399963 * i; z = 1 - (i + 0.5) / n; s = sqrt(1 - z * z)
              x = 1.4 * s * cos(a); y = 1.4 * s * sin(a); z = 1.4 * z
@@ -21,14 +21,14 @@ status 0 render needles.obj $view -q -o quiet.pfm
 check "--quiet prints the note" lacks coarser err.txt
 status 0 play needles.obj $view --frames 1 -o frame%01d.pfm
 said "note: 1 of 1 tiles have coarser visibility: too many triangles cross there"
-# So are searches for room to move, of eight lights where all needles meet.
+# The search for free space around lights is bounded too: eight lights near the crossing point.
 lights=
 for i in 1 2 3 4 5 6 7 8; do
     lights="$lights --light point:0,1.5$i,0:0,-1,0:9,9,9"
 done
 status 0 play needles.obj $view $lights --shadow-map 64 --frames 1 -o frame%01d.pfm
 check "play prints no note of searches" grep -q '^lambent: note: [1-9][0-9]* searches for room to move have coarser' err.txt
-# So it is in a bake, by any threads.
+# A bake is bounded too, and equal for any threads.
 awk -v many=600 "$crossing" >few.obj
 status 0 bake few.obj -o one.lmt --elements 64 --receivers 64 --cluster 3 --threads 1
 check "bake prints no note" grep -q '^lambent: note: [1-9][0-9]* sights have coarser visibility' err.txt

@@ -1,11 +1,11 @@
-# options.sh: one parser reads all command lines: what is unknown, given twice, wrong, or quiet.
+# options.sh: the parser of all command lines: unknown, repeated and wrong options, and -q.
 . tests/cli/common.sh
 
 status 0 render demo $small -o demo.pfm
 status 0 render demo $small --show depth -o depth.pfm
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
 
-# One parser reads all command lines: `--name=value`, what is given twice, what may be meant, where options end.
+# The parser of all command lines: `--name=value`, repeated options, suggestions, and the end of options.
 status 0 render demo --size=32x24 --shadow-map=64 --exposure=0 -o inside.pfm
 check "--name=value is --name value" cmp demo.pfm inside.pfm
 cp one.obj ./-q.obj
@@ -82,7 +82,7 @@ status 2 render demo demo -o bad.png
 said "one word too many: SCENE is \`demo\`"
 status 2 render demo -o=bad.png
 absent bad.png
-# Quiet says nothing, verbose says more; both draw the same.
+# Quiet prints nothing, verbose prints more; both draw the same.
 status 0 render demo --size 32x24 --shadow-map 64 -o loud.png
 status 0 render demo --size 32x24 --shadow-map 64 -q -o hushed.png
 check "-q says nothing" empty out.txt err.txt

@@ -1,7 +1,7 @@
-# outputs.sh: what cannot be done leaves nothing behind; what cannot be written is refused before the work.
+# outputs.sh: checks that failures leave no files, and that unwritable outputs are refused before the work.
 . tests/cli/common.sh
 
-# What cannot be done leaves nothing behind.
+# A failure leaves no files.
 printf 'no scene' >broken.glb
 status 1 render nowhere.gltf -o bad.png
 status 1 render broken.glb -o bad.png
@@ -18,7 +18,7 @@ status 1 info nowhere.glb
 status 1 info broken.glb --json
 status 1 info nowhere.png
 
-# A limit on the size of files: a failed write like any other. Some shells count in 512 bytes, some in 1024.
+# A limit on file sizes fails like any other write. Some shells count in 512 bytes, some in 1024.
 if (ulimit -f 8) 2>/dev/null; then
     echo before >kept.pfm
     (
@@ -33,7 +33,7 @@ if (ulimit -f 8) 2>/dev/null; then
 else
     skip "a limit on the size of files: this shell sets none"
 fi
-# Killed at any moment: what stood there stays, or the new file is there, whole (a PFM of 32 x 24 has 9,231 bytes).
+# Killed at any moment: either the old file or the whole new file exists (a PFM of 32 x 24 has 9,231 bytes).
 "$TOOL" render demo $small -o whole.pfm >/dev/null 2>&1
 for wait in 0 0.02 0.05 0.1 0.2; do
     echo before >killed.pfm
@@ -44,9 +44,9 @@ for wait in 0 0.02 0.05 0.1 0.2; do
     check "killed after $wait s: a whole file" sh -c 'test "$(cat "$1")" = before || cmp -s "$1" "$2"' sh killed.pfm \
         whole.pfm
 done
-find . \( -name '*killed*tmp*' -o -name '.write-*.tmp' \) -exec rm -f {} + # of those that were killed
+find . \( -name '*killed*tmp*' -o -name '.write-*.tmp' \) -exec rm -f {} + # temporary files of the killed commands
 
-# A reader that goes away: the tool ends, with its own status or by the signal, and does not go on.
+# If the reader closes the pipe, the tool ends, with an exit status or by the signal.
 check "a closed pipe ends the tool" sh -c '"$1" bench hard mixed | head -n 1 | grep -q "^group"' sh "$TOOL"
 
 left=$(find . -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
@@ -55,11 +55,10 @@ check "left behind: $left" test -z "$left"
 box
 photo
 
-# --- what cannot be written is refused before the work ---
+# --- unwritable outputs are refused before the work ---
 
-# alone: one line is said, and only that.
-# refused WORD ARGUMENT...: one line with the word, though the scene is not there either. misused: one file for two
-# purposes, which is bad usage.
+# alone: one line on stderr, and nothing on stdout. refused WORD ARGUMENT...: one line with the word, although the scene
+# is missing too. misused: one file for two purposes, which is bad usage.
 alone() { one_line err.txt && empty out.txt; }
 refused() {
     word=$1
@@ -107,7 +106,7 @@ else
     skip "files that may not be written: root may write all"
 fi
 
-# --- what is read is not written over, whatever its name ---
+# --- inputs are not overwritten, whatever their name ---
 
 status 0 render demo $few -o demo.png
 status 0 render demo $few -o demo.pfm
@@ -142,7 +141,7 @@ misused "cloth01.png: cannot be written: it is read" play cloth.obj --size 16x16
 absent cloth00.png
 check "what is read stays as it was" test "$(sum)" = "$kept"
 
-# --- no file of lambent's own under the name of another kind ---
+# --- no file in a format of lambent under the name of another kind ---
 
 for out in x.png X.PPM x.pfm x.hdr x.jpg x.jpeg x.gltf x.GLB x.obj x.mtl x.ply x.lmp x.lmr; do
     misused "$out: a .lmt file would be written, under the name of a" bake box.obj --elements 64 --receivers 64 -o "$out"

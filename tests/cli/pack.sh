@@ -1,11 +1,11 @@
-# pack.sh: packed scenes: what they become in either form and byte order, and whether all draw the same; CC FLAGS LIB LDLIBS.
+# pack.sh: packed scenes in both forms and byte orders, and whether all draw the same. Needs CC FLAGS LIB LDLIBS.
 . tests/cli/common.sh
 
 moving
 
 shows="--size 64x48 --shadow-map 64 --show direct"
 
-# The same picture from the file, from the array that is linked in, and from the other path to the same words.
+# The file, the linked array and a C file made from the packed file give the same picture.
 status 0 pack demo -o demo.lmp --report
 check "pack tells the bytes of each part" grep -q '  indices  *[0-9]* bytes' out.txt
 check "and their sum, which is the file's" grep -q "  in all  *$(wc -c <demo.lmp | tr -d ' ') bytes" out.txt
@@ -26,7 +26,7 @@ status 0 render kept.lmp $shows -o kept.pfm
 check "what loses nothing has the source's picture" cmp source.pfm kept.pfm
 status 0 compare tool.pfm source.pfm --max trim=0.02
 
-# What moves is where the tool has it.
+# Animated parts are at the same places as in the tool.
 status 0 pack moving.gltf -o moving.lmp
 status 0 play moving.lmp $shows --fps 2 --frames 3 -o tool_%02d.pfm
 for frame in 0 1 2; do
@@ -35,7 +35,7 @@ for frame in 0 1 2; do
 done
 check "it moves" sh -c '! cmp -s "$1/tool_00.pfm" "$1/tool_02.pfm"' sh .
 
-# Either byte order from this machine, and the other one refused by its name.
+# Either byte order can be written; the other order is refused with a message that names it.
 status 0 pack moving.gltf -o little.lmp --endian little
 status 0 pack moving.gltf -o big.lmp --endian big
 check "the orders have as many bytes" test "$(wc -c <little.lmp)" -eq "$(wc -c <big.lmp)"
@@ -54,7 +54,7 @@ said "cut.lmp: a packed scene of"
 { head -c 200 demo.lmp; head -c 600 /dev/zero | tr '\000' '\377'; tail -c +801 demo.lmp; } >damaged.lmp
 status 1 info damaged.lmp
 said "damaged.lmp: a damaged packed scene"
-# Wherever it is cut, and wherever one bit of it is another: one line, status 1, and no picture.
+# A file cut at any place, or with any flipped bit: one line, status 1, and no picture.
 broken() {
     rm -f broken.png
     status 1 info broken.lmp
@@ -77,7 +77,7 @@ done
 status 0 info demo.lmp
 check "info knows packed scenes" grep -q 'demo.lmp: LMP$' out.txt
 
-# Baked light: of what was packed, within the file.
+# Baked light of the packed scene, inside the file.
 status 0 bake demo.lmp -o demo.lmt --elements 256 --receivers 200 --cluster 0.6
 status 0 pack demo.lmp --transfer demo.lmt -o lit.lmp --report
 check "its bytes are told" grep -q '  transfer  *[0-9]* bytes' out.txt

@@ -1,4 +1,4 @@
-# paths.sh: play: paths and patterns that are refused, by the line.
+# paths.sh: play: paths and patterns that are refused; the message names the line.
 . tests/cli/common.sh
 
 box
@@ -6,7 +6,7 @@ block
 printf '%s\n' "0 light 0.2,0.5,0" "0 camera -0.8,0.6,-0.8 0.3,-0.6,0.3" "1 light 0.3,0.5,0.1" "1 camera -0.7,0.6,-0.8 0.2,-0.6,0.3" >keys.txt
 status 0 bake box.obj -o box.lmt --elements 64 --receivers 64
 
-line() { # line NUMBER SAYS KEYS: a path file that is refused, by the line.
+line() { # line NUMBER TEXT KEYS: checks that the path file is refused at this line
     printf "$3" >bad.txt
     status 1 play block.obj $inside --path bad.txt --frames 2 -o bad%02d.pfm
     said "bad.txt: line $1: $2"

@@ -1,7 +1,7 @@
-# peers.sh: bench raster --peers: programs of other rasterizers beside ours.
+# peers.sh: bench raster --peers: compares with programs of other rasterizers.
 . tests/cli/common.sh
 
-# Other rasterizers' programs, which are scripts here.
+# Scripts stand in for the programs of other rasterizers.
 peer() {
     mkdir -p "peers_$1"
     printf '#!/bin/sh\n%s\n' "$2" >"peers_$1/$1"

@@ -1,4 +1,4 @@
-# pipes.sh: standard output and input in place of files.
+# pipes.sh: standard output and input instead of files.
 . tests/cli/common.sh
 
 box
@@ -6,7 +6,7 @@ pit
 photo
 moving
 
-# piped WHAT FILE ARGUMENT...: with `-o -` in place of `-o FILE` the same bytes come from stdout, and words from stderr.
+# piped NAME FILE ARGUMENT...: checks that `-o -` writes the same bytes to stdout as `-o FILE`, and messages to stderr.
 piped() {
     what=$1 file=$2
     shift 2
@@ -36,7 +36,7 @@ check "sizes that differ leave stdout empty" test ! -s pipe
 "$TOOL" compare demo.png demo.pfm --heat - >pipe 2>err.txt
 check "the heat picture alone is on stdout" sh -c '"$1" info - <"$2" | grep -q PNG && grep -q "^trim" "$3"' sh "$TOOL" pipe err.txt
 
-# fed FILE ARGUMENT...: what the command writes, with `-` for FILE from stdin, is what it writes of the file.
+# fed FILE ARGUMENT...: checks that the output is the same if FILE comes from stdin, with `-` in its place.
 fed() {
     file=$1
     shift

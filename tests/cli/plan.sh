@@ -1,7 +1,7 @@
-# plan.sh: plan: what is left out and why; budgets.
+# plan.sh: plan: stages that are left out, with reasons; budgets.
 . tests/cli/common.sh
 
-# --- plan: what is left out and why; budgets ---
+# --- stages that are left out, with reasons; budgets ---
 
 plan="--size 32x24 --shadow-map 64 --threads 1"
 status 0 plan demo $plan
@@ -16,7 +16,7 @@ printf '%s\n' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1'
 corner="corner.obj --size 32x24 --threads 1 --eye 1,2,4 --target 0,0.4,0 --light point:0.3,1.5,0.2:0,-1,0:9,9,9"
 status 0 plan $corner --budget-bytes 100KiB
 check "100 KiB are too few, and by how much" grep -q "no setting meets the budget; the nearest takes [0-9.]* x the bytes" out.txt
-# A look is a part of the picture that it plans: its share of the work is told, and at most a quarter.
+# Sampling is part of the planned work: the share is printed, and is at most a quarter.
 status 0 plan demo --size 240x180 --threads 1 --budget-error 0.2 --json
 check "a look takes at most a quarter of what it plans" awk -F '"look_work": |"estimated_work": ' '
     /"look_work"/ { look = $3 + 0; work = $2 + 0 } END { exit !(look > 0 && look <= 0.25 * work) }' out.txt
@@ -40,7 +40,7 @@ status 2 render demo --budget-error 0.1 --show direct -o plan.png
 status 1 plan nowhere.gltf
 absent plan.png
 
-# What is chosen for a budget is said as options that draw the same picture.
+# The settings chosen for a budget are printed as options that draw the same picture.
 status 0 render demo --size 240x180 --threads 1 --exposure 0 --budget-error 0.2 -o budget.pfm
 check "an easy budget is met" grep -q "^lambent: the budget is met" err.txt
 chosen=$(sed -n 's/^lambent: chosen: \(.*\): error about.*/\1/p' err.txt)

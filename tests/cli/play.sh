@@ -1,11 +1,11 @@
-# play.sh: play: frames that move by themselves and by paths, each the same alone.
+# play.sh: play: frames with default motion and along paths, equal singly and in a sequence.
 . tests/cli/common.sh
 
 box
 block
 status 0 bake block.obj -o block-1.lmt --elements 256 --receivers 300
 
-# Frames that move: each the same alone and among others, by cuts and by baked light; and as `render` has it.
+# Moving frames are equal singly and in a sequence, by cuts and by baked light, and equal to `render`.
 baked="--transfer block-1.lmt"
 for way in "--quality draft" "$baked"; do
     for move in light camera all; do

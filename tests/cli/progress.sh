@@ -1,4 +1,4 @@
-# progress.sh: progress, Ctrl-C in it, the same bytes by any threads.
+# progress.sh: progress lines, Ctrl-C during them, and equal bytes for any threads.
 . tests/cli/common.sh
 
 pit
@@ -11,9 +11,9 @@ log=$!
 timeout --preserve-status -s TERM 25 "$TOOL" bake demo --quality best --threads 1 -q -o quiet.lmt >quiet-out.txt 2>quiet-err.txt &
 quiet=$!
 
-# watched WANTED SIGNAL ARGUMENT...: on a terminal, until WANTED is on the screen, a minute at most; then the signal comes.
-# WANTED `nothing`: after 2 s. The screen is in screen.txt, and the status that of the tool. The tool runs in front, as
-# what a shell runs behind ignores Ctrl-C.
+# watched WANTED SIGNAL ARGUMENT...: runs the tool on a terminal until WANTED is on the screen, at most a minute, then
+# sends the signal. If WANTED is `nothing`, waits 2 s. The screen is in screen.txt, and the status is that of the tool.
+# The tool runs in the foreground, because background jobs of a shell ignore Ctrl-C.
 watched() {
     wanted=$1 sent=$2
     shift 2
@@ -58,7 +58,7 @@ else
 fi
 
 status 0 relief bake pit.obj --size 16 --triangles 20 --views 6 -o pit.lmr
-# any FILE ARGUMENT...: the same bytes by one thread and by three.
+# any FILE ARGUMENT...: checks for the same bytes with one thread and with three.
 any() {
     file=$1
     shift

@@ -22,7 +22,7 @@ status 0 relief bake pit.obj -o less.lmr --simple less.obj --as-is --size 16
 check "a simple model that is too small is told" grep -q 'sticks out of the simple one by 0.1[67]' err.txt
 status 0 relief bake pit.obj -o less.lmr --simple less.obj --size 16
 check "and else moved outwards" lacks 'sticks out' err.txt
-# Views in perspective: a world a thousand times as large gives the same picture, to the bit.
+# Perspective views: a world a thousand times as large gives the same picture, to the bit.
 awk '/^v /{print "v", $2 * 1024, $3 * 1024, $4 * 1024; next} {print}' pit.obj >vast.obj
 printf '%s\n' '-4 0 0 0 0 0 45' '4 0 0 0 0 0 45' '0 4 1 0 0 0 45' '0 -4 1 0 0 0 45' '0 0 4 0 0 0 45' '2 2 3 0 0 0 45' >views.txt
 awk '{print $1 * 1024, $2 * 1024, $3 * 1024, $4, $5, $6, $7}' views.txt >vast.txt
@@ -32,7 +32,7 @@ for size in pit vast; do
         --size 64x64 --show normal -o "$size-normal.pfm"
 done
 check "a relief of any size looks the same" cmp -s pit-normal.pfm vast-normal.pfm
-# Without normals it is flat, as in `lambent render`: a box has one colour in front, but at its rim.
+# Without normals, shading is flat, as in `lambent render`: a box has one colour in front, except at the rim.
 status 0 relief bake box.obj -o box.lmr --triangles 12 --size 32
 status 0 relief render box.lmr --eye 0,0,5 --target 0,0,0 --size 32x32 --show normal -o box.ppm
 check "a relief of a box is flat" test "$(tail -c 3072 box.ppm | od -An -v -tx1 -w3 | sort | uniq -c | sort -rn | awk 'NR == 2 { print $1 }')" -ge 300
@@ -49,7 +49,7 @@ for views in 14 greedy:5 cameras.txt; do
     status 0 relief bake pit.obj -o pit.lmr --triangles 20 --size 16 --packed --views $views
     status 0 relief render pit.lmr -o pit.ppm --size 40x30 --shadow-map 0 --steps 1 --pixel-views 2 --keep 1
 done
-# Along a path: each picture is the one that its camera and light give alone.
+# Along a path, each picture equals a single picture with the same camera and light.
 sun=sun:0,0,0:0.6,-0.64,-0.48:3,2.9,2.7
 printf '# keys\n0 camera 1.5,2,5 0,0,0\n1 camera 4,1,3 0,0,0\n0 light 0,0,0 1,-1,0\n1 light 0,0,0 0.6,-0.64,-0.48\n' >keys.txt
 status 0 relief render pit.lmr --path keys.txt --fps 2 --size 40x30 -o lap_%02d.pfm
@@ -76,7 +76,7 @@ printf '0 camera 1,2,5\n11 camera 2,2,5\n' >keys.txt
 status 0 relief render pit.lmr --path keys.txt --eye 1,2,3 --target 0,0,0 --frames 1 --size 16x16 -o looks.pfm
 status 1 relief render pit.lmr --path keys.txt --fps 1e5 -o bad.png
 said "keys.txt: 1100001 pictures to its last key, of which 1000000 can be drawn"
-# keys_refused KEYS WORDS: a path that a relief cannot follow.
+# keys_refused KEYS WORDS: checks that a path that a relief cannot follow is refused.
 keys_refused() {
     printf "$1" >keys.txt
     status 1 relief render pit.lmr --path keys.txt --fps 2 -o bad.png

@@ -3,7 +3,7 @@
 
 white
 
-# A world of one radiance gives pi times that to every normal, from any place, by any filter.
+# In a world of constant radiance every normal receives pi times that radiance, at any place and with any filter.
 for filter in cosine sh9 sh16 sh25 blur blur1 blur2; do
     status 0 relight --world white.pfm --at 30,2,-9 --filter $filter --faces 3 --cube cube.pfm
     check "relight --filter $filter is pi" sh -c '"$1" info "$2" | grep -c "min 3.14159 .*max 3.14159 " | grep -qx 3' sh "$TOOL" cube.pfm
@@ -23,7 +23,7 @@ status 2 relight --world white.pfm --cube bad.pfm --faces 65
 status 2 relight --world white.pfm --cube bad.pfm --filter sh4
 status 2 relight --cube bad.pfm
 status 0 relight --help
-# Objects in the built-in world: normal and glossy are the parts of both, everywhere; places along a path.
+# Objects in the built-in world: normal and glossy add up to both, everywhere; places along a path.
 field="relight --world demo --object demo --size 48x24 --exposure 0"
 for show in both normal glossy; do
     status 0 $field --show $show -o "field-$show.pfm"
@@ -48,7 +48,7 @@ done
 status 0 $field --path path.txt -o walk.ppm
 status 0 $field --path path.txt -o step_%03d.ppm
 check "a walk's pictures are numbered by the pattern" cmp step_002.ppm walk-0002.ppm
-cp white.pfm bad_001.pfm # what the second picture would replace is read
+cp white.pfm bad_001.pfm # the file that the second picture would overwrite is an input
 status 2 relight --world bad_001.pfm --object demo --size 16x8 --path path.txt -o bad_%03d.pfm
 said "bad_001.pfm: cannot be written: it is read"
 check "no picture is drawn where one of them cannot be written" test ! -e bad_000.pfm
@@ -77,7 +77,7 @@ fi
 status 2 $field -o bad.gif
 check "nothing was left behind" none bad*
 
-# What objects take of the ground's light and their own: nothing gets brighter, the ground right below gets darker.
+# Contact of objects with the ground and each other: nothing gets brighter, and the ground right below gets darker.
 printf 'v -1 0.5 -1\nv 1 0.5 -1\nv 1 0.5 1\nv -1 0.5 1\nf 1 2 3 4\n' >table.obj
 low="relight --world white.pfm --ground facepx.pfm --ground-size 40,40 --object table.obj --f0 0 --at 0,0.5,0 --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24"
 status 0 $low -o bright.pfm
@@ -89,7 +89,7 @@ printf '0,0.5,0\n3,0.5,0\n0,0.5,0\n' >path.txt
 status 0 relight --world white.pfm --ground facepx.pfm --ground-size 40,40 --object table.obj --f0 0 --contact --path path.txt --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24 -o walk.pfm
 check "contact goes with what moves" sh -c 'cmp "$1/walk-0000.pfm" "$1/walk-0002.pfm" && ! cmp -s "$1/walk-0000.pfm" "$1/walk-0001.pfm"' sh .
 status 0 relight --world white.pfm --object demo --contact --size 16x8 -o field.png
-# A ground of radiance 1 that shines at night: it receives what it sends up at least, so a white box adds a part of that.
+# A ground of radiance 1 at night receives at least the light that it emits, so a white box adds a part of that.
 printf 'v -1 0 -1\nv 1 0 -1\nv 1 2 -1\nv -1 2 -1\nv -1 0 1\nv 1 0 1\nv 1 2 1\nv -1 2 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >white_box.obj
 { printf 'PF\n1 6\n-1.0\n'; head -c 72 /dev/zero; } >night.pfm
 { printf 'PF\n1 6\n-1.0\n'; repeated 18 '\012\327\243\074'; } >dusk.pfm # 0.02
@@ -98,7 +98,7 @@ for sky in night dusk; do
     status 0 relight --world "$sky.pfm" --ground facepx.pfm --ground-size 40,40 --object white_box.obj --f0 0 --contact --eye 0,4,9 --target 0,0.5,0 --size 64x48 -o glow.pfm
     check "contact lights a bright ground by a part of its own light: $sky" sh -c '"$1" info "$2" | awk "/ max /{ n += \$5 > 1.05 && \$5 < 1.5 } END { exit n != 3 }"' sh "$TOOL" glow.pfm
 done
-# What blocks light is as dark as its texture or its corners' colours make it: a U of three boxes in one dark grey.
+# A blocker is as dark as its texture or vertex colours: a U of three boxes in one dark grey.
 grey_png='\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\001\000\000\000\001\010\002\000\000\000\220\167\123\336\000\000\000\014\111\104\101\124\170\234\143\210\214\214\004\000\002\032\001\014\047\014\256\360\000\000\000\000\111\105\116\104\256\102\140\202'
 printf "$grey_png" >grey.png # one texel, 89: 0.0998987 in linear light
 chess_png='\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\002\000\000\000\002\010\000\000\000\000\127\335\122\370\000\000\000\016\111\104\101\124\170\332\143\370\317\300\300\360\037\000\006\000\001\377\145\064\370\367\000\000\000\000\111\105\116\104\256\102\140\202'
@@ -129,13 +129,13 @@ for grey in flat half chess; do
 done
 check "the ground beside a pattern is as bright as beside its mean" sh -c '"$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" grey_chess.pfm grey_half.pfm
 check "and not as beside a darker one" sh -c '! "$1" compare "$2" "$3" | grep -q "^trim 0\.000"' sh "$TOOL" grey_chess.pfm grey_flat.pfm
-# Lobes mirror the ground as dark as it is.
+# Lobes mirror the darkened ground.
 shiny="$(echo "$low" | sed 's/--f0 0 /--f0 0.9 --roughness 0.2 /;s/0,0.3,2.5 --target 0,0.1,0/0.1,0.05,0.3 --target 0,0.5,0/') --show glossy"
 status 0 $shiny -o shiny.pfm
 status 0 $shiny --contact -o dull.pfm
 check "a lobe is darker below a table" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[5-9]"' sh "$TOOL" dull.pfm shiny.pfm
-# A small lamp in a white world, on the border of two of its map's texels; two bowls with smooth normals over a ground that
-# ends its shadow within the picture. Each constant of contact moves some of these pixels.
+# A small lamp in a white world, on the border of two texels of the map; two bowls with smooth normals over a ground
+# that ends the shadow within the picture. Each constant of contact changes some of these pixels.
 row=$one$one$one$one; row=$row$row$row; row=$row$row$row$row$row$row$row$row
 lamp='\000\000\172\104\000\000\172\104\000\000\172\104'
 { printf 'PF\n32 192\n-1.0\n'; i=0; while [ $i -lt 192 ]; do
@@ -148,7 +148,8 @@ status 0 relight --world lamp_world.pfm --ground facepx.pfm --ground-size 60,60 
 contact_sum=$(cksum <bowls.pfm)
 check "contact's pixels are these: $contact_sum" test "$contact_sum" = "2008633955 36878"
 
-# A world without a picture of the ground: its lower half is the ground, and takes an object's contact and a sun's shadow.
+# In a world without a picture of the ground, the lower half is the ground; it gets an object's
+# contact and a sun's shadow.
 stand="relight --world white.pfm --object table.obj --f0 0 --at 0,0.5,0 --eye 0,0.3,2.5 --target 0,0.1,0 --size 48x24"
 least() { "$TOOL" info "$1" | awk -v low="$2" -v high="$3" '/ min /{ n += $3 >= low && $3 <= high } END { exit n != 3 }'; }
 status 0 $stand -o stood.pfm
@@ -157,7 +158,8 @@ check "a world is a ground without a picture of one" sh -c '"$1" compare "$2" "$
 status 0 $stand --floor none -o none.pfm
 status 0 $stand --floor none --no-contact -o none2.pfm
 check "without a floor nothing stands on it" cmp none.pfm none2.pfm
-# Pi from the white world and pi from the sun: half of the ground's light is left below the table, and all of it elsewhere.
+# Pi from the white world and pi from the sun: the ground keeps half of the light below the table,
+# and all of it elsewhere.
 noon="--light sun:0,0,0:0,-1,0:3.14159265,3.14159265,3.14159265"
 status 0 $stand --no-contact $noon -o noon.pfm
 check "a given sun casts a shadow on the ground" least noon.pfm 0.49 0.51
@@ -171,7 +173,8 @@ status 1 $stand --floor on --world-centre 0,-1,0 -o bad.pfm
 said "under the --floor"
 status 0 relight --world white.pfm --object table.obj --size 16x12 -o framed.png
 said "no camera in table.obj: framing"
-# Objects with many vertices are thinned: the contact of a ball hardly changes. Many triangles that cross bound the work.
+# Objects with many vertices are thinned: the contact of a ball hardly changes. The work is bounded
+# if many triangles cross.
 ball() { awk -v n="$1" 'BEGIN { p = atan2(0, -1)
     for (j = 0; j <= n; ++j) for (i = 0; i < n; ++i)
         printf "v %.6f %.6f %.6f\n", sin(p * j / n) * cos(2 * p * i / n), 1 + cos(p * j / n), sin(p * j / n) * sin(2 * p * i / n)
@@ -187,7 +190,8 @@ awk 'BEGIN { srand(3); for (i = 0; i < 6000; ++i) { z = 2 * rand() - 1; a = 6.28
 status 0 relight --world white.pfm --object needles.obj --size 16x12 -o needles.pfm
 said "sights have coarser visibility"
 
-# Files for other programs: a white world has lobes of 1, and harmonics of one constant. A transform image gives its map.
+# Files for other programs: a white world has lobes of 1, and harmonics of one constant. A
+# transform image gives its map.
 status 0 relight --world white.pfm --lobes lobe_%02d.pfm --side 16 --harmonics harmonics.json --dfg dfg.pfm --map own.pfm --map-height 16 --azimuth -90 --save-vectors vectors.pfm
 for k in 00 01 02 03 04 05; do
     check "lobe $k of a white world is white" sh -c '"$1" info "$2" | grep -cE "min (1|0.99999.*) .*max (1|1.00000.*) " | grep -qx 3' sh "$TOOL" "lobe_$k.pfm"
@@ -205,7 +209,7 @@ status 2 relight --world white.pfm --map bad.pfm --vectors vectors.pfm --azimuth
 status 2 relight --world white.pfm --save-vectors bad.png
 status 2 relight --world white.pfm --harmonics bad.json --at 0,0,0 --at 1,0,0
 check "a world that is half black is reported" sh -c '"$1" relight --world dusk_half.pfm --cube half_cube.pfm 2>&1 | grep -q "note: dusk_half.pfm: 50 % of it is black or blank"' sh "$TOOL"
-# Light follows what is carried: no step over 1 % where the light itself changes by 3 % from cube to cube.
+# Along a path, light changes smoothly: no step over 1 % although the light changes by 3 % from cube to cube.
 awk 'BEGIN { for (i = 0; i < 40; ++i) printf "%.3f,0,-2.5\n", -9.8 + 0.02 * i }' >path.txt
 status 0 relight --world demo --object demo --size 16x12 --path path.txt -q -o walk.ppm
 check "steps of light are under 1 %" sh -c 'awk "/^largest step of light/{ ok = \$5 > 0.05 && \$5 <= 1 } END { exit !ok }" "$1"' sh out.txt
@@ -213,7 +217,7 @@ awk 'BEGIN { for (i = 0; i < 6; ++i) printf "%.3f,0,-2.5\n", -9.8 + 0.151 * i }'
 status 0 relight --world demo --object demo --size 16x12 --path path.txt -q -o walk.ppm
 check "and from cube to cube more" sh -c 'awk "/^largest step of light/{ ok = \$5 > 2 } END { exit !ok }" "$1"' sh out.txt
 
-# Several objects: the picture of one at two places is that of two.
+# Several objects: one object at two places equals two objects.
 two="relight --world white.pfm --no-contact --eye 0,3,9 --target 1,0.5,0 --size 48x32 $noon"
 status 0 $two --object white_box.obj --at -1,0,0 --at 3,0,1 -o twice.pfm
 status 0 $two --object white_box.obj --at -1,0,0 --object white_box.obj --at 3,0,1 --scale 2 -o both.pfm

@@ -1,10 +1,10 @@
-# render.sh: render's formats, what it shows, by which method, and its notes; the same bytes by threads; two eyes.
+# render.sh: render's formats, outputs, methods and notes; the same bytes for any threads; two eyes.
 . tests/cli/common.sh
 
-# Only glTF has lobes.
+# --glossy needs glTF, because only glTF has lobes.
 status 2 render demo $small --glossy -o glossy.png
 
-# Each format by its extension, whole.
+# Writes each format by file extension, complete.
 for extension in png ppm pfm hdr; do
     status 0 render demo $small -o "demo.$extension"
 done
@@ -15,7 +15,7 @@ begins demo.hdr 043077122101
 check "demo.ppm is 32x24" test "$(wc -c <demo.ppm)" -eq $((32 * 24 * 3 + 13))
 check "demo.pfm is 32x24" test "$(sed -n 2p demo.pfm)" = "32 24"
 
-# What is shown, and by which method.
+# Outputs of --show, and methods.
 for show in direct indirect irradiance depth normal albedo wireframe; do
     status 0 render demo $small --show $show -o "$show.pfm"
 done
@@ -43,13 +43,13 @@ check "the same command writes the same bytes" cmp demo.pfm again.pfm
 check "stats are JSON" grep -q '^{' stats.json
 check "light by cuts has no first points to count" grep -q '"first_points": null, "discs": null, "groups": null' stats.json
 
-# Strict zones say what they lose; the others lose nothing and say nothing.
+# --misfits drop reports the lost flux; the others lose nothing and print nothing.
 status 0 render demo $small --groups 40 --misfits drop -o strict.pfm
 check "strict zones say their loss" grep -q '^lambent: note: --misfits drop lost [1-9][0-9.]* % of the light' err.txt
 status 0 render demo $small --groups 40 --misfits keep -o kept.pfm
 check "kept misfits lose nothing" lacks lost err.txt
 
-# Groups that are too few are said; zones, neighbours and discs are as asked for.
+# Too few groups are reported; zones, neighbours and discs follow the options.
 status 0 render demo $small --groups 7 -o few.pfm
 check "regrouping is said" grep -qE '^lambent: note: discs were grouped again [1-9][0-9]* times?, .*: [1-7]$' err.txt
 status 0 render demo $small --groups 400 -o plain.pfm
@@ -57,7 +57,7 @@ for option in "--zones 20" "--neighbour 0.6" "--neighbour-blocks 3" "--disc-radi
     status 0 render demo $small --groups 400 $option -o other.pfm
     check "$option changes nothing" differ other.pfm plain.pfm
 done
-# First points: fewer discs, another neighbourhood, thresholds.
+# Options of first points: fewer discs, another neighbourhood, thresholds.
 for option in "--thin 10" "--neighbourhood hemisphere" "--neighbour 0.25" "--neighbour 0.5" "--neighbour 1" "--centre disc"; do
     status 0 render demo $small $option -o option.pfm --stats option.json
     check "$option changes the picture" differ demo.pfm option.pfm
@@ -66,7 +66,7 @@ done
 status 0 render demo $small --thin 10 -o option.pfm --stats option.json
 status 0 render demo $small --grouping zones -o option2.pfm --stats option2.json
 check "--thin 10 leaves few discs" test $((4 * $(count option.json discs))) -lt "$(count option2.json discs)"
-# The picture does not depend on how many threads draw it, nor on the backend.
+# The picture does not depend on the number of threads or the backend.
 for option in "--threads 1 --profile exact" "--threads 3" "--backend scalar"; do
     check "render demo $option" "$TOOL" render demo $small $option -o way.ppm
     cp way.ppm "way$((ways = ways + 1)).ppm"
@@ -74,7 +74,7 @@ done
 check "threads change the picture" cmp way1.ppm way2.ppm
 check "a backend changes the picture" cmp way1.ppm way3.ppm
 
-# Two eyes: each half is what one eye sees from there, and the light is found once.
+# Two eyes: each half equals a single picture from that eye, and the light is computed once.
 at() { echo "--eye $1,1.25,2.5 --target $1,1,-1 --fov 50"; }
 rows() { tail -c +"$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -v -tx1 | tr -d ' \n' | fold -w $((32 * 3 * 4 * 2)); }
 eyes="$small --grouping zones"
@@ -99,13 +99,13 @@ check "two eyes: two views" test "$(count both.json views)" -eq 2
 for show in depth eye-distance normal albedo wireframe occlusion direct; do
     status 0 render demo $small --stereo 0.1 --show $show -o both.png
 done
-# Triangles that cannot be drawn count once, however many views and faces of a shadow map draw them.
+# Undrawable triangles count once, however many views and faces of a shadow map draw them.
 printf 'v -1 0 1\nv 1 0 1\nv 0 0 -1\nv 3e6 0 0\nv 0 3e6 0\nf 1 2 3\nf 1 2 4\nf 1 3 5\n' >absurd.obj
 status 0 render absurd.obj $small --eye 0,2,2 --target 0,0,0 --light point:0,1,0:0,-1,0:1,1,1 --stereo 0.1 -o absurd.png
 said "note: 2 of 3 triangles dropped: vertices not finite or over 2^20 m away"
 status 0 play absurd.obj $small --eye 0,2,2 --target 0,0,0 --light point:0,1,0:0,-1,0:1,1,1 --frames 2 -o absurd%01d.png
 said "note: 2 of 3 triangles dropped: vertices not finite or over 2^20 m away"
-# A file without a byte, of any kind.
+# An empty file of any kind.
 for extension in glb gltf obj ply lmp; do
     : >empty.$extension
     status 1 render empty.$extension -o bad.png
@@ -117,7 +117,7 @@ said "empty.png: the file is empty (0 bytes); export or copy it again"
 : >empty.lmt
 status 1 render demo --transfer empty.lmt -o bad.png
 said "empty.lmt: the file is empty (0 bytes); export or copy it again"
-# Edges: white on black, no other colour; each of both is there.
+# Edges are white on black, without other colours, and both occur.
 status 0 render demo --size 64x48 --wireframe -o wire.ppm
 status 0 render demo --size 64x48 --show wireframe -o shown.ppm
 check "--wireframe is --show wireframe" cmp wire.ppm shown.ppm

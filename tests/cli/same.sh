@@ -1,7 +1,7 @@
 # same.sh: checks that `play` at time 0 and `render` write the same bytes for the same file and options.
 . tests/cli/common.sh
 
-# same EXTENSION ARGUMENT...: runs both verbs with this ending and compares the files.
+# same EXTENSION ARGUMENT...: runs both verbs with this extension and compares the files.
 same() {
     end=$1
     shift
@@ -38,8 +38,7 @@ for behind in transparent ff8800; do
     same png demo $few --background $behind --exposure 1 --tone linear
 done
 
-# Indoors: with the light of the room, with a light from the command line, with a light that has a size, and with baked
-# light.
+# Indoors: light of the room, light from the command line, an area light, and baked light.
 same png demo $few
 same pfm demo $few --show indirect --bounces 2
 same pfm block.obj $inside --quality draft

@@ -1,8 +1,8 @@
-# slices.sh: pictures, frames and sweeps in slices, and joined.
+# slices.sh: pictures, frames and sweeps in slices, and their join.
 . tests/cli/common.sh
 
-# Four slices have the bytes of one machine: with what the exposure looks at, of two eyes, and of frames.
-slices() { # slices NAME WORD...: NAME whole and by four slices
+# Four slices give the bytes of one machine: with automatic exposure, for two eyes, and for frames.
+slices() { # slices NAME WORD...: draws NAME whole and in four slices
     name=$1
     shift
     status 0 "$@" -o "whole-$name"
@@ -23,7 +23,7 @@ for i in 0 1 2 3 4; do
     check "four slices are one sequence: frame $i" cmp "whole-f0$i.ppm" "f0$i.ppm"
 done
 
-# What is cut off, damaged, missing, there twice, or of another job.
+# Slices that are truncated, damaged, missing, duplicated, or from another job.
 one=joined.pfm
 head -c 3000 "$one.2of4" >cut
 { head -c 2000 "$one.2of4"; printf X; tail -c +2002 "$one.2of4"; } >damaged
@@ -52,9 +52,9 @@ status 2 play demo $tiny --slice 1/4
 status 2 merge
 check "nothing bad was joined" none bad*
 
-# Settings of a sweep: the table of all slices has the settings, errors, memory, work and commands of one machine's. Times,
-# counted instructions and what follows from times (the front) are each machine's own.
-without_times() { # of a CSV, its columns by name
+# A sweep in slices: the joined table has the settings, errors, memory, work and commands of one machine. Times, counted
+# instructions and the front, which depends on times, differ by machine.
+without_times() { # removes columns by name from a CSV
     awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) out[i] = $i == "mark" || $i == "seconds" || $i == "instructions" || $i ~ /^s / }
         { line = ""; for (i = 1; i <= NF; ++i) if (!out[i]) line = line "," $i; print line }' "$1"
 }

@@ -1,9 +1,9 @@
-# slivers.sh: bake: slivers and buried corners leave others their elements and their light.
+# slivers.sh: bake: checks that slivers and buried corners do not take elements and light from other surfaces.
 . tests/cli/common.sh
 
 box
 
-# Long slivers: narrow strips over a floor, and splinters beside them as a mesh has.
+# Long slivers: narrow strips over a floor, with splinters beside them as in real meshes.
 strips() { # strips STRIPS SPLINTERS ELEMENTS: how many elements they get, in `elements`.
     awk -v strips=$1 -v splinters=$2 'BEGIN {
         print "v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nf -4 -3 -2 -1"
@@ -29,7 +29,7 @@ if [ -z "$SHORT" ]; then
     strips 255 0 4096
     check "strips that crowd nothing out keep their elements: $elements" test "$elements" -lt 3300
 fi
-# Slivers in a room, many of them through a block: they crowd nothing out there either.
+# Slivers in a room, many of them through a block: other surfaces keep their elements there too.
 awk 'function block(x0, y0, z0, x1, y1, z1,  i) {
          for (i = 0; i < 8; ++i) print "v", i % 2 ? x1 : x0, int(i / 2) % 2 ? y1 : y0, (i > 3 ? z1 : z0)
          print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }
@@ -43,7 +43,7 @@ if [ -z "$SHORT" ]; then
     elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' out.txt)
     check "slivers through a block leave the room its elements: $elements" test "$elements" -gt 128
 fi
-# A panel whose corners, and the middle of its longest edge, lie in blocks: light comes to the rest of it.
+# A panel with corners, and the middle of the longest edge, inside blocks: the rest of the panel is lit.
 awk 'function block(x, z,  i) {
          for (i = 0; i < 8; ++i) print "v", x + (i % 2 ? 0.12 : -0.12), int(i / 2) % 2 ? -0.3 : -0.7, z + (i > 3 ? 0.12 : -0.12)
          print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }

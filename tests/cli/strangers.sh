@@ -10,7 +10,7 @@ odd=$(printf 'o\033]0;x\007y\302\233\233z\342\200\256\342\201\246\342\200\216\33
 text=$(printf 'o\033]0;x\007y\302\233\233z\342\200\256\342\201\246\342\200\216\330\234q')
 name='o\u001b]0;x\u0007\u009bz\u202e\u2066\u200e\u061c\nq*/<b>&\"'"'$(printf '\302\233\342\200\256')"
 
-# clean WHAT FILE...: checks that the files have no such byte and are UTF-8.
+# clean NAME FILE...: checks that the files have no such byte and are UTF-8.
 clean() {
     what=$1
     shift

@@ -22,7 +22,7 @@ status 0 bench $sweep --sweep tree=64 --shadow-map 64 --breakdown 0
 check "by the scene and its settings" test "$(ls kept | wc -l)" -eq 1
 status 0 bench demo --runs 1 --shadow-map 64 --truth truth24.pfm --sweep tree=8 --breakdown 0
 check "a truth of one's own gives the size" grep -q -- '--size 12x8' out.txt
-# Refused before the work, whole or not at all.
+# Refused before the work: completely or not at all.
 status 1 bench demo --size 4000x4000 -o no/such/folder
 status 1 bench demo --size 12x8 --truth nothing.pfm
 status 1 bench demo --size 16x8 --shadow-map 64 --truth truth24.pfm --sweep tree=8 -o unequal

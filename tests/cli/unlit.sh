@@ -1,4 +1,4 @@
-# unlit.sh: checks KHR_materials_unlit: a colour is shown unchanged for any light, exposure, samples and eyes.
+# unlit.sh: checks KHR_materials_unlit: a colour is unchanged for any light, exposure, samples and eyes.
 . tests/cli/common.sh
 
 # A wall of colour (0.5, 0.25, 0.125), with codes 188, 137 and 99, fills the view. A small lit square is in front of it.

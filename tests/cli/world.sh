@@ -1,11 +1,11 @@
-# world.sh: what lies around a scene: sky, pictures of the world, ground, background, tone.
+# world.sh: the surroundings of a scene: sky, pictures of the world, ground, background, tone.
 . tests/cli/common.sh
 
 look="--size 48x36 --eye 1.5,2,3 --target 0,0.5,0 --shadow-map 256 --quality draft"
 printf '%s\n' 'v -0.5 0 0.5' 'v 0.5 0 0.5' 'v 0.5 1 0.5' 'v -0.5 1 0.5' 'v -0.5 0 -0.5' 'v 0.5 0 -0.5' 'v 0.5 1 -0.5' \
     'v -0.5 1 -0.5' 'f 1 2 3 4' 'f 6 5 8 7' 'f 5 1 4 8' 'f 2 6 7 3' 'f 4 3 7 8' 'f 5 6 2 1' >box.obj
 
-# lit PICTURE: how many bytes of a PNG's three channels, or of floats, are not 0.
+# lit PICTURE: counts the non-zero bytes of a PNG's three channels, or of floats.
 lit() { tail -c "$2" "$1" | tr -d '\000' | wc -c; }
 floats=$((48 * 36 * 12))
 
@@ -24,7 +24,7 @@ check "the same bytes by one thread and plain C" cmp sky.pfm again.pfm
 status 0 render demo $few -o demo.pfm
 check "a scene with lights has no sky" lacks sky err.txt
 
-# Lamps that are switched off are no light.
+# Lamps that are switched off do not count as light.
 printf '%s' '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},
  {"extensions":{"KHR_lights_punctual":{"light":0}},"translation":[0,3,0]}],
  "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
@@ -39,12 +39,13 @@ sed 's/"intensity":0/"intensity":1/' off.gltf >on.gltf
 status 0 render on.gltf --size 32x24 --quality draft -o off.png
 check "none where one is on" lacks sky err.txt
 
-# A floor of its own, seen from above, is ground enough.
+# A scene with a floor, seen from above, gets no second ground.
 { cat box.obj; printf '%s\n' 'v -3 0 3' 'v 3 0 3' 'v 3 0 -3' 'v -3 0 -3' 'f 9 10 11 12'; } >floor.obj
 status 0 render floor.obj $look -o floor.pfm
 check "no second floor" holds "a clear sky; " err.txt
 
-# A mountain of 20 km stands on a ground, too; one of 200 km does not, as its ground's rim would lie over 2^20 m away.
+# A mountain of 20 km also gets a ground. One of 200 km gets none, because the rim of the ground
+# would lie over 2^20 m away.
 for size in 20000 200000; do
     awk -v size=$size '/^v/ { print "v", size * $2, size * $3, size * $4; next } { print }' box.obj >"$size.obj"
     status 0 render "$size.obj" --size 32x24 --quality draft -o mountain.png
@@ -66,7 +67,7 @@ said "each triangle has a corner that is not finite or 2^20 m away"
 } >red.hdr
 status 0 render box.obj $look --world red.hdr -o red.pfm
 check "red light alone" sh -c 'tail -c "$2" "$1" | od -An -v -tf4 | tr -s " " "\n" | grep . | awk "NR % 3 == 1 { r += \$1 } NR % 3 != 1 { o += \$1 } END { exit !(r > 100 && o < 1e-3) }"' sh red.pfm $floats
-# The same size of PFM, 1 but for one number that is infinite, which counts as black.
+# A PFM of the same size with value 1, except for one infinite number, which counts as black.
 one_bright() { { printf 'PF\n32 16\n-1.0\n'; repeated 700 "$one"; printf "$1"; repeated 835 "$one"; } >"$2"; }
 one_bright '\000\000\200\177' infinite.pfm
 one_bright '\000\000\000\000' black.pfm
@@ -98,20 +99,21 @@ status 2 render box.obj $look --background ff88 -o bad.png
 status 2 render box.obj $look --background ff880g -o bad.png
 status 2 render box.obj $look --background ff8800 --show depth -o bad.png
 
-# A sky behind it does not change how an object is exposed.
+# A sky in the background does not change the exposure of an object.
 status 0 render box.obj $look --ground none -o a.png
 ev=$(grep exposure err.txt)
 status 0 render box.obj $look --background 000000 -o b.png
 check "exposed by the surfaces: $ev" test -n "$ev" -a "$ev" = "$(grep exposure err.txt)"
 
-# What is lifted by more than eight stops is as good as black: the line names the likely cause, and the picture stays.
+# A picture that needs more than eight stops is practically black: a line names the likely cause,
+# and the picture is written.
 sealed="box.obj --size 48x36 --quality draft --eye 0,0.5,0.3 --target 0,0.5,-1 --light"
 status 0 render $sealed point:0,0.5,0:0,-1,0:1e-6,1e-6,1e-6 -o dim.png
 check "of a dim picture the cause is named" holds 'EV (auto): hardly any light' err.txt
 status 0 render $sealed point:0,0.5,0:0,-1,0:1,1,1 -o dim.png
 check "not of another" grep -q 'EV (auto)$' err.txt
 
-# --- what was baked ---
+# --- baked light ---
 
 status 0 bake floor.obj --elements 256 --receivers 200 -o floor.lmt
 status 0 render floor.obj $look --transfer floor.lmt -o baked.pfm

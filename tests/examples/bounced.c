@@ -1,8 +1,8 @@
 /* bounced.c: bounced light by the best path that the library has, in one block of memory.
  *
- * Settings say what is wanted; zeros are defaults. lmb_frame_bytes says how much memory that takes,
- * lmb_frame_init shares it out. What takes no memory (exposure, error, ...) may be set in the frame afterwards.
- * The block and the frame's state are yours: on the heap here, static on a machine without one. */
+ * Fill in the settings; zeros are defaults. lmb_frame_bytes returns the size of the memory, and lmb_frame_init divides
+ * it. You may set fields without memory (exposure, error, ...) in the frame afterwards. The block and the frame's state
+ * are yours: here on the heap, or static on a machine without one. */
 #include "room.h"
 
 #include <stdlib.h>
@@ -34,7 +34,7 @@ int main(void)
     frame.exposure_ev = 0.5f;
     const lmb_status status = lmb_render_frame(&state, &frame);
     const uint64_t expected = BY_CONFIG(UINT64_C(0xa4c193e5bbb5d1f0), UINT64_C(0xa9fe4a8f80264e75));
-    const uint64_t hash = lmb_surface_hash(&frame.out); /* RGBA8 in the block, where settings.out names no other */
+    const uint64_t hash = lmb_surface_hash(&frame.out); /* RGBA8 in the block, unless you set settings.out */
     printf("%s, %lu KiB, maps of %d x %d, a tree of %d x %d\n", lmb_status_name(status), (unsigned long)(bytes / 1024),
            (int)frame.shadow_map, (int)frame.shadow_map, (int)frame.tree.size, (int)frame.tree.size);
     free(block);

@@ -1,7 +1,7 @@
-// cpp_user.cpp: the library from C++: its headers are C++ too, its memory a vector.
+// cpp_user.cpp: the library from C++: the headers compile as C++, and the memory is a vector.
 //
-// Structs are plain data, so value initialisation is what memset is in C. Bands may be drawn by any threads in any
-// order with the same bytes: here by two, with a scratch each (settings.threads) and the light solved once, before.
+// Structs are plain data, so value initialisation replaces memset. Any threads may draw bands in any order with the
+// same bytes. Here two threads do, each with its own scratch (settings.threads), after the light was solved once.
 #include <cstdint>
 #include <cstdio>
 #include <thread>

@@ -1,9 +1,9 @@
-/* cube_lit.c: an object in the light of a cube map, over it as background: a corner of a room under a blue sky, over
- * brown ground.
+/* cube_lit.c: an object in the light of a cube map, with the map as background: a corner of a room under a
+ * blue sky, over brown ground.
  *
- * The world's picture is a cube of six faces, in floats. For the place where the object stands it is looked up by
- * direction (lmb_probe_remap), its light is summed by normal (reduce, cosine) and kept as a small cube;
- * lmb_relight_band then draws bands of the picture with it. An object that moves gets its cube again. */
+ * The picture of the world is a cube of six faces in floats. For the object's place, the example samples it by
+ * direction (lmb_probe_remap), sums the light by normal (reduce, cosine) and stores the sums as a small cube.
+ * lmb_relight_band then draws bands of the picture with that cube. If you move the object, compute the cube again. */
 #include "room.h"
 
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static void paint_sky(void)
     }
 }
 
-/* Irradiance by normal of what `at` sees, ready to be looked up. The blocks of memory live as long as the program. */
+/* Irradiance by normal at `at`, ready for lookups. The memory blocks live as long as the program. */
 static int light_of(lmb_probe_cube *out, lmb_vec3 at, const lmb_kernels *kernels)
 {
     lmb_world_pictures p;
@@ -38,7 +38,7 @@ static int light_of(lmb_probe_cube *out, lmb_vec3 at, const lmb_kernels *kernels
         p.face[f] = faces[f];
     }
     p.face_size = FACE;
-    p.radius = 50.0f; /* the world is taken for a sphere, so a place in it sees near things shift */
+    p.radius = 50.0f; /* the world's shape is a sphere, so near parts shift when the place moves */
     const size_t bytes = lmb_world_bytes(&p, LMB_WORLD_F32), table_bytes = lmb_probe_table_bytes(MAP, MAP / 2);
     const size_t cube_bytes = lmb_probe_cube_bytes(SIDE);
     return lmb_world_init(&world, &p, LMB_WORLD_F32, malloc(bytes), bytes) == LMB_OK &&
@@ -60,7 +60,7 @@ int main(void)
     lmb_probe probe;
     lmb_relight r;
     lmb_surface out;
-    scene.light_count = 0; /* the world is all the light there is */
+    scene.light_count = 0; /* the world is the only light */
     memset(&r, 0, sizeof r), memset(&probe, 0, sizeof probe);
     r.kernels = lmb_kernels_pick(), r.scene = &scene, r.world = &world;
     r.probes = &probe, r.probe_of = probe_of, r.probe_count = 1;

@@ -1,8 +1,8 @@
 /* depth_map.c: a depth map in memory: triangles in, metres out, nothing else of the library.
  *
- * lmb_draw is the rasterizer alone: it needs a scene, a view and surfaces in memory of yours. Depth is kept
- * reversed (larger is nearer, 0 is nothing) and in tiles of 8x8; lmb_depth_linearize makes rows of it,
- * lmb_depth_view_z metres. */
+ * lmb_draw is only the rasterizer: it needs a scene, a view and surfaces in your memory. Depth is reversed (larger is
+ * nearer, 0 is the background) and stored in tiles of 8x8. lmb_depth_linearize converts tiles to rows, and
+ * lmb_depth_view_z converts depth to metres. */
 #include "room.h"
 
 enum { WIDTH = 96, HEIGHT = 64 };
@@ -19,7 +19,7 @@ int main(void)
     const lmb_scene scene = room_scene(mesh, material, place, &light);
     lmb_view view;
     lmb_target target;
-    memset(&target, 0, sizeof target); /* no ids: a depth map costs none */
+    memset(&target, 0, sizeof target); /* without ids, a depth map needs no memory for them */
 
     if (lmb_build_check() != LMB_OK || lmb_scene_check(&scene) != LMB_OK ||
         lmb_view_look_at(&view, room_eye, room_middle, room_up, 0.8f, WIDTH, HEIGHT) != LMB_OK ||
@@ -31,6 +31,6 @@ int main(void)
     }
     const float metres = lmb_depth_view_z(&view, rows[HEIGHT / 2][WIDTH / 2]);
     printf("the middle of the picture is %.3f m away\n", (double)metres);
-    const uint64_t hash = lmb_surface_hash(&target.depth); /* of the pixels, whatever the layout */
+    const uint64_t hash = lmb_surface_hash(&target.depth); /* hash of the pixels, independent of the layout */
     return ends_with("depth map", hash, UINT64_C(0x92b55b3ac5b18ac5)) || metres < 3.8f || metres > 3.9f;
 }

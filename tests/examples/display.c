@@ -1,9 +1,9 @@
-/* display.c: a display fed by lines, on a machine without room for a picture: 8 rows of RGB565 at a time, in small
- * steps.
+/* display.c: a display fed by lines, on a machine without memory for a picture: 8 rows of RGB565
+ * at a time, in small steps.
  *
- * by_bands keeps depth, ids and picture of 8 rows alone; the callback gets each band once it is finished. Fixed
- * groups (LMB_QUALITY_FIXED) take the least memory; all of it is one static block. lmb_render_step does a bounded
- * piece of work and comes back, so a main loop or an RTOS task stays alive. */
+ * by_bands stores depth, ids and picture of only 8 rows; your callback gets each finished band. Fixed groups
+ * (LMB_QUALITY_FIXED) need the least memory; everything is in one static block. lmb_render_step does a bounded piece of
+ * work and returns, so a main loop or an RTOS task stays responsive. */
 #include "room.h"
 
 enum { WIDTH = 96, HEIGHT = 64 };
@@ -11,7 +11,7 @@ enum { WIDTH = 96, HEIGHT = 64 };
 static uint64_t block[(200 * 1024 + sizeof(lmb_band_scratch) + sizeof(lmb_groups)) / 8];
 static lmb_render state;
 
-/* Stands for the bus to a display: a running sum over what was sent. */
+/* In place of the bus to a display: a running sum over the sent rows. */
 typedef struct display {
     uint64_t sum;
     int32_t rows;
@@ -22,7 +22,7 @@ static int send_rows(void *user, const lmb_surface *rows, int32_t y)
     display *d = user;
     d->sum = d->sum * 31 + lmb_surface_hash(rows);
     d->rows += rows->height;
-    return y != d->rows - rows->height; /* 0: go on. Bands come from the top */
+    return y != d->rows - rows->height; /* 0: continue. Bands come from the top */
 }
 
 int main(void)

@@ -1,14 +1,14 @@
-/* golden_test.c: lambent as the oracle of a renderer of yours: does every pixel have the same bytes?
+/* golden_test.c: lambent as the reference for your renderer: does every pixel have the same bytes?
  *
- * The renderer under test fills rectangles. The oracle draws the same ones as triangles; lmb_surface_diff tells
- * the first pixel that differs, in row order, whatever the two surfaces' layouts are (yours is in rows, the
- * oracle's in tiles). The renderer has a fault on purpose: with `wide` it also fills pixels whose centre is past
- * the right edge. */
+ * The renderer under test fills rectangles. The reference draws the same ones as triangles. lmb_surface_diff
+ * returns the first pixel that differs, in row order, even if the two surfaces have different layouts (yours is in
+ * rows, the reference's in tiles). The renderer has a deliberate fault: with `wide` it also fills pixels with their
+ * centre past the right edge. */
 #include "room.h"
 
 enum { WIDTH = 64, HEIGHT = 48, BOXES = 2 };
 
-/* x0 y0 x1 y1, px; how far away, m. */
+/* x0 y0 x1 y1, px; distance, m. */
 static const float boxes[BOXES][5] = {{8.25f, 6.5f, 40.5f, 30.75f, 6.0f}, {20.0f, 16.5f, 50.25f, 44.0f, 5.0f}};
 static float yours[HEIGHT][WIDTH];
 static uint32_t oracle_memory[WIDTH * HEIGHT];
@@ -51,7 +51,7 @@ static lmb_status draw_oracle(const lmb_surface *depth)
     lmb_instance place[2];
     lmb_light light;
     lmb_target target;
-    lmb_scene scene = room_scene(mesh, material, place, &light); /* of which only the mesh is another */
+    lmb_scene scene = room_scene(mesh, material, place, &light); /* only the mesh differs */
     memset(&mesh[0], 0, sizeof mesh[0]);
     memset(&target, 0, sizeof target);
     target.depth = *depth;

@@ -1,7 +1,8 @@
 /* hud.c: a pane of glass, a line around it, a health bar and text over a lit room.
  *
- * The frame is drawn first. Its depth is still there, so lmb_draw_list hides the part of the pane that is behind the
- * block. lmb_render_vertices lights the glass by the room's light. What lies over the picture is drawn in pixels, without depth. `hud out.ppm` also writes the picture. */
+ * The frame is drawn first and keeps its depth, so lmb_draw_list hides the part of the pane behind the block.
+ * lmb_render_vertices lights the glass by the room's light. Overlays are drawn in pixels, without depth. If you run
+ * `hud out.ppm`, it also writes the picture. */
 #include "room.h"
 
 #include <stdlib.h>

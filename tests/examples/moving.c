@@ -1,15 +1,15 @@
-/* moving.c: an animation: first the camera moves, then the light. What did not change is kept from frame to frame.
+/* moving.c: an animation: first the camera moves, then the light. Unchanged results are kept from frame to frame.
  *
- * lmb_render_reuse is told by `revision` numbers what changed: raise a light's when it moves, an instance's when
- * it does. It keeps the rest (the shadow map and first points while the camera alone moves) and gives the bytes
- * of a frame drawn from nothing, which this example checks. */
+ * You tell lmb_render_reuse about changes by `revision` numbers: raise a light's number when it moves, an instance's
+ * when it does. The call keeps the other results (the shadow map and first points while only the camera moves) and
+ * gives the bytes of a frame drawn from nothing. This example checks that. */
 #include "room.h"
 
 #include <stdlib.h>
 
 static lmb_render kept, fresh;
 
-/* A frame laid out in memory of its own. */
+/* Makes a frame with its own memory. */
 static lmb_status make_frame(lmb_frame *out, lmb_frame_settings *settings)
 {
     const size_t bytes = lmb_frame_bytes(settings);
@@ -46,10 +46,10 @@ int main(void)
             ++light.revision;
         }
         still.view = moving.view;
-        lmb_status status = lmb_render_reuse(&kept, &moving); /* `kept` is of zeros before the first frame */
+        lmb_status status = lmb_render_reuse(&kept, &moving); /* `kept` is zeroed before the first frame */
         maps_kept += (kept.light_state[0] & LMB_SHADOW_MAP_REUSED) != 0;
         for (int more = status == LMB_OK; more; more = status == LMB_MORE) {
-            status = lmb_render_step(&kept, 1000); /* a game would do something else in between */
+            status = lmb_render_step(&kept, 1000); /* a game would do other work in between */
         }
         const uint64_t hash = lmb_surface_hash(&moving.out);
         if (status != LMB_OK || lmb_render_frame(&fresh, &still) != LMB_OK || hash != lmb_surface_hash(&still.out)) {
@@ -57,7 +57,7 @@ int main(void)
         }
         all = all * 31 + hash;
     }
-    free(moving.scratch); /* the block begins with its scratches */
+    free(moving.scratch); /* the block begins with the scratches */
     free(still.scratch);
     const uint64_t expected = BY_CONFIG(UINT64_C(0x505bb1b3832c3a2c), UINT64_C(0xbe4bff20e34ea71f));
     printf("6 frames, the light's map kept in %d of them\n", maps_kept);

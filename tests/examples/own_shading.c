@@ -1,8 +1,7 @@
 /* own_shading.c: your own shading of the pixels that lambent resolves: a drawing in three tones.
  *
- * A draw leaves depth and a triangle's id in each pixel. lmb_resolve_tile looks up what the pixels of an 8x8 tile
- * show: 64 positions, normals, albedos, in planes. What becomes of them is yours: here a colour, it could be
- * anything. */
+ * A draw leaves depth and a triangle's id in each pixel. lmb_resolve_tile gives you the attributes of the pixels of an
+ * 8x8 tile: 64 positions, normals, albedos, in planes. You decide how to use them: here they become a colour. */
 #include "room.h"
 
 enum { WIDTH = 96, HEIGHT = 64 }; /* whole tiles: no pixel is past the edge */
@@ -10,7 +9,7 @@ enum { WIDTH = 96, HEIGHT = 64 }; /* whole tiles: no pixel is past the edge */
 static uint32_t depth_memory[WIDTH * HEIGHT], id_memory[WIDTH * HEIGHT], picture[WIDTH * HEIGHT];
 static lmb_tile tile; /* 7 KiB: keep it off small stacks */
 
-/* sRGB bytes of pixel k: its albedo in a light, a middle or a dark tone; paper where there is nothing. */
+/* sRGB bytes of pixel k: its albedo in a light, a middle or a dark tone; paper colour for the background. */
 static void shade(uint8_t out[4], const lmb_tile *t, int k)
 {
     const float facing = 0.6f * t->normal[1][k] - 0.5f * t->normal[0][k] + 0.4f * t->normal[2][k];

@@ -1,8 +1,8 @@
-/* room.h: what the examples draw, and how they end: a floor, a back wall, a red wall and a block, lit by one spot
- * light.
+/* room.h: shared by the examples: a scene of a floor, a back wall, a red wall and a block, lit by one spot
+ * light, and the end of main.
  *
- * A scene is plain data that stays where it is: meshes and materials, instances that place a mesh in the world,
- * lights. Metres, +Y up. An instance's first_id counts triangles through the scene, from 1. */
+ * A scene is plain data and must not move: meshes and materials, instances that place a mesh in the world, lights.
+ * Metres, +Y up. An instance's first_id counts triangles through the scene, from 1. */
 #ifndef EXAMPLE_ROOM_H
 #define EXAMPLE_ROOM_H
 
@@ -15,7 +15,7 @@ static const float white_corners[][3] = {
     {-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1},                                     /* floor */
     {-1, 0, -1}, {1, 0, -1}, {1, 2, -1}, {-1, 2, -1},                                   /* back wall */
     {0.1f, 0, -0.5f}, {0.6f, 0, -0.5f}, {0.6f, 0, 0}, {0.1f, 0, 0},                     /* block, below */
-    {0.1f, 0.7f, -0.5f}, {0.6f, 0.7f, -0.5f}, {0.6f, 0.7f, 0}, {0.1f, 0.7f, 0}};        /* and above */
+    {0.1f, 0.7f, -0.5f}, {0.6f, 0.7f, -0.5f}, {0.6f, 0.7f, 0}, {0.1f, 0.7f, 0}};        /* block, above */
 static const uint16_t white_indices[][3] = {
     {0, 1, 2},  {0, 2, 3},   {4, 5, 6},   {4, 6, 7},   {12, 13, 14}, {12, 14, 15}, {8, 9, 13},
     {8, 13, 12}, {9, 10, 14}, {9, 14, 13}, {10, 11, 15}, {10, 15, 14}, {11, 8, 12}, {11, 12, 15}};
@@ -24,7 +24,7 @@ static const uint16_t red_indices[][3] = {{0, 1, 2}, {0, 2, 3}};
 
 static const lmb_vec3 room_eye = {0.9f, 1.1f, 2.6f}, room_middle = {-0.1f, 0.6f, -0.4f}, room_up = {0, 1, 0};
 
-/* Sets what its arguments point to: two meshes, materials and instances, and a light. */
+/* Fills in the arguments: two meshes, materials and instances, and a light. */
 static inline lmb_scene room_scene(lmb_mesh mesh[2], lmb_material material[2], lmb_instance place[2], lmb_light *light)
 {
     static const float colour[2][3] = {{0.8f, 0.8f, 0.8f}, {0.8f, 0.1f, 0.1f}};
@@ -63,14 +63,14 @@ static inline lmb_scene room_scene(lmb_mesh mesh[2], lmb_material material[2], l
     return s;
 }
 
-/* Of what a frame's light depends on, capacities of the configuration (config.h) are a part: the cuts of a tree are. */
+/* A frame's light depends on the capacities of the configuration (config.h), for example on the cuts of a tree. */
 #ifdef LMB_CONFIG_TINY
 #define BY_CONFIG(usual, tiny) (tiny)
 #else
 #define BY_CONFIG(usual, tiny) (usual)
 #endif
 
-/* The line that an example ends with, and its exit status: 0 where it came out as expected. */
+/* Prints the last line of an example and returns the exit status: 0 if the result is as expected. */
 static inline int ends_with(const char *what, uint64_t got, uint64_t expected)
 {
     printf("%s: %08lx%08lx%s\n", what, (unsigned long)(got >> 32), (unsigned long)(got & 0xffffffffu),

@@ -1,7 +1,8 @@
-/* threads.c: a frame by POSIX threads, all of its stages.
+/* threads.c: a frame drawn by POSIX threads, in all stages.
  *
- * Each thread takes its share of the stage under way, then its bands, with a scratch of its own. Between stages all are
- * waited for. The bytes are those of one thread. A game would keep its threads and hand them jobs. */
+ * Each thread does a share of the current stage, later of the bands, with its own scratch. Between stages
+ * the program waits for all threads. The bytes equal those of one thread. In a game you would keep your
+ * threads and give them jobs. */
 #include "room.h"
 
 #include <pthread.h>
@@ -56,7 +57,7 @@ int main(void)
     memset(&s, 0, sizeof s);
     s.kernels = lmb_kernels_pick();
     s.scene = &scene;
-    s.threads = THREADS; /* so many scratches */
+    s.threads = THREADS; /* number of scratches */
     s.shadow_map = 128;
     s.tree = 32;
     lmb_view_look_at(&s.view, room_eye, room_middle, room_up, 0.8f, 96, 64);

@@ -1,4 +1,4 @@
-/* fuzz.c: the table of targets, and what they share: how a broken promise stops the run. */
+/* fuzz.c: the table of targets, and the check that aborts the run. */
 #include "fuzz.h"
 
 #include <stdio.h>

@@ -1,7 +1,8 @@
-/* fuzz.h: the fuzz targets: one a parser, three for the library, each on bytes that may be anything. The same functions
- * replay a file.
+/* fuzz.h: the fuzz targets: one for each parser and three for the library, each for arbitrary bytes. The same
+ * functions replay a file.
  *
- * Models lie in tests/fuzz/neighbours, whose files they may name, as seen from the repository's root: run there. */
+ * Models are in tests/fuzz/neighbours and may name files there relative to the repository's
+ * root, so run from the root. */
 #ifndef FUZZ_H
 #define FUZZ_H
 
@@ -12,18 +13,18 @@
 
 typedef void (*fuzz_target)(const uint8_t *data, size_t size);
 
-/* fuzz_find: the target of that name, or NULL. */
+/* fuzz_find: the target with this name, or NULL. */
 fuzz_target fuzz_find(const char *name);
 extern const char *const fuzz_names[]; /* ends with NULL */
 
-/* fuzz_require: print what does not hold and abort, which a fuzzer reports with its input. */
+/* fuzz_require: if the condition does not hold, prints the condition and aborts; a fuzzer then reports the input. */
 #define fuzz_require(condition) fuzz_check((condition) != 0, #condition, __FILE__, __LINE__)
 void fuzz_check(int holds, const char *condition, const char *file, int line);
 
-/* fuzz_failed: a failure says so in one line that begins with `begin`: the file's name, or the folder that it and
- * what stands beside it lie in. */
+/* fuzz_failed: checks that a failure printed one line that begins with `begin`: the file's name, or the folder of the
+ * file and its neighbours. */
 void fuzz_failed(const report *r, const char *begin);
-extern uint32_t fuzz_failures; /* how often that was called */
+extern uint32_t fuzz_failures; /* number of calls */
 
 void fuzz_png(const uint8_t *data, size_t size);
 void fuzz_jpeg(const uint8_t *data, size_t size);
@@ -47,8 +48,8 @@ void fuzz_api(const uint8_t *data, size_t size);
 void fuzz_calls(const uint8_t *data, size_t size);
 void fuzz_stages(const uint8_t *data, size_t size);
 
-/* fuzz_repair: for a target that reads PNG, put right checksums over whatever a mutation left of one's chunks, unless
- * the seed is a multiple of eight; without them nothing behind them would be reached. Other bytes stay. */
+/* fuzz_repair: for a target that reads PNG, writes correct checksums to mutated chunks, because otherwise the fuzzer
+ * would not get past them. Does nothing if the seed is a multiple of eight. Other bytes stay unchanged. */
 void fuzz_repair(fuzz_target target, uint8_t *data, size_t size, uint64_t seed);
 
 #endif

@@ -1,5 +1,5 @@
-/* fuzz_api.c: the library itself: scenes, lights, views and frames from bytes, well formed as far as types go, with any
- * numbers in them. Memory is exactly what the *_bytes functions ask for, so that a sanitizer sees a byte too many.
+/* fuzz_api.c: the library itself: scenes, lights, views and frames from bytes, with valid types but arbitrary numbers.
+ * Memory has exactly the size from the *_bytes functions, so that a sanitizer finds an overrun of one byte.
  *
  * A frame ends in a finite number of steps, and no pixel is NaN. */
 #include <stdlib.h>
@@ -10,9 +10,9 @@
 #include "fuzz.h"
 
 enum { TRIANGLES = 12, MESHES = 2, SIDE = 24, TEXELS = 8 * 8, MAP_MAX = 32 };
-enum { HEAD = 128 /* bytes that say how to draw */ };
+enum { HEAD = 128 /* bytes that choose the settings */ };
 
-/* Past the end come random ones, so that short inputs say much. */
+/* After the end, random bytes follow, so that short inputs have an effect too. */
 typedef struct bytes {
     const uint8_t *at, *end;
     uint32_t more;
@@ -38,7 +38,7 @@ static uint32_t take(bytes *b, int count)
 
 static uint32_t below(bytes *b, uint32_t max) { return take(b, 1) % max; }
 
-/* Mostly numbers of a scene; now and then any 32 bits, or one of those that break things. */
+/* Mostly numbers of ordinary scenes; sometimes any 32 bits, or a known difficult number. */
 static float number(bytes *b)
 {
     static const float odd[] = {0.0f,  -0.0f, 1.0f,       -1.0f,       1e-30f, 1e-40f,
@@ -53,7 +53,7 @@ static float number(bytes *b)
     return kind < 32 ? odd[kind % 12] : (float)((int32_t)take(b, 2) - 32768) / 4096.0f;
 }
 
-/* Not under 0, and finite, but for one in sixteen. */
+/* Positive or 0, and finite, except in one of sixteen cases. */
 static float positive(bytes *b)
 {
     const float v = number(b);
@@ -62,7 +62,7 @@ static float positive(bytes *b)
 
 static float share(bytes *b) { return (float)take(b, 1) / 255.0f; }
 
-/* One of those that are taken; one in sixteen is one too many. */
+/* A valid choice; in one of sixteen cases possibly one above the maximum. */
 static int32_t choice(bytes *b, uint32_t max) { return (int32_t)below(b, below(b, 16) == 0 ? max + 1 : max); }
 
 /* --- a scene ------------------------------------------------------------------------------------------------------ */
@@ -200,9 +200,9 @@ static void make_world(world *w, bytes *b)
     lmb_scene_core(&w->scene.core, &w->scene);
 }
 
-/* --- a frame of it ------------------------------------------------------------------------------------------------ */
+/* --- a frame ------------------------------------------------------------------------------------------------------ */
 
-/* Memory of one frame; each piece its own block. */
+/* Memory of one frame; each piece is a separate block. */
 typedef struct memory {
     void *depth, *id, *out, *map, *points, *tree, *bvh, *elements;
     lmb_band_scratch *scratch;
@@ -226,7 +226,7 @@ static void make_view(lmb_view *v, bytes *b)
 
 static void set_surfaces(lmb_frame *f, memory *m, bytes *b)
 {
-    /* The last is refused. */
+    /* The last format is refused. */
     static const uint8_t formats[] = {LMB_RGB32F, LMB_RGBA8,     LMB_BGRA8, LMB_RGB565,
                                       LMB_RGB555, LMB_RGB565_BE, LMB_R32F};
     const int32_t width = f->view.frame_width, height = f->view.frame_height, format = formats[choice(b, 6)];
@@ -282,7 +282,7 @@ static void set_how(lmb_frame *f, bytes *b)
     f->grouping.thin = (int32_t)below(b, 4);
     f->occlusion = f->grouping.method == LMB_GROUP_CUT ? choice(b, 2) * LMB_OCCLUSION_EXACT : choice(b, 3);
     f->steps = (int32_t)below(b, 20);
-    f->error = 0.1f + share(b); /* less takes long and says no more */
+    f->error = 0.1f + share(b); /* smaller values are slow and find nothing more */
     f->visibility = 0.1f + share(b);
     f->conservative = below(b, 8) == 0;
     f->bounces = f->grouping.method == LMB_GROUP_CUT ? choice(b, 4) : choice(b, 2);
@@ -304,7 +304,7 @@ static void free_memory(memory *m)
     free(m->groups);
 }
 
-/* Light of lights that are numbers is numbers; what is larger than binary32 holds may be infinite, never NaN. */
+/* Finite lights give finite light or, if it exceeds binary32, infinity, but never NaN. */
 static void check_out(const lmb_frame *f)
 {
     const float *v = f->out.data;

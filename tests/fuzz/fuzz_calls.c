@@ -1,12 +1,12 @@
-/* fuzz_calls.c: sequences of public calls: any of them, in any order, also after failures, on structs that are zeros or
- * what earlier calls left, with arguments in range and out of it.
+/* fuzz_calls.c: sequences of public calls in any order, also after failures, on zeroed structs or results of earlier
+ * calls, with arguments in and out of range.
  *
- * An input is records of 16 bytes: what to do; which call, struct or member, by the hash of its name; a byte an
- * argument, of which 0 asks for a good one. The table of calls is made from the headers (tests/scripts/zeros.awk).
- * Checked: a call returns a status that there is; nothing is written outside of memory, nor to scenes, nor to what a
- * call that refuses leaves alone by its header; and, under sanitizers, nothing is read there and C leaves nothing open.
- * What headers ask of the caller in words holds: scenes are checked, arrays as long as said, a transfer's light is laid
- * out for it. */
+ * An input consists of records of 16 bytes: the action; the call, struct or member, by the hash of the name; one byte
+ * for each argument, where 0 chooses a good value. The table of calls is generated from the headers
+ * (tests/scripts/zeros.awk). Checks: a call returns a valid status; it does not write outside its memory, to scenes,
+ * or, if the header promises that, to structs of a refused call; sanitizers also check reads and undefined behaviour.
+ * The caller's duties in the headers are met: scenes are checked, arrays have the stated length, and a transfer's light
+ * is laid out for the transfer. */
 #include "fuzz_calls.h"
 
 #if FUZZ_CALLS
@@ -16,7 +16,7 @@
 #include <string.h>
 
 enum { RECORD = 16, RECORDS = 64, ARGUMENTS = 12, COST = 128 };
-enum { KEEP = 1 << 18, FRAME = 12 << 20 }; /* bytes that a call is given at most: any; lmb_frame_init */
+enum { KEEP = 1 << 18, FRAME = 12 << 20 }; /* maximum size in bytes given to a call: any; lmb_frame_init */
 
 typedef struct parameter {
     const char *type, *name;
@@ -44,7 +44,7 @@ static void *plain(argument *a, size_t bytes)
     return a->memory;
 }
 
-/* Arrays whose length the prototype tells are made here, all others by `prepare`. */
+/* Arrays with a length in the prototype are made here, all others by `prepare`. */
 static void *pointer(argument *a, size_t bytes)
 {
     if (!a->is_ready) {
@@ -78,7 +78,7 @@ enum { CALLS = sizeof calls / sizeof *calls };
 
 /* --- arguments ---------------------------------------------------------------------------------------------------- */
 
-/* A number that calls take, by its name; of counts as many as a slot has at most. */
+/* A number that calls accept, by its name; for counts, the maximum of a slot. */
 static int64_t good_number(const argument *a)
 {
     static const struct {
@@ -170,7 +170,7 @@ static int64_t good_number(const argument *a)
     return 1;
 }
 
-/* Where a number says how long an array is, it is no longer than that. */
+/* If a number is the length of an array, limits it to that array. */
 static int64_t vouched(const argument *a, int64_t n)
 {
     static const struct {
@@ -200,7 +200,7 @@ static int is_struct(const argument *a)
     return strncmp(a->type, "lmb_", 4) == 0 && strcmp(a->type, "lmb_kernels") != 0;
 }
 
-/* A scene that lmb_relief_scene or lmb_pack_scene may write; of the sample for what poses it. */
+/* A scene for lmb_relief_scene or lmb_pack_scene to write, or, for calls that pose it, the sample's scene. */
 static void *spare_scene(int is_posed)
 {
     lmb_scene *s = pool_block(sizeof *s);
@@ -229,7 +229,7 @@ static void take_struct(argument *a)
                                                                    : pool_slot(a->type, a->byte);
 }
 
-/* A file to be opened: the sample, with one word of it changed; its length is in the argument `bytes`. */
+/* A file to open: the sample with one word changed; its length is in the argument `bytes`. */
 static void take_file(argument *a, argument *size)
 {
     size_t bytes = 0;
@@ -246,7 +246,7 @@ static void take_file(argument *a, argument *size)
     a->is_ready = 1;
 }
 
-/* Memory for a call: as much as it asks for, less, or off its alignment. 0: not to be called, it asks for too much. */
+/* Memory for a call: the requested size, less, or misaligned. Returns 0 if the call requests too much; then skip it. */
 static int take_memory(argument *a, argument *size, size_t asked)
 {
     const size_t most = calls_for("lmb_frame_init") ? FRAME : calls_for("lmb_voxels_init") ? 8 * KEEP : KEEP;
@@ -292,7 +292,7 @@ static int take_array(const call *c, argument *a, int i)
     return 1;
 }
 
-/* 0: not to be called. */
+/* Returns 0 if the call must be skipped. */
 static int prepare(const call *c, argument a[ARGUMENTS], const uint8_t *b)
 {
     memset(a, 0, ARGUMENTS * sizeof *a);
@@ -309,7 +309,7 @@ static int prepare(const call *c, argument a[ARGUMENTS], const uint8_t *b)
             a[i].is_ready = 1;
         }
     }
-    for (int i = 0; i < c->count; ++i) { /* by those */
+    for (int i = 0; i < c->count; ++i) { /* using the arguments so far */
         if (c->parameter[i].is_pointer && !a[i].is_ready && !take_array(c, a, i)) {
             return 0;
         }
@@ -319,7 +319,7 @@ static int prepare(const call *c, argument a[ARGUMENTS], const uint8_t *b)
 
 /* --- calls -------------------------------------------------------------------------------------------------------- */
 
-/* What a call may take, in about milliseconds under sanitizers. */
+/* Approximate cost of a call in milliseconds under sanitizers. */
 static int cost_of(const char *name)
 {
     static const struct {
@@ -337,7 +337,7 @@ static int cost_of(const char *name)
     return 1;
 }
 
-/* Calls that leave their first struct alone where they return an error: their headers say so. */
+/* Calls that leave their first struct unchanged when they return an error, as their headers promise. */
 static int leaves_alone(const char *name)
 {
     static const char *const all[] = {"lmb_surface_init", "lmb_shadow_map_init", "lmb_many_lights_init",
@@ -351,7 +351,7 @@ static int leaves_alone(const char *name)
     return 0;
 }
 
-/* A transfer's light has no lengths of its own: only files as long as the sample are used. */
+/* A transfer's light stores no lengths, so only files with the counts of the sample are used. */
 static void drop_other_files(const call *c, const argument *a, int status)
 {
     static const uint32_t counts[] = {6, 4, 6};

@@ -1,4 +1,4 @@
-/* fuzz_calls.h: one argument of a public call, and how long plain arrays are. */
+/* fuzz_calls.h: one argument of a public call, and the lengths of plain arrays. */
 #ifndef FUZZ_CALLS_H
 #define FUZZ_CALLS_H
 
@@ -13,8 +13,8 @@ typedef struct argument {
     uint8_t byte;
 } argument;
 
-/* fuzz_length: bytes that `call` asks for in its plain array or memory `name`, by its other arguments. 0: the table has
- * no such array. */
+/* fuzz_length: size in bytes that `call` needs for the plain array or memory `name`, from the other arguments. Returns
+ * 0 if the table has no such array. */
 int fuzz_length(size_t *bytes, const argument *a, const char *call, const char *name);
 
 #endif

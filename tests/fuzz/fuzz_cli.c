@@ -1,4 +1,4 @@
-/* fuzz_cli.c: command lines: lines of bytes as arguments; the first byte says which verb's. */
+/* fuzz_cli.c: command lines: each line of the bytes is an argument; the first byte chooses the verb. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ typedef union options {
     mix_options mix;
 } options;
 
-/* What is taken is within what the help promises. */
+/* Accepted values are within the ranges of the help. */
 static void check_render(const render_options *o)
 {
     fuzz_require(o->light_count <= RENDER_LIGHTS && o->threads >= 0 && o->shadow_map >= 0 && o->bounces >= 0);

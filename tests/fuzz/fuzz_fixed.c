@@ -1,5 +1,5 @@
-/* fuzz_fixed.c: a blob of light by vertex opened, and where it opens, frames of it in bands of two heights, prepared
- * or not. */
+/* fuzz_fixed.c: opens a blob of light at vertices; if it opens, draws frames in bands of two
+ * heights, prepared or not. */
 #include <stdlib.h>
 #include <string.h>
 

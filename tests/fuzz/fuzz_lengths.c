@@ -1,4 +1,4 @@
-/* fuzz_lengths.c: how long arrays and memory of public calls are, by their headers. */
+/* fuzz_lengths.c: lengths of arrays and memory of public calls, from their headers. */
 #include "fuzz_calls.h"
 
 #if FUZZ_CALLS
@@ -14,7 +14,7 @@ static size_t map_of(const lmb_probe_table *t)
 {
     return t == NULL ? 0 : 3 * sizeof(float) * (size_t)t->width * (size_t)t->height;
 }
-/* As if in place. */
+/* Assumes that source and destination are the same. */
 static size_t line_of(const lmb_probe_blur *b)
 {
     return b == NULL ? 0 : (4 + (size_t)b->height) * sizeof(float) * (size_t)b->width;
@@ -36,7 +36,7 @@ static size_t shadow_map(const argument *a)
     return lmb_shadow_map_bytes(faces, W(3), W(4));
 }
 
-/* Bytes that `of` of a call asks for; `memory`, `data` and plain arrays. */
+/* Bytes that the call `of` needs: `memory`, `data` and plain arrays. */
 #define LENGTH(of, name, bytes) static size_t of##_##name(const argument *a) { (void)a; return bytes; }
 LENGTH(lmb_points_init, memory, lmb_points_bytes(U(1), U(2)))
 LENGTH(lmb_lattice_init, memory, lmb_lattice_bytes(W(1), W(2)))

@@ -1,4 +1,4 @@
-/* fuzz_models.c: the model readers: any bytes give a scene that can be drawn, or a line and nothing. */
+/* fuzz_models.c: the model readers: arbitrary bytes give a drawable scene, or one line and no scene. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,11 +7,11 @@
 #include "../../tools/model/model_shape.h"
 #include "fuzz.h"
 
-#define FOLDER "tests/fuzz/neighbours/" /* a.bin, a.mtl and a.png, for a model to name */
+#define FOLDER "tests/fuzz/neighbours/" /* a.bin, a.mtl and a.png, which a model may name */
 
 enum { SIDE = 32, DRAWN = 2000 };
 
-/* A scene that was checked can be drawn and resolved, whatever its vertices are. */
+/* A checked scene can be drawn and resolved, whatever its vertices are. */
 static void draw_scene(const lmb_scene *scene)
 {
     static uint32_t depth[SIDE * SIDE], id[SIDE * SIDE];
@@ -55,7 +55,7 @@ static void *copy_of(const void *data, size_t bytes)
     return to;
 }
 
-/* A motion has a pose at any time, or none; what it gives is numbers. */
+/* A motion has a pose at any time, or none; poses contain no NaN. */
 static void pose_scene(const model *m)
 {
     static const double times[] = {0.0, 0.4, 1e6};
@@ -105,7 +105,7 @@ void fuzz_obj(const uint8_t *data, size_t size) { try_model(FOLDER "input.obj", 
 
 void fuzz_ply(const uint8_t *data, size_t size) { try_model(FOLDER "input.ply", data, size); }
 
-/* Every node's place, text and value can be had. */
+/* The place, text and value of every node can be read. */
 void fuzz_json(const uint8_t *data, size_t size)
 {
     json doc;
@@ -130,7 +130,7 @@ void fuzz_json(const uint8_t *data, size_t size)
     json_free(&doc);
 }
 
-/* What model_read does at its end. */
+/* The cleanup at the end of model_read. */
 static void free_build(model_build *b)
 {
     for (uint32_t i = 0; i < b->neighbour_count; ++i) {
@@ -142,7 +142,7 @@ static void free_build(model_build *b)
     model_free(b->out);
 }
 
-/* A library read for two materials that an OBJ file named. */
+/* A library for two materials named by an OBJ file. */
 void fuzz_mtl(const uint8_t *data, size_t size)
 {
     static const slice words[3] = {{"", 0}, {"a", 1}, {"red paint", 9}};

@@ -1,4 +1,4 @@
-/* fuzz_pack.c: a .lmp opened; where it opens, its scene posed and drawn, read as a model, and its parts packed again. */
+/* fuzz_pack.c: opens a .lmp; if it opens, poses and draws the scene, reads it as a model, and packs the parts again. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,7 +32,7 @@ static void draw(const lmb_scene *scene, const lmb_view *view)
     }
 }
 
-/* The scene at some times, by each camera. */
+/* Poses the scene at some times, for each camera. */
 static void play(const lmb_pack *file)
 {
     static const float times[] = {-1.0f, 0.0f, 0.4f, 1.5f, 1e30f};
@@ -57,7 +57,7 @@ static void play(const lmb_pack *file)
     free(memory);
 }
 
-/* What `lambent pack` takes of it is a file again, and so is that. */
+/* The parts that `lambent pack` reads give a valid file again, and so does that file. */
 static void take(const lmb_pack *pack_in)
 {
     pack parts;

@@ -1,4 +1,4 @@
-/* fuzz_pictures.c: the picture decoders: any bytes give a whole picture, or a line and nothing. */
+/* fuzz_pictures.c: the picture decoders: arbitrary bytes give a whole picture, or one line and no picture. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@
 typedef int (*decode_bitmap)(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 typedef int (*decode_image)(image *out, const uint8_t *data, size_t size, const char *name, report *r);
 
-/* The last texel is ours to read: the picture is as large as it says. */
+/* Reads the last texel, to check that the picture has the reported size. */
 static void try_bitmap(decode_bitmap decode, const uint8_t *data, size_t size)
 {
     report r = {{0}};
@@ -59,7 +59,7 @@ static void put_chunk(uint8_t **to, const char *type, const uint8_t *body, size_
     *to = at + PNG_CHUNK_FRAME + size;
 }
 
-/* Bytes that are no PNG become one: 13 of header, a palette, and rows, packed so that every checksum is right. */
+/* Wraps arbitrary bytes as a PNG: 13 of header, a palette, and rows, compressed so that every checksum is right. */
 static void try_rows(const uint8_t *data, size_t size)
 {
     enum { PALETTE = 48 };
@@ -125,7 +125,7 @@ void fuzz_hdr(const uint8_t *data, size_t size) { try_image(hdr_decode, data, si
 
 void fuzz_pfm(const uint8_t *data, size_t size) { try_image(pfm_decode, data, size); }
 
-/* Of codes or of light, never both; its header's pixels are as many as it has, or more. */
+/* A picture has codes or light, never both; the header gives at least as many pixels as the picture has. */
 static void check_picture(const stored_picture *p, const uint8_t *data, size_t size)
 {
     size_t pixels = (size_t)p->width * (size_t)p->height;
@@ -143,7 +143,7 @@ static void check_picture(const stored_picture *p, const uint8_t *data, size_t s
     }
 }
 
-/* Any kind, known by its first bytes, or named where it is not read. */
+/* Any format, detected from the first bytes; unsupported formats are named. */
 void fuzz_picture(const uint8_t *data, size_t size)
 {
     report r = {{0}};
@@ -158,7 +158,7 @@ void fuzz_picture(const uint8_t *data, size_t size)
     }
 }
 
-/* As a stream of a length that the first byte picks; and packed, whatever it is comes back. */
+/* Inflates a stream to a length chosen by the first byte; then deflates the bytes and checks the round trip. */
 void fuzz_inflate(const uint8_t *data, size_t size)
 {
     uint8_t *packed, *back = malloc(size + 65536);

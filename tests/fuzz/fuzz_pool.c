@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where no sanitizer watches what lies behind a block, bytes there do. */
+/* Without a sanitizer, guard bytes behind each block detect overruns. */
 #if defined(__SANITIZE_ADDRESS__)
 #define GUARD 0
 #elif defined(__has_feature)

@@ -1,4 +1,4 @@
-/* fuzz_pool_fill.c: what a program sets public structs to between calls. */
+/* fuzz_pool_fill.c: sets public structs between calls, as a program does. */
 #include "fuzz_pool.h"
 
 #if FUZZ_CALLS
@@ -9,7 +9,7 @@
 #define SLOT(type) ((type *)pool_slot(#type, 0))
 #define COUNT(a)   ((int)(sizeof(a) / sizeof *(a)))
 
-/* --- good values, by `how`: 0 is the plainest --------------------------------------------------------------------- */
+/* --- good values, by `how`: 0 is the simplest --------------------------------------------------------------------- */
 
 static void set_surface(lmb_surface *s, int32_t format, int32_t width, int32_t height)
 {
@@ -33,7 +33,7 @@ static void fill_target(void *out, int how)
     set_surface(&t->id, how & 2 ? LMB_ID16 : LMB_ID32, POOL_WIDE, height);
 }
 
-/* Bounds of any window of lmb_target's, as odd as the floats that are at hand, and clusters of any scene. */
+/* Bounds for any window of lmb_target, from odd floats, and clusters of any scene. */
 static void fill_culling(void *out, int how)
 {
     lmb_culling *c = out;
@@ -59,7 +59,7 @@ static void fill_cluster(void *out, int how)
     }
 }
 
-/* Ranges of a scene in memory that takes all, some or none of them. */
+/* Ranges of a scene in memory that holds all, some or none of them. */
 static void fill_bins(void *out, int how)
 {
     static const size_t bytes[] = {1 << 16, 2000, 700, 0};
@@ -99,7 +99,7 @@ static void fill_settings(void *out, int how)
     s->tree = POOL_MAP / 2;
     s->error = s->visibility = 0.2f;
     s->elements = 64;
-    s->points = how & 4 ? 0 : 64; /* 0: as many as there can be */
+    s->points = how & 4 ? 0 : 64; /* 0: the maximum */
     s->quality = how & 4 ? LMB_QUALITY_FIXED : LMB_QUALITY_DRAFT;
     s->bounces = how & 8 && !(how & 4) ? 2 : 1;
     s->gather_step = how & 16 ? LMB_GATHER_ADAPTIVE : 1;
@@ -216,7 +216,8 @@ static void fill_gouraud(void *out, int how)
     g->transfer = t;
     g->light = SLOT(lmb_transfer_light);
     g->maps = how & 4 ? NULL : SLOT(lmb_shadow_map);
-    g->direct = pool_block((t->count[LMB_TRANSFER_RECEIVERS] + 8) * sizeof *g->direct); /* of a file opened later too */
+    g->direct = pool_block((t->count[LMB_TRANSFER_RECEIVERS] + 8) * sizeof *g->direct); /* also for a file opened
+                                                                                         * later */
     g->scratch = SLOT(lmb_gouraud_scratch);
     fill_view(&g->view, 0);
     set_surface(&g->out, LMB_RGB565, POOL_WIDE, POOL_HIGH);
@@ -247,7 +248,7 @@ static void fill_budget(void *out, int how)
     *(lmb_budget *)out = (lmb_budget){1e6, 0.1f, how ? UINT64_C(1) << how % 40 : 0};
 }
 
-/* By hand, as a program that rasterizes itself would: numbers of the first 32 odd ones too, ids of small scenes. */
+/* A tile as filled in by a program with its own rasterizer, including odd numbers, and ids of small scenes. */
 static void fill_tile(void *out, int how)
 {
     lmb_tile *t = out;
@@ -264,7 +265,7 @@ static void fill_tile(void *out, int how)
     t->hits = LMB_TILE_PIXELS;
 }
 
-/* Planes of a struct of floats alone. */
+/* Planes of a struct that contains only floats. */
 static void fill_floats(float *out, size_t count, int how)
 {
     for (size_t i = 0; i < count; ++i) {
@@ -305,7 +306,7 @@ static void fill_transfer_light(void *out, int how)
     l->place = how & 1 ? NULL : pool_block((elements + 8) * sizeof *l->place);
 }
 
-/* How a frame's parts that lmb_frame_init does not set may come from elsewhere; itself by that call. */
+/* Sets those parts of a frame that lmb_frame_init does not set; the frame itself comes from that call. */
 static void fill_frame(void *out, int how)
 {
     lmb_frame *f = out;

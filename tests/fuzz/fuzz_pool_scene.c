@@ -11,7 +11,7 @@
 
 enum { LIGHTS = 3, TEXTURE = 4, RELIEF_SIDE = 8 };
 
-/* The room, and in it the same two squares again, half as large and upright. */
+/* The room, and in it the same two squares again, at half size and upright. */
 typedef struct world {
     small_room room;
     float uvs[ROOM_TRIANGLES * 6];
@@ -25,7 +25,7 @@ typedef struct world {
 } world;
 
 static small_room room;
-static world worlds[2]; /* with everything; and the one that changes */
+static world worlds[2]; /* with every property; and the one that changes */
 static lmb_scene none, relief_scene;
 static lmb_relief relief;
 static uint32_t relief_words[SMALL_WORDS(RELIEF_SIDE)], transfer_words[SMALL_TRANSFER_WORDS(ROOM_TRIANGLES)];
@@ -94,7 +94,7 @@ const lmb_scene *pool_scene(int i)
     return all[i % POOL_SCENES];
 }
 
-/* FNV-1a over what a scene consists of, 8 bytes at a time. */
+/* FNV-1a over the data of a scene, 8 bytes at a time. */
 static uint64_t sum_of(const void *data, size_t bytes)
 {
     uint64_t sum = UINT64_C(0xcbf29ce484222325), word;

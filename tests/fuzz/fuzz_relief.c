@@ -9,7 +9,7 @@
 
 enum { SIDE = 16 };
 
-/* Every pixel is one of three kinds, and numbers stay numbers. */
+/* Every pixel is one of three kinds, and there is no NaN. */
 static void draw(const lmb_relief *relief, const lmb_relief_how *how)
 {
     enum { TILES = SIDE / LMB_TILE };

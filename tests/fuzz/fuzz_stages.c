@@ -1,8 +1,8 @@
-/* fuzz_stages.c: single stages and helpers with odd numbers: denormals, huge ones, infinities, NaN, -0, vectors without
- * length, flat and reversed triangles. The first byte picks the stage, the others are its numbers.
+/* fuzz_stages.c: single stages and helpers with odd numbers: denormals, huge ones, infinities, NaN, -0, vectors of
+ * length 0, flat and reversed triangles. The first byte picks the stage; the others are numbers for it.
  *
- * Checked is what headers promise of results: ranges, bits that were not asked for, bytes that stay, and that all
- * backends compute the same. Where they promise for ordinary numbers alone, `plain` tells these. */
+ * Checks the promises of the headers about results: ranges, bits outside the mask, bytes that stay unchanged, and that
+ * all backends compute the same. For promises that hold only for ordinary numbers, `plain` is set. */
 #include "fuzz_pool.h"
 
 #if FUZZ_CALLS
@@ -13,10 +13,10 @@
 
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
-/* Past the end come zeros. */
+/* After the end, zeros follow. */
 typedef struct source {
     const uint8_t *at, *end;
-    int plain; /* all numbers so far are ordinary ones: of no more than 1e4, and none nearer to 0 than 1e-4 */
+    int plain; /* all numbers so far are ordinary: at most 1e4 in size, and not between 0 and 1e-4 */
 } source;
 
 static uint8_t take(source *b) { return b->at < b->end ? *b->at++ : 0; }
@@ -66,7 +66,7 @@ static int is_finite(float v) { return v - v == 0.0f; }
 static int is_near(lmb_vec3 v) { return fabsf(v.x) < 1e5f && fabsf(v.y) < 1e5f && fabsf(v.z) < 1e5f; }
 static int is_light(float v) { return is_finite(v) && v >= 0.0f; }
 
-/* Of length 1, of whatever came. */
+/* A vector of length 1, whatever the input. */
 static lmb_vec3 unit(source *b)
 {
     const lmb_vec3 v = vector(b);
@@ -193,7 +193,7 @@ static void polygons(source *b)
 
 enum { SIDE = 4 };
 
-/* Everything in a cube is a number, and not under 0. */
+/* Every texel of a cube is a number of at least 0. */
 static void check_env(const lmb_env *env)
 {
     const size_t count = lmb_env_bytes(env->size) / sizeof *env->texels;
@@ -282,7 +282,7 @@ typedef struct drawn {
     lmb_scene scene;
 } drawn;
 
-/* Triangles with numbers from the input, some of them odd. 0: lmb_scene_check refuses it. */
+/* Makes triangles from the input, some with odd numbers. Returns 0 if lmb_scene_check refuses them. */
 static int make(drawn *d, source *b)
 {
     memset(d, 0, sizeof *d);
@@ -324,7 +324,7 @@ static void same_floats(const void *first, const void *second, size_t bytes)
     }
 }
 
-/* Draws, resolves, lights and tests one tile; each backend's answers are the first one's. */
+/* Draws, resolves, lights and tests one tile; all backends must agree with the first. */
 static void pixels(source *b)
 {
     static drawn d;
@@ -366,7 +366,7 @@ static void pixels(source *b)
             lmb_shadow_map_clear(&map);
             const lmb_status shadowed = lmb_shadow_map_draw(&map, kernels, &d.scene, 1, TRIANGLES, NULL);
             fuzz_require(shadowed == LMB_OK || !is_near(d.light.position) || !is_near(d.scene.bounds_min) ||
-                         !is_near(d.scene.bounds_max)); /* else views may begin outside of the world */
+                         !is_near(d.scene.bounds_max)); /* otherwise views may begin outside the world */
             fuzz_require(lmb_direct_tile(&lit[n], kernels, &tile[n], &v, &d.scene, &d.light, &map) == LMB_OK);
         }
         hidden[n] = lmb_occluded_tile(kernels, &kept, &bvh, &tile[n], asked, at, noise);
@@ -390,7 +390,7 @@ static void pixels(source *b)
     fuzz_require(hull.count >= 0 && hull.count <= LMB_HULL_PLANES && lmb_hull_holds(&hull, at) >> 1 == 0);
 }
 
-/* Radiance of any kind into each format, on all backends; what lies outside the surface is not written. */
+/* Stores any radiance in each format, on all backends; nothing outside the surface is written. */
 static void store(source *b)
 {
     static const uint8_t formats[] = {LMB_RGB32F, LMB_RGBA8, LMB_BGRA8, LMB_RGB565, LMB_RGB555, LMB_RGB565_BE};
@@ -408,7 +408,7 @@ static void store(source *b)
         lmb_surface_clear(&s);
         lmb_store_tile(&s, lmb_kernels_at(k), x0, y0, &in, x, y, ev);
         hash = k == 0 ? lmb_surface_hash(&s) : hash;
-        fuzz_require(lmb_surface_hash(&s) == hash || format == LMB_RGB32F); /* NaN has many codes */
+        fuzz_require(lmb_surface_hash(&s) == hash || format == LMB_RGB32F); /* NaN has many encodings */
     }
 }
 

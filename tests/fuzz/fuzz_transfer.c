@@ -1,4 +1,4 @@
-/* fuzz_transfer.c: a .lmt opened, and where it opens, light sent by it through a small room. */
+/* fuzz_transfer.c: opens a .lmt; if it opens, sends light through it in a small room. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,7 +22,7 @@ static lmb_shadow_map map_of(const lmb_scene *scene)
     return map;
 }
 
-/* A picture's tiles; what arrives is never under 0. */
+/* Draws the tiles of a picture; light is never negative. */
 static void draw(const lmb_transfer_light *light, const lmb_transfer *t, const lmb_scene *scene)
 {
     enum { TILES = SIDE / LMB_TILE };
@@ -51,7 +51,7 @@ static void draw(const lmb_transfer_light *light, const lmb_transfer *t, const l
     }
 }
 
-/* One frame, receivers in two pieces. */
+/* One frame, with the receivers in two pieces. */
 static void light_room(const lmb_transfer *t, void *memory, size_t bytes, float strength)
 {
     small_room room;

@@ -1,4 +1,5 @@
-/* main_fuzz.c: the engine's side: `fuzz TARGET [options] [folders]`; built by `make fuzz` with clang's libFuzzer. */
+/* main_fuzz.c: the main program for the fuzzing engine: `fuzz TARGET [options] [folders]`; built by `make
+ * fuzz` with clang's libFuzzer. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

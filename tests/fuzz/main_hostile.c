@@ -1,10 +1,10 @@
-/* main_hostile.c: every parser on files cut short and on seeded damage, counted and timed by kind of file.
+/* main_hostile.c: runs every parser on truncated files and on seeded damage; counts and times them by kind of file.
  *
- *     hostile PREFIXES MUTATIONS FILE...      that many prefixes of each file, damaged files of each kind
- *     hostile --case prefix:N|seed:N FILE [OUT]     one of these again; OUT: its bytes are written there
+ *     hostile PREFIXES MUTATIONS FILE...      number of prefixes of each file, of damaged files of each kind
+ *     hostile --case prefix:N|seed:N FILE [OUT]     repeats one case; writes its bytes to OUT
  *
- * The kind is the name of the folder that the file lies in, as under tests/fuzz/corpus, or the file's extension. A
- * finding aborts, and the line that repeats it is printed; under AddressSanitizer that takes abort_on_error=1. */
+ * The kind is the name of the file's folder, as under tests/fuzz/corpus, or the file's extension. If a check fails, the
+ * program prints the line that repeats the case and aborts; under AddressSanitizer that needs abort_on_error=1. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ typedef struct kind {
 
 static kind kinds[KINDS_MAX];
 
-/* What runs just now, as arguments of --case. */
+/* The current case, as arguments of --case. */
 static char now[NAME_MAX_BYTES];
 
 static void tell_case(int signal_number)
@@ -68,7 +68,7 @@ static kind *kind_of(const char *path)
     return found == NULL && dot != NULL ? find_kind(dot + 1, strlen(dot + 1)) : found;
 }
 
-/* The target on a block of exactly these bytes, so that the byte behind them is nobody's. */
+/* Runs the target on a block of exactly these bytes, so that reads past the end are found. */
 static void run_case(kind *k, const uint8_t *data, size_t size)
 {
     uint8_t *exact = malloc(size);
@@ -98,7 +98,7 @@ static void run_prefix(kind *k, const file_bytes *file, const char *path, size_t
     run_case(k, file->data, size);
 }
 
-/* The damaged file in *out, to be freed. */
+/* Puts the damaged file into *out; free it. */
 static size_t damage(uint8_t **out, const kind *k, const file_bytes *file, uint64_t seed)
 {
     size_t cap = mutate_cap(file->size), size;
@@ -120,7 +120,7 @@ static void run_seed(kind *k, const file_bytes *file, const char *path, uint64_t
     free(bytes);
 }
 
-/* Lengths 0 .. size - 1 where there are few enough, else `prefixes` of them, evenly spread. */
+/* Lengths 0 .. size - 1 if these are few enough, else `prefixes` lengths, evenly spread. */
 static void run_prefixes(kind *k, const file_bytes *file, const char *path, uint64_t prefixes)
 {
     uint64_t n = file->size < prefixes ? file->size : prefixes;
@@ -129,7 +129,7 @@ static void run_prefixes(kind *k, const file_bytes *file, const char *path, uint
     }
 }
 
-/* The index-th of a kind's files gets every files-th seed. */
+/* File `index` of a kind gets every `files`-th seed. */
 static void run_file(kind *k, const char *path, uint32_t index, uint64_t prefixes, uint64_t mutations)
 {
     report r = {{0}};
@@ -142,7 +142,7 @@ static void run_file(kind *k, const char *path, uint32_t index, uint64_t prefixe
     file_free(&file);
 }
 
-/* One case; what the target does with it is seen by its aborting or not. */
+/* Repeats one case; a failure aborts. */
 static int repeat(int argc, char **argv)
 {
     const char *path = argv[3];

@@ -1,4 +1,4 @@
-/* main_replay.c: runs targets on files: `replay FOLDER/TARGET/FILE...`; a finding aborts as it did under the fuzzer. */
+/* main_replay.c: runs targets on files: `replay FOLDER/TARGET/FILE...`; a failed check aborts as under the fuzzer. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "../../tools/picture/image.h"
 #include "fuzz.h"
 
-/* The target of corpus/png/x is png: the name of the folder that the file lies in. */
+/* The target of corpus/png/x is png, the name of the file's folder. */
 static fuzz_target target_of(const char *path)
 {
     char name[16];

@@ -15,7 +15,7 @@ typedef struct patient {
 /* 0 .. n - 1; files are under 4 GiB. */
 static size_t below(patient *p, size_t n) { return test_random(&p->rng) % (n < UINT32_MAX ? n : UINT32_MAX); }
 
-/* Half of the places are spread evenly, the others evenly over powers of two, because headers come first. */
+/* Half of the positions are uniform; the others are uniform over powers of two, because headers come first. */
 static size_t place(patient *p)
 {
     size_t within = p->size;
@@ -45,7 +45,7 @@ static void set_byte(patient *p)
     p->data[at] = pick < sizeof telling ? telling[pick] : (uint8_t)test_random(&p->rng);
 }
 
-/* Half of the words are aligned, as those of binary formats mostly are. 0x7FC00000 is a NaN. */
+/* Half of the words are aligned, as words of binary formats mostly are. 0x7FC00000 is a NaN. */
 static void set_word(patient *p)
 {
     static const uint32_t telling[] = {0x80000000u, 0xFFFFFFFFu, 0, 0x7FFFFFFFu, 0x7FC00000u, 0x10000000u, 0xFFFFu, 1};
@@ -70,7 +70,7 @@ static void cut_piece(patient *p)
     p->size -= n;
 }
 
-/* Room for n bytes at `at`; 0 where there is none. */
+/* Makes room for n bytes at `at`; returns 0 if there is none. */
 static int open_gap(patient *p, size_t at, size_t n)
 {
     if (n > p->cap - p->size) {
@@ -81,7 +81,7 @@ static int open_gap(patient *p, size_t at, size_t n)
     return 1;
 }
 
-/* A copy of a piece in front of it, or over bytes elsewhere. */
+/* Copies a piece in front of itself, or over bytes elsewhere. */
 static void copy_piece(patient *p)
 {
     size_t from = place(p), n = piece(p, from), to = place(p);
@@ -92,7 +92,7 @@ static void copy_piece(patient *p)
     }
 }
 
-/* The next number of a text becomes another: one digit, or something that numbers should not be. */
+/* Changes the next number of a text: one digit, or the whole to an unusual number. */
 static void change_number(patient *p)
 {
     static const char *const odd[] = {"-", ".", "e", "e99", "2147483648", "4294967295", "99999999999999999999", "nan"};
@@ -119,7 +119,7 @@ size_t mutate(uint8_t *data, size_t size, size_t cap, uint64_t seed)
     static void (*const ways[])(patient *p) = {flip_bit,   set_byte,      set_byte,     set_word,
                                                cut_piece, copy_piece, change_number, change_number};
     patient p = {data, size, cap, {seed * UINT64_C(0x9E3779B97F4A7C15)}};
-    test_random(&p.rng); /* the first number of a small state says little */
+    test_random(&p.rng); /* the first number of a small state is not random enough */
     for (size_t left = 1 + below(&p, 1 + below(&p, 8)) * below(&p, 2); left > 0 && p.size > 0; --left) {
         ways[below(&p, sizeof ways / sizeof ways[0])](&p);
     }

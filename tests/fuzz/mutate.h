@@ -5,12 +5,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* mutate: `data` holds `size` bytes and has room for `cap`; one to eight changes at places of which half are near its
- * beginning: bits flipped, bytes and 32-bit words set to what counts and lengths go wrong with, digits changed, pieces
- * cut out or copied. Returns the new size, at most `cap`. */
+/* mutate: `data` holds `size` bytes and has room for `cap`. Makes one to eight changes, half of them near the
+ * beginning: flips bits, sets bytes and 32-bit words to values that break counts and lengths, changes digits, cuts out
+ * or copies pieces. Returns the new size, at most `cap`. */
 size_t mutate(uint8_t *data, size_t size, size_t cap, uint64_t seed);
 
-/* mutate_cap: room that leaves most copied pieces whole. */
+/* mutate_cap: room that is enough for most copied pieces. */
 static inline size_t mutate_cap(size_t size) { return size + size / 2 + 64; }
 
 #endif

@@ -1,11 +1,11 @@
-/* golden.c: pixel-exact cases: one line `name hash` each, the same on every machine and compiler, and in every
+/* golden.c: pixel-exact cases: one line `name hash` each, the same on every machine, with every compiler, and in every
  * configuration that the case fits.
  *
- * Each case runs by every backend that can run here (or by the way's); a line names the backends whose hash is not the
- * table's.
+ * Each case runs on every available backend (or on the backends of the golden_way); a line lists the
+ * backends with a wrong hash.
  *
- * Freestanding and small (static memory under 256 KiB in the small configuration), so that a Cortex-M4F runs the very
- * same list. A hash changes only in a commit that explains the pixels. */
+ * Freestanding and small (static memory under 256 KiB in the small configuration), so that a Cortex-M4F runs the same
+ * list. A hash changes only in a commit that explains the pixels. */
 #include "golden_cases.h"
 
 #include <stddef.h>
@@ -27,7 +27,7 @@ static struct memory {
     lmb_render render;
     uint64_t lights[LIGHT_CELLS * 720 / 8];
 } memory GOLDEN_ALIGNED;
-/* First points, or the tree of a shadow map in their place: one face, or more that are smaller. */
+/* First points, or in their place the tree of a shadow map: one face, or more faces of a smaller size. */
 static union light_memory {
     lmb_point points[POINTS];
     struct {
@@ -195,16 +195,16 @@ lmb_view golden_soup_view(int orthographic)
 }
 
 enum { TILED = 0, LINEAR = 8, PADDED = 16 };
-enum { PADDING = 8 }; /* pixels behind a row */
+enum { PADDING = 8 }; /* pixels after a row */
 
-/* Rows instead of tiles, one right behind the other or with a gap. */
+/* Sets a linear layout, without or with gaps between rows. */
 static void make_linear(lmb_surface *s, int layout)
 {
     s->layout = LMB_LINEAR;
     s->stride_bytes = (WIDTH + (layout == PADDED ? PADDING : 0)) * lmb_pixel_bytes(s->format);
 }
 
-/* What stands between a linear surface's rows is nobody's to write. */
+/* Checks that the gaps between rows of a linear surface were not written. */
 static int gaps_are_untouched(const lmb_surface *s)
 {
     const int32_t row = WIDTH * lmb_pixel_bytes(s->format);
@@ -263,7 +263,7 @@ static uint64_t case_functions(int variant)
     return h;
 }
 
-/* A mesh by public calls alone: numbers.h. */
+/* A mesh drawn only by public calls: numbers.h. */
 static uint64_t case_torus(int variant)
 {
     static torus t;
@@ -277,8 +277,8 @@ static uint64_t case_torus(int variant)
     return lmb_scene_check(&t.scene) == LMB_OK ? h : 0;
 }
 
-/* 0..3: depth 32F/16 x id 16/32; +4 orthographic; near plane and guard band are both met. LINEAR or PADDED on top:
- * rows instead of tiles, the same pixels and so the same hash. */
+/* 0..3: depth 32F/16 x id 16/32; +4 orthographic; triangles cross the near plane and the guard band. LINEAR or PADDED
+ * added: rows instead of tiles, with the same pixels and hash. */
 static uint64_t case_raster(int variant)
 {
     lmb_target eye;
@@ -311,7 +311,7 @@ static uint64_t case_resolve(int variant)
     return h;
 }
 
-/* The image as a normal map too; back faces are met. */
+/* Also uses the image as a normal map; back faces are visible. */
 static uint64_t case_normal_map(int variant)
 {
     lmb_target eye;
@@ -426,7 +426,7 @@ static lmb_frame demo_frame(void)
     return f;
 }
 
-/* Drawn the way's way: its status and picture. */
+/* Draws a frame by the golden_way; hashes status and picture. */
 static uint64_t hash_frame(uint64_t h, const lmb_frame *f)
 {
     lmb_status status = way->render(&memory.render, f);
@@ -499,7 +499,7 @@ static uint64_t case_format(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* A spot down the box's diagonals, or a sun. */
+/* A spot along a diagonal of the box, or a sun. */
 static void turn_light(lmb_light *l, int i)
 {
     l->kind = i % 4 == 3 ? LMB_LIGHT_DIRECTIONAL : LMB_LIGHT_SPOT;
@@ -510,8 +510,8 @@ static void turn_light(lmb_light *l, int i)
     l->cos_inner = golden_random(l->cos_outer, 1.0f);
 }
 
-/* Lights all over the soup, in slices; among them clusters. Of all kinds: in so few cells that
- * they are summed at once in any configuration. */
+/* Lights all over the soup, in slices, with clusters among them. If lights have all kinds, there are so few cells that
+ * any configuration merges lights at once. */
 static lmb_status stream_lights(lmb_many_lights *many_lights, int kinds)
 {
     const lmb_vec3 low = {-2, -2, -2}, high = {2, 2, 3};
@@ -539,7 +539,7 @@ static lmb_status stream_lights(lmb_many_lights *many_lights, int kinds)
 }
 
 /* Many lights on the soup, with shadows (0) and without; points, spots and suns (2), with ranges (3). LIGHT_CELLS never
- * fill a cut of the least capacity. */
+ * fill a cut of the smallest capacity. */
 static uint64_t case_many(int variant)
 {
     lmb_frame f = demo_frame();
@@ -559,7 +559,7 @@ static uint64_t case_many(int variant)
     f.show = LMB_SHOW_DIRECT;
     f.occlusion = LMB_OCCLUSION_NONE;
     f.many_lights = &many_lights;
-    if (variant != 1) { /* in the map's memory: there is none */
+    if (variant != 1) { /* shares the map's memory: there is no map */
         lmb_bvh_init(&f.bvh, TRIANGLES, memory.map, sizeof memory.map);
     }
     return hash_frame(h, &f);
@@ -611,7 +611,8 @@ static lmb_bvh soup_bvh(void)
     return b;
 }
 
-/* A face's tree. Variant: the light's kind (a point's sixth face); + 4: of half as many texels a side as the map. */
+/* A face's tree. Variant: the light's kind (for a point, the sixth face); + 4: with half as many
+ * texels a side as the map. */
 static uint64_t case_tree(int variant)
 {
     const int32_t face = (variant & 3) == LMB_LIGHT_POINT ? 5 : 0, size = face > 0 ? 16 : TREE;
@@ -657,8 +658,8 @@ static uint64_t case_cut(int variant)
 #ifndef LMB_CONFIG_TINY
 static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024] GOLDEN_ALIGNED;
 
-/* Bounced light at the samples of a lattice, which the small configuration's memory has no room for. Variant 0: of the
- * room, by groups; 1: of the soup, by cuts, where hardly a pixel explains another. */
+/* Bounced light at the samples of a lattice, for which the small configuration has no memory. Variant 0: the room, by
+ * groups; 1: the soup, by cuts, with few pixels that can be interpolated. */
 static uint64_t case_adaptive(int variant)
 {
     lmb_frame f = variant ? soup_frame(1, 8) : demo_frame();
@@ -669,7 +670,7 @@ static uint64_t case_adaptive(int variant)
     return hash_frame(golden_hash_u32(GOLDEN_START, (uint32_t)status), &f);
 }
 
-/* The soup by light of single points, each near some of the map's texels. Variant: occlusion. */
+/* The soup with light at single points, each near some of the map's texels. Variant: occlusion. */
 static uint64_t case_live(int variant)
 {
     static uint64_t live_memory[1 << 13] GOLDEN_ALIGNED;
@@ -687,7 +688,7 @@ static uint64_t case_live(int variant)
 #endif
 
 #if LMB_MULTISAMPLE && !defined(LMB_CONFIG_TINY)
-/* Several samples a pixel: of the soup as case_cut has it, of its lobes, of what emits, and of what blends. */
+/* Several samples a pixel: the soup of case_cut, lobes, emission, and blending. */
 static uint64_t case_samples(int variant)
 {
     static const int32_t samples[] = {4, 8, 16, 4};
@@ -716,7 +717,7 @@ static uint64_t case_samples(int variant)
 }
 #endif
 
-/* Cuts of more nodes than the small configuration holds. */
+/* Cuts with more nodes than the small configuration holds. */
 static uint64_t case_full_cut(int variant)
 {
     lmb_frame f = soup_frame(1, TREE);
@@ -735,7 +736,7 @@ static uint64_t case_cut_conservative(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* Three bounces between the soup's elements; the whole picture. Variant 1: a part of it emits light. */
+/* Three bounces between the soup's elements; the whole picture. Variant 1: a part of the soup emits light. */
 static uint64_t case_bounces(int variant)
 {
     lmb_frame f = soup_frame(1, 8);
@@ -749,7 +750,7 @@ static uint64_t case_bounces(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* Materials with lobes, lit by a spot and by what it bounces; the whole picture. Variant 1: one of the two is
+/* Materials with lobes, lit by a spot directly and after one bounce; the whole picture. Variant 1: one material is
  * diffuse, and every second pixel is gathered. */
 static uint64_t case_glossy(int variant)
 {
@@ -768,7 +769,7 @@ static uint64_t case_glossy(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* Variant 0: a map of emission, seen and sent; 1: one of metal and roughness under a lobe; the whole picture. */
+/* Variant 0: a map of emission, seen and as light; 1: a map of metal and roughness under a lobe; the whole picture. */
 static uint64_t case_surface_maps(int variant)
 {
     lmb_frame f = soup_frame(1, 8);
@@ -790,7 +791,7 @@ static uint64_t case_surface_maps(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* A spot and one so wide that a cube's faces serve it; the whole picture. */
+/* A spot, and another so wide that a cube's faces serve it; the whole picture. */
 static uint64_t case_cut_lights(int variant)
 {
     lmb_frame f = soup_frame(7, 8);
@@ -807,9 +808,9 @@ static uint64_t case_cut_lights(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* --- what does not fit: the status, and what is left -------------------------------------------------------------- */
+/* --- exceeded capacities: the status, and partial results --------------------------------------------------------- */
 
-/* A map's first points of 4x4 or 1x1 texels where fewer fit: those so far stand. */
+/* A map's first points of 4x4 or 1x1 texels, with too little room: the points so far are kept. */
 static uint64_t case_full_points(int variant)
 {
     static const lmb_grouping how = {LMB_GROUP_ZONES, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
@@ -828,7 +829,7 @@ static uint64_t case_full_points(int variant)
     return hash_points(golden_hash_u32(GOLDEN_START, (uint32_t)status));
 }
 
-/* The frame's: more points, maps or lights than there is room for. */
+/* A frame with more points, maps or lights than there is room for. */
 static uint64_t case_full_frame(int variant)
 {
     lmb_frame f = demo_frame();
@@ -847,12 +848,12 @@ static uint64_t case_full_frame(int variant)
         f.map_bytes -= MAP * MAP * 4;
         f.shadow_map = MAP;
     } else {
-        lit.light_count = 2; /* one is all that the small configuration takes */
+        lit.light_count = 2; /* the small configuration takes only one */
     }
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* As many groups as this configuration has, for discs that want more: zones, greedy, and one a disc. */
+/* As many groups as this configuration has, for discs that need more: zones, greedy, and one a disc. */
 static uint64_t case_full_groups(int variant)
 {
     lmb_grouping how = {LMB_GROUP_ZONES, 4, LMB_MAX_GROUPS, 0, 0.05f, 0.3f, 0.999f, 0, 0, 0, 0, 0};
@@ -943,7 +944,7 @@ static int32_t backend_count(void)
     return n;
 }
 
-/* `name hash`; where a backend's hash is wrong, that hash, WRONG and the backends. */
+/* `name hash`; if a backend's hash is wrong, also that hash, WRONG and the backends. */
 static int run_case(char line[160], int32_t number)
 {
     const struct golden *c = &cases[number];
@@ -970,7 +971,7 @@ static int run_case(char line[160], int32_t number)
     return w > 0;
 }
 
-/* GOLDEN_EACH: every how manieth case runs, where a build or an emulator is slow; GOLDEN_FROM: from which on. */
+/* GOLDEN_EACH: runs every n-th case, for slow builds and emulators; GOLDEN_FROM: number of the first case. */
 #ifndef GOLDEN_EACH
 #define GOLDEN_EACH 1
 #endif
@@ -979,7 +980,7 @@ static int run_case(char line[160], int32_t number)
 #endif
 const char *golden_only;
 
-/* Without strcmp, which ports without a libc lack. */
+/* Compares without strcmp, because ports without a libc lack it. */
 static int is_wanted(const char *name)
 {
     const char *only = golden_only;

@@ -1,4 +1,4 @@
-/* golden_cases.h: what the files of golden cases share: a scene, memory, hashes. */
+/* golden_cases.h: shared by the files of golden cases: a scene, memory, hashes. */
 #ifndef GOLDEN_CASES_H
 #define GOLDEN_CASES_H
 
@@ -14,22 +14,22 @@
 
 #define GOLDEN_START UINT64_C(0xcbf29ce484222325)
 
-extern const lmb_kernels *golden_kernels; /* those that the cases run with */
+extern const lmb_kernels *golden_kernels; /* kernels of the current run */
 
 /* FNV-1a of little-endian bytes. */
 uint64_t golden_hash_u32(uint64_t h, uint32_t v);
 uint64_t golden_hash_floats(uint64_t h, const float *v, size_t n);
 
-/* Forty triangles in two instances, with textures, holes and colours, and where they are seen from. */
+/* Forty triangles in two instances, with textures, holes and colours, and a view of them. */
 lmb_scene *golden_soup(uint32_t seed, float span);
 lmb_view golden_soup_view(int orthographic);
-float golden_random(float low, float high); /* goes on from the soup's seed */
+float golden_random(float low, float high); /* continues the soup's random numbers */
 
 /* GOLDEN_WIDTH x GOLDEN_HEIGHT, depth and ids cleared; the same memory each time. */
 lmb_target golden_eye(int depth_format, int id_format);
 
 /* Memory of cases, besides the eye's: two pieces, 8-byte aligned, the same each time, filled with 0x3c. A case that
- * wants more than there is in the small configuration (130 and 64 KiB) stops the program's building. */
+ * needs more than the small configuration has (130 and 64 KiB) breaks the build. */
 typedef struct golden_space {
     uint64_t first[130 * 128], second[64 * 128];
 } golden_space;

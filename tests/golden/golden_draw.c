@@ -1,5 +1,5 @@
-/* golden_draw.c: fixed-function drawing: random primitives by each kind, with textures, fog, blending, tests; pictures
- * and text. */
+/* golden_draw.c: fixed-function drawing: random primitives of each kind, with textures, fog, blending,
+ * tests; pictures and text. */
 #include "golden_cases.h"
 
 #include <string.h>
@@ -36,7 +36,7 @@ static void make_vertices(draw_space *s, uint32_t seed)
     }
 }
 
-/* What a primitive is drawn with. bits: 1 blends, 2 fog, 4 tests and logic, 8 clips, 16 one stage, 32 two stages. */
+/* State of a primitive. bits: 1 blends, 2 fog, 4 tests and logic, 8 clips, 16 one stage, 32 two stages. */
 static void set_state(lmb_draw_state *s, lmb_texture texture[2], const draw_space *space, int bits, int n)
 {
     const lmb_texture t = {space->texels,        TEXTURE,          TEXTURE, 5, (uint8_t)(n % 3),
@@ -122,7 +122,7 @@ uint64_t case_draw(int variant)
     return (h ^ lmb_surface_hash(&target.depth)) * UINT64_C(0x100000001b3);
 }
 
-/* Pixels of a picture; those of 16 bits as numbers, so that the order of bytes does not matter. */
+/* Pixels of a picture; those of 16 bits as numbers, so that byte order does not matter. */
 static void make_image(draw_space *s, int32_t format, uint32_t n)
 {
     for (uint32_t i = 0; i < TEXTURE * TEXTURE * 4; ++i) {
@@ -135,7 +135,7 @@ static void make_image(draw_space *s, int32_t format, uint32_t n)
     }
 }
 
-/* variant: the format of the pictures' target. All characters, over a picture that was copied by each rule. */
+/* variant: the format of the pictures' target. All characters, over a picture copied by each rule. */
 uint64_t case_blit(int variant)
 {
     draw_space *s = golden_first();

@@ -1,4 +1,4 @@
-/* golden_draw_each.c: fixed-function drawing by each value of a state: factors and equations, tests and operations,
+/* golden_draw_each.c: fixed-function drawing with each value of a state: factors and equations, tests and operations,
  * wraps, filters and formats of textures, primitives and their modes, combined stages, light at vertices. */
 #include "golden_cases.h"
 
@@ -19,7 +19,7 @@ typedef struct each_space {
 
 GOLDEN_FITS(each_space, first);
 
-/* What a case draws with. */
+/* Data of a case. */
 typedef struct each_job {
     each_space *s;
     lmb_draw_target target;
@@ -59,7 +59,7 @@ static void each_begin(each_job *j, each_space *s, int32_t format, uint32_t seed
     j->vertices.count = EACH_CORNERS;
 }
 
-/* A state in pixels, and corners that are somewhere in the picture, in small primitives. */
+/* A state in pixels, and corners anywhere in the picture, in small primitives. */
 static void each_next(each_job *j)
 {
     each_space *s = j->s;
@@ -187,7 +187,7 @@ static void each_combine(each_job *j)
     }
 }
 
-/* Whole numbers for the corners, in a format other than float. */
+/* Integer corners, in a format other than float. */
 static void each_set_format(each_job *j, int format)
 {
     each_space *s = j->s;
@@ -223,7 +223,7 @@ static void each_set_order(each_job *j, int format)
     j->indices.format = (uint8_t)format;
 }
 
-/* Each primitive in each mode of polygons, with patterns, by each format of positions and indices. */
+/* Each primitive in each polygon mode, with patterns, in each format of positions and indices. */
 static void each_primitive(each_job *j)
 {
     static const uint8_t formats[4] = {LMB_INDEX_NONE, LMB_DRAW_INDEX_U8, LMB_INDEX_U16, LMB_INDEX_U32};
@@ -284,7 +284,7 @@ static void each_light(each_job *j)
     }
 }
 
-/* variant: the target's format, and 8 times which. */
+/* variant: the target's format, plus 8 times the function. */
 uint64_t case_draw_each(int variant)
 {
     static void (*const all[])(each_job *) = {each_blend,   each_test,      each_texture,

@@ -1,4 +1,4 @@
-/* golden_fixed.c: a small room by integers alone: what is seen, its light, and its picture in bands. */
+/* golden_fixed.c: a small room in integers: visible surfaces, light, and the picture in bands. */
 #include "golden_cases.h"
 
 #include <string.h>
@@ -18,7 +18,7 @@ typedef struct fixed_space {
 
 GOLDEN_FITS(fixed_space, first);
 
-/* As small_fixed_frame has it. */
+/* The variants of small_fixed_frame. */
 uint64_t case_fixed(int variant)
 {
     fixed_space *s = golden_first();

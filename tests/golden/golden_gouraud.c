@@ -1,4 +1,4 @@
-/* golden_gouraud.c: small_room by light at corners: its shadow map, what its transfer throws back, the picture. */
+/* golden_gouraud.c: small_room with light at vertices: shadow map, bounced light of the transfer, the picture. */
 #include "golden_cases.h"
 
 #if LMB_TRANSFER
@@ -47,7 +47,7 @@ static lmb_status light_up(gouraud_space *s)
                             : lmb_transfer_receivers(&s->light, k, &s->transfer, 0, SMALL_RECEIVERS + SMALL_CLUSTERS);
 }
 
-/* Bit 0: from within, so that the floor is clipped; 1: a point light; 2: less exposure. */
+/* Bit 0: from inside, so that the floor is clipped; 1: a point light; 2: less exposure. */
 uint64_t case_gouraud(int variant)
 {
     gouraud_space *s = golden_first();

@@ -26,7 +26,7 @@ GOLDEN_FITS(answer_space, second);
 
 static const lmb_pinhole camera = {WIDTH, HEIGHT, 45.0f, 45.0f, 27.5f, 19.5f};
 
-/* A floor and a wall, a box before them that nothing is measured of at its sides, and what noise there is. */
+/* A floor and a wall, a box in front of them with unmeasured pixels at the sides, and noise. */
 static void draw_corner(mixed_space *s)
 {
     golden_soup(8u, 1.0f);
@@ -93,7 +93,7 @@ uint64_t case_mixed(int variant)
     return hash_tiles(h, a, &cloud, &axes);
 }
 
-/* What a tile of the photo becomes where light goes and comes, under the folded cube. */
+/* A tile of the photo with light removed and added, under the folded cube. */
 uint64_t case_folded(int variant)
 {
     mixed_space *s = golden_first();

@@ -1,4 +1,4 @@
-/* golden_probe.c: cases of worlds: what their places see, the light there, and objects drawn in it. [S1-S24] */
+/* golden_probe.c: cases of worlds: surroundings and light at places, and objects drawn in them. [S1-S24] */
 #include "golden_cases.h"
 
 #include <string.h>
@@ -99,7 +99,7 @@ uint64_t case_probe(int variant)
     return blurred(h, s, variant % 3);
 }
 
-/* The cubes of two places: light, and what is mirrored. */
+/* Cubes of light and of reflections at two places. */
 static void set_probes(lmb_probe probe[2], relit_space *relit, probe_space *s)
 {
     static const lmb_vec3 at[2] = {{1.5f, -1.0f, 3.0f}, {-2.0f, 0.0f, -1.0f}};
@@ -112,10 +112,10 @@ static void set_probes(lmb_probe probe[2], relit_space *relit, probe_space *s)
         lmb_probe_reflect(s->cube, SIDE, golden_kernels, &s->rays, &query, at[i], 0.5f);
         lmb_probe_cube_init(&probe[i].glossy, s->cube, SIDE, relit->cube[i][1], sizeof relit->cube[i][1]);
     }
-    probe[1].glossy.texel = NULL; /* looks at the world itself */
+    probe[1].glossy.texel = NULL; /* samples the world itself */
 }
 
-/* Two instances with a probe each, a light, the world behind. Variant: LMB_RELIGHT_. */
+/* Two instances with a probe each, a light, and the world as background. Variant: LMB_RELIGHT_. */
 uint64_t case_relit(int variant)
 {
     static const uint16_t probe_of[2] = {0, 1};
@@ -154,7 +154,7 @@ uint64_t case_relit(int variant)
     return golden_hash_u32(h, (uint32_t)status);
 }
 
-/* A world with its ground, and all that one object's update takes, with a map of 48 x 24: under 64 KiB. */
+/* A world with a ground, and all memory of one object's update, with a map of 48 x 24: under 64 KiB. */
 typedef struct small_update {
     uint32_t world_memory[1400], table_memory[4400];
     lmb_world world;
@@ -170,7 +170,7 @@ typedef struct small_update {
 } small_update;
 GOLDEN_FITS(small_update, second);
 
-/* What a small device does for an object that moved. */
+/* The work of a small device for an object that moved. */
 uint64_t case_small_probe(int variant)
 {
     static const lmb_vec3 at = {1.5f, -1.0f, 3.0f};

@@ -1,4 +1,4 @@
-/* golden_relief.c: cases of reliefs: a sphere on a cube, and the light that reaches it. [P1-P12] */
+/* golden_relief.c: cases of reliefs: a sphere on a cube, and light on it. [P1-P12] */
 #include "golden_cases.h"
 
 #include "../small_relief.h"
@@ -32,7 +32,7 @@ static void draw_map(relief_space *s, const lmb_light *light, const lmb_scene *s
     lmb_relief_shadow_rows(&s->shadow_map, golden_kernels, &s->tile, &s->relief, how, 0, MAP / LMB_TILE);
 }
 
-/* Bit 0: packed; 1: its texels as they are, nearest to the eye's ray; 2: one look. */
+/* Bit 0: packed; 1: unfiltered texels, nearest to the eye's ray; 2: one view. */
 uint64_t case_relief(int variant)
 {
     relief_space *s = golden_first();

@@ -1,4 +1,4 @@
-/* golden_voxel.c: cases of voxels: surfaces, their light, and what cones see of them. [M6-M8 M13 M20 M21]
+/* golden_voxel.c: cases of voxels: surfaces, light, and cones. [M6-M8 M13 M20 M21]
  *
  * The smallest pool takes 0.7 MB, more than the small configuration has. */
 #include "golden_cases.h"
@@ -71,7 +71,7 @@ static const lmb_texel *first_points(const lmb_scene *soup)
     return tree.texel;
 }
 
-/* What cones see from the middle tiles of a view. */
+/* Cones from the middle tiles of a view. */
 static uint64_t hash_cones(uint64_t h, const lmb_voxels *v, const lmb_scene *soup)
 {
     cone_space *s = golden_second();
@@ -92,7 +92,7 @@ static uint64_t hash_cones(uint64_t h, const lmb_voxels *v, const lmb_scene *sou
     return h;
 }
 
-/* Variant: how deep it is asked to be; + 16 m: half of the cube. Where that is small the pool holds fewer levels. */
+/* Variant: requested depth, plus 16 h; h: half of the cube's side. If h is small, the pool holds fewer levels. */
 uint64_t case_voxels(int variant)
 {
     const float half = (float)(variant / 16);

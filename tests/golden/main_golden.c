@@ -1,8 +1,8 @@
-/* main_golden.c: runs the golden pictures on any port: which backends, a line `name hash` each, then the counts.
+/* main_golden.c: runs the golden pictures on any port; prints the backends, a line `name hash` each, then the counts.
  *
- * A build that lmb_build_check refuses draws nothing. Where the port measures its stack, that is told too.
+ * A build that lmb_build_check refuses draws nothing. If the port measures its stack, prints the depth too.
  *
- * Freestanding: it runs where there is no libc. */
+ * Freestanding, for systems without libc. */
 #include "../../platform/port_say.h"
 #include "golden.h"
 

@@ -1,4 +1,4 @@
-/* main_one.c: draws golden pictures by name: golden-one NAME..., on a machine with a libc. */
+/* main_one.c: draws golden pictures by name, on a machine with a libc: golden-one NAME... */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,10 +1,11 @@
-/* main_orders.c: the golden cases cut into pieces, in several orders and on 1 .. 8 threads: the same hashes each way.
+/* main_orders.c: draws the golden cases in pieces, in several orders and on 1 .. 8 threads: the
+ * hashes must be the same.
  *
- * A line a way, with the lines of the cases that differ. Cases take the backends in turn, and each case from
- * way to way: so every backend meets every number of threads, and every case. `golden-orders all`: each way by every
- * backend.
- * Pictures go band by band, maps and targets by rows of tiles, the stages of a frame in parts; scratch holds noise
- * before each piece. Frames also leave nothing out, and keep all of one before. */
+ * Prints a line for each way, and the lines of cases that differ. Cases take turns through the backends, and change
+ * backends from way to way, so every backend runs with every number of threads, and every case. `golden-orders all`
+ * runs every way on every backend. Pictures are drawn band by band, maps and targets by rows of tiles, the stages of
+ * a frame in parts; scratch is filled with noise before each piece. Two more ways skip no stage, and reuse all
+ * results of an earlier frame. */
 #include <stdio.h>
 #include <string.h>
 
@@ -55,7 +56,7 @@ static void set_order(int p[PIECES], int n)
     }
 }
 
-/* All n pieces in the way of the moment. */
+/* Runs all n pieces in the current way. */
 static void do_pieces(int n, pool_job job, void *user)
 {
     int p[PIECES];
@@ -127,7 +128,7 @@ static lmb_status draw_map_rows(const lmb_shadow_map *map, const lmb_kernels *ke
 
 static lmb_point point_room[ROOM];
 
-/* The frame with scratch of this way's own, and room to collect first points in parts. */
+/* The frame with this way's own scratch, and room to collect first points in parts. */
 static lmb_frame with_room(const lmb_frame *frame)
 {
     lmb_frame f = *frame;
@@ -143,7 +144,7 @@ static lmb_frame with_room(const lmb_frame *frame)
     return f;
 }
 
-/* A stage's parts, or the bands, of a frame in the order of the moment. */
+/* Runs a stage's parts, or the bands, of a frame in the current order. */
 typedef struct frame_job {
     const lmb_render *render;
     int parts;
@@ -170,7 +171,7 @@ static void do_band(void *user, int band, int worker)
     j->status = status != LMB_OK ? status : j->status;
 }
 
-/* The stages that are left of a frame begun. */
+/* Runs the remaining stages of a frame. */
 static lmb_status finish_in_order(lmb_render *r, lmb_status status)
 {
     frame_job j = {r, 7, LMB_OK};
@@ -231,7 +232,7 @@ static lmb_status again_by_workers(lmb_render *r, const lmb_frame *frame)
 }
 
 #if LMB_PLAN
-/* Nothing is left out. */
+/* Skips no stage. */
 static lmb_status render_everything(lmb_render *r, const lmb_frame *frame)
 {
     lmb_frame f = with_room(frame);
@@ -239,7 +240,7 @@ static lmb_status render_everything(lmb_render *r, const lmb_frame *frame)
     return finish_in_order(r, lmb_render_begin(r, &f));
 }
 
-/* As the second frame of an animation where nothing moves: all of the light is the first's. */
+/* Draws the second frame of an animation without motion: all light comes from the first. */
 static lmb_status render_reused(lmb_render *r, const lmb_frame *frame)
 {
     lmb_frame f = with_room(frame);

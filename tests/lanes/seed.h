@@ -1,4 +1,4 @@
-/* seed.h: which random inputs a run takes, and how a failed one is repeated: LANES_SEED=7 build/default/tests lanes */
+/* seed.h: random seeds of a run. To repeat a failed seed, run LANES_SEED=7 build/default/tests lanes */
 #ifndef TEST_SEED_H
 #define TEST_SEED_H
 
@@ -7,7 +7,7 @@
 
 #include "../test.h"
 
-/* Seeds first .. first + count - 1; the environment's LANES_SEED asks for one alone. */
+/* Seeds first .. first + count - 1; if LANES_SEED is set in the environment, only that seed. */
 typedef struct seed_range {
     uint32_t first, count;
 } seed_range;
@@ -30,8 +30,8 @@ static inline test_rng seed_rng(uint32_t seed)
     return r;
 }
 
-/* Bits of the floats that formulas trip over: zeros, ones and their neighbours, the ends of the denormal, normal,
- * integer and 16-bit ranges, infinities, NaNs quiet and signalling. */
+/* Bits of floats that often break formulas: zeros, ones and their neighbours, the ends of the denormal, normal, integer
+ * and 16-bit ranges, infinities, quiet and signalling NaNs. */
 static const uint32_t hard_bits[] = {
     0x00000000, 0x80000000, 0x3f800000, 0xbf800000, 0x3f800001, 0x3f7fffff, 0x3f000000, 0xbf000000, 0x00000001,
     0x80000001, 0x007fffff, 0x807fffff, 0x00800000, 0x80800000, 0x00800001, 0x7f7fffff, 0xff7fffff, 0x7f800000,

@@ -1,5 +1,5 @@
-/* test_draw_lists.c: random lists of draws by every backend that runs here, and by plain C, against the long way, which
- * takes no state for a usual one: its corners are not kept, its pixels are tested and blended one by one. */
+/* test_draw_lists.c: random lists of draws on every available backend, and in plain C, against the generic path. The
+ * generic path has no shortcut for common states: it does not keep corners, and tests and blends pixels one by one. */
 #include <lambent/lambent.h>
 
 #include <string.h>
@@ -12,7 +12,7 @@ void test_draw_lists(void);
 #if LMB_DRAW
 enum { ROUNDS = 400, WIDE = 61, HIGH = 45, VERTICES = 36, CORNERS = 60, TEXELS = 16 * 8 };
 
-/* What a round draws, and where. */
+/* The draws of a round, and their target. */
 typedef struct lists {
     float positions[VERTICES][3], uvs[VERTICES][2];
     uint8_t colours[VERTICES][4], texels[2][4 * TEXELS];
@@ -33,7 +33,7 @@ typedef struct canvas {
 
 static uint32_t any(test_rng *r, uint32_t count) { return test_random(r) % count; }
 
-/* A quarter of all triangles is large; some corners are behind the eye, far out, or no numbers. */
+/* A quarter of all triangles is large; some corners are behind the eye, far out, or NaN. */
 static void make_vertices(lists *l, test_rng *r)
 {
     const float size = any(r, 4) == 0 ? 3.0f : 0.25f;
@@ -147,7 +147,7 @@ static void make_lists(lists *l, test_rng *r)
     l->colour_before = test_random(r);
 }
 
-/* plainly: by the generic code; a stencil that changes nothing, and no second colour, see to that. */
+/* plainly: forces the generic code by a stencil that changes nothing, and without second colour. */
 static void draw_lists(canvas *out, const lists *l, const lmb_kernels *kernels, int plainly)
 {
     static const uint8_t none[VERTICES][4];

@@ -1,5 +1,5 @@
-/* test_draws.c: whole draws of random triangles by every backend that runs here against scalar's: small and large ones,
- * clipped, edge-on and absurd, into each kind of window. What setup, fill_small and fill_large do together. */
+/* test_draws.c: whole draws of random triangles on every available backend against scalar's: small and large ones,
+ * clipped, edge-on and degenerate, into each kind of window. Tests setup, fill_small and fill_large together. */
 #include <lambent/lambent.h>
 
 #include <string.h>
@@ -25,8 +25,8 @@ typedef struct draws {
     uint32_t flags;
 } draws;
 
-/* One kind of size a triangle, of the smallest `kinds`: 0.01 to 6 m about a place that may be behind the eye, unless they
- * are crowded: then most are in the picture, and all of a batch are small ones. */
+/* Each triangle has one of the smallest `kinds` sizes, 0.01 to 6 m, at a place that may be behind the eye. If they are
+ * crowded, most are in the picture, and all triangles of a batch are small. */
 static void make_triangle(float *p, uint32_t kinds, int are_crowded, test_rng *r)
 {
     static const float sizes[] = {0.01f, 0.05f, 0.2f, 1.0f, 6.0f};
@@ -38,7 +38,7 @@ static void make_triangle(float *p, uint32_t kinds, int are_crowded, test_rng *r
         p[k + 2] = z + test_uniform(r, -size, size);
     }
     switch (test_random(r) % 16u) {
-    case 0: p[8] = p[5] = p[2]; break;                                       /* flat before the camera */
+    case 0: p[8] = p[5] = p[2]; break;                                       /* parallel to the image plane */
     case 1: memcpy(p + 6, p + 3, 3 * sizeof *p); break;                      /* no area */
     case 2: p[test_random(r) % 9u] = hard_bits[test_random(r) % HARD_COUNT] % 2u ? 1e30f : -1e7f; break;
     case 3: memset(p + test_random(r) % 9u, 0xff, sizeof *p); break;         /* NaN */
@@ -46,7 +46,7 @@ static void make_triangle(float *p, uint32_t kinds, int are_crowded, test_rng *r
     }
 }
 
-/* Every corner a vertex of its own, or corners of triangles nearby shared; in some meshes a few are past the end. */
+/* Every corner has its own vertex, or near triangles share corners; in some meshes a few indices are out of range. */
 static void make_indices(draws *d, test_rng *r)
 {
     const uint32_t stray = test_random(r) % 3u;
@@ -66,12 +66,12 @@ static void make_draws(draws *d, test_rng *r)
     const lmb_vec3 eye = {0, 0, 3}, target = {0.1f, 0.05f, 0}, up = {0, 1, 0};
     static const lmb_mat4 unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     memset(d, 0, sizeof *d);
-    const uint32_t kinds = 1u + test_random(r) % 5u; /* batches of small ones have code of their own */
+    const uint32_t kinds = 1u + test_random(r) % 5u; /* batches of small triangles use special code */
     const int are_crowded = test_random(r) % 2u == 0;
     for (int i = 0; i < TRIANGLES; ++i) {
         make_triangle(d->positions + 9 * i, kinds, are_crowded, r);
     }
-    for (uint32_t i = 1; i < TRIANGLES; ++i) { /* equal depths: the earlier one shows */
+    for (uint32_t i = 1; i < TRIANGLES; ++i) { /* equal depths: the earlier triangle wins */
         if (test_random(r) % 4u == 0) {
             const uint32_t back = 1 + test_random(r) % 12u; /* mostly of the same batch */
             memcpy(d->positions + 9 * i, d->positions + 9 * (back < i ? i - back : 0), 9 * sizeof(float));
@@ -107,7 +107,7 @@ static void make_draws(draws *d, test_rng *r)
     d->id_stride_more = test_random(r) % 4u == 0 ? 8 * 8 * 4 : 0;
 }
 
-/* What most draws are: depth and ids in tiles, of the whole frame. */
+/* The most common target: depth and ids in tiles, of the whole frame. */
 static void make_usual(draws *d)
 {
     d->depth_format = LMB_DEPTH32F;
@@ -119,7 +119,7 @@ static void make_usual(draws *d)
     d->mesh.indices = NULL;
 }
 
-/* Linear windows are rows of whole tiles' width. */
+/* Linear windows have rows as wide as whole tiles. */
 static void make_surface(lmb_surface *s, const draws *d, int32_t format, void *memory, size_t bytes)
 {
     CHECK(lmb_surface_init(s, format, d->width, d->height, memory, bytes) == LMB_OK);
@@ -155,7 +155,7 @@ static int same_stats(const lmb_stats *a, const lmb_stats *b)
            a->triangles_dropped == b->triangles_dropped;
 }
 
-/* Rows of tiles that lie over 2^31 bytes apart from the first to the last: only the last, where triangles are, is there. */
+/* Rows of tiles that span over 2^31 bytes; only the last row, which has the triangles, is allocated. */
 static void check_far_rows(const lmb_kernels *backend, int with_ids)
 {
     static float near_by[64 * 4 * 10], far_apart[64 * 4];
@@ -170,7 +170,7 @@ static void check_far_rows(const lmb_kernels *backend, int with_ids)
     lmb_view_look_at(&d.view, eye, target, up, 0.9f, 32, 80);
     for (int i = 0; i < 9 * TRIANGLES; i += 3) {
         d.positions[i] = test_uniform(&r, -0.4f, 0.4f);
-        d.positions[i + 1] = test_uniform(&r, -0.46f, -0.4f); /* of 0.48 m down: the last eight rows */
+        d.positions[i + 1] = test_uniform(&r, -0.46f, -0.4f); /* of 0.48 m downwards: the last eight rows */
         d.positions[i + 2] = test_uniform(&r, -0.01f, 0.01f);
     }
     memset(near_by, 0, sizeof near_by);

@@ -1,6 +1,7 @@
-/* test_kernels.c: every kernel of every backend that runs here against scalar's, on random and hard inputs.
+/* test_kernels.c: every kernel on every available backend against scalar's, on random and hard inputs.
  *
- * Surfaces end where their memory ends, so that a sanitizer sees any read past them; what is around outputs stays. */
+ * Surfaces end at the end of their memory, so that a sanitizer finds reads past them; bytes around
+ * outputs must stay unchanged. */
 #include <lambent/lambent.h>
 
 #include <string.h>
@@ -30,7 +31,7 @@ static uint32_t bits_of(float v)
 
 static int is_nan(uint32_t bits) { return (bits & 0x7fffffffu) > 0x7f800000u; }
 
-/* First of n floats whose bits differ (a NaN is any NaN), or -1. */
+/* Index of the first of n floats with different bits, or -1; all NaNs are equal. */
 static int differ(const float *want, const float *got, int n)
 {
     for (int i = 0; i < n; ++i) {
@@ -42,14 +43,14 @@ static int differ(const float *want, const float *got, int n)
     return -1;
 }
 
-/* What runs: a backend, a kernel, a seed. */
+/* The current backend, kernel and seed. */
 typedef struct trial {
     const lmb_kernels *kernels;
     const char *kernel;
     uint32_t seed;
 } trial;
 
-/* 1, or 0 and a line that says what differs and how to see it again. */
+/* Returns 1, or 0 after printing the difference and the command that repeats the case. */
 static int same_floats(const trial *t, const char *what, const float *want, const float *got, int n)
 {
     int i = differ(want, got, n);
@@ -84,7 +85,7 @@ static float hard_float(test_rng *r)
     return v;
 }
 
-/* One in `rare` is hard; 0: none is. */
+/* One number in `rare` is hard; 0: none. */
 static float number(test_rng *r, float lo, float hi, uint32_t rare)
 {
     return rare && test_random(r) % rare == 0 ? hard_float(r) : test_uniform(r, lo, hi);
@@ -97,7 +98,7 @@ static lmb_vec3 place(test_rng *r, float reach, uint32_t rare)
 
 static lmb_vec3 direction(test_rng *r) { return normalize3(place(r, 1.0f, 0)); }
 
-/* Or along one. */
+/* Any direction, or one along an axis. */
 static lmb_vec3 direction_of_axis(test_rng *r)
 {
     const lmb_vec3 axis[3] = {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
@@ -134,7 +135,7 @@ static void make_tile(lmb_tile *t, test_rng *r, uint32_t rare)
     numbers(t->uv[0], 2 * LMB_TILE_PIXELS, r, -2.0f, 2.0f, rare);
 }
 
-/* One whole flat surface, as the gather's shared visibility wants it. */
+/* One whole flat surface, as needed for the gather's shared visibility. */
 static void make_flat_tile(lmb_tile *t, test_rng *r)
 {
     const lmb_vec3 at = place(r, 2.0f, 0), n = direction(r);
@@ -150,7 +151,7 @@ static void make_flat_tile(lmb_tile *t, test_rng *r)
     }
 }
 
-/* All of a tile's pixels, or few, or none, a bit each. */
+/* A mask of all of a tile's pixels, a few, or none. */
 static uint64_t random_pixels(const trial *t, test_rng *r)
 {
     const uint64_t all = (uint64_t)test_random(r) << 32 | test_random(r);
@@ -159,7 +160,7 @@ static uint64_t random_pixels(const trial *t, test_rng *r)
 
 /* --- resolve, direct, blend --------------------------------------------------------------------------------------- */
 
-/* An output with its surroundings. */
+/* An output with guard bytes around it. */
 #define GUARDED(type) \
     struct { \
         uint8_t before[64]; \
@@ -183,7 +184,7 @@ static int canaries_stay(const uint8_t before[64], const uint8_t after[64])
     return 1;
 }
 
-/* What a batch points to, with streams that kernels never read. */
+/* The data of a batch, with streams that kernels never read. */
 typedef struct batch_world {
     lmb_instance instance;
     lmb_mesh mesh;
@@ -205,7 +206,7 @@ static void make_world(batch_world *w, test_rng *r, uint32_t rare)
     numbers(w->material.albedo, 3, r, 0.0f, 1.0f, rare);
 }
 
-/* The batch's numbers are random: those of the mesh for resolve_setup, of set-up triangles for resolve. */
+/* Fills the batch with random numbers: those of the mesh for resolve_setup, of set-up triangles for resolve. */
 static void make_batch(lmb_resolve_batch *b, const batch_world *w, test_rng *r, uint32_t rare)
 {
     lmb_vec3 *vectors[] = {&b->rays.origin, &b->rays.ox, &b->rays.oy, &b->rays.direction,
@@ -228,7 +229,7 @@ static void make_batch(lmb_resolve_batch *b, const batch_world *w, test_rng *r, 
     }
 }
 
-/* Of a batch's array of rows, the slots in use. */
+/* Compares only the used slots of a batch's array of rows. */
 static int same_slots(const trial *t, const char *what, const float *want, const float *got, int rows, int32_t count)
 {
     int equal = 1;
@@ -325,7 +326,7 @@ static int trial_resolve(const trial *t, test_rng r)
     numbers(batch.w_max, LMB_SLOTS, &r, 2.0f, 9.0f, rare);
     for (int k = 0; k < LMB_SLOTS; ++k) {
         const lmb_vec3 plane = direction(&r), face = direction(&r);
-        const int edge_on = test_random(&r) % 8u == 0; /* from some column, or everywhere */
+        const int edge_on = test_random(&r) % 8u == 0; /* from some column on, or everywhere */
         batch.plane[0][k] = edge_on ? 0.0f : plane.x;
         batch.plane[1][k] = edge_on ? 0.0f : plane.y;
         batch.plane[2][k] = edge_on ? 1.0f : plane.z;
@@ -338,7 +339,7 @@ static int trial_resolve(const trial *t, test_rng r)
             -(float)(test_random(&r) % 8u) * (batch.rays.rx.z = (float)(test_random(&r) % 2u) * 0.125f);
         batch.rays.ry.z = 0.0f;
     }
-    /* A tile's first batch: as if it had been cleared. */
+    /* A tile's first batch behaves as if the tile had been cleared. */
     batch.is_first = (int16_t)(t->kernels->lanes >= LMB_TILE && test_random(&r) % 2u);
     if (batch.is_first) {
         memset(&want.it, 0, offsetof(lmb_tile, id));
@@ -355,7 +356,7 @@ static int trial_resolve(const trial *t, test_rng r)
            same_bytes(t, "id and the rest", want.it.id, got.it.id, sizeof want.it - offsetof(lmb_tile, id));
 }
 
-/* Against the sampler that takes one pixel at a time. The image ends where its memory ends. */
+/* Compares with the sampler for single pixels. The image ends at the end of its memory. */
 static int trial_texture(const trial *t, test_rng r)
 {
     static lmb_tile want, got;
@@ -434,7 +435,7 @@ static int trial_blend(const trial *t, test_rng r)
 
 /* --- gather ------------------------------------------------------------------------------------------------------- */
 
-/* A viewer's depth map: a slope with steps and holes. Its memory ends with its last value. */
+/* A viewer's depth map: a slope with steps and holes. It ends at the end of its memory. */
 typedef struct seen {
     lmb_view view;
     lmb_surface depth;
@@ -477,7 +478,7 @@ static void seen_init(seen *s, test_rng *r)
     CHECK(lmb_march_setup(&s->job, &s->occluder) == 1);
 }
 
-/* Sums so far: among them zeros of both signs, which must not tell what a vector's other lanes met. */
+/* Previous sums, including zeros of both signs: a zero's sign must not depend on the other lanes of the vector. */
 static void make_sums(float out[3][LMB_TILE_PIXELS], test_rng *r)
 {
     float *sum = out[0];
@@ -597,8 +598,8 @@ static lmb_emitter make_emitter(const trial *t, test_rng *r, uint32_t rare)
     return e;
 }
 
-/* The emitters end where their memory ends: fewer than a block, more, none. Pixels that do not see an emitter get
- * nothing of it. */
+/* The emitters end at the end of their memory: fewer than a block, more, or none. Pixels that do not see an
+ * emitter get no light from it. */
 static int trial_gather_cut(const trial *t, test_rng r)
 {
     static GUARDED(lmb_irradiance) want, got;
@@ -631,7 +632,7 @@ static int trial_gather_cut(const trial *t, test_rng r)
     return kept && same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
 
-/* A node anywhere or where the patch is; its box has a volume, is flat, a line or a point. */
+/* A node anywhere or at the patch; the box has a volume, or is flat, a line or a point. */
 static void make_bounded_node(lmb_node_bounds *out, int k, test_rng *r, const lmb_pixel_cluster *p, uint32_t rare)
 {
     const uint32_t flat = test_random(r) % 8u;
@@ -654,7 +655,7 @@ static void make_bounded_node(lmb_node_bounds *out, int k, test_rng *r, const lm
     out->node[LMB_BOUNDS_COSINE][k] = test_random(r) % 3u ? number(r, -1.0f, 1.0f, rare) : 1.0f;
 }
 
-/* The weights of those that do not face away; the others' bytes are the backend's own. */
+/* Compares the weights of nodes that do not face away; other bytes depend on the backend. */
 static int trial_node_bounds(const trial *t, test_rng r)
 {
     static GUARDED(lmb_node_bounds) want, got;
@@ -699,7 +700,7 @@ static int trial_node_bounds(const trial *t, test_rng r)
 
 /* --- glossy reflection -------------------------------------------------------------------------------------------- */
 
-/* Lobes sharp and wide, with sums so far. Those of pixels that have none are as random. */
+/* Sharp and wide lobes, with previous sums. Pixels without lobes have random values too. */
 static void make_glossy(lmb_glossy *out, const trial *t, test_rng *r, uint32_t rare)
 {
     memset(out, 0, sizeof *out);
@@ -714,7 +715,8 @@ static void make_glossy(lmb_glossy *out, const trial *t, test_rng *r, uint32_t r
     make_sums(out->rgb, r);
 }
 
-/* The same light by every backend; and what lights none of `lit`'s pixels left its sum and all else as it was. */
+/* The light must be the same on every backend; emitters that light no pixel of `lit` must leave the sums and
+ * all other bytes unchanged. */
 static int same_glossy(const trial *t, const lmb_glossy *want, const lmb_glossy *got, const lmb_glossy *before,
                        uint64_t lit)
 {
@@ -751,7 +753,7 @@ static int trial_glossy_direct(const trial *t, test_rng r)
     return same_glossy(t, &want.it, &got.it, &before, before.pixels);
 }
 
-/* The emitters end where their memory ends. */
+/* The emitters end at the end of their memory. */
 static int trial_glossy_cut(const trial *t, test_rng r)
 {
     static GUARDED(lmb_glossy) want, got;
@@ -778,7 +780,7 @@ static int trial_glossy_cut(const trial *t, test_rng r)
 
 /* --- occlusion ---------------------------------------------------------------------------------------------------- */
 
-/* Planes through the pixels' own places now and then, so that sides are 0. */
+/* Some planes pass through the pixels' own positions, so that sides are 0. */
 static int trial_crossed(const trial *t, test_rng r)
 {
     static lmb_tile tile;
@@ -799,7 +801,7 @@ static int trial_crossed(const trial *t, test_rng r)
     return (want & ~pixels) == 0 && same_bytes(t, "pixels", &want, &got, sizeof want);
 }
 
-/* Points in the pixels' own planes along an axis now and then, so that differences are 0. */
+/* Some points lie in the pixels' own planes along an axis, so that differences are 0. */
 static int trial_segments(const trial *t, test_rng r)
 {
     static GUARDED(lmb_segments) want, got;
@@ -818,7 +820,7 @@ static int trial_segments(const trial *t, test_rng r)
            same_floats(t, "per", want.it.per[0], got.it.per[0], 3 * LMB_TILE_PIXELS);
 }
 
-/* Boxes of all sizes, some around the segments' common end, some without any thickness, some that hold nothing. */
+/* Boxes of all sizes, some around the segments' common end, some flat, some empty. */
 static void make_boxes(lmb_boxes *out, test_rng *r, lmb_vec3 end, uint32_t rare)
 {
     memset(out, 0, sizeof *out);
@@ -849,7 +851,7 @@ static int trial_through(const trial *t, test_rng r)
     return (want & ~pixels) == 0 && same_bytes(t, "pixels", &want, &got, sizeof want);
 }
 
-/* 1 / d, as large as it may be. */
+/* 1 / d, limited in size. */
 static float per(float d) { return 1.0f / (absf(d) < 1e-20f ? (d < 0.0f ? -1e-20f : 1e-20f) : d); }
 
 static int trial_meets(const trial *t, test_rng r)
@@ -869,7 +871,7 @@ static int trial_meets(const trial *t, test_rng r)
     return want >> LMB_BOXES == 0 && same_bytes(t, "boxes", &want, &got, sizeof want);
 }
 
-/* Along each axis forwards or backwards, or not at all. */
+/* Segments forwards or backwards along each axis; some have no extent in y. */
 static int trial_meets_one(const trial *t, test_rng r)
 {
     static lmb_boxes boxes;
@@ -927,7 +929,7 @@ static int trial_sun_crossed(const trial *t, test_rng r)
 
 /* --- many lights -------------------------------------------------------------------------------------------------- */
 
-/* Planes of nodes as far as kernels may read, and a tile's part that asks. */
+/* Planes of nodes of exactly the length that kernels may read, and the part of a tile that requests the bounds. */
 static int trial_many_lights_bounds(const trial *t, test_rng r)
 {
     enum { STEP = 64 };
@@ -1011,7 +1013,7 @@ static int trial_many_lights_irradiance(const trial *t, test_rng r)
 
 /* --- encode ------------------------------------------------------------------------------------------------------- */
 
-/* Around thresholds and anywhere, against the search through the table. */
+/* Values near thresholds and random ones, against a search through the table. */
 static int trial_encode(const trial *t, test_rng r)
 {
     lmb_radiance in;
@@ -1035,7 +1037,7 @@ static int trial_encode(const trial *t, test_rng r)
 
 enum { WORLD_FACE = 12, WORLD_GROUND = 20, WORLD_WORDS = 40000, PROBE_HEIGHT = 8, PROBE_COUNT = 128 };
 
-/* A world of random pictures, faces missing and ground blank now and then, in the middle of a guarded memory. */
+/* A world of random pictures between guard bytes; in some, faces are missing or ground is blank. */
 static int make_surroundings(lmb_world *out, uint32_t *memory, const trial *t, test_rng *r)
 {
     static float face[6][WORLD_FACE * WORLD_FACE * 3], ground[WORLD_GROUND * WORLD_GROUND * 4];
@@ -1094,7 +1096,7 @@ typedef struct probe_normals {
     float xyz[3][LMB_TILE_PIXELS];
 } probe_normals;
 
-/* Rays from all over, in the world and out of it, and the world alone, smoothly and by means. */
+/* Rays from inside and outside the world, and samples by direction only; some smoothed, some of means. */
 static int trial_see(const trial *t, test_rng r)
 {
     static uint32_t texels[WORLD_WORDS];
@@ -1172,7 +1174,7 @@ typedef struct probe_row {
     float v[32];
 } probe_row;
 
-/* Maps whose last column is where their memory ends. */
+/* The last column of the maps is at the end of their memory. */
 static int trial_blur(const trial *t, test_rng r)
 {
     static GUARDED(probe_row) want, got;
@@ -1203,7 +1205,7 @@ static int trial_blur(const trial *t, test_rng r)
 
 enum { TREE_VOXELS = 4689 + 8 * 200, TREE_DEPTH = 6, TREE_STEPS = 12 };
 
-/* A tree of random numbers: what lies in it need not be of any scene. */
+/* A tree of random numbers, which need not correspond to a scene. */
 typedef struct voxel_tree {
     float child[TREE_VOXELS], cover[TREE_VOXELS][LMB_VOXEL_COVER], light[TREE_VOXELS][LMB_VOXEL_LIGHT];
 } voxel_tree;
@@ -1230,7 +1232,7 @@ static void make_voxels(voxel_tree *v, test_rng *r)
     }
 }
 
-/* A depth below 6 cuts the same tree off, so that every level is the last of some tree. */
+/* A depth below 6 truncates the same tree, so that every level is the last in some case. */
 static int trial_cone(const trial *t, test_rng r)
 {
     static GUARDED(lmb_cone_seen) want, got;
@@ -1279,7 +1281,7 @@ static int trial_cone(const trial *t, test_rng r)
 
 enum { RELIEF_SIDE = 16 };
 
-/* Pixels near the cube around a sphere, or far from it, or nowhere. */
+/* Pixels near the cube around a sphere, far from it, or without a surface. */
 static void make_relief_tile(lmb_tile *tile, test_rng *r, uint32_t rare)
 {
     make_tile(tile, r, rare);
@@ -1344,7 +1346,7 @@ static void make_nodes(uint16_t node[NODES][4], const trial *t, test_rng *r)
     }
 }
 
-/* A weight of either sign out of what is left of the most that they may sum up to, all of it now and then. */
+/* A weight of either sign, from the remaining total of weights; sometimes all of the rest. */
 static uint32_t take_weight(uint32_t *left, test_rng *r)
 {
     const uint32_t size = test_random(r) % 20u == 0 ? *left : test_random(r) % (*left / 8u + 1u);
@@ -1354,7 +1356,7 @@ static uint32_t take_weight(uint32_t *left, test_rng *r)
 
 static int64_t signed_weight(uint32_t code) { return (int64_t)(code & 0x7fffu) - (int64_t)(code & 0x8000u); }
 
-/* Against sums of 64 bits, by scalar too. */
+/* Compares with sums of 64 bits, also for scalar. */
 static int trial_transfer_links(const trial *t, test_rng r)
 {
     static uint16_t node[NODES][4];
@@ -1491,7 +1493,7 @@ static int trial_transfer_halve(const trial *t, test_rng r)
     return 1;
 }
 
-/* The pixels' b1 and b2 of both, where `pixels` are. */
+/* Compares b1 and b2 at the given pixels. */
 static int same_weights(const trial *t, uint64_t pixels, float want[2][LMB_TILE_PIXELS],
                         float got[2][LMB_TILE_PIXELS])
 {
@@ -1563,7 +1565,7 @@ static int trial_transfer_leaf(const trial *t, test_rng r)
            same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
 
-/* --- all of them -------------------------------------------------------------------------------------------------- */
+/* --- all kernels -------------------------------------------------------------------------------------------------- */
 
 static const struct kernel {
     const char *name;

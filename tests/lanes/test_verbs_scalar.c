@@ -88,7 +88,7 @@ static void make_input(verb_input *in, test_rng *r)
     make_memory(in, r);
 }
 
-/* Every hard float with every other, in a and b. */
+/* Every combination of two hard floats, in a and b. */
 static void make_hard(verb_input *in, test_rng *r, uint32_t pair)
 {
     make_input(in, r);
@@ -107,7 +107,7 @@ static int same(uint32_t a, uint32_t b, int results)
     return a == b || (results == FLOAT && nan_a && nan_b);
 }
 
-/* 1, or 0 and a line that says where. */
+/* Returns 1, or 0 after printing the first difference. */
 static int same_output(const char *backend, uint32_t seed, const verb_input *in, const verb_output *want,
                        const verb_output *got)
 {
@@ -162,7 +162,7 @@ void verbs_compare(const char *backend, void (*run)(verb_output *out, const verb
     }
 }
 
-/* --- scalar itself, on what its comments promise ------------------------------------------------------------------ */
+/* --- the promises in the comments of the scalar lanes ------------------------------------------------------------- */
 
 static void test_rules(void)
 {

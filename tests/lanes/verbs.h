@@ -1,4 +1,4 @@
-/* verbs.h: every lane verb applied to one set of inputs: each backend's rows are held against scalar's. */
+/* verbs.h: every lane verb applied to one set of inputs; each backend's rows are compared with scalar's. */
 #ifndef TEST_VERBS_H
 #define TEST_VERBS_H
 
@@ -6,18 +6,18 @@
 
 #include "../../src/lane/backends.h"
 
-/* Pixels of an input, the widest backend's vector; as two rows in memory, values of both with what lies between. */
+/* Pixels of an input: the vector of the widest backend. As two rows in memory: the values of both and those between. */
 enum { VERB_LANES = 16, VERB_SURFACE = 22, VERB_TABLE = 40 };
 
 typedef struct verb_input {
-    float a[VERB_LANES], b[VERB_LANES], c[VERB_LANES]; /* anything at all */
+    float a[VERB_LANES], b[VERB_LANES], c[VERB_LANES]; /* any bits */
     float whole[VERB_LANES];                           /* in the range of int32 */
     float code[VERB_LANES];                            /* 0 .. 65535, whole */
-    int32_t i[VERB_LANES], j[VERB_LANES];              /* |i|, |j| < 2^30, and often equal */
+    int32_t i[VERB_LANES], j[VERB_LANES];              /* i|, |j| < 2^30, with many equal pairs */
     int32_t m[VERB_LANES], n[VERB_LANES];              /* |m n| < 2^31 */
     int32_t at[VERB_LANES];                            /* 0 .. VERB_TABLE - 1 */
     int32_t shift;                                     /* 0 .. 31 */
-    int32_t step;                                      /* from row to row: 8 or 11 */
+    int32_t step;                                      /* distance of rows: 8 or 11 */
     float table_f32[VERB_TABLE], surface_f32[VERB_SURFACE];
     uint16_t table_u16[VERB_TABLE], surface_u16[VERB_SURFACE];
     uint32_t surface_u32[VERB_SURFACE];
@@ -25,7 +25,7 @@ typedef struct verb_input {
     uint32_t bits, id;
 } verb_input;
 
-/* X(name, results): FLOAT: a NaN is any NaN, as processors differ in which one they make. */
+/* X(name, results): FLOAT: all NaNs are equal, because processors produce different ones. */
 #define VERBS(X) \
     X(splat, BITS) X(load, BITS) X(add, FLOAT) X(sub, FLOAT) X(mul, FLOAT) X(div, FLOAT) X(sqrt, FLOAT) X(min, BITS) \
     X(max, BITS) X(lt, BITS) X(le, BITS) X(pick, BITS) X(keep, BITS) X(mask_and, BITS) X(mask_or, BITS) \
@@ -42,7 +42,7 @@ enum {
     VERB_COUNT
 };
 
-/* Verbs of binary64, on sane values. */
+/* Verbs of binary64, on ordinary values. */
 enum { VERB_D_splat, VERB_D_add, VERB_D_sub, VERB_D_mul, VERB_D_div, VERB_D_from_int, VERB_D_load, VERB_D_COUNT };
 
 typedef struct verb_output {
@@ -53,12 +53,13 @@ typedef struct verb_output {
     double d[VERB_D_COUNT][VERB_LANES];
 } verb_output;
 
-/* verbs_sse2 ...: those of the build. */
+/* verbs_sse2 ...: the backends of the build. */
 #define VERBS_OF(upper, lower) void verbs_##lower(verb_output *out, const verb_input *in);
 LMB_BACKENDS(VERBS_OF)
 #undef VERBS_OF
 
-/* Inputs of hard and of random values; each backend's rows against scalar's. `run` is called only where it can run. */
+/* Runs hard and random inputs and compares each backend's rows with scalar's. `run` is called only if the
+ * backend runs on this processor. */
 void verbs_compare(const char *backend, void (*run)(verb_output *out, const verb_input *in));
 
 #endif

@@ -1,5 +1,5 @@
-/* verbs.inl: part of the checks of lanes (tests/lanes): one backend's verbs over one input. VERBS_RUN(name) is the
- * including file's, test_verbs_BACKEND.c. */
+/* verbs.inl: part of the checks of lanes (tests/lanes): one backend's verbs over one input. The including file,
+ * test_verbs_BACKEND.c, defines VERBS_RUN(name). */
 #include <string.h>
 
 #include "../../src/lane/lane.h"
@@ -18,7 +18,7 @@ static inline void put_lanei(uint32_t *row, lanei a)
     memcpy(row, v, sizeof v);
 }
 
-/* Masks have no common form in memory: what they pick is what counts. */
+/* Masks have no common form in memory, so the values picked by a mask are compared. */
 static inline void put_mask(uint32_t *row, lane_mask a)
 {
     put_lane(row, lane_pick(a, lane_splat(1.0f), lane_splat(-2.0f)));
@@ -99,7 +99,7 @@ static inline void run_doubles(verb_output *out, const verb_input *in, int k)
     put_lane(out->row[VERB_from_double] + k, lane_from_double(laned_mul(i, laned_splat(1.0 / 3.0))));
 }
 
-/* Three pairs of rows that hold each lane's values; what their sums are goes into one number. */
+/* Three pairs of rows with the values of all lanes; the sums are combined into one number. */
 static inline void run_sums(verb_output *out, const verb_input *in, int k)
 {
     for (int i = k; i < k + LANES; ++i) {

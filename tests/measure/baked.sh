@@ -1,20 +1,20 @@
-# baked.sh: baked light against path-traced truth, and what its frames take: a row a scene.
+# baked.sh: compares baked light with path-traced truth, and prints the frame times: one row a scene.
 #
-# SCENES: which of the shared folder's truth, and `demo` (default: all with bars below). TURN: degrees by which scene,
-# camera and lights are turned about (1, 2, 2) before they are baked. RUNS: frames of a moving light and camera, by one
-# thread; their least time counts, as a multiple of direct light's in the same run. FILES: the folder of .lmt files that
-# are there already (SCENE.lmt), else each is baked by the defaults. A row passes where it keeps its bars.
+# SCENES: scenes of the shared folder's truth, and `demo` (default: all with bars below). TURN: degrees by which scene,
+# camera and lights are turned about (1, 2, 2) before baking. RUNS: number of frames with a moving light and camera, on
+# one thread; the minimum time counts, relative to direct light in the same run. FILES: folder with finished .lmt files
+# (SCENE.lmt); by default each scene is baked with default options. A row passes if it meets its bars.
 #
-# A frame was to take 1.75 times as long as one by direct light, which took 12.6 ms in the Cornell box then. Direct light
-# takes 4.7 ms now, and that bar is missed: a line at the end says how often. A row fails by its frames where they take
-# longer beside direct light than results has it: over 3.5 times at 640x480, 6.5 times at 320x240.
+# The goal was 1.75 times the frame time of direct light, when direct light took 12.6 ms in the Cornell box. Direct
+# light takes 4.7 ms now, and that goal is missed; a line at the end counts the misses. The frame time of a row fails if
+# it exceeds the ratio in results: 3.5 at 640x480, 6.5 at 320x240.
 . tests/measure/draw.sh
 
 runs=${RUNS:-9}
 place=$work/baked
 mkdir -p "$place"
 
-# Of one bounce trim and rmse; MB; seconds of baking by all processors; of all further bounces trim.
+# Bars: trim and RMSE of one bounce; MB; seconds of baking on all processors; trim of all further bounces.
 bars_of() {
     case $1 in
     bunny_room) echo 0.055 0.15 24 30 ;;
@@ -23,7 +23,7 @@ bars_of() {
     esac
 }
 
-# The scene's file into $scene, turned where asked for.
+# Puts the scene's file into $scene, turned if TURN is set.
 place_scene() {
     scene=$1
     [ "$1" != demo ] || return 0
@@ -47,7 +47,7 @@ PYTHON
     scene=$place/$1/scene.gltf
 }
 
-# bake NAME: the file into $file, its figures into $baked and $seconds.
+# bake NAME: puts the file into $file, and its figures into $baked and $seconds.
 bake() {
     file=$place/$1.lmt seconds=-
     if [ -n "$FILES" ]; then
@@ -61,7 +61,7 @@ bake() {
     seconds=$(($(date +%s) - start))
 }
 
-# error NAME BOUNCES: `trim rmse mean leak` of bounced light, or of all light where BOUNCES is over 1.
+# error NAME BOUNCES: prints `trim rmse mean leak` of bounced light, or of all light if BOUNCES is over 1.
 error() {
     against=$truth/$1/pt_indirect1.pfm show=indirect
     [ "$2" = 1 ] || against=$truth/$1/pt_full.pfm show=full
@@ -72,7 +72,7 @@ error() {
         awk '{ for (i = 1; i < NF; ++i) v[$i] = $(i + 1); print v["trim"], v["rmse"], v["mean"], v["leak"] == "" ? "-" : v["leak"] }'
 }
 
-# least SIZE [OPTION...]: processor milliseconds of a whole frame.
+# least SIZE [OPTION...]: prints processor milliseconds of a whole frame.
 least() {
     size=$1
     shift
@@ -80,7 +80,7 @@ least() {
         awk '/^whole frame/ { print $6 }'
 }
 
-# frame_times SIZE: `direct baked ratio`.
+# frame_times SIZE: prints `direct baked ratio`.
 frame_times() {
     direct=$(least "$1" --show direct)
     echo "$direct $(least "$1" --transfer "$file")" | awk '{ printf "%.1f %.1f %.2f\n", $1, $2, $2 / $1 }'

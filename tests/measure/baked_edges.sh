@@ -1,9 +1,10 @@
-# baked_edges.sh: baked light on stairs, shelves and in attics, each turned at random, beside gathered light: a row a scene.
+# baked_edges.sh: compares baked with gathered light on stairs, shelves and in attics, each turned at
+# random: one row a scene.
 #
-# Both by their defaults, for one bounce, against `--quality best`. TUNED, HELD_OUT: which scenes of tests/scenes; no
-# constant is chosen by the latter. SIZE: pixels (default 64x64). A row passes where baked light's trim is within 1.5 x
-# that of gathered light and its leak is at most 2. `compare.py` of the shared folder defines both: leak is mean light over
-# mean truth where truth is under 1 % of its mean, and `-` where fewer than 21 pixels are so dark.
+# Both use defaults and one bounce; the reference is `--quality best`. TUNED, HELD_OUT: scenes of tests/scenes; no
+# constant is chosen on the latter. SIZE: pixels (default 64x64). A row passes if baked light's trim is within 1.5 x
+# that of gathered light and its leak is at most 2. `compare.py` of the shared folder defines both: leak is mean light
+# over mean truth at pixels whose truth is under 1 % of its mean; `-` if fewer than 21 pixels are so dark.
 . tests/measure/draw.sh
 
 compare=$truth/compare.py
@@ -11,7 +12,7 @@ place=$work/edges
 size=${SIZE:-64x64}
 mkdir -p "$place"
 
-# figures PICTURE: `trim leak`.
+# figures PICTURE: prints `trim leak`.
 figures() {
     python3 "$compare" "$1" "$place/best.pfm" |
         awk '{ for (i = 1; i < NF; ++i) v[$i] = $(i + 1); print v["trim"], v["leak"] == "" ? "-" : v["leak"] }'

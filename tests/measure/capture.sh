@@ -1,11 +1,11 @@
-# capture.sh: an object carried through scenes by what a few captured cubes show, against drawing it there.
+# capture.sh: compares an object lit by a few captured cubes with the object drawn in the scene.
 #
-# The object, a matte white cow of 1.2 m, stands at places of Sponza that no sun reaches. Drawn there: in the scene, two
-# bounces. Carried: lit by the one cube of the middle, or by three, with one bounce in them, so that both have the light
-# that left the sun two reflections before; and by three with --contact, so that it hides light from itself and from the
-# ground. A row has the RMSE of the object's pixels over their mean, that mean over the right one, and what a picture
-# takes, all told. The first path is the one that was looked at, the second was not. FRAME (default 160x120),
-# FACES (default 64).
+# The object, a matte white cow of 1.2 m, stands at places of Sponza that no sun reaches. Drawn in the scene, it gets
+# two bounces. Otherwise it is lit by the one cube in the middle or by three; the cubes contain one bounce, so that
+# both have light that was reflected twice. A third way adds --contact to three cubes, so that the object shadows
+# itself and the ground. A row has the RMSE of the object's pixels over their mean, that mean over the right one, and
+# the total time of a picture. The first path was inspected during development, the second was not. FRAME (default
+# 160x120), FACES (default 64).
 . tests/scripts/checks.sh
 
 shared=${LMB_SHARED:-../shared}
@@ -16,7 +16,7 @@ mkdir -p "$work"
     { skip "no shared folder"; finish; }
 sun='--light sun:0,0,0:0.3234507,-0.924145,0.2033119:10,9.6,8.8'
 
-# The cow with its feet in the middle of y = 0, 1.2 m long; and behind the scene's own vertices.
+# Writes the cow with its feet in the middle of y = 0, 1.2 m long; also appended to the scene's own vertices.
 cow() {
     awk -v x="$1" -v y="$2" -v z="$3" -v before="$4" '
         NR == FNR { if ($1 == "v") { for (i = 2; i <= 4; ++i) { if (!n || $i < low[i]) low[i] = $i; if (!n || $i > high[i]) high[i] = $i } n = 1 } next }
@@ -41,7 +41,7 @@ carried() {
         --size "$size" ${6:-} -q -o "$1"
 }
 
-# path NAME Y HEIGHT CENTRES -- X,Z ...: cubes at X,HEIGHT,Z of the centres.
+# path NAME Y HEIGHT CENTRES -- X,Z ...: captures cubes at X,HEIGHT,Z of the centres.
 path() {
     name=$1 y=$2 height=$3 faces=${FACES:-64}
     shift 3

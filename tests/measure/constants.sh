@@ -1,16 +1,16 @@
-# constants.sh: constants of tools/mix by half and by twice, on made rooms that chose none of them.
+# constants.sh: measures with constants of tools/mix halved and doubled, on generated rooms that chose none of them.
 #
-#     constants.sh FIRST COUNT FIRST COUNT [NAME]...    two columns: numbers of rooms; all constants, or some
+#     constants.sh FIRST COUNT FIRST COUNT [NAME]...    two columns: numbers of rooms; default: all constants
 #
-# ROOMS_OBJ and SUN_OBJ: what measure-rooms and measure-sun are linked from. The source of a constant is compiled anew
-# with it changed, and linked in place of its own. A line a value: what the measure says of either column.
+# ROOMS_OBJ and SUN_OBJ: the objects of measure-rooms and measure-sun. The script recompiles the source of a constant
+# with a new value and links it in place of the original. It prints one line a value: the summaries of both columns.
 set -eu
 work=$B/constants/$$
 mkdir -p "$work" "$B/rooms" "$B/suns"
 columns="$1 $2 $3 $4"
 shift 4
 
-# linked OUT SOURCE VALUE OBJECTS...: a measure whose constant $name is VALUE.
+# linked OUT SOURCE VALUE OBJECTS...: links a measure with VALUE for the constant $name.
 linked() {
     out=$1 file=$2 changed=$3
     shift 3
@@ -29,7 +29,7 @@ linked() {
     $CC $FLAGS -o "$out" $others -lm -lpthread
 }
 
-# told NAME VALUE MEASURE: its summaries alone; what it says where it fails.
+# told NAME VALUE MEASURE: prints only the summaries, or everything if the measure fails.
 told() {
     case $3 in
     rooms) set -- "$1" "$2" "$B/rooms" metal ;;

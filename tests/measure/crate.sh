@@ -1,8 +1,8 @@
-# crate.sh: what a moving object takes of baked light that it should block and reflect: a crate in a closed room.
+# crate.sh: measures how baked light misses the shadow and reflection of a moving object: a crate in a closed room.
 #
-# The crate stands at three places, and last out of the room, which shows the error of the room's own light. A row has
-# the whole picture's trim and rmse, bounced light against the best settings with the crate in place. FRAME (default
-# 160x120).
+# The crate is put at three places, and finally outside the room, which shows the error of the room's own light. A
+# row has the whole picture's trim and RMSE, bounced light against the best settings with the crate in place.
+# FRAME (default 160x120).
 . tests/scripts/checks.sh
 
 work=$B/measure/crate

@@ -153,7 +153,7 @@ def judge(tool, model, stem):
 
     alone = ['--show', 'depth', '--ground', 'none', '--world', 'none']
     said = draw('.pfm', *alone)
-    width, height, _ = pfm_of(stem + '.pfm')  # as it is without --size
+    width, height, _ = pfm_of(stem + '.pfm')  # default size, without --size
     scale = max(width / WIDTH, height / HEIGHT)
     width, height = round(width / scale), round(height / scale)
     size = ['--size', '%dx%d' % (width, height)]

@@ -1,15 +1,15 @@
-# draw.sh: what truth.sh and times.sh share: a truth scene drawn by the tool, its stats and user seconds.
+# draw.sh: shared by truth.sh and times.sh: draws a truth scene with the tool, and reads its stats and user seconds.
 . tests/scripts/checks.sh
 
 truth=${LMB_SHARED:-../shared}/truth
 work=$B/measure
 mkdir -p "$work"
 
-# truth_scenes [SET]: those of tests/truth/truth_scenes.inc.
+# truth_scenes [SET]: prints the scenes of tests/truth/truth_scenes.inc.
 truth_scenes() { sed -n "s/^TRUTH_SCENE(\([a-z_]*\),.* ${1:-[a-z]*})/\1/p" tests/truth/truth_scenes.inc; }
 
-# draw SCENE QUALITY THREADS WxH SHOW: light gathered as GATHER says (default full: at each pixel). Fails where the tool does. Leaves drawn.pfm, stats.json, user, and in `said` what
-# went wrong.
+# draw SCENE QUALITY THREADS WxH SHOW: draws with --gather GATHER (default full: at each pixel). Fails if the tool
+# fails. Leaves drawn.pfm, stats.json, user, and the error message in `said`.
 draw() {
     (
         "$TOOL" render "$truth/$1/scene.gltf" -o "$work/drawn.pfm" --quality "$2" --threads "$3" --size "$4" \
@@ -18,7 +18,7 @@ draw() {
     ) && awk 'NR == 2 { split($1, t, "m"); printf "%.2f\n", 60 * t[1] + t[2] }' "$work/times" >"$work/user"
 }
 
-# figure KEY: the first number of that name in the stats; a stage's seconds stand before counts of the same name.
+# figure KEY: prints the first number of that name in the stats; a stage's seconds come before counts of the same name.
 figure() { sed -n "s/.*\"$1\": \([0-9.]*\).*/\1/p" "$work/stats.json" | head -n 1; }
 
 [ -f "$truth/compare.py" ] || { skip "$truth is not there (LMB_SHARED names its folder)"; finish; }

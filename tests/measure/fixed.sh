@@ -1,10 +1,10 @@
-# fixed.sh: the room by integers against lmb_render's best settings, 320 x 240: frames 0, 30 and 59 of its path; and other
-# scenes with a camera and a light of their own (SCENES). B TOOL in the environment. Minutes a scene.
+# fixed.sh: compares the integer renderer with lmb_render's best settings, 320 x 240: frames 0, 30 and 59 of the room's
+# path, and other scenes with one camera and one light (SCENES). Needs B and TOOL in the environment. Minutes a scene.
 set -e
 shared=${LMB_SHARED:-../shared}
 program=$B/measure-fixed
 
-# truth SCENE FRAME FOLDER: pictures by 1 and 3 reflections, all light and what is thrown back.
+# truth SCENE FRAME FOLDER: draws pictures with 1 and 3 reflections, all light and only bounced light.
 truth() {
     options=$("$program" options "$1" "$2")
     for bounces in 1 3; do

@@ -1,11 +1,11 @@
-# front.sh: one front of speed against error: gathering at every pixel and at fewer, baked light, and path tracing.
+# front.sh: plots speed against error: light gathered at every pixel and at fewer, baked light, and path tracing.
 #
-# SCENES: which (default cornell corridor bunny_room sponza). SETTINGS: which rows (default: all below). LMT: the folder
-# with NAME.lmt, and NAME-*.lmt by other --error, if there are any (default $B/measure). RUNS: the least of so many
-# (default 1) first frames of a process, processor time of one thread, one bounce alone, against path-traced truth at
-# its size. Rows (scene, setting, milliseconds, trim) add up in $B/measure/front.csv from run to run; the last one of a
-# setting counts. tests/results/live.svg is drawn of all rows, with path tracing by Embree's figures, which were measured
-# once, by AVX-512. SCENES= draws it alone.
+# SCENES: scenes (default cornell corridor bunny_room sponza). SETTINGS: rows (default: all below). LMT: the folder with
+# NAME.lmt, and NAME-*.lmt for other values of --error, if any (default $B/measure). RUNS: number of runs (default 1);
+# each measures the first frame of a process, and the minimum counts. Times are processor time of one thread for only
+# one bounce, against path-traced truth of the same size. Rows (scene, setting, milliseconds, trim) are appended to
+# $B/measure/front.csv; the last row of a setting counts. The script draws tests/results/live.svg from all rows. Figures
+# of path tracing with Embree were measured once, with AVX-512. With SCENES= the script only draws the picture.
 . tests/measure/draw.sh
 
 folder=${LMT:-$work}
@@ -20,7 +20,7 @@ options_of() {
     esac
 }
 
-# Milliseconds and trim of one setting.
+# Measures milliseconds and trim of one setting.
 measure() {
     options=$(options_of "$2")
     size=$(dd if="$truth/$1/pt_indirect1.pfm" bs=32 count=1 2>/dev/null | sed -n '2s/ /x/p')
@@ -48,11 +48,11 @@ print("0 camera", *(",".join(map(str, c[k])) for k in ("eye", "target")))' "$tru
     done
 done
 
-# The picture, a panel a scene.
+# Draws the picture, one panel a scene.
 python3 - "$rows" tests/results/live.svg <<'PYTHON' && pass || fail "no picture"
 import math, sys
 names = {'cornell': 'Cornell box', 'corridor': 'two rooms', 'bunny_room': 'bunny in a room', 'sponza': 'Sponza'}
-traced = {  # ms to a trim: plain, with more connections of light, with those and a denoiser
+traced = {  # ms to a trim: plain, with more light connections, with those and a denoiser
     'cornell': {'PT': [(8003, .05), (28189, .02)], 'PT, MIS': [(1734, .05), (5214, .02)],
                 'denoised': [(129, .05), (558, .02)]},
     'corridor': {'PT': [(1856, .05), (5192, .02)], 'PT, MIS': [(668, .05), (1669, .02)],

@@ -1,13 +1,13 @@
-# full.sh: all light against the path-traced truth: every scene that has pt_full.pfm by `--quality default --bounces 6`.
+# full.sh: compares all light with path-traced truth: every scene with pt_full.pfm, by `--quality default --bounces 6`.
 #
-# SCENES, QUALITY, BOUNCES: which. LMB_SHARED: the folder with truth/ (default ../shared). A row passes where trim keeps
-# its bar and the mean of the whole lies in 0.97 .. 1.03; beside it the mean of the later part alone, what is reflected
-# more than once: (all - one bounce) of the picture against the truth's.
+# SCENES, QUALITY, BOUNCES select the work. LMB_SHARED: the folder with truth/ (default ../shared). A row passes if trim
+# meets its bar and the mean of the whole lies in 0.97 .. 1.03. The row also has the mean of only the later bounces:
+# (all - one bounce) of the picture against that of the truth.
 . tests/measure/draw.sh
 
 size_of() { dd if="$1" bs=32 count=1 2>/dev/null | sed -n '2s/ /x/p'; }
 
-# Mean later light of picture ALL minus ONE, in shares of the truth's, where there is a surface.
+# Mean later light of picture ALL minus ONE, relative to the truth's, over pixels with a surface.
 later() {
     python3 - "$1" "$2" "$3" <<'PYTHON'
 import array, os, sys
@@ -32,7 +32,7 @@ print('%.3f' % (sum(a[i] - b[i] for i in on) / sum(truth[i] - less[i] for i in o
 PYTHON
 }
 
-# draw.sh draws without further options: as it does, here with those of bounces.
+# Like draw of draw.sh, but with options for bounces.
 draw_bounces() {
     "$TOOL" render "$truth/$1/scene.gltf" -o "$2" --quality "${QUALITY:-default}" --threads 1 --size "$3" --show full \
         --bounces "$4" --stats "$work/stats.json" >"$work/said" 2>&1

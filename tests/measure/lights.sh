@@ -1,9 +1,10 @@
-# lights.sh: measure-lights on scenes with known truth: baked light by lights that baking did not know, a row a scene.
+# lights.sh: runs measure-lights on scenes with known truth: baked light with lights unknown at
+# bake time, one row a scene.
 #
-# SCENES: which, and `demo` (default: all with bars below). LMT: the folder with NAME.lmt, baked where it is not there
-# (default $B/measure). FRAME: its size (default 160x120). OPTIONS: instead of baked light, say "--gather adaptive".
-# LMB_SHARED: the folder with truth/ (default ../shared). Each light's own line goes to $B/measure/lights.NAME. A row
-# passes where the mean trim over all lights keeps the bar, and the worst twice of it.
+# SCENES: scenes, and `demo` (default: all with bars below). LMT: the folder with NAME.lmt, baked if missing (default
+# $B/measure). FRAME: size (default 160x120). OPTIONS: instead of baked light, say "--gather adaptive". LMB_SHARED: the
+# folder with truth/ (default ../shared). Each light's own line goes to $B/measure/lights.NAME. A row passes if the mean
+# trim over all lights meets the bar, and the worst trim twice the bar.
 . tests/measure/draw.sh
 
 folder=${LMT:-$work}

@@ -1,12 +1,13 @@
-/* main_contact.c: what objects take from the ground and from each other by `lambent relight --contact`, against
- * path-traced pictures.
+/* main_contact.c: measures how `lambent relight --contact` darkens the ground and neighbouring objects,
+ * against path-traced pictures.
  *
  *     measure-contact FOLDER MAP [TURN [MODEL]]
  *
- * Pictures are left in FOLDER; MAP is a sphere's picture, twice as wide as high, turned by so many degrees. A ball, a box
- * and a ring, or a model, 1 m in size, matte, stand on an endless matte ground under its upper half. Truth: all light of up
- * to five reflections. Figures: the ground's change by the objects, RMSE over the root mean square of the true one, and
- * over its mean; the objects, RMSE over their mean; each without --contact and with it, and without the truth's own noise. */
+ * Writes pictures to FOLDER. MAP is a sphere's picture, twice as wide as high; TURN turns it, in degrees. A ball, a box
+ * and a ring (or a model), matte and 1 m in size, stand on an endless matte ground under the upper half of the map. The
+ * truth has up to five reflections. Figures, each with and without --contact and with the truth's noise removed: for
+ * the ground, the RMSE of the change that the objects cause, over the root mean square of the true change and over the
+ * ground's mean; for the objects, RMSE over their mean. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,14 +33,14 @@ typedef struct stage {
     made_scene scene;
     path_tracer tracer;
     stored_picture map;
-    double *sums;      /* of the light of its pixels up to each one */
-    int drawn; /* so many pictures: what was read is not written again */
-    double plain[3];   /* the ground's radiance where nothing stands */
-    float truth[HALVES][3 * PIXELS]; /* of other paths each */
+    double *sums;      /* running sum of the light of the pixels */
+    int drawn; /* number of pictures; kept pictures are not written again */
+    double plain[3];   /* the ground's radiance without objects */
+    float truth[HALVES][3 * PIXELS]; /* two halves with different paths */
     int8_t seen[PIXELS]; /* material; -1: the map */
 } stage;
 
-/* --- what stands there -------------------------------------------------------------------------------------------- */
+/* --- the objects -------------------------------------------------------------------------------------------------- */
 
 static void add(made_scene *s, svec a, svec b, svec c, int material)
 {
@@ -92,7 +93,7 @@ static void add_box(made_scene *s, int n, int material)
     }
 }
 
-/* Its longest side is 1 m; it stands at 0, 0, 0. */
+/* Scales the longest side to 1 m and places the model at 0, 0, 0. */
 static int add_model(made_scene *s, const char *path)
 {
     model m;
@@ -147,7 +148,7 @@ static int build(made_scene *s, const char *model_path)
 
 /* --- truth -------------------------------------------------------------------------------------------------------- */
 
-/* About the vertical: its columns move. */
+/* Turns the map about the vertical by moving columns. */
 static int turn_map(image *map, double degrees)
 {
     const size_t w = (size_t)map->width, by = (size_t)(degrees / 360.0 * (double)w + 0.5) % w;
@@ -166,7 +167,7 @@ static double random_of(test_rng *r) { return test_random(r) * (1.0 / 4294967296
 
 static const float *map_pixel(const stage *s, int i) { return s->map.light.pixels + 3 * (size_t)i; }
 
-/* The upper half alone gives light: its pixels' solid angles, and what the ground takes of it. */
+/* Only the upper half emits light. Sums the power of each pixel, and the irradiance of the ground. */
 static int sum_map(stage *s)
 {
     const int w = s->map.width, half = w * s->map.height / 2;
@@ -188,7 +189,8 @@ static int sum_map(stage *s)
     return s->sums != NULL && sum > 0.0;
 }
 
-/* Longitude from -180 degrees, north on top, as relight has it: a = atan2(x, -z). */
+/* Picks a direction in proportion to power. Longitude as in relight: a = atan2(x, -z), from
+ * -180 degrees, north on top. */
 static void pick(svec *to, double weight[3], const stage *s, double wanted, test_rng *r)
 {
     const int w = s->map.width, half = w * s->map.height / 2;
@@ -225,7 +227,7 @@ static int meet(const stage *s, path_point *out, svec from, svec along)
     return hit;
 }
 
-/* What a place reflects of the map's light, by one of its rays. */
+/* Adds the map's light that a point reflects, sampled by one shadow ray. */
 static void add_sky(double rgb[3], const stage *s, const path_point *p, const double share[3], double wanted,
                     test_rng *r)
 {
@@ -240,7 +242,7 @@ static void add_sky(double rgb[3], const stage *s, const path_point *p, const do
     }
 }
 
-/* The k-th path: its first rays are the k-th of as many parts of all. */
+/* Traces the k-th path; its first rays use the k-th stratum. */
 static void trace(double rgb[3], const stage *s, path_point p, int k, test_rng *r)
 {
     double share[3] = {1, 1, 1};
@@ -285,7 +287,7 @@ static void trace_picture(stage *s, int half_of)
     }
 }
 
-/* --- what relight reads ------------------------------------------------------------------------------------------- */
+/* --- the input of relight ----------------------------------------------------------------------------------------- */
 
 static int write_floats(const char *path, int width, int height, const float *rgb)
 {
@@ -322,7 +324,7 @@ static int write_objects(const stage *s, const char *folder)
     return m != NULL && f != NULL && (fclose(m) == 0) + (fclose(f) == 0) == 2;
 }
 
-/* The map's lower half is the ground, far away. */
+/* The map's lower half becomes the ground, far away. */
 static int write_world(stage *s, const char *folder)
 {
     char path[600];
@@ -340,7 +342,7 @@ static int write_world(stage *s, const char *folder)
     return ok && write_floats(path, 8, 8, ground);
 }
 
-/* The objects where they are: the middle of their box's bottom. */
+/* Places the objects by the middle of the bottom of their bounding box. */
 static int relight(stage *s, const char *folder, const char *contact, image *out)
 {
     char world[600], ground[600], object[600], at_text[80], drawn[600];
@@ -368,7 +370,7 @@ typedef struct figure {
     double rms, mean, object;
 } figure;
 
-/* Squares are products of what two halves of the paths say, whose noise has a mean product of 0. */
+/* Multiplies the two halves of the paths instead of squaring one: the product of independent noise has mean 0. */
 static figure judge(const stage *s, const float *ours)
 {
     double wrong = 0.0, change = 0.0, size = 0.0, object = 0.0, mean = 0.0;

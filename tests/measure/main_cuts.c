@@ -1,13 +1,13 @@
-/* main_cuts.c: what cuts save: brute force, which takes every lit texel of a 1024 x 1024 map for every pixel, against
- * each preset's cut of the same map, on some tiles of truth scenes. [V27]
+/* main_cuts.c: compares each preset's cut with brute force, which uses every lit texel of a 1024 x 1024 map for every
+ * pixel, on some tiles of truth scenes. [V27]
  *
  *     measure-cuts [STEP [SCENE...]] every STEP-th tile in reading order (default 17, which no row of tiles is a
  *                                    multiple of); cornell and sponza
  *
- * Brute force is a strong one: texels that face away are not asked, a tile's pixels ask for their 64 segments together,
- * and kernels take what is seen. Its `pairs` are pixels x lit texels, a cut's the pixels with the nodes that they see;
- * `seen` are pairs that see each other, for both. Seconds are of one core, of the chosen tiles alone, without the map.
- * `added` is the cut's trim against truth less brute force's, `from brute` its trim against brute force.
+ * Brute force is a strong baseline: texels that face away are culled, a tile's pixels test 64 segments at once, and
+ * kernels process the visible pairs. `pairs` counts pixels x lit texels for brute force, and pixels x visible nodes for
+ * a cut; `seen` counts mutually visible pairs for both. Seconds are those of one core for the chosen tiles, without the
+ * map. `added` is the cut's trim against truth minus that of brute force; `from brute` is its trim against brute force.
  * Default and best pass with 1/100 of the pairs and at most 0.02 added. */
 #include <math.h>
 #include <stdlib.h>
@@ -42,11 +42,11 @@ typedef struct work {
     lmb_frame frame;
     lmb_render render;
     lmb_band_scratch scratch;
-    image truth, surface; /* surface: the truth's depth, cleared off the chosen tiles */
+    image truth, surface; /* surface: depth of the truth, cleared outside the chosen tiles */
     float *brute, *cut;   /* radiance, three a pixel */
     texel_quad *texel;
     int texels, step;
-    void *memory[8]; /* all that was taken */
+    void *memory[8]; /* all allocations */
     int taken;
 } work;
 
@@ -103,7 +103,7 @@ static void set_frame(work *w)
     CHECK(lmb_surface_init(&f->out, LMB_RGB32F, width, height, w->cut, pixels) == LMB_OK);
 }
 
-/* The light tree and the view. */
+/* Builds the light tree and the view. */
 static int solve(work *w)
 {
     lmb_status status = lmb_render_begin(&w->render, &w->frame);
@@ -128,7 +128,7 @@ static void close_scene(work *w)
 
 /* --- a tile by brute force ---------------------------------------------------------------------------------------- */
 
-/* A tile's box, and emitters that wait for the kernel. */
+/* A tile's box, and emitters that are queued for the kernel. */
 typedef struct gatherer {
     const work *w;
     const lmb_tile *tile;
@@ -149,7 +149,7 @@ static void flush(gatherer *g)
 
 static float gap(float apart, float half) { return absf(apart) > half ? absf(apart) - half : 0.0f; }
 
-/* Does the texel's shape count for some pixel? */
+/* Returns whether the texel's shape matters for some pixel. */
 static int is_near(const gatherer *g, const texel_quad *q)
 {
     const lmb_vec3 to = sub3(q->n.centre, g->middle);
@@ -157,7 +157,7 @@ static int is_near(const gatherer *g, const texel_quad *q)
     return dot3(apart, apart) < q->near2;
 }
 
-/* Pixels before the texel that have it before them. */
+/* Returns the pixels that lie in front of the texel and face it. */
 static uint64_t facing(const gatherer *g, const texel_quad *q)
 {
     uint64_t out = 0;
@@ -255,7 +255,7 @@ static void store(float *out, const work *w, const lmb_irradiance *light, int32_
     CHECK(lmb_store_tile(&to, w->frame.kernels, 0, 0, &radiance, x0, y0, 0.0f) == LMB_OK);
 }
 
-/* By a cut, or with `how` NULL by brute force. */
+/* Gathers by a cut; if `how` is NULL, by brute force. */
 static counts gather_tiles(work *w, float *out, const lmb_frame *how)
 {
     const lmb_view *v = &w->frame.view;
@@ -279,7 +279,7 @@ static counts gather_tiles(work *w, float *out, const lmb_frame *how)
     return sum;
 }
 
-/* Leave only the chosen tiles' pixels to the figures. */
+/* Excludes all other pixels from the figures. */
 static void mask_others(work *w)
 {
     const int32_t across = (w->truth.width + LMB_TILE - 1) / LMB_TILE;
@@ -313,7 +313,7 @@ static void tell(const work *w, const char *name, const counts *sum, double trim
            sum->seconds, trim);
 }
 
-/* A quality's error and visibility: lmb_frame_init sets them. */
+/* The error and visibility limits of a quality, from lmb_frame_init. */
 static lmb_frame frame_of(const work *w, int32_t quality)
 {
     lmb_frame_settings s;

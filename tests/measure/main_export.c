@@ -1,10 +1,11 @@
-/* main_export.c: the files of `lambent relight` for other programs against sums over all pixels of the world's picture.
+/* main_export.c: checks the files that `lambent relight` exports for other programs against sums over all
+ * pixels of the world's picture.
  *
  *     measure-export FOLDER MAP
  *
- * MAP is a sphere's picture, twice as wide as high; files are left in FOLDER. Figures, relative RMSE: each cube of --lobes
- * over some of its texels; irradiance of 6 x 8 x 8 normals by --cube and by the sum of --harmonics; the table of --dfg
- * over a plain sum of 1024 x 1024 directions. */
+ * MAP is a sphere's picture, twice as wide as high; the files are written to FOLDER. Figures are relative RMSE: each
+ * cube of --lobes at some of its texels; irradiance of 6 x 8 x 8 normals by --cube and by the sum of --harmonics; the
+ * table of --dfg against a plain sum of 1024 x 1024 directions. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,14 +40,14 @@ static vec texel(int32_t n, int32_t i)
     return unit(to[i / (n * n)]);
 }
 
-/* The weight of light from a direction at this cosine to the normal. */
+/* Weight of light from a direction with this cosine to the normal. */
 static double lobe_weight(double cosine, double alpha)
 {
     const double a2 = alpha * alpha, nh2 = 0.5 * (1.0 + cosine), d = nh2 * (a2 - 1.0) + 1.0;
     return alpha < 0.0 ? cosine : cosine / (d * d * (cosine + sqrt(cosine * cosine * (1.0 - a2) + a2)));
 }
 
-/* alpha < 0: irradiance; else the mean over a lobe. */
+/* Irradiance if alpha < 0, else the mean over a lobe. */
 static void gather(double out[3], const image *map, vec n, double alpha)
 {
     double all = 0.0;
@@ -166,7 +167,7 @@ static int irradiance(const char *folder, const image *map)
     return 1;
 }
 
-/* The lobe's reflection of white light, F0 1 in [0] and 0 in [1]: a sum over directions. */
+/* The lobe's reflection of white light as a sum over directions: F0 is 1 for [0] and 0 for [1]. */
 static void reflect_white(double out[2], double facing, double alpha)
 {
     const double a2 = alpha * alpha;
@@ -196,7 +197,7 @@ static int table(const char *folder)
     if (!pfm_file(&dfg, name)) {
         return 0;
     }
-    for (int32_t i = 0; i < 100; ++i) { /* from roughness 0.4 on a plain sum is exact */
+    for (int32_t i = 0; i < 100; ++i) { /* from roughness 0.4 on, a plain sum is exact */
         const int32_t x = 12 * (i % 10) + 5, y = DFG * 4 / 10 + 7 * (i / 10);
         const double roughness = (y + 0.5) / DFG;
         double want[2];

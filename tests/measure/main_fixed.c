@@ -1,13 +1,12 @@
-/* main_fixed.c: light by vertex in integers: makes the demo's blob, pictures of the room, and its error against
- * lmb_render.
+/* main_fixed.c: light at vertices in integers. Makes the demo's blob and pictures of the room, and measures the
+ * error against lmb_render.
  *
  *     measure-fixed write OUT.inc [VERTICES ELEMENTS LINKS PLACES]
- *                                      the demo's blob, as the numbers of a C array; the room's by its own numbers
+ *                                      the demo's blob as a C array; default: the settings of the ports' room
  *     measure-fixed picture N OUT.png  frame N of the room, 320 x 240
  *     measure-fixed options SCENE FRAME   the frame's camera and lamp as options of `lambent render`
  *     measure-fixed errors SCENE FOLDER GAIN [VERTICES ELEMENTS LINKS PLACES]
- *                                      against FOLDER/FRAME_bBOUNCES_direct|full|indirect.pfm; GAIN keeps all below white
- */
+ *                                      against FOLDER/FRAME_bBOUNCES_direct|full|indirect.pfm; GAIN avoids clipping */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -91,7 +90,7 @@ static int picture(int32_t frame, const char *path, report *r)
 
 static int32_t whole(double v) { return (int32_t)floor(v + 0.5); }
 
-/* A camera and a light in a blob's units; `gain`: of what is shown, so that nothing is beyond white. */
+/* Sets a camera and a light in a blob's units. `gain` scales the light so that no pixel exceeds white. */
 static void set_frame(lmb_fixed_frame *f, const lmb_view *v, const lmb_light *l, double gain)
 {
     const lmb_fixed *s = f->scene;
@@ -133,7 +132,7 @@ static void room_frame(lmb_view *v, lmb_light *l, int32_t n)
     lmb_view_look_at(v, eye, to, up, 0.872664626f, WIDTH, HEIGHT);
 }
 
-/* As options of the tool. */
+/* Prints the frame as options of the tool. */
 static void say_frame(const lmb_view *v, const lmb_light *l)
 {
     printf("--eye %.6f,%.6f,%.6f --target %.6f,%.6f,%.6f --fov %.6f --light %s:%.6f,%.6f,%.6f:%.6f,%.6f,%.6f:%g,%g,%g",
@@ -168,7 +167,7 @@ static int load(subject *s, const char *name, report *r)
     return s->is_demo || model_load(&s->m, name, NULL, &notes, r);
 }
 
-/* A scene of a file has its own camera and light alone, whatever the frame. */
+/* A scene from a file has one camera and one light, so all frames are equal. */
 static int pose(lmb_view *v, lmb_light *l, const subject *s, int32_t frame, report *r)
 {
     if (s->is_demo) {
@@ -185,7 +184,7 @@ static int pose(lmb_view *v, lmb_light *l, const subject *s, int32_t frame, repo
     return 1;
 }
 
-/* What `bounces` show is added, times a sign. */
+/* Adds `sign` times the picture with `bounces`. */
 static int draw_linear(float *out, lmb_fixed_frame *f, int32_t bounces, float sign, double gain, report *r)
 {
     f->bounces = bounces;
@@ -199,7 +198,7 @@ static int draw_linear(float *out, lmb_fixed_frame *f, int32_t bounces, float si
     return 1;
 }
 
-/* Against FOLDER/FRAME_bBOUNCES_WHAT.pfm; where that is not, nothing. */
+/* Compares with FOLDER/FRAME_bBOUNCES_WHAT.pfm, if the file exists. */
 static int compare(lmb_fixed_frame *f, const char *folder, int32_t frame, int32_t bounces, const char *what, double gain,
                    report *r)
 {
@@ -280,7 +279,7 @@ static int say_options(const subject *s, int32_t frame, report *r)
 
 /* --- */
 
-/* The ports' room: chosen by what it costs on consoles and looks like there, so by the demo alone. */
+/* The ports' room. Chosen only on the demo, by its cost and looks on consoles. */
 static const vertex_light_options room_options = {560, 192, 20, 512};
 
 static void set_options(vertex_light_options *o, char **at)

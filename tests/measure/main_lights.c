@@ -1,12 +1,13 @@
-/* main_lights.c: baked light by lights that baking did not know: measure-lights SCENE [options of `lambent play`]
+/* main_lights.c: measures baked light with lights that were unknown at bake time: measure-lights SCENE
+ * [options of `lambent play`]
  *
- * Twenty lights by a fixed seed, one at a time. A light stands at a place of the scene's box that can be reached: the eye
- * or a place before sees it, and it sees some way around itself; so none stands inside a solid. Kinds take turns: point,
- * spot, sun; a sun shines on such a place, and where walls let none in, it is a spot. Directions are even over the
- * sphere. Powers are even by their logarithm over two decades.
- * Each is drawn by the options and by the best settings. Errors are shares of that picture's mean, or of 5 % of the
- * median of such means where that is more. The last line has the means over all lights, the worst, and how many lights
- * were under those 5 %. */
+ * Draws twenty lights from a fixed seed, one at a time. A light is placed at a reachable point of the scene's box:
+ * visible from the eye or an earlier point, with free space around, so that no light lies inside a solid. Kinds
+ * take turns: point, spot, sun. A sun shines on such a point; if walls block every sun direction, a spot replaces
+ * the sun. Directions are uniform over the sphere. Powers are log-uniform over two decades. Each light is drawn
+ * with the options and with the best settings. An error is divided by the mean of the best picture, or by 5 % of
+ * the median of these means if that is larger. The last line has the means over all lights, the worst, and how many
+ * lights were under those 5 %. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,8 +22,8 @@
 int test_passed, test_failed, test_skipped;
 
 enum { LIGHTS = 20, SEED = 1, TRIES = 64, AROUND = 26, PATIENCE = 100000 };
-#define ROOM 0.02f /* of the box's diagonal: so far a light sees on all sides */
-#define FAR  0.25f /* of it: where a light of middling power gives 1 W/m2 */
+#define ROOM 0.02f /* of the box's diagonal: free distance around a light */
+#define FAR  0.25f /* of the diagonal: distance at which a light of medium power gives 1 W/m2 */
 #define DIM  0.05  /* of the median of means */
 
 typedef struct drawn {
@@ -33,7 +34,7 @@ typedef struct drawn {
 typedef struct dice {
     test_rng rng;
     play_space space;
-    lmb_vec3 low, size, place[LIGHTS + 1]; /* the eye, then a light's place each */
+    lmb_vec3 low, size, place[LIGHTS + 1]; /* the eye, then one place per light */
     int places;
     float diagonal;
 } dice;
@@ -47,7 +48,7 @@ static lmb_vec3 any_direction(test_rng *rng)
     return vec3(flat * cosf(turn), flat * sinf(turn), z);
 }
 
-/* Does it see the corners, edges and faces of a cube around it? */
+/* Returns whether the corners, edges and faces of a cube around the point are visible from the point. */
 static int has_room(dice *d, lmb_vec3 at)
 {
     lmb_vec3 around[AROUND];
@@ -83,7 +84,7 @@ static int find_place(dice *d, report *r)
     return report_fail(r, "no room for lights");
 }
 
-/* A direction by which the sun comes in to a place; 0: none was found. */
+/* Finds a direction from which the sun reaches a point; returns 0 if none was found. */
 static int shines_in(lmb_vec3 *direction, dice *d, lmb_vec3 at)
 {
     for (int i = 0; i < TRIES; ++i) {
@@ -186,7 +187,7 @@ static double median_mean(const drawn all[LIGHTS])
     return 0.5 * (mean[(LIGHTS - 1) / 2] + mean[LIGHTS / 2]);
 }
 
-/* As --light takes it. */
+/* In the form of --light. */
 static void tell_light(const lmb_light *l)
 {
     static const char *const names[] = {"point", "spot", "sun"};

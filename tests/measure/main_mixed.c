@@ -1,11 +1,11 @@
-/* main_mixed.c: a virtual object put into a photo of which everything is known, against the path-traced answer. [M24]
+/* main_mixed.c: adds a virtual object to a photo of a known scene and compares with the path-traced answer. [M24]
  *
- *     measure-mixed [SHARED [OUT.pfm]]        where SHARED holds truth/mixed_without and mixed_with (default ../shared)
+ *     measure-mixed [SHARED [OUT.pfm]]        SHARED holds truth/mixed_without and mixed_with (default ../shared)
  *
- * The photo is the truth's picture without the two objects, its depth that picture's; both objects are the ones that
- * the truth has, where it has them, and so is the light. All that reaches the photo is what `lambent mix` makes
- * of it. Bars: 0.85 of the shadow in common (IoU); a relative RMSE of the whole picture of 0.04; the sign of what changes right where the truth changes by more than
- * 2 % of its mean. The error is printed beside that of the photo left as it is. */
+ * The photo and its depth are the truth's picture without the two objects. The objects and the light are those of the
+ * truth, at the same places. `lambent mix` computes everything else. Bars: 0.85 of the shadow in common (IoU); a
+ * relative RMSE of the whole picture of 0.04; the sign of the change right for pixels that the truth changes by more
+ * than 2 % of its mean. The error of the unchanged photo is printed beside it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,7 +58,7 @@ static float grey(const image *p, int i)
     return (p->pixels[3 * i] + p->pixels[3 * i + 1] + p->pixels[3 * i + 2]) / 3.0f;
 }
 
-/* The same surface in both. */
+/* Both pictures show the same surface. */
 static int is_same(const truth *t, int i)
 {
     return fabsf(t->depth[0].pixels[3 * i] - t->depth[1].pixels[3 * i]) < 1e-3f && t->depth[0].pixels[3 * i] > 0.0f;
@@ -120,7 +120,7 @@ static int make_job(mix_job *j, const truth *t, char *object, report *r)
 
 /* --- figures ------------------------------------------------------------------------------------------------------ */
 
-/* Where the light reaches a surface without the object, and not with it, by the two maps. */
+/* Pixels that the light reaches without the object but not with it, from the two maps. */
 static void our_shadow(uint8_t *out, mix_job *j)
 {
     static lmb_tile tile;
@@ -176,8 +176,8 @@ static double rmse(const image *a, const image *b, const truth *t, int same_only
     return sqrt(sum / count) / (mean / count);
 }
 
-/* What the truth changes about a pixel: over 3 x 3 pixels of one surface, because a single one's noise (1 to 2 % of it,
- * truth/README) is as large as what is asked for. */
+/* The truth's change of a pixel, averaged over 3 x 3 pixels of one surface: the noise of one pixel (1 to 2 %,
+ * truth/README) is as large as the limit. */
 static double their_delta(const truth *t, int i)
 {
     double sum = 0.0;
@@ -218,7 +218,7 @@ static void judge_delta(const truth *t, const mix_job *j)
     CHECK(right == asked);
 }
 
-/* Both maps have the same views, so texels stand for the same power; and what is taken into voxels stays there. */
+/* Both maps have the same views, so a texel has the same power in both. Checks that no light is lost in the voxels. */
 static void judge_energy(const mix_job *j)
 {
     CHECK(memcmp(j->maps[0][0].view, j->maps[0][1].view, sizeof j->maps[0][0].view) == 0);

@@ -1,9 +1,11 @@
-/* main_moving.c: sixty frames of a light, or a crate, that moves by a centimetre or half of one: is a frame its own
- * matter, and how much of what changes from frame to frame is the cut's doing? [V34, stability]
+/* main_moving.c: draws sixty frames of a light, or a crate, that moves by 1 cm or 0.5 cm a frame. Checks
+ * that no frame depends on earlier ones, and measures how much of the change between frames is due to
+ * the cut. [V34, stability]
  *
- * Brute force is every texel for itself, seen or not by every pixel for itself. `steps` is the RMSE between a frame and
- * the next over all of them, less that of brute force; `worst` the largest of one frame's; `flicker` the RMSE of the
- * change of a frame's error. All of the mean. Ends with `N passed, N failed, N skipped`. */
+ * Brute force gathers every texel separately, with a visibility test for every pixel. `steps` is the RMSE
+ * between successive frames over all frames, minus that of brute force; `worst` is the largest value of one
+ * frame; `flicker` is the RMSE of the change of a frame's error. All are relative to the mean. Ends with `N
+ * passed, N failed, N skipped`. */
 #include <stdlib.h>
 
 #include "../../tools/model/model.h"
@@ -18,9 +20,9 @@ static const struct setting {
     const char *name;
     float error, visibility;
     int32_t step;
-    double max; /* that `steps` may be; 1: shown only. A quarter of 48 pixels is 12: lit edges slip between samples */
+    double max; /* limit of `steps`; 1: print only. A quarter of 48 pixels is 12: lit edges slip between samples */
 } settings[] = {
-    {"brute force", 1e-12f, 1e-12f, 1, 0.0}, /* MAP^2 texels fit a cut */
+    {"brute force", 1e-12f, 1e-12f, 1, 0.0}, /* a cut holds all MAP^2 texels */
     {"0.02, 0.02", 0.02f, 0.02f, 1, 0.01},
     {"0.1, 0.04", 0.1f, 0.04f, 1, 0.01},
     {"0.3, 0.1", 0.3f, 0.1f, 1, 0.01},
@@ -64,7 +66,7 @@ static void set_frame(lmb_frame *f, state *s, float *out, const lmb_scene *scene
     CHECK(lmb_surface_init(&f->out, LMB_RGB32F, SIDE, SIDE, out, FLOATS * sizeof *out) == LMB_OK);
 }
 
-/* Goes no further than the first frame that fails. */
+/* Stops at the first frame that fails. */
 static void draw(state *s, float *out, const lmb_scene *scene, const lmb_view *view, const struct setting *how)
 {
     lmb_frame f;
@@ -84,7 +86,7 @@ typedef struct moving {
     lmb_light light;
     lmb_view view;
     float step_m; /* a frame, along x */
-    int crate;    /* it moves, not the light */
+    int crate;    /* the crate moves, not the light */
 } moving;
 
 static void set_room(moving *m, const char *name, int crate)
@@ -108,7 +110,7 @@ static void set_room(moving *m, const char *name, int crate)
     m->crate = crate;
 }
 
-/* 0 and one skipped where the file is not there. */
+/* Returns 0 and counts a skip if the file is missing. */
 static int set_cornell(moving *m, model *loaded)
 {
     char path[SHARED_PATH];
@@ -128,7 +130,7 @@ static int set_cornell(moving *m, model *loaded)
     m->light = loaded->scene.lights[0];
     m->view = look(c->eye, sub3(c->eye, c->back), (double)c->yfov_rad * 180 / PI, SIDE);
     m->view.near_m = c->near_m;
-    m->step_m = 0.005f; /* the box is half a metre wide; the light hangs in its middle */
+    m->step_m = 0.005f; /* the box is half a metre wide; the light hangs in the middle */
     m->light.position.x -= m->step_m * FRAMES / 2;
     m->crate = 0;
     return 1;
@@ -149,7 +151,7 @@ static void move(moving *m, int frame)
 /* --- figures ------------------------------------------------------------------------------------------------------ */
 
 typedef struct figures {
-    double steps, flicker, worst; /* sums of squares; the largest RMSE over brute force's */
+    double steps, flicker, worst; /* sums of squares; the largest RMSE beyond brute force */
 } figures;
 
 static double square_of_step(const float *now, const float *before)
@@ -196,7 +198,7 @@ static void tell(const moving *m, const figures figure[SETTINGS], double mean)
     }
 }
 
-/* In memory that holds noise instead of the last frame. */
+/* Draws into memory filled with noise instead of the last frame. */
 static int is_same_fresh(const moving *m, int setting, const float *picture)
 {
     memset(&fresh, 0x5a, sizeof fresh);

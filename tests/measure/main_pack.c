@@ -1,5 +1,5 @@
-/* main_pack.c: packed scenes beside their sources: how long each takes until it can be drawn, and whether a program that
- * opens the file draws what the tool draws. measure-pack SOURCE FILE.lmp: one line. */
+/* main_pack.c: compares packed scenes with their sources: time until each can be drawn, and whether a program that
+ * opens the file draws the same as the tool. measure-pack SOURCE FILE.lmp prints one line. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 enum { RUNS = 15, WIDE = 320, HIGH = 240 };
 
-/* Seconds until a model is read: the least of several. */
+/* Seconds to read a model: the minimum of several runs. */
 static double read_s(const char *path, report *r)
 {
     double least = 1e9;
@@ -28,7 +28,7 @@ static double read_s(const char *path, report *r)
     return least;
 }
 
-/* Seconds until a file that is in memory has a scene. */
+/* Seconds from a file in memory to a scene. */
 static double open_s(lmb_scene *scene, lmb_pack *pack, const file_bytes *file, void *memory, size_t bytes)
 {
     double least = 1e9;

@@ -1,7 +1,7 @@
-/* main_plan.c: what operations cost, fitted to scenes.
+/* main_plan.c: fits the cost of operations to measured scenes.
  *
- *   measure-plan measure FILE [SCENE ...]   draw scenes by many settings: a file of rows (appended)
- *   measure-plan model FILE                 the model of the rows' fitting scenes, as src/plan/plan_model.inc */
+ *   measure-plan measure FILE [SCENE ...]   draw scenes by many settings; append rows to FILE
+ *   measure-plan model FILE                 fit the model to the rows of fitted scenes, as src/plan/plan_model.inc */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ int test_passed, test_failed, test_skipped;
 
 static plan_scene scenes[PLAN_SCENES];
 
-/* Structs of plain numbers of this very program and machine. */
+/* The rows are raw structs, readable only by the same build on the same machine. */
 static int read_rows(const char *path)
 {
     FILE *f = fopen(path, "rb");

@@ -1,11 +1,10 @@
-/* main_planes.c: the planes that are found in depth, against planes that are known. [M3 M4]
+/* main_planes.c: compares the planes found in depth pictures with known planes. [M3 M4]
  *
- *     measure-planes [SHARED]     where SHARED holds data/rgbd (default ../shared)
+ *     measure-planes [SHARED]     SHARED holds data/rgbd (default ../shared)
  *
- * Rooms of known planes as a Kinect sees them: noise of 1.2 mm + 1.9 mm/m2 (z - 0.4 m)^2 (Nguyen et al. 2012), one
- * pixel of twenty missing. Bars: angle 0.5 degrees, offset 5 mm at the plane's middle, 0.9 of pixels in common (IoU).
- * Then frames of one world with their poses: each plane that two frames share must face the same way within a
- * degree. */
+ * Rooms of known planes with a Kinect's noise: 1.2 mm + 1.9 mm/m2 (z - 0.4 m)^2 (Nguyen et al. 2012), one pixel of
+ * twenty missing. Bars: angle 0.5 degrees, offset 5 mm at the plane's middle, 0.9 of pixels in common (IoU). Then
+ * frames of one world with known poses: each plane that two frames share must have the same normal within a degree. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,7 +60,7 @@ static double normal_random(test_rng *rng)
     return sqrt(-2.0 * log(u)) * cos(v);
 }
 
-/* Floor, back wall and a side wall, seen by a tilted camera, and a table top that ends. */
+/* Floor, back wall and a side wall, seen by a tilted camera, and a table top. */
 static void make_room(true_plane p[TRUE_PLANES], test_rng *rng)
 {
     const double pitch = (double)test_uniform(rng, 0.15f, 0.7f), yaw = (double)test_uniform(rng, -0.5f, 0.5f);
@@ -86,7 +85,7 @@ static double distance_along(const true_plane *p, const double ray[3])
     return c < 0.0 && z > 0.0 ? z : 1e9;
 }
 
-/* The table top's part of its plane. */
+/* Whether the ray meets the table's plane on the table top. */
 static int on_table(const double ray[3], double z)
 {
     return ray[0] * z < 0.55 && ray[0] * z > -0.35 && z < 1.9 && z > 0.7;
@@ -113,7 +112,7 @@ static void draw_room(work *w, const lmb_pinhole *c, const true_plane p[TRUE_PLA
     }
 }
 
-/* The plane that has most of a true one's pixels, and their share of both's. */
+/* Finds the plane that covers most pixels of a true one; `iou` is their intersection over union. */
 static int match(double *iou, const work *w, int label)
 {
     int both[LMB_MAX_PLANES + 1] = {0}, ours[LMB_MAX_PLANES + 1] = {0}, theirs = 0, best = 0;
@@ -174,7 +173,7 @@ static void judge_rooms(work *w)
 
 /* --- frames of one world ------------------------------------------------------------------------------------------ */
 
-/* n . p = d in the world of the poses: its camera looks along +z with y down. */
+/* n . p = d in world space; the camera looks along +z with y down. */
 static true_plane in_world(const lmb_flat *f, const double pose[16])
 {
     const double n[3] = {(double)f->normal.x, -(double)f->normal.y, -(double)f->normal.z};
@@ -187,7 +186,8 @@ static true_plane in_world(const lmb_flat *f, const double pose[16])
     return p;
 }
 
-/* Of each of a frame's planes the nearest of the other's, where that is within 5 cm and 10 degrees: the same wall. */
+/* For each plane of one frame, finds the nearest plane of the other. They are the same wall if they lie
+ * within 5 cm and 10 degrees. */
 static void compare_frames(const true_plane *a, int a_count, const true_plane *b, int b_count, double *worst,
                            int *shared)
 {
@@ -228,7 +228,7 @@ static void judge_frames(work *w, const char *folder)
         }
         find(w, &f.camera, f.depth);
         for (int k = 0; k < w->planes.count; ++k) {
-            /* The larger ones: walls, floor, ceiling. */
+            /* Only the larger ones: walls, floor, ceiling. */
             if (w->planes.plane[k].pixels > WIDTH * HEIGHT / 25) {
                 planes[i][count[i]++] = in_world(&w->planes.plane[k], f.pose);
             }

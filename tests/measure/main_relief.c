@@ -1,8 +1,8 @@
-/* main_relief.c: reliefs against the complex models that they stand for: errors, speed, memory. [P1-P12]
+/* main_relief.c: compares reliefs with the complex models that they replace: errors, speed, memory. [P1-P12]
  *
- *     measure-relief [quality|baroque|own|rooms|causes|speed]...     all by default; a folder for pictures in LMB_PICTURES
+ *     measure-relief [quality|baroque|own|rooms|causes|speed]...     default: all; LMB_PICTURES: folder for pictures
  *
- * Exit status 1 where a bar is passed. */
+ * Exit status 1 if a bar is missed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -129,7 +129,7 @@ void relief_quality(report *r)
 
 /* --- speed -------------------------------------------------------------------------------------------------------- */
 
-/* Seconds of a picture's triangles and pixels: the least of some. */
+/* Seconds for a picture's triangles and pixels: the minimum of several runs. */
 static double seconds(const relief_shot *shot, report *r)
 {
     double min = 1e30;

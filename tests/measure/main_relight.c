@@ -1,9 +1,9 @@
-/* main_relight.c: objects lit by the world around them: what each way costs, how far it is from truth.         [S1-S27]
+/* main_relight.c: objects lit by the world around them: cost of each method and distance from truth.         [S1-S27]
  *
- *     measure-relight [COUNTS]   tables; COUNTS has lines `FILTER INSTRUCTIONS`, which are printed beside the times
- *     measure-relight count      two updates by each filter, avx2: to be run where calls of relight_update are counted
+ *     measure-relight [COUNTS]   tables; COUNTS has lines `FILTER INSTRUCTIONS`, printed beside the times
+ *     measure-relight count      two updates by each filter, avx2: for counting instructions of relight_update
  *
- * Times are processor seconds of one core, the least of many samples. */
+ * Times are processor seconds of one core, the minimum of many samples. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ static int has_truth(void)
     return shared_file(path, "truth/env_relight/ground.pfm");
 }
 
-/* The first call of a kind also looks for library functions; the second does not. */
+/* The first call of a kind also resolves library functions; the second does not. */
 static int count(relight_stage *s)
 {
     s->kernels = lmb_kernels_named("avx2");

@@ -1,14 +1,14 @@
-/* main_rooms.c: objects put by `lambent mix` into photos of rooms of our own, against path-traced pictures. [M20 M23-M25]
+/* main_rooms.c: `lambent mix` adds objects to photos of our own rooms; compares with path-traced truth. [M20 M23-M25]
  *
- *     measure-rooms FOLDER [NAME]...      pictures are kept in FOLDER and read again from there; all rooms, or some
- *     measure-rooms FOLDER metal FIRST COUNT      COUNT metal objects in rooms by numbers from FIRST on: figures, no bars
+ *     measure-rooms FOLDER [NAME]...      caches pictures in FOLDER; default: all rooms
+ *     measure-rooms FOLDER metal FIRST COUNT      COUNT metal objects in rooms numbered from FIRST: figures, no bars
  *
- * The photo is the room without the object, its white at 1; the depth is the room's. `mix` is told the lights, and of a
- * window that it is eight lights. Bars: on real surfaces the RMSE under 0.7 of that of the photo as it is, and the sign
- * right for 95 % of the pixels that change by over 2 % of the mean, both ways; of a metal ball and a lamp, and of the
- * surfaces around these, a relative RMSE of 0.1. The room with a window chose that objects which are no metals go without
- * weak lobes, the metal box how much metal throws to all sides; the last three were looked at
- * while it was made. */
+ * The photo is the room without the object, with white at 1; the depth is the room's. `mix` gets the lights; it gets a
+ * window as eight lights. Bars: on real surfaces, an RMSE under 0.7 of that of the unchanged photo, and the right sign
+ * for 95 % of the pixels that change by over 2 % of the mean, in both directions; for a metal ball, a lamp and the
+ * surfaces around these, a relative RMSE of 0.1. Two choices were made on rooms: in the room with a window, that
+ * objects other than metals need no weak lobes, and with the metal box, how much light metal scatters to all sides. The
+ * last three rooms were inspected during development. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,12 +19,12 @@
 
 int test_passed, test_failed, test_skipped;
 
-enum { STRATA = 32, FEWER = 16 /* of rooms by numbers, which are many */ };
+enum { STRATA = 32, FEWER = 16 /* for numbered rooms, which are many */ };
 
 typedef struct stage {
     room r;
     room_picture without, with;
-    room_picture again[2]; /* both by other paths */
+    room_picture again[2]; /* both traced with other paths */
     int strata;
 } stage;
 
@@ -39,7 +39,7 @@ static int get_picture(room_picture *p, stage *s, const char *folder, const char
            (room_trace(p, &s->r, with, s->strata, half) && scene_keep(path, p, sizeof *p, 0));
 }
 
-/* As a camera has it: white is 1. */
+/* Clips to white at 1, as a camera does. */
 static void clip(float *rgb)
 {
     for (int i = 0; i < 3 * ROOM_PIXELS; ++i) {
@@ -87,7 +87,7 @@ static int mix_room(mix_job *j, const stage *s, char *object, report *r)
 
 static float grey(const float *rgb, int i) { return (rgb[3 * i] + rgb[3 * i + 1] + rgb[3 * i + 2]) / 3.0f; }
 
-/* The same surface in both, and no clipped white. */
+/* Both pictures show the same surface, and neither is clipped. */
 static int is_same(const stage *s, int i)
 {
     return fabsf(s->without.depth[i] - s->with.depth[i]) < 1e-3f && grey(s->without.rgb, i) < 1.0f;
@@ -110,7 +110,7 @@ static double rmse(const float *a, const float *b, const stage *s, int (*is_in)(
     return sqrt(sum / count) / (mean / count);
 }
 
-/* Over 3 x 3 pixels of the same surfaces: a pixel's own noise is as large as what is asked for. */
+/* Averaged over 3 x 3 pixels of the same surfaces: the noise of one pixel is as large as the limit. */
 static double change(const float *rgb, const float *before, const stage *s, int i)
 {
     double sum = 0.0;
@@ -129,7 +129,7 @@ typedef struct signs {
     int darker[2], brighter[2]; /* wrong, right */
 } signs;
 
-/* What both truths say, that which is less: paths that chance near a lamp brighten single pixels. */
+/* The smaller change of the two truths: paths that happen to pass near a lamp brighten single pixels. */
 static double sure_change(const stage *s, int i)
 {
     const double a = change(s->with.rgb, s->without.rgb, s, i), b = change(s->again[1].rgb, s->again[0].rgb, s, i);
@@ -157,7 +157,7 @@ static signs judge_signs(const stage *s, const float *ours)
 
 static double share(const int counts[2]) { return counts[0] + counts[1] > 0 ? counts[1] / (double)(counts[0] + counts[1]) : 1.0; }
 
-/* Of rooms by numbers: squares of errors, and pixels by sign. */
+/* For numbered rooms: squared errors, and pixels by sign. */
 static struct sums {
     double surfaces, share, object;
     int count, darker[2], brighter[2];
@@ -187,7 +187,7 @@ static void judge(const stage *s, const float *ours, const char *name)
            n.brighter[0] + n.brighter[1], object);
     add_sums(surfaces, surfaces / photo, object, &n);
     if (strncmp(name, "metal_", 6) == 0 && name[6] >= '0' && name[6] <= '9') {
-        return; /* by a number */
+        return; /* a numbered room */
     }
     if (is_small) {
         CHECK_MSG(object <= 0.1 && surfaces <= 0.1, "%s", name);
@@ -224,7 +224,7 @@ static void empty_room(room *r)
     r->scene.up = at(0, 1, 0);
 }
 
-/* The room is built. */
+/* Requires a room that is built. */
 static void measure(stage *s, const char *name, const char *folder)
 {
     char object[600];
@@ -266,7 +266,7 @@ static int is_wanted(const char *name, int argc, char **argv)
     return wanted;
 }
 
-/* Figures of rooms by numbers; returns how many there were. */
+/* Prints the figures of numbered rooms; returns the number of rooms. */
 static int measure_numbers(stage *s, const char *folder, int first, int count)
 {
     sums = (struct sums){0, 0, 0, 0, {0, 0}, {0, 0}};

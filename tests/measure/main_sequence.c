@@ -1,13 +1,12 @@
-/* main_sequence.c: what tests/measure/sequence.sh asks for: poses, a sensor's noise, and how much frames differ.
+/* main_sequence.c: tools of tests/measure/sequence.sh: camera poses, sensor noise, and the difference between frames.
  *
  *     measure-sequence poses SEED COUNT EX,EY,EZ TX,TY,TZ STEP_M FOV WIDTH HEIGHT PREFIX
- *         PREFIXnn.json of a hand-held camera, and on stdout a line each: number, eye, target
+ *         writes PREFIXnn.json for a hand-held camera; prints a line each: number, eye, target
  *     measure-sequence sensor SEED FOV FIRST.pfm DEPTH.pfm PHOTO.pfm OUT_DEPTH.pfm OUT_PHOTO.png [still]
- *         a Kinect's noise and shadow on the depth, a camera's on the photo, exposed as FIRST wants; still: the photo's
- *         noise is always the same
+ *         adds a Kinect's noise and shadow to the depth and a camera's noise to the photo, with the exposure of FIRST;
+ *         still: the photo's noise is always the same
  *     measure-sequence change A.png B.png PHOTO_A.png PHOTO_B.png
- *         of 255, how much pixels changed whose photo did not, or changed by less: 99.9th percentile, largest
- */
+ *         change, of 255, of pixels whose photo changed less or not at all: 99.9th percentile, maximum */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,7 +42,7 @@ static void unit3(double v[3])
     }
 }
 
-/* Once around an ellipse of STEP_M's circumference a frame, with a hand's tremor. */
+/* One turn around an ellipse with STEP_M of its circumference per frame, and a hand's tremor. */
 static int poses(char **a)
 {
     test_rng rng = {(uint32_t)atoi(a[0])};
@@ -105,7 +104,7 @@ static int read_picture(image *out, const char *path)
     if (!ok) {
         fprintf(stderr, "%s\n", r.text);
     }
-    return ok; /* one picture of a short run: its file stays in memory */
+    return ok; /* one picture of a short run: the file stays in memory */
 }
 
 static int write_picture(const image *p, const char *path)
@@ -118,8 +117,8 @@ static int write_picture(const image *p, const char *path)
     return ok;
 }
 
-/* As a Kinect has it: what its projector, 75 mm to one side, does not reach is not measured; edges are off by a pixel or
- * two, a few of them together; distances come in eighths of a pixel of disparity; spots are missing. */
+/* A Kinect's errors: points that its projector, 75 mm to one side, does not reach are missing; edges shift by one or
+ * two pixels, in short runs; disparity is in eighths of a pixel; random spots are missing. */
 static void measure_depth(float *out, const image *z, float focal, test_rng *rng)
 {
     const int w = z->width, h = z->height;
@@ -159,7 +158,7 @@ static void measure_depth(float *out, const image *z, float focal, test_rng *rng
     free(shift);
 }
 
-/* Files have three channels; a depth's are alike. */
+/* Files have three channels; those of depth are equal. */
 static float *grey(const float *in, int count)
 {
     float *out = malloc(3 * (size_t)count * sizeof *out);

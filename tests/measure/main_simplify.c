@@ -1,13 +1,13 @@
-/* main_simplify.c: what simpler meshes lose and add: rhino_60k of 3,000 triangles, stanford_bunny of 2,000, lucy_100k
- * of 4,000, near and around, and the time that a million triangles take.
+/* main_simplify.c: measures simplified meshes (rhino_60k at 3,000 triangles, stanford_bunny at 2,000, lucy_100k at
+ * 4,000) in the modes near and around, and the time for a million triangles.
  *
  *     simplify
  *
- * `out`: share of the original's vertices that stick out of the simple mesh by more than 1e-5, and the farthest one;
- * `off`: how far the original's vertices are from the simple mesh, in the mean and at most; `back` the same from the
- * simple mesh's to the original. All of the diagonal. `missed` and `extra`: pixels that only the original or only
- * the simple mesh covers in 24 orthographic views of 512 x 512, of the original's. Seconds are of one core.
- * Bars: the triangles asked for; near off by 0.1 % in the mean; around 0.01 % missed, 4 % extra; a million in 15 s. */
+ * `out`: share of the original's vertices more than 1e-5 outside the simple mesh, and the farthest one; `off`: mean and
+ * maximum distance from the original's vertices to the simple mesh; `back`: the same from the simple mesh to the
+ * original. All are relative to the diagonal. `missed` and `extra`: pixels that only the original or only the simple
+ * mesh covers in 24 orthographic views of 512 x 512, relative to the original's. Seconds are those of one core. Bars:
+ * the requested triangles; near: `off` by 0.1 % in the mean; around: 0.01 % missed, 4 % extra; a million in 15 s. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,13 +24,13 @@ int test_passed, test_failed, test_skipped;
 enum { SIDE = 512, VIEWS = 24 };
 
 typedef struct distances {
-    double mean, max; /* from one mesh's vertices to the other, of the diagonal */
+    double mean, max; /* from one mesh's vertices to the other mesh, relative to the diagonal */
     double out_share, out_most;
 } distances;
 
 /* --- models --- */
 
-/* The first mesh of a model, which the samples have alone and where it is. */
+/* Reads the first mesh of a model, without transformations; the samples have only one. */
 static int read_mesh(triangle_mesh *out, const char *path)
 {
     model m;
@@ -64,7 +64,7 @@ static void put_middle(float *to, const float *p, const float *q)
         to[k] = 0.5f * p[k] + 0.5f * q[k];
 }
 
-/* Each triangle cut in four, with six vertices of its own. */
+/* Splits each triangle into four, with six new vertices for each original triangle. */
 static triangle_mesh in_four(const triangle_mesh *m)
 {
     static const uint32_t parts[12] = {0, 3, 5, 3, 1, 4, 5, 4, 2, 3, 4, 5};
@@ -134,7 +134,7 @@ typedef struct view {
     double scale; /* pixels a metre */
 } view;
 
-/* View i of directions spread over a sphere along a spiral. */
+/* View i of directions that lie on a spiral over the sphere. */
 static view view_of(int i, dvec middle, double size)
 {
     const double z = 1 - (2 * i + 1) / (double)VIEWS, r = sqrt(1 - z * z), turn = i * 2.399963229728653;
@@ -152,7 +152,7 @@ static double side_of(const double p[2], const double q[2], double x, double y)
     return (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
 }
 
-/* The pixels whose middle the triangle covers, its edges included, seen from either side. */
+/* Marks the pixels with their middle in the triangle or on an edge. The triangle may face either way. */
 static void cover(uint8_t *mask, double c[3][2])
 {
     const double way = side_of(c[0], c[1], c[2][0], c[2][1]) > 0 ? 1 : -1;
@@ -207,7 +207,7 @@ static void compare_views(const triangle_mesh *in, const triangle_mesh *out, dou
     *extra /= covered;
 }
 
-/* --- what is printed --- */
+/* --- figures --- */
 
 static double seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 

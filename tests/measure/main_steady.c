@@ -1,14 +1,19 @@
-/* main_steady.c: does light that moves stay steady? measure-steady [residual|halving|shift] SCENE [options of
- * `lambent play`]
+/* main_steady.c: measures whether moving light stays steady. measure-steady [residual|halving|shift] SCENE
+ * [options of `lambent play`]
  *
- * On irradiance of bounced light, grey, at places that are followed from frame to frame; all but shifts are shares of
- * what the best settings give there and 1 % of its mean.
+ * Measures grey irradiance of bounced light at points that are tracked from frame to frame. Except for shifts, a value
+ * is divided by the best settings' light at the point plus 1 % of its mean.
+ *
  * `residual`: r = frame - best, at twenty times along the paths: the 99.9th percentiles of |r(t) - r(t-1)| and of
  * |r(t+1) - 2 r(t) + r(t-1)|, and beside them those of the best light's own steps.
- * `halving`: the light alone moves, over a frame's time at four times: the largest change of any pixel between frames 1,
- * 1/2 .. 1/64 of it apart. What does not shrink to 0.6 each time is a pop; where the largest is, is told.
- * `shift`: the camera steps aside by 1/4 .. 16 px at what is ahead: RMSE of the change at a place beyond that of the best
- * light, without the worst 1 %, of the mean. The bar is 2 %.
+ *
+ * `halving`: only the light moves, over one frame's time at four times: the largest change of any pixel
+ * between frames 1, 1/2 .. 1/64 of it apart. A change that does not shrink to 0.6 with each step is a pop; the
+ * place of the largest is printed.
+ *
+ * `shift`: the camera moves sideways by 1/4 .. 16 px at the distance of the surface ahead: RMSE of the change at a
+ * point beyond that of the best light, without the worst 1 %, relative to the mean. The bar is 2 %.
+ *
  * Ends with `N passed, N failed, N skipped`. */
 #include <math.h>
 #include <stdlib.h>
@@ -61,14 +66,14 @@ static int rising(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* What `share` of them are not over. */
+/* The value that a `share` of the list does not exceed. */
 static double quantile(list *l, double share)
 {
     qsort(l->value, l->count, sizeof *l->value, rising);
     return l->count > 0 ? (double)l->value[(size_t)(share * (double)(l->count - 1))] : 0.0;
 }
 
-/* Of squares, without the worst 1 %. */
+/* Root mean square without the worst 1 %. */
 static double trimmed_rmse(list *l)
 {
     double sum = 0.0;
@@ -115,7 +120,7 @@ static void add_residuals(list lists[LISTS], const steady_frame frame[3])
     }
 }
 
-/* Twenty times, half a second apart: the default paths' whole turn. */
+/* Twenty times, half a second apart: one whole turn of the default paths. */
 static int measure_residuals(steady_frame frame[3], report *r)
 {
     list lists[LISTS];
@@ -151,7 +156,7 @@ static int measure_residuals(steady_frame frame[3], report *r)
 
 /* --- steps halved ------------------------------------------------------------------------------------------------- */
 
-/* The largest change of a pixel between two frames, and where it is. */
+/* The largest change of a pixel between two frames, and its place. */
 typedef struct change {
     double size;
     int32_t at, pixel;
@@ -170,7 +175,7 @@ static void keep_largest(change *c, const float *a, const float *b, int32_t pixe
     }
 }
 
-/* All frames of a frame's time, and from them each step's largest change. */
+/* Draws all frames of one frame's time; finds the largest change at each step. */
 static int halve(change level[LEVELS], float *kept, steady_frame *frame, int32_t first, report *r)
 {
     const int32_t pixels = frame->width * frame->height;
@@ -236,7 +241,7 @@ static int measure_halving(steady_frame *frame, report *r)
 
 /* --- shifts of the camera ----------------------------------------------------------------------------------------- */
 
-/* Metres a pixel at what is ahead. */
+/* Metres a pixel at the distance of the surface ahead. */
 static float pixel_m(const steady_frame *f)
 {
     const int32_t middle = f->height / 2 * f->width + f->width / 2;

@@ -1,11 +1,12 @@
-/* main_sun.c: the light that `lambent mix` guesses for a photo, against the light that the photo was made by. [M23 M24]
+/* main_sun.c: compares the light that `lambent mix` estimates for a photo with the light of the
+ * photo's scene. [M23 M24]
  *
- *     measure-sun FOLDER [FIRST COUNT]...     photos are kept in FOLDER and read again from there
+ *     measure-sun FOLDER [FIRST COUNT]...     caches photos in FOLDER
  *
- * Rooms under lamps, rooms beside a window that is not in the picture, grounds with houses under an overcast sky and in
- * the sun, by a number each: sizes, colours, places and exposure by chance. The photo and its depth are path-traced; a
- * small box is put where `mix` puts it, and the light at its middle is asked from 26 directions: how bright it is in the
- * mean, and how much brighter towards one side. Seeds 1 to 16 chose constants of mix_sun.c. */
+ * Scenes by number: rooms under lamps, rooms beside a window outside the picture, and grounds with houses under an
+ * overcast sky or in the sun. Sizes, colours, places and exposure are random. The photo and its depth are path-traced.
+ * A small box is put where `mix` puts it, and the light at its middle is compared from 26 directions: mean brightness,
+ * and how much brighter it is towards one side. Seeds 1 to 16 chose constants of mix_sun.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +27,7 @@ typedef struct photo {
 
 typedef struct stage {
     made_scene s;
-    int white;   /* a material that nothing has: what reflects all */
+    int white;   /* a material with albedo 1 that no surface has */
     double exposure;
     photo seen;
 } stage;
@@ -39,7 +40,7 @@ static int any_paint(made_scene *s, double low, double high)
     return paint(s, red, green, blue);
 }
 
-/* What emits, a rectangle. */
+/* Adds an emitting rectangle. */
 static void shine(made_scene *s, svec a, svec u, svec v, double radiance)
 {
     const int m = paint(s, 0, 0, 0);
@@ -139,7 +140,7 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* A camera's: a tenth of the pixels at most is white. */
+/* Exposes as a camera does: at most a tenth of the pixels is white. */
 static void expose(stage *st)
 {
     static float grey[PIXELS];
@@ -179,7 +180,7 @@ static int light_photo(mix_job *j, const stage *st, char *object, report *r)
 
 /* --- both --------------------------------------------------------------------------------------------------------- */
 
-/* Mean irradiance over all directions, and that of the part which goes as the cosine to one of them. */
+/* Mean irradiance over all directions, and the cosine-shaped part towards one direction. */
 typedef struct level {
     double mean, side;
     svec to;
@@ -191,7 +192,7 @@ static svec way(int i)
     return unit(at(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
 }
 
-/* The six, the eight and the twelve that are alike are each even on the sphere. */
+/* The 6 face, 8 corner and 12 edge directions are each uniform on the sphere. */
 static level level_of(const double e[WAYS])
 {
     level l = {0, 0, {0, 0, 0}};
@@ -220,7 +221,7 @@ static level true_level(const stage *st, const path_tracer *p, svec here)
     return level_of(e);
 }
 
-/* As it was found for the object's place, or anew. */
+/* Reads the level at the object's place from the folder, or computes it. */
 static level kept_level(const stage *st, const path_tracer *p, svec here, const char *folder, int seed)
 {
     struct kept {

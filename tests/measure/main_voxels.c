@@ -1,8 +1,9 @@
-/* main_voxels.c: one bounce by cones through voxels against truth and closed forms: errors, time by stage, memory.
+/* main_voxels.c: compares one bounce by cones through voxels with truth and closed forms:
+ * errors, time by stage, memory.
  *                                                                                   [M6-M8 M11-M13 M20-M22]
  *     measure-voxels [SCENE...]        cornell and corridor have bars
  *
- * Seconds are of one core. `x`: times what one bounce by cuts with exact occlusion takes for its pixels (the tool's
+ * Seconds are those of one core. `x`: multiples of the time of one bounce by cuts with exact occlusion (the tool's
  * default). Closed forms: tests/analytic/test_voxels.c. */
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ int test_passed, test_failed, test_skipped;
 
 enum { MAP = 512, CUT_MAP = 256, CAP = 1 << 22 };
 
-/* What the tool's default quality asks of cuts. */
+/* Limits of cuts in the tool's default quality. */
 static const float cut_error = 0.2f, cut_visibility = 0.06f;
 
 typedef struct work {
@@ -30,7 +31,7 @@ typedef struct work {
     image truth, surface;
     lmb_view view;
     lmb_target eye;
-    lmb_tree tree, cut_tree; /* every texel, for voxels; and of bounced light */
+    lmb_tree tree, cut_tree; /* every texel, for voxels; and the tree of bounced light */
     lmb_bvh bvh;
     lmb_cut cut;
     lmb_voxels voxels;
@@ -39,8 +40,8 @@ typedef struct work {
     lmb_tile tile;
     double map_seconds, tree_seconds, cut_tree_seconds, build_seconds, inject_seconds, filter_seconds, eye_seconds,
         seconds;      /* `seconds`: of the picture, by cones or by cuts */
-    double all_bytes; /* besides voxels */
-    void *memory[32]; /* all that was taken */
+    double all_bytes; /* without voxels */
+    void *memory[32]; /* all allocations */
     int taken;
 } work;
 
@@ -57,7 +58,7 @@ static void *take(work *w, size_t bytes)
 
 static double seconds_now(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
-/* Since the last call. */
+/* Seconds since the last call. */
 static double lap(double *from)
 {
     const double now = seconds_now(), spent = now - *from;
@@ -159,7 +160,7 @@ static void make_voxels(work *w, void *memory, uint32_t cap, int32_t depth)
 
 static double voxel_bytes(const work *w) { return (double)lmb_voxels_bytes(w->voxels.count, LMB_VOXELS_ONE); }
 
-/* M7, M13: flux in the voxels against the map's, and the root's mean against the leaves' sum. */
+/* M7, M13: compares the flux in the voxels with the map's, and the root's mean with the sum of the leaves. */
 static void check_energy(const work *w)
 {
     const lmb_voxels *v = &w->voxels;
@@ -313,7 +314,7 @@ static void bounce(work *w, const char *scene, void *memory, int has_bars)
 
 /* --- a frame of 640x480 ------------------------------------------------------------------------------------------- */
 
-/* Cones of every sixteenth tile: their seconds. */
+/* Seconds for the cones of every sixteenth tile. */
 static double trace_some(work *w, const lmb_kernels *kernels)
 {
     const int32_t across = (w->view.frame_width + 7) / 8, down = (w->view.frame_height + 7) / 8;
@@ -331,9 +332,9 @@ static double trace_some(work *w, const lmb_kernels *kernels)
     return spent;
 }
 
-/* Against what their operations take at least by what the same run finds the machine can do (bench gather), and what
- * their reads do: four floats, or one, from a place of each lane's own, out of a table that the first cache holds. By
- * turns, so that both meet the same clock rate and the same neighbours. */
+/* Compares with two lower bounds of the same run: the arithmetic at the measured rate of the processor (bench gather),
+ * and the reads: each lane reads four floats, or one, from a place of its own in a table that fits the first-level
+ * cache. The measurements alternate, so that both run at the same clock rate and load. */
 static void say_share(work *w)
 {
     bench_rates rates;

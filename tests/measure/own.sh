@@ -1,9 +1,9 @@
-# own.sh: bounced light against path-traced truth, on the shared folder's scenes and on those of tests/scenes: one bounce,
-# in one table with what was fitted and what was held out, and the mean and the worst of each; then all bounces.
+# own.sh: compares bounced light with path-traced truth, on the shared folder's scenes and on those of tests/scenes. One
+# table of one bounce marks each scene as fitted or held out and ends with mean and worst of each; then all bounces.
 #
-# LMB_OWN_TRUTH: the folder that tests/scenes/truth.sh filled, full/ in it by FULL=1; without it only the shared scenes are
-# drawn. SHARED_SCENES, OWN_SCENES, QUALITIES: which (default: all that is there). BOUNCES=1 leaves out all bounces. The
-# shared scenes count as fitted.
+# LMB_OWN_TRUTH: the folder filled by tests/scenes/truth.sh, with full/ if it ran with FULL=1; without the folder, only
+# the shared scenes are drawn. SHARED_SCENES, OWN_SCENES, QUALITIES select the work (default: everything). BOUNCES=1
+# leaves out all bounces. The shared scenes count as fitted.
 . tests/measure/draw.sh
 
 compare=$truth/compare.py
@@ -12,7 +12,7 @@ rows=$work/own.rows
 # A PFM's second line: `256 256`.
 size_of() { dd if="$1" bs=32 count=1 2>/dev/null | sed -n '2s/ /x/p'; }
 
-# set_of NAME: what the table of kinds says; seeds of three digits are held out.
+# set_of NAME: prints the set from the table of kinds; seeds of three digits are held out.
 set_of() {
     case $1 in
     *:[1-9][0-9][0-9]) echo held-out ;;
@@ -20,7 +20,7 @@ set_of() {
     esac
 }
 
-# row NAME SET QUALITY: of the scene in $truth.
+# row NAME SET QUALITY: prints a row for the scene in $truth.
 row() {
     if ! draw "$1" "$3" 1 "$(size_of "$truth/$1/pt_indirect1.pfm")" indirect; then
         fail "$1, $3: $(head -n 1 "$work/said")"
@@ -46,7 +46,7 @@ scene_rows() {
     done
 }
 
-# The means and the worst by quality and set; the worst mean is the one farthest from 1.
+# Prints mean and worst by quality and set; the worst mean is the one farthest from 1.
 sums() {
     awk '
         function far(x) { return x > 1 ? x - 1 : 1 - x }
@@ -78,7 +78,7 @@ sums() {
         }' "$rows"
 }
 
-# mean_of FILE...: the sum of their means.
+# mean_of FILE...: prints the sum of their means.
 mean_of() {
     python3 -c '
 import array, sys
@@ -91,7 +91,7 @@ for name in sys.argv[1:]:
 print(total)' "$@"
 }
 
-# full_row NAME: all light by six bounces: trim and mean, and the mean of what the later bounces add alone.
+# full_row NAME: all light with six bounces: trim and mean, and the mean of only the later bounces.
 full_row() {
     once="$truth/$1/pt_direct.pfm $truth/$1/pt_indirect1.pfm"
     [ ! -f "$truth/$1/pt_one_bounce.pfm" ] || once=$truth/$1/pt_one_bounce.pfm

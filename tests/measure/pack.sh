@@ -1,5 +1,5 @@
-# pack.sh: packed scenes: bytes by part beside the gzipped source, and the time until each can be drawn: TOOL B in the
-# environment; SCENES names others. A .gltf counts with the .bin beside it.
+# pack.sh: measures packed scenes: bytes by part beside the gzipped source, and the time until each can be drawn. Needs
+# TOOL and B in the environment; SCENES names other scenes. A .gltf counts with the .bin beside it.
 shared=${LMB_SHARED:-../shared}
 scenes=${SCENES:-demo $shared/data/scenes/living_room.glb $shared/truth/sponza/scene.gltf}
 mkdir -p "$B/pack"

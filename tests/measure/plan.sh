@@ -1,10 +1,10 @@
-# plan.sh: settings chosen for budgets of error, against path-traced truth: what the plan said of each, what the picture
-# had, and what the look took of the picture's work. A picture fails that has over twice its budget without a word, or
-# whose look took over a quarter of the work; all fail together where of those said to be met fewer than 95 % are within
-# 1.5 x of their budget.
+# plan.sh: checks settings chosen for error budgets against path-traced truth. A row has the plan's prediction, the
+# picture's error, and the cost of sampling relative to the picture. A picture fails if the plan reported its budget as
+# met but the error is over twice the budget, or if sampling took over a quarter of the work. All fail together if, of
+# the pictures reported as met, fewer than 95 % are within 1.5 x of their budget.
 #
-# LMB_OWN_TRUTH: the folder that tests/scenes/truth.sh filled. SHARED_SCENES, OWN_SCENES, BUDGETS: which (default: all that
-# is there).
+# LMB_OWN_TRUTH: the folder filled by tests/scenes/truth.sh. SHARED_SCENES, OWN_SCENES, BUDGETS select the
+# work (default: everything).
 . tests/measure/draw.sh
 
 compare=$truth/compare.py
@@ -21,10 +21,10 @@ set_of() {
     "$B/scenes" --list | awk -v kind="${1%%:*}" '$1 == kind { found = $2 } END { print found ? found : "shared" }'
 }
 
-# said KEY: of the plan's lines.
+# said KEY: prints a number from the plan's lines.
 said() { sed -n "s/.*$1\\([0-9.e+-]*\\).*/\\1/p" "$work/said" | head -n 1; }
 
-# The look's seconds, which are no stage's, and their share of the stages but reading and writing.
+# Seconds of sampling, which belong to no stage, and their share of all stages except reading and writing.
 look_seconds() {
     sed -n 's/.*"seconds": {\(.*\)}.*/\1/p' "$work/stats.json" | tr -d '",:' | awk '{
         for (i = 1; i < NF; i += 2) v[$i] = $(i + 1)
@@ -53,7 +53,7 @@ row() {
 
 command -v python3 >/dev/null || { skip "no python3 for $compare"; finish; }
 
-# Of the pictures said to meet their budget: how many are within 1.5 x of it, and the worst ratio.
+# Of the pictures reported to meet their budget: how many are within 1.5 x of it, and the worst ratio.
 sums() {
     awk '
         $3 == "yes" { ++n; x = $1 / $2; within += x <= 1.5; kept += x <= 1; if (x > worst) worst = x }

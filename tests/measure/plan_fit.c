@@ -1,4 +1,4 @@
-/* plan_fit.c: the model's numbers: units of work by least squares that are nowhere below 0. */
+/* plan_fit.c: fits the model's numbers: non-negative least squares over units of work. */
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ static void add_row(normal *n, const double *op, double seconds, double weight)
     }
 }
 
-/* A run's operations, as counted where they are. */
+/* Counts a run's operations, with measured numbers where the run has them. */
 static void ops_of(double op[LMB_OPS], const plan_scene *s, const plan_run *r)
 {
     lmb_choice c;
@@ -29,7 +29,7 @@ static void ops_of(double op[LMB_OPS], const plan_scene *s, const plan_run *r)
     memcpy(op, c.op, sizeof c.op);
 }
 
-/* Each stage's time by its own operations, weighted so that each frame counts the same. */
+/* Fits each stage's time by its own operations; the weights make all frames count equally. */
 static void add_run(normal *n, const plan_scene *s, const plan_run *r)
 {
     double op[LMB_OPS], part[LMB_OPS];
@@ -60,7 +60,7 @@ static void add_run(normal *n, const plan_scene *s, const plan_run *r)
     add_row(n, part, r->seconds[LMB_STAGE_BANDS], weight);
 }
 
-/* Coordinate descent. Lights are not in irradiance, elements and lobes in no scene: those keep their share. */
+/* Coordinate descent. Lights do not occur in irradiance, and elements and lobes in no scene; those keep their share. */
 static void solve(double x[LMB_OPS], const normal *n)
 {
     memset(x, 0, LMB_OPS * sizeof *x);

@@ -1,4 +1,4 @@
-/* plan_rows.h: what scenes were measured at, by settings: kept in a file, so that fitting need not measure again. */
+/* plan_rows.h: measurements of scenes by settings, in a file, so that fitting need not measure again. */
 #ifndef PLAN_ROWS_H
 #define PLAN_ROWS_H
 
@@ -9,10 +9,10 @@
 
 enum { PLAN_WIDTH = 240, PLAN_HEIGHT = 180, PLAN_SCENES = 16, PLAN_RUNS = 64, PLAN_TIMES = LMB_STAGE_DONE };
 
-/* One setting, drawn. */
+/* One setting and the measurement of a frame. */
 typedef struct plan_run {
     lmb_settings s;
-    double seconds[PLAN_TIMES]; /* of processor time, by stage */
+    double seconds[PLAN_TIMES]; /* processor time by stage */
     double pairs, segments; /* counted */
 } plan_run;
 
@@ -27,22 +27,22 @@ typedef struct plan_scene {
 
 double plan_seconds(const plan_run *r);
 
-/* plan_open: a scene of the list, ready to draw, by one thread. 1, or 0: it is not here. */
+/* plan_open: loads a scene of the list, ready to draw, on one thread. Returns 0 if the scene is missing, else 1. */
 typedef struct plan_place {
-    const char *name, *path, *options; /* what it is drawn with, beside what all are; words apart by one space */
+    const char *name, *path, *options; /* options for the scene beside the common ones; separated by one space */
     int fits, heavy;                   /* heavy: fewer settings are drawn */
 } plan_place;
 extern const plan_place plan_places[];
 extern const int plan_place_count;
 int plan_open(render_job *j, const plan_place *at);
 
-/* plan_draw: one setting. */
+/* plan_draw: measures one setting. */
 int plan_draw(plan_run *out, render_job *j);
 
-/* plan_measure: all settings of one scene. */
+/* plan_measure: measures all settings of one scene. */
 int plan_measure(plan_scene *out, const plan_place *at);
 
-/* plan_fit: the model of those scenes that fit, as plan_model.inc. */
+/* plan_fit: writes the model fitted to all scenes with `fits` set, as plan_model.inc. */
 void plan_fit(const plan_scene *s, int count, FILE *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* plan_run.c: scenes drawn by many settings, by one thread: time of each stage, counts. */
+/* plan_run.c: draws scenes by many settings on one thread: time of each stage, counts. */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -31,7 +31,7 @@ const int plan_place_count = sizeof plan_places / sizeof *plan_places;
 
 enum { WIDTH = PLAN_WIDTH, HEIGHT = PLAN_HEIGHT, WORDS = 24 };
 
-/* The words of `text`, which is cut up, after those that are there. */
+/* Appends the words of `text`, which the call cuts up, to argv. */
 static int add_words(char **argv, int count, char *text)
 {
     for (char *word = strtok(text, " "); word != NULL && count < WORDS; word = strtok(NULL, " ")) {
@@ -56,7 +56,7 @@ int plan_open(render_job *j, const plan_place *at)
         return 0;
     }
     j->o.view.is_quiet = 1;
-    j->o.budget.error = 1.0f; /* so that it is looked at for a choice */
+    j->o.budget.error = 1.0f; /* any budget makes the job sample the scene */
     if (!render_job_load(j, &r) || !render_job_set(j, &r)) {
         printf("FAIL %s: %s\n", at->name, r.text);
         return 0;
@@ -94,7 +94,8 @@ double plan_seconds(const plan_run *r)
     return sum;
 }
 
-/* Trees, rungs of error and steps, one after another; heavy scenes: every other. */
+/* Setting i of the combinations of tree size, error and step. Returns 0 past the last, and for settings
+ * that a heavy scene skips. */
 static int setting(lmb_settings *s, int i, int heavy)
 {
     static const int32_t trees[] = {64, 128, 256, 512}, steps[] = {1, 2, 4};
@@ -104,7 +105,7 @@ static int setting(lmb_settings *s, int i, int heavy)
     s->visibility = 0.75f * s->error;
     s->gather_step = steps[i / 12 % 3];
     s->occlusion = LMB_OCCLUSION_EXACT;
-    return i < 36 && (!heavy || s->error > 0.1f);
+    return i < 36 && (!heavy || s->error >= 0.1f);
 }
 
 int plan_measure(plan_scene *out, const plan_place *at)

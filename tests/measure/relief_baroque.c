@@ -1,5 +1,5 @@
-/* relief_baroque.c: ornate shapes as reliefs: errors, specks, whole frames' times. Each with two seeds; the second's
- * shapes are turned and of other numbers. [P7 P12] */
+/* relief_baroque.c: ornate shapes as reliefs: errors, specks, times of whole frames. Each shape has two seeds; with the
+ * second it is turned and has other parameters. [P7 P12] */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ static void add(relief_figures *sum, const relief_figures *f, double weight)
     sum->isolated += f->isolated * weight;
 }
 
-/* Seconds of a frame's parts: the least of some. */
+/* Seconds of a frame's parts: the minimum of several runs. */
 static void time_parts(double out[3], const relief_shot *shot, report *r)
 {
     out[0] = out[1] = out[2] = 1e30;

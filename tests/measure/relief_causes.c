@@ -1,4 +1,4 @@
-/* relief_causes.c: where a relief's squared error comes from, and how far the direct picture is from a finer one. */
+/* relief_causes.c: attributes a relief's squared error to causes, and compares the direct picture with a finer one. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@ typedef struct share {
     double squared;
 } share;
 
-/* Is there a jump of depth beside a pixel? */
+/* Returns whether the depth jumps beside a pixel. */
 static int near_edge(const relief_frame *f, int32_t x, int32_t y, float jump)
 {
     const float z = f->depth[y * f->width + x];
@@ -48,7 +48,7 @@ static void add_shares(share out[KINDS], const relief_frame *got, const relief_f
     }
 }
 
-/* FINE x FINE samples a pixel, of those that show something; covered where all do. */
+/* Averages FINE x FINE samples a pixel over the samples with a surface. */
 static relief_frame mean_of(const relief_frame *fine)
 {
     relief_frame out;

@@ -1,4 +1,4 @@
-/* relief_own.c: reliefs seen from their own reference views: what is stored must come out. [P5] */
+/* relief_own.c: draws reliefs from their own reference views; the stored values must be reproduced. [P5] */
 #include <math.h>
 #include <stdio.h>
 
@@ -10,10 +10,10 @@
 /* Sums over views. */
 typedef struct own_errors {
     long long covered;   /* pixels of the simple model */
-    long long bare;      /* of the complex one, that the simple one does not cover */
-    long long outline;   /* covered, and shown where nothing is stored, or the other way */
-    long long colour;    /* not the stored code's colour */
-    double depth;        /* the worst, m */
+    long long bare;      /* pixels of the complex model that the simple one does not cover */
+    long long outline;   /* covered pixels that are shown but not stored, or stored but not shown */
+    long long colour;    /* pixels with another colour than the stored code */
+    double depth;        /* maximum error, m */
 } own_errors;
 
 static relief_frame shoot(const relief_shot *shot, report *r)
@@ -31,7 +31,7 @@ static int is_stored(const relief_frame *got, size_t i, const uint8_t *colour)
            got->albedo[3 * i + 2] == lmb_srgb_linear[colour[2]];
 }
 
-/* m from the view's eye that a FULL texel of an orthographic view stands for; 0: nothing. */
+/* Distance in metres along the axis that a FULL texel of an orthographic view encodes; 0: nothing. */
 static double stored_depth(const relief_picture *p, size_t i)
 {
     const uint8_t *t = p->texels + 4 * i;
@@ -59,7 +59,7 @@ static void count(own_errors *e, const relief_frame *got, const relief_frame *si
     }
 }
 
-/* The reference view's own camera, further back so that all of the simple model lies before it. */
+/* Uses the reference view's own camera, moved back so that the whole simple model lies in front of it. */
 static void add_view(own_errors *e, const subject *s, int32_t which, report *r)
 {
     relief_shot shot = {0}, around;

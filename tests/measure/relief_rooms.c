@@ -1,9 +1,9 @@
-/* relief_rooms.c: photos with depth as a relief's views: what a camera between them sees. [P5 P11 P12]
+/* relief_rooms.c: uses photos with depth as a relief's views and draws from cameras between them. [P5 P11 P12]
  *
- * Four posed frames of ICL-NUIM's living room (Handa et al. 2014), blocks around what they show as the simple model.
- * Each photo in turn is left out and drawn from the other three. Only what one of these shows can come out right: those
- * pixels count, by the photo's depth. Beside the relief's PSNR stands that of a look at the right place of the right
- * photo: the rest of the way to it is the photos' own glossy reflection and grain. */
+ * Four posed frames of ICL-NUIM's living room (Handa et al. 2014); the simple model is made of blocks around the
+ * surfaces. Each photo in turn is left out and drawn from the other three. Only pixels with a surface that one of these
+ * shows count, by the photo's depth. The relief's PSNR is printed beside that of a lookup at the exact place of the
+ * best photo: the rest of the error is glossy reflection and grain of the photos. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@
 enum { PHOTOS = 4, ALL = -1 };
 
 #define BLOCK_M 0.25f
-#define SAME    0.01f /* of the distance: as far apart may one surface be in two photos' depths */
+#define SAME    0.01f /* of the distance: tolerance for one surface in two photos' depths */
 #define NEAR_M  0.05f
 
 typedef struct room {
@@ -28,16 +28,16 @@ typedef struct room {
     lmb_relief relief;
 } room;
 
-/* Planes of a picture. */
+/* A picture as planes. */
 typedef struct shown {
     int32_t width, height;
     float *rgb, *depth;
-    uint8_t *hit; /* 1: some photo shows it; 0: nothing, or the blocks' own colour */
+    uint8_t *hit; /* 1: a photo shows the pixel; 0: nothing, or the blocks' own colour */
 } shown;
 
 /* --- rooms -------------------------------------------------------------------------------------------------------- */
 
-/* 0 where a file is not there. */
+/* Returns 0 if a file is missing. */
 static int load_photos(relief_photo photo[PHOTOS], report *r)
 {
     for (int i = 0; i < PHOTOS; ++i) {
@@ -108,7 +108,7 @@ static void store(shown *out, const lmb_tile *t, const float *before)
     }
 }
 
-/* Sides are whole tiles. */
+/* Width and height are multiples of a tile. */
 static shown draw(const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how)
 {
     static lmb_tile tile;
@@ -144,9 +144,9 @@ static void shown_free(shown *s)
     free(s->hit);
 }
 
-/* --- what could come out ------------------------------------------------------------------------------------------ */
+/* --- the best possible result ------------------------------------------------------------------------------------- */
 
-/* The colour between a photo's pixels, sRGB codes. */
+/* Interpolates the colour between a photo's pixels, in sRGB codes. */
 static void codes_at(double out[3], const relief_photo *p, float u, float v)
 {
     const int32_t w = p->view.frame_width, h = p->view.frame_height;
@@ -162,7 +162,7 @@ static void codes_at(double out[3], const relief_photo *p, float u, float v)
     }
 }
 
-/* Does a photo show the point? Then its colour there. */
+/* If the photo shows the point, returns 1 and the colour there. */
 static int shows(double out[3], const relief_photo *p, lmb_vec3 at)
 {
     const lmb_view *v = &p->view;
@@ -188,7 +188,7 @@ static lmb_vec3 point_of(const relief_photo *p, int32_t k)
     return add3(v->eye, mul3(sub3(add3(mul3(v->right, sx), mul3(v->up, sy)), v->back), p->depth[k]));
 }
 
-/* The look at the right place: of the photos that show a pixel's point the one that looks most as its own camera. */
+/* Of the photos that show a pixel's point, takes the one with the most similar direction, at the exact place. */
 static int best_look(double out[3], const relief_photo photo[PHOTOS], int without, int32_t k)
 {
     const lmb_vec3 at = point_of(&photo[without], k), ray = normalize3(sub3(at, photo[without].view.eye));
@@ -217,7 +217,7 @@ static int rising(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* What is left out, from the others. */
+/* Draws the photo that is left out from the others. */
 static void leave_out(const relief_photo photo[PHOTOS], int which, report *r)
 {
     static const lmb_relief_how usual = {0, 0, 0, 0, 0};
@@ -258,7 +258,7 @@ static void leave_out(const relief_photo photo[PHOTOS], int which, report *r)
     room_free(m);
 }
 
-/* A photo's own camera: the stored codes. */
+/* From a photo's own camera: the stored codes must be reproduced. */
 static void own(const room *m, const relief_photo *photo, int which)
 {
     const lmb_relief_how as_is = {0, LMB_RELIEF_EYE_RAY, 1, 0, 0};
@@ -283,7 +283,7 @@ static void own(const room *m, const relief_photo *photo, int which)
     shown_free(&got);
 }
 
-/* Half-way between two photos' cameras. */
+/* From half-way between the cameras of two photos. */
 static void between(const room *m, const relief_photo *a, const relief_photo *b, const char *name, report *r)
 {
     static const lmb_relief_how usual = {0, 0, 0, 0, 0};

@@ -1,4 +1,4 @@
-/* relief_stage.c: what the figures of reliefs share: models and their reliefs, bars, pictures. */
+/* relief_stage.c: shared parts of the relief figures: models and their reliefs, bars, pictures. */
 #include "relief_stage.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ void relief_show(const char *name, float *rgb, int32_t width, int32_t height, re
     }
 }
 
-/* The wood's grain of a model that has no colours. */
+/* Paints a wood grain on a model without colours. */
 static void paint(triangle_mesh *m, float diagonal)
 {
     for (uint32_t v = 0; v < m->vertex_count; ++v) {
@@ -144,13 +144,14 @@ void subject_free(subject *s)
     free(s);
 }
 
-/* All around, between a cube's lattice: by golden angles, turned. */
+/* Directions on a golden-angle spiral, turned, so that they lie between the lattice
+ * directions of the relief's views. */
 lmb_view subject_camera(const subject *s, int i, int32_t side, lmb_light *sun)
 {
     const double y = 1.0 - (2.0 * i + 1.0) / CAMERAS, a = 2.39996322972865332 * i + 0.3, ring = sqrt(1.0 - y * y);
     const lmb_vec3 d = vec3((float)(ring * cos(a)), (float)y, (float)(ring * sin(a)));
     lmb_view v = {.sample_x = 0};
-    const float away = 1.32f * s->diagonal; /* 45 degrees hold the sphere around it */
+    const float away = 1.32f * s->diagonal; /* 45 degrees contain the sphere around the model */
     if (lmb_view_look_at(&v, add3(s->middle, mul3(d, away)), s->middle, vec3(0.0f, 1.0f, 0.0f), 0.7853982f, side,
                          side) != LMB_OK) {
         exit(1);

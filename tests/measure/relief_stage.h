@@ -1,4 +1,4 @@
-/* relief_stage.h: what the figures of reliefs share: models and their reliefs, bars, pictures. */
+/* relief_stage.h: shared parts of the relief figures: models and their reliefs, bars, pictures. */
 #ifndef RELIEF_STAGE_H
 #define RELIEF_STAGE_H
 
@@ -11,7 +11,7 @@
 
 enum { RELIEF_VIEWS = 26, RELIEF_TEXELS = 256, CAMERAS = 24 };
 
-/* A complex model, and a relief of it. */
+/* A complex model and a relief of it. */
 typedef struct subject {
     model loaded;
     triangle_mesh mesh, simple;
@@ -25,7 +25,7 @@ typedef struct subject {
     float diagonal;
 } subject;
 
-/* The statues of the figures. */
+/* The statues used for the figures. */
 typedef struct statue {
     const char *name, *file;
     uint32_t triangles; /* of the simple model */
@@ -35,20 +35,20 @@ extern const statue statues[STATUES];
 
 void give_up(const report *r);
 
-/* One more failed, told, where a bar does not hold. */
+/* Reports a failure if the bar is missed. */
 void bar(const char *name, const char *what, int holds);
 
-/* A picture in the folder that LMB_PICTURES names, if any. */
+/* Writes a picture to the folder LMB_PICTURES, if it is set. */
 void relief_show(const char *name, float *rgb, int32_t width, int32_t height, report *r);
 
-/* subject_make: a statue and its relief of RELIEF_VIEWS views; NULL where its file is not there. */
+/* subject_make: a statue and a relief of it with RELIEF_VIEWS views; NULL if the file is missing. */
 subject *subject_make(const statue *of, report *r);
 void subject_free(subject *s);
 
-/* subject_of: the same of a mesh's positions and indices, with smooth normals and a simple model of `triangles`. */
+/* subject_of: the same from a mesh's positions and indices, with smooth normals and a simple model of `triangles`. */
 subject *subject_of(const triangle_mesh *mesh, uint32_t triangles, report *r);
 
-/* subject_camera: number i of CAMERAS around a statue, and a sun over its shoulder. */
+/* subject_camera: camera i of CAMERAS around a statue, and a sun behind and above the camera. */
 lmb_view subject_camera(const subject *s, int i, int32_t side, lmb_light *sun);
 
 /* The parts of the program. */

@@ -1,7 +1,7 @@
-# relight.sh: the relight figures, with instructions of an update where valgrind can count them.
+# relight.sh: prints the relight figures, with instructions of an update if valgrind can count them.
 #
 # LMB_SHARED: the folder with truth/ and data/ (default ../shared). The program makes two updates by each filter;
-# callgrind counts within relight_update alone and writes a file after each call: every second one is told.
+# callgrind counts only inside relight_update and writes a file after each call. The script uses every second file.
 work=$B/relight
 mkdir -p "$work"
 rm -f "$work"/count*

@@ -1,7 +1,7 @@
 /* relight_filters.c: irradiance at five places of truth/env_relight by every filter: errors, times and instructions.
  *
- * `alone` filters what the place truly sees, six faces of 64 x 64, through the same map; `remap` sees the world from
- * its centre and the ground's picture. Errors are of 6 x 8 x 8 normals. */
+ * `alone` filters the true surroundings of a place, six faces of 64 x 64, through the same map; `remap` computes the
+ * surroundings from the world's centre and the ground's picture. Errors are those of 6 x 8 x 8 normals. */
 #include <string.h>
 
 #include "../truth_scene.h"
@@ -114,7 +114,7 @@ static double time_of(relight_stage *s, const lmb_kernels *kernels, int filter, 
     return seconds;
 }
 
-/* Of one update, as the script counted them; "-" where nobody did. */
+/* Instructions of one update, as counted by the script; "-" without counts. */
 static const char *count_of(char out[32], const char *counts, int filter)
 {
     char line[80], name[32], number[32];
@@ -133,7 +133,7 @@ static const char *count_of(char out[32], const char *counts, int filter)
 
 /* --- tables ------------------------------------------------------------------------------------------------------- */
 
-enum { OBJECTS = 200 }; /* in a frame, by the quickest filter */
+enum { OBJECTS = 200 }; /* in a frame, by the fastest filter */
 static const double frame_s = 1.0 / 60.0;
 
 static void print_errors(const char *name, const summary *alone, const summary *remap)
@@ -143,7 +143,7 @@ static void print_errors(const char *name, const summary *alone, const summary *
            100.0 * remap->largest);
 }
 
-/* Percent, of the worst place; 0: no bar. */
+/* bar: limit of the worst place in percent; 0: no bar. */
 static void check(const char *name, const summary *alone, const summary *remap, const double bar[2])
 {
     CHECK_MSG(bar[0] <= 0.0 || 100.0 * alone->worst <= bar[0], "%s alone: %.3f %%", name, 100.0 * alone->worst);

@@ -1,7 +1,7 @@
-/* relight_frames.c: whole frames: objects at eight places of the built-in world, all of them moving, and the world as
- * their background, 640 x 480, one core: each object's cubes by the cosine filter and for its lobe, ids, and all bands.
+/* relight_frames.c: whole frames: moving objects at eight places of the built-in world, with the world as background,
+ * 640 x 480, one core. Includes each object's cubes by the cosine filter and for its lobe, ids, and all bands.
  *
- * Then the same without new cubes, as frames of objects at rest are. The bar is a 60th of a second. */
+ * Then the same without new cubes, as for objects at rest. The bar is a 60th of a second. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,7 +63,7 @@ static void set_figures(frames *f)
     CHECK(lmb_scene_check(&f->scene) == LMB_OK);
 }
 
-/* As `lambent relight --world demo --object demo` looks. */
+/* The view of `lambent relight --world demo --object demo`. */
 static void set_frame(frames *f)
 {
     lmb_relight *r = &f->relight;

@@ -1,11 +1,11 @@
-/* relight_glossy.c: cubes of what rough surfaces mirror, against sums over all that a place sees.
+/* relight_glossy.c: compares cubes of rough reflection with sums over everything that a place sees.
  *
- * Truth for a direction r is the integral of D(h) G(l) / 4 with n = v = r (the lobe of lmb_glossy seen from straight
- * above) over texels of what the place truly sees, or of the map, in double, divided by the lobe's own; texels near r
- * are cut into FINE x FINE. What a place sees are the path-traced faces of 64 x 64; for roughness under 0.3, whose
- * lobes are no wider than those texels, the world itself by rays, four a texel of 192 x 192. Cubes are read as pixels
- * read them, bilinearly, in DIRECTIONS spread evenly over the sphere; a cube of twice the side shows what is lost
- * between texels. */
+ * Truth for a direction r is the integral of D(h) G(l) / 4 with n = v = r (the lobe of lmb_glossy at normal incidence)
+ * over texels of the true surroundings or of the map, in double, divided by the lobe's own integral. Texels near r are
+ * split into FINE x FINE. The true surroundings are the path-traced faces of 64 x 64. Lobes of roughness under 0.3 are
+ * no wider than those texels, so for them the world is ray-traced with four rays for each texel of 192 x 192. Cubes
+ * are sampled bilinearly, as pixels do, in DIRECTIONS spread evenly over the sphere; a cube of twice the side shows
+ * the loss between texels. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,18 +15,18 @@
 #include "relight_stage.h"
 
 enum { DIRECTIONS = 192, FINE = 6, ROUGHS = 7, WORLDS = PLACES + SKIES, BEYOND = 128, SHARP = 192,
-       NARROW = 2 /* of the roughnesses */ };
+       NARROW = 2 /* number of the narrow roughnesses */ };
 static const float roughness[ROUGHS] = {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.7f, 1.0f};
 
-/* What is summed: texels of a cube's strip or of a map. */
+/* The domain of a sum: texels of a cube's strip or of a map. */
 typedef struct source {
     const image *picture;
     int is_cube;
-    double width; /* rad: of a texel where they are widest */
-    double *to;   /* x, y, z, solid angle of each */
+    double width; /* rad: the widest texel */
+    double *to;   /* x, y, z, solid angle of each texel */
 } source;
 
-/* Of place (x, y) in the picture; its solid angle a square texel, sr. */
+/* Direction of point (x, y) in the picture; returns its solid angle per texel area, sr. */
 static double place_of(double d[3], const source *s, double x, double y)
 {
     const int n = s->picture->width, h = s->picture->height;
@@ -59,7 +59,7 @@ static void set_source(source *s, const image *picture)
     }
 }
 
-/* What `at` sees along d of truth/env_relight: pictures 0 the ground, 1 the sphere around it. */
+/* Radiance that `at` sees along d in truth/env_relight: pictures 0 the ground, 1 the sphere around it. */
 static void see(float out[3], const image pictures[2], lmb_vec3 at, const double d[3])
 {
     const double far = 150.0, o[3] = {(double)at.x, (double)at.y, (double)at.z};
@@ -74,7 +74,7 @@ static void see(float out[3], const image pictures[2], lmb_vec3 at, const double
     relight_read(out, &pictures[1], (float)(0.5 + atan2(q[0], -q[2]) / (2.0 * PI)), (float)(acos(q[1] / far) / PI), 1);
 }
 
-/* All around, as a strip of six faces. */
+/* The surroundings as a strip of six faces. */
 static void see_all(image *out, const image pictures[2], lmb_vec3 at)
 {
     out->width = SHARP;
@@ -94,7 +94,7 @@ static void see_all(image *out, const image pictures[2], lmb_vec3 at)
     }
 }
 
-/* Light from where the cosine from r is c. */
+/* The lobe's weight of a direction with cosine c to r. */
 static double lobe(double c, double a2)
 {
     if (c <= 0.0) {
@@ -104,7 +104,7 @@ static double lobe(double c, double a2)
     return a2 / (t * t) * c / (c + sqrt(a2 + (1.0 - a2) * c * c));
 }
 
-/* The mean over texel i. */
+/* The mean of the lobe over texel i. */
 static double lobe_over(const source *s, int i, const double r[3], double a2)
 {
     const int w = s->picture->width;
@@ -138,7 +138,7 @@ static void truth_at(float out[3], const source *s, const double r[3], double a2
     }
 }
 
-/* A spiral from pole to pole by the golden angle. */
+/* A golden-angle spiral from pole to pole. */
 static void direction_at(double d[3], int i)
 {
     const double y = 1.0 - (2.0 * i + 1.0) / DIRECTIONS, round = sqrt(1.0 - y * y), a = 2.399963229728653 * i;
@@ -155,7 +155,7 @@ typedef struct glossy {
     float planes[3 * 6 * BEYOND * BEYOND];
     float bordered[4 * 6 * (BEYOND + 2) * (BEYOND + 2)];
     float truth[ROUGHS][3 * DIRECTIONS];
-    double rmse[WORLDS][ROUGHS][2]; /* with the side that shows a roughness, and twice that */
+    double rmse[WORLDS][ROUGHS][2]; /* with the default side for a roughness, and with twice that */
     double seconds[ROUGHS];
     lmb_vec3 at;
     float roughness;

@@ -1,10 +1,10 @@
-/* relight_maps.c: irradiance of maps by every filter, against the sum over all of a picture's texels; and what
- * a tiny, very bright sun does to each.
+/* relight_maps.c: compares irradiance of maps by every filter with the sum over all texels of a picture, and measures
+ * the effect of a tiny, very bright sun on each.
  *
- * The sun is a disc of 0.53 degrees that gives a surface which faces it ten times the map's mean irradiance. It is
- * added to the cube's texels by the part of each that it covers: 1 to 4 of them, thousands of times as bright as the
- * sky, and over what coded worlds hold. How much of it arrives depends on where it stands among texels: SUNS places
- * in the sky, one at a time. */
+ * The sun is a disc of 0.53 degrees that gives a surface facing it ten times the map's mean irradiance. The sun is
+ * added to the cube's texels in proportion to the part of each that it covers: 1 to 4 texels, which become thousands of
+ * times as bright as the sky and exceed the range of coded worlds. The result depends on the sun's place among the
+ * texels, so SUNS places in the sky are tried, one at a time. */
 #include <math.h>
 #include <string.h>
 
@@ -12,19 +12,19 @@
 #include "../truth_scene.h"
 #include "relight_stage.h"
 
-enum { FINE = 32 }; /* places each way in a texel beside the sun */
+enum { FINE = 32 }; /* samples each way in a texel near the sun */
 enum { SUNS = 9, SPOTS = 64 };
 static const double sun_radius = 0.5 * 0.53 * PI / 180.0, sun_times = 10.0;
 
-/* Texels that a sun was added to, and what they were. */
+/* Texels to which a sun was added, and their old values. */
 typedef struct sun_spots {
     double way[3];
     int count;
     float *texel[SPOTS], was[SPOTS][3];
 } sun_spots;
 
-/* A spiral by the golden angle from near the horizon to near the zenith; the last stands where two of the cube's faces
- * meet, whose texels are half as wide as the map's there. */
+/* A golden-angle spiral from near the horizon to near the zenith; the last sun lies on an edge between two faces of the
+ * cube, where texels are half as wide as the map's. */
 static void set_way(double way[3], int i)
 {
     static const double edge[3] = {2.0 / 3.0, 1.0 / 3.0, -2.0 / 3.0};
@@ -48,7 +48,7 @@ static void set_normals(sums *s)
     }
 }
 
-/* Of light `flux` from d on all normals. */
+/* Adds light of `flux` from d to all normals. */
 static void add_light(sums *s, const double d[3], const double flux[3])
 {
     for (int i = 0; i < TEXELS; ++i) {
@@ -60,7 +60,7 @@ static void add_light(sums *s, const double d[3], const double flux[3])
     }
 }
 
-/* All texels of the picture. Their mean irradiance: a quarter of what comes from all around. */
+/* Adds all texels of the picture. Returns their mean irradiance: a quarter of the integral over all directions. */
 static double add_picture(sums *s, const image *p)
 {
     double all = 0.0;
@@ -99,7 +99,7 @@ static double texel_area(int x, int y, int n)
     return 4.0 / ((double)n * n * length2 * sqrt(length2));
 }
 
-/* A sun whose light on what faces it is `irradiance`, W/m2. */
+/* Adds a sun of `irradiance` on a facing surface, W/m2. */
 static void add_sun(sun_spots *spots, const relight_sky *sky, double irradiance)
 {
     const int n = sky->pictures.face_size;
@@ -137,10 +137,10 @@ static void truth_of(float truth[3 * TEXELS], const sums *s)
     }
 }
 
-/* [FILTERS]: cosines of a world in 16-bit codes. */
+/* [FILTERS]: the sum over cosines, of a world in 16-bit codes. */
 typedef struct map_errors {
     relight_error of[FILTERS + 1];
-    double from_cosine; /* sh9's rmse against cosine */
+    double from_cosine; /* RMSE of sh9 against cosine */
 } map_errors;
 
 static void filter_all(map_errors *e, relight_stage *s, const relight_sky *sky, const float *truth)
@@ -163,7 +163,7 @@ static void filter_all(map_errors *e, relight_stage *s, const relight_sky *sky, 
     e->of[FILTERS] = relight_compare(s->cube, truth, TEXELS);
 }
 
-/* Means and worst of all suns. */
+/* Means and worst values over all suns. */
 typedef struct sun_errors {
     double mean[FILTERS + 1], worst[FILTERS + 1], largest[FILTERS + 1], min[FILTERS + 1], from_cosine;
 } sun_errors;
@@ -228,7 +228,7 @@ static void measure(relight_stage *s, const relight_sky *sky, const char *name)
     print_map(name, &plain, &sunny);
     CHECK_MSG(plain.of[COSINE].rmse <= 0.006, "%s, cosine: %.4f", name, plain.of[COSINE].rmse);
     CHECK_MSG(sunny.worst[COSINE] <= 0.01, "%s, cosine with a sun: %.4f", name, sunny.worst[COSINE]);
-    if (strncmp(name, "studio", 6) != 0) { /* where one softbox is most of the light, nine harmonics are 11 % off */
+    if (strncmp(name, "studio", 6) != 0) { /* if one softbox is most of the light, nine harmonics are 11 % off */
         CHECK_MSG(plain.of[SH_9].rmse <= 0.0205, "%s, sh9: %.4f", name, plain.of[SH_9].rmse);
         CHECK_MSG(plain.from_cosine <= 0.02, "%s, sh9 from cosine: %.4f", name, plain.from_cosine);
     }

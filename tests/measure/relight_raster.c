@@ -1,9 +1,9 @@
-/* relight_raster.c: what the filters save: the light at a place of truth/env_relight by rendering a cube map there.
+/* relight_raster.c: the baseline that the filters avoid: rendering a cube map at a place of truth/env_relight.
  *
- * The world as a mesh (ground to its end at 150 m, a sphere of 128 x 64 quads) is drawn into six views of 64 x 64
- * pixels, one ray a pixel; each pixel reads the float pictures at its uv, bilinearly; 4 x 4 pixels become a light with
- * their exact solid angles; the 6 x 16 x 16 lights are summed by cosine for 6 x 8 x 8 normals. Drawing, reading and
- * summing are lambent's own, by the backend's kernels; reading pictures and reducing are plain C. */
+ * The world as a mesh (the ground up to 150 m, a sphere of 128 x 64 quads) is drawn into six views of 64 x 64 pixels,
+ * one ray a pixel. Each pixel samples the float pictures at its uv, bilinearly. 4 x 4 pixels become a light with their
+ * exact solid angles. The 6 x 16 x 16 lights are summed by cosine for 6 x 8 x 8 normals. Drawing, resolving and summing
+ * use lambent's kernels; sampling pictures and reducing are plain C. */
 #include <math.h>
 #include <string.h>
 
@@ -37,8 +37,8 @@ typedef struct raster {
     float seen_uv[PIXELS][2], seen[PIXELS][3]; /* by pixel of the cube map */
     uint8_t on_ground[PIXELS];
     float area[VIEW * VIEW]; /* sr */
-    /* The lights by the evenness of their column and row: lmb_probe_cosine takes a quarter of them, and gives pi times
-     * their mean. `whole` turns that into their sum: what their solid angles sum to by cosine, over pi. */
+    /* The lights, split into quarters by even or odd column and row: lmb_probe_cosine takes one quarter and returns pi
+     * times the mean. `whole` converts that to a sum: the cosine-weighted sum of the solid angles, over pi. */
     lmb_probe_lights lights[QUARTERS];
     lmb_probe_table table[QUARTERS];
     float direction[QUARTERS][3 * TEXELS], whole[QUARTERS][TEXELS], part[3 * TEXELS];
@@ -113,9 +113,9 @@ static void set_scene(raster *r)
     CHECK(lmb_scene_check(&r->scene) == LMB_OK);
 }
 
-/* --- once --------------------------------------------------------------------------------------------------------- */
+/* --- set up once -------------------------------------------------------------------------------------------------- */
 
-/* Cube maps are left-handed: columns are drawn from the right. */
+/* Cube maps are left-handed, so columns are drawn from the right. */
 static void set_views(raster *r)
 {
     for (int i = 0; i < 6; ++i) {
@@ -135,7 +135,7 @@ static void set_views(raster *r)
     }
 }
 
-/* Of the cube's face from its middle to (x, y): d s d t / (1 + s^2 + t^2)^1.5 summed. */
+/* Solid angle of the cube's face from the middle to (x, y): the sum of d s d t / (1 + s^2 + t^2)^1.5. */
 static double corner_area(double x, double y) { return atan2(x * y, sqrt(x * x + y * y + 1.0)); }
 
 static void set_areas(raster *r)
@@ -147,7 +147,7 @@ static void set_areas(raster *r)
     }
 }
 
-/* Light (x, y) of a face: its quarter, and its place there. */
+/* Maps light (x, y) of a face to a quarter and a slot. */
 static int quarter_of(int *slot, int face, int x, int y)
 {
     *slot = (face * SIDE + y / 2) * SIDE + x / 2;
@@ -268,7 +268,7 @@ static void light_at(raster *r, lmb_vec3 at)
 
 /* --- figures ------------------------------------------------------------------------------------------------------ */
 
-/* Times of the last place's steps. */
+/* Times of the steps for the last place. */
 static void print_times(raster *r)
 {
     double whole = 0.0;

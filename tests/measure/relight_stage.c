@@ -62,7 +62,7 @@ void relight_set_world(relight_stage *s, const lmb_world_pictures *pictures, int
     CHECK(lmb_world_init(&s->world, pictures, format, s->world_memory, bytes) == LMB_OK);
 }
 
-/* Six faces, one under another. */
+/* Six faces, stacked vertically. */
 static void take_faces(lmb_world_pictures *p, const image *cube)
 {
     p->face_size = cube->width;
@@ -253,7 +253,7 @@ static double seconds_of(int calls, void (*work)(void *), void *context)
     return seconds_now() - from;
 }
 
-/* Samples of half a millisecond or one call, for a tenth of a second. */
+/* Samples of half a millisecond, or of one call if that is longer, for a tenth of a second. */
 double relight_seconds(void (*work)(void *), void *context)
 {
     const double first = seconds_of(1, work, context), from = seconds_now();

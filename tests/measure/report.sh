@@ -1,8 +1,10 @@
-# report.sh: speed against error of three truth scenes and the demo: a page each, and README's table and picture.
+# report.sh: measures speed against error of three truth scenes and the demo: one page each, and the
+# README's table and picture.
 #
-# SCENES: which (default "demo cornell corridor sponza"). LMB_SHARED: the folder with truth/ (default ../shared). REPORT:
-# where to (default build/report). RUNS, BREAKDOWN: see `lambent bench SCENE --help`. tests/results/README.md gets a
-# table of what is there, measured at once or one by one, and front.svg beside it the Cornell box's picture.
+# SCENES: scenes (default "demo cornell corridor sponza"). LMB_SHARED: the folder with truth/ (default ../shared).
+# REPORT: output folder (default build/report). RUNS, BREAKDOWN: see `lambent bench SCENE --help`.
+# tests/results/README.md gets a table of all finished scenes, which may come from several runs, and front.svg beside it
+# the Cornell box's picture.
 . tests/scripts/checks.sh
 
 truth=${LMB_SHARED:-../shared}/truth
@@ -10,7 +12,7 @@ to=${REPORT:-build/report}
 scenes=${SCENES:-demo cornell corridor sponza}
 mkdir -p "$to"
 
-# sweep NAME ARGUMENT...: its page; says how long it took.
+# sweep NAME ARGUMENT...: writes its page and prints the time.
 sweep() {
     name=$1
     shift
@@ -23,7 +25,8 @@ sweep() {
     fi
 }
 
-# rows NAME TITLE: of the front the fastest, the knee, the nearest, and between them who lessens the error by a quarter.
+# rows NAME TITLE: prints from the front the fastest, the knee, the most accurate, and between them each setting that
+# reduces the error by a quarter.
 rows() {
     awk -F, -v title="$2" '
     NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
@@ -58,7 +61,7 @@ table() {
     [ ! -s "$to/sponza.csv" ] || rows sponza "Sponza atrium, 320x240"
 }
 
-# What stands between README's marks becomes the table.
+# Replaces the text between README's marks by the table.
 put_table() {
     table >"$to/front.md"
     awk -v table="$to/front.md" '

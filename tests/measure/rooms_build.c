@@ -1,4 +1,4 @@
-/* rooms_build.c: the rooms. Constants may be chosen on the first ones; those that are held out chose none. */
+/* rooms_build.c: the rooms. Constants may be chosen on the first ones, but not on the held-out ones. */
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -12,7 +12,7 @@ static int metal(room *r, double red, double green, double blue, double roughnes
     return m;
 }
 
-/* Its triangles' fronts outside. */
+/* Adds a ball with its triangles facing outwards. */
 static void ball_outside(made_scene *s, int material, svec centre, double radius, int rings)
 {
     uint32_t i = s->triangles;
@@ -26,7 +26,7 @@ static void ball_outside(made_scene *s, int material, svec centre, double radius
     }
 }
 
-/* What comes from now on is the object. */
+/* All triangles added from now on belong to the object. */
 static void object_begins(room *r) { r->bare = r->scene.triangles; }
 
 static void tell_lights(room *r)
@@ -62,7 +62,7 @@ static void build_metal_box(room *r)
     tell_lights(r);
 }
 
-/* The window is a bright square in the wall ahead, of which `mix` is told as eight small lights. */
+/* The window is a bright square in the wall ahead; `mix` gets eight small lights for it. */
 static void build_window(room *r)
 {
     made_scene *s = &r->scene;
@@ -124,7 +124,7 @@ static void build_lamp(room *r)
     tell_lights(r);
 }
 
-/* --- held out: sizes, places, colours and lights by chance, and the whole turned ---------------------------------- */
+/* --- held out: sizes, places, colours and lights are random, and the whole is turned ------------------------------ */
 
 static int any_paint(made_scene *s, double low, double high)
 {
@@ -132,7 +132,7 @@ static int any_paint(made_scene *s, double low, double high)
     return paint(s, red, green, blue);
 }
 
-/* A closed room whose corner 0, 0, 0 is seen. */
+/* A closed room seen towards its corner 0, 0, 0. */
 static svec any_room(room *r, uint64_t seed)
 {
     made_scene *s = &r->scene;
@@ -193,7 +193,7 @@ static void build_copper_ball(room *r)
     turn_any(r);
 }
 
-/* --- what glows and stands on the floor ------------------------------------------------------------------------------ */
+/* --- objects that emit light and stand on the floor --------------------------------------------------------------- */
 
 static int glowing(made_scene *s, double red, double green, double blue)
 {
@@ -204,7 +204,7 @@ static int glowing(made_scene *s, double red, double green, double blue)
     return m;
 }
 
-/* A room under a lamp, its floor as dark as many carpets are. */
+/* A room under a lamp; the floor is as dark as many carpets. */
 static int dark_floor(room *r, double floor)
 {
     made_scene *s = &r->scene;
@@ -230,7 +230,7 @@ static void build_glow_box(room *r)
     tell_lights(r);
 }
 
-/* A cone that stands on its tip, so that all of it but the lid leans over the floor. */
+/* A cone on its tip, so that all of it except the lid leans over the floor. */
 static void build_glow_cone(room *r)
 {
     enum { SIDES = 24 };
@@ -248,7 +248,7 @@ static void build_glow_cone(room *r)
     tell_lights(r);
 }
 
-/* Ball or box, spot or point. */
+/* The object is a ball or a box, the light a spot or a point. */
 void room_any_metal(room *r, uint64_t seed)
 {
     made_scene *s = &r->scene;

@@ -1,4 +1,4 @@
-/* rooms_truth.c: pictures of a room by random paths, metals among its surfaces; and its object as a file. */
+/* rooms_truth.c: path-traces rooms with metal surfaces, and writes the object as a file. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 enum { BOUNCES = 7 };
 
-/* --- metals: GGX, height-correlated Smith, Schlick, as lambent/scene.h has them ------------------------------------ */
+/* --- metals: GGX, height-correlated Smith, Schlick, as in lambent/scene.h ----------------------------------------- */
 
 static double alpha_of(double roughness) { return fmax(roughness * roughness, 0.0025); }
 
@@ -23,7 +23,7 @@ static double visible(double nl, double nv, double a2)
 
 static double fresnel(double f0, double vh) { return f0 + (1.0 - f0) * pow(1.0 - vh, 5.0); }
 
-/* Added: what a metal reflects towards v of the lights that have no area. */
+/* Adds light of sources without area that a metal reflects towards v. */
 static void add_lights(const path_tracer *p, const path_point *here, double roughness, svec v, double rgb[3])
 {
     const double a = alpha_of(roughness), a2 = a * a, nv = dot_of(here->normal, v);
@@ -44,7 +44,8 @@ static void add_lights(const path_tracer *p, const path_point *here, double roug
 
 static svec across(svec n) { return unit(cross_of(fabs(n.x) < 0.5 ? at(1, 0, 0) : at(0, 1, 0), n)); }
 
-/* A direction by the density of half vectors; share becomes what it reflects of its light. 0: under the surface. */
+/* Samples a direction by the density of half vectors and multiplies share by the weight. Returns 0 if the direction
+ * points below the surface. */
 static int reflect(svec *out, double share[3], const path_tracer *p, const path_point *here, double roughness, svec v,
                    double u, double w)
 {
@@ -68,8 +69,8 @@ static int reflect(svec *out, double share[3], const path_tracer *p, const path_
 
 static double any(test_rng *r) { return test_random(r) * (1.0 / 4294967296.0); }
 
-/* What one path from `here` brings that is seen from v. Emitters count where a ray meets them after the eye or a metal:
- * matt surfaces ask for them by a ray of their own. */
+/* Adds the radiance of one path from `here`, seen from v. A hit emitter counts only after the eye or a metal; matt
+ * surfaces sample emitters by shadow rays. */
 static void add_path(const path_tracer *p, const room *r, path_point here, svec v, const double first[2],
                      test_rng *random, double rgb[3])
 {
@@ -161,7 +162,7 @@ static void write_base64(FILE *f, const unsigned char *in, size_t size)
     }
 }
 
-/* By material: corners in triangles' order, from the object's first triangle on. */
+/* Collects one material's corners in the order of triangles, from the object's first triangle on. */
 static size_t gather(float *out, const room *r, int material)
 {
     const made_scene *s = &r->scene;
@@ -215,7 +216,7 @@ int room_write_object(const room *r, const char *path)
         }
     }
     fprintf(f, "]}],\"accessors\":[");
-    for (int m = 0; m < n; ++m) { /* materials of the room have one corner each that nothing uses */
+    for (int m = 0; m < n; ++m) { /* each material of the room has one unused corner */
         const size_t count = first[m + 1] - first[m];
         fprintf(f, "%s{\"bufferView\":0,\"byteOffset\":%u,\"componentType\":5126,\"count\":%u,\"type\":\"VEC3\"}",
                 m > 0 ? "," : "", (unsigned)(count > 0 ? 12 * first[m] : 0), (unsigned)(count > 0 ? count : 1));

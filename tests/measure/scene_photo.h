@@ -1,4 +1,4 @@
-/* scene_photo.h: the path-traced picture of a made scene as the photo of a job of `lambent mix`. */
+/* scene_photo.h: uses the path-traced picture of a generated scene as the photo of a job of `lambent mix`. */
 #ifndef SCENE_PHOTO_H
 #define SCENE_PHOTO_H
 
@@ -10,7 +10,7 @@
 #include "../../tools/mix/mix_job.h"
 #include "../truth/path.h"
 
-/* scene_pose: of the scene's camera to its world, as --frame has it. */
+/* scene_pose: the transform from the scene's camera to its world, in the convention of --frame. */
 static inline void scene_pose(double pose[16], const made_scene *s)
 {
     const svec f = unit(less(s->target, s->eye)), right = unit(cross_of(f, s->up)), down = cross_of(f, right);
@@ -24,7 +24,8 @@ static inline void scene_pose(double pose[16], const made_scene *s)
     pose[15] = 1.0;
 }
 
-/* scene_photo: `side` pixels square: light, depth along the axis in metres, camera and pose. 1, or 0 with `r` set. */
+/* scene_photo: sets a photo of `side` x `side` pixels: light, depth along the axis in metres, camera and pose.
+ * Returns 1, or 0 with `r` set. */
 static inline int scene_photo(mix_job *j, const made_scene *s, int side, const float *rgb, const float *depth, report *r)
 {
     const size_t pixels = (size_t)side * (size_t)side;
@@ -45,7 +46,7 @@ static inline int scene_photo(mix_job *j, const made_scene *s, int side, const f
     return 1;
 }
 
-/* scene_keep: what took long to trace, read from a file or written to it. 1, or 0 where it is not there or not whole. */
+/* scene_keep: reads a cached result from a file or writes it. Returns 1, or 0 if the file is missing or incomplete. */
 static inline int scene_keep(const char *path, void *p, size_t bytes, int is_read)
 {
     FILE *f = fopen(path, is_read ? "rb" : "wb");

@@ -1,11 +1,11 @@
-# sequence.sh: sequences of rooms with a Kinect's noise through `lambent mix --frames`: how much pixels flicker, and time.
+# sequence.sh: runs `lambent mix --frames` on sequences of rooms with a Kinect's noise: flicker of pixels, and time.
 #
-#     sequence.sh [NAME SCENE EYE TARGET SEED]...    (default: one room that was looked at, one that was not)
+#     sequence.sh [NAME SCENE EYE TARGET SEED]...    (default: one room used in development, one that was not)
 #
-# Of each room a camera that moves 25 mm a frame, and one that stands still before new noise. Frames have FRAME (default
-# 640x480), COUNT of them move (default 21). Flicker: of 255, the 99.9th percentile and the largest change of a pixel
-# whose photo did not change. Frames a second and seconds of processor a frame: of all frames after the first, with their
-# files, on THREADS threads (default 2). OBJECT: default a tent.
+# For each room, one camera moves 25 mm a frame, and one stands still while the noise changes. FRAME: size (default
+# 640x480). COUNT: number of moving frames (default 21). Flicker: change, of 255, of pixels that are equal in the
+# photos: the 99.9th percentile and the maximum. Frames a second and processor seconds a frame cover all frames after
+# the first, with their files, on THREADS threads (default 2). OBJECT: default a tent.
 . tests/scripts/checks.sh
 
 work=$B/measure/sequence
@@ -16,14 +16,14 @@ printf 'v %s\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >"$work/tent.obj"
 printf 'f %s\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>"$work/tent.obj"
 object=${OBJECT:-$work/tent.obj}
 
-# now: wall ms; all its programs' processor ms.
+# now: sets wall milliseconds, and processor milliseconds of all child programs.
 now() {
     times >"$work/times.txt"
     wall=$(date +%s%N | cut -c1-13)
     cpu=$(sed -n 2p "$work/times.txt" | tr 'ms' '  ' | awk '{ printf "%d", 60000 * ($1 + $3) + 1000 * ($2 + $4) }')
 }
 
-# made NAME SCENE EYE TARGET SEED: photos and depth, once.
+# made NAME SCENE EYE TARGET SEED: makes photos and depth, once.
 made() {
     d=$work/$1
     mkdir -p "$d"

@@ -1,8 +1,8 @@
-# steady.sh: measure-steady on scenes with known truth, by baked light.
+# steady.sh: runs measure-steady with baked light on scenes with known truth.
 #
-# SCENES: which (default cornell corridor). LMT: the folder with NAME.lmt, baked where it is not there (default
-# $B/measure). FRAME: its size (default 160x120). ONLY: residual, halving or shift. LMB_SHARED: the folder with
-# truth/ (default ../shared). Each scene's failures count as one.
+# SCENES: scenes (default cornell corridor). LMT: the folder with NAME.lmt, baked if missing (default $B/measure).
+# FRAME: size (default 160x120). ONLY: residual, halving or shift. LMB_SHARED: the folder with truth/ (default
+# ../shared). The failures of a scene count as one.
 . tests/measure/draw.sh
 
 folder=${LMT:-$work}

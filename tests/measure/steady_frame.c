@@ -1,4 +1,4 @@
-/* steady_frame.c: draws a frame twice and finds places of one in another. */
+/* steady_frame.c: draws a frame with two settings and finds points of one frame in another. */
 #include "steady_frame.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ void steady_frame_free(steady_frame *f)
     memset(f, 0, sizeof *f);
 }
 
-/* Places and ids of the pixels, of the view that was drawn last. */
+/* Finds places and ids of the pixels of the last view. */
 static int find_places(steady_frame *out, const render_job *j)
 {
     const lmb_frame *f = &j->render->frame;
@@ -76,7 +76,8 @@ int steady_draw(steady_frame *out, steady_stage *s, report *r)
 
 static float grey(const float *rgb) { return (rgb[0] + rgb[1] + rgb[2]) / 3.0f; }
 
-/* The view's column and row of a place, from the middle of the first pixel; 0: behind the eye. */
+/* Projects a point to column and row, relative to the middle of the first pixel. Returns 0
+ * if it lies behind the eye. */
 static int project(float *x, float *y, const steady_frame *f, lmb_vec3 at)
 {
     const lmb_vec3 d = sub3(at, f->view.eye);
@@ -97,7 +98,7 @@ int steady_look(float *light, float *best, const steady_frame *f, const steady_f
         return 0;
     }
     if (f == of || (absf(x - floorf(x + 0.5f)) < 2e-3f && absf(y - floorf(y + 0.5f)) < 2e-3f)) {
-        x = floorf(x + 0.5f); /* the pixel itself, but for rounding */
+        x = floorf(x + 0.5f); /* the pixel itself except for rounding */
         y = floorf(y + 0.5f);
     }
     const int32_t x0 = (int32_t)floorf(x), y0 = (int32_t)floorf(y);

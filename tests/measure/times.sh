@@ -1,12 +1,12 @@
-# times.sh: wall seconds by stage of a 640x480 frame, by preset and number of threads: the least of several runs.
+# times.sh: wall seconds by stage of a 640x480 frame, by preset and number of threads: the minimum of several runs.
 #
-# SCENES, QUALITIES, THREADS, FRAME: which. LMB_SHARED: the folder with truth/ (default ../shared). A case runs until it
-# has taken ten seconds, at most five times, and the run with the shortest frame is shown. `frame` is all stages,
-# without loading and writing; `again` what is left of it where light and objects stand still; `user` the user seconds
-# of all threads, with loading and writing, which other work on the machine changes least.
+# SCENES, QUALITIES, THREADS, FRAME select the work. LMB_SHARED: the folder with truth/ (default ../shared). A case runs
+# at most five times, or until it has taken ten seconds; the run with the shortest frame is shown. `frame` is the sum of
+# all stages, without loading and writing. `again` is the rest of it when light and objects stand still. `user` is the
+# user seconds of all threads, with loading and writing; other load on the machine changes it least.
 . tests/measure/draw.sh
 
-# A table's cells from the stats of the last run.
+# Prints a table's cells from the stats of the last run.
 cells() {
     maps=$(figure shadow_maps) bvh=$(figure BVH) points=$(figure first_points)
     view=$(figure view) bands=$(figure bands)

@@ -1,10 +1,10 @@
-# truth.sh: one bounce against the path-traced truth, every scene by every preset: one table of errors, work and time.
+# truth.sh: compares one bounce with path-traced truth, every scene by every preset: one table of errors, work and time.
 #
-# SCENES, QUALITIES: which. LMB_SHARED: the folder with truth/ (default ../shared). The figures are truth/compare.py's,
-# which knows nothing of the tool. A row passes where it keeps the bars below; rows without bars are shown only.
+# SCENES, QUALITIES select the work. LMB_SHARED: the folder with truth/ (default ../shared). truth/compare.py computes
+# the figures, independently of the tool. A row passes if it meets the bars below; rows without bars are only shown.
 . tests/measure/draw.sh
 
-# What a preset owes: trim, full RMSE where no handful of pixels decides it, light in the dark of the two rooms.
+# Bars of a preset: trim; full RMSE unless a few pixels dominate it; light in the dark parts of the two rooms.
 bars_of() {
     case $1/$2 in
     default/cornell | default/bunny_room | default/corner_contact) echo trim=0.05 ;;
@@ -26,7 +26,7 @@ compare() {
         --classes "$truth/$1/classes.pfm" ${bars:+--max "$bars"} | tee "$work/compared"
 }
 
-# compare.py's `KEY value` pairs as cells, leak where there is one, and a bar that was passed.
+# Prints compare.py's `KEY value` pairs as cells, leak if there is one, and any missed bar.
 cells() {
     sed 's/[()]//g' "$work/compared" | awk '{
         for (i = 1; i < NF; ++i) v[$i] = $(i + 1)

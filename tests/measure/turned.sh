@@ -1,8 +1,9 @@
-# turned.sh: the work and the error of scenes turned at random, camera and lights with them, against what they have upright.
+# turned.sh: compares work and error of scenes turned at random, with camera and lights, with
+# those of the upright scenes.
 #
-# SHARED_SCENES: which of the shared folder's, ten turns each. LMB_OWN_TRUTH: the folder that tests/scenes/truth.sh filled.
-# OWN_SCENES: which of it, three turns each. QUALITIES, TURNS: which (default: all that is there, default, as said). A turn
-# passes where pairs and segments are within 1.3 x, and trim within 1.1 x or within 0.003; `close` counts the latter.
+# SHARED_SCENES: scenes of the shared folder, ten turns each. LMB_OWN_TRUTH: the folder filled by tests/scenes/truth.sh.
+# OWN_SCENES: scenes in it, three turns each. QUALITIES, TURNS (default: all scenes, quality default, turns as above). A
+# turn passes if pairs and segments are within 1.3 x, and trim within 1.1 x or within 0.003; `close` counts the latter.
 . tests/measure/draw.sh
 
 compare=$truth/compare.py
@@ -10,8 +11,8 @@ shared=$truth
 truth=$work/turned
 rows=$work/turned.rows
 
-# turn_gltf FOLDER SEED: its scene.gltf into $truth/one with all nodes below one that turns, about an axis and by an angle
-# that the seed draws evenly from all turns.
+# turn_gltf FOLDER SEED: writes its scene.gltf to $truth/one with all nodes below a new node that turns about an axis
+# and by an angle drawn uniformly from all rotations.
 turn_gltf() {
     cp "$1/scene.bin" "$truth/one" && python3 - "$1/scene.gltf" "$truth/one/scene.gltf" "$2" <<'PYTHON'
 import json, random, sys
@@ -28,7 +29,7 @@ with open(sys.argv[2], 'w') as f:
 PYTHON
 }
 
-# place FOLDER NAME [TURN]: the scene, turned or not, into $truth/one.
+# place FOLDER NAME [TURN]: puts the scene, turned or not, into $truth/one.
 place() {
     if [ "$1" != "$shared" ]; then
         "$B/scenes" "$2" ${3:+--rotate "$3"} -o "$truth/one"
@@ -39,7 +40,7 @@ place() {
     fi
 }
 
-# figures_of FOLDER NAME QUALITY [TURN]: `trim pairs segments` of one picture.
+# figures_of FOLDER NAME QUALITY [TURN]: prints `trim pairs segments` of one picture.
 figures_of() {
     place "$1" "$2" "$4" &&
         draw one "$3" 1 "$(dd if="$1/$2/pt_indirect1.pfm" bs=32 count=1 2>/dev/null | sed -n '2s/ /x/p')" indirect ||
@@ -67,7 +68,7 @@ turns() {
     done
 }
 
-# The worst and the mean of each scene's ratios.
+# Prints the worst and the mean of each scene's ratios.
 sums() {
     awk '
         NF == 9 {

@@ -1,8 +1,8 @@
-/* accuracy.c: one scene by the library and by the slow rasterizers, pixel by pixel.
+/* accuracy.c: compares the library with the slow rasterizers on one scene, pixel by pixel.
  *
- * A picture shows only what is in front, and inside a hall every pixel is covered by something: so each triangle is
- * also drawn alone and compared in all its pixels. That the picture is what its triangles alone make, put together in
- * order, is counted too, byte by byte. */
+ * A picture shows only the front surfaces, and inside a hall every pixel is covered. So each triangle is also drawn
+ * separately and compared in all pixels that it covers. Another check counts bytes of the picture that differ from the
+ * separate triangles merged in order. */
 #include "accuracy.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ typedef struct canvas {
     uint32_t *id;
 } canvas;
 
-/* A pixel of the triangle at hand. */
+/* A pixel of the current triangle. */
 typedef struct fragment {
     size_t at;
     ref_pixel pixel;
@@ -34,16 +34,16 @@ typedef struct contest {
     uint32_t flags;
     int cull, backends;
     size_t step, count;      /* px from row to row; px with the padding */
-    canvas alone[BACKENDS];  /* the triangle at hand, by each backend; else empty */
+    canvas alone[BACKENDS];  /* the current triangle, by each backend; otherwise empty */
     canvas picture, another; /* of all, by the first backend; by one of the others, or without ids */
-    float *together;         /* the triangles alone, put together */
+    float *together;         /* the separate triangles, merged */
     uint32_t *together_id;
-    double *best, *drawn;    /* the reference's depth in front; of the triangle that the picture shows */
+    double *best, *drawn;    /* the reference's nearest depth; the reference's depth of the triangle in the picture */
     uint32_t *best_id;
-    uint32_t *slot;          /* where in `fragments` a pixel may be */
+    uint32_t *slot;          /* index in `fragments` at which a pixel may be */
     fragment *fragments;
     size_t fragment_count;
-    uint32_t exact_id;       /* of the exact rasterizer's triangle at hand */
+    uint32_t exact_id;       /* of the current triangle of the exact rasterizer */
 } contest;
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
@@ -116,7 +116,7 @@ static void get_corners(float out[3][3], const lmb_mesh *m, uint32_t triangle)
     }
 }
 
-/* The last tiles' pixels past the frame's edge hold anything. */
+/* Pixels of the last tiles beyond the frame's edge are undefined. */
 static int in_frame(const contest *c, size_t at)
 {
     return at % c->step < (size_t)c->view->frame_width && at / c->step < (size_t)c->view->frame_height;
@@ -131,9 +131,9 @@ static void draw(const contest *c, const canvas *to, int backend, int ids, uint3
     lmb_draw(&t, c->kernels[backend], c->view, c->scene, first, count, c->flags, NULL);
 }
 
-/* --- one triangle alone ------------------------------------------------------------------------------------------- */
+/* --- single triangles --------------------------------------------------------------------------------------------- */
 
-/* Pieces of a clipped triangle may overlap once snapped: then the nearer, within both ranges. */
+/* Pieces of a clipped triangle may overlap after snapping: takes the nearer depth and the union of the ranges. */
 static void keep_fragment(void *user, const ref_pixel *p)
 {
     contest *c = user;
@@ -170,14 +170,14 @@ static void count_error(error_count *n, float ours, double theirs)
     n->worst = fmax(n->worst, error);
 }
 
-/* What rounding explains, in halves of an ulp of 1. With h the nearest corner's depth and s the plane's fall a px: a
- * corner's depth is four operations (orthographic; two in perspective), 4 h. The plane's value at a tile's first pixel,
- * up to 7 px away either way, and the two sums are under h + 7 s, slopes and products under 7 s: 3 h + 35 s. (Corners
- * on the guard band round some more; none showed.) A steep plane's share, 35 s, is small beside what snapping does to
- * it: half of 1/256 px is s / 512, or 32768 s. */
+/* Bound of the rounding error, in halves of an ulp of 1. Let h be the nearest corner's depth and s the plane's slope a
+ * px. A corner's depth takes four operations (orthographic; two in perspective): 4 h. The plane's value at a tile's
+ * first pixel, up to 7 px away either way, and the two sums are under h + 7 s, slopes and products under 7 s: 3 h + 35
+ * s. (Corners on the guard band round some more; no case showed it.) The term 35 s is small beside the effect of
+ * snapping: half of 1/256 px is s / 512, or 32768 s. */
 static double step_bound(const ref_pixel *p) { return ldexp(7.0 * (double)p->high + 35.0 * p->slope, -24); }
 
-/* The same bytes by every backend; then the canvases are empty again. */
+/* Checks for the same bytes in every backend, then clears the pixel. */
 static void take_alone(contest *c, const fragment *f)
 {
     const uint32_t id = c->alone[0].id[f->at];
@@ -230,7 +230,7 @@ static void compare_triangles(contest *c)
             compare_fragment(c, &c->fragments[i], k + 1);
         }
     }
-    /* What is left was covered by the library only. */
+    /* The remaining pixels were covered only by the library. */
     for (int i = 0; i < c->backends; ++i) {
         for (size_t at = 0; at < c->count; ++at) {
             c->result->alone.only_one += in_frame(c, at) && c->alone[i].id[at] != 0;
@@ -240,7 +240,7 @@ static void compare_triangles(contest *c)
 
 /* --- the picture -------------------------------------------------------------------------------------------------- */
 
-/* Backends and kinds of target: the pixels' bytes are the first backend's. */
+/* All backends and kinds of target must give the first backend's bytes. */
 static void compare_backends(contest *c)
 {
     for (int run = 1; run < 2 * c->backends; ++run) {

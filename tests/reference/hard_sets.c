@@ -1,4 +1,5 @@
-/* hard_sets.c: random triangles of the kinds that rasterizers get wrong, made on the screen and put into the world. */
+/* hard_sets.c: random triangles of kinds that are difficult for rasterizers, made in screen space and
+ * transformed to the world. */
 #include "hard_sets.h"
 
 #include <math.h>
@@ -6,7 +7,7 @@
 
 #include "../test.h"
 
-enum { WIDTH = 163, HEIGHT = 117 }; /* no whole tiles */
+enum { WIDTH = 163, HEIGHT = 117 }; /* not multiples of a tile */
 
 /* A corner: px from the frame's top left, metres along the axis. */
 typedef struct spot {
@@ -17,7 +18,7 @@ static double between(test_rng *r, double low, double high) { return (double)tes
 static double power(test_rng *r, double low, double high) { return pow(10.0, between(r, low, high)); }
 static double either(test_rng *r) { return test_random(r) & 1u ? 1.0 : -1.0; }
 
-/* Some way past the frame; from twice the near plane's distance on, steps of depth at random. */
+/* Some way past the frame; depth from twice the near plane's distance on, in random steps. */
 static spot anywhere(test_rng *r)
 {
     spot s;
@@ -86,7 +87,7 @@ static void make_far_out(test_rng *r, spot s[3])
     }
 }
 
-/* All of the scene's depth within a few px. */
+/* The whole depth of the scene within a few px. */
 static void make_edge_on(test_rng *r, spot s[3])
 {
     const double size = power(r, 0.0, 1.5);
@@ -98,7 +99,7 @@ static void make_edge_on(test_rng *r, spot s[3])
     }
 }
 
-/* Corners on pixels' centres and rims, edges through them; in four planes, so that many lie in one. */
+/* Corners and edges on pixel centres and borders; in four planes, so that many triangles are coplanar. */
 static void make_grid(test_rng *r, spot s[3])
 {
     const double reach = power(r, 0.3, 2.0), w = 2.0 + (double)(test_random(r) % 4);
@@ -110,7 +111,8 @@ static void make_grid(test_rng *r, spot s[3])
     }
 }
 
-/* A right angle just past a tile's last pixel, all but parallel to the screen: sums of a few ulps leave the range. */
+/* A right angle just past a tile's last pixel, almost parallel to the screen: an error of a few
+ * ulps leaves the depth range. */
 static void make_flat(test_rng *r, spot s[3])
 {
     const double x = 8.0 * (double)(8 + test_random(r) % 12), y = 8.0 * (double)(8 + test_random(r) % 6);
@@ -124,7 +126,7 @@ static void make_flat(test_rng *r, spot s[3])
     s[2].y -= between(r, 70.0, 100.0);
 }
 
-/* Boxes of about 64 px, at which small triangles become large ones, and of 10 to 1000, where 32 bits end. */
+/* Boxes of about 64 px, the limit between small and large triangles, and of 10 to 1000 px, the limit of 32 bits. */
 static void make_middling(test_rng *r, spot s[3])
 {
     const int about_64 = (test_random(r) & 1u) != 0;
@@ -138,7 +140,7 @@ static void make_middling(test_rng *r, spot s[3])
     }
 }
 
-/* Beside the eye: x up to 1000 km, w from 0.1 um on. Cut by the guard band, x is off by many w in binary32. */
+/* Beside the eye: x up to 1000 km, w from 0.1 um on. After the guard band clips it, x is off by many w in binary32. */
 static void make_beside(test_rng *r, spot s[3])
 {
     for (int k = 0; k < 3; ++k) {
@@ -177,7 +179,7 @@ static void set_view(lmb_view *v, int orthographic)
         v->near_m = 1.0f;
         return;
     }
-    /* A metre a pixel, 1 to 129 m: positions and depths that binary32 holds. */
+    /* One metre a pixel, 1 to 129 m: binary32 represents positions and depths exactly. */
     memset(v, 0, sizeof *v);
     v->kind = LMB_ORTHOGRAPHIC;
     v->right.x = v->up.y = v->back.z = 1.0f;
@@ -189,7 +191,7 @@ static void set_view(lmb_view *v, int orthographic)
     v->frame_height = HEIGHT;
 }
 
-/* Along the world's axes, so that no axis' rounding reaches another. */
+/* Along the world's axes, so that rounding on one axis does not affect another. */
 static void see_beside(lmb_view *v)
 {
     set_view(v, 1);
@@ -227,9 +229,9 @@ static void set_scene(hard_set *h, uint32_t triangles)
     lmb_scene_bounds(&h->scene.bounds_min, &h->scene.bounds_max, &h->scene);
 }
 
-/* A tile that no edge crosses and that needs the clamp all the same. Depth rises by 0.1 ulp a px towards the right
- * angle at the tile's last pixel, 8 ulps in all; at its first pixel it is 6.6 and rounds to 7, 7 rows on 7.7, to 8, and
- * 7 columns on 8.7, to 9. */
+/* A tile that no edge crosses and that still needs the clamp. Depth rises by 0.1 ulp a px towards the right angle at
+ * the tile's last pixel, 8 ulps in all. At the first pixel it is 6.6, which rounds to 7; 7 rows on it is 7.7, which
+ * rounds to 8; 7 columns on it is 8.7, which rounds to 9. */
 static void make_flat_corner(spot s[3])
 {
     for (int k = 0; k < 3; ++k) {

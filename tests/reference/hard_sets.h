@@ -1,4 +1,4 @@
-/* hard_sets.h: random triangles of the kinds that rasterizers get wrong. */
+/* hard_sets.h: random triangles of kinds that are difficult for rasterizers. */
 #ifndef HARD_SETS_H
 #define HARD_SETS_H
 
@@ -8,7 +8,7 @@ enum { HARD_TRIANGLES = 300, HARD_SETS = 20 };
 
 typedef struct hard_set {
     const char *name;
-    int cull, steep; /* steep: planes that fall by much of their depth within a px */
+    int cull, steep; /* steep: planes with a large change of depth within a px */
     float corners[HARD_TRIANGLES][3][3];
     lmb_mesh mesh;
     lmb_material material;
@@ -17,7 +17,8 @@ typedef struct hard_set {
     lmb_view view;
 } hard_set;
 
-/* Set i of HARD_SETS: each kind in perspective and orthographic, then two by themselves. Do not copy it. */
+/* Makes set i of HARD_SETS: each kind in perspective and orthographic, then two special ones. Do not copy the struct:
+ * it contains pointers to itself. */
 void hard_set_make(hard_set *out, int i);
 
 #endif

@@ -1,5 +1,5 @@
-/* main_reference.c: the library's rasterizer against the slow ones, in figures: `reference` all, `reference hard` no
- * workload. Ends with `N passed, N failed, N skipped`; exit status 1 where one failed. */
+/* main_reference.c: compares the library's rasterizer with the slow ones: `reference` runs all, `reference hard` skips
+ * the workloads. Ends with `N passed, N failed, N skipped`; exit status 1 if one failed. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -48,7 +48,7 @@ static void check_errors(const char *name, const error_count *n, int steep)
               percent(n->four, n->pixels));
 }
 
-/* A plane that falls by much of its depth within a px has no 4 ulps; that it is within the bound holds for all. */
+/* A plane with a large change of depth within a px exceeds 4 ulps; the rounding bound holds for all. */
 static void run_case(const char *name, const lmb_view *view, const lmb_scene *scene, int cull, int steep)
 {
     accuracy a;
@@ -76,7 +76,7 @@ static void run_hard_sets(void)
     }
 }
 
-/* The same eye and axes, without perspective: what stands at 60 % of the far plane's distance keeps its size. */
+/* The same eye and axes, without perspective: objects at 60 % of the far plane's distance keep their size. */
 static void see_orthographic(lmb_view *v)
 {
     v->kind = LMB_ORTHOGRAPHIC;

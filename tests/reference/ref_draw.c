@@ -1,4 +1,4 @@
-/* ref_draw.c: lines, points, blending and fog of fixed-function drawing, each pixel for itself, in binary64. */
+/* ref_draw.c: lines, points, blending and fog of fixed-function drawing, evaluated per pixel in binary64. */
 #include "ref_draw.h"
 
 #include <lambent/draw.h>
@@ -30,7 +30,7 @@ typedef struct segment {
 
 static int in_diamond(double x, double y) { return fabs(x) + fabs(y) < 0.5; }
 
-/* Does the segment, from the pixel's middle, meet the open diamond, and end outside of it? */
+/* Returns whether the segment, relative to the pixel's middle, meets the open diamond and ends outside. */
 static int leaves(segment s)
 {
     double first = 0, last = 1;
@@ -39,7 +39,7 @@ static int leaves(segment s)
     }
     for (int side = 0; side < 4; ++side) {
         const double a = side & 1 ? 1 : -1, b = side & 2 ? 1 : -1;
-        const double from = 0.5 - a * s.x0 - b * s.y0, to = 0.5 - a * s.x1 - b * s.y1; /* inside above 0 */
+        const double from = 0.5 - a * s.x0 - b * s.y0, to = 0.5 - a * s.x1 - b * s.y1; /* positive inside */
         if (from <= 0 && to <= 0) {
             return 0;
         }
@@ -52,7 +52,7 @@ static int leaves(segment s)
     return first < last;
 }
 
-/* The least that the header's "a little" may be: it decides only between pixels that a line meets at a corner. */
+/* A small "a little" as in the header: the offset only decides between pixels if a line passes through a corner. */
 static segment moved(const float c[2][3], double x, double y)
 {
     const double little = 1e-9, less = 1e-12;
@@ -63,7 +63,7 @@ static segment moved(const float c[2][3], double x, double y)
     return s;
 }
 
-/* Corners on a grid of 1/256, 1/4 or 1/2 px, so that many lines meet corners of diamonds. */
+/* Corners on a grid of 1/256, 1/4 or 1/2 px, so that many lines pass through corners of diamonds. */
 static void make_line(float c[2][3], test_rng *r, int round)
 {
     const float grid = round % 3 == 0 ? 256.0f : round % 3 == 1 ? 4.0f : 2.0f;
@@ -158,7 +158,7 @@ static void blend(double target[4], const lmb_draw_state *s, const uint8_t codes
         const double a = source[i] * factor(s, s->blend_source[alpha], source, target, i);
         const double b = target[i] * factor(s, s->blend_target[alpha], source, target, i);
         const double all[5] = {a + b, a - b, b - a, fmin(source[i], target[i]), fmax(source[i], target[i])};
-        made[i] = floor(fmin(fmax(all[equation], 0), 1) * 255 + 0.5 + 1e-9) / 255; /* 1e-9: no tie can be */
+        made[i] = floor(fmin(fmax(all[equation], 0), 1) * 255 + 0.5 + 1e-9) / 255; /* 1e-9: avoids ties */
     }
     memcpy(target, made, sizeof made);
 }
@@ -200,7 +200,7 @@ void ref_draw_blends(void)
 
 /* --- fog and colours across perspective --------------------------------------------------------------------------- */
 
-/* A triangle before the eye at the origin, which looks along -z with half angles of 45 degrees. */
+/* A triangle in front of the eye at the origin; the view is along -z with half angles of 45 degrees. */
 typedef struct facing {
     float corner[3][3];
     uint8_t colour[3][4];
@@ -219,7 +219,7 @@ static void make_facing(facing *f, test_rng *r)
     }
 }
 
-/* Shares of the corners where the ray of a place of the picture, 0 .. SIDE, meets the triangle. Corners as they snap. */
+/* Barycentric weights at the point of the triangle seen at x, y of the picture, 0 .. SIDE. Corners are snapped. */
 static int shares_at(double out[3], const facing *f, double x, double y)
 {
     double at[3][3], sum = 0;
@@ -250,7 +250,7 @@ static double fog_left(const lmb_draw_state *s, double c)
     return fmin(fmax(f, 0), 1);
 }
 
-/* The largest difference in codes; that of an exact code is at most 1/2. */
+/* Returns the largest difference in codes; for an exact code it is at most 1/2. */
 static double try_fog(test_rng *r, int fog, int *pixels)
 {
     lmb_draw_state s;
@@ -295,8 +295,8 @@ void ref_draw_fogs(void)
         for (int i = 0; i < ROUNDS / 10; ++i) {
             worst = fmax(worst, try_fog(&r, fog, &pixels));
         }
-        /* Roundings: of the colour, of fog's share, which weighs a difference of up to 255 codes, and of their mix:
-         * a half each. Besides, shares in narrow triangles are off by 1e-4 in binary32. */
+        /* Three roundings of 1/2 each: the colour, the fog factor, which weighs a difference of up to 255 codes, and
+         * the mix. Weights in narrow triangles are also off by 1e-4 in binary32. */
         printf("fog %s: %d pixels, at most %.3f codes off\n", names[fog], pixels, worst);
         CHECK_MSG(worst < (fog == 0 ? 0.55 : 1.55) && pixels > 10000, "fog %s: %g", names[fog], worst);
     }

@@ -1,10 +1,10 @@
-/* ref_exact.c: the slow rasterizer in binary64 from the mesh's coordinates on, without snapping. */
+/* ref_exact.c: the slow rasterizer with everything in binary64, without snapping. */
 #include "reference.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Metres at half width 1; depth is z / w. */
+/* Metres, scaled to half width 1; depth is z / w. */
 typedef struct clip_corner {
     double x, y, z, w;
 } clip_corner;
@@ -83,10 +83,10 @@ static int cover(ref_pixel *p, const screen_corner *a, const screen_corner *b, c
     return covers(a, b, ab) && covers(b, c, bc) && covers(c, a, ca) && p->d > 0.0;
 }
 
-/* Within the frame, whatever the triangle's size. */
+/* Clamps to the frame, whatever the triangle's size. */
 static int32_t pixel_of(double at, int32_t side) { return (int32_t)fmax(0.0, fmin(at, (double)side)); }
 
-/* Corners in the order of positive area. */
+/* Corners must be in the order of positive area. */
 static void draw_piece(const lmb_view *v, const screen_corner *a, const screen_corner *b, const screen_corner *c,
                        ref_put *put, void *user)
 {

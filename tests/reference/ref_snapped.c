@@ -6,7 +6,7 @@
 
 enum { PLANES = 5, CORNERS = 3 + PLANES };
 
-/* In clip space. The floats are the fast rasterizer's; z_exact / w_exact is depth. */
+/* In clip space. The floats equal the fast rasterizer's; depth is z_exact / w_exact. */
 typedef struct clip_corner {
     float x, y, z, w;
     double z_exact, w_exact;
@@ -23,7 +23,7 @@ typedef struct screen_corner {
 
 static float dot(lmb_vec3 a, float x, float y, float z) { return a.x * x + a.y * y + a.z * z; }
 
-/* Metres from the eye along an axis: the eye's share is one constant of the view. */
+/* Metres from the eye along an axis; the term of the eye is one constant of the view. */
 static float along(lmb_vec3 axis, const lmb_view *v, const float p[3])
 {
     return dot(axis, p[0], p[1], p[2]) + dot(axis, 0.0f - v->eye.x, 0.0f - v->eye.y, 0.0f - v->eye.z);
@@ -52,7 +52,8 @@ static clip_corner to_clip(const lmb_view *v, const float p[3])
 
 /* --- clipping ----------------------------------------------------------------------------------------------------- */
 
-/* Negative outside: nearer than the near plane, or past 16383 px left, right, above or below the frame's middle. */
+/* Negative if outside: nearer than the near plane, or more than 16383 px left, right, above or
+ * below the frame's middle. */
 static float inside(const lmb_view *v, const clip_corner *c, int plane)
 {
     const float wide = 16383.0f * 2.0f / (float)v->frame_width, high = 16383.0f * 2.0f / (float)v->frame_height;
@@ -79,7 +80,8 @@ static int earlier_bits(const clip_corner *a, const clip_corner *b)
     return 1;
 }
 
-/* Where a plane cuts the edge between two corners, reckoned from the one nearer to it; then from the smaller bits. */
+/* Intersects the edge between two corners with a plane. Interpolates from the corner nearer to the plane; if both are
+ * equally near, from the one with the smaller bits. */
 static clip_corner cut_edge(const lmb_view *v, const clip_corner *p, const clip_corner *q, int plane)
 {
     const float dp = inside(v, p, plane), dq = inside(v, q, plane);
@@ -115,7 +117,7 @@ static int cut_polygon(const lmb_view *v, clip_corner *polygon, int n, int plane
     return m;
 }
 
-/* Only planes that cut the triangle itself. */
+/* Clips only against planes that cut the triangle itself. */
 static int clip(const lmb_view *v, clip_corner polygon[CORNERS])
 {
     int cuts[PLANES], n = 3;
@@ -133,7 +135,7 @@ static int clip(const lmb_view *v, clip_corner polygon[CORNERS])
 
 /* --- to the screen ------------------------------------------------------------------------------------------------ */
 
-/* 24.8, at most 16384 px from the middle, whatever binary32 made of a corner on the guard band. */
+/* 24.8, at most 16384 px from the middle, even if binary32 rounds a corner on the guard band past that. */
 static int64_t snapped(float v) { return (int64_t)fminf(fmaxf(floorf(v), -4194304.0f), 4194304.0f); }
 
 static screen_corner to_screen(const lmb_view *v, const clip_corner *c)
@@ -147,13 +149,14 @@ static screen_corner to_screen(const lmb_view *v, const clip_corner *c)
     return s;
 }
 
-/* Twice the signed area of a, b and a point: above 0 with the point right of a -> b as one looks along it, y down. */
+/* Twice the signed area of a, b and a point: positive if the point lies right of a -> b in the direction
+ * of the edge, with y down. */
 static int64_t edge(const screen_corner *a, const screen_corner *b, int64_t x, int64_t y)
 {
     return (b->x - a->x) * (y - a->y) - (b->y - a->y) * (x - a->x);
 }
 
-/* The inside lies right of the edge: its left edges go up, its top ones to the right. */
+/* The inside is right of the edge: left edges go up, top edges go right. */
 static int covers(const screen_corner *a, const screen_corner *b, int64_t e)
 {
     return e > 0 || (e == 0 && (b->y < a->y || (b->y == a->y && b->x > a->x)));
@@ -162,11 +165,11 @@ static int covers(const screen_corner *a, const screen_corner *b, int64_t e)
 static int64_t min(int64_t a, int64_t b) { return a < b ? a : b; }
 static int64_t max(int64_t a, int64_t b) { return a > b ? a : b; }
 
-/* A pixel's centre, from the middle of a frame of `side` px. */
+/* A pixel's centre relative to the middle of a frame of `side` px. */
 static int64_t centre(int32_t pixel, int32_t side) { return 256 * (int64_t)pixel + 128 - 128 * (int64_t)side; }
 
-/* The frame's first pixel with its centre not before `at`, and its last with its centre not past it; `side` and -1
- * where there are none. (Centres are 256 apart.) */
+/* The frame's first pixel with a centre not before `at`, and the last with a centre not past it; `side` and -1 if there
+ * are none. (Centres are 256 apart.) */
 static int32_t first_pixel(int64_t at, int32_t side)
 {
     const int64_t behind = at - centre(0, side);
@@ -179,7 +182,7 @@ static int32_t last_pixel(int64_t at, int32_t side)
     return (int32_t)(behind < 0 ? -1 : min(side - 1, behind / 256));
 }
 
-/* How much the plane through the corners as drawn falls a px, along x and y together. */
+/* Slope a px of the plane through the drawn corners: the sum of the changes along x and y. */
 static double drawn_slope(const screen_corner *a, const screen_corner *b, const screen_corner *c, int64_t area)
 {
     const double bd = (double)b->d_drawn - (double)a->d_drawn, cd = (double)c->d_drawn - (double)a->d_drawn;
@@ -188,7 +191,7 @@ static double drawn_slope(const screen_corner *a, const screen_corner *b, const 
     return 256.0 * (fabs(along_x) + fabs(along_y)) / (double)area;
 }
 
-/* The piece's pixel with its centre at (x, y), 24.8; 0 where it lies outside. */
+/* Returns the piece's pixel with the centre at (x, y), 24.8; 0 if it lies outside. */
 static int cover(ref_pixel *p, const screen_corner *a, const screen_corner *b, const screen_corner *c, int64_t area,
                  int64_t x, int64_t y)
 {
@@ -197,7 +200,7 @@ static int cover(ref_pixel *p, const screen_corner *a, const screen_corner *b, c
     return covers(a, b, ab) && covers(b, c, bc) && covers(c, a, ca) && p->d > 0.0;
 }
 
-/* Corners in the order of positive area. */
+/* Corners must be in the order of positive area. */
 static void draw_piece(const lmb_view *v, const screen_corner *a, const screen_corner *b, const screen_corner *c,
                        ref_put *put, void *user)
 {
@@ -232,7 +235,7 @@ void ref_draw_snapped(const lmb_view *v, const float corner[3][3], int cull, ref
         screen[i] = to_screen(v, &polygon[i]);
     }
     for (int i = 2; i < n; ++i) {
-        /* y points down: fronts, counter-clockwise, are negative. */
+        /* y points down, so front faces, which are counter-clockwise, have negative area. */
         const int64_t area = edge(&screen[0], &screen[i - 1], screen[i].x, screen[i].y);
         if (area < 0) {
             draw_piece(v, &screen[0], &screen[i], &screen[i - 1], put, user);

@@ -1,11 +1,11 @@
-/* main_scenes.c: writes a scene that is made from its name.
+/* main_scenes.c: generates a scene from its name.
  *
  *     scenes --list
  *     scenes NAME[:SEED] [--size N] [--rotate SEED|X,Y,Z,DEG] [--scale S] [--move X,Y,Z] -o DIR
  *
- * DIR gets scene.gltf and scene.bin for lambent, scene.txt and scene.box for the path tracer of the truth.
+ * Writes scene.gltf and scene.bin for lambent, and scene.txt and scene.box for the path tracer of the truth, to DIR.
  * --rotate SEED draws an axis and an angle at random. Geometry, camera and lights are turned, then scaled, then moved
- * alike: the picture stays the same. --size: pixels a side of the truth. */
+ * together, so the picture stays the same. --size: pixels a side of the truth. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +23,7 @@ static void list(void)
     }
 }
 
-/* 0 where the value is not one. */
+/* Returns 0 if the value is invalid. */
 static int take_option(const char *option, const char *value, scene_place *p, int *size)
 {
     double v[4];

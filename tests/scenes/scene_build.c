@@ -1,4 +1,4 @@
-/* scene_build.c: what scenes are built with: numbers, solids, walls with openings, lights. */
+/* scene_build.c: functions that build scenes: random numbers, solids, walls with openings, lights. */
 #include "scenes.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 svec unit(svec a) { return times(a, 1.0 / sqrt(dot_of(a, a))); }
 
-/* By its series, after folding to a quarter: libraries differ in the last bit. */
+/* A Taylor series after reduction to a quarter turn, because libraries differ in the last bit. */
 double sine(double degrees)
 {
     double turns = degrees / 360.0, x, term, sum;
@@ -192,7 +192,7 @@ static int rising(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The places where a panel is cut along one edge, each once. */
+/* The distinct positions along one edge at which a panel is cut. */
 static int cuts_of(double *cut, double length, const opening *holes, int count, int along_v)
 {
     int n = 0, kept = 0;
@@ -237,7 +237,7 @@ void panel(made_scene *s, int material, svec a, svec u, svec v, const opening *h
     }
 }
 
-/* The four sides of a rectangle in the plane u, v, drawn along w. */
+/* The four sides of a rectangle in the plane u, v, extruded along w. */
 static void sides(made_scene *s, int material, svec a, svec u, svec v, svec w)
 {
     const svec c[5] = {a, plus(a, u), plus(plus(a, u), v), plus(a, v), a};

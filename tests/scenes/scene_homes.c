@@ -1,4 +1,4 @@
-/* scene_homes.c: furnished rooms, halls, rooms that follow one another. */
+/* scene_homes.c: furnished rooms, halls, sequences of rooms. */
 #include <stddef.h>
 
 #include "scenes.h"
@@ -30,7 +30,7 @@ static void table(made_scene *s, int material, svec foot, svec size, double leg)
     }
 }
 
-/* A back of five bars; dx, dz: where it is. */
+/* A chair with a back of five bars at the offset dz. */
 static void chair(made_scene *s, int material, svec foot, double dz)
 {
     table(s, material, foot, at(0.42, 0.45, 0.42), 0.035);
@@ -41,7 +41,7 @@ static void chair(made_scene *s, int material, svec foot, double dz)
     box(s, material, plus(foot, at(-0.21, 0.86, dz * 0.2 - 0.015)), plus(foot, at(0.21, 0.93, dz * 0.2 + 0.015)));
 }
 
-/* Floor, ceiling, three walls; the fourth, at x = 0, has the windows. */
+/* Floor, ceiling and three walls; the fourth wall, at x = 0, has the windows. */
 static void room_with_windows(made_scene *s, const home *h, svec size, const opening *windows, int count)
 {
     const svec x = at(size.x, 0, 0), y = at(0, size.y, 0), z = at(0, 0, size.z);
@@ -59,7 +59,7 @@ void build_kitchen(made_scene *s)
     const home h = paints(s);
     const opening window = {1.4, 0.95, 3.2, 2.15};
     room_with_windows(s, &h, size, &window, 1);
-    for (int i = 0; i < 6; ++i) { /* cupboards along z = 0, below and above, a finger apart */
+    for (int i = 0; i < 6; ++i) { /* cupboards along z = 0, below and above, with small gaps */
         const double x0 = 0.15 + 0.6 * i;
         box(s, h.wood, at(x0, 0.1, 0.02), at(x0 + 0.585, 0.86, 0.6));
         if (i != 3) {
@@ -122,7 +122,7 @@ void build_furnished(made_scene *s)
                 at(x + any_between(s, 0.1, 0.25), 0.33 + 0.42 * i + any_between(s, 0.1, 0.32), 0.28));
         }
     }
-    tube(s, h.metal, at(3.9, 0, 0.9), at(3.9, 1.5, 0.9), 0.015, 0.015, 8); /* a lamp in its shade */
+    tube(s, h.metal, at(3.9, 0, 0.9), at(3.9, 1.5, 0.9), 0.015, 0.015, 8); /* a lamp with a shade */
     tube(s, h.white, at(3.9, 1.42, 0.9), at(3.9, 1.7, 0.9), 0.24, 0.15, 24);
     ball(s, h.green, at(1.8, 0.54, 2.3), 0.12, 8);
     point(s, at(3.9, 1.56, 0.9), 8);
@@ -185,7 +185,7 @@ void build_arcade(made_scene *s)
     look(s, at(0.9, 1.7, length - 0.6), at(-0.5, 1.9, 3), 60);
 }
 
-/* Long, with niches; lit at the far end: most of it by later bounces. */
+/* Long, with niches, and lit at the far end, so that most of the light comes from later bounces. */
 void build_gallery(made_scene *s)
 {
     const svec size = at(3.2, any_between(s, 2.9, 3.4), any_between(s, 20, 24));
@@ -204,7 +204,8 @@ void build_gallery(made_scene *s)
 
 /* --- rooms after rooms -------------------------------------------------------------------------------------------- */
 
-/* Four rooms, a door each between them, not opposite each other; the lamp is in the second, the eye in the third. */
+/* Four rooms, with a door between each two, not opposite each other; the lamp is in the
+ * second, the eye in the third. */
 void build_doors(made_scene *s)
 {
     const home h = paints(s);
@@ -246,7 +247,7 @@ void build_l_corridor(made_scene *s)
 
 /* --- roofs and tents ---------------------------------------------------------------------------------------------- */
 
-/* Under a gable roof; sun through its windows. */
+/* A room under a gable roof; sun through windows. */
 void build_attic(made_scene *s)
 {
     const home h = paints(s);
@@ -312,7 +313,7 @@ void build_pipes(made_scene *s)
     look(s, at(size.x - 0.4, 1.7, size.z - 0.3), at(1.6, 1.4, 1.0), 66);
 }
 
-/* Crates that lie at every angle. */
+/* Crates at every angle. */
 void build_crates(made_scene *s)
 {
     const home h = paints(s);

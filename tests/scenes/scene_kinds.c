@@ -1,6 +1,5 @@
-/* scene_kinds.c: the table of kinds. The truth of a held-out kind tells how right lambent is, and never chooses one of
- * its constants. A fitted kind was looked at while constants were chosen; its seeds from 100 on (`louvres:107`) are
- * held out. */
+/* scene_kinds.c: the table of kinds. The truth of a held-out kind measures lambent's accuracy, and never chooses a
+ * constant. A fitted kind was used when constants were chosen; seeds from 100 on (`louvres:107`) are held out. */
 #include "scenes.h"
 
 enum { FITTED, HELD_OUT };

@@ -5,7 +5,7 @@
 
 /* --- leaves ------------------------------------------------------------------------------------------------------- */
 
-/* A leaf: two triangles, folded along its rib. */
+/* A leaf: two triangles, folded along the rib. */
 static void leaf(made_scene *s, int material, svec where, double size)
 {
     svec rib, other;
@@ -46,7 +46,7 @@ void build_foliage20k(made_scene *s) { tree(s, 20000, 0.09); }
 
 void build_leaves(made_scene *s) { tree(s, 40, 0.9); }
 
-/* Upright blades before a wall. */
+/* Upright blades in front of a wall. */
 void build_reeds(made_scene *s)
 {
     const int ground = paint(s, 0.5, 0.42, 0.3), green = paint(s, 0.35, 0.5, 0.18), white = paint(s, 0.74, 0.7, 0.66);
@@ -225,7 +225,7 @@ void build_cave(made_scene *s)
             }
         }
     }
-    for (int i = 0; i < 6; ++i) { /* stones that hang and stand */
+    for (int i = 0; i < 6; ++i) { /* hanging and standing stones */
         const svec a = at(any_between(s, -2.5, 1.5), i % 2 ? -3.4 : 3.4, any_between(s, -2, 2));
         tube(s, rock, a, at(a.x, i % 2 ? -0.6 : 0.8, a.z), any_between(s, 0.4, 0.7), 0.05, 12);
     }

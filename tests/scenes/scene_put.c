@@ -1,4 +1,4 @@
-/* scene_put.c: a scene by its name; turned, scaled and moved; and its files. */
+/* scene_put.c: makes a scene by name; turns, scales and moves it; and writes its files. */
 #include "scenes.h"
 
 #include <math.h>
@@ -70,7 +70,7 @@ static svec turned(const scene_place *p, svec v)
 
 static svec placed(const scene_place *p, svec v) { return plus(times(turned(p, v), p->scale), p->move); }
 
-/* The box around the eight corners of what was a box. */
+/* The box around the eight transformed corners of the old box. */
 static void put_opening(made_scene *s, const scene_place *p)
 {
     const svec low = s->open_low, high = s->open_high;
@@ -94,7 +94,7 @@ void scene_put(made_scene *s, const scene_place *p)
         l->position = placed(p, l->position);
         l->direction = turned(p, l->direction);
         for (int c = 0; c < 3 && l->kind != SCENE_SUN; ++c) {
-            l->rgb[c] *= p->scale * p->scale; /* W/sr light by the square of the distance */
+            l->rgb[c] *= p->scale * p->scale; /* W/sr scales with the square of the distance */
         }
     }
     s->eye = placed(p, s->eye);
@@ -126,7 +126,7 @@ static void little_endian(FILE *f, float v)
     }
 }
 
-/* The corners of one material's triangles, which follow one another in scene.bin, and their bounds. */
+/* The corners of one material's triangles, consecutive in scene.bin, and their bounds. */
 typedef struct bin_part {
     uint32_t count;
     float low[3], high[3];
@@ -150,7 +150,7 @@ static int write_bin(const made_scene *s, const char *folder, bin_part *parts)
     return f != NULL && fclose(f) == 0;
 }
 
-/* Columns right, up, back and position, as glTF's camera and lights look along -z. */
+/* Columns right, up, back and position, because glTF's cameras and lights look along -z. */
 static void write_frame(FILE *f, const char *what, int number, svec eye, svec along, svec up)
 {
     const svec back = unit(times(along, -1.0));
@@ -212,7 +212,7 @@ static void write_lights(FILE *f, const made_scene *s)
     fprintf(f, "]}},\n");
 }
 
-/* glTF keeps the factor within 0 .. 1. */
+/* glTF limits the factor to 0 .. 1. */
 static void write_emission(FILE *f, const double rgb[3])
 {
     const double max = fmax(rgb[0], fmax(rgb[1], rgb[2]));
@@ -281,7 +281,7 @@ static int write_gltf(const made_scene *s, const char *folder)
     return fclose(f) == 0;
 }
 
-/* What the path tracer reads: the corners as they are in scene.bin. */
+/* Input of the path tracer: the corners as in scene.bin. */
 static int write_text(const made_scene *s, const char *folder, int size)
 {
     FILE *f = create(folder, "scene.txt");

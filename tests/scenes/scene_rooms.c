@@ -1,4 +1,4 @@
-/* scene_rooms.c: rooms whose occluders are fine: slats, bars, shelves, stairs. */
+/* scene_rooms.c: rooms with fine occluders: slats, bars, shelves, stairs. */
 #include <stddef.h>
 
 #include "scenes.h"
@@ -90,7 +90,7 @@ void build_grille(made_scene *s)
     look(s, at(size.x - 0.3, 1.6, size.z - 0.6), at(where - 0.8, 0.9, 0.4 * size.z), 65);
 }
 
-/* A gallery's railing, lit from above it. */
+/* A gallery's railing, lit from above. */
 void build_railing(made_scene *s)
 {
     const svec size = at(6, any_between(s, 4.8, 5.4), 6);

@@ -1,4 +1,4 @@
-/* scene_small.c: scenes of at most a few hundred triangles, for truth that is kept in the repository. */
+/* scene_small.c: scenes of at most a few hundred triangles, for truth in the repository. */
 #include <stddef.h>
 
 #include "scenes.h"
@@ -17,7 +17,7 @@ static paints four_paints(made_scene *s)
     return p;
 }
 
-/* A spot on the left wall; crates stand in the light that it reflects. */
+/* A spot on the left wall; crates stand in the reflected light. */
 void build_small_room(made_scene *s)
 {
     const svec size = at(any_between(s, 3.8, 4.2), 2.6, any_between(s, 3.8, 4.2));
@@ -46,7 +46,7 @@ void build_small_stairs(made_scene *s)
     look(s, at(0.4, 1.6, size.z - 0.3), at(1.0 + 0.6 * STEPS * tread, 0.9, 0.5), 65);
 }
 
-/* Boards between two sides before a wall, with boxes on them that lean on nothing; a spot comes in aslant. */
+/* Boards between two sides in front of a wall, with floating boxes on them; a spot shines in at an angle. */
 void build_small_shelf(made_scene *s)
 {
     enum { BOARDS = 4, BOXES = 4 };
@@ -70,7 +70,7 @@ void build_small_shelf(made_scene *s)
     look(s, at(0.5, 1.5, size.z - 0.3), at(left + 0.6 * wide, 1.0, 0.2), 60);
 }
 
-/* The lit room behind a door, before which a screen stands; seen from the dark room. */
+/* The lit room behind a door with a screen in front of it, seen from the dark room. */
 void build_doorway(made_scene *s)
 {
     const paints p = four_paints(s);
@@ -84,7 +84,7 @@ void build_doorway(made_scene *s)
     look(s, at(0.3, 1.6, 3.2), at(3.0, 0.9, 1.4), 70);
 }
 
-/* A panel that emits light hangs over crates; no other light. */
+/* A panel that emits light above crates; no other light. */
 void build_glow(made_scene *s)
 {
     const svec size = at(any_between(s, 3.4, 3.8), 2.6, any_between(s, 3.4, 3.8));
@@ -100,7 +100,7 @@ void build_glow(made_scene *s)
     look(s, at(size.x - 0.3, 1.5, size.z - 0.3), at(1.2, 0.7, 1.0), 65);
 }
 
-/* A lamp's light falls on the end of a side room that most of what is seen does not see: it comes by two bounces. */
+/* A lamp lights the end of a side room. Most visible surfaces do not see that end, so their light has bounced twice. */
 void build_alcove(made_scene *s)
 {
     const paints p = four_paints(s);

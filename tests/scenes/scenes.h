@@ -1,8 +1,8 @@
-/* scenes.h: scenes that are made from a number, to judge on what nothing was fitted to.
+/* scenes.h: scenes generated from a number, for judging on data that no constant was fitted to.
  *
- * A name is `kind` or `kind:seed`: another seed is another scene of that kind, with other sizes and places. The same
- * name makes the same bytes everywhere: own random numbers and own sine, the rest is + - * / and square roots.
- * Surfaces are flat and Lambertian, metres, y up, right handed; light is W/sr, a sun's W/m2. */
+ * A name is `kind` or `kind:seed`: another seed gives another scene of that kind, with other sizes and places. The same
+ * name gives the same bytes everywhere: random numbers and sine are our own, the rest is + - * / and square roots.
+ * Surfaces are flat and Lambertian, metres, y up, right handed; light is in W/sr, a sun's in W/m2. */
 #ifndef SCENES_H
 #define SCENES_H
 
@@ -18,7 +18,7 @@ enum { SCENE_SPOT, SCENE_POINT, SCENE_SUN };
 
 typedef struct scene_light {
     int kind;
-    svec position, direction; /* direction: of travel, any length */
+    svec position, direction; /* direction in which light travels, any length */
     double rgb[3];
     double inner_deg, outer_deg; /* half angles of a spot */
 } scene_light;
@@ -35,20 +35,20 @@ typedef struct made_scene {
     int light_count;
     svec eye, target, up;
     double fov_deg, near_m;
-    svec open_low, open_high; /* a box that all sunlight which matters passes; low.x > high.x: anywhere */
+    svec open_low, open_high; /* a box that all relevant sunlight passes through; low.x > high.x: anywhere */
     uint64_t random;
 } made_scene;
 
-/* What turns, scales and moves a scene: geometry, camera and lights alike, so that the picture stays. */
+/* Turns, scales and moves geometry, camera and lights of a scene together, so that the picture stays the same. */
 typedef struct scene_place {
-    svec axis[3]; /* where x, y and z go: orthonormal */
+    svec axis[3]; /* images of x, y and z: orthonormal */
     double scale;
     svec move;
 } scene_place;
 
 typedef struct scene_kind {
     const char *name;
-    int held_out; /* never look at it to choose a constant */
+    int held_out; /* never use it to choose a constant */
     void (*build)(made_scene *s);
     const char *what;
 } scene_kind;
@@ -56,21 +56,22 @@ typedef struct scene_kind {
 extern const scene_kind scene_kinds[];
 extern const int scene_kind_count;
 
-/* scene_make: 1, or 0 for a name that is not in the table. scene_drop frees it. */
+/* scene_make: returns 1, or 0 if the name is not in the table. scene_drop frees the scene. */
 int scene_make(made_scene *s, const char *name);
 void scene_drop(made_scene *s);
 
-/* As it stands; turned about an axis (any length); turned at random. */
+/* The unchanged scene; turned about an axis (any length); turned at random. */
 scene_place scene_as_it_is(void);
 void scene_turn(scene_place *p, svec axis, double degrees);
 void scene_turn_any(scene_place *p, uint64_t seed);
 void scene_put(made_scene *s, const scene_place *p);
 
-/* scene_write: scene.gltf, scene.bin (what lambent reads), scene.txt and scene.box (what the path tracer of the truth
- * reads, which knows no emission: a view of `size` x `size` pixels) in a folder that exists. 1, or 0 where a file cannot be written. */
+/* scene_write: writes scene.gltf and scene.bin (for lambent), scene.txt and scene.box (for the path tracer of
+ * the truth, which has no emission: a view of `size` x `size` pixels) to an existing folder. Returns 1, or 0 if
+ * a file cannot be written. */
 int scene_write(const made_scene *s, const char *folder, int size);
 
-/* --- what kinds are built with ------------------------------------------------------------------------------------ */
+/* --- functions for building kinds --------------------------------------------------------------------------------- */
 
 #define COUNT_OF(a) ((int)(sizeof(a) / sizeof *(a)))
 
@@ -95,19 +96,19 @@ double cosine(double degrees);
 /* Uniform in [low, high). */
 double any_between(made_scene *s, double low, double high);
 
-/* Smooth noise of a point, about -1 .. 1; `seed` gives another. */
+/* Smooth noise at a point, about -1 .. 1, by seed. */
 double smooth_noise(svec p, uint32_t seed);
 
-/* Reflectances; the number of the new material. */
+/* Adds a material with these reflectances; returns its number. */
 int paint(made_scene *s, double red, double green, double blue);
 
 void triangle(made_scene *s, int material, svec a, svec b, svec c);
 void quad(made_scene *s, int material, svec a, svec b, svec c, svec d);
 
-/* From a: edges u, v, w, which may lean. box: by its corners. */
+/* From a: edges u, v, w, not necessarily perpendicular. box: by two corners. */
 void slab(made_scene *s, int material, svec a, svec u, svec v, svec w);
 void box(made_scene *s, int material, svec low, svec high);
-/* A box of that size on the ground at `foot`, turned about y. */
+/* A box of this size on the ground at `foot`, turned about y. */
 void crate(made_scene *s, int material, svec foot, svec size, double degrees);
 
 /* The inside of a room: floor, walls, ceiling. */
@@ -118,11 +119,11 @@ typedef struct opening {
     double u0, v0, u1, v1;
 } opening;
 
-/* panel: a parallelogram from a with openings cut out. wall: the same, w thick, with reveals. */
+/* panel: a parallelogram from a with openings. wall: the same, w thick, with reveals. */
 void panel(made_scene *s, int material, svec a, svec u, svec v, const opening *holes, int count);
 void wall(made_scene *s, int material, svec a, svec u, svec v, svec w, const opening *holes, int count);
 
-/* From a to b, without ends; a cone where radii differ. */
+/* From a to b, without end caps; a cone if the radii differ. */
 void tube(made_scene *s, int material, svec a, svec b, double radius_a, double radius_b, int sides);
 void ball(made_scene *s, int material, svec centre, double radius, int rings);
 
@@ -132,7 +133,7 @@ void sun(made_scene *s, svec direction, double watts_per_m2);
 void look(made_scene *s, svec eye, svec target, double fov_deg);
 void sun_through(made_scene *s, svec low, svec high);
 
-/* Kinds, by the file they are in. */
+/* Kinds, by file. */
 void build_louvres(made_scene *s);
 void build_blinds(made_scene *s);
 void build_stair_hall(made_scene *s);

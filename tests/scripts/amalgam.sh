@@ -1,6 +1,7 @@
-# amalgam.sh: the library as two files draws the golden pictures by clang, g++ as C++, clang with Microsoft's ABI
-# (under wine) and tcc; COMPILERS="g++" picks some of them. It exports what the library does, and compiles without warnings in each configuration. AMALGAM
-# (the folder of the two), OBJ (the golden program's objects), GOLDEN_SRC, B, LIB, NM, LDLIBS in the environment.
+# amalgam.sh: checks that the library as two files draws the golden pictures with clang, g++ (as C++), clang with
+# Microsoft's ABI (under wine) and tcc; COMPILERS="g++" selects some. Checks that it exports the same names as the
+# library, and compiles without warnings in each configuration. AMALGAM (the folder of the two files), OBJ (objects of
+# the golden program), GOLDEN_SRC, B, LIB, NM, LDLIBS in the environment.
 . tests/scripts/checks.sh
 
 dir=$B/amalgam-check
@@ -8,14 +9,14 @@ rm -rf "$dir"
 mkdir -p "$dir"
 exact="-ffp-contract=off -fno-math-errno -I$AMALGAM"
 
-# compiled NAME COMMAND...: lambent.c by one call.
+# compiled NAME COMMAND...: checks that one command compiles lambent.c.
 compiled() {
     name=$1
     shift
     check "$name: one call compiles it" "$@" -c "$AMALGAM/lambent.c" -o "$dir/$name.o"
 }
 
-# golden NAME LINKER...: the golden program with that object.
+# golden NAME LINKER...: checks the golden program with that object.
 golden() {
     name=$1
     shift
@@ -23,10 +24,10 @@ golden() {
     check "$name: golden pictures" "$dir/$name"
 }
 
-# Which compilers: clang, g++, tcc and msvc; tcc-msvc is both of the last. gcc builds the same sources in `make one-command`.
+# Compilers: clang, g++, tcc and msvc; tcc-msvc is both of the last. gcc builds the same sources in `make one-command`.
 wanted() { case " ${COMPILERS:-clang g++ tcc-msvc} " in *[\ -]"$1"[\ -]*) ;; *) return 1 ;; esac; }
 
-# At -O1, which takes a third of -O2's time: pixels do not depend on it.
+# Compiles at -O1, in a third of the time of -O2, because pixels do not depend on the level.
 warnings="-Wall -Wextra -pedantic -Werror"
 check "gcc: no warnings" gcc -std=c99 -O1 $warnings $exact -fsyntax-only "$AMALGAM/lambent.c"
 exports() { ${NM:-nm} "$1" 2>/dev/null | awk '$2 ~ /^[A-TV-Z]$/ && $3 ~ /^[a-z]/ { print $3 }' | sort -u; }
@@ -51,8 +52,8 @@ else
     skip "no g++"
 fi
 
-# What clang-cl makes: Microsoft's object files and calls; start-up, printing and mathematics are MinGW's. No call takes
-# 4 KiB of stack, so that none has to ask for more.
+# Like clang-cl: Microsoft's object files and calls, with MinGW's start-up, output and maths. No stack probes, because
+# no call uses 4 KiB of stack.
 if ! wanted msvc; then
     :
 elif missing=$(sh tests/scripts/tools.sh need clang x86_64-w64-mingw32-gcc wine64 2>&1); then
@@ -66,7 +67,7 @@ else
     skip "Microsoft's ABI: $missing"
 fi
 
-# tcc 0.9.27 computes wrongly, which lmb_build_check finds.
+# tcc 0.9.27 miscompiles, which lmb_build_check detects.
 if ! wanted tcc; then
     :
 elif command -v tcc >/dev/null; then
@@ -82,12 +83,12 @@ else
     skip "no tcc"
 fi
 
-# Each switch of config.h alone, and the tiny configuration.
+# Each switch of config.h separately, and the tiny configuration.
 for switch in CONFIG_TINY $(sed -n '/^\/\* 0: /,/^#ifndef/s/^#ifndef LMB_\(.*\)/\1=0/p' include/lambent/config.h) \
     HAVE_AVX2=0; do
     check "-DLMB_$switch" gcc -std=c99 -DLMB_$switch $warnings $exact -fsyntax-only "$AMALGAM/lambent.c"
 done
-# Batches are smaller without AVX-512: a write past an array is found where code is made.
+# Without AVX-512 batches are smaller; gcc warns about a write past an array only if it generates code.
 check "-DLMB_HAVE_AVX512=0" gcc -std=c99 -O1 -ftree-vrp -DLMB_HAVE_AVX512=0 -DLMB_HAVE_SSE2=0 $warnings $exact -c "$AMALGAM/lambent.c" \
     -o "$dir/avx2.o"
 finish

@@ -1,7 +1,7 @@
-# amalgam_cost.sh: what the two files take beside the tree, by the same flags: bytes of ROM on a Cortex-M4F in the tiny
-# configuration, every call linked; instructions of two examples here (valgrind), and seconds of the golden pictures, the
-# least of runs that alternate. Each at most 2 % more. AMALGAM, OBJ (the golden program's objects), B, LDLIBS in the
-# environment.
+# amalgam_cost.sh: compares the cost of the two files with that of the tree, at the same flags: bytes of ROM on a
+# Cortex-M4F in the tiny configuration with every call linked; instructions of two examples on this machine (valgrind);
+# seconds of the golden pictures, the minimum of alternating runs. Each may be 2 % higher. AMALGAM, OBJ (objects of the
+# golden program), B, LDLIBS in the environment.
 . tests/scripts/checks.sh
 
 dir=$B/amalgam-cost
@@ -9,7 +9,7 @@ rm -rf "$dir"
 mkdir -p "$dir"
 exact="-std=c99 -ffp-contract=off -fno-math-errno"
 
-# within WHAT TREE FILES
+# within NAME TREE FILES
 within() {
     echo "$1: $2 by the tree, $3 by two files: $(awk "BEGIN { printf \"%.4f\", $3 / $2 }")"
     check "$1: two files take over 2 % more" awk "BEGIN { exit !($3 <= 1.02 * $2) }"

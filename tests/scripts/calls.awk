@@ -1,8 +1,8 @@
-# calls.awk: gcc's call graphs (.ci, -fcallgraph-info=su) of the library -> each of its calls with the stack that it
-# takes at most, its own callees included: "BYTES NAME CHAIN".
+# calls.awk: reads gcc's call graphs (.ci, -fcallgraph-info=su) of the library and prints the maximum stack of each
+# call, including its callees: "BYTES NAME CHAIN".
 #
-# A call through the table of kernels may reach any backend's: the source line says which kernel. A call back to the
-# user, and what is not the library's (memset, soft floats), count as nothing.
+# A call through the table of kernels may reach any backend; the source line names the kernel. Callbacks of the user and
+# functions outside the library (memset, soft floats) count as 0.
 
 /^node:/ {
     name = between($0, "title: \"")
@@ -38,7 +38,7 @@ function between(line, before,    at) {
     return substr(line, 1, index(line, "\"") - 1)
 }
 
-# The kernel that is called at FILE:LINE:COLUMN; "" where it is none.
+# The kernel that is called at FILE:LINE:COLUMN, or "".
 function kernel_at(place,    part, line, i) {
     split(place, part, ":")
     for (i = 1; i <= part[2]; ++i)

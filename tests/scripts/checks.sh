@@ -1,8 +1,8 @@
-# checks.sh: counting for the shell checks that source it: pass, fail WHAT, skip WHY, bare, clean_copy;
+# checks.sh: functions for the shell checks that source it: pass, fail TEXT, skip REASON, bare, clean_copy; call
 # `finish` last.
 passed=0 failed=0 skipped=0
 
-# Names without what layout.h adds to them.
+# Removes the suffixes that layout.h adds to names.
 bare() { sed -E 's/_g[0-9]+_l[0-9]+(_[a-z][0-9]+)+//g'; }
 
 pass() { passed=$((passed + 1)); }
@@ -17,7 +17,7 @@ skip() {
     echo "skipped: $*"
 }
 
-# check WHAT COMMAND...: passes where the command succeeds; its output is shown where it does not.
+# check TEXT COMMAND...: passes if the command succeeds; otherwise prints TEXT and the command's output.
 check() {
     what=$1
     shift
@@ -29,7 +29,7 @@ check() {
     fi
 }
 
-# clean_copy FOLDER: the tree as a new clone has it, with what is not committed yet; of a release all but build/.
+# clean_copy FOLDER: copies the tree as a new clone would have it, with uncommitted files; of a release all but build/.
 clean_copy() {
     { git ls-files -co --exclude-standard 2>/dev/null || find . -type f ! -path './build/*' ! -path './.git/*'; } |
         while read -r f; do [ ! -f "$f" ] || echo "$f"; done | tar cf - -T - |

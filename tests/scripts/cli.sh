@@ -1,10 +1,10 @@
-# cli.sh: files, messages and exit statuses of the tool: cli.sh [NAME...] runs these parts of tests/cli, or all of them.
+# cli.sh: checks files, messages and exit statuses of the tool: cli.sh [NAME...] runs these parts of tests/cli, or all.
 #
 # In the environment: TOOL and B, and CC FLAGS LIB LDLIBS for help and pack.
 #
-# Prints a line for each part with its counts and seconds, the output of a part that fails, and the sum last. JOBS=N
-# runs N parts at once. SHORT=1 leaves out renders that take minutes and that other checks run; slow builds use it.
-# Logs are in $B/cli/logs.
+# Prints a line for each part with counts and seconds, the output of a part that fails, and the sum last. JOBS=N runs N
+# parts at once. SHORT=1 leaves out renders that take minutes and that other checks run; slow builds use it. Logs are
+# in $B/cli/logs.
 names=$(for file in tests/cli/*.sh; do
     name=${file##*/}
     [ "$name" = common.sh ] || echo "${name%.sh}"
@@ -20,7 +20,7 @@ for name in "$@"; do
 done
 [ $# -gt 0 ] || set -- $names
 
-# Workers take the first part that no other has taken: a folder is made by one of them alone.
+# Each worker takes the next free part. mkdir succeeds for only one worker, so it claims the part.
 LOGS=$B/cli/logs
 rm -rf "$LOGS"
 mkdir -p "$LOGS/taken"

@@ -1,9 +1,10 @@
-# console_abis.sh: the library for the ABIs of today's consoles, without their SDKs, as C and as C++: Microsoft's x86-64
-# with AVX2, x86-64 with AVX2 by System V, AArch64; headers are those of platform/freestanding. B in the environment.
+# console_abis.sh: checks the library for the ABIs of today's consoles, without their SDKs, from C and from C++:
+# x86-64 with AVX2 by Microsoft's and by System V's ABI, and AArch64. Headers come from platform/freestanding. B in the
+# environment.
 #
-# src/ is C99, and part of it is no C++; every public header is both. What is compiled: all of src/ as C, a program that
-# includes every header and calls the library as C++; then what the library asks its surroundings for is listed and held
-# against the few functions that it promises to do with.
+# src/ is C99, and parts of it are not valid C++; every public header is valid in both. The check compiles src/ as C and
+# a C++ program that includes every header and calls the library. It then compares the undefined symbols of the library
+# with the few functions that it may use.
 . tests/scripts/checks.sh
 CLANG=${CLANG:-clang}
 if ! command -v "$CLANG" >/dev/null 2>&1; then
@@ -14,7 +15,7 @@ B=${B:-build/default}
 symbols=$(command -v llvm-nm || ls /usr/bin/llvm-nm-[0-9]* 2>/dev/null | tail -n 1)
 symbols=${symbols:-nm}
 
-# C++ by Microsoft's, C++ by Itanium's rules: calls by address, all structs by value, so that both languages have to agree.
+# Microsoft's and Itanium's C++ rules: calls by address, all structs by value, so that both languages have to agree.
 program() {
     echo '#include <lambent/lambent.h>'
     for h in include/lambent/*.h; do

@@ -1,10 +1,10 @@
-# contracts.awk: each public call with what its header says of it, one a line:
-#   HEADER|STABILITY|NAME|RETURNS|STATUSES|WORDS      WORDS: the first sentence behind the call's name
-# and `unknown HEADER NAME` for each lmb_ name in a comment that no header has.
-#   awk -f tests/scripts/contracts.awk CALLS HEADER...      CALLS: HEADER|what prototypes.awk prints, a line a call
+# contracts.awk: prints each public call with the header's description, one a line:
+#   HEADER|STABILITY|NAME|RETURNS|STATUSES|WORDS      WORDS: the first sentence after the call's name
+# and `unknown HEADER NAME` for each lmb_ name in a comment that no header declares.
+#   awk -f tests/scripts/contracts.awk CALLS HEADER...      CALLS: HEADER|line of prototypes.awk, a line a call
 #
-# A comment describes the calls that it names as "lmb_a:" or "lmb_a, lmb_b:". A header's first comment is about all of
-# it, and says "Stability: stable." or "Stability: experimental.".
+# A comment describes the calls that it names as "lmb_a:" or "lmb_a, lmb_b:". The first comment of a header describes
+# the whole header, and contains "Stability: stable." or "Stability: experimental.".
 FILENAME == ARGV[1] {
     split($0, part, "|")
     order[++calls] = part[2]

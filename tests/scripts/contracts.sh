@@ -1,6 +1,6 @@
-# contracts.sh: each public call is described in its header, which says how stable it is; the description says which
-# statuses it returns; something outside its own module uses it; and README's lists of stable headers are the headers'
-# own. B in the environment.
+# contracts.sh: checks that each public call has a description in the header with all statuses that it returns, that
+# each header states its stability, that other modules use each call, and that the README lists the stable headers. B
+# in the environment.
 . tests/scripts/checks.sh
 
 dir=$B/contracts
@@ -11,14 +11,14 @@ done >"$dir/calls"
 awk -f tests/scripts/contracts.awk "$dir/calls" include/lambent/*.h >"$dir/contracts"
 check "few calls were found" test "$(grep -c '|lmb_' "$dir/contracts")" -ge 200
 
-# A word of comments that is no name of the headers.
+# A word of comments that is not declared in the headers.
 grep '^unknown ' "$dir/contracts" >"$dir/unknown"
 while read -r _ header name; do
     fail "$header: a comment names $name, which is in no header"
 done <"$dir/unknown"
 [ -s "$dir/unknown" ] || pass
 
-# Where each call is used: a line "NAME FILE" for each file that names it.
+# Uses of each call: a line "NAME FILE" for each file that names it.
 grep -rhoHE '\blmb_[a-z0-9_]+' src tools platform tests --include='*.[ch]' --include='*.cpp' --include='*.inl' | sort -u |
     awk -F: '$1 !~ /^tests\/(unit|fuzz)\// { sub(/\/[^\/]*$/, "/", $1); print $2, $1 }' | sort -u >"$dir/uses"
 grep -nE '^[a-z].*\blmb_[a-z0-9_]+\(' -r src --include='*.c' --include='*.inl' |
@@ -37,7 +37,7 @@ while IFS='|' read -r header stability name returns statuses words; do
     if [ -n "$wrong" ]; then fail "$name: $wrong"; else pass; fi
 done <"$dir/contracts"
 
-# README's lists.
+# The lists in the README.
 for stability in stable experimental; do
     cut -d'|' -f1,2 "$dir/contracts" | sed -n "s/|$stability\$//p" | sort -u >"$dir/$stability"
     sed -nE "s/^\*\*($stability)\*\*: (.*)/\2/Ip" include/README.md | grep -oE '[a-z_]+\.h' | sort -u |

@@ -1,12 +1,13 @@
-# cov.sh: which lines and branches of src/ or tools/ the checks run: cov.sh FOLDER src|tools, as `make cov` built it.
+# cov.sh: prints the lines and branches of src/ or tools/ that the checks run: cov.sh FOLDER src|tools, as `make cov`
+# built it.
 #
-# Threads count by atomic additions. Otherwise counts get lost, and gcov, which computes some from others, takes the
-# difference for a branch that was taken, or for a negative number.
+# Threads count with atomic additions. Otherwise counts get lost, and gcov, which computes some counts from others,
+# reports wrong or negative ones.
 #
-# A line counts where any of its copies was run (kernels are compiled for each backend; those that this processor lacks
-# count as not there), a branch where one of its two ways was taken, twice. What was not run is in FOLDER/uncovered.
-# Bars of src/: 98 % of lines, 92 % of branches, a reason in uncovered.txt beside this for each line that was not run.
-# Of tools/: 85 % of lines. Failed allocations and writes are provoked by `make faults`, which does not count here.
+# A line counts as run if any copy of it ran (kernels are compiled for each backend; backends that this processor lacks
+# are left out). Each branch counts twice, once for each way. Lines that did not run are in FOLDER/uncovered. Limits for
+# src/: 98 % of lines, 92 % of branches, and a reason in uncovered.txt for each line that did not run. For tools/: 85 %
+# of lines. `make faults` provokes failed allocations and writes, but does not count here.
 folder=$1
 tree=$2
 b=$folder/default
@@ -21,7 +22,7 @@ find "$folder" -name '*.gcda' -exec rm -f {} +
 case $tree in
 src)
     lines=98 branches=92
-    LMB_LONG=1 "$b/tests" unit slow analytic lanes # truth runs nothing else, for minutes
+    LMB_LONG=1 "$b/tests" unit slow analytic lanes # truth adds nothing, and takes minutes
     "$b/golden"
     "$b/golden-orders"
     "$b/reference" hard
@@ -43,7 +44,7 @@ rm -f "$folder/uncovered"
 reasons=tests/scripts/uncovered.txt
 xargs gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncovered" -v reasons="$reasons" \
     -v tree="$tree" -v least_lines=$lines -v least_branches=$branches '
-    # FILE | part of the line | why; each for one line.
+    # FILE | part of the line | reason; each for one line.
     function read_reasons(    row, part) {
         while ((getline row < reasons) > 0) {
             if (row ~ /^#/ || split(row, part, / *[|] */) < 3) continue

@@ -1,12 +1,12 @@
-# decodes.sh: the picture decoders against other programs: decodes.sh PROGRAM (of tests/decodes/main_decodes.c).
+# decodes.sh: compares the picture decoders with other programs: decodes.sh PROGRAM (of tests/decodes/main_decodes.c).
 #
 # PNG, PPM and PGM against Netpbm (pngtopam with libpng, pamdepth, pamtopam), JPEG against libjpeg-turbo's djpeg, PFM
-# against libvips (bits) and Netpbm (which way is up), HDR against libvips. Pictures: the sample data (LMB_SHARED,
-# ../shared by default) and the images in its GLBs, the fuzz corpus, and both encoded anew by other programs in the
-# variants that their formats have. All must be equal, but JPEG may differ by one code from a djpeg of another family,
-# whose arithmetic is not this one's. Shows a table.
+# against libvips (bits) and Netpbm (orientation), HDR against libvips. Pictures are the sample data (LMB_SHARED,
+# ../shared by default), images in GLB files of that data, and the fuzz corpus. Other programs also encode them again,
+# in the variants of each format. All values must be equal; JPEG may differ by one code if djpeg is not libjpeg-turbo's,
+# because other families compute differently. Prints a table.
 #
-# djpeg -dct int: the exact integer transform of those libjpeg has, not the host's fastest. No -nosmooth: chroma is
+# djpeg -dct int: libjpeg's exact integer transform, not the fastest on the host. Without -nosmooth: chroma is
 # interpolated, as is usual, not repeated.
 . tests/scripts/checks.sh
 program=$1
@@ -24,7 +24,8 @@ mkdir -p "$dir"
 off_jpeg=1
 djpeg -version 2>&1 </dev/null | grep -q turbo && off_jpeg=0
 
-# judge KIND FILE LIMIT COMMAND...: the command prints pixels, differing values and their largest difference.
+# judge KIND FILE LIMIT COMMAND...: checks that the largest difference is at most LIMIT. The command prints the number
+# of pixels, the number of different values, and the largest difference.
 judge() {
     kind=$1 file=$2 limit=$3
     shift 3
@@ -41,7 +42,7 @@ judge() {
 # Readers: NAME KIND FILE.
 png() { pngtopam -alphapam "$2" >"$dir/ref" 2>/dev/null && judge "$1" "$2" 0 "$program" codes "$2" "$dir/ref"; }
 
-# pngtopam misses a transparent colour (tRNS) of RGB: libpng's own view of it, through libvips.
+# pngtopam ignores a transparent colour (tRNS) of RGB, so the reference is libpng's, through libvips.
 png_rgb_keyed() {
     size=$(vipsheader -f width "$2")x$(vipsheader -f height "$2")
     vips rawsave "$2" "$dir/ref.raw"
@@ -52,7 +53,7 @@ png_rgb_keyed() {
 
 jpeg() { djpeg -dct int -pnm "$2" >"$dir/ref" && judge "$1" "$2" $off_jpeg "$program" codes "$2" "$dir/ref"; }
 
-# Of 16 bits the reference stays whole: its high bytes are what is wanted.
+# The reference keeps all 16 bits; the program compares the high bytes.
 pnm() {
     case $(pamfile -machine "$2" | awk '{ print $7 }') in
     65535) pamtopam <"$2" >"$dir/ref" ;;
@@ -70,7 +71,7 @@ hdr() {
         judge "$1" "$2" 0 "$program" rgbe "$2" "$dir/ref.raw" "$dir/rgbe.raw"
 }
 
-# each READER KIND FILE...: a file that the reference cannot read fails.
+# each READER KIND FILE...: fails if the reference program cannot read a file.
 each() {
     reader=$1 group=$2
     shift 2
@@ -100,7 +101,7 @@ fi
 each png png-corpus $corpus/png/*.png tests/results/demo.png
 each jpeg jpeg-corpus $corpus/jpeg/*.jpg
 each pfm pfm-corpus $corpus/pfm/*.pfm
-# libvips neither divides EXPOSURE and COLORCORR out nor turns pictures: their pixels are read without both.
+# libvips does not divide by EXPOSURE and COLORCORR or rotate pictures, so the copies have neither.
 for picture in $corpus/hdr/*.hdr; do
     LC_ALL=C sed -e '/^EXPOSURE=/d' -e '/^COLORCORR=/d' -e 's/^+X \([0-9]*\) -Y \([0-9]*\)$/-Y \1 +X \2/' \
         "$picture" >"$dir/plain-${picture##*/}"
@@ -108,9 +109,9 @@ done
 each hdr hdr-corpus "$dir"/plain-*.hdr
 each pnm pnm-corpus $corpus/ppm/*
 
-# --- encoded anew ---
+# --- encoded again ---
 
-# crop FILE LEFT TOP WIDTH HEIGHT: odd sizes, so that blocks and interlaced passes are cut.
+# crop FILE LEFT TOP WIDTH HEIGHT: crops to odd sizes, so that blocks and interlaced passes are cut.
 crop() { pngtopam "$1" 2>/dev/null | pamcut -left "$2" -top "$3" -width "$4" -height "$5" | pamdepth 255; }
 
 count=0
@@ -119,7 +120,7 @@ for picture in tests/results/demo.png "$shared"/data/textures/football_field_top
     [ ! -f "$picture" ] || crop "$picture" 31 17 197 133 >"$dir/source$count.ppm" 2>/dev/null && count=$((count + 1))
 done
 
-# jpeg_variant NAME OPTION...: of each source.
+# jpeg_variant NAME OPTION...: encodes each source.
 jpeg_variant() {
     variant=$1
     shift
@@ -150,7 +151,7 @@ jpeg_variant rgb -rgb -quality 90
 jpeg_variant rgb-progressive -rgb -quality 90 -progressive
 jpeg_variant smoothed -smooth 20 -dct float
 
-# png_variant NAME PNM OPTION...: plain and interlaced.
+# png_variant NAME PNM OPTION...: encodes plain and interlaced.
 png_variant() {
     variant=$dir/$1 from=$2
     shift 2
@@ -163,7 +164,7 @@ png_variant() {
     each $by png-encoded "$variant.png" "$variant-interlaced.png"
 }
 
-# pnm_variant NAME PNM: bytes and text.
+# pnm_variant NAME PNM: writes bytes and text.
 pnm_variant() {
     pamtopnm "$2" >"$dir/$1.pnm"
     pnmtoplainpnm "$2" >"$dir/$1-text.pnm"
@@ -175,7 +176,7 @@ for source in "$dir"/source*.ppm; do
     ppmtopgm "$source" >"$dir/grey.pgm"
     pamscale -width 197 -height 133 -nomix "$dir/grey.pgm" | pamdepth 255 >"$dir/alpha.pgm" 2>/dev/null
     for most in 1 3 15 255 65535; do
-        # From 65535 the samples need all their bits: a product of two pictures has them.
+        # Gamma makes the samples of 65535 use all 16 bits.
         pamdepth $most "$dir/grey.pgm" >"$dir/grey$most.pgm" 2>/dev/null
         [ $most -ne 65535 ] || pamdepth 65535 "$dir/grey.pgm" 2>/dev/null | pnmgamma 1.7 >"$dir/grey$most.pgm"
         png_variant "$name-grey$most" "$dir/grey$most.pgm" -force
@@ -205,10 +206,10 @@ for source in "$dir"/source*.ppm; do
         pamdepth $most "$dir/deep.ppm" >"$dir/of_most.ppm" 2>/dev/null
         pnm_variant "$name-$most" "$dir/of_most.ppm"
         pamdepth $most "$dir/grey65535.pgm" >"$dir/of_most.pgm" 2>/dev/null
-        [ $most -eq 1 ] || pnm_variant "$name-grey-$most" "$dir/of_most.pgm" # of 1 Netpbm makes a PBM
+        [ $most -eq 1 ] || pnm_variant "$name-grey-$most" "$dir/of_most.pgm" # for 1 Netpbm makes a PBM
     done
     vips cast "$source" "$dir/light.v" float && vips linear "$dir/light.v" "$dir/light.pfm" 0.0037 0.001
-    LC_ALL=C sed '/^#vips2ppm/d' "$dir/light.pfm" >"$dir/$name.pfm" # which Netpbm does not take for PFM
+    LC_ALL=C sed '/^#vips2ppm/d' "$dir/light.pfm" >"$dir/$name.pfm" # a comment that Netpbm cannot read
     vips float2rad "$dir/light.v" "$dir/rad.v" && vips radsave "$dir/rad.v" "$dir/$name.hdr"
     each pfm pfm-encoded "$dir/$name.pfm"
     each hdr hdr-encoded "$dir/$name.hdr"

@@ -1,9 +1,8 @@
-# docs_check.sh: the documents keep their word: their C code compiles, the commands that they show run, and the reference
+# docs_check.sh: checks that the C code of the documents compiles, that the commands in them run, and that the reference
 # of `make docs` has no dead link, nothing wider than a phone, and a search.
 #
-# Commands are the lines that begin with `lambent` or `build/lambent` in README.md and tools/README.md. The files that
-# they name are made here: a room as glTF and OBJ, and what commands before them wrote. B, TOOL, CC, FLAGS in the
-# environment.
+# Commands are the lines that begin with `lambent` or `build/lambent` in README.md and tools/README.md. The script makes
+# the input files: a room as glTF and OBJ, and outputs of earlier commands. B, TOOL, CC, FLAGS in the environment.
 . tests/scripts/checks.sh
 
 case $B in /*) dir=$B/docs-check ;; *) dir=$PWD/$B/docs-check ;; esac
@@ -12,7 +11,7 @@ rm -rf "$dir"
 mkdir -p "$dir/run/build"
 documents="README.md include/README.md tools/README.md platform/README.md tests/README.md src/README.md src/EXACT.md src/RECIPES.md tests/results/README.md"
 
-# Each ```c block of each document is C.
+# Compiles each ```c block of each document.
 awk -v dir="$dir" '
     FNR == 1 { inside = 0 }
     /^```c$/ { inside = 1; file = dir "/" ++n ".c"; print "#line " FNR + 1 " \"" FILENAME "\"" > file; next }
@@ -22,7 +21,7 @@ for source in "$dir"/*.c; do
     check "$(sed -n '1s/.*"\(.*\)"/\1/p' "$source"): its code compiles" $CC $FLAGS -Werror -fsyntax-only "$source"
 done
 
-# A room of two walls with a camera, a spot light and an object that moves, as .gltf, .glb and .obj; a sky of one colour.
+# A room of two walls with a camera, a spot light and a moving object, as .gltf, .glb and .obj; a sky of one colour.
 cd "$dir/run" || exit 1
 number() { printf "\\$(printf %o $(($1 & 255)))\\$(printf %o $(($1 >> 8 & 255)))\\$(printf %o $(($1 >> 16 & 255)))\\000"; }
 "$lambent" pack demo -o demo.lmp >/dev/null 2>&1
@@ -62,8 +61,8 @@ cp scene.glb city.glb
 "$lambent" render demo --size 64x32 --world none -o sky.hdr >/dev/null 2>&1
 cd - >/dev/null || exit 1
 
-# Commands end at two blanks, or their line. One of two bakes is by the defaults, as either takes 21 s. Blocks to run as
-# they stand are left to `make paths`.
+# A command ends at two blanks or at the end of the line. Only one of two bakes with default settings runs, because each
+# takes 21 s. `make paths` runs the marked blocks.
 awk '/^<!-- run: / { apart = 1 } /^```/ { inside = !inside; if (!inside) apart = 0 } inside && !apart' README.md tools/README.md |
     sed -nE 's#^(build/)?lambent ##; t found; d; :found; s/ {2,}.*//; s/(relief bake .*-o [^ ]*) .*/\1/; s/--frames 300/--frames 2/; s/^bake scene.lmp/& --elements 1024/; p' \
         >"$dir/commands.txt"

@@ -1,16 +1,16 @@
-# examples.sh: the programs of tests/examples compile without a warning, run, and print what they should: CC FLAGS LIB
-# LDLIBS B in the environment.
+# examples.sh: checks that the programs of tests/examples compile without a warning, run, and print the expected lines:
+# CC FLAGS LIB LDLIBS B in the environment.
 . tests/scripts/checks.sh
 
 dir=$B/examples
 mkdir -p "$dir"
 
-# Compilers' C++ takes other flags than C, and may not be there.
+# A C++ compiler needs other flags than C, and may be missing.
 echo 'int main() { return 0; }' >"$dir/empty.cpp"
 cxx_flags=$(printf '%s\n' "$FLAGS" | sed -E 's/-std=[a-z0-9]+/-std=c++11/; s/-Wmissing-prototypes//')
 has_cxx=$($CC -x c++ $cxx_flags "$dir/empty.cpp" -o "$dir/empty" -lstdc++ -lpthread 2>/dev/null && echo yes)
 
-run() { # run PROGRAM: its last line, or all that it said where it fails
+run() { # run PROGRAM: prints the last line of output, or all of it if the program fails
     said=$("$1" 2>&1)
     ended=$?
     printf '%s\n' "$said" | tail -n 1 | sed 's/^/  /'

@@ -1,8 +1,9 @@
-# faults.sh: every verb with its nth allocation, open, write, rename or thread failing: B TOOL SHIM in the environment.
+# faults.sh: runs every verb with its nth allocation, open, write, rename or thread failing: B TOOL SHIM in the
+# environment.
 #
-# The inputs are made by the tool itself, small: a tent as OBJ with a texture, as PLY and as glTF, its relief, baked light,
-# a photo with depth, and a sequence of two. tests/faults/main_faults.c says what has to hold. CASES=WORD: only commands with this word; PART=K/N: every Nth command
-# from the Kth on.
+# The tool makes the inputs, all small: a tent as OBJ with a texture, as PLY and as glTF, its relief, baked light, a
+# photo with depth, and a sequence of two. tests/faults/main_faults.c lists the conditions that must hold. CASES=WORD
+# runs only commands with this word; PART=K/N runs every Nth command from the Kth on.
 . tests/scripts/checks.sh
 
 case $(uname -sm)$(ldd --version 2>&1) in
@@ -39,7 +40,7 @@ make_inputs() {
         "$tool" render demo $eye -q -o photo.png &&
         "$tool" render demo $eye -q -o photo.pfm &&
         "$tool" render demo $eye -q --show depth -o depth.pfm &&
-        for i in 0 1; do # of one place, so that either is what it is alone
+        for i in 0 1; do # one view for both, so that each frame equals a run on one photo
             cp photo.png f$i.color.png && cp depth.pfm f$i.depth.pfm
             printf '%s' '{"fx": 19, "fy": 19, "cx": 11.5, "cy": 7.5, "depth_unit_mm": 1000, "camera_to_world": ' \
                 '[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}' >f$i.json
@@ -95,7 +96,8 @@ passed=$((passed + ${counted%% passed*}))
 failed=$((failed + $(echo "$counted" | sed 's/.* passed, \([0-9]*\) failed.*/\1/')))
 check "the faults are counted: $status" test "$failed" -gt 0 -o $status -eq 0
 
-# A signal at each open, write and rename: its own exit status; what stood there, or the whole file; nothing else.
+# A signal at each open, write and rename: the exit status is 128 + signal, or 0 if the program ended before. The file
+# is the old one or the whole new one, and no other file is left.
 draw() { LD_PRELOAD=$here/$SHIM FAULT=$1 "$tool" render one.ply --size 16x16 --shadow-map 64 --threads 1 -q -o out/a.pfm 2>/dev/null; }
 draw none:0
 mv out/a.pfm whole.pfm

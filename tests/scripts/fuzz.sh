@@ -1,23 +1,23 @@
 # fuzz.sh: runs each fuzz target for some CPU minutes: fuzz.sh FUZZER FOLDER MINUTES TARGET...
 #
-# MINUTES 0 are three seconds, and ten of the library's calls and stages, whose inputs take the longest to grow.
-# Starts from tests/fuzz/corpus and the sample data where that is; what is found to be of use is kept in FOLDER/TARGET
-# for the next run, findings in FOLDER/TARGET-crash-* and the like. Goes in slices, because the engine's own limit
-# counts time on the wall; so does its limit for one input, and a busy machine takes 25 s for what needs one. Says how
-# many inputs were executed, by target and in all (those that a slice begins with count each time). Ends with a line
-# `N passed, N failed, N skipped`.
+# MINUTES=0 runs each target for three seconds, but calls and stages for ten, because their inputs grow slowest. Inputs
+# are tests/fuzz/corpus and, if present, the sample data. New useful inputs go to FOLDER/TARGET for the next run,
+# findings to FOLDER/TARGET-crash-* and similar names. A target runs in slices, because libFuzzer limits wall time, not
+# CPU time. The limit for one input is wall time too, and high, because a busy machine takes 25 s for an input of one
+# second. Prints the number of executed inputs by target and in all (each slice counts its first inputs again). Ends
+# with a line `N passed, N failed, N skipped`.
 fuzzer=$1 folder=$2 minutes=$3
 shift 3
 shared=${LMB_SHARED:-../shared}
 
-# seconds: what the finished children of this shell took, and the system for them (the memory of large pictures is most
-# of some targets). A pipe or $(...) would ask a shell of its own.
+# seconds: user and system time of this shell's finished children (some targets spend most time on the memory of large
+# pictures). No pipe or $(...), because a subshell would count separately.
 count() {
     times >"$folder/$1.times"
     seconds=$(awk 'NR == 2 { split($1 $2, t, /[ms]/); print int(60 * (t[1] + t[3]) + t[2] + t[4]) }' "$folder/$1.times")
 }
 
-# What the engine says that a slice executed, by a finding's end too.
+# Adds libFuzzer's number of executed inputs of a slice, even if the slice ended with a finding.
 executed() {
     units=$(awk '/^stat::number_of_executed_units:/ { n = $2 } END { print n + 0 }' "$folder/$1.log")
     executions=$((executions + units))
@@ -59,7 +59,7 @@ run() {
     do :; done
 }
 
-# tell TARGET: it is run, and a line says what came of it.
+# tell TARGET: runs the target and prints one line with the result.
 tell() {
     if run "$1"; then
         verdict="no finding"
@@ -71,7 +71,7 @@ tell() {
         "$(ls "$folder/$1" | wc -l) inputs kept: $verdict" | tee "$folder/$1.said"
 }
 
-# Seconds each: two at a time.
+# If each target takes only seconds, runs two at a time.
 [ "$minutes" -gt 0 ] && at_once=1 || at_once=2
 running=0
 for target in "$@"; do

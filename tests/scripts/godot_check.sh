@@ -1,7 +1,7 @@
-# godot_check.sh: the recipe for Godot 3 in tools/README.md: imports a baked lightmap, draws it in software, and compares
-# the picture with ours. Skipped, with the reason, if tools are missing. Project and pictures: $B/godot.
+# godot_check.sh: checks the recipe for Godot 3 in tools/README.md: imports a baked lightmap, draws it in software, and
+# compares the picture with ours. Skipped, with the reason, if tools are missing. Project and pictures: $B/godot.
 #
-# The bounds include the demo's painting, which Godot 3.2.3 draws white: its COLOR_0 are integers.
+# The bounds include the demo's painting, which Godot 3.2.3 draws white, because COLOR_0 has integers.
 . tests/scripts/checks.sh
 for command in godot3 godot3-server xvfb-run; do
     command -v $command >/dev/null 2>&1 || { skip "no $command: apt-get install godot3 godot3-server xvfb xauth"; finish; }
@@ -17,7 +17,7 @@ light="--elements 1024 --receivers 3000"
         --exposure 1 -q -o "$dir/ours.png" &&
     "$TOOL" bake demo $light --to lightmap --texels 1024 -q -o "$dir/scene.glb" || fail "lambent bakes no lightmap"
 
-# A project whose only scene draws the room as the demo's camera sees it, by bounced light.
+# A project with one scene that draws the bounced light of the room from the demo's camera.
 sed -n '/^```gdscript$/,/^```$/p' tools/README.md | sed '/^```/d' >"$dir/lightmap.gd"
 cat >"$dir/scene.glb.import" <<'END'
 [remap]

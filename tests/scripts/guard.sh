@@ -1,13 +1,13 @@
-# guard.sh: builds that would draw other pixels are refused, by base/exact.h or else by lmb_build_check: CC FLAGS B LIB
+# guard.sh: checks that base/exact.h or lmb_build_check refuses builds that would draw other pixels: CC FLAGS B LIB
 # LDLIBS in the environment.
 #
-# The golden program, linked with one file that was compiled wrongly, must say LMB_ERR_BUILD and draw nothing.
+# The golden program, linked with one miscompiled file, must print LMB_ERR_BUILD and draw nothing.
 . tests/scripts/checks.sh
 mkdir -p "$B/guard"
 golden="$(ls "$B"/obj/tests/golden/golden*.o) $B/obj/tests/golden/main_golden.o $B/obj/tools/demo/demo_scene.o
     $B/obj/platform/host/port_host.o"
 
-# compiles FILE FLAG...: FLAGs come after the Makefile's own, so that they win.
+# compiles FILE FLAG...: puts FLAGs after the Makefile's own, so that they take precedence.
 compiles() {
     source=$1
     shift
@@ -42,7 +42,7 @@ refused_by_compiler -ffinite-math-only
 refused_by_compiler -m32 -mfpmath=387 -ffreestanding
 refused_by_compiler -m32 -mfpmath=387 -ffreestanding -std=gnu99
 
-# made_right FILE FLAG...: what is wrong with these flags a pragma puts right.
+# made_right FILE FLAG...: checks that a pragma corrects the effect of these flags.
 made_right() {
     file=$1
     shift
@@ -74,7 +74,7 @@ refused_at_start src/base/exact.c -O2 -funsafe-math-optimizations
 refused_at_start src/base/exact.c -O2 -freciprocal-math
 refused_at_start src/base/exact.c -O2 -fno-signed-zeros
 
-# A first build for a Cortex-M4F, by the compiler's own flags.
+# A first build for a Cortex-M4F, with the compiler's default flags.
 if arm=$(command -v arm-none-eabi-gcc); then
     for file in src/isa/isa_scalar.c src/base/view.c src/transfer/transfer_many_lights.c; do
         check "$file for a Cortex-M4F" "$arm" -O1 -fexpensive-optimizations -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mthumb -mfloat-abi=hard -Iinclude \

@@ -1,4 +1,5 @@
-# headers.sh: each public header compiles alone, and twice, as C99 and as C++: CC and B in the environment.
+# headers.sh: checks that each public header compiles on its own, and twice, as C99 and as C++: CC and B in the
+# environment.
 . tests/scripts/checks.sh
 
 warnings="-Wall -Wextra -pedantic -Wshadow -Werror -Iinclude"
@@ -11,7 +12,7 @@ for path in include/lambent/*.h; do
     printf '#include <lambent/%s>\n#include <lambent/%s>\ntypedef int not_empty;\n' "$header" "$header" >"$dir/$header.inc"
 done
 
-# try LANGUAGE STANDARD: all by one command, which takes a third of the time; by one each if that fails.
+# try LANGUAGE STANDARD: compiles all with one command, in a third of the time; if that fails, each separately.
 try() {
     if $CC -x "$1" -std="$2" $warnings -fsyntax-only "$dir"/*.h.inc >/dev/null 2>&1; then
         passed=$((passed + $(ls "$dir"/*.h.inc | wc -l)))

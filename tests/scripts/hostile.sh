@@ -1,16 +1,16 @@
 # hostile.sh: damaged copies of files through every parser: hostile.sh PROGRAM PREFIXES MUTATIONS [FILE...]
 #
-# Without files: the fuzzers' corpus and, where it is, the sample data; fewer of them than are expected is a failure. Ends
-# with the program's line `N passed, N failed, N skipped`.
+# Default files: the fuzz corpus and, if present, the sample data; fails if there are fewer than expected. Ends with the
+# program's line `N passed, N failed, N skipped`.
 program=$1 prefixes=$2 mutations=$3
 shift 3
 shared=${LMB_SHARED:-../shared}
 corpus=${CORPUS:-tests/fuzz/corpus}
 
-# How many there are; raise them when files are added.
+# The expected numbers of files. Raise them when you add files.
 corpus_files=160 shared_files=66
 
-# counted WHAT THERE EXPECTED
+# counted NAME PRESENT EXPECTED
 counted() {
     [ "$2" -le "$3" ] || echo "note: $1: $2 files, $3 are expected; say $2 in tests/scripts/hostile.sh"
     [ "$2" -ge "$3" ] && return

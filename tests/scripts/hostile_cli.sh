@@ -1,7 +1,7 @@
-# hostile_cli.sh: absurd and hostile files made on the spot, through the whole tool; TOOL and B in the environment.
+# hostile_cli.sh: runs the whole tool on absurd and hostile files that it makes: TOOL and B in the environment.
 #
-# What cli.sh has is not repeated. An empty, truncated, endless or lying file is refused in one line, and what stood
-# where the picture should go stands there still; what is only odd is drawn.
+# Cases of cli.sh are not repeated. An empty, truncated, endless or inconsistent file must be refused with one line, and
+# an earlier output picture must stay. Files that are only unusual must be drawn.
 . tests/scripts/checks.sh
 
 dir=$B/hostile_cli
@@ -25,20 +25,20 @@ refused() {
     [ ! -s "$dir/out.txt" ] && pass || fail "lambent $*: an error, yet output on stdout"
 }
 
-# no_scene FILE: rendering it fails, and the picture of before stays.
+# no_scene FILE: checks that rendering fails, and that the earlier picture stays.
 no_scene() {
     echo before >"$dir/kept.png"
     refused "$1" render "$dir/$1" $small -o "$dir/kept.png"
     [ "$(cat "$dir/kept.png")" = before ] && pass || fail "$1: overwrote a picture that it could not replace"
 }
 
-# no_picture FILE: neither info nor compare takes it.
+# no_picture FILE: checks that info and compare refuse the file.
 no_picture() {
     refused "$1" info "$dir/$1"
     refused "$1" compare "$dir/$1" "$dir/$1"
 }
 
-# drawn FILE: renders, whatever notes there are.
+# drawn FILE: checks that the file renders, with or without notes.
 drawn() {
     check "lambent render $1" "$TOOL" render "$dir/$1" $small -o "$dir/drawn.png"
     check "lambent render $1 writes a picture" test -s "$dir/drawn.png"
@@ -47,7 +47,7 @@ drawn() {
 
 zeros() { dd if=/dev/zero bs="$1" count=1 2>/dev/null; }
 
-# gltf NODES BUFFER_BYTES COUNT: a triangle of three corners, one bufferView, the accessor's count.
+# gltf NODES BUFFER_BYTES COUNT: prints a triangle of three vertices with one bufferView; COUNT is the accessor's count.
 gltf() {
     printf '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[%s],' "$1"
     printf '"buffers":[{"byteLength":%s,"uri":"data:;base64,' "$2"
@@ -57,7 +57,7 @@ gltf() {
     printf '"accessors":[{"bufferView":0,"componentType":5126,"count":%s,"type":"VEC3"}]}' "$3"
 }
 
-# Nodes inside themselves, and a chain that is only long.
+# Nodes that contain themselves, and a chain that is long but valid.
 gltf '{"mesh":0,"children":[0]}' 36 3 >"$dir/own_child.gltf"
 gltf '{"mesh":0,"children":[1]},{"children":[2]},{"children":[0]}' 36 3 >"$dir/cycle.gltf"
 gltf "$(i=0; while [ $i -lt 200 ]; do i=$((i + 1)); printf '{"children":[%d]},' $i; done)"'{"mesh":0}' 36 3 \
@@ -66,7 +66,7 @@ no_scene own_child.gltf
 no_scene cycle.gltf
 drawn chain.gltf
 
-# Counts of 2^31 and beyond.
+# Counts of 2^31 and more.
 gltf '{"mesh":0}' 36 2147483648 >"$dir/accessor.gltf"
 gltf '{"mesh":0}' 4294967294 3 >"$dir/buffer.gltf"
 gltf '{"mesh":2147483648}' 36 3 >"$dir/index.gltf"
@@ -89,7 +89,7 @@ no_picture sides.pfm
 no_picture sides.ppm
 no_picture sides.hdr
 
-# A GLB cut at its header, its first chunk and its last byte.
+# A GLB cut in the header, in the first chunk and before the last byte.
 gltf '{"mesh":0}' 36 3 >"$dir/whole.json"
 while [ $(($(wc -c <"$dir/whole.json") % 4)) -ne 0 ]; do printf ' ' >>"$dir/whole.json"; done
 bytes=$(wc -c <"$dir/whole.json")
@@ -104,7 +104,7 @@ for size in 0 3 11 12 19 20 100 $((bytes + 19)); do
     no_scene cut.glb
 done
 
-# Corners that are no numbers, triangles without area and a million times as long as wide.
+# Vertices that are not numbers, triangles without area and triangles a million times as long as wide.
 printf 'v nan nan nan\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n' >"$dir/some_nan.obj"
 printf 'v nan inf -inf\nv 1e999 0 0\nv 0 nan 0\nf 1 2 3\n' >"$dir/all_nan.obj"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 1\nf 1 2 2\nf 1 2 1 2\nf 1 2 3\n' >"$dir/no_area.obj"
@@ -114,10 +114,10 @@ no_scene all_nan.obj
 drawn no_area.obj
 drawn needle.obj
 
-# PNG: no pixels, too few bytes for them, and 8192 x 8192 or more in little.
+# PNG: no pixels, too few bytes, and 8192 x 8192 or more in a small file.
 signature='\211PNG\r\n\032\n\0\0\0\015IHDR'
 end='\0\0\0\0IEND\256B`\202'
-nine='\0\0\0\013IDATx\234c`\200\002\0\0\011\0\001\373R\270\251' # zlib's nine zeros
+nine='\0\0\0\013IDATx\234c`\200\002\0\0\011\0\001\373R\270\251' # nine zeros, compressed by zlib
 printf "$signature"'\0\0\0\0\0\0\0\0\010\002\0\0\0\264\351\353E'"$nine$end" >"$dir/no_pixels.png"
 printf "$signature"'\0\0\040\0\0\0\040\0\010\002\0\0\0\375\310\135\016'"$nine$end" >"$dir/few_bytes.png"
 {
@@ -141,7 +141,7 @@ for map in no_pixels few_bytes bomb; do
     printf 'newmtl a\nmap_Kd %s.png\n' $map >"$dir/$map.mtl"
     drawn $map.obj
 done
-# 256 MiB of texels and a third for the levels below are there once. Sanitizers want terabytes of addresses.
+# Needs 256 MiB of texels and a third more for mip levels. Sanitizers need terabytes of address space.
 if (ulimit -v 450000 && exec "$TOOL" info "$dir/no_pixels.obj") >"$dir/out" 2>&1; then
     (ulimit -v 450000 && exec "$TOOL" info "$dir/bomb.obj") >"$dir/out" 2>&1 && grep -q '^notes  *0' "$dir/out" && pass ||
         fail "bomb.obj: its picture takes more than 450 MB: $(tail -1 "$dir/out")"
@@ -149,7 +149,7 @@ else
     skip "a limit of memory: not to be had here"
 fi
 
-# Output that cannot be: a full disk, a file where a folder should be, statistics that have no place.
+# Outputs that cannot be written: a full disk, a file in place of a folder, statistics in a missing folder.
 if [ -c /dev/full ]; then
     for extension in png pfm ppm hdr; do
         ln -s /dev/full "$dir/full.$extension"
@@ -169,7 +169,7 @@ refused "$dir" render demo $small -o "$dir"
 [ ! -e "$dir/good.png" ] && pass || fail "a picture whose statistics have no place was written"
 rm -f "$dir/good.png"
 
-# The list of `make hostile` says when it shrinks, whatever its files are.
+# `make hostile` must report if its list of files shrinks.
 mkdir -p "$dir/corpus/png"
 echo png >"$dir/corpus/png/one"
 CORPUS=$dir/corpus LMB_SHARED=$dir/nothing sh tests/scripts/hostile.sh false 1 1 >"$dir/out.txt" 2>&1

@@ -1,5 +1,5 @@
-# large.sh: ten million triangles from a file to a picture; prints time and memory, which no check bounds but the sum.
-# One sun, and nothing blocks the bounced light: what is asked here is whether loading and drawing scale, in seconds.
+# large.sh: draws ten million triangles from a file; prints time and memory, with no limit except for the sum. One sun
+# whose bounced light nothing blocks, because the check is about the scaling of loading and drawing, in seconds.
 . tests/scripts/checks.sh
 
 squares=2237 triangles=10008338

@@ -1,14 +1,14 @@
-# layers.sh: what may lean on what: layers.txt beside this has every folder of src/ and tools/ in order. CC B NM in the
-# environment, and the built library and tool.
+# layers.sh: checks includes and calls against layers.txt, which lists every folder of src/ and tools/ in order. CC B NM
+# in the environment; needs the built library and tool.
 #
-#     layers.sh          folders by #include and by nm; circles among files by each; first lines; names of files; the
-#                        plans in the README files; the rows of mutants.txt; and that made-up faults are found
-#     layers.sh write    puts the plans into src/README.md and tools/README.md
+#     layers.sh          checks folders by #include and by nm; cycles between files in both; first lines; file names;
+#                        the plans in the README files; the rows of mutants.txt; and that it finds made-up faults
+#     layers.sh write    writes the plans into src/README.md and tools/README.md
 . tests/scripts/checks.sh
 . tests/scripts/mutants.sh
 table=tests/scripts/layers.txt
 
-# plan ROOT: the table's part as a README shows it.
+# plan ROOT: prints the table's part in the format of a README.
 plan() {
     awk -v root="$1" '
         /^#/ || /^$/ { mine = 0; next }
@@ -22,7 +22,7 @@ plan() {
         }' $table
 }
 
-# planned ROOT: what stands between the marks in ROOT/README.md.
+# planned ROOT: prints the text between the marks in ROOT/README.md.
 planned() {
     awk '/^<!-- end of layers -->/ { exit } inside && !/^```/ { print } /^<!-- layers: / { inside = 1 }' "$1/README.md"
 }
@@ -39,7 +39,7 @@ put_plan() {
 
 # Edges are lines `FROM TO`, as paths of sources.
 
-# by_include FOLDER...: of files' #include "...".
+# by_include FOLDER...: edges from #include "...".
 by_include() {
     grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' "$@" |
         sed -E 's/^([^:]+):[0-9]+:[^"]*"([^"]*)".*/\1 \2/' | awk '
@@ -48,14 +48,14 @@ by_include() {
               print $1, to }'
 }
 
-# objects FOLDER: of the sources of src/ and tools/; an object of a source that is gone since is no part of the build.
+# objects FOLDER: the objects of existing sources of src/ and tools/; objects of deleted sources are left out.
 objects() {
     (cd "$1" && find src tools -name '*.o' 2>/dev/null) | sort | while read -r object; do
         [ ! -f "${object%.o}.c" ] || echo "$object"
     done
 }
 
-# by_call FOLDER: of the objects in it that the input lists: who takes a symbol that another one has.
+# by_call FOLDER: edges from objects in the input list that use a symbol to the objects that define it.
 by_call() {
     (cd "$1" && xargs $NM -A) | awk '
         {
@@ -70,7 +70,7 @@ by_call() {
         }' | sort -u
 }
 
-# in_circles: the edges on circles, and between them: what leads nowhere, and then where nothing leads, is taken away.
+# in_circles: keeps edges on cycles and between them; repeatedly removes edges to or from a node with no further edges.
 in_circles() {
     awk '
         { from[NR] = $1; to[NR] = $2; left[NR] = 1 }
@@ -86,7 +86,7 @@ in_circles() {
         }'
 }
 
-# upward: edges that go up, sideways, or where nothing of ours may.
+# upward: prints edges to the same or a higher layer, and to files outside src/, tools/ and include/.
 upward() {
     awk -v table=$table '
         function folder(path) { sub(/\/[^\/]*$/, "", path); return path }
@@ -107,7 +107,7 @@ upward() {
         }'
 }
 
-# none WHAT LINES: each line is a failure.
+# none TEXT LINES: fails once for each line.
 none() {
     if [ -z "$2" ]; then
         pass
@@ -140,7 +140,7 @@ echo "$(sort -u "$dir/includes" | wc -l) includes, $(wc -l <"$dir/calls") calls 
 for folder in src/*/ tools/*/; do
     check "$folder: layers.txt has no such folder" grep -q "^${folder%/} [0-9]" $table
 done
-# without_layer FILE...: those whose first line does not end with their layer (and tags).
+# without_layer FILE...: prints files without their layer (and tags) at the end of the first line.
 without_layer() {
     awk -v table=$table '
         BEGIN { while ((getline line < table) > 0) if (line ~ /^[a-z]/) { split(line, part, " "); layer[part[1]] = part[2] } }
@@ -151,7 +151,7 @@ without_layer() {
 }
 none "the first line does not say the layer" "$(without_layer src/*/*.c src/*/*.h src/*/*.inl)"
 
-# same_names FILE...: those that have the name of an earlier one. `cc -c src/*/*.c` puts all objects into one folder.
+# same_names FILE...: prints files with the name of an earlier file. `cc -c src/*/*.c` puts all objects into one folder.
 same_names() {
     printf '%s\n' "$@" | awk '
         { name = $0; sub(/^.*\//, "", name) }
@@ -168,8 +168,8 @@ for root in src tools; do
         fail "$root/README.md has another plan than layers.txt: sh tests/scripts/layers.sh write"
 done
 
-# Could it fail? Two files that call each other and a third that is called; two headers that include each other; a file
-# that calls and includes upward; a first line without its layer; a second file of one name; rows of mutants.txt.
+# Checks that it can fail: two files that call each other and a third; two headers that include each other; a call and
+# an include upward; a first line without the layer; a second file of one name; faulty rows of mutants.txt.
 made=$dir/made
 mkdir -p "$made/src/base" "$made/src/raster" "$made/obj/src/base" "$made/obj/src/raster"
 echo 'int one(void); int two(void); int three(void); int one(void) { return two() + three(); }' >"$made/src/base/one.c"

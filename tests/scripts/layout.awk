@@ -1,9 +1,9 @@
-# layout.awk: what a program and the library must agree on, told by the headers themselves:
+# layout.awk: finds in the headers the capacities on which a program and the library must agree:
 #   awk -f tests/scripts/layout.awk include/lambent/config.h OTHER_HEADERS... CALLS      (CALLS: from prototypes.awk)
-# prints `capacity NAME` for each of config.h's that sizes a public struct, and `call NAME` for each call that takes
-# such a struct, or one that holds or points to one.
+# prints `capacity NAME` for each capacity of config.h that sizes a public struct, and `call NAME` for each call that
+# takes such a struct, or a struct that holds or points to one.
 FILENAME == ARGV[1] {
-    # Those that may be set from outside, and those that the tiny configuration sets.
+    # Capacities that a build may define, and those that the tiny configuration defines.
     if ($1 == "#ifndef") open_for = $2
     if ($1 == "#ifdef" && $2 == "LMB_CONFIG_TINY") in_tiny = 1
     if ($1 == "#define" && $3 ~ /^[0-9]+$/ && ($2 == open_for || in_tiny)) may_change[$2] = 1

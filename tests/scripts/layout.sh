@@ -1,5 +1,5 @@
-# layout.sh: a program built with other capacities than the library must fail to link, whichever call it makes: CC FLAGS
-# LIB LDLIBS NM B in the environment. Capacities and calls are taken from the headers: layout.awk.
+# layout.sh: checks that a program built with other capacities than the library cannot link, with any call: CC FLAGS LIB
+# LDLIBS NM B in the environment. layout.awk finds capacities and calls in the headers.
 . tests/scripts/checks.sh
 
 dir=$B/layout
@@ -10,7 +10,7 @@ capacities=$(sed -n 's/^capacity //p' "$dir/found" | sort)
 calls=$(sed -n 's/^call //p' "$dir/found" | sort)
 check "no capacities, or few calls were found" test "$(echo $capacities | wc -w)" -ge 12 -a "$(echo $calls | wc -w)" -ge 60
 
-# A program that makes all those calls.
+# A program that uses all these calls.
 {
     echo '#include <lambent/lambent.h>'
     echo 'typedef void (*any)(void);'
@@ -27,7 +27,7 @@ check "a program with the library's capacities links" $CC $FLAGS -o "$dir/same" 
 ${NM:-nm} "$LIB" 2>/dev/null | awk '$2 == "T" { print $3 }' | sort -u >"$dir/defined"
 check "nm does not find the calls in $LIB" test "$(grep -c '^lmb_' "$dir/defined")" -ge 60
 
-# differs WHAT FLAGS...: no call of a program that is built so is in the library.
+# differs TEXT FLAGS...: checks that the library has none of the calls of a program built with FLAGS.
 differs() {
     what=$1
     shift
@@ -48,18 +48,18 @@ differs() {
     fi
 }
 
-# Each capacity by one more, whichever way config.h comes to its number.
+# Each capacity increased by one, for every definition in config.h.
 rm -rf "$dir/include"
 mkdir -p "$dir/include"
 cp -r include/lambent "$dir/include"
-chmod -R u+w "$dir/include" # of a tree that may not be written to
+chmod -R u+w "$dir/include" # the tree may be read-only
 for capacity in $capacities; do
     awk -v name="$capacity" '$1 == "#define" && $2 == name { $3 += 1 } { print }' include/lambent/config.h \
         >"$dir/include/lambent/config.h"
     differs "$capacity is another" -I"$dir/include" $FLAGS
 done
 
-# README's example with the other of the two configurations.
+# README's example in the other configuration.
 case " $FLAGS " in
 *" -DLMB_CONFIG_TINY "*) other=-ULMB_CONFIG_TINY ;;
 *) other=-DLMB_CONFIG_TINY ;;

@@ -1,5 +1,5 @@
-# links.sh: every program of the tree links, and the sources of `make prove` compile: MAKE B CC and PROGRAMS, the
-# programs' paths, in the environment.
+# links.sh: checks that every program of the tree links, and that the sources of `make prove` compile: MAKE B CC and
+# PROGRAMS, the programs' paths, in the environment.
 #
 # The measure programs lie in $B/links, where their own sources are compiled at -O0.
 . tests/scripts/checks.sh

@@ -1,5 +1,5 @@
-# linux_fb.sh: the room on a file that stands for a framebuffer device: the last picture there is the one that the host's
-# port writes, at a screen of the picture's size and in the middle of a larger one. MAKE, BUILD in the environment.
+# linux_fb.sh: draws the room into a file in place of a framebuffer device, and checks that the last picture equals the
+# host port's, on a screen of the same size and centred on a larger one. MAKE, BUILD in the environment.
 . tests/scripts/checks.sh
 dir=$BUILD/linux-fb-test
 rm -rf "$dir"

@@ -1,6 +1,6 @@
-# live.sh: frames of the demo for light that moves, in 160 KiB of RAM on a Cortex-M4F under qemu and here, built alike:
-# equal pictures, and the instructions, ROM and RAM that each takes. MAKE BUILD TOOL in the environment. Without cross
-# compiler or qemu: as tiny.sh.
+# live.sh: frames of the demo with moving light, in 160 KiB of RAM on a Cortex-M4F under qemu and here, with the same
+# options: checks for equal pictures, and prints instructions, ROM and RAM of each. MAKE BUILD TOOL in the environment.
+# Without cross compiler or qemu: as tiny.sh.
 . tests/scripts/checks.sh
 
 if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 2>&1); then
@@ -27,7 +27,7 @@ check "for a Cortex-M4F" make_there $(for p in $programs; do echo "$there/$p"; d
 [ $failed -eq 0 ] || finish
 
 taken() { awk '/^instructions / { print $2 }' "$there/$1.out"; }
-# bound NAME INSTRUCTIONS AT_MOST, in thousands.
+# bound NAME INSTRUCTIONS MAXIMUM, in thousands.
 bound() {
     check "$1: $2 instructions, bound $3,000" test "${2:-0}" -gt 100000 -a "$(((${2:-0} + 999) / 1000))" -le "$3"
 }

@@ -1,5 +1,5 @@
-# may_refuse.sh: runs a program of a compiler that is known to compute wrongly: may_refuse.sh COMMAND...
-# Where lmb_build_check refuses the build, that is all one can ask, and counts as skipped.
+# may_refuse.sh: runs a program of a compiler that is known to miscompile: may_refuse.sh COMMAND...
+# If lmb_build_check refuses the build, the check counts as skipped.
 said=$("$@")
 status=$?
 case $said in

@@ -1,6 +1,6 @@
-# mutants.sh: reads mutants.txt, for mutate.sh and layers.sh, which source this.
+# mutants.sh: reads mutants.txt; mutate.sh and layers.sh source it.
 
-# mutant_rows TABLE: each row as one line, FOLDER WORD...
+# mutant_rows TABLE: prints each row as one line, FOLDER WORD...
 mutant_rows() {
     awk '
         /^#/ || /^$/ { next }
@@ -9,7 +9,7 @@ mutant_rows() {
         END { if (row != "") print row }' "$1"
 }
 
-# is_test ROOT PROGRAM:WORD: could the tests in ROOT/tests run it?
+# is_test ROOT PROGRAM:WORD: succeeds if the tests in ROOT/tests include it.
 is_test() {
     case $2 in
     golden | reference:hard) ;;
@@ -25,8 +25,8 @@ is_test() {
     esac
 }
 
-# mutant_faults TABLE ROOT: a line for each folder of ROOT/src and ROOT/tools without its one row, each row without a
-# folder, each row without tests or a reason, and each test that is not there.
+# mutant_faults TABLE ROOT: prints a line for each folder of ROOT/src and ROOT/tools that has not exactly one row, each
+# row without a folder, each row without tests or a reason, and each test that does not exist.
 mutant_faults() {
     mutant_rows "$1" | while read -r row words; do
         [ -d "$2/$row" ] || echo "$row: there is no such folder"

@@ -1,19 +1,20 @@
-# mutate.sh: test the tests: change one operator or constant of src/ or tools/ at a time, and see whether a test notices.
+# mutate.sh: tests the tests: changes one operator or constant of src/ or tools/ at a time, and checks that a test
+# fails.
 #
 #     mutate.sh FOLDER N SEED [MODULE...]     N seeded changes in these modules of src/ (base, ...) or of tools/
 #                                             (tools/model, ...); default: all that have tests in mutants.txt
 #
-# Works on a copy in FOLDER/tree, with the kernels of two backends (scalar and AVX2), as each takes seconds to compile.
-# A change that does not build, or that gives the same code, does not count. For each other change the tests run that
-# mutants.txt names for its module, the quickest first, until one fails, ends badly or takes six times as long as without
-# the change; with FULL=1 also all others that link the library. Only what follows from the changed file is built, and a
-# program when its turn comes. Where mutants.txt names a folder or a test that is not there, nothing is tried.
-# Prints a line each, those that no test noticed with their line, and killed / tried by module. Exit status 1 where under
-# 85 % were noticed. Some changes change nothing (a bound that is never met, a tie that either way is right): survivors
-# are for reading, not for driving to nothing.
-# ONLY="NUMBER..." does some of them again; FILES=PATTERN takes only such files. WARM=build starts from what `make` left
-# there, at its level of optimisation and with all kernels: in seconds, where a first build takes minutes; but then each
-# change of a kernel takes minutes.
+# Works on a copy in FOLDER/tree, with kernels for two backends (scalar and AVX2), because each takes seconds to
+# compile. A change does not count if it fails to build or gives the same code. For other changes it runs the tests in
+# the module's row of mutants.txt, the quickest first, until one fails, crashes or takes six times as long as without
+# the change. With FULL=1 it also runs all others that link the library. It rebuilds only dependents of the changed
+# file, and a program only before running it. If mutants.txt has a missing folder or test, it stops before the first
+# change. Prints one line per change, the source line of each survivor, and killed / tried by module. Exit status 1 if
+# tests found under 85 %. Some survivors are equivalent (a limit that is never reached, a tie that may go both ways), so
+# read them, but do not try to reach 100 %.
+# ONLY="NUMBER..." repeats some changes; FILES=PATTERN selects files. WARM=build starts from the outputs of `make` in
+# that folder, with the same optimisation and all kernels: this takes seconds, but a first build minutes. Each change of
+# a kernel then takes minutes.
 folder=$1 wanted=$2 seed=$3
 shift 3
 . tests/scripts/mutants.sh
@@ -37,7 +38,7 @@ for part in Makefile include src tests tools platform README.md; do
 done
 rm -rf "$folder/src" "$folder/tools"
 cp -pR src tools "$folder"
-chmod -R u+w "$tree" "$folder/src" "$folder/tools" # of a clone that may not be written to
+chmod -R u+w "$tree" "$folder/src" "$folder/tools" # the clone may be read-only
 if [ -n "$WARM" ]; then
     rm -rf "$tree/build"
     mkdir -p "$tree/build/default"
@@ -58,13 +59,13 @@ make_it() {
     fi >"$folder/build.log" 2>&1 </dev/null
 }
 
-# tests MODULE: what is run for a change there; NAME:WORD is a program and its word.
+# tests MODULE: the tests for a change in the module; NAME:WORD is a program and the word that selects the test.
 tests() {
     sed -n "s,^$1 ,,p" "$folder/rows"
     case $FULL,$1 in ?*,src/*) echo tests:unit tests:analytic tests:lanes reference:hard hard:again ;; esac
 }
 
-# candidates: FILE LINE COLUMN LENGTH TO of everything that can be changed, one a line.
+# candidates: prints FILE LINE COLUMN FROM TO of each possible change, one a line.
 candidates() {
     for module in $modules; do
         ls "$module"/*.c "$module"/*.inl "$module"/*.h 2>/dev/null
@@ -100,7 +101,7 @@ candidates() {
     done
 }
 
-# Some lines, drawn without putting back.
+# draw: picks random lines without repetition.
 draw() {
     awk -v n="$wanted" -v seed="$seed" '
         function next_random() { state = (state * 69069 + 12345) % 4294967296; return int(state / 65536) }
@@ -115,14 +116,14 @@ draw() {
         }'
 }
 
-# change FILE LINE COLUMN FROM TO: in the copy.
+# change FILE LINE COLUMN FROM TO: makes the change in the copy.
 change() {
     awk -v line="$2" -v at="$3" -v from="$4" -v to="$5" '
         NR == line { $0 = substr($0, 1, at - 1) to substr($0, at + length(from)) }
         { print }' "$folder/$1" >"$tree/$1"
 }
 
-# run NAME:WORD SECONDS of the processor's time. The first line that tells a failure ends it.
+# run NAME:WORD SECONDS: runs a test with a limit of processor time; ends at the first line that reports a failure.
 run() {
     word=${1#*:}
     [ "$word" != "$1" ] || word=
@@ -132,8 +133,8 @@ run() {
     } 2>&1 | awk '{ last = $0 } /^FAIL| WRONG/ { exit } END { exit last != "status 0" }'
 }
 
-# What each test of the modules takes without any change, six times and a little: as SECONDS NAME:WORD. Asked again where
-# a program is newer.
+# measure: writes a time limit for each test of the modules, six times its time without any change, as SECONDS
+# NAME:WORD. Measures again if a program is newer.
 measure() {
     modules=$(cut -f1 "$folder/drawn" | sed 's,/[^/]*$,,' | sort -u)
     find "$tree/$out" -maxdepth 1 -type f -newer "$folder/limits" 2>/dev/null | grep -q . && : >"$folder/limits"
@@ -148,21 +149,21 @@ measure() {
     sort -n -o "$folder/limits" "$folder/limits"
 }
 
-# order MODULE: as SECONDS:NAME:WORD, the quickest first.
+# order MODULE: prints SECONDS:NAME:WORD, the quickest first.
 order() {
     tests "$1" | tr ' ' '\n' | awk '
         NR == FNR { wanted[$1] = 1; next }
         $2 in wanted { print $1 ":" $2 }' - "$folder/limits"
 }
 
-# The same code as without the change?
+# is_same: succeeds if the code is the same as without the change.
 is_same() {
     ! find "$tree/$out/obj" -name '*.o' -newer "$folder/stamp" | while read -r object; do
         cmp -s "$object" "$folder/built${object#"$tree/build"}" || { echo other; break; }
     done | grep -q other
 }
 
-# verdict MODULE: the test that notices, `survived`, `same` or `none`.
+# verdict MODULE: prints the test that failed, `survived`, `same` or `none`.
 verdict() {
     case $1 in
     tools/*) make_it $out/tests ;;
@@ -178,7 +179,7 @@ verdict() {
     echo survived
 }
 
-# Sources and what was built, as if nothing had happened.
+# restore FILE VERDICT: restores the source and the build outputs.
 restore() {
     cp -p "$folder/$1" "$tree/$1"
     if [ "$2" = none ]; then
@@ -191,7 +192,7 @@ restore() {
     done
 }
 
-# Only the programs that the modules' tests are in: all of them take three times as long to build.
+# Builds only programs with tests of the modules, in a third of the time of all programs.
 programs=$(for module in $modules; do tests "$module"; done | tr ' ' '\n' | sed "s,:.*,,; s,^,$out/," | sort -u)
 make_it lib $programs || { tail -5 "$folder/build.log"; exit 1; }
 rm -rf "$folder/built"

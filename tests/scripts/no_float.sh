@@ -1,5 +1,5 @@
-# no_float.sh: that a frame by integers has no float: src/fixed and the room compiled for a Cortex-M0+ ask the compiler's
-# run time for no float and no division in a frame; and their ROM. Without the compiler: skipped.
+# no_float.sh: checks that a frame in integers has no float: src/fixed and the room, compiled for a Cortex-M0+, call no
+# float and no division function of the compiler's run time in a frame. Prints their ROM. Skipped without the compiler.
 . tests/scripts/checks.sh
 
 if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc 2>&1); then
@@ -14,7 +14,7 @@ for source in src/fixed/*.c platform/demo/room.c; do
         -Iinclude -isystem platform/freestanding -c "$source" -o "$object"
     helpers=$(arm-none-eabi-nm -u "$object" | grep -oE '__aeabi_([fd][a-z0-9]*|[iul]+2[fd]|[iul]*div[a-z]*)' | grep -v idiv0 | sort -u)
     case $source in
-    # once, when a blob is opened or a pose is made
+    # only when a blob is opened or a pose is made
     */fixed_open.c | */room.c) helpers=$(printf '%s' "$helpers" | grep -v div) ;;
     esac
     check "$source asks for $helpers" test -z "$helpers"

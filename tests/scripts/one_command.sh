@@ -1,5 +1,5 @@
-# one_command.sh: `cc src/*/*.c` is a build of lambent: no flags but the include folder, and the golden pictures are the
-# same. It draws every ninth, because such a build takes ten times as long; cross-all draws all at -O0.
+# one_command.sh: checks that `cc src/*/*.c`, with no flags except the include folder, builds lambent with the same
+# golden pictures. It draws every ninth, because such a build takes ten times as long; cross-all draws all at -O0.
 . tests/scripts/checks.sh
 
 mkdir -p "$B"

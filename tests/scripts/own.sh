@@ -7,7 +7,7 @@ dir=$B/own-check
 rm -rf "$dir"
 mkdir -p "$dir/a" "$dir/b"
 
-# runs WHAT STATUS LINE WORDS...: checks that make with these words exits with this status and prints a line that
+# runs TEXT STATUS LINE WORDS...: checks that make with these words exits with this status and prints a line that
 # matches the regular expression LINE.
 runs() {
     what=$1 status=$2 line=$3
@@ -43,7 +43,7 @@ sized "${needs:-8}" >"$dir/sized.c"
 runs "a frame that fits" 0 '^scene-160x120-rgb565 [0-9a-f]\{16\}$' run-sized PROGRAM="$dir/sized.c $dir/scene.c"
 check "its memory: $(grep frame "$dir/said")" grep -q '^frame [0-9]* bytes ([0-9]* KiB), with the scene.s structs [0-9]* of [0-9]*$' "$dir/said"
 
-# refused WHAT LINE MODEL OPTION...: packs a model and checks the line that the program prints.
+# refused TEXT LINE MODEL OPTION...: packs a model and checks the line that the program prints.
 refused() {
     what=$1 line=$2 model=$3
     shift 3

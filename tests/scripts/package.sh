@@ -1,9 +1,9 @@
-# package.sh: `make install` gives a program outside the tree what it needs, by pkg-config and by CMake's find_package;
-# `make uninstall` leaves nothing; CMake's add_subdirectory builds the library from a clone. MAKE BUILD B CC CFLAGS in the
-# environment. Each way builds and runs the same two programs of tests/examples.
+# package.sh: checks that a program outside the tree builds after `make install`, with pkg-config and with CMake's
+# find_package; that `make uninstall` leaves nothing; and that CMake's add_subdirectory builds the library from a clone.
+# Each way builds and runs the same two programs of tests/examples. MAKE BUILD B CC CFLAGS in the environment.
 . tests/scripts/checks.sh
 
-# A make that found these in its environment would build all anew, with libraries twice.
+# If make inherits these variables, it rebuilds everything and links the libraries twice.
 unset LDLIBS FLAGS LIB TOOL
 top=$PWD
 dir=$(mktemp -d "${TMPDIR:-/tmp}/lambent-package.XXXXXX") || exit 1
@@ -13,10 +13,10 @@ prefix=/opt/lambent
 version=$(awk '$2 ~ /^LMB_VERSION_(MAJOR|MINOR|PATCH)$/ { v = v dot $3; dot = "." } END { print v }' include/lambent/types.h)
 cp tests/examples/depth_map.c tests/examples/golden_test.c tests/examples/room.h "$dir"
 
-# runs DIRECTORY: both programs there say what they should.
+# runs DIRECTORY: checks that both programs there print the expected text.
 runs() { "$1/depth_map" && "$1/golden_test"; }
 
-# As by an administrator whose own files nobody else may read.
+# Installs as an administrator whose files nobody else may read.
 check "make install" sh -c 'umask 077 && "$@"' sh "$MAKE" install BUILD="$BUILD" DESTDIR="$root" PREFIX=$prefix
 kept=$(find "$root$prefix" ! -perm -0444 -o -type d ! -perm -0111)
 check "everybody may read what is installed, but for: $kept" test -z "$kept"
@@ -29,7 +29,7 @@ check "everybody may read what is installed, but for: $kept" test -z "$kept"
 check "what is installed" diff "$dir/expected" "$dir/installed"
 check "the tool's version" test "$("$root$prefix/bin/lambent" --version)" = "lambent $version"
 
-# The library's switches reach who uses it.
+# Users of the library get the switches that it was built with.
 check "lambent.pc of the tiny configuration" "$MAKE" "$dir/build/tiny/lambent.pc" BUILD="$dir/build" CONFIG=tiny \
     CFLAGS='-O2 -DLMB_VOXELS=0'
 check "the tiny configuration's switches" grep -q '^Cflags: .* -DLMB_CONFIG_TINY -DLMB_VOXELS=0$' "$dir/build/tiny/lambent.pc"
@@ -77,7 +77,7 @@ CMAKE
             cmake -S "$dir/find_package" -B "$dir/other-$other" -DCMAKE_PREFIX_PATH="$root$prefix" -DWANTED=$other
     done
 
-    # At -O0, which takes seconds: pixels do not depend on it. Without a build type it would be -O2.
+    # -O0 takes seconds, and pixels do not depend on it. Without a build type it would be -O2.
     check "add_subdirectory" configure add_subdirectory -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
     check "a library without a build type is not optimised" grep -q -- '-O2 -ffp-contract=off.*/src/raster/fill\.c' \
         "$dir/add_subdirectory/build/compile_commands.json"
@@ -92,7 +92,7 @@ else
     skip "CMake: $missing"
 fi
 
-# A release: the same bytes from the same commit, with all that it takes to build.
+# A release: the same bytes from the same commit, and complete enough to build.
 if git rev-parse -q --verify HEAD >/dev/null 2>&1; then
     for turn in 1 2; do
         check "make dist" "$MAKE" dist BUILD="$dir/dist$turn"

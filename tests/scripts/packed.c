@@ -1,4 +1,4 @@
-/* packed.c: draws a packed scene that is linked in, or read from a file, at a time by its first camera, in the format PFM:
+/* packed.c: draws a packed scene, linked in or read from a file, at a given time with the first camera, as PFM:
  * packed OUT.pfm TIME_S [FILE.lmp]. With LINKED the array is `scene_words`. */
 #include <lambent/lambent.h>
 #include <stdio.h>

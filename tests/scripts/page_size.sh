@@ -1,5 +1,5 @@
-# page_size.sh: the page of platform/web compiles, links and is at most 300 KiB that a browser loads; MAKE BUILD in the
-# environment.
+# page_size.sh: checks that the page of platform/web compiles and links, and that a browser loads at most 300 KiB; MAKE
+# BUILD in the environment.
 . tests/scripts/checks.sh
 
 bytes=$(${MAKE:-make} PORT=web BUILD="$BUILD/web" page-loads | awk '/bytes that a browser loads/ { print $1 }')

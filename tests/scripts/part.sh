@@ -1,9 +1,9 @@
-# part.sh: run one part of the checks, keep its log, show one line and its seconds, on the clock and of
-# the processors: part.sh NAME COMMAND...
+# part.sh: runs one part of the checks, keeps its log, and prints one line with wall-clock and processor seconds:
+# part.sh NAME COMMAND...
 #
-# The command's last line `N passed, N failed, N skipped` counts (a prefix is fine); one that is missing, or an exit
-# status that it does not explain, counts as one failed. LOGS: folder for NAME.log. NEEDS: commands without which the
-# part is skipped. V=1 shows the whole log. Always succeeds: sum.sh has the verdict.
+# Counts are read from the last line `N passed, N failed, N skipped` (it may have a prefix). If the line is missing, or
+# has no failure although the exit status is not 0, one failure is added. LOGS: folder for NAME.log. NEEDS: required
+# commands; without them the part is skipped. V=1 prints the whole log. Always succeeds; sum.sh returns the result.
 name=$1
 shift
 log=${LOGS:?}/$name.log
@@ -30,7 +30,7 @@ case "$status/$line" in
     ;;
 esac
 
-# One write, so that parts that run side by side do not mix their lines.
+# One write, so that lines of parallel parts do not mix.
 case "$V/$line" in
 /*", 0 failed,"*) shown=$(grep '^skipped: ' "$log") ;;
 *) shown=$(cat "$log") ;;

@@ -1,7 +1,7 @@
-# paths.sh: what the documents tell a new user to type works in a clean copy, block by block; B in the environment.
+# paths.sh: checks that the command blocks in the documents work in a clean copy, one by one; B in the environment.
 #
-# A block is the one between ``` after a line `<!-- run: WHAT -->`, or `<!-- run: WHAT; needs COMMAND... -->`. Each runs
-# by `sh -e`; every file that it names after -o has to be there afterwards.
+# A block is between ``` after a line `<!-- run: TEXT -->`, or `<!-- run: TEXT; needs COMMAND... -->`. Each block
+# runs with `sh -e`; every file that it names after -o must exist afterwards.
 . tests/scripts/checks.sh
 
 case $B in /*) dir=$B/paths ;; *) dir=$PWD/$B/paths ;; esac
@@ -9,7 +9,7 @@ rm -rf "$dir"
 mkdir -p "$dir/clone"
 check "a clean copy" clean_copy "$dir/clone"
 
-# The blocks as files 1.sh, 2.sh, ... whose first line is what they show, the second what they need.
+# The blocks as files 1.sh, 2.sh, ...; line 1 has the text, line 2 the needed commands.
 cat tools/README.md include/README.md platform/README.md | awk -v dir="$dir" '
     /^<!-- run: .* -->$/ {
         what = needs = substr($0, 11, length($0) - 14)
@@ -20,8 +20,8 @@ cat tools/README.md include/README.md platform/README.md | awk -v dir="$dir" '
     what != "" && /^```$/ { if (file == "") { file = dir "/" ++n ".sh"; print "# " what "\n# " needs > file } else { close(file); file = what = "" } next }
     file != "" { print > file }'
 
-# What the commands build is compared with pictures elsewhere. The build of this make serves if its flags are CFLAGS:
-# only its copy in the clean copy's place saves building everything once more.
+# Other checks compare the built pictures. If the flags are CFLAGS, a copy of the existing build in the clean copy saves
+# a second one.
 flags=$CFLAGS
 mkdir -p "$dir/clone/build/default"
 cp -pR "$B/obj" "$B/flags" "$B/liblambent.a" "$dir/clone/build/default" && cp -p "$TOOL" "$dir/clone/build/lambent"

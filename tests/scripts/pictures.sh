@@ -1,5 +1,5 @@
-# pictures.sh: draws the README's pictures anew, into the folder B/pictures: field, relief and mixed, as
-# tests/results has them. (demo.png is `make demo`'s, consoles.png what `make screens` reads back.)
+# pictures.sh: draws the README's pictures field, relief and mixed, which are in tests/results, into the folder
+# B/pictures. (`make demo` draws demo.png, and `make screens` reads back consoles.png.)
 . tests/scripts/checks.sh
 
 to=$B/pictures
@@ -56,7 +56,7 @@ check "relief.png" "$TOOL" relief render "$to/vase.lmr" --with "$to/room.obj" --
     --eye 0.2,0.75,1.2 --target 0,0.29,0 --fov 38 --light spot:0.9,1.7,1.6:-0.9,-1.4,-1.6:16,14,11:20,32 \
     --bounce --samples 8 -q -o "$to/relief.png"
 
-# The photo and its depth are the built-in room's: all that `mix` knows of it.
+# Photo and depth show the built-in room; `mix` gets nothing else.
 set -- demo --eye 0.5,1.25,2.5 --target 0.1,0.75,-1 --size 480x360 -q
 check "the photo" "$TOOL" render "$@" --bounces 6 --samples 8 -o "$to/photo.png"
 check "its depth" "$TOOL" render "$@" --show depth -o "$to/depth.pfm"

@@ -2,11 +2,11 @@
 #
 #     rootless     by a user without root
 #     spaces       in a path with blanks and an apostrophe
-#     umask        by umask 077: nobody else may read what is made
-#     read-only    from a clone that may not be written to, with BUILD elsewhere
+#     umask        with umask 077: nobody else may read the files
+#     read-only    from a read-only clone, with BUILD elsewhere
 #
-# Each in a clean copy; without a CASE all four. MAKE CC B in the environment; PLACES_CHECKS: these checks only;
-# PLACES_CFLAGS: flags in place of the quick ones. The check fails if the source tree changed.
+# Each runs in a clean copy; without a CASE all four. MAKE CC B in the environment; PLACES_CHECKS selects checks;
+# PLACES_CFLAGS replaces the quick flags. The check fails if the source tree changed.
 . tests/scripts/checks.sh
 
 case $B in /*) dir=$B/places ;; *) dir=$PWD/$B/places ;; esac
@@ -15,9 +15,9 @@ rm -rf "$dir"
 mkdir -p "$dir"
 flags=${PLACES_CFLAGS:--O1 -DLMB_HAVE_AVX512=0}
 jobs=$(nproc 2>/dev/null || echo 2)
-other=65534 # nobody, by number: no such user needs to be there
+other=65534 # nobody, by number, because the user need not exist
 
-# Root may read and write everything. Only another user shows what is forbidden.
+# Root may read and write everything, so root's checks run as another user.
 as_user() {
     if [ "$(id -u)" -eq 0 ]; then
         setpriv --reuid=$other --regid=$other --clear-groups "$@"
@@ -26,7 +26,7 @@ as_user() {
     fi
 }
 
-# place_for_user CASE: sets `place` to a folder that the user can reach and BUILD can name: a temporary one if $B is not.
+# place_for_user CASE: sets `place` to a folder that the user can reach and BUILD can name: $B, or else a temporary one.
 temporary=
 trap '[ -z "$temporary" ] || rm -rf "$temporary"' EXIT
 place_for_user() {
@@ -43,7 +43,7 @@ place_for_user() {
     mkdir -p "$place"
 }
 
-# make_there ARGUMENT...: make in the copy as it would be typed there, by $who, with $build for BUILD if that is given.
+# make_there ARGUMENT...: runs make in the copy as $who, with BUILD=$build if that is set.
 make_there() {
     (cd "$tree" && $who env -i PATH="$PATH" HOME="$place/home" CC="${CC:-cc}" CFLAGS="$flags" ${build:+BUILD="$build"} \
         "${MAKE:-make}" -j"$jobs" "$@")
@@ -55,7 +55,7 @@ listed() {
         find . -type f ! -path './build/*' -exec cksum {} +)
 }
 
-# checked: the last line of `make check` has no failure; its log stays.
+# checked: succeeds if the last line of `make check` has no failure; keeps the log.
 checked() {
     make_there check ${PLACES_CHECKS:+CHECKS="$PLACES_CHECKS"} >"$log" 2>&1 &&
         tail -n 1 "$log" | grep -q '^[1-9][0-9]* passed, 0 failed, ' && return
@@ -77,7 +77,7 @@ works() {
     check "$1: the source tree changed" diff "$dir/$1.before" "$dir/$1.after"
 }
 
-copied() { # copied TREE: a clean copy there, and a home beside it
+copied() { # copied TREE: makes a clean copy there, and a home beside it
     tree=$1
     mkdir -p "$tree" "$place/home"
     check "a clean copy" clean_copy "$tree"

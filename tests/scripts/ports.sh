@@ -1,12 +1,12 @@
-# ports.sh: the room on all ports: builds, runs each in its emulator, and holds its hashes against those of this machine's
-# room of the same size. Prints one table, which is in BUILD/ports/table.md too. MAKE, BUILD; ROOM=pixel: light by pixel;
-# PORTS="cortex-m gba": these alone.
+# ports.sh: builds the room on all ports, runs each in an emulator, and compares the hashes with this machine's room of
+# the same size. Prints one table, also in BUILD/ports/table.md. MAKE, BUILD; ROOM=pixel: light by pixel;
+# PORTS="cortex-m gba": only these.
 #
-# A port is a folder of platform/ that has a port.mk. `ROOMS := WORD ...` there names variants, each a word
-# for make. A size is found in the port's own source: `WIDTH = N, HEIGHT = N`; 160 x 120 where there is none.
+# A port is a folder of platform/ with a port.mk. `ROOMS := WORD ...` in port.mk names variants, each a word for make.
+# The size is read from the port's source, `WIDTH = N, HEIGHT = N`; the default is 160 x 120.
 . tests/scripts/checks.sh
 
-# What a port needs, in words of tools.sh.
+# The tools that a port needs, as tools.sh names them.
 needs() {
     case $1 in
     cortex-m | cortex-a) echo arm-none-eabi-gcc qemu-system-arm ;;
@@ -36,7 +36,7 @@ done | tr ' ' '\n' | sort -u >"$out/needs"
 # shellcheck disable=SC2046
 [ ! -s "$out/needs" ] || sh tests/scripts/tools.sh get $(cat "$out/needs") 2>&1
 
-# size NAME: width and height.
+# size NAME: prints width and height.
 size() {
     if [ "$ROOM" = pixel ]; then
         echo 160 120
@@ -46,7 +46,7 @@ size() {
     fi
 }
 
-# host WIDTH HEIGHT: the hashes of this machine's room.
+# host WIDTH HEIGHT: prints the hashes of this machine's room.
 host() {
     if [ ! -s "$out/host-$1x$2.txt" ]; then
         $MAKE room PORT=host CONFIG=default ROOM_SIZE="$1 $2 8" BUILD="$out/host-$1x$2" ROOM="$ROOM" >"$out/host.log" 2>&1 &&
@@ -56,10 +56,10 @@ host() {
     frames_of "$out/host-$1x$2.txt"
 }
 
-# frames_of FILE: its hashes. A port without a screen may have put a picture's bytes between them.
+# frames_of FILE: prints the hash lines. A port without a screen may write picture bytes between them.
 frames_of() { LC_ALL=C grep -a '^frame ' "$1"; }
 
-# stages FILE: the numbers of the dearest frame; with `all`: the last of them alone.
+# stages FILE: prints the numbers of the most expensive frame; with `all`: only the last of them.
 stages() {
     awk -v last="$2" '/^cost / { for (i = 3; i < NF; i += 2) if ($i == "all" && $(i + 1) > most) {
             most = $(i + 1); line = ""
@@ -68,7 +68,7 @@ stages() {
         } END { if (last) printf "%.2f", most / 1e6; else print line, unit }' "$1"
 }
 
-# counted FILE: loads and stores of the dearest frame, in millions.
+# counted FILE: loads and stores of the most expensive frame, in millions.
 counted() {
     most() { awk -v what="$2" '$1 == what && $NF > most { most = $NF } END { printf "%.2f", most / 1e6 }' "$1"; }
     loads=$(most "$1" loads) stores=$(most "$1" stores)
@@ -81,7 +81,7 @@ stage_names=$([ "$ROOM" = pixel ] && echo "map | light | fill" || echo "transfor
     echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
 } >"$out/table.md"
 
-# port NAME [WORD]: a row of the table.
+# port NAME [WORD]: adds a row to the table.
 port() {
     name=$1 word=$2
     label=$name${word:+ ${word#*=}}
@@ -112,17 +112,17 @@ port() {
             $MAKE run PORT="$name" $word BUILD="$dir" ROOM="$ROOM" COUNTED=$counted >"$dir.$counted" 2>>"$dir.log"
         done
         loads=$(stages "$dir.loads" all) stores=$(stages "$dir.stores" all)
-    elif grep -q '^loads ' "$said"; then # its plugin of qemu says them beside the cost
+    elif grep -q '^loads ' "$said"; then # the port's qemu plugin prints them beside the cost
         counted "$said"
     elif grep -q '^COUNTED ' "platform/$name/port.mk" && [ "$ROOM" != pixel ]; then
-        # The emulator has no model of its caches; the same frames under qemu's user mode have.
+        # The emulator does not model caches, so the same frames run in qemu's user mode, which does.
         $MAKE count PORT="$name" BUILD="$dir" >"$dir.count" 2>&1 || fail "$label: see $dir.count"
         counted "$dir.count"
         sed -n 's/^cycles \(.*\)/cost \1 model/p' "$dir.count" >"$dir.cycles"
         frames_of "$dir.count" | cmp -s - "$dir.hashes.run" || fail "$label: counted frames have other hashes"
         costs=$dir.cycles
     fi
-    # Machines without an FPU draw frame 0 alone by pixel.
+    # Without an FPU, machines draw only frame 0 with light by pixel.
     # shellcheck disable=SC2086
     host $size >"$dir.expected"
     frames_of "$said" >"$dir.hashes"

@@ -1,8 +1,8 @@
-# prototypes.awk: the public calls of the headers it is given, one a line: NAME|RETURNS|PARAMETER;PARAMETER;...
+# prototypes.awk: prints the public calls of the given headers, one a line: NAME|RETURNS|PARAMETER;PARAMETER;...
 #   awk -f tests/scripts/prototypes.awk include/lambent/*.h
 {
     line = line " " $0
-    if (line ~ /\\$/) { sub(/\\$/, "", line); next }    # a macro that goes on
+    if (line ~ /\\$/) { sub(/\\$/, "", line); next }    # a macro with continuation lines
     if (line ~ /^ *#/) { if (line !~ /\/\*/ || line ~ /\*\//) line = ""; next }
     text = text line
     line = ""

@@ -1,15 +1,15 @@
-# prove.sh: what two provers say of the raster's integers for all input there can be: prove.sh FOLDER.
+# prove.sh: proves properties of the rasterizer's integers for all possible input: prove.sh FOLDER.
 #
-# Frama-C's Eva takes each driver of tests/static through every value of its ranges at once: no signed overflow, no
-# number out of its conversion's range, no index outside its array, every assertion proved. Gappa bounds rounding.
+# Frama-C's Eva runs each driver of tests/static with all values of the ranges at once and proves: no signed overflow,
+# no conversion out of range, no index outside an array, every assertion. Gappa bounds rounding.
 # Ends with a line `N passed, N failed, N skipped`.
 . tests/scripts/checks.sh
 folder=$1
 mkdir -p "$folder"
 ranges=cvalue related=equality,symbolic-locations
 
-# eva NAME MAIN DOMAINS [EXPECTED]: no alarm but the one, if any, that is explained where this is called. Without
-# __GNUC__ code has no builtins. `related`: a condition on a sum tells of its parts, for twice the time.
+# eva NAME MAIN DOMAINS [EXPECTED]: checks that Eva has no alarm except EXPECTED, which the caller explains. Without
+# __GNUC__ the code uses no builtins. `related`: conditions on a sum also restrict the terms, at twice the time.
 eva() {
     log=$folder/$1-$2.log
     frama-c -eva -eva-precision 0 -eva-split-return auto -eva-min-loop-unroll 12 -eva-domains "$3" \
@@ -25,7 +25,7 @@ if command -v frama-c >/dev/null 2>&1; then
     eva small set_up "$ranges"
     eva small main "$ranges"
     eva bins main "$ranges"
-    # to_24_8: Eva keeps NaN among what a comparison holds for. maxf(NaN, low) is low: NaN is above nothing.
+    # to_24_8: after a comparison Eva still includes NaN. maxf(NaN, low) is low, because NaN is above nothing.
     eva snap main "$related" 'draw_one.c:26: .*is_finite|draw_one.c:26: .*non-finite float value'
 else
     skip "frama-c is not here (Debian: frama-c-base)"

@@ -1,7 +1,8 @@
-# readme.sh: the C examples of README.md and include/README.md compile without a warning against the library, and run.
+# readme.sh: checks that the C examples of README.md and include/README.md compile without a warning, and run.
 #
-# An example is the ```c block after a line `<!-- example: .../NAME.c -->`. That of baked light gets its scene by the
-# commands shown above it, and the rest of a program from readme_baked_main.c. CC FLAGS LIB TOOL LDLIBS B in the environment.
+# An example is the ```c block after a line `<!-- example: .../NAME.c -->`. The example of baked light uses the scene
+# made by the commands above it, and readme_baked_main.c adds the rest of a program. CC FLAGS LIB TOOL LDLIBS B in the
+# environment.
 . tests/scripts/checks.sh
 
 dir=$B/readme

@@ -1,5 +1,5 @@
-/* readme_baked_main.c: what include/README.md's program leaves to its user: memory, and a loop. The light of the built-in
- * room moves back and forth: pictures differ, and the first one comes back. */
+/* readme_baked_main.c: adds memory and a loop to the program of include/README.md. The light of the built-in room moves
+ * back and forth: checks that pictures differ, and that the first one comes back. */
 #include <lambent/lambent.h>
 
 #include <stdio.h>

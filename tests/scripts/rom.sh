@@ -1,6 +1,6 @@
-# rom.sh: the ROM that bounced light takes without trees (LMB_TREES 0): modules raster, map, light (but light_tile,
-# which is a frame's) and bounce whole, with the parts of the others and of the compiler's run time that they need, linked: rom.sh
-# BUDGET_BYTES; CC FLAGS B NM SIZE in the environment.
+# rom.sh: the ROM of bounced light without trees (LMB_TREES 0): the modules raster, map, light (without light_tile,
+# which belongs to frames) and bounce, linked with the parts of other modules and of the compiler's run time that they
+# need: rom.sh BUDGET_BYTES; CC FLAGS B NM SIZE in the environment.
 . tests/scripts/checks.sh
 budget=$1
 

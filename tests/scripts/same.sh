@@ -1,11 +1,11 @@
-# same.sh: the golden lines of several machines' logs are the first one's, no more and no less: same.sh LOG... With EACH=N
-# in the environment a machine may draw every Nth.
+# same.sh: checks that the golden lines in the logs of all machines equal those of the first log: same.sh LOG... With
+# EACH=N in the environment a machine may draw every Nth.
 #
-# A machine that drew none has said why in its own log, and counts there.
+# A log without golden lines is left out here, because the machine's own check reports the reason.
 . tests/scripts/checks.sh
 
-# Cases that depend on the capacities of a configuration are left out: the machines here have two configurations, and
-# each machine checks its own lines against the hash of its configuration.
+# Leaves out cases that depend on the capacities of a configuration: the machines have two configurations, and each
+# machine checks such lines against the hash for its configuration.
 capacity_cases() { sed -n 's/^CAPACITY_CASE("\([^"]*\)".*/\1/p' tests/golden/golden_capacity.inc; }
 lines() { capacity_cases | awk 'NR == FNR { no[$1]; next } NF == 2 && $2 ~ /^[0-9a-f]+$/ && length($2) == 16 && !($1 in no)' - "$1"; }
 

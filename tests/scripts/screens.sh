@@ -1,5 +1,5 @@
-# screens.sh: consoles' screens, read back from their emulators after the path and as buttons steer, against this machine's
-# pictures: see platform/consoles/check_room.sh. MAKE, BUILD; PORTS="gba nds": these alone.
+# screens.sh: compares consoles' screens, read back from emulators after the path and after buttons, with this machine's
+# pictures: see platform/consoles/check_room.sh. MAKE, BUILD; PORTS="gba nds": only these.
 . tests/scripts/checks.sh
 mkdir -p "$BUILD"
 for port in ${PORTS:-gba nds n64 ps1 gamecube}; do

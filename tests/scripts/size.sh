@@ -1,6 +1,7 @@
-# size.sh: code and data of the library by module, and its largest functions and tables: B NM SIZE in the environment.
+# size.sh: prints code and data of the library by module, and the largest functions and tables: B NM SIZE in the
+# environment.
 #
-# `code` holds constants and, on hosts, unwind tables.
+# `code` includes constants and, on hosts, unwind tables.
 . tests/scripts/checks.sh
 objects=$(find "$B/obj/src" -name '*.o' | sort)
 

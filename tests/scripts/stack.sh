@@ -1,8 +1,8 @@
-# stack.sh: stack of the library's functions, as the compiler reports it: B in the environment.
+# stack.sh: checks the stack of the library's functions, as reported by the compiler: B in the environment.
 #   stack.sh BUDGET_BYTES
 #
-# Each function's own frame (.su); and where the compiler tells who calls whom (.ci), each of the library's calls with
-# everything that it calls.
+# Reports each function's own frame (.su) and, if the compiler writes call graphs (.ci), each library call including all
+# callees.
 . tests/scripts/checks.sh
 budget=$1
 

@@ -1,8 +1,8 @@
-# stacks.sh: the largest stack frame that each machine's compiler made, and the call that takes the most with all that
-# it calls, against a budget: stacks.sh BYTES BUILD...
+# stacks.sh: checks the largest stack frame of each machine's build, and the call with the most stack including callees,
+# against a budget: stacks.sh BYTES BUILD...
 #
-# At -O0 nothing shares a frame's slots, at -O1 and -Os wide lanes' verbs are calls: who ships those has narrow lanes
-# (Cortex-M: judged). On hosts they are told, not judged.
+# At -O0 no variables share stack slots, and at -O1 and -Os the verbs of wide lanes are calls. Such builds ship only for
+# narrow lanes (Cortex-M, which is checked). On hosts they are printed, not checked.
 . tests/scripts/checks.sh
 budget=$1
 shift
@@ -12,7 +12,7 @@ for build in "$@"; do
         { n = split($1, part, ":"); print $2, part[n], $3 }' | sort -rn | head -n 1)
     [ -n "$largest" ] || continue
     printf '  %-14s %s\n' "$(basename "$build")" "$largest"
-    # include/README.md says which builds take up to 6.2 KiB a call.
+    # include/README.md lists the builds whose calls take up to 6.2 KiB.
     limit=$budget
     case $build in *-O3 | *-native | *ppc64* | *windows* | *riscv64* | *s390x*) limit=6400 ;; esac
     case $build in

@@ -1,12 +1,12 @@
-# stages.sh: where two builds of the tool, two machines or two settings part: each stage's picture in floats, and which
-# is the first that differs.
+# stages.sh: finds the first stage in which two builds of the tool, two machines or two settings differ: compares the
+# float picture of each stage.
 #
-#   TOOL=build/lambent sh tests/scripts/stages.sh dump DIR SCENE OPTION...     what `lambent render` takes, without -o
+#   TOOL=build/lambent sh tests/scripts/stages.sh dump DIR SCENE OPTION...     options of `lambent render`, without -o
 #   TOOL=build/lambent sh tests/scripts/stages.sh compare DIR_A DIR_B
 #
-# dump writes a PFM a stage, in the order of the data, and stages.txt, which has each one's checksum: `-` where the scene
-# or its options have no such stage. compare needs no picture where only stages.txt was sent along. Exit status: 0 all
-# equal, 1 one differs, 2 bad usage.
+# dump writes one PFM per stage, in the order of the data, and stages.txt with a checksum per stage: `-` if the scene or
+# the options lack the stage. If you have only stages.txt of the other run, compare needs no pictures. Exit status: 0
+# all equal, 1 one differs, 2 bad usage.
 TOOL=${TOOL:-build/lambent}
 stages="light-distance depth normal albedo direct irradiance full"
 
@@ -15,7 +15,7 @@ usage() {
     exit 2
 }
 
-# The stage of --show's word.
+# The name of the stage that --show selects.
 called() {
     case $1 in
     light-distance) echo "shadow maps" ;;

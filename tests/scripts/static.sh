@@ -1,7 +1,7 @@
-# static.sh: what compilers and checkers say of src/ without running it: static.sh FOLDER.
+# static.sh: analyses src/ with compilers and checkers, without running it: static.sh FOLDER.
 #
 # PART=K/N in the environment takes every Nth file from the Kth on.
-# Each tool is one check: it says nothing but what is listed here, with the reason. Ends with `N passed, ...`.
+# Each tool is one check: all findings must be listed here, with the reason. Ends with `N passed, ...`.
 . tests/scripts/checks.sh
 folder=$1
 mkdir -p "$folder" || exit 1
@@ -12,7 +12,7 @@ check "PART=$PART picks no file" test -n "$bare_sources"
 
 here() { command -v "$1" >/dev/null 2>&1 || { skip "$1 is not here (Debian: $2)"; return 1; }; }
 
-# silent NAME [PATTERN]: fails where NAME.log has a finding that the pattern, if there is one, does not explain.
+# silent NAME [PATTERN]: fails if NAME.log has a finding that PATTERN does not match.
 silent() {
     grep -E '(src|include)/[^ ]*:[0-9]+:.*(warning|error|portability|noValidConfiguration)' "$folder/$1.log" |
         grep -vE "${2:-^$}" | sort -u >"$folder/$1.left"
@@ -20,7 +20,7 @@ silent() {
         fail "$1: $(wc -l <"$folder/$1.left") findings in $folder/$1.left: $(head -n 1 "$folder/$1.left")"
 }
 
-# A number that changes its value or sign on the way into another type.
+# Conversions that change a value or a sign.
 for compiler in gcc clang; do
     if here $compiler $compiler; then
         for file in $sources; do
@@ -31,7 +31,7 @@ for compiler in gcc clang; do
     fi
 done
 
-# Paths that meet a null pointer, a leak, a value that was never set. Kernels take minutes each and have no such paths.
+# Null pointers, leaks and uninitialized values. Kernels take minutes each and have no such paths.
 if here gcc gcc; then
     for file in $sources; do
         case $file in
@@ -39,32 +39,32 @@ if here gcc gcc; then
         *) gcc $flags -O1 -fanalyzer -c "$file" -o /dev/null ;;
         esac
     done >"$folder/analyzer.log" 2>&1
-    # local_cube.c: an array that is full where it is searched.
-    # shadow_map.c, envfold.c, plane_place.c: values set by a loop of three or a struct's copy, which gcc 12 does not follow; around.c:
-    # `out` is NULL only where the room is 0, and then not written; texture.c: shares that count 1 does not read.
+    # local_cube.c: an array that is full when it is searched. shadow_map.c, envfold.c, plane_place.c: values set by a
+    # loop of three or by copying a struct, which gcc 12 does not follow. around.c: `out` is NULL only if there is no
+    # room, and is then not written. texture.c: shares that are not read if the count is 1.
     silent analyzer 'shadow_map.c:.*extent|envfold.c:.*sum|plane_place.c:.*one|around.c:.*NULL .out|texture.c:.*share|local_cube.c:.*light'
 fi
-# cppcheck has no <float.h>: without these numbers exact.h's #error is all that it sees of a file, and says so only if
-# asked for information. Kernels as plain C has them.
+# cppcheck has no <float.h>: without these numbers it stops at exact.h's #error, and reports that only with
+# --enable=information. Plain C includes the kernels.
 if here cppcheck cppcheck; then
     cppcheck --quiet --std=c99 --enable=warning,portability,information --suppress=missingIncludeSystem -Iinclude \
         -D__GNUC__=12 -D__STDC_HOSTED__=1 -DFLT_RADIX=2 -DFLT_MANT_DIG=24 -DFLT_MAX_EXP=128 -DFLT_EVAL_METHOD=0 \
         --template='{file}:{line}: {severity}: {id}: {message}' \
         $bare_sources src/isa/isa_scalar.c >"$folder/cppcheck.log" 2>&1
-    # clip.c, crease.c: as many corners are copied as were set; kernels' structs that are handed on to be set, or to be
-    # read where they are (both: `make msan` runs them); elements.c: a loop of one side or two; scene.c: a material's
-    # floats, found by their offset; exact.c asks how this compiler shifts.
+    # clip.c, crease.c: copies only the vertices that were set. Kernels: structs that a callee sets, or reads only when
+    # set (`make msan` runs both). elements.c: a loop of one side or two. scene.c: a material's floats, by offset.
+    # exact.c tests how this compiler shifts.
     known='clip.c:.*uninitvar.*out|crease.c:.*uninitvar.*out|inl:.*ctuuninitvar|elements.c:.*compareBool'
     silent cppcheck "$known|scene.c:.*invalidPointerCast|exact.c:.*shiftNegativeLHS"
 fi
-# Bugprone alone: gcc's analyzer follows paths. Left out: products of int as offsets and their casts (of a tile's, a
-# batch's or a slice's sizes; rows of surfaces go by ptrdiff_t), i / side as a row on purpose, bit fields of a sign, and
-# memcmp of what did not change, where another code of one value costs no more than a stage done again.
+# Only bugprone, because gcc's analyzer follows paths. Left out: int products as offsets, with casts (sizes of a tile, a
+# batch or a slice; rows of surfaces use ptrdiff_t); i / side as a row, on purpose; signed bit fields; and memcmp for
+# changes, which at worst repeats a stage if equal values have different bytes.
 if here clang-tidy clang-tidy; then
     clang-tidy --quiet --checks='-*,bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-integer-division,-bugprone-implicit-widening-of-multiplication-result,-bugprone-misplaced-widening-cast,-bugprone-narrowing-conversions,-bugprone-suspicious-memory-comparison' \
         $bare_sources -- $flags 2>/dev/null | sed "s|$PWD/||" >"$folder/tidy.log"
     grep -v ': note:' "$folder/tidy.log" >"$folder/tidy.new" && mv "$folder/tidy.new" "$folder/tidy.log"
-    # A macro's argument that is a type: `(type) *to` would be no declaration.
+    # A macro argument that is a type: `(type) *to` would not be a declaration.
     silent tidy 'fixed_fill.c:[0-9:]* warning: macro argument should be enclosed in parentheses'
 fi
 finish

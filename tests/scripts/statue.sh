@@ -1,7 +1,7 @@
-# statue.sh: a relief of 16 views of 64 x 64 in 512 KiB of ROM, drawn by an emulated Cortex-M7 and here: equal pictures,
-# and what it takes. MAKE BUILD TOOL in the environment. Without cross compiler or qemu: as tiny.sh.
+# statue.sh: draws a relief of 16 views of 64 x 64 in 512 KiB of ROM, on an emulated Cortex-M7 and here: checks for
+# equal pictures, and prints the cost. MAKE BUILD TOOL in the environment. Without cross compiler or qemu: as tiny.sh.
 #
-# The code is the Cortex-M4F's of tiny.sh, which a Cortex-M7 runs too; bare.ld ends where 512 KiB do.
+# The code is built for the Cortex-M4F, as in tiny.sh, and a Cortex-M7 runs it too; bare.ld limits it to 512 KiB.
 . tests/scripts/checks.sh
 
 if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 2>&1); then
@@ -13,7 +13,7 @@ fi
 here=$BUILD/tiny there=$BUILD/cortex-m/tiny rom=524288
 mkdir -p "$here" "$there"
 
-# A tube with waves, tied in a trefoil, that stands on a base.
+# A wavy tube, tied in a trefoil knot, on a base.
 awk 'function tube(i, j,   t, a, x, y, z, r) {
     t = 6.283185307 * i / along; a = 6.283185307 * j / around
     r = 0.5 + 0.06 * sin(27 * t) + 0.05 * cos(4 * a)

@@ -1,5 +1,5 @@
-# sum.sh: add up the logs of part.sh; one line, and success where nothing failed: sum.sh LOG...
-# A log that is not there is a part that did not run.
+# sum.sh: adds up the logs of part.sh, prints one line, and succeeds if nothing failed: sum.sh LOG...
+# A missing log means that the part did not run.
 for log in "$@"; do
     [ -f "$log" ] || echo "0 passed, 1 failed, 0 skipped"
     grep -o '[0-9][0-9]* passed, [0-9][0-9]* failed, [0-9][0-9]* skipped' "$log" | tail -n 1

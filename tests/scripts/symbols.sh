@@ -1,4 +1,5 @@
-# symbols.sh: what the library calls and exports, and that it keeps no writable data: CC NM LIB in the environment.
+# symbols.sh: checks the functions that the library calls and exports, and that it has no writable data: CC NM LIB in
+# the environment.
 . tests/scripts/checks.sh
 
 allowed='^(memcpy|memset|memmove|memcmp|sqrtf|floorf|__.*|_GLOBAL_OFFSET_TABLE_)$'
@@ -25,7 +26,7 @@ for name in $defined; do
     esac
 done
 
-# Constants with addresses in them (.data.rel.ro) are read-only once loaded.
+# Constants that contain addresses (.data.rel.ro) are read-only after loading.
 writable=$(printf '%s\n' "$symbols" | awk '$1 ~ /[BbCDd]/ && $3 !~ /^\.data\.rel\.ro/ { print $2 }')
 for name in $writable; do
     fail "$name is data that changes"

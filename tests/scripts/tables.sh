@@ -1,6 +1,6 @@
-# tables.sh: each tools/FOLDER/gen_*.c says in its first line which checked-in FILE.inc it prints; it must print it again,
-# byte for byte. A name without folder stands beside the generator. And include/README.md's sizes of structs are those
-# of the headers. CC FLAGS LIB LDLIBS B in the environment.
+# tables.sh: checks that each tools/FOLDER/gen_*.c still prints the committed FILE.inc that its first line names, byte
+# for byte. A name without a folder is beside the generator. Also checks the sizes of structs in include/README.md
+# against the headers. CC FLAGS LIB LDLIBS B in the environment.
 . tests/scripts/checks.sh
 
 mkdir -p "$B/tables"
@@ -17,7 +17,7 @@ for source in tools/*/gen_*.c; do
     check "$table is not what $source prints" cmp "$program.out" "$table"
 done
 
-# Rows `| \`lmb_x\` | default | tiny | ...`; and what follows `lmb_scene`, as "96 a mesh".
+# Rows `| \`lmb_x\` | default | tiny | ...`; and the sizes after `lmb_scene`, as "96 a mesh".
 sizes=$B/tables/sizes
 sed -nE 's/^\| `lmb_scene` .*; ([0-9]+) a mesh, ([0-9]+) a material, ([0-9]+) an instance, ([0-9]+) a light.*/&\
 lmb_mesh \1 \1\

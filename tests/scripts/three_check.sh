@@ -2,7 +2,7 @@
 # the same view, also after glTF-Transform, gltf-pipeline and gltfpack have rewritten the file. Babylon.js reads the
 # files too. Skipped, with the reason, if tools are missing.
 #
-# Gets the packages below by npm if it may. Pictures, ours on the left: $B/three/shots. B, BUILD and TOOL in the
+# Gets the packages below with npm if possible. Pictures, ours on the left: $B/three/shots. B, BUILD and TOOL in the
 # environment.
 skip() {
     echo "three-check: $1"
@@ -21,7 +21,7 @@ for name in playwright-core three@0.187.0 @gltf-transform/cli@4.5.1 gltf-pipelin
         skip "npm gets no $name"
 done
 
-# The demo's room as its own camera sees it.
+# The demo's room, from the camera of the demo.
 dir=$B/three
 rm -rf "$dir"
 mkdir -p "$dir"
@@ -30,7 +30,7 @@ light="--elements 1024 --receivers 3000"
     "$TOOL" render demo --transfer "$dir/demo.lmt" --bounces 4 --show indirect --samples 1 --size 240x160 -q -o "$dir/ours.pfm" &&
     "$TOOL" bake demo $light --to vertex-colours -q -o "$dir/colours.glb" &&
     "$TOOL" bake demo $light --to lightmap --texels 1024 -q -o "$dir/lightmap.glb" || { echo "0 passed, 1 failed, 0 skipped"; exit 1; }
-# Runs each tool with its defaults; gltfpack quantizes. lambent must read the same light, or report that it is gone.
+# Runs each tool with default options; gltfpack quantizes. lambent must read the same light, or report that it is gone.
 failed=0 files=
 bin=$PWD/$modules/node_modules/.bin
 case $modules in /*) bin=$modules/node_modules/.bin ;; esac

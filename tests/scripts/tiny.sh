@@ -1,6 +1,6 @@
-# tiny.sh: checks that the tiny demo draws the same pictures on a Cortex-M4F under qemu as here, and measures its RAM.
-# MAKE BUILD TOOL in the environment. Without a cross compiler or qemu it is skipped in `make check`, and fails if run
-# on its own.
+# tiny.sh: checks that the tiny demo draws the same pictures on a Cortex-M4F under qemu as here, and measures the RAM.
+# MAKE BUILD TOOL in the environment. Without a cross compiler or qemu it is skipped in `make check`, but fails if you
+# run it directly.
 . tests/scripts/checks.sh
 
 if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 2>&1); then
@@ -28,7 +28,7 @@ here=$(hash_of "$BUILD/tiny/demo.out")
 there=$(hash_of "$BUILD/cortex-m/tiny/demo.out")
 check "hashes differ: $here here, $there there" test -n "$here" -a "$here" = "$there"
 
-# A torus by what its frames show: the table of platform/README.md.
+# A torus, with the table of platform/README.md.
 torus_of() { sed -n 's/ bytes .*instructions [0-9]*//p' "$1"; }
 check "the torus for this machine" $MAKE "$BUILD/tiny/torus" PORT=host CONFIG=tiny BUILD="$BUILD"
 check "the torus for a Cortex-M4F" $MAKE "$BUILD/cortex-m/tiny/torus" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" \

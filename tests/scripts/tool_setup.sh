@@ -1,12 +1,12 @@
-# tool_setup.sh: tools.sh get, by an apt-get that only writes down what it is told: nothing is ever removed, and what is done is
-# said. B in the environment.
+# tool_setup.sh: checks tools.sh get with a fake apt-get that only logs its arguments: no package is ever removed, and
+# each step is printed. B in the environment.
 . tests/scripts/checks.sh
 
 case $B in /*) dir=$B/tool-setup ;; *) dir=$PWD/$B/tool-setup ;; esac
 rm -rf "$dir"
 mkdir -p "$dir/bin"
 
-# As root, wherever we are; `greedy-tool` would take gcc away, `lost-tool` does not exist.
+# Runs as root in every environment (fake `id`). `greedy-tool` would remove gcc, `lost-tool` does not exist.
 printf '#!/bin/sh\necho 0\n' >"$dir/bin/id"
 cat >"$dir/bin/apt-get" <<'END'
 #!/bin/sh
@@ -25,7 +25,7 @@ get() {
     TOLD=$dir/told PATH=$dir/bin:$PATH sh tests/scripts/tools.sh get "$@" >"$dir/said" 2>&1
 }
 
-# What was asked for without -s: installations.
+# The installations, without simulations (-s).
 installs() { grep install "$dir/told" | grep -v -e ' -s '; }
 
 get plain-tool
@@ -40,7 +40,7 @@ check "a package would be removed" test ! -e "$dir/told.removed"
 check "what is left out, and why, is not said" grep -q 'left out: greedy-tool.* gcc-multilib' "$dir/said"
 check "what is not to be had is not said" grep -q 'not to be had: lost-tool' "$dir/said"
 
-# A cross compiler whose libc is not there finds no header of it.
+# A cross compiler without a libc finds no header.
 printf '#!/bin/sh\nexec gcc "$@" -nostdinc\n' >"$dir/bin/bare-linux-gnu-gcc"
 printf '#!/bin/sh\nexec gcc "$@"\n' >"$dir/bin/whole-linux-gnu-gcc"
 chmod +x "$dir/bin/bare-linux-gnu-gcc" "$dir/bin/whole-linux-gnu-gcc"
@@ -50,7 +50,7 @@ check "a compiler without its libc does not count as missing" grep -q '^missing:
 get sh
 check "apt-get is asked though nothing is missing" test ! -s "$dir/told"
 
-# What people type to install lambent.
+# Commands with which people install lambent.
 case $(make -n install 2>&1) in
 *tools.sh* | *apt-get*) fail "make install gets packages" ;;
 *) pass ;;

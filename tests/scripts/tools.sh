@@ -1,8 +1,9 @@
-# tools.sh: the outside tools of the checks: tools.sh need COMMAND... | tools.sh get [COMMAND...]
+# tools.sh: the external tools of the checks: tools.sh need COMMAND... | tools.sh get [COMMAND...]
 #
-# need: fails and names the missing commands with the Debian packages that have them.
-# get: installs what is missing, of the usual ones or of these, where apt-get and the right to use it are there. Says
-# what it does and what stays missing. It never removes a package: what needs that is left out.
+# need: fails if commands are missing, and prints them with their Debian packages.
+# get: installs missing commands, by default those that are usually needed, if apt-get is there and the user is root.
+# Prints each step and the commands that stay missing. It never removes a package; if a package would remove another, it
+# is left out.
 all="clang clang-sanitizers wasm-ld wasi-libc node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips
     arm-none-eabi-gcc arm-newlib qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips
     cppcheck clang-tidy doxygen chromium cmake pkg-config tcc"
@@ -47,7 +48,7 @@ packages_of() {
     esac
 }
 
-# clang's sanitizers come in a package of their own: asked by linking a program with them.
+# clang's sanitizers are in a separate package. The test links a program with them.
 sanitizes() {
     program=${TMPDIR:-/tmp}/sanitizes.$$
     echo 'int main(void) { return 0; }' | clang -x c -fsanitize=address,undefined -o "$program" - >/dev/null 2>&1
@@ -60,10 +61,10 @@ missing() {
     for command in "$@"; do
         case $command in
         clang-sanitizers) sanitizes || echo "$command" ;;
-        # A cross compiler may be there without its libc.
+        # A cross compiler may be installed without the libc.
         *-linux-gnu*-gcc) echo '#include <stdio.h>' | "$command" -E -x c -o /dev/null - >/dev/null 2>&1 \
             || echo "$command" ;;
-        # The C library of bare Arm machines, for builds that bring no headers of their own.
+        # The C library of bare Arm machines, for builds without headers of their own.
         arm-newlib) echo '#include <string.h>' | arm-none-eabi-gcc -E -x c -o /dev/null - >/dev/null 2>&1 \
             || echo "$command" ;;
         gcc-m32) echo 'int main(void) { return 0; }' | gcc -m32 -I/usr/include/x86_64-linux-gnu -x c -o /dev/null - \
@@ -94,7 +95,7 @@ need() {
     return 1
 }
 
-# What apt-get would take away for these packages, by its own simulation; "?" where they are not to be had.
+# Prints the packages that apt-get would remove for these packages, from a simulation; "?" if some are not available.
 removed_for() {
     if plan=$(apt-get -q -s install --no-install-recommends "$@" 2>&1); then
         printf '%s\n' "$plan" | sed -n 's/^Remv \([^ ]*\).*/\1/p'
@@ -103,7 +104,8 @@ removed_for() {
     fi
 }
 
-# One package at a time where all together will not do: what one of them would take away keeps only that one out.
+# If the packages cannot be installed together, tries one at a time, so that only those that would remove others stay
+# out.
 add() {
     gone=$(removed_for "$@")
     if [ -z "$gone" ]; then

@@ -3,8 +3,8 @@
 #     T=cut            all tests of that name, of each kind
 #     T=golden/torus   one kind: unit, analytic, truth, lanes, golden, hard, cli
 #     T=words          a check of the Makefile, if no test has the name
-# A path such as tests/unit/test_cut.c names its test. The last line is the sum. If there is no such test, it prints
-# similar names, or the tests of the folder of src or tools that T names.
+# A path such as tests/unit/test_cut.c selects that test. The last line is the sum. If there is no such test, the script
+# prints similar names, or the tests of the folder of src or tools that T names.
 . tests/scripts/checks.sh
 
 kinds=$(
@@ -75,7 +75,7 @@ of_folder() {
         mine && $1 != "-" { for (i = 1; i <= NF; ++i) { sub(/^tests:/, "", $i); sub(/:/, "/", $i); print $i } }' tests/scripts/mutants.txt
 }
 
-# A name that begins with its kind is one test; any other is each kind's test of that name.
+# A name with a kind in front is one test; any other name selects the tests of that name in all kinds.
 found=$(printf '%s\n' "$kinds" |
     WANTED=$wanted awk '{ name = $0; sub(/^[^\/]*\//, "", name) } $0 == ENVIRON["WANTED"] || name == ENVIRON["WANTED"]')
 if [ -z "$found" ]; then
@@ -92,7 +92,7 @@ if [ -z "$found" ]; then
     exit 2
 fi
 
-# one COMMAND...: shows the output but for its last line, which counts.
+# one COMMAND...: prints the output except for the last line, which has the counts.
 one() {
     "$@" >"$B/try.log" 2>&1
     ended=$?

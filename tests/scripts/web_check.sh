@@ -1,6 +1,6 @@
-# web_check.sh: the page of platform/web in headless Chromium; skipped, with the reason, where tools are missing.
+# web_check.sh: checks the page of platform/web in headless Chromium; skipped, with the reason, if tools are missing.
 #
-# Gets playwright-core by npm where it may. Screenshots: BUILD/web/shots. MAKE BUILD B in the environment.
+# Gets playwright-core with npm if possible. Screenshots: BUILD/web/shots. MAKE BUILD B in the environment.
 skip() {
     echo "web-check: $1"
     echo "0 passed, 0 failed, 1 skipped"

@@ -1,5 +1,5 @@
-# wine.sh: runs a 64-bit Windows program: wine.sh PROGRAM.exe; its lines end as everywhere else. Debian keeps wine64 out
-# of PATH.
+# wine.sh: runs a 64-bit Windows program and converts the line ends: wine.sh PROGRAM.exe. Debian keeps wine64 out of
+# PATH.
 wine=$(command -v wine64 || echo /usr/lib/wine/wine64)
 said=$("$wine" "$@" 2>/dev/null)
 status=$?

@@ -1,10 +1,10 @@
-# words.sh: no name, option, file or phrase of words.txt in src, include, tools and documents; documents' links exist;
-# README.md and src/README.md within their bounds; the files and names that src/EXACT.md and src/RECIPES.md mention
-# exist; and that a made-up leftover of each kind is found.
+# words.sh: checks that src, include, tools, platform and documents have no name, option, file or phrase of words.txt;
+# that links of documents exist; that files and names in src/EXACT.md and src/RECIPES.md exist; the sizes of README.md and
+# src/README.md; the rates of some words (rates.awk); and that it finds a made-up fault of each kind.
 #
-# words.txt has a line for each: `name WORD` (a whole identifier), `code WORD` (the same, but not in comments and strings,
-# as it is a word of English too), `option --WORD`, `file BASENAME`, `phrase WORDS`
-# (exact, in comments and documents, across line breaks). NEWS.md's table of old names may have them.
+# words.txt has one entry a line: `name WORD` (a whole identifier), `code WORD` (the same, but not in comments and
+# strings, because it is also an English word), `option --WORD`, `file BASENAME`, `phrase WORDS` (exact, in comments and
+# documents, across line breaks).
 dir=${0%/*}
 . "$dir/checks.sh"
 list=${LIST:-$dir/words.txt}
@@ -21,13 +21,13 @@ find src include tools platform -type f \( -name '*.[ch]' -o -name '*.inl' -o -n
 built=${tmp%/*/*}
 find . -name '*.md' ! -path './build/*' ! -path "./${built#"$PWD"/}/*" ! -path './.git/*' | sed 's,^\./,,' | sort > "$tmp/documents"
 
-# The texts in one, and beside each of its lines where it comes from: a process a file would take minutes.
-# NEWS.md goes without its table of old names.
-texts() { # texts LIST PROGRAM: the files that LIST names, by an awk program that prints lines, and `where` beside them.
+# texts LIST PROGRAM: writes the text of all files in LIST to one file, with an awk program that prints lines, and the
+# source of each line to `where`. One process per file would take minutes.
+texts() {
     : > "$tmp/where"
     tr '\n' '\0' < "$1" | xargs -0 awk -v where="$tmp/where" "$2" > "$tmp/text"
 }
-# found KIND PATTERNS OPTION...: lines of the text that have one of the patterns, and where.
+# found KIND PATTERNS OPTION...: lines of the text that match one of the patterns, with their sources.
 found() {
     kind=$1 patterns=$2
     shift 2
@@ -37,13 +37,10 @@ found() {
             { while (line < at && (getline place < where) > 0) ++line; print place ":" $0 }' >> "$tmp/found-$kind"
 }
 cat "$tmp/code" "$tmp/documents" > "$tmp/all"
-texts "$tmp/all" '
-    FNR == 1 { old = 0 }
-    FILENAME ~ /NEWS\.md$/ && /^## / { old = /^## Old names/ }
-    { print old ? "" : $0; print FILENAME ":" FNR > where }'
+texts "$tmp/all" '{ print; print FILENAME ":" FNR > where }'
 found name "$tmp/name" -w
 found option "$tmp/option" -w
-# One line a file, without the marks of comments, so that a phrase is found wherever its line ends.
+# One line per file, without comment marks, so that a phrase is found across line breaks.
 : > "$tmp/lines"
 awk -v where="$tmp/where" -v lines="$tmp/lines" '
     { getline place < where; sub(/:[0-9]*$/, "", place) }
@@ -77,7 +74,7 @@ while read -r f; do
 done < "$tmp/documents" > "$tmp/links"
 check "links of documents exist: $(tr '\n' ' ' < "$tmp/links")" test ! -s "$tmp/links"
 
-# Files and names of the code in EXACT.md and RECIPES.md; a path is relative to the root or to src/. NAME is a
+# Files and names of the code in EXACT.md and RECIPES.md. A path is relative to the root or to src/; NAME is a
 # placeholder.
 find src include tools platform tests Makefile -type f \( -name '*.[ch]' -o -name '*.inl' -o -name '*.sh' -o -name Makefile \) \
     2>/dev/null > "$tmp/sources"
@@ -93,7 +90,7 @@ for f in src/EXACT.md src/RECIPES.md; do
 done > "$tmp/stale"
 check "files and names in EXACT.md and RECIPES.md exist: $(tr '\n' ' ' < "$tmp/stale")" test ! -s "$tmp/stale"
 
-# README.md: 150 lines, and 60 numbers outside of code.
+# README.md: 150 lines, and 60 numbers outside code.
 lines=$(wc -l < README.md)
 numbers=$(awk '/^```/ { code = !code } !code' README.md | sed 's/`[^`]*`//g; s/([^)]*)//g' \
     | grep -oE '(^|[^A-Za-z0-9_.-])[0-9][0-9.,]*' | wc -l)
@@ -108,8 +105,52 @@ fi
 words=$(cat src/README.md 2>/dev/null | wc -w)
 check "src/README.md has $words words; the plan is one page, 1200" test "$words" -le 1200
 
-# Would a leftover of each kind be found? A made-up tree with one of each; then the same tree without any.
+# The rest is left out for the made-up tree.
 [ -z "$MADE" ] || finish
+
+# The rates of some words in all comments and documents.
+find . -type f \( -name '*.[ch]' -o -name '*.inl' -o -name '*.md' -o -name '*.sh' -o -name '*.mk' -o -name Makefile \
+    -o -path './.ci/*' \) ! -path './build/*' ! -path "./${built#"$PWD"/}/*" ! -path './.git/*' |
+    sed 's,^\./,,' | sort >"$tmp/texts"
+rates() { awk -f "$dir/rates.awk" "$1" 2>&1; }
+wrong=$(rates "$tmp/texts")
+check "words per 1,000 in comments and documents: $wrong" test -z "$wrong"
+
+# repeat N WORD: writes the word N times.
+repeat() { awk -v n="$1" -v word="$2" 'BEGIN { while (n-- > 0) print word }'; }
+
+# made_rates WHAT ALONE ITS IF WHERE YOU: rates of a made-up document of 20,000 words with so many of each word.
+made_rates() {
+    repeat $((20000 - $1 - $2 - $3 - $4 - $5 - $6)) filler >"$tmp/rates.md"
+    for word in what alone its if where you; do
+        repeat "$1" $word >>"$tmp/rates.md"
+        shift
+    done
+    echo "$tmp/rates.md" >"$tmp/rates"
+    rates "$tmp/rates"
+}
+# made_limit WORD COUNT...: checks that made_rates COUNT... reports only this word.
+made_limit() {
+    limited=$1
+    shift
+    wrong=$(made_rates "$@")
+    case $wrong in
+    "$limited "*"rates.md "[0-9]*)
+        check "a made-up text misses other limits than $limited: $wrong" test "$(echo "$wrong" | wc -l)" -eq 1
+        ;;
+    *) fail "a made-up text that misses the limit of $limited is not found: $wrong" ;;
+    esac
+}
+wrong=$(made_rates 59 1 79 61 60 31)
+check "a made-up text within all limits is refused: $wrong" test -z "$wrong"
+made_limit what 60 1 79 61 60 31
+made_limit alone 59 2 79 61 60 31
+made_limit its 59 1 80 61 60 31
+made_limit if 59 1 79 60 59 31
+made_limit where 59 1 79 61 61 31
+made_limit you 59 1 79 61 60 30
+
+# Checks that it finds a leftover of each kind, in a made-up tree that has one of each.
 made=$tmp/made
 mkdir -p "$made/src" "$made/include" "$made/tools" "$made/platform"
 here=$(pwd)
@@ -118,15 +159,14 @@ case $dir in /*) ;; *) dir=$here/$dir ;; esac
 
 made_words() (cd "$made" && MADE=1 B=out LIST="$list" sh "$dir/words.sh")
 
-# leftover FILE TEXT: puts a file with the text into the made-up tree.
+# leftover FILE TEXT: writes the text to a file of the made-up tree.
 leftover() {
     mkdir -p "$made/${1%/*}"
     printf '%s\n' "$2" > "$made/$1"
 }
 
 printf 'See [the code](src).\n' > "$made/README.md"
-: > "$made/NEWS.md"
-check "a made-up tree without leftovers is refused" sh -c 'cd "$1" && MADE=1 B=out LIST="$2" sh "$3"' sh "$made" "$list" "$dir/words.sh"
+check "a made-up tree without leftovers is refused" made_words
 leftover src/one.c 'int x = lmb_light_map_bytes;'
 leftover src/two.c 'int shine; /* a word of English in comments */'
 leftover tools/one.c 'puts("--light-map");'
@@ -135,22 +175,19 @@ leftover src/three.c '/* what a surface gives
  * off by itself */'
 leftover docs/one.md 'See [nothing](nowhere.md).'
 leftover src/EXACT.md 'See `one.c`, `src/one.c`, `base/gone.c`, `lmb_gone`, `isa/isa_NAME.c`.'
-said=$(cd "$made" && MADE=1 B=out LIST="$list" sh "$dir/words.sh")
+found=$(made_words)
 for kind in name code option file phrase; do
-    case $said in
+    case $found in
     *"by $kind: 1"*) pass ;;
-    *) fail "a made-up leftover by $kind is not found once: $said" ;;
+    *) fail "a made-up leftover by $kind is not found once: $found" ;;
     esac
 done
-case $said in
+case $found in
 *"links of documents exist: docs/one.md: nowhere.md"*) pass ;;
-*) fail "a made-up dead link is not found: $said" ;;
+*) fail "a made-up dead link is not found: $found" ;;
 esac
-case $said in
+case $found in
 *"EXACT.md and RECIPES.md exist: src/EXACT.md: base/gone.c src/EXACT.md: lmb_gone "*) pass ;;
-*) fail "a made-up stale file and name are not found once each: $said" ;;
+*) fail "a made-up stale file and name are not found once each: $found" ;;
 esac
-rm -r "$made/src" "$made/tools" "$made/docs"
-mkdir "$made/src" "$made/tools"
-check "NEWS.md may not have old names in its table" made_words
 finish

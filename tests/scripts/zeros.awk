@@ -1,6 +1,6 @@
-# zeros.awk: the table of all public calls for tests/unit/test_zeros.c and tests/fuzz/fuzz_calls.c, from the lines of
-# prototypes.awk: a function that makes each, its pointers from `pointer`, its other arguments from `whole`, `number` and
-# `vector`.
+# zeros.awk: prints the table of all public calls for tests/unit/test_zeros.c and tests/fuzz/fuzz_calls.c, from the
+# lines of prototypes.awk. For each call it prints a function that makes the call, with pointers from `pointer` and
+# other arguments from `whole`, `number` and `vector`.
 BEGIN { FS = "|" }
 {
     n = $3 == "void" ? 0 : split($3, parameter, ";")
@@ -16,7 +16,7 @@ BEGIN { FS = "|" }
         sub(/\[.*/, "", name)
         gsub(/const |[ *]*$/, "", type)
         at = "&a[" (i - 1) "]"
-        # Of unknown length, or made by the library: what `pointer` has.
+        # Size 0 if unknown, or if the library makes the object; `pointer` then chooses one.
         size = many != 1 || type ~ /^lmb_/ && type != "lmb_kernels" && (type != "lmb_vec3" || many > 1) ? many " * sizeof(" type ")" : "0"
         arg = is_pointer ? "pointer(" at ", " size ")" : type == "lmb_vec3" ? "vector(" at ")" : "(" type ")" (type ~ /float|double/ ? "number(" : "whole(") at ")"
         args = args (i > 1 ? ", " : "") arg

@@ -1,4 +1,4 @@
-/* any.h: for Frama-C's Eva: values of a range, all of them at once; lane verbs that do not go round. */
+/* any.h: for Frama-C's Eva: all values of a range at once; lane verbs without wraparound. */
 #ifndef ANY_H
 #define ANY_H
 
@@ -17,8 +17,8 @@ float any_share(void);
 /*@ assigns \result \from \nothing; */
 float any_float(void);
 
-/* One lane in plain C. Registers' sums and products go round (lane_scalar.h); here they are C's, so that one that
- * leaves 32 bits is an alarm. */
+/* One lane in plain C. Sums and products of registers wrap (lane_scalar.h); here they are C's, so that
+ * leaving 32 bits is an alarm. */
 #define LANE_ONE 1
 #define lanei_add lanei_add_round
 #define lanei_sub lanei_sub_round

@@ -1,8 +1,8 @@
-/* bins.c: what Frama-C's Eva is asked of bins: do corners b and c of a small triangle, kept as two differences in 32 bits,
- * come back as they were, and does no sum leave 32 bits?
+/* bins.c: Frama-C's Eva proves for bins that corners b and c of a small triangle, stored as two differences in 32 bits,
+ * are restored exactly, and that no sum leaves 32 bits.
  *
- * First all differences at once, from a corner a at the origin: Eva's ranges know nothing of each other. Then one difference
- * down at a time, each 64th, with all across and all corners a that snapping gives (snap.c: +-2^22). */
+ * First all differences at once, from a corner a at the origin, because Eva's ranges are independent. Then every 64th
+ * difference in y, with all in x and all corners a that snapping gives (snap.c: +-2^22). */
 #include "any.h"
 
 #include "../../src/raster/setup.inl"

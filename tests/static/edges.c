@@ -1,10 +1,10 @@
-/* edges.c: what Frama-C's Eva is asked of one triangle at a time: can edge set-up and its sums over a frame and a tile
- * leave their integers?
+/* edges.c: Frama-C's Eva proves for one triangle that edge set-up and its sums over a frame and a tile
+ * stay within their integers.
  *
- * All corners within what snapping gives (snap.c: +-2^22), all pixels of a frame of LMB_MAX_FRAME and a tile beyond.
- * Every pixel is asked directly: stepping from tile to tile gives the same numbers (setup.c), so they hold for it. Eva
- * takes every value in these ranges at once; a signed overflow, a bad shift or index, or an assertion that it cannot
- * prove is an alarm. */
+ * Covers all corners that snapping gives (snap.c: +-2^22), and all pixels of a frame of LMB_MAX_FRAME plus a tile.
+ * Every pixel is evaluated directly; stepping from tile to tile gives the same numbers (setup.c), so the proof covers
+ * stepping. Eva takes every value in these ranges at once; a signed overflow, a bad shift or index, or an assertion
+ * that it cannot prove is an alarm. */
 #include "any.h"
 
 #include "../../src/raster/setup.c"
@@ -52,7 +52,7 @@ static lmb_fill_job any_job(void)
     return job;
 }
 
-/* A tile that no edge is outside of, which large_row asks of all three together. */
+/* A tile that is outside no edge; large_row tests all three edges together. */
 static int32_t any_inside(int64_t at, int64_t high)
 {
     return at + high < 0 ? 0 : large_near(at);
@@ -71,11 +71,11 @@ static void cross_large(const lmb_setup *s, const large_edges *edges)
     for (int i = 0; i < FILL_ACROSS; ++i) {
         fill_column(&tile, &job, &t, e, job.d, &whole, i);
     }
-    /* Held far inside, an edge stays inside. */
+    /* An edge clamped to far inside stays inside. */
     /*@ assert FAR_INSIDE - CHANGE_MAX > 0; */
 }
 
-/* A place on the triangle, and whether it is a hole, know no integers of edges. */
+/* Points on the triangle and alpha tests do not use the integers of edges. */
 void lmb_resolve_point(float *b1, float *b2, const lmb_plane *plane, const lmb_rays *rays, float x, float y)
 {
     *b1 = any_float();
@@ -119,7 +119,7 @@ static void ask_edges(const lmb_setup *s, const large_edges *edges)
     /*@ assert -CHANGE_MAX <= edges->low.c <= 0 && 0 <= edges->high.c <= CHANGE_MAX; */
 }
 
-/* How many tiles of a row are alike, from any tile of it on. */
+/* Counts equal tiles of a row, starting at any tile. */
 static void count_large(const large_edges *edges)
 {
     const int32_t count = any_between(1, LMB_MAX_FRAME / LMB_TILE);
@@ -131,7 +131,7 @@ static void count_large(const large_edges *edges)
     large_add(edges->at, large_times(edges->step_x, outside));
 }
 
-/* A box's side against any window of any frame. */
+/* One side of a box against any window of any frame. */
 static void ask_spans(void)
 {
     const int32_t frame = any_between(1, LMB_MAX_FRAME), window = any_between(0, LMB_MAX_FRAME);

@@ -1,11 +1,11 @@
-/* small.c: what Frama-C's Eva is asked of a batch's small triangles: can a sum of setup.inl's, fill_small.inl's or
- * fill_parts.inl's leave 32 bits, or a row or column its tile? `set_up` is the first half, `main` the second, which
- * takes what the first is asked to prove.
+/* small.c: Frama-C's Eva proves for a batch's small triangles that no sum of setup.inl, fill_small.inl or
+ * fill_parts.inl leaves 32 bits, and no row or column leaves its tile. `set_up` is the first half. `main` is the
+ * second; it assumes the results of the first.
  *
- * All corners of all boxes under 64 px. The sums know differences from a corner and whole tiles only, so the tile that
- * the box's low corner lies in may stand at the frame's origin: corners are 0 .. 2047 + 64 px from there, in 24.8, and
- * a window begins in one of the nine tiles that the box may touch (further on it shows nothing). What is not small or
- * not shown has its corners in one place, where every sum is 0. */
+ * Covers all corners of all boxes under 64 px. The sums use only differences from a corner and whole tiles, so the tile
+ * with the box's low corner may be at the frame's origin: corners are 0 .. 2047 + 64 px from there, in 24.8, and a
+ * window begins in one of the nine tiles that the box may touch (later windows show nothing). A triangle that is not
+ * small or not shown has all corners at one point, so every sum is 0. */
 #include "any.h"
 
 enum {
@@ -13,11 +13,11 @@ enum {
     TILES = CORNER_MAX / 2048 + 1,
     PX_MAX = CORNER_MAX / 256,
     E_MAX = 1 << 22,
-    STEP_MAX = 22528 /* 16383 in truth; Eva's ranges know nothing of each other */
+    STEP_MAX = 22528 /* really 16383; Eva's ranges are independent of each other */
 };
 
-/* What setup_snap's conversions are given is snap.c's question; here is what they give. Corner a's are those of a
- * tile at a time, since b's is later made as a + (b - a). */
+/* snap.c covers the inputs of setup_snap's conversions; here are the results. Corner a's are split by tile, because b's
+ * is later computed as a + (b - a). */
 static int asked, first_low[2];
 
 static lanei any_corner(lane at)
@@ -34,7 +34,7 @@ static lanei any_corner(lane at)
 #undef lane_to_int
 #include "../../src/raster/fill.inl"
 
-/* Of a column only what it is asked to do; `column` asks the column itself. */
+/* Checks only the arguments of a column; `column` covers the column itself. */
 static void column_asked(const int32_t e[3], const fill_box *box, int32_t i)
 {
     /*@ assert 0 <= box->first_row < LMB_TILE && box->last_row < LMB_TILE; */
@@ -47,7 +47,7 @@ static void column_asked(const int32_t e[3], const fill_box *box, int32_t i)
 #undef fill_column
 #include "../../src/raster/fill_rows.inl"
 
-/* Of a tile's rows only the edges that they begin with. */
+/* Checks only the edges at the start of a tile's rows. */
 static void rows_asked(const fill_rows *r)
 {
     /*@ assert -1073741824 <= r->e0.v[0] <= 1073741824; */
@@ -62,7 +62,7 @@ static void rows_asked(const fill_rows *r)
 static float depths[LMB_TILE_PIXELS];
 static uint32_t ids[LMB_TILE_PIXELS];
 
-/* All tiles are one: what is asked is where in a tile a pixel goes. */
+/* All tiles share memory: the proof is about the position of a pixel within a tile. */
 static lmb_fill_window any_window(int32_t x0, int32_t y0)
 {
     lmb_fill_window w;
@@ -136,7 +136,7 @@ int set_up(void)
     return 0;
 }
 
-/* A triangle whose box begins at pixel (x, y). */
+/* A triangle with a box that begins at pixel (x, y). */
 static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_window *w)
 {
     fill_slopes slopes;
@@ -157,9 +157,9 @@ static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_win
     parts_wide(w, b, 0, 1u, FILL_PLAIN, 0);
 }
 
-/* Place by place, as Eva does not know that a row and its tile lie close: in the first tile any pixel, in the others
- * the first, where the window begins. Rows ask nothing of columns, so x and y go together. (All 256 pairs: the same, in
- * 80 seconds instead of 5.) */
+/* Position by position, because Eva does not relate a row to its tile: any pixel of the first tile, and the first pixel
+ * of the others, at which the window begins. Rows do not depend on columns, so x and y change together. (All 256 pairs
+ * give the same, in 80 seconds instead of 5.) */
 int main(void)
 {
     lmb_batch b;

@@ -1,7 +1,8 @@
-/* snap.c: what Frama-C's Eva is asked of corners on their way to 24.8, of triangles that are clipped or large: can a
- * conversion leave its integer, or a cut polygon its array?
+/* snap.c: Frama-C's Eva proves for triangles that are clipped or large that no conversion of a corner to 24.8 leaves
+ * its integer, and no clipped polygon its array.
  *
- * Any matrix, any view, any positions: numbers, infinities and NaN. Small triangles' conversions are snap.g's. */
+ * Covers any matrix, any view and any positions: numbers, infinities and NaN. snap.g covers the
+ * conversions of small triangles. */
 #include "any.h"
 
 #include "../../src/raster/clip.c"
@@ -21,7 +22,7 @@ static lmb_draw_instance any_instance(void)
     return d;
 }
 
-/* A corner that transform or a cut may have left. */
+/* A corner that may result from transform or clipping. */
 static lmb_clip_vertex any_corner(const lmb_draw_instance *d)
 {
     lmb_clip_vertex v = transform(d, vec3(any_float(), any_float(), any_float()));

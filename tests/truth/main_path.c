@@ -1,8 +1,8 @@
-/* main_path.c: makes the small truths that the repository keeps, and tells their noise.
+/* main_path.c: makes the small truths in the repository, and prints their noise.
  *
- *     path -o DIR [NAME]...     all of small_truths.inc, or those that are named: DIR/NAME.hdr
+ *     path -o DIR [NAME]...     all of small_truths.inc, or only the named ones: DIR/NAME.hdr
  *
- * Two halves by other random numbers are made; the file is their mean, and half their difference its noise. */
+ * Traces two halves with different random numbers; the file is their mean, and half their difference is the noise. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ static const small_truth truths[] = {
 
 /* --- Radiance HDR ------------------------------------------------------------------------------------------------- */
 
-/* Three mantissas, rounded to nearest, and their exponent. */
+/* Three mantissas, rounded to nearest, and a shared exponent. */
 static void put_colour(unsigned char out[4], const double rgb[3])
 {
     int exponent;
@@ -33,7 +33,7 @@ static void put_colour(unsigned char out[4], const double rgb[3])
     if (max < 1e-30) {
         return;
     }
-    frexp(max * (256.0 / 255.5), &exponent); /* so that 255.5 and more goes to the next exponent */
+    frexp(max * (256.0 / 255.5), &exponent); /* so that 255.5 and more uses the next exponent */
     for (int c = 0; c < 3; ++c) {
         out[c] = (unsigned char)(ldexp(rgb[c], 8 - exponent) + 0.5);
     }
@@ -49,7 +49,7 @@ static int run_at(const unsigned char *row, int x)
     return n;
 }
 
-/* One component of a row: runs of four and more, and what lies between them. */
+/* One component of a row: runs of at least four, and literals between them. */
 static void put_row(FILE *f, const unsigned char *row)
 {
     for (int x = 0; x < SIDE;) {
@@ -105,7 +105,7 @@ static int rising(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The mean of both into the first, and how far it is off: as rmse and trim are defined. */
+/* Puts the mean of both into the first; returns the noise as rmse and trim. */
 static void join(double *rmse, double *trim)
 {
     static double square[PIXELS];

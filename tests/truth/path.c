@@ -1,4 +1,4 @@
-/* path.c: a small path tracer for truth: rays against triangles in a tree of boxes, light by light. */
+/* path.c: a small path tracer for truth: rays against triangles in a BVH, light by light. */
 #include "path.h"
 
 #include <math.h>
@@ -7,12 +7,12 @@
 
 #define PI 3.141592653589793
 
-/* Rays start that far above their surface, m: corners are binary32 numbers within some metres. */
+/* Offset of ray origins from a surface, m: corners are binary32 numbers within some metres. */
 #define LIFT 1e-6
 
 enum { LEAF = 2 };
 
-/* --- the tree of boxes -------------------------------------------------------------------------------------------- */
+/* --- the BVH ------------------------------------------------------------------------------------------------------ */
 
 static double part(svec a, int axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
 
@@ -31,11 +31,11 @@ static void bound(path_node *n, const path_triangle *t)
             n->high = larger(n->high, corners[k]);
         }
     }
-    n->low = less(n->low, at(LIFT, LIFT, LIFT)); /* flat boxes have a thickness, too */
+    n->low = less(n->low, at(LIFT, LIFT, LIFT)); /* gives flat boxes a thickness */
     n->high = plus(n->high, at(LIFT, LIFT, LIFT));
 }
 
-/* By their middles along an axis, one by one: there are few. */
+/* Insertion sort by centre along an axis: there are few triangles. */
 static void sort(path_triangle *t, uint32_t count, int axis)
 {
     for (uint32_t i = 1; i < count; ++i) {
@@ -78,7 +78,7 @@ static int is_hit(const path_node *n, svec from, svec inverse, double far)
     return enter <= far;
 }
 
-/* Where along the ray the triangle is, or a negative number (Moeller and Trumbore 1997). */
+/* Distance along the ray to the triangle, or a negative number (Moeller and Trumbore 1997). */
 static double meet(const path_triangle *t, svec from, svec along)
 {
     const svec s = cross_of(along, t->v), d = less(from, t->a), q = cross_of(d, t->u);
@@ -92,7 +92,8 @@ static double meet(const path_triangle *t, svec from, svec along)
 
 static double over_one(double v) { return 1.0 / (fabs(v) > 1e-200 ? v : 1e-200); }
 
-/* The nearest triangle nearer than *far, which it lessens, or NULL; `any`: the first that is found. */
+/* Returns the nearest triangle nearer than *far and updates *far; NULL if there is none.
+ * `any`: returns the first hit. */
 static const path_triangle *shoot(const path_tracer *p, svec from, svec along, double *far, int any)
 {
     const svec inverse = at(over_one(along.x), over_one(along.y), over_one(along.z));
@@ -118,10 +119,10 @@ static const path_triangle *shoot(const path_tracer *p, svec from, svec along, d
 
 /* --- a scene ------------------------------------------------------------------------------------------------------ */
 
-/* As scene.bin stores them: what is drawn has the same corners. */
+/* Rounded as in scene.bin, so that the drawn corners are the same. */
 static svec stored(svec a) { return at((double)(float)a.x, (double)(float)a.y, (double)(float)a.z); }
 
-/* 0 where it has no area. */
+/* Returns 0 if the triangle has no area. */
 static int take(path_triangle *out, const svec *corners, int material)
 {
     const svec a = stored(corners[0]), b = stored(corners[1]), c = stored(corners[2]);
@@ -276,8 +277,8 @@ svec path_scattered(svec n, double u, double v)
     return plus(plus(times(x, radius * cos(turn)), times(y, radius * sin(turn))), times(n, sqrt(1.0 - u)));
 }
 
-/* A place that reflects to another is found in two ways, by rays from the other and by rays from a light that has a
- * place. Each counts by the balance heuristic (Veach 1997), for which these are how many rays a m2 they send there. */
+/* A point that reflects light to another is sampled in two ways: by rays from the other point, and by rays from a light
+ * with a position. The balance heuristic (Veach 1997) weights them by these densities: rays per m2. */
 static double rays_from_surface(const path_point *here, const path_point *there)
 {
     const svec d = less(there->at, here->at);
@@ -297,7 +298,7 @@ static double rays_from_light(const scene_light *l, const path_point *there)
     return fabs(dot_of(d, there->normal)) / (sqrt(r2) * r2 * 2.0 * PI * (1.0 - narrowest(l)));
 }
 
-/* Added: what `next`, found by a ray from `here`, reflects of the lights' light. */
+/* Adds the light of all lights that `next`, found by a ray from `here`, reflects. */
 static void add_found(const path_tracer *p, const path_point *here, const path_point *next, double rgb[3])
 {
     for (int i = 0; i < p->scene->light_count; ++i) {
@@ -310,7 +311,7 @@ static void add_found(const path_tracer *p, const path_point *here, const path_p
     }
 }
 
-/* Around an axis, evenly, where the cosine to it is at least `cosine_there`. */
+/* A uniform direction in a cone around an axis; the cosine to the axis is at least `cosine_there`. */
 static svec within(svec axis, double cosine_there, double u, double v)
 {
     const svec other = fabs(axis.x) < 0.5 ? at(1, 0, 0) : at(0, 1, 0), x = unit(cross_of(other, axis));
@@ -318,7 +319,8 @@ static svec within(svec axis, double cosine_there, double u, double v)
     return plus(times(axis, height), plus(times(x, radius * cos(turn)), times(cross_of(axis, x), radius * sin(turn))));
 }
 
-/* Added: `weight` times what `here` reflects of the light of one place that a ray from each light finds. */
+/* For each light, traces one ray from the light to a point, and adds `weight` times that point's
+ * light reflected by `here`. */
 static void add_lit(const path_tracer *p, const path_point *here, double u, double v, const double weight[3],
                     double rgb[3])
 {
@@ -341,7 +343,7 @@ static void add_lit(const path_tracer *p, const path_point *here, double u, doub
     }
 }
 
-/* Added: what one path brings; u, v: its first direction; x, y: that of the first ray from a light. */
+/* Adds the radiance of one path; u, v: the first direction; x, y: that of the first ray from a light. */
 static void add_path(const path_tracer *p, path_point here, int bounces, const double first[4], test_rng *r,
                      double rgb[3])
 {

@@ -1,27 +1,27 @@
-/* test_own_truth.c: pictures of tests/scenes against path-traced ones that are kept in tests/truth/small. [V25]
+/* test_own_truth.c: compares pictures of tests/scenes with path-traced ones in tests/truth/small. [V25]
  *
- * Pictures of 32 x 32 pixels, one bounce, 2 x 160^2 samples a pixel, of scenes that no constant was fitted to: they
- * guard the presets' accuracy, upright and turned, where the shared folder of larger truth is missing. */
+ * Pictures of 32 x 32 pixels, one bounce, 2 x 160^2 samples a pixel, of scenes that no constant was fitted to. They
+ * guard the presets' accuracy, upright and turned, if the shared folder of larger truth is missing. */
 #include "../own_scene.h"
 #include <math.h>
 
 void test_own_truth(void);
 
-/* Bars that a row does not hold yet: its figures are shown. It is held to all others. */
+/* Bars that a row does not meet yet: those figures are only printed. All other bars apply. */
 enum { OPEN_DEFAULT = 1, OPEN_BEST = 2, OPEN_HALF = 4, OPEN_TURNED = 8 };
 
 typedef struct own_row {
     const char *name, *file;
     double worst[2]; /* measured metrics_worst with default and best quality; the limit is 1.3 times that */
     double rmse[2];  /* likewise */
-    double mean;     /* how far from 1 it may be */
+    double mean;     /* maximum distance from 1 */
     int open;
 } own_row;
 
-/* What the presets owe on any scene, in trim. */
+/* Bars of the presets for any scene, in trim. */
 static const double best_bar = 0.03, default_bar = 0.06;
 
-/* A finer preset never costs more than a tenth of the error, and is worth it: at least half of it goes. */
+/* A finer preset never increases the error by more than a tenth, and must at least halve it. */
 static void check_errors(const own_row *row, const image *truth, own_drawn *by_default)
 {
     static const struct preset {
@@ -52,7 +52,7 @@ static void check_errors(const own_row *row, const image *truth, own_drawn *by_d
               trim[1], trim[0]);
 }
 
-/* The same picture by the same work however the world is turned. */
+/* Turning the world changes neither the picture nor the work. */
 static void check_turns(const own_row *row, const image *truth, const own_drawn *upright)
 {
     enum { TURNS = 2 };

@@ -1,7 +1,8 @@
-/* test_relight.c: irradiance at five places of a world seen from one, against path-traced cubes. [S1-S14, S25]
+/* test_relight.c: irradiance at five places of a world captured at one, against path-traced cubes. [S1-S14, S25]
  *
- * Figures are relative RMSE over all texels and channels of a cube (rmse / mean); bars are the project's own, but for
- * 25 harmonics seen from elsewhere: 0.85 % where 0.8 is asked, for one place of five has 0.81; and 8-bit codes. */
+ * Figures are relative RMSE over all texels and channels of a cube (rmse / mean). Bars are the project's own,
+ * except for 25 harmonics at other places than the capture (0.85 % instead of 0.8 %, because one place of five has
+ * 0.81 %) and for 8-bit codes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,11 +24,11 @@ enum { COSINE, SH_9, SH_25, BLUR, BLUR_1, BLUR_2, METHODS };
 static const char *const method_names[METHODS] = {"cosine", "sh9", "sh25", "blur", "blur1", "blur2"};
 
 typedef struct stage {
-    image pictures[3]; /* the cube, the ground, what a place truly sees */
+    image pictures[3]; /* the cube, the ground, the true surroundings of a place */
     lmb_world world;
     lmb_probe_table table;
     lmb_probe_lights lights;
-    lmb_probe_table small_table; /* of blurs: a quarter of the map's width */
+    lmb_probe_table small_table; /* for blurs: a quarter of the map's width */
     lmb_probe_blur blur[3];
     void *blur_memory[4];
     float map[3 * WIDTH * HEIGHT], cube[METHODS][3 * TEXELS];
@@ -41,7 +42,7 @@ static int load(image *out, const char *file)
     return truth_picture(out, "env_relight", file);
 }
 
-/* Six faces, one under another. */
+/* Six faces, stacked vertically. */
 static void take_faces(lmb_world_pictures *p, const image *cube)
 {
     p->face_size = cube->width;
@@ -89,7 +90,7 @@ static void make_blurs(stage *s)
     }
 }
 
-/* At a sixteenth of the map's texels: a cosine is smooth. */
+/* Computed with a sixteenth of the map's texels, because a cosine is smooth. */
 static void blur(stage *s, const lmb_kernels *kernels)
 {
     static float half[3 * WIDTH * HEIGHT / 4], out[3 * WIDTH * HEIGHT / 16], line[WIDTH];
@@ -133,7 +134,7 @@ static double off_by(const float *cube, const image *truth, double *largest)
     return sqrt(sum * 3 * TEXELS) / mean;
 }
 
-/* Prints a place's figures, the largest error (of the largest irradiance) in brackets. */
+/* Prints a place's figures, with the largest error (relative to the largest irradiance) in brackets. */
 static void compare(stage *s, const char *what, int place, const double bar[METHODS])
 {
     char file[40];
@@ -153,7 +154,7 @@ static void compare(stage *s, const char *what, int place, const double bar[METH
     image_free(&truth);
 }
 
-/* What a place truly sees, taken there: the filters alone. */
+/* Uses the true surroundings of a place, so that only the filters are tested. */
 static void filters_alone(stage *s)
 {
     static const double bar[METHODS] = {0.005, 0.015, 0.008, 0.07, 0.05, 0.02};
@@ -177,7 +178,7 @@ static void filters_alone(stage *s)
 
 enum { MIRROR = 64, MIRRORED = 6 * MIRROR * MIRROR };
 
-/* What the texel's ray meets: the far sphere, the ground's picture, or ground that no picture shows. */
+/* The class of the texel's ray: 0 hits the far sphere, 1 the ground's picture, 2 ground outside the picture. */
 static int class_of(lmb_vec3 at, int32_t i)
 {
     const lmb_vec3 d = cube_direction(i / (MIRROR * MIRROR), i % MIRROR, i / MIRROR % MIRROR, MIRROR);
@@ -185,7 +186,7 @@ static int class_of(lmb_vec3 at, int32_t i)
     return x * x + z * z > 150.0f * 150.0f ? 0 : fabsf(x) <= 100.0f && fabsf(z) <= 100.0f ? 1 : 2;
 }
 
-/* 1 where all texels around, over the edges of faces too, meet the same: away from silhouettes. */
+/* Returns 1 if all neighbouring texels, also across edges of faces, have the same class: away from silhouettes. */
 static int is_inside(lmb_vec3 at, int32_t i)
 {
     const int32_t face = i / (MIRROR * MIRROR), own = class_of(at, i);
@@ -198,7 +199,7 @@ static int is_inside(lmb_vec3 at, int32_t i)
     return same;
 }
 
-/* S17: what a mirror at a place shows, unblurred. */
+/* S17: the unblurred reflection of a mirror at a place. */
 static void mirror_at(stage *s, int place)
 {
     static float cube[3 * MIRRORED];

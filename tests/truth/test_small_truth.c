@@ -1,8 +1,7 @@
-/* test_small_truth.c: six small scenes against truth by our own path tracer, which shares no code with src/. [V25]
+/* test_small_truth.c: compares six small scenes with our own path tracer, which shares no code with src/. [V25]
  *
- * Bounced light is kept in tests/truth/small, 64 x 64 pixels each: `make small-truth` makes it again. Direct light is
- * exact and traced here. Nothing outside the repository is needed. LMB_TRUTH_ALL
- * draws all scenes by `best`, too. */
+ * Bounced light is in tests/truth/small, 64 x 64 pixels each; `make small-truth` recomputes it. Direct light is exact
+ * and traced here. The test needs nothing outside the repository. LMB_TRUTH_ALL also draws all scenes by `best`. */
 #include "../own_scene.h"
 #include <math.h>
 
@@ -12,10 +11,11 @@ void test_small_truth(void);
 
 enum { SIDE = OWN_LARGEST, BLOCK = 8, PRESETS = 3, FEW = 4 };
 
-/* How far a figure may grow: compilers and processors give the same pictures, so that a change of code alone does it. */
+/* Maximum growth of a figure. Compilers and processors give the same pictures, so only a change
+ * of code can cause growth. */
 static const double slack = 1.3;
 
-/* How far the mean may be from the truth's. */
+/* Maximum distance of the mean from the truth's. */
 static const double mean_bar = 0.01;
 
 typedef struct small_row {
@@ -26,7 +26,7 @@ typedef struct small_row {
 
 static const char *const presets[PRESETS] = {"draft", "default", "best"};
 
-/* What the path tracer finds now. */
+/* Results of the path tracer in this run. */
 static float surface[SIDE * SIDE * 3], direct[SIDE * SIDE * 3], bounced[SIDE * SIDE * 3];
 
 static void put(float *to, const double rgb[3])
@@ -36,7 +36,7 @@ static void put(float *to, const double rgb[3])
     }
 }
 
-/* Surfaces, direct light and rough bounced light; 1 where the scene has lights beside its emitters. */
+/* Traces surfaces, direct light and rough bounced light; returns 1 if the scene has lights other than emitters. */
 static int trace(const small_row *row)
 {
     made_scene s;
@@ -75,7 +75,7 @@ static double block_sum(const float *pixels, int block, int c)
     return sum;
 }
 
-/* A scene that changed after its truth was made would be judged by that of another: blocks of pixels tell. */
+/* Checks that the scene did not change after its truth was made, by comparing blocks of pixels. */
 static void check_truth_is_of_scene(const small_row *row, const image *truth)
 {
     const int blocks = SIDE / BLOCK * (SIDE / BLOCK);
@@ -90,7 +90,7 @@ static void check_truth_is_of_scene(const small_row *row, const image *truth)
               sqrt(off) / mean);
 }
 
-/* But for pixels at shadows' edges it is exact: to rounding. */
+/* Exact up to rounding, except for pixels at the edges of shadows. */
 static void check_direct_light(const small_row *row)
 {
     image truth = {SIDE, SIDE, 3, direct};

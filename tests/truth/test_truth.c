@@ -1,8 +1,8 @@
-/* test_truth.c: pictures against the path-traced ones of the shared folder. [V25 V27 V28 V29 V30]
+/* test_truth.c: compares pictures with the path-traced ones of the shared folder. [V25 V27 V28 V29 V30]
  *
- * LMB_SHARED names the folder; without it ../shared is tried, and what is not there is skipped. Settings are those that
- * `lambent render` takes by default. Some scenes have bars, the others' figures are only printed; LMB_TRUTH_ALL prints
- * the bounced light of every scene too, which takes eight times as long. */
+ * LMB_SHARED names the folder (default ../shared); missing files are skipped. Settings are the defaults of `lambent
+ * render`. Some scenes have bars; the figures of the others are only printed. LMB_TRUTH_ALL also prints the bounced
+ * light of every scene, which takes eight times as long. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ void test_truth(void);
 
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
-/* --- a scene, drawn as the tool draws it -------------------------------------------------------------------------- */
+/* --- a scene, drawn as by the tool -------------------------------------------------------------------------------- */
 
 typedef struct stage {
     const char *name;
@@ -30,7 +30,7 @@ typedef struct stage {
     lmb_stats stats;
     lmb_many_lights many_lights;
     void *many_lights_memory, *bvh_memory;
-    image drawn, depth; /* depth: the truth's, the third channel marks surfaces */
+    image drawn, depth; /* depth: of the truth; the third channel marks surfaces */
 } stage;
 
 static void *take(size_t bytes)
@@ -43,7 +43,7 @@ static void *take(size_t bytes)
     return p;
 }
 
-/* 1024 texels a side, less where faces are many: 2 M texels in all. */
+/* 1024 texels a side, less if there are many faces: 2 M texels in all. */
 static void take_maps(stage *s)
 {
     const lmb_scene *scene = &s->loaded.scene;
@@ -90,7 +90,7 @@ static void take_frame(stage *s)
     f->stats = &s->stats;
 }
 
-/* A scene's file and view. `sized_as`: the truth picture that gives the size. */
+/* Loads a scene's file and view. `sized_as`: the truth picture that gives the size. */
 static int stage_load(stage *s, const char *name, const char *sized_as)
 {
     char path[SHARED_PATH];
@@ -200,7 +200,8 @@ static void draw_attribute(stage *s, int what)
     }
 }
 
-/* Within 0.1 %: of the depth, of the unit normal's length, of each channel. Nothing must be nothing. */
+/* Equal within 0.1 %: of the depth, of the length of a unit normal, of each channel. The
+ * background must be empty in both. */
 static int is_same(int what, const float *test, const float *truth)
 {
     double d = 0.0;
@@ -217,7 +218,7 @@ static int is_same(int what, const float *test, const float *truth)
     return what == ALBEDO || d <= 1e-6;
 }
 
-/* V5, V23: the first surface along each pixel's ray, its place, its normal and its reflectance. */
+/* V5, V23: depth, normal and reflectance of the first surface along each pixel's ray. */
 static void check_gbuffer(const char *name)
 {
     static const char *const files[] = {"gbuffer_depth.pfm", "gbuffer_normal.pfm", "gbuffer_albedo.pfm"};
@@ -248,7 +249,7 @@ static void check_gbuffer(const char *name)
 
 static int is_lit(const image *p, int x, int y) { return grey(p, y * p->width + x) > 0.0f; }
 
-/* A pixel one of whose four neighbours is lit while it is dark, or dark while it is lit. */
+/* A pixel with one of its four neighbours lit if it is dark, or dark if it is lit. */
 static int on_boundary(const image *p, int x, int y)
 {
     int lit = is_lit(p, x, y);
@@ -300,7 +301,7 @@ static direct_figures compare_direct(const stage *s, const image *truth)
     return d;
 }
 
-/* V7, V29: direct light and its shadows. `barred`: the milestone's bars hold; else they are printed. */
+/* V7, V29: direct light and shadows. `barred`: the milestone's bars apply; otherwise figures are only printed. */
 static void check_direct(const char *name, int barred)
 {
     stage s;
@@ -332,7 +333,7 @@ enum { MANY_CELLS = 16384 };
 
 static double seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
-/* Each light as `parts` in a millimetre around its place, in a slice of their own. */
+/* Splits each light into `parts` within a millimetre of its place, and adds them as one slice. */
 static void stream(stage *s, int parts)
 {
     static lmb_light slice[100];
@@ -366,7 +367,7 @@ static void stream(stage *s, int parts)
            spent * 1e9 / (double)s->many_lights.lights, (seconds() - start) * 1e3);
 }
 
-/* The shadow tests that it took; 0 where the scene is not there. */
+/* Returns the number of shadow tests; 0 if the scene is missing. */
 static double check_many(const char *name, int parts)
 {
     stage s;
@@ -410,7 +411,7 @@ static double check_many(const char *name, int parts)
     return tests;
 }
 
-/* V3: 100 to 1,000,000 lights; the last are the 10,000 in a hundred parts each, in the same memory and time. */
+/* V3: 100 to 1,000,000 lights; the last case splits each of the 10,000 into a hundred, in the same memory and time. */
 static void check_all_many(void)
 {
     check_many("many_lights_100", 1);
@@ -451,7 +452,7 @@ static void check_indirect(const char *name, int barred)
 
 /* --- cuts of the light tree ------------------------------------------------------------------------------------- */
 
-/* In place of groups: the tree of a map of `size` texels a side, and all triangles as the BVH. */
+/* Replaces groups by the tree of a map of `size` texels a side, and a BVH of all triangles. */
 static void take_tree(stage *s, int32_t size, float error, float visibility)
 {
     const lmb_scene *scene = &s->loaded.scene;
@@ -479,7 +480,7 @@ typedef struct cut_row {
     const char *name;
     int32_t map;
     float error, visibility;
-    double trim, rmse, worst, leak; /* bounds; worst: metrics_worst; leak: its distance from 1, if there is one */
+    double trim, rmse, worst, leak; /* bounds; worst: metrics_worst; leak: maximum distance from 1, if any */
 } cut_row;
 
 /* V3, V25: one bounce by cuts with exact visibility. */
@@ -512,11 +513,11 @@ static void check_cut(const cut_row *row)
     stage_close(&s);
 }
 
-/* One tile in SPARSE. */
+/* One tile of SPARSE is tested. */
 enum { SPARSE = 31 };
 
 typedef struct cut_errors {
-    float *of; /* a pixel each: |cut - every texel| */
+    float *of; /* one value a pixel: |cut - every texel| */
     double *want;
     int count;
     double all; /* texels x pixels */
@@ -553,7 +554,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Relative to the light, and a thousandth of its mean: what is a millionth of it is rounding. */
+/* Relative to the light plus a thousandth of its mean, so that rounding in very dark pixels does not count. */
 static float error_at(cut_errors *e, double share)
 {
     double mean = 0.0;
@@ -567,8 +568,8 @@ static float error_at(cut_errors *e, double share)
     return e->of[(int)(share * (e->count - 1))];
 }
 
-/* V27: without the BVH, at error 0.02 from a map of 256 texels a side: against every texel, in one tile of 31. By the
- * rule all but a thousandth of the pixels hold it, by the conservative bound all. */
+/* V27: cuts without the BVH, from a map of 256 texels a side, against every texel, in one tile of 31. With the rule,
+ * all but a thousandth of the pixels meet the error 0.01; with the conservative bound, all meet 0.02. */
 static void check_cut_error(const char *name, int conservative, double most_share)
 {
     stage s;
@@ -643,13 +644,13 @@ void test_truth(void)
 {
     static const struct scene {
         const char *name;
-        int direct, indirect; /* the bars hold */
+        int direct, indirect; /* the bars apply */
     } scenes[] = {
 #define TRUTH_SCENE(scene, direct, bounced, set) {#scene, direct, bounced},
 #include "truth_scenes.inc"
 #undef TRUTH_SCENE
     };
-    /* The tool's default, and its best. */
+    /* The tool's default, and best. */
     static const cut_row cuts[] = {
         {"cornell", 256, 0.02f, 0.015f, 0.05, 0.08, 0.092, 0.3},
         {"corridor", 256, 0.02f, 0.015f, 0.05, 0.08, 0.121, 0.3},

@@ -1,4 +1,4 @@
-/* bake_air.c: places in the air with receivers to six sides, for light on objects that move. */
+/* bake_air.c: receivers at points in the air, for six directions, to light moving objects. */
 #include "bake.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@
 
 enum { SIDES = LMB_TRANSFER_AIR_RECEIVERS, TOGETHER = 10, PLACES = 1500 };
 
-#define SUPPORT 1.5e-6f /* of all area, that a receiver counts as much as: the grid is coarse itself */
-#define SEEN    0.05f /* of all around a place: where less light can come from, it is taken to lie in a solid */
+#define SUPPORT 1.5e-6f /* of the total area: support of a receiver; the grid itself is coarse */
+#define SEEN    0.05f /* of all directions: a point that can receive light from less counts as inside a solid */
 
 typedef struct air {
     bake *b;
@@ -21,7 +21,7 @@ typedef struct air {
     report *r;
 } air;
 
-/* About PLACES of them, as far from each other along all axes, the outer ones half a step within the scene's box. */
+/* About PLACES points with equal spacing along all axes, the outer ones half a step inside the scene's bounds. */
 static void set_grid(air *a)
 {
     const lmb_scene *s = a->b->scene;
@@ -53,7 +53,7 @@ static lmb_vec3 side_of(int side)
     return vec3(side / 2 == 0 ? sign : 0.0f, side / 2 == 1 ? sign : 0.0f, side / 2 == 2 ? sign : 0.0f);
 }
 
-/* A receiver that is its own: all of its row becomes links. */
+/* A receiver without parents: the whole row becomes links. */
 static int add_receiver(air *a, lmb_vec3 at, lmb_vec3 normal, const float *row)
 {
     bake *b = a->b;
@@ -148,7 +148,7 @@ int bake_air(bake *b, report *r)
     return ok;
 }
 
-/* --- what moves --------------------------------------------------------------------------------------------------- */
+/* --- moving objects ----------------------------------------------------------------------------------------------- */
 
 static int by_id(const void *a, const void *b)
 {

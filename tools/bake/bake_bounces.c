@@ -1,4 +1,4 @@
-/* bake_bounces.c: runs of elements to which light comes alike, and links to them, by which light is reflected again. */
+/* bake_bounces.c: groups elements that receive similar light into runs, and links to them for further bounces. */
 #include "bake.h"
 
 #include <math.h>
@@ -8,15 +8,15 @@
 #include "bake_share.h"
 #include "bake_triangle.h"
 
-enum { POINTS = 2, TOGETHER = 64 / POINTS }; /* looked from, of a run: in the middle of each part of its area */
+enum { POINTS = 2, TOGETHER = 64 / POINTS }; /* sample points of a run: in the middle of each part of the area */
 
-#define LOOSE 24.0f /* times a receiver's error: a run stands for many places, and what it sends is seen by all */
-#define FOREIGN 1e20f /* error of a run of several zones: light of one is none of another's */
-#define FLAT  0.2f /* error of a run to which light comes evenly, beside its relative deviation: large ones are parted */
+#define LOOSE 24.0f /* times a receiver's error: a run covers many places, and all surfaces receive light from it */
+#define FOREIGN 1e20f /* error of a run with several zones, because no light passes between them */
+#define FLAT  0.2f /* error per area of an evenly lit run, added to the relative deviation: splits large runs */
 
 /* --- runs --------------------------------------------------------------------------------------------------------- */
 
-/* Elements first .. past - 1, and what is lost by taking them as one. */
+/* Elements first .. past - 1, and the error of treating them as one. */
 typedef struct run {
     uint32_t first, past;
     float error;
@@ -52,7 +52,7 @@ static run run_of(const bake *b, uint32_t first, uint32_t past, float floor)
     return out;
 }
 
-/* Where its area is halved. */
+/* Returns the element at which the area is halved. */
 static uint32_t middle_of(const bake *b, const run *r)
 {
     float area = 0.0f, half = 0.0f;
@@ -66,7 +66,7 @@ static uint32_t middle_of(const bake *b, const run *r)
     return at > r->first ? at : r->first + 1;
 }
 
-/* The worst one is parted until there are enough. */
+/* Splits the worst run until there are enough. */
 static uint32_t part(run *runs, const bake *b)
 {
     double light = 0.0;
@@ -97,7 +97,7 @@ static int by_first(const void *a, const void *b)
     return x->first < y->first ? -1 : 1;
 }
 
-/* --- what comes to them ------------------------------------------------------------------------------------------- */
+/* --- light that arrives ------------------------------------------------------------------------------------------- */
 
 typedef struct looks {
     lmb_vec3 at[TOGETHER * POINTS], normal[TOGETHER * POINTS];
@@ -105,7 +105,7 @@ typedef struct looks {
     int count;
 } looks;
 
-/* The element in whose part of a run's area `at` lies, m2. */
+/* The element at offset `at`, m2, of a run's area. */
 static uint32_t element_at(const bake *b, const run *r, float at)
 {
     uint32_t last = r->first;
@@ -136,7 +136,7 @@ static void add_looks(looks *l, const bake *b, const run *r, uint32_t of)
     }
 }
 
-/* The mean rows of `count` runs, into the first rows. */
+/* Puts the mean rows of `count` runs into the first rows. */
 static int look(float *const *row, const bake *b, const run *runs, uint32_t count, report *r)
 {
     looks l;
@@ -164,14 +164,14 @@ static int look(float *const *row, const bake *b, const run *runs, uint32_t coun
     return 1;
 }
 
-/* Batches of runs, and what becomes of them. */
+/* Batches of runs and their results. */
 typedef struct bounce_step {
     bake *b;
     const run *runs;
     uint32_t count;
     bake_linker *linker;
     float *row[TOGETHER * POINTS];
-    bake_target *target; /* of each run: its links and their unit */
+    bake_target *target; /* of each run: links and their unit */
 } bounce_step;
 
 static uint32_t past_of(const bounce_step *s, int32_t batch)
@@ -231,7 +231,7 @@ static int get_batch(void *user, int32_t batch, byte_reader *from)
     return !from->is_short;
 }
 
-/* Into the file. */
+/* Writes the runs into the sections of the file. */
 static int put_runs(const bounce_step *s, report *r)
 {
     bake_words *to = &s->b->section[LMB_TRANSFER_COARSE], *links = &s->b->section[LMB_TRANSFER_COARSE_LINKS];

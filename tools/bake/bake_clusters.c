@@ -1,4 +1,4 @@
-/* bake_clusters.c: small triangles -> clusters by place and normal, and the blends that light their corners. */
+/* bake_clusters.c: small triangles -> clusters by place and normal, and the blends that light triangle corners. */
 #include "bake.h"
 
 #include <math.h>
@@ -10,14 +10,14 @@
 #include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, NEIGHBOURS = 4, TARGET = 2000, SHARING = 4 };
-#define ALIKE 0.6f /* cosine within which normals share a cluster */
-#define BLEND 0.3f /* down to which a corner takes light from one */
+#define ALIKE 0.6f /* least cosine between normals that share a cluster */
+#define BLEND 0.3f /* least cosine between a corner's normal and a cluster that lights it */
 #define REACH 1.3f /* cells */
-#define ACROSS 1.1 /* of the work of a receiver's row: that of a cluster's three */
+#define ACROSS 1.1 /* cost of a cluster's three rows, in rows of a receiver */
 
 typedef struct clusters {
     bake *b;
-    uint32_t *slot; /* number + 1 */
+    uint32_t *slot; /* cluster + 1 */
     uint32_t mask;
     bake_sight sight;
     report *r;
@@ -83,7 +83,7 @@ static int by_generation(const void *a, const void *b)
     return x->key != y->key ? (x->key < y->key ? -1 : 1) : x->next < y->next ? -1 : 1;
 }
 
-/* Parents first, then neighbours side by side, because they see the same things; then the slots again. */
+/* Puts parents first, then neighbours next to each other, because they see the same geometry. Rebuilds the slots. */
 static void put_in_order(clusters *c)
 {
     bake *b = c->b;
@@ -220,7 +220,7 @@ static void offer(candidate best[NEIGHBOURS], uint32_t number, float weight)
     best[at].weight = weight;
 }
 
-/* Of all clusters, where none is within reach: the nearest that does not face away; where all do, the nearest. */
+/* If no cluster is within reach, offers the nearest that does not face away, or the nearest if all do. */
 static void offer_nearest(candidate best[NEIGHBOURS], const clusters *c, lmb_vec3 p, lmb_vec3 n)
 {
     for (uint32_t i = 0; i < c->b->cluster_count; ++i) {
@@ -233,8 +233,8 @@ static void offer_nearest(candidate best[NEIGHBOURS], const clusters *c, lmb_vec
     }
 }
 
-/* Four clusters and their weights, of 255 in all. They light `area` around a corner. Those that its triangle's middle,
- * `inside`, does not see lie behind a wall, but where it sees none. */
+/* Writes four clusters and their weights, which sum to 255. They light `area` around a corner. Clusters that the
+ * triangle's middle, `inside`, does not see lie behind a wall and are skipped, unless it sees none. */
 static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n, lmb_vec3 inside, float area)
 {
     candidate best[NEIGHBOURS] = {{0, 0.0f}, {0, 0.0f}, {0, 0.0f}, {0, 0.0f}};
@@ -296,7 +296,8 @@ static int visit(clusters *c, int (*each)(clusters *, const lmb_triangle *, lmb_
     return 1;
 }
 
-/* At a place that light comes to. Triangles without any take theirs from clusters around them. */
+/* Adds a triangle to a cluster at a point that light reaches. Triangles without such a point use clusters around
+ * them. */
 static int cluster_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, uint32_t id, uint32_t back)
 {
     const uint32_t open = c->b->small_open == NULL ? 1u : c->b->small_open[2 * (id - 1) + back];
@@ -310,7 +311,7 @@ static int cluster_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal,
     return 1;
 }
 
-/* A leaf whose corners are blends of their own. */
+/* Adds a leaf with separate blends for the corners. */
 static int bind_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, uint32_t id, uint32_t back)
 {
     bake *b = c->b;
@@ -342,7 +343,7 @@ int bake_clusters(bake *b, report *r)
         b->cluster_count = 0;
         memset(c.slot, 0, ((size_t)c.mask + 1) * sizeof *c.slot);
         ok = visit(&c, cluster_triangle);
-        if (ok && b->cluster_count == 0 && b->small_open != NULL) { /* none is open: then all are alike */
+        if (ok && b->cluster_count == 0 && b->small_open != NULL) { /* none is open: treat all alike */
             free(b->small_open);
             b->small_open = NULL;
             continue;

@@ -1,4 +1,4 @@
-/* bake_code.c: rows of what arrives -> links, for what parents do not say of them. */
+/* bake_code.c: rows of arriving light -> links, which encode the difference from the parents. */
 #include "bake.h"
 
 #include <stdlib.h>
@@ -6,8 +6,8 @@
 #include "../../platform/host/pool.h"
 #include "../../src/base/vec.h"
 
-#define SHARE 0.25f /* of a child's area that counts as a parent's */
-#define PARTS 1e-4f /* of all area: a receiver of so much has links of `error` each */
+#define SHARE 0.25f /* share of a child's area that is added to the parents */
+#define PARTS 1e-4f /* of all area: a receiver with this support has links of `error` each */
 
 typedef struct coder {
     bake *b;
@@ -15,7 +15,7 @@ typedef struct coder {
     size_t each;
     int axes;
     const uint32_t *order; /* of one generation */
-    uint32_t own;          /* that it has */
+    uint32_t own;          /* their number */
     bake_linker *linker[POOL_MAX];
     float *memory[POOL_MAX];
     uint8_t has_failed[POOL_MAX];
@@ -24,7 +24,7 @@ typedef struct coder {
 
 static bake_target *target_at(const coder *c, uint32_t i) { return (bake_target *)(void *)(c->target + i * c->each); }
 
-/* Add `times` what the parents say. */
+/* Adds `times` the row predicted by the parents. */
 static void add_parents(const coder *c, const bake_target *t, float *row, float times)
 {
     const size_t n = (size_t)c->axes * c->b->set.elements;
@@ -64,7 +64,7 @@ static void code_one(void *user, int index, int worker)
     }
 }
 
-/* A target's area counts for its parents too: what they are off by it has to mend. */
+/* Adds the area of a target to the parents, because the target has to correct their errors. */
 static void hand_up(coder *c, uint32_t count)
 {
     for (uint32_t i = count; i-- > 0;) {
@@ -77,7 +77,7 @@ static void hand_up(coder *c, uint32_t count)
     }
 }
 
-/* Each target's distance from those without parents; returns the largest. */
+/* Sets the distance of each target from those without parents; returns the largest. */
 static uint32_t set_generations(const coder *c, uint32_t *generation, uint32_t count)
 {
     uint32_t last = 0;

@@ -1,4 +1,4 @@
-/* bake_cuts.c: lines on large triangles where others stand on them or go through them -> a tree of cuts for each. */
+/* bake_cuts.c: cuts large triangles along lines at which other triangles touch or cross them -> trees of cuts. */
 #include "bake.h"
 
 #include <math.h>
@@ -9,12 +9,12 @@
 #include "bake_triangle.h"
 
 enum { DEPTH = 16, LINES = 512, FEW = 4, SHARE = 2 };
-#define TOUCH  0.01  /* of the smallest edge: what is that near to a plane lies on it */
-#define BESIDE 0.005 /* of it: lines so near to an edge cut nothing off */
-#define SHORT  0.05f /* of it: lines under this length are left out, at first */
-#define FEWER  4.0f  /* times that, where there are too many */
+#define TOUCH  0.01  /* of the smallest edge: points nearer to a plane count as on it */
+#define BESIDE 0.005 /* of the smallest edge: lines nearer to an edge cut nothing off */
+#define SHORT  0.05f /* of the smallest edge: shorter lines are ignored in the first pass */
+#define FEWER  4.0f  /* times longer in each further pass, if there are too many cuts */
 
-/* A place on a triangle's plane, m, and a line between two. */
+/* A point on a triangle's plane, m, and a line between two points. */
 typedef struct spot {
     double x, y;
 } spot;
@@ -26,11 +26,11 @@ typedef struct line {
 
 typedef struct cutter {
     bake *b;
-    lmb_vec3 *low, *high; /* of each triangle */
-    double touch, beside, shortest, side; /* side: longer edges are halved before they are cut by many lines */
+    lmb_vec3 *low, *high; /* bounds of each triangle */
+    double touch, beside, shortest, side; /* side: longer edges are halved before many lines cut them */
     lmb_triangle own;
-    double origin[3], u[3], v[3], n[3]; /* of the triangle at hand */
-    line lines[DEPTH + 1][LINES];       /* of a node and those above it */
+    double origin[3], u[3], v[3], n[3]; /* of the current triangle */
+    line lines[DEPTH + 1][LINES];       /* of a node and all above it */
     report *r;
 } cutter;
 
@@ -78,7 +78,7 @@ int bake_divide(bake *b, bake_words *nodes, size_t node, const bake_cut *c, uint
     return bake_put(cuts, word | (c->is_wall ? LMB_TRANSFER_WALL : 0), r) && bake_put_float(cuts, c->part, r);
 }
 
-/* Two more nodes, which are leaves. */
+/* Adds two more nodes, both leaves. */
 static int add_nodes(cutter *c, uint32_t *first)
 {
     bake *b = c->b;
@@ -109,7 +109,7 @@ static void to_plane(double out[3], const cutter *c, lmb_vec3 p)
     out[2] = along(d, c->n);
 }
 
-/* How far a place lies within the edge from corner k on: the corners go round to the left. */
+/* Returns how far a point lies inside the edge that starts at corner k; the corners are counter-clockwise. */
 static double within(const spot corner[3], int k, spot p)
 {
     const spot a = corner[k], b = corner[(k + 1) % 3];
@@ -125,7 +125,7 @@ static spot between(spot a, spot b, double part)
 
 static double distance(spot a, spot b) { return sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)); }
 
-/* What of a line lies on the triangle, and not along an edge; 0: too little. */
+/* Clips a line to the triangle. Returns 0 if too little is left or it runs along an edge. */
 static int clip(line *out, const cutter *c, const spot corner[3], const line *of)
 {
     *out = *of;
@@ -154,7 +154,7 @@ static void add_line(const cutter *c, line *to, int *count, const spot corner[3]
         return;
     }
     int at = *count;
-    if (*count == LINES) { /* the shortest goes */
+    if (*count == LINES) { /* drop the shortest */
         at = 0;
         for (int i = 1; i < LINES; ++i) {
             at = to[i].length < to[at].length ? i : at;
@@ -168,7 +168,7 @@ static void add_line(const cutter *c, line *to, int *count, const spot corner[3]
     to[at] = own;
 }
 
-/* Where another triangle meets the plane of the one at hand. */
+/* Adds the line in which another triangle meets the plane of the current one. */
 static void meet(cutter *c, int *count, const spot corner[3], const lmb_triangle *with)
 {
     double p[3][3];
@@ -180,7 +180,7 @@ static void meet(cutter *c, int *count, const spot corner[3], const lmb_triangle
         on += p[k][2] == 0.0;
     }
     if (on == 3) {
-        return; /* it lies in the plane: its neighbours stand on that */
+        return; /* lies in the plane: its neighbours meet the plane instead */
     }
     for (int k = 0; k < 3; ++k) {
         const double *a = p[k], *b = p[(k + 1) % 3];
@@ -212,8 +212,9 @@ static int longest_edge(const spot corner[3], double *length)
     return from;
 }
 
-/* Through a corner, if the line comes near to one; else from where it crosses an edge to the corner opposite, so that it
- * goes through a corner of what is left. 0: it cuts nothing off. */
+/* Chooses a cut through a corner if the line passes close to one. Otherwise the cut runs from a crossed edge to the
+ * opposite corner, so that the line passes through a corner of the remaining parts. Returns 0 if the line cuts
+ * nothing off. */
 static int choose_cut(bake_cut *out, const cutter *c, const spot corner[3], const line *by)
 {
     const double x = (by->end[1].x - by->end[0].x) / by->length, y = (by->end[1].y - by->end[0].y) / by->length;
@@ -242,7 +243,7 @@ static int choose_cut(bake_cut *out, const cutter *c, const spot corner[3], cons
 
 static int divide(cutter *c, uint32_t node, const spot corner[3], int count, int depth);
 
-/* The lines of both parts. */
+/* Distributes the lines to both parts. */
 static int enter_parts(cutter *c, uint32_t node, const bake_cut *cut, const spot corner[3], int count, int depth)
 {
     const int from = cut->from, to = (from + 1) % 3;
@@ -369,7 +370,7 @@ static void set_boxes(cutter *c)
     }
 }
 
-/* Fewer lines where there are more cuts than elements can follow. */
+/* Cuts all triangles, with fewer lines if there are more cuts than the elements can follow. */
 static int cut_all(cutter *c)
 {
     bake *b = c->b;
@@ -377,7 +378,7 @@ static int cut_all(cutter *c)
     c->shortest = (double)b->cut_shortest;
     do {
         memset(b->cut_root, 0, ((size_t)all + 1) * sizeof *b->cut_root);
-        b->cut_count = 2; /* node 0 is none */
+        b->cut_count = 2; /* node 0 means none */
         for (uint32_t id = 1; id <= all; ++id) {
             if (!cut_triangle(c, id)) {
                 return 0;

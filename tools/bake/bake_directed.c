@@ -1,9 +1,8 @@
-/* bake_directed.c: receivers of surfaces with a normal map or a lobe -> clusters of their own, which keep light by
- * direction.
+/* bake_directed.c: receivers of surfaces with a normal map or a lobe -> clusters, which keep light by direction.
  *
- * They are halved as others are. Then each one that such a leaf has for a corner becomes a cluster, and the two that it
- * is a difference from are its parents; a receiver that nothing else needs is gone.
- */
+ * These receivers are first divided like all others. Then each receiver that is a corner of such a leaf becomes a
+ * cluster, and the two receivers that it is coded against become the parents. A receiver that nothing else needs is
+ * removed. */
 #include "bake.h"
 
 #include <stdlib.h>
@@ -14,7 +13,7 @@
 
 enum { BATCH = 64, FLAT = 1, DIRECTED = 2, FIRST_HALF = 128, SECOND_HALF = 127 /* of 255 */ };
 
-/* What a receiver is needed for, and where it is kept then. */
+/* The uses of a receiver, and the cluster and blend that replace it. */
 typedef struct need {
     uint8_t as; /* FLAT, DIRECTED or both */
     uint32_t receiver, cluster, blend;
@@ -23,8 +22,8 @@ typedef struct need {
 typedef struct directing {
     bake *b;
     need *need;
-    float *area;    /* of a leaf whose corners keep directions, m2; else -1 */
-    uint32_t first; /* cluster that was a receiver */
+    float *area;    /* of a leaf with directed corners, m2; otherwise -1 */
+    uint32_t first; /* first cluster that was a receiver */
     report *r;
 } directing;
 
@@ -48,7 +47,7 @@ static void mark_leaves(const directing *d, uint32_t node, float area)
     mark_leaves(d, half + 1, (1.0f - part) * area);
 }
 
-/* Of large triangles; returns whether there is one. */
+/* Marks large triangles; returns whether there is one. */
 static int mark_triangles(const directing *d)
 {
     const bake *b = d->b;
@@ -75,7 +74,7 @@ static int mark_triangles(const directing *d)
 
 /* --- receivers ---------------------------------------------------------------------------------------------------- */
 
-/* What their leaves need; and what these are differences from, which lies before them. */
+/* Marks the receivers that the leaves need, and their parents, which come before them. */
 static void find_needs(const directing *d)
 {
     const uint32_t *corner = d->b->section[LMB_TRANSFER_CORNERS].data;
@@ -111,7 +110,7 @@ static int grow_clusters(directing *d, uint32_t more)
     return 1;
 }
 
-/* The cluster of a receiver, and a blend of it alone. */
+/* Adds the cluster of a receiver, and a blend of only this cluster. */
 static int add_cluster(directing *d, uint32_t i)
 {
     bake *b = d->b;
@@ -143,7 +142,7 @@ static int add_clusters(directing *d)
     return ok;
 }
 
-/* Those that no flat leaf needs go. */
+/* Removes receivers that no flat leaf needs. */
 static void drop_receivers(directing *d)
 {
     bake *b = d->b;
@@ -175,7 +174,7 @@ static int put_corner(directing *d, bake_words *to, uint32_t receiver, float are
     return bake_put(to, area < 0.0f ? n->receiver : n->blend, d->r);
 }
 
-/* Leaves in order: those of receivers, those of meshes, those with directions; `place` becomes where each went. */
+/* Orders leaves: those of receivers, of meshes, with directions; `place` becomes the new index of each. */
 static int put_corners(directing *d, bake_words *to, uint32_t *place)
 {
     bake *b = d->b;
@@ -230,7 +229,7 @@ static int by_key(const void *a, const void *b)
     return x->key != y->key ? (x->key < y->key ? -1 : 1) : x < y ? -1 : 1;
 }
 
-/* Neighbours go together: they see the same things. */
+/* Puts neighbours next to each other, because they see the same geometry. */
 static int make_rows(directing *d)
 {
     bake *b = d->b;

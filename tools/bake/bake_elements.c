@@ -1,4 +1,4 @@
-/* bake_elements.c: a scene's triangles -> elements of about one size, in order, and the way to them. */
+/* bake_elements.c: triangles -> elements of similar size, sorted, and the tree of pieces that leads to them. */
 #include "bake.h"
 
 #include <math.h>
@@ -8,15 +8,15 @@
 #include "bake_triangle.h"
 #include "../../src/radiosity/piece.h"
 
-enum { MESH = 500, CROWD = 8, WASTE = 4, CELL = 3 /* elements of a cell, at most, which walls part */ };
-#define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
-#define CLOSER  0.5f /* of that, where there are elements left for it */
-#define STANDING 0.4f /* of an element's size: so small are those that walls stand on by a corner or more */
-#define SLIVER  0.25f /* of that size: narrower triangles share elements, or they would take them all */
-#define BESIDE  0.1f  /* of the smallest edge: so far off a wall on either side places are looked at */
-#define CORNERS (7u << 3) /* of what a piece has on walls: a bit for each edge, then for each corner */
+enum { MESH = 500, CROWD = 8, WASTE = 4, CELL = 3 /* elements of a cell, at most, that walls separate */ };
+#define CONTACT 0.2f /* of an element's size: smallest size of elements that other geometry touches */
+#define CLOSER  0.5f /* of that, if enough elements are left */
+#define STANDING 0.4f /* of an element's size: size of elements with a wall at a corner */
+#define SLIVER  0.25f /* of that size: narrower triangles share elements, because they would use up all of them */
+#define BESIDE  0.1f  /* of the smallest edge: distance of the points tested on both sides of a wall */
+#define CORNERS (7u << 3) /* bits of a piece that record walls: three for edges, then three for corners */
 
-/* Few small triangles are no mesh: a box's sides get receivers of their own. */
+/* If there are few small triangles, they are no mesh: the sides of a box get receivers of their own. */
 static void set_small(bake *b)
 {
     const uint32_t all = lmb_scene_triangles(b->scene);
@@ -67,7 +67,7 @@ int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report
     return 1;
 }
 
-/* Corners that go round the normal. */
+/* Makes the corners counter-clockwise around the normal. */
 static void put_round(lmb_vec3 corner[3], lmb_vec3 normal)
 {
     if (dot3(normal, cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]))) < 0.0f) {
@@ -89,21 +89,21 @@ typedef struct maker {
     bake *b;
     bake_sight sight;
     float side, contact;
-    uint32_t *slot; /* of small triangles' cells: an element's number + 1 */
+    uint32_t *slot; /* hash table of small triangles' cells: element + 1 */
     uint32_t mask;
-    uint8_t *is_reached; /* a side of a triangle */
+    uint8_t *is_reached; /* per side of a triangle */
     int is_full;
-    int emits; /* the triangle at hand */
+    int emits; /* of the current triangle */
     int is_small, is_sliver;
-    int has_slivers; /* many: few get elements of their own, as a thin wall's edge should */
-    int had_slivers; /* when elements were as small as they may be */
-    int is_crowded;  /* so many go through something that they share elements there, too */
-    uint32_t own; /* its side: 2 (id - 1) + back */
-    uint32_t cut; /* its cuts' leaf at hand; 0: it has none */
+    int has_slivers; /* many slivers: they share elements; if few, each has one, as the edge of a thin wall should */
+    int had_slivers; /* at the smallest element size */
+    int is_crowded;  /* so many cross other geometry that those share elements too */
+    uint32_t own; /* current side: 2 (id - 1) + back */
+    uint32_t cut; /* leaf of the cuts at the current piece; 0: none */
     report *r;
 } maker;
 
-/* A triangle of an element that has several, or may get more. */
+/* Adds a triangle to an element that has several, or may get more. */
 static int add_part(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, uint32_t element, uint32_t side)
 {
     bake *b = m->b;
@@ -190,7 +190,7 @@ void bake_join(const bake *b, bake_element *e)
     }
 }
 
-/* No light comes to the triangle at hand, as far as is known: it shares no element with others. */
+/* No light reaches the current triangle, as far as is known, so it shares an element only with other closed ones. */
 static uint32_t is_closed(const maker *m)
 {
     return m->b->small_open != NULL && m->is_small && m->b->small_open[m->own] == 0;
@@ -224,7 +224,8 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
     }
 }
 
-/* Does a wall stand there on the line to another place? Lines of cuts go on where their walls end. */
+/* Returns whether there is a wall at this point of the line to another. Lines of cuts continue past the end of a
+ * wall. */
 static int is_wall(maker *m, lmb_vec3 at, lmb_vec3 to, lmb_vec3 normal)
 {
     const lmb_vec3 near = bake_pulled(m->b, at, to);
@@ -232,7 +233,7 @@ static int is_wall(maker *m, lmb_vec3 at, lmb_vec3 to, lmb_vec3 normal)
     return !bake_sees(&m->sight, m->b, add3(near, across), sub3(near, across), normal);
 }
 
-/* What a half has on walls: the line that cuts is an edge of both, from its new corner to the one opposite. */
+/* Returns the wall bits of both halves: the cut is an edge of each, from the new corner to the opposite one. */
 static void half_walls(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, const bake_cut *cut, uint32_t walls,
                        uint32_t out[2])
 {
@@ -270,8 +271,8 @@ static int halve_by(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t 
     return 1;
 }
 
-/* Cut a triangle, then halve it at its longest edge until it is small enough; nodes into the section of pieces. Where
- * walls stand on it light changes fast, so pieces are smaller there; but not as small as the blocks of a shadow map. */
+/* Cuts a triangle, then halves it at the longest edge until it is small enough; adds nodes to the section of pieces.
+ * Light changes fast next to walls, so pieces are smaller there, but larger than the blocks of a shadow map. */
 static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth, uint32_t walls)
 {
     bake_words *w = &m->b->section[LMB_TRANSFER_PIECES];
@@ -305,7 +306,7 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     return halve_by(m, corner, normal, node, depth, &cut, walls);
 }
 
-/* Both sides of a triangle: which show, by its material and how its instance mirrors it. */
+/* Adds the sides of a triangle that show, by material and mirroring of the instance. */
 static int add_triangle(maker *m, uint32_t id)
 {
     bake *b = m->b;
@@ -338,7 +339,7 @@ static int by_element(const void *a, const void *b)
     return x->element != y->element ? (x->element < y->element ? -1 : 1) : x->number < y->number ? -1 : 1;
 }
 
-/* Each element's own parts, side by side. */
+/* Makes the parts of each element adjacent. */
 static void take_parts(bake *b)
 {
     uint32_t kept = 0;
@@ -360,7 +361,8 @@ static void take_parts(bake *b)
     }
 }
 
-/* Long ones alone: a mesh's small triangles share elements anyway, and are no reason for a window's jambs to do so. */
+/* Counts only long slivers: small triangles of a mesh share elements anyway, and do not force a window's jambs to
+ * share. */
 static uint32_t slivers(const maker *m)
 {
     uint32_t count = 0;
@@ -416,7 +418,7 @@ static int by_key(const void *a, const void *b)
     return x->key != y->key ? (x->key < y->key ? -1 : 1) : x->number < y->number ? -1 : 1;
 }
 
-/* Of nodes of four: theirs, if it is one. */
+/* Returns the common zone of four nodes, if they have one. */
 static uint32_t join_zones(const uint32_t child[4])
 {
     uint32_t zone = BAKE_NO_ZONE;
@@ -497,7 +499,7 @@ int bake_order(bake *b, report *r)
     return 1;
 }
 
-/* Which sides are there: all, or those that an earlier call kept. */
+/* Sets the sides to use: all, or those that an earlier call kept. */
 static int set_reached(maker *m, uint32_t all)
 {
     bake_words *surfaces = &m->b->section[LMB_TRANSFER_SURFACES];
@@ -514,7 +516,7 @@ static int set_reached(maker *m, uint32_t all)
     return m->is_reached != NULL || report_fail(m->r, "not enough memory for %u triangles", (unsigned)all);
 }
 
-/* Elements as small as they may be. */
+/* Makes elements as small as their number allows. */
 static int make_small(maker *m)
 {
     const lmb_scene *s = m->b->scene;
@@ -524,7 +526,7 @@ static int make_small(maker *m)
     m->side = smallest;
     while (ok && (ok = make(m)) != 0 && m->is_full) {
         m->side *= 1.1f;
-        if (m->side > longest && m->b->cut_count > 2) { /* what is left are cuts */
+        if (m->side > longest && m->b->cut_count > 2) { /* only cuts are left */
             m->side = smallest;
             ok = bake_cuts(m->b, m->r);
         }
@@ -547,11 +549,11 @@ int bake_elements(bake *b, report *r)
     ok = ok && bake_sight_begin(&m.sight, r) && set_reached(&m, lmb_scene_triangles(b->scene));
     m.contact = CONTACT;
     ok = ok && make_small(&m);
-    if (ok && m.had_slivers && b->element_count < b->set.elements / WASTE) { /* else a room would be a few elements */
+    if (ok && m.had_slivers && b->element_count < b->set.elements / WASTE) { /* or a room would be a few elements */
         m.is_crowded = 1;
         ok = make_small(&m);
     }
-    m.contact = CLOSER * CONTACT; /* light leaks through a thin wall by the elements that it cuts */
+    m.contact = CLOSER * CONTACT; /* light leaks through a thin wall at elements that cross it */
     if (ok && (ok = make(&m)) != 0 && m.is_full) {
         m.contact = CONTACT;
         ok = make(&m);

@@ -1,4 +1,4 @@
-/* bake_file.c: what was baked -> the bytes of a .lmt. */
+/* bake_file.c: bake results -> the bytes of a .lmt. */
 #include "bake.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "../../src/transfer/sections.h"
 #include "../common/checksum.h"
 
-/* Its links: the first one's place, their number, their unit. */
+/* Writes the index of the first link, their number and unit. */
 static int put_links(bake_words *to, bake_words *links, const bake_target *t, uint32_t words_each, report *r)
 {
     const uint32_t first = (uint32_t)(links->count / words_each);
@@ -36,7 +36,7 @@ static int put_receivers(bake *b, report *r)
     return 1;
 }
 
-/* Up to four parents and their weights, of 255. */
+/* Writes up to four parents and their weights, which sum to 255. */
 static int put_clusters(bake *b, report *r)
 {
     bake_words *w = &b->section[LMB_TRANSFER_CLUSTERS];
@@ -57,7 +57,7 @@ static int put_clusters(bake *b, report *r)
 
 static void swap_words(uint8_t *data, size_t bytes)
 {
-    for (size_t i = 4; i + 4 <= bytes; i += 4) { /* behind `LMT` and the version */
+    for (size_t i = 4; i + 4 <= bytes; i += 4) { /* after `LMT` and the version */
         const uint8_t word[4] = {data[i], data[i + 1], data[i + 2], data[i + 3]};
         for (size_t k = 0; k < 4; ++k) {
             data[i + k] = word[3 - k];

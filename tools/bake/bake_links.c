@@ -1,4 +1,4 @@
-/* bake_links.c: a row of what arrives of each element -> links to few nodes, whose means stand for their elements. */
+/* bake_links.c: a row of arriving light per element -> links to few nodes that stand for the mean of their elements. */
 #include "bake.h"
 
 #include <math.h>
@@ -8,18 +8,18 @@
 #include "../../src/base/vec.h"
 
 enum { AXES = 3, MAX_LINKS = 4096 };
-#define FOREIGN 1e30f /* error of a node that has elements of several zones: these see nothing of each other */
-#define FAINT 1e-20f /* squared: so little comes along planes, by rounding */
-#define ACROSS 0.35f /* of an error across the normal: what counts of it on surfaces turned by up to some 50 degrees */
+#define FOREIGN 1e30f /* error of a node with elements of several zones, which do not see each other */
+#define FAINT 1e-20f /* squared: rounding noise of light along a plane */
+#define ACROSS 0.35f /* weight of an error across the normal, for surfaces tilted by up to about 50 degrees */
 
 /* Sums over a node's elements, of one row. */
 typedef struct sums {
-    float w[AXES]; /* what arrives; of three axes along the linker's own */
+    float w[AXES]; /* arriving light; 3 axes: along the linker's axes */
     float a;       /* area */
-    float error;   /* squared error of taking the node as one */
+    float error;   /* squared error of using the node as a whole */
 } sums;
 
-/* A node that is to be linked, or taken apart. */
+/* A node that is to be linked, or split. */
 typedef struct entry {
     float error;
     uint32_t node;
@@ -28,7 +28,7 @@ typedef struct entry {
 struct bake_linker {
     const bake *b;
     int axes;
-    lmb_vec3 axis[AXES]; /* the last one the normal */
+    lmb_vec3 axis[AXES]; /* the last is the normal */
     sums *sum;
     entry heap[MAX_LINKS + 4];
 };
@@ -58,9 +58,9 @@ void bake_linker_free(bake_linker *l)
 
 static float size_of(const sums *s) { return s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2]; }
 
-/* A node as one says that each child gives as much as its area is. The error is what that is off by, times how much
- * light differs among the children. Lit and dark places meet along lines: a node of twice the side is as likely again
- * to hold both. */
+/* Using a node as a whole assumes that each child sends light in proportion to area. The error is the deviation,
+ * weighted by how much light differs among the children. Lit and dark places meet along lines, so a node of twice
+ * the side is twice as likely to contain both. */
 static void join(sums *to, const sums child[4], float likely)
 {
     memset(to, 0, sizeof *to);
@@ -100,7 +100,7 @@ static uint32_t root_of(uint32_t elements)
     return nodes - 1;
 }
 
-/* Each error counts in full along the normal, and less across it. */
+/* Errors count in full along the normal, and less across it. */
 static void set_axes(bake_linker *l, int axes, lmb_vec3 normal)
 {
     l->axes = axes;
@@ -195,7 +195,7 @@ static int by_node(const void *a, const void *b)
     return x->node < y->node ? -1 : 1;
 }
 
-/* Links that hardly count go. */
+/* Drops links with little weight. */
 static uint32_t drop_small(bake_linker *l, uint32_t count, float price)
 {
     uint32_t kept = 0;
@@ -210,7 +210,7 @@ static uint32_t drop_small(bake_linker *l, uint32_t count, float price)
 
 /* --- weights ------------------------------------------------------------------------------------------------------ */
 
-/* What dropped links would have brought goes to those that stay, each as much as it has: light that is lost adds up. */
+/* Distributes the light of dropped links over the others in proportion, because losses accumulate. */
 static void make_up(sums *s, const entry *link, uint32_t count, const sums *all)
 {
     for (int k = 0; k < AXES; ++k) {
@@ -226,7 +226,7 @@ static void make_up(sums *s, const entry *link, uint32_t count, const sums *all)
     }
 }
 
-/* From the linker's axes to those of rows. */
+/* Converts weights from the linker's axes to those of rows. */
 static void turn_back(const bake_linker *l, uint32_t count)
 {
     for (uint32_t i = 0; l->axes == AXES && i < count; ++i) {
@@ -252,7 +252,7 @@ static float scale_for(const sums *s, const entry *link, uint32_t count)
     return largest / ((float)LMB_TRANSFER_MAX_SUM - 0.5f * (float)count - 1.0f);
 }
 
-/* What a link says of each element: the node's weight by area. */
+/* Distributes the weight of a node over the elements below it, by area. */
 static void spread(const bake *b, float *row, uint32_t node, float weight, float area)
 {
     uint32_t first;
@@ -297,7 +297,7 @@ int bake_links(bake_linker *l, float *const *row, int axes, lmb_vec3 normal, flo
     return ok;
 }
 
-/* Groups of a 256th of the elements, and fours: beside these receivers light has finer detail. */
+/* Sums squares over groups of a 256th of the elements, and of four. Light near these receivers has finer detail. */
 float bake_surplus(const bake *b, const float *row)
 {
     const uint32_t each = b->set.elements / 256 > 4 ? b->set.elements / 256 : 4;

@@ -1,4 +1,4 @@
-/* bake_parents.c: which clusters stand for others: few far apart come first, then more and more between them. */
+/* bake_parents.c: which clusters predict others: first a few that are far apart, then more and more between them. */
 #include "bake.h"
 
 #include <stdlib.h>
@@ -6,9 +6,9 @@
 #include "../../src/base/vec.h"
 
 enum { FIRST = 32, GROUPS = 256, AXES = 3, ROUNDS = 24 };
-#define TURN 64.0f /* squared cells of place that normals at a right angle are apart */
+#define TURN 64.0f /* normals at a right angle count as this squared distance in cells */
 
-/* Squared, in cells. */
+/* Squared distance, in cells. */
 static float apart(const bake_cluster *x, const bake_cluster *y, float cell)
 {
     const lmb_vec3 d = sub3(x->at, y->at);
@@ -35,10 +35,10 @@ void bake_generations(bake_cluster *c, uint32_t count, float cell)
     }
 }
 
-/* --- shares: a row as a sum of its parents', by least squares over few sums --------------------------------------- */
+/* --- shares: a row as a sum of the parents' rows, by least squares over few sums ---------------------------------- */
 
 typedef struct fit {
-    const float *row[BAKE_PARENTS + 1]; /* parents; the child: AXES x GROUPS sums */
+    const float *row[BAKE_PARENTS + 1]; /* of the parents, then the child: AXES x GROUPS sums */
     float product[BAKE_PARENTS][BAKE_PARENTS + 1];
 } fit;
 
@@ -53,7 +53,7 @@ static void set_row(float *out, const uint16_t *row, uint32_t elements)
     }
 }
 
-/* Each share in turn becomes the best one beside the others: none under 0, all at most 1. */
+/* Optimizes one share after the other, with all others fixed: none below 0, each at most 1. */
 static void solve(fit *f, float share[BAKE_PARENTS], int parents)
 {
     for (int i = 0; i < parents; ++i) {
@@ -78,7 +78,7 @@ static void solve(fit *f, float share[BAKE_PARENTS], int parents)
     }
 }
 
-/* The nearest of former generations; `count` of them come first. Returns how many. */
+/* Finds the nearest clusters of former generations, which are the first `count`. Returns how many. */
 static int nearest(uint32_t best[BAKE_PARENTS], const bake_cluster *c, uint32_t count, const bake_cluster *of, float cell)
 {
     float far[BAKE_PARENTS];
@@ -122,7 +122,7 @@ int bake_parents(bake *b, report *r)
             f.row[k] = sums + SUMS * (size_t)t->parent[k];
         }
         solve(&f, t->share, parents);
-        for (int k = 0; k < BAKE_PARENTS; ++k) { /* as the file has them */
+        for (int k = 0; k < BAKE_PARENTS; ++k) { /* as the file stores them */
             t->share[k] = (float)(uint32_t)(t->share[k] * 255.0f) * (1.0f / 255.0f);
             t->parent[k] = t->share[k] > 0.0f ? t->parent[k] : 0;
         }

@@ -1,4 +1,5 @@
-/* bake_reach.c: which sides of surfaces light can come to, and be seen from: the insides of solids are left out. */
+/* bake_reach.c: which sides of surfaces light can reach, seen from the lights and cameras; removes the insides of
+ * solids. */
 #include "bake.h"
 
 #include <math.h>
@@ -8,15 +9,15 @@
 #include "../../src/base/vec.h"
 #include "bake_share.h"
 
-enum { BATCH = 64, PARTS = 64, WITNESSES = BAKE_NEAREST, SHARED = 1024 /* elements, from which slices share a step */ };
-#define MIDDLES 0.5 /* of the work of a receiver's row: that of a place which asks for middles alone */
-#define GRAZING 0.003f /* cosine from which two elements see each other for sure */
+enum { BATCH = 64, PARTS = 64, WITNESSES = BAKE_NEAREST, SHARED = 1024 /* SHARED elements: slices share a step */ };
+#define MIDDLES 0.5 /* cost of a place that uses only middles, in rows of a receiver */
+#define GRAZING 0.003f /* least cosine for which two elements surely see each other */
 #define BRIGHT 0.01f /* of the mean */
-#define OVER   0.05f /* of the smallest edge: parts of an element are looked at from so far over it */
+#define OVER   0.05f /* of the smallest edge: height of the sample points over an element */
 
-#define ALBEDO 0.5f  /* of all surfaces */
-#define DARK   1e-6f /* of the brightest element: less came through a crack */
-#define HIDDEN 0.01  /* of the mean light: is put in order apart */
+#define ALBEDO 0.5f  /* assumed for all surfaces */
+#define DARK   1e-6f /* of the brightest element: less light came through a crack */
+#define HIDDEN 0.01  /* of the mean light: darker elements are sorted apart */
 
 typedef struct sender {
     float light;
@@ -25,17 +26,17 @@ typedef struct sender {
 
 typedef struct reach {
     bake *b;
-    uint8_t *has_sent; /* an element */
-    sender *order;     /* the brightest first */
+    uint8_t *has_sent; /* per element */
+    sender *order;     /* brightest first */
     float *memory;
-    float *before; /* each element's light before a step */
-    float bright; /* light over this came through no crack */
-    uint64_t *seen; /* by an element: which points of a batch */
-    uint32_t *zone; /* an element's: itself, or another one with which it shares light */
+    float *before; /* light of each element before a step */
+    float bright; /* more light than this did not come through a crack */
+    uint64_t *seen; /* by element: which points of a batch */
+    uint32_t *zone; /* by element: itself, or another one that shares light with it */
     report *r;
 } reach;
 
-/* Points that send their light at once, to all elements or some. */
+/* Points that send light together, to all or some elements. */
 typedef struct sending {
     reach *w;
     const lmb_vec3 *at, *normal;
@@ -44,7 +45,7 @@ typedef struct sending {
     float *row[BATCH];
 } sending;
 
-/* Neither lies in the other's plane, where rounding may show one to the other through the edge of a wall. */
+/* Excludes pairs in each other's plane, which rounding may connect through the edge of a wall. */
 static int are_facing(const bake_element *e, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_vec3 d = sub3(bake_place(e), at), facing = bake_facing(e);
@@ -52,7 +53,7 @@ static int are_facing(const bake_element *e, lmb_vec3 at, lmb_vec3 normal)
     return dot3(d, normal) > low && dot3(d, facing) < -low;
 }
 
-/* By reciprocity all gets as much as the points see of it. */
+/* By reciprocity each element receives as much as the points see of it. */
 static int send_part(void *user, int32_t part, report *r)
 {
     const sending *s = user;
@@ -124,8 +125,8 @@ static void unite(reach *w, uint32_t a, uint32_t b)
     w->zone[a > b ? a : b] = a > b ? b : a;
 }
 
-/* Elements share light with those that sent it to them: all that a point sees has one zone. `from`: the senders, or NULL
- * where all points are one place in the air. */
+/* Joins elements with those that sent light to them: everything a point sees is one zone. `from`: the senders, or
+ * NULL if all points are one place in the air. */
 static void unite_seen(reach *w, const uint32_t *from)
 {
     uint32_t first = LMB_TRANSFER_NONE;
@@ -140,7 +141,7 @@ static void unite_seen(reach *w, const uint32_t *from)
     }
 }
 
-/* 1 and up, by their first elements; elements alone have none, as nothing is known of these. */
+/* Numbers zones from 1 on, by their first elements. Single elements get none, because nothing is known of them. */
 static int set_zones(reach *w)
 {
     const bake *b = w->b;
@@ -155,7 +156,7 @@ static int set_zones(reach *w)
     return size != NULL || report_fail(w->r, "not enough memory for %u elements", (unsigned)b->element_count);
 }
 
-/* Light goes from points to all that they see. */
+/* Sends light from points to all that they see. */
 static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const float *power, int count, const uint32_t *from)
 {
     bake_share *share = w->b->set.elements >= SHARED ? w->b->share : NULL;
@@ -175,7 +176,7 @@ static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const floa
     return ok;
 }
 
-/* All around a point in the air. */
+/* Sends light in all directions from a point in the air. */
 static int send_around(reach *w, lmb_vec3 from)
 {
     static const float power[6] = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
@@ -194,7 +195,8 @@ static int by_light(const void *a, const void *b)
     return x->light != y->light ? (x->light > y->light ? -1 : 1) : x->element < y->element ? -1 : 1;
 }
 
-/* The brightest elements that have not sent their light yet, but for those that lie half in a solid; returns how many. */
+/* Chooses the brightest elements that have not sent their light yet, except those partly inside a solid; returns how
+ * many. */
 static int next_senders(reach *w, uint32_t chosen[BATCH])
 {
     const bake *b = w->b;
@@ -249,7 +251,7 @@ static int spread(reach *w, const lmb_vec3 *eyes, uint32_t count)
     return 1;
 }
 
-/* A triangle's side stays where one of its elements was reached. */
+/* A side of a triangle stays if one of its elements was reached. */
 static int is_side_reached(const reach *w, uint32_t root)
 {
     const uint32_t *node = w->b->section[LMB_TRANSFER_PIECES].data;
@@ -261,7 +263,7 @@ static int is_side_reached(const reach *w, uint32_t root)
     return is_side_reached(w, first) || is_side_reached(w, first + 1);
 }
 
-/* Leaves of cuts to which no light comes, as the floor under a box, need one element each. */
+/* Leaves of cuts that no light reaches, as the floor under a box, need one element each. */
 static void close_leaves(const reach *w, uint32_t root, uint32_t cut, uint32_t back)
 {
     bake_cut *c = &w->b->cut[cut];
@@ -288,9 +290,9 @@ static void close_cuts(const reach *w, int ok)
     }
 }
 
-/* --- elements on which something stands --------------------------------------------------------------------------- */
+/* --- elements that other geometry touches ------------------------------------------------------------------------- */
 
-/* The nearest reached elements that it faces, and that face it. */
+/* Finds the nearest reached elements that face it and that it faces. */
 static void find_witnesses(bake_nearest *out, const reach *w, const bake_element *e)
 {
     out->count = 0;
@@ -306,7 +308,7 @@ static void find_witnesses(bake_nearest *out, const reach *w, const bake_element
     }
 }
 
-/* The middles of its 64 parts, and places just over them. */
+/* The middles of 64 parts of an element, and points just above them. */
 static void set_parts(const bake *b, const bake_element *e, lmb_vec3 at[PARTS], lmb_tile *tile)
 {
     const lmb_vec3 u = mul3(sub3(e->corner[1], e->corner[0]), 0.125f),
@@ -328,7 +330,7 @@ static void set_parts(const bake *b, const bake_element *e, lmb_vec3 at[PARTS], 
     tile->hits = count;
 }
 
-/* Parts are open that see some surface that light came to. */
+/* Parts that see a lit surface are open. */
 static void open_element(const reach *w, bake_element *e, lmb_tile *tile, lmb_traversal *traversal)
 {
     bake_nearest witness;
@@ -346,7 +348,7 @@ static void open_element(const reach *w, bake_element *e, lmb_tile *tile, lmb_tr
     for (uint64_t bits = ~hidden; bits != 0; bits &= bits - 1) {
         sum = add3(sum, at[lowest_bit_64(bits)]);
     }
-    if (open == 0 && e->light > w->bright) { /* its middle is lit, by what is none of those */
+    if (open == 0 && e->light > w->bright) { /* the middle is lit, but not from these witnesses */
         return;
     }
     e->open = (float)open * (1.0f / (float)PARTS);
@@ -371,7 +373,7 @@ static int open_elements(reach *w)
     return tile != NULL || report_fail(w->r, "not enough memory for a tile");
 }
 
-/* Of several triangles those parts count that see a lit surface. */
+/* Joins parts that see a lit surface. */
 static void join_elements(bake *b)
 {
     for (uint32_t i = 0; i < b->element_count; ++i) {
@@ -379,7 +381,7 @@ static void join_elements(bake *b)
     }
 }
 
-/* What no light came to is no part of what a node sends, either: its mean is over what light comes to. */
+/* Area without light sends nothing, so it counts in no mean of a node. */
 static void sort_out(const reach *w)
 {
     bake *b = w->b;
@@ -418,7 +420,7 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
     int ok = (w.has_sent != NULL && w.order != NULL && w.memory != NULL && w.before != NULL && w.seen != NULL &&
               w.zone != NULL) ||
              report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements);
-    b->by_middles = 1; /* what lies half in a solid must not lead into it */
+    b->by_middles = 1; /* elements partly in a solid must not lead into it */
     ok = ok && spread(&w, eyes, count);
     b->by_middles = 0;
     ok = ok && open_elements(&w) && bake_smalls(b, r) && set_zones(&w);
@@ -445,7 +447,7 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
     return ok;
 }
 
-/* Once to leave out whole sides; then all elements lie on the others. */
+/* The first pass removes whole sides; then all elements lie on the rest. */
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
     return bake_cuts(b, r) && bake_elements(b, r) && find_reached(b, eyes, count, r) && bake_elements(b, r) &&

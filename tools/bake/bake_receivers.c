@@ -1,4 +1,4 @@
-/* bake_receivers.c: large triangles -> receivers, halved until what arrives is nearly linear between them. */
+/* bake_receivers.c: large triangles -> receivers; halves them until arriving light is nearly linear in between. */
 #include "bake.h"
 
 #include <math.h>
@@ -11,22 +11,22 @@
 #include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64, PLACES = 4 };
-#define DIM    0.25f /* of the mean light: where less comes, errors count less */
-#define BURIED 2.0f /* times as much light comes to a place within a leaf as to its corners: these lie in something */
-#define WAIT   0.1f  /* of the worst error: what is off by less waits, as receivers may run out */
-#define LOOK   0.45 /* of the work of a receiver: that of a point which is only looked at */
-#define STANDS 0.1f /* surplus of a triangle on which something stands: what its corners differ by says nothing */
+#define DIM    0.25f /* of the mean light: in darker places errors count less */
+#define BURIED 2.0f /* times the light of the brightest corner: if an inner point has more, the corners are buried */
+#define WAIT   0.1f  /* of the worst error: smaller errors wait, because receivers may run out */
+#define LOOK   0.45 /* cost of a sample point, in rows of a receiver */
+#define STANDS 0.1f /* surplus of a triangle that geometry touches; differences between corners are no estimate there */
 
 /* A triangle of the division. */
 typedef struct piece {
     lmb_vec3 corner[3], normal;
     uint32_t receiver[3], node;
-    uint32_t mid; /* receiver in the middle of its longest edge */
+    uint32_t mid; /* receiver at the midpoint of the longest edge */
     int from, depth;
-    int must_split; /* something stands on it */
+    int must_split; /* other geometry touches it */
     float surplus, error;
-    uint32_t source; /* node among pieces of which it is part, or the same: both are halved alike */
-    float light;     /* the most that comes to an element there */
+    uint32_t source; /* node of the element pieces that contains this piece; both trees halve alike */
+    float light;     /* the most that reaches an element there */
 } piece;
 
 typedef struct pieces {
@@ -34,25 +34,25 @@ typedef struct pieces {
     size_t count, cap;
 } pieces;
 
-/* A receiver to be made, or a point that is only looked at. */
+/* A receiver to be made, or a sample point. */
 typedef struct wanted {
     lmb_vec3 at, normal;
-    uint32_t parent[3], receiver; /* receiver NONE: looked at: what differs from the mean of three parents */
+    uint32_t parent[3], receiver; /* receiver NONE: a sample, compared with the mean of three parents */
     size_t piece;
-    uint32_t key; /* place along a Z curve, by the side it faces */
+    uint32_t key; /* position on a Z curve, by the octant of the normal */
     float surplus;
     size_t number;
 } wanted;
 
 typedef struct divider {
     bake *b;
-    pieces now, waiting, leaves; /* to be looked at; with their errors; done */
+    pieces now, waiting, leaves; /* to be sampled; with their errors; done */
     wanted *queue;
     size_t queued, queue_cap;
-    uint32_t *slot; /* of places: receiver + 1 */
+    uint32_t *slot; /* hash table by place: receiver + 1 */
     uint32_t mask;
     bake_sight sight;
-    float light; /* the elements' mean */
+    float light; /* mean over the elements */
     report *r;
 } divider;
 
@@ -73,7 +73,7 @@ static int grow(void **data, size_t *cap, size_t count, size_t each, report *r)
     return 1;
 }
 
-/* qsort takes no empty list without memory. */
+/* Calls qsort only if there are items: the list may be NULL otherwise. */
 static void sort(void *data, size_t count, size_t each, int (*compare)(const void *, const void *))
 {
     if (count > 0) {
@@ -117,7 +117,7 @@ static uint32_t hash_of(const bake *b, lmb_vec3 at, int dx, int dy, int dz)
     return h ^ h >> 15;
 }
 
-/* The receiver near a place that one at `own` sees, so that no wall parts them; or NONE. */
+/* Finds a receiver near a place that a receiver at `own` would see, so that no wall lies between them; or NONE. */
 static uint32_t find(divider *d, lmb_vec3 at, lmb_vec3 own, lmb_vec3 normal)
 {
     for (int i = 0; i < 27; ++i) {
@@ -170,9 +170,9 @@ static uint32_t receiver_at(divider *d, lmb_vec3 at, lmb_vec3 normal, lmb_vec3 t
     return there != LMB_TRANSFER_NONE ? there : add_receiver(d, at, own, normal, a, b, 1);
 }
 
-/* --- what stands on a triangle ------------------------------------------------------------------------------------ */
+/* --- geometry that touches a triangle ----------------------------------------------------------------------------- */
 
-/* A corner that does not see the leaf's anchor is lit as the last place on the way that does. */
+/* A corner that does not see the anchor of the leaf is replaced by the last visible point on the way to it. */
 static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t parent)
 {
     const lmb_vec3 corner = d->b->receiver[p->receiver[k]].at;
@@ -194,8 +194,8 @@ static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t pa
     return p->receiver[k] != LMB_TRANSFER_NONE;
 }
 
-/* The leaf's middle, or, where that lies in something that stands there, the corner to which most light comes. Where
- * much more comes to a place within the leaf all corners are buried, and it is that place. */
+/* The anchor is the leaf's middle. If geometry covers the middle, it is the corner with most light. If a point
+ * within the leaf gets much more light, all corners are buried and the anchor is that point. */
 static int mend_corners(divider *d, piece *p, const float light[PLACES])
 {
     lmb_vec3 place[PLACES];
@@ -227,7 +227,7 @@ static int mend_corners(divider *d, piece *p, const float light[PLACES])
 
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
-/* One batch: what is wanted, and its rows. */
+/* One batch of points and their rows. */
 typedef struct batch {
     divider *d;
     wanted *wanted;
@@ -235,7 +235,7 @@ typedef struct batch {
     const float *times; /* NULL: rows are whole */
 } batch;
 
-/* A receiver keeps its row; of what is not a root the surplus is what that differs by from its parents'. */
+/* Stores the row of a receiver. If it has parents, the surplus measures the difference from their mean. */
 static void settle(void *user, int index, int worker)
 {
     const batch *k = user;
@@ -288,17 +288,17 @@ static int keep_rows(divider *d, const wanted *w, int count, report *r)
     return 1;
 }
 
-/* The queue in batches. */
+/* The queue, split into batches. */
 typedef struct queue_step {
     divider *d;
-    size_t *first; /* of each batch; the end */
+    size_t *first; /* index per batch; then the end */
     int32_t batches;
     float *memory, *row[BATCH];
 } queue_step;
 
 static int count_of(const queue_step *q, int32_t i) { return (int)(q->first[i + 1] - q->first[i]); }
 
-/* What comes to a receiver is no difference from light of another zone. */
+/* Drops the parents if one is in another zone: light of another zone does not help to predict this receiver. */
 static void part_zones(const bake *b, bake_target *t)
 {
     t->zone = bake_zone_of(b, t->row, 1);
@@ -324,7 +324,7 @@ static void tell_pieces(const queue_step *q, int32_t number)
     }
 }
 
-/* Points that are only looked at get along with a quarter of the far elements. */
+/* Computes the rows of a batch. Sample points use only a quarter of the far elements. */
 static int make_batch(void *user, int32_t number, report *r)
 {
     const queue_step *q = user;
@@ -388,7 +388,7 @@ static int get_batch(void *user, int32_t number, byte_reader *from)
     return ok;
 }
 
-/* Neighbours go together: they see the same things. Receivers and looks never do. */
+/* Batches hold neighbours, because they see the same geometry. They never mix receivers and samples. */
 static int put_batches(queue_step *q)
 {
     const divider *d = q->d;
@@ -407,7 +407,7 @@ static int put_batches(queue_step *q)
     return 1;
 }
 
-/* Everything in the queue. */
+/* Computes all rows of the queue. */
 static int make_rows(divider *d)
 {
     for (size_t i = 0; i < d->queued; ++i) {
@@ -431,7 +431,7 @@ static int make_rows(divider *d)
 
 /* --- division ----------------------------------------------------------------------------------------------------- */
 
-/* The places where a piece is looked at: the middle of its longest edge, and its own. */
+/* Queues the sample points of a piece: the midpoint of the longest edge, and the middle. */
 static int look_at(divider *d, size_t i)
 {
     piece *p = &d->now.data[i];
@@ -449,7 +449,7 @@ static int look_at(divider *d, size_t i)
     p->mid = receiver_at(d, mid, p->normal, middle, p->receiver[p->from], p->receiver[to]);
     if (d->queued > before) {
         d->queue[before].piece = i;
-    } else if (p->mid != LMB_TRANSFER_NONE) { /* a neighbour's: looked at once more */
+    } else if (p->mid != LMB_TRANSFER_NONE) { /* a neighbour made it: sample it once more */
         const uint32_t a = p->receiver[p->from], b = p->receiver[to];
         const wanted w = {
             d->b->receiver[p->mid].at, p->normal, {a, b, LMB_TRANSFER_NONE}, LMB_TRANSFER_NONE, i, 0, 0.0f, 0};
@@ -461,14 +461,14 @@ static int look_at(divider *d, size_t i)
     return p->mid != LMB_TRANSFER_NONE && enqueue(d, &w);
 }
 
-/* A leaf's place in the file; its corners are mended when all are there. */
+/* Sets a leaf's index in the file. The corners are mended when all leaves exist. */
 static int put_leaf(divider *d, const piece *p)
 {
     d->b->section[LMB_TRANSFER_DIVISIONS].data[p->node] = LMB_TRANSFER_LEAF | (uint32_t)d->leaves.count;
     return add_piece(&d->leaves, p, d->r);
 }
 
-/* Leaves on which something stands, and how much light comes to places within each. */
+/* Leaves that geometry touches, and the light at points within each. */
 typedef struct mending {
     divider *d;
     uint32_t *leaf;
@@ -482,7 +482,7 @@ static uint32_t past_of(const mending *m, int32_t number)
     return bake_past(number, BATCH / PLACES, m->count);
 }
 
-/* BATCH / PLACES of them. */
+/* Lights the points of BATCH / PLACES leaves. */
 static int light_places(void *user, int32_t number, report *r)
 {
     const mending *m = user;
@@ -533,7 +533,7 @@ static int get_light(void *user, int32_t number, byte_reader *from)
     return !from->is_short;
 }
 
-/* From its middle, as a leaf would be mended: corners lie where the first triangle at them had them. */
+/* Tests from the middle, like the mending of a leaf: the first triangle at a corner defines the position. */
 static int sees_corners(divider *d, const piece *p)
 {
     const lmb_vec3 middle = triangle_middle(p->corner);
@@ -568,7 +568,7 @@ static int mend_leaves(divider *d)
     return ok;
 }
 
-/* Into the file. */
+/* Writes the leaves into the sections of the file. */
 static int put_leaves(divider *d)
 {
     for (size_t i = 0; i < d->leaves.count; ++i) {
@@ -583,7 +583,7 @@ static int put_leaves(divider *d)
     return 1;
 }
 
-/* The most light that comes to an element below a node of the pieces. */
+/* Returns the most light that reaches an element below a node of the pieces. */
 static float brightest(const bake *b, uint32_t node)
 {
     const uint32_t word = b->section[LMB_TRANSFER_PIECES].data[node];
@@ -594,8 +594,8 @@ static float brightest(const bake *b, uint32_t node)
     return maxf(brightest(b, first), brightest(b, first + 1));
 }
 
-/* The half's own part of the elements. One on which something stands has its middle in that, it may be: then what comes
- * there says nothing. */
+/* Sets the half's own part of the elements. If geometry touches an element and covers the middle, the light there is
+ * no measure. */
 static void enter_source(const bake *b, piece *half, uint32_t h)
 {
     const uint32_t *node = b->section[LMB_TRANSFER_PIECES].data, word = node[half->source];
@@ -609,7 +609,7 @@ static void enter_source(const bake *b, piece *half, uint32_t h)
     }
 }
 
-/* Into halves, which are looked at next; `last`: they are leaves. */
+/* Splits a piece into halves, which are sampled next; `last`: they are leaves. */
 static int split(divider *d, const piece *p, int last)
 {
     bake_words *w = &d->b->section[LMB_TRANSFER_DIVISIONS];
@@ -635,8 +635,8 @@ static int split(divider *d, const piece *p, int last)
     return 1;
 }
 
-/* Squared errors add up by area. They count less where little light comes to the elements: into a solid, through
- * a crack, it may be. */
+/* Squared errors add up by area. They count less if the elements get little light: perhaps through a crack into a
+ * solid. */
 static float error_of(const divider *d, const piece *p)
 {
     const float share = triangle_area(p->corner) / d->b->area * 1000.0f;
@@ -650,14 +650,14 @@ static int by_error(const void *a, const void *b)
     return x->error != y->error ? (x->error < y->error ? -1 : 1) : x->node < y->node ? -1 : 1;
 }
 
-/* Rows are made for neighbours together. */
+/* Keeps neighbours together for the rows. */
 static int by_place(const void *a, const void *b)
 {
     const piece *x = a, *y = b;
     return x->node < y->node ? -1 : 1;
 }
 
-/* Look at the pieces at hand; those that can be halved wait with their errors, the others are leaves. */
+/* Samples the current pieces. Those that can be halved wait with their errors; the others are leaves. */
 static int look_at_all(divider *d)
 {
     sort(d->now.data, d->now.count, sizeof *d->now.data, by_place);
@@ -680,7 +680,7 @@ static int look_at_all(divider *d)
     return make_rows(d);
 }
 
-/* Halve the pieces with the largest errors. 0 pieces are left in d->now where all are good enough. */
+/* Halves the pieces with the largest errors. If all are good enough, d->now stays empty. */
 static int halve_worst(divider *d)
 {
     const float enough = d->b->set.division * d->b->set.division;
@@ -702,8 +702,8 @@ static int halve_worst(divider *d)
 
 /* --- roots -------------------------------------------------------------------------------------------------------- */
 
-/* What is left of a triangle where it is cut: each part has receivers of its own at its corners, or shares those that
- * its own see. */
+/* Adds the parts of a cut triangle. A part gets new receivers at the corners, or shares those that are visible from
+ * it. */
 static int add_parts(divider *d, const piece *p, uint32_t cut)
 {
     const bake_cut c = d->b->cut[cut];
@@ -806,7 +806,7 @@ int bake_receivers(bake *b, report *r)
         progress_tell("receivers", (double)minf((float)b->receiver_count / (float)b->set.receivers, 1.0f));
         ok = look_at_all(&d) && halve_worst(&d);
     }
-    for (size_t i = 0; ok && i < d.waiting.count; ++i) { /* their middles are there: they serve too */
+    for (size_t i = 0; ok && i < d.waiting.count; ++i) { /* their midpoints exist: use them too */
         ok = split(&d, &d.waiting.data[i], 1);
     }
     ok = ok && make_rows(&d) && mend_leaves(&d) && put_leaves(&d) && make_rows(&d);

@@ -1,4 +1,4 @@
-/* bake_rows.c: what arrives of each element at some points: its form factor, and the share of it that they see. */
+/* bake_rows.c: light that arrives from each element at some points: form factor times visible share. */
 #include "bake.h"
 
 #include <math.h>
@@ -10,13 +10,13 @@
 #include "../../src/bounce/polygon.h"
 #include "bake_triangle.h"
 
-#define DISC2 100.0f /* squared distance, of a part's squared reach, from which it counts as a disc: 0.5 % at most */
+#define DISC2 100.0f /* squared distance from which a part is a disc, over squared reach: 0.5 % error at most */
 enum { CHUNK = 64, CUTS = 4, FEW = 4 };
 
-/* Nearer than this, of an element's squared reach, it is cut into four, each again: what stands beside a point hides
- * some of an element, and just what lies nearest counts most. */
+/* An element nearer than this (squared distance over squared reach) is split in four, and so on. Nearby geometry
+ * hides part of an element, and the nearest light counts most. */
 static const float cut2[CUTS] = {36.0f, 9.0f, 2.5f, 0.7f};
-#define APART2 6.25f /* likewise: nearer than this each of an element's triangles counts by itself */
+#define APART2 6.25f /* likewise: nearer than this, each triangle of an element counts separately */
 
 typedef struct rows {
     const bake *b;
@@ -24,11 +24,11 @@ typedef struct rows {
     const lmb_vec3 *at, *normal;
     float *const *row;
     float *times;
-    int count, axes, own, parts; /* of `parts` parts of the elements this one */
-    lmb_traversal *traversal; /* one a thread */
+    int count, axes, own, parts; /* elements of part `own` of `parts` */
+    lmb_traversal *traversal; /* one per thread */
 } rows;
 
-/* What an element, or a part of one, gives to all points at once. */
+/* An element or part, seen from all points. */
 typedef struct part {
     lmb_vec3 corner[3];
     lmb_vec3 middle;
@@ -37,7 +37,7 @@ typedef struct part {
 
 /* --- form factors ------------------------------------------------------------------------------------------------- */
 
-/* From far away: of a part that lies wholly before the point. Along the direction to it. */
+/* Form factor of a distant part wholly in front of the point; *to: the direction to it. */
 static float disc_factor(lmb_vec3 *to, const bake_element *e, const part *p, lmb_vec3 d, float d2)
 {
     const float cosine = -dot3(d, e->normal) * e->facing, per = 1.0f / sqrtf(d2);
@@ -50,7 +50,7 @@ static float factor_along(const bake_element *e, const part *p, lmb_vec3 at, lmb
     return lmb_polygon_factor(at, face, along, p->corner, 3, e->normal);
 }
 
-/* Into out[0 .. axes - 1]; 0 where nothing arrives. */
+/* Writes out[0 .. axes - 1]; returns 0 if no light arrives. */
 static int factors(float out[3], const bake_element *e, const part *p, lmb_vec3 at, lmb_vec3 n, int axes)
 {
     const lmb_vec3 d = sub3(p->middle, at);
@@ -76,7 +76,7 @@ static int factors(float out[3], const bake_element *e, const part *p, lmb_vec3 
 
 /* --- visibility --------------------------------------------------------------------------------------------------- */
 
-/* How often the element is cut for a point. */
+/* Number of splits of an element for a point. */
 static int cuts_for(const bake_element *e, lmb_vec3 at)
 {
     const lmb_vec3 d = sub3(e->middle, at);
@@ -87,7 +87,7 @@ static int cuts_for(const bake_element *e, lmb_vec3 at)
     return cuts;
 }
 
-/* One part and the points that take it as a whole; `share` of it counts. */
+/* Adds a part for the points that take it as a whole, times `share`. */
 static void add_part(const rows *w, const bake_element *e, uint32_t j, const part *p, float share, uint64_t points,
                      int worker)
 {
@@ -114,7 +114,7 @@ static void add_part(const rows *w, const bake_element *e, uint32_t j, const par
     }
 }
 
-/* Points take the parts of their own level; points[l]: those that want l cuts. */
+/* Points use the parts of their own level; points[l]: those that need l splits. */
 static void add_parts(const rows *w, const bake_element *e, uint32_t j, const part *p, const uint64_t points[CUTS + 1],
                       int level, int worker)
 {
@@ -144,7 +144,7 @@ static void add_parts(const rows *w, const bake_element *e, uint32_t j, const pa
     }
 }
 
-/* Points of `of` before one triangle, each with as many cuts as it wants. */
+/* Adds a triangle for the points of `of` in front of it, each with the splits that it needs. */
 static void add_triangle(const rows *w, const bake_element *e, uint32_t j, uint64_t of, int worker)
 {
     uint64_t points[CUTS + 1] = {0, 0, 0, 0, 0};
@@ -162,7 +162,7 @@ static void add_triangle(const rows *w, const bake_element *e, uint32_t j, uint6
     add_parts(w, e, j, &whole, points, 0, worker);
 }
 
-/* Each triangle of an element as if it were one of its own. */
+/* Adds each triangle of an element like a separate element. */
 static void add_apart(const rows *w, uint32_t j, uint64_t points, int worker)
 {
     const bake_element *of = &w->b->element[j];
@@ -188,7 +188,7 @@ static void add_apart(const rows *w, uint32_t j, uint64_t points, int worker)
     }
 }
 
-/* Which points are so near to an element that it is no disc for them; those behind one triangle get nothing of it. */
+/* Returns the points too near to treat an element as a disc. Points behind a single triangle receive nothing. */
 static uint64_t near_points(const rows *w, const bake_element *e)
 {
     const float reach2 = (e->is_one ? cut2[0] : APART2) * e->reach2;

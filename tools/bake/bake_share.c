@@ -1,8 +1,7 @@
-/* bake_share.c: a step's batches -> a file of each slice's own -> the batches of all.
+/* bake_share.c: a step's batches -> one file per slice -> the results of all batches.
  *
- * No slice needs another: one that is lost or late costs the others its work, and one that comes late or again finds in
- * the folder what is done.
- */
+ * No slice depends on another. If one is lost or late, the others do that work. A slice that comes late or runs again
+ * finds the finished results in the folder. */
 #include "bake_share.h"
 
 #include <stdio.h>
@@ -12,11 +11,11 @@
 #include "../../platform/host/host.h"
 
 enum { GROUP = 8 };
-#define LOOK_S  0.002 /* between two looks for files */
-#define STIR_S  0.1   /* between two files that are made and removed there */
-#define LEAST_S 1.0   /* that others are waited for, beside TIMES what their batches would take here */
+#define LOOK_S  0.002 /* between two checks for files */
+#define STIR_S  0.1   /* between two temporary files in the folder */
+#define LEAST_S 1.0   /* least time to wait for others, in addition to TIMES the expected time of their batches here */
 #define TIMES   3.0
-#define LATE    0.05  /* of that: for those that were late before */
+#define LATE    0.05  /* of that wait, for slices that were late before */
 
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
@@ -51,19 +50,19 @@ int bake_get_halves(uint16_t *row, size_t count, byte_reader *from)
 
 /* --- a step ------------------------------------------------------------------------------------------------------- */
 
-/* One under way. */
+/* A step in progress. */
 typedef struct sharing {
     bake_share *s;
     const bake_step *step;
-    int32_t *owner; /* of each batch: a slice from 0 */
+    int32_t *owner; /* of each batch: the slice, from 0 */
     double *weight; /* of each slice in this step */
-    uint8_t *is_there; /* what a slice has to do */
+    uint8_t *is_there; /* results of a slice are available */
     uint64_t job;
     report *r;
 } sharing;
 
-/* Each to the slice that has the least to do, over all steps: so no slice has much more than another, though a step may
- * have fewer batches than there are slices. */
+/* Gives each batch to the slice with the least work over all steps. The loads stay even, although a step may have
+ * fewer batches than there are slices. */
 static void deal(const sharing *w)
 {
     bake_share *s = w->s;
@@ -80,7 +79,7 @@ static void deal(const sharing *w)
     }
 }
 
-/* The job, the step and who has which batch: by another deal a file has others. */
+/* Hash of job, step and owners of the batches: files of another distribution do not match. */
 static uint64_t job_of(const sharing *w)
 {
     const uint8_t step[2] = {(uint8_t)(w->s->step & 255), (uint8_t)(w->s->step >> 8)};
@@ -99,7 +98,7 @@ static int file_of(char out[SLICE_NAME], const sharing *w, int32_t k)
     return (n > 0 && n < SLICE_NAME) || report_fail(w->r, "%s: the name is too long", w->s->folder);
 }
 
-/* What slice k has to do, by its file: 0 where that is not there, not whole, or of another job. */
+/* Reads the results of slice k; returns 0 if the file is missing, incomplete or of another job. */
 static int fetch(const sharing *w, int32_t k)
 {
     char name[SLICE_NAME];
@@ -117,7 +116,7 @@ static int fetch(const sharing *w, int32_t k)
     return ok;
 }
 
-/* The same by this machine, and its file. */
+/* Computes the work of slice k here and writes the file. */
 static int make(const sharing *w, int32_t k)
 {
     const slice of = {k + 1, w->s->slice.count};
@@ -138,14 +137,14 @@ static int make(const sharing *w, int32_t k)
     return ok;
 }
 
-/* How long slice k is waited for. */
+/* How long to wait for slice k. */
 static double patience(const sharing *w, int32_t k)
 {
     const double s = LEAST_S + TIMES * w->s->unit_s * w->weight[k];
     return w->s->is_late[k] ? LATE * s : s;
 }
 
-/* Of those that are overdue one: slices that wait for the same ones begin at different places. */
+/* Returns one overdue slice. Slices that wait for the same ones start at different places. */
 static int32_t overdue(const sharing *w, double waited)
 {
     const int32_t n = w->s->slice.count;
@@ -158,7 +157,7 @@ static int32_t overdue(const sharing *w, double waited)
     return -1;
 }
 
-/* Takes what has come; returns how many are missing. */
+/* Reads the files that have arrived; returns how many are missing. */
 static int32_t fetch_all(const sharing *w)
 {
     int32_t missing = 0;
@@ -172,7 +171,7 @@ static int32_t fetch_all(const sharing *w)
     return missing;
 }
 
-/* A name that was not there may be taken to be missing until its folder changes. */
+/* A network file system may report a new file as missing until the folder changes. */
 static int stir(const sharing *w)
 {
     char name[SLICE_NAME];
@@ -186,7 +185,7 @@ static int run(const sharing *w)
     for (int32_t k = 0; k < w->s->slice.count; ++k) {
         w->is_there[k] = !(w->weight[k] > 0.0);
     }
-    if (!w->is_there[own]) { /* it may be there from a run before */
+    if (!w->is_there[own]) { /* may exist from an earlier run */
         w->is_there[own] = (uint8_t)(fetch(w, own) || make(w, own));
         if (!w->is_there[own]) {
             return 0;
@@ -197,7 +196,7 @@ static int run(const sharing *w)
     while (fetch_all(w) > 0) {
         const double waited = host_seconds() - start;
         const int32_t k = overdue(w, waited);
-        if (k < 0 && waited > stirred + STIR_S) { /* what a network's file system remembers of a folder ends so */
+        if (k < 0 && waited > stirred + STIR_S) { /* clears the folder cache of a network file system */
             stirred = waited;
             (void)stir(w);
         } else if (k < 0) {

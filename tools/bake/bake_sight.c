@@ -1,4 +1,4 @@
-/* bake_sight.c: what stands on a triangle: do its corners see its middle, just over its plane? And what lies near. */
+/* bake_sight.c: tests whether geometry covers a triangle: corners must see the middle, just above the plane. */
 #include "bake.h"
 
 #include <stdlib.h>
@@ -7,10 +7,10 @@
 #include "../../src/occlusion/traversal.h"
 #include "bake_triangle.h"
 
-#define FIRST 16384 /* tests of visibility that a job has from the start, besides those that its calls add */
-#define PULL 0.1f  /* of the smallest edge: receivers lie so far inside their triangle, off what stands at its edges */
-#define OVER 0.25f /* of a way: so high over a mesh it bends over what bulges out between two places that face alike */
-#define UP   0.05f /* of it: so high over a triangle its corners have to see its middle */
+#define FIRST 16384 /* visibility tests that a job starts with; each call adds more */
+#define PULL 0.1f  /* of the smallest edge: receivers lie this far inside a triangle, away from geometry at the edges */
+#define OVER 0.25f /* of the distance: height over a mesh that clears bulges between points that face alike */
+#define UP   0.05f /* of the smallest edge: height at which the corners must see the middle */
 
 int bake_sight_begin(bake_sight *s, report *r)
 {

@@ -1,4 +1,4 @@
-/* bake_slice.c: baked files -> a slice's file -> the same files, which all slices agree on. */
+/* bake_slice.c: baked files -> the file of a slice -> the same files, if all slices agree. */
 #include "bake_slice.h"
 
 #include <stdio.h>
@@ -38,7 +38,7 @@ int bake_slice_numbers(char out[SLICE_NAME], const char *path, report *r)
     return (n > 0 && n < SLICE_NAME) || report_fail(r, "%s: the name is too long", path);
 }
 
-/* Where the ith of `count` parts of some bytes begins. */
+/* Start of part i of `count` parts of `size` bytes. */
 static size_t begin_of(size_t size, int32_t i, int32_t count)
 {
     return (size_t)((uint64_t)size * (uint64_t)i / (uint64_t)count);
@@ -66,13 +66,13 @@ int bake_slice_write(const char *path, const bake_share *s, const char *about, c
 /* --- back --------------------------------------------------------------------------------------------------------- */
 
 typedef struct joined {
-    char name[SLICE_NAME]; /* that the first slice's output has */
+    char name[SLICE_NAME]; /* name of the first slice's output */
     int32_t files;
     file_bytes file[BAKE_FILES];
     uint64_t hash[BAKE_FILES];
 } joined;
 
-/* What a slice says before its files; the first one's counts. */
+/* Reads the header of a slice file; the first slice's is authoritative. */
 static int get_head(joined *j, byte_reader *s, int is_first)
 {
     const int32_t bytes = byte_get_int(s);
@@ -89,7 +89,7 @@ static int get_head(joined *j, byte_reader *s, int is_first)
     return 1;
 }
 
-/* Slice i's part of a file. */
+/* Reads the part of a file from slice i. */
 static int get_part(joined *j, int32_t k, byte_reader *s, slice of, const char *path, report *r)
 {
     file_bytes *file = &j->file[k];
@@ -135,7 +135,7 @@ static int get_all(joined *j, const slice_set *set, report *r)
     return ok;
 }
 
-/* A .json names the file with its numbers. */
+/* A .json contains the name of the file of numbers. */
 static int suits(const joined *j, const char *path, report *r)
 {
     if (strcmp(ending_of(path), ending_of(j->name)) != 0) {

@@ -1,4 +1,4 @@
-/* bake_smalls.c: of small triangles the places that light comes to: meshes reach into walls, and into each other. */
+/* bake_smalls.c: the places of small triangles that light reaches, because meshes extend into walls and each other. */
 #include "bake.h"
 
 #include <stdlib.h>
@@ -9,10 +9,10 @@
 #include "../../src/raster/triangle.h"
 
 enum { QUARTERS = 4, TOGETHER = LMB_TILE_PIXELS / QUARTERS, WITNESSES = 24 };
-#define OVER  0.05f /* of the smallest edge: places are looked at from so far over them */
-#define FAINT 0.01  /* of the mean light: elements to which less comes are no witnesses */
+#define OVER  0.05f /* of the smallest edge: height of the sample points */
+#define FAINT 0.01  /* of the mean light: darker elements are not used as witnesses */
 
-/* A side of a small triangle, or part of one: it lies on an element with others. */
+/* A side of a small triangle, or part of one, in an element with others. */
 typedef struct side {
     uint32_t element, number; /* 2 (id - 1) + back, or LMB_TRANSFER_NONE */
     uint32_t part;            /* or LMB_TRANSFER_NONE */
@@ -22,7 +22,7 @@ typedef struct smalls {
     bake *b;
     side *list;
     uint32_t count;
-    uint32_t *job; /* sides that are looked at together: the first of each, and the end */
+    uint32_t *job; /* sides processed together: index of the first of each job, and the end */
     uint32_t jobs;
     float faint;
     lmb_tile *tile[POOL_MAX];
@@ -37,7 +37,7 @@ void bake_quarters(lmb_vec3 out[4], const lmb_vec3 corner[3])
     }
 }
 
-/* The nearest elements with light that could be seen from around an element. */
+/* Finds the nearest lit elements that might be visible from around an element. */
 static void find_witnesses(bake_nearest *out, const smalls *w, uint32_t element)
 {
     const bake_element *e = &w->b->element[element];
@@ -101,7 +101,7 @@ static uint64_t before(const lmb_tile *tile, lmb_vec3 q)
     return out;
 }
 
-/* Its quarters that light comes to. */
+/* Sets the share and middle of the quarters that light reaches. */
 static void open_part(bake_part *p, uint32_t own)
 {
     const int count = count_bits_64(own);
@@ -114,7 +114,7 @@ static void open_part(bake_part *p, uint32_t own)
     p->middle = count > 0 ? mul3(sum, 1.0f / (float)count) : p->middle;
 }
 
-/* Places are open that see some element to which light comes. */
+/* A place is open if it sees a lit element. */
 static void look(void *user, int index, int worker)
 {
     const smalls *w = user;
@@ -164,7 +164,7 @@ static void add_side(smalls *w, uint32_t element, uint32_t number, uint32_t part
     w->list[w->count++] = s;
 }
 
-/* All sides that are there, those of an element together. */
+/* Lists all existing sides, grouped by element. */
 static void put_sides(smalls *w)
 {
     const bake *b = w->b;
@@ -172,7 +172,7 @@ static void put_sides(smalls *w)
     for (uint32_t i = 0; i < b->part_count; ++i) {
         add_side(w, b->part[i].element, b->part[i].side, i);
         if (b->part[i].side != LMB_TRANSFER_NONE) {
-            w->b->small_open[b->part[i].side] = 1; /* is there */
+            w->b->small_open[b->part[i].side] = 1; /* exists */
         }
     }
     for (uint32_t id = 1; id <= lmb_scene_triangles(b->scene); ++id) {

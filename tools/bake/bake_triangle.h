@@ -14,7 +14,7 @@ static inline lmb_vec3 triangle_middle(const lmb_vec3 corner[3])
     return mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
 }
 
-/* Its length; it runs from corner *from to the next. */
+/* Returns the length of the longest edge, which runs from corner *from to the next. */
 static inline float triangle_longest(int *from, const lmb_vec3 corner[3])
 {
     float longest = -1.0f;

@@ -1,4 +1,4 @@
-/* bake_words.c: words of a file's sections, which grow; which triangles are small. */
+/* bake_words.c: the growing words of a file's sections; which triangles are small. */
 #include "bake.h"
 
 #include <math.h>

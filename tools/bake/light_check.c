@@ -1,4 +1,4 @@
-/* light_check.c: the light in a file, read back and drawn, against the light it was baked from. */
+/* light_check.c: reads a file's light back, renders it and compares it with the light that it was baked from. */
 #include "light_export.h"
 
 #include <stdlib.h>
@@ -8,13 +8,13 @@
 #include "../model/model.h"
 #include "../picture/metrics.h"
 
-/* Pictures of one view: light as it was baked from, and as the file has it. */
+/* Images of one view: the light as baked, and as stored in the file. */
 typedef struct checked {
-    float *truth, *test, *surface; /* 3 a pixel */
+    float *truth, *test, *surface; /* 3 per pixel */
     int32_t width, height;
 } checked;
 
-/* Weights of a triangle's corners at a place of it. */
+/* Barycentric weights of a point of a triangle. */
 static void weights_at(float w[3], const lmb_triangle *t, lmb_vec3 p)
 {
     const lmb_vec3 a = sub3(t->corner[1], t->corner[0]), b = sub3(t->corner[2], t->corner[0]),
@@ -35,7 +35,7 @@ static void texel(float out[3], const lmb_texture *t, int32_t x, int32_t y)
     }
 }
 
-/* Between four texels, in linear light. */
+/* Interpolates between four texels, in linear light. */
 static void bilinear(float out[3], const lmb_texture *t, float u, float v)
 {
     const float x = u * (float)t->width - 0.5f, y = v * (float)t->height - 0.5f;
@@ -52,7 +52,7 @@ static void bilinear(float out[3], const lmb_texture *t, float u, float v)
     }
 }
 
-/* What the file says of a place. */
+/* The light at a point as the file stores it. */
 static void light_of(float out[3], const void *user, uint32_t id, lmb_vec3 at, lmb_vec3 normal)
 {
     const model *m = user;
@@ -83,7 +83,7 @@ static void light_of(float out[3], const void *user, uint32_t id, lmb_vec3 at, l
     }
 }
 
-/* Of one tile, into `out`; `of` NULL: as it was baked from. */
+/* Renders one tile into `out`; `of` NULL: the light as baked. */
 static void light_tile(checked *p, float *out, light_solve *s, const light_source *of, int32_t x, int32_t y)
 {
     lmb_frame *f = &s->job.frame;

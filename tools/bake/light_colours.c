@@ -1,5 +1,5 @@
-/* light_colours.c: bounced light as vertex colours: triangles are divided as what was baked divides them, so that light
- * is as linear on each as it is there. */
+/* light_colours.c: bounced light as vertex colours: subdivides triangles like the bake, so that light is as linear on
+ * each. */
 #include "light_export.h"
 
 #include <stdlib.h>
@@ -9,20 +9,20 @@
 #include "../../src/transfer/halvings.h"
 #include "bake_triangle.h"
 
-#define INSIDE 0.002f /* of the way to its middle: a leaf's corners are asked for so far inside of it */
-#define LINEAR 0.03f  /* of the mean light: by so much it may be off in the middle of an edge */
+#define INSIDE 0.002f /* of the way to the middle: the light of a leaf's corners is sampled this far inside */
+#define LINEAR 0.03f  /* of the mean light: largest error at the middle of an edge */
 enum { CONFORM = 24, ROUNDS = 5, TOGETHER = SOLVE_PLACES / 3 };
 
-/* A leaf of the division. */
+/* A leaf of the subdivision. */
 typedef struct leaf {
     light_corner corner[3];
     lmb_vec3 face;
     uint32_t id;
-    uint32_t number;   /* when it was made */
+    uint32_t number;   /* index when created */
     float light[3][3]; /* W/m2 */
 } leaf;
 
-/* All of one object's leaves, and of all of them the places of corners. */
+/* All leaves of one object, and the positions of all corners. */
 typedef struct colours {
     light_solve *s;
     const model_source *source;
@@ -39,7 +39,7 @@ typedef struct colours {
 static uint32_t hash_of(lmb_vec3 p)
 {
     uint32_t bits[3], h = 2166136261u;
-    const float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; /* no minus zero */
+    const float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; /* avoids minus zero */
     memcpy(bits, v, sizeof bits);
     for (int c = 0; c < 3; ++c) {
         h = (h ^ bits[c]) * 16777619u;
@@ -111,7 +111,7 @@ static int put_leaf(colours *c, const light_corner corner[3], lmb_vec3 face, uin
     return 1;
 }
 
-/* The triangle's corners in the file's order are halved; `turn` says which of them is which. */
+/* Halves the triangle. Corners are in the order of the file, and `turn` maps them. */
 static int divide(colours *c, uint32_t at, const light_corner corner[3], lmb_vec3 face, uint32_t id, int is_turned)
 {
     const uint32_t word = c->s->job.transfer.section[LMB_TRANSFER_DIVISIONS][at];
@@ -133,7 +133,7 @@ static int divide(colours *c, uint32_t at, const light_corner corner[3], lmb_vec
     return divide(c, h.first + 1, half, face, id, is_turned);
 }
 
-/* A side's leaves; where no light comes to it one that stays dark, but of a back nothing. */
+/* Adds the leaves of a side. If no light reaches it, adds one dark leaf for a front, none for a back. */
 static int put_side(colours *c, uint32_t id, uint32_t back)
 {
     const lmb_transfer *t = &c->s->job.transfer;
@@ -142,7 +142,7 @@ static int put_side(colours *c, uint32_t id, uint32_t back)
     lmb_vec3 face;
     lmb_triangle own;
     if (!light_corners(corner, &face, &c->s->job.scene, c->source, id, back) || !lmb_triangle_fetch(&own, &c->s->job.scene, id)) {
-        return 1; /* a speck */
+        return 1; /* degenerate */
     }
     if (root == LMB_TRANSFER_NONE) {
         return back || put_leaf(c, corner, face, id);
@@ -152,7 +152,7 @@ static int put_side(colours *c, uint32_t id, uint32_t back)
     return divide(c, root, is_turned ? turned : corner, face, id, is_turned);
 }
 
-/* A little inside of the leaf: its own light, not a neighbour's. */
+/* A point slightly inside the leaf, so that no neighbour's light is sampled. */
 static light_place place_in(const leaf *l, const light_corner *at)
 {
     const lmb_vec3 middle = mul3(add3(l->corner[0].at, add3(l->corner[1].at, l->corner[2].at)), 1.0f / 3.0f);
@@ -160,7 +160,7 @@ static light_place place_in(const leaf *l, const light_corner *at)
     return p;
 }
 
-/* What comes to the corners of leaves from `first` on. */
+/* Computes the light at the corners of leaves from `first` on. */
 static void light_leaves(colours *c, size_t first)
 {
     light_place place[SOLVE_PLACES];
@@ -192,7 +192,7 @@ static float mean_light(const colours *c)
     return area > 0.0 ? (float)(sum / area) : 0.0f;
 }
 
-/* How far light in the middle of each edge is from the mean of its ends. */
+/* Returns the difference between the light at the middle of each edge and the mean of both ends. */
 static void bends_of(float bend[3], const leaf *l, float (*middle)[3])
 {
     for (int k = 0; k < 3; ++k) {
@@ -212,8 +212,8 @@ static int split(colours *c, size_t at, int k)
     return put_leaf(c, half.corner, half.face, half.id);
 }
 
-/* Light by direction is that of each pixel's normal, and so not linear on what is curved: halve the edges on which it
- * bends most. */
+/* Light by direction depends on the pixel's normal, so it is not linear on curved surfaces: halves the edges where
+ * it deviates most. */
 static int refine(colours *c)
 {
     const float enough = LINEAR * mean_light(c);
@@ -248,8 +248,8 @@ static int by_id(const void *a, const void *b)
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
-/* Neighbours that are divided more finely have corners on its edges: there it is divided, too, that no gap opens, and
- * keeps its light, which is linear. */
+/* Neighbours with finer subdivision have corners on the edges of this leaf. Splits the leaf there, so that no gaps
+ * appear; the light stays linear. */
 static int put_conform(colours *c, light_mesh *m, const leaf *l, float per, int depth)
 {
     for (int k = 0; k < 3 && depth < CONFORM; ++k) {

@@ -1,4 +1,4 @@
-/* light_export.h: `lambent bake --to`: bounced light in forms that other engines draw. */
+/* light_export.h: `lambent bake --to`: bounced light in formats for other engines. */
 #ifndef LIGHT_EXPORT_H
 #define LIGHT_EXPORT_H
 
@@ -22,43 +22,44 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, c
 light_corner light_along(const light_corner *a, const light_corner *b, float part);
 light_corner light_between(const light_corner *a, const light_corner *b); /* in the middle */
 
-/* A mesh that grows by corners; those with equal bytes are one vertex. light_mesh_put: 1, or 0 with `r` set. */
+/* A growing mesh. Corners with equal bytes share a vertex. light_mesh_put returns 1, or 0 with `r` set. */
 enum { LIGHT_SLOTS = 1 << 16 };
 typedef struct light_mesh {
     glb_mesh mesh;
-    int32_t *slot, *next; /* of vertices by their bytes */
+    int32_t *slot, *next; /* vertices by the hash of their bytes */
     int is_mirrored;      /* the transform of the object is mirrored */
 } light_mesh;
 
 int light_mesh_begin(light_mesh *m, const lmb_scene *scene, uint32_t instance, report *r);
-void light_mesh_end(light_mesh *m); /* all but the mesh itself */
+void light_mesh_end(light_mesh *m); /* frees everything except `mesh` */
 int light_mesh_put(light_mesh *m, const glb_vertex triangle[3], report *r);
 void light_vertex_of(glb_vertex *out, const light_corner *c);
 
-/* light_colours, light_picture: the GLB. light_probes: the JSON, and the numbers beside it; then as light_check. 1, or 0 with
- * `r` set. */
+/* light_colours, light_picture: write a GLB. light_probes: writes a JSON and a file of numbers, then works like
+ * light_check. All return 1, or 0 with `r` set. */
 int light_colours(const char *path, light_solve *s, const model *loaded, report *r);
 int light_picture(const char *path, light_solve *s, const model *loaded, int32_t side, report *r);
 int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is_quiet, report *r);
 
-/* light_probe_normal: returns normal k for sampling the light at a probe, and its weight; the weights sum to 4 pi.
+/* light_probe_normal: returns normal k for sampling the light at a probe, and a weight; the weights sum to 4 pi.
  * light_probe_add: adds the irradiance at normal k to the spherical harmonics of radiance, R, G and B for each. */
 enum { LIGHT_PROBE_NORMALS = 14 };
 lmb_vec3 light_probe_normal(int k, float *weight);
 void light_probe_add(float inout[27], int k, const float e[3]);
 
-/* light_probes_fit: are the places of a lattice few enough? Asked before a bake, which takes minutes. 1, or 0 with `r` set. */
+/* light_probes_fit: checks that the lattice has few enough places. Call it before a bake, which takes minutes.
+ * Returns 1, or 0 with `r` set. */
 int light_probes_fit(const lmb_scene *scene, float step_m, report *r);
 
-/* What a form says of a place of its scene, W/m2. */
+/* Light at a place of the scene as a format stores it, W/m2. */
 typedef struct light_source {
     const lmb_scene *scene;
     void (*light)(float out[3], const void *user, uint32_t id, lmb_vec3 at, lmb_vec3 normal);
     const void *user;
 } light_source;
 
-/* light_check: the file, read back and drawn, against the light it was baked from, as one view sees it: says the error.
- * light_compare: the same of any form. */
+/* light_check: reads the file back, renders one view and prints the error against the light that it was baked from.
+ * light_compare: the same for any format. */
 int light_check(const char *path, light_solve *s, const char *form, int is_quiet, report *r);
 int light_compare(const char *path, light_solve *s, const light_source *of, const char *form, int is_quiet, report *r);
 

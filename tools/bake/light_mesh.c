@@ -1,4 +1,4 @@
-/* light_mesh.c: a scene's triangles as meshes that carry their light. */
+/* light_mesh.c: a scene's triangles as meshes with light. */
 #include "light_export.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@ static lmb_vec3 unit_or(lmb_vec3 v, lmb_vec3 other)
     return length > 1e-20f ? mul3(v, 1.0f / length) : other;
 }
 
-/* By the inverse transpose, as far as signs and directions go. */
+/* Applies the inverse transpose, up to sign and length. */
 static lmb_vec3 to_world(const lmb_mat4 *m, lmb_vec3 n)
 {
     const lmb_vec3 x = vec3(m->m[0], m->m[1], m->m[2]), y = vec3(m->m[4], m->m[5], m->m[6]),
@@ -63,7 +63,7 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, c
         return 0;
     }
     const lmb_vec3 across = cross3(sub3(t.corner[1], t.corner[0]), sub3(t.corner[2], t.corner[0]));
-    const int is_mirrored = dot3(across, *face) < 0.0f; /* its front is the clockwise side */
+    const int is_mirrored = dot3(across, *face) < 0.0f; /* the front is the clockwise side */
     const lmb_vec3 first = own_place(&t, t.vertex[0]);
     const lmb_vec3 flat = unit_or(cross3(sub3(own_place(&t, t.vertex[1]), first), sub3(own_place(&t, t.vertex[2]), first)),
                                   *face);
@@ -97,7 +97,7 @@ static void mix(float *out, const float *a, const float *b, float part, int coun
 
 static lmb_vec3 mix3(lmb_vec3 a, lmb_vec3 b, float part) { return add3(mul3(a, 1.0f - part), mul3(b, part)); }
 
-/* The last number of a tangent is its sign. */
+/* The last component of a tangent is a sign. */
 light_corner light_along(const light_corner *a, const light_corner *b, float part)
 {
     light_corner c;

@@ -1,10 +1,9 @@
-/* light_picture.c: bounced light as a picture, by texture coordinates of its own: charts of triangles that face alike, laid
- * side by side.
+/* light_picture.c: bounced light as a texture for new coordinates: charts of triangles with similar normals.
  *
- * Triangles are cut where what was baked cuts them, as light differs on both sides of a wall. A chart grows from its
- * largest triangle over shared edges, but not those at walls, and is seen along that one's normal. Triangles that would
- * lie over others of their chart become charts of their own. Texels that show an edge take the light of the nearest
- * place on the triangle, and two more around them that of their neighbours, so that no filter finds what is dark. */
+ * Triangles are cut like in the bake, because light differs on both sides of a wall. A chart grows from its largest
+ * triangle over shared edges, except at walls, and is projected along that triangle's normal. Triangles that would
+ * overlap others of their chart become separate charts. Texels at an edge take the light of the nearest point of the
+ * triangle, and two more rings of texels take that of their neighbours, so that no filter reads dark texels. */
 #include "light_export.h"
 
 #include <math.h>
@@ -15,7 +14,7 @@
 #include "../../src/transfer/halvings.h"
 #include "bake_triangle.h"
 
-#define ALIKE  0.8f /* cosine between a triangle and the chart that it joins */
+#define ALIKE  0.8f /* least cosine between a triangle and the chart that it joins */
 #define INSIDE 0.002f
 enum { GUTTER = 3, TRIES = 60, DILATED = 3 };
 
@@ -26,7 +25,7 @@ typedef struct face {
     uint32_t id, object;
     int32_t chart;
     int is_alone;
-    uint32_t walls; /* a bit each: edges at which something stands */
+    uint32_t walls; /* a bit per edge: geometry touches it */
 } face;
 
 typedef struct edge {
@@ -42,7 +41,7 @@ typedef struct chart {
 } chart;
 
 typedef struct texel {
-    float far;     /* from the triangle, texels; negative: inside of it */
+    float far;     /* distance from the triangle, texels; negative: inside */
     uint32_t face; /* + 1; 0: none */
     lmb_vec3 at, normal;
 } texel;
@@ -54,19 +53,19 @@ typedef struct map {
     edge *edge;
     chart *chart;
     texel *texel;
-    float *light; /* 3 a texel */
+    float *light; /* 3 per texel */
     uint8_t *known;
-    uint32_t *neighbour; /* three a face: another, or UINT32_MAX */
-    uint32_t *beyond;    /* likewise: one that a wall parts from it */
+    uint32_t *neighbour; /* three per face: adjacent face, or UINT32_MAX */
+    uint32_t *beyond;    /* likewise: adjacent face behind a wall */
     uint32_t faces, charts;
     int32_t side;
-    float per; /* texels a metre */
+    float per; /* texels per metre */
     report *r;
 } map;
 
 /* --- faces -------------------------------------------------------------------------------------------------------- */
 
-/* Are there cuts at a node or below it? */
+/* Returns whether there are cuts at a node or below it. */
 static int has_cut(const lmb_transfer *t, uint32_t at)
 {
     const uint32_t word = t->section[LMB_TRANSFER_DIVISIONS][at];
@@ -77,13 +76,13 @@ static int has_cut(const lmb_transfer *t, uint32_t at)
     return has_cut(t, first) || has_cut(t, first + 1);
 }
 
-/* The bits of edges k, k + 1 and k + 2 from bit 0 on, put into place. */
+/* Moves the bits of edges k, k + 1 and k + 2 into place. */
 static uint32_t edges_from(int k, uint32_t own, uint32_t next, uint32_t last)
 {
     return own << k | next << (k + 1) % 3 | last << (k + 2) % 3;
 }
 
-/* The parts of a face; its corners are in the file's order, `is_turned`: those of faces go the other way round. */
+/* Adds the parts of a face. Corners are in the file's order; `is_turned`: faces have the opposite winding. */
 static void put_parts(map *m, const face *of, uint32_t at, int is_turned)
 {
     const lmb_transfer *t = &m->s->job.transfer;
@@ -189,7 +188,7 @@ static void join_faces(map *m)
 
 /* --- charts ------------------------------------------------------------------------------------------------------- */
 
-/* A face in the order of their areas. */
+/* A face in the order of area. */
 typedef struct seed {
     float area;
     uint32_t face;
@@ -203,7 +202,7 @@ static int by_area(const void *a, const void *b)
 
 static float along(const chart *c, int k, lmb_vec3 p) { return dot3(c->along[k], p); }
 
-/* Its own longest edge lies along u. */
+/* The longest edge of the face lies along u. */
 static void begin_chart(chart *c, const face *f)
 {
     int longest = 0;
@@ -232,7 +231,7 @@ static void add_to_chart(map *m, chart *c, uint32_t i)
     }
 }
 
-/* Does a wall part it from a face of the chart? A way may lead around that wall. */
+/* Returns whether a wall separates it from a face of the chart, to which another path may lead around the wall. */
 static int is_parted(const map *m, uint32_t i, int32_t of)
 {
     for (uint32_t k = 0; k < 3; ++k) {
@@ -244,7 +243,7 @@ static int is_parted(const map *m, uint32_t i, int32_t of)
     return 0;
 }
 
-/* Over shared edges, wave after wave. */
+/* Grows over shared edges, breadth first. */
 static void grow_chart(map *m, chart *c, uint32_t first, uint32_t *wave)
 {
     const lmb_vec3 normal = m->face[first].normal;
@@ -304,7 +303,7 @@ static int by_height(const void *a, const void *b)
                                   : x > y;
 }
 
-/* Shelves, the highest charts first; 0 where they do not fit. */
+/* Packs charts onto shelves, the highest first; returns 0 if they do not fit. */
 static int lay_out(map *m, chart **order)
 {
     int32_t x = 0, y = 0, shelf = 0;
@@ -356,7 +355,7 @@ static int find_room(map *m)
                                                 (unsigned)m->charts, (int)m->side, (int)m->side));
 }
 
-/* In texels, their middles at .5. */
+/* In texels; texel centres are at .5. */
 static void texel_of(float out[2], const map *m, const face *f, lmb_vec3 at)
 {
     const chart *c = &m->chart[f->chart];
@@ -371,7 +370,7 @@ static float cross2(const float a[2], const float b[2], const float p[2])
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-/* The nearest place of a triangle, as weights; returns how far it is, or less than 0 inside. */
+/* Returns the distance to the nearest point of a triangle, negative inside; w: the weights of that point. */
 static float nearest(float w[3], float corner[3][2], const float p[2])
 {
     const float all = cross2(corner[0], corner[1], corner[2]);
@@ -400,7 +399,7 @@ static float nearest(float w[3], float corner[3][2], const float p[2])
     return best;
 }
 
-/* What a face shows; 0 where it lies over another one of its chart. */
+/* Rasterizes a face; returns 0 if it overlaps another one of the chart. */
 static int draw_face(map *m, uint32_t i)
 {
     const face *f = &m->face[i];
@@ -440,7 +439,7 @@ static int draw_face(map *m, uint32_t i)
     return free_of_others;
 }
 
-/* All of them; those that lie over others are told apart, and 0 returned. */
+/* Rasterizes all faces; moves those that overlap others to separate charts and returns 0. */
 static int draw_faces(map *m)
 {
     int ok = 1;
@@ -480,7 +479,7 @@ static void light_texels(map *m)
     }
 }
 
-/* Texels beside known ones take their mean. */
+/* Gives texels next to known ones their mean. */
 static void dilate(map *m, uint8_t round)
 {
     for (int32_t y = 0; y < m->side; ++y) {
@@ -521,7 +520,7 @@ static uint8_t code_of(float v)
     return (uint8_t)low;
 }
 
-/* The PNG; *scale becomes the brightest texel's light. */
+/* Encodes the PNG; *scale becomes the light of the brightest texel. */
 static int encode(file_bytes *out, float *scale, const map *m)
 {
     const size_t floats = 3 * (size_t)m->side * (size_t)m->side;
@@ -580,7 +579,7 @@ static int write(const map *m, const char *path, const model *loaded, glb_mesh *
     return ok;
 }
 
-/* Charts, and the texels that they show, until none lies over another. */
+/* Builds charts and their texels until none overlap. */
 static int draw(map *m)
 {
     int is_drawn = 0;

@@ -1,4 +1,4 @@
-/* light_probes.c: bounced light in the air as a lattice of spherical harmonics: a JSON and the numbers beside it. */
+/* light_probes.c: bounced light in the air as a lattice of spherical harmonics: a JSON and a file of numbers. */
 #include "light_export.h"
 
 #include <math.h>
@@ -12,9 +12,9 @@
 
 enum { TERMS = 9, FLOATS = 3 * TERMS + 1, NORMALS = LIGHT_PROBE_NORMALS, TOGETHER = 4, ACROSS = 12, MOST = 1 << 16,
        PATH = 4096 };
-#define OPEN 0.25f /* of all directions: a place that sees less of lit surfaces lies in a solid, or behind one */
+#define OPEN 0.25f /* of all directions: a point that sees less of lit surfaces counts as inside or behind a solid */
 
-/* The harmonics of radiance, of R, G and B, W/(sr m2); then the share of directions that show a lit surface. */
+/* Harmonics of the radiance of R, G and B, W/(sr m2); then the share of directions that see a lit surface. */
 typedef struct probe {
     float v[FLOATS];
 } probe;
@@ -22,12 +22,12 @@ typedef struct probe {
 typedef struct lattice {
     lmb_vec3 first, step; /* m */
     int32_t count[3];     /* along x, y, z */
-    probe *probe;         /* x fastest */
+    probe *probe;         /* x varies fastest */
 } lattice;
 
 /* --- harmonics ---------------------------------------------------------------------------------------------------- */
 
-/* Real harmonics in the order l l + l + m. */
+/* Real harmonics, index l l + l + m. */
 static void harmonics(float y[TERMS], lmb_vec3 n)
 {
     y[0] = 0.282095f;
@@ -41,10 +41,10 @@ static void harmonics(float y[TERMS], lmb_vec3 n)
     y[8] = 0.546274f * (n.x * n.x - n.y * n.y);
 }
 
-/* What the clamped cosine makes of each term. */
+/* Factor of the clamped cosine for each term. */
 static float cosine_of(int term) { return term == 0 ? 3.141593f : term < 4 ? 2.094395f : 0.785398f; }
 
-/* Along axes and diagonals: with these weights sums over the sphere are exact up to the fifth order (Lebedev). */
+/* Axes and diagonals: with these weights, sums over the sphere are exact up to order five (Lebedev). */
 lmb_vec3 light_probe_normal(int k, float *weight)
 {
     const float sign = k % 2 ? -1.0f : 1.0f, d = 0.57735027f;
@@ -65,7 +65,7 @@ static float step_of(const lmb_scene *scene, float step_m)
     return step_m > 0.0f ? step_m : maxf(maxf(size.x, maxf(size.y, size.z)) / (float)ACROSS, 1e-6f);
 }
 
-/* Places along each axis, at most MOST; how many there are in all. */
+/* Number of points along each axis, at most MOST; returns the total. */
 static double count_places(int32_t count[3], const lmb_scene *scene, float step)
 {
     const lmb_vec3 size = sub3(scene->bounds_max, scene->bounds_min);
@@ -125,7 +125,7 @@ void light_probe_add(float inout[3 * TERMS], int k, const float e[3])
     }
 }
 
-/* One place's harmonics, by the rows of its normals. */
+/* Sets the harmonics at a point from the rows of the normals. */
 static void set_probe(probe *p, const light_solve *s, const bake *b, float *const *row)
 {
     const lmb_transfer_light *light = &s->job.render->frame.transfer_light;
@@ -171,7 +171,7 @@ static int fill(lattice *l, const light_solve *s, const bake *b, report *r)
     return ok;
 }
 
-/* What lies in solids takes the mean of its neighbours, step by step, so that no darkness of theirs is seen outside. */
+/* Points in solids take the mean of their neighbours, step by step, so that their darkness does not show outside. */
 static int mend_once(lattice *l, uint8_t *open)
 {
     const size_t all = count_of(l), along[3] = {1, (size_t)l->count[0], (size_t)l->count[0] * (size_t)l->count[1]};
@@ -214,7 +214,7 @@ static int mend(lattice *l, report *r)
 
 /* --- files -------------------------------------------------------------------------------------------------------- */
 
-/* The .bin beside the .json, with its folder or without. */
+/* Name of the .bin that belongs to a .json, with or without the folder. */
 static void name_numbers(char out[PATH], const char *path, int is_alone)
 {
     const char *slash = strrchr(path, '/');
@@ -292,7 +292,7 @@ static int read_both(lattice *l, const char *path, report *r)
 
 /* --- as an engine draws it ---------------------------------------------------------------------------------------- */
 
-/* The place before along an axis, and how far it is to the next. */
+/* The lattice point before along an axis, and the fraction towards the next. */
 static int32_t before(float *part, float at, float first, float step, int32_t count)
 {
     const float x = minf(maxf((at - first) / step, 0.0f), (float)(count - 1));

@@ -1,4 +1,4 @@
-/* light_solve.c: a scene's bounced light by what was baked, at any place of its surfaces. */
+/* light_solve.c: the bounced light of a scene from a transfer, at any surface point. */
 #include "light_solve.h"
 
 #include <string.h>
@@ -13,7 +13,7 @@ int light_begin(light_solve *s, const render_options *o, const lmb_scene *scene,
     memset(s, 0, sizeof *s);
     j->o = *o;
     j->scene = *scene;
-    j->loaded.cameras = loaded->cameras; /* borrowed: what is freed are its blocks */
+    j->loaded.cameras = loaded->cameras; /* borrowed: only the blocks of `loaded` are freed */
     j->loaded.camera_count = loaded->camera_count;
     j->transfer_file = *lmt;
     memset(lmt, 0, sizeof *lmt);

@@ -1,5 +1,4 @@
-/* light_solve.h: the bounced light of a scene's lights, solved once by what was baked, and asked for at any place of its
- * surfaces. */
+/* light_solve.h: the bounced light of a scene, solved once from a transfer; you can evaluate it at any point. */
 #ifndef LIGHT_SOLVE_H
 #define LIGHT_SOLVE_H
 
@@ -8,19 +7,19 @@
 enum { SOLVE_PLACES = LMB_TILE_PIXELS };
 
 typedef struct light_solve {
-    render_job job; /* its light's stages are done; `frame` has the light and a view of the scene */
+    render_job job; /* light stages done; `frame` has the light and a view of the scene */
     lmb_transfer_scratch scratch;
     lmb_tile tile;
 } light_solve;
 
-/* A place of a surface. */
+/* A point on a surface. */
 typedef struct light_place {
-    lmb_vec3 at, face, normal; /* m; unit: which side of the triangle; of the shading */
+    lmb_vec3 at, face, normal; /* m; unit normals: of the triangle's side; for shading */
     uint32_t id;
 } light_place;
 
-/* light_begin: `o` has the scene's name, lights, bounces and threads; `lmt` is what was baked of it, which is taken
- * over. light_end releases it. light_at: irradiance of up to SOLVE_PLACES places, W/m2. 1, or 0 with `r` set. */
+/* light_begin: `o` has the scene's name, lights, bounces and threads; `lmt`, the baked file, is moved into `s`.
+ * light_end releases it. light_at: irradiance at up to SOLVE_PLACES places, W/m2. Return 1, or 0 with `r` set. */
 int light_begin(light_solve *s, const render_options *o, const lmb_scene *scene, const model *loaded, file_bytes *lmt,
                 report *r);
 void light_end(light_solve *s);

@@ -1,4 +1,4 @@
-/* verb_bake.c: `lambent bake`: a scene that does not move -> its light transfer, in a file. */
+/* verb_bake.c: `lambent bake`: a static scene -> a file with light transfer. */
 #include "verb_bake.h"
 
 #include <limits.h>
@@ -18,8 +18,8 @@
 #include "bake_slice.h"
 #include "light_export.h"
 
-enum { MOVING = 256 }; /* objects, at most */
-enum { EYES = 64 };    /* that are given, and cameras of the scene */
+enum { MOVING = 256 }; /* objects */
+enum { EYES = 64 };    /* given by the user and cameras of the scene */
 
 typedef struct options {
     const char *scene, *out, *moving;
@@ -43,7 +43,7 @@ static const char *const orders[] = {"little", "big", NULL};
 static const char *const forms[] = {"transfer", "vertex-colours", "lightmap", "probes", NULL};
 static const char *const endings[] = {".lmt", ".glb", ".glb", ".json"};
 
-/* Settings of --quality: elements, and receivers in addition to those at the corners of triangles. */
+/* Settings of --quality: elements, and receivers in addition to those at triangle corners. */
 enum { QUALITY_DRAFT, QUALITY_DEFAULT, QUALITY_BEST };
 static const char *const qualities[] = {"draft", "default", "best", NULL};
 static const struct {
@@ -56,64 +56,69 @@ static const option_row rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
      .help = "a .lmt for `lambent render --transfer`; with --to a .glb or .json"},
     {.name = "--to", .kind = OPTION_WORD, AT(to), .words = forms,
-     .help = "for other engines: the bounced light of the scene's lights as they stand, W/m2 before the albedo, in a form "
-             "that they draw:\nvertex-colours: a .glb whose triangles are divided until light is linear on each; COLOR_1, "
-             "times the scale in asset.extras.lambent;\nlightmap: a .glb with TEXCOORD_1 and a PNG;\nprobes: a .json and a "
-             ".bin: a lattice of harmonics.\nThe error of the form is measured and said (default transfer: for lights that "
-             "move)"},
+     .help = "for other engines: the bounced light of the scene's lights, W/m2 before albedo, in a format that they "
+             "can draw:\nvertex-colours: a .glb with triangles divided until light is linear on each; COLOR_1, "
+             "times the scale in asset.extras.lambent;\nlightmap: a .glb with TEXCOORD_1 and a PNG;\nprobes: a "
+             ".json and a .bin: a lattice of spherical harmonics.\nThe error of the format is measured and printed "
+             "(default transfer: for lights that move)"},
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(choice.scene),
-     .help = "of a file with several scenes: which, by name or number"},
+     .help = "scene to load from a file with several, by name or number"},
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities,
-     .help = "draft: 1024 elements, and 1500 receivers beside those at corners of triangles; default: 4096 and "
+     .help = "draft: 1024 elements, and 1500 receivers in addition to those at triangle corners; default: 4096 and "
              "7000; best: 16384 and 12000, which takes 1.5 to nine times as long as the default (default default)"},
     {.name = "--error", .value = "SHARE", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
-     .help = "how accurate the links are, which carry light from pieces of the scene to receivers: the error that one more "
-             "link has to save, as a share of all light around a receiver that stands for a 10,000th of the scene's "
-             "area (a larger one's error counts more). Smaller: more accurate, a larger file (default 0.00014)"},
+     .help = "accuracy of the links, which carry light from elements to receivers: the error that one more link "
+             "must save, as a share of all light, around a receiver for a 10,000th of the scene's area (errors of "
+             "larger ones count more). Smaller: more accurate, a larger file (default 0.00014)"},
     {.name = "--division", .value = "SHARE", .kind = OPTION_ABOVE, AT(division), .low = 0.0, .high = 1.0,
-     .help = "how finely triangles are divided, with a receiver at each corner: until light over a piece is linear but "
-             "for this share of all light, over a thousandth of the scene's area. Smaller: finer shadows of bounced "
-             "light, more receivers (default 0.008)"},
+     .help = "accuracy of the division of triangles, with a receiver at each corner: light over a piece may differ "
+             "from linear by this share of all light, over a thousandth of the scene's area. Smaller: finer shadows "
+             "of bounced light, more receivers (default 0.008)"},
     {.name = "--elements", .value = "N", .kind = OPTION_POWER_OF_2, AT(elements), .low = 64,
      .high = LMB_TRANSFER_MAX_ELEMENTS,
-     .help = "pieces of surface that emit light: 256, 1024, 4096 or 16384 (default: set by --quality); fewer: faster"},
+     .help = "pieces of surface that emit light: 256, 1024, 4096 or 16384 (default: set by --quality); fewer are "
+             "faster"},
     {.name = "--receivers", .value = "N", .kind = OPTION_INT, AT(receivers), .low = 64, .high = 500000,
      .help = "stop halving triangles at this number of receivers (default: set by --quality)"},
     {.name = "--cluster", .value = "METRES", .kind = OPTION_ABOVE, AT(cluster), .low = 0.0, .high = 1e5,
-     .help = "triangles of meshes under twice this size are lit by clusters of this size (default: by the scene)"},
+     .help = "triangles of meshes under twice this size are lit by clusters of this size (default: from the scene's "
+             "area)"},
     {.name = "--smallest", .value = "METRES", .kind = OPTION_ABOVE, AT(smallest), .low = 0.0, .high = 1e5,
-     .help = "no shorter edge is halved (default: by the scene)"},
+     .help = "shorter edges are not halved (default: from the scene's area)"},
     {.name = "--moving", .value = "N[,N..]", .kind = OPTION_TEXT, AT(moving),
-     .help = "objects that may move, by number from 0, as `lambent play` has them: lit by light in the air, with shadows "
-             "of direct light; bounced light they neither block nor reflect, which leaves a crate in a "
-             "room with a trim of 0.15 to 0.22"},
+     .help = "objects that may move, by number from 0 as in `lambent play`: lit by receivers in the air, with "
+             "shadows of direct light. They neither block nor reflect bounced light, which gives a crate in a room "
+             "a trim of 0.15 to 0.22"},
     {.name = "--eye", .value = "X,Y,Z", .kind = OPTION_POINT, AT(eye), .counts = offsetof(options, eyes), .times = EYES,
      .size = sizeof(lmb_vec3),
-     .help = "a place of a camera or light to come, beside those of the scene: for rooms that these see nothing of"},
+     .help = "position of a later camera or light, in addition to those of the scene: for rooms that these do not "
+             "see"},
     {.name = "--once", .kind = OPTION_FLAG, AT(is_once),
-     .help = "for pictures with one reflection: no links for further ones, which saves a tenth of the file, and memory of "
-             "small machines; not for a scene that materials light, as it leaves out what reflects their light"},
+     .help = "for pictures with one bounce: no links for further ones, which saves a tenth of the file, and memory "
+             "on small machines. Not for a scene lit by materials, because surfaces that reflect their light are "
+             "left out"},
     {.name = "--glossy", .kind = OPTION_FLAG, AT(is_glossy),
-     .help = "for `render --glossy`: glTF's metals and smooth materials keep light by direction, as those with a normal "
-             "map do, in two to three times the bytes"},
+     .help = "for `render --glossy`: glTF's metals and smooth materials store light by direction, like those with a "
+             "normal map, in two to three times the bytes"},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(options, light_count),
-     .times = RENDER_LIGHTS, .size = sizeof(lmb_light), .help = "with --to: in place of the scene's lights; as `render` has it"},
+     .times = RENDER_LIGHTS, .size = sizeof(lmb_light),
+     .help = "with --to: replaces the scene's lights, as in `render`"},
     {.name = "--bounces", .value = "N", .kind = OPTION_INT, AT(bounces), .low = 1, .high = 64,
-     .help = "with --to: how often light is reflected; what is reflected more often is estimated (default 4)"},
+     .help = "with --to: number of bounces; further ones are estimated (default 4)"},
     {.name = "--texels", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(texels), .low = 64, .high = 8192,
-     .help = "with --to lightmap: its side, a multiple of 8 (default 2048)"},
+     .help = "with --to lightmap: texels per side, a multiple of 8 (default 2048)"},
     {.name = "--step", .value = "METRES", .kind = OPTION_ABOVE, AT(step_m), .low = 0.0, .high = 1e6,
-     .help = "with --to probes: between two places of the lattice (default: a 12th of the scene's longest side)"},
+     .help = "with --to probes: distance between points of the lattice (default: a 12th of the scene's longest side)"},
     {.name = "--budget-bytes", .value = "N", .kind = OPTION_INT, AT(budget), .low = 1000, .high = 2000000000,
-     .help = "a larger --error where the file would be larger than this; which one is said"},
+     .help = "use a larger --error if the file would be larger than this, and print it"},
     {.name = "--endian", .kind = OPTION_WORD, AT(is_big), .words = orders,
-     .help = "byte order of the machine that reads the file (default: of this one)"},
-    OPTION_SLICE_ROW(options, slice, "bake's rows of receivers"),
-    {.name = "--report", .kind = OPTION_FLAG, AT(has_report), .help = "bytes of the file, part by part"},
+     .help = "byte order of the machine that reads the file (default: same as this one)"},
+    OPTION_SLICE_ROW(options, slice, "bake, by rows of receivers"),
+    {.name = "--report", .kind = OPTION_FLAG, AT(has_report), .help = "print the bytes of each part of the file"},
     OPTION_THREADS_ROW(options, threads, "bake the file"),
     OPTION_ONLY_HERE,
-    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took"),
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the time it took"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -121,22 +126,22 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "bake",
     .usage = "bake SCENE -o OUT.lmt [options]",
-    .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds bounced "
-             "light many times faster than without, wherever lights and camera are. Colours may change, too.\n"
-             "Surfaces stay dark that no light would reach from any light or camera of the scene, after any number of "
-             "reflections: the insides of solids, and closed rooms without a light or camera, for which --eye is. Of a "
-             "scene with more than 64 cameras the first 64 count.\n"
-             "Takes seconds to minutes, and memory while it does: 2 bytes x elements x receivers, 6 bytes x elements x "
-             "clusters, and up to 100 MB beside the scene's own; half a gigabyte for a room by --quality best.\n"
-             "Slices run at the same time, on machines that share the output's folder: in OUT.shared they pass on what they "
-             "have made. What one does not find there in time it makes itself.",
+    .about = "Precomputes light transport of a static scene: `render --transfer` then adds bounced light many times "
+             "faster than without, for any lights and camera. You may change colours too.\nSurfaces stay dark if no "
+             "light would reach them from any light or camera of the scene, after any number of bounces: the "
+             "insides of solids, and closed rooms without a light or camera (use --eye for these). If a scene has "
+             "more than 64 cameras, the first 64 count.\nTakes seconds to minutes, and memory: 2 bytes x elements x "
+             "receivers, 6 bytes x elements x clusters, and up to 100 MB in addition to the scene; half a gigabyte "
+             "for a room with --quality best.\nSlices run at the same time, on machines that share the output's "
+             "folder. They exchange results through OUT.shared; if a result does not arrive in time, a slice "
+             "computes it itself.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
                 "  lambent render demo --transfer demo.lmt -o demo.png\n"
                 "  lambent bake demo -o demo.glb --to vertex-colours --elements 1024 --receivers 2000\n",
 };
 
-/* `0,3,4`: numbers of the scene's objects, none twice. */
+/* Parses `0,3,4`: object numbers of the scene, without duplicates. */
 static int parse_moving(uint32_t out[MOVING], uint32_t *count, const char *text, const lmb_scene *scene, report *r)
 {
     const char *at = text;
@@ -187,7 +192,7 @@ static int is_own_big(void)
     return *(const uint8_t *)(const void *)&one == 0;
 }
 
-/* The file; as long as it is too large with a larger error. */
+/* Writes the file; repeats with a larger error while it is too large. */
 static int make_file(file_bytes *file, const options *o, bake *b, report *r)
 {
     int ok = bake_code_all(b, r) && bake_file(file, b, r);
@@ -202,7 +207,7 @@ static int make_file(file_bytes *file, const options *o, bake *b, report *r)
                               (int)o->budget, (double)file->size));
 }
 
-/* The light that what was baked makes of the scene's lights, in another form. */
+/* Computes the light of the scene's lights from the bake, and writes it in another format. */
 static int export(const options *o, const char *path, const lmb_scene *scene, const model *loaded, bake *b,
                   file_bytes *lmt, report *r)
 {
@@ -230,7 +235,7 @@ static int export(const options *o, const char *path, const lmb_scene *scene, co
     return ok;
 }
 
-/* Other forms are written to the folder that slices share, read and removed. */
+/* Other formats are written to the folder that slices share, read back and removed. */
 static int export_slice(file_bytes file[BAKE_FILES], const options *o, const lmb_scene *scene, const model *loaded,
                         bake *b, report *r)
 {
@@ -275,14 +280,14 @@ static int write_slice(const options *o, const lmb_scene *scene, const model *lo
     return ok;
 }
 
-/* Files of slices are read and written again: from now on none is kept from that. */
+/* Ends file_keep_all: slice files are read and written again, so they may be overwritten. */
 static int begin_slice(bake_share *s, char folder[SLICE_NAME], const options *o, const lmb_scene *scene, report *r)
 {
     char name[SLICE_NAME];
-    const uint64_t own = scene_hash(scene); /* with what its file has beside it */
+    const uint64_t own = scene_hash(scene); /* includes the files beside the scene file */
     s->slice = o->slice;
     s->job = slice_hash(o->slice_job, &own, sizeof own);
-    s->job = slice_hash(s->job, o->is_big ? "big" : "little", 3); /* by default it is the machine's */
+    s->job = slice_hash(s->job, o->is_big ? "big" : "little", 3); /* the default is the byte order of the machine */
     s->folder = folder;
     if (!slice_name(name, o->out, o->slice, r) || !file_can_write(name, r) || !bake_slice_folder(folder, o->out, r)) {
         return 0;
@@ -294,7 +299,7 @@ static int begin_slice(bake_share *s, char folder[SLICE_NAME], const options *o,
 static int bake_scene(const options *o, const lmb_scene *whole, const model *loaded, const lmb_vec3 *eyes,
                       uint32_t eye_count, report *r)
 {
-    static bake_share share; /* large, as its folder's name is */
+    static bake_share share; /* large: it contains a folder name */
     static char folder[SLICE_NAME];
     bake b;
     bake_settings set;

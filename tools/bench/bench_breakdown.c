@@ -1,4 +1,4 @@
-/* bench_breakdown.c: how much of a picture's error each stage adds. */
+/* bench_breakdown.c: the share of a picture's error that each stage adds. */
 #include "bench_breakdown.h"
 
 #include <stdlib.h>
@@ -23,7 +23,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Squared errors of the pixels that count; returns how many. */
+/* Squared errors of the pixels that count; returns the number of pixels. */
 static size_t errors_of(double *squares, const float *test, const float *truth, const uint8_t *counts, size_t pixels)
 {
     size_t n = 0;
@@ -35,7 +35,7 @@ static size_t errors_of(double *squares, const float *test, const float *truth, 
     return n;
 }
 
-/* Leave out the hundredth that is the worst. */
+/* Leaves out the worst hundredth. */
 static void trim(uint8_t *kept, double *squares, const float *test, const float *truth, const uint8_t *counts,
                  size_t pixels)
 {
@@ -47,7 +47,7 @@ static void trim(uint8_t *kept, double *squares, const float *test, const float 
     }
 }
 
-/* Mean square from one picture to another. */
+/* Mean square difference of two pictures. */
 static double step(const float *a, const float *b, const uint8_t *kept, size_t pixels)
 {
     double sum = 0.0;
@@ -61,7 +61,7 @@ static double step(const float *a, const float *b, const uint8_t *kept, size_t p
     return n > 0 ? sum / (double)n : 0.0;
 }
 
-/* Of the truth; 0 where nothing counts. */
+/* Mean of the truth; 0 if no pixel counts. */
 static double mean_of(const float *truth, const uint8_t *counts, size_t pixels)
 {
     double sum = 0.0;

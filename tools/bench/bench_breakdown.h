@@ -1,18 +1,18 @@
-/* bench_breakdown.h: how much of a picture's error each stage adds. */
+/* bench_breakdown.h: the share of a picture's error that each stage adds. */
 #ifndef BENCH_BREAKDOWN_H
 #define BENCH_BREAKDOWN_H
 
 #include "bench_results.h"
 
-/* bench_breakdown_sum: squares of the steps from picture[0] to picture[out->rows], which is the truth: row i is the
- * step from i to i + 1. The steps' sum is the whole way, so the whole's square is the sum of theirs and of twice each
- * two's product: the interaction, `total - sum`, which is what one stage's error hides or adds to another's.
+/* bench_breakdown_sum: squared steps from picture[0] to picture[out->rows], which is the truth: row i is the step from
+ * i to i + 1. The steps sum to the whole error, so its square is the sum of their squares plus twice the product of
+ * each pair. That second part is the interaction, `total - sum`: errors of stages that cancel or add up.
  *
- *   picture  3 floats a pixel
- *   counts   1 a pixel: where it counts. Of those, the hundredth where a picture is farthest from the truth is left
- *            out, as `trim` does, and for all pictures the same ones: what is among the worst of any of them. So
- *            sqrt(total) is a little under that figure.
- * Returns 1, or 0 where nothing counts, the truth is black or memory is short. */
+ *   picture  3 floats per pixel
+ *   counts   1 per pixel: whether it counts. Like `trim`, this leaves out the hundredth of them that is farthest from
+ *            the truth. It leaves out the same pixels in all pictures: the worst of any of them. So sqrt(total) is
+ *            slightly below that figure.
+ * Returns 1, or 0 if no pixel counts, the truth is black or memory is short. */
 int bench_breakdown_sum(bench_breakdown *inout, const float *const *picture, const uint8_t *counts, size_t pixels);
 
 #endif

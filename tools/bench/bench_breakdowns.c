@@ -1,4 +1,4 @@
-/* bench_breakdowns.c: where some settings' errors come from: chains of pictures with one stage more exact each. */
+/* bench_breakdowns.c: error breakdowns of some settings, by chains of pictures with one more exact stage each. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,8 +55,8 @@ static void step(chain *c, bench_breakdown *l, const char *stage, const char *to
     c->picture[l->rows] = picture;
 }
 
-/* Where stage `at` leads: the truth itself where that is our own exact picture, else drawn; the last one once for all
- * settings. NULL where the words so far do not go together. */
+/* The picture with stage `at` exact. For the last stage this is the truth if it is the subject's, or a picture that is
+ * drawn once for all settings. Returns NULL if the options so far are incompatible. */
 static const float *lead(chain *c, sweep *s, const bench_line *line, int at, image *finest)
 {
     const int is_last = at + 1 == s->o->subject->exact_count;
@@ -68,7 +68,7 @@ static const float *lead(chain *c, sweep *s, const bench_line *line, int at, ima
     return into->pixels != NULL || draw(into, s, line, &unheard) ? into->pixels : NULL;
 }
 
-/* A stage that cannot be made exact before the next one is, counts with it. */
+/* Builds the chain of a setting. If a stage can be made exact only together with the next one, both share a row. */
 static int follow(chain *c, bench_breakdown *l, sweep *s, int point, image *finest, report *r)
 {
     const bench_subject *subject = s->o->subject;
@@ -124,7 +124,7 @@ static int add(sweep *s, int point, image *finest, const uint8_t *counts, report
     return ok;
 }
 
-/* The subject's first settings, its presets; and the knee. */
+/* Chooses the subject's first settings, which are presets, and the knee. */
 static int choose(int out[BENCH_BREAKDOWNS], const sweep *s)
 {
     int n = 0, knee = -1;

@@ -1,4 +1,4 @@
-/* bench_chart.c: the front of speed against error as SVG, logarithmic both ways, with its knee. */
+/* bench_chart.c: the front of speed against error as SVG, log-log, with the knee marked. */
 #include "bench_chart.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 enum { LEFT = 66, RIGHT = 18, TOP = 14, BOTTOM = 48, BOXES = 1024 };
 
-#define LETTER 6.7 /* px a character of the labels is wide: monospaced, 11 px */
+#define LETTER 6.7 /* px, width of a label's character: monospaced, 11 px */
 
 typedef struct box {
     double x, y, width, height;
@@ -20,7 +20,7 @@ typedef struct chart {
     const bench_results *b;
     double width, height;
     double low[2], high[2]; /* logarithms of time and error at the edges */
-    box taken[BOXES]; /* where no label may be */
+    box taken[BOXES]; /* areas closed to labels */
     int boxes;
 } chart;
 
@@ -46,7 +46,7 @@ void bench_label(char out[BENCH_NAME], const char *name)
     out[n] = '\0';
 }
 
-/* --- where things go ---------------------------------------------------------------------------------------------- */
+/* --- layout ------------------------------------------------------------------------------------------------------- */
 
 static int is_shown(const bench_point *p) { return p->has_figures && p->failure[0] == '\0' && p->threads == 1; }
 
@@ -98,7 +98,7 @@ static void say_tick(const chart *c, double at, double v, int axis)
     }
 }
 
-/* Lines at 1, 2 and 5 of each decade; over many decades at 1; over less than one at more. */
+/* Draws lines at 1, 2 and 5 of each decade; over many decades only at 1, over less than one at more values. */
 static void draw_grid(const chart *c, int axis)
 {
     static const double steps[7] = {1.0, 2.0, 5.0, 1.5, 3.0, 4.0, 7.0};
@@ -180,7 +180,7 @@ static int is_free(const chart *c, const box *k)
     return 1;
 }
 
-/* Around the point, above and to the right first, then farther away; none where all is full. */
+/* Tries places around the point, above and to the right first, then farther away. Returns 0 if all are taken. */
 static int find_place(const chart *c, box *k, double x, double y)
 {
     static const double way[8][2] = {{0, -1}, {-1, 1}, {0, 1}, {-1, -1}, {-0.5, -1}, {-0.5, 1}, {0, 0}, {-1, 0}};
@@ -218,7 +218,7 @@ static void draw_label(chart *c, const bench_point *p)
     take(c, k);
 }
 
-/* Labels keep off the line, as far as there is room. */
+/* Keeps labels off a line, as far as there is room. */
 static void take_line(chart *c, double x0, double y0, double x1, double y1)
 {
     const int pieces = 1 + (int)(hypot(x1 - x0, y1 - y0) / 10.0);
@@ -245,7 +245,7 @@ static void draw_front(chart *c, const int *order, int n)
     text_buffer_plain(c->out, n > 0 ? "\"/>" : "");
 }
 
-/* The knee is named first, then the front, then the settings that all know: the first option's. */
+/* Labels the knee first, then the front, then the first option's settings, which all readers know. */
 static void draw_labels(chart *c, const int *order, int n)
 {
     for (int i = 0; i < n; ++i) {
@@ -268,7 +268,7 @@ static void draw_labels(chart *c, const int *order, int n)
 
 void bench_chart(text_buffer *out, const bench_results *b, int width, int height, int styled)
 {
-    static chart c; /* large; filled anew each time */
+    static chart c; /* large; refilled each time */
     int order[BENCH_POINTS];
     memset(&c, 0, sizeof c);
     c.out = out;

@@ -1,4 +1,4 @@
-/* bench_draw.c: the workloads of lambent/draw.h, made here but for the meshes of the raster workload. */
+/* bench_draw.c: the workloads of lambent/draw.h, generated here except for the meshes of the raster workload. */
 #include "bench_draw.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ enum {
     TEXT_WIDE = WIDE / 6
 };
 
-/* What all cases draw into, and the arrays of the one at hand. */
+/* The target of all cases, and the arrays of the current one. */
 typedef struct drawing {
     lmb_draw_target target;
     lmb_draw_state state;
@@ -44,7 +44,7 @@ typedef struct drawing {
 
 typedef struct draw_case {
     const char *name;
-    int (*make)(drawing *d, const draw_options *o, report *r); /* 1; 0 with `r` set */
+    int (*make)(drawing *d, const draw_options *o, report *r); /* returns 1, or 0 with `r` set */
     void (*frame)(drawing *d);
     const char *what;
 } draw_case;
@@ -74,7 +74,7 @@ static void frame_list(drawing *d)
                         NULL);
 }
 
-/* Once more over what is there. */
+/* Draws again over the last frame. */
 static void frame_over(drawing *d)
 {
     (void)lmb_draw_list(&d->target, &d->state, &d->vertices, d->primitive, NULL, NULL);
@@ -88,7 +88,7 @@ static void frame_text(drawing *d)
     (void)lmb_text(&d->target.colour, 0, 0, d->text, 1, ink);
 }
 
-/* The ground's depth, then what enters and leaves the volumes before it. */
+/* Draws the ground's depth, then the front and back faces of the volumes before it. */
 static void frame_shadows(drawing *d)
 {
     static const float plane[4][3] = {{-9, -9, -6}, {9, -9, -6}, {9, 9, -6}, {-9, 9, -6}};
@@ -182,7 +182,7 @@ static int make_sponza_tex(drawing *d, const draw_options *o, report *r)
     return make_file(d, BENCH_SPONZA_INSIDE, BENCH_TEXTURED, o, r);
 }
 
-/* A wavy ground of GRID x GRID cells, lit at its corners, from above. */
+/* A wavy ground of GRID x GRID cells, lit per vertex, seen from above. */
 static void make_ground(drawing *d)
 {
     lmb_view view;
@@ -253,7 +253,7 @@ static int make_fogged(drawing *d, const draw_options *o, report *r)
 
 /* --- sprites, particles, lines, text ------------------------------------------------------------------------------ */
 
-/* `count` squares of `size` pixels at random places, in pixels. */
+/* `count` squares of `size` pixels at random pixel positions. */
 static void make_squares(drawing *d, int count, int size)
 {
     static const float at[4][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
@@ -344,7 +344,7 @@ static int make_text(drawing *d, const draw_options *o, report *r)
     return 1;
 }
 
-/* Open boxes that fall from the viewer's side into the ground: four sides each. */
+/* Open boxes from the viewer's side into the ground, four sides each. */
 static int make_shadows(drawing *d, const draw_options *o, report *r)
 {
     static const float corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -483,7 +483,7 @@ static int drawing_make(drawing *d, report *r)
     return 1;
 }
 
-/* What one case leaves, the next has not. */
+/* Resets the state that the previous case left. */
 static void drawing_begin(drawing *d, const draw_options *o)
 {
     (void)lmb_draw_state_init(&d->state, WIDE, HIGH);
@@ -497,7 +497,7 @@ static void drawing_begin(drawing *d, const draw_options *o)
 
 /* --- measuring ---------------------------------------------------------------------------------------------------- */
 
-/* Least processor time of a frame, s; and in the same time shortest time of storing each pixel once. */
+/* Shortest processor time of a frame, s; *store: the same for storing each pixel once, measured in turn. */
 static double measure(drawing *d, const draw_case *c, double seconds, double *store, int *frames)
 {
     const double end = host_seconds() + seconds;

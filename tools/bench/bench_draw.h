@@ -1,4 +1,4 @@
-/* bench_draw.h: `lambent bench draw`: how fast lambent/draw.h draws what lies in a frame beside the lit scene. */
+/* bench_draw.h: `lambent bench draw`: the speed of lambent/draw.h for everything in a frame besides the lit scene. */
 #ifndef BENCH_DRAW_H
 #define BENCH_DRAW_H
 
@@ -11,12 +11,12 @@ typedef struct draw_options {
     int case_count;
     const char *folder;         /* of bunny.mesh and sponza.mesh; NULL: without them */
     const lmb_kernels *kernels; /* NULL: plain C */
-    double seconds;             /* of each case */
+    double seconds;             /* per case */
     int json, is_quiet;
 } draw_options;
 
-/* bench_draw_is_wanted: does some case's name have one of the parts?
- * bench_draw: a line a case. 1, or 0 with `r` set. */
+/* bench_draw_is_wanted: does a case's name contain one of the parts? bench_draw: prints one line per case. Returns 1,
+ * or 0 with `r` set. */
 int bench_draw_is_wanted(const draw_options *o);
 int bench_draw(const draw_options *o, report *r);
 

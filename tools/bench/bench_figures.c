@@ -107,10 +107,10 @@ const bench_subject bench_figures = {
     .backends = 1,
     .truth_is = "its own finest settings, " EXACT,
     .usage = "bench relight --world WORLD --object FILE [options of lambent relight] [options]",
-    .about = "Speed against error of objects in the light of a world: by samples a pixel, with what they hide from each "
-             "other and from the ground (--contact), by filter and storage; lights with a size, roughness and places come "
-             "with the options of lambent relight. The truth is a picture of yours or the finest settings: contact and 16 "
-             "samples. Time is of all, reading the files too; memory is the world's.",
+    .about = "Measures speed against error of objects in the light of a world: by samples per pixel, with occlusion "
+             "of each other and of the ground (--contact), by filter and storage; for lights with a size, roughness "
+             "and places, add options of lambent relight. The truth is your picture or the finest settings: contact "
+             "and 16 samples. Time includes reading the files; memory is the world's.",
     .examples = "  lambent bench relight --world demo --object demo --size 80x60 --runs 1 --sweep samples=1,4\n",
     .check = check,
     .draw = draw,

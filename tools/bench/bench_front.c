@@ -1,11 +1,11 @@
-/* bench_front.c: which points nothing beats, and where more time stops to pay. */
+/* bench_front.c: the front of unbeaten points, and the knee. */
 #include "bench_front.h"
 
 #include <math.h>
 
 static int counts(const bench_point *p) { return p->has_figures && p->failure[0] == '\0' && p->threads == 1; }
 
-/* Does a leave b off the front? `earlier`: a stands before b. */
+/* Does a beat b? `earlier`: a comes before b. */
 static int beats(const bench_point *a, const bench_point *b, int earlier)
 {
     const int no_worse = a->time_s <= b->time_s && a->figure[0] <= b->figure[0];
@@ -29,7 +29,7 @@ static double log_error(const bench_point *p)
     return log(p->figure[0] > BENCH_MIN_ERROR ? p->figure[0] : BENCH_MIN_ERROR);
 }
 
-/* With both axes from 0 to 1 the line is time + error = 1. */
+/* Both axes run from 0 to 1, so the line is time + error = 1. */
 static void mark_knee(bench_results *b, const int *order, int n)
 {
     const bench_point *fast = &b->point[order[0]], *slow = &b->point[order[n - 1]];
@@ -49,7 +49,7 @@ static void mark_knee(bench_results *b, const int *order, int n)
     }
 }
 
-/* No two share a time. */
+/* All times differ. */
 int bench_front_order(int *order, const bench_results *b)
 {
     int n = 0;

@@ -17,7 +17,7 @@ typedef struct workload {
     lmb_gather_scratch scratch;
 } workload;
 
-/* A floor of 8 x 8 pixels 5 cm apart under a ceiling of 16 x 16 discs: all face each other, none is near. */
+/* A floor of 8 x 8 pixels 5 cm apart under a ceiling of 16 x 16 discs: all face each other at a distance. */
 static void workload_make(workload *w)
 {
     memset(w, 0, sizeof *w);
@@ -42,7 +42,7 @@ static void workload_make(workload *w)
     }
 }
 
-/* Least seconds of one call. */
+/* Shortest time of one call, s. */
 static void time_gather(double *min, workload *w, const lmb_kernels *kernels)
 {
     for (int i = 0; i < CALLS; ++i) {
@@ -85,7 +85,7 @@ static void print_line(const lmb_kernels *kernels, double min, const bench_rates
     fflush(stdout);
 }
 
-/* The gather and the processor's loops by turns, so that both meet the same clock rate and the same neighbours. */
+/* Alternates the gather with the processor's loops, so that both see the same clock rate and load. */
 static int bench_backend_gather(const lmb_kernels *kernels, const gather_options *o, report *r)
 {
     static workload w;

@@ -6,7 +6,7 @@
 
 #include "../hard/hard.h"
 
-/* NaN and infinity, which only a case that failed has, are none of JSON's numbers. */
+/* Failed cases have NaN or infinity, which JSON lacks. */
 static void print_number(double v)
 {
     if (v - v == 0.0) {

@@ -12,7 +12,8 @@ typedef struct hard_options {
     int json, is_quiet;
 } hard_options;
 
-/* bench_hard: a line a case. 1, or 0 with `r` set: no memory, or a figure past its bound. */
+/* bench_hard: prints one line per case. Returns 1, or 0 with `r` set if memory is short or a figure exceeds its
+ * bound. */
 int bench_hard(const hard_options *o, report *r);
 
 #endif

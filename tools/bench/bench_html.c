@@ -1,4 +1,4 @@
-/* bench_html.c: a report as one page that needs nothing else: no script, no file beside it. */
+/* bench_html.c: a report as one self-contained page, without scripts or other files. */
 #include "bench_html.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static void put_label(text_buffer *out, const bench_point *p)
     text_buffer_html(out, label);
 }
 
-/* All that is shown was drawn: what is missing here found no memory, and the report is not written without it. */
+/* All pictures were drawn, so a missing one means that memory was short. The report is then not written. */
 static void put_picture(text_buffer *out, const bench_picture *p, const char *what)
 {
     file_bytes png = {NULL, 0};
@@ -33,7 +33,7 @@ static void put_picture(text_buffer *out, const bench_picture *p, const char *wh
     file_free(&png);
 }
 
-/* --- what came of it ---------------------------------------------------------------------------------------------- */
+/* --- results ------------------------------------------------------------------------------------------------------ */
 
 static void put_fact(text_buffer *out, const bench_results *b, const bench_point *p, const char *what, const char *why)
 {
@@ -171,7 +171,7 @@ static void put_stages(text_buffer *out, const bench_results *b, const int *orde
 
 /* --- the error breakdown ------------------------------------------------------------------------------------------ */
 
-/* The row of that stage, or NULL: it was exact already. */
+/* The row of this stage, or NULL if it was already exact. */
 static const bench_row *row_of(const bench_breakdown *l, const char *stage)
 {
     for (int i = 0; i < l->rows; ++i) {
@@ -202,7 +202,7 @@ static void put_breakdown_row(text_buffer *out, const bench_results *b, const ch
     text_buffer_plain(out, "</tr>\n");
 }
 
-/* Stages in the order of the longest chain; then those that it lacks. */
+/* Writes the stages in the order of the longest chain, then those missing from it. */
 static void put_breakdown_rows(text_buffer *out, const bench_results *b)
 {
     const bench_breakdown *longest = &b->breakdown[0];
@@ -262,7 +262,7 @@ static void put_breakdown(text_buffer *out, const bench_results *b)
 
 /* --- all settings ------------------------------------------------------------------------------------------------- */
 
-/* What a setting adds to: the longest name that it begins with, or the first of all. */
+/* The setting that this one extends: the longest name that is a prefix of it, or the first setting. */
 static const bench_point *base_of(const bench_results *b, const bench_point *p)
 {
     const bench_point *base = &b->point[0];
@@ -277,7 +277,7 @@ static const bench_point *base_of(const bench_results *b, const bench_point *p)
     return base;
 }
 
-/* v / of, and a bar to the left of the middle where less is taken: a doubling is a quarter of the cell. */
+/* Writes v / of, with a bar to the left of the middle if it is below 1; a doubling is a quarter of the cell. */
 static void put_factor(text_buffer *out, double v, double of)
 {
     const double f = v > 0.0 && of > 0.0 ? v / of : 1.0, part = fmin(fabs(log2(f)) * 12.5, 50.0);
@@ -359,7 +359,7 @@ static void put_settings(text_buffer *out, const bench_results *b)
     text_buffer_plain(out, "</dl>\n");
 }
 
-/* --- how to do it again ------------------------------------------------------------------------------------------- */
+/* --- commands to repeat it ---------------------------------------------------------------------------------------- */
 
 static void put_commands(text_buffer *out, const bench_results *b)
 {

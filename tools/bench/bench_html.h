@@ -1,4 +1,4 @@
-/* bench_html.h: a report as one page that needs nothing else. */
+/* bench_html.h: a report as one self-contained page. */
 #ifndef BENCH_HTML_H
 #define BENCH_HTML_H
 

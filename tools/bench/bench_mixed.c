@@ -77,7 +77,7 @@ static int mix_once(void *user, double stage_s[BENCH_STAGES], report *r)
     return ok;
 }
 
-/* Where the object changes something. */
+/* Marks the pixels that the object changes. */
 static void mark_changed(float *surface, const image *picture, const image *photo)
 {
     const size_t n = (size_t)picture->width * (size_t)picture->height;
@@ -147,11 +147,12 @@ const bench_subject bench_mixed = {
     .backends = 1,
     .truth_is = "its own finest settings, " EXACT,
     .usage = "bench mix --frame PREFIX --object MESH [options of lambent mix] [options]",
-    .about =
-        "Speed and memory against error of an object in a photo: by voxels a side, cones a hemisphere, texels of the shadow "
-        "maps and samples a pixel; lights with a size and varnish come with the options of lambent mix. Errors are counted where the object changes the photo by more than a hundredth of its mean, "
-        "against a picture of yours (linear, of the photo's size) or the finest settings: 256 voxels a side, 37 "
-        "cones, 16 samples. Time is without reading the files; memory is that of the voxels and maps.",
+    .about = "Measures speed and memory against error of an object in a photo: by voxels per side, cones per "
+             "hemisphere, texels of the shadow maps and samples per pixel; for lights with a size and for varnish, "
+             "add options of lambent mix. Errors count where the object changes the photo by more than a hundredth "
+             "of its mean, against your picture (linear, of the photo's size) or the finest settings: 256 voxels "
+             "per side, 37 cones, 16 samples. Time excludes reading the files; memory is that of the voxels and "
+             "maps.",
     .examples = "  a photo with depth of the built-in room, a tent, and a picture of both as the truth:\n"
                 "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
                 "    lambent render demo $eye -o photo.png\n"

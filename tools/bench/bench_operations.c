@@ -1,4 +1,4 @@
-/* bench_operations.c: counts the kernels' operations by running the kernels themselves over verbs that count. */
+/* bench_operations.c: counts the kernels' operations by running the kernels with counting verbs. */
 #include "bench_operations.h"
 
 #include <string.h>
@@ -6,12 +6,12 @@
 #include "../../src/lane/kernels.h"
 #include "../../src/lane/lane_scalar.h"
 
-/* Masks count as they do where they are instructions. */
+/* Counts mask operations as instructions. */
 #undef LANE_PLAIN
 
 static double done[BENCH_OPS], touched, reads;
 
-/* Multiplying by what belongs to a group alone counts as well. */
+/* Counts multiplications by group constants, too. */
 #define COUNTED(result, verb, op, arguments, values) \
     static inline result counted_##verb arguments \
     { \
@@ -32,14 +32,14 @@ COUNTED(lane, lane_pick, BENCH_PICK, (lane_mask m, lane a, lane b), (m, a, b))
 COUNTED(lane, lane_keep, BENCH_PICK, (lane_mask m, lane a), (m, a))
 COUNTED(lane, lane_sqrt, BENCH_SQRT, (lane a), (a))
 
-/* Depths go by rows: filling writes none without having read and tested it. */
+/* Depths are counted by rows: filling writes each depth that it has read and tested. */
 static inline void counted_lane_store_rows(float *p, int32_t step, lane a)
 {
     touched += LANES;
     lane_store_rows(p, step, a);
 }
 
-/* Places that a lane chooses: four floats, or one. */
+/* Gathers: four floats, or one. */
 static inline void counted_lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
 {
     reads += LANES;

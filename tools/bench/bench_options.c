@@ -1,4 +1,4 @@
-/* bench_options.c: the command line of a sweep: its own options; what it does not know is the subject's. */
+/* bench_options.c: the command line of a sweep: options of the sweep, and others for the subject. */
 #include "bench_options.h"
 
 #include <stdio.h>
@@ -55,26 +55,27 @@ static const option_row sweep_rows[] = {
     {.kind = OPTION_TITLE, .help = "sweep"},
     {.name = "--sweep", .value = "NAME=V,V,...", .kind = OPTION_OWN, .times = BENCH_SWEEPS, .parse = parse_sweep,
      .expects = "NAME=V,V,... with up to 63 values",
-     .help = "instead of the usual settings: this option of the verb with each value; several: each with each"},
+     .help = "instead of the usual settings: this option of the verb with each value; if you give several, all "
+             "combinations"},
     {.name = "--runs", .value = "N", .kind = OPTION_INT, AT(runs), .low = 1, .high = 1000,
-     .help = "runs of a setting, of which the least time counts, stage by stage (default 3, after one that warms up; "
-             "no further one once 3 s have passed)"},
+     .help = "runs of a setting, of which the shortest time counts, stage by stage (default 3, after one that warms "
+             "up; no further one once 3 s have passed)"},
     {.name = "--truth", .value = "FILE.pfm", .kind = OPTION_TEXT, AT(truth), .file = OPTION_READS,
-     .help = "errors against this picture (default: against its own most exact settings)"},
+     .help = "errors against this picture (default: against the most exact settings)"},
     OPTION_SLICE_ROW(bench_options, slice, "settings"),
     {.kind = OPTION_END},
 };
 
-/* Of a subject whose stages can be made exact. */
+/* Of a subject with stages that can be made exact. */
 static const option_row truth_rows[] = {
     {.kind = OPTION_TITLE, .help = "truth"},
     {.name = "--cache", .value = "FOLDER", .kind = OPTION_TEXT, AT(cache),
-     .help = "where a scene's own truth is kept, by the scene's content and the settings, because it takes minutes "
+     .help = "folder for a scene's own truth, by the scene's content and the settings, because it takes minutes "
              "(default: $XDG_CACHE_HOME/lambent or ~/.cache/lambent)"},
     {.name = "--breakdown", .value = "N", .kind = OPTION_INT, AT(breakdown), .low = 0, .high = 64,
-     .help = "the error breakdown, which draws what is nearly brute force, looks at one band of 8 rows in N (default "
-             "4); 0: no breakdown. It makes one stage after another exact: its step's squared error is what the "
-             "stage adds; the interaction is what stages hide or add to each other's"},
+     .help = "the error breakdown, which is nearly brute force, uses one band of 8 rows in N (default 4); 0: no "
+             "breakdown. It makes one stage after another exact: the squared error of that step is the stage's "
+             "share; the interaction is the error that stages hide or add to each other's"},
     {.kind = OPTION_END},
 };
 
@@ -84,20 +85,22 @@ static const option_row output_rows[] = {
      .expects = "a name that .html, .csv and .json are put behind",
      .help = "NAME.html, NAME.csv and NAME.json"},
     {.name = "--html", .value = "FILE.html", .kind = OPTION_TEXT, AT(html), .file = OPTION_WRITES,
-     .help = "needs nothing else: the front of speed against error with its knee, what each option costs and buys, "
+     .help = "self-contained: the front of speed against error with its knee, cost and gain of each option, "
              "pictures and heat maps, memory, and the command line of each setting"},
-    {.name = "--csv", .value = "FILE.csv", .kind = OPTION_TEXT, AT(csv), .file = OPTION_WRITES, .help = "a line a setting"},
+    {.name = "--csv", .value = "FILE.csv", .kind = OPTION_TEXT, AT(csv), .file = OPTION_WRITES, .help = "one line "
+             "per setting"},
     {.name = "--json", .value = "FILE.json", .kind = OPTION_TEXT, AT(json), .file = OPTION_WRITES, .help = "all figures"},
-    {.name = "--svg", .value = "FILE.svg", .kind = OPTION_TEXT, AT(svg), .file = OPTION_WRITES, .help = "the front alone"},
+    {.name = "--svg", .value = "FILE.svg", .kind = OPTION_TEXT, AT(svg), .file = OPTION_WRITES, .help = "only the "
+             "front"},
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no table and no progress"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
-     .help = "say each setting's command before it is measured"},
+     .help = "print each setting's command before it is measured"},
     OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_TITLE,
-     .help = "A setting is on the front where no other is both faster and nearer to the truth. At the knee more time "
-             "stops to pay. Time is the processor's on one thread; a setting with more threads is timed by what "
-             "passes. Everything else on the command line goes to the verb, as it is."},
+     .help = "A setting is on the front if no other is both faster and nearer to the truth. Beyond the knee, more time "
+             "hardly pays. Time is the processor's on one thread; a setting with more threads is timed by the clock. "
+             "Everything else on the command line goes to the verb unchanged."},
     {.kind = OPTION_END},
 };
 
@@ -116,7 +119,7 @@ void bench_options_table(option_table *out, const bench_subject *subject)
     out->part[n] = output_rows;
 }
 
-/* Does `list` have the word, with spaces around? */
+/* Does `list` contain the word, with spaces around it? */
 static int is_listed(const char *list, const char *word)
 {
     const size_t n = strlen(word);
@@ -128,13 +131,13 @@ static int is_listed(const char *list, const char *word)
     return 0;
 }
 
-/* Words of the command line: the sweep's own, and the verb's. */
+/* Words of the command line: the sweep's, and the verb's. */
 typedef struct halves {
     char *own[BENCH_ARGS];
     int own_count;
 } halves;
 
-/* The option at hand goes to the half that knows it, with its value; words that are none are the verb's. */
+/* Assigns an option with its value to the sweep or the verb, whichever has it; other words go to the verb. */
 static int take(halves *h, bench_options *o, const option_table *own, int *at, int argc, char **argv, report *r)
 {
     const option_table *const both[] = {own, o->subject->table};
@@ -166,7 +169,7 @@ static int take(halves *h, bench_options *o, const option_table *own, int *at, i
     return 1;
 }
 
-/* The verb's options are given once, like all others: a line of them is not asked, as it lets the last one count. */
+/* Checks that options of the verb are given only once. A bench_line would use the last one. */
 static int once(const bench_options *o, report *r)
 {
     for (int i = 0; i < o->given_count; ++i) {
@@ -182,7 +185,7 @@ static int once(const bench_options *o, report *r)
     return 1;
 }
 
-/* A slice is one file, by -o, without breakdowns: these want the front of all settings. */
+/* A slice needs -o and no other output, and has no breakdowns, because these need the front of all settings. */
 static int check_slice(bench_options *o, report *r)
 {
     if (o->slice.count == 0) {

@@ -1,4 +1,4 @@
-/* bench_peers.c: other rasterizers' programs: run, and their lines read. */
+/* bench_peers.c: other rasterizers' programs: runs them and parses their output. */
 #include "bench_peers.h"
 
 #include <stdio.h>
@@ -25,7 +25,7 @@ int bench_peers_find(bench_peers *p, const char *folder, const char *data, doubl
     return 1;
 }
 
-/* A time that a frame can take, ms, behind `cpu_min_ms=` in a line; 0 where there is none. */
+/* A plausible frame time, ms, after `cpu_min_ms=` in a line; 0 if there is none. */
 static double time_in(const char *line, size_t length)
 {
     static const char key[] = ",cpu_min_ms=";
@@ -41,7 +41,7 @@ static double time_in(const char *line, size_t length)
     return 0.0;
 }
 
-/* Of the line whose second word is the case; other lines, of other cases or remarks, are passed over. */
+/* Finds the line with the case as second word; skips other lines. */
 static double find_time(const char *printed, const char *name)
 {
     const size_t n = strlen(name);

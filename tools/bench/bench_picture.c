@@ -16,7 +16,7 @@ static int32_t square_side(int32_t width, int32_t height)
     return (max + SIDE - 1) / SIDE;
 }
 
-/* Means of n x n pixels; what is left over at the right and below is dropped. */
+/* Averages n x n pixels; drops the remainder at the right and bottom. */
 static int shrink(image *out, const image *in, int32_t n)
 {
     out->width = in->width / n;

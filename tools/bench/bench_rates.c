@@ -1,4 +1,4 @@
-/* bench_rates.c: times the backends' loops, and draws from them the least that a mix of operations can take. */
+/* bench_rates.c: times the backends' loops, and computes a lower bound for a mix of operations. */
 #include "bench_rates.h"
 
 #include <stddef.h>
@@ -21,8 +21,8 @@ static const double never = 1e30;
 
 static void keep_min(double *inout, double v) { *inout = v < *inout ? v : *inout; }
 
-/* Two operations of one cycle, each waiting for the one before. Two kinds, since a row of additions of one number is
- * one multiplication to a compiler. */
+/* Dependent operations of one cycle. They are of two kinds, because a compiler would replace a chain of equal additions
+ * by a multiplication. */
 static double cycle_seconds(void)
 {
     static volatile uint32_t seed = 12345;

@@ -1,23 +1,23 @@
-/* bench_rates.inl: part of `lambent bench` (tools/bench): loops that keep a unit of the processor busy with one
- * operation and give it a little of another. Each bench_rates_BACKEND.c compiles it for its backend.
+/* bench_rates.inl: part of `lambent bench` (tools/bench): loops that keep an execution unit busy with one operation and
+ * add a little of another. Each bench_rates_BACKEND.c compiles it for one backend.
  *
- * KERNEL(name), BACKEND and CHAINS, half of the operations under way, are the including file's. What goes in is read
- * from memory, so that no compiler works anything out beforehand; values stay between 1 and 2. */
+ * The including file defines KERNEL(name), BACKEND and CHAINS, half of the operations in flight. Inputs are read from
+ * memory, so that compilers cannot evaluate anything; values stay between 1 and 2. */
 #include <lambent/types.h>
 
 #include "../../src/lane/lane.h"
 #include "bench_rates.h"
 
-/* One operation on x. z is another value that changes, some and other are masks: each step needs the one before. */
+/* One operation on x. z is another changing value, some and other are masks: each step depends on the previous one. */
 #define BENCH_STEP_MUL(x, z, s)  x = lane_mul(x, one);
 #define BENCH_STEP_ADD(x, z, s)  x = lane_add(x, min);
 #define BENCH_STEP_MAX(x, z, s)  x = (s) & 1 ? lane_min(x, z) : lane_max(x, z);
 #define BENCH_STEP_CMP(x, z, s)  seen = mask_or(seen, lane_lt(x, z));
 #define BENCH_STEP_KEEP(x, z, s) \
-    x = lane_keep(lane_lt(min, x), x); /* a comparison, where x changes by nothing else */
+    x = lane_keep(lane_lt(min, x), x); /* a comparison, if x changes by nothing else */
 #define BENCH_STEP_PICK(x, z, s) x = (s) & 1 ? lane_pick(some, x, z) : lane_pick(other, x, z);
 #define BENCH_STEP_DIV(x, z, s)  x = lane_div(high, x);
-#define BENCH_STEP_SQRT(x, z, s) x = lane_sqrt(lane_add(x, one)); /* alone it would come to rest at 1 */
+#define BENCH_STEP_SQRT(x, z, s) x = lane_sqrt(lane_add(x, one)); /* the sum keeps x from converging to 1 */
 
 #if CHAINS == 1
 #define BENCH_EACH(A, s) A(x0, y0, s) A(y0, x0, s)
@@ -27,7 +27,7 @@
     A(x3, x4, s) A(y3, y4, s) A(x4, x0, s) A(y4, y0, s)
 #endif
 
-/* What a round does of the operation that keeps its unit busy, and of the other one: see BENCH_BUSY, BENCH_BESIDE. */
+/* The operations of one round: of the busy unit, and the added ones; see BENCH_BUSY, BENCH_BESIDE. */
 #define BENCH_ROUND_FAST(A, B) \
     BENCH_EACH(A, 0) B(v, x0, 0) BENCH_EACH(A, 1) BENCH_EACH(A, 2) B(w, y0, 1) BENCH_EACH(A, 3)
 #define BENCH_ROUND_SLOW(A, B) \
@@ -51,7 +51,7 @@
         x0 = lane_add(lane_add(lane_add(x0, x1), lane_add(x2, x3)), x4); \
         y0 = lane_add(lane_add(lane_add(y0, y1), lane_add(y2, y3)), y4); \
         lane_store(out, lane_add(lane_add(x0, y0), lane_add(v, lane_keep(seen, w)))); \
-        (void)one, (void)min, (void)high, (void)some, (void)other; /* of other operations */ \
+        (void)one, (void)min, (void)high, (void)some, (void)other; /* for other operations */ \
     }
 
 #define BENCH_UNIT(A, ROUND, P) \
@@ -81,7 +81,7 @@ static void KERNEL(store_loop)(float *inout, uint32_t count, uint32_t rounds)
     }
 }
 
-/* Each lane goes its own way through the table: steps of 37 places from where it begins. */
+/* Each lane reads a separate path through the table, in steps of 37. */
 static void KERNEL(read_loop)(float *out, const float *in, int32_t count, uint32_t rounds)
 {
     int32_t first[LANES];

@@ -48,7 +48,7 @@ typedef struct statue {
     int32_t views, greedy, size, triangles, is_packed, shadow_map;
     view_options view;
     lmb_relief_how how;
-    /* made of it */
+    /* derived from it */
     struct model loaded;
     triangle_mesh mesh, simple;
     relief_bake bake;
@@ -68,7 +68,7 @@ static int parse_views(const char *text, void *at)
     return relief_option_views(text, &s->views, &s->greedy);
 }
 
-/* Of relief bake, and of relief render. */
+/* Options of relief bake, and of relief render. */
 static const option_row bake_rows[] = {
     {.name = "MODEL", .kind = OPTION_TEXT, .value = "", .at = offsetof(statue, model), .help = "the complex one"},
     {.name = "--views", .value = "N|greedy:N", .kind = OPTION_OWN, .parse = parse_views,
@@ -80,8 +80,8 @@ static const option_row bake_rows[] = {
 static const option_row render_rows[] = {
     RELIEF_OPTIONS_LOOK(statue),
     {.name = "--shadow-map", .kind = OPTION_MULTIPLE_OF_8, .value = "N", .at = offsetof(statue, shadow_map), .low = 0,
-     .high = LMB_MAX_SIDE, .help = HELP("texels of its side at most (default 1024); 0: no shadow")},
-    VIEW_OPTIONS_CAMERA(statue, view, "where the camera stands (default: the whole model from a little above)"),
+     .high = LMB_MAX_SIDE, .help = HELP("texels per side at most (default 1024); 0: no shadow")},
+    VIEW_OPTIONS_CAMERA(statue, view, "the camera's position (default: the whole model from slightly above)"),
     {.kind = OPTION_END},
 };
 static const option_table table = {.verb = "relief", .part = {bake_rows, render_rows}};
@@ -112,7 +112,7 @@ static int draws(const option_row *row)
     return of == row;
 }
 
-/* Two commands: one bakes, one draws. */
+/* Two commands: bake and draw. */
 static void say(char *out, size_t size, const bench_line *l)
 {
     bench_line both[2];
@@ -134,7 +134,7 @@ static void say(char *out, size_t size, const bench_line *l)
     bench_line_say(out + n + join, size - n - join, &both[1]);
 }
 
-/* --- a statue and its relief -------------------------------------------------------------------------------------- */
+/* --- a model and the relief of it --------------------------------------------------------------------------------- */
 
 static int load(statue *s, report *r)
 {
@@ -169,7 +169,7 @@ static int bake(statue *s, report *r)
            report_fail(r, "%s: its relief cannot be opened", s->model);
 }
 
-/* The same for relief and truth: of the model's own box. */
+/* The same view and light for relief and truth, from the model's box. */
 static int aim(statue *s, report *r)
 {
     static const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
@@ -203,7 +203,7 @@ static int shoot_once(void *user, double stage_s[BENCH_STAGES], report *r)
     return 1;
 }
 
-/* Where it shows something: what backgrounds have in common is nobody's merit. */
+/* Marks covered pixels, so that equal backgrounds do not improve the figures. */
 static int keep(bench_shot *out, statue *s, report *r)
 {
     const relief_frame *f = &s->frame;
@@ -285,12 +285,11 @@ const bench_subject bench_relief = {
     .try_count = sizeof tries / sizeof *tries,
     .truth_is = "the model itself, drawn by its triangles",
     .usage = "bench relief MODEL [options of lambent relief bake and render] [options]",
-    .about =
-        "Speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole from a little "
-        "above: bakes it by so many views of such a size and draws it in so many steps. The truth is the model "
-        "itself, drawn by its triangles. Of the options of lambent relief it takes --views, --size, --packed, "
-        "--triangles, --steps, --pixel-views, --keep, --shadow-map, --eye, --target, --up and --fov; time is that of the "
-        "picture, memory the relief's.",
+    .about = "Measures speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole "
+             "from slightly above: bakes it with several numbers and sizes of views and draws it with several "
+             "numbers of steps. The truth is the model itself, drawn by its triangles. You may give --views, "
+             "--size, --packed, --triangles, --steps, --pixel-views, --keep, --shadow-map, --eye, --target, --up "
+             "and --fov of lambent relief. Time is that of the picture, memory that of the relief.",
     .examples = "  a tent by two numbers of views:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"

@@ -97,21 +97,21 @@ static int draw(bench_shot *out, const bench_line *line, const bench_way *way, r
     return run(out, line, way, NULL, r);
 }
 
-/* The direction of texel x, y of a cube's face, as lambent/probe.h has it, not of unit length. */
+/* The direction of texel x, y of a cube's face, as in lambent/probe.h, not normalized. */
 static void texel_direction(double d[3], int face, double s, double t)
 {
     const double all[6][3] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
     memcpy(d, all[face], sizeof all[face]);
 }
 
-/* Each direction of the map by its cosine and solid angle; pi for a world of one radiance. */
+/* Sums all directions of the map, weighted by cosine and solid angle; pi for a world of uniform radiance. */
 static void add_all(double sum[3], const relight_light *l, const double d[3])
 {
     const lmb_probe_table *t = &l->table[0];
     const size_t n = (size_t)t->width * (size_t)t->height;
     double whole = 0.0, light[3] = {0, 0, 0};
     for (size_t i = 0; i < n; ++i) {
-        double cosine = 0.0; /* times the length of d, which the whole has too */
+        double cosine = 0.0; /* times the length of d, as in the sum of weights */
         for (size_t c = 0; c < 3; ++c) {
             cosine += ((double)t->direction[c * n + i] * (2.0 / 65535.0) - 1.0) * d[c];
         }
@@ -160,11 +160,12 @@ const bench_subject bench_relight = {
     .backends = 1,
     .truth_is = "all 128 x 64 directions by their exact cosines; pictures are the cube's faces, +x -x +y -y +z -z",
     .usage = "bench relight --world WORLD [options of lambent relight] [options]",
-    .about = "Speed against error of the light at a place of a world: seen from there (128 x 64 directions) and "
-             "filtered to an irradiance cube by exact cosines, 9, 16 and 25 harmonics, and the blurs. The truth is a "
-             "cube like that of lambent relight --cube, or else every one of those directions by its exact cosine: "
-             "then errors are the filters' alone. A picture is the cube's six faces, +x -x +y -y +z -z from the top. With "
-             "--object FILE the sweep is of a picture of objects in that light: see bench relight --object FILE --help.",
+    .about = "Measures speed against error of the light at a place of a world: seen from there (128 x 64 "
+             "directions) and filtered to an irradiance cube by exact cosines, 9, 16 and 25 harmonics, and the "
+             "blurs. The truth is a cube like that of lambent relight --cube, or else every one of those directions "
+             "by its exact cosine, so that only the filters have errors. A picture is the cube's six faces, +x -x "
+             "+y -y +z -z from the top. With --object FILE the sweep is of a picture of objects in that light: see "
+             "bench relight --object FILE --help.",
     .examples = "  lambent bench relight --world demo --runs 1 --sweep filter=cosine,sh9\n",
     .check = check,
     .draw = draw,

@@ -1,4 +1,4 @@
-/* bench_render.c: `lambent bench SCENE`: pictures by all that `lambent render` can be asked for. */
+/* bench_render.c: `lambent bench SCENE`: pictures with all options of `lambent render`. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,9 +48,9 @@ static const bench_try tries[] = {
     {"threads", "--threads 2", 4, BENCH_SAME},
 };
 
-/* Grouping before occlusion: nodes that --error divides keep the visibility that was asked of the larger one, so that
- * the step is what they send, and occlusion's is what stands between. Smaller numbers change the Cornell box's median
- * error by 0.0005 at most and take half as long again. */
+/* Grouping comes before occlusion: nodes that --error divides keep the visibility of the larger node, so the first step
+ * measures only the light, and the next one only occlusion. Smaller numbers change the Cornell box's median error by at
+ * most 0.0005 and take half as long again. */
 static const bench_exact exact[] = {
     {"upsampling", "--gather full", "--gather"},
     {"grouping", "--grouping cut --error 0.001", NULL},
@@ -89,7 +89,7 @@ static int draw_once(void *user, double stage_s[BENCH_STAGES], report *r)
     return 1;
 }
 
-/* Where the eye sees something. */
+/* Marks the pixels that show a surface. */
 static int find_surface(float **out, const render_job *j, report *r)
 {
     const lmb_surface *eye = &j->frame.eye.depth;
@@ -115,7 +115,7 @@ static void keep(bench_shot *out, render_job *j)
 
 static int check(const bench_line *line, report *r)
 {
-    static render_job j; /* its options alone */
+    static render_job j; /* only for the options */
     memset(&j, 0, sizeof j);
     return parse(&j, line, r);
 }
@@ -143,9 +143,9 @@ static int draw(bench_shot *out, const bench_line *line, const bench_way *way, r
     return ok;
 }
 
-/* --- its truth ---------------------------------------------------------------------------------------------------- */
+/* --- the truth ---------------------------------------------------------------------------------------------------- */
 
-/* The given settings, made exact, by all threads. */
+/* Draws the given settings, made exact, on all threads. */
 static int draw_truth(bench_shot *out, const bench_line *line, report *r)
 {
     static const bench_way way = {0, 1};
@@ -153,7 +153,7 @@ static int draw_truth(bench_shot *out, const bench_line *line, report *r)
     return bench_line_with(&all, line, EXACT, r) && bench_line_hurry(&all, &bench_render) && draw(out, &all, &way, r);
 }
 
-/* Of the scene as it was read, the view, and the words but the scene's name. */
+/* Hashes the loaded scene, the view, and the options without the scene's name. */
 static int hash(uint64_t *out, const bench_line *line, report *r)
 {
     render_job *j = calloc(1, sizeof *j);
@@ -194,13 +194,13 @@ const bench_subject bench_render = {
     .hurry = "--threads %d",
     .usage = "bench SCENE [options of lambent render] [options]\n"
              "bench relight|relief|mix --help     the same for these verbs\n"
-             "bench --help                        how fast kernels are",
-    .about =
-        "Speed against error of one picture: draws it by some thirty settings, one option at a time around --quality "
-        "draft, default and best, and prints what each costs (time by stage, memory, instructions where the system "
-        "counts them) and how far its picture is from the truth: `trim`, relative RMSE without the worst 1 % of "
-        "pixels, and the other figures of lambent compare. What is shown is bounced light alone (--show indirect), on "
-        "one thread, at the truth's size or 160x120: options of render say otherwise.",
+             "bench --help                        speed of kernels",
+    .about = "Measures speed against error of one picture: draws it with some thirty settings, one option at a time "
+             "around --quality draft, default and best. Prints the cost of each (time by stage, memory, "
+             "instructions if the system counts them) and the error against the truth: `trim`, relative RMSE "
+             "without the worst 1 % of pixels, and the other figures of lambent compare. Pictures show only bounced "
+             "light (--show indirect), on one thread, at the truth's size or 160x120; options of render change "
+             "that.",
     .examples = "  three settings, as a table:\n"
                 "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --breakdown 0\n"
                 "  the same, as pages.html, pages.csv, pages.json:\n"

@@ -1,4 +1,4 @@
-/* bench_results.c: a report's points, and its numbers in words. */
+/* bench_results.c: a report's points, and numbers as text. */
 #include "bench_results.h"
 
 #include <math.h>
@@ -54,7 +54,7 @@ void bench_say_bytes(char out[24], double bytes)
     }
 }
 
-/* Shares under 0.0001 % are none that anybody sees. */
+/* Shares under 0.0001 % print as 0. */
 void bench_say_figure(char out[24], const bench_results *b, int figure, double v)
 {
     const double percent = 100.0 * v;

@@ -1,4 +1,4 @@
-/* bench_scene.c: the workload's meshes from their files, its cameras, its quads and its texture. */
+/* bench_scene.c: the workload's meshes from files, cameras, quads and texture. */
 #include "bench_scene.h"
 
 #include <stdio.h>
@@ -37,7 +37,7 @@ enum { TEXELS = 256, LAYERS = 32 };
 /* Bytes of a mesh file with these counts. */
 static uint64_t mesh_bytes(uint64_t vertices, uint64_t triangles) { return 8 + 32 * vertices + 12 * triangles; }
 
-/* The file's arrays are used where they lie: little-endian machines only. */
+/* Uses the file's arrays in place, so only little-endian machines can. */
 static int load_mesh(bench_scene *s, const char *folder, const char *name, report *r)
 {
     static const uint16_t one = 1;
@@ -64,7 +64,7 @@ static int load_mesh(bench_scene *s, const char *folder, const char *name, repor
     return 1;
 }
 
-/* Colours of the normals, as the other rasterizers were given. */
+/* Colours from the normals, the same as for the other rasterizers. */
 static int colour_mesh(bench_scene *s, report *r)
 {
     const float *normals = (const float *)(const void *)(s->file.data + 8 + 12 * (size_t)s->mesh.vertex_count);
@@ -167,7 +167,7 @@ static void set_view(lmb_view *v, const bench_case *c)
         v->far_m = k->far_m;
         return;
     }
-    /* The quads are given in the picture's own coordinates, z away from the viewer. */
+    /* The quads are in normalized picture coordinates, with z away from the viewer. */
     memset(v, 0, sizeof *v);
     v->kind = LMB_ORTHOGRAPHIC;
     v->right.x = v->up.y = v->half_width = v->half_height = 1.0f;

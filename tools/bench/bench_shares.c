@@ -1,4 +1,4 @@
-/* bench_shares.c: which share of the machine's bound each case reaches, as a page with bars. */
+/* bench_shares.c: each case's share of the machine's bound, as a page with bars. */
 #include "bench_shares.h"
 
 #include "bench_style.h"
@@ -16,7 +16,7 @@ static void put_grid(text_buffer *out, int bottom)
     }
 }
 
-/* A share may be over 1: the frame and the bound's loops meet different neighbours. */
+/* A share may exceed 1, because load on the machine can differ between the frame and the bound's loops. */
 static void put_bar(text_buffer *out, const bench_share *s, int y)
 {
     const double share = s->bound_ms / s->ms, end = x_of(share < 1.0 ? share : 1.0);

@@ -1,4 +1,4 @@
-/* bench_shares.h: which share of the machine's bound each case reaches, as a page with bars. */
+/* bench_shares.h: each case's share of the machine's bound, as a page with bars. */
 #ifndef BENCH_SHARES_H
 #define BENCH_SHARES_H
 
@@ -7,8 +7,8 @@
 enum { BENCH_SHARES = 32 };
 
 typedef struct bench_share {
-    const char *name; /* of the case; stays the caller's */
-    const char *by;   /* what bounds it: a unit, or "depth" */
+    const char *name; /* of the case; owned by the caller */
+    const char *by;   /* the limit: a unit, or "depth" */
     double ms, bound_ms;
 } bench_share;
 

@@ -1,4 +1,4 @@
-/* bench_slice.c: settings that a machine measured -> a slice's file -> the report of all machines. */
+/* bench_slice.c: settings measured by a machine -> a slice's file -> the report of all machines. */
 #include "bench_slice.h"
 
 #include <stdio.h>
@@ -14,7 +14,7 @@
 static const bench_subject *const subjects[] = {&bench_render, &bench_relight, &bench_relief, &bench_mixed, &bench_figures};
 enum { SUBJECTS = sizeof subjects / sizeof *subjects };
 
-/* --- which settings ----------------------------------------------------------------------------------------------- */
+/* --- choice of settings ------------------------------------------------------------------------------------------- */
 
 void bench_slice_deal(uint8_t is_own[BENCH_POINTS], slice s, const bench_task *task, int tasks)
 {
@@ -45,7 +45,7 @@ static uint64_t hash_picture(uint64_t hash, const image *p)
                       3 * sizeof *p->pixels * (size_t)p->width * (size_t)p->height);
 }
 
-/* Of what was given the options count; of files what they hold, and not their names. */
+/* Hashes options by words, and files by content instead of name. */
 static uint64_t hash_given(uint64_t hash, const bench_options *o)
 {
     for (int i = 0; i < o->given_count; ++i) {
@@ -54,7 +54,7 @@ static uint64_t hash_given(uint64_t hash, const bench_options *o)
         const int last = i + words <= o->given_count ? i + words - 1 : i;
         const int is_file = row == NULL || row->file == OPTION_READS;
         const char *inside = row != NULL && words == 1 ? strchr(o->given[i], '=') : NULL;
-        report unheard = {""}; /* what names no file of its own shows in the pictures */
+        report unheard = {""}; /* words that are not files affect the pictures, which are hashed, too */
         hash = row != NULL ? hash_text(hash, row->name) : hash;
         if (!is_file) {
             hash = hash_text(hash, inside != NULL ? inside + 1 : o->given[last]);
@@ -77,13 +77,13 @@ uint64_t bench_slice_job(const sweep *s)
         hash = hash_text(hash, s->task[i].words);
     }
     if (s->o->subject->hash != NULL && sweep_line(&line, s, "", &unheard) &&
-        s->o->subject->hash(&scene, &line, &unheard)) { /* with what the scene's file has beside it */
+        s->o->subject->hash(&scene, &line, &unheard)) { /* including the files that the scene's file refers to */
         hash = slice_hash(hash, &scene, sizeof scene);
     }
     return hash_picture(hash_picture(hash, &s->truth.picture), &s->kept[0]);
 }
 
-/* --- out ---------------------------------------------------------------------------------------------------------- */
+/* --- writing ------------------------------------------------------------------------------------------------------ */
 
 static void put_text(byte_buffer *b, const char *text)
 {
@@ -162,7 +162,7 @@ int bench_slice_write(const bench_options *o, const bench_results *b, report *r)
     return ok;
 }
 
-/* --- back --------------------------------------------------------------------------------------------------------- */
+/* --- reading ------------------------------------------------------------------------------------------------------ */
 
 static int get_text(char *out, size_t size, byte_reader *s)
 {
@@ -177,7 +177,7 @@ static int get_text(char *out, size_t size, byte_reader *s)
     return 1;
 }
 
-/* As large as bench_picture_of makes them. */
+/* With the size limits of bench_picture_of. */
 static void get_picture(bench_picture *out, byte_reader *s)
 {
     out->width = byte_get_int(s);
@@ -214,7 +214,7 @@ static void get_point(bench_point *p, byte_reader *s)
     get_picture(&p->heat, s);
 }
 
-/* What all slices say alike, by the first one: room for all points, too. */
+/* Sets up the data that all slices share, from the first one, with room for all points. */
 static int begin(bench_results *b, int subject, int settings)
 {
     bench_results_about(b, subjects[subject]);
@@ -229,11 +229,11 @@ static int begin(bench_results *b, int subject, int settings)
     return 1;
 }
 
-/* What `set`'s slice i says of its sweep and machine. Pictures are the same on all machines; times are not. */
+/* Reads the head of slice i of `set`: sweep and machine. Pictures are the same on all machines; times are not. */
 static int get_head(bench_results *b, byte_reader *s, const slice_set *set, int32_t i, int is_quiet)
 {
     const int is_first = i == 0;
-    static bench_results own; /* of a later slice: what it says of itself */
+    static bench_results own; /* the head of a later slice */
     static char first[sizeof own.computer];
     bench_results *to = is_first ? b : &own;
     const int subject = byte_get_int(s), settings = byte_get_int(s);

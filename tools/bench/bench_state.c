@@ -1,4 +1,4 @@
-/* bench_state.c: the words of a setting. */
+/* bench_state.c: the options of a setting. */
 #include "bench_state.h"
 
 int sweep_line(bench_line *l, const sweep *s, const char *words, report *r)

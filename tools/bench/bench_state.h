@@ -1,11 +1,11 @@
-/* bench_state.h: what a sweep and its breakdowns have at hand. */
+/* bench_state.h: the state shared by a sweep and the breakdowns. */
 #ifndef BENCH_STATE_H
 #define BENCH_STATE_H
 
 #include "bench_task.h"
 #include "bench_truth.h"
 
-/* What a sweep has at hand; its pictures are kept for the breakdowns. */
+/* The state of a sweep; it keeps the pictures for the breakdowns. */
 typedef struct sweep {
     const bench_options *o;
     bench_results *b;
@@ -17,7 +17,7 @@ typedef struct sweep {
     double done, all, start;  /* weights; s */
 } sweep;
 
-/* sweep_line: the words of a setting, behind what was given. */
+/* sweep_line: the options of a setting, after the given ones. */
 int sweep_line(bench_line *out, const sweep *s, const char *words, report *r);
 
 #endif

@@ -1,4 +1,4 @@
-/* bench_style.c: how a report looks, light and dark. */
+/* bench_style.c: the style of a report, light and dark. */
 #include "bench_style.h"
 
 const char *const bench_style[BENCH_STYLE_PARTS] = {

@@ -1,4 +1,4 @@
-/* bench_subject.c: command lines of settings, and their times. */
+/* bench_subject.c: command lines of settings, and timing. */
 #include "bench_subject.h"
 
 #include <stdio.h>
@@ -9,16 +9,16 @@
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
 
-/* Settings that are drawn at once are drawn more often: so long for each run that was asked for, s. */
+/* Fast settings are drawn more often: for this long per requested run, s. */
 #define SHORT_S 0.03
 
-/* Which option a word names, or NULL. */
+/* The option that a word names, or NULL. */
 static const option_row *named(const bench_line *l, const char *word)
 {
     return l->table != NULL && word[0] == '-' ? options_find(l->table, word) : NULL;
 }
 
-/* What the line has of an option that counts once goes, and so does another that says the same. */
+/* Removes from the line an option that may be given once, and options that exclude it. */
 static void drop(bench_line *l, const option_row *row)
 {
     const int argc = l->argc;
@@ -111,7 +111,7 @@ static size_t say_quoted(char *out, size_t size, const char *word)
     return n < size ? n + (size_t)snprintf(out + n, size - n, "'") : size;
 }
 
-/* A word that a shell would not leave alone stands in single quotes. */
+/* Quotes words that a shell would expand. */
 void bench_line_say(char *out, size_t size, const bench_line *l)
 {
     size_t n = (size_t)snprintf(out, size, "lambent");
@@ -130,7 +130,7 @@ void bench_shot_free(bench_shot *s)
     memset(s, 0, sizeof *s);
 }
 
-/* One run's times, where they are less. The first run warms up: the second's take its place. */
+/* Keeps the shorter times. The first run warms up, so the second run's times replace the first run's. */
 static void keep_min(bench_shot *s, const double *stage_s, double instructions, int is_first)
 {
     for (int i = 0; i < BENCH_STAGES; ++i) {
@@ -156,7 +156,7 @@ int bench_repeat(bench_shot *s, const bench_way *way, bench_once once, void *use
     return 1;
 }
 
-/* --- its report ---------------------------------------------------------------------------------------------------- */
+/* --- the report --------------------------------------------------------------------------------------------------- */
 
 void bench_results_about(bench_results *b, const bench_subject *s)
 {

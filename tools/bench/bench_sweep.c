@@ -1,4 +1,4 @@
-/* bench_sweep.c: settings one after the other, measured and held against the truth. */
+/* bench_sweep.c: measures settings one after the other, and compares them with the truth. */
 #include "bench_sweep.h"
 
 #include <math.h>
@@ -81,8 +81,8 @@ static void take_times(bench_point *p, const bench_shot *shot)
     p->threads = shot->threads;
 }
 
-/* The first setting has to be drawn: what stops it, or what the machine lacks, stops all. A later one that does not go
- * with what was given is told of in its place. Others than a slice's own are drawn, and not timed. */
+/* Draws and measures a setting. An error in the first setting, or of the system, ends the sweep. A later setting that
+ * is incompatible with the given options is reported in place. Settings of other slices are drawn without timing. */
 static int measure(sweep *s, const bench_task *t, int is_own, report *r)
 {
     const bench_way way = {is_own ? s->o->runs : 0, 1};
@@ -106,7 +106,7 @@ static int measure(sweep *s, const bench_task *t, int is_own, report *r)
         snprintf(p->failure, sizeof p->failure, "%.150s", own.text);
         return (number > 0 && !report_is_system(&own)) || report_fail(r, "%s", own.text);
     }
-    if (number == 0 && s->truth.surface == NULL) { /* a truth from a file: where the first picture shows something */
+    if (number == 0 && s->truth.surface == NULL) { /* a truth from a file: use the first picture's surface */
         s->truth.surface = shot.surface;
         shot.surface = NULL;
     }

@@ -1,4 +1,4 @@
-/* bench_table.c: a report as lines: for a terminal, as CSV, as JSON. */
+/* bench_table.c: a report as text: for a terminal, as CSV, as JSON. */
 #include "bench_table.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 static const char *mark(const bench_point *p) { return p->is_knee ? "knee" : p->on_front ? "front" : ""; }
 
-/* --- for people --------------------------------------------------------------------------------------------------- */
+/* --- text --------------------------------------------------------------------------------------------------------- */
 
 static void say_point(text_buffer *out, const bench_results *b, const bench_point *p)
 {
@@ -70,7 +70,7 @@ static void csv_head(text_buffer *out, const bench_results *b)
     text_buffer_plain(out, ",bytes,work,instructions,threads,same bytes,command,left out because\n");
 }
 
-/* What was not measured is empty. */
+/* Empty if not measured. */
 static void csv_number(text_buffer *out, int is_there, double v)
 {
     text_buffer_plain(out, ",");
@@ -121,7 +121,7 @@ static void json_text(text_buffer *out, const char *key, const char *text)
     text_buffer_plain(out, ", ");
 }
 
-/* What was not measured is null. */
+/* null if not measured. */
 static void json_number(text_buffer *out, int is_there, double v)
 {
     if (is_there && !isnan(v)) {

@@ -1,4 +1,4 @@
-/* bench_task.c: which settings a sweep measures. */
+/* bench_task.c: the settings that a sweep measures. */
 #include <stdio.h>
 #include <string.h>
 
@@ -25,7 +25,7 @@ static int usual(bench_task *out, const bench_subject *s)
     return count;
 }
 
-/* Combination i of all ranges' values; the last range turns fastest. */
+/* Combination i of all ranges' values; the last range varies fastest. */
 static int combine(bench_task *out, const bench_options *o, int i)
 {
     int value[BENCH_SWEEPS];

@@ -1,8 +1,8 @@
-/* bench_threads.c: `lambent bench threads`: what threads gain, beside processes that know nothing of each other.
+/* bench_threads.c: `lambent bench threads`: the speed-up of threads, compared with independent processes.
  *
- * N processes that each do the whole work share memory bandwidth, caches and the machine's other users, but no work:
- * what they reach is what threads can. One thread, N threads and N processes take turns in one run, so that a busy
- * machine troubles them alike; the least time of each counts, and the median of the turns' ratios stands beside. */
+ * N processes that each do the whole work share memory bandwidth, caches and the machine's other users, but no work, so
+ * their throughput is the limit for threads. One thread, N threads and N processes run in turns, so that load on the
+ * machine affects them alike. The shortest time of each counts; the median of the turns' ratios is printed, too. */
 #include "bench_threads.h"
 
 #include <stdio.h>
@@ -26,14 +26,14 @@ enum {
     ROUNDS_MAX = 1000
 };
 
-/* One work: `parts` pieces that may be done at once; as many as threads, or the work's own number. */
+/* One work load of `parts` parallel pieces: as many as threads, or a fixed number. */
 typedef struct bench_work {
     const char *name;
     pool_job job;
     void *user;
     int bands; /* pieces; 0: as many as threads */
-    void (*shared)(void *user, int threads); /* shares itself out; or NULL */
-    int parts; /* of the run at hand */
+    void (*shared)(void *user, int threads); /* distributes itself over threads; or NULL */
+    int parts; /* of the current run */
 } bench_work;
 
 static void run_work(bench_work *w, int threads)
@@ -68,7 +68,7 @@ static void gather_band(void *user, int band, int worker)
     lmb_render_band(&g->render, &g->scratch[worker], &f->eye, &f->out, band);
 }
 
-/* Bounced light alone, drawn up to its bands. */
+/* A frame with only bounced light, prepared up to the bands. */
 static lmb_status gather_begin(gather_job *g, const lmb_kernels *kernels)
 {
     lmb_frame f;
@@ -131,7 +131,7 @@ static void map_begin(map_job *m, int ids, const lmb_kernels *kernels)
     }
 }
 
-/* The same map by bins: the pieces are draws, one a run, that share themselves out. */
+/* The same map by bins: one draw per run, which distributes itself over threads. */
 static void map_binned(void *user, int threads)
 {
     map_job *m = user;
@@ -141,9 +141,9 @@ static void map_binned(void *user, int threads)
     binned_run(&m->bins, &draw);
 }
 
-/* --- in turn ------------------------------------------------------------------------------------------------------ */
+/* --- turns -------------------------------------------------------------------------------------------------------- */
 
-/* Times in s, turn by turn. */
+/* Times in s, by turn. */
 typedef struct turns {
     double alone[ROUNDS_MAX], threads[ROUNDS_MAX], processes[ROUNDS_MAX], ratio[ROUNDS_MAX];
     int count;
@@ -155,7 +155,7 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* N processes do N works in their time, N threads one. Sorts. */
+/* N processes do N units of work in their time, N threads one. Sorts the ratios. */
 static double median_ratio(turns *t, int n)
 {
     for (int i = 0; i < t->count; ++i) {
@@ -174,7 +174,7 @@ static double min(const double *v, int count)
     return best;
 }
 
-/* 0 where a process went away. */
+/* Returns 0 if a process has ended. */
 static int run_processes(const process *p, int count)
 {
     int good = 1;
@@ -255,7 +255,7 @@ static int measure_gather(const threads_options *o, report *r)
     return ok;
 }
 
-/* Depth, then ids too; by windows of rows, then by bins. */
+/* Depth, then also ids; by windows of rows, then by bins. */
 static int measure_map(map_job *m, const bench_case *of, const threads_options *o, report *r)
 {
     static const char *const kinds[2][2] = {{"depth-2048", "depth-2048 by bins"},

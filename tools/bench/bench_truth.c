@@ -34,7 +34,7 @@ int bench_truth_read(bench_truth *t, const char *path, report *r)
     return read_pfm(&t->picture, path, r);
 }
 
-/* FOLDER/HASH.pfm; 0 where there is no folder to be had. */
+/* FOLDER/HASH.pfm; returns 0 if there is no cache folder. */
 static int cache_path(char *out, size_t size, const char *folder, uint64_t hash)
 {
     const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -49,13 +49,13 @@ static int cache_path(char *out, size_t size, const char *folder, uint64_t hash)
     return n > 0 && (size_t)n < size;
 }
 
-/* What cannot be kept is drawn again next time. */
+/* Stores a picture in the cache; if that fails, it will be drawn again next time. */
 static void keep(const image *picture, const char *path)
 {
     report unheard = {""};
     file_bytes file = {NULL, 0};
     host_make_folders(path);
-    remove(path); /* it may be there and damaged: what was read is not written over */
+    remove(path); /* a damaged file may exist, and files that were read are never overwritten */
     if (pfm_encode(&file, picture, &unheard)) {
         file_write(path, file.data, file.size, &unheard);
         file_free(&file);

@@ -1,4 +1,4 @@
-/* verb_bench.c: `lambent bench`: the raster workload, draws, the far gather, threads, hard cases; all else is swept. */
+/* verb_bench.c: `lambent bench`: the raster workload, draws, the far gather, threads, hard cases, and sweeps. */
 #include "verb_bench.h"
 
 #include <stdio.h>
@@ -33,7 +33,7 @@ typedef struct options {
     int32_t case_count, threads;
     int32_t group; /* of hard_groups; -1: all */
     int linear, culled, binned, plain, json, is_quiet, is_verbose;
-    float seconds; /* of each case */
+    float seconds; /* per case */
 } options;
 
 /* One case's memory. */
@@ -41,25 +41,25 @@ typedef struct canvas {
     lmb_target target;
     lmb_surface out; /* data NULL: depth only */
     void *depth, *id, *rgba, *linear;
-    void *own_depth, *own_id; /* what depth and id lie in */
+    void *own_depth, *own_id; /* allocations of depth and id */
     size_t linear_bytes;
     lmb_culling culling; /* clusters NULL: lmb_draw */
-    lmb_bins bins;       /* memory NULL: straight from the mesh */
+    lmb_bins bins;       /* memory NULL: draw the mesh without bins */
     void *farthest, *clusters;
 } canvas;
 
-/* Times of frames, s. */
+/* Frame times, s. */
 typedef struct timing {
     double cpu[FRAMES_MAX], wall[FRAMES_MAX];
     int count;
-    double peak;    /* depths that the back end reads, tests and writes in a second, in cache */
-    double bound;   /* least time of a frame, s; 0: the back end's rates are not known */
-    const char *by; /* what takes it */
+    double peak;    /* depths per second that the backend reads, tests and writes in cache */
+    double bound;   /* minimum time of a frame, s; 0: the backend's rates are unknown */
+    const char *by; /* the limiting unit */
 } timing;
 
 /* --- one frame ---------------------------------------------------------------------------------------------------- */
 
-/* The colours go out as radiance does: sRGB-coded, tile by tile. */
+/* Stores the colours like radiance: sRGB-coded, tile by tile. */
 static void store_colours(const canvas *c, const bench_scene *s, const lmb_kernels *kernels)
 {
     static lmb_tile tile;
@@ -75,7 +75,7 @@ static void store_colours(const canvas *c, const bench_scene *s, const lmb_kerne
     }
 }
 
-/* Bins clear what they draw into. */
+/* Bins clear the target themselves. */
 static void draw_ids(canvas *c, const bench_scene *s, const lmb_kernels *kernels, uint32_t flags)
 {
     const uint32_t count = s->mesh.triangle_count;
@@ -112,7 +112,8 @@ static void draw_frame(canvas *c, const bench_scene *s, const lmb_kernels *kerne
 
 /* --- one case ----------------------------------------------------------------------------------------------------- */
 
-/* Surfaces lie on cache lines: vectors as wide as those would else lie in two each, which took a fifth longer. */
+/* Surfaces are aligned to cache lines. Otherwise vectors as wide as a line would straddle two, which took a fifth
+ * longer. */
 enum { LINE = 64 };
 
 static void *on_line(void *own)
@@ -131,7 +132,7 @@ static void canvas_free(canvas *c)
     free(c->bins.memory);
 }
 
-/* Clusters are made on load, and in no frame's time. */
+/* Makes the clusters when the case is loaded, outside the frame time. */
 static int canvas_cull(canvas *c, const bench_scene *s)
 {
     lmb_culling *culling = &c->culling;
@@ -184,10 +185,10 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Nothing but depths: the processor's loads and stores are the bound. */
+/* Depth-only cases, bounded by the processor's loads and stores. */
 static int is_depth_fill(const bench_case *k) { return k->scene >= BENCH_FILL_PASS && k->look == BENCH_DEPTH; }
 
-/* The longest of what one frame keeps a unit, or loads and stores, busy with. */
+/* Sets the bound: the longest time that a frame keeps a unit, or loads and stores, busy. */
 static void set_bound(timing *t, canvas *c, const bench_scene *s, const bench_rates *r, int cull)
 {
     double counts[BENCH_OPS];
@@ -197,15 +198,15 @@ static void set_bound(timing *t, canvas *c, const bench_scene *s, const bench_ra
     t->bound = depths;
     t->by = "depth";
     const double busy = bench_rates_bound(&unit, r, counts) / r->backend->lanes * r->cycle;
-    /* Plain C's lanes are what a compiler makes of them, here less and there more: its operations bound nothing. */
+    /* Compilers may or may not vectorize plain C lanes, so operations of plain C give no bound. */
     if (busy > depths && strcmp(r->backend->name, "scalar") != 0) {
         t->bound = busy;
         t->by = bench_op_names[unit];
     }
 }
 
-/* Two frames to warm up, then frames for the time asked for, each by itself, and the processor's loops between them:
- * both meet the same clock rate and the same neighbours. */
+/* Draws two frames to warm up, then frames for the requested time, each timed separately. The processor's loops run
+ * between them, so both see the same clock rate and load. */
 static void measure(timing *t, canvas *c, const bench_scene *s, const options *o, int cull)
 {
     bench_rates rates;
@@ -237,7 +238,7 @@ static void print_case(const bench_case *k, const bench_scene *s, const timing *
     const unsigned triangles = s->mesh.triangle_count;
     const double min = t->cpu[0] * 1e3, middle = t->cpu[t->count / 2] * 1e3;
     const double wall = t->wall[0] * 1e3, wall_middle = t->wall[t->count / 2] * 1e3, each = min * 1e6 / triangles;
-    const double pixels = (double)k->width * k->height * (triangles / 2) / t->cpu[0]; /* two triangles a layer */
+    const double pixels = (double)k->width * k->height * (triangles / 2) / t->cpu[0]; /* two triangles per layer */
     printf(o->json ? "{\"case\":\"%s\",\"triangles\":%u,\"cpu_min_ms\":%.4f,\"wall_min_ms\":%.4f,\"cpu_med_ms\":%.4f,"
                      "\"wall_med_ms\":%.4f,\"frames\":%d,\"ns_per_triangle\":%.2f,\"backend\":\"%s\""
                    : "lambent,%s,tris=%u,cpu_min_ms=%.4f,wall_min_ms=%.4f,cpu_med_ms=%.4f,wall_med_ms=%.4f,n=%d,"
@@ -254,7 +255,7 @@ static void print_case(const bench_case *k, const bench_scene *s, const timing *
     fflush(stdout);
 }
 
-/* The peers' lines, and how often our time theirs is. */
+/* Runs the peers, and prints their times relative to ours. */
 static int run_peers(const bench_peers *p, const bench_case *k, const timing *t, const options *o, report *r)
 {
     for (int i = 0; i < p->found.count; ++i) {
@@ -336,8 +337,8 @@ static int wanted_count(const options *o)
      .help = "of " what " (default: the environment's BENCH_DATA)"}
 #define ROW_SECONDS(text)                                                                                     \
     {.name = "--seconds", .value = "S", .kind = OPTION_ABOVE, AT(seconds), .low = 0, .high = 9999, .help = text}
-#define ROW_JSON {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object a line"}
-#define ROW_LOUDNESS OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took")
+#define ROW_JSON {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object per line"}
+#define ROW_LOUDNESS OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the time it took")
 #define END {.kind = OPTION_END}
 
 static const option_row raster_rows[] = {
@@ -348,14 +349,15 @@ static const option_row raster_rows[] = {
     OPTION_BACKEND_ROW(options, kernels),
     ROW_SECONDS("of each case (default 1.5)"),
     {.name = "--linear", .kind = OPTION_FLAG, AT(linear),
-     .help = "with depth copied into plain rows, which other programs read"},
+     .help = "also copies depth into plain rows, which other programs read"},
     {.name = "--culled", .kind = OPTION_FLAG, AT(culled),
-     .help = "by lmb_draw_culled: without what is hidden, by clusters and by bounds that each frame sets back"},
+     .help = "by lmb_draw_culled: without hidden surfaces, by clusters and by bounds that each frame resets"},
     {.name = "--binned", .kind = OPTION_FLAG, AT(binned),
-     .help = "by lmb_bins_draw: set up into bins, and drawn from there; with --culled by clusters and bounds, too"},
+     .help = "by lmb_bins_draw: triangles are set up into bins and drawn from there; with --culled also by clusters "
+             "and bounds"},
     {.name = "--peers", .value = "DIR", .kind = OPTION_TEXT, AT(peers),
-     .help = "after each case let every program of this folder draw it, and print how long it takes, and how many times "
-             "our time that is; tools/README.md says what such a program prints"},
+     .help = "after each case runs every program of this folder on it, and prints the time and how many times our "
+             "time that is; tools/README.md describes the output that such a program must print"},
     {.name = "--html", .value = "FILE.html", .kind = OPTION_TEXT, AT(html), .file = OPTION_WRITES,
      .help = "a page with each case's share of its bound as a bar"},
     ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
@@ -479,14 +481,14 @@ static int run_calibrate(const options *o, report *r)
     return 1;
 }
 
-/* What is measured by itself, and what holds where an option is not given. */
+/* The workloads with separate command lines, and their defaults. */
 static const struct workload {
     const char *name;
-    int (*check)(const options *o, report *r); /* 0 with `r` set: bad usage; NULL: nothing to check */
+    int (*check)(const options *o, report *r); /* returns 0 with `r` set for bad usage; NULL: nothing to check */
     int (*run)(const options *o, report *r);
     int32_t threads;
     float seconds;
-    int picks; /* a backend, where none is given; else all in turn */
+    int picks; /* use one backend by default; else all in turn */
     option_table table;
 } workloads[] = {
     {"raster",
@@ -497,17 +499,16 @@ static const struct workload {
      1,
      {.verb = "bench raster",
       .usage = "bench raster [CASE...] [options]",
-      .about =
-          "Draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a "
-          "frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = bound / least time. "
-          "The bound is what the same run finds the machine can do at most with the frame's own work, which is "
-          "counted by drawing it once over verbs that count: the longest (`by`) of the time that reading, testing and "
-          "writing the frame's depths takes in 16 KiB of cache (`depth`), and the times that its multiplications, "
-          "additions, maxima, divisions, comparisons and picks keep one unit busy (`mul`, `add`, `max`, `div`; as for "
-          "gather). All of it as if every lane were of use; integers, doubles, loads, masks, branches, clearing, and "
-          "reading the mesh and textures count as nothing; of plain C, whose lanes compilers join as they like, only "
-          "depths count. fill-depth cases also tell pixels a second and `peak`, the depths a second that the bound is "
-          "of.",
+      .about = "Draws the fixed raster workload on one thread and prints one line per case: the minimum and the "
+             "median time of a frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = "
+             "bound / minimum time. The bound is the best that the same run finds the machine can do with the "
+             "frame's own work, which is counted by drawing it once with verbs that count: the longest (`by`) of "
+             "the time for reading, testing and writing the frame's depths in 16 KiB of cache (`depth`), and the "
+             "times for which its multiplications, additions, maxima, divisions, comparisons and picks keep one "
+             "unit busy (`mul`, `add`, `max`, `div`; as for gather). All of it as if every lane were used; "
+             "integers, doubles, loads, masks, branches, clearing, and reading the mesh and textures count as "
+             "nothing. In plain C, whose lanes compilers join as they like, only depths count. fill-depth cases "
+             "also print pixels per second and `peak`, the depths per second of the bound.",
       .part = {raster_rows},
       .examples = "  lambent bench raster fill-depth --seconds 0.1\n"}},
     {"gather",
@@ -518,14 +519,14 @@ static const struct workload {
      0,
      {.verb = "bench gather",
       .usage = "bench gather [options]",
-      .about =
-          "The far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. "
-          "Prints a line a backend: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what "
-          "the same run finds the machine can do with the kernel's own operations (`ops_per_vector`, counted by "
-          "running it over verbs that count): each operation is timed in registers alone (`cycles_per_op`), and for "
-          "what it adds to a unit that multiplications, additions, maxima or divisions keep busy. The most loaded "
-          "unit's time is the bound (`unit`, `load_per_op`). Loads, stores, masks, branches and waiting for results "
-          "count as nothing. A cycle is that of a chain of integer operations.",
+      .about = "Times the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with "
+             "one group. Prints one line per backend: pairs per second, cycles per pair, and `share` = bound / "
+             "cycles. The bound is the best that the same run finds the machine can do with the kernel's own "
+             "operations (`ops_per_vector`, counted by running it with verbs that count): each operation is timed "
+             "by itself in registers (`cycles_per_op`), and for its load on a unit that multiplications, additions, "
+             "maxima or divisions keep busy. The most loaded unit's time is the bound (`unit`, `load_per_op`). "
+             "Loads, stores, masks, branches and waiting for results count as nothing. A cycle is that of a chain "
+             "of integer operations.",
       .part = {gather_rows},
       .examples = "  lambent bench gather --seconds 0.1\n"}},
     {"draw",
@@ -536,11 +537,11 @@ static const struct workload {
      1,
      {.verb = "bench draw",
       .usage = "bench draw [CASE...] [options]",
-      .about =
-          "Draws on one thread what lambent/draw.h is for, at 640 x 480, and prints a line a case: what it is, and the "
-          "least processor time of a frame. Frames of meshes, sprites, particles, lines and shadows begin with a clear "
-          "of colours and depth. Of `clear`, `fill` and `glass`, the line also has the time of storing each pixel once "
-          "(memset) in the same run, and that as a share of the frame's.",
+      .about = "Draws cases of lambent/draw.h on one thread, at 640 x 480, and prints one line per case: its name, "
+             "a description, and the shortest processor time of a frame. Frames of meshes, sprites, particles, "
+             "lines and shadows begin with a clear of colours and depth. For `clear`, `fill` and `glass`, the line "
+             "also has the time of storing each pixel once (memset) in the same run, and that as a share of the "
+             "frame's.",
       .part = {draw_rows},
       .examples = "  lambent bench draw fill --seconds 0.1\n"}},
     {"threads",
@@ -551,10 +552,10 @@ static const struct workload {
      1,
      {.verb = "bench threads",
       .usage = "bench threads [options]",
-      .about =
-          "The gather of the built-in scene, and 2048 x 2048 depths and ids of the workload's meshes by strips of rows "
-          "and by bins, on one thread, on N threads, and in N processes at once, in turn. `of processes` is what the "
-          "threads gain over what the processes do: 100 % is all that this machine gives.",
+      .about = "Times the gather of the built-in scene, and 2048 x 2048 depths and ids of the workload's meshes by "
+             "strips of rows and by bins, on one thread, on N threads, and in N processes at once, in turn. `of "
+             "processes` is the speed-up of threads relative to that of processes: 100 % is all that this machine "
+             "gives.",
       .part = {threads_rows},
       .examples = "  with a folder that holds bunny.mesh and sponza.mesh:\n"
                   "    [ ! -e data/sponza.mesh ] || lambent bench threads --data data --seconds 1\n",
@@ -567,10 +568,9 @@ static const struct workload {
      1,
      {.verb = "bench hard",
       .usage = "bench hard [CASES] [options]",
-      .about =
-          "What renderers get wrong, tried here: a line a case, with its figure and what that may be at most. `exact` "
-          "is 0 by design, `bounded` by arithmetic or a formula, `measured` against rays, sums and closed forms in "
-          "double, whose bound lies a little over what was found. A few seconds.",
+      .about = "Tests cases that renderers get wrong: prints one line per case, with a figure and its upper bound. "
+             "`exact` is 0 by design, `bounded` is limited by arithmetic or a formula, `measured` is compared with "
+             "rays, sums and closed forms in double, with a bound slightly above the figure found. A few seconds.",
       .part = {hard_rows},
       .examples = "  lambent bench hard raster\n",
       .status = "exit status: 0 done, 1 a figure past its bound, 2 bad usage"}},
@@ -582,7 +582,7 @@ static const struct workload {
      0,
      {.verb = "bench --calibrate",
       .usage = "bench --calibrate [--threads N]",
-      .about = "Units of work a second, by which --budget-ms reckons: the built-in room, drawn a few times.",
+      .about = "Measures units of work per second, which --budget-ms needs: draws the built-in room a few times.",
       .part = {calibrate_rows},
       .examples = "  lambent bench --calibrate --threads 1\n"}},
 };
@@ -590,14 +590,15 @@ static const struct workload {
 static const option_table bench_table = {
     .verb = "bench",
     .usage = "bench SCENE|relight|relief|mix ...  speed against error\n"
-             "bench raster [CASE...] [options]    how fast this machine draws the fixed workload\n"
-             "bench draw [CASE...] [options]      how fast this machine draws 2D, lines, blends\n"
-             "bench gather [options]              how fast groups light pixels\n"
-             "bench threads [options]             what threads gain, beside processes\n"
-             "bench hard [CASES] [options]        what renderers get wrong\n"
-             "bench --calibrate [--threads N]     units of work a second",
+             "bench raster [CASE...] [options]    speed of drawing the fixed workload\n"
+             "bench draw [CASE...] [options]      speed of drawing 2D, lines, blends\n"
+             "bench gather [options]              speed of lighting pixels by groups\n"
+             "bench threads [options]             speed-up of threads, compared with processes\n"
+             "bench hard [CASES] [options]        cases that renderers get wrong\n"
+             "bench --calibrate [--threads N]     units of work per second",
     .about =
-        "Measures. Each has its own --help: lambent bench raster --help; lambent bench demo --help is that of SCENE.",
+        "Measures speed and errors. Each has its own --help: lambent bench raster --help; lambent bench demo --help is "
+        "that of SCENE.",
     .part = {bench_rows},
     .examples = "  lambent bench raster fill-depth --seconds 0.1\n"
                 "  lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32 --breakdown 0\n",
@@ -627,7 +628,7 @@ static int measure_workload(const struct workload *w, int argc, char **argv)
     return ok ? 0 : report_end(&r, w->table.verb, 1);
 }
 
-/* A workload or a subject's name, where the word is like one and no file has it for its name. */
+/* The name of a workload or subject that is similar to the word, unless the word is a file. */
 static const char *meant_by(const char *word)
 {
     static const char *const names[] = {"raster", "draw", "gather", "threads", "hard", "relight", "relief", "mix", NULL};

@@ -44,7 +44,7 @@ static int sweep_and_write(const bench_options *o, report *r)
     return ok;
 }
 
-/* Of a world without objects the light at a place is swept. */
+/* Without objects, the light at a place is swept. */
 static const bench_subject *relight_of(int argc, char **argv)
 {
     int i = 2;

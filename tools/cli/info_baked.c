@@ -1,4 +1,4 @@
-/* info_baked.c: what `lambent info` says of files that lambent bakes: light (.lmt) and reliefs (.lmr). */
+/* info_baked.c: `lambent info` for baked files: light (.lmt) and reliefs (.lmr). */
 #include "info_baked.h"
 
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "../model/io_lmt.h"
 #include "info_text.h"
 
-/* A figure by its label and its name in JSON. */
+/* A number with a label and a name in JSON. */
 typedef struct figure {
     const char *label, *name;
     double value;
@@ -20,7 +20,7 @@ static int begins(const file_bytes *file, const char *magic)
 
 int info_baked_begins(const file_bytes *file) { return begins(file, "LMT") || begins(file, "LMR"); }
 
-/* What both kinds begin with; JSON stays open. */
+/* Prints the common start of both kinds; leaves the JSON open. */
 static void head(FILE *out, const char *path, const char *kind, const file_bytes *file, int json)
 {
     if (json) {

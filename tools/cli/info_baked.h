@@ -1,13 +1,14 @@
-/* info_baked.h: what `lambent info` says of files that lambent bakes: light (.lmt) and reliefs (.lmr). */
+/* info_baked.h: `lambent info` for baked files: light (.lmt) and reliefs (.lmr). */
 #ifndef INFO_BAKED_H
 #define INFO_BAKED_H
 
 #include "../common/io_file.h"
 
-/* By its first bytes. */
+/* info_baked_begins: tests the first bytes. */
 int info_baked_begins(const file_bytes *file);
 
-/* `out`: NULL for no figures. 1, or 0 with `r` set: a file that its verb would refuse. */
+/* info_baked: prints the facts; `out` NULL: only checks. Returns 1, or 0 with `r` set: a file that the verb for it
+ * would refuse. */
 int info_baked(FILE *out, const char *path, const file_bytes *file, int json, report *r);
 
 #endif

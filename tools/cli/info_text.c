@@ -1,4 +1,4 @@
-/* info_text.c: what `lambent info` prints: labelled lines, or JSON. */
+/* info_text.c: output of `lambent info`: labelled lines, or JSON. */
 #include "info_text.h"
 
 #include "../common/report.h"

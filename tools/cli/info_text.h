@@ -1,4 +1,4 @@
-/* info_text.h: what `lambent info` prints: labelled lines, or JSON. */
+/* info_text.h: output of `lambent info`: labelled lines, or JSON. */
 #ifndef INFO_TEXT_H
 #define INFO_TEXT_H
 
@@ -6,12 +6,12 @@
 
 #include <lambent/types.h>
 
-/* json_text: a JSON string; bytes that are not UTF-8 become U+FFFD. json_vec3: a member of three numbers. */
+/* json_text: prints a JSON string; bytes that are not UTF-8 become U+FFFD. json_vec3: a member with three numbers. */
 void json_text(FILE *out, const char *text);
 void json_vec3(FILE *out, const char *name, lmb_vec3 v);
 
-/* plain_text: names may hold anything; a line of text stays one line. label: a line's label, or blanks under the one
- * before. */
+/* plain_text: prints text on one line, although names may contain line breaks. label: prints the label of a line, or
+ * blanks below the one before. */
 void plain_text(FILE *out, const char *text);
 void label(FILE *out, const char *text);
 

@@ -1,4 +1,4 @@
-/* lambent.c: the command line: finds the verb. */
+/* lambent.c: the command line: selects the verb. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,27 +29,27 @@
 static const struct verb {
     const char *name;
     int (*run)(int argc, char **argv);
-    const char *usage, *help; /* lines, as many of each */
+    const char *usage, *help; /* same number of lines in each */
 } verbs[] = {
     {"render", verb_render, "render SCENE -o OUT",
      "draw a scene (.gltf .glb .obj .ply, or `demo`) with bounced light"},
-    {"bake", verb_bake, "bake SCENE -o OUT.lmt", "how light goes between a scene's surfaces, for lights that move"},
-    {"pack", verb_pack, "pack SCENE -o OUT.lmp|.c", "a scene as one file, or C array, that programs use in place"},
-    {"play", verb_play, "play SCENE --frames N", "frames with moving light, camera or objects, and what they take"},
-    {"merge", verb_merge, "merge SLICE... -o OUT", "slices of a picture, frames, a bake or a sweep, joined"},
-    {"capture", verb_capture, "capture SCENE --at X,Y,Z", "a place of a scene as the world of `relight`"},
-    {"relight", verb_relight, "relight --world WORLD", "light at a place of a world seen from another, as a cube map"},
-    {"relief", verb_relief, "relief bake|render", "a complex model as a simple one that carries its surface"},
-    {"mix", verb_mix, "mix --frame PREFIX", "a virtual object in one photo with depth"},
+    {"bake", verb_bake, "bake SCENE -o OUT.lmt", "precompute light transport of a static scene, for moving lights"},
+    {"pack", verb_pack, "pack SCENE -o OUT.lmp|.c", "convert a scene to one file, or C array, for use in place"},
+    {"play", verb_play, "play SCENE --frames N", "render an animation of lights, camera or objects, and its cost"},
+    {"merge", verb_merge, "merge SLICE... -o OUT", "join slices of a picture, frames, a bake or a sweep"},
+    {"capture", verb_capture, "capture SCENE --at X,Y,Z", "capture a place of a scene as a world for `relight`"},
+    {"relight", verb_relight, "relight --world WORLD", "light at a place of a world, from a cube map taken elsewhere"},
+    {"relief", verb_relief, "relief bake|render", "draw a complex model as a simple one with the detailed surface"},
+    {"mix", verb_mix, "mix --frame PREFIX", "put a virtual object into a photo with depth"},
     {"explain", verb_explain, "explain SCENE --pixel X,Y",
-     "why a pixel is as bright as it is: surface, lights, what blocks them, bounced light"},
-    {"plan", verb_plan, "plan SCENE", "what a picture takes and does without, why, work and memory"},
-    {"compare", verb_compare, "compare A B", "error figures of a picture against a reference"},
-    {"info", verb_info, "info FILE", "what is in a scene or a picture"},
-    {"bench", verb_bench, "bench SCENE", "speed against error: what each setting costs and buys"},
+     "print why a pixel has its light: surface, lights, occluders, senders"},
+    {"plan", verb_plan, "plan SCENE", "list the stages of a render, with estimated work and memory"},
+    {"compare", verb_compare, "compare A B", "measure the error of a picture against a reference"},
+    {"info", verb_info, "info FILE", "list the contents of a scene or a picture"},
+    {"bench", verb_bench, "bench SCENE", "measure speed against error for each setting"},
     {"bench", verb_bench, "bench raster|draw|gather|hard",
-     "how fast this machine draws and lights; what renderers get wrong"},
-    {"doctor", verb_doctor, "doctor", "this build and its back ends: do they draw what they should?"},
+     "measure speed of drawing and lighting; test hard cases"},
+    {"doctor", verb_doctor, "doctor", "check that this build and its back ends draw correctly"},
 };
 enum { VERBS = sizeof verbs / sizeof *verbs };
 
@@ -60,8 +60,8 @@ static void print_usage(void)
         printf("  %-25s %s\n", verbs[i].usage, verbs[i].help);
     }
     fputs("\n"
-          "  lambent help VERB         what a verb takes; the same as lambent VERB --help\n"
-          "  lambent help --man        all of it as a man page\n"
+          "  lambent help VERB         options of a verb, same as lambent VERB --help\n"
+          "  lambent help --man        all help as a man page\n"
           "  lambent --version\n\n"
           "examples\n"
           "  lambent render demo -o demo.png\n", stdout);
@@ -98,7 +98,7 @@ static int run(int argc, char **argv)
 
 /* --- help --------------------------------------------------------------------------------------------------------- */
 
-/* All that has a help of its own. */
+/* All commands with a help text. */
 static const char *const pages[][2] = {
     {"render", NULL},     {"bake", NULL},        {"pack", NULL},        {"play", NULL},
     {"merge", NULL},       {"capture", NULL},
@@ -112,7 +112,7 @@ static const char *const pages[][2] = {
 
 enum { HELP_WORDS = 4 };
 
-/* The words, as VERB ... --help. */
+/* Prints help for these words, like VERB ... --help. */
 static int help(int count, char **words)
 {
     static char name[] = "lambent", ask[] = "--help";
@@ -212,7 +212,7 @@ static int start(int argc, char **argv)
     return run(argc, argv);
 }
 
-/* What was printed may still wait, and find the disk full. */
+/* Buffered output may still meet a full disk. */
 int main(int argc, char **argv)
 {
     report r = {""};

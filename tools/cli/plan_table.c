@@ -58,7 +58,7 @@ static void print_rows(const lmb_plan *p)
     }
 }
 
-/* Lights that do less than they could, by why: a line each. */
+/* Lights that do less than possible, one line per reason. */
 static void print_lights(const lmb_plan *p, const render_job *j)
 {
     for (int why = LMB_WHY_RUNS + 1; why < LMB_WHYS; ++why) {

@@ -1,4 +1,4 @@
-/* verb_compare.c: `lambent compare`: how far one picture is from another. */
+/* verb_compare.c: `lambent compare`: error of one picture against another. */
 #include "verb_compare.h"
 
 #include <inttypes.h>
@@ -25,11 +25,11 @@ typedef struct options {
 /* A picture to compare. picture_free releases it; a zeroed one is empty. */
 typedef struct picture {
     int32_t width, height;
-    float *linear; /* 3 a pixel */
-    float *codes;  /* 4 a pixel, RGBA as stored in an 8-bit file; NULL for a file of floats */
+    float *linear; /* 3 per pixel */
+    float *codes;  /* 4 per pixel, RGBA as stored in an 8-bit file; NULL for a file of floats */
 } picture;
 
-/* All that one run reads. */
+/* All inputs of a run. */
 typedef struct loaded {
     picture test, truth;
     image mask, classes; /* pixels NULL: not given */
@@ -38,10 +38,10 @@ typedef struct loaded {
 typedef struct results {
     metrics figures;
     metrics_equality equality;
-    double worst;             /* metrics_worst_pixel, and its place */
+    double worst;             /* metrics_worst_pixel */
     int32_t worst_x, worst_y;
     int in_codes;          /* equality is in sRGB codes */
-    int passed[KEY_COUNT]; /* 1 where a bound is passed */
+    int passed[KEY_COUNT]; /* 1 if a limit is exceeded */
     int ok;
 } results;
 
@@ -59,13 +59,14 @@ static const option_row rows[] = {
     {.name = "--max", .value = "KEY=V,...", .kind = OPTION_TEXT, AT(max),
      .help = "upper bounds for trim, rmse, e50, e95, e99, worst; lo and hi bound mean; leak bounds |leak - 1|"},
     {.name = "--json", .kind = OPTION_FLAG, AT(json),
-     .help = "one object on one line; what is infinite or was not measured is null"},
+     .help = "one object on one line; infinite or unmeasured values are null"},
     {.name = "--heat", .value = "OUT.png", .kind = OPTION_TEXT, AT(heat), .file = OPTION_WRITES,
      .help = "|a - b| / (b + 0.01 mean of B), grey: 0 black, 0.2 blue, 0.4 purple, 0.6 orange, 0.8 yellow, 1 and "
              "over white, in equal steps of lightness; dark grey: masked; green: not finite"},
-    {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no figures: the exit status alone"},
+    {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet),
+     .help = "print no figures, only set the exit status"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
-     .help = "say how each picture was taken, and how many pixels count"},
+     .help = "print how each picture was read, and how many pixels count"},
     OPTION_TIME_LIMIT,
     OPTION_ASK,
     {.kind = OPTION_END},
@@ -74,33 +75,33 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "compare",
     .usage = "compare A B [options]",
-    .about = "How far picture A is from the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, known by its content; "
-             "8-bit files are sRGB and are decoded to linear light for the error figures. A pixel of A that is not "
-             "finite counts as black. The figures:\n"
+    .about = "Measures the error of picture A against the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, by "
+             "content; 8-bit files are sRGB and are decoded to linear light for the error figures. A pixel of A that "
+             "is not finite counts as black. The figures:\n"
              "trim (trimmed error): relative RMSE (rmse / mean of B) without the worst 1 % of pixels;\n"
-             "rmse: relative RMSE; n90: how many pixels carry 90 % of the squared error;\n"
+             "rmse: relative RMSE; n90: number of pixels with 90 % of the squared error;\n"
              "e50 (median relative error), e95, e99: percentiles of |a - b| / (b + 0.01 mean of B), grey (mean of the "
              "channels);\n"
-             "worst: largest |a - b| / (mean of B over the 5x5 pixels around + 0.01 mean of B), grey, and its first "
+             "worst: largest |a - b| / (mean of B over the 5x5 pixels around + 0.01 mean of B), grey, and the first "
              "pixel x,y (from the top left);\n"
              "mean: mean of A / mean of B;\n"
-             "leak: the same over dark pixels: class 3, or B < 1 % of its mean without --classes (21 or more);\n"
+             "leak: the same over dark pixels: class 3, or B < 1 % of mean of B without --classes (21 or more);\n"
              "NONFINITE: pixels of A that are not finite, if there are any;\n"
-             "psnr: dB, over red, green and blue; full scale is 255 where both files are 8-bit (then psnr and max are "
-             "in sRGB codes), the largest value of B elsewhere (then they are in linear light);\n"
-             "max: largest difference of a channel, and its first pixel x,y (from the top left);\n"
-             "exact: pixels whose bits are equal (alpha included); first: the first pixel that differs.",
+             "psnr: dB, over red, green and blue; full scale is 255 if both files are 8-bit (then psnr and max are "
+             "in sRGB codes), otherwise the largest value of B (then they are in linear light);\n"
+             "max: largest difference of a channel, and the first pixel x,y (from the top left);\n"
+             "exact: pixels with equal bits (alpha included); first: the first pixel that differs.",
     .part = {rows},
-    .examples = "  how far a draft is from the best settings:\n"
+    .examples = "  error of a draft against the default settings:\n"
                 "    lambent render demo --size 80x60 --quality draft -o draft.pfm\n"
                 "    lambent render demo --size 80x60 -o default.pfm\n"
                 "    lambent compare draft.pfm default.pfm --max trim=0.2 --heat error.png\n",
-    .status = "exit status: 0 within the bounds, 1 a bound passed, pixels not finite or a file that cannot be used, "
+    .status = "exit status: 0 within the bounds, 1 a bound exceeded, pixels not finite or a file that cannot be used, "
               "2 bad usage, 3 sizes differ",
 };
 
-/* The bound of the first `length` characters of `item`, which end at a comma or the text's end. A key that comes
- * twice keeps its tighter bound. */
+/* Parses a limit from the first `length` characters of `item`, up to a comma or the end of the text. Of two limits
+ * for a key the stricter counts. */
 static int parse_bound(options *o, const char *item, size_t length)
 {
     for (int k = 0; k < KEY_COUNT; ++k) {
@@ -163,7 +164,7 @@ static void loaded_free(loaded *l)
     image_free(&l->classes);
 }
 
-/* Room for `channels` floats a pixel, or NULL. */
+/* Allocates `channels` floats per pixel, or NULL. */
 static float *float_pixels(int32_t width, int32_t height, size_t channels)
 {
     size_t count = (size_t)width * (size_t)height, bytes = channels * sizeof(float);
@@ -270,7 +271,7 @@ static metrics_input linear_input(const loaded *l)
     return in;
 }
 
-/* Written so that a figure that is not a number passes its bound. */
+/* Written so that NaN exceeds every limit. */
 static int is_passed(const results *res, int key, double bound)
 {
     const metrics *m = &res->figures;
@@ -310,7 +311,7 @@ static int measure(results *out, const loaded *l, const options *o, report *r)
 
 /* -- output ------------------------------------------------------------------------------------------------------- */
 
-/* What is relative to a black truth has no number. */
+/* Values relative to a black truth are infinite. */
 static double shown(double v) { return fabs(v) >= 1e20 ? copysign((double)INFINITY, v) : v; }
 
 static void text_number(FILE *out, const char *name, double v)
@@ -426,7 +427,7 @@ static int write_heat(const loaded *l, const metrics *m, const char *path, repor
     return ok;
 }
 
-/* --verbose: how the pictures were taken. */
+/* --verbose: prints how the pictures were read. */
 static void tell_taken(FILE *err, const loaded *l, const options *o, const metrics *m)
 {
     const picture *const both[] = {&l->test, &l->truth};
@@ -438,7 +439,7 @@ static void tell_taken(FILE *err, const loaded *l, const options *o, const metri
         fprintf(err, "lambent: %" PRIu64 " pixels count\n", m->pixels);
 }
 
-/* Figures go out before the heat picture is tried, so that a full disk does not take them along. */
+/* Prints the metrics before it writes the heat picture, so that a full disk does not lose them. */
 static int deliver(FILE *out, FILE *err, const results *res, const loaded *l, const options *o, report *r)
 {
     out = o->heat && file_is_stdout(o->heat) ? err : out;
@@ -450,7 +451,7 @@ static int deliver(FILE *out, FILE *err, const results *res, const loaded *l, co
     return !o->heat || write_heat(l, &res->figures, o->heat, r);
 }
 
-/* The exit status. */
+/* Returns the exit status. */
 static int run(FILE *out, FILE *err, loaded *l, const options *o, report *r)
 {
     results res;

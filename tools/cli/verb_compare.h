@@ -1,4 +1,4 @@
-/* verb_compare.h: `lambent compare`, for the program and its tests. */
+/* verb_compare.h: `lambent compare`, for the program and for tests. */
 #ifndef VERB_COMPARE_H
 #define VERB_COMPARE_H
 
@@ -9,7 +9,7 @@ enum { COMPARE_OK = 0, COMPARE_FAILED = 1, COMPARE_USAGE = 2, COMPARE_SIZES = 3 
 /* verb_compare: argv[0] is "compare". Returns the exit status. */
 int verb_compare(int argc, char **argv);
 
-/* compare_to: the same, with figures on `out` and the line of an error on `err`. */
+/* compare_to: the same, with metrics on `out` and error messages on `err`. */
 int compare_to(FILE *out, FILE *err, int argc, char **argv);
 
 #endif

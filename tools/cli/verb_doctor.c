@@ -1,4 +1,4 @@
-/* verb_doctor.c: `lambent doctor`: the build, its back ends, and whether each draws the bytes that all others do. */
+/* verb_doctor.c: `lambent doctor`: prints the build and its back ends, and checks that all draw the same bytes. */
 #include "verb_doctor.h"
 
 #include <inttypes.h>
@@ -13,7 +13,8 @@
 #include "../demo/demo_scene.h"
 #include "build_flags.inc" /* BUILD_FLAGS, from the Makefile */
 
-/* The built-in room, 96 x 72 in eight bits, by --quality draft. It changes where bounced light is meant to. */
+/* Hash of the built-in room, 96 x 72 in eight bits, with --quality draft. It changes when bounced light is changed
+ * on purpose. */
 #ifndef ROOM_HASH
 #define ROOM_HASH UINT64_C(0x11da7e17b39aff20)
 #endif
@@ -25,7 +26,7 @@ typedef struct options {
 } options;
 
 static const option_row rows[] = {
-    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say the flags that it was built with"),
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the flags that it was built with"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -33,9 +34,9 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "doctor",
     .usage = "doctor [-q|-v]",
-    .about = "Says which version and build this is, which back ends it has, and which of them draws here. Then draws a "
-             "small picture by each: all have to have the bytes that every machine has. Send what it says with a "
-             "report of a fault.",
+    .about = "Prints the version, the build and its back ends, and which of these draws here. Then draws a small "
+             "picture with each, and checks that all have the same bytes as on every machine. If you report a bug, "
+             "include this output.",
     .part = {rows},
     .examples = "  lambent doctor\n",
     .status = "exit status: 0 all is well, 1 something is not, 2 bad usage",
@@ -77,7 +78,7 @@ static int hash_room(uint64_t *hash, const lmb_kernels *kernels, report *r)
                                            lmb_status_name(status));
 }
 
-/* --- what is said ------------------------------------------------------------------------------------------------- */
+/* --- output ------------------------------------------------------------------------------------------------------- */
 
 #if defined(LMB_CONFIG_TINY)
 #define CONFIGURATION "tiny"
@@ -93,7 +94,7 @@ static int hash_room(uint64_t *hash, const lmb_kernels *kernels, report *r)
 #define COMPILER "not known"
 #endif
 
-/* LINE: printf unless it is to be quiet. */
+/* LINE: printf unless quiet. */
 #define LINE(o, ...) ((o)->is_quiet ? 0 : printf(__VA_ARGS__))
 
 static void tell_build(const options *o)

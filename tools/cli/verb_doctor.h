@@ -1,4 +1,4 @@
-/* verb_doctor.h: `lambent doctor`: does this build do here what it should? */
+/* verb_doctor.h: `lambent doctor`: checks that this build works here. */
 #ifndef VERB_DOCTOR_H
 #define VERB_DOCTOR_H
 

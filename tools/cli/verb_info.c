@@ -1,4 +1,4 @@
-/* verb_info.c: `lambent info`: what is in a scene or picture, and what becomes of it here. */
+/* verb_info.c: `lambent info`: the contents of a scene or picture, and how lambent uses them. */
 #include "verb_info.h"
 
 #include <inttypes.h>
@@ -30,12 +30,13 @@ static const option_row info_rows[] = {
     {.name = "FILE", .kind = OPTION_TEXT, .value = "", AT(path),
      .help = "a scene, a picture, baked light (.lmt), a relief (.lmr), or demo, the built-in scene"},
     {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(choice.scene),
-     .help = "of a file with several scenes, by name or number from 0 (default: its own choice)"},
+     .help = "scene to show of a file with several, by name or number from 0 (default: the file's default scene)"},
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object on one line"},
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet),
-     .help = "no figures: the exit status alone, whether the file can be read"},
-    {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose), .help = "say how long reading took"},
+     .help = "print no figures, only set the exit status: whether the file can be read"},
+    {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
+     .help = "print how long reading took"},
     OPTION_ONLY_HERE,
     OPTION_TIME_LIMIT,
     OPTION_ASK,
@@ -46,37 +47,37 @@ static const option_table table = {
     .verb = "info",
     .usage = "info FILE [options]",
     .about =
-        "What is in a scene that `lambent render` reads, in a picture (PNG, JPEG, PPM, PGM, PAM, PFM or Radiance HDR), "
-        "in baked light or in a relief; each is known by its content. Of a scene:\n"
-        "scenes: of a glTF file; read: the one that counts below (--scene chooses);\n"
-        "nodes meshes: as the file has them, with the meshes' primitives;\n"
+        "Lists the contents of a scene that `lambent render` reads, a picture (PNG, JPEG, PPM, PGM, PAM, PFM or HDR), "
+        "baked light or a relief, recognized by content. For a scene:\n"
+        "scenes: of a glTF file; read: the one described below (you choose it with --scene);\n"
+        "nodes meshes: in the file, with the number of primitives;\n"
         "instances: primitives placed in the world;\n"
         "triangles: placed: over all instances; unique: each mesh once;\n"
         "vertices: as stored, of the meshes that are placed;\n"
-        "materials: in the file; drawn: those that an instance shows, and what they are;\n"
+        "materials: in the file; drawn: those of instances, by kind;\n"
         "emissive: materials that emit light: radiance, W/(sr m2); `render --grouping cut` lights the scene with "
         "it;\n"
         "images textures: in the file; read: with size, mip levels and bytes in memory, shared by equal images;\n"
         "lights cameras: in the file; placed: by nodes; the number before a camera is for `render --camera`;\n"
-        "extensions: read, folded into what is read anyhow, or ignored; a scene that requires one that is unknown "
-        "here is refused with a line that names it;\n"
+        "extensions: read, converted on load, or ignored; if a scene requires an unknown one, it is "
+        "refused with a message that names it;\n"
         "bounds: world metres;\n"
         "bytes: the file, others read for it, and memory when loaded;\n"
-        "notes: what the reader left out or replaced.\n"
-        "Of a picture: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high "
-        "byte; palettes resolved), or linear light; values that are not finite are counted and left out. Of a PFM the "
-        "scale, which values here are multiplied by, and the byte order.\n"
-        "Of baked light: elements, which reflect it; receivers and clusters, which pixels take it from; links, each of "
-        "which carries light from one to the other; of what moves, the ranges of triangles and the places in the air; "
-        "and the fingerprint of the scene that it was baked from.\n"
-        "Of a relief: the simple model's triangles, and its reference views.",
+        "notes: features that the reader left out or replaced.\n"
+        "For a picture: smallest, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the "
+        "high byte; palettes resolved), or linear light; values that are not finite are counted and left out. For a "
+        "PFM the scale, by which these values are multiplied, and the byte order.\n"
+        "For baked light: elements, which reflect light; receivers and clusters, from which pixels take it; links, "
+        "which carry light from one to the other; for moving objects, ranges of triangles and places in the air; "
+        "and the fingerprint of the scene that was baked.\n"
+        "For a relief: the triangles of the simple model, and the reference views.",
     .part = {info_rows},
     .examples = "  lambent render demo --size 80x60 -o demo.pfm\n"
                 "  lambent info demo.pfm\n",
     .status = "exit status: 0 done, 1 a file that cannot be read, 2 bad usage",
 };
 
-/* Figures that neither the file nor the scene states. */
+/* Counts that are not in the file or the scene. */
 typedef struct summary {
     uint64_t unique_triangles;
     uint32_t drawn, double_sided, masked, textured, normal_mapped, emissive; /* materials */
@@ -84,7 +85,7 @@ typedef struct summary {
     uint32_t orthographic;
 } summary;
 
-/* One channel's finite values. */
+/* The finite values of a channel. */
 typedef struct channel {
     double min, largest, sum;
     uint64_t count;
@@ -103,7 +104,7 @@ typedef struct picture_facts {
 
 /* --- scenes ------------------------------------------------------------------------------------------------------- */
 
-/* Materials count where an instance shows them. 0: memory is short. */
+/* Counts materials that an instance shows. Returns 0: memory is short. */
 static int count_materials(summary *s, const lmb_scene *scene)
 {
     uint8_t *seen = calloc((size_t)scene->material_count + 1, 1);
@@ -410,7 +411,7 @@ static void demo_model(model *out, model_camera *camera)
         f->texel_bytes += texture_bytes(&out->scene.textures[i]);
 }
 
-/* `file`: NULL of the built-in scene. */
+/* `file` NULL: the built-in scene. */
 static int scene_info(FILE *out, const options *o, const file_bytes *file, report *r)
 {
     model_notes notes;
@@ -445,7 +446,7 @@ static void add_value(picture_facts *p, int k, double v)
     ++c->count;
 }
 
-/* Of the four stored codes a pixel, those of its channels: grey stands in the first three, alpha last. */
+/* Measures the channels of four stored codes per pixel: grey is in the first three, alpha last. */
 static void measure_codes(picture_facts *p, const bitmap *map)
 {
     const size_t pixels = (size_t)map->width * (size_t)map->height;
@@ -548,7 +549,7 @@ static int picture_info(FILE *out, const options *o, const file_bytes *file, rep
     return 1;
 }
 
-/* A file that is read once, so that a pipe will do. What does not show its kind is what its name says. */
+/* Reads a file once, so that a pipe works. If the content does not show the kind, the name decides. */
 static int file_info(FILE *out, const options *o, report *r)
 {
     file_bytes file = {NULL, 0};

@@ -1,4 +1,4 @@
-/* verb_merge.c: `lambent merge`: the slices of one job, checked and joined to the bytes of one machine. */
+/* verb_merge.c: `lambent merge`: checks the slices of a job and joins them to the bytes of one machine. */
 #include "verb_merge.h"
 
 #include <string.h>
@@ -25,11 +25,11 @@ typedef struct options {
 static const option_row rows[] = {
     {.name = "SLICE", .value = "", .kind = OPTION_TEXT, AT(slice), .counts = offsetof(options, slices), .times = FILES,
      .size = sizeof(const char *),
-     .help = "what `--slice I/N` wrote, OUT.IofN: all N of one job, in any order; the same one may be there twice"},
+     .help = "files written with `--slice I/N`, OUT.IofN: all N of one job, in any order; duplicates are allowed"},
     {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, AT(out),
-     .help = "what the slices are of, with the ending that they were made for; of frames the pattern, frame_%04d.png;"
-             " of a sweep a .csv, .json, .html or .svg"},
-    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say of what job the slices are"),
+     .help = "output of the job, with the ending that the slices were made for; for frames the pattern, "
+             "frame_%04d.png; for a sweep a .csv, .json, .html or .svg"},
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the job of the slices"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -37,11 +37,12 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "merge",
     .usage = "merge SLICE... -o OUT",
-    .about = "Joins what `lambent render`, `play`, `bake` and `bench SCENE` made with --slice I/N, on as many machines: "
-             "the output has the bytes that one machine would have written, but for the times of a sweep.\n"
-             "A slice carries a hash of its inputs, options and version, and one of itself. Slices that are cut off or "
-             "damaged are told of and left out; what is missing is named, and nothing is written; a slice of another "
-             "job is refused, and so are two of one number that differ, unless they are of a sweep: then the first one counts.",
+    .about = "Joins the files that `lambent render`, `play`, `bake` and `bench SCENE` wrote with --slice I/N, on "
+             "any number of machines: the output has the same bytes as from one machine, except for the times of a "
+             "sweep.\nA slice file has a hash of the job's inputs, options and version, and a checksum. Truncated "
+             "or damaged slices are reported and skipped. If slices are missing, they are listed and nothing is "
+             "written. A slice of another job is an error, and so are two different ones of the same number, except "
+             "in a sweep, where the first one counts.",
     .part = {rows},
     .examples = "  lambent render demo --size 64x48 --slice 1/2 -o joined.png\n"
                 "  lambent render demo --size 64x48 --slice 2/2 -o joined.png\n"
@@ -56,7 +57,7 @@ static int is_complete(const options *o, report *r)
     return o->out != NULL || report_fail(r, "no output given; add -o OUT");
 }
 
-/* A file that is read may not be written over. */
+/* Inputs must not be overwritten. */
 static int keep_all(const options *o, report *r)
 {
     for (int32_t i = 0; i < o->slices; ++i) {

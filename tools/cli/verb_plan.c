@@ -1,4 +1,4 @@
-/* verb_plan.c: `lambent plan`: what a picture takes and what it does without, before it is drawn. */
+/* verb_plan.c: `lambent plan`: cost of a picture and the settings that leave something out, before it is drawn. */
 #include "verb_plan.h"
 
 #include "../../platform/host/host.h"

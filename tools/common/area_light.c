@@ -1,12 +1,12 @@
-/* area_light.c: a light with a size as many lights without one, so that its shadows are soft. */
+/* area_light.c: replaces a light that has a size by many lights without one, for soft shadows. */
 #include "area_light.h"
 
 #include <math.h>
 
-/* Places on a disc: a turn of the golden angle each, at radii that share its area evenly. A second turn, which is
- * irrational against the first, gives the third axis: places like that are even on the sphere in four dimensions, whose
- * shadow in three looks like a disc of even brightness from every side. Turns are products, because libraries' sines
- * differ in their last bits. */
+/* Positions on a disc: each is turned by the golden angle, at radii with equal area between. A second turn,
+ * irrational to the first, gives the third axis. Such points are even on the sphere in four dimensions, and the
+ * projection of that to three looks like an even disc from every side. Turns are products, because the last bits of
+ * sines differ between libraries. */
 static const double turn[2][2] = {{-0.73736887807831974, 0.67549029426152385},  /* 0.381966 of a circle */
                                   {-0.19797456015568693, -0.98020715847782003}}; /* e */
 
@@ -17,7 +17,7 @@ static void step(double at[2], const double by[2])
     at[0] = c;
 }
 
-/* Two directions across one, and each other. */
+/* Two directions perpendicular to an axis and to each other. */
 static void across(double u[3], double v[3], lmb_vec3 axis)
 {
     const double d[3] = {(double)axis.x, (double)axis.y, (double)axis.z};

@@ -1,4 +1,4 @@
-/* binned.c: threads set up ranges of a scene's triangles, and then draw a window's rows from their bins. */
+/* binned.c: threads set up ranges of the scene's triangles, and then draw rows of the window from the bins. */
 #include "binned.h"
 
 #include <stdlib.h>
@@ -15,15 +15,15 @@ static lmb_status draw_alone(const binned_draw *d)
 
 #if LMB_CULLING
 
-enum { WORTH = 1 << 14 }; /* triangles and tiles, about a millisecond of one thread, under which others are not called */
+enum { WORTH = 1 << 14 }; /* triangles and tiles; below this, about 1 ms, other threads are not worth their start */
 
 typedef struct work {
     binned *b;
     const binned_draw *draw;
     int ranges;
     int32_t rows; /* px of a piece */
-    lmb_status built[POOL_MAX]; /* range by range */
-    lmb_status drawn[POOL_MAX]; /* by worker: of its last rows that failed */
+    lmb_status built[POOL_MAX]; /* status of each range */
+    lmb_status drawn[POOL_MAX]; /* by worker: of the last rows that failed */
 } work;
 
 static lmb_status first_failure(const lmb_status *of, int count)
@@ -77,7 +77,7 @@ static void do_piece(void *user, int i, int worker)
     }
 }
 
-/* Memory for `ranges` bins of as many bytes each; what there is, where there is no more. */
+/* Allocates `ranges` bins of equal size; if memory is short, as many as possible. */
 static void give_memory(binned *b, const binned_draw *d, int ranges)
 {
     const size_t each = lmb_bins_bytes(d->view, d->count / (uint32_t)ranges + 1);

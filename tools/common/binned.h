@@ -1,6 +1,5 @@
-/* binned.h: depth and ids of a window by several threads: bins of the scene's triangles, then rows of the window.
- *
- * The bytes are lmb_draw's. */
+/* binned.h: depth and ids of a window, drawn by several threads: first bins of the scene's triangles, then rows of the
+ * window. The result has the same bytes as lmb_draw. */
 #ifndef BINNED_H
 #define BINNED_H
 
@@ -9,7 +8,7 @@
 #include "../../platform/host/pool.h"
 
 typedef struct binned_draw {
-    const lmb_target *target; /* is cleared first */
+    const lmb_target *target; /* cleared before the draw */
     const lmb_kernels *kernels;
     const lmb_view *view;
     const lmb_scene *scene;
@@ -17,16 +16,16 @@ typedef struct binned_draw {
     int threads;
 } binned_draw;
 
-/* What stays from draw to draw. All 0 at first. */
+/* State kept between draws. Zero it first. */
 typedef struct binned {
 #if LMB_CULLING
     lmb_bins bins[POOL_MAX];
 #endif
-    void *memory; /* of all of them */
+    void *memory; /* for all bins */
     size_t bytes;
 } binned;
 
-/* Returns what lmb_draw does. Where there is no memory for bins, each row sets up all triangles. */
+/* binned_run: returns the status of lmb_draw. If memory for bins is short, each row sets up all triangles. */
 lmb_status binned_run(binned *b, const binned_draw *draw);
 
 void binned_free(binned *b);

@@ -1,4 +1,4 @@
-/* byte_buffer.c: numbers as little-endian bytes that grow. */
+/* byte_buffer.c: a growing array of little-endian numbers. */
 #include "byte_buffer.h"
 
 #include <stdlib.h>

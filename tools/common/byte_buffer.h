@@ -1,11 +1,12 @@
-/* byte_buffer.h: numbers as little-endian bytes that grow, for files that are written whole; and back. */
+/* byte_buffer.h: a growing array of little-endian numbers, for files that are written at once; and a reader. */
 #ifndef BYTE_BUFFER_H
 #define BYTE_BUFFER_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Zeroed it is empty; free(data) releases it. Once memory is short it stays as it is and `is_short` is set. */
+/* Zeroed: empty; release it with free(data). If memory runs out, it stays unchanged and sets `is_short`, which you
+ * can check at the end. */
 typedef struct byte_buffer {
     uint8_t *data;
     size_t size, cap;
@@ -19,7 +20,7 @@ void byte_put_float(byte_buffer *b, float v);
 void byte_put_floats(byte_buffer *b, const float *v, size_t count);
 void byte_put_double(byte_buffer *b, double v);
 
-/* What is read back. Past its end everything is 0 and `is_short` is set. */
+/* Reads numbers back. Past the end all reads return 0 and set `is_short`. */
 typedef struct byte_reader {
     const uint8_t *at, *end;
     int is_short;

@@ -1,17 +1,16 @@
-/* checksum.h: the checksum of .lmp, .lmr and .lmt files, which tells damage that leaves a readable file.
- *
- * The last word of the header is FNV-1a, of 32 bits, of the file's other bytes in their order, and 1 in place of 0; 0
- * says that there is none. Any change of one byte changes it. The tool reads every byte anyway and checks it; the
- * library, which opens files in place in flash, passes it over. */
+/* checksum.h: the checksum of .lmp, .lmr and .lmt files, to detect damage that leaves a file readable. The last word of
+ * the header is the 32-bit FNV-1a hash of all other bytes in order. 1 replaces a hash of 0, and 0 means no checksum.
+ * Any change of one byte changes the hash. The tool reads every byte anyway and checks it. The library opens files in
+ * place in flash, and does not check. */
 #ifndef CHECKSUM_H
 #define CHECKSUM_H
 
 #include "io_file.h"
 
-/* checksum_put: into a file of whole words, whose header has `words` of them; in the file's byte order. */
+/* checksum_put: sets the checksum of a file of whole words with a header of `words` words, in the file's byte order. */
 void checksum_put(file_bytes *inout, int words);
 
-/* checksum_fits: 0 where bytes of the file, which is as long as its header says, are others than were written. */
+/* checksum_fits: returns 0 if bytes of the file differ from those written; the size must be as in the header. */
 int checksum_fits(const uint8_t *data, size_t size, int words);
 
 #endif

@@ -1,4 +1,4 @@
-/* counted_alloc.h: memory from the heap, counted. */
+/* counted_alloc.h: heap memory with a count of the bytes. */
 #ifndef COUNTED_ALLOC_H
 #define COUNTED_ALLOC_H
 
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 typedef struct counted_heap {
-    uint64_t bytes, highest; /* held; the most that was held at once */
+    uint64_t bytes, highest; /* allocated now; the peak */
 } counted_heap;
 
 static inline void counted_add(counted_heap *t, uint64_t bytes)
@@ -16,7 +16,7 @@ static inline void counted_add(counted_heap *t, uint64_t bytes)
         t->highest = t->bytes;
 }
 
-/* count * size zeroed bytes, at least one; NULL where there is no memory. */
+/* counted_alloc: returns count * size zeroed bytes, at least one; NULL if memory is short. */
 static inline void *counted_alloc(counted_heap *t, uint64_t count, size_t size)
 {
     void *p = count < SIZE_MAX / size ? calloc(count ? (size_t)count : 1, size) : NULL;

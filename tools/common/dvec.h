@@ -1,4 +1,4 @@
-/* dvec.h: three doubles, for tools that measure more finely than the library draws. */
+/* dvec.h: a vector of three doubles, for measurements finer than the library's float. */
 #ifndef DVEC_H
 #define DVEC_H
 
@@ -19,7 +19,7 @@ static inline dvec dvec_of(double x, double y, double z)
 }
 
 static inline dvec dvec_read(const float *p) { return dvec_of((double)p[0], (double)p[1], (double)p[2]); }
-/* Within binary32, which has no conversion for what is beyond it. */
+/* Clamped to the range of float, because C defines no conversion beyond it. */
 static inline float dvec_narrow(double v)
 {
     return v > (double)FLT_MAX ? FLT_MAX : v > -(double)FLT_MAX ? (float)v : -FLT_MAX;
@@ -46,10 +46,10 @@ static inline dvec dvec_cross(dvec a, dvec b)
 /* a + t (b - a) */
 static inline dvec dvec_mix(dvec a, dvec b, double t) { return dvec_add(a, dvec_mul(dvec_sub(b, a), t)); }
 
-/* Along the normal of a, b, c counter-clockwise; as long as twice the area. */
+/* The normal of a, b, c (counter-clockwise), with a length of twice the area. */
 static inline dvec dvec_turn(dvec a, dvec b, dvec c) { return dvec_cross(dvec_sub(b, a), dvec_sub(c, a)); }
 
-/* Unit length; 0 where there is no direction. */
+/* Unit length; 0 if there is no direction. */
 static inline dvec dvec_unit(dvec a)
 {
     const double length = dvec_length(a);

@@ -1,4 +1,4 @@
-/* ending.c: how a file's name ends. */
+/* ending.c: tests the ending of a file name. */
 #include "ending.h"
 
 #include <ctype.h>

@@ -1,8 +1,8 @@
-/* ending.h: how a file's name ends. */
+/* ending.h: tests the ending of a file name. */
 #ifndef ENDING_H
 #define ENDING_H
 
-/* Does the name end in `ending` (lower case, with its point, as ".png"), in letters of either case? */
+/* has_ending: returns whether the name ends in `ending` (lower case, with the dot, as ".png"), ignoring case. */
 int has_ending(const char *name, const char *ending);
 
 #endif

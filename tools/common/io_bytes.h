@@ -1,11 +1,11 @@
-/* io_bytes.h: what the picture files share: the largest picture and numbers in either byte order. */
+/* io_bytes.h: shared by the image formats: the largest image, and numbers in either byte order. */
 #ifndef IO_BYTES_H
 #define IO_BYTES_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* 16384 x 16384: 1 GiB as RGBA, so that byte counts up to 15 a pixel also fit a 32-bit size_t. */
+/* 16384 x 16384: 1 GiB as RGBA. Byte counts up to 15 per pixel also fit a 32-bit size_t. */
 #define PICTURE_MAX_PIXELS (UINT64_C(1) << 28)
 
 static inline int picture_fits(uint64_t width, uint64_t height)
@@ -13,8 +13,8 @@ static inline int picture_fits(uint64_t width, uint64_t height)
     return width > 0 && height > 0 && width <= PICTURE_MAX_PIXELS && height <= PICTURE_MAX_PIXELS / width;
 }
 
-/* Time is bounded by a file's size, so pixels are too where a format packs without bound: 8192 x 8192 for any file, and
- * 64 for each byte beside them. */
+/* Limits pixels by file size, because formats that compress without bound would break the bound on time: 8192 x 8192
+ * for any file, and 64 for each byte. */
 static inline int picture_is_paid(uint64_t width, uint64_t height, uint64_t bytes_of_file)
 {
     return width * height <= (UINT64_C(1) << 26) + 64 * bytes_of_file;

@@ -1,4 +1,4 @@
-/* io_file.c: whole files in and out; a file is written aside and renamed, so that no reader ever sees half of one. */
+/* io_file.c: reads and writes whole files. Files are written aside and renamed, so that no reader sees half a file. */
 #if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
 #define _XOPEN_SOURCE 700 /* lstat, realpath, fdopen, fchmod */
 #endif
@@ -67,7 +67,7 @@ int file_suits(const char *option, const char *path, const char *own, report *r)
     return 1;
 }
 
-/* --- what is read, which nothing may be written over --- */
+/* --- inputs, which outputs may not replace ------------- */
 
 #ifdef _WIN32
 
@@ -76,7 +76,7 @@ void file_keep_end(void)
     is_keeping = is_only_here = 0;
 }
 
-/* Files have no number here. */
+/* Files have no number on this system. */
 int file_keep(const char *path, report *r)
 {
     (void)path;
@@ -92,7 +92,7 @@ typedef struct file_number {
     int is_used;
 } file_number;
 
-/* By their numbers' hash, at the next free place: a list of frames names thousands. */
+/* A hash table of file numbers with linear probing, because a list of frames may name thousands. */
 static struct kept_files {
     file_number *file;
     size_t count, cap; /* a power of two, at least twice the count; 0: none */
@@ -105,7 +105,7 @@ void file_keep_end(void)
     is_keeping = is_only_here = 0;
 }
 
-/* Where a file is, or would be: there is room. */
+/* Slot of a file, or the free slot for it. There is always room. */
 static file_number *kept_place(dev_t device, ino_t inode)
 {
     size_t at = ((size_t)inode * 31 + (size_t)device) * (size_t)2654435761u >> 7;
@@ -150,7 +150,7 @@ int file_keep(const char *path, report *r)
 
 /* --- reading --- */
 
-/* Of another file the machine would have no more memory or open files, either; all else is of this one. */
+/* Running out of memory or open files would happen with another file too; all other errors concern this file. */
 static int cannot_read(report *r, const char *path, const char *what)
 {
     const int error = errno, is_systems = error == ENOMEM || error == EMFILE || error == ENFILE;
@@ -166,7 +166,7 @@ void file_free(file_bytes *file)
     file->size = 0;
 }
 
-/* Room for more, doubled up to FILE_MAX and one byte, which tells a file that is too long. */
+/* Doubles the capacity, up to FILE_MAX and one byte, which detects a file that is too long. */
 static int grow(file_bytes *file, size_t *cap, const char *path, report *r)
 {
     uint64_t want = *cap ? 2 * (uint64_t)*cap : FIRST_READ;
@@ -188,11 +188,11 @@ static int read_all(file_bytes *out, FILE *f, const char *path, report *r)
         errno = 0;
         out->size += fread(out->data + out->size, 1, cap - out->size, f);
         if (ferror(f)) return cannot_read(r, path, "read");
-        if (out->size < cap) return 1; /* fread stops short only at the end or at an error */
+        if (out->size < cap) return 1; /* fread returns less only at the end or on an error */
     }
 }
 
-/* Standard input is there once. */
+/* Standard input can be read only once. */
 static FILE *open_input(const char *path, report *r)
 {
     static int is_taken;
@@ -325,7 +325,7 @@ int file_is_below(const char *path, const char *folder, size_t folder_size, repo
 
 /* --- writing --- */
 
-/* Write, flush and close; every step may be the one at which a full disk shows. */
+/* Writes, flushes and closes. Each step may be the one that reports a full disk. */
 static int write_and_close(FILE *f, const void *data, size_t size)
 {
     int whole, closed, error;
@@ -379,11 +379,11 @@ static const char *name_in(const char *path)
 
 #else
 
-/* With the permissions of the file it will replace; mode < 0: there is none, so the user's usual ones. */
+/* Uses the permissions of the file that it replaces; mode < 0: no such file, so the default permissions. */
 static int create_exclusive(const char *path, int mode)
 {
     int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, mode < 0 ? (mode_t)0666 : (mode_t)mode);
-    if (fd >= 0 && mode >= 0) fchmod(fd, (mode_t)mode); /* open left out what umask forbids */
+    if (fd >= 0 && mode >= 0) fchmod(fd, (mode_t)mode); /* open applied the umask */
     return fd;
 }
 
@@ -404,7 +404,7 @@ static int replace(const char *from, const char *to)
     return rename(from, to) == 0;
 }
 
-/* In a signal handler, too. */
+/* Safe in a signal handler. */
 static void remove_now(const char *path)
 {
     unlink(path);
@@ -418,7 +418,7 @@ static const char *name_in(const char *path)
 
 #endif
 
-/* The file that stands aside now; a signal that ends the program takes it along. */
+/* The current temporary file; a signal that ends the program removes it. */
 static char *volatile aside;
 
 void file_drop_aside(void)
@@ -435,7 +435,7 @@ static void drop(char *temporary)
     errno = error;
 }
 
-/* No signal between making it and knowing its name: a name that was taken is another's file. */
+/* Blocks signals between creating the file and storing the name. A name that exists belongs to another program. */
 static int create_aside(char *temporary, int mode)
 {
     int fd, error;
@@ -483,7 +483,7 @@ static char *copy_of(const char *path)
     return copy;
 }
 
-/* A new file in the directory of `path`, under a name that nobody has; `temporary` holds strlen(path) + SUFFIX_MAX. */
+/* Creates a file in the directory of `path` with an unused name; `temporary` holds strlen(path) + SUFFIX_MAX. */
 static FILE *open_beside(char *temporary, const char *path, int mode)
 {
     size_t directory = (size_t)(name_in(path) - path);
@@ -536,10 +536,10 @@ static int write_aside(const char *path, int mode, const void *data, size_t size
 
 /* --- where it goes --- */
 
-/* Over `over`, by a file beside it; or, where that is NULL, straight to what has the name. */
+/* If `over` is not NULL, a file beside it is written and replaces it. Otherwise writes directly to the name. */
 typedef struct place {
     char *over;
-    int mode; /* permissions of the file that is there; -1: there is none */
+    int mode; /* permissions of the existing file; -1: none */
 } place;
 
 static int cannot(report *r, const char *path, const char *why)
@@ -570,14 +570,14 @@ static int find_place(place *out, const char *path, report *r)
 
 #else
 
-/* A link stays, and what it points to is replaced; except where it stands for an open file (/dev/fd/3). */
+/* Keeps a link and replaces the target, unless the link stands for an open file (/dev/fd/3). */
 static int follow(place *out, const char *path, report *r)
 {
     out->over = realpath(path, NULL);
     return out->over || report_fail(r, "%s: cannot be written: the link's target: %s", path, reason());
 }
 
-/* What is there may be replaced only where it may be written. */
+/* An existing file is replaced only if it is writable. */
 static int find_place(place *out, const char *path, report *r)
 {
     struct stat s;
@@ -601,7 +601,7 @@ static int find_place(place *out, const char *path, report *r)
 
 #endif
 
-/* Pipes, devices, terminals: nothing can be renamed over them. */
+/* Pipes, devices and terminals cannot be replaced by a rename. */
 static int write_direct(const char *path, const void *data, size_t size, report *r)
 {
     FILE *f;
@@ -611,7 +611,7 @@ static int write_direct(const char *path, const void *data, size_t size, report 
     return 1;
 }
 
-/* The standard streams have names too; what a program printed before stays before. */
+/* Handles the names of standard streams; output that was printed earlier comes first. */
 static int write_stream(FILE *f, const char *path, const void *data, size_t size, report *r)
 {
     errno = 0;
@@ -651,7 +651,7 @@ int file_may_replace(const char *path, report *r)
 #ifdef _WIN32
 static int is_one_place(const char *a, const char *b) { return strcmp(a, b) == 0; }
 #else
-/* Where a path's last name begins. */
+/* Start of the last name in a path. */
 static const char *last_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -701,7 +701,7 @@ int file_can_write(const char *path, report *r)
     FILE *f = NULL;
     if (file_is_stdout(path) || strcmp(path, "/dev/stderr") == 0) return 1;
     if (!find_place(&to, path, r)) return 0;
-    if (!to.over) return 1; /* a device or a pipe: only writing tells */
+    if (!to.over) return 1; /* a device or a pipe: only writing can show errors */
     temporary = malloc(strlen(to.over) + SUFFIX_MAX);
     limit_hold(1);
     if (!temporary) {

@@ -13,7 +13,7 @@ typedef struct parser {
     uint32_t open; /* innermost open container, or JSON_NONE */
     uint32_t last; /* child added to it last, or JSON_NONE */
     uint32_t depth;
-    uint32_t key_start, key_size; /* of the member that is being read */
+    uint32_t key_start, key_size; /* of the current member */
     report *r;
 } parser;
 
@@ -30,7 +30,7 @@ static int hex_digit(int c)
     return -1;
 }
 
-/* The byte at the parser's place; -1 behind the end. */
+/* Returns the next byte; -1 at the end. */
 static int peek(const parser *s) { return s->at < s->doc->size ? (unsigned char)s->doc->text[s->at] : -1; }
 
 static int syntax(const parser *s, const char *what)
@@ -69,7 +69,7 @@ static int32_t hex4(const json *doc, uint32_t at)
     return value;
 }
 
-/* A \u escape, the place standing at its 'u'; a surrogate must be a high one followed by a low one. */
+/* Skips a \u escape from the 'u'. A surrogate must be a high one followed by a low one. */
 static int skip_unicode(parser *s)
 {
     int32_t unit = hex4(s->doc, s->at + 1), low;
@@ -193,7 +193,7 @@ static void close_container(parser *s)
     --s->depth;
 }
 
-/* Open a container; *complete is set where it is empty and already closed again. */
+/* Opens a container; sets *complete if it is empty and closed. */
 static int open_container(parser *s, uint32_t kind, int *complete)
 {
     if (s->depth == JSON_MAX_DEPTH)
@@ -223,7 +223,7 @@ static int read_literal(parser *s, const char *word, uint32_t kind)
     return 1;
 }
 
-/* One value; of a container that is not empty only its opening and first key: *complete is 0 then. */
+/* Reads one value. For a container that is not empty, reads only the bracket and the first key, and *complete is 0. */
 static int read_value(parser *s, int *complete)
 {
     json_node *node;
@@ -252,7 +252,7 @@ static int read_value(parser *s, int *complete)
     return 1;
 }
 
-/* Is the open container the value of a member "extras", or does it lie in one? */
+/* Returns whether the open container is in a member "extras". */
 static int is_in_extras(const parser *s)
 {
     static const char extras[] = "extras";
@@ -265,7 +265,7 @@ static int is_in_extras(const parser *s)
     return 0;
 }
 
-/* Behind a comma: another element, or the key of another member. */
+/* After a comma: another element, or the key of another member. */
 static int read_next(parser *s)
 {
     const json_node *open = &s->doc->nodes[s->open];
@@ -276,7 +276,7 @@ static int read_next(parser *s)
     return read_key(s);
 }
 
-/* What follows a complete value: a comma, or the end of its container, which completes that one. */
+/* After a complete value: reads a comma, or the end of the container, which completes that as well. */
 static int after_value(parser *s)
 {
     while (s->open != JSON_NONE) {
@@ -292,7 +292,8 @@ static int after_value(parser *s)
     return 1;
 }
 
-/* A root that is an object ends in '}', so a number is never the text's last byte: strtod stops inside the text. */
+/* The root is an object and ends in '}', so a number is never the last byte of the text: strtod stops inside the
+ * text. */
 static int parse_document(parser *s)
 {
     int complete;
@@ -309,7 +310,7 @@ static int parse_document(parser *s)
     return s->at == s->doc->size ? 1 : syntax(s, "text after the end of the document");
 }
 
-/* Every value but the root follows a bracket or a comma. */
+/* Every value except the root follows a bracket or a comma. */
 static size_t node_bound(const char *text, size_t size)
 {
     size_t bound = 1, i;
@@ -370,7 +371,7 @@ uint32_t json_member(const json *doc, uint32_t object, const char *key)
     return JSON_NONE;
 }
 
-/* Put `size` bytes before *head, as far as there is room; 0 when there was not. */
+/* Puts `size` bytes before *head, as far as they fit; returns 0 if they did not fit. */
 static int prepend(char *out, size_t *head, const char *text, size_t size)
 {
     if (size > *head)
@@ -470,7 +471,7 @@ int json_read_bool(int *out, const json *doc, uint32_t node, report *r)
     return 1;
 }
 
-/* UTF-8 of a code point; returns its length. */
+/* UTF-8 of a code point; returns the length. */
 static size_t utf8(char out[4], uint32_t code)
 {
     if (code < 0x80) {
@@ -495,7 +496,7 @@ static size_t utf8(char out[4], uint32_t code)
     return 4;
 }
 
-/* One character at *at of checked string text, escapes resolved: its bytes to out, its length returned. */
+/* Decodes one character at *at of checked string text, including escapes, into out; returns the length. */
 static size_t next_character(char out[4], const json *doc, uint32_t *at, uint32_t end)
 {
     static const char from[] = "bfnrt", to[] = "\b\f\n\r\t";

@@ -20,7 +20,7 @@ cursor text_open(const uint8_t *data, size_t size, const char *path)
 
 static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-/* Bytes of a backslash and the line's end behind it; 0: no such thing here. */
+/* Returns the bytes of a backslash and the line break after it; 0 if there is no continuation here. */
 static size_t continuation(const cursor *c)
 {
     const size_t left = (size_t)(c->end - c->at);
@@ -92,7 +92,7 @@ int slice_is_like(slice s, const char *word)
     return i == s.size && word[i] == '\0';
 }
 
-/* strtod needs an end; 63 characters hold every double written to its last useful digit. */
+/* strtod needs a terminator; 63 characters hold every double to the last useful digit. */
 int slice_number(double *out, slice s)
 {
     char text[64], *end;

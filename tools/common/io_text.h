@@ -1,4 +1,4 @@
-/* io_text.h: a text by lines, tokens and numbers, where it stands. */
+/* io_text.h: splits a text into lines, tokens and numbers in place. */
 #ifndef IO_TEXT_H
 #define IO_TEXT_H
 
@@ -7,23 +7,23 @@
 
 #include "report.h"
 
-/* Some bytes of a text; not terminated. */
+/* A range of bytes in a text; not terminated. */
 typedef struct slice {
     const char *at;
     size_t size;
 } slice;
 
-/* A place in a text of lines. */
+/* A position in a text of lines. */
 typedef struct cursor {
     const char *at, *end;
     const char *path; /* for messages */
     uint32_t line;    /* from 1 */
 } cursor;
 
-/* Tokens. A comment, or the line's end unless a backslash stands before it, ends a line. */
+/* Tokens. A comment ends a line; so does the line break, unless there is a backslash before it. */
 cursor text_open(const uint8_t *data, size_t size, const char *path);
-int text_token(slice *out, cursor *c); /* the next on this line; 0 at its end */
-void text_rest(slice *out, cursor *c); /* what remains of this line (not of one it goes on in), outer blanks cut */
+int text_token(slice *out, cursor *c); /* the next one on this line; 0 at the end */
+void text_rest(slice *out, cursor *c); /* the rest of this line (without continuation lines), trimmed */
 int text_next_line(cursor *c);         /* 0 at the end of the text */
 int slice_is(slice s, const char *word);
 int slice_is_like(slice s, const char *word); /* ignoring case */

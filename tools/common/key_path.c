@@ -1,4 +1,4 @@
-/* key_path.c: reads a file of keys, and finds what lies between them. */
+/* key_path.c: reads a file of keys and interpolates between them. */
 #include "key_path.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@ enum { WORD = 100 };
 
 /* --- reading ------------------------------------------------------------------------------------------------------ */
 
-/* The next token of the line as a text: one that is too long for a key's, or no text, ends with `?`. 0: none is left. */
+/* The next token of the line as text. A token that is too long or no text ends with `?`. Returns 0 if none is left. */
 static int take_word(char out[WORD], cursor *c)
 {
     slice s;
@@ -61,7 +61,7 @@ static int read_what(int *what, uint32_t *index, const char *word, cursor *c, re
     return text_fail(c, r, "`%s` moves nothing; write camera, light, light:N or object:N", word);
 }
 
-/* A key as its line has it. */
+/* A key and the line that it is on. */
 typedef struct key_line {
     path_key key;
     uint32_t track;
@@ -75,7 +75,7 @@ typedef struct reading {
     int has_target[KEY_TRACKS];
 } reading;
 
-/* The track of a thing, a new one at its first key. */
+/* The track of an item; creates it at the first key. */
 static int find_track(uint32_t *out, reading *g, int what, uint32_t index, int has_target, report *r)
 {
     key_path *p = g->path;
@@ -162,7 +162,7 @@ static int read_lines(reading *g, report *r)
     return 1;
 }
 
-/* Each track's keys together, in their order. */
+/* Sorts keys by track, keeping their order. */
 static void sort_keys(reading *g)
 {
     key_path *p = g->path;
@@ -213,7 +213,7 @@ static double component(const lmb_vec3 *v, int axis) { return (double)(axis == 0
 
 static const lmb_vec3 *place_of(const path_key *k, int is_target) { return is_target ? &k->target : &k->at; }
 
-/* Metres a second at key i: from the one before it to the one after it, as far as there are any. */
+/* Speed at key i, m/s: from the key before to the key after, if they exist. */
 static double speed(const path_key *key, uint32_t count, uint32_t i, int is_target, int axis)
 {
     const path_key *a = &key[i > 0 ? i - 1 : i], *b = &key[i + 1 < count ? i + 1 : i];

@@ -1,4 +1,4 @@
-/* key_path.h: a file of keys: when which light, camera or object is where. */
+/* key_path.h: a file of keys: positions of lights, camera and objects over time. */
 #ifndef KEY_PATH_H
 #define KEY_PATH_H
 
@@ -14,12 +14,12 @@ typedef struct path_key {
     int has_target;
 } path_key;
 
-/* The keys of one thing, by time. All of them have a target, or none. */
+/* The keys of one item, sorted by time. Either all have a target or none. */
 typedef struct key_track {
-    int what;       /* PLAY_* */
+    int what;       /* KEY_* */
     uint32_t index; /* of the lights or objects */
     uint32_t first, count;
-    uint32_t line;  /* of its first key */
+    uint32_t line;  /* of the first key */
 } key_track;
 
 enum { KEY_TRACKS = 64, KEY_MOST = 10000 };
@@ -32,15 +32,15 @@ typedef struct key_path {
     uint32_t track_count;
 } key_path;
 
-/* key_path_read: 1, or 0 with `r` set, naming the line. */
+/* key_path_read: returns 1, or 0 with `r` set, with the line number. */
 int key_path_read(key_path *out, const char *file, report *r);
 void key_path_free(key_path *path);
 
-/* key_path_at: where the track is at a time: on a smooth curve through its keys (Catmull and Rom's, by their times),
- * at the first before it and at the last after it. */
+/* key_path_at: the state of a track at a time: on a Catmull-Rom curve through the keys, with their times; before the
+ * first key and after the last one, those apply. */
 path_key key_path_at(const key_path *path, const key_track *track, double time_s);
 
-/* When the last key is. */
+/* The time of the last key. */
 double key_path_end(const key_path *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* option_value.c: numbers, vectors and words of command lines. */
+/* option_value.c: parses numbers, vectors and words of command lines. */
 #include "option_value.h"
 
 #include <math.h>
@@ -95,7 +95,7 @@ int option_stops(const char *text, void *at)
     return strcmp(text, "auto") == 0 || option_number(text, -60.0f, 60.0f, ev);
 }
 
-/* A colon and numbers, up to the next colon or the text's end. */
+/* A colon and numbers, up to the next colon or the end. */
 static int light_part(const char **p, float *out, int count)
 {
     return *(*p)++ == ':' && option_floats(p, out, count) && (**p == ':' || **p == '\0');
@@ -106,7 +106,7 @@ static double length_of(const float d[3])
     return sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
 }
 
-/* KIND:P:D:RGB[:INNER,OUTER][:SIZE]; one number alone at the end is the size. */
+/* KIND:P:D:RGB[:INNER,OUTER][:SIZE]; a single number at the end is the size. */
 const char *option_light(const char *text, lmb_light *out, float *size)
 {
     static const char *const kinds[] = {"spot:", "point:", "sun:"};

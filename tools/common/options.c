@@ -1,4 +1,4 @@
-/* options.c: reads command lines by a verb's table of options. The help is options_help.c's. */
+/* options.c: parses command lines with the option table of a verb. options_help.c prints the help. */
 #include "options.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
-/* Is the word this name, alone or with `=value` behind it? */
+/* Returns whether the word is this name, optionally followed by `=value`. */
 static int names(const char *name, const char *word)
 {
     const size_t n = name != NULL ? strlen(name) : 0;
@@ -21,7 +21,7 @@ static int names(const char *name, const char *word)
 
 static int is_option(const option_row *row) { return row->name != NULL && row->name[0] == '-'; }
 
-/* Which row, or -1. */
+/* Returns the row, or -1. */
 static int find(const option_table *t, const char *word)
 {
     const option_row *row;
@@ -56,7 +56,7 @@ static int min(int a, int b) { return a < b ? a : b; }
 
 int options_distance(const char *a, const char *b)
 {
-    int row[3][LETTERS + 1]; /* of the letters of `a` so far, and of one and two letters before */
+    int row[3][LETTERS + 1]; /* for the letters of `a` so far, and for one and two fewer */
     const int n = (int)strlen(a), m = (int)strlen(b);
     if (n > LETTERS || m > LETTERS) {
         return LETTERS + 1;
@@ -78,13 +78,13 @@ int options_distance(const char *a, const char *b)
     return row[n % 3][m];
 }
 
-/* The name that is most like a word so far, and in how many letters it may differ. */
+/* The most similar name so far, and the number of letters that may differ. */
 typedef struct likeness {
     const char *word, *found;
     int letters;
 } likeness;
 
-/* A third of the word's letters may differ, one at least. */
+/* A third of the letters may differ, but at least one. */
 static likeness likeness_of(const char *word)
 {
     const int n = (int)strlen(word);
@@ -92,7 +92,7 @@ static likeness likeness_of(const char *word)
     return l;
 }
 
-/* The word may also be the beginning of the name. */
+/* The word may also be a prefix of the name. */
 static void try_name(likeness *l, const char *name)
 {
     if (name[0] >= '0' && name[0] <= '9') {
@@ -138,7 +138,7 @@ int options_unknown(const option_table *const *tables, int count, const char *wo
     name[n < LETTERS ? n : LETTERS] = '\0';
     for (int k = 0; k < count; ++k) {
         const option_row *row = options_find(tables[k], name);
-        if (row != NULL) { /* -o=x: of one letter */
+        if (row != NULL) { /* -o=x: one letter */
             return options_has_value(row) ? report_fail(r, "%s: write `%s %s`", word, name, word + n + 1)
                                           : report_fail(r, "%s takes no value: %s", name, word);
         }
@@ -191,7 +191,7 @@ int options_only_here(const char *text, void *at)
     return 1;
 }
 
-/* 1, or 0 where the text is no such value. */
+/* Returns 1, or 0 if the text is invalid for this row. */
 static int store(const option_row *row, const char *text, void *at, float *size)
 {
     switch (row->kind) {
@@ -217,11 +217,11 @@ typedef struct line {
     const option_table *table;
     char *const *argv;
     int argc, at;
-    int32_t given[OPTION_ROWS]; /* how often, by row */
-    const char *first[OPTION_ROWS]; /* the value that came first */
+    int32_t given[OPTION_ROWS]; /* occurrences by row */
+    const char *first[OPTION_ROWS]; /* the first value */
 } line;
 
-/* Which part of a value of several is wrong; "": not known. */
+/* The wrong part of a value with several; "": unknown. */
 static const char *wrong_part(const option_row *row, const char *value)
 {
     lmb_light light;
@@ -230,7 +230,7 @@ static const char *wrong_part(const option_row *row, const char *value)
     return part != NULL ? part : "";
 }
 
-/* Is the value a number of the row's kind, but beyond its range? */
+/* Returns whether the value is a number of the row's kind, but out of range. */
 static int is_beyond(const option_row *row, const char *value)
 {
     const int is_int = row->kind >= OPTION_INT && row->kind <= OPTION_MULTIPLE_OF_8;
@@ -254,7 +254,7 @@ static int refuse(const option_row *row, const char *value, report *r)
                                        part[0] != '\0' ? ": its " : "", part, part[0] != '\0' ? " is wrong" : "");
 }
 
-/* `value` goes behind those that the row has already. */
+/* Stores `value` after those that the row already has. */
 static int take(line *l, int i, const char *value, report *r)
 {
     const option_row *row = options_row(l->table, i);
@@ -321,7 +321,7 @@ static int take_option(line *l, report *r)
     return take_alone(l, i, l->argv[++l->at], r);
 }
 
-/* A word that is no option goes to the first row for such that has room. */
+/* A positional argument goes to the first such row with room. */
 static int take_word(line *l, report *r)
 {
     const char *word = l->argv[l->at];

@@ -1,10 +1,10 @@
-/* options_files.c: the files that a command line names: read, written, never both. */
+/* options_files.c: checks the files of a command line: none may be both input and output. */
 #include <string.h>
 
 #include "io_file.h"
 #include "options_table.h"
 
-/* The i-th name that a row took; NULL where it has none to do with such files. */
+/* Name i stored by a row; NULL if the row does not name such files. */
 static const char *name_at(const void *out, const option_row *row, int file, int32_t i)
 {
     const char *name = NULL;
@@ -16,7 +16,7 @@ static const char *name_at(const void *out, const option_row *row, int file, int
 
 static const char *name_of(const void *out, const option_row *row, int file) { return name_at(out, row, file, 0); }
 
-/* Neither standard input nor what is built in is a file. */
+/* Standard input and built-in scenes are not files. */
 static int keep_inputs(const void *out, const option_table *t, report *r)
 {
     const option_row *row;
@@ -31,7 +31,7 @@ static int keep_inputs(const void *out, const option_table *t, report *r)
     return 1;
 }
 
-/* The row before `end` that writes to the same place; NULL where none does. */
+/* The row before `end` that writes to the same place; NULL if there is none. */
 static const option_row *find_same(const void *out, const option_table *t, int end, const char *name)
 {
     for (int i = 0; i < end; ++i) {
@@ -44,14 +44,14 @@ static const option_row *find_same(const void *out, const option_table *t, int e
     return NULL;
 }
 
-/* The ending that help shows of a row's file, as in OUT.png; NULL where several may be. */
+/* The ending in the placeholder of a row, as in OUT.png; NULL if several are possible. */
 static const char *shown_ending(const option_row *row)
 {
     const char *at = row->value != NULL ? strchr(row->value, '.') : NULL;
     return at != NULL && strspn(at + 1, "abcdefghijklmnopqrstuvwxyz") == strlen(at + 1) ? at : NULL;
 }
 
-/* May what the row writes have this name? */
+/* Checks the name of an output of this row. */
 static int check_output(const option_row *row, const char *name, report *r)
 {
     const char *ending = shown_ending(row);

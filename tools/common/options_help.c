@@ -1,17 +1,17 @@
-/* options_help.c: what a verb's table says of its options, folded to lines of under 100 columns. */
+/* options_help.c: prints the help of a verb's table, wrapped to less than 100 columns. */
 #include <string.h>
 
 #include "../../src/lane/backends.h"
 #include "options_table.h"
 
-enum { WIDTH = 98, INDENT = 2, COLUMN = 29 /* where the text beside a name begins */ };
+enum { WIDTH = 98, INDENT = 2, COLUMN = 29 /* column of the text beside a name */ };
 
-/* --- what a value has to be --------------------------------------------------------------------------------------- */
+/* --- expected values ---------------------------------------------------------------------------------------------- */
 
 #define BACKEND_NAME(upper, lower) #lower ", "
 static const char backends[] = LMB_BACKENDS(BACKEND_NAME) "as far as this machine has it";
 
-/* "8 .. 4096"; "" where there is no range to speak of. */
+/* "8 .. 4096"; "" if there is no useful range. */
 static void range_of(char *out, size_t size, const option_row *row)
 {
     const char *what = row->kind == OPTION_POWER_OF_2      ? "a power of two, "
@@ -66,13 +66,13 @@ void options_wants(char *out, size_t size, const option_row *row)
 
 /* --- folded text -------------------------------------------------------------------------------------------------- */
 
-/* Words up to WIDTH, then a new line at `column`; the first line stands at `at`. A line break in the text stays. */
+/* Wraps words at WIDTH and starts new lines at `column`; the first line starts at `at`. Keeps line breaks in the
+ * text. */
 static void fold(FILE *out, const char *text, int at, int column)
 {
     while (*text != '\0') {
         int n = (int)strcspn(text, " \n");
-        n += text[n] == ' ' && text[n + 1] == '%' ? 1 + (int)strcspn(text + n + 1, " \n") : 0; /* stays with its number
-                                                                                                  */
+        n += text[n] == ' ' && text[n + 1] == '%' ? 1 + (int)strcspn(text + n + 1, " \n") : 0; /* keeps "5 %" whole */
         if (at > column && at + n + 1 > WIDTH) {
             at = column;
             fprintf(out, "\n%*s", column, "");
@@ -113,7 +113,7 @@ void options_value(char *out, size_t size, const option_row *row)
     }
 }
 
-/* "-h, --help", "--show full|direct|...": how wide it is, WIDTH where a list is too long for a line. */
+/* Prints "-h, --help", "--show full|direct|..."; returns the width, or WIDTH if a list is too long for a line. */
 static int print_name(FILE *out, const option_row *row)
 {
     char value[256];

@@ -1,9 +1,9 @@
-/* options_man.c: what a verb's table says, as a section of a man page. */
+/* options_man.c: prints a verb's table as a section of a man page. */
 #include <string.h>
 
 #include "options_table.h"
 
-/* As it stands: no character is a command, a hyphen is a hyphen to copy. `is_new`: at the beginning of a line. */
+/* Escapes text: no character is a command, and a hyphen can be copied. `is_new`: at the beginning of a line. */
 static void put(FILE *out, const char *text, size_t size, int is_new)
 {
     for (size_t i = 0; i < size; ++i) {
@@ -28,7 +28,7 @@ static void put(FILE *out, const char *text, size_t size, int is_new)
     }
 }
 
-/* Line breaks of the text stay. */
+/* Keeps line breaks of the text. */
 static void put_lines(FILE *out, const char *text)
 {
     while (*text != '\0') {

@@ -1,4 +1,4 @@
-/* options_table.c: the rows of a verb's table, counted over its parts. */
+/* options_table.c: the rows of a verb's table, numbered over all parts. */
 #include "options_table.h"
 
 const option_row *options_row(const option_table *t, int i)

@@ -7,7 +7,7 @@
 
 #include "../../platform/host/host.h"
 
-#define SILENT_S 1.0 /* what is done sooner is not told */
+#define SILENT_S 1.0 /* shorter work shows no progress */
 #define EVERY_S  0.2
 #define LINE_EVERY_S 10.0 /* if stderr is no terminal */
 
@@ -15,7 +15,7 @@ static struct watch {
     int is_on, is_whole, is_quiet, is_log;
     const char *verb;
     char step[40];
-    double share;                    /* that was told last */
+    double share;                    /* reported last */
     double begun, step_begun, shown; /* s */
 } watch;
 
@@ -41,7 +41,7 @@ void progress_begin_log(int is_quiet, const char *verb)
 
 int progress_is_quiet(void) { return watch.is_quiet; }
 
-/* Of little that took a short time nobody knows how long the rest takes. */
+/* Early in a short run the remaining time cannot be estimated. */
 static void left_of(char *out, size_t size, double share, double passed)
 {
     const double more = share > (passed > 2.0 ? 1e-6 : 0.02) ? passed / share - passed : -1.0;
@@ -76,11 +76,11 @@ void progress_tell(const char *step, double share)
         return;
     }
     const double now = host_seconds();
-    if (watch.is_whole) { /* the line comes, though its part is a long one */
+    if (watch.is_whole) { /* shows the line even if one part takes long */
         show(watch.step, watch.share, watch.begun, now);
         return;
     }
-    if (strncmp(step, watch.step, sizeof watch.step - 1) != 0 || share < watch.share) { /* a new one, or once more */
+    if (strncmp(step, watch.step, sizeof watch.step - 1) != 0 || share < watch.share) { /* new, or repeated */
         snprintf(watch.step, sizeof watch.step, "%s", step);
         watch.step_begun = now;
     }

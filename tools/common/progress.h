@@ -1,25 +1,25 @@
-/* progress.h: one line on a terminal that says how far the work is, once it has taken a second. */
+/* progress.h: a progress line on a terminal, shown after a second. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
-/* progress_begin: where stderr is a terminal and it is not to be quiet, what follows is told. */
+/* progress_begin: enables progress if stderr is a terminal and is_quiet is 0. */
 void progress_begin(int is_quiet, const char *verb);
 
-/* progress_begin_log: the same, but if stderr is no terminal, it prints a line every ten seconds. For work that takes
- * minutes. */
+/* progress_begin_log: like progress_begin, but if stderr is no terminal, it prints a line every ten seconds. For
+ * work that takes minutes. */
 void progress_begin_log(int is_quiet, const char *verb);
 
-/* progress_is_quiet: was it to be quiet? For those who know no options. */
+/* progress_is_quiet: whether is_quiet was set, for code without access to the options. */
 int progress_is_quiet(void);
 
-/* progress_tell: `step` is done by `share`, 0 .. 1; from the thread that began, as often as is handy. The line has the
- * step, its per cent and the seconds that it still takes at the rate so far. */
+/* progress_tell: reports that `share` of `step` is done, 0 .. 1. Call it from the thread that began, as often as you
+ * like. The line has the step, the percentage and the remaining seconds at the rate so far. */
 void progress_tell(const char *step, double share);
 
-/* progress_whole: the same of the whole work, whatever part of it is named; what its parts tell is left out. */
+/* progress_whole: reports the share of the whole work, with `part` as the name; progress of parts is then ignored. */
 void progress_whole(const char *part, double share);
 
-/* progress_end: the line is empty again, and nothing more is told. progress_wipe: the same in a signal handler. */
+/* progress_end: clears the line and disables progress. progress_wipe: for a signal handler. */
 void progress_end(void);
 void progress_wipe(void);
 

@@ -1,4 +1,4 @@
-/* report.c: keeps the first failure's one line. */
+/* report.c: keeps the message of the first failure. */
 #include "report.h"
 
 #include "progress.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OF_FILES, OF_SYSTEM, OF_USAGE }; /* whose fault a failure is: the last byte of its text */
+enum { OF_FILES, OF_SYSTEM, OF_USAGE }; /* kind of failure, in the last byte of the text */
 
 static void set_text(report *r, int kind, const char *format, va_list args)
 {
@@ -17,7 +17,7 @@ static void set_text(report *r, int kind, const char *format, va_list args)
         return;
     }
     text_format(r->text, sizeof r->text - 1, format, args);
-    text_clean(r->text); /* a report must stay one line */
+    text_clean(r->text); /* a message must stay one line */
     r->text[sizeof r->text - 1] = (char)kind;
 }
 

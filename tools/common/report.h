@@ -1,4 +1,4 @@
-/* report.h: one line that says what went wrong, where, and what to do; how tools pass errors up. */
+/* report.h: a one-line error message: problem, place and remedy; tools pass errors up in it. */
 #ifndef REPORT_H
 #define REPORT_H
 
@@ -11,12 +11,12 @@
 #define REPORT_PRINTF(f, a)
 #endif
 
-/* Zero it before use. The first failure wins; later ones keep it. */
+/* Zero it before use. The first failure is kept; later ones are ignored. */
 typedef struct report {
-    char text[512]; /* "" while nothing went wrong; no newline. The last byte: the kind, see report_is_system */
+    char text[512]; /* "" if nothing failed; no newline. The last byte is the kind, see report_is_system */
 } report;
 
-/* report_fail: set the text ("FILE: what is wrong at PLACE; what to do") if none is set. Always returns 0, so that
+/* report_fail: sets the text ("FILE: what is wrong at PLACE; what to do") if none is set. Always returns 0, so that
  * a parser can `return report_fail(...)`. */
 int report_fail(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
@@ -28,24 +28,24 @@ FILE *report_words(void);
 void report_say(const char *format, ...) REPORT_PRINTF(1, 2);
 void report_take_stdout(void);
 
-/* report_flush: 1 where all that was said on stdout could be written, else 0 with `r` set. */
+/* report_flush: returns 1 if everything printed to stdout could be written, otherwise 0 with `r` set. */
 int report_flush(report *r);
 
-/* report_fail_system: the same where no file is at fault: the machine has no more memory or open files. A line of
- * report_fail about memory is such a one, too. report_is_system: is it one? */
+/* report_fail_system: like report_fail, if no file is at fault but memory or open files ran out. A report_fail about
+ * memory counts as such. report_is_system: whether this is the kind. */
 int report_is_system(const report *r);
 int report_fail_system(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_fail_usage: the same where the command line is at fault, though its options alone do not show it: one file for
- * two purposes. report_is_usage: is it one? */
+/* report_fail_usage: like report_fail, if the command line is at fault in a way that parsing cannot detect: one file
+ * for two purposes. report_is_usage: whether this is the kind. */
 int report_is_usage(const report *r);
 int report_fail_usage(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_note: a line on stderr behind `lambent: `, unless it is to be quiet. */
+/* report_note: prints a line on stderr after `lambent: `, unless is_quiet. */
 void report_note(int is_quiet, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_end: tell the line, behind `lambent VERB: `, and return what the verb exits with: `status`, or 2
- * after report_fail_usage. */
+/* report_end: prints the message after `lambent VERB: `, and returns the exit status: `status`, or 2 after
+ * report_fail_usage. */
 int report_end(const report *r, const char *verb, int status);
 int report_end_to(FILE *err, const report *r, const char *verb, int status);
 

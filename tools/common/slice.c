@@ -1,4 +1,4 @@
-/* slice.c: the option of a slice, and its file. */
+/* slice.c: the --slice option and the slice file. */
 #include "slice.h"
 
 #include <stdio.h>
@@ -11,7 +11,7 @@
 #include "option_value.h"
 #include "options_table.h"
 
-/* magic, version, kind, number, count, job, bytes of the line about it, bytes of what it says; at the end the hash */
+/* magic, version, kind, number, count, job, sizes of the about line and of the data; at the end the hash */
 enum { HEADER = 48, TAIL = 8, VERSION = 1 };
 static const char magic[9] = "LMBSLICE";
 
@@ -44,7 +44,7 @@ uint64_t slice_hash(uint64_t hash, const void *data, size_t size)
 
 static uint64_t hash_text(uint64_t hash, const char *text) { return slice_hash(hash, text, strlen(text) + 1); }
 
-/* Names of what changes no byte of the work. Of files that are read the contents count, and not the name. */
+/* Options that change no byte of the result. For input files the contents count, not the name. */
 static int is_free(const option_row *row)
 {
     static const char *const names[] = {"--slice", "--time-limit", "--threads", "--backend",
@@ -57,21 +57,21 @@ static int is_free(const option_row *row)
            row->kind == OPTION_VERBOSE;
 }
 
-/* Of an output the format counts, which its ending says. */
+/* For an output only the format counts, which the ending selects. */
 static uint64_t hash_value(uint64_t hash, const option_row *row, const char *value)
 {
     const char *ending = strcmp(row->name, "-o") == 0 ? strrchr(value, '.') : NULL;
     return hash_text(hash, ending != NULL ? ending : value);
 }
 
-/* Options may come in any order, so their hashes are added; of one that comes often the order counts. */
+/* Options may come in any order, so their hashes are added. For a repeated option the order counts. */
 static uint64_t hash_words(const option_table *t, int argc, char **argv)
 {
     uint64_t sum = 0;
     for (int i = 1; i < argc; ++i) {
         const option_row *row = options_find(t, argv[i]);
         if (row == NULL) {
-            continue; /* a scene, whose contents count */
+            continue; /* a scene: the contents count */
         }
         const int words = options_words(row, argv[i]);
         const char *inside = strchr(argv[i], '=');
@@ -205,7 +205,7 @@ int slice_read(slice_file *out, const char *path, report *r)
 
 /* --- all of them -------------------------------------------------------------------------------------------------- */
 
-/* Into its place, where it belongs to the job of the first one that is whole. */
+/* Stores a file in the set if it belongs to the job of the first valid one. */
 static int take(slice_set *set, const slice_file *f, const char *path, int is_quiet, report *r)
 {
     if (set->count == 0) {
@@ -222,7 +222,7 @@ static int take(slice_set *set, const slice_file *f, const char *path, int is_qu
                            path, (int)f->slice.number, (int)f->slice.count, f->about, set->first, set->about);
     }
     const int32_t i = f->slice.number - 1;
-    if (set->hash[i] != 0 && set->hash[i] != f->hash && f->kind == SLICE_BENCH) { /* its times differ */
+    if (set->hash[i] != 0 && set->hash[i] != f->hash && f->kind == SLICE_BENCH) { /* times differ */
         report_note(is_quiet, "%s: slice %d of %d once more; %s counts", path, (int)f->slice.number, (int)set->count,
                     set->path[i]);
         return 1;
@@ -240,7 +240,7 @@ static int take(slice_set *set, const slice_file *f, const char *path, int is_qu
     return 1;
 }
 
-/* All are there, or `r` names those that are not. */
+/* Returns whether all are there; otherwise `r` lists the missing ones. */
 static int is_complete(const slice_set *set, report *r)
 {
     char list[200] = "";

@@ -1,4 +1,4 @@
-/* slice_items.c: which items of a work a slice has. */
+/* slice_items.c: the items of a job that belong to a slice. */
 #include "slice_items.h"
 
 int32_t slice_item(slice s, int32_t k)

@@ -1,4 +1,4 @@
-/* text_buffer.c: text that grows, for files that are written whole. */
+/* text_buffer.c: a growing text, for files that are written at once. */
 #include "text_buffer.h"
 
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 
 enum { FIRST = 1 << 14 };
 
-/* Room for n more characters and the 0. */
+/* Makes room for n more characters and the 0. */
 static int has_room(text_buffer *p, size_t n)
 {
     size_t cap = p->cap > 0 ? p->cap : FIRST;

@@ -1,4 +1,4 @@
-/* text_buffer.h: text that grows, for files that are written whole. */
+/* text_buffer.h: a growing text, for files that are written at once. */
 #ifndef TEXT_BUFFER_H
 #define TEXT_BUFFER_H
 
@@ -7,7 +7,8 @@
 
 #include "report.h"
 
-/* Zeroed it is empty; text_buffer_free releases it. Once memory is short it stays as it is and `is_short` is set. */
+/* Zeroed: empty; text_buffer_free releases it. If memory runs out, it stays unchanged and sets `is_short`, which you
+ * can check at the end. */
 typedef struct text_buffer {
     char *data; /* ends with 0 */
     size_t size, cap;
@@ -26,7 +27,7 @@ void text_buffer_json(text_buffer *p, const char *text);
 void text_buffer_csv(text_buffer *p, const char *text);
 void text_buffer_base64(text_buffer *p, const uint8_t *data, size_t size);
 
-/* text_buffer_write: the file. 1, or 0 with `r` set. */
+/* text_buffer_write: writes the file. Returns 1, or 0 with `r` set. */
 int text_buffer_write(const text_buffer *p, const char *path, report *r);
 
 void text_buffer_free(text_buffer *p);

@@ -1,4 +1,4 @@
-/* view_frame.c: a view of all of a scene that has no camera. */
+/* view_frame.c: a default view that frames a scene without a camera. */
 #include "view_frame.h"
 
 #include <math.h>
@@ -7,12 +7,12 @@
 #include "../../src/raster/triangle.h"
 
 #define FRAME_FOV 0.698f /* 40 degrees */
-#define AIR       0.94   /* of the picture is filled, across or up */
+#define AIR       0.94   /* share of the picture that is filled, horizontally or vertically */
 #define MUCH      0.25f
-#define LONG      1.5f   /* as wide, from front to back: is seen from the side */
-#define FLAT      0.2f   /* as high, of the shorter side: is seen from higher up */
-#define SIDE      0.02   /* of the scene's size: as near to a side of its bounds, surfaces close that side */
-#define WALL      0.6    /* shares of a side that make it a wall, or open */
+#define LONG      1.5f   /* depth over width from which the scene is seen from the side */
+#define FLAT      0.2f   /* height over the shorter side below which it is seen from higher up */
+#define SIDE      0.02   /* of the scene's size: surfaces this near to a side of the bounds close it */
+#define WALL      0.6    /* covered share of a side that makes it a wall, or open */
 #define HOLE      0.3
 
 static float along(lmb_vec3 axis, lmb_vec3 a, lmb_vec3 b)
@@ -20,7 +20,7 @@ static float along(lmb_vec3 axis, lmb_vec3 a, lmb_vec3 b)
     return axis.x * (a.x - b.x) + axis.y * (a.y - b.y) + axis.z * (a.z - b.z);
 }
 
-/* Triangle `id` where it is drawn: what has a corner that is not finite or 2^20 m away is not, and would be framed. */
+/* Fetches triangle `id` if it is drawn: a corner that is not finite or beyond 2^20 m would distort the frame. */
 static int fetch_drawn(lmb_triangle *t, const lmb_scene *s, uint32_t id)
 {
     int is_drawn = lmb_triangle_fetch(t, s, id);
@@ -30,7 +30,7 @@ static int fetch_drawn(lmb_triangle *t, const lmb_scene *s, uint32_t id)
     return is_drawn;
 }
 
-/* Which of the six sides of the bounds surfaces close, as shares of their area: two of each axis, the lower one first. */
+/* The share of each of the six sides of the bounds that surfaces close: two per axis, the lower one first. */
 static void find_closed(double closed[6], const lmb_scene *s)
 {
     const float size[3] = {s->bounds_max.x - s->bounds_min.x, s->bounds_max.y - s->bounds_min.y,
@@ -62,8 +62,8 @@ static void find_closed(double closed[6], const lmb_scene *s)
     }
 }
 
-/* Towards the eye: from a little above, to the right of the front (+Z). What is long from front to back is seen from its
- * right side instead, what is flat from higher up, and a room with one open wall through that. */
+/* Direction to the eye: slightly above, to the right of the front (+Z). Scenes that are long from front to back are
+ * seen from the right side instead, flat ones from higher up, a room with one open wall through that wall. */
 static lmb_vec3 direction_to_eye(const lmb_scene *s)
 {
     const float x = s->bounds_max.x - s->bounds_min.x, y = s->bounds_max.y - s->bounds_min.y,
@@ -87,7 +87,7 @@ static lmb_vec3 direction_to_eye(const lmb_scene *s)
     return z > LONG * x ? right : front;
 }
 
-/* How far the scene reaches in a view, seen from `centre`: the maximum of every plane's distance through it. */
+/* The extent of a scene in a view from `centre`: the largest distance to each plane through it. */
 typedef struct scene_reach {
     double right, left, up, down, front;
 } scene_reach;
@@ -117,7 +117,7 @@ static scene_reach reach_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 cent
     return r;
 }
 
-/* The eye from which all of the scene just fits, with a little air: a pair of opposite sides touch it. */
+/* Places the eye so that the scene just fits, with a small margin: it touches two opposite sides. */
 static void fit(lmb_view *v, const scene_reach *r, lmb_vec3 centre, float size)
 {
     const double wide = (double)v->half_width * AIR, high = (double)v->half_height * AIR;
@@ -129,10 +129,10 @@ static void fit(lmb_view *v, const scene_reach *r, lmb_vec3 centre, float size)
     v->eye.z = centre.z + x * v->right.z + y * v->up.z + z * v->back.z;
 }
 
-/* How far from square a scene is in a picture of that shape, width over height: as powers of e. */
+/* The mismatch between a scene and an aspect ratio, width over height: absolute logarithm. */
 static float misfit(float shape, float wide, float high) { return fabsf(logf(shape * high / wide)); }
 
-/* The shape of picture that a scene fills best, of six; 4:3 where no other is much better. */
+/* The aspect ratio, of six, that a scene fills best; 4:3 if no other is much better. */
 static float shape_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
 {
     static const float usual = 4.0f / 3.0f, shapes[5] = {1.0f / 3.0f, 0.5f, 0.75f, 2.0f, 3.0f};

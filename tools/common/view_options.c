@@ -1,4 +1,4 @@
-/* view_options.c: views that the command line describes. */
+/* view_options.c: views from the command line. */
 #include "view_options.h"
 
 #include <math.h>

@@ -1,11 +1,11 @@
-/* workers.c: a frame's stages shared out among threads. */
+/* workers.c: runs the stages of a frame on several threads. */
 #include "workers.h"
 
 #include <string.h>
 
 #include "../../platform/host/host.h"
 
-/* A stage under way. */
+/* A stage in progress. */
 typedef struct stage_work {
     const workers *workers;
     const lmb_render *render;
@@ -37,7 +37,7 @@ static void draw_part(void *user, int part, int worker)
                  lmb_render_part(w->render, &w->workers->scratches[worker], part, w->parts, &w->counts[worker]));
 }
 
-/* Every so many bands, or those of a slice: its kth, and how many. */
+/* Every n-th band, or those of a slice: the k-th band, and their number. */
 static int32_t band_at(const workers *c, int32_t k) { return c->every > 1 ? k * c->every : slice_item(c->slice, k); }
 
 static int32_t bands_of(const workers *c, int32_t all)
@@ -45,7 +45,7 @@ static int32_t bands_of(const workers *c, int32_t all)
     return c->every > 1 ? (all + c->every - 1) / c->every : slice_items(c->slice, all);
 }
 
-/* Bands are taken in order, so the number of one tells how far the frame is. */
+/* Bands are taken in order, so a band's number measures progress. */
 static void draw_band(void *user, int part, int worker)
 {
     stage_work *w = user;
@@ -87,7 +87,7 @@ static lmb_status sum_up(const stage_work *w, lmb_stats *stats)
     return status;
 }
 
-/* The parts or bands of the stage at hand, by all threads at once. */
+/* Runs the parts or bands of the current stage on all threads. */
 static lmb_status share(const workers *c, const lmb_render *r, int parts, pool_job job)
 {
     stage_work w;
@@ -113,14 +113,14 @@ static lmb_status do_step(const workers *c, lmb_render *r)
     return status;
 }
 
-/* The stages before `past`: with one thread by steps, so that it can be told how far it is. */
+/* Runs the stages before `past`; with one thread in steps, to report progress. */
 static lmb_status do_stages(workers *c, lmb_render *r, int32_t *stage, int32_t past)
 {
     lmb_status status = LMB_MORE;
     while (status == LMB_MORE && r->stage < past) {
         const double start = now(c), cpu = host_cpu_seconds();
         *stage = r->stage;
-        while (status == LMB_MORE && r->stage == *stage) { /* clocks take longer than some steps */
+        while (status == LMB_MORE && r->stage == *stage) { /* a clock call takes longer than some steps */
             status = c->threads > 1 && lmb_render_has_parts(r) ? do_parts(c, r) : do_step(c, r);
         }
         c->stage_cpu_s[*stage] += host_cpu_seconds() - cpu;
@@ -140,7 +140,7 @@ static lmb_status do_bands(workers *c, lmb_render *r, int32_t *stage)
     return status;
 }
 
-/* The stages before `past` of a frame that was begun with this status. */
+/* Runs the stages before `past` of a frame that began with this status. */
 static lmb_status go_on(workers *c, int32_t *stage, lmb_render *r, lmb_status begun, int32_t past)
 {
     *stage = LMB_STAGE_SHADOW_MAP;

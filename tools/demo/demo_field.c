@@ -10,10 +10,10 @@
 enum { FACE = 128, FINE = 4, GROUND_W = 384, GROUND_H = 256 }; /* FINE: samples each way in a texel */
 enum { SPHERE_MESH = 2 };
 
-#define FIELD_W 24.0 /* m, and the run around it */
+#define FIELD_W 24.0 /* m, and the margin around it */
 #define FIELD_D 16.0
 #define RADIUS  30.0
-#define HEIGHT  1.7  /* of the middle, where the cube was taken */
+#define HEIGHT  1.7  /* of the cube map's position, in the middle */
 
 typedef struct colour {
     double v[3];
@@ -69,7 +69,7 @@ static int is_lamp(const double d[3])
     return 0;
 }
 
-/* Stands full of people up to 15 degrees, each end in its colour, then dusk. */
+/* Stands with people up to 15 degrees, with a colour for each end, then dusk. */
 static colour far_at(const double d[3])
 {
     const colour lamp = {{60.0, 56.0, 48.0}}, low = {{0.75, 0.45, 0.35}}, high = {{0.10, 0.16, 0.34}},
@@ -87,7 +87,7 @@ static colour far_at(const double d[3])
     return c;
 }
 
-/* What the middle sees along d, of unit length. */
+/* Radiance at the middle from direction d, of unit length. */
 static colour world_at(const double d[3])
 {
     const double t = d[1] < -1e-6 ? HEIGHT / -d[1] : 1e9, x = d[0] * t, z = d[2] * t;
@@ -167,7 +167,7 @@ void demo_field_place(lmb_world_pictures *out, float ground_size[2])
     ground_size[1] = (float)FIELD_D;
 }
 
-/* --- who stands there --------------------------------------------------------------------------------------------- */
+/* --- the figure --------------------------------------------------------------------------------------------------- */
 
 static void set_ball(lmb_instance *out, const lmb_instance *unit, lmb_vec3 half, lmb_vec3 at)
 {

@@ -1,8 +1,8 @@
 /* demo_scene.c: hands out the built-in scene and its camera. The data are generated: gen_demo.c. */
 #include "demo_scene.h"
 
-/* Streams must lie on 4 bytes. The unions in the data ask for it portably; where uint32_t itself needs only 2
- * (m68k), the compiler is told. */
+/* Streams must be aligned to 4 bytes. The unions in the data do that portably. If uint32_t itself only needs 2
+ * (m68k), the compiler attribute does. */
 #if defined(__GNUC__)
 #define ALIGNED_4 __attribute__((aligned(4)))
 #else

@@ -57,8 +57,8 @@ static lmb_instance instances[MAX_INSTANCES];
 static uint32_t instance_count, next_id = 1;
 static uint8_t texels[TILE_TEXELS * TILE_TEXELS * 4 * 2];
 
-/* Sine of `turns` whole turns, folded to the first quarter, by Taylor's series to x^19 (remainder under 3e-16 there).
- * libm's sine may differ in the last bit from machine to machine. */
+/* Sine of `turns` whole turns, folded to the first quarter, by Taylor's series to x^19 (remainder under 3e-16
+ * there), because libm's sine may differ in the last bit between machines. */
 static double sine(double turns)
 {
     double t = turns - floor(turns), sign = 1.0, x, term, sum;
@@ -179,8 +179,8 @@ static void build_sphere(shape *s, int around, int rings)
     memcpy(s->normal, s->position, sizeof s->normal);
 }
 
-/* Where a trefoil knot on a torus (2 turns around, 3 through) is, which way it runs, and the torus' normal there,
- * which is square to the curve and closes after one round: the tube's frame. */
+/* Position and direction of a trefoil knot on a torus (2 turns around, 3 through), and the torus' normal there. The
+ * normal is perpendicular to the curve and closes after one round, so it frames the tube. */
 static void knot_frame(double at[3], double along[3], double out[3], double turn)
 {
     const double minor = 0.42;
@@ -518,7 +518,7 @@ static void place_objects(void)
 
 /* ---- printing ---- */
 
-/* As few digits as give the same float again; never -0. */
+/* Prints the fewest digits that give the same float again; never -0. */
 static void print_float(float v)
 {
     char text[32];
@@ -651,9 +651,9 @@ static void print_instances(void)
     printf("};\n\n");
 }
 
-/* The spot hangs under the ceiling, right of the middle: both coloured walls, the floor and half of the back wall are
- * lit; the rest lives on bounced light. 98 degrees across, full within 68: its shadow map has one face (half angle
- * up to 50). 30 W/sr on a light tile 2.8 m away at 45 degrees: 0.6 / pi * 30 * 0.7 / 2.8^2 = 0.5 W/(m2 sr). */
+/* The spot hangs under the ceiling, right of the middle. It lights both coloured walls, the floor and half of the
+ * back wall; the rest only gets bounced light. 98 degrees across, full within 68: the shadow map has one face (half
+ * angle up to 50). 30 W/sr on a light tile 2.8 m away at 45 degrees: 0.6 / pi * 30 * 0.7 / 2.8^2 = 0.5 W/(m2 sr). */
 static lmb_light aim_light(void)
 {
     static const double from[3] = {0.80, 2.70, 0.75}, to[3] = {-0.42, 0.42, -0.75};

@@ -1,4 +1,4 @@
-# calls.awk: what contracts.awk prints as a page: each call, how stable it is, what it does and returns.
+# calls.awk: makes a page from the output of contracts.awk: each call, its stability, purpose and results.
 BEGIN {
     FS = "|"
     print "# All calls {#calls}"

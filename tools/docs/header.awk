@@ -1,7 +1,7 @@
-# header.awk: a public header with its comments as doxygen reads them; everything else stays as it is.
+# header.awk: converts the comments of a public header for doxygen; everything else is unchanged.
 #
-# A comment on lines of its own documents the declarations up to the next empty line; one behind a declaration documents
-# that. Words keep their lines and columns, as tables of arguments need these.
+# A comment on separate lines documents the declarations up to the next empty line; a comment behind a declaration
+# documents that one. Words keep their lines and columns, because tables of arguments need them.
 
 function escape(s) {
     gsub(/\\/, "\\\\", s)
@@ -21,7 +21,7 @@ function text(s) {
     return escape(s)
 }
 
-# One comment for several declarations: they share it.
+# Whether a line ends a declaration; several declarations may share a comment.
 function declarations(line) {
     if (line ~ /^[^ {}#\/].*\);$/ || line ~ /^ +.*\);$/) return 1
     return 0
@@ -66,7 +66,7 @@ inside {
     next
 }
 
-# What stands behind a declaration.
+# A comment behind a declaration.
 /[^ ].*\/\* / && !/^ *\/\*/ && !/^#/ {
     at = index($0, "/*")
     code = substr($0, 1, at - 1)

@@ -1,5 +1,5 @@
-# layout.sed: the names of the menu say what a reader looks for; all calls are in it. A header's page begins with what the
-# header says of itself.
+# layout.sed: gives menu entries the names that readers look for, and adds all calls. The page of a header begins with
+# the header's first comment.
 s/type="pages" visible="yes" title=""/type="pages" visible="yes" title="Guides"/
 s/type="classes" visible="yes" title=""/type="classes" visible="yes" title="Structs"/
 s/type="files" visible="yes" title=""/type="files" visible="yes" title="Headers"/

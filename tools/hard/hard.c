@@ -1,4 +1,4 @@
-/* hard.c: the gallery's table: which groups of cases there are, and what they found. */
+/* hard.c: the table of the groups of hard cases, and the results. */
 #include "hard.h"
 
 #include <string.h>

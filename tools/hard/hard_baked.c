@@ -1,4 +1,4 @@
-/* hard_baked.c: hard cases of baked light and of few samples: where they leak, beside what cuts make of the same scenes. */
+/* hard_baked.c: hard cases of baked light and of few samples: light leaks, compared with cuts of the same scenes. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,7 +28,7 @@ static int end_room(hard_stage *s, dvec light, dvec towards)
     return hard_end(s);
 }
 
-/* A wall without thickness in the middle; light at x > 0. */
+/* A wall without thickness in the middle; the light is at x > 0. */
 static int thin_wall(hard_stage *s)
 {
     begin_room(s);
@@ -51,7 +51,7 @@ static int box_on_floor(hard_stage *s)
     return end_room(s, dvec_of(1.2, 2.2, 1.0), dvec_of(0.6, 0, 0.4));
 }
 
-/* A board at the wall, and a book that stands on it. */
+/* A board on the wall with a book on it. */
 static int book_on_shelf(hard_stage *s)
 {
     begin_room(s);
@@ -60,7 +60,7 @@ static int book_on_shelf(hard_stage *s)
     return end_room(s, dvec_of(0.6, 2.2, 0.6), dvec_of(0, 0.6, -2));
 }
 
-/* A screen between lamp and floor; every other of its squares is a hole. */
+/* A screen between lamp and floor; every other square of it is a hole. */
 static int leaves(hard_stage *s)
 {
     static uint8_t texels[4 * LEAVES * LEAVES];
@@ -71,7 +71,7 @@ static int leaves(hard_stage *s)
     return end_room(s, dvec_of(0.3, 2.3, 0.2), dvec_of(0, 0, 0));
 }
 
-/* --- baked, and drawn --------------------------------------------------------------------------------------------- */
+/* --- baking and drawing ------------------------------------------------------------------------------------------- */
 
 typedef struct baked {
     file_bytes file;
@@ -79,7 +79,8 @@ typedef struct baked {
     void *memory;
 } baked;
 
-/* Eyes stand where pictures are taken from, so that what they see is never left out as the inside of a solid. */
+/* Bakes the scene. `eyes` are the positions of the pictures, so that no visible surface is culled as the inside of a
+ * solid. */
 static int bake_it(baked *out, hard_stage *s, const lmb_vec3 *eyes, uint32_t count)
 {
     static const bake_settings set = {
@@ -108,8 +109,7 @@ static void end_baked(baked *b, hard_stage *s)
     file_free(&b->file);
 }
 
-/* Mean bounced light of a picture from there, by what s->transfer and s->gather_step say; HUGE_VAL where it cannot be
- * drawn. */
+/* Mean bounced light of a picture from `from`, with s->transfer and s->gather_step; HUGE_VAL if it cannot be drawn. */
 static double mean_seen(hard_stage *s, dvec from, dvec target, float error)
 {
     double sum = 0.0;
@@ -123,7 +123,7 @@ static double mean_seen(hard_stage *s, dvec from, dvec target, float error)
     return sum / FLOATS;
 }
 
-/* The same at few pixels, by the settings of a draft. */
+/* The same with few pixels, at draft settings. */
 static double mean_of_few(hard_stage *s, dvec from, dvec target)
 {
     s->gather_step = LMB_GATHER_ADAPTIVE;
@@ -139,7 +139,7 @@ static lmb_vec3 eye_at(dvec v)
     return (lmb_vec3){f[0], f[1], f[2]};
 }
 
-/* Mean light in the dark of what is in the light, %, baked, by few samples and by cuts. */
+/* Mean light in the dark part as % of that in the lit part: baked, with few samples, and by cuts. */
 static void put_leak(hard_list *l, int (*make)(hard_stage *), const char *name, dvec dark, dvec to, double bound)
 {
     static const char unit[] = "% of the lit side";
@@ -171,7 +171,7 @@ static double rmse_of(const hard_stage *s, const float *picture)
     return 100.0 * hard_share(sqrt(off / FLOATS), all / FLOATS);
 }
 
-/* Baked light, and that by few samples, against nearly exact cuts. */
+/* Compares baked light, and light by few samples, with nearly exact cuts. */
 static void put_beside(hard_list *l, int (*make)(hard_stage *), const char *name, dvec from, dvec to, double bound,
                        double few_bound)
 {

@@ -1,5 +1,5 @@
-/* hard_bounce.c: hard cases of bounced light: form factors, corners, sealed rooms, scales, many lights; closed forms
- * and sums in double say what is right. */
+/* hard_bounce.c: hard cases of bounced light: form factors, corners, sealed rooms, scales, many lights; the references
+ * are closed forms and sums in double. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +14,8 @@ static lmb_vec3 narrow(dvec v) { return (lmb_vec3){(float)v.x, (float)v.y, (floa
 
 /* --- one disc, one quad ------------------------------------------------------------------------------------------- */
 
-/* Receivers anywhere about a disc, as near as a millionth of its size: E M / A is a share, and 0 from behind. */
+/* Receivers around a disc, at distances down to a millionth of the size: E M / A is a share of the flux, and 0 from
+ * behind. */
 static void one_disc(hard_list *l)
 {
     uint64_t rng = 21;
@@ -32,7 +33,7 @@ static void one_disc(hard_list *l)
     hard_put(l, HARD_EXACT, "behind it, or turned away: lit", behind, 0, "pairs");
 }
 
-/* `height` over a quad's plane, in its sizes; receivers turned anyhow. Worst error of the form factor. */
+/* Maximum error of the form factor of a quad, for receivers `height` quad sizes above the plane, randomly rotated. */
 static double quad_error(double height, uint64_t seed, double tilt)
 {
     uint64_t rng = seed;
@@ -63,9 +64,10 @@ static void one_quad(hard_list *l)
     hard_put(l, HARD_BOUNDED, "a hundred sizes", quad_error(100.0, 25, 0.5), 1e-6, "");
 }
 
-/* --- surfaces of one radiosity ------------------------------------------------------------------------------------ */
+/* --- surfaces of uniform radiosity -------------------------------------------------------------------------------- */
 
-/* Receiver pixels (triangles of `ids` and under) against an evenly lit rectangle's form factor times `radiosity`. */
+/* Compares receiver pixels (triangles up to `ids`) with `radiosity` times the form factor of an evenly lit
+ * rectangle. */
 typedef struct even_errors {
     double worst, mean, pixels;
 } even_errors;
@@ -94,7 +96,7 @@ static even_errors against_even(const hard_stage *s, uint32_t ids, double albedo
     return e;
 }
 
-/* A floor and a wall that stands on it, both in the sun: what the wall gives the floor, up to the corner itself. */
+/* A floor and a wall on it, both in the sun: light of the wall on the floor, up to the corner. */
 static void corner_scene(hard_stage *s, dvec c[4], double albedo)
 {
     c[0] = dvec_of(-1, 0, 0), c[1] = dvec_of(1, 0, 0), c[2] = dvec_of(1, 2, 0), c[3] = dvec_of(-1, 2, 0);
@@ -115,7 +117,7 @@ static void corner(hard_list *l)
     even_errors e = against_even(s, 2, 0.5, c, 0.5 * 2.0 * 0.8, 0.001);
     hard_put(l, HARD_MEASURED, "a concave corner, lit evenly: worst pixel of the floor", 100 * e.worst, 6, "%");
     hard_put(l, HARD_MEASURED, "mean", 100 * e.mean, 0.7, "%");
-    /* A floor seen and lit all but along itself: the wall's foot, the sun at 89 degrees from the wall's plane. */
+    /* Grazing light: the wall's foot, with the sun at 89 degrees from the wall's plane. */
     hard_sun(s, dvec_of(0, -0.9998477, -0.0174524), 2.0);
     hard_end(s);
     hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.002f);
@@ -123,8 +125,8 @@ static void corner(hard_list *l)
     hard_put(l, HARD_MEASURED, "the same, lit at 89 degrees: mean", 100 * e.mean, 10, "%");
 }
 
-/* A bright patch of `texels` on a black floor, at eight places within a texel: how far the light on a ceiling is off
- * in the mean. */
+/* Relative error of the mean light on a ceiling from a bright patch of `texels` on a black floor, over eight positions
+ * within a texel. */
 static double bright_patch(hard_stage *s, double texels)
 {
     const double half = 0.5 * texels * 4.0 / 256.0;
@@ -136,7 +138,7 @@ static double bright_patch(hard_stage *s, double texels)
                            {x + half, 0.001, z + half},
                            {x - half, 0.001, z + half}};
         hard_begin(s, 0.5);
-        hard_quad(s, dvec_of(-1, 1, 0), dvec_of(0.9, 0, 0), dvec_of(0, 0, 1)); /* the ceiling, which lets light in */
+        hard_quad(s, dvec_of(-1, 1, 0), dvec_of(0.9, 0, 0), dvec_of(0, 0, 1)); /* the ceiling, not in the sun's way */
         hard_part(s, 0.9);
         hard_quad(s, dvec_of(x, 0.001, z), dvec_of(half, 0, 0), dvec_of(0, 0, -half));
         hard_part(s, 0.0);
@@ -158,13 +160,13 @@ static double bright_patch(hard_stage *s, double texels)
     return 100.0 * fabs(got / want - 1.0);
 }
 
-/* Equal nodes: a square lit from straight above, and the ceiling close to it. */
+/* Equal nodes: a square lit from above, and a ceiling close to it. */
 static void facing(hard_list *l)
 {
     const dvec c[4] = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
     hard_stage *s = l->stage;
     hard_begin(s, 0.5);
-    hard_quad(s, dvec_of(3, 0.25, 0), dvec_of(2, 0, 0), dvec_of(0, 0, 1)); /* beside it, facing down */
+    hard_quad(s, dvec_of(3, 0.25, 0), dvec_of(2, 0, 0), dvec_of(0, 0, 1)); /* beside the square, facing down */
     hard_quad(s, dvec_of(0, 0, 0), dvec_of(1, 0, 0), dvec_of(0, 0, -1));
     hard_sun(s, dvec_of(0, -1, 0), 2.0);
     hard_end(s);
@@ -179,7 +181,7 @@ static void facing(hard_list *l)
 
 /* --- sealed rooms ------------------------------------------------------------------------------------------------- */
 
-/* Mean of bounced irradiance inside a closed box that stands in the sun, as share of the sun's. */
+/* Mean bounced irradiance inside a closed box in the sun, as a share of the sun's. */
 static double inside_box(hard_stage *s, double thickness)
 {
     double sum = 0.0;
@@ -230,7 +232,7 @@ static double scaled_light(hard_stage *s, double scale, int exactly)
     return exactly ? unlike : worst;
 }
 
-/* Pixels that are not `times` the picture at albedo 0.5: light goes with the wall's albedo, and with the floor's. */
+/* Pixels that differ from `times` the picture at albedo 0.5: light is proportional to the albedos of wall and floor. */
 static double scaled_albedo(hard_stage *s, double albedo, double times)
 {
     static float first[SIDE * SIDE * 3];

@@ -1,5 +1,5 @@
-/* hard_cliff.c: scenes that take far more tests of visibility than a room of as many triangles, each once more turned
- * at random. Tests are counted, not timed. */
+/* hard_cliff.c: scenes that need far more visibility tests than a room with as many triangles, also randomly rotated.
+ * Tests are counted, not timed. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,12 +11,12 @@
 enum { NEEDLES, PLANES, SPECKS, BALLS, HAIR, SLIVERS, ALL_HOLES, HALF_HOLES, SCENES, ROOM = SCENES };
 enum { TRIANGLES = 2000, MANY = 12000, CALLS = 100, MANY_CALLS = 300, BOXES = TRIANGLES / 12, SIDE = 4 };
 
-/* Turned by a random rotation, or as it is. */
+/* A random rotation, or the identity. */
 typedef struct frame {
     dvec x, y, z;
 } frame;
 
-/* What is counted: the tests a call, and how many calls were coarse. */
+/* The counts: tests per call, and calls with coarse visibility. */
 typedef struct counted {
     double each;
     uint32_t coarse;
@@ -50,7 +50,7 @@ static frame frame_of(int is_turned, uint64_t *rng)
     return f;
 }
 
-/* Triangle i of as many. */
+/* Adds triangle i of TRIANGLES. */
 static void put_triangle(hard_stage *s, int scene, int i, const frame *f, uint64_t *rng)
 {
     const dvec d = unit(rng), at = place(rng, 1), e = dvec_mul(unit(rng), scene == SPECKS ? 0.005 : 0.002);
@@ -65,12 +65,12 @@ static void put_triangle(hard_stage *s, int scene, int i, const frame *f, uint64
         hard_triangle(s, turned(f, dvec_of(-x, -y, -1)), turned(f, dvec_of(x, y, i & 1 ? 1 : -1)),
                       turned(f, i & 1 ? dvec_of(-x, -y, 1) : dvec_of(x, y, 1)));
         break;
-    case HAIR: /* parallel, at a slant to all boxes */
+    case HAIR: /* parallel, oblique to all boxes */
         hard_triangle(s, turned(f, dvec_sub(dvec_mul(at, 0.5), along)),
                       turned(f, dvec_add(dvec_add(dvec_mul(at, 0.5), along), e)),
                       turned(f, dvec_sub(dvec_add(dvec_mul(at, 0.5), along), e)));
         break;
-    case SLIVERS: /* eight balls in one another, of strips from pole to pole */
+    case SLIVERS: /* eight nested balls, of strips from pole to pole */
         hard_triangle(s, turned(f, dvec_sub(side, pole)), turned(f, dvec_add(side, pole)),
                       turned(f, dvec_add(dvec_mul(side, 1.01), pole)));
         break;
@@ -96,7 +96,7 @@ static void put_scene(hard_stage *s, int scene, int count, const frame *f, uint6
     }
 }
 
-/* The scene, in a closed box of another part. */
+/* The scene in a closed box, which is another part. */
 static int make_scene(hard_stage *s, int scene, int count, const frame *f, uint64_t *rng)
 {
     static uint8_t texels[4 * SIDE * SIDE];
@@ -113,7 +113,7 @@ static int make_scene(hard_stage *s, int scene, int count, const frame *f, uint6
     return hard_end(s);
 }
 
-/* Points around a small tile, asked by one traversal; `bounded` as a tile of a picture is. */
+/* Tests points around a small tile with one traversal; `bounded` as for a tile of a picture. */
 static counted ask(hard_stage *s, const lmb_bvh *b, lmb_traversal *t, int bounded, int calls, uint64_t *rng)
 {
     counted r = {HUGE_VAL, 0};

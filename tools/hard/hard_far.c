@@ -16,8 +16,7 @@ typedef struct pictures {
 
 /* --- one room ----------------------------------------------------------------------------------------------------- */
 
-/* Where a room stands and how large it is: coordinates are what binary32 holds of that, less what they are moved
- * back by. */
+/* Position and size of a room. Coordinates are rounded to binary32 there, and then moved by -back. */
 typedef struct place {
     dvec at, back;
     double size;
@@ -30,14 +29,14 @@ static dvec put(const place *p, double x, double y, double z)
     return dvec_sub(dvec_of((double)held[0], (double)held[1], (double)held[2]), p->back);
 }
 
-/* Two triangles, the corners in turn. */
+/* Adds two triangles; the corners are in order. */
 static void put_quad(hard_stage *s, dvec a, dvec b, dvec c, dvec d)
 {
     hard_triangle(s, a, b, c);
     hard_triangle(s, a, c, d);
 }
 
-/* Six sides between two corners. */
+/* Adds a box between two corners. */
 static void put_box(hard_stage *s, const place *p, dvec low, dvec high)
 {
     static const int side[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
@@ -50,7 +49,7 @@ static void put_box(hard_stage *s, const place *p, dvec low, dvec high)
     }
 }
 
-/* A floor, two walls and a pillar, open above, in the light of a sun, a spot or a light. */
+/* A floor, two walls and a pillar, open above, lit by a sun, a spot or a point light. */
 static void put_room(hard_stage *s, const place *p, int kind)
 {
     const double watts = 12.0 * p->size * p->size;
@@ -92,7 +91,7 @@ static double change(const float *a, const float *b)
 
 /* --- a stray triangle --------------------------------------------------------------------------------------------- */
 
-/* A triangle of a centimetre 500 m, 2 km and 100 km off: the worst change. */
+/* Maximum change by a triangle of one centimetre at a distance of 500 m, 2 km and 100 km. */
 static void stray(double worst[2], hard_stage *s, int kind, dvec way)
 {
     static const double far[3] = {500.0, 2000.0, 100000.0};
@@ -121,7 +120,7 @@ static void strays(hard_list *l)
         double bounced = 0.0;
         for (int i = 0; i < 3; ++i) {
             double worst[2];
-            /* Once on the line to the sun, which must not push the map's eye away. */
+            /* The first one lies towards the sun and must not move the map's eye away. */
             stray(worst, l->stage, kind, i == 0 ? dvec_unit(dvec_of(0.5, 0.7, 0.351)) : hard_direction(&rng));
             direct = fmax(direct, worst[0]);
             bounced = fmax(bounced, worst[1]);
@@ -133,7 +132,7 @@ static void strays(hard_list *l)
 
 /* --- scales and places -------------------------------------------------------------------------------------------- */
 
-/* The same room as a speck and as a mountain, the light as much brighter as it is farther: what differs. */
+/* The same room as a speck and as a mountain, with the light scaled by the area: the number of pictures that differ. */
 static void scales(hard_list *l)
 {
     static const double size[3] = {1.0 / 131072.0, 1.0 / 1024.0, 1024.0};
@@ -154,9 +153,9 @@ static void scales(hard_list *l)
     hard_put(l, HARD_EXACT, "2^-17, 2^-10 and 2^10 times the size: pictures that differ", differ, 0, "of 18");
 }
 
-/* 10 km from the origin, where coordinates are a millimetre apart, against the same millimetres at the origin. */
-/* Ten kilometres away a millimetre is rounding: a pixel that close to the foot of a wall may lie behind it. Take such
- * pixels, which have less than half of their light or over twice as much, from the other picture. Returns how many. */
+/* 10 km from the origin coordinates are a millimetre apart, and a pixel that close to the foot of a wall may lie behind
+ * it. Such pixels, with less than half or more than twice the light, are replaced from the other picture. Returns the
+ * number of pixels. */
 static int take_lost(float *a, const float *b)
 {
     int count = 0;
@@ -170,6 +169,7 @@ static int take_lost(float *a, const float *b)
     return count;
 }
 
+/* Compares a room 10 km from the origin with one at the origin that has the same coordinate rounding. */
 static void moved(hard_list *l)
 {
     static pictures there, here;
@@ -195,7 +195,7 @@ static void moved(hard_list *l)
 
 /* --- a house on a terrain ----------------------------------------------------------------------------------------- */
 
-/* Of 4 x 4 km: even within 300 m, with valleys beyond, which are under the horizon of who stands in the middle. */
+/* Height of a 4 x 4 km terrain: flat within 300 m, with valleys beyond, below the horizon as seen from the middle. */
 static double height(int x, int z)
 {
     const double px = (x - GRID / 2) * 4000.0 / GRID, pz = (z - GRID / 2) * 4000.0 / GRID, r = sqrt(px * px + pz * pz);
@@ -216,7 +216,7 @@ static void put_terrain(hard_stage *s)
     }
 }
 
-/* Walls of 6 x 5 m and 3 m high with a window in the one that looks to +z, 1.2 x 1 m, and a roof. */
+/* Walls, 6 x 5 m and 3 m high, with a window of 1.2 x 1 m in the one that faces +z, and a roof. */
 static void put_house(hard_stage *s)
 {
     static const double x[4] = {-3, -0.6, 0.6, 3}, y[4] = {0.02, 1.2, 2.2, 3};
@@ -236,7 +236,7 @@ static void put_house(hard_stage *s)
 static const dvec sunward = {0.3, 0.8, 0.52};
 static const double SUNLIGHT = 4.0;
 
-/* The house first, of reflectance 0.5; then the terrain. */
+/* The house, of reflectance 0.5, then the terrain. */
 static void put_land(hard_stage *s, double albedo)
 {
     hard_begin(s, 0.5);
@@ -247,7 +247,7 @@ static void put_land(hard_stage *s, double albedo)
     hard_end(s);
 }
 
-/* Pixels whose direct light is not what rays in double say, a hundredth of the sun's light allowed. */
+/* Pixels with direct light that differs from rays in double by over a hundredth of the sun's. */
 static double wrong_direct(hard_stage *s)
 {
     double wrong = 0.0;
@@ -265,7 +265,7 @@ static double wrong_direct(hard_stage *s)
     return wrong;
 }
 
-/* Bounced light of the library's surfaces that face +z, where something is wanted of them: how far it is off. */
+/* Relative error of bounced light on the house's surfaces that face +z, where `wanted` is positive. */
 static double against(hard_stage *s, double (*wanted)(dvec at, dvec normal))
 {
     double square = 0.0, sum = 0.0, pixels = 0.0;
@@ -286,14 +286,14 @@ static double against(hard_stage *s, double (*wanted)(dvec at, dvec normal))
     return 100.0 * sqrt(hard_share(square, pixels)) / hard_share(sum, pixels);
 }
 
-/* Half of what the wall outside sees is lit ground; what shows through its window is not asked. */
+/* The outer wall sees lit ground in half of the hemisphere. Surfaces behind the window are skipped. */
 static double from_ground(dvec at, dvec normal)
 {
     (void)normal;
     return at.z < 2.0 ? 0.0 : 0.5 * 0.3 * SUNLIGHT * sunward.y / dvec_length(sunward);
 }
 
-/* The sun's patch on the floor: the window's corners along its way. */
+/* The sun's patch on the floor: the window's corners projected along the sunlight. */
 static double from_patch(dvec at, dvec normal)
 {
     static const double window[4][2] = {{-0.6, 1.2}, {0.6, 1.2}, {0.6, 2.2}, {-0.6, 2.2}};

@@ -1,4 +1,4 @@
-/* hard_list.c: a list of hard cases, and how one is told. */
+/* hard_list.c: a list of hard cases, and the result of one. */
 #include "hard_list.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 void hard_put(hard_list *list, int kind, const char *name, double figure, double bound, const char *unit)
 {
     if (list->count == HARD_CASES) {
-        abort(); /* more cases than HARD_CASES are written down */
+        abort(); /* HARD_CASES is too small */
     }
     hard_case *c = &list->item[list->count++];
     c->group = list->group;

@@ -54,7 +54,7 @@ static void pictures(hard_list *l, mixed_stage *m)
              "urad");
 }
 
-/* A board of slanted squares, more than LMB_MAX_PLANES: as many are found as there is room for, and each right. */
+/* A board of more slanted squares than LMB_MAX_PLANES: as many as fit are found, each correctly. */
 static void all_planes(hard_list *l, mixed_stage *m)
 {
     enum { ACROSS = 6, DOWN = 5 };
@@ -87,7 +87,7 @@ static void all_planes(hard_list *l, mixed_stage *m)
     hard_put(l, HARD_MEASURED, "the normal of the worst", worst * 57.29578, 0.06, "degrees");
 }
 
-/* --- what changes ------------------------------------------------------------------------------------------------- */
+/* --- changes ------------------------------------------------------------------------------------------------------ */
 
 static void deltas(hard_list *l, mixed_stage *m)
 {
@@ -123,7 +123,7 @@ static void deltas(hard_list *l, mixed_stage *m)
 
 /* --- full pools --------------------------------------------------------------------------------------------------- */
 
-/* Depths 4 .. 10 asked of the smallest pool there is: area kept, depth given up. */
+/* Depths 4 .. 10 with the smallest pool: area is kept, depth is reduced. */
 static void pools(hard_list *l, mixed_stage *m)
 {
     hard_stage *s = l->stage;

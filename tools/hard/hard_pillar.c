@@ -1,7 +1,7 @@
-/* hard_pillar.c: round things in low sun on a wide floor: what they reflect to the floor around them, in closed form.
+/* hard_pillar.c: round objects in low sun on a wide floor: light that they reflect to the floor, in closed form.
  *
- * They are convex and the floor is flat, so a place of the floor sees a facet wholly or not at all, and each facet is
- * lit wholly or not at all: the truth is Lambert's sum over the lit facets. */
+ * The objects are convex and the floor is flat, so a point of the floor sees a facet wholly or not at all, and each
+ * facet is lit wholly or not at all: the truth is Lambert's sum over the lit facets. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,18 +10,18 @@
 
 #define PI 3.14159265358979323846
 #define ALBEDO 0.7
-#define SUN 10.0  /* W/m2 across the rays */
-#define NEAR 2.0  /* m from a thing's middle: the floor that counts */
+#define SUN 10.0  /* W/m2 perpendicular to the rays */
+#define NEAR 2.0  /* m from an object's middle: the floor that is compared */
 
-/* Texels of the map and of the tree as wide as those of 1,024 and of 256 over 30 m, the tool's own by default. */
+/* Texels of map and tree as wide as those of 1,024 and 256 over 30 m, the tool's defaults. */
 enum { SIDE = 48, MAP = 256, TREE = 64 };
-#define GROUND 3.75 /* m: half its width */
+#define GROUND 3.75 /* m: half the floor's width */
 
 enum { CYLINDER, CONE, BALL, THINGS };
 
 typedef struct pillar {
     int kind, facets;
-    double radius, high, height_deg, around_deg; /* the sun's height over the horizon, and from where it shines */
+    double radius, high, height_deg, around_deg; /* the sun's elevation and azimuth */
 } pillar;
 
 static dvec on_rim(const pillar *p, int i, double radius, double y)
@@ -30,7 +30,7 @@ static dvec on_rim(const pillar *p, int i, double radius, double y)
     return dvec_of(radius * cos(a), y, -radius * sin(a));
 }
 
-/* Sides and a lid. */
+/* Adds sides and a lid. */
 static void put_sides(hard_stage *h, const pillar *p)
 {
     const double top = p->kind == CONE ? 0.0 : p->radius;
@@ -45,7 +45,7 @@ static void put_sides(hard_stage *h, const pillar *p)
     }
 }
 
-/* Around the thing: two triangles are the floor. Returns the way of the light. */
+/* Makes the object and a floor of two triangles. Returns the direction of the light. */
 static dvec make_pillar(hard_stage *h, const pillar *p)
 {
     const double e = p->height_deg * PI / 180, a = p->around_deg * PI / 180;
@@ -75,7 +75,7 @@ static double truth_at(const hard_stage *h, dvec at, dvec along)
     return sum * SUN * ALBEDO;
 }
 
-/* Relative to the mean truth; worst: of a pixel, times the truth and a twentieth of the mean. */
+/* Relative to the mean truth; worst: of a pixel, relative to the truth plus a twentieth of the mean. */
 typedef struct off_truth {
     double trim, rmse, worst;
 } off_truth;
@@ -86,7 +86,7 @@ static int rising(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* From pixels' squares to both figures. */
+/* Computes both figures from the pixels' squared errors. */
 static void sum_up(off_truth *out, double *square, int count)
 {
     const int kept = count - count / 100;
@@ -100,7 +100,7 @@ static void sum_up(off_truth *out, double *square, int count)
     out->rmse = sqrt(all / count);
 }
 
-/* What is seen from above, before and behind the thing. */
+/* Compares the floor as seen from above, in front of and behind the object. */
 static void measure(off_truth *out, hard_stage *h, const pillar *p)
 {
     static double want[SIDE * SIDE], got[SIDE * SIDE], square[SIDE * SIDE];
@@ -140,7 +140,7 @@ typedef struct pillar_set {
     double suns[SUNS], around[SUNS], radius, high;
 } pillar_set;
 
-/* The means of trim and rmse, and the worst pixel of all. */
+/* The means of trim and rmse, and the worst pixel. */
 static void measure_set(off_truth *out, hard_stage *h, int kind, const pillar_set *set)
 {
     memset(out, 0, sizeof *out);

@@ -1,6 +1,6 @@
-/* hard_probe.c: hard cases of worlds as light: poles, seams, places at the edge, pictures of anything but numbers.
+/* hard_probe.c: hard cases of worlds as light: poles, seams, places at the edge, pictures with non-finite values.
  *
- * Worlds of 1 and of 1 + a . d have closed forms of irradiance: pi, and pi (1 + 2/3 a . n). */
+ * Worlds of radiance 1 and 1 + a . d have irradiance in closed form: pi, and pi (1 + 2/3 a . n). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,7 +81,7 @@ static void probe_free(probe_stage *p)
     free(p);
 }
 
-/* Irradiance by normal at a place, by exact cosines; 0 where the library refuses. */
+/* Computes irradiance by normal at a place, with exact cosines. Returns 0 if the library refuses. */
 static int see(probe_stage *p, lmb_vec3 at, float start_deg, int32_t format)
 {
     return lmb_world_init(&p->world, &p->pictures, format, p->world_memory, p->world_bytes) == LMB_OK &&
@@ -91,7 +91,7 @@ static int see(probe_stage *p, lmb_vec3 at, float start_deg, int32_t format)
            lmb_probe_cosine(p->cube, CUBE, p->kernels, &p->lights, &p->table) == LMB_OK;
 }
 
-/* Worst share by which the cube is off the closed form; `poles`: of the faces that look up and down alone. */
+/* Maximum relative error of the cube; `poles`: only of the faces that look up and down. */
 static double off_by(const probe_stage *p, dvec a, int poles)
 {
     double worst = 0.0;
@@ -126,12 +126,12 @@ static void closed_forms(hard_list *l, probe_stage *p)
     see(p, origin, -90, LMB_WORLD_F32);
     for (int i = 0; i < 3 * TEXELS; ++i) {
         const double off = fabs((double)p->cube[i] / (double)other[i] - 1.0);
-        worst = off <= worst ? worst : off; /* by fmax gcc 12.2 for AArch64 ends in an error of its own */
+        worst = off <= worst ? worst : off; /* fmax crashes gcc 12.2 for AArch64 */
     }
     hard_put(l, HARD_MEASURED, "its seam a quarter turned: changes", 100.0 * worst, 0.001, "%");
 }
 
-/* Values that are no numbers, under `low` or over `high`. */
+/* Counts values that are NaN, under `low` or over `high`. */
 static int outside(const probe_stage *p, double low, double high)
 {
     int count = 0;
@@ -142,7 +142,7 @@ static int outside(const probe_stage *p, double low, double high)
     return count;
 }
 
-/* Values that are no numbers, under -2 % of the most, or over what the brightest texel all around would give. */
+/* Counts values that are NaN, under -2 % of the maximum, or over the irradiance of the brightest texel everywhere. */
 static double absurd(const probe_stage *p, double brightest)
 {
     return outside(p, -0.02 * PI * brightest, PI * brightest * 1.001);
@@ -170,7 +170,7 @@ static void places(hard_list *l, probe_stage *p)
     p->pictures.ground_width = p->pictures.ground_height = 0;
 }
 
-/* Among a world of ones: NaN, infinities, negatives, 1e5, denormals. */
+/* A world of ones with NaN, infinities, negatives, 1e5 and denormals. */
 static void hostile(hard_list *l, probe_stage *p)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, -1.0f, 1e-40f, -1e30f};

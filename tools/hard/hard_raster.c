@@ -1,11 +1,11 @@
-/* hard_raster.c: hard cases of coverage and depth: integers of 64 and 128 bits say what is right. */
+/* hard_raster.c: hard cases of coverage and depth; the references are integers of 64 and 128 bits. */
 #include <math.h>
 #include <string.h>
 
 #include "hard.h"
 #include "hard_wide.h"
 
-/* A corner on the flat view: 1/256 px from the frame's middle, y down; depth in 2^-23. */
+/* A corner in the flat view: 1/256 px from the frame's middle, y down; depth in 2^-23. */
 typedef struct flat_corner {
     int64_t x, y, d;
 } flat_corner;
@@ -27,13 +27,13 @@ static int64_t area_of(const flat_corner c[3])
     return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
 }
 
-/* The top-left rule by its definition: on an edge, the pixel is the triangle's whose left or top edge it is. */
+/* The top-left rule by definition: a pixel on an edge belongs to the triangle for which it is a left or top edge. */
 static int covers(const flat_corner c[3], int64_t x, int64_t y)
 {
     const int64_t turn = area_of(c) > 0 ? 1 : -1;
     for (int i = 0; i < 3; ++i) {
         const flat_corner *a = &c[i], *b = &c[(i + 1) % 3];
-        const int64_t ex = (a->y - b->y) * turn, ey = (b->x - a->x) * turn; /* grows to the right; downwards */
+        const int64_t ex = (a->y - b->y) * turn, ey = (b->x - a->x) * turn; /* increases to the right; downwards */
         const int64_t e = ex * (x - a->x) + ey * (y - a->y);
         if (e < 0 || (e == 0 && !(ex > 0 || (ex == 0 && ey > 0)))) {
             return 0;
@@ -59,7 +59,7 @@ static void count_hits(hard_stage *s)
     }
 }
 
-/* Pixels of the frame that are not taken once. */
+/* The number of pixels not covered exactly once. */
 static double not_once(void)
 {
     int wrong = 0;
@@ -71,8 +71,9 @@ static double not_once(void)
 
 enum { LATTICE = 20 };
 
-/* Corners and edges through pixel centres: a lattice of n x n corners, `step` px apart, each moved by up to a px in
- * halves; every other square or so is parted by its other diagonal. Pixels that are not taken once. */
+/* Corners and edges through pixel centres: a lattice of n x n corners, `step` px apart, each moved by up to one px in
+ * half px; about every other square is divided by the other diagonal. Returns the number of pixels not covered exactly
+ * once. */
 static double off_centres(hard_stage *s, int n, int64_t step, uint64_t seed)
 {
     flat_corner at[LATTICE][LATTICE];
@@ -97,7 +98,7 @@ static double off_centres(hard_stage *s, int n, int64_t step, uint64_t seed)
     return not_once();
 }
 
-/* Small triangles, and those over 64 px, which the library draws another way. */
+/* Small triangles, and triangles over 64 px, which the library draws by another path. */
 static void through_centres(hard_list *l)
 {
     double large = 0.0;
@@ -109,8 +110,8 @@ static void through_centres(hard_list *l)
     hard_put(l, HARD_EXACT, "of triangles over 64 px: not taken once", large, 0, "px");
 }
 
-/* One long edge through pixels' centres on one side, `n` short ones on the other, whose corners lie on it exactly, or
- * as near as the grid allows. */
+/* One long edge through pixel centres on one side, `n` short ones on the other, with corners exactly on it or as near
+ * as the grid allows. */
 static void put_t_junctions(hard_stage *s, uint64_t *rng, int n, int exactly)
 {
     const flat_corner a = {-6144, -6144, 4194304}, b = {6144, 6144, 4194304}, c = {6144, -6144, 4194304},
@@ -133,7 +134,8 @@ static void put_t_junctions(hard_stage *s, uint64_t *rng, int n, int exactly)
     hard_end(s);
 }
 
-/* Pixels of the two triangles together that are not taken once; *far_px: how far from the edge they lie at most. */
+/* The number of pixels in both triangles together not covered exactly once; *far_px: their maximum distance from the
+ * edge. */
 static double edge_faults(double *far_px)
 {
     int wrong = 0;
@@ -168,8 +170,8 @@ static void t_junctions(hard_list *l)
              sqrt(2.0) / 256.0, "px");
 }
 
-/* 2^20 triangles of 1/4 x 1/8 px: a mesh of 4096 placed 256 times. Each centre lies on a corner of the lattice: the
- * rule gives it to one of the six around. */
+/* 2^20 triangles of 1/4 x 1/8 px: a mesh of 4096 placed 256 times. Each centre lies on a corner of the lattice, which
+ * the rule assigns to one of six triangles. */
 static double wrong_specks(const hard_stage *s)
 {
     int wrong = 0;
@@ -223,7 +225,7 @@ static flat_corner random_corner(uint64_t *rng)
     return c;
 }
 
-/* Up to 135 px long, its third corner 1 to 4 sub-pixels off the line of the others. */
+/* Up to 135 px long, with the third corner 1 to 4 sub-pixels off the line of the others. */
 static void make_sliver(flat_corner c[3], uint64_t *rng)
 {
     c[0] = random_corner(rng);
@@ -234,8 +236,9 @@ static void make_sliver(flat_corner c[3], uint64_t *rng)
     c[2].y = (int64_t)floor((double)c[0].y + t * (double)(c[1].y - c[0].y)) + (int64_t)(hard_random(rng) % 4);
 }
 
-/* How far a drawn depth is off the plane through the corners, as share of what binary32 explains: 2^-24 of 7 and 35
- * times the fall a px (tests/reference/accuracy.c derives it). The numerator is exact: 128 bits. */
+/* The error of a drawn depth against the plane through the corners, as a share of the error that binary32 explains:
+ * 2^-24 of 7, and of 35 times the slope per px (derived in tests/reference/accuracy.c). The numerator is exact: 128
+ * bits. */
 static double depth_error(const flat_corner c[3], int64_t x, int64_t y, float drawn)
 {
     const int64_t area = area_of(c), bx = c[1].x - c[0].x, by = c[1].y - c[0].y, cx = c[2].x - c[0].x,
@@ -295,8 +298,8 @@ static void slivers(hard_list *l)
 
 /* --- depth order -------------------------------------------------------------------------------------------------- */
 
-/* Pairs of walls at random distances, the nearer drawn last and first: the largest gap, in units of `quantum` of the
- * distance, at which the order is lost. */
+/* Pairs of walls at random distances, with the nearer drawn last or first. Returns the largest gap, in units of
+ * `quantum` of the distance, at which the order is lost. */
 static double lost_gap(hard_stage *s, int32_t format, uint64_t seed)
 {
     double max = 0.0;
@@ -332,7 +335,7 @@ static void depth_order(hard_list *l)
     hard_put(l, HARD_BOUNDED, "the same, 16-bit depth", lost_gap(l->stage, LMB_DEPTH16, 5), 1.01, "steps");
 }
 
-/* A slanted square of exact corners: `turn` says which diagonal parts it. */
+/* A slanted square of exact corners; `turn` selects the diagonal. */
 static void put_slanted(hard_stage *s, int turn)
 {
     const flat_corner q[4] = {
@@ -342,7 +345,7 @@ static void put_slanted(hard_stage *s, int turn)
     put_flat(s, other);
 }
 
-/* The same square twice, then once more in other triangles: who was first stays where depths are equal. */
+/* The same square twice, then once more with other triangles: if depths are equal, the first one stays. */
 static void coplanar(hard_list *l)
 {
     static float first[SIDE * SIDE];

@@ -1,4 +1,4 @@
-/* hard_relief.c: hard cases of reliefs: a ball carried by a cube, against the ball itself; views that see nothing. */
+/* hard_relief.c: hard cases of reliefs: a ball carried by a cube, against the ball; views that miss everything. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +33,7 @@ static triangle_mesh cube(float half)
     return m;
 }
 
-/* A relief of the ball by the first `views` of 26 views, from a scene that is there. */
+/* Bakes a relief of the ball from the first `views` of 26 views and an existing scene. */
 static int bake(relief_stage *s, int views)
 {
     const triangle_mesh simple = cube(1.05f);
@@ -59,7 +59,7 @@ typedef struct relief_count {
     double wrong, deep, pixels, not_kinds, not_finite;
 } relief_count;
 
-/* Distance along the axis to the ball; 0: the ray passes it; *by: by how much, or how deep it goes. */
+/* Distance along the axis to the ball; 0: the ray misses it. *by: distance of the ray from the outline. */
 static double ball_depth(double *by, const lmb_view *v, int32_t x, int32_t y)
 {
     dvec from, ray = hard_ray(&from, v, x + 0.5, y + 0.5);
@@ -95,7 +95,7 @@ static void judge(relief_count *n, const relief_stage *s, const hard_stage *h)
     relief_frame_free(&f);
 }
 
-/* From all around, `distance` from the middle, looking past it by `aside`. */
+/* Draws from all directions, `distance` from the middle, aiming `aside` beside it. */
 static relief_count look_around(relief_stage *s, hard_stage *h, double distance, double aside, double fov)
 {
     relief_count n = {0, 0, 0, 0, 0};

@@ -1,4 +1,4 @@
-/* hard_shadow.c: hard cases of shadows: false dark (acne) and false light (detachment, leaks), by rays in double. */
+/* hard_shadow.c: hard cases of shadows: false dark (acne) and false light (detachment, leaks); rays in double. */
 #include <math.h>
 #include <string.h>
 
@@ -8,12 +8,12 @@
 
 enum { SIDE = HARD_SIDE };
 
-/* Pixels that a light reaches but for shadows: by the ray lit or dark; of these dark or lit by the library. */
+/* Pixels that face a light: lit or dark by rays; of these, dark or lit by the library. */
 typedef struct shadow_count {
-    double lit, dark, acne, leaks, not_finite, strays; /* strays: the most false light, of what facing would get */
+    double lit, dark, acne, leaks, not_finite, strays; /* strays: maximum false light / unshadowed light */
 } shadow_count;
 
-/* Whether rays see the light; by a room that needs more than triangles, as masks do, of its own. */
+/* Does the light reach a point by rays? Scenes with masks need a separate function. */
 typedef int (*sees_light)(const hard_stage *s, dvec at, dvec normal, uint32_t id);
 
 static int sees_by_triangles(const hard_stage *s, dvec at, dvec normal, uint32_t id)
@@ -60,7 +60,7 @@ static shadow_count judge(hard_stage *s, int32_t map, sees_light sees)
     return n;
 }
 
-/* Two lines: false dark of what is lit, false light of what is dark. */
+/* Adds two cases: false dark among lit pixels, false light among dark ones. */
 static void put_both(hard_list *l, const shadow_count *n, const char *acne, double acne_bar, const char *leaks,
                      double leak_bar)
 {
@@ -83,7 +83,8 @@ static void begin_floor(hard_stage *s, dvec middle)
     hard_look(s, dvec_add(middle, dvec_of(1.5, 2.5, 3.0)), dvec_add(middle, dvec_of(0, 0.2, 0)), 55.0, SIDE);
 }
 
-/* At places a part of a texel apart: a shadow of some 200 pixels is a matter of one where texels lie by luck. */
+/* Averages over positions a part of a texel apart: in a shadow of about 200 pixels, a single pixel would depend on the
+ * alignment of texels. */
 static shadow_count ball_on_floor(hard_stage *s, dvec middle, double zenith_deg)
 {
     enum { PLACES = 8 };
@@ -191,8 +192,8 @@ static void thin(hard_list *l)
     put_both(l, &n, "a wall of 1 mm: acne", 0.1, "its shadow: lit", 0.3);
 }
 
-/* A room's corner by a floor and a wall whose back a sun lights, seen from within; turned about the foot, and with a
- * row of pixels on it or nearly: pixels of the floor that are lit. */
+/* A floor and a wall, seen from inside the corner, with the sun on the wall's back; rotated about the foot, with a row
+ * of pixels on it or nearly. Counts pixels of the floor that are lit. */
 static void foot_of_wall(hard_list *l)
 {
     enum { PLACES = 24 };
@@ -208,7 +209,7 @@ static void foot_of_wall(hard_list *l)
         hard_sun(s, dvec_add(dvec_mul(in, 0.8), dvec_of(0, -0.6, 0)), 3.0);
         hard_end(s);
         for (int kind = LMB_PERSPECTIVE; kind <= LMB_ORTHOGRAPHIC; ++kind) {
-            if (kind == LMB_ORTHOGRAPHIC) { /* half a pixel up, a row's middles see the foot */
+            if (kind == LMB_ORTHOGRAPHIC) { /* half a pixel up, the middles of a row see the foot */
                 const dvec up = dvec_mul(dvec_sub(dvec_of(0, 2, 0), in), 2.0 / SIDE / sqrt(5.0));
                 hard_look(s, dvec_add(dvec_add(dvec_mul(in, 2.0), dvec_of(0, 1.0, 0)), up), up, 60.0, SIDE);
                 s->view.kind = LMB_ORTHOGRAPHIC;
@@ -247,7 +248,7 @@ static void transforms(hard_list *l)
 
 enum { HOLES = 8 };
 
-/* Through a square in y = 1, 2 m wide, of HOLES x HOLES fields, every other one open; triangles 3 and 4. */
+/* Light through a square in y = 1, 2 m wide, of HOLES x HOLES fields, every other one open; triangles 3 and 4. */
 static int sees_through_holes(const hard_stage *s, dvec at, dvec normal, uint32_t id)
 {
     const lmb_light *l = &s->light;
@@ -274,7 +275,8 @@ static void masked(hard_list *l)
     put_both(l, &n, "an alpha-masked caster: acne", 0.1, "its shadow: lit", 0.3);
 }
 
-/* Lit by the library and by rays, of a crate's floor under a sun turned by `step` tenths of a texel. */
+/* Lit pixels, by the library and by rays, of the floor under a crate, with the sun rotated by `step` tenths of a
+ * texel. */
 static void take_step(uint8_t out[SIDE * SIDE][2], hard_stage *s, int step)
 {
     const double a = 0.5 + step * 0.1 * 6.0 / HARD_MAP;
@@ -299,7 +301,7 @@ static void take_step(uint8_t out[SIDE * SIDE][2], hard_stage *s, int step)
     }
 }
 
-/* Pixels whose light changes though no ray's answer does, from step to step. */
+/* Pixels that change from step to step although the rays agree. */
 static void motion(hard_list *l)
 {
     static uint8_t before[SIDE * SIDE][2], now[SIDE * SIDE][2];

@@ -1,11 +1,11 @@
-/* hard_sheet.c: rooms under one bent sheet that is lit from above: inside it is dark. Sheets of all curvatures, of few
- * and of many facets, under each kind of light, turned at random. */
+/* hard_sheet.c: rooms under one bent sheet lit from above, so the inside is dark. Sheets of all curvatures, of few and
+ * many facets, under each kind of light, randomly rotated. */
 #include <math.h>
 
 #include "hard.h"
 
 #define PI 3.14159265358979323846
-#define HIGH 2.5 /* m over the floor that the sheet begins at */
+#define HIGH 2.5 /* m above the floor: the sheet's base */
 
 enum { WAVES, RIPPLES, DOME, BOWL, TENT, GUTTER, CONE, FUNNEL, BARREL, BODY, CRUMPLED, SHEETS };
 enum { SUN, SPOT, POINT, LIGHTS };
@@ -13,11 +13,11 @@ enum { SIDE = 32, MAP = 64, MOST = 31 }; /* wide texels, so that many pixels are
 
 typedef struct sheet {
     int kind, rows, columns;
-    double size, phase; /* size: how far it departs from a plane, m */
+    double size, phase; /* size: maximum distance from a plane, m */
     dvec axis[3], move;
 } sheet;
 
-/* How high a sheet lies over a plane, of its size; x and z: -1 .. 1. */
+/* Height of a sheet above the plane, relative to its size; x and z: -1 .. 1. */
 static double rise_of(const sheet *s, double x, double z)
 {
     const double r = sqrt(x * x + z * z);
@@ -42,7 +42,7 @@ static dvec placed(const sheet *s, double x, double y, double z)
     return dvec_add(level, dvec_add(dvec_mul(s->axis[1], y), s->move));
 }
 
-/* A place on it, column i of row j; `down`: on the floor below. */
+/* The point in column i of row j; `down`: on the floor below. */
 static dvec place_of(const sheet *s, int i, int j, int down)
 {
     const double x = 2.0 * i / s->columns - 1, z = 2.0 * j / s->rows - 1;
@@ -55,7 +55,7 @@ static void put_four(hard_stage *h, dvec a, dvec b, dvec c, dvec d, int other)
     hard_triangle(h, other ? b : a, c, d);
 }
 
-/* From a place of the rim to the next one a wall goes down, and the floor to the middle: corners meet corners. */
+/* Adds the wall below a rim edge, and the floor from there to the middle: vertices coincide. */
 static void put_wall(hard_stage *h, const sheet *s, int i0, int j0, int i1, int j1)
 {
     const dvec from = place_of(s, i0, j0, 1), to = place_of(s, i1, j1, 1);
@@ -63,7 +63,7 @@ static void put_wall(hard_stage *h, const sheet *s, int i0, int j0, int i1, int 
     hard_triangle(h, from, to, placed(s, 0, 0, 0));
 }
 
-/* As it is, or turned and moved at random. */
+/* Sets the identity, or a random rotation and translation. */
 static void set_place(sheet *s, uint64_t *rng, int turned)
 {
     s->axis[0] = dvec_of(1, 0, 0), s->axis[1] = dvec_of(0, 1, 0), s->axis[2] = dvec_of(0, 0, 1);
@@ -76,7 +76,7 @@ static void set_place(sheet *s, uint64_t *rng, int turned)
     }
 }
 
-/* Facets from 4 to about 2,000. */
+/* 4 to about 2,000 facets. */
 static sheet make_sheet(hard_stage *h, int kind, uint64_t *rng, int turned)
 {
     const int is_strip = kind == WAVES || kind == TENT || kind == GUTTER || kind == BARREL;
@@ -106,7 +106,7 @@ static sheet make_sheet(hard_stage *h, int kind, uint64_t *rng, int turned)
     return s;
 }
 
-/* The light over it; returns the irradiance in the sheet's middle, were it flat. */
+/* Adds the light. Returns the irradiance in the middle of a flat sheet. */
 static double put_light(hard_stage *h, const sheet *s, int light, uint64_t *rng)
 {
     const double x = hard_uniform(rng, -1, 1), z = hard_uniform(rng, -1, 1), high = hard_uniform(rng, 1, 3);
@@ -127,7 +127,7 @@ static double put_light(hard_stage *h, const sheet *s, int light, uint64_t *rng)
 
 /* Pixels on the dark side. */
 typedef struct dark {
-    double worst, over, pixels; /* of the lit side's irradiance; over: of more than a millionth */
+    double worst, over, pixels; /* relative to the lit side's irradiance; over: number above a millionth */
 } dark;
 
 static void look_up(hard_stage *h, const sheet *s, uint64_t *rng)

@@ -1,4 +1,4 @@
-/* hard_stage.c: scenes of hard cases, and what the library draws and lights of them. */
+/* hard_stage.c: scenes of hard cases, drawn and lit by the library. */
 #include "hard_stage.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ void hard_stage_free(hard_stage *s)
 uint32_t hard_part(hard_stage *s, double albedo)
 {
     if (s->parts == HARD_PARTS) {
-        abort(); /* a case asks for more than HARD_PARTS */
+        abort(); /* a case needs more than HARD_PARTS */
     }
     const uint32_t k = s->parts++;
     lmb_material *m = &s->material[k];
@@ -76,7 +76,7 @@ void hard_begin(hard_stage *s, double albedo)
 void hard_triangle(hard_stage *s, dvec a, dvec b, dvec c)
 {
     if (s->count == HARD_TRIANGLES) {
-        abort(); /* a case asks for more than HARD_TRIANGLES */
+        abort(); /* a case needs more than HARD_TRIANGLES */
     }
     dvec_write(s->corner[s->count][0], a);
     dvec_write(s->corner[s->count][1], b);
@@ -219,7 +219,7 @@ void hard_sun(hard_stage *s, dvec along, double irradiance)
     set_light(s, LMB_LIGHT_DIRECTIONAL, dvec_of(0, 0, 0), along, irradiance);
 }
 
-/* --- what the library makes of it --------------------------------------------------------------------------------- */
+/* --- drawing by the library --------------------------------------------------------------------------------------- */
 
 static void set_eye(hard_stage *s)
 {

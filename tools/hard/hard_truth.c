@@ -1,4 +1,4 @@
-/* hard_truth.c: what hard cases are held against: rays, light and one bounce in double, triangle by triangle. */
+/* hard_truth.c: references for hard cases: rays, light and one bounce in double, triangle by triangle. */
 #include <math.h>
 
 #include "hard_stage.h"
@@ -49,7 +49,7 @@ dvec hard_surface(dvec *normal, const hard_stage *s, int32_t x, int32_t y, uint3
     return dvec_add(from, dvec_mul(ray, t));
 }
 
-/* Moeller and Trumbore's test of the open segment; ends within a billionth of it count as on the triangle. */
+/* Moeller and Trumbore's test of the open segment; ends within a billionth count as on the triangle. */
 static int crosses(const dvec t[3], dvec from, dvec way)
 {
     const dvec e1 = dvec_sub(t[1], t[0]), e2 = dvec_sub(t[2], t[0]), p = dvec_cross(way, e2), d = dvec_sub(from, t[0]);
@@ -76,7 +76,7 @@ int hard_occluded(const hard_stage *s, dvec from, dvec to, uint32_t a, uint32_t 
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
-/* Intensity towards `way` (from the light), by the smoothstep between its cones. */
+/* Relative intensity towards `way` (from the light): the smoothstep between the cones. */
 static double spot_share(const lmb_light *l, dvec way)
 {
     const double outer = (double)l->cos_outer, width = (double)l->cos_inner - outer;
@@ -100,7 +100,7 @@ double hard_true_direct(const hard_stage *s, dvec at, dvec normal, uint32_t id)
     return (double)l->intensity[0] * share * cosine / (sun ? 1.0 : d * d);
 }
 
-/* Of what lies before the plane through `at`: a corner more at most. */
+/* Clips a polygon by the plane through `at`, which adds at most one corner. */
 static int before_plane(dvec *out, dvec at, dvec normal, const dvec *corner, int count)
 {
     int n = 0;
@@ -117,7 +117,7 @@ static int before_plane(dvec *out, dvec at, dvec normal, const dvec *corner, int
     return n;
 }
 
-/* Lambert's sum over the edges: the angle of each, times how far its plane is turned from the normal. */
+/* Lambert's sum over the edges: the angle of each times the cosine between edge plane and normal. */
 double hard_true_factor(dvec at, dvec normal, const dvec *corner, int count)
 {
     dvec p[10];
@@ -131,7 +131,7 @@ double hard_true_factor(dvec at, dvec normal, const dvec *corner, int count)
     return fabs(sum) / (2.0 * PI);
 }
 
-/* What a piece of triangle t about `from` sends to a surface element. */
+/* Light from a piece of triangle t around `from` on a surface element. */
 static double one_piece(const hard_stage *s, uint32_t t, dvec from, double area, double albedo, dvec at, dvec normal,
                         uint32_t id)
 {
@@ -157,7 +157,8 @@ static double albedo_of(const hard_stage *s, uint32_t t)
     return (double)s->material[k].albedo[0];
 }
 
-/* The triangle's n x n parts of equal area, each by its middle: n (n + 1) / 2 the same way up, the others turned. */
+/* Divides the triangle into n x n parts of equal area, each represented by its middle: n (n + 1) / 2 have the same
+ * orientation, the others are reversed. */
 static double one_triangle(const hard_stage *s, uint32_t t, dvec at, dvec normal, uint32_t id, int n)
 {
     const dvec *c = s->world[t], u = dvec_mul(dvec_sub(c[1], c[0]), 1.0 / n),

@@ -1,8 +1,8 @@
-/* hard_views.c: hard cases of views: what a ray through a pixel meets, in double and without any clipping, is what is
- * drawn there.
+/* hard_views.c: hard cases of views: each pixel must show the surface that its ray meets, in double and without
+ * clipping.
  *
  * The ray of a pixel times the three planes through the eye and an edge (Olano and Greer's homogeneous edges) gives the
- * point's weights, wherever the corners lie. A pixel counts where the answer is the same all around it, `slack` px. */
+ * barycentric weights for any corners. A pixel counts only if the result is the same all around it, `slack` px. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 enum { SIDE = HARD_SIDE };
 
-/* 1 inside, with its distance along the axis; 0 outside; by a ray of length 1 along the axis. */
+/* Returns 1 if inside, with the distance along the axis, else 0. The ray must have length 1 along the axis. */
 static int meets(double *w, const dvec t[3], dvec from, dvec ray, double near)
 {
     const dvec a = dvec_sub(t[0], from), b = dvec_sub(t[1], from), c = dvec_sub(t[2], from);
@@ -21,10 +21,10 @@ static int meets(double *w, const dvec t[3], dvec from, dvec ray, double near)
 }
 
 typedef struct view_count {
-    double clear, wrong, deep; /* pixels that count; drawn and should not be, or not; with another depth */
+    double clear, wrong, deep; /* pixels that count; wrongly drawn or missing; with wrong depth */
 } view_count;
 
-/* Pixel (x, y) of a picture of triangle `t` alone. */
+/* Judges pixel (x, y) of a picture that shows only triangle `t`. */
 static void judge_pixel(view_count *n, const hard_stage *s, uint32_t t, int32_t x, int32_t y, double slack)
 {
     static const double off[5][2] = {{0, 0}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
@@ -60,7 +60,7 @@ static void judge(view_count *n, hard_stage *s, double slack)
     }
 }
 
-/* A place by its px and its distance, in the view at hand. */
+/* The point at a pixel and a distance in the current view. */
 static dvec place(const hard_stage *s, double x, double y, double w)
 {
     dvec from;
@@ -72,7 +72,7 @@ static double any(uint64_t *rng) { return hard_uniform(rng, -8.0, SIDE + 8.0); }
 
 /* --- far corners, near planes ------------------------------------------------------------------------------------- */
 
-/* Corners 2^k px away in all directions about the frame. */
+/* Corners 2^k px away in all directions around the frame. */
 static view_count far_corners(hard_stage *s, int k, double slack)
 {
     view_count n = {0, 0, 0};
@@ -92,7 +92,7 @@ static view_count far_corners(hard_stage *s, int k, double slack)
     return n;
 }
 
-/* One corner (`behind` 0), or two or all but nothing, at the near plane or behind it. */
+/* Triangles with `corners` corners at depths w_low .. w_high, about the near plane or behind the eye. */
 static view_count near_corners(hard_stage *s, double w_low, double w_high, int corners, uint64_t seed)
 {
     view_count n = {0, 0, 0};
@@ -111,7 +111,7 @@ static view_count near_corners(hard_stage *s, double w_low, double w_high, int c
     return n;
 }
 
-/* An eye inside a box, `gap` m from one of its walls: no ray passes. */
+/* An eye inside a box, `gap` m from a wall: no ray escapes. */
 static double open_around(hard_stage *s, double gap)
 {
     double holes = 0.0;
@@ -160,7 +160,7 @@ static void near_and_far(hard_list *l)
 
 /* --- scales and angles -------------------------------------------------------------------------------------------- */
 
-/* Twelve triangles before the eye at `scale`, seen by `fov_deg`: corners on the frame and beside it. */
+/* Twelve triangles in front of the eye at `scale`, with `fov_deg`: corners inside and outside the frame. */
 static void put_scaled(hard_stage *s, double scale, double fov_deg)
 {
     uint64_t rng = 11;
@@ -185,7 +185,7 @@ static double wrong_at(hard_stage *s, double scale, double fov_deg)
     return hard_share(n.wrong + n.deep, n.clear > 0);
 }
 
-/* Other bits than at scale 1; eye and corners times a power of two. */
+/* Counts bits that differ from scale 1, with eye and corners scaled by a power of two. */
 static double unlike_at(hard_stage *s, int power)
 {
     static uint32_t depth[SIDE * SIDE], id[SIDE * SIDE];

@@ -1,7 +1,8 @@
-/* hard_whole.c: hard cases of the whole: one room under every hard condition, its bounced light against rays in double.
+/* hard_whole.c: hard cases of the whole: one room under every hard condition; bounced light against rays.
  *
- * The room has a floor, two walls, a ceiling and a crate under a spot. Rays cut each triangle into cells and sum what
- * they throw back; cells are coarse near a corner, so receivers lie a hand's breadth from other surfaces. */
+ * The room has a floor, two walls, a ceiling and a crate under a spot. The reference divides triangles into cells and
+ * sums the light that they reflect, in double. Cells are coarse near a corner, so receivers keep a distance from
+ * others. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +14,7 @@ enum { SIDE = 32, CELLS = 10, STRIDE = 5, MAP = 256 };
 
 static const double ALBEDO = 0.6;
 
-/* The left wall is a part of its own where asked for. */
+/* If `apart`, the left wall is a separate part. */
 static void put_room(hard_stage *s, dvec o, double crate, int apart)
 {
     hard_quad(s, o, dvec_of(2, 0, 0), dvec_of(0, 0, -2));
@@ -45,7 +46,7 @@ static void make_room(hard_stage *s, dvec o, double crate)
     see_room(s, o);
 }
 
-/* Is any other surface within `least` of here? Cells there are too coarse to be a truth. */
+/* Is another surface within `min`? Cells there are too coarse for a reference. */
 static int is_close(const hard_stage *s, dvec at, dvec normal, uint32_t id, double min)
 {
     for (int i = 0; i < 8; ++i) {
@@ -64,7 +65,7 @@ typedef struct room_errors {
     double rmse, pixels;
 } room_errors;
 
-/* What a light so near to a wall at x = -2 that half of its power lands around there sends on from there. */
+/* Light of a spot so near to the wall at x = -2 that half of its power arrives there, reflected from that point. */
 static double from_spot(const hard_stage *s, dvec at, dvec normal, uint32_t id)
 {
     const dvec from = dvec_of(-2, (double)s->light.position.y, (double)s->light.position.z), way = dvec_sub(from, at);
@@ -75,7 +76,7 @@ static double from_spot(const hard_stage *s, dvec at, dvec normal, uint32_t id)
     return 2.0 * PI * (double)s->light.intensity[0] * ALBEDO / PI * cosine * out / (d2 * d2);
 }
 
-/* Bounced irradiance there. With a light on the wall, part 1, what the wall throws back comes from one place. */
+/* Bounced irradiance. If the light is at the wall, part 1, the wall's reflection comes from one point. */
 static double truth_at(hard_stage *s, dvec at, dvec normal, uint32_t id)
 {
     const float albedo = s->material[1].albedo[0];
@@ -88,7 +89,7 @@ static double truth_at(hard_stage *s, dvec at, dvec normal, uint32_t id)
     return others + from_spot(s, at, normal, id);
 }
 
-/* Bounced irradiance of every STRIDE-th pixel that a hand may be put before. */
+/* Compares bounced irradiance at every STRIDE-th pixel that is not close to another surface. */
 static room_errors judge(hard_stage *s)
 {
     double want_sum = 0.0, square = 0.0;
@@ -157,9 +158,9 @@ static void conditions(hard_list *l)
     put_room_case(l, "a light 1 mm from the wall", 1.2);
 }
 
-/* --- the same room, said differently ------------------------------------------------------------------------------ */
+/* --- the same room, described differently ------------------------------------------------------------------------- */
 
-/* Mirrored by the matrix what is mirrored in the mesh: the same corners, other orders of them. */
+/* Mirrors both the mesh and the matrix: the same corners in another order. */
 static void mirrored(hard_list *l)
 {
     hard_stage *s = l->stage;
@@ -180,7 +181,7 @@ static void mirrored(hard_list *l)
 
 static float first[HARD_SIDE * HARD_SIDE * 3];
 
-/* Values that differ from the room's as it is. */
+/* Counts values that differ from the first room's. */
 static double unlike_first(hard_stage *s)
 {
     double unlike = 0.0;
@@ -217,7 +218,7 @@ static void said_differently(hard_list *l)
 
 /* --- finer than a texel ------------------------------------------------------------------------------------------- */
 
-/* Mean of bounced light on a ceiling over a floor of checkers `cells` a side, black and white, against an even grey. */
+/* Mean bounced light on a ceiling over a black and white checkered floor of `cells` per side, against uniform grey. */
 static double checkers(hard_stage *s, int cells)
 {
     static uint8_t texels[1024 * 1024 * 4];
@@ -248,14 +249,14 @@ static double checkers(hard_stage *s, int cells)
     return fabs(sum[0] / sum[1] - 1.0);
 }
 
-/* W of all texels of a shadow map of one face. */
+/* W of all texels of a shadow map with one face. */
 static double root_flux(const hard_stage *s)
 {
     const lmb_tree *t = &s->render.frame.tree;
     return (double)t->node[(t->size * t->size - 1) / 3 - 1].flux[0];
 }
 
-/* Slats of half a texel that go on by eighths of one. */
+/* Slats of half a texel, moved in steps of an eighth. */
 static void slats(hard_list *l)
 {
     hard_stage *s = l->stage;

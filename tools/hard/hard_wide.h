@@ -1,4 +1,4 @@
-/* hard_wide.h: sums of products of 64-bit integers in 128 bits, for references that may not round. */
+/* hard_wide.h: exact sums of products of 64-bit integers in 128 bits, for references without rounding. */
 #ifndef HARD_WIDE_H
 #define HARD_WIDE_H
 

@@ -1,10 +1,10 @@
-/* corner_mesh.c: which triangles meet at a vertex, and what happens to them when an edge collapses. */
+/* corner_mesh.c: the triangles that meet at a vertex, and the effect of collapsing an edge. */
 #include "corner_mesh.h"
 
 #include <string.h>
 
-/* A collapse may turn a triangle by 78 degrees at most (cosine 0.2), and may not make it a needle; one that is a needle
- * may become half as wide, or the sides of a long thin prism could never lose a triangle. */
+/* A collapse may turn a triangle by 78 degrees at most (cosine 0.2), and may not make it a needle. A needle may
+ * become half as wide; otherwise the sides of a long thin prism could never lose a triangle. */
 #define TURN_COS2   0.04
 #define NEEDLE      0.04 /* twice the area over the square of the longest side; 0.87 is equilateral */
 
@@ -23,7 +23,7 @@ static uint32_t end_of(const corner_mesh *m, uint32_t c, int high)
     return (a < b) == high ? b : a;
 }
 
-/* One pass of a counting sort, which keeps the order of equals. `starts`: vertex_count + 1. */
+/* One pass of a counting sort, which is stable. `starts`: vertex_count + 1. */
 static void sort_edges(const corner_mesh *m, uint32_t *out, const uint32_t *in, uint32_t n, uint32_t *starts, int high)
 {
     uint32_t i, v;
@@ -89,7 +89,7 @@ void corner_mesh_drop(corner_mesh *m, uint32_t c)
     --m->live;
 }
 
-/* The corner's triangle has vertex v beside the corner. */
+/* Returns whether vertex v is another corner of the triangle. */
 static int touches(const corner_mesh *m, uint32_t c, uint32_t v)
 {
     return m->vertex[corner_after(c)] == v || m->vertex[corner_before(c)] == v;
@@ -123,7 +123,7 @@ static uint32_t faces_of(const corner_mesh *m, uint32_t a, uint32_t b)
     return n;
 }
 
-/* A hub of many triangles keeps its flag, because nothing else looks at all of its triangles either. */
+/* A hub of many triangles keeps its flag, because nothing visits all of its triangles. */
 static uint8_t has_border(const corner_mesh *m, uint32_t v)
 {
     uint32_t c;
@@ -135,7 +135,7 @@ static uint8_t has_border(const corner_mesh *m, uint32_t v)
     return 0;
 }
 
-/* Where a border edge has collapsed, its hole may have closed. */
+/* Clears border flags after a border edge collapsed, because the hole may have closed. */
 static void mend_borders(corner_mesh *m, uint32_t a)
 {
     uint32_t c;
@@ -152,7 +152,7 @@ static void join_materials(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
     const dvec edge = dvec_sub(m->places[b], m->places[a]);
     double s = dvec_dot(dvec_sub(at, m->places[a]), edge) / dvec_dot(edge, edge);
     int k;
-    s = s > 0 ? s < 1 ? s : 1 : 0; /* no edge (0 / 0): a's */
+    s = s > 0 ? s < 1 ? s : 1 : 0; /* no edge (0 / 0): use a */
     for (k = 0; k < 6; ++k)
         m->looks[a][k] = (float)((1 - s) * (double)m->looks[a][k] + s * (double)m->looks[b][k]);
 }
@@ -190,15 +190,16 @@ static void mark_around(corner_mesh *m, uint32_t a, uint32_t b)
             m->mark[m->vertex[m->vertex[corner_after(c)] == b ? corner_before(c) : corner_after(c)]] = m->epoch + 1;
 }
 
-/* The faces of edge a b would leave a third vertex with nothing, or with two triangles back to back. */
+/* Returns whether removing the faces of edge a b would leave a third vertex without triangles, or with two back to
+ * back. */
 static int strands(const corner_mesh *m, uint32_t c, uint32_t a)
 {
     const uint32_t v = m->vertex[m->vertex[corner_after(c)] == a ? corner_before(c) : corner_after(c)];
     return m->valence[v] <= (m->border[v] ? 1u : 3u);
 }
 
-/* v is a neighbour of a and of b, and faces none of their edge's triangles: joining a and b closes the three-sided hole
- * a b v; where their edges have more faces, it would pinch off what the ring a b v goes around. */
+/* v is a neighbour of a and b, but in none of the triangles at their edge. Returns whether joining a and b closes
+ * the three-sided hole a b v. If their edges have more faces, it would pinch off the surface inside the ring a b v. */
 static int is_hole(const corner_mesh *m, uint32_t a, uint32_t b, uint32_t v)
 {
     return faces_of(m, a, b) == 1 && faces_of(m, a, v) == 1 && faces_of(m, b, v) == 1;
@@ -232,8 +233,8 @@ static double longest_side2(dvec a, dvec b, dvec c)
     return larger(dvec_dot(ab, ab), larger(dvec_dot(bc, bc), dvec_dot(ca, ca)));
 }
 
-/* The triangle of corner c stays a triangle, on the same side, when the corner moves. One without area, before, has no
- * side to lose. */
+/* Returns whether the triangle of corner c keeps its orientation when the corner moves. A triangle without area has
+ * none to lose. */
 static int survives(const corner_mesh *m, uint32_t c, dvec at)
 {
     const dvec p = place(m, c), q = place(m, corner_after(c)), r = place(m, corner_before(c));

@@ -38,7 +38,7 @@ static uint32_t table_size(uint32_t n)
     return size;
 }
 
-/* The slot of the vertex's place in a table of vertex numbers: free, or of the first vertex there. */
+/* The slot of a vertex position in a table of vertex numbers: free, or holds the first vertex there. */
 static uint32_t slot_of(const uint32_t *table, uint32_t size, const float *positions, uint32_t v)
 {
     const float *p = positions + 3 * (size_t)v;
@@ -48,7 +48,7 @@ static uint32_t slot_of(const uint32_t *table, uint32_t size, const float *posit
     return slot;
 }
 
-/* same[v]: the number of v's place, counted in the order of their first vertices; CORNER_NONE: not finite. */
+/* same[v]: the index of v's position, in the order of first vertices; CORNER_NONE: not finite. */
 static int weld(uint32_t *same, uint32_t *count, const triangle_mesh *in, simplify_facts *facts, counted_heap *t)
 {
     const uint32_t size = table_size(in->vertex_count);
@@ -107,7 +107,7 @@ void corner_mesh_free(corner_mesh *m, counted_heap *t)
     memset(m, 0, sizeof *m);
 }
 
-/* Places, and the sums of the looks of the vertices there. */
+/* Reads positions, and sums of the normals and colours of the vertices there. */
 static void read_vertices(corner_mesh *m, const triangle_mesh *in, const uint32_t *same)
 {
     uint32_t v;
@@ -172,7 +172,7 @@ static void find_borders(corner_mesh *m, const uint32_t *edges)
     }
 }
 
-/* Vertices of one place have the mean of their looks; without normals, the faces' by area. */
+/* Vertices at one position get the mean of their normals and colours; without normals, that of the faces by area. */
 static void finish_materials(corner_mesh *m, const triangle_mesh *in, const uint32_t *same, float *shares)
 {
     uint32_t v, c;

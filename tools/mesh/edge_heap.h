@@ -4,14 +4,14 @@
 
 #include <stdint.h>
 
-/* Orders by cost, then by vertices, then by stamp: no two entries are equal, so that the order in which they come out
- * depends on nothing else. */
+/* Orders by cost, then by vertices, then by stamp. No two entries are equal, so the pop order depends on nothing
+ * else. */
 typedef struct heap_edge {
     double cost; /* no NaN */
     uint32_t a, b, stamp;
 } heap_edge;
 
-/* The caller's array. */
+/* An array that you provide. */
 typedef struct edge_heap {
     heap_edge *edges;
     uint32_t count, cap;
@@ -25,7 +25,7 @@ void edge_heap_push(edge_heap *h, heap_edge e);
 /* edge_heap_pop: count > 0. */
 heap_edge edge_heap_pop(edge_heap *h);
 
-/* edge_heap_order: after the caller wrote `edges` and `count` itself. */
+/* edge_heap_order: makes a heap after you filled `edges` and `count`. */
 void edge_heap_order(edge_heap *h);
 
 #endif

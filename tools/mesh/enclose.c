@@ -1,17 +1,17 @@
-/* enclose.c: for each vertex that sticks out, the nearest triangle is moved until it is reached. */
+/* enclose.c: moves the nearest triangle of each vertex that sticks out, until it reaches the vertex. */
 #include "enclose.h"
 
 #include "triangle_tree.h"
 
 #define UNUSED UINT32_MAX
-#define ROUNDS 4    /* searches for the nearest triangles; later ones find new ones, but little: two sides of a thin
-                       sheet that pass through each other then push each other apart */
-#define SWEEPS 8    /* over what a search found. Steps of a part of the way, the last the whole one: moves that serve */
+#define ROUNDS 4    /* searches for the nearest triangles; more would gain little: two sides of a thin sheet that
+                     * pass through each other would push each other apart */
+#define SWEEPS 8    /* passes over the results of a search. The first take a part of the way, the last the whole */
 #define STEP   0.15 /* many vertices at once overshoot by a tenth less */
-#define ENOUGH 1e-6 /* of the mesh's size: what may stick out */
+#define ENOUGH 1e-6 /* of the mesh's size: may still stick out */
 
 typedef struct sticker {
-    nearest on;  /* the simple mesh; its triangle UNUSED: no triangle has the vertex, or it is not finite */
+    nearest on;  /* on the simple mesh; triangle UNUSED: no triangle has the vertex, or it is not finite */
     dvec normal; /* of the faces at the vertex, by area */
 } sticker;
 
@@ -34,15 +34,15 @@ static void find_normals(sticker *found, const triangle_mesh *inner)
     }
 }
 
-/* Over the nearest triangle, and on the outside of what it belongs to: a vertex whose normal points back at the
- * triangle belongs to the other side of a thin sheet, or to something inside. */
+/* Above the nearest triangle, and on the outside of the inner surface. If the vertex normal points back at the
+ * triangle, the vertex belongs to the other side of a thin sheet, or to something inside. */
 static int sticks_out(const sticker *s, dvec p)
 {
     return s->on.triangle != UNUSED && nearest_is_outside(&s->on, p)
         && dvec_dot(s->normal, dvec_sub(p, s->on.point)) >= 0;
 }
 
-/* The nearest triangle of each vertex. How far sticks out what sticks out most. */
+/* Finds the nearest triangle of each vertex. Returns the largest distance that a vertex sticks out. */
 static double search(sticker *found, const triangle_tree *tree, const triangle_mesh *inner)
 {
     double max = 0;
@@ -59,7 +59,7 @@ static double search(sticker *found, const triangle_tree *tree, const triangle_m
     return sqrt(max);
 }
 
-/* Moves the triangle's point by `step` with the least moves of its corners: in proportion to their weights. */
+/* Moves a point of the triangle by `step` with the smallest moves of the corners: in proportion to their weights. */
 static void move_point(triangle_mesh *m, const nearest *n, dvec step)
 {
     const double *w = n->weight, all = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
@@ -77,7 +77,7 @@ static dvec moved_point(const triangle_mesh *m, const nearest *n)
     return dvec_add(ab, dvec_mul(vertex_of(m, v[2]), n->weight[2]));
 }
 
-/* One projection after the other (Kaczmarz 1937): where a triangle has moved for one vertex, the next needs less. */
+/* One projection after the other (Kaczmarz 1937): if a triangle has moved for one vertex, the next needs less. */
 static void sweep(triangle_mesh *simple, const sticker *found, const triangle_mesh *inner, double step)
 {
     uint32_t v;

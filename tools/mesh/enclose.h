@@ -5,18 +5,18 @@
 #include "../common/counted_alloc.h"
 #include "simplify.h"
 
-/* mesh_enclose: moves the vertices of `simple` so that those of `inner` come to lie inside or on it; where it has an
- * open border, the border moves outwards as well. Both have faces that are turned outwards. What is inner's alone, or
- * another part of it than the nearest one, may still stick out.
+/* mesh_enclose: moves the vertices of `simple` outwards until those of `inner` lie inside or on it; open borders move
+ * outwards as well. Faces of both must be turned outwards. Vertices may still stick out if their part of `inner` has no
+ * counterpart in `simple`, or is not the one that is nearest.
  *
- *   simple   finite positions, and one vertex in one place, as simplify_mesh makes it (with as many triangles as it
- *            gets, that only welds); stays as it is without triangles.
- *   outside  written: how far a vertex of `inner` sticks out in the end, metres.
+ *   simple   finite positions, one vertex per position, as simplify_mesh makes it (if you ask for as many triangles
+ *            as there are, it only welds); unchanged if it has no triangles
+ *   outside  receives the largest distance that a vertex of `inner` sticks out in the end, metres
  *
- * 0: no memory. */
+ * Returns 0: no memory. */
 int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, counted_heap *t);
 
-/* mesh_outside: only says how far a vertex of `inner` sticks out. */
+/* mesh_outside: only measures how far a vertex of `inner` sticks out. */
 int mesh_outside(triangle_mesh *simple, const triangle_mesh *inner, double *outside, counted_heap *t);
 
 #endif

@@ -1,11 +1,11 @@
-/* quadric.h: sums of squared distances to planes (Garland and Heckbert 1997), and where they are least. */
+/* quadric.h: sums of squared distances to planes (Garland and Heckbert 1997), and their minimum. */
 #ifndef QUADRIC_H
 #define QUADRIC_H
 
 #include "../common/dvec.h"
 
-/* Error at p: p'A p + 2 b'p + c, weight times square metres. Its rounding is that of a distance of 1e-8 times the
- * distance to the origin: less than that of the binary32 positions that come in. */
+/* Error at p: p'A p + 2 b'p + c, weight times square metres. The rounding error equals a distance of 1e-8 times the
+ * distance to the origin: less than that of the binary32 input positions. */
 typedef struct quadric {
     double xx, xy, xz, yy, yz, zz; /* A */
     dvec b;
@@ -49,7 +49,7 @@ static inline dvec quadric_turned(quadric q, dvec p)
                    q.xz * p.x + q.yz * p.y + q.zz * p.z);
 }
 
-/* Rounding may take it under 0, and a NaN would upset the heap: both are 0. */
+/* Rounding may make it negative, and a NaN would break the heap: both become 0. */
 static inline double quadric_error(quadric q, dvec p)
 {
     const double e = dvec_dot(quadric_turned(q, p), p) + 2 * dvec_dot(q.b, p) + q.c;
@@ -58,7 +58,7 @@ static inline double quadric_error(quadric q, dvec p)
 
 static inline double quadric_trace(quadric q) { return q.xx + q.yy + q.zz; }
 
-/* The square of the distance to `to` added: what draws the least point to a place where the planes leave it free. */
+/* Adds the squared distance to `to`, which pulls the minimum there as far as the planes leave it free. */
 static inline quadric quadric_drawn(quadric q, dvec to, double weight)
 {
     q.xx += weight;
@@ -69,8 +69,8 @@ static inline quadric quadric_drawn(quadric q, dvec to, double weight)
     return q;
 }
 
-/* Where the error of a positive definite q is least, by LDL'. It is solved for the step from `near`, so that a place
- * far from the origin costs no digits. 0: not definite. */
+/* Finds the minimum of a positive definite q by LDL'. Solves for the step from `near`, so that positions far from
+ * the origin lose no digits. Returns 0: not definite. */
 static inline int quadric_min(dvec *min, quadric q, dvec near)
 {
     const dvec g = dvec_add(quadric_turned(q, near), q.b);

@@ -1,4 +1,4 @@
-/* simplify.c: collapses the edge whose quadric error is least until few enough triangles are left. */
+/* simplify.c: collapses the edge with the least quadric error until few enough triangles are left. */
 #include "simplify.h"
 
 #include <string.h>
@@ -8,15 +8,15 @@
 #include "enclose.h"
 #include "quadric.h"
 
-/* A border edge holds its place like the square over it. With 3, 10 or 100 the rims of many small holes take the
- * triangles that the rest needs: a rhino of 800 holes misses 0.46, 0.57, 0.99 % of its pixels instead of 0.40. */
+/* A border edge weighs like a square on it. With 3, 10 or 100 the rims of many small holes take the triangles that
+ * the rest needs: a rhino of 800 holes misses 0.46, 0.57, 0.99 % of its pixels instead of 0.40. */
 #define BORDER_WEIGHT 1
-/* Of a quadric's trace: what draws the point to the edge's middle where the planes leave it free, as on a flat face; so
- * little that a corner of three planes stays where it is. */
+/* Of a quadric's trace: pulls the point to the edge's middle if the planes leave it free, as on a flat face; too
+ * small to move a corner of three planes. */
 #define DRAW 1e-6
-/* Of the area times the edge's square: what a flat place's collapses cost, so that short edges go first. */
+/* Of the area times the squared edge length: cost of a collapse on a flat face, so that short edges go first. */
 #define LENGTH_COST 1e-6
-/* Parts of so few triangles may vanish. */
+/* Parts of at most this many triangles may vanish. */
 #define PART 16
 
 typedef struct simplifier {
@@ -29,7 +29,7 @@ typedef struct simplifier {
     simplify_facts *facts;
 } simplifier;
 
-/* Room for a quarter more edges than there are, so that a sweep of the stale ones makes room for many. */
+/* Room for a quarter more edges than there are, so that removing stale entries makes room for many. */
 static uint32_t edge_room(const corner_mesh *m, const uint32_t *edges)
 {
     uint32_t i, n = 0;
@@ -83,10 +83,10 @@ static void add_borders(simplifier *s, const uint32_t *edges)
     }
 }
 
-/* --- where to, and what it costs --- */
+/* --- positions and costs ----------- */
 
-/* Where the edge's vertices meet, and the error there. A border vertex pulls an inner one to its place, for borders are
- * lines that stay. */
+/* Finds the position for the joined vertex, and the error there. A border vertex pulls an inner one to it, because
+ * borders must stay. */
 static int place_edge(const simplifier *s, uint32_t a, uint32_t b, dvec *at, double *cost)
 {
     const corner_mesh *m = &s->mesh;
@@ -105,7 +105,7 @@ static int place_edge(const simplifier *s, uint32_t a, uint32_t b, dvec *at, dou
 
 static int is_stale(const simplifier *s, const heap_edge *e) { return s->stamps[e->a] + s->stamps[e->b] != e->stamp; }
 
-/* An edge has one entry that is not stale, and there are fewer and fewer edges: a fifth of the room gets free. */
+/* An edge has one entry that is not stale, and edges get fewer: this frees a fifth of the room. */
 static void sweep(simplifier *s)
 {
     uint32_t i, n = 0;
@@ -137,7 +137,7 @@ static void push_edge(simplifier *s, uint32_t a, uint32_t b)
         push(s, a, b, cost);
 }
 
-/* All edges there are. */
+/* Adds all existing edges. */
 static void fill(simplifier *s, const uint32_t *edges)
 {
     const corner_mesh *m = &s->mesh;
@@ -168,7 +168,7 @@ static void collapse(simplifier *s, uint32_t a, uint32_t b, dvec at)
         }
 }
 
-/* What it costs that a part is gone: its surface is as far from any other as it is large. */
+/* The cost of removing a part: the surface of a part is as far from any other as it is large. */
 static double part_cost(const corner_mesh *m, const uint32_t *part, uint32_t n)
 {
     double area = 0, across = 0;
@@ -183,7 +183,7 @@ static double part_cost(const corner_mesh *m, const uint32_t *part, uint32_t n)
     return area * across;
 }
 
-/* A small part that can't collapse goes when it is the cheapest thing to lose; the last part stays. */
+/* A small part that cannot collapse is removed when that is the cheapest change; the last part stays. */
 static void vanish(simplifier *s, const heap_edge *e)
 {
     corner_mesh *m = &s->mesh;
@@ -219,7 +219,7 @@ static void take(simplifier *s, heap_edge e)
 
 /* --- all of it --- */
 
-/* 0: no memory. */
+/* Returns 0: no memory. */
 static int prepare(simplifier *s)
 {
     corner_mesh *m = &s->mesh;
@@ -259,7 +259,7 @@ static void release(simplifier *s)
     corner_mesh_free(&s->mesh, &s->memory);
 }
 
-/* The welded input, which the result is to enclose. */
+/* Keeps the welded input, which the result has to enclose. */
 static int keep_inner(simplifier *s, triangle_mesh *inner)
 {
     if (!corner_mesh_write(&s->mesh, inner, 0, &s->memory))

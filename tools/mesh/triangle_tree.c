@@ -1,4 +1,4 @@
-/* triangle_tree.c: boxes around halves of halves of a mesh, and a search that leaves out what is too far. */
+/* triangle_tree.c: bounding boxes of repeatedly halved sets of triangles, and a search that skips distant boxes. */
 #include "triangle_tree.h"
 
 #include <string.h>
@@ -67,7 +67,7 @@ static void halve(const triangle_mesh *m, uint32_t *order, uint32_t n, uint32_t 
                 order[i] = swap;
             }
         }
-        /* i triangles come before the pivot; it is among the others, and goes to their front. */
+        /* i triangles come before the pivot; it is among the others, and moves to their front. */
         for (k = i; order[k] != pivot; ++k)
             continue;
         order[k] = order[i];
@@ -169,7 +169,7 @@ void triangle_tree_free(triangle_tree *tree, counted_heap *t)
 
 static double clamp01(double v) { return v > 0 ? v < 1 ? v : 1 : 0; }
 
-/* How far along a b the point nearest to p lies; 0 where a and b are one. */
+/* The position on a b nearest to p; 0 if a and b are equal. */
 static double share_of_edge(dvec p, dvec a, dvec b)
 {
     const dvec ab = dvec_sub(b, a);
@@ -192,7 +192,7 @@ static void try_edge(nearest *best, dvec p, const dvec v[3], int k)
     best->weight[3 - k - l] = 0;
 }
 
-/* Between two directions, to 7e-5 (Abramowitz and Stegun 4.4.45): libm's differs from machine to machine. */
+/* Angle between two directions, to 7e-5 (Abramowitz and Stegun 4.4.45), because libm differs between machines. */
 static double angle(dvec a, dvec b)
 {
     const double c = dvec_dot(dvec_unit(a), dvec_unit(b)), x = fabs(c) < 1 ? fabs(c) : 1;
@@ -200,7 +200,7 @@ static double angle(dvec a, dvec b)
     return c < 0 ? PI - acute : acute;
 }
 
-/* The foot of p on the plane where it is inside the triangle, else the nearest point of the three edges. */
+/* The projection of p if it lies inside the triangle, otherwise the nearest point of the three edges. */
 static nearest nearest_of_triangle(const triangle_mesh *m, uint32_t t, dvec p)
 {
     const dvec v[3] = {dvec_read(corner(m, t, 0)), dvec_read(corner(m, t, 1)), dvec_read(corner(m, t, 2))};
@@ -244,8 +244,8 @@ static double box_distance2(const tree_box *b, dvec p)
     return sum;
 }
 
-/* Nearer; or as near: then both have the point, and their normals, weighted by their angles there, add up to one that
- * tells the side right (Baerentzen and Aanaes 2005). */
+/* Takes n if it is nearer. If both are as near, they share the point, and the sum of their normals weighted by their
+ * angles there decides the side correctly (Baerentzen and Aanaes 2005). */
 static void take_if_nearer(nearest *best, const nearest *n)
 {
     const double slack = TIE * best->distance2;
@@ -261,7 +261,7 @@ static void take_if_nearer(nearest *best, const nearest *n)
     best->normal = sum;
 }
 
-/* All of a leaf but the guess, which the search began with. */
+/* Searches a leaf, except for the guess that the search began with. */
 static void search_leaf(const triangle_tree *tree, nearest *best, uint32_t leaf, dvec from, uint32_t guess)
 {
     uint32_t i;

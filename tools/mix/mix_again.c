@@ -1,4 +1,4 @@
-/* mix_again.c: what a frame has found of its pixels, kept for another photo of the same places. */
+/* mix_again.c: the result of a frame, kept per pixel and reused for another photo of the same scene. */
 #include "mix_again.h"
 
 #include "mix_frames.h"
@@ -40,7 +40,7 @@ void mix_again_keep(mix_job *j, const lmb_tile *real, const lmb_irradiance *with
     }
 }
 
-/* What a pixel keeps; NULL: it is new, or there is none. */
+/* The stored result of a pixel. NULL: the depth is new, or the pixel lies outside the photo. */
 static const mix_answer *kept_of(const mix_job *j, const lmb_tile *real, int k)
 {
     const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE, width = j->frame.light.width;
@@ -76,7 +76,7 @@ void mix_again_object(lmb_radiance *object, float *covered, const mix_job *j, co
     }
 }
 
-/* As many pixels as a tile has, or the last ones. */
+/* As many pixels as a tile has, fewer at the end. */
 static void draw_run(mix_job *j, size_t at, int32_t count)
 {
     const mix_answer *a = &j->answer[at];

@@ -1,5 +1,4 @@
-/* mix_around.c: what is around the object where the lights are known: the fold of the photo without what lamps give only
- * the surfaces that are seen, and without the lamps. */
+/* mix_around.c: the environment if the lights are given: folded from a photo without the lamps and their light. */
 #include "mix_around.h"
 
 #include <stddef.h>
@@ -13,8 +12,8 @@ typedef struct around {
     image unlit;
 } around;
 
-/* Of what lamps send, what goes where the photo shows nothing, over what goes where it does; at most 1. By a texel of
- * each tile of their maps. */
+/* Power of the lamps towards directions that the photo does not show, divided by the power towards those it shows; at
+ * most 1. Reads one texel per tile of the shadow maps. */
 static float elsewhere(const mix_job *j)
 {
     double sent[2] = {0.0, 0.0};
@@ -37,8 +36,8 @@ static float elsewhere(const mix_job *j)
     return sent[0] < sent[1] ? (float)(sent[0] / sent[1]) : 1.0f;
 }
 
-/* What a surface would show if it received what is around, and `share` of what lamps send it. What is brighter than any
- * surface so lit is itself a source. */
+/* Sets pixels to the radiance of their surface under the environment and `share` of the lamps' light. A pixel brighter
+ * than any surface under this light is itself a source. */
 static void unlight_tile(around *a, int32_t x, int32_t y, float share)
 {
     mix_job *j = a->j;
@@ -74,7 +73,7 @@ int mix_around(mix_job *j, report *r)
     a->j = j;
     a->unlit = j->frame.light;
     a->unlit.pixels = pixels;
-    memcpy(pixels, j->frame.light.pixels, bytes); /* where there is no surface */
+    memcpy(pixels, j->frame.light.pixels, bytes); /* pixels without a surface */
     for (int32_t y = 0; y < a->unlit.height; y += LMB_TILE) {
         for (int32_t x = 0; x < a->unlit.width; x += LMB_TILE) {
             unlight_tile(a, x, y, share);

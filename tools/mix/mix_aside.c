@@ -1,4 +1,4 @@
-/* mix_aside.c: work that is done beside a picture's rows. */
+/* mix_aside.c: work that runs beside the rows of a picture. */
 #include "mix_job.h"
 
 void mix_aside_run(mix_aside *a, int threads)

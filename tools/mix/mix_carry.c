@@ -1,4 +1,4 @@
-/* mix_carry.c: light from around at a frame's pixels, kept for the next frame. */
+/* mix_carry.c: indirect light at a frame's pixels, kept for the next frame. */
 #include "mix_carry.h"
 
 #include <math.h>
@@ -8,11 +8,12 @@
 
 enum { AGAIN = 24 /* frames after which a tile is traced again */, BESIDE = 2 /* px, to each side */ };
 
-/* Places of two frames are one where their distances agree and their normals are this near, as a cosine. */
+/* Pixels of two frames show the same place if their distances agree and the cosine between their normals is over
+ * this. */
 #define ALIKE 0.7f
 #define ENOUGH 0.5f /* of the weights of four pixels around a place */
-#define SMOOTH 0.9f /* pixels of one tile are on one surface: least cosine of their normals */
-#define FLAT 0.3f   /* and most that one lies over the other's plane, of the distance between them */
+#define SMOOTH 0.9f /* minimum cosine between normals of pixels on one surface */
+#define FLAT 0.3f   /* maximum distance from the other pixel's plane, as a share of the distance between the pixels */
 
 int mix_carry_take(mix_job *j, report *r)
 {
@@ -29,7 +30,8 @@ int mix_carry_take(mix_job *j, report *r)
     return j->carried != NULL && j->lit != NULL;
 }
 
-/* Of a world that was made anew all is traced anew: else tiles of old light and of new lie side by side. */
+/* If the voxels are new, or the light has changed, all tiles are traced again. Otherwise tiles with old and new light
+ * would lie side by side. */
 static int has_last(const mix_job *j)
 {
     const mix_job *last = j->kept != NULL ? j->kept->last : NULL;
@@ -45,10 +47,10 @@ int mix_carry_turn(const mix_job *j, int32_t x, int32_t y) { return turn_of(j, x
 
 static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/* Where and how the frame before saw a pixel's place. */
+/* Position and orientation of a pixel's place in the previous frame. */
 typedef struct there {
     float x, y, inverse;
-    lmb_vec3 normal; /* in its camera's space */
+    lmb_vec3 normal; /* in that frame's camera space */
 } there;
 
 static lmb_vec3 to_camera(const mix_job *j, lmb_vec3 v)
@@ -84,7 +86,7 @@ int mix_carry_see(float *x, float *y, const mix_job *last, lmb_vec3 at)
     return is_seen(&t);
 }
 
-/* Is a pixel of the frame before of the same place? */
+/* Does a pixel of the previous frame show the same place? */
 static int is_same(const mix_job *last, const there *t, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &last->frame.camera;
@@ -127,8 +129,8 @@ static int get_pixel(mix_carried *out, const mix_job *last, const there *t)
     return sum >= ENOUGH;
 }
 
-/* Where noise hides a place, or turns its normal, the light of the nearest pixel around it that shows its surface: a new
- * trace is 0.1 to 0.2 dB nearer, and pixels like this one are most of those that would be traced. */
+/* If noise hides a place or turns its normal, the light of the nearest pixel on the same surface. A new trace would be
+ * 0.1 to 0.2 dB more accurate, but such pixels would be most of the traced ones. */
 static int get_near(mix_carried *out, const mix_job *last, const there *t)
 {
     const int32_t w = last->frame.camera.width, u = (int32_t)floorf(t->x + 0.5f), v = (int32_t)floorf(t->y + 0.5f);
@@ -182,7 +184,7 @@ static int is_beside(const lmb_tile *t, int a, int b)
     return along(n, m) > SMOOTH && over * over <= FLAT * FLAT * along(d, d);
 }
 
-/* The nearest one of the pixels around k; -1: none. */
+/* The nearest carried pixel around k on the same surface, or -1. */
 static int find_beside(const lmb_tile *t, uint64_t carried, int k)
 {
     const int x = k % LMB_TILE, y = k / LMB_TILE;

@@ -1,4 +1,4 @@
-/* mix_cast.c: the sun that a photo's own shadows tell of: places of its planes that are dark where depth explains that. */
+/* mix_cast.c: a sun estimated from the cast shadows in a photo: dark places on planes that the geometry explains. */
 #include "mix_cast.h"
 
 #include <math.h>
@@ -9,21 +9,22 @@
 
 enum { COLUMNS = 80 /* of places, about */, WAYS = 240, TURNS = 8, RAYS = 16, TERMS = 6, FEW = 24 /* places */ };
 
-#define LOWEST  0.2f   /* sine of a sun's height */
-#define CLEAR   0.005f /* m: what is nearer to a place is its own plane. More makes shadows shorter, and the sun lower */
+#define LOWEST  0.2f   /* sine of the minimum sun elevation */
+#define CLEAR   0.005f /* m: nearer geometry is the same plane. A larger value shortens shadows and lowers the sun */
 #define CLIPPED 0.98f
 #define DARKEST 1e-4f
 #define WHITE   0.05   /* of a plane's pixels */
-#define RED_STOPS  0.5f /* from the plane's mean colour on a place is of another colour: a sun and a sky differ by blue */
+#define RED_STOPS  0.5f /* maximum difference from the plane's mean colour: sun and sky differ in blue */
 #define BLUE_STOPS 0.9f
-#define DARKER  3.0    /* stops: what is darker is a picture or a rug, no shadow */
-#define STOPS   1.5f   /* by which a place's light counts at most: pictures on a wall are no shadows */
+#define DARKER  3.0    /* stops: a larger step is a picture or a rug, not a shadow */
+#define STOPS   1.5f   /* limit of a place's deviation: pictures on a wall are not shadows */
 
-/* A place of a plane: how far its light is from the plane's other places, in stops, smooth change taken out. */
+/* A place on a plane: the deviation of the light from the plane's other places, in stops, with smooth variation
+ * removed. */
 typedef struct place {
     lmb_vec3 at, normal;
     float depth, light;
-    float term[TERMS]; /* what changes smoothly over the plane: each of unit length there, and at right angles to others */
+    float term[TERMS]; /* orthonormal basis of the smooth variation over the plane */
 } place;
 
 typedef struct cast {
@@ -31,11 +32,11 @@ typedef struct cast {
     lmb_bvh bvh;
     void *memory;
     place *all; /* by plane */
-    float *lit;  /* by place: of the sun that is asked, 0 .. 1 */
-    float *open; /* by place: of all that is above, 0 .. 1; then without what changes smoothly */
+    float *lit;  /* by place: visible share of the tested sun, 0 .. 1 */
+    float *open; /* by place: visible share of the sky, 0 .. 1; later without the smooth variation */
     int32_t first[LMB_MAX_PLANES + 1];
     lmb_traversal traversal;
-    double total; /* of the light's squares */
+    double total; /* sum of squared light deviations */
 } cast;
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -60,8 +61,8 @@ static int32_t step_of(const mix_job *j)
     return step < 1 ? 1 : step;
 }
 
-/* A plane's own look: the channel that tells its light, which is its brightest one that is hardly anywhere white; and its
- * mean colour, as stops of red and blue over green. */
+/* The appearance of a plane: the channel used for brightness, which is the brightest one that is rarely clipped, and
+ * the mean colour in stops of red and blue over green. */
 typedef struct look {
     int channel;
     float red, blue;
@@ -84,7 +85,7 @@ static look look_of(const mix_job *j, int32_t p)
     }
     double best = -(double)INFINITY;
     for (int c = 0; c < 3; ++c) {
-        const double value = sum[c] - (white[c] > WHITE * n ? 4.0 * n + 2.0 * sum[c] : 0.0); /* of white ones the darkest */
+        const double value = sum[c] - (white[c] > WHITE * n ? 4.0 * n + 2.0 * sum[c] : 0.0); /* all clipped: darkest */
         if (value > best) {
             best = value;
             out.channel = c;
@@ -95,8 +96,8 @@ static look look_of(const mix_job *j, int32_t p)
     return out;
 }
 
-/* The light of a block of plane p; 0 where some of it is another's, or white, or where its colour is no shadow's: those are
- * bluer or redder than what is beside them, but hardly greener. */
+/* The light of a block of plane p. Returns 0 if a pixel belongs to another plane or is clipped, or if the colour is not
+ * that of a shadow: shadows are bluer or redder than their surroundings, but hardly greener. */
 static float light_of(const mix_job *j, int32_t p, const look *l, int32_t x0, int32_t y0, int32_t step)
 {
     float sum[3] = {0, 0, 0}, peak = 0.0f;
@@ -142,7 +143,7 @@ static int32_t add_plane(cast *c, int32_t p, int32_t n)
     return n;
 }
 
-/* Terms of unit length at right angles to each other, by Gram and Schmidt. */
+/* Makes the terms orthonormal (Gram-Schmidt). */
 static void set_terms(place *p, int32_t n)
 {
     for (int t = 0; t < TERMS; ++t) {
@@ -165,7 +166,7 @@ static void set_terms(place *p, int32_t n)
     }
 }
 
-/* Takes out of values what the terms explain. */
+/* Removes from the values the part that the terms explain. */
 static void flatten(float *value, size_t stride, const place *p, int32_t n)
 {
     for (int t = 0; t < TERMS; ++t) {
@@ -202,7 +203,7 @@ static void find_places(cast *c)
 
 /* --- a sun -------------------------------------------------------------------------------------------------------- */
 
-/* Adds `weight` to the places that see a sun. */
+/* Adds `weight` to the places that see the sun. */
 static void add_seen(cast *c, lmb_vec3 to, float weight)
 {
     const int32_t all = c->first[c->j->planes.count];
@@ -227,7 +228,7 @@ static void add_seen(cast *c, lmb_vec3 to, float weight)
     }
 }
 
-/* What all ways bring that a plane faces. */
+/* Adds one direction to the cosine-weighted visible share of the sky. */
 static void add_open(cast *c, lmb_vec3 to)
 {
     for (int32_t i = 0; i < c->first[c->j->planes.count]; ++i) {
@@ -235,8 +236,8 @@ static void add_open(cast *c, lmb_vec3 to)
     }
 }
 
-/* What its shadows explain: squares of stops, less those that they would have the wrong way round. *stops: by how many
- * they would be darker on a surface that faces the sun. */
+/* Returns the squared stops that the sun's shadows explain, minus those with the wrong sign. *stops: darkening by a
+ * shadow on a surface that faces the sun. */
 static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_first)
 {
     const int32_t all = c->first[c->j->planes.count], rays = size > 0.0f ? RAYS : 1;
@@ -296,8 +297,8 @@ static void search(mix_cast *out, cast *c, double *best)
     }
 }
 
-/* What comes from everywhere is darker beside things, too: takes out of the places' light what of that belongs to how open
- * they are, by both at once. */
+/* Ambient light is also darker near objects. Fits visible sky and sun together and removes the sky's part from the
+ * light of the places. */
 static void take_open(cast *c, lmb_vec3 to)
 {
     double oo = 1e-9, vv = 1e-9, ov = 0.0, oy = 0.0, vy = 0.0, stops;
@@ -319,7 +320,7 @@ static void take_open(cast *c, lmb_vec3 to)
     }
 }
 
-/* By smaller and smaller steps. */
+/* Refines the direction in decreasing steps. */
 static void refine(mix_cast *out, cast *c, double *best)
 {
     double stops;

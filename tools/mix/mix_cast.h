@@ -1,19 +1,19 @@
-/* mix_cast.h: the sun that a photo's own shadows tell of. */
+/* mix_cast.h: a sun estimated from the cast shadows in a photo. */
 #ifndef MIX_CAST_H
 #define MIX_CAST_H
 
 #include "mix_job.h"
 
 typedef struct mix_cast {
-    lmb_vec3 to;      /* unit, towards the sun, in the scene's space */
+    lmb_vec3 to;      /* unit, towards the sun, in scene space */
     float size;       /* degrees */
-    float share;      /* what it gives a surface that faces it, over what comes from everywhere else */
+    float share;      /* irradiance on a surface that faces the sun, relative to the environment's */
     float sure;       /* 0 .. 1 */
-    float explained;  /* of what differs on the planes, the part that its shadow explains */
+    float explained;  /* share of the brightness variance on the planes that the sun's shadows explain */
 } mix_cast;
 
-/* mix_find_cast: a cast shadow is where depth explains that a plane is dark. Of suns all over the half sphere above, that
- * whose shadows of what is measured explain most; and how wide it is, by how soft they are. 1, or 0 without memory. */
+/* mix_find_cast: searches the upper hemisphere for the sun that best explains dark places on the planes by shadows of
+ * the measured geometry. Softness of the shadows gives the size of the sun. Returns 1, or 0 if memory is short. */
 int mix_find_cast(mix_cast *out, const mix_job *j);
 
 #endif

@@ -1,4 +1,4 @@
-/* mix_cones.c: light from around, by cones from some pixels of tiles side by side. */
+/* mix_cones.c: indirect light by cone tracing, at some pixels of a row of tiles. */
 #include "mix_carry.h"
 #include "mix_world.h"
 
@@ -7,16 +7,16 @@
 
 enum { STEP = 4 };
 
-/* The pixels of a tile that others lie between. A tile that is traced again needs these anew; of what noise, an edge or a
- * bent surface sets apart from them a third, another one each time. */
+/* The pixels between which the others are interpolated. A tile that is due traces all of these again, and a third of
+ * the pixels that noise, an edge or curvature keeps from being interpolated: another third each time. */
 #define CORNERS ((uint64_t)1 | (uint64_t)1 << 7 | (uint64_t)1 << 56 | (uint64_t)1 << 63)
-#define THIRD   (uint64_t)0x9249249249249249u /* of the pixels; shifted by one and by two the others */
+#define THIRD   (uint64_t)0x9249249249249249u /* of the pixels; shift by one and by two for the other thirds */
 
-/* Where what the object leaves of a tile's light differs by more between the pixels that are traced, all are: the dark under
- * a ball is narrower than what lies between them. */
+/* If the ratio of light with the object to light without it varies by more than this between traced pixels, all are
+ * traced: the dark spot under a ball is narrower than the pixel step. */
 #define STEEP 1.25f
 
-/* What comes from far away, nothing being in its way: of scenes without an object nothing else is asked. */
+/* Environment light without occlusion. A scene without an object needs nothing else. */
 static void add_around(lmb_irradiance *inout, const lmb_env *env, const lmb_tile *tile)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -54,7 +54,7 @@ void mix_put_place(lmb_tile *to, int n, const lmb_tile *from, int k)
     to->id[n] = from->id[k];
 }
 
-/* Trace the pixels that were put together, and put their light where they are from. */
+/* Traces the collected pixels and writes their light back to their tiles. */
 static void flush(mix_batch *b, const mix_job *j)
 {
     for (int32_t world = 0; world < 2 && b->gathered > 0; ++world) {
@@ -108,7 +108,8 @@ static int is_steep(const mix_batch *b, int32_t i, uint64_t known)
     return high > STEEP * low;
 }
 
-/* Tiles whose pixels are carried in part: those that are not are traced as in other tiles, by those that are. */
+/* Fills the pixels of a tile by interpolation; carried pixels keep their light. *more: the pixels that must be
+ * traced. */
 static void upsample(uint64_t more[1], mix_batch *b, int32_t i, uint64_t known, uint64_t carried)
 {
     const lmb_irradiance kept[2] = {b->light[0][i], b->light[1][i]};
@@ -126,7 +127,7 @@ static void upsample(uint64_t more[1], mix_batch *b, int32_t i, uint64_t known, 
     *more = (steep ? ~known : *more) & ~carried;
 }
 
-/* What the frame before knows of a tile: its pixels, or if it is traced again those alone that are not due. */
+/* The pixels carried from the previous frame; if the tile is due, only those that are not traced this time. */
 static uint64_t take_carried(mix_batch *b, const mix_job *j, int32_t i, uint64_t known)
 {
     const lmb_tile *real = &b->real[i];

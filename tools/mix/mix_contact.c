@@ -1,9 +1,9 @@
-/* mix_contact.c: the object touches what was measured; where nothing is to stand on, what there is, and the nearest place. */
+/* mix_contact.c: makes the object touch the measured surface; reports nearby places if there is nothing to stand on. */
 #include "mix_job.h"
 
 #include <math.h>
 
-/* What sensors bend a plane by at most; more is a step that the foot stands beside. */
+/* Maximum bend of a plane by sensor error. A larger gap is a step next to the foot. */
 #define MAX_BEND 0.05f
 
 #define FACES_UP 0.90630779f /* cosine of 25 degrees */
@@ -16,14 +16,14 @@ static lmb_vec3 times(lmb_vec3 v, float s)
     return out;
 }
 
-/* Unit, towards the camera, of inverse = slope . (ray x, ray y, 1). */
+/* Unit normal, towards the camera, of the plane inverse = slope . (ray x, ray y, 1). */
 static lmb_vec3 normal_of(const float slope[3])
 {
     const lmb_vec3 n = {-slope[0], -slope[1], slope[2]};
     return times(n, 1.0f / sqrtf(dot(n, n)));
 }
 
-/* A point's place when inverse distances grow by dq. */
+/* Moves a point so that the inverse distance grows by dq. */
 static lmb_vec3 moved(lmb_vec3 p, float dq) { return times(p, 1.0f / (1.0f - p.z * dq)); }
 
 void mix_lift_plane(mix_job *j, int32_t plane, float dq)
@@ -53,8 +53,8 @@ void mix_touch(mix_job *j, float gap_m)
     j->up = j->hangs ? j->up : j->planes.plane[j->floor].normal;
 }
 
-/* How far a pixel is from --at, squared; infinite where its plane does not face up, or, with `whole`, where the object
- * would not be wholly seen on it. */
+/* Squared distance of a pixel from --at. Infinite if the plane there does not face up, or, if `whole`, if the object
+ * would not be wholly in view. */
 static float unfit(const mix_job *j, int32_t x, int32_t y, lmb_vec3 up, const mix_extent *e, int whole)
 {
     const int32_t label = j->planes.label[y * j->frame.camera.width + x];
@@ -74,7 +74,7 @@ int mix_plane_near(int32_t at[2], const mix_job *j)
     const lmb_vec3 up = mix_up(j);
     mix_extent e = mix_extent_of(j);
     float min = INFINITY;
-    e.radius *= 1.4142136f; /* the corners of its box, whichever way it is turned */
+    e.radius *= 1.4142136f; /* the corners of the box, for any rotation */
     for (int whole = 1; whole >= 0 && min == INFINITY; --whole) {
         for (int32_t i = 0; i < pixels; ++i) {
             const float far = unfit(j, i % w, i / w, up, &e, whole);

@@ -1,4 +1,4 @@
-/* mix_draw.c: the photo's answer and the object over it, tile by tile. */
+/* mix_draw.c: the photo as the object changes it, and the object over it, tile by tile. */
 #include "mix_again.h"
 #include "mix_cones.h"
 #include "mix_front.h"
@@ -16,23 +16,23 @@
 #include "../common/progress.h"
 #include "../picture/picture.h"
 
-enum { MIX_SAMPLES = 16 }; /* at most */
+enum { MIX_SAMPLES = 16 }; /* maximum */
 
-/* Everything that one tile is made in. */
+/* The memory that one tile is drawn in. */
 typedef struct drawing {
     lmb_view view[MIX_SAMPLES]; /* by sample */
-    int32_t x0, y0;              /* of the photo in the views' frame */
+    int32_t x0, y0;              /* the photo's origin in the views' frame */
     lmb_target eye[MIX_SAMPLES]; /* the object's, by sample */
-    int32_t samples;             /* a pixel, of the object */
+    int32_t samples;             /* per pixel, of the object */
     mix_batch batch;
-    lmb_tile there;          /* a tile in the voxels' space */
-    lmb_tile object, before; /* before: what real things hide of it */
+    lmb_tile there;          /* a tile in voxel space */
+    lmb_tile object, before; /* before: real surfaces that hide it */
     mix_near near;
     lmb_irradiance lit;
     mix_lobes lobes;
     lmb_radiance light, photo;
     lmb_radiance bare; /* the photo before the object */
-    lmb_radiance over; /* the object's part of the pixels, and how much it covers of them */
+    lmb_radiance over; /* radiance and coverage of the object's part of the pixels */
     float covered[LMB_TILE_PIXELS];
     lmb_cone_seen seen[2];
 } drawing;
@@ -72,7 +72,7 @@ static int draw_sample(drawing *d, mix_job *j, binned *bins, int32_t i, report *
     return status == LMB_OK || report_fail(r, "the object cannot be drawn: %s", lmb_status_name(status));
 }
 
-/* Differences and the object alone are for measuring: one sample. */
+/* Differences, and the object without the photo, are for measuring: one sample. */
 static int32_t samples_of(const mix_options *o)
 {
     const int is_linear = picture_is_linear(picture_format(o->out));
@@ -88,7 +88,7 @@ static int draw_object(drawing *d, mix_job *j, report *r)
     binned bins;
     memset(&bins, 0, sizeof bins);
     int32_t i = d->samples;
-    while (i > 0 && draw_sample(d, j, &bins, i - 1, r)) { /* the first last: the others' views begin as its own */
+    while (i > 0 && draw_sample(d, j, &bins, i - 1, r)) { /* the first one last: the others' views derive from it */
         --i;
     }
     binned_free(&bins);
@@ -131,7 +131,7 @@ static void light_object(drawing *d, const mix_job *j, const lmb_view *view, int
     mix_lobes_finish(&d->light, &d->lobes, j, view, &d->object);
 }
 
-/* What is asked for instead of the whole: differences of real pixels, or the object's own. */
+/* Replaces the picture by the one that --show selects: differences of real pixels, or the object before black. */
 static void choose(drawing *d, const mix_job *j, const lmb_tile *real, uint64_t shown)
 {
     lmb_radiance before;
@@ -139,7 +139,7 @@ static void choose(drawing *d, const mix_job *j, const lmb_tile *real, uint64_t 
         return;
     }
     get_photo(&before, &j->frame.light, real->x, real->y);
-    /* Round middle grey where a picture cannot hold what is negative. */
+    /* Relative to middle grey if the format cannot hold negative values. */
     const float zero = j->o.show == MIX_DELTA && !picture_is_linear(picture_format(j->o.out)) ? 0.2140411f : 0.0f;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int is_object = (int)(shown >> k & 1);
@@ -152,7 +152,7 @@ static void choose(drawing *d, const mix_job *j, const lmb_tile *real, uint64_t 
     }
 }
 
-/* Does a tile show the plane that is varnished? */
+/* Does a tile show the varnished plane? */
 static int is_varnished(const mix_job *j, const lmb_tile *real)
 {
     for (int k = 0; k < LMB_TILE_PIXELS && j->o.specular > 0.0f && j->world != NULL; ++k) {
@@ -175,7 +175,7 @@ static void mirror(drawing *d, const mix_job *j, const lmb_tile *real)
     lmb_mirror_tile(&d->photo, real, &j->planes, &j->frame.camera, j->floor, &d->seen[0], &d->seen[1], j->o.specular);
 }
 
-/* One sample of the object over the photo. Returns the pixels that show it. */
+/* Draws one sample of the object over the photo. Returns the pixels that show it. */
 static uint64_t put_sample(drawing *d, mix_job *j, const lmb_tile *real, int32_t sample)
 {
     const lmb_view *view = &d->view[sample];
@@ -199,7 +199,7 @@ static void add_part(drawing *d, uint64_t shown, float weight)
     }
 }
 
-/* The mean of its samples over the photo. */
+/* Draws the mean of the object's samples over the photo. */
 static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real, int is_kept)
 {
     uint64_t all = 0;
@@ -232,7 +232,7 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
         mix_lights_tile(&d->batch.light[0][i], &d->batch.light[1][i], &d->batch.direct[i], j, &d->view[0], real);
         mix_carry_put_direct(j, real, &d->batch.direct[i]);
     }
-    mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real); /* which has the lights */
+    mix_again_light(&d->batch.light[0][i], &d->batch.light[1][i], j, real); /* already includes the lights */
     lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
     if (is_varnished(j, real)) {
         mirror(d, j, real);
@@ -243,7 +243,7 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
     put_tile(&j->picture, &d->photo, real->x, real->y);
 }
 
-/* Tiles of one row, from x on. */
+/* Draws tiles of one row, from x on. */
 static void draw_batch(drawing *d, mix_job *j, int32_t x, int32_t y)
 {
     mix_batch *b = &d->batch;
@@ -256,9 +256,9 @@ static void draw_batch(drawing *d, mix_job *j, int32_t x, int32_t y)
     }
 }
 
-/* Rows of tiles that several threads draw, each in a drawing of its own. */
+/* Rows of tiles that several threads draw, each with separate memory. */
 typedef struct rows {
-    mix_job *jobs; /* by thread: the job, with a place of its own for cones */
+    mix_job *jobs; /* by thread: the job, with separate scratch for cones */
     drawing *drawings;
     int threads;
 } rows;

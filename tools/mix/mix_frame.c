@@ -1,4 +1,4 @@
-/* mix_frame.c: a photo with its depth and its camera, read from files. */
+/* mix_frame.c: a photo with depth and camera, read from files. */
 #include "mix_frame.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 enum { PATH_CAP = 4096 };
 
-/* PREFIX and the first of the endings that is there; the first of all where none is. */
+/* PREFIX with the first ending for which there is a file, or with the first ending if there is none. */
 static int find_file(char path[PATH_CAP], const char *prefix, const char *const *endings, report *r)
 {
     for (int i = 0; endings[i] != NULL; ++i) {
@@ -87,7 +87,7 @@ static int grey_of_png(image *out, const file_bytes *file, const char *path, rep
     return out->pixels != NULL || report_fail(r, "%s: out of memory", path);
 }
 
-/* The first channel, in metres. */
+/* Takes the first channel, in metres. */
 static int take_depth(mix_frame *f, const image *in, float scale, const char *path, report *r)
 {
     const size_t pixels = (size_t)in->width * (size_t)in->height;

@@ -1,17 +1,16 @@
-/* mix_frames.c: what is kept from frame to frame of a sequence: depth that was measured, where the object stands, its
- * light. */
+/* mix_frames.c: the state kept from frame to frame of a sequence: measured depth, place and light of the object. */
 #include "mix_frames.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define ALIKE    0.05 /* how far a photo's mean may be off the one that the answer was found for */
+#define ALIKE    0.05 /* maximum relative change of a photo's mean for which a result is reused */
 
 enum {
-    TWICE = 2, /* frames that must differ before a static camera believes them */
-    FEW = 500, /* of so many pixels one may measure something else before these are found anew */
-    SOME = 20  /* and before all are */
+    TWICE = 2, /* frames that must differ before a static camera accepts a change */
+    FEW = 500, /* if under one pixel in FEW is new, the last result is reused */
+    SOME = 20  /* if at least one in SOME is new, all pixels are redrawn */
 };
 
 /* --- depth -------------------------------------------------------------------------------------------------------- */
@@ -38,7 +37,7 @@ void mix_depth_free(mix_depth *d)
 
 static size_t pixels_of(const mix_depth *d) { return (size_t)d->camera.width * (size_t)d->camera.height; }
 
-/* All 0, for a camera. */
+/* Sets all values to 0, for a camera. */
 static int take_depth(mix_depth *d, const lmb_pinhole *camera, report *r)
 {
     memset(d, 0, sizeof *d);
@@ -71,7 +70,7 @@ int mix_depth_copy(mix_depth *out, const mix_depth *in, report *r)
     return 1;
 }
 
-/* What is known of one pixel that does not move: the first measure stays while others agree, or nothing is measured. */
+/* Updates one pixel of a static camera. The first measurement stays while later ones agree or nothing is measured. */
 static void keep_pixel(mix_depth *d, size_t i, float now)
 {
     const float was = d->inverse[i];
@@ -85,7 +84,8 @@ static void keep_pixel(mix_depth *d, size_t i, float now)
     }
 }
 
-/* A pose's point of the world, and back. Rows; x right, y down, z ahead. */
+/* to_world moves a point from a pose's camera space to the world, to_camera back. Poses are stored by rows; x right, y
+ * down, z ahead. */
 static void to_world(double out[3], const double pose[16], const double p[3])
 {
     for (int i = 0; i < 3; ++i) {
@@ -101,7 +101,7 @@ static void to_camera(double out[3], const double pose[16], const double p[3])
     }
 }
 
-/* What is known, as another camera sees it: each pixel's point, the nearest one of those that fall on a pixel. */
+/* Projects the known depth into another camera. If several points fall on a pixel, the nearest one is kept. */
 static void move_depth(float *out, const mix_depth *d, const mix_frame *f)
 {
     const lmb_pinhole *a = &d->camera, *b = &f->camera;
@@ -123,7 +123,7 @@ static void move_depth(float *out, const mix_depth *d, const mix_frame *f)
     }
 }
 
-/* From another place what is measured now is believed, and the mean of both where they agree. */
+/* If the camera has moved, a new measurement replaces the old one, or is averaged with it if both agree. */
 static int merge_moved(mix_depth *d, const mix_frame *f, report *r)
 {
     const size_t pixels = (size_t)f->camera.width * (size_t)f->camera.height;
@@ -205,7 +205,7 @@ int mix_is_settled(const mix_kept *k)
     return k->last != NULL && k->last->answer != NULL && SOME * k->depth.changed < pixels && !k->is_other_light;
 }
 
-/* --- the object and its light ------------------------------------------------------------------------------------- */
+/* --- the object and the light ------------------------------------------------------------------------------------- */
 
 int mix_keep(mix_kept *k, mix_job *j, report *r)
 {

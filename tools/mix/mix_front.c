@@ -1,22 +1,22 @@
-/* mix_front.c: what real things are in front of the object: measured depth whose edges follow the photo's colours. */
+/* mix_front.c: real surfaces in front of the object: measured depth with edges aligned to the photo's colours. */
 #include "mix_front.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Sensors are wrong up to so many pixels from an edge; and surfaces so far apart, relatively, have an edge between. */
-enum { EDGE = 4, HOLES = 14 /* px of a window: less is a spot, more may be what a near thing hides */,
-       AROUND = 24 /* px beyond what is asked for, from where surfaces may reach into it */, SWEEPS = 6 };
+/* Distance from an edge up to which sensors are wrong, px, and the relative depth step that makes an edge. */
+enum { EDGE = 4, HOLES = 14 /* px in a window: fewer are specks, more may be hidden by a close object */,
+       AROUND = 24 /* px beyond the box, because surfaces may reach into it */, SWEEPS = 6 };
 #define STEP    0.04f
-#define GRAZES  0.7f   /* planes that change so much tell nothing beside what was measured of them */
-#define SHADOW  0.09f  /* by the focal length: as wide, px, as what a projector's shadow at 0.8 m is */
+#define GRAZES  0.7f   /* if a plane changes more than this between pixels, it is too steep to extrapolate */
+#define SHADOW  0.09f  /* px, relative to the focal length: width of the projector's shadow at 0.8 m */
 
-/* What a way from a surface costs, in differences of display's values. */
-#define A_PIXEL 0.005f /* of its length */
-#define A_HOLE  0.15f  /* a pixel that is not measured, where something farther is beside it: near things are seen to their rims */
-#define DOUBT   0.5f   /* of a pixel's own measure near an edge: colours must tell it from its surface by less to be believed */
+/* Cost of a path from a surface, in differences of display values. */
+#define A_PIXEL 0.005f /* per pixel of length */
+#define A_HOLE  0.15f  /* per unmeasured pixel, if a farther surface is beside it: close objects are measured fully */
+#define DOUBT   0.5f   /* of a measured pixel near an edge, against a neighbour's surface with a similar colour */
 
-/* Pixels of a picture, the last ones among them. */
+/* Pixels of a picture, bounds inclusive. */
 typedef struct window {
     int32_t x0, y0, x1, y1;
 } window;
@@ -26,7 +26,7 @@ typedef struct refiner {
     const lmb_planes *planes;
     const float *rgb;
     mix_way *way;
-    window all; /* what is refined, and as much beyond as may matter */
+    window all; /* the box and a margin that may affect it */
 } refiner;
 
 static window around(const lmb_pinhole *c, int32_t x, int32_t y, int32_t reach)
@@ -37,7 +37,7 @@ static window around(const lmb_pinhole *c, int32_t x, int32_t y, int32_t reach)
     return w;
 }
 
-/* Is there an edge near, or nothing measured? What is all of one plane has none, however steep it is. */
+/* Is there an edge or a hole near? Pixels that all lie on one plane have no edge, however steep it is. */
 static int is_doubtful(const refiner *f, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &f->cloud->camera;
@@ -63,8 +63,8 @@ static int is_doubtful(const refiner *f, int32_t x, int32_t y)
     return holes > HOLES || (mixed && max - min > STEP * max + 4.0f * lmb_cloud_sigma(f->cloud, max));
 }
 
-/* What another pixel says of this one's distance: its plane goes on to here. A steep floor's mean of pixels around would
- * lie before what stands on it. */
+/* The inverse distance here if pixel `other`'s surface continues: on the plane, if there is one. The mean around a
+ * pixel of a steep floor would lie in front of objects on the floor. */
 static float said_of(const refiner *f, int32_t x, int32_t y, int32_t other)
 {
     const float q = f->cloud->inverse[other];
@@ -77,9 +77,10 @@ static float said_of(const refiner *f, int32_t x, int32_t y, int32_t other)
     return on > GRAZES * q && on * GRAZES < q ? on : q;
 }
 
-/* --- ways from surfaces ------------------------------------------------------------------------------------------- */
+/* --- paths from surfaces ------------------------------------------------------------------------------------------ */
 
-/* The farthest that is measured beside a hole, along the row: what is not measured lies in a near thing's shadow, on that. */
+/* The farthest surface beside a hole, along the row: a hole lies in a close object's projector shadow, on that
+ * surface. */
 static float beyond(const refiner *f, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &f->cloud->camera;
@@ -92,7 +93,7 @@ static float beyond(const refiner *f, int32_t x, int32_t y)
     return min;
 }
 
-/* A pixel that is sure of its surface, or says what it measured though that may be its neighbour's; or a hole. */
+/* Starts a pixel: certain of its surface, doubtful near an edge (it may be a neighbour's), or a hole. */
 static void begin(const refiner *f, int32_t x, int32_t y)
 {
     const int32_t at = y * f->cloud->camera.width + x;
@@ -104,7 +105,7 @@ static void begin(const refiner *f, int32_t x, int32_t y)
     way->beyond = is_measured ? 0.0f : beyond(f, x, y);
 }
 
-/* In about a display's values. */
+/* Colour distance, in about display values. */
 static float differ(const float *a, const float *b)
 {
     float sum = 0.0f;
@@ -115,7 +116,7 @@ static float differ(const float *a, const float *b)
     return sqrtf(sum);
 }
 
-/* Does the surface that a neighbour is of come cheaper to a pixel than its own? */
+/* Takes a neighbour's surface if its path costs less than the pixel's own. */
 static void ask(const refiner *f, int32_t at, int32_t x, int32_t y, float length)
 {
     const int32_t other = y * f->cloud->camera.width + x;
@@ -133,7 +134,7 @@ static void ask(const refiner *f, int32_t at, int32_t x, int32_t y, float length
     }
 }
 
-/* From the top and left on, or from the bottom and right back. */
+/* Sweeps from the top left, or back from the bottom right. */
 static void sweep(const refiner *f, int32_t step)
 {
     const window *w = &f->all;
@@ -150,7 +151,7 @@ static void sweep(const refiner *f, int32_t step)
     }
 }
 
-/* What was measured, where that may be of the surface. */
+/* The measured depth if it can belong to the chosen surface, else that surface. */
 static float chosen(const refiner *f, int32_t x, int32_t y)
 {
     const int32_t at = y * f->cloud->camera.width + x;
@@ -194,7 +195,7 @@ static int is_before(float q, float object, const lmb_cloud *cloud)
     return q > 0.0f && q - 1.0f / object > 2.0f * lmb_cloud_sigma(cloud, q);
 }
 
-/* Of the four pixels around the sample, by how near it is to each. */
+/* The surface in front of the object at a sample, by bilinear weights of the four pixels around. */
 static float surface_before(const float *front, const lmb_cloud *cloud, float x, float y, float object)
 {
     const int32_t w = cloud->camera.width, h = cloud->camera.height, u = (int32_t)floorf(x), v = (int32_t)floorf(y);

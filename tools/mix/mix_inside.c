@@ -1,12 +1,13 @@
-/* mix_inside.c: is all of the object in the picture, and how large is it there? By its vertices: of what is turned, the box
- * in the scene's axes is larger. */
+/* mix_inside.c: is all of the object in the picture, and how large is it there?
+ * Tests vertices, because the scene-aligned box of a rotated object is larger than the object. */
 #include "../../src/raster/triangle.h"
 #include "mix_frames.h"
 #include "mix_turn.h"
 
 #include <math.h>
 
-/* How far a point of the scene is within two edges of the picture, m; 1 m ahead these are `across` and `down` off the axis. */
+/* Distances of a scene point from two edges of the picture, m. At 1 m ahead the edges lie `across` and `down` off the
+ * axis. */
 static lmb_mat4 edges(const lmb_axes *a, float sign, float across, float down)
 {
     const lmb_vec3 x = a->right, y = a->up, z = a->back;
@@ -16,7 +17,7 @@ static lmb_mat4 edges(const lmb_axes *a, float sign, float across, float down)
     return m;
 }
 
-/* Its box would do only for an object that fills it: one that is turned does not. */
+/* Tests vertices: a box would do only for an object that fills it, which a rotated one does not. */
 static int is_within(const mix_job *j, const lmb_mat4 *within)
 {
     lmb_scene one = j->scene;
@@ -36,10 +37,10 @@ static int is_within(const mix_job *j, const lmb_mat4 *within)
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/* What it covers in the picture, from the camera's axis. */
+/* The area it covers in the picture, relative to the camera's axis. */
 typedef struct covered {
     float low[2], high[2]; /* px */
-    int reaches_behind;    /* the camera */
+    int reaches_behind;    /* behind the camera */
 } covered;
 
 static void add_corner(covered *box, const mix_job *j, lmb_vec3 p)
@@ -54,7 +55,7 @@ static void add_corner(covered *box, const mix_job *j, lmb_vec3 p)
     }
 }
 
-/* The longer side of it, px; infinite where it reaches behind the camera. */
+/* The longer side of the covered area, px; infinite if it reaches behind the camera. */
 static float side_px(const mix_job *j)
 {
     covered box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0};
@@ -75,7 +76,7 @@ int mix_is_inside(mix_job *j)
     const lmb_mat4 low = edges(&j->axes, 1.0f, (c->cx + 0.5f) / c->fx, (c->cy + 0.5f) / c->fy),
                    high = edges(&j->axes, -1.0f, ((float)c->width - 0.5f - c->cx) / c->fx,
                                 ((float)c->height - 0.5f - c->cy) / c->fy);
-    if (j->kept == NULL || j->kept->frames == 0) { /* it is said once */
+    if (j->kept == NULL || j->kept->frames == 0) { /* print it once */
         j->seen_px = side_px(j);
     }
     return is_within(j, &low) && is_within(j, &high);

@@ -1,4 +1,4 @@
-/* mix_islands.c: specks of one plane's label in the midst of another's: noise that happens to lie on that plane. */
+/* mix_islands.c: specks of one plane's label inside another plane: noise that happens to lie on the first plane. */
 #include "mix_job.h"
 
 #include <math.h>
@@ -12,10 +12,10 @@ typedef struct islands {
     mix_job *j;
     int32_t *pixel; /* of the island */
     uint8_t *done;
-    int32_t count, beside[LMB_MAX_PLANES + 1]; /* pixels beside it, by label */
+    int32_t count, beside[LMB_MAX_PLANES + 1]; /* neighbour pixels, by label */
 } islands;
 
-/* All of one label that hangs together with a pixel. */
+/* Collects the connected pixels with the same label. */
 static void collect(islands *s, int32_t from)
 {
     const int32_t w = s->j->frame.camera.width, h = s->j->frame.camera.height;
@@ -38,8 +38,8 @@ static void collect(islands *s, int32_t from)
     }
 }
 
-/* Where most of what is beside it is one other plane, it becomes that one's where its depth was within the noise of it, and
- * else nobody's, as it was measured. */
+/* If most neighbours lie on one other plane, each pixel moves to that plane if the depth is within noise, else it
+ * becomes unlabelled with the measured depth. */
 static void drop(islands *s)
 {
     mix_job *j = s->j;

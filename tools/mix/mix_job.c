@@ -1,10 +1,10 @@
-/* mix_job.c: the memory of one run of `lambent mix`, and the planes of its photo. */
+/* mix_job.c: memory and planes of one run of `lambent mix`. */
 #include "mix_frames.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* The smallest piece that is large enough, and not much larger; zeroed. */
+/* Takes the smallest block that fits and is at most twice as large; zeroed. */
 static mix_memory take_spare(mix_spare *s, size_t bytes)
 {
     mix_memory out = {NULL, 0, 0};
@@ -30,7 +30,7 @@ void mix_spare_free(mix_spare *s)
     }
 }
 
-/* What no later job had a use for, as when a world's voxels have grown, is the system's again. */
+/* Frees blocks that later jobs did not use, as when a world's voxels have grown. */
 static void drop_idle(mix_spare *s)
 {
     int kept = 0;
@@ -46,7 +46,7 @@ static void drop_idle(mix_spare *s)
 
 static void give_back(mix_job *j)
 {
-    if (j->spare != NULL && j->block_count > 0) { /* a frame that the last one answers for needs none */
+    if (j->spare != NULL && j->block_count > 0) { /* a frame that reuses the last result has no blocks */
         drop_idle(j->spare);
     }
     for (int i = 0; i < j->block_count; ++i) {
@@ -86,7 +86,7 @@ void *mix_take(mix_job *j, size_t bytes, report *r)
 void mix_job_free(mix_job *j)
 {
     mix_frame_free(&j->frame);
-    if (j->kept == NULL || j->kept->frames == 0) { /* else it is the sequence's */
+    if (j->kept == NULL || j->kept->frames == 0) { /* otherwise the sequence owns it */
         model_free(&j->object);
     }
     image_free(&j->picture);

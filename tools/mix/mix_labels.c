@@ -1,4 +1,4 @@
-/* mix_labels.c: what each pixel shows of the object, as files beside the picture. */
+/* mix_labels.c: per-pixel labels of the object, written as files beside the picture. */
 #include "mix_labels.h"
 
 #include <stdio.h>
@@ -24,7 +24,7 @@ int mix_labels_take(mix_job *j, report *r)
            (l->normal = mix_take(j, 3 * pixels * sizeof *l->normal, r)) != NULL;
 }
 
-/* The pixel of the photo; -1 beyond it. */
+/* The pixel of the photo; -1 outside. */
 static ptrdiff_t pixel_of(const mix_job *j, const lmb_tile *real, int32_t k)
 {
     const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE;
@@ -67,7 +67,7 @@ static int write_picture(const mix_job *j, const char *ending, float *pixels, in
                : report_fail(r, "--labels: the name is too long");
 }
 
-/* White where the object covers half of a pixel. */
+/* White if the object covers half of the pixel. */
 static int write_mask(const mix_job *j, report *r)
 {
     const size_t pixels = (size_t)j->frame.light.width * (size_t)j->frame.light.height;
@@ -91,7 +91,7 @@ static size_t put_rows(char *out, size_t size, const char *name, const double m[
                             m[2][0], m[2][1], m[2][2], m[2][3]);
 }
 
-/* From the mesh's own units to the camera's space as poses have it: x right, y down, z ahead; and to the world. */
+/* From mesh units to camera space as poses define it (x right, y down, z ahead), and to the world. */
 static int write_pose(const mix_job *j, report *r)
 {
     char path[PATH_CAP], text[2048];

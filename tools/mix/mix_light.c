@@ -1,4 +1,4 @@
-/* mix_light.c: the light around a photo: folded or a panorama's, lights given or guessed, and their maps. */
+/* mix_light.c: the light around a photo: environment (folded or a panorama), lights, and shadow maps. */
 #include "mix_around.h"
 #include "mix_frames.h"
 #include "mix_sources.h"
@@ -23,7 +23,7 @@ static lmb_vec3 turned(const lmb_mat4 *t, lmb_vec3 d)
 
 /* --- environment -------------------------------------------------------------------------------------------------- */
 
-/* The direction of a texel, as lambent/env.h has it. */
+/* The direction of a texel, as defined in lambent/env.h. */
 static lmb_vec3 direction_of(int32_t face, float s, float t)
 {
     const lmb_vec3 all[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
@@ -46,7 +46,7 @@ static void add_seen(float sum[3], const lmb_world_pictures *p, lmb_vec3 d)
     }
 }
 
-/* A panorama's directions are the world's. */
+/* Directions of a panorama are in world space. */
 static void fill_env(const mix_job *j, const lmb_world_pictures *p)
 {
     lmb_mat4 to_world = j->from_world; /* the rotation's inverse is its transpose */
@@ -81,7 +81,7 @@ static int read_world(mix_job *j, report *r)
     return ok;
 }
 
-/* The same surroundings with other axes: `to_from` turns directions of `out` to those of `from`. */
+/* Resamples an environment to other axes: `to_from` turns directions of `out` to those of `from`. */
 static void turn_env(const lmb_env *out, const lmb_env *from, const lmb_mat4 *to_from)
 {
     for (int32_t i = 0; i < 6 * ENV_SIZE * ENV_SIZE; ++i) {
@@ -103,7 +103,7 @@ static lmb_mat4 turned_back(const lmb_mat4 *t)
     return out;
 }
 
-/* Of a guessed sun the direction is the scene's, and becomes the world's. */
+/* The direction of a guessed sun is in scene space; this stores it in world space. */
 int mix_keep_light(mix_kept *k, const mix_job *j, report *r)
 {
     const size_t bytes = lmb_env_bytes(ENV_SIZE);
@@ -152,8 +152,8 @@ static lmb_light placed(const mix_job *j, const lmb_light *from)
     return out;
 }
 
-/* A light of the world. Its places are chosen there: by the scene's axes, which turn with the camera, they would wander
- * from frame to frame. */
+/* Adds a light, given in world space. Samples of the area are chosen there: relative to scene axes, which turn with the
+ * camera, they would move from frame to frame. */
 static void add_light(mix_job *j, const lmb_light *light, float size, int32_t samples)
 {
     lmb_light *to = j->lights + j->light_count;
@@ -195,7 +195,7 @@ static int take_lights(mix_job *j, report *r)
     return j->lights != NULL && j->maps != NULL;
 }
 
-/* Of many lights that make one shadow together, half a side is enough. */
+/* If many lights make one shadow together, half the resolution is enough. */
 static int32_t map_side(const mix_job *j)
 {
     return j->light_count - j->lamp_count < MIX_SUN_SAMPLES || j->o.shadow_map < 16 ? j->o.shadow_map : j->o.shadow_map / 2;
@@ -238,7 +238,7 @@ static void draw_two(void *user, int i, int thread)
     }
     int ok = lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j), memory, bytes) == LMB_OK &&
              lmb_shadow_map_clear(&j->maps[i][0]) == LMB_OK && draw_map(j, &j->maps[i][0], 1, real);
-    memcpy(memory + bytes / 2, memory, bytes / 2); /* the other map: what is real is in both */
+    memcpy(memory + bytes / 2, memory, bytes / 2); /* the other map: both contain the real surfaces */
     ok = ok && draw_map(j, &j->maps[i][1], real + 1, j->object_triangles);
     m->failed[thread] |= !ok;
 }
@@ -266,7 +266,7 @@ static int check_lights(mix_job *j, report *r)
     return lmb_scene_check(&j->scene) == LMB_OK || report_fail(r, "--light: numbers are out of range");
 }
 
-/* The object's own lights, from what it emits and what it reflects of the others. */
+/* Adds the object's own lights: emitted light, and given light that it reflects. */
 static int add_own(mix_job *j, report *r)
 {
     const int32_t told = j->light_count, own = mix_sources_find(j->lights + told, j, r);
@@ -278,7 +278,7 @@ static int add_own(mix_job *j, report *r)
     return check_lights(j, r);
 }
 
-/* The photo alone tells what is around; of a sequence its first one. */
+/* Is the environment folded from the photo? In a sequence only from the first one. */
 static int is_folded(const mix_job *j) { return j->o.world == NULL && (j->kept == NULL || j->kept->frames == 0); }
 
 static int has_lamps(const mix_job *j)

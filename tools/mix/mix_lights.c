@@ -1,4 +1,4 @@
-/* mix_lights.c: lights' light on real surfaces, without and with the object. */
+/* mix_lights.c: direct light on real surfaces, without and with the object. */
 #include "mix_lights.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b)
 
 void mix_lights_begin(mix_job *j) { mix_object_box(&j->box_low, &j->box_high, j); }
 
-/* Of the tile's places; radius under 0: it has none. */
+/* Bounding sphere of the tile's surface points; radius under 0: there are none. */
 static sphere sphere_of(const lmb_tile *t)
 {
     sphere s = {{0, 0, 0}, -1.0f};
@@ -43,7 +43,8 @@ static sphere sphere_of(const lmb_tile *t)
     return s;
 }
 
-/* Where a way `from + t way` lies between low and high by one axis; t's range is *first .. *last before and after. */
+/* Clips the range *first .. *last of t to the part of the ray `from + t way` that lies between low and high on one
+ * axis. */
 static void cut(float *first, float *last, float from, float way, float low, float high)
 {
     const float a = (low - from) / way, b = (high - from) / way;
@@ -55,9 +56,9 @@ static void cut(float *first, float *last, float from, float way, float low, flo
     }
 }
 
-/* Can the object lie between any place of a ball and a light? All ways to it pass within the ball's radius of that from
- * its middle, and so through the object's box, where that is as much larger; and what is in a map is up to some of its
- * texels wider. */
+/* Can the object lie between any point of a sphere and a light? All rays to the light pass within the sphere's radius
+ * of the ray from its centre, so they can only hit the object's box enlarged by the radius and by some shadow map
+ * texels. */
 static int may_shadow(const mix_job *j, const sphere *s, int32_t light)
 {
     const lmb_light *l = &j->lights[light];
@@ -94,7 +95,7 @@ static uint64_t pixels_of(const lmb_tile *t)
     return out;
 }
 
-/* Each `step`th light at pixels of the tile whose `direct` is not known. */
+/* Evaluates each `step`th light at the pixels with unknown `direct`. */
 static void ask_direct(mix_direct *direct, const mix_job *j, const lmb_view *view, const lmb_tile *real, int32_t told,
                        int32_t step)
 {
@@ -115,7 +116,7 @@ static void ask_direct(mix_direct *direct, const mix_job *j, const lmb_view *vie
     direct->known |= all;
 }
 
-/* All lights, and those whose shadow may fall here with the object, too. */
+/* Evaluates all lights without the object, and also with it if the shadow may fall on the tile. */
 static void ask_both(lmb_irradiance *with, mix_direct *direct, const mix_job *j, const lmb_view *view,
                      const lmb_tile *real, const sphere *s, int32_t told)
 {

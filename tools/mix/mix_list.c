@@ -1,4 +1,4 @@
-/* mix_list.c: which photos, depths and poses a sequence has. */
+/* mix_list.c: the photos, depths and poses of a sequence. */
 #include "mix_frames.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "../common/io_text.h"
 
-#define SAME_TIME 0.02 /* s: of a photo, its depth and its pose */
+#define SAME_TIME 0.02 /* s: maximum time between a photo, a depth picture and a pose */
 
 /* A line of one of TUM's lists. */
 typedef struct stamped {
@@ -18,7 +18,7 @@ typedef struct stamped {
 
 typedef struct stamped_list {
     stamped *line;             /* in the file's order */
-    const stamped **by_time;   /* and by time; of one time in the file's */
+    const stamped **by_time;   /* sorted by time, then by position in the file */
     int32_t count, cap, unread;
     file_bytes file;
 } stamped_list;
@@ -35,7 +35,7 @@ void mix_list_free(mix_list *l)
     memset(l, 0, sizeof *l);
 }
 
-/* Room for one more item: the items, or NULL with `r` set and the old ones as they were. */
+/* Makes room for one more item. Returns the items, or NULL with `r` set and the old ones unchanged. */
 static void *with_room(void *items, int32_t *cap, int32_t count, size_t bytes, report *r)
 {
     if (count < *cap) {
@@ -93,8 +93,8 @@ static char *beside(const char *folder, slice name, report *r)
 
 /* --- TUM's lists -------------------------------------------------------------------------------------------------- */
 
-/* "time name", or "time" and seven numbers. Empty lines and headers, which begin with #, are passed over, and others that
- * are neither are counted. 0 with `r` set where there is no memory. */
+/* Reads "time name", or "time" and seven numbers. Empty lines and headers, which begin with #, are skipped; other lines
+ * are counted. Returns 0 with `r` set if memory is short. */
 static int read_line(stamped_list *out, cursor *c, int has_names, report *r)
 {
     slice s;
@@ -159,7 +159,7 @@ static int read_stamped(stamped_list *out, const char *folder, const char *name,
     return ok && sort(out, r);
 }
 
-/* The first by time that is no earlier, or the list's count. */
+/* The first line at or after this time, or the list's count. */
 static int32_t first_from(const stamped_list *l, double time)
 {
     int32_t low = 0, high = l->count;
@@ -174,7 +174,7 @@ static int32_t first_from(const stamped_list *l, double time)
     return low;
 }
 
-/* Of two that are as near the earlier line; NULL: none is of that time. */
+/* The line nearest in time; of two equally near ones the earlier. NULL if none is near enough. */
 static const stamped *nearest(const stamped_list *l, double time)
 {
     const int32_t from = first_from(l, time);
@@ -186,7 +186,7 @@ static const stamped *nearest(const stamped_list *l, double time)
     return fmin(earlier, later) < SAME_TIME ? found : NULL;
 }
 
-/* Of a place and a quaternion x, y, z, w. */
+/* Converts a position and a quaternion x, y, z, w. */
 static void pose_of(double out[16], const double v[7])
 {
     const double l = sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6]);
@@ -255,7 +255,7 @@ static int is_frame(const char *prefix, report *r)
     return found;
 }
 
-/* The line without the carriage return at its end, if there is such a frame: the prefix may end with blanks of its own. */
+/* The line without the carriage return at the end, if there is such a frame: the prefix may end with blanks. */
 static slice without_return(const mix_list *l, slice line, report *r)
 {
     slice kept = line;
@@ -270,8 +270,8 @@ static slice without_return(const mix_list *l, slice line, report *r)
     return line;
 }
 
-/* Reads a line of a list. Blanks around a prefix belong to it only if there is such a frame. In a list with zero bytes,
- * which `breaks` says, no line is a comment. */
+/* Reads a line of a list. Blanks around a prefix belong to it only if there is such a frame. If zero bytes separate the
+ * lines (`breaks`), no line is a comment. */
 static int read_prefix(mix_list *out, slice line, int breaks, report *r)
 {
     line = breaks == '\n' ? without_return(out, line, r) : line;

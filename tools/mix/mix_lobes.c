@@ -1,4 +1,4 @@
-/* mix_lobes.c: objects that reflect as metals do, by rays about the mirror direction. [M20] */
+/* mix_lobes.c: objects that reflect like metal, by rays about the mirror direction. [M20] */
 #include "mix_lobes.h"
 #include "mix_sources.h"
 
@@ -7,14 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { PARTS = 4 /* of a guessed sun's places, one for each sample */ };
+enum { PARTS = 4 /* of a guessed sun's samples, one for each sample of the picture */ };
 
-#define THROWN 0.75f /* of what bounces to a metal, what it throws to all sides: the rest goes one way */
-#define MATT 0.08f /* reflectance of what is no metal, at most */
+#define THROWN 0.75f /* share of light reflected by metal that is treated as diffuse: the rest is directional */
+#define MATT 0.08f /* maximum reflectance of a non-metal */
 
 /* --- metals ------------------------------------------------------------------------------------------------------- */
 
-/* Of what is no metal the weak lobe stays out, as in `render` without --glossy: mix has one way to draw it. */
+/* Drops the weak lobe of non-metals, as `render` does without --glossy: mix has one way to draw it. */
 void mix_lobes_read(mix_job *j)
 {
     lmb_material *m = (lmb_material *)(uintptr_t)j->object.scene.materials;
@@ -54,8 +54,8 @@ static void add_light(lmb_irradiance *inout, const mix_job *j, const lmb_view *v
     }
 }
 
-/* What lobes are wider by, so that places of a guessed sun make one highlight and no dots: alpha2 of half vectors, by what
- * each place stands for of it. */
+/* Widening of lobes, so that samples of a guessed sun make one highlight and no dots: alpha2 of half vectors for the
+ * part of the sun that a sample represents. */
 static float sun_spread(const mix_job *j)
 {
     const float reach = j->sun_size * 0.00872664626f;

@@ -1,5 +1,4 @@
-/* mix_mirror.c: what an object's metal mirrors: the photo's surfaces as they are with the object, and beyond the photo its
- * planes. [M20] */
+/* mix_mirror.c: reflections in the object's metal: the photo's surfaces with the object, and planes. [M20] */
 #include "mix_mirror.h"
 
 #include <math.h>
@@ -10,14 +9,14 @@
 
 #define PI 3.14159265f
 
-enum { RAYS = 12, STEPS = 72, HALVINGS = 5, LIGHTS = 8 /* places of a guessed sun that are asked */ };
+enum { RAYS = 12, STEPS = 72, HALVINGS = 5, LIGHTS = 8 /* samples of a guessed sun that are evaluated */ };
 
-#define FIRST  0.01f /* m: the first step, and how much each is longer than the one before */
+#define FIRST  0.01f /* m: length of the first step; GROWTH is the factor from step to step */
 #define GROWTH 1.12f
-#define BEHIND 0.05f /* m, beside two steps: what a ray passes farther behind it passes by */
-#define CLIPPED 0.98f /* white is at least that, however bright it was: there lights tell */
-#define WALL   1.0f  /* m2: planes that go on where the photo ends are as large */
-#define SPACE  0.5f  /* m: as far are walls at least from lamps and from who took the photo */
+#define BEHIND 0.05f /* m, plus two steps: a ray that lies farther behind a surface passes it */
+#define CLIPPED 0.98f /* clipped pixels are at least this bright; the lights give their value */
+#define WALL   1.0f  /* m2: minimum area of planes that are continued beyond the photo */
+#define SPACE  0.5f  /* m: minimum distance of walls from lamps and from the camera */
 #define UPRIGHT 0.25881905f
 
 static lmb_vec3 plus(lmb_vec3 a, lmb_vec3 b, float s)
@@ -58,8 +57,8 @@ static void turn_room(mix_space *r, lmb_vec3 wall)
     r->axis[2] = z;
 }
 
-/* A room has all that is measured, its lamps, and who took the photo; its walls are as those that are seen. Told lamps
- * light what the photo does not show: what is around has none of their light. */
+/* Estimates the room: a box around all measured surfaces, the lamps and the camera, with walls as those seen. Given
+ * lamps light surfaces that the photo does not show, and the environment lacks this light. */
 static void find_room(mix_job *j)
 {
     mix_space *r = &j->room;
@@ -72,7 +71,7 @@ static void find_room(mix_job *j)
         const lmb_flat *f = &j->planes.plane[p];
         const float one = (f->high[0] - f->low[0]) * (f->high[1] - f->low[1]);
         if (fabsf(n.y) < UPRIGHT) {
-            if (!(area > 0.0f)) { /* they are in the order of their pictures' sizes */
+            if (!(area > 0.0f)) { /* planes are sorted by area in the picture */
                 turn_room(r, n);
             }
             area += one;
@@ -97,11 +96,11 @@ static void find_room(mix_job *j)
     }
 }
 
-/* Where a ray of the scene's space leaves the room: how far off, and which way the wall there faces. */
+/* The distance at which a scene-space ray leaves the room, and the normal of the wall there. */
 static float leave_room(lmb_vec3 *normal, const mix_space *r, lmb_vec3 from, lmb_vec3 along)
 {
     float far = INFINITY;
-    for (int i = 0; i < 3; i += 2) { /* lamps hang so near to a ceiling that no guess of it is right */
+    for (int i = 0; i < 3; i += 2) { /* lamps hang too near to a ceiling to estimate it */
         const float d = dot(r->axis[i], along), p = dot(r->axis[i], from),
                     t = fabsf(d) > 1e-6f ? ((d > 0.0f ? r->high[i] : r->low[i]) - p) / d : INFINITY;
         if (t < far) {
@@ -134,7 +133,7 @@ void mix_mirror_planes(mix_job *j)
     find_room(j);
 }
 
-/* The nearest large plane that a ray meets, all in the camera's space; -1: none. */
+/* The nearest large plane that a ray meets, all in camera space; -1: none. */
 static int32_t plane_ahead(lmb_vec3 *at, const mix_job *j, lmb_vec3 from, lmb_vec3 along)
 {
     int32_t best = -1;
@@ -153,7 +152,7 @@ static int32_t plane_ahead(lmb_vec3 *at, const mix_job *j, lmb_vec3 from, lmb_ve
     return best;
 }
 
-/* W/m2 that lamps that are told send to a place in the scene's space, nothing being in their way. */
+/* Adds the irradiance of given lamps at a place in scene space, W/m2, without occlusion. */
 static void add_told(float inout[3], const mix_job *j, lmb_vec3 at, lmb_vec3 normal)
 {
     for (int32_t i = 0; i < j->light_count - j->lamp_count; ++i) {
@@ -172,7 +171,7 @@ static void add_told(float inout[3], const mix_job *j, lmb_vec3 at, lmb_vec3 nor
     }
 }
 
-/* What a surface sends by lamps and what is around. */
+/* The radiance of a surface under the lamps and the environment. */
 static void send_back(float out[3], const mix_job *j, lmb_vec3 at, lmb_vec3 normal, const float albedo[3])
 {
     lmb_env_irradiance(out, &j->env[1], normal);
@@ -182,8 +181,8 @@ static void send_back(float out[3], const mix_job *j, lmb_vec3 at, lmb_vec3 norm
     }
 }
 
-/* Where the photo shows nothing: a plane goes on beyond it, in its mean colour, or a wall of the room is nearer; else what
- * is around. */
+/* Radiance from beyond the photo: a plane continued in the mean colour, a wall of the room if nearer, or the
+ * environment. */
 static void unseen(float out[3], const mix_job *j, lmb_vec3 from, lmb_vec3 along, lmb_vec3 direction, float tangent)
 {
     lmb_vec3 at, wall = {0, 1, 0};
@@ -201,8 +200,8 @@ static void unseen(float out[3], const mix_job *j, lmb_vec3 from, lmb_vec3 along
 
 /* --- rays --------------------------------------------------------------------------------------------------------- */
 
-/* How far behind what is measured at its pixel a place lies, m along the axis; under 0: before it, or nothing is
- * measured. *pixel: -1 outside the picture. */
+/* Distance of a place behind the measured surface, m along the axis. Negative if it lies in front or nothing is
+ * measured. *pixel: the pixel of the place; -1 outside the picture. */
 static float behind(int32_t *pixel, const mix_job *j, lmb_vec3 p)
 {
     const lmb_pinhole *c = &j->frame.camera;
@@ -216,7 +215,7 @@ static float behind(int32_t *pixel, const mix_job *j, lmb_vec3 p)
     return q > 0.0f ? z - 1.0f / q : -1.0f;
 }
 
-/* The pixel of the photo that shows what a ray of the camera's space meets, or -1. */
+/* The pixel of the photo that shows the surface hit by a camera-space ray, or -1. */
 static int32_t march(float *far, const mix_job *j, lmb_vec3 from, lmb_vec3 along)
 {
     float before = 0.0f, at = FIRST;
@@ -244,9 +243,9 @@ static int32_t march(float *far, const mix_job *j, lmb_vec3 from, lmb_vec3 along
     return -1;
 }
 
-/* Half vectors by their density, in an order that is turned from pixel to pixel; mirrored. Returns how much of its light is
- * reflected, by channel: at a slant the surface's own roughness is in the way, by the height-correlated Smith term, and
- * more is reflected, by Schlick. 0: into the surface. */
+/* Reflects the view direction about a half vector, sampled by density, with a sequence rotated from pixel to pixel.
+ * Sets the reflected share by channel: height-correlated Smith masking, Schlick's Fresnel term. Returns 0 if the ray
+ * points into the surface. */
 static int ray_of(lmb_vec3 *out, float weight[3][LMB_TILE_PIXELS], const lmb_tile *t, const lmb_glossy *lobes,
                   int32_t k, int ray)
 {
@@ -271,7 +270,7 @@ static int ray_of(lmb_vec3 *out, float weight[3][LMB_TILE_PIXELS], const lmb_til
     return 1;
 }
 
-/* The photo about a pixel, as wide as the lobe's rays lie apart there. */
+/* The photo around a pixel, filtered to the spacing of the lobe's rays there. */
 static void photo_about(float out[3], const mix_job *j, int32_t pixel, float px)
 {
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height, off = (int32_t)fminf(px, 16.0f);
@@ -288,7 +287,7 @@ static void photo_about(float out[3], const mix_job *j, int32_t pixel, float px)
     }
 }
 
-/* One ray of pixel k: what it sees into `out`, or, where that is the photo's, into s, to be lit. */
+/* Traces one ray of pixel k. Stores a hit in the photo in s, to be lit; otherwise sets `out`. */
 static void see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t, const lmb_glossy *lobes, int32_t k, int ray)
 {
     const lmb_vec3 at = {t->position[0][k], t->position[1][k], t->position[2][k]};
@@ -324,7 +323,7 @@ static void see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t
     }
 }
 
-/* --- their light -------------------------------------------------------------------------------------------------- */
+/* --- light on the hits -------------------------------------------------------------------------------------------- */
 
 static void light_hits(mix_mirror *s, const mix_job *j, const lmb_view *view)
 {
@@ -343,7 +342,7 @@ static void light_hits(mix_mirror *s, const mix_job *j, const lmb_view *view)
     }
 }
 
-/* What is left of what is around a place by the ball that is as large as the object's box, which stands for it. */
+/* The share of the environment that the object leaves visible, approximated by a ball of the box's size. */
 static float open_share(const mix_job *j, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_vec3 to = plus(j->ball_at, at, -1.0f);

@@ -1,4 +1,4 @@
-/* mix_near.c: light from around on the object: what the samples of a pixel share, and what the frame before has found. */
+/* mix_near.c: indirect light on the object, shared between samples of a pixel and between frames. */
 #include "mix_near.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #define ENOUGH 0.5f /* of the weights of pixels around a place */
 
-/* Within half a leaf, and facing the same way to some twelve degrees. */
+/* Within half a leaf, and with normals within about twelve degrees. */
 static int is_near(const mix_near *n, const lmb_tile *tile, int k, float leaf)
 {
     float far = 0.0f, turn = 0.0f;
@@ -22,9 +22,9 @@ static int is_near(const mix_near *n, const lmb_tile *tile, int k, float leaf)
     return n->tile.id[k] != 0 && far <= 0.25f * leaf * leaf && turn >= 0.98f;
 }
 
-/* --- from the frame before ---------------------------------------------------------------------------------------- */
+/* --- from the previous frame -------------------------------------------------------------------------------------- */
 
-/* Is a pixel of the frame before of the same part of the object? */
+/* Does a pixel of the previous frame show the same part of the object? */
 static int is_same(const mix_lit *lit, lmb_vec3 p, lmb_vec3 n, float leaf)
 {
     const lmb_vec3 d = {lit->position.x - p.x, lit->position.y - p.y, lit->position.z - p.z};
@@ -32,8 +32,8 @@ static int is_same(const mix_lit *lit, lmb_vec3 p, lmb_vec3 n, float leaf)
            lit->normal.x * n.x + lit->normal.y * n.y + lit->normal.z * n.z >= 0.98f;
 }
 
-/* Light of a place of the object, from between the places of pixels that saw it in the frame before: these are where their
- * samples were, for what is taken from beside them drifts from frame to frame. */
+/* Interpolates the light of a place on the object between sample positions of the previous frame. Without the exact
+ * sample positions, carried light would drift from frame to frame. */
 static int get_pixel(float rgb[3], const mix_job *j, lmb_vec3 p, lmb_vec3 n)
 {
     const mix_job *last = j->kept->last;
@@ -69,7 +69,7 @@ static lmb_vec3 of_planes(const float planes[3][LMB_TILE_PIXELS], int k)
     return out;
 }
 
-/* Where a tile of the views' frame lies in the photo. */
+/* The position in the photo of a tile of the views' frame. */
 static int find_origin(int32_t at[2], const mix_job *j, const lmb_tile *tile)
 {
     lmb_view view;
@@ -79,7 +79,7 @@ static int find_origin(int32_t at[2], const mix_job *j, const lmb_tile *tile)
     return ok;
 }
 
-/* Every pixel that is asked for and can be: what is left is to be traced. */
+/* Carries all requested pixels that the previous frame has. Returns the pixels left to trace. */
 static uint64_t carry(mix_near *near, const mix_job *j, const lmb_tile *tile, uint64_t asked)
 {
     int32_t from[2];

@@ -1,4 +1,4 @@
-/* mix_next.c: one frame of a sequence: made ready while the one before it is drawn, then drawn. */
+/* mix_next.c: one frame of a sequence: prepared while the previous one is drawn, then drawn. */
 #include "mix_next.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "mix_again.h"
 #include "mix_run.h"
 
-/* --- what is known ------------------------------------------------------------------------------------------------ */
+/* --- the known depth ---------------------------------------------------------------------------------------------- */
 
 void mix_ready_free(mix_ready *n)
 {
@@ -20,7 +20,7 @@ void mix_ready_free(mix_ready *n)
     memset(n, 0, sizeof *n);
 }
 
-/* What is known with this frame, of a copy: a frame that fails then has measured nothing. */
+/* Merges this frame into a copy of the known depth, so that a frame that fails has no effect. */
 static int measure(mix_ready *n, const mix_kept *k, int is_kept, report *r)
 {
     mix_job *j = n->job;
@@ -46,7 +46,8 @@ static int find_planes(mix_job *j, report *r)
     return ok;
 }
 
-/* By one thread: others draw. What fails here fails again when it is the frame's turn, and is told then. */
+/* Uses one thread, because the others draw. An error here is ignored: it occurs again, and is reported, when the frame
+ * is drawn. */
 void mix_make_ready(mix_ready *n, const mix_kept *k)
 {
     report none = {""};
@@ -58,9 +59,9 @@ void mix_make_ready(mix_ready *n, const mix_kept *k)
     n->job->o.threads = threads;
 }
 
-/* --- its picture -------------------------------------------------------------------------------------------------- */
+/* --- the picture -------------------------------------------------------------------------------------------------- */
 
-/* The last frame's answer to this one's photo, once the last picture is written. */
+/* Applies the last frame's result to this photo, once the last picture is written. */
 static void draw_still(mix_job *j, mix_job *last, double *from)
 {
     const mix_frame was = last->frame;
@@ -72,7 +73,7 @@ static void draw_still(mix_job *j, mix_job *last, double *from)
     mix_tell_times(j);
 }
 
-/* A frame that was drawn is the last one, and its world the next frames'. Returns a job that nobody needs any more. */
+/* Makes a drawn frame the last one, and its world that of the next frames. Returns a job that is no longer needed. */
 static mix_job *take_over(mix_kept *k, mix_job *j)
 {
     mix_job *last = k->last, *world = k->world;
@@ -84,7 +85,7 @@ static mix_job *take_over(mix_kept *k, mix_job *j)
     return last != k->world ? last : NULL;
 }
 
-/* k->depth is what is known with this frame. Its picture is k->last's; *job becomes what nobody needs. */
+/* k->depth includes this frame. Draws the picture into k->last; *job becomes a job that is no longer needed. */
 static int draw_one(mix_job **job, mix_kept *k, report *r)
 {
     mix_job *j = *job;

@@ -9,7 +9,7 @@
 #include "../common/options.h"
 #include "../picture/picture.h"
 
-/* --- values of their own kinds ------------------------------------------------------------------------------------ */
+/* --- parsers for single options ----------------------------------------------------------------------------------- */
 
 static int all_floats(const char *text, float *out, int count)
 {
@@ -57,24 +57,25 @@ static const char *const shows[] = {"final", "delta", "planes", "voxels", "env",
 static const option_row photo_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("photo")},
     {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(source.frame),
-     .help = HELP("PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
-             "camera_to_world (4 x 4, rows) where it is known")},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page mixes one photo */
+     .help = HELP("PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, "
+             "and if known camera_to_world (4 x 4, row by row)")},
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page mixes one photo */
     {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),
      .help = HELP("many frames, in order. LIST or DIR/frames.txt has one PREFIX per line, relative to the list. A "
-             "line that begins with # is a comment; if the list has zero bytes, these separate the PREFIXes, and none is a comment. "
-             "A TUM DIR has rgb.txt, "
-             "depth.txt and groundtruth.txt (with --intrinsics; --depth-scale is 0.0002 then). The object stays where "
-             "it stands in the first, and voxels are built again only when a twentieth of what is about it is new or gone, or the photo is that much brighter or darker; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
-             "out, and the exit status is 1 then")},
+             "line that begins with # is a comment; if the list has zero bytes, these separate the PREFIXes, and "
+             "none is a comment. A TUM DIR has rgb.txt, depth.txt and groundtruth.txt; it needs --intrinsics, and "
+             "--depth-scale is then 0.0002. The object stays where it stands in the first frame. Voxels are built "
+             "again only if a twentieth of the surfaces around it is new or gone, or if the photo is that much "
+             "brighter or darker. -o is a pattern, as frame_%04d.png. A frame that cannot be used is reported and "
+             "left out; the exit status is then 1")},
 #endif
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = HELP(".png .jpg .pfm")},
     {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth), .file = OPTION_READS,
-     .help = HELP("along the camera's axis, registered to the photo: 16-bit grey .png or .pfm; 0 is not measured. Where it has "
-             "another size of the same shape it is resampled, edges by the photo's colours")},
+     .help = HELP("along the camera's axis, registered to the photo: 16-bit grey .png or .pfm; 0 is not measured. "
+             "If it has another size of the same shape, it is resampled, with edges from the photo's colours")},
     {.name = "--depth-scale", .value = "S", .kind = OPTION_NUMBER, AT(source.depth_scale), .low = 1e-9, .high = 1e6,
-     .help = HELP("m of a unit of it (default 0.001 for .png, 1 for .pfm)")},
+     .help = HELP("metres per unit of depth (default 0.001 for .png, 1 for .pfm)")},
     {.name = "--intrinsics", .value = "FX,FY,CX,CY", .kind = OPTION_NUMBERS, AT(source.intrinsics), .size = 4,
      .low = -1e30, .high = 1e30, .counts = offsetof(mix_options, source.has_intrinsics),
      .help = HELP("px; the middle of the first pixel is 0,0")},
@@ -84,24 +85,28 @@ static const option_row photo_rows[] = {
 static const option_row object_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("object")},
     {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
-     .help = HELP(".gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in")},
+     .help = HELP(".gltf .glb .obj .ply, +Y up; without it the photo is written unchanged")},
     OPTION_VERTEX_COLOURS_ROW(mix_options, choice.vertex_colours),
     {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale), .low = 1e-6, .high = 1e6,
-     .help = HELP("m of a unit of the mesh (default 1: the mesh is in metres)")},
+     .help = HELP("metres per unit of the mesh (default 1: the mesh is in metres)")},
     {.name = "--fit", .kind = OPTION_FLAG, AT(fit),
-     .help = HELP("chooses --scale: a sixth of the plane's side in all, less where the picture has no room for that")},
+     .help = HELP("chooses --scale: a sixth of the plane's side in all, less if the picture has no room for that")},
     {.name = "--at", .value = "X,Y|world", .kind = OPTION_OWN, .parse = parse_at, .expects = "X,Y or world",
-     .help = HELP("stands on what is at this pixel, or hangs there where that is a wall (default: near the middle of the "
-             "largest plane that faces up, where nothing else stands); world: is where the mesh has it, in the world of the frame's camera_to_world")},
+     .help = HELP("the object stands on the surface at this pixel, or hangs there if it is a wall (default: near "
+             "the middle of the largest plane that faces up, with free space around); world: the object is where "
+             "the mesh has it, in the world of the frame's camera_to_world")},
     {.name = "--on", .kind = OPTION_WORD, AT(on), .words = ons, .values = on_values,
-     .help = HELP("floor: the lowest plane that faces up; table: the largest that lies 0.3 m over another; wall: the mesh "
-             "hangs there, +Z away from it, upright (default: the largest that faces up, or else the largest wall)")},
+     .help = HELP("floor: the lowest plane that faces up; table: the largest one 0.3 m above another; wall: the "
+             "mesh hangs there upright, with +Z away from it (default: the largest plane that faces up, or else the "
+             "largest wall)")},
     {.name = "--up", .value = "X,Y,Z|camera|pose", .kind = OPTION_OWN, .parse = parse_up, .expects = "X,Y,Z, camera or pose",
-     .help = HELP("what is up, for cameras that look down: a direction in the frame's world, or without a pose the camera's "
-             "(x right, y up, -z ahead); camera: up in the picture; pose: +Y of the world. Default: +Y or +Z of the world "
-             "where a plane lies across it, or else what the planes within 70 degrees of the picture's up agree on")},
+     .help = HELP("the up direction, for cameras that look down: in the frame's world, or without a pose the "
+             "camera's (x right, y up, -z ahead); camera: up in the picture; pose: +Y of the world. Default: +Y or "
+             "+Z of the world if a plane lies across it, or else the direction that the planes within 70 degrees of "
+             "the picture's up agree on")},
     {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
-     .help = HELP("about its upright axis (default 0: +Z towards the viewer); on a wall about what sticks out of it")},
+     .help = HELP("about the object's upright axis (default 0: +Z towards the viewer); on a wall, about the wall's "
+             "normal")},
     {.kind = OPTION_END},
 };
 
@@ -110,22 +115,23 @@ static const option_row light_rows[] = {
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(mix_options, light_count),
      .times = MIX_LIGHTS, .size = sizeof(lmb_light), .sizes = offsetof(mix_options, light_size),
      .nones = offsetof(mix_options, no_light),
-     .help = HELP("KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; SIZE: how "
-             "wide it is, m, of a sun degrees: its shadow is soft then; in the frame's world, or without a pose the "
-             "camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). none: only what is around lights it. Default: a sun by the photo's own shadows, or "
-             "where none tells of one, a weak one from above")},
+     .help = HELP("KIND is spot, point or sun: place, direction, W/sr or W/m2, degrees of a spot's cones. SIZE "
+             "makes shadows soft: the light's width in m, or a sun's in degrees. All in the frame's world, or "
+             "without a pose the camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). none: only the "
+             "environment lights the object. Default: a sun estimated from the photo's own shadows, or if there are "
+             "none, a weak one from above")},
     {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
-     .help = HELP("what is around, a panorama or cube (default: folded from the photo)")},
+     .help = HELP("the environment, a panorama or cube (default: folded from the photo)")},
     {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness,
      .expects = "R or R,F, 0 .. 1",
-     .help = HELP("0 .. 1: the plane under the object mirrors it, as if varnished (default: it does not); F: how much of "
-             "what it sees straight down, 0 .. 1 (default 0.04)")},
+     .help = HELP("0 .. 1: the plane under the object reflects it, as if varnished (default: it does not); F: "
+             "reflectance as seen straight from above, 0 .. 1 (default 0.04)")},
     {.name = "--shadow-map", .value = "N", .kind = OPTION_POWER_OF_2, AT(shadow_map), .low = 8, .high = 4096,
-     .help = HELP("texels a side (default 1024)")},
+     .help = HELP("texels per side (default 1024)")},
     {.name = "--voxels", .value = "D", .kind = OPTION_INT, AT(depth), .low = 4, .high = 10,
-     .help = HELP("2^D voxels a side (default 7)")},
+     .help = HELP("2^D voxels per side (default 7)")},
     {.name = "--cones", .kind = OPTION_WORD, AT(cones), .words = cones, .values = cone_values,
-     .help = HELP("a hemisphere (default 19)")},
+     .help = HELP("per hemisphere (default 19)")},
     {.kind = OPTION_END},
 };
 
@@ -135,28 +141,29 @@ static const option_row output_rows[] = {
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP(PICTURE_OPTION_HELP)},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
-     .help = HELP("final: the photo with the object (default);\ndelta: what changed on real surfaces; in .png and .ppm "
-             "round middle grey;\nplanes: each in its colour;\nvoxels: the light in them as the camera sees "
-             "it;\nenv: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\nobject: alone, before "
-             "black")},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page writes no files */
+     .help = HELP("final: the photo with the object (default);\ndelta: the change of real surfaces; in .png and "
+             ".ppm relative to middle grey;\nplanes: one colour each;\nvoxels: the light in the voxels, as the "
+             "camera sees it;\nenv: the environment as a cube, faces +x -x +y -y +z -z from the top;\nobject: "
+             "without the photo, before black")},
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page writes no files */
     {.name = "--labels", .value = "PREFIX", .kind = OPTION_TEXT, AT(labels),
-     .help = HELP("also PREFIX.mask.png: white where the object is seen; PREFIX.depth.pfm: its depth, m; PREFIX.normal.pfm: its "
-             "normals, x right, y up, z towards the camera; PREFIX.pose.json: from the mesh to the camera, as camera_to_world, and "
-             "to the world")},
+     .help = HELP("also writes PREFIX.mask.png: white where the object is visible; PREFIX.depth.pfm: depth, m; "
+             "PREFIX.normal.pfm: normals, x right, y up, z towards the camera; PREFIX.pose.json: transforms from "
+             "the mesh to the camera, as camera_to_world, and to the world")},
 #endif
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
-     .help = HELP("a pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
+     .help = HELP("per pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
-     .help = HELP("stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits; of --frames the first of these)")},
+     .help = HELP("stops, for .png and .ppm (default auto: 0, or if the photo is linear, a value that fits it; "
+             "--frames takes the first frame's)")},
 #if !defined(OPTIONS_WITHOUT_HELP)
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
      .help = HELP("planes, voxels, seconds by stage")},
     OPTION_BACKEND_ROW(mix_options, kernels),
     OPTION_THREADS_ROW(mix_options, threads, "draw the picture"),
     OPTION_ONLY_HERE,
-    OPTION_LOUDNESS(mix_options, is_quiet, is_verbose, "say how long each stage took"),
+    OPTION_LOUDNESS(mix_options, is_quiet, is_verbose, "print the time of each stage"),
     OPTION_ASK,
 #endif
     {.kind = OPTION_END},
@@ -167,8 +174,9 @@ const option_table mix_table = {
     .usage = HELP("mix --frame PREFIX --object MESH -o OUT [options]\n"
              "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]\n"
              "mix --frames DIR|LIST --object MESH -o frame_%04d.png [options]"),
-    .about = HELP("Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is "
-        "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres."),
+    .about = HELP("Puts a virtual object into one photo with depth: finds the planes, stands the object on one, "
+             "lights it by the environment, and adds its shadow, colour bleeding and reflection to the photo. Units "
+             "are metres."),
     .part = {photo_rows, object_rows, light_rows, output_rows},
     .examples = HELP("  a photo with depth of the built-in room, and a tent put into it:\n"
                 "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
@@ -178,8 +186,8 @@ const option_table mix_table = {
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
                 "    lambent mix --photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 \\\n"
                 "        --object tent.obj --fit --voxels 5 -o mixed.png\n"),
-    .status = HELP("exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage, also one file "
-              "for two purposes"),
+    .status = HELP("exit status: 0 done, 1 a file that cannot be read or written, or no plane to stand on, 2 bad "
+             "usage, also one file for two purposes"),
 };
 
 static int complete_frames(const mix_options *o, report *r)

@@ -1,4 +1,4 @@
-/* mix_place.c: where the virtual object stands, and the scene of it and the real surfaces. */
+/* mix_place.c: the position of the virtual object, and the scene of it and the real surfaces. */
 #include "mix_frames.h"
 #include "mix_lobes.h"
 #include "mix_world.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- matrices: columns, as the library has them ------------------------------------------------------------------- */
+/* --- matrices: columns, as in the library ------------------------------------------------------------------------- */
 
 static lmb_mat4 of_axes(lmb_vec3 x, lmb_vec3 y, lmb_vec3 z, lmb_vec3 at)
 {
@@ -37,10 +37,10 @@ static float median(float *values, size_t count)
 
 static const lmb_mat4 identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
 
-/* --- where -------------------------------------------------------------------------------------------------------- */
+/* --- position ----------------------------------------------------------------------------------------------------- */
 
-/* How much farther than the surface that the object stands on what was measured is, at the pixels of its foot: the
- * median, so that noise counts as little as there are many of them. Along the camera's axis. */
+/* The measured depth at the pixels of the object's foot minus the plane's, along the camera's axis: the median, so that
+ * noise averages out. */
 static float gap(mix_job *j, report *r)
 {
     const lmb_pinhole *c = &j->frame.camera;
@@ -67,7 +67,7 @@ static float gap(mix_job *j, report *r)
     return count > 0 ? median(off, count) : NAN;
 }
 
-/* Upright in the scene's space, +Z towards the viewer, then turned. */
+/* Upright in scene space, +Z towards the viewer, then turned. */
 static lmb_mat4 upright(const mix_job *j, float scale)
 {
     const lmb_vec3 at = lmb_axes_turn(&j->axes, j->anchor);
@@ -78,7 +78,7 @@ static lmb_mat4 upright(const mix_job *j, float scale)
     return of_axes(x, y, z, at);
 }
 
-/* Upright before a wall, +Z out of it, then turned about that. */
+/* Upright on a wall, +Z away from it, then turned about +Z. */
 static lmb_mat4 hanging(const mix_job *j, float scale)
 {
     const lmb_vec3 n = lmb_axes_turn(&j->axes, j->planes.plane[j->floor].normal);
@@ -89,7 +89,7 @@ static lmb_mat4 hanging(const mix_job *j, float scale)
     return of_axes(x, y, scaled(z, scale), lmb_axes_turn(&j->axes, j->anchor));
 }
 
-/* The middle of the mesh's foot goes to the anchor; of one that hangs the middle of its back. */
+/* Puts the middle of the mesh's foot at the anchor; if it hangs, the middle of its back. */
 static lmb_mat4 object_to_scene(mix_job *j)
 {
     if (j->o.at == MIX_AT_WORLD) {
@@ -104,7 +104,7 @@ static lmb_mat4 object_to_scene(mix_job *j)
     return mix_product(&stand, &foot);
 }
 
-/* Of the floor, or, where none is seen, what else tells. */
+/* The floor's normal, or mix_up if there is no floor. */
 static void set_up(mix_job *j)
 {
     const int32_t floor = mix_floor(j);
@@ -134,7 +134,7 @@ int mix_place(mix_job *j, report *r)
         return mix_fail_at(j, r);
     }
     mix_lobes_read(j);
-    for (int i = 0; i < 3 && j->floor >= 0; ++i) { /* most of the foot's pixels are nearer than its middle */
+    for (int i = 0; i < 3 && j->floor >= 0; ++i) { /* most of the foot's pixels are nearer than the middle */
         mix_touch(j, gap(j, r));
     }
     j->facing = j->floor >= 0 ? j->planes.plane[j->floor].normal : j->up;

@@ -1,4 +1,4 @@
-/* mix_put.c: the scene of the real surfaces and the object where it is placed. */
+/* mix_put.c: the scene of the real surfaces and the placed object. */
 #include "mix_world.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * 
 
 static const lmb_mat4 identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
 
-/* A pose's inverse; its camera looks along +z with y down, the library's along -z with y up. */
+/* The inverse of a pose. The pose's camera has +z ahead and y down; the library's has -z ahead and y up. */
 static lmb_mat4 world_to_camera(const double pose[16])
 {
     lmb_mat4 m;
@@ -51,7 +51,7 @@ static int build_real(mix_job *j, report *r)
            mix_cells(j, r);
 }
 
-/* The real mesh before the object's own: everything of the object moves up by one. */
+/* The real mesh comes first: everything of the object moves up by one. */
 static int join_scene(mix_job *j, const lmb_mat4 *place, report *r)
 {
     const lmb_scene *s = &j->object.scene;
@@ -102,7 +102,7 @@ static int join_scene(mix_job *j, const lmb_mat4 *place, report *r)
            report_fail(r, "%s: too large where it stands; --scale sets metres of a unit", j->o.object);
 }
 
-/* Its back axis out of a wall: voxels are aligned to what the object hangs on, too. */
+/* Turns the back axis to point out of the wall, so that voxels are aligned to it. */
 static void turn_to_wall(lmb_axes *out, lmb_vec3 up, lmb_vec3 facing)
 {
     const float tall = dot(facing, up);
@@ -127,7 +127,7 @@ void mix_turn_scene(mix_job *j)
     j->from_world = mix_product(&turn, &camera);
 }
 
-/* Samples lie up to half a pixel off, and ask four pixels. */
+/* A margin for samples, which lie up to half a pixel off and read four pixels. */
 static void set_box(mix_job *j, float x0, float y0, float x1, float y1)
 {
     const float w = (float)j->frame.camera.width, h = (float)j->frame.camera.height;
@@ -137,7 +137,7 @@ static void set_box(mix_job *j, float x0, float y0, float x1, float y1)
     j->box_px[3] = (int32_t)fminf(fmaxf(y1 + 4.0f, 0.0f), h);
 }
 
-/* Where in the picture is the box of what the object covers, and is the object in it? */
+/* Sets the box of the covered area in the picture, and whether the object is in it. */
 static void look(mix_job *j)
 {
     const lmb_pinhole *c = &j->frame.camera;

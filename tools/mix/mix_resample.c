@@ -1,18 +1,17 @@
-/* mix_resample.c: depth of another size than the photo, registered to it: as large as the photo, its edges where the photo
- * has them. */
+/* mix_resample.c: resamples registered depth to the photo's size, with edges aligned to the photo's. */
 #include "mix_frame.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define EDGE  0.05f /* of a distance: samples that differ by more lie on two surfaces */
-#define ALIKE 0.08f /* of two colours' difference: how much tells the surfaces apart */
+#define EDGE  0.05f /* relative: samples that differ by more lie on two surfaces */
+#define ALIKE 0.08f /* scale of a colour difference that separates two surfaces */
 
-enum { COARSEST = 16 /* photo's pixels a sample, each way */ };
+enum { COARSEST = 16 /* photo pixels per sample, each way */ };
 
 /* One of the four samples around a pixel. */
 typedef struct sample {
-    float inverse, weight, alike; /* 1/m, 0: not measured; by how near it is; and by its colour */
+    float inverse, weight, alike; /* 1/m, 0: not measured; bilinear weight; weight by colour */
 } sample;
 
 static int32_t inside(int32_t v, int32_t count) { return v < 0 ? 0 : v >= count ? count - 1 : v; }
@@ -21,13 +20,14 @@ static float difference(const float *a, const float *b)
 {
     float sum = 0.0f;
     for (int c = 0; c < 3; ++c) {
-        const float d = sqrtf(fmaxf(a[c], 0.0f)) - sqrtf(fmaxf(b[c], 0.0f)); /* about as codes have it */
+        const float d = sqrtf(fmaxf(a[c], 0.0f)) - sqrtf(fmaxf(b[c], 0.0f)); /* about display values */
         sum += d * d;
     }
     return sum;
 }
 
-/* The sample's weight is of the one whose surface the pixel's colour is most like; where all are one surface, of all. */
+/* If the samples lie on one surface, their weighted mean; else only those on the surface of the sample with the most
+ * similar colour. */
 static float depth_of(const sample s[4])
 {
     int best = -1;
@@ -81,6 +81,6 @@ int mix_has_shape(const mix_frame *f, const image *in)
 {
     const double wide = (double)in->width * (double)f->light.height, high = (double)in->height * (double)f->light.width,
                  max = (double)(f->light.height > f->light.width ? f->light.height : f->light.width);
-    return fabs(wide - high) <= 0.5 * max && /* half a sample, of sizes that are rounded */
+    return fabs(wide - high) <= 0.5 * max && /* half a sample, because sizes are rounded */
            COARSEST * in->width >= f->light.width && COARSEST * in->height >= f->light.height;
 }

@@ -1,4 +1,4 @@
-/* mix_run.c: what one photo and a sequence of them have in common: the steps to a picture, and words about it. */
+/* mix_run.c: steps shared by one photo and a sequence of them: the picture, and notes about it. */
 #include "mix_run.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 static void tell_place(const mix_job *j)
 {
     const double near = -(double)j->anchor.z;
-    char gap[64] = "where no depth was measured"; /* NaN: no pixel of the foot has one */
+    char gap[64] = "where no depth was measured"; /* NaN: no pixel of the foot has a depth */
     if (!isnan(j->gap_m)) {
         snprintf(gap, sizeof gap, "within %.1f mm of the measured depth", 1000.0 * fabs((double)j->gap_m));
     }
@@ -35,7 +35,7 @@ static void tell_place(const mix_job *j)
                 (double)p->normal.x, (double)p->normal.y, (double)p->normal.z);
 }
 
-/* Files in millimetres or inches, or of a house, fill the picture or vanish. */
+/* A file in millimetres or inches, or a whole building, would fill the picture or vanish. */
 static void tell_size(const mix_job *j)
 {
     const double metres = (double)(mix_extent_of(j).longest * j->scale);
@@ -52,12 +52,12 @@ static void tell_size(const mix_job *j)
 
 void mix_tell(const mix_job *j)
 {
-    for (uint32_t i = 0; i < j->notes.count; ++i) { /* those of options that only `render` has are none of ours */
+    for (uint32_t i = 0; i < j->notes.count; ++i) { /* notes about options that only `render` has do not apply */
         report_note(j->o.is_quiet || strstr(j->notes.line[i], "--glossy") != NULL ||
                         strstr(j->notes.line[i], "--grouping") != NULL,
                     "note: %s", j->notes.line[i]);
     }
-    if (j->o.object == NULL || j->o.at == MIX_AT_WORLD || j->o.show == MIX_PLANES) { /* it was not put anywhere */
+    if (j->o.object == NULL || j->o.at == MIX_AT_WORLD || j->o.show == MIX_PLANES) { /* it was not placed */
         return;
     }
     tell_place(j);
@@ -96,7 +96,7 @@ int mix_make_picture(mix_job *j, double *from, report *r)
     if (j->o.show == MIX_PLANES) {
         return mix_show_planes(j, r);
     }
-    int ok = mix_place(j, r) && options_files(&j->o, &mix_table, r); /* with what the object's file has beside it */
+    int ok = mix_place(j, r) && options_files(&j->o, &mix_table, r); /* with files that the object refers to */
     j->place_s = mix_lap(from);
     ok = ok && mix_light(j, r);
     j->light_s = mix_lap(from);

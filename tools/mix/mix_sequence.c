@@ -1,4 +1,4 @@
-/* mix_sequence.c: `lambent mix --frames`: a sequence of photos, one after the other. */
+/* mix_sequence.c: `lambent mix --frames`: draws a sequence of photos in order. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,7 +38,7 @@ static int read_entry(mix_job *j, const mix_entry *e, const char *folder, report
     return 1;
 }
 
-/* Linear photos are exposed as the first one is: chosen anew, what does not move would flicker. */
+/* Linear photos keep the exposure of the first one. Otherwise static parts would flicker. */
 static float exposure_of(mix_kept *k, const mix_job *j)
 {
     if (j->frame.photo.codes.texels != NULL) {
@@ -49,21 +49,21 @@ static float exposure_of(mix_kept *k, const mix_job *j)
     return k->exposure_ev;
 }
 
-/* While a frame is drawn, the one before it is written and the next one is read, beside the picture's rows. */
+/* While a frame is drawn, the previous one is written and the next one is read, beside the picture's rows. */
 typedef struct sequence {
     const mix_options *o;
     mix_list list;
     mix_kept kept;
-    mix_spare spare; /* beside rows the reader of the next frame is the only one to use it */
+    mix_spare spare; /* beside rows only the reader of the next frame uses it */
     mix_aside aside;
     mix_ready next;
-    report why_next;                   /* next.job is NULL: why it cannot be used */
-    int32_t at, unwritten;             /* of the list: the frame that is drawn; the last one drawn, or -1: it is written */
+    report why_next;                   /* if next.job is NULL: why it cannot be used */
+    int32_t at, unwritten;             /* in the list: the frame being drawn; the last one drawn, or -1 if written */
     int32_t width, height;             /* size of the first photo; 0: none read yet */
     int is_drawn, is_written;
-    int is_over;                       /* the machine has no more memory or open files: `failed` */
-    int32_t left_out, run, last_out;   /* frames: all, those since one was drawn, the number of the last one */
-    report why, failed, first;         /* first: why the first one is left out that is */
+    int is_over;                       /* memory or open files have run out: `failed` */
+    int32_t left_out, run, last_out;   /* frames: total, since one was drawn, the number of the last one */
+    report why, failed, first;         /* first: why the first one was left out */
 } sequence;
 
 /* Depth, planes and light are kept between frames, so all frames must have the size of the first. */
@@ -128,7 +128,7 @@ static void write_or_read(void *user, int index, int thread)
     }
 }
 
-/* Of frames left out in a row the first ones are said, each by a line, and the others by one: a file that is no list has
+/* The first frames left out in a row get a line each, the others one line together, because a file that is no list has
  * thousands of them. */
 enum { SAID = 8 };
 
@@ -146,12 +146,12 @@ static void tell_rest(sequence *s)
     s->run = 0;
 }
 
-/* A frame that cannot be used is said and left out; the others go on as if it had not been listed, and the end says it
- * again. Where the machine is at fault no other frame would fare better. */
+/* Reports a frame that cannot be used. The sequence goes on as if it had not been listed, and the end reports it again.
+ * If the system has failed, it stops: other frames would fail, too. */
 static void tell_failed(sequence *s)
 {
     if (report_is_system(&s->why) || report_is_usage(&s->why)) {
-        if (s->is_written) { /* else what failed first is told: writing the frame before */
+        if (s->is_written) { /* otherwise report the first failure: writing the previous frame */
             s->failed = s->why;
         }
         s->is_over = 1;
@@ -163,7 +163,7 @@ static void tell_failed(sequence *s)
     }
 }
 
-/* What was made ready behind a frame that then failed is read again. */
+/* Draws a prepared frame. If it fails, the frame prepared behind it is read again. */
 static void draw_next(sequence *s)
 {
     mix_ready now = s->next;
@@ -185,7 +185,8 @@ static void draw_next(sequence *s)
     }
 }
 
-/* Every file that a frame may be read from, before any is written: and while one is written, the next one is read. */
+/* Registers all files that frames may be read from before any is written, because the next frame is read while one is
+ * written. */
 static int keep_inputs(const mix_list *list, report *r)
 {
     static const char *const endings[] = {".json", ".color.png", ".color.jpg", ".color.pfm", ".depth.png", ".depth.pfm"};
@@ -224,7 +225,7 @@ static void tell_list(const mix_options *o, const mix_list *l)
                 o->frames, (int)l->unread);
 }
 
-/* 1 where all frames were drawn and written. */
+/* Returns 1 if all frames were drawn and written. */
 static int end(const sequence *s, report *r)
 {
     if (!s->is_written || s->is_over) {

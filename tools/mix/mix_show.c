@@ -1,4 +1,4 @@
-/* mix_show.c: other pictures than the photo's answer: planes, surroundings, voxels. */
+/* mix_show.c: pictures for --show: planes, environment, voxels. */
 #include "mix_job.h"
 
 #include <math.h>
@@ -57,9 +57,9 @@ int mix_show_env(mix_job *j, report *r)
 
 /* --- voxels ------------------------------------------------------------------------------------------------------- */
 
-#define NARROW 0.01f /* tangent of half the cones that look at them */
+#define NARROW 0.01f /* tangent of half the angle of the cones that view them */
 
-/* How far along a ray from the camera the cube begins, m; 0 inside it, and where the ray misses it. */
+/* Distance along a camera ray to the cube, m; 0 inside it, or if the ray misses it. */
 static float cube_begins(const lmb_voxels *v, lmb_vec3 ray)
 {
     const float side = v->leaf * (float)(1 << v->depth), way[3] = {ray.x, ray.y, ray.z},
@@ -75,7 +75,7 @@ static float cube_begins(const lmb_voxels *v, lmb_vec3 ray)
     return in < out ? in : 0.0f;
 }
 
-/* A tile of places where rays of the photo enter the cube, facing along them. */
+/* A tile of points at which rays of the photo enter the cube, facing along them. */
 static void aim(lmb_tile *tile, float direction[3][LMB_TILE_PIXELS], const mix_job *j, int32_t x, int32_t y)
 {
     memset(tile, 0, sizeof *tile);

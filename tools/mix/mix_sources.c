@@ -1,5 +1,4 @@
-/* mix_sources.c: light that an object sends on: what it emits, and what its metal throws on of the lights' light, by
- * patches of its surface. [M20 M25] */
+/* mix_sources.c: light from the object by patches: emission, and light reflected by metal. [M20 M25] */
 #include "mix_sources.h"
 
 #include <math.h>
@@ -8,19 +7,19 @@
 
 #define PI 3.14159265f
 
-/* Of a photo's brightness, what no code of 8 bits shows. */
+/* Share of a photo's brightness too small to change an 8-bit code. */
 #define SHOWS 0.004f
 
-/* Of the object's longest side: how far before its surface the lights are that stand for its patches. */
+/* Distance of a way's light from the surface, as a share of the object's longest side. */
 #define CLEAR 0.01f
 
-/* Likewise: how far off its surface a point of it may lie that a shadow map has found. */
+/* Likewise, the rounding error of points from a shadow map. */
 #define ROUNDED 1e-4f
 
-enum { TREE_SIZE = 512, CELLS = 32 /* a side of the object, at most */, PATCHES = 768 /* at most */,
-       GLOWING = 4096 /* likewise, where nothing is metal: the foot of what glows is nearer than larger ones are wide */,
-       MERGED = 6 /* of these are one from afar */,
-       BUNDLES = 48 /* of what emits; a way, and a light that metal reflects, begin others */ };
+enum { TREE_SIZE = 512, CELLS = 32 /* maximum cells per side of the object */, PATCHES = 768 /* maximum */,
+       GLOWING = 4096 /* likewise, without metal: near its foot, patches must be narrower than the distance */,
+       MERGED = 6 /* patches merged for distant receivers */,
+       BUNDLES = 48 /* of emitting patches; a new way, or a new light that metal reflects, starts another */ };
 
 static lmb_vec3 less(lmb_vec3 a, lmb_vec3 b)
 {
@@ -42,10 +41,10 @@ static lmb_vec3 plus(lmb_vec3 a, lmb_vec3 b)
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/* --- what a patch sends ------------------------------------------------------------------------------------------- */
+/* --- light of a patch --------------------------------------------------------------------------------------------- */
 
-/* What a lobe sends towards v, over what its flux is: GGX with the height-correlated Smith term. As wide as it is, and
- * as its neighbour lies from here, so that patches make no spots. */
+/* The lobe towards v per flux: GGX with the height-correlated Smith term. `spread` widens the lobe by the size of a
+ * patch as seen from the receiver, so that patches make no spots. */
 static float lobe_of(const mix_patch *p, lmb_vec3 v, float spread, float *low)
 {
     lmb_vec3 h = plus(p->from, v);
@@ -58,7 +57,8 @@ static float lobe_of(const mix_patch *p, lmb_vec3 v, float spread, float *low)
     return nh > 0.0f ? a2 / (PI * d * d) * 0.5f / see : 0.0f;
 }
 
-/* A disc of the patch's area sends no more than its radiance: its distance is never under its radius. */
+/* Adds a patch as a disc: the distance is clamped to the disc's radius, so the result never exceeds the patch's
+ * radiance. */
 static void add_patch(float inout[3], const mix_patch *p, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_vec3 to = less(p->at, at);
@@ -98,7 +98,7 @@ static lmb_vec3 of_planes(const float planes[3][LMB_TILE_PIXELS], int32_t k)
     return out;
 }
 
-/* Would the picture show what comes to the tile? By pixels at its corners and in its middle. */
+/* Would the patches' light be visible in the picture? Tests pixels at the corners and in the middle of the tile. */
 static int shows(const mix_job *j, int32_t light, const lmb_tile *t)
 {
     static const int32_t some[] = {0, 7, 27, 56, 63};
@@ -118,18 +118,18 @@ static int shows(const mix_job *j, int32_t light, const lmb_tile *t)
     return 0;
 }
 
-/* A tile's pixels, while they are asked which bundles they see. */
+/* A tile's pixels in visibility tests of bundles. */
 typedef struct asked {
     const lmb_kernels *kernels;
     const lmb_tile *tile;
-    float noise; /* m: how far off their surfaces pixels may lie */
+    float noise; /* m: maximum distance of pixels from their surfaces */
     lmb_traversal traversal;
 } asked;
 
-/* Columns and rows 0, 2, 5 and 7 of a tile: where these agree, those between them are not asked. */
+/* Columns and rows 0, 2, 5 and 7 of a tile: if these agree, the pixels between are not tested. */
 #define SOME UINT64_C(0xa500a50000a500a5)
 
-/* Those of `pixels` that do not see a place. */
+/* Those of `pixels` from which a place is hidden. */
 static uint64_t hidden(asked *a, const mix_sources *s, uint64_t pixels, lmb_vec3 at)
 {
     const float noise = a->noise + s->noise + lmb_place_noise(at, 0.0f);
@@ -144,7 +144,7 @@ static uint64_t hidden(asked *a, const mix_sources *s, uint64_t pixels, lmb_vec3
     return found | lmb_occluded_tile(a->kernels, &a->traversal, &s->bvh, a->tile, pixels & ~some, at, noise);
 }
 
-/* Is all of a tile so far away? By its pixels at the corners, and what it may reach beyond these. */
+/* Is the whole tile beyond the bundle's reach? Tests the corners with a margin. */
 static int is_afar(const lmb_tile *t, const mix_bundle *b)
 {
     static const int32_t corner[] = {0, 7, 56, 63};
@@ -161,8 +161,8 @@ static int is_afar(const lmb_tile *t, const mix_bundle *b)
     return near - wide > b->reach;
 }
 
-/* What a bundle's patches send to some of a tile's pixels. Returns those that get something. *at: the place of the patch that
- * sends most to them all: one that turns its back on them the object itself would hide. */
+/* Computes the light of a bundle's patches at some of a tile's pixels. Returns the pixels that get any. *at: a point on
+ * the brightest patch, because the object itself would hide a patch that faces away. */
 static uint64_t send_bundle(lmb_irradiance *out, lmb_vec3 *at, const lmb_tile *t, const mix_sources *s, const mix_bundle *from,
                             uint64_t pixels)
 {
@@ -191,8 +191,8 @@ static uint64_t send_bundle(lmb_irradiance *out, lmb_vec3 *at, const lmb_tile *t
     return reached;
 }
 
-/* Adds what a way's patches send to a tile's pixels. Those that do not see the place ask again with that of the patch that
- * sends most to them: near the foot of a ball each pixel sees another part of its side. */
+/* Adds the light of a way's patches to a tile. Pixels from which the bundle is hidden try again with the patch that is
+ * brightest for them: near the foot of a ball, each pixel sees another part of the side. */
 static void add_way(lmb_irradiance *inout, asked *a, const mix_sources *s, int32_t way)
 {
     enum { AGAIN = 3 };
@@ -215,8 +215,8 @@ static void add_way(lmb_irradiance *inout, asked *a, const mix_sources *s, int32
     }
 }
 
-/* How far off the mesh of real surfaces pixels may lie, m: those of a plane do not, others by three deviations of what was
- * measured. */
+/* Maximum distance of pixels from the mesh of real surfaces, m: 0 on planes, elsewhere three standard deviations of the
+ * depth. */
 static float measured_noise(const mix_job *j, const lmb_tile *t)
 {
     float noise = lmb_tile_noise(t, ~(uint64_t)0);
@@ -287,17 +287,17 @@ void mix_sources_points(lmb_texel *inout, const lmb_texel *white, size_t count, 
 
 /* --- patches ------------------------------------------------------------------------------------------------------ */
 
-/* Points of the surface that send something, before they are gathered. */
+/* Surface points that send light, before they are grouped. */
 typedef struct point {
     mix_patch p;
-    float weight;  /* sum of its flux */
+    float weight;  /* sum of the flux */
     uint32_t told; /* the light that it reflects */
     uint32_t way, key;
-    size_t order; /* of those found */
+    size_t order; /* in which it was found */
 } point;
 
 typedef struct points {
-    point *all; /* realloc's */
+    point *all; /* allocated with realloc */
     size_t count, cap;
     lmb_vec3 low; /* of the object's box */
 } points;
@@ -308,7 +308,7 @@ static uint32_t way_of(lmb_vec3 n)
     return x >= y && x >= z ? n.x < 0 : y >= z ? 2 + (n.y < 0) : 4 + (n.z < 0);
 }
 
-/* 0 without memory. */
+/* Returns 0 if memory is short. */
 static int add_point(points *to, const mix_patch *p, uint32_t told)
 {
     const float weight = p->flux[0] + p->flux[1] + p->flux[2];
@@ -334,7 +334,7 @@ static int by_key(const void *a, const void *b)
     return x->way != y->way ? (x->way > y->way) - (x->way < y->way) : (x->key > y->key) - (x->key < y->key);
 }
 
-/* No two alike: each C library's qsort then sorts as any other, and sums are in one order. */
+/* A total order: every C library's qsort then gives one result, so sums have one order. */
 static int by_order(const void *a, const void *b)
 {
     const point *x = a, *y = b;
@@ -344,16 +344,17 @@ static int by_order(const void *a, const void *b)
 
 static uint32_t cell_of(float at, float low, float per) { return (uint32_t)fminf(fmaxf((at - low) * per, 0.0f), 31.0f); }
 
-/* So many widths of a merged patch away a place sees it as one. */
+/* Receivers this many widths of a merged patch away use the merged one. */
 #define AFAR 8.0f
 
-/* Five bits, each the third one of what is returned: cells that follow each other lie side by side. */
+/* Spreads five bits to every third bit, for a Morton key: neighbouring cells are sorted near each other. */
 static uint32_t apart(uint32_t v)
 {
     return (v & 1u) | (v & 2u) << 2 | (v & 4u) << 4 | (v & 8u) << 6 | (v & 16u) << 8;
 }
 
-/* Points of one way, one cell of the object's box and one light are a patch. */
+/* Sorts the points. Points with the same way, light and cell of the object's box form a patch. Returns the number of
+ * patches. */
 static size_t sort_points(points *s, float cell)
 {
     size_t patches = 0;
@@ -369,13 +370,13 @@ static size_t sort_points(points *s, float cell)
     return patches;
 }
 
-/* By how much a lobe is wider where a patch's points face several ways, for it is to reach the next patch's, and where light
- * comes to them from several, which moves half vectors half as much: alpha^2 for what the mean of those lacks of unit
- * length. By less, single patches of a ball are seen as rays on the floor. */
+/* Widening of a patch's lobe, as alpha^2 per shortfall of a mean direction from unit length: for varying normals, so
+ * that it reaches the next patch's lobe, and for varying light directions, which move half vectors half as much.
+ * Smaller values show patches of a ball as rays on the floor. */
 #define BY_NORMALS 6.0f
 #define BY_LIGHTS  0.5f
 
-/* Means by flux. */
+/* Averages points, weighted by flux. */
 static void gather(mix_patch *out, const point *from, size_t count, float cell)
 {
     float weight = 0.0f, max = 0.0f;
@@ -403,7 +404,7 @@ static void gather(mix_patch *out, const point *from, size_t count, float cell)
     out->area = cell * cell;
 }
 
-/* --- what emits --------------------------------------------------------------------------------------------------- */
+/* --- emission ----------------------------------------------------------------------------------------------------- */
 
 int mix_white_env(lmb_env *out, int32_t side, void *memory, size_t bytes)
 {
@@ -418,8 +419,8 @@ int mix_white_env(lmb_env *out, int32_t side, void *memory, size_t bytes)
     return 1;
 }
 
-/* First points of what emits, as if it reflected a light of pi W/m2 everywhere: their flux over `*peak` is what it
- * emits. */
+/* First points of the emitting surfaces, with emission as albedo under a light of pi W/m2 everywhere. Their flux times
+ * `*peak` is the emitted power. */
 static lmb_texel *emitted(size_t *count, float *peak, mix_job *j, report *r)
 {
     enum { SIDE = 8, PARTS = 32 };
@@ -472,10 +473,10 @@ static int add_emitted(points *to, mix_job *j, report *r)
     return ok || report_fail(r, "out of memory");
 }
 
-/* --- what metal reflects ------------------------------------------------------------------------------------------ */
+/* --- reflection by metal ------------------------------------------------------------------------------------------ */
 
-/* Where the lights' first points are made: of a scene in which metals reflect F0 and all else nothing, of one in which all
- * is white, and of one in which all reflects the width of its lobe. */
+/* First points of the lights, from three scenes: metals with albedo F0 and all else black; all white; all with alpha^2
+ * of the lobe as albedo. */
 typedef struct mirror {
     lmb_scene *look[3];
     lmb_tree tree[3];
@@ -500,7 +501,7 @@ static void set_looks(lmb_material *look[3], const lmb_material *from, uint32_t 
     }
 }
 
-/* A map of more texels than the tree has is no finer than twice, four or eight times as fine. */
+/* The side of the tree: at most TREE_SIZE, but at least an eighth of the map's. */
 static int32_t tree_side(const mix_job *j)
 {
     const int32_t map = j->maps[0][1].size, low = map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
@@ -561,7 +562,7 @@ static int add_face(points *to, mirror *m, const mix_job *j, int32_t light, int3
     return ok;
 }
 
-/* Lights that are one with a size are one. */
+/* The number of a given light: all samples of a light with a size count as one. */
 static uint32_t told_of(const mix_job *j, int32_t light)
 {
     int32_t first = 0;
@@ -587,10 +588,10 @@ static int add_reflected(points *to, mix_job *j, report *r)
     return ok;
 }
 
-/* --- their lights ------------------------------------------------------------------------------------------------- */
+/* --- lights of the ways ------------------------------------------------------------------------------------------- */
 
-/* Before the middle of a way's points, beyond the one that stands out most: a patch lies at the mean of its points, which of
- * a curved surface is within it, and a light there would be within it. `clear`: how far beyond, m. */
+/* Places a light in front of a way's points, `clear` m beyond the outermost one. The mean of points on a curved surface
+ * lies inside the object, and so would a light there. */
 static void set_light(lmb_light *out, const point *p, size_t count, float clear)
 {
     lmb_vec3 at = {0, 0, 0}, normal = {0, 0, 0};
@@ -613,7 +614,7 @@ static void set_light(lmb_light *out, const point *p, size_t count, float clear)
     out->intensity[0] = out->intensity[1] = out->intensity[2] = 1.0f;
 }
 
-/* Cells grow until patches are few enough for each pixel to ask them all. */
+/* Enlarges cells until each pixel can afford to evaluate all patches. */
 static float choose_cell(points *s, float side, size_t *patches)
 {
     float cell = side / CELLS;
@@ -629,7 +630,7 @@ static float choose_cell(points *s, float side, size_t *patches)
 
 static float sends(const mix_patch *p) { return p->flux[0] + p->flux[1] + p->flux[2]; }
 
-/* Adds patch i to its way's last bundle, or begins one where that sends its share. */
+/* Adds patch i to its way's last bundle, or starts a new one if that has its share of the flux. */
 static void add_to_bundle(mix_sources *s, int32_t way, int32_t i, int is_new, float share)
 {
     mix_bundle *last = &s->bundle[s->bundles[way + 1] - 1];
@@ -644,7 +645,7 @@ static void add_to_bundle(mix_sources *s, int32_t way, int32_t i, int is_new, fl
     last->past = i + 1;
 }
 
-/* What a few patches are from afar. */
+/* Merges a few patches for distant receivers. */
 static mix_patch merge(const mix_patch *p, int32_t count)
 {
     mix_patch out = p[0];
@@ -668,7 +669,8 @@ static mix_patch merge(const mix_patch *p, int32_t count)
     return out;
 }
 
-/* Metal's patches stay: lobes are narrow. Returns how many pieces there are then. */
+/* Appends the merged patches of a bundle. Metal's patches are not merged, because lobes are narrow. Returns the new
+ * number of patches. */
 static int32_t add_far(mix_sources *s, mix_bundle *b, int32_t n)
 {
     float far = 0.0f;
@@ -690,7 +692,7 @@ static int32_t add_far(mix_sources *s, mix_bundle *b, int32_t n)
     return n;
 }
 
-/* The points of one way, from s->all[at] on; returns how many. */
+/* Makes patches of one way's points, from s->all[at] on. Returns the number of points. */
 static size_t make_way(lmb_light *light, mix_sources *to, const points *s, size_t at, int32_t ways, float cell, float clear,
                        float share)
 {

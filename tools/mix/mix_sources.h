@@ -1,58 +1,60 @@
-/* mix_sources.h: light that an object sends on: what it emits, and what its metal throws on of the lights' light. [M20 M25] */
+/* mix_sources.h: light from the object: emission, and the lights' light reflected by metal. [M20 M25] */
 #ifndef MIX_SOURCES_H
 #define MIX_SOURCES_H
 
 #include "mix_job.h"
 
-enum { MIX_WAYS = 6 /* of an object's surface: along +x -x +y -y +z -z */ };
+enum { MIX_WAYS = 6 /* ways, directions that a surface can face: +x -x +y -y +z -z */ };
 
-/* A part of its surface. What emits sends by the cosine; metal by its lobe about the mirror direction. */
+/* A patch of the object's surface. Emission is Lambertian; metal reflects by a lobe about the mirror direction. */
 typedef struct mix_patch {
     lmb_vec3 at, normal;
     lmb_vec3 from;    /* metal: unit, towards the light that it reflects */
-    float flux[3];    /* W: emitted; or what arrives times F0 */
+    float flux[3];    /* W: emitted; or arriving, times F0 */
     float arrives[3]; /* W; emitted: 0 */
     float alpha2;     /* of the lobe; 0: it emits */
-    float area;       /* m2, what a patch stands for */
-    lmb_vec3 on;      /* the place of the surface in it that sends most */
+    float area;       /* m2, of the surface that the patch represents */
+    lmb_vec3 on;      /* the brightest surface point in it */
 } mix_patch;
 
-/* Patches first .. past - 1 of one way, side by side: a pixel sees all of them that face it, or none. */
+/* Neighbouring patches first .. past - 1 of one way: a pixel sees all of those that face it, or none. */
 typedef struct mix_bundle {
     int32_t first, past;
-    int32_t far_first, far_past; /* pieces that stand for them from `reach` m on */
+    int32_t far_first, far_past; /* merged patches that replace them from `reach` m on */
     lmb_vec3 middle;
     float reach;
 } mix_bundle;
 
-/* Patches by way; each way that has some has a light of 1 W/sr among the job's last ones, which tells lobes where it comes
- * from. No map is drawn from that: right under a ball on a floor a light of the ball would lie in the floor. */
+/* Patches sorted by way. Each way with patches has a light of 1 W/sr among the job's last ones, which gives lobes a
+ * light direction. The light has no shadow map: right under a ball on a floor, the ball's light would lie in the
+ * floor. */
 typedef struct mix_sources {
     mix_patch *piece;
-    int32_t first[MIX_WAYS + 1]; /* by light: pieces first[i] .. first[i + 1] - 1; behind the last ones those for afar */
+    int32_t first[MIX_WAYS + 1]; /* by light: patches first[i] .. first[i + 1] - 1; the merged ones come last */
     mix_bundle *bundle;
     int32_t bundles[MIX_WAYS + 1]; /* by light, likewise */
     lmb_bvh bvh; /* of the scene */
-    float noise; /* m: how far off the surface rounding may have put a bundle's place */
-    double sent[3]; /* W, all that they send */
+    float noise; /* m: maximum rounding error of a bundle's position */
+    double sent[3]; /* W, total */
 } mix_sources;
 
-/* mix_sources_find: set j->sources, and the lights, `out`, of those ways that send something. The job's lights have their
- * maps. Returns how many there are, or -1 with `r` set. */
+/* mix_sources_find: sets j->sources and writes the lights of the ways with patches to `out`. The job's lights must have
+ * their maps. Returns the number of lights, or -1 with `r` set. */
 int32_t mix_sources_find(lmb_light out[MIX_WAYS], mix_job *j, report *r);
 
-/* mix_sources_at: W/m2 that patches of one light send to a place, nothing being in their way. */
+/* mix_sources_at: irradiance by the patches of one light, W/m2, without occlusion. */
 void mix_sources_at(float out[3], const mix_sources *s, int32_t light, lmb_vec3 at, lmb_vec3 normal);
 
-/* mix_sources_tile: add what the job's light i, of the last ones, brings to a tile. Where `photo`, a tile that gets less
- * than a code of 8 bits shows gets nothing. */
+/* mix_sources_tile: adds the irradiance by the job's light i, one of the last ones, to a tile. If `photo`, a tile that
+ * changes by less than one 8-bit code is skipped. */
 void mix_sources_tile(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, int32_t i, int photo);
 
-/* mix_sources_points: make the flux of points what they reflect of all that is sent. It is to be what they reflect of pi
- * W/m2, and `white` what they would if they were white. Added: W that arrives at them, by channel. */
+/* mix_sources_points: turns the flux of points into their reflected part of the object's light. On entry it must be
+ * their reflected part of pi W/m2, and `white` the same for white surfaces. Adds the power that arrives at them to
+ * `arrives`, W, by channel. */
 void mix_sources_points(lmb_texel *inout, const lmb_texel *white, size_t count, double arrives[3], const mix_job *j);
 
-/* mix_white_env: 1 W/(m2 sr) from everywhere. 0: no such side, or memory. */
+/* mix_white_env: an environment of 1 W/(m2 sr). Returns 0 if the side or the memory is unsuitable. */
 int mix_white_env(lmb_env *out, int32_t side, void *memory, size_t bytes);
 
 #endif

@@ -1,12 +1,12 @@
-/* mix_stand.c: which plane the object stands on, how large it is, and where on that plane it is wholly seen. */
+/* mix_stand.c: the object's plane, size and a position on that plane in full view. */
 #include "mix_job.h"
 
 #include <math.h>
 
-#define UNDER_TABLE 0.3f        /* m between a table and what it stands on */
-#define LEVEL       0.90630779f /* cosine of 25 degrees: of floors to what is up */
-#define UPRIGHT     0.25881905f /* of 75: of walls */
-#define WALL        0.25f       /* m: the shorter side of what is a wall, and no table's edge */
+#define UNDER_TABLE 0.3f        /* m, minimum height of a table above the lowest plane */
+#define LEVEL       0.90630779f /* cosine of 25 degrees: maximum slope of a floor */
+#define UPRIGHT     0.25881905f /* cosine of 75 degrees: for walls */
+#define WALL        0.25f       /* m: minimum shorter side of a wall; a table's edge is narrower */
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
@@ -24,9 +24,9 @@ mix_extent mix_extent_of(const mix_job *j)
     return e;
 }
 
-/* --- how large ---------------------------------------------------------------------------------------------------- */
+/* --- size --------------------------------------------------------------------------------------------------------- */
 
-/* With --fit a sixth of the plane's mean side for the object's longest; half a metre where there is no plane. */
+/* With --fit, the object's longest side is a sixth of the plane's mean side; half a metre if there is no plane. */
 static float chosen_scale(const mix_job *j)
 {
     float room = 3.0f;
@@ -40,7 +40,7 @@ static float chosen_scale(const mix_job *j)
     return room / 6.0f / fmaxf(mix_extent_of(j).longest, 1e-9f);
 }
 
-/* --- which plane -------------------------------------------------------------------------------------------------- */
+/* --- plane -------------------------------------------------------------------------------------------------------- */
 
 /* The lowest level plane, or -1. */
 static int32_t lowest(const lmb_planes *planes, lmb_vec3 up)
@@ -62,7 +62,7 @@ static int is_wall(const lmb_flat *p, lmb_vec3 up)
     return is_upright(p, up) && fminf(p->high[0] - p->low[0], p->high[1] - p->low[1]) > WALL;
 }
 
-/* Planes are in the order of their pictures' sizes. */
+/* The first plane that --on allows, or -1; planes are sorted by area in the picture. */
 static int32_t plane_asked(const mix_job *j, lmb_vec3 up)
 {
     const int32_t low = lowest(&j->planes, up);
@@ -78,7 +78,7 @@ static int32_t plane_asked(const mix_job *j, lmb_vec3 up)
     return j->o.on == MIX_ON_FLOOR ? low : -1;
 }
 
-/* Where none faces up, the first that is large enough, or the first. */
+/* If no plane faces up: the first large enough wall, or the first plane. */
 static int32_t wall_of(const mix_job *j, lmb_vec3 up)
 {
     for (int32_t i = 0; i < j->planes.count; ++i) {
@@ -89,7 +89,7 @@ static int32_t wall_of(const mix_job *j, lmb_vec3 up)
     return 0;
 }
 
-/* What stands on an upright plane would lie in the air: it hangs there. */
+/* An object cannot stand on an upright plane, so it hangs there. */
 static void choose_hanging(mix_job *j)
 {
     const lmb_vec3 up = mix_up(j);
@@ -112,7 +112,7 @@ static int find_plane(mix_job *j, report *r)
     return 1;
 }
 
-/* --- where on it -------------------------------------------------------------------------------------------------- */
+/* --- position on the plane ---------------------------------------------------------------------------------------- */
 
 static int is_in_picture(const lmb_pinhole *c, lmb_vec3 p)
 {
@@ -122,7 +122,7 @@ static int is_in_picture(const lmb_pinhole *c, lmb_vec3 p)
 
 int mix_is_in_view(const mix_job *j, const lmb_flat *p, lmb_vec3 at, const mix_extent *e)
 {
-    const float radius = e->radius / 1.2f * j->scale; /* without the fifth more */
+    const float radius = e->radius / 1.2f * j->scale; /* without the extra fifth */
     for (int k = 0; k < 8; ++k) {
         const lmb_vec3 rim = moved(moved(at, p->across, (k & 1 ? radius : -radius) * (k & 2 ? 0.0f : 1.0f)), p->along,
                                    (k & 1 ? radius : -radius) * (k & 2 ? 1.0f : 0.0f));
@@ -136,7 +136,7 @@ int mix_is_in_view(const mix_job *j, const lmb_flat *p, lmb_vec3 at, const mix_e
     return 1;
 }
 
-/* The place nearest to the plane's middle where the object is wholly in view, whatever stands there. */
+/* The position nearest to the plane's middle with the object wholly in view, even if other things stand there. */
 static int stand_in_view(mix_job *j)
 {
     enum { STEP = 4 };
@@ -159,9 +159,9 @@ static int stand_in_view(mix_job *j)
     return near < INFINITY;
 }
 
-/* The middle of the plane, or beside what already stands there: where all of the object is in the picture and nothing
- * in front of it. Where there is no such place, with --fit the object becomes smaller. Then where it is in the picture;
- * where its foot alone is seen, or part of it is. */
+/* Tries the middle of the plane, or a place beside things that stand there, with the whole object in the picture and
+ * nothing in front of it; with --fit also for smaller sizes. Otherwise takes a position wholly in view, or one that
+ * shows at least the foot or part of it. */
 static void stand_free(mix_job *j)
 {
     enum { SIZES = 6 };
@@ -193,7 +193,8 @@ static int stand_at_centre(mix_job *j, report *r)
     return 1;
 }
 
-/* The plane of the pixel, or what was measured there, upright: nothing, where the anchor is not ahead. */
+/* Uses the plane of the pixel, or the point measured there, upright. If nothing is measured, the anchor does not lie
+ * ahead. */
 static int stand_at_pixel(mix_job *j, report *r)
 {
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
@@ -204,7 +205,7 @@ static int stand_at_pixel(mix_job *j, report *r)
     const int32_t x = (int32_t)j->o.at_px[0], y = (int32_t)j->o.at_px[1];
     const int32_t label = j->planes.label[y * w + x];
     j->floor = label - 1;
-    j->faces_up = 1; /* or was asked for */
+    j->faces_up = 1; /* or was requested */
     if (label > 0) {
         choose_hanging(j);
     }

@@ -1,24 +1,24 @@
-/* mix_stays.c: in a sequence: planes stay the planes that they were, and the object stays where it stands. */
+/* mix_stays.c: in a sequence, matches planes from frame to frame and keeps the object in place. */
 #include "mix_frames.h"
 #include "mix_turn.h"
 
 #include <math.h>
 
-/* Planes of two frames are one where they face one way, as regions of one picture are for lmb_planes_find, and at the plane's
- * middle measure what may be one thing (MIX_RELATIVE): of planes noise is the mean of their pixels', and counts little. */
+/* Planes of two frames are one if their normals match, as for regions in lmb_planes_find, and if they agree at the
+ * plane's middle (MIX_RELATIVE): noise of a plane is averaged over its pixels and counts little. */
 #define ONE_PLANE 0.9975641f /* cosine of 4 degrees */
 
-/* What the object may stand on lies so near; the plane that it stood on is believed by what a sensor measures, too. */
+/* Tolerance for the plane under the object. The plane that it stood on before also gets the sensor's tolerance. */
 #define BELOW_M  0.05f
 #define BELOW    0.985f /* cosine of ten degrees */
 
-enum { RECENT = 8 /* frames of a plane that say where it is: sensors bend it otherwise from elsewhere */ };
+enum { RECENT = 8 /* frames that determine a plane's position: sensors bend it differently from other viewpoints */ };
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /* --- planes ------------------------------------------------------------------------------------------------------- */
 
-/* A track as the frame's camera has it: 1 / distance is slope . (x, y, 1). 0: it is seen from behind. */
+/* A track as seen by the frame's camera: 1 / distance is slope . (x, y, 1). Returns 0 if seen from behind. */
 static int slope_of(float slope[3], lmb_vec3 *normal, const mix_track *t, const lmb_mat4 *camera)
 {
     const lmb_vec3 n = mix_turn(camera, t->normal), at = {camera->m[12], camera->m[13], camera->m[14]};
@@ -32,7 +32,7 @@ static int slope_of(float slope[3], lmb_vec3 *normal, const mix_track *t, const 
 
 static float inverse_at(const float slope[3], lmb_vec3 p) { return slope[0] * p.x / -p.z + slope[1] * p.y / -p.z + slope[2]; }
 
-/* The track that a plane goes on with, or -1. */
+/* The track that a plane continues, or -1. */
 static int32_t track_of(float slope[3], const mix_job *j, const lmb_flat *p, const lmb_mat4 *camera)
 {
     int32_t best = -1;
@@ -68,7 +68,7 @@ static void set_slope(lmb_flat *p, const float slope[3])
     }
 }
 
-/* Each plane becomes the mean of what it is now and of its track, by pixels. */
+/* Averages each plane with the matching track, weighted by pixels. */
 static void track_planes(mix_job *j, const lmb_mat4 *camera)
 {
     for (int32_t i = 0; i < j->planes.count; ++i) {
@@ -87,14 +87,13 @@ static void track_planes(mix_job *j, const lmb_mat4 *camera)
     lmb_planes_move(&j->cloud, &j->planes);
 }
 
-/* Does track a give way before b? The one that no frame has found for longer; of those alike that of fewer frames. */
+/* Is track a replaced before b? The one not found for longer is, or if equal, the one found in fewer frames. */
 static int gives_way(const mix_track *a, const mix_track *b)
 {
     return a->last != b->last ? a->last < b->last : a->seen < b->seen;
 }
 
-/* A free number; of all the one that is missed least: what the object stands on keeps its own, and so do planes of this
- * frame. -1: there is no such one. */
+/* A free track, or else the least recently found one, except the object's plane and planes of this frame. -1: none. */
 static int32_t new_track(mix_kept *k)
 {
     int32_t first = -1;
@@ -129,7 +128,7 @@ static void keep_plane(mix_kept *k, const mix_job *j, int32_t i, int is_new)
     }
 }
 
-/* Planes that go on first: their numbers are not free. */
+/* Continued planes come first, because their tracks are not free. */
 void mix_keep_planes(mix_kept *k, const mix_job *j)
 {
     for (int is_new = 0; is_new < 2; ++is_new) {
@@ -155,7 +154,8 @@ void mix_keep_place(mix_kept *k, const mix_job *j)
     k->floor = -1;
 }
 
-/* By how much a plane misses the object's foot, m; infinite: it lies aslant there, or not even by what a sensor bends it. */
+/* Distance between a plane and the object's foot, m; infinite if the plane is tilted there or too far even for sensor
+ * error. */
 static float miss(const mix_job *j, const lmb_flat *p, lmb_vec3 normal, int is_its_own)
 {
     const float off = fabsf(dot(p->normal, j->anchor) + p->distance);
@@ -164,7 +164,7 @@ static float miss(const mix_job *j, const lmb_flat *p, lmb_vec3 normal, int is_i
     return may_be && dot(p->normal, normal) > BELOW ? off : INFINITY;
 }
 
-/* The plane of this frame that the object stands on: the one that it stood on, else the nearest where it stood; or -1. */
+/* The plane of this frame under the object: the one that it stood on, else the nearest; or -1. */
 static int32_t plane_below(const mix_job *j, lmb_vec3 normal)
 {
     int32_t best = -1;
@@ -183,7 +183,7 @@ static int32_t plane_below(const mix_job *j, lmb_vec3 normal)
     return best;
 }
 
-/* The plane goes through the object's foot: by what it is off there, the object would float or sink. */
+/* Moves the plane to the object's foot. Otherwise the object would float or sink. */
 static void hold_plane(mix_job *j)
 {
     const lmb_flat *p = &j->planes.plane[j->floor];

@@ -1,5 +1,4 @@
-/* mix_sun.c: a sun for a photo that is given no light: the one that the photo's own shadows tell of, or one that adds
- * little. */
+/* mix_sun.c: a sun for a photo without given lights: estimated from shadows, or a weak default. */
 #include "mix_cast.h"
 #include "mix_frames.h"
 #include "mix_turn.h"
@@ -25,7 +24,8 @@ static lmb_vec3 to_camera(const mix_job *j, lmb_vec3 v)
 
 static int is_of_world(const mix_job *j) { return j->o.at == MIX_AT_WORLD; }
 
-/* The middle of the object's foot, in the camera's space. What a file has in the world was put nowhere: its box tells. */
+/* The middle of the object's foot, in camera space. An object in world coordinates has no anchor, so the box is
+ * used. */
 static lmb_vec3 foot_of(const mix_job *j)
 {
     lmb_vec3 low, high;
@@ -36,10 +36,10 @@ static lmb_vec3 foot_of(const mix_job *j)
     return to_camera(j, (lmb_vec3){0.5f * (low.x + high.x), low.y, 0.5f * (low.z + high.z)});
 }
 
-/* Metres of a unit: such a file is in metres. */
+/* Metres per unit: files in world coordinates are in metres. */
 static float scale_of(const mix_job *j) { return is_of_world(j) ? 1.0f : j->scale; }
 
-/* Level, towards the viewer; of a wall, out of it. */
+/* Level, towards the viewer; for a wall, out of it. */
 static lmb_vec3 in_front(const mix_job *j)
 {
     const lmb_vec3 foot = lmb_axes_turn(&j->axes, foot_of(j));
@@ -48,22 +48,22 @@ static lmb_vec3 in_front(const mix_job *j)
     return level > 0.0f ? (lmb_vec3){v.x / level, 0, v.z / level} : (lmb_vec3){0, 0, 1};
 }
 
-/* Where no shadow tells of a sun, one overhead: its shadow hides under the object. Before a wall as much out of that. */
+/* The default sun: overhead, with a shadow under the object; on a wall, 45 degrees out of it. */
 static lmb_vec3 overhead(const mix_job *j)
 {
     const lmb_vec3 up = {0, 1, 0};
     return j->hangs ? sum(0.70710678f, in_front(j), 0.70710678f, up) : up;
 }
 
-/* --- what is around and too dark ---------------------------------------------------------------------------------- */
+/* --- an environment that is too dark ------------------------------------------------------------------------------ */
 
-/* Hardly a surface reflects more than WHITE. Where the photo shows brighter ones than what is around would make of such,
- * there is light from where it shows nothing: all that is around, and the sun, are as much brighter. Lamps and windows are
- * brighter than white; the surface is asked that is as bright as BRIGHTEST of all. */
+/* Few surfaces reflect more than WHITE. If the photo shows surfaces brighter than the environment could make them,
+ * light comes from outside the picture, so environment and sun are scaled up. Lamps and windows are brighter than
+ * white, so the BRIGHTEST quantile is used. */
 #define WHITE     0.8f
 #define BRIGHTEST 0.95
 #define MORE_MAX  4.0f
-#define NEAR      0.5f /* m, beside the object's height: light differs from place to place */
+#define NEAR      0.5f /* m, added to the object's size: light varies from place to place */
 
 static float grey(const float *rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
 
@@ -74,8 +74,8 @@ static float grey_around(const mix_job *j, lmb_vec3 normal)
     return grey(rgb);
 }
 
-/* The mean brightness of a block's measured pixels, and the normal at its middle; 0: hardly one is measured, or it lies
- * farther from where the object stands. */
+/* The mean brightness of a block's measured pixels, and the normal in the middle. Returns 0 if few pixels are measured
+ * or the block is farther than `near` from the foot. */
 static int block_seen(float *brightness, lmb_vec3 *normal, const mix_job *j, int32_t x0, int32_t y0, lmb_vec3 foot,
                       float near)
 {
@@ -102,7 +102,8 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* 0: memory is short. Else how much brighter all light is than what is around with a sun from there, of so much by its cosine. */
+/* The factor by which all light exceeds the environment plus a sun from there with normal irradiance `sun`. Returns 0
+ * if memory is short. */
 static float brighter(const mix_job *j, lmb_vec3 from, float sun)
 {
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
@@ -120,7 +121,7 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
             if (block_seen(&brightness, &normal, j, x, y, foot, near)) {
                 const float light = grey_around(j, normal) + sun * fmaxf(along(normal, from), 0.0f);
                 more[n] = 3.14159265f / WHITE * brightness / fmaxf(light, 1e-9f);
-                n += isfinite(more[n]) ? 1 : 0; /* NaN has no place in an order */
+                n += isfinite(more[n]) ? 1 : 0; /* NaN cannot be sorted */
             }
         }
     }
@@ -132,8 +133,8 @@ static float brighter(const mix_job *j, lmb_vec3 from, float sun)
     return fminf(fmaxf(out, 1.0f), MORE_MAX);
 }
 
-/* Of what differs on the planes, the part that a sun's shadows explain: from UNSURE on it counts, from SURE on in full. A
- * sun that is not sure of itself is WIDE, degrees, and gives WEAK of what comes from everywhere. */
+/* The share of brightness variance that a sun's shadows must explain: from UNSURE on the sun counts, from SURE on in
+ * full. An uncertain sun is WIDE, degrees, and has WEAK times the environment's irradiance. */
 #define UNSURE    0.2f
 #define SURE      0.3f
 #define WIDE      80.0f
@@ -145,7 +146,7 @@ typedef struct guess {
     float share, size, sure;
 } guess;
 
-/* 0: memory is short. */
+/* Returns 0 if memory is short. */
 static int guess_of(guess *out, const mix_job *j, lmb_vec3 faces)
 {
     mix_cast cast;
@@ -159,7 +160,7 @@ static int guess_of(guess *out, const mix_job *j, lmb_vec3 faces)
     return 1;
 }
 
-/* Of a sequence the first frame's. */
+/* The sun of a sequence's first frame. */
 static float kept_sun(lmb_light *out, const mix_job *j)
 {
     const float *m = j->from_world.m;

@@ -1,4 +1,4 @@
-/* mix_turn.c: turns and shifts between the spaces of cameras, scenes and worlds. */
+/* mix_turn.c: rigid transforms between the spaces of cameras, scenes and worlds. */
 #include "mix_turn.h"
 
 lmb_vec3 mix_turn(const lmb_mat4 *t, lmb_vec3 d)

@@ -1,15 +1,15 @@
-/* mix_up.c: what is up in a photo, and which plane faces that way. */
+/* mix_up.c: the up direction of a photo, and the plane that faces up. */
 #include "mix_job.h"
 
 #include <math.h>
 #include <stddef.h>
 
 #define LEVEL 0.90630779f  /* cosine of 25 degrees */
-#define ACROSS 0.98480775f /* of 10: a plane that lies across what the pose has as up */
+#define ACROSS 0.98480775f /* cosine of 10 degrees: maximum angle between a plane's normal and the pose's up */
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/* A direction of the pose's world in the camera's space; without a pose that is the world. */
+/* A direction of the pose's world in camera space; without a pose, camera space is the world. */
 static lmb_vec3 of_world(const mix_job *j, const float d[3])
 {
     const double *p = j->frame.pose;
@@ -35,7 +35,7 @@ static int is_across(const mix_job *j, lmb_vec3 up)
     return 0;
 }
 
-/* 0: the planes tell. */
+/* Returns 0 if the planes must decide. */
 static int told_up(lmb_vec3 *out, const mix_job *j)
 {
     static const float axes[2][3] = {{0, 1, 0}, {0, 0, 1}};

@@ -1,4 +1,4 @@
-/* mix_voxels.c: the light that real surfaces and the object throw about, as voxels around the object. */
+/* mix_voxels.c: light reflected by real surfaces and the object, as voxels around the object. */
 #include "mix_lights.h"
 #include "mix_lobes.h"
 #include "mix_sources.h"
@@ -11,26 +11,26 @@
 
 #include "../../platform/host/host.h"
 
-enum { TREE_SIZE = 512, TURNS = 4, ASKED = 4 /* places of a guessed sun, for colours */ };
+enum { TREE_SIZE = 512, TURNS = 4, ASKED = 4 /* samples of a guessed sun, for albedo */ };
 
-/* The cube around the object is so many times as wide as it is. */
+/* Side of the cube, in multiples of the object's size. */
 #define ROOM 4.0f
 
-/* Of what is not seen: no photo tells it. */
+/* Albedo of surfaces outside the photo. */
 #define UNSEEN_ALBEDO 0.5
 
-/* Leaves within which points have one answer. */
+/* Leaves within which points share one result. */
 #define NEAR_LEAVES 4.0f
 
-/* --- real surfaces' colours --------------------------------------------------------------------------------------- */
+/* --- albedo of real surfaces -------------------------------------------------------------------------------------- */
 
-/* Sums of a row of cells. */
+/* Sums of one cell. */
 typedef struct colour {
     float rgb[3];
     int32_t count;
 } colour;
 
-/* A pixel's irradiance without the object: lights, and what is around as if nothing were in its way. */
+/* A pixel's irradiance without the object: lights, and the environment without occlusion. */
 static void light_tile(lmb_irradiance *out, mix_job *j, const lmb_tile *tile, const lmb_view *view)
 {
     const int32_t told = j->light_count - j->lamp_count, step = mix_lights_step(j, ASKED);
@@ -39,7 +39,7 @@ static void light_tile(lmb_irradiance *out, mix_job *j, const lmb_tile *tile, co
         lmb_direct_tile(out, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][0]);
     }
     for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
-        out->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= (float)step; /* those of a sun stand for it */
+        out->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] *= (float)step; /* they represent the whole sun */
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         float rgb[3];
@@ -97,8 +97,8 @@ static int colour_real(mix_job *j, report *r)
 
 /* --- voxels ------------------------------------------------------------------------------------------------------- */
 
-/* The floor near the upper side of its leaves: so much of the height under it that what stands on it starts another
- * leaf, and shares none with the floor's light. */
+/* Puts the floor at three quarters of a leaf's height, so that the object on it starts in the next leaf and shares none
+ * with the floor's light. */
 static float leaf_under(float height, float leaf)
 {
     return (floorf(height / leaf) + 0.75f) * leaf;
@@ -120,7 +120,7 @@ static int build(mix_job *j, report *r)
                    to = {middle.x + half, middle.y + half, middle.z + half};
     const lmb_voxel_part parts[2] = {{&j->scene, 1, j->real_triangles, {1, 1}},
                                      {&j->scene, j->real_triangles + 1, j->object_triangles, {0, 1}}};
-    const int32_t bits = 2 * j->o.depth + 4; /* surfaces take some six of a square of leaves */
+    const int32_t bits = 2 * j->o.depth + 4; /* surfaces take about six times the leaves of a square */
     const uint32_t cap = 1u << (bits < 14 ? 14 : bits > 22 ? 22 : bits);
     const size_t bytes = lmb_voxels_bytes(cap, LMB_VOXELS_THREE);
     void *memory = mix_take(j, bytes, r);
@@ -139,29 +139,29 @@ static int build(mix_job *j, report *r)
     return 1;
 }
 
-/* --- their light -------------------------------------------------------------------------------------------------- */
+/* --- light of the voxels ------------------------------------------------------------------------------------------ */
 
-/* What is injected, and where the maps' first points are made. */
+/* The injected points, and the scratch for first points of the maps. */
 typedef struct points {
     lmb_tree tree;
     lmb_tile *scratch;
     lmb_around_scratch *around;
-    lmb_texel *real, *object, *again; /* again: those of one of them, with other light */
+    lmb_texel *real, *object, *again; /* again: copies with updated light */
     size_t real_count, object_count;
-    lmb_texel *sent;                 /* where what the object sends first meets a surface */
+    lmb_texel *sent;                 /* first hits of the object's light */
     size_t sent_count;
-    double sent_flux[3], sent_out[3]; /* W, by what they give what is around; and of what leaves the cube */
+    double sent_flux[3], sent_out[3]; /* W: light that these add to the environment; light that leaves the cube */
     lmb_vec3 about; /* the object's middle */
 } points;
 
-/* All of a face's first points, in p->tree. What metal throws on of the lights' light is light of its own. */
+/* Makes all first points of a face, in p->tree. Reflections of given lights by metal are handled as separate lights. */
 static int map_texels(mix_job *j, points *p, int32_t light, const lmb_shadow_map *map, int32_t face)
 {
     return lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, &j->scene, &j->lights[light], map, face, 0, 0,
                            map->size / LMB_TILE) == LMB_OK;
 }
 
-/* As many texels for the many lights that make one shadow together as for one. */
+/* Many lights with one common shadow get as many texels in total as one light. */
 static int32_t tree_side(const mix_job *j, int32_t map)
 {
     const int32_t cap = j->light_count < MIX_SUN_SAMPLES && j->lamp_count == 0 ? TREE_SIZE : TREE_SIZE / 4;
@@ -194,8 +194,8 @@ static int inject_maps(mix_job *j, points *p, int32_t with)
     return !with || lmb_voxels_inject(&j->voxels, with, p->sent, p->sent_count) == LMB_OK;
 }
 
-/* Spots' and points' light where it first meets a surface, W by channel, without and with the object: what surfaces that
- * are seen reflect, and what goes elsewhere. */
+/* Light of spots and points at the first hit, W by channel, without and with the object: reflected by visible surfaces,
+ * and sent elsewhere. */
 typedef struct first_light {
     double flux[2][3], unseen[2][3];
 } first_light;
@@ -241,7 +241,7 @@ static int is_inside(const lmb_texel *t, const lmb_voxels *v)
     return at.x > 0.0f && at.y > 0.0f && at.z > 0.0f && at.x < side && at.y < side && at.z < side;
 }
 
-/* Only what lies in the cube: the rest would find no leaf. */
+/* Keeps only points in the cube: the others would find no leaf. */
 static size_t inside(lmb_texel *all, size_t count, const lmb_voxels *v)
 {
     size_t n = 0;
@@ -253,7 +253,7 @@ static size_t inside(lmb_texel *all, size_t count, const lmb_voxels *v)
     return n;
 }
 
-/* What all surfaces of the scene, or of one that is white everywhere, reflect of pi W/m2, by points in the cube. */
+/* Light reflected by all surfaces of a scene under pi W/m2, as points in the cube. */
 static lmb_texel *reflect_all(size_t *count, const mix_job *j, const lmb_scene *scene, const lmb_env *white, lmb_texel *out,
                               size_t cap)
 {
@@ -274,8 +274,8 @@ static lmb_scene *white_scene(mix_job *j, report *r)
     return out;
 }
 
-/* What the object sends, where it first meets a surface. What meets one in the cube is in its voxels, and lights what is
- * around by what bounces there; all else lights what is around. */
+/* First hits of the object's light. Light that hits a surface in the cube goes into the voxels, and bounces from there
+ * light the environment; the rest lights the environment directly. */
 static int find_sent(mix_job *j, points *p, report *r)
 {
     enum { SIDE = 8 };
@@ -307,8 +307,8 @@ static int find_sent(mix_job *j, points *p, report *r)
     return 1;
 }
 
-/* What is not seen is lit by what lamps' light first meets: it darkens as much as the object takes of that, which
- * depends on how large it is and where it stands. Of a sun no object takes a share. */
+/* Surfaces outside the photo are lit by the first bounce of the lamps. They darken by the share of it that the object
+ * removes, which depends on size and position. A sun has no such share. */
 static int dim_around(mix_job *j, points *p)
 {
     first_light sum;
@@ -330,7 +330,7 @@ static int dim_around(mix_job *j, points *p)
     return 1;
 }
 
-/* The field with the object: lights' light, and what its points throw back now. */
+/* Injects the field with the object: direct light, and the updated reflected light of the points. */
 static int inject_with(mix_job *j, points *p)
 {
     return lmb_voxels_dark(&j->voxels, LMB_VOXEL_WITH) == LMB_OK && inject_maps(j, p, LMB_VOXEL_WITH) &&
@@ -338,7 +338,8 @@ static int inject_with(mix_job *j, points *p)
            lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITH) == LMB_OK;
 }
 
-/* Points by what they receive now, against what they did: without the object, or of all that is around. */
+/* Scales the flux of points by their light now over their light before: without the object for real surfaces, or
+ * unoccluded for the object. */
 static int relight(mix_job *j, points *p, lmb_texel *inout, size_t count, int is_real)
 {
     const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch, 1},
@@ -369,9 +370,9 @@ static int relight_object(mix_job *j, points *p)
     return relight(j, p, object, p->object_count, 0);
 }
 
-/* The world without the object is what the photo shows. The one with it begins with an object that throws nothing back:
- * first the floor darkens beneath it, then it is lit by that floor, and so on in turns. From a bright beginning the gap
- * between both would stay bright for as many turns as light bounces there. */
+/* Without the object, the world is as in the photo. With it, iteration starts with a black object: first the floor
+ * darkens beneath it, then the object is lit by that floor, and so on in turns. A bright start would leave the gap
+ * between both bright for as many turns as light bounces there. */
 static int inject_all(mix_job *j, points *p, report *r)
 {
     int ok = dim_around(j, p) && inject_maps(j, p, LMB_VOXEL_WITHOUT) &&
@@ -386,7 +387,7 @@ static int inject_all(mix_job *j, points *p, report *r)
     return (ok && lmb_voxels_delta(&j->voxels) == LMB_OK) || report_fail(r, "voxels cannot take their light");
 }
 
-/* Which points have one answer: those of one cube of NEAR_LEAVES that face about the same way. */
+/* Groups points with one result: those in one cube of NEAR_LEAVES with similar normals. */
 typedef struct sorter {
     uint64_t key;
     uint32_t at;
@@ -412,7 +413,7 @@ static int by_key(const void *a, const void *b)
     return x->key != y->key ? (x->key > y->key) - (x->key < y->key) : (x->at > y->at) - (x->at < y->at);
 }
 
-/* Meshes have their triangles in any order; those that lie together are to be asked together. */
+/* Sorts points by position, because triangles of a mesh come in any order and near points share one result. */
 static int sort_points(mix_job *j, lmb_texel *all, size_t count, report *r)
 {
     sorter *order = mix_take(j, count * sizeof *order, r);
@@ -434,7 +435,7 @@ static int sort_points(mix_job *j, lmb_texel *all, size_t count, report *r)
 
 static lmb_texel *take_points(size_t *count, mix_job *j, uint32_t first_id, uint32_t triangles, report *r)
 {
-    const float leaf = 0.5f * j->voxels.leaf; /* so that leaves get about even shares */
+    const float leaf = 0.5f * j->voxels.leaf; /* half, so that leaves get about equal shares */
     const size_t cap = lmb_around_points(NULL, 0, j->bounces, first_id, triangles, leaf, &j->env[0]);
     lmb_texel *out = mix_take(j, cap * sizeof *out, r);
     if (out != NULL) {
@@ -474,8 +475,8 @@ static int light_voxels(mix_job *j, report *r)
     return find_sent(j, &p, r) && inject_all(j, &p, r);
 }
 
-/* Metal asks what is around and what planes reflect in each frame, also where the voxels stay: what the object takes of
- * the surroundings is then what it took when those were lit. */
+/* Metal needs the environment and plane albedos in each frame, even if the voxels stay. The environment's dimming is
+ * then that of the frame that built the voxels. */
 static int find_mirrored(mix_job *j, report *r)
 {
     if (j->object_triangles == 0 || !lmb_scene_is_glossy(&j->scene)) {

@@ -1,13 +1,13 @@
-/* mix_world.c: one world of voxels over a sequence. */
+/* mix_world.c: voxels shared by a sequence. */
 #include "mix_world.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Of the surfaces about the object one in so many may be new, or gone, before voxels are built again. */
+/* If more than one in NEW surface cells around the object is new, or gone, voxels are built again. */
 enum { NEW = 20, CELL_FLOATS = 12, CELL_COLOURS = 16, CELL_INDICES = 6 };
 
-/* What is farther from the object, as parts of the voxels' cube, throws no shadow on it that is kept. */
+/* Maximum distance from the voxels' cube, in cube sides: cells farther away cast no relevant shadow. */
 #define FAR 1.0f
 
 /* --- tracing ------------------------------------------------------------------------------------------------------ */
@@ -58,7 +58,7 @@ static lmb_vec3 middle(const float *at)
 
 static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/* What a frame says of a cell of the world: nothing; that it is there; that there is nothing. */
+/* The state of a world's cell in a frame: not visible, present, or gone. */
 enum { UNSEEN, THERE, GONE };
 
 static int seen(const mix_job *j, lmb_vec3 p)
@@ -76,7 +76,7 @@ static int seen(const mix_job *j, lmb_vec3 p)
     return mix_agree(q, 1.0f / ahead) ? THERE : GONE;
 }
 
-/* The arrays of a mesh with room for more cells. */
+/* Enlarges the arrays of a mesh for more cells. */
 static int grow(lmb_real_mesh *m, mix_job *j, int32_t more, report *r)
 {
     const size_t cells = (size_t)(m->count + more), own = (size_t)m->count;
@@ -118,8 +118,8 @@ static int is_in_cube(const lmb_voxels *v, lmb_vec3 p, float beyond)
     return d.x > low && d.y > low && d.z > low && d.x < high && d.y < high && d.z < high;
 }
 
-/* A cell is there where a corner of it is, as the frame then has a cell there itself, and gone where all of it is: the
- * middle of one across an edge of depth lies in the air. */
+/* A cell is present if a corner is, because the frame then has a cell there, and gone only if all of it is: the middle
+ * of a cell across a depth edge lies in the air. */
 static int cell_seen(const mix_job *j, const lmb_mat4 *here, const float *from)
 {
     const int now = seen(j, mix_move(here, middle(from)));
@@ -142,7 +142,7 @@ int mix_cells(mix_job *j, report *r)
     }
     const lmb_mat4 back = mix_back(&w->from_world), here = mix_product(&j->from_world, &back);
     const int32_t count = w->real.count + w->old_cells;
-    const int32_t cap = j->real.columns * j->real.rows * 2; /* of old ones */
+    const int32_t cap = j->real.columns * j->real.rows * 2; /* of old cells */
     j->to_voxels = mix_back(&here);
     if (!grow(&j->real, j, count < cap ? count : cap, r)) {
         return 0;
@@ -166,9 +166,9 @@ int mix_cells(mix_job *j, report *r)
     return 1;
 }
 
-/* --- where a world has surfaces ----------------------------------------------------------------------------------- */
+/* --- occupancy grid ----------------------------------------------------------------------------------------------- */
 
-/* The cell of a world's cube that a point in it lies in. */
+/* The grid cell that contains a point. */
 static size_t place_of(const lmb_voxels *v, lmb_vec3 p, int x, int y, int z)
 {
     const float per = (float)MIX_SEEN / (v->leaf * (float)(1 << v->depth));
@@ -204,7 +204,7 @@ static float distance(lmb_vec3 a, lmb_vec3 b)
     return sqrtf(along(d, d));
 }
 
-/* By points no farther apart than the cube's cells. */
+/* Marks a cell by points no farther apart than the grid's cells. */
 static void mark_cell(mix_job *j, const float *at)
 {
     const float side = j->voxels.leaf * (float)(1 << j->voxels.depth) / (float)MIX_SEEN;

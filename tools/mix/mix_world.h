@@ -1,25 +1,26 @@
-/* mix_world.h: one world of voxels over a sequence: frames trace what an earlier one has built, until enough of what they
- * see is new. */
+/* mix_world.h: voxels shared by a sequence: frames trace the voxels of an earlier one until enough of the view is
+ * new. */
 #ifndef MIX_WORLD_H
 #define MIX_WORLD_H
 
 #include "mix_frames.h"
 #include "mix_turn.h"
 
-enum { MIX_SEEN = 64 /* cells a side of a world's cube, that say where it has surfaces */ };
+enum { MIX_SEEN = 64 /* cells per side of a world's occupancy grid */ };
 
-/* mix_trace: through the world without or with the object, by j's own scratch. mix_tile_there: `in`, or `*room` with it as
- * it lies in the voxels' space; mix_point_there a point of the scene. */
+/* mix_trace: a trace through the world without or with the object, with j's own scratch. mix_tile_there: transforms a
+ * tile to voxel space, into `*room`; returns `in` if the spaces are equal. mix_point_there: the same for a point of the
+ * scene. */
 lmb_cone_trace mix_trace(const mix_job *j, int32_t world);
 const lmb_tile *mix_tile_there(lmb_tile *room, const mix_job *j, const lmb_tile *in);
 lmb_vec3 mix_point_there(const mix_job *j, lmb_vec3 p);
 
-/* mix_cells: behind the frame's own cells those of the last world that this frame does not see: out of its picture, or
- * behind what it sees. What it sees, and what it sees through, is replaced. 1, or 0 with `r` set. */
+/* mix_cells: appends cells of the last world that are outside this frame's view: out of the picture, or hidden. Visible
+ * cells, and cells that the frame sees through, are replaced. Returns 1, or 0 with `r` set. */
 int mix_cells(mix_job *j, report *r);
 
-/* mix_world_stays: the last world holds for this frame; from now on that is traced. mix_world_begins: this frame has built
- * its own. */
+/* mix_world_stays: returns 1 if the last world is still valid, and uses it from now on. mix_world_begins: makes this
+ * frame's voxels the world. */
 int mix_world_stays(mix_job *j);
 int mix_world_begins(mix_job *j, report *r);
 

@@ -1,18 +1,19 @@
-/* ear_clip.c: cuts a planar polygon into triangles: a fan where it is convex, ears where it is not. */
+/* ear_clip.c: cuts a planar polygon into triangles: a fan if it is convex, otherwise ears. */
 #include "ear_clip.h"
 
 #include <math.h>
 #include <string.h>
 
-/* The polygon seen along the axis that its normal follows best, counter-clockwise. */
+/* The polygon projected along the largest axis of the normal, counter-clockwise. */
 typedef struct flat {
     const double *points;
     uint32_t n;
-    int u, v;    /* the coordinates that stay */
+    int u, v;    /* the remaining coordinates */
     double area; /* twice */
 } flat;
 
-/* Newell's normal, from corner 0, so that a place far away costs no digits: twice the area of each projection. */
+/* Newell's normal, relative to corner 0, so that distant positions lose no digits: twice the area of each
+ * projection. */
 static void newell(double normal[3], const double *p, uint32_t n)
 {
     uint32_t i;
@@ -72,17 +73,18 @@ typedef struct ring {
     const flat *f;
     uint32_t *next, *prev, left;
     uint64_t steps;                    /* comparisons of a corner with a triangle that may still be made */
-    uint8_t dull[POLYGON_MAX_CONCAVE]; /* found to be no ear; only a cut beside it asks again */
+    uint8_t dull[POLYGON_MAX_CONCAVE]; /* is no ear; tested again only after a cut beside it */
 } ring;
 
-/* Does the triangle hold corner p? One in the place of another (bridges to holes) does not count. */
+/* Returns whether corner p lies in the triangle. A corner at the position of another (bridges to holes) does not
+ * count. */
 static int holds(const flat *f, uint32_t a, uint32_t b, uint32_t c, uint32_t p)
 {
     return turn(f, a, b, p) >= 0 && turn(f, b, c, p) >= 0 && turn(f, c, a, p) >= 0 && !same_place(f, p, a) &&
            !same_place(f, p, b) && !same_place(f, p, c);
 }
 
-/* Is corner b an ear: a left turn whose triangle holds no other corner? */
+/* Returns whether corner b is an ear: a left turn, and no other corner in the triangle. */
 static int is_ear(ring *r, uint32_t b)
 {
     const uint32_t a = r->prev[b], c = r->next[b];
@@ -95,8 +97,9 @@ static int is_ear(ring *r, uint32_t b)
     return 1;
 }
 
-/* The first ear from `at` on. A ring without one (it crosses itself, or rounding, or no steps are left) loses the next
- * corner all the same, so this ends. Corners are asked twice, because one may have been in the way that is gone. */
+/* Finds the first ear from `at` on. If a ring has none (it crosses itself, or by rounding, or no steps are left),
+ * the next corner is cut anyway, so the loop ends. Corners are tested twice, because a cut may have removed the
+ * corner in the way. */
 static uint32_t find_ear(ring *r, uint32_t at)
 {
     uint32_t round, tried;
@@ -111,7 +114,8 @@ static uint32_t find_ear(ring *r, uint32_t at)
     return at;
 }
 
-/* A simple polygon takes about n^2 steps, and gets twice that if as many are left. 1 where they were enough. */
+/* A simple polygon takes about n^2 steps; the limit is twice that, or the steps that are left. Returns 1 if they
+ * sufficed. */
 static int cut_ears(uint32_t *out, const flat *f, uint32_t *links, uint64_t *steps)
 {
     const uint64_t max = 2 * (uint64_t)f->n * f->n < *steps ? 2 * (uint64_t)f->n * f->n : *steps;

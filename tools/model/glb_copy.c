@@ -211,7 +211,7 @@ static int is_posed(const copy *c, uint32_t node)
     return i < c->posed_count;
 }
 
-/* If the mesh of a node is in world space, the node loses the mesh and its name. A new node gets both. */
+/* If the mesh of a node is in world space, moves the mesh and the name to a new node. */
 static void put_nodes(copy *c)
 {
     static const char *const own[] = {"mesh", "skin", "weights", "extensions", NULL},
@@ -346,7 +346,7 @@ static int emits(const json *doc, uint32_t material)
 }
 
 /* Puts the lightmap into the first free slot without an effect: occlusion of strength 0, emission of factor 0, or a
- * specular texture (only its alpha has an effect, and the lightmap has no alpha). Each side has its own front faces, so
+ * specular texture (only alpha has an effect, and the lightmap has no alpha). Each side has separate front faces, so
  * no material is double-sided. */
 static void put_material(copy *c, uint32_t material)
 {

@@ -18,7 +18,7 @@ static void put_picture(glb_writer *w, text_buffer *images, const file_bytes *fi
     text_buffer_add(images, "\"mimeType\":\"image/png\",\"bufferView\":%u}", (unsigned)glb_end_view(w, from, 0));
 }
 
-/* The scene's, then the picture of light. */
+/* Writes the images of the scene, then the lightmap. */
 static int put_pictures(glb_writer *w, text_buffer *images)
 {
     for (uint32_t i = 0; i < w->scene->texture_count; ++i) {

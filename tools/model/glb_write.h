@@ -6,7 +6,7 @@
 #include "../common/io_file.h"
 #include "model.h"
 
-/* As it lies in the file. */
+/* A vertex as the file stores it. */
 typedef struct glb_vertex {
     float position[3], normal[3];   /* in object space */
     float uv[MODEL_UV_SETS][2];     /* TEXCOORD_0 and following */
@@ -26,12 +26,12 @@ typedef struct glb_mesh {
 
 typedef struct glb_light {
     const char *form;          /* asset.extras.lambent.light: "vertex-colours" or "lightmap" */
-    float scale;               /* W/m2: what a colour of 1 stands for */
+    float scale;               /* W/m2 of a colour of 1 */
     const file_bytes *picture; /* a PNG, by light_uv; NULL: none */
 } glb_light;
 
-/* glb_write: writes these meshes, sorted by instance, with the materials, textures, lights and cameras of the model and
- * its scene. If the model has a source, the rest of the document is written too: names, nodes, maps, extras,
+/* glb_write: writes these meshes, sorted by instance, with the materials, textures, lights and cameras of the model
+ * and the scene. If the model has a source, the rest of the document is written too: names, nodes, maps, extras,
  * extensions. Returns 1, or 0 with `r` set. */
 int glb_write(const char *path, const lmb_scene *scene, const model *loaded, const glb_mesh *mesh, uint32_t mesh_count,
               const glb_light *light, report *r);

@@ -14,7 +14,7 @@ static int check_version(gltf *g)
     return json_fail(&g->doc, asset, g->b->r, "version is not 2.x; export as glTF 2.0");
 }
 
-/* MODEL_EXTENSION_: what becomes of the extension of this name. */
+/* Returns the MODEL_EXTENSION_ support for an extension name. */
 static int extension_use(const gltf *g, uint32_t name)
 {
     static const struct {
@@ -34,7 +34,7 @@ static int extension_use(const gltf *g, uint32_t name)
     return MODEL_EXTENSION_IGNORED;
 }
 
-/* Each name of a list once among the facts: of the required ones, which come first, and of those used. */
+/* Adds each name of a list once to the facts: the required ones, which come first, and the used ones. */
 static void list_extensions(gltf *g, uint32_t list, int required)
 {
     model_facts *facts = &g->b->out->facts;
@@ -55,7 +55,7 @@ static void list_extensions(gltf *g, uint32_t list, int required)
     }
 }
 
-/* How to get rid of an extension that stands for compressed data; NULL for others. */
+/* Advice how to convert a file with a compression extension; NULL for others. */
 static const char *advice_for(const gltf *g, uint32_t name)
 {
     static const struct {
@@ -106,7 +106,7 @@ typedef struct shown {
 
 static int has(const gltf *g, uint32_t node, const char *key) { return json_member(&g->doc, node, key) != JSON_NONE; }
 
-/* Makes a mesh at its own weights, once for each mesh. */
+/* Makes a mesh with the default weights, once per mesh. */
 static int make_mesh(gltf *g, uint32_t mesh)
 {
     const int is_new = g->mesh_first[mesh] == JSON_NONE;
@@ -141,7 +141,7 @@ static int make_own(shown *inout, const gltf_tree *t, gltf *g, uint32_t node)
     return !inout->is_posed || gltf_pose(g, t, node, mesh, inout->first);
 }
 
-/* The meshes that drawn nodes show; *total of them, repeated ones counted again. */
+/* Makes the meshes of drawn nodes; *total counts repeated ones each time. */
 static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
 {
     uint32_t i;
@@ -164,7 +164,7 @@ static int make_meshes(shown *to, uint64_t *total, const gltf_tree *t, gltf *g)
     return 1;
 }
 
-/* One instance a node and primitive; posed meshes stand in the world already. */
+/* Makes one instance per node and primitive; posed meshes are already in world space. */
 static int add_instances(const gltf_tree *t, gltf *g)
 {
     static const gltf_matrix unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
@@ -211,7 +211,7 @@ static void count_occlusion_maps(gltf *g)
     }
 }
 
-/* What a reader of the picture should know. */
+/* Adds notes about features that the picture lacks. */
 static void tell_left_out(gltf *g)
 {
     const gltf_counts *n = &g->left_out;
@@ -247,7 +247,7 @@ static void tell_left_out(gltf *g)
                      json_count(&g->doc, json_member(&g->doc, 0, "animations")));
 }
 
-/* Counts the meshes that the scene may need: one for each primitive, and a copy for each node with its own shape. */
+/* Counts the meshes that the scene may need: one for each primitive, and copies for nodes with another shape. */
 static uint64_t count_primitives(const gltf_tree *t, gltf *g, uint64_t *all)
 {
     uint64_t own = 0;
@@ -264,7 +264,7 @@ static uint64_t count_primitives(const gltf_tree *t, gltf *g, uint64_t *all)
     return *all + own;
 }
 
-/* The tables by accessor, buffer and mesh. */
+/* Allocates the tables by accessor, buffer and mesh. */
 static int make_tables(const gltf_tree *t, gltf *g)
 {
     const uint32_t accessors = g->accessors.count;
@@ -287,10 +287,10 @@ static int make_tables(const gltf_tree *t, gltf *g)
     g->buffer_bytes = (gltf_bytes *)build_scratch(g->b, g->buffers.count, sizeof *g->buffer_bytes);
     for (i = 0; g->mesh_first && i < g->meshes.count; ++i)
         g->mesh_first[i] = JSON_NONE;
-    return gltf_light_begin(g, (uint32_t)meshes) && g->b->r->text[0] == '\0'; /* any that could not be had has said so */
+    return gltf_light_begin(g, (uint32_t)meshes) && g->b->r->text[0] == '\0'; /* each failure has set the report */
 }
 
-/* Counts as the document has them. */
+/* Counts items of the document. */
 static void count_facts(gltf *g)
 {
     model_facts *facts = &g->b->out->facts;

@@ -1,4 +1,4 @@
-/* io_gltf.h: what the files of the glTF reader share: the document, its bytes, its accessors, its nodes, its looks. */
+/* io_gltf.h: shared by the files of the glTF reader: document, bytes, accessors, nodes, materials. */
 #ifndef IO_GLTF_H
 #define IO_GLTF_H
 
@@ -7,7 +7,7 @@
 #include "model_morph.h"
 #include "model_motion.h"
 
-/* JSON nodes of a top-level array, so that an index is found without walking. */
+/* JSON nodes of a top-level array, for lookups by index. */
 typedef struct gltf_list {
     uint32_t *items;
     uint32_t count;
@@ -32,13 +32,13 @@ typedef struct gltf_influences {
     uint32_t sets;
 } gltf_influences;
 
-/* Of an image by its texels: channels as numbers, and as linear light. */
+/* Means over the texels of an image: channels as numbers, and as linear light. */
 typedef struct gltf_mean {
     int known;
     double green, blue, alpha, light[3]; /* 0 .. 1 */
 } gltf_mean;
 
-/* What was left out or stands for something else, told once at the end. */
+/* Counts of ignored or replaced features, for the notes at the end. */
 typedef struct gltf_counts {
     uint32_t points_lines, without_positions, ragged, bare;       /* primitives, vertices */
     uint32_t textures, blends, metals, metal_maps, gloss_maps, unlit, emissive_maps; /* materials */
@@ -57,31 +57,31 @@ typedef struct gltf {
     int16_t **normals;
     const int16_t **tangents;
     const uint8_t **colours;
-    uint32_t *uv_owner;               /* the material that uvs[accessor] was made for */
+    uint32_t *uv_owner;               /* material that uvs[accessor] was made for */
     gltf_uv *material_uv;             /* by material */
     int32_t *slots[2];                /* by texture, as colour or normal map: index in b->textures, or SLOT_ */
-    lmb_texture *image_texels[2];     /* by image, the same: what is decoded already; texels NULL: nothing yet */
+    lmb_texture *image_texels[2];     /* by image, as colour or normal map: decoded images; texels NULL: not yet */
     uint32_t *image_content;          /* by image: equal for equal bytes, once it is decoded */
-    gltf_mean *image_means;           /* by those numbers */
-    uint32_t *mesh_first, *mesh_size; /* by mesh: its run in b->meshes; mesh_first JSON_NONE: not made yet */
+    gltf_mean *image_means;           /* by image_content */
+    uint32_t *mesh_first, *mesh_size; /* by mesh: range in b->meshes; mesh_first JSON_NONE: not made yet */
     uint32_t *mesh_material, *mesh_primitive; /* by lambent mesh: index; JSON node */
     lmb_mesh *mesh_rest;                      /* by lambent mesh: with all morph weights 0 */
-    gltf_influences *mesh_influences;         /* by lambent mesh, for as often as it is posed */
-    uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
+    gltf_influences *mesh_influences;         /* by lambent mesh, if it is posed several times */
+    uint32_t default_material;        /* for primitives without one; JSON_NONE until needed */
     uint32_t *instance_from;          /* by instance: index of the node in the document */
     gltf_uv *light_uv;                /* by material, for baked light; NULL: the file has no baked light */
-    uint32_t *instance_node, *light_node, *camera_node; /* of the model's: place in the tree's order, or MODEL_NONE */
-    uint32_t *instance_shown;         /* by instance: place in the tree of the node with this mesh, skinned or not */
+    uint32_t *instance_node, *light_node, *camera_node; /* for the model: index in the tree's order, or MODEL_NONE */
+    uint32_t *instance_shown;         /* by instance: index in the tree of the node with this mesh, skinned or not */
     gltf_counts left_out;
     report texture_error; /* the first one */
 } gltf;
 
-/* Column-major, as glTF's; composed in double, so that deep trees lose nothing before binary32. */
+/* Column-major like in glTF; composed in double, so that deep trees lose no precision before binary32. */
 typedef struct gltf_matrix {
     double m[16];
 } gltf_matrix;
 
-/* The part of the document that is drawn: nodes in drawing order, each with its way to the world. */
+/* The part of the document that is drawn: nodes in drawing order with world transforms. */
 typedef struct gltf_tree {
     uint32_t *order; /* parents before children */
     uint32_t count;
@@ -89,10 +89,10 @@ typedef struct gltf_tree {
     gltf_matrix *world; /* by node; of those in `order` */
     gltf_matrix *turn;  /* by node: the same without scale, for directions if the scale is 0 */
     uint8_t *hidden;    /* by node: meshes and lights are not drawn */
-    uint8_t *placed;    /* by node: is it in `order`? */
+    uint8_t *placed;    /* by node: 1 if in `order` */
 } gltf_tree;
 
-/* An accessor whose every byte was found to be there. */
+/* An accessor with all bytes checked to exist. */
 typedef struct gltf_accessor {
     uint32_t node;       /* JSON, for messages */
     const uint8_t *data; /* element 0; NULL: zeros */
@@ -111,7 +111,7 @@ enum { GLTF_I8 = 5120, GLTF_U8 = 5121, GLTF_I16 = 5122, GLTF_U16 = 5123, GLTF_U3
 /* io_gltf_data.c */
 int gltf_container(gltf *g, const uint8_t *data, size_t size); /* GLB or plain: parses the JSON */
 int gltf_lists(gltf *g);                                       /* all lists, except lights */
-int gltf_list_of(gltf_list *out, gltf *g, uint32_t array);     /* of any array, or of JSON_NONE: empty */
+int gltf_list_of(gltf_list *out, gltf *g, uint32_t array);     /* of any array; JSON_NONE: empty */
 int gltf_item(uint32_t *out, const gltf *g, const gltf_list *list, uint32_t reference);  /* node an index points to */
 int gltf_index(uint32_t *out, const gltf *g, const gltf_list *list, uint32_t reference); /* the index, checked */
 int gltf_uri(gltf_bytes *out, gltf *g, uint32_t uri, report *r); /* bytes that stay until loading ends */
@@ -125,11 +125,11 @@ int gltf_make_tree(gltf_tree *t, gltf *g);
 int gltf_local(model_local *out, gltf *g, uint32_t node);
 void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b);
 
-/* io_gltf_place.c: of the tree's nodes */
+/* io_gltf_place.c: for the nodes of the tree */
 int gltf_lights(const gltf_tree *t, gltf *g);
 int gltf_cameras(const gltf_tree *t, gltf *g);
 
-/* io_gltf_motion.c: after all that moves; sets the model's motion, or motion_problem */
+/* io_gltf_motion.c: call it after all animated items; sets the model's motion, or motion_problem */
 void gltf_motion(const gltf_tree *t, gltf *g);
 
 /* io_gltf_shape.c: makes shapes of nodes with moving joints or with a track of morph weights; `place`: of each document
@@ -142,29 +142,29 @@ uint32_t gltf_targets(const gltf *g, uint32_t node);
 int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */
 void gltf_default_material(gltf *g); /* makes default_material, once */
 
-/* Reads the bytes of images[index], usually a PNG or a JPEG, and its name for messages. On failure returns 0 with `why`
- * set, or with the report set if the model is damaged. */
+/* Reads the bytes of images[index], usually a PNG or a JPEG, and a name for messages. On failure returns 0 with
+ * `why` set, or with the report set if the model is damaged. */
 enum { GLTF_PLACE = 96 };
 int gltf_image_bytes(gltf_bytes *out, char place[GLTF_PLACE], gltf *g, uint32_t index, report *why);
 
 int gltf_read_uv(gltf_uv *out, gltf *g, uint32_t info); /* the set and transform of a texture info */
 
-int gltf_texture(int32_t *out, gltf *g, uint32_t texture); /* place in b->textures, as a colour; -1: it cannot be had */
+int gltf_texture(int32_t *out, gltf *g, uint32_t texture); /* index in b->textures, as a colour; -1: not available */
 
 /* io_gltf_mesh.c */
-int gltf_mesh(gltf *g, uint32_t mesh); /* fills mesh_first and mesh_size; once a mesh */
-/* An attribute's accessor: its index, opened, with `components` or `other` components and `count` elements (0: any).
- * Absent: *index is JSON_NONE. */
+int gltf_mesh(gltf *g, uint32_t mesh); /* fills mesh_first and mesh_size; once per mesh */
+/* Opens the accessor of an attribute and returns its index. Requires `components` or `other` components and `count`
+ * elements (0: any). If absent, *index is JSON_NONE. */
 int gltf_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t reference, uint32_t components, uint32_t other,
                    uint32_t count);
 float *gltf_floats(gltf *g, const gltf_accessor *a); /* all values in scratch memory; NULL with the report set */
 
-/* io_gltf_light.c: of what `lambent bake --to` wrote */
-int gltf_light_begin(gltf *g, uint32_t meshes);            /* before the meshes: is there any? */
-int gltf_light_end(gltf *g);                               /* its picture */
+/* io_gltf_light.c: files from `lambent bake --to` */
+int gltf_light_begin(gltf *g, uint32_t meshes);            /* call before the meshes: looks for baked light */
+int gltf_light_end(gltf *g);                               /* reads the lightmap */
 int gltf_light_is_slot(const gltf *g, uint32_t info);      /* 1: the texture info shows the lightmap, or did */
 
-/* io_gltf_source.c: after the instances: sets the model's source */
+/* io_gltf_source.c: call it after the instances; sets the model's source */
 int gltf_source(gltf *g);
 
 /* io_gltf_skin.c */

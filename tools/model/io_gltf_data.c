@@ -9,7 +9,7 @@
 static uint32_t le16(const uint8_t *p) { return (uint32_t)p[0] | (uint32_t)p[1] << 8; }
 static uint32_t le32(const uint8_t *p) { return le16(p) | le16(p + 2) << 16; }
 
-/* Walk the chunks: JSON first, then the first BIN; others are skipped. */
+/* Reads the chunks: JSON first, then the first BIN; others are skipped. */
 static int glb_chunks(gltf *g, const uint8_t *data, size_t size, gltf_bytes *text)
 {
     const char *path = g->b->path;
@@ -135,7 +135,7 @@ static int base64_digit(int c)
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-/* Decode in place (three bytes replace four); the length, or SIZE_MAX where the text is not base64. */
+/* Decodes in place (three bytes replace four); returns the length, or SIZE_MAX if the text is not base64. */
 static size_t base64_decode(char *text)
 {
     size_t n = strlen(text), i, out = 0;
@@ -178,7 +178,7 @@ static int hex_value(int c)
                                   : -1;
 }
 
-/* Resolve %20 and the like in place; 0 for a broken escape or a zero byte. */
+/* Resolves %20 and the like in place; returns 0 for a broken escape or a zero byte. */
 static int percent_decode(char *text)
 {
     char *to = text;
@@ -225,7 +225,7 @@ int gltf_uri(gltf_bytes *out, gltf *g, uint32_t uri, report *r)
     return 1;
 }
 
-/* The bytes of buffers[index], read when first asked for. */
+/* The bytes of buffers[index], read at first use. */
 static int buffer_bytes(gltf_bytes *out, gltf *g, uint32_t index)
 {
     const uint32_t node = g->buffers.items[index], uri = json_member(&g->doc, node, "uri"),
@@ -293,7 +293,8 @@ static uint32_t component_size(uint32_t component)
     }
 }
 
-/* Where `count` elements of `size` bytes, `stride` apart, start in the view that `owner` names; all of them inside. */
+/* Finds the first of `count` elements of `size` bytes, `stride` apart, in the view that `owner` names; checks that
+ * all are inside. */
 static int locate(const uint8_t **out, uint32_t *stride, gltf *g, uint32_t owner, uint32_t count, uint32_t size)
 {
     const json *doc = &g->doc;
@@ -343,7 +344,7 @@ static int open_sparse(gltf_accessor *a, gltf *g, uint32_t sparse)
     return 1;
 }
 
-/* VEC3 -> 3; 0 for unknown words and smaller matrices, which nothing that lambent reads has. */
+/* VEC3 -> 3; 0 for unknown words and smaller matrices, which lambent never reads. */
 static uint32_t components_of(const json *doc, uint32_t type)
 {
     static const char *const names[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -378,7 +379,7 @@ int gltf_accessor_open(gltf_accessor *out, gltf *g, uint32_t accessor)
     return sparse == JSON_NONE || open_sparse(out, g, sparse);
 }
 
-/* One component as a number; normalized integers by glTF 2.0's table: c / max, signed ones not below -1. */
+/* One component as a number; normalized integers as in glTF 2.0: c / max, signed ones not below -1. */
 static float component_float(const uint8_t *p, uint32_t component, int normalized)
 {
     uint32_t bits;
@@ -422,7 +423,7 @@ static uint32_t index_value(const uint8_t *p, uint32_t component)
     return component == GLTF_U8 ? p[0] : component == GLTF_U16 ? le16(p) : le32(p);
 }
 
-/* The element that sparse entry i replaces; JSON_NONE with the report set where they do not rise. */
+/* The element that sparse entry i replaces; JSON_NONE with the report set if the indices do not rise. */
 static uint32_t sparse_target(const gltf *g, const gltf_accessor *a, uint32_t i)
 {
     const uint32_t size = component_size(a->sparse_component);

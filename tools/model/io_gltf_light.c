@@ -5,7 +5,7 @@
  * texture in asset.extras. That index is valid only until another tool rewrites the file. */
 #include "io_gltf.h"
 
-/* What asset.extras say; JSON_NONE where the file is another one's. */
+/* The content of asset.extras; JSON_NONE if another program wrote the file. */
 static uint32_t extras(const gltf *g)
 {
     const json *doc = &g->doc;

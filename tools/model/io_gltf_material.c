@@ -1,5 +1,4 @@
-/* io_gltf_material.c: glTF materials, textures, samplers and images, as far as a Lambertian renderer has use for
- * them. */
+/* io_gltf_material.c: the glTF materials, textures, samplers and images that a Lambertian renderer can use. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,8 +7,8 @@
 
 enum { GL_NEAREST = 9728, GL_LINEAR = 9729, GL_CLAMP = 33071, GL_MIRROR = 33648 };
 
-/* A sampler has two filters, lambent one. Pixel art (magnified by nearest) stays sharp; mips are made where the
- * minifying filter names them, or nothing is said. */
+/* A sampler has two filters, lambent one. Pixel art (magnified by nearest) stays sharp. Mips are made if the
+ * minifying filter names them, or if none is given. */
 static uint8_t filter_of(uint32_t mag, uint32_t min)
 {
     if (mag == GL_NEAREST)
@@ -60,7 +59,7 @@ int gltf_image_bytes(gltf_bytes *out, char place[GLTF_PLACE], gltf *g, uint32_t 
     return 1;
 }
 
-/* images[index], decoded, with levels of its `kind` if wanted; kept for the next texture that shows it so. */
+/* Decodes images[index], with mip levels for `kind` if wanted; keeps it for the next texture of that kind. */
 static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int kind, int mips, report *why)
 {
     lmb_texture *known = &g->image_texels[kind - 1][index];
@@ -82,7 +81,7 @@ static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int kind, int
     return 1;
 }
 
-/* A texture or image that cannot be had is a note, unless the model itself is damaged. */
+/* A missing texture or image is a note, unless the model itself is damaged. */
 static int leave_out(gltf *g, const report *why)
 {
     if (g->b->r->text[0])
@@ -121,7 +120,7 @@ static void measure(gltf_mean *out, const bitmap *map)
 
 enum { SLOT_UNKNOWN = -1, SLOT_NONE = -2 };
 
-/* Place in the scene of textures[index] as an image of that kind: made at first use; -1 where it cannot be had. */
+/* Index in the scene of textures[index] as an image of that kind: made at first use; -1 if it is not available. */
 static int texture_slot(int32_t *out, gltf *g, uint32_t index, int kind)
 {
     const uint32_t node = g->textures.items[index];
@@ -184,7 +183,8 @@ int gltf_read_uv(gltf_uv *out, gltf *g, uint32_t info)
            (transform == JSON_NONE || read_transform(out, g, transform));
 }
 
-/* A texture info: the place of its image of that kind, -1: none to be had, and how it takes texture coordinates. */
+/* Reads a texture info: the index of the image of that kind, -1: not available, and the mapping of texture
+ * coordinates. */
 static int read_texture(int32_t *slot, gltf_uv *uv, gltf *g, uint32_t info, int kind)
 {
     const json *doc = &g->doc;
@@ -203,8 +203,8 @@ static int read_texture(int32_t *slot, gltf_uv *uv, gltf *g, uint32_t info, int 
     return gltf_read_uv(uv, g, info);
 }
 
-/* A mesh has one stream of texture coordinates, the base colour's or those of the first map: 0 for a map that wants
- * others. */
+/* A mesh has one stream of texture coordinates, those of the base colour or of the first map. Returns 0 if a map
+ * needs others. */
 static int same_uv(gltf_uv *uv, const gltf_uv *own)
 {
     if (uv->set == JSON_NONE)
@@ -235,7 +235,7 @@ static int read_normal_map(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t inf
 
 static float clamp01(double v) { return v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f; }
 
-/* Means of the image that a texture info shows, from the texture that was made of it; worked out once an image. */
+/* Means of the image that a texture info shows, from the texture made of it; computed once per image. */
 static int texture_mean(const gltf_mean **out, gltf *g, uint32_t info, const lmb_texture *made)
 {
     uint32_t texture, index;
@@ -255,15 +255,15 @@ static int texture_mean(const gltf_mean **out, gltf *g, uint32_t info, const lmb
     return 1;
 }
 
-/* How much of a metal and how rough a material is, both 0 .. 1, without what its map says. */
+/* Metalness and roughness of a material, both 0 .. 1, without the map. */
 typedef struct gltf_metal {
     double metallic, rough;
-    double mean;      /* of metallic, the map's in it */
-    int32_t slot;     /* of the map by texel; -1: none */
+    double mean;      /* of metallic, including the map */
+    int32_t slot;     /* of the map for texels; -1: none */
 } gltf_metal;
 
-/* A map that cannot be had, or has other texture coordinates, counts as its mean; the first as no metal, because most
- * surfaces are none. */
+/* A map with other texture coordinates counts as its mean. A map that is not available counts as no metal, because
+ * most surfaces are none. */
 static int read_metal_map(gltf_metal *out, gltf_uv *uv, gltf *g, uint32_t map)
 {
     const gltf_mean *mean;
@@ -302,8 +302,8 @@ static int read_metallic(gltf_metal *out, gltf_uv *uv, gltf *g, uint32_t pbr)
     return 1;
 }
 
-/* The lobe beside albedo x (1 - metallic): 0.04 of a dielectric, a metal's own colour; of a textured metal its mean,
- * but by texel where a map tells metal from what is none. */
+/* The lobe beside albedo x (1 - metallic): 0.04 of a dielectric, the colour of a metal. Textured metals use the mean
+ * colour, or texels if a map separates metal from dielectric. */
 static void set_lobe(model_lobe *out, const double colour[3], const double base[3], double metallic, double rough)
 {
     int k;
@@ -355,8 +355,8 @@ static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
     return 1;
 }
 
-/* What the map makes of the radiance: by texel; by its mean where it has other texture coordinates; nothing where it
- * cannot be had. */
+/* Applies the map to the radiance: by texel; as a mean if it has other texture coordinates; not at all if
+ * unavailable. */
 static int read_emissive_map(lmb_material *out, double radiance[3], gltf_uv *uv, gltf *g, uint32_t map)
 {
     const gltf_mean *mean;
@@ -398,8 +398,8 @@ static int read_emission(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t mater
     return 1;
 }
 
-/* Metals have no diffuse light of their own; without their lobe 0.04 of their colour stands for it, and of a map that
- * tells metal from what is none its mean: by texel the metal would be black, with nothing to show that it is metal. */
+/* Metals have no diffuse light. Without a lobe, 0.04 of the colour replaces it. If a map separates metal from
+ * dielectric, the mean of the map is used: by texel the metal would be black, with nothing to show that it is metal. */
 static int read_metal_rough(lmb_material *out, model_lobe *lobe, gltf_uv *uv, gltf *g, uint32_t pbr,
                             const double base[3])
 {
@@ -431,8 +431,8 @@ static int read_specular_map(double specular[3], double *glossiness, gltf *g, ui
     return 1;
 }
 
-/* A metal without its lobe shows a share of its specular colour. The diffuse texture of a metal is black, and must not
- * darken that. It is left out if it shows no more than that share, unless its alpha cuts holes. */
+/* A metal without a lobe shows a share of the specular colour. The diffuse texture of a metal is black and must not
+ * darken that. The texture is ignored if it shows no more than that share, unless it has alpha that cuts holes. */
 static int leave_out_dark_texture(lmb_material *out, gltf *g, uint32_t texture, const double diffuse[3],
                                   const double dark[3])
 {
@@ -518,7 +518,7 @@ static void plain_material(lmb_material *out)
     out->texture = -1;
 }
 
-/* Tables by texture and image, before any is read. */
+/* Allocates tables by texture and image before any is read. */
 static int make_tables(gltf *g)
 {
     uint32_t i, k;
@@ -554,8 +554,8 @@ int gltf_materials(gltf *g)
     return 1;
 }
 
-/* glTF's own default is a metal, which would be nearly black here: white without a lobe serves those who named no
- * material. */
+/* The default in glTF is a metal, which would be nearly black here. White without a lobe is better for files without
+ * materials. */
 void gltf_default_material(gltf *g)
 {
     int k;

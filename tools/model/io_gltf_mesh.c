@@ -112,7 +112,7 @@ static void move_uvs(float *uv, uint32_t count, const gltf_uv *how)
     }
 }
 
-/* The set that the material's texture asks for. A stream is shared by primitives whose materials move it alike. */
+/* Reads the set that the material's texture uses. Primitives share a stream if their materials transform it alike. */
 static int read_uvs(lmb_mesh *out, gltf *g, uint32_t attributes, uint32_t material)
 {
     const gltf_uv *how = &g->material_uv[material];
@@ -145,7 +145,7 @@ static int read_uvs(lmb_mesh *out, gltf *g, uint32_t attributes, uint32_t materi
     return 1;
 }
 
-/* 0 .. 1 to 0 .. 255, nearest; NaN to 0. Normalized bytes come back as they were. */
+/* 0 .. 1 to 0 .. 255, nearest; NaN to 0. Normalized bytes are unchanged. */
 static uint8_t unorm8(float v) { return v > 0.0f ? v < 1.0f ? (uint8_t)(v * 255.0f + 0.5f) : 255 : 0; }
 
 static int read_colours(lmb_mesh *out, gltf *g, uint32_t reference)
@@ -172,7 +172,7 @@ static int read_colours(lmb_mesh *out, gltf *g, uint32_t reference)
     return 1;
 }
 
-/* Corner k of triangle t of a strip or fan: its place in the order of the vertices (glTF 2.0, 3.7.2.1). */
+/* Corner k of triangle t of a strip or fan: index in the order of vertices (glTF 2.0, 3.7.2.1). */
 static uint32_t unrolled(uint32_t mode, uint32_t t, uint32_t k)
 {
     if (mode == MODE_TRIANGLES)
@@ -182,7 +182,7 @@ static uint32_t unrolled(uint32_t mode, uint32_t t, uint32_t k)
     return k == 0 ? t : k == 1 ? t + 1 + t % 2 : t + 2 - t % 2;
 }
 
-/* Store the corners' vertices: `order` maps a place to a vertex (NULL: the place itself). */
+/* Stores the vertices of corners: `order` maps an index to a vertex (NULL: the index itself). */
 static int store_indices(lmb_mesh *out, gltf *g, uint32_t mode, const uint32_t *order)
 {
     const int small = out->vertex_count <= 65536;
@@ -204,7 +204,7 @@ static int store_indices(lmb_mesh *out, gltf *g, uint32_t mode, const uint32_t *
     return 1;
 }
 
-/* The accessor's vertex numbers, each under vertex_count; *count of them. NULL with the report set. */
+/* Reads the vertex numbers of an accessor, each under vertex_count; *count of them. NULL with the report set. */
 static uint32_t *read_order(uint32_t *count, const lmb_mesh *mesh, gltf *g, uint32_t accessor)
 {
     gltf_accessor a;
@@ -270,7 +270,7 @@ static int refuse_draco(gltf *g, uint32_t primitive, uint32_t position)
     return json_fail(&g->doc, draco, g->b->r, "Draco geometry without a plain copy; %s", GLTF_UNDO_DRACO);
 }
 
-/* `keeps` components a vertex, or *out NULL where there is no such attribute. */
+/* Reads `keeps` components per vertex; *out is NULL if there is no such attribute. */
 static int read_baked_values(float **out, gltf *g, uint32_t reference, uint32_t keeps, uint32_t vertices)
 {
     gltf_accessor a;
@@ -316,7 +316,7 @@ static int read_baked(gltf *g, const lmb_mesh *m, uint32_t attributes, uint32_t 
     return 1;
 }
 
-/* One primitive to the next free mesh; none for points, lines and what has no triangle. */
+/* Reads a primitive into the next free mesh; none for points, lines and primitives without triangles. */
 static int read_primitive(gltf *g, uint32_t primitive)
 {
     lmb_mesh *out = &g->b->meshes[g->b->mesh_count];

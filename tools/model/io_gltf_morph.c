@@ -1,4 +1,4 @@
-/* io_gltf_morph.c: morph targets: shapes a mesh by its default weights, or by the weights of a node. */
+/* io_gltf_morph.c: morph targets: shapes a mesh by the default weights, or by those of a node. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -5,12 +5,12 @@
 
 #include "io_gltf.h"
 
-/* What is read so far. */
+/* State of the reader. */
 typedef struct reading {
     gltf *g;
     const gltf_tree *tree;
-    uint32_t *place;  /* by the document's nodes: the motion's; MODEL_NONE: not in the scene */
-    uint8_t *taken;   /* by the motion's nodes: bits of what has a track */
+    uint32_t *place;  /* by node of the document: node of the motion; MODEL_NONE: not in the scene */
+    uint8_t *taken;   /* by node of the motion: bits of properties with a track */
     model_track *track, *weight_track; /* weight_track: of morph weights */
     uint32_t tracks, weight_tracks;
     double end_s;
@@ -89,7 +89,7 @@ static int read_sampler(model_track *t, gltf *g, uint32_t sampler, uint32_t targ
     return 1;
 }
 
-/* What a channel moves; -1: nothing that is read. */
+/* The property that a channel animates; -1: not supported. */
 static int target_of(const gltf *g, uint32_t target)
 {
     static const char *const names[] = {"translation", "rotation", "scale", "weights"};
@@ -156,7 +156,7 @@ static int read_channels(reading *m, uint32_t animations)
     return 1;
 }
 
-/* By their nodes, each node's in their order: counted, then put. */
+/* Sorts tracks by node, keeping their order, with a counting sort. */
 static model_track *sorted(const reading *m)
 {
     const uint32_t nodes = m->tree->count;
@@ -173,7 +173,7 @@ static model_track *sorted(const reading *m)
     return out;
 }
 
-/* The scene's nodes as the motion has them. */
+/* Makes the nodes of the motion from those of the scene. */
 static int make_nodes(struct model_motion *out, const reading *m)
 {
     const gltf_tree *t = m->tree;
@@ -234,7 +234,7 @@ static int read_motion(reading *m)
     return 1;
 }
 
-/* Most pictures show none of it, so what is wrong with it ends no loading: who wants it is told. */
+/* Most pictures do not use animations, so an error here does not stop loading; it is reported on use. */
 void gltf_motion(const gltf_tree *t, gltf *g)
 {
     report *const others = g->b->r;

@@ -37,7 +37,7 @@ static int light_kind(lmb_light *out, gltf *g, uint32_t light)
            json_fail(&g->doc, light, g->b->r, "type must be point, spot or directional");
 }
 
-/* A light of the document placed by a node: it points along the node's -Z. */
+/* A light of the document placed by a node: it points along -Z of the node. */
 static int read_light(lmb_light *out, gltf *g, uint32_t light)
 {
     const json *doc = &g->doc;
@@ -93,7 +93,7 @@ int gltf_lights(const gltf_tree *t, gltf *g)
     return 1;
 }
 
-/* Above 0, and so in binary32. */
+/* Positive, also in binary32. */
 static int is_length(double v) { return v > 1e-30 && v < 1e30; }
 
 static int read_perspective(model_camera *out, gltf *g, uint32_t camera)
@@ -135,7 +135,7 @@ static int read_orthographic(model_camera *out, gltf *g, uint32_t camera)
     return 1;
 }
 
-/* Named as the node that places it, else as the camera itself, else by its number. */
+/* Named after the node that places it, otherwise after the camera, otherwise by number. */
 static int read_camera(model_camera *out, gltf *g, uint32_t camera, uint32_t node)
 {
     const json *doc = &g->doc;

@@ -1,12 +1,12 @@
-/* io_gltf_shape.c: meshes that animations reshape: by moving joints, and by morph weights. Each instance gets its own
- * mesh and streams. They have the shape of the file until model_pose_shapes fills them. */
+/* io_gltf_shape.c: meshes that animations reshape: by moving joints, and by morph weights. Each instance gets a
+ * separate mesh with separate streams. They have the shape of the file until model_pose_shapes fills them. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "io_gltf.h"
 #include "model_shape.h"
 
-/* The node of the current instance, the motion of its meshes, and the next primitive. */
+/* The node of the current instance, the motion of that node's meshes, and the next primitive. */
 typedef struct moved_node {
     uint32_t order, node, mesh; /* place in the tree's order; JSON node; index in g->meshes */
     uint32_t next;
@@ -259,7 +259,7 @@ static int add_room(model_build *b, uint32_t more)
     return 1;
 }
 
-/* Gives an instance its own mesh, because several nodes may show one mesh without a skin. */
+/* Gives an instance a separate mesh, because several nodes may show one mesh without a skin. */
 static void add_mesh(model_build *b, uint32_t instance)
 {
     const uint32_t from = b->instances[instance].mesh, to = b->mesh_count++;

@@ -1,15 +1,15 @@
-/* io_gltf_skin.c: poses skinned meshes once, by the joints as the nodes place them: what viewers show before any
- * animation, and the bind pose where the nodes still have it. glTF 2.0, 3.7.3: the skinned node's own place does not
- * count, so the posed meshes stand in world metres. */
+/* io_gltf_skin.c: poses skinned meshes once, with the joints as the nodes place them: the state before any animation,
+ * which is the bind pose if the nodes still have it. The transform of the skinned node itself does not count (glTF 2.0,
+ * 3.7.3), so posed meshes are in world metres. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "io_gltf.h"
 
-enum { MAX_SETS = 8 }; /* of four joints: posing takes time by them that no byte of a stream need pay for */
+enum { MAX_SETS = 8 }; /* of four joints: limits the posing time, which stream bytes do not */
 
-/* One skin's joints: world x inverse bind, column-major. */
+/* The joints of a skin: world x inverse bind, column-major. */
 typedef struct skin {
     gltf_matrix *joints;
     uint32_t count;
@@ -61,7 +61,7 @@ static int read_skin(skin *s, gltf *g, const gltf_tree *t, uint32_t node)
     return read_bind(s, g, node);
 }
 
-/* JOINTS_n and WEIGHTS_n from 0 on, until one is missing; once a primitive. */
+/* Reads JOINTS_n and WEIGHTS_n from 0 on, until one is missing; once per primitive. */
 static int read_influences(gltf_influences *out, gltf *g, uint32_t attributes, uint32_t vertices)
 {
     if (out->joints)
@@ -93,7 +93,7 @@ static int read_influences(gltf_influences *out, gltf *g, uint32_t attributes, u
     return 1;
 }
 
-/* Two skins may show one primitive: its joints are held against each. */
+/* Two skins may share a primitive, so the joints are checked for each. */
 static int check_joints(const gltf *g, const gltf_influences *in, uint32_t primitive, const skin *s, uint32_t vertices)
 {
     uint32_t set;
@@ -109,7 +109,7 @@ static int check_joints(const gltf *g, const gltf_influences *in, uint32_t primi
     return 1;
 }
 
-/* The joints' mean by weight at a vertex; of a vertex without weights, the first joint. */
+/* The weighted mean of the joint matrices at a vertex; without weights, the first joint. */
 static gltf_matrix blend(const gltf_influences *in, const skin *s, uint32_t vertex)
 {
     gltf_matrix sum = {{0}};
@@ -133,7 +133,7 @@ static gltf_matrix blend(const gltf_influences *in, const skin *s, uint32_t vert
     return sum;
 }
 
-/* Cofactors of the upper 3x3, for normals: right where a joint scales unevenly. */
+/* Cofactors of the upper 3x3, for normals: correct if a joint scales unevenly. */
 static gltf_matrix cofactors(const gltf_matrix *a)
 {
     gltf_matrix c = {{0}};
@@ -147,7 +147,7 @@ static gltf_matrix cofactors(const gltf_matrix *a)
     return c;
 }
 
-/* The upper 3x3 times v, to unit length; v where that has none. */
+/* The upper 3x3 times v, normalized; v if the product has no length. */
 static lmb_vec3 turn(const gltf_matrix *a, lmb_vec3 v)
 {
     const double x = (double)v.x, y = (double)v.y, z = (double)v.z, *m = a->m;
@@ -161,7 +161,7 @@ static lmb_vec3 turn(const gltf_matrix *a, lmb_vec3 v)
     return v;
 }
 
-/* A new stream, each octahedral vector turned by its vertex's matrix; NULL with the report set. */
+/* A new stream with each octahedral vector turned by the matrix of the vertex; NULL with the report set. */
 static int16_t *pose_vectors(gltf *g, const int16_t *from, const gltf_influences *in, const skin *s, uint32_t count,
                              int normals)
 {

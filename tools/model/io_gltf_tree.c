@@ -1,4 +1,4 @@
-/* io_gltf_tree.c: the nodes of one scene of a glTF document in drawing order, each with its way to the world. */
+/* io_gltf_tree.c: the nodes of one scene of a glTF document in drawing order, with world transforms. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 #include "io_gltf.h"
 
-/* Fill parent from everyone's children; two parents are an error. */
+/* Sets parents from all lists of children; two parents are an error. */
 static int find_parents(gltf_tree *t, gltf *g)
 {
     uint32_t i, c, child;
@@ -26,10 +26,10 @@ static int find_parents(gltf_tree *t, gltf *g)
     return 1;
 }
 
-/* What is known of a node and those above it while roots are found. */
+/* State of a node and its ancestors while roots are searched. */
 enum { UNKNOWN, NAMED, BELOW_NAMED, ALONE };
 
-/* Does a node that the scene names stand above this one? Each node is walked over once. */
+/* Returns whether the scene names an ancestor of this node. Each node is visited once. */
 static int is_below_named(uint8_t *known, const gltf_tree *t, uint32_t node)
 {
     uint32_t up = t->parent[node], i;
@@ -41,8 +41,8 @@ static int is_below_named(uint8_t *known, const gltf_tree *t, uint32_t node)
     return below;
 }
 
-/* The nodes that a scene names, each once. It should name roots alone: a child of one that it draws stays below that, and
- * any other child is a root from here on. */
+/* Pushes the nodes that a scene names, each once. It should name only roots: a child of a named node stays below
+ * that one, and any other child becomes a root. */
 static int push_named(uint32_t *stack, uint32_t *depth, gltf_tree *t, gltf *g, uint32_t nodes, uint8_t *known)
 {
     uint32_t i, root;
@@ -69,7 +69,7 @@ static int push_named(uint32_t *stack, uint32_t *depth, gltf_tree *t, gltf *g, u
     return 1;
 }
 
-/* The stack's part from `from` on, turned round, so that the first comes off first. */
+/* Reverses the stack from `from` on, so that the first is popped first. */
 static void reverse(uint32_t *stack, uint32_t from, uint32_t to)
 {
     while (to - from > 1) {
@@ -79,7 +79,7 @@ static void reverse(uint32_t *stack, uint32_t from, uint32_t to)
     }
 }
 
-/* The scene that the user wants, by name or number; else the default one, else the first. */
+/* The scene that the user selected, by name or number; otherwise the default one, or the first. */
 static int find_scene(uint32_t *out, gltf *g, const gltf_list *scenes)
 {
     const char *wanted = g->b->scene;
@@ -104,7 +104,7 @@ static int find_scene(uint32_t *out, gltf *g, const gltf_list *scenes)
     return 1;
 }
 
-/* The roots of the scene; of a document without scenes, all there are. */
+/* Pushes the roots of the scene; without scenes, all roots. */
 static int push_roots(uint32_t *stack, uint32_t *depth, gltf_tree *t, gltf *g, uint8_t *known)
 {
     model_facts *facts = &g->b->out->facts;
@@ -127,8 +127,8 @@ static int push_roots(uint32_t *stack, uint32_t *depth, gltf_tree *t, gltf *g, u
     return 1;
 }
 
-/* A node on a cycle has a parent, and so has every other one on it: no root leads there. Walk up from each node with
- * a mark; meeting the own mark again is a cycle, whether it is drawn or not. */
+/* All nodes on a cycle have parents, so no root leads to them. Goes up from each node with a mark; meeting the same
+ * mark again is a cycle, drawn or not. */
 static int refuse_cycles(const gltf_tree *t, gltf *g)
 {
     uint32_t *mark = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *mark), i, up;
@@ -143,7 +143,7 @@ static int refuse_cycles(const gltf_tree *t, gltf *g)
     return 1;
 }
 
-/* Depth first, children in their order. Each node is pushed once, so the stack needs one slot a node. */
+/* Depth first, children in order. Each node is pushed once, so the stack needs one slot per node. */
 static int traversal(gltf_tree *t, gltf *g)
 {
     uint32_t *stack = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *stack), depth = 0, from, c, child;
@@ -166,7 +166,7 @@ static int traversal(gltf_tree *t, gltf *g)
     return 1;
 }
 
-/* The node's own way to its parent, as the document has it. */
+/* The transform of a node relative to the parent, as stored. */
 int gltf_local(model_local *out, gltf *g, uint32_t node)
 {
     const json *doc = &g->doc;
@@ -209,7 +209,7 @@ static int read_visibility(uint8_t *hidden, gltf *g, uint32_t node)
     return 1;
 }
 
-/* The world gltf_matrix of every drawn node; each must fit binary32. */
+/* Computes the world matrix of every drawn node; each must fit binary32. */
 static int place_nodes(gltf_tree *t, gltf *g)
 {
     uint32_t i, k;

@@ -1,4 +1,4 @@
-/* io_lmp.c: the reader of packed scenes: the library opens them; cameras and what moves come as a model has them. */
+/* io_lmp.c: reads packed scenes: the library opens them; cameras and motion are converted to those of a model. */
 #include "io_lmp.h"
 
 #include <string.h>
@@ -36,7 +36,7 @@ int lmp_refuse(const char *path, const uint8_t *data, size_t size, report *r)
 
 /* --- cameras ------------------------------------------------------------------------------------------------------ */
 
-/* Each name ends with its 0; what is not there has none. */
+/* Each name ends with a 0; missing ones have none. */
 static void name_cameras(model *m, const lmb_pack *p)
 {
     size_t bytes;
@@ -79,7 +79,7 @@ static int take_cameras(model_build *b, const lmb_pack *p)
     return m->cameras != NULL;
 }
 
-/* --- what moves --------------------------------------------------------------------------------------------------- */
+/* --- moving items ------------------------------------------------------------------------------------------------- */
 
 static const uint32_t *nodes_of(model_build *b, const lmb_pack *p, int kind)
 {
@@ -120,7 +120,7 @@ static int take_motion(model_build *b, const lmb_pack *p)
 
 /* --- all of it ---------------------------------------------------------------------------------------------------- */
 
-/* A packed scene has its lobes or has none: --glossy asks for what is there. */
+/* Keeps the lobes of a packed scene, if it has any, for model_make_glossy. */
 static int take_lobes(model_build *b)
 {
     model_lobe *lobes;
@@ -140,7 +140,7 @@ static int take_lobes(model_build *b)
     return lobes != NULL;
 }
 
-/* The arrays lie in one block of the model's: only the scene's view of them is const. */
+/* The arrays lie in a block that the model owns: only the scene's view of them is const. */
 static int take_scene(model_build *b, const lmb_pack *p)
 {
     const size_t bytes = lmb_pack_bytes(p);
@@ -175,7 +175,7 @@ static void count_facts(model *m, const lmb_pack *p)
     f->materials = p->count[LMB_PACK_MATERIALS];
     f->lights = p->count[LMB_PACK_LIGHTS];
     f->cameras = p->count[LMB_PACK_CAMERAS];
-    f->animations = p->count[LMB_PACK_NODES] > 0; /* without tracks, they moved what a pack leaves out */
+    f->animations = p->count[LMB_PACK_NODES] > 0; /* nodes without tracks: it moved omitted items */
     f->nodes = p->count[LMB_PACK_NODES];
     f->texel_bytes = p->bytes[LMB_PACK_TEXELS];
 }

@@ -1,4 +1,4 @@
-/* io_lmt.c: baked light transfers: opens them, or says why not. */
+/* io_lmt.c: opens baked light transfers, or reports why a file is refused. */
 #include "io_lmt.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "../common/checksum.h"
 #include "io_lmp.h"
 
-/* Why a file is refused, of what its first words say. */
+/* Reports why a file is refused, from the first words of the file. */
 static int refuse(const uint8_t *head, size_t size, const char *path, report *r)
 {
     if (size < 8 || memcmp(head, "LMT", 3) != 0) {

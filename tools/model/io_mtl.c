@@ -8,7 +8,7 @@
 
 static uint64_t rotated(uint64_t v, int by) { return v << by | v >> (64 - by); }
 
-/* SipHash with one round a word and three at the end (Aumasson and Bernstein, 2012), the key's upper half 0. */
+/* SipHash with one round per word and three at the end (Aumasson and Bernstein, 2012), the upper half of the key 0. */
 static void hash_round(uint64_t v[4])
 {
     v[0] += v[1];
@@ -71,8 +71,8 @@ static void from_xyz(double c[3])
     c[2] = 0.0556434 * x - 0.2040259 * y + 1.0572252 * z;
 }
 
-/* Reads Kd or Ke: r g b, or xyz x y z; a single number stands for all three. *found is 0 for a spectrum, which is in
- * another file. */
+/* Reads Kd or Ke: r g b, or xyz x y z; a single number is used for all three. *found is 0 for a spectrum, which is
+ * in another file. */
 static int read_colour(double out[3], int *found, obj_material *m, const char *name, cursor *c, report *r)
 {
     slice token = {"", 0};
@@ -126,7 +126,7 @@ static int read_ke(float out[3], obj_material *m, cursor *c, report *r)
     return 1;
 }
 
-/* Values of a map's option; those of -o -s -t may be left away, so numbers are counted as they come. */
+/* Number of values of a map's option. Values of -o -s -t may be omitted, so those are counted in the text. */
 static int option_values(slice option)
 {
     static const char *const one[] = {"-blendu", "-blendv", "-boost", "-texres", "-bm", "-imfchan", "-cc", "-type"};
@@ -155,7 +155,7 @@ static void take_value(obj_material *m, obj_map *map, slice option, int index, s
         m->left_out |= OBJ_LEFT_OPTION; /* turbulence; base and gain, of which 0 and 1 change nothing */
 }
 
-/* A map's options. What is no option is the start of the name. */
+/* Reads the options of a map. The first other word is the start of the name. */
 static void read_options(obj_material *m, obj_map *map, cursor *c)
 {
     slice token, value;
@@ -197,7 +197,7 @@ static int read_path(char **out, model_build *b, cursor *c)
     return 1;
 }
 
-/* A map with its options; a statement without a name changes nothing. */
+/* Reads a map with options; a statement without a name changes nothing. */
 static int read_map(obj_material *m, model_build *b, cursor *c)
 {
     obj_map map = {NULL, {1, 1}, {0, 0}, LMB_WRAP_REPEAT};
@@ -209,7 +209,7 @@ static int read_map(obj_material *m, model_build *b, cursor *c)
     return 1;
 }
 
-/* d 0 and Tr 1 make a surface vanish; what lies between blends. The last of them holds. */
+/* d 0 and Tr 1 make a surface invisible; values in between blend. The last statement counts. */
 static void read_opacity(lmb_material *out, obj_material *m, double visible)
 {
     m->left_out &= (uint8_t)~OBJ_LEFT_OPACITY;
@@ -221,7 +221,7 @@ static void read_opacity(lmb_material *out, obj_material *m, double visible)
     out->flags |= visible < 1 ? LMB_ALPHA_MASK | LMB_ALPHA_BLEND : 0;
 }
 
-/* Models 3 to 9 trace rays: mirrors and glass. The last of them holds. */
+/* Models 3 to 9 trace rays: mirrors and glass. The last statement counts. */
 static void read_illum(obj_material *m, double illum)
 {
     m->left_out &= (uint8_t)~OBJ_LEFT_MIRROR;
@@ -229,7 +229,7 @@ static void read_illum(obj_material *m, double illum)
         m->left_out |= OBJ_LEFT_MIRROR;
 }
 
-/* What a statement asks for that is not done; 0: nothing, or it is without a value. */
+/* The feature of a statement that is ignored; 0: none, or the statement has no value. */
 static uint8_t left_out_by(slice word, cursor c)
 {
     static const struct {
@@ -298,7 +298,7 @@ int mtl_find(file_bytes *out, char path[MODEL_PATH_MAX], model_build *b, slice n
     return build_sibling(path, MODEL_PATH_MAX, b, text, why) && build_read(b, out, path, why);
 }
 
-/* A map as a new texture, whose number is *slot. 0: see `why`. */
+/* Loads a map as a new texture with index *slot. Returns 0: see `why`. */
 static int load_map(int32_t *slot, model_build *b, const obj_map *map, report *why)
 {
     lmb_texture *to = &b->textures[b->texture_count];
@@ -315,8 +315,8 @@ static int load_map(int32_t *slot, model_build *b, const obj_map *map, report *w
     return 1;
 }
 
-/* The first material that shows the same texture; `index` itself, which then stands in the index of maps, where there
- * is none. How the texture is scaled and moved is in the meshes' coordinates. */
+/* Finds the first material with the same texture. If there is none, returns `index` and adds it to the index of
+ * maps. Scale and offset of the texture are in the meshes' coordinates. */
 static uint32_t same_map(const obj_names *names, uint32_t *slots, uint32_t index)
 {
     const obj_map *map = &names->items[index].map;

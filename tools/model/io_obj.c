@@ -1,10 +1,10 @@
-/* io_obj.c: reads Wavefront OBJ: polygons to triangles, corners to vertices, one mesh and instance a material.
+/* io_obj.c: reads Wavefront OBJ: polygons to triangles, corners to vertices, one mesh and instance per material.
  *
  * Two passes: the first counts, so that every array has its final size; the second fills. A corner, two bytes of text
- * or more, costs at most 36 bytes on the way, 60 more in the file's widest face, and 28 in the model; a triangle 20 and
- * 12. Smoothing groups cost 88 more for each vertex, or for each corner if there are fewer corners. The worst case is
- * one huge face of one-digit corners, 64 bytes for each byte of the file: within MODEL_BYTES_PER_BYTE, textures
- * excluded. */
+ * or more, costs at most 36 bytes while reading, 60 more in the widest face of the file, and 28 in the model; a
+ * triangle 20 and 12. Smoothing groups cost 88 more for each vertex, or for each corner if there are fewer corners. The
+ * worst case is one huge face of one-digit corners, 64 bytes for each byte of the file: within MODEL_BYTES_PER_BYTE,
+ * textures excluded. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@
 #define NONE          UINT32_MAX
 #define SMOOTH        0x80000000u /* in place of a vn: use the normal of the smoothing group in the lower bits */
 #define MAX_LIBRARIES 64
-#define MAX_PROBES    256 /* of an index; half of it is empty, so that only a file made for it comes near */
+#define MAX_PROBES    256 /* in a hash table that is half empty, so that only a malicious file comes near */
 
 /* A vertex: indices of v, vt and vn from 0; NONE: not given. vn may be SMOOTH | group. */
 typedef struct corner {
@@ -30,7 +30,7 @@ typedef struct triangle {
     uint32_t group;
 } triangle;
 
-/* What the first pass found; 64 bits, because a file of 4 GiB can name more of something than 32 hold. */
+/* Counts of the first pass; 64 bits, because a file of 4 GiB can have more items than 32 bits hold. */
 typedef struct census {
     uint64_t v, vt, vn, corners, triangles, names, libraries, smoothings;
     uint64_t widest; /* most corners of a face */
@@ -44,8 +44,8 @@ typedef struct obj {
     census n;
     float *v, *vt, *vn;
     uint8_t *colours;                     /* RGBA8 by v, A 0: no colour; or NULL */
-    uint32_t v_count, vt_count, vn_count; /* so far: what negative numbers count back from */
-    corner *corners;                      /* different ones */
+    uint32_t v_count, vt_count, vn_count; /* so far: base of negative numbers */
+    corner *corners;                      /* unique */
     uint32_t corner_count;
     uint32_t *slots; /* open addressing over corners: number + 1 */
     uint32_t slot_mask;
@@ -57,10 +57,10 @@ typedef struct obj {
     uint32_t material; /* of the faces that follow */
     uint32_t smoothing; /* group of the faces that follow; 0: flat */
     smooth_normals smooth;
-    corner *face;      /* scratch for one face: its corners, numbers, points and triangles */
+    corner *face;      /* scratch for one face: corners, numbers, points and triangles */
     uint32_t *face_number, *face_cut, *face_links;
     double *face_points;
-    uint64_t cut_steps; /* polygon_cut_within's, left for all faces */
+    uint64_t cut_steps; /* of polygon_cut_within, left for all faces */
     uint32_t points_lines, degenerate, overlapping, translucent, smoothed, odd_groups;
 } obj;
 
@@ -133,7 +133,7 @@ static census count_all(cursor c)
     return n;
 }
 
-/* The least power of two that is at least twice n: half of an index's slots stay empty. */
+/* The least power of two that is at least twice n: half of the slots stay empty. */
 static uint64_t slots_for(uint64_t n)
 {
     uint64_t slots = 16;
@@ -185,7 +185,7 @@ static int allocate(obj *o)
 
 /* --- second pass --- */
 
-/* Up to `most` numbers of the line; at least `least`, or an error. *count of them. */
+/* Reads up to `max` numbers of the line, *count of them; fewer than `min` is an error. */
 static int read_numbers(double *out, int *count, int min, int max, cursor *c, report *r)
 {
     slice token;
@@ -232,7 +232,7 @@ static int read_v(obj *o, cursor *c)
     return 1;
 }
 
-/* OBJ counts v upwards from the image's foot, lambent downwards from its top. */
+/* In OBJ v counts upwards from the bottom of the image, in lambent downwards from the top. */
 static int read_vt(obj *o, cursor *c)
 {
     double v[3] = {0, 0, 0};
@@ -262,7 +262,7 @@ static int read_vn(obj *o, cursor *c)
     return 1;
 }
 
-/* One number of a corner: from 1 over the whole file, or back from here. `total` are in the file, `here` so far. */
+/* One number of a corner: from 1 over the whole file, or relative. `total` are in the file, `here` were read so far. */
 static int resolve(uint32_t *out, slice number, uint64_t total, uint32_t here, const char *what, cursor *c, report *r)
 {
     int64_t value;
@@ -281,7 +281,7 @@ static int resolve(uint32_t *out, slice number, uint64_t total, uint32_t here, c
                      number.size < 40 ? (int)number.size : 40, number.at, (unsigned)(value < 0 ? here : total));
 }
 
-/* The text before the next slash; what follows it stays in *token. */
+/* Returns the text before the next slash; the rest stays in *token. */
 static slice cut_at_slash(slice *token)
 {
     slice part = *token;
@@ -309,8 +309,8 @@ static int read_corner(corner *out, const obj *o, slice token, cursor *c)
     return !vn.size || resolve(&out->vn, vn, o->n.vn, o->vn_count, "vn", c, o->b->r);
 }
 
-/* The number of a corner: that of an equal one, or a new one. The table was sized for all corners of the file. One that
- * finds no place nearby becomes a vertex of its own each time. */
+/* Returns the number of an equal corner, or adds the corner. The table has room for all corners of the file. A
+ * corner that finds no slot nearby becomes a new vertex each time. */
 static uint32_t intern(obj *o, const corner *key)
 {
     uint32_t hash = key->v * 0x9E3779B1u ^ key->vt * 0x85EBCA77u ^ key->vn * 0xC2B2AE3Du, slot, probes = 0;
@@ -340,8 +340,8 @@ static int smooth_face(obj *o, uint32_t n)
     return o->smoothing != 0;
 }
 
-/* A face may name vertices that come later in the file. They still lie at 0 here, so such a face is cut by what is
- * known of it; its corners are fetched when all has been read. */
+/* A face may refer to vertices that come later in the file. These are still 0 here, so such a face is cut with the
+ * known ones; the corners are filled in when the whole file was read. */
 static void cut_face(obj *o, uint32_t n, int with_normals)
 {
     uint32_t i, k;
@@ -443,7 +443,7 @@ static int read_line(obj *o, cursor *c)
 
 /* --- materials --- */
 
-/* The names in a line that is not one file's name as a whole; 0: there is one at most. */
+/* Splits a line into names if the whole line is not the name of a file; returns 0 if there is at most one. */
 static int split_library(obj *o, slice line)
 {
     cursor c = text_open((const uint8_t *)line.at, line.size, o->b->path);
@@ -456,7 +456,7 @@ static int split_library(obj *o, slice line)
     return 1;
 }
 
-/* A file that goes by several names is read once. */
+/* A file with several names is read once. */
 static int is_read_before(const uint8_t **before, uint32_t *count, const uint8_t *data)
 {
     uint32_t i;
@@ -572,7 +572,7 @@ static int sum_normals(obj *o, uint64_t key)
 
 /* --- meshes --- */
 
-/* The triangles of each group side by side: numbers of triangles, and where each group starts (groups + 1). */
+/* Sorts triangles by group: numbers of triangles, and the start of each group (groups + 1). */
 static int sort_by_group(uint32_t **sorted, uint32_t **starts, obj *o)
 {
     const uint32_t groups = 2 * o->names.count;
@@ -590,8 +590,8 @@ static int sort_by_group(uint32_t **sorted, uint32_t **starts, obj *o)
     return 1;
 }
 
-/* Number the corners that these triangles use in the order of their first use: local[corner] = number + 1,
- * used[number] = corner. */
+/* Numbers the corners of these triangles in the order of first use: local[corner] = number + 1, used[number] =
+ * corner. */
 static uint32_t number_corners(uint32_t *local, uint32_t *used, const obj *o, const uint32_t *list, uint32_t n)
 {
     uint32_t count = 0, i, k;
@@ -655,14 +655,14 @@ static int fill_positions(lmb_mesh *out, const obj *o, uint32_t material, const 
     return 1;
 }
 
-/* Scaled and moved as OBJ has them; downwards, v is 1 less that. */
+/* Scales and moves as OBJ does; with v downwards the result is 1 - v. */
 static void lay_map(float uv[2], const obj_map *map)
 {
     uv[0] = build_uv((double)uv[0] * map->scale[0] + map->offset[0]);
     uv[1] = build_uv((double)uv[1] * map->scale[1] + (1 - map->scale[1] - map->offset[1]));
 }
 
-/* Texture coordinates where the material has a texture; corners without them get (0, 0). */
+/* Fills texture coordinates if the material has a texture; corners without them get (0, 0). */
 static int fill_uvs(lmb_mesh *out, const obj *o, const obj_map *map, const uint32_t *used)
 {
     float *uvs = (float *)build_keep(o->b, out->vertex_count, 2 * sizeof *uvs);
@@ -732,7 +732,7 @@ static void place(lmb_instance *out, uint32_t mesh, uint32_t material)
     out->material = material;
 }
 
-/* A mesh and an instance for each group that has triangles. */
+/* Makes a mesh and an instance for each group with triangles. */
 static int make_meshes(obj *o)
 {
     const uint32_t groups = 2 * o->names.count;
@@ -793,6 +793,6 @@ int obj_load(model_build *b, const uint8_t *data, size_t size)
     tell_left_out(&o);
     b->out->facts.format = "OBJ";
     b->out->facts.vertices = o.n.v;
-    b->out->facts.materials = o.names.count - 1; /* the first stands for faces before any name */
+    b->out->facts.materials = o.names.count - 1; /* without the first, for faces before any name */
     return 1;
 }

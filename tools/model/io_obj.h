@@ -1,18 +1,18 @@
-/* io_obj.h: what the OBJ reader and its material reader share: materials by name. */
+/* io_obj.h: shared by the OBJ reader and the material reader: materials by name. */
 #ifndef IO_OBJ_H
 #define IO_OBJ_H
 
 #include "../common/io_text.h"
 #include "model_build.h"
 
-/* A map of colours and how it is laid: coordinates are scaled, then moved, as OBJ has them, v upwards. */
+/* A texture map with a transform: coordinates are scaled, then moved, with v upwards, as in OBJ. */
 typedef struct obj_map {
     char *path; /* NULL: no map */
     double scale[2], offset[2];
     uint8_t wrap;
 } obj_map;
 
-/* What a material asks for and does not get. */
+/* Material features that are ignored. */
 enum {
     OBJ_LEFT_OPACITY = 1,
     OBJ_LEFT_OPACITY_MAP = 2,
@@ -23,7 +23,7 @@ enum {
     OBJ_LEFT_SPECTRUM = 64
 };
 
-/* One name that usemtl gave; [0] stands for faces before any. */
+/* A name from usemtl; [0] is for faces before any usemtl. */
 typedef struct obj_material {
     slice name;
     obj_map map;
@@ -32,8 +32,8 @@ typedef struct obj_material {
     uint8_t left_out; /* OBJ_LEFT_ ... */
 } obj_material;
 
-/* Names with an open-addressed index; slots hold number + 1. The keys are hashes of the files that the names and the
- * maps' paths come from, so that no file can choose names that all go to one slot. */
+/* Names with an open-addressed index; slots hold number + 1. The keys are hashes of the files that contain the names
+ * and map paths, so that no file can choose names that collide. */
 typedef struct obj_names {
     obj_material *items;
     uint32_t *slots;
@@ -41,17 +41,17 @@ typedef struct obj_names {
     uint64_t key, map_key;
 } obj_names;
 
-/* io_mtl.c: a hash that nobody aims who does not know the key; its order of bytes is the machine's. */
+/* io_mtl.c: a keyed hash, so that nobody without the key can make collisions; depends on the byte order. */
 uint64_t obj_hash(uint64_t key, const void *data, size_t size);
-uint32_t obj_find(const obj_names *names, slice name, uint32_t *slot); /* UINT32_MAX: absent, *slot is where it goes */
+uint32_t obj_find(const obj_names *names, slice name, uint32_t *slot); /* UINT32_MAX: absent, insert at *slot */
 
-/* A library's bytes and path; 0: see `why`. */
+/* Bytes and path of a library; returns 0: see `why`. */
 int mtl_find(file_bytes *out, char path[MODEL_PATH_MAX], model_build *b, slice name, report *why);
-/* Read one into b->materials, which stands beside `names`. */
+/* Reads a library into b->materials, parallel to `names`. */
 int mtl_read(model_build *b, obj_names *names, cursor text);
-/* Load the textures that materials name, each file once, into b->textures. */
+/* Loads the textures of the materials, each file once, into b->textures. */
 int mtl_textures(model_build *b, obj_names *names);
-/* Notes on what the materials do not get. */
+/* Adds notes about ignored features. */
 void mtl_tell_left_out(model_build *b, const obj_names *names);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "model_build.h"
 
-/* ply_begins: is this a PLY file by its first line? */
+/* ply_begins: whether the first line is that of a PLY file. */
 int ply_begins(const uint8_t *data, size_t size);
 
 /* ply_load: loads PLY 1.0, text or binary in either byte order. Makes a mesh, an instance and a double-sided material

@@ -277,7 +277,7 @@ static uint32_t find_wedge(ply *p, uint32_t vertex, const float *uv, const uint8
     return p->wedge_count - 1;
 }
 
-/* Returns the material of the face read last: the material of its texture, or the last material, which has none. */
+/* Returns the material of the face read last: the one with the face's texture, or the last material, which has none. */
 static uint8_t paint_of(ply *p, const double *values)
 {
     const double picture = p->face->roles[PICTURE] ? values[PICTURE] : 0;

@@ -3,8 +3,8 @@
  * There are two passes over the values. The first finds the start of each element and counts the corners of faces. So
  * it checks that the file is as long as the header claims before anything is allocated. The second pass fills the
  * scene. A corner takes at least one byte in the file and costs 13 bytes in the model, and 52 more in the widest face
- * of the file. A vertex takes at least three bytes and costs at most 32. A corner of a face with its own colours or
- * texture coordinates takes several bytes and costs 48 more. All of these are within MODEL_BYTES_PER_BYTE. */
+ * of the file. A vertex takes at least three bytes and costs at most 32. If a face has colours or texture coordinates,
+ * each corner takes several bytes and costs 48 more. All of these are within MODEL_BYTES_PER_BYTE. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* model.c: picks the reader by content, and finishes what it built. */
+/* model.c: selects the reader by content, and completes the result. */
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "mend_normals.h"
 #include "model_build.h"
 
-/* Ids 1 .. in instance order. */
+/* Ids start at 1, in instance order. */
 static int number_triangles(model_build *b)
 {
     uint64_t next = 1;
@@ -24,7 +24,7 @@ static int number_triangles(model_build *b)
     return 1;
 }
 
-/* A few bytes can place a mesh once more, or show a stream of vertices in one mesh more: time would go with the product. */
+/* Limits the work: a few bytes of a file can place a mesh again, or use a vertex stream in another mesh. */
 static int check_work(model_build *b)
 {
     const model_facts *f = &b->out->facts;
@@ -45,10 +45,10 @@ static int check_work(model_build *b)
                        corners, bytes, MODEL_FREE_CORNERS, MODEL_TRIANGLES_PER_BYTE);
 }
 
-#define EXACT_BOUNDS (UINT64_C(1) << 24) /* placed vertices up to which the scene's box is that of them all */
-#define TINY_M 1e-4 /* across: a Cornell box of 2e-4 m keeps its light, one of 2e-5 m is 9 % off */
+#define EXACT_BOUNDS (UINT64_C(1) << 24) /* placed vertices up to which the scene's bounds are exact */
+#define TINY_M 1e-4 /* scene size: a Cornell box of 2e-4 m keeps its light, one of 2e-5 m is 9 % off */
 
-/* The box of one mesh's finite vertices, by its eight corners; 0 where it has none. */
+/* The corners of the bounds of a mesh's finite vertices; returns 0 if it has none. */
 static int mesh_corners(lmb_vec3 corners[8], const lmb_mesh *mesh)
 {
     static const lmb_mat4 unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
@@ -71,7 +71,8 @@ static int mesh_corners(lmb_vec3 corners[8], const lmb_mesh *mesh)
     return mesh->vertex_count > 0;
 }
 
-/* The scene's box: of many placed vertices that of the meshes' boxes, as a small file may place a large mesh often. */
+/* Sets the scene's bounds. For many placed vertices they come from the bounds of the meshes, because a small file
+ * may place a large mesh often. */
 static int set_bounds(model_build *b)
 {
     lmb_scene *scene = &b->out->scene, boxes = *scene;
@@ -97,7 +98,7 @@ static int set_bounds(model_build *b)
     return 1;
 }
 
-/* Vertices that no triangle can be drawn with, over the meshes. */
+/* Counts vertices that no drawn triangle can use, over all meshes. */
 static void note_absurd_vertices(model_build *b)
 {
     uint64_t absurd = 0;
@@ -111,8 +112,8 @@ static void note_absurd_vertices(model_build *b)
         build_note(b, "vertices that are not finite or 2^20 m away, whose triangles are not drawn: %" PRIu64, absurd);
 }
 
-/* Far from the origin, binary32 has few bits left for the shape itself; in scenes of under TINY_M, rounding takes shadows
- * of what is bounced. */
+/* Far from the origin, binary32 has few bits left for the shape. In scenes of under TINY_M, rounding makes bounced
+ * light miss shadows. */
 static void note_place(model_build *b)
 {
     const lmb_vec3 lo = b->out->scene.bounds_min, hi = b->out->scene.bounds_max;
@@ -138,7 +139,7 @@ static void note_emission(model_build *b)
         build_note(b, "emissive materials, which light the scene (but with fixed --grouping): %u", (unsigned)count);
 }
 
-/* What a reader left to count: the file has what the scene has, each mesh of one piece. */
+/* Counts facts that a reader has not set: the file has as much as the scene, with one primitive per mesh. */
 static void count_facts(model_build *b)
 {
     model_facts *facts = &b->out->facts;
@@ -185,8 +186,8 @@ static int finish(model_build *b)
 
 typedef int (*model_reader)(model_build *b, const uint8_t *data, size_t size);
 
-/* Packed scenes by their magic; glTF by its magic, its extension or a first brace; PLY by its first line or its extension; OBJ, which has no mark,
- * by its extension alone, or as text from standard input; else NULL. */
+/* Selects by magic for packed scenes; magic, extension or a first brace for glTF; first line or extension for PLY.
+ * OBJ has no magic: only the extension selects it, or text on standard input. Otherwise returns NULL. */
 static model_reader find_reader(const char *path, const file_bytes *file)
 {
     size_t i = 0;
@@ -282,7 +283,7 @@ int model_load(model *out, const char *path, const char *scene, model_notes *not
     return model_load_as(out, path, &choice, notes, r);
 }
 
-/* The model owns its materials; only the scene's view of them is const. */
+/* The model owns the materials; only the scene's view of them is const. */
 int model_make_glossy(model *m)
 {
     lmb_material *materials = (lmb_material *)(uintptr_t)m->scene.materials;

@@ -1,4 +1,4 @@
-/* model.h: a scene read from a file, as the library wants it, with the cameras and names the library has no use for. */
+/* model.h: a scene read from a file as the library needs it, and cameras and names, which the library does not use. */
 #ifndef MODEL_H
 #define MODEL_H
 
@@ -16,8 +16,8 @@ typedef struct model_camera {
     float near_m, far_m;           /* far_m 0: not given */
 } model_camera;
 
-/* What becomes of a glTF extension; one that the file requires and lambent does not know is an error instead. */
-enum { MODEL_EXTENSION_IGNORED = 0, MODEL_EXTENSION_READ, MODEL_EXTENSION_FOLDED /* into what is read anyhow */ };
+/* Support for a glTF extension. An unknown one that the file requires is an error instead. */
+enum { MODEL_EXTENSION_IGNORED = 0, MODEL_EXTENSION_READ, MODEL_EXTENSION_FOLDED /* converted on load */ };
 
 typedef struct model_extension {
     char name[64];
@@ -25,28 +25,28 @@ typedef struct model_extension {
     int required;
 } model_extension;
 
-/* What the file itself holds, drawn or not. 0 also where its format has no such thing. */
+/* Contents of the file, drawn or not. 0 also if the format has no such thing. */
 typedef struct model_facts {
-    const char *format;        /* "glTF", "GLB", "OBJ", "PLY", "LMP", a literal; NULL: its reader does not say */
-    uint32_t scenes, scene;    /* described; the one that was read, from 0 */
+    const char *format;        /* "glTF", "GLB", "OBJ", "PLY", "LMP", a literal; NULL: unknown */
+    uint32_t scenes, scene;    /* number; the one that was read, from 0 */
     char scene_name[64];
     uint32_t nodes, meshes, primitives;
-    uint64_t vertices;         /* as stored (of an OBJ: its v lines), of the meshes that are read */
-    uint32_t materials;        /* without the one for what names none */
+    uint64_t vertices;         /* as stored (OBJ: v lines), of the meshes that were read */
+    uint32_t materials;        /* without the default material */
     uint32_t textures, images;
-    uint32_t lights, cameras;  /* described; scene and cameras have those that are placed */
+    uint32_t lights, cameras;  /* in the file; scene and cameras have the placed ones */
     uint32_t animations, skins;
     model_extension extensions[32];
     uint32_t extension_count;  /* listed above */
     uint32_t extension_more;   /* not listed for lack of room */
     uint64_t file_bytes;       /* the model's file */
-    uint64_t neighbour_bytes;  /* other files read for it; one that is read twice counts twice */
+    uint64_t neighbour_bytes;  /* other files read for it; a file that is read twice counts twice */
     uint64_t memory_bytes;     /* of `blocks` */
-    uint64_t loading_bytes;    /* while loading: of `blocks`, working memory and the files' own bytes */
-    uint64_t texel_bytes;      /* the textures' part of that, mips included */
+    uint64_t loading_bytes;    /* while loading: `blocks`, working memory and the bytes of the files */
+    uint64_t texel_bytes;      /* the share of textures, mips included */
 } model_facts;
 
-/* A material with its glossy lobe: what model_make_glossy puts in. */
+/* A material with a glossy lobe, for model_make_glossy. */
 typedef struct model_lobe {
     float albedo[3], specular[3], roughness, metallic;
     uint32_t metal_map;
@@ -54,10 +54,10 @@ typedef struct model_lobe {
 
 #define MODEL_LIGHT_NAME "lambent lightmap" /* of the image */
 
-/* Baked light of a file that `lambent bake --to` wrote. */
+/* Baked light from a file that `lambent bake --to` wrote. */
 typedef struct model_light {
-    float scale;          /* W/m2 that a colour of 1 stands for; 0: the file has none */
-    float **colour;       /* by mesh: COLOR_1, 3 a vertex, 0 .. 1; NULL: it has none */
+    float scale;          /* W/m2 of a colour of 1; 0: no baked light */
+    float **colour;       /* by mesh: COLOR_1, 3 per vertex, 0 .. 1; NULL: none */
     float **uv;           /* by mesh: lightmap coordinates, 2 per vertex; NULL: not in the lightmap */
     const lmb_texture *picture; /* by uv, sRGB-coded; NULL: none */
 } model_light;
@@ -86,10 +86,10 @@ typedef struct model {
     model_light light;
     model_source *source;        /* set with model_choice.keeps_source if the format is glTF; else NULL */
     const char **material_names; /* by material, each may be NULL; NULL: no names, or they are in `source` */
-    struct model_motion *motion; /* model_motion.h; NULL: nothing of the scene moves, or `motion_problem` says why */
+    struct model_motion *motion; /* model_motion.h; NULL: nothing moves, or see `motion_problem` */
     report motion_problem;
     uint32_t idle_channels; /* animation channels that move nothing in the scene that was read */
-    const lmb_pack *pack; /* a packed scene, in memory of the model's; NULL: it is none */
+    const lmb_pack *pack; /* a packed scene, in memory that the model owns; NULL: not packed */
     model_facts facts;
     void **blocks; /* every allocation, for model_free */
     uint32_t block_count, block_cap;
@@ -109,22 +109,22 @@ typedef struct model_choice {
     int32_t keeps_source;   /* 1: fill out->source if the file is glTF */
 } model_choice;
 
-/* model_load: .gltf, .glb, .obj, .ply or .lmp by content and extension; of several scenes the one of the name or number
- * `scene`, or with NULL the file's own choice. Returns 1, or 0 with `r` set and *out empty. */
+/* model_load: loads .gltf, .glb, .obj, .ply or .lmp, by content and extension. `scene` is the name or number of the
+ * scene to load; NULL: the default scene of the file. Returns 1, or 0 with `r` set and *out empty. */
 int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r);
 
 
-/* model_read: the same from memory; `path` names it in messages, tells the format where the content does not, and is
- * where files beside it are looked for. */
+/* model_read: the same from memory. `path` is used in messages, to select the format if the content does not, and to
+ * find files beside it. */
 int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
                report *r);
 
-/* The same with more choices; NULL: the defaults. */
+/* The same with more choices, if you need them; NULL: the defaults. */
 int model_load_as(model *out, const char *path, const model_choice *choice, model_notes *notes, report *r);
 int model_read_as(model *out, const char *path, const model_choice *choice, const uint8_t *data, size_t size,
                   model_notes *notes, report *r);
 
-/* model_make_glossy: give the materials their lobes. 0 where the format has none. */
+/* model_make_glossy: gives the materials glossy lobes. Returns 0 if the format has none. */
 int model_make_glossy(model *m);
 
 void model_free(model *m);

@@ -1,4 +1,4 @@
-/* model_build.c: a loaded model's memory, and what the readers build it with: notes, neighbouring files, textures. */
+/* model_build.c: memory of a loaded model, and helpers for the readers: notes, files beside the model, textures. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@ void model_free(model *m)
     memset(m, 0, sizeof *m);
 }
 
-/* Room for one more block; the list doubles. */
+/* Makes room for one more block; the list doubles. */
 static int reserve_block(model *m)
 {
     uint32_t cap = m->block_cap ? m->block_cap * 2 : 64;
@@ -35,7 +35,7 @@ static int reserve_block(model *m)
     return 1;
 }
 
-/* count * size zeroed bytes in m's list, or NULL; without a budget. */
+/* Allocates count * size zeroed bytes in m's list, or NULL; no budget. */
 static void *add_block(model *m, uint64_t count, size_t size)
 {
     void *block;
@@ -157,7 +157,7 @@ static void tidy_path(char *path)
     *to = '\0';
 }
 
-/* Room for one more file and its path; NULL with `r` set. */
+/* Makes room for one more file and the path; NULL with `r` set. */
 static build_neighbour *add_neighbour(model_build *b, const char *path, report *r)
 {
     const size_t bytes = strlen(path) + 1;
@@ -180,7 +180,7 @@ static build_neighbour *add_neighbour(model_build *b, const char *path, report *
     return to;
 }
 
-/* What the machine lacks is no property of the model, of which parts are left out: it cannot be read at all. */
+/* If the system lacks memory or files, the whole model fails: only defects of the model itself may be skipped. */
 static int pass_on(model_build *b, const report *why)
 {
     return report_is_system(why) ? report_fail_system(b->r, "%s", why->text) : 0;
@@ -262,8 +262,8 @@ int build_sibling(char *out, size_t cap, const model_build *b, const char *name,
     return 1;
 }
 
-/* A decoded picture becomes the model's level 0, with room for `levels` behind it: where it lies, or the large ones
- * would be there twice. */
+/* Makes a decoded image the model's level 0, with room for `levels` after it. Does not copy, because large images
+ * would be in memory twice. */
 static uint8_t *keep_texels(model_build *b, bitmap *map, int32_t levels, const char *name, report *why)
 {
     const size_t bytes = lmb_texture_bytes(map->width, map->height, levels);
@@ -287,7 +287,7 @@ static uint8_t *keep_texels(model_build *b, bitmap *map, int32_t levels, const c
     return texels;
 }
 
-/* A picture pays for its bytes too: a decoder may read them all before it finds a fault. */
+/* The bytes of an image count too, because a decoder may read all of them before it finds an error. */
 static int pay_picture(model_build *b, uint64_t pixels, size_t size, const char *name, report *why)
 {
     if (pixels > b->pixel_budget && pixels <= b->large_picture)
@@ -319,7 +319,7 @@ int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size,
 
 /* --- pictures that are the same byte for byte --- */
 
-enum { HASHED_PER_PIXEL = 8 }; /* bytes that are compared in about the time that a pixel is decoded */
+enum { HASHED_PER_PIXEL = 8 }; /* bytes compared in about the time of decoding one pixel */
 
 static uint64_t hash_of(const uint8_t *data, size_t size)
 {
@@ -334,7 +334,7 @@ static uint64_t hash_of(const uint8_t *data, size_t size)
     return hash;
 }
 
-/* The slot of these bytes, or the free one where they belong. */
+/* Returns the slot of these bytes, or the free slot for them. */
 static uint32_t *slot_of(const model_build *b, uint64_t hash, const uint8_t *data, size_t size)
 {
     const uint32_t mask = b->content_slot_count - 1;
@@ -347,7 +347,7 @@ static uint32_t *slot_of(const model_build *b, uint64_t hash, const uint8_t *dat
     return &b->content_slots[at];
 }
 
-/* Room for twice as many, each in its slot again. */
+/* Doubles the room and inserts all slots again. */
 static int grow_contents(model_build *b)
 {
     const uint32_t slots = b->content_slot_count > 0 ? 2 * b->content_slot_count : 32;
@@ -365,7 +365,7 @@ static int grow_contents(model_build *b)
     return 1;
 }
 
-/* The number of these bytes; also known ones pay for being looked at. */
+/* Returns the index of these bytes; comparing known ones counts as work too. */
 static int find_content(uint32_t *out, model_build *b, const uint8_t *data, size_t size, const char *name, report *why)
 {
     const uint64_t price = size / HASHED_PER_PIXEL + 1;

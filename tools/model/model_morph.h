@@ -1,4 +1,4 @@
-/* model_morph.h: shapes a mesh by the weights of its morph targets. */
+/* model_morph.h: shapes a mesh from morph targets and weights. */
 #ifndef MODEL_MORPH_H
 #define MODEL_MORPH_H
 

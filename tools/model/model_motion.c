@@ -1,4 +1,4 @@
-/* model_motion.c: poses a model's nodes at a time: keys, what lies between them, and the way to the world. */
+/* model_motion.c: poses the nodes of a model at a time: keys, interpolation, and world transforms. */
 #include "model_motion.h"
 
 #include <float.h>
@@ -44,7 +44,7 @@ static lmb_vec3 to_vec3(const double v[3])
     return out;
 }
 
-/* v to length 1; 0 where it has none. */
+/* Normalizes v; returns 0 if it has no length. */
 static int normalize(double v[3])
 {
     const double d = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -110,7 +110,7 @@ static void make_square(double v[3], const double unit[3])
 }
 
 /* Makes the axes of a matrix orthonormal, even if columns have no length or are parallel. A missing column becomes
- * perpendicular to the other two, or else the coordinate axis with its index. */
+ * perpendicular to the other two, or otherwise the coordinate axis of that column. */
 static void complete(double m[16])
 {
     double axis[3][3], x[3];
@@ -163,8 +163,7 @@ void model_multiply(double out[16], const double a[16], const double b[16])
                                     a[8 + row] * b[4 * column + 2] + a[12 + row] * b[4 * column + 3];
 }
 
-/* The light points along -Z of the node. A point light does not use its direction, but the scene requires unit
- * length. */
+/* The light points along -Z of the node. A point light ignores the direction, but the scene requires unit length. */
 void model_place_light(lmb_light *out, const double world[16], const double turn[16])
 {
     double way[3];
@@ -177,7 +176,7 @@ void model_place_light(lmb_light *out, const double world[16], const double turn
     out->position = to_vec3(world + 12);
 }
 
-/* Back along the node's Z, up as near its Y as that allows; scale and mirroring drop out. */
+/* Back is the node's Z, and up as near Y as possible; removes scale and mirroring. */
 void model_place_camera(model_camera *out, const double world[16], const double turn[16])
 {
     double right[3], up[3], back[3];
@@ -197,7 +196,7 @@ static const float *value_at(const model_track *t, uint32_t key, int size)
                                      : t->value + (size_t)key * (size_t)size;
 }
 
-/* By glTF's cubic, whose tangents are by the second. */
+/* The cubic of glTF, with tangents per second. */
 static void cubic(double *out, const model_track *t, uint32_t key, double u, double span, int size)
 {
     const float *a = value_at(t, key, size), *b = value_at(t, key + 1, size), *from = a + size, *to = b - size;
@@ -208,7 +207,7 @@ static void cubic(double *out, const model_track *t, uint32_t key, double u, dou
                  u * v * span * (v * (double)from[i] - u * (double)to[i]);
 }
 
-/* Rotations by the shorter way round, evenly. */
+/* Interpolates rotations along the shorter arc with constant speed. */
 static void spherical(double out[4], const float *a, const float *b, double u)
 {
     double dot = 0, way, from = 1 - u, to = u;
@@ -268,7 +267,7 @@ void model_track_at(double *out, const model_track *t, double time_s, int size)
 
 /* --- poses -------------------------------------------------------------------------------------------------------- */
 
-/* The node's own way, then that of its parent. Tracks lie by their nodes. */
+/* The node's local transform, then that of the parent. Tracks are sorted by node. */
 static int place(const struct model_motion *m, uint32_t node, uint32_t *track, double time_s)
 {
     const uint32_t up = m->parent[node];
@@ -297,7 +296,7 @@ static int place(const struct model_motion *m, uint32_t node, uint32_t *track, d
 
 static int is_moved(const struct model_motion *m, uint32_t node) { return node != MODEL_NONE && m->moves[node]; }
 
-/* Of a packed scene, by the library: as a program has it that draws the file. */
+/* The library poses a packed scene, as in a program that draws the file. */
 static int pose_pack(lmb_instance *instances, lmb_light *lights, model_camera *cameras, const model *of, float time_s)
 {
     uint32_t i;

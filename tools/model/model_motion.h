@@ -1,10 +1,10 @@
-/* model_motion.h: a file's animations: where the nodes of its scene are at a time. */
+/* model_motion.h: the animations of a file: transforms of the scene's nodes at a time. */
 #ifndef MODEL_MOTION_H
 #define MODEL_MOTION_H
 
 #include "model.h"
 
-/* A node's way to its parent: translation, rotation (x, y, z, w) and scale, or a matrix. */
+/* Transform of a node relative to the parent: translation, rotation (x, y, z, w) and scale, or a matrix. */
 typedef struct model_local {
     double t[3], q[4], s[3], matrix[16];
     int is_matrix;
@@ -13,7 +13,7 @@ typedef struct model_local {
 enum { MODEL_TRANSLATION, MODEL_ROTATION, MODEL_SCALE, MODEL_WEIGHTS };
 enum { MODEL_STEP, MODEL_LINEAR, MODEL_CUBIC };
 
-/* The keys of a node's translation, rotation or scale, or of all weights of its morph targets. */
+/* The keys of a node's translation, rotation or scale, or of all morph weights. */
 typedef struct model_track {
     uint32_t node;
     int what, between;
@@ -30,21 +30,21 @@ struct model_motion {
     const uint32_t *parent; /* MODEL_NONE: none */
     const model_local *rest;
     const model_track *track;
-    const uint32_t *of_instance, *of_light, *of_camera; /* their nodes; MODEL_NONE: stands still whatever moves */
+    const uint32_t *of_instance, *of_light, *of_camera; /* the node of each; MODEL_NONE: never moves */
     uint8_t *moves;                                     /* a node: it or one above it has a track */
     double (*world)[16], (*turn)[16];                   /* scratch of model_pose */
     double end_s;                                       /* the last key */
     struct model_shapes *shapes;                        /* see model_shape.h; NULL: no mesh changes shape */
-    const uint8_t *reshapes;                            /* by instance: 1 if its mesh changes shape; NULL: none does */
+    const uint8_t *reshapes;                            /* by instance: 1 if the mesh changes shape; NULL: none does */
 };
 
 /* model_track_at: writes the `size` numbers of a track at a time: the first value before the first key, and the last
  * value after the last key. */
 void model_track_at(double *out, const model_track *t, double time_s, int size);
 
-/* model_pose: the model's instances, lights and cameras as they are at a time, in arrays of as many as the model has;
- * only moving items are written. Before the first key and after the last key, the first and last values apply. Returns
- * 1, or 0 if a transform is invalid: a rotation without length, or numbers beyond the range of float. */
+/* model_pose: writes the instances, lights and cameras at a time to arrays with room for all of the model; only
+ * moving items are written. Before the first key and after the last key, the first and last values apply. Returns 1,
+ * or 0 if a transform is invalid: a rotation without length, or numbers beyond the range of float. */
 int model_pose(lmb_instance *instances, lmb_light *lights, model_camera *cameras, const model *of, double time_s);
 
 /* model_compose: makes a column-major matrix. Returns 0 if the rotation has no length. model_compose_turn: uses only

@@ -37,8 +37,9 @@ struct model_shapes {
     double (*matrices)[16];
 };
 
-/* model_pose_shapes: fills the streams of all meshes that change shape, for a given time. Call model_pose for that time
- * first. Then raise the revisions of those instances. Cost: a pass over their vertices and targets. */
+/* model_pose_shapes: fills the streams of all meshes that change shape, for a given time. Call model_pose for that
+ * time first, and raise the revisions of those instances before you draw them. Cost: a pass over their vertices and
+ * targets. */
 void model_pose_shapes(const model *of, double time_s);
 
 #endif

@@ -1,4 +1,4 @@
-/* scene_hash.c: one number for all that a scene draws. */
+/* scene_hash.c: a hash of everything that a scene draws. */
 #include "scene_hash.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ uint64_t scene_hash_bytes(uint64_t hash, const void *data, size_t size)
     return hash;
 }
 
-/* An array that may not be there. */
+/* Hashes an array that may be NULL. */
 static uint64_t hash_array(uint64_t hash, const void *data, size_t count, size_t each)
 {
     const uint64_t n = data != NULL ? count : 0;

@@ -1,7 +1,7 @@
 /* smooth_normals.c: sums the normals of triangles by position and group.
  *
- * Positions are compared by value, not by vertex index, because programs write a vertex once for each of its texture
- * coordinates. Each normal is weighted by the angle of the triangle at the vertex. So the result does not depend on the
+ * Positions are compared by value, not by vertex index, because programs write a vertex once per texture coordinate.
+ * Each normal is weighted by the angle of the triangle at the vertex. So the result does not depend on the
  * triangulation of a polygon, and the normals of a cube point along the diagonals. Weighted by area, they would lean to
  * the side with two triangles there. */
 #include <math.h>

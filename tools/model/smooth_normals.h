@@ -4,7 +4,7 @@
 
 #include "model_build.h"
 
-/* A group at a position: the sum of the normals of its triangles, weighted by angle. */
+/* A group at a position: the sum of the triangle normals, weighted by angle. */
 typedef struct smooth_place {
     float place[3];
     uint32_t group;

@@ -1,6 +1,6 @@
 /* gen_fixed.c: prints src/fixed/number_tables.inc: reciprocals, powers and sRGB codes of the frame by integers.
  *
- * In double with + - * / and sqrt only, but for the sRGB curve, whose entries lie far from halves. */
+ * Uses only + - * / and sqrt in double, except for the sRGB curve, which has no entries near halves. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,4 +1,4 @@
-/* pack_buffer.c: bytes that grow, a word at a time. */
+/* pack_buffer.c: a growing byte array, appended to in words. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,7 +38,7 @@ void pack_word(pack_buffer *to, uint32_t word) { pack_put(to, &word, sizeof word
 
 void pack_float(pack_buffer *to, float v)
 {
-    v = v == 0.0f ? 0.0f : v; /* both zeros are one */
+    v = v == 0.0f ? 0.0f : v; /* -0 becomes 0 */
     pack_put(to, &v, sizeof v);
 }
 

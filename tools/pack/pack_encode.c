@@ -1,5 +1,5 @@
-/* pack_encode.c: a texture's levels in 16 bits, or in 4 bits by a palette of its own. By integers alone: the same bytes on
- * every machine. */
+/* pack_encode.c: a texture's levels in 16 bits, or in 4 bits with a palette. Uses only integers, so every machine gives
+ * the same bytes. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +32,7 @@ static int64_t put_rgb565(pack_buffer *out, const uint8_t *rgba, size_t texels, 
 
 /* --- 4 bits ------------------------------------------------------------------------------------------------------- */
 
-/* Texels that are nearly alike, or a colour of the palette: sums of R G B A, and how many. */
+/* A cluster of similar texels, or a colour of the palette: sums of R G B A, and the number of texels. */
 typedef struct bunch {
     int64_t sum[4], count;
     int colour[4];
@@ -68,7 +68,8 @@ static int nearest_of(const bunch *palette, int count, const int *colour, int64_
     return best;
 }
 
-/* Cells of 32 x 32 x 32 colours, apart by half of alpha; returns how many hold texels, those first. */
+/* Sorts texels into cells of 32 x 32 x 32 colours, separately for each half of alpha. Returns the number of cells with
+ * texels, which come first. */
 static int find_cells(bunch *cell, const uint8_t *rgba, size_t texels, int alpha)
 {
     int count = 0;
@@ -90,7 +91,8 @@ static int find_cells(bunch *cell, const uint8_t *rgba, size_t texels, int alpha
     return count;
 }
 
-/* The first colour is the commonest; each next one the cell that is worst off, by its texels times its distance. */
+/* Chooses initial colours: first the most frequent one, then repeatedly the cell with the largest error, texels times
+ * distance. */
 static int first_colours(bunch *palette, const bunch *cell, int cells)
 {
     int count = 0;
@@ -113,7 +115,7 @@ static int first_colours(bunch *palette, const bunch *cell, int cells)
     return count;
 }
 
-/* Each colour the mean of the cells that are nearest to it, again and again. */
+/* Replaces each colour by the mean of the cells nearest to it, several times (k-means). */
 static void refine(bunch *palette, int count, const bunch *cell, int cells)
 {
     for (int round = 0; round < ROUNDS; ++round) {
@@ -135,7 +137,7 @@ static void refine(bunch *palette, int count, const bunch *cell, int cells)
     }
 }
 
-/* The texture's own colours, where it has no more than fit; returns how many, 0: more. */
+/* Collects the texture's colours. Returns their number, or 0 if there are too many. */
 static int own_colours(bunch *palette, const uint8_t *rgba, size_t texels, int alpha)
 {
     int count = 0;
@@ -189,7 +191,7 @@ static int64_t put_level(pack_buffer *out, const bunch *palette, int count, cons
     return error;
 }
 
-/* Levels begin a byte, so they are put together where pack_put's zeros do not come between. */
+/* Encodes all levels into one block, because levels start at any byte and pack_put adds zeros. */
 static int64_t put_palette4(pack_buffer *out, const lmb_texture *t, int alpha)
 {
     const size_t texels = lmb_texture_bytes(t->width, t->height, t->levels) / 4;

@@ -1,4 +1,4 @@
-/* pack_file.c: parts -> the bytes of a .lmp; and those in the other byte order. */
+/* pack_file.c: joins the parts to a .lmp; converts a .lmp to the other byte order. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,9 +6,9 @@
 #include "../common/checksum.h"
 #include "pack.h"
 
-enum { ALIGNMENT = 16 }; /* of parts: a cache has lines, and some copying hardware takes no less */
+enum { ALIGNMENT = 16 }; /* of parts, for cache lines and for copying hardware with large units */
 
-/* What is read first stands first. */
+/* Parts in the order in which they are read. */
 static const int order[] = {LMB_PACK_SCENE, LMB_PACK_MESHES, LMB_PACK_MATERIALS, LMB_PACK_TEXTURES, LMB_PACK_INSTANCES,
                             LMB_PACK_LIGHTS, LMB_PACK_CAMERAS, LMB_PACK_NAMES, LMB_PACK_NODES, LMB_PACK_TRACKS,
                             LMB_PACK_KEYS, LMB_PACK_VERTEX_LIGHT, LMB_PACK_TRANSFER, LMB_PACK_VERTICES,
@@ -17,7 +17,7 @@ enum { PARTS = sizeof order / sizeof *order };
 
 static uint32_t aligned(uint32_t at) { return (at + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
-/* Offsets of records of a kind: word `first` and `count` - 1 more. */
+/* Converts offsets in records of a kind: `count` words from word `first` on. */
 static void set_offsets(uint8_t *file, const uint32_t *at, const pack *p, int kind, int first, int count, int to)
 {
     const size_t each = lmb_pack_words_each[kind], records = p->part[kind].size / 4 / each;
@@ -112,7 +112,7 @@ static void swap_mesh(uint8_t *file, const lmb_mesh *m)
     swap_at(file, m->indices, corners, m->index_format == LMB_INDEX_U16 ? 2 : 4);
 }
 
-/* Streams are no one's but their mesh's, and come in order; texels may be shown by several textures. */
+/* Swaps a file. Each stream belongs to one mesh, and they are in order; texels may be shared by several textures. */
 void pack_swap(file_bytes *inout, const lmb_pack *p)
 {
     uint8_t *file = inout->data;
@@ -135,7 +135,7 @@ void pack_swap(file_bytes *inout, const lmb_pack *p)
             swap_at(file, p->part[kind], p->bytes[kind] / 4, 4);
         }
     }
-    for (int kind = LMB_PACK_TRANSFER; kind <= LMB_PACK_VERTEX_LIGHT; ++kind) { /* words behind three letters */
+    for (int kind = LMB_PACK_TRANSFER; kind <= LMB_PACK_VERTEX_LIGHT; ++kind) { /* word 0 holds letters */
         if (p->bytes[kind] > 4) {
             swap_at(file, p->part[kind] + 1, p->bytes[kind] / 4 - 1, 4);
         }

@@ -1,7 +1,7 @@
-/* pack_mesh.c: meshes of the scene -> vertices in 16 bits where the error allows, equal ones joined, triangles in order.
+/* pack_mesh.c: a scene's meshes -> 16-bit vertices if the error allows, equal vertices merged, triangles reordered.
  *
- * All positions lie on one grid of a power of two: what two meshes share stays shared, and scale x code + offset is exact,
- * so no cracks open between meshes that are placed alike. */
+ * All positions lie on one power-of-two grid: positions that two meshes share stay equal, and scale x code + offset is
+ * exact, so no cracks open between meshes with the same placement. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,30 +10,30 @@
 #include "pack.h"
 
 enum { VERTEX_WORDS = 9 };
-#define UV_TEXELS 0.0625 /* error that 16-bit texture coordinates may have */
-#define EXACT     8388608.0 /* steps from the origin up to which binary32 holds each, and the middle of a mesh */
+#define UV_TEXELS 0.0625 /* error allowed for 16-bit texture coordinates */
+#define EXACT     8388608.0 /* grid steps from the origin up to which binary32 is exact for steps and a mesh's middle */
 
-/* A mesh, and what its materials ask of it. */
+/* A mesh and the requirements of the materials on it. */
 typedef struct mesh_job {
     const lmb_mesh *mesh;
-    double step, grows; /* m of the grid, 0: positions stay; how much its instances enlarge it */
-    double low[3], high[3]; /* of its corners */
+    double step, grows; /* step: m, 0: positions stay binary32; grows: largest scale of the instances */
+    double low[3], high[3]; /* bounding box of the corners */
     int has_maps, has_normal_map, may_shift, side;
     double uv_shift[2], uv_scale[2];
     uint8_t position_format, uv_format, has_colours, is_sane;
     double middle[3]; /* steps */
 } mesh_job;
 
-/* Vertices as they are written, each once. */
+/* Vertices as written, without duplicates. */
 typedef struct vertex_table {
-    uint32_t *word; /* `each` words a vertex */
+    uint32_t *word; /* `each` words per vertex */
     uint32_t *slot; /* hash table: 1 + the vertex; 0: free */
     uint32_t each, count, slots;
 } vertex_table;
 
-/* --- what a mesh needs -------------------------------------------------------------------------------------------- */
+/* --- analysis ----------------------------------------------------------------------------------------------------- */
 
-/* How much longer a vector of a mesh can become in the world: at least the largest singular value. */
+/* The maximum scale of a vector by this transform: at least the largest singular value. */
 static double growth_of(const float *m)
 {
     double upper = 0.0;
@@ -83,7 +83,7 @@ static int is_corner(const lmb_mesh *m, uint32_t corner, uint32_t *vertex)
     return *vertex < m->vertex_count;
 }
 
-/* Boxes of places and of texture coordinates, over corners. */
+/* Bounds of positions and texture coordinates, over corners. */
 static void measure(mesh_job *j)
 {
     const lmb_mesh *m = j->mesh;
@@ -117,7 +117,7 @@ static void measure(mesh_job *j)
             j->has_colours |= (c[0] & c[1] & c[2] & c[3]) != 255;
         }
     }
-    for (int k = 0; k < 2; ++k) { /* two periods, for those that are mirrored */
+    for (int k = 0; k < 2; ++k) { /* two periods, for mirrored ones */
         j->uv_shift[k] = j->may_shift && uv_low[k] > -1e6 && uv_low[k] < 1e6 ? 2.0 * floor(uv_low[k] / 2.0) : 0.0;
         j->uv_scale[k] = uv_high[k] - j->uv_shift[k] > 0.0 ? (double)(float)(uv_high[k] - j->uv_shift[k]) : 1.0;
         const double error = j->uv_scale[k] / 131070.0 * j->side;
@@ -159,7 +159,8 @@ static int fits(const mesh_job *j) { return widest(j) <= 65535.0 && farthest(j) 
 
 static int may_quantise(const mesh_job *j) { return j->is_sane && j->low[0] <= j->high[0]; }
 
-/* The step that the error allows; all finer alike as long as those stay in 16 bits that are, for it costs nothing. */
+/* Sets the step that the error allows. Then makes it finer for all meshes together, as long as 16-bit meshes stay so,
+ * because that costs nothing. */
 static void set_grid(mesh_job *jobs, uint32_t count, double error_m)
 {
     const double largest = 2.0 * error_m / sqrt(3.0);
@@ -261,7 +262,7 @@ static void make_vertex(uint32_t *w, const mesh_job *j, uint32_t v, pack_losses 
     }
 }
 
-/* The number of a vertex with these words: the old one's, or a new one's. */
+/* Returns the number of the vertex with these words, adding it if it is new. */
 static uint32_t join(vertex_table *t, const uint32_t *w)
 {
     uint32_t hash = 2166136261u;
@@ -293,7 +294,8 @@ static int is_flat(const vertex_table *t, const mesh_job *j, const uint32_t *cor
     return same;
 }
 
-/* Triangles that can show; returns how many. Vertices of others may stay in the table: compact drops them. */
+/* Collects the visible triangles. Returns their number. Vertices of the others may stay in the table: compact drops
+ * them. */
 static uint32_t take_triangles(uint32_t *index, vertex_table *t, const mesh_job *j, pack_losses *lost)
 {
     const lmb_mesh *m = j->mesh;
@@ -315,7 +317,7 @@ static uint32_t take_triangles(uint32_t *index, vertex_table *t, const mesh_job 
     return count;
 }
 
-/* Vertices in the order in which triangles meet them, and only those. */
+/* Renumbers vertices in the order of first use, and drops unused ones. */
 static void compact(uint32_t *index, uint32_t triangles, uint32_t *number, uint32_t *moved, vertex_table *t)
 {
     uint32_t count = 0;
@@ -334,7 +336,7 @@ static void compact(uint32_t *index, uint32_t triangles, uint32_t *number, uint3
 
 /* --- streams ------------------------------------------------------------------------------------------------------ */
 
-/* `words` words of each vertex from word `at` on; returns its place. */
+/* Appends `words` words of each vertex from word `at` on. Returns the offset. */
 static uint32_t put_stream(pack_buffer *to, const vertex_table *t, uint32_t *at, uint32_t words)
 {
     const uint32_t place = pack_place(to);
@@ -391,7 +393,7 @@ static void put_mesh(pack *out, const mesh_job *j, const vertex_table *t, const 
     out->lost.float_meshes += j->position_format == LMB_POSITION_F32 && t->count > 0;
 }
 
-/* Streams that no material or triangle has use for are left out. */
+/* Drops streams that no material or triangle uses. */
 static lmb_mesh needed(const mesh_job *j)
 {
     lmb_mesh m = *j->mesh;
@@ -448,7 +450,7 @@ int pack_meshes(pack *out, const lmb_scene *scene, const pack_settings *set, rep
     for (uint32_t i = 0; i < scene->instance_count; ++i) {
         mesh_job *j = &jobs[scene->instances[i].mesh];
         double grows = growth_of(scene->instances[i].to_world.m);
-        grows = grows > 1e-3 ? grows : 1.0; /* what is nothing now may grow by an animation */
+        grows = grows > 1e-3 ? grows : 1.0; /* an instance of scale 0 may grow by an animation */
         j->grows = grows > j->grows ? grows : j->grows;
         add_material(j, scene, &scene->materials[scene->instances[i].material]);
     }

@@ -1,11 +1,11 @@
-/* pack_motion.c: a model's animations -> nodes, tracks and keys, of what they move alone. */
+/* pack_motion.c: a model's animations -> nodes, tracks and keys for the objects, lights and cameras they move. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "../model/model_motion.h"
 #include "pack.h"
 
-/* Marks a node and those above it; 0: more than LMB_PACK_MOST_ABOVE are. */
+/* Marks a node and its ancestors. Returns 0 if there are more than LMB_PACK_MOST_ABOVE. */
 static int mark_above(uint8_t *used, const struct model_motion *m, uint32_t node)
 {
     uint32_t above = 0;
@@ -15,7 +15,7 @@ static int mark_above(uint8_t *used, const struct model_motion *m, uint32_t node
     return above <= LMB_PACK_MOST_ABOVE + 1;
 }
 
-/* Nodes that stand for what moves; LMB_PACK_NONE for what does not. */
+/* Sets the node of each moving item, LMB_PACK_NONE for others. Returns 0 if a node has too many ancestors. */
 static int mark(uint8_t *used, uint32_t *node_of, const uint32_t *node, uint32_t count, const struct model_motion *m)
 {
     int ok = 1;
@@ -53,7 +53,7 @@ static void put_rest(pack_buffer *to, const model_local *l)
     pack_words(to, 2, 0);
 }
 
-/* Tracks of one clock have their times once. */
+/* Writes a track's times; tracks with equal times share them. */
 static uint32_t put_times(pack_buffer *keys, const struct model_motion *m, uint32_t track, uint32_t *place)
 {
     const model_track *t = &m->track[track];
@@ -107,8 +107,8 @@ static void put_nodes(pack *out, const struct model_motion *m, const uint8_t *us
     }
 }
 
-/* A node that moves nothing, if only skins and morph targets move, which are left out: so `play` finds that the file had
- * animations, and makes no motion up. */
+/* If only skins and morph targets move, which are not packed, adds a node that moves nothing. So `play` finds that the
+ * file had animations, and adds no default motion. */
 static void put_still_node(pack *out, const struct model_motion *m, const uint8_t *used)
 {
     pack_buffer *to = &out->part[LMB_PACK_NODES];

@@ -1,7 +1,7 @@
-/* pack_order.c: triangles in an order that fetches few vertices twice.
+/* pack_order.c: reorders triangles so that few vertices are fetched twice.
  *
- * All triangles around one vertex, then those around one of their vertices that a cache still holds: Sander, Nehab and
- * Barczak 2007. Time goes with the number of triangles. */
+ * Emits all triangles around one vertex, then those around another vertex still in the cache: Sander, Nehab and Barczak
+ * 2007. Time is linear in the number of triangles. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,10 +11,10 @@ enum { CACHE = 16 };
 
 typedef struct orderer {
     const uint32_t *index;
-    uint32_t *first, *around; /* by vertex: its triangles */
-    uint32_t *left;           /* of them, those not yet put */
-    uint32_t *stamp;          /* by vertex: when it came into the cache */
-    uint32_t *ended;          /* vertices that were met, the last one on top */
+    uint32_t *first, *around; /* by vertex: the triangles around it */
+    uint32_t *left;           /* by vertex: triangles not yet emitted */
+    uint32_t *stamp;          /* by vertex: time at which it entered the cache */
+    uint32_t *ended;          /* stack of vertices met */
     uint8_t *is_put;          /* by triangle */
     uint32_t vertices, triangles, time, ends, cursor;
 } orderer;
@@ -35,8 +35,8 @@ static void find_around(orderer *o)
     }
 }
 
-/* The next vertex: of the last fan's the one that has been in the cache for longest and will stay for its own fan; else
- * one that was met, else any. UINT32_MAX: all are done. */
+/* The next vertex: from the last fan, the one longest in the cache that stays there for all triangles around it; else
+ * one from the stack, else any. UINT32_MAX: done. */
 static uint32_t next_vertex(orderer *o, uint32_t from)
 {
     uint32_t best = UINT32_MAX, oldest = 0;

@@ -1,4 +1,4 @@
-/* pack_scene.c: a model -> the parts of a packed scene; or a packed scene's parts as they are. */
+/* pack_scene.c: packs a model, or copies the parts of a packed scene unchanged. */
 #include "pack.h"
 
 #include <stdlib.h>
@@ -83,7 +83,7 @@ static void put_lights(pack *out, const lmb_scene *s, const uint32_t *node)
     }
 }
 
-/* Tangents by the library's own function: the same on every machine. */
+/* Writes a camera. Tangents use the library's function, which is equal on every machine. */
 static void put_camera(pack *out, const model_camera *c, uint32_t node)
 {
     pack_buffer *to = &out->part[LMB_PACK_CAMERAS], *names = &out->part[LMB_PACK_NAMES];
@@ -101,7 +101,7 @@ static void put_camera(pack *out, const model_camera *c, uint32_t node)
     pack_float(to, c->orthographic ? 0.0f : c->yfov_rad);
     pack_word(to, node);
     pack_put(names, c->name, strlen(c->name) + 1);
-    if (!names->is_short) { /* zeros up to a word would be names, too */
+    if (!names->is_short) { /* padding zeros would count as names */
         names->size -= (4 - (strlen(c->name) + 1) % 4) % 4;
     }
 }
@@ -117,7 +117,7 @@ static void put_cameras(pack *out, const model *m, const uint32_t *node)
     names->size = any ? (names->size + 3) / 4 * 4 : 0;
 }
 
-/* Bounds of what was packed, which is what will be drawn: the file is opened once without them. */
+/* Sets the bounds of the packed scene, which is the one drawn: opens the file once without bounds. */
 static int put_bounds(pack *out, report *r)
 {
     pack_buffer *to = &out->part[LMB_PACK_SCENE];
@@ -177,7 +177,7 @@ int pack_model(pack *out, const model *m, const pack_settings *set, report *r)
 
 /* --- a packed scene ----------------------------------------------------------------------------------------------- */
 
-/* A record's offset from its part's start; 0: it is not in that part. */
+/* Makes a record's offset relative to the part's start. Returns 0 if it points outside the part. */
 static int rebase(uint32_t *word, const lmb_pack *from, int kind)
 {
     const uint32_t start = from->part[kind] != NULL ? (uint32_t)(4 * (from->part[kind] - from->data)) : 0;
@@ -191,7 +191,7 @@ static int rebase(uint32_t *word, const lmb_pack *from, int kind)
     return 1;
 }
 
-/* Does it still open once its parts lie elsewhere? A stream may have gone on in another part. */
+/* Does it still open with the parts moved? A stream may have continued into another part. */
 static int is_whole(const pack *p, report *r)
 {
     file_bytes file = {NULL, 0};
@@ -203,7 +203,7 @@ static int is_whole(const pack *p, report *r)
 
 int pack_take(pack *out, const lmb_pack *from, const char *path, report *r)
 {
-    /* Kind of the records, the word with an offset, how many follow it, what it leads to. */
+    /* Kind of the records, first word with an offset, number of offsets, part that they point into. */
     static const int offsets[][4] = {{LMB_PACK_MESHES, 3, 5, LMB_PACK_VERTICES}, {LMB_PACK_MESHES, 8, 1, LMB_PACK_INDICES},
                                      {LMB_PACK_TEXTURES, 0, 1, LMB_PACK_TEXELS}, {LMB_PACK_TRACKS, 2, 2, LMB_PACK_KEYS}};
     int ok = 1;

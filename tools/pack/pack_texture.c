@@ -1,10 +1,10 @@
-/* pack_texture.c: which format each texture takes, and the records of textures and materials. */
+/* pack_texture.c: chooses each texture's format; writes records of textures and materials. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "pack.h"
 
-/* What materials read of a texture. */
+/* How materials use a texture. */
 enum { USED = 1, AS_VECTOR = 2, WITH_ALPHA = 4 };
 
 static void mark(uint8_t *use, const lmb_scene *s)
@@ -26,14 +26,14 @@ static void mark(uint8_t *use, const lmb_scene *s)
     }
 }
 
-/* May texels of this use be in that format at all? */
+/* Can texels with this use have that format? */
 static int may_be(int use, int format)
 {
     return (use & AS_VECTOR) == 0 && (format != LMB_TEXELS_RGB565 || (use & WITH_ALPHA) == 0);
 }
 
-/* The smallest format whose error is within the bound, or the one that is asked for; its texels at the end of `out`.
- * The error, under 0 where memory is short. */
+/* Encodes in the smallest format with an error within the bound, or in the requested one, at the end of `out`. Returns
+ * the error, or a negative number if memory is short. */
 static double encode(pack_buffer *out, int *format, const lmb_texture *t, int use, const pack_settings *set)
 {
     static const int order[] = {LMB_TEXELS_PALETTE4, LMB_TEXELS_RGB565};
@@ -63,7 +63,7 @@ static void put_record(pack_buffer *to, const lmb_texture *t, uint32_t place, in
     pack_word(to, t->filter);
 }
 
-/* Do both show the same texels in the same way? */
+/* Do both have the same texels and use? */
 static int is_same(const lmb_texture *a, int use_a, const lmb_texture *b, int use_b)
 {
     return a->texels == b->texels && a->width == b->width && a->height == b->height && a->levels == b->levels &&

@@ -32,37 +32,37 @@ static const char *const formats[] = {"auto", "rgba8", "rgb565", "palette4", NUL
 
 static const option_row rows[] = {
     {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene), .file = OPTION_READS,
-     .help = ".gltf .glb .obj .ply, `demo`, or a packed .lmp, whose parts stay as they are"},
+     .help = ".gltf .glb .obj .ply, `demo`, or a packed .lmp, whose parts stay unchanged"},
     {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
      .help = ".lmp: a file to load or map; .c: the same words as an array to link"},
     {.name = "--name", .value = "NAME", .kind = OPTION_TEXT, AT(name),
-     .help = "name of the array, valid in C and C++ (default: the file's name up to its first dot, with _ for "
-             "other characters than letters and digits; if that is not valid, scene_ is put in front)"},
+     .help = "name of the array, valid in C and C++ (default: the file's name up to the first dot, with _ for other "
+             "characters than letters and digits; if that is not valid, scene_ is put in front)"},
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(choice.scene),
-     .help = "of a file with several scenes: which, by name or number"},
+     .help = "one of several scenes in the file, by name or number"},
     OPTION_VERTEX_COLOURS_ROW(options, choice.vertex_colours),
     {.name = "--transfer", .value = "FILE.lmt", .kind = OPTION_TEXT, AT(transfer), .file = OPTION_READS,
-     .help = "baked light goes into the file; it has to be baked from the packed scene, as packing moves vertices"},
+     .help = "adds baked light to the file; bake it from the packed scene, because packing moves vertices"},
     {.name = "--position-error", .value = "METRES", .kind = OPTION_NUMBER, AT(position_error), .low = 0.0, .high = 1e6,
      .counts = offsetof(options, position_given),
-     .help = "how far a vertex may move to a grid, where it takes 8 bytes instead of 12; 0: not at all (default: a "
-             "32768th of the scene's diagonal)"},
+     .help = "how far a vertex may move to a grid, which saves 4 of 12 bytes; 0: not at all (default: a 32768th of "
+             "the scene's diagonal)"},
     {.name = "--order", .kind = OPTION_WORD, AT(order), .words = orders, .counts = offsetof(options, order_given),
-     .help = "of triangles: so that they share vertices with those just before (default), or as they come"},
+     .help = "of triangles: so that they share vertices with preceding ones (default), or as in the file"},
     {.name = "--textures", .kind = OPTION_WORD, AT(textures), .words = formats,
      .counts = offsetof(options, textures_given),
-     .help = "of base colours and emission maps, all levels: the smallest that --texture-error allows (default), or one "
-             "for all. Other maps are rgba8, and those with holes are not rgb565"},
+     .help = "of base colours and emission maps, all levels: the smallest that --texture-error allows (default), or "
+             "one for all. Other maps are rgba8, and those with holes are not rgb565"},
     {.name = "--texture-error", .value = "CODES", .kind = OPTION_NUMBER, AT(texture_error), .low = 0.0, .high = 255.0,
      .counts = offsetof(options, texture_given),
-     .help = "how much the codes of a texture may be off, of 255, as the root of their mean square (default 3)"},
+     .help = "maximum error of a texture's codes, of 255, as the root of the mean square (default 3)"},
     {.name = "--glossy", .kind = OPTION_FLAG, AT(is_glossy),
-     .help = "glTF's metals and smooth materials keep their highlights"},
+     .help = "keeps the highlights of glTF's metals and smooth materials"},
     {.name = "--endian", .kind = OPTION_WORD, AT(is_big), .words = endians,
      .help = "byte order of the machine that reads the file (default: of this one)"},
-    {.name = "--report", .kind = OPTION_FLAG, AT(has_report), .help = "bytes of the file, part by part"},
+    {.name = "--report", .kind = OPTION_FLAG, AT(has_report), .help = "prints the bytes of the file, part by part"},
     OPTION_ONLY_HERE,
-    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took"),
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the time it took"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -70,11 +70,10 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "pack",
     .usage = "pack SCENE -o OUT.lmp|OUT.c [options]",
-    .about = "A scene as one file that a program uses in place, from flash or a mapped file, by lmb_pack_open: vertices in "
-             "16 bits, textures in 4 to 32 bits with their levels, materials, lights, cameras, animations and baked "
-             "light.\n"
-             "The same bytes on every machine. Other verbs take a .lmp as a SCENE. Baked light is made of it: pack, bake "
-             "the .lmp, and pack the .lmp with --transfer.",
+    .about = "Packs a scene into one file that a program uses in place, from flash or a mapped file, by "
+             "lmb_pack_open: vertices in 16 bits, textures in 4 to 32 bits with their levels, materials, lights, "
+             "cameras, animations and baked light.\nThe bytes are the same on every machine. Other verbs take a "
+             ".lmp as a SCENE. To add baked light, pack, bake the .lmp, and pack the .lmp with --transfer.",
     .part = {rows},
     .examples = "  lambent pack demo -o demo.lmp --report\n"
                 "  lambent bake demo.lmp -o demo.lmt --elements 256 --receivers 300\n"
@@ -146,7 +145,7 @@ static int is_own_big(void)
     return *(const uint8_t *)(const void *)&one == 0;
 }
 
-/* The baked light into its part, where it fits the scene that was packed. */
+/* Adds the baked light to the file, if it fits the packed scene. */
 static int put_transfer(pack *p, const options *o, report *r)
 {
     file_bytes file = {NULL, 0}, packed = {NULL, 0};
@@ -236,7 +235,7 @@ static int write_out(const options *o, const pack *p, int is_new, report *r)
     ok = ok && (is_code(o->out) ? pack_code(o->out, name, &file, o->is_big, r)
                                 : file_write(o->out, file.data, file.size, r));
     if (ok && o->is_big != is_own_big()) {
-        file_free(&file); /* opened points into what is turned round now */
+        file_free(&file); /* `opened` points into the file that is swapped now */
         ok = pack_file(&file, p, r) && lmb_pack_open(&opened, file.data, file.size) == LMB_OK;
     }
     if (ok) {
@@ -253,7 +252,7 @@ static float diagonal_of(const lmb_scene *s)
     return (float)lmb_sqrt((float)(x * x + y * y + z * z));
 }
 
-/* What is packed once is not packed again: its errors would add up. */
+/* A packed scene is not packed again, because errors would add up. */
 static int may_take(const options *o, report *r)
 {
     return (o->position_given + o->texture_given + o->order_given + o->textures_given == 0 && !o->is_glossy) ||
@@ -276,7 +275,7 @@ static int pack_scene(const options *o, const model *m, report *r)
     return ok;
 }
 
-/* The built-in scene, with the camera that `render demo` has. */
+/* The built-in scene, with the camera of `render demo`. */
 static void make_demo(model *out, model_camera *camera)
 {
     const lmb_view v = demo_view(640, 480);

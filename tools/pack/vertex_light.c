@@ -1,4 +1,4 @@
-/* vertex_light.c: vertices, elements, what each sees of lamps and of each other, and the words of all that. */
+/* vertex_light.c: vertices and elements, visibility of lamps, links between elements, and the encoded words. */
 #include "vertex_light.h"
 
 #include <stdlib.h>
@@ -6,16 +6,16 @@
 
 #include "../common/progress.h"
 
-enum { SAMPLES = 32, ELEMENT_SAMPLES = 8, MOST_LINKS = 129 /* and one to make an even number */ };
-#define OVER  0.004 /* m: so high over a surface light is taken */
-#define TRUST 0.5   /* of directions: a point that meets more backs is inside of a solid */
+enum { SAMPLES = 32, ELEMENT_SAMPLES = 8, MOST_LINKS = 129 /* one more to make it even */ };
+#define OVER  0.004 /* m: height above a surface of points that receive light */
+#define TRUST 0.5   /* of directions: a point with more back faces around it is inside a solid */
 
 /* A vertex or an element. */
 typedef struct receiver {
     dvec at, normal;
     double albedo[3], area;
     dvec sample[SAMPLES], face[SAMPLES];
-    double weight[SAMPLES]; /* all of them 1 together */
+    double weight[SAMPLES]; /* sum to 1 */
     int samples;
     uint32_t place;
     const lmb_material *material;
@@ -56,7 +56,7 @@ enum { INSIDES = 7 };
 static const double inside[INSIDES][3] = {{0.34, 0.33, 0.33}, {0.9, 0.05, 0.05}, {0.05, 0.9, 0.05}, {0.05, 0.05, 0.9},
                                           {0.48, 0.48, 0.04}, {0.04, 0.48, 0.48}, {0.48, 0.04, 0.48}};
 
-/* Triangles of which nothing can be seen, as something stands on them. */
+/* Drops triangles that objects on them hide completely. */
 static void drop_buried(baking *b)
 {
     uint32_t kept = 0;
@@ -89,9 +89,9 @@ static int places_see(baking *b, const vl_triangle *t)
     return 0;
 }
 
-/* Of what has two sides, each side that no place of the lamp sees where the other is seen: walls' outer sides, and what
- * walls made of slabs have between them. Else they take most vertices and most elements of such a room. The sides of a
- * triangle are one behind the other. */
+/* Drops a side of a two-sided triangle if no lamp place sees it but some see the other side: outer sides of walls, and
+ * faces inside walls made of slabs. These would otherwise take most vertices and elements of a room. Both sides of a
+ * triangle are adjacent in the list. */
 static void drop_far_sides(baking *b)
 {
     uint32_t kept = 0;
@@ -114,7 +114,7 @@ static void drop_far_sides(baking *b)
     b->m.triangles = kept;
 }
 
-#define BEHIND 1e-3 /* m: so far something may lie behind a triangle of the hull, as places are rounded */
+#define BEHIND 1e-3 /* m: tolerance for points behind a hull triangle, because places are rounded */
 
 static int is_hull(const baking *b, const vl_triangle *t)
 {
@@ -129,7 +129,7 @@ static int is_hull(const baking *b, const vl_triangle *t)
     return 1;
 }
 
-/* Triangles that have all of the scene before them come first; the order is kept otherwise. */
+/* Moves triangles with the whole scene in front of them to the start; the order is otherwise kept. */
 static int put_hull_first(baking *b, report *r)
 {
     vl_triangle *sorted = malloc(b->m.triangles * sizeof *sorted);
@@ -172,7 +172,7 @@ static uint32_t vertex_of(baking *b, const vl_triangle *t, int k)
     return i;
 }
 
-/* The mean of the surface's colours around a vertex: nearer ones count more. */
+/* Averages the surface's colours around a vertex, with larger weights near it. */
 static void add_albedo(receiver *v, const vl_mesh *m, const vl_triangle *t, int k)
 {
     enum { STEPS = 12 };
@@ -191,7 +191,7 @@ static void add_albedo(receiver *v, const vl_mesh *m, const vl_triangle *t, int 
     }
 }
 
-/* Light is the mean around the vertex, of what is open: what stands on the surface hides the rest. */
+/* Samples of light around a vertex, without those that objects on the surface bury. */
 static void add_samples(receiver *v, const baking *b, const vl_triangle *t)
 {
     static const double pulls[4] = {0.08, 0.3, 0.55, 0.85};
@@ -245,7 +245,7 @@ static int make_vertices(baking *b, report *r)
 
 /* --- elements ----------------------------------------------------------------------------------------------------- */
 
-#define NORMAL_M 0.8 /* m that a normal's change by 1 counts for */
+#define NORMAL_M 0.8 /* m per unit change of a normal */
 
 static void features(double out[6], const baking *b, uint32_t triangle)
 {
@@ -254,7 +254,7 @@ static void features(double out[6], const baking *b, uint32_t triangle)
     out[3] = NORMAL_M * n.x, out[4] = NORMAL_M * n.y, out[5] = NORMAL_M * n.z;
 }
 
-/* How much a group of triangles spreads, and along what most: area times its squared spread. */
+/* Area times squared spread of an element's triangles, and the axis of largest spread. */
 static double spread_of(int *axis, double *middle, const baking *b, uint32_t element)
 {
     double area = 0.0, sum[6] = {0}, square[6] = {0}, f[6];
@@ -326,7 +326,7 @@ static void finish_element(baking *b, uint32_t e)
     for (int c = 0; c < 3; ++c) {
         out->albedo[c] /= out->area;
     }
-    /* light is taken in its largest triangles that lie open */
+    /* receive light in the largest triangles */
     for (;;) {
         uint32_t best = b->m.triangles;
         for (uint32_t i = 0; i < b->m.triangles; ++i) {
@@ -345,7 +345,7 @@ static void finish_element(baking *b, uint32_t e)
         out->sample[out->samples++] = dvec_add(b->piece[best].middle, dvec_mul(b->m.triangle[best].face, OVER));
     }
     even_weights(out);
-    /* on the surface */
+    /* move to the sample nearest to the mean, on the surface */
     const dvec mean = out->at;
     for (int k = 0; k < out->samples; ++k) {
         const dvec off = dvec_sub(b->piece[first[k]].middle, mean);
@@ -454,7 +454,7 @@ static lmb_vec3 narrowed(dvec v)
     return out;
 }
 
-/* The share of a receiver's view that each element fills. */
+/* The form factor of each element as seen by a receiver. */
 static void factors(double *out, baking *b, const receiver *v)
 {
     for (uint32_t e = 0; e < b->elements; ++e) {
@@ -482,7 +482,7 @@ static void factors(double *out, baking *b, const receiver *v)
     }
 }
 
-/* How much it matters that element `to` stands for `from`: what that carries, by how far they are apart. */
+/* Cost of replacing element `from` by `to`: carried light times squared distance of positions and normals. */
 static double cost_of(const baking *b, uint32_t from, uint32_t to, double carried)
 {
     const receiver *x = &b->receiver[b->vertices + from], *y = &b->receiver[b->vertices + to];
@@ -490,8 +490,8 @@ static double cost_of(const baking *b, uint32_t from, uint32_t to, double carrie
     return carried * (dvec_dot(way, way) + NORMAL_M * NORMAL_M * dvec_dot(turn, turn));
 }
 
-/* So many elements at most: the one that matters least gives what it carries to the one nearest to it, until then. Were
- * the smallest left out instead, far walls that the lamp is at would be lost: a fifth of the light. */
+/* Reduces the number of links: repeatedly the element with the smallest cost gives its light to the nearest one.
+ * Dropping the smallest links instead would lose far walls near the lamp: a fifth of the light. */
 static void merge_links(double *f, const baking *b, uint32_t most_links)
 {
     uint32_t nearest[LMB_FIXED_MAX_ELEMENTS], count = 0;
@@ -523,7 +523,7 @@ static void merge_links(double *f, const baking *b, uint32_t most_links)
     }
 }
 
-/* A row and its links, which go to their own places. */
+/* Makes a receiver's row, and appends the links to `links`. */
 static int put_links(baking *b, uint32_t row[2], const receiver *v, uint32_t most_links, baking *links, report *r)
 {
     double f[LMB_FIXED_MAX_ELEMENTS], all = 0.0, largest = 0.0;
@@ -559,7 +559,8 @@ static int put_links(baking *b, uint32_t row[2], const receiver *v, uint32_t mos
 
 /* --- lamps -------------------------------------------------------------------------------------------------------- */
 
-/* A bit each place; where the lamp is behind the surface, which it does not light, as if it were seen. */
+/* Writes one bit per lamp place. If the lamp is behind the surface, which it does not light, the bit counts as
+ * visible. */
 static int put_seen(baking *b, const receiver *v, report *r)
 {
     const uint32_t words = (b->lattice.all + 31) / 32;
@@ -622,7 +623,7 @@ static int put_all(baking *b, const vertex_light_options *o, report *r)
     }
     for (uint32_t i = 0; i < all && ok; ++i) {
         uint32_t row[2];
-        /* elements, whose light is thrown back once more, do with half of the links */
+        /* elements need half the links, because their light is reflected once more */
         ok = put_links(b, row, &b->receiver[i], i < b->vertices ? o->links : (o->links + 1) / 2, &links, r) &&
              put(b, row[0], r) && put(b, row[1], r);
         progress_tell("links", (double)i / all);

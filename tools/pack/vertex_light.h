@@ -1,4 +1,4 @@
-/* vertex_light.h: a scene -> the blob of lambent/fixed.h: light by vertex, for machines that have integers alone. */
+/* vertex_light.h: a scene -> the blob of lambent/fixed.h: light by vertex, for processors with only integers. */
 #ifndef VERTEX_LIGHT_H
 #define VERTEX_LIGHT_H
 
@@ -9,10 +9,10 @@
 #include "../common/report.h"
 
 typedef struct vertex_light_options {
-    uint32_t vertices; /* about so many; 0: 600 */
-    uint32_t elements; /* pieces that throw light back; 0: 192 */
-    uint32_t links;    /* of a vertex, at most, and half as many of an element; 0: 32 */
-    uint32_t places;   /* of the lamp, about; 0: 512 */
+    uint32_t vertices; /* approximate number; 0: 600 */
+    uint32_t elements; /* surface pieces that reflect light; 0: 192 */
+    uint32_t links;    /* maximum per vertex, half as many per element; 0: 32 */
+    uint32_t places;   /* of the lamp, approximate number; 0: 512 */
 } vertex_light_options;
 
 typedef struct vertex_light_facts {
@@ -20,11 +20,11 @@ typedef struct vertex_light_facts {
     double unit_m, spacing_m;
 } vertex_light_facts;
 
-/* vertex_light_make: words to be written in the machine's byte order; the caller frees them. 1, or 0 with `r` set. */
+/* vertex_light_make: makes words in this machine's byte order; you free them. Returns 1, or 0 with `r` set. */
 int vertex_light_make(uint32_t **words, uint32_t *count, vertex_light_facts *facts, const lmb_scene *scene,
                       const vertex_light_options *options, report *r);
 
-/* --- between its files -------------------------------------------------------------------------------------------- */
+/* --- internal ----------------------------------------------------------------------------------------------------- */
 
 enum { VL_NONE = -1 };
 
@@ -45,7 +45,7 @@ typedef struct vl_mesh {
     uint32_t triangles, triangle_cap;
 } vl_mesh;
 
-/* What stands between points: of the mesh as it was before it was divided. */
+/* Occluders: the mesh before it is divided. */
 typedef struct vl_sight {
     lmb_scene scene;
     lmb_mesh mesh;
@@ -76,13 +76,14 @@ int vl_triangle_face(vl_triangle *t, const vl_mesh *m);
 int vl_sight_begin(vl_sight *s, const vl_mesh *m, report *r);
 void vl_sight_end(vl_sight *s);
 int vl_sees(vl_sight *s, dvec from, dvec to);
-/* The share of directions, around `up` where that is not 0, along which a back is met first: inside of a solid. */
+/* The share of directions in which the first hit is a back face; a large share means inside a solid. If `up` is not 0,
+ * only directions on that side count. */
 double vl_buried(const vl_sight *s, dvec at, dvec up);
 
 int vl_lattice_make(vl_lattice *l, const vl_mesh *m, const vl_sight *s, uint32_t places, report *r);
 dvec vl_lattice_place(const vl_lattice *l, uint32_t i);
 
-/* Linear albedo at a point of a triangle by its corners' weights. */
+/* Linear albedo at a point of a triangle, from the weights of the corners. */
 void vl_albedo(double out[3], const vl_mesh *m, const vl_triangle *t, const double weight[3]);
 
 #endif

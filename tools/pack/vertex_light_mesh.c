@@ -1,4 +1,4 @@
-/* vertex_light_mesh.c: a scene's triangles with few vertices, divided where light bends, without T-junctions. */
+/* vertex_light_mesh.c: a scene's triangles with few vertices, divided where light is nonlinear, without T-junctions. */
 #include "vertex_light.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "../../src/raster/triangle.h"
 #include "../mesh/simplify.h"
 
-enum { FINE = 300 };          /* triangles of a smooth mesh that is drawn with fewer */
+enum { FINE = 300 };          /* minimum triangles of a smooth mesh that is simplified */
 #define SMOOTH_SHARE 0.26     /* of the vertices: for such meshes */
 #define WELD 1e-4             /* m */
 
@@ -66,7 +66,7 @@ static int add_triangle(vl_mesh *m, const vl_triangle *t, report *r)
     return 1;
 }
 
-/* A triangle and, where both sides are seen, its other side. */
+/* Adds a triangle and, if it is two-sided, the other side. */
 static int add_sides(vl_mesh *m, vl_triangle *t, report *r)
 {
     if (t->p[0] == t->p[1] || t->p[1] == t->p[2] || t->p[2] == t->p[0] || !vl_triangle_face(t, m)) {
@@ -98,7 +98,7 @@ static int add_sides(vl_mesh *m, vl_triangle *t, report *r)
     return 1;
 }
 
-/* A normal of an instance's vertex in the world; 0: it has none. */
+/* A vertex normal of an instance in world space; 0: it has none. */
 static dvec normal_of(const lmb_triangle *t, int i)
 {
     const float *m = t->instance->to_world.m;
@@ -267,7 +267,7 @@ void vl_albedo(double out[3], const vl_mesh *m, const vl_triangle *t, const doub
 
 enum { LAMPS = 40, MOST_TRIANGLES = 30000 };
 #define SHORTEST 0.06 /* m */
-#define EVEN     0.12 /* what of the bend length alone counts for, per m */
+#define EVEN     0.12 /* weight of length relative to the bend, per m */
 
 typedef struct edge {
     uint32_t a, b; /* places, a < b */
@@ -299,7 +299,7 @@ static edge *find_edge(dividing *d, uint32_t a, uint32_t b)
     return NULL;
 }
 
-/* What lamps all over the room bring to a point, each alone. */
+/* Light at a point from each of several lamps all over the room. */
 static void light_at(double out[LAMPS], dividing *d, dvec at, dvec normal)
 {
     const dvec over = dvec_add(at, dvec_mul(normal, 0.01));
@@ -310,13 +310,14 @@ static void light_at(double out[LAMPS], dividing *d, dvec at, dvec normal)
     }
 }
 
-/* How far light in the middle of an edge is from the mean of its ends', of all light. */
+/* Nonlinearity of light along an edge: the difference between the middle and the mean of the ends, relative to all
+ * light. */
 static double bend(dividing *d, const vl_triangle *t, int from)
 {
     const int to = (from + 1) % 3;
     const dvec a = d->m->place[t->p[from]], b = d->m->place[t->p[to]], c = d->m->place[t->p[(to + 1) % 3]];
     double ea[LAMPS], em[LAMPS], eb[LAMPS], off = 0.0, all = 1e-6;
-    /* a little inside of the triangle: walls and what stands there hide its edge */
+    /* slightly inside the triangle, because walls and objects hide the edge */
     const dvec normal = dvec_unit(dvec_add(t->n[from], t->n[to]));
     light_at(ea, d, dvec_mix(a, dvec_mix(c, b, 0.5), 0.05), t->n[from]);
     light_at(eb, d, dvec_mix(b, dvec_mix(c, a, 0.5), 0.05), t->n[to]);
@@ -373,7 +374,8 @@ static edge *longest_of(dividing *d, const vl_triangle *t)
     return best;
 }
 
-/* From an edge to one that is the longest of all triangles that have it: by lengths alone, so that neighbours agree. */
+/* Walks from an edge to one that is the longest of all triangles at it. The choice depends only on lengths, so
+ * neighbours agree. */
 static edge *terminal(dividing *d, edge *e)
 {
     for (;;) {
@@ -433,7 +435,7 @@ static int halve(dividing *d, edge *which, report *r)
     return 1;
 }
 
-/* Vertices that there will be: places told apart by normals. */
+/* The number of final vertices: places with distinct normals. */
 static uint32_t vertices_of(const vl_mesh *m)
 {
     uint32_t count = 0;

@@ -1,4 +1,4 @@
-/* vertex_light_sight.c: what stands between two points, what is inside of a solid, and where the lamp may be. */
+/* vertex_light_sight.c: visibility between points, points inside solids, and valid lamp places. */
 #include "vertex_light.h"
 
 #include <stdlib.h>
@@ -79,7 +79,7 @@ int vl_sees(vl_sight *s, dvec from, dvec to)
 
 enum met { MET_FRONT, MET_BACK, MET_TWO_SIDED };
 
-/* The distance of the nearest triangle along a ray, 1e30 where none is, and what it shows. */
+/* The distance of the nearest triangle along a ray, 1e30 if there is none, and which side is hit. */
 static double meets(enum met *out, const vl_sight *s, dvec at, dvec way)
 {
     double nearest = 1e30;
@@ -102,9 +102,9 @@ static double meets(enum met *out, const vl_sight *s, dvec at, dvec way)
     return nearest;
 }
 
-#define NARROW 1.5 /* of the places' distance: a slab of half of that is one in which no place may be */
+#define NARROW 1.5 /* of the spacing: a slab of half this width can contain no lamp place */
 
-/* Directions that are even over the sphere, the first half of them upwards. */
+/* Uniform directions on the sphere, the first half of them upwards. */
 enum { WAYS = 32 };
 static dvec way_of(int i)
 {
@@ -127,8 +127,8 @@ double vl_buried(const vl_sight *s, dvec at, dvec up)
     return (double)backs / WAYS;
 }
 
-/* A line through it from surface to surface is shorter than `limit` in most directions: a point between a slab's sides,
- * wherever it is there, but not one in a corner of a room. Of surfaces with two sides: the others tell by their backs. */
+/* Are most chords through a point between two-sided surfaces shorter than `limit`? This holds everywhere between the
+ * sides of a slab, but not in the corner of a room. One-sided surfaces are recognized by back faces. */
 static int is_enclosed(const vl_sight *s, dvec at, double limit)
 {
     int narrow = 0;
@@ -159,7 +159,7 @@ int vl_lattice_make(vl_lattice *l, const vl_mesh *m, const vl_sight *s, uint32_t
             high[k] = at[k] > high[k] ? at[k] : high[k];
         }
     }
-    /* the finest of those that are not too many; the outer places a third of the spacing off the walls */
+    /* the finest lattice with few enough places; the outer places are a third of the spacing off the walls */
     double widest = high[0] - low[0];
     for (int k = 1; k < 3; ++k) {
         widest = high[k] - low[k] > widest ? high[k] - low[k] : widest;

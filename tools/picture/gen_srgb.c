@@ -1,9 +1,9 @@
 /* gen_srgb.c: prints src/base/srgb_table.inc, the two tables of the sRGB curve (IEC 61966-2-1).
  *
- *   cc -o gen_srgb tools/picture/gen_srgb.c -lm && ./gen_srgb > src/base/srgb_table.inc
+ *    cc -o gen_srgb tools/picture/gen_srgb.c -lm && ./gen_srgb > src/base/srgb_table.inc
  *
- * Each threshold is found by stepping float by float against the curve in double. The table is only worth checking in
- * if no libm could move a threshold: the program fails unless every one is clear of the curve's rounding. */
+ * Each threshold is found by stepping float by float against the curve in double. The table may only be checked in if
+ * no libm could move a threshold, so the program fails unless every one is clear of the curve's rounding. */
 #include <math.h>
 #include <stdio.h>
 
@@ -17,7 +17,7 @@ static double inverse(double coded)
     return coded <= 0.04045 ? coded / 12.92 : pow((coded + 0.055) / 1.055, 2.4);
 }
 
-/* The smallest float whose code is at least `code`: where 255 curve(x) first reaches code - 1/2. */
+/* The smallest float with a code of at least `code`: there 255 curve(x) first reaches code - 1/2. */
 static float threshold(int code, double *margin)
 {
     double want = code - 0.5, above, below;

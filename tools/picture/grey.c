@@ -1,4 +1,4 @@
-/* grey.c: numbers that are no light, as greys for display formats. */
+/* grey.c: shows numbers that are not light as greys in display formats. */
 #include "grey.h"
 
 #include <math.h>

@@ -1,14 +1,14 @@
-/* grey.h: numbers that are no light, as greys for display formats: in place, linear light in 0 .. 1. */
+/* grey.h: shows numbers that are not light as greys in display formats: in place, as linear light in 0 .. 1. */
 #ifndef GREY_H
 #define GREY_H
 
 #include "image.h"
 
-/* Of one channel, 0 where there is nothing, which stays black.
+/* One channel. 0 means no value and stays black.
  *
- * grey_depths     white at the eye, in equal steps of light
- * grey_distances  white at the nearest, in equal steps of grey, and the range; farthest 0 where there is nothing
- * grey_shares     0 .. 1 in equal steps of grey */
+ *   grey_depths    white at the eye, in equal steps of light
+ *   grey_distances white at the nearest, in equal steps of grey, and returns the range; farthest 0: no value at all
+ *   grey_shares    0 .. 1 in equal steps of grey */
 void grey_depths(image *p);
 void grey_distances(image *p, float *nearest_m, float *farthest_m);
 void grey_shares(image *p);

@@ -1,4 +1,4 @@
-/* image.c: what all pictures share: their end, and the sRGB curve. */
+/* image.c: shared by all image code: release, and the sRGB curve. */
 #include "image.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* image.h: pictures in memory, and as the bytes of files. Every reader checks each length before it is used, and takes
- * at most a stated multiple of the file's size in memory. */
+/* image.h: images in memory and in file formats. Every reader checks each length before use, and limits memory to a
+ * stated multiple of the file's size. */
 #ifndef IMAGE_H
 #define IMAGE_H
 
@@ -9,7 +9,7 @@
 #include "../common/io_file.h"
 #include "../common/report.h"
 
-/* Linear light, rows from the top, `channels` floats a pixel. image_free releases it. */
+/* Linear light, rows from the top, `channels` floats per pixel. image_free releases it. */
 typedef struct image {
     int32_t width, height;
     int32_t channels; /* 1 or 3 */
@@ -20,15 +20,15 @@ typedef struct image {
 typedef struct bitmap {
     int32_t width, height;
     uint8_t *texels; /* width * height * 4 */
-    const char *note; /* what its file has against the format, though it could be read; NULL: nothing */
+    const char *note; /* a defect of the file that was tolerated; NULL: none */
 } bitmap;
 
-/* All functions below return 1, or 0 with `r` set and nothing allocated, nothing left on disk. */
+/* All calls below return 1, or 0 with `r` set and nothing allocated or left on disk. */
 
-/* png_decode: PNG from memory; `name` stands in messages. Colour types 0 2 3 4 6, depths 1 2 4 8 16, tRNS,
- * interlaced or not; 16 bits keep their high byte. */
+/* png_decode: PNG from memory; `name` is used in messages. Colour types 0 2 3 4 6, depths 1 2 4 8 16, tRNS,
+ * interlaced or not; of 16 bits only the high byte is kept. */
 int png_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
-/* png_decode_16: a grey PNG of 16 bits, nothing else: the high byte as red, the low one as green. */
+/* png_decode_16: only a grey PNG of 16 bits: the high byte as red, the low one as green. */
 int png_decode_16(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 /* png_encode: 8-bit RGB from rows of RGB bytes, deflate-compressed with adaptive filters. Allocates *out.
  * png_encode_alpha: RGBA, colours not multiplied by alpha. */
@@ -40,8 +40,9 @@ int pfm_decode(image *out, const uint8_t *data, size_t size, const char *name, r
  * low byte comes first. Returns 0 if the file is no PFM. */
 int pfm_figures(float *scale, int *is_little, const uint8_t *data, size_t size);
 int pfm_encode(file_bytes *out, const image *in, report *r); /* little-endian, bottom row first */
-/* hdr_decode: Radiance RGBE from memory, coded either way or not at all, in any of its eight orientations, always 3
- * channels; EXPOSURE and COLORCORR are divided out. At most 16 MiB and 1024 bytes a byte of file. */
+/* hdr_decode: Radiance RGBE from memory, run-length coded (old or new) or not, in any of the eight orientations. The
+ * result has 3 channels; EXPOSURE and COLORCORR are divided out. Memory: at most 16 MiB and 1024 bytes per byte of
+ * file. */
 int hdr_decode(image *out, const uint8_t *data, size_t size, const char *name, report *r);
 int hdr_encode(file_bytes *out, const image *in, report *r); /* Radiance RGBE, run-length coded */
 int ppm_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r);
@@ -57,7 +58,7 @@ void bitmap_free(bitmap *map);
 
 /* inflate_zlib: RFC 1950/1951 into exactly `out_size` bytes; 0 on any other length or bad checksum. */
 int inflate_zlib(uint8_t *out, size_t out_size, const uint8_t *in, size_t in_size);
-/* deflate_zlib: real LZ77 + dynamic Huffman. Allocates *out (malloc) and sets *out_size; 0 when memory is short. */
+/* deflate_zlib: LZ77 + dynamic Huffman. Allocates *out (malloc) and sets *out_size; returns 0 if memory is short. */
 int deflate_zlib(uint8_t **out, size_t *out_size, const uint8_t *in, size_t in_size);
 
 #endif

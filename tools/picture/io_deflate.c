@@ -9,17 +9,17 @@
 enum {
     HASH_BITS = 15,
     BLOCK_TOKENS = 16384, /* long enough to pay for a block's header, short enough to follow the picture */
-    CHAIN_TRIES = 128,    /* candidates looked at for one match */
-    POOR_TRIES = 8,       /* where the block before had few matches, as a photo's noise has: half the time for 1.5 % */
-    POOR_TOKEN = 3,       /* bytes of its mean token, below which it had */
-    GOOD_MATCH = 8,       /* with one this long in hand, a quarter of the tries */
+    CHAIN_TRIES = 128,    /* candidates tried for one match */
+    POOR_TRIES = 8,       /* tries if the block before had few matches, like a photo's noise: half the time for 1.5 % */
+    POOR_TOKEN = 3,       /* bytes per token, below which a block had few matches */
+    GOOD_MATCH = 8,       /* with a match this long, only a quarter of the tries */
     LAZY_MATCH = 16,      /* shorter ones wait: the next byte may start a longer one */
     NICE_MATCH = 128,     /* long enough to stop looking */
     NEAR_3 = 4096,        /* a match of three further away costs more than three literals */
     STORED_MAX = 65535
 };
 
-/* Bytes out; grown before each block by what the block was counted to need. */
+/* Output bytes; grown before each block by the size that was counted for the block. */
 typedef struct bit_writer {
     uint8_t *data;
     size_t size, cap;
@@ -47,7 +47,7 @@ typedef struct deflater {
     size_t block_start; /* first byte of the open block */
     size_t covered;     /* first byte that no token holds yet */
     uint32_t head[1 << HASH_BITS], prev[DEFLATE_WINDOW];
-    uint32_t tokens[BLOCK_TOKENS]; /* distance * 512 + length, or a literal alone */
+    uint32_t tokens[BLOCK_TOKENS]; /* distance * 512 + length, or only a literal */
     uint32_t token_count;
     uint32_t litlen_freq[DEFLATE_LITLENS], dist_freq[DEFLATE_DISTS];
     uint64_t extra_bits; /* that the open block's lengths and distances carry */
@@ -141,9 +141,9 @@ static uint32_t sort_symbols(uint32_t *sorted, const uint32_t *freq, uint32_t n)
     return used;
 }
 
-/* Lengths of the best prefix code none of whose words is longer than max_bits: package-merge (Larmore and Hirschberg
- * 1990). Level k's list holds the n leaves merged with the pairs of level k - 1's list; the 2n - 2 lightest items of
- * the last level, pairs opened, name each symbol as often as its code has bits. Only "leaf or pair" needs remembering:
+/* Lengths of the best prefix code with no word longer than max_bits: package-merge (Larmore and Hirschberg 1990).
+ * Level k's list holds the n leaves merged with the pairs of level k - 1's list. The 2n - 2 lightest items of the
+ * last level, with pairs expanded, contain each symbol once per bit of the code. Only "leaf or pair" needs storing:
  * the leaves among the first items of a list are always the lightest ones. n <= 2^max_bits. */
 static void limited_lengths(uint8_t *bits, const uint32_t *freq, uint32_t symbols, uint32_t max_bits)
 {

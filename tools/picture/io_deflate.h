@@ -1,4 +1,4 @@
-/* io_deflate.h: the numbers that both directions of zlib streams share (RFC 1950, RFC 1951). */
+/* io_deflate.h: constants shared by both directions of zlib streams (RFC 1950, RFC 1951). */
 #ifndef IO_DEFLATE_H
 #define IO_DEFLATE_H
 
@@ -22,12 +22,12 @@ enum {
     DEFLATE_MAX_MATCH = 258
 };
 
-/* A length or distance symbol stands for base .. base + 2^extra - 1. */
+/* A length or distance symbol covers base .. base + 2^extra - 1. */
 typedef struct deflate_span {
     uint32_t base, extra;
 } deflate_span;
 
-/* Lengths 3..257 are a tiny float format with two mantissa bits; 258 has a symbol of its own. `i` is 0 .. 28. */
+/* Lengths 3..257 form a small float format with two mantissa bits; 258 has a separate symbol. `i` is 0 .. 28. */
 static inline deflate_span deflate_length_span(uint32_t i)
 {
     deflate_span s = {DEFLATE_MAX_MATCH, 0};
@@ -52,7 +52,7 @@ static inline uint8_t deflate_fixed_bits(uint32_t symbol)
     return symbol < 144 ? 8 : symbol < 256 ? 9 : symbol < 280 ? 7 : 8;
 }
 
-/* The order in which a dynamic block lists the lengths of its meta code. */
+/* The order of the meta code lengths in a dynamic block. */
 static inline uint32_t deflate_meta_order(uint32_t i)
 {
     static const uint8_t order[DEFLATE_METAS] = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};

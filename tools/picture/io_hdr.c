@@ -1,5 +1,5 @@
-/* io_hdr.c: float pictures as Radiance HDR, both ways: three mantissas and a shared exponent, run-length coded.
- * Reading takes at most 16 MiB and READ_BYTES_PER_BYTE times the file. */
+/* io_hdr.c: reads and writes Radiance HDR: three mantissas and a shared exponent, run-length coded. Reading uses at
+ * most 16 MiB and READ_BYTES_PER_BYTE times the file. */
 #include "../common/io_bytes.h"
 #include "image.h"
 
@@ -20,15 +20,15 @@ enum {
 
 /* --- writing --- */
 
-/* What the format can say: negative light and NaN are 0; 255/256 * 2^127 is the largest value. */
+/* Clamps to the range of the format: negative light and NaN become 0; 255/256 * 2^127 is the largest value. */
 static float storable(float v)
 {
     const float max = 1.6947656946257677e38f;
     return v > 0.0f ? (v < max ? v : max) : 0.0f;
 }
 
-/* Mantissas are rounded to nearest: most readers take them as they are, without the half step that Radiance's own
- * programs add back. */
+/* Rounds mantissas to nearest: most readers use them directly, without the half step that Radiance's own programs
+ * add. */
 static void put_rgbe(uint8_t out[4], const float *rgb, int32_t channels)
 {
     float c[3], max = 0.0f;
@@ -58,7 +58,7 @@ static int32_t run_length(const uint8_t *bytes, int32_t n)
     return run;
 }
 
-/* One component of a row, n bytes. Returns the byte behind; writes at most n + n / 128 + 1. */
+/* One component of a row, n bytes. Returns the end; writes at most n + n / 128 + 1. */
 static uint8_t *put_runs(uint8_t *to, const uint8_t *bytes, int32_t n)
 {
     int32_t at = 0;
@@ -84,11 +84,11 @@ static uint8_t *put_runs(uint8_t *to, const uint8_t *bytes, int32_t n)
     return to;
 }
 
-/* A row's components, one after another, from its pixels in `rgbe`; `plane` holds one of them. */
+/* Codes the components of a row one after another, from the pixels in `rgbe`; `plane` holds one component. */
 static uint8_t *put_coded_row(uint8_t *to, const uint8_t *rgbe, uint8_t *plane, int32_t width)
 {
     int32_t x, k;
-    *to++ = 2; /* impossible as a pixel: says that coded components follow */
+    *to++ = 2; /* not possible as a pixel: marks coded components */
     *to++ = 2;
     *to++ = (uint8_t)(width >> 8);
     *to++ = (uint8_t)width;
@@ -115,7 +115,7 @@ static uint8_t *put_rows(uint8_t *to, const image *in, uint8_t *rgbe, uint8_t *p
     return to;
 }
 
-/* The most that `in` can take behind the header. */
+/* The most bytes that `in` can need after the header. */
 static uint64_t worst_bytes(const image *in)
 {
     uint64_t w = (uint64_t)in->width, row = w < CODED_MIN || w > CODED_MAX ? 4 * w : 4 + 4 * (w + w / LITERAL_MAX + 1);
@@ -157,16 +157,16 @@ int hdr_encode(file_bytes *out, const image *in, report *r)
 /* --- reading --- */
 
 #define READ_BYTES_FREE     (UINT64_C(16) << 20) /* memory that any file may take ... */
-#define READ_BYTES_PER_BYTE 1024                 /* ... and for each of its bytes; coded rows need under 200 */
+#define READ_BYTES_PER_BYTE 1024                 /* ... and for each byte of it; coded rows need under 200 */
 
-/* Rows lie side by side or, where x comes first, columns; `lines` of `length` pixels in the file's order. */
+/* `lines` of `length` pixels in the file's order: rows or, if x comes first, columns. */
 typedef struct hdr_reader {
     const uint8_t *begin, *at, *end;
     const char *name;
     report *r;
     int has_format;
-    double scale[3];  /* what stored values are multiplied by */
-    double unit[256]; /* by exponent: of the lowest bit of a mantissa, before that */
+    double scale[3];  /* multiplies stored values */
+    double unit[256]; /* by exponent: value of a mantissa's lowest bit, without scale */
     int32_t lines, length;
     int columns, flip_x, flip_y;
 } hdr_reader;
@@ -182,7 +182,7 @@ static int hdr_fail(const hdr_reader *h, const char *format, ...)
     return report_fail(h->r, "%s: byte %.0f: %s", h->name, (double)(h->at - h->begin), message);
 }
 
-/* The next line of the header, cut to what `line` holds; a line's first characters are all that matters. */
+/* The next line of the header, truncated to `line`; only the first characters of a line matter. */
 static int get_line(char line[128], hdr_reader *h)
 {
     size_t left = (size_t)(h->end - h->at), n;
@@ -197,7 +197,7 @@ static int get_line(char line[128], hdr_reader *h)
     return 1;
 }
 
-/* Pictures keep a multiplier for each program that brightened them: what was there before is the quotient. */
+/* Images store a multiplier for each program that brightened them; dividing restores the original values. */
 static int divide_out(hdr_reader *h, const char *text, int count)
 {
     double v[3];
@@ -226,7 +226,7 @@ static int read_variable(hdr_reader *h, const char *line)
            hdr_fail(h, "the format before here is not 32-bit_rle_rgbe; convert the picture");
 }
 
-/* "-Y 2": *axis 'Y', *minus, and the side, 1 .. 2^28. Returns what follows, or NULL. */
+/* "-Y 2": *axis 'Y', *minus, and the side, 1 .. 2^28. Returns the rest of the text, or NULL. */
 static const char *read_axis(const char *text, char *axis, int *minus, int32_t *side)
 {
     uint64_t v = 0;
@@ -241,7 +241,7 @@ static const char *read_axis(const char *text, char *axis, int *minus, int32_t *
     return text;
 }
 
-/* The first axis is the one that changes from line to line. -Y +X reads as text does. */
+/* The first axis is the one that changes from line to line. -Y +X is the usual reading order. */
 static int read_resolution(hdr_reader *h, const char *line)
 {
     char slow = 0, fast = 0;
@@ -293,8 +293,8 @@ static int get_runs(uint8_t *to, hdr_reader *h)
     return 1;
 }
 
-/* Pixels as they are, or the older runs: 1 1 1 n repeats the pixel before n times; right behind another such, n counts
- * 256 times as much as there. */
+/* Pixels without coding, or with the older runs: 1 1 1 n repeats the pixel before n times. Directly after another
+ * such run, n counts 256 times as much. */
 static int get_plain_line(uint8_t *to, hdr_reader *h)
 {
     const uint8_t *pixel;
@@ -332,7 +332,7 @@ static int get_line_rgbe(uint8_t *to, hdr_reader *h)
     return 1;
 }
 
-/* Without the half step that Radiance's own programs add, as most readers and hdr_encode have it. */
+/* Without the half step that Radiance's own programs add, like most readers and hdr_encode. */
 static void get_rgbe(float out[3], const uint8_t rgbe[4], const hdr_reader *h)
 {
     double v;
@@ -365,7 +365,7 @@ static int read_lines(image *out, hdr_reader *h, uint8_t *rgbe)
                                        (double)(h->end - h->at));
 }
 
-/* A line takes a pixel and, where it is longer, another or a run at least. */
+/* A line needs at least a pixel and, if it is longer, another one or a run. */
 static int is_plausible(const hdr_reader *h, uint64_t bytes)
 {
     uint64_t left = (uint64_t)(h->end - h->at);

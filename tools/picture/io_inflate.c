@@ -1,4 +1,4 @@
-/* io_inflate.c: zlib streams back into bytes (RFC 1950, RFC 1951). No memory but the caller's and 6 KiB of stack. */
+/* io_inflate.c: decodes zlib streams (RFC 1950, RFC 1951). Uses no memory except the caller's and 6 KiB of stack. */
 #include "../common/io_bytes.h"
 #include "image.h"
 #include "io_deflate.h"
@@ -10,9 +10,9 @@
 enum { QUICK_BITS = 10, NO_SYMBOL = 0xffff };
 
 typedef struct decode_table {
-    uint16_t quick[1 << QUICK_BITS];       /* symbol * 16 + bits; 0 where the code is longer, or none */
+    uint16_t quick[1 << QUICK_BITS];       /* symbol * 16 + bits; 0 if the code is longer, or invalid */
     uint32_t limit[DEFLATE_MAX_BITS + 1];  /* first 15-bit value above all codes of this length or shorter */
-    uint16_t first[DEFLATE_MAX_BITS + 1];  /* where this length begins in `symbol` */
+    uint16_t first[DEFLATE_MAX_BITS + 1];  /* start of this length in `symbol` */
     uint16_t symbol[DEFLATE_FIXED_LITLENS]; /* by length, then by value: the order of the codes */
 } decode_table;
 
@@ -21,7 +21,7 @@ typedef struct inflater {
     size_t in_size, in_pos;
     uint64_t hold;  /* the next `count` bits, lowest first; above them, bits that will be read again or zeros */
     uint32_t count;
-    int bad;        /* set once, by whoever ran out of input */
+    int bad;        /* set once, by the call that ran out of input */
     uint8_t *out;
     size_t out_size, out_pos;
     decode_table litlen, dist;
@@ -64,7 +64,7 @@ static uint32_t take(inflater *s, uint32_t bits)
     return take_ready(s, bits);
 }
 
-/* One symbol out of bits which a refill has made ready; NO_SYMBOL, and bad set, where no code fits. */
+/* Decodes one symbol from bits that a refill prepared; NO_SYMBOL, with bad set, if no code fits. */
 static uint32_t take_symbol(inflater *s, const decode_table *t)
 {
     uint32_t entry = t->quick[s->hold & ((1u << QUICK_BITS) - 1u)], bits, code;
@@ -90,8 +90,8 @@ static void fill_quick(decode_table *t, uint32_t symbol, uint32_t code, uint32_t
     for (; at < 1u << QUICK_BITS; at += 1u << bits) t->quick[at] = (uint16_t)(symbol << 4 | bits);
 }
 
-/* A set of code lengths must fill the code space exactly; RFC 1951 excepts distances with a lone code of one bit, or
- * none at all. Granting that to every code is harmless: bits without a code make the stream bad when they are met. */
+/* Code lengths must fill the code space exactly. RFC 1951 excepts distances with a single code of one bit, or none.
+ * Allowing that for every code is harmless: bits without a code make the stream bad when they are met. */
 static int lengths_fill(const uint16_t used[DEFLATE_MAX_BITS + 1])
 {
     uint32_t bits, space = 0, codes = 0;
@@ -159,7 +159,7 @@ static int read_lengths(inflater *s, uint8_t *lengths, uint32_t n)
     return 1;
 }
 
-/* A code without the end symbol is not looked for: its block meets the end of the input, or of the output. */
+/* A missing end symbol is not checked: such a block reaches the end of the input or of the output. */
 static int dynamic_tables(inflater *s)
 {
     uint8_t lengths[DEFLATE_FIXED_LITLENS + 32] = {0};
@@ -168,7 +168,7 @@ static int dynamic_tables(inflater *s)
     s->is_fixed = 0;
     if (s->bad || litlens > DEFLATE_LITLENS || dists > DEFLATE_DISTS) return 0;
     for (i = 0; i < metas; ++i) lengths[deflate_meta_order(i)] = (uint8_t)take(s, 3);
-    if (s->bad || !build_table(&s->dist, lengths, DEFLATE_METAS)) return 0; /* lent until it is read itself */
+    if (s->bad || !build_table(&s->dist, lengths, DEFLATE_METAS)) return 0; /* used here until it is read itself */
     if (!read_lengths(s, lengths, litlens + dists)) return 0;
     return build_table(&s->litlen, lengths, litlens) && build_table(&s->dist, lengths + litlens, dists);
 }
@@ -193,7 +193,7 @@ static int stored_block(inflater *s)
     return 1;
 }
 
-/* The distance half of a match whose length symbol was just read. */
+/* The distance half of a match, after its length symbol was read. */
 static int copy_match(inflater *s, uint32_t length_symbol)
 {
     deflate_span span = deflate_length_span(length_symbol - DEFLATE_LENGTH_0);

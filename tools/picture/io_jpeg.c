@@ -1,11 +1,11 @@
-/* io_jpeg.c: JPEG pictures from memory, sequential or progressive, as RGBA: markers, tables and the frame.
+/* io_jpeg.c: JPEG images from memory, sequential or progressive, as RGBA: markers, tables and the frame.
  *
- * Memory beside the file: samples and texels, for progressive pictures the coefficients. A block takes at least two
- * bits of the file (one where progressive), fills up to 1024 / 9 pixels (three components of 4 x 1, 1 x 4 and 1 x 1)
- * and takes 64 bytes of samples and 128 of coefficients: all in all at most 2080 times the file, progressive 5184
- * times; and because of picture_is_paid, at most 1024 times the file plus 1024 MiB (16 bytes per pixel of four
- * components, without the padding of narrow pictures). Files too short for their blocks are refused before anything is
- * allocated. Bytes behind EOI are ignored. Time goes with pixels, bits and JPEG_IDLE_BLOCKS. */
+ * Memory besides the file: samples and texels, and coefficients for progressive images. A block takes at least two bits
+ * of the file (one if progressive), fills up to 1024 / 9 pixels (three components of 4 x 1, 1 x 4 and 1 x 1) and needs
+ * 64 bytes of samples and 128 of coefficients. In total at most 2080 times the file, progressive 5184 times; and
+ * because of picture_is_paid, at most 1024 times the file plus 1024 MiB (16 bytes per pixel of four components, without
+ * the padding of narrow images). Files too short for their blocks are refused before anything is allocated. Bytes after
+ * EOI are ignored. Time is proportional to pixels, bits and JPEG_IDLE_BLOCKS. */
 #include "io_jpeg.h"
 
 #include <inttypes.h>
@@ -19,7 +19,7 @@ enum {
     EOI = 0xD9, SOS = 0xDA, DQT = 0xDB, DNL = 0xDC, DRI = 0xDD, APP0 = 0xE0, APP14 = 0xEE, COM = 0xFE
 };
 
-/* A marker's body, behind its length. */
+/* The body of a marker segment, after the length. */
 typedef struct jpeg_segment {
     size_t at; /* of the marker */
     int marker;
@@ -44,7 +44,7 @@ static int wrong_content(jpeg_reader *j, const jpeg_segment *s, const char *what
                        s->at, what);
 }
 
-/* The marker at j->at, perhaps behind fill bytes, and its body; j->at moves behind both. */
+/* Reads the marker at j->at, perhaps after fill bytes, and the body; moves j->at behind both. */
 static int read_segment(jpeg_reader *j, jpeg_segment *s)
 {
     size_t at = j->at;
@@ -87,7 +87,7 @@ static int read_quant(jpeg_reader *j, const jpeg_segment *s)
     return 1;
 }
 
-/* The canonical code with counts[n - 1] codes of n bits; 0 where there are more than n bits can tell apart. */
+/* The canonical code with counts[n - 1] codes of n bits; 0 if n bits cannot distinguish so many. */
 static int build_code(jpeg_code *c, const uint8_t counts[16], const uint8_t *symbols, uint32_t total)
 {
     uint32_t length, code = 0, index = 0, i;
@@ -128,7 +128,7 @@ static int read_codes(jpeg_reader *j, const jpeg_segment *s)
 
 /* --- frame --- */
 
-/* The frames that are other methods altogether. */
+/* Names the frame types of other coding methods. */
 static int other_method(jpeg_reader *j, int marker)
 {
     const char *what = marker == 0xC3 ? "lossless" : marker < JPG ? "hierarchical"
@@ -153,14 +153,14 @@ static int read_component(jpeg_reader *j, const jpeg_segment *s, uint32_t i)
         return wrong_content(j, s, "a sampling factor or a table does not exist");
     if (c->h == 3 || c->v == 3)
         return report_fail(j->r, "%s: sampling factor 3 is not read, only 1, 2 and 4; convert it to 4:2:0", j->name);
-    if (j->count == 1) c->h = c->v = 1; /* with nothing beside it they mean nothing */
+    if (j->count == 1) c->h = c->v = 1; /* factors mean nothing for a single component */
     if (c->h > j->h_max) j->h_max = c->h;
     if (c->v > j->v_max) j->v_max = c->v;
     memset(c->known, -1, sizeof c->known);
     return 1;
 }
 
-/* Samples and coefficients of one component, whose blocks are known to have room in the file. */
+/* Allocates samples and coefficients of a component. The file was found long enough for the blocks. */
 static int place_component(jpeg_reader *j, jpeg_component *c)
 {
     size_t bytes = (size_t)c->blocks_x * c->blocks_y * 64;
@@ -193,7 +193,7 @@ static int place_components(jpeg_reader *j)
     return 1;
 }
 
-/* How many components and pixels there are; refusals by name for what is not read. */
+/* Reads the number of components and pixels; refuses unsupported ones by name. */
 static int read_shape(jpeg_reader *j, const jpeg_segment *s)
 {
     const uint8_t *b = s->body;
@@ -231,7 +231,7 @@ static int read_frame(jpeg_reader *j, const jpeg_segment *s)
 
 /* --- scans --- */
 
-/* Which coefficients the scan brings, and which of their bits; what came before must be there, and only once. */
+/* Reads the coefficients and bits that the scan refines; the bits before must exist, and only once. */
 static int read_band(jpeg_reader *j, const jpeg_segment *s)
 {
     const uint8_t *b = s->body + 1 + 2 * j->scan_count;
@@ -256,7 +256,7 @@ static int read_band(jpeg_reader *j, const jpeg_segment *s)
     return 1;
 }
 
-/* The tables of the scan's i-th component, as they are now. */
+/* Takes the current tables for the scan's i-th component. */
 static int take_tables(jpeg_reader *j, const jpeg_segment *s, uint32_t i)
 {
     uint32_t tables = s->body[2 + 2 * i];

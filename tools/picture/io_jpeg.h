@@ -1,4 +1,4 @@
-/* io_jpeg.h: JPEG pictures (ITU-T T.81, JFIF) from memory, and what the three files of their reader share. */
+/* io_jpeg.h: JPEG images (ITU-T T.81, JFIF) from memory, and types shared by the three files of the reader. */
 #ifndef IO_JPEG_H
 #define IO_JPEG_H
 
@@ -7,13 +7,13 @@
 
 #include "image.h"
 
-/* jpeg_decode: JPEG from memory; `name` stands in messages. Huffman coded, sequential or progressive, 8 bits; grey,
- * YCbCr, RGB, CMYK or YCCK with sampling factors 1, 2 and 4. In CMYK, 255 is no ink, as Adobe's programs write it and
- * browsers read it. Red, green and blue are C, M and Y times K; profiles are ignored. Alpha is 255. 1, or 0 with `r`
- * set and nothing allocated. */
+/* jpeg_decode: JPEG from memory; `name` is used in messages. Huffman coded, sequential or progressive, 8 bits; grey,
+ * YCbCr, RGB, CMYK or YCCK with sampling factors 1, 2 and 4. In CMYK, 255 is no ink, as Adobe's programs write it
+ * and browsers read it. Red, green and blue are C, M and Y times K; profiles are ignored. Alpha is 255. Returns 1,
+ * or 0 with `r` set and nothing allocated. */
 int jpeg_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 
-/* Does a JPEG begin here? */
+/* is_jpeg: whether the bytes begin like a JPEG. */
 static inline int is_jpeg(const uint8_t *data, size_t size)
 {
     return size >= 2 && data[0] == 0xFF && data[1] == 0xD8;
@@ -27,12 +27,12 @@ enum { JPEG_TABLES = 4, JPEG_COMPONENTS = 4, JPEG_QUICK_BITS = 9 };
 typedef struct jpeg_code {
     int is_defined;
     uint16_t quick[1 << JPEG_QUICK_BITS]; /* by the next 9 bits: length << 8 | symbol; 0: longer or none */
-    uint32_t limit[17];                   /* by length: one above its last code */
-    int32_t offset[17];                   /* by length: from code to index of its symbol */
+    uint32_t limit[17];                   /* by length: one above the last code */
+    int32_t offset[17];                   /* by length: from code to symbol index */
     uint8_t symbols[256];
 } jpeg_code;
 
-/* Blocks are 8 x 8; those outside blocks_x and blocks_y are only padding of an interleaved scan, and not kept. */
+/* Blocks are 8 x 8. Blocks beyond blocks_x and blocks_y are padding of an interleaved scan, and not stored. */
 typedef struct jpeg_component {
     uint32_t id, h, v, table;
     uint32_t width, height;     /* samples */
@@ -40,16 +40,16 @@ typedef struct jpeg_component {
     uint8_t *samples;           /* blocks_y * 8 rows of blocks_x * 8 */
     int16_t *coefficients;      /* of progressive pictures: 64 a block, rows of 8; otherwise NULL */
     uint16_t quant[64];         /* rows of 8, as they were at the component's first scan */
-    int8_t known[64];           /* in zigzag order: the lowest bit that the scans have brought; -1: none yet */
+    int8_t known[64];           /* in zigzag order: the lowest bit received so far; -1: none yet */
     const jpeg_code *dc, *ac;   /* of this scan */
-    int32_t prediction;         /* DC of its last block */
+    int32_t prediction;         /* DC of the block before */
 } jpeg_component;
 
 enum { JPEG_VALID = 0, JPEG_NO_BITS, JPEG_NO_CODE, JPEG_IDLE };
 
-/* Blocks that refining scans may visit without a bit of their own, so that time is bounded by the file's size: these,
- * and 32 for each byte. That is ten scans over any picture that picture_is_paid, in three components (seven in four);
- * pictures for people have two or three. */
+/* Blocks that refining scans may visit without reading a bit. This bounds time by the file's size: these, and 32 per
+ * byte. It allows ten scans over any image that picture_is_paid, in three components (seven in four); images for
+ * people have two or three. */
 #define JPEG_IDLE_BLOCKS (UINT64_C(1) << 25)
 
 typedef struct jpeg_reader {
@@ -58,15 +58,15 @@ typedef struct jpeg_reader {
     const char *name;
     report *r;
     uint32_t width, height, count, h_max, v_max; /* count: of components; 0 before the frame header */
-    int progressive, is_jfif, adobe;             /* adobe: its colour transform; -1: not said */
+    int progressive, is_jfif, adobe;             /* adobe: colour transform; -1: not given */
     jpeg_component components[JPEG_COMPONENTS];
     uint16_t quant[JPEG_TABLES][64]; /* rows of 8; the first entry is 0 while a table is not defined */
     jpeg_code dc[JPEG_TABLES], ac[JPEG_TABLES];
     uint32_t restart; /* MCUs between restart markers; 0: none */
     const char *note; /* as bitmap's */
-    uint64_t idle;    /* of JPEG_IDLE_BLOCKS and what the file adds: left for all further scans */
+    uint64_t idle;    /* of JPEG_IDLE_BLOCKS and the file's share: left for all further scans */
 
-    jpeg_component *scan[JPEG_COMPONENTS]; /* of this scan, as is all below */
+    jpeg_component *scan[JPEG_COMPONENTS]; /* of this scan, like all members below */
     uint32_t scan_count, first, last, high, low;
     uint32_t empty_run; /* blocks that still have no new coefficients */
     uint32_t bits;      /* read, not used: the lowest bit_count */
@@ -77,8 +77,8 @@ typedef struct jpeg_reader {
 /* Position in rows of 8 of the k-th coefficient. */
 extern const uint8_t jpeg_zigzag[64];
 
-/* jpeg_scan: the entropy-coded data at j->at, of the scan that was set up; leaves j->at at the marker behind it.
- * Sequential blocks become samples at once, progressive ones stay coefficients. */
+/* jpeg_scan: decodes the entropy-coded data at j->at for the scan that was set up, and leaves j->at at the marker
+ * after it. Sequential blocks become samples at once; progressive ones stay coefficients. */
 int jpeg_scan(jpeg_reader *j);
 
 /* jpeg_inverse_dct: the 8 x 8 samples of a block, rows `stride` bytes apart. */

@@ -1,7 +1,6 @@
-/* io_jpeg_idct.c: from JPEG's coefficients to samples, and from samples to RGBA.
- *
- * Rounding follows the integer transform and the smooth upsampling that most decoders agree on (libjpeg's "islow" and
- * "fancy"), so that a texture has the same bytes here as elsewhere. */
+/* io_jpeg_idct.c: from JPEG coefficients to samples, and from samples to RGBA. Rounding follows the integer transform
+ * and the smooth upsampling of most decoders (libjpeg's "islow" and "fancy"), so that a texture has the same bytes here
+ * as elsewhere. */
 #include "io_jpeg.h"
 
 #include <string.h>
@@ -72,7 +71,7 @@ static void transform_column(int64_t *out, const int16_t *block, const uint16_t 
         x[i] = (int64_t)block[8 * i] * quant[8 * i];
         any |= i > 0 && x[i] != 0;
     }
-    if (!any) { /* what the formula gives, and most columns are so */
+    if (!any) { /* same as the formula; true for most columns */
         for (i = 0; i < 8; ++i) out[8 * i] = x[0] * 4;
         return;
     }
@@ -85,7 +84,7 @@ void jpeg_inverse_dct(uint8_t *out, size_t stride, const int16_t block[64], cons
     static const int16_t nothing[64];
     int64_t rows[64];
     int i, k;
-    if (memcmp(block + 1, nothing + 1, sizeof nothing - sizeof *nothing) == 0) { /* what the formula gives then */
+    if (memcmp(block + 1, nothing + 1, sizeof nothing - sizeof *nothing) == 0) { /* same as the formula */
         const int64_t mean = (int64_t)block[0] * quant[0] * (4 << DCT_BITS);
         const uint8_t v = clamp_byte(shift_down(mean + (1 << (DCT_BITS + 4)), DCT_BITS + 5) + 128);
         for (i = 0; i < 8; ++i, out += stride) memset(out, v, 8);
@@ -159,7 +158,7 @@ static void ycc_to_rgb(uint8_t *texel, int32_t y, int32_t cb, int32_t cr)
     texel[2] = colour_byte(y, 116130 * cb + half);
 }
 
-/* Three rows of samples, `pitch` apart, as they are or from YCbCr. */
+/* Three rows of samples, `pitch` apart, unchanged or from YCbCr. */
 static void colour_row(uint8_t *texels, const uint8_t *row, size_t pitch, uint32_t n, int is_ycc)
 {
     for (; n > 0; --n, ++row, texels += 4) {

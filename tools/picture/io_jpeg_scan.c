@@ -21,7 +21,7 @@ static uint32_t set_fault(jpeg_reader *j, int fault)
     return 0;
 }
 
-/* At least 25 bits, unless a marker or the file's end comes first. FF 00 stands for the byte FF. */
+/* At least 25 bits, unless a marker or the end of the file comes first. FF 00 encodes the byte FF. */
 static void fill_bits(jpeg_reader *j)
 {
     while (j->bit_count <= 24 && j->at < j->size) {
@@ -33,7 +33,7 @@ static void fill_bits(jpeg_reader *j)
     }
 }
 
-/* The next n bits, 1 to 16, not used up; zeros stand for what is not there. */
+/* The next n bits, 1 to 16, without consuming them; zeros after the end. */
 static uint32_t peek_bits(jpeg_reader *j, uint32_t n)
 {
     uint32_t mask = (1u << n) - 1u;
@@ -64,7 +64,7 @@ static uint32_t take_symbol(jpeg_reader *j, const jpeg_code *code)
     return symbol;
 }
 
-/* A number of n bits whose first bit is its sign: 1 for above 0; times 2^low. */
+/* A number of n bits, times 2^low. The first bit is the sign: 1 for positive. */
 static int32_t take_value(jpeg_reader *j, uint32_t n)
 {
     int32_t v;
@@ -87,17 +87,17 @@ static void take_dc(jpeg_reader *j, jpeg_component *c, int16_t *block)
 static void refine_dc(jpeg_reader *j, jpeg_component *c, int16_t *block)
 {
     (void)c;
-    if (take_bits(j, 1)) block[0] = (int16_t)(block[0] + (1 << j->low)); /* that bit of it is still 0 */
+    if (take_bits(j, 1)) block[0] = (int16_t)(block[0] + (1 << j->low)); /* that bit is still 0 */
 }
 
-/* This block and those behind it which the end-of-band symbol with `run` names. */
+/* Counts this block and the following ones of an end-of-band symbol with `run`. */
 static void take_empty_run(jpeg_reader *j, uint32_t run)
 {
     if (run > 0 && !j->progressive) set_fault(j, JPEG_NO_CODE);
     j->empty_run = (1u << run) + take_bits(j, run);
 }
 
-/* Symbols are zeros to skip << 4 | bits of the value behind them; 15 without a value skips 16. */
+/* Symbols are zeros to skip << 4 | bits of the value that follows; 15 without a value skips 16. */
 static void take_ac(jpeg_reader *j, jpeg_component *c, int16_t *block)
 {
     uint32_t k, symbol, run;
@@ -169,7 +169,7 @@ static void take_block(jpeg_reader *j, jpeg_component *c, int16_t *block)
     }
 }
 
-/* Block x, y of a component; those outside are decoded and dropped. */
+/* Reads block x, y of a component; decodes and drops blocks outside. */
 static int read_block(jpeg_reader *j, jpeg_component *c, uint32_t x, uint32_t y)
 {
     int16_t own[64], *block = own;
@@ -193,7 +193,7 @@ static int read_block(jpeg_reader *j, jpeg_component *c, uint32_t x, uint32_t y)
 
 /* --- scans --- */
 
-/* Alone, a component has its own blocks in rows; several take turns, h x v blocks each. */
+/* A single component has only its blocks, in rows; several are interleaved, h x v blocks each. */
 static int read_mcu(jpeg_reader *j, uint32_t x, uint32_t y)
 {
     uint32_t i, k;
@@ -207,8 +207,8 @@ static int read_mcu(jpeg_reader *j, uint32_t x, uint32_t y)
     return 1;
 }
 
-/* To the marker that must stand here, without its padding bits. Some encoders' last run of empty blocks is longer than
- * what is left of the blocks: nothing is lost by that. */
+/* Moves to the marker that must follow, and drops padding bits. The last run of empty blocks of some encoders is
+ * longer than the rest of the blocks, which loses nothing. */
 static int end_bits(jpeg_reader *j)
 {
     fill_bits(j);
@@ -242,8 +242,8 @@ static uint32_t divide_up(uint32_t a, uint32_t b)
     return (a + b - 1) / b;
 }
 
-/* A first scan of details has nothing to do in an empty run's blocks: how many to pass over behind block `done`, up
- * to the next restart marker. */
+/* A first scan of details skips the blocks of an empty run: returns how many to skip after block `done`, up to the
+ * next restart marker. */
 static uint32_t skip_empty(jpeg_reader *j, uint32_t done, uint32_t total)
 {
     uint32_t stop = j->restart ? done - done % j->restart + j->restart : total, n;

@@ -1,5 +1,5 @@
-/* io_pfm.c: float pictures as PFM: a text header, then rows of floats from the bottom up. Reading takes as much memory
- * as the file has bytes. */
+/* io_pfm.c: float images as PFM: a text header, then rows of floats from the bottom up. Reading uses as much memory as
+ * the file has bytes. */
 #include "../common/io_bytes.h"
 #include "image.h"
 
@@ -12,7 +12,7 @@ enum { WORD_MAX = 31 };
 
 typedef struct pfm_header {
     int32_t width, height, channels;
-    float scale;       /* > 0: what stored values are multiplied by */
+    float scale;       /* > 0: multiplies stored values */
     int little_endian;
     size_t bytes;      /* of the header itself */
 } pfm_header;
@@ -31,7 +31,7 @@ static size_t skip_blanks(const uint8_t *data, size_t size, size_t at)
     return at;
 }
 
-/* The next word of the header, and the one white space behind it. Returns the offset behind, or 0: none, too long. */
+/* The next word of the header, and one white space after it. Returns the offset after both, or 0: none, too long. */
 static size_t read_word(char word[WORD_MAX + 1], const uint8_t *data, size_t size, size_t at)
 {
     size_t n = 0;
@@ -56,7 +56,7 @@ static int32_t parse_side(const char *word)
     return (int32_t)v;
 }
 
-/* A plain decimal number, not 0, whose magnitude a float holds with room to spare; else 0. */
+/* A plain decimal number, not 0, well within the range of float; otherwise 0. */
 static float parse_scale(const char *word)
 {
     char *end;

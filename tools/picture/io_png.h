@@ -1,4 +1,4 @@
-/* io_png.h: what the reader and the writer of PNG share: signature, chunk checksum, row filters (PNG 3rd edition). */
+/* io_png.h: shared by the PNG reader and writer: signature, chunk checksum, row filters (PNG 3rd edition). */
 #ifndef IO_PNG_H
 #define IO_PNG_H
 

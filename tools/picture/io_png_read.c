@@ -1,9 +1,9 @@
-/* io_png_read.c: PNG pictures from memory, every colour type and depth, as 8-bit RGBA.
+/* io_png_read.c: PNG images from memory, every colour type and depth, as 8-bit RGBA.
  *
- * Memory beside the file: a copy of its image data, the rows (at most 1032 times the image data, deflate's best) and
- * the texels (at most 32 times the rows, for 1-bit pictures), which are not taken before the rows have been inflated:
- * at most 12 bytes a pixel of which picture_is_paid, so 769 times the file beside 768 MiB, and time goes with them.
- * Bytes behind IEND are ignored; anything else that the specification forbids is refused. */
+ * Memory besides the file: a copy of the image data, the rows (at most 1032 times the image data, the limit of deflate)
+ * and the texels (at most 32 times the rows, for 1-bit images), which are allocated after the rows were inflated. That
+ * is at most 12 bytes per pixel, and pixels are limited by picture_is_paid: 769 times the file plus 768 MiB. Time is
+ * proportional. Bytes after IEND are ignored; anything else that the specification forbids is refused. */
 #include "image.h"
 #include "io_png.h"
 
@@ -13,11 +13,11 @@
 
 enum { GREY = 0, RGB = 2, PALETTE = 3, GREY_ALPHA = 4, RGBA = 6 };
 
-/* A match of 258 bytes takes at least two bits, one each for its length and its distance. */
+/* A match of 258 bytes takes at least two bits, one for the length and one for the distance. */
 #define DEFLATE_MAX_RATIO 1032u
 
 typedef struct png_chunk {
-    size_t at; /* of its length field */
+    size_t at; /* of the length field */
     uint32_t size;
     char type[5];
     const uint8_t *body;
@@ -33,11 +33,11 @@ typedef struct png_reader {
     int split; /* 16-bit greys: both bytes, as red and green */
     uint8_t palette[256][4];
     uint32_t palette_count;
-    int has_key;         /* tRNS was there */
+    int has_key;         /* there was a tRNS chunk */
     uint32_t key[3];     /* the transparent grey or colour */
     size_t first_idat;   /* offset; 0: none yet */
     uint64_t idat_bytes; /* bodies of all IDAT chunks */
-    int idat_over;       /* another chunk came behind them */
+    int idat_over;       /* another chunk followed them */
 } png_reader;
 
 /* --- chunks --- */
@@ -94,7 +94,7 @@ static int misplaced(png_reader *p, const png_chunk *c)
     return report_fail(p->r, "%s: chunk %s at byte %zu may not stand there", p->name, c->type, c->at);
 }
 
-/* Samples a pixel of a colour type; 0 for a colour type or a depth of it that does not exist. */
+/* Samples per pixel of a colour type; 0 if the colour type, or this depth of it, does not exist. */
 static uint32_t channels_of(uint32_t colour, uint32_t depth)
 {
     int whole = depth == 8 || depth == 16, part = depth == 1 || depth == 2 || depth == 4;
@@ -177,12 +177,12 @@ static int read_chunk(png_reader *p, const png_chunk *c)
     if (is_type(c, "PLTE")) return read_palette(p, c);
     if (is_type(c, "tRNS")) return read_transparency(p, c);
     if (is_type(c, "IHDR")) return misplaced(p, c);
-    if (c->type[0] >= 'a') return 1; /* ancillary: the picture is whole without it */
+    if (c->type[0] >= 'a') return 1; /* ancillary: not needed for the image */
     return report_fail(p->r, "%s: chunk %s at byte %zu is not known, yet needed; save the picture as plain PNG",
                        p->name, c->type, c->at);
 }
 
-/* All chunks up to IEND, checked; afterwards IDAT chunks can be walked without looking. */
+/* Checks all chunks up to IEND; afterwards IDAT chunks can be read without checks. */
 static int read_chunks(png_reader *p)
 {
     png_chunk c;
@@ -204,7 +204,7 @@ static int read_chunks(png_reader *p)
 /* Interlaced pictures come as seven smaller ones, every dx-th pixel of every dy-th row; others as one. */
 typedef struct png_pass {
     uint32_t x0, y0, dx, dy;
-    uint32_t width, height; /* of the smaller picture; either may be 0, then it has no bytes */
+    uint32_t width, height; /* of the smaller image; either may be 0, and then it has no bytes */
 } png_pass;
 
 static uint32_t pass_count(const png_reader *p)
@@ -244,10 +244,10 @@ static size_t all_rows_bytes(const png_reader *p)
     return total;
 }
 
-/* Add the prediction back in place. `step`: bytes from a sample to the same one of the pixel on its left. */
+/* Adds the prediction back in place. `step`: bytes between a sample and the same one of the pixel on the left. */
 static int unfilter(uint8_t *row, const uint8_t *above, size_t n, size_t step, uint8_t filter)
 {
-    size_t i, head = step < n ? step : n; /* the first pixel has nothing on its left */
+    size_t i, head = step < n ? step : n; /* the first pixel has no left neighbour */
     switch (filter) {
     case PNG_NONE: return 1;
     case PNG_SUB:
@@ -297,7 +297,7 @@ static int put_indexed(const png_reader *p, uint8_t *texel, uint32_t index)
     return 1;
 }
 
-/* The pixel `i` of a row as RGBA; 0 where its palette entry does not exist. */
+/* Converts pixel `i` of a row to RGBA; returns 0 if there is no such palette entry. */
 static int put_texel(const png_reader *p, uint8_t *texel, const uint8_t *row, size_t i)
 {
     uint32_t k, s[4] = {0, 0, 0, 0}, colours = p->channels < 3 ? 1 : 3;
@@ -311,7 +311,8 @@ static int put_texel(const png_reader *p, uint8_t *texel, const uint8_t *row, si
     return 1;
 }
 
-/* A row of whole bytes without a transparent colour, `pitch` from texel to texel: the high bytes of its samples. */
+/* Converts a row of whole bytes without a transparent colour, `pitch` from texel to texel: takes the high byte of
+ * each sample. */
 static void put_bytes(const png_reader *p, uint8_t *texel, size_t pitch, const uint8_t *row, uint32_t n)
 {
     const size_t wide = p->depth / 8, all = p->channels * wide, next = p->channels < 3 ? 0 : wide;
@@ -324,7 +325,7 @@ static void put_bytes(const png_reader *p, uint8_t *texel, size_t pitch, const u
     }
 }
 
-/* Every dx-th texel from `to` on. 0, the report set, where there is no such colour. */
+/* Writes every dx-th texel from `to` on. Returns 0, with the report set, if there is no such colour. */
 static int put_row(png_reader *p, uint8_t *texels, png_pass s, size_t to, const uint8_t *row)
 {
     uint32_t x;
@@ -344,7 +345,7 @@ static int put_row(png_reader *p, uint8_t *texels, png_pass s, size_t to, const 
     return 1;
 }
 
-/* Undo the filters of one pass and spread its pixels. Returns the byte behind its rows, or NULL with the report set. */
+/* Undoes the filters of one pass and spreads the pixels. Returns the end of the rows, or NULL with the report set. */
 static uint8_t *unpack_pass(png_reader *p, uint8_t *texels, png_pass s, uint8_t *rows, const uint8_t *zeros)
 {
     size_t n = row_bytes(p, s.width), step = p->channels * p->depth < 8 ? 1 : p->channels * p->depth / 8;

@@ -1,4 +1,4 @@
-/* io_png_write.c: RGB and RGBA pictures as PNG, each row with the filter whose bytes are the smallest. */
+/* io_png_write.c: RGB and RGBA images as PNG; each row uses the filter with the smallest bytes. */
 #include "image.h"
 #include "io_png.h"
 
@@ -7,7 +7,7 @@
 
 enum { IDAT_MAX = 1 << 18 };
 
-/* One row filtered in one way; the sum of its bytes' magnitudes tells how small they are. */
+/* Filters one row; the sum of magnitudes measures how small the bytes are. */
 static uint64_t filter_row(uint8_t *out, const uint8_t *row, const uint8_t *above, size_t n, size_t pixel, int filter)
 {
     uint64_t sum = 0;
@@ -25,7 +25,7 @@ static uint64_t filter_row(uint8_t *out, const uint8_t *row, const uint8_t *abov
     return sum;
 }
 
-/* All rows, each behind its filter's number. `trial` holds one row; `zeros` stands for the row above the first. */
+/* All rows, each after the number of a filter. `trial` holds one row; `zeros` is the row above the first. */
 static void filter_rows(uint8_t *out, const uint8_t *rgb, size_t n, size_t pixel, int32_t height, uint8_t *trial,
                         const uint8_t *zeros)
 {
@@ -55,7 +55,7 @@ static uint8_t *put_chunk(uint8_t *to, const char *type, const uint8_t *body, si
     return to + PNG_CHUNK_FRAME + n;
 }
 
-/* Signature, header, image data in pieces, end; NULL when memory is short. */
+/* Signature, header, image data in pieces, end; NULL if memory is short. */
 static uint8_t *assemble(size_t *out_size, const uint8_t *packed, size_t n, int32_t width, int32_t height, int alpha)
 {
     uint8_t header[PNG_HEADER_BYTES] = {0, 0, 0, 0, 0, 0, 0, 0, 8, alpha ? 6 : 2, 0, 0, 0}; /* 8 bits, RGBA or RGB */

@@ -1,4 +1,4 @@
-/* io_ppm_read.c: PPM and PGM files into 8-bit pictures. */
+/* io_ppm_read.c: decodes PPM and PGM files into 8-bit images. */
 #include "io_ppm_read.h"
 
 #include <inttypes.h>
@@ -65,7 +65,7 @@ static int read_header(ppm_reader *p)
     return 1;
 }
 
-/* Room for the samples that a file of this length can hold; a text sample takes a digit and what separates it. */
+/* Checks that a file of this length can hold the samples; a text sample needs a digit and a separator. */
 static int check_length(ppm_reader *p)
 {
     const uint64_t left = p->size - p->at, samples = (uint64_t)p->width * p->height * p->channels;

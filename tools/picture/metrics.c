@@ -1,7 +1,7 @@
-/* metrics.c: the error figures of one picture against another, and a picture of where the error is.
+/* metrics.c: error metrics of one image against another, and an image of the errors.
  *
- * Sums run in double, pixels in row order and squared errors from the largest down, so that the figures do not depend
- * on the machine. */
+ * Sums run in double, pixels in row order and squared errors from the largest down, so that the results are the same on
+ * all machines. */
 #include "metrics.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static const float *pixel_at(const metrics_input *in, const float *picture, size
     return picture + i * (size_t)in->channels;
 }
 
-/* A mask that is not a number keeps its pixel: a broken mask may not hide an error. */
+/* A mask that is NaN keeps the pixel: a broken mask must not hide an error. */
 static int is_compared(const metrics_input *in, size_t i)
 {
     return !in->surface || !(in->surface[3 * i + 2] <= 0.5f);
@@ -46,8 +46,8 @@ static sample sample_at(const metrics_input *in, size_t i)
     return s;
 }
 
-/* Relative to the truth, with a hundredth of its mean to keep dark pixels from ruling; equal values have no error
- * even where a negative truth makes the denominator 0, so that no NaN reaches a sort. */
+/* Error relative to the truth, plus a hundredth of the mean truth so that dark pixels do not dominate. Equal values
+ * have no error even if a negative truth makes the denominator 0, so that no NaN reaches a sort. */
 static double relative_error(sample s, double truth_mean)
 {
     double apart = fabs(s.test - s.truth);
@@ -136,7 +136,7 @@ static void leak_figure(metrics *out, const metrics_input *in)
         }
     }
     out->has_leak = out->dark >= METRICS_MIN_DARK;
-    double floor_sum = 1e-4 * out->truth_mean * (double)out->dark; /* a black truth may not divide by 0 */
+    double floor_sum = 1e-4 * out->truth_mean * (double)out->dark; /* avoids a division by 0 for a black truth */
     if (out->has_leak)
         out->leak = (test_sum + floor_sum) / (truth_sum + floor_sum);
 }
@@ -273,8 +273,8 @@ void metrics_compare(metrics_equality *out, const metrics_input *in, double peak
     out->psnr_db = mean_error2 > 0.0 ? 10.0 * log10(square(out->peak) / mean_error2) : (double)INFINITY;
 }
 
-/* Knots at CIE lightness 0, 20, 40, 60, 80, 100 (within 0.2): hue and chroma were chosen, green solved for. Between
- * knots sRGB codes run straight, which bends lightness by at most 2.8. */
+/* Knots at CIE lightness 0, 20, 40, 60, 80, 100 (within 0.2): hue and chroma were chosen, green solved for. sRGB
+ * codes are linear between knots, which changes lightness by at most 2.8. */
 void metrics_ramp(uint8_t rgb[3], double t)
 {
     static const uint8_t knots[6][3] = {{0, 0, 0},      {30, 24, 145},  {165, 38, 140},

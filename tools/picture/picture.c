@@ -1,4 +1,4 @@
-/* picture.c: a linear frame -> the file format its name asks for. */
+/* picture.c: writes a linear image in the format that the file name selects. */
 #include "picture.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include "../common/ending.h"
 
-/* `-` is a PNG, `pfm:-` what it says. */
+/* `-` is a PNG, `pfm:-` a PFM. */
 static int stdout_format(const char *path)
 {
     static const char *const names[] = {"png:-", "ppm:-", "pfm:-", "hdr:-"};
@@ -39,15 +39,15 @@ int picture_is_linear(int format) { return format == PICTURE_PFM || format == PI
 
 int picture_option(const char *text, void *at) { return picture_format(*(const char **)at = text) != PICTURE_UNKNOWN; }
 
-#define SHOULDER    0.76f  /* Khronos PBR Neutral: 0.8, less the reflectance of 0.04 that its toe takes away */
-#define FADES       0.15f  /* how soon bright colours are white: Khronos PBR Neutral's desaturation */
+#define SHOULDER    0.76f  /* Khronos PBR Neutral: 0.8, less the reflectance of 0.04 that the toe removes */
+#define FADES       0.15f  /* how fast bright colours fade to white: Khronos PBR Neutral's desaturation */
 #define MEDIAN_EV   -1.25f  /* half of the pixels are darker than 0.42 */
-#define SHOULDER_EV 0.375f /* the brightest hundredth lies on the shoulder: middle tones gain that */
-#define DARKEST_EV  -5.5f  /* half of them are brighter than code 40 of 255, though the brightest are then white */
+#define SHOULDER_EV 0.375f /* the brightest hundredth lies on the shoulder: makes middle tones brighter */
+#define DARKEST_EV  -5.5f  /* half of them are brighter than code 40 of 255, even if the brightest are then white */
 
 enum { STEPS = 512, MIDDLE = 256, STEPS_PER_STOP = 8 };
 
-/* How many pixels are so bright, by eighths of a stop: no sorting, no memory. */
+/* Histogram of pixel brightness in eighths of a stop: needs no sort and no memory. */
 typedef struct brightness {
     uint32_t counts[STEPS], lit;
 } brightness;
@@ -131,7 +131,7 @@ static int copy_of(image *out, const image *p)
     return out->pixels != NULL;
 }
 
-/* As a display shows it, tile by tile. */
+/* Display codes, computed tile by tile. */
 static uint8_t *codes_of(const image *p, float exposure_ev)
 {
     const lmb_kernels *kernels = lmb_kernels_pick();
@@ -203,7 +203,7 @@ int picture_write(const char *path, const image *p, float exposure_ev, int tone,
     return ok;
 }
 
-/* Light as if the surface filled the pixel. */
+/* Unpremultiplies: light as if the surface filled the pixel. */
 static int divide_by(image *out, const image *p, const float *alpha)
 {
     const size_t pixels = (size_t)p->width * (size_t)p->height;

@@ -1,4 +1,4 @@
-/* picture_read.c: any picture file, known by its content, and what to do with those that are not read. */
+/* picture_read.c: reads any image file, recognized by content; suggests converters for formats that are not read. */
 #include "picture_read.h"
 
 #include <string.h>
@@ -18,7 +18,7 @@ typedef struct picture_kind {
     int (*read_light)(image *out, const uint8_t *data, size_t size, const char *name, report *r);
 } picture_kind;
 
-/* The first half of the signature; the rest shows what a transfer as text has broken, which png_decode says. */
+/* The first half of the signature. The rest detects a transfer as text, which png_decode reports. */
 static int is_png(const uint8_t *data, size_t size) { return size >= 4 && memcmp(data, PNG_SIGNATURE, 4) == 0; }
 
 static int is_grey_map(const uint8_t *data, size_t size)
@@ -56,7 +56,7 @@ static const picture_kind *kind_of(const uint8_t *data, size_t size)
 
 typedef struct foreign_kind {
     const char *format;
-    const char *magic; /* at the file's start; a ? stands for any byte */
+    const char *magic; /* at the start of the file; a ? matches any byte */
     size_t size;       /* of the magic */
     const char *advice;
 } foreign_kind;
@@ -88,7 +88,7 @@ static const foreign_kind foreign_kinds[] = {
     {"PBM", MAGIC("P4\n"), "pnmtopng in.pbm > out.png"},
 };
 
-/* TGA has no mark at its start, but most files end in one. */
+/* TGA has no magic at the start, but most files have one at the end. */
 static const foreign_kind tga = {"TGA", MAGIC("TRUEVISION-XFILE.\0"), "magick in.tga out.png"};
 
 static int is_magic(const foreign_kind *f, const uint8_t *data)
@@ -129,16 +129,16 @@ static int has_holes(const bitmap *map)
     return 0;
 }
 
-/* Byte 25 of a PNG that was decoded is its colour type: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA. A colour
- * or palette entry that tRNS makes transparent adds an alpha channel where a pixel shows it. */
+/* Byte 25 of a decoded PNG is the colour type: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA. A colour or
+ * palette entry that tRNS makes transparent adds an alpha channel if a pixel shows it. */
 static int32_t png_channels(const uint8_t *data, const bitmap *map)
 {
     const int type = data[25], colours = type == 0 || type == 4 ? 1 : 3;
     return colours + (type >= 4 || has_holes(map));
 }
 
-/* The frame header (SOF0 to SOF2) of bytes that begin as a JPEG's, at its marker and 10 bytes long; NULL: none found.
- * Fill bytes may stand before a marker. */
+/* The frame header (SOF0 to SOF2) of data that begins like a JPEG: at the marker and 10 bytes long; NULL: none
+ * found. Fill bytes may precede a marker. */
 static const uint8_t *jpeg_frame(const uint8_t *data, size_t size)
 {
     size_t at = 2;
@@ -157,7 +157,7 @@ static const uint8_t *jpeg_frame(const uint8_t *data, size_t size)
     return NULL;
 }
 
-/* The components that the frame header names, of a file that was decoded. */
+/* The number of components in the frame header of a decoded file. */
 static int32_t jpeg_channels(const uint8_t *data, size_t size)
 {
     const uint8_t *frame = jpeg_frame(data, size);
@@ -205,7 +205,7 @@ int picture_read(stored_picture *out, const uint8_t *data, size_t size, const ch
     return 1;
 }
 
-/* Scans that a JPEG may have: its data never has these two bytes in a row but for that. */
+/* Counts possible scans of a JPEG: entropy-coded data never contains these two bytes in a row. */
 static uint64_t count_scans(const uint8_t *data, size_t size)
 {
     const uint8_t *at = data, *end = data + size;

@@ -1,4 +1,4 @@
-/* world_read.c: picture files -> a world's cube and ground, as linear floats. */
+/* world_read.c: image files -> the cube and ground of a world, as linear floats. */
 #include "world_read.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ enum { MAX_SIDE = 4096 };
 
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
 
-/* An infinite texel would outshine the world, and one that is no number would spread. */
+/* Replaces infinite texels, which would outshine the world, and NaN, which would spread. */
 static void clear_not_finite(world_pictures *own, stored_picture *p)
 {
     const size_t count = (size_t)p->width * (size_t)p->height * (size_t)p->light.channels;
@@ -54,7 +54,7 @@ static void pixel_at(float out[4], const stored_picture *p, size_t at)
     }
 }
 
-/* Room for face i, with its alpha where the picture has one, or 0 and `r` set. */
+/* Allocates face i, with alpha if the image has one; returns 0 with `r` set if memory is short. */
 static int take_face(lmb_world_pictures *out, world_pictures *own, int i, int32_t side, const stored_picture *p,
                      const char *path, report *r)
 {
@@ -69,7 +69,7 @@ static int take_face(lmb_world_pictures *out, world_pictures *own, int i, int32_
 
 /* --- one file ----------------------------------------------------------------------------------------------------- */
 
-/* The square whose corner is pixel (x0, y0). */
+/* Copies the square with pixel (x0, y0) as a corner. */
 static void copy_face(world_pictures *own, int face, int32_t side, const stored_picture *p, int32_t x0, int32_t y0)
 {
     for (int32_t i = 0; i < side * side; ++i) {
@@ -96,7 +96,7 @@ static int read_strip(lmb_world_pictures *out, world_pictures *own, const stored
     return 1;
 }
 
-/* Bilinear, round the seam, light by alpha. */
+/* Bilinear, across the seam, light weighted by alpha. */
 static void sphere_at(double sum[4], const stored_picture *p, const double d[3])
 {
     const double pi = 3.14159265358979, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -115,7 +115,7 @@ static void sphere_at(double sum[4], const stored_picture *p, const double d[3])
     }
 }
 
-/* As lambent/probe.h says. */
+/* As defined in lambent/probe.h. */
 static void face_point(double d[3], int face, double s, double t)
 {
     const double p[6][3] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
@@ -124,14 +124,14 @@ static void face_point(double d[3], int face, double s, double t)
 
 enum { MAX_PLACES = 16 };
 
-/* Of a texel, each way: pixels near the poles are narrower, and a sun of one pixel must not lie between two places. */
+/* Samples per texel and axis: pixels near the poles are narrower, and samples must not miss a sun of one pixel. */
 static int places_of(const double d[3])
 {
     const double across = sqrt(d[0] * d[0] + d[2] * d[2]), length = sqrt(across * across + d[1] * d[1]);
     return MAX_PLACES * across < 2.0 * length ? MAX_PLACES : 2 * (int)(length / across + 0.4);
 }
 
-/* The mean of places x places over texel `at` of a face; the least and the most of their light. */
+/* The mean of places x places samples over texel `at` of a face; the smallest and the largest of their light. */
 static void mean_at(double sum[4], double range[2], const stored_picture *p, int face, int32_t at, int32_t side,
                     int places)
 {
@@ -152,8 +152,8 @@ static void mean_at(double sum[4], double range[2], const stored_picture *p, int
     }
 }
 
-/* Each texel is the mean of four places, of more towards the poles, and of many where they differ: a light of a few
- * pixels must keep its light. */
+/* Each texel is the mean of four samples, of more towards the poles, and of many if they differ, so that no small
+ * light loses power. */
 static int read_sphere(lmb_world_pictures *out, world_pictures *own, const stored_picture *p, const char *path,
                        report *r)
 {
@@ -183,7 +183,8 @@ static int read_sphere(lmb_world_pictures *out, world_pictures *own, const store
     return 1;
 }
 
-/* Of a face; asked before one is made, as a picture of one colour is a small file of any size. */
+/* The side of a face. Checked before a face is allocated, because a small file may hold an image of one colour of
+ * any size. */
 static int32_t side_of(const stored_picture *p)
 {
     const int32_t min = p->width < p->height ? p->width : p->height;
@@ -219,7 +220,7 @@ static int is_there(const char *path)
     return file_is_plain(path, &unread);
 }
 
-/* Where face i may be; 0 where it is not. */
+/* Finds the file of face i; returns 0 if there is none. */
 static int find_face(char *path, size_t size, const char *prefix, int i)
 {
     static const char *const names[6] = {"px", "nx", "py", "ny", "pz", "nz"};

@@ -1,9 +1,9 @@
-/* play_check.c: draws a frame once more by the best settings, and compares. */
+/* play_check.c: draws a frame again with the best settings, and compares. */
 #include "play_check.h"
 
 #include <string.h>
 
-/* The job's options, but all that quality sets is left to it. */
+/* Copies the job's options, except those that --quality sets. */
 static int make(play_check *c, const render_job *j, report *r)
 {
     render_job *b = &c->best;

@@ -5,14 +5,14 @@
 #include "../picture/metrics.h"
 #include "../render/render_job.h"
 
-/* Zeroed: none. play_check_free releases it. */
+/* Zeroed: empty. Release it with play_check_free. */
 typedef struct play_check {
     render_job best;
     int is_made;
 } play_check;
 
-/* play_check_frame: the figures of j->linear, the job's frame as its scene and view are now. Memory is taken at the
- * first. 1, or 0 with `r` set. */
+/* play_check_frame: the errors of j->linear, for the job's present scene and view. Draw the frame before you call it.
+ * The first call allocates memory. Returns 1, or 0 with `r` set. */
 int play_check_frame(metrics *out, play_check *c, const render_job *j, report *r);
 void play_check_free(play_check *c);
 

@@ -1,4 +1,4 @@
-/* play_motion.c: moves lights, camera and objects to where they are at a frame: by keys, animations, or themselves. */
+/* play_motion.c: moves lights, camera and objects in a frame: by keys, animations, or a default motion. */
 #include "play_motion.h"
 
 #include <math.h>
@@ -11,18 +11,18 @@
 #include "../render/render_view.h"
 #include "play_space.h"
 
-#define TURN_S 10.0      /* time of a figure of eight or a swing */
+#define TURN_S 10.0      /* period of a figure of eight or a swing */
 #define CIRCLE 0.25f     /* largest radius of a figure of eight / smaller horizontal side of the scene */
-#define CONE   0.2f      /* tangent of a sun's */
+#define CONE   0.2f      /* the same for a sun, as a tangent */
 #define SWING  0.35f     /* rad, the largest */
-#define SMALLER 0.8f     /* tried next where there is no room */
-#define LEAST_M 1e-6f    /* from a place to its target: nearer there is no direction between them */
-#define AIR    1.2f      /* so much farther than it moves there has to be room */
+#define SMALLER 0.8f     /* factor tried next if there is no room */
+#define LEAST_M 1e-6f    /* minimum distance of a place from the target, to have a direction */
+#define AIR    1.2f      /* required free space, relative to the motion */
 enum { TRIES = 16, PLACES = 64, EVERYTHING = KEY_LIGHT | KEY_CAMERA | KEY_OBJECT };
 
 static const double two_pi = 6.283185307179586;
 
-/* --- room to move by itself --------------------------------------------------------------------------------------- */
+/* --- room for the default motion ---------------------------------------------------------------------------------- */
 
 static int is_sun(const lmb_light *l) { return !light_kind_is(l->kind, LIGHT_PLACED); }
 
@@ -31,7 +31,7 @@ static lmb_vec3 on_circle(lmb_vec3 middle, double radius, double turn)
     return add3(middle, vec3((float)(radius * cos(two_pi * turn)), 0.0f, (float)(radius * sin(two_pi * turn))));
 }
 
-/* Is it inside the scene's box, as far as its middle is? */
+/* Does it stay inside the scene's box, if its middle is inside? */
 static int stays_inside(const lmb_scene *s, lmb_vec3 at, float radius)
 {
     const lmb_vec3 low = s->bounds_min, high = s->bounds_max;
@@ -58,7 +58,7 @@ static float room_for_light(play_space *space, const lmb_scene *s, const lmb_lig
     return 0.0f;
 }
 
-/* `v` turned by an angle about the upright axis. */
+/* `v` rotated by an angle about the upright axis. */
 static lmb_vec3 turned(lmb_vec3 v, double angle)
 {
     const float c = (float)cos(angle), s = (float)sin(angle);
@@ -121,14 +121,14 @@ static int find_room(play_motion *m, report *r)
 
 /* --- a frame ------------------------------------------------------------------------------------------------------ */
 
-/* Two directions at right angles to a unit vector. */
+/* Two directions perpendicular to a unit vector. */
 static void set_across(lmb_vec3 *a, lmb_vec3 *b, lmb_vec3 v)
 {
     *a = normalize3(cross3(absf(v.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0), v));
     *b = cross3(v, *a);
 }
 
-/* Moves a light on a figure of eight. It starts in the middle, where the light is in the file, so frame 0 equals the
+/* Moves a light on a figure of eight. It starts in the middle, at the light's place in the file, so frame 0 equals the
  * picture of `render`. */
 static lmb_light wandering(const play_motion *m, uint32_t i, double time_s)
 {
@@ -144,7 +144,7 @@ static lmb_light wandering(const play_motion *m, uint32_t i, double time_s)
     return l;
 }
 
-/* The light's revision tells the next frame whether its map still holds. */
+/* Sets a light. The revision lets the next frame reuse the shadow map if the light is unchanged. */
 static void put_light(play_motion *m, uint32_t i, lmb_light wanted)
 {
     lmb_light *l = &m->light[i];
@@ -155,7 +155,7 @@ static void put_light(play_motion *m, uint32_t i, lmb_light wanted)
     }
 }
 
-/* Returns 1 where it is elsewhere than before. */
+/* Returns 1 if it has moved. */
 static int put_object(play_motion *m, uint32_t i, const lmb_mat4 *to)
 {
     if (memcmp(to, &m->instance[i].to_world, sizeof *to) == 0) {
@@ -166,7 +166,7 @@ static int put_object(play_motion *m, uint32_t i, const lmb_mat4 *to)
     return 1;
 }
 
-/* Once objects have moved. */
+/* Updates the scene after objects have moved. */
 static int set_moved(play_motion *m, int32_t k, report *r)
 {
     lmb_scene *s = &m->job->scene;
@@ -202,7 +202,7 @@ static int put_keyed_camera(play_motion *m, const path_key *key, int32_t k, repo
     return 1;
 }
 
-/* Three columns of `to` become axes times those of the matrix at rest. */
+/* Multiplies the rotation axes with three columns of the rest matrix. */
 static void turn_object(lmb_mat4 *to, const lmb_mat4 *rest, lmb_vec3 right, lmb_vec3 up, lmb_vec3 ahead)
 {
     for (int c = 0; c < 3; ++c) {
@@ -214,7 +214,7 @@ static void turn_object(lmb_mat4 *to, const lmb_mat4 *rest, lmb_vec3 right, lmb_
     }
 }
 
-/* Returns 1 where it is elsewhere than before. */
+/* Returns 1 if it has moved. */
 static int put_keyed_object(play_motion *m, uint32_t i, const path_key *key)
 {
     lmb_mat4 to = m->instance_at_rest[i].to_world;
@@ -318,9 +318,9 @@ int play_motion_set(play_motion *m, int32_t k, report *r)
     return 1;
 }
 
-/* --- before the first --------------------------------------------------------------------------------------------- */
+/* --- before the first frame --------------------------------------------------------------------------------------- */
 
-/* Was it baked to move? Without a transfer all may. */
+/* Was it baked to move? Without a transfer, everything may move. */
 static int may_move(const play_motion *m, uint32_t instance)
 {
     const lmb_transfer *t = m->options->render.transfer != NULL ? &m->job->transfer : NULL;
@@ -333,7 +333,7 @@ static int may_move(const play_motion *m, uint32_t instance)
     return any;
 }
 
-/* Does the scene have what the path moves? */
+/* Does the scene contain the item that a track moves? */
 static int check_track(const play_motion *m, const key_track *t, report *r)
 {
     static const char *const names[] = {"", "light", "camera", "", "object"};
@@ -377,7 +377,7 @@ static int check_lights(play_motion *m, report *r)
     return 1;
 }
 
-/* Does any of the nodes that these stand for move? */
+/* Does any of these nodes move? */
 static int any_moves(const struct model_motion *motion, const uint32_t *node, uint32_t count)
 {
     int any = 0;
@@ -387,7 +387,7 @@ static int any_moves(const struct model_motion *motion, const uint32_t *node, ui
     return any;
 }
 
-/* What of `moves` the file's animations move: its own lights, the camera in use, objects. */
+/* The subset of `moves` that the file's animations move: the file's lights, the camera in use, objects. */
 static int animated(play_motion *m, report *r)
 {
     const model *loaded = &m->job->loaded;
@@ -407,7 +407,7 @@ static int animated(play_motion *m, report *r)
     return all & m->moves;
 }
 
-/* Does an animation move an object that was baked where it stands? */
+/* Does an animation move an object that was baked as static? */
 static int moves_baked(const play_motion *m)
 {
     const struct model_motion *motion = m->job->loaded.motion;
@@ -456,7 +456,7 @@ int play_motion_find(play_motion *m, render_job *j, report *r)
     return 1;
 }
 
-/* Cameras as the file has them; lights and objects as they were before the motion took them. */
+/* Copies cameras from the file, and lights and objects from before the motion. */
 static int take_poses(play_motion *m, report *r)
 {
     const model *loaded = &m->job->loaded;

@@ -1,4 +1,4 @@
-/* play_options.c: the command line of `lambent play`: most of `render`'s, and what moves. */
+/* play_options.c: the command line of `lambent play`: most of `render`'s options, and motion. */
 #include "play_options.h"
 
 #include <string.h>
@@ -20,43 +20,44 @@ static const int32_t move_values[] = {KEY_LIGHT, KEY_CAMERA, KEY_OBJECT, KEY_LIG
 static const option_row play_rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(render.out), .parse = parse_out,
      .expects = "a file name with one %0Nd, as frame_%04d.png; .png .ppm .pfm .hdr",
-     .help = "a picture a frame, its number in place of %0Nd: frame_%04d.png (.png .ppm display, .pfm .hdr linear); "
-             "without it, frames are drawn for their times alone"},
+     .help = "one picture per frame, numbered by %0Nd: frame_%04d.png (.png .ppm display, .pfm .hdr linear); "
+             "without -o, frames are only drawn and timed"},
     OPTION_SLICE_ROW(play_options, render.slice, "frames"),
     {.kind = OPTION_TITLE, .help = "motion"},
     {.name = "--move", .kind = OPTION_WORD, AT(move), .words = moves, .values = move_values,
      .help = "what moves (default all): with --path, the keys; else all animations of a glTF file (nodes, skins, "
              "morph weights) together; else a light on a figure of eight (a sun's direction in a cone) and the "
-             "camera on an arc around its target, once in 10 s, as far as there is room. Frame 0 is then the "
+             "camera on an arc around the target, once in 10 s, as far as there is room. Frame 0 is then the "
              "picture of `render`"},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
-     .help = "what moves, by keys: lines of TIME WHAT X,Y,Z [X,Y,Z]: seconds; camera, light (or light:N) or object:N, "
-             "numbered from 0; position; what it looks at or shines on (an object: faces with its +Z), where that "
-             "changes. A smooth curve goes through the keys of each; before and after them it stands still. # begins "
+     .help = "motion by keys: lines of TIME WHAT X,Y,Z [X,Y,Z]: seconds; camera, light (or light:N) or object:N, "
+             "numbered from 0; position; the target that it looks at or shines on (an object faces it with +Z), if "
+             "that changes. A smooth curve goes through the keys of each; before and after them it rests. # begins "
              "a comment"},
     {.name = "--frames", .value = "N", .kind = OPTION_INT, AT(frames), .low = 1, .high = MOST,
      .help = "how many (default 60)"},
     {.name = "--from", .value = "K", .kind = OPTION_INT, AT(from), .low = 0, .high = MOST,
-     .help = "the first frame's number (default 0); it has the same bytes as among others"},
+     .help = "the first frame's number (default 0); the frame has the same bytes as in a longer run"},
     {.name = "--fps", .value = "F", .kind = OPTION_ABOVE, AT(fps), .low = 0.0, .high = 1e5,
-     .help = "frames a second of the path: frame k is at k / F seconds (default 30)"},
+     .help = "frames per second of the path: frame k is at k / F seconds (default 30)"},
     {.name = "--check", .value = "K", .kind = OPTION_INT, AT(check), .low = 1, .high = MOST,
-     .help = "each Kth frame's error against the same frame by --quality best and --gather full, as `lambent compare` "
-             "has it"},
+     .help = "each Kth frame's error against the same frame by --quality best and --gather full, as in `lambent "
+             "compare`"},
     {.kind = OPTION_END},
 };
 
 const option_table play_table = {
     .verb = "play",
     .usage = "play SCENE --frames N [--move WHAT] [--path FILE] [--transfer FILE.lmt] [-o OUT]",
-    .about = "Frames of a scene whose lights, camera or objects move, and what they take: milliseconds a frame by "
-             "stage, the least, the median, and what 95 of 100 keep to, by the clock and of the processor (all "
-             "threads together; --threads 1: the drawing thread). A frame is made of the scene, the path and its "
-             "number alone. What did not move since the last one is kept, which changes no byte.",
+    .about = "Draws frames of a scene with moving lights, camera or objects, and prints their times: milliseconds "
+             "per frame by stage, minimum, median and the value that 95 of 100 frames stay under, by the clock and "
+             "of the processor (all threads together; --threads 1: the drawing thread). A frame depends only on the "
+             "scene, the path and the frame's number. Parts that did not move since the last frame are reused, "
+             "which changes no byte.",
     .part = {render_scene_rows, play_rows, render_view_rows, render_world_rows, render_light_rows,
              render_bounce_rows, render_picture_rows, render_other_rows},
     .examples = "  lambent play demo --size 64x48 --quality draft --frames 4 --check 2\n"
-                "  with bounced light by what was baked once:\n"
+                "  with bounced light that was baked once:\n"
                 "    lambent bake demo -o demo.lmt --elements 1024 --receivers 2000\n"
                 "    lambent play demo --size 64x48 --transfer demo.lmt --frames 4 -o frame_%02d.png\n",
 };
@@ -81,6 +82,7 @@ int play_options_parse(play_options *o, int argc, char **argv, report *r)
     memset(o, 0, sizeof *o);
     render_options_begin(&o->render);
     o->render.has_sky = 1;
+    o->render.is_moving = 1;
     o->move = KEY_LIGHT | KEY_CAMERA | KEY_OBJECT;
     o->frames = 60;
     o->fps = 30.0f;

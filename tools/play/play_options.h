@@ -1,12 +1,12 @@
-/* play_options.h: what `lambent play` was asked for. */
+/* play_options.h: the command line of `lambent play`. */
 #ifndef PLAY_OPTIONS_H
 #define PLAY_OPTIONS_H
 
 #include "../render/render_options.h"
 
 typedef struct play_options {
-    render_options render; /* first: its rows store into it. `out`: the pattern */
-    int32_t move;          /* PLAY_*, bits */
+    render_options render; /* first, because its rows store into it. `out`: the pattern */
+    int32_t move;          /* KEY_*, bits */
     const char *path;
     int32_t frames, from, check;
     float fps;
@@ -14,7 +14,7 @@ typedef struct play_options {
 
 extern const option_table play_table;
 
-/* As options_parse. */
+/* See options_parse. */
 int play_options_parse(play_options *out, int argc, char **argv, report *r);
 
 

@@ -20,7 +20,8 @@ int play_slice_write(const char *out, slice s, uint64_t job, const char *about, 
     return slice_name(name, out, s, r) && slice_write(name, s, SLICE_PLAY, job, about, made, r);
 }
 
-/* What a slice says: 1, or 0 with `r` set. Without a pattern nothing is written: is it all there, can it be written? */
+/* Reads a slice and writes the frames. If `is_look`, only checks that they are complete and can be written. Returns 1,
+ * or 0 with `r` set. */
 static int put_frames(const char *path, const char *pattern, int is_look, report *r)
 {
     slice_file f;

@@ -1,4 +1,4 @@
-/* play_space.c: room in a scene, by segments that every triangle may block. */
+/* play_space.c: free space in a scene, tested by segments that any triangle may block. */
 #include "play_space.h"
 
 #include <stdlib.h>

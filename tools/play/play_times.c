@@ -1,4 +1,4 @@
-/* play_times.c: least, median and 95 of 100 of what frames took, by stage. */
+/* play_times.c: minimum, median and 95th percentile of frame times, by stage. */
 #include "play_times.h"
 
 #include <stdlib.h>

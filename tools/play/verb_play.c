@@ -1,4 +1,4 @@
-/* verb_play.c: `lambent play`: frames of a scene that moves, and what they take. */
+/* verb_play.c: `lambent play`: frames of a moving scene, and their times. */
 #include "verb_play.h"
 
 #include <stdio.h>
@@ -26,7 +26,7 @@ typedef struct play {
     play_motion motion;
     play_times times;
     play_check check;
-    text_buffer said; /* on stdout, once all is done */
+    text_buffer said; /* printed to stdout at the end */
     byte_buffer made; /* frames of a slice */
     float exposure_ev;
 } play;
@@ -55,7 +55,7 @@ static int draw(play *p, int32_t k, play_time *took, report *r)
                                            lmb_status_name(status));
 }
 
-/* All frames have the exposure of frame 0, whichever is the first that is drawn. */
+/* All frames have the exposure of frame 0, even if drawing starts with another. */
 static int find_exposure(play *p, report *r)
 {
     play_time unused;
@@ -83,7 +83,7 @@ static int put_frame(play *p, int32_t k, const render_finish *f, report *r)
     return ok;
 }
 
-/* Writes a frame as `render` writes its picture. This changes the light. */
+/* Writes a frame as `render` writes a picture. This changes the light. */
 static int write_frame(play *p, int32_t k, report *r)
 {
     render_finish f;
@@ -141,7 +141,7 @@ static void tell_frames(play *p)
     play_times_print(&p->said, &p->times);
 }
 
-/* Frames of which nothing moves would look fast. */
+/* Prints a note if nothing moves in the last frames, which would look fast. */
 static void tell_end(const play *p)
 {
     const double end = play_motion_end(&p->motion);

@@ -1,4 +1,4 @@
-/* relief_bake.c: a complex scene and a simple model -> a .lmr: drawn and packed. [P10 P11] */
+/* relief_bake.c: bakes a complex scene and a simple model to a .lmr: draws and packs. [P10 P11] */
 #include "relief_bake.h"
 
 #include <math.h>
@@ -79,7 +79,7 @@ static void set_texel(texel *t, const float *normal, const float *colour, int co
     lmb_octahedral_encode(t->normal, vec3(normal[0], normal[1], normal[2]));
 }
 
-/* A view's picture in the place that is its own. */
+/* Packs a view's picture. */
 static int pack(relief_picture *p, int32_t format, const lmb_view *view, const float *depth, const float *normal,
                 const float *colour, int codes, report *r)
 {
@@ -183,7 +183,7 @@ static int draw(relief_picture *out, int32_t format, const lmb_scene *scene, con
     return ok;
 }
 
-/* Views that several threads draw. */
+/* Views drawn by several threads. */
 typedef struct drawing {
     relief_bake *bake;
     const lmb_scene *scene;
@@ -270,7 +270,7 @@ static void put_record(writer *w, const lmb_view *v, uint32_t texels)
     put_words(w, word, LMB_RELIEF_VIEW_WORDS);
 }
 
-/* Two numbers of 16 bits in a word, the first at the lower address. */
+/* Packs two 16-bit numbers into a word, the first at the lower address. */
 static uint32_t pair(uint16_t a, uint16_t b)
 {
     const uint16_t both[2] = {a, b};
@@ -313,7 +313,7 @@ static void put_indices(writer *w, const triangle_mesh *m)
     }
 }
 
-/* Where everything lies; w->data NULL: only counts. */
+/* Lays out the file. If w->data is NULL, only counts bytes. */
 static void put_file(writer *w, const relief_bake *bake, const triangle_mesh *m, size_t total)
 {
     const uint32_t views = (uint32_t)bake->views, records = 4 * LMB_RELIEF_HEADER_WORDS;
@@ -344,7 +344,7 @@ static void put_file(writer *w, const relief_bake *bake, const triangle_mesh *m,
     }
 }
 
-/* What is written is read again: the library says which sizes it draws. */
+/* Opens the result to test whether the library accepts the sizes. */
 static int opens(const file_bytes *file, report *r)
 {
     lmb_relief own;

@@ -1,4 +1,4 @@
-/* relief_bounce.c: light that bounces between ordinary geometry and a relief, whose simple model stands for it. */
+/* relief_bounce.c: bounced light between ordinary geometry and a relief's simple model. */
 #include "relief_bounce.h"
 
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 /* --- both in one scene -------------------------------------------------------------------------------------------- */
 
-/* Nothing lies nowhere. */
+/* Skips empty arrays, which may be NULL. */
 static void copy(void *to, const void *from, size_t bytes)
 {
     if (bytes > 0) {
@@ -32,7 +32,7 @@ static void append(relief_bounce *b, const lmb_scene *s)
     b->scene.instance_count += s->instance_count;
 }
 
-/* Textures are the ordinary geometry's: a relief's simple model has none. */
+/* Only the ordinary geometry has textures. */
 static int join(relief_bounce *b, const lmb_scene *plain, const lmb_scene *simple, report *r)
 {
     const lmb_scene none = {0}, *p = plain != NULL ? plain : &none, *s = simple != NULL ? simple : &none;

@@ -1,4 +1,4 @@
-/* relief_compare.c: how far a picture of a relief is from one of the complex model. */
+/* relief_compare.c: compares a picture of a relief with one of the complex model. */
 #include "relief_compare.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 /* --- outlines ----------------------------------------------------------------------------------------------------- */
 
-/* Pixels of a set that touch what is not of it. */
+/* Covered pixels with an uncovered neighbour. */
 static size_t outline(int32_t *at, const relief_frame *f)
 {
     const int32_t w = f->width, h = f->height;
@@ -100,7 +100,7 @@ static double decibel(double sum, size_t n)
     return n == 0 ? -1.0 : sum > 0.0 ? 10.0 * log10(255.0 * 255.0 * 3.0 * (double)n / sum) : 99.0;
 }
 
-/* A colour of the pixel less one of those beside it, sRGB codes. */
+/* Difference to a neighbour in one channel, sRGB codes. */
 static int off(const relief_frame *f, const float *own, int32_t x, int32_t y, size_t c)
 {
     return (int)lmb_srgb_encode(own[c]) -
@@ -110,7 +110,7 @@ static int off(const relief_frame *f, const float *own, int32_t x, int32_t y, si
 int relief_isolated(const relief_frame *f, int32_t x, int32_t y)
 {
     const float *own = f->rgb + 3 * ((size_t)y * (size_t)f->width + (size_t)x);
-    int above = 7, below = 7; /* colours, a bit each, that are so of all around */
+    int above = 7, below = 7; /* a bit per channel that holds for all neighbours */
     for (int32_t k = 0; k < 9; ++k) {
         const int32_t nx = x + k % 3 - 1, ny = y + k / 3 - 1;
         if (k == 4 || nx < 0 || ny < 0 || nx >= f->width || ny >= f->height) {
@@ -125,7 +125,7 @@ int relief_isolated(const relief_frame *f, int32_t x, int32_t y)
     return (above | below) != 0;
 }
 
-/* Of the pixels that either covers. */
+/* Over pixels that either covers. */
 static double share_isolated(const relief_frame *test, const relief_frame *truth)
 {
     long long isolated = 0, all = 0;

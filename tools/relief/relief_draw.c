@@ -12,7 +12,7 @@
 #include "../../src/base/vec.h"
 #include "relief_bounce.h"
 
-/* One kind of geometry: what its pixels are resolved from, and its shadow map. */
+/* One kind of geometry, with the target for resolving pixels and the shadow map. */
 typedef struct layer {
     const lmb_scene *scene;
     lmb_target target;
@@ -22,12 +22,12 @@ typedef struct layer {
 
 struct work;
 
-/* What one thread draws a tile in. */
+/* The memory one thread draws a tile in. */
 typedef struct pen {
     struct work *of;
     lmb_tile tile, other;
     lmb_irradiance direct, open, indirect;
-    relief_bounce bounce; /* the work's, with a cut of its own */
+    relief_bounce bounce; /* the work's, with a separate cut */
     lmb_radiance radiance, open_radiance;
     lmb_relief_stats stats;
     lmb_status failed;
@@ -36,10 +36,10 @@ typedef struct pen {
 typedef struct work {
     relief_frame *out;
     const relief_shot *shot;
-    lmb_view view;       /* the shot's, of the sample at hand */
-    int32_t samples, drawn; /* a pixel; how many of them are whole */
+    lmb_view view;       /* the shot's, for the current sample */
+    int32_t samples, drawn; /* per pixel; number already drawn */
     lmb_scene simple;
-    layer plain, relief; /* scene NULL: there is none */
+    layer plain, relief; /* scene NULL: none */
     lmb_tile tile;       /* of shadow maps */
     relief_bounce bounce;
     pen *pens;
@@ -76,8 +76,8 @@ static int take_layer(work *w, layer *l, report *r)
 
 #define FINEST 0.75f /* of a view's texel */
 
-/* Texels a side of a layer's map. A relief's own needs none much finer than the coarsest of its views' texels, which
- * show no more: what the light costs is warped texels. */
+/* Texels per side of a layer's map. A relief's map need not be much finer than the coarsest texels of the views,
+ * because the views show no finer detail, and the cost is proportional to warped texels. */
 static int32_t map_side(const work *w, const layer *l, const lmb_scene *bounds)
 {
     const float across = length3(sub3(bounds->bounds_max, bounds->bounds_min));
@@ -90,7 +90,7 @@ static int32_t map_side(const work *w, const layer *l, const lmb_scene *bounds)
     return wanted < (float)w->shot->shadow_map ? maxi((int32_t)wanted, 8) : w->shot->shadow_map;
 }
 
-/* Both maps are fitted to all that is there. */
+/* Both maps are fitted to the bounds of everything. */
 static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
 {
     const relief_shot *s = w->shot;
@@ -125,7 +125,7 @@ static int draw_maps(work *w, report *r)
 
 /* --- a tile ------------------------------------------------------------------------------------------------------- */
 
-/* The nearer of both kinds. */
+/* Resolves both layers and keeps the nearer surface. */
 static lmb_status resolve(pen *w, int32_t x, int32_t y)
 {
     const relief_shot *s = w->of->shot;
@@ -146,7 +146,7 @@ static lmb_status resolve(pen *w, int32_t x, int32_t y)
     return status;
 }
 
-/* Ordinary geometry's shadow by its triangles, the relief's by its depths. */
+/* Ordinary geometry casts shadows by triangles, the relief by depth. */
 static lmb_status light_tile(pen *w)
 {
     const relief_shot *s = w->of->shot;
@@ -172,7 +172,7 @@ static lmb_status light_tile(pen *w)
     return status;
 }
 
-/* What the light sends on, and what comes from everywhere. */
+/* Adds bounced and ambient light. */
 static lmb_status bounce_tile(pen *w)
 {
     uint64_t of_relief = 0;
@@ -277,7 +277,7 @@ static lmb_status draw_rows(work *w)
     return status;
 }
 
-/* The bounced light's trees are shared; the cut through them is each thread's own. */
+/* Threads share the trees of bounced light, but each has a separate cut. */
 static int take_pens(work *w, report *r)
 {
     for (int i = 0; i < w->threads; ++i) {

@@ -1,4 +1,4 @@
-/* relief_model.c: a scene as reliefs are made of it: one mesh in the world. */
+/* relief_model.c: a scene flattened to one mesh in world space, as input for reliefs. */
 #include "relief_model.h"
 
 #include <math.h>
@@ -86,18 +86,19 @@ static void add_instance(triangle_mesh *out, uint32_t *vertex, uint32_t *triangl
 
 /* --- smooth normals ----------------------------------------------------------------------------------------------- */
 
-/* Vertices at one place share a slot of a table twice as large as there are vertices. */
+/* Finds the slot that vertices at one position share. The table is at least twice as large as the number of
+ * vertices. */
 static uint32_t slot_of(const triangle_mesh *m, uint32_t *slots, uint32_t mask, uint32_t v)
 {
     uint32_t bits[3], at;
     lmb_vec3 p = get(m->positions + 3 * (size_t)v);
-    p = add3(p, vec3(0.0f, 0.0f, 0.0f)); /* -0 is 0 */
+    p = add3(p, vec3(0.0f, 0.0f, 0.0f)); /* -0 becomes 0 */
     memcpy(bits, &p, sizeof bits);
     if (!is_place(p)) {
-        return v; /* equal to nothing */
+        return v; /* not equal to anything */
     }
     at = bits[0] * 0x9E3779B1u ^ bits[1] * 0x85EBCA77u ^ bits[2] * 0xC2B2AE3Du;
-    at = (at ^ at >> 16) * 0x85EBCA6Bu; /* whole numbers differ in their upper bits alone */
+    at = (at ^ at >> 16) * 0x85EBCA6Bu; /* floats of whole numbers differ only in the upper bits */
     at = (at ^ at >> 13) & mask;
     for (;; at = (at + 1) & mask) {
         if (slots[at] == UINT32_MAX) {
@@ -249,7 +250,7 @@ static uint32_t middle(triangle_mesh *out, uint32_t a, uint32_t b)
     return v;
 }
 
-/* Middles are not shared: as many vertices more as there are edges of triangles. */
+/* Middles are not shared, so each triangle adds three vertices. */
 int relief_divide(triangle_mesh *out, const triangle_mesh *in, report *r)
 {
     static const int part[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};

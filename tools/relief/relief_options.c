@@ -1,4 +1,4 @@
-/* relief_options.c: values that the relief verbs have in common. */
+/* relief_options.c: option values shared by the relief verbs. */
 #include "relief_options.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* relief_options.h: rows of options that `lambent relief bake`, `relief render` and `bench relief` have in common. */
+/* relief_options.h: rows of options shared by `lambent relief bake`, `relief render` and `bench relief`. */
 #ifndef RELIEF_OPTIONS_H
 #define RELIEF_OPTIONS_H
 
@@ -9,28 +9,28 @@
 #include "../common/view_options.h"
 #include "../model/model.h"
 
-/* int32_t size, triangles, is_packed of a struct of the type: how a relief is baked. */
+/* How a relief is baked: int32_t size, triangles, is_packed of a struct of the type. */
 #define RELIEF_OPTIONS_BAKE(type)                                                                            \
     OPTION_VERTEX_COLOURS_ROW(type, choice.vertex_colours),                                                  \
     {.name = "--size", .value = "PX", .kind = OPTION_INT, .at = offsetof(type, size), .low = 8, .high = 4096, \
-     .help = HELP("texels of a view's side (default 256)")},                                                       \
+     .help = HELP("texels per side of a view (default 256)")},                                                       \
     {.name = "--packed", .kind = OPTION_FLAG, .at = offsetof(type, is_packed),                               \
-     .help = HELP("6 bytes a texel instead of 12: 16 bits of depth, 5 6 5 of colour, 2 x 8 of normal")},           \
+     .help = HELP("6 bytes per texel instead of 12: 16 bits of depth, 5 6 5 of colour, 2 x 8 of normal")},           \
     {.name = "--triangles", .value = "N", .kind = OPTION_INT, .at = offsetof(type, triangles), .low = 4,     \
      .high = 10000000,                                                                                       \
-     .help = HELP("of the simple model (default 3000), made by edge collapse so that it encloses the complex one; what " \
-             "sticks out of it is cut off")}
+     .help = HELP("of the simple model (default 3000), made by edge collapse so that it encloses the complex one; " \
+             "parts that stick out are cut off")}
 
-/* lmb_relief_how `how`: how its pixels look for the surface. */
+/* How pixels search the surface: lmb_relief_how `how`. */
 #define RELIEF_OPTIONS_LOOK(type)                                                                            \
     {.name = "--steps", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.steps), .low = 1, .high = 32, \
-     .help = HELP("looks a pixel takes (default 6); 1: once, from the simple surface")},                           \
+     .help = HELP("search steps per pixel (default 6); 1: one, from the simple surface")},                           \
     {.name = "--pixel-views", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.views), .low = 1,         \
-     .high = LMB_RELIEF_TILE_VIEWS, .help = HELP("views a pixel looks at (default 6)")},                                \
+     .high = LMB_RELIEF_TILE_VIEWS, .help = HELP("views searched per pixel (default 6)")},                      \
     {.name = "--keep", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.keep), .low = 1, .high = 3, \
-     .help = HELP("of which the best are blended (default 3)")}
+     .help = HELP("number of the best of these that are blended (default 3)")}
 
-/* What `lambent relief render` was asked for. */
+/* The command line of `lambent relief render`. */
 typedef struct relief_options {
     const char *file, *out, *compare, *with, *path;
     model_choice choice; /* choices for the files of --with and --compare */
@@ -39,14 +39,14 @@ typedef struct relief_options {
     lmb_light light;
     int32_t has_light, bounce;
     int32_t shadow_map, show, samples;
-    int32_t frames; /* of the path; 0: to its end */
+    int32_t frames; /* of the path; 0: to the end */
     float fps;      /* 0: 30 */
     float ambient, exposure_ev; /* NaN: chosen by the picture */
     const lmb_kernels *kernels;
     int32_t threads;
 } relief_options;
 
-/* `N` or `greedy:N`: 1, or 0 where the text is neither. */
+/* Parses `N` or `greedy:N`. Returns 1, or 0 if the text is neither. */
 int relief_option_views(const char *text, int32_t *views, int32_t *is_greedy);
 
 #endif

@@ -10,19 +10,19 @@
 
 enum { MOST = 1000000, NAME = 4096 };
 #define FPS 30.0f
-#define LEAST_M 1e-6f /* between what moves and its target */
+#define LEAST_M 1e-6f /* between a moving thing and the target */
 
 #define AT(member) .at = offsetof(relief_options, member)
 
 const option_row relief_path_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("motion")},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
-     .help = HELP("where camera and light are, by keys: lines of TIME camera|light X,Y,Z [X,Y,Z], as in `lambent play`: a "
-             "picture a frame, its number in place of OUT's %0Nd, as frame_%04d.png, or else as -0000, -0001, ...")},
+     .help = HELP("motion of camera and light by keys: lines of TIME camera|light X,Y,Z [X,Y,Z], as in `lambent play`: "
+             "one picture per frame, numbered by OUT's %0Nd, as frame_%04d.png, or else by -0000, -0001, ...")},
     {.name = "--frames", .value = "N", .kind = OPTION_INT, AT(frames), .low = 1, .high = MOST,
      .help = HELP("how many (default: to the path's last key)")},
     {.name = "--fps", .value = "F", .kind = OPTION_ABOVE, AT(fps), .low = 0.0, .high = 1e5,
-     .help = HELP("frames a second of the path: frame k is at k / F seconds (default 30)")},
+     .help = HELP("frames per second of the path: frame k is at k / F seconds (default 30)")},
     {.kind = OPTION_END},
 };
 
@@ -58,7 +58,7 @@ static lmb_vec3 towards(const path_key *key)
     return (lmb_vec3){d.x * per, d.y * per, d.z * per};
 }
 
-/* Without a target it looks the way it did. */
+/* Without a target the direction of view stays. */
 static int put_camera(tour *w, const path_key *key, int32_t k, report *r)
 {
     lmb_view v = w->view_at_rest;
@@ -107,7 +107,7 @@ static int put(tour *w, int32_t k, report *r)
     return ok;
 }
 
-/* --- before the first --------------------------------------------------------------------------------------------- */
+/* --- before the first picture ------------------------------------------------------------------------------------- */
 
 int relief_path_open(key_path *out, const relief_options *o, const lmb_light *light, report *r)
 {
@@ -141,7 +141,7 @@ int relief_path_leads(const key_path *path)
     return leads;
 }
 
-/* So that what cannot be written or drawn is told before anything is drawn. */
+/* Tests all names and views first, so that errors are reported before anything is drawn. */
 static int can_draw(tour *w, int32_t frames, report *r)
 {
     int ok = frames_can_write(w->o->out, frames, r);

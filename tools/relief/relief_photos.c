@@ -1,4 +1,4 @@
-/* relief_photos.c: photos with depth and poses as a relief's views, and blocks around what they show. [P11] */
+/* relief_photos.c: photos with depth and poses as a relief's views, and blocks around their surfaces. [P11] */
 #include "relief_photos.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ static void put(float *at, lmb_vec3 v)
 
 /* --- a photo ------------------------------------------------------------------------------------------------------ */
 
-/* A column of the pose in our world. */
+/* A column of the pose, in library coordinates. */
 static lmb_vec3 column(const double pose[16], int c)
 {
     return vec3((float)pose[c], (float)-pose[4 + c], (float)-pose[8 + c]);
@@ -34,16 +34,16 @@ static void set_pose(lmb_view *v, const double pose[16])
     v->eye = column(pose, 3);
 }
 
-enum { SIDE_MAX = 4096 /* as lmb_relief_open */ };
+enum { SIDE_MAX = 4096 /* the limit of lmb_relief_open */ };
 
-/* Axes at right angles, and a place that depths can be told from. */
+/* Are the axes orthogonal, and is the position in range for depths? */
 static int is_pose(const lmb_view *v)
 {
     const float square = dot3(cross3(v->right, v->up), v->back);
     return is_place(v->eye) && fabsf(dot3(v->right, v->back)) < 1e-3f && fabsf(square - 1.0f) < 1e-3f;
 }
 
-/* As close around what is there as may be: depth is coded between them. */
+/* Sets the planes as close to the surface as possible, because depth is coded between them. */
 static int set_reach(lmb_view *v, const float *depth)
 {
     float min = 3e38f, max = 0.0f;
@@ -82,7 +82,7 @@ static int set_view(lmb_view *v, const mix_frame *f, report *r)
     return set_reach(v, f->depth) || report_fail(r, "a photo without depth");
 }
 
-/* The point at the middle of a pixel. */
+/* The surface point at the middle of a pixel. */
 static lmb_vec3 point_at(const relief_photo *p, int32_t x, int32_t y)
 {
     const lmb_view *v = &p->view;
@@ -92,7 +92,7 @@ static lmb_vec3 point_at(const relief_photo *p, int32_t x, int32_t y)
     return add3(v->eye, mul3(sub3(add3(mul3(v->right, sx), mul3(v->up, sy)), v->back), z));
 }
 
-/* How the surface goes on to the right or down, by the neighbour on either side that is nearer to it in depth. */
+/* The slope of the surface to the right or down, from the neighbour on either side that is nearer in depth. */
 static lmb_vec3 slope_at(const relief_photo *p, int32_t x, int32_t y, int32_t dx, int32_t dy)
 {
     const int32_t w = p->view.frame_width, h = p->view.frame_height;
@@ -166,14 +166,14 @@ void relief_photo_free(relief_photo *p)
 
 /* --- blocks ------------------------------------------------------------------------------------------------------- */
 
-/* Cubes around points. Arrays are of count[0] x count[1] x count[2] cubes, and of one corner more each way. */
+/* Cubes around points. Arrays have count[0] x count[1] x count[2] cubes, or one corner more each way. */
 typedef struct blocks {
     lmb_vec3 low;
     float side;
     int32_t count[3];
-    float *colour;    /* sums, 3 a cube */
-    uint32_t *points; /* of each cube */
-    uint32_t *vertex; /* of each corner; UINT32_MAX: none */
+    float *colour;    /* sums, 3 per cube */
+    uint32_t *points; /* by cube */
+    uint32_t *vertex; /* by corner; UINT32_MAX: none */
 } blocks;
 
 static void bounds(lmb_vec3 *low, lmb_vec3 *high, const relief_photo *photo, int32_t count)
@@ -228,7 +228,7 @@ static void add_photo(blocks *b, const relief_photo *photo)
     }
 }
 
-/* The mean of the cubes at a corner. */
+/* The mean colour of the cubes at a corner. */
 static lmb_vec3 corner_colour(const blocks *b, int32_t x, int32_t y, int32_t z)
 {
     lmb_vec3 sum = {0.0f, 0.0f, 0.0f};
@@ -257,7 +257,7 @@ static uint32_t corner(blocks *b, triangle_mesh *out, int32_t x, int32_t y, int3
     return *v;
 }
 
-/* The face of a cube towards +-axis, two triangles, counter-clockwise from outside. */
+/* Adds the face of a cube towards +-axis: two triangles, counter-clockwise from outside. */
 static void add_face(blocks *b, triangle_mesh *out, const int32_t at[3], int axis, int up)
 {
     static const int order[2][6] = {{0, 2, 1, 1, 2, 3}, {0, 1, 2, 2, 1, 3}};
@@ -277,7 +277,7 @@ static void add_face(blocks *b, triangle_mesh *out, const int32_t at[3], int axi
     out->triangle_count += 2;
 }
 
-/* Counts the faces; `out` not NULL: makes them. */
+/* Counts the faces; if `out` is not NULL, also makes them. */
 static size_t add_faces(blocks *b, triangle_mesh *out)
 {
     const size_t row = (size_t)b->count[0], slice = row * (size_t)b->count[1], all = slice * (size_t)b->count[2];

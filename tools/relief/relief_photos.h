@@ -1,4 +1,4 @@
-/* relief_photos.h: photos with depth and poses as a relief's views, and blocks around what they show as its simple
+/* relief_photos.h: photos with depth and poses as a relief's views, and blocks around their surfaces as the simple
  * model. [P11] */
 #ifndef RELIEF_PHOTOS_H
 #define RELIEF_PHOTOS_H
@@ -6,27 +6,28 @@
 #include "../mix/mix_frame.h"
 #include "relief_bake.h"
 
-/* What a posed photo shows. relief_photo_free releases it. */
+/* A posed photo. Release it with relief_photo_free. */
 typedef struct relief_photo {
     lmb_view view;
     float *depth, *normal, *colour; /* m along the axis, 0: nothing; towards the camera, unit; linear */
 } relief_photo;
 
-/* relief_photo_of: the photo as a camera of ours saw it: of the pose's world x stays, and y and z are turned round, so
- * that a world whose y points down like its cameras' has its y up. Without a pose the camera stands at 0 and looks down
- * -z. Normals are the depth's. Refuses a camera whose axis misses the picture's middle by over half a pixel. 1, or 0
- * with `r` set. */
+/* relief_photo_of: converts a photo to the library's camera. x of the pose's world stays, and y and z are negated: a
+ * world with y down, like the cameras, becomes one with y up. Without a pose the camera is at 0 and looks along -z.
+ * Normals come from the depth. Refuses a camera with an axis over half a pixel off the picture's middle. Returns 1, or
+ * 0 with `r` set. */
 int relief_photo_of(relief_photo *out, const mix_frame *frame, report *r);
 
-/* relief_photo_read: that of PREFIX.color.png, PREFIX.depth.png and PREFIX.json (mix_frame.h). */
+/* relief_photo_read: reads PREFIX.color.png, PREFIX.depth.png and PREFIX.json (mix_frame.h). */
 int relief_photo_read(relief_photo *out, const char *prefix, report *r);
 void relief_photo_free(relief_photo *p);
 
-/* relief_photo_size: of the box around all points of the photos, its longest side, m. */
+/* relief_photo_size: the longest side of the box around all points of the photos, m. */
 float relief_photo_size(const relief_photo *photo, int32_t count);
 
-/* relief_blocks: cubes of a lattice, `side` m wide, that hold a point of a photo: their faces towards cubes that hold
- * none, in the photos' colours. What photos show lies inside. triangle_mesh_free releases it. */
+/* relief_blocks: cubes of a lattice, `side` m wide, around all points of the photos: the faces towards empty cubes, in
+ * the photos' colours. All photographed points lie inside. Release it with triangle_mesh_free. Returns 1, or 0 with `r`
+ * set. */
 int relief_blocks(triangle_mesh *out, const relief_photo *photo, int32_t count, float side, report *r);
 
 #endif

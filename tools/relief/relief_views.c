@@ -1,4 +1,4 @@
-/* relief_views.c: from where a relief's views are taken, and how much of the surface they see. [P11] */
+/* relief_views.c: chooses a relief's views, and measures how much of the surface they show. [P11] */
 #include "relief_bake.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ enum { CANDIDATES = 98, TURNS = 30 };
 
 #define UPRIGHT 0.97f
 
-#define MARGIN_TEXELS 2.0f /* of nothing around the mesh, so that its edge has neighbours */
+#define MARGIN_TEXELS 2.0f /* empty, around the mesh, so that texels at the edge have neighbours */
 
 static lmb_vec3 vertex(const triangle_mesh *m, uint32_t v)
 {
@@ -33,8 +33,8 @@ static void extent(const triangle_mesh *m, lmb_vec3 axis, float *low, float *hig
     }
 }
 
-/* Turned about its axis so that the picture is as small as it can be, upright where that is about as good: its texels
- * are the finer. */
+/* Rotates the view about its axis to minimize the picture, which makes texels finest. An upright view is preferred if
+ * it is about as small. */
 static void turn_view(lmb_view *v, const triangle_mesh *mesh)
 {
     const lmb_vec3 right = v->right, up = v->up;
@@ -88,7 +88,7 @@ int relief_reach(lmb_view *inout, const triangle_mesh *mesh)
     return eye > low;
 }
 
-/* Lattice points of a cube's surface: faces, corners and edges have 1, 3 and 2 coordinates that are not 0. */
+/* Lattice points on a cube's surface: faces, edges and corners have 1, 2 and 3 nonzero coordinates. */
 static int32_t cube_directions(lmb_vec3 *out, int faces, int edges, int corners)
 {
     int32_t n = 0;
@@ -116,7 +116,7 @@ void relief_directions(lmb_vec3 *out, int32_t count)
     }
 }
 
-/* --- what a view sees --------------------------------------------------------------------------------------------- */
+/* --- visibility in a view ----------------------------------------------------------------------------------------- */
 
 static uint32_t code_at(const relief_bake *bake, const relief_picture *p, int32_t x, int32_t y)
 {
@@ -125,7 +125,7 @@ static uint32_t code_at(const relief_bake *bake, const relief_picture *p, int32_
     return bake->format == LMB_RELIEF_FULL ? low | (uint32_t)t[2] << 16 : low;
 }
 
-/* m along the view's axis of a code that is not 0. */
+/* Depth, m along the view's axis, of a code other than 0. */
 static float depth_of(const relief_bake *bake, const lmb_view *v, uint32_t code)
 {
     const float d = (float)code / (bake->format == LMB_RELIEF_FULL ? 16777215.0f : 65535.0f);
@@ -133,7 +133,7 @@ static float depth_of(const relief_bake *bake, const lmb_view *v, uint32_t code)
     return v->kind == LMB_PERSPECTIVE ? v->near_m / (min + (1.0f - min) * d) : v->far_m - (v->far_m - v->near_m) * d;
 }
 
-/* The cosine between the normal and the way to the view, where this sees the place; else 0. */
+/* The cosine between the normal and the direction to the view if the point is visible there; else 0. */
 static float sees(const relief_bake *bake, const relief_picture *p, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_view *v = &p->view;
@@ -156,7 +156,7 @@ static float sees(const relief_bake *bake, const relief_picture *p, lmb_vec3 at,
     return code != 0 && depth_of(bake, v, code) > w - texel * (0.5f + slope) ? cosine : 0.0f;
 }
 
-/* Middle, normal and area of a triangle; 0 where it has none. */
+/* Middle, normal and area of a triangle; 0 for a degenerate one. */
 static float triangle_of(const triangle_mesh *m, uint32_t t, lmb_vec3 *middle, lmb_vec3 *normal)
 {
     const uint32_t *i = m->indices + 3 * (size_t)t;
@@ -175,7 +175,7 @@ int relief_cover(relief_coverage *out, const relief_bake *bake, const triangle_m
         lmb_vec3 at, n;
         const double own = (double)triangle_of(mesh, t, &at, &n);
         float best = 0.0f;
-        if (!(own > 0.0 && own < HUGE_VAL)) { /* a corner that is no number draws nothing */
+        if (!(own > 0.0 && own < HUGE_VAL)) { /* non-finite corners draw nothing */
             continue;
         }
         for (int32_t i = 0; i < bake->views; ++i) {
@@ -190,9 +190,10 @@ int relief_cover(relief_coverage *out, const relief_bake *bake, const triangle_m
     return area > 0.0 || report_fail(r, "a model without surface");
 }
 
-/* --- one after the other ------------------------------------------------------------------------------------------ */
+/* --- greedy choice ------------------------------------------------------------------------------------------------ */
 
-/* What a view adds: area, by how much better than before it faces it. best: of each triangle so far. */
+/* The gain of a view: area, weighted by the improvement of the cosine. best: the best cosine of each triangle so
+ * far. */
 static double gain(const relief_bake *one, const triangle_mesh *mesh, float *best, int keep)
 {
     double sum = 0.0;

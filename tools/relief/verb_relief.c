@@ -1,4 +1,4 @@
-/* verb_relief.c: `lambent relief`: a complex model drawn as a simple one that carries its surface. */
+/* verb_relief.c: `lambent relief`: draws a complex model as a simple one that carries its surface. */
 #include "verb_relief.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 #include "relief_options.h"
 #include "relief_path.h"
 
-enum { BOUNCE_MAP = 256 }; /* texels a side */
+enum { BOUNCE_MAP = 256 }; /* texels per side */
 enum { SHOW_FULL, SHOW_DEPTH, SHOW_NORMAL, SHOW_ALBEDO, SHOW_LIT };
 
 /* --- command line ------------------------------------------------------------------------------------------------- */
@@ -29,13 +29,13 @@ static const char *const shows[] = {"full", "depth", "normal", "albedo", "lit", 
 
 static const option_row rows[] = {
     {.name = "FILE.lmr", .kind = OPTION_TEXT, .value = "", AT(file), .file = OPTION_READS,
-     .help = HELP("what `lambent relief bake` made")},
+     .help = HELP("made by `lambent relief bake`")},
     {.kind = OPTION_TITLE, .help = HELP("view")},
     VIEW_OPTION_SIZE(relief_options, view, "px (default 640x480)"),
-    VIEW_OPTIONS_CAMERA(relief_options, view, "where the camera stands (default: the whole model from a little above)"),
+    VIEW_OPTIONS_CAMERA(relief_options, view, "the camera's position (default: the whole model from slightly above)"),
     {.kind = OPTION_TITLE, .help = HELP("surface")},
     {.name = "--pick", .kind = OPTION_WORD, AT(how.pick), .words = picks,
-     .help = HELP("which candidate wins: nearest to the simple surface (default), or to the eye's ray")},
+     .help = HELP("the winning candidate: nearest to the simple surface (default), or to the eye's ray")},
     {.name = "--sampling", .kind = OPTION_WORD, AT(how.sampling), .words = samplings,
      .help = HELP("of the views' texels (default bilinear)")},
     RELIEF_OPTIONS_LOOK(relief_options),
@@ -43,30 +43,30 @@ static const option_row rows[] = {
     {.name = "--light", .kind = OPTION_LIGHT, AT(light), .counts = offsetof(relief_options, has_light),
      .help = HELP("KIND is spot, point or sun (default: a sun from the upper right)")},
     {.name = "--shadow-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(shadow_map), .low = 0, .high = LMB_MAX_SIDE,
-     .help = HELP("texels a side of its shadow map (default 1024); 0: no shadows")},
+     .help = HELP("texels per side of the light's shadow map (default 1024); 0: no shadows")},
     {.name = "--ambient", .value = "E", .kind = OPTION_NUMBER, AT(ambient), .low = 0, .high = 1e6,
      .help = HELP("irradiance from everywhere, W/m2 (default 0.3)")},
     {.name = "--with", .value = "SCENE", .kind = OPTION_TEXT, AT(with), .file = OPTION_READS,
      .help = HELP("other geometry in the same picture: both shadow and hide each other")},
     OPTION_VERTEX_COLOURS_ROW(relief_options, choice.vertex_colours),
     {.name = "--bounce", .kind = OPTION_FLAG, AT(bounce),
-     .help = HELP("light once reflected, too, by the other geometry and the simple model")},
+     .help = HELP("adds light reflected once by the other geometry and the simple model")},
     {.kind = OPTION_TITLE, .help = HELP("output")},
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP(PICTURE_OPTION_HELP)},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .help = HELP("(default full)")},
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
-     .help = HELP("a pixel, of the light (default 4 for .png and .ppm, 1 for .pfm and .hdr; with --compare 1)")},
+     .help = HELP("per pixel, of the light (default 4 for .png and .ppm, 1 for .pfm and .hdr; with --compare 1)")},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
      .help = HELP("stops, display formats only (default 0)")},
     {.name = "--compare", .value = "MODEL", .kind = OPTION_TEXT, AT(compare), .file = OPTION_READS,
-     .help = HELP("draws the complex model too, and prints speed and errors side by side")},
+     .help = HELP("also draws the complex model, and prints speed and errors side by side")},
     OPTION_BACKEND_ROW(relief_options, kernels),
     OPTION_THREADS_ROW(relief_options, threads, "draw the picture"),
     OPTION_ONLY_HERE,
-    OPTION_LOUDNESS(relief_options, view.is_quiet, view.is_verbose, "say how long what took"),
+    OPTION_LOUDNESS(relief_options, view.is_quiet, view.is_verbose, "print the time of each stage"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -79,8 +79,8 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "relief render",
     .usage = HELP("relief render FILE.lmr [--path FILE] -o OUT [options]"),
-    .about = HELP("A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
-        "it."),
+    .about = HELP("Draws a complex model as a few triangles that carry its surface, silhouette, depth and shadow, "
+             "by views of it."),
     .part = {rows, relief_path_rows},
     .examples = HELP("  a tent, its relief and a picture of that:\n" TENT
                 "    lambent relief render tent.lmr --size 160x120 -o tent.png\n"),
@@ -91,8 +91,8 @@ static const option_row ask_rows[] = {OPTION_ASK, {.kind = OPTION_END}};
 static const option_table both_table = {
     .verb = "relief",
     .usage = HELP("relief bake MODEL -o OUT.lmr [options]\nrelief render FILE.lmr [--path FILE] -o OUT [options]"),
-    .about = HELP("A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
-        "it: `bake` makes these and the simple model, `render` draws it. Each has its own --help."),
+    .about = HELP("Draws a complex model as a few triangles that carry its surface, silhouette, depth and shadow, by "
+        "views of it: `bake` makes the views and the simple model, `render` draws them. Each has its own --help."),
     .part = {ask_rows},
     .examples = HELP("  a tent, its relief and a picture of that:\n" TENT
                 "    lambent relief render tent.lmr --size 160x120 -o tent.png\n"),
@@ -127,8 +127,8 @@ typedef struct work {
     file_bytes file;
     lmb_relief relief;
     lmb_scene simple;
-    model with, complex; /* complex: what --compare names */
-    lmb_light light; /* the sun that shines where none is asked for, or what is */
+    model with, complex; /* complex: the model of --compare */
+    lmb_light light; /* the given light, or the default sun */
     key_path path;
 } work;
 
@@ -171,7 +171,7 @@ static int choose_view(lmb_view *out, const work *w, relief_options *o, report *
 {
     lmb_view middle;
     const int is_quiet = o->view.is_quiet;
-    o->view.is_quiet |= relief_path_leads(&w->path); /* what it frames is not shown */
+    o->view.is_quiet |= relief_path_leads(&w->path); /* hides the note about the default camera, which is not used */
     if (o->view.has_eye ? !view_look(&middle, &o->view, r) : !view_frame(&middle, &o->view, &w->simple, o->file, r)) {
         return 0;
     }
@@ -183,7 +183,7 @@ static int choose_view(lmb_view *out, const work *w, relief_options *o, report *
 
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
 
-/* What is shown, three floats a pixel, in place of the frame's light. */
+/* Replaces the frame's light by the plane to show, three floats per pixel. */
 static void show(relief_frame *f, int32_t what)
 {
     const size_t pixels = (size_t)f->width * (size_t)f->height;
@@ -198,14 +198,14 @@ static void show(relief_frame *f, int32_t what)
     }
 }
 
-/* What is no light has no mean over a pixel, and the complex model is drawn by one sample. */
+/* Only light is averaged over samples. The complex model is drawn with one sample. */
 static int32_t samples_of(const relief_options *o)
 {
     const int is_linear = picture_is_linear(picture_format(o->out));
     return o->show != SHOW_FULL || o->compare != NULL ? 1 : o->samples != 0 ? o->samples : is_linear ? 1 : 4;
 }
 
-/* The first picture's exposure is that of all. */
+/* All pictures use the exposure of the first. */
 static int write_frame(relief_options *o, relief_frame *f, const char *path, report *r)
 {
     show(f, o->show);

@@ -2,10 +2,10 @@
 #ifndef VERB_RELIEF_H
 #define VERB_RELIEF_H
 
-/* argv[0] is the verb. The exit status: 0 done, 1 files, 2 usage. */
+/* argv[0] is the verb. Returns the exit status: 0 done, 1 file error, 2 bad usage. */
 int verb_relief(int argc, char **argv);
 
-/* The same, argv[0] being "bake". */
+/* The same; argv[0] is "bake". */
 int verb_relief_bake(int argc, char **argv);
 
 #endif

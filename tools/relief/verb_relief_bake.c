@@ -1,4 +1,4 @@
-/* verb_relief_bake.c: `lambent relief bake`: a complex model -> views of it and a simple model, in one file. */
+/* verb_relief_bake.c: `lambent relief bake`: a complex model -> views and a simple model, in one file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +19,7 @@ typedef struct options {
     model_choice choice;
     int32_t views, size, triangles, greedy, is_packed;
     int as_is, is_quiet, is_verbose;
-    const char *frame[LMB_RELIEF_VIEWS]; /* photos' */
+    const char *frame[LMB_RELIEF_VIEWS]; /* of photos */
     int32_t frames;
     float block;
     int32_t threads;
@@ -42,27 +42,28 @@ static const option_row rows[] = {
     {.name = "MODEL", .kind = OPTION_TEXT, .value = "", AT(model), .file = OPTION_READS,
      .help = ".gltf .glb .obj .ply"},
     {.name = "-o", .value = "OUT.lmr", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
-     .help = "what `lambent relief render` draws, in place from flash too"},
+     .help = "file for `lambent relief render`, which draws it in place, from flash too"},
     {.name = "--views", .value = "N|greedy:N|FILE", .kind = OPTION_OWN, .parse = parse_views,
      .expects = "1 .. 64, greedy:N, or a file of cameras",
      .help = "N: from N sides; 6, 14, 18, 26 are a cube's faces, edges and corners (default 26), to 64;\ngreedy:N: "
-             "of 98 sides the N that see most;\nFILE: cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, "
+             "the N of 98 sides that see most;\nFILE: your cameras, one per line: EX EY EZ TX TY TZ FOV (eye, "
              "target, degrees)"},
     RELIEF_OPTIONS_BAKE(options),
     {.name = "--simple", .value = "FILE", .kind = OPTION_TEXT, AT(simple), .file = OPTION_READS,
-     .help = "a simple model of your own, near to the complex one; moved out where that sticks out"},
-    {.name = "--as-is", .kind = OPTION_FLAG, AT(as_is), .help = "leaves it as it is"},
+     .help = "your simple model, close to the complex one; it is moved out where the complex one sticks out"},
+    {.name = "--as-is", .kind = OPTION_FLAG, AT(as_is), .help = "leaves it unchanged"},
     {.kind = OPTION_TITLE, .help = "photos"},
     {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(frame), .counts = offsetof(options, frames),
      .times = LMB_RELIEF_VIEWS, .size = sizeof(const char *),
-     .help = "a photo as a view: PREFIX.color.png, .depth.png, .json, as `lambent mix --help` tells, with "
-             "camera_to_world where there are several (y down). `render --show albedo` shows it"},
+     .help = "a photo as a view: PREFIX.color.png, .depth.png, .json, as in `lambent mix --help`; with "
+             "camera_to_world if you give several (y down). `render --show albedo` shows it"},
     {.name = "--block", .value = "M", .kind = OPTION_NUMBER, AT(block), .low = 1e-4, .high = 1e4,
-     .help = "its simple model: cubes of this size that hold a point of a photo (default 1/24 of all)"},
+     .help = "the simple model of photos: cubes of this size that hold a point of a photo (default 1/24 of the "
+             "longest side)"},
     {.kind = OPTION_TITLE, .help = "other"},
     OPTION_THREADS_ROW(options, threads, "draw the views"),
     OPTION_ONLY_HERE,
-    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long what took"),
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the time of each stage"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -71,10 +72,9 @@ static const option_table table = {
     .verb = "relief bake",
     .usage = "relief bake MODEL -o OUT.lmr [options]\n"
              "relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]",
-    .about =
-        "Views of a complex model, for drawing it as a simple one that carries its surface. Meshes without normals "
-        "are flat, as `lambent render` draws them. Says how much of the surface no view sees: that will be filled "
-        "with the simple model's.",
+    .about = "Makes views of a complex model, for drawing it as a simple one that carries its surface. Meshes "
+             "without normals are flat-shaded, as in `lambent render`. Prints how much of the surface no view sees: "
+             "the simple model's surface fills that part.",
     .part = {rows},
     .examples = "  a tent and its relief:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
@@ -145,7 +145,7 @@ static void tell_outside(double outside, const options *o)
                 outside);
 }
 
-/* The user's own; moved outwards, its vertices at one place become one. */
+/* Loads the user's simple model and moves it outwards; vertices at one position are merged. */
 static int load_simple(work *w, const options *o, report *r)
 {
     triangle_mesh own;
@@ -184,7 +184,7 @@ static int make_simple(work *w, const options *o, report *r)
     return 1;
 }
 
-/* A line of a file of cameras: 1, 0 where it is none, -1 where it is empty. */
+/* Reads a line of a file of cameras. Returns 1, 0 if it is malformed, -1 if it is empty. */
 static int read_camera(lmb_view *v, const char *line, const work *w, int32_t size)
 {
     double f[7];
@@ -262,7 +262,8 @@ static void tell(const work *w, const options *o, const relief_coverage *c)
            100.0 * c->slanted);
 }
 
-/* The shortest processor time of a few pictures, s; the last of them stays. < 0: `r` is set. */
+/* Draws a picture a few times. Returns the shortest processor time, s; `out` holds the last picture. < 0: `r` is
+ * set. */
 static double shoot(relief_frame *out, const relief_shot *shot, report *r)
 {
     double shortest = 1e30;
@@ -281,7 +282,8 @@ static double shoot(relief_frame *out, const relief_shot *shot, report *r)
 
 static double mesh_bytes(const triangle_mesh *m) { return 20.0 * m->vertex_count + 12.0 * m->triangle_count; }
 
-/* Is the relief worth it? One picture between its views, beside its model's own triangles. */
+/* Reports whether the relief is worthwhile: draws a picture from between the views, and one with the model's
+ * triangles. */
 static int tell_worth(const work *w, report *r)
 {
     enum { SIDE = 512 };
@@ -291,7 +293,7 @@ static int tell_worth(const work *w, report *r)
     relief_frame by_relief, by_mesh;
     memset(&shot, 0, sizeof shot);
     if (lmb_relief_open(&relief, w->file.data, w->file.size) != LMB_OK) {
-        return 1; /* it has more views than this build draws */
+        return 1; /* more views than this build draws */
     }
     shot.kernels = lmb_kernels_pick();
     shot.view = relief_fit(&w->mesh, (lmb_vec3){0.53f, 0.37f, 0.7628236f}, SIDE);
@@ -337,7 +339,7 @@ static int bake(work *w, const options *o, report *r)
     if (!o->is_quiet) {
         tell(w, o, &coverage);
     }
-    report unmeasured = {""}; /* the file is written: what follows only informs */
+    report unmeasured = {""}; /* the file is written; errors from here on are ignored */
     return o->is_quiet || tell_worth(w, &unmeasured) || 1;
 }
 

@@ -1,4 +1,4 @@
-/* relight_contact.c: the ground's light that objects take, and by vertex the light that reaches it, from what they hide. */
+/* relight_contact.c: the light that objects block from the ground, and by vertex the light that reaches them. */
 #include "relight_contact.h"
 
 #include <math.h>
@@ -7,8 +7,8 @@
 
 #include "../common/progress.h"
 
-#define FAR 0.05f  /* a figure's radius over its distance, from which on others count */
-#define SAME 0.9976f /* cosine of 4 degrees, between parts of one small light: the map's texels take 2.8 */
+#define FAR 0.05f  /* minimum radius / distance of another figure that can block light */
+#define SAME 0.9976f /* cosine of 4 degrees, between parts of one small light: a texel of the map covers 2.8 */
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
@@ -23,7 +23,7 @@ static void add_light(far_lights *f, lmb_vec3 to, const float rgb[3])
 
 static float light_of(const float rgb[3]) { return rgb[0] + rgb[1] + rgb[2]; }
 
-/* A small light falls into up to four texels of the map, which are peaks of their own then: it throws one shadow. */
+/* A small light can cover up to four texels of the map, each of which is a peak. They are merged to cast one shadow. */
 static void add_peaks(far_lights *f, const lmb_probe_lights *l)
 {
     for (int32_t i = 0; i < l->peaks; ++i) {
@@ -79,9 +79,9 @@ void contact_ground_left(float out[3], const contact *c, float x, float z)
 
 /* --- vertices ----------------------------------------------------------------------------------------------------- */
 
-/* 64 of a figure's samples, from its foot. */
+/* 64 samples of a figure, relative to the foot. */
 typedef struct vertices {
-    lmb_tile tile; /* their places and normals */
+    lmb_tile tile; /* positions and normals */
     lmb_vec3 middle;
     float radius;
     uint64_t all;
@@ -112,7 +112,7 @@ static void take_vertices(vertices *v, const hidden_part *p, uint32_t first)
     v->all = count < LMB_TILE_PIXELS ? ((uint64_t)1 << count) - 1 : ~(uint64_t)0;
 }
 
-/* Which of them another figure may hide from a light, by spheres around them and it. */
+/* Can another figure hide a light from any of them? Tests bounding spheres. */
 static int may_hide(const contact *c, const vertices *v, uint32_t other, lmb_vec3 to)
 {
     const lmb_vec3 a = c->foot[other], b = c->foot[v->figure], m = c->hidden.middle;
@@ -121,7 +121,7 @@ static int may_hide(const contact *c, const vertices *v, uint32_t other, lmb_vec
     return c->hidden.radius * c->hidden.radius > FAR * FAR * far2 && (far2 <= wide * wide || (along > 0.0f && far2 - along * along < wide * wide));
 }
 
-/* The figure itself and the others are one object at several places: so is where its rays begin. */
+/* All figures are copies of one object, so the origins of rays are moved instead of the figure. */
 static uint64_t seen_from(contact *c, const relight_options *o, const vertices *v, uint32_t other, uint64_t pixels,
                           lmb_vec3 to)
 {
@@ -148,7 +148,7 @@ static uint64_t blocked_of(contact *c, const relight_options *o, const vertices 
     return blocked & faces;
 }
 
-/* Light from below is the ground's, where that is dark. */
+/* The share of light left in a direction from below, which comes from the ground. */
 static void ground_of(float left[3], const contact *c, const vertices *v, int k, lmb_vec3 to)
 {
     const lmb_vec3 foot = c->foot[v->figure];
@@ -188,7 +188,7 @@ static void add_light_of(float all[LMB_TILE_PIXELS][3], float left[LMB_TILE_PIXE
     }
 }
 
-/* What is left of the light of 64 samples from `first` on. */
+/* Computes the share of light left at 64 samples from `first` on. */
 static void shade_samples(float (*share)[3], contact *c, const relight_options *o, const hidden_part *p,
                           uint32_t figure, uint32_t first)
 {
@@ -257,7 +257,7 @@ static int take_meshes(contact *c)
     return ok;
 }
 
-/* Of the triangles that throw shadows. */
+/* Sets the regions of the shadow casters' triangles. */
 static int take_regions(contact *c)
 {
     hidden_proxy *x = &c->hidden.proxy;
@@ -299,7 +299,7 @@ static int take_contact(contact *c, const figures *f, const relight_options *o, 
 typedef struct ground_below {
     const contact_ground *ground;
     lmb_vec3 foot;
-    float height; /* of the foot over it, m */
+    float height; /* of the foot over the ground, m */
 } ground_below;
 
 static void left_below(float left[3], const void *user, lmb_vec3 at, lmb_vec3 to)
@@ -315,8 +315,8 @@ static void shade_map(contact *c, uint32_t figure, int map)
                  c->reflected);
 }
 
-/* What the object reflects onto the ground is of the ground's light, too, as that is without it: the wide map is enough
- * for that. */
+/* Lights a figure in two passes. Light that the object reflects onto the ground includes light from the ground, so
+ * regions are lit again with the wide ground map, which is enough for that. */
 static int light_figure(contact *c, figures *f, uint32_t i, relight_light *w, const relight_options *o)
 {
     const float height = c->foot[i].y - c->ground_y;
@@ -359,7 +359,7 @@ static int work(contact *c, figures *f, relight_light *w, const relight_options 
     return ok;
 }
 
-/* The figures' scene as the file has it. */
+/* Restores the figures' scene as loaded. */
 static void show_plain(figures *f)
 {
     for (uint32_t i = 0; i < f->count * f->parts; ++i) {

@@ -1,4 +1,4 @@
-/* relight_draw.c: objects drawn in a world's light: their cubes by the cache's word, then picture by picture. */
+/* relight_draw.c: draws objects in a world's light, with cubes from a cache. */
 #include "relight_draw.h"
 
 #include <math.h>
@@ -17,12 +17,12 @@
 
 enum { SHADOW_MAP = 2048 };
 
-/* The cubes of one of the cache's slots. */
+/* The cubes of one slot of the cache. */
 typedef struct slot_cubes {
     void *irradiance, *glossy[RELIGHT_GLOSSY_CUBES];
     float *planes, *glossy_planes[RELIGHT_GLOSSY_CUBES]; /* the same, if a path blends them */
-    lmb_vec3 place; /* whose light it is */
-    int is_known[RELIGHT_GLOSSY_CUBES]; /* for the place that the slot stands for */
+    lmb_vec3 place; /* the place of the light */
+    int is_known[RELIGHT_GLOSSY_CUBES]; /* valid for the slot's place */
 } slot_cubes;
 
 typedef struct stage {
@@ -42,14 +42,14 @@ typedef struct stage {
     void *map_memory[RELIGHT_LIGHTS], *depth_memory, *id_memory;
     lmb_relight relight;
     contact contact;
-    ground_lights ground; /* by given lights */
+    ground_lights ground; /* for given lights */
     lmb_relight_scratch *scratch; /* by thread */
     int threads;
     binned bins;
     lmb_surface out;
     lmb_status failed[POOL_MAX]; /* by thread */
     image picture;
-    float *one;       /* a sample of each pixel, where there are several */
+    float *one;       /* one sample of each pixel, if there are several */
     float *rows;      /* by thread: eight rows of the picture */
     int32_t samples;
     double done, all; /* places of the path */
@@ -76,7 +76,7 @@ static int keep_planes(float **to, const float *from, int32_t side, report *r)
     return 1;
 }
 
-/* A slot's irradiance, for a new place: what was mirrored at the old one is void. */
+/* Computes a slot's irradiance for a new place; glossy cubes of the old place become invalid. */
 static int light_slot(stage *s, int32_t slot, lmb_vec3 at, report *r)
 {
     slot_cubes *c = &s->cubes[slot];
@@ -119,7 +119,7 @@ static int mirror_slot(stage *s, int32_t slot, int32_t glossy, report *r)
                                bytes) == LMB_OK;
 }
 
-/* What an owner shows of its slot's cubes. */
+/* Blends a slot's cubes for an owner. */
 static int show_way(stage *s, uint32_t owner, int32_t slot, uint16_t glossy, report *r)
 {
     way *w = &s->ways[owner];
@@ -130,7 +130,7 @@ static int show_way(stage *s, uint32_t owner, int32_t slot, uint16_t glossy, rep
            (n == 0 || way_show(&p->glossy, &s->step, &w->glossy[glossy], w, c->glossy_planes[glossy], n, r));
 }
 
-/* Light is computed where the owner will be when it has been blended in. */
+/* Computes the light for the place at which the owner will be when it is blended in. */
 static int light_owner(stage *s, lmb_probe_answer *answer, uint32_t owner, uint32_t frame, report *r)
 {
     const float radius = s->o->policy.radius_m;
@@ -149,7 +149,7 @@ static int light_owner(stage *s, lmb_probe_answer *answer, uint32_t owner, uint3
     return !answer->compute || light_slot(s, answer->slot, place, r);
 }
 
-/* All owners' cubes for one picture. */
+/* Updates the cubes of all owners for one picture. */
 static int light_figures(stage *s, uint32_t frame, report *r)
 {
     figures *f = &s->figures;
@@ -211,7 +211,7 @@ static void draw_band(void *user, int band, int thread)
     }
 }
 
-/* One sample of each pixel into `pixels`. */
+/* Draws one sample of each pixel into `pixels`. */
 static lmb_status draw_sample(stage *s, float *pixels)
 {
     lmb_relight *l = &s->relight;
@@ -235,7 +235,7 @@ static lmb_status draw_sample(stage *s, float *pixels)
     return status;
 }
 
-/* Pictures of one path may move the figure: what it takes goes with it. */
+/* Updates contact and ground lights, because a path may move the figure. */
 static int touch(stage *s, report *r)
 {
     return ground_lights_take(&s->ground, &s->figures, s->light, s->o, r) &&
@@ -263,7 +263,7 @@ static int draw(stage *s, report *r)
     return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", s->o->object, lmb_status_name(status));
 }
 
-/* The first picture's exposure is that of all. */
+/* Writes a picture. All pictures use the exposure of the first. */
 static int write(stage *s, const char *path, report *r)
 {
     if (s->o->into != NULL) {
@@ -287,19 +287,19 @@ static int draw_place(void *user, int32_t i, const char *name, report *r)
            place_tell(&s->path, i, name, s->cache.kept - kept == s->figures.owners);
 }
 
-/* --- before the first --------------------------------------------------------------------------------------------- */
+/* --- before the first picture ------------------------------------------------------------------------------------- */
 
 static int take_cache(stage *s, report *r)
 {
     const relight_options *o = s->o;
-    const figures *f = &s->figures; /* before any stands */
+    const figures *f = &s->figures; /* not placed yet */
     const uint32_t kept = (uint32_t)o->keep_count * figures_owners_each(f);
     if (f->owners + kept > LMB_MAX_PROBES ||
         lmb_probe_cache_init(&s->cache, LMB_MAX_PROBES, &o->policy) != LMB_OK) {
         return report_fail(r, "%u objects or parts and %u of --keep are over the %d places this build keeps",
                            (unsigned)f->owners, (unsigned)kept, LMB_MAX_PROBES);
     }
-    /* A place is where the object stands; its light, and its parts', is that of their middles. */
+    /* --keep names places of the object's foot; light is stored for the middles of the object or of the parts there. */
     for (uint32_t i = 0; i < kept; ++i) {
         const uint32_t each = figures_owners_each(f);
         if (lmb_probe_cache_name(&s->cache, figures_middle_at(&s->figures, i % each, o->keep[i / each])) < 0) {
@@ -321,7 +321,7 @@ static int take_cache(stage *s, report *r)
     return s->probes != NULL && s->probe_of != NULL && s->planes != NULL && s->scratch != NULL;
 }
 
-/* The box of all places of a path, for a camera that sees them all. */
+/* The box of all places of a path, for a camera that shows them all. */
 static void frame_path(stage *s)
 {
     lmb_vec3 low = {1e30f, 1e30f, 1e30f}, high = {-1e30f, -1e30f, -1e30f};

@@ -1,4 +1,4 @@
-/* relight_export.c: lobes by roughness, harmonics, a table of lobes and maps of directions, for other programs. */
+/* relight_export.c: lobes by roughness, harmonics, a table of lobes and direction maps, for other programs. */
 #include "relight_export.h"
 
 #include <math.h>
@@ -15,13 +15,13 @@
 #include "../picture/picture.h"
 
 #define PI   3.14159265f
-#define WIDE 0.3f /* roughness: over 8 pixels of the map, 3 degrees each */
+#define WIDE 0.3f /* roughness: lobes wider than 8 pixels of the map, 3 degrees each */
 
 enum { LEVELS = 6, LEAST_SIDE = 8, DFG_SIDE = 128, DFG_SAMPLES = 512, HARMONICS = 9 };
 
 /* --- lobes -------------------------------------------------------------------------------------------------------- */
 
-/* One cube of a wide lobe: each texel is a sum over the whole map. */
+/* One cube of a wide lobe: each texel sums over the whole map. */
 typedef struct wide_lobe {
     const float *map;
     const lmb_probe_table *table;
@@ -38,7 +38,7 @@ static lmb_vec3 texel_direction(int32_t n, int32_t i)
     return (lmb_vec3){d.x * per, d.y * per, d.z * per};
 }
 
-/* The lobe seen from straight above: GGX and its Smith shadowing at the half vector. */
+/* The lobe seen along the normal: GGX with Smith masking at the half vector. */
 static float lobe_weight(float cosine, float a2)
 {
     const float d = 0.5f * (1.0f + cosine) * (a2 - 1.0f) + 1.0f;
@@ -72,7 +72,7 @@ static void wide_job(void *user, int row, int thread)
     }
 }
 
-/* A narrow lobe takes few rays; a wide one would miss lamps by them. */
+/* Narrow lobes are sampled with a few rays; with these, wide lobes would miss lamps. */
 static int see_lobe(float *planes, relight_light *w, const relight_options *o, lmb_vec3 at, lmb_probe_rays *rays, float roughness,
                     int32_t side)
 {
@@ -87,7 +87,7 @@ static int see_lobe(float *planes, relight_light *w, const relight_options *o, l
     return 1;
 }
 
-/* Roughness 0 .. 1 in LEVELS steps, a cube each, of half the side as the step before. */
+/* Writes one cube for each of LEVELS roughness values from 0 to 1; each cube has half the side of the previous one. */
 static int write_lobes(relight_light *w, const relight_options *o, lmb_vec3 at, report *r)
 {
     float *planes = malloc(18 * (size_t)o->side * (size_t)o->side * sizeof *planes);
@@ -149,7 +149,8 @@ static void add_list(text_buffer *b, const char *name, double (*sum)[3], const d
     text_buffer_plain(b, "\n  ]");
 }
 
-/* Radiance, as a LightProbe of three.js; and irradiance, which is the sum of these by the same functions of a normal. */
+/* Writes radiance, as a LightProbe of three.js, and irradiance, which is the sum over the same functions of a
+ * normal. */
 static int write_harmonics(const relight_light *w, const relight_options *o, report *r)
 {
     static const double one[3] = {1.0, 1.0, 1.0}, cosine[3] = {3.141592653589793, 2.094395102393195, 0.7853981633974483};
@@ -179,7 +180,7 @@ static float reversed(uint32_t i)
     return (float)v * 2.3283064e-10f;
 }
 
-/* A half vector that the viewer sees, by its share of what is seen: Heitz 2018. x lies towards the viewer. */
+/* Samples a half vector from the visible normals (Heitz 2018). x points towards the viewer. */
 static lmb_vec3 half_vector(float facing, float alpha, float u, float turn)
 {
     const float wide = alpha * sqrtf(fmaxf(1.0f - facing * facing, 0.0f)), per = 1.0f / sqrtf(wide * wide + facing * facing);
@@ -191,7 +192,7 @@ static lmb_vec3 half_vector(float facing, float alpha, float u, float turn)
     return (lmb_vec3){n.x * length, n.y * length, n.z * length};
 }
 
-/* GGX with height-correlated Smith: what a lobe reflects of white light from everywhere is F0 out[0] + out[1]. */
+/* GGX with height-correlated Smith: the reflected share of uniform white light is F0 out[0] + out[1]. */
 static void reflect_white(float out[2], float facing, float roughness)
 {
     const float alpha = fmaxf(roughness * roughness, LMB_MIN_ALPHA), a2 = alpha * alpha;
@@ -231,7 +232,7 @@ static int write_dfg(const relight_options *o, report *r)
 
 /* --- maps of directions ------------------------------------------------------------------------------------------- */
 
-/* A table of any height and start, or of the directions of a picture. */
+/* A table of any height and start, or with the directions of a picture. */
 typedef struct own_table {
     lmb_probe_table table;
     void *memory;
@@ -256,7 +257,7 @@ static int make_table(own_table *t, int32_t height, float start, report *r)
            report_fail(r, "--map: out of memory");
 }
 
-/* Each pixel's vector, of any length but 0, is where that pixel of the map looks. */
+/* Sets the directions of the map's pixels to a picture's vectors, of any length but 0. */
 static int take_vectors(lmb_probe_table *t, const image *from, const char *path, report *r)
 {
     const size_t count = (size_t)t->width * (size_t)t->height;
@@ -266,7 +267,7 @@ static int take_vectors(lmb_probe_table *t, const image *from, const char *path,
             return report_fail(r, "%s: pixel %u,%u is no direction", path, (unsigned)(i % (size_t)t->width),
                                (unsigned)(i / (size_t)t->width));
         }
-        const float per = fabsf(length - 1.0f) > 1e-4f ? 1.0f / length : 1.0f; /* codes that were saved come back */
+        const float per = fabsf(length - 1.0f) > 1e-4f ? 1.0f / length : 1.0f; /* keeps unit codes that were saved */
         for (size_t c = 0; c < 3; ++c) {
             t->direction[c * count + i] = (uint16_t)fminf(fmaxf(v[c] * per, -1.0f) * 32767.5f + 32768.0f, 65535.0f);
         }
@@ -305,7 +306,7 @@ static int save_vectors(own_table *t, const relight_options *o, report *r)
     return relight_write_planes(o->vectors_out, t->map, t->table.width, t->table.height, r);
 }
 
-/* A map finer than the one that light is gathered by shows the world itself, by way of a cube of it. */
+/* Renders a map finer than the gathered one from a cube of the world. */
 static int see_fine(own_table *t, relight_light *w, const relight_options *o, lmb_vec3 at, report *r)
 {
     const int32_t n = o->worlds > 1 ? RELIGHT_MAX_FACES : t->table.height > 128 ? 256 : 128;

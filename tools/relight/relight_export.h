@@ -4,11 +4,12 @@
 
 #include "relight_light.h"
 
-/* relight_exports: does `o` ask for such a file? relight_export_check: do the options go together? 1, or 0 with `r` set. */
+/* relight_exports: does `o` request such a file? relight_export_check: are the options consistent? Returns 1, or 0 with
+ * `r` set. */
 int relight_exports(const relight_options *o);
 int relight_export_check(const relight_options *o, report *r);
 
-/* relight_export: all such files of one place. 1, or 0 with `r` set. */
+/* relight_export: writes all such files for one place. Returns 1, or 0 with `r` set. */
 int relight_export(relight_light *w, const relight_options *o, lmb_vec3 at, report *r);
 
 #endif

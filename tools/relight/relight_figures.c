@@ -1,4 +1,4 @@
-/* relight_figures.c: an object's copies at their places, as a scene. */
+/* relight_figures.c: copies of an object at several places, as a scene. */
 #include "relight_figures.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define PLAIN_F0 0.04f       /* of glass, plastic, skin */
-#define PLAIN_ROUGHNESS 0.4f /* where the file says nothing */
+#define PLAIN_ROUGHNESS 0.4f /* default */
 
 /* --- materials ---------------------------------------------------------------------------------------------------- */
 
@@ -85,7 +85,7 @@ uint32_t figures_owner(const figures *f, uint32_t instance)
     return object;
 }
 
-/* Of the box of what the owner is made of. */
+/* The middle of the box of all instances of the owner. */
 lmb_vec3 figures_middle(const figures *f, uint32_t owner)
 {
     lmb_scene own = f->scene;

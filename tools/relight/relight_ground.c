@@ -1,12 +1,12 @@
-/* relight_ground.c: the light that an object takes from the ground around it, and what it reflects there instead. */
+/* relight_ground.c: the light that an object blocks from the ground, and the light it reflects there instead. */
 #include "relight_ground.h"
 
 #include <math.h>
 #include <string.h>
 
-#define FADE 0.2f /* of a map's half side: so far from its edges it ends */
+#define FADE 0.2f /* of a map's half side: the width of the fade at the edges */
 
-/* What the ground lacks by one light along some runs; `angle`: of the light, sr; `part` of it. */
+/* Adds the loss along some runs of one light with solid angle `angle`, sr; `part` of it. */
 static void darken_runs(ground_map *g, const far_light *l, float (*reflected)[3], float angle, const hidden_run *run,
                         uint32_t count, float part)
 {
@@ -25,10 +25,10 @@ static void darken_runs(ground_map *g, const far_light *l, float (*reflected)[3]
     }
 }
 
-/* 1 but near the edge of a map; u and v from its middle, in its half sides. */
+/* 1, falling to 0 near the edge of a map; u and v are relative to the middle, in half sides. */
 static float fade_of(float u, float v) { return fminf(fmaxf((1.0f - fmaxf(fabsf(u), fabsf(v))) / FADE, 0.0f), 1.0f); }
 
-/* A map of which all ends where what is far off would end at once. */
+/* Turns losses into shares left. The loss fades out at the edges of the map instead of ending abruptly. */
 static void turn_to_left(ground_map *g, const float all[3], int fades)
 {
     for (int32_t i = 0; i < HIDDEN_SIDE * HIDDEN_SIDE; ++i) {
@@ -45,7 +45,7 @@ int ground_throw(peak_runs *p, int map, hidden *h, const far_lights *f, const re
     p->runs.count = 0;
     for (int32_t i = LMB_PROBE_TEXELS; i < f->count; ++i) {
         p->first[i - LMB_PROBE_TEXELS] = p->runs.count;
-        for (int ray = 0; ray < HIDDEN_RAYS && f->light[i].to.y >= HIDDEN_LOWEST; ray += HIDDEN_RAYS - 1) { /* two of them, across */
+        for (int ray = 0; ray < HIDDEN_RAYS && f->light[i].to.y >= HIDDEN_LOWEST; ray += HIDDEN_RAYS - 1) { /* 0, 3 */
             if (!hidden_shadow(h, map, &p->runs, o, f->light[i].to, ray)) {
                 return 0;
             }
@@ -55,8 +55,8 @@ int ground_throw(peak_runs *p, int map, hidden *h, const far_lights *f, const re
     return 1;
 }
 
-/* W/m2 that the ground receives where nothing stands, by lights that throw shadows on it: from above, and no less than it
- * sends up by the same slopes, as it reflects no more. */
+/* Takes light from above, but at least the light that the ground sends up at the same slopes, because it cannot reflect
+ * more than it receives. */
 void ground_light(float out[3], const far_lights *f)
 {
     float from_above[3] = {1e-30f, 1e-30f, 1e-30f}, sent_up[3] = {0.0f, 0.0f, 0.0f};
@@ -96,7 +96,7 @@ void ground_shade(ground_map *g, const hidden_map *m, const peak_runs *peaks, lm
     turn_to_left(g, all, m->fades);
 }
 
-/* 0: beside the map. */
+/* Returns 0 outside the map. */
 static int look_at(float out[3], float *fade, const ground_map *g, float x, float z)
 {
     const float u = (x - g->x) * g->per_x - 0.5f, v = (z - g->z) * g->per_z - 0.5f;

@@ -1,4 +1,4 @@
-/* relight_hidden.c: what an object hides from its own vertices, by rays, and from the ground, by its projections. */
+/* relight_hidden.c: an object's self-occlusion, by rays, and its occlusion of the ground, by projection. */
 #include "relight_hidden.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@
 #include "../common/progress.h"
 #include "relight_samples.h"
 
-static const float reach[HIDDEN_MAPS] = {2.5f, 0.25f}; /* of a figure's height: how far around it the ground is looked at */
-#define LIFT 0.005f /* of a figure's height: off its surface, as a smooth one's facets lie below it */
+static const float reach[HIDDEN_MAPS] = {2.5f, 0.25f}; /* of a figure's height: the width of the ground map around it */
+#define LIFT 0.005f /* of a figure's height: offset from the surface, because facets of a smooth surface lie below it */
 #define NEAR_M 0.5f
 
 static void bounds_of(lmb_vec3 *low, lmb_vec3 *high, const figures *f, uint32_t figure)
@@ -56,7 +56,7 @@ static lmb_vec3 position_of(const lmb_mesh *m, uint32_t vertex)
                       m->position_scale.z * p[2] + m->position_offset.z};
 }
 
-/* Corners of a flat mesh become its vertices. */
+/* Splits a flat-shaded mesh into separate vertices per corner. */
 static int take_mesh(hidden_part *out, const lmb_mesh *from)
 {
     static const size_t position_bytes[] = {12, 8}, uv_bytes[] = {8, 4};
@@ -109,7 +109,7 @@ static void set_vertices(hidden_part *p, const lmb_mat4 *to_world, float lift)
     }
 }
 
-/* --- sights ------------------------------------------------------------------------------------------------------- */
+/* --- visibility --------------------------------------------------------------------------------------------------- */
 
 void hidden_bound(lmb_traversal *t)
 {
@@ -129,7 +129,7 @@ uint32_t hidden_coarse(const hidden *h)
     return sum;
 }
 
-/* 64 samples by all directions. */
+/* Tests 64 samples in all directions. */
 static void look_around(lmb_traversal *traversal, const hidden *h, hidden_part *p, const relight_options *o,
                         const float *directions, uint32_t first)
 {
@@ -166,7 +166,7 @@ static void look_around(lmb_traversal *traversal, const hidden *h, hidden_part *
     }
 }
 
-/* All tiles of one part, by any threads. */
+/* Tiles of one part, for any thread. */
 typedef struct looking {
     hidden *h;
     hidden_part *p;
@@ -214,7 +214,7 @@ static int take_part(hidden *h, hidden_part *p, const figures *f, const lmb_inst
     return 1;
 }
 
-/* The proxy throws the shadows, but for an object with holes. */
+/* The proxy casts the shadows, unless the object has alpha holes. */
 static void choose_thrown(hidden *h)
 {
     hidden_proxy *x = &h->proxy;
@@ -265,7 +265,7 @@ static int take_hands(hidden *h, int threads)
     return ok;
 }
 
-/* The first figure, its foot at 0, 0, 0. */
+/* Takes the first figure, with the foot at 0, 0, 0. */
 static int take_object(hidden *h, const figures *f)
 {
     const lmb_vec3 foot = hidden_foot(f, 0);
@@ -338,7 +338,7 @@ static int add_run(hidden_runs *r, hidden_run run)
     return 1;
 }
 
-/* From below, so that what is lowest hides the rest; a ray's texels are moved by a quarter each way. */
+/* A view from below, so that the lowest surface is in front. The texels of a ray are offset by a quarter each way. */
 static void look_up(lmb_view *v, const hidden_map *m, float height, int ray)
 {
     memset(v, 0, sizeof *v);
@@ -355,7 +355,7 @@ static void look_up(lmb_view *v, const hidden_map *m, float height, int ray)
     v->frame_width = v->frame_height = HIDDEN_SIDE;
 }
 
-/* The object projected onto the ground along a light: moved sideways by height. */
+/* Projects the object onto the ground along a light by a shear. */
 static void shear(lmb_instance *sheared, const hidden *h, lmb_vec3 to)
 {
     uint32_t id = 1;
@@ -372,7 +372,7 @@ static void shear(lmb_instance *sheared, const hidden *h, lmb_vec3 to)
     }
 }
 
-/* A row of the ids' surface, by region; -1: open. */
+/* Reads a row of ids as regions; -1: open. */
 static int take_row(int16_t region[HIDDEN_SIDE], const hidden *h, const hidden_hand *hand, int32_t y)
 {
     const uint32_t *ids = (const uint32_t *)hand->id.data + y / LMB_TILE * (HIDDEN_SIDE / LMB_TILE) * LMB_TILE_PIXELS + y % LMB_TILE * LMB_TILE;
@@ -385,7 +385,7 @@ static int take_row(int16_t region[HIDDEN_SIDE], const hidden *h, const hidden_h
     return any != 0;
 }
 
-/* Rows of the surface run from the far side, as it is seen from below. */
+/* Rows of the surface start at the far side, because the view is from below. */
 static int add_rows(const hidden *h, const hidden_hand *hand, hidden_runs *runs)
 {
     int16_t region[HIDDEN_SIDE];
@@ -436,7 +436,7 @@ static lmb_vec3 ray_of(int32_t i, int ray)
     return unit_of(to[i / (N * N)]);
 }
 
-/* A map's shadows by any threads: where each one's runs are. */
+/* A map's shadows, drawn by any thread, and the position of each one's runs. */
 typedef struct filling {
     hidden *h;
     const relight_options *o;
@@ -452,7 +452,7 @@ static void fill_job(void *user, int i, int thread)
     filling *f = user;
     hidden_hand *hand = &f->h->hand[thread];
     const lmb_vec3 to = ray_of(i / HIDDEN_RAYS, i % HIDDEN_RAYS);
-    const int is_cast = f->map == 0 || i % HIDDEN_RAYS % (HIDDEN_RAYS - 1) == 0; /* near: two of them, across */
+    const int is_cast = f->map == 0 || i % HIDDEN_RAYS % (HIDDEN_RAYS - 1) == 0; /* close map: two of them, diagonal */
     f->of[i].thread = thread;
     f->of[i].first = hand->runs.count;
     if (is_cast && to.y >= HIDDEN_LOWEST && !hand->failed) {
@@ -464,7 +464,7 @@ static void fill_job(void *user, int i, int thread)
     }
 }
 
-/* The threads' runs in the order of the rays. */
+/* Joins the threads' runs in the order of the rays. */
 static int join_runs(hidden_map *m, const filling *f)
 {
     uint32_t all = 0;

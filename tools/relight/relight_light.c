@@ -1,4 +1,4 @@
-/* relight_light.c: a world, and the light at its places by any filter. */
+/* relight_light.c: a world, and the light at places in it by any filter. */
 #include "relight_light.h"
 
 #include <stdlib.h>
@@ -7,11 +7,11 @@
 #include "../demo/demo_field.h"
 #include "../picture/picture.h"
 
-#define DARK 0.1 /* of a world: over this is reported */
+#define DARK 0.1 /* share of a world's area above which black texels are reported */
 
 /* --- once --------------------------------------------------------------------------------------------------------- */
 
-/* How much of the sphere is black, blank or missing; by texels. */
+/* The share of black, blank or missing texels. */
 static double dark_share(const lmb_world_pictures *p)
 {
     const size_t texels = (size_t)p->face_size * (size_t)p->face_size;
@@ -25,7 +25,7 @@ static double dark_share(const lmb_world_pictures *p)
     return (double)dark / (6.0 * (double)texels);
 }
 
-/* Its pictures are not read again: all worlds share the room for one's. */
+/* Reads a world. All worlds share the memory for the pictures of one. */
 static int make_world(relight_light *w, relight_options *o, int32_t i, report *r)
 {
     const char *name = o->world[i];
@@ -42,7 +42,7 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
     if (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r)) {
         return 0;
     }
-    world_tell_not_finite(&w->pictures, o->ground, o->view.is_quiet || i > 0); /* all have the same */
+    world_tell_not_finite(&w->pictures, o->ground, o->view.is_quiet || i > 0); /* all have the same ground */
     const size_t bytes = lmb_world_bytes(&o->place, o->format);
     if ((w->world_memory[i] = malloc(bytes)) == NULL) {
         return report_fail(r, "%s: out of memory", name);

@@ -1,10 +1,10 @@
-/* relight_lobes.c: bands of a picture with the ground that objects darken, which lobes mirror, as they do the object. */
+/* relight_lobes.c: bands of a picture with the ground that objects darken and with lobes that reflect both. */
 #include "relight_contact.h"
 
 #include <math.h>
 #include <string.h>
 
-/* The part of the world that sample i of a part sees of a direction, between its four nearest of the reduced cube. */
+/* The unoccluded share of a direction at sample i of a part, interpolated between the four nearest directions. */
 static float sample_open(const hidden_part *p, uint32_t i, const uint16_t at[4], const float weight[4])
 {
     const uint64_t *blocked = p->blocked[i / LMB_TILE_PIXELS];
@@ -15,7 +15,7 @@ static float sample_open(const hidden_part *p, uint32_t i, const uint16_t at[4],
     return open;
 }
 
-/* That of a vertex, and of all directions. */
+/* The same at a vertex, for one direction and for uniform light. */
 static void vertex_open(float *mirrored, float *all, const hidden_part *p, uint32_t vertex, const uint16_t at[4],
                         const float weight[4])
 {
@@ -30,7 +30,7 @@ static void vertex_open(float *mirrored, float *all, const hidden_part *p, uint3
     }
 }
 
-/* Shares of a triangle's corners in a place on it. */
+/* Barycentric coordinates of a point on a triangle. */
 static void corner_shares(float out[3], const lmb_vec3 p[3], lmb_vec3 at)
 {
     const lmb_vec3 a = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z}, b = {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z},
@@ -43,7 +43,7 @@ static void corner_shares(float out[3], const lmb_vec3 p[3], lmb_vec3 at)
     out[2] = t;
 }
 
-/* Of pixel k's mirror direction; by all directions the more, the rougher it is. */
+/* The unoccluded share of pixel k's mirror direction, blended with that of uniform light by roughness. */
 static float pixel_open(const contact *c, const figures *f, const lmb_tile *tile, int k, const lmb_instance *in,
                         const uint16_t near[4], const float weight[4], float alpha)
 {
@@ -68,7 +68,7 @@ static float pixel_open(const contact *c, const figures *f, const lmb_tile *tile
     return mirrored + alpha * (all - mirrored);
 }
 
-/* The direction in which a mirror would look. */
+/* The mirror direction. */
 static lmb_vec3 mirrored_at(const lmb_tile *tile, const lmb_glossy *glossy, int k)
 {
     const lmb_vec3 n = {tile->normal[0][k], tile->normal[1][k], tile->normal[2][k]},
@@ -99,7 +99,7 @@ static void darken_lobe(float rgb[3], const contact *c, const figures *f, const 
     }
 }
 
-/* The band's lobes onto its pixels: `rows` has them in the world as it is. */
+/* Adds a band's lobes to the picture; `rows` has them without occlusion. */
 static void add_lobes(const contact *c, const figures *f, const lmb_relight *r, lmb_relight_scratch *s,
                       const float *rows, const lmb_surface *out, int32_t x0, int32_t y0)
 {
@@ -132,7 +132,7 @@ static lmb_status lobes_of_band(const contact *c, const figures *f, const lmb_re
     glossy.show = LMB_RELIGHT_GLOSSY;
     lmb_status status = lmb_relight_band(&glossy, s, &eight, band);
     if (r->show == LMB_RELIGHT_GLOSSY && status == LMB_OK) {
-        status = lmb_relight_band(&glossy, s, out, band); /* with what is behind */
+        status = lmb_relight_band(&glossy, s, out, band); /* including the background */
     }
     for (int32_t x = 0; x < out->width && status == LMB_OK; x += LMB_TILE) {
         status = lmb_resolve_tile(&s->tile, r->kernels, &r->view, r->scene, &r->eye, x, band * LMB_TILE);

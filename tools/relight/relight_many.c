@@ -1,11 +1,11 @@
-/* relight_many.c: several objects as one scene, each where it stands. */
+/* relight_many.c: several objects as one scene, each in place. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "relight_figures.h"
 
-/* Room for the arrays of all objects. */
+/* Allocates the arrays of all objects. */
 static int take_arrays(figures *f, uint32_t objects)
 {
     uint32_t meshes = 1, materials = 1, textures = 1, instances = 1;
@@ -25,7 +25,7 @@ static int take_arrays(figures *f, uint32_t objects)
            f->joined.instances != NULL && f->joined.has_lobe != NULL;
 }
 
-/* One more object's arrays behind those so far, its instances where they stand. */
+/* Appends one object's arrays, with the instances in place. */
 static void join(figures *f, uint32_t i, float scale, lmb_vec3 at, int has_lobes)
 {
     const lmb_scene *from = &f->object[i].scene;

@@ -1,4 +1,4 @@
-/* relight_object.c: an object from its file, and where it is put. */
+/* relight_object.c: loads an object and places it. */
 #include <string.h>
 
 #include "../demo/demo_field.h"
@@ -25,7 +25,7 @@ int figures_load_model(model *out, const char *name, const relight_options *o, r
     } else if (!model_load_as(out, name, &o->choice, &notes, r)) {
         return 0;
     }
-    for (uint32_t i = 0; i < notes.count; ++i) { /* those of options that only `render` has are none of ours */
+    for (uint32_t i = 0; i < notes.count; ++i) { /* notes about options that only `render` has do not apply */
         report_note(o->view.is_quiet || strstr(notes.line[i], "--glossy") != NULL || strstr(notes.line[i], "--grouping") != NULL,
                     "note: %s", notes.line[i]);
     }

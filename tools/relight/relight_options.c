@@ -11,12 +11,12 @@
 #include "../picture/picture.h"
 #include "relight_export.h"
 
-#define PLAIN_GROUND 100.0f /* m, its sides where nothing is said */
-#define EYE_HEIGHT   1.6f   /* m: of who took a world's picture over its floor */
+#define PLAIN_GROUND 100.0f /* m, default side */
+#define EYE_HEIGHT   1.6f   /* m: default camera height over a world's floor */
 
 const char *const relight_filters[FILTERS + 1] = {"cosine", "sh9", "sh16", "sh25", "blur", "blur1", "blur2", NULL};
 
-/* --- values of their own kinds ------------------------------------------------------------------------------------ */
+/* --- parsers for single options ----------------------------------------------------------------------------------- */
 
 static int all_floats(const char *text, float *out, int count)
 {
@@ -70,36 +70,39 @@ static const option_row world_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("world")},
     {.name = "--world", .value = "FILE|PREFIX", .kind = OPTION_TEXT, AT(world), COUNTS(worlds), .times = RELIGHT_WORLDS,
      .size = sizeof(char *), .file = OPTION_READS,
-     .help = HELP("one file: six faces (+x -x +y -y +z -z from the top or the left), or the whole sphere, twice as wide "
-             "as high; or six files, PREFIXpx PREFIXnx ... PREFIXnz (.pfm .hdr .png .jpg), of which some may be "
-             "missing; or `demo`, a built-in field with places of its own. Of several the nearer ones to an object light "
-             "it more, by the square of their distance; that nearest to the eye is seen")},
+     .help = HELP("one file: six faces (+x -x +y -y +z -z from the top or the left), or the whole sphere, twice as "
+             "wide as high; or six files, PREFIXpx PREFIXnx ... PREFIXnz (.pfm .hdr .png .jpg), of which some may "
+             "be missing; or `demo`, a built-in field with its own places. If you give several, the nearer ones "
+             "light an object more, by the inverse square of the distance, and the one nearest to the eye is the "
+             "background")},
     {.name = "--world-centre", .kind = OPTION_POINT, AT(centre), COUNTS(centres), .times = RELIGHT_WORLDS,
-     .size = sizeof(lmb_vec3), .help = HELP("where it was taken (default 0,0,0); of several worlds one each, in their order")},
+     .size = sizeof(lmb_vec3), .help = HELP("the camera's position (default 0,0,0); for several worlds one each, in "
+             "the same order")},
     {.name = "--world-sphere", .value = "X,Y,Z,R", .kind = OPTION_OWN, .parse = parse_sphere,
      .expects = "X,Y,Z,R with R over 0",
-     .help = HELP("what is far lies on this sphere (default: 100 m around the centre)")},
+     .help = HELP("the distant surroundings lie on this sphere (default: 100 m around the centre)")},
     {.name = "--world-box", .value = "X0,Y0,Z0,X1,Y1,Z1", .kind = OPTION_OWN, .parse = parse_box,
      .expects = "X0,Y0,Z0,X1,Y1,Z1, the smaller ones first",
      .help = HELP("or on the walls of this box; the centre lies inside")},
     {.name = "--ground", .value = "FILE", .kind = OPTION_TEXT, AT(ground), .file = OPTION_READS,
-     .help = HELP("the ground from above, right +x, down +z; transparent where it is not known")},
+     .help = HELP("the ground from above, right +x, down +z; transparent if not known")},
     {.name = "--ground-size", .value = "W,D", .kind = OPTION_NUMBERS, AT(ground_size), .size = 2, .low = 1e-6,
      .high = 1e30, .expects = "W,D over 0",
-     .help = HELP("its sides, m (default 100,100)")},
+     .help = HELP("sides, m (default 100,100)")},
     {.name = "--ground-centre", .value = "X,Z", .kind = OPTION_NUMBERS, AT(ground_centre), .size = 2, .low = -1e30,
      .high = 1e30, COUNTS(has_ground_centre),
      .help = HELP("the picture's middle (default: the world's centre)")},
     {.name = "--ground-height", .value = "H", .kind = OPTION_NUMBER, AT(place.ground_y), .low = -1e30, .high = 1e30,
      .help = HELP("of the ground, m (default 0)")},
     {.name = "--floor", .kind = OPTION_WORD, AT(floor), .words = floors,
-     .help = HELP("on: all below the horizon of the world lies flat at --ground-height, and objects stand on it; none: it "
-             "lies as far as the rest; auto (default): on if an object is drawn in a single --world without --ground, "
-             "--world-sphere and --world-box. The world's centre is then 1.6 m above the floor by default")},
+     .help = HELP("on: everything below the world's horizon lies flat at --ground-height, and objects stand on it; "
+             "none: it lies as far away as the rest; auto (default): on if an object is drawn in a single --world "
+             "without --ground, --world-sphere and --world-box. The world's centre is then 1.6 m above the floor by "
+             "default")},
     {.name = "--storage", .kind = OPTION_WORD, AT(format), .words = storages,
-     .help = HELP("how the world is kept: floats, or log codes of 0 to 100 (default f32)")},
+     .help = HELP("how the world is stored: floats, or log codes of 0 to 100 (default f32)")},
     {.name = "--overlap", .kind = OPTION_WORD, AT(blend), .words = overlaps,
-     .help = HELP("where far world and ground both show (default nearer)")},
+     .help = HELP("if distant world and ground are both visible (default nearer)")},
     {.kind = OPTION_END},
 };
 
@@ -107,51 +110,53 @@ static const option_row light_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("light")},
     {.name = "--at", .value = "X,Y,Z", .kind = OPTION_OWN, AT(at), COUNTS(at_count), .times = RELIGHT_PLACES,
      .size = sizeof(lmb_vec3), .parse = parse_place, .expects = "X,Y,Z within 1,000,000 m",
-     .help = HELP("the place (default: the world's centre); outside the far world: the nearest in it. With --object: one "
-             "more of it each time")},
+     .help = HELP("the place (default: the world's centre). A place outside the distant world is moved to the "
+             "nearest one inside. With --object: one more copy of it each time")},
     {.name = "--filter", .kind = OPTION_WORD, AT(filter), .words = relight_filters,
-     .help = HELP("cosine: exact, from 6 x 8 x 8 directions (default); off by about 0.5 %;\nsh9, sh16, sh25: spherical "
-             "harmonics: 1 %, the same, 0.6 %; may be negative beside sharp lights;\nblur, blur1, blur2: by rows and "
-             "columns: 6 %, with one product fitted a row 4 %, with two 1.5 %, in the built-in world. Beside small lamps and "
-             "suns all blurs are off by 15 to 250 %, and harmonics by 5 %: use cosine there")},
+     .help = HELP("cosine: exact, from 6 x 8 x 8 directions (default); error about 0.5 %;\nsh9, sh16, sh25: "
+             "spherical harmonics: 1 %, the same, 0.6 %; may be negative beside sharp lights;\nblur, blur1, blur2: "
+             "by rows and columns: 6 %, with one fitted product per row 4 %, with two 1.5 %, in the built-in world. "
+             "Beside small lamps and suns all blurs are wrong by 15 to 250 %, and harmonics by 5 %: use cosine "
+             "there")},
     {.name = "--cube", .value = "OUT", .kind = OPTION_OWN, AT(cube), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = HELP("W/m2, N wide and 6 N high, faces +x -x +y -y +z -z from the top (.pfm .hdr; .png .ppm to look at; "
+     .help = HELP("W/m2, N wide and 6 N high, faces +x -x +y -y +z -z from the top (.pfm .hdr; .png .ppm to view; "
              "-, ppm:-, pfm:-, hdr:- are standard output)")},
     {.name = "--faces", .value = "N", .kind = OPTION_INT, AT(faces), .low = 1, .high = 64,
-     .help = HELP("texels of a face's side (default 8)")},
+     .help = HELP("texels per side of a face (default 8)")},
     {.name = "--map", .value = "OUT", .kind = OPTION_OWN, AT(map), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = HELP("what the place sees, longitude by latitude, north on top; W/(sr m2); files as --cube")},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page has no other programs */
+     .help = HELP("the view from the place, longitude by latitude, north on top; W/(sr m2); file formats as for "
+             "--cube")},
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page has no other programs */
     {.name = "--map-height", .value = "H", .kind = OPTION_MULTIPLE_OF_8, AT(map_height), .low = 8, .high = 512,
-     .help = HELP("its rows; it is twice as wide (default 64)")},
+     .help = HELP("rows; the map is twice as wide (default 64)")},
     {.name = "--azimuth", .value = "DEG", .kind = OPTION_NUMBER, AT(azimuth), .low = -360, .high = 360,
-     .help = HELP("the longitude of its left edge: -180 (default), -90 or 0; 0 is -z, 90 is +x")},
+     .help = HELP("the longitude of the map's left edge: -180 (default), -90 or 0; 0 is -z, 90 is +x")},
     {.name = "--vectors", .value = "FILE.pfm", .kind = OPTION_TEXT, AT(vectors_in), .file = OPTION_READS,
-     .help = HELP("a transform image: each pixel of the map looks along its vector there")},
+     .help = HELP("a transform image: the direction of each pixel of the map")},
     {.name = "--save-vectors", .value = "OUT.pfm", .kind = OPTION_OWN, AT(vectors_out), .file = OPTION_WRITES,
-     .parse = picture_option, .expects = PICTURE_OPTION_WANTS, .help = HELP("the map's own transform image")},
+     .parse = picture_option, .expects = PICTURE_OPTION_WANTS, .help = HELP("the transform image of the map")},
 #endif
     {.kind = OPTION_END},
 };
 
 static const option_row file_rows[] = {
-    {.kind = OPTION_TITLE, .help = HELP("light for other programs, as one --at has it")},
+    {.kind = OPTION_TITLE, .help = HELP("light for other programs, at one --at")},
 #if !defined(OPTIONS_WITHOUT_HELP)
     {.name = "--lobes", .value = "OUT", .kind = OPTION_OWN, AT(lobes), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = HELP("radiance by mirrored direction, GGX: six cubes of roughness 0, 0.2 .. 1 as --cube has them, numbered as "
-             "light_%01d.hdr or light-0000.hdr; the first is the world as a cube")},
+     .help = HELP("radiance by mirrored direction, GGX: six cubes of roughness 0, 0.2 .. 1 in the layout of --cube, "
+             "numbered as light_%01d.hdr or light-0000.hdr; the first is the world as a cube")},
     {.name = "--side", .value = "N", .kind = OPTION_POWER_OF_2, AT(side), .low = 16, .high = 256,
-     .help = HELP("texels of a side of the first; each other one has half, at least 8 (default 128)")},
+     .help = HELP("texels per side of the first; each next one has half, at least 8 (default 128)")},
     {.name = "--harmonics", .value = "OUT.json", .kind = OPTION_TEXT, AT(harmonics), .file = OPTION_WRITES,
-     .help = HELP("nine coefficients of radiance, as a LightProbe of three.js, and of irradiance; the file names their "
-             "functions")},
+     .help = HELP("nine coefficients of radiance, as a LightProbe of three.js, and of irradiance; the file names "
+             "the functions")},
     {.name = "--dfg", .value = "OUT", .kind = OPTION_OWN, AT(dfg), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = HELP("what a lobe reflects of white light is F0 x red + green: 128 x 128, the cosine to the viewer to the right, "
-             "roughness down")},
+     .help = HELP("a lobe reflects F0 x red + green of white light: 128 x 128, the cosine to the viewer to the "
+             "right, roughness down")},
 #endif
     {.kind = OPTION_END},
 };
@@ -160,42 +165,42 @@ static const option_row object_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("objects")},
     {.name = "--object", .value = "FILE", .kind = OPTION_TEXT, AT(object_of), COUNTS(objects), .times = RELIGHT_OBJECTS,
      .size = sizeof(char *), .file = OPTION_READS,
-     .help = HELP(".gltf .glb .obj .ply, or `demo`, a figure: stands with the middle of its box's bottom at --at, and is "
-             "lit as its box's middle is. Of several each has one --at, in their order")},
+     .help = HELP(".gltf .glb .obj .ply, or `demo`, a figure: stands with the middle of its box's bottom at --at, "
+             "and is lit as at the middle of its box. If you give several, give one --at each, in the same order")},
     OPTION_VERTEX_COLOURS_ROW(relight_options, choice.vertex_colours),
     {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale_of), COUNTS(scales), .times = RELIGHT_OBJECTS,
      .size = sizeof(float), .low = 1e-3, .high = 1e5,
-     .help = HELP("its longest side, m (default: as the file says); of several objects one for all, or one each")},
+     .help = HELP("longest side, m (default: as in the file); for several objects one for all, or one each")},
     {.name = "--roughness", .value = "R", .kind = OPTION_NUMBER, AT(roughness), .low = 0, .high = 1,
-     .help = HELP("0: a mirror (default: glTF's materials' own, else 0.4)")},
+     .help = HELP("0: a mirror (default: from glTF's materials, else 0.4)")},
     {.name = "--f0", .value = "F", .kind = OPTION_NUMBER, AT(f0), .low = 0, .high = 1,
-     .help = HELP("what it mirrors where it faces the viewer (default: its own, else 0.04)")},
+     .help = HELP("reflectance of a surface that faces the viewer (default: from the materials, else 0.04)")},
     {.name = "--per-part", .kind = OPTION_FLAG, AT(per_part),
-     .help = HELP("each part of the object is lit as its own box's middle is")},
+     .help = HELP("lights each part of the object as at the middle of the part's box")},
     {.name = "--contact", .kind = OPTION_FLAG, AT(contact),
-     .help = HELP("objects darken the ground below them, themselves and each other, and light them by what they reflect; "
-             "lobes mirror that. What an object hides is found once: from itself by rays from each vertex, from "
-             "the ground anew at another height; then by up to 448 lights of the world a picture. An object with over "
-             "4,096 vertices is thinned to about as many for this. Default with a --floor")},
-    {.name = "--no-contact", .kind = OPTION_FLAG, AT(no_contact), .help = HELP("leave that out")},
+     .help = HELP("objects darken the ground below them, themselves and each other, and light them by reflection; "
+             "lobes show that. Occlusion is computed once: of an object by itself with rays from each vertex, of "
+             "the ground again for another height; then up to 448 lights of the world are used per picture. An "
+             "object with over 4,096 vertices is thinned to about as many for this. Default with a --floor")},
+    {.name = "--no-contact", .kind = OPTION_FLAG, AT(no_contact), .help = HELP("turns --contact off")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), COUNTS(light_count), .times = RELIGHT_LIGHTS,
      .size = sizeof(lmb_light),
-     .help = HELP("a light or sun beside the world's light, as in `lambent render`. The world's pictures show the ground "
-             "in its light: it darkens the ground where objects block it")},
+     .help = HELP("a light or sun in addition to the world's light, as in `lambent render`. The world's pictures "
+             "show the ground in this light, so objects that block it darken the ground")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
-     .help = HELP("all light, that by normals alone, or what is mirrored alone (default both)")},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page draws one picture */
+     .help = HELP("all light, only that by normals, or only reflections (default both)")},
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page draws one picture */
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
-     .help = HELP("places of the object, X,Y,Z a line: a picture each, its number in place of OUT's %0Nd, as frame_%04d.png, or "
-             "else as -0000, -0001, ...")},
+     .help = HELP("places of the object, X,Y,Z per line: a picture each, numbered by OUT's %0Nd, as frame_%04d.png, "
+             "or else by -0000, -0001, ...")},
     {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
      .help = HELP("an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until it "
              "rests)")},
     {.name = "--every", .value = "N", .kind = OPTION_INT, AT(policy.every), .low = 1, .high = 1 << 20,
-     .help = HELP("but no longer than N pictures if it moves at all")},
+     .help = HELP("but for at most N pictures if it moves at all")},
     {.name = "--keep", .value = "X,Y,Z", .kind = OPTION_OWN, AT(keep), COUNTS(keep_count), .times = RELIGHT_PLACES,
      .size = sizeof(lmb_vec3), .parse = parse_place, .expects = "X,Y,Z within 1,000,000 m",
-     .help = HELP("a named place: objects that stand within --reuse of it use its light")},
+     .help = HELP("a named place: objects within --reuse of it use its light")},
 #endif
     {.kind = OPTION_END},
 };
@@ -206,17 +211,17 @@ static const option_row picture_rows[] = {
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP(PICTURE_OPTION_HELP)},
     VIEW_OPTION_SIZE(relight_options, view, "px (default 640x480)"),
-    VIEW_OPTIONS_CAMERA(relight_options, view, "where the camera stands (default: so that all objects fit)"),
+    VIEW_OPTIONS_CAMERA(relight_options, view, "the camera's position (default: all objects fit)"),
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
-     .help = HELP("a pixel; their mean is shown (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
+     .help = HELP("per pixel, averaged (default 4 for .png and .ppm, 1 for .pfm and .hdr)")},
     OPTION_TONE_ROW(relight_options, tone),
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
-     .help = HELP("stops, display formats only (default auto: said on stderr)")},
+     .help = HELP("stops, display formats only (default auto: printed to stderr)")},
     OPTION_BACKEND_ROW(relight_options, kernels),
     OPTION_THREADS_ROW(relight_options, threads, "draw the objects' picture"),
     OPTION_ONLY_HERE,
-    OPTION_LOUDNESS(relight_options, view.is_quiet, view.is_verbose, "say how long what took"),
+    OPTION_LOUDNESS(relight_options, view.is_quiet, view.is_verbose, "print the time of each stage"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -225,9 +230,9 @@ const option_table relight_table = {
     .verb = "relight",
     .usage = HELP("relight --world WORLD [--at X,Y,Z] --cube OUT [options]\n"
              "relight --world WORLD --object FILE [--at X,Y,Z ...] -o OUT [options]"),
-    .about = HELP("What a place in a world receives, from pictures of the world that were taken elsewhere: irradiance by "
-        "normal, as a small cube map; and objects drawn in that light, over the world as background. Metres, +Y up, "
-        "linear light."),
+    .about = HELP("Computes the light at a place in a world, from pictures of the world taken elsewhere: irradiance "
+             "by normal, as a small cube map. Also draws objects in that light, over the world as background. "
+             "Metres, +Y up, linear light."),
     .part = {world_rows, light_rows, file_rows, object_rows, picture_rows},
     .examples = HELP("  lambent relight --world demo --at 4,1,-2 --cube light.pfm\n"
                 "  lambent relight --world demo --object demo -o field.png\n"),
@@ -235,9 +240,9 @@ const option_table relight_table = {
 
 int relight_has_ground(const relight_options *o) { return o->place.ground != NULL || o->place.has_floor; }
 
-/* --- all of it ---------------------------------------------------------------------------------------------------- */
+/* --- the whole command line --------------------------------------------------------------------------------------- */
 
-/* Several objects have a place each, and one size or one each. */
+/* Several objects need a place each, and one size or one each. */
 static int check_objects(const relight_options *o, report *r)
 {
     if (o->scales > 1 && o->scales != o->objects) {
@@ -289,7 +294,7 @@ static int check_together(const relight_options *o, report *r)
     return relight_export_check(o, r) && view_options_check(&o->view, r);
 }
 
-/* What follows from what was given. */
+/* Sets the options that follow from others. */
 static void complete(relight_options *o)
 {
     lmb_world_pictures *p = &o->place;
@@ -299,7 +304,7 @@ static void complete(relight_options *o)
         p->centre.y = p->ground_y + EYE_HEIGHT;
     }
     o->contact = (o->contact || p->has_floor) && !o->no_contact;
-    o->centre[0] = p->centre; /* the built-in world has its own */
+    o->centre[0] = p->centre; /* the built-in world has a fixed centre */
     if (!o->has_far) {
         p->middle = p->centre;
         p->radius = 100.0f;
@@ -319,7 +324,7 @@ static void complete(relight_options *o)
     }
 }
 
-/* Where the world's pictures belong, and what was left open: figures here and there, a camera. */
+/* Sets the places of the built-in world's pictures, and the defaults: several figures and a camera. */
 static int demo_options(relight_options *o, report *r)
 {
     static const lmb_vec3 places[] = {{-9.8f, 0, -2.5f}, {-8.4f, 0, -0.2f}, {-3.7f, 0, 2.4f}, {-0.9f, 0, -4.5f},

@@ -1,4 +1,4 @@
-/* relight_path.c: a file of places, X,Y,Z a line, and a picture of each. */
+/* relight_path.c: a file of places, X,Y,Z per line, and a picture of each. */
 #include "relight_path.h"
 
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 
 enum { LONGEST = 200, MAX = 10000 };
 
-/* A line without its blanks at both ends: 0 where it is too long for one. */
+/* Copies a line without blanks at both ends. Returns 0 if it is too long for a place. */
 static int take_line(char out[LONGEST], const char *from, size_t length)
 {
     while (length > 0 && strchr(" \t\r", from[length - 1]) != NULL) {

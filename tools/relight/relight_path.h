@@ -1,4 +1,4 @@
-/* relight_path.h: a file of places, X,Y,Z a line; empty lines and those that begin with # are nothing. */
+/* relight_path.h: a file of places, X,Y,Z per line; empty lines and lines that begin with # are ignored. */
 #ifndef RELIGHT_PATH_H
 #define RELIGHT_PATH_H
 
@@ -11,12 +11,12 @@ typedef struct place_list {
     int32_t count;
 } place_list;
 
-/* 1, or 0 with `r` set; place_list_free releases it in either case. */
+/* Returns 1, or 0 with `r` set; call place_list_free in either case. */
 int place_list_read(place_list *out, const char *path, report *r);
 void place_list_free(place_list *list);
 
-/* place_list_walk: calls `draw` for each place with the name of its picture, by `out`, and prints at the end how often
- * `cache` had the light. place_tell prints a place's line. 1, or 0 with `r` set. */
+/* place_list_walk: calls `draw` for each place with the name of a picture, derived from `out`, and finally prints how
+ * often `cache` had the light. place_tell prints a place's line. They return 1, or 0 with `r` set. */
 typedef int place_draw(void *user, int32_t i, const char *name, report *r);
 int place_list_walk(const place_list *list, const char *out, place_draw *draw, void *user, const lmb_probe_cache *cache,
                     report *r);

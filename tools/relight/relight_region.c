@@ -1,4 +1,4 @@
-/* relight_region.c: what an object's surfaces reflect, as a few regions that light each other. */
+/* relight_region.c: the light that an object's surfaces reflect, as a few regions that light each other. */
 #include "relight_region.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ enum { ROUNDS = 3, FACES = 6, STEPS = 64 };
 
 /* --- once --------------------------------------------------------------------------------------------------------- */
 
-/* The side of a cube, by quarters, that faces a way; fewer kinds where parts are many. */
+/* The quarter of a cube's side that a normal points at; fewer kinds if there are many parts. */
 static uint32_t facing_of(lmb_vec3 n, uint32_t kinds)
 {
     const float v[3] = {n.x, n.y, n.z};
@@ -42,7 +42,7 @@ static void add_sample(region *p, const hidden_part *part, uint32_t sample, cons
     p->middle = (lmb_vec3){p->middle.x + area * at.x, p->middle.y + area * at.y, p->middle.z + area * at.z};
 }
 
-/* A triangle's vertices; its normal, as long as twice its area; its kind of facing; its height among STEPS. */
+/* A triangle's vertices; a normal of twice the area's length; the kind of normal; the height step, below STEPS. */
 typedef struct facet {
     uint32_t vertex[3], kind;
     lmb_vec3 normal;
@@ -65,7 +65,7 @@ static facet facet_of(const hidden *h, const hidden_part *part, uint32_t triangl
 
 static float area_of(const facet *f) { return 0.5f * sqrtf(hidden_dot(f->normal, f->normal)); }
 
-/* Slices of as much area each, by kind and step. */
+/* Divides each kind's height steps into slices of equal area. */
 static void slice_part(uint8_t out[4 * FACES][STEPS], const hidden *h, const hidden_part *part, uint32_t kinds, uint32_t slices)
 {
     float area[4 * FACES][STEPS] = {{0}};
@@ -85,7 +85,7 @@ static void slice_part(uint8_t out[4 * FACES][STEPS], const hidden *h, const hid
     }
 }
 
-/* The texel that is about as large as a triangle of a mesh with a texture, at its middle. */
+/* Samples the texture at a triangle's middle, at a mip level with texels of about the triangle's size. */
 static void texel_of(float out[4], const lmb_texture *t, const lmb_mesh *m, const uint32_t vertex[3])
 {
     lmb_texture smooth = *t;
@@ -102,7 +102,7 @@ static void texel_of(float out[4], const lmb_texture *t, const lmb_mesh *m, cons
     lmb_texture_sample(out, &smooth, (uv[0][0] + uv[1][0] + uv[2][0]) / 3.0f, (uv[0][1] + uv[1][1] + uv[2][1]) / 3.0f, level);
 }
 
-/* As the picture shows it: material x texture x vertex colours. */
+/* Albedo as drawn: material x texture x vertex colours. */
 static void add_albedo(region *p, const lmb_scene *scene, const lmb_instance *in, const lmb_mesh *m,
                        const uint32_t vertex[3], float area)
 {
@@ -119,7 +119,7 @@ static void add_albedo(region *p, const lmb_scene *scene, const lmb_instance *in
     }
 }
 
-/* The area of each region that is nearest to each sample: many corners share one. `sums`: REGIONS x samples. */
+/* Adds the area of each region nearest to each sample: many corners share one. `sums`: REGIONS x samples. */
 static void add_sums(regions *p, const hidden_part *part, const float *sums, const float *directions)
 {
     for (uint32_t k = 0; k < REGIONS; ++k) {
@@ -244,7 +244,7 @@ void region_directions(uint16_t at[4], float weight[4], const uint16_t *fold, lm
     }
 }
 
-/* Peaks as parts of the reduced cube's directions beside them. */
+/* Peaks as weighted neighbouring directions of the reduced cube. */
 typedef struct beside {
     uint16_t at[LMB_PROBE_PEAKS][4];
     float weight[LMB_PROBE_PEAKS][4];
@@ -260,7 +260,7 @@ static float open_to(const region *p, const beside *b, int32_t i)
     return weight[0] * p->open[at[0]] + weight[1] * p->open[at[1]] + weight[2] * p->open[at[2]] + weight[3] * p->open[at[3]];
 }
 
-/* Irradiance by the world alone. */
+/* Sets the irradiance by the world. */
 static void take_world(float out[3], const region *p, const far_lights *f, const beside *b, region_ground *ground,
                        const void *user)
 {
@@ -278,7 +278,8 @@ static void take_world(float out[3], const region *p, const far_lights *f, const
     }
 }
 
-/* The light that regions throw back along each direction onto those that see them there: the mean of what is seen. */
+/* Sets the light that regions reflect along each direction to those that see them there: the mean of the visible
+ * ones. */
 static void set_back(far_lights *f, const regions *p, float (*light)[3])
 {
     float sum[LMB_PROBE_TEXELS][3] = {{0}};
@@ -298,7 +299,7 @@ static void set_back(far_lights *f, const regions *p, float (*light)[3])
     }
 }
 
-/* A region's radiance by its irradiance from the world, and by what the others throw back. */
+/* Computes a region's radiance from the world's irradiance and the light of the other regions. */
 static void reflect(float out[3], const region *p, const float world[3], const far_lights *f)
 {
     float sum[3] = {world[0], world[1], world[2]};

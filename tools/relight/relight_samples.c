@@ -1,16 +1,16 @@
-/* relight_samples.c: an object's vertices thinned out by the cells of a grid and by the side that they face. */
+/* relight_samples.c: reduces an object's vertices by clusters of grid cell and facing. */
 #include "relight_samples.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define REACH 1.6f /* of a cell's side: how far a sample counts */
+#define REACH 1.6f /* of a cell's side: the radius of a sample */
 #define FINEST 96.0f
 
 enum { NEIGHBOURS = 12, SHARES = HIDDEN_SHARES };
 
-/* --- what all files of contact ask -------------------------------------------------------------------------------- */
+/* --- shared by the files of contact ------------------------------------------------------------------------------- */
 
 float hidden_dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
@@ -34,13 +34,13 @@ float hidden_shared(uint32_t *sample, const hidden_part *p, uint32_t vertex, int
 
 /* --- clusters ----------------------------------------------------------------------------------------------------- */
 
-/* The vertices in one cell that face one way. */
+/* The vertices of one cell with one facing. */
 typedef struct cluster {
     uint64_t key;
     lmb_vec3 sum;
-    uint32_t count, vertex; /* the one nearest to their mean */
+    uint32_t count, vertex; /* the vertex nearest to the mean */
     float distance2;
-    uint32_t next[NEIGHBOURS], beside; /* clusters that a triangle joins to this one */
+    uint32_t next[NEIGHBOURS], beside; /* clusters joined to this one by a triangle */
 } cluster;
 
 typedef struct thinning {
@@ -70,7 +70,7 @@ static uint64_t key_of(const thinning *t, uint32_t vertex)
 
 static uint32_t hash_of(uint64_t key) { return (uint32_t)(key * 0x9e3779b97f4a7c15u >> 32); }
 
-/* The cluster of a key, a new one if there is none; UINT32_MAX: there are as many as fit. */
+/* Finds the cluster of a key, or adds it. Returns UINT32_MAX if there is no room. */
 static uint32_t find(thinning *t, uint64_t key)
 {
     uint32_t i = hash_of(key) & t->mask;
@@ -88,7 +88,7 @@ static uint32_t find(thinning *t, uint64_t key)
     return t->slot[i] - 1;
 }
 
-/* 0: they are more than fit. */
+/* Returns 0 if the clusters do not fit. */
 static int gather(thinning *t)
 {
     t->count = 0;
@@ -156,7 +156,7 @@ static void join_all(thinning *t)
     }
 }
 
-/* How much a sample tells of a vertex: it lies near and faces alike. */
+/* The weight of a sample at a vertex: larger if near and with a similar normal. */
 static float weight_of(const thinning *t, uint32_t vertex, uint32_t k)
 {
     const hidden_part *p = t->p;
@@ -166,7 +166,7 @@ static float weight_of(const thinning *t, uint32_t vertex, uint32_t k)
     return near > 0.0f && alike > 0.0f ? near * near * alike * alike : 0.0f;
 }
 
-/* The heaviest stay behind the first. */
+/* Keeps the largest weights, after the first entry. */
 static void add_share(hidden_share *s, uint32_t sample, float weight)
 {
     int lightest = 1;
@@ -187,7 +187,7 @@ static void share_out(thinning *t)
         float sum = 0.0f;
         memset(s, 0, sizeof *s);
         s->sample[0] = t->of[i];
-        s->weight[0] = weight_of(t, i, t->of[i]); /* its own cluster's stays the first: regions ask for it */
+        s->weight[0] = weight_of(t, i, t->of[i]); /* the vertex's cluster stays first: regions use it */
         for (uint32_t k = 0; k < own->beside; ++k) {
             add_share(s, own->next[k], weight_of(t, i, own->next[k]));
         }
@@ -204,7 +204,7 @@ static void share_out(thinning *t)
     }
 }
 
-/* The triangles whose corners lie in three clusters, each once: triangles of the proxy. */
+/* Adds triangles with corners in three clusters to the proxy, each once. */
 static int add_triangles(thinning *t, uint32_t first)
 {
     hidden_proxy *x = &t->h->proxy;
@@ -263,7 +263,7 @@ static int take_samples(thinning *t)
     return 1;
 }
 
-/* The part's clusters, at most `cap`: the cells grow until they are so few. */
+/* Finds the part's clusters, at most `cap`: cells grow until the clusters fit. */
 static int thin_part(thinning *t, uint32_t cap, uint32_t first)
 {
     const float side = 2.0f * t->h->radius;
@@ -278,7 +278,7 @@ static int thin_part(thinning *t, uint32_t cap, uint32_t first)
     t->of = malloc(((size_t)t->p->mesh.vertex_count + 1) * sizeof *t->of);
     int ok = t->slot != NULL && t->list != NULL && t->of != NULL;
     for (float cells = FINEST; ok; cells *= 0.85f) {
-        t->per_cell = cells > 0.5f ? cells / fmaxf(side, 1e-20f) : 0.0f; /* at last all is one cell */
+        t->per_cell = cells > 0.5f ? cells / fmaxf(side, 1e-20f) : 0.0f; /* finally all is one cell */
         if (gather(t)) {
             break;
         }

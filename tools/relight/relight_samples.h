@@ -1,13 +1,13 @@
-/* relight_samples.h: few vertices of an object, and the triangles between them, in place of many. */
+/* relight_samples.h: reduces an object to few vertices and the triangles between them. */
 #ifndef RELIGHT_SAMPLES_H
 #define RELIGHT_SAMPLES_H
 
 #include "relight_hidden.h"
 
-enum { SAMPLES_MAX = 4096 /* an object with more vertices is thinned to about as many */ };
+enum { SAMPLES_MAX = 4096 /* an object with more vertices is reduced to about this many */ };
 
-/* samples_take: the parts' samples, and each vertex's share of those near it. Parts have their vertices. If all of them
- * fit, each is its own sample, and there is no proxy. 1, or 0: out of memory. */
+/* samples_take: chooses the parts' samples and sets the weights of each vertex's nearest ones. The parts must have
+ * their vertices. If all vertices fit, each is a sample and there is no proxy. Returns 1, or 0 if memory is short. */
 int samples_take(hidden *inout);
 
 #endif

@@ -1,4 +1,4 @@
-/* relight_shade.c: the ground in a picture, as much of its light as objects leave it. */
+/* relight_shade.c: the ground in a picture, darkened by objects. */
 #include "relight_shade.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "relight_contact.h"
 
-#define FARTHEST 1e5f /* m: what lies beyond is as it is */
+#define FARTHEST 1e5f /* m: the ground beyond is not darkened */
 
 int ground_lights_take(ground_lights *g, const figures *f, relight_light *w, const relight_options *o, report *r)
 {
@@ -39,7 +39,7 @@ void ground_lights_free(ground_lights *g)
     free(g->rgb);
 }
 
-/* The world's light at a place: that by the figures, the nearer ones count more. */
+/* The world's light at a place, interpolated between figures by inverse squared distance. */
 static void light_at(float out[3], const ground_lights *g, float x, float z)
 {
     float all = 0.0f;
@@ -56,7 +56,7 @@ static void light_at(float out[3], const ground_lights *g, float x, float z)
     }
 }
 
-/* Where the ray through a pixel's sample meets the ground in front of the eye. 1, or 0: it does not. */
+/* Intersects the ray of a pixel's sample with the ground. Returns 1, or 0 if it misses. */
 static int meet(float out[3], const lmb_view *v, int32_t x, int32_t y, float ground_y)
 {
     const float across = 2.0f * ((float)x + 0.5f + (float)v->sample_x * (1.0f / 256.0f)) / (float)v->frame_width - 1.0f,
@@ -74,7 +74,7 @@ static int meet(float out[3], const lmb_view *v, int32_t x, int32_t y, float gro
     return along.y < 0.0f && far > 0.0f;
 }
 
-/* A tile's pixels that show the ground. */
+/* Collects a tile's pixels that show the ground. */
 static int take_ground(lmb_tile *t, const lmb_relight *r, int32_t x0, int32_t y0, float ground_y)
 {
     const lmb_surface *id = &r->eye.id;
@@ -92,14 +92,14 @@ static int take_ground(lmb_tile *t, const lmb_relight *r, int32_t x0, int32_t y0
             t->position[2][k] = place[1];
             t->normal[1][k] = t->face[1][k] = 1.0f;
             t->depth[k] = place[2];
-            t->id[k] = lmb_scene_triangles(r->scene) + 1; /* none of the scene's */
+            t->id[k] = lmb_scene_triangles(r->scene) + 1; /* an id outside the scene */
             ++t->hits;
         }
     }
     return t->hits > 0;
 }
 
-/* What is left of the ground's light by given lights and the world's. */
+/* The share of the ground's light left, of given lights and the world. */
 static void ground_share(float left[3], const ground_lights *g, const lmb_irradiance *all, const lmb_irradiance *lit, const lmb_tile *t,
                   int k)
 {

@@ -1,4 +1,4 @@
-/* relight_way.c: light that follows an object along its way. */
+/* relight_way.c: light that follows a moving object. */
 #include "relight_way.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ lmb_vec3 way_move(way *w, lmb_vec3 at, float radius)
     return w->ahead;
 }
 
-/* A jump shows the new light at once. */
+/* After a jump the new light is used at once. */
 void way_turn(way *w, int32_t slot, int is_computed, float radius)
 {
     const int turns = is_computed || slot != w->slot;

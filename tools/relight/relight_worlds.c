@@ -1,4 +1,4 @@
-/* relight_worlds.c: a world as several of its places see it: the nearer ones count more. */
+/* relight_worlds.c: a world seen from several places: nearer ones have larger weights. */
 #include "relight_light.h"
 
 #include <string.h>
@@ -21,7 +21,7 @@ static float distance2(lmb_vec3 a, lmb_vec3 b)
     return x * x + y * y + z * z;
 }
 
-/* World i's share of the light at a place: by the square of its distance, all of it where it was taken right there. */
+/* World i's weight at a place: inverse squared distance, normalized; all of it at the world's centre. */
 static float share_of(const relight_options *o, int32_t i, lmb_vec3 at)
 {
     float sum = 0.0f;

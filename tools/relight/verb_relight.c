@@ -1,4 +1,4 @@
-/* verb_relight.c: `lambent relight`: the light at a place of a world that was seen from another, and objects in it. */
+/* verb_relight.c: `lambent relight`: the light at a place of a world captured at another, and objects in it. */
 #include "verb_relight.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "relight_export.h"
 #include "relight_light.h"
 
-/* Of the one place that was asked for; with an object, of its middle. */
+/* Writes the light of the requested place, or with an object of the object's middle. */
 static int write_light(relight_light *w, const relight_options *o, lmb_vec3 at, report *r)
 {
     return (o->cube == NULL || (relight_light_at(w, o, at, o->faces, r) &&

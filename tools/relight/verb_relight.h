@@ -1,4 +1,4 @@
-/* verb_relight.h: `lambent relight`: the light at a place of a world that was seen from another. */
+/* verb_relight.h: `lambent relight`: the light at a place of a world that was captured at another. */
 #ifndef VERB_RELIGHT_H
 #define VERB_RELIGHT_H
 

@@ -1,4 +1,4 @@
-/* background.c: how much of each pixel surfaces cover, and what lies behind them. */
+/* background.c: the share of each pixel that surfaces cover, and the background behind them. */
 #include "background.h"
 
 #include <stdlib.h>

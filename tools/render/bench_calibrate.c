@@ -1,4 +1,4 @@
-/* bench_calibrate.c: how many units of work this machine does in a second: the built-in room against the clock. */
+/* bench_calibrate.c: units of work per second of this machine, measured with the built-in room. */
 #include "bench_calibrate.h"
 
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 enum { RUNS = 3 };
 
-/* What a drawn frame took, by its plan and what was counted. */
+/* The work of a frame, from the plan and the counts. */
 static double work_of(const lmb_plan *plan, const lmb_stats *stats)
 {
     const lmb_plan_row *gather = &plan->row[LMB_PLAN_GATHER];
@@ -19,7 +19,7 @@ static double work_of(const lmb_plan *plan, const lmb_stats *stats)
            lmb_plan_units(LMB_OP_SEGMENTS) * (double)stats->segments;
 }
 
-/* Units a second of one run; 0 where it fails. */
+/* Units per second of one run; 0 if it fails. */
 static double run(render_job *j)
 {
     lmb_plan plan;

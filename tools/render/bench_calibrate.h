@@ -1,9 +1,9 @@
-/* bench_calibrate.h: how many units of work this machine does in a second. */
+/* bench_calibrate.h: measures the units of work per second of this machine. */
 #ifndef BENCH_CALIBRATE_H
 #define BENCH_CALIBRATE_H
 
-/* bench_calibrate: units a second with so many threads: the built-in room, drawn a few times; the fastest counts. Takes
- * about half a second; 0 where there is no memory for it. */
+/* bench_calibrate: returns the units per second of `threads` threads: draws the built-in room a few times and takes
+ * the fastest. Takes about half a second. Returns 0 if memory is short. */
 double bench_calibrate(int threads);
 
 #endif

@@ -1,4 +1,4 @@
-/* budget.c: looks at a job's scene, and sets its options as its budget has them. */
+/* budget.c: samples a job's scene and chooses settings for the budget. */
 #include "budget.h"
 
 #include <stdio.h>
@@ -7,7 +7,7 @@
 #include "bench_calibrate.h"
 #include "scene_sample.h"
 
-/* Bytes that no setting changes. */
+/* Bytes that do not depend on settings. */
 static uint64_t fixed_bytes(const render_job *j)
 {
     const lmb_frame *f = &j->frame;
@@ -68,7 +68,7 @@ static void tell(const budget_choice *c, int is_quiet)
     report_note(is_quiet, "%s", words);
 }
 
-/* The chosen settings into the job; the light of the look stands where it is theirs. */
+/* Applies the chosen settings. If tree and maps are those of the last sample, that light is reused. */
 static int take_choice(budget_choice *c, render_job *j, report *r)
 {
     const lmb_settings *s = &c->chosen.settings;

@@ -1,4 +1,4 @@
-/* light_stream.c: lights as a tree: of a scene with more of them than maps, and of a sky. */
+/* light_stream.c: a tree of lights, for a sky, or for scenes with more lights than shadow maps. */
 #include "light_stream.h"
 
 #include <math.h>
@@ -13,11 +13,11 @@ void light_stream_free(light_stream *m)
     memset(m, 0, sizeof *m);
 }
 
-/* What the stream has to know before it begins. */
+/* The stream's bounds, known before it begins. */
 typedef struct extent {
     lmb_vec3 low, high;
     double max; /* W/sr or W/m2, R + G + B */
-    uint32_t places; /* lights that are no suns */
+    uint32_t places; /* lights that are not suns */
 } extent;
 
 static void widen(extent *e, const lmb_light *l)

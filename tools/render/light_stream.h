@@ -1,4 +1,4 @@
-/* light_stream.h: lights as a tree: of a scene with more of them than maps, and of a sky. */
+/* light_stream.h: a tree of lights, for a sky, or for scenes with more lights than shadow maps. */
 #ifndef LIGHT_STREAM_H
 #define LIGHT_STREAM_H
 
@@ -8,7 +8,7 @@
 
 #define LIGHT_STREAM_CELLS 16384 /* by default: 10 MiB */
 
-/* Zeroed: none. light_stream_free releases it. */
+/* Zeroed: empty. light_stream_free releases it. */
 typedef struct light_stream {
     lmb_many_lights tree;
     void *tree_memory;
@@ -21,7 +21,8 @@ typedef struct light_list {
     uint32_t count;
 } light_list;
 
-/* light_stream_take: the tree of the lights of both lists, at most `cells`. 1, or 0 with `r` set. */
+/* light_stream_take: builds the tree of the lights of both lists, with at most `cells` cells. Returns 1, or 0 with
+ * `r` set. */
 int light_stream_take(light_stream *out, const light_list lists[2], uint32_t cells, report *r);
 
 void light_stream_free(light_stream *m);

@@ -1,4 +1,4 @@
-/* map_picture.c: what lives in the shadow maps, as pictures: distances, first points, and which group owns a texel. */
+/* map_picture.c: the shadow maps as images: distances, first points, and the group that owns a texel. */
 #include "map_picture.h"
 
 #include <math.h>
@@ -49,7 +49,7 @@ static float *face_pixels(const image *out, const lmb_shadow_map *map, uint32_t 
     return out->pixels + (y * (size_t)out->width + x) * (size_t)out->channels;
 }
 
-/* Does the light send anything through a texel? */
+/* Returns whether the light sends anything through a texel. */
 static int is_lit(const lmb_render *render, uint32_t light, int32_t face, int32_t x, int32_t y)
 {
     float power[3];
@@ -106,11 +106,11 @@ typedef struct painter {
     const image *out;
     const lmb_render *render;
     const uint32_t *group; /* of each point: from 0, or LMB_NOBODY */
-    float scale;           /* of exitance */
+    float scale;           /* multiplies the exitance */
     int display;
 } painter;
 
-/* One texel: `owner` is the point that holds its light; `line`: a neighbour below or to the right has another. */
+/* One texel: `owner` is the point that holds the light; `line`: the neighbour below or to the right has another. */
 typedef void (*paint_texel)(float *pixel, const painter *p, uint32_t owner, int line);
 
 static void paint_face(const painter *p, float *pixels, const uint32_t *owner, paint_texel paint)
@@ -150,7 +150,7 @@ static float area_of(const lmb_point *p)
     return 4.0f * sqrtf(dot(n, n));
 }
 
-/* A dot of 2 x 2 texels where a point is, in a colour that no lit surface has. */
+/* Draws 2 x 2 texels at a point, in a colour that no lit surface has. */
 static void dot_point(const image *out, const lmb_shadow_map *map, uint32_t light, int32_t face, lmb_vec3 at)
 {
     const lmb_view *v = &map->view[face];
@@ -175,7 +175,7 @@ static void dot_point(const image *out, const lmb_shadow_map *map, uint32_t ligh
 static void dot_points(const image *out, const lmb_render *render)
 {
     const lmb_points *points = &render->frame.points;
-    uint32_t number = 0, next = 0; /* points lie by face until they are grouped */
+    uint32_t number = 0, next = 0; /* points are sorted by face until they are grouped */
     for (uint32_t i = 0; i < render->frame.scene->light_count; ++i) {
         for (int32_t face = 0; face < render->maps[i].faces; ++face) {
             number += (render->maps[i].drawn >> face) & 1u;
@@ -186,14 +186,15 @@ static void dot_points(const image *out, const lmb_render *render)
     }
 }
 
-/* Outlines where blocks have room for them. */
+/* Outlines are drawn if blocks have room for them. */
 static int has_marks(const painter *p)
 {
     const int32_t block = p->render->frame.grouping.block;
     return p->display && (block == 0 || block >= 4);
 }
 
-/* For display e / (1 + e) of the brightest channel: light falls off by the square, and all of it is to be seen. */
+/* Tone map e / (1 + e) of the brightest channel: light falls off with the square of distance, and all of it should
+ * be visible. */
 static void paint_exitance(float *pixel, const painter *p, uint32_t owner, int line)
 {
     const lmb_point *d = &p->render->frame.points.data[owner];
@@ -209,7 +210,7 @@ static float exitance_of(const lmb_point *p)
     return (p->flux[0] + p->flux[1] + p->flux[2]) / 3.0f / fmaxf(area_of(p), 1e-24f);
 }
 
-/* What brings the median exitance to 1, give or take a quarter of a stop: by a histogram. */
+/* Scale that brings the median exitance to about 1, within a quarter of a stop; uses a histogram. */
 static float points_scale(const lmb_points *points)
 {
     enum { STEPS = 512, MIDDLE = 256 };
@@ -246,8 +247,8 @@ int map_points(image *out, const lmb_render *render, int display, report *r)
 
 /* --- groups ------------------------------------------------------------------------------------------------------- */
 
-/* Linear light of a colour for number k: hues by golden section, so that numbers near each other lie far apart; three
- * brightnesses, since a row of groups further on the hue comes round again. No two numbers have the same. */
+/* Linear colour for number k. Hues follow the golden section, so that near numbers have distant hues. Three
+ * brightnesses, because the hue repeats after a row of groups. No two numbers have the same colour. */
 static void false_colour(float *out, uint32_t k)
 {
     static const float bright[3] = {1.0f, 0.45f, 0.18f};

@@ -1,12 +1,12 @@
-/* own_light.c: what surfaces that emit light bring to a scene, by few elements. */
+/* own_light.c: the irradiance in a scene from emissive surfaces, with few elements. */
 #include "own_light.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { ELEMENTS = 4096 };
-#define MAX 0.05f  /* W/m2, of a piece of surface: a glowing label lights what it lies on as brightly as it may */
-#define SHARE 0.2f /* of the light that may be wrong: what is told apart differs by far more */
+#define MAX 0.05f  /* W/m2, of an element: a glowing label may light the surface next to it with any amount */
+#define SHARE 0.2f /* largest relative error; the cases to distinguish differ by far more */
 
 typedef struct meter {
     lmb_elements elements;

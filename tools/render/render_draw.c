@@ -1,4 +1,4 @@
-/* render_draw.c: a picture drawn, as it is shown. */
+/* render_draw.c: draws the picture that the options show. */
 #include "render_draw.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "map_picture.h"
 #include "wireframe.h"
 
-/* What stopped a frame, in words. The memory is sized here, so little can. */
+/* Explains why a frame stopped. Memory is allocated here, so there are few reasons. */
 static int explain(const render_job *j, lmb_status status, int stage, report *r)
 {
     if (status == LMB_ERR_CAPACITY && stage == LMB_STAGE_GROUPS) {
@@ -30,7 +30,7 @@ static void watch(void *user, const lmb_render *at)
     progress_tell(name, (double)part);
 }
 
-/* The frame `how` for all eyes; the light's stages once a run. */
+/* Draws the frame `how` for all eyes; the light stages run once. */
 static lmb_status draw_eyes(render_job *j, workers *c, int32_t *stage, lmb_frame how, const image *into)
 {
     lmb_status status = LMB_OK;
@@ -50,8 +50,7 @@ static int draw(render_job *j, report *r)
     return status == LMB_OK || explain(j, status, stage, r);
 }
 
-/* The same frame once more, shown otherwise, by the same light: but elements that send theirs do it by one occlusion.
- * Neither told nor timed. */
+/* Elements use one occlusion test to send light. */
 int render_draw_once_more(render_job *j, image *out, lmb_frame how, report *r)
 {
     workers again = j->workers;
@@ -88,7 +87,7 @@ static int draw_occlusion(render_job *j, report *r)
     return 1;
 }
 
-/* The light's stages as far as they are shown, and their picture in place of the eye's. */
+/* Runs the light stages as far as needed, and shows them instead of the view. */
 static int draw_map(render_job *j, report *r)
 {
     const int display = !picture_is_linear(picture_format(j->o.out));
@@ -106,7 +105,7 @@ static int draw_map(render_job *j, report *r)
                                       : map_distances(&j->linear, j->render, r);
 }
 
-/* Attributes of what one eye sees, instead of light: the view alone is drawn. */
+/* Attributes of one eye's view instead of light: draws only the view. */
 static lmb_status draw_attribute(render_job *j)
 {
     lmb_frame *f = &j->frame;

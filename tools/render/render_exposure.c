@@ -1,4 +1,4 @@
-/* render_exposure.c: a picture's stops, by the light that surfaces reflect. */
+/* render_exposure.c: automatic exposure from the light that surfaces reflect. */
 #include "render_exposure.h"
 
 #include <math.h>
@@ -10,18 +10,18 @@
 #include "unlit.h"
 
 #define GROUND_EV 1.25f
-#define NOTHING   1e-4f /* what is left of a glow's light counts from this share of it on: less is rounding */
+#define NOTHING   1e-4f /* light without emission counts from this share of it on: less is rounding */
 
 static int short_of_memory(report *r)
 {
     return report_fail(r, "not enough memory to expose the picture; give --exposure");
 }
 
-/* --- what the view says ------------------------------------------------------------------------------------------- */
+/* --- facts about the view ----------------------------------------------------------------------------------------- */
 
 static int is_in(const exposure_view *v, int32_t x, int32_t y) { return x < v->eye_width && y < v->height; }
 
-/* What the surfaces of a tile of the eye drawn last emit. */
+/* Stores the emission of surfaces in a tile of the eye drawn last. */
 static void put_emitted(exposure_view *v, const render_job *j, int32_t x, int32_t y)
 {
     const lmb_frame *f = &j->render->frame;
@@ -39,7 +39,7 @@ static void put_emitted(exposure_view *v, const render_job *j, int32_t x, int32_
     }
 }
 
-/* Which of them are the scene's own. */
+/* Marks the pixels of the scene's own surfaces. */
 static void put_own(exposure_view *v, const render_job *j, int32_t x, int32_t y)
 {
     const lmb_frame *f = &j->render->frame;
@@ -109,7 +109,7 @@ static float emitted_at(const exposure_view *v, int32_t x, int32_t y, int c)
     return is_inside ? v->emitted[3 * ((size_t)y * (size_t)v->eye_width + (size_t)x) + (size_t)c] : 0.0f;
 }
 
-/* Samples of a pixel may show what emits in a pixel beside it. */
+/* With several samples, a pixel may show an emitter from the pixel beside it. */
 static int is_beside_emitted(const exposure_view *v, int32_t x, int32_t y)
 {
     float brightest = 0.0f;
@@ -120,7 +120,7 @@ static int is_beside_emitted(const exposure_view *v, int32_t x, int32_t y)
     return brightest > 0.0f;
 }
 
-/* The picture without what is emitted. 1 where anything is left. */
+/* Writes the image without emitted light. Returns 1 if anything is left. */
 static int put_reflected(image *out, const exposure_view *v, const image *linear)
 {
     int any = 0;
@@ -149,8 +149,7 @@ static int covers_any(const exposure_view *v)
     return i < pixels;
 }
 
-/* The picture without the world behind its surfaces, where there are any, in `inout`'s place: of all eyes, or of the
- * last. */
+/* Removes the world behind surfaces from `inout`, if there are any. The image has all eyes, or only the last. */
 static void leave_background(image *inout, const exposure_view *v)
 {
     const size_t left = (size_t)(v->width - inout->width);
@@ -182,7 +181,7 @@ static void leave_unlit(image *inout, const exposure_view *v)
     }
 }
 
-/* The picture without the ground that was put below the scene, in `inout`'s place. 1 where anything is left. */
+/* Removes the added ground from `inout`. Returns 1 if anything is left. */
 static int leave_ground(image *inout, const exposure_view *v)
 {
     int any = 0;
@@ -198,7 +197,8 @@ static int leave_ground(image *inout, const exposure_view *v)
     return any;
 }
 
-/* By what stands on the ground, but with the ground at most so far over white: a black thing on snow is still dark. */
+/* Exposes for objects on the ground, with the ground at most GROUND_EV above white: a black object on snow stays
+ * dark. */
 static float exposure_with_ground(image *inout, const exposure_view *v)
 {
     const float all = picture_auto_exposure(inout, v->tone);
@@ -224,7 +224,7 @@ int exposure_of(float *ev, const exposure_view *v, const image *linear, report *
         leave_background(&by, v);
     }
     const float stops = v->own != NULL ? exposure_with_ground(&by, v) : picture_auto_exposure(&by, v->tone);
-    *ev = stops + 0.0f; /* no minus zero */
+    *ev = stops + 0.0f; /* avoids minus zero */
     image_free(&by);
     return 1;
 }

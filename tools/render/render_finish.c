@@ -1,4 +1,4 @@
-/* render_finish.c: a picture's light -> its file. */
+/* render_finish.c: from light to an image file. */
 #include "render_finish.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "background.h"
 #include "unlit.h"
 
-#define DIM_EV 8.0f /* what is lifted by more stops than these is as good as black */
+#define DIM_EV 8.0f /* stops: light that needs more is practically black */
 
 static int begin(render_finish *f, const render_job *j, int is_auto, float exposure_ev, report *r)
 {
@@ -24,7 +24,7 @@ static int begin(render_finish *f, const render_job *j, int is_auto, float expos
     f->view.width = j->linear.width;
     f->view.height = j->linear.height;
     f->view.eye_width = j->o.view.width;
-    if (f->background.kind != BACKGROUND_WORLD && (f->view.cover = background_cover(j, r)) == NULL) { /* no world's */
+    if (f->background.kind != BACKGROUND_WORLD && (f->view.cover = background_cover(j, r)) == NULL) { /* no world */
         finish_free(f);
         return 0;
     }
@@ -43,7 +43,7 @@ int finish_begin_at(render_finish *f, const render_job *j, float exposure_ev, re
 
 void finish_free(render_finish *f) { exposure_view_free(&f->view); }
 
-/* What lies behind surfaces is dark in the light: a colour of the display's, or nothing, comes behind them. */
+/* Light is dark behind surfaces; fills in a display colour, or transparency. */
 static int encode_before(file_bytes *out, const render_finish *f, image *linear, float ev, int tone, report *r)
 {
     if (f->background.kind == BACKGROUND_TRANSPARENT) {

@@ -1,16 +1,16 @@
-/* render_finish.h: from a picture's light to its file: exposure, what lies behind, format. */
+/* render_finish.h: from light to an image file: exposure, background, format. */
 #ifndef RENDER_FINISH_H
 #define RENDER_FINISH_H
 
 #include "render_exposure.h"
 
-/* What is to be done to the light, and what the view says for it. */
+/* The processing of an image, and the facts about the view that it needs. */
 typedef struct render_finish {
     int32_t format; /* PICTURE_ */
     render_background background;
     int32_t tone, exposure_auto;
     float exposure_ev;
-    exposure_view view; /* its cover also where the background is none of the world's */
+    exposure_view view; /* has `cover` also if the background is not the world */
 } render_finish;
 
 /* finish_begin: prepares the picture of light that was drawn. finish_begin_at: the same with known stops. finish_free
@@ -25,8 +25,9 @@ int finish_write(const render_finish *f, const char *path, image *linear, int is
 /* render_tell_coarse: prints a note about tiles whose visibility is coarser, if there are any. */
 void render_tell_coarse(int is_quiet, const lmb_stats *stats);
 
-/* render_tell_dropped: prints a note about triangles that cannot be drawn, if draws met any. It counts each triangle of
- * the scene once; stats count one each time that it is drawn, for each view and each face of a shadow map. */
+/* render_tell_dropped: prints a note about triangles that cannot be drawn, if there were any. Each triangle of the
+ * scene counts once. In stats a triangle counts each time that it is drawn, for each view and each face of a shadow
+ * map. */
 void render_tell_dropped(int is_quiet, const lmb_scene *scene, const lmb_stats *stats);
 
 #endif

@@ -17,10 +17,10 @@
 #include "../../src/transfer/halvings.h"
 
 #define HALF_STEP   0.00015f /* of black in 8 bits: radiance at exposure 0 */
-#define SKY_ERROR   0.01f   /* of a sky's light, that one of its nodes may be wrong by */
-#define FEW_SAMPLES 65536   /* pixels from which on few samples stand for all */
-#define SIZE_SAMPLES 64     /* lights that stand for one with a size */
-#define MAX_MAPPED  32 /* lights with maps that bounce, by default: 100 take 160 times as long as in a tree */
+#define SKY_ERROR   0.01f   /* of a sky's light: error limit of a node */
+#define FEW_SAMPLES 65536   /* fewer pixels: sampling light gains no time */
+#define SIZE_SAMPLES 64     /* lights that replace one with a size */
+#define MAX_MAPPED  32 /* most lights with maps that bounce, by default: 100 take 160 times as long as in a tree */
 
 void render_job_free(render_job *j)
 {
@@ -66,7 +66,7 @@ static int load_scene(render_job *j, report *r)
            report_fail(r, "%s: nothing to draw: no triangles; `lambent info` says what is in it", j->o.scene);
 }
 
-/* The baked light transfer, if one is asked for. */
+/* Loads the baked light transfer, if the options name one. */
 static int load_transfer(render_job *j, report *r)
 {
     if (j->o.transfer == NULL) {
@@ -83,7 +83,7 @@ static int load_transfer(render_job *j, report *r)
            report_fail(r, "%s: baked from another scene than %s; bake it anew", j->o.transfer, j->o.scene);
 }
 
-/* Was it baked with light by direction? All leaves of a triangle alike. */
+/* Returns whether light by direction was baked; all leaves of a triangle are alike. */
 static int keeps_direction(const lmb_transfer *t, uint32_t root)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_DIVISIONS];
@@ -93,7 +93,7 @@ static int keeps_direction(const lmb_transfer *t, uint32_t root)
     return (node[root] & ~LMB_TRANSFER_LEAF) >= t->leaves;
 }
 
-/* Triangles of which a normal map or a lobe is lit as if all light came from straight above. */
+/* Counts triangles with a normal map or a lobe that were baked without direction: all light comes along the normal. */
 static uint32_t without_direction(const render_job *j)
 {
     const lmb_transfer *t = &j->transfer;
@@ -114,7 +114,7 @@ int render_job_load(render_job *j, report *r)
     if (!load_scene(j, r) || !load_transfer(j, r)) {
         return 0;
     }
-    if (j->o.slice.count > 0) { /* with what the scene's file has beside it */
+    if (j->o.slice.count > 0) { /* includes the files beside the scene file */
         const uint64_t scene = scene_hash(&j->scene);
         j->o.slice_job = slice_hash(j->o.slice_job, &scene, sizeof scene);
     }
@@ -131,7 +131,7 @@ int render_job_load(render_job *j, report *r)
     return 1;
 }
 
-/* Once nothing but memory can fail: an error is a line on its own. */
+/* Called when only memory can still fail, because an error should be the only line. */
 static void tell_notes(const render_job *j)
 {
     for (uint32_t i = 0; i < j->notes.count; ++i) {
@@ -139,13 +139,13 @@ static void tell_notes(const render_job *j)
     }
 }
 
-/* Is there light without lights? */
+/* Returns whether light is emitted without lights. */
 static int emits_itself(const render_job *j)
 {
     return j->o.grouping.method == LMB_GROUP_CUT && lmb_scene_emits(&j->scene);
 }
 
-/* Lamps that a program exports switched off are no light; those of the command line are as they were asked for. */
+/* Programs export switched-off lamps with zero power; those are no light. Lights of the command line always count. */
 static int has_lights(const render_job *j)
 {
     int any = j->o.light_count > 0;
@@ -156,7 +156,7 @@ static int has_lights(const render_job *j)
     return any;
 }
 
-/* 1: it has lights, or what emits light is the scene's light. 0: it has none. -1 with `r` set: out of memory. */
+/* Returns 1 if the scene has lights, or if emissive surfaces light it; 0 if not; -1 with `r` set: out of memory. */
 static int is_lit(const render_job *j, report *r)
 {
     if (has_lights(j)) {
@@ -166,13 +166,13 @@ static int is_lit(const render_job *j, report *r)
     return own < 0.0f ? -1 : own >= OWN_LIGHT;
 }
 
-/* Fixed groups have no light of a sky: nothing of it would bounce. */
+/* Fixed groups cannot bounce light of a sky. */
 static int can_bounce_many(const render_job *j)
 {
     return j->o.transfer != NULL || j->o.show == LMB_SHOW_DIRECT || j->o.grouping.method == LMB_GROUP_CUT;
 }
 
-/* The sky's sun behind the scene's lights. */
+/* Appends the sun of the sky to the scene's lights. */
 static int add_sun(render_job *j, report *r)
 {
     const uint32_t count = j->scene.light_count;
@@ -192,13 +192,13 @@ static int add_sun(render_job *j, report *r)
     return 1;
 }
 
-/* What is cut out stands on nothing, and what was baked knows no ground. */
+/* A cut-out object has no ground, and a bake does not contain it. */
 static int wants_ground(const render_job *j)
 {
     return !j->o.no_ground && j->o.background.kind == BACKGROUND_WORLD && j->o.transfer == NULL;
 }
 
-/* By itself only in `render`, where no settings are chosen: what is reckoned for a budget leaves a sky's light out. */
+/* A sky is the default only in `render` without a budget: cost estimates do not include the light of a sky. */
 static int wants_sky(const render_job *j)
 {
     return j->o.has_sky && can_bounce_many(j) && !has_budget(&j->o.budget, j->o.budget_ms);
@@ -241,7 +241,7 @@ static int set_world(render_job *j, int lit, report *r)
     return 1;
 }
 
-/* Those of the command line, with a size or without. */
+/* Lights of the command line, with or without a size. */
 static int take_lights(render_job *j, report *r)
 {
     uint32_t count = 0, wide = 0;
@@ -266,7 +266,7 @@ static int take_lights(render_job *j, report *r)
     return j->wide != NULL;
 }
 
-/* Those of the command line or the scene, and of what lies around it. */
+/* Lights of the command line or the scene, and of the world around. */
 static int set_lights(render_job *j, report *r)
 {
     static const lmb_light sun = {{0, 0, 0}, {0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
@@ -292,7 +292,7 @@ static int set_lights(render_job *j, report *r)
     return 1;
 }
 
-/* Maps of bounced light cost by the light, each as much as a picture. Lobes mirror lights of maps alone. */
+/* The cost of maps for bounced light grows with each light by about a picture. Lobes mirror only lights with maps. */
 static uint32_t most_mapped(const render_job *j)
 {
     const int bounces =
@@ -302,14 +302,14 @@ static uint32_t most_mapped(const render_job *j)
     return bounces && !mirrors && by_cuts ? MAX_MAPPED : LMB_MAX_LIGHTS;
 }
 
-/* Lights with a size make one shadow of many edges, which the tree's shadow tests place exactly, and maps do not. */
+/* Lights with a size make a shadow of many edges. The shadow tests of the tree place them exactly; maps do not. */
 static int is_soft(const render_job *j)
 {
     const int mirrors = j->o.glossy && lmb_scene_is_glossy(&j->scene);
     return j->wide != NULL && can_bounce_many(j) && !mirrors && !shows_map(j->o.show);
 }
 
-/* Lights that are too many for maps, or that were asked to, go into a tree; those of a sky always do. */
+/* Lights go into a tree if they are too many for maps, or if an option selects it; lights of a sky always do. */
 static int set_light_stream(render_job *j, report *r)
 {
     const uint32_t cells = j->o.many_lights_cells > 0 ? (uint32_t)j->o.many_lights_cells : LIGHT_STREAM_CELLS;
@@ -337,7 +337,7 @@ static int set_light_stream(render_job *j, report *r)
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-/* Who holds a texel's light: asked for only where it is shown. */
+/* Owner of each texel's light; allocated only if it is shown. */
 static int take_owners(render_job *j, report *r)
 {
     const lmb_frame *f = &j->frame;
@@ -352,7 +352,7 @@ static int take_owners(render_job *j, report *r)
     return p->owner != NULL;
 }
 
-/* Where in a picture of all eyes one eye's goes. */
+/* The part of a picture for one eye. */
 static lmb_surface eye_surface(const render_job *j, const image *whole, int32_t eye)
 {
     lmb_surface s;
@@ -385,7 +385,7 @@ int render_job_picture(render_job *j, image *out, report *r)
     return out->pixels != NULL;
 }
 
-/* Pictures for displays have smooth edges; linear ones are for measuring, and depth and ids have no mean. */
+/* Pictures for displays are antialiased. Linear ones are for measuring, and depth and ids have no mean. */
 static int32_t samples_of(const render_options *o)
 {
     const int shows_light = o->show <= LMB_SHOW_IRRADIANCE;
@@ -393,22 +393,23 @@ static int32_t samples_of(const render_options *o)
     return !shows_light ? 1 : o->samples != 0 ? o->samples : is_for_display ? 4 : 1;
 }
 
-/* If no --gather is given: a sky lights from all sides and softly, so few samples are enough: half the time, for .004 to
- * .008 of trim. In small pictures it gains no time and loses .01. Draft has light of single points: a tenth of the time; small
- * pictures of 64x48 lose up to .11 of trim by it. A budget chooses for itself. */
+/* The default of --gather. A sky lights softly from all sides, so few samples are enough: half the time, for .004 to
+ * .008 of trim. Small pictures gain no time and lose .01. Draft, and `play` by default, use light of single points: a
+ * tenth of the time; pictures of 64x48 lose up to .11 of trim. A budget makes a choice of its own. */
 static int32_t gather_of(const render_job *j)
 {
     const render_options *o = &j->o;
     const int is_cut = o->grouping.method == LMB_GROUP_CUT && j->transfer_file.data == NULL && !o->conservative;
     const int is_small = o->view.width * o->view.height < FEW_SAMPLES;
     const int is_soft = j->gathers_sky && o->quality != LMB_QUALITY_BEST && is_cut && !is_small;
-    const int is_asked = o->error > 0.0f || o->visibility > 0.0f || o->tree > 0; /* single points know none of these */
+    const int is_asked = o->error > 0.0f || o->visibility > 0.0f || o->tree > 0; /* single points use none of these */
+    const int is_quick = o->quality == LMB_QUALITY_DRAFT || (o->is_moving && o->quality == LMB_QUALITY_DEFAULT);
     const int is_live = LMB_LIVE && !j->gathers_sky && is_cut && !is_asked && !has_budget(&o->budget, o->budget_ms) &&
-                        o->quality == LMB_QUALITY_DRAFT && !is_small;
+                        is_quick && !is_small;
     return o->gather_step != 0 ? o->gather_step : is_soft ? LMB_GATHER_ADAPTIVE : is_live ? LMB_GATHER_LIVE : 0;
 }
 
-/* What the options ask of the frame's memory. `bare`: the scene without lights, for what shows none. */
+/* The settings that determine the frame's memory. `bare`: the scene without lights, for attributes. */
 static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare)
 {
     const render_options *o = &j->o;
@@ -441,7 +442,7 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
     return s;
 }
 
-/* What the library refuses of what the options let through. */
+/* Reports options that the library would refuse. */
 static int refuse(const lmb_frame_settings *s, report *r)
 {
     if (s->gather_step == LMB_GATHER_LIVE && s->quality == LMB_QUALITY_FIXED) {
@@ -452,7 +453,7 @@ static int refuse(const lmb_frame_settings *s, report *r)
                : report_fail_usage(r, "--grouping cut: --shadow-map must be a power of two, not %d", (int)s->shadow_map);
 }
 
-/* What takes no memory, as the options have it. */
+/* Sets the members that need no memory. */
 static void set_numbers(render_job *j)
 {
     lmb_frame *f = &j->frame;
@@ -469,7 +470,7 @@ static void set_numbers(render_job *j)
     f->truncated = j->o.truncated;
     f->gather_step = gather_of(j) != 0 ? gather_of(j) : f->gather_step;
     f->stats = &j->stats;
-    f->run_all = shows_map(j->o.show); /* also maps of lights that give nothing */
+    f->run_all = shows_map(j->o.show); /* also maps of lights without power */
     const int shows_steps = j->o.out != NULL && !picture_is_linear(picture_format(j->o.out)) && !j->o.exposure_auto;
     f->error_floor = shows_steps ? HALF_STEP * exp2f(-j->o.exposure_ev) : 0.0f;
 }
@@ -527,7 +528,7 @@ int render_job_set(render_job *j, report *r)
     }
     j->workers.threads = pool_threads(j->o.threads);
     if (j->o.show == SHOW_POINTS && j->o.grouping.join <= 0.0f) {
-        j->o.grouping.join = 1e-30f; /* first points as they are: none is so near another */
+        j->o.grouping.join = 1e-30f; /* first points unchanged: none are closer than this */
     }
     return render_job_take(j, r);
 }

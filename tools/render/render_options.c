@@ -1,4 +1,5 @@
-/* render_options.c: the command lines of `lambent render` and `lambent plan`; `lambent play` has most of the rows. */
+/* render_options.c: the command lines of `lambent render` and `lambent plan`; `lambent play` shares most of the
+ * rows. */
 #include "render_options.h"
 
 #include <math.h>
@@ -9,18 +10,18 @@
 #include "../picture/picture.h"
 #include "light_stream.h"
 
-enum { CHOSEN = -1 }; /* by the other options */
+enum { CHOSEN = -1 }; /* from other options */
 
 /* --- values of their own kinds ------------------------------------------------------------------------------------ */
 
-/* For command lines that name it. */
+/* Only for command lines that use it. */
 static int parse_profile(const char *text, void *at)
 {
     (void)at;
     return strcmp(text, "exact") == 0;
 }
 
-/* Rounded up to what the library takes: a power of 4. */
+/* Rounds up to a power of 4, as the library requires. */
 static int parse_elements(const char *text, void *at)
 {
     int32_t wanted, *elements = at;
@@ -32,7 +33,7 @@ static int parse_elements(const char *text, void *at)
     return 1;
 }
 
-/* 0 means the default to the library, so the least there is stands for it. */
+/* 0 selects the default in the library, so the smallest positive number replaces it. */
 static int parse_or_zero(const char *text, float low, float *at)
 {
     const int ok = option_number(text, low, 1.0f, at);
@@ -171,8 +172,8 @@ static const option_row output_rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = HELP("the picture: " PICTURE_OPTION_HELP)},
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page has neither slices nor draw.h */
-    OPTION_SLICE_ROW(render_options, slice, "picture's rows, eight by eight"),
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page has neither slices nor draw.h */
+    OPTION_SLICE_ROW(render_options, slice, "picture, in bands of eight rows"),
     {.name = "--wireframe", .kind = OPTION_FLAG, AT(show), .parse = parse_wireframe,
      .help = HELP("the edges of triangles that no surface hides, white on black; short for --show wireframe")},
 #endif
@@ -182,14 +183,14 @@ static const option_row output_rows[] = {
 const option_row render_view_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("view")},
     VIEW_OPTION_SIZE(render_options, view,
-                     "the picture, px (default: height 480, width by the camera's aspect; without a camera by the "
-                     "scene's shape)"),
+                     "picture size, px (default: height 480, width from the camera's aspect ratio, or from the "
+                     "scene's shape if it has no camera)"),
     {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(choice.scene),
-     .help = HELP("of a file with several scenes (default: its own choice)")},
+     .help = HELP("scene to load from a file with several (default: the file's default scene)")},
     OPTION_VERTEX_COLOURS_ROW(render_options, choice.vertex_colours),
     {.name = "--camera", .value = "NAME|N", .kind = OPTION_TEXT, AT(camera),
-     .help = HELP("one of the scene's cameras, by name or number from 0 (default 0)")},
-    VIEW_OPTIONS_CAMERA(render_options, view, "where a camera of your own stands; with --target"),
+     .help = HELP("camera of the scene, by name or number from 0 (default 0)")},
+    VIEW_OPTIONS_CAMERA(render_options, view, "position of your own camera; give --target too"),
     {.kind = OPTION_END},
 };
 
@@ -199,22 +200,23 @@ static const int32_t ground_values[] = {0, 1};
 const option_row render_world_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("world")},
     {.name = "--world", .value = "FILE|sky|none", .kind = OPTION_TEXT, AT(world),
-     .help = HELP("what lies around the scene, lights it and is seen behind it: a clear sky with a sun, or a picture of all "
-             "directions (.hdr, .pfm, .png, .jpg; twice as wide as high, or a cube's faces) (default: sky where the "
-             "scene has no light of its own, else none)")},
+     .help = HELP("surroundings that light the scene and are visible behind it: a clear sky with a sun, or an "
+                  "environment map (.hdr, .pfm, .png, .jpg; twice as wide as high, or cube faces) (default: sky if "
+                  "the scene has no light of its own, else none)")},
     {.name = "--ground", .kind = OPTION_WORD, AT(no_ground), .words = grounds, .values = ground_values,
-     .help = HELP("auto: under a scene without lights and without a floor lies a grey ground (default), but not before a "
-             "--background of its own; in a picture of the world it is a round stand, four times as wide as the scene")},
+     .help = HELP("auto: put a grey ground below a scene without lights and without a floor (default), unless "
+                  "--background is a colour or transparent; with an environment map it is a round disc four times "
+                  "as wide as the scene")},
     {.name = "--background", .value = "RRGGBB|world|transparent", .kind = OPTION_OWN, AT(background),
      .parse = parse_background, .expects = "world, transparent, or a colour such as ffffff",
-     .help = HELP("what is seen where no surface is: a colour, the world (default; black where there is none), or "
-             "nothing, a PNG with alpha")},
+     .help = HELP("shown where there is no surface: a colour, the world (default; black if there is none), or "
+                  "transparent, for a PNG with alpha")},
     {.kind = OPTION_END},
 };
 
 static const option_row stereo_rows[] = {
     {.name = "--stereo", .value = "METRES", .kind = OPTION_ABOVE, AT(stereo_m), .low = 0.0, .high = 1e6,
-     .help = HELP("two eyes that far apart, left | right side by side, each --size; one light serves both")},
+     .help = HELP("two eyes this far apart, left | right side by side, each of --size; both use the same light")},
     {.kind = OPTION_END},
 };
 
@@ -222,145 +224,146 @@ const option_row render_light_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("light")},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(render_options, light_count),
      .times = RENDER_LIGHTS, .size = sizeof(lmb_light), .sizes = offsetof(render_options, light_size),
-     .help = HELP("instead of the scene's lights; lights add up. KIND is spot, point or sun; position in metres, "
-             "direction of travel; W/sr, sun W/m2; a spot's half angles in degrees (default 0,45); SIZE: how wide it "
-             "is, m, of a sun degrees: its shadows are soft, by 64 lights")},
+     .help = HELP("replaces the scene's lights; repeat it to add lights. KIND is spot, point or sun; position in "
+                  "metres, direction of travel; W/sr, for a sun W/m2; half angles of a spot in degrees (default "
+                  "0,45); SIZE: width in m, for a sun degrees: soft shadows, made with 64 lights")},
     {.name = "--shadow-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(shadow_map), .low = 8, .high = 4096,
-     .help = HELP("texels a side of a shadow map (default 1024, less for many lights)")},
+     .help = HELP("texels per side of a shadow map (default 1024, less for many lights)")},
     {.kind = OPTION_TITLE, .help = HELP("many lights")},
     {.name = "--many-lights", .value = "CELLS", .kind = OPTION_INT, AT(many_lights_cells), .low = 1, .high = 1 << 22,
-     .help = HELP("lights stream into at most CELLS cells of the world, and every 8x8 pixels take what they need of a "
-             "tree over those, shadows by every triangle; so do --elements, which bounce their light. Millions take "
-             "the memory of thousands. By itself, with 16384 cells, where there are more than 128 lights, or more "
-             "than 32 that bounce by cuts")},
+     .help = HELP("cluster the lights into at most CELLS cells; every 8x8 pixels select nodes of a tree over the "
+                  "cells, and shadows test every triangle. --elements are lit in the same way and bounce the light. "
+                  "Millions of lights need no more memory than thousands. Used by default, with 16384 cells, if "
+                  "there are more than 128 lights, or more than 32 that bounce by cuts")},
     {.name = "--light-error", .value = "E", .kind = OPTION_NUMBER, AT(light_error), .low = 1e-6, .high = 1,
-     .help = HELP("share of a pixel's light that one node of that tree may be wrong by (default 0.02; of a sky alone 0.01)")},
+     .help = HELP("share of a pixel's light that one node of that tree may be wrong by (default 0.02; 0.01 if only "
+                  "a sky gives light)")},
     {.kind = OPTION_END},
 };
 
 const option_row render_bounce_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("bounce")},
     {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities, .values = quality_values,
-     .help = HELP("sets --tree, --error and --visibility where they are not given; see README for each one's error and "
-             "time")},
+     .help = HELP("sets --tree, --error and --visibility if you do not; see README for the error and time of each")},
     {.name = "--transfer", .value = "FILE.lmt", .kind = OPTION_TEXT, AT(transfer), .file = OPTION_READS,
-     .help = HELP("bounced light by what `lambent bake` made of this scene, or a .lmp that has it within; of one "
-             "reflection, or more by --bounces")},
+     .help = HELP("bounced light from a file that `lambent bake` made for this scene, or from a .lmp that contains "
+                  "it; one bounce, or as many as --bounces")},
     {.name = "--tree", .value = "N", .kind = OPTION_POWER_OF_2, AT(tree), .low = 8, .high = 4096,
-     .help = HELP("first points a side of a shadow map, to an eighth of --shadow-map")},
+     .help = HELP("first points per side of a shadow map, at most an eighth of --shadow-map")},
     {.name = "--error", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
-     .help = HELP("share that a pixel's bounced light may be wrong by where nothing blocks it")},
+     .help = HELP("largest relative error of a pixel's bounced light, ignoring occlusion")},
     {.name = "--error-bound", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
      .counts = offsetof(render_options, conservative),
-     .help = HELP("the same as a proof, for each pixel: takes many times as long (one bounce; with --occlusion none also "
-             "where it takes every texel)")},
+     .help = HELP("like --error, but a proven bound for each pixel: takes many times as long (one bounce; with "
+                  "--occlusion none it also holds if a pixel needs every texel)")},
     {.name = "--visibility", .value = "V", .kind = OPTION_NUMBER, AT(visibility), .low = 1e-4, .high = 10,
-     .help = HELP("what may be seen or blocked as one: at most this share of a pixel's bounced light")},
+     .help = HELP("largest share of a pixel's bounced light that one visibility test decides")},
     {.name = "--bounces", .value = "N", .kind = OPTION_INT, AT(bounces), .low = 1, .high = 64,
-     .help = HELP("reflections of light (default 1); above 1 with --grouping cut. What an emitter sends straight is none: "
-             "it always counts")},
+     .help = HELP("number of bounces (default 1); more than 1 need --grouping cut. Light that reaches a surface "
+                  "directly from an emitter is no bounce and always counts")},
     {.name = "--rest", .kind = OPTION_WORD, AT(truncated), .words = rests,
-     .help = HELP("with --bounces over 1, light that is reflected more often: estimated from how the last of them grew "
-             "weaker (default), or left out")},
+     .help = HELP("with --bounces over 1, light of further bounces: estimated from the decrease of the last ones "
+                  "(default), or left out")},
     {.name = "--elements", .value = "N", .kind = OPTION_OWN, AT(elements), .parse = parse_elements,
      .expects = "a number, 64 .. 16777216",
-     .help = HELP("pieces of the scene that reflect again, or emit (a power of 4; default 16384, with --bounces over 1 "
-             "65536)")},
+     .help = HELP("surface elements that bounce light again, or emit it (a power of 4; default 16384, with "
+                  "--bounces over 1 65536)")},
     {.name = "--grouping", .kind = OPTION_WORD, AT(grouping.method), .words = groupings, .values = grouping_values,
-     .help = HELP("cut (default): every 8x8 pixels take what they need of a tree of all lit points. The others make one "
-             "fixed set of groups; what follows to --steps is theirs")},
+     .help = HELP("cut (default): every 8x8 pixels select nodes of a tree of all lit points. The others make one "
+                  "fixed set of groups; only they use the options from --groups to --centre, and --steps")},
     {.name = "--groups", .value = "N", .kind = OPTION_INT, AT(grouping.groups), .low = 1, .high = LMB_MAX_GROUPS,
-     .help = HELP("groups at most (default 512)")},
+     .help = HELP("maximum number of groups (default 512)")},
     {.name = "--block", .kind = OPTION_WORD, AT(grouping.block), .words = blocks, .values = block_values,
-     .help = HELP("texels a side of a first point (default 8)")},
+     .help = HELP("texels per side of a first point (default 8)")},
     {.name = "--neighbour", .value = "METRES", .kind = OPTION_NUMBER, AT(grouping.neighbour_m), .low = 0, .high = 1e6,
-     .help = HELP("neighbours are points within so many metres, say 0.25, 0.5 or 1 (default: those of the blocks around, "
-             "as --neighbour-blocks 1)")},
+     .help = HELP("neighbours are points within this distance, for example 0.25, 0.5 or 1 (default: those of "
+                  "adjacent blocks, like --neighbour-blocks 1)")},
     {.name = "--neighbour-blocks", .value = "N", .kind = OPTION_INT, AT(grouping.neighbour_cells), .low = 1,
      .high = LMB_MAX_SIDE,
-     .help = HELP("neighbours are points within so many blocks of the shadow map; and within --neighbour, where both are "
-             "given")},
+     .help = HELP("neighbours are points within this many blocks of the shadow map; if you give --neighbour too, "
+                  "both must hold")},
     {.name = "--neighbourhood", .value = "facing|hemisphere", .kind = OPTION_OWN, AT(grouping.flags),
      .parse = parse_neighbourhood, .expects = "facing or hemisphere",
-     .help = HELP("neighbours are points that face the same way (default), or any over the surface")},
+     .help = HELP("neighbours must face the same way (default), or may be anywhere above the surface")},
     {.name = "--thin", .value = "N", .kind = OPTION_INT, AT(grouping.thin), .low = 1, .high = LMB_MAX_THIN,
-     .help = HELP("of N points one becomes a disc, evenly spread, and the others join it (default 1)")},
+     .help = HELP("one of N points becomes a disc, evenly spread, and the others join it (default 1)")},
     {.name = "--disc-radius", .value = "R", .kind = OPTION_ABOVE, AT(grouping.radius), .low = 0, .high = 1e6,
-     .help = HELP("a disc's radius is R x its mean distance to its neighbours (default: by the area of its points, so "
-             "that none is lost or made)")},
+     .help = HELP("disc radius: R x the mean distance to neighbouring discs (default: from the area of the points, "
+                  "which preserves the total area)")},
     {.name = "--zones", .value = "N", .kind = OPTION_INT, AT(grouping.zones), .low = 1, .high = 1 << 26,
-     .help = HELP("zones that the discs' map is cut into at first (default: as --groups)")},
+     .help = HELP("initial number of zones of the map of discs (default: same as --groups)")},
     {.name = "--join", .value = "K", .kind = OPTION_OWN, AT(grouping.join), .parse = parse_join,
      .expects = "a number, 0 .. 1",
      .help = HELP("points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)")},
     {.name = "--reach", .value = "X", .kind = OPTION_NUMBER, AT(grouping.reach), .low = 0.01, .high = 1e6,
-     .help = HELP("a disc joins a group within X x the first disc's radius (default 3)")},
+     .help = HELP("a disc joins a group within X x the radius of the first disc (default 3)")},
     {.name = "--cosine", .value = "C", .kind = OPTION_OWN, AT(grouping.cosine), .parse = parse_cosine,
      .expects = "a number, -1 .. 1",
-     .help = HELP("... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)")},
+     .help = HELP("... and if the cosine between the normals is at least C, -1 .. 1 (default 0.9)")},
     {.name = "--misfits", .value = "keep|drop", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_misfits,
      .expects = "keep or drop",
-     .help = HELP("what does not fit its zone opens another group, or is lost; how much is said")},
+     .help = HELP("a disc that does not fit its zone opens another group, or is dropped; the loss is printed")},
     {.name = "--centre", .value = "barycentre|disc", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_centre,
      .expects = "barycentre or disc",
-     .help = HELP("where a group stands (default barycentre)")},
+     .help = HELP("position of a group (default barycentre)")},
     {.name = "--occlusion", .kind = OPTION_WORD, AT(occlusion), .words = occlusions, .values = occlusion_values,
-     .help = HELP("what stands between lit points and pixels: every triangle (cut's default); nothing; or, for fixed "
-             "groups, what the viewer's depth map shows, marched in map space or in world space (their default: "
-             "view): it cannot know what is off screen or hidden")},
+     .help = HELP("occlusion between lit points and pixels: test every triangle (default of cut); none; or, for "
+                  "fixed groups, march the viewer's depth map in map space or in world space (their default: view), "
+                  "which misses geometry that is off screen or hidden")},
     {.name = "--steps", .value = "N", .kind = OPTION_INT, AT(steps), .low = 1, .high = 64,
-     .help = HELP("samples of a view march (default 12)")},
+     .help = HELP("samples of a march through the depth map (default 12)")},
     {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
-     .help = HELP("at every pixel (default; half with many lights; adaptive under a sky; live if --quality draft draws "
-             "65,536 pixels or more and no --error, --visibility, --tree or budget is given), or at "
-             "every second or fourth each way and between them where surface and light go on; pixels that have no such "
-             "neighbours are gathered too. adaptive: at every eighth, and closer where light asks for it, by a smaller "
-             "--error closer. live: there, each by 64 segments (draft: 32): the fastest, for light that moves")},
+     .help = HELP("full: every pixel; half, quarter: every second or fourth pixel each way, interpolated if surface "
+                  "and light are continuous; pixels without such neighbours are gathered too. adaptive: every "
+                  "eighth pixel, and denser if the light needs it, or for a smaller --error. live: like adaptive, "
+                  "with 64 segments each (draft: 32): the fastest, for moving light. Default: full; half with many "
+                  "lights; adaptive under a sky; live if --quality draft, or `play` without --quality, draws "
+                  "65,536 pixels or more, unless you give --error, --visibility, --tree or a budget")},
     {.kind = OPTION_END},
 };
 
 const option_row render_picture_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("picture")},
     {.name = "--glossy", .kind = OPTION_FLAG, AT(glossy),
-     .help = HELP("glTF's materials with highlights and reflections, by metallic, roughness and base colour "
-             "(metallic-roughness maps by texel): of the lights with maps, and of what bounces, by --grouping cut or "
-             "--transfer. "
-             "Else, and in OBJ, PLY and `demo`, materials are Lambertian")},
+     .help = HELP("draw highlights and reflections of glTF materials, from metallic, roughness and base colour "
+                  "(metallic-roughness maps by texel): for lights with maps, and for bounced light with --grouping "
+                  "cut or --transfer. Otherwise, and in OBJ, PLY and `demo`, materials are Lambertian")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .values = show_values,
-     .help = HELP("light, which alone `play` and `plan` show (default full; irradiance: bounced, before albedo);\ndepth, eye-distance, normal, albedo: of "
-             "what the eye sees; metres along the view, and from the eye;\nlight-distance, points, groups: of the "
-             "shadow maps, at their size, a row of faces a light: metres from the light; first points by what they "
-             "send, W/m2 (discs, where --join or --thin is given); the number of the group that owns a texel, 0 "
-             "dark, -1 dropped;\nocclusion: the share of the bounced light that --occlusion blocks;\nwireframe: edges of triangles.\nDisplay formats "
-             "scale distances, near is bright, and give each group a colour")},
+     .help = HELP("light, the only choices of `play` and `plan` (default full; irradiance: bounced, before "
+                  "albedo);\ndepth, eye-distance, normal, albedo: attributes of the view; metres along the view "
+                  "axis, and from the eye;\nlight-distance, points, groups: shadow maps in map resolution, a row of "
+                  "faces per light: metres from the light; exitance of first points, W/m2 (discs, if you give "
+                  "--join or --thin); number of the group that owns a texel, 0 dark, -1 dropped;\nocclusion: the "
+                  "share of bounced light that --occlusion blocks;\nwireframe: edges of triangles.\nDisplay formats "
+                  "scale distances, near is bright, and give each group a colour")},
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
-     .help = HELP("a pixel, of edges and direct light; bounced light is gathered once for each surface that it shows "
-             "(default 4 for .png and .ppm, 1 for .pfm and .hdr; --show depth and what else is no light takes no more)")},
+     .help = HELP("samples per pixel for edges and direct light; bounced light is gathered once per visible surface "
+                  "(default 4 for .png and .ppm, 1 for .pfm and .hdr; --show modes without light use 1)")},
     OPTION_TONE_ROW(render_options, tone),
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
-     .help = HELP("stops, display formats only (default auto, by the light that surfaces reflect: said on stderr). .pfm "
-             "and .hdr stay linear")},
+     .help = HELP("stops, display formats only (default auto: from the light that surfaces reflect, printed on "
+                  "stderr). .pfm and .hdr stay linear")},
     {.kind = OPTION_END},
 };
 
 static const option_row budget_rows[] = {
     {.kind = OPTION_TITLE,
      .help = HELP("budget: with any of these --shadow-map, --tree, --error, --visibility, --gather and --occlusion are "
-             "chosen: the least error within them, or the least work that keeps --budget-error. What is chosen, and "
-             "by how much it falls short, is said; `lambent plan` shows the reckoning")},
+             "chosen for you: the least error within the limits, or the least work within --budget-error. The choice, "
+             "and limits that it misses, are printed; `lambent plan` shows the estimates")},
     {.name = "--budget-error", .value = "E", .kind = OPTION_NUMBER, AT(budget.error), .low = 1e-5, .high = 10,
-     .help = HELP("bounced light may be that far off: RMSE over its mean, without the worst 1 % of pixels")},
+     .help = HELP("error limit of bounced light: RMSE over the mean, without the worst 1 % of pixels")},
     {.name = "--budget-ms", .value = "T", .kind = OPTION_NUMBER, AT(budget_ms), .low = 1e-3, .high = 1e9,
-     .help = HELP("a frame may take that long here: T x the rate of `lambent bench --calibrate`")},
+     .help = HELP("time limit of a frame on this machine: T x the rate of `lambent bench --calibrate`")},
     {.name = "--budget-work", .value = "N", .kind = OPTION_OWN, AT(budget.work), .parse = parse_budget_work,
      .expects = "a number of units, 1 or more",
-     .help = HELP("the same in units, one a pixel lit by one node: the same choice on every machine")},
+     .help = HELP("the same in units (one pixel lit by one node), for the same choice on every machine")},
     {.name = "--budget-bytes", .value = "N[KiB|MiB]", .kind = OPTION_OWN, AT(budget.bytes), .parse = parse_budget_bytes,
      .expects = "a number of bytes, or of KiB or MiB: 100KiB",
-     .help = HELP("of maps, trees, view, picture and one thread's scratch")},
+     .help = HELP("limit of maps, trees, view, picture and one thread's scratch")},
     {.name = "--rate", .value = "UNITS", .kind = OPTION_NUMBER, AT(rate), .low = 1, .high = 1e15,
-     .help = HELP("units of work a second, in place of measuring them")},
+     .help = HELP("units of work per second, instead of measuring them")},
     {.kind = OPTION_END},
 };
 
@@ -368,30 +371,30 @@ const option_row render_other_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("other")},
     {.name = "--profile", .value = "exact", .kind = OPTION_OWN, .parse = parse_profile,
      .expects = "exact (there is no other)",
-     .help = HELP("the only one: the same bytes on every machine")},
+     .help = HELP("the only profile: the same bytes on every machine")},
     OPTION_BACKEND_ROW(render_options, kernels),
     OPTION_THREADS_ROW(render_options, threads, "draw the picture"),
-#if !defined(OPTIONS_WITHOUT_HELP) /* a page writes no files */
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page writes no files */
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
-     .help = HELP("time by stage, counts, bytes")},
+     .help = HELP("time per stage, counts, bytes")},
 #endif
     OPTION_ONLY_HERE,
     OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose,
-                    "say what it draws with, and how long each stage took"),
+                    "print the settings, and the time of each stage"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
 
 static const option_row json_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("plan")},
-    {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = HELP("all of it for programs")},
+    {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = HELP("print everything as JSON")},
     {.kind = OPTION_END},
 };
 
 const option_table render_table = {
     .verb = "render",
     .usage = HELP("render SCENE -o OUT [options]"),
-    .about = HELP("A scene in, a picture with bounced light out."),
+    .about = HELP("Draws a scene with bounced light."),
     .part = {render_scene_rows, output_rows, render_view_rows, stereo_rows, render_world_rows,
              render_light_rows, render_bounce_rows, render_picture_rows, budget_rows, render_other_rows},
     .examples = HELP("  lambent render demo --size 320x240 -o demo.png\n"
@@ -403,23 +406,24 @@ const option_table render_table = {
 const option_table plan_table = {
     .verb = "plan",
     .usage = HELP("plan SCENE [options]"),
-    .about = HELP("What `lambent render` with the same options would do (by --world none), and draws nothing: the stages it runs, with counted "
-        "operations, units of work and memory; those it leaves out, and why. `exact`: the picture has the same "
-        "bytes as with it; that is proved, and tested. Without a budget nothing else is left out:\n"
-        "a light of 0 W (no map, no light); a light that faces past (the faces of its map that see nothing of the "
-        "scene); bounced light of what reflects nothing, or is unlit; lobes and emission that no material has; and "
-        "in a convex, empty room, where nothing stands between two points of it, every segment.\n"
-        "Pairs and segments of bounced light are told by a look at up to 192 tiles of the picture itself. So is the "
-        "error of what is chosen for a budget, against a finer setting. No look costs over a quarter of the picture. "
-        "Work is counted in units: one is a pixel lit by one node."),
+    .about = HELP("Reports what `lambent render` would do with the same options (and --world none), without "
+                  "drawing: the stages that run, with counted operations, units of work and memory; and those that "
+                  "are skipped, with the reason. `exact`: skipping changes no byte of the picture; that is proved, "
+                  "and tested. Without a budget nothing else is skipped:\na light of 0 W (no map, no light); a "
+                  "light that points away from the scene (faces of its map that see nothing of the scene); bounced "
+                  "light of surfaces that reflect nothing, or are unlit; lobes and emission that no material has; "
+                  "and in a convex, empty room, where nothing can lie between two points, every segment.\nPairs and "
+                  "segments of bounced light are estimated from up to 192 sample tiles of the picture. So is the "
+                  "error of settings chosen for a budget, against finer settings. Sampling never costs over a "
+                  "quarter of the picture. Work is counted in units: one is a pixel lit by one node."),
     .part = {render_scene_rows, json_rows, budget_rows, render_view_rows, stereo_rows, render_light_rows,
              render_bounce_rows, render_picture_rows, render_other_rows},
     .examples = HELP("  lambent plan demo --size 32x24\n"
-                "  what fits a frame of 16 ms on this machine:\n"
+                "  settings for a frame of 16 ms on this machine:\n"
                 "    lambent plan demo --size 32x24 --budget-ms 16\n"
-                "  the least work for 5 % of error:\n"
+                "  the least work for an error of 5 %:\n"
                 "    lambent plan demo --size 32x24 --budget-error 0.05\n"
-                "  what fits a small memory, or by how much nothing does:\n"
+                "  settings for a small memory, or how much more is needed:\n"
                 "    lambent plan demo --size 32x24 --budget-bytes 400KiB\n"),
 };
 
@@ -436,7 +440,7 @@ static void choose(render_options *o)
 {
     const int viewed = o->occlusion == LMB_OCCLUSION_VIEW || o->occlusion == LMB_OCCLUSION_VIEW_WORLD;
     if (o->grouping.method == CHOSEN) {
-        lmb_grouping plain; /* an option that fixed groups alone have asks for them */
+        lmb_grouping plain; /* an option that only fixed groups use selects them */
         memset(&plain, 0, sizeof plain);
         plain.method = CHOSEN;
         const int grouped = viewed || o->steps != 0 || o->show == SHOW_POINTS || o->show == SHOW_GROUPS ||
@@ -538,7 +542,7 @@ static int check_verb(const render_options *o, int plans, report *r)
     return o->out != NULL || plans || report_fail(r, "no output given; add -o FILE.png (or .ppm .pfm .hdr)");
 }
 
-/* Machines choose alike, so no setting may be chosen by how fast one is. */
+/* All machines must choose alike, so the speed of a machine must not affect any setting. */
 static int check_slice(const render_options *o, report *r)
 {
     char name[SLICE_NAME];

@@ -1,4 +1,4 @@
-/* render_options.h: what `lambent render` was asked for. */
+/* render_options.h: the options of `lambent render`. */
 #ifndef RENDER_OPTIONS_H
 #define RENDER_OPTIONS_H
 
@@ -9,15 +9,15 @@
 #include "../common/view_options.h"
 #include "../model/model.h"
 
-#define RENDER_LIGHTS 64 /* --light given at most this often */
+#define RENDER_LIGHTS 64 /* most --light options */
 
-/* --show beyond LMB_SHOW_*: the view's attributes; what lives in the shadow maps; how much light is blocked. */
+/* --show beyond LMB_SHOW_*: attributes of the view; contents of the shadow maps; how much light is blocked. */
 enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO, SHOW_WIREFRAME, SHOW_EYE_DISTANCE };
 enum { SHOW_LIGHT_DISTANCE = 32, SHOW_POINTS, SHOW_GROUPS };
 enum { SHOW_OCCLUSION = 48 };
 
 static inline int shows_attribute(int32_t show) { return show >= SHOW_DEPTH && show <= SHOW_EYE_DISTANCE; }
-/* Are settings to be chosen? */
+/* Returns whether settings are chosen for a budget. */
 static inline int has_budget(const lmb_budget *b, float ms)
 {
     return b->work > 0.0 || b->error > 0.0f || b->bytes > 0 || ms > 0.0f;
@@ -38,56 +38,57 @@ typedef struct render_options {
     model_choice choice;    /* choices that the scene's file leaves open */
     const char *camera;     /* name or number; NULL: the first */
     lmb_light lights[RENDER_LIGHTS];
-    float light_size[RENDER_LIGHTS]; /* m, of a sun degrees; 0: none */
+    float light_size[RENDER_LIGHTS]; /* m, or degrees for a sun; 0: none */
     uint32_t light_count;
-    const char *world; /* NULL: a sky where the scene has no light; sky, none, or a file */
+    const char *world; /* sky, none, or a file; NULL: a sky if the scene has no light */
     int32_t has_sky; /* use a sky if the scene has no light; set by verbs that draw pictures */
     int32_t no_ground;
     render_background background;
     float stereo_m; /* between the eyes; 0: one eye */
     int32_t show;
-    int32_t shadow_map; /* 0: chosen */
+    int32_t shadow_map; /* 0: automatic */
     lmb_grouping grouping;
-    int32_t quality;      /* LMB_QUALITY_*: what the next three are where they are 0 */
-    int32_t tree;         /* first points a side of a light tree */
+    int32_t quality;      /* LMB_QUALITY_*: defaults of the next three, if these are 0 */
+    int32_t tree;         /* first points per side of a light tree */
     float error, visibility;
     int32_t conservative;
     int32_t bounces, elements; /* 0: default */
     int32_t truncated;         /* --rest none */
     int32_t occlusion, steps;
-    int32_t many_lights_cells; /* 0: only where the scene has too many lights for maps */
+    int32_t many_lights_cells; /* 0: only if the scene has too many lights for maps */
     float light_error;
     int32_t gather_step; /* LMB_GATHER_*; 0: default */
-    int32_t samples;     /* a pixel; 0: by the output's format */
-    int glossy;          /* materials get their lobe */
+    int32_t is_moving;   /* many frames of one scene: set by `play` */
+    int32_t samples;     /* per pixel; 0: depends on the output format */
+    int glossy;          /* materials have glossy lobes */
     int32_t exposure_auto;
     float exposure_ev;
     int32_t tone; /* PICTURE_ */
     const lmb_kernels *kernels;
-    int32_t threads; /* 0: as many as there are processors */
+    int32_t threads; /* 0: one per processor */
     lmb_budget budget; /* zeros: none */
     float budget_ms;   /* 0: none */
-    float rate;        /* units of work a second and thread; 0: measured where it is wanted */
+    float rate;        /* units of work per second; 0: measured if needed */
     int json;          /* of `plan` */
-    slice slice;       /* of the picture's rows, or of a sequence's frames */
-    uint64_t slice_job; /* with a slice: of the command line and the files that it names */
+    slice slice;       /* of the picture's rows, or of the frames of a sequence */
+    uint64_t slice_job; /* with a slice: hash of the command line and of the files in it */
 } render_options;
 
 extern const option_table render_table, plan_table;
 
-/* Rows that other verbs have, too, whose struct begins with a render_options. */
+/* Rows that other verbs share. Begin the struct of such a verb with a render_options. */
 extern const option_row render_scene_rows[], render_view_rows[], render_world_rows[], render_light_rows[],
     render_bounce_rows[], render_picture_rows[], render_other_rows[];
 
-/* render_options_begin: what holds where nothing is given. render_options_complete: what was left open, after the
- * command line was read, and whether it goes together; 1, or 0 with `r` set. render_options_parse does both. */
+/* render_options_begin: sets the defaults. render_options_complete: after the command line was read, fills in open
+ * options and checks that they fit together; returns 1, or 0 with `r` set. render_options_parse does both. */
 void render_options_begin(render_options *out);
 int render_options_complete(render_options *inout, report *r);
 
-/* For `render`, and for `plan`, which has no output: argv[0] says which. As options_parse. */
+/* For `render` and `plan`, which has no output; argv[0] selects. Returns like options_parse. */
 int render_options_parse(render_options *out, int argc, char **argv, report *r);
 
-/* render_options_job: with a slice, which job it is of: reads the files. 1, or 0 with `r` set. */
+/* render_options_job: with a slice, computes the job hash; reads the files. Returns 1, or 0 with `r` set. */
 int render_options_job(render_options *inout, const option_table *t, int argc, char **argv, report *r);
 
 #endif

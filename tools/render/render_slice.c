@@ -8,7 +8,7 @@
 #include "../common/io_bytes.h"
 #include "../picture/picture.h"
 
-/* What lies in a slice beside the light. */
+/* Data in a slice besides the light. */
 enum { HAS_EMITTED = 1, HAS_COVER = 2, HAS_OWN = 4, HAS_UNLIT = 8 };
 
 static int rows_of(const exposure_view *v, int32_t band)
@@ -73,7 +73,7 @@ int render_slice_write(const render_job *j, const render_finish *f, report *r)
 
 /* --- back --------------------------------------------------------------------------------------------------------- */
 
-/* Returns what lies beside the light, or -1. */
+/* Returns the flags of that data, or -1. */
 static int get_head(render_finish *f, byte_reader *s)
 {
     exposure_view *v = &f->view;
@@ -100,7 +100,7 @@ static int get_head(render_finish *f, byte_reader *s)
     return ok ? has : -1;
 }
 
-/* Memory for the whole picture. */
+/* Allocates the whole picture. */
 static int take(render_finish *f, image *linear, int has, report *r)
 {
     exposure_view *v = &f->view;
@@ -139,7 +139,7 @@ static void get_band(const exposure_view *v, image *linear, byte_reader *s, int3
     }
 }
 
-/* One slice's bands into the picture, which the first one begins. */
+/* Copies the bands of a slice into the picture; the first slice allocates it. */
 static int add(render_finish *f, image *linear, int32_t i, slice_file *file, report *r)
 {
     render_finish own;

@@ -1,4 +1,4 @@
-/* render_verb.c: what `lambent render` and `lambent plan` begin and end with. */
+/* render_verb.c: the common frame of `lambent render` and `lambent plan`. */
 #include "render_verb.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* render_view.c: where a picture is taken from: the command line, the scene's cameras, or a view that frames it all. */
+/* render_view.c: chooses the view: command line, scene camera, or a view that frames the scene. */
 #include "render_view.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* render_world.c: a sky, or a picture of one, around a scene, and the ground below it. */
+/* render_world.c: a sky or an environment map around a scene, and a ground below it. */
 #include "render_world.h"
 
 #include <math.h>
@@ -10,15 +10,15 @@
 #include "../../src/raster/triangle.h"
 #include "../picture/world_read.h"
 
-enum { SKY_SIDE = 64, MAX_SIDE = 512, LIGHT_SIDE = 32 /* a cube's face has so many lights each way */ };
+enum { SKY_SIDE = 64, MAX_SIDE = 512, LIGHT_SIDE = 32 /* lights per side of a cube face */ };
 enum { RIM = 64 /* corners of the ground */ };
 #define TURBIDITY   3.0f           /* a clear day */
-#define SKY_SCALE   0.025f         /* beside a sun of 3 W/m2; both together light the ground without a tint */
+#define SKY_SCALE   0.025f         /* for a sun of 3 W/m2; together they light the ground neutrally */
 #define MAX_TEXEL   65504.0f       /* of a half float */
-#define REFLECTS    0.5f           /* the ground's albedo */
-#define SKY_REACH   10.0f          /* the ground's radius over the scene's: its rim is far */
-#define BELOW       5e-5f          /* of its radius: a floor that no rule knows for one still lies on top */
-#define WORLD_REACH 4.0f           /* in a picture of the world it is a stand */
+#define REFLECTS    0.5f           /* albedo of the ground */
+#define SKY_REACH   10.0f          /* radius of the ground over that of the scene: the rim is far away */
+#define BELOW       5e-5f          /* of the radius: floors that has_floor misses still lie on top */
+#define WORLD_REACH 4.0f           /* with an environment map the ground is only a small disc */
 
 void world_free(world *w)
 {
@@ -61,7 +61,7 @@ int world_sky(world *w, report *r)
     return take_env(w, SKY_SIDE, r) && lmb_env_sky(&w->env, to_sun, TURBIDITY, SKY_SCALE, black) == LMB_OK;
 }
 
-/* The mean of the picture's texels that a texel of the cube covers, or the one it lies in. */
+/* The mean of the source texels that a cube texel covers, or the one that contains it. */
 static void mean_of(float rgb[3], const float *face, int32_t side, int32_t x, int32_t y, int32_t n)
 {
     const int32_t x0 = x * side / n, y0 = y * side / n, x1 = (x + 1) * side / n, y1 = (y + 1) * side / n;
@@ -79,14 +79,14 @@ static void mean_of(float rgb[3], const float *face, int32_t side, int32_t x, in
     }
 }
 
-/* sr. */
+/* Solid angle, sr. */
 static float texel_angle(int32_t x, int32_t y, int32_t n)
 {
     const float s = cube_coordinate(x, n), t = cube_coordinate(y, n), d2 = 1.0f + s * s + t * t;
     return 4.0f / ((float)n * (float)n * d2 * sqrtf(d2));
 }
 
-/* What a half float cannot hold of a texel: it goes to the sun. */
+/* Moves radiance beyond the range of a half float to the sun. */
 static void add_clipped(lmb_light *sun, const float rgb[3], lmb_vec3 d, float angle)
 {
     float over = 0.0f;
@@ -104,7 +104,7 @@ static void add_clipped(lmb_light *sun, const float rgb[3], lmb_vec3 d, float an
 
 static float length_of(lmb_vec3 v) { return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z); }
 
-/* The sun of the cube, if it has one, and of what the cube could not hold. */
+/* Joins the sun found in the cube with the radiance that the cube cannot hold. */
 static void join_suns(world *w, const lmb_light *clipped)
 {
     lmb_light *sun = &w->sun;
@@ -170,7 +170,7 @@ int world_read(world *w, const char *path, int is_quiet, report *r)
 
 /* --- ground ------------------------------------------------------------------------------------------------------- */
 
-/* A surface that faces up, looked at from above, m2: of the scene's foot, and of all of it less what faces down. */
+/* Surfaces that face up, seen from above, m2: at the scene's base; total minus those that face down. */
 typedef struct floors {
     double foot, net;
 } floors;
@@ -184,7 +184,7 @@ static void add_floor(floors *sum, const lmb_vec3 p[3], float foot)
     sum->foot += is_foot && area > 0.0 ? area : 0.0;
 }
 
-/* Does it stand on a floor of its own, or is it the land itself? */
+/* Returns whether the scene has a floor, or is terrain. */
 static int has_floor(const lmb_scene *s)
 {
     const lmb_vec3 low = s->bounds_min, high = s->bounds_max;
@@ -210,7 +210,7 @@ static void widen_bounds(lmb_scene *s, const float *corners)
     }
 }
 
-/* A fan of triangles around the middle of the scene's foot, facing up. */
+/* A triangle fan around the middle of the scene's base, facing up. */
 static void set_disc(float *corners, const lmb_scene *s, float radius)
 {
     const float x = 0.5f * (s->bounds_min.x + s->bounds_max.x), y = s->bounds_min.y - BELOW * radius,
@@ -218,7 +218,7 @@ static void set_disc(float *corners, const lmb_scene *s, float radius)
     for (int i = 0; i < RIM; ++i) {
         float *p = corners + 9 * i;
         for (int k = 0; k < 3; ++k) {
-            /* By turns of a multiple of 1/64 of a circle. */
+            /* Turns are multiples of 1/64 of a circle. */
             const float at = (float)(k == 0 ? 0 : i + k - 1) * (6.28318531f / RIM), reach = k == 0 ? 0.0f : radius;
             p[3 * k] = x + reach * lmb_sin(at);
             p[3 * k + 1] = y;
@@ -227,7 +227,7 @@ static void set_disc(float *corners, const lmb_scene *s, float radius)
     }
 }
 
-/* The scene's arrays, each with one place more. */
+/* Copies the scene's arrays with room for one more. */
 static int widen(world *w, lmb_scene *s, report *r)
 {
     w->meshes = take(w, (s->mesh_count + 1) * sizeof *w->meshes, r);
@@ -269,7 +269,7 @@ static void put_disc(world *w, lmb_scene *s)
     ++s->instance_count;
 }
 
-/* The sun's map has a face for what stands on the ground: before the ground widens the scene. */
+/* Limits a map face of the sun to the scene itself; call it before the ground widens the bounds. */
 static void set_core(lmb_scene *s)
 {
     lmb_core *c = &s->core;
@@ -290,13 +290,13 @@ static int is_inside(lmb_vec3 p, const lmb_scene *s)
            p.z > s->bounds_min.z && p.z < s->bounds_max.z;
 }
 
-/* Is the ground's height another float than the foot's? Not far from the origin. */
+/* Returns whether the ground's height differs from the base as a float. Far from the origin it may not. */
 static int lies_apart(const lmb_scene *s, float radius)
 {
     return BELOW * radius > 4e-7f * fabsf(s->bounds_min.y);
 }
 
-/* Are corners of the ground within 2^20 m of the origin, so that they are drawn? */
+/* Returns whether the ground lies within 2^20 m of the origin, so that it can be drawn. */
 static int is_within(const lmb_scene *s, float reach)
 {
     const float x = fmaxf(fabsf(s->bounds_min.x), fabsf(s->bounds_max.x)),
@@ -326,7 +326,8 @@ int world_put_ground(world *w, lmb_scene *s, lmb_vec3 eye, report *r)
 
 /* --- lights ------------------------------------------------------------------------------------------------------- */
 
-/* What the ground hides from all of the scene goes: it is up to two radii high, and sees less deep over the rim. */
+/* Drops lights that the ground hides from the whole scene. The scene is up to two radii high, and sees less deep
+ * over the rim. */
 static void leave_hidden(world *w)
 {
     const float reach = w->is_sky ? SKY_REACH : WORLD_REACH, lowest = 2.0f / sqrtf(4.0f + reach * reach);
@@ -339,7 +340,7 @@ static void leave_hidden(world *w)
     w->count = kept;
 }
 
-/* What a wide open ground reflects of all light from above, W/(m2 sr). */
+/* Radiance of a wide open ground lit from above, W/(m2 sr). */
 static void ground_radiance(float rgb[3], const world *w)
 {
     for (int c = 0; c < 3; ++c) {
@@ -351,7 +352,7 @@ static void ground_radiance(float rgb[3], const world *w)
     }
 }
 
-/* A sky's lower half. */
+/* Fills the lower half of a sky. */
 static void put_land(world *w)
 {
     float rgb[3];

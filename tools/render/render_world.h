@@ -1,4 +1,4 @@
-/* render_world.h: what lies around a scene: a sky or a picture of one, as lights and as background, and a ground. */
+/* render_world.h: the surroundings of a scene: a sky or an environment map, as lights and background, and a ground. */
 #ifndef RENDER_WORLD_H
 #define RENDER_WORLD_H
 
@@ -6,16 +6,16 @@
 
 #include "../common/report.h"
 
-/* Zeroed: none. world_free releases it. */
+/* Zeroed: none. Release it with world_free. */
 typedef struct world {
     lmb_env env; /* texels NULL: no world */
     void *env_memory;
-    lmb_light *lights; /* from afar, one for each piece of the sky that is not black; the sun is not among them */
+    lmb_light *lights; /* distant lights, one per part of the sky that is not black, without the sun */
     uint32_t count;
     lmb_light sun;
     int has_sun, is_sky, has_ground;
-    uint32_t ground_id; /* its first triangle's: the last ones are its own */
-    /* A scene's arrays with the ground behind what they had. */
+    uint32_t ground_id; /* id of the first triangle of the ground, which comes last */
+    /* Copies of the scene's arrays with the ground appended. */
     lmb_mesh *meshes;
     lmb_material *materials;
     lmb_instance *instances;
@@ -23,15 +23,15 @@ typedef struct world {
     size_t bytes;
 } world;
 
-/* world_sky: a clear sky with a sun of 3 W/m2 from the upper left of the front; view_frame looks from its right, so that
- * the sides of a box differ and its shadow is seen. world_read: a picture of all directions, as
- * world_read_cube takes them; what is small and bright in it becomes the sun. 1, or 0 with `r` set. */
+/* world_sky: a clear sky with a sun of 3 W/m2 from the front left and above. view_frame looks from the right, so
+ * that the sides of a box differ and the shadow is visible. world_read: reads an environment map in the formats of
+ * world_read_cube; a small bright area in it becomes the sun. Return 1, or 0 with `r` set. */
 int world_sky(world *out, report *r);
 int world_read(world *out, const char *path, int is_quiet, report *r);
 
-/* world_put_ground: a grey disc under the scene, unless it has a floor of its own or is one, the eye is inside or
- * below, or it is too large or too far from the origin.
- * world_light: its lights, after that; what a ground hides is none. Each 1, or 0 with `r` set. */
+/* world_put_ground: adds a grey disc below the scene, unless the scene has a floor or is one, the eye is inside or
+ * below, or the disc is too large or too far from the origin. world_light: call it afterwards; makes the lights and
+ * leaves out those that the ground hides. Return 1, or 0 with `r` set. */
 int world_put_ground(world *inout, lmb_scene *scene, lmb_vec3 eye, report *r);
 int world_light(world *inout, report *r);
 

@@ -1,5 +1,4 @@
-/* scene_sample.c: a few tiles of a scene by one rung of a ladder of settings after another, each checked by the
- * next. */
+/* scene_sample.c: samples a few tiles on each rung of a ladder of settings; each rung checks the one before. */
 #include "scene_sample.h"
 
 #include <stdlib.h>
@@ -7,12 +6,12 @@
 
 #include "../../platform/host/host.h"
 
-#define SHARE      0.21 /* of the picture's work, which sampling may take: a quarter, less a margin for wrong guesses */
-#define FOR_ITSELF 0.35 /* of the work that is left, for a rung's own samples; the rest is for its check */
-#define GROWTH     2.2  /* work of a sampled tile by the next rung over this one's: 1.3 to 3 were measured */
-enum { PART = 32 /* the first two rungs sample one place in so many, */, FINE = 3 /* finer rungs so many times more */,
-       OWN_PART = 7, MIN = 4 /* places that a check needs */ };
-enum { DRAFT = 3 /* rung: the first whose errors are worth checking */ };
+#define SHARE      0.21 /* of the picture's work, for sampling: a quarter, less a margin for wrong estimates */
+#define FOR_ITSELF 0.35 /* of the remaining work, for a rung's own samples; the rest is for checking it */
+#define GROWTH     2.2  /* work of a sampled tile on the next rung over this one: 1.3 to 3 were measured */
+enum { PART = 32 /* the first two rungs sample one place in PART, */, FINE = 3 /* finer rungs FINE times as many */,
+       OWN_PART = 7, MIN = 4 /* fewest places for a check */ };
+enum { DRAFT = 3 /* first rung with errors worth checking */ };
 enum { MAP_TEXELS = 2 << 20 /* over all shadow maps */ };
 
 typedef struct looker {
@@ -27,16 +26,16 @@ typedef struct looker {
     int32_t rung; /* whose light is solved; -1: none */
 } looker;
 
-/* Of how places differ, so many deviations is a bound over what they show: more where they are few. */
+/* Standard deviations added as a margin to sampled means; more if there are few places. */
 static float deviations(int32_t places) { return 1.0f + 4.0f / (float)places; }
 
-/* How far a rung is from truth, over how far it is from the next, at most but for a few: as scenes had
- * it (src/DECISIONS.md). The last two have trees of one size. */
+/* Error of a rung over the difference from the next, an upper bound for nearly all measured scenes
+ * (src/DECISIONS.md). The last two have trees of one size. */
 static const float off_over_next[LMB_PLAN_RUNGS - 1] = {2.0f, 2.0f, 2.0f, 2.0f, 1.5f, 2.5f, 3.5f};
 
 static double unit(lmb_op op) { return lmb_plan_units((int32_t)op); }
 
-/* Maps, tree and view of a rung's frame. */
+/* Work of the maps, tree and view of a rung. */
 static double light_work(const looker *l, int32_t rung)
 {
     lmb_facts f = *l->facts;
@@ -61,7 +60,7 @@ static int has_same_light(const looker *l, int32_t a, int32_t b)
     return x.tree == y.tree && x.shadow_map == y.shadow_map;
 }
 
-/* Solve the light of the job's frame, and draw what the eye sees. */
+/* Solves the light of the job's frame, and draws the view. */
 static lmb_status solve(render_job *j, lmb_frame f)
 {
     f.stats = NULL;
@@ -73,7 +72,7 @@ static lmb_status solve(render_job *j, lmb_frame f)
     return status;
 }
 
-/* The frame that is looked at: of one bounce, as errors of later ones are small; nothing of many lights. */
+/* The frame for samples: one bounce, because errors of later ones are small; without many lights. */
 static lmb_frame frame_of(const render_job *j)
 {
     lmb_frame f = j->frame;
@@ -105,7 +104,7 @@ static lmb_status solve_rung(looker *l, int32_t rung)
     return solve(j, frame_of(j));
 }
 
-/* Up to `most` units. */
+/* Samples a rung with up to `max` units of work. */
 static lmb_status look_at(looker *l, lmb_tile_sample *out, int32_t rung, double max)
 {
     lmb_rung *at = &l->facts->rung[rung];
@@ -120,8 +119,8 @@ static lmb_status look_at(looker *l, lmb_tile_sample *out, int32_t rung, double 
     return status;
 }
 
-/* What may still be spent before a picture by `rung` costs too much to plan, once the light of `next` is solved. The
- * picture takes over the light that was solved last, where that is its own. */
+/* The work left before planning a picture with `rung` costs too much, once the light of `next` is solved. If the
+ * picture can use the light that was solved last, that costs nothing. */
 static double left_for(const looker *l, int32_t rung, int32_t next)
 {
     const int stands = has_same_light(l, l->rung, next), is_own = has_same_light(l, rung, next);
@@ -129,7 +128,7 @@ static double left_for(const looker *l, int32_t rung, int32_t next)
     return SHARE * rung_work(l, rung) - (l->cost->work - kept) - (stands || is_own ? 0.0 : light_work(l, next));
 }
 
-/* Are enough places paid for, by the rung after this one? */
+/* Returns whether the work left pays for enough places on the next rung. */
 static int affords(const looker *l, int32_t rung, double left)
 {
     const lmb_rung *at = &l->facts->rung[rung];
@@ -138,7 +137,7 @@ static int affords(const looker *l, int32_t rung, double left)
     return left > GROWTH * MIN * place && left > 0.0;
 }
 
-/* Does a rung end the walk: what is finer is not asked for, or costs more than is there? */
+/* Returns whether the traversal ends here, because finer rungs are not needed or exceed the budget. */
 static int is_last(const looker *l, int32_t rung)
 {
     const lmb_budget *b = l->budget;
@@ -151,8 +150,8 @@ static int is_last(const looker *l, int32_t rung)
            (b->bytes > 0 && c.bytes > b->bytes);
 }
 
-/* One rung after another. A look at one is paid by the rung before, which it checks; where that would not be a fifth of
- * that one's picture, the rung before is passed over, unchecked, and this one pays. */
+/* Goes up the rungs. Samples of a rung are paid from the share of the rung before, which they check. If that is not
+ * enough, the rung before is skipped without a check, and this rung pays. */
 static lmb_status traversal(looker *l)
 {
     const int32_t first = l->budget->work > 0.0 || l->budget->bytes > 0 ? 0 : DRAFT;
@@ -187,7 +186,7 @@ static lmb_status traversal(looker *l)
     return status;
 }
 
-/* Pairs and segments alone, by the job's own settings. */
+/* Counts pairs and segments with the job's own settings. */
 static lmb_status take_own(looker *l)
 {
     render_job *j = l->job;
@@ -195,7 +194,7 @@ static lmb_status take_own(looker *l)
     f.many_lights = NULL;
     f.show = f.show == LMB_SHOW_FULL ? LMB_SHOW_FULL : LMB_SHOW_INDIRECT;
     if (f.gather_step == LMB_GATHER_ADAPTIVE || f.gather_step == LMB_GATHER_LIVE) {
-        f.gather_step = 4; /* a lattice is the whole frame's */
+        f.gather_step = 4; /* a lattice needs the whole frame */
     }
     lmb_status status = solve(j, f);
     const int32_t tiles = f.gather_step > 1 ? LMB_SPARSE_TILES : 1,
@@ -211,7 +210,7 @@ static lmb_status take_own(looker *l)
     return status;
 }
 
-/* What needs no look. */
+/* Sets the facts that need no samples. */
 static int set_counts(lmb_facts *out, const render_job *j)
 {
     const lmb_frame *f = &j->frame;
@@ -251,7 +250,7 @@ int scene_sample(lmb_facts *out, look_cost *cost, render_job *j, const lmb_budge
     memset(cost, 0, sizeof *cost);
     memset(&l, 0, sizeof l);
     if (j->frame.tree.texel == NULL || j->frame.grouping.method != LMB_GROUP_CUT) {
-        return 1; /* nothing bounces, or by groups, whose pairs are not counted */
+        return 1; /* no bounces, or by groups, where pairs are not counted */
     }
     l.job = j;
     l.budget = budget;

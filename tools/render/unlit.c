@@ -1,4 +1,4 @@
-/* unlit.c: colours that are shown unchanged: sampled like the picture, and removed before its exposure. */
+/* unlit.c: unlit colours: sampled like the picture, and removed before the exposure. */
 #include "unlit.h"
 
 #include <stdlib.h>

@@ -4,9 +4,8 @@
 
 #include "render_job.h"
 
-/* unlit_colours: computes the colours of LMB_UNLIT materials in the picture that was drawn, 3 per pixel. The caller
- * frees *out. It is NULL if there is no such material or if the picture does not show light. Returns 1, or 0 with `r`
- * set. */
+/* unlit_colours: computes the colours of LMB_UNLIT materials in the picture that was drawn, 3 per pixel. You free
+ * *out. It is NULL if there is no such material or if the picture does not show light. Returns 1, or 0 with `r` set. */
 int unlit_colours(float **out, const render_job *j, report *r);
 
 /* unlit_rest: returns the light of a channel without those colours. */

@@ -15,7 +15,7 @@
 #include "render_slice.h"
 #include "render_verb.h"
 
-/* What is no light, for display formats. Reflectance, points and groups are in 0 .. 1 already. */
+/* Maps attributes to display range. Reflectance, points and groups are in 0 .. 1 already. */
 static void grey_for_display(render_job *j)
 {
     float near_m, far_m;
@@ -45,7 +45,7 @@ static double mean(const image *p)
 
 /* --- reporting ---------------------------------------------------------------------------------------------------- */
 
-/* Nodes of the lights' tree that pixels took, and shadow tests, over all threads. */
+/* Nodes of the light tree used by pixels, and shadow tests, summed over all threads. */
 typedef struct asked_lights {
     double nodes, tests;
 } asked_lights;
@@ -60,7 +60,7 @@ static asked_lights sum_asked(const render_job *j)
     return sum;
 }
 
-/* Of what only fixed groups have; light by cuts has none of it, which is not 0. */
+/* A count of fixed groups. Light by cuts has none, so prints null instead of 0. */
 static const char *count_text(char out[32], const render_job *j, double count)
 {
     snprintf(out, 32, j->frame.points.data != NULL ? "%.9g" : "null", count);
@@ -120,7 +120,7 @@ static const char *stage_name(const render_job *j, int stage)
     return name;
 }
 
-/* --verbose: what it was drawn with, and how long it took. */
+/* --verbose: prints settings and times. */
 static void tell_how(const render_job *j)
 {
     const lmb_frame *f = &j->frame;
@@ -151,7 +151,7 @@ static void tell_demo(const render_job *j)
     report_say("  %.1f %% of the light in the picture is indirect\n", j->indirect_share * 100.0);
 }
 
-/* How much of the picture's light has bounced: the same frame again, direct light only, which costs little. */
+/* Measures the share of bounced light: draws the frame again with direct light only, which is cheap. */
 static int measure_share(render_job *j, report *r)
 {
     const double full = mean(&j->linear);
@@ -164,7 +164,7 @@ static int measure_share(render_job *j, report *r)
     return ok;
 }
 
-/* What is no light. */
+/* Writes an image that shows no light. */
 static int save_other(render_job *j, report *r)
 {
     const int linear = picture_is_linear(picture_format(j->o.out));
@@ -188,7 +188,7 @@ static int save(render_job *j, report *r)
     return ok;
 }
 
-/* Strict zones: what they lost [V20]. */
+/* Strict zones: prints the loss [V20]. */
 static void tell_loss(const render_job *j)
 {
     const double lost = j->stats.flux_lit - j->stats.flux_grouped;
@@ -198,7 +198,7 @@ static void tell_loss(const render_job *j)
     }
 }
 
-/* More groups were needed than there may be [V21]. */
+/* Prints a note if more groups were needed than allowed [V21]. */
 static void tell_regroups(const render_job *j)
 {
     if (j->stats.regroups > 0) {
@@ -208,7 +208,7 @@ static void tell_regroups(const render_job *j)
     }
 }
 
-/* Pixels whose cuts had no room for what was asked. */
+/* Prints a note on pixels with cuts too small for the error limit. */
 static void tell_full_cuts(const render_job *j)
 {
     if (LMB_LIVE && j->stats.full_cuts > 0 && j->frame.gather_step == LMB_GATHER_LIVE) {

@@ -1,14 +1,14 @@
-/* wireframe.c: the edges of a scene's triangles, as far as no surface hides them. */
+/* wireframe.c: the edges of a scene's triangles, without those that surfaces hide. */
 #include "wireframe.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Surfaces lie back by what their depth changes over a pixel, so that they do not hide their own edges. */
+/* Surfaces are offset back by their depth change over a pixel, so that they do not hide their own edges. */
 #define BACK_SLOPE (-1.0f)
 #define BACK_STEPS (-64.0f)
 
-/* What a material shows of its surfaces, edges or not. Holes are not looked for: such surfaces hide nothing. */
+/* Draw state for a material, with edges or without. Holes are not tested: such surfaces hide nothing. */
 static void set_state(lmb_draw_state *s, const lmb_scene *scene, const lmb_instance *instance, int edges)
 {
     const lmb_material *m = &scene->materials[instance->material];

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Programs of others on our libOSMesa: check.sh GL_FOLDER. A client is skipped if its packages are missing.
+# Runs foreign programs on our libOSMesa: check.sh GL_FOLDER. A client is skipped if its packages are missing.
 #
 # GL_CLIENTS names the clients; `fast` leaves piglit out. GL_HASHES=print prints the hashes of our own program.
 set -u
@@ -59,13 +59,13 @@ pyopengl() {
     if $python $here/scenes.py --compare "$out/ours.rgba" "$out/theirs.rgba"; then good; else bad "pyopengl"; fi
 }
 
-# piglit, with the stand-ins for a window system that lie beside the repository.
+# piglit, with stand-ins for a window system that are beside the repository.
 piglit() {
     [ -f ../shared/gl/piglit.py ] || { skip "piglit: ../shared/gl is missing"; return; }
     [ -d /usr/lib/x86_64-linux-gnu/piglit ] || { skip "piglit: the package is missing"; return; }
     python3 ../shared/gl/piglit.py "$gl/liblambentgl.so" "$out/piglit.tsv" > "$out/piglit.txt" || { bad "piglit"; return; }
     cat "$out/piglit.txt"
-    # What passed once has to pass; the rest is listed with its reason.
+    # A test that passed once must pass; the list has the reasons for the others.
     missing=$(awk -F '\t' 'NR == FNR { if ($2 == "pass") ok[$1] = 1; next } /^spec/ && !($1 in ok) { print $1 }' "$out/piglit.tsv" $here/piglit_pass.txt)
     if [ -z "$missing" ]; then good; else bad "piglit: $missing"; fi
 }

@@ -58,7 +58,7 @@ int main(void)
     gluSphere(q, 0.8, 64, 32);
     gluDeleteQuadric(q);
     glFinish();
-    const int sphere = count(1); /* pi 0.8^2 of the 4 that the window holds, times its pixels: 2,058 */
+    const int sphere = count(1); /* pi 0.8^2 of the window's area of 4, times the number of pixels: 2,058 */
     const GLenum error = glGetError();
     OSMesaDestroyContext(c);
     if (hole != expected || sphere < 2030 || sphere > 2070 || error != GL_NO_ERROR) {

@@ -1,5 +1,5 @@
-/* hostile.c: sequences of calls with hostile arguments: numbers, names, sizes, formats, unpack state; pointers lead to
- * as much memory as OpenGL defines to be read. With libFuzzer (-DFUZZER), or alone: hostile [SEEDS [FIRST]]. */
+/* hostile.c: sequences of calls with hostile arguments: numbers, names, sizes, formats, unpack state. Pointers lead to
+ * as much memory as OpenGL may read. Runs with libFuzzer (-DFUZZER), or as a program: hostile [SEEDS [FIRST]]. */
 #include <GL/osmesa.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 enum { SIDE = 48, CALLS = 120, BYTES = 1 << 22 };
 static unsigned char window[SIDE * SIDE * 4];
-static unsigned char *memory; /* of BYTES: what pointers lead to */
+static unsigned char *memory; /* BYTES bytes; pointers lead here */
 
 typedef struct stream {
     const uint8_t *at, *end;

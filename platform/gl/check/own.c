@@ -1,6 +1,6 @@
-/* own.c: pictures of our own by OpenGL 1.x, and their hashes: one line each. The same on every machine.
+/* own.c: our own pictures by OpenGL 1.x, and their hashes: one line each. The same on every machine.
  *
- * Also what glGetError has to return, contexts that are destroyed while they are current, and calls out of order. */
+ * Also checks return values of glGetError, destruction of current contexts, and calls out of order. */
 #include <GL/osmesa.h>
 #include <stdint.h>
 #include <stdio.h>

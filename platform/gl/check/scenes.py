@@ -107,8 +107,8 @@ def readback(gl, glu):
     gl.glPixelZoom(1, -1); gl.glRasterPos2i(85, 100); gl.glDrawPixels(60, 50, gl.GL_RGBA, gl.GL_UNSIGNED_BYTE, data)
     gl.glPixelZoom(1, 1); gl.glRasterPos2i(90, 5); gl.glCopyPixels(10, 10, 40, 30, gl.GL_COLOR)
 
-# A scene, the tolerance of a colour in 1/255, and how many pixels may go beyond it: where an edge meets a centre, or
-# where a value lies between two codes, texels or facets.
+# A scene, the tolerance of a colour in 1/255, and the number of pixels that may exceed the tolerance: pixels with an
+# edge through the centre, or with a value between two codes, texels or facets.
 SCENES = [(triangles, 1, 2), (depth, 1, 2), (fog, 1, 2), (stencil, 1, 0), (lights, 1, 2), (lists, 1, 2), (nearest, 1, 2),
           (linear, 3, 2), (blend, 1, 2), (quadrics, 1, 2), (tessellation, 1, 0), (readback, 1, 2)]
 

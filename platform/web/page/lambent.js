@@ -1,5 +1,5 @@
-// lambent.js: what every part of the page begins with: the unpacker, by which the page and its workers take page.js, and
-// the service worker, which keeps the page for when there is no network.
+// lambent.js: the first part of every script of the page: the unpacker, by which the page and the workers load page.js,
+// and the service worker, which caches the page for use without a network.
 'use strict';
 
 const FILES = ['./', 'index.html', 'lambent.js', 'page.js.lzma', 'body.html.lzma', 'lambent.wasm.lzma', 'kernels_scalar.wasm.lzma', 'kernels_simd.wasm.lzma',
@@ -7,7 +7,7 @@ const FILES = ['./', 'index.html', 'lambent.js', 'page.js.lzma', 'body.html.lzma
 
 // --- unpacking -----------------------------------------------------------------------------------------------------
 
-// A file of `xz --format=lzma`: a range coder's bits, each by the probability that came of those before it.
+// Decodes a file of `xz --format=lzma`: bits of a range coder, with adaptive probabilities.
 function unlzma(src) {
     const lc = src[0] % 9, lp = (src[0] / 9 | 0) % 5, pb = src[0] / 45 | 0;
     const MATCH = 0, REP = 192, REP0 = 204, REP1 = 216, REP2 = 228, REP0_LONG = 240, SLOT = 432, SPECIAL = 688,
@@ -127,7 +127,7 @@ function unlzma(src) {
 
 // --- the service worker --------------------------------------------------------------------------------------------
 
-// The network first, what is kept where that fails; with the headers that let the page use threads.
+// Tries the network first, then the cache; adds the headers that let the page use threads.
 function service() {
     const KEPT = 'lambent';
     self.addEventListener('install', (e) => e.waitUntil(
@@ -164,7 +164,7 @@ async function unpacked(file) {
     return unlzma(new Uint8Array(await answer.arrayBuffer()));
 }
 
-// Messages to a worker wait for its script.
+// Queues messages to a worker until the script is loaded.
 async function begin() {
     const early = [];
     self.onmessage = (e) => early.push(e);

@@ -1,8 +1,8 @@
-// page.js: the page's script, in three roles: the page itself, the worker that draws, and its helpers. lambent.js takes it
-// from its packed form.
+// page.js: the page's script, in three roles: the page itself, the worker that draws, and the helpers. lambent.js
+// loads it in packed form.
 'use strict';
 
-// What page_calls.h has: PAGE_WIDTH and on, and PAGE_TO_.
+// Constants of page_calls.h: PAGE_WIDTH and on, and PAGE_TO_.
 const AT = { width: 0, height: 1, triangles: 2, lights: 3, baked: 4, threads: 5, eye: 6, right: 9, up: 12, back: 15,
              halfWidth: 18, halfHeight: 19, low: 20, high: 23, light: 26, progress: 33, trim: 34, rmse: 35, dropped: 36,
              memory: 37, count: 38 };
@@ -12,7 +12,7 @@ const NODE = 10;
 
 // --- the modules, joined: in the worker that draws and in each helper ----------------------------------------------
 
-// A module that has one instruction of simd128.
+// A module with one instruction of simd128.
 const SIMD = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253,
                              15, 253, 98, 11]);
 
@@ -20,7 +20,7 @@ async function compile(file) {
     return WebAssembly.compile(await unpacked(file));
 }
 
-// The kernels' functions go behind the other module's in its table, at the same numbers in every thread.
+// Appends the kernels' functions to the other module's table, at the same numbers in every thread.
 async function join(modules, memory, said) {
     const words = [];
     const write = (file, vectors, count, written) => {
@@ -54,8 +54,8 @@ const STACK = 1 << 20, KERNELS_STACK = 1 << 17;
 
 function engine() {
     let memory, main, said = [];
-    let scene = null;          // what is open: { slow, show, exposed }
-    let wanted = 0, drawn = 0; // the state that was asked for last, and that of the last whole frame
+    let scene = null;          // the open scene: { slow, show, exposed }
+    let wanted = 0, drawn = 0; // the last requested state, and the state of the last whole frame
     let busy = false, measured = 0, checks = true, asked = 0;
     const tick = new MessageChannel();
     tick.port1.onmessage = () => pump();
@@ -150,8 +150,8 @@ function engine() {
         return { numbers: n, lights, said, ms: performance.now() - before };
     }
 
-    // Steps until the frame is done, breath by breath, so that what the user does is heard; false: something else is
-    // wanted by now.
+    // Draws steps until the frame is done and yields between them, so that user input is handled. Returns false if
+    // another frame was requested meanwhile.
     async function frame(target, show, state, isWhole) {
         if (!main.page_begin(target, show)) throw new Error(text(main.page_report()));
         let ms = 0, since = performance.now(), told = since;
@@ -181,7 +181,7 @@ function engine() {
         });
     }
 
-    // The first frames choose the exposure: direct light at once, then all of it.
+    // The first frames choose the exposure: first direct light, then all light.
     async function draw(state) {
         const show = scene.show;
         if (!scene.exposed) {
@@ -204,7 +204,7 @@ function engine() {
         send('frame', { ms, state, exposure: main.page_exposure_now() });
     }
 
-    // Once nothing moves: the linear frame against the best one.
+    // Compares the linear frame with the best one once nothing moves.
     async function measure(state) {
         await new Promise((done) => setTimeout(done, 700));
         if (state !== wanted || !checks) return;
@@ -252,7 +252,8 @@ function engine() {
             if (o.look || o.lights || o.show !== undefined) ++wanted;
             tick.port2.postMessage(0);
         },
-        // A frame in one piece, for tests and figures: `times` of it; the light circles a little where `moves` is set.
+        // A frame in one piece, for tests and figures: draws it `times` times; if `moves` is set,
+        // the light circles a little.
         once: async (o) => {
             ++wanted;
             const ms = [];
@@ -295,15 +296,15 @@ function engine() {
         },
         hash: () => text(main.page_hash()),
     };
-    // One at a time, in order; frames go on between them.
+    // Runs calls one at a time, in order; frames continue between them.
     let queue = Promise.resolve();
     onmessage = (e) => {
-        if (e.data.call === 'set') { // hands move faster than frames
+        if (e.data.call === 'set') { // input moves faster than frames
             calls.set(e.data);
             return;
         }
         const isCut = e.data.call === 'cut';
-        wanted += isCut ? 0 : 1; // what is being drawn gives way
+        wanted += isCut ? 0 : 1; // interrupts the current frame
         asked += isCut ? 0 : 1;
         queue = queue.then(async () => {
             while (busy && !isCut) await breath();
@@ -410,7 +411,7 @@ function page() {
     };
     const clamp = (v, low, high) => Math.min(Math.max(v, low), high);
 
-    // From what the module told: the eye, what it looks at, the scene's box.
+    // Sets the camera from the module's numbers: the eye, the target, the scene's box.
     function takeCamera(n) {
         const v = (at) => n.slice(at, at + 3);
         const low = v(AT.low), high = v(AT.high), eye = v(AT.eye), ahead = v(AT.back).map((x) => -x);
@@ -427,7 +428,7 @@ function page() {
                     right[0] * ahead[1] - right[1] * ahead[0]];
         return { ahead, right, up };
     }
-    // Inside a room the head turns; outside the camera goes around.
+    // Inside a room the view turns; outside, the camera orbits.
     function turnCamera(x, y) {
         const { ahead, right } = axes();
         const level = Math.asin(clamp(ahead[1], -1, 1));
@@ -457,7 +458,7 @@ function page() {
         drawOver();
     }
 
-    // Lamps go across the picture at their depth, suns turn. x and y: shares of the picture's height.
+    // Moves lamps across the picture at their depth, and turns suns. x and y are relative to the picture's height.
     function moveLight(x, y) {
         const l = lights[light];
         if (!l) return;
@@ -482,7 +483,7 @@ function page() {
         $('error').textContent = '';
         drawOver();
     }
-    // Where in the picture a place is, px of the canvas; null behind the eye.
+    // Projects a point to px of the canvas; null behind the eye.
     function project(p) {
         const { ahead, right, up } = axes(), d = sub(p, camera.eye), depth = dot(d, ahead);
         if (depth <= 1e-6) return null;
@@ -543,7 +544,7 @@ function page() {
         drawOver();
     }
 
-    // --- what is shown ---------------------------------------------------------------------------------------------
+    // --- display ---------------------------------------------------------------------------------------------------
 
     const show = () => $('show').value;
     const showsWhole = () => !['full', 'direct', 'indirect', 'cut'].includes(show());
@@ -576,7 +577,7 @@ function page() {
     }
     const allLights = () => lights.map((l, i) => [i, ...l.position, ...l.direction]);
 
-    // The scene anew, by what the controls say; camera, lights and exposure stay.
+    // Reopens the scene with the controls' settings; keeps camera, lights and exposure.
     let opening = 0, quick = false;
     async function openOnce(more) {
         const turnOf = opening;
@@ -605,7 +606,8 @@ function page() {
             $('error').textContent = '';
             await have(now.files || []);
             if (turnOf !== opening) return;
-            if (level === 'baked' && now.transfer && !now.have.has(now.transfer)) { // direct light while that is under way
+            if (level === 'baked' && now.transfer && !now.have.has(now.transfer)) { // direct light while baked light is
+                                                                                    // loading
                 quick = true;
                 await openOnce({ words: ['render', now.file, '-o', 'page.ppm', '--size', $('size').value, '--samples', '1',
                                          '--show', 'direct'], show: DIRECT });
@@ -636,7 +638,7 @@ function page() {
         $('light').replaceChildren(...lights.map((l, i) => new Option(`${['point', 'spot', 'sun'][l.kind]} ${i + 1}`, i)));
     }
 
-    // What is no frame of light: drawn whole, one after another.
+    // Draws pictures other than light whole, one after another.
     let whole = null, again = false;
     async function showWhole() {
         if (whole) {
@@ -697,7 +699,7 @@ function page() {
 
     // --- the other systems -----------------------------------------------------------------------------------------
 
-    // A binary PPM of 8 bits, as the tool writes it.
+    // Reads a binary PPM of 8 bits from the tool.
     function fromPpm(data) {
         const head = new TextDecoder().decode(data.slice(0, 40)).match(/^P6\s+(\d+)\s+(\d+)\s+255\s/);
         const width = +head[1], height = +head[2], from = head[0].length, pixels = new Uint8ClampedArray(4 * width * height);
@@ -755,7 +757,7 @@ function page() {
                 `0,${RELIEF.middle},0`, '--fov', '30', '--size', '480x480', '--samples', '1', '--show', $('relief-show').value,
                 '--light', 'sun:0,0,0:-0.6,-0.7,-0.4:3,2.9,2.7', '-q', '-o', 'other.ppm'];
     }
-    // The photo is of the demo's room, by the lens that 50 degrees of height have; its light is in the camera's space.
+    // The photo shows the demo's room through a lens with 50 degrees of height; the light is in the camera's space.
     const MIX = { file: ['mix/photo.png', 'mix/depth.pfm', 'mix/vase.obj'], lens: '385.99,385.99,239.5,179.5', at: [-0.8, 0.9] };
     async function mixWords() {
         await need(...MIX.file);
@@ -786,7 +788,7 @@ function page() {
         if (name === 'bounce') worker.postMessage({ call: 'set', checks: !asked.has('nochecks') });
     }
 
-    // --- hands -----------------------------------------------------------------------------------------------------
+    // --- user input ------------------------------------------------------------------------------------------------
 
     const held = new Map();
     let holdsLight = false, pinch = 0;
@@ -909,7 +911,7 @@ function page() {
     for (const t of document.querySelectorAll('nav button')) t.onclick = () => setTab(t.id.slice(4));
     for (const id of ['relight-x', 'relight-z', 'relight-r', 'relief-turn', 'relief-up', 'relief-show', 'mix-show', 'mix-turn']) $(id).oninput = drawOther;
 
-    // --- the beginning ---------------------------------------------------------------------------------------------
+    // --- start -----------------------------------------------------------------------------------------------------
 
     async function begin() {
         if ('serviceWorker' in navigator && !asked.has('noservice')) {

@@ -1,4 +1,4 @@
-/* page_demo.c: in place of demo_scene.c: the built-in scene of another module, which is a scene beside the page. */
+/* page_demo.c: replaces demo_scene.c: the built-in scene comes from another module, a file beside the page. */
 #include "page_calls.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ void page_use_demo(const lmb_scene *(*its_scene)(void), lmb_view (*its_view)(int
     view = its_view;
 }
 
-/* Until then a scene of nothing. */
+/* An empty scene until then. */
 const lmb_scene *demo_scene(void)
 {
     static const lmb_scene nothing;

@@ -1,5 +1,5 @@
-/* page_files.c: the tool's files (io_file.h) in memory: what the page hands in, and what a verb writes; and calls that the
- * page leaves out. */
+/* page_files.c: the tool's files (io_file.h) in memory: files from the page, and files that a verb writes; and stubs of
+ * calls that the page leaves out. */
 #include "page_calls.h"
 
 #include <stdlib.h>
@@ -40,7 +40,7 @@ static struct kept {
     size_t size;
 } files[FILES];
 
-/* Its place; of a new name a free one; NULL: none is left, or the name is too long. */
+/* Finds a file's slot, or a free one for a new name. NULL: none is left, or the name is too long. */
 static struct kept *find(const char *name, int is_new)
 {
     struct kept *empty = NULL;
@@ -140,7 +140,7 @@ int file_write(const char *path, const void *data, size_t size, report *r)
            (page_file_put(path, copy.data, copy.size) || report_fail(r, "%s: too many files", path));
 }
 
-/* There are no devices, no other names of one file, and nothing that a signal would leave behind. */
+/* There are no devices, no links to files, and no temporary files that a signal could leave. */
 int file_is_stdout(const char *path) { return strcmp(path, "-") == 0; }
 int file_keep(const char *path, report *r) { return (void)path, (void)r, 1; }
 void file_keep_all(void) {}
@@ -154,7 +154,7 @@ int file_may_replace(const char *path, report *r) { return (void)path, (void)r, 
 int file_is_same_place(const char *a, const char *b) { return strcmp(a, b) == 0; }
 void file_drop_aside(void) {}
 
-/* --- image.h: the page shows what verbs write as .ppm, so it has no packer --------------------------------------------- */
+/* --- image.h: the page shows outputs of verbs as .ppm, so it has no packer ---------------------------------------- */
 
 static int is_ppm_only(report *r) { return report_fail(r, "a page writes no .png; name a .ppm"); }
 int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r)
@@ -166,7 +166,7 @@ int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_
     return png_encode(out, rgba, width, height, r);
 }
 
-/* --- relight_*.h: a world is seen from one place, and objects stay where they are, and hide nothing -------------------- */
+/* --- relight_*.h: a world has one place, and objects stay and hide nothing ---------------------------------------- */
 
 int contact_make(contact *c, figures *f, relight_light *w, const relight_options *o, report *r)
 {
@@ -249,7 +249,7 @@ const lmb_world *relight_light_nearest(const relight_light *w, const relight_opt
     return (void)o, (void)at, w->world;
 }
 
-/* --- relief_compare.h: its reliefs have no model beside them ------------------------------------------------------ */
+/* --- relief_compare.h: reliefs on the page have no model ---------------------------------------------------------- */
 
 int relief_tell(const relief_frame *f, relief_shot shot, const lmb_scene *complex, report *r)
 {
@@ -270,7 +270,7 @@ int relief_along(relief_options *o, const key_path *path, relief_shot *shot, lmb
 }
 void key_path_free(key_path *path) { (void)path; }
 
-/* --- area_light.h, mix_*.h: the page's lights have no size, and its depth is exact --------------------------------------- */
+/* --- area_light.h, mix_*.h: lights have no size, and depth is exact ----------------------------------------------- */
 
 void area_light(lmb_light *out, int32_t count, const lmb_light *from, float size)
 {
@@ -351,7 +351,7 @@ void mix_lights_tile(lmb_irradiance *without, lmb_irradiance *with, mix_direct *
 }
 float mix_guess_sun(lmb_light *out, const mix_job *j) { return *out = j->o.lights[0], 0.0f; }
 
-/* --- mix_labels.h: pictures beside the picture ------------------------------------------------------------------- */
+/* --- mix_labels.h: no label pictures ----------------------------------------------------------------------------- */
 
 int mix_labels_take(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 int mix_labels_write(const mix_job *j, report *r) { return (void)j, (void)r, 1; }
@@ -364,7 +364,7 @@ void mix_labels_cover(const mix_job *j, const lmb_tile *real, const float covere
     (void)j, (void)real, (void)covered;
 }
 
-/* --- mix_frame.h, mix_job.h: depth is as large as the photo, and planes are as they were found --------------------- */
+/* --- mix_frame.h, mix_job.h: depth has the photo's size, and planes do not change --------------------------------- */
 
 int mix_drop_islands(mix_job *j, report *r) { return (void)j, (void)r, 1; }
 
@@ -375,7 +375,7 @@ int mix_resample(mix_frame *f, const image *in, float scale) { return (void)f, (
 
 lmb_status wireframe_draw(render_job *j) { return (void)j, LMB_ERR_ARG; }
 
-/* --- mix_lobes.h, mix_mirror.h, mix_sources.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
+/* --- mix_lobes.h, mix_mirror.h, mix_sources.h, mix_job.h: objects are matt, planes do not change ------------------ */
 
 void mix_lobes_read(mix_job *j) { (void)j; }
 void mix_mirror_planes(mix_job *j) { (void)j; }
@@ -431,7 +431,7 @@ int pam_decode_16(bitmap *out, const uint8_t *data, size_t size, const char *nam
 }
 int32_t pam_channels(const uint8_t *data, size_t size) { return (void)data, (void)size, 0; }
 
-/* --- budget.h: its settings are chosen by a slider --------------------------------------------------------------------- */
+/* --- budget.h: a slider chooses settings -------------------------------------------------------------------------- */
 
 int budget_fit(budget_choice *out, render_job *j, report *r)
 {

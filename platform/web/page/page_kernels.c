@@ -1,5 +1,5 @@
-/* page_kernels.c: in place of isa_pick.c: the kernels of another module, in whose table of functions they have other
- * numbers. */
+/* page_kernels.c: replaces isa_pick.c: uses the kernels of another module, renumbered for this
+ * module's table of functions. */
 #include "page_calls.h"
 
 #include <string.h>

@@ -3,13 +3,13 @@
 
 #include "../../host/pool.h"
 
-/* `turn` is raised for each pool_run that wants help; each helper then lowers `busy` once, so that none is left behind
- * and reads what the next turn writes. */
+/* Each pool_run that needs help raises `turn`; each helper then lowers `busy` once. So no helper is late and
+ * reads data of the next turn. */
 static struct shared {
-    int32_t helpers;             /* that have come */
-    int32_t there, start;        /* those that take part, the caller too, 0: not yet known; the turn before their first */
+    int32_t helpers;             /* started helpers */
+    int32_t there, start;        /* participants with the caller, 0: not known yet; the turn before their first */
     int32_t turn, busy;
-    int32_t threads, next, count; /* of the turn */
+    int32_t threads, next, count; /* of this turn */
     pool_job job;
     void *user;
 } all;
@@ -17,7 +17,7 @@ static struct shared {
 static int32_t load(const int32_t *from) { return __atomic_load_n(from, __ATOMIC_SEQ_CST); }
 static int32_t add(int32_t *to, int32_t n) { return __atomic_fetch_add(to, n, __ATOMIC_SEQ_CST); }
 
-/* While *at is `old`. */
+/* Waits while *at is `old`. */
 static void wait_while(int32_t *at, int32_t old)
 {
     while (load(at) == old) {

@@ -1,4 +1,4 @@
-/* page_scene.c: the scene at hand of a page: opened by the tool's own options, drawn by steps, measured, shown from inside. */
+/* page_scene.c: the page's open scene: opened with the tool's options, drawn in steps, measured, and inspected. */
 #include "page_calls.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@
 
 enum { WORDS = 200, STEPS = 16, CUT_NODES = 4096 };
 
-/* A command line in memory of its own: options point into it. */
+/* A command line in its own memory, because options point into it. */
 typedef struct command {
     char *text;
     char *word[WORDS + 1];
@@ -27,15 +27,15 @@ typedef struct command {
 } command;
 
 static struct state {
-    render_job job, best; /* best: for errors; its scene is the job's */
+    render_job job, best; /* best: for errors; shares the job's scene */
     command line;
-    lmb_light *lights; /* the scene's, to be moved */
+    lmb_light *lights; /* copies of the scene's lights, which may move */
     int is_open, has_best;
-    render_job *drawn; /* the frame under way, job's or best's; NULL: none */
+    render_job *drawn; /* the current frame, job's or best's; NULL: none */
     uint8_t *pixels;   /* RGBA */
     uint8_t *shown;
     int32_t shown_width, shown_height;
-    int32_t band;      /* the next one */
+    int32_t band;      /* next band */
     float exposure_ev, trim, rmse;
     float cut[CUT_NODES * PAGE_NODE];
     int32_t cut_count;
@@ -77,7 +77,7 @@ static int command_read(command *out, const char *words)
     return out->count > 0 || report_fail(&state.r, "no words");
 }
 
-/* Baking takes minutes and the tool's readers of photos: it is left to the tool. */
+/* Baking takes minutes and needs the tool's readers of photos, so the page has no relief baker. */
 int verb_relief_bake(int argc, char **argv)
 {
     (void)argc;
@@ -107,7 +107,7 @@ int page_run(const char *words)
 
 /* --- the scene ---------------------------------------------------------------------------------------------------- */
 
-/* The best frame's job borrows scene and lights. */
+/* The best frame's job shares scene and lights. */
 static void close_best(void)
 {
     if (state.has_best) {
@@ -133,7 +133,7 @@ static void close_scene(void)
     command_free(&state.line);
 }
 
-/* Lights that may move, of a scene that may be constant. */
+/* Copies the lights, so that they may move even if the scene is constant. */
 static int own_lights(void)
 {
     lmb_scene *s = &state.job.scene;
@@ -266,7 +266,7 @@ int page_put_light(uint32_t i, float x, float y, float z, float dx, float dy, fl
 
 /* --- a frame, in steps -------------------------------------------------------------------------------------------- */
 
-/* The scene as it is now, by the best settings. */
+/* Sets up the current scene with the best settings. */
 static int open_best(void)
 {
     render_job *b = &state.best;
@@ -468,7 +468,7 @@ int page_measure(void)
     return 1;
 }
 
-/* --- what is no light --------------------------------------------------------------------------------------------- */
+/* --- pictures other than light ------------------------------------------------------------------------------------ */
 
 static void grey(image *p)
 {
@@ -511,7 +511,7 @@ int32_t page_show_height(void) { return state.shown_height; }
 
 /* --- the cut of a pixel ------------------------------------------------------------------------------------------- */
 
-/* Of its tile's pixels those that show the same surface. */
+/* Keeps only the pixels of the tile that show the same surface. */
 static int keep_surface(lmb_tile *tile, int pixel)
 {
     const uint32_t id = tile->id[pixel];

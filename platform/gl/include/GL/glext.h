@@ -1,4 +1,4 @@
-/* glext.h: types of pointers to the calls of gl.h, for programs that look names up. */
+/* glext.h: pointer types of the calls in gl.h, for programs that look up names. */
 #ifndef LAMBENT_GLEXT_H
 #define LAMBENT_GLEXT_H
 #define __glext_h_
