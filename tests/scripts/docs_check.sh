@@ -9,7 +9,7 @@ case $B in /*) dir=$B/docs-check ;; *) dir=$PWD/$B/docs-check ;; esac
 case $TOOL in /*) lambent=$TOOL ;; *) lambent=$PWD/$TOOL ;; esac
 rm -rf "$dir"
 mkdir -p "$dir/run/build"
-documents="README.md include/README.md tools/README.md platform/README.md tests/README.md src/README.md tests/results/README.md"
+documents="README.md include/README.md tools/README.md platform/README.md tests/README.md src/README.md src/EXACT.md src/RECIPES.md tests/results/README.md"
 
 # Compiles each ```c block of each document.
 awk -v dir="$dir" '

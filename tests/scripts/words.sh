@@ -1,6 +1,6 @@
 # words.sh: checks that src, include, tools, platform and documents have no name, option, file or phrase of words.txt;
-# that links of documents exist; the sizes of README.md and src/README.md; the rates of some words (rates.awk); and that
-# it finds a made-up fault of each kind.
+# that links of documents exist; that files and names in src/EXACT.md and src/RECIPES.md exist; the sizes of README.md and
+# src/README.md; the rates of some words (rates.awk); and that it finds a made-up fault of each kind.
 #
 # words.txt has one entry a line: `name WORD` (a whole identifier), `code WORD` (the same, but not in comments and
 # strings, because it is also an English word), `option --WORD`, `file BASENAME`, `phrase WORDS` (exact, in comments and
@@ -73,6 +73,22 @@ while read -r f; do
     done
 done < "$tmp/documents" > "$tmp/links"
 check "links of documents exist: $(tr '\n' ' ' < "$tmp/links")" test ! -s "$tmp/links"
+
+# Files and names of the code in EXACT.md and RECIPES.md. A path is relative to the root or to src/; NAME is a
+# placeholder.
+find src include tools platform tests Makefile -type f \( -name '*.[ch]' -o -name '*.inl' -o -name '*.sh' -o -name Makefile \) \
+    2>/dev/null > "$tmp/sources"
+for f in src/EXACT.md src/RECIPES.md; do
+    [ -f "$f" ] || continue
+    grep -oE '`[A-Za-z0-9_./]+`' "$f" | tr -d '`' | grep -v NAME | sort -u > "$tmp/mentioned"
+    grep / "$tmp/mentioned" | while read -r path; do
+        [ -e "$path" ] || [ -e "src/$path" ] || echo "$f: $path"
+    done
+    grep -E '^[A-Za-z0-9]*_[A-Za-z0-9_]*$' "$tmp/mentioned" > "$tmp/mentioned-names"
+    tr '\n' '\0' < "$tmp/sources" | xargs -0 grep -ohwFf "$tmp/mentioned-names" | sort -u > "$tmp/found-names"
+    comm -23 "$tmp/mentioned-names" "$tmp/found-names" | sed "s,^,$f: ,"
+done > "$tmp/stale"
+check "files and names in EXACT.md and RECIPES.md exist: $(tr '\n' ' ' < "$tmp/stale")" test ! -s "$tmp/stale"
 
 # README.md: 150 lines, and 60 numbers outside code.
 lines=$(wc -l < README.md)
@@ -158,6 +174,7 @@ leftover src/gloss.c 'int x;'
 leftover src/three.c '/* what a surface gives
  * off by itself */'
 leftover docs/one.md 'See [nothing](nowhere.md).'
+leftover src/EXACT.md 'See `one.c`, `src/one.c`, `base/gone.c`, `lmb_gone`, `isa/isa_NAME.c`.'
 found=$(made_words)
 for kind in name code option file phrase; do
     case $found in
@@ -168,5 +185,9 @@ done
 case $found in
 *"links of documents exist: docs/one.md: nowhere.md"*) pass ;;
 *) fail "a made-up dead link is not found: $found" ;;
+esac
+case $found in
+*"EXACT.md and RECIPES.md exist: src/EXACT.md: base/gone.c src/EXACT.md: lmb_gone "*) pass ;;
+*) fail "a made-up stale file and name are not found once each: $found" ;;
 esac
 finish
