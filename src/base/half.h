@@ -21,7 +21,7 @@ static inline uint16_t half_encode(float v)
     if (v >= HALF_MAX) {
         return 0x7bff;
     }
-    if (v < 6.103515625e-05f) { /* 2^-14: codes are multiples of 2^-24, the step of floats at 0.5 */
+    if (v < 6.103515625e-05f) { /* 2^-14: codes are multiples of 2^-24, as are floats from 0.5 on: adding rounds */
         v += 0.5f;
         memcpy(&bits, &v, sizeof bits);
         return (uint16_t)(bits - 0x3f000000u);

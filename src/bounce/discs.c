@@ -140,7 +140,7 @@ static void join_point(lmb_point *p, const lmb_point *q)
 static void join_neighbours(const neighbourhood *n, uint32_t i)
 {
     lmb_point *p = &n->points->data[i];
-    const lmb_vec3 normal = p->normal; /* as distances, of the disc's first point [V12] */
+    const lmb_vec3 normal = p->normal; /* of the disc's first point, as are distances [V12] */
     const float within = n->join * p->distance;
     around a;
     around_point(&a, n, p, within, REACH);

@@ -4,7 +4,7 @@
  * for quadratics. If a corner is missing, full slopes are used, which is exact for linear light. */
 
 #define FILL_ENOUGH 0.5f /* min share of the bilinear weights of the corners that agree, ... */
-#define FILL_NEAR   1.01f  /* ... unless the squared distance to one of them, px, is below this */
+#define FILL_NEAR   1.01f  /* ... unless the squared distance to one of them, px2, is below this */
 
 typedef struct corners_sum {
     lane weight, enough, near; /* near: 1 if a corner is */

@@ -34,7 +34,7 @@ typedef struct live_grid {
     int32_t width, height, columns, rows; /* px; tiles */
     float mean;  /* mean light of the first samples, R + G + B, W/m2 */
     float split; /* divide a cell if (surplus / 3)^2 x area > split x mean^2 */
-    float noise; /* deviation of a share of 1/2: 1 / sqrt(segments) */
+    float noise; /* 1 / sqrt(segments): scales the deviation of a share from a single segment */
 } live_grid;
 
 /* Returns the grid in a lattice's memory. `strata`: segments of a sample. */

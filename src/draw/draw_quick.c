@@ -12,7 +12,7 @@
 
 #if LMB_DRAW
 enum { QUICK_24_8 = 16 * 256 /* largest side of the box of small triangles */ };
-enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* with more, a kernel's vectors take too much stack */ };
+enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much stack beside a kernel's vectors */ };
 #define QUICK_ABSURD  1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
@@ -181,7 +181,7 @@ static void quick_begin_shape(lmb_draw_shape *out, lmb_draw_late *late, int64_t 
     quick_set_depth(out, late->at, late->by_area);
 }
 
-/* Bit i of four, from `i` on: pixel i is inside. */
+/* Bit i of a row: 1 if pixel i is inside. */
 #define QUICK_BIT(i) ((~(uint32_t)((a + ex0 * (i)) | (b + ex1 * (i)) | (c + ex2 * (i))) >> 31) << (i))
 
 /* The pixels of a box of at most 8 x 8, with bit 0 as the first one. Four at a time, because processors mispredict the

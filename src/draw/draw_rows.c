@@ -1,8 +1,8 @@
 /* draw_rows.c: pixels of common states with specialised code, in plain C or by lanes. Layer 4.
  *
  * Common: 32-bit depth without a stencil; four-byte colours, opaque or blended by their alpha, with at most one
- * texture. Lanes support more. Values are those of draw_tile.c, which handles all other states. Values that a shape
- * shares are computed outside the loop. */
+ * texture. Lanes support more. Values are those of draw_tile.c, which handles all other states. Values that all
+ * pixels of a shape share are computed outside the loop. */
 #include "draw_part.h"
 
 #include <string.h>

@@ -94,8 +94,7 @@ static void place_vertex(lmb_fixed_vertex *out, const looking *l, const uint32_t
     out->depth = (uint16_t)p[2];
 }
 
-/* --- clipping
- * --------------------------------------------------------------------------------------------------------- */
+/* --- clipping ----------------------------------------------------------------------------------------------------- */
 
 /* Cuts from a, inside, to b, outside. */
 static void cut(seen_from *out, const seen_from *a, const seen_from *b, int32_t in, int32_t beyond)
@@ -178,8 +177,7 @@ int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f
     return count;
 }
 
-/* --- visible triangles
- * ------------------------------------------------------------------------------------------------ */
+/* --- visible triangles -------------------------------------------------------------------------------------------- */
 
 static int32_t area_of(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t x2, int32_t y2)
 {

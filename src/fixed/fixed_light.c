@@ -159,8 +159,7 @@ static void direct_at(uint32_t out[3], const lamp_now *l, const fixed_receiver *
     }
 }
 
-/* --- reflected light
- * -------------------------------------------------------------------------------------------------- */
+/* --- reflected light ---------------------------------------------------------------------------------------------- */
 
 /* v times an albedo, given as a square root in 1/255. */
 static uint32_t reflected(uint32_t v, uint32_t root)
@@ -199,7 +198,7 @@ static void set_sent(uint16_t out[4], const uint32_t light[3], const fixed_recei
     out[3] = 0;
 }
 
-/* Computes the total light that each element sends. Returns the right shift. */
+/* Computes the total light that each element sends. Returns the number of bits that it is shifted down by. */
 static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_now *l)
 {
     const lmb_fixed *s = f->scene;

@@ -49,7 +49,8 @@ static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, l
 {
     const lmb_frame *f = &r->frame;
     const int32_t part = x / LMB_TILE % LMB_SPARSE_TILES;
-    const int sparse = f->gather_step > 1 && requires_bounce(f) && !skips(r, LMB_SKIP_BOUNCE);
+    const int gathers = requires_bounce(f) || gathers_many_lights(f);
+    const int sparse = f->gather_step > 1 && gathers && !skips(r, LMB_SKIP_BOUNCE);
     if (lights_points(r)) {
         *out = &s->sparse.light[0]; /* filled after the tile is resolved */
         return LMB_OK;

@@ -83,7 +83,7 @@ lmb_status lmb_render_view_strip(const lmb_render *r, lmb_target *out, int32_t b
         *out = *eye;
         return LMB_OK;
     }
-    const int32_t bands = eye->depth.height / LMB_TILE, first = band - band % bands; /* a smaller eye: some rows of 8 */
+    const int32_t bands = eye->depth.height / LMB_TILE, first = band - band % bands; /* the eye holds only some bands */
     lmb_status status = LMB_OK;
     if (band == first) {
         status = draw_bands(r, out, eye, first, mini(bands, band_count(&r->frame.view) - first));

@@ -180,7 +180,8 @@ void lmb_render_skip(lmb_render *r)
     for (uint32_t i = 0; i < s->light_count; ++i) {
         lit += faces_that_bounce(r, i);
     }
-    lit += (uint32_t)(requires_many_lights_bounce(&r->frame) || requires_many_lights_transfer(&r->frame));
+    lit += (uint32_t)(requires_many_lights_bounce(&r->frame) || requires_many_lights_transfer(&r->frame) ||
+                      gathers_many_lights(&r->frame));
     if (!r->emits && (lit == 0 || !l.reflects || r->triangles == 0)) {
         r->skips |= LMB_SKIP_BOUNCE;
     }

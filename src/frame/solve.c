@@ -1,4 +1,4 @@
-/* solve.c: runs the stages of the light solution, by steps and in parts. Layer 10.   [V33 V34] */
+/* solve.c: runs the stages of the light solution, by steps and in parts. Layer 10. [V33 V34] */
 
 #include "../base/vec.h"
 #include "../bounce/points.h"
@@ -9,7 +9,7 @@
  * six. With 128, small elements get no texel or one: rmse of the Cornell box .113; with 256, .08; with 512, .075. */
 enum { COLLECTED = 256 };
 #define UNIT_RECEIVERS 64u
-#define ELEMENT_ERROR 2.0f /* times a pixel's: a pixel sees the mean of many. With 4, spots lose 1 % of the light */
+#define ELEMENT_ERROR 2.0f /* times a pixel's: a pixel sees the mean of many elements. With 4 spots lose 1 % of light */
 
 /* --- by steps ----------------------------------------------------------------------------------------------------- */
 

@@ -108,7 +108,7 @@ typedef struct lmb_setup_job {
     float near_m, far_m, depth_scale;
     int32_t orthographic;
     int32_t cull;                /* 0: none; -1: counter-clockwise triangles; 1: clockwise ones */
-    int32_t origin_x, origin_y;  /* pixel (0, 0) of the frame, in 24.8 from the centre of the frame */
+    int32_t origin_x, origin_y;  /* sample of the frame's pixel (0, 0), in 24.8 from the centre of the frame */
     int32_t x0, y0, x1, y1;      /* first and last pixels of the window, in the frame */
 } lmb_setup_job;
 
@@ -311,8 +311,7 @@ typedef struct lmb_live_sample {
 } lmb_live_sample;
 
 #define LIVE_SAME_COS  0.95f /* places share light only if the cosine between their normals is at least this, */
-#define LIVE_SAME_LIFT 1e-3f /* and their offset from each other's plane is at most this share of the distance (squared,
-                                flat surfaces) */
+#define LIVE_SAME_LIFT 1e-3f /* and (height over the other's plane / distance)^2 at most this, at equal normals */
 
 /* A cell between four samples, and the pixels of a tile in it. */
 typedef struct lmb_live_cell {

@@ -180,7 +180,7 @@ void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_
 /* The ids of the four texels around the place. Returns 1 if all are the receiver's own. */
 static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const place *at, uint32_t own)
 {
-    const float left = at->x - 0.5f, top = at->y - 0.5f; /* at least -1 */
+    const float left = at->x - 0.5f, top = at->y - 0.5f; /* above -1 */
     const int32_t x0 = (int32_t)left - (left < 0.0f), y0 = (int32_t)top - (top < 0.0f), last = query->map->size - 1;
     int same = 1;
     if (at->face != query->face) {

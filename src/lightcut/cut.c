@@ -829,7 +829,7 @@ static void light_by(stream *s, lmb_node_ref at, uint64_t visible)
     }
 }
 
-/* Lights the pixels by every texel: for a conservative bound that a full cut does not meet, without occlusion. */
+/* Lights the pixels by every texel. For scenes without occluders, if a full cut does not meet a conservative bound. */
 static void light_by_all(stream *s)
 {
     const int32_t size = s->c->tree->size;

@@ -64,9 +64,9 @@ static lmb_vec3 at_middle(const lmb_tile *t, int k, const lmb_view *v, float sx,
     return footprint_over(v, tile_vec(t->position, k), tile_vec(t->face, k), sx, sy);
 }
 
-/* 1 if the surface of pixel k ends at that of another pixel before a point in that surface's plane. That is so if the
- * way to the point crosses the other plane: in a corner the point is behind a wall, and on a ridge it is in the air.
- * Crossings below rounding do not count, because they block nothing. */
+/* 1 if the surface of pixel k meets that of another pixel before a point in the plane of k. That is so if the way to
+ * the point crosses the other plane: in a corner the point is behind a wall, and on a ridge it is in the air. Crossings
+ * below rounding do not count, because they block nothing. */
 static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, lmb_vec3 place)
 {
     const lmb_vec3 normal = tile_vec(t->face, other), on = tile_vec(t->position, other);
@@ -74,9 +74,9 @@ static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, l
     return here * there < 0.0f && absf(there) > lmb_place_noise(place, length3(sub3(place, v->eye)));
 }
 
-/* Returns one of the four pixels around a texel's centre, with k the last, that shows its surface there; NOBODY if
- * unknown. If surfaces lie in front of each other and do not meet, any will do. at_end: pixels at the end of their
- * surface, from lmb_tile_onto_triangles. */
+/* Of the four pixels around a texel's centre, of which k is the last, returns one with a surface that shows at the
+ * centre; NOBODY if unknown. If surfaces lie in front of each other and do not meet, any will do. at_end: pixels at the
+ * end of their surface, from lmb_tile_onto_triangles. */
 static int pixel_of_middle(const lmb_tile *t, uint64_t at_end, int k, const lmb_view *v, float sx, float sy)
 {
     const int around[4] = {k, k - 1, k - LMB_TILE, k - LMB_TILE - 1};

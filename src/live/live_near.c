@@ -89,7 +89,7 @@ static lmb_live_chunk *take(lmb_live_scratch *s, int *lane)
 
 static uint32_t part_of(uint32_t level, uint32_t x, uint32_t y) { return (level << PART_BITS | x) << PART_BITS | y; }
 
-/* Light of later bounces is smooth and a small part of the total: with half the spacing, the errors of Cornell and the
+/* Light of later bounces is smooth and a small part of the total. With half the radius, the errors of Cornell and the
  * corridor change by .003 and .001, and samples take a third of the time. */
 #define SOFT 0.25f
 

@@ -231,7 +231,7 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
 }
 
 /* Targets that count: above the receiver's horizon, and with the receiver in front of the target's facet by more than
- * rounding. A node's target may fail both tests although the node's middle passes. */
+ * rounding. A node's target may fail either test although the node's middle passes. */
 static uint64_t KERNEL(live_ahead)(const lmb_live_rays *r, int32_t targets, const lmb_live_receiver *at)
 {
     const lane3 face = lane3_of(at->face);

@@ -6,7 +6,8 @@
 
 #define GRAZE 0.02f /* a texel's footprint stretches no further below this cosine */
 
-/* The point of a plane (given by a point on it and the normal) over (sx, sy) of the map, at distance 1 (m for suns). */
+/* The point of a plane (given by a point `on` it and the normal) over the point (sx, sy) of the map's plane at distance
+ * 1 (m for suns). */
 static inline lmb_vec3 footprint_over(const lmb_view *v, lmb_vec3 on, lmb_vec3 normal, float sx, float sy)
 {
     const lmb_vec3 across = add3(mul3(v->right, sx), mul3(v->up, sy)), p = sub3(on, v->eye);

@@ -330,8 +330,8 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
     return LMB_OK;
 }
 
-/* Moves a measured pixel onto the plane, but not far from `inverse` (0: not measured). In holes the plane counts as no
- * farther than `min`, because towards the horizon the distance is unbounded. */
+/* New inverse distance of a pixel: that of the plane, but near the measured one, `inverse`. In holes (`inverse` 0) the
+ * plane counts as no farther than `min`, because towards the horizon the distance is unbounded. */
 static float moved_to(float plane, float inverse, float min)
 {
     return inverse > 0.0f ? clampf(plane, inverse * (1.0f - PLANE_MOVES), inverse * (1.0f + PLANE_MOVES))

@@ -187,7 +187,7 @@ typedef struct cut {
     uint32_t below;           /* items on the left */
     uint8_t order[FEW];       /* few items: the left ones, then the others */
     int axis, bin;            /* many: the left ones are in bins below this */
-    float low[4], per_bin[4]; /* twice the centre -> bin; per_bin 0: all in one place */
+    float low[4], per_bin[4]; /* bin = (twice the centre - low) x per_bin, 1/m; per_bin 0: all in one place */
 } cut;
 
 /* Maps twice the centres to bins along each axis. */

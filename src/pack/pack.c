@@ -1,4 +1,4 @@
-/* pack.c: opens a .lmp in place, checked once as a whole; the scene is in the caller's memory. Layer 2. */
+/* pack.c: opens a .lmp in place: checks the whole file once, then trusts it; scene in the caller's memory. Layer 2. */
 #include <lambent/pack.h>
 
 #include <string.h>

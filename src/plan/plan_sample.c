@@ -10,7 +10,7 @@
 
 #if LMB_PLAN && LMB_TREES
 
-enum { BINS = 128, MIN = 40 /* exponent of the first bin: 2^-87 */, MIN_PLACES = 4 };
+enum { BINS = 128, MIN = 40 /* biased exponent of the first bin: 2^-87 */, MIN_PLACES = 4 };
 
 int lmb_can_sample(const lmb_render *r)
 {

@@ -88,8 +88,8 @@ LANE_PART lanei remap_texel(const lmb_world_job *job, const remap_spot *spot, la
                      lanei_add(lane_to_int(x), lanei_splat(job->cube_at)));
 }
 
-/* Weights of three texels in a row, at t -0.5 .. 0.5 from the middle one: the value of the parabola with the texels as
- * means. */
+/* Weights of three texels in a row, at t -0.5 .. 0.5 from the middle one: the value of the parabola that has the values
+ * of the texels as means over them. */
 LANE_INLINE void remap_parabola(lane weight[3], lane t)
 {
     const lane half = lane_splat(0.5f), odd = lane_mul(half, t);

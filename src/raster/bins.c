@@ -538,7 +538,7 @@ static void clear_rows(const bin_drawing *d)
     }
 }
 
-/* Draws the binned triangles of `count` bins, row by row of bins. A separate function, because draw_rest needs the
+/* Draws the binned triangles of `count` bins, one bin after another. A separate function, because draw_rest needs the
  * stack, too. */
 NOINLINE void draw_rows(const lmb_target *target, const lmb_kernels *kernels, const lmb_bins *bins, int32_t count,
                       int32_t clear, const lmb_culling *culling)

@@ -178,8 +178,8 @@ LANE_INLINE void culled_large_run(const culled_row *r, const culled_tiles *tiles
     float *bound = culled_bound(r->w, tx, r->ty);
     const lane old = lane_load(bound);
     lane_store(bound, lane_pick(mask_of_bits(some), lane_max(old, tiles->far), old));
-    if (some == ALL_TILES && (tiles->leaves & ALL_TILES) == 0) { /* addresses do not depend on a mask: more runs
-                                                                    ahead */
+    if (some == ALL_TILES && (tiles->leaves & ALL_TILES) == 0) { /* no address waits for a mask, so the
+                                                                    processor runs farther ahead */
         culled_set_tile(r->tile, r->w, tx, r->ty);
         large_run(r->w, r->tile, r->job, r->t, r->whole, d, LANES, 0, kind);
         return;

@@ -10,8 +10,7 @@
 #include "resolve.h"
 #include "target.h"
 
-#define TEXELS 8u             /* maximum of texels read per pixel of a triangle's tiles, to find out whether it is all
-                                 hole */
+#define TEXELS 8u             /* max texels read per pixel of a triangle's tiles, to test whether it is all hole */
 #define LEAST  (1.0f / 512.0f) /* least threshold of a surface that blends */
 
 /* The triangle's surface, and the rays of the current tile. */

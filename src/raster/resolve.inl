@@ -273,7 +273,7 @@ LANE_INLINE void resolve_normals(lmb_resolve_batch *b, const lmb_vec3 column[3],
     }
 }
 
-/* A code 0 .. 255 / 255: for all codes the sum rounds like the division, which takes longer. */
+/* code / 255, for codes 0 .. 255: the sum rounds like the division for each of them, and the division takes longer. */
 LANE_INLINE lane resolve_share(lanei code)
 {
     const lane c = lane_from_int(code);

@@ -1,8 +1,9 @@
 /* transfer_air.c: light on moving objects, from points in the air around them. Layer 9.
  *
- * The eight grid points around a pixel have trilinear weights. Points behind the pixel's face have a small weight,
- * because a wall and another room may lie there. Light comes from six sides; a normal takes a share of each equal to
- * the normal's squared component along that axis (McTaggart 2004, ambient cube). */
+ * The eight grid points around a pixel have trilinear weights, times a factor that falls with the angle between the
+ * face normal and the way to the point: behind the face a wall and another room may lie. Light comes from six sides; a
+ * normal takes a share of each equal to the normal's squared component along that axis (McTaggart 2004, ambient
+ * cube). */
 #include "air.h"
 
 #include <string.h>
@@ -11,7 +12,7 @@
 
 #if LMB_TRANSFER
 
-#define BEHIND 0.02f /* weight of a point straight behind the face, used if no point is in front */
+#define BEHIND 0.02f /* this factor straight behind the face: it counts if no point is in front */
 
 int lmb_transfer_moves(const lmb_transfer *t, uint32_t id)
 {

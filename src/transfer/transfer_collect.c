@@ -646,8 +646,8 @@ static void share_all(const collection *c, uint32_t id)
     }
 }
 
-/* Shares a row of blocks when the row below is known. Rows with a single triangle wait to the end, because the triangle
- * may own the whole tile. */
+/* Shares a row of blocks when the row below is known. Rows with a single triangle wait until the end, because the
+ * triangle may own the whole tile. */
 static void collect_tile(const collection *c)
 {
     int is_one = 1;

@@ -1,4 +1,4 @@
-/* cone.c: cones over the hemisphere and along the mirrored view, through voxels to the sky. Layer 5.      [M20-M22] */
+/* cone.c: cones over the hemisphere and along the mirrored view, through voxels and environment. Layer 5. [M20-M22] */
 #include <string.h>
 
 #include "../base/poly.h"
@@ -125,8 +125,7 @@ static void follow(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_co
     trace->kernels->cone(out, &job, tile, direction);
 }
 
-/* The open part of the cone sees the environment, filtered to the cone's width.                                 
- * [M22] */
+/* The open part of the cone sees the environment, filtered to the cone's width. [M22] */
 static void finish(lmb_cone_seen *inout, const lmb_cone_trace *trace, float tangent, const lmb_tile *tile,
                    float direction[3][LMB_TILE_PIXELS])
 {

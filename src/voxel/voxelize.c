@@ -6,7 +6,7 @@
 
 #if LMB_VOXELS
 
-enum { CORNERS = 12 /* a triangle cut by six planes has nine */, SAMPLES = 4, MAX = 32 /* leaf faces */ };
+enum { CORNERS = 12 /* a triangle cut by six planes has nine */, SAMPLES = 4, MAX = 32 /* leaf faces a leaf */ };
 
 /* Areas are multiples of this, so sums up to MAX are exact and do not depend on the order of triangles. */
 static const float unit_area = 1.0f / 262144.0f;

@@ -235,6 +235,27 @@ static void check_open(const lmb_many_lights *sky)
     check_at(sky, "an open plane", vec3(0, 0, 0), 2, PI, 0.02);
 }
 
+/* A frame whose sky does not bounce: without elements, the sky is still gathered. */
+static void check_sky_only(const lmb_many_lights *sky)
+{
+    static lmb_render r;
+    lmb_view view;
+    world_begin(0.01f, 0.01f, 0.01f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 50), mul3(X, 50));
+    world_end();
+    CHECK(lmb_view_look_at(&view, vec3(0, 2, 0), vec3(0, 0, 0), Z, 0.02f, 8, 8) == LMB_OK);
+    lmb_frame_settings s = draft_settings(&world.scene, view);
+    s.many_lights = sky;
+    s.show = LMB_SHOW_INDIRECT;
+    lay_out(&s);
+    frame.gather_many_lights = 1;
+    frame.elements.data = NULL;
+    memset(&r, 0, sizeof r);
+    CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
+    const double got = (double)((const float *)frame.out.data)[3 * (4 * 8 + 4) + 1] * PI / 0.01;
+    CHECK_MSG(fabs(got / PI - 1) < 0.05, "a sky without elements: %.4f, not %.4f W/m2", got, PI);
+}
+
 /* Close to an infinite wall, half of the sky is hidden. */
 static void check_wall(const lmb_many_lights *sky)
 {
@@ -349,6 +370,7 @@ void test_sky(void)
     folder_close(&place);
     const lmb_many_lights sky = white_sky();
     check_open(&sky);
+    check_sky_only(&sky);
     check_scales(&sky);
     check_wall(&sky);
     check_window(&sky, "a hole of 2 m", 1.0f, 0.03);
