@@ -80,6 +80,56 @@ status 0 explain named.gltf --size 32x32 --eye 0.3,1,0.3 --target 0.3,0,0.29 --l
 check "names of nodes and materials" holds 'material "stone"' out.txt
 check "without control characters" sh -c '! grep -q "$(printf "\\033")" out.txt'
 
+# A screen with a hole, below a roof; the floor emits light by a map. Texel 0 is a hole, both are grey, code 128.
+cat >holes.gltf <<'GLTF'
+{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
+"nodes":[{"mesh":0},{"mesh":1,"translation":[0,0.5,0]},{"mesh":2,"translation":[0,0.8,0],"scale":[0.3,1,0.3]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":0}]},
+{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":1}]},
+{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":2}]}],
+"materials":[{"name":"floor","emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}},
+{"name":"screen","alphaMode":"MASK","doubleSided":true,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+{"name":"roof","doubleSided":true}],
+"textures":[{"source":0,"sampler":0}],"samplers":[{"magFilter":9728,"minFilter":9728,"wrapS":33071,"wrapT":33071}],
+"images":[{"uri":"data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAAD0lEQVR42mNoaGhgAOL/ABAIBAAiyhyNAAAAAElFTkSuQmCC"}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-1,0,-1],"max":[1,0,1]},
+{"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"},{"bufferView":2,"componentType":5123,"count":6,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":32},
+{"buffer":0,"byteOffset":80,"byteLength":12}],
+"buffers":[{"byteLength":92,"uri":"data:;base64,AACAvwAAAAAAAIC/AACAvwAAAAAAAIA/AACAPwAAAAAAAIA/AACAPwAAAAAAAIC/AAAAAAAAAAAAAAAAAACAPwAAgD8AAIA/AACAPwAAAAAAAAEAAgAAAAIAAwA="}]}
+GLTF
+lamp="--size 32x32 --quality draft --light point:-0.1,1.2,0:0,-1,0:3,3,3"
+below="--eye 0,0.25,1.5 --target -0.2,0,0 $lamp --pixel 16,16"
+status 0 explain holes.gltf $below
+check "light passes through a hole; the roof blocks it" holds 'of instance 2, material "roof"' out.txt
+check "the map's emission" holds "emits        0.2159 0.2159 0.2159" out.txt
+check "is emitted light in the picture, and no direct light" holds "direct       0 0 0" out.txt
+check "of its own" holds "emitted      0.2159 0.2159 0.2159" out.txt
+
+# bounce FILE: the light of one bounce that rays find, red.
+bounce() { awk '/^light of one/ { bounce = 1 } / traced / && bounce { print $2 }' "$1"; }
+under="--eye 0.5,0.2,0.6 --target 0.6,0.5,0 $lamp --pixel 16,16" # the screen, lit by the floor below
+status 0 explain holes.gltf $under
+check "a screen" holds 'material "screen"' out.txt
+bounce out.txt >loaded
+check "the floor sends at most pi times what it emits by the map" awk '{ exit !($1 > 0.1 && $1 < 0.68) }' loaded
+status 0 pack holes.gltf -o holes.lmp --textures palette4
+status 0 explain holes.lmp $under
+check "a palette has the colours of the image" awk -v loaded="$(cat loaded)" -v packed="$(bounce out.txt)" \
+    'BEGIN { exit !(loaded > 0 && packed > 0.97 * loaded && packed < 1.03 * loaded) }'
+
+sed 's/"name":"stone"/&,"extensions":{"KHR_materials_unlit":{}}/' named.gltf >unlit.gltf
+status 0 explain unlit.gltf --size 32x32 --eye 0.3,1,0.3 --target 0.3,0,0.29 --light point:0.3,1,0.3:0,-1,0:1,1,1 --pixel 16,16
+check "an unlit surface" holds "unlit: the picture shows the albedo" out.txt
+
+# From far away, positions are less exact than from near; no triangle blocks its own light.
+status 0 explain shelf.obj --eye 0,3000,3000 --target 0,0,0.8 --fov 0.01 --size 64x64 --light sun:0,0,0:0.3,-1,0.2:3,3,3 --pixel 32,32
+check "a floor 4 km away" holds 'material "floor"' out.txt
+check "does not block its sun" lacks ', blocked' out.txt
+status 2 explain demo --pixel 4294967296,0
+status 2 explain demo --pixel 1,1 --stats stats.json
+said "--stats: explain writes no file"
+
 status 2 explain demo
 said "no pixel given; add --pixel X,Y"
 status 2 explain demo --pixel 1

@@ -69,8 +69,9 @@ static const option_row rows[] = {
              "7000; best: 16384 and 12000, which takes 1.5 to nine times as long as the default (default default)"},
     {.name = "--error", .value = "SHARE", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
      .help = "accuracy of the links, which carry light from elements to receivers: the error that one more link "
-             "must save, as a share of all light, around a receiver for a 10,000th of the scene's area (errors of "
-             "larger ones count more). Smaller: more accurate, a larger file (default 0.00014)"},
+             "must save, as a share of all light around a receiver that represents a 10,000th of the scene's area "
+             "(errors at receivers with a larger area count more). Smaller: more accurate, a larger file (default "
+             "0.00014)"},
     {.name = "--division", .value = "SHARE", .kind = OPTION_ABOVE, AT(division), .low = 0.0, .high = 1.0,
      .help = "accuracy of the division of triangles, with a receiver at each corner: light over a piece may differ "
              "from linear by this share of all light, over a thousandth of the scene's area. Smaller: finer shadows "

@@ -29,6 +29,7 @@ typedef struct explain_space {
 /* A point on a surface. */
 typedef struct explain_place {
     lmb_vec3 at, face, normal; /* m; unit, towards the viewer: of the triangle, and for shading */
+    float depth;               /* m: length of the ray that found `at` */
     float noise;               /* m: rounding of `at`; lmb_place_noise */
     uint32_t id;               /* of its triangle */
 } explain_place;
@@ -65,7 +66,7 @@ int explain_space_make(explain_space *out, const lmb_scene *scene, const lmb_ker
 void explain_space_free(explain_space *s);
 
 /* explain_nearest: the nearest triangle on a ray, farther than `noise` from its plane: its place in bvh.triangle + 1,
- * and the distance, m; 0: none within `far_m`. Masked triangles count as whole. */
+ * and the distance, m; 0: none within `reach_m`. Rays pass through the holes of masked triangles. */
 uint32_t explain_nearest(float *far_m, explain_space *s, lmb_vec3 from, lmb_vec3 along, float noise, float reach_m);
 
 /* explain_light_at: a light's irradiance at a place as if nothing blocked it, W/m2, for a surface with this normal.

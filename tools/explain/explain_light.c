@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../src/base/vec.h"
+#include "../../src/raster/texture.h"
 
 #define PI 3.14159265358979
 
@@ -49,7 +50,7 @@ static uint64_t blocked_by(explain_space *s, const lmb_light *l, uint64_t points
 }
 
 /* Puts a place into the tile. lmb_occluded_sun takes the rounding of a place from its depth. */
-static void put_place(lmb_tile *tile, int k, const explain_place *p, float depth)
+static void put_place(lmb_tile *tile, int k, const explain_place *p)
 {
     const float at[3] = {p->at.x, p->at.y, p->at.z}, face[3] = {p->face.x, p->face.y, p->face.z};
     const float normal[3] = {p->normal.x, p->normal.y, p->normal.z};
@@ -58,7 +59,7 @@ static void put_place(lmb_tile *tile, int k, const explain_place *p, float depth
         tile->face[c][k] = face[c];
         tile->normal[c][k] = normal[c];
     }
-    tile->depth[k] = depth;
+    tile->depth[k] = p->depth;
     tile->id[k] = p->id;
     tile->hits = k + 1;
 }
@@ -68,7 +69,7 @@ static float sum_of(const float c[3]) { return c[0] + c[1] + c[2]; }
 void explain_sky(double open[3], double seen[3], explain_space *s, const explain_place *p)
 {
     memset(s->tile, 0, sizeof *s->tile);
-    put_place(s->tile, 0, p, 1.0f);
+    put_place(s->tile, 0, p);
     for (int c = 0; c < 3; ++c) {
         open[c] = seen[c] = 0.0;
     }
@@ -89,7 +90,7 @@ void explain_sky(double open[3], double seen[3], explain_space *s, const explain
 void explain_lights(explain_light *out, explain_space *s, const explain_place *p)
 {
     memset(s->tile, 0, sizeof *s->tile);
-    put_place(s->tile, 0, p, 1.0f);
+    put_place(s->tile, 0, p);
     for (uint32_t i = 0; i < s->scene->light_count; ++i) {
         const lmb_light *l = &s->scene->lights[i];
         explain_light *e = &out[i];
@@ -112,12 +113,6 @@ void explain_lights(explain_light *out, explain_space *s, const explain_place *p
 
 /* --- surfaces that send light ------------------------------------------------------------------------------------- */
 
-static double linear_of(uint8_t code)
-{
-    const double c = code / 255.0;
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
 static uint32_t vertex_of(const lmb_mesh *m, uint32_t corner)
 {
     return m->index_format == LMB_INDEX_U16   ? ((const uint16_t *)m->indices)[corner]
@@ -134,35 +129,15 @@ static void uv_of(double out[2], const lmb_mesh *m, uint32_t vertex)
     }
 }
 
-static int wrapped(double at, int side, int wrap)
-{
-    const double whole = floor(at);
-    double part = at - whole;
-    if (wrap == LMB_WRAP_CLAMP) {
-        part = fmin(fmax(at, 0.0), 1.0);
-    } else if (wrap == LMB_WRAP_MIRROR && fmod(fabs(whole), 2.0) == 1.0) {
-        part = 1.0 - part;
-    }
-    const int texel = (int)(part * side);
-    return texel < side ? texel : side - 1;
-}
-
-/* The nearest texel of level 0; rays average many. */
-static void texel_of(double out[3], const lmb_texture *t, const double uv[2])
-{
-    const int x = wrapped(uv[0], t->width, t->wrap_s), y = wrapped(uv[1], t->height, t->wrap_t);
-    const uint8_t *texel = t->texels + 4 * ((size_t)y * t->width + (size_t)x);
-    for (int c = 0; c < 3; ++c) {
-        out[c] = linear_of(texel[c]);
-    }
-}
-
-/* The diffuse albedo at a hit, with its barycentric coordinates. */
-static void albedo_of(double out[3], const lmb_scene *scene, const lmb_instance *of, uint32_t id, const double part[3])
+/* The diffuse albedo at a hit with these barycentric coordinates, and the emitted radiance, by level 0 of the textures:
+ * rays average many texels. */
+static void material_at(double albedo[3], double emission[3], const lmb_scene *scene, const lmb_instance *of,
+                        uint32_t id, const double part[3])
 {
     const lmb_material *m = &scene->materials[of->material];
     const lmb_mesh *mesh = &scene->meshes[of->mesh];
-    double texture[3] = {1.0, 1.0, 1.0}, uv[2] = {0.0, 0.0}, colour[3] = {0.0, 0.0, 0.0};
+    float texture[4] = {1.0f, 1.0f, 1.0f, 1.0f}, glow[4] = {1.0f, 1.0f, 1.0f, 1.0f}, code[4];
+    double uv[2] = {0.0, 0.0}, colour[3] = {0.0, 0.0, 0.0}, rest = 1.0; /* rest: the share that is no metal */
     for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t vertex = vertex_of(mesh, 3 * (id - of->first_id) + k);
         double corner[2] = {0.0, 0.0};
@@ -175,11 +150,19 @@ static void albedo_of(double out[3], const lmb_scene *scene, const lmb_instance 
             colour[c] += part[k] * (mesh->colours != NULL ? mesh->colours[4 * (size_t)vertex + c] / 255.0 : 1.0);
         }
     }
-    if (m->texture >= 0 && scene->textures[m->texture].format == LMB_TEXELS_RGBA8) {
-        texel_of(texture, &scene->textures[m->texture], uv);
+    if (m->texture >= 0) {
+        lmb_texture_sample(texture, &scene->textures[m->texture], (float)uv[0], (float)uv[1], 0.0f);
+    }
+    if (m->emission_map > 0) {
+        lmb_texture_sample(glow, &scene->textures[m->emission_map - 1], (float)uv[0], (float)uv[1], 0.0f);
+    }
+    if (m->metal_map > 0) {
+        lmb_normal_map_sample(code, &scene->textures[m->metal_map - 1], (float)uv[0], (float)uv[1], 0.0f);
+        rest = 1.0 - (double)metallic_of(m, code);
     }
     for (int c = 0; c < 3; ++c) {
-        out[c] = (double)m->albedo[c] * texture[c] * colour[c];
+        albedo[c] = (double)m->albedo[c] * (double)texture[c] * colour[c] * rest;
+        emission[c] = (double)m->emission[c] * (double)glow[c];
     }
 }
 
@@ -277,7 +260,7 @@ static void add_hits(explain_bounce *out, explain_space *s, const hits *h)
     memset(direct, 0, sizeof direct);
     memset(s->tile, 0, sizeof *s->tile);
     for (int k = 0; k < h->count; ++k) {
-        put_place(s->tile, k, &h->place[k], h->far_m[k]);
+        put_place(s->tile, k, &h->place[k]);
         noise = fmaxf(noise, h->place[k].noise);
     }
     for (uint32_t i = 0; i < s->scene->light_count && h->count > 0; ++i) {
@@ -289,12 +272,11 @@ static void add_hits(explain_bounce *out, explain_space *s, const hits *h)
     for (int k = 0; k < h->count; ++k) {
         const uint32_t number = instance_of(s->scene, h->place[k].id);
         const lmb_instance *of = &s->scene->instances[number];
-        const lmb_material *m = &s->scene->materials[of->material];
         explain_sender *e = &out->sender[number];
-        double albedo[3], sum = 0.0;
-        albedo_of(albedo, s->scene, of, h->place[k].id, h->part[k]);
+        double albedo[3], emission[3], sum = 0.0;
+        material_at(albedo, emission, s->scene, of, h->place[k].id, h->part[k]);
         for (int c = 0; c < 3; ++c) {
-            const double emitted = PI * (double)m->emission[c] / EXPLAIN_RAYS;
+            const double emitted = PI * emission[c] / EXPLAIN_RAYS;
             const double sent = albedo[c] * direct[k][c] / EXPLAIN_RAYS + emitted;
             e->emitted[c] += emitted;
             e->irradiance[c] += sent;
@@ -347,6 +329,7 @@ void explain_gather(explain_bounce *out, explain_space *s, const explain_place *
         explain_place *q = &h.place[h.count];
         q->at = add3(p->at, mul3(along, far_m));
         q->face = q->normal = mul3(t->normal, is_back ? -1.0f : 1.0f);
+        q->depth = far_m;
         q->noise = lmb_place_noise(q->at, far_m);
         q->id = id;
         parts_of(h.part[h.count], t, q->at);

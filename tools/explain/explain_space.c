@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../src/raster/resolve.h"
+
 int explain_space_make(explain_space *s, const lmb_scene *scene, const lmb_kernels *kernels, report *r)
 {
     const uint32_t triangles = lmb_scene_triangles(scene);
@@ -33,8 +35,10 @@ void explain_space_free(explain_space *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Distance of a crossing, or 0. Doubles, because the exactness rules of the library do not apply to this report. */
-static double crossing(const lmb_bvh_triangle *t, const double from[3], const double along[3], double noise)
+/* Distance of a crossing, or 0, and the weights of corners 1 and 2 there. Doubles, because the exactness rules of the
+ * library do not apply to this report. */
+static double crossing(float part[2], const lmb_bvh_triangle *t, const double from[3], const double along[3],
+                       double noise)
 {
     double edge[2][3], to[3], p[3], q[3];
     const double corner[3][3] = {{(double)t->corner[0].x, (double)t->corner[0].y, (double)t->corner[0].z},
@@ -60,7 +64,20 @@ static double crossing(const lmb_bvh_triangle *t, const double from[3], const do
     const double far_m = edge[1][0] * q[0] + edge[1][1] * q[1] + edge[1][2] * q[2];
     const double sign = det < 0.0 ? -1.0 : 1.0;
     const int is_inside = det != 0.0 && sign * u >= 0.0 && sign * v >= 0.0 && sign * (u + v) <= sign * det;
-    return is_inside && far_m / det > 0.0 ? far_m / det : 0.0;
+    if (!is_inside) {
+        return 0.0;
+    }
+    part[0] = (float)(u / det);
+    part[1] = (float)(v / det);
+    return fmax(far_m / det, 0.0);
+}
+
+/* 1 if a triangle of the BVH has no hole there. */
+static int is_opaque(const lmb_scene *scene, const lmb_bvh_triangle *t, const float part[2])
+{
+    lmb_triangle masked;
+    return (t->id & LMB_BVH_MASKED) == 0 || (lmb_triangle_fetch(&masked, scene, t->id & ~LMB_BVH_MASKED) &&
+                                             lmb_triangle_opaque(&masked, scene, part[0], part[1]));
 }
 
 static int meets_box(const lmb_boxes *b, int k, const double from[3], const double along[3], double reach)
@@ -98,8 +115,10 @@ uint32_t explain_nearest(float *far_m, explain_space *s, lmb_vec3 origin, lmb_ve
                 s->stack[count++] = b->first[k];
             }
             for (uint32_t i = 0; i < b->count[k]; ++i) {
-                const double at = crossing(&s->bvh.triangle[b->first[k] + i], from, along, (double)noise);
-                if (at > 0.0 && at < reach) {
+                const lmb_bvh_triangle *t = &s->bvh.triangle[b->first[k] + i];
+                float part[2];
+                const double at = crossing(part, t, from, along, (double)noise);
+                if (at > 0.0 && at < reach && is_opaque(s->scene, t, part)) {
                     reach = at;
                     found = b->first[k] + i + 1;
                 }

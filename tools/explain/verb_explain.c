@@ -22,7 +22,7 @@ static int parse_pixel(const char *text, void *at)
 {
     explain_options *o = at;
     char rest;
-    o->has_pixel = sscanf(text, "%d,%d%c", &o->x, &o->y, &rest) == 2;
+    o->has_pixel = sscanf(text, "%9d,%9d%c", &o->x, &o->y, &rest) == 2; /* more digits do not fit */
     return o->has_pixel && o->x >= 0 && o->y >= 0;
 }
 
@@ -41,8 +41,8 @@ static const option_table explain_table = {
         "blocks it, and the surfaces that send the most bounced light. Give the options of the render that the pixel "
         "comes from.\n"
         "`the picture` is light of the render, at one sample per pixel. `traced` is light by exact shadows and, for "
-        "one bounce, by 4,096 rays from the surface; masked surfaces count as whole. If both differ, the method of "
-        "the render loses light there or adds some."),
+        "one bounce, by 4,096 rays from the surface. If both differ, the method of the render loses light there or "
+        "adds some."),
     .part = {render_scene_rows, pixel_rows, render_view_rows, render_world_rows, render_light_rows, render_bounce_rows,
              render_other_rows},
     .examples = HELP("  lambent explain demo --size 160x120 --pixel 80,90\n"),
@@ -56,6 +56,7 @@ typedef struct explanation {
     image direct;
     lmb_tile *tile;
     int32_t pixel; /* of the tile */
+    float emission[3]; /* W/(sr m2), of the pixel's surface */
     explain_light *light;
     explain_bounce bounce;
     json doc; /* of a glTF file: names */
@@ -111,6 +112,13 @@ static uint32_t instance_of(const lmb_scene *scene, uint32_t id)
     return i - 1;
 }
 
+static const lmb_material *material_of(const explanation *e)
+{
+    return &e->job.scene.materials[e->job.scene.instances[instance_of(&e->job.scene, e->place.id)].material];
+}
+
+static int is_unlit(const explanation *e) { return e->place.id > 0 && (material_of(e)->flags & LMB_UNLIT) != 0; }
+
 /* --- what is printed ---------------------------------------------------------------------------------------------- */
 
 static void print_rgb(const char *what, const float c[3], const char *unit)
@@ -125,7 +133,7 @@ static void print_surface(const explanation *e)
     const uint32_t instance = instance_of(&e->job.scene, p->id);
     const lmb_vec3 d = {p->at.x - e->job.middle.eye.x, p->at.y - e->job.middle.eye.y, p->at.z - e->job.middle.eye.z};
     const float albedo[3] = {t->albedo[0][e->pixel], t->albedo[1][e->pixel], t->albedo[2][e->pixel]};
-    const lmb_material *m = &e->job.scene.materials[e->job.scene.instances[instance].material];
+    const lmb_material *m = material_of(e);
     report_say("surface\n  triangle %u of ", (unsigned)(p->id - e->job.scene.instances[instance].first_id));
     print_instance(e, instance);
     report_say("\n  %-12s %.4f %.4f %.4f, %.4g m from the eye\n", "position", (double)p->at.x, (double)p->at.y,
@@ -133,9 +141,14 @@ static void print_surface(const explanation *e)
     report_say("  %-12s %.3f %.3f %.3f\n", "normal", (double)p->normal.x, (double)p->normal.y, (double)p->normal.z);
     print_rgb("albedo", albedo, "");
     if (m->emission[0] + m->emission[1] + m->emission[2] > 0.0f) {
-        print_rgb("emits", m->emission, " W/(sr m2)");
+        print_rgb("emits", e->emission, " W/(sr m2)");
+    }
+    if (is_unlit(e)) {
+        report_say("  unlit: the picture shows the albedo, whatever light arrives\n");
     }
 }
+
+static float sum_of(const float c[3]) { return c[0] + c[1] + c[2]; }
 
 static void print_light(const explanation *e, const explain_light *l)
 {
@@ -157,18 +170,23 @@ static void print_light(const explanation *e, const explain_light *l)
     } else if (l->is_blocked) {
         report_say(", blocked");
     } else if (!(l->open[0] + l->open[1] + l->open[2] > 0.0f)) {
-        report_say(", outside its cone or range");
+        report_say(sum_of(light->intensity) > 0.0f ? ", outside its cone or range" : ", dark");
     }
     report_say("\n");
 }
 
-static float open_sum(const explain_light *l) { return l->open[0] + l->open[1] + l->open[2]; }
-
 static int by_open(const void *a, const void *b)
 {
     const explain_light *x = a, *y = b;
-    const float p = open_sum(x), q = open_sum(y);
+    const float p = sum_of(x->open), q = sum_of(y->open);
     return p != q ? (p < q) - (p > q) : (x->number > y->number) - (x->number < y->number);
+}
+
+/* The lights of the scene in the tree, without the pieces of a sky. */
+static uint32_t lights_in_tree(const explanation *e)
+{
+    const uint32_t lights = e->job.many_lights.tree.lights;
+    return lights > e->space.sky_count ? lights - e->space.sky_count : 0;
 }
 
 static void print_lights(explanation *e)
@@ -198,8 +216,9 @@ static void print_lights(explanation *e)
         for (int c = 0; c < 3; ++c) {
             sum[c] += (float)seen[c];
         }
-    } else if (e->job.many_lights.tree.lights > 0) {
-        report_say("  and %u lights in a tree, which are not traced\n", (unsigned)e->job.many_lights.tree.lights);
+    }
+    if (lights_in_tree(e) > 0) {
+        report_say("  and %u lights in a tree, which are not traced\n", (unsigned)lights_in_tree(e));
     }
     print_rgb("traced", sum, " W/m2");
 }
@@ -224,21 +243,28 @@ static void print_senders(const explanation *e)
     }
     report_say("  %.1f %% of the rays leave the scene, %.1f %% hit surfaces without light\n",
                100.0 * b->missed / EXPLAIN_RAYS, 100.0 * b->dark / EXPLAIN_RAYS);
-    print_rgb("traced", sum, " W/m2");
+    print_rgb("traced", sum, lights_in_tree(e) > 0 ? " W/m2, without the lights in a tree" : " W/m2");
 }
 
 static void print_picture(const explanation *e)
 {
     const size_t at = 3 * ((size_t)e->o.y * (size_t)e->job.linear.width + (size_t)e->o.x);
     const float *full = e->job.linear.pixels + at, *direct = e->direct.pixels + at;
-    float bounced[3], irradiance[3];
+    float bounced[3], irradiance[3], received[3]; /* received: without own emission */
     report_say("the picture, W/(sr m2)\n");
     print_rgb("light", full, "");
-    print_rgb("direct", direct, "");
+    if (is_unlit(e)) {
+        return;
+    }
     for (int c = 0; c < 3; ++c) {
         const float albedo = e->place.id > 0 ? e->tile->albedo[c][e->pixel] : 0.0f;
+        received[c] = direct[c] - e->emission[c];
         bounced[c] = full[c] - direct[c];
         irradiance[c] = albedo > 0.0f ? bounced[c] * 3.14159265f / albedo : 0.0f;
+    }
+    print_rgb("direct", received, "");
+    if (sum_of(e->emission) > 0.0f) {
+        print_rgb("emitted", e->emission, "");
     }
     print_rgb(e->job.gathers_sky ? "sky, bounced" : "bounced", bounced, "");
     if (e->place.id > 0) {
@@ -247,6 +273,21 @@ static void print_picture(const explanation *e)
 }
 
 /* --- the run ------------------------------------------------------------------------------------------------------ */
+
+/* The light that the surface at the pixel emits, by its map. */
+static int find_emission(explanation *e, report *r)
+{
+    lmb_radiance *own = calloc(1, sizeof *own);
+    if (own == NULL) {
+        return report_fail(r, "not enough memory for a tile");
+    }
+    lmb_compose_emission(own, &e->job.scene, &e->job.frame.view, e->tile);
+    for (int c = 0; c < 3; ++c) {
+        e->emission[c] = own->rgb[c][e->pixel];
+    }
+    free(own);
+    return 1;
+}
 
 /* The surface at the pixel: place.id 0 if there is none. */
 static int find_surface(explanation *e, report *r)
@@ -275,8 +316,9 @@ static int find_surface(explanation *e, report *r)
     p->at.x = t->position[0][k], p->at.y = t->position[1][k], p->at.z = t->position[2][k];
     p->face.x = t->face[0][k], p->face.y = t->face[1][k], p->face.z = t->face[2][k];
     p->normal.x = t->normal[0][k], p->normal.y = t->normal[1][k], p->normal.z = t->normal[2][k];
-    p->noise = lmb_place_noise(p->at, t->depth[k]);
-    return 1;
+    p->depth = t->depth[k];
+    p->noise = lmb_place_noise(p->at, fabsf(p->depth));
+    return find_emission(e, r);
 }
 
 static int trace(explanation *e, report *r)
@@ -352,6 +394,10 @@ static int parse(explain_options *o, int argc, char **argv, report *r)
     }
     if (!o->has_pixel) {
         report_fail(r, "no pixel given; add --pixel X,Y");
+        return OPTIONS_BAD;
+    }
+    if (o->render.stats != NULL) {
+        report_fail(r, "--stats: explain writes no file; use lambent render --stats");
         return OPTIONS_BAD;
     }
     return render_options_complete(&o->render, r) ? OPTIONS_RUN : OPTIONS_BAD;

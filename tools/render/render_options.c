@@ -236,8 +236,8 @@ const option_row render_light_rows[] = {
                   "Millions of lights need no more memory than thousands. Used by default, with 16384 cells, if "
                   "there are more than 128 lights, or more than 32 that bounce by cuts")},
     {.name = "--light-error", .value = "E", .kind = OPTION_NUMBER, AT(light_error), .low = 1e-6, .high = 1,
-     .help = HELP("share of a pixel's light that one node of that tree may be wrong by (default 0.02; 0.01 if only "
-                  "a sky gives light)")},
+     .help = HELP("share of a pixel's light that one node of that tree may be wrong by (default 0.02; 0.01 if "
+                  "the tree has only the light of a sky)")},
     {.kind = OPTION_END},
 };
 
