@@ -37,7 +37,7 @@ typedef struct lmb_points {
     uint32_t cell_cap; /* >= (map size / block)^2 + 1 */
     uint32_t faces;    /* collected so far */
     uint32_t *owner;   /* NULL, or for each texel of each face, in order, rows from the top: the index in `data` of the
-                          point with the texel's light, through joining and grouping; LMB_NOBODY if there is none
+                          point with the texel's light, updated by joining and grouping; LMB_NOBODY if there is none
                           [V33] */
     uint32_t owner_cap, owner_count; /* texels */
 } lmb_points;
@@ -61,8 +61,8 @@ typedef struct lmb_grouping {
     uint32_t flags;         /* LMB_ZONES_STRICT | LMB_POINT_CENTRE | LMB_NEAR_HEMISPHERE */
     int32_t thin;           /* one point in so many becomes a disc, <= LMB_MAX_THIN; the others join it; default 1
                                [V14] */
-    int32_t neighbour_cells; /* neighbours lie within this many blocks of the map, across and down; default 1, but any
-                                number with neighbour_m [V8] */
+    int32_t neighbour_cells; /* neighbours lie within this many blocks of the map, across and down; default 1, or
+                                no limit if neighbour_m is set [V8] */
     float radius;           /* a disc's radius is this x the mean distance; default: the area is the sum of its points'
                                [V12] */
     int32_t zones;          /* zones that the discs' map is first divided into; default `groups` [V20] */
@@ -117,9 +117,9 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
  * grouping->thin is over 1, and join close ones. In place; order is kept. Flux and area are sums, so both are
  * conserved, also by `thin`. With `radius`, area is no longer a sum.
  * Neighbours are points of the same face of a shadow map that face the same way (or LMB_NEAR_HEMISPHERE), within
- * grouping->neighbour_m in space, else within neighbour_cells of the map; if both are set, within both. Discs join
- * points within their mean distance, up to 32 cells away. Thinned discs lie one in `thin` cells of the map, on the
- * lattice with the largest cell distance.
+ * grouping->neighbour_m in space, else within neighbour_cells of the map; if both are set, within both. A disc joins
+ * points within grouping->join x its mean distance, up to 32 cells away. With `thin`, one cell of the map in `thin` has
+ * a disc, on the lattice with cells as far apart as possible. A point with no disc of its surface in reach becomes one.
  * Returns LMB_OK or LMB_ERR_ARG. Cost: points x cells that the radius spans; over 65 x 65 of these, only every second,
  * third .. each way is read.                                                             [V8 V9 V10 V11 V12 V14 V15] */
 lmb_status lmb_discs_join(lmb_points *points, const lmb_shadow_map *map, const lmb_grouping *grouping);

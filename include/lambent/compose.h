@@ -45,8 +45,8 @@ lmb_status lmb_lattice_init(lmb_lattice *out, int32_t width, int32_t height, voi
 /* Upsampling of light that was gathered at every second or fourth pixel each way (step 2 or 4).
  *
  * lmb_sparse_pixels: the pixels of a tile to gather, a bit each. These are rows and columns 0, 2, 5, 7 or 0, 7, so 16
- * or 4 samples, and pixels whose four surrounding samples lie on other surfaces. A tile uses only its own pixels, and
- * the samples reach to its edges, so there are no seams. Any other step: all pixels.
+ * or 4 samples, and pixels with too few of the four surrounding samples on the pixel's surface. A tile uses only its
+ * own pixels, and the samples reach to its edges, so there are no seams. Any other step: all pixels.
  * lmb_upsample_tile: set the other pixels to the mean of the samples around them, weighted by distance and by how well
  * a sample fits the pixel's surface. Equal samples give exactly their value.
  *

@@ -147,8 +147,8 @@
 #error "lambent: LMB_PLAN needs LMB_BOUNCE"
 #endif
 
-/* 0: this build has no baked light transfer (lambent/transfer.h). Saves about 6 KiB of ROM on a Cortex-M4F. With 1, a
- * build without trees gets bounced light only from a transfer. */
+/* 0: this build has no baked light transfer (lambent/transfer.h). Saves about 6 KiB of ROM on a Cortex-M4F. The default
+ * is 1 only in builds with trees, but you can set it to 1 in any build. */
 #ifndef LMB_TRANSFER
 #define LMB_TRANSFER LMB_TREES
 #endif

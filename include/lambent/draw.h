@@ -285,10 +285,11 @@ lmb_status lmb_draw_light(const lmb_draw_lit *out, const lmb_draw_lighting *how,
  *
  * Vertices snap to 1/256 px. Triangles cover the pixels with centres inside, by the top-left rule. A line of one pixel
  * covers the pixels with diamonds (|dx| + |dy| < 1/2) that it leaves. A point on a diamond's edge counts as a little
- * further to the left, and much less of it up. A line of width n begins (n - 1) / 2 px further up, and covers n pixels
- * downwards at each step; a steep line, to the left and to the right. Points are squares. Points and wide lines are
- * drawn as far as they lie in the viewport. Attributes are perspective-correct. Blending rounds the exact quotient to
- * nearest. If blending leaves a channel of 16-bit colours unchanged, the channel keeps its bits.
+ * further to the left, and by a much smaller amount further up. A line of width n begins (n - 1) / 2 px further up, and
+ * covers n pixels downwards at each step. A steep line begins further to the left, and covers n pixels to the right.
+ * Points are squares. Points and wide lines are drawn as far as they lie in the viewport. Attributes are
+ * perspective-correct. Blending rounds the exact quotient to nearest. If blending leaves a channel of 16-bit colours
+ * unchanged, the channel keeps its bits.
  *
  *   indices  NULL: all vertices in order.   primitive  LMB_DRAW_TRIANGLES, ...; vertices left over are ignored.
  *   stats    or NULL: primitives count as triangles. Primitives are dropped and counted if a vertex is not finite, if a

@@ -16,7 +16,7 @@
 typedef struct lmb_env {
     uint16_t *texels;            /* R, G, B radiance, W/(m2 sr), and A = 1, as binary16; level after level */
     int32_t size, levels;        /* texels of a face's side: a power of two */
-    uint32_t at[LMB_ENV_LEVELS]; /* the first texel of each level; face f begins at f n n */
+    uint32_t at[LMB_ENV_LEVELS]; /* the first texel of each level; face f begins f n n texels later */
 } lmb_env;
 
 #ifdef __cplusplus
@@ -47,7 +47,7 @@ void lmb_env_sample(float out[3], const lmb_env *env, lmb_vec3 direction, float 
  * Source: Preetham, Shirley, Smits: A Practical Analytic Model for Daylight, 1999. The sun's disc is not included.
  *
  *   to_sun     towards the sun, any length; clamped to 85 degrees from the zenith
- *   turbidity  haziness of the air: 2 very clear .. 10 hazy; clamped to that; NaN counts as one of the ends
+ *   turbidity  haziness of the air: 2 very clear .. 10 hazy; clamped to this range; NaN counts as 2
  *   scale      W/(m2 sr) of 1 kcd/m2: 0.025 with a sun of 3 W/m2
  * Cost: about 0.3 us a texel. Returns LMB_OK or LMB_ERR_ARG.
  * Missing, like the next two, in builds without trees. */

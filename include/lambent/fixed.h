@@ -156,9 +156,9 @@ lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_
  * or below it, eye beyond LMB_FIXED_EYE or target beyond LMB_FIXED_REACH. */
 lmb_status lmb_fixed_look_at(lmb_fixed_view *inout, const int32_t eye[3], const int32_t target[3]);
 
-/* lmb_fixed_transform: transform vertices to the screen, and find the visible triangles. Returns LMB_OK or LMB_ERR_ARG.
- * lmb_fixed_light: then compute light at the vertices of these triangles. Returns LMB_OK or LMB_ERR_ARG (null, a number
- * out of its range). Stack: 2.5 KiB. */
+/* lmb_fixed_transform: transform vertices to the screen, and find the visible triangles.
+ * lmb_fixed_light: then compute light at the vertices of these triangles.
+ * Both return LMB_OK or LMB_ERR_ARG (null, a number out of range). Stack: 2.5 KiB. */
 lmb_status lmb_fixed_transform(lmb_fixed_frame *frame);
 lmb_status lmb_fixed_light(lmb_fixed_frame *frame);
 

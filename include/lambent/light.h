@@ -23,7 +23,7 @@ typedef struct lmb_irradiance {
  * In a lobe, other surfaces show only their diffuse light, as far as bounces are solved: surfaces without light from
  * lights or elements are black, and glossy ones lack highlights and reflections. */
 typedef struct lmb_glossy {
-    uint64_t pixels;                    /* pixels with a lobe, a bit each; numbers of other pixels are undefined */
+    uint64_t pixels;                    /* pixels with a lobe, a bit each; of other pixels only `rgb` is defined */
     float specular[3][LMB_TILE_PIXELS]; /* F0 */
     float alpha2[LMB_TILE_PIXELS];
     float towards[3][LMB_TILE_PIXELS];  /* direction to the viewer, unit */

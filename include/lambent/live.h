@@ -16,8 +16,9 @@
  *
  * A point's light depends only on that point, the scene and the maps: not on other points, order, threads or lanes.
  *
- * A point in a concave edge, next to lit blocks, is lit from a texel of the map off the edge, if that position is on
- * its triangle and no triangle is in between: between a wall's last texel and the edge the map shows the other wall.
+ * A point in a concave edge, next to lit blocks, is lit as if it lay a texel of the map away from the edge, if the
+ * point's triangle extends that far and no triangle is in between. Otherwise it would be dark: between a wall's last
+ * texel and the edge the map shows the other wall.
  *
  * Elements (lambent/elements.h) can be points of the tree too. Elements that do not emit are divided at half the
  * distance.
@@ -135,7 +136,7 @@ typedef struct lmb_live_scratch {
     int32_t leaves;                            /* in the cut, plus the lane */
     int32_t targets, is_full;
     lmb_vec3 off;      /* m: offset away from a concave edge that the receiver lies in, */
-    float lift;        /* and its distance from the surface at that edge; 0: no such edge */
+    float lift;        /* and how far `off` moves it from the other surface there, m; 0: no such edge */
     lmb_live_rays rays;
     lmb_live_branch waiting[LMB_LIVE_STACK];
     uint32_t last[LMB_LIVE_LAST]; /* index in the BVH, plus 1: triangles that blocked many segments recently; tested
@@ -163,8 +164,9 @@ size_t lmb_live_bytes(uint32_t faces, int32_t side, uint32_t elements);
 lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, uint32_t elements, void *memory, size_t bytes);
 
 /* lmb_live_collect: collect first points of one face, as face `into` of the tree: those of the rows of 8 blocks that
- * begin in the map's tile rows first .. past - 1. Rows may be collected in any order, on any threads. A block puts all
- * light through it at one of its texels: surfaces that share a block get it alternately, in proportion to their texels.
+ * begin in the map's tile rows first .. past - 1. Rows may be collected in any order, on any threads. All light through
+ * a block is put at one of its texels. Over many blocks, surfaces that share blocks get light in proportion to the
+ * texels that they show.
  *   light  of scene->lights.
  * Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY (no such face; more blocks than there is room for). */
 lmb_status lmb_live_collect(const lmb_live *live, const lmb_kernels *kernels, lmb_tile *scratch,

@@ -122,9 +122,9 @@ size_t lmb_planes_bytes(int32_t width, int32_t height);
 /* lmb_planes_find: find the planes of a cloud with normals. [M3 M4 M5]
  *
  * A plane grows from points whose nearest neighbours all face the same way, over points within 4.5 standard deviations,
- * and is fitted again each time they double. Planes that match are joined; the remaining points within 4 deviations are
- * then added. A plane has at least 1/256 of the picture's pixels, and at least 32. If there is none, the call returns
- * LMB_OK with count 0.
+ * and is fitted again each time they double. Planes that match are joined, and each plane is fitted once more to those
+ * of its points within 4 deviations. A plane has at least 1/256 of the picture's pixels, and at least 32. If there is
+ * none, the call returns LMB_OK with count 0.
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. Cost: some 60 operations a pixel. */
 lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory, size_t bytes);
 
@@ -164,7 +164,7 @@ size_t lmb_real_mesh_bytes(int32_t width, int32_t height, int32_t step);
 lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const lmb_planes *planes, int32_t step,
                                const lmb_axes *axes, void *memory, size_t bytes);
 
-/* lmb_real_mesh_draw: the mesh as one of a scene. Triangles 2 c and 2 c + 1 are cell c. */
+/* lmb_real_mesh_draw: the real mesh as an lmb_mesh for a scene. Triangles 2 c and 2 c + 1 are cell c. */
 lmb_mesh lmb_real_mesh_draw(const lmb_real_mesh *mesh);
 
 /* lmb_real_mesh_colour: set the albedo of cell c. */
@@ -210,15 +210,15 @@ lmb_status lmb_two_maps(lmb_shadow_map maps[2], const lmb_light *light, const lm
  *
  *   leaf  m: triangles are divided until their parts are no longer than that, or 64 to a side
  * With these points and the lights' first points, real surfaces emit about as much light as the photo shows. Returns
- * the number of points and writes `cap` of them; pass 0 to count.
+ * the number of points and writes at most `cap` of them; pass 0 to count.
  *
  * lmb_around_gather, lmb_around_scale: scale these points by the light that reaches them through voxels, so that light
  * which the object blocks and reflects is bounced again. Points from `from` on become scratch->tile, with at most 64
  * answers: consecutive points share an answer if they face one way and lie within near_m, or 0.15 of their distance
  * from `about`. Add their irradiance without and with the object to scratch->before and ->now (lmb_cones_diffuse);
  * lmb_around_scale then scales each flux by the ratio of the second to the first, or to the unoccluded light of `env`
- * if that is given. lmb_around_gather returns the first point that it did not take, lmb_around_scale LMB_OK or
- * LMB_ERR_ARG. */
+ * if that is given, but at most by 4. lmb_around_gather returns the first point that it did not take, lmb_around_scale
+ * LMB_OK or LMB_ERR_ARG. */
 size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uint32_t first_id, uint32_t count,
                          float leaf, const lmb_env *env);
 size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_t from, size_t count, float near_m,

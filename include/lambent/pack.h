@@ -126,7 +126,7 @@ lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s);
  *
  *   scene  after lmb_pack_pose; its bounds give near_m and far_m if the file does not
  * Returns LMB_OK, LMB_ERR_ARG (no such camera, a size outside), LMB_ERR_SCENE (the animation gives no valid
- * position). */
+ * position or axes). */
 lmb_status lmb_pack_view(lmb_view *out, const lmb_pack *pack, const lmb_scene *scene, uint32_t camera, float time_s,
                          int32_t width, int32_t height);
 

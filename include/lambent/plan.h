@@ -8,9 +8,8 @@
  * a few tiles of the scene at several settings, from coarse to fine: the rungs of a ladder (lmb_plan_rung).
  *
  *     lmb_survey_even(&places, &r, ...);           choose the tiles of a solved frame to sample
- *     lmb_render_sample(&sample, &r, ...);         their light with one rung, then with the next: put the counts, and
- *                                                  the
- *     lmb_tile_sample_error(&sample, &next, 1.0f); difference between the two, into `facts`
+ *     lmb_render_sample(&sample, &r, ...);         light of these tiles with one rung, then with the next
+ *     lmb_tile_sample_error(&sample, &next, 1.0f); difference between the two; put it and the counts into `facts`
  *     lmb_plan_choose(&choice, &facts, &budget, fixed);
  *
  * All results are functions of scene, view and numbers: no clock, the same on every target. Work is counted in units:
@@ -192,12 +191,12 @@ lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band
 
 /* lmb_tile_sample_error: the difference of `a` from `b` over the places that both have: root mean square over the
  * pixels' channels, without the worst 1 % of the pixels, divided by the mean of b. Places are few, so for an upper
- * bound `deviations` times the standard deviation between places is added to the mean square. Below 0 if there is no
- * meaningful result: fewer than 4 places, or b is dark. */
+ * bound `deviations` standard deviations of the mean square are added to the mean square. They are estimated from the
+ * differences between places. Below 0 if there is no meaningful result: fewer than 4 places, or b is dark. */
 float lmb_tile_sample_error(const lmb_tile_sample *a, const lmb_tile_sample *b, float deviations);
 
-/* lmb_plan_rung: the settings of a rung; 0 is the coarsest. The last four are `draft`, `default`, `best` and one finer.
- * Trees and maps have up to facts->max texels a side. */
+/* lmb_plan_rung: the settings of a rung; 0 is the coarsest. Rungs 3, 4 and 6 are `draft`, `default` and `best`; 5 lies
+ * between `default` and `best`, and 7 is finer. Trees and maps have up to facts->max texels a side. */
 void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung);
 
 /* lmb_plan_cost: settings of a rung and their cost. `fixed`: bytes that no setting changes: picture, view, scratch, the

@@ -188,8 +188,9 @@ size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format);
  * The centre must lie inside the sphere or box, and above a floor. The ground's picture lies on a floor. Missing faces
  * and blank parts have alpha 0: a ray that hits them goes on to the other candidate; if that is blank too, the ray gets
  * no light. Radiance that is not finite, or under 1e-12, counts as 0; coded formats clamp it to 100. Peaks are texels
- * at least four times as bright as the quarter by quarter of a face around them, on faces of 32 texels and more. The
- * strongest LMB_WORLD_PEAKS cells of a 32nd by a 32nd of a face are stored, each with the mean direction of its light.
+ * at least four times as bright as the mean of the quarter by quarter of a face around them, on faces of 32 texels and
+ * more. The strongest LMB_WORLD_PEAKS cells of a 32nd by a 32nd of a face are stored, each with the mean direction of
+ * its light.
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_FORMAT, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. Cost: about seven passes over the
  * texels. */
 lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, int32_t format, void *memory,

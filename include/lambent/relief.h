@@ -106,7 +106,7 @@ void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief);
  * it shows there; the nearest of these surfaces gives the step along the ray to the next lookup [P5]; texels beyond a
  * jump of depth do not count [P12]. When the point no longer moves, the best three views are blended. A point that some
  * view sees through is no surface. Rays can slip between two views' texels: a pixel that differs from its neighbours in
- * the tile (no surface, a single surface, another depth) takes the surface that most of them show.
+ * the tile (a hole, a speck, another depth) takes the surface that most of them show.
  * Returns LMB_OK or LMB_ERR_ARG. Cost: 64 pixels x views x steps, independent of the complex model. */
 lmb_status lmb_relief_tile(lmb_tile *inout, const lmb_kernels *kernels, const lmb_relief *relief,
                            const lmb_view *view, const lmb_relief_how *how, lmb_relief_stats *stats);
@@ -127,8 +127,8 @@ lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, const lmb_kernels *
 /* lmb_relief_lit: the pixels of a tile, a bit each, that nothing in such a map shadows: pixels of the relief and of
  * other surfaces.                                                                                               [P8 P9]
  * A pixel is tested against the four texels around its position in the map: each against the pixel's own plane there,
- * with a margin of a texel for the plane's error. The weighted majority of the four decides. A pixel that differs from
- * all of three or more neighbours in the tile takes their result. */
+ * with a margin of a texel for the plane's error. The majority of the four, weighted bilinearly, decides. If a pixel
+ * has at least three neighbours in the tile and differs from all of them, it takes their result. */
 uint64_t lmb_relief_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile);
 
 #ifdef __cplusplus

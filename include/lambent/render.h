@@ -11,7 +11,7 @@
  *
  * You can read the results of each stage [V33]. They are plain structs in your memory:
  *   light distances     r.maps[light], from LMB_STAGE_POINTS on: lmb_gbuffer_band over view[f] and face[f] gives metres
- *   first points        lmb_points_collect, one face of a light after another; joined for the whole frame:
+ *   first points        lmb_points_collect, one face of a light after another; frame.points: all faces, joined
  *   incident light      frame.points, from LMB_STAGE_GROUPS on: data[i].flux / data[i].albedo is the incident power, W
  *   groups              frame.groups, from LMB_STAGE_VIEW on; members of group k: points.data[first[k]] and on, each
  *                       with its texel in the map of its face [V15]. frame.points.owner: the disc of each texel
@@ -106,14 +106,14 @@ typedef struct lmb_frame {
     int32_t occlusion;     /* LMB_OCCLUSION_* */
     int32_t steps;         /* samples of a VIEW occlusion segment; 0: 12 */
     float error;           /* LMB_GROUP_CUT: lmb_cut_params.error. 0: 0.02; with LMB_MANY_LIGHTS_EVEN lights 0.1 */
-    float visibility;      /* LMB_OCCLUSION_EXACT: lmb_cut_params.visibility. 0: 0.015; with as many lights 0.2 */
+    float visibility;      /* LMB_OCCLUSION_EXACT: lmb_cut_params.visibility. 0: 0.015; with these lights 0.2 */
     int32_t conservative;  /* 1: `error` is a bound (LMB_GROUP_CUT): lmb_cut_params.conservative */
     float many_lights_error; /* lmb_many_lights_query.error; 0: 0.02 */
     int32_t gather_many_lights; /* 1: direct light of `many_lights` is gathered with bounced light, at `gather_step` and
                                    once for each surface of a pixel: for light from all sides, such as a sky.
                                    SHOW_INDIRECT then includes it and SHOW_DIRECT does not, as with emission */
-    int32_t bounces;       /* 1 .. 64; 0: 1. Reflections before the visible surface; over 1 with LMB_GROUP_CUT. Emitted
-                              light that reaches a surface directly is always included */
+    int32_t bounces;       /* 1 .. 64; 0: 1. Reflections before the visible surface; over 1 only with LMB_GROUP_CUT or
+                              a transfer. Emitted light that reaches a surface directly is always included */
     int32_t truncated;     /* 1: light reflected more than `bounces` times is missing. 0: if `bounces` is over 1, it is
                               estimated, up to LMB_MAX_BOUNCES: lmb_elements_rest */
     int32_t gather_step;   /* px between samples of bounced light: 1 (or 0), 2 or 4, see lmb_upsample_tile; or
@@ -180,8 +180,9 @@ typedef struct lmb_frame_settings {
                                The scene is drawn again for each band. One thread */
     int32_t show;           /* LMB_SHOW_*; LMB_SHOW_DIRECT takes no memory for bounced light */
     int32_t quality;        /* LMB_QUALITY_* */
-    int32_t bounces;        /* 1 .. 64; 0: 1; over 1 not with LMB_QUALITY_FIXED */
-    int32_t threads;        /* 1 .. 1024; 0: 1: threads that draw bands at once: frame.scratch[0 .. threads - 1] */
+    int32_t bounces;        /* 1 .. 64; 0: 1. LMB_QUALITY_FIXED allows only 1 */
+    int32_t threads;        /* number of threads that draw bands at once, 1 .. 1024; 0: 1. Each uses one of
+                               frame.scratch[0 .. threads - 1] */
     int32_t shadow_map;     /* texels a side, a multiple of 8; with a tree 1 to 8 times the tree's. 0: 2^21 texels (tiny
                                configuration: 2^14) over all shadow maps, 64 .. 1024 a side */
     int32_t tree;           /* texels a side, a power of two, from 1/8 of shadow_map to shadow_map; 0: set by the
@@ -303,14 +304,15 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * while lights and objects do not move. r goes back to LMB_STAGE_VIEW; maps, points, groups and trees are reused and
  * only read.
  *
- *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error, gather_step,
- *          lattice, samples, exposure_ev, eye, eye_depth, scratch, out, callback, user and stats are read; the rest is
- *          as it was at lmb_render_begin.
+ *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error,
+ *          gather_many_lights, background, gather_step, lattice, samples, exposure_ev, eye, eye_depth, scratch, out,
+ *          callback, user and stats are read; the rest is as it was at lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. To draw two pictures at once, copy r, and give each copy
  * its own eye, scratch and out. Legal from LMB_STAGE_VIEW on.
  * Returns LMB_OK or an error of lmb_render_begin. LMB_ERR_ARG also if `frame` shows bounced light and r solved none; if
- * r solved several bounces, or those of many_lights, with another occlusion, error, visibility or many_lights_error; or
- * if the frame needs a BVH that r did not build. After an error r is unchanged. */
+ * r solved several bounces, or those of many_lights, with another occlusion, error, visibility, conservative or
+ * many_lights_error, or if one of the two uses LMB_GATHER_LIVE and the other does not; or if `frame` needs a tree or
+ * BVH that r did not build. After an error r is unchanged. */
 lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_reuse: begin the next frame of an animation: lmb_render_begin that reuses results that did not change

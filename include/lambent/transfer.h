@@ -294,8 +294,8 @@ lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_ker
 /* lmb_transfer_tile: add the bounced light at a tile's pixels. Returns LMB_OK or LMB_ERR_ARG.
  *
  *   glossy  the tile's lobes, to which the reflection of that light is added; NULL: none. For a lobe all light is one
- *           disc: in the mean direction if the file stores directions, else along the normal. That is right for rough
- *           surfaces; smooth ones do not reflect an image of the room. Lobes of moving objects get none. */
+ *           disc: in the mean direction if the file stores directions, else along the face normal. That is right for
+ *           rough surfaces; smooth ones do not reflect an image of the room. Lobes of moving objects get none. */
 lmb_status lmb_transfer_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_kernels *kernels,
                              lmb_transfer_scratch *scratch, const lmb_transfer_light *light,
                              const lmb_transfer *transfer, const lmb_scene *scene, const lmb_tile *tile);

@@ -117,7 +117,7 @@ typedef struct lmb_stats {
  *
  *                     patch   minor                                       major
  *   stable, before 1.0  no    may change or go; listed in NEWS.md         -
- *   stable, from 1.0    no    additions only                            may change or go
+ *   stable, from 1.0    no    additions only                              may change or go
  *   experimental        no    may change or go; listed in NEWS.md         may change or go
  *   pixels              no    may change; NEWS.md lists which, and why    may change
  *   .lmp files          no    files of older versions stay readable       may be refused
