@@ -56,7 +56,8 @@ enum { TARGET_1D, TARGET_2D, TARGET_3D, TARGET_CUBE, TARGETS };
 /* --- objects ------------------------------------------------------------------------------------------------------ */
 
 typedef struct gl_image {
-    uint8_t *texels; /* 4 bytes R G B A, or floats of depths; NULL: no image */
+    uint8_t *texels;  /* 4 bytes R G B A, or floats of depths; NULL: no image */
+    uint8_t *stencil; /* a byte a texel if the format has a stencil part, or NULL */
     int32_t width, height, depth, border;
     GLenum internal, base; /* as given; GL_ALPHA .. GL_RGBA, GL_DEPTH_COMPONENT */
 } gl_image;
@@ -65,6 +66,7 @@ typedef struct gl_texture {
     GLuint name;
     int target; /* TARGETS: not bound yet */
     GLenum min_filter, mag_filter, wrap[3], compare_mode, compare_func, depth_mode;
+    GLenum swizzle[4]; /* GL_RED .. GL_ALPHA, GL_ZERO, GL_ONE */
     float border[4], min_lod, max_lod, lod_bias, priority;
     int32_t base_level, max_level, generate;
     float anisotropy;
@@ -352,7 +354,7 @@ extern GL_THREAD gl_context *gl_now;
     X(active_texture) X(prioritize) X(viewport) X(accum) X(init_names) X(load_name) X(push_name) X(pop_name) \
     X(pass_through) X(clip_plane) X(draw_pixels) X(bitmap) X(copy_pixels) X(tex_image) X(tex_sub_image) \
     X(copy_tex_image) X(copy_tex_sub_image) X(eval_mesh) X(map) X(map_grid) X(begin_query) X(end_query) \
-    X(sample_coverage) X(rect)
+    X(sample_coverage) X(rect) X(fail)
 #define GL_ENUM_OP(name) OP_##name,
 enum { GL_OPERATIONS(GL_ENUM_OP) OPS, OP_FIRST_STATE = OP_enable, OP_LAST_INSIDE = OP_call_lists };
 #define GL_DECLARE_OP(name) void gl_op_##name(gl_context *c, const gl_word *w);
@@ -369,6 +371,8 @@ void gl_list_free(gl_context *c, gl_list *list);
 /* --- what the parts share ----------------------------------------------------------------------------------------- */
 
 void gl_error(gl_context *c, GLenum error);
+/* The same for a call that a display list can hold: the list repeats the error. */
+void gl_fail(gl_context *c, GLenum error);
 void gl_refuse(const char *name); /* a call that is not offered */
 
 void *gl_alloc(gl_context *c, size_t bytes); /* NULL and GL_OUT_OF_MEMORY if the heap is full */
@@ -422,10 +426,12 @@ void gl_unpack(float *out, const gl_store *s, int w, int h, int d, int dims, GLe
 void gl_pack(void *data, const gl_store *s, int w, int h, int d, int dims, GLenum format, GLenum type,
              const float *from);
 /* Pixels of a program, or of what is read, after the transfer: 4 bytes each: R G B A, a float depth, or a stencil code
- * as float. In the heap; NULL and an error if there is no room. */
+ * as float; of GL_DEPTH_STENCIL all depths, then all stencil codes. In the heap; NULL and an error if there is no room.
+ */
 uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum format, GLenum type, const void *data);
 uint8_t *gl_copy_codes(gl_context *c, int32_t x, int32_t y, int32_t w, int32_t h, GLenum format);
-GLenum gl_base_format(GLenum internal);
+GLenum gl_base_format(GLenum internal); /* GL_DEPTH_COMPONENT also with a stencil part */
+int gl_has_stencil(GLenum internal);
 
 /* Rows of depths are whole tiles, as draw.h wants them. */
 static inline int32_t gl_depth_stride(int32_t width) { return (width + LMB_TILE - 1) / LMB_TILE * LMB_TILE; }
@@ -449,6 +455,13 @@ static inline gl_texture *gl_unit_texture(const gl_context *c, int unit) { retur
     gl_context *c = gl_now; \
     if (c == NULL) return result; \
     if (c->is_inside) { gl_error(c, GL_INVALID_OPERATION); return result; }
+/* The same for calls that a display list holds: lists record the error. */
+#define GL_ENTER_LISTED() \
+    gl_context *c = gl_now; \
+    if (c == NULL) return; \
+    if (c->is_inside) { gl_fail(c, GL_INVALID_OPERATION); return; }
+#define GL_FAIL_LISTED(condition, error) \
+    if (condition) { gl_fail(c, error); return; }
 #define GL_FAIL(condition, error, result) \
     if (condition) { gl_error(c, error); return result; }
 #endif

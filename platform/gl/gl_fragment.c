@@ -233,6 +233,15 @@ static void fragment_spread(float v[4], GLenum depth_mode)
     v[3] = depth_mode == GL_LUMINANCE ? 1.0f : d;
 }
 
+static void fragment_swizzle(float v[4], const GLenum order[4])
+{
+    float from[4];
+    memcpy(from, v, sizeof from);
+    for (int i = 0; i < 4; ++i) {
+        v[i] = order[i] >= GL_RED ? from[order[i] - GL_RED] : order[i] == GL_ONE ? 1.0f : 0.0f;
+    }
+}
+
 static void fragment_classic(float c[4], const gl_unit *u, GLenum base, const float t[4])
 {
     const int colours = base != GL_ALPHA,
@@ -310,6 +319,7 @@ static void fragment_texture(float colour[4], const gl_context *c, const fragmen
             } else if (t->image[0][t->base_level].base == GL_ALPHA) {
                 texels[i][0] = texels[i][1] = texels[i][2] = 0.0f;
             }
+            fragment_swizzle(texels[i], t->swizzle);
         }
     }
     for (int i = 0; i < GL_UNITS; ++i) {

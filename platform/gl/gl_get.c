@@ -287,18 +287,21 @@ const GLubyte *glGetString(GLenum name)
     case GL_VERSION: return (const GLubyte *)"1.5 lambent";
     case GL_EXTENSIONS:
         return (const GLubyte *)
-            "GL_ARB_depth_texture GL_ARB_multitexture GL_ARB_occlusion_query GL_ARB_point_parameters "
+            "GL_ARB_depth_buffer_float GL_ARB_depth_texture GL_ARB_multitexture GL_ARB_occlusion_query "
+            "GL_ARB_point_parameters "
             "GL_ARB_point_sprite GL_ARB_shadow GL_ARB_texture_border_clamp GL_ARB_texture_cube_map "
             "GL_ARB_texture_env_add GL_ARB_texture_env_combine GL_ARB_texture_env_crossbar GL_ARB_texture_env_dot3 "
             "GL_ARB_texture_mirrored_repeat GL_ARB_texture_non_power_of_two GL_ARB_transpose_matrix "
             "GL_ARB_vertex_buffer_object GL_ARB_window_pos GL_EXT_abgr GL_EXT_bgra GL_EXT_blend_color "
             "GL_EXT_blend_func_separate GL_EXT_blend_minmax GL_EXT_blend_subtract GL_EXT_compiled_vertex_array "
-            "GL_EXT_copy_texture GL_EXT_draw_range_elements GL_EXT_fog_coord GL_EXT_framebuffer_object "
-            "GL_EXT_multi_draw_arrays GL_EXT_packed_pixels GL_EXT_point_parameters "
+            "GL_EXT_copy_texture GL_EXT_draw_range_elements GL_EXT_fog_coord GL_EXT_framebuffer_blit "
+            "GL_EXT_framebuffer_object "
+            "GL_EXT_multi_draw_arrays GL_EXT_packed_depth_stencil GL_EXT_packed_pixels GL_EXT_point_parameters "
             "GL_EXT_polygon_offset GL_EXT_rescale_normal GL_EXT_secondary_color GL_EXT_separate_specular_color "
             "GL_EXT_shadow_funcs GL_EXT_stencil_wrap GL_EXT_subtexture GL_EXT_texture GL_EXT_texture3D "
             "GL_EXT_texture_cube_map GL_EXT_texture_edge_clamp GL_EXT_texture_env_add GL_EXT_texture_env_combine "
-            "GL_EXT_texture_lod_bias GL_EXT_texture_object GL_EXT_vertex_array GL_IBM_texture_mirrored_repeat "
+            "GL_EXT_texture_lod_bias GL_EXT_texture_object GL_EXT_texture_swizzle GL_EXT_vertex_array "
+            "GL_IBM_texture_mirrored_repeat "
             "GL_SGIS_generate_mipmap GL_SGIS_texture_border_clamp GL_SGIS_texture_edge_clamp GL_SGIS_texture_lod";
     default:
         gl_error(c, GL_INVALID_ENUM);
@@ -406,6 +409,9 @@ static int get_tex_parameter(get_value *o, gl_context *c, GLenum a, GLenum n)
     WHOLE(GL_TEXTURE_WRAP_S, t->wrap[0])
     WHOLE(GL_TEXTURE_WRAP_T, t->wrap[1]) WHOLE(GL_TEXTURE_WRAP_R, t->wrap[2]) COLOUR(GL_TEXTURE_BORDER_COLOR, t->border)
     case GL_TEXTURE_PRIORITY: o->v[0] = (double)t->priority; o->kind = GET_COLOUR; return 1;
+    WHOLE(GL_TEXTURE_SWIZZLE_R_EXT, t->swizzle[0]) WHOLE(GL_TEXTURE_SWIZZLE_G_EXT, t->swizzle[1])
+    WHOLE(GL_TEXTURE_SWIZZLE_B_EXT, t->swizzle[2]) WHOLE(GL_TEXTURE_SWIZZLE_A_EXT, t->swizzle[3])
+    INTS(GL_TEXTURE_SWIZZLE_RGBA_EXT, (const int32_t *)t->swizzle, 4)
     WHOLE(GL_TEXTURE_RESIDENT, 1) FLOAT(GL_TEXTURE_MIN_LOD, t->min_lod) FLOAT(GL_TEXTURE_MAX_LOD, t->max_lod)
     FLOAT(GL_TEXTURE_LOD_BIAS, t->lod_bias) WHOLE(GL_TEXTURE_BASE_LEVEL, t->base_level)
     WHOLE(GL_TEXTURE_MAX_LEVEL, t->max_level)
@@ -466,7 +472,7 @@ static int get_level(gl_context *c, GLenum target, GLint level, GLenum name, GLi
     case GL_TEXTURE_LUMINANCE_SIZE: *out = b == GL_LUMINANCE || b == GL_LUMINANCE_ALPHA ? 8 : 0; return 1;
     case GL_TEXTURE_INTENSITY_SIZE: *out = b == GL_INTENSITY ? 8 : 0; return 1;
     case GL_TEXTURE_DEPTH_SIZE: *out = b == GL_DEPTH_COMPONENT ? 32 : 0; return 1;
-    case GL_TEXTURE_STENCIL_SIZE_EXT: *out = 0; return 1;
+    case GL_TEXTURE_STENCIL_SIZE_EXT: *out = gl_has_stencil(m->internal) ? 8 : 0; return 1;
     case GL_TEXTURE_COMPRESSED: *out = 0; return 1;
     case GL_TEXTURE_COMPRESSED_IMAGE_SIZE: gl_error(c, GL_INVALID_OPERATION); return 0;
     NONE

@@ -59,7 +59,7 @@ void gl_find_surface(gl_context *c, gl_surface *out, const gl_framebuffer *f)
             out->depth = (float *)(void *)data;
             out->depth_stride = m != NULL ? w : gl_depth_stride(w);
         } else {
-            out->stencil = r != NULL ? r->stencil : NULL;
+            out->stencil = r != NULL ? r->stencil : m->stencil;
             out->stencil_stride = w;
         }
     }
@@ -67,12 +67,12 @@ void gl_find_surface(gl_context *c, gl_surface *out, const gl_framebuffer *f)
 
 static int target_is_depth(GLenum f)
 {
-    return gl_base_format(f) == GL_DEPTH_COMPONENT || f == GL_DEPTH_STENCIL_EXT || f == GL_DEPTH24_STENCIL8_EXT;
+    return gl_base_format(f) == GL_DEPTH_COMPONENT;
 }
 static int target_is_stencil(GLenum f)
 {
     return f == GL_STENCIL_INDEX || (f >= GL_STENCIL_INDEX1_EXT && f <= GL_STENCIL_INDEX16_EXT) ||
-           f == GL_DEPTH_STENCIL_EXT || f == GL_DEPTH24_STENCIL8_EXT;
+           gl_has_stencil(f);
 }
 
 static GLenum target_status(gl_context *c, const gl_framebuffer *f)
@@ -100,7 +100,7 @@ static GLenum target_status(gl_context *c, const gl_framebuffer *f)
         const GLenum base = gl_base_format(internal);
         const int fits = i == 0   ? base == GL_RGB || base == GL_RGBA
                          : i == 1 ? target_is_depth(internal)
-                                  : target_is_stencil(internal) && r != NULL;
+                                  : target_is_stencil(internal) && (r != NULL || m->stencil != NULL);
         if (pw == 0 || ph == 0 || !fits || (m != NULL && m->border != 0) ||
             (i == 1 && m == NULL && (r == NULL || r->data == NULL))) {
             return GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT_EXT;

@@ -614,6 +614,11 @@ static int vertex_is_plain(gl_context *c)
         t->min_filter != t->mag_filter || u->mode != GL_MODULATE || image->base == GL_DEPTH_COMPONENT) {
         return 0;
     }
+    for (int i = 0; i < 4; ++i) {
+        if (t->swizzle[i] != GL_RED + (GLenum)i) {
+            return 0;
+        }
+    }
     for (int i = 0; i < 2; ++i) {
         if (t->wrap[i] != GL_REPEAT && t->wrap[i] != GL_CLAMP_TO_EDGE && t->wrap[i] != GL_MIRRORED_REPEAT) {
             return 0;

@@ -897,6 +897,7 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_MAJOR_VERSION                             0x821B
 #define GL_MINOR_VERSION                             0x821C
 #define GL_NUM_EXTENSIONS                            0x821D
+#define GL_RG                                        0x8227
 #define GL_CONTEXT_FLAGS                             0x821E
 #define GL_UNSIGNED_BYTE_2_3_3_REV                   0x8362
 #define GL_UNSIGNED_SHORT_5_6_5                      0x8363
@@ -1050,6 +1051,7 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_TEXTURE_BINDING_RECTANGLE_ARB             0x84F6
 #define GL_PROXY_TEXTURE_RECTANGLE_ARB               0x84F7
 #define GL_MAX_RECTANGLE_TEXTURE_SIZE_ARB            0x84F8
+#define GL_DEPTH_STENCIL                             0x84F9
 #define GL_DEPTH_STENCIL_EXT                         0x84F9
 #define GL_UNSIGNED_INT_24_8                         0x84FA
 #define GL_UNSIGNED_INT_24_8_EXT                     0x84FA
@@ -1272,6 +1274,7 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_DYNAMIC_COPY                              0x88EA
 #define GL_DYNAMIC_COPY_ARB                          0x88EA
 #define GL_DEPTH24_STENCIL8_EXT                      0x88F0
+#define GL_DEPTH24_STENCIL8                          0x88F0
 #define GL_TEXTURE_STENCIL_SIZE_EXT                  0x88F1
 #define GL_SAMPLES_PASSED                            0x8914
 #define GL_SAMPLES_PASSED_ARB                        0x8914
@@ -1280,10 +1283,16 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_LOWER_LEFT                                0x8CA1
 #define GL_UPPER_LEFT                                0x8CA2
 #define GL_FRAMEBUFFER_BINDING_EXT                   0x8CA6
+#define GL_DRAW_FRAMEBUFFER_BINDING_EXT              0x8CA6
 #define GL_RENDERBUFFER_BINDING_EXT                  0x8CA7
 #define GL_READ_FRAMEBUFFER                          0x8CA8
+#define GL_READ_FRAMEBUFFER_EXT                      0x8CA8
 #define GL_DRAW_FRAMEBUFFER                          0x8CA9
+#define GL_DRAW_FRAMEBUFFER_EXT                      0x8CA9
 #define GL_READ_FRAMEBUFFER_BINDING                  0x8CAA
+#define GL_READ_FRAMEBUFFER_BINDING_EXT              0x8CAA
+#define GL_DEPTH_COMPONENT32F                        0x8CAC
+#define GL_DEPTH32F_STENCIL8                         0x8CAD
 #define GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE_EXT    0x8CD0
 #define GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME_EXT    0x8CD1
 #define GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL_EXT  0x8CD2
@@ -1333,6 +1342,12 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_RENDERBUFFER_DEPTH_SIZE_EXT               0x8D54
 #define GL_RENDERBUFFER_STENCIL_SIZE_EXT             0x8D55
 #define GL_RED_INTEGER                               0x8D94
+#define GL_FLOAT_32_UNSIGNED_INT_24_8_REV            0x8DAD
+#define GL_TEXTURE_SWIZZLE_R_EXT                     0x8E42
+#define GL_TEXTURE_SWIZZLE_G_EXT                     0x8E43
+#define GL_TEXTURE_SWIZZLE_B_EXT                     0x8E44
+#define GL_TEXTURE_SWIZZLE_A_EXT                     0x8E45
+#define GL_TEXTURE_SWIZZLE_RGBA_EXT                  0x8E46
 #define GL_EVAL_BIT                                  0x10000
 #define GL_LIST_BIT                                  0x20000
 #define GL_TEXTURE_BIT                               0x40000
@@ -1370,6 +1385,8 @@ GLAPI void APIENTRY glBlendFunc(GLenum sfactor, GLenum dfactor);
 GLAPI void APIENTRY glBlendFuncSeparate(GLenum sfactorRGB, GLenum dfactorRGB, GLenum sfactorAlpha, GLenum dfactorAlpha);
 GLAPI void APIENTRY glBlendFuncSeparateEXT(GLenum sfactorRGB, GLenum dfactorRGB, GLenum sfactorAlpha,
     GLenum dfactorAlpha);
+GLAPI void APIENTRY glBlitFramebufferEXT(GLint sx0, GLint sy0, GLint sx1, GLint sy1, GLint dx0, GLint dy0, GLint dx1, GLint dy1,
+                                         GLbitfield mask, GLenum filter);
 GLAPI void APIENTRY glBufferData(GLenum target, GLsizeiptr size, const void *data, GLenum usage);
 GLAPI void APIENTRY glBufferDataARB(GLenum target, GLsizeiptrARB size, const void *data, GLenum usage);
 GLAPI void APIENTRY glBufferSubData(GLenum target, GLintptr offset, GLsizeiptr size, const void *data);
