@@ -241,6 +241,7 @@ void glAlphaFunc(GLenum f, GLclampf v) { DO(alpha_func, U(f), F(v)); }
 void glBlendFunc(GLenum s, GLenum d) { DO(blend_func, U(s), U(d), U(s), U(d)); }
 void glBlendFuncSeparate(GLenum s, GLenum d, GLenum sa, GLenum da) { DO(blend_func, U(s), U(d), U(sa), U(da)); }
 void glBlendEquation(GLenum e) { DO(blend_equation, U(e), U(e)); }
+void glBlendEquationSeparateEXT(GLenum rgb, GLenum alpha) { DO(blend_equation, U(rgb), U(alpha)); }
 void glBlendColor(GLclampf r, GLclampf g, GLclampf b, GLclampf a) { DO(blend_colour, F(r), F(g), F(b), F(a)); }
 void glClear(GLbitfield bits) { DO(clear, U(bits)); }
 void glClearColor(GLclampf r, GLclampf g, GLclampf b, GLclampf a) { DO(clear_colour, F(r), F(g), F(b), F(a)); }

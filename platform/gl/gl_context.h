@@ -100,7 +100,7 @@ typedef struct gl_query {
 typedef struct gl_renderbuffer {
     GLuint name;
     GLenum internal;
-    int32_t width, height;
+    int32_t width, height, samples; /* samples: 0 or 1, as a program asked */
     uint8_t *data;    /* colours, or depths */
     uint8_t *stencil; /* or NULL */
 } gl_renderbuffer;

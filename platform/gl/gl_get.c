@@ -56,7 +56,7 @@ static int get_limits(get_value *o, const gl_context *c, GLenum name)
     WHOLE(GL_MAX_3D_TEXTURE_SIZE, GL_SIDE_3D) WHOLE(GL_MAX_CUBE_MAP_TEXTURE_SIZE, GL_SIDE)
     WHOLE(GL_MAX_TEXTURE_UNITS, GL_UNITS) WHOLE(GL_MAX_ELEMENTS_VERTICES, 65536) WHOLE(GL_MAX_ELEMENTS_INDICES, 65536)
     FLOAT(GL_MAX_TEXTURE_LOD_BIAS, 16) WHOLE(GL_MAX_RENDERBUFFER_SIZE_EXT, GL_SIDE)
-    WHOLE(GL_MAX_COLOR_ATTACHMENTS_EXT, 1) WHOLE(GL_MAX_DRAW_BUFFERS, 1) FLOAT(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, 1)
+    WHOLE(GL_MAX_SAMPLES, 1) WHOLE(GL_MAX_COLOR_ATTACHMENTS_EXT, 1) WHOLE(GL_MAX_DRAW_BUFFERS, 1) FLOAT(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, 1)
     INTS(GL_MAX_VIEWPORT_DIMS, side, 2) WHOLE(GL_SUBPIXEL_BITS, 8)
     FLOATS(GL_POINT_SIZE_RANGE, sizes, 2) FLOATS(GL_ALIASED_POINT_SIZE_RANGE, sizes, 2)
     FLOATS(GL_LINE_WIDTH_RANGE, sizes, 2) FLOATS(GL_ALIASED_LINE_WIDTH_RANGE, sizes, 2)
@@ -214,6 +214,7 @@ static int get_current(get_value *o, const gl_context *c, GLenum name)
     WHOLE(GL_BLEND_SRC, s->colour.blend[0]) WHOLE(GL_BLEND_DST, s->colour.blend[1])
     WHOLE(GL_BLEND_SRC_RGB, s->colour.blend[0]) WHOLE(GL_BLEND_DST_RGB, s->colour.blend[1])
     WHOLE(GL_BLEND_SRC_ALPHA, s->colour.blend[2]) WHOLE(GL_BLEND_DST_ALPHA, s->colour.blend[3])
+    WHOLE(GL_BLEND_EQUATION_ALPHA_EXT, s->colour.equation[1])
     WHOLE(GL_BLEND_EQUATION, s->colour.equation[0]) COLOUR(GL_BLEND_COLOR, s->colour.blend_colour)
     WHOLE(GL_LOGIC_OP_MODE, s->colour.logic) COLOUR(GL_COLOR_CLEAR_VALUE, s->colour.clear)
     WHOLE(GL_DRAW_BUFFER, s->colour.draw)
@@ -287,12 +288,13 @@ const GLubyte *glGetString(GLenum name)
     case GL_VERSION: return (const GLubyte *)"1.5 lambent";
     case GL_EXTENSIONS:
         return (const GLubyte *)
-            "GL_ARB_depth_buffer_float GL_ARB_depth_texture GL_ARB_multitexture GL_ARB_occlusion_query "
-            "GL_ARB_point_parameters "
+            "GL_ARB_depth_buffer_float GL_ARB_depth_texture GL_ARB_framebuffer_object GL_ARB_multitexture "
+            "GL_ARB_occlusion_query GL_ARB_point_parameters "
             "GL_ARB_point_sprite GL_ARB_shadow GL_ARB_texture_border_clamp GL_ARB_texture_cube_map "
             "GL_ARB_texture_env_add GL_ARB_texture_env_combine GL_ARB_texture_env_crossbar GL_ARB_texture_env_dot3 "
             "GL_ARB_texture_mirrored_repeat GL_ARB_texture_non_power_of_two GL_ARB_transpose_matrix "
             "GL_ARB_vertex_buffer_object GL_ARB_window_pos GL_EXT_abgr GL_EXT_bgra GL_EXT_blend_color "
+            "GL_EXT_blend_equation_separate "
             "GL_EXT_blend_func_separate GL_EXT_blend_minmax GL_EXT_blend_subtract GL_EXT_compiled_vertex_array "
             "GL_EXT_copy_texture GL_EXT_draw_range_elements GL_EXT_fog_coord GL_EXT_framebuffer_blit "
             "GL_EXT_framebuffer_object "
