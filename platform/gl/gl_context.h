@@ -335,7 +335,11 @@ typedef struct gl_context {
 
 /* The current context, or NULL. C99 has no word for threads' own objects; GCC and Clang have. */
 #ifndef GL_THREAD
+#ifdef __GLIBC__ /* a load instead of a call; other C libraries refuse it in libraries that dlopen loads */
+#define GL_THREAD __thread __attribute__((tls_model("initial-exec")))
+#else
 #define GL_THREAD __thread
+#endif
 #endif
 extern GL_THREAD gl_context *gl_now;
 
@@ -420,6 +424,7 @@ int gl_type_bytes(GLenum type);
 int gl_type_is_packed(GLenum type);
 GLenum gl_check_image(GLenum format, GLenum type); /* GL_NO_ERROR or the error */
 size_t gl_image_bytes(const gl_store *s, int w, int h, int d, GLenum format, GLenum type); /* that are read */
+uint8_t *gl_image_row(void *data, const gl_store *s, int w, int y, GLenum format); /* of bytes, 2D */
 /* 4 floats a pixel: R G B A; or depth, or stencil, in the first. */
 void gl_unpack(float *out, const gl_store *s, int w, int h, int d, int dims, GLenum format, GLenum type,
                const void *data);

@@ -32,6 +32,9 @@ static const image_packed image_packs[] = {
 
 static const image_packed *image_pack(GLenum type)
 {
+    if (type <= GL_DOUBLE) {
+        return NULL;
+    }
     for (size_t i = 0; i < sizeof image_packs / sizeof image_packs[0]; ++i) {
         if (image_packs[i].type == type) {
             return &image_packs[i];
@@ -96,12 +99,13 @@ static image_layout image_lay(const gl_store *s, int w, int h, int dims, GLenum 
     return l;
 }
 
+/* A code of 1, 2 or 4 bytes. */
 static uint32_t image_load(const uint8_t *p, int bytes, int swap)
 {
-    uint8_t b[4];
+    uint8_t b[4] = {0};
     uint16_t v16;
     uint32_t v32;
-    for (int i = 0; i < bytes; ++i) {
+    for (int i = 0; i < bytes && i < 4; ++i) {
         b[i] = p[swap ? bytes - 1 - i : i];
     }
     if (bytes == 1) {
@@ -117,7 +121,7 @@ static uint32_t image_load(const uint8_t *p, int bytes, int swap)
 
 static void image_save(uint8_t *p, uint32_t v, int bytes, int swap)
 {
-    uint8_t b[4];
+    uint8_t b[4] = {0};
     const uint16_t v16 = (uint16_t)v;
     if (bytes == 1) {
         b[0] = (uint8_t)v;
@@ -254,8 +258,9 @@ static void image_unpack_pixel(float out[4], const uint8_t *p, GLenum format, GL
             at += k->reversed ? k->bits[i] : 0;
         }
     } else {
-        for (int i = 0; i < gl_format_values(format); ++i) {
-            v[i] = image_value(p + i * gl_type_bytes(type), type, swap, image_is_index(format));
+        const int n = gl_format_values(format), bytes = gl_type_bytes(type), index = image_is_index(format);
+        for (int i = 0; i < n; ++i) {
+            v[i] = image_value(p + i * bytes, type, swap, index);
         }
     }
     image_order_in(out, v, format);
@@ -294,6 +299,12 @@ static void image_pack_pixel(uint8_t *p, const float in[4], GLenum format, GLenu
     }
 }
 
+uint8_t *gl_image_row(void *data, const gl_store *s, int w, int y, GLenum format)
+{
+    const image_layout l = image_lay(s, w, 1, 2, format, GL_UNSIGNED_BYTE);
+    return (uint8_t *)data + l.skip + (size_t)y * l.row;
+}
+
 size_t gl_image_bytes(const gl_store *s, int w, int h, int d, GLenum format, GLenum type)
 {
     const image_layout l = image_lay(s, w, h, 3, format, type);
@@ -304,6 +315,29 @@ size_t gl_image_bytes(const gl_store *s, int w, int h, int d, GLenum format, GLe
            (type == GL_BITMAP ? (size_t)(w + s->pixels + 7) / 8 : l.pixel * (size_t)w);
 }
 
+/* A row of floats R G B A or of bytes in that order: most images. */
+static int image_unpack_fast(float *out, const uint8_t *row, int w, GLenum format, GLenum type, int swap)
+{
+    const int n = format == GL_RGBA ? 4 : format == GL_RGB ? 3 : 0;
+    if (n == 0 || swap || (type != GL_FLOAT && type != GL_UNSIGNED_BYTE)) {
+        return 0;
+    }
+    if (type == GL_FLOAT && n == 4) {
+        memcpy(out, row, 4 * sizeof *out * (size_t)w);
+        return 1;
+    }
+    for (int x = 0; x < w; ++x, out += 4) {
+        out[3] = 1.0f;
+        for (int i = 0; i < n && type == GL_UNSIGNED_BYTE; ++i) {
+            out[i] = (float)row[n * x + i] / 255.0f;
+        }
+        if (type == GL_FLOAT) {
+            memcpy(out, row + 12 * (size_t)x, 12);
+        }
+    }
+    return 1;
+}
+
 void gl_unpack(float *out, const gl_store *s, int w, int h, int d, int dims, GLenum format, GLenum type,
                const void *data)
 {
@@ -312,6 +346,10 @@ void gl_unpack(float *out, const gl_store *s, int w, int h, int d, int dims, GLe
     for (int z = 0; z < d; ++z) {
         for (int y = 0; y < h; ++y) {
             const uint8_t *row = from + (size_t)z * l.slice + (size_t)y * l.row;
+            if (image_unpack_fast(out, row, w, format, type, s->swap)) {
+                out += 4 * (size_t)w;
+                continue;
+            }
             for (int x = 0; x < w; ++x, out += 4) {
                 if (type == GL_BITMAP) {
                     const int at = x + s->pixels, shift = s->lsb ? at & 7 : 7 - (at & 7);
@@ -334,6 +372,12 @@ void gl_pack(void *data, const gl_store *s, int w, int h, int d, int dims, GLenu
     for (int z = 0; z < d; ++z) {
         for (int y = 0; y < h; ++y) {
             uint8_t *row = to + (size_t)z * l.slice + (size_t)y * l.row;
+            if (format == GL_RGBA && type == GL_UNSIGNED_BYTE) {
+                for (int x = 0; x < 4 * w; ++x, ++from) {
+                    row[x] = gl_code(*from);
+                }
+                continue;
+            }
             for (int x = 0; x < w; ++x, from += 4) {
                 if (type == GL_BITMAP) {
                     const int at = x + s->pixels, shift = s->lsb ? at & 7 : 7 - (at & 7);

@@ -75,6 +75,30 @@ static int pixels_is_plain(const gl_context *c)
     return plain;
 }
 
+static int pixels_are_bytes(GLenum format, GLenum type)
+{
+    return type == GL_UNSIGNED_BYTE && (format == GL_RGBA || format == GL_RGB || format == GL_BGRA);
+}
+
+/* A row of a surface as bytes, if all of the row is inside and nothing changes the colours; 0: not so. */
+static int pixels_read_bytes(uint8_t *to, const gl_surface *s, int32_t x, int32_t y, int32_t n, GLenum format)
+{
+    if (x < 0 || y < 0 || n > s->width - x || y >= s->height) {
+        return 0;
+    }
+    const uint8_t *p = s->colour + ((ptrdiff_t)y * s->stride + x) * 4;
+    const int each = format == GL_RGB ? 3 : 4, red = (format == GL_BGRA) != (s->swaps != 0) ? 2 : 0;
+    for (int32_t i = 0; i < n; ++i, p += 4, to += each) {
+        to[0] = p[red];
+        to[1] = p[1];
+        to[2] = p[2 - red];
+        if (each == 4) {
+            to[3] = s->has_alpha ? p[3] : 255;
+        }
+    }
+    return 1;
+}
+
 /* A row of bytes R G B, R G B A or B G R A without going through floats. */
 static void pixels_copy_bytes(uint8_t *to, const uint8_t *from, int n, GLenum format)
 {
@@ -99,8 +123,7 @@ uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum form
     if (out == NULL) {
         return NULL;
     }
-    const int is_bytes =
-        type == GL_UNSIGNED_BYTE && (format == GL_RGBA || format == GL_RGB || format == GL_BGRA) && pixels_is_plain(c);
+    const int is_bytes = pixels_are_bytes(format, type) && pixels_is_plain(c);
     for (int z = 0; z < d && is_bytes; ++z) {
         for (int y = 0; y < h; ++y) {
             const size_t each = format == GL_RGB ? 3 : 4, align = (size_t)s.align,
@@ -343,7 +366,11 @@ void glReadPixels(GLint x, GLint y, GLsizei w, GLsizei h, GLenum format, GLenum 
     gl_find_surface(c, &s, c->read_framebuffer);
     GL_FAIL(pixels_lack(&s, kind) ||
                 (kind == PIXELS_COLOUR && (s.colour == NULL || c->s.pixel.read == GL_NONE)), GL_INVALID_OPERATION, )
+    const int is_bytes = pixels_are_bytes(format, type) && pixels_is_plain(c);
     for (int32_t j = 0; j < h; ++j) {
+        if (is_bytes && pixels_read_bytes(gl_image_row(out, &c->client.pack, w, j, format), &s, x, y + j, w, format)) {
+            continue;
+        }
         for (int32_t i = 0; i < w; i += GL_SIDE) {
             const int32_t n = mini(w - i, GL_SIDE);
             gl_store at = c->client.pack;

@@ -340,7 +340,7 @@ OP(tex_image)
     }
     if (from == NULL) {
         memset(m->texels, 0, 4 * n);
-    } else if (m->base == GL_DEPTH_COMPONENT) {
+    } else if (m->base == GL_DEPTH_COMPONENT || m->base == GL_RGBA) {
         memcpy(m->texels, from, 4 * n);
     } else {
         for (size_t i = 0; i < n; ++i) {
