@@ -1,4 +1,4 @@
-# The library for programs that were written for OpenGL 1.x: make gl, make gl-check.
+# The library for programs that were written for OpenGL 1.x: make gl, make gl-check, make gl-cross.
 
 GL_OUT     := $(BUILD)/gl
 GL_SRC     := $(sort $(wildcard platform/gl/gl_*.c))
@@ -28,8 +28,12 @@ $(GL_OUT)/libGL.a: $(GL_OBJ)
 	@rm -f $@
 	@$(AR) rcs $@ $^
 
-.PHONY: gl gl-check
+.PHONY: gl gl-check gl-cross
 gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips those whose packages are missing
 	@GL_CLIENTS='$(GL_CLIENTS)' CC='$(CC)' sh platform/gl/check/check.sh $(GL_OUT)
+
+GL_MACHINES := aarch64 mips riscv64
+gl-cross: ## the pictures of our own program on other machines, by emulators; skips those whose compilers are missing
+	@MAKE='$(MAKE)' CFLAGS='$(CFLAGS)' sh platform/gl/check/cross.sh $(BUILD) $(GL_MACHINES)
 
 -include $(GL_OBJ:.o=.d)
