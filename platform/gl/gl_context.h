@@ -18,7 +18,7 @@ enum {
     GL_UNITS = 4,
     GL_LIGHTS = 8,
     GL_CLIP_PLANES = LMB_DRAW_PLANES,
-    GL_BATCH = 4096, /* vertices that wait to be drawn; a multiple of 12 and 4 below it */
+    GL_BATCH = 4092, /* vertices that wait to be drawn: whole triangles, quads and pairs, so a multiple of 12 */
     GL_STACK = 32,   /* matrices of a stack */
     GL_ATTRIB_STACK = 16,
     GL_LEVELS = 13,
