@@ -51,7 +51,7 @@ enum {
     CAP_CLIP, /* 6 */ CAP_LIGHT = CAP_CLIP + GL_CLIP_PLANES, CAP_MAP1 = CAP_LIGHT + GL_LIGHTS, CAP_MAP2 = CAP_MAP1 + 9,
     CAP_POINT_SPRITE = CAP_MAP2 + 9, CAPS
 };
-enum { TARGET_1D, TARGET_2D, TARGET_3D, TARGET_CUBE, TARGETS };
+enum { TARGET_1D, TARGET_2D, TARGET_RECT, TARGET_3D, TARGET_CUBE, TARGETS }; /* later ones first, if several are on */
 
 /* --- objects ------------------------------------------------------------------------------------------------------ */
 
@@ -277,6 +277,7 @@ typedef struct gl_context {
     float uv_of[GL_BATCH + 4][2];
     uint32_t index_of[6 * (GL_BATCH + 4)];
 
+    const struct lmb_kernels *kernels; /* of draw.h; NULL: plain C */
     lmb_draw_state draw;
     lmb_draw_target target;
     lmb_texture draw_texture;

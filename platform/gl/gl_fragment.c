@@ -153,11 +153,16 @@ typedef struct fragment_coords {
     int face;
 } fragment_coords;
 
-static void fragment_project(float out[3], const float v[4])
+/* Coordinates of a texture; a rectangle's count texels. */
+static void fragment_project(float out[3], const float v[4], const gl_texture *t)
 {
     const float by = v[3] == 1.0f ? 1.0f : v[3] != 0.0f ? 1.0f / v[3] : 0.0f;
     for (int i = 0; i < 3; ++i) {
         out[i] = v[i] * by;
+    }
+    if (t != NULL && t->target == TARGET_RECT) {
+        out[0] /= (float)t->image[0][0].width;
+        out[1] /= (float)t->image[0][0].height;
     }
 }
 
@@ -378,9 +383,9 @@ static void fragment_coordinates(fragment_coords *out, const gl_texture *t, cons
         out->r = gl_unit_range(at[3]);
         return;
     }
-    fragment_project(out->at, at);
-    fragment_project(out->x, x);
-    fragment_project(out->y, y);
+    fragment_project(out->at, at, t);
+    fragment_project(out->x, x, t);
+    fragment_project(out->y, y, t);
     out->r = gl_unit_range(out->at[2]);
 }
 
@@ -476,7 +481,7 @@ void gl_shade_raster(const gl_context *c, float colour[4])
             u[i].face = fragment_cube_face(t);
             fragment_cube_place(u[i].at, u[i].face, t);
         } else {
-            fragment_project(u[i].at, t);
+            fragment_project(u[i].at, t, texture);
         }
         memcpy(u[i].x, u[i].at, sizeof u[i].x);
         memcpy(u[i].y, u[i].at, sizeof u[i].y);

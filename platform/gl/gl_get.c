@@ -54,9 +54,11 @@ static int get_limits(get_value *o, const gl_context *c, GLenum name)
     WHOLE(GL_MAX_LIST_NESTING, GL_LIST_DEPTH) WHOLE(GL_MAX_EVAL_ORDER, GL_MAP_ORDER)
     WHOLE(GL_MAX_PIXEL_MAP_TABLE, GL_PIXEL_MAP) WHOLE(GL_MAX_TEXTURE_SIZE, GL_SIDE)
     WHOLE(GL_MAX_3D_TEXTURE_SIZE, GL_SIDE_3D) WHOLE(GL_MAX_CUBE_MAP_TEXTURE_SIZE, GL_SIDE)
-    WHOLE(GL_MAX_TEXTURE_UNITS, GL_UNITS) WHOLE(GL_MAX_ELEMENTS_VERTICES, 65536) WHOLE(GL_MAX_ELEMENTS_INDICES, 65536)
+    WHOLE(GL_MAX_RECTANGLE_TEXTURE_SIZE_ARB, GL_SIDE) WHOLE(GL_MAX_TEXTURE_UNITS, GL_UNITS)
+    WHOLE(GL_MAX_ELEMENTS_VERTICES, 65536) WHOLE(GL_MAX_ELEMENTS_INDICES, 65536)
     FLOAT(GL_MAX_TEXTURE_LOD_BIAS, 16) WHOLE(GL_MAX_RENDERBUFFER_SIZE_EXT, GL_SIDE)
-    WHOLE(GL_MAX_SAMPLES, 1) WHOLE(GL_MAX_COLOR_ATTACHMENTS_EXT, 1) WHOLE(GL_MAX_DRAW_BUFFERS, 1) FLOAT(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, 1)
+    WHOLE(GL_MAX_SAMPLES, 1)
+    WHOLE(GL_MAX_COLOR_ATTACHMENTS_EXT, 1) WHOLE(GL_MAX_DRAW_BUFFERS, 1) FLOAT(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, 1)
     INTS(GL_MAX_VIEWPORT_DIMS, side, 2) WHOLE(GL_SUBPIXEL_BITS, 8)
     FLOATS(GL_POINT_SIZE_RANGE, sizes, 2) FLOATS(GL_ALIASED_POINT_SIZE_RANGE, sizes, 2)
     FLOATS(GL_LINE_WIDTH_RANGE, sizes, 2) FLOATS(GL_ALIASED_LINE_WIDTH_RANGE, sizes, 2)
@@ -155,6 +157,7 @@ static int get_transform(get_value *o, const gl_context *c, GLenum name)
     WHOLE(GL_ACTIVE_TEXTURE, GL_TEXTURE0 + (GLenum)unit)
     WHOLE(GL_TEXTURE_BINDING_1D, u->bound[TARGET_1D]->name) WHOLE(GL_TEXTURE_BINDING_2D, u->bound[TARGET_2D]->name)
     WHOLE(GL_TEXTURE_BINDING_3D, u->bound[TARGET_3D]->name)
+    WHOLE(GL_TEXTURE_BINDING_RECTANGLE_ARB, u->bound[TARGET_RECT]->name)
     WHOLE(GL_TEXTURE_BINDING_CUBE_MAP, u->bound[TARGET_CUBE]->name)
     WHOLE(GL_ATTRIB_STACK_DEPTH, c->saved_count) WHOLE(GL_CLIENT_ATTRIB_STACK_DEPTH, c->client_count)
     WHOLE(GL_NAME_STACK_DEPTH, c->name_count) WHOLE(GL_RENDER_MODE, c->render_mode)
@@ -256,7 +259,10 @@ static int get_any(get_value *o, gl_context *c, GLenum name)
     return known;
 }
 
-static int32_t get_round(double v) { return v >= 2147483647.0 ? 2147483647 : v <= -2147483648.0 ? -2147483647 - 1 : (int32_t)(v < 0 ? v - 0.5 : v + 0.5); }
+static int32_t get_round(double v)
+{
+    return v >= 2147483647.0 ? 2147483647 : v <= -2147483648.0 ? -2147483647 - 1 : (int32_t)(v < 0 ? v - 0.5 : v + 0.5);
+}
 
 static int32_t get_int(const get_value *o, int i)
 {
@@ -292,7 +298,8 @@ const GLubyte *glGetString(GLenum name)
             "GL_ARB_occlusion_query GL_ARB_point_parameters "
             "GL_ARB_point_sprite GL_ARB_shadow GL_ARB_texture_border_clamp GL_ARB_texture_cube_map "
             "GL_ARB_texture_env_add GL_ARB_texture_env_combine GL_ARB_texture_env_crossbar GL_ARB_texture_env_dot3 "
-            "GL_ARB_texture_mirrored_repeat GL_ARB_texture_non_power_of_two GL_ARB_transpose_matrix "
+            "GL_ARB_texture_mirrored_repeat GL_ARB_texture_non_power_of_two GL_ARB_texture_rectangle "
+            "GL_ARB_transpose_matrix "
             "GL_ARB_vertex_buffer_object GL_ARB_window_pos GL_EXT_abgr GL_EXT_bgra GL_EXT_blend_color "
             "GL_EXT_blend_equation_separate "
             "GL_EXT_blend_func_separate GL_EXT_blend_minmax GL_EXT_blend_subtract GL_EXT_compiled_vertex_array "
@@ -399,7 +406,12 @@ static int get_tex_gen(get_value *o, gl_context *c, GLenum a, GLenum n)
 
 static int get_kind(GLenum t)
 {
-    return t == GL_TEXTURE_1D ? TARGET_1D : t == GL_TEXTURE_2D ? TARGET_2D : t == GL_TEXTURE_3D ? TARGET_3D : t == GL_TEXTURE_CUBE_MAP ? TARGET_CUBE : -1;
+    return t == GL_TEXTURE_1D              ? TARGET_1D
+           : t == GL_TEXTURE_2D            ? TARGET_2D
+           : t == GL_TEXTURE_RECTANGLE_ARB ? TARGET_RECT
+           : t == GL_TEXTURE_3D            ? TARGET_3D
+           : t == GL_TEXTURE_CUBE_MAP      ? TARGET_CUBE
+                                           : -1;
 }
 
 static int get_tex_parameter(get_value *o, gl_context *c, GLenum a, GLenum n)
@@ -444,7 +456,8 @@ void glGetTexGendv(GLenum a, GLenum n, GLdouble *out)
 
 static int get_level(gl_context *c, GLenum target, GLint level, GLenum name, GLint *out)
 {
-    static const GLenum proxies[TARGETS] = {GL_PROXY_TEXTURE_1D, GL_PROXY_TEXTURE_2D, GL_PROXY_TEXTURE_3D,
+    static const GLenum proxies[TARGETS] = {GL_PROXY_TEXTURE_1D, GL_PROXY_TEXTURE_2D,
+        GL_PROXY_TEXTURE_RECTANGLE_ARB, GL_PROXY_TEXTURE_3D,
         GL_PROXY_TEXTURE_CUBE_MAP};
     const gl_image *m = NULL;
     GL_FAIL(level < 0 || level >= GL_LEVELS, GL_INVALID_VALUE, 0)
@@ -466,7 +479,10 @@ static int get_level(gl_context *c, GLenum target, GLint level, GLenum name, GLi
         target == GL_PROXY_TEXTURE_1D ? 0 : 2 * m->border) : 0; return 1;
     case GL_TEXTURE_DEPTH: *out = there ? m->depth + (target == GL_TEXTURE_3D ||
         target == GL_PROXY_TEXTURE_3D ? 2 * m->border : 0) : 0; return 1;
-    case GL_TEXTURE_INTERNAL_FORMAT: *out = there ? (GLint)(m->internal >= GL_COMPRESSED_ALPHA && m->internal <= GL_COMPRESSED_RGBA ? m->base : m->internal) : 1; return 1;
+    case GL_TEXTURE_INTERNAL_FORMAT:
+        *out = !there ? 1 : m->internal >= GL_COMPRESSED_ALPHA && m->internal <= GL_COMPRESSED_RGBA ? (GLint)m->base
+                                                                                                    : (GLint)m->internal;
+        return 1;
     case GL_TEXTURE_BORDER: *out = m->border; return 1;
     case GL_TEXTURE_RED_SIZE: case GL_TEXTURE_GREEN_SIZE: case GL_TEXTURE_BLUE_SIZE: *out = b == GL_RGB ||
         b == GL_RGBA ? 8 : 0; return 1;

@@ -49,7 +49,8 @@ static void pixels_codes(gl_context *c, uint8_t *out, uint8_t *stencil, float (*
     }
     for (int i = 0; i < n; ++i) {
         if (kind == PIXELS_DEPTH || kind == PIXELS_BOTH) {
-            const float d = pixels_depth(c, row[i][0]), code = kind == PIXELS_BOTH ? pixels_stencil(c, row[i][1]) : 0.0f;
+            const float d = pixels_depth(c, row[i][0]);
+            const float code = kind == PIXELS_BOTH ? pixels_stencil(c, row[i][1]) : 0.0f;
             memcpy(out + 4 * i, &d, 4);
             if (kind == PIXELS_BOTH) {
                 memcpy(stencil + 4 * i, &code, 4);

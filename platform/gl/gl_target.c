@@ -249,7 +249,8 @@ static void target_attach_texture(GLenum target, GLenum attachment, GLenum kind,
             a.face = (int32_t)(kind - GL_TEXTURE_CUBE_MAP_POSITIVE_X);
             kind = GL_TEXTURE_CUBE_MAP;
         }
-        static const GLenum kinds[TARGETS] = {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP};
+        static const GLenum kinds[TARGETS] = {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_RECTANGLE_ARB, GL_TEXTURE_3D,
+                                               GL_TEXTURE_CUBE_MAP};
         GL_FAIL(kinds[t->target] != kind, GL_INVALID_OPERATION, )
         GL_FAIL(level < 0 || level >= GL_LEVELS || slice < 0 || slice >= GL_SIDE_3D, GL_INVALID_VALUE, )
     }

@@ -18,6 +18,10 @@ void gl_texture_init(gl_texture *t, GLuint name, int target)
     t->compare_mode = GL_NONE;
     t->compare_func = GL_LEQUAL;
     t->depth_mode = GL_LUMINANCE;
+    if (target == TARGET_RECT) {
+        t->min_filter = GL_LINEAR;
+        t->wrap[0] = t->wrap[1] = t->wrap[2] = GL_CLAMP_TO_EDGE;
+    }
     t->min_lod = -1000.0f;
     t->max_lod = 1000.0f;
     t->max_level = 1000;
@@ -32,6 +36,7 @@ static int texture_target(GLenum target)
     switch (target) {
     case GL_TEXTURE_1D: return TARGET_1D;
     case GL_TEXTURE_2D: return TARGET_2D;
+    case GL_TEXTURE_RECTANGLE_ARB: return TARGET_RECT;
     case GL_TEXTURE_3D: return TARGET_3D;
     case GL_TEXTURE_CUBE_MAP: return TARGET_CUBE;
     default: return -1;
@@ -281,7 +286,10 @@ static GLenum texture_check(GLenum target, int kind, GLint level, GLenum interna
         (kind == TARGET_3D && !texture_size_is_good(d, border, largest)) || (kind == TARGET_CUBE && w != h)) {
         return GL_INVALID_VALUE;
     }
-    if (gl_base_format(internal) == GL_DEPTH_COMPONENT && kind != TARGET_1D && kind != TARGET_2D) {
+    if (kind == TARGET_RECT && (level != 0 || border != 0)) {
+        return GL_INVALID_VALUE;
+    }
+    if (gl_base_format(internal) == GL_DEPTH_COMPONENT && (kind == TARGET_3D || kind == TARGET_CUBE)) {
         return GL_INVALID_OPERATION;
     }
     return GL_NO_ERROR;
@@ -398,6 +406,7 @@ static void texture_image(GLenum target, GLint level, GLenum internal, int32_t w
     int face;
     const int proxy = target == GL_PROXY_TEXTURE_1D   ? TARGET_1D
                       : target == GL_PROXY_TEXTURE_2D ? TARGET_2D
+                      : target == GL_PROXY_TEXTURE_RECTANGLE_ARB ? TARGET_RECT
                       : target == GL_PROXY_TEXTURE_3D ? TARGET_3D
                       : target == GL_PROXY_TEXTURE_CUBE_MAP ? TARGET_CUBE : -1;
     const int kind = proxy >= 0 ? proxy : texture_image_target(target, &face);
@@ -641,7 +650,7 @@ void glGenerateMipmapEXT(GLenum target)
 {
     GL_ENTER()
     const int kind = texture_target(target);
-    GL_FAIL(kind < 0, GL_INVALID_ENUM, )
+    GL_FAIL(kind < 0 || kind == TARGET_RECT, GL_INVALID_ENUM, )
     gl_flush_vertices(c);
     c->dirty = 1;
     gl_texture *t = texture_active(c, kind);
@@ -670,7 +679,8 @@ OP(tex_parameter)
     gl_texture *t = texture_active(c, kind);
     switch (w[1].u) {
     case GL_TEXTURE_MIN_FILTER:
-        CHECK(v == GL_NEAREST || v == GL_LINEAR || (v >= GL_NEAREST_MIPMAP_NEAREST && v <= GL_LINEAR_MIPMAP_LINEAR),
+        CHECK(v == GL_NEAREST || v == GL_LINEAR ||
+                  (v >= GL_NEAREST_MIPMAP_NEAREST && v <= GL_LINEAR_MIPMAP_LINEAR && kind != TARGET_RECT),
               GL_INVALID_ENUM)
         t->min_filter = v;
         break;
@@ -679,7 +689,8 @@ OP(tex_parameter)
         t->mag_filter = v;
         break;
     case GL_TEXTURE_WRAP_S: case GL_TEXTURE_WRAP_T: case GL_TEXTURE_WRAP_R:
-        CHECK(texture_is_wrap(v), GL_INVALID_ENUM)
+        CHECK(texture_is_wrap(v) && !(kind == TARGET_RECT && (v == GL_REPEAT || v == GL_MIRRORED_REPEAT)),
+              GL_INVALID_ENUM)
         t->wrap[w[1].u == GL_TEXTURE_WRAP_R ? 2 : w[1].u - GL_TEXTURE_WRAP_S] = v;
         break;
     case GL_TEXTURE_BORDER_COLOR:
@@ -692,7 +703,7 @@ OP(tex_parameter)
     case GL_TEXTURE_MAX_LOD: t->max_lod = f; break;
     case GL_TEXTURE_LOD_BIAS: t->lod_bias = f; break;
     case GL_TEXTURE_BASE_LEVEL:
-        CHECK(f >= 0.0f, GL_INVALID_VALUE)
+        CHECK(f >= 0.0f && !(kind == TARGET_RECT && f != 0.0f), GL_INVALID_VALUE)
         t->base_level = gl_int(f);
         break;
     case GL_TEXTURE_MAX_LEVEL:

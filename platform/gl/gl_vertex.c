@@ -231,7 +231,9 @@ static double vertex_area(const gl_context *c, const uint32_t *at, int n)
     return area;
 }
 
-/* --- polygon offset: a unit is 2^-23 of the depth range; draw.h's unit is the least step of depths like a triangle's - */
+/* --- polygon offset ----------------------------------------------------------------------------------------------- */
+
+/* A unit is 2^-23 of the depth range. draw.h's unit is the least step of depths as large as a triangle's. */
 
 #define VERTEX_OFFSET_UNIT (1.0f / 8388608.0f)
 
@@ -704,6 +706,7 @@ void gl_set_draw(gl_context *c)
         return;
     }
     (void)lmb_draw_state_init(d, 1, 1);
+    d->kernels = c->kernels;
     vertex_set_to_clip(c);
     for (int i = 0; i < 4; ++i) {
         d->viewport[i] =

@@ -146,7 +146,8 @@ static void gear(float inner, float outer, float thick, int teeth)
 
 static void gears(void)
 {
-    static const GLfloat at[4] = {5, 5, 10, 0}, colour[3][4] = {{0.8f, 0.1f, 0, 1}, {0, 0.8f, 0.2f, 1}, {0.2f, 0.2f, 1, 1}};
+    static const GLfloat at[4] = {5, 5, 10, 0};
+    static const GLfloat colour[3][4] = {{0.8f, 0.1f, 0, 1}, {0, 0.8f, 0.2f, 1}, {0.2f, 0.2f, 1, 1}};
     static const float place[3][5] = {{-3, -2, 4, 1, 20}, {3.1f, -2, 2, 2, 10}, {-3.1f, 4.2f, 2, 0.5f, 10}};
     p_glMatrixMode(GL_PROJECTION);
     p_glFrustum(-1, 1, -0.75, 0.75, 5, 60);
