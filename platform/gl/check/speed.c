@@ -1,6 +1,6 @@
 /* speed.c: user CPU time of the same calls by two OSMesa libraries: speed OURS THEIRS [ROUNDS].
  *
- * Each round runs all workloads once with each library, in a process of its own; the least times count. */
+ * Each round runs all workloads once with each library, in a process of its own; the shortest times count. */
 #define _GNU_SOURCE
 #include <GL/osmesa.h>
 #include <dlfcn.h>
@@ -237,7 +237,7 @@ static int run_all(const char *path, int to, int round)
 int main(int argc, char **argv)
 {
     const int rounds = argc > 3 ? atoi(argv[3]) : 5;
-    double least[2][WORKLOADS];
+    double shortest[2][WORKLOADS];
     if (argc < 3) {
         fprintf(stderr, "usage: speed OURS THEIRS [ROUNDS]\n");
         return 2;
@@ -261,12 +261,12 @@ int main(int argc, char **argv)
             return 1;
         }
         for (int i = 0; i < WORKLOADS; ++i) {
-            least[r % 2][i] = r < 2 || seconds[i] < least[r % 2][i] ? seconds[i] : least[r % 2][i];
+            shortest[r % 2][i] = r < 2 || seconds[i] < shortest[r % 2][i] ? seconds[i] : shortest[r % 2][i];
         }
     }
     printf("| workload | theirs | ours | ratio |\n|---|---|---|---|\n");
     for (int i = 0; i < WORKLOADS; ++i) {
-        const double by = workloads[i].by, ours = least[0][i] * by, theirs = least[1][i] * by;
+        const double by = workloads[i].by, ours = shortest[0][i] * by, theirs = shortest[1][i] * by;
         printf("| %s | %.3g %s | %.3g %s | %.1f |\n", workloads[i].name, theirs, workloads[i].unit, ours,
                workloads[i].unit, theirs / ours);
     }
