@@ -3,8 +3,8 @@
 GL_OUT     := $(BUILD)/gl
 GL_SRC     := $(sort $(wildcard platform/gl/gl_*.c))
 # The parts of the library that draw.h and its kernels need.
-GL_LIB     := $(wildcard src/base/*.c src/draw/*.c src/isa/*.c) $(addprefix src/raster/,setup.c target.c texture.c plane.c) \
-    src/bounce/polygon.c
+GL_LIB     := $(wildcard src/base/*.c src/draw/*.c src/isa/*.c) src/bounce/polygon.c \
+    $(addprefix src/raster/,setup.c target.c texture.c plane.c)
 GL_OBJ     := $(patsubst %.c,$(GL_OUT)/obj/%.o,$(GL_SRC) $(GL_LIB))
 GL_NAMES   := $(addprefix $(GL_OUT)/,libOSMesa.so.8 libOSMesa.so libOpenGL.so.0 libGL.so.1)
 GL_COMPILE  = $(CC) -std=c99 $(CFLAGS) -fPIC $(WARNINGS) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp -Iinclude \

@@ -480,8 +480,10 @@ static int get_level(gl_context *c, GLenum target, GLint level, GLenum name, GLi
     case GL_TEXTURE_DEPTH: *out = there ? m->depth + (target == GL_TEXTURE_3D ||
         target == GL_PROXY_TEXTURE_3D ? 2 * m->border : 0) : 0; return 1;
     case GL_TEXTURE_INTERNAL_FORMAT:
-        *out = !there ? 1 : m->internal >= GL_COMPRESSED_ALPHA && m->internal <= GL_COMPRESSED_RGBA ? (GLint)m->base
-                                                                                                    : (GLint)m->internal;
+        *out = there ? (GLint)m->internal : 1;
+        if (m->internal >= GL_COMPRESSED_ALPHA && m->internal <= GL_COMPRESSED_RGBA) {
+            *out = (GLint)m->base;
+        }
         return 1;
     case GL_TEXTURE_BORDER: *out = m->border; return 1;
     case GL_TEXTURE_RED_SIZE: case GL_TEXTURE_GREEN_SIZE: case GL_TEXTURE_BLUE_SIZE: *out = b == GL_RGB ||
