@@ -1,9 +1,10 @@
-# Builds the library for OpenGL 1.x programs: make gl, make gl-check.
+# Builds the library for OpenGL 1.x programs: make gl, make gl-check, make gl-cross.
 
 GL_OUT     := $(BUILD)/gl
 GL_SRC     := $(sort $(wildcard platform/gl/gl_*.c))
-# The modules that draw.h needs.
-GL_LIB     := $(wildcard src/base/*.c src/draw/*.c) src/raster/setup.c src/raster/target.c
+# The modules that draw.h and its kernels need.
+GL_LIB     := $(wildcard src/base/*.c src/draw/*.c src/isa/*.c) src/bounce/polygon.c \
+    $(addprefix src/raster/,setup.c target.c texture.c plane.c)
 GL_OBJ     := $(patsubst %.c,$(GL_OUT)/obj/%.o,$(GL_SRC) $(GL_LIB))
 GL_NAMES   := $(addprefix $(GL_OUT)/,libOSMesa.so.8 libOSMesa.so libOpenGL.so.0 libGL.so.1)
 GL_COMPILE  = $(CC) -std=c99 $(CFLAGS) -fPIC $(WARNINGS) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp -Iinclude \
@@ -28,8 +29,12 @@ $(GL_OUT)/libGL.a: $(GL_OBJ)
 	@rm -f $@
 	@$(AR) rcs $@ $^
 
-.PHONY: gl gl-check
+.PHONY: gl gl-check gl-cross
 gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips clients if packages are missing
 	@GL_CLIENTS='$(GL_CLIENTS)' CC='$(CC)' sh platform/gl/check/check.sh $(GL_OUT)
+
+GL_MACHINES := aarch64 mips riscv64
+gl-cross: ## the pictures of our own program on other machines, by emulators; skips machines if compilers are missing
+	@MAKE='$(MAKE)' CFLAGS='$(CFLAGS)' sh platform/gl/check/cross.sh $(BUILD) $(GL_MACHINES)
 
 -include $(GL_OBJ:.o=.d)

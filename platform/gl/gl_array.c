@@ -244,6 +244,7 @@ static void array_draw(gl_context *c, GLenum mode, uint32_t first, GLsizei count
     const gl_word begin[2] = {{.u = mode}, {.u = 1}}, end = {.u = 1};
     const gl_vertex kept = c->s.current.v;
     if (!c->client.array[ARRAY_VERTEX].on || count == 0) {
+        gl_fail(c, GL_NO_ERROR); /* an error if a list runs it after glBegin */
         return;
     }
     gl_do(c, OP_begin, begin, 2);
@@ -258,23 +259,24 @@ static void array_draw(gl_context *c, GLenum mode, uint32_t first, GLsizei count
 
 void glDrawArrays(GLenum mode, GLint first, GLsizei count)
 {
-    GL_ENTER()
-    GL_FAIL(mode > GL_POLYGON, GL_INVALID_ENUM, )
-    GL_FAIL(count < 0 || first < 0, GL_INVALID_VALUE, )
+    GL_ENTER_LISTED()
+    GL_FAIL_LISTED(mode > GL_POLYGON, GL_INVALID_ENUM)
+    GL_FAIL_LISTED(count < 0 || first < 0, GL_INVALID_VALUE)
     array_draw(c, mode, (uint32_t)first, count, 0, NULL);
 }
 
 void glDrawElements(GLenum mode, GLsizei count, GLenum type, const void *indices)
 {
-    GL_ENTER()
+    GL_ENTER_LISTED()
     const uint8_t *p = indices;
     const gl_buffer *b = c->client.bound_elements;
-    GL_FAIL(mode > GL_POLYGON || (type != GL_UNSIGNED_BYTE && type != GL_UNSIGNED_SHORT && type != GL_UNSIGNED_INT),
-            GL_INVALID_ENUM, )
-    GL_FAIL(count < 0, GL_INVALID_VALUE, )
+    GL_FAIL_LISTED(mode > GL_POLYGON ||
+                       (type != GL_UNSIGNED_BYTE && type != GL_UNSIGNED_SHORT && type != GL_UNSIGNED_INT),
+                   GL_INVALID_ENUM)
+    GL_FAIL_LISTED(count < 0, GL_INVALID_VALUE)
     if (b != NULL) {
         const size_t offset = (size_t)(uintptr_t)indices, bytes = (size_t)count * (size_t)gl_type_bytes(type);
-        GL_FAIL(offset > b->bytes || bytes > b->bytes - offset, GL_INVALID_OPERATION, )
+        GL_FAIL_LISTED(offset > b->bytes || bytes > b->bytes - offset, GL_INVALID_OPERATION)
         p = b->data + offset;
     }
     if (p != NULL) {
@@ -284,17 +286,17 @@ void glDrawElements(GLenum mode, GLsizei count, GLenum type, const void *indices
 
 void glDrawRangeElements(GLenum mode, GLuint start, GLuint end, GLsizei count, GLenum type, const void *indices)
 {
-    GL_ENTER()
-    GL_FAIL(end < start, GL_INVALID_VALUE, )
+    GL_ENTER_LISTED()
+    GL_FAIL_LISTED(end < start, GL_INVALID_VALUE)
     glDrawElements(mode, count, type, indices);
 }
 
 void glMultiDrawArrays(GLenum mode, const GLint *first, const GLsizei *count, GLsizei n)
 {
-    GL_ENTER()
-    GL_FAIL(n < 0, GL_INVALID_VALUE, )
+    GL_ENTER_LISTED()
+    GL_FAIL_LISTED(n < 0, GL_INVALID_VALUE)
     for (GLsizei i = 0; i < n; ++i) {
-        GL_FAIL(count[i] < 0, GL_INVALID_VALUE, )
+        GL_FAIL_LISTED(count[i] < 0, GL_INVALID_VALUE)
     }
     for (GLsizei i = 0; i < n; ++i) {
         glDrawArrays(mode, first[i], count[i]);
@@ -303,10 +305,10 @@ void glMultiDrawArrays(GLenum mode, const GLint *first, const GLsizei *count, GL
 
 void glMultiDrawElements(GLenum mode, const GLsizei *count, GLenum type, const void *const *indices, GLsizei n)
 {
-    GL_ENTER()
-    GL_FAIL(n < 0, GL_INVALID_VALUE, )
+    GL_ENTER_LISTED()
+    GL_FAIL_LISTED(n < 0, GL_INVALID_VALUE)
     for (GLsizei i = 0; i < n; ++i) {
-        GL_FAIL(count[i] < 0, GL_INVALID_VALUE, )
+        GL_FAIL_LISTED(count[i] < 0, GL_INVALID_VALUE)
     }
     for (GLsizei i = 0; i < n; ++i) {
         glDrawElements(mode, count[i], type, indices[i]);

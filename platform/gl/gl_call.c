@@ -142,7 +142,7 @@ static int call_values(GLenum name)
     switch (name) {
     case GL_AMBIENT: case GL_DIFFUSE: case GL_SPECULAR: case GL_EMISSION: case GL_POSITION: case GL_AMBIENT_AND_DIFFUSE:
     case GL_LIGHT_MODEL_AMBIENT: case GL_FOG_COLOR: case GL_TEXTURE_ENV_COLOR: case GL_TEXTURE_BORDER_COLOR:
-    case GL_OBJECT_PLANE: case GL_EYE_PLANE:
+    case GL_OBJECT_PLANE: case GL_EYE_PLANE: case GL_TEXTURE_SWIZZLE_RGBA_EXT:
         return 4;
     case GL_SPOT_DIRECTION: case GL_COLOR_INDEXES: case GL_POINT_DISTANCE_ATTENUATION:
         return 3;
@@ -153,7 +153,8 @@ static int call_values(GLenum name)
 
 static int call_is_colour(GLenum name)
 {
-    return call_values(name) == 4 && name != GL_POSITION && name != GL_OBJECT_PLANE && name != GL_EYE_PLANE;
+    return call_values(name) == 4 && name != GL_POSITION && name != GL_OBJECT_PLANE && name != GL_EYE_PLANE &&
+           name != GL_TEXTURE_SWIZZLE_RGBA_EXT;
 }
 
 #define FILL(v, name) \
@@ -162,7 +163,7 @@ static int call_is_colour(GLenum name)
 #define FILL_INT(v, name) \
     float f[4] = {0.0f, 0.0f, 0.0f, 0.0f}; \
     for (int k = 0; k < call_values(name); ++k) f[k] = call_is_colour(name) ? NORM_i((v)[k]) : (float)(v)[k]
-/* Calls (A, name, values): one float or int, several. A scalar of a vector parameter is an error. */
+/* Calls (A, name, values): one float or int, several. If a scalar sets a vector parameter, zeros follow. */
 #define PARAMETERS_2(call, op) \
     static void op##_of(GLenum a, GLenum n, const float f[4]) \
     { \
@@ -171,7 +172,7 @@ static int call_is_colour(GLenum name)
     static void op##_one(GLenum a, GLenum n, float v) \
     { \
         const float f[4] = {v, 0.0f, 0.0f, 0.0f}; \
-        op##_of(a, call_values(n) > 1 ? 0 : n, f); \
+        op##_of(a, n, f); \
     } \
     void call##f(GLenum a, GLenum n, GLfloat v) { op##_one(a, n, v); } \
     void call##i(GLenum a, GLenum n, GLint v) { op##_one(a, n, (float)v); } \
@@ -198,7 +199,7 @@ void glTexGendv(GLenum a, GLenum n, const GLdouble *v) { FILL(v, n); glTexGenfv(
     static void op##_one(GLenum n, float v) \
     { \
         const float f[4] = {v, 0.0f, 0.0f, 0.0f}; \
-        op##_of(call_values(n) > 1 ? 0 : n, f); \
+        op##_of(n, f); \
     } \
     void call##f(GLenum n, GLfloat v) { op##_one(n, v); } \
     void call##i(GLenum n, GLint v) { op##_one(n, (float)v); } \
@@ -212,12 +213,35 @@ void glPixelTransferi(GLenum n, GLint v) { DO(pixel_transfer, U(n), F(v)); }
 
 /* --- plain state -------------------------------------------------------------------------------------------------- */
 
-void glEnable(GLenum cap) { DO(enable, U(cap), I(1)); }
-void glDisable(GLenum cap) { DO(enable, U(cap), I(0)); }
+static int call_is_array(GLenum cap)
+{
+    return (cap >= GL_VERTEX_ARRAY && cap <= GL_EDGE_FLAG_ARRAY) || cap == GL_FOG_COORD_ARRAY ||
+           cap == GL_SECONDARY_COLOR_ARRAY;
+}
+
+/* GL_EXT_vertex_array switches arrays by these calls too; lists do not hold that. */
+void glEnable(GLenum cap)
+{
+    if (call_is_array(cap)) {
+        glEnableClientState(cap);
+    } else {
+        DO(enable, U(cap), I(1));
+    }
+}
+
+void glDisable(GLenum cap)
+{
+    if (call_is_array(cap)) {
+        glDisableClientState(cap);
+    } else {
+        DO(enable, U(cap), I(0));
+    }
+}
 void glAlphaFunc(GLenum f, GLclampf v) { DO(alpha_func, U(f), F(v)); }
 void glBlendFunc(GLenum s, GLenum d) { DO(blend_func, U(s), U(d), U(s), U(d)); }
 void glBlendFuncSeparate(GLenum s, GLenum d, GLenum sa, GLenum da) { DO(blend_func, U(s), U(d), U(sa), U(da)); }
 void glBlendEquation(GLenum e) { DO(blend_equation, U(e), U(e)); }
+void glBlendEquationSeparateEXT(GLenum rgb, GLenum alpha) { DO(blend_equation, U(rgb), U(alpha)); }
 void glBlendColor(GLclampf r, GLclampf g, GLclampf b, GLclampf a) { DO(blend_colour, F(r), F(g), F(b), F(a)); }
 void glClear(GLbitfield bits) { DO(clear, U(bits)); }
 void glClearColor(GLclampf r, GLclampf g, GLclampf b, GLclampf a) { DO(clear_colour, F(r), F(g), F(b), F(a)); }
@@ -273,7 +297,7 @@ void glPrioritizeTextures(GLsizei n, const GLuint *names, const GLclampf *p)
         DO(prioritize, U(names[i]), F(p[i]));
     }
     if (n < 0 && gl_now != NULL) {
-        gl_error(gl_now, GL_INVALID_VALUE);
+        gl_fail(gl_now, GL_INVALID_VALUE);
     }
 }
 
@@ -301,8 +325,8 @@ void glCallLists(GLsizei n, GLenum type, const void *names)
     if (c == NULL) {
         return;
     }
-    GL_FAIL(n < 0, GL_INVALID_VALUE, )
-    GL_FAIL(type < GL_BYTE || type > GL_4_BYTES, GL_INVALID_ENUM, )
+    GL_FAIL_LISTED(n < 0, GL_INVALID_VALUE)
+    GL_FAIL_LISTED(type < GL_BYTE || type > GL_4_BYTES, GL_INVALID_ENUM)
     for (size_t i = 0; i < (size_t)n; ++i) {
         DO(call_lists, U(call_list_name(type, names, i)));
     }
@@ -351,7 +375,7 @@ static void call_pixel_map(GLenum map, GLsizei n, const float *v)
         float f[GL_PIXEL_MAP] = {0.0f}; \
         gl_context *c = gl_now; \
         if (c == NULL) return; \
-        GL_FAIL(n < 1 || n > GL_PIXEL_MAP, GL_INVALID_VALUE, ) \
+        GL_FAIL_LISTED(n < 1 || n > GL_PIXEL_MAP, GL_INVALID_VALUE) \
         const int index = map == GL_PIXEL_MAP_I_TO_I || map == GL_PIXEL_MAP_S_TO_S; \
         for (int i = 0; i < n; ++i) f[i] = index ? (float)v[i] : NORM(v[i]); \
         call_pixel_map(map, n, f); \
@@ -407,7 +431,7 @@ void glPopMatrix(void) { DO_0(pop_matrix); }
 void glOrtho(GLdouble l, GLdouble r, GLdouble b, GLdouble t, GLdouble n, GLdouble f)
 {
     if (gl_now != NULL && (l == r || b == t || n == f)) {
-        gl_error(gl_now, GL_INVALID_VALUE);
+        gl_fail(gl_now, GL_INVALID_VALUE);
         return;
     }
     const double m[16] = {2 / (r - l), 0, 0, 0, 0, 2 / (t - b), 0, 0, 0, 0, -2 / (f - n), 0,
@@ -418,7 +442,7 @@ void glOrtho(GLdouble l, GLdouble r, GLdouble b, GLdouble t, GLdouble n, GLdoubl
 void glFrustum(GLdouble l, GLdouble r, GLdouble b, GLdouble t, GLdouble n, GLdouble f)
 {
     if (gl_now != NULL && (l == r || b == t || n == f || n <= 0 || f <= 0)) {
-        gl_error(gl_now, GL_INVALID_VALUE);
+        gl_fail(gl_now, GL_INVALID_VALUE);
         return;
     }
     const double m[16] = {2 * n / (r - l), 0, 0, 0, 0, 2 * n / (t - b), 0, 0,
@@ -498,8 +522,8 @@ static int call_map_values(GLenum target)
         gl_context *c = gl_now; \
         if (c == NULL) \
             return; \
-        GL_FAIL(n == 0 || target >= GL_MAP2_COLOR_4, GL_INVALID_ENUM, ) \
-        GL_FAIL(u1 == u2 || stride < n || order < 1 || order > GL_MAP_ORDER, GL_INVALID_VALUE, ) \
+        GL_FAIL_LISTED(n == 0 || target >= GL_MAP2_COLOR_4, GL_INVALID_ENUM) \
+        GL_FAIL_LISTED(u1 == u2 || stride < n || order < 1 || order > GL_MAP_ORDER, GL_INVALID_VALUE) \
         for (int i = 0; i < order * n; ++i) \
             f[i] = (float)points[i / n * stride + i % n]; \
         gl_word w[10] = {U(target), F(u1), F(u2), I(order), F(0), F(1), I(1), I(n)}; \
@@ -512,10 +536,10 @@ static int call_map_values(GLenum target)
         gl_context *c = gl_now; \
         if (c == NULL) \
             return; \
-        GL_FAIL(n == 0 || target < GL_MAP2_COLOR_4, GL_INVALID_ENUM, ) \
-        GL_FAIL(u1 == u2 || v1 == v2 || us < n || vs < n || uo < 1 || uo > GL_MAP_ORDER || vo < 1 || \
-                    vo > GL_MAP_ORDER, \
-                GL_INVALID_VALUE, ) \
+        GL_FAIL_LISTED(n == 0 || target < GL_MAP2_COLOR_4, GL_INVALID_ENUM) \
+        GL_FAIL_LISTED(u1 == u2 || v1 == v2 || us < n || vs < n || uo < 1 || uo > GL_MAP_ORDER || vo < 1 || \
+                           vo > GL_MAP_ORDER, \
+                       GL_INVALID_VALUE) \
         for (int i = 0; i < uo * vo * n; ++i) \
             f[i] = (float)points[i / (vo * n) * us + i / n % vo * vs + i % n]; \
         gl_word w[10] = {U(target), F(u1), F(u2), I(uo), F(v1), F(v2), I(vo), I(n)}; \
@@ -532,12 +556,12 @@ INDEX(s, GLshort) INDEX(i, GLint) INDEX(f, GLfloat) INDEX(d, GLdouble) INDEX(ub,
 
 void glIndexMask(GLuint mask)
 {
-    GL_ENTER()
     (void)mask;
+    DO(fail, U(GL_NO_ERROR));
 }
 
 void glClearIndex(GLfloat v)
 {
-    GL_ENTER()
     (void)v;
+    DO(fail, U(GL_NO_ERROR));
 }

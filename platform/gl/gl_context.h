@@ -18,7 +18,7 @@ enum {
     GL_UNITS = 4,
     GL_LIGHTS = 8,
     GL_CLIP_PLANES = LMB_DRAW_PLANES,
-    GL_BATCH = 4096, /* vertices in the batch; a multiple of 12, and 4 below it */
+    GL_BATCH = 4092, /* vertices in the batch: whole triangles, quads and pairs, so a multiple of 12 */
     GL_STACK = 32,   /* matrices of a stack */
     GL_ATTRIB_STACK = 16,
     GL_LEVELS = 13,
@@ -51,12 +51,13 @@ enum {
     CAP_CLIP, /* 6 */ CAP_LIGHT = CAP_CLIP + GL_CLIP_PLANES, CAP_MAP1 = CAP_LIGHT + GL_LIGHTS, CAP_MAP2 = CAP_MAP1 + 9,
     CAP_POINT_SPRITE = CAP_MAP2 + 9, CAPS
 };
-enum { TARGET_1D, TARGET_2D, TARGET_3D, TARGET_CUBE, TARGETS };
+enum { TARGET_1D, TARGET_2D, TARGET_RECT, TARGET_3D, TARGET_CUBE, TARGETS }; /* later ones first, if several are on */
 
 /* --- objects ------------------------------------------------------------------------------------------------------ */
 
 typedef struct gl_image {
-    uint8_t *texels; /* 4 bytes R G B A, or floats of depths; NULL: no image */
+    uint8_t *texels;  /* 4 bytes R G B A, or floats of depths; NULL: no image */
+    uint8_t *stencil; /* a byte a texel if the format has a stencil part, or NULL */
     int32_t width, height, depth, border;
     GLenum internal, base; /* as given; GL_ALPHA .. GL_RGBA, GL_DEPTH_COMPONENT */
 } gl_image;
@@ -65,6 +66,7 @@ typedef struct gl_texture {
     GLuint name;
     int target; /* TARGETS: not bound yet */
     GLenum min_filter, mag_filter, wrap[3], compare_mode, compare_func, depth_mode;
+    GLenum swizzle[4]; /* GL_RED .. GL_ALPHA, GL_ZERO, GL_ONE */
     float border[4], min_lod, max_lod, lod_bias, priority;
     int32_t base_level, max_level, generate;
     float anisotropy;
@@ -98,7 +100,7 @@ typedef struct gl_query {
 typedef struct gl_renderbuffer {
     GLuint name;
     GLenum internal;
-    int32_t width, height;
+    int32_t width, height, samples; /* samples: 0 or 1, as a program asked */
     uint8_t *data;    /* colours, or depths */
     uint8_t *stencil; /* or NULL */
 } gl_renderbuffer;
@@ -275,6 +277,7 @@ typedef struct gl_context {
     float uv_of[GL_BATCH + 4][2];
     uint32_t index_of[6 * (GL_BATCH + 4)];
 
+    const struct lmb_kernels *kernels; /* of draw.h; NULL: plain C */
     lmb_draw_state draw;
     lmb_draw_target target;
     lmb_texture draw_texture;
@@ -333,7 +336,11 @@ typedef struct gl_context {
 
 /* The current context, or NULL. C99 has no keyword for thread-local objects; GCC and Clang have one. */
 #ifndef GL_THREAD
+#ifdef __GLIBC__ /* a load instead of a call; other C libraries refuse it in libraries that dlopen loads */
+#define GL_THREAD __thread __attribute__((tls_model("initial-exec")))
+#else
 #define GL_THREAD __thread
+#endif
 #endif
 extern GL_THREAD gl_context *gl_now;
 
@@ -352,7 +359,7 @@ extern GL_THREAD gl_context *gl_now;
     X(active_texture) X(prioritize) X(viewport) X(accum) X(init_names) X(load_name) X(push_name) X(pop_name) \
     X(pass_through) X(clip_plane) X(draw_pixels) X(bitmap) X(copy_pixels) X(tex_image) X(tex_sub_image) \
     X(copy_tex_image) X(copy_tex_sub_image) X(eval_mesh) X(map) X(map_grid) X(begin_query) X(end_query) \
-    X(sample_coverage) X(rect)
+    X(sample_coverage) X(rect) X(fail)
 #define GL_ENUM_OP(name) OP_##name,
 enum { GL_OPERATIONS(GL_ENUM_OP) OPS, OP_FIRST_STATE = OP_enable, OP_LAST_INSIDE = OP_call_lists };
 #define GL_DECLARE_OP(name) void gl_op_##name(gl_context *c, const gl_word *w);
@@ -369,6 +376,8 @@ void gl_list_free(gl_context *c, gl_list *list);
 /* --- functions shared by the files -------------------------------------------------------------------------------- */
 
 void gl_error(gl_context *c, GLenum error);
+/* The same for a call that a display list can hold: the list repeats the error. */
+void gl_fail(gl_context *c, GLenum error);
 void gl_refuse(const char *name); /* a call that is not offered */
 
 void *gl_alloc(gl_context *c, size_t bytes); /* NULL and GL_OUT_OF_MEMORY if the heap is full */
@@ -416,16 +425,19 @@ int gl_type_bytes(GLenum type);
 int gl_type_is_packed(GLenum type);
 GLenum gl_check_image(GLenum format, GLenum type); /* GL_NO_ERROR or the error */
 size_t gl_image_bytes(const gl_store *s, int w, int h, int d, GLenum format, GLenum type); /* bytes read */
+uint8_t *gl_image_row(void *data, const gl_store *s, int w, int y, GLenum format); /* of bytes, 2D */
 /* 4 floats a pixel: R G B A; or depth, or stencil, in the first. */
 void gl_unpack(float *out, const gl_store *s, int w, int h, int d, int dims, GLenum format, GLenum type,
                const void *data);
 void gl_pack(void *data, const gl_store *s, int w, int h, int d, int dims, GLenum format, GLenum type,
              const float *from);
-/* Pixels from a program, or from the read buffer, after the transfer: 4 bytes each: R G B A, a float depth, or a
- * stencil code as float. Allocated in the heap; NULL and an error if there is no room. */
+/* Pixels from a program, or from the read buffer, after the transfer: 4 bytes each: R G B A, a float depth, or a stencil
+ * code as float; of GL_DEPTH_STENCIL all depths, then all stencil codes. Allocated in the heap; NULL and an error if
+ * there is no room. */
 uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum format, GLenum type, const void *data);
 uint8_t *gl_copy_codes(gl_context *c, int32_t x, int32_t y, int32_t w, int32_t h, GLenum format);
-GLenum gl_base_format(GLenum internal);
+GLenum gl_base_format(GLenum internal); /* GL_DEPTH_COMPONENT also with a stencil part */
+int gl_has_stencil(GLenum internal);
 
 /* Rows of depths are whole tiles, as draw.h requires. */
 static inline int32_t gl_depth_stride(int32_t width) { return (width + LMB_TILE - 1) / LMB_TILE * LMB_TILE; }
@@ -449,6 +461,13 @@ static inline gl_texture *gl_unit_texture(const gl_context *c, int unit) { retur
     gl_context *c = gl_now; \
     if (c == NULL) return result; \
     if (c->is_inside) { gl_error(c, GL_INVALID_OPERATION); return result; }
+/* The same for calls that a display list holds: lists record the error. */
+#define GL_ENTER_LISTED() \
+    gl_context *c = gl_now; \
+    if (c == NULL) return; \
+    if (c->is_inside) { gl_fail(c, GL_INVALID_OPERATION); return; }
+#define GL_FAIL_LISTED(condition, error) \
+    if (condition) { gl_fail(c, error); return; }
 #define GL_FAIL(condition, error, result) \
     if (condition) { gl_error(c, error); return result; }
 #endif

@@ -153,11 +153,16 @@ typedef struct fragment_coords {
     int face;
 } fragment_coords;
 
-static void fragment_project(float out[3], const float v[4])
+/* Coordinates of a texture; a rectangle's count texels. */
+static void fragment_project(float out[3], const float v[4], const gl_texture *t)
 {
     const float by = v[3] == 1.0f ? 1.0f : v[3] != 0.0f ? 1.0f / v[3] : 0.0f;
     for (int i = 0; i < 3; ++i) {
         out[i] = v[i] * by;
+    }
+    if (t != NULL && t->target == TARGET_RECT) {
+        out[0] /= (float)t->image[0][0].width;
+        out[1] /= (float)t->image[0][0].height;
     }
 }
 
@@ -231,6 +236,15 @@ static void fragment_spread(float v[4], GLenum depth_mode)
     const float d = v[0];
     v[0] = v[1] = v[2] = depth_mode == GL_ALPHA ? 0.0f : d;
     v[3] = depth_mode == GL_LUMINANCE ? 1.0f : d;
+}
+
+static void fragment_swizzle(float v[4], const GLenum order[4])
+{
+    float from[4];
+    memcpy(from, v, sizeof from);
+    for (int i = 0; i < 4; ++i) {
+        v[i] = order[i] >= GL_RED ? from[order[i] - GL_RED] : order[i] == GL_ONE ? 1.0f : 0.0f;
+    }
 }
 
 static void fragment_classic(float c[4], const gl_unit *u, GLenum base, const float t[4])
@@ -310,6 +324,7 @@ static void fragment_texture(float colour[4], const gl_context *c, const fragmen
             } else if (t->image[0][t->base_level].base == GL_ALPHA) {
                 texels[i][0] = texels[i][1] = texels[i][2] = 0.0f;
             }
+            fragment_swizzle(texels[i], t->swizzle);
         }
     }
     for (int i = 0; i < GL_UNITS; ++i) {
@@ -368,9 +383,9 @@ static void fragment_coordinates(fragment_coords *out, const gl_texture *t, cons
         out->r = gl_unit_range(at[3]);
         return;
     }
-    fragment_project(out->at, at);
-    fragment_project(out->x, x);
-    fragment_project(out->y, y);
+    fragment_project(out->at, at, t);
+    fragment_project(out->x, x, t);
+    fragment_project(out->y, y, t);
     out->r = gl_unit_range(out->at[2]);
 }
 
@@ -466,7 +481,7 @@ void gl_shade_raster(const gl_context *c, float colour[4])
             u[i].face = fragment_cube_face(t);
             fragment_cube_place(u[i].at, u[i].face, t);
         } else {
-            fragment_project(u[i].at, t);
+            fragment_project(u[i].at, t, texture);
         }
         memcpy(u[i].x, u[i].at, sizeof u[i].x);
         memcpy(u[i].y, u[i].at, sizeof u[i].y);

@@ -54,8 +54,10 @@ static int get_limits(get_value *o, const gl_context *c, GLenum name)
     WHOLE(GL_MAX_LIST_NESTING, GL_LIST_DEPTH) WHOLE(GL_MAX_EVAL_ORDER, GL_MAP_ORDER)
     WHOLE(GL_MAX_PIXEL_MAP_TABLE, GL_PIXEL_MAP) WHOLE(GL_MAX_TEXTURE_SIZE, GL_SIDE)
     WHOLE(GL_MAX_3D_TEXTURE_SIZE, GL_SIDE_3D) WHOLE(GL_MAX_CUBE_MAP_TEXTURE_SIZE, GL_SIDE)
-    WHOLE(GL_MAX_TEXTURE_UNITS, GL_UNITS) WHOLE(GL_MAX_ELEMENTS_VERTICES, 65536) WHOLE(GL_MAX_ELEMENTS_INDICES, 65536)
+    WHOLE(GL_MAX_RECTANGLE_TEXTURE_SIZE_ARB, GL_SIDE) WHOLE(GL_MAX_TEXTURE_UNITS, GL_UNITS)
+    WHOLE(GL_MAX_ELEMENTS_VERTICES, 65536) WHOLE(GL_MAX_ELEMENTS_INDICES, 65536)
     FLOAT(GL_MAX_TEXTURE_LOD_BIAS, 16) WHOLE(GL_MAX_RENDERBUFFER_SIZE_EXT, GL_SIDE)
+    WHOLE(GL_MAX_SAMPLES, 1)
     WHOLE(GL_MAX_COLOR_ATTACHMENTS_EXT, 1) WHOLE(GL_MAX_DRAW_BUFFERS, 1) FLOAT(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, 1)
     INTS(GL_MAX_VIEWPORT_DIMS, side, 2) WHOLE(GL_SUBPIXEL_BITS, 8)
     FLOATS(GL_POINT_SIZE_RANGE, sizes, 2) FLOATS(GL_ALIASED_POINT_SIZE_RANGE, sizes, 2)
@@ -155,6 +157,7 @@ static int get_transform(get_value *o, const gl_context *c, GLenum name)
     WHOLE(GL_ACTIVE_TEXTURE, GL_TEXTURE0 + (GLenum)unit)
     WHOLE(GL_TEXTURE_BINDING_1D, u->bound[TARGET_1D]->name) WHOLE(GL_TEXTURE_BINDING_2D, u->bound[TARGET_2D]->name)
     WHOLE(GL_TEXTURE_BINDING_3D, u->bound[TARGET_3D]->name)
+    WHOLE(GL_TEXTURE_BINDING_RECTANGLE_ARB, u->bound[TARGET_RECT]->name)
     WHOLE(GL_TEXTURE_BINDING_CUBE_MAP, u->bound[TARGET_CUBE]->name)
     WHOLE(GL_ATTRIB_STACK_DEPTH, c->saved_count) WHOLE(GL_CLIENT_ATTRIB_STACK_DEPTH, c->client_count)
     WHOLE(GL_NAME_STACK_DEPTH, c->name_count) WHOLE(GL_RENDER_MODE, c->render_mode)
@@ -214,6 +217,7 @@ static int get_current(get_value *o, const gl_context *c, GLenum name)
     WHOLE(GL_BLEND_SRC, s->colour.blend[0]) WHOLE(GL_BLEND_DST, s->colour.blend[1])
     WHOLE(GL_BLEND_SRC_RGB, s->colour.blend[0]) WHOLE(GL_BLEND_DST_RGB, s->colour.blend[1])
     WHOLE(GL_BLEND_SRC_ALPHA, s->colour.blend[2]) WHOLE(GL_BLEND_DST_ALPHA, s->colour.blend[3])
+    WHOLE(GL_BLEND_EQUATION_ALPHA_EXT, s->colour.equation[1])
     WHOLE(GL_BLEND_EQUATION, s->colour.equation[0]) COLOUR(GL_BLEND_COLOR, s->colour.blend_colour)
     WHOLE(GL_LOGIC_OP_MODE, s->colour.logic) COLOUR(GL_COLOR_CLEAR_VALUE, s->colour.clear)
     WHOLE(GL_DRAW_BUFFER, s->colour.draw)
@@ -255,7 +259,10 @@ static int get_any(get_value *o, gl_context *c, GLenum name)
     return known;
 }
 
-static int32_t get_round(double v) { return v >= 2147483647.0 ? 2147483647 : v <= -2147483648.0 ? -2147483647 - 1 : (int32_t)(v < 0 ? v - 0.5 : v + 0.5); }
+static int32_t get_round(double v)
+{
+    return v >= 2147483647.0 ? 2147483647 : v <= -2147483648.0 ? -2147483647 - 1 : (int32_t)(v < 0 ? v - 0.5 : v + 0.5);
+}
 
 static int32_t get_int(const get_value *o, int i)
 {
@@ -287,18 +294,23 @@ const GLubyte *glGetString(GLenum name)
     case GL_VERSION: return (const GLubyte *)"1.5 lambent";
     case GL_EXTENSIONS:
         return (const GLubyte *)
-            "GL_ARB_depth_texture GL_ARB_multitexture GL_ARB_occlusion_query GL_ARB_point_parameters "
+            "GL_ARB_depth_buffer_float GL_ARB_depth_texture GL_ARB_framebuffer_object GL_ARB_multitexture "
+            "GL_ARB_occlusion_query GL_ARB_point_parameters "
             "GL_ARB_point_sprite GL_ARB_shadow GL_ARB_texture_border_clamp GL_ARB_texture_cube_map "
             "GL_ARB_texture_env_add GL_ARB_texture_env_combine GL_ARB_texture_env_crossbar GL_ARB_texture_env_dot3 "
-            "GL_ARB_texture_mirrored_repeat GL_ARB_texture_non_power_of_two GL_ARB_transpose_matrix "
+            "GL_ARB_texture_mirrored_repeat GL_ARB_texture_non_power_of_two GL_ARB_texture_rectangle "
+            "GL_ARB_transpose_matrix "
             "GL_ARB_vertex_buffer_object GL_ARB_window_pos GL_EXT_abgr GL_EXT_bgra GL_EXT_blend_color "
+            "GL_EXT_blend_equation_separate "
             "GL_EXT_blend_func_separate GL_EXT_blend_minmax GL_EXT_blend_subtract GL_EXT_compiled_vertex_array "
-            "GL_EXT_copy_texture GL_EXT_draw_range_elements GL_EXT_fog_coord GL_EXT_framebuffer_object "
-            "GL_EXT_multi_draw_arrays GL_EXT_packed_pixels GL_EXT_point_parameters "
+            "GL_EXT_copy_texture GL_EXT_draw_range_elements GL_EXT_fog_coord GL_EXT_framebuffer_blit "
+            "GL_EXT_framebuffer_object "
+            "GL_EXT_multi_draw_arrays GL_EXT_packed_depth_stencil GL_EXT_packed_pixels GL_EXT_point_parameters "
             "GL_EXT_polygon_offset GL_EXT_rescale_normal GL_EXT_secondary_color GL_EXT_separate_specular_color "
             "GL_EXT_shadow_funcs GL_EXT_stencil_wrap GL_EXT_subtexture GL_EXT_texture GL_EXT_texture3D "
             "GL_EXT_texture_cube_map GL_EXT_texture_edge_clamp GL_EXT_texture_env_add GL_EXT_texture_env_combine "
-            "GL_EXT_texture_lod_bias GL_EXT_texture_object GL_EXT_vertex_array GL_IBM_texture_mirrored_repeat "
+            "GL_EXT_texture_lod_bias GL_EXT_texture_object GL_EXT_texture_swizzle GL_EXT_vertex_array "
+            "GL_IBM_texture_mirrored_repeat "
             "GL_SGIS_generate_mipmap GL_SGIS_texture_border_clamp GL_SGIS_texture_edge_clamp GL_SGIS_texture_lod";
     default:
         gl_error(c, GL_INVALID_ENUM);
@@ -394,7 +406,12 @@ static int get_tex_gen(get_value *o, gl_context *c, GLenum a, GLenum n)
 
 static int get_kind(GLenum t)
 {
-    return t == GL_TEXTURE_1D ? TARGET_1D : t == GL_TEXTURE_2D ? TARGET_2D : t == GL_TEXTURE_3D ? TARGET_3D : t == GL_TEXTURE_CUBE_MAP ? TARGET_CUBE : -1;
+    return t == GL_TEXTURE_1D              ? TARGET_1D
+           : t == GL_TEXTURE_2D            ? TARGET_2D
+           : t == GL_TEXTURE_RECTANGLE_ARB ? TARGET_RECT
+           : t == GL_TEXTURE_3D            ? TARGET_3D
+           : t == GL_TEXTURE_CUBE_MAP      ? TARGET_CUBE
+                                           : -1;
 }
 
 static int get_tex_parameter(get_value *o, gl_context *c, GLenum a, GLenum n)
@@ -406,6 +423,9 @@ static int get_tex_parameter(get_value *o, gl_context *c, GLenum a, GLenum n)
     WHOLE(GL_TEXTURE_WRAP_S, t->wrap[0])
     WHOLE(GL_TEXTURE_WRAP_T, t->wrap[1]) WHOLE(GL_TEXTURE_WRAP_R, t->wrap[2]) COLOUR(GL_TEXTURE_BORDER_COLOR, t->border)
     case GL_TEXTURE_PRIORITY: o->v[0] = (double)t->priority; o->kind = GET_COLOUR; return 1;
+    WHOLE(GL_TEXTURE_SWIZZLE_R_EXT, t->swizzle[0]) WHOLE(GL_TEXTURE_SWIZZLE_G_EXT, t->swizzle[1])
+    WHOLE(GL_TEXTURE_SWIZZLE_B_EXT, t->swizzle[2]) WHOLE(GL_TEXTURE_SWIZZLE_A_EXT, t->swizzle[3])
+    INTS(GL_TEXTURE_SWIZZLE_RGBA_EXT, (const int32_t *)t->swizzle, 4)
     WHOLE(GL_TEXTURE_RESIDENT, 1) FLOAT(GL_TEXTURE_MIN_LOD, t->min_lod) FLOAT(GL_TEXTURE_MAX_LOD, t->max_lod)
     FLOAT(GL_TEXTURE_LOD_BIAS, t->lod_bias) WHOLE(GL_TEXTURE_BASE_LEVEL, t->base_level)
     WHOLE(GL_TEXTURE_MAX_LEVEL, t->max_level)
@@ -436,7 +456,8 @@ void glGetTexGendv(GLenum a, GLenum n, GLdouble *out)
 
 static int get_level(gl_context *c, GLenum target, GLint level, GLenum name, GLint *out)
 {
-    static const GLenum proxies[TARGETS] = {GL_PROXY_TEXTURE_1D, GL_PROXY_TEXTURE_2D, GL_PROXY_TEXTURE_3D,
+    static const GLenum proxies[TARGETS] = {GL_PROXY_TEXTURE_1D, GL_PROXY_TEXTURE_2D,
+        GL_PROXY_TEXTURE_RECTANGLE_ARB, GL_PROXY_TEXTURE_3D,
         GL_PROXY_TEXTURE_CUBE_MAP};
     const gl_image *m = NULL;
     GL_FAIL(level < 0 || level >= GL_LEVELS, GL_INVALID_VALUE, 0)
@@ -458,7 +479,12 @@ static int get_level(gl_context *c, GLenum target, GLint level, GLenum name, GLi
         target == GL_PROXY_TEXTURE_1D ? 0 : 2 * m->border) : 0; return 1;
     case GL_TEXTURE_DEPTH: *out = there ? m->depth + (target == GL_TEXTURE_3D ||
         target == GL_PROXY_TEXTURE_3D ? 2 * m->border : 0) : 0; return 1;
-    case GL_TEXTURE_INTERNAL_FORMAT: *out = there ? (GLint)(m->internal >= GL_COMPRESSED_ALPHA && m->internal <= GL_COMPRESSED_RGBA ? m->base : m->internal) : 1; return 1;
+    case GL_TEXTURE_INTERNAL_FORMAT:
+        *out = there ? (GLint)m->internal : 1;
+        if (m->internal >= GL_COMPRESSED_ALPHA && m->internal <= GL_COMPRESSED_RGBA) {
+            *out = (GLint)m->base;
+        }
+        return 1;
     case GL_TEXTURE_BORDER: *out = m->border; return 1;
     case GL_TEXTURE_RED_SIZE: case GL_TEXTURE_GREEN_SIZE: case GL_TEXTURE_BLUE_SIZE: *out = b == GL_RGB ||
         b == GL_RGBA ? 8 : 0; return 1;
@@ -466,7 +492,7 @@ static int get_level(gl_context *c, GLenum target, GLint level, GLenum name, GLi
     case GL_TEXTURE_LUMINANCE_SIZE: *out = b == GL_LUMINANCE || b == GL_LUMINANCE_ALPHA ? 8 : 0; return 1;
     case GL_TEXTURE_INTENSITY_SIZE: *out = b == GL_INTENSITY ? 8 : 0; return 1;
     case GL_TEXTURE_DEPTH_SIZE: *out = b == GL_DEPTH_COMPONENT ? 32 : 0; return 1;
-    case GL_TEXTURE_STENCIL_SIZE_EXT: *out = 0; return 1;
+    case GL_TEXTURE_STENCIL_SIZE_EXT: *out = gl_has_stencil(m->internal) ? 8 : 0; return 1;
     case GL_TEXTURE_COMPRESSED: *out = 0; return 1;
     case GL_TEXTURE_COMPRESSED_IMAGE_SIZE: gl_error(c, GL_INVALID_OPERATION); return 0;
     NONE

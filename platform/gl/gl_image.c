@@ -7,7 +7,7 @@ int gl_format_values(GLenum f)
     case GL_RED: case GL_GREEN: case GL_BLUE: case GL_ALPHA: case GL_LUMINANCE: case GL_DEPTH_COMPONENT:
     case GL_STENCIL_INDEX: case GL_COLOR_INDEX:
         return 1;
-    case GL_LUMINANCE_ALPHA: case GL_DEPTH_STENCIL_EXT: return 2;
+    case GL_LUMINANCE_ALPHA: case GL_DEPTH_STENCIL: return 2;
     case GL_RGB: case GL_BGR: return 3;
     case GL_RGBA: case GL_BGRA: case GL_ABGR_EXT: return 4;
     default: return 0;
@@ -27,10 +27,14 @@ static const image_packed image_packs[] = {
     {GL_UNSIGNED_SHORT_5_5_5_1, 2, 4, 0, {5, 5, 5, 1}}, {GL_UNSIGNED_SHORT_1_5_5_5_REV, 2, 4, 1, {5, 5, 5, 1}},
     {GL_UNSIGNED_INT_8_8_8_8, 4, 4, 0, {8, 8, 8, 8}}, {GL_UNSIGNED_INT_8_8_8_8_REV, 4, 4, 1, {8, 8, 8, 8}},
     {GL_UNSIGNED_INT_10_10_10_2, 4, 4, 0, {10, 10, 10, 2}}, {GL_UNSIGNED_INT_2_10_10_10_REV, 4, 4, 1, {10, 10, 10, 2}},
-    {GL_UNSIGNED_INT_24_8_EXT, 4, 2, 0, {24, 8, 0, 0}}};
+    {GL_UNSIGNED_INT_24_8, 4, 2, 0, {24, 8, 0, 0}},
+    {GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8, 2, 0, {32, 8, 0, 0}} /* a float, then the code in the low byte */};
 
 static const image_packed *image_pack(GLenum type)
 {
+    if (type <= GL_DOUBLE) {
+        return NULL;
+    }
     for (size_t i = 0; i < sizeof image_packs / sizeof image_packs[0]; ++i) {
         if (image_packs[i].type == type) {
             return &image_packs[i];
@@ -59,16 +63,19 @@ GLenum gl_check_image(GLenum format, GLenum type)
         return format == GL_COLOR_INDEX || format == GL_STENCIL_INDEX ? GL_NO_ERROR
                : values == 0 ? GL_INVALID_ENUM : GL_INVALID_ENUM;
     }
+    if (p != NULL && format == GL_RG) { /* a format of later versions, which fits no packed type */
+        return GL_INVALID_OPERATION;
+    }
     if (values == 0 || gl_type_bytes(type) == 0) {
         return GL_INVALID_ENUM;
     }
     if (p != NULL) {
-        const int fits = p->values == 2   ? format == GL_DEPTH_STENCIL_EXT
+        const int fits = p->values == 2   ? format == GL_DEPTH_STENCIL
                          : p->values == 3 ? format == GL_RGB
                                           : format == GL_RGBA || format == GL_BGRA || format == GL_ABGR_EXT;
         return fits ? GL_NO_ERROR : GL_INVALID_OPERATION;
     }
-    return format == GL_DEPTH_STENCIL_EXT ? GL_INVALID_OPERATION : GL_NO_ERROR;
+    return format == GL_DEPTH_STENCIL ? GL_INVALID_OPERATION : GL_NO_ERROR;
 }
 
 /* Start of rows and slices. */
@@ -92,12 +99,13 @@ static image_layout image_lay(const gl_store *s, int w, int h, int dims, GLenum 
     return l;
 }
 
+/* A code of 1, 2 or 4 bytes. */
 static uint32_t image_load(const uint8_t *p, int bytes, int swap)
 {
-    uint8_t b[4];
+    uint8_t b[4] = {0};
     uint16_t v16;
     uint32_t v32;
-    for (int i = 0; i < bytes; ++i) {
+    for (int i = 0; i < bytes && i < 4; ++i) {
         b[i] = p[swap ? bytes - 1 - i : i];
     }
     if (bytes == 1) {
@@ -113,7 +121,7 @@ static uint32_t image_load(const uint8_t *p, int bytes, int swap)
 
 static void image_save(uint8_t *p, uint32_t v, int bytes, int swap)
 {
-    uint8_t b[4];
+    uint8_t b[4] = {0};
     const uint16_t v16 = (uint16_t)v;
     if (bytes == 1) {
         b[0] = (uint8_t)v;
@@ -127,6 +135,9 @@ static void image_save(uint8_t *p, uint32_t v, int bytes, int swap)
     }
 }
 
+/* A code as a float; a float has 24 bits: the low ones of a larger code. */
+static float image_index(uint32_t u) { return (float)(u < 1u << 24 ? u : u & 0xffffffu); }
+
 /* A value as a float; indices stay whole. */
 static float image_value(const uint8_t *p, GLenum type, int swap, int index)
 {
@@ -137,8 +148,8 @@ static float image_value(const uint8_t *p, GLenum type, int swap, int index)
     case GL_BYTE: return index ? (float)(int8_t)u : (2.0f * (float)(int8_t)u + 1.0f) / 255.0f;
     case GL_UNSIGNED_SHORT: return index ? (float)u : (float)u / 65535.0f;
     case GL_SHORT: return index ? (float)(int16_t)u : (2.0f * (float)(int16_t)u + 1.0f) / 65535.0f;
-    case GL_UNSIGNED_INT: return index ? (float)u : (float)((double)u / 4294967295.0);
-    case GL_INT: return index ? (float)(int32_t)u : (float)((2.0 * (double)(int32_t)u + 1.0) / 4294967295.0);
+    case GL_UNSIGNED_INT: return index ? image_index(u) : (float)((double)u / 4294967295.0);
+    case GL_INT: return index ? image_index(u) : (float)((2.0 * (double)(int32_t)u + 1.0) / 4294967295.0);
     default:
         memcpy(&f, &u, sizeof f);
         return f;
@@ -187,7 +198,7 @@ static void image_order_in(float out[4], const float v[4], GLenum format)
         out[0] = out[1] = out[2] = v[0];
         out[3] = format == GL_LUMINANCE ? 1.0f : v[1];
         break;
-    case GL_DEPTH_STENCIL_EXT: out[0] = v[0]; out[1] = v[1]; break;
+    case GL_DEPTH_STENCIL: out[0] = v[0]; out[1] = v[1]; break;
     case GL_BGR: case GL_BGRA:
         out[0] = v[2];
         out[1] = v[1];
@@ -234,7 +245,10 @@ static void image_unpack_pixel(float out[4], const uint8_t *p, GLenum format, GL
 {
     float v[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     const image_packed *k = image_pack(type);
-    if (k != NULL) {
+    if (type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV) {
+        v[0] = image_value(p, GL_FLOAT, swap, 0);
+        v[1] = (float)(image_load(p + 4, 4, swap) & 255u);
+    } else if (k != NULL) {
         const uint32_t u = image_load(p, k->bytes, swap);
         int at = k->reversed ? 0 : 8 * k->bytes;
         for (int i = 0; i < k->values; ++i) {
@@ -244,8 +258,9 @@ static void image_unpack_pixel(float out[4], const uint8_t *p, GLenum format, GL
             at += k->reversed ? k->bits[i] : 0;
         }
     } else {
-        for (int i = 0; i < gl_format_values(format); ++i) {
-            v[i] = image_value(p + i * gl_type_bytes(type), type, swap, image_is_index(format));
+        const int n = gl_format_values(format), bytes = gl_type_bytes(type), index = image_is_index(format);
+        for (int i = 0; i < n; ++i) {
+            v[i] = image_value(p + i * bytes, type, swap, index);
         }
     }
     image_order_in(out, v, format);
@@ -256,6 +271,14 @@ static void image_pack_pixel(uint8_t *p, const float in[4], GLenum format, GLenu
     float v[4];
     const image_packed *k = image_pack(type);
     image_order_out(v, in, format);
+    if (type == GL_FLOAT_32_UNSIGNED_INT_24_8_REV) {
+        image_save(p, image_code(v[0], GL_FLOAT, 0), 4, swap);
+        image_save(p + 4, (uint32_t)gl_int(v[1]) & 255u, 4, swap);
+        return;
+    }
+    for (int i = 0; i < 4 && !image_is_index(format) && format != GL_DEPTH_STENCIL; ++i) {
+        v[i] = gl_unit_range(v[i]); /* of luminance too, which is a sum */
+    }
     if (k != NULL) {
         uint32_t u = 0;
         int at = k->reversed ? 0 : 8 * k->bytes;
@@ -276,6 +299,12 @@ static void image_pack_pixel(uint8_t *p, const float in[4], GLenum format, GLenu
     }
 }
 
+uint8_t *gl_image_row(void *data, const gl_store *s, int w, int y, GLenum format)
+{
+    const image_layout l = image_lay(s, w, 1, 2, format, GL_UNSIGNED_BYTE);
+    return (uint8_t *)data + l.skip + (size_t)y * l.row;
+}
+
 size_t gl_image_bytes(const gl_store *s, int w, int h, int d, GLenum format, GLenum type)
 {
     const image_layout l = image_lay(s, w, h, 3, format, type);
@@ -286,6 +315,29 @@ size_t gl_image_bytes(const gl_store *s, int w, int h, int d, GLenum format, GLe
            (type == GL_BITMAP ? (size_t)(w + s->pixels + 7) / 8 : l.pixel * (size_t)w);
 }
 
+/* A row of floats R G B A or of bytes in that order: most images. */
+static int image_unpack_fast(float *out, const uint8_t *row, int w, GLenum format, GLenum type, int swap)
+{
+    const int n = format == GL_RGBA ? 4 : format == GL_RGB ? 3 : 0;
+    if (n == 0 || swap || (type != GL_FLOAT && type != GL_UNSIGNED_BYTE)) {
+        return 0;
+    }
+    if (type == GL_FLOAT && n == 4) {
+        memcpy(out, row, 4 * sizeof *out * (size_t)w);
+        return 1;
+    }
+    for (int x = 0; x < w; ++x, out += 4) {
+        out[3] = 1.0f;
+        for (int i = 0; i < n && type == GL_UNSIGNED_BYTE; ++i) {
+            out[i] = (float)row[n * x + i] / 255.0f;
+        }
+        if (type == GL_FLOAT) {
+            memcpy(out, row + 12 * (size_t)x, 12);
+        }
+    }
+    return 1;
+}
+
 void gl_unpack(float *out, const gl_store *s, int w, int h, int d, int dims, GLenum format, GLenum type,
                const void *data)
 {
@@ -294,6 +346,10 @@ void gl_unpack(float *out, const gl_store *s, int w, int h, int d, int dims, GLe
     for (int z = 0; z < d; ++z) {
         for (int y = 0; y < h; ++y) {
             const uint8_t *row = from + (size_t)z * l.slice + (size_t)y * l.row;
+            if (image_unpack_fast(out, row, w, format, type, s->swap)) {
+                out += 4 * (size_t)w;
+                continue;
+            }
             for (int x = 0; x < w; ++x, out += 4) {
                 if (type == GL_BITMAP) {
                     const int at = x + s->pixels, shift = s->lsb ? at & 7 : 7 - (at & 7);
@@ -316,6 +372,12 @@ void gl_pack(void *data, const gl_store *s, int w, int h, int d, int dims, GLenu
     for (int z = 0; z < d; ++z) {
         for (int y = 0; y < h; ++y) {
             uint8_t *row = to + (size_t)z * l.slice + (size_t)y * l.row;
+            if (format == GL_RGBA && type == GL_UNSIGNED_BYTE) {
+                for (int x = 0; x < 4 * w; ++x, ++from) {
+                    row[x] = gl_code(*from);
+                }
+                continue;
+            }
             for (int x = 0; x < w; ++x, from += 4) {
                 if (type == GL_BITMAP) {
                     const int at = x + s->pixels, shift = s->lsb ? at & 7 : 7 - (at & 7);

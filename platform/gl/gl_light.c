@@ -290,6 +290,9 @@ void gl_gen_vertex(gl_context *c, const gl_vertex *v, gl_made *made)
     for (int u = 0; u < GL_UNITS; ++u) {
         const gl_unit *unit = &c->s.texture.unit[u];
         float *t = made->tex[u];
+        if (unit->on == 0 && c->render_mode == GL_RENDER) { /* not read */
+            continue;
+        }
         memcpy(t, v->tex[u], 4 * sizeof *t);
         if (unit->on == 0) {
             continue;

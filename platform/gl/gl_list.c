@@ -65,6 +65,14 @@ void gl_do(gl_context *c, int op, const gl_word *w, int32_t words)
     }
 }
 
+void gl_op_fail(gl_context *c, const gl_word *w) { gl_error(c, w[0].u); }
+
+void gl_fail(gl_context *c, GLenum error)
+{
+    const gl_word w = {.u = error};
+    gl_do(c, OP_fail, &w, 1);
+}
+
 const void *gl_data_of(const gl_word *w)
 {
     uint64_t at;

@@ -63,6 +63,8 @@ static gl_context *osmesa_create(GLenum format, int depth, int stencil, int accu
     c->accum_bits = accum;
     c->y_up = 1;
     gl_state_init(c);
+    const char *kernels = getenv("LAMBENT_GL_KERNELS"); /* "none": plain C; for tests: all draw the same */
+    c->kernels = kernels != NULL ? lmb_kernels_named(kernels) : lmb_kernels_pick();
     return c;
 }
 

@@ -4,11 +4,14 @@
 #define OP(name) void gl_op_##name(gl_context *c, const gl_word *w)
 #define CHECK(good, error) \
     if (!(good)) { gl_error(c, error); return; }
-enum { PIXELS_COLOUR, PIXELS_DEPTH, PIXELS_STENCIL, PIXELS_BITS };
+enum { PIXELS_COLOUR, PIXELS_DEPTH, PIXELS_STENCIL, PIXELS_BITS, PIXELS_BOTH /* depth and stencil */ };
 
 static int pixels_kind(GLenum format)
 {
-    return format == GL_DEPTH_COMPONENT ? PIXELS_DEPTH : format == GL_STENCIL_INDEX ? PIXELS_STENCIL : PIXELS_COLOUR;
+    return format == GL_DEPTH_COMPONENT ? PIXELS_DEPTH
+           : format == GL_STENCIL_INDEX ? PIXELS_STENCIL
+           : format == GL_DEPTH_STENCIL ? PIXELS_BOTH
+                                        : PIXELS_COLOUR;
 }
 
 /* --- codes -------------------------------------------------------------------------------------------------------- */
@@ -20,7 +23,19 @@ static float pixels_index(const gl_context *c, float v)
     return (float)(int32_t)(shifted + (uint32_t)c->s.pixel.index_offset);
 }
 
-static void pixels_codes(gl_context *c, uint8_t *out, float (*row)[4], int n, GLenum format)
+static float pixels_depth(const gl_context *c, float v)
+{
+    return gl_unit_range(v * c->s.pixel.depth_scale + c->s.pixel.depth_bias);
+}
+
+static float pixels_stencil(const gl_context *c, float v)
+{
+    const float code = pixels_index(c, v);
+    return c->s.pixel.map_stencil ? c->pixel_map[1][gl_int(code) & (c->pixel_map_size[1] - 1)] : code;
+}
+
+/* `stencil`: where the second part of GL_DEPTH_STENCIL goes. */
+static void pixels_codes(gl_context *c, uint8_t *out, uint8_t *stencil, float (*row)[4], int n, GLenum format)
 {
     const int kind = pixels_kind(format);
     for (int i = 0; i < n && format == GL_COLOR_INDEX; ++i) {
@@ -33,15 +48,16 @@ static void pixels_codes(gl_context *c, uint8_t *out, float (*row)[4], int n, GL
         gl_transfer(c, row[0], (size_t)n);
     }
     for (int i = 0; i < n; ++i) {
-        if (kind == PIXELS_DEPTH) {
-            const float d = gl_unit_range(row[i][0] * c->s.pixel.depth_scale + c->s.pixel.depth_bias);
+        if (kind == PIXELS_DEPTH || kind == PIXELS_BOTH) {
+            const float d = pixels_depth(c, row[i][0]);
+            const float code = kind == PIXELS_BOTH ? pixels_stencil(c, row[i][1]) : 0.0f;
             memcpy(out + 4 * i, &d, 4);
-        } else if (kind == PIXELS_STENCIL) {
-            float d = pixels_index(c, row[i][0]);
-            if (c->s.pixel.map_stencil) {
-                d = c->pixel_map[1][gl_int(d) & (c->pixel_map_size[1] - 1)];
+            if (kind == PIXELS_BOTH) {
+                memcpy(stencil + 4 * i, &code, 4);
             }
-            memcpy(out + 4 * i, &d, 4);
+        } else if (kind == PIXELS_STENCIL) {
+            const float code = pixels_stencil(c, row[i][0]);
+            memcpy(out + 4 * i, &code, 4);
         } else {
             for (int k = 0; k < 4; ++k) {
                 out[4 * i + k] = gl_code(row[i][k]);
@@ -60,7 +76,31 @@ static int pixels_is_plain(const gl_context *c)
     return plain;
 }
 
-/* Copies a row of bytes R G B, R G B A or B G R A without conversion to floats. */
+static int pixels_are_bytes(GLenum format, GLenum type)
+{
+    return type == GL_UNSIGNED_BYTE && (format == GL_RGBA || format == GL_RGB || format == GL_BGRA);
+}
+
+/* A row of a surface as bytes, if all of the row is inside and nothing changes the colours; 0: not so. */
+static int pixels_read_bytes(uint8_t *to, const gl_surface *s, int32_t x, int32_t y, int32_t n, GLenum format)
+{
+    if (x < 0 || y < 0 || n > s->width - x || y >= s->height) {
+        return 0;
+    }
+    const uint8_t *p = s->colour + ((ptrdiff_t)y * s->stride + x) * 4;
+    const int each = format == GL_RGB ? 3 : 4, red = (format == GL_BGRA) != (s->swaps != 0) ? 2 : 0;
+    for (int32_t i = 0; i < n; ++i, p += 4, to += each) {
+        to[0] = p[red];
+        to[1] = p[1];
+        to[2] = p[2 - red];
+        if (each == 4) {
+            to[3] = s->has_alpha ? p[3] : 255;
+        }
+    }
+    return 1;
+}
+
+/* A row of bytes R G B, R G B A or B G R A without going through floats. */
 static void pixels_copy_bytes(uint8_t *to, const uint8_t *from, int n, GLenum format)
 {
     const int each = format == GL_RGB ? 3 : 4, red = format == GL_BGRA ? 2 : 0;
@@ -79,12 +119,12 @@ static void pixels_copy_bytes(uint8_t *to, const uint8_t *from, int n, GLenum fo
 uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum format, GLenum type, const void *data)
 {
     const gl_store s = c->client.unpack;
-    uint8_t *out = gl_alloc(c, 4 * (size_t)w * (size_t)h * (size_t)d + 4);
+    const size_t plane = 4 * (size_t)w * (size_t)h * (size_t)d;
+    uint8_t *out = gl_alloc(c, (format == GL_DEPTH_STENCIL ? 2 * plane : plane) + 4);
     if (out == NULL) {
         return NULL;
     }
-    const int is_bytes =
-        type == GL_UNSIGNED_BYTE && (format == GL_RGBA || format == GL_RGB || format == GL_BGRA) && pixels_is_plain(c);
+    const int is_bytes = pixels_are_bytes(format, type) && pixels_is_plain(c);
     for (int z = 0; z < d && is_bytes; ++z) {
         for (int y = 0; y < h; ++y) {
             const size_t each = format == GL_RGB ? 3 : 4, align = (size_t)s.align,
@@ -107,8 +147,8 @@ uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum form
                 at.row = s.row > 0 ? s.row : w;
                 at.pixels = s.pixels + x;
                 gl_unpack(c->row[0], &at, n, 1, 1, 3, format, type, data);
-                pixels_codes(c, out + 4 * (((size_t)z * (size_t)h + (size_t)y) * (size_t)w + (size_t)x), c->row, n,
-                             format);
+                uint8_t *to = out + 4 * (((size_t)z * (size_t)h + (size_t)y) * (size_t)w + (size_t)x);
+                pixels_codes(c, to, to + plane, c->row, n, format);
             }
         }
     }
@@ -125,11 +165,17 @@ static void pixels_fetch(const gl_surface *s, float (*row)[4], int32_t x, int32_
         if (px < 0 || y < 0 || px >= s->width || y >= s->height) {
             continue;
         }
-        if (kind == PIXELS_DEPTH) {
+        if (kind == PIXELS_DEPTH || kind == PIXELS_BOTH) {
             v[0] = s->depth != NULL ? s->depth[(ptrdiff_t)y * s->depth_stride + px] : 0.0f;
-        } else if (kind == PIXELS_STENCIL) {
-            v[0] = s->stencil != NULL ? (float)s->stencil[(ptrdiff_t)y * s->stencil_stride + px] : 0.0f;
-        } else if (s->colour != NULL) {
+        }
+        if (kind == PIXELS_STENCIL || kind == PIXELS_BOTH) {
+            v[kind == PIXELS_BOTH] =
+                s->stencil != NULL ? (float)s->stencil[(ptrdiff_t)y * s->stencil_stride + px] : 0.0f;
+        }
+        if (kind != PIXELS_COLOUR) {
+            continue;
+        }
+        if (s->colour != NULL) {
             const uint8_t *p = s->colour + ((ptrdiff_t)y * s->stride + px) * 4;
             for (int k = 0; k < 4; ++k) {
                 v[k] = (float)p[s->swaps && k < 3 ? 2 - k : k] / 255.0f;
@@ -146,13 +192,15 @@ uint8_t *gl_copy_codes(gl_context *c, int32_t x, int32_t y, int32_t w, int32_t h
         gl_error(c, GL_INVALID_VALUE);
         return NULL;
     }
-    uint8_t *out = gl_alloc(c, 4 * (size_t)w * (size_t)h + 4);
+    const size_t plane = 4 * (size_t)w * (size_t)h;
+    uint8_t *out = gl_alloc(c, (format == GL_DEPTH_STENCIL ? 2 * plane : plane) + 4);
     gl_find_surface(c, &s, c->read_framebuffer);
     for (int32_t j = 0; j < h && out != NULL; ++j) {
         for (int32_t i = 0; i < w; i += GL_SIDE) {
             const int32_t n = mini(w - i, GL_SIDE);
             pixels_fetch(&s, c->row, x + i, y + j, n, pixels_kind(format));
-            pixels_codes(c, out + 4 * ((size_t)j * (size_t)w + (size_t)i), c->row, n, format);
+            uint8_t *to = out + 4 * ((size_t)j * (size_t)w + (size_t)i);
+            pixels_codes(c, to, to + plane, c->row, n, format);
         }
     }
     return out;
@@ -296,6 +344,13 @@ OP(accum)
 
 /* --- reading ------------------------------------------------------------------------------------------------------ */
 
+/* Does a surface lack the buffer of a kind? */
+static int pixels_lack(const gl_surface *s, int kind)
+{
+    return ((kind == PIXELS_DEPTH || kind == PIXELS_BOTH) && s->depth == NULL) ||
+           ((kind == PIXELS_STENCIL || kind == PIXELS_BOTH) && s->stencil == NULL);
+}
+
 void glReadPixels(GLint x, GLint y, GLsizei w, GLsizei h, GLenum format, GLenum type, void *out)
 {
     GL_ENTER()
@@ -310,28 +365,23 @@ void glReadPixels(GLint x, GLint y, GLsizei w, GLsizei h, GLenum format, GLenum 
         return;
     }
     gl_find_surface(c, &s, c->read_framebuffer);
-    GL_FAIL((kind == PIXELS_DEPTH && s.depth == NULL) || (kind == PIXELS_STENCIL && s.stencil == NULL) ||
+    GL_FAIL(pixels_lack(&s, kind) ||
                 (kind == PIXELS_COLOUR && (s.colour == NULL || c->s.pixel.read == GL_NONE)), GL_INVALID_OPERATION, )
+    const int is_bytes = pixels_are_bytes(format, type) && pixels_is_plain(c);
     for (int32_t j = 0; j < h; ++j) {
+        if (is_bytes && pixels_read_bytes(gl_image_row(out, &c->client.pack, w, j, format), &s, x, y + j, w, format)) {
+            continue;
+        }
         for (int32_t i = 0; i < w; i += GL_SIDE) {
             const int32_t n = mini(w - i, GL_SIDE);
             gl_store at = c->client.pack;
             pixels_fetch(&s, c->row, x + i, y + j, n, kind);
             for (int32_t k = 0; k < n && kind != PIXELS_COLOUR; ++k) {
-                c->row[k][1] = format == GL_DEPTH_STENCIL_EXT ? 0.0f : c->row[k][1];
-                c->row[k][0] = kind == PIXELS_STENCIL
-                                   ? pixels_index(c, c->row[k][0])
-                                   : gl_unit_range(c->row[k][0] * c->s.pixel.depth_scale + c->s.pixel.depth_bias);
+                float *v = c->row[k];
+                v[1] = kind == PIXELS_BOTH ? pixels_stencil(c, v[1]) : 0.0f;
+                v[0] = kind == PIXELS_STENCIL ? pixels_stencil(c, v[0]) : pixels_depth(c, v[0]);
             }
-            if (format == GL_DEPTH_STENCIL_EXT) {
-                for (int32_t k = 0; k < n; ++k) {
-                    const int32_t px = x + i + k, py = y + j;
-                    const int in = px >= 0 && py >= 0 && px < s.width && py < s.height;
-                    c->row[k][0] = in && s.depth != NULL ? s.depth[(ptrdiff_t)py * s.depth_stride + px] : 0.0f;
-                    c->row[k][1] =
-                        in && s.stencil != NULL ? (float)s.stencil[(ptrdiff_t)py * s.stencil_stride + px] : 0.0f;
-                }
-            } else if (kind == PIXELS_COLOUR) {
+            if (kind == PIXELS_COLOUR) {
                 gl_transfer(c, c->row[0], (size_t)n);
             }
             at.rows += j;
@@ -519,8 +569,8 @@ static void pixels_set_drawing(gl_context *c, const uint8_t *codes, int32_t w, i
     c->drawing.zoom[1] = kind == PIXELS_BITS ? 1.0f : c->s.pixel.zoom[1];
 }
 
-/* Stencil codes set whole pixels of the zoomed image. */
-static void pixels_draw_stencil(gl_context *c)
+/* Codes go into the stencil and depths, if they are there, into the depth buffer: whole pixels of the zoomed image. */
+static void pixels_draw_direct(gl_context *c, const uint8_t *stencil, const uint8_t *depth)
 {
     const gl_surface *s = &c->drawn;
     const int32_t *b = c->s.scissor.box;
@@ -534,7 +584,11 @@ static void pixels_draw_stencil(gl_context *c)
                  (x < b[0] || y < b[1] || (int64_t)x >= (int64_t)b[0] + b[2] || (int64_t)y >= (int64_t)b[1] + b[3]))) {
                 continue;
             }
-            memcpy(&code, c->drawing.codes + 4 * ((size_t)v * (size_t)c->drawing.width + (size_t)u), 4);
+            const size_t at = 4 * ((size_t)v * (size_t)c->drawing.width + (size_t)u);
+            memcpy(&code, stencil + at, 4);
+            if (depth != NULL && s->depth != NULL && c->s.depth.mask) {
+                memcpy(&s->depth[(ptrdiff_t)y * s->depth_stride + x], depth + at, 4);
+            }
             uint8_t *to = &s->stencil[(ptrdiff_t)y * s->stencil_stride + x];
             *to = (uint8_t)((*to & ~c->s.stencil.write) | ((uint32_t)gl_int(code) & c->s.stencil.write & 255u));
         }
@@ -544,12 +598,15 @@ static void pixels_draw_stencil(gl_context *c)
 static void pixels_draw_depth(gl_context *c)
 {
     for (int32_t j = 0; j < c->drawing.height; ++j) {
-        for (int32_t i = 0; i < c->drawing.width; ++i) {
+        const uint8_t *row = c->drawing.codes + 4 * (size_t)j * (size_t)c->drawing.width;
+        for (int32_t i = 0, n; i < c->drawing.width; i += n) { /* a run of n equal depths is a rectangle */
             float z;
-            memcpy(&z, c->drawing.codes + 4 * ((size_t)j * (size_t)c->drawing.width + (size_t)i), 4);
+            memcpy(&z, row + 4 * (size_t)i, 4);
+            for (n = 1; i + n < c->drawing.width && memcmp(row + 4 * (size_t)(i + n), &z, 4) == 0; ++n) {
+            }
             const float x0 = c->drawing.x + c->drawing.zoom[0] * (float)i,
                         y0 = c->drawing.y + c->drawing.zoom[1] * (float)j;
-            pixels_rectangle(c, x0, y0, x0 + c->drawing.zoom[0], y0 + c->drawing.zoom[1], z);
+            pixels_rectangle(c, x0, y0, x0 + c->drawing.zoom[0] * (float)n, y0 + c->drawing.zoom[1], z);
         }
     }
 }
@@ -568,7 +625,9 @@ static void pixels_draw(gl_context *c, const uint8_t *codes, int32_t w, int32_t 
     pixels_set_drawing(c, codes, w, h, kind);
     const float x1 = c->drawing.x + c->drawing.zoom[0] * (float)w, y1 = c->drawing.y + c->drawing.zoom[1] * (float)h;
     if (kind == PIXELS_STENCIL) {
-        pixels_draw_stencil(c);
+        pixels_draw_direct(c, codes, NULL);
+    } else if (kind == PIXELS_BOTH) {
+        pixels_draw_direct(c, codes + 4 * (size_t)w * (size_t)h, codes);
     } else if (kind == PIXELS_DEPTH) {
         pixels_draw_depth(c);
     } else if (absf(x1) < 1e6f && absf(y1) < 1e6f && absf(c->drawing.x) < 1e6f && absf(c->drawing.y) < 1e6f) {
@@ -580,20 +639,20 @@ OP(draw_pixels) { pixels_draw(c, gl_data_of(w + 3), w[0].i, w[1].i, w[2].i); }
 
 void glDrawPixels(GLsizei w, GLsizei h, GLenum format, GLenum type, const void *data)
 {
-    GL_ENTER()
+    GL_ENTER_LISTED()
     const GLenum error = gl_check_image(format, type);
-    GL_FAIL(error != GL_NO_ERROR, error, )
-    GL_FAIL(w < 0 || h < 0 || w > 2 * LMB_MAX_SIDE || h > 2 * LMB_MAX_SIDE, GL_INVALID_VALUE, )
+    GL_FAIL_LISTED(error != GL_NO_ERROR, error)
+    GL_FAIL_LISTED(w < 0 || h < 0 || w > 2 * LMB_MAX_SIDE || h > 2 * LMB_MAX_SIDE, GL_INVALID_VALUE)
     gl_find_surface(c, &c->drawn, c->framebuffer);
-    GL_FAIL((pixels_kind(format) == PIXELS_DEPTH && c->drawn.depth == NULL) ||
-                (pixels_kind(format) == PIXELS_STENCIL && c->drawn.stencil == NULL), GL_INVALID_OPERATION, )
+    const int kind = pixels_kind(format);
+    GL_FAIL_LISTED(pixels_lack(&c->drawn, kind), GL_INVALID_OPERATION)
     if (data == NULL) {
         return;
     }
     uint8_t *codes = gl_read_codes(c, w, h, 1, 2, format, type, data);
-    gl_word words[5] = {{.i = w}, {.i = h}, {.i = pixels_kind(format)}};
+    gl_word words[5] = {{.i = w}, {.i = h}, {.i = kind}};
     if (codes != NULL) {
-        gl_do_data(c, OP_draw_pixels, words, 5, codes, 4 * (size_t)w * (size_t)h);
+        gl_do_data(c, OP_draw_pixels, words, 5, codes, (kind == PIXELS_BOTH ? 8 : 4) * (size_t)w * (size_t)h);
     }
     gl_free(c, codes);
 }
@@ -601,21 +660,20 @@ void glDrawPixels(GLsizei w, GLsizei h, GLenum format, GLenum type, const void *
 OP(copy_pixels)
 {
     const GLenum formats[3] = {GL_RGBA, GL_DEPTH_COMPONENT, GL_STENCIL_INDEX};
-    CHECK(w[4].u >= GL_COLOR && w[4].u <= GL_STENCIL, GL_INVALID_ENUM)
+    const int both = w[4].u == GL_DEPTH_STENCIL, kind = both ? PIXELS_BOTH : (int)(w[4].u - GL_COLOR);
+    CHECK(both || (w[4].u >= GL_COLOR && w[4].u <= GL_STENCIL), GL_INVALID_ENUM)
     CHECK(w[2].i >= 0 && w[3].i >= 0, GL_INVALID_VALUE)
     if (!gl_surface_ready(c, c->read_framebuffer) || !c->s.current.raster_valid) {
         return;
     }
     gl_surface s;
     gl_find_surface(c, &s, c->read_framebuffer);
-    const int kind = (int)(w[4].u - GL_COLOR);
-    CHECK(!(kind == PIXELS_DEPTH && s.depth == NULL) && !(kind == PIXELS_STENCIL && s.stencil == NULL),
-          GL_INVALID_OPERATION)
+    CHECK(!pixels_lack(&s, kind), GL_INVALID_OPERATION)
     if (c->render_mode == GL_FEEDBACK) {
         gl_select_primitive(c, NULL, GL_COPY_PIXEL_TOKEN, 0);
         return;
     }
-    uint8_t *codes = gl_copy_codes(c, w[0].i, w[1].i, w[2].i, w[3].i, formats[kind]);
+    uint8_t *codes = gl_copy_codes(c, w[0].i, w[1].i, w[2].i, w[3].i, both ? GL_DEPTH_STENCIL : formats[kind]);
     if (codes != NULL) {
         pixels_draw(c, codes, w[2].i, w[3].i, kind);
     }
@@ -657,8 +715,8 @@ OP(bitmap)
 
 void glBitmap(GLsizei w, GLsizei h, GLfloat x, GLfloat y, GLfloat dx, GLfloat dy, const GLubyte *bits)
 {
-    GL_ENTER()
-    GL_FAIL(w < 0 || h < 0 || w > LMB_MAX_SIDE || h > LMB_MAX_SIDE, GL_INVALID_VALUE, )
+    GL_ENTER_LISTED()
+    GL_FAIL_LISTED(w < 0 || h < 0 || w > LMB_MAX_SIDE || h > LMB_MAX_SIDE, GL_INVALID_VALUE)
     gl_word words[8] = {{.i = w}, {.i = h}, {.f = x}, {.f = y}, {.f = dx}, {.f = dy}};
     const size_t row = (size_t)(w + 7) / 8, bytes = row * (size_t)h;
     const gl_store *s = &c->client.unpack;

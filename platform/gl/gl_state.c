@@ -62,6 +62,7 @@ static uint32_t *state_unit_cap(gl_context *c, GLenum name, uint32_t *bit)
     gl_unit *u = &c->s.texture.unit[c->s.texture.active];
     const int target = name == GL_TEXTURE_1D         ? TARGET_1D
                        : name == GL_TEXTURE_2D       ? TARGET_2D
+                       : name == GL_TEXTURE_RECTANGLE_ARB ? TARGET_RECT
                        : name == GL_TEXTURE_3D       ? TARGET_3D
                        : name == GL_TEXTURE_CUBE_MAP ? TARGET_CUBE
                                                      : -1;

@@ -59,7 +59,7 @@ void gl_find_surface(gl_context *c, gl_surface *out, const gl_framebuffer *f)
             out->depth = (float *)(void *)data;
             out->depth_stride = m != NULL ? w : gl_depth_stride(w);
         } else {
-            out->stencil = r != NULL ? r->stencil : NULL;
+            out->stencil = r != NULL ? r->stencil : m->stencil;
             out->stencil_stride = w;
         }
     }
@@ -67,17 +67,16 @@ void gl_find_surface(gl_context *c, gl_surface *out, const gl_framebuffer *f)
 
 static int target_is_depth(GLenum f)
 {
-    return gl_base_format(f) == GL_DEPTH_COMPONENT || f == GL_DEPTH_STENCIL_EXT || f == GL_DEPTH24_STENCIL8_EXT;
+    return gl_base_format(f) == GL_DEPTH_COMPONENT;
 }
 static int target_is_stencil(GLenum f)
 {
     return f == GL_STENCIL_INDEX || (f >= GL_STENCIL_INDEX1_EXT && f <= GL_STENCIL_INDEX16_EXT) ||
-           f == GL_DEPTH_STENCIL_EXT || f == GL_DEPTH24_STENCIL8_EXT;
+           gl_has_stencil(f);
 }
 
 static GLenum target_status(gl_context *c, const gl_framebuffer *f)
 {
-    int32_t w = 0, h = 0;
     int any = 0;
     if (f == NULL) {
         return GL_FRAMEBUFFER_COMPLETE_EXT;
@@ -100,7 +99,7 @@ static GLenum target_status(gl_context *c, const gl_framebuffer *f)
         const GLenum base = gl_base_format(internal);
         const int fits = i == 0   ? base == GL_RGB || base == GL_RGBA
                          : i == 1 ? target_is_depth(internal)
-                                  : target_is_stencil(internal) && r != NULL;
+                                  : target_is_stencil(internal) && (r != NULL || m->stencil != NULL);
         if (pw == 0 || ph == 0 || !fits || (m != NULL && m->border != 0) ||
             (i == 1 && m == NULL && (r == NULL || r->data == NULL))) {
             return GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT_EXT;
@@ -108,12 +107,7 @@ static GLenum target_status(gl_context *c, const gl_framebuffer *f)
         if (i == 1 && m != NULL && pw % LMB_TILE != 0) {
             return GL_FRAMEBUFFER_UNSUPPORTED_EXT;
         }
-        if (any && (pw != w || ph != h)) {
-            return GL_FRAMEBUFFER_INCOMPLETE_DIMENSIONS_EXT;
-        }
-        w = pw;
-        h = ph;
-        any = 1;
+        any = 1; /* sizes may differ: draws go to the part that all have */
     }
     if (!any) {
         return GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT_EXT;
@@ -255,7 +249,8 @@ static void target_attach_texture(GLenum target, GLenum attachment, GLenum kind,
             a.face = (int32_t)(kind - GL_TEXTURE_CUBE_MAP_POSITIVE_X);
             kind = GL_TEXTURE_CUBE_MAP;
         }
-        static const GLenum kinds[TARGETS] = {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP};
+        static const GLenum kinds[TARGETS] = {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_RECTANGLE_ARB, GL_TEXTURE_3D,
+                                               GL_TEXTURE_CUBE_MAP};
         GL_FAIL(kinds[t->target] != kind, GL_INVALID_OPERATION, )
         GL_FAIL(level < 0 || level >= GL_LEVELS || slice < 0 || slice >= GL_SIDE_3D, GL_INVALID_VALUE, )
     }
@@ -274,6 +269,13 @@ void glFramebufferTexture3DEXT(GLenum t, GLenum a, GLenum k, GLuint n, GLint l, 
 {
     target_attach_texture(t, a, k, n, l, z);
 }
+void glFramebufferTextureLayer(GLenum t, GLenum at, GLuint name, GLint level, GLint slice)
+{
+    GL_ENTER()
+    const gl_texture *texture = name != 0 ? gl_find(&c->group->textures, name) : NULL;
+    GL_FAIL(name != 0 && (texture == NULL || texture->target != TARGET_3D), GL_INVALID_OPERATION, )
+    target_attach_texture(t, at, GL_TEXTURE_3D, name, level, slice);
+}
 void glFramebufferRenderbufferEXT(GLenum t, GLenum at, GLenum kind, GLuint name)
 {
     GL_ENTER()
@@ -283,27 +285,96 @@ void glFramebufferRenderbufferEXT(GLenum t, GLenum at, GLenum kind, GLuint name)
     target_attach(t, at, &a);
 }
 
+/* The format of an attachment's image; 0: there is none. */
+static GLenum target_internal(gl_context *c, const gl_attachment *a)
+{
+    const gl_image *m = target_image(c, a);
+    const gl_renderbuffer *r = a->type == GL_RENDERBUFFER_EXT ? gl_find(&c->group->renderbuffers, a->name) : NULL;
+    return m != NULL ? m->internal : r != NULL ? r->internal : 0;
+}
+
+/* Bits and kinds of an attachment's values: part 0 colour, 1 depth, 2 stencil. */
+static int target_component(GLenum name, GLenum internal, int part, GLint *out)
+{
+    const int colour = part == 0 && internal != 0;
+    switch (name) {
+    case GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE: case GL_FRAMEBUFFER_ATTACHMENT_GREEN_SIZE:
+    case GL_FRAMEBUFFER_ATTACHMENT_BLUE_SIZE:
+        *out = colour ? 8 : 0;
+        return 1;
+    case GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE: *out = colour && gl_base_format(internal) == GL_RGBA ? 8 : 0; return 1;
+    case GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE: *out = target_is_depth(internal) ? 32 : 0; return 1;
+    case GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE: *out = target_is_stencil(internal) ? 8 : 0; return 1;
+    case GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE:
+        *out = part == 0 ? GL_UNSIGNED_NORMALIZED : part == 1 ? GL_FLOAT : GL_INDEX;
+        return 1;
+    case GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING: *out = GL_LINEAR; return 1;
+    default: return 0;
+    }
+}
+
+/* The window's buffers as attachments. */
+static void target_get_window(gl_context *c, GLenum attachment, GLenum name, GLint *out)
+{
+    const int part = attachment == GL_DEPTH ? 1 : attachment == GL_STENCIL ? 2 : 0;
+    static const GLenum formats[3] = {GL_RGBA8, GL_DEPTH_COMPONENT32F, GL_STENCIL_INDEX8_EXT};
+    GL_FAIL(part == 0 && attachment != GL_FRONT_LEFT && attachment != GL_BACK_LEFT && attachment != GL_FRONT_RIGHT &&
+                attachment != GL_BACK_RIGHT,
+            GL_INVALID_ENUM, )
+    const int has = part == 0   ? attachment == GL_FRONT_LEFT || attachment == GL_BACK_LEFT
+                    : part == 1 ? c->window.depth != NULL
+                                : c->window.stencil != NULL;
+    if (name == GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE_EXT) {
+        *out = has ? GL_FRAMEBUFFER_DEFAULT : GL_NONE;
+        return;
+    }
+    GL_FAIL(!has, GL_INVALID_OPERATION, )
+    GL_FAIL(!target_component(name, part == 0 && !c->window.has_alpha ? GL_RGB8 : formats[part], part, out),
+            GL_INVALID_ENUM, )
+}
+
+static void target_get_attachment(gl_context *c, const gl_attachment *a, int part, GLenum name, GLint *out)
+{
+    const int is_texture = a->type == GL_TEXTURE;
+    const GLenum internal = target_internal(c, a);
+    if (name == GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE_EXT) {
+        *out = (GLint)a->type;
+    } else if (name == GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME_EXT) {
+        *out = a->type != GL_NONE ? (GLint)a->name : 0;
+    } else if (a->type == GL_NONE) {
+        gl_error(c, GL_INVALID_OPERATION);
+    } else if (name == GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL_EXT && is_texture) {
+        *out = a->level;
+    } else if (name == GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE_EXT && is_texture) {
+        const gl_texture *t = gl_find(&c->group->textures, a->name);
+        *out = t != NULL && t->target == TARGET_CUBE ? (GLint)GL_TEXTURE_CUBE_MAP_POSITIVE_X + a->face : 0;
+    } else if (name == GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_3D_ZOFFSET_EXT && is_texture) {
+        *out = a->slice;
+    } else if (!target_component(name, internal, part, out)) {
+        gl_error(c, GL_INVALID_ENUM);
+    }
+}
+
 void glGetFramebufferAttachmentParameterivEXT(GLenum target, GLenum attachment, GLenum name, GLint *out)
 {
     GL_ENTER()
-    const gl_framebuffer *f = c->framebuffer;
-    (void)target;
-    GL_FAIL(f == NULL, GL_INVALID_OPERATION, )
-    const gl_attachment *a = attachment == GL_COLOR_ATTACHMENT0_EXT    ? &f->colour
-                             : attachment == GL_DEPTH_ATTACHMENT_EXT   ? &f->depth
-                             : attachment == GL_STENCIL_ATTACHMENT_EXT ? &f->stencil
-                                                                       : NULL;
-    GL_FAIL(a == NULL, GL_INVALID_ENUM, )
-    switch (name) {
-    case GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE_EXT: *out = (GLint)a->type; break;
-    case GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME_EXT: *out = (GLint)a->name; break;
-    case GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL_EXT: *out = a->level; break;
-    case GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE_EXT:
-        *out = (GLint)GL_TEXTURE_CUBE_MAP_POSITIVE_X + a->face;
-        break;
-    case GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_3D_ZOFFSET_EXT: *out = a->slice; break;
-    default: gl_error(c, GL_INVALID_ENUM); break;
+    const gl_framebuffer *f = target == GL_READ_FRAMEBUFFER ? c->read_framebuffer : c->framebuffer;
+    GL_FAIL(target != GL_FRAMEBUFFER_EXT && target != GL_READ_FRAMEBUFFER && target != GL_DRAW_FRAMEBUFFER,
+            GL_INVALID_ENUM, )
+    if (f == NULL) {
+        target_get_window(c, attachment, name, out);
+        return;
     }
+    const gl_attachment *parts[3] = {&f->colour, &f->depth, &f->stencil};
+    const int both = attachment == GL_DEPTH_STENCIL_ATTACHMENT;
+    const int part = attachment == GL_COLOR_ATTACHMENT0_EXT            ? 0
+                     : attachment == GL_DEPTH_ATTACHMENT_EXT || both  ? 1
+                     : attachment == GL_STENCIL_ATTACHMENT_EXT        ? 2
+                                                                       : -1;
+    GL_FAIL(attachment > GL_COLOR_ATTACHMENT0_EXT && attachment <= GL_COLOR_ATTACHMENT15_EXT, GL_INVALID_OPERATION, )
+    GL_FAIL(part < 0, GL_INVALID_ENUM, )
+    GL_FAIL(both && memcmp(&f->depth, &f->stencil, sizeof f->depth) != 0, GL_INVALID_OPERATION, )
+    target_get_attachment(c, parts[part], part, name, out);
 }
 
 /* --- renderbuffers ------------------------------------------------------------------------------------------------ */
@@ -341,6 +412,12 @@ GLboolean glIsRenderbufferEXT(GLuint name)
 
 void glRenderbufferStorageEXT(GLenum target, GLenum internal, GLsizei w, GLsizei h)
 {
+    glRenderbufferStorageMultisample(target, 0, internal, w, h);
+}
+
+/* A pixel has one sample at most. */
+void glRenderbufferStorageMultisample(GLenum target, GLsizei samples, GLenum internal, GLsizei w, GLsizei h)
+{
     GL_ENTER()
     gl_renderbuffer *r = c->renderbuffer;
     const GLenum base = gl_base_format(internal);
@@ -349,7 +426,7 @@ void glRenderbufferStorageEXT(GLenum target, GLenum internal, GLsizei w, GLsizei
     GL_FAIL(!(base == GL_RGB || base == GL_RGBA || target_is_depth(internal) || target_is_stencil(internal)) ||
                 internal <= 4,
             GL_INVALID_ENUM, )
-    GL_FAIL(w < 0 || h < 0 || w > GL_SIDE || h > GL_SIDE, GL_INVALID_VALUE, )
+    GL_FAIL(w < 0 || h < 0 || w > GL_SIDE || h > GL_SIDE || samples < 0 || samples > 1, GL_INVALID_VALUE, )
     gl_flush_vertices(c);
     c->dirty = 1;
     const size_t n = (size_t)(target_is_depth(internal) ? gl_depth_stride(w) : w) * (size_t)h;
@@ -364,6 +441,7 @@ void glRenderbufferStorageEXT(GLenum target, GLenum internal, GLsizei w, GLsizei
         memset(r->stencil, 0, n);
     }
     r->internal = internal;
+    r->samples = samples;
     r->width = r->data != NULL || r->stencil != NULL ? w : 0;
     r->height = h;
 }
@@ -379,6 +457,7 @@ void glGetRenderbufferParameterivEXT(GLenum target, GLenum name, GLint *out)
     switch (name) {
     case GL_RENDERBUFFER_WIDTH_EXT: *out = r->width; break;
     case GL_RENDERBUFFER_HEIGHT_EXT: *out = r->height; break;
+    case GL_RENDERBUFFER_SAMPLES: *out = r->samples; break;
     case GL_RENDERBUFFER_INTERNAL_FORMAT_EXT: *out = r->internal != 0 ? (GLint)r->internal : GL_RGBA; break;
     case GL_RENDERBUFFER_RED_SIZE_EXT:
     case GL_RENDERBUFFER_GREEN_SIZE_EXT:

@@ -18,9 +18,16 @@ void gl_texture_init(gl_texture *t, GLuint name, int target)
     t->compare_mode = GL_NONE;
     t->compare_func = GL_LEQUAL;
     t->depth_mode = GL_LUMINANCE;
+    if (target == TARGET_RECT) {
+        t->min_filter = GL_LINEAR;
+        t->wrap[0] = t->wrap[1] = t->wrap[2] = GL_CLAMP_TO_EDGE;
+    }
     t->min_lod = -1000.0f;
     t->max_lod = 1000.0f;
     t->max_level = 1000;
+    for (int i = 0; i < 4; ++i) {
+        t->swizzle[i] = GL_RED + (GLenum)i;
+    }
     t->priority = t->anisotropy = 1.0f;
 }
 
@@ -29,6 +36,7 @@ static int texture_target(GLenum target)
     switch (target) {
     case GL_TEXTURE_1D: return TARGET_1D;
     case GL_TEXTURE_2D: return TARGET_2D;
+    case GL_TEXTURE_RECTANGLE_ARB: return TARGET_RECT;
     case GL_TEXTURE_3D: return TARGET_3D;
     case GL_TEXTURE_CUBE_MAP: return TARGET_CUBE;
     default: return -1;
@@ -103,7 +111,8 @@ static void texture_free_images(gl_context *c, gl_texture *t)
     for (int f = 0; f < 6; ++f) {
         for (int l = 0; l < GL_LEVELS; ++l) {
             gl_free(c, t->image[f][l].texels);
-            t->image[f][l].texels = NULL;
+            gl_free(c, t->image[f][l].stencil);
+            t->image[f][l].texels = t->image[f][l].stencil = NULL;
         }
     }
 }
@@ -215,6 +224,7 @@ GLenum gl_base_format(GLenum f)
     case GL_ALPHA: return GL_ALPHA;
     case GL_INTENSITY: return GL_INTENSITY;
     case GL_DEPTH_COMPONENT: case GL_DEPTH_COMPONENT16: case GL_DEPTH_COMPONENT24: case GL_DEPTH_COMPONENT32:
+    case GL_DEPTH_COMPONENT32F: case GL_DEPTH_STENCIL: case GL_DEPTH24_STENCIL8: case GL_DEPTH32F_STENCIL8:
         return GL_DEPTH_COMPONENT;
     default: break;
     }
@@ -228,7 +238,11 @@ GLenum gl_base_format(GLenum f)
                                                                         : 0;
 }
 
-/* Reduces a code to the base format. */
+int gl_has_stencil(GLenum f) { return f == GL_DEPTH_STENCIL || f == GL_DEPTH24_STENCIL8 || f == GL_DEPTH32F_STENCIL8; }
+
+static int texture_is_depth_format(GLenum format) { return format == GL_DEPTH_COMPONENT || format == GL_DEPTH_STENCIL; }
+
+/* A code as the base format keeps it. */
 static void texture_keep(uint8_t out[4], const uint8_t in[4], GLenum base)
 {
     const uint8_t r = in[0], a = in[3];
@@ -272,7 +286,10 @@ static GLenum texture_check(GLenum target, int kind, GLint level, GLenum interna
         (kind == TARGET_3D && !texture_size_is_good(d, border, largest)) || (kind == TARGET_CUBE && w != h)) {
         return GL_INVALID_VALUE;
     }
-    if (gl_base_format(internal) == GL_DEPTH_COMPONENT && kind != TARGET_1D && kind != TARGET_2D) {
+    if (kind == TARGET_RECT && (level != 0 || border != 0)) {
+        return GL_INVALID_VALUE;
+    }
+    if (gl_base_format(internal) == GL_DEPTH_COMPONENT && (kind == TARGET_3D || kind == TARGET_CUBE)) {
         return GL_INVALID_OPERATION;
     }
     return GL_NO_ERROR;
@@ -290,26 +307,48 @@ static void texture_set_image(gl_image *m, int kind, GLenum internal, int32_t w,
 
 static void texture_make_mips(gl_context *c, gl_texture *t, int face);
 
-/* w: target, level, internal, width, height, depth, border, data of 4 bytes a texel. */
+/* Room for an image's texels; their values are not set. */
+static int texture_alloc(gl_context *c, gl_image *m, size_t n)
+{
+    m->texels = gl_alloc(c, 4 * n + 4);
+    m->stencil = m->texels != NULL && gl_has_stencil(m->internal) ? gl_alloc(c, n + 4) : NULL;
+    if (m->texels == NULL) {
+        m->width = m->height = 0;
+    } else if (m->stencil != NULL) {
+        memset(m->stencil, 0, n);
+    }
+    return m->texels != NULL;
+}
+
+static uint8_t texture_stencil_code(const uint8_t *from)
+{
+    float code;
+    memcpy(&code, from, sizeof code);
+    return (uint8_t)(gl_int(code) & 255);
+}
+
+/* w: target, level, internal, width, height, depth, border, 1 if stencil codes follow, data of 4 bytes a texel. */
 OP(tex_image)
 {
     int face;
     const int kind = texture_image_target(w[0].u, &face);
     gl_texture *t = texture_active(c, kind);
     gl_image *m = &t->image[face][w[1].i];
-    const uint8_t *from = gl_data_of(w + 7);
+    const uint8_t *from = gl_data_of(w + 8);
     gl_free(c, m->texels);
-    m->texels = NULL;
+    gl_free(c, m->stencil);
+    m->texels = m->stencil = NULL;
     texture_set_image(m, kind, w[2].u, w[3].i, w[4].i, w[5].i, w[6].i);
     const size_t n = texture_texels(m, kind);
-    m->texels = gl_alloc(c, 4 * n + 4);
-    if (m->texels == NULL) {
-        m->width = m->height = 0;
+    if (!texture_alloc(c, m, n)) {
         return;
+    }
+    for (size_t i = 0; i < n && m->stencil != NULL && from != NULL && w[7].i; ++i) {
+        m->stencil[i] = texture_stencil_code(from + 4 * (n + i));
     }
     if (from == NULL) {
         memset(m->texels, 0, 4 * n);
-    } else if (m->base == GL_DEPTH_COMPONENT) {
+    } else if (m->base == GL_DEPTH_COMPONENT || m->base == GL_RGBA) {
         memcpy(m->texels, from, 4 * n);
     } else {
         for (size_t i = 0; i < n; ++i) {
@@ -328,17 +367,24 @@ OP(tex_sub_image)
     gl_texture *t = texture_active(c, kind);
     CHECK(w[1].i >= 0 && w[1].i < GL_LEVELS, GL_INVALID_VALUE)
     gl_image *m = &t->image[face][w[1].i];
-    const uint8_t *from = gl_data_of(w + 8);
+    const uint8_t *from = gl_data_of(w + 9);
     const int32_t b = m->border, bj = kind == TARGET_1D ? 0 : b, bk = kind == TARGET_3D ? b : 0;
     const int32_t x = w[2].i + b, y = w[3].i + bj, z = w[4].i + bk;
     const int32_t row = m->width + 2 * b, rows = m->height + 2 * bj, slices = m->depth + 2 * bk;
     CHECK(m->texels != NULL, GL_INVALID_OPERATION)
     CHECK(x >= 0 && y >= 0 && z >= 0 && w[5].i <= row - x && w[6].i <= rows - y && w[7].i <= slices - z,
           GL_INVALID_VALUE)
+    if (from == NULL) {
+        return;
+    }
+    const size_t plane = 4 * (size_t)w[5].i * (size_t)w[6].i * (size_t)w[7].i;
     for (int32_t k = 0; k < w[7].i; ++k) {
         for (int32_t j = 0; j < w[6].i; ++j) {
-            uint8_t *to =
-                m->texels + 4 * (((size_t)(z + k) * (size_t)rows + (size_t)(y + j)) * (size_t)row + (size_t)x);
+            const size_t at = ((size_t)(z + k) * (size_t)rows + (size_t)(y + j)) * (size_t)row + (size_t)x;
+            uint8_t *to = m->texels + 4 * at;
+            for (int32_t i = 0; i < w[5].i && m->stencil != NULL && w[8].i; ++i) {
+                m->stencil[at + (size_t)i] = texture_stencil_code(from + plane + 4 * i);
+            }
             for (int32_t i = 0; i < w[5].i; ++i, from += 4, to += 4) {
                 if (m->base == GL_DEPTH_COMPONENT) {
                     memcpy(to, from, 4);
@@ -356,17 +402,18 @@ OP(tex_sub_image)
 static void texture_image(GLenum target, GLint level, GLenum internal, int32_t w, int32_t h, int32_t d, int dims,
                           GLint border, GLenum format, GLenum type, const void *data)
 {
-    GL_ENTER()
+    GL_ENTER_LISTED()
     int face;
     const int proxy = target == GL_PROXY_TEXTURE_1D   ? TARGET_1D
                       : target == GL_PROXY_TEXTURE_2D ? TARGET_2D
+                      : target == GL_PROXY_TEXTURE_RECTANGLE_ARB ? TARGET_RECT
                       : target == GL_PROXY_TEXTURE_3D ? TARGET_3D
                       : target == GL_PROXY_TEXTURE_CUBE_MAP ? TARGET_CUBE : -1;
     const int kind = proxy >= 0 ? proxy : texture_image_target(target, &face);
     const int wanted = kind == TARGET_1D ? 1 : kind == TARGET_3D ? 3 : 2;
-    GL_FAIL(kind < 0 || wanted != dims, GL_INVALID_ENUM, )
+    GL_FAIL_LISTED(kind < 0 || wanted != dims, GL_INVALID_ENUM)
     GLenum error = gl_check_image(format, type);
-    GL_FAIL(error != GL_NO_ERROR, error, )
+    GL_FAIL_LISTED(error != GL_NO_ERROR, error)
     error = texture_check(target, kind, level, internal, w, h, d, border);
     const int32_t largest = (kind == TARGET_3D ? GL_SIDE_3D : GL_SIDE) + 2 * (border == 1);
     const int is_large = w > largest || (dims > 1 && h > largest) || (dims > 2 && d > largest);
@@ -377,13 +424,16 @@ static void texture_image(GLenum target, GLint level, GLenum internal, int32_t w
         }
         return;
     }
-    GL_FAIL(error != GL_NO_ERROR, error, )
-    GL_FAIL((gl_base_format(internal) == GL_DEPTH_COMPONENT) != (format == GL_DEPTH_COMPONENT), GL_INVALID_OPERATION, )
-    GL_FAIL(format == GL_STENCIL_INDEX || format == GL_DEPTH_STENCIL_EXT, GL_INVALID_ENUM, )
+    GL_FAIL_LISTED(error != GL_NO_ERROR, error)
+    GL_FAIL_LISTED((gl_base_format(internal) == GL_DEPTH_COMPONENT) != texture_is_depth_format(format) ||
+                       format == GL_STENCIL_INDEX,
+                   GL_INVALID_OPERATION)
     uint8_t *codes = data != NULL ? gl_read_codes(c, w, h, d, dims, format, type, data) : NULL;
-    gl_word words[9] = {{.u = target}, {.i = level}, {.u = internal}, {.i = w}, {.i = h}, {.i = d}, {.i = border}};
+    const int both = format == GL_DEPTH_STENCIL;
+    gl_word words[10] = {{.u = target}, {.i = level}, {.u = internal}, {.i = w},
+                         {.i = h},      {.i = d},     {.i = border},   {.i = both}};
     if (data == NULL || codes != NULL) {
-        gl_do_data(c, OP_tex_image, words, 9, codes, 4 * (size_t)w * (size_t)h * (size_t)d);
+        gl_do_data(c, OP_tex_image, words, 10, codes, (both ? 8 : 4) * (size_t)w * (size_t)h * (size_t)d);
     }
     gl_free(c, codes);
 }
@@ -410,25 +460,25 @@ void glTexImage3DEXT(GLenum t, GLint l, GLenum in, GLsizei w, GLsizei h, GLsizei
 static void texture_sub_image(GLenum target, GLint level, int32_t x, int32_t y, int32_t z, int32_t w, int32_t h,
                               int32_t d, int dims, GLenum format, GLenum type, const void *data)
 {
-    GL_ENTER()
+    GL_ENTER_LISTED()
     int face;
     const int kind = texture_image_target(target, &face);
-    GL_FAIL(kind < 0 || (kind == TARGET_1D ? 1 : kind == TARGET_3D ? 3 : 2) != dims, GL_INVALID_ENUM, )
+    GL_FAIL_LISTED(kind < 0 || (kind == TARGET_1D ? 1 : kind == TARGET_3D ? 3 : 2) != dims, GL_INVALID_ENUM)
     const GLenum error = gl_check_image(format, type);
-    GL_FAIL(error != GL_NO_ERROR, error, )
-    GL_FAIL(level < 0 || level >= GL_LEVELS || w < 0 || h < 0 || d < 0 || w > GL_SIDE + 2 || h > GL_SIDE + 2 ||
-                d > GL_SIDE + 2,
-            GL_INVALID_VALUE, )
+    GL_FAIL_LISTED(error != GL_NO_ERROR, error)
+    GL_FAIL_LISTED(level < 0 || level >= GL_LEVELS || w < 0 || h < 0 || d < 0 || w > GL_SIDE + 2 ||
+                       h > GL_SIDE + 2 || d > GL_SIDE + 2,
+                   GL_INVALID_VALUE)
     const gl_image *m = &texture_active(c, kind)->image[face][level];
-    GL_FAIL(c->list_mode == 0 && m->texels != NULL && (m->base == GL_DEPTH_COMPONENT) != (format == GL_DEPTH_COMPONENT),
-            GL_INVALID_OPERATION, )
-    if (data == NULL) {
-        return;
-    }
-    uint8_t *codes = gl_read_codes(c, w, h, d, dims, format, type, data);
-    gl_word words[10] = {{.u = target}, {.i = level}, {.i = x}, {.i = y}, {.i = z}, {.i = w}, {.i = h}, {.i = d}};
-    if (codes != NULL) {
-        gl_do_data(c, OP_tex_sub_image, words, 10, codes, 4 * (size_t)w * (size_t)h * (size_t)d);
+    GL_FAIL_LISTED(c->list_mode == 0 && m->texels != NULL &&
+                       (m->base == GL_DEPTH_COMPONENT) != texture_is_depth_format(format),
+                   GL_INVALID_OPERATION)
+    const int both = format == GL_DEPTH_STENCIL;
+    uint8_t *codes = data != NULL ? gl_read_codes(c, w, h, d, dims, format, type, data) : NULL;
+    gl_word words[11] = {{.u = target}, {.i = level}, {.i = x}, {.i = y},   {.i = z},
+                         {.i = w},      {.i = h},     {.i = d}, {.i = both}};
+    if (data == NULL || codes != NULL) {
+        gl_do_data(c, OP_tex_sub_image, words, 11, codes, (both ? 8 : 4) * (size_t)w * (size_t)h * (size_t)d);
     }
     gl_free(c, codes);
 }
@@ -448,6 +498,11 @@ void glTexSubImage3D(GLenum t, GLint l, GLint x, GLint y, GLint z, GLsizei w, GL
 }
 
 /* --- copies of the drawn picture ---------------------------------------------------------------------------------- */
+
+static GLenum texture_copy_format(int depth, int both)
+{
+    return both ? GL_DEPTH_STENCIL : depth ? GL_DEPTH_COMPONENT : GL_RGBA;
+}
 
 static void texture_run_with(gl_context *c, void (*op)(gl_context *, const gl_word *), gl_word *w, int words,
                              uint8_t *codes)
@@ -473,10 +528,10 @@ OP(copy_tex_image)
     if (!gl_surface_ready(c, c->read_framebuffer)) {
         return;
     }
-    const int depth = gl_base_format(w[2].u) == GL_DEPTH_COMPONENT;
-    gl_word words[9] = {w[0], w[1], w[2], w[5], w[6], {.i = 1}, w[7]};
-    texture_run_with(c, gl_op_tex_image, words, 9,
-                     gl_copy_codes(c, w[3].i, w[4].i, w[5].i, w[6].i, depth ? GL_DEPTH_COMPONENT : GL_RGBA));
+    const int depth = gl_base_format(w[2].u) == GL_DEPTH_COMPONENT, both = gl_has_stencil(w[2].u);
+    gl_word words[10] = {w[0], w[1], w[2], w[5], w[6], {.i = 1}, w[7], {.i = both}};
+    texture_run_with(c, gl_op_tex_image, words, 10,
+                     gl_copy_codes(c, w[3].i, w[4].i, w[5].i, w[6].i, texture_copy_format(depth, both)));
 }
 
 /* w: target, level, x, y, z of the texture, x, y, width, height, dims */
@@ -491,10 +546,11 @@ OP(copy_tex_sub_image)
     if (!gl_surface_ready(c, c->read_framebuffer)) {
         return;
     }
-    const int depth = texture_active(c, kind)->image[face][w[1].i].base == GL_DEPTH_COMPONENT;
-    gl_word words[10] = {w[0], w[1], w[2], w[3], w[4], w[7], w[8], {.i = 1}};
-    texture_run_with(c, gl_op_tex_sub_image, words, 10,
-                     gl_copy_codes(c, w[5].i, w[6].i, w[7].i, w[8].i, depth ? GL_DEPTH_COMPONENT : GL_RGBA));
+    const gl_image *m = &texture_active(c, kind)->image[face][w[1].i];
+    const int depth = m->base == GL_DEPTH_COMPONENT, both = m->stencil != NULL;
+    gl_word words[11] = {w[0], w[1], w[2], w[3], w[4], w[7], w[8], {.i = 1}, {.i = both}};
+    texture_run_with(c, gl_op_tex_sub_image, words, 11,
+                     gl_copy_codes(c, w[5].i, w[6].i, w[7].i, w[8].i, texture_copy_format(depth, both)));
 }
 
 #define U(v) {.u = (v)}
@@ -580,7 +636,9 @@ static void texture_make_mips(gl_context *c, gl_texture *t, int face)
         }
         texture_halve(texels, m, w, h, d);
         gl_free(c, next->texels);
+        gl_free(c, next->stencil);
         *next = *m;
+        next->stencil = NULL;
         next->texels = texels;
         next->width = w;
         next->height = h;
@@ -592,7 +650,7 @@ void glGenerateMipmapEXT(GLenum target)
 {
     GL_ENTER()
     const int kind = texture_target(target);
-    GL_FAIL(kind < 0, GL_INVALID_ENUM, )
+    GL_FAIL(kind < 0 || kind == TARGET_RECT, GL_INVALID_ENUM, )
     gl_flush_vertices(c);
     c->dirty = 1;
     gl_texture *t = texture_active(c, kind);
@@ -610,6 +668,8 @@ static int texture_is_wrap(GLenum v)
            v == GL_MIRRORED_REPEAT;
 }
 
+static int texture_is_swizzle(GLenum v) { return v <= GL_ONE || (v >= GL_RED && v <= GL_ALPHA); }
+
 OP(tex_parameter)
 {
     const int kind = texture_target(w[0].u);
@@ -619,7 +679,8 @@ OP(tex_parameter)
     gl_texture *t = texture_active(c, kind);
     switch (w[1].u) {
     case GL_TEXTURE_MIN_FILTER:
-        CHECK(v == GL_NEAREST || v == GL_LINEAR || (v >= GL_NEAREST_MIPMAP_NEAREST && v <= GL_LINEAR_MIPMAP_LINEAR),
+        CHECK(v == GL_NEAREST || v == GL_LINEAR ||
+                  (v >= GL_NEAREST_MIPMAP_NEAREST && v <= GL_LINEAR_MIPMAP_LINEAR && kind != TARGET_RECT),
               GL_INVALID_ENUM)
         t->min_filter = v;
         break;
@@ -628,7 +689,8 @@ OP(tex_parameter)
         t->mag_filter = v;
         break;
     case GL_TEXTURE_WRAP_S: case GL_TEXTURE_WRAP_T: case GL_TEXTURE_WRAP_R:
-        CHECK(texture_is_wrap(v), GL_INVALID_ENUM)
+        CHECK(texture_is_wrap(v) && !(kind == TARGET_RECT && (v == GL_REPEAT || v == GL_MIRRORED_REPEAT)),
+              GL_INVALID_ENUM)
         t->wrap[w[1].u == GL_TEXTURE_WRAP_R ? 2 : w[1].u - GL_TEXTURE_WRAP_S] = v;
         break;
     case GL_TEXTURE_BORDER_COLOR:
@@ -641,7 +703,7 @@ OP(tex_parameter)
     case GL_TEXTURE_MAX_LOD: t->max_lod = f; break;
     case GL_TEXTURE_LOD_BIAS: t->lod_bias = f; break;
     case GL_TEXTURE_BASE_LEVEL:
-        CHECK(f >= 0.0f, GL_INVALID_VALUE)
+        CHECK(f >= 0.0f && !(kind == TARGET_RECT && f != 0.0f), GL_INVALID_VALUE)
         t->base_level = gl_int(f);
         break;
     case GL_TEXTURE_MAX_LEVEL:
@@ -651,6 +713,19 @@ OP(tex_parameter)
     case GL_TEXTURE_MAX_ANISOTROPY_EXT:
         CHECK(f >= 1.0f, GL_INVALID_VALUE)
         t->anisotropy = f;
+        break;
+    case GL_TEXTURE_SWIZZLE_R_EXT: case GL_TEXTURE_SWIZZLE_G_EXT: case GL_TEXTURE_SWIZZLE_B_EXT:
+    case GL_TEXTURE_SWIZZLE_A_EXT:
+        CHECK(texture_is_swizzle(v), GL_INVALID_ENUM)
+        t->swizzle[w[1].u - GL_TEXTURE_SWIZZLE_R_EXT] = v;
+        break;
+    case GL_TEXTURE_SWIZZLE_RGBA_EXT:
+        for (int i = 0; i < 4; ++i) {
+            CHECK(texture_is_swizzle((GLenum)gl_int(w[2 + i].f)), GL_INVALID_ENUM)
+        }
+        for (int i = 0; i < 4; ++i) {
+            t->swizzle[i] = (GLenum)gl_int(w[2 + i].f);
+        }
         break;
     case GL_GENERATE_MIPMAP: t->generate = f != 0.0f; break;
     case GL_TEXTURE_COMPARE_MODE:
@@ -754,8 +829,8 @@ void glGetTexImage(GLenum target, GLint level, GLenum format, GLenum type, void 
     if (m->texels == NULL || out == NULL) {
         return;
     }
-    GL_FAIL((m->base == GL_DEPTH_COMPONENT) != (format == GL_DEPTH_COMPONENT) || format == GL_STENCIL_INDEX ||
-                format == GL_COLOR_INDEX,
+    GL_FAIL((m->base == GL_DEPTH_COMPONENT) != texture_is_depth_format(format) || format == GL_STENCIL_INDEX ||
+                format == GL_COLOR_INDEX || (format == GL_DEPTH_STENCIL && m->stencil == NULL),
             GL_INVALID_OPERATION, )
     const int32_t b = m->border, w = m->width + 2 * b, h = m->height + (kind == TARGET_1D ? 0 : 2 * b),
                   d = m->depth + (kind == TARGET_3D ? 2 * b : 0);
@@ -770,6 +845,7 @@ void glGetTexImage(GLenum target, GLint level, GLenum format, GLenum type, void 
                 float *v = c->row[x];
                 if (m->base == GL_DEPTH_COMPONENT) {
                     memcpy(v, p, sizeof *v);
+                    v[1] = format == GL_DEPTH_STENCIL ? (float)m->stencil[(p - m->texels) / 4] : 0.0f;
                     continue;
                 }
                 for (int i = 0; i < 4; ++i) {

@@ -232,7 +232,50 @@ static double vertex_area(const gl_context *c, const uint32_t *at, int n)
     return area;
 }
 
-/* A polygon, drawn filled, or as lines or points. */
+/* --- polygon offset ----------------------------------------------------------------------------------------------- */
+
+/* A unit is 2^-23 of the depth range. draw.h's unit is the least step of depths as large as a triangle's. */
+
+#define VERTEX_OFFSET_UNIT (1.0f / 8388608.0f)
+
+/* draw.h's step of depths as large as vertex `at`. */
+static float vertex_depth_step(const gl_context *c, uint32_t at)
+{
+    const float *clip = c->made[at].clip;
+    const float z = clip[3] > 0.0f ? 0.5f * clip[2] / clip[3] + 0.5f : 0.0f;
+    const float near = (float)c->s.viewport.range[0], far = (float)c->s.viewport.range[1];
+    const float d = near + (far - near) * gl_unit_range(z);
+    float step = 1.1920929e-7f;
+    for (float size = 1.0f; d < size && step > 1e-30f; size *= 0.5f) {
+        step *= 0.5f;
+    }
+    return step;
+}
+
+static int vertex_has_units(const gl_context *c)
+{
+    return gl_is_on(c, CAP_OFFSET_FILL) && c->s.polygon.units != 0.0f;
+}
+
+static void vertex_set_units(gl_context *c, float step)
+{
+    c->draw.offset_units = c->s.polygon.units * (VERTEX_OFFSET_UNIT / step);
+}
+
+/* Set the units for all vertices that wait; 0: their steps differ. */
+static int vertex_set_all_units(gl_context *c)
+{
+    const float step = vertex_depth_step(c, 0);
+    for (int i = 1; i < c->count; ++i) {
+        if (vertex_depth_step(c, (uint32_t)i) != step) {
+            return 0;
+        }
+    }
+    vertex_set_units(c, step);
+    return 1;
+}
+
+/* A polygon whose sides may be drawn as lines or points. */
 static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *edges)
 {
     const double area = vertex_area(c, at, n);
@@ -249,6 +292,10 @@ static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *
     if (mode == GL_FILL) {
         for (int i = 2; i < n; ++i) {
             const uint32_t t[3] = {at[0], at[i - 1], at[i]};
+            if (vertex_has_units(c)) {
+                vertex_set_units(c, maxf(vertex_depth_step(c, t[0]),
+                                         maxf(vertex_depth_step(c, t[1]), vertex_depth_step(c, t[2]))));
+            }
             vertex_draw_list(c, t, 3, LMB_DRAW_TRIANGLES);
         }
         return;
@@ -263,7 +310,7 @@ static void vertex_polygon(gl_context *c, const uint32_t *at, int n, const int *
         const float ax = p[1][0] - p[0][0], ay = p[1][1] - p[0][1], az = p[1][2] - p[0][2], bx = p[2][0] - p[0][0],
                     by = p[2][1] - p[0][1], bz = p[2][2] - p[0][2], d = ax * by - ay * bx;
         const float slope = d != 0.0f ? maxf(absf((az * by - ay * bz) / d), absf((ax * bz - az * bx) / d)) : 0.0f;
-        const float d_add = c->s.polygon.factor * slope + c->s.polygon.units * (1.0f / 16777216.0f);
+        const float d_add = c->s.polygon.factor * slope + c->s.polygon.units * VERTEX_OFFSET_UNIT;
         const float range = (float)(c->s.viewport.range[1] - c->s.viewport.range[0]);
         for (int k = 0; k < 4 && range != 0.0f; ++k) {
             c->draw.to_clip.m[4 * k + 2] += d_add / range * c->draw.to_clip.m[4 * k + 3];
@@ -412,7 +459,8 @@ static int vertex_areas(gl_context *c)
     const int mode = modes[c->primitive];
     if (mode < 0 || c->s.polygon.front != GL_FILL || c->s.polygon.back != GL_FILL || c->render_mode != GL_RENDER ||
         (c->s.lighting.shade == GL_FLAT && c->shades) ||
-        (gl_is_on(c, CAP_CULL) && c->s.polygon.cull == GL_FRONT_AND_BACK)) {
+        (gl_is_on(c, CAP_CULL) && c->s.polygon.cull == GL_FRONT_AND_BACK) ||
+        (vertex_has_units(c) && !vertex_set_all_units(c))) {
         return 0;
     }
     for (int i = 0; i < c->count; ++i) {
@@ -615,6 +663,11 @@ static int vertex_is_plain(gl_context *c)
         t->min_filter != t->mag_filter || u->mode != GL_MODULATE || image->base == GL_DEPTH_COMPONENT) {
         return 0;
     }
+    for (int i = 0; i < 4; ++i) {
+        if (t->swizzle[i] != GL_RED + (GLenum)i) {
+            return 0;
+        }
+    }
     for (int i = 0; i < 2; ++i) {
         if (t->wrap[i] != GL_REPEAT && t->wrap[i] != GL_CLAMP_TO_EDGE && t->wrap[i] != GL_MIRRORED_REPEAT) {
             return 0;
@@ -654,6 +707,7 @@ void gl_set_draw(gl_context *c)
         return;
     }
     (void)lmb_draw_state_init(d, 1, 1);
+    d->kernels = c->kernels;
     vertex_set_to_clip(c);
     for (int i = 0; i < 4; ++i) {
         d->viewport[i] =

@@ -50,7 +50,10 @@ static const GLenum words[] = {
     GL_MAP_COLOR, GL_RED_SCALE, GL_POSITION, GL_SPOT_CUTOFF, GL_AMBIENT, GL_SHININESS, GL_LIGHT_MODEL_TWO_SIDE,
     GL_COLOR_MATERIAL, GL_2D, GL_4D_COLOR_TEXTURE, GL_CULL_FACE, GL_NORMALIZE};
 
-static GLenum word(stream *s) { return next(s) % 32 == 0 ? next(s) : words[next(s) % (sizeof words / sizeof words[0])]; }
+static GLenum word(stream *s)
+{
+    return next(s) % 32 == 0 ? next(s) : words[next(s) % (sizeof words / sizeof words[0])];
+}
 static GLint small(stream *s) { return (GLint)(next(s) % 40) - 3; }
 static GLint number(stream *s)
 {
@@ -124,7 +127,10 @@ static void call_state(stream *s, uint32_t which)
     case 29: glFogf(word(s), f[0]); break;
     case 30: glDepthRange((double)f[0], (double)f[1]); glPolygonOffset(f[2], f[3]); break;
     case 31: glRasterPos4f(f[0], f[1], f[2], f[3]); break;
-    case 32: glClear(next(s) % 3 ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_ACCUM_BUFFER_BIT : next(s)); break;
+    case 32:
+        glClear(next(s) % 3 ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_ACCUM_BUFFER_BIT
+                            : next(s));
+        break;
     case 33: glAccum(word(s), f[0]); break;
     case 34: glFrustum((double)f[0], (double)f[1], (double)f[2], (double)f[3], (double)f[4], (double)f[5]); break;
     case 35: { GLdouble p[4] = {f[0], f[1], f[2], f[3]}; glClipPlane(word(s), p); break; }

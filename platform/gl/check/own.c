@@ -144,6 +144,87 @@ static void errors(void)
     expect(GL_NO_ERROR, "glCallList of no list");
 }
 
+static void check(int good, const char *what)
+{
+    if (!good) {
+        fprintf(stderr, "own: %s\n", what);
+        wrong = 1;
+    }
+}
+
+/* Primitives of `each` vertices: all in one glBegin, or one in each. */
+static void draw_many(GLenum mode, int each, int apart)
+{
+    unsigned seed = 1;
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glBegin(mode);
+    for (int i = 0; i < 12000; ++i) {
+        seed = seed * 1664525u + 1013904223u;
+        const float x = (float)(i / each % 90) / 45 - 1, y = (float)(i / each / 90) / 67 - 1;
+        glColor3ub((GLubyte)(seed >> 24), (GLubyte)(seed >> 16), (GLubyte)(i / each));
+        glVertex3f(x + (float)(seed >> 8 & 255) / 5000, y + (float)(seed >> 16 & 255) / 5000, (float)(i % each) / 10);
+        if (apart && i % each == each - 1) {
+            glEnd();
+            glFinish();
+            glBegin(mode);
+        }
+    }
+    glEnd();
+    glFinish();
+    expect(GL_NO_ERROR, "many vertices");
+}
+
+/* More vertices than wait at once draw as fewer do. */
+static void many(void)
+{
+    static const GLenum modes[4] = {GL_POINTS, GL_LINES, GL_TRIANGLES, GL_QUADS};
+    static unsigned char once[sizeof pixels];
+    for (int i = 0; i < 4; ++i) {
+        draw_many(modes[i], i + 1, 0);
+        memcpy(once, pixels, sizeof once);
+        draw_many(modes[i], i + 1, 1);
+        check(memcmp(once, pixels, sizeof once) == 0, "many vertices in one glBegin");
+    }
+}
+
+/* Errors of calls in lists are those of the list's run. */
+static void list_errors(void)
+{
+    static const GLubyte bits[4] = {255};
+    glNewList(9, GL_COMPILE_AND_EXECUTE);
+    glBegin(GL_POINTS);
+    glBitmap(1, 1, 0, 0, 0, 0, bits);
+    glEnd();
+    glEndList();
+    expect(GL_INVALID_OPERATION, "glBitmap inside");
+    glCallList(9);
+    expect(GL_INVALID_OPERATION, "glBitmap inside, by a list");
+    glNewList(9, GL_COMPILE);
+    glDrawArrays(77, 0, 1);
+    glEndList();
+    expect(GL_NO_ERROR, "glDrawArrays(77), recorded");
+    glCallList(9);
+    expect(GL_INVALID_ENUM, "glDrawArrays(77), by a list");
+}
+
+/* Depth and stencil in one pixel, copied into another place. */
+static void depth_stencil(void)
+{
+    const GLuint code = 0x4000007bu;
+    GLuint back = 0;
+    GLfloat sum = 0;
+    glClearColor(1, 1, 1, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    glWindowPos2i(3, 4);
+    glDrawPixels(1, 1, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, &code);
+    glBlitFramebufferEXT(3, 4, 4, 5, 10, 12, 9, 11, GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_NEAREST);
+    glReadPixels(9, 11, 1, 1, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, &back);
+    check(back == code, "a depth-stencil pixel");
+    glReadPixels(0, 0, 1, 1, GL_LUMINANCE, GL_FLOAT, &sum);
+    check(sum == 1, "white's luminance");
+    expect(GL_NO_ERROR, "depth-stencil");
+}
+
 int main(void)
 {
     static const char *const names[8] = {"lights", "nearest", "mips", "fog", "stipple", "lists", "sphere", "points"};
@@ -158,6 +239,17 @@ int main(void)
         draw(i);
         finish(names[i]);
         errors();
+        if (i == 7) {
+            glDisable(GL_BLEND);
+            glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+            glMatrixMode(GL_PROJECTION);
+            glLoadIdentity();
+            glMatrixMode(GL_MODELVIEW);
+            glLoadIdentity();
+            many();
+            list_errors();
+            depth_stencil();
+        }
         OSMesaDestroyContext(c); /* while it is current */
     }
     return wrong;

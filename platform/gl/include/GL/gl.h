@@ -577,6 +577,7 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_MAX_EXT                                   0x8008
 #define GL_BLEND_EQUATION                            0x8009
 #define GL_BLEND_EQUATION_EXT                        0x8009
+#define GL_BLEND_EQUATION_RGB_EXT                    0x8009
 #define GL_FUNC_SUBTRACT                             0x800A
 #define GL_FUNC_SUBTRACT_EXT                         0x800A
 #define GL_FUNC_REVERSE_SUBTRACT                     0x800B
@@ -893,11 +894,23 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_SINGLE_COLOR_EXT                          0x81F9
 #define GL_SEPARATE_SPECULAR_COLOR                   0x81FA
 #define GL_SEPARATE_SPECULAR_COLOR_EXT               0x81FA
+#define GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING     0x8210
+#define GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE     0x8211
+#define GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE           0x8212
+#define GL_FRAMEBUFFER_ATTACHMENT_GREEN_SIZE         0x8213
+#define GL_FRAMEBUFFER_ATTACHMENT_BLUE_SIZE          0x8214
+#define GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE         0x8215
+#define GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE         0x8216
+#define GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE       0x8217
+#define GL_FRAMEBUFFER_DEFAULT                       0x8218
+#define GL_FRAMEBUFFER_UNDEFINED                     0x8219
 #define GL_DEPTH_STENCIL_ATTACHMENT                  0x821A
 #define GL_MAJOR_VERSION                             0x821B
 #define GL_MINOR_VERSION                             0x821C
 #define GL_NUM_EXTENSIONS                            0x821D
+#define GL_RG                                        0x8227
 #define GL_CONTEXT_FLAGS                             0x821E
+#define GL_INDEX                                     0x8222
 #define GL_UNSIGNED_BYTE_2_3_3_REV                   0x8362
 #define GL_UNSIGNED_SHORT_5_6_5                      0x8363
 #define GL_UNSIGNED_SHORT_5_6_5_REV                  0x8364
@@ -1050,6 +1063,7 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_TEXTURE_BINDING_RECTANGLE_ARB             0x84F6
 #define GL_PROXY_TEXTURE_RECTANGLE_ARB               0x84F7
 #define GL_MAX_RECTANGLE_TEXTURE_SIZE_ARB            0x84F8
+#define GL_DEPTH_STENCIL                             0x84F9
 #define GL_DEPTH_STENCIL_EXT                         0x84F9
 #define GL_UNSIGNED_INT_24_8                         0x84FA
 #define GL_UNSIGNED_INT_24_8_EXT                     0x84FA
@@ -1191,6 +1205,7 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_RGBA16F                                   0x881A
 #define GL_MAX_DRAW_BUFFERS                          0x8824
 #define GL_ALPHA_BLEND_EQUATION_ATI                  0x883D
+#define GL_BLEND_EQUATION_ALPHA_EXT                  0x883D
 #define GL_TEXTURE_DEPTH_SIZE                        0x884A
 #define GL_TEXTURE_DEPTH_SIZE_ARB                    0x884A
 #define GL_DEPTH_TEXTURE_MODE                        0x884B
@@ -1272,18 +1287,27 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_DYNAMIC_COPY                              0x88EA
 #define GL_DYNAMIC_COPY_ARB                          0x88EA
 #define GL_DEPTH24_STENCIL8_EXT                      0x88F0
+#define GL_DEPTH24_STENCIL8                          0x88F0
 #define GL_TEXTURE_STENCIL_SIZE_EXT                  0x88F1
 #define GL_SAMPLES_PASSED                            0x8914
 #define GL_SAMPLES_PASSED_ARB                        0x8914
 #define GL_SHADING_LANGUAGE_VERSION                  0x8B8C
+#define GL_UNSIGNED_NORMALIZED                       0x8C17
 #define GL_POINT_SPRITE_COORD_ORIGIN                 0x8CA0
 #define GL_LOWER_LEFT                                0x8CA1
 #define GL_UPPER_LEFT                                0x8CA2
 #define GL_FRAMEBUFFER_BINDING_EXT                   0x8CA6
+#define GL_DRAW_FRAMEBUFFER_BINDING_EXT              0x8CA6
 #define GL_RENDERBUFFER_BINDING_EXT                  0x8CA7
 #define GL_READ_FRAMEBUFFER                          0x8CA8
+#define GL_READ_FRAMEBUFFER_EXT                      0x8CA8
 #define GL_DRAW_FRAMEBUFFER                          0x8CA9
+#define GL_DRAW_FRAMEBUFFER_EXT                      0x8CA9
 #define GL_READ_FRAMEBUFFER_BINDING                  0x8CAA
+#define GL_READ_FRAMEBUFFER_BINDING_EXT              0x8CAA
+#define GL_RENDERBUFFER_SAMPLES                      0x8CAB
+#define GL_DEPTH_COMPONENT32F                        0x8CAC
+#define GL_DEPTH32F_STENCIL8                         0x8CAD
 #define GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE_EXT    0x8CD0
 #define GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME_EXT    0x8CD1
 #define GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL_EXT  0x8CD2
@@ -1332,7 +1356,14 @@ typedef ptrdiff_t GLsizeiptrARB;
 #define GL_RENDERBUFFER_ALPHA_SIZE_EXT               0x8D53
 #define GL_RENDERBUFFER_DEPTH_SIZE_EXT               0x8D54
 #define GL_RENDERBUFFER_STENCIL_SIZE_EXT             0x8D55
+#define GL_MAX_SAMPLES                               0x8D57
 #define GL_RED_INTEGER                               0x8D94
+#define GL_FLOAT_32_UNSIGNED_INT_24_8_REV            0x8DAD
+#define GL_TEXTURE_SWIZZLE_R_EXT                     0x8E42
+#define GL_TEXTURE_SWIZZLE_G_EXT                     0x8E43
+#define GL_TEXTURE_SWIZZLE_B_EXT                     0x8E44
+#define GL_TEXTURE_SWIZZLE_A_EXT                     0x8E45
+#define GL_TEXTURE_SWIZZLE_RGBA_EXT                  0x8E46
 #define GL_EVAL_BIT                                  0x10000
 #define GL_LIST_BIT                                  0x20000
 #define GL_TEXTURE_BIT                               0x40000
@@ -1366,10 +1397,13 @@ GLAPI void APIENTRY glBlendColor(GLclampf red, GLclampf green, GLclampf blue, GL
 GLAPI void APIENTRY glBlendColorEXT(GLfloat red, GLfloat green, GLfloat blue, GLfloat alpha);
 GLAPI void APIENTRY glBlendEquation(GLenum mode);
 GLAPI void APIENTRY glBlendEquationEXT(GLenum mode);
+GLAPI void APIENTRY glBlendEquationSeparateEXT(GLenum rgb, GLenum alpha);
 GLAPI void APIENTRY glBlendFunc(GLenum sfactor, GLenum dfactor);
 GLAPI void APIENTRY glBlendFuncSeparate(GLenum sfactorRGB, GLenum dfactorRGB, GLenum sfactorAlpha, GLenum dfactorAlpha);
 GLAPI void APIENTRY glBlendFuncSeparateEXT(GLenum sfactorRGB, GLenum dfactorRGB, GLenum sfactorAlpha,
     GLenum dfactorAlpha);
+GLAPI void APIENTRY glBlitFramebufferEXT(GLint sx0, GLint sy0, GLint sx1, GLint sy1, GLint dx0, GLint dy0, GLint dx1,
+    GLint dy1, GLbitfield mask, GLenum filter);
 GLAPI void APIENTRY glBufferData(GLenum target, GLsizeiptr size, const void *data, GLenum usage);
 GLAPI void APIENTRY glBufferDataARB(GLenum target, GLsizeiptrARB size, const void *data, GLenum usage);
 GLAPI void APIENTRY glBufferSubData(GLenum target, GLintptr offset, GLsizeiptr size, const void *data);
@@ -1555,6 +1589,8 @@ GLAPI void APIENTRY glFramebufferTexture2DEXT(GLenum target, GLenum attachment, 
     GLint level);
 GLAPI void APIENTRY glFramebufferTexture3DEXT(GLenum target, GLenum attachment, GLenum textarget, GLuint texture,
     GLint level, GLint zoffset);
+GLAPI void APIENTRY glFramebufferTextureLayer(GLenum target, GLenum attachment, GLuint texture, GLint level,
+    GLint slice);
 GLAPI void APIENTRY glFrontFace(GLenum mode);
 GLAPI void APIENTRY glFrustum(GLdouble left, GLdouble right, GLdouble bottom, GLdouble top, GLdouble near_val,
     GLdouble far_val);
@@ -1855,6 +1891,8 @@ GLAPI void APIENTRY glRects(GLshort x1, GLshort y1, GLshort x2, GLshort y2);
 GLAPI void APIENTRY glRectsv(const GLshort *v1, const GLshort *v2);
 GLAPI GLint APIENTRY glRenderMode(GLenum mode);
 GLAPI void APIENTRY glRenderbufferStorageEXT(GLenum target, GLenum internalformat, GLsizei width, GLsizei height);
+GLAPI void APIENTRY glRenderbufferStorageMultisample(GLenum target, GLsizei samples, GLenum format, GLsizei width,
+    GLsizei height);
 GLAPI void APIENTRY glResetHistogram(GLenum target);
 GLAPI void APIENTRY glResetMinmax(GLenum target);
 GLAPI void APIENTRY glRotated(GLdouble angle, GLdouble x, GLdouble y, GLdouble z);
