@@ -431,9 +431,9 @@ void gl_unpack(float *out, const gl_store *s, int w, int h, int d, int dims, GLe
                const void *data);
 void gl_pack(void *data, const gl_store *s, int w, int h, int d, int dims, GLenum format, GLenum type,
              const float *from);
-/* Pixels from a program, or from the read buffer, after the transfer: 4 bytes each: R G B A, a float depth, or a stencil
- * code as float; of GL_DEPTH_STENCIL all depths, then all stencil codes. Allocated in the heap; NULL and an error if
- * there is no room. */
+/* Pixels from a program, or from the read buffer, after the transfer: 4 bytes each: R G B A, a float depth, or a
+ * stencil code as float; of GL_DEPTH_STENCIL all depths, then all stencil codes. Allocated in the heap; NULL and an
+ * error if there is no room. */
 uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum format, GLenum type, const void *data);
 uint8_t *gl_copy_codes(gl_context *c, int32_t x, int32_t y, int32_t w, int32_t h, GLenum format);
 GLenum gl_base_format(GLenum internal); /* GL_DEPTH_COMPONENT also with a stencil part */

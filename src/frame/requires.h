@@ -38,7 +38,7 @@ static inline int requires_groups(const lmb_frame *f)
            f->points.data != NULL && f->groups != NULL;
 }
 
-static inline int requires_bounce(const lmb_frame *f) 
+static inline int requires_bounce(const lmb_frame *f)
 {
     return requires_cut(f) || requires_groups(f) || requires_transfer(f);
 }
