@@ -633,16 +633,16 @@ static float sends(const mix_patch *p) { return p->flux[0] + p->flux[1] + p->flu
 /* Adds patch i to its way's last bundle, or starts a new one if that has its share of the flux. */
 static void add_to_bundle(mix_sources *s, int32_t way, int32_t i, int is_new, float share)
 {
-    mix_bundle *last = &s->bundle[s->bundles[way + 1] - 1];
+    int32_t n = s->bundles[way + 1];
     float sum = 0.0f;
-    for (int32_t k = last->first; !is_new && k < last->past; ++k) {
+    for (int32_t k = is_new ? i : s->bundle[n - 1].first; k < i; ++k) {
         sum += sends(&s->piece[k]);
     }
     if (is_new || sum >= share) {
-        last = &s->bundle[s->bundles[way + 1]++];
-        last->first = i;
+        s->bundle[n++].first = i;
+        s->bundles[way + 1] = n;
     }
-    last->past = i + 1;
+    s->bundle[n - 1].past = i + 1;
 }
 
 /* Merges a few patches for distant receivers. */
