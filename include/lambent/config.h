@@ -192,7 +192,7 @@
 #define LMB_HULL_PLANES 16
 #endif
 
-/* Limits of the arithmetic, not of memory: src/raster/setup.c shows what depends on them. */
+/* Limits of the arithmetic, not of memory: src/raster/setup.c lists the code that depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; draw larger frames in windows */
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all windows */
 #define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */

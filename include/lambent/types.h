@@ -113,7 +113,7 @@ typedef struct lmb_stats {
     double flux_grouped;      /* W: the same over the groups; less only if strict zones drop some [V20] */
 } lmb_stats;
 
-/* What a new version may change. The first comment of each header states its stability:
+/* Stability between versions. The first comment of each header states its stability:
  *
  *                     patch   minor                                       major
  *   stable, before 1.0  no    may change or go; listed in NEWS.md         -

@@ -622,7 +622,7 @@ void gl_state_init(gl_context *c)
     c->matrices_dirty = c->dirty = 1;
 }
 
-/* --- what is not offered ------------------------------------------------------------------------------------------ */
+/* --- calls that are not offered ---------------------------------------------------------------------------------- */
 
 char *gl_missing_name(int slot);
 char *gl_missing_name(int slot) { return gl_now != NULL && slot < GL_MISSING ? gl_now->missing[slot] : NULL; }

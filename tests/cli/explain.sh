@@ -1,8 +1,8 @@
-# explain.sh: explain: the surface of a pixel, what blocks its lights, and light that rays find against the picture's.
+# explain.sh: checks the surface, occluders and lights that `explain` prints; compares traced light with the picture.
 . tests/cli/common.sh
 
-# The demo: a spot, and one bounce. The rays know nothing of the picture's method, so both agree only if both are right.
-# agrees WHAT PERCENT: the third and fifth colours of out.txt, traced and in the picture, differ by at most so much.
+# The demo has a spot and one bounce. The rays do not use the picture's method, so both agree only if both are right.
+# agrees FILE PERCENT: traced and drawn bounced light in the report FILE differ by at most PERCENT.
 agrees() {
     awk -v most="$2" '
         /before the albedo/ { for (i = 1; i <= 3; ++i) picture[i] = $i }
@@ -25,7 +25,7 @@ agrees() {
 }
 for pixel in 80,90 20,60 100,30 140,100; do
     status 0 explain demo --size 160x120 --pixel $pixel
-    check "demo $pixel: a picture's bounced light is what rays find" agrees out.txt 6
+    check "demo $pixel: bounced light of the picture equals traced light" agrees out.txt 6
 done
 status 0 explain demo --size 160x120 --pixel 80,90
 check "its surface" holds "triangle 1 of instance 12, material 4" out.txt
@@ -51,7 +51,7 @@ printf 'newmtl floor\nKd 0.5 0.5 0.5\nnewmtl shelf\nKd 0.2 0.6 0.2\n' >shelf.mtl
 above="--eye 0,0.4,1.5 --target 0,0,0 --size 64x64 --light point:0,1,0:0,-1,0:3,3,3"
 status 0 explain shelf.obj $above --pixel 32,32
 check "the floor" holds 'of instance 0, material "floor"' out.txt
-check "is named, and so is what blocks its light" holds 'blocked 0.5' out.txt
+check "is named, and so is the occluder" holds 'blocked 0.5' out.txt
 check "by its material" holds 'of instance 1, material "shelf"' out.txt
 check "no light comes at once" holds "direct       0 0 0" out.txt
 status 0 explain shelf.obj $above --pixel 32,50
@@ -64,7 +64,7 @@ check "is the cosine over the squared distance" awk '
 status 0 explain shelf.obj $above --pixel 0,0
 check "a pixel without a surface" holds "none: the pixel shows the background" out.txt
 
-# A sky: what the lights' pieces bring, past what blocks them, with one bounce more.
+# A sky adds a line of its own.
 status 0 explain shelf.obj --eye 0,0.4,1.5 --target 0,0,0 --size 64x64 --world sky --quality best --pixel 32,50
 check "a sky's light" holds "sky: " out.txt
 

@@ -10,7 +10,7 @@ enum {
     EXPLAIN_RAYS = 4096,   /* over the half sphere above the surface */
     EXPLAIN_SENDERS = 5,   /* instances listed, the largest senders first */
     EXPLAIN_LIGHTS = 16,   /* lights listed, the brightest first */
-    EXPLAIN_SKY = 256      /* pieces of a sky that light what a ray hits */
+    EXPLAIN_SKY = 256      /* pieces of the sky that light the hit of a ray */
 };
 
 /* The scene with a BVH. explain_space_free releases it. */
@@ -34,7 +34,7 @@ typedef struct explain_place {
     uint32_t id;               /* of its triangle */
 } explain_place;
 
-/* What one light brings to a place. */
+/* The light that one light source adds at a place. */
 typedef struct explain_light {
     uint32_t number;        /* in scene->lights */
     float open[3];          /* W/m2, as if nothing blocked it */
@@ -45,14 +45,14 @@ typedef struct explain_light {
     int is_behind, is_blocked;
 } explain_light;
 
-/* What one instance sends to a place by one bounce, or by its own emission. */
+/* The light that one instance reflects once, or emits, towards a place. */
 typedef struct explain_sender {
     uint32_t instance;
     double irradiance[3], emitted[3]; /* W/m2 at the place: in all, and of that by emission */
     float near_m, far_m;              /* distances at which rays hit it */
 } explain_sender;
 
-/* What arrives at a place by one bounce from all sides: EXPLAIN_RAYS rays, distributed by the cosine. */
+/* The light that arrives at a place after one bounce: the sum over EXPLAIN_RAYS cosine-distributed rays. */
 typedef struct explain_bounce {
     double irradiance[3]; /* W/m2 */
     uint32_t missed;      /* rays that leave the scene */

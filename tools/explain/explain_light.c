@@ -39,7 +39,7 @@ lmb_vec3 explain_light_at(float out[3], float *far_m, const lmb_light *l, lmb_ve
     return to;
 }
 
-/* The bits of s->tile's points that do not see a light. Points with a noise of their own are tested by the largest. */
+/* Returns a bit for each point of s->tile that a light does not reach. `noise` is the largest of the points. */
 static uint64_t blocked_by(explain_space *s, const lmb_light *l, uint64_t points, float noise)
 {
     if (l->kind == LMB_LIGHT_DIRECTIONAL) {
@@ -214,7 +214,7 @@ typedef struct hits {
     int count;
 } hits;
 
-/* Adds one light's part, times `scale`, to what each hit receives. */
+/* Adds the irradiance of one light, times `scale`, to each hit. */
 static void add_light(double direct[][3], explain_space *s, const hits *h, const lmb_light *light,
                       const double scale[3], float noise)
 {
@@ -232,7 +232,7 @@ static void add_light(double direct[][3], explain_space *s, const hits *h, const
     }
 }
 
-/* Every nth piece of the sky, scaled to the light of all. */
+/* Adds the sky: only every nth piece, scaled so that the sum over the pieces is kept. */
 static void add_sky(double direct[][3], explain_space *s, const hits *h, float noise)
 {
     const uint32_t step = s->sky_count / EXPLAIN_SKY + 1;
@@ -251,7 +251,7 @@ static void add_sky(double direct[][3], explain_space *s, const hits *h, float n
     }
 }
 
-/* The light that the surfaces of these hits send towards the place, into the sums of their instances. */
+/* Adds the light that these hits send towards the place to the sums of their instances. */
 static void add_hits(explain_bounce *out, explain_space *s, const hits *h)
 {
     static const double whole[3] = {1.0, 1.0, 1.0};

@@ -119,7 +119,7 @@ static const lmb_material *material_of(const explanation *e)
 
 static int is_unlit(const explanation *e) { return e->place.id > 0 && (material_of(e)->flags & LMB_UNLIT) != 0; }
 
-/* --- what is printed ---------------------------------------------------------------------------------------------- */
+/* --- output ----------------------------------------------------------------------------------------------------- */
 
 static void print_rgb(const char *what, const float c[3], const char *unit)
 {
