@@ -2,7 +2,7 @@
 . tests/cli/common.sh
 
 # More bounces add light, and the default is one; a surface that emits lights a scene without lamps.
-cut="--grouping cut --occlusion exact --shadow-map 32"
+cut="--group method=cut --occlusion exact --shadow-map 32"
 coarse="--size 32x24 --exposure 0 $cut"
 status 0 render demo $coarse -o bounce.pfm
 status 0 render demo $coarse --bounces 1 -o bounce1.pfm
@@ -12,7 +12,7 @@ check "--bounces 3 changes the picture" differ bounce.pfm bounce3.pfm
 check "--elements holds" test "$(count bounce3.json elements)" -le 256 -a "$(count bounce3.json elements)" -gt 16
 status 0 render demo $coarse --bounces 3 --elements 256 --threads 1 -o option.pfm
 check "threads do not change bounces" cmp bounce3.pfm option.pfm
-status 2 render demo $small --grouping zones --bounces 2 -o option.pfm
+status 2 render demo $small --group method=zones --bounces 2 -o option.pfm
 status 2 render demo $coarse --bounces 0 -o option.pfm
 printf 'newmtl lamp\nKe 2 3 4\nKd 0 0 0\n' >emits.mtl
 printf '%s\n' 'mtllib emits.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
@@ -96,7 +96,7 @@ status 0 play demo $live --frames 1 -q -o live%01d.pfm
 check "play does not change live light" cmp live.pfm live0.pfm
 status 0 render demo --size 96x64 --exposure 0 --quality best --show indirect -o truth.pfm
 status 0 compare live.pfm truth.pfm --max trim=0.12,rmse=0.18,lo=0.97,hi=1.03
-status 2 render demo $live --grouping zones -o live0.pfm
+status 2 render demo $live --group method=zones -o live0.pfm
 check "nothing is left behind" none bad* nowhere* *tmp*
 
 finish

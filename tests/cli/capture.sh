@@ -16,7 +16,7 @@ for way in 1,0,0:0,1,0 -1,0,0:0,1,0 0,1,0:0,0,1 0,-1,0:0,0,-1 0,0,1:0,1,0 0,0,-1
     to=$(echo "${way%:*}" | awk -F, '{ print 0.6 + $1 "," 1.1 + $2 "," 0.2 + $3 }')
     status 0 render demo $look --target "$to" --up "${way#*:}" --shadow-map 128 --quality draft -o seen.pfm
     status 0 relight $taken --object lamp.obj --scale 0.001 --at 90,0,0 $look --target "$to" --up "${way#*:}" -o shown.pfm
-    check "relight says nothing of options that it lacks" lacks 'emissive\|--glossy\|--grouping' err.txt
+    check "relight says nothing of options that it lacks" lacks 'emissive\|--glossy\|fixed groups' err.txt
     check "the cube shows what is seen towards $way" sh -c '"$1" compare "$2" "$3" --max e50=0.15' sh "$TOOL" shown.pfm seen.pfm
 done
 status 0 capture demo --at 0.6,1.1,0.2 --at 0.3,0.8,0.4 --faces 8 --samples 1 --shadow-map 128 --quality draft -o two_%02d.pfm

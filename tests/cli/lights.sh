@@ -41,10 +41,10 @@ for show in direct full; do
     status 0 render many.gltf $look --show $show -o "$show.pfm"
 done
 check "a floor lights nothing but itself" cmp direct.pfm full.pfm
-status 2 render demo $small --many-lights 4 --grouping zones -o bad.pfm
-status 0 render many.gltf $look --grouping zones --show direct -o zones.pfm
+status 2 render demo $small --many-lights 4 --group method=zones -o bad.pfm
+status 0 render many.gltf $look --group method=zones --show direct -o zones.pfm
 check "direct light knows no grouping" cmp direct.pfm zones.pfm
-status 2 render demo $small --profile fast -o bad.pfm
+status 2 render demo $small --group thick=2 -o bad.pfm
 
 # Ranges with shadow maps and with a light tree, in both files. 0 means no range, and a light that ends before the floor
 # does not light it.

@@ -17,6 +17,27 @@ status 2 render demo --vis=0.1 -o bad.png
 said "unknown option --vis; did you mean --visibility?"
 status 2 render demo --nonsense -o bad.png
 said "unknown option --nonsense; lambent render --help lists them"
+# Keys: lists, repetition, mistakes, and the names that were options of their own.
+status 0 render demo $small --group method=zones,groups=40,thin=4 -o list.pfm
+status 0 render demo $small --group thin=4 --group=groups=40 --group method=zones -o apart.pfm
+check "a list of keys is the same as one option for each" cmp list.pfm apart.pfm
+check "keys are stored" differ list.pfm demo.pfm
+status 2 render demo --group blok=2 -o bad.png
+said "--group: \`blok\` is no key, did you mean block?; lambent render --help lists them"
+status 2 render demo --group block -o bad.png
+said "--group block=VALUE wants a value: 1, 2, 4 or 8"
+status 2 render demo --group block=9 -o bad.png
+said "--group block: \`9\` is not 1, 2, 4 or 8"
+status 2 render demo --group block=2,block=4 -o bad.png
+said "--group block is given twice, 2 and 4; leave one out"
+status 2 render demo --group groups=4, -o bad.png
+status 2 render demo --block 4 -o bad.png
+said "unknown option --block; did you mean --group block=...?"
+status 2 render demo --budget-ms 4 -o bad.png
+said "unknown option --budget-ms; did you mean --budget ms=...?"
+status 2 render demo "--group block" 4 -o bad.png
+status 2 render demo --group "thin=$(awk 'BEGIN { while (i++ < 2000) printf 1 }')" -o bad.png
+said "--group: the list is too long"
 status 2 bench demo --swep tree=8
 said "did you mean --sweep?"
 status 2 bench demo --shadwo-map 64
@@ -101,8 +122,8 @@ status 2 render demo -o bad.png --show nonsense
 status 2 render demo -o bad.png --show groups --stereo 0.1
 status 2 render demo -o bad.png --show occlusion --occlusion none
 status 2 render demo -o bad.png --stereo 0
-status 2 render demo -o bad.png --thin 65
-status 2 render demo -o bad.png --neighbourhood none
+status 2 render demo -o bad.png --group thin=65
+status 2 render demo -o bad.png --group neighbourhood=none
 status 2 render demo -o bad.png --size
 status 2 render demo -o bad.tiff
 status 2 compare demo.pfm

@@ -14,34 +14,34 @@ check "a plan's JSON says what is not shown" \
     grep -q '"stage": "bounced light", "runs": false, "why": "the picture does not show it", "proof": "exact"' out.txt
 printf '%s\n' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'f 4 3 2 1' 'f 1 2 6 5' >corner.obj
 corner="corner.obj --size 32x24 --threads 1 --eye 1,2,4 --target 0,0.4,0 --light point:0.3,1.5,0.2:0,-1,0:9,9,9"
-status 0 plan $corner --budget-bytes 100KiB
+status 0 plan $corner --budget bytes=100KiB
 check "100 KiB are too few, and by how much" grep -q "no setting meets the budget; the nearest takes [0-9.]* x the bytes" out.txt
 # Sampling is part of the planned work: the share is printed, and is at most a quarter.
-status 0 plan demo --size 240x180 --threads 1 --budget-error 0.2 --json
+status 0 plan demo --size 240x180 --threads 1 --budget error=0.2 --json
 check "a look takes at most a quarter of what it plans" awk -F '"look_work": |"estimated_work": ' '
     /"look_work"/ { look = $3 + 0; work = $2 + 0 } END { exit !(look > 0 && look <= 0.25 * work) }' out.txt
 check "what is chosen for an error is checked" grep -q '"checked": true' out.txt
 if [ -z "$SHORT" ]; then
-    status 0 plan demo --size 64x48 --threads 1 --budget-error 0.00001
+    status 0 plan demo --size 64x48 --threads 1 --budget error=0.00001
     check "an error that no setting has is said" grep -q "^no setting .*the budget" out.txt
 fi
-status 0 plan $corner --budget-ms 16 --rate 1e4
+status 0 plan $corner --budget ms=16 --budget rate=1e4
 check "so are 160 units" grep -q "no setting meets the budget; the nearest takes [0-9.e+]* x the work" out.txt
 status 0 plan --help
-check "plan --help has budgets and examples" sh -c 'grep -q -- --budget-bytes "$1" && grep -q "lambent plan demo" "$1"' sh out.txt
+check "plan --help has budgets and examples" sh -c 'grep -q -- "--budget KEY" "$1" && grep -q "lambent plan demo" "$1"' sh out.txt
 status 2 plan
 status 2 plan demo -o plan.png
 status 2 plan demo --show depth
-status 2 plan demo --budget-error 0.1 --grouping zones
-status 2 plan demo --budget-ms 16 --budget-work 1e6
-status 2 plan demo --budget-bytes 100kB
+status 2 plan demo --budget error=0.1 --group method=zones
+status 2 plan demo --budget ms=16 --budget work=1e6
+status 2 plan demo --budget bytes=100kB
 status 2 render demo --json -o plan.png
-status 2 render demo --budget-error 0.1 --show direct -o plan.png
+status 2 render demo --budget error=0.1 --show direct -o plan.png
 status 1 plan nowhere.gltf
 absent plan.png
 
 # The settings chosen for a budget are printed as options that draw the same picture.
-status 0 render demo --size 240x180 --threads 1 --exposure 0 --budget-error 0.2 -o budget.pfm
+status 0 render demo --size 240x180 --threads 1 --exposure 0 --budget error=0.2 -o budget.pfm
 check "an easy budget is met" grep -q "^lambent: the budget is met" err.txt
 chosen=$(sed -n 's/^lambent: chosen: \(.*\): error about.*/\1/p' err.txt)
 status 0 render demo --size 240x180 --threads 1 --exposure 0 $chosen -o chosen.pfm

@@ -33,7 +33,7 @@ check "a row of faces a light" test "$(sed -n 2p two.pfm)" = "384 128"
 status 0 render demo $small --show eye-distance -o eye-distance.png
 check "distances say their range" grep -q '^lambent: from [0-9.]* m (white) to [0-9.]* m (dark grey)$' err.txt
 for grouping in greedy zones; do
-    status 0 render demo $small --grouping $grouping -o "$grouping.pfm"
+    status 0 render demo $small --group method=$grouping -o "$grouping.pfm"
 done
 for occlusion in none view view-world; do
     status 0 render demo $small --occlusion $occlusion -o "$occlusion.pfm"
@@ -43,31 +43,31 @@ check "the same command writes the same bytes" cmp demo.pfm again.pfm
 check "stats are JSON" grep -q '^{' stats.json
 check "light by cuts has no first points to count" grep -q '"first_points": null, "discs": null, "groups": null' stats.json
 
-# --misfits drop reports the lost flux; the others lose nothing and print nothing.
-status 0 render demo $small --groups 40 --misfits drop -o strict.pfm
-check "strict zones say their loss" grep -q '^lambent: note: --misfits drop lost [1-9][0-9.]* % of the light' err.txt
-status 0 render demo $small --groups 40 --misfits keep -o kept.pfm
+# --group misfits=drop reports the lost flux; the others lose nothing and print nothing.
+status 0 render demo $small --group groups=40 --group misfits=drop -o strict.pfm
+check "strict zones say their loss" grep -q '^lambent: note: --group misfits=drop lost [1-9][0-9.]* % of the light' err.txt
+status 0 render demo $small --group groups=40 --group misfits=keep -o kept.pfm
 check "kept misfits lose nothing" lacks lost err.txt
 
 # Too few groups are reported; zones, neighbours and discs follow the options.
-status 0 render demo $small --groups 7 -o few.pfm
+status 0 render demo $small --group groups=7 -o few.pfm
 check "regrouping is said" grep -qE '^lambent: note: discs were grouped again [1-9][0-9]* times?, .*: [1-7]$' err.txt
-status 0 render demo $small --groups 400 -o plain.pfm
-for option in "--zones 20" "--neighbour 0.6" "--neighbour-blocks 3" "--disc-radius 2"; do
-    status 0 render demo $small --groups 400 $option -o other.pfm
+status 0 render demo $small --group groups=400 -o plain.pfm
+for option in "--group zones=20" "--group neighbour=0.6" "--group neighbour-blocks=3" "--group disc-radius=2"; do
+    status 0 render demo $small --group groups=400 $option -o other.pfm
     check "$option changes nothing" differ other.pfm plain.pfm
 done
 # Options of first points: fewer discs, another neighbourhood, thresholds.
-for option in "--thin 10" "--neighbourhood hemisphere" "--neighbour 0.25" "--neighbour 0.5" "--neighbour 1" "--centre disc"; do
+for option in "--group thin=10" "--group neighbourhood=hemisphere" "--group neighbour=0.25" "--group neighbour=0.5" "--group neighbour=1" "--group centre=disc"; do
     status 0 render demo $small $option -o option.pfm --stats option.json
     check "$option changes the picture" differ demo.pfm option.pfm
 done
 
-status 0 render demo $small --thin 10 -o option.pfm --stats option.json
-status 0 render demo $small --grouping zones -o option2.pfm --stats option2.json
-check "--thin 10 leaves few discs" test $((4 * $(count option.json discs))) -lt "$(count option2.json discs)"
+status 0 render demo $small --group thin=10 -o option.pfm --stats option.json
+status 0 render demo $small --group method=zones -o option2.pfm --stats option2.json
+check "--group thin=10 leaves few discs" test $((4 * $(count option.json discs))) -lt "$(count option2.json discs)"
 # The picture does not depend on the number of threads or the backend.
-for option in "--threads 1 --profile exact" "--threads 3" "--backend scalar"; do
+for option in "--threads 1" "--threads 3" "--backend scalar"; do
     check "render demo $option" "$TOOL" render demo $small $option -o way.ppm
     cp way.ppm "way$((ways = ways + 1)).ppm"
 done
@@ -77,7 +77,7 @@ check "a backend changes the picture" cmp way1.ppm way3.ppm
 # Two eyes: each half equals a single picture from that eye, and the light is computed once.
 at() { echo "--eye $1,1.25,2.5 --target $1,1,-1 --fov 50"; }
 rows() { tail -c +"$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -v -tx1 | tr -d ' \n' | fold -w $((32 * 3 * 4 * 2)); }
-eyes="$small --grouping zones"
+eyes="$small --group method=zones"
 status 0 render demo $eyes $(at 0.5) --stereo 0.25 -o both.pfm --stats both.json
 status 0 render demo $eyes $(at 0.375) -o left.pfm --stats left.json
 status 0 render demo $eyes $(at 0.625) -o right.pfm

@@ -188,7 +188,7 @@ late render demo --size 2000x2000 --quality best -q -o late/x.png --stats late/x
 late play demo --size 64x48 --quality draft --frames 100000 -q -o late/f%06d.png
 late bake demo -q -o late/x.lmt
 late bake demo --to lightmap -q -o late/x.glb
-late plan demo --size 2000x2000 --budget-error 0.001
+late plan demo --size 2000x2000 --budget error=0.001
 late capture demo --at 0.5,1,0.5 --faces 512 -q -o late/x.hdr --ground late/g.hdr
 late relight --world demo --object demo --size 4000x4000 --samples 16 -q -o late/x.png
 late relief bake tent.obj --size 512 --views 48 -q -o late/x.lmr

@@ -82,7 +82,7 @@ check "an infinite texel is black" cmp infinite-lit.pfm black-lit.pfm
 status 1 render box.obj $look --world box.obj -o bad.pfm
 status 1 render box.obj $look --world missing.hdr -o bad.pfm
 absent bad.pfm
-status 2 render demo $few --world sky --grouping zones -o bad.pfm
+status 2 render demo $few --world sky --group method=zones -o bad.pfm
 status 0 render demo $few --world sky -o both.pfm
 check "a sky besides a scene's lights" differ both.pfm demo.pfm
 

@@ -37,7 +37,7 @@ look_seconds() {
 # row FOLDER SCENE BUDGET
 row() {
     scene=$1/$2
-    "$TOOL" render "$scene/scene.gltf" -o "$work/drawn.pfm" --show indirect --threads 1 --budget-error "$3" \
+    "$TOOL" render "$scene/scene.gltf" -o "$work/drawn.pfm" --show indirect --threads 1 --budget error="$3" \
         --stats "$work/stats.json" --size "$(size_of "$scene/pt_indirect1.pfm")" >"$work/said" 2>&1 || { fail "$2, $3"; return; }
     had=$(python3 "$compare" "$work/drawn.pfm" "$scene/pt_indirect1.pfm" --mask "$scene/gbuffer_depth.pfm" |
         sed 's/.*trim \([0-9.]*\).*/\1/')

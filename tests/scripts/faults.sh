@@ -55,11 +55,11 @@ cat >cases.txt <<'END'
 render demo --size 24x16 --quality draft --shadow-map 64 -q --threads 2 -o out/a.png --stats out/a.json
 render tent.obj --size 24x16 --quality draft --shadow-map 64 -q --threads 2 -o out/a.ppm
 render floor.gltf --size 24x16 --shadow-map 64 --bounces 3 --elements 64 -q --threads 2 -o out/a.hdr
-render one.ply --size 24x16 --shadow-map 64 --grouping zones -q --threads 1 --stereo 0.1 -o out/a.pfm
+render one.ply --size 24x16 --shadow-map 64 --group method=zones -q --threads 1 --stereo 0.1 -o out/a.pfm
 render tent.obj --size 24x16 --shadow-map 64 -q --threads 2 --transfer tent.lmt -o out/a.png
 render demo --size 24x16 --shadow-map 64 --many-lights 4 --elements 64 --show occlusion --threads 2 -q -o out/a.png
 render demo --size 16x16 --shadow-map 64 --threads 2 -q -o -
-plan tent.obj --size 24x16 --shadow-map 64 --threads 1 --budget-error 0.2 -q
+plan tent.obj --size 24x16 --shadow-map 64 --threads 1 --budget error=0.2 -q
 bake tent.obj -q --elements 64 --receivers 64 --threads 2 -o out/a.lmt
 bake floor.gltf -q --elements 64 --receivers 64 --threads 2 --once -o out/a.lmt
 pack tent.obj -q -o out/a.lmp

@@ -154,7 +154,7 @@ static void emission(void)
     char material[512];
     snprintf(material, sizeof material, strong, "");
     CHECK_MSG(load_look(material), "%s", problem.text);
-    CHECK(emits_light(4, 2, 8) && noted("emissive materials, which light the scene (but with fixed --grouping): 1"));
+    CHECK(emits_light(4, 2, 8) && noted("emissive materials, which light the scene (but with fixed groups): 1"));
     snprintf(material, sizeof material, strong, ",\"emissiveTexture\":{\"index\":0}");
     CHECK_MSG(load_look(material), "%s", problem.text);
     CHECK(emits_light(4, 2, 8) && loaded.scene.materials[0].emission_map == 1 && loaded.scene.meshes[0].uvs &&

@@ -64,11 +64,11 @@ static void emission(void)
 {
     CHECK_LOADS(load_library("newmtl a\nKe 17 12.5 4\nnewmtl b\nKe 3\n"));
     CHECK(emits(0, 0, 0, 0) && emits(1, 17, 12.5f, 4) && emits(2, 3, 3, 3) &&
-          noted("light the scene (but with fixed --grouping): 2"));
+          noted("light the scene (but with fixed groups): 2"));
     CHECK_LOADS(load_library("newmtl a\nKe 2 1\nnewmtl b\nKe -1 1e39 0.5\n"));
-    CHECK(emits(1, 2, 1, 2) && emits(2, 0, 0, 0.5f) && noted("light the scene (but with fixed --grouping): 2"));
+    CHECK(emits(1, 2, 1, 2) && emits(2, 0, 0, 0.5f) && noted("light the scene (but with fixed groups): 2"));
     CHECK_LOADS(load_library("newmtl a\nKe 0 0 0\nnewmtl b\nKe 0 7 0\n"));
-    CHECK(emits(1, 0, 0, 0) && emits(2, 0, 7, 0) && noted("light the scene (but with fixed --grouping): 1"));
+    CHECK(emits(1, 0, 0, 0) && emits(2, 0, 7, 0) && noted("light the scene (but with fixed groups): 1"));
     CHECK_LOADS(load_library("newmtl a\nKe spectral x.rfl 1\nnewmtl b\nKe xyz 1 2 3\n"));
     CHECK(emits(1, 0, 0, 0) && noted("spectrum (Kd or Ke spectral) is left out: 1"));
     CHECK(emits(2, 0, (float)(-0.9692660 + 2 * 1.8760108 + 3 * 0.0415560),

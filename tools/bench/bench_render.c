@@ -39,10 +39,10 @@ static const bench_try tries[] = {
     {"draft and", "--quality draft --gather quarter", 1, 0},
     {"best and", "--quality best --gather half", 24, 0},
     {"best and", "--quality best --tree 512", 15, 0},
-    {"fixed groups", "--grouping zones --groups 64", 4, 0},
-    {"fixed groups", "--grouping zones", 2, 0},
-    {"fixed groups", "--grouping zones --occlusion none", 1, 0},
-    {"fixed groups", "--grouping greedy", 4, 0},
+    {"fixed groups", "--group method=zones,groups=64", 4, 0},
+    {"fixed groups", "--group method=zones", 2, 0},
+    {"fixed groups", "--group method=zones --occlusion none", 1, 0},
+    {"fixed groups", "--group method=greedy", 4, 0},
     {"bounces", "--bounces 2", 30, BENCH_OTHER},
     {"bounces", "--bounces 6", 77, BENCH_OTHER},
     {"threads", "--threads 2", 4, BENCH_SAME},
@@ -53,13 +53,13 @@ static const bench_try tries[] = {
  * most 0.0005 and take half as long again. */
 static const bench_exact exact[] = {
     {"upsampling", "--gather full", "--gather"},
-    {"grouping", "--grouping cut --error 0.001", NULL},
-    {"occlusion", "--grouping cut --occlusion exact --visibility 0.004", NULL},
+    {"grouping", "--group method=cut --error 0.001", NULL},
+    {"occlusion", "--group method=cut --occlusion exact --visibility 0.004", NULL},
     {"shadow map, first points", "--shadow-map 1024 --tree 1024", NULL},
 };
 
 #define EXACT \
-    "--gather full --grouping cut --occlusion exact --error 0.001 --visibility 0.004 --shadow-map 1024 --tree 1024"
+    "--gather full --group method=cut --occlusion exact --error 0.001 --visibility 0.004 --shadow-map 1024 --tree 1024"
 
 /* --- a picture ---------------------------------------------------------------------------------------------------- */
 

@@ -477,7 +477,7 @@ static int run_calibrate(const options *o, report *r)
     if (!(rate > 0.0)) {
         return report_fail(r, "no memory to draw the built-in room");
     }
-    printf("%.4g units of work a second, threads: %d   (for plan and render: --rate %.4g)\n", rate, threads, rate);
+    printf("%.4g units of work a second, threads: %d   (for plan and render: --budget rate=%.4g)\n", rate, threads, rate);
     return 1;
 }
 
@@ -582,7 +582,7 @@ static const struct workload {
      0,
      {.verb = "bench --calibrate",
       .usage = "bench --calibrate [--threads N]",
-      .about = "Measures units of work per second, which --budget-ms needs: draws the built-in room a few times.",
+      .about = "Measures units of work per second, which --budget ms needs: draws the built-in room a few times.",
       .part = {calibrate_rows},
       .examples = "  lambent bench --calibrate --threads 1\n"}},
 };

@@ -67,7 +67,7 @@ const option_table capture_table = {
              "from above. Objects are then lit anywhere near by without the scene. Light that comes straight from spots, "
              "points and suns is in no picture: give it to relight as --light. What relight needs to know of the places is "
              "printed as its options.",
-    .part = {render_scene_rows, place_rows, render_light_rows, render_bounce_rows, other_rows},
+    .part = {render_scene_rows, place_rows, render_light_rows, render_bounce_rows, render_group_rows, other_rows},
     .examples = "  lambent capture demo --at 0.5,1,0.5 --faces 32 -o world.hdr --ground ground.hdr\n"
                 "  several places, between which relight blends:\n"
                 "    lambent capture demo --at 0.3,1,0.5 --at 1.2,1,0.5 --faces 32 -o world_%02d.hdr\n",

@@ -55,7 +55,7 @@ static const option_table table = {
         "triangles: placed: over all instances; unique: each mesh once;\n"
         "vertices: as stored, of the meshes that are placed;\n"
         "materials: in the file; drawn: those of instances, by kind;\n"
-        "emissive: materials that emit light: radiance, W/(sr m2); `render --grouping cut` lights the scene with "
+        "emissive: materials that emit light: radiance, W/(sr m2); `render --group method=cut` lights the scene with "
         "it;\n"
         "images textures: in the file; read: with size, mip levels and bytes in memory, shared by equal images;\n"
         "lights cameras: in the file; placed: by nodes; the number before a camera is for `render --camera`;\n"

@@ -21,12 +21,12 @@ static int names(const char *name, const char *word)
 
 static int is_option(const option_row *row) { return row->name != NULL && row->name[0] == '-'; }
 
-/* Returns the row, or -1. */
+/* Returns the row, or -1. A row of a key is not found, because `--group=block` is no spelling of `--group block`. */
 static int find(const option_table *t, const char *word)
 {
     const option_row *row;
     for (int i = 0; (row = options_row(t, i)) != NULL; ++i) {
-        if (is_option(row) && (names(row->name, word) || names(row->brief, word))) {
+        if (is_option(row) && options_key(row) == NULL && (names(row->name, word) || names(row->brief, word))) {
             return i;
         }
     }
@@ -122,12 +122,28 @@ static const char *nearest_option(const option_table *const *tables, int count, 
     for (int k = 0; k < count; ++k) {
         const option_row *row;
         for (int i = 0; (row = options_row(tables[k], i)) != NULL; ++i) {
-            if (is_option(row)) {
+            if (is_option(row) && options_key(row) == NULL) {
                 try_name(&l, row->name);
             }
         }
     }
     return l.found;
+}
+
+/* The row of a key that somebody gave as an option: `--block` for `--group block=`, `--group-block` too; else NULL. */
+static const option_row *find_as_option(const option_table *t, const char *name)
+{
+    const option_row *row;
+    for (int i = 0; (row = options_row(t, i)) != NULL; ++i) {
+        const char *key = options_key(row);
+        const size_t n = key != NULL ? (size_t)(key - row->name) : 0;
+        if (n > 0 && name[0] == '-' && name[1] == '-' &&
+            (strcmp(name + 2, key) == 0 ||
+             (strncmp(name, row->name, n - 1) == 0 && name[n - 1] == '-' && strcmp(name + n, key) == 0))) {
+            return row;
+        }
+    }
+    return NULL;
 }
 
 int options_unknown(const option_table *const *tables, int count, const char *word, report *r)
@@ -141,6 +157,12 @@ int options_unknown(const option_table *const *tables, int count, const char *wo
         if (row != NULL) { /* -o=x: one letter */
             return options_has_value(row) ? report_fail(r, "%s: write `%s %s`", word, name, word + n + 1)
                                           : report_fail(r, "%s takes no value: %s", name, word);
+        }
+    }
+    for (int k = 0; k < count; ++k) {
+        const option_row *row = find_as_option(tables[k], name);
+        if (row != NULL) {
+            return report_fail(r, "unknown option %s; did you mean %s=...?", name, row->name);
         }
     }
     const char *meant = nearest_option(tables, count, name);
@@ -219,6 +241,8 @@ typedef struct line {
     int argc, at;
     int32_t given[OPTION_ROWS]; /* occurrences by row */
     const char *first[OPTION_ROWS]; /* the first value */
+    char text[1024];            /* values of keys, each ending with 0 */
+    size_t used;                /* bytes of `text` */
 } line;
 
 /* The wrong part of a value with several; "": unknown. */
@@ -299,6 +323,87 @@ static int take_alone(line *l, int i, const char *value, report *r)
     return take(l, i, value, r);
 }
 
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page gives no keys */
+
+/* Returns the row of a key of that option, or -1. */
+static int find_key(const option_table *t, const option_row *option, const char *key, size_t size)
+{
+    const size_t n = strlen(option->name);
+    const option_row *row;
+    for (int i = 0; (row = options_row(t, i)) != NULL; ++i) {
+        const char *own = options_key(row);
+        if (own == row->name + n + 1 && strncmp(row->name, option->name, n) == 0 && strlen(own) == size &&
+            memcmp(own, key, size) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static int refuse_key(const line *l, const option_row *option, const char *key, report *r)
+{
+    const char *names[OPTION_ROWS + 1];
+    const size_t n = strlen(option->name);
+    const option_row *row;
+    int count = 0;
+    for (int i = 0; (row = options_row(l->table, i)) != NULL; ++i) {
+        if (options_key(row) == row->name + n + 1 && strncmp(row->name, option->name, n) == 0) {
+            names[count++] = options_key(row);
+        }
+    }
+    names[count] = NULL;
+    const char *meant = options_nearest(names, key);
+    return report_fail(r, "%s: `%s` is no key%s%s%s; lambent %s --help lists them", option->name, key,
+                       meant != NULL ? ", did you mean " : "", meant != NULL ? meant : "", meant != NULL ? "?" : "",
+                       l->table->verb);
+}
+
+/* Stores each KEY=VALUE of a list. */
+static int take_keys(line *l, const option_row *option, const char *list, report *r)
+{
+    const size_t size = strlen(list) + 1;
+    if (size > sizeof l->text - l->used) {
+        return report_fail(r, "%s: the list is too long", option->name);
+    }
+    char *key = memcpy(l->text + l->used, list, size);
+    l->used += size;
+    for (char *next; key != NULL; key = next) {
+        next = strchr(key, ',');
+        if (next != NULL) {
+            *next++ = '\0';
+        }
+        char *value = strchr(key, '=');
+        const int i = find_key(l->table, option, key, value != NULL ? (size_t)(value - key) : strlen(key));
+        if (value != NULL) {
+            *value++ = '\0';
+        }
+        if (i < 0) {
+            return refuse_key(l, option, key, r);
+        }
+        if (value == NULL || value[0] == '\0') {
+            char expects[320];
+            options_wants(expects, sizeof expects, options_row(l->table, i));
+            return report_fail(r, "%s=VALUE wants a value: %s", options_row(l->table, i)->name, expects);
+        }
+        if (!take_alone(l, i, value, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int take_value(line *l, int i, const char *value, report *r)
+{
+    const option_row *row = options_row(l->table, i);
+    return row->kind == OPTION_KEYS ? take_keys(l, row, value, r) : take_alone(l, i, value, r);
+}
+
+#else
+
+static int take_value(line *l, int i, const char *value, report *r) { return take_alone(l, i, value, r); }
+
+#endif
+
 static int take_option(line *l, report *r)
 {
     const char *word = l->argv[l->at], *inside = strchr(word, '=');
@@ -311,14 +416,14 @@ static int take_option(line *l, report *r)
         return inside == NULL ? take_alone(l, i, "", r) : report_fail(r, "%s takes no value: %s", row->name, word);
     }
     if (inside != NULL) {
-        return take_alone(l, i, inside + 1, r);
+        return take_value(l, i, inside + 1, r);
     }
     if (l->at + 1 == l->argc) {
         char expects[320];
         options_wants(expects, sizeof expects, row);
         return report_fail(r, "%s wants a value: %s", row->name, expects);
     }
-    return take_alone(l, i, l->argv[++l->at], r);
+    return take_value(l, i, l->argv[++l->at], r);
 }
 
 /* A positional argument goes to the first such row with room. */

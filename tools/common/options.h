@@ -30,6 +30,7 @@ enum {
     OPTION_POINT,   /* lmb_vec3: X,Y,Z */
     OPTION_LIGHT,   /* lmb_light; stores the size at `sizes` */
     OPTION_BACKEND, /* const lmb_kernels * */
+    OPTION_KEYS,    /* KEY=VALUE[,KEY=VALUE ...]: the rows `NAME KEY` of the same table store the values */
     OPTION_OWN      /* stored by `parse` */
 };
 
@@ -41,7 +42,8 @@ enum {
 #endif
 
 typedef struct option_row {
-    const char *name;    /* "--size"; without dashes: a positional argument, in the order of the rows */
+    const char *name;    /* "--size"; "--group block": the key `block` of an OPTION_KEYS row `--group`; without dashes: a
+                            positional argument, in the order of the rows */
     const char *brief;   /* "-h", or NULL */
     const char *value;   /* placeholder behind the name in the help: "WxH"; NULL: depends on the kind */
     int kind;
@@ -62,7 +64,7 @@ typedef struct option_row {
 
 enum { OPTION_READS = 1, OPTION_WRITES };
 
-enum { OPTION_PARTS = 10, OPTION_ROWS = 96 };
+enum { OPTION_PARTS = 12, OPTION_ROWS = 96 };
 
 typedef struct option_table {
     const char *verb;     /* "relief bake" */

@@ -113,13 +113,15 @@ void options_value(char *out, size_t size, const option_row *row)
     }
 }
 
-/* Prints "-h, --help", "--show full|direct|..."; returns the width, or WIDTH if a list is too long for a line. */
+/* Prints "-h, --help", "--show full|direct|...", or "block=1|2|..." for a key; returns the width, or WIDTH if a list is too long for a line. */
 static int print_name(FILE *out, const option_row *row)
 {
     char value[256];
     options_value(value, sizeof value, row);
-    const int begin = fprintf(out, "%*s%s%s%s%s", INDENT, "", row->brief != NULL ? row->brief : "",
-                              row->brief != NULL ? ", " : "", row->name, value[0] != '\0' ? " " : "");
+    const char *key = options_key(row);
+    const int begin = key != NULL ? fprintf(out, "%*s%s=", 2 * INDENT, "", key)
+                                  : fprintf(out, "%*s%s%s%s%s", INDENT, "", row->brief != NULL ? row->brief : "",
+                                            row->brief != NULL ? ", " : "", row->name, value[0] != '\0' ? " " : "");
     int at = begin, is_folded = 0;
     for (const char *text = value; *text != '\0';) {
         const int n = (int)strcspn(text, "|") + (strchr(text, '|') != NULL);

@@ -49,10 +49,11 @@ static void put_row(FILE *out, const option_row *row)
         put(out, row->brief, strlen(row->brief), 0);
         fputs("\\fR, \\fB", out);
     }
-    put(out, row->name, strlen(row->name), 0);
-    fputs("\\fR", out);
+    const char *key = options_key(row), *name = key != NULL ? key : row->name;
+    put(out, name, strlen(name), 0);
+    fputs(key != NULL ? "=\\fR" : "\\fR", out);
     if (value[0] != '\0') {
-        fputs(" \\fI", out);
+        fputs(key != NULL ? "\\fI" : " \\fI", out);
         put(out, value, strlen(value), 0);
         fputs("\\fR", out);
     }

@@ -9,6 +9,9 @@ const option_row *options_row(const option_table *t, int i);
 
 int options_has_value(const option_row *row);
 
+/* The key that a row stores, "block" of "--group block"; NULL if the row is an option of its own. */
+const char *options_key(const option_row *row);
+
 /* The text behind the name of an option: "WxH", "full|direct"; "" if it has no value. */
 void options_value(char *out, size_t size, const option_row *row);
 

@@ -44,7 +44,7 @@ static const option_table explain_table = {
         "one bounce, by 4,096 rays from the surface. If both differ, the method of the render loses light there or "
         "adds some."),
     .part = {render_scene_rows, pixel_rows, render_view_rows, render_world_rows, render_light_rows, render_bounce_rows,
-             render_other_rows},
+             render_group_rows, render_other_rows},
     .examples = HELP("  lambent explain demo --size 160x120 --pixel 80,90\n"),
 };
 

@@ -54,7 +54,7 @@ void mix_tell(const mix_job *j)
 {
     for (uint32_t i = 0; i < j->notes.count; ++i) { /* notes about options that only `render` has do not apply */
         report_note(j->o.is_quiet || strstr(j->notes.line[i], "--glossy") != NULL ||
-                        strstr(j->notes.line[i], "--grouping") != NULL,
+                        strstr(j->notes.line[i], "fixed groups") != NULL,
                     "note: %s", j->notes.line[i]);
     }
     if (j->o.object == NULL || j->o.at == MIX_AT_WORLD || j->o.show == MIX_PLANES) { /* it was not placed */

@@ -136,7 +136,7 @@ static void note_emission(model_build *b)
         count += e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
     }
     if (count)
-        build_note(b, "emissive materials, which light the scene (but with fixed --grouping): %u", (unsigned)count);
+        build_note(b, "emissive materials, which light the scene (but with fixed groups): %u", (unsigned)count);
 }
 
 /* Counts facts that a reader has not set: the file has as much as the scene, with one primitive per mesh. */

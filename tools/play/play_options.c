@@ -55,7 +55,7 @@ const option_table play_table = {
              "scene, the path and the frame's number. Parts that did not move since the last frame are reused, "
              "which changes no byte.",
     .part = {render_scene_rows, play_rows, render_view_rows, render_world_rows, render_light_rows,
-             render_bounce_rows, render_picture_rows, render_other_rows},
+             render_bounce_rows, render_group_rows, render_picture_rows, render_other_rows},
     .examples = "  lambent play demo --size 64x48 --quality draft --frames 4 --check 2\n"
                 "  with bounced light that was baked once:\n"
                 "    lambent bake demo -o demo.lmt --elements 1024 --receivers 2000\n"

@@ -101,10 +101,10 @@ int budget_fit(budget_choice *out, render_job *j, report *r)
         return 1;
     }
     if (out->facts.max == 0) {
-        return report_fail(r, "%s: --budget-*: no light bounces here that settings could be chosen for", j->o.scene);
+        return report_fail(r, "%s: --budget: no light bounces here that settings could be chosen for", j->o.scene);
     }
     if (lmb_plan_choose(&out->chosen, &out->facts, &out->budget, fixed) != LMB_OK) {
-        return report_fail(r, "%s: --budget-*: nothing to choose from", j->o.scene);
+        return report_fail(r, "%s: --budget: nothing to choose from", j->o.scene);
     }
     if (!take_choice(out, j, r)) {
         return 0;

@@ -13,7 +13,7 @@
 static int explain(const render_job *j, lmb_status status, int stage, report *r)
 {
     if (status == LMB_ERR_CAPACITY && stage == LMB_STAGE_GROUPS) {
-        return report_fail(r, "--grouping none: %u discs do not fit %d groups; use a smaller --shadow-map, or zones",
+        return report_fail(r, "--group method=none: %u discs do not fit %d groups; use a smaller --shadow-map, or zones",
                            (unsigned)j->stats.first_points, LMB_MAX_GROUPS);
     }
     if (status == LMB_ERR_ARG) {

@@ -73,7 +73,7 @@ static int load_transfer(render_job *j, report *r)
         return 1;
     }
     if (has_budget(&j->o.budget, j->o.budget_ms)) {
-        return report_fail_usage(r, "--transfer: light is as exact as it was baked: no --budget-... goes with it");
+        return report_fail_usage(r, "--transfer: light is as exact as it was baked: no --budget goes with it");
     }
     if (!file_read(&j->transfer_file, j->o.transfer, r) ||
         !lmt_open(&j->transfer, &j->transfer_file, j->o.transfer, r)) {
@@ -224,7 +224,7 @@ static int set_world(render_job *j, int lit, report *r)
     const int is_sky = j->o.world == NULL || strcmp(j->o.world, "sky") == 0;
     world *w = &j->around;
     if (!can_bounce_many(j)) {
-        return report_fail_usage(r, "--world: a sky's light bounces by --grouping cut alone; or use --world none");
+        return report_fail_usage(r, "--world: a sky's light bounces by --group method=cut only; or use --world none");
     }
     if (has_budget(&j->o.budget, j->o.budget_ms)) {
         return report_fail_usage(r, "--world: settings for a budget are reckoned without a sky's light; use --quality");
@@ -320,7 +320,7 @@ static int set_light_stream(render_job *j, report *r)
         return 1;
     }
     if (!can_bounce_many(j)) {
-        return report_fail_usage(r, "--grouping: %u lights of %s bounce by cut only; or use --show direct",
+        return report_fail_usage(r, "--group method: %u lights of %s bounce by cut only; or use --show direct",
                            (unsigned)(lists[0].count + lists[1].count), j->o.scene);
     }
     if (!light_stream_take(&j->many_lights, lists, cells, r)) {
@@ -446,11 +446,11 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
 static int refuse(const lmb_frame_settings *s, report *r)
 {
     if (s->gather_step == LMB_GATHER_LIVE && s->quality == LMB_QUALITY_FIXED) {
-        return report_fail_usage(r, "--gather live takes its light from --grouping cut alone");
+        return report_fail_usage(r, "--gather live takes its light from --group method=cut only");
     }
     return s->quality == LMB_QUALITY_FIXED
-               ? report_fail(r, "more first points than can be counted; use a larger --block or a smaller --shadow-map")
-               : report_fail_usage(r, "--grouping cut: --shadow-map must be a power of two, not %d", (int)s->shadow_map);
+               ? report_fail(r, "more first points than can be counted; use a larger --group block or a smaller --shadow-map")
+               : report_fail_usage(r, "--group method=cut: --shadow-map must be a power of two, not %d", (int)s->shadow_map);
 }
 
 /* Sets the members that need no memory. */

@@ -14,13 +14,6 @@ enum { CHOSEN = -1 }; /* from other options */
 
 /* --- values of their own kinds ------------------------------------------------------------------------------------ */
 
-/* Only for command lines that use it. */
-static int parse_profile(const char *text, void *at)
-{
-    (void)at;
-    return strcmp(text, "exact") == 0;
-}
-
 /* Rounds up to a power of 4, as the library requires. */
 static int parse_elements(const char *text, void *at)
 {
@@ -31,32 +24,6 @@ static int parse_elements(const char *text, void *at)
     for (*elements = 64; *elements < wanted; *elements *= 4) {
     }
     return 1;
-}
-
-/* 0 selects the default in the library, so the smallest positive number replaces it. */
-static int parse_or_zero(const char *text, float low, float *at)
-{
-    const int ok = option_number(text, low, 1.0f, at);
-    *at = *at != 0.0f ? *at : 1e-30f;
-    return ok;
-}
-
-static int parse_join(const char *text, void *at) { return parse_or_zero(text, 0.0f, at); }
-static int parse_cosine(const char *text, void *at) { return parse_or_zero(text, -1.0f, at); }
-
-/* One of two words sets or clears a flag. */
-static int parse_flag_word(const char *text, const char *clear, const char *set, uint32_t flag, uint32_t *flags)
-{
-    if (strcmp(text, clear) != 0 && strcmp(text, set) != 0) {
-        return 0;
-    }
-    *flags = strcmp(text, set) == 0 ? *flags | flag : *flags & ~flag;
-    return 1;
-}
-
-static int parse_misfits(const char *text, void *at)
-{
-    return parse_flag_word(text, "keep", "drop", LMB_ZONES_STRICT, at);
 }
 
 /* Two digits of a colour, or -1. */
@@ -99,45 +66,11 @@ static int parse_background(const char *text, void *at)
     return ok;
 }
 
-static int parse_centre(const char *text, void *at)
-{
-    return parse_flag_word(text, "barycentre", "disc", LMB_POINT_CENTRE, at);
-}
-
-static int parse_neighbourhood(const char *text, void *at)
-{
-    return parse_flag_word(text, "facing", "hemisphere", LMB_NEAR_HEMISPHERE, at);
-}
-
-static int parse_budget_work(const char *text, void *at)
-{
-    float work;
-    const int ok = option_number(text, 1.0f, 1e18f, &work);
-    *(double *)at = ok ? (double)work : 0.0;
-    return ok;
-}
-
-static int parse_budget_bytes(const char *text, void *at)
-{
-    const char *p = text;
-    float n;
-    if (!option_float(&p, &n) || !(n >= 1.0f) || n > 1e15f) {
-        return 0;
-    }
-    const double unit = strcmp(p, "KiB") == 0 ? 1024.0 : strcmp(p, "MiB") == 0 ? 1048576.0 : 1.0;
-    *(uint64_t *)at = (uint64_t)((double)n * unit);
-    return *p == '\0' || unit > 1.0;
-}
-
 /* --- the tables --------------------------------------------------------------------------------------------------- */
 
 static const char *const qualities[] = {"draft", "default", "best", NULL};
 static const int32_t quality_values[] = {LMB_QUALITY_DRAFT, LMB_QUALITY_DEFAULT, LMB_QUALITY_BEST};
 static const char *const rests[] = {"estimate", "none", NULL};
-static const char *const groupings[] = {"cut", "zones", "greedy", "none", NULL};
-static const int32_t grouping_values[] = {LMB_GROUP_CUT, LMB_GROUP_ZONES, LMB_GROUP_GREEDY, LMB_GROUP_NONE};
-static const char *const blocks[] = {"1", "2", "4", "8", NULL};
-static const int32_t block_values[] = {1, 2, 4, 8};
 static const char *const occlusions[] = {"exact", "none", "view", "view-world", NULL};
 static const int32_t occlusion_values[] = {LMB_OCCLUSION_EXACT, LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW,
                                            LMB_OCCLUSION_VIEW_WORLD};
@@ -259,7 +192,7 @@ const option_row render_bounce_rows[] = {
     {.name = "--visibility", .value = "V", .kind = OPTION_NUMBER, AT(visibility), .low = 1e-4, .high = 10,
      .help = HELP("largest share of a pixel's bounced light that one visibility test decides")},
     {.name = "--bounces", .value = "N", .kind = OPTION_INT, AT(bounces), .low = 1, .high = 64,
-     .help = HELP("number of bounces (default 1); more than 1 need --grouping cut. Light that reaches a surface "
+     .help = HELP("number of bounces (default 1); more than 1 need --group method=cut. Light that reaches a surface "
                   "directly from an emitter is no bounce and always counts")},
     {.name = "--rest", .kind = OPTION_WORD, AT(truncated), .words = rests,
      .help = HELP("with --bounces over 1, light of further bounces: estimated from the decrease of the last ones "
@@ -268,50 +201,10 @@ const option_row render_bounce_rows[] = {
      .expects = "a number, 64 .. 16777216",
      .help = HELP("surface elements that bounce light again, or emit it (a power of 4; default 16384, with "
                   "--bounces over 1 65536)")},
-    {.name = "--grouping", .kind = OPTION_WORD, AT(grouping.method), .words = groupings, .values = grouping_values,
-     .help = HELP("cut (default): every 8x8 pixels select nodes of a tree of all lit points. The others make one "
-                  "fixed set of groups; only they use the options from --groups to --centre, and --steps")},
-    {.name = "--groups", .value = "N", .kind = OPTION_INT, AT(grouping.groups), .low = 1, .high = LMB_MAX_GROUPS,
-     .help = HELP("maximum number of groups (default 512)")},
-    {.name = "--block", .kind = OPTION_WORD, AT(grouping.block), .words = blocks, .values = block_values,
-     .help = HELP("texels per side of a first point (default 8)")},
-    {.name = "--neighbour", .value = "METRES", .kind = OPTION_NUMBER, AT(grouping.neighbour_m), .low = 0, .high = 1e6,
-     .help = HELP("neighbours are points within this distance, for example 0.25, 0.5 or 1 (default: those of "
-                  "adjacent blocks, like --neighbour-blocks 1)")},
-    {.name = "--neighbour-blocks", .value = "N", .kind = OPTION_INT, AT(grouping.neighbour_cells), .low = 1,
-     .high = LMB_MAX_SIDE,
-     .help = HELP("neighbours are points within this many blocks of the shadow map; if you give --neighbour too, "
-                  "both must hold")},
-    {.name = "--neighbourhood", .value = "facing|hemisphere", .kind = OPTION_OWN, AT(grouping.flags),
-     .parse = parse_neighbourhood, .expects = "facing or hemisphere",
-     .help = HELP("neighbours must face the same way (default), or may be anywhere above the surface")},
-    {.name = "--thin", .value = "N", .kind = OPTION_INT, AT(grouping.thin), .low = 1, .high = LMB_MAX_THIN,
-     .help = HELP("one of N points becomes a disc, evenly spread, and the others join it (default 1)")},
-    {.name = "--disc-radius", .value = "R", .kind = OPTION_ABOVE, AT(grouping.radius), .low = 0, .high = 1e6,
-     .help = HELP("disc radius: R x the mean distance to neighbouring discs (default: from the area of the points, "
-                  "which preserves the total area)")},
-    {.name = "--zones", .value = "N", .kind = OPTION_INT, AT(grouping.zones), .low = 1, .high = 1 << 26,
-     .help = HELP("initial number of zones of the map of discs (default: same as --groups)")},
-    {.name = "--join", .value = "K", .kind = OPTION_OWN, AT(grouping.join), .parse = parse_join,
-     .expects = "a number, 0 .. 1",
-     .help = HELP("points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)")},
-    {.name = "--reach", .value = "X", .kind = OPTION_NUMBER, AT(grouping.reach), .low = 0.01, .high = 1e6,
-     .help = HELP("a disc joins a group within X x the radius of the first disc (default 3)")},
-    {.name = "--cosine", .value = "C", .kind = OPTION_OWN, AT(grouping.cosine), .parse = parse_cosine,
-     .expects = "a number, -1 .. 1",
-     .help = HELP("... and if the cosine between the normals is at least C, -1 .. 1 (default 0.9)")},
-    {.name = "--misfits", .value = "keep|drop", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_misfits,
-     .expects = "keep or drop",
-     .help = HELP("a disc that does not fit its zone opens another group, or is dropped; the loss is printed")},
-    {.name = "--centre", .value = "barycentre|disc", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_centre,
-     .expects = "barycentre or disc",
-     .help = HELP("position of a group (default barycentre)")},
     {.name = "--occlusion", .kind = OPTION_WORD, AT(occlusion), .words = occlusions, .values = occlusion_values,
      .help = HELP("occlusion between lit points and pixels: test every triangle (default of cut); none; or, for "
                   "fixed groups, march the viewer's depth map in map space or in world space (their default: view), "
                   "which misses geometry that is off screen or hidden")},
-    {.name = "--steps", .value = "N", .kind = OPTION_INT, AT(steps), .low = 1, .high = 64,
-     .help = HELP("samples of a march through the depth map (default 12)")},
     {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
      .help = HELP("full: every pixel; half, quarter: every second or fourth pixel each way, interpolated if surface "
                   "and light are continuous; pixels without such neighbours are gathered too. adaptive: every "
@@ -326,14 +219,14 @@ const option_row render_picture_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("picture")},
     {.name = "--glossy", .kind = OPTION_FLAG, AT(glossy),
      .help = HELP("draw highlights and reflections of glTF materials, from metallic, roughness and base colour "
-                  "(metallic-roughness maps by texel): for lights with maps, and for bounced light with --grouping "
-                  "cut or --transfer. Otherwise, and in OBJ, PLY and `demo`, materials are Lambertian")},
+                  "(metallic-roughness maps by texel): for lights with maps, and for bounced light with --group "
+                  "method=cut or --transfer. Otherwise, and in OBJ, PLY and `demo`, materials are Lambertian")},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .values = show_values,
      .help = HELP("light, the only choices of `play` and `plan` (default full; irradiance: bounced, before "
                   "albedo);\ndepth, eye-distance, normal, albedo: attributes of the view; metres along the view "
                   "axis, and from the eye;\nlight-distance, points, groups: shadow maps in map resolution, a row of "
                   "faces per light: metres from the light; exitance of first points, W/m2 (discs, if you give "
-                  "--join or --thin); number of the group that owns a texel, 0 dark, -1 dropped;\nocclusion: the "
+                  "--group join or thin); number of the group that owns a texel, 0 dark, -1 dropped;\nocclusion: the "
                   "share of bounced light that --occlusion blocks;\nwireframe: edges of triangles.\nDisplay formats "
                   "scale distances, near is bright, and give each group a colour")},
     {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
@@ -347,31 +240,8 @@ const option_row render_picture_rows[] = {
     {.kind = OPTION_END},
 };
 
-static const option_row budget_rows[] = {
-    {.kind = OPTION_TITLE,
-     .help = HELP("budget: with any of these --shadow-map, --tree, --error, --visibility, --gather and --occlusion are "
-             "chosen for you: the least error within the limits, or the least work within --budget-error. The choice, "
-             "and limits that it misses, are printed; `lambent plan` shows the estimates")},
-    {.name = "--budget-error", .value = "E", .kind = OPTION_NUMBER, AT(budget.error), .low = 1e-5, .high = 10,
-     .help = HELP("error limit of bounced light: RMSE over the mean, without the worst 1 % of pixels")},
-    {.name = "--budget-ms", .value = "T", .kind = OPTION_NUMBER, AT(budget_ms), .low = 1e-3, .high = 1e9,
-     .help = HELP("time limit of a frame on this machine: T x the rate of `lambent bench --calibrate`")},
-    {.name = "--budget-work", .value = "N", .kind = OPTION_OWN, AT(budget.work), .parse = parse_budget_work,
-     .expects = "a number of units, 1 or more",
-     .help = HELP("the same in units (one pixel lit by one node), for the same choice on every machine")},
-    {.name = "--budget-bytes", .value = "N[KiB|MiB]", .kind = OPTION_OWN, AT(budget.bytes), .parse = parse_budget_bytes,
-     .expects = "a number of bytes, or of KiB or MiB: 100KiB",
-     .help = HELP("limit of maps, trees, view, picture and one thread's scratch")},
-    {.name = "--rate", .value = "UNITS", .kind = OPTION_NUMBER, AT(rate), .low = 1, .high = 1e15,
-     .help = HELP("units of work per second, instead of measuring them")},
-    {.kind = OPTION_END},
-};
-
 const option_row render_other_rows[] = {
     {.kind = OPTION_TITLE, .help = HELP("other")},
-    {.name = "--profile", .value = "exact", .kind = OPTION_OWN, .parse = parse_profile,
-     .expects = "exact (there is no other)",
-     .help = HELP("the only profile: the same bytes on every machine")},
     OPTION_BACKEND_ROW(render_options, kernels),
     OPTION_THREADS_ROW(render_options, threads, "draw the picture"),
 #if !defined(OPTIONS_WITHOUT_HELP) /* the web page writes no files */
@@ -391,12 +261,18 @@ static const option_row json_rows[] = {
     {.kind = OPTION_END},
 };
 
+#if defined(OPTIONS_WITHOUT_HELP) /* the web page has its own sliders instead */
+#define KEY_ROWS
+#else
+#define KEY_ROWS render_group_rows, render_budget_rows,
+#endif
+
 const option_table render_table = {
     .verb = "render",
     .usage = HELP("render SCENE -o OUT [options]"),
     .about = HELP("Draws a scene with bounced light."),
     .part = {render_scene_rows, output_rows, render_view_rows, stereo_rows, render_world_rows,
-             render_light_rows, render_bounce_rows, render_picture_rows, budget_rows, render_other_rows},
+             render_light_rows, render_bounce_rows, KEY_ROWS render_picture_rows, render_other_rows},
     .examples = HELP("  lambent render demo --size 320x240 -o demo.png\n"
                 "  lambent render demo --size 160x120 --show indirect -o light.pfm\n"
                 "  lambent render demo --size 160x120 --eye 0.5,1.25,2.5 --target 0.5,1,-1 \\\n"
@@ -416,15 +292,15 @@ const option_table plan_table = {
                   "segments of bounced light are estimated from up to 192 sample tiles of the picture. So is the "
                   "error of settings chosen for a budget, against finer settings. Sampling never costs over a "
                   "quarter of the picture. Work is counted in units: one is a pixel lit by one node."),
-    .part = {render_scene_rows, json_rows, budget_rows, render_view_rows, stereo_rows, render_light_rows,
-             render_bounce_rows, render_picture_rows, render_other_rows},
+    .part = {render_scene_rows, json_rows, render_view_rows, stereo_rows, render_light_rows, render_bounce_rows,
+             KEY_ROWS render_picture_rows, render_other_rows},
     .examples = HELP("  lambent plan demo --size 32x24\n"
                 "  settings for a frame of 16 ms on this machine:\n"
-                "    lambent plan demo --size 32x24 --budget-ms 16\n"
+                "    lambent plan demo --size 32x24 --budget ms=16\n"
                 "  the least work for an error of 5 %:\n"
-                "    lambent plan demo --size 32x24 --budget-error 0.05\n"
+                "    lambent plan demo --size 32x24 --budget error=0.05\n"
                 "  settings for a small memory, or how much more is needed:\n"
-                "    lambent plan demo --size 32x24 --budget-bytes 400KiB\n"),
+                "    lambent plan demo --size 32x24 --budget bytes=400KiB\n"),
 };
 
 static const char *show_name(int32_t show)
@@ -458,13 +334,13 @@ static int check_budget(const render_options *o, report *r)
         return 1;
     }
     if (o->grouping.method != LMB_GROUP_CUT || o->conservative) {
-        return report_fail(r, "--budget-*: settings are chosen for --grouping cut, without --error-bound");
+        return report_fail(r, "--budget: settings are chosen for --group method=cut, without --error-bound");
     }
     if (o->show == SHOW_OCCLUSION || shows_attribute(o->show) || shows_map(o->show) || o->show == LMB_SHOW_DIRECT) {
-        return report_fail(r, "--budget-*: settings are chosen for bounced light; --show full, indirect or irradiance");
+        return report_fail(r, "--budget: settings are chosen for bounced light; --show full, indirect or irradiance");
     }
     if (o->budget.work > 0.0 && o->budget_ms > 0.0f) {
-        return report_fail(r, "--budget-ms and --budget-work exclude each other: one is the other times the rate");
+        return report_fail(r, "--budget ms and --budget work exclude each other: one is the other times the rate");
     }
     return 1;
 }
@@ -484,7 +360,7 @@ static int check_together(const render_options *o, report *r)
         return report_fail(r, "--background: colours are a display's; name a .png or a .ppm");
     }
     if (o->bounces > 1 && o->grouping.method != LMB_GROUP_CUT) {
-        return report_fail(r, "--bounces above 1 needs --grouping cut");
+        return report_fail(r, "--bounces above 1 needs --group method=cut");
     }
     if (!view_options_check(&o->view, r)) {
         return 0;
@@ -496,7 +372,7 @@ static int check_together(const render_options *o, report *r)
         return report_fail(r, "--stereo: what lives in a shadow map is one for both eyes; show it without");
     }
     if (o->grouping.method == LMB_GROUP_CUT && (o->show == SHOW_POINTS || o->show == SHOW_GROUPS)) {
-        return report_fail(r, "--show points, groups: a cut is each tile's own; use --grouping zones, greedy or none");
+        return report_fail(r, "--show points, groups: a cut is each tile's own; use --group method=zones, greedy or none");
     }
     if (o->samples > 1 && o->show > LMB_SHOW_IRRADIANCE) {
         return report_fail(r, "--samples %d: only light has a mean over a pixel; --show %s takes one sample",
@@ -508,7 +384,7 @@ static int check_together(const render_options *o, report *r)
     if ((o->grouping.method == LMB_GROUP_CUT) != (o->occlusion == LMB_OCCLUSION_EXACT) &&
         o->occlusion != LMB_OCCLUSION_NONE) {
         return report_fail(r,
-                           "--occlusion exact goes with --grouping cut; view and view-world with zones, greedy, none");
+                           "--occlusion exact goes with --group method=cut; view and view-world with zones, greedy, none");
     }
     return 1;
 }
@@ -553,7 +429,7 @@ static int check_slice(const render_options *o, report *r)
         return report_fail(r, "--slice: only pictures of light are drawn by slices; use --show full, direct or indirect");
     }
     if (o->budget_ms > 0.0f && !(o->rate > 0.0f)) {
-        return report_fail(r, "--slice: --budget-ms chooses by the machine's speed; add --rate, or use --budget-work");
+        return report_fail(r, "--slice: --budget ms chooses by the machine's speed; add rate, or use work");
     }
     return o->out == NULL || slice_name(name, o->out, o->slice, r);
 }

@@ -78,7 +78,7 @@ extern const option_table render_table, plan_table;
 
 /* Rows that other verbs share. Begin the struct of such a verb with a render_options. */
 extern const option_row render_scene_rows[], render_view_rows[], render_world_rows[], render_light_rows[],
-    render_bounce_rows[], render_picture_rows[], render_other_rows[];
+    render_bounce_rows[], render_group_rows[], render_budget_rows[], render_picture_rows[], render_other_rows[];
 
 /* render_options_begin: sets the defaults. render_options_complete: after the command line was read, fills in open
  * options and checks that they fit together; returns 1, or 0 with `r` set. render_options_parse does both. */

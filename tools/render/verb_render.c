@@ -193,7 +193,7 @@ static void tell_loss(const render_job *j)
 {
     const double lost = j->stats.flux_lit - j->stats.flux_grouped;
     if ((j->frame.grouping.flags & LMB_ZONES_STRICT) && j->stats.groups > 0) {
-        report_note(j->o.view.is_quiet, "note: --misfits drop lost %.3g %% of the light that bounces",
+        report_note(j->o.view.is_quiet, "note: --group misfits=drop lost %.3g %% of the light that bounces",
                     j->stats.flux_lit > 0.0 ? fmax(lost, 0.0) / j->stats.flux_lit * 100.0 : 0.0);
     }
 }
@@ -203,7 +203,7 @@ static void tell_regroups(const render_job *j)
 {
     if (j->stats.regroups > 0) {
         report_note(j->o.view.is_quiet,
-                    "note: discs were grouped again %u time%s, each coarser, until --groups was enough: %u",
+                    "note: discs were grouped again %u time%s, each coarser, until --group groups was enough: %u",
                     (unsigned)j->stats.regroups, j->stats.regroups == 1 ? "" : "s", (unsigned)j->stats.groups);
     }
 }

@@ -555,8 +555,7 @@ function page() {
         const level = LEVELS[$('quality').value], w = ['render', now.file, '-o', 'page.ppm', '--size', $('size').value,
                                                        '--samples', '1'];
         if (showsWhole()) w.push('--show', show());
-        if (isMap()) return [...w, '--shadow-map', show() === 'groups' || show() === 'points' ? '256' : '512',
-                             ...(show() === 'light-distance' ? [] : ['--grouping', 'zones'])];
+        if (isMap()) return [...w, '--shadow-map', show() === 'groups' || show() === 'points' ? '256' : '512'];
         if (level === 'baked' && now.transfer && show() !== 'cut' && show() !== 'occlusion') {
             return [...w, '--transfer', now.transfer];
         }
