@@ -71,8 +71,8 @@ static lmb_status light_up(void)
     if (s == LMB_OK)
         s = lmb_transfer_clear(&light, &transfer);
     for (int32_t f = 0; f < map.faces && s == LMB_OK; ++f)
-        s = lmb_transfer_collect(&light, lmb_kernels_pick(), &collecting, &transfer, scene, &scene->lights[0], &map, f, 1,
-                                 0, MAP_SIZE);
+        s = lmb_transfer_collect(&light, lmb_kernels_pick(), &collecting, &transfer, scene, &scene->lights[0], &map, f,
+                                 1, 0, MAP_SIZE);
     taken[ELEMENTS] = count_taken();
     if (s == LMB_OK)
         s = lmb_transfer_send(&light, &transfer);

@@ -18,7 +18,10 @@
 static int make_folder(const char *path) { return _mkdir(path); }
 static int is_separator(char c) { return c == '/' || c == '\\'; }
 double host_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
-static double seconds_of(FILETIME t) { return 1e-7 * ((double)t.dwHighDateTime * 4294967296.0 + (double)t.dwLowDateTime); }
+static double seconds_of(FILETIME t)
+{
+    return 1e-7 * ((double)t.dwHighDateTime * 4294967296.0 + (double)t.dwLowDateTime);
+}
 double host_cpu_seconds(void) /* clock() returns the time of day there */
 {
     FILETIME from, to, system, user;

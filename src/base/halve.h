@@ -19,7 +19,8 @@ typedef struct {
 static inline halve_taps halve_axis(int32_t side, int32_t i)
 {
     const int32_t m = side / 2;
-    const halve_taps one = {0, 1, 1, {1, 0, 0}}, even = {2 * i, 2, 2, {1, 1, 0}}, odd = {2 * i, 3, side, {m - i, m, i + 1}};
+    const halve_taps one = {0, 1, 1, {1, 0, 0}}, even = {2 * i, 2, 2, {1, 1, 0}},
+                     odd = {2 * i, 3, side, {m - i, m, i + 1}};
     return side == 1 ? one : side % 2 == 0 ? even : odd;
 }
 

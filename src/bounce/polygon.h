@@ -20,14 +20,15 @@ static inline float polygon_back(float height, float min_height, lmb_vec3 face, 
     if (height > min_height) {
         return 0.0f;
     }
-    return LMB_TREES && height > 0.0f && absf(dot3(face, axis)) < POLYGON_BENT && dot3(face, middle) > 0.0f ? min_height - height
-                                                                                               : -1.0f;
+    return LMB_TREES && height > 0.0f && absf(dot3(face, axis)) < POLYGON_BENT && dot3(face, middle) > 0.0f
+               ? min_height - height
+               : -1.0f;
 }
 
 /* Corners relative to the point, moved back until it is at least `min_height` above their plane. Returns 0 if the point
  * gets no light. */
-static inline int polygon_corners(lmb_vec3 *out, lmb_vec3 at, lmb_vec3 face, const lmb_vec3 *corner, int corners, float min_height,
-                        lmb_vec3 axis)
+static inline int polygon_corners(lmb_vec3 *out, lmb_vec3 at, lmb_vec3 face, const lmb_vec3 *corner, int corners,
+                                  float min_height, lmb_vec3 axis)
 {
     lmb_vec3 sum = vec3(0, 0, 0);
     for (int i = 0; i < corners; ++i) {

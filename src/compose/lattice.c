@@ -204,8 +204,8 @@ static int32_t after(int32_t x, int32_t step, int32_t size)
 }
 
 /* Finds the neighbour along columns or rows. Returns the distance in px; 0 if there is none. */
-static float neighbour(pixel *out, const lmb_lattice *l, const patch_corner *c, int32_t x, int32_t y, int way, int ahead,
-                       int32_t step)
+static float neighbour(pixel *out, const lmb_lattice *l, const patch_corner *c, int32_t x, int32_t y, int way,
+                       int ahead, int32_t step)
 {
     for (int32_t s = step; s <= 2 * step; s *= 2) {
         const int32_t from = way == 0 ? x : y, size = way == 0 ? l->width : l->height;

@@ -139,7 +139,10 @@ typedef struct lmb_draw_late {
     lmb_draw_corner corner[3];
 } lmb_draw_late;
 
-static inline float quick_row(const float *m, const float p[3]) { return m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12]; }
+static inline float quick_row(const float *m, const float p[3])
+{
+    return m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12];
+}
 
 static inline float quick_fog(const lmb_draw_pass *pass, const float p[3], float w)
 {

@@ -373,7 +373,9 @@ static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t i)
 
 lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
 {
-    void *pixel = f != NULL && f->format != LMB_FIXED_RGB888 ? (void *)f->pixel_16 : f != NULL ? (void *)f->pixel : NULL;
+    void *pixel = f != NULL && f->format != LMB_FIXED_RGB888 ? (void *)f->pixel_16
+                  : f != NULL                                ? (void *)f->pixel
+                                                             : NULL;
     if (!has_memory(f) || !is_view(&f->view) || pixel == NULL || f->depth == NULL || first < 0 || past <= first ||
         past > f->view.height || f->format < 0 || f->format > LMB_FIXED_RGBA5551) {
         return LMB_ERR_ARG;

@@ -347,9 +347,9 @@ ALWAYS_INLINE void fill_rows(const fixed_band *b, const lmb_fixed_ready *r, int3
     const int32_t middle = within(r->middle, first, past), log2 = bytes_log2(b), above = b->width * (first - b->first),
                   pitch = b->width << log2, width = b->width, most_left = r->left,
                   most_right = r->right, is_gentle = r->is_gentle, is_whole_left = r->is_whole_left;
-    const uint32_t depth_x = is_deep ? r->per_x[0] : 0, red_x = r->per_x[1], green_x = r->per_x[2], blue_x = r->per_x[3],
-                   depth_y = is_deep ? r->per_y[0] : 0, red_y = r->per_y[1], green_y = r->per_y[2], blue_y = r->per_y[3],
-                   down = (uint32_t)(first - r->first);
+    const uint32_t depth_x = is_deep ? r->per_x[0] : 0, red_x = r->per_x[1], green_x = r->per_x[2],
+                   blue_x = r->per_x[3], depth_y = is_deep ? r->per_y[0] : 0, red_y = r->per_y[1],
+                   green_y = r->per_y[2], blue_y = r->per_y[3], down = (uint32_t)(first - r->first);
     uint32_t depth = is_deep ? r->at[0] + depth_y * down : 0, red = r->at[1] + red_y * down,
              green = r->at[2] + green_y * down, blue = r->at[3] + blue_y * down;
     unsigned char *to = (unsigned char *)b->pixel + (above << log2);
@@ -367,7 +367,8 @@ ALWAYS_INLINE void fill_rows(const fixed_band *b, const lmb_fixed_ready *r, int3
         lmb_fixed_edge left = {is_whole_left ? whole.at : other_at, is_whole_left ? whole.slope : other->slope},
                        right = {is_whole_left ? other_at : whole.at, is_whole_left ? other->slope : whole.slope};
         for (; y < end; ++y) {
-            const int32_t x = maxi(first_pixel(left.at), most_left), count = mini(first_pixel(right.at), most_right) - x;
+            const int32_t x = maxi(first_pixel(left.at), most_left),
+                          count = mini(first_pixel(right.at), most_right) - x;
             if (count > 0) {
                 const int32_t by = x - at;
                 if (by == 1) {

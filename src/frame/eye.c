@@ -67,7 +67,8 @@ static lmb_status draw_bands(const lmb_render *r, lmb_target *out, const lmb_tar
     lmb_target_rows(out, eye, 0, bands);
     out->y0 = first * LMB_TILE;
     clear_target(out);
-    return lmb_draw(out, r->frame.kernels, &r->frame.view, r->frame.scene, 1, r->triangles, LMB_CULL_BACK | LMB_BLEND, NULL);
+    return lmb_draw(out, r->frame.kernels, &r->frame.view, r->frame.scene, 1, r->triangles, LMB_CULL_BACK | LMB_BLEND,
+                    NULL);
 }
 
 lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *out, const lmb_target *eye, int32_t band)

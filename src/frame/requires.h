@@ -50,7 +50,10 @@ static inline int requires_live(const lmb_frame *f)
 }
 
 /* Does a thread's scratch lack the memory for single points that the frame needs? */
-static inline int lacks_live(const lmb_frame *f, const lmb_band_scratch *s) { return requires_live(f) && s->live == NULL; }
+static inline int lacks_live(const lmb_frame *f, const lmb_band_scratch *s)
+{
+    return requires_live(f) && s->live == NULL;
+}
 
 /* Does a gather_step use a lattice? */
 static inline int takes_lattice(int32_t gather_step)

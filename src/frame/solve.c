@@ -83,7 +83,8 @@ static lmb_status collect_rows(const lmb_render *r, int32_t first, int32_t past)
     const int32_t each = collected_each(map), rows = map->size / each, all = map->size / LMB_TILE;
     lmb_transfer_scratch *scratch = &f->scratch->gather.transfer;
     return lmb_transfer_collect(&f->transfer_light, f->kernels, scratch, f->transfer, f->scene,
-                                &f->scene->lights[r->light], map, (int32_t)r->face, each, rows * first / all, rows * past / all);
+                                &f->scene->lights[r->light], map, (int32_t)r->face, each, rows * first / all,
+                                rows * past / all);
 }
 
 static lmb_many_lights_query elements_query(const lmb_frame *f, lmb_stats *stats)
@@ -247,9 +248,10 @@ static lmb_status receive_direct(const lmb_render *r, const lmb_element_scratch 
 {
     const lmb_frame *f = &r->frame;
     const lmb_many_lights_query query = elements_query(f, cut_params->stats);
-    const lmb_status status = !r->emits          ? LMB_OK
-                              : requires_live(f) ? receive_live(r, scratch, first, past, cut_params->stats)
-                                                 : lmb_elements_receive(&f->elements, own, NULL, cut_params, first, past);
+    const lmb_status status = !r->emits ? LMB_OK
+                              : requires_live(f)
+                                  ? receive_live(r, scratch, first, past, cut_params->stats)
+                                  : lmb_elements_receive(&f->elements, own, NULL, cut_params, first, past);
     return status != LMB_OK || !requires_many_lights_bounce(f)
                ? status
                : lmb_many_lights_elements(&f->elements, own, &scratch->many_lights, &query, first, past);
@@ -287,8 +289,9 @@ static lmb_status end_bounce(lmb_render *r)
     r->progress = 0;
     ++r->light;
     if (status == LMB_OK && !has_bounces(r) && f->bounces > 1 && !f->truncated) {
-        status = requires_live(f) ? lmb_elements_rest_live(e, f->live, LMB_MAX_BOUNCES - f->bounces)
-                                  : lmb_elements_rest(e, pass == direct ? &f->tree : NULL, LMB_MAX_BOUNCES - f->bounces);
+        status = requires_live(f)
+                     ? lmb_elements_rest_live(e, f->live, LMB_MAX_BOUNCES - f->bounces)
+                     : lmb_elements_rest(e, pass == direct ? &f->tree : NULL, LMB_MAX_BOUNCES - f->bounces);
     }
     status = status != LMB_OK ? status : lmb_elements_send(e, !has_bounces(r));
     status = status == LMB_OK && requires_live(f) ? build_live(r) : status;

@@ -464,7 +464,8 @@ struct lmb_kernels {
      * `nearest`. */
     int (*culled_box)(const lmb_fill_window *window, const lmb_tile_box *box, float nearest);
     /* The first half of setup. */
-    void (*bin_snap)(lmb_bin_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first, uint32_t count);
+    void (*bin_snap)(lmb_bin_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first,
+                     uint32_t count);
     /* The second half of setup, for the first `count` triangles of a block, with ids. Reads only the window of the
      * job. */
     void (*bin_setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_bin_block *block, uint32_t count);

@@ -134,7 +134,8 @@ static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_re
         const lmb_vec3 way = v->kind == LMB_PERSPECTIVE ? sub3(v->eye, r->position) : v->back;
         const float change = absf(dot3(n, way)), length = sqrtf(dot3(n, n));
         if (16.0f * change >= length * length3(way) &&
-            ask_from(&n, query, &t, add3(r->position, mul3(way, 4.0f * noise * length / change)), at, noise) == SHADOWS) {
+            ask_from(&n, query, &t, add3(r->position, mul3(way, 4.0f * noise * length / change)), at, noise) ==
+                SHADOWS) {
             return SHADOWS;
         }
     }

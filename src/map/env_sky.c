@@ -117,8 +117,9 @@ static sky sky_of(lmb_vec3 to_sun, float t)
 /* Linear RGB of Rec. 709 from CIE xyY. */
 static void sky_at(float rgb[3], const sky *s, lmb_vec3 d, float scale)
 {
-    static const float to_rgb[3][3] = {
-        {3.2404542f, -1.5371385f, -0.4985314f}, {-0.9692660f, 1.8760108f, 0.0415560f}, {0.0556434f, -0.2040259f, 1.0572252f}};
+    static const float to_rgb[3][3] = {{3.2404542f, -1.5371385f, -0.4985314f},
+                                       {-0.9692660f, 1.8760108f, 0.0415560f},
+                                       {0.0556434f, -0.2040259f, 1.0572252f}};
     const float turn = clampf(dot3(d, s->to_sun), -1.0f, 1.0f);
     const float bright = s->luminance.zenith * perez_at(&s->luminance, d.y, turn) * scale;
     const float x = s->x.zenith * perez_at(&s->x, d.y, turn), y = s->y.zenith * perez_at(&s->y, d.y, turn);

@@ -105,7 +105,10 @@ static int is_material(const source *s, uint32_t i)
     return lmb_check_material(&m, s->pack->count[LMB_PACK_TEXTURES]) == LMB_OK;
 }
 
-static int is_node(const lmb_pack *p, uint32_t node) { return node == LMB_PACK_NONE || node < p->count[LMB_PACK_NODES]; }
+static int is_node(const lmb_pack *p, uint32_t node)
+{
+    return node == LMB_PACK_NONE || node < p->count[LMB_PACK_NODES];
+}
 
 static int are_instances(const lmb_pack *p)
 {
@@ -411,7 +414,8 @@ lmb_status lmb_pack_scene(lmb_scene *out, const lmb_pack *pack, void *memory, si
 
 lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
 {
-    if (inout == NULL || pack == NULL || pack->data == NULL || inout->instance_count != pack->count[LMB_PACK_INSTANCES] ||
+    if (inout == NULL || pack == NULL || pack->data == NULL ||
+        inout->instance_count != pack->count[LMB_PACK_INSTANCES] ||
         inout->light_count != pack->count[LMB_PACK_LIGHTS] || inout->mesh_count != pack->count[LMB_PACK_MESHES]) {
         return LMB_ERR_ARG;
     }
@@ -472,8 +476,8 @@ lmb_status lmb_pack_view(lmb_view *out, const lmb_pack *pack, const lmb_scene *s
                          int32_t width, int32_t height)
 {
     lmb_view v;
-    if (out == NULL || pack == NULL || scene == NULL || camera >= pack->count[LMB_PACK_CAMERAS] || width < 1 || height < 1 ||
-        width > LMB_MAX_FRAME || height > LMB_MAX_FRAME) {
+    if (out == NULL || pack == NULL || scene == NULL || camera >= pack->count[LMB_PACK_CAMERAS] || width < 1 ||
+        height < 1 || width > LMB_MAX_FRAME || height > LMB_MAX_FRAME) {
         return LMB_ERR_ARG;
     }
     const uint32_t *w = lmb_pack_record(pack, LMB_PACK_CAMERAS, camera);

@@ -72,7 +72,8 @@ static void sum_peak(lmb_world_peak *inout, const lmb_world *w)
         for (int32_t x = part_from(inout->x, NARROW, n); x < part_from(inout->x + 1, NARROW, n); ++x) {
             float rgba[4];
             texel_at(rgba, w, inout->face, x, y);
-            const float over = part_over(rgba, inout->limit), area = solid_angle(x, y, n), light = over * area * rgba[3];
+            const float over = part_over(rgba, inout->limit), area = solid_angle(x, y, n),
+                        light = over * area * rgba[3];
             if (over > 0.0f) {
                 inout->to = add3(inout->to, mul3(cube_direction(inout->face, x, y, n), light * brightest(rgba)));
                 inout->area += area;

@@ -97,7 +97,8 @@ typedef void (*read_texel)(float rgba[4], const lmb_world *w, const lmb_world_le
                            int32_t y);
 
 /* Mean of the texels of a box, weighted by alpha. */
-static void mean_of_box(float out[4], const lmb_world *w, const lmb_world_level *from, int32_t face, box b, read_texel read)
+static void mean_of_box(float out[4], const lmb_world *w, const lmb_world_level *from, int32_t face, box b,
+                        read_texel read)
 {
     const float whole = (float)b.x.whole * (float)b.y.whole;
     float sum[4] = {0};
@@ -134,7 +135,8 @@ static void take_faces(lmb_world *w, const lmb_world_pictures *p)
     }
 }
 
-static void read_face(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x, int32_t y)
+static void read_face(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x,
+                      int32_t y)
 {
     lmb_world_texel(rgba, w, lmb_world_face_texel(from, face, x, y));
 }
@@ -165,7 +167,8 @@ static void set_border(lmb_world *w, const lmb_world_level *l)
     }
 }
 
-static void read_calm(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x, int32_t y)
+static void read_calm(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x,
+                      int32_t y)
 {
     (void)from;
     lmb_world_calm_texel(rgba, w, face, x, y);
@@ -211,7 +214,8 @@ static void take_ground(lmb_world *w, const lmb_world_pictures *p)
     }
 }
 
-static void read_ground(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x, int32_t y)
+static void read_ground(float rgba[4], const lmb_world *w, const lmb_world_level *from, int32_t face, int32_t x,
+                        int32_t y)
 {
     (void)face;
     lmb_world_texel(rgba, w, from->at + (size_t)y * (size_t)from->width + (size_t)x);

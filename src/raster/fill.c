@@ -150,8 +150,8 @@ static int enter_tile(lmb_fill_job *job, const lmb_setup *s, int32_t x_24_8, int
 
 /* First and last tile, inside the window, of a box in 24.8 from the frame's centre. origin: position of the frame's
  * pixel 0, 24.8. */
-static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t high_24_8, int32_t origin, int32_t window,
-                      int32_t size)
+static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t high_24_8, int32_t origin,
+                      int32_t window, int32_t size)
 {
     int32_t low_px = ((low_24_8 - origin) >> 8) - window, high_px = ((high_24_8 - origin) >> 8) - window;
     *first = maxi(low_px, 0) >> 3;

@@ -101,7 +101,10 @@ typedef struct tangent_frame {
 } tangent_frame;
 
 /* 1 if the mesh defines both axes. Small builds take the side from texture coordinates. */
-static int is_sided(const lmb_mesh *m) { return LMB_TREES && m->tangents != NULL && m->tangent_format == LMB_TANGENT_SIDED; }
+static int is_sided(const lmb_mesh *m)
+{
+    return LMB_TREES && m->tangents != NULL && m->tangent_format == LMB_TANGENT_SIDED;
+}
 
 static lmb_vec3 transform_direction(const lmb_mat4 *t, lmb_vec3 d)
 {

@@ -267,7 +267,8 @@ LANE_INLINE void resolve_normals(lmb_resolve_batch *b, const lmb_vec3 column[3],
                                   cross3(column[0], column[1])};
     lane3 n[3];
     for (int i = 0; i < 3; ++i) {
-        const lane3 own = resolve_octahedral(resolve_load1(b, b->normal[i][0], k), resolve_load1(b, b->normal[i][1], k));
+        const lane3 own =
+            resolve_octahedral(resolve_load1(b, b->normal[i][0], k), resolve_load1(b, b->normal[i][1], k));
         n[i] = resolve_unit(resolve_columns(cofactor, own));
         resolve_store(b->normal[i], k, i == 0 ? n[0] : lane3_sub(n[i], n[0]));
     }

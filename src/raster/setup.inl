@@ -72,7 +72,8 @@ LANE_INLINE int setup_fetch_usual(setup_corners *out, const lmb_mesh *mesh, uint
     }
     if (mesh->triangle_count - first >= 5 * LMB_BATCH) { /* otherwise the indices end before the prefetched ones */
         for (int k = 0; k < LMB_BATCH; ++k) {
-            MESH_SOON((const void *)((uintptr_t)mesh->positions + (size_t)vertex[3 * (LMB_BATCH + k)] * 12)); /* not checked yet */
+            MESH_SOON((const void *)((uintptr_t)mesh->positions +
+                                     (size_t)vertex[3 * (LMB_BATCH + k)] * 12)); /* not checked yet */
         }
         MESH_SOON(vertex + 12 * LMB_BATCH), MESH_SOON(vertex + 13 * LMB_BATCH), MESH_SOON(vertex + 14 * LMB_BATCH);
     }
@@ -270,9 +271,9 @@ LANE_INLINE void setup_begin(lmb_batch_sets *out, uint32_t in)
 
 /* Triangles k .. k + LANES - 1, from their corners; `in`: those that exist. Adds to all sets but `small`. Returns the
  * visible ones, one bit each. */
-LANE_INLINE uint32_t setup_find_box(setup_box *box, lmb_batch_sets *out, const lmb_setup_job *job, const setup_sides *sides,
-                                    lane_mask in, const setup_corner *a, const setup_corner *b, const setup_corner *c,
-                                    int k)
+LANE_INLINE uint32_t setup_find_box(setup_box *box, lmb_batch_sets *out, const lmb_setup_job *job,
+                                    const setup_sides *sides, lane_mask in, const setup_corner *a,
+                                    const setup_corner *b, const setup_corner *c, int k)
 {
     const lanei zero = lanei_splat(0);
     const lane_mask hidden = mask_or(sides->all[0], mask_or(mask_or(sides->all[1], sides->all[2]),
@@ -282,7 +283,8 @@ LANE_INLINE uint32_t setup_find_box(setup_box *box, lmb_batch_sets *out, const l
     const lanei y0 = setup_min3(a->y, b->y, c->y), y1 = setup_max3(a->y, b->y, c->y);
     const lanei limit = lanei_splat(LMB_SMALL_24_8);
     lane_mask small = mask_and(whole, mask_and(lanei_lt(lanei_sub(x1, x0), limit), lanei_lt(lanei_sub(y1, y0), limit)));
-    lanei bx = lanei_sub(b->x, a->x), by = lanei_sub(b->y, a->y), cx = lanei_sub(c->x, a->x), cy = lanei_sub(c->y, a->y);
+    lanei bx = lanei_sub(b->x, a->x), by = lanei_sub(b->y, a->y), cx = lanei_sub(c->x, a->x),
+          cy = lanei_sub(c->y, a->y);
     /* Products of other triangles may overflow, so their inputs are set to 0. */
     bx = lanei_pick(small, bx, zero), by = lanei_pick(small, by, zero);
     cx = lanei_pick(small, cx, zero), cy = lanei_pick(small, cy, zero);
@@ -315,11 +317,13 @@ LANE_INLINE void setup_edges(lmb_batch *out, const lmb_setup_job *job, const set
     /* Triangles that are not shown use corner a, so that no sum below exceeds 32 bits. */
     b->x = lanei_add(a->x, box->bx), b->y = lanei_add(a->y, box->by);
     c->x = lanei_add(a->x, box->cx), c->y = lanei_add(a->y, box->cy);
-    const lanei px0 = lanei_pick(shown, box->x0, lanei_splat(job->x0)), py0 = lanei_pick(shown, box->y0, lanei_splat(job->y0));
+    const lanei px0 = lanei_pick(shown, box->x0, lanei_splat(job->x0)),
+                py0 = lanei_pick(shown, box->y0, lanei_splat(job->y0));
     lanei_store(out->x0 + k, px0);
     lanei_store(out->y0 + k, py0);
     const setup_corner second = setup_either(box->turned, c, b), third = setup_either(box->turned, b, c);
-    const lanei area = lanei_pick(box->turned, lanei_sub(lanei_splat(0), box->area), lanei_pick(shown, box->area, lanei_splat(1)));
+    const lanei area =
+        lanei_pick(box->turned, lanei_sub(lanei_splat(0), box->area), lanei_pick(shown, box->area, lanei_splat(1)));
     lanei x = lanei_add(lanei_mul(lanei_shift(px0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_x));
     lanei y = lanei_add(lanei_mul(lanei_shift(py0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_y));
     x = lanei_pick(shown, x, a->x), y = lanei_pick(shown, y, a->y);

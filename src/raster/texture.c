@@ -26,7 +26,8 @@ static footprint find_texels(const lmb_texture *t, int32_t n, float u, float v, 
 {
     footprint f;
     f.from = texel_find_level(t, n);
-    const float x = texel_reduce(u, t->wrap_s) * (float)f.from.width, y = texel_reduce(v, t->wrap_t) * (float)f.from.height;
+    const float x = texel_reduce(u, t->wrap_s) * (float)f.from.width,
+                y = texel_reduce(v, t->wrap_t) * (float)f.from.height;
     if (t->filter == LMB_NEAREST) {
         f.count = 1;
         f.x = (int32_t)x;

@@ -126,7 +126,8 @@ static int are_receivers(const lmb_transfer *t)
         const uint32_t *r = t->section[LMB_TRANSFER_RECEIVERS] + LMB_TRANSFER_RECEIVER_WORDS * (size_t)i;
         const int is_root = r[0] == LMB_TRANSFER_NONE && r[1] == LMB_TRANSFER_NONE;
         if ((!is_root && (r[0] >= i || r[1] >= i)) || !is_scale(r[4]) ||
-            !take_range(&left, r[2], r[3], t->count[LMB_TRANSFER_LINKS]) || !are_links(t, LMB_TRANSFER_LINKS, r[2], r[3])) {
+            !take_range(&left, r[2], r[3], t->count[LMB_TRANSFER_LINKS]) ||
+            !are_links(t, LMB_TRANSFER_LINKS, r[2], r[3])) {
             return 0;
         }
     }
@@ -291,8 +292,8 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
         return LMB_ERR_ALIGN;
     }
     if (bytes < 4 * LMB_TRANSFER_HEADER_WORDS || memcmp(data, "LMT", 3) != 0 ||
-        ((const uint8_t *)data)[3] != LMB_TRANSFER_VERSION || word[ORDER] != OWN_ORDER ||
-        word[SIZE] != bytes || bytes % 4 != 0 || !are_zeros(word + RESERVED, LMB_TRANSFER_HEADER_WORDS - 1 - RESERVED) ||
+        ((const uint8_t *)data)[3] != LMB_TRANSFER_VERSION || word[ORDER] != OWN_ORDER || word[SIZE] != bytes ||
+        bytes % 4 != 0 || !are_zeros(word + RESERVED, LMB_TRANSFER_HEADER_WORDS - 1 - RESERVED) ||
         !lay_out(&t, word, bytes / 4)) {
         return LMB_ERR_FORMAT;
     }

@@ -58,7 +58,8 @@ static float weight_before(const uint32_t *grid, const uint32_t place[3], lmb_ve
 }
 
 /* Adds the light for a normal, from the six receivers starting at `first`. */
-static void add_place(float sum[3], const lmb_transfer_light *light, uint32_t first, const float normal[3], float weight)
+static void add_place(float sum[3], const lmb_transfer_light *light, uint32_t first, const float normal[3],
+                      float weight)
 {
     for (uint32_t axis = 0; axis < 3; ++axis) {
         const float *received = light->receiver[first + 2 * axis + (normal[axis] < 0.0f)];

@@ -56,7 +56,8 @@ static float element_sent(float sent[3], cursor *w, uint32_t i)
     for (int c = 0; c < 3; ++c) {
         const float came = coarse == NULL || w->what == LMB_TRANSFER_SEND_EMITTED ? 0.0f
                            : w->what == SEND_ALL ? coarse->all[c] : coarse->came[c];
-        sent[c] = no_infinity(light->albedo[i][c] * (per * light->power[i][c] + came) + (emits ? light->emission[i][c] : 0.0f));
+        sent[c] = no_infinity(light->albedo[i][c] * (per * light->power[i][c] + came) +
+                              (emits ? light->emission[i][c] : 0.0f));
     }
     return area;
 }

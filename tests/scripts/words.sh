@@ -105,6 +105,12 @@ fi
 words=$(cat src/README.md 2>/dev/null | wc -w)
 check "src/README.md has $words words; the plan is one page, 1200" test "$words" -le 1200
 
+# Lines of src/, include/ and tools/ have at most 120 characters; tables that programs write are left out.
+find src include tools -type f \( -name '*.[ch]' -o -name '*.inl' \) -exec env LC_ALL=C awk '
+    { gsub(/[\200-\277]/, "") }
+    length > 120 { print FILENAME ":" FNR }' {} + >"$tmp/long"
+check "lines over 120 characters: $(head -n 5 "$tmp/long" | tr '\n' ' ')" test ! -s "$tmp/long"
+
 # The rest is left out for the made-up tree.
 [ -z "$MADE" ] || finish
 
@@ -175,6 +181,8 @@ leftover src/three.c '/* what a surface gives
  * off by itself */'
 leftover docs/one.md 'See [nothing](nowhere.md).'
 leftover src/EXACT.md 'See `one.c`, `src/one.c`, `base/gone.c`, `lmb_gone`, `isa/isa_NAME.c`.'
+leftover tools/long.c "/* $(awk 'BEGIN { while (n++ < 115) printf "x" }') */"
+leftover tools/full.c "/* $(awk 'BEGIN { while (n++ < 114) printf "x" }') */"
 found=$(made_words)
 for kind in name code option file phrase; do
     case $found in
@@ -182,6 +190,10 @@ for kind in name code option file phrase; do
     *) fail "a made-up leftover by $kind is not found once: $found" ;;
     esac
 done
+case $found in
+*"lines over 120 characters: tools/long.c:1 "*) pass ;;
+*) fail "a made-up long line is not found once: $found" ;;
+esac
 case $found in
 *"links of documents exist: docs/one.md: nowhere.md"*) pass ;;
 *) fail "a made-up dead link is not found: $found" ;;

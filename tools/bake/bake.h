@@ -314,8 +314,8 @@ typedef struct bake_still_scene {
     lmb_instance *instance;
 } bake_still_scene;
 
-int bake_still(bake_still_scene *out, const lmb_scene *scene, const uint32_t *moving, uint32_t count, bake_words *ranges,
-               report *r);
+int bake_still(bake_still_scene *out, const lmb_scene *scene, const uint32_t *moving, uint32_t count,
+               bake_words *ranges, report *r);
 
 /* bake_key: returns a sort key: the octant of the normal, then the position on a Z curve. Neighbours have similar
  * keys. */

@@ -75,7 +75,8 @@ static int add_receiver(air *a, lmb_vec3 at, lmb_vec3 normal, const float *row)
     for (uint32_t e = 0; v->target.row != NULL && e < b->set.elements; ++e) {
         v->target.row[e] = bake_short(row[e]);
     }
-    return v->target.row != NULL || report_fail(a->r, "not enough memory for %u receivers", (unsigned)b->receiver_count);
+    return v->target.row != NULL ||
+           report_fail(a->r, "not enough memory for %u receivers", (unsigned)b->receiver_count);
 }
 
 static float sum_of(const air *a, int first)
@@ -156,8 +157,8 @@ static int by_id(const void *a, const void *b)
     return x[0] < y[0] ? -1 : 1;
 }
 
-int bake_still(bake_still_scene *out, const lmb_scene *scene, const uint32_t *moving, uint32_t count, bake_words *ranges,
-               report *r)
+int bake_still(bake_still_scene *out, const lmb_scene *scene, const uint32_t *moving, uint32_t count,
+               bake_words *ranges, report *r)
 {
     const lmb_vec3 middle = mul3(add3(scene->bounds_min, scene->bounds_max), 0.5f);
     out->scene = *scene;

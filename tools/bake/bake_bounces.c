@@ -238,8 +238,8 @@ static int put_runs(const bounce_step *s, report *r)
     int ok = 1;
     for (uint32_t i = 0; ok && i < s->count; ++i) {
         const bake_target *t = &s->target[i];
-        ok = bake_put(to, s->runs[i].first, r) && bake_put(to, (uint32_t)links->count, r) && bake_put(to, t->links, r) &&
-             bake_put_float(to, t->scale, r);
+        ok = bake_put(to, s->runs[i].first, r) && bake_put(to, (uint32_t)links->count, r) &&
+             bake_put(to, t->links, r) && bake_put_float(to, t->scale, r);
         for (size_t k = 0; ok && k < t->link.count; ++k) {
             ok = bake_put(links, t->link.data[k], r);
         }
@@ -261,7 +261,8 @@ int bake_bounces(bake *b, report *r)
         s.count = part(runs, b);
         qsort(runs, s.count, sizeof *runs, by_first);
     }
-    const bake_step step = {(int32_t)((s.count + TOGETHER - 1) / TOGETHER), weight_of, make_batch, put_batch, get_batch, &s};
+    const bake_step step = {
+        (int32_t)((s.count + TOGETHER - 1) / TOGETHER), weight_of, make_batch, put_batch, get_batch, &s};
     ok = ok && bake_share_step(b->share, &step, r) && put_runs(&s, r);
     for (uint32_t i = 0; s.target != NULL && i < s.count; ++i) {
         free(s.target[i].link.data);

@@ -181,8 +181,9 @@ int bake_cluster_rows(bake *b, bake_cluster *const *cluster, uint32_t all, repor
 {
     cluster_step c = {b, cluster, all, malloc(3 * BATCH * (size_t)b->set.elements * sizeof(float))};
     const bake_step step = {(int32_t)((all + BATCH - 1) / BATCH), weight_of, make_batch, put_batch, get_batch, &c};
-    const int ok = (c.memory != NULL || report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements)) &&
-                   bake_share_step(b->share, &step, r);
+    const int ok =
+        (c.memory != NULL || report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements)) &&
+        bake_share_step(b->share, &step, r);
     free(c.memory);
     return ok;
 }
@@ -250,7 +251,8 @@ static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n, lmb_vec3 inside, float
                         cosine = dot3(o->target.normal, n);
             if (memcmp(o->cell, cell, sizeof cell) == 0 && far < 1.0f && cosine > BLEND) {
                 const float v = (1.0f - far) * (1.0f - far) * (cosine - BLEND) * (cosine - BLEND);
-                if (v * v > best[NEIGHBOURS - 1].weight && (i >= 27 || bake_sees_over(&c->sight, c->b, inside, n, o->at, o->target.normal))) {
+                if (v * v > best[NEIGHBOURS - 1].weight &&
+                    (i >= 27 || bake_sees_over(&c->sight, c->b, inside, n, o->at, o->target.normal))) {
                     offer(best, k - 1, v * v);
                 }
             }

@@ -315,7 +315,8 @@ static int add_triangle(maker *m, uint32_t id)
     lmb_vec3 normal;
     float area;
     const int exists = lmb_triangle_fetch(&t, b->scene, id) && lmb_triangle_shape(&normal, &area, &t);
-    m->emits = exists && largest3(vec3(t.material->emission[0], t.material->emission[1], t.material->emission[2])) > 0.0f;
+    m->emits =
+        exists && largest3(vec3(t.material->emission[0], t.material->emission[1], t.material->emission[2])) > 0.0f;
     m->is_small = exists && bake_is_small(b, t.corner);
     m->is_sliver = exists && m->has_slivers && is_narrow(t.corner, SLIVER * m->side);
     for (int back = 0; back < 2; ++back) {
@@ -511,7 +512,8 @@ static int set_reached(maker *m, uint32_t all)
         }
     }
     for (uint32_t i = 0; m->is_reached != NULL && i < 2 * all; ++i) {
-        m->is_reached[i] = is_first || surfaces->data[LMB_TRANSFER_SURFACE_WORDS * (i / 2) + i % 2] != LMB_TRANSFER_NONE;
+        m->is_reached[i] =
+            is_first || surfaces->data[LMB_TRANSFER_SURFACE_WORDS * (i / 2) + i % 2] != LMB_TRANSFER_NONE;
     }
     return m->is_reached != NULL || report_fail(m->r, "not enough memory for %u triangles", (unsigned)all);
 }

@@ -143,7 +143,7 @@ static void set_sums(bake_linker *l, float *const *row)
     }
 }
 
-/* --- a cut: the node with the largest error is taken apart until each is small enough ------------------------------ */
+/* --- a cut: the node with the largest error is taken apart until each is small enough ----------------------------- */
 
 static void push(entry *heap, uint32_t *count, entry e)
 {

@@ -79,7 +79,8 @@ static void solve(fit *f, float share[BAKE_PARENTS], int parents)
 }
 
 /* Finds the nearest clusters of former generations, which are the first `count`. Returns how many. */
-static int nearest(uint32_t best[BAKE_PARENTS], const bake_cluster *c, uint32_t count, const bake_cluster *of, float cell)
+static int nearest(uint32_t best[BAKE_PARENTS], const bake_cluster *c, uint32_t count, const bake_cluster *of,
+                   float cell)
 {
     float far[BAKE_PARENTS];
     int found = 0;

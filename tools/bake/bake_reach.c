@@ -157,7 +157,8 @@ static int set_zones(reach *w)
 }
 
 /* Sends light from points to all that they see. */
-static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const float *power, int count, const uint32_t *from)
+static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const float *power, int count,
+                const uint32_t *from)
 {
     bake_share *share = w->b->set.elements >= SHARED ? w->b->share : NULL;
     const int slices = share != NULL ? (int)share->slice.count : 1;

@@ -417,7 +417,8 @@ static int make_rows(divider *d)
     sort(d->queue, d->queued, sizeof *d->queue, by_key);
     const uint32_t n = d->b->set.elements;
     queue_step q = {d, NULL, 0, malloc((BATCH + 1) * (size_t)n * sizeof(float)), {NULL}};
-    int ok = (q.memory != NULL || report_fail(d->r, "not enough memory for %u elements", (unsigned)n)) && put_batches(&q);
+    int ok =
+        (q.memory != NULL || report_fail(d->r, "not enough memory for %u elements", (unsigned)n)) && put_batches(&q);
     for (int k = 0; k < BATCH; ++k) {
         q.row[k] = ok ? q.memory + (size_t)k * n : NULL;
     }
@@ -457,7 +458,8 @@ static int look_at(divider *d, size_t i)
             return 0;
         }
     }
-    const wanted w = {middle, p->normal, {p->receiver[0], p->receiver[1], p->receiver[2]}, LMB_TRANSFER_NONE, i, 0, 0.0f, 0};
+    const wanted w = {middle, p->normal, {p->receiver[0], p->receiver[1], p->receiver[2]}, LMB_TRANSFER_NONE, i, 0,
+                      0.0f,   0};
     return p->mid != LMB_TRANSFER_NONE && enqueue(d, &w);
 }
 

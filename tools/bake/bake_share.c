@@ -107,7 +107,8 @@ static int fetch(const sharing *w, int32_t k)
     if (!file_of(name, w, k) || !slice_read(&f, name, &unheard)) {
         return 0;
     }
-    int ok = f.kind == SLICE_BAKE_STEP && f.job == w->job && f.slice.count == w->s->slice.count && f.slice.number == k + 1;
+    int ok =
+        f.kind == SLICE_BAKE_STEP && f.job == w->job && f.slice.count == w->s->slice.count && f.slice.number == k + 1;
     for (int32_t i = 0; ok && i < w->step->batches; ++i) {
         ok = w->owner[i] != k || w->step->get(w->step->user, i, &f.says);
     }

@@ -58,7 +58,8 @@ int bake_slice_write(const char *path, const bake_share *s, const char *about, c
         byte_put_long(&says, slice_hash(SLICE_HASH, file[i].data, file[i].size));
         byte_put(&says, file[i].data + from, begin_of(file[i].size, s->slice.number, s->slice.count) - from);
     }
-    const int ok = slice_name(name, path, s->slice, r) && slice_write(name, s->slice, SLICE_BAKE, s->job, about, &says, r);
+    const int ok =
+        slice_name(name, path, s->slice, r) && slice_write(name, s->slice, SLICE_BAKE, s->job, about, &says, r);
     free(says.data);
     return ok;
 }
@@ -103,8 +104,10 @@ static int get_part(joined *j, int32_t k, byte_reader *s, slice of, const char *
         return report_fail(r, "%s: damaged, or there is not enough memory", path);
     }
     if (size != file->size || hash != j->hash[k]) {
-        return report_fail(r, "%s: its bake is another one than that of slice 1, though the job is the same: one of the "
-                           "machines is at fault; make both again", path);
+        return report_fail(r,
+                           "%s: its bake is another one than that of slice 1, though the job is the same: one of the "
+                           "machines is at fault; make both again",
+                           path);
     }
     const size_t from = begin_of(file->size, of.number - 1, of.count);
     const size_t own = begin_of(file->size, of.number, of.count) - from;

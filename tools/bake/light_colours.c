@@ -141,7 +141,8 @@ static int put_side(colours *c, uint32_t id, uint32_t back)
     light_corner corner[3];
     lmb_vec3 face;
     lmb_triangle own;
-    if (!light_corners(corner, &face, &c->s->job.scene, c->source, id, back) || !lmb_triangle_fetch(&own, &c->s->job.scene, id)) {
+    if (!light_corners(corner, &face, &c->s->job.scene, c->source, id, back) ||
+        !lmb_triangle_fetch(&own, &c->s->job.scene, id)) {
         return 1; /* degenerate */
     }
     if (root == LMB_TRANSFER_NONE) {

@@ -65,8 +65,8 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, c
     const lmb_vec3 across = cross3(sub3(t.corner[1], t.corner[0]), sub3(t.corner[2], t.corner[0]));
     const int is_mirrored = dot3(across, *face) < 0.0f; /* the front is the clockwise side */
     const lmb_vec3 first = own_place(&t, t.vertex[0]);
-    const lmb_vec3 flat = unit_or(cross3(sub3(own_place(&t, t.vertex[1]), first), sub3(own_place(&t, t.vertex[2]), first)),
-                                  *face);
+    const lmb_vec3 flat =
+        unit_or(cross3(sub3(own_place(&t, t.vertex[1]), first), sub3(own_place(&t, t.vertex[2]), first)), *face);
     *face = back ? mul3(*face, -1.0f) : *face;
     for (int k = 0; k < 3; ++k) {
         const int from = (back != 0) != is_mirrored ? 2 - k : k;

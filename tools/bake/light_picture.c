@@ -542,7 +542,8 @@ static int put_mesh(map *m, glb_mesh *out, uint32_t first, uint32_t past)
 {
     const lmb_scene *scene = &m->s->job.scene;
     light_mesh own;
-    int ok = light_mesh_begin(&own, scene, (uint32_t)(lmb_instance_of(scene, m->face[first].id) - scene->instances), m->r);
+    int ok =
+        light_mesh_begin(&own, scene, (uint32_t)(lmb_instance_of(scene, m->face[first].id) - scene->instances), m->r);
     for (uint32_t i = first; ok && i < past; ++i) {
         glb_vertex v[3];
         for (int k = 0; k < 3; ++k) {

@@ -334,8 +334,8 @@ int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is
     memset(&l, 0, sizeof l);
     memset(&back, 0, sizeof back);
     const light_source of = {&s->job.scene, light_in, &back};
-    const int ok = light_probes_fit(&s->job.scene, step_m, r) && lay_out(&l, &s->job.scene, step_m, r) && fill(&l, s, b, r) && mend(&l, r) &&
-                   write_both(path, &l, r) && read_both(&back, path, r) &&
+    const int ok = light_probes_fit(&s->job.scene, step_m, r) && lay_out(&l, &s->job.scene, step_m, r) &&
+                   fill(&l, s, b, r) && mend(&l, r) && write_both(path, &l, r) && read_both(&back, path, r) &&
                    light_compare(path, s, &of, "probes", is_quiet, r);
     free(l.probe);
     free(back.probe);

@@ -203,9 +203,10 @@ static int make_file(file_bytes *file, const options *o, bake *b, report *r)
         b->set.error *= over < 1.1f ? 1.1f : over > 4.0f ? 4.0f : over;
         ok = bake_code_all(b, r) && bake_file(file, b, r);
     }
-    return ok && (o->budget == 0 || file->size <= (size_t)o->budget ||
-                  report_fail(r, "--budget-bytes %d: without any link it is %.0f bytes; fewer --receivers or --elements",
-                              (int)o->budget, (double)file->size));
+    return ok &&
+           (o->budget == 0 || file->size <= (size_t)o->budget ||
+            report_fail(r, "--budget-bytes %d: without any link it is %.0f bytes; fewer --receivers or --elements",
+                        (int)o->budget, (double)file->size));
 }
 
 /* Computes the light of the scene's lights from the bake, and writes it in another format. */
@@ -229,8 +230,9 @@ static int export(const options *o, const char *path, const lmb_scene *scene, co
     int ok = render_options_complete(&ask, r) && light_begin(&s, &ask, scene, loaded, lmt, r);
     if (ok) {
         ok = o->to == LIGHT_PROBES ? light_probes(path, &s, b, o->step_m, o->is_quiet, r)
-             : (o->to == LIGHT_MAP ? light_picture(path, &s, loaded, o->texels, r) : light_colours(path, &s, loaded, r)) &&
-                   light_check(path, &s, forms[o->to], o->is_quiet, r);
+                                   : (o->to == LIGHT_MAP ? light_picture(path, &s, loaded, o->texels, r)
+                                                         : light_colours(path, &s, loaded, r)) &&
+                                         light_check(path, &s, forms[o->to], o->is_quiet, r);
     }
     light_end(&s);
     return ok;
@@ -335,8 +337,10 @@ static int bake_scene(const options *o, const lmb_scene *whole, const model *loa
         tell(o, &b, file.size);
     }
     ok = ok && r->text[0] == '\0';
-    report_note(!ok || o->is_quiet || coarse == 0, "note: %.0f sights have coarser visibility: too many triangles cross "
-                "there", (double)coarse);
+    report_note(!ok || o->is_quiet || coarse == 0,
+                "note: %.0f sights have coarser visibility: too many triangles cross "
+                "there",
+                (double)coarse);
     file_free(&file);
     free(still.instance);
     bake_free(&b);
@@ -348,8 +352,10 @@ static int bake_model(const options *o, const lmb_scene *scene, const model *m, 
     lmb_vec3 eyes[2 * EYES];
     uint32_t count = (uint32_t)o->eyes;
     memcpy(eyes, o->eye, sizeof o->eye);
-    report_note(o->is_quiet || m->camera_count <= EYES, "note: %s has %u cameras, of which the first %d count; rooms that "
-                "only others see into stay dark, but for --eye", o->scene, (unsigned)m->camera_count, EYES);
+    report_note(o->is_quiet || m->camera_count <= EYES,
+                "note: %s has %u cameras, of which the first %d count; rooms that "
+                "only others see into stay dark, but for --eye",
+                o->scene, (unsigned)m->camera_count, EYES);
     for (uint32_t i = 0; i < EYES && i < m->camera_count; ++i) {
         eyes[count++] = m->cameras[i].eye;
     }

@@ -89,7 +89,8 @@ static const option_row output_rows[] = {
              "pictures and heat maps, memory, and the command line of each setting"},
     {.name = "--csv", .value = "FILE.csv", .kind = OPTION_TEXT, AT(csv), .file = OPTION_WRITES, .help = "one line "
              "per setting"},
-    {.name = "--json", .value = "FILE.json", .kind = OPTION_TEXT, AT(json), .file = OPTION_WRITES, .help = "all figures"},
+    {.name = "--json", .value = "FILE.json", .kind = OPTION_TEXT, AT(json), .file = OPTION_WRITES,
+     .help = "all figures"},
     {.name = "--svg", .value = "FILE.svg", .kind = OPTION_TEXT, AT(svg), .file = OPTION_WRITES, .help = "only the "
              "front"},
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no table and no progress"},
@@ -192,7 +193,8 @@ static int check_slice(bench_options *o, report *r)
         return 1;
     }
     if (o->out == NULL || o->html != o->names[0] || o->csv != o->names[1] || o->json != o->names[2] || o->svg != NULL) {
-        return report_fail(r, "--slice: give -o NAME and no other output; `lambent merge` writes .csv, .json, .html, .svg");
+        return report_fail(
+            r, "--slice: give -o NAME and no other output; `lambent merge` writes .csv, .json, .html, .svg");
     }
     o->html = o->csv = o->json = NULL;
     o->breakdown = 0;

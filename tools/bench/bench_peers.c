@@ -63,7 +63,8 @@ int bench_peers_run(double *out_ms, const bench_peers *p, int i, const char *nam
     snprintf(path, sizeof path, "%.900s/%s", p->folder, p->found.name[i]);
     switch (program_run(&code, path, name, printed, sizeof printed)) {
     case PROGRAM_NOT_RUN: return report_fail(r, "%s: it cannot be run", path);
-    case PROGRAM_SIGNAL: return report_fail(r, "%s: ended by signal %d at %s; mend it, or take it away", path, code, name);
+    case PROGRAM_SIGNAL:
+        return report_fail(r, "%s: ended by signal %d at %s; mend it, or take it away", path, code, name);
     case PROGRAM_FAILED: return report_fail(r, "%s: exit status %d at %s; mend it, or take it away", path, code, name);
     default: break;
     }

@@ -22,10 +22,10 @@ static void put_bar(text_buffer *out, const bench_share *s, int y)
     const double share = s->bound_ms / s->ms, end = x_of(share < 1.0 ? share : 1.0);
     text_buffer_add(out, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">", LEFT - 8, y + 11);
     text_buffer_html(out, s->name);
-    text_buffer_add(out, "</text><rect class=\"on\" x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"%d\"/>", LEFT, y, end - LEFT,
-                    BAR);
-    text_buffer_add(out, "<text x=\"%.1f\" y=\"%d\">%.0f %%: %.2f of %.2f ms, %s</text>", end + 6, y + 11, 100.0 * share,
-                    s->bound_ms, s->ms, s->by);
+    text_buffer_add(out, "</text><rect class=\"on\" x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"%d\"/>", LEFT, y,
+                    end - LEFT, BAR);
+    text_buffer_add(out, "<text x=\"%.1f\" y=\"%d\">%.0f %%: %.2f of %.2f ms, %s</text>", end + 6, y + 11,
+                    100.0 * share, s->bound_ms, s->ms, s->by);
 }
 
 static void put_chart(text_buffer *out, const bench_shares *b)
@@ -53,9 +53,10 @@ void bench_shares_html(text_buffer *out, const bench_shares *b)
     text_buffer_add(out, "</style></head><body>\n<h1>Shares of the bound</h1>\n<p>Least times of the raster workload's "
                          "frames on one thread, back end <b>%s</b>. ",
                     b->backend);
-    text_buffer_plain(out, "A bar is the share of its time that the same run finds this machine needs at least: to read, "
-                           "test and write the frame's depths in cache (depth), or to keep one unit busy with its "
-                           "arithmetic. All lanes count as if they were of use.</p>\n");
+    text_buffer_plain(out,
+                      "A bar is the share of its time that the same run finds this machine needs at least: to read, "
+                      "test and write the frame's depths in cache (depth), or to keep one unit busy with its "
+                      "arithmetic. All lanes count as if they were of use.</p>\n");
     put_chart(out, b);
     if (b->count == 0) {
         text_buffer_plain(out, "<p>No rates of this back end are known here.</p>\n");

@@ -11,7 +11,8 @@
 #include "bench_front.h"
 #include "bench_outputs.h"
 
-static const bench_subject *const subjects[] = {&bench_render, &bench_relight, &bench_relief, &bench_mixed, &bench_figures};
+static const bench_subject *const subjects[] = {&bench_render, &bench_relight, &bench_relief, &bench_mixed,
+                                                &bench_figures};
 enum { SUBJECTS = sizeof subjects / sizeof *subjects };
 
 /* --- choice of settings ------------------------------------------------------------------------------------------- */
@@ -250,7 +251,8 @@ static int get_head(bench_results *b, byte_reader *s, const slice_set *set, int3
     if (!is_first) {
         b->seconds += seconds;
         if (strcmp(first, own.computer) != 0) {
-            report_note(is_quiet, "%s: measured by %s, and %s by %s: times of one do not compare with those of the other",
+            report_note(is_quiet,
+                        "%s: measured by %s, and %s by %s: times of one do not compare with those of the other",
                         set->path[i], own.computer, set->path[0], first);
             snprintf(b->computer, sizeof b->computer, "several unlike computers");
         }
@@ -280,8 +282,9 @@ static int get_all(bench_results *b, const slice_set *set, int is_quiet, report 
     int ok = 1;
     for (int32_t i = 0; ok && i < set->count; ++i) {
         slice_file file;
-        ok = slice_read(&file, set->path[i], r) && ((get_head(b, &file.says, set, i, is_quiet) && get_points(b, &file.says)) ||
-                                                    report_fail(r, "%s: damaged", set->path[i]));
+        ok = slice_read(&file, set->path[i], r) &&
+             ((get_head(b, &file.says, set, i, is_quiet) && get_points(b, &file.says)) ||
+              report_fail(r, "%s: damaged", set->path[i]));
         slice_file_free(&file);
     }
     for (int i = 0; ok && i < b->count; ++i) {

@@ -477,7 +477,8 @@ static int run_calibrate(const options *o, report *r)
     if (!(rate > 0.0)) {
         return report_fail(r, "no memory to draw the built-in room");
     }
-    printf("%.4g units of work a second, threads: %d   (for plan and render: --budget rate=%.4g)\n", rate, threads, rate);
+    printf("%.4g units of work a second, threads: %d   (for plan and render: --budget rate=%.4g)\n", rate, threads,
+           rate);
     return 1;
 }
 
@@ -631,7 +632,8 @@ static int measure_workload(const struct workload *w, int argc, char **argv)
 /* The name of a workload or subject that is similar to the word, unless the word is a file. */
 static const char *meant_by(const char *word)
 {
-    static const char *const names[] = {"raster", "draw", "gather", "threads", "hard", "relight", "relief", "mix", NULL};
+    static const char *const names[] = {"raster",  "draw",   "gather", "threads", "hard",
+                                        "relight", "relief", "mix",    NULL};
     const char *meant = options_nearest(names, word);
     FILE *file = meant != NULL && strcmp(meant, word) != 0 ? fopen(word, "rb") : NULL;
     if (file != NULL) {

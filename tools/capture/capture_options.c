@@ -63,10 +63,10 @@ static const option_row other_rows[] = {
 const option_table capture_table = {
     .verb = "capture",
     .usage = "capture SCENE --at X,Y,Z -o WORLD [--ground OUT] [options]",
-    .about = "What a place of a scene sees, with bounced light, as the world of `lambent relight`: a cube, and the ground "
-             "from above. Objects are then lit anywhere near by without the scene. Light that comes straight from spots, "
-             "points and suns is in no picture: give it to relight as --light. What relight needs to know of the places is "
-             "printed as its options.",
+    .about = "What a place of a scene sees, with bounced light, as the world of `lambent relight`: a cube, and the "
+             "ground from above. Objects are then lit anywhere near by without the scene. Light that comes straight "
+             "from spots, points and suns is in no picture: give it to relight as --light. What relight needs to know "
+             "of the places is printed as its options.",
     .part = {render_scene_rows, place_rows, render_light_rows, render_bounce_rows, render_group_rows, other_rows},
     .examples = "  lambent capture demo --at 0.5,1,0.5 --faces 32 -o world.hdr --ground ground.hdr\n"
                 "  several places, between which relight blends:\n"
@@ -83,8 +83,10 @@ static int check_together(const capture_options *o, report *r)
                                                : "no output given; add -o WORLD.hdr (or .pfm)");
     }
     if ((o->at_count > 1) != (frame_digits(o->render.out) > 0)) {
-        return report_fail(r, o->at_count > 1 ? "%s: several places make a cube each: a name with one %%0Nd, as world_%%02d.hdr"
-                                              : "%s: numbers cubes of several places, and one --at is given",
+        return report_fail(r,
+                           o->at_count > 1
+                               ? "%s: several places make a cube each: a name with one %%0Nd, as world_%%02d.hdr"
+                               : "%s: numbers cubes of several places, and one --at is given",
                            o->render.out);
     }
     return o->ground != NULL || !(o->has_ground_size || o->has_ground_centre || o->has_ground_y) ||

@@ -162,7 +162,8 @@ static void tell(const capture *c)
     for (int32_t i = 0; i < o->at_count; ++i) {
         char name[NAME];
         report unread = {""};
-        const char *file = o->at_count > 1 && frame_name(name, sizeof name, o->render.out, i, &unread) ? name : o->render.out;
+        const char *file =
+            o->at_count > 1 && frame_name(name, sizeof name, o->render.out, i, &unread) ? name : o->render.out;
         report_say("--world %s --world-centre %.9g,%.9g,%.9g%s", file, (double)o->at[i].x, (double)o->at[i].y,
                    (double)o->at[i].z, i + 1 < o->at_count ? " " : "");
         inside &= is_within(o->at[i], low, high);

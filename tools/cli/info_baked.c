@@ -77,7 +77,8 @@ static int relief_info(FILE *out, const char *path, const file_bytes *file, int 
 {
     lmb_relief f;
     const int fits = checksum_fits(file->data, file->size, LMB_RELIEF_HEADER_WORDS);
-    if (lmb_relief_swap(file->data, file->size) != LMB_OK || lmb_relief_open(&f, file->data, file->size) != LMB_OK || !fits) {
+    if (lmb_relief_swap(file->data, file->size) != LMB_OK || lmb_relief_open(&f, file->data, file->size) != LMB_OK ||
+        !fits) {
         return report_fail(r, "%s: a damaged relief, or not of version 1; bake it anew", path);
     }
     if (out == NULL) {
@@ -115,7 +116,8 @@ static int relief_info(FILE *out, const char *path, const file_bytes *file, int 
                 f.format == LMB_RELIEF_PACKED ? "packed" : "full");
         for (int i = 0; i < 2; ++i) {
             label(out, i == 0 ? "bounds" : "");
-            fprintf(out, "%-4s %13.6g %13.6g %13.6g\n", ends[i], (double)rows[i].x, (double)rows[i].y, (double)rows[i].z);
+            fprintf(out, "%-4s %13.6g %13.6g %13.6g\n", ends[i], (double)rows[i].x, (double)rows[i].y,
+                    (double)rows[i].z);
         }
     }
     return 1;

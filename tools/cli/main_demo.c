@@ -1,5 +1,5 @@
-/* main_demo.c: draws the built-in scene: demo-picture OUT.png. `make demo` links it, because `lambent render` needs less
- * than half of the tool. */
+/* main_demo.c: draws the built-in scene: demo-picture OUT.png. `make demo` links it, because it needs less than half of
+ * the tool. */
 #include <stdio.h>
 
 #include <lambent/lambent.h>

@@ -27,7 +27,8 @@ int frame_digits(const char *pattern)
 int frame_name(char *out, size_t size, const char *pattern, int32_t k, report *r)
 {
     const char *at = find_number(pattern);
-    const int n = snprintf(out, size, "%.*s%0*d%s", (int)(at - pattern), pattern, frame_digits(pattern), (int)k, at + 4);
+    const int n =
+        snprintf(out, size, "%.*s%0*d%s", (int)(at - pattern), pattern, frame_digits(pattern), (int)k, at + 4);
     return (n > 0 && (size_t)n < size) || report_fail(r, "%s: the name is too long", pattern);
 }
 
@@ -46,7 +47,8 @@ int frames_can_write(const char *path, int32_t count, report *r)
     char name[NAME];
     int ok = 1;
     for (int32_t i = 0; ok && i < count; ++i) {
-        ok = frame_numbered(name, sizeof name, path, i, r) && (i == 0 ? file_can_write(name, r) : file_may_replace(name, r));
+        ok = frame_numbered(name, sizeof name, path, i, r) &&
+             (i == 0 ? file_can_write(name, r) : file_may_replace(name, r));
     }
     return ok;
 }

@@ -218,14 +218,16 @@ static double speed(const path_key *key, uint32_t count, uint32_t i, int is_targ
 {
     const path_key *a = &key[i > 0 ? i - 1 : i], *b = &key[i + 1 < count ? i + 1 : i];
     const double time = b->time_s - a->time_s;
-    return time > 0.0 ? (component(place_of(b, is_target), axis) - component(place_of(a, is_target), axis)) / time : 0.0;
+    return time > 0.0 ? (component(place_of(b, is_target), axis) - component(place_of(a, is_target), axis)) / time
+                      : 0.0;
 }
 
 /* Between the keys i and i + 1 by Hermite's cubic. */
 static float between(const path_key *key, uint32_t count, uint32_t i, double time_s, int is_target, int axis)
 {
     const double span = key[i + 1].time_s - key[i].time_s, u = (time_s - key[i].time_s) / span, v = 1.0 - u;
-    const double a = component(place_of(&key[i], is_target), axis), b = component(place_of(&key[i + 1], is_target), axis);
+    const double a = component(place_of(&key[i], is_target), axis),
+                 b = component(place_of(&key[i + 1], is_target), axis);
     const double from = speed(key, count, i, is_target, axis) * span,
                  to = speed(key, count, i + 1, is_target, axis) * span;
     return (float)(v * v * (1.0 + 2.0 * u) * a + u * u * (1.0 + 2.0 * v) * b + u * v * (v * from - u * to));

@@ -42,7 +42,7 @@ enum {
 #endif
 
 typedef struct option_row {
-    const char *name;    /* "--size"; "--group block": the key `block` of an OPTION_KEYS row `--group`; without dashes: a
+    const char *name; /* "--size"; "--group block": the key `block` of an OPTION_KEYS row `--group`; without dashes: a
                             positional argument, in the order of the rows */
     const char *brief;   /* "-h", or NULL */
     const char *value;   /* placeholder behind the name in the help: "WxH"; NULL: depends on the kind */

@@ -113,7 +113,8 @@ void options_value(char *out, size_t size, const option_row *row)
     }
 }
 
-/* Prints "-h, --help", "--show full|direct|...", or "block=1|2|..." for a key; returns the width, or WIDTH if a list is too long for a line. */
+/* Prints "-h, --help", "--show full|direct|...", or "block=1|2|..." for a key; returns the width, or WIDTH if a list is
+ * too long for a line. */
 static int print_name(FILE *out, const option_row *row)
 {
     char value[256];

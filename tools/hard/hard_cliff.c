@@ -168,8 +168,8 @@ void hard_cliff(hard_list *list)
     for (int turn = 0; turn < 2; ++turn) {
         const double room = tests(list->stage, ROOM, turn, 0).each;
         for (int i = 0; i < SCENES; ++i) {
-            hard_put(list, HARD_MEASURED, name[i][turn], hard_share(tests(list->stage, i, turn, 0).each, room), bound[i],
-                     "times");
+            hard_put(list, HARD_MEASURED, name[i][turn], hard_share(tests(list->stage, i, turn, 0).each, room),
+                     bound[i], "times");
         }
     }
     const double limit = 2.0 * LMB_TRAVERSAL_FIRST / MANY_CALLS + LMB_TRAVERSAL_COARSE;

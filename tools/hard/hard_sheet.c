@@ -85,7 +85,8 @@ static sheet make_sheet(hard_stage *h, int kind, uint64_t *rng, int turned)
     s.kind = kind;
     s.columns = kind == TENT || kind == GUTTER ? 2 * many : 1 + many;
     s.rows = is_strip ? 1 + (int)(hard_random(rng) % 3) : 1 + many;
-    s.size = pow(10.0, hard_uniform(rng, -2.5, -0.2)) * (kind == WAVES || kind == RIPPLES || kind == CRUMPLED ? 0.3 : 1);
+    s.size =
+        pow(10.0, hard_uniform(rng, -2.5, -0.2)) * (kind == WAVES || kind == RIPPLES || kind == CRUMPLED ? 0.3 : 1);
     s.phase = hard_uniform(rng, 0, 6);
     set_place(&s, rng, turned);
     hard_begin(h, 0.8);

@@ -39,7 +39,10 @@ static int has_last(const mix_job *j)
            !j->kept->is_other_light;
 }
 
-static int32_t turn_of(const mix_job *j, int32_t x, int32_t y) { return x / LMB_TILE * 5 + y / LMB_TILE * 3 + j->kept->frames; }
+static int32_t turn_of(const mix_job *j, int32_t x, int32_t y)
+{
+    return x / LMB_TILE * 5 + y / LMB_TILE * 3 + j->kept->frames;
+}
 
 int mix_carry_knows(const mix_job *j, int32_t x, int32_t y) { return has_last(j) && turn_of(j, x, y) % AGAIN != 0; }
 

@@ -221,7 +221,8 @@ static void add_seen(cast *c, lmb_vec3 to, float weight)
             tile.id[k] = 1;
             asked |= (uint64_t)(dot(p->normal, to) > 0.05f) << k;
         }
-        const uint64_t seen = asked & ~(asked != 0 ? lmb_occluded_sun(c->j->o.kernels, &c->traversal, &c->bvh, &tile, asked, to) : 0);
+        const uint64_t seen =
+            asked & ~(asked != 0 ? lmb_occluded_sun(c->j->o.kernels, &c->traversal, &c->bvh, &tile, asked, to) : 0);
         for (int32_t k = 0; k < LMB_TILE_PIXELS && i + k < all; ++k) {
             c->lit[i + k] += (seen >> k & 1u) != 0 ? weight : 0.0f;
         }
@@ -247,7 +248,8 @@ static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_fi
                    b = {to.y * a.z - to.z * a.y, to.z * a.x - to.x * a.z, to.x * a.y - to.y * a.x};
     memset(c->lit, 0, (size_t)all * sizeof *c->lit);
     for (int32_t i = 0; i < rays; ++i) {
-        const float far = tanf(0.5f * size * (PI / 180.0f)) * sqrtf(((float)i + 0.5f) / (float)rays), turn = 2.3999632f * (float)i;
+        const float far = tanf(0.5f * size * (PI / 180.0f)) * sqrtf(((float)i + 0.5f) / (float)rays),
+                    turn = 2.3999632f * (float)i;
         add_seen(c, rays > 1 ? unit(plus(plus(to, a, far * cosf(turn)), b, far * sinf(turn))) : to, 1.0f / (float)rays);
     }
     if (is_first) {
@@ -280,7 +282,8 @@ static double explain(cast *c, lmb_vec3 to, float size, double *stops, int is_fi
 
 static lmb_vec3 way(int32_t i)
 {
-    const float y = LOWEST + (0.995f - LOWEST) * ((float)i + 0.5f) / WAYS, flat = sqrtf(1.0f - y * y), turn = 2.3999632f * (float)i;
+    const float y = LOWEST + (0.995f - LOWEST) * ((float)i + 0.5f) / WAYS, flat = sqrtf(1.0f - y * y),
+                turn = 2.3999632f * (float)i;
     return (lmb_vec3){flat * cosf(turn), y, flat * sinf(turn)};
 }
 

@@ -93,10 +93,13 @@ int mix_fail_at(const mix_job *j, report *r)
     int32_t at[2] = {0, 0};
     const int x = (int)j->o.at_px[0], y = (int)j->o.at_px[1];
     return mix_plane_near(at, j)
-               ? report_fail(r, "--at %d,%d: neither a plane nor any depth there; the nearest pixel that would do is %d,%d",
-                             x, y, (int)at[0], (int)at[1])
-               : report_fail(r, "--at %d,%d: neither a plane nor any depth there, and no plane faces up; lambent mix "
-                                "--show planes shows them", x, y);
+               ? report_fail(
+                     r, "--at %d,%d: neither a plane nor any depth there; the nearest pixel that would do is %d,%d", x,
+                     y, (int)at[0], (int)at[1])
+               : report_fail(r,
+                             "--at %d,%d: neither a plane nor any depth there, and no plane faces up; lambent mix "
+                             "--show planes shows them",
+                             x, y);
 }
 
 int mix_fail_depth(const mix_job *j, report *r)
@@ -112,8 +115,10 @@ int mix_fail_depth(const mix_job *j, report *r)
             ++count;
         }
     }
-    return count > 0 ? report_fail(r, "no plane in the depth to stand on; %.3g %% of its pixels are measured, %.3g .. %.3g m "
-                                      "away: --depth-scale sets its unit, --at X,Y says where the object stands",
-                                   100.0 * (double)count / (double)pixels, (double)near, (double)far)
-                     : report_fail(r, "nothing to stand on: no pixel of the depth has a number over 0, so none is measured");
+    return count > 0
+               ? report_fail(r,
+                             "no plane in the depth to stand on; %.3g %% of its pixels are measured, %.3g .. %.3g m "
+                             "away: --depth-scale sets its unit, --at X,Y says where the object stands",
+                             100.0 * (double)count / (double)pixels, (double)near, (double)far)
+               : report_fail(r, "nothing to stand on: no pixel of the depth has a number over 0, so none is measured");
 }

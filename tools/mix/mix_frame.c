@@ -94,8 +94,9 @@ static int take_depth(mix_frame *f, const image *in, float scale, const char *pa
     if (in->width != f->photo.width || in->height != f->photo.height) {
         return mix_has_shape(f, in)
                    ? mix_resample(f, in, scale) || report_fail(r, "%s: out of memory", path)
-                   : report_fail(r, "%s: %d x %d pixels, the photo has %d x %d; depth must be registered to it, of its shape", path,
-                           (int)in->width, (int)in->height, (int)f->photo.width, (int)f->photo.height);
+                   : report_fail(
+                         r, "%s: %d x %d pixels, the photo has %d x %d; depth must be registered to it, of its shape",
+                         path, (int)in->width, (int)in->height, (int)f->photo.width, (int)f->photo.height);
     }
     f->depth = malloc(pixels * sizeof(float));
     for (size_t i = 0; f->depth != NULL && i < pixels; ++i) {

@@ -168,7 +168,8 @@ void mix_front_refine(float *out, mix_way *way, const lmb_cloud *cloud, const lm
 {
     const int32_t w = cloud->camera.width, h = cloud->camera.height;
     const window all = {box[0] > AROUND ? box[0] - AROUND : 0, box[1] > AROUND ? box[1] - AROUND : 0,
-                        (box[2] + AROUND < w ? box[2] + AROUND : w) - 1, (box[3] + AROUND < h ? box[3] + AROUND : h) - 1};
+                        (box[2] + AROUND < w ? box[2] + AROUND : w) - 1,
+                        (box[3] + AROUND < h ? box[3] + AROUND : h) - 1};
     const refiner f = {cloud, planes, rgb, way, all};
     memcpy(out, cloud->inverse, (size_t)w * (size_t)h * sizeof *out);
     for (int32_t y = all.y0; y <= all.y1; ++y) {

@@ -26,7 +26,8 @@ static void collect(islands *s, int32_t from)
     s->count = 1;
     for (int32_t n = 0; n < s->count; ++n) {
         const int32_t at = s->pixel[n], x = at % w, y = at / w;
-        const int32_t next[4] = {x > 0 ? at - 1 : -1, x + 1 < w ? at + 1 : -1, y > 0 ? at - w : -1, y + 1 < h ? at + w : -1};
+        const int32_t next[4] = {x > 0 ? at - 1 : -1, x + 1 < w ? at + 1 : -1, y > 0 ? at - w : -1,
+                                 y + 1 < h ? at + w : -1};
         for (int i = 0; i < 4; ++i) {
             if (next[i] >= 0 && label[next[i]] != own) {
                 ++s->beside[label[next[i]]];
@@ -55,7 +56,8 @@ static void drop(islands *s)
         const lmb_vec3 ray = lmb_cloud_ray(&j->cloud.camera, (float)(at % w), (float)(at / w));
         const float d = j->frame.depth[at], measured = d > 0.0f ? 1.0f / d : 0.0f,
                     there = p->slope[0] * ray.x + p->slope[1] * ray.y + p->slope[2];
-        const int is_there = !(measured > 0.0f) || fabsf(measured - there) <= 4.0f * lmb_cloud_sigma(&j->cloud, measured);
+        const int is_there =
+            !(measured > 0.0f) || fabsf(measured - there) <= 4.0f * lmb_cloud_sigma(&j->cloud, measured);
         j->planes.label[at] = (uint8_t)(is_there ? best : 0);
         j->cloud.inverse[at] = is_there ? there : measured;
         j->cloud.normal[at] = is_there ? p->normal : j->cloud.normal[at];

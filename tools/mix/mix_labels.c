@@ -61,7 +61,8 @@ void mix_labels_cover(const mix_job *j, const lmb_tile *real, const float covere
 static int write_picture(const mix_job *j, const char *ending, float *pixels, int32_t channels, report *r)
 {
     char path[PATH_CAP];
-    const image p = {.width = j->frame.light.width, .height = j->frame.light.height, .channels = channels, .pixels = pixels};
+    const image p = {
+        .width = j->frame.light.width, .height = j->frame.light.height, .channels = channels, .pixels = pixels};
     return snprintf(path, sizeof path, "%s%s", j->o.labels, ending) < PATH_CAP
                ? picture_write(path, &p, 0.0f, PICTURE_CLIPPED, r)
                : report_fail(r, "--labels: the name is too long");
@@ -85,10 +86,12 @@ static int write_mask(const mix_job *j, report *r)
 
 static size_t put_rows(char *out, size_t size, const char *name, const double m[3][4])
 {
-    return (size_t)snprintf(out, size,
-                            "  \"%s\": [[%.9g, %.9g, %.9g, %.9g],\n    [%.9g, %.9g, %.9g, %.9g],\n    [%.9g, %.9g, %.9g, %.9g],\n"
-                            "    [0, 0, 0, 1]]", name, m[0][0], m[0][1], m[0][2], m[0][3], m[1][0], m[1][1], m[1][2], m[1][3],
-                            m[2][0], m[2][1], m[2][2], m[2][3]);
+    return (size_t)snprintf(
+        out, size,
+        "  \"%s\": [[%.9g, %.9g, %.9g, %.9g],\n    [%.9g, %.9g, %.9g, %.9g],\n    [%.9g, %.9g, %.9g, %.9g],\n"
+        "    [0, 0, 0, 1]]",
+        name, m[0][0], m[0][1], m[0][2], m[0][3], m[1][0], m[1][1], m[1][2], m[1][3], m[2][0], m[2][1], m[2][2],
+        m[2][3]);
 }
 
 /* From mesh units to camera space as poses define it (x right, y down, z ahead), and to the world. */

@@ -198,7 +198,8 @@ static int take_lights(mix_job *j, report *r)
 /* If many lights make one shadow together, half the resolution is enough. */
 static int32_t map_side(const mix_job *j)
 {
-    return j->light_count - j->lamp_count < MIX_SUN_SAMPLES || j->o.shadow_map < 16 ? j->o.shadow_map : j->o.shadow_map / 2;
+    return j->light_count - j->lamp_count < MIX_SUN_SAMPLES || j->o.shadow_map < 16 ? j->o.shadow_map
+                                                                                    : j->o.shadow_map / 2;
 }
 
 static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t first_id, uint32_t count)

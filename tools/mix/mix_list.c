@@ -325,8 +325,8 @@ static int read_prefixes(mix_list *out, const char *path, report *r)
 static int fail_empty(const mix_list *l, const char *path, report *r)
 {
     return l->no_depth + l->no_pose > 0
-               ? report_fail(r, "%s: lists no frame: photos without a depth within 0.02 s: %d; without a pose: %d", path,
-                             (int)l->no_depth, (int)l->no_pose)
+               ? report_fail(r, "%s: lists no frame: photos without a depth within 0.02 s: %d; without a pose: %d",
+                             path, (int)l->no_depth, (int)l->no_pose)
                : report_fail(r, "%s: lists no frame", path);
 }
 
@@ -336,7 +336,8 @@ static int read_list(mix_list *out, const char *path, const char *folder, const 
     report none = {""};
     const int is_tum = file_is_plain(tum, &none), is_folder = file_is_plain(own, &none);
     if (!is_tum && !is_folder && file_is_folder(path)) {
-        return report_fail(r, "%s: a folder with neither frames.txt nor TUM's rgb.txt; name one, or a list of PREFIXes", path);
+        return report_fail(r, "%s: a folder with neither frames.txt nor TUM's rgb.txt; name one, or a list of PREFIXes",
+                           path);
     }
     if (!is_tum && is_folder && !file_is_below(own, folder, strlen(folder), r)) {
         return 0;

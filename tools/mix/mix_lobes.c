@@ -92,7 +92,8 @@ void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, c
             memcpy(out->lobes.alpha2, own, sizeof own);
         }
         for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
-            inout->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] += out->one.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
+            inout->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] +=
+                out->one.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
         }
     }
 }

@@ -192,7 +192,8 @@ static void unseen(float out[3], const mix_job *j, lmb_vec3 from, lmb_vec3 along
     if (ends < INFINITY && (p < 0 || ends * ends < dot(off, off))) {
         send_back(out, j, plus(here, direction, ends), wall, j->room.albedo);
     } else if (p >= 0) {
-        send_back(out, j, lmb_axes_turn(&j->axes, at), lmb_axes_turn(&j->axes, j->planes.plane[p].normal), j->plane_albedo[p]);
+        send_back(out, j, lmb_axes_turn(&j->axes, at), lmb_axes_turn(&j->axes, j->planes.plane[p].normal),
+                  j->plane_albedo[p]);
     } else {
         lmb_env_sample(out, &j->env[1], direction, tangent);
     }
@@ -254,7 +255,8 @@ static int ray_of(lmb_vec3 *out, float weight[3][LMB_TILE_PIXELS], const lmb_til
                    axis = fabsf(n.x) < 0.5f ? (lmb_vec3){1, 0, 0} : (lmb_vec3){0, 1, 0};
     const lmb_vec3 a = unit(plus(axis, n, -dot(axis, n))),
                    b = {n.y * a.z - n.z * a.y, n.z * a.x - n.x * a.z, n.x * a.y - n.y * a.x};
-    const float u = ((float)ray + 0.5f) / RAYS, turn = 2.3999632f * (float)ray + 0.3926991f * (float)(5 * (k % 4) + 7 * (k / 8 % 4)),
+    const float u = ((float)ray + 0.5f) / RAYS,
+                turn = 2.3999632f * (float)ray + 0.3926991f * (float)(5 * (k % 4) + 7 * (k / 8 % 4)),
                 wide = sqrtf(lobes->alpha2[k] * u / (1.0f - u)), s = cosf(turn) * wide, c = sinf(turn) * wide;
     const lmb_vec3 h = unit(plus(plus(n, a, s), b, c)), zero = {0, 0, 0};
     *out = plus(plus(zero, h, 2.0f * dot(v, h)), v, -1.0f);
@@ -263,7 +265,8 @@ static int ray_of(lmb_vec3 *out, float weight[3][LMB_TILE_PIXELS], const lmb_til
         return 0;
     }
     const float see = nl * sqrtf(a2 + (1.0f - a2) * nv * nv) + nv * sqrtf(a2 + (1.0f - a2) * nl * nl),
-                one = 2.0f * nl * vh / (dot(n, h) * see), low = fmaxf(1.0f - vh, 0.0f), rise = low * low * low * low * low;
+                one = 2.0f * nl * vh / (dot(n, h) * see), low = fmaxf(1.0f - vh, 0.0f),
+                rise = low * low * low * low * low;
     for (int i = 0; i < 3; ++i) {
         weight[i][k] = one * (lobes->specular[i][k] + (1.0f - lobes->specular[i][k]) * rise);
     }
@@ -288,7 +291,8 @@ static void photo_about(float out[3], const mix_job *j, int32_t pixel, float px)
 }
 
 /* Traces one ray of pixel k. Stores a hit in the photo in s, to be lit; otherwise sets `out`. */
-static void see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t, const lmb_glossy *lobes, int32_t k, int ray)
+static void see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t, const lmb_glossy *lobes, int32_t k,
+                int ray)
 {
     const lmb_vec3 at = {t->position[0][k], t->position[1][k], t->position[2][k]};
     const float wide = sqrtf(lobes->alpha2[k]);
@@ -300,7 +304,8 @@ static void see(float out[3], mix_mirror *s, const mix_job *j, const lmb_tile *t
     float far = 0.0f;
     const lmb_vec3 from = to_camera(j, at), along = to_camera(j, d);
     const int32_t pixel = march(&far, j, from, along), w = j->frame.camera.width;
-    const int32_t cell = pixel < 0 ? -1 : j->real.cell[pixel / w / j->real.step * j->real.columns + pixel % w / j->real.step];
+    const int32_t cell =
+        pixel < 0 ? -1 : j->real.cell[pixel / w / j->real.step * j->real.columns + pixel % w / j->real.step];
     if (pixel < 0) {
         unseen(out, j, from, along, d, 0.5f * wide);
         return;
@@ -362,7 +367,8 @@ static void add_hits(float out[3][LMB_TILE_PIXELS], const mix_mirror *s, const m
         }
         for (int c = 0; c < 3 && s->hit.id[k] != 0; ++c) {
             const float was = s->light[0].rgb[c][k] + around[0][c], is = s->light[1].rgb[c][k] + open * around[1][c];
-            const float photo = s->photo[c][k] < CLIPPED ? s->photo[c][k] : fmaxf(s->photo[c][k], s->albedo[c][k] * was * (1.0f / PI));
+            const float photo =
+                s->photo[c][k] < CLIPPED ? s->photo[c][k] : fmaxf(s->photo[c][k], s->albedo[c][k] * was * (1.0f / PI));
             out[c][k] += s->weight[c][k] * photo * (was > 0.0f ? fminf(is / was, 8.0f) : 1.0f);
         }
     }

@@ -99,7 +99,8 @@ static const option_row object_rows[] = {
      .help = HELP("floor: the lowest plane that faces up; table: the largest one 0.3 m above another; wall: the "
              "mesh hangs there upright, with +Z away from it (default: the largest plane that faces up, or else the "
              "largest wall)")},
-    {.name = "--up", .value = "X,Y,Z|camera|pose", .kind = OPTION_OWN, .parse = parse_up, .expects = "X,Y,Z, camera or pose",
+    {.name = "--up", .value = "X,Y,Z|camera|pose", .kind = OPTION_OWN, .parse = parse_up,
+     .expects = "X,Y,Z, camera or pose",
      .help = HELP("the up direction, for cameras that look down: in the frame's world, or without a pose the "
              "camera's (x right, y up, -z ahead); camera: up in the picture; pose: +Y of the world. Default: +Y or "
              "+Z of the world if a plane lies across it, or else the direction that the planes within 70 degrees of "

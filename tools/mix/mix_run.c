@@ -24,10 +24,9 @@ static void tell_place(const mix_job *j)
         return;
     }
     const lmb_flat *p = &j->planes.plane[j->floor];
-    report_note(j->o.is_quiet,
-                "%d planes; the object %s number %d, %.2f x %.2f m, %.2f m away, %s; --scale %.4g",
-                (int)j->planes.count, j->hangs ? "hangs on" : "stands on", (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
-                (double)(p->high[1] - p->low[1]), near, gap, (double)j->scale);
+    report_note(j->o.is_quiet, "%d planes; the object %s number %d, %.2f x %.2f m, %.2f m away, %s; --scale %.4g",
+                (int)j->planes.count, j->hangs ? "hangs on" : "stands on", (int)j->floor + 1,
+                (double)(p->high[0] - p->low[0]), (double)(p->high[1] - p->low[1]), near, gap, (double)j->scale);
     report_note(j->o.is_quiet || j->faces_up,
                 "no plane faces up; that is the largest %s, it faces %.2f,%.2f,%.2f; --at X,Y names another, --show "
                 "planes shows them",
@@ -42,8 +41,8 @@ static void tell_size(const mix_job *j)
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
     const int fills = !(j->seen_px < 1.5f * (float)(w > h ? w : h)), vanishes = j->seen_px < 4.0f;
     if (!j->o.fit && (fills || vanishes)) {
-        report_note(j->o.is_quiet, "the object is %.3g m long and %s; --fit chooses its size, --scale M sets it", metres,
-                    fills ? "fills the picture" : "vanishes in the picture");
+        report_note(j->o.is_quiet, "the object is %.3g m long and %s; --fit chooses its size, --scale M sets it",
+                    metres, fills ? "fills the picture" : "vanishes in the picture");
         return;
     }
     report_note(j->o.is_quiet || j->inside,

@@ -108,9 +108,10 @@ static void read_at(sequence *s, int32_t at)
 static void write_drawn(sequence *s)
 {
     char name[4200];
-    s->is_written = s->unwritten < 0 || (frame_name(name, sizeof name, s->o->out, s->unwritten, &s->failed) &&
-                                         picture_write(name, &s->kept.last->picture, exposure_of(&s->kept, s->kept.last),
-                                                       PICTURE_CLIPPED, &s->failed));
+    s->is_written =
+        s->unwritten < 0 ||
+        (frame_name(name, sizeof name, s->o->out, s->unwritten, &s->failed) &&
+         picture_write(name, &s->kept.last->picture, exposure_of(&s->kept, s->kept.last), PICTURE_CLIPPED, &s->failed));
     s->unwritten = -1;
 }
 
@@ -141,8 +142,8 @@ static void tell_left_out(sequence *s)
 
 static void tell_rest(sequence *s)
 {
-    report_note(s->o->is_quiet || s->run <= SAID, "frames %d to %d are left out, too", (int)(s->last_out - s->run + SAID + 1),
-                (int)s->last_out);
+    report_note(s->o->is_quiet || s->run <= SAID, "frames %d to %d are left out, too",
+                (int)(s->last_out - s->run + SAID + 1), (int)s->last_out);
     s->run = 0;
 }
 
@@ -189,7 +190,8 @@ static void draw_next(sequence *s)
  * written. */
 static int keep_inputs(const mix_list *list, report *r)
 {
-    static const char *const endings[] = {".json", ".color.png", ".color.jpg", ".color.pfm", ".depth.png", ".depth.pfm"};
+    static const char *const endings[] = {".json",      ".color.png", ".color.jpg",
+                                          ".color.pfm", ".depth.png", ".depth.pfm"};
     int ok = 1;
     for (int32_t i = 0; ok && i < list->count; ++i) {
         const mix_entry *e = &list->entry[i];
@@ -211,7 +213,8 @@ static int can_write(const mix_options *o, const mix_list *list, report *r)
     char name[4200];
     int ok = options_files(o, &mix_table, r) && keep_inputs(list, r);
     for (int32_t i = 0; ok && i < list->count; ++i) {
-        ok = frame_name(name, sizeof name, o->out, i, r) && (i == 0 ? file_can_write(name, r) : file_may_replace(name, r));
+        ok = frame_name(name, sizeof name, o->out, i, r) &&
+             (i == 0 ? file_can_write(name, r) : file_may_replace(name, r));
     }
     return ok;
 }
@@ -221,8 +224,9 @@ static void tell_list(const mix_options *o, const mix_list *l)
     report_note(o->is_quiet || l->no_depth + l->no_pose == 0,
                 "%s: photos without a depth within 0.02 s: %d; without a pose: %d; they are no frames", o->frames,
                 (int)l->no_depth, (int)l->no_pose);
-    report_note(o->is_quiet || l->unread == 0, "%s: lines of its lists that are no time and name, or pose: %d; they are passed over",
-                o->frames, (int)l->unread);
+    report_note(o->is_quiet || l->unread == 0,
+                "%s: lines of its lists that are no time and name, or pose: %d; they are passed over", o->frames,
+                (int)l->unread);
 }
 
 /* Returns 1 if all frames were drawn and written. */

@@ -163,8 +163,8 @@ static int is_afar(const lmb_tile *t, const mix_bundle *b)
 
 /* Computes the light of a bundle's patches at some of a tile's pixels. Returns the pixels that get any. *at: a point on
  * the brightest patch, because the object itself would hide a patch that faces away. */
-static uint64_t send_bundle(lmb_irradiance *out, lmb_vec3 *at, const lmb_tile *t, const mix_sources *s, const mix_bundle *from,
-                            uint64_t pixels)
+static uint64_t send_bundle(lmb_irradiance *out, lmb_vec3 *at, const lmb_tile *t, const mix_sources *s,
+                            const mix_bundle *from, uint64_t pixels)
 {
     uint64_t reached = 0;
     float max = 0.0f;
@@ -342,7 +342,10 @@ static int by_order(const void *a, const void *b)
     return key != 0 ? key : (x->order > y->order) - (x->order < y->order);
 }
 
-static uint32_t cell_of(float at, float low, float per) { return (uint32_t)fminf(fmaxf((at - low) * per, 0.0f), 31.0f); }
+static uint32_t cell_of(float at, float low, float per)
+{
+    return (uint32_t)fminf(fmaxf((at - low) * per, 0.0f), 31.0f);
+}
 
 /* Receivers this many widths of a merged patch away use the merged one. */
 #define AFAR 8.0f
@@ -361,7 +364,8 @@ static size_t sort_points(points *s, float cell)
     for (size_t i = 0; i < s->count; ++i) {
         point *p = &s->all[i];
         p->key = p->told << 15 | apart(cell_of(p->p.at.x, s->low.x, 1.0f / cell)) << 2 |
-                 apart(cell_of(p->p.at.y, s->low.y, 1.0f / cell)) << 1 | apart(cell_of(p->p.at.z, s->low.z, 1.0f / cell));
+                 apart(cell_of(p->p.at.y, s->low.y, 1.0f / cell)) << 1 |
+                 apart(cell_of(p->p.at.z, s->low.z, 1.0f / cell));
     }
     qsort(s->all, s->count, sizeof *s->all, by_order);
     for (size_t i = 0; i < s->count; ++i) {
@@ -483,7 +487,10 @@ typedef struct mirror {
     lmb_tile *scratch;
 } mirror;
 
-static int is_metal(const lmb_material *m) { return m->metal_map != 0 || m->specular[0] + m->specular[1] + m->specular[2] > 0.0f; }
+static int is_metal(const lmb_material *m)
+{
+    return m->metal_map != 0 || m->specular[0] + m->specular[1] + m->specular[2] > 0.0f;
+}
 
 static void set_looks(lmb_material *look[3], const lmb_material *from, uint32_t count)
 {
@@ -693,8 +700,8 @@ static int32_t add_far(mix_sources *s, mix_bundle *b, int32_t n)
 }
 
 /* Makes patches of one way's points, from s->all[at] on. Returns the number of points. */
-static size_t make_way(lmb_light *light, mix_sources *to, const points *s, size_t at, int32_t ways, float cell, float clear,
-                       float share)
+static size_t make_way(lmb_light *light, mix_sources *to, const points *s, size_t at, int32_t ways, float cell,
+                       float clear, float share)
 {
     const size_t begins = at;
     const uint32_t way = s->all[at].way;

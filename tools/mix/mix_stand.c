@@ -100,7 +100,8 @@ static void choose_hanging(mix_job *j)
 static int find_plane(mix_job *j, report *r)
 {
     const lmb_vec3 up = mix_up(j);
-    static const char *const none[] = {"", "--on floor: no plane faces up", "--on table: no plane lies 0.3 m over another",
+    static const char *const none[] = {"", "--on floor: no plane faces up",
+                                       "--on table: no plane lies 0.3 m over another",
                                        "--on wall: no plane is upright and over 0.25 m wide and high"};
     j->floor = j->o.on == MIX_ON_ANY ? mix_floor(j) : plane_asked(j, up);
     j->faces_up = j->floor >= 0;
@@ -199,8 +200,8 @@ static int stand_at_pixel(mix_job *j, report *r)
 {
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
     if (!(j->o.at_px[0] >= 0.0f && j->o.at_px[1] >= 0.0f && j->o.at_px[0] < (float)w && j->o.at_px[1] < (float)h)) {
-        return report_fail_usage(r, "--at %g,%g: the photo has %d x %d pixels", (double)j->o.at_px[0], (double)j->o.at_px[1],
-                           (int)w, (int)h);
+        return report_fail_usage(r, "--at %g,%g: the photo has %d x %d pixels", (double)j->o.at_px[0],
+                                 (double)j->o.at_px[1], (int)w, (int)h);
     }
     const int32_t x = (int32_t)j->o.at_px[0], y = (int32_t)j->o.at_px[1];
     const int32_t label = j->planes.label[y * w + x];

@@ -30,7 +30,10 @@ static int slope_of(float slope[3], lmb_vec3 *normal, const mix_track *t, const 
     return distance > 1e-3f;
 }
 
-static float inverse_at(const float slope[3], lmb_vec3 p) { return slope[0] * p.x / -p.z + slope[1] * p.y / -p.z + slope[2]; }
+static float inverse_at(const float slope[3], lmb_vec3 p)
+{
+    return slope[0] * p.x / -p.z + slope[1] * p.y / -p.z + slope[2];
+}
 
 /* The track that a plane continues, or -1. */
 static int32_t track_of(float slope[3], const mix_job *j, const lmb_flat *p, const lmb_mat4 *camera)
@@ -101,7 +104,8 @@ static int32_t new_track(mix_kept *k)
         return k->tracks++;
     }
     for (int32_t i = 0; i < k->tracks; ++i) {
-        if (i != k->floor && k->track[i].last <= k->frames && (first < 0 || gives_way(&k->track[i], &k->track[first]))) {
+        if (i != k->floor && k->track[i].last <= k->frames &&
+            (first < 0 || gives_way(&k->track[i], &k->track[first]))) {
             first = i;
         }
     }

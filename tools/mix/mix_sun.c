@@ -153,7 +153,8 @@ static int guess_of(guess *out, const mix_job *j, lmb_vec3 faces)
     if (!mix_find_cast(&cast, j)) {
         return 0;
     }
-    out->sure = along(cast.to, faces) > 0.17f ? fminf(fmaxf((cast.explained - UNSURE) / (SURE - UNSURE), 0.0f), 1.0f) : 0.0f;
+    out->sure =
+        along(cast.to, faces) > 0.17f ? fminf(fmaxf((cast.explained - UNSURE) / (SURE - UNSURE), 0.0f), 1.0f) : 0.0f;
     out->from = out->sure > 0.0f ? cast.to : overhead(j);
     out->share = fmaxf(out->sure * fminf(cast.share, SHARE_MAX), WEAK);
     out->size = out->sure > 0.0f ? cast.size : WIDE;
@@ -199,12 +200,14 @@ float mix_guess_sun(lmb_light *out, const mix_job *j)
     for (int c = 0; c < 3; ++c) {
         out->intensity[c] = g.share * around[c];
     }
-    report_note(j->o.is_quiet,
-                "no light given: %s, %.2f as strong as what is around, which is %.2f times as bright as the photo has it%s; "
-                "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f:%.0f",
-                g.sure > 0.0f ? "took a sun from the photo's shadows" : "no shadow shows where light comes from, so took a weak one from above",
-                (double)g.share, (double)more, more > 1.0f ? "; given by hand, the sun leaves that as in the photo" : "",
-                (double)way.x, (double)way.y, (double)way.z, (double)out->intensity[0], (double)out->intensity[1],
-                (double)out->intensity[2], (double)g.size);
+    report_note(
+        j->o.is_quiet,
+        "no light given: %s, %.2f as strong as what is around, which is %.2f times as bright as the photo has it%s; "
+        "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f:%.0f",
+        g.sure > 0.0f ? "took a sun from the photo's shadows"
+                      : "no shadow shows where light comes from, so took a weak one from above",
+        (double)g.share, (double)more, more > 1.0f ? "; given by hand, the sun leaves that as in the photo" : "",
+        (double)way.x, (double)way.y, (double)way.z, (double)out->intensity[0], (double)out->intensity[1],
+        (double)out->intensity[2], (double)g.size);
     return g.size;
 }

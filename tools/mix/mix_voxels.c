@@ -254,8 +254,8 @@ static size_t inside(lmb_texel *all, size_t count, const lmb_voxels *v)
 }
 
 /* Light reflected by all surfaces of a scene under pi W/m2, as points in the cube. */
-static lmb_texel *reflect_all(size_t *count, const mix_job *j, const lmb_scene *scene, const lmb_env *white, lmb_texel *out,
-                              size_t cap)
+static lmb_texel *reflect_all(size_t *count, const mix_job *j, const lmb_scene *scene, const lmb_env *white,
+                              lmb_texel *out, size_t cap)
 {
     const uint32_t all = j->real_triangles + j->object_triangles;
     lmb_around_points(out, cap, scene, 1, all, 0.5f * j->voxels.leaf, white);

@@ -213,7 +213,8 @@ static void mark_cell(mix_job *j, const float *at)
     for (int i = 0; i <= n; ++i) {
         for (int k = 0; k <= n; ++k) {
             const float s = (float)i / (float)n, t = (float)k / (float)n;
-            const lmb_vec3 p = between(between(corner(at, 0), corner(at, 1), s), between(corner(at, 3), corner(at, 2), s), t);
+            const lmb_vec3 p =
+                between(between(corner(at, 0), corner(at, 1), s), between(corner(at, 3), corner(at, 2), s), t);
             if (is_in_cube(&j->voxels, p, 0.0f)) {
                 j->seen[place_of(&j->voxels, p, 0, 0, 0)] = 1;
             }

@@ -228,7 +228,8 @@ static int read_motion(reading *m)
     out->of_instance = g->instance_node;
     out->of_light = g->light_node;
     out->of_camera = g->camera_node;
-    if (!out->track || !make_nodes(out, m) || !gltf_shapes(out, m->tree, g, m->place, m->weight_track, m->weight_tracks))
+    if (!out->track || !make_nodes(out, m) ||
+        !gltf_shapes(out, m->tree, g, m->place, m->weight_track, m->weight_tracks))
         return 0;
     g->b->out->motion = out;
     return 1;

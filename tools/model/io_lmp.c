@@ -40,7 +40,8 @@ int lmp_refuse(const char *path, const uint8_t *data, size_t size, report *r)
 static void name_cameras(model *m, const lmb_pack *p)
 {
     size_t bytes;
-    const char *name = (const char *)lmb_pack_part(p, LMB_PACK_NAMES, &bytes), *end = name != NULL ? name + bytes : NULL;
+    const char *name = (const char *)lmb_pack_part(p, LMB_PACK_NAMES, &bytes),
+               *end = name != NULL ? name + bytes : NULL;
     for (uint32_t i = 0; name != NULL && i < m->camera_count; ++i) {
         const char *zero = (const char *)memchr(name, 0, (size_t)(end - name));
         if (zero == NULL) {

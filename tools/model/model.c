@@ -125,7 +125,8 @@ static void note_place(model_build *b)
         build_note(b, "the scene is %.3g m across but %.3g m from the origin; move it there for precision", diagonal,
                    distance);
     if (diagonal < TINY_M && diagonal > 0)
-        build_note(b, "the scene is %.3g m across; light is inexact in what is under %g m, scale it up", diagonal, TINY_M);
+        build_note(b, "the scene is %.3g m across; light is inexact in what is under %g m, scale it up", diagonal,
+                   TINY_M);
 }
 
 static void note_emission(model_build *b)
@@ -212,7 +213,8 @@ static int load_content(model_build *b, const file_bytes *file)
     if (file->size == 0)
         return report_fail(b->r, "%s: the file is empty (0 bytes); export or copy it again", b->path);
     if (!read)
-        return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj, .ply or .lmp file", b->path);
+        return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj, .ply or .lmp file",
+                           b->path);
     if (b->scene && read != gltf_load)
         return report_fail_usage(b->r, "--scene %.60s: %s: only glTF files hold several", b->scene, b->path);
     if (b->linear_colours && read != obj_load && read != ply_load)

@@ -60,8 +60,8 @@ void pack_free(pack *p);
 /* Steps of pack_model, each for separate parts. `slot`: by the model's textures, the packed one or UINT32_MAX. */
 int pack_meshes(pack *out, const lmb_scene *scene, const pack_settings *set, report *r);
 int pack_textures(pack *out, uint32_t *slot, const lmb_scene *scene, const pack_settings *set, report *r);
-int pack_motion(pack *out, const model *m, uint32_t *node_of_instance, uint32_t *node_of_light, uint32_t *node_of_camera,
-                report *r);
+int pack_motion(pack *out, const model *m, uint32_t *node_of_instance, uint32_t *node_of_light,
+                uint32_t *node_of_camera, report *r);
 
 /* pack_order: reorders triangles so that they share vertices with preceding ones. `index`: 3 per triangle.
  * pack_fetched: the number of vertices that a FIFO cache of 16 fetches. pack_order returns 0 if memory is short. */

@@ -172,7 +172,8 @@ static int make_palette(bunch *palette, const uint8_t *rgba, size_t texels, int 
     return count;
 }
 
-static int64_t put_level(pack_buffer *out, const bunch *palette, int count, const uint8_t *rgba, size_t texels, int alpha)
+static int64_t put_level(pack_buffer *out, const bunch *palette, int count, const uint8_t *rgba, size_t texels,
+                         int alpha)
 {
     int64_t error = 0;
     for (size_t i = 0; i < texels; i += 8) { /* bytes of a word, unless the level ends in it */

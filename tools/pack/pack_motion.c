@@ -123,8 +123,8 @@ static void put_still_node(pack *out, const struct model_motion *m, const uint8_
     put_rest(to, &still);
 }
 
-int pack_motion(pack *out, const model *m, uint32_t *node_of_instance, uint32_t *node_of_light, uint32_t *node_of_camera,
-                report *r)
+int pack_motion(pack *out, const model *m, uint32_t *node_of_instance, uint32_t *node_of_light,
+                uint32_t *node_of_camera, report *r)
 {
     const struct model_motion *motion = m->motion;
     const lmb_scene *s = &m->scene;
@@ -136,7 +136,8 @@ int pack_motion(pack *out, const model *m, uint32_t *node_of_instance, uint32_t 
     }
     uint8_t *used = calloc((size_t)motion->nodes + 1, 1);
     uint32_t *number = calloc((size_t)motion->nodes + motion->tracks + 1, sizeof *number);
-    int ok = (used != NULL && number != NULL) || report_fail(r, "not enough memory for %u nodes", (unsigned)motion->nodes);
+    int ok =
+        (used != NULL && number != NULL) || report_fail(r, "not enough memory for %u nodes", (unsigned)motion->nodes);
     if (ok) {
         ok = (mark(used, node_of_instance, motion->of_instance, s->instance_count, motion) &
               mark(used, node_of_light, motion->of_light, s->light_count, motion) &

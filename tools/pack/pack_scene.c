@@ -161,7 +161,8 @@ int pack_model(pack *out, const model *m, const pack_settings *set, report *r)
     if (slot == NULL) {
         return report_fail(r, "not enough memory for %u objects", (unsigned)s->instance_count);
     }
-    uint32_t *instance = slot + s->texture_count, *light = instance + s->instance_count, *camera = light + s->light_count;
+    uint32_t *instance = slot + s->texture_count, *light = instance + s->instance_count,
+             *camera = light + s->light_count;
     int ok = pack_meshes(out, s, set, r) && pack_textures(out, slot, s, set, r) &&
              pack_motion(out, m, instance, light, camera, r);
     if (ok) {
@@ -204,8 +205,10 @@ static int is_whole(const pack *p, report *r)
 int pack_take(pack *out, const lmb_pack *from, const char *path, report *r)
 {
     /* Kind of the records, first word with an offset, number of offsets, part that they point into. */
-    static const int offsets[][4] = {{LMB_PACK_MESHES, 3, 5, LMB_PACK_VERTICES}, {LMB_PACK_MESHES, 8, 1, LMB_PACK_INDICES},
-                                     {LMB_PACK_TEXTURES, 0, 1, LMB_PACK_TEXELS}, {LMB_PACK_TRACKS, 2, 2, LMB_PACK_KEYS}};
+    static const int offsets[][4] = {{LMB_PACK_MESHES, 3, 5, LMB_PACK_VERTICES},
+                                     {LMB_PACK_MESHES, 8, 1, LMB_PACK_INDICES},
+                                     {LMB_PACK_TEXTURES, 0, 1, LMB_PACK_TEXELS},
+                                     {LMB_PACK_TRACKS, 2, 2, LMB_PACK_KEYS}};
     int ok = 1;
     for (int kind = 1; kind < LMB_PACK_KINDS; ++kind) {
         if (from->part[kind] != NULL) {

@@ -162,8 +162,10 @@ static int put_transfer(pack *p, const options *o, report *r)
         ok = (memory != NULL || report_fail(r, "not enough memory for its scene")) &&
              (lmb_pack_scene(&s, &opened, memory, bytes) == LMB_OK || report_fail(r, "%s: not valid", o->scene)) &&
              (lmb_transfer_fits(&t, &s) == LMB_OK ||
-              report_fail(r, "%s: baked from another scene than what %s becomes here; pack it, `lambent bake` the .lmp, "
-                             "and pack that with --transfer", o->transfer, o->scene));
+              report_fail(r,
+                          "%s: baked from another scene than what %s becomes here; pack it, `lambent bake` the .lmp, "
+                          "and pack that with --transfer",
+                          o->transfer, o->scene));
     }
     if (ok) {
         const uint8_t *words = (const uint8_t *)(t.section[0] - LMB_TRANSFER_HEADER_WORDS);
@@ -227,8 +229,9 @@ static int write_out(const options *o, const pack *p, int is_new, report *r)
     file_bytes file = {NULL, 0};
     lmb_pack opened;
     char name[C_NAME];
-    int ok = (!is_code(o->out) || array_name(name, o, r)) && pack_file(&file, p, r) &&
-             (lmb_pack_open(&opened, file.data, file.size) == LMB_OK || report_fail(r, "what was packed does not open"));
+    int ok =
+        (!is_code(o->out) || array_name(name, o, r)) && pack_file(&file, p, r) &&
+        (lmb_pack_open(&opened, file.data, file.size) == LMB_OK || report_fail(r, "what was packed does not open"));
     if (ok && o->is_big != is_own_big()) {
         pack_swap(&file, &opened);
     }
@@ -247,7 +250,8 @@ static int write_out(const options *o, const pack *p, int is_new, report *r)
 
 static float diagonal_of(const lmb_scene *s)
 {
-    const double x = (double)s->bounds_max.x - (double)s->bounds_min.x, y = (double)s->bounds_max.y - (double)s->bounds_min.y,
+    const double x = (double)s->bounds_max.x - (double)s->bounds_min.x,
+                 y = (double)s->bounds_max.y - (double)s->bounds_min.y,
                  z = (double)s->bounds_max.z - (double)s->bounds_min.z;
     return (float)lmb_sqrt((float)(x * x + y * y + z * z));
 }
@@ -256,8 +260,11 @@ static float diagonal_of(const lmb_scene *s)
 static int may_take(const options *o, report *r)
 {
     return (o->position_given + o->texture_given + o->order_given + o->textures_given == 0 && !o->is_glossy) ||
-           report_fail_usage(r, "%s: a packed scene stays as it is; options of vertices, textures and materials are for its "
-                                "source", o->scene);
+           report_fail_usage(
+               r,
+               "%s: a packed scene stays as it is; options of vertices, textures and materials are for its "
+               "source",
+               o->scene);
 }
 
 static int pack_scene(const options *o, const model *m, report *r)
@@ -269,8 +276,9 @@ static int pack_scene(const options *o, const model *m, report *r)
     set.texture_error = (double)o->texture_error;
     set.order = o->order;
     set.textures = o->textures;
-    const int ok = (m->pack != NULL ? may_take(o, r) && pack_take(&p, m->pack, o->scene, r) : pack_model(&p, m, &set, r)) &&
-                   (o->transfer == NULL || put_transfer(&p, o, r)) && write_out(o, &p, m->pack == NULL, r);
+    const int ok =
+        (m->pack != NULL ? may_take(o, r) && pack_take(&p, m->pack, o->scene, r) : pack_model(&p, m, &set, r)) &&
+        (o->transfer == NULL || put_transfer(&p, o, r)) && write_out(o, &p, m->pack == NULL, r);
     pack_free(&p);
     return ok;
 }

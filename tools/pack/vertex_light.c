@@ -467,8 +467,8 @@ static void factors(double *out, baking *b, const receiver *v)
             for (int c = 0; c < 3; ++c) {
                 corner[c] = narrowed(b->m.place[t->p[c]]);
             }
-            const double f = (double)lmb_polygon_factor(narrowed(v->sample[k]), narrowed(v->face[k]), narrowed(v->normal),
-                                                        corner, 3, narrowed(t->face));
+            const double f = (double)lmb_polygon_factor(narrowed(v->sample[k]), narrowed(v->face[k]),
+                                                        narrowed(v->normal), corner, 3, narrowed(t->face));
             if (f <= 1e-6) {
                 continue;
             }

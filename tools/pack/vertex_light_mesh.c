@@ -102,14 +102,16 @@ static int add_sides(vl_mesh *m, vl_triangle *t, report *r)
 static dvec normal_of(const lmb_triangle *t, int i)
 {
     const float *m = t->instance->to_world.m;
-    const dvec x = dvec_of((double)m[0], (double)m[1], (double)m[2]), y = dvec_of((double)m[4], (double)m[5], (double)m[6]),
+    const dvec x = dvec_of((double)m[0], (double)m[1], (double)m[2]),
+               y = dvec_of((double)m[4], (double)m[5], (double)m[6]),
                z = dvec_of((double)m[8], (double)m[9], (double)m[10]);
     const lmb_vec3 own = mesh_normal(t->mesh, t->vertex[i]);
     if (t->mesh->normals == NULL) {
         return dvec_of(0, 0, 0);
     }
-    return dvec_unit(dvec_add(dvec_add(dvec_mul(dvec_cross(y, z), (double)own.x), dvec_mul(dvec_cross(z, x), (double)own.y)),
-                              dvec_mul(dvec_cross(x, y), (double)own.z)));
+    return dvec_unit(
+        dvec_add(dvec_add(dvec_mul(dvec_cross(y, z), (double)own.x), dvec_mul(dvec_cross(z, x), (double)own.y)),
+                 dvec_mul(dvec_cross(x, y), (double)own.z)));
 }
 
 static int is_fine(const lmb_scene *s, const lmb_instance *in)

@@ -37,7 +37,8 @@ void picture_expose(image *inout, float exposure_ev, int tone);
 
 /* picture_encode_alpha: encodes a PNG with alpha: `alpha` is 0 .. 1 for each pixel, and `linear` is premultiplied by
  * it. */
-int picture_encode_alpha(file_bytes *out, const image *linear, const float *alpha, float exposure_ev, int tone, report *r);
+int picture_encode_alpha(file_bytes *out, const image *linear, const float *alpha, float exposure_ev, int tone,
+                         report *r);
 
 /* picture_encode: the bytes of a file in a PICTURE_ format. picture_write: writes the file in the format of the
  * name, completely or not at all. Exposure and tone apply to display formats. Return 1, or 0 with `r` set. */

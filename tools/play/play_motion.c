@@ -272,7 +272,8 @@ static int set_by_animations(play_motion *m, int32_t k, double time_s, report *r
     const model *loaded = &m->job->loaded;
     int moved = 0;
     if (!model_pose(m->instance_posed, m->light_posed, m->camera, loaded, time_s)) {
-        return report_fail(r, "%s: at frame %d its animations lead nowhere: a scale of 0, or numbers that are too large",
+        return report_fail(r,
+                           "%s: at frame %d its animations lead nowhere: a scale of 0, or numbers that are too large",
                            m->job->o.scene, (int)k);
     }
     for (uint32_t i = 0; (m->moves & KEY_LIGHT) != 0 && i < m->job->scene.light_count; ++i) {
@@ -348,8 +349,10 @@ static int check_track(const play_motion *m, const key_track *t, report *r)
                            m->options->path, (unsigned)t->line, (unsigned)t->index);
     }
     return t->what != KEY_OBJECT || may_move(m, t->index) ||
-           report_fail(r, "%s: line %u: object:%u stands still in what was baked; bake it with --moving %u, or leave out "
-                          "--transfer", m->options->path, (unsigned)t->line, (unsigned)t->index, (unsigned)t->index);
+           report_fail(r,
+                       "%s: line %u: object:%u stands still in what was baked; bake it with --moving %u, or leave out "
+                       "--transfer",
+                       m->options->path, (unsigned)t->line, (unsigned)t->index, (unsigned)t->index);
 }
 
 static int check_path(const play_motion *m, report *r)
@@ -447,9 +450,11 @@ int play_motion_find(play_motion *m, render_job *j, report *r)
     }
     m->is_animated = all != 0;
     if (!m->is_animated && m->moves == EVERYTHING && loaded->facts.animations > 0) { /* the file specifies the motion */
-        report_note(m->options->render.view.is_quiet,
-                    "nothing moves: of the animations of %s nothing is left here; --move light or camera moves those by "
-                    "themselves", m->job->o.scene);
+        report_note(
+            m->options->render.view.is_quiet,
+            "nothing moves: of the animations of %s nothing is left here; --move light or camera moves those by "
+            "themselves",
+            m->job->o.scene);
         m->moves = 0;
     }
     m->moves = m->is_animated ? all : m->moves;

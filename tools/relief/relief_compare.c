@@ -196,7 +196,8 @@ static void tell_compared(const relief_frame *f, const relief_frame *truth, cons
     report_say("%-22s %12.2f %12.2f\n", "triangles, ms", 1e3 * f->draw_s, 1e3 * truth->draw_s);
     report_say("%-22s %12.2f %12.2f\n", "pixels, ms", 1e3 * f->band_s, 1e3 * truth->band_s);
     report_say("outline %.2f px (median), covered by both %.2f %%\n", e->silhouette_px, 100.0 * e->iou);
-    report_say("depth %.4f %% of the diagonal (median), %.4f %% (95 of 100)\n", 100.0 * e->depth_50, 100.0 * e->depth_95);
+    report_say("depth %.4f %% of the diagonal (median), %.4f %% (95 of 100)\n", 100.0 * e->depth_50,
+               100.0 * e->depth_95);
     report_say("normals %.2f degrees (median), %.1f (95 of 100)\n", e->normal_50, e->normal_95);
     report_say("light %.2f dB, without cast shadows %.2f; reflectance %.2f dB; lit or not as it should %.2f %%\n",
            e->shadowed_db, e->psnr_db, e->albedo_db, 100.0 * e->lit);

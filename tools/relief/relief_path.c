@@ -121,12 +121,12 @@ int relief_path_open(key_path *out, const relief_options *o, const lmb_light *li
                                (unsigned)track->line);
         }
         if (track->what == KEY_CAMERA && o->view.has_eye && out->key[track->first].has_target) {
-            return report_fail(r, "%s:%u: the camera goes and looks by these keys; leave --eye and --target out", o->path,
-                               (unsigned)track->line);
+            return report_fail(r, "%s:%u: the camera goes and looks by these keys; leave --eye and --target out",
+                               o->path, (unsigned)track->line);
         }
         if (track->what == KEY_LIGHT && light->kind == LMB_LIGHT_DIRECTIONAL && !out->key[track->first].has_target) {
-            return report_fail(r, "%s:%u: the light is a sun, which has a direction alone; give its keys a target", o->path,
-                               (unsigned)track->line);
+            return report_fail(r, "%s:%u: the light is a sun, which has a direction alone; give its keys a target",
+                               o->path, (unsigned)track->line);
         }
     }
     return 1;
@@ -156,7 +156,8 @@ static int count_frames(int32_t *out, const relief_options *o, const key_path *p
     const double count = ceil(key_path_end(path) * (double)fps_of(o) - 1e-6) + 1.0;
     *out = o->frames > 0 ? o->frames : (int32_t)fmin(count, MOST);
     return o->frames > 0 || count <= MOST ||
-           report_fail(r, "%s: %.0f pictures to its last key, of which %d can be drawn; give --frames, or a lower --fps",
+           report_fail(r,
+                       "%s: %.0f pictures to its last key, of which %d can be drawn; give --frames, or a lower --fps",
                        o->path, count, (int)MOST);
 }
 
@@ -180,8 +181,9 @@ static int draw(tour *w, int32_t frames, relief_write *write, report *r)
             report_say("%s\n", name);
         }
     }
-    report_note(!ok || !w->o->view.is_verbose, "a picture in the mean: shadow map %.2f ms, triangles %.2f ms, pixels %.2f ms",
-                1e3 * light_s / frames, 1e3 * draw_s / frames, 1e3 * band_s / frames);
+    report_note(!ok || !w->o->view.is_verbose,
+                "a picture in the mean: shadow map %.2f ms, triangles %.2f ms, pixels %.2f ms", 1e3 * light_s / frames,
+                1e3 * draw_s / frames, 1e3 * band_s / frames);
     return ok && report_flush(r);
 }
 

@@ -234,8 +234,8 @@ static int render(work *w, relief_options *o, report *r)
     w->light = o->has_light ? o->light : sun;
     if (!options_files(o, &table, r) || !open_relief(w, o->file, r) ||
         (o->with != NULL && !load(&w->with, o->with, &o->choice, r)) ||
-        (o->compare != NULL && !load(&w->complex, o->compare, &o->choice, r)) ||
-        !options_files(o, &table, r) || !relief_path_open(&w->path, o, &w->light, r) || !choose_view(&shot.view, w, o, r)) {
+        (o->compare != NULL && !load(&w->complex, o->compare, &o->choice, r)) || !options_files(o, &table, r) ||
+        !relief_path_open(&w->path, o, &w->light, r) || !choose_view(&shot.view, w, o, r)) {
         return 0;
     }
     shot.kernels = o->kernels;

@@ -287,7 +287,8 @@ static double mesh_bytes(const triangle_mesh *m) { return 20.0 * m->vertex_count
 static int tell_worth(const work *w, report *r)
 {
     enum { SIDE = 512 };
-    static const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL, 0, 0};
+    static const lmb_light sun = {
+        {0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL, 0, 0};
     lmb_relief relief;
     relief_shot shot;
     relief_frame by_relief, by_mesh;
@@ -310,11 +311,14 @@ static int tell_worth(const work *w, report *r)
     relief_figures e;
     const int ok = mesh_s >= 0.0 && relief_measure(&e, &by_relief, &by_mesh, 1.0, r);
     if (ok) {
-        report_say("a picture of %d x %d without shadows: relief %.1f ms, the model's mesh %.1f ms; %.1f dB apart; %.1f times the "
-                   "bytes of the mesh\n", (int)SIDE, (int)SIDE, 1e3 * relief_s, 1e3 * mesh_s, e.psnr_db,
+        report_say("a picture of %d x %d without shadows: relief %.1f ms, the model's mesh %.1f ms; %.1f dB apart; "
+                   "%.1f times the "
+                   "bytes of the mesh\n",
+                   (int)SIDE, (int)SIDE, 1e3 * relief_s, 1e3 * mesh_s, e.psnr_db,
                    (double)w->file.size / mesh_bytes(&w->mesh));
-        report_say("%s\n", relief_s < mesh_s ? "the relief is the faster; a mesh simplified to 60,000 triangles may still be as good"
-                                             : "the mesh is the faster and exact: draw that");
+        report_say("%s\n", relief_s < mesh_s
+                               ? "the relief is the faster; a mesh simplified to 60,000 triangles may still be as good"
+                               : "the mesh is the faster and exact: draw that");
     }
     relief_frame_free(&by_relief);
     if (mesh_s >= 0.0) {
@@ -326,8 +330,8 @@ static int tell_worth(const work *w, report *r)
 static int bake(work *w, const options *o, report *r)
 {
     relief_coverage coverage;
-    if (!options_files(o, &table, r) || !load(&w->loaded, &w->mesh, o->model, &o->choice, r) || !options_files(o, &table, r) ||
-        !choose_views(w, o, r) || !make_simple(w, o, r)) {
+    if (!options_files(o, &table, r) || !load(&w->loaded, &w->mesh, o->model, &o->choice, r) ||
+        !options_files(o, &table, r) || !choose_views(w, o, r) || !make_simple(w, o, r)) {
         return 0;
     }
     w->bake.format = o->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;

@@ -39,7 +39,8 @@ static void add_peaks(far_lights *f, const lmb_probe_lights *l)
         }
         far_light *m = &f->light[k];
         const float old = light_of(m->rgb), per = old + light > 0.0f ? 1.0f / (old + light) : 0.0f;
-        const lmb_vec3 sum = {(old * m->to.x + light * to.x) * per, (old * m->to.y + light * to.y) * per, (old * m->to.z + light * to.z) * per};
+        const lmb_vec3 sum = {(old * m->to.x + light * to.x) * per, (old * m->to.y + light * to.y) * per,
+                              (old * m->to.z + light * to.z) * per};
         const float length = sqrtf(hidden_dot(sum, sum));
         m->to = length > 0.0f ? (lmb_vec3){sum.x / length, sum.y / length, sum.z / length} : to;
         for (int c = 0; c < 3; ++c) {
@@ -118,7 +119,8 @@ static int may_hide(const contact *c, const vertices *v, uint32_t other, lmb_vec
     const lmb_vec3 a = c->foot[other], b = c->foot[v->figure], m = c->hidden.middle;
     const lmb_vec3 d = {a.x + m.x - b.x - v->middle.x, a.y + m.y - b.y - v->middle.y, a.z + m.z - b.z - v->middle.z};
     const float far2 = hidden_dot(d, d), along = hidden_dot(d, to), wide = c->hidden.radius + v->radius;
-    return c->hidden.radius * c->hidden.radius > FAR * FAR * far2 && (far2 <= wide * wide || (along > 0.0f && far2 - along * along < wide * wide));
+    return c->hidden.radius * c->hidden.radius > FAR * FAR * far2 &&
+           (far2 <= wide * wide || (along > 0.0f && far2 - along * along < wide * wide));
 }
 
 /* All figures are copies of one object, so the origins of rays are moved instead of the figure. */
@@ -172,7 +174,8 @@ static void add_light_of(float all[LMB_TILE_PIXELS][3], float left[LMB_TILE_PIXE
     }
     faces &= v->all;
     const uint64_t blocked =
-        faces == 0 ? 0 : blocked_of(c, o, v, faces, is_known ? p->blocked[first / LMB_TILE_PIXELS][i] : 0, is_known, l->to);
+        faces == 0 ? 0
+                   : blocked_of(c, o, v, faces, is_known ? p->blocked[first / LMB_TILE_PIXELS][i] : 0, is_known, l->to);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         float open[3] = {1.0f, 1.0f, 1.0f};
         if (!(faces >> k & 1)) {

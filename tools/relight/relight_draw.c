@@ -162,7 +162,8 @@ static int light_figures(stage *s, uint32_t frame, report *r)
             return 0;
         }
         last = owner;
-        if (!mirror_slot(s, answer.slot, glossy, r) || (s->ways != NULL && !show_way(s, owner, answer.slot, glossy, r))) {
+        if (!mirror_slot(s, answer.slot, glossy, r) ||
+            (s->ways != NULL && !show_way(s, owner, answer.slot, glossy, r))) {
             return 0;
         }
         s->probe_of[i] = (uint16_t)((s->ways != NULL ? (int32_t)owner : answer.slot) * RELIGHT_GLOSSY_CUBES + glossy);
@@ -207,7 +208,8 @@ static void draw_band(void *user, int band, int thread)
     }
     s->failed[thread] = status != LMB_OK ? status : s->failed[thread];
     if (thread == 0) {
-        progress_tell("pictures", (s->done + (double)(band * LMB_TILE) / ((double)s->out.height * s->samples)) / s->all);
+        progress_tell("pictures",
+                      (s->done + (double)(band * LMB_TILE) / ((double)s->out.height * s->samples)) / s->all);
     }
 }
 
@@ -398,7 +400,8 @@ static int run(stage *s, report *r)
     const relight_options *o = s->o;
     s->all = 1.0;
     if ((o->path != NULL && !place_list_read(&s->path, o->path, r)) ||
-        !figures_load(&s->figures, o, o->path != NULL || o->objects > 1 ? 1 : (uint32_t)o->at_count, r) || !take_cache(s, r)) {
+        !figures_load(&s->figures, o, o->path != NULL || o->objects > 1 ? 1 : (uint32_t)o->at_count, r) ||
+        !take_cache(s, r)) {
         return 0;
     }
     for (int32_t i = 0; i < o->at_count && o->objects == 1; ++i) {

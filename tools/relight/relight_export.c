@@ -33,7 +33,8 @@ typedef struct wide_lobe {
 static lmb_vec3 texel_direction(int32_t n, int32_t i)
 {
     const float s = (float)(2 * (i % n) + 1) / (float)n - 1.0f, t = (float)(2 * (i / n % n) + 1) / (float)n - 1.0f;
-    const lmb_vec3 to[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}}, d = to[i / (n * n)];
+    const lmb_vec3 to[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}},
+                   d = to[i / (n * n)];
     const float per = 1.0f / sqrtf(d.x * d.x + d.y * d.y + d.z * d.z);
     return (lmb_vec3){d.x * per, d.y * per, d.z * per};
 }
@@ -56,7 +57,8 @@ static void wide_job(void *user, int row, int thread)
         float all = 1e-30f, sum[3] = {0.0f, 0.0f, 0.0f};
         for (size_t k = 0; k < count; ++k) {
             const float step = 2.0f / 65535.0f;
-            const float cosine = n.x * ((float)t->direction[k] * step - 1.0f) + n.y * ((float)t->direction[count + k] * step - 1.0f) +
+            const float cosine = n.x * ((float)t->direction[k] * step - 1.0f) +
+                                 n.y * ((float)t->direction[count + k] * step - 1.0f) +
                                  n.z * ((float)t->direction[2 * count + k] * step - 1.0f);
             if (cosine > 0.0f) {
                 const float weight = lobe_weight(cosine, l->a2) * t->area[k / (size_t)t->width];
@@ -73,8 +75,8 @@ static void wide_job(void *user, int row, int thread)
 }
 
 /* Narrow lobes are sampled with a few rays; with these, wide lobes would miss lamps. */
-static int see_lobe(float *planes, relight_light *w, const relight_options *o, lmb_vec3 at, lmb_probe_rays *rays, float roughness,
-                    int32_t side)
+static int see_lobe(float *planes, relight_light *w, const relight_options *o, lmb_vec3 at, lmb_probe_rays *rays,
+                    float roughness, int32_t side)
 {
     if (roughness < WIDE) {
         return relight_light_reflect(w, o, planes, side, rays, at, roughness);
@@ -115,9 +117,15 @@ static int write_lobes(relight_light *w, const relight_options *o, lmb_vec3 at, 
 /* In the order of most programs: 1; y, z, x; xy, yz, 3 z2 - 1, xz, x2 - y2. */
 static void basis(float out[HARMONICS], float x, float y, float z)
 {
-    const float b[HARMONICS] = {0.282094792f,         0.488602512f * y,                       0.488602512f * z,
-                                0.488602512f * x,     1.092548431f * x * y,                   1.092548431f * y * z,
-                                0.315391565f * (3.0f * z * z - 1.0f), 1.092548431f * x * z, 0.546274215f * (x * x - y * y)};
+    const float b[HARMONICS] = {0.282094792f,
+                                0.488602512f * y,
+                                0.488602512f * z,
+                                0.488602512f * x,
+                                1.092548431f * x * y,
+                                1.092548431f * y * z,
+                                0.315391565f * (3.0f * z * z - 1.0f),
+                                1.092548431f * x * z,
+                                0.546274215f * (x * x - y * y)};
     memcpy(out, b, sizeof b);
 }
 
@@ -144,7 +152,8 @@ static void add_list(text_buffer *b, const char *name, double (*sum)[3], const d
     text_buffer_add(b, "  \"%s\": [", name);
     for (int k = 0; k < HARMONICS; ++k) {
         const double times = by[k == 0 ? 0 : k < 4 ? 1 : 2];
-        text_buffer_add(b, "%s\n    [%.7g, %.7g, %.7g]", k > 0 ? "," : "", sum[k][0] * times, sum[k][1] * times, sum[k][2] * times);
+        text_buffer_add(b, "%s\n    [%.7g, %.7g, %.7g]", k > 0 ? "," : "", sum[k][0] * times, sum[k][1] * times,
+                        sum[k][2] * times);
     }
     text_buffer_plain(b, "\n  ]");
 }
@@ -153,13 +162,15 @@ static void add_list(text_buffer *b, const char *name, double (*sum)[3], const d
  * normal. */
 static int write_harmonics(const relight_light *w, const relight_options *o, report *r)
 {
-    static const double one[3] = {1.0, 1.0, 1.0}, cosine[3] = {3.141592653589793, 2.094395102393195, 0.7853981633974483};
+    static const double one[3] = {1.0, 1.0, 1.0},
+                        cosine[3] = {3.141592653589793, 2.094395102393195, 0.7853981633974483};
     double sum[HARMONICS][3];
     text_buffer b;
     memset(&b, 0, sizeof b);
     project(sum, w->map, &w->table[0]);
-    text_buffer_plain(&b, "{\n  \"functions\": [\"0.282095\", \"0.488603 y\", \"0.488603 z\", \"0.488603 x\", \"1.092548 x y\", "
-                          "\"1.092548 y z\", \"0.315392 (3 z^2 - 1)\", \"1.092548 x z\", \"0.546274 (x^2 - y^2)\"],\n");
+    text_buffer_plain(
+        &b, "{\n  \"functions\": [\"0.282095\", \"0.488603 y\", \"0.488603 z\", \"0.488603 x\", \"1.092548 x y\", "
+            "\"1.092548 y z\", \"0.315392 (3 z^2 - 1)\", \"1.092548 x z\", \"0.546274 (x^2 - y^2)\"],\n");
     add_list(&b, "radiance", sum, one);
     text_buffer_plain(&b, ",\n");
     add_list(&b, "irradiance", sum, cosine);
@@ -183,7 +194,8 @@ static float reversed(uint32_t i)
 /* Samples a half vector from the visible normals (Heitz 2018). x points towards the viewer. */
 static lmb_vec3 half_vector(float facing, float alpha, float u, float turn)
 {
-    const float wide = alpha * sqrtf(fmaxf(1.0f - facing * facing, 0.0f)), per = 1.0f / sqrtf(wide * wide + facing * facing);
+    const float wide = alpha * sqrtf(fmaxf(1.0f - facing * facing, 0.0f)),
+                per = 1.0f / sqrtf(wide * wide + facing * facing);
     const float x = wide * per, z = facing * per, radius = sqrtf(u), a = radius * lmb_cos(turn), up = 0.5f * (1.0f + z);
     const float round = sqrtf(fmaxf(1.0f - a * a, 0.0f)), b = (1.0f - up) * round + up * radius * lmb_sin(turn);
     const float c = sqrtf(fmaxf(1.0f - a * a - b * b, 0.0f));
@@ -291,7 +303,8 @@ static int load_table(own_table *t, const relight_options *o, report *r)
         return 0;
     }
     int ok = (vectors.channels == 3 && lmb_probe_table_bytes(vectors.width, vectors.height) > 0) ||
-             report_fail(r, "%s: no transform image: it has 3 channels, and is 8 .. 512 high, by 8, and twice as wide", o->vectors_in);
+             report_fail(r, "%s: no transform image: it has 3 channels, and is 8 .. 512 high, by 8, and twice as wide",
+                         o->vectors_in);
     ok = ok && make_table(t, vectors.height, -180.0f, r) && take_vectors(&t->table, &vectors, o->vectors_in, r);
     image_free(&vectors);
     return ok;
@@ -316,12 +329,15 @@ static int see_fine(own_table *t, relight_light *w, const relight_options *o, lm
     lmb_relight_scratch *s = calloc(1, sizeof *s);
     lmb_probe_cube cube;
     int ok = (planes != NULL && texels != NULL && s != NULL) || report_fail(r, "%s: out of memory", o->map);
-    ok = ok && (relight_light_reflect(w, o, planes, n, &s->rays, at, 0.0f) || report_fail(r, "--at: numbers over 1,000,000 m"));
+    ok = ok && (relight_light_reflect(w, o, planes, n, &s->rays, at, 0.0f) ||
+                report_fail(r, "--at: numbers over 1,000,000 m"));
     ok = ok && lmb_probe_cube_init(&cube, planes, n, texels, bytes) == LMB_OK;
     for (size_t first = 0; ok && first < count; first += LMB_TILE_PIXELS) {
         for (size_t i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
             s->tile.normal[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS] =
-                (float)t->table.direction[i / LMB_TILE_PIXELS * count + first + i % LMB_TILE_PIXELS] * (2.0f / 65535.0f) - 1.0f;
+                (float)t->table.direction[i / LMB_TILE_PIXELS * count + first + i % LMB_TILE_PIXELS] *
+                    (2.0f / 65535.0f) -
+                1.0f;
         }
         memset(&s->light, 0, sizeof s->light);
         ok = lmb_probe_light_tile(&s->light, o->kernels, &s->rays, &s->tile, ~(uint64_t)0, &cube) == LMB_OK;
@@ -381,7 +397,8 @@ int relight_export(relight_light *w, const relight_options *o, lmb_vec3 at, repo
     if ((o->map != NULL || o->vectors_out != NULL) && !write_maps(w, o, at, r)) {
         return 0;
     }
-    if (o->harmonics != NULL && !((relight_light_see(w, o, at) || report_fail(r, "--at: numbers over 1,000,000 m")) && write_harmonics(w, o, r))) {
+    if (o->harmonics != NULL && !((relight_light_see(w, o, at) || report_fail(r, "--at: numbers over 1,000,000 m")) &&
+                                  write_harmonics(w, o, r))) {
         return 0;
     }
     return (o->lobes == NULL || write_lobes(w, o, at, r)) && (o->dfg == NULL || write_dfg(o, r));

@@ -32,7 +32,8 @@ static float fade_of(float u, float v) { return fminf(fmaxf((1.0f - fmaxf(fabsf(
 static void turn_to_left(ground_map *g, const float all[3], int fades)
 {
     for (int32_t i = 0; i < HIDDEN_SIDE * HIDDEN_SIDE; ++i) {
-        const float u = (float)(2 * (i % HIDDEN_SIDE) + 1) / HIDDEN_SIDE - 1.0f, v = (float)(2 * (i / HIDDEN_SIDE) + 1) / HIDDEN_SIDE - 1.0f;
+        const float u = (float)(2 * (i % HIDDEN_SIDE) + 1) / HIDDEN_SIDE - 1.0f,
+                    v = (float)(2 * (i / HIDDEN_SIDE) + 1) / HIDDEN_SIDE - 1.0f;
         const float fade = fades ? fade_of(u, v) : 1.0f;
         for (int k = 0; k < 3; ++k) {
             g->left[i][k] = fmaxf(1.0f - fade * g->left[i][k] / all[k], 0.0f);
@@ -90,8 +91,8 @@ void ground_shade(ground_map *g, const hidden_map *m, const peak_runs *peaks, lm
         if (l->to.y < HIDDEN_LOWEST) {
             continue;
         }
-        darken_runs(g, l, reflected, is_peak ? 0.0f : f->angle[i], run + first[0], first[is_peak ? 1 : HIDDEN_RAYS] - first[0],
-                    is_peak || !m->fades ? 0.5f : 1.0f / HIDDEN_RAYS);
+        darken_runs(g, l, reflected, is_peak ? 0.0f : f->angle[i], run + first[0],
+                    first[is_peak ? 1 : HIDDEN_RAYS] - first[0], is_peak || !m->fades ? 0.5f : 1.0f / HIDDEN_RAYS);
     }
     turn_to_left(g, all, m->fades);
 }

@@ -24,8 +24,8 @@ typedef struct peak_runs {
 int ground_throw(peak_runs *inout, int map, hidden *h, const far_lights *lights, const relight_options *o);
 
 /* ground_shade: computes a map from the lights at the figure and the radiance of the regions. */
-void ground_shade(ground_map *out, const hidden_map *map, const peak_runs *peaks, lmb_vec3 foot, const far_lights *lights,
-                  float (*reflected)[3]);
+void ground_shade(ground_map *out, const hidden_map *map, const peak_runs *peaks, lmb_vec3 foot,
+                  const far_lights *lights, float (*reflected)[3]);
 
 /* ground_light: the unoccluded irradiance of the ground, W/m2, by lights that cast shadows on it. */
 void ground_light(float out[3], const far_lights *lights);

@@ -64,8 +64,9 @@ static int take_mesh(hidden_part *out, const lmb_mesh *from)
     if (from->normals != NULL) {
         return 1;
     }
-    const size_t n = 3 * (size_t)from->triangle_count, size[4] = {position_bytes[from->position_format],
-        from->uvs != NULL ? uv_bytes[from->uv_format] : 0, from->tangents != NULL ? 4 : 0, from->colours != NULL ? 4 : 0};
+    const size_t n = 3 * (size_t)from->triangle_count,
+                 size[4] = {position_bytes[from->position_format], from->uvs != NULL ? uv_bytes[from->uv_format] : 0,
+                            from->tangents != NULL ? 4 : 0, from->colours != NULL ? 4 : 0};
     const void *source[4] = {from->positions, from->uvs, from->tangents, from->colours};
     uint8_t *to[4], *p = malloc(n * (size[0] + size[1] + size[2] + size[3]) + 1);
     if ((out->memory = p) == NULL) {
@@ -375,7 +376,8 @@ static void shear(lmb_instance *sheared, const hidden *h, lmb_vec3 to)
 /* Reads a row of ids as regions; -1: open. */
 static int take_row(int16_t region[HIDDEN_SIDE], const hidden *h, const hidden_hand *hand, int32_t y)
 {
-    const uint32_t *ids = (const uint32_t *)hand->id.data + y / LMB_TILE * (HIDDEN_SIDE / LMB_TILE) * LMB_TILE_PIXELS + y % LMB_TILE * LMB_TILE;
+    const uint32_t *ids = (const uint32_t *)hand->id.data + y / LMB_TILE * (HIDDEN_SIDE / LMB_TILE) * LMB_TILE_PIXELS +
+                          y % LMB_TILE * LMB_TILE;
     uint32_t any = 0;
     for (int32_t x = 0; x < HIDDEN_SIDE; ++x) {
         const uint32_t id = ids[x / LMB_TILE * LMB_TILE_PIXELS + x % LMB_TILE];
@@ -394,7 +396,8 @@ static int add_rows(const hidden *h, const hidden_hand *hand, hidden_runs *runs)
         for (int32_t x = 0, from = 0; has_any && x < HIDDEN_SIDE; ++x) {
             const int ends = x + 1 == HIDDEN_SIDE || region[x + 1] != region[x];
             if (ends && region[x] >= 0 &&
-                !add_run(runs, (hidden_run){(uint8_t)(HIDDEN_SIDE - 1 - y), (uint8_t)from, (uint8_t)x, (uint8_t)region[x]})) {
+                !add_run(runs,
+                         (hidden_run){(uint8_t)(HIDDEN_SIDE - 1 - y), (uint8_t)from, (uint8_t)x, (uint8_t)region[x]})) {
                 return 0;
             }
             from = ends ? x + 1 : from;

@@ -19,7 +19,8 @@ static double dark_share(const lmb_world_pictures *p)
     for (int f = 0; f < 6; ++f) {
         for (size_t i = 0; i < texels; ++i) {
             const float *rgb = p->face[f] != NULL ? p->face[f] + 3 * i : NULL;
-            dark += rgb == NULL || (p->alpha[f] != NULL && !(p->alpha[f][i] > 0.0f)) || !(rgb[0] + rgb[1] + rgb[2] > 0.0f);
+            dark +=
+                rgb == NULL || (p->alpha[f] != NULL && !(p->alpha[f][i] > 0.0f)) || !(rgb[0] + rgb[1] + rgb[2] > 0.0f);
         }
     }
     return (double)dark / (6.0 * (double)texels);
@@ -37,8 +38,8 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
     }
     world_tell_not_finite(&w->pictures, name, o->view.is_quiet);
     const double dark = strcmp(name, "demo") == 0 || o->view.is_quiet ? 0.0 : dark_share(&o->place);
-    report_note(o->view.is_quiet || dark < DARK, "note: %s: %.0f %% of it is black or blank: no light comes from there", name,
-                100.0 * dark);
+    report_note(o->view.is_quiet || dark < DARK, "note: %s: %.0f %% of it is black or blank: no light comes from there",
+                name, 100.0 * dark);
     if (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r)) {
         return 0;
     }
@@ -48,7 +49,8 @@ static int make_world(relight_light *w, relight_options *o, int32_t i, report *r
         return report_fail(r, "%s: out of memory", name);
     }
     return lmb_world_init(&w->world[i], &o->place, o->format, w->world_memory[i], bytes) == LMB_OK ||
-           report_fail(r, "--world-centre: lies outside the far world or under the --floor, or numbers are over 1,000,000 m");
+           report_fail(
+               r, "--world-centre: lies outside the far world or under the --floor, or numbers are over 1,000,000 m");
 }
 
 static int make_table(relight_light *w, int i, report *r)
@@ -108,7 +110,8 @@ int relight_light_filter(relight_light *w, const relight_options *o, int32_t n)
 
 int relight_light_at(relight_light *w, const relight_options *o, lmb_vec3 at, int32_t n, report *r)
 {
-    return (relight_light_see(w, o, at) && relight_light_filter(w, o, n)) || report_fail(r, "--at: numbers over 1,000,000 m");
+    return (relight_light_see(w, o, at) && relight_light_filter(w, o, n)) ||
+           report_fail(r, "--at: numbers over 1,000,000 m");
 }
 
 void relight_light_free(relight_light *w)

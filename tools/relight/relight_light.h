@@ -30,8 +30,8 @@ int relight_light_filter(relight_light *inout, const relight_options *o, int32_t
 int relight_light_see(relight_light *inout, const relight_options *o, lmb_vec3 at);
 /* relight_light_map: the same into a map of yours with a table for it; `one`: scratch of the same size. Returns 1, or 0
  * on failure. */
-int relight_light_map(float *map, float *one, const lmb_probe_table *table, const relight_light *w, const relight_options *o,
-                      lmb_vec3 at);
+int relight_light_map(float *map, float *one, const lmb_probe_table *table, const relight_light *w,
+                      const relight_options *o, lmb_vec3 at);
 /* relight_light_reflect: lmb_probe_reflect over all worlds; if there are several, n must be at most RELIGHT_MAX_FACES.
  * Uses `cube`. Returns 1, or 0 on failure. */
 int relight_light_reflect(relight_light *inout, const relight_options *o, float *planes, int32_t n,

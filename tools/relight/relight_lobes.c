@@ -33,11 +33,13 @@ static void vertex_open(float *mirrored, float *all, const hidden_part *p, uint3
 /* Barycentric coordinates of a point on a triangle. */
 static void corner_shares(float out[3], const lmb_vec3 p[3], lmb_vec3 at)
 {
-    const lmb_vec3 a = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z}, b = {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z},
+    const lmb_vec3 a = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z},
+                   b = {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z},
                    c = {at.x - p[0].x, at.y - p[0].y, at.z - p[0].z};
     const float aa = hidden_dot(a, a), ab = hidden_dot(a, b), bb = hidden_dot(b, b), ac = hidden_dot(a, c),
                 bc = hidden_dot(b, c), whole = aa * bb - ab * ab, per = whole > 0.0f ? 1.0f / whole : 0.0f;
-    const float s = fminf(fmaxf((bb * ac - ab * bc) * per, 0.0f), 1.0f), t = fminf(fmaxf((aa * bc - ab * ac) * per, 0.0f), 1.0f - s);
+    const float s = fminf(fmaxf((bb * ac - ab * bc) * per, 0.0f), 1.0f),
+                t = fminf(fmaxf((aa * bc - ab * ac) * per, 0.0f), 1.0f - s);
     out[0] = 1.0f - s - t;
     out[1] = s;
     out[2] = t;
@@ -77,8 +79,8 @@ static lmb_vec3 mirrored_at(const lmb_tile *tile, const lmb_glossy *glossy, int 
     return (lmb_vec3){twice * n.x - v.x, twice * n.y - v.y, twice * n.z - v.z};
 }
 
-static void darken_lobe(float rgb[3], const contact *c, const figures *f, const lmb_tile *tile, const lmb_glossy *glossy,
-                        int k, const lmb_instance *in)
+static void darken_lobe(float rgb[3], const contact *c, const figures *f, const lmb_tile *tile,
+                        const lmb_glossy *glossy, int k, const lmb_instance *in)
 {
     const uint32_t instance = (uint32_t)(in - f->instances);
     const lmb_vec3 r = mirrored_at(tile, glossy, k);
@@ -110,7 +112,8 @@ static void add_lobes(const contact *c, const figures *f, const lmb_relight *r, 
         if (!(s->glossy.pixels >> k & 1) || x >= out->width || y0 + y >= out->height) {
             continue;
         }
-        while (s->tile.id[k] < in->first_id || s->tile.id[k] - in->first_id >= f->scene.meshes[in->mesh].triangle_count) {
+        while (s->tile.id[k] < in->first_id ||
+               s->tile.id[k] - in->first_id >= f->scene.meshes[in->mesh].triangle_count) {
             in = s->tile.id[k] < in->first_id ? f->instances : in + 1;
         }
         memcpy(rgb, rows + 3 * (y * out->width + x), sizeof rgb);
@@ -153,5 +156,6 @@ lmb_status contact_band(const contact *c, const figures *f, const ground_lights 
         status = lmb_relight_band(&matte, scratch, out, band);
         status = status == LMB_OK ? ground_band(g, c, r, scratch, out, band) : status;
     }
-    return status != LMB_OK || r->show == LMB_RELIGHT_NORMAL ? status : lobes_of_band(c, f, r, scratch, rows, out, band);
+    return status != LMB_OK || r->show == LMB_RELIGHT_NORMAL ? status
+                                                             : lobes_of_band(c, f, r, scratch, rows, out, band);
 }

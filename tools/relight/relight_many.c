@@ -85,7 +85,8 @@ int figures_load_many(figures *f, const relight_options *o, report *r)
         lmb_vec3 low, high;
         lmb_scene_bounds(&low, &high, &f->object[i].scene);
         const float longest = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z),
-                    wanted = o->scales > 1 ? o->scale_of[i] : o->scale_of[0], scale = wanted > 0.0f ? wanted / longest : 1.0f;
+                    wanted = o->scales > 1 ? o->scale_of[i] : o->scale_of[0],
+                    scale = wanted > 0.0f ? wanted / longest : 1.0f;
         if (lmb_scene_triangles(&f->object[i].scene) == 0 || !(scale > 0.0f && scale < 1e6f)) {
             return report_fail(r, "%s: nothing to draw: no triangles, or no extent", o->object_of[i]);
         }

@@ -26,7 +26,8 @@ int figures_load_model(model *out, const char *name, const relight_options *o, r
         return 0;
     }
     for (uint32_t i = 0; i < notes.count; ++i) { /* notes about options that only `render` has do not apply */
-        report_note(o->view.is_quiet || strstr(notes.line[i], "--glossy") != NULL || strstr(notes.line[i], "fixed groups") != NULL,
+        report_note(o->view.is_quiet || strstr(notes.line[i], "--glossy") != NULL ||
+                        strstr(notes.line[i], "fixed groups") != NULL,
                     "note: %s", notes.line[i]);
     }
     return 1;

@@ -194,8 +194,8 @@ static const option_row object_rows[] = {
      .help = HELP("places of the object, X,Y,Z per line: a picture each, numbered by OUT's %0Nd, as frame_%04d.png, "
              "or else by -0000, -0001, ...")},
     {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
-     .help = HELP("an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until it "
-             "rests)")},
+     .help = HELP("an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until "
+             "it rests)")},
     {.name = "--every", .value = "N", .kind = OPTION_INT, AT(policy.every), .low = 1, .high = 1 << 20,
      .help = HELP("but for at most N pictures if it moves at all")},
     {.name = "--keep", .value = "X,Y,Z", .kind = OPTION_OWN, AT(keep), COUNTS(keep_count), .times = RELIGHT_PLACES,
@@ -246,8 +246,8 @@ int relight_has_ground(const relight_options *o) { return o->place.ground != NUL
 static int check_objects(const relight_options *o, report *r)
 {
     if (o->scales > 1 && o->scales != o->objects) {
-        return report_fail(r, "--object and --scale: %d and %d of them; give one --scale, or each object one", (int)o->objects,
-                           (int)o->scales);
+        return report_fail(r, "--object and --scale: %d and %d of them; give one --scale, or each object one",
+                           (int)o->objects, (int)o->scales);
     }
     if (o->objects < 2) {
         return 1;
@@ -256,7 +256,8 @@ static int check_objects(const relight_options *o, report *r)
         return report_fail(r, "--path and --keep are for one --object");
     }
     return o->at_count == o->objects ||
-           report_fail(r, "--object and --at: %d and %d of them; give each object its place", (int)o->objects, (int)o->at_count);
+           report_fail(r, "--object and --at: %d and %d of them; give each object its place", (int)o->objects,
+                       (int)o->at_count);
 }
 
 static int check_together(const relight_options *o, report *r)
@@ -299,7 +300,8 @@ static void complete(relight_options *o)
 {
     lmb_world_pictures *p = &o->place;
     const int floor_fits = o->object != NULL && o->ground == NULL && !o->has_far && o->worlds == 1;
-    p->has_floor = o->floor == FLOOR_ON || (o->floor == FLOOR_AUTO && floor_fits && (o->centres == 0 || p->centre.y > p->ground_y));
+    p->has_floor = o->floor == FLOOR_ON ||
+                   (o->floor == FLOOR_AUTO && floor_fits && (o->centres == 0 || p->centre.y > p->ground_y));
     if (p->has_floor && o->centres == 0 && !o->has_far) {
         p->centre.y = p->ground_y + EYE_HEIGHT;
     }

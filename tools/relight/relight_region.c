@@ -33,7 +33,8 @@ static void add_sample(region *p, const hidden_part *part, uint32_t sample, cons
     const lmb_vec3 n = part->normal[vertex], at = part->at[vertex];
     const uint64_t *blocked = part->blocked[sample / LMB_TILE_PIXELS];
     for (int32_t i = 0; i < LMB_PROBE_TEXELS; ++i) {
-        const float cosine = n.x * directions[i] + n.y * directions[LMB_PROBE_TEXELS + i] + n.z * directions[2 * LMB_PROBE_TEXELS + i];
+        const float cosine =
+            n.x * directions[i] + n.y * directions[LMB_PROBE_TEXELS + i] + n.z * directions[2 * LMB_PROBE_TEXELS + i];
         if (cosine > 0.0f) {
             *(blocked[i] >> (sample % LMB_TILE_PIXELS) & 1 ? &p->shut[i] : &p->open[i]) += area * cosine;
         }
@@ -55,7 +56,8 @@ static facet facet_of(const hidden *h, const hidden_part *part, uint32_t triangl
     for (uint32_t k = 0; k < 3; ++k) {
         f.vertex[k] = hidden_vertex(&part->mesh, 3 * triangle + k);
     }
-    const lmb_vec3 *at = part->at, a = at[f.vertex[0]], b = at[f.vertex[1]], c = at[f.vertex[2]], u = less(b, a), v = less(c, a);
+    const lmb_vec3 *at = part->at, a = at[f.vertex[0]], b = at[f.vertex[1]], c = at[f.vertex[2]], u = less(b, a),
+                   v = less(c, a);
     f.normal = (lmb_vec3){u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
     f.kind = facing_of(f.normal, kinds);
     const float y = h->radius > 0.0f ? 0.5f + ((a.y + b.y + c.y) / 3.0f - h->middle.y) / (2.0f * h->radius) : 0.0f;
@@ -66,7 +68,8 @@ static facet facet_of(const hidden *h, const hidden_part *part, uint32_t triangl
 static float area_of(const facet *f) { return 0.5f * sqrtf(hidden_dot(f->normal, f->normal)); }
 
 /* Divides each kind's height steps into slices of equal area. */
-static void slice_part(uint8_t out[4 * FACES][STEPS], const hidden *h, const hidden_part *part, uint32_t kinds, uint32_t slices)
+static void slice_part(uint8_t out[4 * FACES][STEPS], const hidden *h, const hidden_part *part, uint32_t kinds,
+                       uint32_t slices)
 {
     float area[4 * FACES][STEPS] = {{0}};
     for (uint32_t t = 0; t < part->mesh.triangle_count; ++t) {
@@ -93,13 +96,15 @@ static void texel_of(float out[4], const lmb_texture *t, const lmb_mesh *m, cons
     for (int k = 0; k < 3; ++k) {
         mesh_uv(m, vertex[k], uv[k]);
     }
-    const float twice = fabsf((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[2][0] - uv[0][0]) * (uv[1][1] - uv[0][1]));
+    const float twice =
+        fabsf((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[2][0] - uv[0][0]) * (uv[1][1] - uv[0][1]));
     float texels = 0.5f * twice * (float)t->width * (float)t->height, level = 0.0f;
     for (; texels >= 2.0f && level < (float)(t->levels - 1); texels *= 0.25f) {
         level += 1.0f;
     }
     smooth.filter = t->levels > 1 ? LMB_TRILINEAR : t->filter;
-    lmb_texture_sample(out, &smooth, (uv[0][0] + uv[1][0] + uv[2][0]) / 3.0f, (uv[0][1] + uv[1][1] + uv[2][1]) / 3.0f, level);
+    lmb_texture_sample(out, &smooth, (uv[0][0] + uv[1][0] + uv[2][0]) / 3.0f, (uv[0][1] + uv[1][1] + uv[2][1]) / 3.0f,
+                       level);
 }
 
 /* Albedo as drawn: material x texture x vertex colours. */
@@ -238,7 +243,8 @@ void region_directions(uint16_t at[4], float weight[4], const uint16_t *fold, lm
                 v = fminf(fmaxf((t + 1.0f) * (0.5f * N) + 0.5f, 0.0f), (float)N + 0.999f);
     const int ix = (int)u, iy = (int)v;
     for (int k = 0; k < 4; ++k) {
-        const float wx = k & 1 ? u - (float)ix : 1.0f - (u - (float)ix), wy = k & 2 ? v - (float)iy : 1.0f - (v - (float)iy);
+        const float wx = k & 1 ? u - (float)ix : 1.0f - (u - (float)ix),
+                    wy = k & 2 ? v - (float)iy : 1.0f - (v - (float)iy);
         at[k] = fold[(face * WIDE + iy + (k >> 1)) * WIDE + ix + (k & 1)];
         weight[k] = wx * wy;
     }
@@ -257,7 +263,8 @@ static float open_to(const region *p, const beside *b, int32_t i)
     }
     const uint16_t *at = b->at[i - LMB_PROBE_TEXELS];
     const float *weight = b->weight[i - LMB_PROBE_TEXELS];
-    return weight[0] * p->open[at[0]] + weight[1] * p->open[at[1]] + weight[2] * p->open[at[2]] + weight[3] * p->open[at[3]];
+    return weight[0] * p->open[at[0]] + weight[1] * p->open[at[1]] + weight[2] * p->open[at[2]] +
+           weight[3] * p->open[at[3]];
 }
 
 /* Sets the irradiance by the world. */

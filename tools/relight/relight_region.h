@@ -47,8 +47,8 @@ typedef void region_ground(float left[3], const void *user, lmb_vec3 at, lmb_vec
 
 /* regions_light: computes the radiance of each region by the lights and the other regions, and sets the lights' `back`.
  * If you pass NULL as `ground`, light from the ground is not reduced. */
-void regions_light(float out[REGIONS][3], far_lights *inout, const regions *p, const uint16_t *fold, region_ground *ground,
-                   const void *user);
+void regions_light(float out[REGIONS][3], far_lights *inout, const regions *p, const uint16_t *fold,
+                   region_ground *ground, const void *user);
 
 /* region_directions: the four directions of the reduced cube nearest to `d`, and their weights: probe.h. */
 void region_directions(uint16_t at[4], float weight[4], const uint16_t *fold, lmb_vec3 d);

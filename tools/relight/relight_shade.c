@@ -79,14 +79,16 @@ static int take_ground(lmb_tile *t, const lmb_relight *r, int32_t x0, int32_t y0
 {
     const lmb_surface *id = &r->eye.id;
     const int32_t tiles = (id->width + LMB_TILE - 1) / LMB_TILE;
-    const uint32_t *ids = (const uint32_t *)id->data + (size_t)(y0 / LMB_TILE * tiles + x0 / LMB_TILE) * LMB_TILE_PIXELS;
+    const uint32_t *ids =
+        (const uint32_t *)id->data + (size_t)(y0 / LMB_TILE * tiles + x0 / LMB_TILE) * LMB_TILE_PIXELS;
     memset(t, 0, sizeof *t);
     t->x = x0;
     t->y = y0;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t x = x0 + k % LMB_TILE, y = y0 + k / LMB_TILE;
         float place[3];
-        if (ids[k] == 0 && x < id->width && y < id->height && meet(place, &r->view, x, y, ground_y) && place[2] < FARTHEST) {
+        if (ids[k] == 0 && x < id->width && y < id->height && meet(place, &r->view, x, y, ground_y) &&
+            place[2] < FARTHEST) {
             t->position[0][k] = place[0];
             t->position[1][k] = ground_y;
             t->position[2][k] = place[1];
@@ -100,8 +102,8 @@ static int take_ground(lmb_tile *t, const lmb_relight *r, int32_t x0, int32_t y0
 }
 
 /* The share of the ground's light left, of given lights and the world. */
-static void ground_share(float left[3], const ground_lights *g, const lmb_irradiance *all, const lmb_irradiance *lit, const lmb_tile *t,
-                  int k)
+static void ground_share(float left[3], const ground_lights *g, const lmb_irradiance *all, const lmb_irradiance *lit,
+                         const lmb_tile *t, int k)
 {
     float world[3];
     light_at(world, g, t->position[0][k], t->position[2][k]);
@@ -121,7 +123,8 @@ static lmb_status ground_tile(const ground_lights *g, const contact *c, const lm
         const lmb_light *l = &r->scene->lights[i];
         status = lmb_direct_tile(&s->one, r->kernels, &s->tile, &r->view, r->scene, l, NULL);
         if (status == LMB_OK) {
-            status = lmb_direct_tile(&s->light, r->kernels, &s->tile, &r->view, r->scene, l, r->maps != NULL ? &r->maps[i] : NULL);
+            status = lmb_direct_tile(&s->light, r->kernels, &s->tile, &r->view, r->scene, l,
+                                     r->maps != NULL ? &r->maps[i] : NULL);
         }
     }
     for (int k = 0; k < LMB_TILE_PIXELS && status == LMB_OK; ++k) {
@@ -129,7 +132,8 @@ static lmb_status ground_tile(const ground_lights *g, const contact *c, const lm
         if (s->tile.id[k] == 0) {
             continue;
         }
-        float *rgb = (float *)(void *)((uint8_t *)out->data + (s->tile.y + k / LMB_TILE) * out->stride_bytes) + 3 * (s->tile.x + k % LMB_TILE);
+        float *rgb = (float *)(void *)((uint8_t *)out->data + (s->tile.y + k / LMB_TILE) * out->stride_bytes) +
+                     3 * (s->tile.x + k % LMB_TILE);
         if (c != NULL) {
             contact_ground_left(left, c, s->tile.position[0][k], s->tile.position[2][k]);
         }

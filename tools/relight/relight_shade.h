@@ -30,8 +30,8 @@ int ground_lights_take(ground_lights *inout, const figures *f, relight_light *w,
  *   g  figures 0: no given lights
  *   c  NULL: objects do not block the world's light
  * `out` is the whole frame. */
-lmb_status ground_band(const ground_lights *g, const struct contact *c, const lmb_relight *r, lmb_relight_scratch *scratch,
-                       const lmb_surface *out, int32_t band);
+lmb_status ground_band(const ground_lights *g, const struct contact *c, const lmb_relight *r,
+                       lmb_relight_scratch *scratch, const lmb_surface *out, int32_t band);
 
 void ground_lights_free(ground_lights *g);
 

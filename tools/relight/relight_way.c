@@ -11,7 +11,8 @@ lmb_vec3 way_move(way *w, lmb_vec3 at, float radius)
     const float moved = w->has_begun ? sqrtf(d.x * d.x + d.y * d.y + d.z * d.z) : 0.0f;
     const int jumps = !w->has_begun || moved > radius;
     w->gone = jumps ? radius : w->gone + moved;
-    w->ahead = jumps || moved == 0.0f ? (lmb_vec3){0.0f, 0.0f, 0.0f} : (lmb_vec3){d.x / moved, d.y / moved, d.z / moved};
+    w->ahead =
+        jumps || moved == 0.0f ? (lmb_vec3){0.0f, 0.0f, 0.0f} : (lmb_vec3){d.x / moved, d.y / moved, d.z / moved};
     w->at = at;
     w->is_new = !w->has_begun || jumps;
     w->has_begun = 1;

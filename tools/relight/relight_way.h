@@ -27,7 +27,8 @@ void way_turn(way *inout, int32_t slot, int is_computed, float radius);
 
 /* way_show: blends planes of n x n x 6 texels, as a cube. *step: raised to the relative RMSE of the change if that is
  * larger. Returns 1, or 0 with `r` set. */
-int way_show(lmb_probe_cube *out, float *step, way_cube *inout, const way *w, const float *planes, int32_t n, report *r);
+int way_show(lmb_probe_cube *out, float *step, way_cube *inout, const way *w, const float *planes, int32_t n,
+             report *r);
 
 void way_free(way *w);
 

@@ -38,8 +38,8 @@ static void add_share(float *sum, const float *one, size_t count, int32_t i, flo
     }
 }
 
-int relight_light_map(float *map, float *one, const lmb_probe_table *table, const relight_light *w, const relight_options *o,
-                      lmb_vec3 at)
+int relight_light_map(float *map, float *one, const lmb_probe_table *table, const relight_light *w,
+                      const relight_options *o, lmb_vec3 at)
 {
     const size_t numbers = 3 * (size_t)table->width * (size_t)table->height;
     int ok = 1;

@@ -13,11 +13,13 @@
 static int explain(const render_job *j, lmb_status status, int stage, report *r)
 {
     if (status == LMB_ERR_CAPACITY && stage == LMB_STAGE_GROUPS) {
-        return report_fail(r, "--group method=none: %u discs do not fit %d groups; use a smaller --shadow-map, or zones",
+        return report_fail(r,
+                           "--group method=none: %u discs do not fit %d groups; use a smaller --shadow-map, or zones",
                            (unsigned)j->stats.first_points, LMB_MAX_GROUPS);
     }
     if (status == LMB_ERR_ARG) {
-        return report_fail(r, "%s: cannot be drawn; is the view or a light over 1048576 m from the origin?", j->o.scene);
+        return report_fail(r, "%s: cannot be drawn; is the view or a light over 1048576 m from the origin?",
+                           j->o.scene);
     }
     return report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
 }
@@ -114,7 +116,8 @@ static lmb_status draw_attribute(render_job *j)
     const lmb_surface *albedo = j->o.show == SHOW_ALBEDO ? &f->out : NULL;
     lmb_surface_clear(&f->eye.depth);
     lmb_surface_clear(&f->eye.id);
-    lmb_status status = lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK | LMB_BLEND, &j->stats);
+    lmb_status status =
+        lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK | LMB_BLEND, &j->stats);
     if (j->o.show == SHOW_WIREFRAME) {
         return status != LMB_OK ? status : wireframe_draw(j);
     }

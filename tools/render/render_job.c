@@ -235,7 +235,8 @@ static int set_world(render_job *j, int lit, report *r)
         return 0;
     }
     if (shows_map(j->o.show) && j->scene.light_count == 0) {
-        return report_fail_usage(r, "--show: %s has no sun, and no other light has a map; add one by --light", j->o.world);
+        return report_fail_usage(r, "--show: %s has no sun, and no other light has a map; add one by --light",
+                                 j->o.world);
     }
     tell_world(j);
     return 1;
@@ -449,8 +450,10 @@ static int refuse(const lmb_frame_settings *s, report *r)
         return report_fail_usage(r, "--gather live takes its light from --group method=cut only");
     }
     return s->quality == LMB_QUALITY_FIXED
-               ? report_fail(r, "more first points than can be counted; use a larger --group block or a smaller --shadow-map")
-               : report_fail_usage(r, "--group method=cut: --shadow-map must be a power of two, not %d", (int)s->shadow_map);
+               ? report_fail(
+                     r, "more first points than can be counted; use a larger --group block or a smaller --shadow-map")
+               : report_fail_usage(r, "--group method=cut: --shadow-map must be a power of two, not %d",
+                                   (int)s->shadow_map);
 }
 
 /* Sets the members that need no memory. */

@@ -372,7 +372,8 @@ static int check_together(const render_options *o, report *r)
         return report_fail(r, "--stereo: what lives in a shadow map is one for both eyes; show it without");
     }
     if (o->grouping.method == LMB_GROUP_CUT && (o->show == SHOW_POINTS || o->show == SHOW_GROUPS)) {
-        return report_fail(r, "--show points, groups: a cut is each tile's own; use --group method=zones, greedy or none");
+        return report_fail(r, "--show points, groups: a cut is each tile's own; use --group method=zones, greedy or "
+                              "none");
     }
     if (o->samples > 1 && o->show > LMB_SHOW_IRRADIANCE) {
         return report_fail(r, "--samples %d: only light has a mean over a pixel; --show %s takes one sample",
@@ -383,8 +384,8 @@ static int check_together(const render_options *o, report *r)
     }
     if ((o->grouping.method == LMB_GROUP_CUT) != (o->occlusion == LMB_OCCLUSION_EXACT) &&
         o->occlusion != LMB_OCCLUSION_NONE) {
-        return report_fail(r,
-                           "--occlusion exact goes with --group method=cut; view and view-world with zones, greedy, none");
+        return report_fail(r, "--occlusion exact goes with --group method=cut; view and view-world with zones, greedy, "
+                              "none");
     }
     return 1;
 }
@@ -426,7 +427,8 @@ static int check_slice(const render_options *o, report *r)
         return 1;
     }
     if (o->show >= SHOW_DEPTH) {
-        return report_fail(r, "--slice: only pictures of light are drawn by slices; use --show full, direct or indirect");
+        return report_fail(r,
+                           "--slice: only pictures of light are drawn by slices; use --show full, direct or indirect");
     }
     if (o->budget_ms > 0.0f && !(o->rate > 0.0f)) {
         return report_fail(r, "--slice: --budget ms chooses by the machine's speed; add rate, or use work");
