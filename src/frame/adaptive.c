@@ -6,8 +6,8 @@
 
 #include "../base/vec.h"
 #include "../bounce/points.h"
-#include "../compose/lattice.h"
 #include "../raster/tile.h"
+#include "lattice.h"
 #include "stages.h"
 #include "requires.h"
 

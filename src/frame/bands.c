@@ -4,7 +4,7 @@
 
 #include "../base/poly.h"
 #include "../base/vec.h"
-#include "../compose/lattice.h"
+#include "lattice.h"
 #include "stages.h"
 #include "requires.h"
 

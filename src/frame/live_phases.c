@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../compose/live_grid.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
+#include "live_grid.h"
 #include "stages.h"
 #include "requires.h"
 

@@ -127,7 +127,7 @@ void lmb_gouraud_albedo(float out[3], const lmb_scene *scene, const lmb_material
     }
 }
 
-/* The curve of compose/encode.inl without rounding, because codes are interpolated. */
+/* The curve of frame/encode.inl without rounding, because codes are interpolated. */
 static float code_of(float linear)
 {
     const float x = clampf(linear, 0.0f, 1.0f), root = sqrtf(x);

@@ -18,8 +18,8 @@
 #if LMB_BOUNCE
 #include "../bounce/gather.inl"
 #endif
-#include "../compose/blend.inl"
-#include "../compose/encode.inl"
+#include "../frame/blend.inl"
+#include "../frame/encode.inl"
 #if LMB_TREES
 #include "../lightcut/gather_cut.inl"
 #include "../lightcut/node_bounds.inl"
@@ -29,7 +29,7 @@
 #endif
 #if LMB_LIVE
 #include "../live/live_sum.inl"
-#include "../compose/live_fill.inl"
+#include "../frame/live_fill.inl"
 #endif
 #if LMB_LOBES
 #include "../light/lobe.inl"

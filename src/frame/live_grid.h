@@ -1,10 +1,10 @@
-/* live_grid.h: samples of a frame with bounced light at single points, as src/frame uses them. Layer 9.
+/* live_grid.h: samples of a frame with bounced light at single points. Layer 10.
  *
  * Samples lie on a grid of 8 px, at the first pixel of each tile. If the light varies between four of them, the cell is
  * divided into cells of 4 px, and these into cells of 2 px. Only lit samples store their surface. The grid uses the
  * memory of lmb_lattice. */
-#ifndef LMB_COMPOSE_LIVE_GRID_H
-#define LMB_COMPOSE_LIVE_GRID_H
+#ifndef LMB_FRAME_LIVE_GRID_H
+#define LMB_FRAME_LIVE_GRID_H
 
 #include <lambent/compose.h>
 #include <lambent/live.h>

@@ -1,6 +1,6 @@
-/* lattice.h: an adaptive lattice of gathered pixels, as src/frame uses it. Layer 9. */
-#ifndef LMB_COMPOSE_LATTICE_H
-#define LMB_COMPOSE_LATTICE_H
+/* lattice.h: an adaptive lattice of gathered pixels. Layer 10. */
+#ifndef LMB_FRAME_LATTICE_H
+#define LMB_FRAME_LATTICE_H
 
 #include <lambent/compose.h>
 

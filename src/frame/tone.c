@@ -1,4 +1,4 @@
-/* tone.c: radiance -> display pixels. Layer 9. */
+/* tone.c: radiance -> display pixels. Layer 10. */
 #include <lambent/compose.h>
 
 #include <string.h>
