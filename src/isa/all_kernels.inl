@@ -54,7 +54,7 @@
 #include "../probe/blur.inl"
 #endif
 #if LMB_VOXELS
-#include "../voxel/cone.inl"
+#include "../mixed/cone.inl"
 #endif
 #if LMB_RELIEF
 #include "../relief/warp.inl"

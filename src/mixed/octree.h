@@ -1,8 +1,8 @@
-/* octree.h: addresses of voxels in the pool. Layer 5.
+/* octree.h: addresses of voxels in the pool. Layer 7.
  *
  * Voxels 0 .. 7 are empty space and their own children, so a descent may continue below a missing voxel. */
-#ifndef LMB_VOXEL_OCTREE_H
-#define LMB_VOXEL_OCTREE_H
+#ifndef LMB_MIXED_OCTREE_H
+#define LMB_MIXED_OCTREE_H
 
 #include <lambent/voxel.h>
 
