@@ -10,8 +10,8 @@
 
 #include "../base/memory_check.h"
 #include "../base/vec.h"
-#include "../map/footprint.h"
-#include "../map/texel.h"
+#include "../direct/footprint.h"
+#include "../direct/texel.h"
 #include "points.h"
 
 #if LMB_BOUNCE

@@ -3,7 +3,7 @@
 
 #include "../base/vec.h"
 #include "../lane/kernels.h"
-#include "../light/glossy.h"
+#include "../direct/glossy.h"
 #include "../raster/paint.h"
 
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "../base/surface_check.h"
-#include "../light/light_tile.h"
+#include "../direct/light_tile.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
 

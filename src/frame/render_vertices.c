@@ -10,7 +10,7 @@
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../draw/draw_part.h"
-#include "../light/light_tile.h"
+#include "../direct/light_tile.h"
 #include "requires.h"
 #include "stages.h"
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../light/light_tile.h"
+#include "../direct/light_tile.h"
 #include "../raster/plane.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"

@@ -3,13 +3,13 @@
 
 #include "../base/codec.h"
 #include "../base/light_kind.h"
-#include "../light/shadow.h"
-#include "../map/part.h"
+#include "../direct/shadow.h"
+#include "../direct/part.h"
 #include "../raster/texture.h"
 
 #if LMB_TRANSFER
 
-/* Irradiance of one light on a plane with this normal, per intensity, as in light/direct.inl. */
+/* Irradiance of one light on a plane with this normal, per intensity, as in direct/direct.inl. */
 static float arriving(const lmb_light *light, lmb_vec3 at, lmb_vec3 normal)
 {
     lmb_vec3 to = mul3(light->direction, -1.0f);
@@ -45,7 +45,7 @@ static int32_t face_towards(const lmb_shadow_map *map, const lmb_light *light, l
 }
 
 /* Tests the surface at the centre of the texel against the receiver's plane there, like the last resort of
- * light/shadow.c. It is off by up to a texel, which does not show if corners are closer together than texels. 1 outside
+ * direct/shadow.c. It is off by up to a texel, which does not show if corners are closer together than texels. 1 outside
  * the map. */
 static int is_lit(const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 at, lmb_vec3 normal)
 {

@@ -14,7 +14,7 @@
 #endif
 #include "../raster/resolve.inl"
 #include "../raster/texture.inl"
-#include "../light/direct.inl"
+#include "../direct/direct.inl"
 #if LMB_BOUNCE
 #include "../bounce/gather.inl"
 #endif
@@ -32,7 +32,7 @@
 #include "../frame/live_fill.inl"
 #endif
 #if LMB_LOBES
-#include "../light/lobe.inl"
+#include "../direct/lobe.inl"
 #endif
 #if LMB_TREES
 #include "../lightcut/gather_glossy.inl"
@@ -41,7 +41,7 @@
 #include "../draw/draw_lanes.inl"
 #endif
 #if LMB_TRANSFER
-#include "../map/texel.inl"
+#include "../direct/texel.inl"
 #include "../transfer/links.inl"
 #include "../transfer/coverage.inl"
 #include "../transfer/halve.inl"

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../map/footprint.h"
+#include "../direct/footprint.h"
 
 #if LMB_TREES
 

@@ -8,8 +8,8 @@
 
 #include "../base/vec.h"
 #include "../lane/kernels.h"
-#include "../light/glossy.h"
-#include "../map/footprint.h"
+#include "../direct/glossy.h"
+#include "../direct/footprint.h"
 #include "../occlusion/traversal.h"
 #include "../raster/tile.h"
 #include "pixel_cluster.h"

@@ -5,8 +5,8 @@
 
 #include "../base/memory_check.h"
 #include "../base/vec.h"
-#include "../map/footprint.h"
-#include "../map/texel.h"
+#include "../direct/footprint.h"
+#include "../direct/texel.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
 #include "box.h"

@@ -9,7 +9,7 @@
 #include "../base/memory_check.h"
 #include "../base/poly.h"
 #include "../lane/kernels.h"
-#include "../map/cube.h"
+#include "cube.h"
 
 #if LMB_PROBES
 

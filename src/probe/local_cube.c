@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "../lane/kernels.h"
-#include "../map/cube.h"
+#include "cube.h"
 
 #if LMB_PROBES
 

@@ -6,7 +6,7 @@
 #include "world.h"
 
 #include "../base/poly.h"
-#include "../map/cube.h"
+#include "cube.h"
 
 enum { WIDE = 4, NARROW = LMB_WORLD_NARROW, TURNS = 3 };
 

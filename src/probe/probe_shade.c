@@ -2,10 +2,10 @@
 #include <string.h>
 
 #include "../base/memory_check.h"
-#include "../light/glossy.h"
+#include "../direct/glossy.h"
 #include "../raster/plane.h"
 #include "../raster/tile.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include "world.h"
 
 #if LMB_PROBES

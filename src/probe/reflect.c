@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "../base/poly.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include "world.h"
 
 #if LMB_PROBES

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include <lambent/probe.h>
 
 enum { WAVES = 9, BANDS = 5 };

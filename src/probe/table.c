@@ -3,7 +3,7 @@
 
 #include "../base/memory_check.h"
 #include "../base/poly.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include <lambent/probe.h>
 
 enum { WAVES = 9, LEGENDRE = 15 };

@@ -4,7 +4,7 @@
 #include "../base/halve.h"
 #include "../base/memory_check.h"
 #include "../base/poly.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include "world.h"
 
 /* --- sizes -------------------------------------------------------------------------------------------------------- */

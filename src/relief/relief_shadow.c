@@ -8,7 +8,7 @@
 
 #include "../base/light_kind.h"
 #include "../base/vec.h"
-#include "../map/part.h"
+#include "../direct/part.h"
 #include "../raster/target.h"
 #include "mend.h"
 

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../map/texel.h"
+#include "../direct/texel.h"
 #include "../raster/target.h"
 #include "halvings.h"
 #include "links.h"

@@ -1,6 +1,6 @@
 /* part.h: finds which face of a sun's map holds a point. Layer 4. */
-#ifndef LMB_MAP_PART_H
-#define LMB_MAP_PART_H
+#ifndef LMB_DIRECT_PART_H
+#define LMB_DIRECT_PART_H
 
 #include <lambent/map.h>
 

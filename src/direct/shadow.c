@@ -1,4 +1,4 @@
-/* shadow.c: tests by the shadow map whether a point of a surface is lit. Layer 5. [V7]
+/* shadow.c: tests by the shadow map whether a point of a surface is lit. Layer 4. [V7]
  *
  * The depth in a map is valid only at the centre of a texel. Elsewhere it needs a bias, which leaks light or causes
  * acne. Ids are valid everywhere: the triangles named by the four texels around the point are tested at the point's own
@@ -14,10 +14,10 @@
 
 #include "../base/light_kind.h"
 #include "../base/vec.h"
-#include "../map/part.h"
 #include "../raster/plane.h"
 #include "../raster/resolve.h"
 #include "../raster/target.h"
+#include "part.h"
 
 /* Position of the receiver in a face. */
 typedef struct place {

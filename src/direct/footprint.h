@@ -1,6 +1,6 @@
 /* footprint.h: a position or a step on a shadow map, on the surface shown there. Layer 4. */
-#ifndef LMB_MAP_FOOTPRINT_H
-#define LMB_MAP_FOOTPRINT_H
+#ifndef LMB_DIRECT_FOOTPRINT_H
+#define LMB_DIRECT_FOOTPRINT_H
 
 #include "../base/vec.h"
 

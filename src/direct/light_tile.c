@@ -1,4 +1,4 @@
-/* light_tile.c: adds one of the scene's lights to a tile. Layer 5. */
+/* light_tile.c: adds one of the scene's lights to a tile. Layer 4. */
 #include "light_tile.h"
 
 #include <string.h>

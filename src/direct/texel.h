@@ -1,6 +1,6 @@
-/* texel.h: a row of a shadow map's texels, for src/map/texel.inl. Layer 4. */
-#ifndef LMB_MAP_TEXEL_H
-#define LMB_MAP_TEXEL_H
+/* texel.h: a row of a shadow map's texels, for src/direct/texel.inl. Layer 4. */
+#ifndef LMB_DIRECT_TEXEL_H
+#define LMB_DIRECT_TEXEL_H
 
 #include "../base/light_kind.h"
 #include "../lane/kernels.h"

@@ -1,4 +1,4 @@
-/* direct.inl: irradiance of one light at each pixel of a tile, without shadows. Layer 5. */
+/* direct.inl: irradiance of one light at each pixel of a tile, without shadows. Layer 4. */
 
 static inline lane direct_falloff(const lmb_direct_job *job, lane cosine)
 {

@@ -1,4 +1,4 @@
-/* lobe.inl: the glossy lobe: GGX, height-correlated Smith, Schlick; of a light without area and of a disc. Layer 5.
+/* lobe.inl: the glossy lobe: GGX, height-correlated Smith, Schlick; of a light without area and of a disc. Layer 4.
  *
  * For a disc, the lobe's mean is needed. Let s be the slope (tangent of the angle to n) of the half vector h = (l + v)
  * / |l + v|. GGX's density of slopes, a2 / (pi (a2 + s^2)^2), is the stereographic projection of a sphere's surface,

@@ -1,4 +1,4 @@
-/* direct.c: direct light on a tile: the kernel's irradiance for pixels that pass the shadow test. Layer 5. */
+/* direct.c: direct light on a tile: the kernel's irradiance for pixels that pass the shadow test. Layer 4. */
 #include <lambent/light.h>
 
 #include "../base/light_kind.h"

@@ -1,4 +1,4 @@
-/* glossy.c: finds the pixels of a tile with a glossy lobe, and adds what the lobes reflect of lights. Layer 5. */
+/* glossy.c: finds the pixels of a tile with a glossy lobe, and adds what the lobes reflect of lights. Layer 4. */
 #include <string.h>
 
 #include "../lane/kernels.h"

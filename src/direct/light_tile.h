@@ -1,6 +1,6 @@
-/* light_tile.h: adds one of the scene's lights to a tile, with lobes. Layer 5. */
-#ifndef LMB_LIGHT_LIGHT_TILE_H
-#define LMB_LIGHT_LIGHT_TILE_H
+/* light_tile.h: adds one of the scene's lights to a tile, with lobes. Layer 4. */
+#ifndef LMB_DIRECT_LIGHT_TILE_H
+#define LMB_DIRECT_LIGHT_TILE_H
 
 #include <lambent/light.h>
 

@@ -1,6 +1,6 @@
-/* shadow.h: tests by the shadow map whether a point of a surface is lit. Layer 5. */
-#ifndef LMB_LIGHT_SHADOW_H
-#define LMB_LIGHT_SHADOW_H
+/* shadow.h: tests by the shadow map whether a point of a surface is lit. Layer 4. */
+#ifndef LMB_DIRECT_SHADOW_H
+#define LMB_DIRECT_SHADOW_H
 
 #include <lambent/map.h>
 

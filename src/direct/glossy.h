@@ -1,6 +1,6 @@
-/* glossy.h: one pixel's glossy lobe. Layer 5. */
-#ifndef LMB_LIGHT_GLOSSY_H
-#define LMB_LIGHT_GLOSSY_H
+/* glossy.h: one pixel's glossy lobe. Layer 4. */
+#ifndef LMB_DIRECT_GLOSSY_H
+#define LMB_DIRECT_GLOSSY_H
 
 #include <lambent/light.h>
 

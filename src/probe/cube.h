@@ -1,6 +1,6 @@
-/* cube.h: directions and texels of a cube's faces, in GL order. Layer 4. */
-#ifndef LMB_MAP_CUBE_H
-#define LMB_MAP_CUBE_H
+/* cube.h: directions and texels of a cube's faces, in GL order. Layer 6. */
+#ifndef LMB_PROBE_CUBE_H
+#define LMB_PROBE_CUBE_H
 
 #include "../base/vec.h"
 
