@@ -21,9 +21,9 @@
 #include "../frame/blend.inl"
 #include "../frame/encode.inl"
 #if LMB_TREES
-#include "../lightcut/gather_cut.inl"
-#include "../lightcut/node_bounds.inl"
-#include "../manylights/many_lights.inl"
+#include "../tree/gather_cut.inl"
+#include "../tree/node_bounds.inl"
+#include "../tree/many_lights.inl"
 #include "../occlusion/crossed.inl"
 #include "../occlusion/sun.inl"
 #endif
@@ -35,7 +35,7 @@
 #include "../direct/lobe.inl"
 #endif
 #if LMB_TREES
-#include "../lightcut/gather_glossy.inl"
+#include "../tree/gather_glossy.inl"
 #endif
 #if LMB_DRAW_LANES
 #include "../draw/draw_lanes.inl"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "../base/poly.h"
-#include "../radiosity/piece.h"
+#include "../tree/piece.h"
 #include "halvings.h"
 
 #if LMB_TRANSFER

@@ -1,10 +1,10 @@
-/* elements_many_lights.c: light of many lights on elements, which then send the first bounce. Layer 8. [V3] */
+/* elements_many_lights.c: light of many lights on elements, which then send the first bounce. Layer 7. [V3] */
 #include <lambent/elements.h>
 
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../lightcut/tree.h"
+#include "tree.h"
 
 #if LMB_TREES
 

@@ -1,11 +1,11 @@
-/* elements.c: a scene's triangles -> elements of about one size, with neighbours adjacent in memory. Layer 8. */
+/* elements.c: a scene's triangles -> elements of about one size, with neighbours adjacent in memory. Layer 7. */
 #include <lambent/elements.h>
 
 #include <string.h>
 
 #include "../base/memory_check.h"
 #include "../base/poly.h"
-#include "../lightcut/tree.h"
+#include "tree.h"
 #include "piece.h"
 
 #if LMB_TREES

@@ -1,11 +1,11 @@
-/* radiosity_bounce.c: elements receive light through the same cuts as pixels, and reflect it. Layer 8. */
+/* radiosity_bounce.c: elements receive light through the same cuts as pixels, and reflect it. Layer 7. */
 #include <lambent/elements.h>
 
 #include <string.h>
 
 #include "../base/poly.h"
 #include "../base/vec.h"
-#include "../lightcut/tree.h"
+#include "tree.h"
 #include "piece.h"
 
 #if LMB_TREES

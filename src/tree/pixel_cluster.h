@@ -1,6 +1,6 @@
 /* pixel_cluster.h: the pixels of one surface in a tile, which take a cut of the light tree together. Layer 7. */
-#ifndef LMB_LIGHTCUT_PIXEL_CLUSTER_H
-#define LMB_LIGHTCUT_PIXEL_CLUSTER_H
+#ifndef LMB_TREE_PIXEL_CLUSTER_H
+#define LMB_TREE_PIXEL_CLUSTER_H
 
 #include "../lane/kernels.h"
 

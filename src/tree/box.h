@@ -1,6 +1,6 @@
 /* box.h: oriented boxes with bounds that do not depend on the orientation of the world. Layer 7. */
-#ifndef LMB_LIGHTCUT_BOX_H
-#define LMB_LIGHTCUT_BOX_H
+#ifndef LMB_TREE_BOX_H
+#define LMB_TREE_BOX_H
 
 #include "../base/vec.h"
 

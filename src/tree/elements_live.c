@@ -1,4 +1,4 @@
-/* elements_live.c: elements as senders and receivers of single points' light. Layer 8.                          [ours]
+/* elements_live.c: elements as senders and receivers of single points' light. Layer 7.                          [ours]
  *
  * An element's flux is spread over the triangle: nearby, the tree divides the triangle into sixteen parts, and these
  * again. So later bounces and emitted light reach pixels and elements through one kernel, with one set of segments for
@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../lightcut/tree.h"
 #include "../raster/triangle.h"
+#include "tree.h"
 #include "piece.h"
 
 #if LMB_LIVE

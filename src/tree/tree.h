@@ -1,6 +1,6 @@
 /* tree.h: the layout of a tree's nodes. Layer 7. */
-#ifndef LMB_LIGHTCUT_TREE_H
-#define LMB_LIGHTCUT_TREE_H
+#ifndef LMB_TREE_TREE_H
+#define LMB_TREE_TREE_H
 
 #include <lambent/elements.h>
 

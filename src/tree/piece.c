@@ -1,4 +1,4 @@
-/* piece.c: a piece's albedo, from four points of the triangle's textures, and emission. Layer 8. */
+/* piece.c: a piece's albedo, from four points of the triangle's textures, and emission. Layer 7. */
 #include "piece.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
-/* piece.h: a piece of a triangle: place in the order of elements, mean albedo and emission. Layer 8. */
-#ifndef LMB_RADIOSITY_PIECE_H
-#define LMB_RADIOSITY_PIECE_H
+/* piece.h: a piece of a triangle: place in the order of elements, mean albedo and emission. Layer 7. */
+#ifndef LMB_TREE_PIECE_H
+#define LMB_TREE_PIECE_H
 
 #include <lambent/elements.h>
 
