@@ -106,7 +106,7 @@ ROOM_IMAGE ?= $(B)/room
 ROOM_RUN   ?= $(RUN)
 ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),main_pixel.c room_pixel.c,main_room.c)) \
               $(if $(filter pixel,$(ROOM)),tools/demo/demo_scene.c)
-ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/fixed/%,$(LIB_SRC)))
+ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/vertex/fixed% src/vertex/number%,$(LIB_SRC)))
 ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC)) $(ROOM_LIB))
 ifdef COUNTED
 include platform/counted/counted.mk

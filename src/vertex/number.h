@@ -1,6 +1,6 @@
 /* number.h: integers in place of floats: reciprocals, powers of lengths, sRGB codes. Layer 10. */
-#ifndef LMB_FIXED_NUMBER_H
-#define LMB_FIXED_NUMBER_H
+#ifndef LMB_VERTEX_NUMBER_H
+#define LMB_VERTEX_NUMBER_H
 
 #include <stdint.h>
 
