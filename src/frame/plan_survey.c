@@ -1,11 +1,11 @@
-/* plan_survey.c: picks a frame's tiles to sample: evenly, along a Z curve. Layer 11. */
+/* plan_survey.c: picks a frame's tiles to sample: evenly, along a Z curve. Layer 10. */
 #include <lambent/plan.h>
 
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../frame/stages.h"
-#include "../frame/requires.h"
+#include "stages.h"
+#include "requires.h"
 #include "plan_sample.h"
 
 #if LMB_PLAN && LMB_TREES

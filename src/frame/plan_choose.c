@@ -1,4 +1,4 @@
-/* plan_choose.c: a ladder of settings, the cost of each, and the choice for a budget. Layer 11.
+/* plan_choose.c: a ladder of settings, the cost of each, and the choice for a budget. Layer 10.
  *
  * The cost of a rung and the difference to the next are sampled; errors are not known beyond this. */
 #include <lambent/plan.h>
@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../frame/stages.h"
-#include "../frame/requires.h"
+#include "stages.h"
+#include "requires.h"
 #include "plan_model.h"
 #include "plan_sample.h"
 

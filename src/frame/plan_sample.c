@@ -1,11 +1,11 @@
-/* plan_sample.c: samples tiles of a solved frame: the work of settings, and differences between them. Layer 11. */
+/* plan_sample.c: samples tiles of a solved frame: the work of settings, and differences between them. Layer 10. */
 #include "plan_sample.h"
 
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../frame/stages.h"
-#include "../frame/requires.h"
+#include "stages.h"
+#include "requires.h"
 #include "plan_model.h"
 
 #if LMB_PLAN && LMB_TREES

@@ -1,4 +1,4 @@
-/* plan_sample.h: samples of a frame's tiles, taken in groups. Layer 11. */
+/* plan_sample.h: samples of a frame's tiles, taken in groups. Layer 10. */
 #ifndef LMB_PLAN_SAMPLE_H
 #define LMB_PLAN_SAMPLE_H
 
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "../frame/stages.h"
+#include "stages.h"
 
 /* Estimates pairs and segments of the whole frame from `facts`, for a frame's settings. */
 void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *frame);

@@ -1,11 +1,11 @@
-/* plan.c: plans a started frame: operations, work, bytes; skipped stages, and the reasons. Layer 11. */
+/* plan.c: plans a started frame: operations, work, bytes; skipped stages, and the reasons. Layer 10. */
 #include <lambent/plan.h>
 
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../frame/stages.h"
-#include "../frame/requires.h"
+#include "stages.h"
+#include "requires.h"
 #include "plan_model.h"
 #include "plan_sample.h"
 
