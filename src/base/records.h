@@ -1,6 +1,6 @@
-/* records.h: the words of a .lmp's records -> the library's structs. Layer 2. */
-#ifndef LMB_PACK_RECORDS_H
-#define LMB_PACK_RECORDS_H
+/* records.h: the words of a .lmp's records -> the library's structs. Layer 1. */
+#ifndef LMB_BASE_RECORDS_H
+#define LMB_BASE_RECORDS_H
 
 #include <lambent/pack.h>
 

@@ -1,10 +1,10 @@
-/* motion.c: transforms of a .lmp's animations at a time: keys, interpolation, the path to the world. Layer 2. */
+/* motion.c: transforms of a .lmp's animations at a time: keys, interpolation, the path to the world. Layer 1. */
 #include "motion.h"
 
 #include <string.h>
 
-#include "../base/poly.h"
-#include "../base/vec.h"
+#include "poly.h"
+#include "vec.h"
 #include "records.h"
 
 #if LMB_PACK

@@ -1,9 +1,9 @@
-/* records.c: the words of a .lmp's records -> the library's structs. Layer 2. */
+/* records.c: the words of a .lmp's records -> the library's structs. Layer 1. */
 #include "records.h"
 
 #include <string.h>
 
-#include "../base/vec.h"
+#include "vec.h"
 
 #if LMB_PACK
 

@@ -1,6 +1,6 @@
-/* motion.h: transforms of a .lmp's animations at a time. Layer 2. */
-#ifndef LMB_PACK_MOTION_H
-#define LMB_PACK_MOTION_H
+/* motion.h: transforms of a .lmp's animations at a time. Layer 1. */
+#ifndef LMB_BASE_MOTION_H
+#define LMB_BASE_MOTION_H
 
 #include <lambent/pack.h>
 

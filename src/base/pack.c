@@ -1,11 +1,11 @@
-/* pack.c: opens a .lmp in place: checks the whole file once, then trusts it; scene in the caller's memory. Layer 2. */
+/* pack.c: opens a .lmp in place: checks the whole file once, then trusts it; scene in the caller's memory. Layer 1. */
 #include <lambent/pack.h>
 
 #include <string.h>
 
-#include "../base/memory_check.h"
-#include "../base/scene_check.h"
-#include "../base/vec.h"
+#include "memory_check.h"
+#include "scene_check.h"
+#include "vec.h"
 #include "motion.h"
 #include "records.h"
 
