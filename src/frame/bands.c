@@ -1,4 +1,4 @@
-/* bands.c: tiles of a band to the picture, and bands to the caller. Layer 10. */
+/* bands.c: tiles of a band to the picture, and bands to the caller. Layer 8. */
 #include <float.h>
 #include <string.h>
 

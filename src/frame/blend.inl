@@ -1,4 +1,4 @@
-/* blend.inl: albedo / pi x (direct + indirect) of a tile's pixels. Layer 10. */
+/* blend.inl: albedo / pi x (direct + indirect) of a tile's pixels. Layer 8. */
 
 static void KERNEL(blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
                           const lmb_irradiance *indirect)

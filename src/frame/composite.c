@@ -1,4 +1,4 @@
-/* composite.c: direct + indirect light of a tile -> radiance towards the viewer. Layer 10.             [V28 V29 V30] */
+/* composite.c: direct + indirect light of a tile -> radiance towards the viewer. Layer 8.             [V28 V29 V30] */
 #include <lambent/compose.h>
 
 #include "../base/vec.h"

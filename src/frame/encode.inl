@@ -1,4 +1,4 @@
-/* encode.inl: linear values -> sRGB codes, the same as lmb_srgb_encode, LANES at a time. Layer 10.
+/* encode.inl: linear values -> sRGB codes, the same as lmb_srgb_encode, LANES at a time. Layer 8.
  *
  * A guess of the unrounded code with an error below one half leaves two candidates: the guess rounded down, and the
  * next code. The exact threshold between them decides. */

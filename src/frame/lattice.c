@@ -1,4 +1,4 @@
-/* lattice.c: chooses the pixels of a frame to gather, and interpolates the light between them. Layer 10.       [ours]
+/* lattice.c: chooses the pixels of a frame to gather, and interpolates the light between them. Layer 8.       [ours]
  *
  * Samples lie at the corners of square cells. A cell is divided if the parent cell predicted the corners badly (the
  * surplus). Light is extrapolated from the corners by their slopes; corners on other surfaces do not count. */

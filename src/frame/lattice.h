@@ -1,4 +1,4 @@
-/* lattice.h: an adaptive lattice of gathered pixels. Layer 10. */
+/* lattice.h: an adaptive lattice of gathered pixels. Layer 8. */
 #ifndef LMB_FRAME_LATTICE_H
 #define LMB_FRAME_LATTICE_H
 

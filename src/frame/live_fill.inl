@@ -1,4 +1,4 @@
-/* live_fill.inl: light of a cell's pixels, from the samples at its corners. Layer 10.                            [ours]
+/* live_fill.inl: light of a cell's pixels, from the samples at its corners. Layer 8.                            [ours]
  *
  * Corners on a pixel's surface count with bilinear weights. Each is extrapolated by half of the slopes, which is exact
  * for quadratics. If a corner is missing, full slopes are used, which is exact for linear light. */

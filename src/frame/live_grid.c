@@ -1,4 +1,4 @@
-/* live_grid.c: chooses the pixels to light, and interpolates the light between them. Layer 10.                    [ours]
+/* live_grid.c: chooses the pixels to light, and interpolates the light between them. Layer 8.                    [ours]
  *
  * A cell is divided if the parent cell predicted the samples badly, by more than their noise. Only the visible shares
  * of shadows are noisy. The noise is removed from these, not from the light. */

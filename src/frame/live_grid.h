@@ -1,4 +1,4 @@
-/* live_grid.h: samples of a frame with bounced light at single points. Layer 10.
+/* live_grid.h: samples of a frame with bounced light at single points. Layer 8.
  *
  * Samples lie on a grid of 8 px, at the first pixel of each tile. If the light varies between four of them, the cell is
  * divided into cells of 4 px, and these into cells of 2 px. Only lit samples store their surface. The grid uses the

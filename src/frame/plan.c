@@ -1,4 +1,4 @@
-/* plan.c: plans a started frame: operations, work, bytes; skipped stages, and the reasons. Layer 10. */
+/* plan.c: plans a started frame: operations, work, bytes; skipped stages, and the reasons. Layer 8. */
 #include <lambent/plan.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* plan_choose.c: a ladder of settings, the cost of each, and the choice for a budget. Layer 10.
+/* plan_choose.c: a ladder of settings, the cost of each, and the choice for a budget. Layer 8.
  *
  * The cost of a rung and the difference to the next are sampled; errors are not known beyond this. */
 #include <lambent/plan.h>

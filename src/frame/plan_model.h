@@ -1,4 +1,4 @@
-/* plan_model.h: work of operations, from fitted numbers. Layer 10. */
+/* plan_model.h: work of operations, from fitted numbers. Layer 8. */
 #ifndef LMB_PLAN_MODEL_H
 #define LMB_PLAN_MODEL_H
 

@@ -1,4 +1,4 @@
-/* plan_names.c: names used in a plan, and the numbers of the cost model. Layer 10. */
+/* plan_names.c: names used in a plan, and the numbers of the cost model. Layer 8. */
 #include "plan_model.h"
 
 #if LMB_PLAN

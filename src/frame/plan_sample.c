@@ -1,4 +1,4 @@
-/* plan_sample.c: samples tiles of a solved frame: the work of settings, and differences between them. Layer 10. */
+/* plan_sample.c: samples tiles of a solved frame: the work of settings, and differences between them. Layer 8. */
 #include "plan_sample.h"
 
 #include <string.h>

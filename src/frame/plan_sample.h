@@ -1,4 +1,4 @@
-/* plan_sample.h: samples of a frame's tiles, taken in groups. Layer 10. */
+/* plan_sample.h: samples of a frame's tiles, taken in groups. Layer 8. */
 #ifndef LMB_PLAN_SAMPLE_H
 #define LMB_PLAN_SAMPLE_H
 

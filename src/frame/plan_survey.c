@@ -1,4 +1,4 @@
-/* plan_survey.c: picks a frame's tiles to sample: evenly, along a Z curve. Layer 10. */
+/* plan_survey.c: picks a frame's tiles to sample: evenly, along a Z curve. Layer 8. */
 #include <lambent/plan.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* relight.c: a band of objects in the world's light. Layer 10.                                    [S15-S17, S21-S24] */
+/* relight.c: a band of objects in the world's light. Layer 8.                                    [S15-S17, S21-S24] */
 #include <lambent/relight.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* shade.c: direct light of a tile, and the radiance of the pixels towards the viewer. Layer 10. */
+/* shade.c: direct light of a tile, and the radiance of the pixels towards the viewer. Layer 8. */
 #include <string.h>
 
 #include "../base/vec.h"

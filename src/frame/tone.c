@@ -1,4 +1,4 @@
-/* tone.c: radiance -> display pixels. Layer 10. */
+/* tone.c: radiance -> display pixels. Layer 8. */
 #include <lambent/compose.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* upsample.c: a tile's light from some of its pixels, weighted by surface. Layer 10.                       [ours] */
+/* upsample.c: a tile's light from some of its pixels, weighted by surface. Layer 8.                       [ours] */
 #include <lambent/compose.h>
 
 #include "../raster/tile.h"

@@ -1,4 +1,4 @@
-/* all_kernels.inl: every kernel by one backend's verbs, and their table. Layer 12.
+/* all_kernels.inl: every kernel by one backend's verbs, and their table. Layer 9.
  *
  * The including file defines KERNEL(name), and BACKEND: the name for lmb_kernels_named. */
 #include "../lane/kernels.h"

@@ -1,4 +1,4 @@
-/* live_part.h: functions shared by the files of src/live. Layer 6. */
+/* live_part.h: functions shared by the files of src/live. Layer 5. */
 #ifndef LMB_LIVE_PART_H
 #define LMB_LIVE_PART_H
 

@@ -1,4 +1,4 @@
-/* around.c: light of the environment that surfaces reflect, as first points for voxels. Layer 7. [M7] */
+/* around.c: light of the environment that surfaces reflect, as first points for voxels. Layer 6. [M7] */
 #include <string.h>
 
 #include "../base/poly.h"

@@ -1,4 +1,4 @@
-/* cloud.c: a depth picture as points, and their noise. Layer 7.                                                [M1] */
+/* cloud.c: a depth picture as points, and their noise. Layer 6.                                                [M1] */
 #include <string.h>
 
 #include "../base/memory_check.h"

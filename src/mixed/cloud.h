@@ -1,4 +1,4 @@
-/* cloud.h: a pixel of a cloud, and the nearest ones. Layer 7. */
+/* cloud.h: a pixel of a cloud, and the nearest ones. Layer 6. */
 #ifndef LMB_MIXED_CLOUD_H
 #define LMB_MIXED_CLOUD_H
 

@@ -1,4 +1,4 @@
-/* cloud_normals.c: normals of a cloud's points, robust to holes and noise. Layer 7.   [M2] */
+/* cloud_normals.c: normals of a cloud's points, robust to holes and noise. Layer 6.   [M2] */
 #include "plane_fit.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* cone.c: cones over the hemisphere and along the mirrored view, through voxels and environment. Layer 7. [M20-M22] */
+/* cone.c: cones over the hemisphere and along the mirrored view, through voxels and environment. Layer 6. [M20-M22] */
 #include <string.h>
 
 #include "../base/poly.h"

@@ -1,4 +1,4 @@
-/* cone.inl: radiance that cones gather from voxels. Layer 7. [M20-M22]
+/* cone.inl: radiance that cones gather from voxels. Layer 6. [M20-M22]
  *
  * Lanes are pixels. A cone's samples lie at the same distances for all pixels, so all lanes read the same levels.
  *

@@ -1,4 +1,4 @@
-/* delta.c: shadow maps without and with an object, and the photo changed by their difference. Layer 7. [M9 M23 M24] */
+/* delta.c: shadow maps without and with an object, and the photo changed by their difference. Layer 6. [M9 M23 M24] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include <lambent/mixed.h>

@@ -1,4 +1,4 @@
-/* envfold.c: folds the picture outwards, as light from unseen directions. Layer 7.      [M14-M19] */
+/* envfold.c: folds the picture outwards, as light from unseen directions. Layer 6.      [M14-M19] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../probe/cube.h"

@@ -1,4 +1,4 @@
-/* filter.c: averages light from the leaves upward; the difference of two worlds' light. Layer 7.       [M11 M12 M13] */
+/* filter.c: averages light from the leaves upward; the difference of two worlds' light. Layer 6.       [M11 M12 M13] */
 #include "../base/poly.h"
 #include "octree.h"
 

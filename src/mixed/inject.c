@@ -1,4 +1,4 @@
-/* inject.c: first points of the shadow maps -> light of leaves, by outgoing direction. Layer 7.             [M7 M10] */
+/* inject.c: first points of the shadow maps -> light of leaves, by outgoing direction. Layer 6.             [M7 M10] */
 #include <string.h>
 
 #include "../base/poly.h"

@@ -1,4 +1,4 @@
-/* mixed_shade.c: the object over the photo, behind surfaces in front of it. Layer 7.                          [M24] */
+/* mixed_shade.c: the object over the photo, behind surfaces in front of it. Layer 6.                          [M24] */
 #include "../base/vec.h"
 #include <lambent/mixed.h>
 

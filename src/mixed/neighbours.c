@@ -1,4 +1,4 @@
-/* neighbours.c: the points of a picture nearest to one of them. Layer 7.                                      [M3] */
+/* neighbours.c: the points of a picture nearest to one of them. Layer 6.                                      [M3] */
 #include "../base/vec.h"
 #include "cloud.h"
 

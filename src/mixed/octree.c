@@ -1,4 +1,4 @@
-/* octree.c: a pool of voxels: its memory, the path to a voxel, and means from the leaves upward. Layer 7. [M8 M13] */
+/* octree.c: a pool of voxels: its memory, the path to a voxel, and means from the leaves upward. Layer 6. [M8 M13] */
 #include "octree.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* octree.h: addresses of voxels in the pool. Layer 7.
+/* octree.h: addresses of voxels in the pool. Layer 6.
  *
  * Voxels 0 .. 7 are empty space and their own children, so a descent may continue below a missing voxel. */
 #ifndef LMB_MIXED_OCTREE_H

@@ -1,4 +1,4 @@
-/* plane_fit.c: least squares of inverse distances over a picture. Layer 7.                                  [M2 M4]
+/* plane_fit.c: least squares of inverse distances over a picture. Layer 6.                                  [M2 M4]
  *
  * A plane n . p = d seen along (x, y, -1) is at inverse distance (n.x x + n.y y - n.z) / d, which is affine in the ray.
  * So the fit has three unknowns and solves two equations and a mean. It needs no eigenvectors, and the noise is uniform

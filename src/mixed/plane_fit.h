@@ -1,4 +1,4 @@
-/* plane_fit.h: least squares of inverse distances over a picture, relative to one pixel. Layer 7. */
+/* plane_fit.h: least squares of inverse distances over a picture, relative to one pixel. Layer 6. */
 #ifndef LMB_MIXED_PLANE_FIT_H
 #define LMB_MIXED_PLANE_FIT_H
 

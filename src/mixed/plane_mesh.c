@@ -1,4 +1,4 @@
-/* plane_mesh.c: the real scene as square cells of planes and of other measured points. Layer 7.               [M4] */
+/* plane_mesh.c: the real scene as square cells of planes and of other measured points. Layer 6.               [M4] */
 #include <string.h>
 
 #include "../base/memory_check.h"

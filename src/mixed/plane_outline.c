@@ -1,4 +1,4 @@
-/* plane_outline.c: the pixels of a plane, including holes, and the plane's size. Layer 7.       [M4 M5] */
+/* plane_outline.c: the pixels of a plane, including holes, and the plane's size. Layer 6.       [M4 M5] */
 #include "planes.h"
 
 #if LMB_MIXED

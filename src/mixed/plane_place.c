@@ -1,4 +1,4 @@
-/* plane_place.c: chooses the plane below an object, and the position. Layer 7.           [M5] */
+/* plane_place.c: chooses the plane below an object, and the position. Layer 6.           [M5] */
 #include "planes.h"
 
 #if LMB_MIXED

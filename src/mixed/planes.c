@@ -1,4 +1,4 @@
-/* planes.c: planes in a cloud: grown from seeds with parallel neighbours, fitted, joined. Layer 7.        [M3 M4] */
+/* planes.c: planes in a cloud: grown from seeds with parallel neighbours, fitted, joined. Layer 6.        [M3 M4] */
 #include "cloud.h"
 #include "planes.h"
 

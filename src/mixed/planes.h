@@ -1,4 +1,4 @@
-/* planes.h: shared by the search for planes and for their outlines. Layer 7. */
+/* planes.h: shared by the search for planes and for their outlines. Layer 6. */
 #ifndef LMB_MIXED_PLANES_H
 #define LMB_MIXED_PLANES_H
 

@@ -1,4 +1,4 @@
-/* real_tile.c: the photo's surfaces as tiles that can be lit. Layer 7.     [M4] */
+/* real_tile.c: the photo's surfaces as tiles that can be lit. Layer 6.     [M4] */
 #include <string.h>
 
 #include "planes.h"

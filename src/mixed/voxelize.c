@@ -1,4 +1,4 @@
-/* voxelize.c: triangles -> the share of a leaf that they cover, seen along each axis. Layer 7. [M6] */
+/* voxelize.c: triangles -> the share of a leaf that they cover, seen along each axis. Layer 6. [M6] */
 #include <string.h>
 
 #include "../raster/resolve.h"

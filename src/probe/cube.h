@@ -1,4 +1,4 @@
-/* cube.h: directions and texels of a cube's faces, in GL order. Layer 6. */
+/* cube.h: directions and texels of a cube's faces, in GL order. Layer 5. */
 #ifndef LMB_PROBE_CUBE_H
 #define LMB_PROBE_CUBE_H
 

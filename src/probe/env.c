@@ -1,4 +1,4 @@
-/* env.c: a cube of light from far away: its levels, and lookups within a cone. Layer 6. [M14 M19 M22] */
+/* env.c: a cube of light from far away: its levels, and lookups within a cone. Layer 5. [M14 M19 M22] */
 #include <lambent/env.h>
 
 #include <string.h>

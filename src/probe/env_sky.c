@@ -1,4 +1,4 @@
-/* env_sky.c: a clear sky as a cube of far light, and such a cube as lights. Layer 6. */
+/* env_sky.c: a clear sky as a cube of far light, and such a cube as lights. Layer 5. */
 #include <string.h>
 
 #include <lambent/env.h>

@@ -1,4 +1,4 @@
-/* probe_shade.c: small cubes with borders, and their light on the pixels of a tile. Layer 6.      [S17 S21 S22] */
+/* probe_shade.c: small cubes with borders, and their light on the pixels of a tile. Layer 5.      [S17 S21 S22] */
 #include <string.h>
 
 #include "../base/memory_check.h"

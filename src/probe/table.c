@@ -1,4 +1,4 @@
-/* table.c: directions of the texels in a latitude-longitude map, and tables for the filters. Layer 6.    [S9 S10] */
+/* table.c: directions of the texels in a latitude-longitude map, and tables for the filters. Layer 5.    [S9 S10] */
 #include <string.h>
 
 #include "../base/memory_check.h"

@@ -1,4 +1,4 @@
-/* transfer_materials.c: mean albedo and emission of elements, from the scene's materials. Layer 9. */
+/* transfer_materials.c: mean albedo and emission of elements, from the scene's materials. Layer 7. */
 #include <lambent/transfer.h>
 
 #include <string.h>

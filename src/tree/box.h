@@ -1,4 +1,4 @@
-/* box.h: oriented boxes with bounds that do not depend on the orientation of the world. Layer 7. */
+/* box.h: oriented boxes with bounds that do not depend on the orientation of the world. Layer 6. */
 #ifndef LMB_TREE_BOX_H
 #define LMB_TREE_BOX_H
 

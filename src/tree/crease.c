@@ -1,4 +1,4 @@
-/* crease.c: the sides and the exact shape of a shadow map texel in which two planes show. Layer 7.        [V15]
+/* crease.c: the sides and the exact shape of a shadow map texel in which two planes show. Layer 6.        [V15]
  *
  * A texel's centre selects one surface, but near an edge the texel shows two. Along the line through two texel centres,
  * a plane's 1 / w (positional lights) or w (suns) is linear, so two planes meet at a difference of 0. If that is

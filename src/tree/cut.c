@@ -1,4 +1,4 @@
-/* cut.c: each tile of pixels takes its own cut through the light tree, and is lit by it. Layer 7.      [V25 V27 V28]
+/* cut.c: each tile of pixels takes its own cut through the light tree, and is lit by it. Layer 6.      [V25 V27 V28]
  *
  * node_bounds.inl computes the nodes' errors. The node with the largest error is split first. Buckets by exponent and
  * first bit of the error find it without sorting, in the same order on every target. */

@@ -1,4 +1,4 @@
-/* elements.c: a scene's triangles -> elements of about one size, with neighbours adjacent in memory. Layer 7. */
+/* elements.c: a scene's triangles -> elements of about one size, with neighbours adjacent in memory. Layer 6. */
 #include <lambent/elements.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* elements_live.c: elements as senders and receivers of single points' light. Layer 7.                          [ours]
+/* elements_live.c: elements as senders and receivers of single points' light. Layer 6.                          [ours]
  *
  * An element's flux is spread over the triangle: nearby, the tree divides the triangle into sixteen parts, and these
  * again. So later bounces and emitted light reach pixels and elements through one kernel, with one set of segments for

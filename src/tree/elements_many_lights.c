@@ -1,4 +1,4 @@
-/* elements_many_lights.c: light of many lights on elements, which then send the first bounce. Layer 7. [V3] */
+/* elements_many_lights.c: light of many lights on elements, which then send the first bounce. Layer 6. [V3] */
 #include <lambent/elements.h>
 
 #include <string.h>

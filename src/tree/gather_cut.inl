@@ -1,4 +1,4 @@
-/* gather_cut.inl: a cut of the light tree -> irradiance of the pixels that see its nodes. Layer 7.          [V27 V28]
+/* gather_cut.inl: a cut of the light tree -> irradiance of the pixels that see its nodes. Layer 6.          [V27 V28]
  *
  * Lanes are pixels.
  *

@@ -1,4 +1,4 @@
-/* gather_glossy.inl: a cut of the light tree -> radiance from the glossy lobes of pixels that see its nodes. Layer 7.
+/* gather_glossy.inl: a cut of the light tree -> radiance from the glossy lobes of pixels that see its nodes. Layer 6.
  *
  * Lanes are pixels.
  *

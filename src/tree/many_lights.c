@@ -1,4 +1,4 @@
-/* many_lights.c: sorts a stream of lights into a fixed number of world cells, with integer sums. Layer 7.    [V3]
+/* many_lights.c: sorts a stream of lights into a fixed number of world cells, with integer sums. Layer 6.    [V3]
  *
  * A cell holds sums, minima, maxima or best members of its lights, all in exact arithmetic. Merging is associative and
  * commutative, so a cell depends only on the set of lights in it. The side of cells is the smallest at which they fit.

@@ -1,4 +1,4 @@
-/* many_lights.inl: error of a node of many lights for a tile, and its irradiance at the pixels. Layer 7. */
+/* many_lights.inl: error of a node of many lights for a tile, and its irradiance at the pixels. Layer 6. */
 
 static inline lane3 many_load3(const lmb_many_lights *many_lights, uint32_t plane, uint32_t at)
 {

@@ -1,4 +1,4 @@
-/* many_lights_cell.h: definitions shared by the stream of many lights, their tree and the cut. Layer 7. */
+/* many_lights_cell.h: definitions shared by the stream of many lights, their tree and the cut. Layer 6. */
 #ifndef LMB_TREE_MANY_LIGHTS_CELL_H
 #define LMB_TREE_MANY_LIGHTS_CELL_H
 

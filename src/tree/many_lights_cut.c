@@ -1,4 +1,4 @@
-/* many_lights_cut.c: a surface's own cut through the tree of many lights. Layer 7.                              [V3]
+/* many_lights_cut.c: a surface's own cut through the tree of many lights. Layer 6.                              [V3]
  *
  * A node represents its lights in two ways, and each limits how far the tree is refined. As a position: I cos / d^2
  * from the mean of the lights errs by about the node's bound x R^2 / d^2, because the first-order terms cancel. I cos /

@@ -1,4 +1,4 @@
-/* many_lights_cut.h: nodes of the tree of many lights that represent all lights on a surface of a tile. Layer 7. */
+/* many_lights_cut.h: nodes of the tree of many lights that represent all lights on a surface of a tile. Layer 6. */
 #ifndef LMB_TREE_MANY_LIGHTS_CUT_H
 #define LMB_TREE_MANY_LIGHTS_CUT_H
 

@@ -1,4 +1,4 @@
-/* many_lights_direct.c: a tile's surfaces, lit by cuts of many lights: shadow tests, then light. Layer 7. [V3 V29] */
+/* many_lights_direct.c: a tile's surfaces, lit by cuts of many lights: shadow tests, then light. Layer 6. [V3 V29] */
 #include <string.h>
 
 #include "../base/light_kind.h"

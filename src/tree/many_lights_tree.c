@@ -1,4 +1,4 @@
-/* many_lights_tree.c: the tree over the stream's cells, eight children a node where the octree has them. Layer 7. [V3]
+/* many_lights_tree.c: the tree over the stream's cells, eight children a node where the octree has them. Layer 6. [V3]
  *
  * Keys interleave x, y and z, so cells sorted by key are in octree order: a node is a range of cells. Levels with a
  * single child are skipped. Each node is summed directly from the cells, in integers. Lights of several kinds have a

@@ -1,4 +1,4 @@
-/* node_bounds.inl: light of tree nodes at a pixel cluster: estimate, upper bound and error. Layer 7.              [V27]
+/* node_bounds.inl: light of tree nodes at a pixel cluster: estimate, upper bound and error. Layer 6.              [V27]
  *
  * Lanes are nodes, computed independently.
  *

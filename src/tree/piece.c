@@ -1,4 +1,4 @@
-/* piece.c: a piece's albedo, from four points of the triangle's textures, and emission. Layer 7. */
+/* piece.c: a piece's albedo, from four points of the triangle's textures, and emission. Layer 6. */
 #include "piece.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* piece.h: a piece of a triangle: place in the order of elements, mean albedo and emission. Layer 7. */
+/* piece.h: a piece of a triangle: place in the order of elements, mean albedo and emission. Layer 6. */
 #ifndef LMB_TREE_PIECE_H
 #define LMB_TREE_PIECE_H
 

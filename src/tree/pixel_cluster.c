@@ -1,4 +1,4 @@
-/* pixel_cluster.c: the pixels of one surface in a tile -> their box and their normals' cone. Layer 7. */
+/* pixel_cluster.c: the pixels of one surface in a tile -> their box and their normals' cone. Layer 6. */
 #include "pixel_cluster.h"
 
 #include "../base/vec.h"

@@ -1,4 +1,4 @@
-/* pixel_cluster.h: the pixels of one surface in a tile, which take a cut of the light tree together. Layer 7. */
+/* pixel_cluster.h: the pixels of one surface in a tile, which take a cut of the light tree together. Layer 6. */
 #ifndef LMB_TREE_PIXEL_CLUSTER_H
 #define LMB_TREE_PIXEL_CLUSTER_H
 

@@ -1,4 +1,4 @@
-/* radiosity_bounce.c: elements receive light through the same cuts as pixels, and reflect it. Layer 7. */
+/* radiosity_bounce.c: elements receive light through the same cuts as pixels, and reflect it. Layer 6. */
 #include <lambent/elements.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* tree.c: a shadow map -> first points, and their sums upward. Layer 7.                             [V5 V6 V7 V15] */
+/* tree.c: a shadow map -> first points, and their sums upward. Layer 6.                             [V5 V6 V7 V15] */
 #include "tree.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* tree.h: the layout of a tree's nodes. Layer 7. */
+/* tree.h: the layout of a tree's nodes. Layer 6. */
 #ifndef LMB_TREE_TREE_H
 #define LMB_TREE_TREE_H
 

@@ -1,4 +1,4 @@
-/* fixed.c: a frame by integers: vertices to the screen, visible triangles, and bands. Layer 10.
+/* fixed.c: a frame by integers: vertices to the screen, visible triangles, and bands. Layer 8.
  *
  * Coordinates have 14 bits, the camera's 16, and axes 15, so that a rotated vertex fits 31 bits. It is stored in 1/16
  * unit, 21 bits, below 2^31 / 2048. On the screen a guard band of 12 times the sides, in 1/16 px, keeps differences

@@ -1,4 +1,4 @@
-/* fixed_fill.c: fills a triangle's rows in a band: edges, depth and colour in integers. Layer 10.
+/* fixed_fill.c: fills a triangle's rows in a band: edges, depth and colour in integers. Layer 8.
  *
  * The position of an edge in a row depends only on the two ends, taken from top to bottom. So neighbours share it, and
  * a pixel with its centre on the edge belongs to one of them. Linear values are computed modulo 2^32: only the result

@@ -1,4 +1,4 @@
-/* fixed_light.c: light at the visible vertices: the lamp's, and reflected light by links. Layer 10.
+/* fixed_light.c: light at the visible vertices: the lamp's, and reflected light by links. Layer 8.
  *
  * Light is given as the radiosity of a white surface, in 1/65536 of the picture's white: at most LIGHT_MOST. */
 #include <lambent/fixed.h>

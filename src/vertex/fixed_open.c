@@ -1,4 +1,4 @@
-/* fixed_open.c: a blob in place: checked once, so that no later access leaves it and nothing overflows. Layer 10. */
+/* fixed_open.c: a blob in place: checked once, so that no later access leaves it and nothing overflows. Layer 8. */
 #include <lambent/fixed.h>
 
 #include "fixed_part.h"

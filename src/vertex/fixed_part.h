@@ -1,4 +1,4 @@
-/* fixed_part.h: shared by the parts of a frame by integers. Layer 10. */
+/* fixed_part.h: shared by the parts of a frame by integers. Layer 8. */
 #ifndef LMB_FIXED_PART_H
 #define LMB_FIXED_PART_H
 

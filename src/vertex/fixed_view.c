@@ -1,4 +1,4 @@
-/* fixed_view.c: a camera's axes. Layer 10. */
+/* fixed_view.c: a camera's axes. Layer 8. */
 #include <lambent/fixed.h>
 
 #include "fixed_part.h"

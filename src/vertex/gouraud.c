@@ -1,4 +1,4 @@
-/* gouraud.c: a scene's triangles, as a transfer divides them, with light at their corners. Layer 10. */
+/* gouraud.c: a scene's triangles, as a transfer divides them, with light at their corners. Layer 8. */
 #include <lambent/gouraud.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* gouraud_fill.c: clips, and fills row by row: edges and colours in integers. Layer 10.
+/* gouraud_fill.c: clips, and fills row by row: edges and colours in integers. Layer 8.
  *
  * Corners lie within GOURAUD_GUARD times the target, of LMB_GOURAUD_MAX_SIDE px. Differences are at most 16,384 in 1/16
  * px, so an area, and 2^14 times a difference, fit 32 bits. The position of an edge in a row depends only on the two

@@ -1,4 +1,4 @@
-/* gouraud_fill.h: a triangle with colours at its corners into a picture, or the id into a map. Layer 10. */
+/* gouraud_fill.h: a triangle with colours at its corners into a picture, or the id into a map. Layer 8. */
 #ifndef LMB_GOURAUD_FILL_H
 #define LMB_GOURAUD_FILL_H
 

@@ -1,4 +1,4 @@
-/* gouraud_light.c: the light at a triangle's corner, and the colour. Layer 10. */
+/* gouraud_light.c: the light at a triangle's corner, and the colour. Layer 8. */
 #include "gouraud_light.h"
 
 #include "../base/codec.h"

@@ -1,4 +1,4 @@
-/* gouraud_light.h: the light at a triangle's corner, and the colour. Layer 10. */
+/* gouraud_light.h: the light at a triangle's corner, and the colour. Layer 8. */
 #ifndef LMB_GOURAUD_LIGHT_H
 #define LMB_GOURAUD_LIGHT_H
 

@@ -1,4 +1,4 @@
-/* number.h: integers in place of floats: reciprocals, powers of lengths, sRGB codes. Layer 10. */
+/* number.h: integers in place of floats: reciprocals, powers of lengths, sRGB codes. Layer 8. */
 #ifndef LMB_VERTEX_NUMBER_H
 #define LMB_VERTEX_NUMBER_H
 
