@@ -106,7 +106,7 @@ ROOM_IMAGE ?= $(B)/room
 ROOM_RUN   ?= $(RUN)
 ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),main_pixel.c room_pixel.c,main_room.c)) \
               $(if $(filter pixel,$(ROOM)),tools/demo/demo_scene.c)
-ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/fixed/%,$(LIB_SRC)))
+ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/vertex/fixed% src/vertex/number%,$(LIB_SRC)))
 ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC)) $(ROOM_LIB))
 ifdef COUNTED
 include platform/counted/counted.mk
@@ -726,8 +726,8 @@ ROWS ?= $(BUILD)/plan-rows.bin
 measure-plan: $(TOOL) $(B)/scenes ## settings chosen for budgets of error (BUDGETS, LMB_OWN_TRUTH)
 	@$(IN_SH) tests/measure/plan.sh
 
-plan-model: $(B)/measure-plan ## makes src/plan/plan_model.inc again, from five scenes with many settings
-	@rm -f $(ROWS); $(RUN) $(B)/measure-plan measure $(ROWS) demo cornell corridor point_room Duck; $(RUN) $(B)/measure-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/plan/plan_model.inc
+plan-model: $(B)/measure-plan ## makes src/frame/plan_model.inc again, from five scenes with many settings
+	@rm -f $(ROWS); $(RUN) $(B)/measure-plan measure $(ROWS) demo cornell corridor point_room Duck; $(RUN) $(B)/measure-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/frame/plan_model.inc
 
 RELIEFS ?= quality own rooms causes speed
 measure-relief: $(B)/measure-relief ## reliefs against their complex models: errors, speed (RELIEFS="own ...")

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../src/base/vec.h"
-#include "../src/lightcut/tree.h"
+#include "../src/tree/tree.h"
 
 /* A lit texel's quad. */
 typedef struct texel_quad {

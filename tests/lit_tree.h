@@ -2,7 +2,7 @@
 #ifndef TEST_LIT_TREE_H
 #define TEST_LIT_TREE_H
 
-#include "../src/lightcut/tree.h"
+#include "../src/tree/tree.h"
 #include "world.h"
 
 enum { LIT_SIDE = 256, LIT_FACES = 12, LIT_SMALL = LIT_SIDE / 2 /* texels a side, of one face or of all */ };

@@ -5,7 +5,7 @@
 
 #include <lambent/voxel.h>
 
-#include "../src/voxel/octree.h"
+#include "../src/mixed/octree.h"
 
 static inline void voxel_sum(double out[6][3], const lmb_voxels *v, int32_t field)
 {

@@ -84,7 +84,7 @@ typedef struct lmb_cut {
     } of;
     lmb_cut_slot next[LMB_MAX_CUT];    /* the next node in its bucket */
     lmb_cut_slot bucket[LMB_CUT_BUCKETS]; /* the first node of each; buckets are sorted by exponent and first bit */
-    float bounds_of_nodes[23][LMB_BOUNDS_NODES]; /* nodes side by side; src/lightcut lists the planes */
+    float bounds_of_nodes[23][LMB_BOUNDS_NODES]; /* nodes side by side; src/tree/node_bounds.inl lists the planes */
     lmb_emitter emitter[LMB_CUT_BLOCK];
     union {
         float pairs[3][LMB_GATHER_PAIRS]; /* while the cut lights pixels */

@@ -12,7 +12,7 @@ PORT_LDFLAGS := -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--no-warn-rwx-segm
 PORT_LDLIBS  := -lgcc
 
 # Code that gba.ld puts into fast RAM uses wide instructions; ROM, which has 16 bits, uses narrow ones.
-HOT_OBJ := $(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/fixed/$(f).o)
+HOT_OBJ := $(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/vertex/$(f).o)
 $(HOT_OBJ): COMPILE += -marm -O2
 
 # Without these flags the compiler would turn a loop in memset into a call of memset, which would never end; and at the

@@ -3,7 +3,8 @@
 GL_OUT     := $(BUILD)/gl
 GL_SRC     := $(sort $(wildcard platform/gl/gl_*.c))
 # The modules that draw.h and its kernels need.
-GL_LIB     := $(wildcard src/base/*.c src/draw/*.c src/isa/*.c) src/bounce/polygon.c \
+GL_LIB     := $(filter-out $(addprefix src/base/,motion.c pack.c records.c),$(wildcard src/base/*.c src/draw/*.c src/isa/*.c)) \
+    src/bounce/polygon.c \
     $(addprefix src/raster/,setup.c target.c texture.c plane.c)
 GL_OBJ     := $(patsubst %.c,$(GL_OUT)/obj/%.o,$(GL_SRC) $(GL_LIB))
 GL_NAMES   := $(addprefix $(GL_OUT)/,libOSMesa.so.8 libOSMesa.so libOpenGL.so.0 libGL.so.1)

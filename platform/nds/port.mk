@@ -13,7 +13,7 @@ PORT_LDFLAGS := -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--no-warn-rwx-segm
 PORT_LDLIBS  := -lgcc
 
 # Optimises hot code for speed.
-HOT_OBJ := $(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/fixed/$(f).o)
+HOT_OBJ := $(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/vertex/$(f).o)
 $(HOT_OBJ): COMPILE += -O2
 
 # Without these flags the compiler would turn a loop in memset into a call of memset, which would never end; and at the

@@ -28,11 +28,10 @@ PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --sha
 PAGE_MAIN := -mllvm -inline-threshold=-20 -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
 PAGE_SIDE := -z stack-size=16 --global-base
 # Optimises hot code of frames for speed; the rest, and code that runs once a scene or for few pixels, for size.
-PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
-PAGE_ONCE := src/occlusion/build.c src/occlusion/occlude.c src/raster/texture.c src/raster/bins.c src/raster/cluster.c src/occlusion/occluded.c src/occlusion/hull.c src/occlusion/sun.c src/light/glossy.c src/light/light_tile.c src/light/direct.c \
+PAGE_FAST := src/raster/% src/transfer/% src/occlusion/% src/direct/shadow.c
+PAGE_ONCE := src/occlusion/build.c src/occlusion/occlude.c src/raster/texture.c src/raster/bins.c src/raster/cluster.c src/occlusion/occluded.c src/occlusion/hull.c src/occlusion/sun.c \
              $(patsubst %,src/raster/%.c,clip draw draw_one fill paint plane resolve setup target triangle) \
-             $(patsubst %,src/lightcut/%.c,crease cut pixel_cluster tree) src/transfer/transfer.c \
-             $(patsubst %,src/transfer/transfer_%.c,air collect light many_lights materials send)
+             src/transfer/transfer.c $(patsubst %,src/transfer/transfer_%.c,air collect light many_lights materials send)
 page_opt   = $(or $(PAGE_OPT),$(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz))
 
 # $(1): a folder of objects, $(2): flags, $(3): how they are optimised.

@@ -1,4 +1,4 @@
-/* discs.c: first points -> discs: mean neighbour distances, and points much closer than that join. Layer 6.
+/* discs.c: first points -> discs: mean neighbour distances, and points much closer than that join. Layer 5.
  *                                                                                      [V8 V9 V10 V11 V12 V14 V15]
  * Neighbours are found through the map's cells. The search covers the requested number of cells, or as many as a radius
  * in space can span. */

@@ -1,4 +1,4 @@
-/* gather.c: groups -> irradiance of a tile: far pairs at once, near groups through their discs. Layer 6. [V27 V28] */
+/* gather.c: groups -> irradiance of a tile: far pairs at once, near groups through their discs. Layer 5. [V27 V28] */
 #include <lambent/bounce.h>
 
 #include "../lane/lane_scalar.h"

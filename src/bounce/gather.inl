@@ -1,4 +1,4 @@
-/* gather.inl: groups of emitters -> irradiance of a tile's pixels, occluded by the viewer's depth. Layer 6.  [V25-V28]
+/* gather.inl: groups of emitters -> irradiance of a tile's pixels, occluded by the viewer's depth. Layer 5.  [V25-V28]
  *
  * Lanes are pixels. Groups are added one after another: this order is part of the contract. */
 #ifndef LMB_GATHER_FORMULA

@@ -1,4 +1,4 @@
-/* group.c: all discs into a fixed-size array of groups, by the chosen method. Layer 6.              [V13 V19 V20 V22]
+/* group.c: all discs into a fixed-size array of groups, by the chosen method. Layer 5.              [V13 V19 V20 V22]
  *
  * If there are too many groups, the zone or the reach grows and grouping restarts, so the discs always fit. */
 #include "group.h"

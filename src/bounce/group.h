@@ -1,4 +1,4 @@
-/* group.h: shared by the grouping methods: sums of discs, and one function per method. Layer 6. */
+/* group.h: shared by the grouping methods: sums of discs, and one function per method. Layer 5. */
 #ifndef LMB_BOUNCE_GROUP_H
 #define LMB_BOUNCE_GROUP_H
 

@@ -1,4 +1,4 @@
-/* group_greedy.c: discs -> groups around a chosen disc, until none fits. Layer 6.                        [V17 V18]
+/* group_greedy.c: discs -> groups around a chosen disc, until none fits. Layer 5.                        [V17 V18]
  *
  * A disc joins if its centre is within reach x the first disc's radius of the group's barycentre and the normals agree.
  * Each round of joining moves the barycentre, so rounds continue until one adds nothing. */

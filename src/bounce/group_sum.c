@@ -1,4 +1,4 @@
-/* group_sum.c: discs added up into a group. Layer 6.                                                       [V18 V19] */
+/* group_sum.c: discs added up into a group. Layer 5.                                                       [V18 V19] */
 #include "group.h"
 
 #include <string.h>

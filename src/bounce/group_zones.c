@@ -1,4 +1,4 @@
-/* group_zones.c: the disc map cut into square zones, one group each; misfits open further groups. Layer 6. [V20 V21]
+/* group_zones.c: the disc map cut into square zones, one group each; misfits open further groups. Layer 5. [V20 V21]
  *
  * The first disc of a zone leads. Another disc joins if its normal agrees with the group's and it lies within the size
  * of the zone from the barycentre; this separates a foreground edge from the wall behind it. Discs that do not fit the

@@ -1,4 +1,4 @@
-/* points.c: a shadow map -> first points: lit surface elements with their flux. Layer 6.      [V1 V2 V4 V5 V6 V7]
+/* points.c: a shadow map -> first points: lit surface elements with their flux. Layer 5.      [V1 V2 V4 V5 V6 V7]
  *
  * A block of b x b texels gives one element per surface. Texels with the same normal and plane are summed, so a fine
  * map costs more points only at the borders of surfaces. Each element becomes a quad of equal area. The sides of the
@@ -10,8 +10,8 @@
 
 #include "../base/memory_check.h"
 #include "../base/vec.h"
-#include "../map/footprint.h"
-#include "../map/texel.h"
+#include "../direct/footprint.h"
+#include "../direct/texel.h"
 #include "points.h"
 
 #if LMB_BOUNCE

@@ -1,4 +1,4 @@
-/* points.h: a face's first points collected in parts, each on a thread. Layer 6. */
+/* points.h: a face's first points collected in parts, each on a thread. Layer 5. */
 #ifndef LMB_BOUNCE_POINTS_H
 #define LMB_BOUNCE_POINTS_H
 

@@ -1,4 +1,4 @@
-/* polygon.c: the exact form factor from a point to a quad or triangle, clipped to the point's horizon. Layer 6.
+/* polygon.c: the exact form factor from a point to a quad or triangle, clipped to the point's horizon. Layer 5.
  *
  * Lambert (1760): E = B / 2 sum over edges of angle x (n . edge normal), with the plane of an edge through the point.
  * Here divided by pi B and by the polygon's area: W/m2 per watt of flux. */

@@ -1,4 +1,4 @@
-/* polygon.h: helpers of the form factors of polygons. Layer 6. */
+/* polygon.h: helpers of the form factors of polygons. Layer 5. */
 #ifndef POLYGON_H
 #define POLYGON_H
 

@@ -1,4 +1,4 @@
-/* adaptive.c: bounced light at samples of a lattice and between them; also runs the phases of live_phases.c. Layer 10.
+/* adaptive.c: bounced light at samples of a lattice and between them; also runs the phases of live_phases.c. Layer 8.
  *
  * r->light is the phase, r->progress the next band or window. In a phase a window writes only its own pixels, and reads
  * from others only results of earlier phases. So any order and number of threads gives the same bytes. */
@@ -6,8 +6,8 @@
 
 #include "../base/vec.h"
 #include "../bounce/points.h"
-#include "../compose/lattice.h"
 #include "../raster/tile.h"
+#include "lattice.h"
 #include "stages.h"
 #include "requires.h"
 

@@ -1,10 +1,10 @@
-/* bands.c: tiles of a band to the picture, and bands to the caller. Layer 10. */
+/* bands.c: tiles of a band to the picture, and bands to the caller. Layer 8. */
 #include <float.h>
 #include <string.h>
 
 #include "../base/poly.h"
 #include "../base/vec.h"
-#include "../compose/lattice.h"
+#include "lattice.h"
 #include "stages.h"
 #include "requires.h"
 

@@ -1,4 +1,4 @@
-/* begin.c: starts a frame, or another picture with the same light. Layer 10. [V31 V33] */
+/* begin.c: starts a frame, or another picture with the same light. Layer 8. [V31 V33] */
 #include <string.h>
 
 #include "stages.h"

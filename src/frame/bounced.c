@@ -1,4 +1,4 @@
-/* bounced.c: the bounced light of a tile, from cuts of the trees or from groups. Layer 10. */
+/* bounced.c: the bounced light of a tile, from cuts of the trees or from groups. Layer 8. */
 #include "../base/vec.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"

@@ -1,4 +1,4 @@
-/* eye.c: depth and ids of the view: the whole frame by steps or in parts, a strip of bands, or one band. Layer 10. */
+/* eye.c: depth and ids of the view: the whole frame by steps or in parts, a strip of bands, or one band. Layer 8. */
 #include <string.h>
 
 #include "../base/vec.h"

@@ -1,4 +1,4 @@
-/* frame_init.c: the size of a frame's memory, and the layout in one block. Layer 10. */
+/* frame_init.c: the size of a frame's memory, and the layout in one block. Layer 8. */
 #include <lambent/render.h>
 
 #include <string.h>

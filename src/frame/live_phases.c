@@ -1,4 +1,4 @@
-/* live_phases.c: light of single points at the samples of a grid, and between them: phases of adaptive.c. Layer 10.
+/* live_phases.c: light of single points at the samples of a grid, and between them: phases of adaptive.c. Layer 8.
  *
  * r->light is the phase, r->progress the next piece: two rows of tiles. In a phase a piece writes only its own samples,
  * and reads from others only results of earlier phases. So any order and number of threads gives the same bytes. Pixels
@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../compose/live_grid.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
+#include "live_grid.h"
 #include "stages.h"
 #include "requires.h"
 

@@ -1,4 +1,4 @@
-/* multisample.c: several samples of coverage and direct light per pixel, bounced light once per surface. Layer 10. */
+/* multisample.c: several samples of coverage and direct light per pixel, bounced light once per surface. Layer 8. */
 #include <string.h>
 
 #include "../base/vec.h"

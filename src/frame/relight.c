@@ -1,10 +1,10 @@
-/* relight.c: a band of objects in the world's light. Layer 10.                                    [S15-S17, S21-S24] */
+/* relight.c: a band of objects in the world's light. Layer 8.                                    [S15-S17, S21-S24] */
 #include <lambent/relight.h>
 
 #include <string.h>
 
 #include "../base/surface_check.h"
-#include "../light/light_tile.h"
+#include "../direct/light_tile.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
 

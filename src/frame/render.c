@@ -1,4 +1,4 @@
-/* render.c: runs the stages in order: the whole frame, or one bounded step at a time. Layer 10. [V33 V34] */
+/* render.c: runs the stages in order: the whole frame, or one bounded step at a time. Layer 8. [V33 V34] */
 #include "../base/vec.h"
 #include "../bounce/points.h"
 #include "stages.h"

@@ -1,4 +1,4 @@
-/* render_vertices.c: a frame's light at vertices, for lmb_draw_list. Layer 10.
+/* render_vertices.c: a frame's light at vertices, for lmb_draw_list. Layer 8.
  *
  * Vertices are the pixels of a scattered tile, without a triangle. A vertex without a normal gets the mean of the light
  * on all planes through it. A light contributes a quarter of the irradiance of a plane that faces the light: the mean
@@ -10,7 +10,7 @@
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../draw/draw_part.h"
-#include "../light/light_tile.h"
+#include "../direct/light_tile.h"
 #include "requires.h"
 #include "stages.h"
 

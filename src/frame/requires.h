@@ -1,4 +1,4 @@
-/* requires.h: the stages and memory that a frame requires. Layer 10. */
+/* requires.h: the stages and memory that a frame requires. Layer 8. */
 #ifndef LMB_FRAME_REQUIRES_H
 #define LMB_FRAME_REQUIRES_H
 

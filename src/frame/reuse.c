@@ -1,4 +1,4 @@
-/* reuse.c: starts the next frame of an animation and reuses unchanged results. Layer 10. [V33 V34]
+/* reuse.c: starts the next frame of an animation and reuses unchanged results. Layer 8. [V33 V34]
  *
  * A caller who changes the scene raises the scene's revisions. Changed settings show in the frame, and memory is the
  * same if the pointers are. A result is reused if all its inputs are unchanged: shadow maps depend on triangles and a

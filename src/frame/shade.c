@@ -1,8 +1,8 @@
-/* shade.c: direct light of a tile, and the radiance of the pixels towards the viewer. Layer 10. */
+/* shade.c: direct light of a tile, and the radiance of the pixels towards the viewer. Layer 8. */
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../light/light_tile.h"
+#include "../direct/light_tile.h"
 #include "../raster/plane.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"

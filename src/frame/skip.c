@@ -1,4 +1,4 @@
-/* skip.c: finds work that a frame can skip because it changes no byte of the picture. Layer 10.
+/* skip.c: finds work that a frame can skip because it changes no byte of the picture. Layer 8.
  *
  *   lobes, emission        if only unused materials have them
  *   a light of 0 W         all products with the intensity are 0; adding 0 changes no sum

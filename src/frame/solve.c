@@ -1,4 +1,4 @@
-/* solve.c: runs the stages of the light solution, by steps and in parts. Layer 10. [V33 V34] */
+/* solve.c: runs the stages of the light solution, by steps and in parts. Layer 8. [V33 V34] */
 
 #include "../base/vec.h"
 #include "../bounce/points.h"

@@ -1,4 +1,4 @@
-/* sparse.c: bounced light of every second or fourth pixel, and of pixels that these cannot represent. Layer 10.
+/* sparse.c: bounced light of every second or fourth pixel, and of pixels that these cannot represent. Layer 8.
  *
  * Most of a gather's cost is per tile: selecting nodes and testing their visibility. So the sparse pixels of several
  * tiles are gathered as one tile. Tiles are resolved again for each pass: storing one takes 4 KiB, resolving one takes

@@ -1,4 +1,4 @@
-/* stages.h: functions shared by the files of src/frame. Layer 10. */
+/* stages.h: functions shared by the files of src/frame. Layer 8. */
 #ifndef LMB_FRAME_STAGES_H
 #define LMB_FRAME_STAGES_H
 

@@ -1,4 +1,4 @@
-/* validate.c: checks whether a frame can be drawn: numbers, surfaces, settings. Layer 10. */
+/* validate.c: checks whether a frame can be drawn: numbers, surfaces, settings. Layer 8. */
 #include <string.h>
 
 #include "../base/surface_check.h"

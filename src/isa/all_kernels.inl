@@ -1,4 +1,4 @@
-/* all_kernels.inl: every kernel by one backend's verbs, and their table. Layer 12.
+/* all_kernels.inl: every kernel by one backend's verbs, and their table. Layer 9.
  *
  * The including file defines KERNEL(name), and BACKEND: the name for lmb_kernels_named. */
 #include "../lane/kernels.h"
@@ -14,34 +14,34 @@
 #endif
 #include "../raster/resolve.inl"
 #include "../raster/texture.inl"
-#include "../light/direct.inl"
+#include "../direct/direct.inl"
 #if LMB_BOUNCE
 #include "../bounce/gather.inl"
 #endif
-#include "../compose/blend.inl"
-#include "../compose/encode.inl"
+#include "../frame/blend.inl"
+#include "../frame/encode.inl"
 #if LMB_TREES
-#include "../lightcut/gather_cut.inl"
-#include "../lightcut/node_bounds.inl"
-#include "../manylights/many_lights.inl"
+#include "../tree/gather_cut.inl"
+#include "../tree/node_bounds.inl"
+#include "../tree/many_lights.inl"
 #include "../occlusion/crossed.inl"
 #include "../occlusion/sun.inl"
 #endif
 #if LMB_LIVE
 #include "../live/live_sum.inl"
-#include "../compose/live_fill.inl"
+#include "../frame/live_fill.inl"
 #endif
 #if LMB_LOBES
-#include "../light/lobe.inl"
+#include "../direct/lobe.inl"
 #endif
 #if LMB_TREES
-#include "../lightcut/gather_glossy.inl"
+#include "../tree/gather_glossy.inl"
 #endif
 #if LMB_DRAW_LANES
 #include "../draw/draw_lanes.inl"
 #endif
 #if LMB_TRANSFER
-#include "../map/texel.inl"
+#include "../direct/texel.inl"
 #include "../transfer/links.inl"
 #include "../transfer/coverage.inl"
 #include "../transfer/halve.inl"
@@ -54,7 +54,7 @@
 #include "../probe/blur.inl"
 #endif
 #if LMB_VOXELS
-#include "../voxel/cone.inl"
+#include "../mixed/cone.inl"
 #endif
 #if LMB_RELIEF
 #include "../relief/warp.inl"

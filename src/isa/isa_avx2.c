@@ -1,4 +1,4 @@
-/* isa_avx2.c: every kernel by AVX2, eight pixels at a time. Layer 12. */
+/* isa_avx2.c: every kernel by AVX2, eight pixels at a time. Layer 9. */
 #include "../base/exact.h"
 #include "../lane/backends.h"
 

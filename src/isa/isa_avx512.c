@@ -1,4 +1,4 @@
-/* isa_avx512.c: every kernel by AVX-512, sixteen pixels at a time. Layer 12. */
+/* isa_avx512.c: every kernel by AVX-512, sixteen pixels at a time. Layer 9. */
 #include "../base/exact.h"
 #include "../lane/backends.h"
 

@@ -1,4 +1,4 @@
-/* isa_neon.c: every kernel by AArch64's NEON, four pixels at a time. Layer 12. */
+/* isa_neon.c: every kernel by AArch64's NEON, four pixels at a time. Layer 9. */
 #include "../base/exact.h"
 #include "../lane/backends.h"
 

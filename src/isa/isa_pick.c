@@ -1,4 +1,4 @@
-/* isa_pick.c: picks a backend's kernels, and tests that they compute exact results. Layer 12.
+/* isa_pick.c: picks a backend's kernels, and tests that they compute exact results. Layer 9.
  *
  * On x86 this queries the processor and the system: registers that the system does not save across threads are
  * unusable. Each call queries again, because a cached answer would be writable data. A call costs a few hundred cycles,

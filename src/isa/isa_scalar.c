@@ -1,4 +1,4 @@
-/* isa_scalar.c: every kernel in plain C, LANES pixels at a time. Layer 12. */
+/* isa_scalar.c: every kernel in plain C, LANES pixels at a time. Layer 9. */
 #include "../lane/lane_scalar.h"
 
 #define BACKEND "scalar"

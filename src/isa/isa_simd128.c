@@ -1,4 +1,4 @@
-/* isa_simd128.c: every kernel by WebAssembly's simd128, four pixels at a time. Layer 12. */
+/* isa_simd128.c: every kernel by WebAssembly's simd128, four pixels at a time. Layer 9. */
 #include "../base/exact.h"
 #include "../lane/backends.h"
 

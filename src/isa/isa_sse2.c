@@ -1,4 +1,4 @@
-/* isa_sse2.c: every kernel by SSE2, four pixels at a time. Layer 12. */
+/* isa_sse2.c: every kernel by SSE2, four pixels at a time. Layer 9. */
 #include "../base/exact.h"
 #include "../lane/backends.h"
 

@@ -1,4 +1,4 @@
-/* live_build.c: first points sorted by world cell -> a tree of chunks of sixteen nodes. Layer 6.                [ours]
+/* live_build.c: first points sorted by world cell -> a tree of chunks of sixteen nodes. Layer 5.                [ours]
  *
  * A key is a cell of 1/16 of the world, one of six sides, then the path down to a cell of 1/512 along a Z curve. Points
  * that share a cell of some level and a plane form a node and are adjacent. Levels are built one after another, so if

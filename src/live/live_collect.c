@@ -1,4 +1,4 @@
-/* live_collect.c: a shadow map -> the first points of the live tree: one for each block of texels. Layer 6.     [ours]
+/* live_collect.c: a shadow map -> the first points of the live tree: one for each block of texels. Layer 5.     [ours]
  *
  * A hash selects one texel of each block as the block's point. So points do not line up along the map, and surfaces
  * that share a block are selected in proportion to their visible area. The point gets all the light through the block.

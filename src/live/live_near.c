@@ -1,4 +1,4 @@
-/* live_near.c: refines near nodes: a leaf's first points, a point's texels, parts of a texel. Layer 6.          [ours]
+/* live_near.c: refines near nodes: a leaf's first points, a point's texels, parts of a texel. Layer 5.          [ours]
  *
  * A first point represents a block of texels. Near a receiver the block's texels are used, each where the map sampled
  * it; still nearer, parts of each texel. A part lies off the texel's middle, where the map has no sample, so it stays

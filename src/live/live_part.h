@@ -1,4 +1,4 @@
-/* live_part.h: functions shared by the files of src/live. Layer 6. */
+/* live_part.h: functions shared by the files of src/live. Layer 5. */
 #ifndef LMB_LIVE_PART_H
 #define LMB_LIVE_PART_H
 
@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../map/footprint.h"
-#include "../map/texel.h"
+#include "../direct/footprint.h"
+#include "../direct/texel.h"
 
 /* Returns the mask of requested rays in scratch->rays that something blocks. */
 uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_bvh *bvh,

@@ -1,4 +1,4 @@
-/* live_ray.c: which segments of a receiver are blocked: one packet from one origin. Layer 6.                    [ours]
+/* live_ray.c: which segments of a receiver are blocked: one packet from one origin. Layer 5.                    [ours]
  *
  * Whether a triangle blocks a segment depends only on these two, and so does whether the segment meets a box. So the
  * order of the traversal and the other segments do not change the result. */

@@ -1,4 +1,4 @@
-/* live_receive.c: the light of one receiver: cut, sums, strata, packet, share. Layer 6.                       [ours] */
+/* live_receive.c: the light of one receiver: cut, sums, strata, packet, share. Layer 5.                       [ours] */
 #include "live_part.h"
 
 #include <string.h>

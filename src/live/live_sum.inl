@@ -1,4 +1,4 @@
-/* live_sum.inl: a receiver's cut of the live tree, and the targets of the segments. Layer 6.                    [ours]
+/* live_sum.inl: a receiver's cut of the live tree, and the targets of the segments. Layer 5.                    [ours]
  *
  * Lanes are the nodes of a chunk, sixteen on every backend; sums over them use one fixed tree. */
 

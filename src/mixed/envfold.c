@@ -1,7 +1,7 @@
 /* envfold.c: folds the picture outwards, as light from unseen directions. Layer 6.      [M14-M19] */
 #include "../base/poly.h"
 #include "../base/vec.h"
-#include "../map/cube.h"
+#include "../probe/cube.h"
 #include <lambent/mixed.h>
 
 #if LMB_MIXED

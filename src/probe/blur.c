@@ -1,4 +1,4 @@
-/* blur.c: irradiance by blurring a map's columns, then its rows. Layer 6. [S11-S13]
+/* blur.c: irradiance by blurring a map's columns, then its rows. Layer 5. [S11-S13]
  *
  * The paper blurs by cos of the angle in latitude, then in longitude, with the same kernel everywhere. The exact weight
  * between a normal and a direction is max(0, n . d), which is such a product only at the equator. Fitted kernels are
@@ -9,7 +9,7 @@
 #include "../base/memory_check.h"
 #include "../base/poly.h"
 #include "../lane/kernels.h"
-#include "../map/cube.h"
+#include "cube.h"
 
 #if LMB_PROBES
 

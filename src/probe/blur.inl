@@ -1,4 +1,4 @@
-/* blur.inl: one row of a map's blur: down the columns, then along the row. Layer 6.                               [S11]
+/* blur.inl: one row of a map's blur: down the columns, then along the row. Layer 5.                               [S11]
  *
  * Four independent sums hide the latency of additions. Lanes are columns. */
 

@@ -1,4 +1,4 @@
-/* cache.c: finds objects with valid cubes, and slots for new ones. Layer 6.                      [S18-S20] */
+/* cache.c: finds objects with valid cubes, and slots for new ones. Layer 5.                      [S18-S20] */
 #include <string.h>
 
 #include "../base/vec.h"

@@ -1,4 +1,4 @@
-/* cosine.inl: irradiance of normals from lights in all directions. Layer 6.                                       [S14]
+/* cosine.inl: irradiance of normals from lights in all directions. Layer 5.                                       [S14]
  *
  * Pi times the mean of the lights weighted by max(0, n . d), plus peaks along their own directions. Lanes are
  * normals. */

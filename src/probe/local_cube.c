@@ -1,8 +1,8 @@
-/* local_cube.c: a map -> lights of 6 x 8 x 8 directions -> irradiance by normal. Layer 6.                 [S14] */
+/* local_cube.c: a map -> lights of 6 x 8 x 8 directions -> irradiance by normal. Layer 5.                 [S14] */
 #include <string.h>
 
 #include "../lane/kernels.h"
-#include "../map/cube.h"
+#include "cube.h"
 
 #if LMB_PROBES
 

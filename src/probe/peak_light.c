@@ -1,4 +1,4 @@
-/* peak_light.c: visibility of a world's peaks from a point, and their light in a map. Layer 6. [S5-S8] */
+/* peak_light.c: visibility of a world's peaks from a point, and their light in a map. Layer 5. [S5-S8] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "world.h"

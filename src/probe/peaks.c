@@ -1,4 +1,4 @@
-/* peaks.c: finds small lights in a world's cube, which sampling would miss or count twice. Layer 6.         [S8 S14]
+/* peaks.c: finds small lights in a world's cube, which sampling would miss or count twice. Layer 5.         [S8 S14]
  *
  * Within each quarter by quarter of a face, light over four times the mean is a peak. The mean is then recomputed with
  * light clamped to this limit, TURNS times. So the sun is found at any brightness, and half of a wide window is not.
@@ -6,7 +6,7 @@
 #include "world.h"
 
 #include "../base/poly.h"
-#include "../map/cube.h"
+#include "cube.h"
 
 enum { WIDE = 4, NARROW = LMB_WORLD_NARROW, TURNS = 3 };
 

@@ -1,11 +1,11 @@
-/* probe_shade.c: small cubes with borders, and their light on the pixels of a tile. Layer 6.      [S17 S21 S22] */
+/* probe_shade.c: small cubes with borders, and their light on the pixels of a tile. Layer 5.      [S17 S21 S22] */
 #include <string.h>
 
 #include "../base/memory_check.h"
-#include "../light/glossy.h"
+#include "../direct/glossy.h"
 #include "../raster/plane.h"
 #include "../raster/tile.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include "world.h"
 
 #if LMB_PROBES

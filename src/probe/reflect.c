@@ -1,4 +1,4 @@
-/* reflect.c: reflection of the world on a rough surface, by reflected direction, as a cube. Layer 6. [S16 S17 S22]
+/* reflect.c: reflection of the world on a rough surface, by reflected direction, as a cube. Layer 5. [S16 S17 S22]
  *
  * The lobe of lmb_glossy for a viewer straight above: D(h) G(l) / 4 around a direction. Rays are distributed in
  * proportion to D / 4 and weighted by Smith's G (Walter et al. 2007, Heitz 2014). Each ray is as wide as its share of
@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "../base/poly.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include "world.h"
 
 #if LMB_PROBES

@@ -1,4 +1,4 @@
-/* remap.c: sets up jobs and runs the kernels that see the world from a point or along rays. Layer 6. [S5-S8, S17] */
+/* remap.c: sets up jobs and runs the kernels that see the world from a point or along rays. Layer 5. [S5-S8, S17] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../lane/kernels.h"

@@ -1,4 +1,4 @@
-/* remap.inl: radiance that rays see: by direction from a point, or one ray per pixel. Layer 6. [S5-S8, S17]
+/* remap.inl: radiance that rays see: by direction from a point, or one ray per pixel. Layer 5. [S5-S8, S17]
  *
  * Lanes are rays. A ray meets the far world at q, which the cube shows along q - centre. It also meets the ground if it
  * descends to the ground inside the picture. Both are read bilinearly, from a level with texels about as wide as the

@@ -1,11 +1,11 @@
-/* sh.c: a map's spherical harmonics, and irradiance from them. Layer 6.                                          [S25]
+/* sh.c: a map's spherical harmonics, and irradiance from them. Layer 5.                                          [S25]
  *
  * A harmonic is a function of latitude times cos m a or sin m a. Each row is first summed against the nine waves, then
  * the waves against the latitude functions: width x 9 products per row instead of width x 25. */
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include <lambent/probe.h>
 
 enum { WAVES = 9, BANDS = 5 };

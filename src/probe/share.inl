@@ -1,4 +1,4 @@
-/* share.inl: adds a map's light, two by two texels, to the nine nearest of 6 x 8 x 8 directions. Layer 6. [S14]
+/* share.inl: adds a map's light, two by two texels, to the nine nearest of 6 x 8 x 8 directions. Layer 5. [S14]
  *
  * The weights preserve the sum, mean position and spread of the lights, so light that is smooth over three texels comes
  * out right. With four texels, which spread more, the error is half as large again; with one it is two to three times

@@ -1,9 +1,9 @@
-/* table.c: directions of the texels in a latitude-longitude map, and tables for the filters. Layer 6.    [S9 S10] */
+/* table.c: directions of the texels in a latitude-longitude map, and tables for the filters. Layer 5.    [S9 S10] */
 #include <string.h>
 
 #include "../base/memory_check.h"
 #include "../base/poly.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include <lambent/probe.h>
 
 enum { WAVES = 9, LEGENDRE = 15 };

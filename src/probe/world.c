@@ -1,10 +1,10 @@
-/* world.c: the world's pictures -> coded texels and mip levels, in the caller's memory. Layer 6.            [S1-S4] */
+/* world.c: the world's pictures -> coded texels and mip levels, in the caller's memory. Layer 5.            [S1-S4] */
 #include <string.h>
 
 #include "../base/halve.h"
 #include "../base/memory_check.h"
 #include "../base/poly.h"
-#include "../map/cube.h"
+#include "cube.h"
 #include "world.h"
 
 /* --- sizes -------------------------------------------------------------------------------------------------------- */

@@ -1,4 +1,4 @@
-/* world.h: access to single texels of the world, and to the whole for the kernels. Layer 6. */
+/* world.h: access to single texels of the world, and to the whole for the kernels. Layer 5. */
 #ifndef LMB_PROBE_WORLD_H
 #define LMB_PROBE_WORLD_H
 

@@ -1,4 +1,4 @@
-/* world_texel.c: one texel of a world, coded and back. Layer 6.                                             [S4] */
+/* world_texel.c: one texel of a world, coded and back. Layer 5.                                             [S4] */
 #include "../base/poly.h"
 #include "world.h"
 

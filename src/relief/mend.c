@@ -1,4 +1,4 @@
-/* mend.c: corrects single pixels of a warped tile that disagree with their neighbours. Layer 6.                   [P12]
+/* mend.c: corrects single pixels of a warped tile that disagree with their neighbours. Layer 5.                   [P12]
  *
  * Near a depth discontinuity that no view captures well, single rays slip between the texels of two views or hit a
  * surface that another view shows elsewhere. Simple models also have gaps of one pixel. A one-pixel speck is

@@ -1,4 +1,4 @@
-/* mend.h: corrects single pixels of a warped tile that disagree with their neighbours. Layer 6. */
+/* mend.h: corrects single pixels of a warped tile that disagree with their neighbours. Layer 5. */
 #ifndef MEND_H
 #define MEND_H
 

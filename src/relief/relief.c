@@ -1,4 +1,4 @@
-/* relief.c: opens a .lmr in place: checks the whole file once, then trusts it. Layer 6. [P10] */
+/* relief.c: opens a .lmr in place: checks the whole file once, then trusts it. Layer 5. [P10] */
 #include <lambent/relief.h>
 
 #include <string.h>

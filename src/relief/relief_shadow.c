@@ -1,4 +1,4 @@
-/* relief_shadow.c: the complex surface in its shadow map, and the shadow test. Layer 6. [P7 P8 P9]
+/* relief_shadow.c: the complex surface in its shadow map, and the shadow test. Layer 5. [P7 P8 P9]
  *
  * Williams (1978): the shadow map holds depths of the complex surface, warped like the eye's picture. A point is in
  * shadow if the map has a nearer surface. The point is the candidate of the chosen view (P8), so it projects to the map
@@ -8,7 +8,7 @@
 
 #include "../base/light_kind.h"
 #include "../base/vec.h"
-#include "../map/part.h"
+#include "../direct/part.h"
 #include "../raster/target.h"
 #include "mend.h"
 

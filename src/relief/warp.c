@@ -1,4 +1,4 @@
-/* warp.c: a tile of the simple model becomes one of the complex surface: which views, then the kernel. Layer 6.
+/* warp.c: a tile of the simple model becomes one of the complex surface: which views, then the kernel. Layer 5.
  * [P2 P3 P5 P6 P11 P12] */
 #include <lambent/relief.h>
 

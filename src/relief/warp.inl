@@ -1,4 +1,4 @@
-/* warp.inl: intersects the eye's rays with the complex surface, using the reference views. Layer 6.         [P3-P6 P12]
+/* warp.inl: intersects the eye's rays with the complex surface, using the reference views. Layer 5.         [P3-P6 P12]
  *
  * Lanes are pixels. Let q be a point on a pixel's ray. A view has q at texel (u, v) with depth d and shows a surface of
  * depth s there: a candidate. f = d - s is positive if q is in front of the surface, negative if q is behind. Between

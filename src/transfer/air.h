@@ -1,4 +1,4 @@
-/* air.h: light on moving objects, from points in the air around them. Layer 9. */
+/* air.h: light on moving objects, from points in the air around them. Layer 7. */
 #ifndef LMB_TRANSFER_AIR_H
 #define LMB_TRANSFER_AIR_H
 

@@ -1,4 +1,4 @@
-/* blend.h: light blended from up to four clusters. Layer 9. */
+/* blend.h: light blended from up to four clusters. Layer 7. */
 #ifndef LMB_TRANSFER_BLEND_H
 #define LMB_TRANSFER_BLEND_H
 

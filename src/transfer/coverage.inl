@@ -1,4 +1,4 @@
-/* coverage.inl: divides the cells of a shadow map block among triangles. Layer 9. */
+/* coverage.inl: divides the cells of a shadow map block among triangles. Layer 7. */
 #ifndef LMB_TRANSFER_COVERAGE_INL
 #define LMB_TRANSFER_COVERAGE_INL
 

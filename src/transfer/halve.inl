@@ -1,4 +1,4 @@
-/* halve.inl: splits the light of 8 x 8 blocks along the line between two halves of a triangle. Layer 9. */
+/* halve.inl: splits the light of 8 x 8 blocks along the line between two halves of a triangle. Layer 7. */
 #ifndef LMB_TRANSFER_HALVE_INL
 #define LMB_TRANSFER_HALVE_INL
 

@@ -1,4 +1,4 @@
-/* halvings.h: a triangle halved repeatedly: from a point on the triangle to the piece that contains it. Layer 9. */
+/* halvings.h: a triangle halved repeatedly: from a point on the triangle to the piece that contains it. Layer 7. */
 #ifndef LMB_TRANSFER_HALVINGS_H
 #define LMB_TRANSFER_HALVINGS_H
 

@@ -1,4 +1,4 @@
-/* links.h: a link's weight, a list's unit of weight, and a check that light is initialized. Layer 9. */
+/* links.h: a link's weight, a list's unit of weight, and a check that light is initialized. Layer 7. */
 #ifndef LMB_TRANSFER_LINKS_H
 #define LMB_TRANSFER_LINKS_H
 

@@ -1,4 +1,4 @@
-/* links.inl: light that arrives through links: sums of node light times weights. Layer 9.
+/* links.inl: light that arrives through links: sums of node light times weights. Layer 7.
  *
  * Four links at a time; the rest are padded with a weight of 0. The sums are of integers, so they are exact in any
  * order. */

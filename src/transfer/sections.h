@@ -1,4 +1,4 @@
-/* sections.h: words per entry of each section of a .lmt. Layer 9. */
+/* sections.h: words per entry of each section of a .lmt. Layer 7. */
 #ifndef LMB_TRANSFER_SECTIONS_H
 #define LMB_TRANSFER_SECTIONS_H
 

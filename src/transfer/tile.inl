@@ -1,4 +1,4 @@
-/* tile.inl: the pixels of a tile that lie on a triangle, and their light from one leaf. Layer 9. */
+/* tile.inl: the pixels of a tile that lie on a triangle, and their light from one leaf. Layer 7. */
 #ifndef LMB_TRANSFER_TILE_INL
 #define LMB_TRANSFER_TILE_INL
 

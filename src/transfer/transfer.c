@@ -1,4 +1,4 @@
-/* transfer.c: opens a .lmt in place: checks the whole file once, then trusts it. Layer 9. */
+/* transfer.c: opens a .lmt in place: checks the whole file once, then trusts it. Layer 7. */
 #include <lambent/transfer.h>
 
 #include <string.h>

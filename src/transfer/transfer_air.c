@@ -1,4 +1,4 @@
-/* transfer_air.c: light on moving objects, from points in the air around them. Layer 9.
+/* transfer_air.c: light on moving objects, from points in the air around them. Layer 7.
  *
  * The eight grid points around a pixel have trilinear weights, times a factor that falls with the angle between the
  * face normal and the way to the point: behind the face a wall and another room may lie. Light comes from six sides; a

@@ -1,4 +1,4 @@
-/* transfer_collect.c: light from shadow maps to elements. Layer 9.
+/* transfer_collect.c: light from shadow maps to elements. Layer 7.
  *
  * A face of a map is read in blocks of texels, 8 x 8 blocks at once. First each block's light is divided among the
  * triangles that the block shows: each of at most 4 x 4 cells reads the surrounding ids, and a triangle gets the part
@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../map/texel.h"
+#include "../direct/texel.h"
 #include "../raster/target.h"
 #include "halvings.h"
 #include "links.h"

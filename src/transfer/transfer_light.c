@@ -1,4 +1,4 @@
-/* transfer_light.c: memory of the light, and light through links from nodes to receivers. Layer 9. */
+/* transfer_light.c: memory of the light, and light through links from nodes to receivers. Layer 7. */
 #include <lambent/transfer.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* transfer_many_lights.c: light of many lights on elements, with the same cuts as pixels. Layer 9. [V3] */
+/* transfer_many_lights.c: light of many lights on elements, with the same cuts as pixels. Layer 7. [V3] */
 #include <lambent/transfer.h>
 
 #include <string.h>

@@ -1,10 +1,10 @@
-/* transfer_materials.c: mean albedo and emission of elements, from the scene's materials. Layer 9. */
+/* transfer_materials.c: mean albedo and emission of elements, from the scene's materials. Layer 7. */
 #include <lambent/transfer.h>
 
 #include <string.h>
 
 #include "../base/poly.h"
-#include "../radiosity/piece.h"
+#include "../tree/piece.h"
 #include "halvings.h"
 
 #if LMB_TRANSFER

@@ -1,4 +1,4 @@
-/* transfer_send.c: light that elements send: reflected, reflected again, and emitted. Layer 9. */
+/* transfer_send.c: light that elements send: reflected, reflected again, and emitted. Layer 7. */
 #include <lambent/transfer.h>
 
 #include <string.h>

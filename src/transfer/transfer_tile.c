@@ -1,4 +1,4 @@
-/* transfer_tile.c: light of a tile's pixels, from the receivers around them. Layer 9. */
+/* transfer_tile.c: light of a tile's pixels, from the receivers around them. Layer 7. */
 #include <lambent/transfer.h>
 
 #include <string.h>

@@ -1,7 +1,7 @@
 /* main_plan.c: fits the cost of operations to measured scenes.
  *
  *   measure-plan measure FILE [SCENE ...]   draw scenes by many settings; append rows to FILE
- *   measure-plan model FILE                 fit the model to the rows of fitted scenes, as src/plan/plan_model.inc */
+ *   measure-plan model FILE                 fit the model to the rows of fitted scenes, as src/frame/plan_model.inc */
 #include <stdlib.h>
 #include <string.h>
 

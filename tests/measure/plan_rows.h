@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "../../src/plan/plan_model.h"
+#include "../../src/frame/plan_model.h"
 #include "../../tools/render/render_job.h"
 
 enum { PLAN_WIDTH = 240, PLAN_HEIGHT = 180, PLAN_SCENES = 16, PLAN_RUNS = 64, PLAN_TIMES = LMB_STAGE_DONE };

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/map/cube.h"
+#include "../../src/probe/cube.h"
 #include "../truth_scene.h"
 #include "relight_stage.h"
 

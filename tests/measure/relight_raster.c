@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../src/map/cube.h"
+#include "../../src/probe/cube.h"
 #include "../truth_scene.h"
 #include "relight_stage.h"
 

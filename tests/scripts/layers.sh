@@ -3,7 +3,7 @@
 #
 #     layers.sh          checks folders by #include and by nm; cycles between files in both; first lines; file names;
 #                        the plans in the README files; the rows of mutants.txt; and that it finds made-up faults
-#     layers.sh write    writes the plans into src/README.md and tools/README.md
+#     layers.sh write    writes the plans into src/README.md and tools/README.md, and the layers into the first lines
 . tests/scripts/checks.sh
 . tests/scripts/mutants.sh
 table=tests/scripts/layers.txt
@@ -35,6 +35,17 @@ put_plan() {
         /^<!-- layers: / { inside = 1; print "```"; while ((getline line < plan) > 0) print line; print "```" }
     ' "$1/README.md" >"$1/README.new" && mv "$1/README.new" "$1/README.md"
     rm "$1/plan.new"
+}
+
+# put_layers: corrects the layer in the first lines of src/'s files.
+put_layers() {
+    sed -n 's,^\(src/[^ ]*\) \([0-9]*\) .*,\1 \2,p' $table | while read -r folder layer; do
+        for file in "$folder"/*.c "$folder"/*.h "$folder"/*.inl; do
+            sed "1!d; /Layer $layer\\./d" "$file" 2>/dev/null | grep -q Layer || continue
+            sed "1s/Layer [0-9]*\\./Layer $layer./" "$file" >"$file.new" && cat "$file.new" >"$file"
+            rm "$file.new"
+        done
+    done
 }
 
 # Edges are lines `FROM TO`, as paths of sources.
@@ -120,6 +131,7 @@ none() {
 if [ "$1" = write ]; then
     put_plan src
     put_plan tools
+    put_layers
     exit
 fi
 

@@ -10,7 +10,7 @@
 
 #include <lambent/lambent.h>
 
-#include "../../src/map/cube.h"
+#include "../../src/probe/cube.h"
 #include "../truth_scene.h"
 
 void test_relight(void);

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "../../src/compose/lattice.h"
+#include "../../src/frame/lattice.h"
 #include "../../tools/demo/demo_scene.h"
 #include "../reused_frame.h"
 #include "../laid_out.h"

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/fixed/fixed_part.h"
-#include "../../src/fixed/number.h"
+#include "../../src/vertex/fixed_part.h"
+#include "../../src/vertex/number.h"
 #include "../small_fixed.h"
 #include "../test.h"
 

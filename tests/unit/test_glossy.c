@@ -1,5 +1,5 @@
 /* test_glossy.c: the glossy lobe: energy, the disc factor against integrals, and frames with and without it. */
-#include "../../src/light/glossy.h"
+#include "../../src/direct/glossy.h"
 
 #include "../world.h"
 

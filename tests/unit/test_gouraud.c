@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "../../src/base/codec.h"
-#include "../../src/gouraud/gouraud_fill.h"
-#include "../../src/gouraud/gouraud_light.h"
+#include "../../src/vertex/gouraud_fill.h"
+#include "../../src/vertex/gouraud_light.h"
 #include "../small_transfer.h"
 
 void test_gouraud(void);

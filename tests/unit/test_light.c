@@ -1,5 +1,5 @@
 /* test_light.c: direct light and its shadow test, against formulas and exact rays. [V3 V7 V29] */
-#include "../../src/light/shadow.h"
+#include "../../src/direct/shadow.h"
 #include "../world.h"
 
 void test_light(void);

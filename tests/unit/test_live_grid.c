@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "../../src/compose/live_grid.h"
+#include "../../src/frame/live_grid.h"
 #include "../../src/raster/tile.h"
 #include "../world.h"
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "../../src/base/vec.h"
-#include "../../src/map/cube.h"
+#include "../../src/probe/cube.h"
 #include "../../src/probe/world.h"
 #include "../test.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/map/cube.h"
+#include "../../src/probe/cube.h"
 #include "../world.h"
 
 void test_relit(void);

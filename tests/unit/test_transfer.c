@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "../../src/bounce/polygon.h"
-#include "../../src/light/glossy.h"
+#include "../../src/direct/glossy.h"
 #include "../../src/raster/target.h"
 #include "../../src/raster/tile.h"
 #include "../../src/raster/triangle.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "bake_triangle.h"
-#include "../../src/radiosity/piece.h"
+#include "../../src/tree/piece.h"
 
 enum { MESH = 500, CROWD = 8, WASTE = 4, CELL = 3 /* elements of a cell, at most, that walls separate */ };
 #define CONTACT 0.2f /* of an element's size: smallest size of elements that other geometry touches */

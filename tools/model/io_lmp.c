@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "../../src/pack/motion.h"
-#include "../../src/pack/records.h"
+#include "../../src/base/motion.h"
+#include "../../src/base/records.h"
 #include "../common/checksum.h"
 #include "model_motion.h"
 

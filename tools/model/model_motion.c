@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../src/pack/motion.h"
+#include "../../src/base/motion.h"
 
 /* --- matrices ----------------------------------------------------------------------------------------------------- */
 

@@ -1,4 +1,4 @@
-/* gen_fixed.c: prints src/fixed/number_tables.inc: reciprocals, powers and sRGB codes of the frame by integers.
+/* gen_fixed.c: prints src/vertex/number_tables.inc: reciprocals, powers and sRGB codes of the frame by integers.
  *
  * Uses only + - * / and sqrt in double, except for the sRGB curve, which has no entries near halves. */
 #include <math.h>

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/pack/records.h"
+#include "../../src/base/records.h"
 #include "../common/checksum.h"
 #include "pack.h"
 

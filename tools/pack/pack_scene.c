@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../../src/base/poly.h"
-#include "../../src/pack/records.h"
+#include "../../src/base/records.h"
 
 void pack_free(pack *p)
 {

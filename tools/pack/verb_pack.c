@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
-#include "../../src/pack/records.h"
+#include "../../src/base/records.h"
 #include "../common/option_value.h"
 #include "../common/options.h"
 #include "../demo/demo_scene.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "../../src/base/poly.h"
-#include "../../src/map/cube.h"
+#include "../../src/probe/cube.h"
 #include "../../src/raster/triangle.h"
 #include "../picture/world_read.h"
 

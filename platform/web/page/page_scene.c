@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../../src/lightcut/tree.h"
+#include "../../../src/tree/tree.h"
 #include "../../../tools/picture/grey.h"
 #include "../../../tools/picture/metrics.h"
 #include "../../../tools/picture/picture.h"

@@ -1,0 +1,29 @@
+/* shadow.h: tests by the shadow map whether a point of a surface is lit. Layer 4. */
+#ifndef LMB_DIRECT_SHADOW_H
+#define LMB_DIRECT_SHADOW_H
+
+#include <lambent/map.h>
+
+#include "../lane/kernels.h"
+
+/* A pixel's surface point. */
+typedef struct lmb_receiver {
+    lmb_vec3 position, face; /* world; unit normal */
+    uint32_t id;             /* its own triangle never shadows it */
+} lmb_receiver;
+
+/* The shadow map of one light, for any number of points that a view sees. */
+typedef struct lmb_shadow_query {
+    const lmb_shadow_map *map;
+    const lmb_light *light;
+    const lmb_scene *scene;
+    const lmb_view *view;
+    lmb_fill_window window; /* of the last face used */
+    int32_t face;           /* -1: none */
+} lmb_shadow_query;
+
+void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
+                    const lmb_view *view);
+int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *receiver);
+
+#endif

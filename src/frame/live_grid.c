@@ -1,0 +1,479 @@
+/* live_grid.c: chooses the pixels to light, and interpolates the light between them. Layer 8.                    [ours]
+ *
+ * A cell is divided if the parent cell predicted the samples badly, by more than their noise. Only the visible shares
+ * of shadows are noisy. The noise is removed from these, not from the light. */
+#include "live_grid.h"
+
+#include <string.h>
+
+#include "../raster/tile.h"
+
+#if LMB_LIVE
+
+#define STRAY     1.6f  /* max standard deviations between two shares that count as equal */
+#define EDGE      1.0f  /* error, as a share of the light's change over a cell with several surfaces */
+#define LEAST     0.02f /* min of p (1 - p): shares of 0 and 1 are uncertain too */
+#define WHOLE     254.0f /* full value of `seen` */
+#define SPLIT     800.0f /* over strata^2: sampling errors of shadows should not cause divisions */
+
+typedef char grid_fits_lattice[sizeof(live_grid_tile) + GRID_SAMPLES * sizeof(lmb_live_sample) <=
+                                       sizeof(lmb_lattice_tile)
+                                   ? 1
+                                   : -1];
+
+/* --- layout ------------------------------------------------------------------------------------------------------- */
+
+live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata)
+{
+    live_grid g;
+    g.tile = (live_grid_tile *)(void *)l->tile;
+    g.width = l->width;
+    g.height = l->height;
+    g.columns = (l->width + LMB_TILE - 1) / LMB_TILE;
+    g.rows = (l->height + LMB_TILE - 1) / LMB_TILE;
+    g.first = (lmb_live_sample *)(void *)(g.tile + (size_t)g.columns * (size_t)g.rows);
+    g.other = g.first + (size_t)g.columns * (size_t)g.rows;
+    g.mean = l->mean;
+    g.split = SPLIT / (float)(strata * strata);
+    g.noise = 1.0f / sqrtf((float)strata);
+    return g;
+}
+
+static lmb_live_sample *sample_at(const live_grid *g, int32_t x, int32_t y)
+{
+    return grid_sample(g, grid_tile(g, x / LMB_TILE, y / LMB_TILE),
+                       y % LMB_TILE / GRID_STEP * GRID_SIDE + x % LMB_TILE / GRID_STEP);
+}
+
+static int is_known(const live_grid *g, int32_t x, int32_t y)
+{
+    return grid_tile(g, x / LMB_TILE, y / LMB_TILE)->known >>
+               (y % LMB_TILE / GRID_STEP * GRID_SIDE + x % LMB_TILE / GRID_STEP) & 1;
+}
+
+/* Last column or row that may have a sample. */
+static int32_t last_of(int32_t size) { return (size - 1) / GRID_STEP * GRID_STEP; }
+
+/* Do all pixels show one triangle with its face normal? */
+static int is_flat(const lmb_tile *tile)
+{
+    uint32_t other = 0;
+    float turn = 0.0f;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        other |= tile->id[k] ^ tile->id[0];
+    }
+    for (int c = 0; c < 3 && other == 0; ++c) {
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            turn = maxf(turn, absf(tile->normal[c][k] - tile->face[c][0]));
+        }
+    }
+    return other == 0 && turn <= 1e-3f;
+}
+
+void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes)
+{
+    live_grid_tile *out = grid_tile(g, tile->x / LMB_TILE, tile->y / LMB_TILE);
+    out->shown = out->known = 0;
+    out->divided = out->parts = 0;
+    out->lobes = (uint8_t)(lobes != 0);
+    out->flat = (uint8_t)(tile->id[0] != 0 && !lobes && is_flat(tile));
+    for (int i = 0; i < GRID_SAMPLES && !lobes; ++i) {
+        out->shown |= (uint16_t)((unsigned)(tile->id[grid_pixel(i)] != 0) << i);
+    }
+}
+
+/* --- requested samples -------------------------------------------------------------------------------------------- */
+
+/* Samples that a tile's own cell requests: a mask of 5 x 5 samples, including the right and lower edges. */
+static uint32_t asks_of(const live_grid_tile *t, int32_t level)
+{
+    uint32_t out = 0;
+    if (level == 1 && t->divided) {
+        for (int i = 0; i < 25; i += 2) {
+            out |= (uint32_t)(i / 5 % 2 == 0 && i % 5 % 2 == 0) << i;
+        }
+    }
+    for (int part = 0; part < 4 && level == 2; ++part) {
+        if (t->parts >> part & 1) {
+            out |= (7u | 7u << 5 | 7u << 10) << (part % 2 * 2 + part / 2 * 10);
+        }
+    }
+    return out;
+}
+
+/* Mask of the 5 x 5 samples that lie in the neighbour tile `right` columns and `down` rows on. */
+static uint32_t in_tile(uint32_t square, int32_t right, int32_t down)
+{
+    uint32_t out = 0;
+    for (int i = 0; i < 25; ++i) {
+        const int32_t x = i % 5 - right * GRID_SIDE, y = i / 5 - down * GRID_SIDE;
+        if ((square >> i & 1u) && x >= 0 && x < GRID_SIDE && y >= 0 && y < GRID_SIDE) {
+            out |= 1u << (y * GRID_SIDE + x);
+        }
+    }
+    return out;
+}
+
+/* Cells at the right and lower edge of the frame end at the last samples. */
+static uint32_t at_edge(const live_grid *g, uint32_t square, int32_t column, int32_t row)
+{
+    const int32_t right = (last_of(g->width) - column * LMB_TILE) / GRID_STEP,
+                  low = (last_of(g->height) - row * LMB_TILE) / GRID_STEP;
+    uint32_t out = 0;
+    if (right >= GRID_SIDE && low >= GRID_SIDE) {
+        return square;
+    }
+    for (int i = 0; i < 25; ++i) {
+        out |= (square >> i & 1u) << (mini(i / 5, low) * 5 + mini(i % 5, right));
+    }
+    return out;
+}
+
+/* Level 0 has the first sample, and the last one at the right and lower edge of the frame. */
+static uint32_t first_of(const live_grid *g, int32_t column, int32_t row)
+{
+    const int32_t right = column == g->columns - 1 ? (last_of(g->width) - column * LMB_TILE) / GRID_STEP : 0,
+                  low = row == g->rows - 1 ? (last_of(g->height) - row * LMB_TILE) / GRID_STEP * GRID_SIDE : 0;
+    return 1u | 1u << right | 1u << low | 1u << (low + right);
+}
+
+uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int32_t level)
+{
+    const live_grid_tile *t = grid_tile(g, column, row);
+    uint32_t out = level == 0 ? first_of(g, column, row) : 0;
+    for (int i = 0; i < 4 && level > 0; ++i) {
+        const int32_t left = i & 1, up = i >> 1;
+        if (column >= left && row >= up) {
+            const uint32_t square = asks_of(grid_tile(g, column - left, row - up), level);
+            out |= square != 0 ? in_tile(at_edge(g, square, column - left, row - up), left, up) : 0;
+        }
+    }
+    return out & t->shown & ~(uint32_t)t->known;
+}
+
+/* --- between samples ---------------------------------------------------------------------------------------------- */
+
+/* Position of the grid sample before or after one in a row or column; -1 if there is none. */
+static int32_t before(int32_t x, int32_t step) { return x > 0 ? (x - 1) / step * step : -1; }
+static int32_t after(int32_t x, int32_t step, int32_t size)
+{
+    return x < last_of(size) ? mini((x / step + 1) * step, last_of(size)) : -1;
+}
+
+/* Finds the neighbour of a sample along columns (way 0) or rows. Returns the distance in px; 0 if there is none. */
+static float neighbour(const lmb_live_sample **out, const live_grid *g, int32_t x, int32_t y, int way, int ahead,
+                       int32_t step)
+{
+    const lmb_live_sample *own = sample_at(g, x, y);
+    for (int32_t s = step; s <= 2 * step; s *= 2) {
+        const int32_t from = way == 0 ? x : y, size = way == 0 ? g->width : g->height;
+        const int32_t to = ahead ? after(from, s, size) : before(from, s);
+        const int32_t at = way == 0 ? to : x, down = way == 0 ? y : to;
+        if (to >= 0 && is_known(g, at, down)) {
+            *out = sample_at(g, at, down);
+            if (live_agree(own, *out) > 0.0f) {
+                return (float)(to > from ? to - from : from - to);
+            }
+        }
+    }
+    return 0.0f;
+}
+
+static void set_slope(float slope[3], const live_grid *g, int32_t x, int32_t y, int way, int32_t step)
+{
+    const lmb_live_sample *own = sample_at(g, x, y), *less = own, *more = own;
+    const float down = neighbour(&less, g, x, y, way, 0, step), up = neighbour(&more, g, x, y, way, 1, step);
+    for (int i = 0; i < 3; ++i) {
+        const float from = own->light[i];
+        const float s0 = down > 0.0f ? (from - less->light[i]) / down : 0.0f;
+        const float s1 = up > 0.0f ? (more->light[i] - from) / up : 0.0f;
+        slope[i] = down > 0.0f && up > 0.0f ? (s0 * up + s1 * down) / (up + down) : s0 + s1;
+    }
+}
+
+/* A cell's position and corners; NULL if a corner is not known. */
+typedef struct cell {
+    int32_t x[2], y[2];
+    const lmb_live_sample *corner[4];
+} cell;
+
+static void set_cell(cell *out, const live_grid *g, int32_t x, int32_t y, int32_t step)
+{
+    out->x[0] = x;
+    out->y[0] = y;
+    out->x[1] = mini(x + step, last_of(g->width));
+    out->y[1] = mini(y + step, last_of(g->height));
+    for (int i = 0; i < 4; ++i) {
+        const int32_t at = out->x[i & 1], down = out->y[i >> 1];
+        out->corner[i] = is_known(g, at, down) ? sample_at(g, at, down) : NULL;
+    }
+}
+
+/* --- dividing ----------------------------------------------------------------------------------------------------- */
+
+static float all_of(const float light[3]) { return light[0] + light[1] + light[2]; }
+
+static float share_of(const lmb_live_sample *s)
+{
+    return (float)(s->seen[0] + s->seen[1] + s->seen[2]) / (3.0f * WHOLE);
+}
+
+/* Half the standard deviation of a sample's light, R + G + B, for a share from a single segment. */
+static float spread_of(const lmb_live_sample *s)
+{
+    const float share = share_of(s);
+    return s->is_lit && share > 0.0f && share < 1.0f ? 0.5f * all_of(s->light) * sqrtf((1.0f - share) / share) : 0.0f;
+}
+
+/* Prediction error of a cell's corners and slopes at a sample: R + G + B, beyond the sample's noise. */
+static float surplus_at(const live_grid *g, const cell *c, float slope[4][2][3], int32_t x, int32_t y)
+{
+    const lmb_live_sample *s = sample_at(g, x, y);
+    const float u = (float)(x - c->x[0]) / (float)maxi(c->x[1] - c->x[0], 1),
+                v = (float)(y - c->y[0]) / (float)maxi(c->y[1] - c->y[0], 1);
+    float weight[4], sum = 0.0f, by[3] = {0, 0, 0}, off = 0.0f;
+    int agree = 0;
+    if (!is_known(g, x, y)) {
+        return 0.0f;
+    }
+    for (int i = 0; i < 4; ++i) {
+        weight[i] = c->corner[i] != NULL ? live_agree(s, c->corner[i]) : 0.0f;
+        agree += weight[i] > 0.0f;
+        weight[i] *= (i & 1 ? u : 1.0f - u) * (i >> 1 ? v : 1.0f - v) + 0.001f;
+        sum += weight[i];
+    }
+    if (agree == 0) {
+        return 0.0f; /* the first sample of a surface has no prediction */
+    }
+    for (int i = 0; i < 4; ++i) {
+        const float w = weight[i] / sum, part = agree == 4 ? 0.5f : 1.0f;
+        const float dx = part * (float)(x - c->x[i & 1]), dy = part * (float)(y - c->y[i >> 1]);
+        for (int k = 0; k < 3 && w > 0.0f; ++k) {
+            by[k] += w * (c->corner[i]->light[k] + (slope[i][0][k] * dx + slope[i][1][k] * dy));
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        off += absf(s->light[k] - maxf(by[k], 0.0f));
+    }
+    return maxf(off - g->noise * spread_of(s), 0.0f);
+}
+
+/* Change of light over a cell with corners on several surfaces: R + G + B; 0 for other cells. No sample shows how the
+ * light continues to the edge between them. */
+static float change_at_edge(const live_grid *g, int32_t x, int32_t y, int32_t step)
+{
+    float change = 0.0f;
+    int edge = 0;
+    cell c;
+    set_cell(&c, g, x, y, step);
+    for (int i = 0; i < 4; ++i) {
+        const lmb_live_sample *a = c.corner[i], *b = c.corner[i ^ 1], *d = c.corner[i ^ 2];
+        edge |= a == NULL || (b != NULL && !(live_agree(a, b) > 0.0f)) || (d != NULL && !(live_agree(a, d) > 0.0f));
+    }
+    for (int i = 0; i < 4 && edge; ++i) {
+        float slope[2][3];
+        if (c.corner[i] != NULL) {
+            set_slope(slope[0], g, c.x[i & 1], c.y[i >> 1], 0, step);
+            set_slope(slope[1], g, c.x[i & 1], c.y[i >> 1], 1, step);
+            for (int way = 0; way < 2; ++way) {
+                const float along = absf(slope[way][0]) + absf(slope[way][1]) + absf(slope[way][2]);
+                change = maxf(change, along * (float)step - g->noise * spread_of(c.corner[i]));
+            }
+        }
+    }
+    return change;
+}
+
+/* Mask of the four parts of a cell of 2 x step px that are to be divided. */
+static uint32_t divide_parts(const live_grid *g, int32_t x, int32_t y, int32_t step)
+{
+    float surplus[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, slope[4][2][3];
+    uint32_t out = 0;
+    cell c;
+    set_cell(&c, g, x, y, 2 * step);
+    for (int i = 0; i < 4; ++i) {
+        for (int way = 0; way < 2 && c.corner[i] != NULL; ++way) {
+            set_slope(slope[i][way], g, c.x[i & 1], c.y[i >> 1], way, 2 * step);
+        }
+    }
+    for (int32_t i = 0; i < 9; ++i) {
+        if (i % 2 == 1 || i == 4) {
+            surplus[i] = surplus_at(g, &c, slope, mini(x + i % 3 * step, last_of(g->width)),
+                                    mini(y + i / 3 * step, last_of(g->height)));
+        }
+    }
+    for (int32_t i = 0; i < 4; ++i) {
+        const int32_t at = (i >> 1) * 3 + (i & 1);
+        const int32_t left = x + (i & 1) * step, top = y + (i >> 1) * step;
+        float worst = maxf(maxf(surplus[at], surplus[at + 1]), maxf(surplus[at + 3], surplus[at + 4])) / 3.0f;
+        if (left < g->width && top < g->height) {
+            worst = maxf(worst, EDGE * change_at_edge(g, left, top, step));
+        }
+        out |= (uint32_t)(worst * worst * (float)(step * step) > g->split * g->mean * g->mean) << i;
+    }
+    return out;
+}
+
+void lmb_live_grid_divide(const live_grid *g, int32_t row, int32_t level)
+{
+    for (int32_t column = 0; column < g->columns && level == 0; column += 2) {
+        const uint32_t divided = divide_parts(g, column * LMB_TILE, row * LMB_TILE, LMB_TILE);
+        for (int i = 0; i < 4; ++i) {
+            if (column + (i & 1) < g->columns && row + (i >> 1) < g->rows) {
+                grid_tile(g, column + (i & 1), row + (i >> 1))->divided = (uint8_t)(divided >> i & 1u);
+            }
+        }
+    }
+    for (int32_t i = 0; i < 2 * g->columns && level == 1; ++i) {
+        const int32_t column = i % g->columns, down = row + i / g->columns;
+        if (down < g->rows && grid_tile(g, column, down)->divided) {
+            grid_tile(g, column, down)->parts =
+                (uint8_t)divide_parts(g, column * LMB_TILE, down * LMB_TILE, LMB_TILE / 2);
+        }
+    }
+}
+
+float lmb_live_grid_mean(const live_grid *g)
+{
+    const size_t tiles = (size_t)g->columns * (size_t)g->rows;
+    double sum = 0.0, count = 0.0;
+    for (size_t i = 0; i < tiles; ++i) {
+        if (g->tile[i].known & 1u) {
+            sum += (double)all_of(g->first[i].light);
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? (float)(sum / count) : 0.0f;
+}
+
+/* --- noise -------------------------------------------------------------------------------------------------------- */
+
+static int is_on(int32_t x, int32_t step, int32_t size) { return x % step == 0 || x == last_of(size); }
+
+/* Step of the coarsest grid that contains a sample. */
+static int32_t own_step(const live_grid *g, int32_t x, int32_t y)
+{
+    int32_t step = LMB_TILE;
+    while (step > GRID_STEP && !(is_on(x, step, g->width) && is_on(y, step, g->height))) {
+        step /= 2;
+    }
+    return step;
+}
+
+static void add_share(float sum[4], const lmb_live_sample *from, float weight)
+{
+    for (int c = 0; c < 3; ++c) {
+        sum[c] += weight * (float)from->seen[c];
+    }
+    sum[3] += weight;
+}
+
+/* Replaces the sample's share by the mean of surrounding samples of the same step, on the same surface and within the
+ * noise. Fields that other threads may read meanwhile stay unchanged. */
+static void smooth(const live_grid *g, int32_t x, int32_t y)
+{
+    lmb_live_sample *own = sample_at(g, x, y);
+    const int32_t step = own_step(g, x, y);
+    const int32_t column[3] = {before(x, step), x, after(x, step, g->width)};
+    const int32_t row[3] = {before(y, step), y, after(y, step, g->height)};
+    const float share = share_of(own), max = STRAY * g->noise * sqrtf(maxf(share * (1.0f - share), LEAST));
+    float sum[4] = {0, 0, 0, 0};
+    if (!own->is_lit) {
+        return;
+    }
+    add_share(sum, own, 1.0f);
+    for (int i = 0; i < 9; ++i) {
+        if (i == 4 || column[i % 3] < 0 || row[i / 3] < 0 || !is_known(g, column[i % 3], row[i / 3])) {
+            continue;
+        }
+        const lmb_live_sample *s = sample_at(g, column[i % 3], row[i / 3]);
+        const float off = absf(share_of(s) - share);
+        if (s->is_lit && off <= max && live_agree(own, s) > 0.0f) {
+            add_share(sum, s, (i % 2 == 0 ? 0.5f : 0.75f) * (1.0f - 0.5f * off / max));
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        own->light[c] = own->slope[0][c] * (sum[c] / (sum[3] * WHOLE));
+    }
+}
+
+void lmb_live_grid_smooth(const live_grid *g, int32_t column, int32_t row)
+{
+    for (uint32_t bits = grid_tile(g, column, row)->known; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
+        smooth(g, column * LMB_TILE + k % GRID_SIDE * GRID_STEP, row * LMB_TILE + k / GRID_SIDE * GRID_STEP);
+    }
+}
+
+void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row)
+{
+    const live_grid_tile *t = grid_tile(g, column, row);
+    for (uint32_t bits = t->known; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
+        const int32_t x = column * LMB_TILE + k % GRID_SIDE * GRID_STEP,
+                      y = row * LMB_TILE + k / GRID_SIDE * GRID_STEP, step = own_step(g, x, y);
+        set_slope(grid_sample(g, t, k)->slope[0], g, x, y, 0, step);
+        set_slope(grid_sample(g, t, k)->slope[1], g, x, y, 1, step);
+    }
+}
+
+/* --- pixels ------------------------------------------------------------------------------------------------------- */
+
+/* Do all corners have full weight at a flat tile's first pixel? */
+static int is_even(const cell *c, const live_grid *g, const live_grid_tile *t)
+{
+    for (int i = 0; i < 4; ++i) {
+        if (!t->flat || c->corner[i] == NULL || live_agree(grid_sample(g, t, 0), c->corner[i]) < 1.0f) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Mask of pixels x .. x + step - 1 in rows y .. y + step - 1. */
+static uint64_t square(int32_t x, int32_t y, int32_t step)
+{
+    const uint64_t rows = step == LMB_TILE ? ~(uint64_t)0 : (((uint64_t)1 << LMB_TILE * step) - 1) << LMB_TILE * y;
+    return rows & ((((uint64_t)1 << step) - 1) << x) * 0x0101010101010101u;
+}
+
+static uint64_t fill_cell(lmb_irradiance *out, const lmb_kernels *kernels, const live_grid *g, const lmb_tile *tile,
+                          uint64_t shown, int32_t x, int32_t y, int32_t step)
+{
+    const live_grid_tile *t = grid_tile(g, tile->x / LMB_TILE, tile->y / LMB_TILE);
+    lmb_live_cell p;
+    cell c;
+    set_cell(&c, g, tile->x + x, tile->y + y, step);
+    memcpy(p.corner, c.corner, sizeof p.corner);
+    p.x[0] = (float)(c.x[0] - tile->x);
+    p.x[1] = (float)(c.x[1] - tile->x);
+    p.y[0] = (float)(c.y[0] - tile->y);
+    p.y[1] = (float)(c.y[1] - tile->y);
+    p.per_x = 1.0f / maxf(p.x[1] - p.x[0], 1.0f);
+    p.per_y = 1.0f / maxf(p.y[1] - p.y[0], 1.0f);
+    p.even = is_even(&c, g, t);
+    p.pixels = shown & square(x, y, step);
+    return kernels->live_fill(out, tile, &p);
+}
+
+uint64_t lmb_live_grid_fill(lmb_irradiance *out, const lmb_kernels *kernels, const live_grid *g, const lmb_tile *tile)
+{
+    const live_grid_tile *t = grid_tile(g, tile->x / LMB_TILE, tile->y / LMB_TILE);
+    const uint64_t shown = tile->hits == LMB_TILE_PIXELS ? ~(uint64_t)0 : tile_pixels(tile);
+    uint64_t left = 0;
+    if (!t->divided) {
+        return fill_cell(out, kernels, g, tile, shown, 0, 0, LMB_TILE);
+    }
+    for (int part = 0; part < 4; ++part) {
+        const int32_t x = part % 2 * (LMB_TILE / 2), y = part / 2 * (LMB_TILE / 2);
+        if (!(t->parts >> part & 1)) {
+            left |= fill_cell(out, kernels, g, tile, shown, x, y, LMB_TILE / 2);
+        }
+        for (int i = 0; i < 4 && (t->parts >> part & 1); ++i) {
+            left |= fill_cell(out, kernels, g, tile, shown, x + i % 2 * GRID_STEP, y + i / 2 * GRID_STEP, GRID_STEP);
+        }
+    }
+    return left;
+}
+
+#endif

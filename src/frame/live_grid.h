@@ -1,0 +1,94 @@
+/* live_grid.h: samples of a frame with bounced light at single points. Layer 8.
+ *
+ * Samples lie on a grid of 8 px, at the first pixel of each tile. If the light varies between four of them, the cell is
+ * divided into cells of 4 px, and these into cells of 2 px. Only lit samples store their surface. The grid uses the
+ * memory of lmb_lattice. */
+#ifndef LMB_FRAME_LIVE_GRID_H
+#define LMB_FRAME_LIVE_GRID_H
+
+#include <lambent/compose.h>
+#include <lambent/live.h>
+
+#include "../base/vec.h"
+#include "../lane/kernels.h"
+
+enum {
+    GRID_STEP = 2,  /* px between the closest samples */
+    GRID_SIDE = LMB_TILE / GRID_STEP, /* samples along a tile's side */
+    GRID_SAMPLES = GRID_SIDE * GRID_SIDE,
+    GRID_LEVELS = 3 /* steps of 8, 4 and 2 px */
+};
+
+/* Sample k of a tile lies at column k % 4 * 2 and row k / 4 * 2. */
+typedef struct live_grid_tile {
+    uint16_t shown, known; /* samples with a surface; lit samples */
+    uint8_t divided;       /* the cell of 8 px is divided */
+    uint8_t parts;         /* mask of the tile's cells of 4 px that are divided */
+    uint8_t flat;          /* all pixels show one triangle with its face normal */
+    uint8_t lobes;         /* gathered whole: no samples */
+} live_grid_tile;
+
+typedef struct live_grid {
+    live_grid_tile *tile;
+    lmb_live_sample *first, *other; /* sample 0 of each tile; samples 1 .. 15, which most tiles lack */
+    int32_t width, height, columns, rows; /* px; tiles */
+    float mean;  /* mean light of the first samples, R + G + B, W/m2 */
+    float split; /* divide a cell if (surplus / 3)^2 x area > split x mean^2 */
+    float noise; /* 1 / sqrt(segments): scales the deviation of a share from a single segment */
+} live_grid;
+
+/* Returns the grid in a lattice's memory. `strata`: segments of a sample. */
+live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata);
+
+/* Stores which samples of a tile have a surface. If you pass `lobes`, the tile is gathered whole. */
+void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes);
+
+/* Pixel of a tile at sample k. */
+static inline int grid_pixel(int k) { return k / GRID_SIDE * GRID_STEP * LMB_TILE + k % GRID_SIDE * GRID_STEP; }
+
+/* Mask of a tile's samples that level 0 .. GRID_LEVELS - 1 requests and that are not known. */
+uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int32_t level);
+
+/* Mean light of the samples of level 0. */
+float lmb_live_grid_mean(const live_grid *g);
+
+/* Divides the cells of level 0 or 1 that predict their samples badly, in two rows of tiles; `row` is even. */
+void lmb_live_grid_divide(const live_grid *g, int32_t row, int32_t level);
+
+/* Removes noise from the shares of a tile's samples and updates their light. Call lmb_live_grid_slopes next: it sets
+ * the slopes. */
+void lmb_live_grid_smooth(const live_grid *g, int32_t column, int32_t row);
+void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row);
+
+/* Lights a tile's pixels between the samples. Returns the mask of pixels that no sample explains. */
+uint64_t lmb_live_grid_fill(lmb_irradiance *out, const lmb_kernels *kernels, const live_grid *g, const lmb_tile *tile);
+
+/* 0 .. 1: how well two samples agree in their surface. On a smooth surface the height over the other sample's plane
+ * grows with the angle between the normals. */
+static inline float live_agree(const lmb_live_sample *a, const lmb_live_sample *b)
+{
+    const float bend = 1.0f - dot3(a->normal, b->normal);
+    if (!(bend <= 1.0f - LIVE_SAME_COS)) {
+        return 0.0f;
+    }
+    const lmb_vec3 d = sub3(b->position, a->position);
+    const float lift = maxf(absf(dot3(a->face, d)), absf(dot3(b->face, d)));
+    if (!(lift * lift <= (2.0f * bend + LIVE_SAME_LIFT) * dot3(d, d))) {
+        return 0.0f;
+    }
+    return bend > 1e-4f ? 1.0f - bend * (1.0f / (1.0f - LIVE_SAME_COS)) * 0.999f : 1.0f;
+}
+
+static inline live_grid_tile *grid_tile(const live_grid *g, int32_t column, int32_t row)
+{
+    return g->tile + (size_t)row * (size_t)g->columns + (size_t)column;
+}
+
+/* Sample k of a tile. */
+static inline lmb_live_sample *grid_sample(const live_grid *g, const live_grid_tile *t, int k)
+{
+    const size_t i = (size_t)(t - g->tile);
+    return k == 0 ? &g->first[i] : &g->other[i * (GRID_SAMPLES - 1) + (size_t)(k - 1)];
+}
+
+#endif

@@ -1,0 +1,146 @@
+/* plan_choose.c: a ladder of settings, the cost of each, and the choice for a budget. Layer 8.
+ *
+ * The cost of a rung and the difference to the next are sampled; errors are not known beyond this. */
+#include <lambent/plan.h>
+
+#include <string.h>
+
+#include "../base/vec.h"
+#include "stages.h"
+#include "requires.h"
+#include "plan_model.h"
+#include "plan_sample.h"
+
+#if LMB_PLAN && LMB_TREES
+
+#define GROWTH 2.2 /* ratio of pairs and segments between consecutive rungs: 1.3 to 3 */
+
+/* From draft on these are the tool's presets, plus one finer than `best`. */
+static const struct rung {
+    int32_t tree;
+    float error, visibility;
+    int32_t gather_step;
+} ladder[LMB_PLAN_RUNGS] = {
+    {16, 0.5f, 0.5f, 4},    {32, 0.25f, 0.25f, 4}, {64, 0.12f, 0.12f, 2},   {128, 0.06f, 0.06f, 1},
+    {256, 0.02f, 0.015f, 1}, {1024, 0.01f, 0.005f, 1}, {1024, 0.01f, 0.002f, 1},
+    {1024, 0.005f, 0.0005f, 1},
+};
+
+/* A tree's shadow map: as fine as the picture, within the limits of the tree and facts->max. */
+static int32_t map_for(int32_t tree, const lmb_facts *f)
+{
+    int32_t map = tree;
+    while (map < f->wanted_map && 2 * map <= f->max && 2 * map <= 8 * tree) {
+        map *= 2;
+    }
+    return map;
+}
+
+void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung)
+{
+    if (out != NULL && facts != NULL && facts->max >= LMB_TILE) {
+        const struct rung *at = &ladder[clampi(rung, 0, LMB_PLAN_RUNGS - 1)];
+        for (out->tree = at->tree; out->tree > facts->max; out->tree /= 2) {
+        }
+        out->shadow_map = map_for(out->tree, facts);
+        out->error = at->error;
+        out->visibility = at->visibility;
+        out->gather_step = at->gather_step;
+        out->occlusion = LMB_OCCLUSION_EXACT;
+    }
+}
+
+/* The caller's facts may be absurd: negative numbers and NaN become 0. */
+static uint64_t count_of(double n, uint64_t max) { return n >= (double)max ? max : n > 0.0 ? (uint64_t)n : 0; }
+
+/* The light of elements takes a second cut, assumed to be as large. */
+void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, double pairs, double segments,
+                    uint64_t fixed)
+{
+    const lmb_settings *s = &out->settings;
+    const double texels = f->faces * (double)s->shadow_map * (double)s->shadow_map, pixels = f->tiles * LMB_TILE_PIXELS;
+    const double cuts = f->elements > 0.0 ? 2.0 : 1.0;
+    memset(out->op, 0, sizeof out->op);
+    out->op[LMB_OP_TRIANGLES] = f->triangles * (f->faces + 1.0);
+    out->op[LMB_OP_TEXELS] = texels + pixels;
+    out->op[LMB_OP_BVH] = f->triangles;
+    out->op[LMB_OP_RESOLVED] = texels + pixels * (s->gather_step > 1 ? 3.0 : 1.0);
+    out->op[LMB_OP_SUMMED] = f->faces * (double)s->tree * (double)s->tree;
+    out->op[LMB_OP_ELEMENTS] = f->elements > 0.0 ? f->triangles : 0.0;
+    out->op[LMB_OP_LIGHTING] = pixels * f->lights;
+    out->op[LMB_OP_CUTS] = cuts * f->tiles / (double)(s->gather_step * s->gather_step) +
+                           f->elements / LMB_TILE_PIXELS * (f->bounces - 1.0);
+    out->op[LMB_OP_PAIRS] = cuts * pairs;
+    out->op[LMB_OP_SEGMENTS] = f->convex ? 0.0 : cuts * segments;
+    out->op[LMB_OP_STORED] = pixels;
+    out->work = 0.0;
+    for (int i = 0; i < LMB_OPS; ++i) {
+        out->work += out->op[i] * (double)m->units[i];
+    }
+    const uint32_t faces = f->faces > 1.0 ? (uint32_t)count_of(f->faces, UINT32_MAX) : 1;
+    out->bytes = fixed + count_of(texels * 8.0, UINT64_C(1) << 62) + (uint64_t)lmb_tree_bytes(faces, s->tree);
+}
+
+static void set_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed)
+{
+    double growth = 1.0;
+    int32_t near = rung;
+    while (near > 0 && facts->rung[near].places == 0) {
+        --near;
+        growth *= GROWTH;
+    }
+    memset(out, 0, sizeof *out);
+    out->rung = rung;
+    lmb_plan_rung(&out->settings, facts, rung);
+    lmb_model_cost(out, &lmb_model, facts, growth * facts->tiles * (double)facts->rung[near].pairs,
+                   growth * facts->tiles * (double)facts->rung[near].segments, fixed);
+    out->error = facts->rung[rung].error;
+}
+
+void lmb_plan_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed)
+{
+    if (out != NULL && facts != NULL && rung >= 0 && rung < LMB_PLAN_RUNGS && facts->max >= LMB_TILE) {
+        set_cost(out, facts, rung, fixed);
+    }
+}
+
+void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *f)
+{
+    if (pairs == NULL || segments == NULL) {
+        return;
+    }
+    const int counted = facts != NULL && f != NULL && requires_cut(f);
+    *pairs = counted ? facts->pairs : 0.0;
+    *segments = counted ? facts->segments : 0.0;
+}
+
+/* Factor by which the budget is exceeded: 1 or less if it is met. */
+static double over(const lmb_choice *c, const lmb_budget *b)
+{
+    const double work = b->work > 0.0 ? c->work / b->work : 0.0;
+    const double bytes = b->bytes > 0 ? (double)c->bytes / (double)b->bytes : 0.0;
+    return work > bytes ? work : bytes;
+}
+
+/* Finer rungs have smaller errors, sampled or not. So the first rung that meets the error is the cheapest. If none
+ * does, the last that work and bytes allow is the closest. */
+lmb_status lmb_plan_choose(lmb_choice *out, const lmb_facts *facts, const lmb_budget *budget, uint64_t fixed)
+{
+    if (out == NULL || facts == NULL || budget == NULL || facts->max < LMB_TILE) {
+        return LMB_ERR_ARG;
+    }
+    int keeps = 0;
+    for (int32_t i = 0; i < LMB_PLAN_RUNGS - 1 && !keeps; ++i) {
+        lmb_choice c;
+        set_cost(&c, facts, i, fixed);
+        const int fits = over(&c, budget) <= 1.0;
+        keeps = budget->error > 0.0f && c.error >= 0.0f && c.error <= budget->error;
+        c.meets = fits && (keeps || !(budget->error > 0.0f));
+        if (i == 0 || fits || (!out->meets && over(&c, budget) < over(out, budget))) {
+            *out = c;
+        }
+    }
+    return LMB_OK;
+}
+
+#endif
