@@ -61,7 +61,9 @@ LIB_SRC  := $(sort $(wildcard src/*/*.c))
 LIB_PARTS := $(wildcard src/*/*.h src/*/*.inl src/*/*.inc)
 HEADERS  := $(sort $(wildcard include/lambent/*.h))
 HOST_SRC := $(addprefix platform/host/,host.c pool.c process.c programs.c count.c limit.c)
-TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c),$(wildcard tools/*/*.c))) $(HOST_SRC)
+# lambent-bench: the verbs' measurements and hard cases, which users of the tool do not need.
+BENCH_SRC := $(sort $(wildcard tools/bench/*.c tools/hard/*.c))
+TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c tools/*/main_*.c) $(BENCH_SRC),$(wildcard tools/*/*.c))) $(HOST_SRC)
 # Unit tests that take over a second each; `make check` leaves them out.
 SLOW_TESTS := adaptive bounce cut frame_init frames glossy gltf mix mix_cones mix_front mix_sources mix_stays multisample \
               occlusion relief_light relief_ornate room_edges transfer tree zeros
@@ -71,8 +73,10 @@ SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.
 
 LIB_OBJ    := $(call object,$(LIB_SRC))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
-TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC) tests/truth/path.c) \
-              $(filter-out %/lambent.o,$(TOOL_OBJ))
+# The objects of both programs without their main functions.
+TOOLS_OBJ  := $(filter-out %/lambent.o,$(TOOL_OBJ)) $(call object,$(BENCH_SRC))
+BENCH_OBJ  := $(call object,tools/cli/main_bench.c) $(TOOLS_OBJ)
+TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC) tests/truth/path.c) $(TOOLS_OBJ)
 GOLDEN_SRC := $(filter-out tests/golden/main_%,$(sort $(wildcard tests/golden/*.c)))
 GOLDEN_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 ORDERS_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_orders.c tools/demo/demo_scene.c tools/common/workers.c \
@@ -82,9 +86,9 @@ REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %
 HOSTILE_OBJ := $(call object,tests/fuzz/main_hostile.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 AUDITED    := $(call object,tests/audit/isa_audit.c) $(filter-out %/isa_pick.o,$(LIB_OBJ))
 DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
-REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
+REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(TOOLS_OBJ)
 GOLDEN_ONE_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_one.c tools/demo/demo_scene.c) $(LIB_OBJ)
-HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
+HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(TOOLS_OBJ)
 SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
 PATH_OBJ   := $(call object,tests/truth/main_path.c tests/truth/path.c $(SCENES_SRC))
 measure_fixed := platform/demo/room.c
@@ -94,7 +98,7 @@ measure_contact := tests/truth/path.c $(SCENES_SRC)
 # The program measure-NAME is built from tests/measure/main_NAME.c and the files NAME_*.c beside it.
 MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
 measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c) $(measure_$(1))) \
-    $(filter-out %/lambent.o,$(TOOL_OBJ))
+    $(TOOLS_OBJ)
 # The part of the tool that draws a scene.
 PICTURE_OBJ := $(call object,tools/cli/main_demo.c $(filter-out %/main_demo.c,$(foreach d,common picture mesh model demo render,\
               $(filter $(TOOL_SRC),$(wildcard tools/$(d)/*.c)))) $(HOST_SRC))
@@ -119,6 +123,7 @@ PROGRAMS := tests golden golden-one golden-orders reference hard replay hostile 
 
 LIB  := $(B)/liblambent.a
 TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
+BENCH := $(TOOL)-bench
 PACKAGE_FILES := $(addprefix $(B)/,lambent.pc lambent-config.cmake lambent-config-version.cmake)
 
 # --- targets for users -----------------------------------------------------------------------------------------------
@@ -134,6 +139,9 @@ AMALGAM := $(BUILD)/amalgam/lambent.h $(BUILD)/amalgam/lambent.c
 all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
 lib: $(LIB)
 
+.PHONY: bench install-bench
+bench: $(BENCH) ## the second tool (build/lambent-bench): speed against error, rates of this computer, hard cases
+
 demo: $(B)/demo-picture ## the library, and a picture of the built-in scene in build/demo.png
 	@$< $(BUILD)/demo.png
 
@@ -142,6 +150,13 @@ pictures: $(TOOL) ## draws the README's pictures of relight, relief and mix into
 
 man: $(TOOL) ## the man page build/lambent.1, from the option tables
 	@$(TOOL) help --man > $(BUILD)/lambent.1
+
+install-bench: $(BENCH) ## lambent-bench and its man page (PREFIX=/usr/local DESTDIR=)
+	@echo "INSTALL $(DESTDIR)$(PREFIX)/bin/lambent-bench"
+	@install -d '$(DESTDIR)$(PREFIX)/bin' '$(AT_MAN)'
+	@install -m 755 $(BENCH) '$(DESTDIR)$(PREFIX)/bin'
+	@$(BENCH) help --man > $(BENCH).1
+	@install -m 644 $(BENCH).1 '$(AT_MAN)'
 
 amalgam: $(AMALGAM) ## the library as two files: build/amalgam/lambent.h and lambent.c
 $(AMALGAM): $(BUILD)/amalgam/lambent.%: platform/amalgam/amalgam.awk LICENSE $(LIB_SRC) $(LIB_PARTS) $(HEADERS)
@@ -165,8 +180,9 @@ ifeq ($(PORT),host)
 	@install -m 644 $(BUILD)/lambent.1 '$(AT_MAN)'
 endif
 
-uninstall: ## removes the files that install put there
-	@rm -f '$(DESTDIR)$(PREFIX)/bin/lambent' '$(AT_MAN)/lambent.1' '$(AT_LIB)/liblambent.a' '$(AT_LIB)/pkgconfig/lambent.pc'
+uninstall: ## removes the files that install and install-bench put there
+	@rm -f '$(DESTDIR)$(PREFIX)/bin/lambent' '$(DESTDIR)$(PREFIX)/bin/lambent-bench' '$(AT_MAN)/lambent.1' \
+	    '$(AT_MAN)/lambent-bench.1' '$(AT_LIB)/liblambent.a' '$(AT_LIB)/pkgconfig/lambent.pc'
 	@rm -rf '$(DESTDIR)$(PREFIX)/include/lambent' '$(AT_LIB)/cmake/lambent'
 
 docs: ## the reference, build/docs/html/index.html: headers, documents, the systems (needs doxygen)
@@ -199,6 +215,7 @@ $(LIB): $(LIB_OBJ)
 	@$(AR) rcs $@ $^
 
 $(TOOL): $(TOOL_OBJ) $(LIB)
+$(BENCH): $(BENCH_OBJ) $(LIB)
 $(B)/tests: $(TEST_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
 $(B)/demo-picture: $(PICTURE_OBJ) $(LIB)
@@ -222,7 +239,7 @@ $(B)/path: $(PATH_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/demo-picture $(B)/statue $(B)/packed $(B)/room $(LIVE:%=$(B)/%) $(B)/page-hash $(B)/decodes \
+$(TOOL) $(BENCH) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/demo-picture $(B)/statue $(B)/packed $(B)/room $(LIVE:%=$(B)/%) $(B)/page-hash $(B)/decodes \
     $(B)/scenes $(B)/path $(B)/fuzzer $(B)/faults:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
@@ -325,7 +342,7 @@ $(B)/obj/platform/demo/main_pixel.o: COMPILE += -DPIXEL_FRAMES=$(or $(PIXEL_FRAM
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(PICTURE_OBJ) $(GOLDEN_OBJ) $(GOLDEN_ONE_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(ROOM_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(BENCH_OBJ) $(TEST_OBJ) $(PICTURE_OBJ) $(GOLDEN_OBJ) $(GOLDEN_ONE_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(ROOM_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
     $(REPLAY_OBJ) $(HOSTILE_OBJ) $(PAGE_OBJ) \
     $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(SCENES_OBJ) $(PATH_OBJ) $(foreach f,$(MEASURES),$(call measure_of,$(f))) $(AUDITED)))
 
@@ -372,15 +389,16 @@ programs_slivers := reference
 programs_hard := hard
 programs_replay := replay
 programs_hostile := hostile
+bench_of_checks = $(if $(filter cli layers faults docs-check,$(CHECKS)),$(BENCH))
 
 # All programs; those of tests/measure are in $(B)/links.
-LINKED := $(addprefix $(B)/,$(MEASURES:%=links/measure-%) $(PROGRAMS) decodes scenes path page-hash faults demo-picture demo torus live room)
+LINKED := $(BENCH) $(addprefix $(B)/,$(MEASURES:%=links/measure-%) $(PROGRAMS) decodes scenes path page-hash faults demo-picture demo torus live room)
 
 # The checks that CHECKS="..." selects; by default all of this target.
-programs: $(LIB) $(TOOL) $(if $(filter command line,$(origin CHECKS)),$(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%))),\
+programs: $(LIB) $(TOOL) $(bench_of_checks) $(if $(filter command line,$(origin CHECKS)),$(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%))),\
     $(filter-out $(B)/links/%,$(LINKED)) $(B)/fault.so) ## the programs that the checks run
 
-$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%)))
+$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(bench_of_checks) $(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%)))
 	+@$(RUN_PART) $* $(MAKE) $*
 
 # Both build the library in the same folder.
@@ -432,7 +450,7 @@ hostile: $(B)/hostile ## damaged samples through each parser (PREFIXES=5 MUTATIO
 hostile-cli: $(TOOL) ## absurd files through the whole tool
 	@$(IN_SH) tests/scripts/hostile_cli.sh
 
-layers: $(LIB) $(TOOL) ## includes and calls go only to lower layers, without cycles (layers.txt)
+layers: $(LIB) $(TOOL) $(BENCH) ## includes and calls go only to lower layers, without cycles (layers.txt)
 	@$(IN_SH) tests/scripts/layers.sh
 
 no-float: ## frames in integers use no float functions on a Cortex-M0+; prints their ROM
@@ -499,7 +517,7 @@ $(B)/fault.so: tests/faults/fault.c
 	@echo "LD $@"
 	@$(CC) -O2 -std=c99 $(WARNINGS) -Wno-missing-prototypes -Wno-pedantic -fPIC -shared -o $@ $< -ldl
 
-faults: $(TOOL) $(B)/faults $(B)/fault.so ## each verb with its nth allocation, open, write, rename or thread failing
+faults: $(TOOL) $(BENCH) $(B)/faults $(B)/fault.so ## each verb with its nth allocation, open, write, rename or thread failing
 	@SHIM='$(B)/fault.so' $(IN_SH) tests/scripts/faults.sh
 
 readme: $(LIB) $(TOOL) ## the README's examples compile and run
@@ -527,7 +545,7 @@ own: $(LIB) $(TOOL) ## make run-NAME with your own programs, its error message, 
 tool-setup: ## check-tools removes no package and reports each step
 	@$(IN_SH) tests/scripts/tool_setup.sh
 
-cli: $(TOOL) ## files, exit statuses and messages of the tool (PART="render mix" selects parts; JOBS=2: two at once)
+cli: $(TOOL) $(BENCH) ## files, exit statuses and messages of the tool (PART="render mix" selects parts; JOBS=2: two at once)
 	@JOBS='$(JOBS)' $(IN_SH) tests/scripts/cli.sh $(if $(findstring command,$(origin PART)),$(PART))
 
 # --- measurements, and other processors ------------------------------------------------------------------------------
@@ -561,7 +579,7 @@ rom-direct: $(LIB)
 	@$(IN_SH) tests/scripts/rom_direct.sh 40960
 
 COV_PROGRAMS_src   := $(addprefix default/,tests replay golden golden-orders reference hard hostile)
-COV_PROGRAMS_tools := default/tests default/replay lambent
+COV_PROGRAMS_tools := default/tests default/replay lambent lambent-bench
 
 # One build serves the sanitized checks and the fuzzer. Kernels have no fuzzer counters and no pointer-overflow checks,
 # with which clang takes three times as long; `make pointers` has these checks.
@@ -674,7 +692,7 @@ measure-times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES
 measure-direct: $(TOOL) $(B)/scenes ## time of bounced light beside the time of direct light
 	@$(IN_SH) tests/measure/direct.sh
 
-report: $(TOOL) ## speed against error: pages in build/report, the README's table and picture
+report: $(BENCH) ## speed against error: pages in build/report, the README's table and picture
 	@$(IN_SH) tests/measure/report.sh
 
 STEP ?= 17
@@ -740,7 +758,7 @@ paths: $(TOOL) $(LIB) ## the commands in the documents for new users, in a clean
 places: ## make, make demo and make check without root, in a path with spaces, with umask 077, from a read-only clone (PLACES=umask)
 	+@MAKE='$(MAKE)' $(IN_SH) tests/scripts/places.sh $(PLACES)
 
-docs-check: $(TOOL) $(LIB) ## code and commands of the documents; links and widths of the reference
+docs-check: $(TOOL) $(BENCH) $(LIB) ## code and commands of the documents; links and widths of the reference
 	+@BUILD='$(BUILD)' MAKE='$(MAKE)' $(IN_SH) tests/scripts/docs_check.sh
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory

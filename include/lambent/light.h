@@ -15,8 +15,8 @@ typedef struct lmb_irradiance {
  *
  * f = D V F: GGX (Walter et al. 2007), height-correlated Smith shadowing (Heitz 2014), Schlick's Fresnel. A light
  * without area gives f E, where E is the irradiance that it adds. A disc gives f E with D replaced by the mean of D
- * over the half vectors to the disc: whatever the size, at most the disc's own radiance times F. src/direct/lobe.inl has
- * the derivation.
+ * over the half vectors to the disc: whatever the size, at most the disc's own radiance times F. src/direct/lobe.inl
+ * has the derivation.
  * With a lobe, diffuse light is scaled by 1 - (F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5): a white dielectric (F0 0.04)
  * reflects 0.84 to 1.02 of white light from all sides. A metal (F0 1) reflects all of it if smooth, and 0.3 to 0.6 at
  * roughness 1, because light that the roughness reflects twice is missing.

@@ -14,7 +14,7 @@
  *
  * All results are functions of scene, view and numbers: no clock, the same on every target. Work is counted in units:
  * one is the time of a pixel gathering a node's light. To convert units to seconds, you can measure your computer with
- * `lambent bench --calibrate`.
+ * `lambent-bench --calibrate`.
  *
  * Stability: experimental. */
 #ifndef LMB_PLAN_H

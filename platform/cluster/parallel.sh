@@ -1,7 +1,7 @@
 #!/bin/sh
 # parallel.sh: computes one picture, sequence, bake or sweep on many machines, with GNU parallel over ssh.
 #
-#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play, bake, bench
+#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play, bake; bench is lambent-bench
 #
 # N: number of slices; choose two or more a machine, so that fast machines do more. HOSTS: as for parallel's --sshlogin:
 # host1,host2; `:` is this machine, and 2/host1 runs two at once. LAMBENT: the command on all machines (default
@@ -19,7 +19,11 @@ for word in "$@"; do
     previous=$word
 done
 [ -n "$out" ] || { echo "parallel.sh: no -o OUT" >&2; exit 2; }
-lambent=${LAMBENT:-lambent}
+lambent=${LAMBENT:-lambent} is_bench=0
+if [ "$1" = bench ]; then
+    lambent=$lambent-bench is_bench=1
+    shift
+fi
 there="--workdir $PWD"
 [ -z "${SEND:-}" ] || there="--workdir ... --cleanup --return $out.{}of$count"
 for file in ${SEND:-}; do
@@ -29,7 +33,7 @@ rm -f "$out".*of"$count"
 [ "$1" != bake ] || rm -rf "$out.shared"
 # shellcheck disable=SC2086 # words of `there` are words, and quiet is one or none
 seq "$count" | parallel --quote --sshlogin "$hosts" --retries 3 $there "$lambent" "$@" $quiet --slice "{}/$count" || true
-if [ "$1" != bench ]; then
+if [ "$is_bench" = 0 ]; then
     "$lambent" merge "$out".*of"$count" -o "$out"
     [ "$1" != bake ] || rm -rf "$out.shared"
     exit

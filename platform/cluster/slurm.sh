@@ -1,7 +1,7 @@
 #!/bin/sh
 # slurm.sh: computes one picture, sequence, bake or sweep as a Slurm job array, and joins it in a last job.
 #
-#   sh slurm.sh N render SCENE -o OUT [options]     or play, bake, bench
+#   sh slurm.sh N render SCENE -o OUT [options]     or play, bake; bench is lambent-bench
 #
 # N: number of slices; Slurm runs them as machines become free. The machines must share this folder. LAMBENT: the
 # command on all of them (default lambent). SBATCH: options for each job, such as "--partition=long --cpus-per-task=8".
@@ -12,6 +12,7 @@ lambent=${LAMBENT:-lambent}
 if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then # a slice
     count=$1
     shift
+    [ "$1" != bench ] || { lambent=$lambent-bench && shift; }
     for try in 1 2 3; do
         # shellcheck disable=SC2086 # one word or none
         "$lambent" "$@" ${QUIET-} --slice "$SLURM_ARRAY_TASK_ID/$count" && exit 0
@@ -26,7 +27,7 @@ if [ -n "${MERGE:-}" ]; then # the last job
         exit
     fi
     for end in csv json html; do
-        "$lambent" merge "$2".*of"$1" -o "$2.$end"
+        "$lambent-bench" merge "$2".*of"$1" -o "$2.$end"
     done
     exit
 fi

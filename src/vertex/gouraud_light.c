@@ -45,8 +45,8 @@ static int32_t face_towards(const lmb_shadow_map *map, const lmb_light *light, l
 }
 
 /* Tests the surface at the centre of the texel against the receiver's plane there, like the last resort of
- * direct/shadow.c. It is off by up to a texel, which does not show if corners are closer together than texels. 1 outside
- * the map. */
+ * direct/shadow.c. It is off by up to a texel, which does not show if corners are closer together than texels. 1
+ * outside the map. */
 static int is_lit(const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 at, lmb_vec3 normal)
 {
     const int32_t face = face_towards(map, light, at);

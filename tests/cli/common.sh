@@ -31,11 +31,19 @@ check() {
     fi
 }
 
+# tool ARGUMENT...: runs lambent with these arguments, or lambent-bench if this is the first one.
+tool() {
+    case $1 in
+    lambent-bench) shift && "$TOOL-bench" "$@" ;;
+    *) "$TOOL" "$@" ;;
+    esac
+}
+
 # status WANTED ARGUMENT...: checks the exit status; a failure must print one line on stderr and nothing on stdout.
 status() {
     wanted=$1
     shift
-    "$TOOL" "$@" >out.txt 2>err.txt
+    tool "$@" >out.txt 2>err.txt
     got=$?
     [ $got -eq "$wanted" ] && pass || fail "lambent $*: exit status $got, not $wanted: $(head -n 1 err.txt)"
     if [ "$wanted" -eq 1 ]; then
@@ -130,13 +138,13 @@ cheap='s/320x240/32x24/; s/160x120/32x24/; s/64x48/32x24/; s/24x16/12x8/; s/--vo
     /lambent pla/s/32x24/16x12/; s/--receivers [0-9]*/--receivers 200/
     s/--elements [0-9]*/--elements 256 --cluster 0.6/; s/--faces 32/--faces 8/; s/--seconds 0.1/--seconds 0.01/; s/--size 64 /--size 16 /
     s/--frames 4/--frames 2/; s/tree=16,32,64/tree=16,32/; s/fill-depth /fill-depth-pass /; s/lambent doctor/& -v/
-    s/lambent \(render\|play\|capture\|plan\|bench\) demo/& --shadow-map 64/'
+    s/lambent\(-bench\| render\| play\| capture\| plan\) demo/& --shadow-map 64/'
 pasted() {
     mkdir -p paste
     for verb in "$@"; do
-        "$TOOL" $verb -h >help.txt
+        tool $verb -h >help.txt
         {
-            printf 'set -e\nlambent() { "$TOOL" "$@"; }\n'
+            printf 'set -e\nPATH=${TOOL%%/*}:$PATH\n'
             sed -n '/^examples$/,/^exit status/{/^  .*[^:]$/p;}' help.txt | sed "$cheap"
         } >paste/run.sh
         check "$verb --help has an example" test "$(grep -c . paste/run.sh)" -gt 2

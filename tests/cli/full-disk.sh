@@ -10,7 +10,7 @@ status 0 relief bake pit.obj --size 16 --triangles 20 --views 6 -o pit.lmr
 
 if [ -e /dev/full ]; then
     full() {
-        "$TOOL" "$@" >/dev/full 2>err.txt
+        tool "$@" >/dev/full 2>err.txt
         got=$?
         check "lambent $* >/dev/full: exit status $got" test $got -eq 1
         check "lambent $* >/dev/full: one line" test "$(grep -c -e 'cannot be written' -e 'could not be written' err.txt)" -eq 1
@@ -39,11 +39,11 @@ if [ -e /dev/full ]; then
     full mix $seen $tent -q -o -
     full info demo.png
     full compare demo.png demo.png
-    full bench raster fill-depth-pass --seconds 0.01
-    full bench gather --backend scalar --seconds 0.01
-    full bench hard mixed
-    full bench --calibrate --threads 1
-    full bench box.obj --size 16x16 --shadow-map 64 --runs 1 --sweep tree=8 --breakdown 0 --cache kept
+    full lambent-bench raster fill-depth-pass --seconds 0.01
+    full lambent-bench gather --backend scalar --seconds 0.01
+    full lambent-bench hard mixed
+    full lambent-bench --calibrate --threads 1
+    full lambent-bench box.obj --size 16x16 --shadow-map 64 --runs 1 --sweep tree=8 --breakdown 0 --cache kept
 else
     skip "a full disk: no /dev/full"
 fi

@@ -4,40 +4,78 @@
 # Help and version go to stdout.
 status 0 --version
 check "lambent --version says something" test -s out.txt
-for ask in --help "render --help" "compare --help" "info --help" "bench --help"; do
+status 0 lambent-bench --version
+check "lambent-bench --version names it" grep -q '^lambent-bench [0-9]' out.txt
+for ask in --help "render --help" "compare --help" "info --help" "lambent-bench --help"; do
     status 0 $ask
     check "lambent $ask says something, once" test "$(grep -c '^usage:' out.txt)" -eq 1
 done
-for verb in render play capture explain relight relief "relief bake" "relief render" mix pack merge plan compare info bench "bench raster" "bench draw" "bench gather" \
-    "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix" doctor; do
-    status 0 $verb -V
-    check "lambent $verb -V is the version" grep -q '^lambent [0-9.]*$' out.txt
-    status 0 $verb -h
-    check "$verb --help has under 100 columns" awk 'length($0) > 99 { exit 1 }' out.txt
+verbs="render bake play capture relight relief relief_bake relief_render mix pack merge plan compare info doctor"
+measures="raster draw gather threads hard --calibrate demo relight relief mix merge"
+
+# spoken NAME COMMAND...: checks version and help of the command, a program with words behind it.
+spoken() {
+    name=$1
+    shift
+    status 0 "$@" -V
+    check "$* -V is the version" grep -q "^$name [0-9.]*\$" out.txt
+    status 0 "$@" -h
+    check "$* --help has under 100 columns" awk 'length($0) > 99 { exit 1 }' out.txt
+    check "$* --help is that of $name" grep -q "^usage: $name " out.txt
+}
+for verb in $verbs explain; do
+    spoken lambent $(echo $verb | tr _ ' ')
 done
-for verb in render bake play capture relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench draw" "bench gather" \
-    "bench threads" "bench hard" "bench --calibrate" "bench SCENE" "bench relight" "bench relief" "bench mix" doctor; do
-    "$TOOL" $verb --help >help.txt
-    status 0 help $verb
-    check "help $verb is $verb --help" cmp help.txt out.txt
-    grep -oE '^  (-[a-zA-Z], )?--?[a-z][a-z0-9-]*' help.txt | sed 's/.* //' >>options.txt
+for measure in $measures ""; do
+    spoken lambent-bench lambent-bench $measure
+done
+
+# asked NAME HELP WORD...: checks that `help` with the words prints HELP, and keeps the options in NAME.options.
+asked() {
+    name=$1 both=$2
+    shift 2
+    cp out.txt help.txt
+    status 0 $both "$@"
+    check "$both $* is the same as --help" cmp help.txt out.txt
+    grep -oE '^  (-[a-zA-Z], )?--?[a-z][a-z0-9-]*' help.txt | sed 's/.* //' >>"$name.options"
+}
+for verb in $verbs; do
+    words=$(echo $verb | tr _ ' ')
+    status 0 $words --help
+    asked lambent help $words
+done
+for measure in $measures; do
+    status 0 lambent-bench $measure --help
+    asked lambent-bench "lambent-bench help" $measure
 done
 status 0 help
 check "help lists the verbs" grep -q '^  doctor ' out.txt
+check "help names the second program" grep -q '^  lambent-bench --help ' out.txt
 status 2 help rendr
 said "did you mean render?"
-status 0 help --man
-cp out.txt lambent.1
-sed 's/\\-/-/g' lambent.1 >plain.1
-missing=$(awk 'NR == FNR { page = page $0 "\n"; next } !index(page, "\\fB" $0 "\\fR")' plain.1 options.txt)
-check "options that the man page lacks: $missing" test -z "$missing" -a "$(grep -c . options.txt)" -gt 100
+# A user who has the old verb in a script learns the name of the program.
+for words in "bench demo" "bench --help" "help bench"; do
+    status 2 $words
+    said "lambent: bench is the program lambent-bench: give it the same words"
+    check "lambent $words says only that" one_line err.txt
+done
+for name in lambent lambent-bench; do
+    [ $name = lambent ] && status 0 help --man || status 0 $name help --man
+    cp out.txt $name.1
+    sed 's/\\-/-/g' $name.1 >plain.1
+    missing=$(awk 'NR == FNR { page = page $0 "\n"; next } !index(page, "\\fB" $0 "\\fR")' plain.1 $name.options)
+    check "options that the man page of $name lacks: $missing" test -z "$missing" -a "$(grep -c . $name.options)" -gt 50
+    check "the man page of $name has its name" grep -q "^$name - " plain.1
+done
 if command -v groff >/dev/null; then
-    check "groff has a warning about the man page" sh -c 'test -z "$(groff -man -Tutf8 -ww -z "$1" 2>&1)"' sh lambent.1
+    for name in lambent lambent-bench; do
+        check "groff has a warning about the man page of $name" sh -c 'test -z "$(groff -man -Tutf8 -ww -z "$1" 2>&1)"' sh $name.1
+    done
     check "the man page has its examples as they are" sh -c "groff -man -Tascii -rLL=150n \"\$1\" | grep -qF \"printf 'f %s\\\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\"" sh lambent.1
 else
     skip "the man page: no groff"
 fi
-for verb in render bake play capture relight "relief bake" "relief render" mix plan "bench threads" "bench --calibrate"; do
+for verb in render bake play capture relight "relief bake" "relief render" mix plan "lambent-bench threads" "lambent-bench --calibrate"; do
     status 0 $verb --help
     check "$verb has --threads" grep -q '^  --threads N' out.txt
 done

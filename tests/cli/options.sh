@@ -38,9 +38,9 @@ said "unknown option --budget-ms; did you mean --budget ms=...?"
 status 2 render demo "--group block" 4 -o bad.png
 status 2 render demo --group "thin=$(awk 'BEGIN { while (i++ < 2000) printf 1 }')" -o bad.png
 said "--group: the list is too long"
-status 2 bench demo --swep tree=8
+status 2 lambent-bench demo --swep tree=8
 said "did you mean --sweep?"
-status 2 bench demo --shadwo-map 64
+status 2 lambent-bench demo --shadwo-map 64
 said "did you mean --shadow-map?"
 status 2 render demo -o=bad.png
 said "write \`-o bad.png\`"
@@ -50,8 +50,8 @@ status 2 render demo -h=1
 said "-h takes no value"
 status 2 relief baek
 said "there is no \`relief baek\`; did you mean relief bake?"
-status 2 bench rastr
-said "there is no file \`rastr\`; did you mean bench raster?"
+status 2 lambent-bench rastr
+said "there is no file \`rastr\`; did you mean lambent-bench raster?"
 status 2 render demo --quality drfat -o bad.png
 said "did you mean draft?"
 status 2 render demo --light spot:0,0,0:0,-1:1,1,1 -o bad.png
@@ -71,7 +71,7 @@ status 2 render demo --size 64x48 --size 32x24 -o bad.png
 said "--size is given twice, 64x48 and 32x24; leave one out"
 status 2 render demo --glossy --glossy -o bad.png
 said "--glossy is given twice"
-status 2 bench demo --tree 8 --tree=16
+status 2 lambent-bench demo --tree 8 --tree=16
 said "--tree is given twice"
 status 2 render demo --error 0.1 --error-bound 0.1 -o bad.png
 said "--error and --error-bound exclude each other"

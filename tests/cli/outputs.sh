@@ -47,7 +47,7 @@ done
 find . \( -name '*killed*tmp*' -o -name '.write-*.tmp' \) -exec rm -f {} + # temporary files of the killed commands
 
 # If the reader closes the pipe, the tool ends, with an exit status or by the signal.
-check "a closed pipe ends the tool" sh -c '"$1" bench hard mixed | head -n 1 | grep -q "^group"' sh "$TOOL"
+check "a closed pipe ends the tool" sh -c '"$1-bench" hard mixed | head -n 1 | grep -q "^group"' sh "$TOOL"
 
 left=$(find . -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
 check "left behind: $left" test -z "$left"
@@ -88,7 +88,7 @@ refused "$nowhere/x.lmt: cannot be written" bake no.gltf -o "$nowhere/x.lmt"
 refused "$nowhere/x.lmp: cannot be written" pack no.gltf -o "$nowhere/x.lmp"
 refused "$nowhere/x.lmr: cannot be written" relief bake no.gltf -o "$nowhere/x.lmr"
 refused "$nowhere/x.png: cannot be written" compare no.png no.png --heat "$nowhere/x.png"
-refused "$nowhere/x.svg: cannot be written" bench no.gltf --svg "$nowhere/x.svg"
+refused "$nowhere/x.svg: cannot be written" lambent-bench no.gltf --svg "$nowhere/x.svg"
 mkdir -p folder.png
 refused "folder.png: cannot be written: it is a folder" render no.gltf -o folder.png
 ln -s nodir/x.png dangling.png

@@ -46,6 +46,6 @@ check "an easy budget is met" grep -q "^lambent: the budget is met" err.txt
 chosen=$(sed -n 's/^lambent: chosen: \(.*\): error about.*/\1/p' err.txt)
 status 0 render demo --size 240x180 --threads 1 --exposure 0 $chosen -o chosen.pfm
 check "the chosen settings draw the same: $chosen" cmp -s budget.pfm chosen.pfm
-status 2 bench --calibrate demo
+status 2 lambent-bench --calibrate demo
 
 finish

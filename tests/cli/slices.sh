@@ -58,43 +58,49 @@ without_times() { # removes columns by name from a CSV
     awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) out[i] = $i == "mark" || $i == "seconds" || $i == "instructions" || $i ~ /^s / }
         { line = ""; for (i = 1; i <= NF; ++i) if (!out[i]) line = line "," $i; print line }' "$1"
 }
-sweep="bench demo --size 12x8 --runs 1 --cache kept --shadow-map 64 --sweep tree=8,16,32 --sweep error=0.05,0.1"
+sweep="lambent-bench demo --size 12x8 --runs 1 --cache kept --shadow-map 64 --sweep tree=8,16,32 --sweep error=0.05,0.1"
 status 0 $sweep --breakdown 0 -o sweep
 for i in 2 4 3 1; do
     status 0 $sweep --slice $i/4 -o part
 done
 check "a slice of a sweep says how much of it it is" holds "part.1of4: 2 of 6 settings" err.txt
-status 0 merge part.*of4 -o joined.csv
+status 0 lambent-bench merge part.*of4 -o joined.csv
 without_times sweep.csv >sweep.txt
 without_times joined.csv >joined.txt
 check "errors and commands are compared" grep -q "^,--tree 32 --error 0.1,tree,0[.0-9]*,.*,lambent render " sweep.txt
 check "four slices are one sweep" cmp sweep.txt joined.txt
 for end in json html svg; do
-    status 0 merge part.*of4 -o "joined.$end"
+    status 0 lambent-bench merge part.*of4 -o "joined.$end"
 done
 check "their JSON has all settings" test "$(grep -c '"setting": "--tree ' joined.json)" -eq 6
 check "their page has all pictures" test "$(grep -o 'data:image/png' joined.html | wc -l)" -eq "$(grep -o 'data:image/png' sweep.html | wc -l)"
-status 1 merge -q part.1of4 part.2of4 part.4of4 -o bad.csv
+status 1 lambent-bench merge -q part.1of4 part.2of4 part.4of4 -o bad.csv
 said "of 4 slices 1 is missing: 3"
 head -c 900 part.3of4 >part_cut
-status 1 merge -q part.1of4 part.2of4 part_cut part.4of4 -o bad.csv
+status 1 lambent-bench merge -q part.1of4 part.2of4 part_cut part.4of4 -o bad.csv
 said "of 4 slices 1 is missing: 3"
 status 0 $sweep --sweep bounces=1 --slice 3/4 -o foreign
-status 1 merge -q part.1of4 part.2of4 foreign.3of4 part.4of4 -o bad.csv
+status 1 lambent-bench merge -q part.1of4 part.2of4 foreign.3of4 part.4of4 -o bad.csv
 said "of another job"
 printf 'v -1 0 -1\nv 1 0 -1\nv 0 0 1\nf 1 2 3\n' >scene.obj
-file="bench scene.obj --size 12x8 --runs 1 --cache kept --shadow-map 64 --sweep tree=8,16"
+file="lambent-bench scene.obj --size 12x8 --runs 1 --cache kept --shadow-map 64 --sweep tree=8,16"
 status 0 $file --slice 1/2 -o file
 printf 'v -1 0 -1\nv 1 0 -1\nv 0 1 1\nf 1 2 3\n' >scene.obj
 status 0 $file --slice 2/2 -o file
-status 1 merge -q file.?of2 -o bad.csv
+status 1 lambent-bench merge -q file.?of2 -o bad.csv
 said "of another job"
-status 1 merge -q part.*of4 -o bad.png
+status 1 lambent-bench merge -q part.*of4 -o bad.png
 said "a sweep's slices make a .csv, .json, .html or .svg"
 status 2 $sweep --slice 1/4
 said "--slice: give -o NAME"
 status 2 $sweep --slice 1/4 -o bad --svg bad.svg
-status 2 bench raster --slice 1/4
+status 2 lambent-bench raster --slice 1/4
+status 1 merge -q part.*of4 -o bad.csv
+said "a slice of a sweep; \`lambent-bench merge\` joins it"
+status 1 lambent-bench merge -q "$one".*of4 -o bad.csv
+said "no slice of a sweep; \`lambent merge\` joins it"
+status 2 lambent-bench merge
+said "try: lambent-bench merge"
 check "nothing bad was joined of a sweep" none bad*
 
 finish

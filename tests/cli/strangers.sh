@@ -79,14 +79,14 @@ says 0 info "$odd.lmr" --json
 says 0 compare -v "$odd.pfm" photo.pfm
 says 1 compare "$odd" photo.pfm
 says 2 compare photo.pfm photo.pfm --max "mean=$text"
-says 0 bench "$odd.obj" --size 24x24 --shadow-map 64 --sweep tree=8,16 --runs 1 --truth "$odd.pfm" -v -o "$odd-table" --svg "$odd.svg"
+says 0 lambent-bench "$odd.obj" --size 24x24 --shadow-map 64 --sweep tree=8,16 --runs 1 --truth "$odd.pfm" -v -o "$odd-table" --svg "$odd.svg"
 clean "the tables" "$odd-table.html" "$odd-table.csv" "$odd-table.json" "$odd.svg"
 "$TOOL" merge "$odd" -o joined.png >out.txt 2>err.txt && fail "merge: no slice, and exit status 0" || pass
 clean "merge's notes" out.txt err.txt
 says 2 "$odd"
 says 2 render "--$odd" -o x.png
 says 2 render demo --show "$odd" -o x.png
-says 1 bench "$odd"
+says 1 lambent-bench "$odd"
 printf '%s\n' "$text" >names.txt
 says 1 mix --frames names.txt $tent -o frame_%02d.png
 
@@ -192,7 +192,7 @@ late plan demo --size 2000x2000 --budget error=0.001
 late capture demo --at 0.5,1,0.5 --faces 512 -q -o late/x.hdr --ground late/g.hdr
 late relight --world demo --object demo --size 4000x4000 --samples 16 -q -o late/x.png
 late relief bake tent.obj --size 512 --views 48 -q -o late/x.lmr
-late bench demo --size 800x600 -q -o late/table
+late lambent-bench demo --size 800x600 -q -o late/table
 mkfifo pipe.glb
 late info pipe.glb
 late pack pipe.glb -q -o late/x.lmp

@@ -28,6 +28,8 @@ typedef struct content {
 
 typedef struct suite {
     const char *shim, *tool;
+    char bench[LONGEST]; /* lambent-bench, which lies beside the tool */
+    int is_bench;        /* the case begins with lambent-bench */
     char *words[WORDS + 2];
     const char *line;
     content wanted[FILES]; /* what the command writes when nothing fails */
@@ -163,7 +165,7 @@ static void run_child(const suite *s, const char *fault, const char *counts)
         setenv("FAULT_COUNTS", counts, 1);
     }
     alarm(SECONDS);
-    execv(s->tool, s->words);
+    execv(s->is_bench ? s->bench : s->tool, s->words + s->is_bench);
     _exit(127);
 }
 
@@ -252,6 +254,7 @@ static int split(suite *s, char *line)
         s->words[n++] = word;
     }
     s->words[n] = NULL;
+    s->is_bench = n > 1 && strcmp(s->words[1], "lambent-bench") == 0;
     return n > 1;
 }
 
@@ -265,6 +268,7 @@ int main(int argc, char **argv)
     }
     s.shim = argv[1];
     s.tool = argv[2];
+    snprintf(s.bench, sizeof s.bench, "%s-bench", s.tool);
     s.words[0] = name;
     while (fgets(line, sizeof line, stdin) != NULL) {
         line[strcspn(line, "\n")] = '\0';

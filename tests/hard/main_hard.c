@@ -2,7 +2,7 @@
  * what must not change a picture, and the same call made thousands of times.
  *
  *     hard              all
- *     hard CASES...     these groups of cases (`lambent bench hard --help` lists them), or `invariants`, `again`
+ *     hard CASES...     these groups of cases (`lambent-bench hard --help` lists them), or `invariants`, `again`
  *     hard -CASES       all but that one
  * Ends with `N passed, N failed, N skipped`; exit status 1 where one failed. */
 #include <stdio.h>

@@ -2,7 +2,7 @@
 # README's table and picture.
 #
 # SCENES: scenes (default "demo cornell corridor sponza"). LMB_SHARED: the folder with truth/ (default ../shared).
-# REPORT: output folder (default build/report). RUNS, BREAKDOWN: see `lambent bench SCENE --help`.
+# REPORT: output folder (default build/report). RUNS, BREAKDOWN: see `lambent-bench SCENE --help`.
 # tests/results/README.md gets a table of all finished scenes, which may come from several runs, and front.svg beside it
 # the Cornell box's picture.
 . tests/scripts/checks.sh
@@ -16,7 +16,7 @@ mkdir -p "$to"
 sweep() {
     name=$1
     shift
-    if "$TOOL" bench "$@" --runs "${RUNS:-2}" --breakdown "${BREAKDOWN:-8}" -o "$to/$name" --svg "$to/$name.svg" \
+    if "$TOOL-bench" "$@" --runs "${RUNS:-2}" --breakdown "${BREAKDOWN:-8}" -o "$to/$name" --svg "$to/$name.svg" \
         >"$to/$name.txt"; then
         pass
         echo "$to/$name.html: $(sed -n 's/^.*"seconds": \([0-9.]*\),$/\1/p' "$to/$name.json" | head -n 1) s"

@@ -1,7 +1,7 @@
 # docs_check.sh: checks that the C code of the documents compiles, that the commands in them run, and that the reference
 # of `make docs` has no dead link, nothing wider than a phone, and a search.
 #
-# Commands are the lines that begin with `lambent` or `build/lambent` in README.md and tools/README.md. The script makes
+# Commands are the lines that begin with `lambent`, `lambent-bench` or the same with `build/` in README.md and tools/README.md. The script makes
 # the input files: a room as glTF and OBJ, and outputs of earlier commands. B, TOOL, CC, FLAGS in the environment.
 . tests/scripts/checks.sh
 
@@ -64,17 +64,17 @@ cd - >/dev/null || exit 1
 # A command ends at two blanks or at the end of the line. Only one of two bakes with default settings runs, because each
 # takes 21 s. `make paths` runs the marked blocks.
 awk '/^<!-- run: / { apart = 1 } /^```/ { inside = !inside; if (!inside) apart = 0 } inside && !apart' README.md tools/README.md |
-    sed -nE 's#^(build/)?lambent ##; t found; d; :found; s/ {2,}.*//; s/(relief bake .*-o [^ ]*) .*/\1/; s/--frames 300/--frames 2/; s/^bake scene.lmp/& --elements 1024/; p' \
+    sed -nE 's#^(build/)?lambent(-bench)? #\2 #; t found; d; :found; s/ {2,}.*//; s/(relief bake .*-o [^ ]*) .*/\1/; s/--frames 300/--frames 2/; s/^ bake scene.lmp/& --elements 1024/; p' \
         >"$dir/commands.txt"
 check "documents show commands" test "$(grep -c . "$dir/commands.txt")" -gt 15
-while read -r arguments; do
+while IFS= read -r arguments; do
     case $arguments in
-    *"--frame room"* | *"--frames DIR"* | "bench hard"*)
-        skip "lambent $arguments: other checks run it"
+    *"--frame room"* | *"--frames DIR"* | "-bench hard"*)
+        skip "lambent$arguments: other checks run it"
         continue
         ;;
     esac
-    check "lambent $arguments" sh -c 'cd "$1" && eval "\"\$2\" $3"' sh "$dir/run" "$lambent" "$arguments"
+    check "lambent$arguments" sh -c 'cd "$1" && eval "\"\$2\"$3"' sh "$dir/run" "$lambent" "$arguments"
 done <"$dir/commands.txt"
 
 # The reference.

@@ -82,7 +82,7 @@ compare photo.png photo.pfm -q --max trim=9 --heat out/a.png
 info tent.obj -q
 info floor.gltf --json -q
 info photo.png
-bench tent.obj --size 16x16 --shadow-map 64 --runs 1 --sweep tree=8,16 --breakdown 0 --cache kept -q -o out/a
+lambent-bench tent.obj --size 16x16 --shadow-map 64 --runs 1 --sweep tree=8,16 --breakdown 0 --cache kept -q -o out/a
 doctor -q
 help render
 END

@@ -106,6 +106,11 @@ else
     skip "make dist: not a clone"
 fi
 
+bin=$root$prefix/bin/lambent-bench
+check "make install-bench" sh -c 'umask 077 && "$@"' sh "$MAKE" install-bench BUILD="$BUILD" DESTDIR="$root" PREFIX=$prefix
+check "everybody may run lambent-bench" test -n "$(find "$bin" -perm -0555)"
+check "lambent-bench has a man page" grep -q '^.TH LAMBENT-BENCH 1 ' "$root$prefix/share/man/man1/lambent-bench.1"
+check "lambent-bench's version" test "$("$bin" --version)" = "lambent-bench $version"
 check "make uninstall" "$MAKE" uninstall BUILD="$BUILD" DESTDIR="$root" PREFIX=$prefix
 check "what make uninstall leaves: $(cd "$root" && find . -type f)" test -z "$(find "$root" -type f)"
 finish

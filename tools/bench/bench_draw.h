@@ -1,4 +1,4 @@
-/* bench_draw.h: `lambent bench draw`: the speed of lambent/draw.h for everything in a frame besides the lit scene. */
+/* bench_draw.h: `lambent-bench draw`: the speed of lambent/draw.h for everything in a frame besides the lit scene. */
 #ifndef BENCH_DRAW_H
 #define BENCH_DRAW_H
 

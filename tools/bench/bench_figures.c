@@ -1,4 +1,4 @@
-/* bench_figures.c: `lambent bench relight --object`: objects in a world's light, by samples, contact and filters. */
+/* bench_figures.c: `lambent-bench relight --object`: objects in a world's light, by samples, contact and filters. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -106,12 +106,12 @@ const bench_subject bench_figures = {
     .try_count = sizeof tries / sizeof *tries,
     .backends = 1,
     .truth_is = "its own finest settings, " EXACT,
-    .usage = "bench relight --world WORLD --object FILE [options of lambent relight] [options]",
+    .usage = "relight --world WORLD --object FILE [options of lambent relight] [options]",
     .about = "Measures speed against error of objects in the light of a world: by samples per pixel, with occlusion "
              "of each other and of the ground (--contact), by filter and storage; for lights with a size, roughness "
              "and places, add options of lambent relight. The truth is your picture or the finest settings: contact "
              "and 16 samples. Time includes reading the files; memory is the world's.",
-    .examples = "  lambent bench relight --world demo --object demo --size 80x60 --runs 1 --sweep samples=1,4\n",
+    .examples = "  lambent-bench relight --world demo --object demo --size 80x60 --runs 1 --sweep samples=1,4\n",
     .check = check,
     .draw = draw,
     .truth = draw_truth,

@@ -1,4 +1,4 @@
-/* bench_gather.h: `lambent bench gather`: the far gather's speed, absolute and relative to the processor's bound. */
+/* bench_gather.h: `lambent-bench gather`: the far gather's speed, absolute and relative to the processor's bound. */
 #ifndef BENCH_GATHER_H
 #define BENCH_GATHER_H
 

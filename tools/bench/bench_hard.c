@@ -1,4 +1,4 @@
-/* bench_hard.c: `lambent bench hard`: the gallery of hard cases as a table. */
+/* bench_hard.c: `lambent-bench hard`: the gallery of hard cases as a table. */
 #include "bench_hard.h"
 
 #include <stdio.h>

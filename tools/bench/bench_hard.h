@@ -1,4 +1,4 @@
-/* bench_hard.h: `lambent bench hard`: the gallery of hard cases as a table. */
+/* bench_hard.h: `lambent-bench hard`: the gallery of hard cases as a table. */
 #ifndef BENCH_HARD_H
 #define BENCH_HARD_H
 

@@ -1,4 +1,4 @@
-/* bench_mixed.c: `lambent bench mix`: an object in a photo by voxels and cones. */
+/* bench_mixed.c: `lambent-bench mix`: an object in a photo by voxels and cones. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -146,7 +146,7 @@ const bench_subject bench_mixed = {
     .try_count = sizeof tries / sizeof *tries,
     .backends = 1,
     .truth_is = "its own finest settings, " EXACT,
-    .usage = "bench mix --frame PREFIX --object MESH [options of lambent mix] [options]",
+    .usage = "mix --frame PREFIX --object MESH [options of lambent mix] [options]",
     .about = "Measures speed and memory against error of an object in a photo: by voxels per side, cones per "
              "hemisphere, texels of the shadow maps and samples per pixel; for lights with a size and for varnish, "
              "add options of lambent mix. Errors count where the object changes the photo by more than a hundredth "
@@ -161,7 +161,7 @@ const bench_subject bench_mixed = {
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
                 "    put='--photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 --object tent.obj'\n"
                 "    lambent mix $put --voxels 6 --cones 37 -o truth.pfm\n"
-                "    lambent bench mix $put --runs 1 --truth truth.pfm --sweep voxels=4,5\n",
+                "    lambent-bench mix $put --runs 1 --truth truth.pfm --sweep voxels=4,5\n",
     .check = check,
     .draw = draw,
     .truth = draw_truth,

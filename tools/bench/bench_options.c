@@ -109,7 +109,7 @@ void bench_options_table(option_table *out, const bench_subject *subject)
 {
     int n = 0;
     memset(out, 0, sizeof *out);
-    out->verb = "bench";
+    out->verb = "";
     out->usage = subject->usage;
     out->about = subject->about;
     out->examples = subject->examples;
@@ -194,7 +194,7 @@ static int check_slice(bench_options *o, report *r)
     }
     if (o->out == NULL || o->html != o->names[0] || o->csv != o->names[1] || o->json != o->names[2] || o->svg != NULL) {
         return report_fail(
-            r, "--slice: give -o NAME and no other output; `lambent merge` writes .csv, .json, .html, .svg");
+            r, "--slice: give -o NAME and no other output; `lambent-bench merge` writes .csv, .json, .html, .svg");
     }
     o->html = o->csv = o->json = NULL;
     o->breakdown = 0;

@@ -1,4 +1,4 @@
-/* bench_options.h: the command line of `lambent bench SCENE`, and of relight, relief and mix. */
+/* bench_options.h: the command line of `lambent-bench SCENE`, and of relight, relief and mix. */
 #ifndef BENCH_OPTIONS_H
 #define BENCH_OPTIONS_H
 

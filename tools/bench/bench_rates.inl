@@ -1,4 +1,4 @@
-/* bench_rates.inl: part of `lambent bench` (tools/bench): loops that keep an execution unit busy with one operation and
+/* bench_rates.inl: part of `lambent-bench` (tools/bench): loops that keep an execution unit busy with one operation and
  * add a little of another. Each bench_rates_BACKEND.c compiles it for one backend.
  *
  * The including file defines KERNEL(name), BACKEND and CHAINS, half of the operations in flight. Inputs are read from

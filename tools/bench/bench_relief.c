@@ -1,4 +1,4 @@
-/* bench_relief.c: `lambent bench relief`: reliefs by views, size and iterations, against their complex model. */
+/* bench_relief.c: `lambent-bench relief`: reliefs by views, size and iterations, against their complex model. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -284,7 +284,7 @@ const bench_subject bench_relief = {
     .tries = tries,
     .try_count = sizeof tries / sizeof *tries,
     .truth_is = "the model itself, drawn by its triangles",
-    .usage = "bench relief MODEL [options of lambent relief bake and render] [options]",
+    .usage = "relief MODEL [options of lambent relief bake and render] [options]",
     .about = "Measures speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole "
              "from slightly above: bakes it with several numbers and sizes of views and draws it with several "
              "numbers of steps. The truth is the model itself, drawn by its triangles. You may give --views, "
@@ -293,7 +293,7 @@ const bench_subject bench_relief = {
     .examples = "  a tent by two numbers of views:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
-                "    lambent bench relief tent.obj --triangles 8 --size 32 --runs 1 --sweep views=6,14\n",
+                "    lambent-bench relief tent.obj --triangles 8 --size 32 --runs 1 --sweep views=6,14\n",
     .say = say,
     .check = check,
     .draw = draw,

@@ -1,4 +1,4 @@
-/* bench_relight.c: `lambent bench relight`: a place's irradiance by each filter. */
+/* bench_relight.c: `lambent-bench relight`: a place's irradiance by each filter. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -159,14 +159,14 @@ const bench_subject bench_relight = {
     .try_count = sizeof tries / sizeof *tries,
     .backends = 1,
     .truth_is = "all 128 x 64 directions by their exact cosines; pictures are the cube's faces, +x -x +y -y +z -z",
-    .usage = "bench relight --world WORLD [options of lambent relight] [options]",
+    .usage = "relight --world WORLD [options of lambent relight] [options]",
     .about = "Measures speed against error of the light at a place of a world: seen from there (128 x 64 "
              "directions) and filtered to an irradiance cube by exact cosines, 9, 16 and 25 harmonics, and the "
              "blurs. The truth is a cube like that of lambent relight --cube, or else every one of those directions "
              "by its exact cosine, so that only the filters have errors. A picture is the cube's six faces, +x -x "
              "+y -y +z -z from the top. With --object FILE the sweep is of a picture of objects in that light: see "
-             "bench relight --object FILE --help.",
-    .examples = "  lambent bench relight --world demo --runs 1 --sweep filter=cosine,sh9\n",
+             "lambent-bench relight --object FILE --help.",
+    .examples = "  lambent-bench relight --world demo --runs 1 --sweep filter=cosine,sh9\n",
     .check = check,
     .draw = draw,
     .truth = draw_truth,

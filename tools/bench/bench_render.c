@@ -1,4 +1,4 @@
-/* bench_render.c: `lambent bench SCENE`: pictures with all options of `lambent render`. */
+/* bench_render.c: `lambent-bench SCENE`: pictures with all options of `lambent render`. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -192,9 +192,9 @@ const bench_subject bench_render = {
     .exact_count = sizeof exact / sizeof *exact,
     .truth_is = "its own most exact settings, " EXACT,
     .hurry = "--threads %d",
-    .usage = "bench SCENE [options of lambent render] [options]\n"
-             "bench relight|relief|mix --help     the same for these verbs\n"
-             "bench --help                        speed of kernels",
+    .usage = "SCENE [options of lambent render] [options]\n"
+             "relight|relief|mix --help     the same for these verbs\n"
+             "--help                        speed of kernels",
     .about = "Measures speed against error of one picture: draws it with some thirty settings, one option at a time "
              "around --quality draft, default and best. Prints the cost of each (time by stage, memory, "
              "instructions if the system counts them) and the error against the truth: `trim`, relative RMSE "
@@ -202,9 +202,9 @@ const bench_subject bench_render = {
              "light (--show indirect), on one thread, at the truth's size or 160x120; options of render change "
              "that.",
     .examples = "  three settings, as a table:\n"
-                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --breakdown 0\n"
+                "    lambent-bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --breakdown 0\n"
                 "  the same, as pages.html, pages.csv, pages.json:\n"
-                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --breakdown 0 -o pages\n",
+                "    lambent-bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --breakdown 0 -o pages\n",
     .check = check,
     .draw = draw,
     .truth = draw_truth,

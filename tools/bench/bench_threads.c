@@ -1,4 +1,4 @@
-/* bench_threads.c: `lambent bench threads`: the speed-up of threads, compared with independent processes.
+/* bench_threads.c: `lambent-bench threads`: the speed-up of threads, compared with independent processes.
  *
  * N processes that each do the whole work share memory bandwidth, caches and the machine's other users, but no work, so
  * their throughput is the limit for threads. One thread, N threads and N processes run in turns, so that load on the

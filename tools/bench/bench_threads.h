@@ -1,4 +1,4 @@
-/* bench_threads.h: `lambent bench threads`: the speed-up of threads, compared with independent processes. */
+/* bench_threads.h: `lambent-bench threads`: the speed-up of threads, compared with independent processes. */
 #ifndef BENCH_THREADS_H
 #define BENCH_THREADS_H
 

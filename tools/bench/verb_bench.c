@@ -1,4 +1,4 @@
-/* verb_bench.c: `lambent bench`: the raster workload, draws, the far gather, threads, hard cases, and sweeps. */
+/* verb_bench.c: `lambent-bench`: the raster workload, draws, the far gather, threads, hard cases, and sweeps. */
 #include "verb_bench.h"
 
 #include <stdio.h>
@@ -498,8 +498,8 @@ static const struct workload {
      0,
      1.5f,
      1,
-     {.verb = "bench raster",
-      .usage = "bench raster [CASE...] [options]",
+     {.verb = "raster",
+      .usage = "raster [CASE...] [options]",
       .about = "Draws the fixed raster workload on one thread and prints one line per case: the minimum and the "
              "median time of a frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = "
              "bound / minimum time. The bound is the best that the same run finds the machine can do with the "
@@ -511,15 +511,15 @@ static const struct workload {
              "nothing. In plain C, whose lanes compilers join as they like, only depths count. fill-depth cases "
              "also print pixels per second and `peak`, the depths per second of the bound.",
       .part = {raster_rows},
-      .examples = "  lambent bench raster fill-depth --seconds 0.1\n"}},
+      .examples = "  lambent-bench raster fill-depth --seconds 0.1\n"}},
     {"gather",
      NULL,
      run_gather,
      0,
      1.5f,
      0,
-     {.verb = "bench gather",
-      .usage = "bench gather [options]",
+     {.verb = "gather",
+      .usage = "gather [options]",
       .about = "Times the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with "
              "one group. Prints one line per backend: pairs per second, cycles per pair, and `share` = bound / "
              "cycles. The bound is the best that the same run finds the machine can do with the kernel's own "
@@ -529,37 +529,37 @@ static const struct workload {
              "Loads, stores, masks, branches and waiting for results count as nothing. A cycle is that of a chain "
              "of integer operations.",
       .part = {gather_rows},
-      .examples = "  lambent bench gather --seconds 0.1\n"}},
+      .examples = "  lambent-bench gather --seconds 0.1\n"}},
     {"draw",
      check_draw,
      run_draw,
      0,
      1.0f,
      1,
-     {.verb = "bench draw",
-      .usage = "bench draw [CASE...] [options]",
+     {.verb = "draw",
+      .usage = "draw [CASE...] [options]",
       .about = "Draws cases of lambent/draw.h on one thread, at 640 x 480, and prints one line per case: its name, "
              "a description, and the shortest processor time of a frame. Frames of meshes, sprites, particles, "
              "lines and shadows begin with a clear of colours and depth. For `clear`, `fill` and `glass`, the line "
              "also has the time of storing each pixel once (memset) in the same run, and that as a share of the "
              "frame's.",
       .part = {draw_rows},
-      .examples = "  lambent bench draw fill --seconds 0.1\n"}},
+      .examples = "  lambent-bench draw fill --seconds 0.1\n"}},
     {"threads",
      NULL,
      run_threads,
      2,
      4.0f,
      1,
-     {.verb = "bench threads",
-      .usage = "bench threads [options]",
+     {.verb = "threads",
+      .usage = "threads [options]",
       .about = "Times the gather of the built-in scene, and 2048 x 2048 depths and ids of the workload's meshes by "
              "strips of rows and by bins, on one thread, on N threads, and in N processes at once, in turn. `of "
              "processes` is the speed-up of threads relative to that of processes: 100 % is all that this machine "
              "gives.",
       .part = {threads_rows},
       .examples = "  with a folder that holds bunny.mesh and sponza.mesh:\n"
-                  "    [ ! -e data/sponza.mesh ] || lambent bench threads --data data --seconds 1\n",
+                  "    [ ! -e data/sponza.mesh ] || lambent-bench threads --data data --seconds 1\n",
       .status = "exit status: 0 done, 1 a file that cannot be read or no processes to be had, 2 bad usage"}},
     {"hard",
      NULL,
@@ -567,13 +567,13 @@ static const struct workload {
      0,
      0.0f,
      1,
-     {.verb = "bench hard",
-      .usage = "bench hard [CASES] [options]",
+     {.verb = "hard",
+      .usage = "hard [CASES] [options]",
       .about = "Tests cases that renderers get wrong: prints one line per case, with a figure and its upper bound. "
              "`exact` is 0 by design, `bounded` is limited by arithmetic or a formula, `measured` is compared with "
              "rays, sums and closed forms in double, with a bound slightly above the figure found. A few seconds.",
       .part = {hard_rows},
-      .examples = "  lambent bench hard raster\n",
+      .examples = "  lambent-bench hard raster\n",
       .status = "exit status: 0 done, 1 a figure past its bound, 2 bad usage"}},
     {"--calibrate",
      NULL,
@@ -581,28 +581,29 @@ static const struct workload {
      0,
      0.0f,
      0,
-     {.verb = "bench --calibrate",
-      .usage = "bench --calibrate [--threads N]",
+     {.verb = "--calibrate",
+      .usage = "--calibrate [--threads N]",
       .about = "Measures units of work per second, which --budget ms needs: draws the built-in room a few times.",
       .part = {calibrate_rows},
-      .examples = "  lambent bench --calibrate --threads 1\n"}},
+      .examples = "  lambent-bench --calibrate --threads 1\n"}},
 };
 
 static const option_table bench_table = {
-    .verb = "bench",
-    .usage = "bench SCENE|relight|relief|mix ...  speed against error\n"
-             "bench raster [CASE...] [options]    speed of drawing the fixed workload\n"
-             "bench draw [CASE...] [options]      speed of drawing 2D, lines, blends\n"
-             "bench gather [options]              speed of lighting pixels by groups\n"
-             "bench threads [options]             speed-up of threads, compared with processes\n"
-             "bench hard [CASES] [options]        cases that renderers get wrong\n"
-             "bench --calibrate [--threads N]     units of work per second",
+    .verb = "",
+    .usage = "SCENE|relight|relief|mix ...  speed against error\n"
+             "raster [CASE...] [options]    speed of drawing the fixed workload\n"
+             "draw [CASE...] [options]      speed of drawing 2D, lines, blends\n"
+             "gather [options]              speed of lighting pixels by groups\n"
+             "threads [options]             speed-up of threads, compared with processes\n"
+             "hard [CASES] [options]        cases that renderers get wrong\n"
+             "--calibrate [--threads N]     units of work per second\n"
+             "merge SLICE... -o OUT         join slices of a sweep",
     .about =
-        "Measures speed and errors. Each has its own --help: lambent bench raster --help; lambent bench demo --help is "
+        "Measures speed and errors. Each has its own --help: lambent-bench raster --help; lambent-bench demo --help is "
         "that of SCENE.",
     .part = {bench_rows},
-    .examples = "  lambent bench raster fill-depth --seconds 0.1\n"
-                "  lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32 --breakdown 0\n",
+    .examples = "  lambent-bench raster fill-depth --seconds 0.1\n"
+                "  lambent-bench demo --size 24x16 --runs 1 --sweep tree=16,32 --breakdown 0\n",
 };
 
 static int measure_workload(const struct workload *w, int argc, char **argv)
@@ -656,8 +657,8 @@ int verb_bench(int argc, char **argv)
         if (meant == NULL) {
             return verb_bench_sweep(argc, argv);
         }
-        report_fail(&r, "there is no file `%s`; did you mean bench %s?", argv[1], meant);
-        return report_end(&r, "bench", 2);
+        report_fail(&r, "there is no file `%s`; did you mean lambent-bench %s?", argv[1], meant);
+        return report_end(&r, "", 2);
     }
     int asked = options_parse(NULL, &bench_table, argc, argv, &r);
     if (asked == OPTIONS_RUN) {

@@ -1,4 +1,4 @@
-/* verb_bench.h: `lambent bench`. */
+/* verb_bench.h: `lambent-bench`. */
 #ifndef VERB_BENCH_H
 #define VERB_BENCH_H
 

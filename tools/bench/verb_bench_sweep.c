@@ -1,4 +1,4 @@
-/* verb_bench_sweep.c: `lambent bench SCENE`: speed against error, as a table and as files. */
+/* verb_bench_sweep.c: `lambent-bench SCENE`: speed against error, as a table and as files. */
 #include "verb_bench_sweep.h"
 
 #include <stdio.h>
@@ -77,8 +77,8 @@ int verb_bench_sweep(int argc, char **argv)
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &own, &r);
     }
-    progress_begin(o.is_quiet, "bench");
+    progress_begin(o.is_quiet, "");
     const int ok = sweep_and_write(&o, &r);
     progress_end();
-    return ok ? 0 : report_end(&r, "bench", 1);
+    return ok ? 0 : report_end(&r, "", 1);
 }

@@ -1,4 +1,4 @@
-/* verb_bench_sweep.h: `lambent bench SCENE`, `bench relight`, `bench relief`, `bench mix`. */
+/* verb_bench_sweep.h: `lambent-bench SCENE`, `relight`, `relief`, `mix`. */
 #ifndef VERB_BENCH_SWEEP_H
 #define VERB_BENCH_SWEEP_H
 

@@ -6,6 +6,7 @@
 
 #include <lambent/lambent.h>
 
+#include "command_name.h"
 #include "io_file.h"
 #include "option_value.h"
 #include "options_table.h"
@@ -169,7 +170,7 @@ int options_unknown(const option_table *const *tables, int count, const char *wo
     if (meant != NULL) {
         return report_fail(r, "unknown option %s; did you mean %s?", name, meant);
     }
-    return report_fail(r, "unknown option %s; lambent %s --help lists them", name, tables[0]->verb);
+    return report_fail(r, "unknown option %s; %s --help lists them", name, command_name(tables[0]->verb));
 }
 
 /* --- values ------------------------------------------------------------------------------------------------------- */
@@ -441,7 +442,7 @@ static int take_word(line *l, report *r)
         }
         last = i;
     }
-    return last < 0 ? report_fail(r, "`%s` is no option; lambent %s --help lists them", word, l->table->verb)
+    return last < 0 ? report_fail(r, "`%s` is no option; %s --help lists them", word, command_name(l->table->verb))
                     : report_fail(r, "`%s` is one word too many: %s is `%s`", word, options_row(l->table, last)->name,
                                   l->first[last]);
 }
@@ -476,7 +477,7 @@ void options_form(int is_man) { is_man_page = is_man; }
 int options_answer_to(FILE *out, FILE *err, int asked, const option_table *t, const report *r)
 {
     if (asked == OPTIONS_BAD) {
-        fprintf(err, "lambent %s: %s\n", t->verb, r->text);
+        fprintf(err, "%s: %s\n", command_name(t->verb), r->text);
         return 2;
     }
 #if !defined(OPTIONS_WITHOUT_HELP)
@@ -489,7 +490,7 @@ int options_answer_to(FILE *out, FILE *err, int asked, const option_table *t, co
     if (fflush(out) == 0 && !ferror(out)) {
         return 0;
     }
-    fprintf(err, "lambent %s: the help could not be written\n", t->verb);
+    fprintf(err, "%s: the help could not be written\n", command_name(t->verb));
     return 1;
 }
 
@@ -500,5 +501,5 @@ int options_answer(int asked, const option_table *t, const report *r)
 
 void options_version(FILE *out)
 {
-    fprintf(out, "lambent %d.%d.%d\n", LMB_VERSION / 10000, LMB_VERSION / 100 % 100, LMB_VERSION % 100);
+    fprintf(out, "%s %d.%d.%d\n", command_name(""), LMB_VERSION / 10000, LMB_VERSION / 100 % 100, LMB_VERSION % 100);
 }

@@ -68,7 +68,7 @@ enum { OPTION_PARTS = 12, OPTION_ROWS = 96 };
 
 typedef struct option_table {
     const char *verb;     /* "relief bake" */
-    const char *usage;    /* text after `lambent `, one line each */
+    const char *usage;    /* text after the program's name, one line each */
     const char *about;    /* paragraphs */
     const option_row *part[OPTION_PARTS]; /* rows up to OPTION_END; NULL after the last part. OPTION_ROWS in all */
     const char *examples; /* lines, printed unchanged */

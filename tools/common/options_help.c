@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "../../src/lane/backends.h"
+#include "command_name.h"
 #include "options_table.h"
 
 enum { WIDTH = 98, INDENT = 2, COLUMN = 29 /* column of the text beside a name */ };
@@ -178,7 +179,8 @@ void options_help(FILE *out, const option_table *t)
     const option_row *row;
     for (const char *line = t->usage, *end; *line != '\0'; line = *end != '\0' ? end + 1 : end) {
         end = line + strcspn(line, "\n");
-        fprintf(out, "%slambent %.*s\n", line == t->usage ? "usage: " : "       ", (int)(end - line), line);
+        fprintf(out, "%s%s %.*s\n", line == t->usage ? "usage: " : "       ", command_name(""), (int)(end - line),
+                line);
     }
     fputc('\n', out);
     fold(out, t->about, 0, 0);

@@ -1,6 +1,7 @@
 /* options_man.c: prints a verb's table as a section of a man page. */
 #include <string.h>
 
+#include "command_name.h"
 #include "options_table.h"
 
 /* Escapes text: no character is a command, and a hyphen can be copied. `is_new`: at the beginning of a line. */
@@ -25,6 +26,14 @@ static void put(FILE *out, const char *text, size_t size, int is_new)
         } else {
             fputc(c, out);
         }
+    }
+}
+
+static void put_upper(FILE *out, const char *text)
+{
+    for (; *text != '\0'; ++text) {
+        const char c = *text >= 'a' && *text <= 'z' ? (char)(*text - 'a' + 'A') : *text;
+        put(out, &c, 1, 0);
     }
 }
 
@@ -64,12 +73,15 @@ static void put_row(FILE *out, const option_row *row)
 void options_man(FILE *out, const option_table *t)
 {
     const option_row *row;
-    fprintf(out, ".SH LAMBENT ");
+    fputs(".SH ", out);
+    put_upper(out, command_name(""));
+    fputs(t->verb[0] != '\0' ? " " : "", out);
     put(out, t->verb, strlen(t->verb), 0);
     fputs("\n.nf\n", out);
     for (const char *line = t->usage; *line != '\0';) {
         const size_t n = strcspn(line, "\n");
-        fputs("lambent ", out);
+        put(out, command_name(""), strlen(command_name("")), 0);
+        fputc(' ', out);
         put(out, line, n, 0);
         fputc('\n', out);
         line += n + (line[n] == '\n');

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
+#include "command_name.h"
 
 #define SILENT_S 1.0 /* shorter work shows no progress */
 #define EVERY_S  0.2
@@ -60,7 +61,7 @@ static void show(const char *name, double share, double begun, double now)
         return;
     }
     left_of(left, sizeof left, share, now - begun);
-    snprintf(line, sizeof line, "lambent %s: %s %.0f %%%s", watch.verb, name, 100.0 * share, left);
+    snprintf(line, sizeof line, "%s: %s %.0f %%%s", command_name(watch.verb), name, 100.0 * share, left);
     watch.shown = now;
     if (watch.is_log) {
         fprintf(stderr, "%s\n", line);

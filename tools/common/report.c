@@ -1,6 +1,7 @@
 /* report.c: keeps the message of the first failure. */
 #include "report.h"
 
+#include "command_name.h"
 #include "progress.h"
 #include "text_clean.h"
 
@@ -104,7 +105,7 @@ void report_note(int is_quiet, const char *format, ...)
     if (!is_quiet) {
         progress_wipe();
         va_start(args, format);
-        fputs("lambent: ", stderr);
+        fprintf(stderr, "%s: ", command_name(""));
         print(stderr, format, args);
         fputc('\n', stderr);
         va_end(args);
@@ -119,6 +120,6 @@ int report_end(const report *r, const char *verb, int status)
 
 int report_end_to(FILE *err, const report *r, const char *verb, int status)
 {
-    report_print(err, "lambent %s: %s\n", verb, r->text);
+    report_print(err, "%s: %s\n", command_name(verb), r->text);
     return report_is_usage(r) ? 2 : status;
 }

@@ -41,10 +41,10 @@ int report_fail_system(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 int report_is_usage(const report *r);
 int report_fail_usage(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_note: prints a line on stderr after `lambent: `, unless is_quiet. */
+/* report_note: prints a line on stderr after the program's name, unless is_quiet. */
 void report_note(int is_quiet, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_end: prints the message after `lambent VERB: `, and returns the exit status: `status`, or 2 after
+/* report_end: prints the message after the program and VERB, and returns the exit status: `status`, or 2 after
  * report_fail_usage. */
 int report_end(const report *r, const char *verb, int status);
 int report_end_to(FILE *err, const report *r, const char *verb, int status);

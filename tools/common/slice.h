@@ -20,7 +20,7 @@ int slice_option(const char *text, void *at);
 #define OPTION_SLICE_ROW(type, member, what)                                                                   \
     {.name = "--slice", .value = "I/N", .kind = OPTION_OWN, .at = offsetof(type, member), .parse = slice_option, \
      .expects = "I/N, the Ith of N slices: 1/4 .. 4/4",                                                        \
-     .help = "compute slice I of N of the " what ", on one of several machines, into OUT.IofN. `lambent merge` " \
+     .help = "compute slice I of N of the " what ", on one of several machines, into OUT.IofN. `merge` " \
              "joins all N to the same bytes as one machine"}
 
 /* slice_job: a hash of the result of a command line, in any order of options: all options except those that change

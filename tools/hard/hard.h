@@ -1,6 +1,6 @@
 /* hard.h: a gallery of cases that renderers get wrong, each with a measured figure and an upper bound.
  *
- * It is part of the tool and not of the tests, so that you can run it on your machine (`lambent bench hard`);
+ * It is part of the tool and not of the tests, so that you can run it on your machine (`lambent-bench hard`);
  * tests/hard runs the same list and fails if a figure exceeds the bound. */
 #ifndef HARD_H
 #define HARD_H

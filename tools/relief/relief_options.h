@@ -1,4 +1,4 @@
-/* relief_options.h: rows of options shared by `lambent relief bake`, `relief render` and `bench relief`. */
+/* relief_options.h: rows of options shared by `lambent relief bake`, `relief render` and `lambent-bench relief`. */
 #ifndef RELIEF_OPTIONS_H
 #define RELIEF_OPTIONS_H
 

@@ -128,7 +128,7 @@ const option_row render_budget_rows[] = {
     {.name = "--budget error", .value = "E", .kind = OPTION_NUMBER, AT(budget.error), .low = 1e-5, .high = 10,
      .help = HELP("error limit of bounced light: RMSE over the mean, without the worst 1 % of pixels")},
     {.name = "--budget ms", .value = "T", .kind = OPTION_NUMBER, AT(budget_ms), .low = 1e-3, .high = 1e9,
-     .help = HELP("time limit of a frame on this machine: T x the rate of `lambent bench --calibrate`")},
+     .help = HELP("time limit of a frame on this machine: T x the rate of `lambent-bench --calibrate`")},
     {.name = "--budget work", .value = "N", .kind = OPTION_OWN, AT(budget.work), .parse = parse_budget_work,
      .expects = "a number of units, 1 or more",
      .help = HELP("the same in units (one pixel lit by one node), for the same choice on every machine")},
