@@ -138,6 +138,10 @@ NOINLINE void small_id32(const lmb_fill_window *w, const lmb_batch *b, uint32_t 
 }
 #endif
 
+#if defined(LANE_PLAIN) && LANES > 1
+#include "fill_tiny.inl"
+#endif
+
 /* One by one. */
 #if LANES >= LMB_TILE
 NOINLINE
@@ -153,6 +157,12 @@ void small_each(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, int
         const int k = lowest_bit(bits);
         const int32_t ex[3] = {b->ex[0][k], b->ex[1][k], b->ex[2][k]}, ey[3] = {b->ey[0][k], b->ey[1][k], b->ey[2][k]};
         fill_triangle t;
+#if defined(LANE_PLAIN) && LANES > 1
+        if (kind == FILL_ID32 && tiny_is(b, k)) {
+            tiny_fill(w, b, k);
+            continue;
+        }
+#endif
         job.dx = (float)b->dx[k];
         job.dy = (float)b->dy[k];
         job.d_min = b->d_min[k];

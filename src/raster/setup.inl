@@ -345,7 +345,9 @@ LANE_INLINE void setup_triangles(lmb_batch *out, const lmb_setup_job *job, const
     }
 }
 
-#if LANES > 1
+#if LANES > 1 && defined(LANE_PLAIN)
+#include "setup_plain.inl"
+#elif LANES > 1
 /* A separate function: in KERNEL(setup)'s loop compilers would keep the invariants, two dozen vectors, on the stack. */
 NOINLINE void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
 {
