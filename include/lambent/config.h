@@ -79,6 +79,12 @@
 #error "lambent: LMB_TREES needs LMB_BOUNCE"
 #endif
 
+/* 0: a texel of the light tree in which several surfaces show gives light by one of them only. Saves 4 KiB of code;
+ * floors beside round objects in low sun get bright specks. 0 in a build without trees. */
+#ifndef LMB_FACETS
+#define LMB_FACETS LMB_TREES
+#endif
+
 /* 0: this build has no light at single points (lambent/live.h); frames with LMB_GATHER_LIVE are refused. Saves 12 KiB
  * of ROM on a Cortex-M4F. 0 in a build without trees. */
 #ifndef LMB_LIVE

@@ -17,7 +17,7 @@ typedef struct lmb_texel {
     float flux[3];             /* outgoing Lambertian power, W; all 0: no first point */
     uint8_t side[4];           /* extent of the surface from the texel's middle, left, right, up and down, in 1/256
                                   texel: 128 reaches the texel's edge; else the line where the plane meets the
-                                  neighbour's plane */
+                                  neighbour's plane. side[0] 0: several surfaces show, and the rest says which */
     float share;               /* if a side is not 128: share of the flux that the exact shape has; under 0: use the
                                   sides */
 } lmb_texel;
@@ -129,7 +129,8 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
 /* lmb_tree_texels: write the first points of the tile rows first .. past - 1 of one face of a shadow map into face
  * `into` of the tree. A map of 2, 4 or 8 times the tree's size gives one texel for each 2 x 2, 4 x 4 or 8 x 8 of the
  * map: a point of the surface that shows in their middle. If surfaces hide each other there, texels alternate between
- * them in proportion to their visible area. So you can use fine maps, for sharp shadows, without as many first points.
+ * them in proportion to their visible area, and near receivers get light from each. So you can use fine maps, for sharp
+ * shadows, without as many first points. lmb_gather_cut with a BVH reads the ids of such a map again, so keep the map.
  * Rows may be done in any order, on any threads. Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY. */
 lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
                            const lmb_light *light, const lmb_shadow_map *map, int32_t face, uint32_t into,

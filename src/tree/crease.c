@@ -11,6 +11,7 @@
 
 #include "../base/vec.h"
 #include "../direct/footprint.h"
+#include "facets.h"
 
 #if LMB_TREES
 
@@ -74,10 +75,11 @@ static float planes_meet(const lmb_view *v, const pair *p)
 }
 
 /* Extends texel a towards b up to their common edge, and b towards a. Extents are rounded so that no gap remains
- * between the two, and so that neither looks like a whole texel. */
+ * between the two, and so that neither looks like a whole texel. A texel with facets keeps the whole cell. */
 static void set_edge(const lmb_view *v, const pair *p, int a_side, int b_side)
 {
-    const float share = same_plane(p->a, p->b) ? 0.0f : planes_meet(v, p);
+    const int several = facets_are_several(p->a) || facets_are_several(p->b);
+    const float share = several || same_plane(p->a, p->b) ? 0.0f : planes_meet(v, p);
     if (share > 0.0f) {
         int at = (int)(share * 256.0f);
         at = at == 127 ? 126 : at == 128 ? 129 : at;

@@ -12,6 +12,7 @@
 #include "../direct/footprint.h"
 #include "../occlusion/traversal.h"
 #include "../raster/tile.h"
+#include "facets.h"
 #include "pixel_cluster.h"
 #include "tree.h"
 
@@ -28,6 +29,7 @@
 #define LARGE_NOISE        1.5258789e-5f /* 2^-16 of the distance to the eye: the origin is then 64 times as far away */
 #define SPENT              8.0 /* factor on the allowed light and error in a tile that has used up the tests */
 #define CLOSER             0.7 /* a split of the pixels must reduce the error to this share to be worth the cuts */
+#define FACETS_NEAR        3.0f /* times LMB_NEAR and half the diagonal of a cell: nearer texels show facets */
 enum { SIDE = 4 /* for a lobe, a near leaf is SIDE x SIDE parts */ };
 enum { NONE = -1, GONE = 0xffff /* level of a slot without a node */ };
 enum { AHEAD = LMB_BOUNDS_NODES / 4 /* nodes with children bounded together */ };
@@ -349,6 +351,26 @@ static lmb_vec3 before_walls(const cutter *c, uint32_t face, lmb_vec3 at, float 
 /* The triangle that hides a node from all pixels, + 1; otherwise 0. */
 static uint32_t blocker_of(const lmb_cut *cut, int32_t i) { return cut->visible[i] == 0 ? cut->of.blocker[i] : 0; }
 
+/* Facets need triangles and tests of visibility; the conservative bound does not hold for them. */
+static int uses_facets(const cutter *c)
+{
+    return c->tree->element == NULL && c->cut_params->bvh != NULL && c->cut_params->bvh->scene != NULL &&
+           !c->cut_params->conservative;
+}
+
+/* 1 if the node is a texel in which several surfaces show, and the pixels are so near that each of these counts. */
+static int shows_facets(const cutter *c, lmb_node_ref at)
+{
+    const lmb_texel *t = at.level == 0 && uses_facets(c) ? tree_texel(c->tree, at.face, at.x, at.y) : NULL;
+    if (t == NULL || !facets_are_several(t)) {
+        return 0;
+    }
+    const facets_extent e = facets_extent_of(t, &c->tree->view[at.face], c->tree->size);
+    const float step = clampf(dot3(sub3(c->p->centre, t->position), e.ray), -e.down, e.up);
+    const float reach = FACETS_NEAR * LMB_NEAR * e.wide;
+    return lmb_pixel_cluster_distance2(c->p, add3(t->position, mul3(e.ray, step))) < reach * reach;
+}
+
 /* Elements lie on both sides of walls, so pixels behind an element are excluded; a light's texels are all on the lit
  * side. If the pixels are spread out, pixels with the whole node behind them are excluded too: finding their own
  * surface as the occluder would take many boxes. blocker: tested first, if not 0. */
@@ -357,6 +379,9 @@ static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
     const lmb_node_ref at = c->cut->ref[i];
     const lmb_texel *seen = visibility_point(c, at);
     const float noise = c->noise + texel_noise(c, at.face, seen->position);
+    if (shows_facets(c, at)) {
+        return; /* add_facets tests each facet */
+    }
     count_in(c, i, -1.0);
     if ((c->tree->element != NULL || c->cut_params->spread) && !all_before(c, seen, noise)) {
         const uint64_t turned = turned_from(c, c->cut->visible[i], seen, noise);
@@ -738,6 +763,78 @@ NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, 
     }
 }
 
+/* Clears the state of the tests, which shares memory with the pairs of a gather. */
+static void begin_traversal(const cutter *c)
+{
+    lmb_traversal *t = &c->cut->use.traversal;
+    memset(t->last, 0, sizeof t->last);
+    t->first = t->asked = t->alone = 0;
+    t->eye_kind = LMB_EYE_NONE;
+    if (c->view != NULL) {
+        const lmb_view *v = c->view;
+        t->eye_kind = v->kind == LMB_PERSPECTIVE ? LMB_EYE_PLACE : LMB_EYE_FAR;
+        t->eye = v->kind == LMB_PERSPECTIVE ? v->eye : v->back;
+    }
+    t->bounded = 1;
+    t->spent = t->end = 0;
+    t->left = c->cut->tests_left;
+    t->coarse = 0;
+}
+
+#if LMB_FACETS
+
+/* Returns those of `pixels` that see a facet: in front of it, with a corner above their horizon, and nothing
+ * between. */
+static uint64_t see_facet(const cutter *c, uint32_t face, const lmb_facet *f, uint64_t pixels)
+{
+    uint64_t out = 0;
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 at = place_before(c, k, f->middle, f->normal), up = tile_vec(c->tile->face, k);
+        int over = 0;
+        for (int i = 0; i < f->corners; ++i) {
+            over |= dot3(up, sub3(f->corner[i], at)) > 0.0f;
+        }
+        out |= (uint64_t)(over && dot3(f->normal, sub3(at, f->middle)) >= 0.0f) << k;
+    }
+    const float noise = c->noise + texel_noise(c, face, f->middle);
+    uint64_t asked = out;
+    if ((asked & c->in_hull) != 0 && lmb_hull_holds(&c->cut_params->bvh->hull, f->middle)) {
+        asked &= ~c->in_hull;
+    }
+    if (c->cut_params->stats != NULL) {
+        c->cut_params->stats->segments += (uint64_t)count_bits_64(out);
+    }
+    c->cut->use.traversal.first = 0;
+    return out & ~lmb_occluded_tile(c->kernels, &c->cut->use.traversal, c->cut_params->bvh, c->tile, asked,
+                                    before_walls(c, face, f->middle, noise), noise);
+}
+
+/* Adds a texel in which several surfaces show, facet by facet. A lobe gets the texel's own leaf. */
+NOINLINE void add_facets(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t pixels)
+{
+    uint64_t lit = 0;
+    lmb_facets all;
+    lmb_facet f;
+    lmb_facets_open(&all, c->tree, c->cut_params->bvh->scene, at);
+    begin_traversal(c);
+    while (lmb_facets_next(&f, &all)) {
+        const uint64_t seen = see_facet(c, at.face, &f, pixels);
+        lit |= seen;
+        for (uint64_t bits = seen; bits != 0; bits &= bits - 1) {
+            const int k = lowest_bit_64(bits);
+            const float factor = lmb_polygon_factor(place_before(c, k, f.middle, f.normal), tile_vec(c->tile->face, k),
+                                                    tile_vec(c->tile->normal, k), f.corner, f.corners, f.normal);
+            add_flux(inout, k, factor, f.flux);
+        }
+    }
+    add_near_glossy(c, l, lit);
+    c->cut->tests_left = c->cut->use.traversal.left;
+    c->cut->coarse += c->cut->use.traversal.coarse;
+}
+
+#endif
+
 /* 1 if a pixel of the cluster may be near the leaf. */
 static int is_near(const lmb_pixel_cluster *p, const leaf *l)
 {
@@ -817,6 +914,12 @@ static void light_by(stream *s, lmb_node_ref at, uint64_t visible)
         }
     } else {
         leaf_at(&l, c->tree, at);
+#if LMB_FACETS
+        if (shows_facets(c, at)) {
+            add_facets(s->inout, c, at, &l, visible);
+            return;
+        }
+#endif
         if (is_near(c->p, &l)) {
             add_near(s->inout, c, at, &l, visible);
             return;
@@ -934,28 +1037,16 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
 {
     const lmb_cut_params *cut_params = c->cut_params;
     c->p = p;
-    memset(c->cut->use.traversal.last, 0, sizeof c->cut->use.traversal.last);
-    c->cut->use.traversal.first = 0;
-    c->cut->use.traversal.asked = c->cut->use.traversal.alone = 0;
     c->noise = lmb_tile_noise(c->tile, p->pixels);
     c->view = cut_params->view;
     if (c->view != NULL && c->noise > LARGE_NOISE * length3(sub3(c->view->eye, p->centre))) {
         c->view = NULL;
     }
-    c->cut->use.traversal.eye_kind = LMB_EYE_NONE;
-    if (c->view != NULL) {
-        const lmb_view *v = c->view;
-        c->cut->use.traversal.eye_kind = v->kind == LMB_PERSPECTIVE ? LMB_EYE_PLACE : LMB_EYE_FAR;
-        c->cut->use.traversal.eye = v->kind == LMB_PERSPECTIVE ? v->eye : v->back;
-    }
     c->in_hull = cut_params->bvh != NULL ? lmb_hull_pixels(&cut_params->bvh->hull, c->tile, p->pixels) : 0;
     c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);
     c->beside = beside(cut_params, p, c->per_pixel);
     c->lobe = lobe_of(cut_params, p);
-    c->cut->use.traversal.bounded = 1;
-    c->cut->use.traversal.spent = c->cut->use.traversal.end = 0;
-    c->cut->use.traversal.left = c->cut->tests_left;
-    c->cut->use.traversal.coarse = 0;
+    begin_traversal(c);
     const double now = take_cut(c);
     c->cut->tests_left = c->cut->use.traversal.left;
     c->cut->coarse += c->cut->use.traversal.coarse;

@@ -10,6 +10,7 @@
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
 #include "box.h"
+#include "facets.h"
 
 #if LMB_TREES
 
@@ -22,8 +23,8 @@ size_t lmb_tree_bytes(uint32_t faces, int32_t size)
     if (size < LMB_TILE || size > 4096 || (size & (size - 1)) != 0 || faces == 0 || faces > 65535u) {
         return 0;
     }
-    const size_t face =
-        (size_t)size * (size_t)size * sizeof(lmb_texel) + tree_nodes(size) * sizeof(lmb_node) + sizeof(lmb_view);
+    const size_t face = (size_t)size * (size_t)size * sizeof(lmb_texel) + tree_nodes(size) * sizeof(lmb_node) +
+                        sizeof(lmb_view) + sizeof(lmb_target);
     return faces > (size_t)-1 / face ? 0 : faces * face;
 }
 
@@ -41,7 +42,7 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
     out->size = size;
     out->face_cap = faces;
     out->texel = (lmb_texel *)memory;
-    out->node = (lmb_node *)(void *)(out->texel + (size_t)faces * (size_t)size * (size_t)size);
+    out->node = (lmb_node *)(void *)(tree_shown(out) + faces);
     out->view = (lmb_view *)(void *)(out->node + faces * tree_nodes(size));
     return LMB_OK;
 }
@@ -177,6 +178,12 @@ static void set_texel(lmb_texel *out, const lmb_tile *t, uint64_t at_end, int k,
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = flux_or_none(power[c] * t->albedo[c][own]);
     }
+#if LMB_FACETS
+    const int32_t each = coarse->face[face].id.width / coarse->size;
+    if (each > 1) {
+        lmb_facets_mark(out, t, own, k - each / 2 * (LMB_TILE + 1), each, v, coarse->size);
+    }
+#endif
 }
 
 static int divides(int32_t small, int32_t large)
@@ -202,6 +209,7 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
     coarse.size = size;
     if (first == 0 && past > 0) { /* by one part only: with few rows, many parts have none */
         tree->view[into] = map->view[face];
+        tree_shown(tree)[into] = map->face[face];
     }
     for (int32_t i = first * map->size; i < past * map->size && status == LMB_OK; i += LMB_TILE) {
         const int32_t x0 = i % map->size, y0 = i / map->size * LMB_TILE;
@@ -221,12 +229,17 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
 
 /* --- a texel's quad ----------------------------------------------------------------------------------------------- */
 
+static const uint8_t whole_sides[4] = {SIDE_WHOLE, SIDE_WHOLE, SIDE_WHOLE, SIDE_WHOLE};
+
+static const uint8_t *sides_of(const lmb_texel *t) { return facets_are_several(t) ? whole_sides : t->side; }
+
 /* Box of the texel's cell, and of cells of neighbours that it may have a part in. u, v: whole sides. */
 static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
 {
+    const uint8_t *side = sides_of(t);
     float reach[4];
     for (int i = 0; i < 4; ++i) {
-        reach[i] = t->side[i] == SIDE_WHOLE ? 0.5f : 1.5f;
+        reach[i] = side[i] == SIDE_WHOLE ? 0.5f : 1.5f;
     }
     const float right = reach[SIDE_RIGHT] - reach[SIDE_LEFT], up = reach[SIDE_UP] - reach[SIDE_DOWN];
     const lmb_vec3 centre = add3(t->position, mul3(add3(mul3(u, right), mul3(v, up)), 0.5f));
@@ -239,6 +252,34 @@ static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
         out->half[i] = absf(dot3(axis[i], u)) + absf(dot3(axis[i], v));
     }
     out->radius = sqrtf(dot3(u, u) + dot3(v, v) + 2.0f * absf(dot3(u, v)));
+}
+
+/* Extent of a box along a direction from its middle. */
+static float reach_of(const lmb_node *n, lmb_vec3 along)
+{
+    const float box = absf(dot3(n->normal, along)) * n->half[0] + absf(dot3(n->across, along)) * n->half[1] +
+                      absf(dot3(cross3(n->normal, n->across), along)) * n->half[2];
+    return minf(box, n->radius);
+}
+
+/* Extends the box of a texel in which several surfaces show to all of them. */
+static void add_facets_box(lmb_node *inout, const lmb_texel *t, const lmb_view *v, int32_t size)
+{
+    const facets_extent e = facets_extent_of(t, v, size);
+    const lmb_vec3 middle = add3(t->position, mul3(e.ray, 0.5f * (e.up - e.down)));
+    box_span box = box_begin(inout->middle, t->normal, box_across(t->normal, e.ray));
+    for (int i = 0; i < 3; ++i) {
+        box_add(&box, i, 0.0f, reach_of(inout, box.axis[i]));
+        box_add(&box, i, dot3(box.axis[i], sub3(middle, inout->middle)),
+                0.5f * (e.up + e.down) * absf(dot3(box.axis[i], e.ray)) + e.wide);
+    }
+    inout->middle = box_middle(&box);
+    inout->across = box.axis[1];
+    for (int i = 0; i < 3; ++i) {
+        inout->half[i] = box_half(&box, i);
+    }
+    inout->radius = length3(vec3(inout->half[0], inout->half[1], inout->half[2]));
+    inout->cosine = facets_cosine(t);
 }
 
 /* For several joined specks, the box of the largest one; only specks beside it are left out. */
@@ -280,12 +321,16 @@ static int texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *t
         out->area = element->area;
         return 0;
     }
-    const uint8_t *side = t->side;
+    const uint8_t *side = sides_of(t);
+    const int several = side == whole_sides, is_whole = several || tree_is_whole(t);
     const float wide = (float)(side[SIDE_LEFT] + side[SIDE_RIGHT]), right = (float)(side[SIDE_RIGHT] - side[SIDE_LEFT]),
                 high = (float)(side[SIDE_UP] + side[SIDE_DOWN]), down = (float)(side[SIDE_DOWN] - side[SIDE_UP]);
     footprint_sides(u, v, &tree->view[face], tree->size, t->position, t->normal);
-    if (boxed || !tree_is_whole(t)) {
+    if (boxed || !is_whole) {
         set_box(out, t, *u, *v);
+    }
+    if (boxed && several) {
+        add_facets_box(out, t, &tree->view[face], tree->size);
     }
     out->centre = add3(t->position, sub3(mul3(*u, right / 512.0f), mul3(*v, down / 512.0f)));
     *u = mul3(*u, wide / 512.0f);
@@ -293,7 +338,7 @@ static int texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *t
     float share = 1.0f;
     int is_crease = 0;
     out->area = 4.0f * length3(cross3(*u, *v));
-    if (!tree_is_whole(t)) {
+    if (!is_whole) {
         const float rectangle = wide * high / 65536.0f;
         is_crease = t->share >= 0.0f;
         share = is_crease ? t->share : rectangle;
@@ -364,14 +409,6 @@ static lmb_vec3 way_of(const lmb_node child[4], const lmb_node *first)
                                   : vec3(0, 0, 0);
     }
     return longer3(way[0], way[1]);
-}
-
-/* Extent of a part along a direction from the centre. */
-static float reach_of(const lmb_node *n, lmb_vec3 along)
-{
-    const float box = absf(dot3(n->normal, along)) * n->half[0] + absf(dot3(n->across, along)) * n->half[1] +
-                      absf(dot3(cross3(n->normal, n->across), along)) * n->half[2];
-    return minf(box, n->radius);
 }
 
 static void join_boxes(lmb_node *out, const lmb_node child[4], const lmb_node *first)
@@ -447,7 +484,7 @@ static void set_shares(const lmb_tree *tree, uint32_t face)
 {
     lmb_texel *all = tree->texel + (size_t)face * (size_t)tree->size * (size_t)tree->size;
     for (int32_t i = 0; i < tree->size * tree->size; ++i) {
-        if (flux_sum(all[i].flux) > 0.0f && !tree_is_whole(&all[i])) {
+        if (flux_sum(all[i].flux) > 0.0f && !facets_are_several(&all[i]) && !tree_is_whole(&all[i])) {
             const lmb_node_ref at = {(uint16_t)face, (uint16_t)(i % tree->size), (uint16_t)(i / tree->size), 0};
             all[i].share = lmb_crease_share(tree, at);
         }

@@ -7,6 +7,12 @@
 /* Nodes of a face of size x size texels: a quarter, a sixteenth, ... of the texels, down to one. */
 static inline size_t tree_nodes(int32_t size) { return ((size_t)size * (size_t)size - 1) / 3; }
 
+/* The shadow maps' faces, behind the texels: facets are read from them again. */
+static inline lmb_target *tree_shown(const lmb_tree *t)
+{
+    return (lmb_target *)(void *)(t->texel + t->face_cap * (size_t)t->size * (size_t)t->size);
+}
+
 static inline const lmb_texel *tree_texel(const lmb_tree *t, uint32_t face, int32_t x, int32_t y)
 {
     const size_t size = (size_t)t->size;

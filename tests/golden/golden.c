@@ -32,6 +32,7 @@ static union light_memory {
     lmb_point points[POINTS];
     struct {
         lmb_texel texels[TREE * TREE];
+        lmb_target shown;
         lmb_node nodes[(TREE * TREE - 1) / 3];
         lmb_view view;
     } tree;

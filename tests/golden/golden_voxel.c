@@ -14,6 +14,7 @@ static float voxel_memory[VOXELS * (1 + LMB_VOXEL_COVER + LMB_VOXEL_LIGHT)] GOLD
 typedef struct voxel_space {
     uint32_t map[MAP * MAP * 2];
     lmb_texel texel[MAP * MAP];
+    lmb_target shown;
     lmb_node node[(MAP * MAP - 1) / 3];
     lmb_view view;
 } voxel_space;

@@ -102,7 +102,7 @@ static void test_light(void)
 {
     const uint64_t cells = (uint64_t)1 << 22, most = UINT32_MAX;
     const uint64_t face = 4096 * 4096, nodes = (face - 1) / 3;
-    const uint64_t tree = face * sizeof(lmb_texel) + nodes * sizeof(lmb_node) + sizeof(lmb_view);
+    const uint64_t tree = face * sizeof(lmb_texel) + nodes * sizeof(lmb_node) + sizeof(lmb_view) + sizeof(lmb_target);
     check_sum("many lights", lmb_many_lights_bytes(1u << 22),
               cells * sizeof(lmb_many_lights_cell) + 2 * cells * sizeof(lmb_many_lights_node) +
                   (2 * cells + 16) * LMB_MANY_LIGHTS_PLANES * 4 + 4 * 2 * cells);

@@ -812,7 +812,7 @@ static uint32_t wide[WIDE], right_depth[TARGET], right_id[TARGET];
 /* Uses a tree of lights with a cut per tile, and exact occlusion. */
 static void use_cut(lmb_frame *f)
 {
-    enum { FACE_BYTES = MAP * MAP * (sizeof(lmb_texel) + sizeof(lmb_node) / 3) + 64 * sizeof(lmb_view) };
+    enum { FACE_BYTES = MAP * MAP * (sizeof(lmb_texel) + sizeof(lmb_node) / 3) + 64 * (sizeof(lmb_view) + sizeof(lmb_target)) };
     static uint32_t tree[FACES * FACE_BYTES / 4], bvh[SIDES * SIDE_TRIANGLES * 128 / 4];
     f->grouping.method = LMB_GROUP_CUT;
     f->shadow_map = MAP;

@@ -222,7 +222,7 @@ static void check_refused(void)
     const lmb_kernels *k = picked_kernels();
     const int32_t rows = LIT_SMALL / LMB_TILE;
     lmb_tree t, other;
-    CHECK(lmb_tree_bytes(1, 8) == 64 * sizeof(lmb_texel) + 21 * sizeof(lmb_node) + sizeof(lmb_view));
+    CHECK(lmb_tree_bytes(1, 8) == 64 * sizeof(lmb_texel) + 21 * sizeof(lmb_node) + sizeof(lmb_view) + sizeof(lmb_target));
     CHECK(lmb_tree_bytes(0, 64) == 0 && lmb_tree_bytes(1, 4) == 0 && lmb_tree_bytes(1, 96) == 0);
     CHECK(lmb_tree_bytes(1, 8192) == 0 && lmb_tree_bytes(1, -8) == 0 && lmb_tree_bytes(65536, 8) == 0);
     const size_t bytes = lmb_tree_bytes(2, LIT_SMALL);
