@@ -73,7 +73,9 @@ static lmb_status check(const lmb_frame_settings *s)
     if (!LMB_TRANSFER && s->transfer != NULL) {
         return LMB_ERR_ARG;
     }
-    if (is_fixed(s) && (s->bounces > 1 || s->grouping.method == LMB_GROUP_CUT || s->gather_step == LMB_GATHER_LIVE)) {
+    const int repeats = s->bounces > 1 && s->transfer == NULL;
+    if (is_fixed(s) &&
+        (repeats || s->grouping.method == LMB_GROUP_CUT || s->gather_step == LMB_GATHER_LIVE)) {
         return LMB_ERR_ARG;
     }
     if (s->scene->light_count > LMB_MAX_LIGHTS) {

@@ -23,6 +23,7 @@
 #define MUCH       16     /* a triangle that blocks this many pixels is tested first for the next segments */
 #define MISSES     2      /* after this many triangles that block only one pixel, none is retried for the others */
 #define THIN       1e-20f /* m: minimum width of a pyramid */
+#define READ_MASKED 2u    /* tests that reading a triangle with holes costs, beside one for each pixel that meets it */
 
 static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
 {
@@ -143,6 +144,13 @@ typedef struct traversal {
     uint64_t left; /* pixels not blocked so far */
 } traversal;
 
+/* As standing(), and counts the cost: READ_MASKED tests for the triangle, and one for each pixel. */
+static uint64_t test_holes(traversal *w, const lmb_bvh_triangle *t, const lmb_cross_job *job, uint64_t crossed)
+{
+    w->kept->spent += READ_MASKED + (uint32_t)count_bits_64(crossed);
+    return standing(w->b, t, job, w->tile, crossed);
+}
+
 /* Clears the pixels of `asked` that one triangle blocks. */
 static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
 {
@@ -150,9 +158,8 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     lmb_cross_job job;
     if (cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept)) {
         const uint64_t crossed = w->kernels->crossed(w->tile, w->left & asked, &job);
-        w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? standing(w->b, t, &job, w->tile, crossed) : crossed);
+        w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? test_holes(w, t, &job, crossed) : crossed);
         w->kept->blocker = crossed != 0 ? triangle + 1 : w->kept->blocker;
-        w->kept->spent += t->id & LMB_BVH_MASKED ? (uint32_t)count_bits_64(crossed) : 0;
     }
 }
 
@@ -292,13 +299,13 @@ static int blocks_one(traversal *w, uint32_t triangle, const ray *r)
     if (eye_is_across(w->kept, t->normal, p[0], -ahead)) {
         return 0.0f < past && cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept) &&
                crosses(&job, r->d) &&
-               (!(t->id & LMB_BVH_MASKED) || standing(w->b, t, &job, w->tile, w->left) != 0);
+               (!(t->id & LMB_BVH_MASKED) || test_holes(w, t, &job, w->left) != 0);
     }
     return absf(ahead) < past && 0.0f <= side * dot3(edge_plane(b, c, sub3(p[2], p[1])), r->d) &&
            0.0f <= side * dot3(edge_plane(c, a, sub3(p[0], p[2])), r->d) &&
            0.0f <= side * dot3(edge_plane(a, b, sub3(p[1], p[0])), r->d) &&
            cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept) && job.beyond < past &&
-           (!(t->id & LMB_BVH_MASKED) || standing(w->b, t, &job, w->tile, w->left) != 0);
+           (!(t->id & LMB_BVH_MASKED) || test_holes(w, t, &job, w->left) != 0);
 }
 
 /* Tests the leaves of a node that the segment meets. Returns 1 if one blocks. *children: boxes that are nodes. */

@@ -9,9 +9,21 @@
 #include "plane.h"
 #include "resolve.h"
 #include "target.h"
+#include "texels.h"
+#include "texture.h"
 
 #define TEXELS 8u             /* max texels read per pixel of a triangle's tiles, to test whether it is all hole */
-#define LEAST  (1.0f / 512.0f) /* least threshold of a surface that blends */
+#define LEAST  (1.0f / 512.0f) /* thresholds of a surface that blends: min and max */
+#define LARGEST (511.0f / 512.0f)
+#define FLAT   0.05f /* min slope of a tile's rays to the plane, of the largest, for one test of all pixels */
+#define WIDER  (1.0f / 64.0f) /* part of a tile's barycentrics, for rounding */
+
+/* Max texels read to test whether a tile is all hole or all solid. Its 64 pixels read 256. */
+#define TILE_TEXELS 128u
+
+/* Pieces of the current tile that need no test of single pixels. Before the first pixel passes the depth test the tile
+ * is not examined. */
+enum { MIXED = 0, UNKNOWN = 4 };
 
 /* The triangle's surface, and the rays of the current tile. */
 typedef struct masked_surface {
@@ -21,6 +33,8 @@ typedef struct masked_surface {
     int blends;
     uint32_t id;
     int32_t x, y; /* of the current tile, px */
+    const lmb_texture *texture; /* RGBA8, or NULL */
+    int part;     /* of the current tile: MIXED, UNKNOWN, LMB_COVERS_NONE or LMB_COVERS_ALL */
 } masked_surface;
 
 /* A 32-bit hash of a surface and a square of pixels. */
@@ -60,13 +74,75 @@ static float threshold(const masked_surface *s, const lmb_view *v, int32_t x, in
     return ((float)(at & 255u) + 0.5f) * (1.0f / 256.0f);
 }
 
+#if LMB_TREES
+/* The plane's barycentrics at the corner (x, y) of the tile, and the ray's slope to the plane. */
+static float corner_point(float b[2], const lmb_plane *p, const lmb_rays *rays, float x, float y)
+{
+    const lmb_vec3 origin = add3(rays->origin, add3(mul3(rays->ox, x), mul3(rays->oy, y)));
+    const lmb_vec3 ray = add3(rays->direction, add3(mul3(rays->rx, x), mul3(rays->ry, y)));
+    const float slope = dot3(p->plane, ray), ahead = dot3(p->plane, sub3(p->corner, origin));
+    const lmb_vec3 q = sub3(add3(origin, mul3(ray, ahead / (slope * slope < 1e-36f ? 1e-18f : slope))), p->corner);
+    b[0] = dot3(q, p->g1);
+    b[1] = dot3(q, p->g2);
+    return slope;
+}
+
+/* Tests the whole tile at once, if all of its rays meet the plane on the same side and far from the horizon. Then the
+ * barycentrics of all pixels lie between those of the corners. */
+NOINLINE int tile_part(const masked_surface *s, const lmb_fill_context *c)
+{
+    const float past = (float)(LMB_TILE - 1);
+    const int blends = LMB_MULTISAMPLE && s->blends;
+    uint32_t texels = TILE_TEXELS;
+    float low[2], high[2], slope_min = 0.0f, slope_max = 0.0f;
+    for (int i = 0; i < 4; ++i) {
+        float b[2];
+        const float slope = corner_point(b, &s->plane, &s->rays, i & 1 ? past : 0.0f, i & 2 ? past : 0.0f);
+        slope_min = i == 0 ? slope : minf(slope_min, slope);
+        slope_max = i == 0 ? slope : maxf(slope_max, slope);
+        for (int k = 0; k < 2; ++k) {
+            low[k] = i == 0 ? b[k] : minf(low[k], b[k]);
+            high[k] = i == 0 ? b[k] : maxf(high[k], b[k]);
+        }
+    }
+    if (!(slope_min > FLAT * slope_max && slope_max > 0.0f) && !(slope_max < FLAT * slope_min && slope_min < 0.0f)) {
+        return MIXED;
+    }
+    for (int k = 0; k < 2; ++k) {
+        const float wider = WIDER * (high[k] - low[k]);
+        if (!is_sane(low[k]) || !is_sane(high[k])) {
+            return MIXED;
+        }
+        low[k] -= wider;
+        high[k] += wider;
+    }
+    return lmb_resolve_coverage(&s->alpha, c->scene, low, high, blends ? LEAST : s->alpha.cutoff,
+                                blends ? LARGEST : s->alpha.cutoff, &texels);
+}
+#endif
+
 /* 1 if the surface is opaque at pixel (x, y) of the tile. */
 static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, int32_t y)
 {
     float b1, b2;
+#if LMB_TREES
+    s->part = s->part == UNKNOWN ? tile_part(s, c) : s->part;
+    if (s->part != MIXED) {
+        return s->part == LMB_COVERS_ALL;
+    }
+#endif
     if (LMB_MULTISAMPLE && s->blends) {
         s->alpha.cutoff = threshold(s, c->view, x, y);
     }
+#if LMB_TREES
+    if (s->texture != NULL) {
+        plane_point(&b1, &b2, &s->plane, &s->rays, (float)x, (float)y);
+        b1 = clampf(b1, 0.0f, 1.0f);
+        b2 = clampf(b2, 0.0f, 1.0f - b1);
+        const float a = texels_alpha(s->texture, resolve_mix3(s->alpha.u, b1, b2), resolve_mix3(s->alpha.v, b1, b2));
+        return a * resolve_mix3(s->alpha.corner, b1, b2) >= s->alpha.cutoff;
+    }
+#endif
     lmb_resolve_point(&b1, &b2, &s->plane, &s->rays, (float)x, (float)y);
     return lmb_resolve_opaque(&s->alpha, c->scene, b1, b2);
 }
@@ -120,7 +196,7 @@ static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *til
                              masked_surface *s)
 {
     const int32_t *e = job->e, *ex = job->ex, *ey = job->ey;
-    for (int32_t y = 0; y < LMB_TILE; ++y) {
+    for (int32_t y = 0; y < LMB_TILE && s->part != LMB_COVERS_NONE; ++y) {
         int32_t e0 = e[0] + ey[0] * y, e1 = e[1] + ey[1] * y, e2 = e[2] + ey[2] * y;
         for (int32_t x = 0; x < LMB_TILE; ++x, e0 += ex[0], e1 += ex[1], e2 += ex[2]) {
             if ((e0 | e1 | e2) >= 0) {
@@ -168,6 +244,8 @@ NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_
     lmb_resolve_rays(&out->rays, c->view, c->target->x0, c->target->y0);
     lmb_resolve_plane(&out->plane, triangle.corner, &out->rays);
     lmb_resolve_alpha_of(&out->alpha, &triangle);
+    out->texture = out->alpha.texture >= 0 ? &c->scene->textures[out->alpha.texture] : NULL;
+    out->texture = out->texture != NULL && texels_are_rgba8(out->texture) ? out->texture : NULL;
     return 1;
 }
 
@@ -225,6 +303,7 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
                     surface.y = y;
                 }
                 lmb_resolve_rays(&surface.rays, c->view, target->x0 + tx * LMB_TILE, y);
+                surface.part = tx1 > tx0 || ty1 > ty0 ? UNKNOWN : MIXED;
                 fill_tile_masked(c, &tile, &job, &surface);
             }
         }

@@ -54,11 +54,5 @@ void lmb_resolve_plane(lmb_plane *out, const lmb_vec3 corner[3], const lmb_rays 
 
 void lmb_resolve_point(float *b1, float *b2, const lmb_plane *p, const lmb_rays *rays, float x, float y)
 {
-    lmb_vec3 origin = add3(rays->origin, add3(mul3(rays->ox, x), mul3(rays->oy, y)));
-    lmb_vec3 ray = add3(rays->direction, add3(mul3(rays->rx, x), mul3(rays->ry, y)));
-    float slope = dot3(p->plane, ray);
-    float w = dot3(p->plane, sub3(p->corner, origin)) / (slope * slope < 1e-36f ? 1e-18f : slope);
-    lmb_vec3 q = sub3(add3(origin, mul3(ray, clampf(w, p->w_min, p->w_max))), p->corner);
-    *b1 = dot3(q, p->g1);
-    *b2 = dot3(q, p->g2);
+    plane_point(b1, b2, p, rays, x, y);
 }

@@ -53,6 +53,7 @@ int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, f
 /* For rounding of the interpolation and of the sample's weights. */
 #define ROUNDING 1.0001f
 #define MIDDLE   (1.0f / 3.0f)
+#define NEVER    2.0f /* more than any alpha */
 
 int lmb_resolve_is_hole(const lmb_resolve_alpha *a, const lmb_scene *scene, uint32_t *texels)
 {
@@ -68,7 +69,36 @@ int lmb_resolve_is_hole(const lmb_resolve_alpha *a, const lmb_scene *scene, uint
     }
     const float low[2] = {minf(minf(a->u[0], a->u[1]), a->u[2]), minf(minf(a->v[0], a->v[1]), a->v[2])};
     const float high[2] = {maxf(maxf(a->u[0], a->u[1]), a->u[2]), maxf(maxf(a->v[0], a->v[1]), a->v[2])};
-    return lmb_texture_is_clear(&scene->textures[a->texture], low, high, a->cutoff / (largest * ROUNDING), texels);
+    return lmb_texture_coverage(&scene->textures[a->texture], low, high, a->cutoff / (largest * ROUNDING), NEVER,
+                                texels) == LMB_COVERS_NONE;
+}
+
+/* The range of a value given at the corners, between barycentrics inside the triangle. */
+static void mix_range(float *low, float *high, const float corner[3], const float from[2], const float to[2])
+{
+    const float e1 = corner[1] - corner[0], e2 = corner[2] - corner[0];
+    const float min = minf(minf(corner[0], corner[1]), corner[2]), max = maxf(maxf(corner[0], corner[1]), corner[2]);
+    *low = maxf(corner[0] + (minf(e1 * from[0], e1 * to[0]) + minf(e2 * from[1], e2 * to[1])), min);
+    *high = minf(corner[0] + (maxf(e1 * from[0], e1 * to[0]) + maxf(e2 * from[1], e2 * to[1])), max);
+}
+
+int lmb_resolve_coverage(const lmb_resolve_alpha *a, const lmb_scene *scene, const float low[2], const float high[2],
+                         float cutoff_min, float cutoff_max, uint32_t *texels)
+{
+    const float largest = maxf(maxf(a->corner[0], a->corner[1]), a->corner[2]) * ROUNDING;
+    const float smallest = minf(minf(a->corner[0], a->corner[1]), a->corner[2]);
+    float from[2], to[2], uv_low[2], uv_high[2];
+    if (a->texture < 0 || !(cutoff_min > 0.0f) || !(smallest > 0.0f) || !is_sane(largest)) {
+        return 0;
+    }
+    to[0] = clampf(high[0], 0.0f, 1.0f);
+    to[1] = clampf(high[1], 0.0f, 1.0f);
+    from[0] = clampf(low[0], 0.0f, 1.0f);
+    from[1] = minf(clampf(low[1], 0.0f, 1.0f), 1.0f - to[0]); /* lmb_resolve_opaque clamps the second to 1 - first */
+    mix_range(&uv_low[0], &uv_high[0], a->u, from, to);
+    mix_range(&uv_low[1], &uv_high[1], a->v, from, to);
+    return lmb_texture_coverage(&scene->textures[a->texture], uv_low, uv_high, cutoff_min / (largest * ROUNDING),
+                                cutoff_max * ROUNDING / smallest, texels);
 }
 #endif
 

@@ -26,6 +26,11 @@ int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, f
  * reduced by the texels that were read. */
 int lmb_resolve_is_hole(const lmb_resolve_alpha *alpha, const lmb_scene *scene, uint32_t *texels);
 
+/* Opacity between two barycentrics of an unclamped plane, for cutoffs from `cutoff_min` to `cutoff_max`:
+ * LMB_COVERS_NONE if all of that part is a hole, LMB_COVERS_ALL if all is opaque, otherwise 0. *texels as above. */
+int lmb_resolve_coverage(const lmb_resolve_alpha *alpha, const lmb_scene *scene, const float low[2],
+                         const float high[2], float cutoff_min, float cutoff_max, uint32_t *texels);
+
 /* As lmb_resolve_opaque, for a triangle. */
 int lmb_triangle_opaque(const lmb_triangle *triangle, const lmb_scene *scene, float b1, float b2);
 

@@ -70,4 +70,34 @@ static inline int32_t texel_wrap(int32_t i, int32_t size, int wrap)
     }
 }
 
+/* Alpha of level 0 of an RGBA8 texture: the bits of lmb_texture_sample. Many samples of a mask lie between four texels
+ * without coverage, and need no weights. */
+static inline float texels_alpha(const lmb_texture *t, float u, float v)
+{
+    const uint8_t *alpha = t->texels + 3;
+    const int32_t width = t->width, height = t->height;
+    float x = texel_reduce(u, t->wrap_s) * (float)width, y = texel_reduce(v, t->wrap_t) * (float)height;
+    if (t->filter == LMB_NEAREST) {
+        const size_t row = (size_t)texel_wrap((int32_t)y, height, t->wrap_t) * (size_t)width;
+        return (float)alpha[4 * (row + (size_t)texel_wrap((int32_t)x, width, t->wrap_s))] * (1.0f / 255.0f);
+    }
+    x -= 0.5f;
+    y -= 0.5f;
+    const float x0 = texel_floor(x), y0 = texel_floor(y);
+    const size_t left = (size_t)texel_wrap((int32_t)x0, width, t->wrap_s),
+                 right = (size_t)texel_wrap((int32_t)x0 + 1, width, t->wrap_s),
+                 upper = (size_t)texel_wrap((int32_t)y0, height, t->wrap_t) * (size_t)width,
+                 lower = (size_t)texel_wrap((int32_t)y0 + 1, height, t->wrap_t) * (size_t)width;
+    const int32_t a = alpha[4 * (upper + left)], b = alpha[4 * (upper + right)], c = alpha[4 * (lower + left)],
+                  d = alpha[4 * (lower + right)];
+    if ((a | b | c | d) == 0) {
+        return 0.0f;
+    }
+    const float fx = x - x0, fy = y - y0;
+    float out = ((1.0f - fx) * (1.0f - fy)) * ((float)a * (1.0f / 255.0f));
+    out += (fx * (1.0f - fy)) * ((float)b * (1.0f / 255.0f));
+    out += ((1.0f - fx) * fy) * ((float)c * (1.0f / 255.0f));
+    return out + (fx * fy) * ((float)d * (1.0f / 255.0f));
+}
+
 #endif

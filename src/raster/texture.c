@@ -145,6 +145,9 @@ static int32_t alpha_at(const lmb_texture *t, const texel_level *from, int32_t x
 
 float lmb_texture_alpha(const lmb_texture *t, float u, float v)
 {
+    if (texels_are_rgba8(t)) {
+        return texels_alpha(t, u, v);
+    }
     const footprint f = find_texels(t, 0, u, v, 1.0f);
     float out = 0.0f;
     for (int k = 0; k < f.count; ++k) {
@@ -153,10 +156,11 @@ float lmb_texture_alpha(const lmb_texture *t, float u, float v)
     return out;
 }
 
-int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float high[2], float cutoff, uint32_t *texels)
+int lmb_texture_coverage(const lmb_texture *t, const float low[2], const float high[2], float hole, float solid,
+                         uint32_t *texels)
 {
     const texel_level from = texel_find_level(t, 0);
-    int32_t x0, x1, y0, y1;
+    int32_t x0, x1, y0, y1, all = LMB_COVERS_NONE | LMB_COVERS_ALL;
     texels_between(&x0, &x1, low[0], high[0], from.width, t->wrap_s);
     texels_between(&y0, &y1, low[1], high[1], from.height, t->wrap_t);
     for (int32_t y = y0; y <= y1; ++y) {
@@ -165,12 +169,14 @@ int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float h
         }
         *texels -= (uint32_t)(x1 - x0 + 1);
         for (int32_t x = x0; x <= x1; ++x) {
-            if (!((float)alpha_at(t, &from, x, y) * (1.0f / 255.0f) < cutoff)) {
+            const float alpha = (float)alpha_at(t, &from, x, y) * (1.0f / 255.0f);
+            all &= alpha < hole ? LMB_COVERS_NONE : alpha > solid ? LMB_COVERS_ALL : 0;
+            if (all == 0) {
                 return 0;
             }
         }
     }
-    return 1;
+    return all;
 }
 #endif
 

@@ -12,9 +12,14 @@ void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, fl
 /* Alpha of level 0: the bytes of lmb_texture_sample, without the colours. */
 float lmb_texture_alpha(const lmb_texture *t, float u, float v);
 
-/* 1 if every sample of level 0 from low to high, (u, v) each, has less alpha than `cutoff`. 0 also if the answer needs
- * more than *texels texels. *texels is reduced by the texels that were read. */
-int lmb_texture_is_clear(const lmb_texture *t, const float low[2], const float high[2], float cutoff, uint32_t *texels);
+/* Results of lmb_texture_coverage. */
+enum { LMB_COVERS_NONE = 1, LMB_COVERS_ALL = 2 };
+
+/* LMB_COVERS_NONE if every sample of level 0 from low to high, (u, v) each, has less alpha than `hole`, LMB_COVERS_ALL
+ * if every sample has more than `solid`, otherwise 0. 0 also if the answer needs more than *texels texels. *texels is
+ * reduced by the texels that were read. */
+int lmb_texture_coverage(const lmb_texture *t, const float low[2], const float high[2], float hole, float solid,
+                         uint32_t *texels);
 
 /* The same for a normal map: x y z, each -1 .. 1, not of unit length; out[3] is undefined. */
 void lmb_normal_map_sample(float out[4], const lmb_texture *t, float u, float v, float lod);

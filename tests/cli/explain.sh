@@ -64,6 +64,15 @@ check "is the cosine over the squared distance" awk '
 status 0 explain shelf.obj $above --pixel 0,0
 check "a pixel without a surface" holds "none: the pixel shows the background" out.txt
 
+# Lights in a tree are traced as those with maps: the same lines and the same sums.
+lamps="--light point:0.2,2,0.5:0,-1,0:3,3,3 --light point:-0.4,1.5,0.2:0,-1,0:2,1,1"
+status 0 explain shelf.obj --eye 0,0.4,1.5 --target 0,0,0 --size 64x64 $lamps --pixel 32,50
+sed -n '/^lights/,$p' out.txt >maps.txt
+status 0 explain shelf.obj --eye 0,0.4,1.5 --target 0,0,0 --size 64x64 $lamps --many-lights 16 --pixel 32,50
+sed -n '/^lights/,$p' out.txt >tree.txt
+check "two lights are listed" test "$(grep -c '^  [01] point' tree.txt)" = 2
+check "lights in a tree are traced" cmp maps.txt tree.txt
+
 # A sky adds a line of its own.
 status 0 explain shelf.obj --eye 0,0.4,1.5 --target 0,0,0 --size 64x64 --world sky --quality best --pixel 32,50
 check "a sky's light" holds "sky: " out.txt
@@ -127,6 +136,8 @@ status 0 explain shelf.obj --eye 0,3000,3000 --target 0,0,0.8 --fov 0.01 --size 
 check "a floor 4 km away" holds 'material "floor"' out.txt
 check "does not block its sun" lacks ', blocked' out.txt
 status 2 explain demo --pixel 4294967296,0
+status 2 explain demo --pixel 1,1 -v
+said "-v: explain prints all it has"
 status 2 explain demo --pixel 1,1 --stats stats.json
 said "--stats: explain writes no file"
 

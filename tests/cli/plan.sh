@@ -31,6 +31,9 @@ status 0 plan --help
 check "plan --help has budgets and examples" sh -c 'grep -q -- "--budget KEY" "$1" && grep -q "lambent plan demo" "$1"' sh out.txt
 status 2 plan
 status 2 plan demo -o plan.png
+status 2 plan demo --stats plan.json
+said "--stats: plan draws no picture"
+check "no file is left" test ! -e plan.json
 status 2 plan demo --show depth
 status 2 plan demo --budget error=0.1 --group method=zones
 status 2 plan demo --budget ms=16 --budget work=1e6

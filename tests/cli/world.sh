@@ -44,6 +44,11 @@ check "none where one is on" lacks sky err.txt
 status 0 render floor.obj $look -o floor.pfm
 check "no second floor" holds "a clear sky; " err.txt
 
+# A box 400 m above the origin has a ground: there a float has steps of 0.03 mm, and the ground lies 0.06 mm lower.
+awk '/^v/ { print "v", $2, $3 + 400, $4; next } { print }' box.obj >high.obj
+status 0 render high.obj --size 32x24 --quality draft -o high.png
+check "a ground below a box at 400 m" holds "a clear sky and a ground below" err.txt
+
 # A mountain of 20 km also gets a ground. One of 200 km gets none, because the rim of the ground
 # would lie over 2^20 m away.
 for size in 20000 200000; do

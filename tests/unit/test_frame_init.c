@@ -306,6 +306,12 @@ static void test_refused(void)
     REFUSED(s.quality = 4, LMB_ERR_ARG);
     REFUSED(s.bounces = LMB_MAX_BOUNCES + 1, LMB_ERR_ARG);
     REFUSED((s.bounces = 2, s.quality = LMB_QUALITY_FIXED), LMB_ERR_ARG);
+#if LMB_TRANSFER
+    lmb_transfer baked; /* reflects as often as you like, also without trees; an empty one is enough for direct light */
+    memset(&baked, 0, sizeof baked);
+    s = plain(&lit), s.bounces = 2, s.quality = LMB_QUALITY_FIXED, s.transfer = &baked, s.show = LMB_SHOW_DIRECT;
+    CHECK(lmb_frame_bytes(&s) > 0);
+#endif
     REFUSED((s.grouping.method = LMB_GROUP_CUT, s.quality = LMB_QUALITY_FIXED), LMB_ERR_ARG);
     REFUSED((s.grouping.block = 3, s.quality = LMB_QUALITY_FIXED), LMB_ERR_ARG);
     REFUSED(s.threads = 1025, LMB_ERR_ARG);

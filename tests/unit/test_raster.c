@@ -1293,7 +1293,10 @@ static void test_hard_cuts(void)
 
 /* ---- alpha masks ---- */
 
-static uint32_t mask_memory[16];
+/* 4 x 4 blocks of texels, so that some tiles lie inside one. */
+enum { BLOCK = 32, MASK = 4 * BLOCK };
+
+static uint32_t mask_memory[MASK * MASK];
 static float mask_uvs[6 * CAP];
 static lmb_texture mask_texture;
 
@@ -1301,14 +1304,17 @@ static void set_mask(test_rng *r, uint32_t triangles)
 {
     uint8_t *texel = (uint8_t *)mask_memory;
     for (int i = 0; i < 16; ++i) {
-        texel[4 * i + 3] = (uint8_t)(test_random(r) & 1 ? 255 : 0);
+        const uint8_t alpha = (uint8_t)(test_random(r) & 1 ? 255 : 0);
+        for (int k = 0; k < BLOCK * BLOCK; ++k) {
+            texel[4 * ((i / 4 * BLOCK + k / BLOCK) * MASK + i % 4 * BLOCK + k % BLOCK) + 3] = alpha;
+        }
     }
     for (uint32_t i = 0; i < 6 * triangles; ++i) {
         mask_uvs[i] = test_uniform(r, -1.0f, 2.0f);
     }
     memset(&mask_texture, 0, sizeof mask_texture);
     mask_texture.texels = texel;
-    mask_texture.width = mask_texture.height = 4;
+    mask_texture.width = mask_texture.height = MASK;
     mask_texture.levels = 1;
     st.mesh.uvs = mask_uvs;
     st.scene.textures = &mask_texture;
@@ -1324,7 +1330,7 @@ static int texel_at(double u, double v)
     if (fabs(x - floor(x + 0.5)) < 1e-3 || fabs(y - floor(y + 0.5)) < 1e-3) {
         return -1;
     }
-    return ((const uint8_t *)mask_memory)[4 * ((int)y * 4 + (int)x) + 3] == 255;
+    return ((const uint8_t *)mask_memory)[4 * BLOCK * ((int)y * MASK + (int)x) + 3] == 255;
 }
 
 typedef struct mask_count {

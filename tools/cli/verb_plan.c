@@ -10,6 +10,9 @@ static int plan(render_job *j, report *r)
     lmb_plan p;
     budget_choice choice;
     const double start = host_seconds();
+    if (j->o.stats != NULL) {
+        return report_fail_usage(r, "--stats: plan draws no picture; use plan --json, or lambent render --stats");
+    }
     if (!render_job_load(j, r) || !render_job_set(j, r) || !budget_fit(&choice, j, r)) {
         return 0;
     }

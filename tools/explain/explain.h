@@ -10,6 +10,7 @@ enum {
     EXPLAIN_RAYS = 4096,   /* over the half sphere above the surface */
     EXPLAIN_SENDERS = 5,   /* instances listed, the largest senders first */
     EXPLAIN_LIGHTS = 16,   /* lights listed, the brightest first */
+    EXPLAIN_TREE = 2048,   /* lights that light the hit of a ray */
     EXPLAIN_SKY = 256      /* pieces of the sky that light the hit of a ray */
 };
 

@@ -232,29 +232,29 @@ static void add_light(double direct[][3], explain_space *s, const hits *h, const
     }
 }
 
-/* Adds the sky: only every nth piece, scaled so that the sum over the pieces is kept. */
-static void add_sky(double direct[][3], explain_space *s, const hits *h, float noise)
+/* Adds a list of lights: only every nth of more than `max`, scaled so that the sum over the lights is kept. */
+static void add_lights(double direct[][3], explain_space *s, const hits *h, const lmb_light *lights, uint32_t count,
+                       uint32_t max, float noise)
 {
-    const uint32_t step = s->sky_count / EXPLAIN_SKY + 1;
+    const uint32_t step = (count + max - 1) / max;
     double all[3] = {0.0, 0.0, 0.0}, some[3] = {0.0, 0.0, 0.0};
-    for (uint32_t i = 0; i < s->sky_count; ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
         for (int c = 0; c < 3; ++c) {
-            all[c] += (double)s->sky[i].intensity[c];
-            some[c] += i % step == 0 ? (double)s->sky[i].intensity[c] : 0.0;
+            all[c] += (double)lights[i].intensity[c];
+            some[c] += i % step == 0 ? (double)lights[i].intensity[c] : 0.0;
         }
     }
     for (int c = 0; c < 3; ++c) {
         all[c] = some[c] > 0.0 ? all[c] / some[c] : 1.0;
     }
-    for (uint32_t i = 0; i < s->sky_count; i += step) {
-        add_light(direct, s, h, &s->sky[i], all, noise);
+    for (uint32_t i = 0; i < count; i += step) {
+        add_light(direct, s, h, &lights[i], all, noise);
     }
 }
 
 /* Adds the light that these hits send towards the place to the sums of their instances. */
 static void add_hits(explain_bounce *out, explain_space *s, const hits *h)
 {
-    static const double whole[3] = {1.0, 1.0, 1.0};
     double direct[LMB_TILE_PIXELS][3];
     float noise = 0.0f;
     memset(direct, 0, sizeof direct);
@@ -263,11 +263,9 @@ static void add_hits(explain_bounce *out, explain_space *s, const hits *h)
         put_place(s->tile, k, &h->place[k]);
         noise = fmaxf(noise, h->place[k].noise);
     }
-    for (uint32_t i = 0; i < s->scene->light_count && h->count > 0; ++i) {
-        add_light(direct, s, h, &s->scene->lights[i], whole, noise);
-    }
     if (h->count > 0) {
-        add_sky(direct, s, h, noise);
+        add_lights(direct, s, h, s->scene->lights, s->scene->light_count, EXPLAIN_TREE, noise);
+        add_lights(direct, s, h, s->sky, s->sky_count, EXPLAIN_SKY, noise);
     }
     for (int k = 0; k < h->count; ++k) {
         const uint32_t number = instance_of(s->scene, h->place[k].id);

@@ -182,13 +182,6 @@ static int by_open(const void *a, const void *b)
     return p != q ? (p < q) - (p > q) : (x->number > y->number) - (x->number < y->number);
 }
 
-/* The lights of the scene in the tree, without the pieces of a sky. */
-static uint32_t lights_in_tree(const explanation *e)
-{
-    const uint32_t lights = e->job.many_lights.tree.lights;
-    return lights > e->space.sky_count ? lights - e->space.sky_count : 0;
-}
-
 static void print_lights(explanation *e)
 {
     const uint32_t count = e->job.scene.light_count;
@@ -217,9 +210,6 @@ static void print_lights(explanation *e)
             sum[c] += (float)seen[c];
         }
     }
-    if (lights_in_tree(e) > 0) {
-        report_say("  and %u lights in a tree, which are not traced\n", (unsigned)lights_in_tree(e));
-    }
     print_rgb("traced", sum, " W/m2");
 }
 
@@ -243,7 +233,7 @@ static void print_senders(const explanation *e)
     }
     report_say("  %.1f %% of the rays leave the scene, %.1f %% hit surfaces without light\n",
                100.0 * b->missed / EXPLAIN_RAYS, 100.0 * b->dark / EXPLAIN_RAYS);
-    print_rgb("traced", sum, lights_in_tree(e) > 0 ? " W/m2, without the lights in a tree" : " W/m2");
+    print_rgb("traced", sum, " W/m2");
 }
 
 static void print_picture(const explanation *e)
@@ -369,6 +359,7 @@ static int run(explanation *e, report *r)
     }
     print_picture(e);
     if (e->place.id > 0) {
+        j->scene.light_count += j->in_tree; /* the picture took them from the tree */
         if (!trace(e, r)) {
             return 0;
         }
@@ -398,6 +389,10 @@ static int parse(explain_options *o, int argc, char **argv, report *r)
     }
     if (o->render.stats != NULL) {
         report_fail(r, "--stats: explain writes no file; use lambent render --stats");
+        return OPTIONS_BAD;
+    }
+    if (o->render.view.is_verbose) {
+        report_fail(r, "-v: explain prints all it has; use lambent render -v");
         return OPTIONS_BAD;
     }
     return render_options_complete(&o->render, r) ? OPTIONS_RUN : OPTIONS_BAD;

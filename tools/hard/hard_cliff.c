@@ -8,7 +8,7 @@
 
 #define PI 3.14159265358979323846
 
-enum { NEEDLES, PLANES, SPECKS, BALLS, HAIR, SLIVERS, ALL_HOLES, HALF_HOLES, SCENES, ROOM = SCENES };
+enum { NEEDLES, PLANES, SPECKS, BALLS, HAIR, SLIVERS, ALL_HOLES, HALF_HOLES, SCENES, ROOM = SCENES, STACK };
 enum { TRIANGLES = 2000, MANY = 12000, CALLS = 100, MANY_CALLS = 300, BOXES = TRIANGLES / 12, SIDE = 4 };
 
 /* A random rotation, or the identity. */
@@ -91,6 +91,10 @@ static void put_scene(hard_stage *s, int scene, int count, const frame *f, uint6
         const dvec d = unit(rng), e = dvec_unit(dvec_cross(d, unit(rng)));
         hard_quad(s, turned(f, place(rng, 0.1)), turned(f, d), turned(f, e));
     }
+    for (int i = 0; i < (scene == STACK ? count / 2 : 0); ++i) {
+        hard_quad(s, turned(f, dvec_of(0.001 * (i % 1000) - 0.5, 0, 0)), turned(f, dvec_of(0, 1, 0)),
+                  turned(f, dvec_of(0, 0, 1)));
+    }
     for (int i = 0; i < (scene <= SPECKS || scene == HAIR || scene == SLIVERS ? count : 0); ++i) {
         put_triangle(s, scene, i, f, rng);
     }
@@ -102,7 +106,7 @@ static int make_scene(hard_stage *s, int scene, int count, const frame *f, uint6
     static uint8_t texels[4 * SIDE * SIDE];
     hard_begin(s, 0.5);
     put_scene(s, scene, count, f, rng);
-    if (scene == ALL_HOLES || scene == HALF_HOLES) {
+    if (scene == ALL_HOLES || scene == HALF_HOLES || scene == STACK) {
         hard_holes(s, 0, texels, SIDE);
         for (int i = 0; i < SIDE * SIDE && scene == ALL_HOLES; ++i) {
             texels[4 * i + 3] = 0;
@@ -177,6 +181,8 @@ void hard_cliff(hard_list *list)
              tests(list->stage, NEEDLES, 1, 1).each, limit, "tests");
     hard_put(list, HARD_BOUNDED, "12,000 hairs: tests a call of a bounded tile", tests(list->stage, HAIR, 1, 1).each,
              limit, "tests");
+    hard_put(list, HARD_BOUNDED, "12,000 triangles with holes, 1 mm apart: tests a call of a bounded tile",
+             tests(list->stage, STACK, 0, 1).each, limit, "tests");
     hard_put(list, HARD_EXACT, "a room: coarse calls of a bounded tile", (double)tests(list->stage, ROOM, 1, 1).coarse,
              0, "calls");
 }

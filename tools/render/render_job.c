@@ -329,6 +329,7 @@ static int set_light_stream(render_job *j, report *r)
     }
     j->gathers_sky = !too_many && j->o.show != LMB_SHOW_DIRECT;
     if (too_many) {
+        j->in_tree = j->scene.light_count;
         j->scene.light_count = 0;
         report_note(j->o.view.is_quiet, "%u lights in %u cells (--many-lights)", (unsigned)j->many_lights.tree.lights,
                     (unsigned)j->many_lights.tree.cell_count);

@@ -27,6 +27,7 @@ typedef struct render_job {
     lmb_view middle; /* between the eyes */
     int32_t eyes;    /* 1, or 2: side by side in the picture */
     light_stream many_lights;
+    uint32_t in_tree; /* lights of the scene that are only in the tree: scene.light_count is 0, scene.lights has them */
     lmb_frame frame; /* view and out belong to the current eye */
     lmb_render *render;
     int lit; /* the light stages of `render` are done */

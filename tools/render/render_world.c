@@ -293,7 +293,8 @@ static int is_inside(lmb_vec3 p, const lmb_scene *s)
 /* Returns whether the ground's height differs from the base as a float. Far from the origin it may not. */
 static int lies_apart(const lmb_scene *s, float radius)
 {
-    return BELOW * radius > 4e-7f * fabsf(s->bounds_min.y);
+    const float y = s->bounds_min.y - BELOW * radius;
+    return y < s->bounds_min.y;
 }
 
 /* Returns whether the ground lies within 2^20 m of the origin, so that it can be drawn. */
