@@ -437,7 +437,7 @@ OP(raster_pos)
     if (gl_is_on(c, CAP_LIGHTING)) {
         gl_light_vertex(c, &v, &m);
     }
-    gl_gen_vertex(c, &v, &m);
+    gl_gen_vertex(c, v.at, &v, &m);
     pixels_set_raster(c, &m, gl_is_on(c, CAP_LIGHTING));
     if (c->render_mode == GL_SELECT) {
         c->hit = 1;

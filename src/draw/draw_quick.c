@@ -22,7 +22,7 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
     const lmb_draw_vertices *v = pass->vertices;
     const float *axis = s->fog_axis, *m = s->to_clip.m;
     const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
-    if (v->position_format != LMB_DRAW_F32 || v->uv_format != LMB_DRAW_F32 || s->planes != 0 ||
+    if ((v->position_format != LMB_DRAW_F32 && v->position_format != LMB_DRAW_F32X4) || v->uv_format != LMB_DRAW_F32 || s->planes != 0 ||
         s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
         s->polygon_mode[1] != LMB_DRAW_FILL || v->fogs != NULL || v->seconds != NULL || v->back_colours != NULL ||
         v->back_seconds != NULL || s->shader != NULL || s->passed != NULL) {
@@ -37,15 +37,21 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
 
+/* Limits of draw_list.c: with LMB_DRAW_F32X4 only clip space has one. */
+static int quick_is_place(const lmb_draw_pass *pass, const float p[4])
+{
+    return pass->vertices->position_format == LMB_DRAW_F32X4 || is_place(vec3(p[0], p[1], p[2]));
+}
+
 static int quick_is_absurd(float v) { return !(v > -QUICK_ABSURD && v < QUICK_ABSURD); }
 
 /* Bits of the planes that a corner is outside of; DRAW_DROPPED if it is not finite. */
-static uint32_t quick_out(const lmb_draw_pass *pass, const float p[3], const float clip[4])
+static uint32_t quick_out(const lmb_draw_pass *pass, const float p[4], const float clip[4])
 {
     const float x = clip[0], y = clip[1], z = clip[2], w = clip[3];
     const float side = pass->guard_x * w, top = pass->guard_y * w;
     if (quick_is_absurd(x) || quick_is_absurd(y) || quick_is_absurd(z) || quick_is_absurd(w) ||
-        quick_is_absurd(quick_fog(pass, p, w)) || !is_place(vec3(p[0], p[1], p[2]))) {
+        quick_is_absurd(quick_fog(pass, p, w)) || !quick_is_place(pass, p)) {
         return DRAW_DROPPED;
     }
     return (uint32_t)(w - QUICK_LEAST_W < 0.0f) << DRAW_CUT_W | (uint32_t)(w - z < 0.0f) << DRAW_CUT_NEAR |
@@ -55,11 +61,11 @@ static uint32_t quick_out(const lmb_draw_pass *pass, const float p[3], const flo
 }
 
 /* 1 if quick_out would return 0: enough for the usual corner. */
-static int quick_is_in(const lmb_draw_pass *pass, const float p[3], const float clip[4])
+static int quick_is_in(const lmb_draw_pass *pass, const float p[4], const float clip[4])
 {
     const float w = clip[3];
     return pass->fog_is_w && w >= 2.0f * QUICK_LEAST_W && w < 1e20f && w >= clip[2] && clip[2] >= 0.0f &&
-           absf(clip[0]) <= pass->guard_x * w && absf(clip[1]) <= pass->guard_y * w && is_place(vec3(p[0], p[1], p[2]));
+           absf(clip[0]) <= pass->guard_x * w && absf(clip[1]) <= pass->guard_y * w && quick_is_place(pass, p);
 }
 
 /* draw_to_24_8 for values in the guard band. */
@@ -72,8 +78,8 @@ static int32_t quick_to_24_8(float v)
 static void quick_place(draw_vertex *out, const lmb_draw_pass *pass, uint32_t i)
 {
     const float *m = pass->state->to_clip.m, *range = pass->state->depth_range;
-    const float *from = (const float *)pass->vertices->positions + 3 * (size_t)i;
-    const float p[3] = {from[0], from[1], from[2]};
+    float p[4];
+    quick_fetch(p, pass->vertices, i);
     const float clip[4] = {quick_row(m, p), quick_row(m + 1, p), quick_row(m + 2, p), quick_row(m + 3, p)};
     out->name = i + 1;
     out->out = quick_is_in(pass, p, clip) ? 0 : quick_out(pass, p, clip);
@@ -310,7 +316,8 @@ MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
     const lmb_draw_indices *x = pass->indices;
     if (x != NULL && x->format == LMB_INDEX_U32 && n < x->count) {
         const uint32_t i = ((const uint32_t *)x->data)[n];
-        MESH_SOON((const void *)((uintptr_t)pass->vertices->positions + (size_t)i * 12)); /* not checked yet */
+        const size_t bytes = pass->vertices->position_format == LMB_DRAW_F32X4 ? 16 : 12;
+        MESH_SOON((const void *)((uintptr_t)pass->vertices->positions + (size_t)i * bytes)); /* not checked yet */
     }
 }
 
