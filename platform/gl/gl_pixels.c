@@ -227,6 +227,10 @@ static void pixels_clear_colour(const gl_context *c, const gl_surface *s, int32_
     all &= ~kept;
     for (int32_t y = y0; y < y1; ++y) {
         uint32_t *p = (uint32_t *)(void *)(s->colour + (ptrdiff_t)y * s->stride * 4);
+        if (y > y0 && kept == 0) { /* a copy of the first row */
+            memcpy(p + x0, (uint32_t *)(void *)(s->colour + (ptrdiff_t)y0 * s->stride * 4) + x0, (size_t)(x1 - x0) * 4);
+            continue;
+        }
         for (int32_t x = x0; x < x1 && kept == 0; ++x) {
             p[x] = all;
         }
@@ -260,9 +264,13 @@ OP(clear)
         pixels_clear_colour(c, &s, x0, y0, x1, y1);
     }
     for (int32_t y = y0; y < y1 && (w[0].u & GL_DEPTH_BUFFER_BIT) != 0 && s.depth != NULL && c->s.depth.mask; ++y) {
-        float *d = s.depth + (ptrdiff_t)y * s.depth_stride;
+        float *d = s.depth + (ptrdiff_t)y * s.depth_stride, clear = (float)c->s.depth.clear;
+        if (y > y0) { /* a copy of the first row */
+            memcpy(d + x0, s.depth + (ptrdiff_t)y0 * s.depth_stride + x0, (size_t)(x1 - x0) * sizeof *d);
+            continue;
+        }
         for (int32_t x = x0; x < x1; ++x) {
-            d[x] = (float)c->s.depth.clear;
+            d[x] = clear;
         }
     }
     for (int32_t y = y0; y < y1 && (w[0].u & GL_STENCIL_BUFFER_BIT) != 0 && s.stencil != NULL; ++y) {

@@ -12,7 +12,8 @@
 
 #if LMB_DRAW
 enum { QUICK_24_8 = 16 * 256 /* largest side of the box of small triangles */ };
-enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much stack beside a kernel's vectors */ };
+enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much stack beside a kernel's vectors */,
+       QUICK_QUEUE = 6 /* triangles */ };
 #define QUICK_ABSURD  1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
@@ -310,6 +311,26 @@ static int quick_draw(const lmb_draw_pass *pass, const draw_vertex *a, const dra
     return 1;
 }
 
+/* Prefetches the depths and colours around a corner, in linear targets. */
+MESH_HINT void quick_ask_pixels(const lmb_draw_pass *pass, const draw_vertex *at)
+{
+    const lmb_draw_target *t = pass->target;
+    const int32_t x = (at->x + pass->middle_x) >> 8, y = (at->y + pass->middle_y) >> 8;
+    if (at->out != 0 || x < pass->x0 || x > pass->x1 || y <= pass->y0 || y > pass->y1) {
+        return;
+    }
+    if (pass->tests_rows && t->depth.layout == LMB_LINEAR) {
+        const uint8_t *row = (const uint8_t *)t->depth.data + (ptrdiff_t)(y - t->y0) * t->depth.stride_bytes;
+        MESH_SOON(row + (ptrdiff_t)(x - t->x0) * 4);
+        MESH_SOON(row + (ptrdiff_t)(x - t->x0) * 4 - t->depth.stride_bytes);
+    }
+    if (pass->paints_rows) { /* four bytes a pixel */
+        const uint8_t *row = (const uint8_t *)t->colour.data + (ptrdiff_t)(y - t->y0) * t->colour.stride_bytes;
+        MESH_SOON(row + (ptrdiff_t)(x - t->x0) * 4);
+        MESH_SOON(row + (ptrdiff_t)(x - t->x0) * 4 - t->colour.stride_bytes);
+    }
+}
+
 /* Prefetches the positions of corners of a later triangle. */
 MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
 {
@@ -319,6 +340,27 @@ MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
         const size_t bytes = pass->vertices->position_format == LMB_DRAW_F32X4 ? 16 : 12;
         MESH_SOON((const void *)((uintptr_t)pass->vertices->positions + (size_t)i * bytes)); /* not checked yet */
     }
+}
+
+/* Draws a triangle of placed corners; 0 if it needs the general path. */
+static inline int quick_placed(const lmb_draw_pass *pass, const draw_vertex *p, const draw_vertex *q,
+                               const draw_vertex *r, uint32_t flat)
+{
+    int drawn = 0;
+    if (((p->out | q->out | r->out) & DRAW_DROPPED) != 0) {
+        return 0;
+    }
+    if ((p->out & q->out & r->out) == 0) {
+        drawn = (p->out | q->out | r->out) == 0 ? quick_draw(pass, p, q, r, flat) : -1;
+    }
+    if (drawn < 0) {
+        return 0;
+    }
+    if (pass->stats != NULL) {
+        ++pass->stats->triangles;
+        pass->stats->triangles_drawn += (uint32_t)drawn;
+    }
+    return 1;
 }
 
 /* known: a cache of `size` corners, a power of two. */
@@ -333,21 +375,7 @@ static inline int quick_triangle(const lmb_draw_pass *pass, draw_vertex *known, 
     }
     const draw_vertex p = quick_corner(known, size, pass, i), q = quick_corner(known, size, pass, j),
                       r = quick_corner(known, size, pass, k);
-    int drawn = 0;
-    if (((p.out | q.out | r.out) & DRAW_DROPPED) != 0) {
-        return 0;
-    }
-    if ((p.out & q.out & r.out) == 0) {
-        drawn = (p.out | q.out | r.out) == 0 ? quick_draw(pass, &p, &q, &r, last) : -1;
-    }
-    if (drawn < 0) {
-        return 0;
-    }
-    if (pass->stats != NULL) {
-        ++pass->stats->triangles;
-        pass->stats->triangles_drawn += (uint32_t)drawn;
-    }
-    return 1;
+    return quick_placed(pass, &p, &q, &r, last);
 }
 
 int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
@@ -356,9 +384,33 @@ int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c
     return quick_triangle(pass, pass->few, DRAW_FEW, order, flat);
 }
 
+/* Triangles without indices share no corners. Several are placed first: their pixels arrive in the cache meanwhile. */
+NOINLINE uint32_t quick_stream(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+{
+    draw_vertex corner[3 * QUICK_QUEUE];
+    while (i < count) {
+        const uint32_t left = (count - i + 2) / 3, n = left < QUICK_QUEUE ? left : QUICK_QUEUE;
+        for (uint32_t k = 0; k < 3 * n; ++k) {
+            quick_renew(&corner[k], pass, i - 2 + k);
+            if (k % 3 == 0) {
+                quick_ask_pixels(pass, &corner[k]);
+            }
+        }
+        for (uint32_t k = 0; k < n; ++k, i += 3) {
+            if (!quick_placed(pass, &corner[3 * k], &corner[3 * k + 1], &corner[3 * k + 2], i)) {
+                return i;
+            }
+        }
+    }
+    return i;
+}
+
 uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
 {
     draw_vertex known[QUICK_KNOWN];
+    if (pass->indices == NULL) {
+        return quick_stream(pass, i, count);
+    }
     for (int k = 0; k < QUICK_KNOWN; ++k) {
         known[k].name = 0;
     }
