@@ -1,6 +1,6 @@
 # fuzz.sh: runs each fuzz target for some CPU minutes: fuzz.sh FUZZER FOLDER MINUTES TARGET...
 #
-# MINUTES=0 runs each target for three seconds, but calls and stages for ten, because their inputs grow slowest. Inputs
+# MINUTES=0 runs each target for three seconds, but calls, stages and gl for ten, because their inputs grow slowest. Inputs
 # are tests/fuzz/corpus and, if present, the sample data. New useful inputs go to FOLDER/TARGET for the next run,
 # findings to FOLDER/TARGET-crash-* and similar names. A target runs in slices, because libFuzzer limits wall time, not
 # CPU time. The limit for one input is wall time too, and high, because a busy machine takes 25 s for an input of one
@@ -44,7 +44,7 @@ run() {
     count "$1"
     begun=$seconds executions=0
     case $minutes/$1 in
-    0/calls | 0/stages) slice=10 ;;
+    0/calls | 0/stages | 0/gl) slice=10 ;;
     0/*) slice=3 ;;
     *) slice=120 ;;
     esac

@@ -23,16 +23,16 @@ own() {
     if cmp -s "$out/own.txt" $here/own.txt; then good; else bad "own: $out/own.txt is not $here/own.txt"; fi
 }
 
-# Hostile arguments, and two contexts in two threads; -fsanitize flags go into CFLAGS of make gl.
+# Hostile arguments, and two contexts in two threads. CFLAGS are those of the library, as a sanitizer needs.
 program() {
-    if ! ${CC:-cc} -std=gnu99 -O1 -Iplatform/gl/include -o "$out/$1" $here/"$1".c "$gl/libGL.a" -lm -lpthread; then
-        bad "$1.c does not compile"
+    if ! ${CC:-cc} ${CFLAGS:-} -std=gnu99 -O1 -Iplatform/gl/include -o "$out/$1" "$2" "$gl/libGL.a" -lm -lpthread; then
+        bad "$2 does not compile"
         return
     fi
     if "$out/$1" 2> "$out/$1.txt"; then good; else bad "$1: see $out/$1.txt"; fi
 }
-hostile() { program hostile; }
-threads() { program threads; }
+hostile() { program hostile tests/fuzz/main_gl.c; }
+threads() { program threads $here/threads.c; }
 
 # A C program with GLU: quadrics and tessellation by Debian's libGLU, which draws through our libOpenGL.
 glu() {
