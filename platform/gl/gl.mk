@@ -35,7 +35,7 @@ gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips
 
 gl-races: ## two contexts of that library in two threads, under clang's race detector
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers && $(MAKE) gl-check GL_CLIENTS=threads \
-	    BUILD=$(BUILD)/gl-races CC=clang CFLAGS="-O1 -g1 -fsanitize=thread $(PLAIN_KERNELS)"
+	    BUILD=$(BUILD)/gl-races CC=clang CFLAGS="-O1 -g1 -fsanitize=thread -DGL_HEAP_BYTES=4194304 $(PLAIN_KERNELS)"
 
 GL_MACHINES := aarch64 mips riscv64
 gl-cross: ## the pictures of our own program on other machines, by emulators; skips machines if compilers are missing

@@ -411,6 +411,7 @@ void fuzz_gl(const uint8_t *data, size_t size)
     stream s = {data, data + size, 1};
     memory = memory != NULL ? memory : calloc(1, BYTES);
     require(memory != NULL, "memory");
+    s.state = next(&s); /* of the calls after the end of the data */
     run(&s);
 }
 #else

@@ -45,6 +45,19 @@ glu() {
     if LD_LIBRARY_PATH=$gl "$out/glu"; then good; else bad "glu"; fi
 }
 
+# GLFW 3.3 with an OSMesa context, on a display in memory.
+glfw() {
+    [ -f /usr/include/GLFW/glfw3.h ] || { skip "glfw: libglfw3-dev is missing"; return; }
+    for need in xvfb-run xkbcomp; do
+        command -v $need > /dev/null || { skip "glfw: xvfb or x11-xkb-utils is missing"; return; }
+    done
+    if ! ${CC:-cc} -std=c99 -O1 -Iplatform/gl/include -idirafter /usr/include -o "$out/glfw" $here/glfw.c -lglfw; then
+        bad "glfw.c does not compile"
+        return
+    fi
+    if LD_LIBRARY_PATH=$gl xvfb-run -a "$out/glfw"; then good; else bad "glfw"; fi
+}
+
 pyopengl() {
     python=/usr/bin/python3
     $python -c 'import OpenGL' 2>/dev/null || { skip "pyopengl: python3-opengl is missing"; return; }
@@ -70,8 +83,8 @@ piglit() {
     if [ -z "$missing" ]; then good; else bad "piglit: $missing"; fi
 }
 
-clients=${GL_CLIENTS:-own hostile threads glu pyopengl piglit}
-[ "$clients" = fast ] && clients="own hostile threads glu pyopengl"
+clients=${GL_CLIENTS:-own hostile threads glu glfw pyopengl piglit}
+[ "$clients" = fast ] && clients="own hostile threads glu glfw pyopengl"
 for client in $clients; do
     $client
 done
