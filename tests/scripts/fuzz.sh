@@ -37,6 +37,8 @@ samples() {
 run() {
     options="-timeout=100 -rss_limit_mb=4000 -max_len=$((1 << 16)) -print_final_stats=1 -verbosity=0"
     [ ! -f "tests/fuzz/$1.dict" ] || options="$options -dict=tests/fuzz/$1.dict"
+    corpus=tests/fuzz/corpus/$1
+    [ -d "$corpus" ] || corpus=
     mkdir -p "$folder/$1" "$folder/samples/$1"
     for file in $(samples "$1"); do
         [ "$(wc -c <"$file")" -gt 65536 ] || cp "$file" "$folder/samples/$1/"
@@ -50,7 +52,7 @@ run() {
     esac
     while
         "$fuzzer" "$1" $options -max_total_time=$slice -artifact_prefix="$folder/$1-" "$folder/$1" \
-            "tests/fuzz/corpus/$1" "$folder/samples/$1" >"$folder/$1.log" 2>&1
+            $corpus "$folder/samples/$1" >"$folder/$1.log" 2>&1
         status=$?
         executed "$1"
         [ "$status" = 0 ] || return 1
