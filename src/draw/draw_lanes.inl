@@ -396,82 +396,6 @@ LANE_INLINE draw_codes draw_colour_of(const lmb_draw_patch *p, const draw_share 
     return state->fog != LMB_DRAW_FOG_NONE ? draw_fogged(v, p, s) : v;
 }
 
-/* --- sprites ------------------------------------------------------------------------------------------------------ */
-
-/* The texel's channels in pairs: R and B, G and A. Each row of two texels is mixed in 16 bits a channel, then the rows;
- * the sums are those of draw_bilinear. */
-LANE_INLINE void draw_sprite_linear(const lmb_texture *t, lane u, lane v, lanei pair[2])
-{
-    const lanei half = lanei_splat(128), byte = lanei_splat(255), all = lanei_splat(256), one = lanei_splat(1);
-    const lanei wide = lanei_splat(t->width), high = lanei_splat(t->height), low = lanei_splat(0xffff);
-    const lanei x = lanei_sub(lane_to_int(lane_mul(u, lane_splat((float)(t->width * 256)))), half);
-    const lanei y = lanei_sub(lane_to_int(lane_mul(v, lane_splat((float)(t->height * 256)))), half);
-    const lanei fx = lanei_and(x, byte), fy = lanei_and(y, byte), gx = lanei_sub(all, fx), gy = lanei_sub(all, fy);
-    const lanei x0 = lanei_shift(x, 8), y0 = lanei_shift(y, 8);
-    const lanei left = texture_wrap(x0, wide, t->wrap_s), right = texture_wrap(lanei_add(x0, one), wide, t->wrap_s);
-    const lanei row0 = lanei_mul(texture_wrap(y0, high, t->wrap_t), wide),
-                row1 = lanei_mul(texture_wrap(lanei_add(y0, one), high, t->wrap_t), wide);
-    const lanei texel[4] = {
-        lanei_gather_rgba(t->texels, lanei_add(row0, left)), lanei_gather_rgba(t->texels, lanei_add(row0, right)),
-        lanei_gather_rgba(t->texels, lanei_add(row1, left)), lanei_gather_rgba(t->texels, lanei_add(row1, right))};
-    const lanei bytes = lanei_splat(0x00ff00ff), round = lanei_splat(1 << 15);
-    for (int i = 0; i < 2; ++i) {
-        lanei part[4];
-        for (int k = 0; k < 4; ++k) {
-            part[k] = lanei_and(i == 0 ? texel[k] : lanei_shift(texel[k], 8), bytes);
-        }
-        const lanei upper = lanei_add(lanei_mul(part[0], gx), lanei_mul(part[1], fx));
-        const lanei lower = lanei_add(lanei_mul(part[2], gx), lanei_mul(part[3], fx));
-        const lanei first = lanei_add(lanei_mul(lanei_and(upper, low), gy), lanei_mul(lanei_and(lower, low), fy));
-        const lanei second = lanei_add(lanei_mul(lanei_and(lanei_shift(upper, 16), low), gy),
-                                       lanei_mul(lanei_and(lanei_shift(lower, 16), low), fy));
-        pair[i] = lanei_or(lanei_shift(lanei_add(first, round), 16),
-                           lanei_and(lanei_add(second, round), lanei_splat(0x00ff0000)));
-    }
-}
-
-/* 1 if the colours are texels, blended by their alpha into all channels. */
-LANE_INLINE int draw_is_sprite(const lmb_draw_patch *p, int meets, int is_white)
-{
-    const lmb_draw_stage *stage = p->state->stage;
-    return (meets == DRAW_MEET_OVER || meets == DRAW_MEET_ADD) && stage[0].texture != NULL &&
-           stage[1].texture == NULL && p->state->fog == LMB_DRAW_FOG_NONE && p->state->colour_mask == 15 &&
-           (stage[0].mode == LMB_DRAW_REPLACE || (stage[0].mode == LMB_DRAW_MODULATE && is_white));
-}
-
-LANE_PART void draw_sprite(const lmb_draw_patch *p, uint64_t mask, int adds)
-{
-    const lmb_texture *t = p->state->stage[0].texture;
-    const lanei bytes = lanei_splat(0x00ff00ff);
-    const lane wide = lane_splat((float)t->width), high = lane_splat((float)t->height);
-    const int nearest = t->filter == LMB_NEAREST;
-    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const uint32_t bits = draw_bits(mask, k);
-        uint8_t *at = p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride + 4 * (k & 7);
-        lanei pair[2];
-        if (bits == 0) {
-            continue;
-        }
-        const draw_share share = draw_share_at(p, k);
-        const lane u = texture_reduce(draw_value_at(p, 4, &share), t->wrap_s),
-                   v = texture_reduce(draw_value_at(p, 5, &share), t->wrap_t);
-        if (nearest) {
-            const lanei texel = draw_texel_at(t, lane_to_int(lane_mul(u, wide)), lane_to_int(lane_mul(v, high)));
-            pair[0] = lanei_and(texel, bytes);
-            pair[1] = lanei_and(lanei_shift(texel, 8), bytes);
-        } else {
-            draw_sprite_linear(t, u, v, pair);
-        }
-        const lanei was = draw_load(at, p->colour_stride), before = p->swaps ? draw_swap(was) : was;
-        const lanei alpha = lanei_shift(pair[1], 16);
-        const lanei even = draw_pair_blend(pair[0], lanei_and(before, bytes), alpha, adds);
-        const lanei odd = draw_pair_blend(pair[1], lanei_and(lanei_shift(before, 8), bytes), alpha, adds);
-        lanei made = lanei_or(even, lanei_mul(odd, lanei_splat(1 << 8)));
-        made = p->swaps ? draw_swap(made) : made;
-        draw_save(at, p->colour_stride, lanei_pick(mask_of_bits(bits), made, was));
-    }
-}
-
 static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
 {
     const lmb_draw_state *s = p->state;
@@ -488,10 +412,6 @@ static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
         channels |= (s->colour_mask >> i & 1u) != 0 ? 0xffu << 8 * i : 0;
     }
     draw_codes v = same;
-    if (draw_is_sprite(p, meets, is_white)) {
-        draw_sprite(p, mask, meets == DRAW_MEET_ADD);
-        return;
-    }
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const uint32_t bits = draw_bits(mask, k);
         uint8_t *at = p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride + 4 * (k & 7);
