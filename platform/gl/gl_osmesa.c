@@ -31,9 +31,9 @@ static int osmesa_bytes(GLenum f) { return f == OSMESA_RGB || f == OSMESA_BGR ? 
 static void osmesa_ask_pages(uint8_t *start, size_t bytes)
 {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-    const size_t page = (size_t)1 << 21, skip = (page - (uintptr_t)start % page) % page;
-    if (bytes > skip + page) {
-        (void)madvise(start + skip, (bytes - skip) / page * page, MADV_HUGEPAGE); /* a hint: it may fail */
+    const size_t large = (size_t)1 << 21, skip = (large - (uintptr_t)start % large) % large;
+    if (bytes > skip + large) {
+        (void)madvise(start + skip, (bytes - skip) / large * large, MADV_HUGEPAGE); /* a hint: it may fail */
     }
 #else
     (void)start;

@@ -531,7 +531,7 @@ static int vertex_area_mode(const gl_context *c)
 
 /* --- batches outside the picture ---------------------------------------------------------------------------------- */
 
-/* More than the rounding errors of the transformation and of draw.h's clipping, per sum of absolute products. */
+/* Above the rounding errors of the transformation and of draw.h's clipping, per sum of absolute products. */
 #define VERTEX_OUT_MARGIN 1e-3f
 
 /* The smallest and the largest of each coordinate. NaN is ignored, but not in the first vertex: draw.h drops its
@@ -586,13 +586,13 @@ static int vertex_all_out(const gl_context *c)
     vertex_box(c, low, high);
     for (int plane = 0; plane < 6; ++plane) {
         const float *a = row[plane >> 1], *s = size[plane >> 1], sign = (plane & 1) != 0 ? -1.0f : 1.0f;
-        float least = 0.0f, margin = 0.0f;
+        float inmost = 0.0f, margin = 0.0f;
         for (int k = 0; k < 4; ++k) {
             const float by = sign * a[k] - row[3][k];
-            least += by * (by > 0.0f ? low[k] : high[k]);
+            inmost += by * (by > 0.0f ? low[k] : high[k]);
             margin += (s[k] + size[3][k]) * maxf(absf(low[k]), absf(high[k]));
         }
-        if ((outside >> plane & 1) != 0 && least > VERTEX_OUT_MARGIN * margin) {
+        if ((outside >> plane & 1) != 0 && inmost > VERTEX_OUT_MARGIN * margin) {
             return 1;
         }
     }
