@@ -607,8 +607,11 @@ msan: ## pictures, hard cases and the corpus under the memory sanitizer
 	+@$(MAKE) check CHECKS="$(MSAN_CHECKS)" $(MANY) BUILD=$(BUILD)/msan CC=clang TEST_CFLAGS= \
 	    CFLAGS="-O1 -g1 -fsanitize=memory $(PLAIN_KERNELS)"
 
-FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
-TARGETS   ?= png jpeg hdr pfm ppm pam picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages
+# The target gl needs platform/gl, with a small heap, so that it is full at times.
+FUZZ_GL  := $(call object,tests/fuzz/main_gl.c $(wildcard platform/gl/gl_*.c))
+$(FUZZ_GL): COMPILE += -Iplatform/gl/include -DFUZZER -DGL_HEAP_BYTES='((size_t)1<<22)'
+FUZZ_OBJ := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(FUZZ_GL) $(filter-out %/lambent.o,$(TOOL_OBJ))
+TARGETS   ?= png jpeg hdr pfm ppm pam picture inflate json gltf obj mtl ply lmr lmt lmf lmp cli api calls stages gl
 MINUTES   ?= 1
 fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers && $(MAKE) $(FUZZER) $(SANITIZED)

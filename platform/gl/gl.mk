@@ -30,9 +30,13 @@ $(GL_OUT)/libGL.a: $(GL_OBJ)
 	@rm -f $@
 	@$(AR) rcs $@ $^
 
-.PHONY: gl gl-check gl-cross
+.PHONY: gl gl-check gl-races gl-cross
 gl-check: gl ## programs of others on that library: PyOpenGL, GLU, piglit; skips clients if packages are missing
-	@GL_CLIENTS='$(GL_CLIENTS)' CC='$(CC)' sh platform/gl/check/check.sh $(GL_OUT)
+	@GL_CLIENTS='$(GL_CLIENTS)' CC='$(CC)' CFLAGS='$(CFLAGS)' sh platform/gl/check/check.sh $(GL_OUT)
+
+gl-races: ## two contexts of that library in two threads, under clang's race detector
+	+@sh tests/scripts/tools.sh need clang clang-sanitizers && $(MAKE) gl-check GL_CLIENTS=threads \
+	    BUILD=$(BUILD)/gl-races CC=clang CFLAGS="-O1 -g1 -fsanitize=thread -DGL_HEAP_BYTES=4194304 $(PLAIN_KERNELS)"
 
 GL_MACHINES := aarch64 mips riscv64
 gl-cross: ## the pictures of our own program on other machines, by emulators; skips machines if compilers are missing

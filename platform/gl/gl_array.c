@@ -255,6 +255,7 @@ static void array_draw(gl_context *c, GLenum mode, uint32_t first, GLsizei count
         gl_do(c, OP_end, &end, 1);
     }
     c->s.current.v = kept;
+    c->open = 0;
 }
 
 void glDrawArrays(GLenum mode, GLint first, GLsizei count)

@@ -34,12 +34,20 @@ static void call_vertex(float x, float y, float z, float w)
     if (c == NULL) {
         return;
     }
-    if (c->list_mode == 0) {
-        const float at[4] = {x, y, z, w};
-        gl_vertex_at(c, at);
+    if (c->count < c->open) {
+        float *to = c->at_of[c->count++];
+        to[0] = x;
+        to[1] = y;
+        to[2] = z;
+        to[3] = w;
         return;
     }
-    DO(vertex, F(x), F(y), F(z), F(w));
+    const float at[4] = {x, y, z, w};
+    if (c->list_mode == 0) {
+        gl_vertex_at(c, at);
+    } else {
+        gl_list_vertex(c, at);
+    }
 }
 
 static void call_colour(float r, float g, float b, float a)
@@ -51,6 +59,7 @@ static void call_colour(float r, float g, float b, float a)
         v[1] = g;
         v[2] = b;
         v[3] = a;
+        c->open = 0;
         return;
     }
     DO(colour, F(r), F(g), F(b), F(a));

@@ -270,12 +270,16 @@ typedef struct gl_context {
     int32_t count, made_count, first_kept, is_continued;
     gl_vertex loop_first;
     int32_t stipple_at; /* px along the line so far */
-    gl_vertex wait[GL_BATCH + 4];
+    float at_of[GL_BATCH + 4][4];
+    /* Look k is the attributes of vertices look_from[k] .. look_from[k + 1] - 1. */
+    gl_vertex look[GL_BATCH + 4];
+    int32_t look_from[GL_BATCH + 4], looks;
+    int32_t open; /* glVertex may append to the last look while count < open; 0: only gl_vertex_at may append */
     gl_made made[GL_BATCH + 4];
     float eye_of[GL_BATCH + 4][4];
     uint8_t colour_of[GL_BATCH + 4][4];
     float uv_of[GL_BATCH + 4][2];
-    uint32_t index_of[6 * (GL_BATCH + 4)];
+    uint32_t index_of[GL_BATCH + 4];
 
     const struct lmb_kernels *kernels; /* of draw.h; NULL: plain C */
     lmb_draw_state draw;
@@ -306,6 +310,7 @@ typedef struct gl_context {
     GLenum list_mode; /* 0: none is compiled */
     gl_list *list;
     gl_chunk *list_chunk;
+    gl_word *list_run; /* the operation recorded last, if it is a run of vertices that can grow; or NULL */
     int32_t list_depth, list_inside;
 
     float pixel_map[10][GL_PIXEL_MAP];
@@ -371,6 +376,7 @@ void gl_do(gl_context *c, int op, const gl_word *w, int32_t words);
 void gl_do_data(gl_context *c, int op, gl_word *w, int32_t words, const void *data, size_t bytes);
 const void *gl_data_of(const gl_word *w);
 void gl_run_list(gl_context *c, GLuint name);
+void gl_list_vertex(gl_context *c, const float at[4]); /* records a vertex */
 void gl_list_free(gl_context *c, gl_list *list);
 
 /* --- functions shared by the files -------------------------------------------------------------------------------- */
@@ -392,11 +398,12 @@ GLuint gl_new_names(gl_context *c, gl_table *t, int32_t count); /* the first of 
 void gl_flush_vertices(gl_context *c); /* draws the batch */
 void gl_make_vertices(gl_context *c);  /* transforms and lights the batch, before a state changes */
 void gl_vertex_at(gl_context *c, const float at[4]);
+void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count); /* 4 words each */
 void gl_update_matrices(gl_context *c);
 void gl_set_draw(gl_context *c); /* derives draw.h's state from the context's */
 int gl_draw_func(GLenum func);
 void gl_light_vertex(gl_context *c, const gl_vertex *v, gl_made *made);
-void gl_gen_vertex(gl_context *c, const gl_vertex *v, gl_made *made);
+void gl_gen_vertex(gl_context *c, const float at[4], const gl_vertex *v, gl_made *made);
 void gl_state_init(gl_context *c);
 void gl_set_array(gl_context *c);
 uint64_t gl_shade_pixels(void *user, const lmb_draw_pixels_of *p, uint8_t colour[64][4]);
@@ -415,6 +422,7 @@ void gl_transfer(const gl_context *c, float *rgba, size_t pixels);
 /* matrices, column-major as OpenGL's */
 void gl_matrix_times(float out[16], const float a[16], const float b[16]);
 void gl_matrix_point(float out[4], const float m[16], const float v[4]);
+void gl_matrix_points(float (*out)[4], const float m[16], const float (*in)[4], int32_t count);
 int gl_matrix_invert(float out[16], const float m[16]);
 
 /* --- images ------------------------------------------------------------------------------------------------------- */

@@ -118,6 +118,7 @@ static void eval_at(gl_context *c, int dims, float u, float v)
     if (!wide && !eval_has(c, dims, EVAL_VERTEX3)) {
         return;
     }
+    c->open = 0;
     (void)eval_map(c, dims, EVAL_COLOUR, u, v, c->s.current.v.colour, NULL, NULL);
     (void)eval_map(c, dims, EVAL_NORMAL, u, v, c->s.current.v.normal, NULL, NULL);
     for (int k = EVAL_TEX4; k >= EVAL_TEX1; --k) {
@@ -146,6 +147,7 @@ static void eval_at(gl_context *c, int dims, float u, float v)
     }
     gl_vertex_at(c, at);
     c->s.current.v = kept;
+    c->open = 0;
 }
 
 OP(eval_coord) { eval_at(c, w[0].i, w[1].f, w[2].f); }

@@ -6,6 +6,23 @@ typedef struct gl_block {
     size_t bytes, before; /* with this head; of the block before it, 0: first block */
     struct gl_block *next, **link; /* link: the pointer to this block; NULL: used */
 } gl_block;
+/* Under AddressSanitizer only the bytes that were asked for may be used. */
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define HEAP_GUARDS 1
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define HEAP_GUARDS 1
+#endif
+#ifdef HEAP_GUARDS
+void __asan_poison_memory_region(const volatile void *p, size_t bytes);
+void __asan_unpoison_memory_region(const volatile void *p, size_t bytes);
+#define HEAP_CLOSE(p, bytes) __asan_poison_memory_region(p, bytes)
+#define HEAP_OPEN(p, bytes)  __asan_unpoison_memory_region(p, bytes)
+#else
+#define HEAP_CLOSE(p, bytes) ((void)(p), (void)(bytes))
+#define HEAP_OPEN(p, bytes)  ((void)(p), (void)(bytes))
+#endif
 enum { HEAP_ALIGN = 32, HEAP_HEAD = (sizeof(gl_block) + 31) / 32 * 32 };
 
 void gl_heap_init(gl_heap *h, void *start, size_t bytes)
@@ -52,6 +69,7 @@ static void heap_split(gl_heap *h, gl_block *b, size_t bytes)
         return;
     }
     gl_block *rest = (gl_block *)(void *)((uint8_t *)b + bytes);
+    HEAP_OPEN(rest, HEAP_HEAD);
     rest->bytes = b->bytes - bytes;
     rest->before = bytes;
     b->bytes = bytes;
@@ -59,6 +77,15 @@ static void heap_split(gl_heap *h, gl_block *b, size_t bytes)
     if (after != NULL) {
         after->before = rest->bytes;
     }
+}
+
+/* The block's memory, `size` bytes of it open. */
+static void *heap_memory(gl_block *b, size_t size)
+{
+    uint8_t *p = (uint8_t *)b + HEAP_HEAD;
+    HEAP_CLOSE(p, b->bytes - HEAP_HEAD);
+    HEAP_OPEN(p, size);
+    return p;
 }
 
 void *gl_alloc(gl_context *c, size_t size)
@@ -70,17 +97,18 @@ void *gl_alloc(gl_context *c, size_t size)
             if (b->bytes >= bytes) {
                 heap_unlink(b);
                 heap_split(h, b, bytes);
-                return (uint8_t *)b + HEAP_HEAD;
+                return heap_memory(b, size);
             }
         }
         if (bytes <= h->bytes - h->top) {
             gl_block *b = heap_block(h, h->top);
+            HEAP_OPEN(b, HEAP_HEAD);
             b->before = h->top == 0 ? 0 : c->group->heap_last;
             b->bytes = bytes;
             b->link = NULL;
             h->top += bytes;
             c->group->heap_last = bytes;
-            return (uint8_t *)b + HEAP_HEAD;
+            return heap_memory(b, size);
         }
     }
     gl_error(c, GL_OUT_OF_MEMORY);
@@ -94,6 +122,7 @@ void gl_free(gl_context *c, void *p)
         return;
     }
     gl_block *b = (gl_block *)(void *)((uint8_t *)p - HEAP_HEAD);
+    HEAP_CLOSE(p, b->bytes - HEAP_HEAD);
     gl_block *after = heap_after(h, b);
     if (after != NULL && after->link != NULL) {
         heap_unlink(after);

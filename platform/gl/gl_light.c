@@ -285,7 +285,7 @@ OP(tex_gen)
 
 static float light_dot4(const float a[4], const float b[4]) { return light_dot(a, b) + a[3] * b[3]; }
 
-void gl_gen_vertex(gl_context *c, const gl_vertex *v, gl_made *made)
+void gl_gen_vertex(gl_context *c, const float at[4], const gl_vertex *v, gl_made *made)
 {
     for (int u = 0; u < GL_UNITS; ++u) {
         const gl_unit *unit = &c->s.texture.unit[u];
@@ -310,7 +310,7 @@ void gl_gen_vertex(gl_context *c, const gl_vertex *v, gl_made *made)
             for (int k = 0; k < 4; ++k) {
                 const gl_gen *g = &unit->coordinate[k];
                 if ((unit->gen >> k & 1u) != 0) {
-                    t[k] = g->mode == GL_OBJECT_LINEAR   ? light_dot4(g->object, v->at)
+                    t[k] = g->mode == GL_OBJECT_LINEAR   ? light_dot4(g->object, at)
                            : g->mode == GL_EYE_LINEAR    ? light_dot4(g->eye, made->eye)
                            : g->mode == GL_SPHERE_MAP    ? r[k % 2] * m + 0.5f
                            : g->mode == GL_NORMAL_MAP    ? n[k % 3]

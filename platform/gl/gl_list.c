@@ -5,6 +5,7 @@
 static void (*const list_ops[OPS])(gl_context *, const gl_word *) = {GL_OPERATIONS(LIST_ROW)};
 
 enum { LIST_FIRST_WORDS = 128, LIST_NEXT_WORDS = 16384 };
+enum { LIST_MOST_WORDS = 0x3fff };
 enum { LIST_POINTER = 1 << 30 /* flag of an operation: the last words are a pointer to data owned by the list */ };
 
 static void list_run(gl_context *c, int op, const gl_word *w)
@@ -44,14 +45,38 @@ static gl_word *list_room(gl_context *c, int32_t words)
     return &k->word[k->used - words];
 }
 
+/* The words of the operation at `head`. */
+static int32_t list_words(const gl_word *head) { return (int32_t)(head->u >> 16 & LIST_MOST_WORDS); }
+
 static void list_record(gl_context *c, int op, const gl_word *w, int32_t words, uint32_t flags)
 {
     gl_word *to = list_room(c, words + 1);
+    c->list_run = NULL;
     if (to != NULL) {
         to[0].u = (uint32_t)op | (uint32_t)words << 16 | flags;
         if (words > 0) {
             memcpy(to + 1, w, (size_t)words * sizeof *w);
         }
+    }
+}
+
+/* Vertices in a row are one operation. */
+void gl_list_vertex(gl_context *c, const float at[4])
+{
+    gl_chunk *k = c->list_chunk;
+    gl_word *run = c->list_run, w[4];
+    memcpy(w, at, sizeof w);
+    if (run != NULL && k->used + 4 <= k->cap && list_words(run) + 4 <= LIST_MOST_WORDS) {
+        memcpy(&k->word[k->used], w, sizeof w);
+        k->used += 4;
+        run->u += (uint32_t)4 << 16;
+    } else {
+        list_record(c, OP_vertex, w, 4, 0);
+        k = c->list_chunk;
+        c->list_run = k != NULL && k->used >= 5 ? &k->word[k->used - 5] : NULL;
+    }
+    if (c->list_mode != GL_COMPILE) {
+        gl_vertex_at(c, at);
     }
 }
 
@@ -110,9 +135,9 @@ void gl_list_free(gl_context *c, gl_list *list)
     gl_chunk *k = list->first;
     while (k != NULL) {
         gl_chunk *next = k->next;
-        for (int32_t i = 0; i < k->used; i += 1 + (int32_t)(k->word[i].u >> 16 & 0x3fffu)) {
+        for (int32_t i = 0; i < k->used; i += 1 + list_words(&k->word[i])) {
             if ((k->word[i].u & LIST_POINTER) != 0) {
-                gl_free(c, (void *)(uintptr_t)gl_data_of(&k->word[i + (int32_t)(k->word[i].u >> 16 & 0x3fffu) - 1]));
+                gl_free(c, (void *)(uintptr_t)gl_data_of(&k->word[i + list_words(&k->word[i]) - 1]));
             }
         }
         gl_free(c, k);
@@ -131,8 +156,13 @@ void gl_run_list(gl_context *c, GLuint name)
     for (const gl_chunk *k = list->first; k != NULL; k = k->next) {
         for (int32_t i = 0; i < k->used;) {
             const uint32_t head = k->word[i].u;
-            list_run(c, (int)(head & 0xffffu), &k->word[i + 1]);
-            i += 1 + (int32_t)(head >> 16 & 0x3fffu);
+            const int32_t words = list_words(&k->word[i]);
+            if ((head & 0xffffu) == OP_vertex) {
+                gl_vertices_at(c, &k->word[i + 1], words / 4);
+            } else {
+                list_run(c, (int)(head & 0xffffu), &k->word[i + 1]);
+            }
+            i += 1 + words;
         }
     }
     --c->list_depth;
@@ -154,6 +184,7 @@ void glNewList(GLuint name, GLenum mode)
         list->first = NULL;
         c->list = list;
         c->list_chunk = NULL;
+        c->list_run = NULL;
         c->list_name = name;
         c->list_mode = mode;
     }

@@ -18,6 +18,24 @@ void gl_matrix_point(float out[4], const float m[16], const float v[4])
     }
 }
 
+/* As gl_matrix_point, value by value. */
+void gl_matrix_points(float (*out)[4], const float m[16], const float (*in)[4], int32_t count)
+{
+#ifdef __GNUC__
+    typedef float four __attribute__((vector_size(16)));
+    four c[4], v;
+    memcpy(c, m, sizeof c);
+    for (int32_t i = 0; i < count; ++i) {
+        v = c[0] * in[i][0] + c[1] * in[i][1] + c[2] * in[i][2] + c[3] * in[i][3];
+        memcpy(out[i], &v, sizeof v);
+    }
+#else
+    for (int32_t i = 0; i < count; ++i) {
+        gl_matrix_point(out[i], m, in[i]);
+    }
+#endif
+}
+
 /* Gaussian elimination with pivoting; returns 0 if there is no inverse. */
 int gl_matrix_invert(float out[16], const float m[16])
 {

@@ -1,5 +1,9 @@
 /* gl_osmesa.c: contexts that draw into a program's memory. RGBA and BGRA with rows from the bottom are drawn there
  * directly. Other formats are drawn into the context's memory, and copied when the program calls finish or flush. */
+#ifdef __linux__
+#define _DEFAULT_SOURCE /* madvise */
+#include <sys/mman.h>
+#endif
 #include <stdlib.h>
 
 #include "gl_context.h"
@@ -22,6 +26,20 @@ static int osmesa_format_is_known(GLenum f)
 }
 
 static int osmesa_bytes(GLenum f) { return f == OSMESA_RGB || f == OSMESA_BGR ? 3 : f == OSMESA_RGB_565 ? 2 : 4; }
+
+/* Asks the system for large pages: a list of a million vertices touches thousands of small ones for the first time. */
+static void osmesa_ask_pages(uint8_t *start, size_t bytes)
+{
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+    const size_t large = (size_t)1 << 21, skip = (large - (uintptr_t)start % large) % large;
+    if (bytes > skip + large) {
+        (void)madvise(start + skip, (bytes - skip) / large * large, MADV_HUGEPAGE); /* a hint: it may fail */
+    }
+#else
+    (void)start;
+    (void)bytes;
+#endif
+}
 
 /* One block: the context, the group unless another context shares one, and the heap. */
 static gl_context *osmesa_create(GLenum format, int depth, int stencil, int accum, gl_context *share)
@@ -54,6 +72,7 @@ static gl_context *osmesa_create(GLenum format, int depth, int stencil, int accu
         c->group = (gl_group *)(void *)(block + head);
         memset(c->group, 0, sizeof *c->group);
         gl_heap_init(&c->group->heap, block + head + group, heap);
+        osmesa_ask_pages(block + head + group, heap);
         c->owner = c;
     }
     ++c->group->users;

@@ -82,12 +82,12 @@ static int pixels_are_bytes(GLenum format, GLenum type)
 }
 
 /* A row of a surface as bytes, if all of the row is inside and nothing changes the colours; 0: not so. */
-static int pixels_read_bytes(uint8_t *to, const gl_surface *s, int32_t x, int32_t y, int32_t n, GLenum format)
+static int pixels_read_bytes(uint8_t *to, const gl_surface *s, int64_t x, int64_t y, int32_t n, GLenum format)
 {
     if (x < 0 || y < 0 || n > s->width - x || y >= s->height) {
         return 0;
     }
-    const uint8_t *p = s->colour + ((ptrdiff_t)y * s->stride + x) * 4;
+    const uint8_t *p = s->colour + ((ptrdiff_t)y * s->stride + (ptrdiff_t)x) * 4;
     const int each = format == GL_RGB ? 3 : 4, red = (format == GL_BGRA) != (s->swaps != 0) ? 2 : 0;
     for (int32_t i = 0; i < n; ++i, p += 4, to += each) {
         to[0] = p[red];
@@ -156,11 +156,11 @@ uint8_t *gl_read_codes(gl_context *c, int w, int h, int d, int dims, GLenum form
 }
 
 /* Reads row y, n pixels from x on; zeros outside. */
-static void pixels_fetch(const gl_surface *s, float (*row)[4], int32_t x, int32_t y, int32_t n, int kind)
+static void pixels_fetch(const gl_surface *s, float (*row)[4], int64_t x, int64_t y, int32_t n, int kind)
 {
     for (int32_t i = 0; i < n; ++i) {
         float *v = row[i];
-        const int32_t px = x + i;
+        const int64_t px = x + i;
         v[0] = v[1] = v[2] = v[3] = 0.0f;
         if (px < 0 || y < 0 || px >= s->width || y >= s->height) {
             continue;
@@ -198,7 +198,7 @@ uint8_t *gl_copy_codes(gl_context *c, int32_t x, int32_t y, int32_t w, int32_t h
     for (int32_t j = 0; j < h && out != NULL; ++j) {
         for (int32_t i = 0; i < w; i += GL_SIDE) {
             const int32_t n = mini(w - i, GL_SIDE);
-            pixels_fetch(&s, c->row, x + i, y + j, n, pixels_kind(format));
+            pixels_fetch(&s, c->row, (int64_t)x + i, (int64_t)y + j, n, pixels_kind(format));
             uint8_t *to = out + 4 * ((size_t)j * (size_t)w + (size_t)i);
             pixels_codes(c, to, to + plane, c->row, n, format);
         }
@@ -227,6 +227,10 @@ static void pixels_clear_colour(const gl_context *c, const gl_surface *s, int32_
     all &= ~kept;
     for (int32_t y = y0; y < y1; ++y) {
         uint32_t *p = (uint32_t *)(void *)(s->colour + (ptrdiff_t)y * s->stride * 4);
+        if (y > y0 && kept == 0) { /* a copy of the first row */
+            memcpy(p + x0, (uint32_t *)(void *)(s->colour + (ptrdiff_t)y0 * s->stride * 4) + x0, (size_t)(x1 - x0) * 4);
+            continue;
+        }
         for (int32_t x = x0; x < x1 && kept == 0; ++x) {
             p[x] = all;
         }
@@ -260,9 +264,13 @@ OP(clear)
         pixels_clear_colour(c, &s, x0, y0, x1, y1);
     }
     for (int32_t y = y0; y < y1 && (w[0].u & GL_DEPTH_BUFFER_BIT) != 0 && s.depth != NULL && c->s.depth.mask; ++y) {
-        float *d = s.depth + (ptrdiff_t)y * s.depth_stride;
+        float *d = s.depth + (ptrdiff_t)y * s.depth_stride, clear = (float)c->s.depth.clear;
+        if (y > y0) { /* a copy of the first row */
+            memcpy(d + x0, s.depth + (ptrdiff_t)y0 * s.depth_stride + x0, (size_t)(x1 - x0) * sizeof *d);
+            continue;
+        }
         for (int32_t x = x0; x < x1; ++x) {
-            d[x] = (float)c->s.depth.clear;
+            d[x] = clear;
         }
     }
     for (int32_t y = y0; y < y1 && (w[0].u & GL_STENCIL_BUFFER_BIT) != 0 && s.stencil != NULL; ++y) {
@@ -369,13 +377,14 @@ void glReadPixels(GLint x, GLint y, GLsizei w, GLsizei h, GLenum format, GLenum 
                 (kind == PIXELS_COLOUR && (s.colour == NULL || c->s.pixel.read == GL_NONE)), GL_INVALID_OPERATION, )
     const int is_bytes = pixels_are_bytes(format, type) && pixels_is_plain(c);
     for (int32_t j = 0; j < h; ++j) {
-        if (is_bytes && pixels_read_bytes(gl_image_row(out, &c->client.pack, w, j, format), &s, x, y + j, w, format)) {
+        if (is_bytes && pixels_read_bytes(gl_image_row(out, &c->client.pack, w, j, format), &s, x, (int64_t)y + j, w,
+                                          format)) {
             continue;
         }
         for (int32_t i = 0; i < w; i += GL_SIDE) {
             const int32_t n = mini(w - i, GL_SIDE);
             gl_store at = c->client.pack;
-            pixels_fetch(&s, c->row, x + i, y + j, n, kind);
+            pixels_fetch(&s, c->row, (int64_t)x + i, (int64_t)y + j, n, kind);
             for (int32_t k = 0; k < n && kind != PIXELS_COLOUR; ++k) {
                 float *v = c->row[k];
                 v[1] = kind == PIXELS_BOTH ? pixels_stencil(c, v[1]) : 0.0f;
@@ -437,7 +446,7 @@ OP(raster_pos)
     if (gl_is_on(c, CAP_LIGHTING)) {
         gl_light_vertex(c, &v, &m);
     }
-    gl_gen_vertex(c, &v, &m);
+    gl_gen_vertex(c, v.at, &v, &m);
     pixels_set_raster(c, &m, gl_is_on(c, CAP_LIGHTING));
     if (c->render_mode == GL_SELECT) {
         c->hit = 1;

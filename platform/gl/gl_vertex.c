@@ -3,20 +3,31 @@
  * A batch may hold independent primitives of several glBegin, until a state changes. */
 #include "gl_context.h"
 
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
 #define OP(name) void gl_op_##name(gl_context *c, const gl_word *w)
 
 /* --- attributes --------------------------------------------------------------------------------------------------- */
 
-OP(colour) { memcpy(c->s.current.v.colour, w, 4 * sizeof *w); }
-OP(normal) { memcpy(c->s.current.v.normal, w, 3 * sizeof *w); }
-OP(second) { memcpy(c->s.current.v.second, w, 3 * sizeof *w); }
-OP(fog_coord) { c->s.current.v.fog = w[0].f; }
-OP(edge) { c->s.current.v.edge = w[0].f; }
+/* Sets values of the current vertex; the next one begins a look. */
+static void vertex_set(gl_context *c, float *to, const gl_word *w, int n)
+{
+    memcpy(to, w, (size_t)n * sizeof *w);
+    c->open = 0;
+}
+
+OP(colour) { vertex_set(c, c->s.current.v.colour, w, 4); }
+OP(normal) { vertex_set(c, c->s.current.v.normal, w, 3); }
+OP(second) { vertex_set(c, c->s.current.v.second, w, 3); }
+OP(fog_coord) { vertex_set(c, &c->s.current.v.fog, w, 1); }
+OP(edge) { vertex_set(c, &c->s.current.v.edge, w, 1); }
 OP(tex_coord)
 {
     const uint32_t unit = w[0].u - GL_TEXTURE0;
     if (unit < GL_UNITS) {
-        memcpy(c->s.current.v.tex[unit], w + 1, 4 * sizeof *w);
+        vertex_set(c, c->s.current.v.tex[unit], w + 1, 4);
     } else if (unit >= 32) {
         gl_error(c, GL_INVALID_ENUM);
     }
@@ -38,6 +49,7 @@ OP(begin)
     if (c->is_inside) { /* arrays drawn between glBegin and glEnd draw nothing */
         gl_error(c, GL_INVALID_OPERATION);
         c->skips = w[1].u != 0;
+        c->open = 0;
         return;
     }
     GL_FAIL(w[0].u > GL_POLYGON, GL_INVALID_ENUM, )
@@ -54,31 +66,63 @@ OP(begin)
     c->begin_at = c->count;
 }
 
+/* Puts a vertex with attributes of its own at the end of the batch. */
+static void vertex_append(gl_context *c, const float at[4], const gl_vertex *look)
+{
+    if (c->count == 0) {
+        c->looks = 0;
+    }
+    c->look[c->looks] = *look;
+    c->look_from[c->looks++] = c->count;
+    memcpy(c->at_of[c->count++], at, 4 * sizeof *at);
+}
+
+/* The look of vertex i, found from the end. */
+static int32_t vertex_look(const gl_context *c, int32_t i)
+{
+    int32_t k = c->looks - 1;
+    while (k > 0 && c->look_from[k] > i) {
+        --k;
+    }
+    return k;
+}
+
+static gl_vertex vertex_copy(const gl_context *c, int32_t i)
+{
+    gl_vertex v = c->look[vertex_look(c, i)];
+    memcpy(v.at, c->at_of[i], sizeof v.at);
+    return v;
+}
+
 /* Draws the full batch, and keeps the vertices that later primitives share. */
 static void vertex_turn_over(gl_context *c)
 {
     const GLenum p = c->primitive;
-    const int n = c->count;
-    gl_vertex keep[2] = {c->wait[p == GL_TRIANGLE_FAN || p == GL_POLYGON ? 0 : n - 2], c->wait[n - 1]};
-    gl_made made[2] = {c->made[p == GL_TRIANGLE_FAN || p == GL_POLYGON ? 0 : n - 2], c->made[n - 1]};
+    if (vertex_is_apart(p)) {
+        gl_flush_vertices(c);
+        c->is_continued = 1;
+        c->begin_at = 0;
+        return;
+    }
+    const int n = c->count, first = p == GL_TRIANGLE_FAN || p == GL_POLYGON ? 0 : n - 2;
+    const gl_vertex keep[2] = {first == 0 ? c->look[0] : vertex_copy(c, first), vertex_copy(c, n - 1)};
+    const float from[4] = {c->at_of[first][0], c->at_of[first][1], c->at_of[first][2], c->at_of[first][3]};
     gl_make_vertices(c);
-    made[0] = c->made[p == GL_TRIANGLE_FAN || p == GL_POLYGON ? 0 : n - 2];
-    made[1] = c->made[n - 1];
+    const gl_made made[2] = {c->made[first], c->made[n - 1]};
     if (p == GL_LINE_LOOP && !c->is_continued) {
-        c->loop_first = c->wait[0];
+        c->loop_first = c->look[0];
+        memcpy(c->loop_first.at, c->at_of[0], sizeof c->loop_first.at);
     }
     gl_flush_vertices(c);
     c->is_continued = 1;
     c->begin_at = 0;
-    if (vertex_is_apart(p)) {
-        return;
+    if (p != GL_LINE_STRIP && p != GL_LINE_LOOP) {
+        c->made[0] = made[0];
+        vertex_append(c, from, &keep[0]);
     }
-    const int one = p == GL_LINE_STRIP || p == GL_LINE_LOOP;
-    c->wait[0] = keep[one];
-    c->made[0] = made[one];
-    c->wait[1] = keep[1];
-    c->made[1] = made[1];
-    c->count = c->made_count = one ? 1 : 2;
+    c->made[c->count] = made[1];
+    vertex_append(c, keep[1].at, &keep[1]);
+    c->made_count = c->count;
 }
 
 void gl_vertex_at(gl_context *c, const float at[4])
@@ -86,11 +130,29 @@ void gl_vertex_at(gl_context *c, const float at[4])
     if (!c->is_inside || c->skips) {
         return;
     }
-    gl_vertex *v = &c->wait[c->count];
-    *v = c->s.current.v;
-    memcpy(v->at, at, sizeof v->at);
-    if (++c->count == GL_BATCH) {
+    if (c->open == 0) {
+        vertex_append(c, at, &c->s.current.v);
+        c->open = c->list_mode == 0 ? GL_BATCH - 1 : 0;
+    } else {
+        memcpy(c->at_of[c->count++], at, 4 * sizeof *at);
+    }
+    if (c->count == GL_BATCH) {
         vertex_turn_over(c);
+    }
+}
+
+void gl_vertices_at(gl_context *c, const gl_word *w, int32_t count)
+{
+    while (count > 0) {
+        const int32_t n = c->count < c->open ? mini(count, c->open - c->count) : 1;
+        if (c->count < c->open) {
+            memcpy(c->at_of[c->count], w, (size_t)n * sizeof c->at_of[0]);
+            c->count += n;
+        } else {
+            gl_op_vertex(c, w);
+        }
+        w += 4 * n;
+        count -= n;
     }
 }
 
@@ -102,14 +164,18 @@ OP(end)
     }
     GL_FAIL(!c->is_inside, GL_INVALID_OPERATION, )
     c->is_inside = 0;
+    c->open = 0;
     if (vertex_is_apart(c->primitive)) {
         c->count -= (c->count - c->begin_at) % vertex_each(c->primitive);
         c->made_count = mini(c->made_count, c->count);
+        while (c->looks > 0 && c->look_from[c->looks - 1] >= c->count) {
+            --c->looks;
+        }
         if (c->render_mode == GL_RENDER && c->query == NULL) {
             return;
         }
     } else if (c->primitive == GL_LINE_LOOP && c->is_continued) {
-        c->wait[c->count++] = c->loop_first;
+        vertex_append(c, c->loop_first.at, &c->loop_first);
         c->primitive = GL_LINE_STRIP;
     }
     gl_flush_vertices(c);
@@ -130,9 +196,9 @@ static float vertex_point_size(const gl_context *c, const float eye[4])
     return clampf(size, 1.0f, 255.0f);
 }
 
-static void vertex_make(gl_context *c, const gl_vertex *v, gl_made *m)
+static void vertex_make(gl_context *c, const float at[4], const gl_vertex *v, gl_made *m)
 {
-    gl_matrix_point(m->eye, c->modelview.m[c->modelview.top], v->at);
+    gl_matrix_point(m->eye, c->modelview.m[c->modelview.top], at);
     gl_matrix_point(m->clip, c->projection.m[c->projection.top], m->eye);
     if (gl_is_on(c, CAP_LIGHTING)) {
         gl_light_vertex(c, v, m);
@@ -148,14 +214,16 @@ static void vertex_make(gl_context *c, const gl_vertex *v, gl_made *m)
     m->size = c->primitive == GL_POINTS || c->s.polygon.front == GL_POINT || c->s.polygon.back == GL_POINT
                   ? vertex_point_size(c, m->eye) : 1.0f;
     m->edge = v->edge;
-    gl_gen_vertex(c, v, m);
+    gl_gen_vertex(c, at, v, m);
 }
 
 void gl_make_vertices(gl_context *c)
 {
     gl_update_matrices(c);
+    int32_t k = c->made_count < c->count ? vertex_look(c, c->made_count) : 0;
     for (int i = c->made_count; i < c->count; ++i) {
-        vertex_make(c, &c->wait[i], &c->made[i]);
+        k += k + 1 < c->looks && c->look_from[k + 1] <= i;
+        vertex_make(c, c->at_of[i], &c->look[k], &c->made[i]);
     }
     c->made_count = c->count;
 }
@@ -165,6 +233,7 @@ void gl_make_vertices(gl_context *c)
 /* Draws vertices i ..: their order, and whether each edge is an edge of the polygon. */
 typedef void (*vertex_sink)(gl_context *c, const uint32_t *at, int n, const int *edges);
 
+/* index NULL: all vertices in order. */
 static void vertex_draw_list(gl_context *c, const uint32_t *index, uint32_t count, int primitive)
 {
     const lmb_draw_indices indices = {index, count, LMB_INDEX_U32};
@@ -178,7 +247,7 @@ static void vertex_draw_list(gl_context *c, const uint32_t *index, uint32_t coun
         v.uvs[0] = c->draw.stage[0].texture != NULL ? c->uv_of : NULL;
     }
     if (c->window.is_complete && c->drawn.is_complete && c->draws) {
-        (void)lmb_draw_list(&c->target, &c->draw, &v, primitive, &indices, NULL);
+        (void)lmb_draw_list(&c->target, &c->draw, &v, primitive, index != NULL ? &indices : NULL, NULL);
     }
 }
 
@@ -451,32 +520,155 @@ static void vertex_each_primitive(gl_context *c)
     }
 }
 
-/* Draws filled primitives in one call. */
-static int vertex_areas(gl_context *c)
+/* draw.h's primitive if the batch is filled triangles or quads for the picture; -1: not. */
+static int vertex_area_mode(const gl_context *c)
 {
     static const int modes[10] = {-1, -1, -1, -1, LMB_DRAW_TRIANGLES, LMB_DRAW_TRIANGLE_STRIP, LMB_DRAW_TRIANGLE_FAN,
                                   LMB_DRAW_QUADS, LMB_DRAW_QUAD_STRIP, -1};
-    const int mode = modes[c->primitive];
-    if (mode < 0 || c->s.polygon.front != GL_FILL || c->s.polygon.back != GL_FILL || c->render_mode != GL_RENDER ||
-        (c->s.lighting.shade == GL_FLAT && c->shades) ||
+    const int fills = c->s.polygon.front == GL_FILL && c->s.polygon.back == GL_FILL && c->render_mode == GL_RENDER;
+    return fills ? modes[c->primitive] : -1;
+}
+
+/* --- batches outside the picture ---------------------------------------------------------------------------------- */
+
+/* Above the rounding errors of the transformation and of draw.h's clipping, per sum of absolute products. */
+#define VERTEX_OUT_MARGIN 1e-3f
+
+/* The smallest and the largest of each coordinate. NaN is ignored, but not in the first vertex: draw.h drops its
+ * primitives. */
+static void vertex_box(const gl_context *c, float low[4], float high[4])
+{
+#ifdef __SSE__
+    __m128 l = _mm_loadu_ps(c->at_of[0]), h = l;
+    for (int i = 1; i < c->count; ++i) {
+        const __m128 v = _mm_loadu_ps(c->at_of[i]);
+        l = _mm_min_ps(v, l);
+        h = _mm_max_ps(v, h);
+    }
+    _mm_storeu_ps(low, l);
+    _mm_storeu_ps(high, h);
+#else
+    memcpy(low, c->at_of[0], 4 * sizeof *low);
+    memcpy(high, c->at_of[0], 4 * sizeof *high);
+    for (int i = 1; i < c->count; ++i) {
+        for (int k = 0; k < 4; ++k) {
+            const float v = c->at_of[i][k];
+            low[k] = v < low[k] ? v : low[k];
+            high[k] = v > high[k] ? v : high[k];
+        }
+    }
+#endif
+}
+
+/* 1 if all vertices lie outside one plane of the view volume, so that nothing shows. */
+static int vertex_all_out(const gl_context *c)
+{
+    const float *m = c->modelview.m[c->modelview.top], *p = c->projection.m[c->projection.top];
+    float row[4][4], size[4][4], low[4], high[4];
+    int outside = 0;
+    for (int i = 0; i < 16; ++i) { /* rows of projection x model-view, and of their absolute values */
+        const int r = i >> 2, k = 4 * (i & 3);
+        row[r][i & 3] = p[r] * m[k] + p[4 + r] * m[k + 1] + p[8 + r] * m[k + 2] + p[12 + r] * m[k + 3];
+        size[r][i & 3] = absf(p[r] * m[k]) + absf(p[4 + r] * m[k + 1]) + absf(p[8 + r] * m[k + 2]) +
+                         absf(p[12 + r] * m[k + 3]);
+    }
+    for (int plane = 0; plane < 6; ++plane) { /* first vertex 0 */
+        const float *a = row[plane >> 1], sign = (plane & 1) != 0 ? -1.0f : 1.0f, *v = c->at_of[0];
+        float d = 0.0f;
+        for (int k = 0; k < 4; ++k) {
+            d += (sign * a[k] - row[3][k]) * v[k];
+        }
+        outside |= (d > 0.0f) << plane;
+    }
+    if (outside == 0) {
+        return 0;
+    }
+    vertex_box(c, low, high);
+    for (int plane = 0; plane < 6; ++plane) {
+        const float *a = row[plane >> 1], *s = size[plane >> 1], sign = (plane & 1) != 0 ? -1.0f : 1.0f;
+        float inmost = 0.0f, margin = 0.0f;
+        for (int k = 0; k < 4; ++k) {
+            const float by = sign * a[k] - row[3][k];
+            inmost += by * (by > 0.0f ? low[k] : high[k]);
+            margin += (s[k] + size[3][k]) * maxf(absf(low[k]), absf(high[k]));
+        }
+        if ((outside >> plane & 1) != 0 && inmost > VERTEX_OUT_MARGIN * margin) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* --- a batch ------------------------------------------------------------------------------------------------------ */
+
+/* Colours and texture coordinates of unlit vertices, a look at a time. Returns 0 if the general path is needed. */
+static int vertex_set_looks(gl_context *c, lmb_draw_vertices *v)
+{
+    const int textured = c->draw.stage[0].texture != NULL;
+    const gl_matrices *s = &c->texture[0];
+    for (int32_t k = 0; k < c->looks; ++k) {
+        const int32_t from = c->look_from[k], to = k + 1 < c->looks ? c->look_from[k + 1] : c->count;
+        uint8_t code[4];
+        float t[4] = {0.0f, 0.0f, 0.0f, 1.0f};
+        for (int i = 0; i < 4; ++i) {
+            code[i] = gl_code(c->look[k].colour[i]);
+        }
+        if (textured) {
+            gl_matrix_point(t, s->m[s->top], c->look[k].tex[0]);
+        }
+        if (t[3] != 1.0f) {
+            return 0;
+        }
+        for (int32_t i = from; i < to; ++i) {
+            memcpy(c->colour_of[i], code, sizeof code);
+            c->uv_of[i][0] = t[0];
+            c->uv_of[i][1] = t[1];
+        }
+    }
+    v->colours = c->colour_of[0];
+    v->uvs[0] = textured ? c->uv_of : NULL;
+    return 1;
+}
+
+/* Draws filled, unlit primitives in a state that needs no values but those of draw.h. Returns 0 if it cannot. */
+static int vertex_plain(gl_context *c, int mode)
+{
+    static const float one[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const float *m = c->modelview.m[c->modelview.top];
+    lmb_draw_vertices v;
+    memset(&v, 0, sizeof v);
+    if (c->shades || gl_is_on(c, CAP_LIGHTING) || vertex_has_units(c) ||
+        (c->draw.stage[0].texture != NULL && c->s.texture.unit[0].gen != 0) || !vertex_set_looks(c, &v)) {
+        return 0;
+    }
+    v.positions = c->at_of;
+    v.position_format = LMB_DRAW_F32X4;
+    v.count = (uint32_t)c->count;
+    if (memcmp(m, one, sizeof one) != 0) {
+        gl_matrix_points(c->eye_of, m, (const float(*)[4])c->at_of, c->count);
+        v.positions = c->eye_of;
+    }
+    (void)lmb_draw_list(&c->target, &c->draw, &v, mode, NULL, NULL);
+    return 1;
+}
+
+/* Draws filled primitives in one call. */
+static int vertex_areas(gl_context *c)
+{
+    const int mode = vertex_area_mode(c);
+    if (mode < 0 || (c->s.lighting.shade == GL_FLAT && c->shades) ||
         (gl_is_on(c, CAP_CULL) && c->s.polygon.cull == GL_FRONT_AND_BACK) ||
         (vertex_has_units(c) && !vertex_set_all_units(c))) {
         return 0;
     }
-    for (int i = 0; i < c->count; ++i) {
-        c->index_of[i] = (uint32_t)i;
-    }
-    vertex_draw_list(c, c->index_of, (uint32_t)c->count, mode);
+    vertex_draw_list(c, NULL, 0, mode);
     return 1;
 }
 
-void gl_flush_vertices(gl_context *c)
+/* Draws the batch with values of every vertex. */
+static void vertex_general(gl_context *c)
 {
-    if (c->count == 0) {
-        return;
-    }
     gl_make_vertices(c);
-    gl_set_draw(c);
     for (int i = 0; i < c->count; ++i) {
         const gl_made *m = &c->made[i];
         memcpy(c->eye_of[i], m->eye, sizeof m->eye);
@@ -494,7 +686,19 @@ void gl_flush_vertices(gl_context *c)
     if (!vertex_areas(c)) {
         vertex_each_primitive(c);
     }
-    c->count = c->made_count = 0;
+}
+
+void gl_flush_vertices(gl_context *c)
+{
+    if (c->count == 0) {
+        return;
+    }
+    gl_set_draw(c);
+    const int mode = vertex_area_mode(c), shows = c->window.is_complete && c->drawn.is_complete && c->draws;
+    if (mode < 0 || (shows && !vertex_all_out(c) && !vertex_plain(c, mode))) {
+        vertex_general(c);
+    }
+    c->count = c->made_count = c->looks = c->open = 0;
 }
 
 OP(rect)

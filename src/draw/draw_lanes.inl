@@ -355,15 +355,14 @@ LANE_INLINE lanei draw_met(const lmb_draw_state *s, const draw_codes *v, lanei w
 /* Rows are `stride` bytes apart; sixteen lanes are two rows. */
 LANE_INLINE lanei draw_load(const uint8_t *p, int32_t stride)
 {
+#if LANES > LMB_TILE
+    return lanei_load_halves(p, p + stride); /* not through memory: a load of two smaller stores waits */
+#else
     int32_t v[LANES];
     (void)stride;
-#if LANES > LMB_TILE
-    memcpy(v, p, 4 * LMB_TILE);
-    memcpy(v + LMB_TILE, p + stride, 4 * LMB_TILE);
-#else
     memcpy(v, p, sizeof v);
-#endif
     return lanei_load(v);
+#endif
 }
 
 LANE_INLINE void draw_save(uint8_t *p, int32_t stride, lanei bits)

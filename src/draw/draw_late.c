@@ -1,8 +1,6 @@
 /* draw_late.c: colours, shares and 1 / w of a shape of draw_quick.c, once a pixel passes the tests. Layer 4. */
 #include "draw_part.h"
 
-#include <string.h>
-
 #if LMB_DRAW
 
 static void quick_values(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32_t i, uint32_t flat)
@@ -23,8 +21,8 @@ static void quick_values(lmb_draw_corner *out, const lmb_draw_pass *pass, uint32
         }
     }
     if (s->fog != LMB_DRAW_FOG_NONE) {
-        float p[3];
-        memcpy(p, (const float *)v->positions + 3 * (size_t)i, sizeof p);
+        float p[4];
+        quick_fetch(p, v, i);
         out->v[CORNER_FOG] = quick_fog(pass, p, quick_row(s->to_clip.m + 3, p));
     }
 }

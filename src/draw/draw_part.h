@@ -139,15 +139,26 @@ typedef struct lmb_draw_late {
     lmb_draw_corner corner[3];
 } lmb_draw_late;
 
-static inline float quick_row(const float *m, const float p[3])
+static inline float quick_row(const float *m, const float p[4])
 {
-    return m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12];
+    return m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12] * p[3];
 }
 
-static inline float quick_fog(const lmb_draw_pass *pass, const float p[3], float w)
+static inline float quick_fog(const lmb_draw_pass *pass, const float p[4], float w)
 {
     const float *axis = pass->state->fog_axis;
-    return pass->fog_is_w ? w : axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2] + axis[3];
+    return pass->fog_is_w ? w : axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2] + axis[3] * p[3];
+}
+
+/* Position i: x, y, z, and w, which is 1 with LMB_DRAW_F32. */
+static inline void quick_fetch(float out[4], const lmb_draw_vertices *v, uint32_t i)
+{
+    const int has_w = v->position_format == LMB_DRAW_F32X4;
+    const float *from = (const float *)v->positions + (has_w ? (size_t)4 : (size_t)3) * i;
+    out[0] = from[0];
+    out[1] = from[1];
+    out[2] = from[2];
+    out[3] = has_w ? from[3] : 1.0f;
 }
 
 /* draw_quick.c. begin: sets pass->few if the fast path supports the state's triangles. quick: draws a triangle from

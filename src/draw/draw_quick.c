@@ -12,7 +12,8 @@
 
 #if LMB_DRAW
 enum { QUICK_24_8 = 16 * 256 /* largest side of the box of small triangles */ };
-enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much stack beside a kernel's vectors */ };
+enum { QUICK_AHEAD = 24 /* indices */, QUICK_KNOWN = 16 /* more take too much stack beside a kernel's vectors */,
+       QUICK_QUEUE = 6 /* triangles */ };
 #define QUICK_ABSURD  1e30f
 #define QUICK_LEAST_W 1e-12f /* as in draw_cut.c */
 
@@ -22,7 +23,7 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
     const lmb_draw_vertices *v = pass->vertices;
     const float *axis = s->fog_axis, *m = s->to_clip.m;
     const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
-    if (v->position_format != LMB_DRAW_F32 || v->uv_format != LMB_DRAW_F32 || s->planes != 0 ||
+    if ((v->position_format != LMB_DRAW_F32 && v->position_format != LMB_DRAW_F32X4) || v->uv_format != LMB_DRAW_F32 || s->planes != 0 ||
         s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
         s->polygon_mode[1] != LMB_DRAW_FILL || v->fogs != NULL || v->seconds != NULL || v->back_colours != NULL ||
         v->back_seconds != NULL || s->shader != NULL || s->passed != NULL) {
@@ -37,15 +38,21 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
 
+/* Limits of draw_list.c: with LMB_DRAW_F32X4 only clip space has one. */
+static int quick_is_place(const lmb_draw_pass *pass, const float p[4])
+{
+    return pass->vertices->position_format == LMB_DRAW_F32X4 || is_place(vec3(p[0], p[1], p[2]));
+}
+
 static int quick_is_absurd(float v) { return !(v > -QUICK_ABSURD && v < QUICK_ABSURD); }
 
 /* Bits of the planes that a corner is outside of; DRAW_DROPPED if it is not finite. */
-static uint32_t quick_out(const lmb_draw_pass *pass, const float p[3], const float clip[4])
+static uint32_t quick_out(const lmb_draw_pass *pass, const float p[4], const float clip[4])
 {
     const float x = clip[0], y = clip[1], z = clip[2], w = clip[3];
     const float side = pass->guard_x * w, top = pass->guard_y * w;
     if (quick_is_absurd(x) || quick_is_absurd(y) || quick_is_absurd(z) || quick_is_absurd(w) ||
-        quick_is_absurd(quick_fog(pass, p, w)) || !is_place(vec3(p[0], p[1], p[2]))) {
+        quick_is_absurd(quick_fog(pass, p, w)) || !quick_is_place(pass, p)) {
         return DRAW_DROPPED;
     }
     return (uint32_t)(w - QUICK_LEAST_W < 0.0f) << DRAW_CUT_W | (uint32_t)(w - z < 0.0f) << DRAW_CUT_NEAR |
@@ -55,11 +62,11 @@ static uint32_t quick_out(const lmb_draw_pass *pass, const float p[3], const flo
 }
 
 /* 1 if quick_out would return 0: enough for the usual corner. */
-static int quick_is_in(const lmb_draw_pass *pass, const float p[3], const float clip[4])
+static int quick_is_in(const lmb_draw_pass *pass, const float p[4], const float clip[4])
 {
     const float w = clip[3];
     return pass->fog_is_w && w >= 2.0f * QUICK_LEAST_W && w < 1e20f && w >= clip[2] && clip[2] >= 0.0f &&
-           absf(clip[0]) <= pass->guard_x * w && absf(clip[1]) <= pass->guard_y * w && is_place(vec3(p[0], p[1], p[2]));
+           absf(clip[0]) <= pass->guard_x * w && absf(clip[1]) <= pass->guard_y * w && quick_is_place(pass, p);
 }
 
 /* draw_to_24_8 for values in the guard band. */
@@ -72,8 +79,8 @@ static int32_t quick_to_24_8(float v)
 static void quick_place(draw_vertex *out, const lmb_draw_pass *pass, uint32_t i)
 {
     const float *m = pass->state->to_clip.m, *range = pass->state->depth_range;
-    const float *from = (const float *)pass->vertices->positions + 3 * (size_t)i;
-    const float p[3] = {from[0], from[1], from[2]};
+    float p[4];
+    quick_fetch(p, pass->vertices, i);
     const float clip[4] = {quick_row(m, p), quick_row(m + 1, p), quick_row(m + 2, p), quick_row(m + 3, p)};
     out->name = i + 1;
     out->out = quick_is_in(pass, p, clip) ? 0 : quick_out(pass, p, clip);
@@ -304,14 +311,56 @@ static int quick_draw(const lmb_draw_pass *pass, const draw_vertex *a, const dra
     return 1;
 }
 
+/* Prefetches the depths and colours around a corner, in linear targets. */
+MESH_HINT void quick_ask_pixels(const lmb_draw_pass *pass, const draw_vertex *at)
+{
+    const lmb_draw_target *t = pass->target;
+    const int32_t x = (at->x + pass->middle_x) >> 8, y = (at->y + pass->middle_y) >> 8;
+    if (at->out != 0 || x < pass->x0 || x > pass->x1 || y <= pass->y0 || y > pass->y1) {
+        return;
+    }
+    if (pass->tests_rows && t->depth.layout == LMB_LINEAR) {
+        const uint8_t *row = (const uint8_t *)t->depth.data + (ptrdiff_t)(y - t->y0) * t->depth.stride_bytes;
+        MESH_SOON(row + (ptrdiff_t)(x - t->x0) * 4);
+        MESH_SOON(row + (ptrdiff_t)(x - t->x0) * 4 - t->depth.stride_bytes);
+    }
+    if (pass->paints_rows) { /* four bytes a pixel */
+        const uint8_t *row = (const uint8_t *)t->colour.data + (ptrdiff_t)(y - t->y0) * t->colour.stride_bytes;
+        MESH_SOON(row + (ptrdiff_t)(x - t->x0) * 4);
+        MESH_SOON(row + (ptrdiff_t)(x - t->x0) * 4 - t->colour.stride_bytes);
+    }
+}
+
 /* Prefetches the positions of corners of a later triangle. */
 MESH_HINT void quick_ask(const lmb_draw_pass *pass, uint32_t n)
 {
     const lmb_draw_indices *x = pass->indices;
     if (x != NULL && x->format == LMB_INDEX_U32 && n < x->count) {
         const uint32_t i = ((const uint32_t *)x->data)[n];
-        MESH_SOON((const void *)((uintptr_t)pass->vertices->positions + (size_t)i * 12)); /* not checked yet */
+        const size_t bytes = pass->vertices->position_format == LMB_DRAW_F32X4 ? 16 : 12;
+        MESH_SOON((const void *)((uintptr_t)pass->vertices->positions + (size_t)i * bytes)); /* not checked yet */
     }
+}
+
+/* Draws a triangle of placed corners; 0 if it needs the general path. */
+static inline int quick_placed(const lmb_draw_pass *pass, const draw_vertex *p, const draw_vertex *q,
+                               const draw_vertex *r, uint32_t flat)
+{
+    int drawn = 0;
+    if (((p->out | q->out | r->out) & DRAW_DROPPED) != 0) {
+        return 0;
+    }
+    if ((p->out & q->out & r->out) == 0) {
+        drawn = (p->out | q->out | r->out) == 0 ? quick_draw(pass, p, q, r, flat) : -1;
+    }
+    if (drawn < 0) {
+        return 0;
+    }
+    if (pass->stats != NULL) {
+        ++pass->stats->triangles;
+        pass->stats->triangles_drawn += (uint32_t)drawn;
+    }
+    return 1;
 }
 
 /* known: a cache of `size` corners, a power of two. */
@@ -326,21 +375,7 @@ static inline int quick_triangle(const lmb_draw_pass *pass, draw_vertex *known, 
     }
     const draw_vertex p = quick_corner(known, size, pass, i), q = quick_corner(known, size, pass, j),
                       r = quick_corner(known, size, pass, k);
-    int drawn = 0;
-    if (((p.out | q.out | r.out) & DRAW_DROPPED) != 0) {
-        return 0;
-    }
-    if ((p.out & q.out & r.out) == 0) {
-        drawn = (p.out | q.out | r.out) == 0 ? quick_draw(pass, &p, &q, &r, last) : -1;
-    }
-    if (drawn < 0) {
-        return 0;
-    }
-    if (pass->stats != NULL) {
-        ++pass->stats->triangles;
-        pass->stats->triangles_drawn += (uint32_t)drawn;
-    }
-    return 1;
+    return quick_placed(pass, &p, &q, &r, last);
 }
 
 int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat)
@@ -349,9 +384,33 @@ int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c
     return quick_triangle(pass, pass->few, DRAW_FEW, order, flat);
 }
 
+/* Triangles without indices share no corners. Several are placed first: their pixels arrive in the cache meanwhile. */
+NOINLINE uint32_t quick_stream(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
+{
+    draw_vertex corner[3 * QUICK_QUEUE];
+    while (i < count) {
+        const uint32_t left = (count - i + 2) / 3, n = left < QUICK_QUEUE ? left : QUICK_QUEUE;
+        for (uint32_t k = 0; k < 3 * n; ++k) {
+            quick_renew(&corner[k], pass, i - 2 + k);
+            if (k % 3 == 0) {
+                quick_ask_pixels(pass, &corner[k]);
+            }
+        }
+        for (uint32_t k = 0; k < n; ++k, i += 3) {
+            if (!quick_placed(pass, &corner[3 * k], &corner[3 * k + 1], &corner[3 * k + 2], i)) {
+                return i;
+            }
+        }
+    }
+    return i;
+}
+
 uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count)
 {
     draw_vertex known[QUICK_KNOWN];
+    if (pass->indices == NULL) {
+        return quick_stream(pass, i, count);
+    }
     for (int k = 0; k < QUICK_KNOWN; ++k) {
         known[k].name = 0;
     }

@@ -84,19 +84,32 @@ typedef struct shape_edges {
     int32_t e[3], ex[3], ey[3];
 } shape_edges;
 
-/* Returns 1 and the edges at the tile's first pixel, or 0 if the tile lies outside one. If the whole tile lies inside
- * an edge, the edge is set to 0: sums fit 32 bits. */
-static int shape_enter(shape_edges *out, const lmb_setup *s, int32_t x_24_8, int32_t y_24_8)
+/* Changes of the edges from a tile's first pixel to the pixel where each is least and greatest. */
+typedef struct shape_reach {
+    int64_t low[3], high[3];
+} shape_reach;
+
+static void shape_set_reach(shape_reach *out, const lmb_setup *s)
 {
     const int64_t reach = LMB_TILE - 1;
     for (int i = 0; i < 3; ++i) {
         const int32_t ex = s->ex[i], ey = s->ey[i];
-        const int64_t e = setup_edge(s, i, x_24_8, y_24_8);
-        const int64_t low = e + reach * ((int64_t)(ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
-        if (e + reach * ((int64_t)(ex > 0 ? ex : 0) + (ey > 0 ? ey : 0)) < 0) {
-            return 0;
-        }
-        out->e[i] = low >= 0 ? 0 : (int32_t)e;
+        out->low[i] = reach * ((int64_t)(ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
+        out->high[i] = reach * ((int64_t)(ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
+    }
+}
+
+/* Returns 1 and the edges at the tile's first pixel, where they are e, or 0 if the tile lies outside one. If the whole
+ * tile lies inside an edge, the edge is set to 0: sums fit 32 bits. */
+static int shape_enter(shape_edges *out, const lmb_setup *s, const shape_reach *r, const int64_t e[3])
+{
+    if (e[0] + r->high[0] < 0 || e[1] + r->high[1] < 0 || e[2] + r->high[2] < 0) {
+        return 0;
+    }
+    for (int i = 0; i < 3; ++i) {
+        const int32_t ex = s->ex[i], ey = s->ey[i];
+        const int64_t low = e[i] + r->low[i];
+        out->e[i] = low >= 0 ? 0 : (int32_t)e[i];
         out->ex[i] = low >= 0 ? 0 : ex;
         out->ey[i] = low >= 0 ? 0 : ey;
     }
@@ -135,10 +148,26 @@ static void shape_fill(const lmb_draw_pass *pass, lmb_draw_shape *shape, const l
                   x1 = mini((s->x_max - origin_x) >> 8, pass->x1);
     const int32_t y0 = maxi((s->y_min - origin_y + 255) >> 8, pass->y0),
                   y1 = mini((s->y_max - origin_y) >> 8, pass->y1);
+    shape_reach reach;
+    shape_set_reach(&reach, s);
     for (int32_t y = y0 & ~7; y <= y1; y += LMB_TILE) {
+        int entered = 0;
+        int64_t e[3];
+        for (int i = 0; i < 3; ++i) {
+            e[i] = setup_edge(s, i, (x0 & ~7) * 256 + origin_x, y * 256 + origin_y);
+        }
+        /* The tiles of a row that a triangle touches are next to each other. A step of 8 px is a whole number. */
         for (int32_t x = x0 & ~7; x <= x1; x += LMB_TILE) {
             shape_edges edges;
-            if (shape_enter(&edges, s, x * 256 + origin_x, y * 256 + origin_y)) {
+            const int enters = shape_enter(&edges, s, &reach, e);
+            if (entered && !enters) {
+                break;
+            }
+            entered = enters;
+            for (int i = 0; i < 3; ++i) {
+                e[i] += (int64_t)s->ex[i] * LMB_TILE;
+            }
+            if (enters) {
                 lmb_draw_tile(pass, shape, x, y,
                               shape_covered(pass, &edges, maxi(x0 - x, 0), mini(x1 - x, LMB_TILE - 1), maxi(y0 - y, 0),
                                             mini(y1 - y, LMB_TILE - 1)));

@@ -140,6 +140,12 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     return _mm512_cvtepi32_ps(lanei_load(i));
 }
 #define LANE_GATHERS_RGBA 1
+/* Eight values from each place, of any alignment. */
+static inline lanei lanei_load_halves(const uint8_t *low, const uint8_t *high)
+{
+    const __m256i a = _mm256_loadu_si256((const __m256i *)(const void *)low);
+    return _mm512_inserti64x4(_mm512_castsi256_si512(a), _mm256_loadu_si256((const __m256i *)(const void *)high), 1);
+}
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
 /* Sixteen rows of four, transposed. */
 #define LANE_GATHERS_RGBA_F32 1

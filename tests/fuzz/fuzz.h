@@ -47,6 +47,8 @@ void fuzz_cli(const uint8_t *data, size_t size);
 void fuzz_api(const uint8_t *data, size_t size);
 void fuzz_calls(const uint8_t *data, size_t size);
 void fuzz_stages(const uint8_t *data, size_t size);
+/* In the fuzzer only: platform/gl's calls. main_gl.c. */
+void fuzz_gl(const uint8_t *data, size_t size);
 
 /* fuzz_repair: for a target that reads PNG, writes correct checksums to mutated chunks, because otherwise the fuzzer
  * would not get past them. Does nothing if the seed is a multiple of eight. Other bytes stay unchanged. */

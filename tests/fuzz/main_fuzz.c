@@ -15,13 +15,13 @@ static fuzz_target target;
 
 int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
-    target = *argc > 1 ? fuzz_find((*argv)[1]) : NULL;
+    target = *argc > 1 && strcmp((*argv)[1], "gl") == 0 ? fuzz_gl : *argc > 1 ? fuzz_find((*argv)[1]) : NULL;
     if (target == NULL) {
         fputs("usage: fuzz TARGET [libFuzzer's options] [folders]; targets:", stderr);
         for (int i = 0; fuzz_names[i] != NULL; ++i) {
             fprintf(stderr, " %s", fuzz_names[i]);
         }
-        fputc('\n', stderr);
+        fputs(" gl\n", stderr);
         exit(2);
     }
     (*argv)[1] = (*argv)[0];

@@ -14,13 +14,13 @@ enum { ROUNDS = 400, WIDE = 61, HIGH = 45, VERTICES = 36, CORNERS = 60, TEXELS =
 
 /* The draws of a round, and their target. */
 typedef struct lists {
-    float positions[VERTICES][3], uvs[VERTICES][2];
+    float positions[VERTICES][3], homogeneous[VERTICES][4], uvs[VERTICES][2];
     uint8_t colours[VERTICES][4], texels[2][4 * TEXELS];
     uint32_t indices[CORNERS];
     lmb_texture texture[2];
     lmb_draw_state state;
     lmb_draw_vertices vertices;
-    int32_t primitive, format, depth_layout, is_upside_down;
+    int32_t primitive, format, depth_layout, is_upside_down, has_indices;
     uint32_t colour_before;
 } lists;
 
@@ -63,6 +63,22 @@ static void make_vertices(lists *l, test_rng *r)
         l->indices[i] = any(r, 60) == 0  ? VERTICES + any(r, 9)
                         : any(r, 3) == 0 ? any(r, VERTICES)
                                          : (uint32_t)(i % VERTICES);
+    }
+}
+
+/* The same positions times w, which is often 1. */
+static void make_homogeneous(lists *l, test_rng *r)
+{
+    for (int i = 0; i < VERTICES; ++i) {
+        const float w = any(r, 3) ? 1.0f : test_uniform(r, -0.5f, 2.0f);
+        for (int k = 0; k < 3; ++k) {
+            l->homogeneous[i][k] = l->positions[i][k] * w;
+        }
+        l->homogeneous[i][3] = w;
+    }
+    if (any(r, 3) == 0) {
+        l->vertices.positions = l->homogeneous;
+        l->vertices.position_format = LMB_DRAW_F32X4;
     }
 }
 
@@ -137,6 +153,8 @@ static void make_lists(lists *l, test_rng *r)
     make_state(l, r);
     make_vertices(l, r);
     l->vertices.positions = l->positions;
+    make_homogeneous(l, r);
+    l->has_indices = any(r, 3) != 0;
     l->vertices.uvs[0] = l->vertices.uvs[1] = any(r, 5) ? l->uvs : NULL;
     l->vertices.colours = any(r, 5) ? &l->colours[0][0] : NULL;
     l->vertices.count = VERTICES;
@@ -177,7 +195,7 @@ static void draw_lists(canvas *out, const lists *l, const lmb_kernels *kernels, 
         v.seconds = &none[0][0];
         s.flags |= LMB_DRAW_STENCIL;
     }
-    CHECK(lmb_draw_list(&t, &s, &v, l->primitive, &indices, &out->stats) == LMB_OK);
+    CHECK(lmb_draw_list(&t, &s, &v, l->primitive, l->has_indices ? &indices : NULL, &out->stats) == LMB_OK);
 }
 
 static int same_canvas(const canvas *a, const canvas *b)

@@ -1,6 +1,6 @@
 # fuzz.sh: runs each fuzz target for some CPU minutes: fuzz.sh FUZZER FOLDER MINUTES TARGET...
 #
-# MINUTES=0 runs each target for three seconds, but calls and stages for ten, because their inputs grow slowest. Inputs
+# MINUTES=0 runs each target for three seconds, but calls, stages and gl for ten, because their inputs grow slowest. Inputs
 # are tests/fuzz/corpus and, if present, the sample data. New useful inputs go to FOLDER/TARGET for the next run,
 # findings to FOLDER/TARGET-crash-* and similar names. A target runs in slices, because libFuzzer limits wall time, not
 # CPU time. The limit for one input is wall time too, and high, because a busy machine takes 25 s for an input of one
@@ -37,6 +37,8 @@ samples() {
 run() {
     options="-timeout=100 -rss_limit_mb=4000 -max_len=$((1 << 16)) -print_final_stats=1 -verbosity=0"
     [ ! -f "tests/fuzz/$1.dict" ] || options="$options -dict=tests/fuzz/$1.dict"
+    corpus=tests/fuzz/corpus/$1
+    [ -d "$corpus" ] || corpus=
     mkdir -p "$folder/$1" "$folder/samples/$1"
     for file in $(samples "$1"); do
         [ "$(wc -c <"$file")" -gt 65536 ] || cp "$file" "$folder/samples/$1/"
@@ -44,13 +46,13 @@ run() {
     count "$1"
     begun=$seconds executions=0
     case $minutes/$1 in
-    0/calls | 0/stages) slice=10 ;;
+    0/calls | 0/stages | 0/gl) slice=10 ;;
     0/*) slice=3 ;;
     *) slice=120 ;;
     esac
     while
         "$fuzzer" "$1" $options -max_total_time=$slice -artifact_prefix="$folder/$1-" "$folder/$1" \
-            "tests/fuzz/corpus/$1" "$folder/samples/$1" >"$folder/$1.log" 2>&1
+            $corpus "$folder/samples/$1" >"$folder/$1.log" 2>&1
         status=$?
         executed "$1"
         [ "$status" = 0 ] || return 1

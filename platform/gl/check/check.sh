@@ -23,16 +23,17 @@ own() {
     if cmp -s "$out/own.txt" $here/own.txt; then good; else bad "own: $out/own.txt is not $here/own.txt"; fi
 }
 
-# Hostile arguments, and two contexts in two threads; -fsanitize flags go into CFLAGS of make gl.
+# Hostile arguments, batches at the edges of the picture, and two contexts in two threads. CFLAGS are those of the library, as a sanitizer needs.
 program() {
-    if ! ${CC:-cc} -std=gnu99 -O1 -Iplatform/gl/include -o "$out/$1" $here/"$1".c "$gl/libGL.a" -lm -lpthread; then
-        bad "$1.c does not compile"
+    if ! ${CC:-cc} ${CFLAGS:-} -std=gnu99 -O1 -Iplatform/gl/include -o "$out/$1" "$2" "$gl/libGL.a" -lm -lpthread; then
+        bad "$2 does not compile"
         return
     fi
     if "$out/$1" 2> "$out/$1.txt"; then good; else bad "$1: see $out/$1.txt"; fi
 }
-hostile() { program hostile; }
-threads() { program threads; }
+hostile() { program hostile tests/fuzz/main_gl.c; }
+outside() { program outside $here/outside.c; }
+threads() { program threads $here/threads.c; }
 
 # A C program with GLU: quadrics and tessellation by Debian's libGLU, which draws through our libOpenGL.
 glu() {
@@ -43,6 +44,19 @@ glu() {
         return
     fi
     if LD_LIBRARY_PATH=$gl "$out/glu"; then good; else bad "glu"; fi
+}
+
+# GLFW 3.3 with an OSMesa context, on a display in memory.
+glfw() {
+    [ -f /usr/include/GLFW/glfw3.h ] || { skip "glfw: libglfw3-dev is missing"; return; }
+    for need in xvfb-run xkbcomp; do
+        command -v $need > /dev/null || { skip "glfw: xvfb or x11-xkb-utils is missing"; return; }
+    done
+    if ! ${CC:-cc} -std=c99 -O1 -Iplatform/gl/include -idirafter /usr/include -o "$out/glfw" $here/glfw.c -lglfw; then
+        bad "glfw.c does not compile"
+        return
+    fi
+    if LD_LIBRARY_PATH=$gl xvfb-run -a "$out/glfw"; then good; else bad "glfw"; fi
 }
 
 pyopengl() {
@@ -70,8 +84,8 @@ piglit() {
     if [ -z "$missing" ]; then good; else bad "piglit: $missing"; fi
 }
 
-clients=${GL_CLIENTS:-own hostile threads glu pyopengl piglit}
-[ "$clients" = fast ] && clients="own hostile threads glu pyopengl"
+clients=${GL_CLIENTS:-own hostile outside threads glu glfw pyopengl piglit}
+[ "$clients" = fast ] && clients="own hostile outside threads glu glfw pyopengl"
 for client in $clients; do
     $client
 done
