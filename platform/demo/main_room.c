@@ -9,7 +9,7 @@
 
 static const char *const stage_names[ROOM_STAGES] = {"transform", "light", "fill", "show"};
 static room shown;
-static uint32_t frame; /* drawn so far */
+static uint32_t frame; /* of the path, then one more for each with a held button */
 static uint16_t *screen;
 
 /* The band is the room's own, and is not read again after it was shown. */
@@ -39,7 +39,6 @@ static void draw(const room_pose *pose)
     if (port_format != LMB_FIXED_RGB888)
         room_title(screen, port_format, port_width, 0, port_height, frame);
     port_show_frame();
-    ++frame;
     shown.taken[ROOM_SHOW] += port_clock() - from;
 }
 
@@ -54,6 +53,7 @@ int main(void)
     }
     shown.clock = port_clock;
     for (int32_t i = 0; i < ROOM_FRAMES; ++i) {
+        frame = (uint32_t)i;
         room_path(&pose, i);
         draw(&pose);
         if (i == 0 || i == 30 || i == 59)
@@ -67,6 +67,7 @@ int main(void)
             say_count("held ", held);
             port_put("\n");
         }
+        frame += held != 0;
         room_steer(&pose, held);
         draw(&pose);
     }
