@@ -194,6 +194,18 @@ static inline lane lane_load_rows(const float *p, int32_t step)
     }
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(p)), _mm256_loadu_ps(p + step), 1);
 }
+/* The same for pixels; step in bytes. */
+static inline lanei lanei_load_rows(const uint8_t *p, int32_t step)
+{
+    const __m256i upper = _mm256_loadu_si256((const __m256i *)(const void *)p),
+                  lower = _mm256_loadu_si256((const __m256i *)(const void *)(p + step));
+    return _mm512_inserti32x8(_mm512_castsi256_si512(upper), lower, 1);
+}
+static inline void lanei_store_rows(uint8_t *p, int32_t step, lanei a)
+{
+    _mm256_storeu_si256((__m256i *)(void *)p, _mm512_castsi512_si256(a));
+    _mm256_storeu_si256((__m256i *)(void *)(p + step), _mm512_extracti32x8_epi32(a, 1));
+}
 static inline void lane_store_rows(float *p, int32_t step, lane a)
 {
     if (step == 8) {

@@ -86,7 +86,8 @@ static void take_eye(work *w, lmb_surface *out, int32_t format, int i)
     const int32_t width = w->frame->view.frame_width, height = w->frame->view.frame_height;
     const size_t bytes = lmb_surface_bytes(format, width, height);
     w->eye_memory[i] = take(w, bytes);
-    w->failed |= w->eye_memory[i] == NULL || lmb_surface_init(out, format, width, height, w->eye_memory[i], bytes) != LMB_OK;
+    w->failed |= w->eye_memory[i] == NULL ||
+                 lmb_surface_init(out, format, width, height, w->eye_memory[i], bytes) != LMB_OK;
 }
 
 /* Returns 1, or 0 if memory is short. */
@@ -320,7 +321,8 @@ static int sort_pixel(work *w, size_t pixel)
     }
     int over = 0;
     const fragment *last = kept > 0 ? &w->list[near_first[kept - 1] - 1] : NULL;
-    for (uint32_t i = w->first[pixel]; i != 0 && kept == BLENDED_MAX_LAYERS && last->alpha < 1.0f; i = w->list[i - 1].next) {
+    const int is_full = kept == BLENDED_MAX_LAYERS && last->alpha < 1.0f;
+    for (uint32_t i = is_full ? w->first[pixel] : 0; i != 0; i = w->list[i - 1].next) {
         over |= is_nearer(last, &w->list[i - 1]);
     }
     w->first[pixel] = 0;
@@ -371,6 +373,13 @@ static place begin(void)
     return p;
 }
 
+/* The pixel's light in the finished picture. */
+static float *light_at(const work *w, const place *p)
+{
+    const lmb_surface *out = &w->frame->out;
+    return (float *)(void *)((uint8_t *)out->data + (ptrdiff_t)p->y * out->stride_bytes) + 3 * (ptrdiff_t)p->x;
+}
+
 static int is_unlit(const work *w, uint32_t id)
 {
     const lmb_material *m = lmb_material_of(w->frame->scene, id);
@@ -402,7 +411,8 @@ static lmb_status light_opaque(work *w, const blended *b, workers *c, int32_t *s
 }
 
 /* Lights the farthest layer of each pixel, mixes it in and takes it off the list. *any: whether there was one. */
-static lmb_status light_layer(int *any, work *w, const blended *b, workers *c, int32_t *stage, lmb_render *r, int32_t x0)
+static lmb_status light_layer(int *any, work *w, const blended *b, workers *c, int32_t *stage, lmb_render *r,
+                              int32_t x0)
 {
     *any = 0;
     for (place p = begin(); next(&p, w, b, x0);) {
@@ -451,7 +461,7 @@ static lmb_status add_sample(work *w, blended *b, workers *c, int32_t *stage, lm
     }
     for (place p = begin(); status == LMB_OK && next(&p, w, b, x0);) {
         const size_t at = (size_t)(p.mark - b->mark);
-        float *to = (float *)(void *)((uint8_t *)w->frame->out.data + (ptrdiff_t)p.y * w->frame->out.stride_bytes) + 3 * p.x;
+        float *to = light_at(w, &p);
         b->cover[at] += weight * (1.0f - w->open[p.pixel]);
         for (size_t k = 0; k < 3; ++k) {
             to[k] += weight * w->mixed[3 * p.pixel + k];
@@ -476,8 +486,7 @@ static lmb_status mark_pixels(work *w, blended *b, int32_t x0)
     }
     for (place p = begin(); status == LMB_OK && next(&p, w, b, x0);) {
         const size_t at = (size_t)(p.mark - b->mark);
-        memset((uint8_t *)w->frame->out.data + (ptrdiff_t)p.y * w->frame->out.stride_bytes +
-                   3 * sizeof(float) * (size_t)p.x, 0, 3 * sizeof(float));
+        memset(light_at(w, &p), 0, 3 * sizeof(float));
         b->cover[at] = 0.0f;
         memset(&b->unlit[3 * at], 0, 3 * sizeof *b->unlit);
     }

@@ -31,8 +31,8 @@ int blended_is_any(const lmb_scene *scene);
  * weighs its whole light. Layers of equal depth are sorted by id, the smaller one in front. If a sample has more than
  * BLENDED_MAX_LAYERS layers, the farthest are left out.
  * Returns LMB_OK, LMB_ERR_CAPACITY if memory is short, or an error of a stage. */
-lmb_status blended_draw(blended *inout, workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame, int32_t width,
-                        int32_t height, int32_t x0);
+lmb_status blended_draw(blended *inout, workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame,
+                        int32_t width, int32_t height, int32_t x0);
 
 /* blended_over: the number of pixels from which layers were left out. */
 uint32_t blended_over(const blended *b);
