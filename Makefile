@@ -108,9 +108,9 @@ live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.
 # needs another format, port.mk sets ROOM_IMAGE, with a rule that makes it from $(B)/room, and ROOM_RUN, which runs it.
 ROOM_IMAGE ?= $(B)/room
 ROOM_RUN   ?= $(RUN)
-ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),main_pixel.c room_pixel.c,main_room.c)) \
+ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),main_pixel.c room_pixel.c,main_room.c room_title.c)) \
               $(if $(filter pixel,$(ROOM)),tools/demo/demo_scene.c)
-ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/vertex/fixed% src/vertex/number%,$(LIB_SRC)))
+ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/vertex/fixed% src/vertex/number% %/blit.c %/draw_pixel.c %/surface.c,$(LIB_SRC)))
 ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC)) $(ROOM_LIB))
 ifdef COUNTED
 include platform/counted/counted.mk

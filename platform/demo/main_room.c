@@ -1,18 +1,31 @@
-/* main_room.c: the room on any machine: the whole path once, with hashes and costs; then buttons steer. */
+/* main_room.c: the room on any machine: the whole path once, with hashes and costs; then buttons steer. A title and a
+ * frame counter lie over the picture; hashes are of the picture without them. */
 #include "../port.h"
 #include "../port_say.h"
 #include "room.h"
 #include "room_port.h"
 #include "room_say.h"
+#include "room_title.h"
 
 static const char *const stage_names[ROOM_STAGES] = {"transform", "light", "fill", "show"};
 static room shown;
+static uint32_t frame; /* of the path, then one more for each with a held button */
+static uint16_t *screen;
 
+/* The band is the room's own, and is not read again after it was shown. */
 static void show(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
 {
     const uint32_t from = port_clock();
+    room_title(shown.band, port_format, width, y, rows, frame);
     port_show_band(user, rgb, width, y, rows);
     shown.taken[ROOM_SHOW] += port_clock() - from;
+}
+
+static uint16_t *screen_rows(int32_t y)
+{
+    uint16_t *rows = port_screen_rows(y);
+    screen = y == 0 ? rows : screen;
+    return rows;
 }
 
 static void draw(const room_pose *pose)
@@ -21,8 +34,10 @@ static void draw(const room_pose *pose)
     if (port_format == LMB_FIXED_RGB888)
         room_put_bands(&shown, show, NULL);
     else
-        room_draw_on(&shown, port_format, port_screen_rows);
+        room_draw_on(&shown, port_format, screen_rows);
     const uint32_t from = port_clock();
+    if (port_format != LMB_FIXED_RGB888)
+        room_title(screen, port_format, port_width, 0, port_height, frame);
     port_show_frame();
     shown.taken[ROOM_SHOW] += port_clock() - from;
 }
@@ -38,6 +53,7 @@ int main(void)
     }
     shown.clock = port_clock;
     for (int32_t i = 0; i < ROOM_FRAMES; ++i) {
+        frame = (uint32_t)i;
         room_path(&pose, i);
         draw(&pose);
         if (i == 0 || i == 30 || i == 59)
@@ -51,6 +67,7 @@ int main(void)
             say_count("held ", held);
             port_put("\n");
         }
+        frame += held != 0;
         room_steer(&pose, held);
         draw(&pose);
     }

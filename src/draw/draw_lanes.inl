@@ -352,29 +352,47 @@ LANE_INLINE lanei draw_met(const lmb_draw_state *s, const draw_codes *v, lanei w
 
 /* --- the target --------------------------------------------------------------------------------------------------- */
 
-/* Rows are `stride` bytes apart; sixteen lanes are two rows. */
-LANE_INLINE lanei draw_load(const uint8_t *p, int32_t stride)
+/* Pixels in a row. A copy of 32 bytes in two parts would stall the load of all of them. */
+LANE_INLINE lanei draw_load_row(const uint8_t *p)
 {
-#if LANES > LMB_TILE
-    return lanei_load_halves(p, p + stride); /* not through memory: a load of two smaller stores waits */
+#if LANES == LMB_TILE
+    return lanei_load((const int32_t *)(const void *)p);
 #else
     int32_t v[LANES];
-    (void)stride;
     memcpy(v, p, sizeof v);
     return lanei_load(v);
 #endif
 }
 
-LANE_INLINE void draw_save(uint8_t *p, int32_t stride, lanei bits)
+LANE_INLINE void draw_save_row(uint8_t *p, lanei bits)
 {
+#if LANES == LMB_TILE
+    lanei_store((int32_t *)(void *)p, bits);
+#else
     int32_t v[LANES];
     lanei_store(v, bits);
+    memcpy(p, v, sizeof v);
+#endif
+}
+
+/* Rows are `stride` bytes apart; sixteen lanes are two rows. */
+LANE_INLINE lanei draw_load(const uint8_t *p, int32_t stride)
+{
     (void)stride;
 #if LANES > LMB_TILE
-    memcpy(p, v, 4 * LMB_TILE);
-    memcpy(p + stride, v + LMB_TILE, 4 * LMB_TILE);
+    return lanei_load_rows(p, stride);
 #else
-    memcpy(p, v, sizeof v);
+    return draw_load_row(p);
+#endif
+}
+
+LANE_INLINE void draw_save(uint8_t *p, int32_t stride, lanei bits)
+{
+    (void)stride;
+#if LANES > LMB_TILE
+    lanei_store_rows(p, stride, bits);
+#else
+    draw_save_row(p, bits);
 #endif
 }
 
@@ -435,4 +453,15 @@ static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
         made = lanei_pick(mask_of_bits(bits), made, was);
         draw_save(at, p->colour_stride, p->swaps ? draw_swap(made) : made);
     }
+}
+
+static int32_t KERNEL(draw_row)(uint8_t *pixels, int32_t count, uint32_t codes, uint32_t share, int adds)
+{
+    const lanei bits = lanei_splat((int32_t)codes), shares = lanei_splat((int32_t)share);
+    int32_t filled = 0;
+    for (; filled + LANES <= count; filled += LANES) {
+        uint8_t *at = pixels + 4 * filled;
+        draw_save_row(at, draw_blend_usual(bits, shares, draw_load_row(at), adds));
+    }
+    return filled;
 }

@@ -202,7 +202,11 @@ static void list_line(const lmb_draw_pass *pass, uint32_t a, uint32_t b)
 static void list_quad(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t d, uint32_t flat,
                       int chosen)
 {
+    const uint32_t at[4] = {a, b, c, d};
     *pass->dashed = 0;
+    if (DRAW_FULL && pass->fills && pass->few != NULL && lmb_draw_quick_rectangle(pass, at, flat)) {
+        return;
+    }
     list_triangle(pass, a, b, c, flat, 3 | chosen);
     list_triangle(pass, a, c, d, flat, 6 | chosen);
 }

@@ -68,6 +68,7 @@ typedef struct lmb_draw_pass {
     int32_t paints_first;          /* 1: tests need colours */
     uint32_t *dashed;              /* pixels of earlier lines: line_pattern continues from this count */
     int32_t tests_rows, paints_rows, paints_lanes; /* 1: draw_rows.c, or a kernel, supports this state */
+    int32_t fills;              /* 1: quads of one colour that are upright rectangles need no triangles */
     struct draw_vertex *few;         /* DRAW_FEW corners of triangles; NULL: all take the general path */
     int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
     draw_primitive *now;
@@ -168,6 +169,9 @@ static inline void quick_fetch(float out[4], const lmb_draw_vertices *v, uint32_
 void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW]);
 int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat);
 uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count);
+/* If pass->fills: fills a quad from places in the list. Returns 0, and draws nothing, if the quad is no upright
+ * rectangle of one colour, is clipped, or covers no pixel. */
+int lmb_draw_quick_rectangle(const lmb_draw_pass *pass, const uint32_t at[4], uint32_t flat);
 void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *shape);
 
 /* draw_rows.c: common states, row by row. begin: selects them. tests: returns the pixels of the mask that pass, and
@@ -176,6 +180,10 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass);
 uint64_t lmb_draw_rows_test(const tile_job *job, uint64_t mask);
 void lmb_draw_rows_paint(const tile_job *job, uint64_t mask);
 int lmb_draw_lanes_paint(const tile_job *job, uint64_t mask); /* with the state's kernels; 0: they cannot */
+
+/* If pass->fills: fills columns x0 .. x1 and rows y0 .. y1 of the frame, inside the pass, with R G B A. */
+void lmb_draw_rows_fill(const lmb_draw_pass *pass, const uint8_t codes[4], int32_t x0, int32_t x1, int32_t y0,
+                        int32_t y1);
 
 /* The n-th vertex index; the vertex count if it is out of range. */
 static inline uint32_t draw_index(const lmb_draw_pass *pass, uint32_t n)

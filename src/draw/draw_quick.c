@@ -23,8 +23,8 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW])
     const lmb_draw_vertices *v = pass->vertices;
     const float *axis = s->fog_axis, *m = s->to_clip.m;
     const int has_axis = axis[0] != 0.0f || axis[1] != 0.0f || axis[2] != 0.0f || axis[3] != 0.0f;
-    if ((v->position_format != LMB_DRAW_F32 && v->position_format != LMB_DRAW_F32X4) || v->uv_format != LMB_DRAW_F32 || s->planes != 0 ||
-        s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
+    if ((v->position_format != LMB_DRAW_F32 && v->position_format != LMB_DRAW_F32X4) || v->uv_format != LMB_DRAW_F32 ||
+        s->planes != 0 || s->offset_slope != 0.0f || s->offset_units != 0.0f || s->polygon_mode[0] != LMB_DRAW_FILL ||
         s->polygon_mode[1] != LMB_DRAW_FILL || v->fogs != NULL || v->seconds != NULL || v->back_colours != NULL ||
         v->back_seconds != NULL || s->shader != NULL || s->passed != NULL) {
         return;
@@ -424,5 +424,50 @@ uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t coun
         }
     }
     return i;
+}
+
+/* --- rectangles --------------------------------------------------------------------------------------------------- */
+
+/* 1 if four corners in order are an upright rectangle. */
+static int quick_is_upright(const draw_vertex v[4])
+{
+    const int is_down = v[0].x == v[1].x; /* the first side is a column */
+    const draw_vertex *down = is_down ? &v[1] : &v[3], *across = is_down ? &v[3] : &v[1];
+    return v[0].x == down->x && v[2].x == across->x && v[0].y == across->y && v[2].y == down->y;
+}
+
+/* The two triangles of a rectangle share all pixels of its box out among them, by the top-left rule. */
+int lmb_draw_quick_rectangle(const lmb_draw_pass *pass, const uint32_t at[4], uint32_t flat)
+{
+    const uint32_t count = pass->vertices->count, last = draw_index(pass, flat);
+    const uint8_t *all = pass->vertices->colours, *codes = pass->state->colour;
+    const int is_flat = (pass->state->flags & LMB_DRAW_FLAT) != 0;
+    draw_vertex v[4];
+    for (int k = 0; k < 4; ++k) {
+        const uint32_t i = draw_index(pass, at[k]);
+        if (i >= count || last >= count) {
+            return 0;
+        }
+        v[k] = quick_corner(pass->few, DRAW_FEW, pass, i);
+        const uint8_t *own = all != NULL ? all + 4 * (size_t)(is_flat ? last : i) : codes;
+        codes = k == 0 ? own : codes;
+        if (v[k].out != 0 || memcmp(own, codes, 4) != 0) {
+            return 0;
+        }
+    }
+    const int32_t x = 128 - pass->middle_x, y = 128 - pass->middle_y;
+    const int32_t x0 = maxi((mini(v[0].x, v[2].x) - x + 255) >> 8, pass->x0),
+                  x1 = mini(((maxi(v[0].x, v[2].x) - x + 255) >> 8) - 1, pass->x1),
+                  y0 = maxi((mini(v[0].y, v[2].y) - y + 255) >> 8, pass->y0),
+                  y1 = mini(((maxi(v[0].y, v[2].y) - y + 255) >> 8) - 1, pass->y1);
+    if (!quick_is_upright(v) || x0 > x1 || y0 > y1) {
+        return 0;
+    }
+    lmb_draw_rows_fill(pass, codes, x0, x1, y0, y1);
+    if (pass->stats != NULL) {
+        pass->stats->triangles += 2;
+        pass->stats->triangles_drawn += 2;
+    }
+    return 1;
 }
 #endif

@@ -150,5 +150,6 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(draw_cover),
     KERNEL(draw_test),
     KERNEL(draw_paint),
+    KERNEL(draw_row),
 #endif
 };

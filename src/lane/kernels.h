@@ -589,6 +589,9 @@ struct lmb_kernels {
     uint64_t (*draw_test)(const lmb_draw_patch *pixels, uint64_t mask);
     /* Colours the pixels of `mask`. */
     void (*draw_paint)(const lmb_draw_patch *pixels, uint64_t mask);
+    /* Blends R G B A, in the order of the pixels' bytes, onto pixels in a row: over them by `share`, or added. Returns
+     * the number of pixels done, a multiple of the lanes. */
+    int32_t (*draw_row)(uint8_t *pixels, int32_t count, uint32_t codes, uint32_t share, int adds);
 #endif
 };
 

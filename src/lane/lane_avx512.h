@@ -140,12 +140,6 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     return _mm512_cvtepi32_ps(lanei_load(i));
 }
 #define LANE_GATHERS_RGBA 1
-/* Eight values from each place, of any alignment. */
-static inline lanei lanei_load_halves(const uint8_t *low, const uint8_t *high)
-{
-    const __m256i a = _mm256_loadu_si256((const __m256i *)(const void *)low);
-    return _mm512_inserti64x4(_mm512_castsi256_si512(a), _mm256_loadu_si256((const __m256i *)(const void *)high), 1);
-}
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
 /* Sixteen rows of four, transposed. */
 #define LANE_GATHERS_RGBA_F32 1
@@ -199,6 +193,18 @@ static inline lane lane_load_rows(const float *p, int32_t step)
         return lane_load(p);
     }
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(p)), _mm256_loadu_ps(p + step), 1);
+}
+/* The same for pixels; step in bytes. */
+static inline lanei lanei_load_rows(const uint8_t *p, int32_t step)
+{
+    const __m256i upper = _mm256_loadu_si256((const __m256i *)(const void *)p),
+                  lower = _mm256_loadu_si256((const __m256i *)(const void *)(p + step));
+    return _mm512_inserti32x8(_mm512_castsi256_si512(upper), lower, 1);
+}
+static inline void lanei_store_rows(uint8_t *p, int32_t step, lanei a)
+{
+    _mm256_storeu_si256((__m256i *)(void *)p, _mm512_castsi512_si256(a));
+    _mm256_storeu_si256((__m256i *)(void *)(p + step), _mm512_extracti32x8_epi32(a, 1));
 }
 static inline void lane_store_rows(float *p, int32_t step, lane a)
 {

@@ -37,7 +37,7 @@ static float alpha_of(const lmb_texture *t, float u, float v)
 #endif
 }
 
-int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2)
+float lmb_resolve_alpha_at(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2)
 {
     b1 = clampf(b1, 0.0f, 1.0f);
     b2 = clampf(b2, 0.0f, 1.0f - b1);
@@ -46,7 +46,12 @@ int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, f
         a *= alpha_of(&scene->textures[alpha->texture], resolve_mix3(alpha->u, b1, b2),
                       resolve_mix3(alpha->v, b1, b2));
     }
-    return a >= alpha->cutoff;
+    return a;
+}
+
+int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2)
+{
+    return lmb_resolve_alpha_at(alpha, scene, b1, b2) >= alpha->cutoff;
 }
 
 #if LMB_TREES /* small builds draw holes pixel by pixel */

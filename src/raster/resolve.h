@@ -19,6 +19,9 @@ static inline float resolve_mix3(const float corner[3], float b1, float b2)
 
 void lmb_resolve_alpha_of(lmb_resolve_alpha *out, const lmb_triangle *triangle);
 
+/* Alpha at barycentrics (b1, b2), which are clamped to the triangle. */
+float lmb_resolve_alpha_at(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2);
+
 /* 1 if the surface is opaque at barycentrics (b1, b2), which are clamped to the triangle; 0 in a hole. */
 int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2);
 

@@ -21,10 +21,10 @@ head -c 36 /dev/zero >>flat/bunny.mesh
 status 1 lambent-bench raster bunny-depth-1024 --data flat --seconds 0.01
 # Draws: cases with meshes are left out if the files are missing.
 BENCH_DATA= status 0 lambent-bench draw fill bunny --seconds 0.01
-check "lambent-bench draw says what a case is, and its store bound" grep -q "^fill .* an opaque rectangle .*: [0-9.]* ms, .*, store bound [0-9.]* ms, share [0-9.]*$" out.txt
+check "lambent-bench draw says what a case is, and its store bound" grep -q "^fill .* an opaque rectangle .*: [0-9.]* ms, .*, store bound [0-9.]* ms, share [0-9.]*, copy bound [0-9.]* ms, share [0-9.]*$" out.txt
 check "lambent-bench draw without files has no bunny" test "$(grep -c . out.txt)" = 1
 status 0 lambent-bench draw glass clear --seconds 0.01 --plain --json
-check "lambent-bench draw --json prints one object a line" test "$(grep -c '^{"case":"[a-z]*","what":".*","cpu_min_ms":[0-9.]*,"frames":[0-9]*,"backend":"plain","store_ms":[0-9.]*,"share":[0-9.]*}$' out.txt)" = 2
+check "lambent-bench draw --json prints one object a line" test "$(grep -c '^{"case":"[a-z]*","what":".*","cpu_min_ms":[0-9.]*,"frames":[0-9]*,"backend":"plain","store_ms":[0-9.]*,"share":[0-9.]*,"copy_ms":[0-9.]*,"copy_share":[0-9.]*}$' out.txt)" = 2
 status 2 lambent-bench draw nonsense
 status 1 lambent-bench draw bunny-gouraud --data flat --seconds 0.01
 # Threads against processes: needs more than one thread, and sponza.

@@ -481,9 +481,82 @@ static void test_targets(void)
     }
 }
 
+/* --- rectangles --------------------------------------------------------------------------------------------------- */
+
+static float set_place(test_rng *r, uint32_t size) { return (float)(test_random(r) % size) / 256.0f - 7.0f; }
+
+/* A quad on the grid of 1/256 px around the target: upright, folded, or with one corner moved. */
+static void set_quad(float corner[4][3], test_rng *r)
+{
+    const float x0 = set_place(r, 14000), x1 = set_place(r, 14000);
+    const float y0 = set_place(r, 12000), y1 = set_place(r, 12000);
+    const float at[4][2] = {{x0, y0}, {x0, y1}, {x1, y1}, {x1, y0}};
+    const uint32_t first = test_random(r) % 4, way = test_random(r) % 2, kind = test_random(r) % 8;
+    for (uint32_t k = 0; k < 4; ++k) {
+        const uint32_t from = (first + (way != 0 ? k : 4 - k)) % 4;
+        corner[k][0] = at[from][0] + (kind == 0 && k == 2 ? 0.5f : 0.0f);
+        corner[k][1] = kind == 1 && k > 1 ? y0 + y1 - at[from][1] : at[from][1] + (k + 1 == kind ? 0.5f : 0.0f);
+        corner[k][2] = 0.25f * (float)(kind == 2 && k == 3);
+    }
+}
+
+/* A quad has the pixels of its two triangles, if it is filled as a rectangle and if it is not. */
+static void test_rectangles(void)
+{
+    static const uint8_t order[6] = {0, 1, 2, 0, 2, 3};
+    const lmb_draw_indices split = {order, 6, LMB_DRAW_INDEX_U8};
+    static uint8_t before[CASE_HIGH][CASE_WIDE][4], quad[CASE_HIGH][CASE_WIDE][4];
+    test_rng r = {31};
+    int wrong = 0, painted = 0;
+    case_begin();
+    for (int n = 0; n < 4000; ++n) {
+        float corner[4][3];
+        uint8_t colours[4][4];
+        lmb_stats of_quad = {0}, of_triangles = {0};
+        lmb_draw_vertices v;
+        memset(&v, 0, sizeof v);
+        set_quad(corner, &r);
+        for (int k = 0; k < 4; ++k) {
+            set_colour(colours[k], &r);
+            if (n % 8 != 0) {
+                memcpy(colours[k], colours[0], 4);
+            }
+        }
+        v.positions = corner;
+        v.colours = n % 3 == 0 ? &colours[0][0] : NULL;
+        v.count = 4;
+        set_colour(state.colour, &r);
+        drawn_on.colour.format = n % 2 != 0 ? LMB_BGRA8 : LMB_RGBA8;
+        state.kernels = n % 5 == 0 ? NULL : lmb_kernels_at((int32_t)(test_random(&r) % 5)); /* NULL past the last */
+        state.flags = (n % 7 != 0 ? LMB_DRAW_BLEND : 0) | (n % 11 == 0 ? LMB_DRAW_SCISSOR : 0) |
+                      (n % 13 == 0 && n % 8 != 0 ? LMB_DRAW_FLAT : 0) | (n % 17 == 0 ? LMB_DRAW_DEPTH_TEST : 0);
+        state.depth_func = LMB_DRAW_ALWAYS;
+        state.blend_source[0] = state.blend_source[1] = LMB_DRAW_SOURCE_ALPHA;
+        state.blend_target[0] = state.blend_target[1] = n % 4 == 0 ? LMB_DRAW_ONE : LMB_DRAW_INVERSE_SOURCE_ALPHA;
+        state.scissor[0] = 3;
+        state.scissor[1] = 5;
+        state.scissor[2] = 20;
+        state.scissor[3] = 11;
+        for (int i = 0; i < CASE_HIGH * CASE_WIDE; ++i) {
+            set_colour(before[0][i], &r);
+        }
+        memcpy(drawn.colour, before, sizeof before);
+        CHECK(lmb_draw_list(&drawn_on, &state, &v, LMB_DRAW_QUADS, NULL, &of_quad) == LMB_OK);
+        memcpy(quad, drawn.colour, sizeof quad);
+        memcpy(drawn.colour, before, sizeof before);
+        CHECK(lmb_draw_list(&drawn_on, &state, &v, LMB_DRAW_TRIANGLES, &split, &of_triangles) == LMB_OK);
+        wrong += memcmp(quad, drawn.colour, sizeof quad) != 0 || !case_guard_is_whole() ||
+                 memcmp(&of_quad, &of_triangles, sizeof of_quad) != 0;
+        painted += memcmp(quad, before, sizeof quad) != 0;
+    }
+    CHECK_MSG(wrong == 0, "%d", wrong);
+    CHECK_MSG(painted > 2000, "%d", painted);
+}
+
 void test_draw_pixels(void)
 {
     test_blends();
+    test_rectangles();
     test_commutes();
     test_logic();
     test_masks();

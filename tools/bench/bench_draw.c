@@ -22,6 +22,7 @@ enum {
     TEXELS = 64,
     CORNERS_MAX = 4 * PARTICLES,
     FRAMES_LEAST = 5,
+    REPEATS = 16, /* of cases that are compared with the memory's speed */
     TEXT_WIDE = WIDE / 6
 };
 
@@ -497,28 +498,43 @@ static void drawing_begin(drawing *d, const draw_options *o)
 
 /* --- measuring ---------------------------------------------------------------------------------------------------- */
 
-/* Shortest processor time of a frame, s; *store: the same for storing each pixel once, measured in turn. */
-static double measure(drawing *d, const draw_case *c, double seconds, double *store, int *frames)
+/* Shortest times for storing each pixel once, and for reading and storing each once in place, s. */
+typedef struct bounds {
+    double store, copy;
+} bounds;
+
+static void store_all(drawing *d) { memset(d->colour, 85, 4 * PIXELS); }
+static void copy_all(drawing *d) { memmove(d->colour, d->colour + 1, 4 * (PIXELS - 1)); }
+
+/* Processor time of a call, s: the mean of `repeats`, because the clock is inexact for calls of microseconds. */
+static double seconds_of(drawing *d, void (*call)(drawing *d), int repeats)
+{
+    const double start = host_cpu_seconds();
+    for (int i = 0; i < repeats; ++i) {
+        call(d);
+    }
+    return (host_cpu_seconds() - start) / repeats;
+}
+
+/* Shortest processor time of a frame, s; *out: the bounds, measured in turn. */
+static double measure(drawing *d, const draw_case *c, double seconds, bounds *out, int *frames)
 {
     const double end = host_seconds() + seconds;
     double shortest = 1e9;
     c->frame(d);
-    *store = 1e9;
+    out->store = out->copy = 1e9;
+    const int is_bounded = c->make == make_fill || c->make == make_glass;
     for (*frames = 0; host_seconds() < end || *frames < FRAMES_LEAST; ++*frames) {
-        const double start = host_cpu_seconds();
-        c->frame(d);
-        const double middle = host_cpu_seconds();
-        shortest = middle - start < shortest ? middle - start : shortest;
-        if (c->make == make_fill || c->make == make_glass) {
-            memset(d->colour, *frames & 255, 4 * PIXELS);
-            const double took = host_cpu_seconds() - middle;
-            *store = took < *store ? took : *store;
+        shortest = fmin(shortest, seconds_of(d, c->frame, is_bounded ? REPEATS : 1));
+        if (is_bounded) {
+            out->store = fmin(out->store, seconds_of(d, store_all, REPEATS));
+            out->copy = fmin(out->copy, seconds_of(d, copy_all, REPEATS));
         }
     }
     return shortest;
 }
 
-static void print_line(const draw_case *c, double shortest, double store, int frames, const draw_options *o)
+static void print_line(const draw_case *c, double shortest, const bounds *b, int frames, const draw_options *o)
 {
     const char *backend = o->kernels != NULL ? lmb_kernels_name(o->kernels) : "plain";
     if (o->is_quiet) {
@@ -527,9 +543,10 @@ static void print_line(const draw_case *c, double shortest, double store, int fr
     printf(o->json ? "{\"case\":\"%s\",\"what\":\"%s\",\"cpu_min_ms\":%.4f,\"frames\":%d,\"backend\":\"%s\""
                    : "%-16s %s: %.3f ms, shortest of %d, backend=%s",
            c->name, c->what, shortest * 1e3, frames, backend);
-    if (store < 1e8) {
-        printf(o->json ? ",\"store_ms\":%.4f,\"share\":%.3f" : ", store bound %.4f ms, share %.3f", store * 1e3,
-               store / shortest);
+    if (b->store < 1e8) {
+        printf(o->json ? ",\"store_ms\":%.4f,\"share\":%.3f,\"copy_ms\":%.4f,\"copy_share\":%.3f"
+                       : ", store bound %.4f ms, share %.3f, copy bound %.4f ms, share %.3f",
+               b->store * 1e3, b->store / shortest, b->copy * 1e3, b->copy / shortest);
     }
     puts(o->json ? "}" : "");
     fflush(stdout);
@@ -537,7 +554,7 @@ static void print_line(const draw_case *c, double shortest, double store, int fr
 
 static int run_case(drawing *d, const draw_case *c, const draw_options *o, report *r)
 {
-    double store;
+    bounds bound;
     int frames;
     if (draw_needs_file(c) && o->folder == NULL) {
         return 1;
@@ -546,8 +563,8 @@ static int run_case(drawing *d, const draw_case *c, const draw_options *o, repor
     if (!c->make(d, o, r)) {
         return 0;
     }
-    const double shortest = measure(d, c, o->seconds, &store, &frames);
-    print_line(c, shortest, store, frames, o);
+    const double shortest = measure(d, c, o->seconds, &bound, &frames);
+    print_line(c, shortest, &bound, frames, o);
     if (draw_needs_file(c)) {
         bench_scene_free(&d->mesh);
     }

@@ -166,6 +166,17 @@ lmb_status workers_render(workers *c, int32_t *stage, lmb_render *r, const lmb_f
     return status != LMB_OK ? status : do_bands(c, r, stage);
 }
 
+lmb_status workers_again_drawn(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)
+{
+    lmb_status status = lmb_render_again(r, frame);
+    *stage = LMB_STAGE_VIEW;
+    if (status == LMB_OK) {
+        r->progress = r->triangles; /* none is left to draw, and nothing is cleared */
+        status = do_stages(c, r, stage, LMB_STAGE_BANDS);
+    }
+    return status != LMB_OK ? status : do_bands(c, r, stage);
+}
+
 lmb_status workers_again(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)
 {
     lmb_status status = lmb_render_again(r, frame);

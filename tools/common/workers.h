@@ -29,8 +29,10 @@ lmb_status workers_render(workers *c, int32_t *stage, lmb_render *r, const lmb_f
 lmb_status workers_reuse(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame);
 
 /* workers_light: begins a frame and runs only the stages before `past`: shadow maps, points, groups. workers_again:
- * runs lmb_render_again and the stages that follow; adds to the seconds. */
+ * runs lmb_render_again and the stages that follow; adds to the seconds. workers_again_drawn: the same for ids that you
+ * have put into frame->eye, which holds the whole frame. The scene has at least one triangle. */
 lmb_status workers_light(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame, int32_t past);
 lmb_status workers_again(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame);
+lmb_status workers_again_drawn(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame);
 
 #endif

@@ -51,6 +51,10 @@ float *background_cover(const render_job *j, report *r)
             status = add_sample(cover, j, &f, eye * j->o.view.width, i);
         }
     }
+    const blended *b = &j->blended;
+    for (size_t i = 0; b->mark != NULL && i < (size_t)b->width * (size_t)b->height; ++i) {
+        cover[i] = b->mark[i] != 0 ? b->cover[i] : cover[i];
+    }
     if (status != LMB_OK) {
         report_fail(r, "%s: drawing stopped: %s", j->o.scene, lmb_status_name(status));
         free(cover);

@@ -21,6 +21,9 @@ static int explain(const render_job *j, lmb_status status, int stage, report *r)
         return report_fail(r, "%s: cannot be drawn; is the view or a light over 1048576 m from the origin?",
                            j->o.scene);
     }
+    if (status == LMB_ERR_CAPACITY && j->o.sorted) {
+        return report_fail(r, "--blend sorted: not enough memory for the layers; try a smaller --size");
+    }
     return report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
 }
 
@@ -40,6 +43,10 @@ static lmb_status draw_eyes(render_job *j, workers *c, int32_t *stage, lmb_frame
         render_job_eye(j, &how, into, eye);
         status = j->lit ? workers_again(c, stage, j->render, &how) : workers_render(c, stage, j->render, &how);
         j->lit = 1;
+        if (status == LMB_OK && j->o.sorted && blended_is_any(&j->scene)) {
+            status = blended_draw(&j->blended, c, stage, j->render, &how, into->width, into->height,
+                                  eye * j->o.view.width);
+        }
     }
     return status;
 }

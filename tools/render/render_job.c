@@ -28,6 +28,7 @@ void render_job_free(render_job *j)
     free(j->owner_memory);
     free(j->render);
     image_free(&j->linear);
+    blended_free(&j->blended);
     light_stream_free(&j->many_lights);
     world_free(&j->around);
     free(j->with_sun);

@@ -10,6 +10,7 @@
 #include "../picture/image.h"
 #include "light_stream.h"
 #include "render_world.h"
+#include "blended.h"
 #include "render_options.h"
 
 /* One run, from the options to the picture. render_job_free frees everything in it. */
@@ -32,6 +33,7 @@ typedef struct render_job {
     lmb_render *render;
     int lit; /* the light stages of `render` are done */
     workers workers;
+    blended blended; /* with --blend sorted; else zeros */
     lmb_stats stats;
     image linear;
     void *block, *owner_memory; /* of the frame; owners of the texels' light, if these are shown */

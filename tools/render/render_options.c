@@ -101,6 +101,11 @@ static int parse_wireframe(const char *text, void *at)
 }
 #endif
 
+#if !defined(OPTIONS_WITHOUT_HELP)
+static const char *const blends[] = {"pattern", "sorted", NULL};
+static const int32_t blend_values[] = {0, 1};
+#endif
+
 static const option_row output_rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
@@ -109,6 +114,10 @@ static const option_row output_rows[] = {
     OPTION_SLICE_ROW(render_options, slice, "picture, in bands of eight rows"),
     {.name = "--wireframe", .kind = OPTION_FLAG, AT(show), .parse = parse_wireframe,
      .help = HELP("the edges of triangles that no surface hides, white on black; short for --show wireframe")},
+    {.name = "--blend", .kind = OPTION_WORD, AT(sorted), .words = blends, .values = blend_values,
+     .help = HELP("how BLEND materials mix: pattern (default): each layer covers alpha's share of a pixel's samples; "
+                  "sorted: each sample mixes its layers from back to front, up to 32 of them; takes about a frame's "
+                  "time for each layer and sample, in the pixels that show layers")},
 #endif
     {.kind = OPTION_END},
 };
@@ -378,6 +387,10 @@ static int check_together(const render_options *o, report *r)
     if (o->samples > 1 && o->show > LMB_SHOW_IRRADIANCE) {
         return report_fail(r, "--samples %d: only light has a mean over a pixel; --show %s takes one sample",
                            (int)o->samples, show_name(o->show));
+    }
+    if (o->sorted && o->show > LMB_SHOW_IRRADIANCE) {
+        return report_fail(r, "--blend sorted: only light is mixed; --show %s shows one surface at each pixel",
+                           show_name(o->show));
     }
     if (o->show == SHOW_OCCLUSION && o->occlusion == LMB_OCCLUSION_NONE) {
         return report_fail(r, "--show occlusion wants an --occlusion other than none");

@@ -60,6 +60,7 @@ typedef struct render_options {
     int32_t gather_step; /* LMB_GATHER_*; 0: default */
     int32_t is_moving;   /* many frames of one scene: set by `play` */
     int32_t samples;     /* per pixel; 0: depends on the output format */
+    int32_t sorted;      /* --blend sorted */
     int glossy;          /* materials have glossy lobes */
     int32_t exposure_auto;
     float exposure_ev;

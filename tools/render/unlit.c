@@ -97,6 +97,10 @@ int unlit_colours(float **out, const render_job *j, report *r)
             status = add_sample(*out, j, &s.f, eye * j->o.view.width, i);
         }
     }
+    const blended *b = &j->blended;
+    for (size_t i = 0; ok && b->mark != NULL && i < 3 * (size_t)b->width * (size_t)b->height; ++i) {
+        (*out)[i] = b->mark[i / 3] != 0 ? b->unlit[i] : (*out)[i];
+    }
     if (*out != NULL) {
         sight_close(&s);
     }

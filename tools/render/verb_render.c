@@ -224,6 +224,14 @@ static void tell_full_cuts(const render_job *j)
     }
 }
 
+/* Prints a note on pixels with too many layers. */
+static void tell_layers(const render_job *j)
+{
+    const uint32_t over = blended_over(&j->blended);
+    report_note(j->o.view.is_quiet || over == 0, "note: --blend sorted: %u pixels show more than %d layers; the "
+                "farthest are left out", (unsigned)over, (int)BLENDED_MAX_LAYERS);
+}
+
 static int run(render_job *j, report *r)
 {
     double start = host_seconds();
@@ -245,6 +253,7 @@ static int run(render_job *j, report *r)
     tell_loss(j);
     tell_regroups(j);
     tell_full_cuts(j);
+    tell_layers(j);
     render_tell_coarse(j->o.view.is_quiet, &j->stats);
     render_tell_dropped(j->o.view.is_quiet, &j->scene, &j->stats);
     const int demo = strcmp(j->o.scene, "demo") == 0 && j->o.show == LMB_SHOW_FULL && !j->o.view.is_quiet &&
