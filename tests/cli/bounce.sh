@@ -66,8 +66,8 @@ drawn="--size 256x256 --exposure 0 --show indirect --shadow-map 256"
 status 0 play demo $drawn --frames 1 -o implied%01d.pfm
 status 0 play demo $drawn --frames 1 --gather live -o named%01d.pfm
 check "play has live light" cmp implied0.pfm named0.pfm
-status 0 play demo $drawn --frames 1 --quality best -o implied%01d.pfm
-status 0 play demo $drawn --frames 1 --quality best --gather full -o named%01d.pfm
+status 0 play demo $drawn --frames 1 --quality best --occlusion none -o implied%01d.pfm
+status 0 play demo $drawn --frames 1 --quality best --occlusion none --gather full -o named%01d.pfm
 check "--quality best gathers each pixel in play" cmp implied0.pfm named0.pfm
 
 # --gather live: the same bytes for any threads, backends and slices; errors; a view frame by frame.
@@ -79,9 +79,9 @@ status 0 render demo $live --backend scalar -o scalar.pfm
 check "back ends do not change live light" cmp live.pfm scalar.pfm
 # Later bounces and emitting surfaces use the same points.
 for of in demo emits.obj; do
-    again="--size 48x32 --exposure 0 --show indirect --bounces 3 --shadow-map 512"
-    status 0 render $of $again --quality draft --threads 1 -o again.pfm
-    status 0 render $of $again --quality draft --threads 3 --backend scalar -o again3.pfm
+    again="--size 48x32 --exposure 0 --show indirect --bounces 3 --elements 2048 --shadow-map 512"
+    status 0 render $of $again --quality draft --gather live --threads 1 -o again.pfm
+    status 0 render $of $again --quality draft --gather live --threads 3 --backend scalar -o again3.pfm
     check "threads and back ends do not change live bounces of $of" cmp again.pfm again3.pfm
     status 0 render $of $again --gather full -o full.pfm
     status 0 compare again.pfm full.pfm --max trim=0.12,lo=0.95,hi=1.05

@@ -96,7 +96,7 @@ fi
 if git rev-parse -q --verify HEAD >/dev/null 2>&1; then
     for turn in 1 2; do
         check "make dist" "$MAKE" dist BUILD="$dir/dist$turn"
-        sleep 1
+        [ $turn = 2 ] || sleep 1
     done
     check "make dist writes the same bytes twice" cmp "$dir/dist1/lambent-$version.tar.gz" "$dir/dist2/lambent-$version.tar.gz"
     (cd "$dir" && gzip -dc "dist1/lambent-$version.tar.gz" | tar xf -)

@@ -110,6 +110,51 @@ static void test_counts(void)
     CHECK(lmb_render_sample(&twice, &render, &scratch, &places, 1.0) == LMB_OK && twice.places < at.places);
 }
 
+/* A sample writes all channels of the pixels of its places, and nothing behind them. */
+static void test_written_light(void)
+{
+    static lmb_tile_sample at;
+    lmb_facts facts;
+    const lmb_frame f = set_frame();
+    for (int i = 0; i < LMB_SAMPLE_PIXELS; ++i) {
+        at.light[i][0] = at.light[i][1] = at.light[i][2] = -7.0f;
+    }
+    look_at(&facts, &f, &at);
+    const int written = at.places * LMB_TILE_PIXELS;
+    int kept = 0, others = 0;
+    for (int i = 0; i < LMB_SAMPLE_PIXELS; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            kept += i < written && at.light[i][c] == -7.0f;
+            others += i >= written && at.light[i][c] != -7.0f;
+        }
+    }
+    CHECK_MSG(written > 0 && written < LMB_SAMPLE_PIXELS && kept == 0 && others == 0, "%d, %d", kept, others);
+}
+
+/* A pixel counts if both samples have a surface there, even one whose red is 0. The mean is that of the second. */
+static void test_known_error(void)
+{
+    static lmb_tile_sample a, b;
+    static const float pixels[][2][3] = {{{0, 2.5f, 1}, {0, 2, 1}}, {{0, 1, 1}, {0.5f, 1, 1}}, {{0.5f, 1, 1}, {0, 1, 1}},
+                                         {{1, 1, 1.5f}, {1, 1, 1}}};
+    a.tiles = b.tiles = 1;
+    a.places = b.places = 4;
+    for (int i = 0; i < LMB_SAMPLE_PIXELS; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            a.light[i][c] = b.light[i][c] = -1.0f;
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        memcpy(a.light[i * LMB_TILE_PIXELS], pixels[i][0], sizeof pixels[i][0]);
+        memcpy(b.light[i * LMB_TILE_PIXELS], pixels[i][1], sizeof pixels[i][1]);
+    }
+    memcpy(a.light[1], pixels[3][0], sizeof pixels[3][0]); /* a surface in one of them */
+    memcpy(b.light[2], pixels[3][0], sizeof pixels[3][0]);
+    /* Each of four pixels differs by 0.5 in one channel; the twelve channels have a mean of 10.5 / 12. */
+    const double want = sqrt(1.0 / 12.0) / (10.5 / 12.0), error = (double)lmb_tile_sample_error(&a, &b, 0.0f);
+    CHECK_MSG(fabs(error - want) < 1e-5, "%g, not %g", error, want);
+}
+
 /* The same pixels in a picture gathered at every other one: equal light within a fiftieth. */
 static void test_sparse_sample(void)
 {
@@ -407,6 +452,8 @@ static void test_budgets(void)
 void test_plan_frame(void)
 {
     test_counts();
+    test_written_light();
+    test_known_error();
     test_sparse_sample();
     test_rows();
     test_groups();

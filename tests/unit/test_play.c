@@ -261,11 +261,32 @@ static void moves_baked_objects(void)
     end_demo();
 }
 
+/* Motion of a path ends at the last key, motion of animations at the last of them, and the default motion never. */
+static void ends_after_the_last_key(void)
+{
+    struct model_motion poses;
+    CHECK(begin_demo("all", keys("0 light:0 0,1,0\n1.5 light:0 0,1,0.1\n"), NULL, 0));
+    CHECK(!play_motion_is_over(&motion, 1.0) && !play_motion_is_over(&motion, 1.5) && play_motion_is_over(&motion, 2.0));
+    end_demo();
+    CHECK(begin_demo("all", NULL, NULL, 0));
+    CHECK(!play_motion_is_over(&motion, 0.5) && !play_motion_is_over(&motion, 100.0));
+    struct model_motion *const own = job.loaded.motion;
+    memset(&poses, 0, sizeof poses);
+    poses.end_s = 0.75;
+    job.loaded.motion = &poses;
+    motion.is_animated = 1;
+    CHECK(!play_motion_is_over(&motion, 0.75) && play_motion_is_over(&motion, 1.0));
+    motion.is_animated = 0;
+    job.loaded.motion = own;
+    end_demo();
+}
+
 void test_play(void)
 {
     folder_open(&place);
     moves_by_itself();
     moves_baked_objects();
+    ends_after_the_last_key();
     goes_through_keys();
     is_smooth();
     turns_objects();

@@ -255,7 +255,7 @@ static int set_by_path(play_motion *m, int32_t k, double time_s, report *r)
 static int reshape(play_motion *m, double time_s)
 {
     const struct model_motion *motion = m->job->loaded.motion;
-    const double until = time_s < motion->end_s ? time_s : motion->end_s;
+    const double until = fmin(time_s, motion->end_s);
     if (motion->reshapes == NULL || until == m->shaped_s) {
         return 0;
     }
@@ -532,6 +532,11 @@ int play_motion_make(play_motion *m, report *r)
 double play_motion_end(const play_motion *m)
 {
     return m->is_animated ? m->job->loaded.motion->end_s : key_path_end(&m->path);
+}
+
+int play_motion_is_over(const play_motion *m, double time_s)
+{
+    return (m->options->path != NULL || m->is_animated) && time_s > play_motion_end(m);
 }
 
 void play_motion_free(play_motion *m)

@@ -39,4 +39,7 @@ void play_motion_free(play_motion *m);
 /* Time of the last key of the path or the animations, s; 0: neither moves anything. */
 double play_motion_end(const play_motion *m);
 
+/* Whether a path or animations moved something, and nothing moves at this time and later. */
+int play_motion_is_over(const play_motion *m, double time_s);
+
 #endif

@@ -146,7 +146,7 @@ static void tell_end(const play *p)
 {
     const double end = play_motion_end(&p->motion);
     const double last = (double)(p->o.from + p->o.frames - 1) / (double)p->o.fps;
-    report_note((p->o.path == NULL && !p->motion.is_animated) || p->o.render.view.is_quiet || last <= end,
+    report_note(p->o.render.view.is_quiet || !play_motion_is_over(&p->motion, last),
                 "note: %s ends at %.3g s, the frames at %.3g s: from there on nothing moves",
                 p->o.path != NULL ? p->o.path : p->o.render.scene, end, last);
 }
