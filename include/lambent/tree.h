@@ -86,6 +86,9 @@ typedef struct lmb_cut {
     lmb_cut_slot bucket[LMB_CUT_BUCKETS]; /* the first node of each; buckets are sorted by exponent and first bit */
     float bounds_of_nodes[23][LMB_BOUNDS_NODES]; /* nodes side by side; src/tree/node_bounds.inl lists the planes */
     lmb_emitter emitter[LMB_CUT_BLOCK];
+#if LMB_FACETS
+    uint64_t facets[368];              /* the surfaces of a texel that shows several: src/tree/facets.h */
+#endif
     union {
         float pairs[3][LMB_GATHER_PAIRS]; /* while the cut lights pixels */
         lmb_traversal traversal;          /* while the cut is found */

@@ -157,16 +157,16 @@ static int list_draw_corners(const lmb_draw_pass *pass, const list_primitive *p,
                        : lmb_draw_point(pass, corner);
 }
 
-/* Draws a primitive from indices into the list. */
-static void list_draw(const lmb_draw_pass *pass, const list_primitive *listed)
+/* Draws a primitive of n corners from indices into the list. The arguments are apart, because callers that keep a
+ * list_primitive take more stack. */
+static void list_draw(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat, int n, int sides)
 {
     const lmb_draw_vertices *v = pass->vertices;
     lmb_draw_corner corner[3];
-    list_primitive p = *listed;
-    p.flat = draw_index(pass, listed->flat);
+    list_primitive p = {{a, b, c}, draw_index(pass, flat), n, sides};
     int sane = p.flat < v->count;
-    for (int i = 0; i < p.n && sane; ++i) {
-        p.at[i] = draw_index(pass, listed->at[i]);
+    for (int i = 0; i < n && sane; ++i) {
+        p.at[i] = draw_index(pass, p.at[i]);
         sane = p.at[i] < v->count && list_vertex(&corner[i], pass, p.at[i]);
         if (sane && (p.sides & SIDES_CHOSEN) != 0 && v->edges != NULL && v->edges[p.at[i]] == 0) {
             p.sides &= ~(1 << i);
@@ -187,16 +187,14 @@ static void list_draw(const lmb_draw_pass *pass, const list_primitive *listed)
 
 static void list_triangle(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat, int sides)
 {
-    const list_primitive p = {{a, b, c}, flat, 3, sides};
     if (!DRAW_FULL || pass->few == NULL || !lmb_draw_quick(pass, a, b, c, flat)) {
-        list_draw(pass, &p);
+        list_draw(pass, a, b, c, flat, 3, sides);
     }
 }
 
 static void list_line(const lmb_draw_pass *pass, uint32_t a, uint32_t b)
 {
-    const list_primitive p = {{a, b, b}, b, 2, 0};
-    list_draw(pass, &p);
+    list_draw(pass, a, b, b, b, 2, 0);
 }
 
 static void list_quad(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t d, uint32_t flat,
@@ -228,9 +226,8 @@ static void list_triangles(const lmb_draw_pass *pass, uint32_t count)
     for (uint32_t i = 2; i < count; i += 3) {
         i = DRAW_FULL && pass->few != NULL ? lmb_draw_quick_run(pass, i, count) : i;
         if (i < count) {
-            const list_primitive p = {{i - 2, i - 1, i}, i, 3, SIDES_ALL | SIDES_CHOSEN};
             *pass->dashed = 0;
-            list_draw(pass, &p);
+            list_draw(pass, i - 2, i - 1, i, i, 3, SIDES_ALL | SIDES_CHOSEN);
         }
     }
 }
@@ -279,8 +276,7 @@ static void list_lines(const lmb_draw_pass *pass, int32_t primitive, uint32_t co
 static void list_points(const lmb_draw_pass *pass, uint32_t count)
 {
     for (uint32_t i = 0; i < count; ++i) {
-        const list_primitive p = {{i, i, i}, i, 1, 0};
-        list_draw(pass, &p);
+        list_draw(pass, i, i, i, i, 1, 0);
     }
 }
 

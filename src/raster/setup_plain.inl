@@ -8,7 +8,7 @@
 typedef struct plain_corners {
     int32_t x[3][LMB_BATCH], y[3][LMB_BATCH]; /* 24.8 */
     float d[3][LMB_BATCH];
-    uint32_t is_out[3][LMB_BATCH];
+    uint8_t is_out[3][LMB_BATCH];
 } plain_corners;
 
 /* No pointer to the same bytes: otherwise gcc -O2 makes no vectors. */
@@ -66,7 +66,7 @@ LANE_INLINE void plain_transform(plain_corners *PLAIN_ALONE out, const setup_cor
         out->x[i][k] = plain_floor(plain_hold(x * inverse * j.snap_x + 0.5f, limit_x));
         out->y[i][k] = plain_floor(plain_hold(0.5f - y * inverse * j.snap_y, limit_y));
         out->d[i][k] = z * inverse;
-        out->is_out[i][k] = is_out;
+        out->is_out[i][k] = (uint8_t)is_out;
     }
 }
 

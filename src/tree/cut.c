@@ -814,11 +814,11 @@ static uint64_t see_facet(const cutter *c, uint32_t face, const lmb_facet *f, ui
 NOINLINE void add_facets(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t pixels)
 {
     uint64_t lit = 0;
-    lmb_facets all;
+    lmb_facets *all = (lmb_facets *)(void *)c->cut->facets;
     lmb_facet f;
-    lmb_facets_open(&all, c->tree, c->cut_params->bvh->scene, at);
+    lmb_facets_open(all, c->tree, c->cut_params->bvh->scene, at);
     begin_traversal(c);
-    while (lmb_facets_next(&f, &all)) {
+    while (lmb_facets_next(&f, all)) {
         const uint64_t seen = see_facet(c, at.face, &f, pixels);
         lit |= seen;
         for (uint64_t bits = seen; bits != 0; bits &= bits - 1) {

@@ -65,6 +65,10 @@ typedef struct lmb_facets {
     float more; /* factor on the light of small triangles, for those that no pixel shows */
 } lmb_facets;
 
+#if LMB_FACETS
+typedef char lmb_facets_fits[sizeof(lmb_facets) <= sizeof(((lmb_cut *)0)->facets) ? 1 : -1]; /* too large for a stack */
+#endif
+
 /* lmb_facets_open: lists what shows in a marked texel. lmb_facets_next: the parts one by one; 0: no more. */
 void lmb_facets_open(lmb_facets *out, const lmb_tree *tree, const lmb_scene *scene, lmb_node_ref at);
 int lmb_facets_next(lmb_facet *out, lmb_facets *f);
