@@ -14,14 +14,14 @@
 #include "config.h"
 
 /* In config.h's order: groups, lights, cut; many lights' cut and active lights; pairs, probes (o), planes (f), views,
- * hull's planes; nodes that are bounded, slots; facets. */
-#define LMB_PASTE_(name, g, l, c, m, n, p, o, f, v, h, w, s, t) \
-    name##_g##g##_l##l##_c##c##_m##m##_n##n##_p##p##_o##o##_f##f##_v##v##_h##h##_w##w##_s##s##_t##t
-#define LMB_PASTE(name, g, l, c, m, n, p, o, f, v, h, w, s, t) LMB_PASTE_(name, g, l, c, m, n, p, o, f, v, h, w, s, t)
+ * hull's planes; nodes that are bounded, slots. */
+#define LMB_PASTE_(name, g, l, c, m, n, p, o, f, v, h, w, s) \
+    name##_g##g##_l##l##_c##c##_m##m##_n##n##_p##p##_o##o##_f##f##_v##v##_h##h##_w##w##_s##s
+#define LMB_PASTE(name, g, l, c, m, n, p, o, f, v, h, w, s) LMB_PASTE_(name, g, l, c, m, n, p, o, f, v, h, w, s)
 #define LMB_LAYOUT(name) \
     LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_MAX_CUT, LMB_MANY_LIGHTS_CUT, LMB_ACTIVE_LIGHTS, \
               LMB_GATHER_PAIRS, LMB_MAX_PROBES, LMB_MAX_PLANES, LMB_RELIEF_VIEWS, LMB_HULL_PLANES, LMB_BOUNDS_NODES, \
-              LMB_SLOTS, LMB_FACETS)
+              LMB_SLOTS)
 
 #define lmb_around_gather           LMB_LAYOUT(lmb_around_gather)
 #define lmb_around_scale            LMB_LAYOUT(lmb_around_scale)

@@ -84,11 +84,13 @@ typedef struct lmb_cut {
     } of;
     lmb_cut_slot next[LMB_MAX_CUT];    /* the next node in its bucket */
     lmb_cut_slot bucket[LMB_CUT_BUCKETS]; /* the first node of each; buckets are sorted by exponent and first bit */
-    float bounds_of_nodes[23][LMB_BOUNDS_NODES]; /* nodes side by side; src/tree/node_bounds.inl lists the planes */
-    lmb_emitter emitter[LMB_CUT_BLOCK];
-#if LMB_FACETS
-    uint64_t facets[368];              /* the surfaces of a texel that shows several: src/tree/facets.h */
-#endif
+    union {
+        struct {
+            float bounds[23][LMB_BOUNDS_NODES]; /* nodes side by side; src/tree/node_bounds.inl lists the planes */
+            lmb_emitter emitter[LMB_CUT_BLOCK]; /* nodes that wait until the kernel takes them together */
+        } nodes;
+        uint64_t facets[366]; /* while no node waits: surfaces of a texel that shows several: src/tree/facets.h */
+    } with;
     union {
         float pairs[3][LMB_GATHER_PAIRS]; /* while the cut lights pixels */
         lmb_traversal traversal;          /* while the cut is found */
@@ -134,6 +136,7 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
  * map: a point of the surface that shows in their middle. If surfaces hide each other there, texels alternate between
  * them in proportion to their visible area, and near receivers get light from each. So you can use fine maps, for sharp
  * shadows, without as many first points. lmb_gather_cut with a BVH reads the ids of such a map again, so keep the map.
+ * The BVH must be of the scene that the map shows, with the same ids.
  * Rows may be done in any order, on any threads. Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY. */
 lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
                            const lmb_light *light, const lmb_shadow_map *map, int32_t face, uint32_t into,

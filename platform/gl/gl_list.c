@@ -48,7 +48,8 @@ static gl_word *list_room(gl_context *c, int32_t words)
 /* The words of the operation at `head`. */
 static int32_t list_words(const gl_word *head) { return (int32_t)(head->u >> 16 & LIST_MOST_WORDS); }
 
-static void list_record(gl_context *c, int op, const gl_word *w, int32_t words, uint32_t flags)
+/* Returns the operation, or NULL if memory is used up. */
+static gl_word *list_record(gl_context *c, int op, const gl_word *w, int32_t words, uint32_t flags)
 {
     gl_word *to = list_room(c, words + 1);
     c->list_run = NULL;
@@ -58,6 +59,7 @@ static void list_record(gl_context *c, int op, const gl_word *w, int32_t words, 
             memcpy(to + 1, w, (size_t)words * sizeof *w);
         }
     }
+    return to;
 }
 
 /* Vertices in a row are one operation. */
@@ -71,9 +73,7 @@ void gl_list_vertex(gl_context *c, const float at[4])
         k->used += 4;
         run->u += (uint32_t)4 << 16;
     } else {
-        list_record(c, OP_vertex, w, 4, 0);
-        k = c->list_chunk;
-        c->list_run = k != NULL && k->used >= 5 ? &k->word[k->used - 5] : NULL;
+        c->list_run = list_record(c, OP_vertex, w, 4, 0);
     }
     if (c->list_mode != GL_COMPILE) {
         gl_vertex_at(c, at);

@@ -70,7 +70,7 @@ enum {
     LMB_BOUNDS_PLANES = 20
 };
 
-/* Contents of lmb_cut `bounds_of_nodes`: nodes in structure-of-arrays form, and the light of each node on the tile.
+/* Contents of lmb_cut `with.nodes.bounds`: nodes in structure-of-arrays form, and the light of each node on the tile.
  * value and upper: as in lmb_cut. */
 typedef struct lmb_node_bounds {
     float node[LMB_BOUNDS_PLANES][LMB_BOUNDS_NODES];
@@ -79,7 +79,7 @@ typedef struct lmb_node_bounds {
 
 /* Both live in arrays of public structs, which only give the size. */
 typedef char lmb_resolve_batch_fits[sizeof(lmb_resolve_batch) <= sizeof(((lmb_tile *)0)->work) ? 1 : -1];
-typedef char lmb_node_bounds_fits[sizeof(lmb_node_bounds) == sizeof(((lmb_cut *)0)->bounds_of_nodes) ? 1 : -1];
+typedef char lmb_node_bounds_fits[sizeof(lmb_node_bounds) == sizeof(((lmb_cut *)0)->with.nodes.bounds) ? 1 : -1];
 
 /* One tile of a target in rows of 8. Steps are in elements. */
 typedef struct lmb_fill_tile {

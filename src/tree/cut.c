@@ -59,7 +59,7 @@ typedef struct cutter {
 
 static double maxd(double a, double b) { return a > b ? a : b; }
 
-static lmb_node_bounds *bounds_of(lmb_cut *c) { return (lmb_node_bounds *)(void *)c->bounds_of_nodes; }
+static lmb_node_bounds *bounds_of(lmb_cut *c) { return (lmb_node_bounds *)(void *)c->with.nodes.bounds; }
 
 static void set_vector(lmb_node_bounds *out, int plane, int k, lmb_vec3 v)
 {
@@ -814,7 +814,7 @@ static uint64_t see_facet(const cutter *c, uint32_t face, const lmb_facet *f, ui
 NOINLINE void add_facets(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t pixels)
 {
     uint64_t lit = 0;
-    lmb_facets *all = (lmb_facets *)(void *)c->cut->facets;
+    lmb_facets *all = (lmb_facets *)(void *)c->cut->with.facets;
     lmb_facet f;
     lmb_facets_open(all, c->tree, c->cut_params->bvh->scene, at);
     begin_traversal(c);
@@ -863,9 +863,9 @@ typedef struct stream {
 static void flush(stream *s)
 {
     const cutter *c = s->c;
-    c->kernels->gather_cut(s->inout, c->cut->use.pairs, c->tile, c->cut->emitter, s->filled);
+    c->kernels->gather_cut(s->inout, c->cut->use.pairs, c->tile, c->cut->with.nodes.emitter, s->filled);
     if (c->cut_params->glossy != NULL) {
-        c->kernels->glossy_cut(c->cut_params->glossy, c->tile, c->cut->emitter, s->filled);
+        c->kernels->glossy_cut(c->cut_params->glossy, c->tile, c->cut->with.nodes.emitter, s->filled);
     }
     s->filled = 0;
 }
@@ -916,6 +916,7 @@ static void light_by(stream *s, lmb_node_ref at, uint64_t visible)
         leaf_at(&l, c->tree, at);
 #if LMB_FACETS
         if (shows_facets(c, at)) {
+            flush(s); /* facets take the emitters' memory */
             add_facets(s->inout, c, at, &l, visible);
             return;
         }
@@ -926,7 +927,7 @@ static void light_by(stream *s, lmb_node_ref at, uint64_t visible)
         }
         n = &l.node;
     }
-    set_emitter(&c->cut->emitter[s->filled++], n, visible);
+    set_emitter(&c->cut->with.nodes.emitter[s->filled++], n, visible);
     if (s->filled == LMB_CUT_BLOCK) {
         flush(s);
     }

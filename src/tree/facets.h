@@ -66,7 +66,8 @@ typedef struct lmb_facets {
 } lmb_facets;
 
 #if LMB_FACETS
-typedef char lmb_facets_fits[sizeof(lmb_facets) <= sizeof(((lmb_cut *)0)->facets) ? 1 : -1]; /* too large for a stack */
+/* Too large for a stack. */
+typedef char lmb_facets_fits[sizeof(lmb_facets) <= sizeof(((lmb_cut *)0)->with.facets) ? 1 : -1];
 #endif
 
 /* lmb_facets_open: lists what shows in a marked texel. lmb_facets_next: the parts one by one; 0: no more. */

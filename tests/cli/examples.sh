@@ -1,4 +1,4 @@
-# examples.sh: checks that the examples of each verb's help work when pasted, except for bench and doctor.
+# examples.sh: checks that the examples of each verb's help work when pasted, except for doctor and explain.sh's.
 . tests/cli/common.sh
 
 pasted render play capture relight relief "relief bake" "relief render" mix pack merge plan compare info

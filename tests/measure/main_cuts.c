@@ -203,7 +203,7 @@ static void gather_brute(lmb_irradiance *light, work *w, const lmb_tile *tile, c
     g.tile = tile;
     g.light = light;
     g.pixels = tile_pixels(tile);
-    g.emitter = w->scratch.gather.cut.emitter;
+    g.emitter = w->scratch.gather.cut.with.nodes.emitter;
     g.memory = w->scratch.gather.cut.use.pairs;
     tile_box(&low, &high, tile, g.pixels);
     g.middle = mul3(add3(low, high), 0.5f);

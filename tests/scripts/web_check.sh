@@ -1,6 +1,6 @@
 # web_check.sh: checks the page of platform/web in headless Chromium; skipped, with the reason, if tools are missing.
 #
-# Gets playwright-core with npm if possible. Screenshots: BUILD/web/shots. MAKE BUILD B in the environment.
+# Gets playwright-core with npm if possible. Screenshots: BUILD/web/shots. MAKE BUILD PAGE_HASH in the environment.
 skip() {
     echo "web-check: $1"
     echo "0 passed, 0 failed, 1 skipped"
@@ -17,4 +17,4 @@ if [ ! -d "$modules/node_modules/playwright-core" ]; then
     npm install --no-audit --no-fund --prefix "$modules" playwright-core >/dev/null 2>&1 || skip "npm gets no playwright-core"
 fi
 sh tests/scripts/page_size.sh && ${MAKE:-make} PORT=web BUILD="$BUILD/web" HOST_BUILD="$BUILD" page >/dev/null || exit 1
-node tests/web/page_test.mjs "$BUILD/web/default/page" "$modules" "$B/page-hash" "$BUILD/web/shots"
+node tests/web/page_test.mjs "$BUILD/web/default/page" "$modules" "$PAGE_HASH" "$BUILD/web/shots"

@@ -29,7 +29,7 @@ static const struct verb {
     {"bake", verb_bake, "bake SCENE -o OUT.lmt", "precompute light transport of a static scene, for moving lights"},
     {"pack", verb_pack, "pack SCENE -o OUT.lmp|.c", "convert a scene to one file, or C array, for use in place"},
     {"play", verb_play, "play SCENE --frames N", "render an animation of lights, camera or objects, and its cost"},
-    {"merge", verb_merge, "merge SLICE... -o OUT", "join slices of a picture, frames, a bake or a sweep"},
+    {"merge", verb_merge, "merge SLICE... -o OUT", "join slices of a picture, of frames or of a bake"},
     {"capture", verb_capture, "capture SCENE --at X,Y,Z", "capture a place of a scene as a world for `relight`"},
     {"relight", verb_relight, "relight --world WORLD", "light at a place of a world, from a cube map taken elsewhere"},
     {"relief", verb_relief, "relief bake|render", "draw a complex model as a simple one with the detailed surface"},
@@ -88,8 +88,8 @@ static int run(int argc, char **argv)
 static const char *const texts[][PROGRAM_TEXT_WORDS] = {
     {"render", NULL},     {"bake", NULL},        {"pack", NULL},        {"play", NULL},
     {"merge", NULL},      {"capture", NULL},     {"relight", NULL},     {"relief", NULL},
-    {"relief", "bake"},   {"relief", "render"},  {"mix", NULL},         {"plan", NULL},
-    {"compare", NULL},    {"info", NULL},        {"doctor", NULL},
+    {"relief", "bake"},   {"relief", "render"},  {"mix", NULL},         {"explain", NULL},
+    {"plan", NULL},       {"compare", NULL},     {"info", NULL},        {"doctor", NULL},
 };
 
 static void print_synopsis(void)

@@ -38,8 +38,8 @@ static const option_table explain_table = {
     .verb = "explain",
     .usage = HELP("explain SCENE --pixel X,Y [options]"),
     .about = HELP("Prints why a pixel has its light: the surface that it shows, each light with the triangle that "
-        "blocks it, and the surfaces that send the most bounced light. Give the options of the render that the pixel "
-        "comes from.\n"
+        "blocks it, and the surfaces that send the most bounced light. Give those options of the render that choose "
+        "view, world, lights and bounced light.\n"
         "`the picture` is light of the render, at one sample per pixel. `traced` is light by exact shadows and, for "
         "one bounce, by 4,096 rays from the surface. If both differ, the method of the render loses light there or "
         "adds some."),

@@ -1,5 +1,5 @@
-/* render_option_keys.c: the options of `render`, `plan` and `play` that take keys: --group and --budget. The web page
- * has neither. */
+/* render_option_keys.c: the options that take keys: --group, also of `play`, `capture` and `explain`, and --budget, of
+ * `render` and `plan`. The web page has neither. */
 #include "render_options.h"
 
 #if !defined(OPTIONS_WITHOUT_HELP)
