@@ -11,7 +11,7 @@ WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
 PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_relief_bake.c tools/relief/relief_compare.c tools/relief/relief_path.c tools/common/key_path.c tools/relief/relief_model.c \
-             tools/relight/relight_hidden.c tools/relight/relight_lobes.c tools/render/wireframe.c tools/render/budget.c tools/render/scene_sample.c tools/render/bench_calibrate.c \
+             tools/relight/relight_hidden.c tools/relight/relight_lobes.c tools/render/wireframe.c tools/render/blended.c tools/render/budget.c tools/render/scene_sample.c tools/render/bench_calibrate.c \
              %/gen_demo.c %/gen_srgb.c %/demo_scene.c tools/picture/io_png_write.c tools/picture/io_deflate.c tools/picture/io_pam.c \
              tools/common/slice.c tools/common/merge.c tools/common/slice_items.c tools/common/byte_buffer.c tools/render/render_slice.c tools/common/area_light.c \
              tools/mix/mix_sun.c tools/mix/mix_cast.c tools/mix/mix_labels.c tools/mix/mix_resample.c tools/mix/mix_islands.c tools/mix/mix_front.c tools/mix/mix_list.c tools/mix/mix_frames.c tools/mix/mix_again.c tools/mix/mix_lobes.c tools/mix/mix_sources.c tools/mix/mix_mirror.c tools/mix/mix_contact.c tools/mix/mix_inside.c tools/mix/mix_around.c tools/mix/mix_carry.c tools/mix/mix_near.c tools/mix/mix_lights.c tools/mix/mix_next.c tools/mix/mix_aside.c tools/mix/mix_stays.c tools/mix/mix_world.c tools/mix/mix_sequence.c tools/model/glb_write.c tools/relight/relight_worlds.c tools/relight/relight_path.c tools/relight/relight_contact.c tools/relight/relight_region.c tools/relight/relight_ground.c tools/relight/relight_samples.c tools/relight/relight_shade.c tools/relight/relight_export.c tools/relight/relight_way.c tools/relight/relight_many.c, \
@@ -43,7 +43,7 @@ endef
 $(eval $(call page_objects,main,,$$(call page_opt,$$<)))
 $(eval $(call page_objects,scalar,,$(or $(PAGE_OPT),-Oz)))
 # The lanes of plain C determine the layout of structs shared by modules: one lane, as without simd128.
-$(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,$(or $(PAGE_OPT),-O2)))
+$(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,$(or $(PAGE_OPT),-O2 -fno-unroll-loops)))
 -include $(patsubst %.c,$(PAGE_WORK)/main/%.d,$(PAGE_SRC)) \
          $(wildcard $(PAGE_WORK)/scalar/*/*/*.d $(PAGE_WORK)/simd/*/*/*.d)
 

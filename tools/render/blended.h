@@ -19,6 +19,8 @@ typedef struct blended {
 
 enum { BLENDED_SHOWN = 1, BLENDED_OVER = 2 };
 
+#if !defined(OPTIONS_WITHOUT_HELP)
+
 /* blended_is_any: returns whether an instance has a BLEND material. */
 int blended_is_any(const lmb_scene *scene);
 
@@ -39,4 +41,17 @@ uint32_t blended_over(const blended *b);
 
 void blended_free(blended *b);
 
+#else /* the web page mixes no layers */
+
+static inline int blended_is_any(const lmb_scene *scene) { return scene == NULL; }
+static inline lmb_status blended_draw(blended *inout, workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame,
+                                      int32_t width, int32_t height, int32_t x0)
+{
+    (void)inout, (void)c, (void)stage, (void)r, (void)frame, (void)width, (void)height, (void)x0;
+    return LMB_ERR_ARG;
+}
+static inline uint32_t blended_over(const blended *b) { return b->mark != NULL; }
+static inline void blended_free(blended *b) { (void)b; }
+
+#endif
 #endif
