@@ -333,8 +333,8 @@ static int find_key(const option_table *t, const option_row *option, const char 
     const option_row *row;
     for (int i = 0; (row = options_row(t, i)) != NULL; ++i) {
         const char *own = options_key(row);
-        if (own == row->name + n + 1 && strncmp(row->name, option->name, n) == 0 && strlen(own) == size &&
-            memcmp(own, key, size) == 0) {
+        if (own != NULL && own == row->name + n + 1 && strncmp(row->name, option->name, n) == 0 &&
+            strlen(own) == size && memcmp(own, key, size) == 0) {
             return i;
         }
     }
@@ -348,8 +348,9 @@ static int refuse_key(const line *l, const option_row *option, const char *key, 
     const option_row *row;
     int count = 0;
     for (int i = 0; (row = options_row(l->table, i)) != NULL; ++i) {
-        if (options_key(row) == row->name + n + 1 && strncmp(row->name, option->name, n) == 0) {
-            names[count++] = options_key(row);
+        const char *own = options_key(row);
+        if (own != NULL && own == row->name + n + 1 && strncmp(row->name, option->name, n) == 0) {
+            names[count++] = own;
         }
     }
     names[count] = NULL;
