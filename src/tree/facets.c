@@ -12,6 +12,7 @@
 #include "../direct/footprint.h"
 #include "../raster/target.h"
 #include "../raster/tile.h"
+#include "piece.h"
 
 #if LMB_FACETS
 
@@ -192,23 +193,46 @@ static void turn_to_light(lmb_facet *out, const lmb_view *v)
     }
 }
 
-/* Sets the light per m2 of this facet from the texel's flux. */
-static void set_flux(lmb_facet *out, const lmb_facets *f, const lmb_material *m)
+/* 1 if textures or vertex colours change the albedo within a triangle. */
+static int varies(const lmb_scene *scene, const lmb_material *m, uint32_t id)
 {
-    const lmb_texel *t = tree_texel(f->tree, f->at.face, f->at.x, f->at.y);
-    const lmb_material *own = lmb_material_of(f->scene, f->own);
-    lmb_vec3 u, v;
-    footprint_sides(&u, &v, &f->tree->view[f->at.face], f->tree->size, out->middle, out->normal);
-    out->per_area = 1.0f / length3(cross3(u, v));
-    for (int c = 0; c < 3; ++c) {
-        const float ratio = own == NULL || own == m ? 1.0f : minf(m->albedo[c] / maxf(own->albedo[c], 1e-3f), 1e3f);
-        out->flux[c] = t->flux[c] * ratio * out->per_area;
+    const lmb_instance *instance = lmb_instance_of(scene, id);
+    return m->texture >= 0 || m->metal_map > 0 || (instance != NULL && scene->meshes[instance->mesh].colours != NULL);
+}
+
+static void albedo_of(float out[3], const lmb_facets *f, uint32_t id, lmb_vec3 at, float area)
+{
+    piece_source s;
+    out[0] = out[1] = out[2] = 0.0f;
+    if (lmb_source_open(&s, f->scene, id)) {
+        lmb_source_albedo_at(out, &s, at, area);
     }
 }
 
-/* The whole part of a triangle in the texel's cell; 0: it has none. */
+/* Sets the light per m2 of this facet of a triangle from the flux of the texel, in proportion to the albedo, times
+ * `more`. */
+static void set_flux(lmb_facet *out, const lmb_facets *f, const lmb_material *m, uint32_t id, float more)
+{
+    const lmb_texel *t = tree_texel(f->tree, f->at.face, f->at.x, f->at.y);
+    const lmb_material *own = lmb_material_of(f->scene, f->own);
+    float to[3] = {1.0f, 1.0f, 1.0f}, from[3] = {1.0f, 1.0f, 1.0f};
+    if (own != NULL && (varies(f->scene, m, id) || varies(f->scene, own, f->own))) {
+        const float pixels = (float)(f->each * f->each);
+        albedo_of(to, f, id, out->middle, out->area);
+        albedo_of(from, f, f->own, t->position, 1.0f / (out->per_area * pixels));
+    } else if (own != NULL && own != m) {
+        memcpy(to, m->albedo, sizeof to);
+        memcpy(from, own->albedo, sizeof from);
+    }
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = t->flux[c] * minf(to[c] / maxf(from[c], 1e-3f), 1e3f) * out->per_area * more;
+    }
+}
+
+/* The whole part of a triangle in the texel's cell, without the light; 0: it has none. */
 static int whole_part(lmb_facet *out, lmb_triangle *t, const lmb_facets *f, uint32_t id)
 {
+    lmb_vec3 u, v;
     float area;
     if (!lmb_triangle_fetch(t, f->scene, id) || !lmb_triangle_shape(&out->normal, &area, t)) {
         return 0;
@@ -218,7 +242,8 @@ static int whole_part(lmb_facet *out, lmb_triangle *t, const lmb_facets *f, uint
         return 0;
     }
     turn_to_light(out, &f->tree->view[f->at.face]);
-    set_flux(out, f, t->material);
+    footprint_sides(&u, &v, &f->tree->view[f->at.face], f->tree->size, out->middle, out->normal);
+    out->per_area = 1.0f / length3(cross3(u, v));
     return 1;
 }
 
@@ -285,39 +310,42 @@ void lmb_facets_open(lmb_facets *out, const lmb_tree *tree, const lmb_scene *sce
     out->left = out->surfaces > 0 ? out->surface[0].pixels : 0;
 }
 
+/* Cuts the part to the next run of pixels that show it. */
+static void cut_to_run(lmb_facet *inout, lmb_facets *f, const lmb_triangle *t)
+{
+    const int32_t each = f->each;
+    const int k = lowest_bit_64(f->left);
+    int past = k;
+    while (past % each + 1 < each && (f->left >> (past + 1) & 1u)) {
+        ++past;
+    }
+    const uint64_t run = ((uint64_t)2 << past) - ((uint64_t)1 << k);
+    float area;
+    lmb_triangle_shape(&inout->normal, &area, t);
+    cut_out(inout, f, t, k % each, k / each, past % each + 1, k / each + 1);
+    turn_to_light(inout, &f->tree->view[f->at.face]);
+    clip_by_others(inout, f, f->at_surface, run);
+    f->left &= ~run;
+}
+
 /* The whole part of the surface, or the next run of pixels where something hides the rest. */
 static void next_part(lmb_facet *out, lmb_facets *f)
 {
     const lmb_facet_surface *s = &f->surface[f->at_surface];
-    const int32_t each = f->each;
     lmb_triangle t;
     whole_part(out, &t, f, s->id);
-    if (out->area * out->per_area < SMALL) {
-        for (int c = 0; c < 3; ++c) {
-            out->flux[c] *= f->more;
-        }
+    const float more = out->area * out->per_area < SMALL ? f->more : 1.0f;
+    if (f->left == s->pixels && lacks_pixels(out, f, s->pixels)) {
+        clip_by_others(out, f, f->at_surface, s->pixels);
     }
-    if (lacks_pixels(out, f, s->pixels)) {
-        if (f->left == s->pixels) {
-            clip_by_others(out, f, f->at_surface, s->pixels);
-        }
-        if (f->left != s->pixels || lacks_pixels(out, f, s->pixels)) {
-            const int k = lowest_bit_64(f->left);
-            int past = k;
-            while (past % each + 1 < each && (f->left >> (past + 1) & 1u)) {
-                ++past;
-            }
-            const uint64_t run = ((uint64_t)2 << past) - ((uint64_t)1 << k);
-            float area;
-            lmb_triangle_shape(&out->normal, &area, &t);
-            cut_out(out, f, &t, k % each, k / each, past % each + 1, k / each + 1);
-            turn_to_light(out, &f->tree->view[f->at.face]);
-            clip_by_others(out, f, f->at_surface, run);
-            f->left &= ~run;
-            return;
-        }
+    if (f->left != s->pixels || lacks_pixels(out, f, s->pixels)) {
+        cut_to_run(out, f, &t);
+    } else {
+        f->left = 0;
     }
-    f->left = 0;
+    if (out->corners >= 3) {
+        set_flux(out, f, t.material, s->id, more);
+    }
 }
 
 int lmb_facets_next(lmb_facet *out, lmb_facets *f)

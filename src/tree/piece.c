@@ -84,6 +84,16 @@ float lmb_source_albedo(float albedo[3], const piece_source *s, const surface_pi
     return (float)standing / SAMPLES;
 }
 
+void lmb_source_albedo_at(float out[3], const piece_source *s, lmb_vec3 at, float area)
+{
+    const lmb_vec3 *corner = s->triangle.corner, p = sub3(at, corner[0]);
+    const lmb_vec3 across = cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
+    const float per = 1.0f / dot3(across, across), texels = s->texels * area / s->area;
+    const float b1 = clampf(dot3(cross3(p, sub3(corner[2], corner[0])), across) * per, 0.0f, 1.0f),
+                b2 = clampf(dot3(cross3(sub3(corner[1], corner[0]), p), across) * per, 0.0f, 1.0f - b1);
+    albedo_at(out, s, b1, b2, texels > 1.0f ? 0.5f * lmb_log2(texels) : 0.0f);
+}
+
 /* --- emission ----------------------------------------------------------------------------------------------------- */
 
 enum { MAX_ROWS = 4, MAX_ROWS_BARE = 32 /* of a piece; of a piece with a map without mip levels */ };

@@ -86,6 +86,9 @@ int lmb_source_open(piece_source *out, const lmb_scene *scene, uint32_t id);
  * area. */
 float lmb_source_albedo(float albedo[3], const piece_source *s, const surface_piece *p, float share);
 
+/* Sets the mean albedo around a place on the triangle's plane, over `area`, m2, at most 1 a channel. */
+void lmb_source_albedo_at(float out[3], const piece_source *s, lmb_vec3 at, float area);
+
 /* Mean radiance that a piece emits, W/(sr m2): sampled at the middles of up to 32 x 32 congruent triangles, over the
  * opaque ones. */
 void lmb_source_emission(float out[3], const piece_source *s, const surface_piece *p);

@@ -538,7 +538,7 @@ static void test_rectangles(void)
         state.scissor[2] = 20;
         state.scissor[3] = 11;
         for (int i = 0; i < CASE_HIGH * CASE_WIDE; ++i) {
-            set_colour(before[0][i], &r);
+            set_colour(before[i / CASE_WIDE][i % CASE_WIDE], &r);
         }
         memcpy(drawn.colour, before, sizeof before);
         CHECK(lmb_draw_list(&drawn_on, &state, &v, LMB_DRAW_QUADS, NULL, &of_quad) == LMB_OK);
