@@ -37,6 +37,8 @@ check "no file is left" test ! -e plan.json
 status 2 plan demo --show depth
 status 2 plan demo --budget error=0.1 --group method=zones
 status 2 plan demo --budget ms=16 --budget work=1e6
+status 2 plan demo --budget work=1e6,rate=1e9
+said "--budget rate: a speed goes only with ms"
 status 2 plan demo --budget bytes=100kB
 status 2 render demo --json -o plan.png
 status 2 render demo --budget error=0.1 --show direct -o plan.png

@@ -355,9 +355,9 @@ static int refuse_key(const line *l, const option_row *option, const char *key, 
     }
     names[count] = NULL;
     const char *meant = options_nearest(names, key);
-    return report_fail(r, "%s: `%s` is no key%s%s%s; lambent %s --help lists them", option->name, key,
+    return report_fail(r, "%s: `%s` is no key%s%s%s; %s --help lists them", option->name, key,
                        meant != NULL ? ", did you mean " : "", meant != NULL ? meant : "", meant != NULL ? "?" : "",
-                       l->table->verb);
+                       command_name(l->table->verb));
 }
 
 /* Stores each KEY=VALUE of a list. */

@@ -339,6 +339,9 @@ static void choose(render_options *o)
 
 static int check_budget(const render_options *o, report *r)
 {
+    if (o->rate > 0.0f && !(o->budget_ms > 0.0f)) {
+        return report_fail(r, "--budget rate: a speed goes only with ms, which it turns into work");
+    }
     if (!has_budget(&o->budget, o->budget_ms)) {
         return 1;
     }
