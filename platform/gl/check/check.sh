@@ -23,7 +23,8 @@ own() {
     if cmp -s "$out/own.txt" $here/own.txt; then good; else bad "own: $out/own.txt is not $here/own.txt"; fi
 }
 
-# Hostile arguments, batches at the edges of the picture, and two contexts in two threads. CFLAGS are those of the library, as a sanitizer needs.
+# Hostile arguments, batches at the edges of the picture, two contexts in two threads, and lists that fill
+# the memory. CFLAGS are those of the library, as a sanitizer needs.
 program() {
     if ! ${CC:-cc} ${CFLAGS:-} -std=gnu99 -O1 -Iplatform/gl/include -o "$out/$1" "$2" "$gl/libGL.a" -lm -lpthread; then
         bad "$2 does not compile"
@@ -34,6 +35,7 @@ program() {
 hostile() { program hostile tests/fuzz/main_gl.c; }
 outside() { program outside $here/outside.c; }
 threads() { program threads $here/threads.c; }
+full() { program full $here/full.c; }
 
 # A C program with GLU: quadrics and tessellation by Debian's libGLU, which draws through our libOpenGL.
 glu() {
@@ -84,8 +86,8 @@ piglit() {
     if [ -z "$missing" ]; then good; else bad "piglit: $missing"; fi
 }
 
-clients=${GL_CLIENTS:-own hostile outside threads glu glfw pyopengl piglit}
-[ "$clients" = fast ] && clients="own hostile outside threads glu glfw pyopengl"
+clients=${GL_CLIENTS:-own hostile outside threads full glu glfw pyopengl piglit}
+[ "$clients" = fast ] && clients="own hostile outside threads full glu glfw pyopengl"
 for client in $clients; do
     $client
 done
