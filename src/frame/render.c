@@ -1,19 +1,7 @@
 /* render.c: runs the stages in order: the whole frame, or one bounded step at a time. Layer 8. [V33 V34] */
 #include "../base/vec.h"
-#include "../bounce/points.h"
 #include "stages.h"
 #include "requires.h"
-
-static int points_have_parts(const lmb_render *r)
-{
-    const lmb_frame *f = &r->frame;
-    if (!requires_bounce(f) || requires_transfer(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) ||
-        r->progress != 0 || r->light == f->scene->light_count ||
-        light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
-        return 0;
-    }
-    return requires_cut(f) || lmb_points_have_room(&f->points, &r->maps[r->light], &f->grouping);
-}
 
 int32_t lmb_render_has_parts(const lmb_render *r)
 {
@@ -22,11 +10,9 @@ int32_t lmb_render_has_parts(const lmb_render *r)
     }
     switch (r->stage) {
     case LMB_STAGE_SHADOW_MAP:
-        return r->light == 0 && r->progress == 0;
     case LMB_STAGE_POINTS:
-        return points_have_parts(r);
     case LMB_STAGE_BOUNCES:
-        return has_bounces(r) && r->progress == 0 && !requires_transfer(&r->frame);
+        return lmb_render_solve_has_parts(r);
     case LMB_STAGE_VIEW:
         return r->progress == 0 && !reuses(r, LMB_REUSE_VIEW);
     case LMB_STAGE_SAMPLES:
@@ -130,14 +116,7 @@ float lmb_render_progress(const char **name, const lmb_render *r)
         done = (float)r->light / lights;
         break;
     case LMB_STAGE_BOUNCES:
-        if (requires_transfer(&r->frame)) {
-            const uint32_t *count = r->frame.transfer->count;
-            done = (float)r->progress /
-                   maxf((float)count[LMB_TRANSFER_RECEIVERS] + (float)count[LMB_TRANSFER_CLUSTERS], 1.0f);
-            break;
-        }
-        done = ((float)r->light + (float)r->progress / maxf((float)lmb_elements_tiles(&r->frame.elements), 1.0f)) /
-               maxf((float)radiosity_bounces(r), 1.0f);
+        done = lmb_render_solve_done(r);
         break;
     case LMB_STAGE_VIEW:
         done = (float)r->progress / triangles;

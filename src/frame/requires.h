@@ -201,6 +201,16 @@ static inline lmb_cut_params cut_params_of(const lmb_frame *f, lmb_stats *stats)
     return c;
 }
 
+/* A query for elements, which a pixel sees many of: their errors may be larger. */
+static inline lmb_many_lights_query elements_query(const lmb_frame *f, lmb_stats *stats)
+{
+    enum { TIMES = 2 }; /* a pixel's error; with 4 spots lose 1 % of light */
+    const float error = (f->many_lights_error > 0.0f ? f->many_lights_error : 0.02f) * (float)TIMES;
+    const lmb_many_lights_query query = {f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, error, 1, 0,
+                                         stats};
+    return query;
+}
+
 /* Adds the cut counts of a scratch; builds without trees have none. */
 static inline void add_counts(lmb_stats *stats, const lmb_stats *counts)
 {

@@ -12,71 +12,14 @@
 /* A build without trees refuses frames that need them (lmb_render_check), so none of these is ever called. */
 #if !LMB_TREES
 #undef lmb_glossy_tile
-#undef lmb_gather_cut
 #undef lmb_many_lights_direct_tile
 #undef lmb_bvh_build
-#undef lmb_tree_texels
-#undef lmb_elements_receive
 #define lmb_glossy_tile(...)             (never(LMB_LAYOUT(lmb_glossy_tile)(__VA_ARGS__)) == LMB_OK)
-#define lmb_gather_cut(...)       never(LMB_LAYOUT(lmb_gather_cut)(__VA_ARGS__))
 #define lmb_many_lights_direct_tile(...) never(LMB_LAYOUT(lmb_many_lights_direct_tile)(__VA_ARGS__))
 #define lmb_bvh_build(...)               never(LMB_LAYOUT(lmb_bvh_build)(__VA_ARGS__))
-#define lmb_tree_texels(...)      never(LMB_LAYOUT(lmb_tree_texels)(__VA_ARGS__))
-#define lmb_elements_receive(...) never(LMB_LAYOUT(lmb_elements_receive)(__VA_ARGS__))
 #define lmb_compose_glossy(...)          never(lmb_compose_glossy(__VA_ARGS__))
-#define lmb_tree_sum(...)         never(lmb_tree_sum(__VA_ARGS__))
-#define lmb_elements_build(...)   never(lmb_elements_build(__VA_ARGS__))
-#define lmb_elements_rest(...)    never(lmb_elements_rest(__VA_ARGS__))
-#define lmb_elements_send(...)    never(lmb_elements_send(__VA_ARGS__))
-#undef lmb_many_lights_elements
-#define lmb_many_lights_elements(...)    never(LMB_LAYOUT(lmb_many_lights_elements)(__VA_ARGS__))
-#define lmb_many_lights_elements_done(...) never(lmb_many_lights_elements_done(__VA_ARGS__))
-#define lmb_elements_tiles(...)   never(lmb_elements_tiles(__VA_ARGS__))
-#endif
-
-#if !LMB_BOUNCE
-#undef lmb_gather_tile
-#undef lmb_group_points
-#undef lmb_points_collect
-#define lmb_gather_tile(...)      never(LMB_LAYOUT(lmb_gather_tile)(__VA_ARGS__))
-#define lmb_group_points(...)     never(LMB_LAYOUT(lmb_group_points)(__VA_ARGS__))
-#define lmb_points_collect(...)   never(LMB_LAYOUT(lmb_points_collect)(__VA_ARGS__))
-#define lmb_discs_join(...)       never(lmb_discs_join(__VA_ARGS__))
-#define lmb_points_part(...)      never(lmb_points_part(__VA_ARGS__))
-#define lmb_points_put_together(...) ((void)sizeof(lmb_points_put_together(__VA_ARGS__), 0))
-#define lmb_points_have_room(...) ((void)sizeof(lmb_points_have_room(__VA_ARGS__)), 0)
-#endif
-
-#if !LMB_TREES
-#define lmb_lattice_bytes(...)        ((void)sizeof(lmb_lattice_bytes(__VA_ARGS__)), (size_t)0)
-#define lmb_lattice_init(...)         never(lmb_lattice_init(__VA_ARGS__))
-#endif
-
-#if !LMB_LIVE
-#undef lmb_live_collect
-#define lmb_live_collect(...) never(LMB_LAYOUT(lmb_live_collect)(__VA_ARGS__))
-#undef lmb_elements_receive_live
-#define lmb_elements_receive_live(...) never(LMB_LAYOUT(lmb_elements_receive_live)(__VA_ARGS__))
-#define lmb_live_build(...)         never(lmb_live_build(__VA_ARGS__))
-#define lmb_elements_live(...)      never(lmb_elements_live(__VA_ARGS__))
-#define lmb_elements_rest_live(...) never(lmb_elements_rest_live(__VA_ARGS__))
-#endif
-
-#if !LMB_TRANSFER
-#define lmb_transfer_clear(...)     never(lmb_transfer_clear(__VA_ARGS__))
-#define lmb_transfer_collect(...)   never(lmb_transfer_collect(__VA_ARGS__))
-#define lmb_transfer_bounce(...)    never(lmb_transfer_bounce(__VA_ARGS__))
-#define lmb_transfer_rest(...)      never(lmb_transfer_rest(__VA_ARGS__))
-#define lmb_transfer_send(...)      never(lmb_transfer_send(__VA_ARGS__))
-#define lmb_transfer_receivers(...) never(lmb_transfer_receivers(__VA_ARGS__))
-#define lmb_transfer_tiles(...)     never(lmb_transfer_tiles(__VA_ARGS__))
-#undef lmb_transfer_tile
-#define lmb_transfer_tile(...)      never(LMB_LAYOUT(lmb_transfer_tile)(__VA_ARGS__))
-#endif
-
-#if !LMB_TRANSFER || !LMB_TREES
-#undef lmb_transfer_many_lights
-#define lmb_transfer_many_lights(...) never(LMB_LAYOUT(lmb_transfer_many_lights)(__VA_ARGS__))
+#define lmb_lattice_bytes(...)           ((void)sizeof(lmb_lattice_bytes(__VA_ARGS__)), (size_t)0)
+#define lmb_lattice_init(...)            never(lmb_lattice_init(__VA_ARGS__))
 #endif
 
 #define UNIT_TRIANGLES 1024u /* of a draw, in one unit of a step */
@@ -109,8 +52,14 @@ lmb_status lmb_render_solve(lmb_render *r, int32_t units);
 lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
                                  lmb_stats *stats);
 
+/* Can the current face or bounce be split into parts? */
+int lmb_render_solve_has_parts(const lmb_render *r);
+
 /* Call this after all parts of the current face or bounce. Returns LMB_MORE if the stage has another one. */
 lmb_status lmb_render_solve_on(lmb_render *r, int32_t parts);
+
+/* The share of LMB_STAGE_BOUNCES that is done, 0 .. 1. */
+float lmb_render_solve_done(const lmb_render *r);
 
 /* LMB_STAGE_VIEW. */
 lmb_status lmb_render_view(lmb_render *r, int32_t units);

@@ -47,7 +47,7 @@ static int fill(GLuint list, int others)
 int main(void)
 {
     const struct rlimit limit = {(rlim_t)12 << 20, (rlim_t)12 << 20}; /* so a context has 8 MiB or less */
-    int wrong = 0, least = MOST, most = 0;
+    int wrong = 0, low = MOST, high = 0;
     if (setrlimit(RLIMIT_AS, &limit) != 0) {
         return 1;
     }
@@ -59,8 +59,8 @@ int main(void)
     for (int round = 0; round < ROUNDS; ++round) {
         const int vertices = fill(1, round % 4 != 0);
         if (round % 4 == 0) { /* lists of the same calls hold the same number */
-            least = vertices < least ? vertices : least;
-            most = vertices > most ? vertices : most;
+            low = vertices < low ? vertices : low;
+            high = vertices > high ? vertices : high;
         }
         glClear(GL_COLOR_BUFFER_BIT);
         glCallList(1);
@@ -71,9 +71,9 @@ int main(void)
         wrong += vertices < 10000 || vertices >= MOST;
         glDeleteLists(1, 1);
     }
-    wrong += least != most;
+    wrong += low != high;
     if (wrong != 0) {
-        fprintf(stderr, "%d wrong; %d to %d vertices\n", wrong, least, most);
+        fprintf(stderr, "%d wrong; %d to %d vertices\n", wrong, low, high);
     }
     OSMesaDestroyContext(c);
     return wrong != 0;
