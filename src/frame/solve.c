@@ -180,14 +180,18 @@ int lmb_render_solve_has_parts(const lmb_render *r)
 lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
                                  lmb_stats *stats)
 {
+    const frame_solver *solver = lmb_solver_of(&r->frame);
     if (r->stage == LMB_STAGE_SHADOW_MAP) {
         return part_shadow_map(r, part, parts, stats);
     }
+    if (solver == NULL) {
+        return LMB_ERR_ARG;
+    }
     if (r->stage == LMB_STAGE_POINTS) {
-        return is_drawn(r) ? lmb_solver_of(&r->frame)->part(r, &scratch->tile, part, parts) : LMB_OK;
+        return is_drawn(r) ? solver->part(r, &scratch->tile, part, parts) : LMB_OK;
     }
 #if LMB_TREES
-    return lmb_solve_elements_part(r, lmb_solver_of(&r->frame), scratch, part, parts, stats);
+    return lmb_solve_elements_part(r, solver, scratch, part, parts, stats);
 #else
     return LMB_ERR_ARG;
 #endif
