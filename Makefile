@@ -99,9 +99,20 @@ measure_contact := tests/truth/path.c $(SCENES_SRC)
 MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
 measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c) $(measure_$(1))) \
     $(TOOLS_OBJ)
-# The part of the tool that draws a scene.
-PICTURE_OBJ := $(call object,tools/cli/main_demo.c $(filter-out %/main_demo.c,$(foreach d,common picture mesh model demo render,\
-              $(filter $(TOOL_SRC),$(wildcard tools/$(d)/*.c)))) $(HOST_SRC))
+# What draws the built-in scene: main_demo.c replaces the readers of files and what only they need. On x86-64 SSE2 is the
+# only backend, because the others take half of the time to compile the library.
+PICTURE_TOOLS := $(filter-out $(addprefix tools/,common/io_json.c common/merge.c common/frame_name.c common/key_path.c \
+              common/text_buffer.c render/bench_calibrate.c render/budget.c render/render_world.c render/scene_sample.c \
+              render/wireframe.c),$(filter tools/common/% tools/render/%,$(TOOL_SRC))) \
+              $(addprefix tools/,demo/demo_scene.c model/scene_hash.c) \
+              $(addprefix tools/picture/,grey.c image.c io_deflate.c io_hdr.c io_pfm.c io_png_write.c io_ppm.c picture.c)
+PICTURE_LIB := $(filter-out src/draw/% src/mixed/% src/relief/% src/vertex/% src/frame/plan% src/frame/relight.c \
+              src/frame/render_vertices.c $(filter-out src/probe/env.c,$(wildcard src/probe/*.c)),$(LIB_SRC))
+PICTURE_OBJ := $(call object,tools/cli/main_demo.c $(PICTURE_TOOLS) $(addprefix platform/host/,host.c pool.c limit.c))
+HAS_SSE2   := $(if $(filter host,$(PORT)),$(shell echo LMB_HAVE_SSE2 | \
+              $(CC) $(FLAGS) -include src/lane/backends.h -E -P -x c - 2>/dev/null | tail -n 1))
+PICTURE_OBJ += $(if $(filter 1,$(HAS_SSE2)),$(B)/obj/tools/demo/isa_pick.o $(call object,src/isa/isa_sse2.c \
+              $(filter-out src/isa/%,$(PICTURE_LIB))),$(call object,$(PICTURE_LIB)))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 # The room: the port's ROOM_SRC (default: the start-up sources) and the sources that all ports share. If the emulator
@@ -142,7 +153,7 @@ lib: $(LIB)
 .PHONY: bench install-bench
 bench: $(BENCH) ## the second tool (build/lambent-bench): speed against error, rates of this computer, hard cases
 
-demo: $(B)/demo-picture ## the library, and a picture of the built-in scene in build/demo.png
+demo: $(B)/demo-picture ## a picture of the built-in scene in build/demo.png, with only what it needs of library and tool
 	@$< $(BUILD)/demo.png
 
 pictures: $(TOOL) ## draws the README's pictures of relight, relief and mix into build/default/pictures
@@ -218,7 +229,7 @@ $(TOOL): $(TOOL_OBJ) $(LIB)
 $(BENCH): $(BENCH_OBJ) $(LIB)
 $(B)/tests: $(TEST_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
-$(B)/demo-picture: $(PICTURE_OBJ) $(LIB)
+$(B)/demo-picture: $(PICTURE_OBJ)
 $(B)/golden-one: $(GOLDEN_ONE_OBJ)
 $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
@@ -251,6 +262,10 @@ export FLAGS_LINE := $(COMPILE) $(LINK) $(PORT_LDLIBS) $(LDLIBS)
 $(B)/flags: FORCE
 	@mkdir -p $(OBJ_DIRS)
 	@printf '%s\n' "$$FLAGS_LINE" | cmp -s - $@ || printf '%s\n' "$$FLAGS_LINE" > $@
+
+# lmb_kernels_pick with a choice of one.
+$(B)/obj/tools/demo/isa_pick.o: src/isa/isa_pick.c $(B)/flags
+	@$(COMPILE) -DLMB_PICK_SSE2 $(foreach b,AVX512 AVX2,-ULMB_HAVE_$(b) -DLMB_HAVE_$(b)=0) -c $< -o $@
 
 # Counts operations of all kernels. Optimisation does not change the counts, and would take a fifth of the build.
 $(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0 $(if $(findstring -fsanitize,$(CFLAGS)),-fno-sanitize=all)

@@ -45,8 +45,13 @@ static const struct backend {
     const lmb_kernels *kernels;
     int (*is_here)(void);
 } backends[] = {
+#if defined(LMB_PICK_SSE2) /* in `make demo` */
+    {&lmb_kernels_sse2, has_sse2},
+#else
 #define MACHINE_OF(upper, lower) LMB_IF(LMB_HAVE_##upper, {&lmb_kernels_##lower, has_##lower}, )
-    LMB_BACKENDS(MACHINE_OF)};
+    LMB_BACKENDS(MACHINE_OF)
+#endif
+};
 enum { BACKENDS = sizeof backends / sizeof backends[0] };
 
 const lmb_kernels *lmb_kernels_at(int32_t i)

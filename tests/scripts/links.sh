@@ -1,10 +1,11 @@
-# links.sh: checks that every program of the tree links, and that the sources of `make prove` compile: MAKE B CC and
-# PROGRAMS, the programs' paths, in the environment.
+# links.sh: checks that every program of the tree links, that the one of `make demo` has no more than it needs, and that
+# the sources of `make prove` compile: MAKE B CC NM TOOL and PROGRAMS, the programs' paths, in the environment.
 #
 # The measure programs lie in $B/links, where their own sources are compiled at -O0.
 . tests/scripts/checks.sh
 
 # If make inherits these variables, it rebuilds everything and links the libraries twice.
+tool=$TOOL
 unset LDLIBS FLAGS LIB TOOL
 mkdir -p "$B/links"
 log=$B/links/log
@@ -17,6 +18,15 @@ for program in $PROGRAMS; do
     check "$program does not link" test -x "$program"
 done
 check "make ends with status $status: $(grep -E 'undefined reference|error|\*\*\*' "$log" | head -n 5)" test $status -eq 0
+
+# Compiling the other backends and the readers of files would double the time of `make demo`.
+has=$($NM "$B/demo-picture" | awk '{ print $NF }')
+case $has in *lmb_kernels_sse2*) more='lmb_kernels_(avx2|avx512|scalar)|' ;; *) more= ;; esac
+more=$(printf '%s\n' "$has" | grep -xE "${more}gltf_load|picture_read|lmb_draw_list|lmb_fixed_.*|lmb_plan_.*" | tr '\n' ' ')
+check "demo-picture has what it does not need: $more" test -z "$more"
+check "demo-picture fails" "$B/demo-picture" "$B/links/demo.png"
+check "lambent render demo fails" "$tool" render demo -q -o "$B/links/rendered.png"
+check "demo-picture and lambent render demo draw different pictures" cmp "$B/links/demo.png" "$B/links/rendered.png"
 
 # Frama-C reads these without __GNUC__.
 for source in tests/static/*.c; do
