@@ -142,7 +142,16 @@ typedef struct traversal {
     float noise; /* of both ends */
     lmb_traversal *kept;
     uint64_t left; /* pixels not blocked so far */
+    uint32_t *own; /* by pixel: the triangle that blocked it last, as in kept->last; or NULL */
 } traversal;
+
+/* Notes the triangle, as in kept->last, that blocks pixels. */
+static void keep_own(const traversal *w, uint64_t blocked, uint32_t triangle)
+{
+    for (uint64_t bits = w->own != NULL ? blocked : 0; bits != 0; bits &= bits - 1) {
+        w->own[lowest_bit_64(bits)] = triangle;
+    }
+}
 
 /* As standing(), and counts the cost: READ_MASKED tests for the triangle, and one for each pixel. */
 static uint64_t test_holes(traversal *w, const lmb_bvh_triangle *t, const lmb_cross_job *job, uint64_t crossed)
@@ -158,7 +167,9 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     lmb_cross_job job;
     if (cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept)) {
         const uint64_t crossed = w->kernels->crossed(w->tile, w->left & asked, &job);
-        w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? test_holes(w, t, &job, crossed) : crossed);
+        const uint64_t blocked = crossed != 0 && (t->id & LMB_BVH_MASKED) ? test_holes(w, t, &job, crossed) : crossed;
+        w->left &= ~blocked;
+        keep_own(w, blocked, triangle + 1);
         w->kept->blocker = crossed != 0 ? triangle + 1 : w->kept->blocker;
     }
 }
@@ -355,16 +366,31 @@ static int one_blocked(traversal *w, int k)
     }
 }
 
+/* Tests the triangle that blocked each pixel last. */
+static void test_own(traversal *w)
+{
+    uint64_t seen = w->left;
+    for (uint64_t bits = w->own != NULL ? seen : 0; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        ray r;
+        r.d = sub3(tile_vec(w->tile->position, k), w->at);
+        w->left = bits & (~bits + 1);
+        seen &= ~(w->own[k] != 0 && blocks_one(w, w->own[k] - 1, &r) ? w->left : 0);
+    }
+    w->left = seen;
+}
+
 static uint64_t trace(traversal *w)
 {
     lmb_traversal *kept = w->kept;
     const uint64_t pixels = w->left;
     uint64_t occluded = 0;
+    test_own(w);
     if (kept->first != 0) {
         test_triangle(w, kept->first - 1, pixels);
-        if (w->left == 0) {
-            return pixels;
-        }
+    }
+    if (w->left == 0) {
+        return pixels;
     }
     if (count_bits_64(w->left) > FEW) {
         if (test_last(w)) {
@@ -387,8 +413,9 @@ static uint64_t trace(traversal *w)
         w->left = now;
         if ((now & (now - 1)) != 0) {
             (void)trace_together(w, ~0u);
-        } else {
-            w->left = one_blocked(w, lowest_bit_64(now)) ? 0 : now;
+        } else if (one_blocked(w, lowest_bit_64(now))) {
+            w->left = 0;
+            keep_own(w, now, kept->blocker);
         }
         occluded |= now & ~w->left;
         bits &= ~now;
@@ -407,7 +434,13 @@ static uint64_t trace(traversal *w)
 uint64_t lmb_occluded_tile(const lmb_kernels *kernels, lmb_traversal *kept, const lmb_bvh *bvh, const lmb_tile *tile,
                            uint64_t pixels, lmb_vec3 at, float noise)
 {
-    traversal w = {bvh, kernels, tile, at, noise, kept, pixels};
+    return lmb_occluded_again(kernels, kept, NULL, bvh, tile, pixels, at, noise);
+}
+
+uint64_t lmb_occluded_again(const lmb_kernels *kernels, lmb_traversal *kept, uint32_t *own, const lmb_bvh *bvh,
+                            const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise)
+{
+    traversal w = {bvh, kernels, tile, at, noise, kept, pixels, own};
     if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
         return 0;
     }

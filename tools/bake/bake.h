@@ -89,6 +89,7 @@ typedef struct bake_target {
 typedef struct bake_receiver {
     lmb_vec3 place, at; /* `at` lies a little inside the triangle that has `place` as a corner */
     float light; /* sum of row times element light (from bake_reach); near 0 in a solid */
+    uint16_t *directions; /* rows along x, y and z, one after another, for bake_directed; or NULL */
     bake_target target;
 } bake_receiver;
 
@@ -116,6 +117,7 @@ typedef struct bake {
     uint32_t small_count;
     int has_cluster_m; /* the settings give the cluster size: do not shrink clusters to get more of them */
     uint32_t *coarse; /* counts calls with coarser visibility, because a job ran out of tests; NULL: not counted */
+    uint64_t *tests; /* counts visibility tests of rows: nodes, leaves, triangles, pixels against holes; or NULL */
     int by_middles; /* rows use only the middles of elements */
     int is_coded;   /* the areas of targets were added to their parents */
 
@@ -292,8 +294,10 @@ float bake_surplus(const bake *b, const float *row);
 int bake_receivers(bake *b, report *r);
 int bake_clusters(bake *b, report *r);
 
-/* bake_directed: turns the receivers of surfaces with a normal map or a lobe into clusters; call it after both.
- * bake_cluster_rows: computes the rows of clusters along x, y and z; put neighbours next to each other. */
+/* bake_takes_direction: returns whether a material has a normal map or a lobe. bake_directed: turns the receivers of
+ * such surfaces into clusters; call it after both. bake_cluster_rows: computes the rows of clusters along x, y and z;
+ * put neighbours next to each other. */
+int bake_takes_direction(const lmb_material *m);
 int bake_directed(bake *b, report *r);
 int bake_cluster_rows(bake *b, bake_cluster *const *cluster, uint32_t all, report *r);
 

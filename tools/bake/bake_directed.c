@@ -29,7 +29,7 @@ typedef struct directing {
 
 /* --- leaves ------------------------------------------------------------------------------------------------------- */
 
-static int takes_direction(const lmb_material *m)
+int bake_takes_direction(const lmb_material *m)
 {
     return m->normal_scale != 0.0f || largest3(vec3(m->specular[0], m->specular[1], m->specular[2])) > 0.0f;
 }
@@ -59,7 +59,7 @@ static int mark_triangles(const directing *d)
         const uint32_t *surface =
             b->section[LMB_TRANSFER_SURFACES].data + LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1);
         lmb_triangle t;
-        if (!lmb_triangle_fetch(&t, b->scene, id) || !takes_direction(t.material) || bake_is_small(b, t.corner)) {
+        if (!lmb_triangle_fetch(&t, b->scene, id) || !bake_takes_direction(t.material) || bake_is_small(b, t.corner)) {
             continue;
         }
         for (int back = 0; back < 2; ++back) {
@@ -115,9 +115,11 @@ static int add_cluster(directing *d, uint32_t i)
 {
     bake *b = d->b;
     bake_words *blends = &b->section[LMB_TRANSFER_BLENDS];
-    const bake_receiver *from = &b->receiver[i];
+    bake_receiver *from = &b->receiver[i];
     bake_cluster *to = &b->cluster[b->cluster_count];
     memset(to, 0, sizeof *to);
+    to->target.row = from->directions;
+    from->directions = NULL;
     to->at = from->at;
     to->target.normal = from->target.normal;
     for (int k = 0; k < 2 && from->target.share[k] > 0.0f; ++k) {
@@ -151,6 +153,7 @@ static void drop_receivers(directing *d)
         bake_target *t = &b->receiver[i].target;
         if ((d->need[i].as & FLAT) == 0) {
             free(t->row);
+            free(b->receiver[i].directions);
             continue;
         }
         for (int k = 0; k < BAKE_PARENTS; ++k) {
@@ -229,18 +232,22 @@ static int by_key(const void *a, const void *b)
     return x->key != y->key ? (x->key < y->key ? -1 : 1) : x < y ? -1 : 1;
 }
 
-/* Puts neighbours next to each other, because they see the same geometry. */
+/* Computes the rows that the division left out. Puts neighbours next to each other, because they see the same
+ * geometry. */
 static int make_rows(directing *d)
 {
     bake *b = d->b;
-    const uint32_t count = b->cluster_count - d->first;
-    bake_cluster **order = malloc(((size_t)count + 1) * sizeof *order);
+    uint32_t count = 0;
+    bake_cluster **order = malloc(((size_t)b->cluster_count - d->first + 1) * sizeof *order);
     if (order == NULL) {
-        return report_fail(d->r, "not enough memory for %u receivers", (unsigned)count);
+        return report_fail(d->r, "not enough memory for %u receivers", (unsigned)(b->cluster_count - d->first));
     }
-    for (uint32_t i = 0; i < count; ++i) {
-        order[i] = &b->cluster[d->first + i];
-        order[i]->key = bake_key(b->scene, order[i]->at, order[i]->target.normal);
+    for (uint32_t i = d->first; i < b->cluster_count; ++i) {
+        if (b->cluster[i].target.row == NULL) {
+            order[count] = &b->cluster[i];
+            order[count]->key = bake_key(b->scene, order[count]->at, order[count]->target.normal);
+            ++count;
+        }
     }
     qsort(order, count, sizeof *order, by_key);
     const int ok = bake_cluster_rows(b, order, count, d->r);

@@ -114,6 +114,7 @@ void bake_free(bake *b)
 {
     for (uint32_t i = 0; i < b->receiver_count; ++i) {
         free(b->receiver[i].target.row);
+        free(b->receiver[i].directions);
         free(b->receiver[i].target.link.data);
     }
     for (uint32_t i = 0; i < b->cluster_count; ++i) {

@@ -15,7 +15,10 @@ enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64, PLACES = 4 };
 #define BURIED 2.0f /* times the light of the brightest corner: if an inner point has more, the corners are buried */
 #define WAIT   0.1f  /* of the worst error: smaller errors wait, because receivers may run out */
 #define LOOK   0.45 /* cost of a sample point, in rows of a receiver */
+#define ACROSS 1.1 /* cost of a receiver's three rows */
 #define STANDS 0.1f /* surplus of a triangle that geometry touches; differences between corners are no estimate there */
+
+enum { WHOLE, DIRECTED, SAMPLE };
 
 /* A triangle of the division. */
 typedef struct piece {
@@ -24,6 +27,8 @@ typedef struct piece {
     uint32_t mid; /* receiver at the midpoint of the longest edge */
     int from, depth;
     int must_split; /* other geometry touches it */
+    int takes_direction; /* its receivers keep light by direction */
+    int is_shared;  /* a neighbour made `mid` */
     float surplus, error;
     uint32_t source; /* node of the element pieces that contains this piece; both trees halve alike */
     float light;     /* the most that reaches an element there */
@@ -39,6 +44,7 @@ typedef struct wanted {
     lmb_vec3 at, normal;
     uint32_t parent[3], receiver; /* receiver NONE: a sample, compared with the mean of three parents */
     size_t piece;
+    int kind;     /* WHOLE, DIRECTED: a receiver; SAMPLE */
     uint32_t key; /* position on a Z curve, by the octant of the normal */
     float surplus;
     size_t number;
@@ -133,12 +139,14 @@ static uint32_t find(divider *d, lmb_vec3 at, lmb_vec3 own, lmb_vec3 normal)
     return LMB_TRANSFER_NONE;
 }
 
-static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, lmb_vec3 normal, uint32_t a, uint32_t b,
+static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, const piece *p, uint32_t a, uint32_t b,
                              int shared)
 {
+    const lmb_vec3 normal = p->normal;
     bake *k = d->b;
     size_t cap = k->receiver_cap;
-    const wanted w = {at, normal, {a, b, LMB_TRANSFER_NONE}, k->receiver_count, (size_t)-1, 0, 0.0f, 0};
+    const wanted w = {at, normal, {a, b, LMB_TRANSFER_NONE}, k->receiver_count, (size_t)-1,
+                      p->takes_direction ? DIRECTED : WHOLE, 0, 0.0f, 0};
     if (k->receiver_count >= d->mask / 2 ||
         !grow((void **)&k->receiver, &cap, k->receiver_count, sizeof *k->receiver, d->r) || !enqueue(d, &w)) {
         report_fail(d->r, "too many receivers: %u", (unsigned)k->receiver_count);
@@ -163,11 +171,11 @@ static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, lmb_vec3 n
     return k->receiver_count++;
 }
 
-static uint32_t receiver_at(divider *d, lmb_vec3 at, lmb_vec3 normal, lmb_vec3 towards, uint32_t a, uint32_t b)
+static uint32_t receiver_at(divider *d, lmb_vec3 at, const piece *p, uint32_t a, uint32_t b)
 {
-    const lmb_vec3 own = bake_pulled(d->b, at, towards);
-    const uint32_t there = find(d, at, own, normal);
-    return there != LMB_TRANSFER_NONE ? there : add_receiver(d, at, own, normal, a, b, 1);
+    const lmb_vec3 own = bake_pulled(d->b, at, triangle_middle(p->corner));
+    const uint32_t there = find(d, at, own, p->normal);
+    return there != LMB_TRANSFER_NONE ? there : add_receiver(d, at, own, p, a, b, 1);
 }
 
 /* --- geometry that touches a triangle ----------------------------------------------------------------------------- */
@@ -190,7 +198,7 @@ static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t pa
     p->receiver[k] =
         there != LMB_TRANSFER_NONE
             ? there
-            : add_receiver(d, at, at, p->normal, parent, parent, 0);
+            : add_receiver(d, at, at, p, parent, parent, 0);
     return p->receiver[k] != LMB_TRANSFER_NONE;
 }
 
@@ -235,6 +243,17 @@ typedef struct batch {
     const float *times; /* NULL: rows are whole */
 } batch;
 
+/* Stores three rows by axis, which lie one after another. The first becomes the row along the normal. */
+static void put_directions(uint16_t *to, float *row, uint32_t n, lmb_vec3 normal)
+{
+    for (size_t i = 0; i < 3 * (size_t)n; ++i) {
+        to[i] = bake_short(row[i]);
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        row[i] = maxf(dot3(vec3(row[i], row[n + i], row[2 * (size_t)n + i]), normal), 0.0f);
+    }
+}
+
 /* Stores the row of a receiver. If it has parents, the surplus measures the difference from their mean. */
 static void settle(void *user, int index, int worker)
 {
@@ -242,9 +261,13 @@ static void settle(void *user, int index, int worker)
     const bake *b = k->d->b;
     const uint32_t n = b->set.elements;
     wanted *w = &k->wanted[index];
-    float *row = k->row[index];
+    const int is_directed = w->kind == DIRECTED;
+    float *row = k->row[is_directed ? 3 * index : index];
     const int parents = w->parent[0] == LMB_TRANSFER_NONE ? 0 : w->parent[2] == LMB_TRANSFER_NONE ? 2 : 3;
     (void)worker;
+    if (is_directed) {
+        put_directions(b->receiver[w->receiver].directions, row, n, w->normal);
+    }
     if (w->receiver != LMB_TRANSFER_NONE) {
         bake_receiver *v = &b->receiver[w->receiver];
         v->light = 0.0f;
@@ -268,8 +291,8 @@ static void settle(void *user, int index, int worker)
 static int by_key(const void *a, const void *b)
 {
     const wanted *x = a, *y = b;
-    if ((x->receiver == LMB_TRANSFER_NONE) != (y->receiver == LMB_TRANSFER_NONE)) {
-        return x->receiver == LMB_TRANSFER_NONE ? 1 : -1;
+    if (x->kind != y->kind) {
+        return x->kind < y->kind ? -1 : 1;
     }
     if (x->key != y->key) {
         return x->key < y->key ? -1 : 1;
@@ -279,13 +302,18 @@ static int by_key(const void *a, const void *b)
 
 static int keep_rows(divider *d, const wanted *w, int count, report *r)
 {
-    for (int k = 0; k < count; ++k) {
-        bake_target *t = w[k].receiver != LMB_TRANSFER_NONE ? &d->b->receiver[w[k].receiver].target : NULL;
-        if (t != NULL && t->row == NULL && (t->row = malloc(d->b->set.elements * sizeof *t->row)) == NULL) {
-            return report_fail(r, "not enough memory for %u receivers", (unsigned)d->b->receiver_count);
+    const size_t n = d->b->set.elements;
+    int ok = 1;
+    for (int k = 0; k < count && w[k].kind != SAMPLE; ++k) {
+        bake_receiver *v = &d->b->receiver[w[k].receiver];
+        v->target.row = v->target.row != NULL ? v->target.row : malloc(n * sizeof *v->target.row);
+        if (w[k].kind == DIRECTED && v->directions == NULL) {
+            v->directions = malloc(3 * n * sizeof *v->directions);
+            ok = ok && v->directions != NULL;
         }
+        ok = ok && v->target.row != NULL;
     }
-    return 1;
+    return ok || report_fail(r, "not enough memory for %u receivers", (unsigned)d->b->receiver_count);
 }
 
 /* The queue, split into batches. */
@@ -293,7 +321,7 @@ typedef struct queue_step {
     divider *d;
     size_t *first; /* index per batch; then the end */
     int32_t batches;
-    float *memory, *row[BATCH];
+    float *memory, *row[3 * BATCH];
 } queue_step;
 
 static int count_of(const queue_step *q, int32_t i) { return (int)(q->first[i + 1] - q->first[i]); }
@@ -330,15 +358,16 @@ static int make_batch(void *user, int32_t number, report *r)
     const queue_step *q = user;
     divider *d = q->d;
     wanted *w = &d->queue[q->first[number]];
-    const int is_look = w->receiver == LMB_TRANSFER_NONE, count = count_of(q, number);
-    float *times = is_look ? q->memory + BATCH * (size_t)d->b->set.elements : NULL;
+    const int count = count_of(q, number);
+    float *times = w->kind == SAMPLE ? q->memory + BATCH * (size_t)d->b->set.elements : NULL;
     lmb_vec3 at[BATCH], normal[BATCH];
     batch k = {d, w, q->row, times};
     for (int i = 0; i < count; ++i) {
         at[i] = w[i].at;
         normal[i] = w[i].normal;
     }
-    if (!keep_rows(d, w, count, r) || !bake_rows(d->b, at, normal, count, 1, q->row, times, r)) {
+    if (!keep_rows(d, w, count, r) ||
+        !bake_rows(d->b, at, normal, count, w->kind == DIRECTED ? 3 : 1, q->row, times, r)) {
         return 0;
     }
     pool_run(d->b->set.threads, count, settle, &k);
@@ -349,8 +378,8 @@ static int make_batch(void *user, int32_t number, report *r)
 static double weight_of(const void *user, int32_t number)
 {
     const queue_step *q = user;
-    const int is_look = q->d->queue[q->first[number]].receiver == LMB_TRANSFER_NONE;
-    return (double)count_of(q, number) * (is_look ? LOOK : 1.0);
+    static const double cost[] = {1.0, ACROSS, LOOK}; /* by kind */
+    return (double)count_of(q, number) * cost[q->d->queue[q->first[number]].kind];
 }
 
 static void put_batch(const void *user, int32_t number, byte_buffer *to)
@@ -363,6 +392,9 @@ static void put_batch(const void *user, int32_t number, byte_buffer *to)
         if (v != NULL && v->target.row != NULL) {
             byte_put_float(to, v->light);
             bake_put_halves(to, v->target.row, q->d->b->set.elements);
+            if (v->directions != NULL) {
+                bake_put_halves(to, v->directions, 3 * (size_t)q->d->b->set.elements);
+            }
         }
     }
 }
@@ -378,7 +410,9 @@ static int get_batch(void *user, int32_t number, byte_reader *from)
         w->surplus = byte_get_float(from);
         if (v != NULL) {
             v->light = byte_get_float(from);
-            ok = bake_get_halves(v->target.row, q->d->b->set.elements, from);
+            ok = bake_get_halves(v->target.row, q->d->b->set.elements, from) &&
+                 (v->directions == NULL ||
+                  bake_get_halves(v->directions, 3 * (size_t)q->d->b->set.elements, from));
         }
         ok = ok && !from->is_short;
     }
@@ -388,7 +422,7 @@ static int get_batch(void *user, int32_t number, byte_reader *from)
     return ok;
 }
 
-/* Batches hold neighbours, because they see the same geometry. They never mix receivers and samples. */
+/* Batches hold neighbours, because they see the same geometry. They never mix kinds. */
 static int put_batches(queue_step *q)
 {
     const divider *d = q->d;
@@ -399,7 +433,7 @@ static int put_batches(queue_step *q)
     for (size_t i = 0; i < d->queued; ++i) {
         const wanted *w = &d->queue[q->batches > 0 ? q->first[q->batches - 1] : 0];
         if (q->batches == 0 || i - q->first[q->batches - 1] == BATCH ||
-            (d->queue[i].receiver == LMB_TRANSFER_NONE) != (w->receiver == LMB_TRANSFER_NONE)) {
+            d->queue[i].kind != w->kind) {
             q->first[q->batches++] = i;
         }
     }
@@ -416,10 +450,10 @@ static int make_rows(divider *d)
     }
     sort(d->queue, d->queued, sizeof *d->queue, by_key);
     const uint32_t n = d->b->set.elements;
-    queue_step q = {d, NULL, 0, malloc((BATCH + 1) * (size_t)n * sizeof(float)), {NULL}};
+    queue_step q = {d, NULL, 0, malloc(3 * BATCH * (size_t)n * sizeof(float)), {NULL}};
     int ok =
         (q.memory != NULL || report_fail(d->r, "not enough memory for %u elements", (unsigned)n)) && put_batches(&q);
-    for (int k = 0; k < BATCH; ++k) {
+    for (int k = 0; k < 3 * BATCH; ++k) {
         q.row[k] = ok ? q.memory + (size_t)k * n : NULL;
     }
     const bake_step step = {q.batches, weight_of, make_batch, put_batch, get_batch, &q};
@@ -432,7 +466,7 @@ static int make_rows(divider *d)
 
 /* --- division ----------------------------------------------------------------------------------------------------- */
 
-/* Queues the sample points of a piece: the midpoint of the longest edge, and the middle. */
+/* Queues the sample points of a piece: the midpoint of the longest edge, unless a neighbour did, and the middle. */
 static int look_at(divider *d, size_t i)
 {
     piece *p = &d->now.data[i];
@@ -440,26 +474,20 @@ static int look_at(divider *d, size_t i)
     const int to = (p->from + 1) % 3;
     p->mid = LMB_TRANSFER_NONE;
     p->surplus = 0.0f;
-    p->must_split = 0;
+    p->must_split = p->is_shared = 0;
     if (longest <= d->b->set.smallest_m || p->depth == DEPTH) {
         return 1;
     }
     const lmb_vec3 mid = mul3(add3(p->corner[p->from], p->corner[to]), 0.5f), middle = triangle_middle(p->corner);
     const size_t before = d->queued;
     p->must_split = !bake_stands_free(&d->sight, d->b, p->corner, p->normal);
-    p->mid = receiver_at(d, mid, p->normal, middle, p->receiver[p->from], p->receiver[to]);
-    if (d->queued > before) {
+    p->mid = receiver_at(d, mid, p, p->receiver[p->from], p->receiver[to]);
+    p->is_shared = d->queued == before;
+    if (!p->is_shared) {
         d->queue[before].piece = i;
-    } else if (p->mid != LMB_TRANSFER_NONE) { /* a neighbour made it: sample it once more */
-        const uint32_t a = p->receiver[p->from], b = p->receiver[to];
-        const wanted w = {
-            d->b->receiver[p->mid].at, p->normal, {a, b, LMB_TRANSFER_NONE}, LMB_TRANSFER_NONE, i, 0, 0.0f, 0};
-        if (!enqueue(d, &w)) {
-            return 0;
-        }
     }
-    const wanted w = {middle, p->normal, {p->receiver[0], p->receiver[1], p->receiver[2]}, LMB_TRANSFER_NONE, i, 0,
-                      0.0f,   0};
+    const wanted w = {middle, p->normal, {p->receiver[0], p->receiver[1], p->receiver[2]}, LMB_TRANSFER_NONE, i,
+                      SAMPLE, 0,         0.0f,                                              0};
     return p->mid != LMB_TRANSFER_NONE && enqueue(d, &w);
 }
 
@@ -659,6 +687,28 @@ static int by_place(const void *a, const void *b)
     return x->node < y->node ? -1 : 1;
 }
 
+/* Measures how far the midpoints that a neighbour made differ from the mean of the edge's ends. */
+static int compare_shared(divider *d)
+{
+    const uint32_t n = d->b->set.elements;
+    float *row = malloc(n * sizeof *row);
+    for (size_t i = 0; row != NULL && i < d->now.count; ++i) {
+        piece *p = &d->now.data[i];
+        const bake_receiver *v = d->b->receiver;
+        if (p->mid == LMB_TRANSFER_NONE || !p->is_shared) {
+            continue;
+        }
+        const uint16_t *mid = v[p->mid].target.row, *from = v[p->receiver[p->from]].target.row,
+                       *to = v[p->receiver[(p->from + 1) % 3]].target.row;
+        for (uint32_t k = 0; k < n; ++k) {
+            row[k] = bake_long(mid[k]) - 0.5f * bake_long(from[k]) - 0.5f * bake_long(to[k]);
+        }
+        p->surplus = maxf(p->surplus, bake_surplus(d->b, row));
+    }
+    free(row);
+    return row != NULL || report_fail(d->r, "not enough memory for %u elements", (unsigned)n);
+}
+
 /* Samples the current pieces. Those that can be halved wait with their errors; the others are leaves. */
 static int look_at_all(divider *d)
 {
@@ -668,7 +718,7 @@ static int look_at_all(divider *d)
             return 0;
         }
     }
-    if (!make_rows(d)) {
+    if (!make_rows(d) || !compare_shared(d)) {
         return 0;
     }
     for (size_t i = 0; i < d->now.count; ++i) {
@@ -713,8 +763,7 @@ static int add_parts(divider *d, const piece *p, uint32_t cut)
     if (c.first == 0) {
         piece own = *p;
         for (int k = 0; k < 3; ++k) {
-            own.receiver[k] = receiver_at(d, p->corner[k], p->normal, triangle_middle(p->corner), LMB_TRANSFER_NONE,
-                                          LMB_TRANSFER_NONE);
+            own.receiver[k] = receiver_at(d, p->corner[k], p, LMB_TRANSFER_NONE, LMB_TRANSFER_NONE);
             if (own.receiver[k] == LMB_TRANSFER_NONE) {
                 return 0;
             }
@@ -743,6 +792,7 @@ static int add_root(divider *d, const lmb_triangle *t, lmb_vec3 normal, uint32_t
     memset(&p, 0, sizeof p);
     memcpy(p.corner, t->corner, sizeof p.corner);
     p.normal = mul3(normal, back ? -1.0f : 1.0f);
+    p.takes_direction = bake_takes_direction(t->material);
     p.node = (uint32_t)divisions->count;
     p.source = d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + back];
     p.light = brightest(d->b, p.source);

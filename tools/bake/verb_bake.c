@@ -119,7 +119,7 @@ static const option_row rows[] = {
     {.name = "--report", .kind = OPTION_FLAG, AT(has_report), .help = "print the bytes of each part of the file"},
     OPTION_THREADS_ROW(options, threads, "bake the file"),
     OPTION_ONLY_HERE,
-    OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the time it took"),
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "print the time it took, and the number of visibility tests"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -132,7 +132,7 @@ static const option_table table = {
              "light would reach them from any light or camera of the scene, after any number of bounces: the "
              "insides of solids, and closed rooms without a light or camera (use --eye for these). If a scene has "
              "more than 64 cameras, the first 64 count.\nTakes seconds to minutes, and memory: 2 bytes x elements x "
-             "receivers, 6 bytes x elements x clusters, and up to 100 MB in addition to the scene; half a gigabyte "
+             "receivers (8 with a normal map or a lobe), 6 bytes x elements x clusters, and up to 100 MB in addition to the scene; half a gigabyte "
              "for a room with --quality best.\nSlices run at the same time, on machines that share the output's "
              "folder. They exchange results through OUT.shared; if a result does not arrive in time, a slice "
              "computes it itself.",
@@ -319,8 +319,10 @@ static int bake_scene(const options *o, const lmb_scene *whole, const model *loa
     set.threads = pool_threads(o->threads);
     set.is_swapped = o->is_big != is_own_big();
     uint32_t moving[MOVING], count, coarse = 0;
+    uint64_t tests = 0;
     bake_still_scene still = {*whole, NULL};
     b.coarse = &coarse;
+    b.tests = &tests;
     b.share = o->slice.count > 0 ? &share : NULL;
     int ok = (o->to != LIGHT_PROBES || light_probes_fit(whole, o->step_m, r)) &&
              (b.share == NULL || begin_slice(&share, folder, o, whole, r)) &&
@@ -341,6 +343,7 @@ static int bake_scene(const options *o, const lmb_scene *whole, const model *loa
                 "note: %.0f sights have coarser visibility: too many triangles cross "
                 "there",
                 (double)coarse);
+    report_note(!ok || !o->is_verbose, "%.1f million visibility tests", 1e-6 * (double)tests);
     file_free(&file);
     free(still.instance);
     bake_free(&b);
