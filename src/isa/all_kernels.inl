@@ -14,6 +14,9 @@
 #endif
 #include "../raster/resolve.inl"
 #include "../raster/texture.inl"
+#if LMB_TREES
+#include "../raster/masked.inl"
+#endif
 #include "../direct/direct.inl"
 #if LMB_BOUNCE
 #include "../bounce/gather.inl"
@@ -96,6 +99,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(bin_box),
 #endif
 #if LMB_TREES
+    MASKED_KERNEL,
     KERNEL(gather_cut),
     KERNEL(node_bounds),
     KERNEL(crossed),

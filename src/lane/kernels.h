@@ -420,6 +420,18 @@ typedef struct lmb_transfer_leaf {
     int32_t is_directed;
 } lmb_transfer_leaf;
 
+#if LMB_TREES
+/* A triangle with a mask over a tile: the plane, as in raster/plane.h, and values at the corners. */
+typedef struct lmb_masked_job {
+    lmb_rays rays;
+    lmb_vec3 corner, plane, g1, g2;
+    float w_min, w_max;
+    float alpha[3], u[3], v[3];
+    float cutoff;
+    const lmb_texture *texture; /* RGBA8 */
+} lmb_masked_job;
+#endif
+
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
@@ -473,6 +485,8 @@ struct lmb_kernels {
     float (*bin_box)(lmb_tile_box *out, const lmb_setup_job *job, const lmb_bin_block *block);
 #endif
 #if LMB_TREES
+    /* Draws a triangle with a mask into a tile. NULL in plain C, where it would save nothing. */
+    void (*fill_masked)(const lmb_fill_tile *tile, const lmb_fill_job *job, const lmb_masked_job *masked);
     /* Adds the light of emitters that some pixels see. `pairs` is scratch. */
     void (*gather_cut)(lmb_irradiance *inout, float (*pairs)[LMB_GATHER_PAIRS], const lmb_tile *tile,
                        const lmb_emitter *emitters, int32_t count);

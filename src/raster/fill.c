@@ -12,7 +12,9 @@
 #include "texels.h"
 #include "texture.h"
 
-#define TEXELS 8u             /* max texels read per pixel of a triangle's tiles, to test whether it is all hole */
+/* Max texels read per pixel of a triangle's tiles, to test whether it is all hole; FEW_TEXELS: if a kernel fills it. */
+#define TEXELS     8u
+#define FEW_TEXELS 2u
 #define LEAST  (1.0f / 512.0f) /* thresholds of a surface that blends: min and max */
 #define LARGEST (511.0f / 512.0f)
 #define FLAT   0.05f /* min slope of a tile's rays to the plane, of the largest, for one test of all pixels */
@@ -34,6 +36,10 @@ typedef struct masked_surface {
     uint32_t id;
     int32_t x, y; /* of the current tile, px */
     const lmb_texture *texture; /* RGBA8, or NULL */
+#if LMB_TREES
+    lmb_masked_job job; /* if `batches`, but for the rays */
+    int batches;        /* the kernel fills whole tiles */
+#endif
     int part;     /* of the current tile: MIXED, UNKNOWN, LMB_COVERS_NONE or LMB_COVERS_ALL */
 } masked_surface;
 
@@ -191,11 +197,18 @@ static void fill_pixel(const lmb_fill_context *c, const lmb_fill_tile *tile, con
     put_id(tile, y * tile->id_step + x, job->id);
 }
 
-/* Pixels one by one: the alpha test costs more than vectors would save, and opaque scenes never come here. */
+/* Pixels one by one. Opaque scenes never come here. */
 static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job,
                              masked_surface *s)
 {
     const int32_t *e = job->e, *ex = job->ex, *ey = job->ey;
+#if LMB_TREES
+    if (s->batches) { /* tests of the whole tile would cost more than its pixels */
+        s->job.rays = s->rays;
+        c->kernels->fill_masked(tile, job, &s->job);
+        return;
+    }
+#endif
     for (int32_t y = 0; y < LMB_TILE && s->part != LMB_COVERS_NONE; ++y) {
         int32_t e0 = e[0] + ey[0] * y, e1 = e[1] + ey[1] * y, e2 = e[2] + ey[2] * y;
         for (int32_t x = 0; x < LMB_TILE; ++x, e0 += ex[0], e1 += ex[1], e2 += ex[2]) {
@@ -250,11 +263,32 @@ NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_
 }
 
 #if LMB_TREES
-/* 1 if the surface is entirely a hole. Reading a texel costs about a fiftieth of drawing a pixel, so many more texels
- * than pixels may be read. A surface that blends is solid from the least threshold on. */
+/* Sets the kernel's job, if there is a kernel for the surface. */
+static void set_job(masked_surface *s, const lmb_fill_context *c)
+{
+    lmb_masked_job *j = &s->job;
+    s->batches = c->kernels->fill_masked != NULL && s->texture != NULL && !(LMB_MULTISAMPLE && s->blends);
+    j->texture = s->texture;
+    j->corner = s->plane.corner;
+    j->plane = s->plane.plane;
+    j->g1 = s->plane.g1;
+    j->g2 = s->plane.g2;
+    j->w_min = s->plane.w_min;
+    j->w_max = s->plane.w_max;
+    j->cutoff = s->alpha.cutoff;
+    for (int k = 0; k < 3; ++k) {
+        j->alpha[k] = s->alpha.corner[k];
+        j->u[k] = s->alpha.u[k];
+        j->v[k] = s->alpha.v[k];
+    }
+}
+
+/* 1 if the surface is entirely a hole. Reading a texel costs about a fiftieth of drawing a pixel, so more texels than
+ * pixels may be read. A surface that blends is solid from the least threshold on. */
 NOINLINE int is_hole(const masked_surface *s, const lmb_fill_context *c, int32_t tiles)
 {
-    uint32_t texels = tiles > 0 ? (uint32_t)mini(tiles, 1 << 20) * (LMB_TILE_PIXELS * TEXELS) : 0;
+    const uint32_t each = LMB_TILE_PIXELS * (s->batches ? FEW_TEXELS : TEXELS);
+    uint32_t texels = tiles > 0 ? (uint32_t)mini(tiles, 1 << 20) * each : 0;
     lmb_resolve_alpha alpha = s->alpha;
     if (LMB_MULTISAMPLE && s->blends) {
         alpha.cutoff = LEAST;
@@ -280,6 +314,7 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
     tile_span(&tx0, &tx1, s->x_min, s->x_max, origin_x, target->x0, target->depth.width);
     tile_span(&ty0, &ty1, s->y_min, s->y_max, origin_y, target->y0, target->depth.height);
 #if LMB_TREES
+    set_job(&surface, c);
     if (is_hole(&surface, c, (tx1 - tx0 + 1) * (ty1 - ty0 + 1))) {
         return;
     }

@@ -69,7 +69,8 @@ int lmb_resolve_is_hole(const lmb_resolve_alpha *a, const lmb_scene *scene, uint
     if (largest < a->cutoff) { /* a texture can only reduce it */
         return 1;
     }
-    if (a->texture < 0 || lmb_resolve_opaque(a, scene, MIDDLE, MIDDLE)) {
+    if (a->texture < 0 || lmb_resolve_opaque(a, scene, MIDDLE, MIDDLE) || lmb_resolve_opaque(a, scene, 0.5f, 0.5f) ||
+        lmb_resolve_opaque(a, scene, 0.0f, 0.5f) || lmb_resolve_opaque(a, scene, 0.5f, 0.0f)) {
         return 0;
     }
     const float low[2] = {minf(minf(a->u[0], a->u[1]), a->u[2]), minf(minf(a->v[0], a->v[1]), a->v[2])};

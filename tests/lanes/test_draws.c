@@ -1,5 +1,5 @@
 /* test_draws.c: whole draws of random triangles on every available backend against scalar's: small and large ones,
- * clipped, edge-on and degenerate, into each kind of window. Tests setup, fill_small and fill_large together. */
+ * clipped, edge-on and degenerate, into each kind of window, some with a mask. Tests setup, fill_small, fill_large and fill_masked together. */
 #include <lambent/lambent.h>
 
 #include <string.h>
@@ -13,7 +13,9 @@ enum { ROUNDS = 400, FRAME = 160, TRIANGLES = 107, PIXELS = FRAME * FRAME };
 
 /* A scene of loose triangles under one view, and a window of the frame. */
 typedef struct draws {
-    float positions[9 * TRIANGLES];
+    float positions[9 * TRIANGLES], uvs[6 * TRIANGLES];
+    uint8_t texels[4 * 9 * 9];
+    lmb_texture texture;
     uint32_t indices[3 * TRIANGLES];
     lmb_mesh mesh;
     lmb_material material;
@@ -61,6 +63,31 @@ static void make_indices(draws *d, test_rng *r)
     d->mesh.index_format = LMB_INDEX_U32;
 }
 
+/* A mask of up to 9x9 texels. A few coordinates are huge. */
+static void make_mask(draws *d, test_rng *r)
+{
+    for (int i = 0; i < 6 * TRIANGLES; ++i) {
+        d->uvs[i] = test_random(r) % 64u ? test_uniform(r, -3, 3) : test_uniform(r, -3e6f, 3e6f);
+    }
+    for (size_t i = 0; i < sizeof d->texels; ++i) {
+        d->texels[i] = (uint8_t)(test_random(r) % 3u ? 255u * (test_random(r) % 2u) : test_random(r));
+    }
+    d->texture.texels = d->texels;
+    d->texture.width = (uint16_t)(1u + test_random(r) % 9u);
+    d->texture.height = (uint16_t)(1u + test_random(r) % 9u);
+    d->texture.levels = 1;
+    d->texture.wrap_s = (uint8_t)(test_random(r) % 3u);
+    d->texture.wrap_t = (uint8_t)(test_random(r) % 3u);
+    d->texture.filter = test_random(r) % 2u ? LMB_NEAREST : LMB_BILINEAR;
+    d->mesh.uvs = d->uvs;
+    d->scene.textures = &d->texture;
+    d->scene.texture_count = 1;
+    d->material.texture = 0;
+    d->material.flags |= LMB_ALPHA_MASK;
+    d->material.alpha = test_uniform(r, 0.5f, 1.0f);
+    d->material.alpha_cutoff = 0.5f;
+}
+
 static void make_draws(draws *d, test_rng *r)
 {
     const lmb_vec3 eye = {0, 0, 3}, target = {0.1f, 0.05f, 0}, up = {0, 1, 0};
@@ -105,6 +132,9 @@ static void make_draws(draws *d, test_rng *r)
     d->layout = test_random(r) % 3u ? LMB_TILED : LMB_LINEAR;
     d->flags = test_random(r) % 2u ? LMB_CULL_BACK : 0;
     d->id_stride_more = test_random(r) % 4u == 0 ? 8 * 8 * 4 : 0;
+    if (test_random(r) % 4u == 0) {
+        make_mask(d, r);
+    }
 }
 
 /* The most common target: depth and ids in tiles, of the whole frame. */
