@@ -396,6 +396,7 @@ programs_analytic := tests
 programs_truth := tests
 programs_truth-small := tests
 programs_slow := tests
+$(foreach k,1 2 3 4 5 6,$(eval programs_slow-$(k) := tests))
 programs_lanes := tests
 programs_golden := golden
 programs_golden-orders := golden-orders
@@ -433,9 +434,14 @@ unit slow analytic truth lanes: $(B)/tests
 truth-small: $(B)/tests ## light against the small path-traced pictures of tests/truth/small
 	@$(RUN) $(B)/tests small_truth relight
 
-# The quick unit tests in two halves, for two cores.
+# The quick unit tests in two halves, for two cores, and the slow ones in six parts, for CI's turns.
 unit-1 unit-2: $(B)/tests
 	@$(RUN) $(B)/tests unit $(@:unit-%=%)/2
+
+SLOW_PARTS := $(addprefix slow-,1 2 3 4 5 6)
+.PHONY: $(SLOW_PARTS)
+$(SLOW_PARTS): $(B)/tests
+	@$(RUN) $(B)/tests slow $(@:slow-%=%)/$(words $(SLOW_PARTS))
 
 golden: $(B)/golden ## hashes of small scenes against the committed hashes
 	@$(RUN) $(B)/golden$(EXE)

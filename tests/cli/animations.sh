@@ -36,7 +36,7 @@ said "2 values for 2 keys; or give --path"
 
 # Skins and morph weights move: shaped.gltf bends a triangle by two skins, moves one by weights, and one by both.
 shaped="$root/tests/fuzz/corpus/gltf/shaped.gltf"
-few="--size 32x24 --quality draft --eye 2,2,-9 --target 2,1,0"
+few="--size 32x24 --quality draft --elements 256 --eye 2,2,-9 --target 2,1,0"
 for move in object all; do
     status 0 play $shaped $few --move $move --fps 4 --frames 4 -o play_%02d.pfm
     check "skins and weights move --move $move" sh -c '! cmp -s play_00.pfm play_01.pfm && ! cmp -s play_01.pfm play_03.pfm'

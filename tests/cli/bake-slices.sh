@@ -2,7 +2,9 @@
 . tests/cli/common.sh
 
 # Bakes slices at once, one after the other, with a folder that is half full or damaged, and without a folder.
-bake="bake demo --elements 256 --receivers 200 --cluster 0.6 --threads 1"
+box
+block
+bake="bake block.obj --elements 256 --receivers 200 --cluster 0.6 --threads 1"
 status 0 $bake -o bake.lmt
 at_once() { # at_once COUNT NAME WORD...: runs each slice in its own process
     of=$1 name=$2
@@ -38,15 +40,16 @@ status 0 merge four.lmt.*of4 -o again.lmt
 check "what another job has shared does not count" cmp bake.lmt again.lmt
 status 1 merge -q four.lmt.*of4 -o bad.glb
 said "the slices were made for a *.lmt"
-for form in "vertex-colours c.glb" "lightmap l.glb --texels 256" "probes p.json --step 0.8"; do
+lamp="--light point:0.2,0.5,0:0,-1,0:5,4,3"
+for form in "vertex-colours c.glb" "lightmap l.glb --texels 64" "probes p.json --step 0.5"; do
     set -- $form
     to=$1 name=$2
     shift 2
-    status 0 $bake --to $to "$@" -o "$name"
+    status 0 $bake $lamp --to $to "$@" -o "$name"
     cp "$name" "whole-$name"
     [ $to != probes ] || mv p.bin whole-p.bin
     rm "$name"
-    at_once 2 $name $bake --to $to "$@"
+    at_once 2 $name $bake $lamp --to $to "$@"
     status 0 merge "$name".?of2 -o "$name"
     check "two slices are one bake to $to" cmp "whole-$name" "$name"
 done

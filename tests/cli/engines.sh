@@ -2,7 +2,7 @@
 . tests/cli/common.sh
 
 # Exported light, read back and drawn, equals the baked light.
-light="--elements 256 --receivers 500 --cluster 0.6"
+light="--elements 256 --receivers 200 --cluster 0.6"
 trim() { sed -n 's/.* trim \([0-9.]*\),.*/\1/p' out.txt; }
 under() { awk -v is="$(trim)" -v bar="$1" 'BEGIN { exit !(is != "" && is < bar) }'; }
 status 0 bake demo $light --to vertex-colours -o colours.glb

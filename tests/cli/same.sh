@@ -14,7 +14,7 @@ same() {
 
 box
 block
-few="--size 48x36 --shadow-map 64 --quality draft"
+few="--size 24x18 --shadow-map 64 --quality draft --elements 256"
 printf '%s\n' 'v -0.5 0 0.5' 'v 0.5 0 0.5' 'v 0.5 1 0.5' 'v -0.5 1 0.5' 'v -0.5 0 -0.5' 'v 0.5 0 -0.5' 'v 0.5 1 -0.5' \
     'v -0.5 1 -0.5' 'f 1 2 3 4' 'f 6 5 8 7' 'f 5 1 4 8' 'f 2 6 7 3' 'f 4 3 7 8' 'f 5 6 2 1' >outside.obj
 
@@ -44,7 +44,7 @@ same pfm demo $few --show indirect --bounces 2
 same pfm block.obj $inside --quality draft
 same png demo $few --light point:0,1.5,0:0,-1,0:6,6,6:0.2
 status 0 bake block.obj -o block.lmt --elements 256 --receivers 300
-same png block.obj --size 48x36 --transfer block.lmt
+same png block.obj --size 24x18 --transfer block.lmt
 
 # glTF with a camera and with animations at 0 s; cameras from the command line.
 moving
@@ -71,7 +71,7 @@ status 0 play outside.obj $few --path path.txt --background 0000ff --fps 1 --fro
 check "a still camera before a colour: the same alone" cmp -s all2.png alone2.png
 
 # Errors under a sky are measured against the same sky.
-status 0 play outside.obj --size 16x12 --quality best --gather full --frames 1 --check 1
+status 0 play outside.obj --size 8x6 --quality best --gather full --frames 1 --check 1
 check "the best has no error against itself under a sky" grep -q "trim 0.0000  rmse 0.0000  mean 1.0000" out.txt
 
 status 2 play outside.obj $few --background transparent --frames 1 -o bad%01d.ppm

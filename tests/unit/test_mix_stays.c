@@ -11,7 +11,7 @@
 
 void test_mix_stays(void);
 
-enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, FRAMES = 8 };
+enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, FRAMES = 5 };
 
 static const lmb_pinhole camera = {WIDTH, HEIGHT, 131.25f, 131.25f, 79.5f, 59.5f};
 static const char *mesh, *picture;

@@ -6,7 +6,7 @@
 #include "../bake/bake.h"
 #include "hard.h"
 
-enum { SIDE = 48, FLOATS = SIDE * SIDE * 3, MAP = 512, ELEMENTS = 4096, RECEIVERS = 6000, LEAVES = 16 };
+enum { SIDE = 48, FLOATS = SIDE * SIDE * 3, MAP = 256, ELEMENTS = 1024, RECEIVERS = 4500, LEAVES = 16 };
 
 static const double ALBEDO = 0.6;
 
