@@ -66,7 +66,7 @@ static void do_pieces(int n, pool_job job, void *user)
     }
     set_order(p, n);
     for (int i = 0; i < n; ++i) {
-        memset(scratches, 0x3c, sizeof scratches[0] * 2);
+        memset(&scratches[i & 1], 0x3c, sizeof scratches[0]);
         job(user, p[i], i & 1);
     }
 }
