@@ -4,8 +4,9 @@
 # The golden program, linked with one miscompiled file, must print LMB_ERR_BUILD and draw nothing.
 . tests/scripts/checks.sh
 mkdir -p "$B/guard"
-golden="$(ls "$B"/obj/tests/golden/golden*.o) $B/obj/tests/golden/main_golden.o $B/obj/tools/demo/demo_scene.o
-    $B/obj/platform/host/port_host.o"
+golden="$(ls "$B"/obj/tests/golden/golden_*.o) $B/obj/tests/golden/main_golden.o $B/obj/tools/demo/demo_scene.o
+    $B/obj/platform/host/port_host.o $B/guard/golden.o"
+check "every fifth golden picture" $CC $FLAGS -O0 -DGOLDEN_EACH=5 -c tests/golden/golden.c -o "$B/guard/golden.o"
 
 # compiles FILE FLAG...: puts FLAGs after the Makefile's own, so that they take precedence.
 compiles() {
