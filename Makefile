@@ -408,7 +408,7 @@ programs_hostile := hostile
 bench_of_checks = $(if $(filter cli layers faults docs-check,$(CHECKS)),$(BENCH))
 
 # All programs; those of tests/measure are in $(B)/links.
-LINKED := $(BENCH) $(addprefix $(B)/,$(MEASURES:%=links/measure-%) $(PROGRAMS) decodes scenes path page-hash faults demo-picture demo torus live room)
+LINKED := $(BENCH) $(addprefix $(B)/,$(MEASURES:%=links/measure-%) $(PROGRAMS) decodes scenes path page-hash faults demo-picture demo torus torus_few live room)
 
 # The checks that CHECKS="..." selects; by default all of this target.
 programs: $(LIB) $(TOOL) $(bench_of_checks) $(if $(filter command line,$(origin CHECKS)),$(sort $(foreach c,$(CHECKS),$(programs_$(c):%=$(B)/%))),\
