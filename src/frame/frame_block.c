@@ -1,4 +1,5 @@
 /* frame_block.c: the parts of a frame's memory, one after another in one block. Layer 8. */
+#include "../base/exact.h"
 #include "solver.h"
 
 #define LINE 64u /* bytes: parts start at multiples of this */
