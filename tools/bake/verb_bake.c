@@ -132,8 +132,9 @@ static const option_table table = {
              "light would reach them from any light or camera of the scene, after any number of bounces: the "
              "insides of solids, and closed rooms without a light or camera (use --eye for these). If a scene has "
              "more than 64 cameras, the first 64 count.\nTakes seconds to minutes, and memory: 2 bytes x elements x "
-             "receivers (8 with a normal map or a lobe), 6 bytes x elements x clusters, and up to 100 MB in addition to the scene; half a gigabyte "
-             "for a room with --quality best.\nSlices run at the same time, on machines that share the output's "
+             "receivers (8 with a normal map or a lobe), 6 bytes x elements x clusters, and up to 100 MB in addition "
+             "to the scene; half a gigabyte for a room with --quality best.\nSlices run at the same time, on machines "
+             "that share the output's "
              "folder. They exchange results through OUT.shared; if a result does not arrive in time, a slice "
              "computes it itself.",
     .part = {rows},
