@@ -124,12 +124,12 @@ typedef struct lmb_live_branch {
 /* Scratch, one a thread: 199 KiB. The contents are undefined between calls, except `full`, `segments` and `pairs`,
  * which are added to until you zero them, and `whole` and `seen`, which are those of the last point. */
 typedef struct lmb_live_scratch {
+    lmb_live_chunk near[LMB_LIVE_NEAR];
     float value[LMB_LIVE_CUT][LMB_LIVE_NODES]; /* unoccluded light of each node; 0 if the parts are used */
     float sum[LMB_LIVE_CUT];
     const lmb_live_chunk *chunk[LMB_LIVE_CUT];
     uint16_t asked[LMB_LIVE_CUT];              /* used nodes of the chunk, a bit each */
     int32_t count, done;                       /* chunks of the cut, and those summed */
-    lmb_live_chunk near[LMB_LIVE_NEAR];
     uint32_t part[LMB_LIVE_NEAR][LMB_LIVE_NODES]; /* the part of a first point that each of their nodes is */
     int32_t near_count, near_lane;             /* chunks of `near` in use, and nodes of the last one */
     uint32_t leaf[LMB_LIVE_CUT];               /* near nodes without nodes below: 16 times the chunk's index */

@@ -78,6 +78,20 @@ static inline int lowest_bit(uint32_t bits)
 #endif
 }
 
+/* Index of the highest set bit; bits must not be 0. */
+static inline int highest_bit(uint32_t bits)
+{
+#if defined(__GNUC__)
+    return 31 - __builtin_clz(bits);
+#else
+    int n = 0;
+    for (; bits > 1u; bits >>= 1) {
+        ++n;
+    }
+    return n;
+#endif
+}
+
 static inline int lowest_bit_64(uint64_t bits)
 {
     const uint32_t low = (uint32_t)bits;

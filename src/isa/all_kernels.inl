@@ -147,6 +147,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(live_ahead),
     KERNEL(live_share),
     KERNEL(live_boxes),
+    KERNEL(live_beyond),
     KERNEL(live_crossed),
     KERNEL(live_fill),
 #endif

@@ -11,7 +11,7 @@
 
 #if LMB_LIVE
 
-enum { BLOCK = 4, LARGE_BLOCK = 8 };
+enum { BLOCK = 4, LARGE_BLOCK = 8, LINE = 64 /* bytes */ };
 #define MANY_BLOCKS (1u << 18)
 #define MANY_ELEMENTS (1u << 24)
 
@@ -35,8 +35,11 @@ static uint64_t chunks_of(uint64_t blocks) { return blocks / LMB_LIVE_NODES * 5 
 static uint64_t bytes_of(uint32_t faces, int32_t side, uint32_t elements)
 {
     const uint64_t points = blocks_of(faces, side) + elements, chunks = chunks_of(points) * sizeof(lmb_live_chunk);
-    return chunks + points * (2 * sizeof(lmb_live_point)) + faces * (uint64_t)sizeof(lmb_live_face);
+    return chunks + points * (2 * sizeof(lmb_live_point)) + faces * (uint64_t)sizeof(lmb_live_face) + LINE;
 }
+
+/* Bytes from a pointer to the next cache line, where vectors do not straddle two. */
+static size_t to_line(const void *p) { return (LINE - (uintptr_t)p % LINE) % LINE; }
 
 size_t lmb_live_bytes(uint32_t faces, int32_t side, uint32_t elements)
 {
@@ -62,7 +65,7 @@ lmb_status lmb_live_init(lmb_live *out, uint32_t faces, int32_t side, uint32_t e
     const size_t points = (size_t)blocks_of(faces, side) + elements;
     memset(out, 0, sizeof *out);
     out->face = (lmb_live_face *)memory;
-    out->chunk = (lmb_live_chunk *)(void *)(out->face + faces);
+    out->chunk = (lmb_live_chunk *)(void *)((uint8_t *)(out->face + faces) + to_line(out->face + faces));
     out->chunk_cap = (uint32_t)chunks_of(points);
     out->point = (lmb_live_point *)(void *)(out->chunk + out->chunk_cap);
     out->sorted = out->point + points;

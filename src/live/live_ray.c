@@ -4,7 +4,6 @@
  * order of the traversal and the other segments do not change the result. */
 #include "live_part.h"
 
-#include <stddef.h>
 #include <string.h>
 
 #include "../lane/kernels.h"
@@ -13,7 +12,6 @@
 
 #if LMB_LIVE
 
-#define FEW 4             /* up to this many segments are tested against boxes one by one */
 #define MUCH 2            /* a triangle that blocks this many segments is remembered */
 #define END 1.00001000f   /* 1 / .99999: triangles beyond .99999 of a segment do not block it */
 
@@ -29,50 +27,57 @@ typedef struct traversal {
 /* As in occluded.c: swapping the corners negates the result exactly. */
 static inline lmb_vec3 edge_plane(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge) { return cross3(add3(b, c), edge); }
 
-/* Planes through the receiver and the edges. They face inwards whether segments cross along the normal or against
- * it. */
-static void set_edges(lmb_cross_job *out, const lmb_bvh_triangle *t, const lmb_vec3 to[3], int against)
-{
-    const lmb_vec3 *p = t->corner;
-    if (against) {
-        out->edge[0] = edge_plane(to[1], to[2], sub3(p[1], p[2]));
-        out->edge[1] = edge_plane(to[2], to[0], sub3(p[2], p[0]));
-        out->edge[2] = edge_plane(to[0], to[1], sub3(p[0], p[1]));
-        out->normal = mul3(t->normal, -1.0f);
-    } else {
-        out->edge[0] = edge_plane(to[1], to[2], sub3(p[2], p[1]));
-        out->edge[1] = edge_plane(to[2], to[0], sub3(p[0], p[2]));
-        out->edge[2] = edge_plane(to[0], to[1], sub3(p[1], p[0]));
-        out->normal = t->normal;
-    }
-}
+/* A triangle as seen from the receiver. If the receiver lies in the triangle's plane, the triangle counts as in front
+ * and is widened by the rounding error, within its boxes. */
+typedef struct aspect {
+    lmb_vec3 to[3];
+    float wider; /* m; 0: the receiver lies off the plane */
+    int against; /* segments cross against the normal */
+} aspect;
 
-/* Sets up a triangle as seen from the receiver. Returns 0 if the triangle blocks nothing. If the receiver lies in the
- * triangle's plane, the triangle counts as in front and is widened by the rounding error, within its boxes. */
-static int job_of(lmb_cross_job *out, const traversal *w, const lmb_bvh_triangle *t)
+/* Sets the plane of a triangle. Returns 0 if the triangle blocks nothing. */
+static inline int plane_of(aspect *out, lmb_cross_job *job, const traversal *w, const lmb_bvh_triangle *t)
 {
     const lmb_vec3 *p = t->corner, at = w->receiver->position;
     const lmb_vec3 to[3] = {sub3(p[0], at), sub3(p[1], at), sub3(p[2], at)};
     const float ahead = dot3(t->normal, to[0]);
     const float noise =
         w->receiver->noise + LMB_NOISE_TRIANGLE * (largest3(to[0]) + largest3(to[1]) + largest3(to[2]));
-    out->at = at;
-    out->slack = 0.0f;
-    if (absf(ahead) > noise) {
-        set_edges(out, t, to, ahead < 0.0f);
-        out->beyond = absf(ahead) * END;
-        return 1;
+    out->wider = 0.0f;
+    out->against = ahead < 0.0f;
+    job->beyond = absf(ahead) * END;
+    if (!(absf(ahead) > noise)) {
+        const float eye = dot3(t->normal, w->receiver->to_eye);
+        if (!(absf(eye) > 0.0f)) {
+            return 0;
+        }
+        out->wider = minf(noise, triangle_margin(t));
+        out->against = eye > 0.0f;
+        job->beyond = noise;
     }
-    const float eye = dot3(t->normal, w->receiver->to_eye);
-    if (!(absf(eye) > 0.0f)) {
-        return 0;
-    }
-    set_edges(out, t, to, eye > 0.0f);
-    const lmb_vec3 *e = out->edge;
-    const float wider = minf(noise, triangle_margin(t));
-    out->beyond = noise;
-    out->slack = wider * sqrtf(maxf(maxf(dot3(e[0], e[0]), dot3(e[1], e[1])), dot3(e[2], e[2])));
+    memcpy(out->to, to, sizeof to);
+    job->normal = out->against ? mul3(t->normal, -1.0f) : t->normal;
     return 1;
+}
+
+/* Planes through the receiver and the edges. They face inwards whether segments cross along the normal or against
+ * it. */
+static void set_edges(lmb_cross_job *out, const aspect *a, const traversal *w, const lmb_bvh_triangle *t)
+{
+    const lmb_vec3 *p = t->corner, *to = a->to;
+    out->at = w->receiver->position;
+    if (a->against) {
+        out->edge[0] = edge_plane(to[1], to[2], sub3(p[1], p[2]));
+        out->edge[1] = edge_plane(to[2], to[0], sub3(p[2], p[0]));
+        out->edge[2] = edge_plane(to[0], to[1], sub3(p[0], p[1]));
+    } else {
+        out->edge[0] = edge_plane(to[1], to[2], sub3(p[2], p[1]));
+        out->edge[1] = edge_plane(to[2], to[0], sub3(p[0], p[2]));
+        out->edge[2] = edge_plane(to[0], to[1], sub3(p[1], p[0]));
+    }
+    const lmb_vec3 *e = out->edge;
+    out->slack =
+        a->wider > 0.0f ? a->wider * sqrtf(maxf(maxf(dot3(e[0], e[0]), dot3(e[1], e[1])), dot3(e[2], e[2]))) : 0.0f;
 }
 
 /* Of the segments that cross a triangle with holes, returns those that hit an opaque part. */
@@ -103,10 +108,17 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     const lmb_bvh_triangle *t = &w->bvh->triangle[triangle];
     const uint32_t id = t->id & ~LMB_BVH_MASKED;
     lmb_cross_job job;
-    if (id == w->receiver->id || !job_of(&job, w, t)) {
+    aspect a;
+    if (id == w->receiver->id || !plane_of(&a, &job, w, t)) {
         return;
     }
-    uint64_t crossed = w->kernels->live_crossed(w->scratch->rays.to, asked, &job);
+    /* Most triangles that segments come near are walls on which they end. */
+    uint64_t crossed = w->kernels->live_beyond(w->scratch->rays.to, asked, &job);
+    if (crossed == 0) {
+        return;
+    }
+    set_edges(&job, &a, w, t);
+    crossed = w->kernels->live_crossed(w->scratch->rays.to, crossed, &job);
     for (uint64_t bits = crossed; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         crossed &= ~((uint64_t)(w->scratch->rays.id[k] == id) << k);
@@ -126,51 +138,11 @@ static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t met)
     }
 }
 
-static lmb_segment segment_of(const lmb_live_rays *r, int k)
-{
-    enum { HIGH = (int)(offsetof(lmb_boxes, high) / sizeof(float)) };
-    lmb_segment s;
-    s.at = r->segments.at;
-    s.per = vec3(r->segments.per[0][k], r->segments.per[1][k], r->segments.per[2][k]);
-    const float per[3] = {s.per.x, s.per.y, s.per.z};
-    for (int axis = 0; axis < 3; ++axis) {
-        const int back = per[axis] < 0.0f;
-        s.enter[axis] = axis * LMB_BOXES + (back ? HIGH : 0);
-        s.leave[axis] = axis * LMB_BOXES + (back ? 0 : HIGH);
-    }
-    return s;
-}
-
-/* Sets the segments that meet each box of a node. Returns the boxes that at least one meets. */
-static uint32_t meet(uint64_t met[LMB_BOXES], const traversal *w, const lmb_boxes *node, uint64_t asked)
-{
-    const lmb_live_rays *r = &w->scratch->rays;
-    uint32_t boxes = 0;
-    if (count_bits_64(asked) > FEW) {
-        w->kernels->live_boxes(met, &r->segments, asked, node);
-        for (int i = 0; i < LMB_BOXES; ++i) {
-            boxes |= (uint32_t)(met[i] != 0) << i;
-        }
-        return boxes;
-    }
-    memset(met, 0, LMB_BOXES * sizeof *met);
-    for (uint64_t bits = asked; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
-        const lmb_segment s = segment_of(r, k);
-        for (uint32_t here = w->kernels->meets_one(&s, node); here != 0; here &= here - 1) {
-            const int i = lowest_bit(here);
-            met[i] |= (uint64_t)1 << k;
-            boxes |= 1u << i;
-        }
-    }
-    return boxes;
-}
-
 static void test_node(traversal *w, uint32_t at, uint64_t asked)
 {
     const lmb_boxes *node = &w->bvh->node[at];
     uint64_t met[LMB_BOXES];
-    uint32_t boxes = meet(met, w, node, asked), inner = 0;
+    uint32_t boxes = w->kernels->live_boxes(met, &w->scratch->rays.segments, asked, node), inner = 0;
     for (; boxes != 0 && w->left != 0; boxes &= boxes - 1) {
         const int i = lowest_bit(boxes);
         test_leaf(w, node, i, met[i]);

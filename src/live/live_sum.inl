@@ -17,13 +17,16 @@ LANE_INLINE lane live_nodes(uint32_t *near, const lmb_live_chunk *c, int i, cons
     const lane d2 = lane3_dot(d, d);
     const lane here = lane3_dot(d, lane3_of(job->normal));
     const lane there = lane_sub(zero, lane3_dot(d, facing));
-    const lane under = lane_mul(d2, lane_add(lane_mul(d2, lane_splat(3.14159265f)), lane_load(c->area + i)));
-    const lane light = lane_div(lane_mul(lane_load(c->power + i), lane_mul(here, there)), under);
     lane_mask lit = mask_and(lane_lt(zero, here), lane_lt(zero, there));
     if (job->is_bent) {
         lit = mask_and(lit, lane_lt(zero, lane3_dot(d, lane3_of(job->face))));
     }
     *near = mask_bits(lane_lt(d2, lane_mul(lane_splat(job->split), lane_load(c->radius2 + i))));
+    if (mask_bits(lit) == 0) {
+        return zero;
+    }
+    const lane under = lane_mul(d2, lane_add(lane_mul(d2, lane_splat(3.14159265f)), lane_load(c->area + i)));
+    const lane light = lane_div(lane_mul(lane_load(c->power + i), lane_mul(here, there)), under);
     return lane_keep(mask_and(lit, lane_lt(light, lane_splat(1e30f))), light);
 }
 
@@ -161,23 +164,57 @@ static inline void live_put_target(lmb_live_rays *r, int32_t to, const lmb_live_
     r->id[to] = t->id;
 }
 
-/* For a node with more than one stratum, stores the part at a fraction of the node's power as the target. */
-static inline void live_put_part(lmb_live_rays *r, int32_t to, const lmb_live *live, const lmb_live_chunk *c, int i,
-                                 float fraction)
+/* Lane whose range of running sums contains `at`: the first of the lanes `some`, not 0, with a sum over it; the last one
+ * of them if rounding overshot. */
+LANE_INLINE int live_lane_at(const float sums[LMB_LIVE_NODES], float at, uint32_t some)
 {
-    const uint32_t first = c->first[i], count = c->count[i];
-    float at = fraction * c->power[i];
-    if (count == 0 || (count & LMB_LIVE_LEAF) != 0) {
-        live_put_target(r, to, c, i);
-        return;
+    uint32_t after = 0;
+    for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
+        after |= mask_bits(lane_lt(lane_splat(at), lane_load(sums + i))) << i;
     }
-    for (uint32_t k = first; k < first + count; ++k) {
-        const lmb_live_chunk *part = &live->chunk[k / LMB_LIVE_NODES];
-        at -= part->power[k % LMB_LIVE_NODES];
-        if (at < 0.0f || k == first + count - 1) {
-            live_put_target(r, to, part, (int)(k % LMB_LIVE_NODES));
-            return;
+    after &= some;
+    return after != 0 ? lowest_bit(after) : highest_bit(some);
+}
+
+/* Finds the part of a node at a fraction of the node's power: a chunk and a lane. */
+static inline const lmb_live_chunk *live_part_at(int *lane_of, const lmb_live *live, uint32_t first, uint32_t count,
+                                                 float at)
+{
+    const uint32_t past = first + count;
+    float sums[LMB_LIVE_NODES];
+    for (;;) {
+        const lmb_live_chunk *part = &live->chunk[first / LMB_LIVE_NODES];
+        const uint32_t low = first % LMB_LIVE_NODES, end = past - (first - low),
+                       some = (0xffffu << low) & (end < LMB_LIVE_NODES ? ~(~0u << end) : 0xffffu);
+        for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
+            const lane_mask own = mask_of_bits(some >> i & (~0u >> (32 - LANES)));
+            lane_store(sums + i, lane_keep(own, lane_load(part->power + i)));
         }
+        lane_scan16(sums, sums, 0.0f);
+        if (at < sums[LMB_LIVE_NODES - 1] || end <= LMB_LIVE_NODES) {
+            *lane_of = live_lane_at(sums, at, some);
+            return part;
+        }
+        at -= sums[LMB_LIVE_NODES - 1];
+        first += LMB_LIVE_NODES - low;
+    }
+}
+
+/* Stores the targets of strata that chunk e, lane i were selected for: pick = 16 e + i. A node with more than one
+ * stratum has the part at a fraction `rest` before the end of the node's light. */
+static inline void live_put_targets(lmb_live_scratch *s, const lmb_live *live, const uint16_t *pick, const float *rest,
+                                    int32_t count, float step)
+{
+    for (int32_t k = 0; k < count; ++k) {
+        const int32_t e = pick[k] / LMB_LIVE_NODES;
+        int i = pick[k] % LMB_LIVE_NODES;
+        const lmb_live_chunk *c = s->chunk[e];
+        const uint32_t parts = c->count[i];
+        if (s->value[e][i] > step && parts != 0 && (parts & LMB_LIVE_LEAF) == 0) {
+            const float left = clampf(rest[k] / s->value[e][i], 0.0f, 1.0f);
+            c = live_part_at(&i, live, c->first[i], parts, (1.0f - left) * c->power[i]);
+        }
+        live_put_target(&s->rays, k, c, i);
     }
 }
 
@@ -186,37 +223,30 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
 {
     lmb_live_rays *r = &s->rays;
     const float step = all / (float)strata;
-    float so_far = 0.0f;
+    float so_far = 0.0f, rest[LMB_LIVE_STRATA];
+    uint16_t pick[LMB_LIVE_STRATA];
     int32_t k = 0;
+    float at = place * step;
     for (int32_t e = 0; e < s->count && k < strata; ++e) {
         const float next = so_far + s->sum[e];
-        float sums[LMB_LIVE_NODES];
-        uint32_t some = 0;
-        if (((float)k + place) * step < next) {
+        if (at < next) {
+            float sums[LMB_LIVE_NODES];
+            uint32_t some = 0;
             lane_scan16(sums, s->value[e], so_far);
             for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
                 some |= mask_bits(lane_lt(lane_splat(0.0f), lane_load(s->value[e] + i))) << i;
             }
-        }
-        for (float at = ((float)k + place) * step; some != 0 && k < strata && at < next;
-             ++k, at = ((float)k + place) * step) {
-            uint32_t after = 0;
-            for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
-                after |= mask_bits(lane_lt(lane_splat(at), lane_load(sums + i))) << i;
-            }
-            after &= some;
-            for (; after == 0 && (some & (some - 1)) != 0; some &= some - 1) { /* the last one, if rounding overshot */
-            }
-            const int i = lowest_bit(after != 0 ? after : some);
-            if (s->value[e][i] > step) {
-                const float rest = clampf((sums[i] - at) / s->value[e][i], 0.0f, 1.0f);
-                live_put_part(r, k, live, s->chunk[e], i, 1.0f - rest);
-            } else {
-                live_put_target(r, k, s->chunk[e], i);
+            while (some != 0 && k < strata && at < next) {
+                const int i = live_lane_at(sums, at, some);
+                pick[k] = (uint16_t)(e * LMB_LIVE_NODES + i);
+                rest[k] = sums[i] - at;
+                ++k;
+                at = ((float)k + place) * step;
             }
         }
         so_far = next;
     }
+    live_put_targets(s, live, pick, rest, k, step);
     s->targets = k;
     for (; k % LMB_LIVE_NODES != 0; ++k) { /* padding that the sums include */
         for (int h = 0; h < 3; ++h) {
@@ -275,53 +305,86 @@ static void KERNEL(live_share)(float all[3], float some[3], const lmb_live_rays 
     }
 }
 
-/* Sets the requested rays that meet each of a node's boxes. */
-static void KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *s, uint64_t asked, const lmb_boxes *boxes)
+/* Mask bits of rays 0 .. 31 that meet boxes i, i + 1, ...: `low`, `high` are the boxes' sides, from the rays' origin.
+ * Lanes are boxes: few rays reach most nodes. */
+LANE_INLINE lanei live_met(const lane low[3], const lane high[3], lane_mask some, const float *per, uint32_t asked)
 {
-    float low[3][LMB_BOXES], high[3][LMB_BOXES];
-    const float at[3] = {s->at.x, s->at.y, s->at.z};
-    for (int h = 0; h < 3; ++h) {
-        for (int i = 0; i < LMB_BOXES; i += LANES) {
-            lane_store(low[h] + i, lane_sub(lane_load(boxes->low[h] + i), lane_splat(at[h])));
-            lane_store(high[h] + i, lane_sub(lane_load(boxes->high[h] + i), lane_splat(at[h])));
+    lanei out = lanei_splat(0);
+    for (uint32_t bits = asked; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
+        lane from = lane_splat(0.0f), to = lane_splat(1.0f);
+        for (int h = 0; h < 3; ++h) {
+            const lane along = lane_splat(per[h * LMB_TILE_PIXELS + k]);
+            const lane a = lane_mul(low[h], along), b = lane_mul(high[h], along);
+            from = lane_max(from, lane_min(a, b));
+            to = lane_min(to, lane_max(a, b));
         }
-    }
-    for (int i = 0; i < LMB_BOXES; ++i) {
-        out[i] = 0;
-    }
-    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const uint32_t here = (uint32_t)(asked >> k) & (~0u >> (32 - LANES));
-        if (here != 0) {
-            const lane x = lane_load(s->per[0] + k), y = lane_load(s->per[1] + k), z = lane_load(s->per[2] + k);
-            for (int i = 0; i < LMB_BOXES && low[0][i] <= high[0][i]; ++i) {
-                lane from = lane_splat(0.0f), to = lane_splat(1.0f);
-                crossed_slab(&from, &to, x, low[0][i], high[0][i]);
-                crossed_slab(&from, &to, y, low[1][i], high[1][i]);
-                crossed_slab(&from, &to, z, low[2][i], high[2][i]);
-                out[i] |= (uint64_t)(mask_bits(crossed_some(from, to)) & here) << k;
-            }
-        }
-    }
-}
-
-/* Returns the requested rays that cross a triangle. */
-static uint64_t KERNEL(live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job)
-{
-    const lane3 n = lane3_of(job->normal);
-    const lane3 e0 = lane3_of(job->edge[0]), e1 = lane3_of(job->edge[1]), e2 = lane3_of(job->edge[2]);
-    const lane outer = lane_splat(0.0f - job->slack), beyond = lane_splat(job->beyond);
-    uint64_t out = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const uint32_t here = (uint32_t)(asked >> k) & (~0u >> (32 - LANES));
-        if (here != 0) {
-            lane3 d;
-            d.x = lane_load(to[0] + k);
-            d.y = lane_load(to[1] + k);
-            d.z = lane_load(to[2] + k);
-            const lane min = lane_min(lane_min(lane3_dot(e0, d), lane3_dot(e1, d)), lane3_dot(e2, d));
-            const lane_mask inside = mask_and(lane_le(outer, min), lane_lt(beyond, lane3_dot(n, d)));
-            out |= (uint64_t)(mask_bits(inside) & here) << k;
-        }
+        const lane_mask met = mask_and(some, crossed_some(from, to));
+        out = lanei_pick(met, lanei_or(out, lanei_splat((int32_t)(bits & (~bits + 1)))), out);
     }
     return out;
+}
+
+/* Sets the requested rays that meet each of a node's boxes. Returns the boxes that any of them meets. */
+static uint32_t KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *s, uint64_t asked,
+                                   const lmb_boxes *boxes)
+{
+    const lane3 at = lane3_of(s->at);
+    uint32_t any = 0;
+    for (int i = 0; i < LMB_BOXES; i += LANES) {
+        int32_t part[2][LANES];
+        lane low[3], high[3];
+        low[0] = lane_load(boxes->low[0] + i);
+        high[0] = lane_load(boxes->high[0] + i);
+        const lane_mask some = lane_le(low[0], high[0]);
+        if (mask_bits(some) == 0) { /* no more boxes */
+            break;
+        }
+        low[0] = lane_sub(low[0], at.x);
+        high[0] = lane_sub(high[0], at.x);
+        low[1] = lane_sub(lane_load(boxes->low[1] + i), at.y);
+        high[1] = lane_sub(lane_load(boxes->high[1] + i), at.y);
+        low[2] = lane_sub(lane_load(boxes->low[2] + i), at.z);
+        high[2] = lane_sub(lane_load(boxes->high[2] + i), at.z);
+        lanei_store(part[0], live_met(low, high, some, s->per[0], (uint32_t)asked));
+        lanei_store(part[1], live_met(low, high, some, s->per[0] + 32, (uint32_t)(asked >> 32)));
+        for (int k = 0; k < LANES; ++k) {
+            out[i + k] = (uint64_t)(uint32_t)part[1][k] << 32 | (uint32_t)part[0][k];
+            any |= (uint32_t)(out[i + k] != 0) << (i + k);
+        }
+    }
+    return any;
+}
+
+/* Returns the requested rays that end beyond a triangle's plane. */
+static uint64_t KERNEL(live_beyond)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job)
+{
+    const lane3 n = lane3_of(job->normal);
+    const lane beyond = lane_splat(job->beyond);
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS && asked >> k != 0; k += LANES) {
+        lane3 d;
+        d.x = lane_load(to[0] + k);
+        d.y = lane_load(to[1] + k);
+        d.z = lane_load(to[2] + k);
+        out |= (uint64_t)mask_bits(lane_lt(beyond, lane3_dot(n, d))) << k;
+    }
+    return out & asked;
+}
+
+/* Returns the requested rays, which end beyond a triangle's plane, that cross the triangle. */
+static uint64_t KERNEL(live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job)
+{
+    const lane3 e0 = lane3_of(job->edge[0]), e1 = lane3_of(job->edge[1]), e2 = lane3_of(job->edge[2]);
+    const lane outer = lane_splat(0.0f - job->slack);
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS && asked >> k != 0; k += LANES) {
+        lane3 d;
+        d.x = lane_load(to[0] + k);
+        d.y = lane_load(to[1] + k);
+        d.z = lane_load(to[2] + k);
+        const lane min = lane_min(lane_min(lane3_dot(e0, d), lane3_dot(e1, d)), lane3_dot(e2, d));
+        out |= (uint64_t)mask_bits(lane_le(outer, min)) << k;
+    }
+    return out & asked;
 }
