@@ -143,6 +143,18 @@ static void test_node(traversal *w, uint32_t at, uint64_t asked)
     const lmb_boxes *node = &w->bvh->node[at];
     uint64_t met[LMB_BOXES];
     uint32_t boxes = w->kernels->live_boxes(met, &w->scratch->rays.segments, asked, node), inner = 0;
+    for (uint32_t soon = boxes; soon != 0; soon &= soon - 1) {
+        const int i = lowest_bit(soon);
+        if (node->count[i] > 0) {
+            LIVE_SOON(&w->bvh->triangle[node->first[i]]);
+        } else {
+            const lmb_boxes *next = &w->bvh->node[node->first[i]];
+            for (int h = 0; h < 3; ++h) {
+                LIVE_SOON(next->low[h]);
+                LIVE_SOON(next->high[h]);
+            }
+        }
+    }
     for (; boxes != 0 && w->left != 0; boxes &= boxes - 1) {
         const int i = lowest_bit(boxes);
         test_leaf(w, node, i, met[i]);
