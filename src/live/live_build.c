@@ -176,6 +176,10 @@ static uint32_t group(range out[GROUPS], const builder *b, range r)
 {
     lmb_live_point *p = b->live->sorted;
     uint32_t first[GROUPS], count[GROUPS], groups = 0;
+    if (r.past - r.first == 1) {
+        out[0] = r;
+        return 1;
+    }
     const float reach = maxf(LIFT * 1.5f * sqrtf(p[r.first].area * (float)(r.past - r.first)), GROUND * b->extent);
     lmb_live_point *aside = (lmb_live_point *)(void *)(b->live->chunk + (b->slots / LMB_LIVE_NODES + 1));
     const size_t room = (size_t)((uint8_t *)(b->live->chunk + b->live->chunk_cap) - (uint8_t *)aside);
@@ -243,6 +247,23 @@ static float area_of(float *mean, const lmb_live_point *p, uint32_t count)
     return largest;
 }
 
+/* Stores a point as a node: what put_node computes for one point. */
+static void put_point(const builder *b, uint32_t slot, uint32_t first)
+{
+    lmb_live_chunk *c = &b->live->chunk[slot / LMB_LIVE_NODES];
+    const int i = (int)(slot % LMB_LIVE_NODES);
+    const lmb_live_point *p = &b->live->sorted[first];
+    const lmb_vec3 weighted = mul3(p->normal, live_power(p->flux));
+    const lmb_vec3 normal = dot3(weighted, weighted) > 1e-37f ? normalize3(weighted) : p->normal;
+    const live_light light = live_light_of(p->flux);
+    const int whole = lmb_live_is_whole(b->live, p);
+    const float disc = whole ? p->area : LIVE_DISC * p->area;
+    live_put(c, i, p->position, normal, &light, maxf(disc, 1e-30f), p->position, p->normal, p->id);
+    c->radius2[i] = lmb_live_reach2(b->live, p) * lmb_live_softness(b->live, p);
+    c->first[i] = first;
+    c->count[i] = LMB_LIVE_LEAF | 1u;
+}
+
 /* Stores points of one plane as a node. */
 static void put_node(const builder *b, uint32_t slot, range r)
 {
@@ -252,6 +273,10 @@ static void put_node(const builder *b, uint32_t slot, range r)
     const uint32_t count = r.past - r.first;
     lmb_vec3 place = vec3(0, 0, 0), normal = vec3(0, 0, 0);
     float flux[3] = {0, 0, 0}, far2 = 0.0f, near2 = 3e38f, own2 = 0.0f, soft = 0.0f;
+    if (count == 1) {
+        put_point(b, slot, r.first);
+        return;
+    }
     for (uint32_t k = 0; k < count; ++k) {
         const float w = live_power(p[k].flux);
         place = add3(place, mul3(sub3(p[k].position, p->position), w));
@@ -260,7 +285,8 @@ static void put_node(const builder *b, uint32_t slot, range r)
             flux[h] += p[k].flux[h];
         }
     }
-    const float power = live_power(flux);
+    const live_light light = live_light_of(flux);
+    const float power = light.power;
     place = add3(p->position, mul3(place, 1.0f / power));
     normal = dot3(normal, normal) > 1e-37f ? normalize3(normal) : p->normal;
     for (uint32_t k = 0; k < count; ++k) {
@@ -278,9 +304,7 @@ static void put_node(const builder *b, uint32_t slot, range r)
     }
     float spacing2;
     const float area = area_of(&spacing2, p, count);
-    const float disc = count == 1 && lmb_live_is_whole(b->live, p) ? area : LIVE_DISC * area;
-    live_put(c, i, place, normal, flux, maxf(disc, 1e-30f), target->position, target->normal,
-             target->id);
+    live_put(c, i, place, normal, &light, maxf(LIVE_DISC * area, 1e-30f), target->position, target->normal, target->id);
     c->radius2[i] = (far2 + maxf(spacing2, own2)) * soft;
     c->first[i] = r.first;
     c->count[i] = count | LMB_LIVE_LEAF;

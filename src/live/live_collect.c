@@ -105,6 +105,7 @@ typedef struct collector {
     const lmb_live_face *face;
     int32_t map_face, side; /* side: blocks */
     uint32_t into;
+    uint16_t x[LMB_TILE_PIXELS], y[LMB_TILE_PIXELS]; /* the texels of the current tile's blocks */
     live_plane known[LIVE_PLANES];
 } collector;
 
@@ -162,14 +163,13 @@ static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t
 {
     const lmb_view *v = &c->face->view;
     const live_plane *p = c->tile->id[k] != 0 ? lmb_live_plane(c->known, c->scene, v, c->tile->id[k]) : NULL;
-    int32_t x, y;
+    const int32_t x = c->x[k], y = c->y[k];
     float each[3];
     lmb_vec3 at;
     memset(out, 0, sizeof *out);
     if (!(power > 0.0f)) {
         return;
     }
-    texel_of(&x, &y, c, column, row);
     if (p == NULL || !lmb_live_place(&at, p, v, texel_sx(v, c->face->size, x), texel_sy(v, c->face->size, y))) {
         return;
     }
@@ -205,6 +205,8 @@ static lmb_status resolve_blocks(collector *c, int32_t column, int32_t row)
         id[k] = 0;
         if (at < side && down < side) {
             texel_of(&x, &y, c, at, down);
+            c->x[k] = (uint16_t)x;
+            c->y[k] = (uint16_t)y;
             id[k] = live_id(&c->face->id, x, y);
         }
     }

@@ -117,8 +117,9 @@ static void put_points(lmb_live_scratch *s, const lmb_live *live, uint32_t first
         int i;
         lmb_live_chunk *c = take(s, &i);
         const int whole = lmb_live_is_whole(live, p);
+        const live_light light = live_light_of(p->flux);
         const float disc = maxf((whole ? 1.0f : LIVE_DISC) * p->area, 1e-30f);
-        live_put(c, i, p->position, p->normal, p->flux, disc, p->position, p->normal, p->id);
+        live_put(c, i, p->position, p->normal, &light, disc, p->position, p->normal, p->id);
         c->radius2[i] = lmb_live_reach2(live, p) * lmb_live_softness(live, p);
         c->first[i] = k;
         c->count[i] = whole ? 0 : LMB_LIVE_LEAF | 1u;
@@ -218,14 +219,15 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
                 area = whole->radius2[lane] * share; /* of a point: area */
     const float flux[3] = {whole->colour[0][lane] * power, whole->colour[1][lane] * power,
                            whole->colour[2][lane] * power};
-    if (!(live_power(flux) > 0.0f)) {
+    const live_light light = live_light_of(flux);
+    if (!(light.power > 0.0f)) {
         return 0;
     }
     for (uint32_t k = 0; k < count; ++k) {
         int i;
         lmb_live_chunk *c = take(s, &i);
         const float disc = level < DEEPEST ? LIVE_DISC * area : over[k] * area;
-        live_put(c, i, place[k], normal[k], flux, maxf(disc, 1e-30f), place[k], normal[k], id[k]);
+        live_put(c, i, place[k], normal[k], &light, maxf(disc, 1e-30f), place[k], normal[k], id[k]);
         c->radius2[i] = area;
         c->first[i] = point;
         c->count[i] = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;
@@ -260,8 +262,9 @@ static int put_quarters(lmb_live_scratch *s, const lmb_live *live, uint32_t poin
     const float share = 1.0f / LMB_LIVE_NODES, power = whole->power[lane] * share, area = whole->area[lane] / LIVE_DISC;
     const float flux[3] = {whole->colour[0][lane] * power, whole->colour[1][lane] * power,
                            whole->colour[2][lane] * power};
+    const live_light light = live_light_of(flux);
     lmb_vec3 own[3];
-    if (lmb_live_is_whole(live, p) || !(live_power(flux) > 0.0f)) {
+    if (lmb_live_is_whole(live, p) || !(light.power > 0.0f)) {
         return 0;
     }
     memcpy(own, live->element[live_element_of(p)].corner, sizeof own);
@@ -277,7 +280,7 @@ static int put_quarters(lmb_live_scratch *s, const lmb_live *live, uint32_t poin
         const lmb_vec3 at = mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
         lmb_live_chunk *c = take(s, &i);
         const float disc = level < DEEPEST ? LIVE_DISC * area * share : area * share;
-        live_put(c, i, at, p->normal, flux, maxf(disc, 1e-30f), p->position, p->normal, p->id);
+        live_put(c, i, at, p->normal, &light, maxf(disc, 1e-30f), p->position, p->normal, p->id);
         c->radius2[i] = whole->radius2[lane] * share;
         c->first[i] = point;
         c->count[i] = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;

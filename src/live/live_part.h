@@ -72,24 +72,40 @@ static inline void live_blank(lmb_live_chunk *c)
     }
 }
 
-/* Stores a node, except the radius and parts. */
-static inline void live_put(lmb_live_chunk *c, int i, lmb_vec3 place, lmb_vec3 normal, const float flux[3], float area,
-                            lmb_vec3 to, lmb_vec3 facet, uint32_t id)
+/* What a point sends: flux by power, and power. */
+typedef struct live_light {
+    float colour[3], power;
+} live_light;
+
+static inline live_light live_light_of(const float flux[3])
 {
-    const float power = live_power(flux), per = 1.0f / power;
+    live_light out;
+    out.power = live_power(flux);
+    const float per = 1.0f / out.power;
+    for (int h = 0; h < 3; ++h) {
+        out.colour[h] = flux[h] * per;
+    }
+    return out;
+}
+
+/* Stores a node, except the radius and parts. */
+static inline void live_put(lmb_live_chunk *c, int i, lmb_vec3 place, lmb_vec3 normal, const live_light *light,
+                            float area, lmb_vec3 to, lmb_vec3 facet, uint32_t id)
+{
+    lmb_live_target *t = &c->target[i];
     const float at[3][4] = {{place.x, normal.x, to.x, facet.x},
                             {place.y, normal.y, to.y, facet.y},
                             {place.z, normal.z, to.z, facet.z}};
     for (int h = 0; h < 3; ++h) {
         c->place[h][i] = at[h][0];
         c->normal[h][i] = at[h][1];
-        c->target[i].at[h] = at[h][2];
-        c->target[i].facet[h] = at[h][3];
-        c->target[i].colour[h] = c->colour[h][i] = flux[h] * per;
+        t->at[h] = at[h][2];
+        t->facet[h] = at[h][3];
+        t->colour[h] = c->colour[h][i] = light->colour[h];
     }
-    c->power[i] = power;
+    c->power[i] = light->power;
     c->area[i] = area;
-    c->target[i].id = id;
+    t->id = id;
 }
 
 /* Id that a map shows at a texel. */
