@@ -10,13 +10,6 @@
 #include "../direct/footprint.h"
 #include "../direct/texel.h"
 
-/* Asks for a cache line that is needed soon. A macro: gcc drops calls of functions that do nothing else. */
-#if defined(__GNUC__)
-#define LIVE_SOON(p) __builtin_prefetch(p)
-#else
-#define LIVE_SOON(p) ((void)(p))
-#endif
-
 /* Returns the mask of requested rays in scratch->rays that something blocks. */
 uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch, const lmb_bvh *bvh,
                           const lmb_live_receiver *receiver, uint64_t asked);

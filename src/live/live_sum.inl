@@ -40,7 +40,15 @@ static inline int live_ask(lmb_live_scratch *s, const lmb_live *live, uint32_t f
     for (uint32_t i = from; i <= to; ++i) {
         const uint32_t low = i == from ? first % LMB_LIVE_NODES : 0,
                        high = i == to ? (past - 1) % LMB_LIVE_NODES : LMB_LIVE_NODES - 1;
-        s->chunk[s->count] = &live->chunk[i];
+        const lmb_live_chunk *c = &live->chunk[i];
+        for (int h = 0; h < 3; ++h) {
+            LIVE_SOON(c->place[h]);
+            LIVE_SOON(c->normal[h]);
+        }
+        LIVE_SOON(c->area);
+        LIVE_SOON(c->power);
+        LIVE_SOON(c->radius2);
+        s->chunk[s->count] = c;
         s->asked[s->count++] = (uint16_t)((0xffffu << low) & (0xffffu >> (LMB_LIVE_NODES - 1 - high)));
     }
     return 1;
@@ -240,6 +248,7 @@ static void KERNEL(live_targets)(lmb_live_scratch *s, const lmb_live *live, int3
                 const int i = live_lane_at(sums, at, some);
                 pick[k] = (uint16_t)(e * LMB_LIVE_NODES + i);
                 rest[k] = sums[i] - at;
+                LIVE_SOON(&s->chunk[e]->target[i]);
                 ++k;
                 at = ((float)k + place) * step;
             }
