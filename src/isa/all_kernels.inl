@@ -142,6 +142,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
 #endif
 #if LMB_LIVE
     KERNEL(live_values),
+    KERNEL(live_places),
     KERNEL(live_sums),
     KERNEL(live_targets),
     KERNEL(live_ahead),

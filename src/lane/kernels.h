@@ -307,6 +307,20 @@ typedef struct lmb_live_job {
     float split;     /* as in lmb_live */
 } lmb_live_job;
 
+/* A plane with a triangle, for places in a map. */
+typedef struct lmb_live_surface {
+    const lmb_view *view;
+    lmb_vec3 corner, normal, side[2], along[2]; /* along: give barycentrics */
+} lmb_live_surface;
+
+#define LIVE_INSIDE (1.0f / 512.0f) /* min barycentric of a point that was moved onto a triangle */
+
+/* Sixteen points in a map. */
+typedef struct lmb_live_spots {
+    float sx[LMB_LIVE_NODES], sy[LMB_LIVE_NODES]; /* in the view */
+    float place[3][LMB_LIVE_NODES], normal[3][LMB_LIVE_NODES];
+} lmb_live_spots;
+
 /* A pixel lit on its own. */
 typedef struct lmb_live_sample {
     lmb_vec3 position, face, normal; /* as in lmb_tile */
@@ -588,6 +602,8 @@ struct lmb_kernels {
 #if LMB_LIVE
     /* Values of the cut's chunks from inout->done on, and those that near nodes need. */
     void (*live_values)(lmb_live_scratch *inout, const lmb_live *live, const lmb_live_job *job);
+    /* Sets place and normal of the points of the mask `asked` on a plane. Returns those that exist. */
+    uint32_t (*live_places)(lmb_live_spots *inout, const lmb_live_surface *plane, uint32_t asked);
     /* Sums of the cut's chunks, and the cut's light. Returns the sum of all. */
     float (*live_sums)(float light[3], lmb_live_scratch *inout);
     /* Samples a target from each of `strata` strata of the cut, at `place` of each, into inout->rays. `all` > 0: the

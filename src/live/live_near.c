@@ -7,11 +7,10 @@
 
 #include <lambent/elements.h>
 
+#include "../lane/kernels.h"
 #include "../raster/triangle.h"
 
 #if LMB_LIVE
-
-#define INSIDE (1.0f / 512.0f) /* min barycentric of a point that was moved onto a triangle */
 
 enum {
     DEEPEST = 3, /* divisions by 4 of a block's side, down to 1/16 of a texel */
@@ -55,9 +54,9 @@ int lmb_live_place(lmb_vec3 *out, const live_plane *p, const lmb_view *view, flo
         return 0;
     }
     if (b1 < 0.0f || b2 < 0.0f || b1 + b2 > 1.0f) {
-        b1 = maxf(b1, INSIDE);
-        b2 = maxf(b2, INSIDE);
-        const float over = b1 + b2 > 1.0f - INSIDE ? (1.0f - INSIDE) / (b1 + b2) : 1.0f;
+        b1 = maxf(b1, LIVE_INSIDE);
+        b2 = maxf(b2, LIVE_INSIDE);
+        const float over = b1 + b2 > 1.0f - LIVE_INSIDE ? (1.0f - LIVE_INSIDE) / (b1 + b2) : 1.0f;
         *out = add3(p->corner, add3(mul3(p->side[0], b1 * over), mul3(p->side[1], b2 * over)));
     }
     return 1;
@@ -131,6 +130,7 @@ static void put_points(lmb_live_scratch *s, const lmb_live *live, uint32_t first
 
 /* A face, and cached planes of its triangles. */
 typedef struct live_look {
+    const lmb_kernels *kernels;
     const lmb_live *live;
     const lmb_live_face *face;
     live_plane known[LIVE_PLANES];
@@ -192,46 +192,111 @@ static live_spot spot_of(live_look *l, const lmb_live_point *p, uint32_t x, uint
     return s;
 }
 
-/* Stores the sixteen parts of a point's part. Returns 0 if none of them shows a surface. */
-static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t part, const lmb_live_chunk *whole,
-                     uint32_t lane)
+/* The sixteen parts of a part. */
+typedef struct live_parts {
+    lmb_live_spots at;
+    uint32_t id[LMB_LIVE_NODES], part[LMB_LIVE_NODES];
+    float over[LMB_LIVE_NODES];
+    uint32_t shown; /* mask of those that show a surface */
+} live_parts;
+
+static void find_parts(live_parts *out, live_look *l, const lmb_live_point *p, uint32_t part)
 {
-    const lmb_live_point *p = &l->live->sorted[point];
     const lmb_live_face *f = l->face;
     const uint32_t level = (part >> 2 * PART_BITS) + 1, mask = (1u << PART_BITS) - 1,
                    x = (part >> PART_BITS & mask) * 4, y = (part & mask) * 4;
     const float wide = (float)f->each / (float)(1u << 2 * level), per = 2.0f / (float)f->size;
-    lmb_vec3 place[LMB_LIVE_NODES], normal[LMB_LIVE_NODES];
-    uint32_t id[LMB_LIVE_NODES], count = 0, at[LMB_LIVE_NODES];
-    float over[LMB_LIVE_NODES];
+    uint32_t left = 0;
+    memset(&out->at, 0, sizeof out->at);
     for (uint32_t i = 0; i < LMB_LIVE_NODES; ++i) {
         const live_spot to = spot_of(l, p, x + i % 4, y + i / 4, wide);
-        const live_plane *on = to.id != 0 ? lmb_live_plane(l->known, l->live->scene, &f->view, to.id) : NULL;
-        if (on != NULL && lmb_live_place(&place[count], on, &f->view, (to.u * per - 1.0f) * f->view.half_width,
-                                         (1.0f - to.v * per) * f->view.half_height)) {
-            normal[count] = on->normal;
-            at[count] = part_of(level, x + i % 4, y + i / 4);
-            over[count] = to.over;
-            id[count++] = to.id;
+        out->at.sx[i] = (to.u * per - 1.0f) * f->view.half_width;
+        out->at.sy[i] = (1.0f - to.v * per) * f->view.half_height;
+        out->id[i] = to.id;
+        out->over[i] = to.over;
+        out->part[i] = part_of(level, x + i % 4, y + i / 4);
+        left |= (uint32_t)(to.id != 0) << i;
+    }
+    for (out->shown = 0; left != 0;) {
+        const uint32_t id = out->id[lowest_bit(left)];
+        const live_plane *on = lmb_live_plane(l->known, l->live->scene, &f->view, id);
+        uint32_t same = 0;
+        for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+            same |= (uint32_t)(out->id[i] == id) << i;
+        }
+        left &= ~same;
+        if (on != NULL) {
+            const lmb_live_surface plane = {&f->view, on->corner, on->normal, {on->side[0], on->side[1]},
+                                          {on->along[0], on->along[1]}};
+            out->shown |= l->kernels->live_places(&out->at, &plane, same);
         }
     }
+}
+
+/* Stores all sixteen parts as a new chunk. */
+static void put_whole(lmb_live_scratch *s, const live_parts *p, uint32_t point, uint32_t count, const live_light *light,
+                      const float area[2])
+{
+    lmb_live_chunk *c = &s->near[s->near_count];
+    s->chunk[s->count] = c;
+    s->asked[s->count++] = 0xffff;
+    memcpy(c->place, p->at.place, sizeof c->place);
+    memcpy(c->normal, p->at.normal, sizeof c->normal);
+    for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+        c->area[i] = maxf(count != 0 ? area[0] : area[0] * p->over[i], 1e-30f);
+        c->power[i] = light->power;
+        c->radius2[i] = area[1];
+        c->first[i] = point;
+        c->count[i] = count;
+        c->colour[0][i] = light->colour[0];
+        c->colour[1][i] = light->colour[1];
+        c->colour[2][i] = light->colour[2];
+    }
+    for (int i = 0; i < LMB_LIVE_NODES; ++i) {
+        const lmb_live_target to = {{p->at.place[0][i], p->at.place[1][i], p->at.place[2][i]},
+                                    {p->at.normal[0][i], p->at.normal[1][i], p->at.normal[2][i]},
+                                    {light->colour[0], light->colour[1], light->colour[2]},
+                                    p->id[i]};
+        c->target[i] = to;
+    }
+    memcpy(s->part[s->near_count], p->part, sizeof p->part);
+    ++s->near_count;
+}
+
+/* Stores the sixteen parts of a point's part. Returns 0 if none of them shows a surface. */
+static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t part, const lmb_live_chunk *whole,
+                     uint32_t lane)
+{
+    live_parts p;
+    const uint32_t level = (part >> 2 * PART_BITS) + 1;
+    find_parts(&p, l, &l->live->sorted[point], part);
+    const uint32_t count = count_bits_16(p.shown);
     const float share = count > 0 ? 1.0f / (float)count : 0.0f, power = whole->power[lane] * share,
                 area = whole->radius2[lane] * share; /* of a point: area */
     const float flux[3] = {whole->colour[0][lane] * power, whole->colour[1][lane] * power,
                            whole->colour[2][lane] * power};
-    const live_light light = live_light_of(flux);
-    if (!(light.power > 0.0f)) {
+    if (!(live_power(flux) > 0.0f)) {
         return 0;
     }
-    for (uint32_t k = 0; k < count; ++k) {
+    const live_light light = live_light_of(flux);
+    const uint32_t parts = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;
+    const float areas[2] = {level < DEEPEST ? LIVE_DISC * area : area, area};
+    if (p.shown == 0xffffu && s->near_lane == LMB_LIVE_NODES) {
+        put_whole(s, &p, point, parts, &light, areas);
+        return 1;
+    }
+    for (uint32_t bits = p.shown; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
         int i;
         lmb_live_chunk *c = take(s, &i);
-        const float disc = level < DEEPEST ? LIVE_DISC * area : over[k] * area;
-        live_put(c, i, place[k], normal[k], &light, maxf(disc, 1e-30f), place[k], normal[k], id[k]);
+        const lmb_vec3 place = vec3(p.at.place[0][k], p.at.place[1][k], p.at.place[2][k]),
+                       normal = vec3(p.at.normal[0][k], p.at.normal[1][k], p.at.normal[2][k]);
+        const float disc = parts != 0 ? areas[0] : p.over[k] * area;
+        live_put(c, i, place, normal, &light, maxf(disc, 1e-30f), place, normal, p.id[k]);
         c->radius2[i] = area;
         c->first[i] = point;
-        c->count[i] = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;
-        s->part[s->near_count - 1][i] = at[k];
+        c->count[i] = parts;
+        s->part[s->near_count - 1][i] = p.part[k];
     }
     return 1;
 }
@@ -262,11 +327,11 @@ static int put_quarters(lmb_live_scratch *s, const lmb_live *live, uint32_t poin
     const float share = 1.0f / LMB_LIVE_NODES, power = whole->power[lane] * share, area = whole->area[lane] / LIVE_DISC;
     const float flux[3] = {whole->colour[0][lane] * power, whole->colour[1][lane] * power,
                            whole->colour[2][lane] * power};
-    const live_light light = live_light_of(flux);
     lmb_vec3 own[3];
-    if (lmb_live_is_whole(live, p) || !(light.power > 0.0f)) {
+    if (lmb_live_is_whole(live, p) || !(live_power(flux) > 0.0f)) {
         return 0;
     }
+    const live_light light = live_light_of(flux);
     memcpy(own, live->element[live_element_of(p)].corner, sizeof own);
     for (uint32_t k = 4 * (level - 1); k > 0; k -= 2) {
         into_quarter(own, way >> (k - 2) & 3u);
@@ -321,10 +386,14 @@ static int put_parts_of(lmb_live_scratch *s, live_look *l, uint32_t point, uint3
                                     : look_at(l, face) && put_parts(s, l, point, part, whole, lane);
 }
 
-int lmb_live_come_near(lmb_live_scratch *s, const lmb_live *live)
+int lmb_live_come_near(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live *live)
 {
     const int32_t before = s->count, leaves = s->leaves;
     live_look l;
+    if (leaves == 0) {
+        return 0;
+    }
+    l.kernels = kernels;
     l.live = live;
     look_along(&l, live->face);
     s->near_lane = LMB_LIVE_NODES;

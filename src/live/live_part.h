@@ -15,7 +15,7 @@ uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch,
                           const lmb_live_receiver *receiver, uint64_t asked);
 
 /* Adds refined nodes to the cut for the near leaves in scratch->leaf. Returns 1 if it added any. */
-int lmb_live_come_near(lmb_live_scratch *scratch, const lmb_live *live);
+int lmb_live_come_near(lmb_live_scratch *scratch, const lmb_kernels *kernels, const lmb_live *live);
 
 /* A triangle in a map, with a unit normal on the lit side, and the vectors that give barycentrics. */
 typedef struct live_plane {

@@ -23,7 +23,7 @@ static void cut(lmb_live_scratch *s, const lmb_kernels *kernels, const lmb_live 
     }
     do {
         kernels->live_values(s, live, job);
-    } while (lmb_live_come_near(s, live));
+    } while (lmb_live_come_near(s, kernels, live));
     s->pairs += (uint64_t)s->count * LMB_LIVE_NODES;
 }
 

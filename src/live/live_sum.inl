@@ -128,6 +128,78 @@ static void KERNEL(live_values)(lmb_live_scratch *s, const lmb_live *live, const
     }
 }
 
+/* Like footprint_over. */
+LANE_INLINE lane3 live_over(const lmb_live_surface *p, lane sx, lane sy)
+{
+    const lmb_view *v = p->view;
+    const lane3 right = lane3_of(v->right), up = lane3_of(v->up), back = lane3_of(v->back), eye = lane3_of(v->eye);
+    const lmb_vec3 from = sub3(p->corner, v->eye);
+    lane3 across;
+    across.x = lane_add(lane_mul(right.x, sx), lane_mul(up.x, sy));
+    across.y = lane_add(lane_mul(right.y, sx), lane_mul(up.y, sy));
+    across.z = lane_add(lane_mul(right.z, sx), lane_mul(up.z, sy));
+    if (v->kind == LMB_PERSPECTIVE) {
+        const lane3 ray = lane3_sub(across, back);
+        const lane far = lane_div(lane_splat(dot3(p->normal, from)), lane3_dot(lane3_of(p->normal), ray));
+        across.x = lane_add(eye.x, lane_mul(ray.x, far));
+        across.y = lane_add(eye.y, lane_mul(ray.y, far));
+        across.z = lane_add(eye.z, lane_mul(ray.z, far));
+        return across;
+    }
+    const lane w = lane_div(lane3_dot(lane3_of(p->normal), lane3_sub(lane3_of(from), across)),
+                            lane_splat(-dot3(p->normal, v->back)));
+    across.x = lane_add(eye.x, lane_sub(across.x, lane_mul(back.x, w)));
+    across.y = lane_add(eye.y, lane_sub(across.y, lane_mul(back.y, w)));
+    across.z = lane_add(eye.z, lane_sub(across.z, lane_mul(back.z, w)));
+    return across;
+}
+
+/* Moves points that lie outside the triangle onto it. */
+LANE_INLINE lane3 live_onto(const lmb_live_surface *p, lane3 at)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), inside = lane_splat(LIVE_INSIDE),
+               most = lane_splat(1.0f - LIVE_INSIDE);
+    const lane3 from = lane3_sub(at, lane3_of(p->corner));
+    lane b1 = lane3_dot(lane3_of(p->along[0]), from), b2 = lane3_dot(lane3_of(p->along[1]), from);
+    const lane_mask out = mask_or(mask_or(lane_lt(b1, zero), lane_lt(b2, zero)), lane_lt(one, lane_add(b1, b2)));
+    if (mask_bits(out) == 0) {
+        return at;
+    }
+    b1 = lane_max(b1, inside);
+    b2 = lane_max(b2, inside);
+    const lane sum = lane_add(b1, b2), over = lane_pick(lane_lt(most, sum), lane_div(most, sum), one);
+    const lane u = lane_mul(b1, over), v = lane_mul(b2, over);
+    const lane3 corner = lane3_of(p->corner), s0 = lane3_of(p->side[0]), s1 = lane3_of(p->side[1]);
+    at.x = lane_pick(out, lane_add(corner.x, lane_add(lane_mul(s0.x, u), lane_mul(s1.x, v))), at.x);
+    at.y = lane_pick(out, lane_add(corner.y, lane_add(lane_mul(s0.y, u), lane_mul(s1.y, v))), at.y);
+    at.z = lane_pick(out, lane_add(corner.z, lane_add(lane_mul(s0.z, u), lane_mul(s1.z, v))), at.z);
+    return at;
+}
+
+/* Like is_sane. */
+LANE_INLINE lane_mask live_sane(lane v)
+{
+    return mask_and(lane_lt(lane_splat(-1048576.0f), v), lane_lt(v, lane_splat(1048576.0f)));
+}
+
+/* Like lmb_live_place, for many points. */
+static uint32_t KERNEL(live_places)(lmb_live_spots *s, const lmb_live_surface *p, uint32_t asked)
+{
+    uint32_t out = 0;
+    for (int i = 0; i < LMB_LIVE_NODES; i += LANES) {
+        const lane_mask own = mask_of_bits(asked >> i & (~0u >> (32 - LANES)));
+        const lane3 over = live_over(p, lane_load(s->sx + i), lane_load(s->sy + i)), at = live_onto(p, over);
+        const lane where[3] = {at.x, at.y, at.z};
+        const float normal[3] = {p->normal.x, p->normal.y, p->normal.z};
+        for (int h = 0; h < 3; ++h) {
+            lane_store(s->place[h] + i, lane_pick(own, where[h], lane_load(s->place[h] + i)));
+            lane_store(s->normal[h] + i, lane_pick(own, lane_splat(normal[h]), lane_load(s->normal[h] + i)));
+        }
+        out |= mask_bits(mask_and(mask_and(live_sane(over.x), live_sane(over.y)), live_sane(over.z))) << i;
+    }
+    return out & asked;
+}
+
 /* Sums the cut's chunks, and each channel. Returns the total. */
 static float KERNEL(live_sums)(float light[3], lmb_live_scratch *s)
 {
