@@ -616,7 +616,8 @@ struct lmb_kernels {
     /* Find the segments of `asked` that meet each box of a node, returning the mask of boxes that any meets, whose
      * entries are set; those that end beyond a triangle's plane; and of these
      * those that cross the triangle. */
-    uint32_t (*live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *segments, uint64_t asked, const lmb_boxes *boxes);
+    uint32_t (*live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *segments, uint64_t asked,
+                           const lmb_boxes *boxes);
     uint64_t (*live_beyond)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job);
     uint64_t (*live_crossed)(float (*to)[LMB_TILE_PIXELS], uint64_t asked, const lmb_cross_job *job);
     /* Lights the pixels of a cell and no others. Returns the pixels that no corner explains. */

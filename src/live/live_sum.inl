@@ -158,7 +158,7 @@ LANE_INLINE lane3 live_over(const lmb_live_surface *p, lane sx, lane sy)
 LANE_INLINE lane3 live_onto(const lmb_live_surface *p, lane3 at)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), inside = lane_splat(LIVE_INSIDE),
-               most = lane_splat(1.0f - LIVE_INSIDE);
+               limit = lane_splat(1.0f - LIVE_INSIDE);
     const lane3 from = lane3_sub(at, lane3_of(p->corner));
     lane b1 = lane3_dot(lane3_of(p->along[0]), from), b2 = lane3_dot(lane3_of(p->along[1]), from);
     const lane_mask out = mask_or(mask_or(lane_lt(b1, zero), lane_lt(b2, zero)), lane_lt(one, lane_add(b1, b2)));
@@ -167,7 +167,7 @@ LANE_INLINE lane3 live_onto(const lmb_live_surface *p, lane3 at)
     }
     b1 = lane_max(b1, inside);
     b2 = lane_max(b2, inside);
-    const lane sum = lane_add(b1, b2), over = lane_pick(lane_lt(most, sum), lane_div(most, sum), one);
+    const lane sum = lane_add(b1, b2), over = lane_pick(lane_lt(limit, sum), lane_div(limit, sum), one);
     const lane u = lane_mul(b1, over), v = lane_mul(b2, over);
     const lane3 corner = lane3_of(p->corner), s0 = lane3_of(p->side[0]), s1 = lane3_of(p->side[1]);
     at.x = lane_pick(out, lane_add(corner.x, lane_add(lane_mul(s0.x, u), lane_mul(s1.x, v))), at.x);
@@ -244,8 +244,8 @@ static inline void live_put_target(lmb_live_rays *r, int32_t to, const lmb_live_
     r->id[to] = t->id;
 }
 
-/* Lane whose range of running sums contains `at`: the first of the lanes `some`, not 0, with a sum over it; the last one
- * of them if rounding overshot. */
+/* Lane whose range of running sums contains `at`: the first of the lanes `some`, not 0, with a sum over it. The last
+ * one of them if rounding overshot. */
 LANE_INLINE int live_lane_at(const float sums[LMB_LIVE_NODES], float at, uint32_t some)
 {
     uint32_t after = 0;
@@ -280,8 +280,8 @@ static inline const lmb_live_chunk *live_part_at(int *lane_of, const lmb_live *l
     }
 }
 
-/* Stores the targets of strata that chunk e, lane i were selected for: pick = 16 e + i. A node with more than one
- * stratum has the part at a fraction `rest` before the end of the node's light. */
+/* Stores the targets of the strata. pick: 16 times a chunk of the cut plus a lane. If a node has more than one stratum,
+ * the part is used that lies `rest` of the light before the node's end. */
 static inline void live_put_targets(lmb_live_scratch *s, const lmb_live *live, const uint16_t *pick, const float *rest,
                                     int32_t count, float step)
 {

@@ -359,6 +359,102 @@ static void same_bytes(void)
     CHECK_MSG(wrong == 0, "%d differ", wrong);
 }
 
+/* Points of a map that are placed by lanes are those that lmb_live_place gives, and others stay. */
+static void places_by_lanes(void)
+{
+    const lmb_kernels *const backends[] = {LMB_BACKENDS(KERNELS_OF_THIS)};
+    test_rng r = {31};
+    int wrong = 0, moved = 0;
+    for (int n = 0; n < 400; ++n) {
+        lmb_view view;
+        lmb_live_surface on;
+        lmb_live_spots spots, before;
+        live_plane plane;
+        memset(&plane, 0, sizeof plane);
+        lmb_view_look_at(&view, vec3(0.1f, 2, 0.3f), vec3(0, 0, 0), Z, 1.0f, 64, 64);
+        view.kind = n % 2 ? LMB_PERSPECTIVE : LMB_ORTHOGRAPHIC;
+        for (int i = 0; i < 2; ++i) {
+            plane.side[i] = vec3(test_uniform(&r, -1, 1), test_uniform(&r, -0.2f, 0.2f), test_uniform(&r, -1, 1));
+        }
+        const lmb_vec3 across = cross3(plane.side[0], plane.side[1]);
+        const float per = 1.0f / dot3(across, across);
+        plane.normal = normalize3(across);
+        plane.along[0] = mul3(cross3(plane.side[1], across), per);
+        plane.along[1] = mul3(cross3(across, plane.side[0]), per);
+        on.view = &view;
+        on.corner = plane.corner;
+        on.normal = plane.normal;
+        memcpy(on.side, plane.side, sizeof on.side);
+        memcpy(on.along, plane.along, sizeof on.along);
+        for (size_t i = 0; i < sizeof spots / sizeof(float); ++i) {
+            ((float *)(void *)&spots)[i] = test_uniform(&r, -0.5f, 0.5f);
+        }
+        before = spots;
+        const uint32_t asked = test_random(&r) & 0xffffu;
+        for (int k = 0; k < COUNT(backends); ++k) {
+            spots = before;
+            const uint32_t found = backends[k] != NULL ? backends[k]->live_places(&spots, &on, asked) : 0;
+            for (int i = 0; i < LMB_LIVE_NODES && backends[k] != NULL; ++i) {
+                lmb_vec3 at = vec3(before.place[0][i], before.place[1][i], before.place[2][i]);
+                const int own = asked >> i & 1u;
+                const int is = own && lmb_live_place(&at, &plane, &view, before.sx[i], before.sy[i]);
+                wrong += (found >> i & 1u) != (uint32_t)is || at.x != spots.place[0][i] || at.y != spots.place[1][i] ||
+                         at.z != spots.place[2][i] ||
+                         spots.normal[1][i] != (own ? plane.normal.y : before.normal[1][i]);
+                moved += is;
+            }
+        }
+    }
+    CHECK_MSG(wrong == 0 && moved > 1000, "%d of %d differ", wrong, moved);
+}
+
+/* The rays that meet the boxes of a node, by boxes in lanes: those that meets_one finds one by one. */
+static void boxes_by_lanes(void)
+{
+    const lmb_kernels *const backends[] = {LMB_BACKENDS(KERNELS_OF_THIS)};
+    test_rng r = {37};
+    int wrong = 0, met = 0;
+    for (int n = 0; n < 300; ++n) {
+        lmb_segments rays;
+        lmb_boxes node;
+        memset(&node, 0, sizeof node);
+        rays.at = vec3(test_uniform(&r, -1, 1), test_uniform(&r, -1, 1), test_uniform(&r, -1, 1));
+        for (int h = 0; h < 3; ++h) {
+            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+                rays.per[h][k] = k % 7 == h ? (n % 2 ? 1e20f : -1e20f) : 1.0f / test_uniform(&r, -1, 1);
+            }
+            for (int i = 0; i < LMB_BOXES; ++i) {
+                const float a = test_uniform(&r, -1, 1);
+                node.low[h][i] = i < n % (LMB_BOXES + 1) ? a : 3e38f;
+                node.high[h][i] = i < n % (LMB_BOXES + 1) ? a + test_uniform(&r, 0, 0.6f) : -3e38f;
+            }
+        }
+        const uint64_t asked = (uint64_t)test_random(&r) << 32 | test_random(&r);
+        for (int k = 0; k < COUNT(backends); ++k) {
+            uint64_t out[LMB_BOXES];
+            memset(out, 0, sizeof out);
+            const uint32_t any = backends[k] != NULL ? backends[k]->live_boxes(out, &rays, asked, &node) : 0;
+            for (int i = 0; i < LMB_BOXES && backends[k] != NULL; ++i) {
+                uint64_t should = 0;
+                for (int b = 0; b < LMB_TILE_PIXELS; ++b) {
+                    lmb_segment s;
+                    s.at = rays.at;
+                    s.per = vec3(rays.per[0][b], rays.per[1][b], rays.per[2][b]);
+                    for (int h = 0; h < 3; ++h) {
+                        s.enter[h] = (rays.per[h][b] < 0.0f ? 3 + h : h) * LMB_BOXES;
+                        s.leave[h] = (rays.per[h][b] < 0.0f ? h : 3 + h) * LMB_BOXES;
+                    }
+                    should |= (uint64_t)(backends[k]->meets_one(&s, &node) >> i & 1u) << b;
+                }
+                should &= asked;
+                wrong += out[i] != should || (any >> i & 1u) != (uint32_t)(should != 0);
+                met += should != 0;
+            }
+        }
+    }
+    CHECK_MSG(wrong == 0 && met > 1000, "%d of %d differ", wrong, met);
+}
+
 /* Too few chunks: coarser nodes, the same light. */
 static void few_chunks(void)
 {
@@ -476,6 +572,8 @@ void test_live(void)
     under_a_sheet_is_dark();
     behind_a_thin_wall_is_dark();
     same_bytes();
+    places_by_lanes();
+    boxes_by_lanes();
     few_chunks();
     many_planes();
     parts_fit();
