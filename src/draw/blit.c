@@ -205,29 +205,63 @@ static const uint8_t *text_glyph(char c)
     return glyphs[code >= 32 && code < 32 + GLYPHS ? code - 32 : GLYPHS];
 }
 
-/* The square for one pixel of a glyph. */
-static void text_square(const lmb_surface *to, int64_t x, int64_t y, int32_t scale, const uint8_t colour[4])
+/* The ink of a text. With four bytes a pixel, `codes` are in the order of the surface's. */
+typedef struct text_ink {
+    const lmb_surface *to;
+    uint8_t codes[4], alpha;
+    int32_t scale;
+    int is_wide;
+} text_ink;
+
+/* Blends onto a pixel of four bytes. */
+static void text_mix(uint8_t *at, const text_ink *ink)
 {
+    if (ink->alpha == 255) {
+        memcpy(at, ink->codes, 4);
+        return;
+    }
+    for (int i = 0; i < 4; ++i) {
+        at[i] = (uint8_t)draw_between(ink->codes[i], at[i], ink->alpha);
+    }
+}
+
+/* The square for one pixel of a glyph. */
+static void text_square(const text_ink *ink, int64_t x, int64_t y)
+{
+    const lmb_surface *to = ink->to;
     int32_t x0, x1, y0, y1;
-    blit_span(&x0, &x1, x, scale, to->width);
-    blit_span(&y0, &y1, y, scale, to->height);
+    blit_span(&x0, &x1, x, ink->scale, to->width);
+    blit_span(&y0, &y1, y, ink->scale, to->height);
     for (int32_t at_y = y0; at_y < y1; ++at_y) {
         for (int32_t at_x = x0; at_x < x1; ++at_x) {
-            blit_mix(to, at_x, at_y, colour, colour[3], 0);
+            if (ink->is_wide) {
+                text_mix(blit_place(to, at_x, at_y), ink);
+            } else {
+                blit_mix(to, at_x, at_y, ink->codes, ink->alpha, 0);
+            }
         }
     }
 }
 
-static void text_put(const lmb_surface *to, int64_t x, int64_t y, char c, int32_t scale, const uint8_t colour[4])
+static void text_put(const text_ink *ink, int64_t x, int64_t y, char c)
 {
+    const lmb_surface *to = ink->to;
     const uint8_t *glyph = text_glyph(c);
-    if (x >= to->width || y >= to->height || x + CELL_WIDE * scale <= 0 || y + CELL_HIGH * scale <= 0) {
+    const int32_t wide = CELL_WIDE * ink->scale, high = CELL_HIGH * ink->scale;
+    if (x >= to->width || y >= to->height || x + wide <= 0 || y + high <= 0) {
         return;
     }
+    /* Most text: whole cells of pixels of four bytes. */
+    const int is_inside = DRAW_FULL && ink->is_wide && ink->scale == 1 && x >= 0 && y >= 0 &&
+                          x + CELL_WIDE <= to->width && y + CELL_HIGH <= to->height;
+    uint8_t *cell = is_inside ? blit_place(to, (int32_t)x, (int32_t)y) : NULL;
     for (int column = 0; column < GLYPH_WIDE; ++column) {
-        for (int row = 0; row < CELL_HIGH; ++row) {
-            if (glyph[column] >> row & 1) {
-                text_square(to, x + column * scale, y + row * scale, scale, colour);
+        for (uint32_t bits = glyph[column]; bits != 0; bits &= bits - 1) {
+            const int row = lowest_bit(bits);
+            if (is_inside) {
+                text_mix(cell + (ptrdiff_t)row * to->stride_bytes + 4 * column, ink);
+            } else {
+                text_square(ink, x + column * ink->scale, y + row * ink->scale);
             }
         }
     }
@@ -241,12 +275,20 @@ lmb_status lmb_text(const lmb_surface *to, int32_t x, int32_t y, const char *tex
     if (status != LMB_OK || text == NULL || colour == NULL || scale < 1 || scale > BLIT_SCALE) {
         return status != LMB_OK ? status : LMB_ERR_ARG;
     }
+    text_ink ink = {
+        to, {colour[0], colour[1], colour[2], colour[3]}, colour[3], scale, lmb_pixel_bytes(to->format) == 4};
+    if (ink.is_wide) { /* opaque */
+        const int swaps = to->format == LMB_BGRA8;
+        ink.codes[0] = colour[swaps ? 2 : 0];
+        ink.codes[2] = colour[swaps ? 0 : 2];
+        ink.codes[3] = 255;
+    }
     for (; *text != 0; ++text) {
         if (*text == '\n') {
             at_x = x;
             at_y += CELL_HIGH * scale;
         } else {
-            text_put(to, at_x, at_y, *text, scale, colour);
+            text_put(&ink, at_x, at_y, *text);
             at_x += CELL_WIDE * scale;
         }
     }

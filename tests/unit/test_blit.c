@@ -262,8 +262,37 @@ static void test_text_cells(void)
           lmb_text(NULL, 0, 0, "a", 1, white) == LMB_ERR_ARG);
 }
 
+/* Each ink, in each order of the bytes, over any colours: an exact mix where white text is white, nothing elsewhere. */
+static void test_text_inks(void)
+{
+    static const uint8_t white[4] = {255, 255, 255, 255};
+    for (int32_t n = 0; n < 24; ++n) {
+        const int32_t format = n % 2 ? LMB_RGBA8 : LMB_BGRA8, alpha = n % 3 == 0 ? 255 : n % 3 * 100 - 100;
+        const int32_t x = n % 4 * ((CASE_WIDE - 6) / 3) + n / 12 * 3, y = n % 5 - 2;
+        const uint8_t ink[4] = {200, 90, 30, (uint8_t)alpha};
+        uint32_t is_text[CASE_HIGH][CASE_WIDE];
+        int wrong = 0;
+        fill((uint32_t)n + 1);
+        CHECK(lmb_text(&drawn_on.colour, x, y, "W\n@", 1, white) == LMB_OK);
+        memcpy(is_text, drawn.colour, sizeof is_text);
+        memcpy(drawn.colour, pixels, sizeof is_text);
+        drawn_on.colour.format = (uint8_t)format;
+        CHECK(lmb_text(&drawn_on.colour, x, y, "W\n@", 1, ink) == LMB_OK && case_guard_is_whole());
+        for (int32_t k = 0; k < 4 * CASE_HIGH * CASE_WIDE; ++k) {
+            const int32_t px = k / 4 % CASE_WIDE, py = k / 4 / CASE_WIDE, i = k % 4;
+            const int32_t was = ((const uint8_t *)&pixels[py][px])[i];
+            const int32_t own = i == 3 ? 255 : ink[format == LMB_BGRA8 ? 2 - i : i];
+            const int32_t mixed = (2 * (own * alpha + was * (255 - alpha)) + 255) / 510;
+            const int in = is_text[py][px] != 0 && px >= x && px < x + 6;
+            wrong += drawn.colour[py][px][i] != (in ? mixed : was);
+        }
+        CHECK_MSG(wrong == 0, "text %d: %d codes", n, wrong);
+    }
+}
+
 void test_blit(void)
 {
+    test_text_inks();
     test_places();
     test_overlaps();
     test_rules();
