@@ -147,43 +147,50 @@ LANE_INLINE lane draw_value_at(const lmb_draw_patch *p, int i, const draw_share 
     return lane_add(lane_splat(p->at[i]), more);
 }
 
+/* texture_wrap; sides that are powers of two repeat by a mask. */
+LANE_INLINE lanei draw_wrap(lanei i, int32_t size, int wrap)
+{
+    if (wrap == LMB_WRAP_REPEAT && (size & (size - 1)) == 0) {
+        return lanei_and(i, lanei_splat(size - 1));
+    }
+    return texture_wrap(i, lanei_splat(size), wrap);
+}
+
+LANE_INLINE lanei draw_texel_row(const lmb_texture *t, lanei y)
+{
+    return lanei_mul(draw_wrap(y, t->height, t->wrap_t), lanei_splat(t->width));
+}
+
 LANE_INLINE lanei draw_texel_at(const lmb_texture *t, lanei x, lanei y)
 {
     const lanei row = lanei_mul(texture_wrap(y, lanei_splat(t->height), t->wrap_t), lanei_splat(t->width));
     return lanei_gather_rgba(t->texels, lanei_add(row, texture_wrap(x, lanei_splat(t->width), t->wrap_s)));
 }
 
-LANE_INLINE void draw_add_texel(draw_codes *sum, lanei texel, lanei weight)
+/* At x, y in 1/256 texels. */
+LANE_PART lanei draw_between_texels(const lmb_texture *t, lanei x, lanei y)
 {
-    const draw_codes t = draw_split(texel);
-    for (int i = 0; i < 4; ++i) {
-        sum->c[i] = lanei_add(sum->c[i], lanei_mul(t.c[i], weight));
-    }
+    const lanei byte = lanei_splat(255), one = lanei_splat(1);
+    const lanei x0 = lanei_shift(x, 8), y0 = lanei_shift(y, 8);
+    const lanei left = draw_wrap(x0, t->width, t->wrap_s), right = draw_wrap(lanei_add(x0, one), t->width, t->wrap_s);
+    const lanei upper = draw_texel_row(t, y0), lower = draw_texel_row(t, lanei_add(y0, one));
+    lanei corner[4];
+    corner[0] = lanei_gather_rgba(t->texels, lanei_add(upper, left));
+    corner[1] = lanei_gather_rgba(t->texels, lanei_add(upper, right));
+    corner[2] = lanei_gather_rgba(t->texels, lanei_add(lower, left));
+    corner[3] = lanei_gather_rgba(t->texels, lanei_add(lower, right));
+    return codes_between(corner, lanei_and(x, byte), lanei_and(y, byte));
 }
 
-/* The four weights sum to 2^16. */
-LANE_PART draw_codes draw_bilinear(const lmb_texture *t, lane u, lane v)
+LANE_INLINE draw_codes draw_bilinear(const lmb_texture *t, lane u, lane v)
 {
-    const lanei half = lanei_splat(128), byte = lanei_splat(255), all = lanei_splat(256), one = lanei_splat(1);
+    const lanei half = lanei_splat(128);
     const lanei x = lanei_sub(lane_to_int(lane_mul(u, lane_splat((float)(t->width * 256)))), half);
     const lanei y = lanei_sub(lane_to_int(lane_mul(v, lane_splat((float)(t->height * 256)))), half);
-    const lanei fx = lanei_and(x, byte), fy = lanei_and(y, byte), gx = lanei_sub(all, fx), gy = lanei_sub(all, fy);
-    const lanei x0 = lanei_shift(x, 8), y0 = lanei_shift(y, 8), x1 = lanei_add(x0, one), y1 = lanei_add(y0, one);
-    draw_codes sum;
-    for (int i = 0; i < 4; ++i) {
-        sum.c[i] = lanei_splat(1 << 15);
-    }
-    draw_add_texel(&sum, draw_texel_at(t, x0, y0), lanei_mul(gx, gy));
-    draw_add_texel(&sum, draw_texel_at(t, x1, y0), lanei_mul(fx, gy));
-    draw_add_texel(&sum, draw_texel_at(t, x0, y1), lanei_mul(gx, fy));
-    draw_add_texel(&sum, draw_texel_at(t, x1, y1), lanei_mul(fx, fy));
-    for (int i = 0; i < 4; ++i) {
-        sum.c[i] = lanei_shift(sum.c[i], 16);
-    }
-    return sum;
+    return draw_split(draw_between_texels(t, x, y));
 }
 
-LANE_INLINE draw_codes draw_sample(const lmb_texture *t, lane u, lane v)
+LANE_PART draw_codes draw_sample(const lmb_texture *t, lane u, lane v)
 {
     u = texture_reduce(u, t->wrap_s);
     v = texture_reduce(v, t->wrap_t);
@@ -279,34 +286,6 @@ LANE_PART lanei draw_blend_all(const lmb_draw_state *s, const draw_codes *source
     return draw_join(&made);
 }
 
-/* Two codes at once, in the low and the high half. */
-LANE_INLINE lanei draw_pair_255th(lanei v)
-{
-    const lanei pair = lanei_splat(0x00ff00ff);
-    v = lanei_add(v, lanei_splat(0x00800080));
-    return lanei_and(lanei_shift(lanei_add(v, lanei_and(lanei_shift(v, 8), pair)), 8), pair);
-}
-
-/* Blends by the source's alpha: over the target, or added to it. */
-LANE_INLINE lanei draw_pair_blend(lanei a, lanei b, lanei share, int adds)
-{
-    if (!adds) {
-        return draw_pair_255th(lanei_add(lanei_mul(a, share), lanei_mul(b, lanei_sub(lanei_splat(255), share))));
-    }
-    const lanei sum = lanei_add(draw_pair_255th(lanei_mul(a, share)), b);
-    const lanei over = lanei_and(sum, lanei_splat(0x01000100));
-    return lanei_and(lanei_or(sum, lanei_sub(over, lanei_shift(over, 8))), lanei_splat(0x00ff00ff));
-}
-
-LANE_INLINE lanei draw_blend_usual(lanei bits, lanei share, lanei was, int adds)
-{
-    const lanei pair = lanei_splat(0x00ff00ff);
-    const lanei even = draw_pair_blend(lanei_and(bits, pair), lanei_and(was, pair), share, adds);
-    const lanei upper = lanei_and(lanei_shift(bits, 8), pair), upper_was = lanei_and(lanei_shift(was, 8), pair);
-    const lanei odd = draw_pair_blend(upper, upper_was, share, adds);
-    return lanei_or(even, lanei_mul(odd, lanei_splat(1 << 8)));
-}
-
 LANE_PART lanei draw_logic_lanes(uint32_t op, lanei source, lanei was)
 {
     const lanei ones = lanei_splat(-1), zero = lanei_splat(0);
@@ -343,7 +322,9 @@ LANE_INLINE lanei draw_met(const lmb_draw_state *s, const draw_codes *v, lanei w
 {
     switch (meets) {
     case DRAW_MEET_OVER:
-    case DRAW_MEET_ADD: return draw_blend_usual(draw_join(v), v->c[3], was, meets == DRAW_MEET_ADD);
+        return codes_over(draw_join(v), was);
+    case DRAW_MEET_ADD:
+        return codes_plus(draw_join(v), was);
     case DRAW_MEET_BLEND: return draw_blend_all(s, v, was);
     case DRAW_MEET_LOGIC: return draw_logic_lanes(s->logic_op, draw_join(v), was);
     default: return draw_join(v);
@@ -414,7 +395,228 @@ LANE_INLINE draw_codes draw_colour_of(const lmb_draw_patch *p, const draw_share 
     return state->fog != LMB_DRAW_FOG_NONE ? draw_fogged(v, p, s) : v;
 }
 
-static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
+/* --- one texture, blended by alpha -------------------------------------------------------------------------------- */
+
+#if !defined(LANE_PLAIN) /* in plain C the general kernel is faster */
+/* 1: the usual states: at most one texture, no fog, all channels, opaque or blended by alpha. */
+static int draw_is_usual(const lmb_draw_state *s, int meets)
+{
+    const lmb_draw_stage *stage = &s->stage[0];
+    return meets <= DRAW_MEET_ADD && s->colour_mask == 15 && s->fog == LMB_DRAW_FOG_NONE &&
+           s->stage[1].texture == NULL &&
+           (stage->texture == NULL || stage->mode == LMB_DRAW_MODULATE || stage->mode == LMB_DRAW_REPLACE);
+}
+
+/* Texture coordinate i over a patch. Copies of the patch's values, because stores of vectors may alias it. */
+typedef struct draw_axis {
+    lane at, more1, more2, size;
+    int32_t texels, wrap;
+    int up;   /* 1: never negative, and far from the limits */
+    int rows; /* 1: differs between the rows of a tile */
+} draw_axis;
+
+LANE_INLINE draw_axis draw_axis_of(const lmb_draw_patch *p, int i, int32_t texels, int32_t wrap, int32_t steps)
+{
+    const float at = p->at[i], more1 = p->more1[i], more2 = p->more2[i];
+    draw_axis a;
+    a.at = lane_splat(at);
+    a.more1 = lane_splat(more1);
+    a.more2 = lane_splat(more2);
+    a.size = lane_splat((float)(texels * steps));
+    a.texels = texels;
+    a.wrap = wrap;
+    a.up = wrap == LMB_WRAP_REPEAT && at >= 0.0f && more1 >= 0.0f && more2 >= 0.0f && at + more1 + more2 < 1e6f;
+    a.rows =
+        LANES < LMB_TILE || !p->is_even || (more1 != 0.0f && p->n1.y != 0.0f) || (more2 != 0.0f && p->n2.y != 0.0f);
+    return a;
+}
+
+/* The coordinate within a period, in steps of a texel. If it is not negative, it needs no floor. */
+LANE_INLINE lanei draw_place(const draw_axis *a, const draw_share *s)
+{
+    const lane u = lane_add(a->at, lane_add(lane_mul(s->b1, a->more1), lane_mul(s->b2, a->more2)));
+    const lane part = a->up ? lane_sub(u, lane_trunc(u)) : texture_reduce(u, a->wrap);
+    return lane_to_int(lane_mul(part, a->size));
+}
+
+/* The same as the index of a texel. What is left of `up` coordinates is below 1. */
+LANE_INLINE lanei draw_nearest(const draw_axis *a, const draw_share *s)
+{
+    const lanei i = draw_place(a, s);
+    return a->up ? i : draw_wrap(i, a->texels, a->wrap);
+}
+
+/* What the pixels of a tile need before they are blended. */
+typedef struct draw_pixels {
+    int32_t x[LMB_TILE_PIXELS], y[LMB_TILE_PIXELS]; /* bilinear: 1/256 texels; nearest: x is the texel's index */
+    int32_t colour[LMB_TILE_PIXELS];
+} draw_pixels;
+
+/* Stores v. Pixels that are not in `bits` keep theirs if an earlier half has `others`. */
+LANE_INLINE void draw_keep(int32_t *at, lanei v, uint32_t bits, uint32_t others)
+{
+    lanei_store(at, others != 0 ? lanei_pick(mask_of_bits(bits), v, lanei_load(at)) : v);
+}
+
+/* draw_share_at of a patch with even shares, from copies of its slopes. */
+typedef struct draw_even {
+    lane at1, at2, x1, x2, y1, y2;
+} draw_even;
+
+LANE_INLINE draw_even draw_even_of(const lmb_draw_patch *p)
+{
+    draw_even e;
+    e.at1 = lane_splat(p->n1.at);
+    e.at2 = lane_splat(p->n2.at);
+    e.x1 = lane_splat(p->n1.x);
+    e.x2 = lane_splat(p->n2.x);
+    e.y1 = lane_splat(p->n1.y);
+    e.y2 = lane_splat(p->n2.y);
+    return e;
+}
+
+LANE_INLINE draw_share draw_even_at(const draw_even *e, int k)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), row = lane_row(k), column = lane_column(k);
+    draw_share s;
+    s.b1 = lane_add(lane_add(e->at1, lane_mul(e->y1, row)), lane_mul(e->x1, column));
+    s.b2 = lane_add(lane_add(e->at2, lane_mul(e->y2, row)), lane_mul(e->x2, column));
+    s.b1 = lane_hold(s.b1, zero, one);
+    s.b2 = lane_hold(s.b2, zero, one);
+    return s;
+}
+
+LANE_INLINE void draw_find_places(draw_pixels *out, const lmb_draw_patch *p, uint64_t mask, uint64_t others,
+                                  int is_smooth, int is_even)
+{
+    const lmb_texture *t = p->state->stage[0].texture;
+    const draw_axis u = draw_axis_of(p, 4, t->width, t->wrap_s, is_smooth ? 256 : 1),
+                    v = draw_axis_of(p, 5, t->height, t->wrap_t, is_smooth ? 256 : 1);
+    const lanei width = lanei_splat(t->width), half = lanei_splat(128);
+    const draw_even even = draw_even_of(p);
+    lanei x = half;
+    int is_known = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const uint32_t bits = draw_bits(mask, k), before = draw_bits(others, k);
+        if (bits == 0) {
+            continue;
+        }
+        const draw_share share = is_even ? draw_even_at(&even, k) : draw_share_at(p, k);
+        if (!is_known) {
+            x = is_smooth ? lanei_sub(draw_place(&u, &share), half) : draw_nearest(&u, &share);
+            is_known = !u.rows;
+        }
+        if (is_smooth) {
+            draw_keep(out->x + k, x, bits, before);
+            draw_keep(out->y + k, lanei_sub(draw_place(&v, &share), half), bits, before);
+        } else {
+            draw_keep(out->x + k, lanei_add(lanei_mul(draw_nearest(&v, &share), width), x), bits, before);
+        }
+    }
+}
+
+LANE_NOINLINE void KERNEL(draw_find)(draw_pixels *out, const lmb_draw_patch *p, uint64_t mask, uint64_t others)
+{
+    const int is_smooth = p->state->stage[0].texture->filter != LMB_NEAREST;
+    if (is_smooth && p->is_even) {
+        draw_find_places(out, p, mask, others, 1, 1);
+    } else if (is_smooth) {
+        draw_find_places(out, p, mask, others, 1, 0);
+    } else if (p->is_even) {
+        draw_find_places(out, p, mask, others, 0, 1);
+    } else {
+        draw_find_places(out, p, mask, others, 0, 0);
+    }
+}
+
+LANE_NOINLINE void KERNEL(draw_find_colours)(draw_pixels *out, const lmb_draw_patch *p, uint64_t mask, uint64_t others)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const uint32_t bits = draw_bits(mask, k);
+        draw_codes v;
+        if (bits == 0) {
+            continue;
+        }
+        const draw_share share = draw_share_at(p, k);
+        for (int i = 0; i < 4; ++i) {
+            v.c[i] = draw_code(draw_value_at(p, i, &share));
+        }
+        draw_keep(out->colour + k, draw_join(&v), bits, draw_bits(others, k));
+    }
+}
+
+/* The texel, times the colour unless that is white. */
+LANE_INLINE lanei draw_texel_times(const lmb_texture *t, const draw_pixels *from, int k, lanei colour, int is_white)
+{
+    lanei c = colour;
+    if (t != NULL && t->filter == LMB_NEAREST) {
+        c = lanei_gather_rgba(t->texels, lanei_load(from->x + k));
+    } else if (t != NULL) {
+        c = draw_between_texels(t, lanei_load(from->x + k), lanei_load(from->y + k));
+    }
+    return is_white ? c : codes_times(c, colour);
+}
+
+LANE_INLINE void draw_put_pixels(const lmb_draw_patch *p, const draw_pixels *from, uint64_t mask, lanei same,
+                                 int is_white, int meets)
+{
+    const lmb_texture *t = p->state->stage[0].texture;
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const uint32_t bits = draw_bits(mask, k);
+        uint8_t *at = p->colour + (ptrdiff_t)(k >> 3) * p->colour_stride + 4 * (k & 7);
+        if (bits == 0) {
+            continue;
+        }
+        lanei v = draw_texel_times(t, from, k, p->varies ? lanei_load(from->colour + k) : same, is_white || t == NULL);
+        v = p->swaps ? draw_swap(v) : v;
+        if (meets != DRAW_MEET_NOT || bits != (1u << LANES) - 1u) {
+            const lanei was = draw_load(at, p->colour_stride);
+            v = meets == DRAW_MEET_OVER ? codes_over(v, was) : meets == DRAW_MEET_ADD ? codes_plus(v, was) : v;
+            v = lanei_pick(mask_of_bits(bits), v, was);
+        }
+        draw_save(at, p->colour_stride, v);
+    }
+}
+
+/* Colours the pixels of the masks, of one tile, in the usual states. halves: 1 or 2; both have one colour, or vary. */
+LANE_NOINLINE void KERNEL(draw_usual)(const lmb_draw_patch *p, const uint64_t *mask, int halves, int meets)
+{
+    const lmb_draw_stage *stage = &p->state->stage[0];
+    const int replaces = stage->texture != NULL && stage->mode == LMB_DRAW_REPLACE;
+    const uint64_t all = mask[0] | (halves > 1 ? mask[1] : 0);
+    int is_white = replaces || !p->varies;
+    draw_pixels pixels;
+    uint32_t codes = 0; /* of corner 0; vectors of each channel would take a quarter of the stack */
+    for (int i = 0; i < 4; ++i) {
+        const float code = p->at[i] > 0.0f ? p->at[i] : 0.0f;
+        codes |= (uint32_t)(int32_t)((code < 255.0f ? code : 255.0f) + 0.5f) << 8 * i;
+        is_white &= replaces || p->at[i] == 255.0f;
+    }
+    const lanei colour = lanei_splat((int32_t)codes);
+    for (int i = 0; i < halves; ++i) {
+        if (stage->texture != NULL && mask[i] != 0) {
+            KERNEL(draw_find)(&pixels, p + i, mask[i], i == 0 ? 0 : mask[0]);
+        }
+        if (p->varies && !replaces && mask[i] != 0) {
+            KERNEL(draw_find_colours)(&pixels, p + i, mask[i], i == 0 ? 0 : mask[0]);
+        }
+    }
+    switch (meets) {
+    case DRAW_MEET_OVER:
+        draw_put_pixels(p, &pixels, all, colour, is_white, DRAW_MEET_OVER);
+        break;
+    case DRAW_MEET_ADD:
+        draw_put_pixels(p, &pixels, all, colour, is_white, DRAW_MEET_ADD);
+        break;
+    default:
+        draw_put_pixels(p, &pixels, all, colour, is_white, DRAW_MEET_NOT);
+        break;
+    }
+}
+
+#endif
+
+LANE_NOINLINE void KERNEL(draw_general)(const lmb_draw_patch *p, uint64_t mask)
 {
     const lmb_draw_state *s = p->state;
     const int meets = draw_meets(s), keeps = s->colour_mask != 15;
@@ -455,13 +657,103 @@ static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
     }
 }
 
-static int32_t KERNEL(draw_row)(uint8_t *pixels, int32_t count, uint32_t codes, uint32_t share, int adds)
+static void KERNEL(draw_paint)(const lmb_draw_patch *p, uint64_t mask)
 {
-    const lanei bits = lanei_splat((int32_t)codes), shares = lanei_splat((int32_t)share);
-    int32_t filled = 0;
-    for (; filled + LANES <= count; filled += LANES) {
-        uint8_t *at = pixels + 4 * filled;
-        draw_save_row(at, draw_blend_usual(bits, shares, draw_load_row(at), adds));
+#if !defined(LANE_PLAIN)
+    const int meets = draw_meets(p->state);
+    const int is_plain = p->state->stage[0].texture == NULL && meets == DRAW_MEET_NOT; /* one pass is faster */
+    if (!is_plain && draw_is_usual(p->state, meets)) {
+        const uint64_t masks[2] = {mask, 0};
+        KERNEL(draw_usual)(p, masks, 1, meets);
+        return;
     }
-    return filled;
+#endif
+    KERNEL(draw_general)(p, mask);
+}
+
+#if !defined(LANE_PLAIN)
+
+/* The value of a plane at a tile, as in draw_tile.c. */
+LANE_INLINE void draw_slope_set(lmb_draw_slope *out, const lmb_draw_plane *p, double x, double y)
+{
+    out->at = (float)(p->origin + p->x * x + p->y * y);
+}
+
+LANE_INLINE void KERNEL(draw_sheet_tile)(lmb_draw_sheet *s, const uint64_t mask[2], int32_t x, int32_t y, int meets)
+{
+    for (int i = 0; i < 2; ++i) {
+        lmb_draw_patch *p = &s->half[i];
+        p->colour = s->colour + (ptrdiff_t)y * p->colour_stride + 4 * x;
+        draw_slope_set(&p->n1, s->plane[i][0], s->x + x, s->y + y);
+        draw_slope_set(&p->n2, s->plane[i][1], s->x + x, s->y + y);
+        if (!p->is_even) {
+            draw_slope_set(&p->q, s->plane[i][2], s->x + x, s->y + y);
+        }
+    }
+    if (mask[0] != 0) {
+        KERNEL(draw_usual)(s->half, mask, mask[1] != 0 ? 2 : 1, meets);
+    } else {
+        KERNEL(draw_usual)(s->half + 1, mask + 1, 1, meets);
+    }
+}
+
+static void KERNEL(draw_sheet)(lmb_draw_sheet *s)
+{
+    const int meets = draw_meets(s->half[0].state);
+    const int varies = s->half[0].varies | s->half[1].varies;
+    const int64_t ex = s->edge_x, ey = s->edge_y;
+    const int64_t low = 7 * ((ex < 0 ? ex : 0) + (ey < 0 ? ey : 0)), high = 7 * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
+    s->half[0].varies = s->half[1].varies = varies;
+    for (int32_t y = 0; y <= s->y1; y += LMB_TILE) {
+        uint64_t rows = ~(uint64_t)0;
+        rows = y < s->y0 ? rows << LMB_TILE * (s->y0 - y) : rows;
+        rows = y + 7 > s->y1 ? rows & ~(uint64_t)0 >> LMB_TILE * (y + 7 - s->y1) : rows;
+        for (int32_t x = 0; x <= s->x1; x += LMB_TILE) {
+            const uint32_t left = x < s->x0 ? 0xffu << (s->x0 - x) : 0xffu,
+                           right = x + 7 > s->x1 ? 0xffu >> (x + 7 - s->x1) : 0xffu;
+            const uint64_t inside = rows & (left & right & 0xffu) * UINT64_C(0x0101010101010101);
+            const int64_t e = s->edge + ex * x + ey * y;
+            uint64_t mask[2] = {e + low >= 0 ? ~(uint64_t)0 : 0, 0};
+            if (e + low < 0 && e + high >= 0) {
+                const int32_t edges[3] = {(int32_t)e, 0, 0}, by_x[3] = {s->edge_x, 0, 0}, by_y[3] = {s->edge_y, 0, 0};
+                mask[0] = KERNEL(draw_cover)(edges, by_x, by_y);
+            }
+            mask[1] = inside & ~mask[0];
+            mask[0] &= inside;
+            if ((mask[0] | mask[1]) != 0) {
+                KERNEL(draw_sheet_tile)(s, mask, x, y, meets);
+            }
+        }
+    }
+}
+
+#endif
+
+LANE_INLINE lanei draw_fill_one(lanei bits, lanei was, int adds)
+{
+    return adds ? codes_plus(bits, was) : codes_same(bits, was);
+}
+
+LANE_INLINE void draw_fill_rows(uint8_t *row, int32_t stride, int32_t width, int32_t height, lanei bits, int adds)
+{
+    const int32_t rest = width % LANES;
+    for (int32_t y = 0; y < height; ++y, row += stride) {
+        uint8_t *at = row;
+        for (int32_t k = LANES; k <= width; k += LANES, at += 4 * LANES) {
+            draw_save_row(at, draw_fill_one(bits, draw_load_row(at), adds));
+        }
+        if (rest != 0) {
+            lanei_store_some(at, rest, draw_fill_one(bits, lanei_load_some(at, rest), adds));
+        }
+    }
+}
+
+static void KERNEL(draw_fill)(uint8_t *row, int32_t stride, int32_t width, int32_t height, uint32_t codes, int adds)
+{
+    const lanei bits = lanei_splat((int32_t)codes);
+    if (adds) {
+        draw_fill_rows(row, stride, width, height, bits, 1);
+    } else {
+        draw_fill_rows(row, stride, width, height, bits, 0);
+    }
 }

@@ -8,6 +8,7 @@
 
 #include <lambent/draw.h>
 
+#include "../lane/kernels.h"
 #include "../raster/setup.h"
 #include "../base/vec.h"
 
@@ -68,17 +69,12 @@ typedef struct lmb_draw_pass {
     int32_t paints_first;          /* 1: tests need colours */
     uint32_t *dashed;              /* pixels of earlier lines: line_pattern continues from this count */
     int32_t tests_rows, paints_rows, paints_lanes; /* 1: draw_rows.c, or a kernel, supports this state */
-    int32_t fills;              /* 1: quads of one colour that are upright rectangles need no triangles */
+    int32_t fills;                   /* upright rectangles that need no triangles: DRAW_FILLS_COLOUR, ... */
     struct draw_vertex *few;         /* DRAW_FEW corners of triangles; NULL: all take the general path */
     int32_t fog_is_w;              /* 1: the fog distance is the w of clip space */
     draw_primitive *now;
     lmb_stats *stats;
 } lmb_draw_pass;
-
-/* A value that is linear in the picture: at the viewport's centre, and per px. */
-typedef struct lmb_draw_plane {
-    double origin, x, y;
-} lmb_draw_plane;
 
 /* A primitive after setup. A value at a pixel is that of corner 0, plus n1 / q and n2 / q times the differences of
  * corners 1 and 2 from it. */
@@ -129,6 +125,7 @@ typedef struct draw_vertex {
     int32_t x, y;       /* 24.8 from the viewport's centre */
     float d, inverse;   /* 1 / w */
 } draw_vertex;
+enum { DRAW_FILLS_COLOUR = 1 /* of one colour */, DRAW_FILLS_SHEET = 2 /* any, with the state's kernels */ };
 enum { DRAW_FEW = 4 /* for quads and strips */, DRAW_DROPPED = 256 };
 
 /* Inputs for the rest of a shape. */
@@ -170,7 +167,7 @@ void lmb_draw_quick_begin(lmb_draw_pass *pass, draw_vertex few[DRAW_FEW]);
 int lmb_draw_quick(const lmb_draw_pass *pass, uint32_t a, uint32_t b, uint32_t c, uint32_t flat);
 uint32_t lmb_draw_quick_run(const lmb_draw_pass *pass, uint32_t i, uint32_t count);
 /* If pass->fills: fills a quad from places in the list. Returns 0, and draws nothing, if the quad is no upright
- * rectangle of one colour, is clipped, or covers no pixel. */
+ * rectangle that pass->fills names, is clipped, or covers no pixel. */
 int lmb_draw_quick_rectangle(const lmb_draw_pass *pass, const uint32_t at[4], uint32_t flat);
 void lmb_draw_finish(const lmb_draw_pass *pass, lmb_draw_shape *shape);
 
@@ -180,6 +177,18 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass);
 uint64_t lmb_draw_rows_test(const tile_job *job, uint64_t mask);
 void lmb_draw_rows_paint(const tile_job *job, uint64_t mask);
 int lmb_draw_lanes_paint(const tile_job *job, uint64_t mask); /* with the state's kernels; 0: they cannot */
+
+/* An edge's value at pixel (0, 0) of the frame, and per px. Pixels are inside where it is not negative. */
+typedef struct draw_edge {
+    int64_t at;
+    int32_t x, y;
+} draw_edge;
+
+/* If pass->fills & DRAW_FILLS_SHEET: colours the pixels box[0] .. box[2], box[1] .. box[3] of the frame, inside the
+ * pass, with the two triangles of an upright rectangle: the first inside their shared edge, the second outside. The box
+ * lies in tiles that the target has whole. */
+void lmb_draw_rows_sheet(const lmb_draw_pass *pass, const lmb_draw_shape half[2], const draw_edge *edge,
+                         const int32_t box[4]);
 
 /* If pass->fills: fills columns x0 .. x1 and rows y0 .. y1 of the frame, inside the pass, with R G B A. */
 void lmb_draw_rows_fill(const lmb_draw_pass *pass, const uint8_t codes[4], int32_t x0, int32_t x1, int32_t y0,

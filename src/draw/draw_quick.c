@@ -436,12 +436,99 @@ static int quick_is_upright(const draw_vertex v[4])
     return v[0].x == down->x && v[2].x == across->x && v[0].y == across->y && v[2].y == down->y;
 }
 
+/* The colour of all corners, or NULL if they differ. */
+static const uint8_t *quick_colour(const lmb_draw_pass *pass, const draw_vertex v[4], uint32_t last)
+{
+    const uint8_t *all = pass->vertices->colours;
+    const int is_flat = (pass->state->flags & LMB_DRAW_FLAT) != 0;
+    if (all == NULL) {
+        return pass->state->colour;
+    }
+    const uint8_t *first = all + 4 * (size_t)(is_flat ? last : v[0].name - 1);
+    for (int k = 1; k < 4 && !is_flat; ++k) {
+        if (memcmp(all + 4 * (size_t)(v[k].name - 1), first, 4) != 0) {
+            return NULL;
+        }
+    }
+    return first;
+}
+
+#if LMB_DRAW_LANES
+/* Sets a half of the rectangle: corners 0, i and i + 1. */
+static void quick_set_half(lmb_draw_shape *shape, lmb_draw_late *late, const lmb_draw_pass *pass,
+                           const draw_vertex v[4], int i, uint32_t flat)
+{
+    const int64_t area =
+        (int64_t)(v[i].x - v[0].x) * (v[i + 1].y - v[0].y) - (int64_t)(v[i + 1].x - v[0].x) * (v[i].y - v[0].y);
+    quick_set_corner(late, 0, &v[0]);
+    quick_set_corner(late, area > 0 ? 1 : 2, &v[i]);
+    quick_set_corner(late, area > 0 ? 2 : 1, &v[i + 1]);
+    late->flat = flat;
+    quick_begin_shape(shape, late, area > 0 ? area : -area);
+    lmb_draw_finish(pass, shape);
+}
+
+/* The edge from a to b. */
+static void quick_set_diagonal(draw_edge *out, const lmb_draw_pass *pass, const draw_vertex *a, const draw_vertex *b)
+{
+    const int64_t ex = a->y - b->y, ey = b->x - a->x, rule = ex > 0 || (ex == 0 && ey > 0) ? 0 : 1;
+    out->at = (ex * (128 - pass->middle_x - a->x) + ey * (128 - pass->middle_y - a->y) - rule) >> 8;
+    out->x = (int32_t)ex;
+    out->y = (int32_t)ey;
+}
+
+/* The pixels of a tile. */
+static void quick_sheet_tile(const lmb_draw_pass *pass, lmb_draw_shape half[2], const draw_edge *edge,
+                            const int32_t box[4], int32_t x, int32_t y)
+{
+    uint64_t mask[2] = {0, 0};
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t px = x + (k & 7), py = y + (k >> 3);
+        if (px >= box[0] && py >= box[1] && px <= box[2] && py <= box[3]) {
+            mask[edge->at + (int64_t)edge->x * px + (int64_t)edge->y * py < 0] |= (uint64_t)1 << k;
+        }
+    }
+    for (int i = 0; i < 2; ++i) {
+        if (mask[i] != 0) {
+            lmb_draw_tile(pass, &half[i], x, y, mask[i]);
+        }
+    }
+}
+
+/* The pixels of the box: the first half inside the edge that both share, the second outside. */
+static void quick_sheet(const lmb_draw_pass *pass, lmb_draw_shape half[2], const draw_edge *edge, const int32_t box[4])
+{
+    const lmb_draw_target *t = pass->target;
+    const int32_t past_x = t->x0 + (t->colour.width & ~7), past_y = t->y0 + (t->colour.height & ~7);
+    const int32_t whole[4] = {box[0], box[1], mini(box[2], past_x - 1), mini(box[3], past_y - 1)};
+    if (whole[0] <= whole[2] && whole[1] <= whole[3]) {
+        lmb_draw_rows_sheet(pass, half, edge, whole);
+    }
+    for (int32_t y = box[1] & ~7; y <= box[3]; y += LMB_TILE) { /* tiles that the target cuts off */
+        for (int32_t x = y < past_y ? maxi(box[0] & ~7, past_x) : box[0] & ~7; x <= box[2]; x += LMB_TILE) {
+            quick_sheet_tile(pass, half, edge, box, x, y);
+        }
+    }
+}
+
+/* The two triangles of a rectangle by the state's kernels. */
+NOINLINE void quick_fill_halves(const lmb_draw_pass *pass, const draw_vertex v[4], uint32_t flat, const int32_t box[4])
+{
+    lmb_draw_late late[2];
+    lmb_draw_shape half[2];
+    draw_edge edge;
+    quick_set_half(&half[0], &late[0], pass, v, 1, flat);
+    quick_set_half(&half[1], &late[1], pass, v, 2, flat);
+    quick_set_diagonal(&edge, pass, late[0].vertex[1] == v[1].name - 1 ? &v[2] : &v[0],
+                       late[0].vertex[1] == v[1].name - 1 ? &v[0] : &v[2]);
+    quick_sheet(pass, half, &edge, box);
+}
+#endif
+
 /* The two triangles of a rectangle share all pixels of its box out among them, by the top-left rule. */
 int lmb_draw_quick_rectangle(const lmb_draw_pass *pass, const uint32_t at[4], uint32_t flat)
 {
     const uint32_t count = pass->vertices->count, last = draw_index(pass, flat);
-    const uint8_t *all = pass->vertices->colours, *codes = pass->state->colour;
-    const int is_flat = (pass->state->flags & LMB_DRAW_FLAT) != 0;
     draw_vertex v[4];
     for (int k = 0; k < 4; ++k) {
         const uint32_t i = draw_index(pass, at[k]);
@@ -449,9 +536,7 @@ int lmb_draw_quick_rectangle(const lmb_draw_pass *pass, const uint32_t at[4], ui
             return 0;
         }
         v[k] = quick_corner(pass->few, DRAW_FEW, pass, i);
-        const uint8_t *own = all != NULL ? all + 4 * (size_t)(is_flat ? last : i) : codes;
-        codes = k == 0 ? own : codes;
-        if (v[k].out != 0 || memcmp(own, codes, 4) != 0) {
+        if (v[k].out != 0) {
             return 0;
         }
     }
@@ -463,7 +548,19 @@ int lmb_draw_quick_rectangle(const lmb_draw_pass *pass, const uint32_t at[4], ui
     if (!quick_is_upright(v) || x0 > x1 || y0 > y1) {
         return 0;
     }
-    lmb_draw_rows_fill(pass, codes, x0, x1, y0, y1);
+    const uint8_t *codes = (pass->fills & DRAW_FILLS_COLOUR) != 0 ? quick_colour(pass, v, last) : NULL;
+    if (codes == NULL && (pass->fills & DRAW_FILLS_SHEET) == 0) {
+        return 0;
+    }
+    if (codes != NULL) {
+        lmb_draw_rows_fill(pass, codes, x0, x1, y0, y1);
+    }
+#if LMB_DRAW_LANES
+    if (codes == NULL) {
+        const int32_t box[4] = {x0, y0, x1, y1};
+        quick_fill_halves(pass, v, last, box);
+    }
+#endif
     if (pass->stats != NULL) {
         pass->stats->triangles += 2;
         pass->stats->triangles_drawn += 2;

@@ -66,6 +66,21 @@ static int rows_lanes_sample(const lmb_draw_state *s)
 }
 #endif
 
+/* 1: a kernel colours both triangles of upright rectangles. */
+static int rows_fills_sheet(const lmb_draw_pass *pass)
+{
+#if LMB_DRAW_LANES
+    const lmb_draw_state *s = pass->state;
+    return pass->paints_lanes && s->kernels->draw_sheet != NULL && rows_blend(s) != ROWS_NOT &&
+           s->fog == LMB_DRAW_FOG_NONE && s->stage[1].texture == NULL &&
+           (s->stage[0].texture == NULL || s->stage[0].mode == LMB_DRAW_MODULATE ||
+            s->stage[0].mode == LMB_DRAW_REPLACE);
+#else
+    (void)pass;
+    return 0;
+#endif
+}
+
 void lmb_draw_rows_begin(lmb_draw_pass *pass)
 {
     const lmb_draw_state *s = pass->state;
@@ -75,14 +90,16 @@ void lmb_draw_rows_begin(lmb_draw_pass *pass)
     pass->tests_rows = (s->flags & LMB_DRAW_DEPTH_TEST) != 0 && (s->flags & LMB_DRAW_STENCIL) == 0 &&
                        pass->target->depth.format == LMB_DEPTH32F;
     pass->paints_rows = paints && s->fog == LMB_DRAW_FOG_NONE && rows_sample(s) ? rows_blend(s) : ROWS_NOT;
-    pass->fills = paints && pass->paints_rows != ROWS_NOT && s->stage[0].texture == NULL && !pass->tests &&
-                  s->area_pattern == NULL && s->planes == 0 && pass->vertices->back_colours == NULL &&
-                  (s->flags & (LMB_DRAW_CULL_FRONT | LMB_DRAW_CULL_BACK)) == 0 &&
-                  s->polygon_mode[0] == LMB_DRAW_FILL && s->polygon_mode[1] == LMB_DRAW_FILL;
 #if LMB_DRAW_LANES
     pass->paints_lanes =
         s->kernels != NULL && paints && rows_are_little() && s->fog <= LMB_DRAW_FOG_LINEAR && rows_lanes_sample(s);
 #endif
+    if (paints && !pass->tests && s->area_pattern == NULL && s->planes == 0 && pass->vertices->back_colours == NULL &&
+        (s->flags & (LMB_DRAW_CULL_FRONT | LMB_DRAW_CULL_BACK)) == 0 && s->polygon_mode[0] == LMB_DRAW_FILL &&
+        s->polygon_mode[1] == LMB_DRAW_FILL) {
+        pass->fills = (pass->paints_rows != ROWS_NOT && s->stage[0].texture == NULL ? DRAW_FILLS_COLOUR : 0) |
+                      (rows_fills_sheet(pass) ? DRAW_FILLS_SHEET : 0);
+    }
 }
 
 /* --- by lanes ----------------------------------------------------------------------------------------------------- */
@@ -133,34 +150,41 @@ static void rows_lanes_value(lmb_draw_patch *p, const lmb_draw_shape *s, int i, 
     p->more2[i] = s->corner[2]->v[from] - p->at[i];
 }
 
-static void rows_lanes_paint(const tile_job *j, uint64_t mask)
+/* All but the slopes. */
+static void rows_lanes_set(lmb_draw_patch *p, const lmb_draw_pass *pass, const lmb_draw_shape *shape, int32_t x,
+                           int32_t y)
 {
-    const lmb_surface *to = &j->pass->target->colour;
-    lmb_draw_patch p;
-    p.state = j->pass->state;
-    p.varies = 0;
+    const lmb_surface *to = &pass->target->colour;
+    p->state = pass->state;
+    p->varies = 0;
     for (int i = 0; i < 4; ++i) {
-        rows_lanes_value(&p, j->shape, i, CORNER_RED + i);
-        p.varies |= p.more1[i] != 0.0f || p.more2[i] != 0.0f;
+        rows_lanes_value(p, shape, i, CORNER_RED + i);
+        p->varies |= p->more1[i] != 0.0f || p->more2[i] != 0.0f;
     }
     for (int i = 0; i < 2 * LMB_DRAW_STAGES; ++i) {
-        if (p.state->stage[i >> 1].texture != NULL) {
-            rows_lanes_value(&p, j->shape, 4 + i, CORNER_UV + i);
+        if (p->state->stage[i >> 1].texture != NULL) {
+            rows_lanes_value(p, shape, 4 + i, CORNER_UV + i);
         }
     }
-    if (p.state->fog != LMB_DRAW_FOG_NONE) {
-        rows_lanes_value(&p, j->shape, LMB_DRAW_VALUES - 1, CORNER_FOG);
+    if (p->state->fog != LMB_DRAW_FOG_NONE) {
+        rows_lanes_value(p, shape, LMB_DRAW_VALUES - 1, CORNER_FOG);
     }
+    p->is_even = shape->is_even;
+    p->swaps = to->format == LMB_BGRA8;
+    p->colour = (uint8_t *)to->data + (ptrdiff_t)(y - pass->target->y0) * to->stride_bytes +
+                (ptrdiff_t)(x - pass->target->x0) * 4;
+    p->colour_stride = to->stride_bytes;
+}
+
+static void rows_lanes_paint(const tile_job *j, uint64_t mask)
+{
+    lmb_draw_patch p;
+    rows_lanes_set(&p, j->pass, j->shape, j->x, j->y);
     p.n1 = rows_slope(&j->n1);
     p.n2 = rows_slope(&j->n2);
-    p.is_even = j->shape->is_even;
     if (!p.is_even) {
         p.q = rows_slope(&j->q);
     }
-    p.swaps = to->format == LMB_BGRA8;
-    p.colour = (uint8_t *)to->data + (ptrdiff_t)(j->y - j->pass->target->y0) * to->stride_bytes +
-               (ptrdiff_t)(j->x - j->pass->target->x0) * 4;
-    p.colour_stride = to->stride_bytes;
     p.state->kernels->draw_paint(&p, mask);
 }
 
@@ -172,6 +196,41 @@ int lmb_draw_lanes_paint(const tile_job *j, uint64_t mask)
     }
     rows_lanes_paint(j, mask);
     return 1;
+}
+
+static void rows_set_steps(lmb_draw_slope *slope, const lmb_draw_plane *p)
+{
+    slope->x = (float)p->x;
+    slope->y = (float)p->y;
+}
+
+void lmb_draw_rows_sheet(const lmb_draw_pass *pass, const lmb_draw_shape half[2], const draw_edge *edge,
+                         const int32_t box[4])
+{
+    const int32_t x = box[0] & ~7, y = box[1] & ~7;
+    lmb_draw_sheet s;
+    for (int i = 0; i < 2; ++i) {
+        rows_lanes_set(&s.half[i], pass, &half[i], x, y);
+        s.plane[i][0] = &half[i].n1;
+        s.plane[i][1] = &half[i].n2;
+        s.plane[i][2] = &half[i].q;
+        rows_set_steps(&s.half[i].n1, &half[i].n1);
+        rows_set_steps(&s.half[i].n2, &half[i].n2);
+        if (!half[i].is_even) {
+            rows_set_steps(&s.half[i].q, &half[i].q);
+        }
+    }
+    s.x = (x * 256 + 128 - pass->middle_x) * (1.0 / 256.0);
+    s.y = (y * 256 + 128 - pass->middle_y) * (1.0 / 256.0);
+    s.edge = edge->at + (int64_t)edge->x * x + (int64_t)edge->y * y;
+    s.edge_x = edge->x;
+    s.edge_y = edge->y;
+    s.colour = s.half[0].colour;
+    s.x0 = box[0] - x;
+    s.y0 = box[1] - y;
+    s.x1 = box[2] - x;
+    s.y1 = box[3] - y;
+    pass->state->kernels->draw_sheet(&s);
 }
 #endif
 
@@ -430,6 +489,7 @@ void lmb_draw_rows_paint(const tile_job *j, uint64_t mask)
 
 /* --- rectangles --------------------------------------------------------------------------------------------------- */
 
+enum { ROWS_LONG = 256 };
 enum { ROWS_CHUNK = 32 << 10 }; /* bytes; copies of 20 to 40 KiB are the fastest, as they stay in the first cache */
 
 /* Copies a pixel to `count` pixels. */
@@ -442,6 +502,29 @@ static void rows_repeat(uint8_t *row, uint32_t code, size_t count)
         chunk = done < ROWS_CHUNK ? done : ROWS_CHUNK;
         chunk = chunk < bytes - done ? chunk : bytes - done;
         memcpy(row + done, row, chunk);
+    }
+}
+
+/* Blends a colour onto rows of pixels. */
+static void rows_mix(const lmb_draw_pass *pass, uint8_t *row, int32_t stride, int32_t width, int32_t height,
+                     uint32_t code)
+{
+    const int blend = pass->paints_rows;
+#if LMB_DRAW_LANES
+    if (pass->paints_lanes) {
+        const int adds = blend == ROWS_ADD;
+        const int32_t before = height == 1 && width >= ROWS_LONG ? (int32_t)((0u - (uintptr_t)row) & 63u) / 4 : 0;
+        if (before > 0) { /* vectors within lines of the cache are faster */
+            pass->state->kernels->draw_fill(row, stride, before, 1, code, adds);
+        }
+        pass->state->kernels->draw_fill(row + 4 * before, stride, width - before, height, code, adds);
+        return;
+    }
+#endif
+    for (; height > 0; --height, row += stride) {
+        for (int32_t k = 0; k < width; ++k) {
+            rows_store(row + 4 * k, rows_blended(code, rows_load(row + 4 * k), blend));
+        }
     }
 }
 
@@ -464,16 +547,10 @@ void lmb_draw_rows_fill(const lmb_draw_pass *pass, const uint8_t codes[4], int32
         }
         return;
     }
-    for (int32_t y = y0; y <= y1; ++y, row += to->stride_bytes) {
-        int32_t k = 0;
-#if LMB_DRAW_LANES
-        if (pass->paints_lanes) {
-            k = pass->state->kernels->draw_row(row, width, code, code >> 24, blend == ROWS_ADD);
-        }
-#endif
-        for (; k < width; ++k) {
-            rows_store(row + 4 * k, rows_blended(code, rows_load(row + 4 * k), blend));
-        }
+    if (to->stride_bytes == 4 * width) { /* the rows have no gaps */
+        rows_mix(pass, row, 0, width * (y1 - y0 + 1), 1, code);
+    } else {
+        rows_mix(pass, row, to->stride_bytes, width, y1 - y0 + 1, code);
     }
 }
 #endif

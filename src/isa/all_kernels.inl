@@ -156,6 +156,11 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(draw_cover),
     KERNEL(draw_test),
     KERNEL(draw_paint),
-    KERNEL(draw_row),
+#if defined(LANE_PLAIN)
+    NULL,
+#else
+    KERNEL(draw_sheet),
+#endif
+    KERNEL(draw_fill),
 #endif
 };

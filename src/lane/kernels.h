@@ -122,6 +122,11 @@ typedef struct lmb_setup_job {
 #define LMB_BATCH 8
 #endif
 
+/* A value that is linear in the picture: at the viewport's centre, and per px. */
+typedef struct lmb_draw_plane {
+    double origin, x, y;
+} lmb_draw_plane;
+
 /* 1: draws have SIMD kernels. */
 #define LMB_DRAW_LANES (LMB_DRAW_KERNELS && LMB_PLAIN_LANES > 1)
 #if LMB_DRAW_LANES
@@ -147,6 +152,18 @@ typedef struct lmb_draw_patch {
     uint8_t *colour; /* pixel 0; rows are colour_stride bytes apart */
     int32_t colour_stride;
 } lmb_draw_patch;
+
+/* An upright rectangle of two triangles in tiles that lie entirely in the target. Distances count from pixel 0 of the
+ * first tile. */
+typedef struct lmb_draw_sheet {
+    lmb_draw_patch half[2]; /* n1, n2 and q without values at pixel 0 */
+    const lmb_draw_plane *plane[2][3]; /* n1, n2 and q of each half */
+    double x, y;            /* pixel 0 from the viewport's centre, px */
+    int64_t edge;           /* at pixel 0; pixels where edge >= 0 belong to half 0 */
+    int32_t edge_x, edge_y; /* per px */
+    int32_t x0, y0, x1, y1; /* first and last pixels */
+    uint8_t *colour;        /* pixel 0 */
+} lmb_draw_sheet;
 #endif
 
 enum { LMB_SMALL_24_8 = 64 * 256 /* box sides below this let edges fit 32 bits */ };
@@ -630,9 +647,11 @@ struct lmb_kernels {
     uint64_t (*draw_test)(const lmb_draw_patch *pixels, uint64_t mask);
     /* Colours the pixels of `mask`. */
     void (*draw_paint)(const lmb_draw_patch *pixels, uint64_t mask);
-    /* Blends R G B A, in the order of the pixels' bytes, onto pixels in a row: over them by `share`, or added. Returns
-     * the number of pixels done, a multiple of the lanes. */
-    int32_t (*draw_row)(uint8_t *pixels, int32_t count, uint32_t codes, uint32_t share, int adds);
+    /* Colours all pixels of the sheet, without fog and with at most one texture; changes its halves. Plain C: NULL. */
+    void (*draw_sheet)(lmb_draw_sheet *sheet);
+    /* Blends R G B A, in the order of the pixels' bytes, onto rows `stride` bytes apart: over them by the share
+     * A, or added. */
+    void (*draw_fill)(uint8_t *row, int32_t stride, int32_t width, int32_t height, uint32_t codes, int adds);
 #endif
 };
 

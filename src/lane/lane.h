@@ -2,6 +2,8 @@
 #ifndef LMB_LANE_H
 #define LMB_LANE_H
 
+#include <string.h>
+
 /* For functions that pay off only if inlined: constant arguments, structs that stay in registers. */
 #if defined(__GNUC__)
 #define LANE_INLINE static inline __attribute__((always_inline))
@@ -63,6 +65,97 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
         i[k] = (int32_t)((uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24);
     }
     return lanei_load(i);
+}
+#endif
+
+/* The first n words of a row, 1 .. LANES - 1; the others are 0, or not written. Backends may override these. */
+#ifndef LANE_HAS_SOME
+static inline lanei lanei_load_some(const uint8_t *p, int n)
+{
+    int32_t v[LANES] = {0};
+    for (int k = 0; k < n; ++k) {
+        memcpy(&v[k], p + 4 * k, 4);
+    }
+    return lanei_load(v);
+}
+static inline void lanei_store_some(uint8_t *p, int n, lanei a)
+{
+    int32_t v[LANES];
+    lanei_store(v, a);
+    for (int k = 0; k < n; ++k) {
+        memcpy(p + 4 * k, &v[k], 4);
+    }
+}
+#endif
+
+/* Pixels of four 8-bit codes in a word, the highest one the share a. times: x y / 255; over: (x a + y (255 - a)) / 255
+ * with the a of x; plus: x a / 255 + y, at most 255; same: x as over, for rows of one x; between: corners
+ * at (0, 0), (1, 0), (0, 1), (1, 1), in the shares x and y of 256. All rounded to nearest. Backends may override these.
+ */
+#ifndef LANE_HAS_CODES
+/* v / 255 of two codes at once, in the low and the high half. */
+LANE_INLINE lanei lanei_pair_255th(lanei v)
+{
+    const lanei pair = lanei_splat(0x00ff00ff);
+    v = lanei_add(v, lanei_splat(0x00800080));
+    return lanei_and(lanei_shift(lanei_add(v, lanei_and(lanei_shift(v, 8), pair)), 8), pair);
+}
+LANE_INLINE lanei lanei_pair_times(lanei x, lanei y)
+{
+    const lanei low = lanei_splat(255);
+    const lanei high = lanei_mul(lanei_and(lanei_shift(x, 16), low), lanei_and(lanei_shift(y, 16), low));
+    return lanei_pair_255th(
+        lanei_or(lanei_mul(lanei_and(x, low), lanei_and(y, low)), lanei_mul(high, lanei_splat(1 << 16))));
+}
+LANE_INLINE lanei lanei_pair_over(lanei x, lanei y, lanei share)
+{
+    return lanei_pair_255th(lanei_add(lanei_mul(x, share), lanei_mul(y, lanei_sub(lanei_splat(255), share))));
+}
+LANE_INLINE lanei lanei_pair_plus(lanei x, lanei y, lanei share)
+{
+    const lanei sum = lanei_add(lanei_pair_255th(lanei_mul(x, share)), y);
+    const lanei over = lanei_and(sum, lanei_splat(0x01000100));
+    return lanei_and(lanei_or(sum, lanei_sub(over, lanei_shift(over, 8))), lanei_splat(0x00ff00ff));
+}
+LANE_INLINE lanei lanei_even_codes(lanei v) { return lanei_and(v, lanei_splat(0x00ff00ff)); }
+LANE_INLINE lanei lanei_odd_codes(lanei v) { return lanei_and(lanei_shift(v, 8), lanei_splat(0x00ff00ff)); }
+LANE_INLINE lanei lanei_share_code(lanei v) { return lanei_and(lanei_shift(v, 24), lanei_splat(255)); }
+LANE_INLINE lanei lanei_join_codes(lanei even, lanei odd)
+{
+    return lanei_or(even, lanei_mul(odd, lanei_splat(1 << 8)));
+}
+LANE_INLINE lanei codes_times(lanei x, lanei y)
+{
+    return lanei_join_codes(lanei_pair_times(lanei_even_codes(x), lanei_even_codes(y)),
+                            lanei_pair_times(lanei_odd_codes(x), lanei_odd_codes(y)));
+}
+LANE_INLINE lanei codes_over(lanei x, lanei y)
+{
+    const lanei share = lanei_share_code(x);
+    return lanei_join_codes(lanei_pair_over(lanei_even_codes(x), lanei_even_codes(y), share),
+                            lanei_pair_over(lanei_odd_codes(x), lanei_odd_codes(y), share));
+}
+LANE_INLINE lanei codes_plus(lanei x, lanei y)
+{
+    const lanei share = lanei_share_code(x);
+    return lanei_join_codes(lanei_pair_plus(lanei_even_codes(x), lanei_even_codes(y), share),
+                            lanei_pair_plus(lanei_odd_codes(x), lanei_odd_codes(y), share));
+}
+LANE_INLINE lanei codes_same(lanei x, lanei y) { return codes_over(x, y); }
+LANE_INLINE lanei lanei_code_at(lanei v, int shift) { return lanei_and(lanei_shift(v, shift), lanei_splat(255)); }
+LANE_INLINE lanei codes_between(const lanei corner[4], lanei x, lanei y)
+{
+    const lanei all = lanei_splat(256), left = lanei_sub(all, x), upper = lanei_sub(all, y);
+    const lanei a = lanei_mul(left, upper), b = lanei_mul(x, upper), c = lanei_mul(left, y), d = lanei_mul(x, y);
+    lanei made = lanei_splat(0);
+    for (int shift = 24; shift >= 0; shift -= 8) {
+        lanei sum = lanei_add(lanei_mul(lanei_code_at(corner[0], shift), a), lanei_splat(1 << 15));
+        sum = lanei_add(sum, lanei_mul(lanei_code_at(corner[1], shift), b));
+        sum = lanei_add(sum, lanei_mul(lanei_code_at(corner[2], shift), c));
+        sum = lanei_add(sum, lanei_mul(lanei_code_at(corner[3], shift), d));
+        made = lanei_or(lanei_mul(made, lanei_splat(1 << 8)), lanei_shift(sum, 16));
+    }
+    return made;
 }
 #endif
 

@@ -118,6 +118,74 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
 }
 static inline lane lane_table(const float *p, lanei at) { return lane_gather_f32(p, at); }
 
+/* Sixteen-bit products of codes, of the first and the last two pixels. (t + 128) 257 / 2^16 is t / 255 to nearest, for
+ * t = 0 .. 255 x 255. */
+#define LANE_HAS_CODES 1
+static inline lanei sse2_255ths(lanei low, lanei high)
+{
+    const lanei half = _mm_set1_epi16(128), by = _mm_set1_epi16(257);
+    return _mm_packus_epi16(_mm_mulhi_epu16(_mm_add_epi16(low, half), by),
+                            _mm_mulhi_epu16(_mm_add_epi16(high, half), by));
+}
+static inline lanei codes_times(lanei x, lanei y)
+{
+    const lanei zero = _mm_setzero_si128();
+    return sse2_255ths(_mm_mullo_epi16(_mm_unpacklo_epi8(x, zero), _mm_unpacklo_epi8(y, zero)),
+                       _mm_mullo_epi16(_mm_unpackhi_epi8(x, zero), _mm_unpackhi_epi8(y, zero)));
+}
+/* The share of two pixels in all their places. */
+static inline lanei sse2_shares(lanei two) { return _mm_shufflehi_epi16(_mm_shufflelo_epi16(two, 0xff), 0xff); }
+static inline lanei codes_plus(lanei x, lanei y)
+{
+    const lanei zero = _mm_setzero_si128(), low = _mm_unpacklo_epi8(x, zero), high = _mm_unpackhi_epi8(x, zero);
+    return _mm_adds_epu8(sse2_255ths(_mm_mullo_epi16(low, sse2_shares(low)), _mm_mullo_epi16(high, sse2_shares(high))),
+                         y);
+}
+static inline lanei sse2_between(lanei x, lanei y)
+{
+    const lanei share = sse2_shares(x);
+    return _mm_add_epi16(_mm_mullo_epi16(x, share), _mm_mullo_epi16(y, _mm_sub_epi16(_mm_set1_epi16(255), share)));
+}
+static inline lanei codes_over(lanei x, lanei y)
+{
+    const lanei zero = _mm_setzero_si128();
+    return sse2_255ths(sse2_between(_mm_unpacklo_epi8(x, zero), _mm_unpacklo_epi8(y, zero)),
+                       sse2_between(_mm_unpackhi_epi8(x, zero), _mm_unpackhi_epi8(y, zero)));
+}
+static inline lanei codes_same(lanei x, lanei y) { return codes_over(x, y); }
+
+/* Corners along x by 16 bits: at most 255 x 256. Along y by 32 bits, from 2^15 less, because products are signed. */
+static inline lanei sse2_between_x(lanei a, lanei b, lanei x)
+{
+    return _mm_add_epi16(_mm_slli_epi16(a, 8), _mm_mullo_epi16(_mm_sub_epi16(b, a), x));
+}
+static inline lanei sse2_between_y(lanei pair, lanei y)
+{
+    return _mm_srli_epi32(_mm_add_epi32(_mm_madd_epi16(pair, y), _mm_set1_epi32((1 << 23) + (1 << 15))), 16);
+}
+static inline lanei codes_between(const lanei corner[4], lanei x, lanei y)
+{
+    const lanei zero = _mm_setzero_si128(), sign = _mm_set1_epi16(-32768);
+    const lanei shares = _mm_or_si128(_mm_sub_epi32(_mm_set1_epi32(256), y), _mm_slli_epi32(y, 16));
+    const lanei xx = _mm_or_si128(x, _mm_slli_epi32(x, 16)), x_low = _mm_unpacklo_epi32(xx, xx),
+                x_high = _mm_unpackhi_epi32(xx, xx);
+    lanei half[2];
+    for (int i = 0; i < 2; ++i) {
+        const lanei upper = sse2_between_x(i ? _mm_unpackhi_epi8(corner[0], zero) : _mm_unpacklo_epi8(corner[0], zero),
+                                           i ? _mm_unpackhi_epi8(corner[1], zero) : _mm_unpacklo_epi8(corner[1], zero),
+                                           i ? x_high : x_low);
+        const lanei lower = sse2_between_x(i ? _mm_unpackhi_epi8(corner[2], zero) : _mm_unpacklo_epi8(corner[2], zero),
+                                           i ? _mm_unpackhi_epi8(corner[3], zero) : _mm_unpacklo_epi8(corner[3], zero),
+                                           i ? x_high : x_low);
+        const lanei p = _mm_xor_si128(upper, sign), q = _mm_xor_si128(lower, sign);
+        half[i] = _mm_packs_epi32(sse2_between_y(_mm_unpacklo_epi16(p, q),
+                                                 i ? _mm_shuffle_epi32(shares, 0xaa) : _mm_shuffle_epi32(shares, 0x00)),
+                                  sse2_between_y(_mm_unpackhi_epi16(p, q), i ? _mm_shuffle_epi32(shares, 0xff)
+                                                                             : _mm_shuffle_epi32(shares, 0x55)));
+    }
+    return _mm_packus_epi16(half[0], half[1]);
+}
+
 static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
 static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }
 static inline lane lane_load_u16(const uint16_t *p, int32_t step)

@@ -147,6 +147,42 @@ static void make_state(lists *l, test_rng *r)
     make_textures(l, r);
 }
 
+/* A 24.8 position; half of them are whole pixels. */
+static float any_px(test_rng *r, float low, float high)
+{
+    const int32_t v = (int32_t)(256.0f * test_uniform(r, low, high));
+    return (float)(any(r, 2) ? v : v & ~255) * (1.0f / 256.0f);
+}
+
+/* Quads in pixels, most of them upright, of any corner first and any direction, with texture coordinates of a sprite
+ * or any others, without tests. */
+static void make_sheets(lists *l, test_rng *r)
+{
+    const int is_one = any(r, 2) == 0, is_sprite = any(r, 2) == 0;
+    (void)lmb_draw_pixels(&l->state);
+    l->state.flags &= LMB_DRAW_BLEND | LMB_DRAW_FLAT | LMB_DRAW_SCISSOR | LMB_DRAW_LOGIC;
+    l->primitive = any(r, 4) ? LMB_DRAW_QUADS : LMB_DRAW_QUAD_STRIP;
+    l->vertices.positions = l->positions;
+    l->vertices.position_format = LMB_DRAW_F32;
+    l->has_indices = 0;
+    for (int i = 0; i + 4 <= VERTICES; i += 4) {
+        const float x = any_px(r, -20.0f, WIDE), y = any_px(r, -20.0f, HIGH);
+        const float wide = any_px(r, 0.0f, 50.0f), high = any_px(r, 0.0f, 40.0f);
+        const int turn = (int)any(r, 8), wave = any(r, 8) == 0;
+        for (int k = 0; k < 4; ++k) {
+            const int corner = (turn & 4) != 0 ? (turn + 4 - k) & 3 : (turn + k) & 3;
+            const int right = corner == 1 || corner == 2, down = corner >= 2;
+            const int to = l->primitive == LMB_DRAW_QUAD_STRIP && k >= 2 ? i + 5 - k : i + k;
+            l->positions[to][0] = x + (float)right * wide + (wave && k == 1 ? 2.0f : 0.0f);
+            l->positions[to][1] = y + (float)down * high;
+            l->positions[to][2] = 0.5f;
+            l->uvs[to][0] = is_sprite ? (float)right : test_uniform(r, -1.5f, 2.5f);
+            l->uvs[to][1] = is_sprite ? (float)down : test_uniform(r, -1.5f, 2.5f);
+            memcpy(l->colours[to], l->colours[is_one ? i : to], 4);
+        }
+    }
+}
+
 static void make_lists(lists *l, test_rng *r)
 {
     memset(l, 0, sizeof *l);
@@ -163,6 +199,9 @@ static void make_lists(lists *l, test_rng *r)
     l->depth_layout = any(r, 2) ? LMB_TILED : LMB_LINEAR;
     l->is_upside_down = any(r, 4) == 0;
     l->colour_before = test_random(r);
+    if (any(r, 3) == 0) {
+        make_sheets(l, r);
+    }
 }
 
 /* plainly: forces the generic code by a stencil that changes nothing, and without second colour. */

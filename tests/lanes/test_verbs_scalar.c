@@ -126,6 +126,7 @@ static int same_output(const char *backend, uint32_t seed, const verb_input *in,
                         : memcmp(want->stored_u16, got->stored_u16, sizeof want->stored_u16) ? "store_u16"
                         : memcmp(want->put_u16, got->put_u16, sizeof want->put_u16) ? "put_u16"
                         : memcmp(want->put_u32, got->put_u32, sizeof want->put_u32) ? "put_u32"
+                        : memcmp(want->stored_some, got->stored_some, sizeof want->stored_some) ? "store_some"
                         : memcmp(want->d, got->d, sizeof want->d) ? "binary64" : NULL;
     if (place != NULL) {
         printf("%s: %s leaves other memory than scalar; repeat: LANES_SEED=%u tests lanes\n", backend, place,

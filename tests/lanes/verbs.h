@@ -34,7 +34,8 @@ typedef struct verb_input {
     X(trunc, BITS) X(gather_f32, BITS) X(gather_u16, BITS) X(load_rows, BITS) X(load_u16, BITS) X(column, BITS) \
     X(row, BITS) X(affine, BITS) X(dot, FLOAT) X(i_sub, BITS) X(i_min, BITS) X(i_max, BITS) X(i_pick, BITS) \
     X(i_lt, BITS) X(from_int, BITS) X(table, BITS) X(gather_rgba, BITS) X(gather_i32, BITS) X(sums, BITS) \
-    X(from_double, BITS)
+    X(from_double, BITS) X(codes_times, BITS) X(codes_over, BITS) X(codes_plus, BITS) X(codes_same, BITS) \
+    X(codes_between, BITS) X(load_some, BITS)
 enum {
 #define VERB_NAME(name, results) VERB_##name,
     VERBS(VERB_NAME)
@@ -49,7 +50,7 @@ typedef struct verb_output {
     uint32_t row[VERB_COUNT][VERB_LANES];
     float stored_f32[VERB_SURFACE];
     uint16_t stored_u16[VERB_SURFACE], put_u16[VERB_SURFACE];
-    uint32_t put_u32[VERB_SURFACE];
+    uint32_t put_u32[VERB_SURFACE], stored_some[VERB_SURFACE];
     double d[VERB_D_COUNT][VERB_LANES];
 } verb_output;
 

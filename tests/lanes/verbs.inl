@@ -137,18 +137,55 @@ static inline void run_memory(verb_output *out, const verb_input *in, int k)
     lane_put_u32(out->put_u32 + p, in->step, in->id, own);
 }
 
+/* Of any pixels, and of pixels that have only the codes 0 and 255. */
+static inline void run_codes(verb_output *out, const verb_input *in, int k)
+{
+    lanei x, y, at = lanei_load(in->at + k), byte = lanei_splat(255), corner[4];
+    const int n = 1 + (int)(in->id % LANES);
+    int32_t v[LANES], w[LANES];
+    for (int i = 0; i < LANES; ++i) {
+        const uint32_t a = in->surface_u32[(k + i) % VERB_SURFACE], b = (uint32_t)in->i[k + i];
+        v[i] = (int32_t)(in->step == 8 ? a : (a & 0x01010101u) * 255u);
+        w[i] = (int32_t)(in->step == 8 ? b : (b & 0x01010101u) * 255u);
+    }
+    x = lanei_load(v);
+    y = lanei_load(w);
+    put_lanei(out->row[VERB_codes_times] + k, codes_times(x, y));
+    put_lanei(out->row[VERB_codes_over] + k, codes_over(x, y));
+    put_lanei(out->row[VERB_codes_plus] + k, codes_plus(x, y));
+    put_lanei(out->row[VERB_codes_same] + k, codes_same(x, y));
+    for (int i = 0; i < 4; ++i) {
+        corner[i] = i == 0 ? x : i == 1 ? y : lanei_gather_rgba(in->table_rgba, lanei_shift(at, i - 2));
+    }
+    put_lanei(out->row[VERB_codes_between] + k,
+              codes_between(corner, lanei_and(y, byte), lanei_and(lanei_shift(x, 8), byte)));
+    if (n < LANES && k == 0) { /* backends have different LANES: compare with the verb for all */
+        const uint32_t first = (1u << n) - 1u;
+        lanei_store_some((uint8_t *)out->stored_some, n, y);
+        lanei_store(v, lanei_load_some((const uint8_t *)v, n));
+        put_lanei(out->row[VERB_load_some],
+                  lanei_sub(lanei_load(v), lanei_pick(mask_of_bits(first), x, lanei_splat(0))));
+        for (int i = 0; i < n; ++i) {
+            out->stored_some[i] ^= (uint32_t)w[i];
+        }
+    }
+}
+
 void VERBS_RUN(verb_output *out, const verb_input *in)
 {
     memcpy(out->stored_f32, in->surface_f32, sizeof out->stored_f32);
     memcpy(out->stored_u16, in->surface_u16, sizeof out->stored_u16);
     memcpy(out->put_u16, in->surface_u16, sizeof out->put_u16);
     memcpy(out->put_u32, in->surface_u32, sizeof out->put_u32);
+    memset(out->row[VERB_load_some], 0, sizeof out->row[VERB_load_some]);
+    memset(out->stored_some, 0, sizeof out->stored_some);
     for (int k = 0; k < VERB_LANES; k += LANES) {
         run_floats(out, in, k);
         run_masks(out, in, k);
         run_integers(out, in, k);
         run_doubles(out, in, k);
         run_memory(out, in, k);
+        run_codes(out, in, k);
         run_sums(out, in, k);
     }
 }
