@@ -71,10 +71,11 @@ static uint32_t texel_id(const lmb_fill_window *map, uint32_t x, uint32_t y)
                                             : ((const uint32_t *)(const void *)tile)[at];
 }
 
-static float texel_depth(const lmb_target *face, int32_t x, int32_t y)
+static float texel_depth(const lmb_fill_window *map, uint32_t x, uint32_t y)
 {
-    lmb_fill_tile t = lmb_target_tile(face, x / LMB_TILE, y / LMB_TILE);
-    return ((const float *)t.depth)[(y % LMB_TILE) * t.depth_step + x % LMB_TILE];
+    const uint8_t *tile = (const uint8_t *)map->first.depth + (ptrdiff_t)(y / LMB_TILE) * map->depth_row +
+                          (ptrdiff_t)(x / LMB_TILE) * map->depth_tile;
+    return ((const float *)(const void *)tile)[(y % LMB_TILE) * (uint32_t)map->first.depth_step + x % LMB_TILE];
 }
 
 /* Possible rounding of the position, m: 2^-15 of the pixel's distance for the position in the triangle's plane, because
@@ -148,7 +149,7 @@ static int lit_by_depth(const lmb_shadow_query *query, const place *at, const lm
 {
     const int32_t last = query->map->size - 1, x = mini((int32_t)at->x, last), y = mini((int32_t)at->y, last);
     const lmb_view *v = at->view;
-    float size = (float)v->frame_width, d = texel_depth(&query->map->face[at->face], x, y);
+    float size = (float)v->frame_width, d = texel_depth(&query->window, (uint32_t)x, (uint32_t)y);
     if (d == 0.0f) {
         return 1;
     }
