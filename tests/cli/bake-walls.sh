@@ -84,7 +84,7 @@ for kind in $kinds; do
     # Most walls hold with few elements. Those of many parts, and thin ones that start outside the room, need more.
     case $kind in
     curve) cost="--elements 1024 --receivers 1500" ;;
-    millimetre | mesh) cost="--elements 1024 --receivers 400" ;;
+    millimetre | rim | mesh) cost="--elements 1024 --receivers 400" ;;
     *) cost="--elements 256 --receivers 400" ;;
     esac
     status 0 bake room.obj -o room.lmt -q $cost --eye "$1" --eye "$2"

@@ -754,7 +754,7 @@ static void bytes_of_buried(void)
     world.scene.light_count = 1;
     CHECK(world_end() == LMB_OK);
     file_bytes baked = bake_whole(&world.scene, &set, small);
-    is_pinned("a panel in blocks", &baked, 0xd40c7ba8b4d85bfeu);
+    is_pinned("a panel in blocks", &baked, 0xdf0716fecc740dceu);
     file_free(&baked);
 }
 
@@ -764,12 +764,12 @@ static void bytes_of_demo(void)
     bake_settings set = few(0.00014f, 0.008f, 300);
     set.cluster_m = 0.3f;
     file_bytes baked = bake_whole(demo_scene(), &set, NULL);
-    is_pinned("the demo", &baked, 0x5ee2c1a06e109700u);
+    is_pinned("the demo", &baked, 0x89a2ecb2f63b8cd9u);
     file_free(&baked);
 }
 
 /* Bounds the work of a bake, in visibility tests. Light by direction needs the same tests as light along the normal, so
- * normal maps take no second pass (here 12 % more tests). Of the 46 million, 62 would be needed if all quarters of near
+ * normal maps take no second pass (here 12 % more tests). Of the 55 million, 62 would be needed if all quarters of near
  * elements were split. */
 static void tests_are_few(void)
 {
@@ -789,7 +789,7 @@ static void tests_are_few(void)
     const double by_direction = (double)tests_of_bake;
     file_free(&baked);
     CHECK_MSG(by_direction <= 1.05 * plain, "%.0f tests with normal maps, %.0f without", by_direction, plain);
-    CHECK_MSG(plain <= 48e6, "%.0f tests", plain);
+    CHECK_MSG(plain <= 57e6, "%.0f tests", plain);
 }
 
 static void is_same_by(const lmb_transfer *t, const lmb_scene *scene)
@@ -1226,7 +1226,7 @@ static void directed_box(void)
     world.material[0].specular[0] = 0.04f;
     file_bytes one = bake_box(1, 0), baked = bake_box(2, 0);
     CHECK(one.size == baked.size && memcmp(one.data, baked.data, one.size) == 0);
-    is_pinned("walls with a lobe", &one, 0x3b2dcaaf89c0f015u);
+    is_pinned("walls with a lobe", &one, 0x589722bdf79643e8u);
     CHECK(lmb_transfer_open(&t, plain.data, plain.size) == LMB_OK && t.count[LMB_TRANSFER_CLUSTERS] == 0);
     const uint32_t receivers = t.count[LMB_TRANSFER_RECEIVERS], corners = t.count[LMB_TRANSFER_CORNERS];
     CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
@@ -1290,7 +1290,7 @@ static void moving_block(const file_bytes *baked)
     lmb_transfer t;
     make_box(-0.6f);
     CHECK(lmb_transfer_open(&t, baked->data, baked->size) == LMB_OK);
-    is_pinned("a block that moves", baked, 0xaa3b169b10b5f6b0u);
+    is_pinned("a block that moves", baked, 0xa2a8be8655226c47u);
     CHECK(t.count[LMB_TRANSFER_MOVING] == 1 && t.count[LMB_TRANSFER_GRID] == 1 && t.count[LMB_TRANSFER_AIR] > 500);
     CHECK(t.section[LMB_TRANSFER_MOVING][0] == 13 && t.section[LMB_TRANSFER_MOVING][1] == 25);
     CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_OK);
@@ -1518,7 +1518,7 @@ static void any_history(const file_bytes *baked)
     lmb_transfer t;
     make_box(-0.6f);
     CHECK(lmb_transfer_open(&t, baked->data, baked->size) == LMB_OK);
-    draws_pinned("a block that moves", &t, &world.scene, 0x47b139be6a33376fu, 0xb0bdbacff342fd01u);
+    draws_pinned("a block that moves", &t, &world.scene, 0x3626cace31f5efd8u, 0xb0bdbacff342fd01u);
     draw_cold(&t);
     framed f = frame_of(&t, &world.scene, 0);
     f.frame.scratch = scratches; /* each frame finds the leftovers of the one before */
@@ -1549,7 +1549,7 @@ static void draws_directed(void)
     world.material[0].specular[0] = 0.04f;
     file_bytes baked = bake_box(2, 0);
     CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
-    draws_pinned("walls with a lobe", &t, &world.scene, 0x647a47b062dc6311u, 0x8573165df04f2f10u);
+    draws_pinned("walls with a lobe", &t, &world.scene, 0xbe7a4219c97c5956u, 0x8573165df04f2f10u);
     file_free(&baked);
 }
 
@@ -1574,7 +1574,7 @@ static void test_box(void)
     make_box(-1.2f); /* the block stands on the floor */
     file_bytes one = bake_box(1, 0), two = bake_box(2, 0);
     CHECK(one.size == two.size && one.size > 0 && memcmp(one.data, two.data, one.size) == 0);
-    is_pinned("a box with a block on its floor", &one, 0x55fff38ef54fe781u);
+    is_pinned("a box with a block on its floor", &one, 0x3f0d90b0ed8ed134u);
     CHECK(lmb_transfer_open(&t, one.data, one.size) == LMB_OK);
     CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_OK);
     CHECK(t.count[LMB_TRANSFER_AREAS] == 256 && t.count[LMB_TRANSFER_RECEIVERS] > 100);
@@ -1586,7 +1586,7 @@ static void test_box(void)
     is_linear(&t, &world.scene, 2.0f);
     is_linear(&t, &world.scene, 3.7f);
     draws_frames(&t, &world.scene);
-    draws_pinned("a box with a block on its floor", &t, &world.scene, 0xf0339831304bdd8au, 0x44eef72ca5ffe398u);
+    draws_pinned("a box with a block on its floor", &t, &world.scene, 0x03bdce99b77c0398u, 0x44eef72ca5ffe398u);
     draws_tiles(&t, &world.scene);
     takes_materials(&t);
     world.instance[1].to_world.m[3] = world.instance[1].to_world.m[12] = 0.1f;

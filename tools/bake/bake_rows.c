@@ -16,7 +16,7 @@ enum { CHUNK = 64, CUTS = 4, FEW = 4 };
 
 /* Splits from which on quarters that are all visible or all hidden are not split further: most nearby elements are.
  * Without this rule, 256 parts of each of the nearest elements took two thirds of all tests. */
-enum { ALIKE = 2 };
+enum { ALIKE = 3 };
 
 /* An element nearer than this (squared distance over squared reach) is split in four, and so on. Nearby geometry
  * hides part of an element, and the nearest light counts most. */
