@@ -224,5 +224,5 @@ lmb_status lmb_render_solve_on(lmb_render *r, int32_t parts)
 float lmb_render_solve_done(const lmb_render *r)
 {
     const frame_solver *solver = lmb_solver_of(&r->frame);
-    return solver != NULL && solver->done != NULL ? solver->done(r) : 1.0f;
+    return solver != NULL && solver->done != NULL ? solver->done(r) : 0.0f;
 }

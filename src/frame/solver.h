@@ -4,10 +4,11 @@
  *
  *     first points   begin, then collect for each face of each shadow map and end_face, then end_points
  *     groups         build
- *     bounces        step; or part by part on threads, and end_pass
- *     bands          tile
+ *     bounces        step; or part by part on threads: receive, then rest and built (solve_elements.c)
+ *     bands          tile, on threads
  *
- * Except `name`, `place`, `collect`, `build` and `tile`, a member may be NULL: nothing to do. */
+ * Except `place`, `collect`, `build` and `tile`, a member may be NULL: nothing to do. `build` and `step` are called
+ * even if bounces are skipped or reused, and must test that (skips and reuses in requires.h). */
 #ifndef LMB_FRAME_SOLVER_H
 #define LMB_FRAME_SOLVER_H
 
@@ -31,19 +32,19 @@ uint32_t lmb_frame_map_faces(const lmb_scene *s);
 
 typedef struct frame_solver frame_solver;
 struct frame_solver {
-    /* Places the memory. */
+    /* Places the memory. Called twice: to measure, and with memory. */
     lmb_status (*place)(lmb_frame *f, const lmb_frame_settings *s, frame_block *b);
 
     /* First points. begin: before the first face. collect: tile rows first .. past - 1 of the current face, which is
      * drawn. end_face: after all rows of a drawn face. end_points: after all faces, by steps: returns LMB_MORE until it
-     * is done. */
+     * is done. Solvers with parts have neither begin nor end_points. */
     lmb_status (*begin)(lmb_render *r);
     lmb_status (*collect)(lmb_render *r, int32_t first, int32_t past);
     lmb_status (*end_face)(lmb_render *r);
     lmb_status (*end_points)(lmb_render *r, int32_t units);
 
-    /* The same for a face in parts on threads. has_parts: is that possible? NULL: never. part: one part. join: before
-     * end_face. */
+    /* The same for a face in parts on threads. has_parts: whether the face can be split; NULL: never, nor can bounces.
+     * part: one part. join: after all parts, before end_face. */
     int (*has_parts)(const lmb_render *r);
     lmb_status (*part)(const lmb_render *r, lmb_tile *tile, int32_t part, int32_t parts);
     void (*join)(lmb_render *r, int32_t parts);
@@ -51,17 +52,17 @@ struct frame_solver {
     /* Groups what was collected. Returns LMB_MORE to be called again. */
     lmb_status (*build)(lmb_render *r);
 
-    /* Bounces by steps, with this table, and the share that is done, 0 .. 1. */
+    /* step: runs up to `units` of the bounces; `own` is this table. done: the share that is done, 0 .. 1. */
     lmb_status (*step)(lmb_render *r, const frame_solver *own, int32_t units);
     float (*done)(const lmb_render *r);
 
-    /* Bounces of solvers with elements (solve_elements.c). receive: elements first .. past - 1 receive pass r->light.
-     * rest: `left` further reflections are estimated. built: after a pass was sent. */
+    /* Solvers with elements (solve_elements.c) and a BVH. receive: lights elements first .. past - 1 in pass r->light.
+     * rest: estimates `left` further reflections. built: called after each pass. */
     lmb_status (*receive)(const lmb_render *r, lmb_band_scratch *s, int32_t first, int32_t past, lmb_stats *stats);
     lmb_status (*rest)(lmb_render *r, int32_t left);
     lmb_status (*built)(lmb_render *r);
 
-    /* Adds the bounced light of a tile, as lmb_render_gather. */
+    /* Adds the bounced light of a tile, irradiance in W/m2, as lmb_render_gather (stages.h) requires. */
     lmb_status (*tile)(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,
                        const lmb_tile *tile, const lmb_irradiance *direct);
 };

@@ -388,14 +388,15 @@ static void KERNEL(live_share)(float all[3], float some[3], const lmb_live_rays 
 
 /* Mask bits of rays 0 .. 31 that meet boxes i, i + 1, ...: `low`, `high` are the boxes' sides, from the rays' origin.
  * Lanes are boxes: few rays reach most nodes. */
-LANE_INLINE lanei live_met(const lane low[3], const lane high[3], lane_mask some, const float *per, uint32_t asked)
+LANE_INLINE lanei live_met(const lane low[3], const lane high[3], lane_mask some, const lmb_segments *s, int first,
+                           uint32_t asked)
 {
     lanei out = lanei_splat(0);
     for (uint32_t bits = asked; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit(bits);
         lane from = lane_splat(0.0f), to = lane_splat(1.0f);
         for (int h = 0; h < 3; ++h) {
-            const lane along = lane_splat(per[h * LMB_TILE_PIXELS + k]);
+            const lane along = lane_splat(s->per[h][first + k]);
             const lane a = lane_mul(low[h], along), b = lane_mul(high[h], along);
             from = lane_max(from, lane_min(a, b));
             to = lane_min(to, lane_max(a, b));
@@ -427,8 +428,8 @@ static uint32_t KERNEL(live_boxes)(uint64_t out[LMB_BOXES], const lmb_segments *
         high[1] = lane_sub(lane_load(boxes->high[1] + i), at.y);
         low[2] = lane_sub(lane_load(boxes->low[2] + i), at.z);
         high[2] = lane_sub(lane_load(boxes->high[2] + i), at.z);
-        lanei_store(part[0], live_met(low, high, some, s->per[0], (uint32_t)asked));
-        lanei_store(part[1], live_met(low, high, some, s->per[0] + 32, (uint32_t)(asked >> 32)));
+        lanei_store(part[0], live_met(low, high, some, s, 0, (uint32_t)asked));
+        lanei_store(part[1], live_met(low, high, some, s, 32, (uint32_t)(asked >> 32)));
         for (int k = 0; k < LANES; ++k) {
             out[i + k] = (uint64_t)(uint32_t)part[1][k] << 32 | (uint32_t)part[0][k];
             any |= (uint32_t)(out[i + k] != 0) << (i + k);

@@ -298,23 +298,23 @@ static int crosses(const lmb_cross_job *job, lmb_vec3 d)
     return 0.0f - job->slack <= min && job->beyond < dot3(job->normal, d);
 }
 
-/* 1 if a triangle blocks this one pixel. Bit by bit the result of `crossed`, with the cheapest test first: the plane of
- * a reversed edge is exactly negated. */
-static int blocks_one(traversal *w, uint32_t triangle, const ray *r)
+/* 1 if a triangle blocks this one pixel, at d from the point. Bit by bit the result of `crossed`, with the cheapest
+ * test first: the plane of a reversed edge is exactly negated. */
+static int blocks_one(traversal *w, uint32_t triangle, lmb_vec3 d)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     const lmb_vec3 *p = t->corner;
     const lmb_vec3 a = sub3(p[0], w->at), b = sub3(p[1], w->at), c = sub3(p[2], w->at);
-    const float ahead = dot3(t->normal, a), side = ahead < 0.0f ? -1.0f : 1.0f, past = side * dot3(t->normal, r->d);
+    const float ahead = dot3(t->normal, a), side = ahead < 0.0f ? -1.0f : 1.0f, past = side * dot3(t->normal, d);
     lmb_cross_job job;
     if (eye_is_across(w->kept, t->normal, p[0], -ahead)) {
         return 0.0f < past && cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept) &&
-               crosses(&job, r->d) &&
+               crosses(&job, d) &&
                (!(t->id & LMB_BVH_MASKED) || test_holes(w, t, &job, w->left) != 0);
     }
-    return absf(ahead) < past && 0.0f <= side * dot3(edge_plane(b, c, sub3(p[2], p[1])), r->d) &&
-           0.0f <= side * dot3(edge_plane(c, a, sub3(p[0], p[2])), r->d) &&
-           0.0f <= side * dot3(edge_plane(a, b, sub3(p[1], p[0])), r->d) &&
+    return absf(ahead) < past && 0.0f <= side * dot3(edge_plane(b, c, sub3(p[2], p[1])), d) &&
+           0.0f <= side * dot3(edge_plane(c, a, sub3(p[0], p[2])), d) &&
+           0.0f <= side * dot3(edge_plane(a, b, sub3(p[1], p[0])), d) &&
            cross_job(&job, t, w->at, w->noise, w->b->noise, w->kept) && job.beyond < past &&
            (!(t->id & LMB_BVH_MASKED) || test_holes(w, t, &job, w->left) != 0);
 }
@@ -335,7 +335,7 @@ static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *no
         ++w->kept->spent;
         for (uint32_t j = 0; j < node->count[i] && !traversal_is_over(w->kept); ++j) {
             ++w->kept->spent;
-            if (blocks_one(w, node->first[i] + j, r)) {
+            if (blocks_one(w, node->first[i] + j, r->d)) {
                 w->kept->blocker = node->first[i] + j + 1;
                 return 1;
             }
@@ -372,10 +372,9 @@ static void test_own(traversal *w)
     uint64_t seen = w->left;
     for (uint64_t bits = w->own != NULL ? seen : 0; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
-        ray r;
-        r.d = sub3(tile_vec(w->tile->position, k), w->at);
+        const lmb_vec3 d = sub3(tile_vec(w->tile->position, k), w->at);
         w->left = bits & (~bits + 1);
-        seen &= ~(w->own[k] != 0 && blocks_one(w, w->own[k] - 1, &r) ? w->left : 0);
+        seen &= ~(w->own[k] != 0 && blocks_one(w, w->own[k] - 1, d) ? w->left : 0);
     }
     w->left = seen;
 }
