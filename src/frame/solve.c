@@ -104,7 +104,10 @@ static lmb_status step_points(lmb_render *r, const frame_solver *solver, int32_t
         return LMB_MORE;
     }
     const int32_t rows = r->maps[r->light].size / LMB_TILE, past = mini(rows, (int32_t)r->progress + units);
-    lmb_status status = is_drawn(r) ? solver->collect(r, (int32_t)r->progress, past) : LMB_OK;
+    const int32_t first = (int32_t)r->progress;
+    lmb_status status = !is_drawn(r)           ? LMB_OK
+                        : solver->rows != NULL ? solver->rows(r, &f->scratch->tile, first, past)
+                                               : solver->collect(r, first, past);
     if (status == LMB_OK) {
         r->progress = (uint32_t)past;
         status = past == rows ? end_face(r, solver) : LMB_OK;
@@ -166,15 +169,30 @@ int lmb_render_solve_has_parts(const lmb_render *r)
     if (r->stage == LMB_STAGE_SHADOW_MAP) {
         return r->light == 0 && r->progress == 0;
     }
-    if (solver == NULL || solver->has_parts == NULL || r->progress != 0) {
+    if (solver == NULL || r->progress != 0) {
         return 0;
     }
     if (r->stage == LMB_STAGE_BOUNCES) {
-        return has_bounces(r);
+        return solver->receive != NULL && has_bounces(r);
     }
     return r->stage == LMB_STAGE_POINTS && !skips(r, LMB_SKIP_BOUNCE) && !reuses(r, LMB_REUSE_POINTS) &&
            r->light < r->frame.scene->light_count &&
-           !light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM) && solver->has_parts(r);
+           !light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM) &&
+           (solver->rows != NULL || (solver->has_parts != NULL && solver->has_parts(r)));
+}
+
+static lmb_status part_points(const lmb_render *r, const frame_solver *solver, lmb_tile *tile, int32_t part,
+                              int32_t parts)
+{
+    int64_t first, past;
+    if (!is_drawn(r)) {
+        return LMB_OK;
+    }
+    if (solver->rows == NULL) {
+        return solver->part(r, tile, part, parts);
+    }
+    share_out(&first, &past, r->maps[r->light].size / LMB_TILE, part, parts);
+    return solver->rows(r, tile, (int32_t)first, (int32_t)past);
 }
 
 lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
@@ -188,7 +206,7 @@ lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch,
         return LMB_ERR_ARG;
     }
     if (r->stage == LMB_STAGE_POINTS) {
-        return is_drawn(r) ? solver->part(r, &scratch->tile, part, parts) : LMB_OK;
+        return part_points(r, solver, &scratch->tile, part, parts);
     }
 #if LMB_TREES
     return lmb_solve_elements_part(r, solver, scratch, part, parts, stats);

@@ -1,8 +1,6 @@
 /* solve_cut.c: bounced light by cuts of a tree of the maps' texels, for 8x8 pixels. Layer 8. [V33 V34]
  *
  * Further bounces, emissive surfaces and many lights come from a second tree, of elements (solve_elements.c). */
-#include "../base/vec.h"
-#include "../bounce/points.h"
 #include "requires.h"
 #include "solver.h"
 #include "stages.h"
@@ -47,17 +45,12 @@ lmb_status lmb_solve_cut_place(lmb_frame *f, const lmb_frame_settings *s, frame_
 
 /* --- first points ------------------------------------------------------------------------------------------------- */
 
-lmb_status lmb_solve_cut_collect(const lmb_render *r, lmb_tile *tile, int32_t first, int32_t past)
+lmb_status lmb_solve_cut_rows(const lmb_render *r, lmb_tile *tile, int32_t first, int32_t past)
 {
     const lmb_frame *f = &r->frame;
     return !requires_texels(r) ? LMB_OK
                                : lmb_tree_texels(&f->tree, f->kernels, tile, f->scene, &f->scene->lights[r->light],
                                                  &r->maps[r->light], (int32_t)r->face, f->tree.faces, first, past);
-}
-
-static lmb_status cut_collect(lmb_render *r, int32_t first, int32_t past)
-{
-    return lmb_solve_cut_collect(r, &r->frame.scratch->tile, first, past);
 }
 
 lmb_status lmb_solve_cut_end_face(lmb_render *r)
@@ -66,19 +59,6 @@ lmb_status lmb_solve_cut_end_face(lmb_render *r)
     const lmb_status status = requires_texels(r) ? lmb_tree_sum(tree, tree->faces) : LMB_OK;
     ++tree->faces;
     return status;
-}
-
-int lmb_solve_cut_has_parts(const lmb_render *r)
-{
-    (void)r;
-    return 1;
-}
-
-static lmb_status cut_part(const lmb_render *r, lmb_tile *tile, int32_t part, int32_t parts)
-{
-    int64_t first, past;
-    share_out(&first, &past, r->maps[r->light].size / LMB_TILE, part, parts);
-    return lmb_solve_cut_collect(r, tile, (int32_t)first, (int32_t)past);
 }
 
 /* --- bounces ------------------------------------------------------------------------------------------------------ */
@@ -135,10 +115,8 @@ lmb_status lmb_solve_cut_tile(lmb_irradiance *inout, lmb_glossy *glossy, const l
 
 const frame_solver lmb_solver_cut = {
     .place = lmb_solve_cut_place,
-    .collect = cut_collect,
+    .rows = lmb_solve_cut_rows,
     .end_face = lmb_solve_cut_end_face,
-    .has_parts = lmb_solve_cut_has_parts,
-    .part = cut_part,
     .build = cut_build_elements,
     .step = lmb_solve_elements_step,
     .done = lmb_solve_elements_done,

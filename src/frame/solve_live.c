@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../bounce/points.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
 #include "requires.h"
@@ -43,24 +42,12 @@ static lmb_status live_place(lmb_frame *f, const lmb_frame_settings *s, frame_bl
 /* --- first points ------------------------------------------------------------------------------------------------- */
 
 /* Collects into the tree of single points, and into that of texels if lobes need it. */
-static lmb_status collect_points(const lmb_render *r, lmb_tile *tile, int32_t first, int32_t past)
+static lmb_status live_rows(const lmb_render *r, lmb_tile *tile, int32_t first, int32_t past)
 {
     const lmb_frame *f = &r->frame;
     const lmb_status status = lmb_live_collect(f->live, f->kernels, tile, f->scene, r->light, &r->maps[r->light],
                                                (int32_t)r->face, f->tree.faces, first, past);
-    return status != LMB_OK ? status : lmb_solve_cut_collect(r, tile, first, past);
-}
-
-static lmb_status live_collect(lmb_render *r, int32_t first, int32_t past)
-{
-    return collect_points(r, &r->frame.scratch->tile, first, past);
-}
-
-static lmb_status live_part(const lmb_render *r, lmb_tile *tile, int32_t part, int32_t parts)
-{
-    int64_t first, past;
-    share_out(&first, &past, r->maps[r->light].size / LMB_TILE, part, parts);
-    return collect_points(r, tile, (int32_t)first, (int32_t)past);
+    return status != LMB_OK ? status : lmb_solve_cut_rows(r, tile, first, past);
 }
 
 /* --- bounces ------------------------------------------------------------------------------------------------------ */
@@ -149,10 +136,8 @@ static lmb_status live_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb
 
 const frame_solver lmb_solver_live = {
     .place = live_place,
-    .collect = live_collect,
+    .rows = live_rows,
     .end_face = lmb_solve_cut_end_face,
-    .has_parts = lmb_solve_cut_has_parts,
-    .part = live_part,
     .build = live_build,
     .step = lmb_solve_elements_step,
     .done = lmb_solve_elements_done,

@@ -2,13 +2,13 @@
  *
  * The stages of a solution and the calls of each:
  *
- *     first points   begin, then collect for each face of each shadow map and end_face, then end_points
+ *     first points   begin; collect or rows, and end_face, for each face of each shadow map; end_points
  *     groups         build
  *     bounces        step; or part by part on threads: receive, then rest and built (solve_elements.c)
  *     bands          tile, on threads
  *
- * Except `place`, `collect`, `build` and `tile`, a member may be NULL: nothing to do. `build` and `step` are called
- * even if bounces are skipped or reused, and must test that (skips and reuses in requires.h). */
+ * Except `place`, `rows` or `collect`, `build` and `tile`, a member may be NULL: nothing to do. `build` and `step` are
+ * called even if bounces are skipped or reused, and must test that (skips and reuses in requires.h). */
 #ifndef LMB_FRAME_SOLVER_H
 #define LMB_FRAME_SOLVER_H
 
@@ -36,15 +36,17 @@ struct frame_solver {
     lmb_status (*place)(lmb_frame *f, const lmb_frame_settings *s, frame_block *b);
 
     /* First points. begin: before the first face. collect: tile rows first .. past - 1 of the current face, which is
-     * drawn. end_face: after all rows of a drawn face. end_points: after all faces, by steps: returns LMB_MORE until it
-     * is done. Solvers with parts have neither begin nor end_points. */
+     * drawn. rows: the same, if any thread may collect any rows: `tile` is the thread's scratch. end_face: after all
+     * rows of a drawn face. end_points: after all faces, by steps: returns LMB_MORE until it is done. Solvers with
+     * parts have neither begin nor end_points. */
     lmb_status (*begin)(lmb_render *r);
     lmb_status (*collect)(lmb_render *r, int32_t first, int32_t past);
+    lmb_status (*rows)(const lmb_render *r, lmb_tile *tile, int32_t first, int32_t past);
     lmb_status (*end_face)(lmb_render *r);
     lmb_status (*end_points)(lmb_render *r, int32_t units);
 
-    /* The same for a face in parts on threads. has_parts: whether the face can be split; NULL: never, nor can bounces.
-     * part: one part. join: after all parts, before end_face. */
+    /* Without `rows`: a face in parts on threads. has_parts: whether the face can be split; NULL: never. part: one
+     * part. join: after all parts, before end_face. */
     int (*has_parts)(const lmb_render *r);
     lmb_status (*part)(const lmb_render *r, lmb_tile *tile, int32_t part, int32_t parts);
     void (*join)(lmb_render *r, int32_t parts);
@@ -103,8 +105,7 @@ lmb_status lmb_solve_elements_end(lmb_render *r, const frame_solver *own);
 /* --- shared by cut and live (solve_cut.c) ------------------------------------------------------------------------- */
 
 lmb_status lmb_solve_cut_place(lmb_frame *f, const lmb_frame_settings *s, frame_block *b);
-lmb_status lmb_solve_cut_collect(const lmb_render *r, lmb_tile *tile, int32_t first, int32_t past);
-int lmb_solve_cut_has_parts(const lmb_render *r);
+lmb_status lmb_solve_cut_rows(const lmb_render *r, lmb_tile *tile, int32_t first, int32_t past);
 lmb_status lmb_solve_cut_end_face(lmb_render *r);
 lmb_status lmb_solve_cut_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,
                               const lmb_tile *tile, const lmb_irradiance *direct);

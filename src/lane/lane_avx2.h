@@ -117,99 +117,17 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     return _mm256_cvtepi32_ps(
         _mm256_setr_epi32(p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]));
 }
-/* Sixteen-bit products of codes, in the low and the high halves of 128 bits. (t + 128) 257 / 2^16 is t / 255 to
- * nearest, for t = 0 .. 255 x 255. */
+/* Codes of four pixels in each 128 bits. */
 #define LANE_HAS_CODES 1
-static inline lanei avx2_255ths(lanei low, lanei high)
-{
-    const lanei half = _mm256_set1_epi16(128), by = _mm256_set1_epi16(257);
-    return _mm256_packus_epi16(_mm256_mulhi_epu16(_mm256_add_epi16(low, half), by),
-                               _mm256_mulhi_epu16(_mm256_add_epi16(high, half), by));
-}
-static inline lanei codes_times(lanei x, lanei y)
-{
-    const lanei zero = _mm256_setzero_si256();
-    return avx2_255ths(_mm256_mullo_epi16(_mm256_unpacklo_epi8(x, zero), _mm256_unpacklo_epi8(y, zero)),
-                       _mm256_mullo_epi16(_mm256_unpackhi_epi8(x, zero), _mm256_unpackhi_epi8(y, zero)));
-}
-/* The share in all 16-bit places of the first, or last, two pixels of 128 bits. */
-static inline lanei avx2_shares_low(lanei x)
-{
-    return _mm256_shuffle_epi8(
-        x, _mm256_broadcastsi128_si256(_mm_setr_epi8(3, -1, 3, -1, 3, -1, 3, -1, 7, -1, 7, -1, 7, -1, 7, -1)));
-}
-static inline lanei avx2_shares_high(lanei x)
-{
-    return _mm256_shuffle_epi8(
-        x, _mm256_broadcastsi128_si256(_mm_setr_epi8(11, -1, 11, -1, 11, -1, 11, -1, 15, -1, 15, -1, 15, -1, 15, -1)));
-}
-static inline lanei codes_plus(lanei x, lanei y)
-{
-    const lanei zero = _mm256_setzero_si256(),
-                low = _mm256_mullo_epi16(_mm256_unpacklo_epi8(x, zero), avx2_shares_low(x)),
-                high = _mm256_mullo_epi16(_mm256_unpackhi_epi8(x, zero), avx2_shares_high(x));
-    return _mm256_adds_epu8(avx2_255ths(low, high), y);
-}
-/* Bytes 255 - a and a, times the bytes y - 128 and x - 128: the sum is 255 x 128 too small. */
-static inline lanei codes_over(lanei x, lanei y)
-{
-    const lanei sign = _mm256_set1_epi8(-128), rest = _mm256_set1_epi16(255), more = _mm256_set1_epi16(-32768),
-                by = _mm256_set1_epi16(257);
-    const lanei low = _mm256_shuffle_epi8(
-                    x, _mm256_broadcastsi128_si256(_mm_setr_epi8(3, 3, 3, 3, 3, 3, 3, 3, 7, 7, 7, 7, 7, 7, 7, 7))),
-                high = _mm256_shuffle_epi8(x, _mm256_broadcastsi128_si256(_mm_setr_epi8(
-                                                  11, 11, 11, 11, 11, 11, 11, 11, 15, 15, 15, 15, 15, 15, 15, 15)));
-    const lanei a = _mm256_xor_si256(x, sign), b = _mm256_xor_si256(y, sign);
-    const lanei p = _mm256_maddubs_epi16(_mm256_xor_si256(low, rest), _mm256_unpacklo_epi8(b, a)),
-                q = _mm256_maddubs_epi16(_mm256_xor_si256(high, rest), _mm256_unpackhi_epi8(b, a));
-    return _mm256_packus_epi16(_mm256_mulhi_epu16(_mm256_xor_si256(p, more), by),
-                               _mm256_mulhi_epu16(_mm256_xor_si256(q, more), by));
-}
-/* Compilers move all of x out of loops. */
-static inline lanei codes_same(lanei x, lanei y)
-{
-    const lanei zero = _mm256_setzero_si256(), all = _mm256_set1_epi16(255), half = _mm256_set1_epi16(128),
-                by = _mm256_set1_epi16(257);
-    const lanei low = avx2_shares_low(x), high = avx2_shares_high(x);
-    const lanei p = _mm256_add_epi16(_mm256_mullo_epi16(_mm256_unpacklo_epi8(x, zero), low), half),
-                q = _mm256_add_epi16(_mm256_mullo_epi16(_mm256_unpackhi_epi8(x, zero), high), half);
-    const lanei r = _mm256_add_epi16(_mm256_mullo_epi16(_mm256_unpacklo_epi8(y, zero), _mm256_sub_epi16(all, low)), p),
-                t = _mm256_add_epi16(_mm256_mullo_epi16(_mm256_unpackhi_epi8(y, zero), _mm256_sub_epi16(all, high)), q);
-    return _mm256_packus_epi16(_mm256_mulhi_epu16(r, by), _mm256_mulhi_epu16(t, by));
-}
-/* Corners along x by 16 bits: at most 255 x 256. Along y by 32 bits, from 2^15 less, because products are signed. */
-static inline lanei avx2_between_x(lanei a, lanei b, lanei x)
-{
-    return _mm256_add_epi16(_mm256_slli_epi16(a, 8), _mm256_mullo_epi16(_mm256_sub_epi16(b, a), x));
-}
-static inline lanei avx2_between_y(lanei pair, lanei y)
-{
-    return _mm256_srli_epi32(_mm256_add_epi32(_mm256_madd_epi16(pair, y), _mm256_set1_epi32((1 << 23) + (1 << 15))),
-                             16);
-}
-static inline lanei codes_between(const lanei corner[4], lanei x, lanei y)
-{
-    const lanei zero = _mm256_setzero_si256(), sign = _mm256_set1_epi16(-32768);
-    const lanei shares = _mm256_or_si256(_mm256_sub_epi32(_mm256_set1_epi32(256), y), _mm256_slli_epi32(y, 16));
-    const lanei xx = _mm256_or_si256(x, _mm256_slli_epi32(x, 16)), x_low = _mm256_unpacklo_epi32(xx, xx),
-                x_high = _mm256_unpackhi_epi32(xx, xx);
-    lanei half[2];
-    for (int i = 0; i < 2; ++i) {
-        const lanei upper = avx2_between_x(
-            i ? _mm256_unpackhi_epi8(corner[0], zero) : _mm256_unpacklo_epi8(corner[0], zero),
-            i ? _mm256_unpackhi_epi8(corner[1], zero) : _mm256_unpacklo_epi8(corner[1], zero), i ? x_high : x_low);
-        const lanei lower = avx2_between_x(
-            i ? _mm256_unpackhi_epi8(corner[2], zero) : _mm256_unpacklo_epi8(corner[2], zero),
-            i ? _mm256_unpackhi_epi8(corner[3], zero) : _mm256_unpacklo_epi8(corner[3], zero), i ? x_high : x_low);
-        const lanei p = _mm256_xor_si256(upper, sign), q = _mm256_xor_si256(lower, sign);
-        half[i] =
-            _mm256_packs_epi32(avx2_between_y(_mm256_unpacklo_epi16(p, q), i ? _mm256_shuffle_epi32(shares, 0xaa)
-                                                                             : _mm256_shuffle_epi32(shares, 0x00)),
-                               avx2_between_y(_mm256_unpackhi_epi16(p, q), i ? _mm256_shuffle_epi32(shares, 0xff)
-                                                                             : _mm256_shuffle_epi32(shares, 0x55)));
-    }
-    return _mm256_packus_epi16(half[0], half[1]);
-}
+#define WIDE(verb) _mm256_##verb
+#define WIDE_BITS(verb) _mm256_##verb##_si256
+#define WIDE_FOURS(a) _mm256_broadcastsi128_si256(a)
+#define WIDE_SHUFFLE(a, order) _mm256_shuffle_epi32(a, order)
+#include "codes_wide.inl"
+#undef WIDE
+#undef WIDE_BITS
+#undef WIDE_FOURS
+#undef WIDE_SHUFFLE
 #define LANE_HAS_SOME 1
 static inline lanei avx2_first(int n)
 {

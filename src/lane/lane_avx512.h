@@ -139,99 +139,17 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     }
     return _mm512_cvtepi32_ps(lanei_load(i));
 }
-/* Sixteen-bit products of codes, in the low and the high halves of 128 bits. (t + 128) 257 / 2^16 is t / 255 to
- * nearest, for t = 0 .. 255 x 255. */
+/* Codes of four pixels in each 128 bits. */
 #define LANE_HAS_CODES 1
-static inline lanei avx512_255ths(lanei low, lanei high)
-{
-    const lanei half = _mm512_set1_epi16(128), by = _mm512_set1_epi16(257);
-    return _mm512_packus_epi16(_mm512_mulhi_epu16(_mm512_add_epi16(low, half), by),
-                               _mm512_mulhi_epu16(_mm512_add_epi16(high, half), by));
-}
-static inline lanei codes_times(lanei x, lanei y)
-{
-    const lanei zero = _mm512_setzero_si512();
-    return avx512_255ths(_mm512_mullo_epi16(_mm512_unpacklo_epi8(x, zero), _mm512_unpacklo_epi8(y, zero)),
-                         _mm512_mullo_epi16(_mm512_unpackhi_epi8(x, zero), _mm512_unpackhi_epi8(y, zero)));
-}
-/* The share in all 16-bit places of the first, or last, two pixels of 128 bits. */
-static inline lanei avx512_shares_low(lanei x)
-{
-    return _mm512_shuffle_epi8(
-        x, _mm512_broadcast_i32x4(_mm_setr_epi8(3, -1, 3, -1, 3, -1, 3, -1, 7, -1, 7, -1, 7, -1, 7, -1)));
-}
-static inline lanei avx512_shares_high(lanei x)
-{
-    return _mm512_shuffle_epi8(
-        x, _mm512_broadcast_i32x4(_mm_setr_epi8(11, -1, 11, -1, 11, -1, 11, -1, 15, -1, 15, -1, 15, -1, 15, -1)));
-}
-static inline lanei codes_plus(lanei x, lanei y)
-{
-    const lanei zero = _mm512_setzero_si512(),
-                low = _mm512_mullo_epi16(_mm512_unpacklo_epi8(x, zero), avx512_shares_low(x)),
-                high = _mm512_mullo_epi16(_mm512_unpackhi_epi8(x, zero), avx512_shares_high(x));
-    return _mm512_adds_epu8(avx512_255ths(low, high), y);
-}
-/* Bytes 255 - a and a, times the bytes y - 128 and x - 128: the sum is 255 x 128 too small. */
-static inline lanei codes_over(lanei x, lanei y)
-{
-    const lanei sign = _mm512_set1_epi8(-128), rest = _mm512_set1_epi16(255), more = _mm512_set1_epi16(-32768),
-                by = _mm512_set1_epi16(257);
-    const lanei low = _mm512_shuffle_epi8(
-                    x, _mm512_broadcast_i32x4(_mm_setr_epi8(3, 3, 3, 3, 3, 3, 3, 3, 7, 7, 7, 7, 7, 7, 7, 7))),
-                high = _mm512_shuffle_epi8(x, _mm512_broadcast_i32x4(_mm_setr_epi8(11, 11, 11, 11, 11, 11, 11, 11, 15,
-                                                                                   15, 15, 15, 15, 15, 15, 15)));
-    const lanei a = _mm512_xor_si512(x, sign), b = _mm512_xor_si512(y, sign);
-    const lanei p = _mm512_maddubs_epi16(_mm512_xor_si512(low, rest), _mm512_unpacklo_epi8(b, a)),
-                q = _mm512_maddubs_epi16(_mm512_xor_si512(high, rest), _mm512_unpackhi_epi8(b, a));
-    return _mm512_packus_epi16(_mm512_mulhi_epu16(_mm512_xor_si512(p, more), by),
-                               _mm512_mulhi_epu16(_mm512_xor_si512(q, more), by));
-}
-/* Compilers move all of x out of loops. */
-static inline lanei codes_same(lanei x, lanei y)
-{
-    const lanei zero = _mm512_setzero_si512(), all = _mm512_set1_epi16(255), half = _mm512_set1_epi16(128),
-                by = _mm512_set1_epi16(257);
-    const lanei low = avx512_shares_low(x), high = avx512_shares_high(x);
-    const lanei p = _mm512_add_epi16(_mm512_mullo_epi16(_mm512_unpacklo_epi8(x, zero), low), half),
-                q = _mm512_add_epi16(_mm512_mullo_epi16(_mm512_unpackhi_epi8(x, zero), high), half);
-    const lanei r = _mm512_add_epi16(_mm512_mullo_epi16(_mm512_unpacklo_epi8(y, zero), _mm512_sub_epi16(all, low)), p),
-                t = _mm512_add_epi16(_mm512_mullo_epi16(_mm512_unpackhi_epi8(y, zero), _mm512_sub_epi16(all, high)), q);
-    return _mm512_packus_epi16(_mm512_mulhi_epu16(r, by), _mm512_mulhi_epu16(t, by));
-}
-/* Corners along x by 16 bits: at most 255 x 256. Along y by 32 bits, from 2^15 less, because products are signed. */
-static inline lanei avx512_between_x(lanei a, lanei b, lanei x)
-{
-    return _mm512_add_epi16(_mm512_slli_epi16(a, 8), _mm512_mullo_epi16(_mm512_sub_epi16(b, a), x));
-}
-static inline lanei avx512_between_y(lanei pair, lanei y)
-{
-    return _mm512_srli_epi32(_mm512_add_epi32(_mm512_madd_epi16(pair, y), _mm512_set1_epi32((1 << 23) + (1 << 15))),
-                             16);
-}
-static inline lanei codes_between(const lanei corner[4], lanei x, lanei y)
-{
-    const lanei zero = _mm512_setzero_si512(), sign = _mm512_set1_epi16(-32768);
-    const lanei shares = _mm512_or_si512(_mm512_sub_epi32(_mm512_set1_epi32(256), y), _mm512_slli_epi32(y, 16));
-    const lanei xx = _mm512_or_si512(x, _mm512_slli_epi32(x, 16)), x_low = _mm512_unpacklo_epi32(xx, xx),
-                x_high = _mm512_unpackhi_epi32(xx, xx);
-    lanei half[2];
-    for (int i = 0; i < 2; ++i) {
-        const lanei upper = avx512_between_x(
-            i ? _mm512_unpackhi_epi8(corner[0], zero) : _mm512_unpacklo_epi8(corner[0], zero),
-            i ? _mm512_unpackhi_epi8(corner[1], zero) : _mm512_unpacklo_epi8(corner[1], zero), i ? x_high : x_low);
-        const lanei lower = avx512_between_x(
-            i ? _mm512_unpackhi_epi8(corner[2], zero) : _mm512_unpacklo_epi8(corner[2], zero),
-            i ? _mm512_unpackhi_epi8(corner[3], zero) : _mm512_unpacklo_epi8(corner[3], zero), i ? x_high : x_low);
-        const lanei p = _mm512_xor_si512(upper, sign), q = _mm512_xor_si512(lower, sign);
-        half[i] = _mm512_packs_epi32(
-            avx512_between_y(_mm512_unpacklo_epi16(p, q), i ? _mm512_shuffle_epi32(shares, (_MM_PERM_ENUM)0xaa)
-                                                            : _mm512_shuffle_epi32(shares, (_MM_PERM_ENUM)0x00)),
-            avx512_between_y(_mm512_unpackhi_epi16(p, q), i ? _mm512_shuffle_epi32(shares, (_MM_PERM_ENUM)0xff)
-                                                            : _mm512_shuffle_epi32(shares, (_MM_PERM_ENUM)0x55)));
-    }
-    return _mm512_packus_epi16(half[0], half[1]);
-}
+#define WIDE(verb) _mm512_##verb
+#define WIDE_BITS(verb) _mm512_##verb##_si512
+#define WIDE_FOURS(a) _mm512_broadcast_i32x4(a)
+#define WIDE_SHUFFLE(a, order) _mm512_shuffle_epi32(a, (_MM_PERM_ENUM)(order))
+#include "codes_wide.inl"
+#undef WIDE
+#undef WIDE_BITS
+#undef WIDE_FOURS
+#undef WIDE_SHUFFLE
 #define LANE_HAS_SOME 1
 static inline lanei lanei_load_some(const uint8_t *p, int n)
 {

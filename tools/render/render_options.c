@@ -337,13 +337,12 @@ static void choose(render_options *o)
     }
 }
 
+#if !defined(OPTIONS_WITHOUT_HELP) /* the web page has no --budget */
 static int check_budget(const render_options *o, report *r)
 {
-#if !defined(OPTIONS_WITHOUT_HELP) /* the web page has no --budget */
     if (o->rate > 0.0f && !(o->budget_ms > 0.0f)) {
         return report_fail(r, "--budget rate: a speed goes only with ms, which it turns into work");
     }
-#endif
     if (!has_budget(&o->budget, o->budget_ms)) {
         return 1;
     }
@@ -358,6 +357,9 @@ static int check_budget(const render_options *o, report *r)
     }
     return 1;
 }
+#else
+#define check_budget(o, r) 1
+#endif
 
 static int check_together(const render_options *o, report *r)
 {
