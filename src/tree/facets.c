@@ -18,6 +18,7 @@
 
 #define HIDDEN 1.0f /* rows of pixels: if more of a part does not show, something hides it */
 #define SMALL 0.5f /* of a cell: a triangle that covers less is small */
+#define STEEP_FACET 0.35f /* cosine to the light: at a sharp edge, steeper planes reach far past their triangles */
 
 /* --- at the tree's building --------------------------------------------------------------------------------------- */
 
@@ -62,7 +63,8 @@ void lmb_facets_mark(lmb_texel *inout, const lmb_tile *t, int own, int first, in
         const int steps = absi(k % LMB_TILE - own % LMB_TILE) + absi(k / LMB_TILE - own / LMB_TILE);
         const lmb_vec3 *longer = length3(reach[0]) + length3(reach[1]) > length3(own_reach[0]) + length3(own_reach[1])
                                      ? reach : own_reach;
-        several |= dot3(normal, n) >= TILE_COS_25 || !go_on(longer, sub3(p, at), steps) ||
+        several |= minf(absf(dot3(ray, normal)), absf(dot3(ray, n))) < STEEP_FACET || dot3(normal, n) >= TILE_COS_25 ||
+                   !go_on(longer, sub3(p, at), steps) ||
                    (other >= 0 && !in_plane(tile_vec(t->face, other), n, sub3(p, tile_vec(t->position, other))));
         other = k;
         cosine = minf(cosine, dot3(normal, n));

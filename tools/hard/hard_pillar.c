@@ -169,8 +169,8 @@ void hard_pillar(hard_list *list)
                                       {{11, 40, 150}, {6, 22, 60}, {12, 50, 200}, 0.22, 1.3}};
     static const pillar_row rows[2 * THINGS] = {
         {CYLINDER, 0, {"floor by pillars: trim", "rmse", "brightest pixel"}, {0.081, 0.21, 4.2}},
-        {CONE, 0, {"floor by cones: trim", "rmse", "brightest pixel"}, {0.078, 0.253, 4.2}},
-        {BALL, 0, {"floor by balls: trim", "rmse", "brightest pixel"}, {0.142, 0.322, 245}},
+        {CONE, 0, {"floor by cones: trim", "rmse", "brightest pixel"}, {0.078, 0.25, 2.3}},
+        {BALL, 0, {"floor by balls: trim", "rmse", "brightest pixel"}, {0.11, 0.18, 2}},
         {CYLINDER, 1, {"held out pillars: trim", "rmse", "brightest pixel"}, {0.126, 0.4, 1.5}},
         {CONE, 1, {"held out cones: trim", "rmse", "brightest pixel"}, {0.128, 0.72, 1.8}},
         {BALL, 1, {"held out balls: trim", "rmse", "brightest pixel"}, {0.18, 0.345, 1.5}},
