@@ -53,6 +53,7 @@ typedef struct lmb_facet_surface {
     lmb_vec3 normal, on; /* its plane; the normal is on the lit side */
     uint64_t pixels;     /* of the block that show it */
     uint32_t id;
+    int is_speck; /* covers less than half of these pixels, and is not steep */
 } lmb_facet_surface;
 
 typedef struct lmb_facets {
