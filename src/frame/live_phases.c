@@ -287,11 +287,11 @@ static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_ban
 lmb_status lmb_render_live_tile(lmb_irradiance *out, const lmb_render *r, lmb_band_scratch *s)
 {
     const live_grid g = grid_of(r);
-    if (s->tile.hits == 0 || grid_tile(&g, s->tile.x / LMB_TILE, s->tile.y / LMB_TILE)->lobes) {
-        return LMB_OK;
-    }
     if (s->tile.hits < LMB_TILE_PIXELS) {
         memset(out, 0, sizeof *out);
+    }
+    if (s->tile.hits == 0 || grid_tile(&g, s->tile.x / LMB_TILE, s->tile.y / LMB_TILE)->lobes) {
+        return LMB_OK;
     }
     const uint64_t left = lmb_live_grid_fill(out, r->frame.kernels, &g, &s->tile);
     return left != 0 ? light_left(out, r, s, &g, left) : LMB_OK;

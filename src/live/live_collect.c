@@ -139,11 +139,11 @@ static void set_powers(float out[16], const collector *c, int32_t column, int32_
 #endif
 }
 
-/* The texel that represents a block. */
+/* The texel that represents a block: the same whatever other lights and faces were skipped. */
 static void texel_of(int32_t *x, int32_t *y, const collector *c, int32_t column, int32_t row)
 {
     const int32_t each = c->face->each;
-    const uint32_t h = live_hash((uint32_t)column, (uint32_t)row, c->into);
+    const uint32_t h = live_hash((uint32_t)column, (uint32_t)row, 8 * c->face->light + (uint32_t)c->map_face);
     *x = mini(column * each + (int32_t)(h >> 8 & (uint32_t)(each - 1)), c->face->size - 1);
     *y = mini(row * each + (int32_t)(h >> 16 & (uint32_t)(each - 1)), c->face->size - 1);
 }

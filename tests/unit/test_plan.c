@@ -6,6 +6,7 @@
 
 enum { FRAME = 32, MAP = 16, FACES = 14, ELEMENTS = 64, BVH = 96 };
 #include "../bounce_frame.h"
+#include "../live_frame.h"
 
 void test_plan(void);
 
@@ -221,6 +222,7 @@ static void random_scene(test_rng *rng)
     }
 }
 
+/* Half of the frames are drawn by LMB_GATHER_LIVE. */
 static void test_random_scenes(void)
 {
     static const int32_t shows[] = {LMB_SHOW_FULL, LMB_SHOW_INDIRECT, LMB_SHOW_IRRADIANCE};
@@ -230,7 +232,9 @@ static void test_random_scenes(void)
         random_scene(&rng);
         lmb_frame f = frame_of(LMB_MAX_LIGHTS > 1 ? 2 : 1);
         f.show = shows[i % 3];
-        f.gather_step = i % 2 == 0 ? 1 : 2;
+        if (i % 2 != 0) {
+            gather_live(&f);
+        }
         f.bounces = 1 + i % 4 / 3;
         CHECK_MSG(same_as_everything(&f), "scene %d", i);
         skipped += render.skips != 0;
