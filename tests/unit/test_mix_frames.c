@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../tools/mix/mix_between.h"
 #include "../../tools/mix/mix_carry.h"
 #include "../../tools/mix/mix_frames.h"
 #include "../test.h"
@@ -291,7 +292,7 @@ static mix_job *sunny_at(double x, const mix_kept *k)
  * again, and so is each that edges and curved surfaces separate from them; in a single frame few are. */
 static void all_is_traced_again(mix_job *c, mix_job *a, mix_kept *k)
 {
-    enum { TURNS = 72, STEP = 4, TILES = PIXELS / LMB_TILE_PIXELS };
+    enum { TURNS = 72, TILES = PIXELS / LMB_TILE_PIXELS };
     static mix_batch batch;
     static uint64_t fresh[TILES], known[TILES];
     int most = 0, never = 0, all = 0, stale = 0;
@@ -309,7 +310,7 @@ static void all_is_traced_again(mix_job *c, mix_job *a, mix_kept *k)
             lmb_real_tile(&batch.real[0], &c->cloud, &c->planes, &c->real, &c->axes, i % (WIDTH / LMB_TILE) * LMB_TILE,
                           i / (WIDTH / LMB_TILE) * LMB_TILE);
             mix_cones_batch(&batch, c);
-            known[i] = lmb_sparse_pixels(&batch.real[0], STEP);
+            known[i] = mix_between_pixels(&batch.real[0]);
             for (int q = 0; q < LMB_TILE_PIXELS; ++q) {
                 const int is_new = batch.real[0].id[q] != 0 && fabsf(batch.light[0][0].rgb[0][q] - 7.0f) > 1e-4f;
                 fresh[i] |= (uint64_t)is_new << q;

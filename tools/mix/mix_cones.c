@@ -1,11 +1,10 @@
 /* mix_cones.c: indirect light by cone tracing, at some pixels of a row of tiles. */
+#include "mix_between.h"
 #include "mix_carry.h"
 #include "mix_world.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { STEP = 4 };
 
 /* The pixels between which the others are interpolated. A tile that is due traces all of these again, and a third of
  * the pixels that noise, an edge or curvature keeps from being interpolated: another third each time. */
@@ -110,13 +109,13 @@ static int is_steep(const mix_batch *b, int32_t i, uint64_t known)
 
 /* Fills the pixels of a tile by interpolation; carried pixels keep their light. *more: the pixels that must be
  * traced. */
-static void upsample(uint64_t more[1], mix_batch *b, int32_t i, uint64_t known, uint64_t carried)
+static void fill_between(uint64_t more[1], mix_batch *b, int32_t i, uint64_t known, uint64_t carried)
 {
     const lmb_irradiance kept[2] = {b->light[0][i], b->light[1][i]};
     const int steep = is_steep(b, i, known);
     *more = 0;
     for (int32_t world = 0; world < 2; ++world) {
-        *more |= lmb_upsample_tile(&b->light[world][i], &b->real[i], known, STEP);
+        *more |= mix_between_fill(&b->light[world][i], &b->real[i], known);
         for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
             if ((carried >> k % LMB_TILE_PIXELS & 1) != 0) {
                 b->light[world][i].rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] =
@@ -154,13 +153,13 @@ void mix_cones_batch(mix_batch *b, const mix_job *j)
     memset(&b->together, 0, sizeof b->together);
     b->gathered = 0;
     for (int32_t i = 0; i < b->count; ++i) {
-        known[i] = lmb_sparse_pixels(&b->real[i], STEP);
+        known[i] = mix_between_pixels(&b->real[i]);
         carried[i] = take_carried(b, j, i, known[i]);
         put_pixels(b, j, i, known[i] & ~carried[i]);
     }
     flush(b, j);
     for (int32_t i = 0; i < b->count; ++i) {
-        upsample(&more, b, i, known[i], carried[i]);
+        fill_between(&more, b, i, known[i], carried[i]);
         put_pixels(b, j, i, more);
     }
     flush(b, j);
