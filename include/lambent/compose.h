@@ -42,20 +42,6 @@ extern "C" {
 size_t lmb_lattice_bytes(int32_t width, int32_t height);
 lmb_status lmb_lattice_init(lmb_lattice *out, int32_t width, int32_t height, void *memory, size_t bytes);
 
-/* Upsampling of light that was gathered at every second or fourth pixel each way (step 2 or 4).
- *
- * lmb_sparse_pixels: the pixels of a tile to gather, a bit each. These are rows and columns 0, 2, 5, 7 or 0, 7, so 16
- * or 4 samples, and pixels with too few of the four surrounding samples on the pixel's surface. A tile uses only its
- * own pixels, and the samples reach to its edges, so there are no seams. Any other step: all pixels.
- * lmb_upsample_tile: set the other pixels to the mean of the samples around them, weighted by distance and by how well
- * a sample fits the pixel's surface. Equal samples give exactly their value.
- *
- *   inout  the light at the pixels of `known`, the result of lmb_sparse_pixels.
- * Returns the pixels, a bit each, with samples that differ by more than 40 %: these are not set; gather them. Both
- * calls return no pixels if a pointer is NULL. */
-uint64_t lmb_sparse_pixels(const lmb_tile *tile, int32_t step);
-uint64_t lmb_upsample_tile(lmb_irradiance *inout, const lmb_tile *tile, uint64_t known, int32_t step);
-
 /* lmb_compose_tile: albedo / pi x (direct + indirect). Either irradiance may be NULL. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
                             const lmb_irradiance *direct, const lmb_irradiance *indirect);

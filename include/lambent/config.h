@@ -203,7 +203,6 @@
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all windows */
 #define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
-#define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together if bounced light is upsampled */
 #define LMB_CUT_BLOCK 64        /* nodes of a cut that are prepared for the gather together */
 /* Nodes of a cut whose bounds are computed side by side, 92 bytes of lmb_cut each: as many as the widest backend has
  * lanes, and at least four, the children of one node. */

@@ -89,7 +89,7 @@ typedef struct lmb_plan_row {
 typedef struct lmb_settings {
     int32_t shadow_map, tree;
     float error, visibility;
-    int32_t gather_step, occlusion;
+    int32_t occlusion;
 } lmb_settings;
 
 /* Sampling results of one rung of the ladder (lmb_plan_rung). */
@@ -130,18 +130,16 @@ typedef struct lmb_choice {
     int32_t meets; /* 1: meets the whole budget. An unchecked error meets no error budget */
 } lmb_choice;
 
-/* The tiles of a frame to sample. A place is one tile, or LMB_SPARSE_TILES side by side if bounced light is gathered at
- * some of the pixels only. */
-enum { LMB_SAMPLE_TILES = 192, LMB_SAMPLE_BLOCKS = 80 };
-enum { LMB_SAMPLE_PIXELS = LMB_SAMPLE_BLOCKS * LMB_SPARSE_TILES * LMB_TILE_PIXELS };
+/* The tiles of a frame to sample. */
+enum { LMB_SAMPLE_TILES = 192, LMB_SAMPLE_PIXELS = LMB_SAMPLE_TILES * LMB_TILE_PIXELS };
 typedef struct lmb_survey {
-    int32_t tiles, count;                              /* tiles of a place; number of places */
-    uint16_t x[LMB_SAMPLE_TILES], y[LMB_SAMPLE_TILES]; /* first pixel of each place */
+    int32_t count;
+    uint16_t x[LMB_SAMPLE_TILES], y[LMB_SAMPLE_TILES]; /* first pixel of each tile */
 } lmb_survey;
 
-/* The light of a survey's places with one setting. 250 KB of your memory. */
+/* The light of a survey's places with one setting. 150 KB of your memory. */
 typedef struct lmb_tile_sample {
-    int32_t tiles, places;             /* tiles of a place; places sampled: the rest of `light` is not written */
+    int32_t places;                    /* sampled: the rest of `light` is not written */
     float light[LMB_SAMPLE_PIXELS][3]; /* W/m2; below 0: no surface */
     double pairs, segments;            /* of these places */
 } lmb_tile_sample;
@@ -173,18 +171,16 @@ double lmb_plan_units(int32_t op);
 /* lmb_survey_even: choose places that are spread evenly over a frame.
  *
  *   r       a frame with LMB_GROUP_CUT, at LMB_STAGE_BANDS, with a whole frame's eye; read. To change error,
- *           visibility, gather_step and occlusion between samples, call lmb_render_again or write to r->frame.
- *   tiles   of a place: 1, or LMB_SPARSE_TILES side by side for a gather_step over 1.
- *   wanted  number of places, up to LMB_SAMPLE_TILES or LMB_SAMPLE_BLOCKS; there may be fewer.
+ *           visibility and occlusion between samples, call lmb_render_again or write to r->frame.
+ *   wanted  number of places, up to LMB_SAMPLE_TILES; there may be fewer.
  * The first few of them are spread evenly too, because sampling may end early. Returns LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t tiles, int32_t wanted);
+lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t wanted);
 
 /* lmb_render_sample: bounced light of a survey's places with the frame's current settings.
  *
  *   r       see lmb_survey_even; read.
- *   places  of LMB_SPARSE_TILES tiles each if gather_step is over 1; else of either size.
  *   max     units of work after which no further place is sampled; 0: no limit. out->places is the number sampled.
- * Returns LMB_OK or LMB_ERR_ARG. LMB_GATHER_ADAPTIVE is also refused: the samples depend on those of the whole frame,
+ * Returns LMB_OK or LMB_ERR_ARG. A gather_step over 1 is also refused: its samples depend on those of the whole frame,
  * so some places do not show the cost. Cost: that of the places. */
 lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band_scratch *scratch,
                              const lmb_survey *places, double max);

@@ -44,14 +44,6 @@ enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_I
  * and bands do not change it. */
 enum { LMB_GATHER_ADAPTIVE = 8, LMB_GATHER_LIVE = 16 /* the same samples, by lmb_live: for lights that move */ };
 
-/* Light gathered for some pixels of a block of tiles side by side. */
-typedef struct lmb_sparse {
-    lmb_tile together;                      /* the next pixels: their positions, faces, normals and ids */
-    uint16_t pixel[LMB_TILE_PIXELS];        /* their indices in `light` */
-    int32_t count;                          /* pixels in `together` */
-    lmb_irradiance light[LMB_SPARSE_TILES]; /* of the block's pixels */
-} lmb_sparse;
-
 /* Scratch for frame.samples > 1: the samples of one band. 19 KiB, and the memory of `eye`. */
 typedef struct lmb_multisample {
     lmb_target eye;    /* depth and ids: as wide as the frame, 8 rows a sample, one sample below the other */
@@ -81,7 +73,9 @@ typedef struct lmb_band_scratch {
     lmb_radiance radiance;
     lmb_stats counts; /* pairs and segments, added to by lmb_render_band: zero it yourself */
     lmb_many_lights_scratch many_lights;
-    lmb_sparse sparse; /* for gather_step > 1 */
+    lmb_tile together;               /* pixels of several tiles or samples, gathered as one tile */
+    uint16_t pixel[LMB_TILE_PIXELS]; /* LMB_GATHER_ADAPTIVE: their numbers in their tiles */
+    lmb_irradiance between;          /* LMB_GATHER_LIVE: bounced light of a tile's pixels */
     lmb_glossy glossy; /* for scenes with glossy lobes */
     lmb_multisample *multisample; /* for frame.samples > 1 */
     lmb_live_scratch *live; /* for LMB_GATHER_LIVE */
@@ -116,8 +110,8 @@ typedef struct lmb_frame {
                               a transfer. Emitted light that reaches a surface directly is always included */
     int32_t truncated;     /* 1: light reflected more than `bounces` times is missing. 0: if `bounces` is over 1, it is
                               estimated, up to LMB_MAX_BOUNCES: lmb_elements_rest */
-    int32_t gather_step;   /* px between samples of bounced light: 1 (or 0), 2 or 4, see lmb_upsample_tile; or
-                              LMB_GATHER_ADAPTIVE, with `lattice` */
+    int32_t gather_step;   /* 1 (or 0): bounced light is gathered at each pixel; or LMB_GATHER_ADAPTIVE or
+                              LMB_GATHER_LIVE, with `lattice` */
     int32_t samples;       /* coverage and direct light, samples a pixel: 1 (or 0), 4, 8 or 16, with
                               scratch.multisample; the picture is their mean. Bounced light is gathered once for each
                               surface of a pixel, but lobes only if some pixel centre shows the surface. Each band draws
@@ -155,7 +149,7 @@ typedef struct lmb_frame {
 
 /* Accuracy of bounced light: each quality sets the numbers of lmb_frame_settings that you leave 0. Errors against truth
  * are in tests/results/README.md. If LMB_MANY_LIGHTS_EVEN or more `many_lights` are all the light of the scene, `error`
- * and `visibility` are larger (0.1 and 0.2 by default), and bounced light is gathered at every second pixel. */
+ * and `visibility` are larger (0.1 and 0.2 by default). */
 enum {
     LMB_QUALITY_DEFAULT = 0, /* tree 256, error 0.02, visibility 0.015 */
     LMB_QUALITY_DRAFT = 1,   /* tree 128, error 0.06, visibility 0.06 */
@@ -192,7 +186,7 @@ typedef struct lmb_frame_settings {
                                else 16,384 (tiny: 1,024 and 256). None if bounces, many_lights and materials need
                                none */
     lmb_grouping grouping;  /* LMB_QUALITY_FIXED: any method but LMB_GROUP_CUT */
-    int32_t gather_step;    /* lmb_frame's; 0: 1 (2 with LMB_MANY_LIGHTS_EVEN lights) */
+    int32_t gather_step;    /* lmb_frame's; 0: 1 */
     int32_t samples;        /* lmb_frame's; 0: 1 */
     uint32_t points;        /* LMB_QUALITY_FIXED: first points. 0: four a block of texels, the maximum */
     int32_t id_format;      /* 0: LMB_ID16 for scenes under 65,536 triangles, else LMB_ID32 */

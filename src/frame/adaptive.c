@@ -74,7 +74,7 @@ static void put_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int fro
     out->id[to] = requires_live(f) ? in->id[from] : 1;
 }
 
-/* A pack being filled: the pixels are in s->sparse.together, with their origins in `pixel` and `tile`. */
+/* A pack being filled: the pixels are in s->together, with their origins in `pixel` and `tile`. */
 typedef struct pack {
     const lmb_render *r;
     lmb_band_scratch *s;
@@ -94,8 +94,8 @@ static void put_alike(pack *p, lmb_lattice_tile *tile, int32_t i)
             p->seed_pixel = k;
         }
         if (on_plane(p->seed, p->seed_pixel, tile, k)) {
-            put_pixel(&p->s->sparse.together, p->count, tile, k, &p->r->frame);
-            p->s->sparse.pixel[p->count] = (uint16_t)k;
+            put_pixel(&p->s->together, p->count, tile, k, &p->r->frame);
+            p->s->pixel[p->count] = (uint16_t)k;
             p->tile[p->count++] = (uint16_t)i;
             tile->wanted &= ~((uint64_t)1 << k);
         }
@@ -104,18 +104,17 @@ static void put_alike(pack *p, lmb_lattice_tile *tile, int32_t i)
 
 static lmb_status gather_pack(const pack *p)
 {
-    lmb_sparse *sparse = &p->s->sparse;
     memset(&p->s->indirect, 0, sizeof p->s->indirect);
-    const lmb_status status = lmb_render_gather(&p->s->indirect, NULL, p->r, p->s, &sparse->together, NULL);
+    const lmb_status status = lmb_render_gather(&p->s->indirect, NULL, p->r, p->s, &p->s->together, NULL);
     for (int32_t i = 0; i < p->count; ++i) {
         lmb_lattice_tile *tile = tile_along(&p->r->frame.lattice, p->column, p->row, p->tile[i]);
         if (tile == NULL) {
             continue; /* a pack never contains such a tile */
         }
         for (int c = 0; c < 3; ++c) {
-            tile->light.rgb[c][sparse->pixel[i]] = p->s->indirect.rgb[c][i];
+            tile->light.rgb[c][p->s->pixel[i]] = p->s->indirect.rgb[c][i];
         }
-        tile->known |= (uint64_t)1 << sparse->pixel[i];
+        tile->known |= (uint64_t)1 << p->s->pixel[i];
     }
     return status;
 }
@@ -137,7 +136,7 @@ static lmb_status gather_window(const lmb_render *r, lmb_band_scratch *s, int32_
         }
         p.seed = NULL;
         p.count = 0;
-        memset(&s->sparse.together, 0, sizeof s->sparse.together);
+        memset(&s->together, 0, sizeof s->together);
         for (int32_t i = first; i < LATTICE_WINDOW * LATTICE_WINDOW && p.count < LMB_TILE_PIXELS; ++i) {
             lmb_lattice_tile *tile = tile_along(l, p.column, p.row, i);
             if (tile != NULL && tile->wanted != 0) {

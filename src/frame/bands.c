@@ -42,29 +42,18 @@ NOINLINE lmb_status light_pixels(const lmb_render *r, lmb_band_scratch *s, const
     return status == LMB_OK ? lmb_render_radiance(r, glossy, s, &s->tile, &f->view, indirect) : status;
 }
 
-/* The bounced light of the tile at column x if blocks are gathered; the first tile of a block gathers the whole block.
- * Otherwise NULL. */
-static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, lmb_band_scratch *s,
-                              const lmb_target *window, int32_t x, int32_t band)
+/* Bounced light from samples of the resolved tile's frame; NULL: it is gathered at each pixel. */
+static lmb_status sampled_light(const lmb_irradiance **out, const lmb_render *r, lmb_band_scratch *s)
 {
-    const lmb_frame *f = &r->frame;
-    const int32_t part = x / LMB_TILE % LMB_SPARSE_TILES;
-    const int gathers = requires_bounce(f) || gathers_many_lights(f);
-    const int sparse = f->gather_step > 1 && gathers && !skips(r, LMB_SKIP_BOUNCE);
+    *out = NULL;
     if (lights_points(r)) {
-        *out = &s->sparse.light[0]; /* filled after the tile is resolved */
-        return LMB_OK;
+        *out = &s->between;
+        return lmb_render_live_tile(&s->between, r, s);
     }
     if (requires_samples(r)) {
-        *out = &lattice_tile(&f->lattice, x / LMB_TILE, band)->light;
-        return LMB_OK;
+        *out = &lattice_tile(&r->frame.lattice, s->tile.x / LMB_TILE, s->tile.y / LMB_TILE)->light;
     }
-    *out = sparse ? &s->sparse.light[part] : NULL;
-    if (!sparse || part > 0) {
-        return LMB_OK;
-    }
-    const int32_t ahead = (f->view.frame_width - x + LMB_TILE - 1) / LMB_TILE;
-    return lmb_render_block(r, s, window, x, band * LMB_TILE, mini(LMB_SPARSE_TILES, ahead));
+    return LMB_OK;
 }
 
 /* Lights a band from the depth and ids in `window`. */
@@ -79,12 +68,9 @@ static lmb_status light_band(const lmb_render *r, lmb_band_scratch *scratch, con
     }
     for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
         const lmb_irradiance *indirect;
-        status = block_light(&indirect, r, scratch, window, x, band);
+        status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, window, x, band * LMB_TILE);
         if (status == LMB_OK) {
-            status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, window, x, band * LMB_TILE);
-        }
-        if (status == LMB_OK && lights_points(r)) {
-            status = lmb_render_live_tile(&scratch->sparse.light[0], r, scratch);
+            status = sampled_light(&indirect, r, scratch);
         }
         if (status == LMB_OK) {
             status = light_pixels(r, scratch, indirect, out, band);

@@ -21,7 +21,7 @@ enum { FINEST_MAP = 1024, COARSEST_MAP = 64, MAX_THREADS = 1024 };
 static const struct preset {
     float error, visibility;
 } presets[] = {{0.02f, 0.015f}, {0.06f, 0.06f}, {0.01f, 0.002f}, {0.02f, 0.015f}},
-  /* for light from all sides, gathered at every second pixel each way */
+  /* for light from all sides */
   even_presets[] = {{0.1f, 0.2f}, {0.2f, 0.3f}, {0.01f, 0.005f}, {0.1f, 0.2f}};
 
 static lmb_status check(const lmb_frame_settings *s)
@@ -30,8 +30,9 @@ static lmb_status check(const lmb_frame_settings *s)
         s->view.frame_height < 1 || s->view.frame_height > LMB_MAX_SIDE || s->show < LMB_SHOW_FULL ||
         s->show > LMB_SHOW_IRRADIANCE || s->quality < LMB_QUALITY_DEFAULT || s->quality > LMB_QUALITY_FIXED ||
         s->bounces < 0 || s->bounces > LMB_MAX_BOUNCES || s->threads < 0 || s->threads > MAX_THREADS ||
-        s->shadow_map < 0 || s->tree < 0 || s->gather_step < 0 || s->gather_step == 3 ||
-        (s->gather_step > 4 && !takes_lattice(s->gather_step)) || !(s->error >= 0.0f) || !(s->visibility >= 0.0f) ||
+        s->shadow_map < 0 || s->tree < 0 ||
+        (s->gather_step != 0 && s->gather_step != 1 && !takes_lattice(s->gather_step)) || !(s->error >= 0.0f) ||
+        !(s->visibility >= 0.0f) ||
         (s->by_bands && s->threads > 1) || (s->samples > 1 && !LMB_MULTISAMPLE) ||
         (s->samples > 1 && s->samples != 4 && s->samples != 8 && s->samples != 16) || s->samples < 0) {
         return LMB_ERR_ARG;
@@ -83,7 +84,7 @@ static void set_numbers(lmb_frame *f, const lmb_frame_settings *s)
     f->visibility = s->visibility != 0.0f ? s->visibility : p->visibility;
     f->bounces = s->bounces;
     f->samples = s->samples != 0 ? s->samples : 1;
-    f->gather_step = s->gather_step != 0 ? s->gather_step : even ? 2 : 1;
+    f->gather_step = s->gather_step != 0 ? s->gather_step : 1;
     f->id_format = s->id_format != 0 ? s->id_format : lmb_scene_triangles(s->scene) <= 65535u ? LMB_ID16 : LMB_ID32;
 }
 

@@ -98,7 +98,7 @@ static int find_extra(const lmb_multisample *m, int k)
 NOINLINE lmb_status gather_left(const lmb_render *r, lmb_band_scratch *s, uint64_t left)
 {
     lmb_multisample *m = s->multisample;
-    lmb_tile *tile = &s->sparse.together;
+    lmb_tile *tile = &s->together;
     int count = 0;
     memset(tile, 0, sizeof *tile);
     for (uint64_t bits = left; bits != 0; bits &= bits - 1) {

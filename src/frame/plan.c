@@ -167,7 +167,8 @@ static void plan_gather(planner *p, lmb_why none)
         leave_out(p, LMB_PLAN_OCCLUSION, none);
         return;
     }
-    row->op[LMB_OP_CUTS] = p->tiles / (double)(f->gather_step * f->gather_step) * (requires_elements(p->r) ? 2.0 : 1.0);
+    row->op[LMB_OP_CUTS] =
+        p->tiles / (requires_samples(p->r) ? LMB_TILE_PIXELS : 1.0) * (requires_elements(p->r) ? 2.0 : 1.0);
     if (p->facts != NULL) {
         lmb_facts_count(&row->op[LMB_OP_PAIRS], &traversal->op[LMB_OP_SEGMENTS], p->facts, f);
     }
@@ -266,7 +267,7 @@ lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_fact
     plan_bounces(&p, none);
     plan_view(&p);
     out->row[LMB_PLAN_RESOLVE].op[LMB_OP_RESOLVED] =
-        p.pixels * (f->gather_step > 1 && none == LMB_WHY_RUNS ? 3.0 : 1.0);
+        p.pixels * (requires_samples(begun) && none == LMB_WHY_RUNS ? 2.0 : 1.0);
     plan_direct(&p);
     plan_gather(&p, none);
     plan_lookups(&p);

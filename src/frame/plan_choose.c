@@ -19,11 +19,9 @@
 static const struct rung {
     int32_t tree;
     float error, visibility;
-    int32_t gather_step;
 } ladder[LMB_PLAN_RUNGS] = {
-    {16, 0.5f, 0.5f, 4},    {32, 0.25f, 0.25f, 4}, {64, 0.12f, 0.12f, 2},   {128, 0.06f, 0.06f, 1},
-    {256, 0.02f, 0.015f, 1}, {1024, 0.01f, 0.005f, 1}, {1024, 0.01f, 0.002f, 1},
-    {1024, 0.005f, 0.0005f, 1},
+    {16, 0.5f, 0.5f},     {32, 0.25f, 0.25f},    {64, 0.12f, 0.12f},    {128, 0.06f, 0.06f},
+    {256, 0.02f, 0.015f}, {1024, 0.01f, 0.005f}, {1024, 0.01f, 0.002f}, {1024, 0.005f, 0.0005f},
 };
 
 /* A tree's shadow map: as fine as the picture, within the limits of the tree and facts->max. */
@@ -45,7 +43,6 @@ void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung)
         out->shadow_map = map_for(out->tree, facts);
         out->error = at->error;
         out->visibility = at->visibility;
-        out->gather_step = at->gather_step;
         out->occlusion = LMB_OCCLUSION_EXACT;
     }
 }
@@ -64,12 +61,11 @@ void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, do
     out->op[LMB_OP_TRIANGLES] = f->triangles * (f->faces + 1.0);
     out->op[LMB_OP_TEXELS] = texels + pixels;
     out->op[LMB_OP_BVH] = f->triangles;
-    out->op[LMB_OP_RESOLVED] = texels + pixels * (s->gather_step > 1 ? 3.0 : 1.0);
+    out->op[LMB_OP_RESOLVED] = texels + pixels;
     out->op[LMB_OP_SUMMED] = f->faces * (double)s->tree * (double)s->tree;
     out->op[LMB_OP_ELEMENTS] = f->elements > 0.0 ? f->triangles : 0.0;
     out->op[LMB_OP_LIGHTING] = pixels * f->lights;
-    out->op[LMB_OP_CUTS] = cuts * f->tiles / (double)(s->gather_step * s->gather_step) +
-                           f->elements / LMB_TILE_PIXELS * (f->bounces - 1.0);
+    out->op[LMB_OP_CUTS] = cuts * f->tiles + f->elements / LMB_TILE_PIXELS * (f->bounces - 1.0);
     out->op[LMB_OP_PAIRS] = cuts * pairs;
     out->op[LMB_OP_SEGMENTS] = f->convex ? 0.0 : cuts * segments;
     out->op[LMB_OP_STORED] = pixels;

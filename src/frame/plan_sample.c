@@ -18,61 +18,22 @@ int lmb_can_sample(const lmb_render *r)
            is_whole(&r->frame.eye.depth, &r->frame.view);
 }
 
-uint64_t lmb_shown(const lmb_tile *tile)
-{
-    uint64_t out = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        out |= (uint64_t)(tile->id[k] != 0) << k;
-    }
-    return out;
-}
-
-lmb_status lmb_render_tiles(uint64_t *shown, const lmb_render *r, lmb_band_scratch *s, int32_t x, int32_t y,
-                            int32_t tiles)
+/* Stores the light of the tile at frame pixel (x, y). */
+static lmb_status take_tile(float (*out)[3], const lmb_render *r, lmb_band_scratch *s, int32_t x, int32_t y)
 {
     const lmb_frame *f = &r->frame;
-    lmb_status status = LMB_OK;
-    if (f->transfer != NULL) {
-        memset(&s->gather.transfer, 0, sizeof s->gather.transfer);
+    lmb_status status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &f->eye, x, y);
+    status = status != LMB_OK ? status : lmb_render_direct(r, NULL, s, &s->tile, &f->view);
+    memset(&s->indirect, 0, sizeof s->indirect);
+    if (status == LMB_OK) {
+        lmb_render_onto_triangles(&s->tile, f);
+        status = lmb_render_gather(&s->indirect, NULL, r, s, &s->tile, requires_direct(f) ? &s->direct : NULL);
     }
-    for (int32_t part = 0; part < tiles && status == LMB_OK; ++part) {
-        status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &f->eye, x + part * LMB_TILE, y);
-        if (status == LMB_OK) {
-            shown[part] = lmb_shown(&s->tile);
-        }
-        if (status == LMB_OK && f->gather_step == 1) {
-            memset(&s->sparse.light[part], 0, sizeof s->sparse.light[part]);
-            status = lmb_render_direct(r, NULL, s, &s->tile, &f->view);
-            lmb_render_onto_triangles(&s->tile, f);
-            status = status != LMB_OK ? status
-                                      : lmb_render_gather(&s->sparse.light[part], NULL, r, s, &s->tile,
-                                                          requires_direct(f) ? &s->direct : NULL);
-        }
-    }
-    return status;
-}
-
-/* Stores one tile's light. */
-static void put_tile(float (*out)[3], const lmb_irradiance *light, uint64_t shown)
-{
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+    for (int k = 0; k < LMB_TILE_PIXELS && status == LMB_OK; ++k) {
         for (int c = 0; c < 3; ++c) {
-            out[k][c] = shown >> k & 1u ? light->rgb[c][k] : -1.0f;
+            out[k][c] = s->tile.id[k] != 0 ? s->indirect.rgb[c][k] : -1.0f;
         }
     }
-}
-
-static lmb_status take_place(lmb_tile_sample *out, const lmb_render *r, lmb_band_scratch *s, const lmb_survey *places,
-                             int32_t i)
-{
-    uint64_t shown[LMB_SPARSE_TILES];
-    memset(&s->counts, 0, sizeof s->counts);
-    const lmb_status status = place_light(shown, r, s, places->x[i], places->y[i], places->tiles);
-    for (int32_t part = 0; part < places->tiles; ++part) {
-        put_tile(out->light + (i * places->tiles + part) * LMB_TILE_PIXELS, &s->sparse.light[part], shown[part]);
-    }
-    out->pairs += (double)s->counts.pairs;
-    out->segments += (double)s->counts.segments;
     return status;
 }
 
@@ -88,16 +49,17 @@ lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band
                              const lmb_survey *places, double max)
 {
     lmb_status status = LMB_OK;
-    if (out == NULL || scratch == NULL || places == NULL || !lmb_can_sample(r) ||
-        (r->frame.gather_step > 1 && places->tiles == 1) || r->frame.gather_step > 4) {
+    if (out == NULL || scratch == NULL || places == NULL || !lmb_can_sample(r) || r->frame.gather_step > 1) {
         return LMB_ERR_ARG;
     }
-    out->tiles = places->tiles;
     out->places = 0;
     out->pairs = out->segments = 0.0;
-    while (out->places < places->count && status == LMB_OK &&
-           (!(max > 0.0) || next_work(out) < max)) {
-        status = take_place(out, r, scratch, places, out->places++);
+    while (out->places < places->count && status == LMB_OK && (!(max > 0.0) || next_work(out) < max)) {
+        const int32_t i = out->places++;
+        memset(&scratch->counts, 0, sizeof scratch->counts);
+        status = take_tile(out->light + i * LMB_TILE_PIXELS, r, scratch, places->x[i], places->y[i]);
+        out->pairs += (double)scratch->counts.pairs;
+        out->segments += (double)scratch->counts.segments;
     }
     return status;
 }
@@ -135,7 +97,7 @@ static float square_at(const difference *d, int32_t i)
 static void bin_pixels(bins *all, difference *d)
 {
     memset(all, 0, sizeof *all);
-    for (int32_t i = 0; i < d->places * d->a->tiles * LMB_TILE_PIXELS; ++i) {
+    for (int32_t i = 0; i < d->places * LMB_TILE_PIXELS; ++i) {
         const float e = square_at(d, i), *q = d->b->light[i];
         if (e >= 0.0f) {
             all->sum[bin_of(e)] += (double)e;
@@ -151,7 +113,7 @@ static int compare(difference *d, const lmb_tile_sample *a, const lmb_tile_sampl
 {
     bins all;
     memset(d, 0, sizeof *d);
-    if (a == NULL || b == NULL || a->tiles != b->tiles) {
+    if (a == NULL || b == NULL) {
         return 0;
     }
     d->a = a;
@@ -176,9 +138,8 @@ static float share_of(const difference *d, double square)
 /* Sum of the squared errors of a place's pixels. */
 static double place_square(const difference *d, int32_t place)
 {
-    const int32_t each = d->a->tiles * LMB_TILE_PIXELS;
     double sum = 0.0;
-    for (int32_t i = place * each; i < (place + 1) * each; ++i) {
+    for (int32_t i = place * LMB_TILE_PIXELS; i < (place + 1) * LMB_TILE_PIXELS; ++i) {
         const double e = (double)square_at(d, i);
         sum += e > d->max ? d->max : e > 0.0 ? e : 0.0;
     }

@@ -29,25 +29,22 @@ static uint32_t spread(uint32_t i, uint32_t all)
     return (uint32_t)(reversed * all >> 32);
 }
 
-lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t tiles, int32_t wanted)
+lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t wanted)
 {
-    if (out == NULL || !lmb_can_sample(r) || (tiles != 1 && tiles != LMB_SPARSE_TILES) || wanted < 1 ||
-        wanted > (tiles == 1 ? LMB_SAMPLE_TILES : LMB_SAMPLE_BLOCKS)) {
+    if (out == NULL || !lmb_can_sample(r) || wanted < 1 || wanted > LMB_SAMPLE_TILES) {
         return LMB_ERR_ARG;
     }
     const lmb_view *v = &r->frame.view;
-    const uint32_t wide = (uint32_t)(LMB_TILE * tiles);
-    const uint32_t across = ((uint32_t)v->frame_width + wide - 1) / wide, down = (uint32_t)band_count(v),
+    const uint32_t across = ((uint32_t)v->frame_width + LMB_TILE - 1) / LMB_TILE, down = (uint32_t)band_count(v),
                    all = across * down;
     memset(out, 0, sizeof *out);
-    out->tiles = tiles;
     out->count = (uint32_t)wanted < all / 2 ? wanted : (int32_t)((all + 1) / 2); /* so that no two are equal */
     uint32_t met = 0;
     for (uint32_t code = 0; met < all; ++code) {
         const uint32_t x = even_bits(code), y = even_bits(code >> 1);
         for (int32_t i = 0; x < across && y < down && i < out->count; ++i) {
             if (spread((uint32_t)i, all) == met) {
-                out->x[i] = (uint16_t)(x * wide);
+                out->x[i] = (uint16_t)(x * LMB_TILE);
                 out->y[i] = (uint16_t)(y * LMB_TILE);
             }
         }

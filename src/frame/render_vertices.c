@@ -42,7 +42,7 @@ static lmb_vec3 vertex_at(const lmb_tile *tile, int k)
 static void vertex_take(const vertex_job *j, uint32_t first, int n)
 {
     const lmb_view *view = &j->r->frame.view;
-    lmb_tile *tile = &j->s->sparse.together;
+    lmb_tile *tile = &j->s->together;
     memset(tile, 0, sizeof *tile);
     for (int k = 0; k < n; ++k) {
         const lmb_vec3 at = transform_point(j->to_world, lmb_draw_position(j->vertices, first + (uint32_t)k));
@@ -76,7 +76,7 @@ static lmb_status vertex_add_bounced(const vertex_job *j, float share)
 {
     lmb_band_scratch *s = j->s;
     memset(&s->indirect, 0, sizeof s->indirect);
-    const lmb_status status = lmb_render_gather(&s->indirect, NULL, j->r, s, &s->sparse.together, NULL);
+    const lmb_status status = lmb_render_gather(&s->indirect, NULL, j->r, s, &s->together, NULL);
     vertex_add(&s->radiance, &s->indirect, share);
     return status;
 }
@@ -86,16 +86,16 @@ static lmb_status vertex_add_lamps(const vertex_job *j)
 {
     const lmb_frame *f = &j->r->frame;
     lmb_band_scratch *s = j->s;
-    const light_tile lit = {f->kernels, f->scene, &f->view, &s->sparse.together};
+    const light_tile lit = {f->kernels, f->scene, &f->view, &s->together};
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
     for (uint32_t i = 0; requires_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
         const lmb_light *light = &f->scene->lights[i];
         for (int k = 0; k < LMB_TILE_PIXELS && j->normals == NULL; ++k) {
-            vertex_face(&s->sparse.together, k,
+            vertex_face(&s->together, k,
                         light_kind_is(light->kind, LIGHT_FAR)
                             ? mul3(light->direction, -1.0f)
-                            : normalize3(sub3(light->position, vertex_at(&s->sparse.together, k))));
+                            : normalize3(sub3(light->position, vertex_at(&s->together, k))));
         }
         if (!light_is(j->r, i, LMB_LIGHT_DARK)) {
             status = lmb_light_tile_add(&s->direct, NULL, &s->indirect, &lit, i, &j->r->maps[i]);
@@ -114,7 +114,7 @@ static lmb_status vertex_add_many_lights(const vertex_job *j, float share)
     memset(&s->direct, 0, sizeof s->direct);
     const lmb_status status =
         requires_many_lights(f)
-            ? lmb_many_lights_direct_tile(&s->direct, f->kernels, &s->many_lights, &s->sparse.together, &query)
+            ? lmb_many_lights_direct_tile(&s->direct, f->kernels, &s->many_lights, &s->together, &query)
             : LMB_OK;
     vertex_add(&s->radiance, &s->direct, share);
     return status;
@@ -134,7 +134,7 @@ static lmb_status vertex_light(const vertex_job *j)
         const float to = side % 2 == 0 ? 1.0f : -1.0f;
         const lmb_vec3 n = vec3(side / 2 == 0 ? to : 0.0f, side / 2 == 1 ? to : 0.0f, side / 2 == 2 ? to : 0.0f);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            vertex_face(&s->sparse.together, k, n);
+            vertex_face(&s->together, k, n);
         }
         status = vertex_add_bounced(j, 1.0f / 6.0f);
         status = status == LMB_OK ? vertex_add_many_lights(j, 1.0f / 6.0f) : status;

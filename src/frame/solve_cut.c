@@ -101,7 +101,7 @@ lmb_status lmb_solve_cut_tile(lmb_irradiance *inout, lmb_glossy *glossy, const l
     cut_params.view = &f->view;
     cut_params.direct = direct;
     cut_params.beside = gathers_many_lights(f) ? inout : NULL;
-    if (takes_lattice(f->gather_step) && tile == &s->sparse.together) {
+    if (takes_lattice(f->gather_step) && tile == &s->together) {
         cut_params.visibility *= SPREAD_VISIBILITY;
         cut_params.spread = 1;
     }

@@ -150,9 +150,4 @@ lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch
 #define lmb_render_live(...) never(lmb_render_live(__VA_ARGS__))
 #endif
 
-/* lmb_render_block: sets scratch->sparse.light[0 .. tiles - 1] of those tiles from frame pixel (x, y) on that show no
- * lobe. r->frame.gather_step is 2 or 4. Overwrites scratch->tile and scratch->glossy. */
-lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *target, int32_t x,
-                            int32_t y, int32_t tiles);
-
 #endif

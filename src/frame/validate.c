@@ -89,7 +89,7 @@ lmb_status lmb_render_check(const lmb_frame *f)
         (f->bounces > 1 && requires_bounce(f) && !reflects_again(f))) {
         return LMB_ERR_ARG;
     }
-    if (f->gather_step != 1 && f->gather_step != 2 && f->gather_step != 4 && !(has_lattice(f) && has_live(f))) {
+    if (f->gather_step != 1 && !(has_lattice(f) && has_live(f))) {
         return LMB_ERR_ARG;
     }
     if (f->scene->light_count > LMB_MAX_LIGHTS) {

@@ -113,7 +113,7 @@ share() { # share LOW HIGH: of the light of glass.pfm to that of solid.pfm, in t
     paste glass.txt solid.txt | awk -v low="$1" -v high="$2" '
         NR > 720 && $2 > 0.01 { ++n; share = $1 / $2; bad += share < low || share > high } END { exit !(n > 200 && bad == 0) }'
 }
-for how in "--show direct" "--show full" "--show indirect --bounces 2" "--gather half"; do
+for how in "--show direct" "--show full" "--show indirect --bounces 2"; do
     for scene in glass solid; do
         status 0 render $scene.obj $room $how --blend sorted -o $scene.pfm
     done

@@ -62,6 +62,11 @@ drawn="--size 48x32 --exposure 0 --show indirect --shadow-map 256"
 status 0 play demo $drawn --frames 1 -o implied%01d.pfm
 status 0 render demo $drawn -o named.pfm
 check "play gathers as render does in small pictures" cmp implied0.pfm named.pfm
+for gone in half quarter; do
+    status 2 render demo $small --gather $gone -o named.pfm
+    check "--gather $gone names what replaces it" grep -q -- "--gather: \`$gone\` was removed; use live" err.txt
+    check "in one line" test "$(wc -l <err.txt)" -eq 1
+done
 drawn="--size 256x256 --exposure 0 --show indirect --shadow-map 64"
 status 0 play demo $drawn --frames 1 -o implied%01d.pfm
 status 0 play demo $drawn --frames 1 --gather live -o named%01d.pfm

@@ -96,6 +96,14 @@ check "33 lights' bounced light takes under three quarters of the finer segments
     [ $((4 * $(segments "$1"))) -lt $((3 * $(segments "$2"))) ]' sh few.json fine.json
 status 0 render demo $small $few --show direct -o few.pfm
 check "33 lights' direct light has maps" lacks 'lights in' err.txt
+# From 65,536 pixels on many lights have live light by default, but not if they make a soft shadow.
+plain="demo --size 256x256 --exposure 0 --elements 1024 --occlusion none --show indirect"
+for light in "$few" "--light point:0.5,2,0.5:0,-1,0:9,9,9:0.4"; do
+    way=$([ "$light" = "$few" ] && echo live || echo full)
+    status 0 render $plain $light -o implied.pfm
+    status 0 render $plain $light --gather $way -o named.pfm
+    check "light from ${light%%:*} has --gather $way" cmp implied.pfm named.pfm
+done
 status 2 render many.gltf --bounce-lights 3 -o bad.pfm
 status 2 render many.gltf --many-lights 0 -o bad.pfm
 status 2 render many.gltf --light-error 0 -o bad.pfm

@@ -270,7 +270,6 @@ static void set_light(lmb_frame *f, memory *m, bytes *b)
 
 static void set_how(lmb_frame *f, bytes *b)
 {
-    static const int32_t gather[] = {0, 1, 2, 4, 3};
     f->show = choice(b, 4);
     f->grouping.method = choice(b, 4);
     f->grouping.block = 1 << choice(b, 4);
@@ -286,7 +285,7 @@ static void set_how(lmb_frame *f, bytes *b)
     f->visibility = 0.1f + share(b);
     f->conservative = below(b, 8) == 0;
     f->bounces = f->grouping.method == LMB_GROUP_CUT ? choice(b, 4) : choice(b, 2);
-    f->gather_step = gather[choice(b, 4)];
+    f->gather_step = choice(b, 2);
     f->exposure_ev = number(b);
 }
 

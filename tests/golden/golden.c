@@ -482,15 +482,6 @@ static uint64_t case_stereo(int variant)
     return h;
 }
 
-/* Bounced light at every second or fourth pixel. */
-static uint64_t case_gather(int variant)
-{
-    lmb_frame f = demo_frame();
-    f.show = LMB_SHOW_INDIRECT;
-    f.gather_step = variant;
-    return hash_frame(GOLDEN_START, &f);
-}
-
 static uint64_t case_format(int variant)
 {
     static const uint8_t formats[] = {LMB_RGB565, LMB_RGB555, LMB_RGBA8, LMB_BGRA8, LMB_RGB565_BE};
@@ -785,7 +776,7 @@ static uint64_t case_bounces(int variant)
 }
 
 /* Materials with lobes, lit by a spot directly and after one bounce; the whole picture. Variant 1: one material is
- * diffuse, and every second pixel is gathered. */
+ * diffuse. */
 static uint64_t case_glossy(int variant)
 {
     lmb_frame f = soup_frame(1, 8);
@@ -799,7 +790,6 @@ static uint64_t case_glossy(int variant)
     soup.materials = shiny;
     f.show = LMB_SHOW_FULL;
     f.occlusion = LMB_OCCLUSION_EXACT;
-    f.gather_step = variant ? 2 : 1;
     return hash_frame(GOLDEN_START, &f);
 }
 

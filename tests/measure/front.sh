@@ -40,7 +40,7 @@ for scene in ${SCENES-cornell corridor bunny_room sponza}; do
     python3 -c 'import json, sys
 c = json.load(open(sys.argv[1]))["camera"]
 print("0 camera", *(",".join(map(str, c[k])) for k in ("eye", "target")))' "$truth/$scene/scene.json" >"$work/still"
-    for setting in ${SETTINGS-draft-adaptive draft-quarter draft-half draft default-adaptive default-half default best}; do
+    for setting in ${SETTINGS-draft-live draft-adaptive draft default-live default-adaptive default best}; do
         measure "$scene" "$setting"
     done
     for file in "$folder/$scene".lmt "$folder/$scene"-*.lmt; do

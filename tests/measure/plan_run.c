@@ -94,18 +94,17 @@ double plan_seconds(const plan_run *r)
     return sum;
 }
 
-/* Setting i of the combinations of tree size, error and step. Returns 0 past the last, and for settings
+/* Setting i of the combinations of tree size and error. Returns 0 past the last, and for settings
  * that a heavy scene skips. */
 static int setting(lmb_settings *s, int i, int heavy)
 {
-    static const int32_t trees[] = {64, 128, 256, 512}, steps[] = {1, 2, 4};
+    static const int32_t trees[] = {64, 128, 256, 512};
     static const float errors[] = {0.01f, 0.03f, 0.1f};
     s->tree = s->shadow_map = trees[i % 4];
     s->error = errors[i / 4 % 3];
     s->visibility = 0.75f * s->error;
-    s->gather_step = steps[i / 12 % 3];
     s->occlusion = LMB_OCCLUSION_EXACT;
-    return i < 36 && (!heavy || s->error >= 0.1f);
+    return i < 12 && (!heavy || s->error >= 0.1f);
 }
 
 int plan_measure(plan_scene *out, const plan_place *at)
@@ -120,7 +119,7 @@ int plan_measure(plan_scene *out, const plan_place *at)
     snprintf(out->name, sizeof out->name, "%s", at->name);
     out->fits = at->fits;
     int ok = scene_sample(&out->facts, &cost, &j, &j.o.budget, 0, &r);
-    for (int i = 0; i < 36 && ok; ++i) {
+    for (int i = 0; i < 12 && ok; ++i) {
         plan_run *run = &out->run[out->runs];
         if (setting(&run->s, i, at->heavy)) {
             ok = plan_draw(run, &j);

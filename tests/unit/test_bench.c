@@ -168,8 +168,8 @@ static void check_says(void)
     CHECK_MSG(strcmp(text, "0 %") == 0, "%s", text);
     bench_say_bytes(text, 10.0 * 1048576.0);
     CHECK_MSG(strcmp(text, "10 MiB") == 0, "%s", text);
-    bench_label(text, "--tree 64 --gather half");
-    CHECK_MSG(strcmp(text, "tree 64, gather half") == 0, "%s", text);
+    bench_label(text, "--tree 64 --gather live");
+    CHECK_MSG(strcmp(text, "tree 64, gather live") == 0, "%s", text);
 }
 
 /* Every text is complete, whatever the names of files and scenes. */
@@ -304,16 +304,16 @@ static void check_options(void)
     bench_line line;
     char said[256];
     char *all[] = {
-        "a room's.glb", "--sweep", "tree=64,128", "--bounces",       "2", "--sweep", "gather=full,half,quarter",
+        "a room's.glb", "--sweep", "tree=64,128", "--bounces",       "2", "--sweep", "gather=full,live,adaptive",
         "--runs",     "7",       "--sweep",     "--error=0.1,0.2", NULL};
     CHECK(parses(&o, 11, all));
     CHECK(o.runs == 7 && o.ranges == 3 && o.given_count == 3);
     CHECK(bench_tasks(task, &o, &r) == 12);
-    CHECK_MSG(strcmp(task[9].words, "--tree 128 --gather half --error 0.2") == 0, "%s", task[9].words);
+    CHECK_MSG(strcmp(task[9].words, "--tree 128 --gather live --error 0.2") == 0, "%s", task[9].words);
     CHECK(bench_options_line(&line, &o, NULL, &r) && bench_line_add(&line, task[9].words));
     bench_line_say(said, sizeof said, &line);
     CHECK_MSG(strcmp(said, "lambent render --show indirect --threads 1 --size 160x120 'a room'\\''s.glb' --bounces 2 "
-                           "-o picture.pfm --tree 128 --gather half --error 0.2") == 0,
+                           "-o picture.pfm --tree 128 --gather live --error 0.2") == 0,
               "%s", said);
     char *wrong[][3] = {{"a", "--sweep", "tree"}, {"a", "--sweep", "tree=1,,2"}, {"a", "--sweep", "tree=1,"},
                         {"a", "--runs", "0"},     {"a", "--stats", "x"},         {"a", "--tree", NULL}};

@@ -8,6 +8,7 @@ void test_glossy(void);
 enum { FRAME = 64, MAP = 64, FACES = 1, ELEMENTS = 4096, BVH = 512 };
 
 #include "../bounce_frame.h"
+#include "../live_frame.h"
 
 static lmb_glossy glossy;
 static lmb_tile tile;
@@ -257,16 +258,19 @@ static void lobe_or_none(void)
     }
 }
 
-/* If every pixel has a lobe, all are gathered whatever the step. A second picture with the same light equals a new
+/* If every pixel has a lobe, all are gathered also with samples. A second picture with the same light equals a new
  * frame. */
 static void steps_and_again(void)
 {
     lmb_frame f = room(0.5f, 0.4f);
     world.material[1].specular[1] = 0.2f;
+    f.bounces = 1;
     draw(plain, &f);
-    f.gather_step = 4;
+    gather_live(&f);
     draw(other, &f);
     CHECK(memcmp(plain, other, sizeof plain) == 0);
+    f.bounces = 2;
+    draw(other, &f);
     f.view = look(vec3(-1.0f, 1.5f, 4.0f), vec3(0, 0.5f, 0), 50.0, FRAME);
     CHECK(lmb_render_again(&render, &f) == LMB_OK);
     while (lmb_render_step(&render, 100) == LMB_MORE) {

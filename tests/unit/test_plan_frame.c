@@ -62,8 +62,7 @@ static void look_at(lmb_facts *out, const lmb_frame *f, lmb_tile_sample *at)
     memset(out, 0, sizeof *out);
     memset(&places, 0, sizeof places);
     CHECK(lmb_render_frame(&render, &quiet) == LMB_OK);
-    places.tiles = f->gather_step > 1 ? LMB_SPARSE_TILES : 1;
-    for (int32_t i = 0; i < FRAME / LMB_TILE * (FRAME / LMB_TILE); i += places.tiles) {
+    for (int32_t i = 0; i < FRAME / LMB_TILE * (FRAME / LMB_TILE); ++i) {
         places.x[places.count] = (uint16_t)(i % (FRAME / LMB_TILE) * LMB_TILE);
         places.y[places.count++] = (uint16_t)(i / (FRAME / LMB_TILE) * LMB_TILE);
     }
@@ -104,7 +103,6 @@ static void test_counts(void)
     twice.places = 3;
     CHECK(lmb_tile_sample_error(&twice, &at, 1.0f) < 0.0f);
     memset(&twice, 0, sizeof twice);
-    twice.tiles = 1;
     twice.places = at.places;
     CHECK(lmb_tile_sample_error(&at, &twice, 1.0f) < 0.0f);
     CHECK(lmb_render_sample(&twice, &render, &scratch, &places, 1.0) == LMB_OK && twice.places < at.places);
@@ -137,7 +135,6 @@ static void test_known_error(void)
     static lmb_tile_sample a, b;
     static const float pixels[][2][3] = {{{0, 2.5f, 1}, {0, 2, 1}}, {{0, 1, 1}, {0.5f, 1, 1}}, {{0.5f, 1, 1}, {0, 1, 1}},
                                          {{1, 1, 1.5f}, {1, 1, 1}}};
-    a.tiles = b.tiles = 1;
     a.places = b.places = 4;
     for (int i = 0; i < LMB_SAMPLE_PIXELS; ++i) {
         for (int c = 0; c < 3; ++c) {
@@ -153,27 +150,6 @@ static void test_known_error(void)
     /* Each of four pixels differs by 0.5 in one channel; the twelve channels have a mean of 10.5 / 12. */
     const double want = sqrt(1.0 / 12.0) / (10.5 / 12.0), error = (double)lmb_tile_sample_error(&a, &b, 0.0f);
     CHECK_MSG(fabs(error - want) < 1e-5, "%g, not %g", error, want);
-}
-
-/* The same pixels in a picture gathered at every other one: equal light within a fiftieth. */
-static void test_sparse_sample(void)
-{
-    static lmb_tile_sample each, other_one;
-    lmb_facts facts;
-    lmb_frame f = set_frame();
-    double sum[2] = {0.0, 0.0};
-    f.gather_step = 2;
-    look_at(&facts, &f, &other_one);
-    render.frame.gather_step = 1;
-    CHECK(lmb_render_sample(&each, &render, &scratch, &places, 0.0) == LMB_OK);
-    for (int i = 0; i < LMB_SAMPLE_PIXELS; ++i) {
-        sum[0] += (double)maxf(each.light[i][1], 0.0f);
-        sum[1] += (double)maxf(other_one.light[i][1], 0.0f);
-    }
-    CHECK(each.places == other_one.places && other_one.pairs < 0.9 * each.pairs && sum[0] > 0.0);
-    CHECK_MSG(fabs(sum[1] / sum[0] - 1.0) < 0.02, "%g of it", sum[1] / sum[0]);
-    CHECK_MSG(lmb_tile_sample_error(&other_one, &each, 0.0f) > 0.0f && lmb_tile_sample_error(&other_one, &each, 0.0f) < 0.3f, "%g",
-              (double)lmb_tile_sample_error(&other_one, &each, 0.0f));
 }
 
 /* Later bounces (with emission the first too), lobes and emission: their operations and bytes; after the frame, the
@@ -244,39 +220,31 @@ static void check_spread(void)
     }
 }
 
-/* Draws the whole frame, and predicts its operations from samples, for one step. */
-static void survey_at(int32_t step)
+/* Draws the whole frame, and predicts its operations from samples. */
+static void test_surveys(void)
 {
     static lmb_tile_sample at;
-    const int32_t tiles = step > 1 ? LMB_SPARSE_TILES : 1, wanted = step > 1 ? LMB_SAMPLE_BLOCKS : LMB_SAMPLE_TILES;
     lmb_frame f = set_frame();
     f.view = look(vec3(1.2f, 0.9f, 2.2f), vec3(-0.1f, -0.4f, 0), 60, LARGE);
     f.eye = target_of(LMB_DEPTH32F, LARGE, large_depth, large_id);
     CHECK(lmb_surface_init(&f.out, LMB_RGB32F, LARGE, LARGE, large_picture, sizeof large_picture) == LMB_OK);
-    f.gather_step = step;
     CHECK(lmb_render_frame(&render, &f) == LMB_OK);
-    CHECK(lmb_survey_even(&places, &render, tiles, wanted) == LMB_OK);
-    CHECK(places.tiles == tiles && places.count == wanted);
+    CHECK(lmb_survey_even(&places, &render, LMB_SAMPLE_TILES) == LMB_OK);
+    CHECK(places.count == LMB_SAMPLE_TILES);
     check_spread();
     CHECK(lmb_render_sample(&at, &render, &scratch, &places, 0.0) == LMB_OK);
-    const double of_all = (double)(LARGE / LMB_TILE * (LARGE / LMB_TILE)) / (double)(at.places * tiles);
+    const double of_all = (double)(LARGE / LMB_TILE * (LARGE / LMB_TILE)) / (double)at.places;
     const double pairs = at.pairs * of_all / (double)stats.pairs;
     const double segments = at.segments * of_all / (double)stats.segments;
-    CHECK_MSG(fabs(pairs - 1.0) < 0.1 && fabs(segments - 1.0) < 0.2, "step %d: pairs %.3f, segments %.3f", (int)step,
-              pairs, segments);
-    render.frame.gather_step = 2; /* single tiles contain no block */
-    CHECK(lmb_render_sample(&at, &render, &scratch, &places, 0.0) == (step > 1 ? LMB_OK : LMB_ERR_ARG));
+    CHECK_MSG(fabs(pairs - 1.0) < 0.1 && fabs(segments - 1.0) < 0.2, "pairs %.3f, segments %.3f", pairs,
+              segments);
     CHECK(lmb_render_sample(&at, &render, &scratch, NULL, 0.0) == LMB_ERR_ARG);
-    CHECK(lmb_survey_even(NULL, &render, tiles, wanted) == LMB_ERR_ARG);
-    CHECK(lmb_survey_even(&places, NULL, tiles, wanted) == LMB_ERR_ARG);
-    CHECK(lmb_survey_even(&places, &render, tiles, wanted + 1) == LMB_ERR_ARG);
-    CHECK(lmb_survey_even(&places, &render, 3, wanted) == LMB_ERR_ARG);
-}
-
-static void test_surveys(void)
-{
-    survey_at(1);
-    survey_at(4);
+    render.frame.gather_step = LMB_GATHER_LIVE; /* depends on the whole frame */
+    CHECK(lmb_render_sample(&at, &render, &scratch, &places, 0.0) == LMB_ERR_ARG);
+    CHECK(lmb_survey_even(NULL, &render, LMB_SAMPLE_TILES) == LMB_ERR_ARG);
+    CHECK(lmb_survey_even(&places, NULL, LMB_SAMPLE_TILES) == LMB_ERR_ARG);
+    CHECK(lmb_survey_even(&places, &render, LMB_SAMPLE_TILES + 1) == LMB_ERR_ARG);
+    CHECK(lmb_survey_even(&places, &render, 0) == LMB_ERR_ARG);
 }
 
 /* --- reasons ------------------------------------------------------------------------------------------------------ */
@@ -440,7 +408,7 @@ static void test_budgets(void)
     CHECK(c.op[LMB_OP_PAIRS] > 1.5 * before.op[LMB_OP_PAIRS] && c.op[LMB_OP_PAIRS] < 3.0 * before.op[LMB_OP_PAIRS]);
     facts.max = 64;
     lmb_plan_rung(&c.settings, &facts, LMB_PLAN_RUNGS - 1);
-    CHECK(c.settings.tree == 64 && c.settings.shadow_map == 64 && c.settings.gather_step == 1);
+    CHECK(c.settings.tree == 64 && c.settings.shadow_map == 64);
     facts.max = LMB_TILE;
     CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_OK);
     facts.max = LMB_TILE - 1;
@@ -454,7 +422,6 @@ void test_plan_frame(void)
     test_counts();
     test_written_light();
     test_known_error();
-    test_sparse_sample();
     test_rows();
     test_groups();
     test_surveys();

@@ -31,6 +31,9 @@ typedef struct state {
     uint32_t cells[MAP * MAP / 64 + 1];
     lmb_groups groups;
     lmb_band_scratch scratch;
+    uint64_t lattice[FRAME * FRAME / 64 * (sizeof(lmb_lattice_tile) / 8) + FRAME * FRAME], live_tree[1 << 15];
+    lmb_live live;
+    lmb_live_scratch live_scratch;
     lmb_render render;
     float out[FRAME * FRAME * 3];
 } state;
@@ -56,6 +59,10 @@ static void give_memory(lmb_frame *f, state *s)
     CHECK(lmb_bvh_init(&f->bvh, TRIANGLES, s->bvh, sizeof s->bvh) == LMB_OK);
     CHECK(lmb_elements_init(&f->elements, ELEMENTS, s->elements, sizeof s->elements) == LMB_OK);
     CHECK(lmb_surface_init(&f->out, LMB_RGB32F, FRAME, FRAME, s->out, sizeof s->out) == LMB_OK);
+    f->live = &s->live;
+    s->scratch.live = &s->live_scratch;
+    CHECK(lmb_lattice_init(&f->lattice, FRAME, FRAME, s->lattice, sizeof s->lattice) == LMB_OK);
+    CHECK(lmb_live_init(f->live, FACES, lmb_live_side(FACES, MAP), ELEMENTS, s->live_tree, sizeof s->live_tree) == LMB_OK);
 }
 
 static void set_scene(void)
@@ -154,17 +161,17 @@ static void change_exposure(void) { how.exposure_ev = test_uniform(&rng, -2.0f, 
 
 static void change_rules(void)
 {
-    static const int32_t steps[3] = {1, 2, 4};
     how.error = test_uniform(&rng, 0.05f, 0.4f);
     how.visibility = test_random(&rng) % 2 == 0 ? 0.1f : 0.3f;
     how.bounces = how.grouping.method == LMB_GROUP_CUT ? 1 + (int32_t)(test_random(&rng) % 3) : 1;
-    how.gather_step = steps[test_random(&rng) % 3];
+    how.gather_step = how.grouping.method == LMB_GROUP_CUT && test_random(&rng) % 2 == 0 ? LMB_GATHER_LIVE : 1;
 }
 
 static void change_grouping(void)
 {
     const int cut = test_random(&rng) % 2 == 0;
     how.grouping.method = cut ? LMB_GROUP_CUT : LMB_GROUP_ZONES;
+    how.gather_step = cut ? how.gather_step : 1;
     how.occlusion = cut ? (test_random(&rng) % 2 == 0 ? LMB_OCCLUSION_EXACT : LMB_OCCLUSION_NONE) : LMB_OCCLUSION_VIEW;
     how.bounces = 1;
 }
@@ -182,6 +189,7 @@ static void draw_reused(void)
     f.tree.size = f.grouping.method == LMB_GROUP_CUT && f.shadow_map < MAP ? f.shadow_map : f.tree.size;
     memset(kept.out, 0x5a, sizeof kept.out);
     memset(&kept.scratch, 0x5a, sizeof kept.scratch);
+    kept.scratch.live = &kept.live_scratch;
     lmb_status status = lmb_render_reuse(&kept.render, &f);
     while (status == LMB_OK && kept.render.stage < LMB_STAGE_DONE) {
         status = lmb_render_step(&kept.render, 1 + (int32_t)(test_random(&rng) % 9));

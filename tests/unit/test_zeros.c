@@ -203,7 +203,7 @@ static void make_frame(void)
     }
     CHECK(lmb_discs_join(&g.render.frame.points, &g.render.maps[0], &zones) == LMB_OK);
     CHECK(lmb_group_points(&g.groups, &g.render.frame.points, &zones, NULL) == LMB_OK);
-    CHECK(lmb_survey_even(&g.survey, &g.render, 1, 4) == LMB_OK);
+    CHECK(lmb_survey_even(&g.survey, &g.render, 4) == LMB_OK);
     CHECK(lmb_render_sample(&g.query, &g.render, &g.scratch, &g.survey, 0.0) == LMB_OK);
     CHECK(lmb_surface_init(&g.metres, LMB_R32F, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
     CHECK(lmb_bins_build(&g.bins, picked_kernels(), &g.render.frame.view, demo_scene(), 1, 100, 0, NULL, NULL) == LMB_OK);

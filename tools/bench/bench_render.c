@@ -31,13 +31,11 @@ static const bench_try tries[] = {
     {"visibility", "--visibility 0.03", 3, 0},
     {"visibility", "--visibility 0.1", 2, 0},
     {"occlusion", "--occlusion none", 1, 0},
-    {"gather", "--gather half", 3, 0},
-    {"gather", "--gather quarter", 3, 0},
+    {"gather", "--gather live", 1, 0},
+    {"gather", "--gather adaptive", 3, 0},
     {"draft and", "--quality draft --gather full --error 0.2 --visibility 0.2", 1, 0},
     {"draft and", "--quality draft --gather full --tree 64 --shadow-map 512", 1, 0},
-    {"draft and", "--quality draft --gather half", 1, 0},
-    {"draft and", "--quality draft --gather quarter", 1, 0},
-    {"best and", "--quality best --gather half", 24, 0},
+    {"draft and", "--quality draft --gather adaptive", 1, 0},
     {"best and", "--quality best --tree 512", 15, 0},
     {"fixed groups", "--group method=zones,groups=64", 4, 0},
     {"fixed groups", "--group method=zones", 2, 0},
@@ -52,7 +50,7 @@ static const bench_try tries[] = {
  * measures only the light, and the next one only occlusion. Smaller numbers change the Cornell box's median error by at
  * most 0.0005 and take half as long again. */
 static const bench_exact exact[] = {
-    {"upsampling", "--gather full", "--gather"},
+    {"interpolation", "--gather full", "--gather"},
     {"grouping", "--group method=cut --error 0.001", NULL},
     {"occlusion", "--group method=cut --occlusion exact --visibility 0.004", NULL},
     {"shadow map, first points", "--shadow-map 1024 --tree 1024", NULL},

@@ -267,6 +267,11 @@ static int is_beyond(const option_row *row, const char *value)
 
 static int refuse(const option_row *row, const char *value, report *r)
 {
+    for (int i = 0; row->gone != NULL && row->gone[i] != NULL; i += 2) {
+        if (strcmp(value, row->gone[i]) == 0) {
+            return report_fail(r, "%s: `%s` was removed; use %s", row->name, value, row->gone[i + 1]);
+        }
+    }
     const char *part = wrong_part(row, value);
     const char *meant = row->kind == OPTION_WORD ? options_nearest(row->words, value) : NULL;
     char expects[320];

@@ -55,12 +55,9 @@ static void tell(const budget_choice *c, int is_quiet)
     }
     report_note(
         is_quiet,
-        "chosen: --shadow-map %d --tree %d --error %.3g --visibility %.3g --gather %s --occlusion %s: error %s, %.3g "
+        "chosen: --shadow-map %d --tree %d --error %.3g --visibility %.3g --gather full --occlusion %s: error %s, %.3g "
         "units of work, %.0f KiB",
         (int)s->shadow_map, (int)s->tree, (double)s->error, (double)s->visibility,
-        s->gather_step == 1   ? "full"
-        : s->gather_step == 2 ? "half"
-                              : "quarter",
         s->occlusion == LMB_OCCLUSION_EXACT ? "exact" : "none", error, c->chosen.work,
         (double)c->chosen.bytes / 1024.0);
     report_note(is_quiet, "looked at %.3g units of work, %.0f %% of the picture's", c->look.work,
@@ -78,7 +75,6 @@ static int take_choice(budget_choice *c, render_job *j, report *r)
     }
     j->frame.error = s->error;
     j->frame.visibility = s->visibility;
-    j->frame.gather_step = s->gather_step;
     j->frame.occlusion = s->occlusion;
     c->look.work -= c->look.light;
     j->lit = 1;

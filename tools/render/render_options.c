@@ -74,8 +74,9 @@ static const char *const rests[] = {"estimate", "none", NULL};
 static const char *const occlusions[] = {"exact", "none", "view", "view-world", NULL};
 static const int32_t occlusion_values[] = {LMB_OCCLUSION_EXACT, LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW,
                                            LMB_OCCLUSION_VIEW_WORLD};
-static const char *const gathers[] = {"full", "half", "quarter", "adaptive", "live", NULL};
-static const int32_t gather_values[] = {1, 2, 4, LMB_GATHER_ADAPTIVE, LMB_GATHER_LIVE};
+static const char *const gathers[] = {"full", "adaptive", "live", NULL};
+static const int32_t gather_values[] = {1, LMB_GATHER_ADAPTIVE, LMB_GATHER_LIVE};
+static const char *const gone_gathers[] = {"half", "live, or full for less error", "quarter", "live", NULL};
 static const char *const shows[] = {"full",           "direct", "indirect", "irradiance", "depth", "eye-distance",
                                     "normal",         "albedo", "light-distance", "points", "groups", "occlusion",
                                     "wireframe",      NULL};
@@ -215,12 +216,13 @@ const option_row render_bounce_rows[] = {
                   "fixed groups, march the viewer's depth map in map space or in world space (their default: view), "
                   "which misses geometry that is off screen or hidden")},
     {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
-     .help = HELP("full: every pixel; half, quarter: every second or fourth pixel each way, interpolated if surface "
-                  "and light are continuous; pixels without such neighbours are gathered too. adaptive: every "
-                  "eighth pixel, and denser if the light needs it, or for a smaller --error. live: like adaptive, "
-                  "with 64 segments each (draft: 32): the fastest, for moving light. Default: full; half with many "
-                  "lights; adaptive under a sky; live if --quality draft, or `play` except with best, draws "
-                  "65,536 pixels or more, unless you give --error, --visibility, --tree or a budget")},
+     .gone = gone_gathers,
+     .help = HELP("full: every pixel; adaptive: every eighth pixel each way, interpolated if surface and light are "
+                  "continuous, and denser if the light needs it, or for a smaller --error; live: like adaptive, "
+                  "with 64 segments each (draft: 32): the fastest, for moving light. Default: full; from 65,536 "
+                  "pixels on, unless you give --error, --visibility, --tree or a budget, live for --quality draft, "
+                  "for `play` except with best, and for many lights except with best; adaptive under a sky except "
+                  "with best")},
     {.kind = OPTION_END},
 };
 

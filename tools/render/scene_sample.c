@@ -60,12 +60,13 @@ static int has_same_light(const looker *l, int32_t a, int32_t b)
     return x.tree == y.tree && x.shadow_map == y.shadow_map;
 }
 
-/* Solves the light of the job's frame, and draws the view. */
-static lmb_status solve(render_job *j, lmb_frame f)
+/* Solves the light of a frame, and draws the view. `samples`: adds the work of LMB_STAGE_SAMPLES, unless NULL. */
+static lmb_status solve(render_job *j, lmb_frame f, lmb_stats *samples)
 {
     f.stats = NULL;
     lmb_status status = lmb_render_begin(j->render, &f);
     while (status == LMB_OK && j->render->stage < LMB_STAGE_BANDS) {
+        j->render->frame.stats = j->render->stage == LMB_STAGE_SAMPLES ? samples : NULL;
         status = lmb_render_step(j->render, 64);
         status = status == LMB_MORE ? LMB_OK : status;
     }
@@ -91,7 +92,6 @@ static lmb_status solve_rung(looker *l, int32_t rung)
     if (l->rung >= 0 && has_same_light(l, l->rung, rung)) {
         j->frame.error = j->render->frame.error = s.error;
         j->frame.visibility = j->render->frame.visibility = s.visibility;
-        j->frame.gather_step = j->render->frame.gather_step = s.gather_step;
         l->rung = rung;
         return LMB_OK;
     }
@@ -101,7 +101,12 @@ static lmb_status solve_rung(looker *l, int32_t rung)
     l->cost->light = light_work(l, rung);
     l->cost->work += l->cost->light;
     l->rung = rung;
-    return solve(j, frame_of(j));
+    return solve(j, frame_of(j), NULL);
+}
+
+static lmb_status survey(looker *l, int32_t wanted)
+{
+    return lmb_survey_even(&l->places, l->job->render, wanted < LMB_SAMPLE_TILES ? wanted : LMB_SAMPLE_TILES);
 }
 
 /* Samples a rung with up to `max` units of work. */
@@ -110,10 +115,9 @@ static lmb_status look_at(looker *l, lmb_tile_sample *out, int32_t rung, double 
     lmb_rung *at = &l->facts->rung[rung];
     const lmb_status status = lmb_render_sample(out, l->job->render, l->job->frame.scratch, &l->places, max);
     if (status == LMB_OK) {
-        const double tiles = (double)(out->places * out->tiles);
         at->places = out->places;
-        at->pairs = (float)(out->pairs / tiles);
-        at->segments = (float)(out->segments / tiles);
+        at->pairs = (float)(out->pairs / (double)out->places);
+        at->segments = (float)(out->segments / (double)out->places);
         l->cost->work += out->pairs * unit(LMB_OP_PAIRS) + out->segments * unit(LMB_OP_SEGMENTS);
     }
     return status;
@@ -132,8 +136,7 @@ static double left_for(const looker *l, int32_t rung, int32_t next)
 static int affords(const looker *l, int32_t rung, double left)
 {
     const lmb_rung *at = &l->facts->rung[rung];
-    const double place = (double)l->places.tiles * ((double)at->pairs * unit(LMB_OP_PAIRS) +
-                                                    (double)at->segments * unit(LMB_OP_SEGMENTS));
+    const double place = (double)at->pairs * unit(LMB_OP_PAIRS) + (double)at->segments * unit(LMB_OP_SEGMENTS);
     return left > GROWTH * MIN * place && left > 0.0;
 }
 
@@ -156,10 +159,8 @@ static lmb_status traversal(looker *l)
 {
     const int32_t first = l->budget->work > 0.0 || l->budget->bytes > 0 ? 0 : DRAFT;
     lmb_status status = solve_rung(l, first);
-    const int32_t tiles = first < DRAFT ? LMB_SPARSE_TILES : 1, max = tiles > 1 ? LMB_SAMPLE_BLOCKS : LMB_SAMPLE_TILES;
-    const int32_t wanted = FINE * ((int32_t)(l->facts->tiles / (PART * tiles)) + 1);
-    status = status != LMB_OK ? status
-                              : lmb_survey_even(&l->places, l->job->render, tiles, wanted < max ? wanted : max);
+    const int32_t wanted = FINE * ((int32_t)(l->facts->tiles / PART) + 1);
+    status = status != LMB_OK ? status : survey(l, wanted);
     const int32_t all = l->places.count;
     l->places.count = (all + FINE - 1) / FINE;
     status = status != LMB_OK ? status : look_at(l, l->sample[0], first, 0.0);
@@ -191,19 +192,20 @@ static lmb_status take_own(looker *l)
 {
     render_job *j = l->job;
     lmb_frame f = j->frame;
+    lmb_stats counts;
     f.many_lights = NULL;
     f.show = f.show == LMB_SHOW_FULL ? LMB_SHOW_FULL : LMB_SHOW_INDIRECT;
-    if (f.gather_step == LMB_GATHER_ADAPTIVE || f.gather_step == LMB_GATHER_LIVE) {
-        f.gather_step = 4; /* a lattice needs the whole frame */
+    memset(&counts, 0, sizeof counts);
+    lmb_status status = solve(j, f, &counts);
+    if (f.gather_step > 1) { /* the samples of the whole frame are part of the solution */
+        l->facts->pairs = (double)counts.pairs;
+        l->facts->segments = (double)counts.segments;
+        return status;
     }
-    lmb_status status = solve(j, f);
-    const int32_t tiles = f.gather_step > 1 ? LMB_SPARSE_TILES : 1,
-                  max = tiles > 1 ? LMB_SAMPLE_BLOCKS : LMB_SAMPLE_TILES;
-    const int32_t wanted = (int32_t)(l->facts->tiles / (OWN_PART * tiles)) + 1;
-    status = status != LMB_OK ? status : lmb_survey_even(&l->places, j->render, tiles, wanted < max ? wanted : max);
+    status = status != LMB_OK ? status : survey(l, (int32_t)(l->facts->tiles / OWN_PART) + 1);
     status = status != LMB_OK ? status : lmb_render_sample(l->sample[0], j->render, f.scratch, &l->places, 0.0);
     if (status == LMB_OK) {
-        const double each = l->facts->tiles / (double)(l->sample[0]->places * tiles);
+        const double each = l->facts->tiles / (double)l->sample[0]->places;
         l->facts->pairs = l->sample[0]->pairs * each;
         l->facts->segments = l->sample[0]->segments * each;
     }

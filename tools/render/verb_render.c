@@ -248,8 +248,8 @@ static int run(render_job *j, report *r)
     }
     report_note(j->o.view.is_quiet || j->o.slice.count == 0 ||
                     (j->frame.gather_step != LMB_GATHER_ADAPTIVE && j->frame.gather_step != LMB_GATHER_LIVE),
-                "note: --gather adaptive and live take their samples from the whole picture in every slice; full or "
-                "half is shared");
+                "note: --gather adaptive and live take their samples from the whole picture in every slice; full is "
+                "shared");
     tell_loss(j);
     tell_regroups(j);
     tell_full_cuts(j);
