@@ -37,15 +37,17 @@
 #define LMB_LIVE_STACK  256  /* BVH nodes on the stack */
 #define LMB_LIVE_LAST   4    /* triangles that blocked many segments recently */
 
-/* A first point: the surface at one texel of a block of the map, picked by a hash. 56 bytes. */
+/* A first point: the surface at one texel of a block of the map, picked by a hash, or of 2 x 2 blocks that show one
+ * triangle. 56 bytes. */
 typedef struct lmb_live_point {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power of the block, W; all 0: no first point */
     float area;                /* of the block on the surface, m2 */
     uint32_t id;               /* the triangle */
     uint32_t key;              /* cell of the world and side, once the tree is built */
-    uint16_t column, row;      /* the block */
-    uint16_t face, light;      /* if face is LMB_LIVE_ELEMENT, column + 65,536 row is an element */
+    uint16_t column, row;      /* the first block */
+    uint16_t face;             /* LMB_LIVE_ELEMENT: column + 65,536 row is an element */
+    uint8_t light, wide;       /* wide: blocks a side: 1 or 2 */
 } lmb_live_point;
 #define LMB_LIVE_ELEMENT 0xffffu
 

@@ -2,7 +2,8 @@
  *
  * A hash selects one texel of each block as the block's point. So points do not line up along the map, and surfaces
  * that share a block are selected in proportion to their visible area. The point gets all the light through the block.
- * It lies at the texel's middle, where the map was sampled, so never behind an edge. */
+ * It lies at the texel's middle, where the map was sampled, so never behind an edge. Four blocks that show one triangle
+ * give one point. */
 #include "live_part.h"
 
 #include <string.h>
@@ -11,7 +12,7 @@
 
 #if LMB_LIVE
 
-enum { BLOCK = 4, LARGE_BLOCK = 8, LINE = 64 /* bytes */ };
+enum { BLOCK = 4, LARGE_BLOCK = 8, WIDE = 2 /* blocks a side that are joined */, LINE = 64 /* bytes */ };
 #define MANY_BLOCKS (1u << 18)
 #define MANY_ELEMENTS (1u << 24)
 
@@ -159,36 +160,56 @@ static float area_of(const collector *c, lmb_vec3 at, lmb_vec3 normal)
     return block * z * z * z / maxf(slope, GRAZE * sqrtf(dot3(ray, ray)));
 }
 
-static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t row, int k, float power)
+/* Blocks of the current tile that give one point. */
+typedef struct blocks {
+    int first, wide; /* the pixel of the first one, and how many there are a side */
+    int from;        /* the pixel of the one with the point */
+} blocks;
+
+/* Flux of joined blocks. */
+static void sum_flux(float sum[3], const collector *c, const blocks *b, const float *power, lmb_vec3 at)
 {
+    for (int i = 0; i < b->wide * b->wide; ++i) {
+        const int k = b->first + i / b->wide * LMB_TILE + i % b->wide;
+        float each[3];
+        for (int h = 0; h < 3; ++h) {
+            each[h] = texel_flux(c->light->intensity[h], power[k]);
+        }
+        light_end_power(each, c->light, at);
+        for (int h = 0; h < 3; ++h) {
+            sum[h] += each[h] * c->tile->albedo[h][k];
+        }
+    }
+    for (int h = 0; h < 3; ++h) {
+        sum[h] = sum[h] < FLUX_FLOOR ? 0.0f : sum[h];
+    }
+}
+
+static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t row, const blocks *b,
+                      const float *power)
+{
+    const int k = b->from;
     const lmb_view *v = &c->face->view;
     const live_plane *p = c->tile->id[k] != 0 ? lmb_live_plane(c->known, c->scene, v, c->tile->id[k]) : NULL;
     const int32_t x = c->x[k], y = c->y[k];
-    float each[3];
     lmb_vec3 at;
     memset(out, 0, sizeof *out);
-    if (!(power > 0.0f)) {
+    if (!(power[k] > 0.0f)) {
         return;
     }
     if (p == NULL || !lmb_live_place(&at, p, v, texel_sx(v, c->face->size, x), texel_sy(v, c->face->size, y))) {
         return;
     }
-    for (int h = 0; h < 3; ++h) {
-        each[h] = texel_flux(c->light->intensity[h], power);
-    }
-    light_end_power(each, c->light, at);
-    for (int h = 0; h < 3; ++h) {
-        const float flux = each[h] * c->tile->albedo[h][k];
-        out->flux[h] = flux < FLUX_FLOOR ? 0.0f : flux;
-    }
+    sum_flux(out->flux, c, b, power, at);
     out->position = at;
     out->normal = p->normal;
-    out->area = area_of(c, at, p->normal);
+    out->area = area_of(c, at, p->normal) * (float)(b->wide * b->wide);
     out->id = c->tile->id[k];
     out->column = (uint16_t)column;
     out->row = (uint16_t)row;
     out->face = (uint16_t)c->into;
-    out->light = (uint16_t)c->face->light;
+    out->light = (uint8_t)c->face->light;
+    out->wide = (uint8_t)b->wide;
 }
 
 /* Resolves the albedo of 8 x 8 blocks: their ids form a window of a map with one texel per block. */
@@ -221,17 +242,48 @@ static lmb_status resolve_blocks(collector *c, int32_t column, int32_t row)
     return lmb_resolve_albedo(c->tile, c->kernels, &view, c->scene, &window, column, row);
 }
 
-static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
+/* Do the blocks from pixel k on show one triangle, and are all lit? */
+static int are_alike(const collector *c, const float *power, int k)
+{
+    const uint32_t id = c->tile->id[k];
+    int alike = id != 0;
+    for (int i = 0; i < WIDE * WIDE; ++i) {
+        const int at = k + i / WIDE * LMB_TILE + i % WIDE;
+        alike = alike && c->tile->id[at] == id && power[at] > 0.0f;
+    }
+    return alike;
+}
+
+/* Stores the points of the blocks from (column, row) on: one, or one for each block. */
+static void set_points(collector *c, int32_t column, int32_t row, int k, const float *power)
 {
     const int32_t side = c->side;
-    lmb_live_point *out = c->live->point + (size_t)c->into * (size_t)c->live->side * (size_t)c->live->side;
+    lmb_live_point *out = c->live->point + (size_t)c->into * (size_t)c->live->side * (size_t)c->live->side +
+                          (size_t)row * (size_t)side + (size_t)column;
+    const int joined = column + WIDE <= side && row + WIDE <= side && are_alike(c, power, k);
+    const int pick = (int)(live_hash((uint32_t)row, (uint32_t)column, c->into) >> 9 & (WIDE * WIDE - 1));
+    for (int i = 0; i < WIDE * WIDE; ++i) {
+        const int32_t x = i % WIDE, y = i / WIDE, from = joined ? pick : i;
+        lmb_live_point *to = out + (size_t)y * (size_t)side + (size_t)x;
+        const blocks b = {k + y * LMB_TILE + x, joined ? WIDE : 1, k + from / WIDE * LMB_TILE + from % WIDE};
+        if (column + x < side && row + y < side && !(joined && i > 0)) {
+            set_point(to, c, column + x, row + y, &b, power);
+        } else if (joined) {
+            memset(to, 0, sizeof *to);
+        }
+    }
+}
+
+static lmb_status collect_tile(collector *c, int32_t column, int32_t row)
+{
     const lmb_status status = resolve_blocks(c, column, row);
-    for (int32_t y = 0; y < LMB_TILE && row + y < side && status == LMB_OK; ++y) {
-        float power[16];
-        set_powers(power, c, column, row + y);
-        for (int32_t x = 0; x < LMB_TILE && column + x < side; ++x) {
-            set_point(&out[(size_t)(row + y) * (size_t)side + (size_t)(column + x)], c, column + x, row + y,
-                      y * LMB_TILE + x, power[x]);
+    float power[LMB_TILE_PIXELS + LMB_TILE]; /* set_powers writes 16 */
+    for (int32_t y = 0; y < LMB_TILE && row + y < c->side && status == LMB_OK; ++y) {
+        set_powers(power + y * LMB_TILE, c, column, row + y);
+    }
+    for (int32_t y = 0; y < LMB_TILE && row + y < c->side && status == LMB_OK; y += WIDE) {
+        for (int32_t x = 0; x < LMB_TILE && column + x < c->side; x += WIDE) {
+            set_points(c, column + x, row + y, y * LMB_TILE + x, power);
         }
     }
     return status;

@@ -205,7 +205,7 @@ static void find_parts(live_parts *out, live_look *l, const lmb_live_point *p, u
     const lmb_live_face *f = l->face;
     const uint32_t level = (part >> 2 * PART_BITS) + 1, mask = (1u << PART_BITS) - 1,
                    x = (part >> PART_BITS & mask) * 4, y = (part & mask) * 4;
-    const float wide = (float)f->each / (float)(1u << 2 * level), per = 2.0f / (float)f->size;
+    const float wide = (float)(f->each * p->wide) / (float)(1u << 2 * level), per = 2.0f / (float)f->size;
     uint32_t left = 0;
     memset(&out->at, 0, sizeof out->at);
     for (uint32_t i = 0; i < LMB_LIVE_NODES; ++i) {

@@ -74,7 +74,7 @@ static inline void live_keep_off(lmb_live_scratch *s, const lmb_live *live, cons
 {
     const lmb_live_point *p = &live->sorted[c->first[i]];
     const float texel =
-        p->face == LMB_LIVE_ELEMENT ? 0.0f : LIVE_OFF * sqrtf(p->area) / (float)live->face[p->face].each;
+        p->face == LMB_LIVE_ELEMENT ? 0.0f : LIVE_OFF * sqrtf(p->area) / (float)(live->face[p->face].each * p->wide);
     const lmb_vec3 d = sub3(job->position, p->position);
     const float height = dot3(d, p->normal), cosine = dot3(p->normal, job->face);
     const float lift = texel - height, along2 = 1.0f - cosine * cosine;
