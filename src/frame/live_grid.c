@@ -70,15 +70,43 @@ static int is_flat(const lmb_tile *tile)
     return other == 0 && turn <= 1e-3f;
 }
 
+lmb_live_sample lmb_live_grid_surface(const lmb_tile *tile, int k)
+{
+    lmb_live_sample s;
+    memset(&s, 0, sizeof s);
+    s.position = tile_vec(tile->position, k);
+    s.face = tile_vec(tile->face, k);
+    s.normal = tile_vec(tile->normal, k);
+    s.id = tile->id[k];
+    return s;
+}
+
+/* Samples of a tile on the grid of `step` px, 8 or 16: the first one, and the last one at the right and lower edge of
+ * the frame. */
+static uint32_t first_of(const live_grid *g, int32_t column, int32_t row, int32_t step)
+{
+    const int32_t each = step / LMB_TILE, right = (last_of(g->width) - column * LMB_TILE) / GRID_STEP,
+                  low = (last_of(g->height) - row * LMB_TILE) / GRID_STEP;
+    const uint32_t across =
+        (uint32_t)(column % each == 0) | (column == g->columns - 1 ? 1u << right : 0);
+    uint32_t out = row % each == 0 ? across : 0;
+    return out | (row == g->rows - 1 ? across << low * GRID_SIDE : 0);
+}
+
 void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes)
 {
-    live_grid_tile *out = grid_tile(g, tile->x / LMB_TILE, tile->y / LMB_TILE);
+    const int32_t column = tile->x / LMB_TILE, row = tile->y / LMB_TILE;
+    live_grid_tile *out = grid_tile(g, column, row);
     out->shown = out->known = 0;
-    out->divided = out->parts = 0;
+    out->divided = out->parts = out->coarse = 0;
     out->lobes = (uint8_t)(lobes != 0);
     out->flat = (uint8_t)(tile->id[0] != 0 && !lobes && is_flat(tile));
     for (int i = 0; i < GRID_SAMPLES && !lobes; ++i) {
         out->shown |= (uint16_t)((unsigned)(tile->id[grid_pixel(i)] != 0) << i);
+    }
+    for (uint32_t bits = out->shown & first_of(g, column, row, LMB_TILE); bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
+        *grid_sample(g, out, k) = lmb_live_grid_surface(tile, grid_pixel(k));
     }
 }
 
@@ -88,12 +116,12 @@ void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes)
 static uint32_t asks_of(const live_grid_tile *t, int32_t level)
 {
     uint32_t out = 0;
-    if (level == 1 && t->divided) {
+    if (level == 2 && t->divided) {
         for (int i = 0; i < 25; i += 2) {
             out |= (uint32_t)(i / 5 % 2 == 0 && i % 5 % 2 == 0) << i;
         }
     }
-    for (int part = 0; part < 4 && level == 2; ++part) {
+    for (int part = 0; part < 4 && level == 3; ++part) {
         if (t->parts >> part & 1) {
             out |= (7u | 7u << 5 | 7u << 10) << (part % 2 * 2 + part / 2 * 10);
         }
@@ -129,19 +157,36 @@ static uint32_t at_edge(const live_grid *g, uint32_t square, int32_t column, int
     return out;
 }
 
-/* Level 0 has the first sample, and the last one at the right and lower edge of the frame. */
-static uint32_t first_of(const live_grid *g, int32_t column, int32_t row)
+/* Is a cell of 16 px around a sample divided? */
+static int is_in_divided(const live_grid *g, int32_t x, int32_t y)
 {
-    const int32_t right = column == g->columns - 1 ? (last_of(g->width) - column * LMB_TILE) / GRID_STEP : 0,
-                  low = row == g->rows - 1 ? (last_of(g->height) - row * LMB_TILE) / GRID_STEP * GRID_SIDE : 0;
-    return 1u | 1u << right | 1u << low | 1u << (low + right);
+    for (int i = 0; i < 4; ++i) {
+        const int32_t at = (i & 1) != 0 && x > 0 ? x - 1 : x, down = i >> 1 != 0 && y > 0 ? y - 1 : y;
+        if (!grid_tile(g, at / GRID_COARSE * 2, down / GRID_COARSE * 2)->coarse) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Samples of 8 px of a tile, in divided cells of 16 px. */
+static uint32_t second_of(const live_grid *g, int32_t column, int32_t row)
+{
+    uint32_t out = 0;
+    for (uint32_t bits = first_of(g, column, row, LMB_TILE); bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
+        out |= (uint32_t)is_in_divided(g, column * LMB_TILE + k % GRID_SIDE * GRID_STEP,
+                                       row * LMB_TILE + k / GRID_SIDE * GRID_STEP)
+               << k;
+    }
+    return out;
 }
 
 uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int32_t level)
 {
     const live_grid_tile *t = grid_tile(g, column, row);
-    uint32_t out = level == 0 ? first_of(g, column, row) : 0;
-    for (int i = 0; i < 4 && level > 0; ++i) {
+    uint32_t out = level == 0 ? first_of(g, column, row, GRID_COARSE) : level == 1 ? second_of(g, column, row) : 0;
+    for (int i = 0; i < 4 && level > 1; ++i) {
         const int32_t left = i & 1, up = i >> 1;
         if (column >= left && row >= up) {
             const uint32_t square = asks_of(grid_tile(g, column - left, row - up), level);
@@ -243,7 +288,7 @@ static float surplus_at(const live_grid *g, const cell *c, float slope[4][2][3],
         sum += weight[i];
     }
     if (agree == 0) {
-        return 0.0f; /* the first sample of a surface has no prediction */
+        return c->x[1] - c->x[0] > GRID_COARSE ? 3e38f : 0.0f; /* the first sample of a surface has no prediction */
     }
     for (int i = 0; i < 4; ++i) {
         const float w = weight[i] / sum, part = agree == 4 ? 0.5f : 1.0f;
@@ -314,9 +359,51 @@ static uint32_t divide_parts(const live_grid *g, int32_t x, int32_t y, int32_t s
     return out;
 }
 
+/* Do all pixels of a cell of 16 px and its corners lie in one plane? */
+static int is_plain(const live_grid *g, int32_t column, int32_t row)
+{
+    const lmb_live_sample *first = grid_sample(g, grid_tile(g, column, row), 0);
+    cell c;
+    set_cell(&c, g, column * LMB_TILE, row * LMB_TILE, GRID_COARSE);
+    for (int i = 0; i < 4; ++i) {
+        const int32_t at = mini(column + (i & 1), g->columns - 1), down = mini(row + (i >> 1), g->rows - 1);
+        const live_grid_tile *t = grid_tile(g, at, down);
+        if (!t->flat || live_agree(first, grid_sample(g, t, 0)) < 1.0f || c.corner[i] == NULL ||
+            live_agree(first, c.corner[i]) < 1.0f) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Divides the cells of 16 px in a square of four, all of them if the frame ends before there is a sample to predict. */
+static void divide_coarse(const live_grid *g, int32_t column, int32_t row)
+{
+    if (last_of(g->width) - column * LMB_TILE <= GRID_COARSE || last_of(g->height) - row * LMB_TILE <= GRID_COARSE) {
+        return;
+    }
+    const uint32_t divided = divide_parts(g, column * LMB_TILE, row * LMB_TILE, GRID_COARSE);
+    for (int i = 0; i < 4; ++i) {
+        const int32_t at = column + (i & 1) * 2, down = row + (i >> 1) * 2;
+        if (at < g->columns && down < g->rows && !(divided >> i & 1u) && is_plain(g, at, down)) {
+            for (int k = 0; k < 4; ++k) {
+                if (at + (k & 1) < g->columns && down + (k >> 1) < g->rows) {
+                    grid_tile(g, at + (k & 1), down + (k >> 1))->coarse = 1;
+                }
+            }
+        }
+    }
+}
+
 void lmb_live_grid_divide(const live_grid *g, int32_t row, int32_t level)
 {
-    for (int32_t column = 0; column < g->columns && level == 0; column += 2) {
+    for (int32_t column = 0; column < g->columns && level == 0 && row % 4 == 0; column += 4) {
+        divide_coarse(g, column, row);
+    }
+    for (int32_t column = 0; column < g->columns && level == 1; column += 2) {
+        if (grid_tile(g, column, row)->coarse) {
+            continue;
+        }
         const uint32_t divided = divide_parts(g, column * LMB_TILE, row * LMB_TILE, LMB_TILE);
         for (int i = 0; i < 4; ++i) {
             if (column + (i & 1) < g->columns && row + (i >> 1) < g->rows) {
@@ -324,7 +411,7 @@ void lmb_live_grid_divide(const live_grid *g, int32_t row, int32_t level)
             }
         }
     }
-    for (int32_t i = 0; i < 2 * g->columns && level == 1; ++i) {
+    for (int32_t i = 0; i < 2 * g->columns && level == 2; ++i) {
         const int32_t column = i % g->columns, down = row + i / g->columns;
         if (down < g->rows && grid_tile(g, column, down)->divided) {
             grid_tile(g, column, down)->parts =
@@ -383,10 +470,15 @@ static void smooth(const live_grid *g, int32_t x, int32_t y)
     }
     add_share(sum, own, 1.0f);
     for (int i = 0; i < 9; ++i) {
-        if (i == 4 || column[i % 3] < 0 || row[i / 3] < 0 || !is_known(g, column[i % 3], row[i / 3])) {
+        int32_t at = column[i % 3], down = row[i / 3];
+        if (step == LMB_TILE && i != 4 && at >= 0 && down >= 0 && !is_known(g, at, down)) {
+            at = i % 3 == 0 ? before(x, GRID_COARSE) : i % 3 == 1 ? x : after(x, GRID_COARSE, g->width);
+            down = i / 3 == 0 ? before(y, GRID_COARSE) : i / 3 == 1 ? y : after(y, GRID_COARSE, g->height);
+        }
+        if (i == 4 || at < 0 || down < 0 || !is_known(g, at, down)) {
             continue;
         }
-        const lmb_live_sample *s = sample_at(g, column[i % 3], row[i / 3]);
+        const lmb_live_sample *s = sample_at(g, at, down);
         const float off = absf(share_of(s) - share);
         if (s->is_lit && off <= max && live_agree(own, s) > 0.0f) {
             add_share(sum, s, (i % 2 == 0 ? 0.5f : 0.75f) * (1.0f - 0.5f * off / max));
@@ -437,8 +529,9 @@ static uint64_t square(int32_t x, int32_t y, int32_t step)
     return rows & ((((uint64_t)1 << step) - 1) << x) * 0x0101010101010101u;
 }
 
+/* Lights `pixels` of a tile that lie in the cell at (x, y) of the tile. */
 static uint64_t fill_cell(lmb_irradiance *out, const lmb_kernels *kernels, const live_grid *g, const lmb_tile *tile,
-                          uint64_t shown, int32_t x, int32_t y, int32_t step)
+                          uint64_t pixels, int32_t x, int32_t y, int32_t step)
 {
     const live_grid_tile *t = grid_tile(g, tile->x / LMB_TILE, tile->y / LMB_TILE);
     lmb_live_cell p;
@@ -452,7 +545,7 @@ static uint64_t fill_cell(lmb_irradiance *out, const lmb_kernels *kernels, const
     p.per_x = 1.0f / maxf(p.x[1] - p.x[0], 1.0f);
     p.per_y = 1.0f / maxf(p.y[1] - p.y[0], 1.0f);
     p.even = is_even(&c, g, t);
-    p.pixels = shown & square(x, y, step);
+    p.pixels = pixels;
     return kernels->live_fill(out, tile, &p);
 }
 
@@ -461,16 +554,20 @@ uint64_t lmb_live_grid_fill(lmb_irradiance *out, const lmb_kernels *kernels, con
     const live_grid_tile *t = grid_tile(g, tile->x / LMB_TILE, tile->y / LMB_TILE);
     const uint64_t shown = tile->hits == LMB_TILE_PIXELS ? ~(uint64_t)0 : tile_pixels(tile);
     uint64_t left = 0;
+    if (t->coarse) {
+        return fill_cell(out, kernels, g, tile, shown, -(tile->x % GRID_COARSE), -(tile->y % GRID_COARSE), GRID_COARSE);
+    }
     if (!t->divided) {
         return fill_cell(out, kernels, g, tile, shown, 0, 0, LMB_TILE);
     }
     for (int part = 0; part < 4; ++part) {
         const int32_t x = part % 2 * (LMB_TILE / 2), y = part / 2 * (LMB_TILE / 2);
         if (!(t->parts >> part & 1)) {
-            left |= fill_cell(out, kernels, g, tile, shown, x, y, LMB_TILE / 2);
+            left |= fill_cell(out, kernels, g, tile, shown & square(x, y, LMB_TILE / 2), x, y, LMB_TILE / 2);
         }
         for (int i = 0; i < 4 && (t->parts >> part & 1); ++i) {
-            left |= fill_cell(out, kernels, g, tile, shown, x + i % 2 * GRID_STEP, y + i / 2 * GRID_STEP, GRID_STEP);
+            const int32_t at = x + i % 2 * GRID_STEP, down = y + i / 2 * GRID_STEP;
+            left |= fill_cell(out, kernels, g, tile, shown & square(at, down, GRID_STEP), at, down, GRID_STEP);
         }
     }
     return left;

@@ -1,8 +1,8 @@
 /* live_grid.h: samples of a frame with bounced light at single points. Layer 8.
  *
- * Samples lie on a grid of 8 px, at the first pixel of each tile. If the light varies between four of them, the cell is
- * divided into cells of 4 px, and these into cells of 2 px. Only lit samples store their surface. The grid uses the
- * memory of lmb_lattice. */
+ * Samples lie on a grid of 16 px, at the first pixel of every other tile. A cell of 16 px is divided into cells of 8 px
+ * if the light varies in it or if its pixels do not all lie in one plane; these are divided into cells of 4 and 2 px.
+ * The samples of 8 px and the lit ones store their surface. The grid uses the memory of lmb_lattice. */
 #ifndef LMB_FRAME_LIVE_GRID_H
 #define LMB_FRAME_LIVE_GRID_H
 
@@ -16,7 +16,8 @@ enum {
     GRID_STEP = 2,  /* px between the closest samples */
     GRID_SIDE = LMB_TILE / GRID_STEP, /* samples along a tile's side */
     GRID_SAMPLES = GRID_SIDE * GRID_SIDE,
-    GRID_LEVELS = 3 /* steps of 8, 4 and 2 px */
+    GRID_COARSE = 2 * LMB_TILE, /* px between the first samples */
+    GRID_LEVELS = 4 /* steps of 16, 8, 4 and 2 px */
 };
 
 /* Sample k of a tile lies at column k % 4 * 2 and row k / 4 * 2. */
@@ -26,6 +27,7 @@ typedef struct live_grid_tile {
     uint8_t parts;         /* mask of the tile's cells of 4 px that are divided */
     uint8_t flat;          /* all pixels show one triangle with its face normal */
     uint8_t lobes;         /* gathered whole: no samples */
+    uint8_t coarse;        /* in a cell of 16 px that is not divided */
 } live_grid_tile;
 
 typedef struct live_grid {
@@ -40,7 +42,11 @@ typedef struct live_grid {
 /* Returns the grid in a lattice's memory. `strata`: segments of a sample. */
 live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata);
 
-/* Stores which samples of a tile have a surface. If you pass `lobes`, the tile is gathered whole. */
+/* The surface at a pixel of a tile, as a sample that is not lit. */
+lmb_live_sample lmb_live_grid_surface(const lmb_tile *tile, int k);
+
+/* Stores which samples of a tile have a surface, and the surface of those of 8 px. If you pass `lobes`, the tile is
+ * gathered whole. */
 void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes);
 
 /* Pixel of a tile at sample k. */
@@ -52,7 +58,8 @@ uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int
 /* Mean light of the samples of level 0. */
 float lmb_live_grid_mean(const live_grid *g);
 
-/* Divides the cells of level 0 or 1 that predict their samples badly, in two rows of tiles; `row` is even. */
+/* Divides the cells of level 0, 1 or 2 that predict their samples badly, in two rows of tiles; `row` is even. On
+ * level 0 a call with a row of 4 n divides four rows. */
 void lmb_live_grid_divide(const live_grid *g, int32_t row, int32_t level);
 
 /* Removes noise from the shares of a tile's samples and updates their light. Call lmb_live_grid_slopes next: it sets

@@ -16,8 +16,10 @@
 
 enum {
     SURFACES = 0, /* stores the surfaces of samples; lights those of level 0 */
-    CELLS_8,      /* divides */
-    SAMPLES_4,    /* lights */
+    CELLS_16,     /* divides */
+    SAMPLES_8,    /* lights */
+    CELLS_8,
+    SAMPLES_4,
     CELLS_4,
     SAMPLES_2,
     SHADOWS, /* removes their noise */
@@ -56,27 +58,17 @@ static lmb_status light_sample(const lmb_render *r, lmb_band_scratch *s, lmb_liv
     return status;
 }
 
-/* The surface at a pixel of a tile. */
-static lmb_live_sample sample_of(const lmb_tile *tile, int k)
+/* Lights the requested samples of a tile. tile: its surfaces; NULL: they are stored. */
+NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, live_grid_tile *t,
+                               const lmb_tile *tile, uint32_t asked)
 {
-    lmb_live_sample s;
-    memset(&s, 0, sizeof s);
-    s.position = tile_vec(tile->position, k);
-    s.face = tile_vec(tile->face, k);
-    s.normal = tile_vec(tile->normal, k);
-    s.id = tile->id[k];
-    return s;
-}
-
-/* Lights the requested samples of the current tile. */
-NOINLINE lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, uint32_t asked)
-{
-    live_grid_tile *t = grid_tile(g, s->tile.x / LMB_TILE, s->tile.y / LMB_TILE);
     lmb_status status = LMB_OK;
     for (uint32_t bits = asked; bits != 0 && status == LMB_OK; bits &= bits - 1) {
         const int k = lowest_bit(bits);
         lmb_live_sample *sample = grid_sample(g, t, k);
-        *sample = sample_of(&s->tile, grid_pixel(k));
+        if (tile != NULL) {
+            *sample = lmb_live_grid_surface(tile, grid_pixel(k));
+        }
         sample->position = lmb_place_onto_triangle(r->frame.scene, sample->id, sample->position);
         status = light_sample(r, s, sample);
     }
@@ -94,13 +86,13 @@ static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, const 
         if (status == LMB_OK) {
             const int lobes = requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene);
             lmb_live_grid_put(g, &s->tile, lobes);
-            status = light_tile(r, s, g, lmb_live_grid_asks(g, column, row, 0));
+            status = light_tile(r, s, g, grid_tile(g, column, row), NULL, lmb_live_grid_asks(g, column, row, 0));
         }
     }
     return status;
 }
 
-/* Lights the samples of a row of tiles that level 1 or 2 requests. */
+/* Lights the samples of a row of tiles that level 1, 2 or 3 requests. */
 static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live_grid *g, int32_t row, int32_t level)
 {
     const lmb_frame *f = &r->frame;
@@ -109,6 +101,10 @@ static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live
     int is_drawn = 0;
     for (int32_t column = 0; column < g->columns && status == LMB_OK; ++column) {
         const uint32_t asked = lmb_live_grid_asks(g, column, row, level);
+        if (level == 1) {
+            status = light_tile(r, s, g, grid_tile(g, column, row), NULL, asked);
+            continue;
+        }
         if (asked != 0 && !is_drawn) {
             status = lmb_render_view_band(r, eye, &f->eye, row);
             is_drawn = 1;
@@ -117,7 +113,7 @@ static lmb_status light_row(const lmb_render *r, lmb_band_scratch *s, const live
             status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, eye, column * LMB_TILE, row * LMB_TILE);
         }
         if (asked != 0 && status == LMB_OK) {
-            status = light_tile(r, s, g, asked);
+            status = light_tile(r, s, g, grid_tile(g, column, row), &s->tile, asked);
         }
     }
     return status;
@@ -132,8 +128,8 @@ static lmb_status do_row(const lmb_render *r, lmb_band_scratch *s, const live_gr
     if (r->light == SURFACES) {
         return take_surfaces(r, s, g, row);
     }
-    if (r->light == SAMPLES_4 || r->light == SAMPLES_2) {
-        return light_row(r, s, g, row, r->light == SAMPLES_4 ? 1 : 2);
+    if (r->light < SHADOWS) {
+        return light_row(r, s, g, row, (int32_t)r->light / 2);
     }
     for (int32_t column = 0; column < g->columns; ++column) {
         if (r->light == SHADOWS) {
@@ -149,8 +145,8 @@ lmb_status lmb_render_live_piece(const lmb_render *r, lmb_band_scratch *s, int32
 {
     const live_grid g = grid_of(r);
     lmb_status status = LMB_OK;
-    if (r->light == CELLS_8 || r->light == CELLS_4) {
-        lmb_live_grid_divide(&g, i * ROWS, r->light == CELLS_8 ? 0 : 1);
+    if (r->light < SHADOWS && r->light % 2 == 1) {
+        lmb_live_grid_divide(&g, i * ROWS, (int32_t)r->light / 2);
         return LMB_OK;
     }
     for (int32_t row = i * ROWS; row < mini(i * ROWS + ROWS, g.rows) && status == LMB_OK; ++row) {
@@ -211,7 +207,7 @@ static float nearness(int dx, int dy)
 /* Averages the sources within REACH. */
 static around around_of(const sources *s, int k)
 {
-    const lmb_live_sample own = sample_of(s->tile, k);
+    const lmb_live_sample own = lmb_live_grid_surface(s->tile, k);
     const int x = k % LMB_TILE, y = k / LMB_TILE;
     around a;
     memset(&a, 0, sizeof a);
@@ -224,7 +220,7 @@ static around around_of(const sources *s, int k)
     }
     for (uint64_t bits = s->known; bits != 0; bits &= bits - 1) {
         const int from = lowest_bit_64(bits), dx = from % LMB_TILE - x, dy = from / LMB_TILE - y;
-        const lmb_live_sample other = sample_of(s->tile, from);
+        const lmb_live_sample other = lmb_live_grid_surface(s->tile, from);
         const float weight = is_within(dx, dy) ? live_agree(&own, &other) * nearness(dx, dy) : 0.0f;
         if (weight > 0.0f) {
             const float light[3] = {s->light->rgb[0][from], s->light->rgb[1][from], s->light->rgb[2][from]};
@@ -265,7 +261,7 @@ static lmb_status light_left(lmb_irradiance *inout, const lmb_render *r, lmb_ban
     for (uint64_t bits = left; bits != 0 && status == LMB_OK; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         if (!(around_of(&from, k).sum > 0.0f)) {
-            lmb_live_sample own = sample_of(from.tile, k);
+            lmb_live_sample own = lmb_live_grid_surface(from.tile, k);
             own.position = lmb_place_onto_triangle(r->frame.scene, own.id, own.position);
             status = light_sample(r, s, &own);
             for (int c = 0; c < 3; ++c) {
