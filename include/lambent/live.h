@@ -33,6 +33,8 @@
 #define LMB_LIVE_NODES  16   /* of a chunk: logical lanes of every backend */
 #define LMB_LIVE_CUT    512  /* chunks of a point's cut */
 #define LMB_LIVE_NEAR   96   /* of these, chunks made for one point, of parts near it */
+#define LMB_LIVE_KEPT   128  /* such chunks that are kept for other points */
+#define LMB_LIVE_FACETS 32   /* facets of near parts that are kept */
 #define LMB_LIVE_STRATA 64   /* maximum number of segments of a point */
 #define LMB_LIVE_STACK  256  /* BVH nodes on the stack */
 #define LMB_LIVE_LAST   4    /* triangles that blocked many segments recently */
@@ -117,23 +119,35 @@ typedef struct lmb_live_rays {
     uint32_t id[LMB_TILE_PIXELS];               /* the targets' triangles */
 } lmb_live_rays;
 
+/* A triangle in a map, with a unit normal on the lit side, and the vectors that give barycentrics. */
+typedef struct lmb_live_facet {
+    uint32_t id, face; /* 0: none; of the tree */
+    lmb_vec3 corner, normal, side[2], along[2];
+} lmb_live_facet;
+
 /* A BVH node on the stack, and the segments that hit it. */
 typedef struct lmb_live_branch {
     uint64_t rays;
     uint32_t node;
 } lmb_live_branch;
 
-/* Scratch, one a thread: 199 KiB. The contents are undefined between calls, except `full`, `segments` and `pairs`,
+/* Scratch, one a thread: 403 KiB. The contents are undefined between calls, except `full`, `segments` and `pairs`,
  * which are added to until you zero them, and `whole` and `seen`, which are those of the last point. */
 typedef struct lmb_live_scratch {
-    lmb_live_chunk near[LMB_LIVE_NEAR];
+    lmb_live_chunk near[LMB_LIVE_KEPT + LMB_LIVE_NEAR]; /* kept ones first */
     float value[LMB_LIVE_CUT][LMB_LIVE_NODES]; /* unoccluded light of each node; 0 if the parts are used */
     float sum[LMB_LIVE_CUT];
     const lmb_live_chunk *chunk[LMB_LIVE_CUT];
     uint16_t asked[LMB_LIVE_CUT];              /* used nodes of the chunk, a bit each */
     int32_t count, done;                       /* chunks of the cut, and those summed */
-    uint32_t part[LMB_LIVE_NEAR][LMB_LIVE_NODES]; /* the part of a first point that each of their nodes is */
+    uint32_t part[LMB_LIVE_KEPT + LMB_LIVE_NEAR][LMB_LIVE_NODES]; /* the part of a first point that each of their nodes
+                                                                     is */
     int32_t near_count, near_lane;             /* chunks of `near` in use, and nodes of the last one */
+    uint64_t kept[LMB_LIVE_KEPT];              /* first point and part; all ones: none */
+    uint32_t kept_for[LMB_LIVE_KEPT];          /* the number of the last point that used it */
+    uint16_t kept_nodes[LMB_LIVE_KEPT];        /* a bit each */
+    uint32_t number, keeps;                    /* of the current point; 1: chunks are kept */
+    lmb_live_facet facet[LMB_LIVE_FACETS];
     uint32_t leaf[LMB_LIVE_CUT];               /* near nodes without nodes below: 16 times the chunk's index */
     int32_t leaves;                            /* in the cut, plus the lane */
     int32_t targets, is_full;

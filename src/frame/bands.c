@@ -4,6 +4,7 @@
 
 #include "../base/poly.h"
 #include "../base/vec.h"
+#include "../live/live_part.h"
 #include "lattice.h"
 #include "stages.h"
 #include "requires.h"
@@ -65,6 +66,9 @@ static lmb_status light_band(const lmb_render *r, lmb_band_scratch *scratch, con
     lmb_status status = requires_multisample(f) ? lmb_multisample_draw(r, scratch, band) : LMB_OK;
     if (requires_transfer(f)) {
         memset(&scratch->gather.transfer.met, 0, sizeof scratch->gather.transfer.met);
+    }
+    if (requires_live(f)) {
+        lmb_live_forget(scratch->live);
     }
     for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
         const lmb_irradiance *indirect;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../live/live_part.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
 #include "live_grid.h"
@@ -149,6 +150,7 @@ lmb_status lmb_render_live_piece(const lmb_render *r, lmb_band_scratch *s, int32
         lmb_live_grid_divide(&g, i * ROWS, (int32_t)r->light / 2);
         return LMB_OK;
     }
+    lmb_live_forget(s->live);
     for (int32_t row = i * ROWS; row < mini(i * ROWS + ROWS, g.rows) && status == LMB_OK; ++row) {
         status = do_row(r, s, &g, row);
     }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../live/live_part.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
 #include "requires.h"
@@ -105,7 +106,7 @@ static lmb_status live_rest(lmb_render *r, int32_t left)
 lmb_status lmb_render_live(float light[3], const lmb_render *r, lmb_band_scratch *s, const lmb_live_receiver *at)
 {
     const lmb_frame *f = &r->frame;
-    const lmb_status status = lmb_live_receive(light, f->kernels, s->live, f->live, live_bvh(f), at);
+    const lmb_status status = lmb_live_receive_again(light, f->kernels, s->live, f->live, live_bvh(f), at);
     count_live(&s->counts, s->live);
     return status;
 }
@@ -125,7 +126,8 @@ static lmb_status live_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb
                                           lmb_place_noise(tile_vec(tile->position, k), absf(tile->depth[k])),
                                           view_to_eye(&r->frame.view, tile_vec(tile->position, k))};
             float light[3];
-            status = lmb_render_live(light, r, s, &at);
+            status = lmb_live_receive(light, r->frame.kernels, s->live, r->frame.live, live_bvh(&r->frame), &at);
+            count_live(&s->counts, s->live);
             for (int c = 0; c < 3 && status == LMB_OK; ++c) {
                 inout->rgb[c][k] += light[c];
             }

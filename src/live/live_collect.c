@@ -12,7 +12,13 @@
 
 #if LMB_LIVE
 
-enum { BLOCK = 4, LARGE_BLOCK = 8, WIDE = 2 /* blocks a side that are joined */, LINE = 64 /* bytes */ };
+enum {
+    BLOCK = 4,
+    LARGE_BLOCK = 8,
+    WIDE = 2,   /* blocks a side that are joined */
+    FACETS = 8, /* that are kept */
+    LINE = 64   /* bytes */
+};
 #define MANY_BLOCKS (1u << 18)
 #define MANY_ELEMENTS (1u << 24)
 
@@ -107,7 +113,7 @@ typedef struct collector {
     int32_t map_face, side; /* side: blocks */
     uint32_t into;
     uint16_t x[LMB_TILE_PIXELS], y[LMB_TILE_PIXELS]; /* the texels of the current tile's blocks */
-    live_plane known[LIVE_PLANES];
+    lmb_live_facet known[FACETS];
 } collector;
 
 /* Light through eight blocks of a row, at 1 W/sr. A block's middle decides whether a sun's finer face contains it. */
@@ -190,7 +196,8 @@ static void set_point(lmb_live_point *out, collector *c, int32_t column, int32_t
 {
     const int k = b->from;
     const lmb_view *v = &c->face->view;
-    const live_plane *p = c->tile->id[k] != 0 ? lmb_live_plane(c->known, c->scene, v, c->tile->id[k]) : NULL;
+    const uint32_t id = c->tile->id[k];
+    const lmb_live_facet *p = id != 0 ? lmb_live_facet_of(c->known, FACETS, c->scene, v, c->into, id) : NULL;
     const int32_t x = c->x[k], y = c->y[k];
     lmb_vec3 at;
     memset(out, 0, sizeof *out);

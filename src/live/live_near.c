@@ -19,13 +19,13 @@ enum {
 
 /* --- places ------------------------------------------------------------------------------------------------------- */
 
-const live_plane *lmb_live_plane(live_plane known[LIVE_PLANES], const lmb_scene *scene, const lmb_view *view,
-                                 uint32_t id)
+const lmb_live_facet *lmb_live_facet_of(lmb_live_facet *known, uint32_t many, const lmb_scene *scene,
+                                        const lmb_view *view, uint32_t face, uint32_t id)
 {
-    live_plane *p = &known[id % LIVE_PLANES];
+    lmb_live_facet *p = &known[id % many];
     lmb_triangle t;
     float area;
-    if (p->id == id) {
+    if (p->id == id && p->face == face) {
         return p;
     }
     p->id = 0;
@@ -42,10 +42,11 @@ const live_plane *lmb_live_plane(live_plane known[LIVE_PLANES], const lmb_scene 
     p->along[0] = mul3(cross3(v, n), per);
     p->along[1] = mul3(cross3(n, u), per);
     p->id = id;
+    p->face = face;
     return p;
 }
 
-int lmb_live_place(lmb_vec3 *out, const live_plane *p, const lmb_view *view, float sx, float sy)
+int lmb_live_place(lmb_vec3 *out, const lmb_live_facet *p, const lmb_view *view, float sx, float sy)
 {
     const lmb_vec3 at = footprint_over(view, p->corner, p->normal, sx, sy), from = sub3(at, p->corner);
     float b1 = dot3(p->along[0], from), b2 = dot3(p->along[1], from);
@@ -75,15 +76,15 @@ static int32_t room(const lmb_live_scratch *s)
 static lmb_live_chunk *take(lmb_live_scratch *s, int *lane)
 {
     if (s->near_lane == LMB_LIVE_NODES) {
-        s->chunk[s->count] = &s->near[s->near_count];
+        lmb_live_chunk *c = &s->near[LMB_LIVE_KEPT + s->near_count++];
+        s->chunk[s->count] = c;
         s->asked[s->count++] = 0;
-        live_blank(&s->near[s->near_count]);
-        ++s->near_count;
+        live_blank(c);
         s->near_lane = 0;
     }
     *lane = s->near_lane++;
     s->asked[s->count - 1] |= (uint16_t)(1u << *lane);
-    return &s->near[s->near_count - 1];
+    return &s->near[LMB_LIVE_KEPT + s->near_count - 1];
 }
 
 static uint32_t part_of(uint32_t level, uint32_t x, uint32_t y) { return (level << PART_BITS | x) << PART_BITS | y; }
@@ -122,19 +123,25 @@ static void put_points(lmb_live_scratch *s, const lmb_live *live, uint32_t first
         c->radius2[i] = lmb_live_reach2(live, p) * lmb_live_softness(live, p);
         c->first[i] = k;
         c->count[i] = whole ? 0 : LMB_LIVE_LEAF | 1u;
-        s->part[s->near_count - 1][i] = part_of(0, 0, 0);
+        s->part[LMB_LIVE_KEPT + s->near_count - 1][i] = part_of(0, 0, 0);
     }
 }
 
 /* --- parts of a point --------------------------------------------------------------------------------------------- */
 
-/* A face, and cached planes of its triangles. */
+/* A face, and cached facets. */
 typedef struct live_look {
     const lmb_kernels *kernels;
     const lmb_live *live;
     const lmb_live_face *face;
-    live_plane known[LIVE_PLANES];
+    lmb_live_facet *known;
 } live_look;
+
+static const lmb_live_facet *facet_of(const live_look *l, uint32_t id)
+{
+    return lmb_live_facet_of(l->known, LMB_LIVE_FACETS, l->live->scene, &l->face->view,
+                             (uint32_t)(l->face - l->live->face), id);
+}
 
 /* A part of a point's block: position in the map, and id there. */
 typedef struct live_spot {
@@ -146,11 +153,11 @@ typedef struct live_spot {
 /* Do two triangles lie in one plane? */
 static int goes_on(live_look *l, uint32_t id, uint32_t other)
 {
-    const live_plane *a = other != 0 ? lmb_live_plane(l->known, l->live->scene, &l->face->view, id) : NULL;
+    const lmb_live_facet *a = other != 0 ? facet_of(l, id) : NULL;
     if (a == NULL) {
         return 0;
     }
-    const live_plane own = *a, *b = lmb_live_plane(l->known, l->live->scene, &l->face->view, other);
+    const lmb_live_facet own = *a, *b = facet_of(l, other);
     if (b == NULL) {
         return 0;
     }
@@ -219,7 +226,7 @@ static void find_parts(live_parts *out, live_look *l, const lmb_live_point *p, u
     }
     for (out->shown = 0; left != 0;) {
         const uint32_t id = out->id[lowest_bit(left)];
-        const live_plane *on = lmb_live_plane(l->known, l->live->scene, &f->view, id);
+        const lmb_live_facet *on = facet_of(l, id);
         uint32_t same = 0;
         for (int i = 0; i < LMB_LIVE_NODES; ++i) {
             same |= (uint32_t)(out->id[i] == id) << i;
@@ -233,13 +240,35 @@ static void find_parts(live_parts *out, live_look *l, const lmb_live_point *p, u
     }
 }
 
-/* Stores all sixteen parts as a new chunk. */
-static void put_whole(lmb_live_scratch *s, const live_parts *p, uint32_t point, uint32_t count, const live_light *light,
-                      const float area[2])
+/* Appends chunk k of `near`. */
+static void append(lmb_live_scratch *s, int32_t k, uint32_t nodes)
 {
-    lmb_live_chunk *c = &s->near[s->near_count];
-    s->chunk[s->count] = c;
-    s->asked[s->count++] = 0xffff;
+    s->chunk[s->count] = &s->near[k];
+    s->asked[s->count++] = (uint16_t)nodes;
+    s->near_lane = LMB_LIVE_NODES;
+    ++s->near_count;
+}
+
+#define NOT_KEPT (~(uint64_t)0)
+
+/* The kept chunk of a point's part, or a place for it: *found is 0. If both places of a chunk hold chunks of the
+ * current cut, it is not kept. */
+static int32_t slot_of_part(int *found, const lmb_live_scratch *s, uint64_t key)
+{
+    const uint32_t h = live_hash((uint32_t)key, (uint32_t)(key >> 32), 1) % (LMB_LIVE_KEPT / 2) * 2;
+    const uint32_t old = s->number - s->kept_for[h] >= s->number - s->kept_for[h + 1] ? h : h + 1;
+    *found = s->keeps && (s->kept[h] == key || s->kept[h + 1] == key);
+    if (*found) {
+        return (int32_t)(s->kept[h] == key ? h : h + 1);
+    }
+    return s->keeps && s->kept_for[old] != s->number ? (int32_t)old : LMB_LIVE_KEPT + s->near_count;
+}
+
+/* Stores sixteen parts as chunk k. */
+static void put_whole(lmb_live_scratch *s, int32_t k, const live_parts *p, uint32_t point, uint32_t count,
+                      const live_light *light, const float area[2])
+{
+    lmb_live_chunk *c = &s->near[k];
     memcpy(c->place, p->at.place, sizeof c->place);
     memcpy(c->normal, p->at.normal, sizeof c->normal);
     for (int i = 0; i < LMB_LIVE_NODES; ++i) {
@@ -259,8 +288,7 @@ static void put_whole(lmb_live_scratch *s, const live_parts *p, uint32_t point, 
                                     p->id[i]};
         c->target[i] = to;
     }
-    memcpy(s->part[s->near_count], p->part, sizeof p->part);
-    ++s->near_count;
+    memcpy(s->part[k], p->part, sizeof p->part);
 }
 
 /* Stores the sixteen parts of a point's part. Returns 0 if none of them shows a surface. */
@@ -268,7 +296,15 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
                      uint32_t lane)
 {
     live_parts p;
+    int found;
     const uint32_t level = (part >> 2 * PART_BITS) + 1;
+    const uint64_t key = (uint64_t)point << 32 | part;
+    const int32_t to = slot_of_part(&found, s, key);
+    if (found) {
+        s->kept_for[to] = s->number;
+        append(s, to, s->kept_nodes[to]);
+        return 1;
+    }
     find_parts(&p, l, &l->live->sorted[point], part);
     const uint32_t count = count_bits_16(p.shown);
     const float share = count > 0 ? 1.0f / (float)count : 0.0f, power = whole->power[lane] * share,
@@ -281,24 +317,26 @@ static int put_parts(lmb_live_scratch *s, live_look *l, uint32_t point, uint32_t
     const live_light light = live_light_of(flux);
     const uint32_t parts = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;
     const float areas[2] = {level < DEEPEST ? LIVE_DISC * area : area, area};
-    if (p.shown == 0xffffu && s->near_lane == LMB_LIVE_NODES) {
-        put_whole(s, &p, point, parts, &light, areas);
-        return 1;
+    put_whole(s, to, &p, point, parts, &light, areas);
+    if (to < LMB_LIVE_KEPT) {
+        s->kept[to] = key;
+        s->kept_for[to] = s->number;
+        s->kept_nodes[to] = (uint16_t)p.shown;
     }
-    for (uint32_t bits = p.shown; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit(bits);
-        int i;
-        lmb_live_chunk *c = take(s, &i);
-        const lmb_vec3 place = vec3(p.at.place[0][k], p.at.place[1][k], p.at.place[2][k]),
-                       normal = vec3(p.at.normal[0][k], p.at.normal[1][k], p.at.normal[2][k]);
-        const float disc = parts != 0 ? areas[0] : p.over[k] * area;
-        live_put(c, i, place, normal, &light, maxf(disc, 1e-30f), place, normal, p.id[k]);
-        c->radius2[i] = area;
-        c->first[i] = point;
-        c->count[i] = parts;
-        s->part[s->near_count - 1][i] = p.part[k];
-    }
+    append(s, to, p.shown);
     return 1;
+}
+
+void lmb_live_forget(lmb_live_scratch *s)
+{
+    for (int i = 0; i < LMB_LIVE_KEPT; ++i) {
+        s->kept[i] = NOT_KEPT;
+        s->kept_for[i] = 0;
+    }
+    for (int i = 0; i < LMB_LIVE_FACETS; ++i) {
+        s->facet[i].id = 0;
+    }
+    s->number = 0;
 }
 
 /* --- parts of an element ------------------------------------------------------------------------------------------ */
@@ -349,32 +387,22 @@ static int put_quarters(lmb_live_scratch *s, const lmb_live *live, uint32_t poin
         c->radius2[i] = whole->radius2[lane] * share;
         c->first[i] = point;
         c->count[i] = level < DEEPEST ? LMB_LIVE_LEAF | 1u : 0;
-        s->part[s->near_count - 1][i] = level << 2 * PART_BITS | way << 4 | k;
+        s->part[LMB_LIVE_KEPT + s->near_count - 1][i] = level << 2 * PART_BITS | way << 4 | k;
     }
     return 1;
 }
 
-static void look_along(live_look *l, const lmb_live_face *face)
-{
-    l->face = face;
-    for (int i = 0; i < LIVE_PLANES; ++i) {
-        l->known[i].id = 0;
-    }
-}
-
-/* Selects a face. Planes are oriented to the face's light, so a new face clears the cache. Returns 1. */
+/* Selects a face. Returns 1. */
 static int look_at(live_look *l, uint32_t face)
 {
-    if (l->face != &l->live->face[face]) {
-        look_along(l, &l->live->face[face]);
-    }
+    l->face = &l->live->face[face];
     return 1;
 }
 
 /* Is a chunk of the cut one of the near chunks? */
 static int is_near(const lmb_live_scratch *s, const lmb_live_chunk *c)
 {
-    return c >= s->near && c < s->near + LMB_LIVE_NEAR;
+    return c >= s->near && c < s->near + LMB_LIVE_KEPT + LMB_LIVE_NEAR;
 }
 
 /* Stores the parts of a block or of an element. */
@@ -395,7 +423,7 @@ int lmb_live_come_near(lmb_live_scratch *s, const lmb_kernels *kernels, const lm
     }
     l.kernels = kernels;
     l.live = live;
-    look_along(&l, live->face);
+    l.known = s->facet;
     s->near_lane = LMB_LIVE_NODES;
     for (int32_t n = 0; n < leaves; ++n) {
         const uint32_t k = s->leaf[n] / LMB_LIVE_NODES, i = s->leaf[n] % LMB_LIVE_NODES;

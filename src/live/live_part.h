@@ -17,23 +17,24 @@ uint64_t lmb_live_blocked(const lmb_kernels *kernels, lmb_live_scratch *scratch,
 /* Adds refined nodes to the cut for the near leaves in scratch->leaf. Returns 1 if it added any. */
 int lmb_live_come_near(lmb_live_scratch *scratch, const lmb_kernels *kernels, const lmb_live *live);
 
-/* A triangle in a map, with a unit normal on the lit side, and the vectors that give barycentrics. */
-typedef struct live_plane {
-    uint32_t id;
-    lmb_vec3 corner, normal, side[2], along[2];
-} live_plane;
+/* As lmb_live_receive, and uses what earlier calls made near their points, which changes no result. Call lmb_live_forget
+ * before the first of such calls, and again if the tree, the scene, a map or the contents of the scratch changed. */
+lmb_status lmb_live_receive_again(float light[3], const lmb_kernels *kernels, lmb_live_scratch *scratch,
+                                  const lmb_live *live, const lmb_bvh *bvh, const lmb_live_receiver *receiver);
+void lmb_live_forget(lmb_live_scratch *scratch);
+#if !LMB_LIVE
+#define lmb_live_forget(scratch) ((void)sizeof *(scratch))
+#endif
 
-enum { LIVE_PLANES = 8 };
-
-/* Returns the plane of an id, from the cache `known`; zero the cache before you use it. NULL if the id names no
- * triangle with an area. */
-const live_plane *lmb_live_plane(live_plane known[LIVE_PLANES], const lmb_scene *scene, const lmb_view *view,
-                                 uint32_t id);
+/* Returns the facet of an id in a face of the tree, from a cache of `many`; zero the ids before you use it. NULL if the
+ * id names no triangle with an area. */
+const lmb_live_facet *lmb_live_facet_of(lmb_live_facet *known, uint32_t many, const lmb_scene *scene,
+                                        const lmb_view *view, uint32_t face, uint32_t id);
 
 /* Sets the point of a plane at (sx, sy) of a view, moved onto the triangle if it lies outside. Rasterizers snap
  * corners, so a texel's middle may lie beside the triangle that the texel shows, and behind another one. Returns 0 if
  * there is no such point. */
-int lmb_live_place(lmb_vec3 *out, const live_plane *plane, const lmb_view *view, float sx, float sy);
+int lmb_live_place(lmb_vec3 *out, const lmb_live_facet *facet, const lmb_view *view, float sx, float sy);
 
 /* Blocks along a face's side. */
 static inline int32_t live_blocks(const lmb_live_face *f) { return (f->size + f->each - 1) / f->each; }

@@ -57,8 +57,8 @@ static int packets_of(int32_t seen, int32_t targets)
     return seen * 5 >= targets * 2 ? 1 : seen * 5 >= targets || seen == 0 ? 2 : 3;
 }
 
-lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
-                            const lmb_bvh *bvh, const lmb_live_receiver *receiver)
+static lmb_status light_at(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
+                           const lmb_bvh *bvh, const lmb_live_receiver *receiver)
 {
     static const float place[3] = {0.5f, 0.16666667f, 0.83333333f}; /* within the strata; all have equal spacing */
     float all[3] = {0, 0, 0}, some[3] = {0, 0, 0};
@@ -66,10 +66,6 @@ lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live
     int packets = 1;
     lmb_live_job job;
     lmb_live_receiver at;
-    if (light == NULL || kernels == NULL || s == NULL || live == NULL || live->face == NULL || receiver == NULL ||
-        live->strata < 1 || live->strata > LMB_LIVE_STRATA) {
-        return LMB_ERR_ARG;
-    }
     at = *receiver;
     memset(&job, 0, sizeof job);
     job.position = receiver->position;
@@ -109,6 +105,37 @@ lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live
         light[h] *= s->seen[h];
     }
     return LMB_OK;
+}
+
+static int is_valid(const float light[3], const lmb_kernels *kernels, const lmb_live_scratch *s, const lmb_live *live,
+                    const lmb_live_receiver *receiver)
+{
+    return light != NULL && kernels != NULL && s != NULL && live != NULL && live->face != NULL && receiver != NULL &&
+           live->strata >= 1 && live->strata <= LMB_LIVE_STRATA;
+}
+
+lmb_status lmb_live_receive_again(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s,
+                                  const lmb_live *live, const lmb_bvh *bvh, const lmb_live_receiver *receiver)
+{
+    if (!is_valid(light, kernels, s, live, receiver)) {
+        return LMB_ERR_ARG;
+    }
+    s->keeps = 1;
+    ++s->number;
+    return light_at(light, kernels, s, live, bvh, receiver);
+}
+
+lmb_status lmb_live_receive(float light[3], const lmb_kernels *kernels, lmb_live_scratch *s, const lmb_live *live,
+                            const lmb_bvh *bvh, const lmb_live_receiver *receiver)
+{
+    if (!is_valid(light, kernels, s, live, receiver)) {
+        return LMB_ERR_ARG;
+    }
+    for (int i = 0; i < LMB_LIVE_FACETS; ++i) {
+        s->facet[i].id = 0;
+    }
+    s->keeps = 0;
+    return light_at(light, kernels, s, live, bvh, receiver);
 }
 
 #endif

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../live/live_part.h"
 #include "../raster/triangle.h"
 #include "tree.h"
 #include "piece.h"
@@ -55,13 +56,16 @@ lmb_status lmb_elements_receive_live(const lmb_elements *elements, const lmb_ker
         past > lmb_elements_tiles(elements)) {
         return LMB_ERR_ARG;
     }
+    if (scratch != NULL) {
+        lmb_live_forget(scratch);
+    }
     for (uint32_t i = (uint32_t)first * LMB_TILE_PIXELS;
          i < (uint32_t)past * LMB_TILE_PIXELS && i < elements->count && status == LMB_OK; ++i) {
         const lmb_texel *t = &elements->tree.texel[tree_along_z(&elements->tree, i)];
         lmb_element *e = &elements->data[i];
         const lmb_live_receiver at = {t->position, t->normal, t->normal, e->id, lmb_place_noise(t->position, 1.0f),
                                       vec3(0, 0, 0)};
-        status = lmb_live_receive(e->fresh, kernels, scratch, live, bvh, &at);
+        status = lmb_live_receive_again(e->fresh, kernels, scratch, live, bvh, &at);
     }
     return status;
 }

@@ -265,6 +265,39 @@ static void alike_blocks_are_joined(void)
     CHECK_MSG(flux > 0.94 * sent && flux < 1.0 * sent, "%g W of %g", flux, sent);
 }
 
+/* Parts that earlier points left in the scratch change no byte, and some are used. */
+static void kept_parts(void)
+{
+    enum { COUNT = 200 };
+    const lmb_light light = point_light(vec3(-0.6f, 1.6f, 0.2f));
+    static lmb_live_receiver at[COUNT];
+    static float alone[COUNT][3];
+    test_rng r = {17};
+    int wrong = 0, again = 0;
+    room_with_table();
+    light_world(&light, 1);
+    for (int i = 0; i < COUNT; ++i) {
+        at[i] = place_on(test_random(&r) % world.count, vec3(0, 1, 0), &r);
+        receive(alone[i], picked_kernels(), &at[i], 1);
+    }
+    memset(&scratch, 0x3c, sizeof scratch);
+    lmb_live_forget(&scratch);
+    for (int i = 0; i < 20 * COUNT; ++i) {
+        const uint32_t k = test_random(&r) % COUNT;
+        float here[3];
+        CHECK(lmb_live_receive_again(here, picked_kernels(), &scratch, &live, &bvh, &at[k]) == LMB_OK);
+        wrong += memcmp(here, alone[k], sizeof here) != 0;
+        for (int32_t c = 0; c < scratch.count; ++c) {
+            const ptrdiff_t slot = scratch.chunk[c] >= scratch.near && scratch.chunk[c] < scratch.near + LMB_LIVE_KEPT
+                                       ? scratch.chunk[c] - scratch.near
+                                       : -1;
+            again += slot >= 0;
+        }
+    }
+    CHECK_MSG(wrong == 0 && again > 1000, "%d wrong, %d kept", wrong, again);
+    CHECK(lmb_live_receive_again(alone[0], NULL, &scratch, &live, &bvh, &at[0]) == LMB_ERR_ARG);
+}
+
 /* Close above a wide floor, evenly lit from above: at any height a wall receives half of the floor's light, although
  * the points are far apart. */
 static void near_field(void)
@@ -393,7 +426,7 @@ static void places_by_lanes(void)
         lmb_view view;
         lmb_live_surface on;
         lmb_live_spots spots, before;
-        live_plane plane;
+        lmb_live_facet plane;
         memset(&plane, 0, sizeof plane);
         lmb_view_look_at(&view, vec3(0.1f, 2, 0.3f), vec3(0, 0, 0), Z, 1.0f, 64, 64);
         view.kind = n % 2 ? LMB_PERSPECTIVE : LMB_ORTHOGRAPHIC;
@@ -593,6 +626,7 @@ void test_live(void)
     sums_and_shares();
     area_counts_once();
     alike_blocks_are_joined();
+    kept_parts();
     near_field();
     under_a_sheet_is_dark();
     behind_a_thin_wall_is_dark();
