@@ -11,17 +11,20 @@ LANE_INLINE lane live_nodes(uint32_t *near, const lmb_live_chunk *c, int i, cons
     d.x = lane_sub(lane_load(c->place[0] + i), lane_splat(job->position.x));
     d.y = lane_sub(lane_load(c->place[1] + i), lane_splat(job->position.y));
     d.z = lane_sub(lane_load(c->place[2] + i), lane_splat(job->position.z));
+    const lane d2 = lane3_dot(d, d);
+    const lane here = lane3_dot(d, lane3_of(job->normal));
+    *near = mask_bits(lane_lt(d2, lane_mul(lane_splat(job->split), lane_load(c->radius2 + i))));
+    if (mask_bits(lane_lt(zero, here)) == 0) {
+        return zero;
+    }
     facing.x = lane_load(c->normal[0] + i);
     facing.y = lane_load(c->normal[1] + i);
     facing.z = lane_load(c->normal[2] + i);
-    const lane d2 = lane3_dot(d, d);
-    const lane here = lane3_dot(d, lane3_of(job->normal));
     const lane there = lane_sub(zero, lane3_dot(d, facing));
     lane_mask lit = mask_and(lane_lt(zero, here), lane_lt(zero, there));
     if (job->is_bent) {
         lit = mask_and(lit, lane_lt(zero, lane3_dot(d, lane3_of(job->face))));
     }
-    *near = mask_bits(lane_lt(d2, lane_mul(lane_splat(job->split), lane_load(c->radius2 + i))));
     if (mask_bits(lit) == 0) {
         return zero;
     }
