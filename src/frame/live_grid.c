@@ -39,13 +39,14 @@ live_grid lmb_live_grid_of(const lmb_lattice *l, int32_t strata)
     return g;
 }
 
-static lmb_live_sample *sample_at(const live_grid *g, int32_t x, int32_t y)
+static inline lmb_live_sample *sample_at(const live_grid *g, int32_t x, int32_t y)
 {
-    return grid_sample(g, grid_tile(g, x / LMB_TILE, y / LMB_TILE),
-                       y % LMB_TILE / GRID_STEP * GRID_SIDE + x % LMB_TILE / GRID_STEP);
+    const size_t i = (size_t)(y / LMB_TILE) * (size_t)g->columns + (size_t)(x / LMB_TILE);
+    const int32_t k = y % LMB_TILE / GRID_STEP * GRID_SIDE + x % LMB_TILE / GRID_STEP;
+    return k == 0 ? &g->first[i] : &g->other[i * (GRID_SAMPLES - 1) + (size_t)(k - 1)];
 }
 
-static int is_known(const live_grid *g, int32_t x, int32_t y)
+static inline int is_known(const live_grid *g, int32_t x, int32_t y)
 {
     return grid_tile(g, x / LMB_TILE, y / LMB_TILE)->known >>
                (y % LMB_TILE / GRID_STEP * GRID_SIDE + x % LMB_TILE / GRID_STEP) & 1;
@@ -58,16 +59,16 @@ static int32_t last_of(int32_t size) { return (size - 1) / GRID_STEP * GRID_STEP
 static int is_flat(const lmb_tile *tile)
 {
     uint32_t other = 0;
-    float turn = 0.0f;
+    float turn[4] = {0, 0, 0, 0}; /* four maxima, so that none waits for the one before */
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         other |= tile->id[k] ^ tile->id[0];
     }
     for (int c = 0; c < 3 && other == 0; ++c) {
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            turn = maxf(turn, absf(tile->normal[c][k] - tile->face[c][0]));
+            turn[k % 4] = maxf(turn[k % 4], absf(tile->normal[c][k] - tile->face[c][0]));
         }
     }
-    return other == 0 && turn <= 1e-3f;
+    return other == 0 && maxf(maxf(turn[0], turn[1]), maxf(turn[2], turn[3])) <= 1e-3f;
 }
 
 lmb_live_sample lmb_live_grid_surface(const lmb_tile *tile, int k)
@@ -98,9 +99,9 @@ void lmb_live_grid_put(const live_grid *g, const lmb_tile *tile, int lobes)
     const int32_t column = tile->x / LMB_TILE, row = tile->y / LMB_TILE;
     live_grid_tile *out = grid_tile(g, column, row);
     out->shown = out->known = 0;
-    out->divided = out->parts = out->coarse = 0;
+    out->divided = out->parts = 0;
     out->lobes = (uint8_t)(lobes != 0);
-    out->flat = (uint8_t)(tile->id[0] != 0 && !lobes && is_flat(tile));
+    out->plain = (uint8_t)(tile->id[0] != 0 && !lobes && is_flat(tile) ? GRID_FLAT : 0);
     for (int i = 0; i < GRID_SAMPLES && !lobes; ++i) {
         out->shown |= (uint16_t)((unsigned)(tile->id[grid_pixel(i)] != 0) << i);
     }
@@ -162,7 +163,7 @@ static int is_in_divided(const live_grid *g, int32_t x, int32_t y)
 {
     for (int i = 0; i < 4; ++i) {
         const int32_t at = (i & 1) != 0 && x > 0 ? x - 1 : x, down = i >> 1 != 0 && y > 0 ? y - 1 : y;
-        if (!grid_tile(g, at / GRID_COARSE * 2, down / GRID_COARSE * 2)->coarse) {
+        if (grid_tile(g, at / GRID_COARSE * 2, down / GRID_COARSE * 2)->plain != GRID_WHOLE) {
             return 1;
         }
     }
@@ -198,11 +199,11 @@ uint32_t lmb_live_grid_asks(const live_grid *g, int32_t column, int32_t row, int
 
 /* --- between samples ---------------------------------------------------------------------------------------------- */
 
-/* Position of the grid sample before or after one in a row or column; -1 if there is none. */
-static int32_t before(int32_t x, int32_t step) { return x > 0 ? (x - 1) / step * step : -1; }
-static int32_t after(int32_t x, int32_t step, int32_t size)
+/* Position of the grid sample before or after one in a row or column; -1 if there is none. Steps are powers of two. */
+static inline int32_t before(int32_t x, int32_t step) { return x > 0 ? (x - 1) & -step : -1; }
+static inline int32_t after(int32_t x, int32_t step, int32_t size)
 {
-    return x < last_of(size) ? mini((x / step + 1) * step, last_of(size)) : -1;
+    return x < last_of(size) ? mini((x & -step) + step, last_of(size)) : -1;
 }
 
 /* Finds the neighbour of a sample along columns (way 0) or rows. Returns the distance in px; 0 if there is none. */
@@ -368,7 +369,7 @@ static int is_plain(const live_grid *g, int32_t column, int32_t row)
     for (int i = 0; i < 4; ++i) {
         const int32_t at = mini(column + (i & 1), g->columns - 1), down = mini(row + (i >> 1), g->rows - 1);
         const live_grid_tile *t = grid_tile(g, at, down);
-        if (!t->flat || live_agree(first, grid_sample(g, t, 0)) < 1.0f || c.corner[i] == NULL ||
+        if (t->plain == 0 || live_agree(first, grid_sample(g, t, 0)) < 1.0f || c.corner[i] == NULL ||
             live_agree(first, c.corner[i]) < 1.0f) {
             return 0;
         }
@@ -388,7 +389,7 @@ static void divide_coarse(const live_grid *g, int32_t column, int32_t row)
         if (at < g->columns && down < g->rows && !(divided >> i & 1u) && is_plain(g, at, down)) {
             for (int k = 0; k < 4; ++k) {
                 if (at + (k & 1) < g->columns && down + (k >> 1) < g->rows) {
-                    grid_tile(g, at + (k & 1), down + (k >> 1))->coarse = 1;
+                    grid_tile(g, at + (k & 1), down + (k >> 1))->plain = GRID_WHOLE;
                 }
             }
         }
@@ -401,7 +402,7 @@ void lmb_live_grid_divide(const live_grid *g, int32_t row, int32_t level)
         divide_coarse(g, column, row);
     }
     for (int32_t column = 0; column < g->columns && level == 1; column += 2) {
-        if (grid_tile(g, column, row)->coarse) {
+        if (grid_tile(g, column, row)->plain == GRID_WHOLE) {
             continue;
         }
         const uint32_t divided = divide_parts(g, column * LMB_TILE, row * LMB_TILE, LMB_TILE);
@@ -435,7 +436,7 @@ float lmb_live_grid_mean(const live_grid *g)
 
 /* --- noise -------------------------------------------------------------------------------------------------------- */
 
-static int is_on(int32_t x, int32_t step, int32_t size) { return x % step == 0 || x == last_of(size); }
+static int is_on(int32_t x, int32_t step, int32_t size) { return (x & (step - 1)) == 0 || x == last_of(size); }
 
 /* Step of the coarsest grid that contains a sample. */
 static int32_t own_step(const live_grid *g, int32_t x, int32_t y)
@@ -515,7 +516,7 @@ void lmb_live_grid_slopes(const live_grid *g, int32_t column, int32_t row)
 static int is_even(const cell *c, const live_grid *g, const live_grid_tile *t)
 {
     for (int i = 0; i < 4; ++i) {
-        if (!t->flat || c->corner[i] == NULL || live_agree(grid_sample(g, t, 0), c->corner[i]) < 1.0f) {
+        if (t->plain == 0 || c->corner[i] == NULL || live_agree(grid_sample(g, t, 0), c->corner[i]) < 1.0f) {
             return 0;
         }
     }
@@ -554,7 +555,7 @@ uint64_t lmb_live_grid_fill(lmb_irradiance *out, const lmb_kernels *kernels, con
     const live_grid_tile *t = grid_tile(g, tile->x / LMB_TILE, tile->y / LMB_TILE);
     const uint64_t shown = tile->hits == LMB_TILE_PIXELS ? ~(uint64_t)0 : tile_pixels(tile);
     uint64_t left = 0;
-    if (t->coarse) {
+    if (t->plain == GRID_WHOLE) {
         return fill_cell(out, kernels, g, tile, shown, -(tile->x % GRID_COARSE), -(tile->y % GRID_COARSE), GRID_COARSE);
     }
     if (!t->divided) {

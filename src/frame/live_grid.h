@@ -17,7 +17,9 @@ enum {
     GRID_SIDE = LMB_TILE / GRID_STEP, /* samples along a tile's side */
     GRID_SAMPLES = GRID_SIDE * GRID_SIDE,
     GRID_COARSE = 2 * LMB_TILE, /* px between the first samples */
-    GRID_LEVELS = 4 /* steps of 16, 8, 4 and 2 px */
+    GRID_LEVELS = 4, /* steps of 16, 8, 4 and 2 px */
+    GRID_FLAT = 1,   /* all pixels of a tile show one triangle with its face normal, */
+    GRID_WHOLE = 2   /* and the tile lies in a cell of 16 px that is not divided */
 };
 
 /* Sample k of a tile lies at column k % 4 * 2 and row k / 4 * 2. */
@@ -25,9 +27,8 @@ typedef struct live_grid_tile {
     uint16_t shown, known; /* samples with a surface; lit samples */
     uint8_t divided;       /* the cell of 8 px is divided */
     uint8_t parts;         /* mask of the tile's cells of 4 px that are divided */
-    uint8_t flat;          /* all pixels show one triangle with its face normal */
     uint8_t lobes;         /* gathered whole: no samples */
-    uint8_t coarse;        /* in a cell of 16 px that is not divided */
+    uint8_t plain;         /* GRID_FLAT .. */
 } live_grid_tile;
 
 typedef struct live_grid {
